@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// Names of the small vectors and matrices used everywhere.
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <complex>
+
+namespace seaglint {
+
+using Complex = std::complex<double>;
+using Vec2 = Eigen::Vector2d;
+using Vec3 = Eigen::Vector3d;
+using Mat3 = Eigen::Matrix3d;
+
+}  // namespace seaglint

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// Counter-based random numbers, keyed by (seed, stream, index): the same on every machine, compiler and thread count,
+// in any order of calls between keys. Philox4x32-10 of Salmon, Moraes, Dror and Shaw, "Parallel random numbers: as easy
+// as 1, 2, 3" (SC11); normal deviates by Wichura's AS 241 with a logarithm made of IEEE-exact operations only.
+
+#include <array>
+#include <cstdint>
+
+namespace seaglint {
+
+// What a stream of random numbers is for. Values are part of the data format: never renumber.
+enum class Stream : std::uint32_t {
+  kWaveFrequency = 1,
+  kWavePhase = 2,
+  kFloatYaw = 3,
+  kHopCode = 4,
+  kClutter = 5,
+  kNoise = 6,
+  kSplit = 7,
+  kNetwork = 8,
+  kBootstrap = 9,
+  kEmbeddingPlot = 10,
+  kTest = 1000,
+};
+
+struct RandomKey {
+  std::uint64_t seed = 0;
+  Stream stream = Stream::kTest;
+  std::uint64_t index = 0;  // which realisation, interval or sample
+};
+
+// Philox4x32-10 block function (Salmon et al. 2011, section 3.3).
+std::array<std::uint32_t, 4> philox4x32(std::array<std::uint32_t, 4> counter, std::array<std::uint32_t, 2> key);
+
+// The sequence of one key. Copying it copies the position.
+class Random {
+ public:
+  explicit Random(const RandomKey& key);
+
+  std::uint64_t bits();                     // 64 uniform bits
+  double uniform();                         // in (0, 1), 52 bits, never 0 or 1
+  double normal();                          // mean 0, variance 1
+  std::uint32_t below(std::uint32_t count);  // integer in [0, count), unbiased; count >= 1
+
+ private:
+  std::array<std::uint32_t, 2> key_;
+  std::array<std::uint32_t, 4> counter_;
+  std::array<std::uint32_t, 4> block_{};
+  int used_ = 4;  // words of block_ already given out
+};
+
+// Quantile of the normal distribution, |error| < 1e-15 relative (Wichura 1988, AS 241, PPND16); p in (0, 1).
+double normal_quantile(double p);
+
+}  // namespace seaglint

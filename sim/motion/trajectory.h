@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// Attitude and position of one rigid body over time.
+
+#include <vector>
+
+#include "sim/core/linear.h"
+
+namespace seaglint {
+
+// R_WB = Rz(yaw) Ry(pitch) Rx(roll) (CONVENTIONS.md, "Frames").
+Mat3 rotation_from_angles(double roll, double pitch, double yaw);
+
+// Body to target frame at rest (T): x_T = R_TB x_B + p_TB.
+struct Pose {
+  Mat3 R_TB = Mat3::Identity();
+  Vec3 p_TB = Vec3::Zero();  // where the body's origin is
+};
+
+struct MotionSample {
+  Vec3 angles = Vec3::Zero();       // roll, pitch, yaw, rad
+  Vec3 angle_rates = Vec3::Zero();  // their time derivatives, rad/s
+  Vec3 shift = Vec3::Zero();        // surge, sway, heave of the rotation centre, m
+  Vec3 shift_rates = Vec3::Zero();  // m/s
+};
+
+// Uniform samples, interpolated by cubic Hermite polynomials (continuous rate).
+class Trajectory {
+ public:
+  Trajectory() = default;  // at rest at the origin
+  // rest_position: where the body's origin rests in T; rotation_centre: in the body frame.
+  Trajectory(double start_s, double step_s, std::vector<MotionSample> samples, Vec3 rest_position, Vec3 rotation_centre);
+
+  // A body that never moves.
+  static Trajectory at_rest(const Vec3& rest_position);
+
+  MotionSample sample(double t) const;  // t within [start, end], else throws std::out_of_range
+  // p_TB = rest + shift + c - R c with c the rotation centre.
+  Pose pose(double t) const;
+
+  double start_s() const { return start_s_; }
+  double end_s() const;
+
+ private:
+  double start_s_ = 0;
+  double step_s_ = 1;
+  std::vector<MotionSample> samples_;
+  Vec3 rest_position_ = Vec3::Zero();
+  Vec3 rotation_centre_ = Vec3::Zero();
+};
+
+}  // namespace seaglint

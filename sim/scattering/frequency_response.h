@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// The narrow waist: left of it is physics, right of it is signal processing.
+
+#include <vector>
+
+#include "sim/core/linear.h"
+
+namespace seaglint {
+
+// Where a coherent interval samples the response. Frequencies of all pulses lie on one uniform grid first_hz + i step_hz,
+// i = 0..count-1; pulse n uses the per_pulse frequencies that begin at i = pulse_first[n].
+struct IntervalSampling {
+  double first_hz = 0;
+  double step_hz = 0;
+  int count = 0;
+  int per_pulse = 0;
+  std::vector<int> pulse_first;
+  std::vector<double> pulse_time_s;  // ascending, absolute time in the trajectory
+};
+
+// H of one polarisation in metres, CONVENTIONS.md signs; values[n * per_pulse + b] for pulse n and its b-th frequency.
+struct FrequencyResponse {
+  int pulses = 0;
+  int per_pulse = 0;
+  std::vector<Complex> values;
+
+  Complex& at(int pulse, int b) { return values[static_cast<std::size_t>(pulse) * per_pulse + b]; }
+  const Complex& at(int pulse, int b) const { return values[static_cast<std::size_t>(pulse) * per_pulse + b]; }
+};
+
+// Sum of the responses of several bodies (equal shapes).
+FrequencyResponse& operator+=(FrequencyResponse& sum, const FrequencyResponse& term);
+
+}  // namespace seaglint

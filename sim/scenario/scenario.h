@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// A scenario file as plain structs, and the cases its sweeps span.
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "sim/scenario/learning_spec.h"
+#include "sim/scenario/radar_spec.h"
+#include "sim/scenario/sea_spec.h"
+#include "sim/scenario/target_spec.h"
+
+namespace seaglint {
+
+struct Scenario {
+  int version = 1;  // `seaglint: 1`
+  std::string name;
+  std::uint64_t seed = 42;
+  RadarSpec radar;
+  ViewSpec view;
+  SeaSpec sea;
+  std::vector<TargetSpec> targets;  // in the order of the file
+  ClutterSpec clutter;
+  MapSpec map;
+  DatasetSpec dataset;
+  FeatureSpec features;
+  LearningSpec learning;
+  std::filesystem::path folder;  // of the file: relative mesh paths start here, then at the working directory
+};
+
+// `key.path=value` of --set; the value is YAML and is checked like the file.
+struct Override {
+  std::string key_path;
+  std::string value;
+};
+
+// Reads and checks a scenario. Throws InputError "file:line:col: key.path: value ...: bound" for the first thing that is
+// wrong: unknown or duplicate keys, wrong types, values out of range, contradictions.
+Scenario read_scenario(const std::filesystem::path& file, const std::vector<Override>& overrides = {});
+Scenario parse_scenario(const std::string& yaml, const std::string& file_name,
+                        const std::vector<Override>& overrides = {});
+
+// The scenario with every default written out, as YAML that read_scenario takes back to the same value.
+std::string effective_yaml(const Scenario& scenario);
+
+// The file a target's mesh path names: beside the scenario or below the working directory. Throws InputError when neither exists.
+std::filesystem::path find_mesh(const Scenario& scenario, const TargetSpec& target);
+
+// The sea states of the sweeps, significant wave height slowest, then peak period, gamma, propagation.
+std::vector<SeaState> sea_states(const SeaSpec& spec);
+
+struct View {
+  double azimuth_rad = 0;
+  double elevation_rad = 0;
+};
+
+// The views of the sweeps, azimuth slowest.
+std::vector<View> views(const ViewSpec& spec);
+
+}  // namespace seaglint

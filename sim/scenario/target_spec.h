@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// The `targets` section of a scenario: a mesh (one body, or several in a layout) with its motion, or ideal points.
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace seaglint {
+
+enum class MotionModel { kFixed, kShip, kFloat };
+enum class WaveSharing { kSameField, kIndependent };
+
+// Zero in a field marked (auto) means: derived from the mesh's size by the formulas in sim/motion/README.md.
+struct MotionSpec {
+  MotionModel model = MotionModel::kFixed;
+  bool translations = false;          // surge, sway and heave too
+  std::optional<std::array<double, 3>> rotation_centre_m;  // body frame; default: centre of gravity of a ship, centre of flotation of a float
+  double roll_period_s = 0;           // (auto) 0 or 0.2 <= x <= 60
+  double pitch_period_s = 0;          // (auto) 0 or 0.2 <= x <= 60
+  double yaw_period_s = 0;            // course-keeping or mooring spring; 0 = free; 0 or 0.2 <= x <= 1000
+  double roll_damping = 0;            // (auto) ratio to critical, 0 <= x <= 2
+  double roll_quadratic_damping = 0;  // b of b |x'| x', 1/rad, 0 <= x <= 100
+  double pitch_damping = 0;           // (auto) ratio to critical, 0 <= x <= 2
+  double yaw_damping = 0.1;           // ratio to critical at yaw_period_s, 0 <= x <= 2
+  double yaw_rate_deg_s = 0;          // standard deviation of a float's slow random rotation, 0 <= x <= 180
+  double length_m = 0;                // (auto) waterline length, 0 <= x <= 1000
+  double beam_m = 0;                  // (auto) waterline beam, 0 <= x <= 200
+  double draught_m = 0;               // (auto) 0 <= x <= 50
+  double metacentric_height_m = 1.95;  // 0.01 <= x <= 20
+  double diameter_m = 0;              // (auto) of a float's waterplane, 0 <= x <= 50
+  double centre_above_water_m = 0.75;  // height of a float's mesh origin above its centre of flotation, -10 <= x <= 50
+  WaveSharing waves = WaveSharing::kSameField;
+  double step_s = 0.02;               // integration step, 0.001 <= x <= 0.1
+  double preroll_s = 120;             // simulated before t = 0, 0 <= x <= 3600
+};
+
+struct LineLayout {
+  int count = 1;         // 1 <= x <= 1000
+  double spacing_m = 40;  // 0 < x <= 10000
+};
+
+struct PointSpec {
+  std::array<double, 3> position_m{0, 0, 0};   // target frame
+  double amplitude_m = 1;                      // |S|, > 0
+  std::array<double, 3> velocity_mps{0, 0, 0};  // target frame
+};
+
+struct SolverSpec {
+  double ray_spacing_m = 0.1;   // discovery rays, 0.001 <= x <= 10
+  int max_bounces = 8;          // 1 <= x <= 64
+  double max_turn_deg = 0.15;   // turn of the body served by one trace, 0.001 <= x <= 5
+};
+
+struct TargetSpec {
+  std::string name;
+  int label = 0;                    // 1 = ship, 0 = corner-reflector array
+  std::string mesh;                 // path relative to the scenario's folder or the working directory; empty for points
+  std::string unit = "m";           // of the mesh file: m, cm, mm, km, in, ft
+  std::optional<LineLayout> line;   // along x of the target frame, centred
+  MotionSpec motion;
+  SolverSpec solver;
+  std::vector<PointSpec> points;
+};
+
+}  // namespace seaglint

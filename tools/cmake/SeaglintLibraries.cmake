@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Third-party libraries, all from Debian 12 (tools/packages.txt).
+find_package(Threads REQUIRED)
+find_package(fmt 9 CONFIG REQUIRED)
+find_package(Eigen3 3.4 CONFIG REQUIRED)
+find_package(yaml-cpp 0.7 CONFIG REQUIRED)
+find_package(OpenMesh REQUIRED)
+find_package(TinyGLTF CONFIG REQUIRED)
+find_package(embree 3.13 REQUIRED)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(FFTW REQUIRED IMPORTED_TARGET fftw3)
+find_package(HDF5 REQUIRED COMPONENTS C)
+find_package(OpenSSL REQUIRED COMPONENTS Crypto)
+find_package(xgboost 1.7 CONFIG REQUIRED)
+find_package(Torch REQUIRED)
+find_package(CLI11 CONFIG REQUIRED)
+find_package(nlohmann_json CONFIG REQUIRED)
+find_package(GTest CONFIG REQUIRED)
+find_package(benchmark CONFIG REQUIRED)
+
+# Torch exports its flags as variables; a target keeps them inside classify/cnn.
+add_library(SeaglintTorch INTERFACE)
+target_link_libraries(SeaglintTorch INTERFACE ${TORCH_LIBRARIES})
+target_include_directories(SeaglintTorch SYSTEM INTERFACE ${TORCH_INCLUDE_DIRS})
+
+# Flags of the project's own code. Phase is formed in double: no fast-math, no contraction, so that bits agree across builds.
+add_library(seaglint_flags INTERFACE)
+target_compile_options(seaglint_flags INTERFACE -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
+if(SEAGLINT_WARNINGS_AS_ERRORS)
+  target_compile_options(seaglint_flags INTERFACE -Werror)
+endif()
+if(SEAGLINT_NATIVE)
+  target_compile_options(seaglint_flags INTERFACE -march=native)
+endif()
+if(SEAGLINT_SANITIZE)
+  target_compile_options(seaglint_flags INTERFACE -fsanitize=${SEAGLINT_SANITIZE} -fno-omit-frame-pointer)
+  target_link_options(seaglint_flags INTERFACE -fsanitize=${SEAGLINT_SANITIZE})
+endif()

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// The subcommands of `seaglint`, one file command_<verb>.cpp each, in the order of the data flow.
+
+#include <CLI/App.hpp>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "sim/core/parallel.h"
+#include "sim/scenario/scenario.h"
+
+namespace seaglint {
+
+// What every command is given: the stop flag of Ctrl-C, and the place where the chosen command leaves its work.
+struct Shell {
+  StopFlag stop{false};
+  int threads = 0;             // --threads, 0 = all processors
+  std::function<void()> work;  // set by the chosen command's callback, run by main
+};
+
+// Adds --threads to a command.
+void add_threads_option(CLI::App& command, Shell& shell);
+
+// Adds the positional SCENARIO and the repeatable --set key.path=value to a command, and reads them.
+struct ScenarioArguments {
+  std::string file;
+  std::vector<std::string> set;
+  Scenario read() const;  // throws InputError
+};
+void add_scenario_arguments(CLI::App& command, ScenarioArguments& arguments);
+
+}  // namespace seaglint
