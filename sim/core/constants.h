@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Physical constants and unit conversions (CONVENTIONS.md, "Units"). SI and radians inside; other units only at the edges.
+// Physical constants and unit conversions (CONVENTIONS.md, "Units"). SI and radians inside; other units only at the
+// edges.
 
 #include <numbers>
 

@@ -8,7 +8,8 @@
 
 namespace seaglint {
 
-// The user's input is wrong; the program exits with 2. The message names file:line:col, key path, value and bound where there are any.
+// The user's input is wrong; the program exits with 2. The message names file:line:col, key path, value and bound where
+// there are any.
 class InputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

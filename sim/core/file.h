@@ -3,6 +3,7 @@
 
 // Files that are either whole or absent: written as `<name>.tmp`, synchronised, renamed.
 
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <string>

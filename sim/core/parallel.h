@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Independent pieces of work on a fixed number of threads. Results never depend on the thread count: each index writes its own place.
+// Independent pieces of work on a fixed number of threads. Results never depend on the thread count: each index writes
+// its own place.
 
 #include <atomic>
 #include <cstddef>
@@ -16,7 +17,8 @@ using StopFlag = std::atomic<bool>;
 int thread_count(int requested);
 
 // Calls body(i) for every i in [0, count), on at most `threads` threads; indices are handed out in order.
-// The exception of the lowest failing index is rethrown after all threads have stopped. Throws Interrupted when *stop becomes true.
+// The exception of the lowest failing index is rethrown after all threads have stopped. Throws Interrupted when *stop
+// becomes true.
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& body,
                   const StopFlag* stop = nullptr);
 

@@ -14,23 +14,24 @@ namespace seaglint {
 class Progress {
  public:
   Progress(std::string what, std::size_t total);
-  ~Progress();
+  ~Progress();  // wipes the bar
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
   void advance(std::size_t steps = 1);  // any thread
 
  private:
-  void draw(std::size_t done);
-
   std::string what_;
   std::size_t total_;
   std::atomic<std::size_t> done_{0};
   std::chrono::steady_clock::time_point start_;
-  std::chrono::steady_clock::time_point drawn_;
+  std::chrono::steady_clock::time_point next_draw_;  // guarded by mutex_, as is shown_
   std::mutex mutex_;
   bool terminal_ = false;
   bool shown_ = false;
 };
+
+// One line, e.g. "maps  [#######.............]  35 %, 2 min 10 s left"; done <= total, elapsed_s > 0.
+std::string progress_line(const std::string& what, std::size_t done, std::size_t total, double elapsed_s);
 
 }  // namespace seaglint

@@ -39,9 +39,9 @@ class Random {
  public:
   explicit Random(const RandomKey& key);
 
-  std::uint64_t bits();                     // 64 uniform bits
-  double uniform();                         // in (0, 1), 52 bits, never 0 or 1
-  double normal();                          // mean 0, variance 1
+  std::uint64_t bits();                      // 64 uniform bits
+  double uniform();                          // in (0, 1), 52 bits, never 0 or 1
+  double normal();                           // mean 0, variance 1
   std::uint32_t below(std::uint32_t count);  // integer in [0, count), unbiased; count >= 1
 
  private:
