@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The project's own indexed triangle mesh. It holds any triangle soup, non-manifold ones too; topology is asked of it, never demanded.
+// The project's own indexed triangle mesh. It holds any triangle soup, non-manifold ones too; topology is asked of it,
+// never demanded.
 
 #include <array>
 #include <cstdint>
@@ -16,7 +17,8 @@ struct Material {
   std::string name = "pec";  // perfect electric conductor, the only kind the solver knows so far
 };
 
-// Lengths in metres, body frame (CONVENTIONS.md): x forward, y to port, z up. Triangles are counter-clockwise seen from outside.
+// Lengths in metres, body frame (CONVENTIONS.md): x forward, y to port, z up. Triangles are counter-clockwise seen from
+// outside.
 struct TriangleMesh {
   std::vector<Vec3> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
@@ -33,9 +35,26 @@ struct Bounds {
   Vec3 lower = Vec3::Zero();
   Vec3 upper = Vec3::Zero();
 };
+// Of the vertices that triangles use; zero for a mesh without triangles.
 Bounds bounds(const TriangleMesh& mesh);
+
+// Half the cross product of two sides: the direction is the outward normal, the length the area in m^2.
+Vec3 area_vector(const TriangleMesh& mesh, std::size_t triangle);
+
+// Sum of the triangles' areas, m^2.
+double surface_area(const TriangleMesh& mesh);
+
+// Divergence theorem, V = 1/3 sum x.A: the volume of a closed mesh in m^3, positive when its triangles face outwards.
+double enclosed_volume(const TriangleMesh& mesh);
 
 // The mesh moved by p -> R p + t.
 TriangleMesh transformed(const TriangleMesh& mesh, const Mat3& rotation, const Vec3& translation);
+
+// The same triangles with vertices at identical positions merged (and unused ones dropped), vertices in order of first
+// use. Files repeat a vertex for every triangle (STL) or normal (glTF); topology needs it once.
+TriangleMesh welded(const TriangleMesh& mesh);
+
+// The triangles of one part alone, its vertices renumbered; `part` indexes part_names.
+TriangleMesh part_of(const TriangleMesh& mesh, std::size_t part);
 
 }  // namespace seaglint
