@@ -15,7 +15,7 @@ enum class Polarisation { kHh, kHv, kVh, kVv };  // first letter received, secon
 struct RadarSpec {
   double carrier_ghz = 16;       // lowest carrier, 0.1 <= x <= 300
   int hop_count = 8;             // number of carriers M, 1 <= x <= 1024
-  double hop_step_mhz = 25;      // carrier spacing, 0.001 <= x <= 10000
+  double hop_step_mhz = 25;      // carrier spacing, > 0
   HopCode hop_code = HopCode::kRandom;  // random (independent, as in the paper), balanced, stepped
   double bandwidth_mhz = 25;     // LFM bandwidth B, 0.001 <= x <= 10000
   double pulse_width_us = 36;    // 0.001 <= x <= 1e6, shorter than pri_us

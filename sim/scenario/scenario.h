@@ -17,7 +17,7 @@ namespace seaglint {
 
 struct Scenario {
   int version = 1;  // `seaglint: 1`
-  std::string name;
+  std::string name;  // the file's name without extension when not given
   std::uint64_t seed = 42;
   RadarSpec radar;
   ViewSpec view;

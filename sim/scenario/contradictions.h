@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// What is wrong with a scenario whose fields are right one by one.
+
+#include "sim/scenario/reader.h"
+
+namespace seaglint {
+
+// Throws InputError at the key that is most likely to be meant otherwise.
+void check_contradictions(const Scenario& scenario, const ScenarioDocument& document);
+
+}  // namespace seaglint

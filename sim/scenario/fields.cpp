@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/scenario/fields.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <string_view>
+
+#include "sim/core/error.h"
+
+namespace seaglint {
+
+bool Bound::holds(double value) const {
+  if (or_zero && value == 0) return true;
+  const bool low = without_lowest ? value > lowest : value >= lowest;
+  const bool high = without_highest ? value < highest : value <= highest;
+  return low && high;
+}
+
+std::string Bound::text() const {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (!without_lowest && !without_highest && lowest > -kInfinity && highest < kInfinity) {
+    return fmt::format("within {} and {}", lowest, highest);
+  }
+  std::string low;
+  std::string high;
+  if (lowest > -kInfinity) low = fmt::format("{} {}", without_lowest ? "greater than" : "at least", lowest);
+  if (highest < kInfinity) high = fmt::format("{} {}", without_highest ? "less than" : "at most", highest);
+  return low + (low.empty() || high.empty() ? "" : " and ") + high;
+}
+
+namespace {
+
+// An enumeration whose values are 0, 1, ... in the order of the names.
+template <typename Enumeration, std::size_t n>
+void visit_choice(FieldVisitor& v, const char* key, Enumeration& value, const char* const (&names)[n]) {
+  auto index = static_cast<std::size_t>(value);
+  v.choice(key, index, names);
+  value = static_cast<Enumeration>(index);
+}
+
+// A text that is one of the names.
+template <std::size_t n>
+void visit_word(FieldVisitor& v, const char* key, std::string& value, const char* const (&names)[n]) {
+  auto index = static_cast<std::size_t>(std::find(names, names + n, std::string_view(value)) - names);
+  SEAGLINT_CHECK(index < n, fmt::format("{}: '{}'", key, value));
+  v.choice(key, index, names);
+  value = names[index];
+}
+
+void visit(RadarSpec& spec, FieldVisitor& v) {
+  v.number("carrier_ghz", spec.carrier_ghz, within(0.1, 300));
+  v.integer("hop_count", spec.hop_count, within(1, 1024));
+  v.number("hop_step_mhz", spec.hop_step_mhz, above(0));
+  visit_choice(v, "hop_code", spec.hop_code, {"random", "balanced", "stepped"});
+  v.number("bandwidth_mhz", spec.bandwidth_mhz, within(0.001, 10000));
+  v.number("pulse_width_us", spec.pulse_width_us, within(0.001, 1e6));
+  v.number("sampling_mhz", spec.sampling_mhz, within(0.001, 1e6));
+  v.number("pri_us", spec.pri_us, within(0.01, 1e7));
+  v.integer("pulses", spec.pulses, within(1, 65536));
+  visit_choice(v, "polarisation", spec.polarisation, {"hh", "hv", "vh", "vv"});
+  v.flag("intra_pulse_motion", spec.intra_pulse_motion);
+}
+
+void visit(ViewSpec& spec, FieldVisitor& v) {
+  v.sweep("azimuth_deg", spec.azimuth_deg, within(-360, 360));
+  v.sweep("elevation_deg", spec.elevation_deg, within(-90, 90));
+}
+
+void visit(SeaSpec& spec, FieldVisitor& v) {
+  v.sweep("significant_wave_height_m", spec.significant_wave_height_m, within(0, 30));
+  v.sweep("peak_period_s", spec.peak_period_s, within(0.5, 40), "dnv_wind_sea", &spec.dnv_wind_sea);
+  v.sweep("gamma", spec.gamma, within(1, 20));
+  v.sweep("propagation_deg", spec.propagation_deg, within(-360, 360));
+  v.integer("order", spec.order, within(1, 2));
+  v.integer("components", spec.components, within(1, 100000));
+  v.number("cutoff_rad_s", spec.cutoff_rad_s, within(0, 100));
+  v.number("second_order_cutoff_rad_s", spec.second_order_cutoff_rad_s, within(0, 1000));
+}
+
+void visit(LineLayout& layout, FieldVisitor& v) {
+  v.integer("count", layout.count, within(1, 1000));
+  v.number("spacing_m", layout.spacing_m, above_up_to(0, 10000));
+}
+
+void visit(MotionSpec& spec, FieldVisitor& v) {
+  visit_choice(v, "model", spec.model, {"fixed", "ship", "float"});
+  v.flag("translations", spec.translations);
+  if (v.optional("rotation_centre_m", spec.rotation_centre_m.has_value())) {
+    if (!spec.rotation_centre_m) spec.rotation_centre_m.emplace();
+    v.triple("rotation_centre_m", *spec.rotation_centre_m, within(-1000, 1000));
+  }
+  v.number("roll_period_s", spec.roll_period_s, zero_or_within(0.2, 60));
+  v.number("pitch_period_s", spec.pitch_period_s, zero_or_within(0.2, 60));
+  v.number("yaw_period_s", spec.yaw_period_s, zero_or_within(0.2, 1000));
+  v.number("roll_damping", spec.roll_damping, within(0, 2));
+  v.number("roll_quadratic_damping", spec.roll_quadratic_damping, within(0, 100));
+  v.number("pitch_damping", spec.pitch_damping, within(0, 2));
+  v.number("yaw_damping", spec.yaw_damping, within(0, 2));
+  v.number("yaw_rate_deg_s", spec.yaw_rate_deg_s, within(0, 180));
+  v.number("length_m", spec.length_m, within(0, 1000));
+  v.number("beam_m", spec.beam_m, within(0, 200));
+  v.number("draught_m", spec.draught_m, within(0, 50));
+  v.number("metacentric_height_m", spec.metacentric_height_m, within(0.01, 20));
+  v.number("diameter_m", spec.diameter_m, within(0, 50));
+  v.number("centre_above_water_m", spec.centre_above_water_m, within(-10, 50));
+  visit_choice(v, "waves", spec.waves, {"same_field", "independent"});
+  v.number("step_s", spec.step_s, within(0.001, 0.1));
+  v.number("preroll_s", spec.preroll_s, within(0, 3600));
+}
+
+void visit(SolverSpec& spec, FieldVisitor& v) {
+  v.number("ray_spacing_m", spec.ray_spacing_m, within(0.001, 10));
+  v.integer("max_bounces", spec.max_bounces, within(1, 64));
+  v.number("max_turn_deg", spec.max_turn_deg, within(0.001, 5));
+}
+
+void visit(PointSpec& spec, FieldVisitor& v) {
+  v.require("position_m");
+  v.triple("position_m", spec.position_m, within(-100000, 100000));
+  v.number("amplitude_m", spec.amplitude_m, above_up_to(0, 1e6));
+  v.triple("velocity_mps", spec.velocity_mps, within(-10000, 10000));
+}
+
+// A mesh with its motion, or ideal points; what belongs to a mesh is not written beside points.
+void visit(TargetSpec& spec, FieldVisitor& v) {
+  const auto label = [&] {
+    auto index = static_cast<std::size_t>(spec.label);
+    v.choice("label", index, std::array{"0", "1"});
+    spec.label = static_cast<int>(index);
+  };
+  v.require("label");
+  label();
+  if (v.optional("points", !spec.points.empty())) {
+    v.list(
+        "points", spec.points.size(), 10000, [&](std::size_t size) { spec.points.resize(size); },
+        [&](std::size_t i, FieldVisitor& item) { visit(spec.points[i], item); });
+  }
+  if (v.optional("mesh", !spec.mesh.empty())) v.text("mesh", spec.mesh);
+  const bool is_mesh = spec.points.empty();
+  if (v.optional("unit", is_mesh)) visit_word(v, "unit", spec.unit, {"m", "cm", "mm", "km", "in", "ft"});
+  if (v.optional("layout", spec.line.has_value())) {
+    if (!spec.line) spec.line.emplace();
+    v.section("layout", [&](FieldVisitor& layout) {
+      layout.require("line");
+      layout.section("line", [&](FieldVisitor& line) { visit(*spec.line, line); });
+    });
+  }
+  if (v.optional("motion", is_mesh)) v.section("motion", [&](FieldVisitor& motion) { visit(spec.motion, motion); });
+  if (v.optional("solver", is_mesh)) v.section("solver", [&](FieldVisitor& solver) { visit(spec.solver, solver); });
+}
+
+void visit(ClutterSpec& spec, FieldVisitor& v) {
+  v.number("scr_db", spec.scr_db, within(-60, 200));
+  visit_choice(v, "scr_definition", spec.scr_definition, {"per_pulse", "peak_cell", "extent"});
+  v.flag("enabled", spec.enabled);
+  v.number("noise_to_clutter_db", spec.noise_to_clutter_db, within(-200, 60));
+  v.number("texture_shape", spec.texture_shape, within(0.1, 1000));
+  v.number("doppler_mean_mps", spec.doppler_mean_mps, within(-20, 20));
+  v.number("doppler_spread_mps", spec.doppler_spread_mps, within(0, 20));
+}
+
+void visit(MapSpec& spec, FieldVisitor& v) {
+  static constexpr const char* const kTapers[] = {"none", "hann", "hamming", "taylor"};
+  v.number("range_span_m", spec.range_span_m, above_up_to(0, 1e6));
+  v.number("velocity_span_mps", spec.velocity_span_mps, above_up_to(0, 1e5));
+  v.number("range_oversampling", spec.range_oversampling, within(1, 16));
+  v.number("velocity_oversampling", spec.velocity_oversampling, within(1, 16));
+  visit_choice(v, "compression", spec.compression, {"inverse", "matched"});
+  visit_choice(v, "range_taper", spec.range_taper, kTapers);
+  visit_choice(v, "velocity_taper", spec.velocity_taper, kTapers);
+}
+
+void visit(DatasetSpec& spec, FieldVisitor& v) {
+  v.integer("maps_per_case", spec.maps_per_case, within(1, 1000000));
+  v.integer("realisations_per_case", spec.realisations_per_case, within(1, 100000));
+  v.number("interval_spacing_s", spec.interval_spacing_s, within(0.001, 10000));
+  v.integer("maps_per_shard", spec.maps_per_shard, within(1, 10000));
+  v.ratio("split", spec.train_share);
+}
+
+void visit(FeatureSpec& spec, FieldVisitor& v) {
+  v.number("dynamic_range_db", spec.dynamic_range_db, within(1, 100));
+  v.integer("max_centres", spec.max_centres, within(3, 1000));
+  v.number("clean_gain", spec.clean_gain, within(0.05, 1));
+  v.number("range_scale_m", spec.range_scale_m, above(0));
+  v.number("velocity_scale_mps", spec.velocity_scale_mps, above(0));
+  v.flag("weighted_fit", spec.weighted_fit);
+}
+
+void visit(LearningSpec& spec, FieldVisitor& v) {
+  visit_choice(v, "fusion", spec.fusion, {"split", "in_sample"});
+  v.number("network_share", spec.network_share, within(0.1, 0.9));
+  v.integer("epochs", spec.epochs, within(1, 10000));
+  v.integer("batch_size", spec.batch_size, within(1, 4096));
+  v.number("learning_rate", spec.learning_rate, within(1e-6, 1));
+  v.integer("embedding_size", spec.embedding_size, within(1, 512));
+  v.integer("threads", spec.threads, within(1, 256));
+  v.number("map_floor_db", spec.map_floor_db, {.lowest = -120, .highest = 0, .without_highest = true});
+  v.integer("trees", spec.trees, within(1, 100000));
+  v.integer("max_depth", spec.max_depth, within(1, 32));
+  v.number("tree_learning_rate", spec.tree_learning_rate, above_up_to(0, 1));
+  v.number("subsample", spec.subsample, above_up_to(0, 1));
+  v.number("colsample_bytree", spec.colsample_bytree, above_up_to(0, 1));
+  v.integer("tree_seed", spec.tree_seed, within(0, std::numeric_limits<int>::max()));
+  v.integer("bootstrap_samples", spec.bootstrap_samples, within(10, 100000));
+}
+
+template <typename Spec>
+void visit_section(FieldVisitor& v, const char* key, Spec& spec) {
+  v.section(key, [&](FieldVisitor& section) { visit(spec, section); });
+}
+
+}  // namespace
+
+void visit_fields(Scenario& scenario, FieldVisitor& v) {
+  v.require("seaglint");
+  v.integer("seaglint", scenario.version, within(1, 1));
+  v.text("name", scenario.name);
+  v.natural("seed", scenario.seed);
+  visit_section(v, "radar", scenario.radar);
+  visit_section(v, "view", scenario.view);
+  visit_section(v, "sea", scenario.sea);
+  std::vector<std::string> names;
+  for (const TargetSpec& target : scenario.targets) names.push_back(target.name);
+  v.require("targets");
+  v.dictionary(
+      "targets", names, 100,
+      [&](const std::vector<std::string>& read_names) {
+        scenario.targets.resize(read_names.size());
+        for (std::size_t i = 0; i < read_names.size(); ++i) scenario.targets[i].name = read_names[i];
+      },
+      [&](std::size_t i, FieldVisitor& target) { visit(scenario.targets[i], target); });
+  visit_section(v, "clutter", scenario.clutter);
+  visit_section(v, "map", scenario.map);
+  visit_section(v, "dataset", scenario.dataset);
+  visit_section(v, "features", scenario.features);
+  visit_section(v, "learning", scenario.learning);
+}
+
+}  // namespace seaglint

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// Every field of every section, named once with its key and its bound. Reading, checking and writing a scenario are
+// visitors of this list.
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "sim/scenario/scenario.h"
+
+namespace seaglint {
+
+// The values a number may have.
+struct Bound {
+  double lowest = -std::numeric_limits<double>::infinity();
+  double highest = std::numeric_limits<double>::infinity();
+  bool without_lowest = false;   // lowest itself is not allowed
+  bool without_highest = false;  // highest itself is not allowed
+  bool or_zero = false;          // zero is allowed too
+
+  bool holds(double value) const;
+  std::string text() const;  // "within 0.1 and 300", "greater than 0", ...; leaves or_zero to its user
+};
+
+constexpr Bound within(double lowest, double highest) { return {lowest, highest}; }
+constexpr Bound zero_or_within(double lowest, double highest) {
+  return {.lowest = lowest, .highest = highest, .or_zero = true};
+}
+constexpr Bound above(double lowest) { return {.lowest = lowest, .without_lowest = true}; }
+constexpr Bound above_up_to(double lowest, double highest) {
+  return {.lowest = lowest, .highest = highest, .without_lowest = true};
+}
+
+// What is done with each field. Keys are string literals.
+class FieldVisitor {
+ public:
+  using Fields = std::function<void(FieldVisitor&)>;
+  using Names = std::span<const char* const>;
+
+  virtual ~FieldVisitor() = default;
+
+  virtual void number(const char* key, double& value, const Bound& bound) = 0;
+  virtual void integer(const char* key, int& value, const Bound& bound) = 0;
+  virtual void natural(const char* key, std::uint64_t& value) = 0;  // all 64 bits
+  virtual void flag(const char* key, bool& value) = 0;
+  virtual void text(const char* key, std::string& value) = 0;
+  virtual void choice(const char* key, std::size_t& index, Names names) = 0;  // names[index]
+  virtual void triple(const char* key, std::array<double, 3>& values, const Bound& bound) = 0;
+  virtual void ratio(const char* key, double& share) = 0;  // a:b for the share a/(a+b)
+  // A number, a list or from:to:step. Where a word may stand instead, *is_word says that it does and values is empty.
+  virtual void sweep(const char* key, Sweep& values, const Bound& bound, const char* word = nullptr,
+                     bool* is_word = nullptr) = 0;
+  virtual void section(const char* key, const Fields& fields) = 0;
+  // A list of maps: resize(n) is called when reading, then item(i, visitor) for each.
+  virtual void list(const char* key, std::size_t size, std::size_t max_size,
+                    const std::function<void(std::size_t)>& resize,
+                    const std::function<void(std::size_t, FieldVisitor&)>& item) = 0;
+  // A map of maps: rename(names) is called when reading, then item(i, visitor) for each.
+  virtual void dictionary(const char* key, const std::vector<std::string>& names, std::size_t max_size,
+                          const std::function<void(const std::vector<std::string>&)>& rename,
+                          const std::function<void(std::size_t, FieldVisitor&)>& item) = 0;
+
+  // The key must be in the file.
+  virtual void require(const char* key) = 0;
+  // Whether to visit a field that need not exist: asked with whether it does; when reading, whether the file has the
+  // key.
+  virtual bool optional(const char* key, bool present) = 0;
+};
+
+// All fields of a scenario, section by section, in the order they are written.
+void visit_fields(Scenario& scenario, FieldVisitor& visitor);
+
+}  // namespace seaglint

@@ -1,0 +1,388 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/scenario/reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <numeric>
+#include <optional>
+
+#include "sim/core/error.h"
+#include "sim/core/number.h"
+#include "sim/scenario/fields.h"
+
+namespace seaglint {
+
+namespace {
+
+constexpr std::size_t kMaxSweepValues = 10000;
+
+// Edit distance with transpositions of neighbours (Damerau 1964, optimal string alignment), ignoring case.
+std::size_t distance(std::string_view a, std::string_view b) {
+  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+  std::vector<std::size_t> before_last(b.size() + 1);
+  std::vector<std::size_t> last(b.size() + 1);
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(last.begin(), last.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const bool same = lower(a[i - 1]) == lower(b[j - 1]);
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (same ? 0 : 1)});
+      const bool swapped = i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1]);
+      if (swapped) row[j] = std::min(row[j], before_last[j - 2] + 1);
+    }
+    std::swap(before_last, last);
+    std::swap(last, row);
+  }
+  return last[b.size()];
+}
+
+// A value as a complaint shows it.
+std::string shown(const YamlNode& node) {
+  constexpr std::size_t kLongest = 60;
+  switch (node.kind) {
+    case YamlNode::Kind::kNull:
+      return "no value";
+    case YamlNode::Kind::kList:
+      return "a list";
+    case YamlNode::Kind::kMap:
+      return "a map";
+    case YamlNode::Kind::kScalar:
+      break;
+  }
+  std::string text = node.text.substr(0, kLongest);
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
+  return fmt::format("value '{}{}'", text, node.text.size() > kLongest ? "..." : "");
+}
+
+// The keys a map may have.
+class KeyCollector : public FieldVisitor {
+ public:
+  std::vector<std::string> keys;
+
+  void number(const char* key, double&, const Bound&) override { keys.emplace_back(key); }
+  void integer(const char* key, int&, const Bound&) override { keys.emplace_back(key); }
+  void natural(const char* key, std::uint64_t&) override { keys.emplace_back(key); }
+  void flag(const char* key, bool&) override { keys.emplace_back(key); }
+  void text(const char* key, std::string&) override { keys.emplace_back(key); }
+  void choice(const char* key, std::size_t&, Names) override { keys.emplace_back(key); }
+  void triple(const char* key, std::array<double, 3>&, const Bound&) override { keys.emplace_back(key); }
+  void ratio(const char* key, double&) override { keys.emplace_back(key); }
+  void sweep(const char* key, Sweep&, const Bound&, const char*, bool*) override { keys.emplace_back(key); }
+  void section(const char* key, const Fields&) override { keys.emplace_back(key); }
+  void list(const char* key, std::size_t, std::size_t, const std::function<void(std::size_t)>&,
+            const std::function<void(std::size_t, FieldVisitor&)>&) override {
+    keys.emplace_back(key);
+  }
+  void dictionary(const char* key, const std::vector<std::string>&, std::size_t,
+                  const std::function<void(const std::vector<std::string>&)>&,
+                  const std::function<void(std::size_t, FieldVisitor&)>&) override {
+    keys.emplace_back(key);
+  }
+  void require(const char*) override {}
+  bool optional(const char* key, bool) override {
+    keys.emplace_back(key);
+    return false;
+  }
+};
+
+// Reads the fields of one map. Fields whose key is not in the map keep their defaults.
+class Reader : public FieldVisitor {
+ public:
+  // Visits the fields twice: for the keys they allow, then for the values.
+  static void read(const ScenarioDocument& document, const YamlNode& map, const std::string& path,
+                   const Fields& fields) {
+    Reader reader(document, map, path);
+    reader.check_keys(fields);
+    fields(reader);
+  }
+
+  void number(const char* key, double& value, const Bound& bound) override {
+    if (const YamlNode* node = map_.find(key)) value = number_of(*node, path_of(key), bound, "a number");
+  }
+
+  void integer(const char* key, int& value, const Bound& bound) override {
+    const YamlNode* node = map_.find(key);
+    if (node == nullptr) return;
+    const std::optional<std::int64_t> read = integer_of<std::int64_t>(*node);
+    if (!read || !bound.holds(static_cast<double>(*read))) {
+      const bool single = bound.lowest == bound.highest;
+      fail(*node, path_of(key),
+           single ? fmt::format("must be {}", bound.lowest) : "must be a whole number " + bound.text());
+    }
+    value = static_cast<int>(*read);
+  }
+
+  void natural(const char* key, std::uint64_t& value) override {
+    const YamlNode* node = map_.find(key);
+    if (node == nullptr) return;
+    const std::optional<std::uint64_t> read = integer_of<std::uint64_t>(*node);
+    if (!read) fail(*node, path_of(key), "must be a whole number within 0 and 18446744073709551615");
+    value = *read;
+  }
+
+  void flag(const char* key, bool& value) override {
+    const YamlNode* node = map_.find(key);
+    if (node == nullptr) return;
+    const bool readable = is_plain(*node) && (node->text == "true" || node->text == "false");
+    if (!readable) fail(*node, path_of(key), "must be true or false");
+    value = node->text == "true";
+  }
+
+  void text(const char* key, std::string& value) override {
+    const YamlNode* node = map_.find(key);
+    if (node == nullptr) return;
+    constexpr std::size_t kLongest = 4096;
+    const bool printable = std::none_of(node->text.begin(), node->text.end(),
+                                        [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; });
+    if (node->kind != YamlNode::Kind::kScalar || node->text.empty() || node->text.size() > kLongest || !printable) {
+      fail(*node, path_of(key), fmt::format("must be a text of 1 to {} printable characters", kLongest));
+    }
+    value = node->text;
+  }
+
+  void choice(const char* key, std::size_t& index, Names names) override {
+    const YamlNode* node = map_.find(key);
+    if (node == nullptr) return;
+    const auto found = std::find(names.begin(), names.end(), std::string_view(node->text));
+    if (node->kind != YamlNode::Kind::kScalar || found == names.end()) {
+      fail(*node, path_of(key),
+           fmt::format("must be {}{}", names.size() > 2 ? "one of " : "",
+                       fmt::join(names, names.size() > 2 ? ", " : " or ")));
+    }
+    index = static_cast<std::size_t>(found - names.begin());
+  }
+
+  void triple(const char* key, std::array<double, 3>& values, const Bound& bound) override {
+    const YamlNode* node = map_.find(key);
+    if (node == nullptr) return;
+    if (node->kind != YamlNode::Kind::kList || node->items.size() != 3) {
+      fail(*node, path_of(key), "must be a list of three numbers [x, y, z]");
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      values[i] = number_of(node->items[i], fmt::format("{}.{}", path_of(key), i), bound, "a number");
+    }
+  }
+
+  void ratio(const char* key, double& share) override {
+    const YamlNode* node = map_.find(key);
+    if (node == nullptr) return;
+    const std::size_t colon = node->text.find(':');
+    if (node->kind == YamlNode::Kind::kScalar && colon != std::string::npos) {
+      const std::optional<double> a = parse_number(std::string_view(node->text).substr(0, colon));
+      const std::optional<double> b = parse_number(std::string_view(node->text).substr(colon + 1));
+      if (a && b && *a > 0 && *b > 0) {
+        const double read = *a / (*a + *b);
+        if (read > 0 && read < 1) {
+          share = read;
+          return;
+        }
+      }
+    }
+    fail(*node, path_of(key), "must be a ratio a:b of two positive numbers");
+  }
+
+  void sweep(const char* key, Sweep& values, const Bound& bound, const char* word, bool* is_word) override {
+    const YamlNode* node = map_.find(key);
+    if (node == nullptr) return;
+    if (word != nullptr && node->kind == YamlNode::Kind::kScalar && node->text == word) {
+      *is_word = true;
+      values.clear();
+      return;
+    }
+    values = node->kind == YamlNode::Kind::kList ? list_sweep(*node, path_of(key), bound)
+                                                 : scalar_sweep(*node, path_of(key), bound, word);
+    Sweep sorted = values;
+    std::sort(sorted.begin(), sorted.end());
+    const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
+    if (twice != sorted.end())
+      document_.fail(node->location, path_of(key), fmt::format("value '{}' appears twice", *twice));
+  }
+
+  void section(const char* key, const Fields& fields) override {
+    if (const YamlNode* node = map_.find(key)) {
+      expect_map(*node, path_of(key));
+      read(document_, *node, path_of(key), fields);
+    }
+  }
+
+  void list(const char* key, std::size_t, std::size_t max_size, const std::function<void(std::size_t)>& resize,
+            const std::function<void(std::size_t, FieldVisitor&)>& item) override {
+    const YamlNode* node = map_.find(key);
+    if (node == nullptr) return;
+    if (node->kind != YamlNode::Kind::kList || node->items.empty() || node->items.size() > max_size) {
+      fail(*node, path_of(key), fmt::format("must be a list of 1 to {} maps", max_size));
+    }
+    resize(node->items.size());
+    for (std::size_t i = 0; i < node->items.size(); ++i) {
+      const std::string path = fmt::format("{}.{}", path_of(key), i);
+      expect_map(node->items[i], path);
+      read(document_, node->items[i], path, [&](FieldVisitor& visitor) { item(i, visitor); });
+    }
+  }
+
+  void dictionary(const char* key, const std::vector<std::string>&, std::size_t max_size,
+                  const std::function<void(const std::vector<std::string>&)>& rename,
+                  const std::function<void(std::size_t, FieldVisitor&)>& item) override {
+    const YamlNode* node = map_.find(key);
+    if (node == nullptr) return;
+    if (node->kind != YamlNode::Kind::kMap || node->entries.empty() || node->entries.size() > max_size) {
+      fail(*node, path_of(key), fmt::format("must be a map of 1 to {} named maps", max_size));
+    }
+    check_duplicates(*node, path_of(key));
+    std::vector<std::string> names;
+    for (const YamlEntry& entry : node->entries) {
+      check_name(entry, path_of(key));
+      names.push_back(entry.key);
+    }
+    rename(names);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const std::string path = path_of(key) + "." + names[i];
+      expect_map(node->entries[i].value, path);
+      read(document_, node->entries[i].value, path, [&](FieldVisitor& visitor) { item(i, visitor); });
+    }
+  }
+
+  void require(const char* key) override {
+    if (map_.find(key) == nullptr) document_.fail(map_.location, path_of(key), "this key is missing");
+  }
+
+  bool optional(const char* key, bool) override { return map_.find(key) != nullptr; }
+
+ private:
+  Reader(const ScenarioDocument& document, const YamlNode& map, std::string path)
+      : document_(document), map_(map), path_(std::move(path)) {}
+
+  std::string path_of(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
+
+  [[noreturn]] void fail(const YamlNode& node, const std::string& path, const std::string& bound) const {
+    document_.fail(node.location, path, fmt::format("{}: {}", shown(node), bound));
+  }
+
+  static bool is_plain(const YamlNode& node) { return node.kind == YamlNode::Kind::kScalar && !node.quoted; }
+
+  void expect_map(const YamlNode& node, const std::string& path) const {
+    if (node.kind != YamlNode::Kind::kMap) fail(node, path, "must be a map of key: value");
+  }
+
+  void check_duplicates(const YamlNode& map, const std::string& path) const {
+    std::vector<const YamlEntry*> sorted;
+    for (const YamlEntry& entry : map.entries) sorted.push_back(&entry);
+    std::stable_sort(sorted.begin(), sorted.end(),
+                     [](const YamlEntry* a, const YamlEntry* b) { return a->key < b->key; });
+    const auto twice = std::adjacent_find(sorted.begin(), sorted.end(),
+                                          [](const YamlEntry* a, const YamlEntry* b) { return a->key == b->key; });
+    if (twice == sorted.end()) return;
+    const YamlEntry& first = **twice;
+    const YamlEntry& second = **(twice + 1);
+    document_.fail(second.location, path.empty() ? second.key : path + "." + second.key,
+                   fmt::format("this key appears twice, first in line {}", first.location.line));
+  }
+
+  void check_keys(const Fields& fields) const {
+    check_duplicates(map_, path_);
+    KeyCollector allowed;
+    fields(allowed);
+    for (const YamlEntry& entry : map_.entries) {
+      if (std::find(allowed.keys.begin(), allowed.keys.end(), entry.key) != allowed.keys.end()) continue;
+      document_.fail(entry.location, path_of(entry.key), "unknown key: " + suggestion(entry.key, allowed.keys));
+    }
+  }
+
+  // Names become parts of file names and of key paths.
+  void check_name(const YamlEntry& entry, const std::string& path) const {
+    constexpr std::size_t kLongest = 64;
+    const auto allowed = [](char c) {
+      return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+    };
+    if (entry.key.empty() || entry.key.size() > kLongest || !std::all_of(entry.key.begin(), entry.key.end(), allowed)) {
+      document_.fail(entry.location, path,
+                     fmt::format("name '{}': must be 1 to {} letters, digits, '_' or '-'",
+                                 entry.key.substr(0, kLongest), kLongest));
+    }
+  }
+
+  double number_of(const YamlNode& node, const std::string& path, const Bound& bound, const std::string& what) const {
+    const std::optional<double> value = is_plain(node) ? parse_number(node.text) : std::nullopt;
+    if (!value || !bound.holds(*value))
+      fail(node, path, fmt::format("must be {}{} {}", bound.or_zero ? "0 or " : "", what, bound.text()));
+    return *value;
+  }
+
+  template <typename Integer>
+  static std::optional<Integer> integer_of(const YamlNode& node) {
+    Integer value = 0;
+    const char* end = node.text.data() + node.text.size();
+    const auto [stop, error] = std::from_chars(node.text.data(), end, value);
+    if (!is_plain(node) || error != std::errc() || stop != end) return std::nullopt;
+    return value;
+  }
+
+  Sweep list_sweep(const YamlNode& list, const std::string& path, const Bound& bound) const {
+    if (list.items.empty() || list.items.size() > kMaxSweepValues) {
+      fail(list, path, fmt::format("must be a list of 1 to {} numbers", kMaxSweepValues));
+    }
+    Sweep values;
+    for (const YamlNode& item : list.items) values.push_back(number_of(item, path, bound, "a list of numbers"));
+    return values;
+  }
+
+  Sweep scalar_sweep(const YamlNode& node, const std::string& path, const Bound& bound, const char* word) const {
+    const std::string other = word == nullptr ? "" : fmt::format(", or {}", word);
+    const std::string what = fmt::format("must be a number, a list or from:to:step, {}{}", bound.text(), other);
+    // A range may stand in quotes, as other YAML readers need it.
+    const bool readable = is_plain(node) || (node.quoted && node.text.find(':') != std::string::npos);
+    if (!readable) fail(node, path, what);
+    if (node.text.find(':') == std::string::npos && !parse_number(node.text)) fail(node, path, what);
+    Sweep values;
+    try {
+      values = parse_range(node.text, kMaxSweepValues);
+    } catch (const InputError& error) {
+      document_.fail(node.location, path, error.what());
+    }
+    if (!std::all_of(values.begin(), values.end(), [&](double value) { return bound.holds(value); }))
+      fail(node, path, what);
+    return values;
+  }
+
+  const ScenarioDocument& document_;
+  const YamlNode& map_;
+  std::string path_;
+};
+
+}  // namespace
+
+std::string suggestion(std::string_view misspelt, const std::vector<std::string>& names) {
+  constexpr std::size_t kLongest = 100;  // beyond it nothing is a slip of the pen
+  const std::size_t near = std::max<std::size_t>(1, misspelt.size() / 3);
+  std::size_t best = near + 1;
+  const std::string* nearest = nullptr;
+  for (const std::string& name : names) {
+    if (misspelt.size() > kLongest) break;
+    const std::size_t d = distance(misspelt, name);
+    if (d < best) {
+      best = d;
+      nearest = &name;
+    }
+  }
+  if (nearest != nullptr) return fmt::format("did you mean '{}'?", *nearest);
+  return fmt::format("must be one of {}", fmt::join(names, ", "));
+}
+
+Scenario read_fields(const ScenarioDocument& document) {
+  if (document.root.kind == YamlNode::Kind::kNull) {
+    throw InputError(fmt::format("{}: the file is empty: must be a map of key: value", document.file_name));
+  }
+  if (document.root.kind != YamlNode::Kind::kMap) {
+    throw InputError(fmt::format("{}:{}:{}: {}: must be a map of key: value", document.file_name,
+                                 document.root.location.line, document.root.location.column, shown(document.root)));
+  }
+  Scenario scenario;
+  Reader::read(document, document.root, "", [&](FieldVisitor& visitor) { visit_fields(scenario, visitor); });
+  return scenario;
+}
+
+}  // namespace seaglint

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The effective scenario: every field with its value, defaults included.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+
+#include "sim/core/error.h"
+#include "sim/scenario/fields.h"
+#include "sim/scenario/scenario.h"
+
+namespace seaglint {
+
+namespace {
+
+// Plain where YAML reads it back as it is, else in double quotes.
+std::string text_as_yaml(const std::string& text) {
+  const auto simple = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '/' ||
+           c == '.';
+  };
+  const bool starts_plain = !text.empty() && simple(text[0]) && text[0] != '.';
+  const bool is_null = text == "null" || text == "Null" || text == "NULL";
+  const auto inside = [&](char c) { return simple(c) || c == '-'; };
+  if (starts_plain && !is_null && std::all_of(text.begin(), text.end(), inside)) return text;
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    quoted += c;
+  }
+  return quoted + '"';
+}
+
+// The smallest whole numbers a:b whose share a/(a+b) is this one to the last bit; share:(1-share) always is.
+std::string ratio_as_yaml(double share) {
+  for (int whole = 2; whole <= 100; ++whole) {
+    const int a = static_cast<int>(share * whole + 0.5);
+    if (a > 0 && a < whole && static_cast<double>(a) / whole == share) return fmt::format("{}:{}", a, whole - a);
+  }
+  return fmt::format("{}:{}", share, 1 - share);
+}
+
+// Doubles are written by fmt in the fewest digits that read back to the same bits.
+class Writer : public FieldVisitor {
+ public:
+  explicit Writer(std::string& out, int depth = 0) : out_(out), depth_(depth) {}
+
+  void number(const char* key, double& value, const Bound&) override { line(key, fmt::format("{}", value)); }
+  void integer(const char* key, int& value, const Bound&) override { line(key, fmt::format("{}", value)); }
+  void natural(const char* key, std::uint64_t& value) override { line(key, fmt::format("{}", value)); }
+  void flag(const char* key, bool& value) override { line(key, value ? "true" : "false"); }
+  void text(const char* key, std::string& value) override { line(key, text_as_yaml(value)); }
+  void choice(const char* key, std::size_t& index, Names names) override {
+    SEAGLINT_CHECK(index < names.size(), fmt::format("{}: choice {} of {}", key, index, names.size()));
+    line(key, names[index]);
+  }
+  void triple(const char* key, std::array<double, 3>& values, const Bound&) override {
+    line(key, fmt::format("[{}]", fmt::join(values, ", ")));
+  }
+  void ratio(const char* key, double& share) override { line(key, ratio_as_yaml(share)); }
+  void sweep(const char* key, Sweep& values, const Bound&, const char* word, bool* is_word) override {
+    if (is_word != nullptr && *is_word) {
+      line(key, word);
+    } else if (values.size() == 1) {
+      line(key, fmt::format("{}", values[0]));
+    } else {
+      line(key, fmt::format("[{}]", fmt::join(values, ", ")));
+    }
+  }
+  void section(const char* key, const Fields& fields) override {
+    line(key, "");
+    Writer nested(out_, depth_ + 1);
+    fields(nested);
+  }
+  void list(const char* key, std::size_t size, std::size_t, const std::function<void(std::size_t)>&,
+            const std::function<void(std::size_t, FieldVisitor&)>& item) override {
+    line(key, "");
+    for (std::size_t i = 0; i < size; ++i) {
+      out_ += indent(depth_ + 1) + "-\n";
+      Writer nested(out_, depth_ + 2);
+      item(i, nested);
+    }
+  }
+  void dictionary(const char* key, const std::vector<std::string>& names, std::size_t,
+                  const std::function<void(const std::vector<std::string>&)>&,
+                  const std::function<void(std::size_t, FieldVisitor&)>& item) override {
+    line(key, "");
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      out_ += indent(depth_ + 1) + text_as_yaml(names[i]) + ":\n";
+      Writer nested(out_, depth_ + 2);
+      item(i, nested);
+    }
+  }
+  void require(const char*) override {}
+  bool optional(const char*, bool present) override { return present; }
+
+ private:
+  static std::string indent(int depth) { return std::string(2 * static_cast<std::size_t>(depth), ' '); }
+  void line(const char* key, const std::string& value) {
+    out_ += indent(depth_) + key + (value.empty() ? ":" : ": ") + value + "\n";
+  }
+
+  std::string& out_;
+  int depth_;
+};
+
+}  // namespace
+
+std::string effective_yaml(const Scenario& scenario) {
+  Scenario copy = scenario;
+  std::string out;
+  Writer writer(out);
+  visit_fields(copy, writer);
+  return out;
+}
+
+}  // namespace seaglint

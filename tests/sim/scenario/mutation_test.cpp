@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A deterministic fuzz: scenarios with bytes and pieces changed are read, or refused with an InputError; nothing else
+// may happen.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "sim/core/error.h"
+#include "sim/core/random.h"
+#include "sim/scenario/scenario.h"
+
+namespace seaglint {
+namespace {
+
+const std::string kSeedText = R"(seaglint: 1
+name: "quoted \"name\""
+radar: &r {carrier_ghz: 16, hop_code: random, pulses: 256, intra_pulse_motion: false}
+view:
+  azimuth_deg: 10:170:10
+  elevation_deg: [1, 2]
+sea: {peak_period_s: dnv_wind_sea, gamma: 3.3}
+targets:
+  ship: {label: 1, mesh: a.glb, motion: {model: ship, rotation_centre_m: [1, 2, 3]}}
+  array: {label: 0, mesh: b.glb, layout: {line: {count: 4, spacing_m: 40}}}
+  points:
+    label: 0
+    points:
+      - {position_m: [0, 0, 0], velocity_mps: [1, 0, 0]}
+dataset: {split: 7:3}
+)";
+
+const char* const kPieces[] = {
+    "[",  "]",  "{",  "}",  ":",   ": ",   "- ",   "? ",   "&r ",  "*r",    "!!int ", "!",   "'",         "\"",
+    "\n", "  ", "\t", "#",  "---", "...",  "|",    ">",    "<<: ", "%YAML", ",",      "~",   "null",      "1e999",
+    "-",  ".",  "0x", "\\", "\r",  "\x00", "\xc3", "\xff", "@",    "`",     "|+9\n",  "inf", "9999999999"};
+
+std::string mutated(std::uint64_t index) {
+  Random random({2, Stream::kTest, index});
+  std::string text = kSeedText;
+  const std::uint32_t changes = 1 + random.below(6);
+  for (std::uint32_t i = 0; i < changes; ++i) {
+    const auto position = [&] {
+      return static_cast<std::size_t>(random.below(static_cast<std::uint32_t>(text.size()) + 1));
+    };
+    const std::size_t at = position();
+    const std::size_t length = std::min<std::size_t>(random.below(20), text.size() - at);
+    switch (random.below(5)) {
+      case 0:
+        text.insert(at, kPieces[random.below(std::size(kPieces))]);
+        break;
+      case 1:
+        text.erase(at, length);
+        break;
+      case 2:
+        text.insert(position(), text.substr(at, length));
+        break;
+      case 3:
+        text.replace(at, length, kPieces[random.below(std::size(kPieces))]);
+        break;
+      default:
+        if (at < text.size()) text[at] = static_cast<char>(random.below(256));
+    }
+  }
+  return text;
+}
+
+TEST(Mutation, BrokenScenariosAreReadOrRefusedWithAnInputError) {
+  int read = 0;
+  int refused = 0;
+  for (std::uint64_t i = 0; i < 20000; ++i) {
+    const std::string text = mutated(i);
+    try {
+      parse_scenario(text, "file.yaml", {{"radar.pulses", i % 3 == 0 ? text.substr(0, 40) : "64"}});
+      ++read;
+    } catch (const InputError& error) {
+      ASSERT_GT(std::string(error.what()).size(), 10u);
+      ++refused;
+    } catch (const std::exception& error) {
+      FAIL() << "mutation " << i << ": " << error.what() << "\n" << text;
+    }
+  }
+  // Both ways out are taken: the mutations are neither all harmless nor all hopeless.
+  EXPECT_GT(read, 100);
+  EXPECT_GT(refused, 5000);
+}
+
+TEST(Mutation, PiecesOfYamlAloneAreRefusedWithAnInputError) {
+  for (std::uint64_t i = 0; i < 20000; ++i) {
+    Random random({3, Stream::kTest, i});
+    std::string text;
+    for (std::uint32_t k = random.below(30); k > 0; --k) text += kPieces[random.below(std::size(kPieces))];
+    try {
+      parse_scenario(text, "file.yaml");
+      FAIL() << "read: " << text;
+    } catch (const InputError&) {
+    } catch (const std::exception& error) {
+      FAIL() << "mutation " << i << ": " << error.what() << "\n" << text;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace seaglint

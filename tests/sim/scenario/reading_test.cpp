@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a scenario file says is what the structs hold, and every mistake in it is named where it stands.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "sim/core/error.h"
+#include "sim/scenario/document.h"
+#include "sim/scenario/scenario.h"
+
+namespace seaglint {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+// The scenario of the project's description, to the letter.
+const char* const kPaper = R"(seaglint: 1
+name: paper
+seed: 42
+radar:   {carrier_ghz: 16, hop_count: 8, hop_step_mhz: 25, hop_code: random, bandwidth_mhz: 25, pulse_width_us: 36, sampling_mhz: 50,
+          pri_us: 250, pulses: 256, polarisation: vv}
+view:    {azimuth_deg: 10:170:10, elevation_deg: 2}
+sea:     {significant_wave_height_m: [0.1, 1, 2], peak_period_s: 8, gamma: 3.3, propagation_deg: 120, order: 2}   # or peak_period_s: dnv_wind_sea
+targets:
+  ship:  {label: 1, mesh: assets/combatant_144m.glb, motion: {model: ship}}
+  array: {label: 0, mesh: assets/icosahedral_reflector.glb, layout: {line: {count: 4, spacing_m: 40}}, motion: {model: float}}
+clutter: {scr_db: 20, scr_definition: per_pulse}
+map:     {range_span_m: 192}
+dataset: {maps_per_case: 100, realisations_per_case: 10, interval_spacing_s: 10, split: 7:3}
+learning: {fusion: split}
+)";
+
+// The shortest valid scenario, and the same with lines added.
+const std::string kShort = "seaglint: 1\ntargets:\n  a: {label: 1, mesh: a.glb}\n";
+
+Scenario parse(const std::string& yaml, const std::vector<Override>& overrides = {}) {
+  return parse_scenario(yaml, "folder/file.yaml", overrides);
+}
+
+std::string complaint_about(const std::string& yaml, const std::vector<Override>& overrides = {}) {
+  try {
+    parse(yaml, overrides);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(Reading, TheExampleOfTheDescriptionIsUnderstood) {
+  const Scenario scenario = parse(kPaper);
+  EXPECT_EQ(scenario.name, "paper");
+  EXPECT_EQ(scenario.seed, 42u);
+  EXPECT_EQ(scenario.radar.carrier_ghz, 16);
+  EXPECT_EQ(scenario.radar.hop_code, HopCode::kRandom);
+  EXPECT_EQ(scenario.radar.polarisation, Polarisation::kVv);
+  EXPECT_EQ(scenario.view.azimuth_deg.size(), 17u);
+  EXPECT_THAT(scenario.view.elevation_deg, ElementsAre(2));
+  EXPECT_THAT(scenario.sea.significant_wave_height_m, ElementsAre(0.1, 1, 2));
+  ASSERT_EQ(scenario.targets.size(), 2u);
+  EXPECT_EQ(scenario.targets[0].name, "ship");
+  EXPECT_EQ(scenario.targets[0].label, 1);
+  EXPECT_EQ(scenario.targets[0].mesh, "assets/combatant_144m.glb");
+  EXPECT_EQ(scenario.targets[0].motion.model, MotionModel::kShip);
+  EXPECT_FALSE(scenario.targets[0].line.has_value());
+  EXPECT_EQ(scenario.targets[1].name, "array");
+  ASSERT_TRUE(scenario.targets[1].line.has_value());
+  EXPECT_EQ(scenario.targets[1].line->count, 4);
+  EXPECT_EQ(scenario.targets[1].line->spacing_m, 40);
+  EXPECT_EQ(scenario.dataset.train_share, 0.7);
+  EXPECT_EQ(scenario.folder, "folder");
+}
+
+TEST(Reading, WhatIsNotGivenKeepsItsDefault) {
+  const Scenario scenario = parse(kShort);
+  EXPECT_EQ(scenario.name, "file");
+  EXPECT_EQ(scenario.seed, 42u);
+  EXPECT_EQ(scenario.radar.pulses, 256);
+  EXPECT_EQ(scenario.targets[0].unit, "m");
+  EXPECT_EQ(scenario.targets[0].motion.model, MotionModel::kFixed);
+}
+
+TEST(Reading, PointsAreTargets) {
+  const Scenario scenario = parse(
+      "seaglint: 1\ntargets:\n  p:\n    label: 0\n    points:\n"
+      "      - {position_m: [1, 2, 3], amplitude_m: 0.5, velocity_mps: [-1, 0, 0.25]}\n      - {position_m: [0, 0, "
+      "0]}\n");
+  ASSERT_EQ(scenario.targets[0].points.size(), 2u);
+  EXPECT_THAT(scenario.targets[0].points[0].position_m, ElementsAre(1, 2, 3));
+  EXPECT_EQ(scenario.targets[0].points[0].amplitude_m, 0.5);
+  EXPECT_THAT(scenario.targets[0].points[0].velocity_mps, ElementsAre(-1, 0, 0.25));
+  EXPECT_EQ(scenario.targets[0].points[1].amplitude_m, 1);
+}
+
+TEST(Reading, SweepsAreNumbersListsOrRangesInBlocksAndBraces) {
+  const auto azimuths = [](const std::string& value) { return parse(kShort + value).view.azimuth_deg; };
+  EXPECT_THAT(azimuths("view: {azimuth_deg: 30}"), ElementsAre(30));
+  EXPECT_THAT(azimuths("view: {azimuth_deg: [3, -1.5]}"), ElementsAre(3, -1.5));
+  EXPECT_THAT(azimuths("view: {azimuth_deg: 10:20:5}"), ElementsAre(10, 15, 20));
+  EXPECT_THAT(azimuths("view: {azimuth_deg: '10:20:5', elevation_deg: 1}"), ElementsAre(10, 15, 20));
+  EXPECT_THAT(azimuths("view:\n  azimuth_deg: 10:20:5\n"), ElementsAre(10, 15, 20));
+}
+
+TEST(Reading, TheWindSeaRuleIsAWordInPlaceOfAPeriod) {
+  const Scenario scenario = parse(kShort + "sea: {peak_period_s: dnv_wind_sea, significant_wave_height_m: [1, 4]}");
+  EXPECT_TRUE(scenario.sea.dnv_wind_sea);
+  const auto states = sea_states(scenario.sea);
+  ASSERT_EQ(states.size(), 2u);
+  EXPECT_DOUBLE_EQ(states[0].peak_period_s, 3.96);
+  EXPECT_DOUBLE_EQ(states[1].peak_period_s, 7.92);
+}
+
+TEST(Reading, AnyPositiveHopStepIsAccepted) {
+  EXPECT_EQ(parse(kShort + "radar: {hop_step_mhz: 1e-9}").radar.hop_step_mhz, 1e-9);
+  EXPECT_EQ(parse(kShort + "radar: {hop_step_mhz: 33.3}").radar.hop_step_mhz, 33.3);
+  EXPECT_EQ(complaint_about(kShort + "radar: {hop_step_mhz: 0}"),
+            "folder/file.yaml:4:23: radar.hop_step_mhz: value '0': must be a number greater than 0");
+}
+
+TEST(Reading, AnAliasRepeatsAValue) {
+  const Scenario scenario = parse(
+      "seaglint: 1\ntargets:\n  a: {label: 1, mesh: a.glb, motion: &m {model: ship, roll_damping: 0.25}}\n"
+      "  b: {label: 0, mesh: a.glb, motion: *m}\n");
+  EXPECT_EQ(scenario.targets[1].motion.roll_damping, 0.25);
+}
+
+struct Mistake {
+  std::string line;       // the fourth line of the file, after kShort
+  std::string complaint;  // after "folder/file.yaml:4:"
+};
+
+TEST(Reading, EveryMistakeIsNamedWithItsPlaceValueAndBound) {
+  const Mistake mistakes[] = {
+      // Keys.
+      {"radar: {carier_ghz: 16}", "9: radar.carier_ghz: unknown key: did you mean 'carrier_ghz'?"},
+      {"radar: {carrier_mhz: 16}", "9: radar.carrier_mhz: unknown key: did you mean 'carrier_ghz'?"},
+      {"view: {nonsense: 1}", "8: view.nonsense: unknown key: must be one of azimuth_deg, elevation_deg"},
+      {"raddar: {}", "1: raddar: unknown key: did you mean 'radar'?"},
+      {"radar: {pulses: 1, carrier_ghz: 16, pulses: 2}", "37: radar.pulses: this key appears twice, first in line 4"},
+      {"seaglint: 1", "1: seaglint: this key appears twice, first in line 1"},
+      {"view: {? [1] : 2}", "10: a key must be plain text"},
+      // Types.
+      {"radar: 5", "8: radar: value '5': must be a map of key: value"},
+      {"radar: [1]", "8: radar: a list: must be a map of key: value"},
+      {"radar:", "1: radar: no value: must be a map of key: value"},
+      {"radar: {carrier_ghz: 16 GHz}", "22: radar.carrier_ghz: value '16 GHz': must be a number within 0.1 and 300"},
+      {"radar: {carrier_ghz: '16'}", "22: radar.carrier_ghz: value '16': must be a number within 0.1 and 300"},
+      {"radar: {carrier_ghz: [16]}", "22: radar.carrier_ghz: a list: must be a number within 0.1 and 300"},
+      {"radar: {carrier_ghz: {}}", "22: radar.carrier_ghz: a map: must be a number within 0.1 and 300"},
+      {"radar: {carrier_ghz: }", "9: radar.carrier_ghz: no value: must be a number within 0.1 and 300"},
+      {"radar: {carrier_ghz: .nan}", "22: radar.carrier_ghz: value '.nan': must be a number within 0.1 and 300"},
+      {"radar: {carrier_ghz: nan}", "22: radar.carrier_ghz: value 'nan': must be a number within 0.1 and 300"},
+      {"radar: {carrier_ghz: .inf}", "22: radar.carrier_ghz: value '.inf': must be a number within 0.1 and 300"},
+      {"radar: {hop_step_mhz: inf}", "23: radar.hop_step_mhz: value 'inf': must be a number greater than 0"},
+      {"radar: {pulses: 2.5}", "17: radar.pulses: value '2.5': must be a whole number within 1 and 65536"},
+      {"radar: {pulses: 99999999999999999999}",
+       "17: radar.pulses: value '99999999999999999999': must be a whole number within 1 and 65536"},
+      {"radar: {polarisation: xx}", "23: radar.polarisation: value 'xx': must be one of hh, hv, vh, vv"},
+      {"radar: {intra_pulse_motion: yes}", "29: radar.intra_pulse_motion: value 'yes': must be true or false"},
+      {"learning: {fusion: both}", "20: learning.fusion: value 'both': must be split or in_sample"},
+      {"name: [a]", "7: name: a list: must be a text of 1 to 4096 printable characters"},
+      {"name: \"a\\nb\"", "7: name: value 'a b': must be a text of 1 to 4096 printable characters"},
+      {"seed: -1", "7: seed: value '-1': must be a whole number within 0 and 18446744073709551615"},
+      {"dataset: {split: 0.7}", "18: dataset.split: value '0.7': must be a ratio a:b of two positive numbers"},
+      {"dataset: {split: 0:1}", "18: dataset.split: value '0:1': must be a ratio a:b of two positive numbers"},
+      {"radar: {pulses: !!int 5}", "17: tag 'tag:yaml.org,2002:int': tags are not used here"},
+      // Bounds.
+      {"radar: {carrier_ghz: 400}", "22: radar.carrier_ghz: value '400': must be a number within 0.1 and 300"},
+      {"radar: {pulses: 0}", "17: radar.pulses: value '0': must be a whole number within 1 and 65536"},
+      {"learning: {map_floor_db: 0}",
+       "26: learning.map_floor_db: value '0': must be a number at least -120 and less than 0"},
+      {"learning: {subsample: 0}", "23: learning.subsample: value '0': must be a number greater than 0 and at most 1"},
+      {"sea: {significant_wave_height_m: -1}",
+       "34: sea.significant_wave_height_m: value '-1': must be a number, a list or from:to:step, within 0 and 30"},
+      // Sweeps.
+      {"view: {azimuth_deg: [1, x]}", "25: view.azimuth_deg: value 'x': must be a list of numbers within -360 and 360"},
+      {"view: {azimuth_deg: [1, 400]}",
+       "25: view.azimuth_deg: value '400': must be a list of numbers within -360 and 360"},
+      {"view: {azimuth_deg: []}", "21: view.azimuth_deg: a list: must be a list of 1 to 10000 numbers"},
+      {"view: {azimuth_deg: [1, 2, 1]}", "21: view.azimuth_deg: value '1' appears twice"},
+      {"view: {azimuth_deg: 1:2}", "21: view.azimuth_deg: value '1:2': must be a number or from:to:step"},
+      {"view: {azimuth_deg: 0:360:0.001}",
+       "21: view.azimuth_deg: value '0:360:0.001': must be a range of at most 10000 values"},
+      {"view: {azimuth_deg: 0:400:100}",
+       "21: view.azimuth_deg: value '0:400:100': must be a number, a list or from:to:step, within -360 and 360"},
+      {"sea: {peak_period_s: dnv}",
+       "22: sea.peak_period_s: value 'dnv': must be a number, a list or from:to:step, within 0.5 and 40, or "
+       "dnv_wind_sea"},
+      // Contradictions.
+      {"radar: {pulse_width_us: 300}", "25: radar.pulse_width_us: value '300': must be shorter than radar.pri_us, 250"},
+      {"radar: {pri_us: 36}", "8: radar.pulse_width_us: must be shorter than radar.pri_us, 36"},
+      {"radar: {bandwidth_mhz: 60}", "24: radar.bandwidth_mhz: value '60': must be at most radar.sampling_mhz, 50"},
+      {"dataset: {maps_per_case: 15}",
+       "26: dataset.maps_per_case: value '15': must be a multiple of dataset.realisations_per_case, 10"},
+      {"dataset: {maps_per_case: 5}",
+       "26: dataset.maps_per_case: value '5': must be a multiple of dataset.realisations_per_case, 10"},
+      {"sea: {significant_wave_height_m: 2, peak_period_s: 2}",
+       "34: sea.significant_wave_height_m: value '2': waves of 2 m break at a peak period of 2 s: must be at most "
+       "0.8922 m"},
+      {"sea: {significant_wave_height_m: 0, peak_period_s: dnv_wind_sea}",
+       "34: sea.significant_wave_height_m: value '0': must be greater than 0 with peak_period_s: dnv_wind_sea"},
+      {"view: {azimuth_deg: 0:360:0.1, elevation_deg: 0:90:0.1}",
+       "21: view.azimuth_deg: value '0:360:0.1': the sweeps of view and sea span 3244501 cases: must be at most "
+       "1000000"},
+      // Not YAML.
+      {"radar: {pulses: 1, ]}", "20: not valid YAML: illegal flow end"},
+      {"radar: *none", "8: not valid YAML: the referenced anchor is not defined"},
+      {"view: &v {azimuth_deg: *v}", "24: an alias inside the value it names"},
+      {"--- {}", "5: a second document: only one is allowed"},
+      {"name: a\x01", "8: byte 0x01: not a text file"},
+  };
+  for (const Mistake& mistake : mistakes) {
+    EXPECT_EQ(complaint_about(kShort + mistake.line + "\n"), fmt::format("folder/file.yaml:4:{}", mistake.complaint))
+        << mistake.line;
+  }
+}
+
+TEST(Reading, EveryMistakeInATargetIsNamed) {
+  const Mistake mistakes[] = {
+      {"  t: {mesh: a.glb}", "6: targets.t.label: this key is missing"},
+      {"  t: {label: 2, mesh: a.glb}", "14: targets.t.label: value '2': must be 0 or 1"},
+      {"  t: {label: ship, mesh: a.glb}", "14: targets.t.label: value 'ship': must be 0 or 1"},
+      {"  t: {label: 1}", "6: targets.t: must have a mesh or points"},
+      {"  t: {label: 1, mesh: a.glb, points: [{position_m: [0, 0, 0]}]}",
+       "6: targets.t: must have a mesh or points, not both"},
+      {"  t: {label: 1, motion: {}, points: [{position_m: [0, 0, 0]}]}",
+       "25: targets.t.motion: must not stand beside points, it belongs to a mesh"},
+      {"  t: {label: 1, points: []}", "25: targets.t.points: a list: must be a list of 1 to 10000 maps"},
+      {"  t: {label: 1, points: [{}]}", "26: targets.t.points.0.position_m: this key is missing"},
+      {"  t: {label: 1, points: [{position_m: [0, 0]}]}",
+       "39: targets.t.points.0.position_m: a list: must be a list of three numbers [x, y, z]"},
+      {"  t: {label: 1, points: [{position_m: [0, 0, x]}]}",
+       "46: targets.t.points.0.position_m.2: value 'x': must be a number within -100000 and 100000"},
+      {"  t: {label: 1, mesh: a.glb, layout: {}}", "38: targets.t.layout.line: this key is missing"},
+      {"  t: {label: 1, mesh: a.glb, layout: {ring: {}}}",
+       "39: targets.t.layout.ring: unknown key: must be one of line"},
+      {"  t: {label: 1, mesh: a.glb, unit: yd}",
+       "36: targets.t.unit: value 'yd': must be one of m, cm, mm, km, in, ft"},
+      {"  t: {label: 1, mesh: a.glb, motion: {roll_period_s: 0.1}}",
+       "54: targets.t.motion.roll_period_s: value '0.1': must be 0 or a number within 0.2 and 60"},
+      {"  t.u: {label: 1, mesh: a.glb}", "3: targets: name 't.u': must be 1 to 64 letters, digits, '_' or '-'"},
+      {"  t: 5", "6: targets.t: value '5': must be a map of key: value"},
+      {"  a: {label: 1, mesh: b.glb}", "3: targets.a: this key appears twice, first in line 3"},
+  };
+  for (const Mistake& mistake : mistakes) {
+    EXPECT_EQ(complaint_about(kShort + mistake.line + "\n"), fmt::format("folder/file.yaml:4:{}", mistake.complaint))
+        << mistake.line;
+  }
+  EXPECT_EQ(complaint_about("seaglint: 1\n"), "folder/file.yaml:1:1: targets: this key is missing");
+  EXPECT_EQ(complaint_about("seaglint: 1\ntargets: {}\n"),
+            "folder/file.yaml:2:10: targets: a map: must be a map of 1 to 100 named maps");
+  EXPECT_EQ(complaint_about("targets: {}\n"), "folder/file.yaml:1:1: seaglint: this key is missing");
+  EXPECT_EQ(complaint_about("seaglint: 2\ntargets: {}\n"), "folder/file.yaml:1:11: seaglint: value '2': must be 1");
+}
+
+TEST(Reading, FilesThatAreNoScenarioAtAllGetAClearAnswer) {
+  EXPECT_EQ(complaint_about(""), "folder/file.yaml: the file is empty: must be a map of key: value");
+  EXPECT_EQ(complaint_about("# nothing\n\n"), "folder/file.yaml: the file is empty: must be a map of key: value");
+  EXPECT_EQ(complaint_about("just words"), "folder/file.yaml:1:1: value 'just words': must be a map of key: value");
+  EXPECT_EQ(complaint_about("- 1\n"), "folder/file.yaml:1:1: a list: must be a map of key: value");
+  EXPECT_EQ(complaint_about(std::string("\x89PNG\r\n\x1a\n\0\0", 10)),
+            "folder/file.yaml:2:1: byte 0x1a: not a text file");
+  EXPECT_EQ(complaint_about(std::string("s\0e\0", 4)), "folder/file.yaml:1:2: byte 0x00: not a text file");
+  EXPECT_THAT(complaint_about("\xff\xfe\xfd\x80"), StartsWith("folder/file.yaml:1:"));
+}
+
+TEST(Reading, HostileFilesAreRefusedBeforeTheyCost) {
+  EXPECT_EQ(complaint_about(std::string(kMaxYamlBytes + 1, ' ')), "folder/file.yaml: larger than 10000000 bytes");
+  EXPECT_THAT(complaint_about(std::string(100000, '[')), HasSubstr("nested deeper than 32 levels"));
+  EXPECT_THAT(complaint_about(std::string(100000, '{')), StartsWith("folder/file.yaml:1:"));
+  std::string nested;
+  for (int depth = 0; depth < 3000; ++depth) nested += fmt::format("{:{}}a:\n", "", depth);
+  EXPECT_THAT(complaint_about(nested), HasSubstr("nested deeper than 32 levels"));
+  std::string many = "seaglint: [";
+  for (int i = 0; i < 400000; ++i) many += "1,";
+  EXPECT_THAT(complaint_about(many + "]"), HasSubstr("more than 300000 values"));
+  // Each line names the one before ten times: 10^12 values if they were all made.
+  std::string laughs = "a0: &a0 x\n";
+  for (int i = 1; i <= 12; ++i) {
+    laughs += fmt::format("a{}: &a{} [", i, i);
+    for (int k = 0; k < 10; ++k) laughs += fmt::format("*a{}{}", i - 1, k < 9 ? "," : "]\n");
+  }
+  EXPECT_THAT(complaint_about(laughs), HasSubstr("more than 300000 values"));
+}
+
+TEST(Overrides, ReplaceAndAddValuesOfTheFile) {
+  const Scenario scenario = parse(kPaper, {{"radar.pulses", "64"},
+                                           {"view.azimuth_deg", "0:20:10"},
+                                           {"sea.significant_wave_height_m", "[1, 2]"},
+                                           {"clutter.enabled", "false"},
+                                           {"features.max_centres", "10"},
+                                           {"targets.array.layout.line.count", "2"},
+                                           {"map", "{range_span_m: 100}"},
+                                           {"radar.pulses", "32"}});
+  EXPECT_EQ(scenario.radar.pulses, 32);
+  EXPECT_THAT(scenario.view.azimuth_deg, ElementsAre(0, 10, 20));
+  EXPECT_THAT(scenario.sea.significant_wave_height_m, ElementsAre(1, 2));
+  EXPECT_FALSE(scenario.clutter.enabled);
+  EXPECT_EQ(scenario.features.max_centres, 10);
+  EXPECT_EQ(scenario.targets[1].line->count, 2);
+  EXPECT_EQ(scenario.map.range_span_m, 100);
+}
+
+TEST(Overrides, ReachIntoLists) {
+  const std::string yaml =
+      "seaglint: 1\ntargets:\n  p: {label: 0, points: [{position_m: [0, 0, 0]}, {position_m: [1, 1, 1]}]}\n";
+  const Scenario scenario =
+      parse(yaml, {{"targets.p.points.1.amplitude_m", "3"}, {"targets.p.points.0.position_m.2", "7"}});
+  EXPECT_EQ(scenario.targets[0].points[1].amplitude_m, 3);
+  EXPECT_EQ(scenario.targets[0].points[0].position_m[2], 7);
+  EXPECT_EQ(complaint_about(yaml, {{"targets.p.points.2.amplitude_m", "3"}}),
+            "--set targets.p.points.2.amplitude_m: '2' must be the number of an item, from 0 to 1");
+}
+
+TEST(Overrides, AreCheckedLikeTheFile) {
+  const auto complaint = [](const std::string& path, const std::string& value) {
+    return complaint_about(kPaper, {{path, value}});
+  };
+  EXPECT_EQ(complaint("radar.pulses", "0"), "--set radar.pulses: value '0': must be a whole number within 1 and 65536");
+  EXPECT_EQ(complaint("radar.pulse", "5"), "--set radar.pulse: unknown key: did you mean 'pulses'?");
+  EXPECT_EQ(complaint("rader.pulses", "5"), "--set rader.pulses: rader: unknown key: did you mean 'radar'?");
+  EXPECT_EQ(complaint("radar", "{pulses: x}"),
+            "--set radar: radar.pulses: value 'x': must be a whole number within 1 and 65536");
+  EXPECT_EQ(complaint("radar", "{pulses: 1, pulses: 2}"),
+            "--set radar: radar.pulses: this key appears twice, first in line 1");
+  EXPECT_EQ(complaint("radar.pulses.x", "5"), "--set radar.pulses.x: there is nothing below the value '256'");
+  EXPECT_EQ(complaint("radar.pulses", ""), "--set radar.pulses: no value: must be a whole number within 1 and 65536");
+  EXPECT_EQ(complaint("radar.pulses", "[1"), "--set radar.pulses: value '[1': not valid YAML");
+  EXPECT_EQ(complaint("radar.pulse_width_us", "300"),
+            "--set radar.pulse_width_us: value '300': must be shorter than radar.pri_us, 250");
+  EXPECT_EQ(complaint("", "5"), "--set : must be key.path=value");
+  EXPECT_EQ(complaint("radar..pulses", "5"), "--set radar..pulses: must be key.path=value");
+  EXPECT_EQ(complaint("targets.boat.label", "1"), "--set targets.boat.label: targets.boat: must have a mesh or points");
+}
+
+}  // namespace
+}  // namespace seaglint

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Every field is visited: changed to another allowed value, written, read back, compared bit by bit.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <string>
+
+#include "sim/core/error.h"
+#include "sim/core/random.h"
+#include "sim/scenario/fields.h"
+#include "sim/scenario/scenario.h"
+
+namespace seaglint {
+namespace {
+
+// Walks all fields; the derived visitor sees each value with its full key path.
+class Walker : public FieldVisitor {
+ public:
+  void section(const char* key, const Fields& fields) override {
+    below(key, [&] { fields(*this); });
+  }
+  void list(const char* key, std::size_t size, std::size_t, const std::function<void(std::size_t)>&,
+            const std::function<void(std::size_t, FieldVisitor&)>& item) override {
+    for (std::size_t i = 0; i < size; ++i) below(fmt::format("{}.{}", key, i), [&] { item(i, *this); });
+  }
+  void dictionary(const char* key, const std::vector<std::string>& names, std::size_t,
+                  const std::function<void(const std::vector<std::string>&)>&,
+                  const std::function<void(std::size_t, FieldVisitor&)>& item) override {
+    for (std::size_t i = 0; i < names.size(); ++i) below(fmt::format("{}.{}", key, names[i]), [&] { item(i, *this); });
+  }
+  void require(const char*) override {}
+  bool optional(const char*, bool present) override { return present; }
+
+ protected:
+  std::string path(const char* key) const { return prefix_ + key; }
+
+ private:
+  void below(const std::string& key, const std::function<void()>& visit) {
+    const std::string before = prefix_;
+    prefix_ += key + ".";
+    visit();
+    prefix_ = before;
+  }
+  std::string prefix_;
+};
+
+// All values, exactly.
+class Collector : public Walker {
+ public:
+  std::map<std::string, std::string> values;
+
+  void number(const char* key, double& value, const Bound&) override { values[path(key)] = fmt::format("{:a}", value); }
+  void integer(const char* key, int& value, const Bound&) override { values[path(key)] = std::to_string(value); }
+  void natural(const char* key, std::uint64_t& value) override { values[path(key)] = std::to_string(value); }
+  void flag(const char* key, bool& value) override { values[path(key)] = std::to_string(value); }
+  void text(const char* key, std::string& value) override { values[path(key)] = value; }
+  void choice(const char* key, std::size_t& index, Names) override { values[path(key)] = std::to_string(index); }
+  void triple(const char* key, std::array<double, 3>& v, const Bound&) override {
+    values[path(key)] = fmt::format("{:a} {:a} {:a}", v[0], v[1], v[2]);
+  }
+  void ratio(const char* key, double& value) override { values[path(key)] = fmt::format("{:a}", value); }
+  void sweep(const char* key, Sweep& sweep, const Bound&, const char*, bool* is_word) override {
+    values[path(key)] = is_word != nullptr && *is_word ? "word" : "";
+    for (const double value : sweep) values[path(key)] += fmt::format("{:a} ", value);
+  }
+};
+
+// Another allowed value for every field, with as many digits as a double has.
+class Mutator : public Walker {
+ public:
+  explicit Mutator(std::uint64_t index) : random_({1, Stream::kTest, index}) {}
+
+  void number(const char*, double& value, const Bound& bound) override { value = draw(bound); }
+  void integer(const char* key, int& value, const Bound& bound) override {
+    if (path(key) == "seaglint") return;
+    const auto low = static_cast<std::int64_t>(std::ceil(bound.lowest));
+    const auto high = static_cast<std::int64_t>(std::floor(bound.highest));
+    value = static_cast<int>(low + random_.below(static_cast<std::uint32_t>(high - low)));
+  }
+  void natural(const char*, std::uint64_t& value) override { value = random_.bits(); }
+  void flag(const char*, bool& value) override { value = !value; }
+  void text(const char*, std::string& value) override { value += " \"'\\ #: \xc3\xa9 {[&*"; }
+  void choice(const char*, std::size_t& index, Names names) override { index = (index + 1) % names.size(); }
+  void triple(const char*, std::array<double, 3>& values, const Bound& bound) override {
+    for (double& value : values) value = draw(bound);
+  }
+  void ratio(const char*, double& share) override { share = random_.uniform(); }
+  void sweep(const char*, Sweep& values, const Bound& bound, const char*, bool* is_word) override {
+    if (is_word != nullptr && *is_word) return;
+    values.resize(1 + random_.below(3));
+    for (double& value : values) value = draw(bound);
+  }
+
+ private:
+  double draw(const Bound& bound) {
+    const double low = std::max(bound.lowest, -1e5);
+    const double high = std::min(bound.highest, low + 1e5);
+    return low + (high - low) * random_.uniform();
+  }
+  Random random_;
+};
+
+Scenario full_scenario() {
+  Scenario scenario;
+  scenario.name = "full";
+  TargetSpec ship;
+  ship.name = "ship-1";
+  ship.label = 1;
+  ship.mesh = "ship.glb";
+  ship.motion.rotation_centre_m = {1, 2, 3};
+  TargetSpec array;
+  array.name = "array";
+  array.mesh = "null";
+  array.line = LineLayout{};
+  TargetSpec points;
+  points.name = "points";
+  points.points.resize(2);
+  scenario.targets = {ship, array, points};
+  return scenario;
+}
+
+std::map<std::string, std::string> values_of(Scenario scenario) {
+  Collector collector;
+  visit_fields(scenario, collector);
+  return collector.values;
+}
+
+// Mutated values contradict each other now and then; these ones are put right again.
+void make_consistent(Scenario& scenario) {
+  scenario.radar.pulse_width_us = scenario.radar.pri_us / 3;
+  if (scenario.radar.pulse_width_us < 0.001 || scenario.radar.pulse_width_us > 1e6) {
+    scenario.radar.pri_us = 100.1;
+    scenario.radar.pulse_width_us = 0.7;
+  }
+  scenario.radar.sampling_mhz = scenario.radar.bandwidth_mhz * 1.7;
+  scenario.dataset.realisations_per_case = 7;
+  scenario.dataset.maps_per_case = 7 * 13;
+  for (double& height : scenario.sea.significant_wave_height_m) height *= 1e-3;
+}
+
+TEST(RoundTrip, EveryFieldComesBackToTheBit) {
+  const auto defaults = values_of(full_scenario());
+  std::map<std::string, int> changes;
+  for (std::uint64_t round = 0; round < 200; ++round) {
+    Scenario scenario = full_scenario();
+    if (round % 4 == 3) {
+      scenario.sea.dnv_wind_sea = true;
+      scenario.sea.peak_period_s.clear();
+    }
+    Mutator mutator(round);
+    visit_fields(scenario, mutator);
+    make_consistent(scenario);
+    const std::string yaml = effective_yaml(scenario);
+    const auto expected = values_of(scenario);
+    for (const auto& [path, value] : expected) changes[path] += value != defaults.at(path) ? 1 : 0;
+    try {
+      EXPECT_EQ(values_of(parse_scenario(yaml, "effective.yaml")), expected) << yaml;
+    } catch (const InputError& error) {
+      ADD_FAILURE() << error.what() << "\n" << yaml;
+    }
+  }
+  // The mutation reached every field but the format's version.
+  for (const auto& [path, count] : changes)
+    EXPECT_TRUE(count > 0 || path == "seaglint") << path << " was never changed";
+  EXPECT_GT(changes.size(), 120u);
+}
+
+TEST(RoundTrip, DefaultsComeBackAndTheEffectiveScenarioIsItsOwn) {
+  const Scenario scenario = full_scenario();
+  const std::string yaml = effective_yaml(scenario);
+  const Scenario read = parse_scenario(yaml, "effective.yaml");
+  EXPECT_EQ(values_of(read), values_of(scenario));
+  EXPECT_EQ(effective_yaml(read), yaml);
+}
+
+TEST(RoundTrip, EveryAllowedWordIsRead) {
+  // Each choice is written by name and read back by name; a name listed twice or out of order would not come back.
+  for (int step = 0; step < 6; ++step) {
+    Scenario scenario = full_scenario();
+    for (int i = 0; i < step; ++i) {
+      class Turn : public Mutator {
+       public:
+        Turn() : Mutator(0) {}
+        void number(const char*, double&, const Bound&) override {}
+        void integer(const char*, int&, const Bound&) override {}
+        void text(const char*, std::string&) override {}
+        void triple(const char*, std::array<double, 3>&, const Bound&) override {}
+        void ratio(const char*, double&) override {}
+        void sweep(const char*, Sweep&, const Bound&, const char*, bool*) override {}
+      } turn;
+      visit_fields(scenario, turn);
+    }
+    EXPECT_EQ(values_of(parse_scenario(effective_yaml(scenario), "effective.yaml")), values_of(scenario));
+  }
+}
+
+}  // namespace
+}  // namespace seaglint
