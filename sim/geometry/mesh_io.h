@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// Meshes from and to files: .glb and .gltf (tinygltf), .obj, .stl and .ply (OpenMesh). The ending of the name decides.
+
+#include <filesystem>
+#include <string>
+
+#include "sim/geometry/triangle_mesh.h"
+
+namespace seaglint {
+
+// Metres in one m, cm, mm, km, in or ft; InputError for any other name.
+double metres_per(const std::string& unit);
+
+// The triangles of a file in metres and the body frame, vertices at identical positions merged (also across parts),
+// polygons split into fans. Positions have passed through float32. Files are not trusted: every count, size and index
+// is checked against the file before a library allocates; anything wrong is an InputError that names the file and what
+// is wrong with it. A mesh without triangles and coordinates that are not finite or beyond 1e7 m are wrong. One thread
+// at a time: OpenMesh's readers keep their state to themselves.
+//   glTF is +Y up, +Z forward (glTF 2.0, section 3.4): x = Z, y = X, z = Y. Nodes are parts, named by node or mesh.
+//   OBJ, STL and PLY have no convention: their axes are taken as the body frame's. Groups, objects and solids are
+//   parts.
+TriangleMesh read_mesh(const std::filesystem::path& path, const std::string& unit = "m");
+
+// Positions are rounded to float32, lengths are metres. glTF keeps parts and materials, OBJ parts, STL and PLY neither.
+// The file is whole or absent (sim/core/file.h) and equal meshes give equal bytes. InputError for an unknown ending or
+// an empty mesh, WorkError when the disk refuses.
+void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh);
+
+}  // namespace seaglint

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "sim/core/error.h"
+#include "sim/geometry/polygon_file.h"
+#include "sim/geometry/text_number.h"
+
+namespace seaglint {
+namespace {
+
+class ObjCheck {
+ public:
+  ObjCheck(std::string_view bytes, const std::string& file) : rest_(bytes), file_(file) {}
+
+  PlainPolygons check() {
+    // Faces may name vertices of later lines, so the vertices are counted first.
+    std::string_view all = rest_;
+    while (!all.empty()) {
+      std::string_view line = next_line(all);
+      if (next_word(line) == "v") ++vertex_count_;
+    }
+    if (vertex_count_ > std::numeric_limits<std::int32_t>::max())
+      fail(fmt::format("{} vertices are too many", vertex_count_));
+
+    std::string joined;
+    while (!rest_.empty()) {
+      ++line_;
+      std::string_view line = next_line(rest_);
+      // A line that ends in a backslash goes on in the next.
+      if (line.ends_with('\\')) {
+        joined += line.substr(0, line.size() - 1);
+        joined += ' ';
+        continue;
+      }
+      if (joined.empty()) {
+        statement(line);
+      } else {
+        joined += line;
+        statement(joined);
+        joined.clear();
+      }
+    }
+    if (!joined.empty()) statement(joined);
+    plain_.bytes += faces_;
+    return std::move(plain_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const {
+    throw InputError(fmt::format("{}:{}: {}", file_, line_, what));
+  }
+
+  void statement(std::string_view line) {
+    const std::string_view keyword = next_word(line);
+    if (keyword == "v") vertex(line);
+    if (keyword == "f") face(line);
+    if (keyword == "g" || keyword == "o") group(line);
+    // Normals, texture coordinates, materials' files and curves do not make a mesh.
+  }
+
+  void vertex(std::string_view line) {
+    plain_.bytes += 'v';
+    for (int i = 0; i < 3; ++i) {
+      const std::string_view word = next_word(line);
+      const auto number = number_of(word);
+      const auto coordinate = number ? coordinate_of(*number) : std::nullopt;
+      if (!coordinate) fail(fmt::format("\"{}\" is not a coordinate", word));
+      fmt::format_to(std::back_inserter(plain_.bytes), " {}", *coordinate);
+    }
+    plain_.bytes += '\n';
+    ++vertices_so_far_;
+  }
+
+  void face(std::string_view line) {
+    corners_.clear();
+    for (std::string_view word = next_word(line); !word.empty() && word[0] != '#'; word = next_word(line)) {
+      const auto value = integer_of(word.substr(0, word.find('/')));
+      if (!value || *value == 0) fail(fmt::format("\"{}\" is not a corner of a face", word));
+      // Negative indices count back from the vertex before this line.
+      const std::int64_t index = *value > 0 ? *value : vertices_so_far_ + *value + 1;
+      if (index < 1 || index > vertex_count_)
+        fail(fmt::format("the face names vertex {}, there are {}", *value, vertex_count_));
+      corners_.push_back(index);
+    }
+    if (corners_.size() < 3) fail(fmt::format("a face of {} corners", corners_.size()));
+    for (std::size_t i = 1; i + 1 < corners_.size(); ++i) triangle(corners_[0], corners_[i], corners_[i + 1]);
+  }
+
+  void triangle(std::int64_t a, std::int64_t b, std::int64_t c) {
+    if (a == b || b == c || c == a) return;
+    fmt::format_to(std::back_inserter(faces_), "f {} {} {}\n", a, b, c);
+    ++plain_.triangle_count;
+    if (plain_.part_names.empty()) plain_.part_names.push_back("body");
+    plain_.triangle_part.push_back(part_);
+  }
+
+  void group(std::string_view line) {
+    std::string name;
+    for (std::string_view word = next_word(line); !word.empty(); word = next_word(line)) {
+      if (!name.empty()) name += ' ';
+      name += word;
+    }
+    if (name.empty()) name = "default";
+    auto& names = plain_.part_names;
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end() && names.size() > 65000) fail("more than 65000 groups");
+    part_ = static_cast<std::uint16_t>(found - names.begin());
+    if (found == names.end()) names.push_back(name);
+  }
+
+  std::string_view rest_;
+  const std::string& file_;
+  PlainPolygons plain_;
+  std::string faces_;
+  std::vector<std::int64_t> corners_;
+  std::int64_t vertex_count_ = 0;
+  std::int64_t vertices_so_far_ = 0;
+  std::size_t line_ = 0;
+  std::uint16_t part_ = 0;
+};
+
+}  // namespace
+
+PlainPolygons plain_obj(std::string_view bytes, const std::string& file) { return ObjCheck(bytes, file).check(); }
+
+}  // namespace seaglint

@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/geometry/mesh_io.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+#include "sim/core/constants.h"
+#include "sim/core/error.h"
+#include "sim/geometry/generators.h"
+#include "sim/geometry/topology.h"
+
+namespace seaglint {
+namespace {
+
+namespace fs = std::filesystem;
+
+class MeshFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder = fs::path(testing::TempDir()) /
+             ("seaglint_mesh_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+  }
+  void TearDown() override { fs::remove_all(folder); }
+
+  fs::path put(const std::string& name, const std::string& content) const {
+    std::ofstream(folder / name, std::ios::binary) << content;
+    return folder / name;
+  }
+  static std::string bytes_of(const fs::path& path) {
+    std::ostringstream content;
+    content << std::ifstream(path, std::ios::binary).rdbuf();
+    return content.str();
+  }
+  static void expect_error(const fs::path& path, const std::string& what) {
+    try {
+      read_mesh(path);
+      ADD_FAILURE() << path << " was read";
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), testing::StartsWith(path.string()));
+      EXPECT_THAT(error.what(), testing::HasSubstr(what));
+    }
+  }
+
+  fs::path folder;
+};
+
+// float32 keeps 24 bits: half a unit in the last place is 2^-24 of a coordinate.
+constexpr double kFloatRounding = 6e-8;
+
+TEST_F(MeshFile, EveryFormatGivesTheSameTrianglesBack) {
+  TriangleMesh mesh = make_icosahedral_reflector();
+  mesh = transformed(mesh, Eigen::AngleAxisd(0.3, Vec3(1, 2, 3).normalized()).toRotationMatrix(), Vec3(2, -1, 5));
+  for (const char* name : {"a.glb", "a.gltf", "a.obj", "a.stl", "a.ply"}) {
+    SCOPED_TRACE(name);
+    write_mesh(folder / name, mesh);
+    const TriangleMesh again = read_mesh(folder / name);
+    ASSERT_EQ(again.triangles.size(), mesh.triangles.size());
+    EXPECT_EQ(again.vertices.size(), mesh.vertices.size());
+    EXPECT_TRUE(topology_of(again).count(EdgeKind::kManifold) == topology_of(mesh).edges.size());
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      for (int i = 0; i < 3; ++i) {
+        const Vec3 difference = again.vertices[again.triangles[t][i]] - mesh.vertices[mesh.triangles[t][i]];
+        EXPECT_LT(difference.cwiseAbs().maxCoeff(), 5.6 * kFloatRounding);  // the farthest coordinate is 5.5 m
+      }
+    }
+  }
+}
+
+TEST_F(MeshFile, PartsAndMaterialsSurviveWhereTheFormatHasThem) {
+  TriangleMesh mesh = make_icosahedral_reflector();
+  mesh.materials = {Material{"pec"}, Material{"canvas"}};
+  mesh.triangle_material[4] = 1;
+  write_mesh(folder / "a.glb", mesh);
+  const TriangleMesh glb = read_mesh(folder / "a.glb");
+  EXPECT_EQ(glb.part_names, mesh.part_names);
+  EXPECT_EQ(std::count(glb.triangle_material.begin(), glb.triangle_material.end(), 1), 1);
+  EXPECT_EQ(glb.materials[1].name, "canvas");
+  write_mesh(folder / "a.obj", mesh);
+  EXPECT_EQ(read_mesh(folder / "a.obj").part_names, mesh.part_names);
+}
+
+TEST_F(MeshFile, WritingTwiceGivesTheSameBytes) {
+  const TriangleMesh mesh = make_sphere(1, 2);
+  for (const char* name : {"a.glb", "a.gltf", "a.obj", "a.stl", "a.ply"}) {
+    write_mesh(folder / name, mesh);
+    const std::string first = bytes_of(folder / name);
+    write_mesh(folder / name, mesh);
+    EXPECT_EQ(bytes_of(folder / name), first) << name;
+  }
+}
+
+TEST_F(MeshFile, UnitsScaleLengths) {
+  write_mesh(folder / "a.stl", make_plate(1, 1));
+  const std::pair<const char*, double> units[] = {{"m", 1},     {"cm", 0.01},   {"mm", 0.001},
+                                                  {"km", 1000}, {"in", 0.0254}, {"ft", 0.3048}};
+  for (const auto& [unit, metres] : units) {
+    EXPECT_NEAR(surface_area(read_mesh(folder / "a.stl", unit)), metres * metres, 1e-12 * metres * metres) << unit;
+  }
+  EXPECT_THROW(read_mesh(folder / "a.stl", "yard"), InputError);
+}
+
+// A triangle (0,0,0) (1,0,0) (0,1,0) in glTF's axes, with a JSON around it.
+std::string gltf_with(const std::string& nodes, const std::string& more = "") {
+  return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":)" + nodes +
+         R"(,"meshes":[{"name":"sheet","primitives":[{"attributes":{"POSITION":0}}]}],)"
+         R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],)"
+         R"("bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,)"
+         R"("uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}])" +
+         more + "}";
+}
+
+TEST_F(MeshFile, GltfForwardIsTheBowAndUpIsUp) {
+  // glTF's +Z is forward, +X to port, +Y up.
+  const TriangleMesh mesh = read_mesh(put("a.gltf", gltf_with(R"([{"mesh":0,"translation":[0,0,5]}])")));
+  ASSERT_EQ(mesh.vertices.size(), 3u);
+  EXPECT_EQ(mesh.vertices[0], Vec3(5, 0, 0));
+  EXPECT_EQ(mesh.vertices[1], Vec3(5, 1, 0));
+  EXPECT_EQ(mesh.vertices[2], Vec3(5, 0, 1));
+  EXPECT_GT(area_vector(mesh, 0).x(), 0);
+  EXPECT_EQ(mesh.part_names, std::vector<std::string>{"sheet"});
+}
+
+TEST_F(MeshFile, GltfNodesPlaceMeshesByTheProductOfTheirTransforms) {
+  // The parent turns by 90 deg about glTF's y and doubles, the child shifts first; the second child is mirrored, so its
+  // corners swap.
+  const TriangleMesh mesh = read_mesh(
+      put("a.gltf",
+          gltf_with(
+              R"([{"children":[1,2],"rotation":[0,0.7071067811865476,0,0.7071067811865476],"scale":[2,2,2]},)"
+              R"({"name":"shifted","mesh":0,"translation":[1,0,0]},{"name":"mirrored","mesh":0,"scale":[1,1,-1]}])")));
+  ASSERT_EQ(mesh.triangles.size(), 2u);
+  EXPECT_EQ(mesh.part_names, (std::vector<std::string>{"shifted", "mirrored"}));
+  // glTF (1,0,0) -> scaled (2,0,0) -> turned (0,0,-2) -> body x = -2.
+  EXPECT_LT((mesh.vertices[mesh.triangles[0][0]] - Vec3(-2, 0, 0)).norm(), 1e-12);
+  EXPECT_NEAR(area_vector(mesh, 0).norm(), 2.0, 1e-12);
+  EXPECT_LT((area_vector(mesh, 0) + area_vector(mesh, 1)).norm(), 1e-12);
+}
+
+TEST_F(MeshFile, GltfMayKeepItsBufferInAFileBesideIt) {
+  std::string json = gltf_with(R"([{"mesh":0}])");
+  const std::string data("\0\0\0\0\0\0\0\0\0\0\0\0\0\0\x80\x3f\0\0\0\0\0\0\0\0\0\0\0\0\0\0\x80\x3f\0\0\0\0", 36);
+  put("triangle.bin", data);
+  const std::size_t from = json.find("data:"), to = json.find('"', from);
+  EXPECT_EQ(read_mesh(put("a.gltf", std::string(json).replace(from, to - from, "triangle.bin"))).triangles.size(), 1u);
+  fs::create_directory(folder / "inner");
+  expect_error(put("inner/a.gltf", std::string(json).replace(from, to - from, "../triangle.bin")), "triangle.bin");
+  expect_error(put("inner/a.gltf", std::string(json).replace(from, to - from, "%2e%2e/triangle.bin")), "triangle.bin");
+  expect_error(put("inner/a.gltf", std::string(json).replace(from, to - from, (folder / "triangle.bin").string())),
+               "triangle.bin");
+  expect_error(put("a.gltf", std::string(json).replace(from, to - from, "missing.bin")), "missing.bin");
+  fs::create_symlink(folder / "triangle.bin", folder / "inner" / "link.bin");
+  expect_error(put("inner/a.gltf", std::string(json).replace(from, to - from, "link.bin")), "link.bin");
+}
+
+TEST_F(MeshFile, GltfThatPromisesWhatItDoesNotHoldIsRefused) {
+  const auto changed = [&](const std::string& from, const std::string& to) {
+    std::string json = gltf_with(R"([{"mesh":0}])");
+    const std::size_t at = json.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return put("a.gltf", json.replace(at, from.size(), to));
+  };
+  expect_error(changed("\"count\":3", "\"count\":4"), "accessors[0]");
+  expect_error(changed("\"count\":3", "\"count\":1000000000000"), "accessors[0]");
+  expect_error(changed("\"count\":3", "\"count\":-3"), "accessors[0].count");
+  expect_error(changed("\"count\":3", "\"count\":3,\"sparse\":{\"count\":1}"), "sparse");
+  expect_error(changed("\"bufferView\":0,", ""), "has no data");
+  expect_error(changed("\"buffer\":0,\"byteLength\":36", "\"buffer\":0,\"byteLength\":360"), "bufferViews[0]");
+  expect_error(changed("\"buffer\":0", "\"buffer\":7"), "bufferViews[0].buffer");
+  expect_error(changed("[{\"byteLength\":36", "[{\"byteLength\":800000000"), "buffers[0]");
+  expect_error(changed("[{\"byteLength\":36", "[{\"byteLength\":18446744073709551615"), "buffers[0]");
+  expect_error(changed("\"POSITION\":0", "\"POSITION\":1"), "POSITION");
+  expect_error(changed("5126", "5123"), "POSITION");
+  expect_error(changed("\"mesh\":0", "\"mesh\":1"), "nodes[0].mesh");
+  expect_error(changed("\"mesh\":0", "\"mesh\":0,\"children\":[0]"), "two parents");
+  expect_error(changed("\"mesh\":0", "\"mesh\":0,\"scale\":[1,2]"), "nodes[0].scale");
+  expect_error(changed("\"version\":\"2.0\"", "\"version\":\"1.0\""), "glTF 2");
+  expect_error(changed("\"asset\"", "\"extensionsRequired\":[\"KHR_draco_mesh_compression\"],\"asset\""), "KHR_draco");
+  expect_error(changed("AAAA", "AADAfwAA").string(), "a.gltf");
+  expect_error(put("a.gltf", "[1, 2"), "JSON");
+  expect_error(put("a.gltf", std::string(100000, '[')), "deep");
+  expect_error(put("a.gltf", R"({"asset":{"version":"2.0"}})"), "no triangles");
+}
+
+TEST_F(MeshFile, GltfIndicesBeyondTheirVerticesAreRefused) {
+  const TriangleMesh mesh = make_plate(1, 1);
+  write_mesh(folder / "a.glb", mesh);
+  std::string bytes = bytes_of(folder / "a.glb");
+  // The last bytes are six indices of 16 bits.
+  bytes[bytes.size() - 2] = 9;
+  expect_error(put("b.glb", bytes), "vertex 9, there are 4");
+}
+
+TEST_F(MeshFile, NonManifoldSoupIsReadWhole) {
+  // Five sheets on one edge, then a flipped copy of the first: OpenMesh's own mesh would take two of them.
+  std::string obj = "v 0 0 0\nv 0 0 1\n";
+  for (int i = 0; i < 5; ++i) obj += "v " + std::to_string(std::cos(i)) + " " + std::to_string(std::sin(i)) + " 0.5\n";
+  obj += "g fan\n";
+  for (int i = 3; i <= 7; ++i) obj += "f 1 2 " + std::to_string(i) + "\n";
+  obj += "g back\nf 2/1/1 1//2 3/4\n";
+  const TriangleMesh mesh = read_mesh(put("soup.obj", obj));
+  EXPECT_EQ(mesh.triangles.size(), 6u);
+  EXPECT_EQ(mesh.part_names, (std::vector<std::string>{"fan", "back"}));
+  EXPECT_EQ(topology_of(mesh).count(EdgeKind::kNonManifold), 1u);
+  for (const char* name : {"again.stl", "again.ply", "again.obj", "again.glb"}) {
+    write_mesh(folder / name, mesh);
+    EXPECT_EQ(read_mesh(folder / name).triangles.size(), 6u) << name;
+  }
+}
+
+TEST_F(MeshFile, ObjReadsPolygonsRelativeIndicesAndContinuedLines) {
+  const TriangleMesh mesh = read_mesh(put("a.obj",
+                                          "# a comment\nmtllib /etc/passwd\no box lid\nv 0 0 0 1\nv +1.0e0 0 0\r\nv 1 "
+                                          "1 0\nv 0 1 0\nvn 0 0 1\nusemtl steel\n"
+                                          "f -4 -3 \\\n-2 -1 # the lid\nf 1 2 2\n"));
+  EXPECT_EQ(mesh.triangles.size(), 2u);
+  EXPECT_NEAR(surface_area(mesh), 1.0, 1e-15);
+  EXPECT_EQ(mesh.part_names, std::vector<std::string>{"box lid"});
+}
+
+TEST_F(MeshFile, BrokenObjIsRefusedWithItsLine) {
+  expect_error(put("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n"), ":4: the face names vertex 4");
+  expect_error(put("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -4\n"), ":4: the face names vertex -4");
+  expect_error(put("a.obj", "v 0 0 nan\n"), ":1: \"nan\"");
+  expect_error(put("a.obj", "v 0 0\n"), ":1:");
+  expect_error(put("a.obj", "v 1e39 0 0\n"), ":1:");
+  expect_error(put("a.obj", "v 0 0 0\nf 1 x 1\n"), ":2:");
+  expect_error(put("a.obj", "v 0 0 0\nf 1 1\n"), ":2:");
+  expect_error(put("a.obj", "hello\n"), "no triangles");
+  expect_error(put("a.obj", ""), "empty");
+}
+
+TEST_F(MeshFile, AsciiStlIsReadWithItsSolids) {
+  const std::string facet =
+      "facet normal 0 0 nan\n outer loop\n vertex 0 0 0\n vertex 1 0 0\n vertex 0 1 0\n endloop\nendfacet\n";
+  const TriangleMesh mesh =
+      read_mesh(put("a.stl", "solid hull\n" + facet + "endsolid hull\nsolid mast 2\n" + facet + "endsolid\n"));
+  EXPECT_EQ(mesh.part_names, (std::vector<std::string>{"hull", "mast"}));
+  EXPECT_EQ(mesh.triangles.size(), 2u);
+  expect_error(put("a.stl", "solid a\nfacet normal 0 0 1 outer loop vertex 0 0 inf"), ":2: \"inf\"");
+  expect_error(put("a.stl", "solid a\nfacet normal 0 0 1 outer loop vertex 0 0"), "not a coordinate");
+  expect_error(put("a.stl", "solid a\nendsolid a\n"), "no triangles");
+}
+
+TEST_F(MeshFile, StlThatPromisesMoreTrianglesThanItHoldsIsRefused) {
+  write_mesh(folder / "a.stl", make_plate(1, 1));
+  std::string bytes = bytes_of(folder / "a.stl");
+  ASSERT_EQ(bytes.size(), 84u + 2 * 50);
+  bytes[83] = 0x7f;
+  expect_error(put("b.stl", bytes), "holds 2");
+  expect_error(put("b.stl", bytes.substr(0, 40)), "84");
+}
+
+TEST_F(MeshFile, StlWithANanIsRefused) {
+  write_mesh(folder / "a.stl", make_plate(1, 1));
+  std::string bytes = bytes_of(folder / "a.stl");
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  bytes.replace(84 + 12, 4, reinterpret_cast<const char*>(&nan), 4);
+  expect_error(put("b.stl", bytes), "coordinate nan");
+}
+
+TEST_F(MeshFile, PlyIsReadInAllItsDialects) {
+  const std::string ascii =
+      "ply\nformat ascii 1.0\ncomment made by hand\nelement vertex 4\nproperty double x\nproperty float y\nproperty "
+      "float z\n"
+      "property uchar red\nelement face 1\nproperty int flags\nproperty list int short vertex_index\nelement edge "
+      "1\nproperty int a\nend_header\n"
+      "0 0 0 255\n1 0 0 255\n1 1 0 255\n0 1 0 255\n7 4 0 1 2 3\n12\n";
+  EXPECT_NEAR(surface_area(read_mesh(put("a.ply", ascii))), 1.0, 1e-15);
+
+  std::string big =
+      "ply\nformat binary_big_endian 1.0\nelement vertex 3\nproperty double x\nproperty double y\nproperty double z\n"
+      "element face 1\nproperty list ushort int vertex_indices\nend_header\n";
+  for (double value : {0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 2.0, 0.0}) {
+    const auto* raw = reinterpret_cast<const char*>(&value);
+    for (int i = 7; i >= 0; --i) big += raw[i];
+  }
+  big += std::string("\0\3\0\0\0\0\0\0\0\1\0\0\0\2", 14);
+  EXPECT_NEAR(surface_area(read_mesh(put("b.ply", big))), 1.0, 1e-15);
+}
+
+TEST_F(MeshFile, BrokenPlyIsRefused) {
+  const std::string vertex = "property float x\nproperty float y\nproperty float z\n";
+  const std::string face = "property list uchar int vertex_indices\n";
+  const auto ply = [&](const std::string& header, const std::string& body) {
+    return put("a.ply", "ply\nformat ascii 1.0\n" + header + "end_header\n" + body);
+  };
+  expect_error(ply("element vertex 100000000\n" + vertex, "0 0 0\n"), "promises 100000000");
+  expect_error(ply("element vertex 1\n" + vertex + "element face 4000000000\n" + face, "0 0 0\n"),
+               "promises 4000000000");
+  expect_error(ply("element vertex 99999999999999999999\n" + vertex, ""), "promises");
+  expect_error(ply("element vertex 3\n" + vertex + "element face 1\n" + face, "0 0 0 1 0 0 0 1 0 3 0 1 3"),
+               "names vertex 3");
+  expect_error(ply("element vertex 3\n" + vertex + "element face 1\n" + face, "0 0 0 1 0 0 0 1 0 3 0 1 -1"),
+               "names vertex -1");
+  expect_error(ply("element vertex 3\n" + vertex + "element face 1\n" + face, "0 0 0 1 0 0 0 1 0 200 0 1 2"),
+               "list of 200");
+  expect_error(ply("element vertex 3\n" + vertex + "element face 1\n" + face, "0 0 nan 1 0 0 0 1 0 3 0 1 2"),
+               "coordinate nan");
+  expect_error(ply("element vertex 1\nproperty float x\n", "0\n"), "no x, y and z");
+  expect_error(ply("element vertex 3\n" + vertex, "0 0 0 1 0 0 0 1 0"), "no triangles");
+  expect_error(put("a.ply", "ply\nformat ascii 1.0\nelement vertex 3\n"), "no end_header");
+  expect_error(put("a.ply", "ply\nformat binary_middle_endian 1.0\nend_header\n"), "binary_middle_endian");
+  expect_error(put("a.ply", "plyx"), "not a PLY");
+}
+
+TEST_F(MeshFile, WrongNamesAndPlacesAreRefused) {
+  expect_error(folder / "absent.glb", "");
+  expect_error(put("a.step", "x"), ".step");
+  expect_error(put("a.glb", "glTF"), "cut short");
+  EXPECT_THROW(write_mesh(folder / "a.step", make_plate(1, 1)), InputError);
+  EXPECT_THROW(write_mesh(folder / "a.glb", TriangleMesh{}), InputError);
+  EXPECT_THROW(write_mesh(folder / "no" / "folder.glb", make_plate(1, 1)), WorkError);
+  write_mesh(folder / "a.obj", make_plate(1, 1));
+  EXPECT_THROW(read_mesh(put("far.obj", "v 0 0 0\nv 1e9 0 0\nv 0 1 0\nf 1 2 3\n")), InputError);
+}
+
+}  // namespace
+}  // namespace seaglint
