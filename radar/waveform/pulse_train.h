@@ -16,28 +16,51 @@ namespace seaglint {
 struct PulseTrain {
   std::vector<int> code;            // C_n in 0..M-1, one per pulse
   std::vector<double> carrier_hz;   // f_n = f_0 + C_n df
-  std::vector<double> time_s;       // t_n = n T_r, from the interval's start
+  std::vector<double> time_s;       // t_n = n T_r, the middle of pulse n, from the interval's start
   int carriers = 1;                 // M
   double first_carrier_hz = 0;      // f_0
   double hop_step_hz = 0;           // df
   double bandwidth_hz = 0;          // B
   double chirp_rate_hz_s = 0;       // mu = B / T_p
-  double pri_s = 0;
-  std::vector<double> baseband_hz;  // uniform grid inside |f| <= B/2, symmetric about 0, step divides df
+  double pri_s = 0;                 // T_r
+  bool intra_pulse_motion = false;  // what the echo is made with: baseband frequency f meets the target at t_n + f/mu
+  std::vector<double>
+      baseband_hz;  // uniform grid inside |f| <= B/2, symmetric about 0, cells' centres; step divides df
   double baseband_step_hz = 0;
-  std::vector<Complex> chirp_spectrum;  // P(f) on baseband_hz: THE transmit waveform
+  int bins_per_hop = 1;                 // df / step, exact
+  std::vector<Complex> chirp_spectrum;  // P(f) on baseband_hz: THE transmit waveform, |P| about 1
 
-  double unambiguous_range_m() const;  // c / (2 baseband_step): the window without wrap
-  double range_resolution_m() const;   // c / (2 M df)
-  double velocity_resolution_mps() const;  // lambda / (2 N T_r), lambda at the band's centre
+  std::size_t pulses() const { return code.size(); }
+  std::size_t frequencies() const { return baseband_hz.size(); }  // of one pulse
+  int band_bins() const;                    // of the synthesised band, (M - 1) bins_per_hop + frequencies()
+  double band_centre_hz() const;            // of the synthesised band
+  double synthetic_bandwidth_hz() const;    // B_s = band_bins() step; M df when B = df
+  double unambiguous_range_m() const;       // c / (2 step): the window without wrap
+  double range_resolution_m() const;        // c / (2 B_s)
+  double velocity_resolution_mps() const;   // lambda / (2 N T_r), lambda at the band's centre
   double unambiguous_velocity_mps() const;  // lambda / (4 T_r): the span is +- this
 };
 
-// range_window_m: the response's extent plus margin; the baseband step is df / ceil(df 2 window / c). Stream kHopCode of (seed, index).
+// Hop codes C_n of one interval, stream kHopCode of (seed, index): random = independent and uniform, balanced = each
+// carrier floor(N/M) or ceil(N/M) times in random order, stepped = n mod M.
+std::vector<int> hop_code(HopCode kind, int pulses, int carriers, std::uint64_t seed, std::uint64_t index);
+
+// range_window_m: the response's extent plus margin; the baseband step is df / ceil(df 2 window / c), smaller when B is
+// below that. Throws InputError when the interval would need more than 2^26 samples or the pulse more than 2^24.
 PulseTrain make_pulse_train(const RadarSpec& spec, double range_window_m, std::uint64_t seed, std::uint64_t index);
+
+// P(f) = sqrt(mu)/fs sum_k e^{j pi mu t_k^2} e^{-j 2 pi f t_k}, t_k = (k + 1/2)/fs - T_p/2 (method, section 2); the
+// factor sqrt(mu) makes |P| about 1 in band (stationary phase).
+std::vector<Complex> chirp_spectrum(double bandwidth_hz, double pulse_width_s, double sampling_hz,
+                                    const std::vector<double>& frequency_hz);
 
 // Where the pulse train asks for the target's response in an interval that starts at start_s.
 IntervalSampling interval_sampling(const PulseTrain& train, double start_s);
+
+// Mean power of the point response at (range_offset_m, velocity_offset_mps) from its peak of 1, over all codes with
+// this train's counts of pulses per carrier: coherent sidelobe plus random-hop pedestal, of the carriers alone (one
+// frequency per pulse, no taper). Closed form of radar/waveform/README.md.
+double expected_response_power(const PulseTrain& train, double range_offset_m, double velocity_offset_mps);
 
 // Resolutions, ambiguities, blind range and expected pedestal, one line each, for `seaglint check`.
 std::string describe(const PulseTrain& train, const RadarSpec& spec);

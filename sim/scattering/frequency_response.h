@@ -9,8 +9,8 @@
 
 namespace seaglint {
 
-// Where a coherent interval samples the response. Frequencies of all pulses lie on one uniform grid first_hz + i step_hz,
-// i = 0..count-1; pulse n uses the per_pulse frequencies that begin at i = pulse_first[n].
+// Where a coherent interval samples the response. Frequencies of all pulses lie on one uniform grid first_hz + i
+// step_hz, i = 0..count-1; pulse n uses the per_pulse frequencies that begin at i = pulse_first[n].
 struct IntervalSampling {
   double first_hz = 0;
   double step_hz = 0;
@@ -18,6 +18,9 @@ struct IntervalSampling {
   int per_pulse = 0;
   std::vector<int> pulse_first;
   std::vector<double> pulse_time_s;  // ascending, absolute time in the trajectory
+  // Not 0: the pulse sweeps, and its baseband frequency f (0 in the middle of its frequencies) meets the target at
+  // pulse_time + f / chirp_rate. 0: stop and go, the whole pulse meets the attitude at pulse_time.
+  double chirp_rate_hz_s = 0;
 };
 
 // H of one polarisation in metres, CONVENTIONS.md signs; values[n * per_pulse + b] for pulse n and its b-th frequency.

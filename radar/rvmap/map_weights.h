@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// The range-velocity map as a weighted sum, for whoever needs the map at one point or the response of one scatterer:
+//
+//   RV(r, v) = sum_n sum_b  w_n u_(k) X_n(f_b) e^{+j 4 pi (f_n + f_b) v (t_n + f_b/mu) / c} e^{+j 4 pi (f_n + f_b -
+//   f_c) r / c}
+//
+// with k = C_n bins_per_hop + b the bin of the synthesised band and f_c that band's centre (f_b/mu only with
+// intra-pulse motion).
+
+#include <span>
+#include <vector>
+
+#include "radar/waveform/pulse_train.h"
+#include "sim/scenario/radar_spec.h"
+
+namespace seaglint {
+
+struct MapWeights {
+  std::vector<double> pulse;  // w_n: velocity taper / its sum over the pulses of the same carrier
+  std::vector<double>
+      bin;  // u_k: range taper / carriers that cover bin k, normalised to sum 1 over all (carrier, b); 0 in holes
+  int empty_carriers = 0;  // carriers that no pulse used
+};
+
+MapWeights map_weights(const PulseTrain& train, const MapSpec& spec);
+
+// Pulse compression: X = P* Y / |P|^2 (inverse), or P* Y / mean |P|^2 (matched); [pulse][frequency]. Inverse
+// compression leaves out (sets to zero) frequencies where |P|^2 is below 1e-9 of its mean.
+std::vector<Complex> compress_pulses(std::span<const Complex> echo, const PulseTrain& train, Compression compression);
+
+// Samples of a taper of unit peak at the centres of `count` equal cells. Taylor: nbar 4, sidelobes -35 dB.
+std::vector<double> taper_samples(Taper taper, std::size_t count);
+
+}  // namespace seaglint

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "radar/rvmap/rv_map.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "radar/rvmap/map_weights.h"
+#include "radar/waveform/fourier.h"
+#include "sim/core/constants.h"
+#include "sim/core/error.h"
+
+namespace seaglint {
+namespace {
+
+constexpr double kMaxCells = 1 << 26;
+
+// Velocities summed together: their phase factors and the sums of one carrier stay in the first-level cache. Flat from
+// 16 to 64.
+constexpr std::size_t kBlock = 32;
+
+// Complex numbers of one block of velocities, real and imaginary parts apart so that loops become vector instructions.
+struct Block {
+  alignas(64) std::array<double, kBlock> re{};
+  alignas(64) std::array<double, kBlock> im{};
+
+  void rotate(const Block& factor) {
+    for (std::size_t l = 0; l < kBlock; ++l) {
+      const double real = re[l] * factor.re[l] - im[l] * factor.im[l];
+      im[l] = re[l] * factor.im[l] + im[l] * factor.re[l];
+      re[l] = real;
+    }
+  }
+};
+
+// e^{j (phase + l step)}, l = 0..kBlock-1
+Block phase_ramp(double phase, double step) {
+  Block block;
+  Complex value = std::polar(1.0, phase);
+  const Complex ratio = std::polar(1.0, step);
+  for (std::size_t l = 0; l < kBlock; ++l) {
+    block.re[l] = value.real();
+    block.im[l] = value.imag();
+    value = {value.real() * ratio.real() - value.imag() * ratio.imag(),
+             value.real() * ratio.imag() + value.imag() * ratio.real()};
+  }
+  return block;
+}
+
+// S += x e^{j ...} of one pulse over all its frequencies: `factor` is the compensation at the first frequency, `step`
+// its change from one frequency to the next (f_b v t_n couples frequency and velocity: range migration).
+void add_pulse(const Complex* x, std::size_t frequencies, Block factor, const Block& step, Block* sums) {
+  for (std::size_t b = 0; b < frequencies; ++b) {
+    Block& sum = sums[b];
+    const double xr = x[b].real(), xi = x[b].imag();
+    for (std::size_t l = 0; l < kBlock; ++l) {
+      const double er = factor.re[l], ei = factor.im[l];
+      sum.re[l] += er * xr - ei * xi;
+      sum.im[l] += er * xi + ei * xr;
+      factor.re[l] = er * step.re[l] - ei * step.im[l];
+      factor.im[l] = er * step.im[l] + ei * step.re[l];
+    }
+  }
+}
+
+}  // namespace
+
+MapAxes map_axes(const PulseTrain& train, const MapSpec& spec) {
+  const double window_cells = std::max(1.0, std::round(train.band_bins() * spec.range_oversampling));
+  const double range_step = train.unambiguous_range_m() / window_cells;
+  const double velocity_step = train.velocity_resolution_mps() / spec.velocity_oversampling;
+  const double ranges = std::clamp(std::round(spec.range_span_m / range_step), 1.0, window_cells);
+  const double velocities =
+      std::clamp(std::round(spec.velocity_span_mps / velocity_step), 1.0,
+                 std::max(1.0, std::round(static_cast<double>(train.pulses()) * spec.velocity_oversampling)));
+  if (!(velocities * window_cells <= kMaxCells)) {
+    throw InputError(
+        fmt::format("map: {:.0f} velocities x {:.0f} range cells of the window are too many; at most {:.0f}: reduce "
+                    "velocity_span_mps, velocity_oversampling or range_oversampling",
+                    velocities, window_cells, kMaxCells));
+  }
+  MapAxes axes;
+  axes.window_cells = static_cast<std::size_t>(window_cells);
+  for (double i = 0; i < ranges; ++i) axes.range_m.push_back((i - std::floor(ranges / 2)) * range_step);
+  for (double i = 0; i < velocities; ++i) axes.velocity_mps.push_back((i - std::floor(velocities / 2)) * velocity_step);
+  return axes;
+}
+
+RvMap form_rv_map(std::span<const Complex> echo, const PulseTrain& train, const MapSpec& spec,
+                  bool intra_pulse_motion) {
+  const std::vector<Complex> compressed = compress_pulses(echo, train, spec.compression);
+  const MapWeights weights = map_weights(train, spec);
+  const MapAxes axes = map_axes(train, spec);
+  RvMap map;
+  map.range_m = axes.range_m;
+  map.velocity_mps = axes.velocity_mps;
+  map.empty_carriers = weights.empty_carriers;
+  map.values.resize(axes.range_m.size() * axes.velocity_mps.size());
+
+  const std::size_t frequencies = train.frequencies();
+  const std::size_t length = axes.window_cells;
+  const auto bins = static_cast<std::size_t>(train.band_bins());
+  const double velocity_step = train.velocity_resolution_mps() / spec.velocity_oversampling;
+  const double per_hz = 4 * kPi / kSpeedOfLight;
+
+  // Bin k against the band's centre has the phase 2 pi (k - (bins - 1)/2) r_i / (window): the inverse FFT runs over k,
+  // and the constant is taken out per range cell.
+  const auto first_range = static_cast<long>(axes.range_m.size() / 2);
+  std::vector<Complex> centre_phase(axes.range_m.size());
+  std::vector<std::size_t> cell(axes.range_m.size());
+  for (std::size_t i = 0; i < cell.size(); ++i) {
+    const long offset = static_cast<long>(i) - first_range;
+    cell[i] = static_cast<std::size_t>((offset + static_cast<long>(length)) % static_cast<long>(length));
+    centre_phase[i] = std::polar(
+        1.0, -kPi * (static_cast<double>(bins) - 1) * static_cast<double>(offset) / static_cast<double>(length));
+  }
+
+  std::vector<Block> sums(frequencies);
+  std::vector<Complex> weighted(frequencies);
+  FourierBatch profile(length, kBlock, Fourier::kInverse);
+  for (std::size_t first = 0; first < axes.velocity_mps.size(); first += kBlock) {
+    const std::size_t rows = std::min(kBlock, axes.velocity_mps.size() - first);
+    const double velocity = axes.velocity_mps[first];
+    std::fill(profile.row(0), profile.row(0) + kBlock * length, Complex{});
+    for (int i = 0; i < train.carriers; ++i) {
+      const double lowest_hz = train.first_carrier_hz + i * train.hop_step_hz + train.baseband_hz.front();
+      std::fill(sums.begin(), sums.end(), Block{});
+      for (std::size_t n = 0; n < train.pulses(); ++n) {
+        if (train.code[n] != i) continue;
+        for (std::size_t b = 0; b < frequencies; ++b) weighted[b] = compressed[n * frequencies + b] * weights.pulse[n];
+        const double metres = per_hz * train.time_s[n];
+        add_pulse(
+            weighted.data(), frequencies, phase_ramp(lowest_hz * metres * velocity, lowest_hz * metres * velocity_step),
+            phase_ramp(train.baseband_step_hz * metres * velocity, train.baseband_step_hz * metres * velocity_step),
+            sums.data());
+      }
+      for (std::size_t b = 0; b < frequencies; ++b) {
+        // The time f_b / mu inside the pulse is the same for all pulses of the carrier.
+        if (intra_pulse_motion) {
+          const double metres = per_hz * (lowest_hz + static_cast<double>(b) * train.baseband_step_hz) *
+                                train.baseband_hz[b] / train.chirp_rate_hz_s;
+          sums[b].rotate(phase_ramp(metres * velocity, metres * velocity_step));
+        }
+        const std::size_t k = static_cast<std::size_t>(i) * train.bins_per_hop + b;
+        for (std::size_t l = 0; l < rows; ++l) {
+          profile.row(l)[k % length] += weights.bin[k] * Complex(sums[b].re[l], sums[b].im[l]);
+        }
+      }
+    }
+    profile.execute();
+    for (std::size_t l = 0; l < rows; ++l) {
+      Complex* row = &map.values[(first + l) * axes.range_m.size()];
+      for (std::size_t r = 0; r < axes.range_m.size(); ++r) row[r] = profile.row(l)[cell[r]] * centre_phase[r];
+    }
+  }
+  return map;
+}
+
+}  // namespace seaglint

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "radar/rvmap/scr.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sim/core/error.h"
+
+namespace seaglint {
+namespace {
+
+constexpr double kBoxDepthDb =
+    10;  // above the random-hop pedestal (-15 dB and less), below the stronger centres of a ship
+
+double largest_power(const RvMap& map) {
+  double largest = 0;
+  for (const Complex& value : map.values) largest = std::max(largest, std::norm(value));
+  return largest;
+}
+
+double box_power(const RvMap& map, const MapBox& box) {
+  double sum = 0;
+  for (std::size_t v = box.velocity_first; v <= box.velocity_last; ++v) {
+    for (std::size_t r = box.range_first; r <= box.range_last; ++r) sum += std::norm(map.at(v, r));
+  }
+  return sum /
+         static_cast<double>((box.velocity_last - box.velocity_first + 1) * (box.range_last - box.range_first + 1));
+}
+
+double decibel(double ratio) { return 10 * std::log10(ratio); }
+
+}  // namespace
+
+MapBox target_box(const RvMap& target) {
+  const double threshold = largest_power(target) * std::pow(10, -kBoxDepthDb / 10);
+  MapBox box{target.columns(), 0, target.velocity_mps.size(), 0};
+  for (std::size_t v = 0; v < target.velocity_mps.size(); ++v) {
+    for (std::size_t r = 0; r < target.columns(); ++r) {
+      if (std::norm(target.at(v, r)) < threshold) continue;
+      box.range_first = std::min(box.range_first, r);
+      box.range_last = std::max(box.range_last, r);
+      box.velocity_first = std::min(box.velocity_first, v);
+      box.velocity_last = std::max(box.velocity_last, v);
+    }
+  }
+  return box;
+}
+
+ReceivedInterval receive(const Echo& echo, const PulseTrain& train, const ClutterSpec& clutter, const MapSpec& spec,
+                         bool intra_pulse_motion) {
+  ReceivedInterval received;
+  received.map = form_rv_map(echo.target, train, spec, intra_pulse_motion);
+  if (echo.clutter.empty()) {
+    received.echo = echo.target;
+    received.scr = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN(),
+                    std::numeric_limits<double>::quiet_NaN()};
+    return received;
+  }
+  const RvMap clutter_map = form_rv_map(echo.clutter, train, spec, intra_pulse_motion);
+  const double clutter_cell = mean_power(clutter_map.values);
+  const double target_peak = largest_power(received.map);
+  if (!(target_peak > 0 && clutter_cell > 0)) {
+    throw InputError(
+        fmt::format("map: no power in the map's window (target {} m^2, clutter {} m^2)", target_peak, clutter_cell));
+  }
+  received.scr.per_pulse_db = decibel(mean_power(echo.target) / mean_power(echo.clutter));
+  received.scr.peak_cell_db = decibel(target_peak / clutter_cell);
+  received.scr.extent_db = decibel(box_power(received.map, target_box(received.map)) / clutter_cell);
+
+  const double measured = clutter.scr_definition == ScrDefinition::kPerPulse   ? received.scr.per_pulse_db
+                          : clutter.scr_definition == ScrDefinition::kPeakCell ? received.scr.peak_cell_db
+                                                                               : received.scr.extent_db;
+  const double gain_db = measured - clutter.scr_db;
+  received.scr.per_pulse_db -= gain_db;
+  received.scr.peak_cell_db -= gain_db;
+  received.scr.extent_db -= gain_db;
+  const double gain = std::pow(10, gain_db / 20);
+  received.echo = echo.target;
+  for (std::size_t i = 0; i < received.echo.size(); ++i) received.echo[i] += gain * echo.clutter[i];
+  for (std::size_t i = 0; i < received.map.values.size(); ++i) received.map.values[i] += gain * clutter_map.values[i];
+  return received;
+}
+
+}  // namespace seaglint

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a pulse train can resolve, and how much its hop code smears.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "radar/waveform/pulse_train.h"
+#include "sim/core/constants.h"
+
+namespace seaglint {
+namespace {
+
+// (1/N) sum_{n < N} e^{j n x}
+Complex mean_phasor(double x, double count) {
+  const double half = std::remainder(x, 2 * kPi) / 2;
+  const double denominator = count * std::sin(half);
+  const double magnitude = std::abs(half) * count < 1e-8 ? 1 : std::sin(count * half) / denominator;
+  return std::polar(1.0, (count - 1) * half) * magnitude;
+}
+
+std::string code_name(HopCode code) {
+  return code == HopCode::kRandom ? "random" : code == HopCode::kBalanced ? "balanced" : "stepped";
+}
+
+// The pedestal lies within half a hop cell's range on either side; from two velocity cells on it is clear of the main
+// lobe.
+std::string pedestal_line(const PulseTrain& train, const RadarSpec& spec) {
+  if (train.carriers == 1) return "none, one carrier";
+  if (spec.hop_code == HopCode::kStepped) {
+    return fmt::format("none; each carrier comes every {} pulses: lobes repeat in velocity every {:.4g} m/s",
+                       train.carriers, 2 * train.unambiguous_velocity_mps() / train.carriers);
+  }
+  double largest = 0;
+  for (int r = 0; r < 16; ++r) {
+    for (int v = 1; v <= 32; ++v) {
+      const double range_m = r / 16.0 * kSpeedOfLight / (4 * train.hop_step_hz);
+      const double velocity_mps =
+          std::max(v / 32.0 * train.unambiguous_velocity_mps(), 2 * train.velocity_resolution_mps());
+      largest = std::max(largest, expected_response_power(train, range_m, velocity_mps));
+    }
+  }
+  return fmt::format("{:.1f} dB below a point's peak at its largest (mean over codes)", -10 * std::log10(largest));
+}
+
+}  // namespace
+
+int PulseTrain::band_bins() const { return (carriers - 1) * bins_per_hop + static_cast<int>(frequencies()); }
+double PulseTrain::band_centre_hz() const {
+  return first_carrier_hz + baseband_hz.front() + 0.5 * (band_bins() - 1) * baseband_step_hz;
+}
+double PulseTrain::synthetic_bandwidth_hz() const { return band_bins() * baseband_step_hz; }
+double PulseTrain::unambiguous_range_m() const { return kSpeedOfLight / (2 * baseband_step_hz); }
+double PulseTrain::range_resolution_m() const { return kSpeedOfLight / (2 * synthetic_bandwidth_hz()); }
+double PulseTrain::velocity_resolution_mps() const {
+  return kSpeedOfLight / band_centre_hz() / (2 * static_cast<double>(pulses()) * pri_s);
+}
+double PulseTrain::unambiguous_velocity_mps() const { return kSpeedOfLight / band_centre_hz() / (4 * pri_s); }
+
+double expected_response_power(const PulseTrain& train, double range_offset_m, double velocity_offset_mps) {
+  const auto pulses = static_cast<double>(train.pulses());
+  std::vector<double> count(train.carriers);
+  for (const int c : train.code) ++count[c];
+  const auto used = static_cast<double>(std::count_if(count.begin(), count.end(), [](double n) { return n > 0; }));
+
+  // phi_i(n) = -4 pi f_i (dR + dv n T_r) / c; m_i its mean phasor over all pulses; c_ij depends on i - j alone.
+  const double per_hz = -4 * kPi / kSpeedOfLight;
+  const auto mean_at = [&](double frequency_hz) {
+    return std::polar(1.0, per_hz * frequency_hz * range_offset_m) *
+           mean_phasor(per_hz * frequency_hz * velocity_offset_mps * train.pri_s, pulses);
+  };
+  std::vector<Complex> m(train.carriers);
+  std::vector<double> c(train.carriers);
+  for (int i = 0; i < train.carriers; ++i) {
+    m[i] = mean_at(train.first_carrier_hz + i * train.hop_step_hz);
+    c[i] = mean_at(i * train.hop_step_hz).real();
+  }
+
+  Complex coherent;
+  double scatter = 0;
+  for (int i = 0; i < train.carriers; ++i) {
+    if (count[i] == 0) continue;
+    coherent += m[i];
+    if (pulses == 1) continue;
+    scatter += (1 / count[i] - 1 / pulses) * pulses / (pulses - 1) * (1 - std::norm(m[i]));
+    for (int j = 0; j < i; ++j) {
+      if (count[j] > 0) scatter -= 2 * (c[i - j] - std::real(m[i] * std::conj(m[j]))) / (pulses - 1);
+    }
+  }
+  return (std::norm(coherent) + std::max(0.0, scatter)) / (used * used);
+}
+
+std::string describe(const PulseTrain& train, const RadarSpec& spec) {
+  std::vector<int> count(train.carriers);
+  for (const int c : train.code) ++count[c];
+  const auto [fewest, most] = std::minmax_element(count.begin(), count.end());
+  const double mhz = 1e-6;
+  std::string text;
+  text += fmt::format(
+      "carriers            {} from {:g} GHz by {:g} MHz, {} code, {} to {} pulses each in the first interval\n",
+      train.carriers, spec.carrier_ghz, spec.hop_step_mhz, code_name(spec.hop_code), *fewest, *most);
+  text += fmt::format("synthesised band    {:.6g} MHz in {} bins of {:.6g} MHz, {} per pulse\n",
+                      train.synthetic_bandwidth_hz() * mhz, train.band_bins(), train.baseband_step_hz * mhz,
+                      train.frequencies());
+  if (train.bandwidth_hz < train.hop_step_hz * (1 - 1e-9)) {
+    text += fmt::format(
+        "gaps                {:.6g} MHz between the bands of neighbouring carriers: range sidelobes every {:.4g} m\n",
+        (train.hop_step_hz - train.bandwidth_hz) * mhz, kSpeedOfLight / (2 * train.hop_step_hz));
+  }
+  text += fmt::format("range resolution    {:.4g} m, window without wrap {:.4g} m\n", train.range_resolution_m(),
+                      train.unambiguous_range_m());
+  text += fmt::format("velocity resolution {:.4g} m/s, unambiguous within +-{:.4g} m/s\n",
+                      train.velocity_resolution_mps(), train.unambiguous_velocity_mps());
+  text += fmt::format("coherent interval   {:.4g} ms, {} pulses\n",
+                      static_cast<double>(train.pulses()) * train.pri_s * 1e3, train.pulses());
+  text += fmt::format("blind range         {:.4g} m, first range ambiguity {:.4g} km\n",
+                      kSpeedOfLight * spec.pulse_width_us * 1e-6 / 2, kSpeedOfLight * train.pri_s / 2 * 1e-3);
+  text += fmt::format("hop pedestal        {}\n", pedestal_line(train, spec));
+  return text;
+}
+
+}  // namespace seaglint

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "radar/waveform/pulse_train.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/core/constants.h"
+#include "sim/core/error.h"
+#include "sim/core/random.h"
+
+namespace seaglint {
+namespace {
+
+// 1 GiB of complex numbers in one echo; a larger interval is a mistake in the scenario.
+constexpr double kMaxSamples = 1 << 26;
+constexpr double kMaxPulseSamples = 1 << 24;
+constexpr double kMaxSpectrumTerms = 4e9;  // pulse samples times frequencies, about ten seconds
+// Bounds on ratios of decimal inputs (25 / 0.625 must count as 40).
+constexpr double kRatioSlack = 1e-9;
+
+Complex times(Complex a, Complex b) {
+  return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
+}
+
+}  // namespace
+
+std::vector<int> hop_code(HopCode kind, int pulses, int carriers, std::uint64_t seed, std::uint64_t index) {
+  Random random({seed, Stream::kHopCode, index});
+  std::vector<int> code(pulses);
+  for (int n = 0; n < pulses; ++n) {
+    code[n] =
+        kind == HopCode::kRandom ? static_cast<int>(random.below(static_cast<std::uint32_t>(carriers))) : n % carriers;
+  }
+  if (kind == HopCode::kBalanced) {
+    // Which carriers get one pulse more when M does not divide N is random too: the labels are shuffled first.
+    std::vector<int> label(carriers);
+    for (int i = 0; i < carriers; ++i) label[i] = i;
+    const auto shuffle = [&random](std::vector<int>& values) {  // Fisher and Yates
+      for (std::size_t last = values.size(); last > 1; --last) {
+        std::swap(values[last - 1], values[random.below(static_cast<std::uint32_t>(last))]);
+      }
+    };
+    shuffle(label);
+    for (int& c : code) c = label[c];
+    shuffle(code);
+  }
+  return code;
+}
+
+std::vector<Complex> chirp_spectrum(double bandwidth_hz, double pulse_width_s, double sampling_hz,
+                                    const std::vector<double>& frequency_hz) {
+  const double chirp_rate = bandwidth_hz / pulse_width_s;
+  const auto samples = static_cast<std::size_t>(std::max(1.0, std::round(pulse_width_s * sampling_hz)));
+  const auto time = [&](std::size_t k) { return (static_cast<double>(k) + 0.5) / sampling_hz - 0.5 * pulse_width_s; };
+  std::vector<Complex> chirp(samples);
+  for (std::size_t k = 0; k < samples; ++k) chirp[k] = std::polar(1.0, kPi * chirp_rate * time(k) * time(k));
+  std::vector<Complex> spectrum;
+  for (const double f : frequency_hz) {
+    // The phase factor is multiplied up and formed anew every 64 samples.
+    Complex sum;
+    const Complex step = std::polar(1.0, -2 * kPi * f / sampling_hz);
+    Complex factor;
+    for (std::size_t k = 0; k < samples; ++k) {
+      factor = k % 64 == 0 ? std::polar(1.0, -2 * kPi * f * time(k)) : times(factor, step);
+      sum += times(chirp[k], factor);
+    }
+    spectrum.push_back(sum * (std::sqrt(chirp_rate) / sampling_hz));
+  }
+  return spectrum;
+}
+
+PulseTrain make_pulse_train(const RadarSpec& spec, double range_window_m, std::uint64_t seed, std::uint64_t index) {
+  PulseTrain train;
+  train.carriers = spec.hop_count;
+  train.first_carrier_hz = spec.carrier_ghz * 1e9;
+  train.hop_step_hz = spec.hop_step_mhz * 1e6;
+  train.bandwidth_hz = spec.bandwidth_mhz * 1e6;
+  train.pri_s = spec.pri_us * 1e-6;
+  train.intra_pulse_motion = spec.intra_pulse_motion;
+  const double pulse_width_s = spec.pulse_width_us * 1e-6;
+  train.chirp_rate_hz_s = train.bandwidth_hz / pulse_width_s;
+
+  // Bins so fine that the window c / (2 step) holds the wanted range, and that at least one fits into the chirp's band.
+  const double for_window = std::ceil(train.hop_step_hz * 2 * range_window_m / kSpeedOfLight - kRatioSlack);
+  const double for_chirp = std::ceil(train.hop_step_hz / train.bandwidth_hz - kRatioSlack);
+  const double per_hop = std::max({1.0, for_window, for_chirp});
+  const double per_pulse = std::max(1.0, std::floor(train.bandwidth_hz * per_hop / train.hop_step_hz + kRatioSlack));
+  const double samples = std::max(per_pulse * spec.pulses, per_hop * spec.hop_count + per_pulse);
+  if (!(samples <= kMaxSamples)) {
+    throw InputError(
+        fmt::format("radar: a range window of {:.6g} m needs {:.3g} frequency samples per interval; at most {:.0f}: "
+                    "reduce pulses, hop_count, hop_step_mhz, bandwidth_mhz or the window",
+                    range_window_m, samples, kMaxSamples));
+  }
+  const double pulse_samples = pulse_width_s * spec.sampling_mhz * 1e6;
+  if (!(pulse_samples <= kMaxPulseSamples && pulse_samples * per_pulse <= kMaxSpectrumTerms)) {
+    throw InputError(fmt::format(
+        "radar: a pulse of {:g} us sampled at {:g} MHz has {:.3g} samples for {:.0f} frequencies; at most "
+        "{:.0f} samples and {:.0e} products: reduce pulse_width_us or sampling_mhz",
+        spec.pulse_width_us, spec.sampling_mhz, pulse_samples, per_pulse, kMaxPulseSamples, kMaxSpectrumTerms));
+  }
+
+  train.bins_per_hop = static_cast<int>(per_hop);
+  train.baseband_step_hz = train.hop_step_hz / per_hop;
+  train.baseband_hz.resize(static_cast<std::size_t>(per_pulse));
+  for (std::size_t b = 0; b < train.baseband_hz.size(); ++b) {
+    train.baseband_hz[b] = (static_cast<double>(b) + 0.5 - 0.5 * per_pulse) * train.baseband_step_hz;
+  }
+  train.chirp_spectrum = chirp_spectrum(train.bandwidth_hz, pulse_width_s, spec.sampling_mhz * 1e6, train.baseband_hz);
+
+  train.code = hop_code(spec.hop_code, spec.pulses, spec.hop_count, seed, index);
+  for (std::size_t n = 0; n < train.code.size(); ++n) {
+    train.carrier_hz.push_back(train.first_carrier_hz + train.code[n] * train.hop_step_hz);
+    train.time_s.push_back(static_cast<double>(n) * train.pri_s);
+  }
+  return train;
+}
+
+IntervalSampling interval_sampling(const PulseTrain& train, double start_s) {
+  IntervalSampling sampling;
+  sampling.first_hz = train.first_carrier_hz + train.baseband_hz.front();
+  sampling.step_hz = train.baseband_step_hz;
+  sampling.count = train.band_bins();
+  sampling.per_pulse = static_cast<int>(train.frequencies());
+  sampling.chirp_rate_hz_s = train.intra_pulse_motion ? train.chirp_rate_hz_s : 0;
+  for (std::size_t n = 0; n < train.pulses(); ++n) {
+    sampling.pulse_first.push_back(train.code[n] * train.bins_per_hop);
+    sampling.pulse_time_s.push_back(start_s + train.time_s[n]);
+  }
+  return sampling;
+}
+
+}  // namespace seaglint
