@@ -1,12 +1,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/command.h"
+#include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+
+#include "sim/core/error.h"
+#include "tools/command.h"
 
 namespace seaglint {
 
 void add_threads_option(CLI::App& command, Shell& shell) {
   command.add_option("--threads", shell.threads, "Number of threads; 0 = all processors")->check(CLI::Range(0, 1024));
+}
+
+void add_scenario_arguments(CLI::App& command, ScenarioArguments& arguments) {
+  command.add_option("SCENARIO", arguments.file, "Scenario file (YAML)")->required();
+  command
+      .add_option("--set", arguments.set, "Replace a value of the scenario, e.g. --set radar.pulses=64 (repeatable)")
+      ->type_name("KEY.PATH=VALUE")
+      ->allow_extra_args(false);
+}
+
+Scenario ScenarioArguments::read() const {
+  std::vector<Override> overrides;
+  for (const std::string& text : set) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos) throw InputError(fmt::format("--set {}: must be key.path=value", text));
+    overrides.push_back({text.substr(0, equals), text.substr(equals + 1)});
+  }
+  return read_scenario(file, overrides);
 }
 
 }  // namespace seaglint

@@ -20,6 +20,9 @@ struct Shell {
   std::function<void()> work;  // set by the chosen command's callback, run by main
 };
 
+// Each adds its command to the program, with a footer that shows an example; listed in main.cpp too.
+void add_check(CLI::App& app, Shell& shell);
+
 // Adds --threads to a command.
 void add_threads_option(CLI::App& command, Shell& shell);
 

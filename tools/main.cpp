@@ -1,8 +1,97 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The program: exits with 0, 1 (the work failed) or 2 (the input is wrong), with one line on stderr that says why.
 #include <fmt/format.h>
+#include <signal.h>
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <new>
+#include <string>
+#include <vector>
 
+#include "seaglint_version.h"
+#include "sim/core/error.h"
+#include "sim/core/suggestion.h"
 #include "tools/command.h"
 
-int main(int, char**) { return 0; }
+namespace {
+
+using seaglint::Shell;
+
+// A signal handler reaches only what has static storage.
+seaglint::StopFlag* stop_flag = nullptr;
+
+void request_stop(int) { *stop_flag = true; }
+
+// The first Ctrl-C asks the work to stop; the handler is then gone, so that the second one kills.
+void handle_signals(Shell& shell) {
+  stop_flag = &shell.stop;
+  struct sigaction action {};
+  action.sa_handler = request_stop;
+  action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+// In the order of the data flow.
+void add_commands(CLI::App& app, Shell& shell) { add_check(app, shell); }
+
+int fail(int code, const std::string& message) {
+  std::fflush(stdout);
+  fmt::print(stderr, "seaglint: {}\n", message);
+  return code;
+}
+
+// CLI11 prints what was asked for (--help, --version); everything else is wrong input.
+int end_parsing(const CLI::App& app, const CLI::ParseError& error, const std::string& first_argument) {
+  if (error.get_exit_code() == 0) return app.exit(error);
+  const auto chosen = app.get_subcommands();
+  if (!chosen.empty())
+    return fail(2, fmt::format("{} (see seaglint {} --help)", error.what(), chosen.front()->get_name()));
+  if (first_argument.empty() || first_argument[0] == '-')
+    return fail(2, fmt::format("{} (see seaglint --help)", error.what()));
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(command->get_name());
+  return fail(2, fmt::format("unknown command '{}': {}", first_argument, seaglint::suggestion(first_argument, names)));
+}
+
+int run(Shell& shell) {
+  try {
+    shell.work();
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+      return fail(1, fmt::format("standard output: cannot write: {}", std::strerror(errno)));
+    }
+    return 0;
+  } catch (const seaglint::InputError& error) {
+    return fail(2, error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(1, "out of memory");
+  } catch (const std::exception& error) {
+    return fail(1, error.what());
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Shell shell;
+  CLI::App app(
+      "Ships and corner-reflector decoys at sea as a frequency-agile radar sees them: from a scenario to classified "
+      "maps",
+      "seaglint");
+  app.set_version_flag("--version", fmt::format("seaglint {}", seaglint::kVersion));
+  app.require_subcommand(1);
+  app.footer("Example:\n  seaglint check scenarios/quick.yaml\n\nEvery command has --help with an example.");
+  add_commands(app, shell);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return end_parsing(app, error, argc > 1 ? argv[1] : "");
+  }
+  handle_signals(shell);
+  return run(shell);
+}

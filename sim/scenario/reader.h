@@ -4,7 +4,6 @@
 // From the YAML tree to the structs: what each field accepts, and where the complaint about it points.
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "sim/scenario/document.h"
@@ -32,8 +31,5 @@ void apply_override(ScenarioDocument& document, const Override& override_value);
 // Reads every field. Throws InputError for unknown and duplicate keys, missing required ones, wrong types and values
 // out of bounds.
 Scenario read_fields(const ScenarioDocument& document);
-
-// "[a, b, c]: did you mean 'b'?": the name nearest to a misspelt one, or all names when none is near.
-std::string suggestion(std::string_view misspelt, const std::vector<std::string>& names);
 
 }  // namespace seaglint

@@ -4,6 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fcntl.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include <string>
 #include <thread>
 
 namespace seaglint {
@@ -28,6 +33,46 @@ TEST(Progress, IsSilentWhereThereIsNoTerminal) {
     progress.advance();
   }
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
+
+// What a terminal in place of stderr is sent while `work` runs.
+template <typename Function>
+std::string sent_to_terminal(const Function& work) {
+  const int terminal = ::posix_openpt(O_RDWR | O_NOCTTY);
+  EXPECT_TRUE(terminal >= 0 && ::grantpt(terminal) == 0 && ::unlockpt(terminal) == 0);
+  const int inside = ::open(::ptsname(terminal), O_RDWR | O_NOCTTY);
+  const int before = ::dup(STDERR_FILENO);
+  ::dup2(inside, STDERR_FILENO);
+  work();
+  ::dup2(before, STDERR_FILENO);
+  ::close(before);
+  ::fcntl(terminal, F_SETFL, O_NONBLOCK);
+  char buffer[4096];
+  const ssize_t count = ::read(terminal, buffer, sizeof buffer);
+  ::close(inside);
+  ::close(terminal);
+  return std::string(buffer, count > 0 ? static_cast<std::size_t>(count) : 0);
+}
+
+TEST(Progress, ShowsABarOnATerminalAfterTwoSecondsAndWipesItAtTheEnd) {
+  const std::string sent = sent_to_terminal([] {
+    Progress progress("maps", 4);
+    progress.advance();
+    std::this_thread::sleep_for(std::chrono::milliseconds(2100));
+    progress.advance();
+    progress.advance();  // too soon to be drawn
+  });
+  EXPECT_THAT(sent, ::testing::StartsWith("\rmaps  [##########..........]  50 %, "));
+  EXPECT_THAT(sent, ::testing::EndsWith(" s left\033[K\r\033[K"));
+}
+
+TEST(Progress, IsSilentForShortWork) {
+  EXPECT_EQ(sent_to_terminal([] {
+              Progress progress("maps", 2);
+              progress.advance();
+              progress.advance();
+            }),
+            "");
 }
 
 }  // namespace

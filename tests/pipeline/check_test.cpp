@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Wrong input gives one clear line and exit 2, for `check` as for everything that reads a scenario.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <sstream>
+
+#include "sim/scenario/scenario.h"
+#include "tests/pipeline/program.h"
+
+namespace seaglint {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+const std::string kPoints = "scenarios/points.yaml";
+
+void expect_refused(const std::vector<std::string>& arguments, const std::string& message) {
+  const ProgramResult result = run_program(arguments);
+  EXPECT_EQ(result.code, 2) << result.err;
+  EXPECT_EQ(result.out, "");
+  EXPECT_THAT(result.err, StartsWith("seaglint: "));
+  EXPECT_THAT(result.err, HasSubstr(message));
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+}
+
+TEST(Check, PrintsAScenarioThatReadsBackTheSame) {
+  const ProgramResult result = run_program({"check", kPoints, "--set", "radar.pulses=64"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_THAT(result.err, StartsWith("points: 2 targets, 1 sea states x 2 views = 2 cases, 40 maps\n"));
+  EXPECT_EQ(effective_yaml(parse_scenario(result.out, kPoints)), result.out);
+  EXPECT_EQ(parse_scenario(result.out, kPoints).radar.pulses, 64);
+}
+
+TEST(Check, RefusesATypoInAKey) {
+  const TemporaryFolder folder;
+  const std::string file = folder.path() / "typo.yaml";
+  write_file(file, "seaglint: 1\nradar:\n  carier_ghz: 16\ntargets: {a: {label: 1, mesh: a.glb}}\n");
+  expect_refused({"check", file}, "typo.yaml:3:3: radar.carier_ghz: unknown key: did you mean 'carrier_ghz'?\n");
+}
+
+TEST(Check, RefusesANegativeWaveHeight) {
+  expect_refused(
+      {"check", kPoints, "--set", "sea.significant_wave_height_m=-1"},
+      "--set sea.significant_wave_height_m: value '-1': must be a number, a list or from:to:step, within 0 and 30\n");
+}
+
+TEST(Check, RefusesAMeshThatIsNotThere) {
+  const TemporaryFolder folder;
+  const std::string file = folder.path() / "missing.yaml";
+  write_file(file, "seaglint: 1\ntargets: {a: {label: 1, mesh: none.glb}}\n");
+  expect_refused({"check", file},
+                 "targets.a.mesh: value 'none.glb': no such file, neither " + (folder.path() / "none.glb").string());
+}
+
+TEST(Check, RefusesAMeshThatIsNoMesh) {
+  const TemporaryFolder folder;
+  write_file(folder.path() / "empty.glb", "");
+  std::filesystem::create_directory(folder.path() / "folder.glb");
+  const std::string file = folder.path() / "scenario.yaml";
+  write_file(file, "seaglint: 1\ntargets: {a: {label: 1, mesh: empty.glb}}\n");
+  expect_refused({"check", file}, "empty.glb: ");
+  expect_refused({"check", file, "--set", "targets.a.mesh=folder.glb"}, "folder.glb: ");
+}
+
+TEST(Check, RefusesScenariosThatCannotBeRead) {
+  const TemporaryFolder folder;
+  expect_refused({"check", folder.path() / "none.yaml"}, "none.yaml: cannot read: No such file or directory\n");
+  expect_refused({"check", folder.path()}, ": cannot read: is a directory\n");
+  write_file(folder.path() / "empty.yaml", "");
+  expect_refused({"check", folder.path() / "empty.yaml"}, "empty.yaml: the file is empty");
+  write_file(folder.path() / "large.yaml", std::string(100'000'000, ' '));
+  expect_refused({"check", folder.path() / "large.yaml"},
+                 "large.yaml: cannot read: is larger than the limit of 10000000 bytes\n");
+}
+
+TEST(CommandLine, RefusesWhatItDoesNotKnow) {
+  expect_refused({}, "A subcommand is required (see seaglint --help)\n");
+  expect_refused({"chek", kPoints}, "unknown command 'chek': did you mean 'check'?\n");
+  expect_refused({"check"}, "SCENARIO is required (see seaglint check --help)\n");
+  expect_refused({"check", kPoints, "--bogus"}, "--bogus (see seaglint check --help)\n");
+  expect_refused({"check", kPoints, "--set", "radar.pulses"}, "--set radar.pulses: must be key.path=value\n");
+  expect_refused({"--bogus"}, "(see seaglint --help)\n");
+}
+
+TEST(CommandLine, SaysWhenItsOutputCannotBeWritten) {
+  const std::string command =
+      "'" SEAGLINT_BINARY_DIR "/seaglint' check '" SEAGLINT_SOURCE_DIR "/scenarios/points.yaml' >/dev/full 2>/dev/null";
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 1);
+}
+
+// Each line of the list of commands in --help names one.
+std::vector<std::string> command_names() {
+  std::istringstream help(run_program({"--help"}).out);
+  std::vector<std::string> names;
+  bool listing = false;
+  for (std::string line; std::getline(help, line);) {
+    if (listing && line.empty()) break;
+    if (listing && line.starts_with("  ") && line[2] != ' ') names.push_back(line.substr(2, line.find(' ', 2) - 2));
+    if (line == "Subcommands:") listing = true;
+  }
+  return names;
+}
+
+TEST(CommandLine, EveryCommandHasHelpWithAnExample) {
+  const std::vector<std::string> names = command_names();
+  EXPECT_THAT(names, ::testing::Contains("check"));
+  for (const std::string& name : names) {
+    const ProgramResult result = run_program({name, "--help"});
+    EXPECT_EQ(result.code, 0) << name;
+    EXPECT_THAT(result.out, HasSubstr("Example:\n  seaglint " + name)) << name;
+  }
+  EXPECT_THAT(run_program({"--version"}).out, ::testing::MatchesRegex("seaglint [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+}
+
+}  // namespace
+}  // namespace seaglint

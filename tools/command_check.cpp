@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+
+#include "sim/core/error.h"
+#include "sim/core/file.h"
+#include "tools/command.h"
+
+namespace seaglint {
+
+namespace {
+
+// Opens every file the scenario names.
+void check_files(const Scenario& scenario) {
+  for (const TargetSpec& target : scenario.targets) {
+    if (target.mesh.empty()) continue;
+    const std::filesystem::path path = find_mesh(scenario, target);
+    if (read_file(path).empty()) throw InputError(fmt::format("{}: the file is empty", path.string()));
+  }
+}
+
+std::string summary(const Scenario& scenario) {
+  const std::size_t seas = sea_states(scenario.sea).size();
+  const std::size_t aspects = views(scenario.view).size();
+  const std::size_t cases = seas * aspects;
+  const std::size_t maps = cases * scenario.targets.size() * static_cast<std::size_t>(scenario.dataset.maps_per_case);
+  return fmt::format("{}: {} targets, {} sea states x {} views = {} cases, {} maps\n", scenario.name,
+                     scenario.targets.size(), seas, aspects, cases, maps);
+}
+
+}  // namespace
+
+void add_check(CLI::App& app, Shell& shell) {
+  CLI::App* command =
+      app.add_subcommand("check", "Read and validate a scenario, print it with every default written out");
+  auto arguments = std::make_shared<ScenarioArguments>();
+  add_scenario_arguments(*command, *arguments);
+  command->footer("Example:\n  seaglint check scenarios/quick.yaml --set sea.peak_period_s=9");
+  command->callback([arguments, &shell] {
+    shell.work = [arguments] {
+      const Scenario scenario = arguments->read();
+      check_files(scenario);
+      fmt::print("{}", effective_yaml(scenario));
+      std::fflush(stdout);
+      fmt::print(stderr, "{}", summary(scenario));
+    };
+  });
+}
+
+}  // namespace seaglint
