@@ -22,6 +22,7 @@ enum class Stream : std::uint32_t {
   kNetwork = 8,
   kBootstrap = 9,
   kEmbeddingPlot = 10,
+  kTargetOrder = 11,
   kTest = 1000,
 };
 

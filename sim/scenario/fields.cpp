@@ -178,6 +178,7 @@ void visit(DatasetSpec& spec, FieldVisitor& v) {
   v.number("interval_spacing_s", spec.interval_spacing_s, within(0.001, 10000));
   v.integer("maps_per_shard", spec.maps_per_shard, within(1, 10000));
   v.ratio("split", spec.train_share);
+  v.flag("complex_maps", spec.complex_maps);
 }
 
 void visit(FeatureSpec& spec, FieldVisitor& v) {
@@ -204,6 +205,7 @@ void visit(LearningSpec& spec, FieldVisitor& v) {
   v.number("subsample", spec.subsample, above_up_to(0, 1));
   v.number("colsample_bytree", spec.colsample_bytree, above_up_to(0, 1));
   v.integer("tree_seed", spec.tree_seed, within(0, std::numeric_limits<int>::max()));
+  v.integer("split_repeats", spec.split_repeats, within(1, 100));
   v.integer("bootstrap_samples", spec.bootstrap_samples, within(10, 100000));
 }
 

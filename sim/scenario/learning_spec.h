@@ -13,6 +13,7 @@ struct DatasetSpec {
   double interval_spacing_s = 10;  // between the intervals of one realisation, 0.001 <= x <= 10000
   int maps_per_shard = 20;         // 1 <= x <= 10000
   double train_share = 0.7;        // `split: 7:3`, 0 < x < 1
+  bool complex_maps = false;       // store real and imaginary parts beside the magnitude
 };
 
 struct FeatureSpec {
@@ -34,13 +35,14 @@ struct LearningSpec {
   double learning_rate = 0.001;   // of the network, 1e-6 <= x <= 1
   int embedding_size = 8;         // 1 <= x <= 512
   int threads = 1;                // of the network, fixed and recorded: another number gives other bits; 1 <= x <= 256
-  double map_floor_db = -40;      // floor of the network's input, below the map's total energy density peak, -120 <= x < 0
+  double map_floor_db = -40;      // floor of the network's input, below the map's total energy, -120 <= x < 0
   int trees = 200;                // XGBoost, the paper's table II from here on
   int max_depth = 6;
   double tree_learning_rate = 0.05;
   double subsample = 0.8;
   double colsample_bytree = 0.8;
   int tree_seed = 42;
+  int split_repeats = 1;          // independent splits whose test predictions are pooled, 1 <= x <= 100
   int bootstrap_samples = 1000;   // of the grouped confidence intervals, 10 <= x <= 100000
 };
 

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "classify/dataset/manifest.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "classify/dataset/sample.h"
+#include "sim/core/error.h"
+#include "sim/core/file.h"
+
+namespace seaglint {
+
+namespace {
+
+constexpr const char* kFormat = "seaglint data set 1";
+
+}  // namespace
+
+std::string to_json(const Manifest& manifest) {
+  using nlohmann::ordered_json;
+  ordered_json json;
+  json["format"] = kFormat;
+  json["scenario"] = manifest.scenario;
+  json["scenario_sha256"] = manifest.scenario_sha256;
+  json["program_version"] = manifest.program_version;
+  json["processor"] = manifest.processor;
+  json["seed"] = manifest.seed;
+  json["samples"] = manifest.samples;
+  json["map"] = {{"rows", manifest.rows}, {"columns", manifest.columns}, {"units", "m"}};
+  json["shards"] = ordered_json::array();
+  for (const ManifestShard& shard : manifest.shards) {
+    json["shards"].push_back({{"file", shard.file},
+                              {"first_sample", shard.first_sample},
+                              {"samples", shard.samples},
+                              {"sha256", shard.sha256}});
+  }
+  json["columns"] = ordered_json::array();
+  for (const SampleColumn& column : sample_columns()) {
+    json["columns"].push_back({{"name", column.name}, {"units", column.unit}, {"description", column.description}});
+  }
+  return json.dump(2) + "\n";
+}
+
+Manifest read_manifest(const std::filesystem::path& file) {
+  const std::string text = read_file(file, std::size_t{256} << 20);
+  try {
+    const nlohmann::json json = nlohmann::json::parse(text);
+    if (json.at("format") != kFormat) {
+      throw InputError(
+          fmt::format("{}: format: {}; this program reads \"{}\"", file.string(), json.at("format").dump(), kFormat));
+    }
+    Manifest manifest;
+    manifest.scenario = json.at("scenario").get<std::string>();
+    manifest.scenario_sha256 = json.at("scenario_sha256").get<std::string>();
+    manifest.program_version = json.at("program_version").get<std::string>();
+    manifest.processor = json.at("processor").get<std::string>();
+    manifest.seed = json.at("seed").get<std::uint64_t>();
+    manifest.samples = json.at("samples").get<std::uint64_t>();
+    manifest.rows = json.at("map").at("rows").get<std::uint64_t>();
+    manifest.columns = json.at("map").at("columns").get<std::uint64_t>();
+    std::uint64_t next = 0;
+    for (const nlohmann::json& entry : json.at("shards")) {
+      ManifestShard shard{entry.at("file").get<std::string>(), entry.at("first_sample").get<std::uint64_t>(),
+                          entry.at("samples").get<std::uint64_t>(), entry.at("sha256").get<std::string>()};
+      // A name with a folder in it could point anywhere.
+      if (shard.file.empty() || std::filesystem::path(shard.file).filename() != shard.file) {
+        throw InputError(
+            fmt::format("{}: shards: \"{}\" is not the name of a file beside it", file.string(), shard.file));
+      }
+      if (shard.first_sample != next || shard.samples == 0) {
+        throw InputError(fmt::format("{}: shards: {} does not follow on sample {}", file.string(), shard.file, next));
+      }
+      next += shard.samples;
+      manifest.shards.push_back(std::move(shard));
+    }
+    if (next != manifest.samples) {
+      throw InputError(fmt::format("{}: samples: {}, but the shards hold {}", file.string(), manifest.samples, next));
+    }
+    return manifest;
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(fmt::format("{}: {}", file.string(), error.what()));
+  }
+}
+
+std::string processor_kind() {
+  std::ifstream information("/proc/cpuinfo");
+  for (std::string line; std::getline(information, line);) {
+    if (!line.starts_with("model name")) continue;
+    const std::size_t colon = line.find(": ");
+    if (colon != std::string::npos) return line.substr(colon + 2);
+  }
+  return "unknown";
+}
+
+}  // namespace seaglint

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// manifest.json: what a data set holds, with a checksum of every shard. It is written last: a data set without it is
+// not whole.
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace seaglint {
+
+struct ManifestShard {
+  std::string file;
+  std::uint64_t first_sample = 0;
+  std::uint64_t samples = 0;
+  std::string sha256;
+};
+
+struct Manifest {
+  std::string scenario;         // its name
+  std::string scenario_sha256;  // of scenario.yaml
+  std::string program_version;
+  std::string processor;  // the kind that made the bytes: another one may differ in the last bit
+  std::uint64_t seed = 0;
+  std::uint64_t samples = 0;
+  std::uint64_t rows = 0;     // velocity cells of a map
+  std::uint64_t columns = 0;  // range cells of a map
+  std::vector<ManifestShard> shards;
+};
+
+std::string to_json(const Manifest& manifest);              // with the descriptions of all columns
+Manifest read_manifest(const std::filesystem::path& file);  // throws InputError naming the file and the entry
+
+// The kind of processor as the system names it, "unknown" where it does not.
+std::string processor_kind();
+
+}  // namespace seaglint

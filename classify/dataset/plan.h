@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// The fixed enumeration of a scenario's samples: which sea, view, target and interval each one shows, and which shard
+// holds it. One sample is one map of one coherent interval. Definitions of case, realisation and group:
+// classify/dataset/README.md.
+
+#include <cstddef>
+#include <cstdint>
+
+#include "sim/scenario/scenario.h"
+
+namespace seaglint {
+
+// Where a sample lies in the scenario's sweeps, all zero-based.
+struct SampleAddress {
+  int sea_state = 0;    // index into sea_states(scenario.sea)
+  int realisation = 0;  // 0..realisations_per_case-1, of the sea state
+  int view = 0;         // index into views(scenario.view)
+  int interval = 0;     // 0..maps_per_case/realisations_per_case-1, of the realisation
+  int target = 0;       // index into scenario.targets
+
+  bool operator==(const SampleAddress&) const = default;
+};
+
+struct ShardRange {
+  std::size_t first = 0;  // sample index
+  std::size_t count = 0;
+};
+
+// Samples are numbered with the sea state slowest, then realisation, view, interval, target, so that those which share
+// a sea and its motions lie together. The order of the targets within one interval is shuffled by a random number
+// (stream kTargetOrder), so that a sample's number says nothing about its label.
+class SamplePlan {
+ public:
+  explicit SamplePlan(const Scenario& scenario);
+
+  std::size_t size() const;
+  SampleAddress address(std::size_t sample) const;         // sample < size()
+  std::size_t sample(const SampleAddress& address) const;  // inverse of address()
+
+  std::size_t shards() const;
+  ShardRange shard(std::size_t index) const;  // the last shard may hold fewer samples
+
+  int intervals() const { return intervals_; }
+  // The key of a realisation's random sea: sea_state 1000000 + realisation; both classes and all views share it.
+  std::uint64_t sea_key(int sea_state, int realisation) const;
+  // One group = one sea realisation, numbered from 0 without gaps.
+  std::int64_t group(const SampleAddress& address) const;
+  double start_s(const SampleAddress& address) const;  // of the interval within the realisation
+  // The span of time that every interval of a realisation starts in, s.
+  double last_start_s() const;
+
+ private:
+  std::uint64_t seed_ = 0;
+  std::size_t sea_states_ = 0;
+  std::size_t realisations_ = 0;
+  std::size_t views_ = 0;
+  int intervals_ = 0;
+  std::size_t targets_ = 0;
+  std::size_t per_shard_ = 1;
+  double spacing_s_ = 0;
+};
+
+}  // namespace seaglint

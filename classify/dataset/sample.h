@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// One sample of a data set: a range-velocity map with its label and full provenance.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace seaglint {
+
+// The metadata of a sample, one column each (sample_columns() gives units and meaning).
+struct SampleRecord {
+  std::int64_t sample = 0;
+  std::int64_t label = 0;
+  std::int64_t target = 0;
+  std::string target_name;
+  std::int64_t group = 0;
+  std::int64_t sea_state = 0;
+  double significant_wave_height_m = 0;
+  double peak_period_s = 0;
+  double gamma = 0;
+  double propagation_deg = 0;
+  std::int64_t view = 0;
+  double azimuth_deg = 0;
+  double elevation_deg = 0;
+  std::int64_t realisation = 0;
+  std::int64_t interval = 0;
+  double start_s = 0;
+  std::int64_t seed = 0;
+  std::int64_t sea_key = 0;
+  std::int64_t first_motion_key = 0;
+  std::int64_t radar_key = 0;
+  std::int64_t empty_carriers = 0;
+  double scr_per_pulse_db = 0;
+  double scr_peak_cell_db = 0;
+  double scr_extent_db = 0;
+  double peak_m = 0;
+  double energy_m2 = 0;
+  double mwr = 0;
+  double ccf = 0;
+  double sigma_r_m = 0;
+  double sigma_v_mps = 0;
+  std::int64_t centres = 0;
+  std::int64_t degenerate = 0;
+  std::int64_t traces = 0;
+  std::int64_t contributions = 0;
+};
+
+struct SampleColumn {
+  const char* name;
+  const char* unit;  // "1" where there is none
+  const char* description;
+  std::variant<std::int64_t SampleRecord::*, double SampleRecord::*, std::string SampleRecord::*> member;
+};
+
+// Every column of a shard's /samples group, in the order of SampleRecord.
+std::span<const SampleColumn> sample_columns();
+
+// A scattering centre as stored: range_m, velocity_mps, amplitude_m.
+using StoredCentre = std::array<float, 3>;
+
+struct Sample {
+  SampleRecord record;
+  std::vector<float> magnitude;  // |RV| in metres, [velocity][range]
+  std::vector<float>
+      complex_values;  // real and imaginary part alternating, [velocity][range][2]; empty unless asked for
+  std::vector<std::uint16_t> hop_code;    // C_n of every pulse
+  std::vector<StoredCentre> centre_list;  // strongest first
+};
+
+// The axes that all maps of a data set share.
+struct MapAxes {
+  std::vector<double> range_m;       // relative to the target's reference point, positive = farther
+  std::vector<double> velocity_mps;  // positive = receding
+
+  std::size_t cells() const { return range_m.size() * velocity_mps.size(); }
+  bool operator==(const MapAxes&) const = default;
+};
+
+}  // namespace seaglint

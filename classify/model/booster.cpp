@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "classify/model/booster.h"
+
+#include <fmt/format.h>
+#include <xgboost/c_api.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "sim/core/error.h"
+#include "sim/core/file.h"
+
+namespace seaglint {
+
+namespace {
+
+void require(int status, const char* what) {
+  if (status != 0) throw WorkError(fmt::format("XGBoost: {}: {}", what, XGBGetLastError()));
+}
+
+// The library's table of rows, freed at the end of its life.
+class Rows {
+ public:
+  explicit Rows(const FeatureMatrix& features) {
+    require(
+        XGDMatrixCreateFromMat(features.values.data(), features.rows(), features.columns(), std::nanf(""), &handle_),
+        "rows");
+  }
+  ~Rows() { XGDMatrixFree(handle_); }
+  Rows(const Rows&) = delete;
+  Rows& operator=(const Rows&) = delete;
+  DMatrixHandle get() const { return handle_; }
+
+ private:
+  DMatrixHandle handle_ = nullptr;
+};
+
+// Messages of the library would mix with the program's own.
+void quieten() { require(XGBSetGlobalConfig(R"({"verbosity": 0})"), "settings"); }
+
+}  // namespace
+
+FeatureMatrix select_rows(const FeatureMatrix& matrix, std::span<const std::size_t> rows) {
+  FeatureMatrix selected{matrix.names, {}};
+  selected.values.reserve(rows.size() * matrix.columns());
+  for (const std::size_t row : rows) {
+    const auto values = matrix.row(row);
+    selected.values.insert(selected.values.end(), values.begin(), values.end());
+  }
+  return selected;
+}
+
+FeatureMatrix join_columns(const FeatureMatrix& left, const FeatureMatrix& right) {
+  SEAGLINT_CHECK(left.rows() == right.rows(), fmt::format("{} rows beside {}", left.rows(), right.rows()));
+  FeatureMatrix joined{left.names, {}};
+  joined.names.insert(joined.names.end(), right.names.begin(), right.names.end());
+  joined.values.reserve(left.values.size() + right.values.size());
+  for (std::size_t i = 0; i < left.rows(); ++i) {
+    joined.values.insert(joined.values.end(), left.row(i).begin(), left.row(i).end());
+    joined.values.insert(joined.values.end(), right.row(i).begin(), right.row(i).end());
+  }
+  return joined;
+}
+
+struct Booster::Model {
+  BoosterHandle handle = nullptr;
+
+  explicit Model(const DMatrixHandle* rows) { require(XGBoosterCreate(rows, rows ? 1 : 0, &handle), "model"); }
+  ~Model() { XGBoosterFree(handle); }
+  Model(const Model&) = delete;
+  Model& operator=(const Model&) = delete;
+
+  void set(const char* name, const std::string& value) {
+    require(XGBoosterSetParam(handle, name, value.c_str()), name);
+  }
+};
+
+Booster Booster::train(const FeatureMatrix& features, std::span<const int> labels, const LearningSpec& spec) {
+  SEAGLINT_CHECK(features.rows() == labels.size() && !labels.empty(),
+                 fmt::format("{} rows, {} labels", features.rows(), labels.size()));
+  quieten();
+  const Rows rows(features);
+  const std::vector<float> targets(labels.begin(), labels.end());
+  require(XGDMatrixSetFloatInfo(rows.get(), "label", targets.data(), targets.size()), "labels");
+
+  const DMatrixHandle handle = rows.get();
+  auto model = std::make_shared<Model>(&handle);
+  model->set("objective", "binary:logistic");
+  model->set("eval_metric", "logloss");
+  model->set("tree_method", "hist");
+  model->set("nthread", "1");
+  model->set("max_depth", std::to_string(spec.max_depth));
+  model->set("eta", fmt::format("{}", spec.tree_learning_rate));
+  model->set("subsample", fmt::format("{}", spec.subsample));
+  model->set("colsample_bytree", fmt::format("{}", spec.colsample_bytree));
+  model->set("seed", std::to_string(spec.tree_seed));
+  for (int i = 0; i < spec.trees; ++i) require(XGBoosterUpdateOneIter(model->handle, i, rows.get()), "training");
+  return Booster(std::move(model));
+}
+
+std::vector<double> Booster::predict(const FeatureMatrix& features) const {
+  SEAGLINT_CHECK(features.columns() == columns(),
+                 fmt::format("{} columns, trained on {}", features.columns(), columns()));
+  if (features.rows() == 0) return {};
+  quieten();
+  const Rows rows(features);
+  const bst_ulong* shape = nullptr;
+  bst_ulong dimensions = 0;
+  const float* result = nullptr;
+  constexpr const char* kSettings =
+      R"({"type": 0, "training": false, "iteration_begin": 0, "iteration_end": 0, "strict_shape": false})";
+  require(XGBoosterPredictFromDMatrix(model_->handle, rows.get(), kSettings, &shape, &dimensions, &result),
+          "prediction");
+  return std::vector<double>(result, result + features.rows());
+}
+
+std::vector<double> Booster::gains(std::size_t columns) const {
+  const bst_ulong* shape = nullptr;
+  bst_ulong count = 0, dimensions = 0;
+  const char** names = nullptr;
+  const float* scores = nullptr;
+  require(XGBoosterFeatureScore(model_->handle, R"({"importance_type": "total_gain"})", &count, &names, &dimensions,
+                                &shape, &scores),
+          "gains");
+  // Columns without a split are left out of the answer; the others are called f0, f1, ...
+  std::vector<double> shares(columns, 0.0);
+  double total = 0;
+  for (bst_ulong i = 0; i < count; ++i) {
+    const std::size_t column = std::strtoul(names[i] + 1, nullptr, 10);
+    SEAGLINT_CHECK(column < columns, names[i]);
+    shares[column] = scores[i];
+    total += scores[i];
+  }
+  for (double& share : shares) share = total > 0 ? share / total : 0;
+  return shares;
+}
+
+std::size_t Booster::columns() const {
+  bst_ulong count = 0;
+  require(XGBoosterGetNumFeature(model_->handle, &count), "columns");
+  return count;
+}
+
+void Booster::save(const std::filesystem::path& file) const {
+  bst_ulong length = 0;
+  const char* bytes = nullptr;
+  require(XGBoosterSaveModelToBuffer(model_->handle, R"({"format": "json"})", &length, &bytes), "saving");
+  write_file(file, {bytes, length});
+}
+
+Booster Booster::load(const std::filesystem::path& file) {
+  quieten();
+  const std::string bytes = read_file(file);
+  auto model = std::make_shared<Model>(nullptr);
+  if (bytes.empty() || bytes.front() != '{' ||
+      XGBoosterLoadModelFromBuffer(model->handle, bytes.data(), bytes.size()) != 0) {
+    throw InputError(fmt::format("{}: not an XGBoost model in JSON", file.string()));
+  }
+  model->set("nthread", "1");
+  return Booster(std::move(model));
+}
+
+}  // namespace seaglint

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// Gradient-boosted trees (XGBoost: Chen and Guestrin 2016) with the paper's settings (table II), on one thread: the
+// same rows give the same trees and predictions, bit for bit.
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "sim/scenario/learning_spec.h"
+
+namespace seaglint {
+
+// Rows of features, row-major; all values finite.
+struct FeatureMatrix {
+  std::vector<std::string> names;  // one per column
+  std::vector<float> values;
+
+  std::size_t columns() const { return names.size(); }
+  std::size_t rows() const { return names.empty() ? 0 : values.size() / names.size(); }
+  std::span<const float> row(std::size_t i) const { return {values.data() + i * columns(), columns()}; }
+};
+
+// The given rows, in the given order.
+FeatureMatrix select_rows(const FeatureMatrix& matrix, std::span<const std::size_t> rows);
+// The columns of both, side by side (equal numbers of rows).
+FeatureMatrix join_columns(const FeatureMatrix& left, const FeatureMatrix& right);
+
+// Trained trees: probability that a row shows a ship (label 1).
+class Booster {
+ public:
+  // Labels 0 or 1, one per row, at least one row. Objective binary:logistic, evaluation logloss, tree method hist.
+  static Booster train(const FeatureMatrix& features, std::span<const int> labels, const LearningSpec& spec);
+  static Booster load(const std::filesystem::path& file);  // throws InputError when the file is not such a model
+
+  std::vector<double> predict(const FeatureMatrix& features) const;  // same number of columns as in training
+  std::vector<double> gains(std::size_t columns) const;  // share of the total gain per column; sums to 1 (or all 0)
+  std::size_t columns() const;
+  void save(const std::filesystem::path& file) const;  // XGBoost's JSON; throws WorkError
+
+ private:
+  struct Model;
+  explicit Booster(std::shared_ptr<Model> model) : model_(std::move(model)) {}
+  std::shared_ptr<Model> model_;
+};
+
+}  // namespace seaglint

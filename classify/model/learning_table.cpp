@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "classify/model/learning_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "classify/cnn/network_input.h"
+#include "sim/core/error.h"
+
+namespace seaglint {
+
+namespace {
+
+double decibel(double power) { return 10 * std::log10(std::max(power, 1e-300)); }
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Levels of one map that a classifier might lean on instead of on the target's motion.
+struct MapLevels {
+  double floor_db = 0;         // median cell below the map's energy
+  double pedestal_db = 0;      // median over velocity in the strongest cell's range, below that cell
+  double above_threshold = 0;  // cells within 20 dB of the strongest
+};
+
+MapLevels map_levels(const Sample& sample, const MapAxes& axes) {
+  const std::size_t columns = axes.range_m.size(), rows = axes.velocity_mps.size();
+  std::vector<double> power(sample.magnitude.size());
+  double total = 0;
+  for (std::size_t i = 0; i < power.size(); ++i) {
+    power[i] = static_cast<double>(sample.magnitude[i]) * sample.magnitude[i];
+    total += power[i];
+  }
+  const std::size_t peak = static_cast<std::size_t>(std::max_element(power.begin(), power.end()) - power.begin());
+  std::vector<double> column(rows);
+  for (std::size_t v = 0; v < rows; ++v) column[v] = power[v * columns + peak % columns];
+  MapLevels levels;
+  levels.above_threshold = static_cast<double>(
+      std::count_if(power.begin(), power.end(), [&](double value) { return value >= 0.01 * power[peak]; }));
+  levels.pedestal_db = decibel(median(column)) - decibel(power[peak]);
+  levels.floor_db = decibel(median(power)) - decibel(total);
+  return levels;
+}
+
+// How often the hop code uses each carrier, in at most 16 bands.
+std::vector<float> carrier_counts(const std::vector<std::uint16_t>& code, std::size_t carriers, std::size_t bands) {
+  std::vector<float> counts(bands, 0.0f);
+  for (const std::uint16_t carrier : code) counts[std::min<std::size_t>(carrier, carriers - 1) * bands / carriers] += 1;
+  return counts;
+}
+
+enum ProbeIndex { kPower, kPeak, kFloor, kPedestal, kAbove, kCentres, kHopCode, kOrder, kProbes };
+
+std::vector<Probe> empty_probes(std::size_t bands) {
+  std::vector<Probe> probes(kProbes);
+  probes[kPower] = {"total power", ProbeKind::kScale, "energy of the map, dB", {{"energy_db"}, {}}};
+  probes[kPeak] = {"peak", ProbeKind::kScale, "strongest cell, dB", {{"peak_db"}, {}}};
+  probes[kFloor] = {"floor", ProbeKind::kShape, "median cell below the map's energy, dB", {{"floor_db"}, {}}};
+  probes[kPedestal] = {"pedestal",
+                       ProbeKind::kShape,
+                       "median over velocity at the strongest cell's range, below that cell, dB",
+                       {{"pedestal_db"}, {}}};
+  probes[kAbove] = {"cells above threshold", ProbeKind::kShape, "cells within 20 dB of the strongest", {{"cells"}, {}}};
+  probes[kCentres] = {"number of centres", ProbeKind::kShape, "scattering centres found", {{"centres"}, {}}};
+  probes[kHopCode] = {"hop code", ProbeKind::kBlind, "how often each carrier is used", {{}, {}}};
+  for (std::size_t band = 0; band < bands; ++band)
+    probes[kHopCode].features.names.push_back(fmt::format("carrier_{}", band));
+  probes[kOrder] = {
+      "sample order", ProbeKind::kBlind, "number of the sample, and whether it is odd", {{"sample", "odd"}, {}}};
+  return probes;
+}
+
+}  // namespace
+
+const char* name(ProbeKind kind) {
+  switch (kind) {
+    case ProbeKind::kBlind:
+      return "blind";
+    case ProbeKind::kScale:
+      return "scale";
+    case ProbeKind::kShape:
+      return "shape";
+  }
+  return "";
+}
+
+LearningTable load_learning_table(const DatasetReader& data, const LearningSpec& spec, const StopFlag* stop) {
+  LearningTable table;
+  table.handmade.names = {"mwr", "ccf", "sigma_r_m", "sigma_v_mps"};
+  table.inputs.reserve(data.size() * kInputCells);
+  std::size_t carriers = 1;
+  std::vector<std::vector<std::uint16_t>> codes;
+  table.probes = empty_probes(0);
+
+  for (std::size_t i = 0; i < data.shards(); ++i) {
+    if (stop && *stop) throw Interrupted();
+    const Shard shard = data.shard(i);
+    for (const Sample& sample : shard.samples) {
+      const SampleRecord& record = sample.record;
+      const std::array<double, 6> numbers{record.mwr,         record.ccf,    record.sigma_r_m,
+                                          record.sigma_v_mps, record.peak_m, record.energy_m2};
+      const bool finite = std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
+      if (!finite || (record.label != 0 && record.label != 1)) {
+        throw InputError(fmt::format("{}: sample {}: {}", (data.directory() / data.manifest().shards[i].file).string(),
+                                     record.sample, finite ? "label is neither 0 nor 1" : "a feature is not finite"));
+      }
+      table.groups.push_back({record.group, record.sea_state});
+      table.samples.push_back(record.sample);
+      table.labels.push_back(static_cast<int>(record.label));
+      table.wave_heights_m.push_back(record.significant_wave_height_m);
+      table.azimuths_deg.push_back(record.azimuth_deg);
+      for (std::size_t k = 0; k < 4; ++k) table.handmade.values.push_back(static_cast<float>(numbers[k]));
+      table.degenerate += record.degenerate != 0 ? 1 : 0;
+      const std::vector<float> input =
+          network_input(sample.magnitude, shard.axes.velocity_mps.size(), shard.axes.range_m.size(), spec.map_floor_db);
+      table.inputs.insert(table.inputs.end(), input.begin(), input.end());
+
+      const MapLevels levels = map_levels(sample, shard.axes);
+      const auto add = [&](ProbeIndex probe, double value) {
+        table.probes[probe].features.values.push_back(static_cast<float>(value));
+      };
+      add(kPower, decibel(record.energy_m2));
+      add(kPeak, 2 * decibel(record.peak_m));
+      add(kFloor, levels.floor_db);
+      add(kPedestal, levels.pedestal_db);
+      add(kAbove, levels.above_threshold);
+      add(kCentres, static_cast<double>(record.centres));
+      add(kOrder, static_cast<double>(record.sample));
+      add(kOrder, static_cast<double>(record.sample % 2));
+      codes.push_back(sample.hop_code);
+      for (const std::uint16_t carrier : sample.hop_code) carriers = std::max<std::size_t>(carriers, carrier + 1u);
+    }
+  }
+
+  const std::size_t bands = std::min<std::size_t>(carriers, 16);
+  table.probes[kHopCode].features.names = empty_probes(bands)[kHopCode].features.names;
+  for (const auto& code : codes) {
+    const std::vector<float> counts = carrier_counts(code, carriers, bands);
+    auto& values = table.probes[kHopCode].features.values;
+    values.insert(values.end(), counts.begin(), counts.end());
+  }
+  const std::size_t ships = static_cast<std::size_t>(std::count(table.labels.begin(), table.labels.end(), 1));
+  if (ships == 0 || ships == table.rows()) {
+    throw InputError(fmt::format("{}: all {} maps carry the label {}; learning needs both classes",
+                                 data.directory().string(), table.rows(), ships == 0 ? 0 : 1));
+  }
+  return table;
+}
+
+}  // namespace seaglint

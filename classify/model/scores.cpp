@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "classify/model/scores.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "sim/core/random.h"
+
+namespace seaglint {
+
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+// Mann and Whitney's statistic over n0 n1, from mid-ranks.
+double area_under_roc(std::span<const Prediction> predictions) {
+  std::vector<std::pair<double, int>> sorted;
+  for (const Prediction& p : predictions) sorted.emplace_back(p.probability, p.label);
+  std::sort(sorted.begin(), sorted.end());
+  double rank_sum = 0;
+  std::size_t ships = 0;
+  for (std::size_t begin = 0; begin < sorted.size();) {
+    std::size_t end = begin;
+    while (end < sorted.size() && sorted[end].first == sorted[begin].first) ++end;
+    const double mid_rank = 0.5 * static_cast<double>(begin + end + 1);
+    for (std::size_t i = begin; i < end; ++i) {
+      if (sorted[i].second == 1) {
+        rank_sum += mid_rank;
+        ++ships;
+      }
+    }
+    begin = end;
+  }
+  const double n1 = static_cast<double>(ships), n0 = static_cast<double>(sorted.size() - ships);
+  if (n0 == 0 || n1 == 0) return kNan;
+  return (rank_sum - 0.5 * n1 * (n1 + 1)) / (n0 * n1);
+}
+
+// 2.5 and 97.5 % points of the accuracy when groups are drawn with replacement.
+Interval bootstrap_accuracy(std::span<const Prediction> predictions, int samples, const RandomKey& key) {
+  struct Tally {
+    double right = 0;
+    double rows = 0;
+  };
+  std::map<std::int64_t, Tally> by_group;
+  for (const Prediction& p : predictions) {
+    Tally& tally = by_group[p.group];
+    tally.right += (p.probability >= 0.5) == (p.label == 1) ? 1 : 0;
+    tally.rows += 1;
+  }
+  if (by_group.size() < 2) return {kNan, kNan};
+  std::vector<Tally> groups;
+  for (const auto& entry : by_group) groups.push_back(entry.second);
+  Random random(key);
+  std::vector<double> accuracies;
+  for (int i = 0; i < samples; ++i) {
+    Tally sum;
+    for (std::size_t draw = 0; draw < groups.size(); ++draw) {
+      const Tally& tally = groups[random.below(static_cast<std::uint32_t>(groups.size()))];
+      sum.right += tally.right;
+      sum.rows += tally.rows;
+    }
+    accuracies.push_back(sum.right / sum.rows);
+  }
+  std::sort(accuracies.begin(), accuracies.end());
+  const auto quantile = [&](double p) {
+    const double place = p * static_cast<double>(accuracies.size() - 1);
+    const std::size_t below = static_cast<std::size_t>(place);
+    const std::size_t above = std::min(below + 1, accuracies.size() - 1);
+    return accuracies[below] + (place - static_cast<double>(below)) * (accuracies[above] - accuracies[below]);
+  };
+  return {quantile(0.025), quantile(0.975)};
+}
+
+}  // namespace
+
+Scores score(std::span<const Prediction> predictions, int bootstrap_samples, std::uint64_t seed,
+             std::uint64_t bootstrap_index) {
+  Scores scores;
+  scores.rows = predictions.size();
+  std::map<std::int64_t, int> groups;
+  double log_loss = 0;
+  for (const Prediction& p : predictions) {
+    groups[p.group] = 1;
+    ++scores.confusion[p.label == 1 ? 1 : 0][p.probability >= 0.5 ? 1 : 0];
+    const double given = p.label == 1 ? p.probability : 1 - p.probability;
+    log_loss -= std::log(std::clamp(given, 1e-7, 1.0));
+  }
+  scores.groups = groups.size();
+  const double n = static_cast<double>(scores.rows);
+  scores.accuracy = scores.rows == 0 ? kNan : static_cast<double>(scores.confusion[0][0] + scores.confusion[1][1]) / n;
+  scores.log_loss = scores.rows == 0 ? kNan : log_loss / n;
+  scores.auc = area_under_roc(predictions);
+  scores.accuracy_95 = bootstrap_accuracy(predictions, bootstrap_samples, {seed, Stream::kBootstrap, bootstrap_index});
+  return scores;
+}
+
+std::vector<WaveHeightScores> score_by_wave_height(std::span<const Prediction> predictions, int bootstrap_samples,
+                                                   std::uint64_t seed, std::uint64_t bootstrap_index) {
+  std::map<double, std::vector<Prediction>> by_height;
+  for (const Prediction& p : predictions) by_height[p.wave_height_m].push_back(p);
+  std::vector<WaveHeightScores> result;
+  for (const auto& [height, rows] : by_height) {
+    result.push_back({height, score(rows, bootstrap_samples, seed, bootstrap_index + 1 + result.size())});
+  }
+  return result;
+}
+
+}  // namespace seaglint

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "classify/model/study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "classify/cnn/network.h"
+#include "sim/core/error.h"
+#include "sim/core/file.h"
+#include "sim/core/progress.h"
+
+namespace seaglint {
+
+namespace {
+
+constexpr Protocol kProtocols[2] = {Protocol::kRandom, Protocol::kGroup};
+constexpr const char* kGroupNames[3] = {"handmade", "cnn", "fused"};
+
+Fusion other_fusion(Fusion fusion) { return fusion == Fusion::kSplit ? Fusion::kInSample : Fusion::kSplit; }
+
+std::vector<int> select(const std::vector<int>& labels, const std::vector<std::size_t>& rows) {
+  std::vector<int> selected;
+  for (const std::size_t row : rows) selected.push_back(labels[row]);
+  return selected;
+}
+
+// One training of network and trees: a repeat of a protocol with one way of fusing.
+struct Job {
+  std::uint64_t repeat = 0;
+  Protocol protocol = Protocol::kGroup;
+  Fusion fusion = Fusion::kSplit;
+};
+
+struct JobResult {
+  std::vector<Prediction> predictions[3];  // handmade, cnn, fused
+  std::size_t train_rows[3] = {0, 0, 0};
+  std::optional<Network> network;
+  std::vector<Booster> boosters;
+  FeatureMatrix embeddings;
+  Split split;
+};
+
+FeatureMatrix to_matrix(const Embeddings& embeddings) {
+  FeatureMatrix matrix;
+  for (std::size_t k = 0; k < embeddings.size; ++k) matrix.names.push_back(fmt::format("lambda_{}", k + 1));
+  matrix.names.push_back("logit");
+  for (std::size_t i = 0; i < embeddings.logits.size(); ++i) {
+    const auto begin = embeddings.values.begin() + static_cast<std::ptrdiff_t>(i * embeddings.size);
+    matrix.values.insert(matrix.values.end(), begin, begin + static_cast<std::ptrdiff_t>(embeddings.size));
+    matrix.values.push_back(embeddings.logits[i]);
+  }
+  return matrix;
+}
+
+std::vector<Prediction> predict_rows(const Booster& booster, const FeatureMatrix& features, const LearningTable& table,
+                                     const std::vector<std::size_t>& rows) {
+  const std::vector<double> probabilities = booster.predict(select_rows(features, rows));
+  std::vector<Prediction> predictions;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const std::size_t row = rows[i];
+    predictions.push_back(
+        {table.samples[row], table.groups[row].group, table.wave_heights_m[row], table.labels[row], probabilities[i]});
+  }
+  return predictions;
+}
+
+JobResult run_job(const Job& job, const LearningTable& table, const LearningSpec& spec, double train_share,
+                  std::uint64_t seed, const StopFlag* stop) {
+  JobResult result;
+  result.split = split_rows(table.groups, job.protocol, train_share, seed, job.repeat);
+  const Split fusion = split_for_fusion(table.groups, result.split, job.protocol, spec.network_share, seed, job.repeat);
+  const bool split = job.fusion == Fusion::kSplit;
+  const std::vector<std::size_t>& network_rows = split ? fusion.train : result.split.train;
+  const std::vector<std::size_t>& tree_rows = split ? fusion.test : result.split.train;
+  if (network_rows.empty() || tree_rows.empty() || result.split.test.empty()) {
+    throw InputError(
+        fmt::format("dataset: {} maps in too few groups leave nothing to train or to test on (protocol {}); raise "
+                    "dataset.realisations_per_case",
+                    table.rows(), name(job.protocol)));
+  }
+
+  const std::uint64_t index = (job.repeat * 2 + (job.protocol == Protocol::kGroup ? 1 : 0)) * 2 + (split ? 0 : 1);
+  result.network = Network::train(table.inputs, network_rows, table.labels, spec, seed, index, stop);
+  result.embeddings = to_matrix(result.network->embed(table.inputs));
+
+  const FeatureMatrix fused = join_columns(table.handmade, result.embeddings);
+  const FeatureMatrix* features[3] = {&table.handmade, &result.embeddings, &fused};
+  for (int group = 0; group < 3; ++group) {
+    result.train_rows[group] = tree_rows.size();
+    const Booster booster =
+        Booster::train(select_rows(*features[group], tree_rows), select(table.labels, tree_rows), spec);
+    result.predictions[group] = predict_rows(booster, *features[group], table, result.split.test);
+    result.boosters.push_back(booster);
+  }
+  return result;
+}
+
+// Bootstrap keys: a block of 1000 per evaluation.
+class Evaluator {
+ public:
+  Evaluator(const LearningSpec& spec, std::uint64_t seed) : spec_(spec), seed_(seed) {}
+
+  Evaluation operator()(const std::vector<Prediction>& predictions, std::size_t train_rows) {
+    const std::uint64_t index = 1000 * next_++;
+    return {score(predictions, spec_.bootstrap_samples, seed_, index),
+            score_by_wave_height(predictions, spec_.bootstrap_samples, seed_, index), train_rows};
+  }
+
+ private:
+  const LearningSpec& spec_;
+  std::uint64_t seed_;
+  std::uint64_t next_ = 0;
+};
+
+std::vector<ProbeResult> run_probes(const LearningTable& table, const LearningSpec& spec, double train_share,
+                                    std::uint64_t seed, Evaluator& evaluate) {
+  std::vector<ProbeResult> results;
+  for (const Probe& probe : table.probes) {
+    ProbeResult result{probe.name, probe.kind, probe.meaning, {}};
+    for (const Protocol protocol : kProtocols) {
+      std::vector<Prediction> predictions;
+      std::size_t train_rows = 0;
+      for (int repeat = 0; repeat < spec.split_repeats; ++repeat) {
+        const Split split = split_rows(table.groups, protocol, train_share, seed, static_cast<std::uint64_t>(repeat));
+        const Booster booster =
+            Booster::train(select_rows(probe.features, split.train), select(table.labels, split.train), spec);
+        const std::vector<Prediction> more = predict_rows(booster, probe.features, table, split.test);
+        predictions.insert(predictions.end(), more.begin(), more.end());
+        if (repeat == 0) train_rows = split.train.size();
+      }
+      result.evaluations.push_back(evaluate(predictions, train_rows));
+    }
+    results.push_back(std::move(result));
+  }
+  return results;
+}
+
+std::string splits_csv(const LearningTable& table, const std::vector<Split>& splits) {
+  std::string text = "sample,group,label,random,by_group\n";
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const auto side = [row](const Split& split) {
+      return std::binary_search(split.train.begin(), split.train.end(), row) ? "train" : "test";
+    };
+    text += fmt::format("{},{},{},{},{}\n", table.samples[row], table.groups[row].group, table.labels[row],
+                        side(splits[0]), side(splits[1]));
+  }
+  return text;
+}
+
+}  // namespace
+
+Study run_study(const LearningTable& table, const LearningSpec& spec, double train_share, std::uint64_t seed,
+                const std::filesystem::path& model_directory, int threads, const StopFlag* stop) {
+  std::vector<Job> jobs;
+  for (const Protocol protocol : kProtocols) {
+    for (const Fusion fusion : {spec.fusion, other_fusion(spec.fusion)}) {
+      for (int repeat = 0; repeat < spec.split_repeats; ++repeat) {
+        jobs.push_back({static_cast<std::uint64_t>(repeat), protocol, fusion});
+      }
+    }
+  }
+  std::vector<JobResult> done(jobs.size());
+  Progress progress("training", jobs.size());
+  parallel_for(
+      jobs.size(), threads,
+      [&](std::size_t i) {
+        done[i] = run_job(jobs[i], table, spec, train_share, seed, stop);
+        progress.advance();
+      },
+      stop);
+
+  // Job numbers: protocol slowest, then main and other fusion, then repeat.
+  const std::size_t repeats = static_cast<std::size_t>(spec.split_repeats);
+  const auto pooled = [&](std::size_t protocol, std::size_t fusion, int group) {
+    std::vector<Prediction> predictions;
+    for (std::size_t repeat = 0; repeat < repeats; ++repeat) {
+      const auto& more = done[(protocol * 2 + fusion) * repeats + repeat].predictions[group];
+      predictions.insert(predictions.end(), more.begin(), more.end());
+    }
+    return predictions;
+  };
+
+  Study study;
+  Evaluator evaluate(spec, seed);
+  for (int group = 0; group < 3; ++group) {
+    FeatureGroupResult result;
+    result.name = kGroupNames[group];
+    for (std::size_t protocol = 0; protocol < 2; ++protocol) {
+      Outcome outcome;
+      outcome.protocol = kProtocols[protocol];
+      // Hand-made features need no network: their main result uses every training row, which is what `in_sample` gives
+      // the trees.
+      const bool swap = group == 0 && spec.fusion == Fusion::kSplit;
+      for (std::size_t place = 0; place < 2; ++place) {
+        const std::size_t fusion = swap ? 1 - place : place;
+        (place == 0 ? outcome.main : outcome.other) =
+            evaluate(pooled(protocol, fusion, group), done[(protocol * 2 + fusion) * repeats].train_rows[group]);
+        if (place == 0 && kProtocols[protocol] == Protocol::kGroup) {
+          const JobResult& first = done[(protocol * 2 + fusion) * repeats];
+          const FeatureMatrix& embeddings = first.embeddings;
+          if (group != 1) result.columns = table.handmade.names;
+          if (group != 0) result.columns.insert(result.columns.end(), embeddings.names.begin(), embeddings.names.end());
+          result.gain = first.boosters[static_cast<std::size_t>(group)].gains(result.columns.size());
+          first.boosters[static_cast<std::size_t>(group)].save(model_directory /
+                                                               fmt::format("{}.json", kGroupNames[group]));
+        }
+      }
+      result.outcomes.push_back(outcome);
+    }
+    study.groups.push_back(std::move(result));
+  }
+  study.probes = run_probes(table, spec, train_share, seed, evaluate);
+
+  const JobResult& random = done[0];
+  JobResult& group = done[2 * repeats];
+  study.network_parameters = group.network->parameter_count();
+  study.network_losses = group.network->losses();
+  study.splits = {random.split, group.split};
+  study.embeddings = std::move(group.embeddings);
+  group.network->save(model_directory / "network.bin");
+  write_file(model_directory / "splits.csv", splits_csv(table, study.splits));
+  return study;
+}
+
+}  // namespace seaglint

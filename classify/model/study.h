@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// The whole evaluation of a data set: three groups of features (hand-made, network, both), each with the same trees,
+// under two protocols (random rows as in the paper, whole seas) and two ways of fusing network and trees, with probes
+// for what would give the class away.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "classify/model/learning_table.h"
+#include "classify/model/scores.h"
+
+namespace seaglint {
+
+struct Evaluation {
+  Scores scores;
+  std::vector<WaveHeightScores> by_wave_height;
+  std::size_t train_rows = 0;  // rows that the trees saw, of the first repeat
+};
+
+// How one group of features did under one protocol.
+struct Outcome {
+  Protocol protocol = Protocol::kGroup;
+  Evaluation main;   // hand-made: trees on all training rows; others: the scenario's fusion
+  Evaluation other;  // hand-made: trees on the rows that fusion `split` leaves them; others: the other fusion
+};
+
+struct FeatureGroupResult {
+  std::string name;  // handmade, cnn, fused
+  std::vector<std::string> columns;
+  std::vector<double> gain;       // share of the trees' gain per column, group protocol, first repeat
+  std::vector<Outcome> outcomes;  // random, then group
+};
+
+struct ProbeResult {
+  std::string name;
+  ProbeKind kind = ProbeKind::kBlind;
+  std::string meaning;
+  std::vector<Evaluation> evaluations;  // random, then group
+};
+
+struct Study {
+  std::vector<FeatureGroupResult> groups;  // handmade, cnn, fused
+  std::vector<ProbeResult> probes;
+  std::size_t network_parameters = 0;
+  std::vector<double> network_losses;  // per epoch, group protocol, main fusion, first repeat
+  std::vector<Split> splits;           // random, then group, of the first repeat
+  FeatureMatrix embeddings;            // of all rows, of that network: embedding values, then the logit
+};
+
+// Trains, evaluates, and saves the models of the group protocol (first repeat, main fusion) in `model_directory`:
+// network.bin, handmade.json, cnn.json, fused.json, splits.csv. The result depends on data, spec and seed alone, not on
+// `threads`.
+Study run_study(const LearningTable& table, const LearningSpec& spec, double train_share, std::uint64_t seed,
+                const std::filesystem::path& model_directory, int threads, const StopFlag* stop = nullptr);
+
+// The table of accuracies against wave height as plain text.
+std::string accuracy_table(const Study& study);
+
+// The study as a JSON object with the members handmade, cnn, fused, probes, network.
+std::string to_json(const Study& study, const LearningSpec& spec);
+
+}  // namespace seaglint

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The study in words: the accuracy table of the terminal and the numbers of metrics.json.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "classify/model/study.h"
+
+namespace seaglint {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+// JSON has no NaN: what is not defined is null.
+ordered_json number(double value) { return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr); }
+
+ordered_json to_object(const Scores& scores) {
+  ordered_json json;
+  json["rows"] = scores.rows;
+  json["groups"] = scores.groups;
+  json["accuracy"] = number(scores.accuracy);
+  json["accuracy_95"] = {number(scores.accuracy_95.low), number(scores.accuracy_95.high)};
+  json["auc"] = number(scores.auc);
+  json["log_loss"] = number(scores.log_loss);
+  json["confusion"] = {{"array_as_array", scores.confusion[0][0]},
+                       {"array_as_ship", scores.confusion[0][1]},
+                       {"ship_as_array", scores.confusion[1][0]},
+                       {"ship_as_ship", scores.confusion[1][1]}};
+  return json;
+}
+
+ordered_json to_object(const Evaluation& evaluation) {
+  ordered_json json = to_object(evaluation.scores);
+  json["train_rows"] = evaluation.train_rows;
+  json["by_wave_height"] = ordered_json::array();
+  for (const WaveHeightScores& entry : evaluation.by_wave_height) {
+    ordered_json row;
+    row["significant_wave_height_m"] = entry.wave_height_m;
+    row.update(to_object(entry.scores));
+    json["by_wave_height"].push_back(row);
+  }
+  return json;
+}
+
+const char* fusion_name(Fusion fusion) { return fusion == Fusion::kSplit ? "split" : "in_sample"; }
+
+std::string percent(const Scores& scores) {
+  if (!std::isfinite(scores.accuracy)) return "-";
+  if (!std::isfinite(scores.accuracy_95.low)) return fmt::format("{:.1f}", 100 * scores.accuracy);
+  return fmt::format("{:.1f} ({:.0f}-{:.0f})", 100 * scores.accuracy, 100 * scores.accuracy_95.low,
+                     100 * scores.accuracy_95.high);
+}
+
+}  // namespace
+
+std::string to_json(const Study& study, const LearningSpec& spec) {
+  ordered_json json;
+  const Fusion other = spec.fusion == Fusion::kSplit ? Fusion::kInSample : Fusion::kSplit;
+  for (const FeatureGroupResult& group : study.groups) {
+    ordered_json entry;
+    entry["columns"] = group.columns;
+    entry["gain"] = group.gain;
+    const bool handmade = group.name == "handmade";
+    if (!handmade) entry["fusion"] = fusion_name(spec.fusion);
+    ordered_json others;
+    for (const Outcome& outcome : group.outcomes) {
+      entry[name(outcome.protocol)] = to_object(outcome.main);
+      others[name(outcome.protocol)] = to_object(outcome.other);
+    }
+    entry[handmade ? "fewer_rows" : fusion_name(other)] = others;
+    json[group.name] = entry;
+  }
+  json["probes"] = ordered_json::array();
+  for (const ProbeResult& probe : study.probes) {
+    ordered_json entry{{"name", probe.name}, {"kind", name(probe.kind)}, {"meaning", probe.meaning}};
+    entry["random"] = to_object(probe.evaluations[0]);
+    entry["group"] = to_object(probe.evaluations[1]);
+    json["probes"].push_back(entry);
+  }
+  json["network"] = {{"parameters", study.network_parameters},
+                     {"epochs", spec.epochs},
+                     {"threads", spec.threads},
+                     {"training_loss", study.network_losses}};
+  return json.dump(2);
+}
+
+std::string accuracy_table(const Study& study) {
+  std::string text = "Accuracy in % (95 % interval by bootstrap over seas), XGBoost on three groups of features\n\n";
+  for (std::size_t protocol = 0; protocol < 2; ++protocol) {
+    text += protocol == 0 ? "random split of the maps (the paper's protocol)\n"
+                          : "\nsplit by sea realisation (no test sea was seen in training)\n";
+    text += fmt::format("  {:<10}{:>18}{:>18}{:>18}\n", "Hs [m]", "hand-made", "CNN", "fused");
+    const auto& heights = study.groups.front().outcomes[protocol].main.by_wave_height;
+    for (std::size_t i = 0; i <= heights.size(); ++i) {
+      text += fmt::format("  {:<10}", i < heights.size() ? fmt::format("{:g}", heights[i].wave_height_m) : "all");
+      for (const FeatureGroupResult& group : study.groups) {
+        const Evaluation& evaluation = group.outcomes[protocol].main;
+        text += fmt::format("{:>18}",
+                            percent(i < heights.size() ? evaluation.by_wave_height[i].scores : evaluation.scores));
+      }
+      text += "\n";
+    }
+  }
+  return text;
+}
+
+}  // namespace seaglint

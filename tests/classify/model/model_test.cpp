@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <set>
+
+#include "classify/model/booster.h"
+#include "classify/model/scores.h"
+#include "classify/model/split.h"
+#include "sim/core/error.h"
+#include "sim/core/file.h"
+#include "sim/core/random.h"
+
+namespace seaglint {
+namespace {
+
+// 3 sea states, 5 seas of each, 20 maps of each sea.
+std::vector<RowGroup> fifteen_seas() {
+  std::vector<RowGroup> rows;
+  for (int group = 0; group < 15; ++group) rows.insert(rows.end(), 20, {group, group / 5});
+  return rows;
+}
+
+TEST(Split, ByGroupNeverDividesASea) {
+  const auto rows = fifteen_seas();
+  for (std::uint64_t repeat = 0; repeat < 20; ++repeat) {
+    const Split split = split_rows(rows, Protocol::kGroup, 0.7, 42, repeat);
+    std::set<std::int64_t> train, test;
+    for (const std::size_t row : split.train) train.insert(rows[row].group);
+    for (const std::size_t row : split.test) test.insert(rows[row].group);
+    for (const std::int64_t group : test) EXPECT_FALSE(train.contains(group));
+    EXPECT_EQ(split.train.size() + split.test.size(), rows.size());
+    // 10.5 groups of 15, and every sea state on both sides.
+    EXPECT_NEAR(static_cast<double>(train.size()), 10.5, 0.5);
+    std::set<std::int64_t> states;
+    for (const std::int64_t group : test) states.insert(group / 5);
+    EXPECT_EQ(states.size(), 3u);
+  }
+}
+
+TEST(Split, ByRowsGivesTheShareAndCutsThroughSeas) {
+  const auto rows = fifteen_seas();
+  const Split split = split_rows(rows, Protocol::kRandom, 0.7, 42, 0);
+  EXPECT_EQ(split.train.size(), 210u);
+  EXPECT_EQ(split.test.size(), 90u);
+  std::set<std::int64_t> train, shared;
+  for (const std::size_t row : split.train) train.insert(rows[row].group);
+  for (const std::size_t row : split.test) {
+    if (train.contains(rows[row].group)) shared.insert(rows[row].group);
+  }
+  EXPECT_EQ(shared.size(), 15u);
+}
+
+TEST(Split, DependsOnSeedAndRepeatOnly) {
+  const auto rows = fifteen_seas();
+  for (const Protocol protocol : {Protocol::kRandom, Protocol::kGroup}) {
+    EXPECT_EQ(split_rows(rows, protocol, 0.7, 42, 0).test, split_rows(rows, protocol, 0.7, 42, 0).test);
+    EXPECT_NE(split_rows(rows, protocol, 0.7, 42, 0).test, split_rows(rows, protocol, 0.7, 43, 0).test);
+    EXPECT_NE(split_rows(rows, protocol, 0.7, 42, 0).test, split_rows(rows, protocol, 0.7, 42, 1).test);
+  }
+}
+
+TEST(Split, ForFusionDividesTheTrainingRowsOnly) {
+  const auto rows = fifteen_seas();
+  for (const Protocol protocol : {Protocol::kRandom, Protocol::kGroup}) {
+    const Split split = split_rows(rows, protocol, 0.7, 42, 0);
+    const Split fusion = split_for_fusion(rows, split, protocol, 0.6, 42, 0);
+    std::set<std::size_t> all(fusion.train.begin(), fusion.train.end());
+    all.insert(fusion.test.begin(), fusion.test.end());
+    EXPECT_EQ(std::vector<std::size_t>(all.begin(), all.end()), split.train);
+    EXPECT_EQ(fusion.train.size() + fusion.test.size(), split.train.size());
+  }
+}
+
+std::vector<Prediction> predictions_of(std::initializer_list<std::pair<int, double>> rows) {
+  std::vector<Prediction> predictions;
+  for (const auto& [label, probability] : rows) {
+    const std::int64_t number = static_cast<std::int64_t>(predictions.size());
+    predictions.push_back({number, number, 1.0, label, probability});
+  }
+  return predictions;
+}
+
+TEST(Scores, AreThoseOfASmallExampleByHand) {
+  const auto predictions = predictions_of({{1, 0.9}, {1, 0.4}, {0, 0.4}, {0, 0.1}, {0, 0.7}});
+  const Scores scores = score(predictions, 100, 1, 0);
+  EXPECT_DOUBLE_EQ(scores.accuracy, 3.0 / 5);
+  // Pairs (ship, array) ranked rightly: 0.9 beats all three; 0.4 ties 0.4, beats 0.1, loses to 0.7: (3 + 1.5) / 6.
+  EXPECT_DOUBLE_EQ(scores.auc, 4.5 / 6);
+  EXPECT_NEAR(scores.log_loss, -(std::log(0.9) + std::log(0.4) + std::log(0.6) + std::log(0.9) + std::log(0.3)) / 5,
+              1e-12);
+  EXPECT_EQ(scores.confusion[1][1], 1u);
+  EXPECT_EQ(scores.confusion[1][0], 1u);
+  EXPECT_EQ(scores.confusion[0][0], 2u);
+  EXPECT_EQ(scores.confusion[0][1], 1u);
+}
+
+TEST(Scores, HaveNoIntervalFromOneSea) {
+  auto predictions = predictions_of({{1, 0.9}, {0, 0.8}});
+  for (Prediction& p : predictions) p.group = 3;
+  EXPECT_TRUE(std::isnan(score(predictions, 100, 1, 0).accuracy_95.low));
+}
+
+TEST(Scores, BootstrapIntervalOfIndependentRowsIsTheBinomialOne) {
+  std::vector<Prediction> predictions;
+  for (int i = 0; i < 400; ++i) predictions.push_back({i, i, 1.0, 1, i % 5 == 0 ? 0.1 : 0.9});
+  const Scores scores = score(predictions, 4000, 1, 0);
+  // Accuracy 0.8, standard error sqrt(0.8 0.2 / 400) = 0.02; the bootstrap's own error of a 2.5 % point at 4000 draws
+  // is below 5 % of the half width, and one row is 0.0025.
+  EXPECT_NEAR(scores.accuracy_95.low, 0.8 - 1.96 * 0.02, 0.005);
+  EXPECT_NEAR(scores.accuracy_95.high, 0.8 + 1.96 * 0.02, 0.005);
+}
+
+TEST(Scores, BootstrapIntervalGrowsWhenRowsOfASeaAgree) {
+  std::vector<Prediction> predictions;
+  for (int i = 0; i < 400; ++i) predictions.push_back({i, i / 20, 1.0, 1, (i / 20) % 5 == 0 ? 0.1 : 0.9});
+  const Scores scores = score(predictions, 4000, 1, 0);
+  // Twenty independent seas instead of 400 rows: the standard error is sqrt(0.8 0.2 / 20) = 0.089.
+  EXPECT_GT(scores.accuracy_95.high - scores.accuracy_95.low, 0.25);
+}
+
+// Two columns of noise, the label is the sign of a third.
+FeatureMatrix noise_and_signal(std::vector<int>& labels, int rows) {
+  FeatureMatrix features{{"noise_1", "noise_2", "signal"}, {}};
+  Random random({5, Stream::kTest, 0});
+  labels.clear();
+  for (int i = 0; i < rows; ++i) {
+    const double signal = random.normal();
+    for (const double value : {random.normal(), random.normal(), signal})
+      features.values.push_back(static_cast<float>(value));
+    labels.push_back(signal > 0 ? 1 : 0);
+  }
+  return features;
+}
+
+TEST(Booster, FindsTheColumnThatTells) {
+  std::vector<int> labels;
+  const FeatureMatrix features = noise_and_signal(labels, 400);
+  const Booster booster = Booster::train(features, labels, LearningSpec{});
+  const std::vector<double> probabilities = booster.predict(features);
+  int right = 0;
+  for (std::size_t i = 0; i < labels.size(); ++i) right += (probabilities[i] >= 0.5) == (labels[i] == 1) ? 1 : 0;
+  EXPECT_GT(right, 395);
+  const std::vector<double> gains = booster.gains(3);
+  EXPECT_GT(gains[2], 0.8);
+  EXPECT_NEAR(gains[0] + gains[1] + gains[2], 1, 1e-6);
+}
+
+TEST(Booster, RepeatsBitForBitAndComesBackFromItsFile) {
+  std::vector<int> labels;
+  const FeatureMatrix features = noise_and_signal(labels, 200);
+  const Booster first = Booster::train(features, labels, LearningSpec{});
+  const Booster second = Booster::train(features, labels, LearningSpec{});
+  EXPECT_EQ(first.predict(features), second.predict(features));
+
+  const auto file =
+      std::filesystem::temp_directory_path() / ("seaglint_booster_" + std::to_string(::getpid()) + ".json");
+  first.save(file);
+  EXPECT_EQ(Booster::load(file).predict(features), first.predict(features));
+  const std::string bytes = read_file(file);
+  for (const std::string& broken :
+       {std::string(), bytes.substr(0, bytes.size() / 2), std::string("{}"), std::string("text")}) {
+    write_file(file, broken);
+    EXPECT_THROW(Booster::load(file), InputError) << broken.size() << " bytes";
+  }
+  std::filesystem::remove(file);
+}
+
+TEST(Booster, GivesOneProbabilityWhenThereIsNothingToLearn) {
+  FeatureMatrix features{{"constant"}, std::vector<float>(50, 1.0f)};
+  std::vector<int> labels(50, 0);
+  for (std::size_t i = 0; i < 25; ++i) labels[i] = 1;
+  const Booster booster = Booster::train(features, labels, LearningSpec{});
+  for (const double p : booster.predict(features)) EXPECT_NEAR(p, 0.5, 0.1);
+  EXPECT_EQ(booster.gains(1)[0], 0);
+}
+
+}  // namespace
+}  // namespace seaglint
