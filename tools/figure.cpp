@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/figure.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+#include "sim/core/error.h"
+#include "sim/core/file.h"
+
+extern char** environ;
+
+namespace seaglint {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Nine samples of matplotlib's viridis (Smith and van der Walt, CC0).
+constexpr const char* kViridis =
+    "set palette defined (0 '#440154', 1 '#472c7a', 2 '#3b518b', 3 '#2c718e', 4 '#21908d', 5 '#27ad81', 6 '#5cc863', 7 "
+    "'#aadc32', "
+    "8 '#fde725')\n";
+// Okabe and Ito's palette, told apart by colour-blind readers.
+constexpr const char* kLineColours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"};
+
+// A string in gnuplot's single quotes; line breaks would end the command.
+std::string quoted(const std::string& text) {
+  std::string out = "'";
+  for (const char c : text) {
+    if (c == '\'') out += '\'';
+    out += c == '\n' || c == '\r' ? ' ' : c;
+  }
+  return out + "'";
+}
+
+std::string number(double value) { return std::isfinite(value) ? fmt::format("{:.9g}", value) : "NaN"; }
+
+// Files beside the figure, removed at the end whatever happens.
+class Scratch {
+ public:
+  explicit Scratch(const fs::path& figure) {
+    static std::atomic<unsigned> count{0};
+    const std::string stem = fmt::format("{}.{}.{}", figure.filename().string(), ::getpid(), count++);
+    const fs::path folder = figure.has_parent_path() ? figure.parent_path() : fs::path(".");
+    script = folder / (stem + ".gp");
+    data = folder / (stem + ".dat");
+    messages = folder / (stem + ".log");
+  }
+  ~Scratch() {
+    std::error_code ignored;
+    for (const fs::path& file : {script, data, messages}) fs::remove(file, ignored);
+  }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+
+  fs::path script, data, messages;
+};
+
+// Runs gnuplot on a script, its messages into a file. Throws WorkError.
+void run_gnuplot(const Scratch& scratch) {
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, scratch.messages.c_str(), O_WRONLY | O_CREAT | O_TRUNC,
+                                   0600);
+  posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
+  std::string program = "gnuplot", option = "-d",
+              script = scratch.script.string();  // -d: no start-up files of the user
+  char* const arguments[] = {program.data(), option.data(), script.data(), nullptr};
+  pid_t child = 0;
+  const int refused = ::posix_spawnp(&child, "gnuplot", &actions, nullptr, arguments, environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (refused != 0)
+    throw WorkError(
+        fmt::format("gnuplot cannot be started ({}): install the package gnuplot-nox", std::strerror(refused)));
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0) {
+    if (errno != EINTR) throw WorkError(fmt::format("gnuplot was lost ({})", std::strerror(errno)));
+  }
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
+  std::string messages = fs::exists(scratch.messages) ? read_file(scratch.messages) : std::string();
+  messages.erase(0, messages.find_first_not_of(" \n"));
+  std::replace(messages.begin(), messages.end(), '\n', ' ');
+  throw WorkError(fmt::format("gnuplot failed: {}", messages.substr(0, 500)));
+}
+
+std::string axis_commands(const char* name, const FigureAxis& axis) {
+  std::string text = fmt::format("set {}label {}\n", name, quoted(axis.label));
+  if (axis.logarithmic) text += fmt::format("set logscale {}\n", name);
+  if (axis.range)
+    text += fmt::format("set {}range [{}:{}]\n", name, number(axis.range->first), number(axis.range->second));
+  return text;
+}
+
+// Writes data and script, runs gnuplot into a temporary file, and gives it the figure's name.
+void draw(const fs::path& file, FigureSize size, const std::string& title, const std::string& data,
+          const std::string& commands) {
+  const std::string extension = file.extension();
+  if (extension != ".png" && extension != ".svg") {
+    throw InputError(fmt::format("{}: a figure's name ends in .png or .svg", file.string()));
+  }
+  const Scratch scratch(file);
+  write_file(scratch.data, data);
+  write_file_with(file, [&](const fs::path& temporary) {
+    std::string script =
+        fmt::format("set terminal {} size {},{} font 'DejaVu Sans,11' noenhanced background '#ffffff'\n",
+                    extension == ".png" ? "pngcairo" : "svg", size.width, size.height);
+    script += fmt::format("set output {}\n", quoted(temporary.string()));
+    script +=
+        "set encoding utf8\nset datafile missing '?'\nset pointintervalbox 0\nset tics out nomirror\nset border lw "
+        "0.8\n";
+    script += fmt::format("data = {}\n", quoted(scratch.data.string()));
+    if (!title.empty()) script += fmt::format("set title {}\n", quoted(title));
+    script += commands + "set output\n";
+    write_file(scratch.script, script);
+    run_gnuplot(scratch);
+  });
+}
+
+}  // namespace
+
+void write_figure(const Heatmap& figure, const fs::path& file, FigureSize size) {
+  const std::size_t columns = figure.x_cells.size(), rows = figure.y_cells.size();
+  SEAGLINT_CHECK(columns >= 1 && rows >= 1 && figure.values.size() == columns * rows,
+                 fmt::format("{} values for {} x {} cells", figure.values.size(), rows, columns));
+  // Corners of the cells, so that also a single row or column is drawn: pm3d colours the cell by its first corner.
+  const auto corners = [](const std::vector<double>& cells) {
+    const double step = cells.size() > 1 ? (cells.back() - cells.front()) / static_cast<double>(cells.size() - 1) : 1;
+    std::vector<double> out;
+    for (std::size_t i = 0; i <= cells.size(); ++i) out.push_back(cells[0] + (static_cast<double>(i) - 0.5) * step);
+    return out;
+  };
+  const std::vector<double> x = corners(figure.x_cells), y = corners(figure.y_cells);
+  const bool image = columns > 1 && rows > 1;
+  std::string data;
+  if (image) {
+    for (std::size_t j = 0; j < rows; ++j) {
+      for (std::size_t i = 0; i < columns; ++i) {
+        data += fmt::format("{:.9g} {:.9g} {}\n", figure.x_cells[i], figure.y_cells[j],
+                            number(figure.values[j * columns + i]));
+      }
+      data += "\n";
+    }
+  } else {
+    for (std::size_t j = 0; j <= rows; ++j) {
+      for (std::size_t i = 0; i <= columns; ++i) {
+        data += fmt::format("{:.9g} {:.9g} {}\n", x[i], y[j],
+                            number(figure.values[std::min(j, rows - 1) * columns + std::min(i, columns - 1)]));
+      }
+      data += "\n";
+    }
+  }
+  data += "\n\n";
+  for (const auto& marker : figure.markers) data += fmt::format("{} {}\n", number(marker[0]), number(marker[1]));
+
+  FigureAxis x_axis = figure.x, y_axis = figure.y;
+  if (!x_axis.range) x_axis.range = AxisRange{x.front(), x.back()};
+  if (!y_axis.range) y_axis.range = AxisRange{y.front(), y.back()};
+  std::string commands =
+      axis_commands("x", x_axis) + axis_commands("y", y_axis) + axis_commands("cb", figure.colour) + kViridis;
+  commands += image ? "" : "set pm3d map corners2color c1\n";
+  commands += "set key outside bottom right horizontal reverse Left samplen 1\n";
+  commands +=
+      image ? "plot data index 0 using 1:2:3 with image notitle" : "splot data index 0 using 1:2:3 with pm3d notitle";
+  if (!figure.markers.empty()) {
+    commands += fmt::format(", data index 1 using 1:2{} with points pt 6 ps 1.6 lw 1.3 lc rgb '#ff3b30' {}",
+                            image ? "" : ":(0)",
+                            figure.marker_name.empty() ? "notitle" : "title " + quoted(figure.marker_name));
+  }
+  draw(file, size, figure.title, data, commands + "\n");
+}
+
+void write_figure(const LinePlot& figure, const fs::path& file, FigureSize size) {
+  std::string data, plots;
+  bool named = false;
+  for (std::size_t s = 0; s < figure.series.size(); ++s) {
+    const Series& series = figure.series[s];
+    SEAGLINT_CHECK(
+        series.x.size() == series.y.size() && (series.interval.empty() || series.interval.size() == series.x.size()),
+        fmt::format("series {}: {} x, {} y, {} intervals", s, series.x.size(), series.y.size(),
+                    series.interval.size()));
+    for (std::size_t i = 0; i < series.x.size(); ++i) {
+      const auto interval =
+          series.interval.empty() ? std::array<double, 2>{series.y[i], series.y[i]} : series.interval[i];
+      data += fmt::format("{} {} {} {}\n", number(series.x[i]), number(series.y[i]), number(interval[0]),
+                          number(interval[1]));
+    }
+    if (series.x.empty()) data += "NaN NaN NaN NaN\n";
+    data += "\n\n";
+    const char* colour = kLineColours[s % std::size(kLineColours)];
+    const std::string title = series.name.empty() ? "notitle" : "title " + quoted(series.name);
+    named = named || !series.name.empty();
+    const std::string index = fmt::format("data index {} using ", s);
+    if (!series.interval.empty()) {
+      plots += fmt::format("{}1:2:3:4 with yerrorbars lc rgb '{}' lw 1.2 ps 0 notitle, ", index, colour);
+    }
+    if (series.style == SeriesStyle::kBars) {
+      plots += fmt::format("{}1:2 with boxes fs solid 0.7 lc rgb '{}' {}, ", index, colour, title);
+    } else {
+      const bool line = series.style == SeriesStyle::kLines;
+      const char* style = line ? "lines" : series.style == SeriesStyle::kPoints ? "points" : "linespoints";
+      const std::string marks = line ? "" : fmt::format("pt {} ps 0.8", s % 2 == 0 ? 7 : 5);
+      plots += fmt::format("{}1:2 with {} lc rgb '{}' lw 1.6 {} {}, ", index, style, colour, marks, title);
+    }
+  }
+  SEAGLINT_CHECK(!plots.empty(), "a plot without series");
+  std::string commands = axis_commands("x", figure.x) + axis_commands("y", figure.y);
+  commands += "set grid lc rgb '#d8d8d8' lw 0.6\nset boxwidth 0.8 relative\n";
+  commands += named ? "set key outside right top reverse Left samplen 2\n" : "unset key\n";
+  if (!figure.x.range && !figure.x.logarithmic)
+    commands += "set autoscale xfix\nset offsets graph 0.03, graph 0.03, 0, 0\n";
+  if (figure.equal_axes) commands += "set size ratio -1\n";
+  draw(file, size, figure.title, data, commands + "plot " + plots.substr(0, plots.size() - 2) + "\n");
+}
+
+}  // namespace seaglint

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// Figures by gnuplot: heat maps, lines and scatters to .png or .svg, chosen by the file's name.
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace seaglint {
+
+using AxisRange = std::pair<double, double>;  // low, high
+
+struct FigureAxis {
+  std::string label;               // with its unit, e.g. "range (m)"
+  std::optional<AxisRange> range;  // the data's own when absent
+  bool logarithmic = false;
+};
+
+struct Heatmap {
+  std::string title;
+  FigureAxis x, y;
+  FigureAxis colour;            // the range clips
+  std::vector<double> x_cells;  // centres of equal cells, ascending
+  std::vector<double> y_cells;
+  std::vector<double> values;                  // [y][x]; NaN stays white
+  std::vector<std::array<double, 2>> markers;  // x, y of open circles
+  std::string marker_name;                     // in the legend, when not empty
+};
+
+enum class SeriesStyle { kLines, kPoints, kLinesPoints, kBars };
+
+struct Series {
+  std::string name;  // in the legend, when not empty
+  std::vector<double> x;
+  std::vector<double> y;                        // NaN breaks a line
+  std::vector<std::array<double, 2>> interval;  // low, high of error bars; empty or one per point
+  SeriesStyle style = SeriesStyle::kLines;
+};
+
+struct LinePlot {
+  std::string title;
+  FigureAxis x, y;
+  std::vector<Series> series;
+  bool equal_axes = false;  // one metre is one metre in x and y
+};
+
+struct FigureSize {
+  int width = 900;  // pixels
+  int height = 560;
+};
+
+// Writes the figure whole or not at all. Text is taken literally (no markup). Temporary files stand beside the figure
+// and are removed. Throws InputError for a file that is neither .png nor .svg, WorkError when gnuplot is missing or
+// fails (with its message) or the disk refuses.
+void write_figure(const Heatmap& figure, const std::filesystem::path& file, FigureSize size = {});
+void write_figure(const LinePlot& figure, const std::filesystem::path& file, FigureSize size = {});
+
+}  // namespace seaglint
