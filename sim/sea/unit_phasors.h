@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// Cosines and sines of many angles at once, from IEEE-exact operations only: the same bits on every machine.
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace seaglint {
+
+// cosine[i], sine[i] of angle[i] (radians), |angle| <= kLargestAngle; absolute error below 4e-16. Spans of one length.
+void unit_phasors(std::span<const double> angle, std::span<double> cosine, std::span<double> sine);
+inline constexpr double kLargestAngle = 1e8;
+
+// Phasors e^{j(omega_i t + phase_i)} at t = start + n step for n = 0, 1, 2, ...: each step turns them by a constant
+// phasor, and every kResynchronise steps they are formed anew from their angles. Error below 1e-13.
+class UniformPhasors {
+ public:
+  static constexpr int kResynchronise = 64;
+
+  UniformPhasors(std::vector<double> omega, std::vector<double> phase, double start, double step);
+
+  void advance();
+  double time() const { return start_ + step_ * static_cast<double>(count_); }
+  std::span<const double> cosine() const { return cosine_; }
+  std::span<const double> sine() const { return sine_; }
+
+ private:
+  void synchronise();
+
+  std::vector<double> omega_, phase_;
+  double start_, step_;
+  long long count_ = 0;
+  std::vector<double> turn_cosine_, turn_sine_;
+  std::vector<double> cosine_, sine_, angle_;
+};
+
+}  // namespace seaglint

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/sea/wave_field.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "sim/core/constants.h"
+#include "tests/sim/sea/reference_table.h"
+
+namespace seaglint {
+namespace {
+
+constexpr double kNoCutoff = std::numeric_limits<double>::infinity();
+
+SeaState state_of(double height, double period) {
+  SeaState state;
+  state.significant_wave_height_m = height;
+  state.peak_period_s = period;
+  state.propagation_rad = radians(120);
+  state.cutoff_rad_s = 0;
+  state.second_order_cutoff_rad_s = 0;
+  return state;
+}
+
+WaveField regular_wave(double amplitude, double wavenumber, Vec2 direction, int order) {
+  return WaveField({{std::sqrt(kGravity * wavenumber), amplitude, 0, wavenumber}}, direction, order, kNoCutoff);
+}
+
+class WafoSeries : public testing::TestWithParam<std::string> {};
+
+TEST_P(WafoSeries, IsReproducedToSecondOrder) {
+  std::vector<WaveComponent> components;
+  for (const std::vector<double>& row : read_reference("wafo_nl_" + GetParam() + "_deep_components.csv")) {
+    components.push_back({row[0], row[1], row[2], row[3]});
+  }
+  const WaveField field(components, {1, 0}, 2, kNoCutoff);
+  // The files hold 12 significant digits of amplitudes and phases.
+  for (const std::vector<double>& row : read_reference("wafo_nl_" + GetParam() + "_deep_series.csv")) {
+    const SurfaceState surface = field.surface(0, 0, row[0]);
+    ASSERT_NEAR(surface.elevation_linear, row[1], 1e-9) << row[0] << " s";
+    ASSERT_NEAR(surface.elevation - surface.elevation_linear, row[2] + row[3], 1e-9) << row[0] << " s";
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Deep, WafoSeries, testing::Values("Hs1_Tp5", "Hs2_Tp7"));
+
+TEST(WaveField, IsAStokesWaveOfSecondOrderForOneComponent) {
+  for (const std::vector<double>& row : read_reference("raschii_stokes2_deep.csv")) {
+    const double height = row[2], length = row[4], x = row[5], eta = row[6];
+    const WaveField wave = regular_wave(0.5 * height, 2 * kPi / length, {1, 0}, 2);
+    // The table has twelve digits: half a unit of the last one of 1.04 m.
+    EXPECT_NEAR(wave.surface(x, 0, 0).elevation, eta, 5e-12 * std::max(1.0, height))
+        << "H " << height << " m, x " << x << " m";
+  }
+}
+
+// The same sums written as the pairs of Sharma and Dean (1981), with their general kernels in very deep water.
+double sharma_dean_elevation(const std::vector<WaveComponent>& components, double xi, double t) {
+  double eta = 0;
+  for (const WaveComponent& a : components) {
+    for (const WaveComponent& b : components) {
+      const double ra = a.wavenumber, rb = b.wavenumber;  // R = k tanh(k h) = k
+      const double kk = ra * rb;                          // k_i . k_j, one direction
+      const double theta_a = a.omega * t - a.wavenumber * xi + a.phase;
+      const double theta_b = b.omega * t - b.wavenumber * xi + b.phase;
+      const double root = std::sqrt(ra * rb);
+      // In deep water with one direction D+ and D- vanish: every factor k^2 - R^2 and k_i.k_j -+ R_i R_j of D+ is zero,
+      // and D- is 4 (sqrt R_i - sqrt R_j)^2 R_i R_j / {(sqrt R_i - sqrt R_j)^2 - |k_i - k_j|}.
+      const double difference = std::sqrt(ra) - std::sqrt(rb);
+      const double denominator = difference * difference - std::abs(ra - rb);
+      const double d_minus = &a == &b ? 0 : 2 * difference * difference * (kk + ra * rb) / denominator;
+      const double b_plus = 0.25 * ((-kk + ra * rb) / root + ra + rb);
+      const double b_minus = 0.25 * ((d_minus - kk - ra * rb) / root + ra + rb);
+      eta += a.amplitude * b.amplitude * b_plus * std::cos(theta_a + theta_b);
+      if (&a != &b) eta += a.amplitude * b.amplitude * b_minus * std::cos(theta_a - theta_b);
+    }
+  }
+  return eta;
+}
+
+TEST(WaveField, EqualsTheDoubleSumOfSharmaAndDean) {
+  SeaState state = state_of(2, 6);
+  state.components = 60;
+  state.second_order_cutoff_rad_s = 1000;
+  const WaveField field = realize_sea(state, 3, 1);
+  for (const double t : {0.0, 17.3, 211.0}) {
+    const SurfaceState surface = field.surface(12, -7, t);
+    const double xi = 12 * std::cos(radians(120)) - 7 * std::sin(radians(120));
+    EXPECT_NEAR(surface.elevation - surface.elevation_linear, sharma_dean_elevation(field.components(), xi, t), 1e-12);
+  }
+}
+
+TEST(WaveField, SlopesAreTheDerivativesOfItsElevation) {
+  const WaveField field = realize_sea(state_of(1, 5), 42, 0);
+  constexpr double kStep = 1e-3;  // central difference: error step^2/6 times the third derivative, about 1e-6 of k^3 a
+  for (int i = 0; i < 50; ++i) {
+    const double x = 7.1 * i, y = -3.7 * i, t = 1.9 * i;
+    const double dx =
+        (field.surface(x + kStep, y, t).elevation - field.surface(x - kStep, y, t).elevation) / (2 * kStep);
+    const double dy =
+        (field.surface(x, y + kStep, t).elevation - field.surface(x, y - kStep, t).elevation) / (2 * kStep);
+    const SurfaceState surface = field.surface(x, y, t);
+    EXPECT_NEAR(surface.slope_x, dx, 2e-6);
+    EXPECT_NEAR(surface.slope_y, dy, 2e-6);
+  }
+}
+
+TEST(WaveField, WavesTravelTowardsTheirDirection) {
+  const double k = 0.1;
+  const double celerity = std::sqrt(kGravity / k);
+  const WaveField wave = regular_wave(1, k, {0, 1}, 2);
+  EXPECT_NEAR(wave.surface(0, 0, 0).elevation, wave.surface(0, 3 * celerity, 3).elevation, 1e-12);
+  EXPECT_NEAR(wave.surface(-55, 0, 1).elevation, wave.surface(20, 0, 1).elevation, 1e-12);
+}
+
+TEST(WaveField, OrbitalVelocityIsThatOfLinearTheory) {
+  const double amplitude = 0.5, k = 0.2;
+  const double omega = std::sqrt(kGravity * k);
+  const WaveField wave = regular_wave(amplitude, k, {0.6, 0.8}, 1);
+  // Under a crest water goes with the wave, a quarter of a period earlier it rises.
+  const Vec3 crest = wave.surface(0, 0, 0).velocity;
+  EXPECT_NEAR((crest - amplitude * omega * Vec3(0.6, 0.8, 0)).norm(), 0, 1e-12);
+  const Vec3 rising = wave.surface(0, 0, -0.25 * 2 * kPi / omega).velocity;
+  EXPECT_NEAR((rising - Vec3(0, 0, amplitude * omega)).norm(), 0, 1e-12);
+}
+
+TEST(WaveField, VerticalVelocityIsTheRateOfTheLinearElevation) {
+  const WaveField field = realize_sea(state_of(1, 6), 1, 2);
+  constexpr double kStep = 1e-4;
+  for (const double t : {0.0, 3.3, 50.0}) {
+    const double rate =
+        (field.surface(3, 4, t + kStep).elevation_linear - field.surface(3, 4, t - kStep).elevation_linear);
+    EXPECT_NEAR(field.surface(3, 4, t).velocity.z(), rate / (2 * kStep), 1e-6);
+  }
+}
+
+TEST(WaveField, ComponentsAboveTheSecondOrderCutoffStayLinear) {
+  SeaState state = state_of(2, 6.5);
+  const WaveField field = realize_sea(state, 5, 0);
+  const WaveComponent& last = field.components()[field.second_order_count() - 1];
+  const WaveComponent& next = field.components()[field.second_order_count()];
+  EXPECT_LE(last.omega, std::sqrt(2 * kGravity / 2));
+  EXPECT_GT(next.omega, std::sqrt(2 * kGravity / 2));
+  std::vector<WaveComponent> low(field.components().begin(),
+                                 field.components().begin() + static_cast<std::ptrdiff_t>(field.second_order_count()));
+  const WaveField quadratic(low, field.direction(), 2, kNoCutoff);
+  const SurfaceState all = field.surface(1, 2, 3);
+  const SurfaceState part = quadratic.surface(1, 2, 3);
+  EXPECT_NEAR(all.elevation - all.elevation_linear, part.elevation - part.elevation_linear, 1e-14);
+}
+
+// RMS of the second-order slope at Hs 2 m, Tp 5.6 s: 0.034 at the default limit, beyond all measure when it is 8 rad/s.
+TEST(WaveField, SecondOrderSlopeStaysSmallAtTheDefaultCutoff) {
+  const auto second_order_slope = [](double cutoff) {
+    SeaState state = state_of(2, 5.6);
+    state.second_order_cutoff_rad_s = cutoff;
+    double sum = 0;
+    constexpr int kSeeds = 20, kTimes = 100;
+    for (int seed = 0; seed < kSeeds; ++seed) {
+      const WaveField second = realize_sea(state, static_cast<std::uint64_t>(seed), 0);
+      const WaveField first(second.components(), second.direction(), 1, 0);
+      for (int i = 0; i < kTimes; ++i) {
+        const SurfaceState a = second.surface(0, 0, 3.1 * i), b = first.surface(0, 0, 3.1 * i);
+        sum += std::pow(std::hypot(a.slope_x - b.slope_x, a.slope_y - b.slope_y), 2);
+      }
+    }
+    return std::sqrt(sum / (kSeeds * kTimes));
+  };
+  EXPECT_NEAR(second_order_slope(0), 0.034, 0.004);
+  EXPECT_GT(second_order_slope(8), 4 * 0.034);
+}
+
+TEST(SurfaceSeries, EqualsTheSurfaceAtItsPoint) {
+  const WaveField field = realize_sea(state_of(2, 8), 42, 7);
+  SurfaceSeries series(field, 30, -20, -60, 0.01);
+  for (int i = 0; i < 5000; ++i, series.advance()) {
+    const SurfaceState expected = field.surface(30, -20, -60 + 0.01 * i);
+    const SurfaceState state = series.state();
+    // 64 turns of two roundings each, 2e-14 per phasor, summed over 512 of them; angles of 500 rad add 1e-13.
+    ASSERT_NEAR(state.elevation, expected.elevation, 1e-12 * 2);
+    ASSERT_NEAR(state.elevation_linear, expected.elevation_linear, 1e-12 * 2);
+    ASSERT_NEAR(state.slope_x, expected.slope_x, 1e-12);
+    ASSERT_NEAR(state.slope_y, expected.slope_y, 1e-12);
+    ASSERT_NEAR((state.velocity - expected.velocity).norm(), 0, 1e-11);
+  }
+}
+
+TEST(UnitPhasors, AreCosinesAndSines) {
+  std::vector<double> angle;
+  for (int i = -2000; i <= 2000; ++i) angle.push_back(0.7853981633974483 * i + 1e-3 * (i % 7));
+  for (double a = 1e-300; a < 1e8; a *= 1.9) angle.insert(angle.end(), {a, -a});
+  std::vector<double> cosine(angle.size()), sine(angle.size());
+  unit_phasors(angle, cosine, sine);
+  for (std::size_t i = 0; i < angle.size(); ++i) {
+    EXPECT_NEAR(cosine[i], std::cos(angle[i]), 4e-16) << angle[i];
+    EXPECT_NEAR(sine[i], std::sin(angle[i]), 4e-16) << angle[i];
+  }
+}
+
+}  // namespace
+}  // namespace seaglint
