@@ -12,10 +12,19 @@
 
 namespace seaglint {
 
-// The motion of one body resting with its origin at rest_position (target frame), from t = 0 to duration_s. `bounds` is the box of its
-// mesh (zero fields of the spec are derived from it). The random yaw of a float uses stream kFloatYaw of (seed, index).
-// Throws InputError when the spec contradicts itself.
-Trajectory simulate_motion(const MotionSpec& spec, const Bounds& bounds, const Vec3& rest_position, const WaveField& sea,
-                           double duration_s, std::uint64_t seed, std::uint64_t index);
+// Where the origin of a body's mesh rests when its place on the water is (x, y): at the waterline for a ship and a
+// fixed body, spec.centre_above_water_m higher for a float, whose mesh has its origin in the middle.
+Vec3 rest_position(const MotionSpec& spec, double x, double y);
+
+// What a body turns about, in its own frame: spec.rotation_centre_m, else a ship's centre of gravity or a float's
+// centre of flotation.
+Vec3 rotation_centre(const MotionSpec& spec, const Bounds& bounds);
+
+// The motion of one body resting with its origin at rest_position (target frame), from t = 0 to duration_s or the end
+// of the step that holds it. `bounds` is the box of its mesh (zero fields of the spec are derived from it). The random
+// yaw of a float uses stream kFloatYaw of (seed, index). For `waves: independent` the caller gives each body a sea of
+// its own. Throws InputError when the spec contradicts itself.
+Trajectory simulate_motion(const MotionSpec& spec, const Bounds& bounds, const Vec3& rest_position,
+                           const WaveField& sea, double duration_s, std::uint64_t seed, std::uint64_t index);
 
 }  // namespace seaglint

@@ -30,7 +30,8 @@ class Trajectory {
  public:
   Trajectory() = default;  // at rest at the origin
   // rest_position: where the body's origin rests in T; rotation_centre: in the body frame.
-  Trajectory(double start_s, double step_s, std::vector<MotionSample> samples, Vec3 rest_position, Vec3 rotation_centre);
+  Trajectory(double start_s, double step_s, std::vector<MotionSample> samples, Vec3 rest_position,
+             Vec3 rotation_centre);
 
   // A body that never moves.
   static Trajectory at_rest(const Vec3& rest_position);
@@ -39,7 +40,8 @@ class Trajectory {
   // p_TB = rest + shift + c - R c with c the rotation centre.
   Pose pose(double t) const;
 
-  double start_s() const { return start_s_; }
+  // A body at rest is at rest for ever: its start and end are infinite.
+  double start_s() const;
   double end_s() const;
 
  private:
