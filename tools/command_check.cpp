@@ -5,20 +5,18 @@
 #include <cstdio>
 #include <memory>
 
-#include "sim/core/error.h"
-#include "sim/core/file.h"
+#include "radar/waveform/pulse_train.h"
+#include "sim/geometry/mesh_io.h"
 #include "tools/command.h"
 
 namespace seaglint {
 
 namespace {
 
-// Opens every file the scenario names.
+// Reads every file the scenario names.
 void check_files(const Scenario& scenario) {
   for (const TargetSpec& target : scenario.targets) {
-    if (target.mesh.empty()) continue;
-    const std::filesystem::path path = find_mesh(scenario, target);
-    if (read_file(path).empty()) throw InputError(fmt::format("{}: the file is empty", path.string()));
+    if (!target.mesh.empty()) read_mesh(find_mesh(scenario, target), target.unit);
   }
 }
 
@@ -43,9 +41,11 @@ void add_check(CLI::App& app, Shell& shell) {
     shell.work = [arguments] {
       const Scenario scenario = arguments->read();
       check_files(scenario);
+      const PulseTrain train = make_pulse_train(scenario.radar, scenario.map.range_span_m, scenario.seed, 0);
       fmt::print("{}", effective_yaml(scenario));
       std::fflush(stdout);
       fmt::print(stderr, "{}", summary(scenario));
+      fmt::print(stderr, "{}", describe(train, scenario.radar));
     };
   });
 }

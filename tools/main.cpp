@@ -37,7 +37,10 @@ void handle_signals(Shell& shell) {
 }
 
 // In the order of the data flow.
-void add_commands(CLI::App& app, Shell& shell) { add_check(app, shell); }
+void add_commands(CLI::App& app, Shell& shell) {
+  add_keys(app, shell);
+  add_check(app, shell);
+}
 
 int fail(int code, const std::string& message) {
   std::fflush(stdout);

@@ -46,6 +46,9 @@ Scenario parse_scenario(const std::string& yaml, const std::string& file_name,
 // The scenario with every default written out, as YAML that read_scenario takes back to the same value.
 std::string effective_yaml(const Scenario& scenario);
 
+// Every key with its default and what it allows, one line each.
+std::string list_keys();
+
 // The file a target's mesh path names: beside the scenario or below the working directory. Throws InputError when neither exists.
 std::filesystem::path find_mesh(const Scenario& scenario, const TargetSpec& target);
 

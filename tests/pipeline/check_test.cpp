@@ -7,12 +7,15 @@
 #include <cstdlib>
 #include <sstream>
 
+#include "sim/geometry/generators.h"
+#include "sim/geometry/mesh_io.h"
 #include "sim/scenario/scenario.h"
 #include "tests/pipeline/program.h"
 
 namespace seaglint {
 namespace {
 
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
@@ -31,8 +34,22 @@ TEST(Check, PrintsAScenarioThatReadsBackTheSame) {
   const ProgramResult result = run_program({"check", kPoints, "--set", "radar.pulses=64"});
   ASSERT_EQ(result.code, 0) << result.err;
   EXPECT_THAT(result.err, StartsWith("points: 2 targets, 1 sea states x 2 views = 2 cases, 40 maps\n"));
+  EXPECT_THAT(result.err, HasSubstr("\nrange resolution    0.7495 m,"));
   EXPECT_EQ(effective_yaml(parse_scenario(result.out, kPoints)), result.out);
   EXPECT_EQ(parse_scenario(result.out, kPoints).radar.pulses, 64);
+}
+
+TEST(Keys, AreListedWithDefaultAndBound) {
+  const ProgramResult result = run_program({"keys"});
+  EXPECT_EQ(result.code, 0);
+  EXPECT_THAT(result.out, ContainsRegex("\nradar.carrier_ghz +16 +within 0.1 and 300\n"));
+  EXPECT_THAT(result.out, ContainsRegex("\ntargets.NAME.label +required +0, 1\n"));
+  EXPECT_THAT(
+      result.out,
+      ContainsRegex("\ntargets.NAME.points.N.position_m +required +\\[x, y, z\\], within -100000 and 100000\n"));
+  EXPECT_THAT(
+      result.out,
+      ContainsRegex("\nsea.peak_period_s +8 +number, list or from:to:step, within 0.5 and 40, or dnv_wind_sea\n"));
 }
 
 TEST(Check, RefusesATypoInAKey) {
@@ -58,11 +75,16 @@ TEST(Check, RefusesAMeshThatIsNotThere) {
 
 TEST(Check, RefusesAMeshThatIsNoMesh) {
   const TemporaryFolder folder;
+  const std::string whole = folder.path() / "whole.glb";
+  write_mesh(whole, make_plate(1, 1));
+  write_file(folder.path() / "truncated.glb", read_file(whole).substr(0, 200));
   write_file(folder.path() / "empty.glb", "");
   std::filesystem::create_directory(folder.path() / "folder.glb");
   const std::string file = folder.path() / "scenario.yaml";
-  write_file(file, "seaglint: 1\ntargets: {a: {label: 1, mesh: empty.glb}}\n");
-  expect_refused({"check", file}, "empty.glb: ");
+  write_file(file, "seaglint: 1\ntargets: {a: {label: 1, mesh: whole.glb}}\n");
+  EXPECT_EQ(run_program({"check", file}).code, 0);
+  expect_refused({"check", file, "--set", "targets.a.mesh=truncated.glb"}, "truncated.glb: ");
+  expect_refused({"check", file, "--set", "targets.a.mesh=empty.glb"}, "empty.glb: ");
   expect_refused({"check", file, "--set", "targets.a.mesh=folder.glb"}, "folder.glb: ");
 }
 
