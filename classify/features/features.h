@@ -19,18 +19,27 @@ struct ScatteringCentre {
 };
 
 struct FeatureVector {
-  double mwr = 0;         // (m/s)^2
-  double ccf = 0;         // 0..1
-  double sigma_r = 0;     // m
-  double sigma_v = 0;     // m/s
+  double mwr = 0;      // (m/s)^2
+  double ccf = 0;      // 0..1
+  double sigma_r = 0;  // m
+  double sigma_v = 0;  // m/s
   int centres = 0;
   bool degenerate = false;  // fewer than 3 centres: features are defined and finite, but say little
 };
 
-// CLEAN with the point response of the map's actual code, holes and taper included; strongest first.
-std::vector<ScatteringCentre> extract_centres(std::span<const Complex> echo, const PulseTrain& train, const MapSpec& map_spec,
-                                              bool intra_pulse_motion, const FeatureSpec& spec);
+// Scattering centres of an interval's echo (target, clutter and noise, [pulse][frequency]), strongest first, by CLEAN
+// with the point response of the map's actual code, holes and tapers included (classify/features/README.md). A centre
+// lies inside the map, within dynamic_range_db of the strongest, above the floor of the final residual by the factor
+// that noise passes in one map out of a hundred, and more than a lobe's width away from every stronger one.
+std::vector<ScatteringCentre> extract_centres(std::span<const Complex> echo, const PulseTrain& train,
+                                              const MapSpec& map_spec, bool intra_pulse_motion,
+                                              const FeatureSpec& spec);
 
+// Method, section 4. With N_sc centres, weights w_i = N_sc A_i / sum A, and the least-squares line v^ = a r + b
+// (unweighted unless spec.weighted_fit; a = 0 for centres at one range):
+//   MWR = (1/N_sc) sum w_i (v_i - v^_i)^2      sigma_r, sigma_v standard deviations (divisor N_sc)
+//   CCF = |(s_r - s_v) / (s_r + s_v + 1e-6)|   s_r = sigma_r / range_scale_m, s_v = sigma_v / velocity_scale_mps
+// Without centres all are 0.
 FeatureVector compute_features(std::span<const ScatteringCentre> centres, const FeatureSpec& spec);
 
 }  // namespace seaglint

@@ -77,23 +77,25 @@ MapWeights map_weights(const PulseTrain& train, const MapSpec& spec) {
     for (std::size_t b = 0; b < train.frequencies(); ++b) ++covering[i * train.bins_per_hop + b];
   }
   weights.bin = taper_samples(spec.range_taper, covering.size());
+  for (std::size_t k = 0; k < covering.size(); ++k) weights.bin[k] *= covering[k] > 0 ? 1.0 / covering[k] : 0;
+  // A point of amplitude 1 leaves |P|^2 / mean |P|^2 of a matched filter, 1 of an inverse one.
+  const std::vector<Complex> filter = compression_filter(train, spec.compression);
   double total = 0;
-  for (std::size_t k = 0; k < covering.size(); ++k) total += covering[k] > 0 ? weights.bin[k] : 0;
-  for (std::size_t k = 0; k < covering.size(); ++k) {
-    weights.bin[k] = covering[k] > 0 ? weights.bin[k] / (total * covering[k]) : 0;
+  for (int i = 0; i < train.carriers; ++i) {
+    if (sum[i] == 0) continue;
+    for (std::size_t b = 0; b < train.frequencies(); ++b) {
+      total += weights.bin[i * train.bins_per_hop + b] * std::real(filter[b] * train.chirp_spectrum[b]);
+    }
   }
+  for (double& weight : weights.bin) weight /= total;
   return weights;
 }
 
-std::vector<Complex> compress_pulses(std::span<const Complex> echo, const PulseTrain& train, Compression compression) {
-  const std::size_t frequencies = train.frequencies();
-  SEAGLINT_CHECK(
-      echo.size() == train.pulses() * frequencies,
-      fmt::format("echo of {} values for {} pulses x {} frequencies", echo.size(), train.pulses(), frequencies));
+std::vector<Complex> compression_filter(const PulseTrain& train, Compression compression) {
   double mean = 0;
-  for (const Complex& p : train.chirp_spectrum) mean += std::norm(p) / static_cast<double>(frequencies);
-  std::vector<Complex> filter(frequencies);
-  for (std::size_t b = 0; b < frequencies; ++b) {
+  for (const Complex& p : train.chirp_spectrum) mean += std::norm(p) / static_cast<double>(train.frequencies());
+  std::vector<Complex> filter(train.frequencies());
+  for (std::size_t b = 0; b < filter.size(); ++b) {
     const Complex p = train.chirp_spectrum[b];
     if (compression == Compression::kMatched) {
       filter[b] = std::conj(p) / mean;
@@ -101,6 +103,15 @@ std::vector<Complex> compress_pulses(std::span<const Complex> echo, const PulseT
       filter[b] = std::conj(p) / std::norm(p);
     }
   }
+  return filter;
+}
+
+std::vector<Complex> compress_pulses(std::span<const Complex> echo, const PulseTrain& train, Compression compression) {
+  const std::size_t frequencies = train.frequencies();
+  SEAGLINT_CHECK(
+      echo.size() == train.pulses() * frequencies,
+      fmt::format("echo of {} values for {} pulses x {} frequencies", echo.size(), train.pulses(), frequencies));
+  const std::vector<Complex> filter = compression_filter(train, compression);
   std::vector<Complex> compressed(echo.size());
   for (std::size_t n = 0; n < train.pulses(); ++n) {
     for (std::size_t b = 0; b < frequencies; ++b) {

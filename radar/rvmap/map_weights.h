@@ -19,15 +19,18 @@ namespace seaglint {
 
 struct MapWeights {
   std::vector<double> pulse;  // w_n: velocity taper / its sum over the pulses of the same carrier
-  std::vector<double>
-      bin;  // u_k: range taper / carriers that cover bin k, normalised to sum 1 over all (carrier, b); 0 in holes
-  int empty_carriers = 0;  // carriers that no pulse used
+  std::vector<double> bin;    // u_k: range taper / carriers that cover bin k, 0 in holes; scaled so that a point of
+                              // amplitude 1 peaks at 1
+  int empty_carriers = 0;     // carriers that no pulse used
 };
 
 MapWeights map_weights(const PulseTrain& train, const MapSpec& spec);
 
-// Pulse compression: X = P* Y / |P|^2 (inverse), or P* Y / mean |P|^2 (matched); [pulse][frequency]. Inverse
-// compression leaves out (sets to zero) frequencies where |P|^2 is below 1e-9 of its mean.
+// The filter X = filter Y of pulse compression on the baseband grid: P* / |P|^2 (inverse, zero where |P|^2 is below
+// 1e-9 of its mean) or P* / mean |P|^2 (matched).
+std::vector<Complex> compression_filter(const PulseTrain& train, Compression compression);
+
+// Pulse compression of an echo, [pulse][frequency].
 std::vector<Complex> compress_pulses(std::span<const Complex> echo, const PulseTrain& train, Compression compression);
 
 // Samples of a taper of unit peak at the centres of `count` equal cells. Taylor: nbar 4, sidelobes -35 dB.

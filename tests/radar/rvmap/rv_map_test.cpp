@@ -59,6 +59,7 @@ Complex by_definition(const std::vector<Complex>& echo, const PulseTrain& train,
   const std::size_t frequencies = train.frequencies();
   std::vector<Complex> band(train.band_bins());
   std::vector<double> covering(train.band_bins());
+  std::vector<double> gain(train.band_bins());  // of a point through the compression filter
   const std::vector<double> slow = taper_samples(spec.velocity_taper, train.pulses());
   const std::vector<double> fast = taper_samples(spec.range_taper, band.size());
   double mean_power_of_p = 0;
@@ -81,13 +82,15 @@ Complex by_definition(const std::vector<Complex>& echo, const PulseTrain& train,
       }
       band[i * train.bins_per_hop + b] += sum / weight;
       covering[i * train.bins_per_hop + b] += 1;
+      gain[i * train.bins_per_hop + b] +=
+          spec.compression == Compression::kInverse ? 1 : std::norm(train.chirp_spectrum[b]) / mean_power_of_p;
     }
   }
   Complex value;
   double total = 0;
   for (std::size_t k = 0; k < band.size(); ++k) {
     if (covering[k] == 0) continue;
-    total += fast[k];
+    total += fast[k] * gain[k] / covering[k];
     const double offset_hz =
         (static_cast<double>(k) - 0.5 * (static_cast<double>(band.size()) - 1)) * train.baseband_step_hz;
     value += fast[k] * band[k] / covering[k] * std::polar(1.0, 4 * kPi * offset_hz * range_m / kSpeedOfLight);
@@ -183,6 +186,7 @@ TEST(RvMap, APointPeaksInItsCellWithItsAmplitudeWhetherItApproachesOrRecedes) {
     for (const MovingPoint& point : {MovingPoint{40 * dr, 5 * dv, 3}, MovingPoint{-61 * dr, -20 * dv, 0.2}}) {
       for (const Taper taper : {Taper::kNone, Taper::kHann, Taper::kHamming, Taper::kTaylor}) {
         MapSpec spec;
+        spec.compression = taper == Taper::kHamming ? Compression::kMatched : Compression::kInverse;
         spec.range_taper = taper;
         spec.velocity_taper = taper;
         const Peak peak = peak_of(form_rv_map(echo_of(train, {point}), train, spec, false));

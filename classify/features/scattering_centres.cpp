@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// CLEAN (Hogbom, "Aperture synthesis with a non-regular distribution of interferometer baselines", Astron. Astrophys.
+// Suppl. 15 (1974) 417), with the map formed anew from the residual echo after each round, so that no point response is
+// approximated.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "classify/features/features.h"
+#include "classify/features/residual_echo.h"
+#include "classify/features/residual_floor.h"
+
+namespace seaglint {
+namespace {
+
+// Maxima down to this far below the round's strongest are taken out in one round, each fitted in what the ones before
+// left. Higher saves no map, lower spends fits on sidelobes (-13 dB untapered in velocity).
+constexpr double kRoundDepthDb = 6;
+// A maximum between four cells of the grid is seen lower by at most this much (3.9 dB untapered in each direction).
+constexpr double kStraddleLossDb = 8;
+// Fits per round, against maps made of noise alone.
+constexpr std::size_t kMaxFitsPerRound = 256;
+
+// Widths of the main lobe, -3.9 dB below the peak, in units of the untapered one (1 cell): two centres closer than that
+// are one.
+double lobe_width(Taper taper) {
+  switch (taper) {
+    case Taper::kNone:
+      return 1;
+    case Taper::kHann:
+      return 1.62;
+    case Taper::kHamming:
+      return 1.47;
+    case Taper::kTaylor:
+      return 1.35;
+  }
+  return 1;
+}
+
+struct Cell {
+  std::size_t v, r;
+  double power;
+};
+
+// Local maxima of |RV|^2 at or above a threshold that also rise above the floor, strongest first.
+std::vector<Cell> local_maxima(const RvMap& map, double threshold, const std::vector<double>& floor) {
+  const std::size_t rows = map.velocity_mps.size(), columns = map.columns();
+  std::vector<double> power(map.values.size());
+  for (std::size_t i = 0; i < power.size(); ++i) power[i] = std::norm(map.values[i]);
+  std::vector<Cell> maxima;
+  for (std::size_t v = 0; v < rows; ++v) {
+    for (std::size_t r = 0; r < columns; ++r) {
+      const double here = power[v * columns + r];
+      if (here < threshold || here <= floor[v * columns + r]) continue;
+      bool highest = true;
+      for (std::size_t y = v > 0 ? v - 1 : 0; y <= std::min(v + 1, rows - 1); ++y) {
+        for (std::size_t x = r > 0 ? r - 1 : 0; x <= std::min(r + 1, columns - 1); ++x) {
+          highest = highest && power[y * columns + x] <= here;
+        }
+      }
+      if (highest) maxima.push_back({v, r, here});
+    }
+  }
+  std::sort(maxima.begin(), maxima.end(), [](const Cell& a, const Cell& b) {
+    return a.power != b.power ? a.power > b.power : a.v != b.v ? a.v < b.v : a.r < b.r;
+  });
+  return maxima;
+}
+
+double step_of(const std::vector<double>& axis, double otherwise) {
+  return axis.size() > 1 ? axis[1] - axis[0] : otherwise;
+}
+
+std::size_t nearest(const std::vector<double>& axis, double value, double step) {
+  const double i = std::round((value - axis.front()) / step);
+  return static_cast<std::size_t>(std::clamp(i, 0.0, static_cast<double>(axis.size() - 1)));
+}
+
+// Components of one lobe become one centre: those within half a lobe add up (what a loop gain below 1 takes in several
+// steps), those between half and one lobe are remains of a stronger one.
+std::vector<PointComponent> merge(std::vector<PointComponent> components, double lobe_r, double lobe_v) {
+  const auto stronger = [](const PointComponent& a, const PointComponent& b) {
+    return std::norm(a.amplitude_m) > std::norm(b.amplitude_m);
+  };
+  std::stable_sort(components.begin(), components.end(), stronger);
+  std::vector<PointComponent> merged;
+  for (const PointComponent& part : components) {
+    bool taken = false;
+    for (PointComponent& whole : merged) {
+      const double distance =
+          std::hypot((part.range_m - whole.range_m) / lobe_r, (part.velocity_mps - whole.velocity_mps) / lobe_v);
+      if (distance >= 1) continue;
+      if (distance < 0.5) whole.amplitude_m += part.amplitude_m;
+      taken = true;
+      break;
+    }
+    if (!taken) merged.push_back(part);
+  }
+  std::stable_sort(merged.begin(), merged.end(), stronger);
+  return merged;
+}
+
+}  // namespace
+
+std::vector<ScatteringCentre> extract_centres(std::span<const Complex> echo, const PulseTrain& train,
+                                              const MapSpec& map_spec, bool intra_pulse_motion,
+                                              const FeatureSpec& spec) {
+  const double cell_r = train.range_resolution_m(), cell_v = train.velocity_resolution_mps();
+  const double lobe_r = cell_r * lobe_width(map_spec.range_taper),
+               lobe_v = cell_v * lobe_width(map_spec.velocity_taper);
+  const double depth = std::pow(10, -spec.dynamic_range_db / 10);
+  const double straddle = std::pow(10, -kStraddleLossDb / 10);
+  const auto max_components = static_cast<std::size_t>(std::ceil(4 * spec.max_centres / spec.clean_gain));
+
+  ResidualEcho residual(echo, train, map_spec, intra_pulse_motion);
+  RvMap map = residual.map();
+  const double step_r = step_of(map.range_m, cell_r), step_v = step_of(map.velocity_mps, cell_v);
+  const double factor = detection_factor(static_cast<double>(map.values.size()) /
+                                         (map_spec.range_oversampling * map_spec.velocity_oversampling));
+  std::vector<PointComponent> components;
+  std::vector<double> floor = residual_floor(map);
+  double strongest = 0;  // power
+  bool found = true;
+  while (found && components.size() < max_components) {
+    found = false;
+    const std::vector<Cell> maxima = local_maxima(map, depth * straddle * strongest, floor);
+    if (maxima.empty()) break;
+    // Below the round's depth a maximum may be a sidelobe or pedestal of a stronger one: it waits for the next map.
+    const double round_floor = maxima.front().power * std::pow(10, -kRoundDepthDb / 10);
+    std::size_t fits = 0;
+    for (const Cell& cell : maxima) {
+      if (cell.power < round_floor && found) break;
+      if (++fits > kMaxFitsPerRound || components.size() >= max_components) break;
+      PointComponent point = residual.fit(map.range_m[cell.r], map.velocity_mps[cell.v], step_r, step_v);
+      const double power = std::norm(point.amplitude_m);
+      if (power < depth * strongest || power < factor * floor[cell.v * map.columns() + cell.r]) continue;
+      if (power < round_floor) continue;
+      strongest = std::max(strongest, power);
+      point.amplitude_m *= spec.clean_gain;
+      residual.subtract(point);
+      components.push_back(point);
+      found = true;
+    }
+    if (!found) break;
+    if (merge(components, lobe_r, lobe_v).size() >= static_cast<std::size_t>(spec.max_centres) && spec.clean_gain == 1)
+      break;
+    map = residual.map();
+    floor = residual_floor(map);
+  }
+
+  // Judged by what is left at the end, when no centre's pedestal raises the floor any more.
+  if (!components.empty()) {
+    map = residual.map();
+    floor = residual_floor(map);
+  }
+  std::vector<ScatteringCentre> centres;
+  for (PointComponent point : merge(components, lobe_r, lobe_v)) {
+    // A loop gain below 1 leaves a part of every centre behind.
+    if (spec.clean_gain < 1) point.amplitude_m += residual.value(point.range_m, point.velocity_mps);
+    const double power = std::norm(point.amplitude_m);
+    const std::size_t v = nearest(map.velocity_mps, point.velocity_mps, step_v),
+                      r = nearest(map.range_m, point.range_m, step_r);
+    if (power < depth * strongest || power < factor * floor[v * map.columns() + r]) continue;
+    if (centres.size() >= static_cast<std::size_t>(spec.max_centres)) break;
+    centres.push_back({point.range_m, point.velocity_mps, std::sqrt(power)});
+  }
+  return centres;
+}
+
+}  // namespace seaglint
