@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// A footprint: a piece of one facet, lit through one sequence of flat mirrors and seen by the radar. Its geometry holds
+// for all frequencies; only its phase integral depends on k.
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "sim/scattering/moving_polygon.h"
+
+namespace seaglint {
+
+// The radar's direction and polarisation basis in the body frame: r^ x h = v (CONVENTIONS.md, "Scattering").
+struct RadarBasis {
+  Vec3 r = Vec3::UnitX();
+  Vec3 h = Vec3::UnitY();
+  Vec3 v = Vec3::UnitZ();
+};
+
+// h = z^ x r^ / |z^ x r^| (y^ when r^ is vertical), v = r^ x h.
+RadarBasis radar_basis(const Vec3& r_hat);
+
+// Reflections in planes, composed: image = L real + t, with L orthogonal.
+struct Mirror {
+  Mat3 L = Mat3::Identity();
+  Vec3 t = Vec3::Zero();
+
+  Vec3 image(const Vec3& real) const { return L * real + t; }
+  Vec3 real(const Vec3& image) const { return L.transpose() * (image - t); }
+};
+
+// A facet's plane seen along the unfolded ray: height above the aperture plane z(p) = z0 + slope . p, positive towards
+// the radar.
+struct ImagePlane {
+  double z0 = 0;
+  Vec2 slope = Vec2::Zero();
+
+  double at(const Vec2& p) const { return z0 + slope.dot(p); }
+  // z as a moving line. Turning r^ moves it by dz/dd_i = p_i + z slope_i at fixed p.
+  MovingLine moving() const;
+};
+
+// The plane n . x = offset (image space, n need not point to the radar); n . r^ must not vanish.
+ImagePlane image_plane(const Vec3& n, double offset, const RadarBasis& basis);
+
+struct Footprint {
+  MovingPolygon polygon;  // in the aperture plane
+  ImagePlane plane;       // of the last facet's image
+  Mirror mirrors;         // of the facets before the last
+  double psi0 = 0;        // minus the two-way path, psi(p) = psi0 + w . p, m
+  Vec2 w = Vec2::Zero();
+  double surface_slope = 0;         // |gradient of psi| along the facet itself, 0..2
+  double surface_slope_turn = 0;    // bound of its change per radian of turn, 0..2
+  std::array<double, 4> pattern{};  // hh, hv, vh, vv (received, transmitted) of n x (k^ x E) / |n . k^|, real for PEC
+  std::uint16_t part = 0;           // of the last facet
+  std::uint8_t bounces = 1;
+
+  double psi(const Vec2& p) const { return psi0 + w.dot(p); }
+  // Length on the facet of a step in the aperture, m.
+  double surface_length(const Vec2& step) const { return std::hypot(step.norm(), plane.slope.dot(step)); }
+};
+
+// Fills psi0, w and the surface slopes from plane and mirrors. n_image: unit normal of the last facet's image.
+void set_phase(Footprint& footprint, const Vec3& n_image, const RadarBasis& basis);
+
+// Gradient of psi with the direction for the body-fixed point at p: x_image + x_real (Fermat).
+Vec3 phase_gradient(const Footprint& footprint, const Vec2& p, const RadarBasis& basis);
+
+// The same for a corner that moves in the facet as the direction turns: adds w . slip.
+Vec3 phase_gradient(const Footprint& footprint, const Corner& corner, const RadarBasis& basis);
+
+// I(k) = integral over the footprint of e^{jk psi(p)} d^2p, m^2. Gordon's contour form (W. B. Gordon, IEEE Trans.
+// AP-23, 1975, 590-592), by the divergence theorem with F = w e^{jk w.p} / (jk |w|^2); a series where |w| is small.
+Complex phase_integral(const Footprint& footprint, double k);
+
+// (e^{jx} - 1)/(jx) e^{-jx/2} = sin(x/2)/(x/2)
+double sinc(double x);
+
+// S = -jk/(2 pi) pattern I(k): physical optics, E_s = -(jk eta / 4 pi) (e^{-jkr}/r) integral (J - r^ r^.J) e^{jk r^.x}
+// dS with J = 2 n x H (Balanis, Advanced Engineering Electromagnetics, eqs. 6-95, 7-54), dS = d^2p / |n . k^|. Elements
+// hh, hv, vh, vv in metres.
+std::array<Complex, 4> scattered(const Footprint& footprint, double k);
+
+}  // namespace seaglint
