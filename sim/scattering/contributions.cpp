@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/scattering/contributions.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/core/constants.h"
+
+namespace seaglint {
+namespace {
+
+double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+class Splitter {
+ public:
+  Splitter(const Footprint& footprint, const RadarBasis& basis, const SplitSettings& settings,
+           std::vector<Contribution>& out)
+      : footprint_(footprint), basis_(basis), settings_(settings), out_(out) {
+    prototype_.part = footprint.part;
+    prototype_.bounces = footprint.bounces;
+    for (int i = 0; i < 4; ++i) prototype_.pattern[i] = static_cast<float>(footprint.pattern[i]);
+    threshold_ = std::max(settings.turn_rad * footprint.surface_slope_turn / kAmplitudeError, 1e-9);
+  }
+
+  void run() {
+    if (footprint_.surface_slope > threshold_) {
+      edges();
+    } else {
+      area(footprint_.polygon);
+    }
+  }
+
+ private:
+  void emit(const Complex& integral, double psi, const Vec3& gradient) {
+    Contribution c = prototype_;
+    c.amplitude = Complex(0, -settings_.kc / (2 * kPi)) * integral;
+    c.psi = psi;
+    c.gradient = gradient;
+    out_.push_back(c);
+  }
+
+  // Pieces small enough for their own integral to be slow, each a point at its centroid.
+  void area(const MovingPolygon& polygon) {
+    const Vec2 c = centroid(polygon);
+    // The longest extent is cut first; the phase that counts is that of w and of what w may become.
+    double longest = 0;
+    Vec2 along = Vec2::Zero();
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      for (std::size_t j = i + 1; j < polygon.size(); ++j) {
+        const Vec2 d = polygon[j].p - polygon[i].p;
+        if (footprint_.surface_length(d) > longest) {
+          longest = footprint_.surface_length(d);
+          along = d;
+        }
+      }
+    }
+    const double slope = std::max(footprint_.surface_slope, kAmplitudeError * threshold_);
+    if (settings_.kc * slope * longest / 2 > kPieceHalfPhase && longest > 1e-6) {
+      MovingLine line;  // through the centroid, across the longest extent; a cut of our own is at rest
+      line.gradient = along.normalized();
+      line.value = -line.gradient.dot(c);
+      const MovingPolygon near = clip(polygon, line, -1), far = clip(polygon, line, +1);
+      if (!near.empty() && !far.empty() && near.size() + far.size() > polygon.size()) {
+        area(near);
+        area(far);
+        return;
+      }
+    }
+    Footprint piece = footprint_;
+    piece.polygon = polygon;
+    const double psi = footprint_.psi(c);
+    emit(phase_integral(piece, settings_.kc) * std::polar(1.0, -settings_.kc * psi), psi,
+         phase_gradient(footprint_, c, basis_));
+  }
+
+  // Gordon's contour: each edge carries cross(w, edge)/(jk |w|^2) times the mean of e^{jk psi} along it.
+  void edges() {
+    const MovingPolygon& polygon = footprint_.polygon;
+    const double k = settings_.kc;
+    const std::size_t n = polygon.size();
+    std::vector<Complex> end(n, 0.0);
+    std::vector<char> has_end(n, 0);
+    for (std::size_t i = 0; i < n; ++i) {
+      const Corner &a = polygon[i], &b = polygon[(i + 1) % n];
+      const Vec2 along = b.p - a.p;
+      const double length = footprint_.surface_length(along);
+      if (length < 1e-12) continue;
+      const Complex edge = cross(footprint_.w, along) / (Complex(0, k) * footprint_.w.squaredNorm());
+      const double run = footprint_.w.dot(along);  // psi from a to b
+      if (std::abs(run) > threshold_ * length && std::abs(k * run) / 2 > kPieceHalfPhase) {
+        const Complex ends = edge / Complex(0, k * run);
+        end[(i + 1) % n] += ends;
+        end[i] -= ends;
+        has_end[i] = has_end[(i + 1) % n] = 1;
+      } else {
+        edge_pieces(a, b, edge, run, length);
+      }
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      if (has_end[i]) emit(end[i], footprint_.psi(polygon[i].p), phase_gradient(footprint_, polygon[i], basis_));
+    }
+  }
+
+  void edge_pieces(const Corner& a, const Corner& b, const Complex& edge, double run, double length) {
+    const double k = settings_.kc;
+    const double slope = std::max(std::abs(run), kAmplitudeError * threshold_ * length);
+    const int pieces = std::max(1, static_cast<int>(std::ceil(k * slope / 2 / kPieceHalfPhase)));
+    const Vec3 ga = phase_gradient(footprint_, a, basis_), gb = phase_gradient(footprint_, b, basis_);
+    const double psi_a = footprint_.psi(a.p);
+    for (int i = 0; i < pieces; ++i) {
+      const double s = (i + 0.5) / pieces;
+      emit(edge * (sinc(k * run / pieces) / pieces), psi_a + s * run, ga + s * (gb - ga));
+    }
+  }
+
+  const Footprint& footprint_;
+  const RadarBasis& basis_;
+  const SplitSettings& settings_;
+  std::vector<Contribution>& out_;
+  Contribution prototype_;
+  double threshold_ = 0;  // slope of psi along the surface above which end points may stand for an extent
+};
+
+}  // namespace
+
+void split(const Footprint& footprint, const RadarBasis& basis, const SplitSettings& settings,
+           std::vector<Contribution>& out) {
+  Splitter(footprint, basis, settings, out).run();
+}
+
+std::array<Complex, 4> direct_sum(std::span<const Contribution> contributions, double k, const Vec3& turn) {
+  std::array<Complex, 4> sum{};
+  for (const Contribution& c : contributions) {
+    const Complex term = c.amplitude * std::polar(1.0, k * (c.psi + c.gradient.dot(turn)));
+    for (int i = 0; i < 4; ++i) sum[i] += term * static_cast<double>(c.pattern[i]);
+  }
+  return sum;
+}
+
+}  // namespace seaglint

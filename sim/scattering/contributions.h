@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// A footprint's phase integral as points that hold over a band and a small turn: each with its own path and the
+// gradient of that path, and an amplitude that varies slowly (design: closed forms may not be frozen while their phase
+// runs through cycles; their end points may).
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "sim/scattering/footprint.h"
+
+namespace seaglint {
+
+struct Contribution {
+  Complex amplitude;               // S-amplitude of unit pattern at kc without its phase e^{jk psi}, m
+  double psi = 0;                  // minus the two-way path, m
+  Vec3 gradient = Vec3::Zero();    // d psi / d r^, body frame, m
+  std::array<float, 4> pattern{};  // hh, hv, vh, vv
+  std::uint16_t part = 0;
+  std::uint8_t bounces = 1;
+};
+
+struct SplitSettings {
+  double kc = 0;        // wavenumber of the band's centre, rad/m
+  double turn_rad = 0;  // largest turn from the lit direction, 0 <= x < 0.1
+};
+
+// The footprint's contributions at kc, appended. Summing amplitude e^{jk psi} at kc and the lit direction gives
+// scattered(footprint, kc) to rounding. Away from there amplitudes are frozen: with u = turn_rad times the change of
+// psi's slope along the facet, an area becomes its edges where that slope exceeds u / kAmplitudeError, an edge its ends
+// where its own slope does; else they are cut into pieces whose own phase stays below kPieceHalfPhase. What is left is
+// at most kAmplitudeError per end point, and |k/kc - 1|.
+inline constexpr double kAmplitudeError =
+    0.04;  // -28 dB of a single end point; the sum over many is far better (tests, README)
+inline constexpr double kPieceHalfPhase = 0.5;  // rad
+void split(const Footprint& footprint, const RadarBasis& basis, const SplitSettings& settings,
+           std::vector<Contribution>& out);
+
+// sum of pattern amplitude e^{jk (psi + gradient . turn)} over all contributions: the direct sum, for tests and for few
+// points.
+std::array<Complex, 4> direct_sum(std::span<const Contribution> contributions, double k, const Vec3& turn);
+
+}  // namespace seaglint

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/scattering/respond.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/core/constants.h"
+#include "sim/core/error.h"
+#include "sim/scattering/contributions.h"
+#include "sim/scattering/return_grid.h"
+
+namespace seaglint {
+namespace {
+
+// Results of tiles are summed in chunks of fixed size in their order, so that no bit depends on the number of threads.
+constexpr std::size_t kTilesPerChunk = 32;
+
+std::size_t chunk_count(std::size_t tiles) { return (tiles + kTilesPerChunk - 1) / kTilesPerChunk; }
+
+// The world's polarisation basis as the turned body sees it.
+RadarBasis body_basis(const RadarBasis& world, const Pose& pose) {
+  const Mat3 R_BT = pose.R_TB.transpose();
+  return {R_BT * world.r, R_BT * world.h, R_BT * world.v};
+}
+
+// One trace: what the body answers while its direction moves along `track` (unit vector across basis.r), by at most
+// `reach`.
+ReturnGrid trace_returns(const Scatterer& scatterer, const RadarBasis& basis, const Vec3& track, double reach,
+                         const WavenumberGrid& wavenumbers, int channel, const SolverSpec& solver, int threads) {
+  // A shadow edge at grazing runs along its facet much faster than any point of the body moves. Beyond four times the
+  // body's size its speed is cut: such ends are faint and run through many velocity cells.
+  const double limit = 8 * scatterer.radius();
+  const Illumination illumination(scatterer, basis, {solver.ray_spacing_m, solver.max_bounces});
+  const SplitSettings split_settings{wavenumbers.at(wavenumbers.centre_index()), reach};
+  const std::size_t chunks = chunk_count(illumination.tiles());
+  std::vector<std::vector<Contribution>> contributions(chunks);
+  std::vector<double> fastest(chunks, 0);
+  parallel_for(chunks, threads, [&](std::size_t chunk) {
+    const std::size_t end = std::min(illumination.tiles(), (chunk + 1) * kTilesPerChunk);
+    for (std::size_t tile = chunk * kTilesPerChunk; tile < end; ++tile) {
+      for (const Footprint& footprint : illumination.light(tile))
+        split(footprint, basis, split_settings, contributions[chunk]);
+    }
+    for (Contribution& c : contributions[chunk]) {
+      const double size = c.gradient.norm();
+      if (size > limit) c.gradient *= limit / size;
+      fastest[chunk] = std::max(fastest[chunk], std::abs(c.gradient.dot(track)));
+    }
+  });
+  ReturnGrid grid(wavenumbers, *std::max_element(fastest.begin(), fastest.end()), reach, channel);
+  for (const auto& part : contributions) grid.spread(part, track);
+  grid.transform();
+  return grid;
+}
+
+// Any unit vector across r, for a body at rest.
+Vec3 across(const Vec3& r) {
+  return (std::abs(r.z()) < 0.9 ? Vec3(Vec3::UnitZ().cross(r)) : Vec3(Vec3::UnitX().cross(r))).normalized();
+}
+
+}  // namespace
+
+BodyResponse respond(const Scatterer& scatterer, const Trajectory& trajectory, const Vec3& r_hat,
+                     Polarisation polarisation, const IntervalSampling& sampling, const SolverSpec& solver,
+                     int threads) {
+  const int pulses = static_cast<int>(sampling.pulse_time_s.size());
+  SEAGLINT_CHECK(pulses > 0 && sampling.pulse_first.size() == sampling.pulse_time_s.size(),
+                 fmt::format("{} pulse times, {} bands", pulses, sampling.pulse_first.size()));
+  const RadarBasis world = radar_basis(r_hat);
+  const int channel = static_cast<int>(polarisation);
+  constexpr double kToWavenumber = 2 * kPi / kSpeedOfLight;
+  const WavenumberGrid wavenumbers{kToWavenumber * sampling.first_hz, kToWavenumber * sampling.step_hz, sampling.count};
+
+  std::vector<Pose> poses(pulses);
+  std::vector<Vec3> directions(pulses);
+  for (int n = 0; n < pulses; ++n) {
+    poses[n] = trajectory.pose(sampling.pulse_time_s[n]);
+    directions[n] = poses[n].R_TB.transpose() * r_hat;
+  }
+  double turn = 0;  // length of the direction's path over the interval
+  for (int n = 1; n < pulses; ++n) turn += (directions[n] - directions[n - 1]).norm();
+
+  BodyResponse result;
+  result.response.pulses = pulses;
+  result.response.per_pulse = sampling.per_pulse;
+  result.response.values.assign(static_cast<std::size_t>(pulses) * sampling.per_pulse, 0.0);
+  std::vector<Complex> scratch(sampling.per_pulse);
+  const auto band = [&](int n) {
+    return std::span<Complex>(&result.response.values[static_cast<std::size_t>(n) * sampling.per_pulse],
+                              sampling.per_pulse);
+  };
+  // Traces the body at one instant for the pulses [first, last], each weighted by weight(n).
+  const auto trace = [&](double instant, int first, int last, const auto& weight) {
+    const RadarBasis basis = body_basis(world, trajectory.pose(instant));
+    const Vec3 chord = directions[last] - directions[first];
+    const Vec3 level = chord - basis.r * basis.r.dot(chord);
+    const Vec3 track = level.norm() > 1e-12 ? Vec3(level.normalized()) : across(basis.r);
+    double reach = 0;
+    for (int n = first; n <= last; ++n) reach = std::max(reach, std::abs((directions[n] - basis.r).dot(track)));
+    const ReturnGrid returns = trace_returns(scatterer, basis, track, reach, wavenumbers, channel, solver, threads);
+    for (int n = first; n <= last; ++n) {
+      returns.response(sampling.pulse_first[n], (directions[n] - basis.r).dot(track), scratch);
+      const std::span<Complex> out = band(n);
+      for (std::size_t b = 0; b < out.size(); ++b) out[b] += weight(n) * scratch[b];
+    }
+    ++result.traces;
+  };
+
+  const double start = sampling.pulse_time_s.front(), length = sampling.pulse_time_s.back() - start;
+  const int spans = static_cast<int>(std::ceil(turn / radians(solver.max_turn_deg)));
+  if (spans <= 1) {
+    trace(start + 0.5 * length, 0, pulses - 1, [](int) { return 1.0; });
+  } else {
+    for (int i = 0; i <= spans; ++i) {
+      const double instant = start + length * i / spans, reach = length / spans;
+      const auto hat = [&](int n) { return 1 - std::abs(sampling.pulse_time_s[n] - instant) / reach; };
+      int first = pulses, last = -1;
+      for (int n = 0; n < pulses; ++n) {
+        if (hat(n) <= 0) continue;
+        first = std::min(first, n);
+        last = n;
+      }
+      if (first <= last) trace(instant, first, last, hat);
+    }
+  }
+
+  // The body's origin moves too: e^{+j 2k r^.p}, exact for every pulse and frequency.
+  for (int n = 0; n < pulses; ++n) {
+    const double path = 2 * r_hat.dot(poses[n].p_TB);
+    for (int b = 0; b < sampling.per_pulse; ++b) {
+      result.response.at(n, b) *= std::polar(1.0, wavenumbers.at(sampling.pulse_first[n] + b) * path);
+    }
+  }
+  return result;
+}
+
+std::vector<std::array<Complex, 4>> scattering_matrices(const Scatterer& scatterer, const RadarBasis& basis,
+                                                        std::span<const double> wavenumbers,
+                                                        const IlluminationSettings& settings, int threads,
+                                                        std::size_t* rays, const StopFlag* stop) {
+  using Matrices = std::vector<std::array<Complex, 4>>;
+  const Illumination illumination(scatterer, basis, settings);
+  const std::size_t chunks = chunk_count(illumination.tiles());
+  std::vector<Matrices> parts(chunks, Matrices(wavenumbers.size()));
+  std::vector<std::size_t> traced(chunks, 0);
+  parallel_for(
+      chunks, threads,
+      [&](std::size_t chunk) {
+        const std::size_t end = std::min(illumination.tiles(), (chunk + 1) * kTilesPerChunk);
+        for (std::size_t tile = chunk * kTilesPerChunk; tile < end; ++tile) {
+          for (const Footprint& footprint : illumination.light(tile, &traced[chunk])) {
+            for (std::size_t q = 0; q < wavenumbers.size(); ++q) {
+              const auto s = scattered(footprint, wavenumbers[q]);
+              for (int i = 0; i < 4; ++i) parts[chunk][q][i] += s[i];
+            }
+          }
+        }
+      },
+      stop);
+  Matrices sum(wavenumbers.size());
+  for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
+    if (rays) *rays += traced[chunk];
+    for (std::size_t q = 0; q < wavenumbers.size(); ++q) {
+      for (int i = 0; i < 4; ++i) sum[q][i] += parts[chunk][q][i];
+    }
+  }
+  return sum;
+}
+
+}  // namespace seaglint

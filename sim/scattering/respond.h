@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// The response of one rigid body over one coherent interval, and its echo at rest.
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "sim/core/parallel.h"
+#include "sim/motion/trajectory.h"
+#include "sim/scattering/frequency_response.h"
+#include "sim/scattering/illuminate.h"
+#include "sim/scenario/radar_spec.h"
+#include "sim/scenario/target_spec.h"
+
+namespace seaglint {
+
+struct BodyResponse {
+  FrequencyResponse response;
+  int traces = 0;  // directions that were lit
+};
+
+// H(f, attitude at t_n) of a body on its trajectory, seen along r_hat (target frame). One trace serves pulses while the
+// body turns by at most solver.max_turn_deg; a faster body is traced at instants that far apart, and neighbouring
+// traces are blended linearly in time. Error against a fresh trace per pulse and frequency: sim/scattering/README.md.
+// Polarisation basis: that of the world, turned into the body at each trace. The trajectory must cover the interval.
+BodyResponse respond(const Scatterer& scatterer, const Trajectory& trajectory, const Vec3& r_hat,
+                     Polarisation polarisation, const IntervalSampling& sampling, const SolverSpec& solver,
+                     int threads = 1);
+
+// The scattering matrix hh, hv, vh, vv in metres at each wavenumber, body at rest in the given basis: one trace, and
+// the exact phase integral of every footprint at every frequency. Raises *rays by the rays traced.
+std::vector<std::array<Complex, 4>> scattering_matrices(const Scatterer& scatterer, const RadarBasis& basis,
+                                                        std::span<const double> wavenumbers,
+                                                        const IlluminationSettings& settings, int threads = 1,
+                                                        std::size_t* rays = nullptr, const StopFlag* stop = nullptr);
+
+}  // namespace seaglint

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Moving polygons against finite differences, and the phase integral against quadrature.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sim/core/random.h"
+#include "sim/scattering/visible_part.h"
+
+namespace seaglint {
+namespace {
+
+MovingPolygon square(double x, double y, double side) {
+  MovingPolygon polygon(4);
+  polygon[0].p = {x, y};
+  polygon[1].p = {x + side, y};
+  polygon[2].p = {x + side, y + side};
+  polygon[3].p = {x, y + side};
+  return polygon;
+}
+
+// The polygon after a turn of d1, to first order.
+MovingPolygon moved(MovingPolygon polygon, double d1) {
+  for (Corner& c : polygon) c.p += d1 * c.d1;
+  return polygon;
+}
+
+TEST(MovingPolygon, SubtractionKeepsTheArea) {
+  Random random({3, Stream::kTest, 0});
+  for (int trial = 0; trial < 300; ++trial) {
+    const MovingPolygon a = square(random.uniform(), random.uniform(), 0.2 + random.uniform());
+    MovingPolygon hole(3);
+    for (Corner& c : hole) c.p = {2 * random.uniform(), 2 * random.uniform()};
+    hole = counter_clockwise(hole);
+    std::vector<MovingPolygon> rest;
+    subtract(a, hole, 0, rest);
+    double area = 0;
+    for (const MovingPolygon& piece : rest) {
+      EXPECT_GE(signed_area(piece), 0);
+      area += signed_area(piece);
+    }
+    const MovingPolygon common = intersect(a, hole);
+    EXPECT_NEAR(area + (common.empty() ? 0 : signed_area(common)), signed_area(a), 1e-9);
+  }
+}
+
+TEST(MovingPolygon, CornersMadeByClippingMoveAsTheIntersectionOfTheirEdges) {
+  MovingPolygon window = square(0, 0, 1);  // at rest
+  MovingPolygon moving(3);
+  moving[0] = {{-0.3, 0.4}, {0.2, 0.1}, {0, 0}};
+  moving[1] = {{0.7, -0.2}, {-0.1, 0.3}, {0, 0}};
+  moving[2] = {{1.4, 1.3}, {0.05, -0.2}, {0, 0}};
+  moving = counter_clockwise(moving);
+  const MovingPolygon common = intersect(window, moving);
+  ASSERT_GE(common.size(), 4u);
+  constexpr double kStep = 1e-6;
+  const MovingPolygon after = intersect(window, moved(moving, kStep)),
+                      before = intersect(window, moved(moving, -kStep));
+  ASSERT_EQ(after.size(), common.size());
+  for (std::size_t i = 0; i < common.size(); ++i) {
+    const Vec2 difference = (after[i].p - before[i].p) / (2 * kStep);
+    EXPECT_NEAR((difference - common[i].d1).norm(), 0, 1e-6) << i;  // central differences: kStep^2 and rounding / kStep
+  }
+}
+
+TEST(MovingPolygon, TheLineWhereTwoPlanesMeetMovesWithTheDirection) {
+  // Planes n1.x = c1, n2.x = c2 seen from r and from r turned by d1 h: the heights' difference vanishes on the same
+  // body points.
+  const Vec3 n1 = Vec3(1, 0.3, -0.2).normalized(), n2 = Vec3(0.7, -0.4, 0.5).normalized();
+  const auto line_at = [&](double d1) {
+    RadarBasis basis;
+    basis.r = (Vec3::UnitX() + d1 * Vec3::UnitY()).normalized();
+    basis.h = (Vec3::UnitY() - d1 * Vec3::UnitX()).normalized();
+    return depth_between(image_plane(n1, 0.3, basis), image_plane(n2, 0.5, basis));
+  };
+  const MovingLine line = line_at(0);
+  constexpr double kStep = 1e-5;
+  for (const Vec2& p : {Vec2(0.2, -0.4), Vec2(-1.1, 0.6)}) {
+    const double numeric = (line_at(kStep).at(p) - line_at(-kStep).at(p)) / (2 * kStep);
+    EXPECT_NEAR(line.value_d1 + line.gradient_d1.dot(p), numeric, 1e-8);
+  }
+}
+
+TEST(PhaseIntegral, EqualsQuadratureFromFlatPhaseToManyCycles) {
+  Footprint footprint;
+  footprint.polygon.resize(4);
+  footprint.polygon[0].p = {0.1, 0.2};
+  footprint.polygon[1].p = {1.3, 0.1};
+  footprint.polygon[2].p = {1.6, 0.9};
+  footprint.polygon[3].p = {0.7, 1.4};
+  footprint.psi0 = 0.37;
+  for (const double slope : {0.0, 1e-4, 0.03, 0.08, 0.12, 0.5, 3.0, 40.0}) {
+    footprint.w = slope * Vec2(0.6, -0.8);
+    const double k = 1.7;
+    // Midpoint rule on triangles (0, 1, 2) and (0, 2, 3), mapped from the unit square: converges as 1/n^2.
+    const auto quadrature = [&](int n) {
+      Complex sum = 0;
+      for (const int last : {2, 3}) {
+        const Vec2 a = footprint.polygon[0].p, b = footprint.polygon[last - 1].p, c = footprint.polygon[last].p;
+        const double twice = (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
+        for (int i = 0; i < n; ++i) {
+          for (int j = 0; j < n; ++j) {
+            const double u = (i + 0.5) / n, v = (j + 0.5) / n;
+            const Vec2 p = a + u * ((b - a) + v * (c - b));
+            sum += twice * u / (n * n) * std::polar(1.0, k * footprint.psi(p));
+          }
+        }
+      }
+      return sum;
+    };
+    const Complex coarse = quadrature(400), fine = quadrature(800);
+    const Complex richardson = fine + (fine - coarse) / 3.0;
+    EXPECT_LT(std::abs(phase_integral(footprint, k) - richardson), 2e-6) << slope;
+  }
+}
+
+}  // namespace
+}  // namespace seaglint
