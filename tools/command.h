@@ -23,6 +23,7 @@ struct Shell {
 // Each adds its command to the program, with a footer that shows an example; listed in main.cpp too.
 void add_check(CLI::App& app, Shell& shell);
 void add_keys(CLI::App& app, Shell& shell);
+void add_mesh(CLI::App& app, Shell& shell);
 void add_rcs(CLI::App& app, Shell& shell);
 
 // Adds --threads to a command.

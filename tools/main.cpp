@@ -40,6 +40,7 @@ void handle_signals(Shell& shell) {
 void add_commands(CLI::App& app, Shell& shell) {
   add_keys(app, shell);
   add_check(app, shell);
+  add_mesh(app, shell);
   add_rcs(app, shell);
 }
 

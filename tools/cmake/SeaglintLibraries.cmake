@@ -15,6 +15,7 @@ find_package(xgboost 1.7 CONFIG REQUIRED)
 find_package(Torch REQUIRED)
 find_package(CLI11 CONFIG REQUIRED)
 find_package(nlohmann_json CONFIG REQUIRED)
+find_package(PNG REQUIRED)
 find_package(GTest CONFIG REQUIRED)
 find_package(benchmark CONFIG REQUIRED)
 
