@@ -25,6 +25,7 @@ void add_check(CLI::App& app, Shell& shell);
 void add_keys(CLI::App& app, Shell& shell);
 void add_mesh(CLI::App& app, Shell& shell);
 void add_rcs(CLI::App& app, Shell& shell);
+void add_map(CLI::App& app, Shell& shell);
 
 // Adds --threads to a command.
 void add_threads_option(CLI::App& command, Shell& shell);

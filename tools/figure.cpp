@@ -168,7 +168,7 @@ void write_figure(const Heatmap& figure, const fs::path& file, FigureSize size) 
   std::string commands =
       axis_commands("x", x_axis) + axis_commands("y", y_axis) + axis_commands("cb", figure.colour) + kViridis;
   commands += image ? "" : "set pm3d map corners2color c1\n";
-  commands += "set key outside bottom right horizontal reverse Left samplen 1\n";
+  commands += "set bmargin 5\nset key at screen 0.99, screen 0.02 right bottom horizontal reverse Left samplen 1\n";
   commands +=
       image ? "plot data index 0 using 1:2:3 with image notitle" : "splot data index 0 using 1:2:3 with pm3d notitle";
   if (!figure.markers.empty()) {

@@ -67,7 +67,7 @@ void add_pulse(const Complex* x, std::size_t frequencies, Block factor, const Bl
 
 }  // namespace
 
-MapAxes map_axes(const PulseTrain& train, const MapSpec& spec) {
+MapGrid map_grid(const PulseTrain& train, const MapSpec& spec) {
   const double window_cells = std::max(1.0, std::round(train.band_bins() * spec.range_oversampling));
   const double range_step = train.unambiguous_range_m() / window_cells;
   const double velocity_step = train.velocity_resolution_mps() / spec.velocity_oversampling;
@@ -81,35 +81,35 @@ MapAxes map_axes(const PulseTrain& train, const MapSpec& spec) {
                     "velocity_span_mps, velocity_oversampling or range_oversampling",
                     velocities, window_cells, kMaxCells));
   }
-  MapAxes axes;
-  axes.window_cells = static_cast<std::size_t>(window_cells);
-  for (double i = 0; i < ranges; ++i) axes.range_m.push_back((i - std::floor(ranges / 2)) * range_step);
-  for (double i = 0; i < velocities; ++i) axes.velocity_mps.push_back((i - std::floor(velocities / 2)) * velocity_step);
-  return axes;
+  MapGrid grid;
+  grid.window_cells = static_cast<std::size_t>(window_cells);
+  for (double i = 0; i < ranges; ++i) grid.range_m.push_back((i - std::floor(ranges / 2)) * range_step);
+  for (double i = 0; i < velocities; ++i) grid.velocity_mps.push_back((i - std::floor(velocities / 2)) * velocity_step);
+  return grid;
 }
 
 RvMap form_rv_map(std::span<const Complex> echo, const PulseTrain& train, const MapSpec& spec,
                   bool intra_pulse_motion) {
   const std::vector<Complex> compressed = compress_pulses(echo, train, spec.compression);
   const MapWeights weights = map_weights(train, spec);
-  const MapAxes axes = map_axes(train, spec);
+  const MapGrid grid = map_grid(train, spec);
   RvMap map;
-  map.range_m = axes.range_m;
-  map.velocity_mps = axes.velocity_mps;
+  map.range_m = grid.range_m;
+  map.velocity_mps = grid.velocity_mps;
   map.empty_carriers = weights.empty_carriers;
-  map.values.resize(axes.range_m.size() * axes.velocity_mps.size());
+  map.values.resize(grid.range_m.size() * grid.velocity_mps.size());
 
   const std::size_t frequencies = train.frequencies();
-  const std::size_t length = axes.window_cells;
+  const std::size_t length = grid.window_cells;
   const auto bins = static_cast<std::size_t>(train.band_bins());
   const double velocity_step = train.velocity_resolution_mps() / spec.velocity_oversampling;
   const double per_hz = 4 * kPi / kSpeedOfLight;
 
   // Bin k against the band's centre has the phase 2 pi (k - (bins - 1)/2) r_i / (window): the inverse FFT runs over k,
   // and the constant is taken out per range cell.
-  const auto first_range = static_cast<long>(axes.range_m.size() / 2);
-  std::vector<Complex> centre_phase(axes.range_m.size());
-  std::vector<std::size_t> cell(axes.range_m.size());
+  const auto first_range = static_cast<long>(grid.range_m.size() / 2);
+  std::vector<Complex> centre_phase(grid.range_m.size());
+  std::vector<std::size_t> cell(grid.range_m.size());
   for (std::size_t i = 0; i < cell.size(); ++i) {
     const long offset = static_cast<long>(i) - first_range;
     cell[i] = static_cast<std::size_t>((offset + static_cast<long>(length)) % static_cast<long>(length));
@@ -120,9 +120,9 @@ RvMap form_rv_map(std::span<const Complex> echo, const PulseTrain& train, const 
   std::vector<Block> sums(frequencies);
   std::vector<Complex> weighted(frequencies);
   FourierBatch profile(length, kBlock, Fourier::kInverse);
-  for (std::size_t first = 0; first < axes.velocity_mps.size(); first += kBlock) {
-    const std::size_t rows = std::min(kBlock, axes.velocity_mps.size() - first);
-    const double velocity = axes.velocity_mps[first];
+  for (std::size_t first = 0; first < grid.velocity_mps.size(); first += kBlock) {
+    const std::size_t rows = std::min(kBlock, grid.velocity_mps.size() - first);
+    const double velocity = grid.velocity_mps[first];
     std::fill(profile.row(0), profile.row(0) + kBlock * length, Complex{});
     for (int i = 0; i < train.carriers; ++i) {
       const double lowest_hz = train.first_carrier_hz + i * train.hop_step_hz + train.baseband_hz.front();
@@ -151,8 +151,8 @@ RvMap form_rv_map(std::span<const Complex> echo, const PulseTrain& train, const 
     }
     profile.execute();
     for (std::size_t l = 0; l < rows; ++l) {
-      Complex* row = &map.values[(first + l) * axes.range_m.size()];
-      for (std::size_t r = 0; r < axes.range_m.size(); ++r) row[r] = profile.row(l)[cell[r]] * centre_phase[r];
+      Complex* row = &map.values[(first + l) * grid.range_m.size()];
+      for (std::size_t r = 0; r < grid.range_m.size(); ++r) row[r] = profile.row(l)[cell[r]] * centre_phase[r];
     }
   }
   return map;

@@ -29,12 +29,12 @@ struct RvMap {
 // unambiguous window), velocity cells lambda/(2 N T_r) / velocity_oversampling; as many as the spans hold, at least one
 // and at most the unambiguous window and +-lambda/(4 T_r); cell count/2 is 0. Throws InputError for more than 2^26
 // cells.
-struct MapAxes {
+struct MapGrid {
   std::vector<double> range_m;
   std::vector<double> velocity_mps;
   std::size_t window_cells = 1;  // range cells in the whole unambiguous window, the length of the transform
 };
-MapAxes map_axes(const PulseTrain& train, const MapSpec& spec);
+MapGrid map_grid(const PulseTrain& train, const MapSpec& spec);
 
 // Forms the map of an echo given as [pulse][frequency] (method, section 3). A point scatterer of amplitude a metres
 // peaks at |RV| = a, whatever the tapers and holes; its phase there is that of its answer at the band's centre at the

@@ -19,6 +19,9 @@ Complex mean_phasor(double x, double count) {
   return std::polar(1.0, (count - 1) * half) * magnitude;
 }
 
+// The highest of 2048 exponentially distributed cells against their mean, 10 log10 ln 2048.
+constexpr double kLargestOfMapDb = 8.8;
+
 std::string code_name(HopCode code) {
   return code == HopCode::kRandom ? "random" : code == HopCode::kBalanced ? "balanced" : "stepped";
 }
@@ -40,7 +43,9 @@ std::string pedestal_line(const PulseTrain& train, const RadarSpec& spec) {
       largest = std::max(largest, expected_response_power(train, range_m, velocity_mps));
     }
   }
-  return fmt::format("{:.1f} dB below a point's peak at its largest (mean over codes)", -10 * std::log10(largest));
+  return fmt::format(
+      "{:.1f} dB below a point's peak where largest (mean over codes; single cells up to {:.0f} dB more)",
+      -10 * std::log10(largest), kLargestOfMapDb);
 }
 
 }  // namespace

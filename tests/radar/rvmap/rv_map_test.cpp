@@ -345,7 +345,7 @@ TEST(RvMap, SpansBeyondTheWindowAndTheAmbiguityAreCutThere) {
   MapSpec spec;
   spec.range_span_m = 1e6;
   spec.velocity_span_mps = 1e6;
-  const MapAxes axes = map_axes(train, spec);
+  const MapGrid axes = map_grid(train, spec);
   EXPECT_EQ(axes.range_m.size(), 320u);
   EXPECT_EQ(axes.velocity_mps.size(), 256u);
   EXPECT_NEAR(axes.velocity_mps.front(), -train.unambiguous_velocity_mps(), 1e-9);
