@@ -38,11 +38,13 @@ void handle_signals(Shell& shell) {
 
 // In the order of the data flow.
 void add_commands(CLI::App& app, Shell& shell) {
-  add_keys(app, shell);
-  add_map(app, shell);
   add_check(app, shell);
+  add_keys(app, shell);
   add_mesh(app, shell);
+  add_sea(app, shell);
+  add_motion(app, shell);
   add_rcs(app, shell);
+  add_map(app, shell);
 }
 
 int fail(int code, const std::string& message) {

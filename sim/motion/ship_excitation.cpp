@@ -30,10 +30,10 @@ struct HullAverages {
 };
 
 HullAverages average(const ShipParticulars& ship, double kappa) {
-  const double n_plane = ship.waterplane / (1 - ship.waterplane);
-  const double prismatic = ship.block / ship.midship;
+  const double n_plane = ship.form.waterplane / (1 - ship.form.waterplane);
+  const double prismatic = ship.form.block / ship.form.midship;
   const double n_area = prismatic / (1 - prismatic);
-  const double area = ship.midship * ship.beam * ship.draught;
+  const double area = ship.form.midship * ship.beam * ship.draught;
   const double added = kLateralAddedMass * kPi / 2 * ship.draught * ship.draught;
   double level = 0, plane = 0, slope = 0, plane_moment = 0;
   double lateral = 0, mass = 0, turning = 0, added_moment = 0;
@@ -54,7 +54,7 @@ HullAverages average(const ShipParticulars& ship, double kappa) {
     added_moment += added * u * u;
   }
   // Inertia in the units of the sums: volume k66^2 / (L/2)^2 over both halves, 2 ds = 1.
-  const double inertia = 4 * kYawRadius * kYawRadius * ship.block * ship.beam * ship.draught * kStrips;
+  const double inertia = 4 * kYawRadius * kYawRadius * ship.form.block * ship.beam * ship.draught * kStrips;
   return {level / plane, slope / plane_moment, lateral / mass, turning / (inertia + added_moment)};
 }
 
@@ -72,7 +72,7 @@ ShipExcitation ship_excitation(const ShipParticulars& ship, double omega, double
   const double beam_argument = 0.5 * k * ship.beam * sin_mu;
   const double beam_level = std::abs(beam_argument) < 1e-6 ? 1 : std::sin(beam_argument) / beam_argument;
   const double at_keel = std::exp(-k * ship.draught);
-  const double at_mean_draught = std::exp(-k * ship.draught * ship.block / ship.waterplane);
+  const double at_mean_draught = std::exp(-k * ship.draught * ship.form.block / ship.form.waterplane);
   const double over_draught = k * ship.draught < 1e-6 ? 1 : (1 - at_keel) / (k * ship.draught);
   const auto squared = [](double x) { return x * x; };
 

@@ -87,6 +87,10 @@ class SurfaceSeries {
 // peak's wavelength).
 WaveField realize_sea(const SeaState& state, std::uint64_t seed, std::uint64_t index);
 
+// The index of a realisation of one of a scenario's sea states, both counted from 0, as data sets and commands use it;
+// realisation below 1000000.
+std::uint64_t realisation_index(std::size_t sea_state, std::size_t realisation);
+
 // What a realisation holds and leaves out.
 struct SeaSummary {
   double significant_wave_height_m = 0;  // 4 sqrt(sum a^2/2)
