@@ -63,7 +63,7 @@ void write_motion(const MotionArguments& arguments, const Shell& shell) {
   auto out = std::back_inserter(text);
   fmt::format_to(out, "# seaglint {} motion, scenario {}, seed {}, sea state 0, realisation 0\n", kVersion,
                  scenario.name, scenario.seed);
-  fmt::format_to(out, "# significant_wave_height_m {}, peak_period_s {}, gamma {}, propagation_deg {}, order {}\n",
+  fmt::format_to(out, "# significant_wave_height_m {}, peak_period_s {}, gamma {}, propagation_deg {:.10g}, order {}\n",
                  state.significant_wave_height_m, state.peak_period_s, state.gamma, degrees(state.propagation_rad),
                  state.order);
   text += "time_s,body,roll_deg,pitch_deg,yaw_deg,surge_m,sway_m,heave_m\n";

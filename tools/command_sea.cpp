@@ -36,7 +36,8 @@ std::string header(const Scenario& scenario, const SeaState& state, const WaveFi
   fmt::format_to(out, "# seaglint {} sea, scenario {}, seed {}, sea state 0, realisation 0\n", kVersion, scenario.name,
                  scenario.seed);
   fmt::format_to(
-      out, "# significant_wave_height_m {}, peak_period_s {}, gamma {}, propagation_deg {}, order {}, {} components\n",
+      out,
+      "# significant_wave_height_m {}, peak_period_s {}, gamma {}, propagation_deg {:.10g}, order {}, {} components\n",
       state.significant_wave_height_m, state.peak_period_s, state.gamma, degrees(state.propagation_rad), state.order,
       field.components().size());
   fmt::format_to(out, "# reached: 4 sqrt(m0) {:.12g} m, skewness {:.4g}, RMS slope of the linear waves {:.4g}\n",
@@ -78,7 +79,7 @@ void add_sea(CLI::App& app, Shell& shell) {
   command->add_option("--at", arguments->at, "Place X,Y in the target frame, m")
       ->delimiter(',')
       ->expected(2)
-      ->check(CLI::Range(-1e6, 1e6));
+      ->check(number_within(-1e4, 1e4));
   add_threads_option(*command, shell);
   add_time_options(*command, arguments->duration_s, arguments->step_s);
   command->footer("Example:\n  seaglint sea scenarios/quick.yaml --at 40,0 --duration-s 100 -o sea.csv");

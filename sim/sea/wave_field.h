@@ -39,7 +39,7 @@ class WaveField {
   // the quadratic sums of order 2.
   WaveField(std::vector<WaveComponent> components, Vec2 direction, int order, double second_order_cutoff_rad_s);
 
-  // |w t| and |k.x| up to 1e8 rad; about 4 us for 512 components.
+  // |w t| and |k.x| up to 2e8 rad; about 4 us for 512 components.
   SurfaceState surface(double x, double y, double t) const;
 
   // The field whose every amplitude is multiplied by gain(wavenumber), as a body's waterplane filters it.
