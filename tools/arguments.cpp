@@ -20,14 +20,16 @@ void add_scenario_arguments(CLI::App& command, ScenarioArguments& arguments) {
       ->allow_extra_args(false);
 }
 
-Scenario ScenarioArguments::read() const {
+std::vector<Override> read_overrides(const std::vector<std::string>& set) {
   std::vector<Override> overrides;
   for (const std::string& text : set) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos) throw InputError(fmt::format("--set {}: must be key.path=value", text));
     overrides.push_back({text.substr(0, equals), text.substr(equals + 1)});
   }
-  return read_scenario(file, overrides);
+  return overrides;
 }
+
+Scenario ScenarioArguments::read() const { return read_scenario(file, read_overrides(set)); }
 
 }  // namespace seaglint

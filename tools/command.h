@@ -24,13 +24,18 @@ struct Shell {
 void add_check(CLI::App& app, Shell& shell);
 void add_keys(CLI::App& app, Shell& shell);
 void add_mesh(CLI::App& app, Shell& shell);
-void add_sea(CLI::App& app, Shell& shell);
-void add_motion(CLI::App& app, Shell& shell);
 void add_rcs(CLI::App& app, Shell& shell);
 void add_map(CLI::App& app, Shell& shell);
+void add_generate(CLI::App& app, Shell& shell);
+void add_train(CLI::App& app, Shell& shell);
+void add_run(CLI::App& app, Shell& shell);
+void add_report(CLI::App& app, Shell& shell);
 
 // Adds --threads to a command.
 void add_threads_option(CLI::App& command, Shell& shell);
+
+// The values of --set, `key.path=value` each. Throws InputError for one without `=`.
+std::vector<Override> read_overrides(const std::vector<std::string>& set);
 
 // Adds the positional SCENARIO and the repeatable --set key.path=value to a command, and reads them.
 struct ScenarioArguments {

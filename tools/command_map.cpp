@@ -3,32 +3,20 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <memory>
 
 #include "classify/dataset/plan.h"
-#include "classify/features/features.h"
-#include "radar/rvmap/scr.h"
 #include "sim/core/constants.h"
 #include "sim/core/error.h"
 #include "sim/scattering/point_response.h"
 #include "tools/command.h"
+#include "tools/pipeline.h"
 #include "tools/rv_figure.h"
 
 namespace seaglint {
 namespace {
-
-// The unambiguous window must hold the map and every point, wherever the radar stands.
-double window_of(const TargetSpec& target, const MapSpec& map, double duration_s) {
-  double window = map.range_span_m;
-  for (const PointSpec& point : target.points) {
-    const Vec3 position(point.position_m.data()), velocity(point.velocity_mps.data());
-    window = std::max(window, 2 * (position.norm() + velocity.norm() * duration_s) * 1.05);
-  }
-  return window;
-}
 
 void warn_outside(const TargetSpec& target, const Vec3& r_hat, const RvMap& map) {
   for (std::size_t i = 0; i < target.points.size(); ++i) {
@@ -62,31 +50,20 @@ void print_result(const ReceivedInterval& received, const std::vector<Scattering
 }
 
 void show_map(const Scenario& scenario, std::size_t sample, const std::string& file) {
-  const SamplePlan plan(scenario);
-  if (sample >= plan.size())
-    throw InputError(fmt::format("--sample {}: the scenario has samples 0 to {}", sample, plan.size() - 1));
-  const SampleAddress address = plan.address(sample);
-  const TargetSpec& target = scenario.targets[address.target];
-  if (target.points.empty()) throw InputError(fmt::format("targets.{}: only points can be mapped", target.name));
-  const View view = views(scenario.view)[address.view];
+  const std::size_t samples = SamplePlan(scenario).size();
+  if (sample >= samples)
+    throw InputError(fmt::format("--sample {}: the scenario has samples 0 to {}", sample, samples - 1));
+  const Pipeline pipeline(scenario);
+  const MadeSample made = pipeline.make(sample);
+  const TargetSpec& target = scenario.targets[static_cast<std::size_t>(made.address.target)];
+  const View view = views(scenario.view)[static_cast<std::size_t>(made.address.view)];
 
-  const double duration_s = scenario.radar.pulses * scenario.radar.pri_us * 1e-6;
-  const PulseTrain train =
-      make_pulse_train(scenario.radar, window_of(target, scenario.map, duration_s), scenario.seed, sample);
-  const Vec3 r_hat = direction_to_radar(view);
-  const FrequencyResponse response =
-      point_response(target.points, r_hat, interval_sampling(train, plan.start_s(address)));
-  const Echo echo = synthesize_echo(train, response, scenario.clutter, scenario.seed, sample);
-  const bool intra_pulse = scenario.radar.intra_pulse_motion;
-  const ReceivedInterval received = receive(echo, train, scenario.clutter, scenario.map, intra_pulse);
-  const auto centres = extract_centres(received.echo, train, scenario.map, intra_pulse, scenario.features);
-
-  warn_outside(target, r_hat, received.map);
-  write_figure(rv_figure(received.map, centres,
-                         fmt::format("{}: sample {}, {}, azimuth {:g} deg, elevation {:g} deg", scenario.name, sample,
-                                     target.name, degrees(view.azimuth_rad), degrees(view.elevation_rad))),
-               file);
-  print_result(received, centres, compute_features(centres, scenario.features));
+  warn_outside(target, direction_to_radar(view), made.received.map);
+  const std::string title = fmt::format(
+      "{}: sample {}, {}, Hs {:g} m, azimuth {:g} deg, elevation {:g} deg", scenario.name, sample, target.name,
+      made.stored.record.significant_wave_height_m, degrees(view.azimuth_rad), degrees(view.elevation_rad));
+  write_figure(rv_figure(made.received.map, made.centres, title), file);
+  print_result(made.received, made.centres, made.features);
 }
 
 }  // namespace

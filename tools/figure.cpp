@@ -169,6 +169,11 @@ void write_figure(const Heatmap& figure, const fs::path& file, FigureSize size) 
       axis_commands("x", x_axis) + axis_commands("y", y_axis) + axis_commands("cb", figure.colour) + kViridis;
   commands += image ? "" : "set pm3d map corners2color c1\n";
   commands += "set bmargin 5\nset key at screen 0.99, screen 0.02 right bottom horizontal reverse Left samplen 1\n";
+  for (const auto& box : figure.boxes) {
+    commands += fmt::format("set object rectangle from {},{} to {},{} front fs empty border lc rgb '#ff3b30' lw 1.6\n", number(box[0]),
+                            number(box[2]), number(box[1]), number(box[3]));
+  }
+  commands += "set key outside bottom right horizontal reverse Left samplen 1\n";
   commands +=
       image ? "plot data index 0 using 1:2:3 with image notitle" : "splot data index 0 using 1:2:3 with pm3d notitle";
   if (!figure.markers.empty()) {

@@ -29,6 +29,7 @@ struct Heatmap {
   std::vector<double> values;                  // [y][x]; NaN stays white
   std::vector<std::array<double, 2>> markers;  // x, y of open circles
   std::string marker_name;                     // in the legend, when not empty
+  std::vector<std::array<double, 4>> boxes;    // x low, x high, y low, y high of frames
 };
 
 enum class SeriesStyle { kLines, kPoints, kLinesPoints, kBars };

@@ -33,7 +33,7 @@ std::string columns_table() {
 
 }  // namespace
 
-std::string data_card(const Scenario& scenario, const Manifest& manifest, const MapAxes& axes) {
+std::string data_card(const Scenario& scenario, const Manifest& manifest, const StoredAxes& axes) {
   const DatasetSpec& set = scenario.dataset;
   std::string text = fmt::format("# Data set `{}`\n\n", scenario.name);
   text += fmt::format(

@@ -11,6 +11,6 @@
 
 namespace seaglint {
 
-std::string data_card(const Scenario& scenario, const Manifest& manifest, const MapAxes& axes);
+std::string data_card(const Scenario& scenario, const Manifest& manifest, const StoredAxes& axes);
 
 }  // namespace seaglint

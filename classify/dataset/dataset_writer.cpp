@@ -103,7 +103,7 @@ std::size_t DatasetWriter::finish(const std::string& program_version) {
   manifest.processor = processor_kind();
   manifest.seed = scenario_.seed;
   manifest.samples = plan_.size();
-  const MapAxes axes = read_shard(shard_file(0)).axes;
+  const StoredAxes axes = read_shard(shard_file(0)).axes;
   manifest.rows = axes.velocity_mps.size();
   manifest.columns = axes.range_m.size();
   for (std::size_t i = 0; i < plan_.shards(); ++i) {

@@ -12,21 +12,6 @@
 
 namespace seaglint {
 
-namespace {
-
-// The order in which the targets of one interval are numbered: a Fisher-Yates shuffle of its own key.
-std::vector<int> target_order(std::uint64_t seed, std::size_t interval_number, std::size_t targets) {
-  std::vector<int> order(targets);
-  std::iota(order.begin(), order.end(), 0);
-  Random random({seed, Stream::kTargetOrder, interval_number});
-  for (std::size_t i = targets; i > 1; --i) {
-    std::swap(order[i - 1], order[random.below(static_cast<std::uint32_t>(i))]);
-  }
-  return order;
-}
-
-}  // namespace
-
 SamplePlan::SamplePlan(const Scenario& scenario)
     : seed_(scenario.seed),
       sea_states_(sea_states(scenario.sea).size()),
@@ -34,6 +19,7 @@ SamplePlan::SamplePlan(const Scenario& scenario)
       views_(views(scenario.view).size()),
       intervals_(scenario.dataset.maps_per_case / std::max(1, scenario.dataset.realisations_per_case)),
       targets_(scenario.targets.size()),
+      per_realisation_(views_ * static_cast<std::size_t>(intervals_) * targets_),
       per_shard_(static_cast<std::size_t>(scenario.dataset.maps_per_shard)),
       spacing_s_(scenario.dataset.interval_spacing_s) {
   SEAGLINT_CHECK(realisations_ >= 1 && intervals_ >= 1 && per_shard_ >= 1 &&
@@ -42,37 +28,43 @@ SamplePlan::SamplePlan(const Scenario& scenario)
                              scenario.dataset.maps_per_case, realisations_, per_shard_));
 }
 
-std::size_t SamplePlan::size() const {
-  return sea_states_ * realisations_ * views_ * static_cast<std::size_t>(intervals_) * targets_;
+std::size_t SamplePlan::size() const { return sea_states_ * realisations_ * per_realisation_; }
+
+// A Fisher-Yates shuffle of its own key.
+std::vector<std::uint32_t> SamplePlan::order(std::size_t realisation_number) const {
+  std::vector<std::uint32_t> order(per_realisation_);
+  std::iota(order.begin(), order.end(), 0u);
+  Random random({seed_, Stream::kTargetOrder, realisation_number});
+  for (std::size_t i = order.size(); i > 1; --i) {
+    std::swap(order[i - 1], order[random.below(static_cast<std::uint32_t>(i))]);
+  }
+  return order;
 }
 
 SampleAddress SamplePlan::address(std::size_t sample) const {
   SEAGLINT_CHECK(sample < size(), fmt::format("sample {} of {}", sample, size()));
-  const std::size_t interval_number = sample / targets_;
-  std::size_t rest = interval_number;
-  const auto next_digit = [&rest](std::size_t base) {
-    const std::size_t digit = rest % base;
-    rest /= base;
-    return static_cast<int>(digit);
-  };
+  const std::size_t realisation_number = sample / per_realisation_;
+  const std::size_t place = order(realisation_number)[sample % per_realisation_];
+  const std::size_t intervals = static_cast<std::size_t>(intervals_);
   SampleAddress address;
-  address.target = target_order(seed_, interval_number, targets_)[sample % targets_];
-  address.interval = next_digit(static_cast<std::size_t>(intervals_));
-  address.view = next_digit(views_);
-  address.realisation = next_digit(realisations_);
-  address.sea_state = static_cast<int>(rest);
+  address.target = static_cast<int>(place % targets_);
+  address.interval = static_cast<int>(place / targets_ % intervals);
+  address.view = static_cast<int>(place / targets_ / intervals);
+  address.realisation = static_cast<int>(realisation_number % realisations_);
+  address.sea_state = static_cast<int>(realisation_number / realisations_);
   return address;
 }
 
 std::size_t SamplePlan::sample(const SampleAddress& address) const {
-  std::size_t number = static_cast<std::size_t>(address.sea_state);
-  number = number * realisations_ + static_cast<std::size_t>(address.realisation);
-  number = number * views_ + static_cast<std::size_t>(address.view);
-  number = number * static_cast<std::size_t>(intervals_) + static_cast<std::size_t>(address.interval);
-  const std::vector<int> order = target_order(seed_, number, targets_);
-  const auto place = std::find(order.begin(), order.end(), address.target);
-  SEAGLINT_CHECK(place != order.end(), fmt::format("target {} of {}", address.target, targets_));
-  return number * targets_ + static_cast<std::size_t>(place - order.begin());
+  const std::size_t realisation_number =
+      static_cast<std::size_t>(address.sea_state) * realisations_ + static_cast<std::size_t>(address.realisation);
+  const std::size_t view_interval = static_cast<std::size_t>(address.view) * static_cast<std::size_t>(intervals_) +
+                                    static_cast<std::size_t>(address.interval);
+  const std::size_t place = view_interval * targets_ + static_cast<std::size_t>(address.target);
+  const std::vector<std::uint32_t> order = this->order(realisation_number);
+  const auto found = std::find(order.begin(), order.end(), place);
+  SEAGLINT_CHECK(found != order.end(), fmt::format("place {} of {}", place, per_realisation_));
+  return realisation_number * per_realisation_ + static_cast<std::size_t>(found - order.begin());
 }
 
 std::size_t SamplePlan::shards() const { return (size() + per_shard_ - 1) / per_shard_; }

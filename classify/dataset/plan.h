@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "sim/scenario/scenario.h"
 
@@ -28,9 +29,9 @@ struct ShardRange {
   std::size_t count = 0;
 };
 
-// Samples are numbered with the sea state slowest, then realisation, view, interval, target, so that those which share
-// a sea and its motions lie together. The order of the targets within one interval is shuffled by a random number
-// (stream kTargetOrder), so that a sample's number says nothing about its label.
+// Samples are numbered with the sea state slowest, then the realisation, so that those which share a sea and its
+// motions lie together. Within a realisation views, intervals and targets come in a random order (stream kTargetOrder),
+// so that neither a sample's number nor its neighbours' labels say anything about its own.
 class SamplePlan {
  public:
   explicit SamplePlan(const Scenario& scenario);
@@ -52,12 +53,16 @@ class SamplePlan {
   double last_start_s() const;
 
  private:
+  // The shuffled order of the samples of one realisation: entry = (view intervals + interval) targets + target.
+  std::vector<std::uint32_t> order(std::size_t realisation_number) const;
+
   std::uint64_t seed_ = 0;
   std::size_t sea_states_ = 0;
   std::size_t realisations_ = 0;
   std::size_t views_ = 0;
   int intervals_ = 0;
   std::size_t targets_ = 0;
+  std::size_t per_realisation_ = 0;  // samples
   std::size_t per_shard_ = 1;
   double spacing_s_ = 0;
 };

@@ -47,7 +47,6 @@ struct SampleRecord {
   std::int64_t centres = 0;
   std::int64_t degenerate = 0;
   std::int64_t traces = 0;
-  std::int64_t contributions = 0;
 };
 
 struct SampleColumn {
@@ -73,12 +72,12 @@ struct Sample {
 };
 
 // The axes that all maps of a data set share.
-struct MapAxes {
+struct StoredAxes {
   std::vector<double> range_m;       // relative to the target's reference point, positive = farther
   std::vector<double> velocity_mps;  // positive = receding
 
   std::size_t cells() const { return range_m.size() * velocity_mps.size(); }
-  bool operator==(const MapAxes&) const = default;
+  bool operator==(const StoredAxes&) const = default;
 };
 
 }  // namespace seaglint

@@ -162,7 +162,7 @@ void write_file_content(const std::filesystem::path& file, const Shard& shard, i
   Handle h5(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, creation, access), H5Fclose, "cannot create");
   write_text_attribute(h5, "format", "seaglint shard 1");
 
-  const MapAxes& axes = shard.axes;
+  const StoredAxes& axes = shard.axes;
   const hsize_t n = shard.samples.size(), rows = axes.velocity_mps.size(), columns = axes.range_m.size();
   {
     Handle group = create_group(h5, "axes");

@@ -22,7 +22,7 @@
 namespace seaglint {
 
 struct Shard {
-  MapAxes axes;
+  StoredAxes axes;
   std::vector<Sample> samples;
 };
 

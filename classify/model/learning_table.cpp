@@ -29,7 +29,7 @@ struct MapLevels {
   double above_threshold = 0;  // cells within 20 dB of the strongest
 };
 
-MapLevels map_levels(const Sample& sample, const MapAxes& axes) {
+MapLevels map_levels(const Sample& sample, const StoredAxes& axes) {
   const std::size_t columns = axes.range_m.size(), rows = axes.velocity_mps.size();
   std::vector<double> power(sample.magnitude.size());
   double total = 0;
@@ -55,7 +55,21 @@ std::vector<float> carrier_counts(const std::vector<std::uint16_t>& code, std::s
   return counts;
 }
 
-enum ProbeIndex { kPower, kPeak, kFloor, kPedestal, kAbove, kCentres, kHopCode, kOrder, kProbes };
+enum ProbeIndex {
+  kPower,
+  kPeak,
+  kFloor,
+  kPedestal,
+  kAbove,
+  kCentres,
+  kHopCode,
+  kOrder,
+  kMwr,
+  kCcf,
+  kSigmaR,
+  kSigmaV,
+  kProbes
+};
 
 std::vector<Probe> empty_probes(std::size_t bands) {
   std::vector<Probe> probes(kProbes);
@@ -73,6 +87,13 @@ std::vector<Probe> empty_probes(std::size_t bands) {
     probes[kHopCode].features.names.push_back(fmt::format("carrier_{}", band));
   probes[kOrder] = {
       "sample order", ProbeKind::kBlind, "number of the sample, and whether it is odd", {{"sample", "odd"}, {}}};
+  probes[kMwr] = {"MWR alone", ProbeKind::kFeature, "residual of the line", {{"mwr"}, {}}};
+  probes[kCcf] = {"CCF alone", ProbeKind::kFeature, "contrast of the spreads", {{"ccf"}, {}}};
+  probes[kSigmaR] = {"sigma_r alone",
+                     ProbeKind::kFeature,
+                     "range spread: the target's length and layout, not its motion",
+                     {{"sigma_r_m"}, {}}};
+  probes[kSigmaV] = {"sigma_v alone", ProbeKind::kFeature, "velocity spread: motion alone", {{"sigma_v_mps"}, {}}};
   return probes;
 }
 
@@ -86,6 +107,8 @@ const char* name(ProbeKind kind) {
       return "scale";
     case ProbeKind::kShape:
       return "shape";
+    case ProbeKind::kFeature:
+      return "feature";
   }
   return "";
 }
@@ -133,6 +156,10 @@ LearningTable load_learning_table(const DatasetReader& data, const LearningSpec&
       add(kCentres, static_cast<double>(record.centres));
       add(kOrder, static_cast<double>(record.sample));
       add(kOrder, static_cast<double>(record.sample % 2));
+      add(kMwr, record.mwr);
+      add(kCcf, record.ccf);
+      add(kSigmaR, record.sigma_r_m);
+      add(kSigmaV, record.sigma_v_mps);
       codes.push_back(sample.hop_code);
       for (const std::uint16_t carrier : sample.hop_code) carriers = std::max<std::size_t>(carriers, carrier + 1u);
     }

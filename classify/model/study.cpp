@@ -66,31 +66,61 @@ std::vector<Prediction> predict_rows(const Booster& booster, const FeatureMatrix
   return predictions;
 }
 
+std::vector<Job> all_jobs(const LearningSpec& spec) {
+  std::vector<Job> jobs;
+  for (const Protocol protocol : kProtocols) {
+    for (const Fusion fusion : {spec.fusion, other_fusion(spec.fusion)}) {
+      for (int repeat = 0; repeat < spec.split_repeats; ++repeat) {
+        jobs.push_back({static_cast<std::uint64_t>(repeat), protocol, fusion});
+      }
+    }
+  }
+  return jobs;
+}
+
+// The rows of a job: `test` of the split is what it is judged by.
+struct JobRows {
+  Split split;
+  std::vector<std::size_t> network;
+  std::vector<std::size_t> trees;
+};
+
+JobRows rows_of(const Job& job, std::span<const RowGroup> groups, const LearningSpec& spec, double train_share,
+                std::uint64_t seed) {
+  JobRows rows{split_rows(groups, job.protocol, train_share, seed, job.repeat), {}, {}};
+  if (job.fusion == Fusion::kInSample) {
+    rows.network = rows.trees = rows.split.train;
+  } else {
+    const Split fusion = split_for_fusion(groups, rows.split, job.protocol, spec.network_share, seed, job.repeat);
+    rows.network = fusion.train;
+    rows.trees = fusion.test;
+  }
+  if (rows.network.empty() || rows.trees.empty() || rows.split.test.empty()) {
+    throw InputError(fmt::format(
+        "dataset: {} maps in too few seas leave nothing to train or to test on when they are split by {}; raise "
+        "dataset.realisations_per_case",
+        groups.size(), job.protocol == Protocol::kRandom ? "rows" : "seas"));
+  }
+  return rows;
+}
+
 JobResult run_job(const Job& job, const LearningTable& table, const LearningSpec& spec, double train_share,
                   std::uint64_t seed, const StopFlag* stop) {
   JobResult result;
-  result.split = split_rows(table.groups, job.protocol, train_share, seed, job.repeat);
-  const Split fusion = split_for_fusion(table.groups, result.split, job.protocol, spec.network_share, seed, job.repeat);
-  const bool split = job.fusion == Fusion::kSplit;
-  const std::vector<std::size_t>& network_rows = split ? fusion.train : result.split.train;
-  const std::vector<std::size_t>& tree_rows = split ? fusion.test : result.split.train;
-  if (network_rows.empty() || tree_rows.empty() || result.split.test.empty()) {
-    throw InputError(
-        fmt::format("dataset: {} maps in too few groups leave nothing to train or to test on (protocol {}); raise "
-                    "dataset.realisations_per_case",
-                    table.rows(), name(job.protocol)));
-  }
+  const JobRows rows = rows_of(job, table.groups, spec, train_share, seed);
+  result.split = rows.split;
 
-  const std::uint64_t index = (job.repeat * 2 + (job.protocol == Protocol::kGroup ? 1 : 0)) * 2 + (split ? 0 : 1);
-  result.network = Network::train(table.inputs, network_rows, table.labels, spec, seed, index, stop);
+  const std::uint64_t index =
+      (job.repeat * 2 + (job.protocol == Protocol::kGroup ? 1 : 0)) * 2 + (job.fusion == Fusion::kSplit ? 0 : 1);
+  result.network = Network::train(table.inputs, rows.network, table.labels, spec, seed, index, stop);
   result.embeddings = to_matrix(result.network->embed(table.inputs));
 
   const FeatureMatrix fused = join_columns(table.handmade, result.embeddings);
   const FeatureMatrix* features[3] = {&table.handmade, &result.embeddings, &fused};
   for (int group = 0; group < 3; ++group) {
-    result.train_rows[group] = tree_rows.size();
+    result.train_rows[group] = rows.trees.size();
     const Booster booster =
-        Booster::train(select_rows(*features[group], tree_rows), select(table.labels, tree_rows), spec);
+        Booster::train(select_rows(*features[group], rows.trees), select(table.labels, rows.trees), spec);
     result.predictions[group] = predict_rows(booster, *features[group], table, result.split.test);
     result.boosters.push_back(booster);
   }
@@ -151,16 +181,13 @@ std::string splits_csv(const LearningTable& table, const std::vector<Split>& spl
 
 }  // namespace
 
+void check_splits(std::span<const RowGroup> rows, const LearningSpec& spec, double train_share, std::uint64_t seed) {
+  for (const Job& job : all_jobs(spec)) rows_of(job, rows, spec, train_share, seed);
+}
+
 Study run_study(const LearningTable& table, const LearningSpec& spec, double train_share, std::uint64_t seed,
                 const std::filesystem::path& model_directory, int threads, const StopFlag* stop) {
-  std::vector<Job> jobs;
-  for (const Protocol protocol : kProtocols) {
-    for (const Fusion fusion : {spec.fusion, other_fusion(spec.fusion)}) {
-      for (int repeat = 0; repeat < spec.split_repeats; ++repeat) {
-        jobs.push_back({static_cast<std::uint64_t>(repeat), protocol, fusion});
-      }
-    }
-  }
+  const std::vector<Job> jobs = all_jobs(spec);
   std::vector<JobResult> done(jobs.size());
   Progress progress("training", jobs.size());
   parallel_for(

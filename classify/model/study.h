@@ -50,6 +50,9 @@ struct Study {
   FeatureMatrix embeddings;            // of all rows, of that network: embedding values, then the logit
 };
 
+// Throws InputError when rows in these groups leave a side of a split without rows; known before any map is made.
+void check_splits(std::span<const RowGroup> rows, const LearningSpec& spec, double train_share, std::uint64_t seed);
+
 // Trains, evaluates, and saves the models of the group protocol (first repeat, main fusion) in `model_directory`:
 // network.bin, handmade.json, cnn.json, fused.json, splits.csv. The result depends on data, spec and seed alone, not on
 // `threads`.

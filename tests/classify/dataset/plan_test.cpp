@@ -72,15 +72,29 @@ TEST(SamplePlan, BothClassesAndAllViewsShareTheSeaOfAGroup) {
   for (const auto& [group, uses] : uses_of_group) EXPECT_EQ(uses.size(), 6u);
 }
 
-TEST(SamplePlan, TheParityOfASampleNumberSaysNothingAboutItsTarget) {
+TEST(SamplePlan, NeitherParityNorTheNeighbourTellsTheTarget) {
   Scenario scenario = small_scenario();
   scenario.dataset.maps_per_case = 300;
   const SamplePlan plan(scenario);
-  int first_is_ship = 0;
-  const int pairs = static_cast<int>(plan.size() / 2);
-  for (std::size_t i = 0; i < plan.size(); i += 2) first_is_ship += plan.address(i).target == 0 ? 1 : 0;
-  // Binomial with n = 2700, p = 1/2: four standard deviations are 2 sqrt(n).
-  EXPECT_NEAR(first_is_ship, pairs / 2, 2 * std::sqrt(pairs));
+  const int samples = static_cast<int>(plan.size());
+  int even_ships = 0, changes = 0;
+  for (std::size_t i = 0; i < plan.size(); ++i) {
+    if (i % 2 == 0) even_ships += plan.address(i).target == 0 ? 1 : 0;
+    if (i % 2 == 1) changes += plan.address(i).target != plan.address(i - 1).target ? 1 : 0;
+  }
+  // Binomial with n = 2700, p = 1/2: four standard deviations are 2 sqrt(n). Half of each block of 600 being ships
+  // moves the chance of a change from 1/2 to 300/599, 2.3 of 2700.
+  EXPECT_NEAR(even_ships, samples / 4, 2 * std::sqrt(samples / 2));
+  EXPECT_NEAR(changes, samples / 4, 2 * std::sqrt(samples / 2) + 3);
+}
+
+TEST(SamplePlan, SamplesOfOneSeaLieTogether) {
+  const SamplePlan plan(small_scenario());
+  std::int64_t last = 0;
+  for (std::size_t i = 0; i < plan.size(); ++i) {
+    EXPECT_GE(plan.group(plan.address(i)), last);
+    last = plan.group(plan.address(i));
+  }
 }
 
 }  // namespace

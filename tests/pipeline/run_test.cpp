@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The main job on ideal points: from scenario to report, and the report in a real browser.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "tests/pipeline/program.h"
+
+namespace seaglint {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::Not;
+
+// One finished run for all tests of this file.
+class FinishedRun : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new TemporaryFolder;
+    directory_ = folder_->path() / "run";
+    result_ = run_program({"run", "scenarios/points.yaml", "-o", directory_, "--set", "learning.epochs=3"});
+  }
+  static void TearDownTestSuite() { delete folder_; }
+
+  static inline TemporaryFolder* folder_ = nullptr;
+  static inline fs::path directory_;
+  static inline ProgramResult result_;
+};
+
+nlohmann::json metrics_of(const fs::path& directory) {
+  return nlohmann::json::parse(read_file(directory / "metrics.json"));
+}
+
+TEST_F(FinishedRun, PrintsTheAccuracyTableAndWhereTheReportIs) {
+  ASSERT_EQ(result_.code, 0) << result_.err;
+  EXPECT_THAT(result_.out, HasSubstr("hand-made"));
+  EXPECT_THAT(result_.out, HasSubstr("fused"));
+  EXPECT_THAT(result_.out, HasSubstr("Report: " + (directory_ / "report.html").string()));
+}
+
+TEST_F(FinishedRun, HasMetricsOfThreeGroupsByWaveHeightUnderBothProtocols) {
+  const nlohmann::json metrics = metrics_of(directory_);
+  for (const char* group : {"handmade", "cnn", "fused"}) {
+    for (const char* protocol : {"random", "group"}) {
+      const auto& entry = metrics.at(group).at(protocol);
+      const double accuracy = entry.at("accuracy");
+      EXPECT_GE(accuracy, 0);
+      EXPECT_LE(accuracy, 1);
+      ASSERT_EQ(entry.at("by_wave_height").size(), 1u);
+      EXPECT_EQ(entry.at("by_wave_height")[0].at("significant_wave_height_m"), 1);
+    }
+  }
+  EXPECT_EQ(metrics.at("data").at("maps"), 40);
+}
+
+TEST_F(FinishedRun, RepeatsItsNumbersBitForBit) {
+  const TemporaryFolder folder;
+  const ProgramResult result = run_program(
+      {"run", "scenarios/points.yaml", "-o", folder.path() / "run", "--threads", "1", "--set", "learning.epochs=3"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  nlohmann::json a = metrics_of(directory_), b = metrics_of(folder.path() / "run");
+  a.erase("run");  // seconds and threads
+  b.erase("run");
+  EXPECT_EQ(a, b);
+  EXPECT_EQ(read_file(directory_ / "model" / "network.bin"),
+            read_file(folder.path() / "run" / "model" / "network.bin"));
+}
+
+TEST_F(FinishedRun, IsRefusedAsATargetWithoutResumeAndContinuedWithIt) {
+  const ProgramResult again =
+      run_program({"run", "scenarios/points.yaml", "-o", directory_, "--set", "learning.epochs=3"});
+  EXPECT_EQ(again.code, 2);
+  EXPECT_THAT(again.err, HasSubstr("--resume"));
+  const std::string before = read_file(directory_ / "model" / "fused.json");
+  const ProgramResult resumed =
+      run_program({"run", "scenarios/points.yaml", "-o", directory_, "--resume", "--set", "learning.epochs=3"});
+  EXPECT_EQ(resumed.code, 0) << resumed.err;
+  EXPECT_THAT(resumed.out, HasSubstr("40 of 40 maps were there already"));
+  EXPECT_EQ(read_file(directory_ / "model" / "fused.json"), before);
+}
+
+TEST_F(FinishedRun, CanBeTrainedOnAndReportedAgain) {
+  const TemporaryFolder folder;
+  const ProgramResult trained =
+      run_program({"train", directory_, "-o", folder.path() / "model", "--set", "learning.epochs=2"});
+  EXPECT_EQ(trained.code, 0) << trained.err;
+  EXPECT_TRUE(fs::exists(folder.path() / "model" / "network.bin"));
+  const ProgramResult wrong =
+      run_program({"train", directory_, "-o", folder.path() / "model", "--set", "radar.pulses=64"});
+  EXPECT_EQ(wrong.code, 2);
+  const ProgramResult reported = run_program({"report", directory_});
+  EXPECT_EQ(reported.code, 0) << reported.err;
+}
+
+TEST_F(FinishedRun, ReportHoldsEverythingInItself) {
+  const std::string page = read_file(directory_ / "report.html");
+  EXPECT_THAT(page, HasSubstr("<h2>Range-velocity maps</h2>"));
+  for (const char* outside : {"http://", "https://", "src=\"/", "<script", "@import", "url("})
+    EXPECT_THAT(page, Not(HasSubstr(outside)));
+  const std::regex source("src=\"([^\"]{0,22})");
+  std::size_t pictures = 0;
+  for (std::sregex_iterator it(page.begin(), page.end(), source), end; it != end; ++it, ++pictures) {
+    EXPECT_EQ((*it)[1].str().substr(0, 11), "data:image/") << (*it)[1];
+  }
+  EXPECT_GE(pictures, 10u);
+}
+
+// Asks headless Chromium. The page's own script is none; this one is put beside it in a copy and writes what it finds
+// into the title.
+TEST_F(FinishedRun, ReportShowsEveryPictureInABrowser) {
+  if (std::system("command -v chromium >/dev/null 2>&1") != 0) GTEST_SKIP() << "the package chromium is not installed";
+  const TemporaryFolder folder;
+  std::string page = read_file(directory_ / "report.html");
+  const std::string script =
+      "<script>addEventListener('load',()=>{const all=[...document.images];const "
+      "bad=all.filter(i=>!i.complete||i.naturalWidth<100);"
+      "const out=performance.getEntriesByType('resource').filter(e=>!e.name.startsWith('data:'));"
+      "const wide=document.documentElement.scrollWidth>document.documentElement.clientWidth;"
+      "document.body.setAttribute('data-found','pictures '+all.length+' broken '+bad.length+' requests '+out.length+' "
+      "overflow '+wide)})"
+      "</script></body>";
+  page.replace(page.rfind("</body>"), 7, script);
+  std::ofstream(folder.path() / "page.html") << page;
+  const std::string command =
+      "chromium --headless --no-sandbox --disable-gpu --disable-quic --no-first-run --disable-background-networking "
+      "--disable-component-update --disable-sync --window-size=1280,1000 --virtual-time-budget=5000 --user-data-dir='" +
+      (folder.path() / "profile").string() + "' --dump-dom 'file://" + (folder.path() / "page.html").string() +
+      "' 2>/dev/null >'" + (folder.path() / "dom").string() + "'";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  std::smatch found;
+  const std::string dom = read_file(folder.path() / "dom");
+  ASSERT_TRUE(std::regex_search(
+      dom, found, std::regex("data-found=\"pictures ([0-9]+) broken ([0-9]+) requests ([0-9]+) overflow (\\w+)\"")));
+  EXPECT_GE(std::stoi(found[1]), 10);
+  EXPECT_EQ(found[2], "0") << "pictures that do not decode";
+  EXPECT_EQ(found[3], "0") << "requests beyond the page";
+  EXPECT_EQ(found[4], "false") << "the page is wider than the window";
+}
+
+TEST(Run, SaysBeforeAnyWorkWhatLearningWouldRefuse) {
+  const TemporaryFolder folder;
+  const ProgramResult few = run_program({"run", "scenarios/points.yaml", "-o", folder.path() / "run", "--set",
+                                         "dataset.maps_per_case=2", "--set", "dataset.realisations_per_case=2"});
+  EXPECT_EQ(few.code, 2);
+  EXPECT_THAT(few.err, HasSubstr("realisations_per_case"));
+  const ProgramResult one_class =
+      run_program({"run", "scenarios/points.yaml", "-o", folder.path() / "run", "--set", "targets.line.label=0"});
+  EXPECT_EQ(one_class.code, 2);
+  EXPECT_THAT(one_class.err, HasSubstr("label"));
+  EXPECT_FALSE(fs::exists(folder.path() / "run"));
+}
+
+TEST(Report, RefusesWhatIsNotARun) {
+  const TemporaryFolder folder;
+  const ProgramResult result = run_program({"report", folder.path()});
+  EXPECT_EQ(result.code, 2);
+  EXPECT_THAT(result.err, HasSubstr("scenario.yaml"));
+  EXPECT_EQ(run_program({"train", folder.path(), "-o", folder.path() / "model"}).code, 2);
+}
+
+}  // namespace
+}  // namespace seaglint

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/generate.h"
+
+#include <map>
+#include <mutex>
+#include <vector>
+
+#include "classify/dataset/dataset_writer.h"
+#include "seaglint_version.h"
+#include "sim/core/progress.h"
+#include "tools/pipeline.h"
+
+namespace seaglint {
+
+namespace {
+
+// A shard whose samples arrive in any order.
+struct OpenShard {
+  Shard content;
+  std::size_t waiting = 0;  // samples that are still to come
+};
+
+}  // namespace
+
+GenerateResult generate_dataset(const Scenario& scenario, const std::filesystem::path& directory,
+                                const GenerateOptions& options, const StopFlag* stop) {
+  const Pipeline pipeline(scenario);
+  const SamplePlan& plan = pipeline.plan();
+  DatasetWriter writer(directory, scenario, options.resume);
+
+  // The part's shards that are to be made, and their samples in order.
+  GenerateResult result;
+  struct Work {
+    std::size_t shard = 0;
+    std::size_t sample = 0;
+  };
+  std::vector<Work> work;
+  std::map<std::size_t, OpenShard> open;
+  const std::size_t shards = plan.shards(), parts = static_cast<std::size_t>(options.parts),
+                    part = static_cast<std::size_t>(options.part);
+  for (std::size_t shard = (part - 1) * shards / parts; shard < part * shards / parts; ++shard) {
+    const ShardRange range = plan.shard(shard);
+    if (writer.complete(shard)) {
+      result.kept += range.count;
+      continue;
+    }
+    open[shard].waiting = range.count;
+    for (std::size_t i = 0; i < range.count; ++i) work.push_back({shard, range.first + i});
+  }
+
+  Progress progress("making maps", work.size());
+  std::mutex mutex;
+  parallel_for(
+      work.size(), thread_count(options.threads),
+      [&](std::size_t i) {
+        MadeSample made = pipeline.make(work[i].sample);
+        const ShardRange range = plan.shard(work[i].shard);
+        Shard whole;
+        {
+          const std::lock_guard lock(mutex);
+          OpenShard& shard = open[work[i].shard];
+          shard.content.samples.resize(range.count);
+          shard.content.axes = stored_axes(made.received.map);
+          shard.content.samples[work[i].sample - range.first] = std::move(made.stored);
+          if (--shard.waiting == 0) {
+            whole = std::move(shard.content);
+            open.erase(work[i].shard);
+          }
+        }
+        if (!whole.samples.empty()) writer.put(work[i].shard, whole);
+        progress.advance();
+      },
+      stop);
+  result.made = work.size();
+  result.missing = writer.finish(kVersion);
+  return result;
+}
+
+}  // namespace seaglint

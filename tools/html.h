@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// Pieces of an HTML page that needs nothing but itself.
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace seaglint {
+
+std::string escape_html(std::string_view text);
+std::string base64(std::string_view bytes);  // RFC 4648, section 4
+
+// A table; cells are HTML, the first row is the head. Columns after the first are right-aligned when `numbers`.
+std::string html_table(const std::vector<std::vector<std::string>>& rows, bool numbers = true);
+
+// A .png or .svg file as an embedded picture with its caption (HTML) below; `alternative` is what a screen reader says.
+std::string html_figure(const std::filesystem::path& file, std::string_view caption, std::string_view alternative);
+
+// The whole page around its body.
+std::string html_page(std::string_view title, std::string_view body);
+
+}  // namespace seaglint

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// The words and tables of a report, all from metrics.json: what came out, what the paper says, what an expert should
+// notice.
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "sim/scenario/scenario.h"
+
+namespace seaglint {
+
+// Each returns HTML.
+std::string summary_tiles(const nlohmann::ordered_json& metrics);
+std::string accuracy_tables(const nlohmann::ordered_json& metrics);
+std::string claims_table(const nlohmann::ordered_json& metrics);
+std::string probes_table(const nlohmann::ordered_json& metrics);
+std::string feature_table(const nlohmann::ordered_json& metrics);
+std::string expert_notes(const nlohmann::ordered_json& metrics, const Scenario& scenario);
+std::string provenance_table(const nlohmann::ordered_json& metrics);
+
+}  // namespace seaglint

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// The bodies of a scenario and how they move in one sea realisation.
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "classify/dataset/plan.h"
+#include "sim/geometry/triangle_mesh.h"
+#include "sim/motion/trajectory.h"
+#include "sim/scenario/scenario.h"
+#include "sim/sea/wave_field.h"
+
+namespace seaglint {
+
+// A target as loaded: one mesh shared by its bodies, or ideal points.
+struct Target {
+  TargetSpec spec;
+  TriangleMesh mesh;                 // empty for points
+  std::vector<Vec3> rest_positions;  // of the bodies' origins, target frame; empty for points
+  std::uint64_t first_body = 0;      // bodies are counted over all targets, in order
+};
+
+// Throws InputError for a mesh that is missing or unsound.
+std::vector<Target> load_targets(const Scenario& scenario);
+
+// Full width of the range window that holds the response of every target of the scenario, wherever it is seen from. It
+// is one number for all samples: a window that followed the target would tell its size.
+double range_window_m(const Scenario& scenario, const std::vector<Target>& targets);
+
+// One sea realisation with the motion of every body, from t = 0 to the end of the last interval.
+struct Scene {
+  WaveField sea;
+  std::vector<std::vector<Trajectory>> bodies;  // [target][body]; none for points
+};
+
+// The key of a body's own random numbers (stream kFloatYaw) in the realisation with this sea key.
+std::uint64_t motion_key(std::uint64_t sea_key, std::uint64_t body);
+
+// Longer than its intervals need where at_least_s says so; the beginning is the same.
+Scene make_scene(const Scenario& scenario, const std::vector<Target>& targets, int sea_state, int realisation,
+                 double at_least_s = 0);
+
+}  // namespace seaglint

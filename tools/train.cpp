@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/train.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "classify/dataset/dataset_writer.h"
+#include "seaglint_version.h"
+#include "sim/core/error.h"
+#include "sim/core/file.h"
+
+namespace seaglint {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string embeddings_csv(const LearningTable& table, const FeatureMatrix& embeddings) {
+  std::string text = "sample,group,label,significant_wave_height_m,azimuth_deg";
+  for (const FeatureMatrix* matrix : {&table.handmade, &embeddings}) {
+    for (const std::string& column : matrix->names) text += "," + column;
+  }
+  text += "\n";
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    text += fmt::format("{},{},{},{:g},{:g}", table.samples[row], table.groups[row].group, table.labels[row],
+                        table.wave_heights_m[row], table.azimuths_deg[row]);
+    for (const FeatureMatrix* matrix : {&table.handmade, &embeddings}) {
+      for (const float value : matrix->row(row)) text += fmt::format(",{}", value);
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+std::string metrics_json(const Study& study, const LearningTable& table, const Scenario& scenario,
+                         const Manifest& manifest) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::parse(to_json(study, scenario.learning));
+  json["scenario"] = scenario.name;
+  json["version"] = kVersion;
+  json["seed"] = scenario.seed;
+  json["data"] = {{"maps", table.rows()},
+                  {"maps_with_fewer_than_3_centres", table.degenerate},
+                  {"processor", manifest.processor},
+                  {"scenario_sha256", manifest.scenario_sha256}};
+  return json.dump(2) + "\n";
+}
+
+void require_own_directory(const fs::path& directory) {
+  std::error_code error;
+  if (!fs::exists(directory, error) || fs::is_empty(directory, error) || fs::exists(directory / "network.bin")) return;
+  throw InputError(fmt::format("{}: the directory is not empty and holds no model", directory.string()));
+}
+
+}  // namespace
+
+fs::path find_data_set(const fs::path& directory) {
+  if (!fs::exists(directory / kManifestFile) && fs::exists(directory / "data" / kManifestFile))
+    return directory / "data";
+  return directory;
+}
+
+Study train_model(const fs::path& data_set, const fs::path& model_directory, const std::vector<Override>& overrides,
+                  int threads, const StopFlag* stop) {
+  const DatasetReader data(data_set);
+  const Scenario scenario = read_scenario(data_set / kScenarioFile, overrides);
+  require_own_directory(model_directory);
+  const LearningTable table = load_learning_table(data, scenario.learning, stop);
+  make_directory(model_directory);
+  Study study = run_study(table, scenario.learning, scenario.dataset.train_share, scenario.seed, model_directory,
+                          thread_count(threads), stop);
+  write_file(model_directory / kEmbeddingsFile, embeddings_csv(table, study.embeddings));
+  write_file(model_directory / kMetricsFile, metrics_json(study, table, scenario, data.manifest()));
+  return study;
+}
+
+}  // namespace seaglint
