@@ -70,7 +70,7 @@ void add_generate(CLI::App& app, Shell& shell) {
   command->add_flag("--resume", arguments->resume, "Keep the sound shards that are there; also starts a new directory");
   add_threads_option(*command, shell);
   command->footer(
-      "Examples:\n  seaglint generate scenarios/points.yaml -o build/points\n"
+      "Example:\n  seaglint generate scenarios/points.yaml -o build/points\n"
       "  seaglint generate scenarios/paper.yaml -o build/paper --part 3/16 --resume");
   command->callback([arguments, &shell] { shell.work = [arguments, &shell] { generate(*arguments, shell); }; });
 }
