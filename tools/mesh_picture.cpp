@@ -76,14 +76,19 @@ class Canvas {
   std::vector<Sample> samples_;
 };
 
-// Darker where the surface to the right or below lies `step` farther or nearer, or looks elsewhere.
+// Ink where the silhouette ends, where depth breaks off the plane through the two neighbours by more than `step`, or
+// where the shade changes.
 double line_at(const Canvas& canvas, int x, int y, float step) {
   const Sample& here = canvas.at(x, y);
   double line = 0;
-  for (const Sample& there : {canvas.at(x + 1, y), canvas.at(x, y + 1)}) {
-    if (std::isinf(here.depth) && std::isinf(there.depth)) continue;
-    if (std::isinf(here.depth) != std::isinf(there.depth) || std::abs(here.depth - there.depth) > step) return 0.55;
-    if (std::abs(here.brightness - there.brightness) > 0.02F || std::abs(here.facing - there.facing) > 0.1F) line = 0.2;
+  for (const auto& [dx, dy] : {std::pair{1, 0}, std::pair{0, 1}}) {
+    const Sample &before = canvas.at(x - dx, y - dy), &after = canvas.at(x + dx, y + dy);
+    if (std::isinf(here.depth) && std::isinf(after.depth)) continue;
+    if (std::isinf(here.depth) != std::isinf(after.depth)) return 0.55;
+    if (!std::isinf(before.depth) && std::abs(after.depth - 2 * here.depth + before.depth) > step) line = 0.4;
+    if (std::abs(here.brightness - after.brightness) > 0.02F || std::abs(here.facing - after.facing) > 0.1F) {
+      line = std::max(line, 0.2);
+    }
   }
   return line;
 }
@@ -134,7 +139,7 @@ Picture picture_of(const TriangleMesh& mesh, const PictureView& view) {
     canvas.fill(corners, static_cast<float>(shade), static_cast<float>(normal.dot(camera.up)));
   }
 
-  const auto step = static_cast<float>(4.0 * kSamples / scale + 0.002 * size.norm());
+  const auto step = static_cast<float>(kSamples / scale);
   constexpr double kPaint[3] = {186, 196, 204}, kPaper[3] = {255, 255, 255};
   for (int y = 0; y < picture.height; ++y) {
     for (int x = 0; x < picture.width; ++x) {

@@ -123,7 +123,7 @@ void add_flight_deck(MeshBuilder& builder, const HullForm& hull) {
                         {-69.5, -5.6, 170}}) {
     add_shield(builder, on_deck(s), 0.55, 0.9);
   }
-  for (const Spot& s : {Spot{-48.0, 5.0, 0}, {-48.0, -5.0, 0}, {-70.0, 2.5, 90}, {-70.0, -2.5, 90}})
+  for (const Spot& s : {Spot{-49.3, 5.4, 12}, {-49.3, -5.4, -12}, {-70.0, 2.5, 90}, {-70.0, -2.5, 90}})
     add_locker(builder, on_deck(s), {1.2, 0.6, 0.75});
   // Recovery grid and its track, a few centimetres proud.
   const Pose grid = on_deck({-58.0, 0, 0});

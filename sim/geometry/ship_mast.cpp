@@ -20,7 +20,8 @@ void add_platform(MeshBuilder& builder, const Vec3& centre, double half, double 
     const Vec3 root_low = side * Vec3(core - 0.1, 0.02, -0.7), root = side * Vec3(core - 0.1, 0.02, 0.02),
                tip = side * Vec3(half - 0.1, 0.02, 0.02);
     add_plate(builder, {root_low, tip, root}, 0.04);
-    add_box(builder, side * upright({half - 0.03, 0, 0.03}), {0.04, 2 * half - 0.1, 0.35});
+    // The coaming's four sides end within one another, at different depths.
+    add_box(builder, side * upright({half - 0.03, 0, 0.03}), {0.04, 2 * half - (k % 2 == 0 ? 0.06 : 0.08), 0.35});
   }
 }
 
@@ -56,15 +57,15 @@ void add_enclosed_mast(MeshBuilder& builder, const HullForm& hull, double foot) 
   const double slope = std::atan2(1.1, top - foot - 5.5);
   for (int k = 0; k < 4; ++k) {
     const double z = foot + 8.4, out = 2.35 - (z - foot - 5.5) * std::tan(slope);
-    Pose wall = upright({x, 0, 0}, 0.5 * kPi * k + 0.25 * kPi * 0);
+    Pose wall = upright({x, 0, 0}, 0.5 * kPi * k);
     wall.p = wall * Vec3(out, 0, z);
     wall.R = wall.R * Eigen::AngleAxisd(-slope, Vec3::UnitY()).toRotationMatrix();
     std::vector<Vec3> outline;
     for (int c = 0; c < 8; ++c) {
       const double angle = kPi / 8 + 0.25 * kPi * c;
-      outline.push_back(wall * Vec3(0.12, 1.15 * std::cos(angle), 1.15 * std::sin(angle)));
+      outline.push_back(wall * Vec3(0.22, 1.15 * std::cos(angle), 1.15 * std::sin(angle)));
     }
-    add_plate(builder, outline, 0.3);
+    add_plate(builder, outline, 0.4);
   }
 
   builder.begin_part("mast_platforms");

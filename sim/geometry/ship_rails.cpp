@@ -20,8 +20,10 @@ void add_rail(MeshBuilder& builder, const std::vector<Vec3>& line, double width)
       const Vec3 foot = from + (to - from) * k / bays;
       add_bar(builder, foot - Vec3(0, 0, 0.05), foot + Vec3(0, 0, kRailHeight), width);
     }
-    // The bars are thinner than the posts and run through them.
-    for (double up : {0.38, 0.74, 1.07}) add_bar(builder, from + Vec3(0, 0, up), to + Vec3(0, 0, up), 0.8 * width);
+    // The bars are thinner than the posts and end within them, so that two bars in line do not touch.
+    const Vec3 inset = 0.005 * (to - from).normalized();
+    for (double up : {0.38, 0.74, 1.07})
+      add_bar(builder, from + inset + Vec3(0, 0, up), to - inset + Vec3(0, 0, up), 0.8 * width);
   }
 }
 

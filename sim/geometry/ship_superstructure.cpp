@@ -109,8 +109,11 @@ void add_hangar(MeshBuilder& builder, const HullForm& hull, const House& aft) {
   add_bar(builder, at(3.25, low - 0.3), at(3.25, high + 0.2), 0.35);
   add_bar(builder, at(-3.25, low - 0.3), at(-3.25, high + 0.2), 0.35);
   add_bar(builder, at(3.5, high + 0.2), at(-3.5, high + 0.2), 0.3);
+  // Its sides lean: upright ones would make a right-angled dihedral with the wall that flashes at 2 deg of elevation.
   builder.begin_part("flight_control");
-  add_box(builder, upright({aft.aft_at(hull, aft.roof) - 0.2, 4.6, aft.roof - 1.7}), {1.6, 2.0, 1.4});
+  const double x = aft.aft_at(hull, aft.roof), low_z = aft.roof - 1.7, high_z = aft.roof - 0.3;
+  add_frustum(builder, {{x - 1.0, 3.6, low_z}, {x + 0.6, 3.6, low_z}, {x + 0.6, 5.6, low_z}, {x - 1.0, 5.6, low_z}},
+              {{x - 0.8, 3.8, high_z}, {x + 0.6, 3.8, high_z}, {x + 0.6, 5.4, high_z}, {x - 0.8, 5.4, high_z}});
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ void add_vertical_launchers(MeshBuilder& builder, const HullForm& hull) {
   builder.begin_part("breakwater");
   const double bx = hull.x_of(54.5);
   for (double side : {1.0, -1.0}) {
-    const Vec3 tip(bx + 2.2, 0, hull.deck_height(bx) - 0.1),
+    const Vec3 tip(bx + 2.2, -0.03 * side, hull.deck_height(bx) - 0.1),
         end(bx - 0.8, side * (hull.deck_half_breadth(bx - 0.8) - 0.9), hull.deck_height(bx) - 0.1);
     const Vec3 up(-0.25, 0, 1.35);
     side > 0 ? add_plate(builder, {tip, end, end + up, tip + up}, 0.05)
