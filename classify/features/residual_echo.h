@@ -37,7 +37,7 @@ class ResidualEcho {
   // What one pulse adds to RV near a point, as moments of its baseband frequency: M_p = sum_b F Y e^{j phase} (4 pi f_b
   // / c)^p.
   struct PulseMoments {
-    Complex m0, m1, m2;
+    Complex m0, m1, m2, m3;
   };
   std::vector<PulseMoments> moments(double range_m, double velocity_mps) const;
 

@@ -15,11 +15,14 @@ namespace {
 
 // Maxima down to this far below the round's strongest are taken out in one round, each fitted in what the ones before
 // left. Higher saves no map, lower spends fits on sidelobes (-13 dB untapered in velocity).
-constexpr double kRoundDepthDb = 6;
-// A maximum between four cells of the grid is seen lower by at most this much (3.9 dB untapered in each direction).
-constexpr double kStraddleLossDb = 8;
+constexpr double kRoundDepthDb = 9;
+// A maximum between cells is estimated by parabolas through ln |RV|, short of the truth by at most this (2.8 dB for an
+// untapered lobe half a cell away); what cannot reach a threshold even so is not fitted.
+constexpr double kParabolaShortfallDb = 3;
 // Fits per round, against maps made of noise alone.
 constexpr std::size_t kMaxFitsPerRound = 256;
+
+double decibel_ratio(double db) { return std::pow(10, db / 10); }
 
 // Widths of the main lobe, -3.9 dB below the peak, in units of the untapered one (1 cell): two centres closer than that
 // are one.
@@ -37,31 +40,44 @@ double lobe_width(Taper taper) {
   return 1;
 }
 
-struct Cell {
+struct Maximum {
   std::size_t v, r;
-  double power;
+  double power;  // estimate between cells
 };
 
-// Local maxima of |RV|^2 at or above a threshold that also rise above the floor, strongest first.
-std::vector<Cell> local_maxima(const RvMap& map, double threshold, const std::vector<double>& floor) {
+// Rise above the middle of three equally spaced values, of the parabola through their logarithms.
+double parabola_gain(double before, double middle, double after) {
+  if (!(before > 0 && after > 0)) return 1;
+  const double l = std::log(before / middle), r = std::log(after / middle);  // both <= 0 at a maximum
+  return l + r < 0 ? std::exp(-(l - r) * (l - r) / (8 * (l + r))) : 1;
+}
+
+// Local maxima of |RV|^2 that may reach the threshold and `factor` times the floor, strongest first.
+std::vector<Maximum> local_maxima(const RvMap& map, double threshold, double factor, const std::vector<double>& floor) {
   const std::size_t rows = map.velocity_mps.size(), columns = map.columns();
+  const double shortfall = decibel_ratio(kParabolaShortfallDb);
   std::vector<double> power(map.values.size());
   for (std::size_t i = 0; i < power.size(); ++i) power[i] = std::norm(map.values[i]);
-  std::vector<Cell> maxima;
+  std::vector<Maximum> maxima;
   for (std::size_t v = 0; v < rows; ++v) {
     for (std::size_t r = 0; r < columns; ++r) {
-      const double here = power[v * columns + r];
-      if (here < threshold || here <= floor[v * columns + r]) continue;
+      const std::size_t i = v * columns + r;
+      const double here = power[i];
+      if (here <= floor[i]) continue;
       bool highest = true;
       for (std::size_t y = v > 0 ? v - 1 : 0; y <= std::min(v + 1, rows - 1); ++y) {
         for (std::size_t x = r > 0 ? r - 1 : 0; x <= std::min(r + 1, columns - 1); ++x) {
           highest = highest && power[y * columns + x] <= here;
         }
       }
-      if (highest) maxima.push_back({v, r, here});
+      if (!highest) continue;
+      double estimate = here;
+      if (r > 0 && r + 1 < columns) estimate *= parabola_gain(power[i - 1], here, power[i + 1]);
+      if (v > 0 && v + 1 < rows) estimate *= parabola_gain(power[i - columns], here, power[i + columns]);
+      if (estimate * shortfall >= std::max(threshold, factor * floor[i])) maxima.push_back({v, r, estimate});
     }
   }
-  std::sort(maxima.begin(), maxima.end(), [](const Cell& a, const Cell& b) {
+  std::sort(maxima.begin(), maxima.end(), [](const Maximum& a, const Maximum& b) {
     return a.power != b.power ? a.power > b.power : a.v != b.v ? a.v < b.v : a.r < b.r;
   });
   return maxima;
@@ -108,8 +124,7 @@ std::vector<ScatteringCentre> extract_centres(std::span<const Complex> echo, con
   const double cell_r = train.range_resolution_m(), cell_v = train.velocity_resolution_mps();
   const double lobe_r = cell_r * lobe_width(map_spec.range_taper),
                lobe_v = cell_v * lobe_width(map_spec.velocity_taper);
-  const double depth = std::pow(10, -spec.dynamic_range_db / 10);
-  const double straddle = std::pow(10, -kStraddleLossDb / 10);
+  const double depth = decibel_ratio(-spec.dynamic_range_db);
   const auto max_components = static_cast<std::size_t>(std::ceil(4 * spec.max_centres / spec.clean_gain));
 
   ResidualEcho residual(echo, train, map_spec, intra_pulse_motion);
@@ -123,12 +138,12 @@ std::vector<ScatteringCentre> extract_centres(std::span<const Complex> echo, con
   bool found = true;
   while (found && components.size() < max_components) {
     found = false;
-    const std::vector<Cell> maxima = local_maxima(map, depth * straddle * strongest, floor);
+    const std::vector<Maximum> maxima = local_maxima(map, depth * strongest, factor, floor);
     if (maxima.empty()) break;
     // Below the round's depth a maximum may be a sidelobe or pedestal of a stronger one: it waits for the next map.
-    const double round_floor = maxima.front().power * std::pow(10, -kRoundDepthDb / 10);
+    const double round_floor = maxima.front().power * decibel_ratio(-kRoundDepthDb);
     std::size_t fits = 0;
-    for (const Cell& cell : maxima) {
+    for (const Maximum& cell : maxima) {
       if (cell.power < round_floor && found) break;
       if (++fits > kMaxFitsPerRound || components.size() >= max_components) break;
       PointComponent point = residual.fit(map.range_m[cell.r], map.velocity_mps[cell.v], step_r, step_v);

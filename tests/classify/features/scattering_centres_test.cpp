@@ -57,6 +57,11 @@ TEST(ResidualEcho, FitsAnIsolatedPointAndLeavesNothing) {
       radar.intra_pulse_motion = intra_pulse;
       radar.pulses = 60;
       radar.hop_count = 16;  // uneven counts, perhaps holes
+      if (intra_pulse) {     // one carrier with the whole band: moments of the chirp are taken anew several times
+        radar.hop_count = 1;
+        radar.bandwidth_mhz = 200;
+        radar.sampling_mhz = 400;
+      }
       const PulseTrain train = make_pulse_train(radar, kShipWindow, 1, 2);
       MapSpec spec;
       spec.compression = compression;
@@ -67,7 +72,7 @@ TEST(ResidualEcho, FitsAnIsolatedPointAndLeavesNothing) {
       const PointComponent point = residual.fit(12 * cell_r, -3 * cell_v, cell_r, cell_v);
       EXPECT_NEAR(point.range_m, truth.range_m, 1e-4 * cell_r);
       EXPECT_NEAR(point.velocity_mps, truth.velocity_mps, 1e-4 * cell_v);
-      EXPECT_NEAR(std::abs(point.amplitude_m), 0.7, 1e-6);
+      EXPECT_NEAR(std::abs(point.amplitude_m), 0.7, 0.7 * 7e-5);  // kMomentReach
       residual.subtract({truth.range_m, truth.velocity_mps, 0.7 * point.amplitude_m / std::abs(point.amplitude_m)});
       double left = 0;
       for (const Complex& value : residual.map().values) left = std::max(left, std::abs(value));

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `seaglint map` on ideal points.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <sstream>
+
+#include "tests/pipeline/program.h"
+
+namespace seaglint {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::string kPoints = "scenarios/points.yaml";
+// One approaching point 30 m nearer than the reference point, seen from ahead.
+const std::vector<std::string> kOnePoint = {
+    "--set", "view={azimuth_deg: 0, elevation_deg: 0}", "--set",
+    "targets={line: {label: 1, points: [{position_m: [30, 0, 0], amplitude_m: 2, velocity_mps: [1.5, 0, 0]}]}}"};
+
+std::vector<std::string> map_of(const std::string& output, std::vector<std::string> more = {}) {
+  more.insert(more.begin(), {"map", kPoints, "-o", output});
+  return more;
+}
+
+TEST(MapCommand, DrawsTheMapAndListsTheCentre) {
+  const TemporaryFolder folder;
+  const ProgramResult result = run_program(map_of(folder.path() / "map.png", kOnePoint));
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_TRUE(read_file(folder.path() / "map.png").starts_with("\x89PNG"));
+  std::istringstream lines(result.out);
+  std::string header;
+  double range_m = 0, velocity_mps = 0, amplitude_m = 0;
+  std::getline(lines, header);
+  lines >> range_m >> velocity_mps >> amplitude_m;
+  EXPECT_NEAR(range_m, -30, 0.075);         // a tenth of a cell
+  EXPECT_NEAR(velocity_mps, -1.5, 0.0146);  // approaching
+  EXPECT_NEAR(amplitude_m, 2, 0.04);        // 20 dB of clutter per pulse, 50 dB in the peak cell
+  EXPECT_THAT(result.out, HasSubstr("SCR per pulse 20.00 dB"));
+}
+
+TEST(MapCommand, WarnsAboutPointsOutsideTheMap) {
+  const TemporaryFolder folder;
+  std::vector<std::string> more = kOnePoint;
+  more.insert(more.end(), {"--set", "map.velocity_span_mps=2"});
+  const ProgramResult result = run_program(map_of(folder.path() / "map.svg", more));
+  EXPECT_EQ(result.code, 0);
+  EXPECT_THAT(result.err, HasSubstr("lies outside the map"));
+}
+
+TEST(MapCommand, RefusesSamplesAndFilesThatCannotBe) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(run_program(map_of(folder.path() / "map.png", {"--sample", "1000000"})).code, 2);
+  EXPECT_EQ(run_program(map_of(folder.path() / "map.jpg")).code, 2);
+  EXPECT_EQ(run_program(map_of(folder.path() / "missing" / "map.png")).code, 1);
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+}  // namespace
+}  // namespace seaglint
