@@ -9,17 +9,9 @@
 #include <new>
 
 #include "sim/core/error.h"
+#include "sim/core/parallel.h"
 
 namespace seaglint {
-namespace {
-
-// FFTW's planner keeps state of its own; only execution may run in several threads.
-std::mutex& planner() {
-  static std::mutex mutex;
-  return mutex;
-}
-
-}  // namespace
 
 FourierBatch::FourierBatch(std::size_t length, std::size_t count, Fourier direction)
     : length_(length), count_(count), data_(nullptr), plan_(nullptr) {
@@ -30,7 +22,7 @@ FourierBatch::FourierBatch(std::size_t length, std::size_t count, Fourier direct
   auto* data = reinterpret_cast<fftw_complex*>(data_);
   const int n = static_cast<int>(length);
   {
-    const std::lock_guard lock(planner());
+    const std::lock_guard lock(fftw_planner_mutex());
     plan_ = fftw_plan_many_dft(1, &n, static_cast<int>(count), data, nullptr, 1, n, data, nullptr, 1, n,
                                direction == Fourier::kForward ? FFTW_FORWARD : FFTW_BACKWARD, FFTW_ESTIMATE);
   }
@@ -43,7 +35,7 @@ FourierBatch::FourierBatch(std::size_t length, std::size_t count, Fourier direct
 
 FourierBatch::~FourierBatch() {
   {
-    const std::lock_guard lock(planner());
+    const std::lock_guard lock(fftw_planner_mutex());
     fftw_destroy_plan(static_cast<fftw_plan>(plan_));
   }
   fftw_free(data_);

@@ -10,6 +10,7 @@
 
 #include "sim/core/constants.h"
 #include "sim/core/error.h"
+#include "sim/core/parallel.h"
 
 namespace seaglint {
 namespace {
@@ -52,11 +53,6 @@ int fft_length(int n) {
     }
     if (rest == 1) return n;
   }
-}
-
-std::mutex& planner_mutex() {
-  static std::mutex mutex;  // FFTW's planner is the one part of it that threads must not share
-  return mutex;
 }
 
 }  // namespace
@@ -114,14 +110,14 @@ void ReturnGrid::transform() {
   auto* data = reinterpret_cast<fftw_complex*>(cells_.data());
   fftw_plan plan;
   {
-    const std::lock_guard lock(planner_mutex());
+    const std::lock_guard lock(fftw_planner_mutex());
     const int length = psi_cells_;
     plan = fftw_plan_many_dft(1, &length, u_cells_, data, nullptr, 1, psi_cells_, data, nullptr, 1, psi_cells_,
                               FFTW_BACKWARD, FFTW_ESTIMATE);
   }
   SEAGLINT_CHECK(plan != nullptr, "FFTW has no plan");
   fftw_execute(plan);
-  const std::lock_guard lock(planner_mutex());
+  const std::lock_guard lock(fftw_planner_mutex());
   fftw_destroy_plan(plan);
 }
 

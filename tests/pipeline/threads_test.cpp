@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Stages that run beside each other in one process share what their libraries share.
+#include <gtest/gtest.h>
+
+#include "radar/waveform/fourier.h"
+#include "sim/core/parallel.h"
+#include "sim/geometry/generators.h"
+#include "sim/scattering/respond.h"
+#include "tools/pipeline.h"
+
+namespace seaglint {
+namespace {
+
+TEST(Threads, SolverAndRadarPlanTheirTransformsAtTheSameTime) {
+  const Scatterer plate(make_plate(0.2, 0.2));
+  IntervalSampling sampling;
+  sampling.first_hz = 16e9;
+  sampling.step_hz = 1e6;
+  sampling.count = 20;
+  sampling.per_pulse = 10;
+  for (int pulse = 0; pulse < 8; ++pulse) {
+    sampling.pulse_first.push_back(pulse % 2 * 10);
+    sampling.pulse_time_s.push_back(250e-6 * pulse);
+  }
+  const Trajectory rest = Trajectory::at_rest(Vec3::Zero());
+  const auto plan_both = [&](std::size_t i) {
+    if (i % 2 == 0) {
+      respond(plate, rest, Vec3::UnitX(), Polarisation::kVv, sampling, SolverSpec{.ray_spacing_m = 0.05});
+    } else {
+      for (std::size_t length = 8; length < 300; ++length) FourierBatch(length + i % 7, 1, Fourier::kForward).execute();
+    }
+  };
+  // FFTW's planner, used by two stages without a common lock, corrupted the heap within some hundreds of plans.
+  parallel_for(400, 4, plan_both);
+}
+
+}  // namespace
+}  // namespace seaglint
