@@ -117,7 +117,7 @@ void add_rcs(CLI::App& app, Shell& shell) {
   command->add_option("--max-bounces", arguments->max_bounces, "Reflections followed")->check(CLI::Range(1, 64));
   command
       ->add_option("--ray-spacing-m", arguments->ray_spacing_m,
-                   "Spacing of the rays that look for facets; 0 = a 100th of the target's radius")
+                   "Spacing of the rays that look for facets; 0 = 0.1 or radius / 25, the smaller")
       ->check(CLI::Range(0.0, 1e6));
   command->add_option("-o,--output", arguments->output, "CSV file to write")->required();
   add_threads_option(*command, shell);

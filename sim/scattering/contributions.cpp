@@ -23,7 +23,10 @@ class Splitter {
   }
 
   void run() {
-    if (footprint_.surface_slope > threshold_) {
+    // Only a phase that runs through a good part of a cycle has end points. The whole facet decides, not this piece of it: pieces that share a
+    // moving boundary must be treated alike, or its two sides do not cancel.
+    const double half_phase = settings_.kc * footprint_.surface_slope * footprint_.facet_size / 2;
+    if (footprint_.surface_slope > threshold_ && half_phase > kPieceHalfPhase) {
       edges();
     } else {
       area(footprint_.polygon);

@@ -19,6 +19,22 @@ std::vector<std::uint32_t> weld(const std::vector<Vec3>& vertices) {
   return number;
 }
 
+// Which facets hang together.
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::size_t count) : parent_(count) {
+    for (std::uint32_t i = 0; i < count; ++i) parent_[i] = i;
+  }
+  std::uint32_t root(std::uint32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(std::uint32_t a, std::uint32_t b) { parent_[root(a)] = root(b); }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
 }  // namespace
 
 std::vector<Facet> make_facets(const TriangleMesh& mesh) {
@@ -38,6 +54,7 @@ std::vector<Facet> make_facets(const TriangleMesh& mesh) {
     if (!(across.norm() > 1e-9 * longest)) continue;
     facet.normal = across.normalized();
     facet.offset = facet.normal.dot(facet.corner[0]);
+    facet.size = longest;
     facet.part = mesh.triangle_part.empty() ? std::uint16_t{0} : mesh.triangle_part[t];
     facets.push_back(facet);
     indices.push_back({welded[triangle[0]], welded[triangle[1]], welded[triangle[2]]});
@@ -46,26 +63,37 @@ std::vector<Facet> make_facets(const TriangleMesh& mesh) {
   // Every undirected edge with the facet sides that use it, linked in a ring.
   struct Side {
     std::uint32_t low, high, facet, edge;
+    bool upward;  // from low to high
   };
   std::vector<Side> sides;
   sides.reserve(3 * facets.size());
   for (std::uint32_t f = 0; f < facets.size(); ++f) {
     for (std::uint32_t e = 0; e < 3; ++e) {
-      const auto [low, high] = std::minmax(indices[f][e], indices[f][(e + 1) % 3]);
-      sides.push_back({low, high, f, e});
+      const std::uint32_t from = indices[f][e], to = indices[f][(e + 1) % 3];
+      sides.push_back({std::min(from, to), std::max(from, to), f, e, from < to});
     }
   }
   std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
     return std::tie(a.low, a.high, a.facet, a.edge) < std::tie(b.low, b.high, b.facet, b.edge);
   });
+  DisjointSets surfaces(facets.size());
+  std::vector<std::uint32_t> rims;  // facets at edges where the surface ends or turns inside out
   for (std::size_t i = 0; i < sides.size();) {
     std::size_t end = i + 1;
-    while (end < sides.size() && sides[end].low == sides[i].low && sides[end].high == sides[i].high) ++end;
+    int upward = sides[i].upward ? 1 : -1;
+    for (; end < sides.size() && sides[end].low == sides[i].low && sides[end].high == sides[i].high; ++end) {
+      upward += sides[end].upward ? 1 : -1;
+      surfaces.join(sides[i].facet, sides[end].facet);
+    }
     for (std::size_t j = i; end - i > 1 && j < end; ++j) {
       facets[sides[j].facet].neighbour[sides[j].edge] = static_cast<std::int32_t>(sides[j + 1 < end ? j + 1 : i].facet);
     }
+    if (upward != 0) rims.push_back(sides[i].facet);
     i = end;
   }
+  std::vector<char> open(facets.size(), 0);
+  for (const std::uint32_t f : rims) open[surfaces.root(f)] = 1;
+  for (std::uint32_t f = 0; f < facets.size(); ++f) facets[f].open = open[surfaces.root(f)] != 0;
   return facets;
 }
 

@@ -54,6 +54,7 @@ struct Footprint {
   Vec2 w = Vec2::Zero();
   double surface_slope = 0;         // |gradient of psi| along the facet itself, 0..2
   double surface_slope_turn = 0;    // bound of its change per radian of turn, 0..2
+  double facet_size = 0;          // longest edge of the whole facet, m
   std::array<double, 4> pattern{};  // hh, hv, vh, vv (received, transmitted) of n x (k^ x E) / |n . k^|, real for PEC
   std::uint16_t part = 0;           // of the last facet
   std::uint8_t bounces = 1;

@@ -3,203 +3,198 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
 #include <unordered_set>
 
 #include "sim/core/error.h"
-#include "sim/scattering/visible_part.h"
 
 namespace seaglint {
 namespace {
 
-constexpr int kRaysPerTileSide =
-    16;  // a tile is one packet wide: coherent, and few facets per tile keep the polygon work linear
-
-// One leg of a beam: what travels from the last mirror (or the radar) towards the next facet.
+// One leg of a beam: what travels from the last mirror towards the next facet.
 struct Leg {
-  Mirror mirrors;  // of the facets passed
-  Vec3 direction;  // real, unit
-  Vec3 E_h, E_v;   // field for each transmitted polarisation, real space
+  Mirror mirrors;                   // of the facets passed
+  Vec3 direction;                   // real, unit
+  Vec3 E_h, E_v;                    // field for each transmitted polarisation, real space
   int from_facet = kNoFacet;
-  ImagePlane from_plane;            // of the last mirror; unused on the first leg
+  ImagePlane from_plane;            // of the last mirror
   Vec3 from_normal = Vec3::Zero();  // real, on the side the beam leaves
   int bounce = 1;                   // of the hits at this leg's end
 };
 
-// A facet that a leg may light, in the aperture plane.
+// A facet that a leg may light, and what of it is lit as far as is known.
 struct Candidate {
-  int facet = kNoFacet;
-  ImagePlane plane;
-  MovingPolygon image;
-  Box box;
+  FacetImage image;
   std::vector<MovingPolygon> lit;
-  std::vector<Vec2> rays;  // points of the aperture whose rays reach this facet
+  bool asked = false;  // every piece has been confirmed by a ray since it was last cut
 };
 
-class TileTracer {
+class BeamTracer {
  public:
-  TileTracer(const Scatterer& scatterer, const RadarBasis& basis, const IlluminationSettings& settings,
-             std::vector<Footprint>& out)
+  BeamTracer(const Scatterer& scatterer, const RadarBasis& basis, const IlluminationSettings& settings, const VisibleSurface& visible,
+             double min_area, std::vector<Footprint>& out)
       : facets_(scatterer.facets()),
         scene_(scatterer.rays()),
         basis_(basis),
-        settings_(settings),
+        visible_(visible),
         out_(out),
-        height_(1.01 * scatterer.radius()),
-        // Single-precision coordinates are off by 6e-8 of their size; leave five times that between a facet and a ray
-        // that starts on it.
+        max_bounces_(settings.max_bounces),
+        spacing_(settings.ray_spacing_m > 0 ? settings.ray_spacing_m : default_ray_spacing(scatterer)),
+        // Single-precision coordinates are off by 6e-8 of their size; leave five times that between a facet and a ray that starts on it.
         lift_(3e-7 * scatterer.radius()),
-        min_area_(1e-9 * scatterer.radius() * scatterer.radius()) {}
+        min_area_(min_area) {}
 
   std::size_t rays_traced() const { return rays_traced_; }
 
-  void light(const MovingPolygon& tile, std::vector<Vec2> rays) {
+  void light(int facet) {
     Leg first;
     first.direction = -basis_.r;
     first.E_h = basis_.h;
     first.E_v = basis_.v;
-    follow(first, {tile}, std::move(rays));
+    Candidate candidate;
+    candidate.image.facet = facet;
+    candidate.image.plane = image_plane(facets_[facet].normal, facets_[facet].offset, basis_);
+    candidate.lit.assign(visible_.pieces(facet).begin(), visible_.pieces(facet).end());
+    radiate(first, candidate, candidate.lit);
+    if (max_bounces_ > 1) follow(reflected(first, candidate), candidate.lit);
   }
 
  private:
   Vec3 aperture_point(const Vec2& p, double z) const { return p.x() * basis_.h + p.y() * basis_.v + z * basis_.r; }
 
   Ray ray_at(const Leg& leg, const Vec2& p) const {
-    if (leg.bounce == 1) return {aperture_point(p, height_), leg.direction};
     const Vec3 start = leg.mirrors.real(aperture_point(p, leg.from_plane.at(p)));
     return {start + lift_ * leg.from_normal, leg.direction};
   }
 
-  int probe(const Leg& leg, const Vec2& p) {
-    ++rays_traced_;
-    const int facet = scene_.first_hit(ray_at(leg, p));
-    return facet == leg.from_facet ? kNoFacet : facet;
+  // Points that sample a piece of the aperture: a lattice common to all pieces, the centroid, and one point just inside each corner, where what a
+  // beam lights only in part begins.
+  void sample(const MovingPolygon& piece, std::vector<Vec2>& points) const {
+    const Vec2 c = centroid(piece);
+    points.push_back(c);
+    for (const Corner& corner : piece) points.push_back(corner.p + 0.02 * (c - corner.p));
+    const Box box = box_of(piece);
+    const auto first = [this](double x) { return std::ceil(x / spacing_) * spacing_; };
+    for (double y = first(box.lower.y()); y <= box.upper.y(); y += spacing_) {
+      for (double x = first(box.lower.x()); x <= box.upper.x(); x += spacing_) {
+        const Vec2 p(x, y);
+        const auto right_of = [&](std::size_t i) {
+          const Vec2 a = piece[i].p, along = piece[(i + 1) % piece.size()].p - a;
+          return along.x() * (y - a.y()) - along.y() * (x - a.x()) < 0;
+        };
+        bool within = true;
+        for (std::size_t i = 0; within && i < piece.size(); ++i) within = !right_of(i);
+        if (within) points.push_back(p);
+      }
+    }
   }
 
-  // The facet's image under the leg's mirrors, cut at the last mirror's plane; false when it is edge-on or behind.
-  bool project(const Leg& leg, int facet, Candidate& candidate) const {
-    const Facet& f = facets_[facet];
-    const Vec3 n_image = leg.mirrors.L * f.normal;
-    if (std::abs(n_image.dot(basis_.r)) < 1e-6) return false;
-    candidate.facet = facet;
-    candidate.plane = image_plane(n_image, n_image.dot(leg.mirrors.image(f.corner[0])), basis_);
-    candidate.image.clear();
-    for (const Vec3& corner : f.corner) {
-      const Vec3 image = leg.mirrors.image(corner);
-      const double z = image.dot(basis_.r);
-      candidate.image.push_back({Vec2(image.dot(basis_.h), image.dot(basis_.v)), Vec2(-z, 0), Vec2(0, -z)});
+  // The facets that a leg may light inside its window, resolved against each other as they come.
+  class Candidates {
+   public:
+    Candidates(const BeamTracer& tracer, const Leg& leg, std::span<const MovingPolygon> window)
+        : tracer_(tracer), leg_(leg), window_(window) {
+      met_.insert(kNoFacet);
+      met_.insert(leg.from_facet);
     }
-    candidate.image = counter_clockwise(std::move(candidate.image));
-    if (leg.bounce > 1) {
-      const MovingLine beyond = depth_between(candidate.plane, leg.from_plane);
+
+    std::vector<Candidate>& all() { return all_; }
+
+    void add(int facet) {
+      if (!met_.insert(facet).second) return;
+      // The lit side of a closed part faces the beam.
+      const Facet& f = tracer_.facets_[facet];
+      if (!f.open && f.normal.dot(leg_.direction) >= 0) return;
+      auto image = facet_image(tracer_.facets_, facet, leg_.mirrors, tracer_.basis_, tracer_.min_area_);
+      if (!image) return;
+      const MovingLine beyond = depth_between(image->plane, leg_.from_plane);
       double farthest = 0;
-      for (const Corner& corner : candidate.image) farthest = std::max(farthest, beyond.at(corner.p));
-      if (farthest < kCoincident) return false;  // it lies in the mirror
-      candidate.image = clip(candidate.image, beyond, +1);
-    }
-    if (candidate.image.empty() || signed_area(candidate.image) < min_area_) return false;
-    candidate.box = box_of(candidate.image);
-    return true;
-  }
+      for (const Corner& corner : image->polygon) farthest = std::max(farthest, beyond.at(corner.p));
+      if (farthest < kCoincident) return;  // it lies in the mirror or behind it
+      image->polygon = clip(image->polygon, beyond, +1);
+      if (image->polygon.empty() || signed_area(image->polygon) < tracer_.min_area_) return;
+      image->box = box_of(image->polygon);
 
-  // What of the candidate's image lies in the window.
-  std::vector<MovingPolygon> inside(const Candidate& candidate, const std::vector<MovingPolygon>& window) const {
-    std::vector<MovingPolygon> pieces;
-    for (const MovingPolygon& piece : window) {
-      if (!overlap(box_of(piece), candidate.box)) continue;
-      MovingPolygon common = intersect(piece, candidate.image);
-      if (signed_area(common) > min_area_) pieces.push_back(std::move(common));
-    }
-    return pieces;
-  }
-
-  // Removes from every candidate what nearer candidates hide.
-  void hide(std::vector<Candidate>& candidates, const std::vector<MovingPolygon>& window) const {
-    for (Candidate& a : candidates) {
-      a.lit = inside(a, window);
-      for (const Candidate& b : candidates) {
-        if (&a == &b || a.lit.empty() || !overlap(a.box, b.box)) continue;
-        const MovingPolygon nearer = nearer_part(b.image, b.plane, b.facet, a.plane, a.facet);
-        if (nearer.empty()) continue;
-        cut(a.lit, nearer, min_area_);
-      }
-    }
-  }
-
-  // Lights what the leg reaches inside the window (convex pieces of the aperture); rays sample the window.
-  void follow(const Leg& leg, const std::vector<MovingPolygon>& window, std::vector<Vec2> rays) {
-    std::vector<Candidate> candidates;
-    std::unordered_map<int, int> index_of;  // facet -> candidate, -1 when its image does not reach the window
-    const auto add = [&](int facet) {
-      if (facet == kNoFacet || facet == leg.from_facet) return -1;
-      const auto [entry, fresh] = index_of.try_emplace(facet, -1);
-      if (fresh) {
-        Candidate candidate;
-        if (project(leg, facet, candidate)) {
-          entry->second = static_cast<int>(candidates.size());
-          candidates.push_back(std::move(candidate));
+      Candidate fresh;
+      fresh.image = std::move(*image);
+      fresh.lit = inside(fresh.image, window_, tracer_.min_area_);
+      if (fresh.lit.empty()) return;
+      for (Candidate& other : all_) {
+        if (!overlap(other.image.box, fresh.image.box)) continue;
+        if (!fresh.lit.empty()) {
+          const MovingPolygon hole = nearer_part(other.image, fresh.image);
+          if (!hole.empty()) cut(fresh.lit, hole, tracer_.min_area_);
+        }
+        if (!other.lit.empty()) {
+          const MovingPolygon hole = nearer_part(fresh.image, other.image);
+          if (!hole.empty() && cut(other.lit, hole, tracer_.min_area_)) other.asked = false;
         }
       }
-      return entry->second;
-    };
-    const auto record = [&](const Vec2& p, int facet) {
-      const int index = add(facet);
-      if (index >= 0) candidates[index].rays.push_back(p);
-    };
+      all_.push_back(std::move(fresh));
+    }
 
+   private:
+    const BeamTracer& tracer_;
+    const Leg& leg_;
+    std::span<const MovingPolygon> window_;
+    std::vector<Candidate> all_;
+    std::unordered_set<int> met_;
+  };
+
+  // Lights what the leg reaches inside the window (convex pieces of the aperture).
+  void follow(const Leg& leg, std::span<const MovingPolygon> window) {
     // Rays find facets.
-    std::vector<Ray> packet(rays.size());
-    std::vector<int> hits(rays.size());
-    for (std::size_t i = 0; i < rays.size(); ++i) packet[i] = ray_at(leg, rays[i]);
-    scene_.first_hits(packet, hits);
+    std::vector<Vec2> points;
+    for (const MovingPolygon& piece : window) sample(piece, points);
+    std::vector<Ray> rays(points.size());
+    std::vector<int> hits(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) rays[i] = ray_at(leg, points[i]);
+    scene_.first_hits(rays, hits);
     rays_traced_ += rays.size();
-    for (std::size_t i = 0; i < rays.size(); ++i) record(rays[i], hits[i]);
+    Candidates candidates(*this, leg, window);
+    for (const int facet : hits) candidates.add(facet);
 
-    // Topology completes them: a lit facet's neighbour that reaches the window is asked for by a ray of its own, so
-    // that facets smaller than the ray spacing are not lost.
-    std::unordered_set<int> asked;
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
-      for (const int neighbour : facets_[candidates[i].facet].neighbour) {
-        if (neighbour < 0 || index_of.contains(neighbour) || !asked.insert(neighbour).second) continue;
-        Candidate candidate;
-        if (!project(leg, neighbour, candidate)) continue;
-        for (const MovingPolygon& piece : inside(candidate, window)) {
-          const Vec2 p = centroid(piece);
-          record(p, probe(leg, p));
+    // Topology completes them: the neighbours of what is lit are candidates too. A ray through each lit piece confirms it; what it meets instead
+    // joins. This ends because a facet joins once.
+    std::vector<Candidate>& all = candidates.all();
+    std::unordered_set<int> spread;
+    for (bool grown = true; grown;) {
+      const std::size_t known = all.size();
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        if (all[i].lit.empty() || !spread.insert(all[i].image.facet).second) continue;
+        for (const int neighbour : facets_[all[i].image.facet].neighbour) candidates.add(neighbour);
+      }
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        if (all[i].asked) continue;
+        all[i].asked = true;
+        std::vector<Vec2> centres;  // taken first: pieces may be cut below
+        for (const MovingPolygon& piece : all[i].lit) centres.push_back(centroid(piece));
+        for (const Vec2& p : centres) {
+          ++rays_traced_;
+          candidates.add(scene_.first_hit(ray_at(leg, p)));
         }
       }
+      grown = all.size() > known;
     }
 
-    // Polygons measure; a ray through each piece confirms it, and what it meets instead joins the candidates.
-    constexpr int kRounds = 4;
-    std::vector<std::vector<Vec2>> confirmed;
-    for (int round = 0; round < kRounds; ++round) {
-      hide(candidates, window);
-      confirmed.assign(candidates.size(), {});
-      const std::size_t known = candidates.size();
-      for (std::size_t i = 0; i < known; ++i) {
-        std::vector<Vec2> points;  // taken first: candidates may grow below
-        for (const MovingPolygon& piece : candidates[i].lit) points.push_back(centroid(piece));
-        for (const Vec2& p : points) {
-          const int met = add(probe(leg, p));
-          if (met < 0) continue;
-          // Facets that coincide are one surface: whichever the ray names, the piece is there.
-          const double apart = std::abs(candidates[met].plane.at(p) - candidates[i].plane.at(p));
-          (apart < kCoincident ? confirmed[i] : candidates[met].rays).push_back(p);
-        }
-      }
-      if (candidates.size() == known) break;
-    }
-
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
-      Candidate& candidate = candidates[i];
+    for (const Candidate& candidate : all) {
       if (candidate.lit.empty()) continue;
-      candidate.rays.insert(candidate.rays.end(), confirmed[i].begin(), confirmed[i].end());
-      if (candidate.rays.empty()) continue;
-      radiate(leg, candidate);
-      if (leg.bounce < settings_.max_bounces)
-        follow(reflected(leg, candidate), candidate.lit, std::move(candidate.rays));
+      radiate(leg, candidate, seen_part(leg, candidate));
+      if (leg.bounce < max_bounces_) follow(reflected(leg, candidate), candidate.lit);
     }
+  }
+
+  // What of the lit pieces the radar sees directly.
+  std::vector<MovingPolygon> seen_part(const Leg& leg, const Candidate& candidate) const {
+    std::vector<MovingPolygon> seen;
+    for (const MovingPolygon& direct : visible_.pieces_through(candidate.image.facet, leg.mirrors)) {
+      const Box box = box_of(direct);
+      for (const MovingPolygon& piece : candidate.lit) {
+        if (!overlap(box_of(piece), box)) continue;
+        MovingPolygon both = intersect(piece, direct);
+        if (signed_area(both) > min_area_) seen.push_back(std::move(both));
+      }
+    }
+    return seen;
   }
 
   // The facet's unit normal on the side the leg comes from.
@@ -210,80 +205,52 @@ class TileTracer {
 
   // Geometrical optics at a perfect conductor: E' = 2 (n.E) n - E.
   Leg reflected(const Leg& leg, const Candidate& candidate) const {
-    const Vec3 n = facing(leg, candidate.facet);
-    const double offset = n.dot(facets_[candidate.facet].corner[0]);
+    const int facet = candidate.image.facet;
+    const Vec3 n = facing(leg, facet);
+    const double offset = n.dot(facets_[facet].corner[0]);
     Leg next;
     next.mirrors.L = leg.mirrors.L * (Mat3::Identity() - 2 * n * n.transpose());
     next.mirrors.t = leg.mirrors.L * (2 * offset * n) + leg.mirrors.t;
     next.direction = leg.direction - 2 * n.dot(leg.direction) * n;
     next.E_h = 2 * n.dot(leg.E_h) * n - leg.E_h;
     next.E_v = 2 * n.dot(leg.E_v) * n - leg.E_v;
-    next.from_facet = candidate.facet;
-    next.from_plane = candidate.plane;
+    next.from_facet = facet;
+    next.from_plane = candidate.image.plane;
     next.from_normal = n;
     next.bounce = leg.bounce + 1;
     return next;
   }
 
-  // Footprints of what is lit and seen from the radar.
-  void radiate(const Leg& leg, const Candidate& candidate) {
-    const Facet& facet = facets_[candidate.facet];
-    const Vec3 n = facing(leg, candidate.facet);
-    if (n.dot(basis_.r) <= 1e-9) return;  // its lit side faces away
+  // Footprints of the pieces that are lit and seen.
+  void radiate(const Leg& leg, const Candidate& candidate, std::span<const MovingPolygon> pieces) {
+    const Facet& facet = facets_[candidate.image.facet];
+    const Vec3 n = facing(leg, candidate.image.facet);
+    if (pieces.empty() || n.dot(basis_.r) <= 1e-9) return;  // hidden, or its lit side faces away
 
     Footprint footprint;
-    footprint.plane = candidate.plane;
+    footprint.plane = candidate.image.plane;
     footprint.mirrors = leg.mirrors;
     footprint.part = facet.part;
+    footprint.facet_size = facet.size;
     footprint.bounces = static_cast<std::uint8_t>(leg.bounce);
     set_phase(footprint, leg.mirrors.L * facet.normal, basis_);
     const double grazing = std::abs(n.dot(leg.direction));
     const Vec3 J_h = n.cross(leg.direction.cross(leg.E_h)) / grazing;
     const Vec3 J_v = n.cross(leg.direction.cross(leg.E_v)) / grazing;
     footprint.pattern = {basis_.h.dot(J_h), basis_.h.dot(J_v), basis_.v.dot(J_h), basis_.v.dot(J_v)};
-
-    const std::vector<MovingPolygon> seen = leg.bounce == 1 ? candidate.lit : seen_part(candidate, leg, n);
-    for (const MovingPolygon& piece : seen) {
+    for (const MovingPolygon& piece : pieces) {
       footprint.polygon = piece;
       out_.push_back(footprint);
     }
   }
 
-  // The lit pieces less the shadows that other facets throw on them as seen from the radar.
-  std::vector<MovingPolygon> seen_part(const Candidate& candidate, const Leg& leg, const Vec3& n) {
-    const auto blocker = [&](const Vec2& p) {
-      ++rays_traced_;
-      const Vec3 x = leg.mirrors.real(aperture_point(p, candidate.plane.at(p)));
-      const int facet = scene_.first_hit({x + lift_ * n, basis_.r});
-      return facet == candidate.facet ? kNoFacet : facet;
-    };
-    std::vector<MovingPolygon> seen = candidate.lit;
-    std::unordered_set<int> blockers;
-    const auto remove_shadow = [&](int facet) {
-      if (facet == kNoFacet || !blockers.insert(facet).second) return false;
-      const MovingPolygon shadow =
-          shadow_on(facets_[facet].corner, n, n.dot(facets_[candidate.facet].corner[0]), leg.mirrors, basis_);
-      if (!shadow.empty()) cut(seen, shadow, min_area_);
-      return true;
-    };
-    for (const Vec2& p : candidate.rays) remove_shadow(blocker(p));
-    // A ray from each remaining piece confirms it; a new blocker throws its shadow and everything is asked again.
-    constexpr int kRounds = 64;
-    for (int round = 0; round < kRounds; ++round) {
-      bool changed = false;
-      const std::vector<MovingPolygon> pieces = seen;
-      for (const MovingPolygon& piece : pieces) changed = remove_shadow(blocker(centroid(piece))) || changed;
-      if (!changed) break;
-    }
-    return seen;
-  }
-
   std::span<const Facet> facets_;
   const RayScene& scene_;
   const RadarBasis& basis_;
-  const IlluminationSettings& settings_;
+  const VisibleSurface& visible_;
   std::vector<Footprint>& out_;
-  double height_, lift_, min_area_;
+  int max_bounces_;
+  double spacing_, lift_, min_area_;
   std::size_t rays_traced_ = 0;
 };
 
@@ -296,52 +263,23 @@ Scatterer::Scatterer(const TriangleMesh& mesh) : facets_(make_facets(mesh)), ray
   }
 }
 
-double default_ray_spacing(const Scatterer& scatterer) { return 0.01 * scatterer.radius(); }
+double default_ray_spacing(const Scatterer& scatterer) { return std::min(0.1, 0.04 * scatterer.radius()); }
 
-Illumination::Illumination(const Scatterer& scatterer, const RadarBasis& basis, const IlluminationSettings& settings)
-    : scatterer_(scatterer), basis_(basis), settings_(settings) {
-  Vec2 upper = Vec2::Zero();
-  bool first = true;
-  for (const Facet& facet : scatterer.facets()) {
-    for (const Vec3& corner : facet.corner) {
-      const Vec2 p(corner.dot(basis.h), corner.dot(basis.v));
-      lower_ = first ? p : Vec2(lower_.cwiseMin(p));
-      upper = first ? p : Vec2(upper.cwiseMax(p));
-      first = false;
-    }
+Illumination::Illumination(const Scatterer& scatterer, const RadarBasis& basis, const IlluminationSettings& settings, int threads)
+    : scatterer_(scatterer),
+      basis_(basis),
+      settings_(settings),
+      min_area_(1e-9 * scatterer.radius() * scatterer.radius()),
+      visible_(scatterer.facets(), basis, min_area_, threads) {
+  for (int facet = 0; facet < static_cast<int>(scatterer.facets().size()); ++facet) {
+    if (!visible_.pieces(facet).empty()) seen_.push_back(facet);
   }
-  const double spacing = settings.ray_spacing_m > 0 ? settings.ray_spacing_m : default_ray_spacing(scatterer);
-  const Vec2 extent = (upper - lower_).cwiseMax(1e-9 * scatterer.radius());
-  columns_ = std::max(1, static_cast<int>(std::ceil(extent.x() / (kRaysPerTileSide * spacing))));
-  rows_ = std::max(1, static_cast<int>(std::ceil(extent.y() / (kRaysPerTileSide * spacing))));
-  tile_size_ = Vec2(extent.x() / columns_, extent.y() / rows_);
-  // At least 4 rays each way, however coarse the spacing: a target is never stepped over.
-  rays_across_ = std::clamp(static_cast<int>(std::ceil(tile_size_.x() / spacing)), 4, kRaysPerTileSide);
-  rays_up_ = std::clamp(static_cast<int>(std::ceil(tile_size_.y() / spacing)), 4, kRaysPerTileSide);
 }
 
-std::vector<Footprint> Illumination::light(std::size_t tile, std::size_t* rays) const {
-  const int column = static_cast<int>(tile % columns_), row = static_cast<int>(tile / columns_);
-  const Vec2 corner = lower_ + Vec2(column * tile_size_.x(), row * tile_size_.y());
-  const Vec2 opposite = lower_ + Vec2((column + 1) * tile_size_.x(), (row + 1) * tile_size_.y());
-  MovingPolygon window(4);
-  window[0].p = corner;
-  window[1].p = Vec2(opposite.x(), corner.y());
-  window[2].p = opposite;
-  window[3].p = Vec2(corner.x(), opposite.y());
-
-  std::vector<Vec2> points;
-  points.reserve(static_cast<std::size_t>(rays_across_) * rays_up_);
-  for (int j = 0; j < rays_up_; ++j) {
-    for (int i = 0; i < rays_across_; ++i) {
-      points.push_back(corner + Vec2((i + 0.5) / rays_across_ * tile_size_.x(), (j + 0.5) / rays_up_ * tile_size_.y()));
-    }
-  }
-  std::vector<Footprint> footprints;
-  TileTracer tracer(scatterer_, basis_, settings_, footprints);
-  tracer.light(window, std::move(points));
-  if (rays) *rays += tracer.rays_traced();
-  return footprints;
+std::size_t Illumination::light(int facet, std::vector<Footprint>& footprints) const {
+  BeamTracer tracer(scatterer_, basis_, settings_, visible_, min_area_, footprints);
+  tracer.light(facet);
+  return tracer.rays_traced();
 }
 
 }  // namespace seaglint

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Shooting and bouncing rays, with polygons in place of ray cells: rays find which sequences of facets the radar
-// lights, the polygons of those facets measure exactly what is lit and seen (sim/scattering/README.md). The result
-// holds for every frequency.
+// Shooting and bouncing rays, with polygons in place of ray cells: rays find which sequences of facets the radar lights, the polygons of
+// those facets measure exactly what is lit and seen (sim/scattering/README.md). The result holds for every frequency.
 
-#include <functional>
 #include <span>
 #include <vector>
 
 #include "sim/scattering/facets.h"
 #include "sim/scattering/footprint.h"
+#include "sim/scattering/hidden_surface.h"
 #include "sim/scattering/ray_scene.h"
 
 namespace seaglint {
@@ -20,8 +19,7 @@ struct IlluminationSettings {
   int max_bounces = 8;       // 1 <= x <= 64
 };
 
-// A target ready to be lit from any direction: its facets and the ray tracer's tree. Built once per mesh; safe to share
-// between threads.
+// A target ready to be lit from any direction: its facets and the ray tracer's tree. Built once per mesh; safe to share between threads.
 class Scatterer {
  public:
   // Throws InputError when no triangle of the mesh has an area.
@@ -37,29 +35,29 @@ class Scatterer {
   double radius_ = 0;
 };
 
-// A hundredth of the target's radius, m.
+// 0.1 m, or a twenty-fifth of the radius of a small target: what a ship's detail and a 1 m reflector need (README.md).
 double default_ray_spacing(const Scatterer& scatterer);
 
-// What one direction lights, tile by tile of the aperture. Tiles are independent and may be lit in any order by any
-// thread.
+// What one direction lights. The constructor finds what the radar sees of every facet; light() follows the beams that leave one facet. Facets are
+// independent and may be lit in any order by any thread.
 class Illumination {
  public:
-  Illumination(const Scatterer& scatterer, const RadarBasis& basis, const IlluminationSettings& settings);
+  Illumination(const Scatterer& scatterer, const RadarBasis& basis, const IlluminationSettings& settings, int threads = 1);
 
-  std::size_t tiles() const { return static_cast<std::size_t>(columns_) * rows_; }
+  // Facets the radar sees, ascending.
+  std::span<const int> seen() const { return seen_; }
   const RadarBasis& basis() const { return basis_; }
 
-  // The footprints of one tile; rays, when given, is raised by the number of rays traced.
-  std::vector<Footprint> light(std::size_t tile, std::size_t* rays = nullptr) const;
+  // Appends the footprints of all beams whose first mirror is this facet, its own first-bounce footprints included; returns the rays traced.
+  std::size_t light(int facet, std::vector<Footprint>& footprints) const;
 
  private:
   const Scatterer& scatterer_;
   RadarBasis basis_;
   IlluminationSettings settings_;
-  Vec2 lower_ = Vec2::Zero();  // of the tight window round the target's projection
-  Vec2 tile_size_ = Vec2::Zero();
-  int columns_ = 1, rows_ = 1;
-  int rays_across_ = 16, rays_up_ = 16;  // per tile
+  double min_area_;
+  VisibleSurface visible_;
+  std::vector<int> seen_;
 };
 
 }  // namespace seaglint

@@ -9,7 +9,7 @@ namespace {
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-// Where the edge a -> b meets the line, with values fa and fb of opposite sign.
+// Where the edge a -> b meets the line, whose values fa and fb at its ends have opposite signs.
 Corner meet(const Corner& a, const Corner& b, double fa, double fb, const MovingLine& line) {
   const double tau = fa / (fa - fb);
   Corner corner;
@@ -82,7 +82,7 @@ MovingPolygon clip(const MovingPolygon& polygon, const MovingLine& line, int kee
   const Corner* a = &polygon.back();
   for (const Corner& b : polygon) {
     const double fb = value(b);
-    if ((fa > 0 && fb < 0) || (fa < 0 && fb > 0)) kept.push_back(meet(*a, b, fa, fb, line));
+    if ((fa > 0 && fb < 0) || (fa < 0 && fb > 0)) kept.push_back(meet(*a, b, keep * fa, keep * fb, line));
     if (fb >= 0) kept.push_back(b);
     a = &b;
     fa = fb;

@@ -14,10 +14,15 @@
 namespace seaglint {
 namespace {
 
-// Results of tiles are summed in chunks of fixed size in their order, so that no bit depends on the number of threads.
-constexpr std::size_t kTilesPerChunk = 32;
+// Facets are lit in chunks of fixed size whose results are summed in their order, so that no bit depends on the number of threads.
+constexpr std::size_t kFacetsPerChunk = 32;
 
-std::size_t chunk_count(std::size_t tiles) { return (tiles + kTilesPerChunk - 1) / kTilesPerChunk; }
+std::size_t chunk_count(const Illumination& illumination) { return (illumination.seen().size() + kFacetsPerChunk - 1) / kFacetsPerChunk; }
+
+std::span<const int> chunk_of(const Illumination& illumination, std::size_t chunk) {
+  const std::size_t first = chunk * kFacetsPerChunk;
+  return illumination.seen().subspan(first, std::min(kFacetsPerChunk, illumination.seen().size() - first));
+}
 
 // The world's polarisation basis as the turned body sees it.
 RadarBasis body_basis(const RadarBasis& world, const Pose& pose) {
@@ -32,16 +37,17 @@ ReturnGrid trace_returns(const Scatterer& scatterer, const RadarBasis& basis, co
   // A shadow edge at grazing runs along its facet much faster than any point of the body moves. Beyond four times the
   // body's size its speed is cut: such ends are faint and run through many velocity cells.
   const double limit = 8 * scatterer.radius();
-  const Illumination illumination(scatterer, basis, {solver.ray_spacing_m, solver.max_bounces});
+  const Illumination illumination(scatterer, basis, {solver.ray_spacing_m, solver.max_bounces}, threads);
   const SplitSettings split_settings{wavenumbers.at(wavenumbers.centre_index()), reach};
-  const std::size_t chunks = chunk_count(illumination.tiles());
+  const std::size_t chunks = chunk_count(illumination);
   std::vector<std::vector<Contribution>> contributions(chunks);
   std::vector<double> fastest(chunks, 0);
   parallel_for(chunks, threads, [&](std::size_t chunk) {
-    const std::size_t end = std::min(illumination.tiles(), (chunk + 1) * kTilesPerChunk);
-    for (std::size_t tile = chunk * kTilesPerChunk; tile < end; ++tile) {
-      for (const Footprint& footprint : illumination.light(tile))
-        split(footprint, basis, split_settings, contributions[chunk]);
+    std::vector<Footprint> footprints;
+    for (const int facet : chunk_of(illumination, chunk)) {
+      footprints.clear();
+      illumination.light(facet, footprints);
+      for (const Footprint& footprint : footprints) split(footprint, basis, split_settings, contributions[chunk]);
     }
     for (Contribution& c : contributions[chunk]) {
       const double size = c.gradient.norm();
@@ -49,7 +55,8 @@ ReturnGrid trace_returns(const Scatterer& scatterer, const RadarBasis& basis, co
       fastest[chunk] = std::max(fastest[chunk], std::abs(c.gradient.dot(track)));
     }
   });
-  ReturnGrid grid(wavenumbers, *std::max_element(fastest.begin(), fastest.end()), reach, channel);
+  const double u_limit = fastest.empty() ? 0 : *std::max_element(fastest.begin(), fastest.end());
+  ReturnGrid grid(wavenumbers, u_limit, reach, channel);
   for (const auto& part : contributions) grid.spread(part, track);
   grid.transform();
   return grid;
@@ -141,16 +148,18 @@ std::vector<std::array<Complex, 4>> scattering_matrices(const Scatterer& scatter
                                                         const IlluminationSettings& settings, int threads,
                                                         std::size_t* rays, const StopFlag* stop) {
   using Matrices = std::vector<std::array<Complex, 4>>;
-  const Illumination illumination(scatterer, basis, settings);
-  const std::size_t chunks = chunk_count(illumination.tiles());
+  const Illumination illumination(scatterer, basis, settings, threads);
+  const std::size_t chunks = chunk_count(illumination);
   std::vector<Matrices> parts(chunks, Matrices(wavenumbers.size()));
   std::vector<std::size_t> traced(chunks, 0);
   parallel_for(
       chunks, threads,
       [&](std::size_t chunk) {
-        const std::size_t end = std::min(illumination.tiles(), (chunk + 1) * kTilesPerChunk);
-        for (std::size_t tile = chunk * kTilesPerChunk; tile < end; ++tile) {
-          for (const Footprint& footprint : illumination.light(tile, &traced[chunk])) {
+        std::vector<Footprint> footprints;
+        for (const int facet : chunk_of(illumination, chunk)) {
+          footprints.clear();
+          traced[chunk] += illumination.light(facet, footprints);
+          for (const Footprint& footprint : footprints) {
             for (std::size_t q = 0; q < wavenumbers.size(); ++q) {
               const auto s = scattered(footprint, wavenumbers[q]);
               for (int i = 0; i < 4; ++i) parts[chunk][q][i] += s[i];

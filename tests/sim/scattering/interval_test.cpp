@@ -80,12 +80,12 @@ TEST(Contributions, SumToTheClosedFormWhereTheyWereMade) {
   for (const double turn : {0.0, 1e-3, 1e-2}) {
     std::vector<Contribution> contributions;
     std::array<Complex, 4> exact{};
-    for (std::size_t tile = 0; tile < illumination.tiles(); ++tile) {
-      for (const Footprint& footprint : illumination.light(tile)) {
-        split(footprint, basis, {kc, turn}, contributions);
-        const auto s = scattered(footprint, kc);
-        for (int i = 0; i < 4; ++i) exact[i] += s[i];
-      }
+    std::vector<Footprint> footprints;
+    for (const int facet : illumination.seen()) illumination.light(facet, footprints);
+    for (const Footprint& footprint : footprints) {
+      split(footprint, basis, {kc, turn}, contributions);
+      const auto s = scattered(footprint, kc);
+      for (int i = 0; i < 4; ++i) exact[i] += s[i];
     }
     const auto sum = direct_sum(contributions, kc, Vec3::Zero());
     // Patterns are kept in single precision: 6e-8 of each of a few hundred terms.

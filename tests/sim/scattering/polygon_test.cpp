@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "sim/core/random.h"
-#include "sim/scattering/visible_part.h"
+#include "sim/scattering/hidden_surface.h"
 
 namespace seaglint {
 namespace {

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// Hidden surfaces as polygons of the aperture plane: which part of each facet does the radar, or a beam, see?
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "sim/scattering/facets.h"
+#include "sim/scattering/footprint.h"
+
+namespace seaglint {
+
+// Facets nearer to each other than this are one surface: 1e-5 of a 10 mm wavelength.
+inline constexpr double kCoincident = 1e-7;  // m
+
+// A facet's image through the mirrors of a beam, projected along the unfolded ray.
+struct FacetImage {
+  int facet = -1;
+  ImagePlane plane;
+  MovingPolygon polygon;  // of the projected facet
+  Box box;
+};
+
+// Nothing when the facet is edge-on to the ray or its image is smaller than min_area.
+std::optional<FacetImage> facet_image(std::span<const Facet> facets, int facet, const Mirror& mirrors, const RadarBasis& basis,
+                                      double min_area);
+
+// Height of plane b above plane a as a moving line: positive where b is nearer to the radar along the unfolded ray.
+MovingLine depth_between(const ImagePlane& a, const ImagePlane& b);
+
+// The part of b that lies nearer to the radar than plane a. Facets that coincide are ordered by number, the lower one in front.
+MovingPolygon nearer_part(const FacetImage& b, const FacetImage& a);
+
+// Takes the hole out of every piece; pieces it does not touch stay as they are. True when any piece was cut.
+bool cut(std::vector<MovingPolygon>& pieces, const MovingPolygon& hole, double min_area);
+
+// Pieces of the polygon in the window.
+std::vector<MovingPolygon> inside(const FacetImage& image, std::span<const MovingPolygon> window, double min_area);
+
+// What the radar sees of every facet: convex pieces without overlap, exact for the flat facets given.
+class VisibleSurface {
+ public:
+  VisibleSurface(std::span<const Facet> facets, const RadarBasis& basis, double min_area, int threads);
+
+  // Pieces of one facet in the radar's aperture; empty when it is hidden or faces away (a facet of an open sheet shows either side).
+  std::span<const MovingPolygon> pieces(int facet) const { return pieces_[facet]; }
+
+  // The same pieces as seen through mirrors in front of the facet: what of the facet the radar sees directly, in the aperture of the beam.
+  std::vector<MovingPolygon> pieces_through(int facet, const Mirror& mirrors) const;
+
+ private:
+  std::span<const Facet> facets_;
+  RadarBasis basis_;
+  std::vector<std::vector<MovingPolygon>> pieces_;
+};
+
+}  // namespace seaglint
