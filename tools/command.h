@@ -24,6 +24,8 @@ struct Shell {
 void add_check(CLI::App& app, Shell& shell);
 void add_keys(CLI::App& app, Shell& shell);
 void add_mesh(CLI::App& app, Shell& shell);
+void add_sea(CLI::App& app, Shell& shell);
+void add_motion(CLI::App& app, Shell& shell);
 void add_rcs(CLI::App& app, Shell& shell);
 void add_map(CLI::App& app, Shell& shell);
 void add_generate(CLI::App& app, Shell& shell);

@@ -41,6 +41,8 @@ void add_commands(CLI::App& app, Shell& shell) {
   add_check(app, shell);
   add_keys(app, shell);
   add_mesh(app, shell);
+  add_sea(app, shell);
+  add_motion(app, shell);
   add_rcs(app, shell);
   add_map(app, shell);
   add_generate(app, shell);

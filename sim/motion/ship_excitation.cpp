@@ -30,10 +30,10 @@ struct HullAverages {
 };
 
 HullAverages average(const ShipParticulars& ship, double kappa) {
-  const double n_plane = ship.waterplane / (1 - ship.waterplane);
-  const double prismatic = ship.block / ship.midship;
+  const double n_plane = ship.form.waterplane / (1 - ship.form.waterplane);
+  const double prismatic = ship.form.block / ship.form.midship;
   const double n_area = prismatic / (1 - prismatic);
-  const double area = ship.midship * ship.beam * ship.draught;
+  const double area = ship.form.midship * ship.beam * ship.draught;
   const double added = kLateralAddedMass * kPi / 2 * ship.draught * ship.draught;
   double level = 0, plane = 0, slope = 0, plane_moment = 0;
   double lateral = 0, mass = 0, turning = 0, added_moment = 0;
@@ -54,14 +54,14 @@ HullAverages average(const ShipParticulars& ship, double kappa) {
     added_moment += added * u * u;
   }
   // Inertia in the units of the sums: volume k66^2 / (L/2)^2 over both halves, 2 ds = 1.
-  const double inertia = 4 * kYawRadius * kYawRadius * ship.block * ship.beam * ship.draught * kStrips;
+  const double inertia = 4 * kYawRadius * kYawRadius * ship.form.block * ship.beam * ship.draught * kStrips;
   return {level / plane, slope / plane_moment, lateral / mass, turning / (inertia + added_moment)};
 }
 
 }  // namespace
 
 // Effective slope with Smith's correction: the pressure under a wave falls as e^{-kz}, so that a hull feels the slope
-// at a depth; the mean draught T Cb/Cwp for heave and pitch, the draught itself for roll (kappa = e^{-kT} of Jensen,
+// at a depth: half the draught for heave and pitch, the draught itself for roll (kappa = e^{-kT} of Jensen,
 // Mansour and Olsen 2004, Ocean Engineering 31, 61, eq. 3). Yaw, surge and sway: Froude-Krylov force and the same
 // acceleration on the added mass (long-wave diffraction), the mean of e^{-kz} over the draught.
 ShipExcitation ship_excitation(const ShipParticulars& ship, double omega, double mu) {
@@ -72,20 +72,20 @@ ShipExcitation ship_excitation(const ShipParticulars& ship, double omega, double
   const double beam_argument = 0.5 * k * ship.beam * sin_mu;
   const double beam_level = std::abs(beam_argument) < 1e-6 ? 1 : std::sin(beam_argument) / beam_argument;
   const double at_keel = std::exp(-k * ship.draught);
-  const double at_mean_draught = std::exp(-k * ship.draught * ship.block / ship.waterplane);
+  const double at_half_draught = std::exp(-0.5 * k * ship.draught);
   const double over_draught = k * ship.draught < 1e-6 ? 1 : (1 - at_keel) / (k * ship.draught);
   const auto squared = [](double x) { return x * x; };
 
   ShipExcitation excitation;
   // roll = +d eta/dy, pitch = -d eta/dx.
   excitation.roll = squared(ship.roll.omega0) * (-kJ * k * sin_mu) * breadth_mean(beam_argument) * hull.level * at_keel;
-  excitation.pitch = squared(ship.pitch.omega0) * (kJ * k * cos_mu) * hull.slope * beam_level * at_mean_draught;
+  excitation.pitch = squared(ship.pitch.omega0) * (kJ * k * cos_mu) * hull.slope * beam_level * at_half_draught;
   // Water at the surface accelerates by -g grad eta = +j g k (cos mu, sin mu) eta; its gradient along x turns the hull.
   const double sideways = kGravity * k * beam_level * over_draught;
   excitation.yaw = sideways * k * sin_mu * cos_mu * hull.turning;
   excitation.surge = kJ * sideways * cos_mu * hull.lateral;
   excitation.sway = kJ * sideways * sin_mu * hull.lateral;
-  excitation.heave = squared(ship.heave.omega0) * hull.level * beam_level * at_mean_draught;
+  excitation.heave = squared(ship.heave.omega0) * hull.level * beam_level * at_half_draught;
   return excitation;
 }
 

@@ -40,9 +40,10 @@ double given_or(double value, double derived) { return value > 0 ? value : deriv
 
 }  // namespace
 
-ShipParticulars ship_particulars(const MotionSpec& spec, const Bounds& bounds) {
+ShipParticulars ship_particulars(const MotionSpec& spec, const Bounds& bounds, const HullForm& form) {
   const Vec3 size = bounds.upper - bounds.lower;
   ShipParticulars ship;
+  ship.form = form;
   ship.length = given_or(spec.length_m, kWaterlineToOverallLength * size.x());
   ship.beam = given_or(spec.beam_m, kWaterlineToOverallBeam * size.y());
   ship.draught = given_or(spec.draught_m, ship.beam / kBeamToDraught);
@@ -58,23 +59,23 @@ ShipParticulars ship_particulars(const MotionSpec& spec, const Bounds& bounds) {
   }
 
   // Centre of gravity: KG = KB + BM - GM, with Morrish's KB = T (5/6 - Cb / (3 Cwp)) and BM = I_T / volume.
-  const Waterplane plane(ship.waterplane);
-  const double kb = ship.draught * (5.0 / 6 - ship.block / (3 * ship.waterplane));
-  const double bm = plane.transverse() * ship.beam * ship.beam / (12 * ship.block * ship.draught);
+  const Waterplane plane(form.waterplane);
+  const double kb = ship.draught * (5.0 / 6 - form.block / (3 * form.waterplane));
+  const double bm = plane.transverse() * ship.beam * ship.beam / (12 * form.block * ship.draught);
   ship.centre_of_gravity = kb + bm - ship.metacentric_height - ship.draught;
 
   // Roll: w4^2 = g GM / (k44^2).
   const double roll_period =
       given_or(spec.roll_period_s, 2 * kPi * kRollRadius * ship.beam / std::sqrt(kGravity * ship.metacentric_height));
   // Pitch: w5^2 = C55 / (I55 + A55), all over rho L^3/12: C55 = g B J, I55 = 12 k55^2 Cb B T, A55 = c pi/8 B^2 J2.
-  const double i55 = 12 * kPitchRadius * kPitchRadius * ship.block * ship.beam * ship.draught;
+  const double i55 = 12 * kPitchRadius * kPitchRadius * form.block * ship.beam * ship.draught;
   const double a55 = kVerticalAddedMass * kPi / 8 * ship.beam * ship.beam * plane.squared_breadth_moment();
   const double pitch_period =
       given_or(spec.pitch_period_s, 2 * kPi * std::sqrt((i55 + a55) / (kGravity * ship.beam * plane.longitudinal())));
   // Heave: w3^2 = C33 / (m + A33), over rho L: C33 = g Cwp B.
   const double a33 = kVerticalAddedMass * kPi / 8 * ship.beam * ship.beam * plane.squared_breadth();
   const double heave_period =
-      2 * kPi * std::sqrt((ship.block * ship.beam * ship.draught + a33) / (kGravity * ship.waterplane * ship.beam));
+      2 * kPi * std::sqrt((form.block * ship.beam * ship.draught + a33) / (kGravity * form.waterplane * ship.beam));
 
   ship.roll = {2 * kPi / roll_period, given_or(spec.roll_damping, kRollDamping), spec.roll_quadratic_damping};
   ship.pitch = {2 * kPi / pitch_period, given_or(spec.pitch_damping, kPitchDamping), 0};

@@ -71,6 +71,12 @@ WaveField realize_sea(const SeaState& state, std::uint64_t seed, std::uint64_t i
   return WaveField(std::move(components), direction, state.order, second_order_cutoff(state));
 }
 
+std::uint64_t realisation_index(std::size_t sea_state, std::size_t realisation) {
+  constexpr std::uint64_t kMaxRealisations = 1000000;
+  SEAGLINT_CHECK(realisation < kMaxRealisations, fmt::format("realisation {}", realisation));
+  return sea_state * kMaxRealisations + realisation;
+}
+
 SeaSummary summarize(const SeaState& state, const WaveField& field) {
   SeaSummary summary;
   summary.cutoff_rad_s = linear_cutoff(state);

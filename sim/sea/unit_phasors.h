@@ -11,7 +11,7 @@ namespace seaglint {
 
 // cosine[i], sine[i] of angle[i] (radians), |angle| <= kLargestAngle; absolute error below 4e-16. Spans of one length.
 void unit_phasors(std::span<const double> angle, std::span<double> cosine, std::span<double> sine);
-inline constexpr double kLargestAngle = 1e8;
+inline constexpr double kLargestAngle = 4e8;
 
 // Phasors e^{j(omega_i t + phase_i)} at t = start + n step for n = 0, 1, 2, ...: each step turns them by a constant
 // phasor, and every kResynchronise steps they are formed anew from their angles. Error below 1e-13.

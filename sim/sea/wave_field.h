@@ -39,7 +39,7 @@ class WaveField {
   // the quadratic sums of order 2.
   WaveField(std::vector<WaveComponent> components, Vec2 direction, int order, double second_order_cutoff_rad_s);
 
-  // |w t| and |k.x| up to 1e8 rad; about 4 us for 512 components.
+  // |w t| and |k.x| up to 2e8 rad; about 4 us for 512 components.
   SurfaceState surface(double x, double y, double t) const;
 
   // The field whose every amplitude is multiplied by gain(wavenumber), as a body's waterplane filters it.
@@ -86,6 +86,10 @@ class SurfaceSeries {
 // state that no sea can have: a cut-off at or below the peak, or waves steeper than breaking (Hs above 1/7 of the
 // peak's wavelength).
 WaveField realize_sea(const SeaState& state, std::uint64_t seed, std::uint64_t index);
+
+// The index of a realisation of one of a scenario's sea states, both counted from 0, as data sets and commands use it;
+// realisation below 1000000.
+std::uint64_t realisation_index(std::size_t sea_state, std::size_t realisation);
 
 // What a realisation holds and leaves out.
 struct SeaSummary {

@@ -41,15 +41,14 @@ TEST(Oscillator, DecaysWithTheLogarithmicDecrementOfLinearDamping) {
   }
 }
 
-// x'' + b x'^2 + w0^2 x = 0 while x' keeps its sign; with p = x'^2: p' + 2 b p = -2 w0^2 x, so that between two turning
-// points (1 + 2 b X) e^{-2 b X} is conserved (signs of the swing from -X upwards).
+// While x' > 0, p = x'^2 obeys dp/dx + 2 b p = -2 w0^2 x, so that between two turning points -X and X' the integral of
+// x e^{2 b x} vanishes: (2 b x - 1) e^{2 b x} has the same value at both. A downward swing is its mirror image.
 TEST(Oscillator, DecaysAsTheFirstIntegralOfQuadraticDampingSays) {
   const double b = 0.5;
   const Oscillator roll{2 * kPi / 10.9, 0, b};
   double last = 0.3;
   for (const double signed_peak : peaks_of_decay(roll, 0.3, 0.02, 100)) {
     const double peak = std::abs(signed_peak);
-    // Start at -last: (1 - 2 b last) e^{2 b last}... in the variable x the integral of -2 w0^2 x e^{2 b x} vanishes.
     const auto integral = [b](double x) { return (2 * b * x - 1) * std::exp(2 * b * x); };
     EXPECT_NEAR(integral(peak), integral(-last), 1e-6);
     last = peak;

@@ -13,7 +13,7 @@ namespace {
 
 TEST(RotationFromAngles, TurnsAsTheConventionsSay) {
   const double quarter = kPi / 2;
-  // Roll turns port up over to starboard... y towards z; pitch puts the bow down; yaw turns the bow to port.
+  // Roll turns y (port) towards z; pitch puts the bow down; yaw turns the bow to port.
   EXPECT_NEAR((rotation_from_angles(quarter, 0, 0) * Vec3::UnitY() - Vec3::UnitZ()).norm(), 0, 1e-15);
   EXPECT_NEAR((rotation_from_angles(0, quarter, 0) * Vec3::UnitX() + Vec3::UnitZ()).norm(), 0, 1e-15);
   EXPECT_NEAR((rotation_from_angles(0, 0, quarter) * Vec3::UnitX() - Vec3::UnitY()).norm(), 0, 1e-15);

@@ -191,7 +191,7 @@ TEST(SurfaceSeries, EqualsTheSurfaceAtItsPoint) {
 TEST(UnitPhasors, AreCosinesAndSines) {
   std::vector<double> angle;
   for (int i = -2000; i <= 2000; ++i) angle.push_back(0.7853981633974483 * i + 1e-3 * (i % 7));
-  for (double a = 1e-300; a < 1e8; a *= 1.9) angle.insert(angle.end(), {a, -a});
+  for (double a = 1e-300; a < kLargestAngle; a *= 1.9) angle.insert(angle.end(), {a, -a});
   std::vector<double> cosine(angle.size()), sine(angle.size());
   unit_phasors(angle, cosine, sine);
   for (std::size_t i = 0; i < angle.size(); ++i) {

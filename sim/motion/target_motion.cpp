@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/motion/target_motion.h"
+
+#include <fmt/format.h>
+
+#include "sim/core/error.h"
+#include "sim/core/parallel.h"
+#include "sim/motion/simulate.h"
+
+namespace seaglint {
+
+namespace {
+
+constexpr std::uint64_t kMaxBodies = 1024;  // of a target; LineLayout allows 1000
+constexpr std::uint64_t kIndependentSeas = std::uint64_t{1} << 48;
+
+}  // namespace
+
+std::vector<Vec2> layout_places(const TargetSpec& target) {
+  std::vector<Vec2> places;
+  const LineLayout line = target.line.value_or(LineLayout{});
+  for (int i = 0; i < line.count; ++i) places.emplace_back((i - 0.5 * (line.count - 1)) * line.spacing_m, 0);
+  return places;
+}
+
+std::uint64_t body_index(std::uint64_t sea_index, std::size_t body) {
+  SEAGLINT_CHECK(body < kMaxBodies, fmt::format("body {}", body));
+  return sea_index * kMaxBodies + body;
+}
+
+std::vector<Trajectory> simulate_target(const TargetSpec& target, const Bounds& bounds, const SeaState& state,
+                                        const WaveField& sea, double duration_s, std::uint64_t seed,
+                                        std::uint64_t sea_index, int threads) {
+  const std::vector<Vec2> places = layout_places(target);
+  std::vector<Trajectory> trajectories(places.size());
+  parallel_for(places.size(), thread_count(threads), [&](std::size_t body) {
+    const std::uint64_t index = body_index(sea_index, body);
+    const Vec3 rest = rest_position(target.motion, places[body].x(), places[body].y());
+    if (target.motion.waves == WaveSharing::kIndependent) {
+      const WaveField own = realize_sea(state, seed, kIndependentSeas + index);
+      trajectories[body] = simulate_motion(target.motion, bounds, rest, own, duration_s, seed, index);
+    } else {
+      trajectories[body] = simulate_motion(target.motion, bounds, rest, sea, duration_s, seed, index);
+    }
+  });
+  return trajectories;
+}
+
+}  // namespace seaglint

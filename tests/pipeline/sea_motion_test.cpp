@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `sea` and `motion` write what their stages compute, in the columns that are promised.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "sim/scenario/scenario.h"
+#include "sim/sea/wave_field.h"
+#include "tests/pipeline/program.h"
+
+namespace seaglint {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::string kPoints = "scenarios/points.yaml";
+
+// The lines of a CSV file below its comments; the first is the header.
+std::vector<std::string> data_lines(const std::filesystem::path& file) {
+  std::istringstream text(read_file(file));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(text, line);) {
+    if (line.empty() || line[0] != '#') lines.push_back(line);
+  }
+  return lines;
+}
+
+std::vector<double> numbers(const std::string& line) {
+  std::istringstream cells(line);
+  std::vector<double> values;
+  for (std::string cell; std::getline(cells, cell, ',');) values.push_back(std::strtod(cell.c_str(), nullptr));
+  return values;
+}
+
+// A scenario with a box for a ship and boxes for floats beside it.
+std::string write_boxes(const std::filesystem::path& folder) {
+  write_file(folder / "box.obj",
+             "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
+             "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");
+  write_file(folder / "boxes.yaml",
+             "seaglint: 1\nname: boxes\nsea: {significant_wave_height_m: [1, 2]}\ntargets:\n"
+             "  ship: {label: 1, mesh: box.obj, motion: {model: ship, length_m: 142, beam_m: 19}}\n"
+             "  array: {label: 0, mesh: box.obj, layout: {line: {count: 2, spacing_m: 40}}, motion: {model: float}}\n");
+  return folder / "boxes.yaml";
+}
+
+TEST(Sea, WritesTheSurfaceOfTheFirstSeaState) {
+  const TemporaryFolder folder;
+  const std::string file = folder.path() / "sea.csv";
+  const ProgramResult result = run_program({"sea", kPoints, "--at", "-5,3", "--duration-s", "20", "--step-s", "0.5",
+                                            "-o", file, "--set", "sea.propagation_deg=30"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  const std::vector<std::string> lines = data_lines(file);
+  ASSERT_EQ(lines.size(), 42u);
+  EXPECT_EQ(lines[0], "time_s,elevation_m,elevation_linear_m,slope_x,slope_y");
+  const Scenario scenario = read_scenario(SEAGLINT_SOURCE_DIR "/" + kPoints, {{"sea.propagation_deg", "30"}});
+  const WaveField field = realize_sea(sea_states(scenario.sea).front(), scenario.seed, realisation_index(0, 0));
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    const std::vector<double> row = numbers(lines[i]);
+    ASSERT_EQ(row.size(), 5u);
+    const SurfaceState surface = field.surface(-5, 3, row[0]);
+    // Nine digits are written.
+    EXPECT_NEAR(row[1], surface.elevation, 1e-8);
+    EXPECT_NEAR(row[2], surface.elevation_linear, 1e-8);
+    EXPECT_NEAR(row[3], surface.slope_x, 1e-9);
+    EXPECT_NEAR(row[4], surface.slope_y, 1e-9);
+  }
+  const std::string text = read_file(file);
+  EXPECT_THAT(text, HasSubstr("4 sqrt(m0)"));
+  EXPECT_THAT(text, HasSubstr("cut-off"));
+}
+
+TEST(Sea, RefusesRangesThatMakeNoSense) {
+  for (const auto& wrong :
+       {std::pair{"--step-s", "0"}, std::pair{"--duration-s", "-1"}, std::pair{"--at", "1"}, std::pair{"--at", "nan,0"},
+        std::pair{"--duration-s", "nan"}, std::pair{"--step-s", "nan"}}) {
+    EXPECT_EQ(run_program({"sea", kPoints, "-o", "unused.csv", wrong.first, wrong.second}).code, 2) << wrong.first;
+  }
+  const ProgramResult rows =
+      run_program({"sea", kPoints, "-o", "unused.csv", "--duration-s", "1e6", "--step-s", "1e-4"});
+  EXPECT_EQ(rows.code, 2);
+  EXPECT_THAT(rows.err, HasSubstr("rows"));
+  const ProgramResult cutoff = run_program({"sea", kPoints, "-o", "unused.csv", "--set", "sea.cutoff_rad_s=0.1"});
+  EXPECT_EQ(cutoff.code, 2);
+  EXPECT_THAT(cutoff.err, HasSubstr("cutoff_rad_s"));
+}
+
+TEST(Sea, FailsWhereItCannotWrite) {
+  const ProgramResult result = run_program({"sea", kPoints, "-o", "/nonexistent/sea.csv"});
+  EXPECT_EQ(result.code, 1);
+  EXPECT_THAT(result.err, HasSubstr("/nonexistent/sea.csv"));
+}
+
+TEST(Motion, WritesEveryBodyAtEveryTime) {
+  const TemporaryFolder folder;
+  const std::string scenario = write_boxes(folder.path());
+  const std::string file = folder.path() / "motion.csv";
+  const ProgramResult result = run_program({"motion", scenario, "--duration-s", "2", "--step-s", "0.1", "-o", file});
+  ASSERT_EQ(result.code, 0) << result.err;
+  const std::vector<std::string> lines = data_lines(file);
+  ASSERT_EQ(lines.size(), 1 + 21 * 3u);
+  EXPECT_EQ(lines[0], "time_s,body,roll_deg,pitch_deg,yaw_deg,surge_m,sway_m,heave_m");
+  EXPECT_THAT(lines[1], HasSubstr("0,ship,"));
+  EXPECT_THAT(lines[2], HasSubstr("0,array_1,"));
+  EXPECT_THAT(lines[3], HasSubstr("0,array_2,"));
+  for (std::size_t i = 1; i < lines.size(); ++i) EXPECT_EQ(numbers(lines[i]).size(), 8u);
+}
+
+TEST(Motion, DoesNotDependOnThreads) {
+  const TemporaryFolder folder;
+  const std::string scenario = write_boxes(folder.path());
+  const std::filesystem::path one = folder.path() / "one.csv", two = folder.path() / "two.csv";
+  ASSERT_EQ(run_program({"motion", scenario, "--duration-s", "2", "--threads", "1", "-o", one}).code, 0);
+  ASSERT_EQ(run_program({"motion", scenario, "--duration-s", "2", "--threads", "2", "-o", two}).code, 0);
+  EXPECT_EQ(read_file(one), read_file(two));
+}
+
+TEST(Motion, NeedsATargetWithAMesh) {
+  const ProgramResult result = run_program({"motion", kPoints, "-o", "unused.csv"});
+  EXPECT_EQ(result.code, 2);
+  EXPECT_THAT(result.err, HasSubstr("targets"));
+}
+
+}  // namespace
+}  // namespace seaglint

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/motion/target_motion.h"
+
+#include <gtest/gtest.h>
+
+namespace seaglint {
+namespace {
+
+const Bounds kReflector{{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}};
+
+TargetSpec array_of(int count) {
+  TargetSpec target;
+  target.line = LineLayout{count, 40};
+  target.motion.model = MotionModel::kFloat;
+  return target;
+}
+
+SeaState state_of(double height, double period) {
+  SeaState state;
+  state.significant_wave_height_m = height;
+  state.peak_period_s = period;
+  state.propagation_rad = 2;
+  return state;
+}
+
+TEST(LayoutPlaces, AreCentredOnTheOriginAlongX) {
+  const std::vector<Vec2> places = layout_places(array_of(4));
+  ASSERT_EQ(places.size(), 4u);
+  EXPECT_EQ(places[0], Vec2(-60, 0));
+  EXPECT_EQ(places[3], Vec2(60, 0));
+  EXPECT_EQ(layout_places(TargetSpec{}), std::vector<Vec2>{Vec2(0, 0)});
+}
+
+TEST(SimulateTarget, MovesEachBodyAtItsOwnPlaceInTheSameSea) {
+  const SeaState state = state_of(1, 5);
+  const WaveField sea = realize_sea(state, 42, 7);
+  const std::vector<Trajectory> bodies = simulate_target(array_of(4), kReflector, state, sea, 3, 42, 7, 2);
+  ASSERT_EQ(bodies.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Pose pose = bodies[i].pose(2.5);
+    // The centre of flotation stays.
+    EXPECT_NEAR((pose.R_TB * Vec3(0, 0, -0.75) + pose.p_TB - Vec3(-60 + 40.0 * static_cast<double>(i), 0, 0)).norm(), 0,
+                1e-12);
+  }
+  EXPECT_GT((bodies[0].sample(2).angles - bodies[1].sample(2).angles).norm(), 1e-3);
+}
+
+TEST(SimulateTarget, DoesNotDependOnThreads) {
+  const SeaState state = state_of(1, 5);
+  const WaveField sea = realize_sea(state, 42, 7);
+  const auto one = simulate_target(array_of(3), kReflector, state, sea, 2, 42, 7, 1);
+  const auto two = simulate_target(array_of(3), kReflector, state, sea, 2, 42, 7, 2);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(one[i].sample(1.7).angles, two[i].sample(1.7).angles);
+}
+
+// In waves of hundreds of metres floats side by side move alike, unless each has a sea of its own.
+TEST(SimulateTarget, GivesIndependentBodiesSeasOfTheirOwn) {
+  const SeaState state = state_of(1, 20);
+  SeaState long_waves = state;
+  long_waves.cutoff_rad_s = 0.7;
+  const WaveField sea = realize_sea(long_waves, 42, 7);
+  TargetSpec target = array_of(2);
+  target.line->spacing_m = 1;
+  const auto difference = [&] {
+    const auto bodies = simulate_target(target, kReflector, long_waves, sea, 30, 42, 7);
+    double sum = 0;
+    for (double t = 0; t <= 30; t += 1) sum += (bodies[0].sample(t).angles - bodies[1].sample(t).angles).norm();
+    double size = 0;
+    for (double t = 0; t <= 30; t += 1) size += bodies[0].sample(t).angles.norm();
+    return sum / size;
+  };
+  EXPECT_LT(difference(), 0.1);
+  target.motion.waves = WaveSharing::kIndependent;
+  EXPECT_GT(difference(), 0.5);
+}
+
+TEST(BodyIndex, NeverMeetsAnotherRealisation) {
+  EXPECT_EQ(body_index(3, 0), body_index(2, 1023) + 1);
+  EXPECT_THROW(body_index(0, 1024), std::logic_error);
+}
+
+}  // namespace
+}  // namespace seaglint

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// The times of a command that writes a series.
+
+#include <CLI/App.hpp>
+#include <CLI/Validators.hpp>
+#include <cstddef>
+
+namespace seaglint {
+
+// A number of the interval; unlike CLI::Range it refuses NaN.
+CLI::Validator number_within(double lowest, double highest);
+
+// Adds --duration-s and --step-s with the values there as defaults.
+void add_time_options(CLI::App& command, double& duration_s, double& step_s);
+
+// Number of times 0, step, ... up to the duration, which counts when it is within 1e-9 of a step. Throws InputError
+// beyond ten million.
+std::size_t uniform_time_count(double duration_s, double step_s);
+
+}  // namespace seaglint
