@@ -107,7 +107,7 @@ MovingPolygon nearer_part(const FacetImage& b, const FacetImage& a) {
 bool cut(std::vector<MovingPolygon>& pieces, const MovingPolygon& hole, double min_area) {
   const Box box = box_of(hole);
   const auto touched = [&](const MovingPolygon& piece) {
-    return overlap(box_of(piece), box) && signed_area(intersect(piece, hole)) > min_area;
+    return overlap(box_of(piece), box) && !apart(piece, hole) && signed_area(intersect(piece, hole)) > min_area;
   };
   const auto first = std::find_if(pieces.begin(), pieces.end(), touched);
   if (first == pieces.end()) return false;
@@ -126,7 +126,7 @@ bool cut(std::vector<MovingPolygon>& pieces, const MovingPolygon& hole, double m
 std::vector<MovingPolygon> inside(const FacetImage& image, std::span<const MovingPolygon> window, double min_area) {
   std::vector<MovingPolygon> pieces;
   for (const MovingPolygon& piece : window) {
-    if (!overlap(box_of(piece), image.box)) continue;
+    if (!overlap(box_of(piece), image.box) || apart(piece, image.polygon)) continue;
     MovingPolygon common = intersect(piece, image.polygon);
     if (signed_area(common) > min_area) pieces.push_back(std::move(common));
   }
@@ -134,7 +134,7 @@ std::vector<MovingPolygon> inside(const FacetImage& image, std::span<const Movin
 }
 
 VisibleSurface::VisibleSurface(std::span<const Facet> facets, const RadarBasis& basis, double min_area, int threads)
-    : facets_(facets), basis_(basis), pieces_(facets.size()) {
+    : facets_(facets), basis_(basis), min_area_(min_area), pieces_(facets.size()), boxes_(facets.size()) {
   // The far side of a closed part is hidden by its near side: only what faces the radar, and open sheets, can be seen or hide anything.
   std::vector<FacetImage> images;
   for (int f = 0; f < static_cast<int>(facets.size()); ++f) {
@@ -153,32 +153,46 @@ VisibleSurface::VisibleSurface(std::span<const Facet> facets, const RadarBasis& 
         if (!hole.empty()) cut(seen, hole, min_area);
         if (seen.empty()) break;
       }
+      for (const MovingPolygon& piece : seen) boxes_[image.facet].push_back(box_of(piece));
       pieces_[image.facet] = std::move(seen);
     }
   });
 }
 
-std::vector<MovingPolygon> VisibleSurface::pieces_through(int facet, const Mirror& mirrors) const {
-  std::vector<MovingPolygon> images;
-  if (pieces_[facet].empty()) return images;
-  const ImagePlane plane = image_plane(facets_[facet].normal, facets_[facet].offset, basis_);
-  for (const MovingPolygon& piece : pieces_[facet]) {
-    MovingPolygon image;
-    for (const Corner& corner : piece) {
+void VisibleSurface::seen_through(int facet, const Mirror& mirrors, const ImagePlane& plane, const MovingPolygon& lit,
+                                  std::vector<MovingPolygon>& seen) const {
+  if (pieces_[facet].empty()) return;
+  // Where the lit part lies in the radar's own aperture.
+  Box direct;
+  for (std::size_t i = 0; i < lit.size(); ++i) {
+    const Vec2& p = lit[i].p;
+    const Vec3 x = mirrors.real(p.x() * basis_.h + p.y() * basis_.v + plane.at(p) * basis_.r);
+    const Vec2 q(x.dot(basis_.h), x.dot(basis_.v));
+    direct.lower = i == 0 ? q : Vec2(direct.lower.cwiseMin(q));
+    direct.upper = i == 0 ? q : Vec2(direct.upper.cwiseMax(q));
+  }
+  const ImagePlane own = image_plane(facets_[facet].normal, facets_[facet].offset, basis_);
+  MovingPolygon image;
+  for (std::size_t i = 0; i < pieces_[facet].size(); ++i) {
+    if (!overlap(boxes_[facet][i], direct)) continue;
+    image.clear();
+    for (const Corner& corner : pieces_[facet][i]) {
       // The corner's point on the facet, and how far it slips in the facet beyond what a body-fixed point moves.
-      const double z = plane.at(corner.p);
+      const double z = own.at(corner.p);
       const Vec3 x = mirrors.image(corner.p.x() * basis_.h + corner.p.y() * basis_.v + z * basis_.r);
       const double height = x.dot(basis_.r);
       const auto moved = [&](const Vec2& slip) -> Vec3 {
-        return mirrors.L * (slip.x() * basis_.h + slip.y() * basis_.v + plane.slope.dot(slip) * basis_.r);
+        return mirrors.L * (slip.x() * basis_.h + slip.y() * basis_.v + own.slope.dot(slip) * basis_.r);
       };
       const Vec3 x1 = moved(corner.d1 + Vec2(z, 0)), x2 = moved(corner.d2 + Vec2(0, z));
       image.push_back({Vec2(x.dot(basis_.h), x.dot(basis_.v)), Vec2(x1.dot(basis_.h) - height, x1.dot(basis_.v)),
                        Vec2(x2.dot(basis_.h), x2.dot(basis_.v) - height)});
     }
-    images.push_back(counter_clockwise(std::move(image)));
+    if (signed_area(image) < 0) std::reverse(image.begin(), image.end());
+    if (apart(lit, image)) continue;
+    MovingPolygon both = intersect(lit, image);
+    if (signed_area(both) > min_area_) seen.push_back(std::move(both));
   }
-  return images;
 }
 
 }  // namespace seaglint

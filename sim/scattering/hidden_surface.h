@@ -47,13 +47,17 @@ class VisibleSurface {
   // Pieces of one facet in the radar's aperture; empty when it is hidden or faces away (a facet of an open sheet shows either side).
   std::span<const MovingPolygon> pieces(int facet) const { return pieces_[facet]; }
 
-  // The same pieces as seen through mirrors in front of the facet: what of the facet the radar sees directly, in the aperture of the beam.
-  std::vector<MovingPolygon> pieces_through(int facet, const Mirror& mirrors) const;
+  // What the radar sees directly of a part of a facet that a beam lights: `lit` is the part's image through the beam's mirrors, `plane` the
+  // facet's image plane. Appends convex pieces in the beam's aperture.
+  void seen_through(int facet, const Mirror& mirrors, const ImagePlane& plane, const MovingPolygon& lit,
+                    std::vector<MovingPolygon>& seen) const;
 
  private:
   std::span<const Facet> facets_;
   RadarBasis basis_;
+  double min_area_;
   std::vector<std::vector<MovingPolygon>> pieces_;
+  std::vector<std::vector<Box>> boxes_;  // of the pieces
 };
 
 }  // namespace seaglint

@@ -186,13 +186,8 @@ class BeamTracer {
   // What of the lit pieces the radar sees directly.
   std::vector<MovingPolygon> seen_part(const Leg& leg, const Candidate& candidate) const {
     std::vector<MovingPolygon> seen;
-    for (const MovingPolygon& direct : visible_.pieces_through(candidate.image.facet, leg.mirrors)) {
-      const Box box = box_of(direct);
-      for (const MovingPolygon& piece : candidate.lit) {
-        if (!overlap(box_of(piece), box)) continue;
-        MovingPolygon both = intersect(piece, direct);
-        if (signed_area(both) > min_area_) seen.push_back(std::move(both));
-      }
+    for (const MovingPolygon& piece : candidate.lit) {
+      visible_.seen_through(candidate.image.facet, leg.mirrors, candidate.image.plane, piece, seen);
     }
     return seen;
   }

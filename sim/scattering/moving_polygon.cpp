@@ -27,6 +27,26 @@ Corner meet(const Corner& a, const Corner& b, double fa, double fb, const Moving
   return corner;
 }
 
+void clip_into(const MovingPolygon& polygon, const MovingLine& line, int keep, MovingPolygon& kept) {
+  kept.clear();
+  kept.reserve(polygon.size() + 1);
+  if (polygon.empty()) return;
+  const auto value = [&](const Corner& c) {
+    const double f = keep * line.at(c.p);
+    return std::abs(f) < kOnLine ? 0.0 : f;
+  };
+  double fa = value(polygon.back());
+  const Corner* a = &polygon.back();
+  for (const Corner& b : polygon) {
+    const double fb = value(b);
+    if ((fa > 0 && fb < 0) || (fa < 0 && fb > 0)) kept.push_back(meet(*a, b, keep * fa, keep * fb, line));
+    if (fb >= 0) kept.push_back(b);
+    a = &b;
+    fa = fb;
+  }
+  if (kept.size() < 3) kept.clear();
+}
+
 }  // namespace
 
 double signed_area(const MovingPolygon& polygon) {
@@ -72,23 +92,22 @@ MovingLine line_through(const Corner& from, const Corner& to) {
 
 MovingPolygon clip(const MovingPolygon& polygon, const MovingLine& line, int keep) {
   MovingPolygon kept;
-  kept.reserve(polygon.size() + 1);
-  if (polygon.empty()) return kept;
-  const auto value = [&](const Corner& c) {
-    const double f = keep * line.at(c.p);
-    return std::abs(f) < kOnLine ? 0.0 : f;
-  };
-  double fa = value(polygon.back());
-  const Corner* a = &polygon.back();
-  for (const Corner& b : polygon) {
-    const double fb = value(b);
-    if ((fa > 0 && fb < 0) || (fa < 0 && fb > 0)) kept.push_back(meet(*a, b, keep * fa, keep * fb, line));
-    if (fb >= 0) kept.push_back(b);
-    a = &b;
-    fa = fb;
-  }
-  if (kept.size() < 3) kept.clear();
+  clip_into(polygon, line, keep, kept);
   return kept;
+}
+
+bool apart(const MovingPolygon& a, const MovingPolygon& b) {
+  // Separating axes: all corners of one polygon outside an edge of the other, or on it.
+  const auto outside_an_edge = [](const MovingPolygon& edges, const MovingPolygon& corners) {
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      const Vec2& from = edges[i].p;
+      const Vec2 along = edges[(i + 1) % edges.size()].p - from;
+      const double on_line = kOnLine * along.norm();
+      if (std::all_of(corners.begin(), corners.end(), [&](const Corner& c) { return cross(along, c.p - from) <= on_line; })) return true;
+    }
+    return false;
+  };
+  return outside_an_edge(a, b) || outside_an_edge(b, a);
 }
 
 void subtract(const MovingPolygon& polygon, const MovingPolygon& hole, double min_area,
@@ -106,12 +125,13 @@ void subtract(const MovingPolygon& polygon, const MovingPolygon& hole, double mi
 }
 
 MovingPolygon intersect(const MovingPolygon& a, const MovingPolygon& b) {
-  MovingPolygon rest = a;
+  MovingPolygon rest = a, next;
   for (std::size_t i = 0; i < b.size() && !rest.empty(); ++i) {
     const Corner& from = b[i];
     const Corner& to = b[(i + 1) % b.size()];
     if ((to.p - from.p).norm() < kOnLine) continue;
-    rest = clip(rest, line_through(from, to), +1);
+    clip_into(rest, line_through(from, to), +1, next);
+    std::swap(rest, next);
   }
   return rest;
 }

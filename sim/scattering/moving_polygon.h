@@ -44,6 +44,9 @@ MovingLine line_through(const Corner& from, const Corner& to);
 inline constexpr double kOnLine = 1e-10;
 MovingPolygon clip(const MovingPolygon& polygon, const MovingLine& line, int keep = +1);
 
+// True when the polygons have no interior point in common (edges and corners may touch).
+bool apart(const MovingPolygon& a, const MovingPolygon& b);
+
 // polygon minus hole: appends convex pieces with an area above min_area to pieces.
 void subtract(const MovingPolygon& polygon, const MovingPolygon& hole, double min_area,
               std::vector<MovingPolygon>& pieces);
