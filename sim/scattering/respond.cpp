@@ -69,6 +69,10 @@ Vec3 across(const Vec3& r) {
 
 }  // namespace
 
+double default_turn(const Scatterer& scatterer, double wavelength) {
+  return std::min(radians(0.15), 2 * wavelength / scatterer.radius());
+}
+
 BodyResponse respond(const Scatterer& scatterer, const Trajectory& trajectory, const Vec3& r_hat,
                      Polarisation polarisation, const IntervalSampling& sampling, const SolverSpec& solver,
                      int threads) {
@@ -116,7 +120,9 @@ BodyResponse respond(const Scatterer& scatterer, const Trajectory& trajectory, c
   };
 
   const double start = sampling.pulse_time_s.front(), length = sampling.pulse_time_s.back() - start;
-  const int spans = static_cast<int>(std::ceil(turn / radians(solver.max_turn_deg)));
+  const double wavelength = 2 * kPi / wavenumbers.at(wavenumbers.centre_index());
+  const double served = solver.max_turn_deg > 0 ? radians(solver.max_turn_deg) : default_turn(scatterer, wavelength);
+  const int spans = static_cast<int>(std::ceil(turn / served));
   if (spans <= 1) {
     trace(start + 0.5 * length, 0, pulses - 1, [](int) { return 1.0; });
   } else {
