@@ -95,7 +95,7 @@ void run_gnuplot(const Scratch& scratch) {
 
 std::string axis_commands(const char* name, const FigureAxis& axis) {
   std::string text = fmt::format("set {}label {}\n", name, quoted(axis.label));
-  if (axis.logarithmic) text += fmt::format("set logscale {}\n", name);
+  if (axis.logarithmic) text += fmt::format("set logscale {0}\nset format {0} '%.0e'\n", name);
   if (axis.range)
     text += fmt::format("set {}range [{}:{}]\n", name, number(axis.range->first), number(axis.range->second));
   return text;

@@ -32,8 +32,10 @@ table { border-collapse: collapse; font-size: 14.5px; margin: 10px 0 18px; }
 th, td { padding: 6px 14px; border-bottom: 1px solid var(--line); text-align: left; vertical-align: top; }
 th { background: var(--tint); border-bottom: 2px solid #c3ccd5; font-weight: 600; }
 table.numbers td:not(:first-child), table.numbers th:not(:first-child) { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
-td small { color: var(--soft); }
+td small { color: var(--soft); white-space: nowrap; }
 .pair { display: grid; grid-template-columns: repeat(auto-fit, minmax(420px, 1fr)); gap: 18px; }
+#targets .pair { grid-template-columns: 2.2fr 1fr; align-items: end; }
+@media (max-width: 800px) { .pair, #targets .pair { grid-template-columns: 1fr; } }
 figure { margin: 8px 0 16px; }
 figure img { width: 100%; height: auto; border: 1px solid var(--line); border-radius: 4px; background: #fff; }
 figcaption { font-size: 14px; color: var(--soft); margin-top: 5px; }

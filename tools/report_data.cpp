@@ -109,8 +109,10 @@ LineFit fit_line(const std::vector<StoredCentre>& centres) {
   }
   fit.slope = rr > 0 ? rv / rr : 0;
   fit.intercept = v - fit.slope * r;
+  // A line through n loose points explains 1 / (n - 1) of their variance; the adjusted share (Ezekiel 1930) does not.
+  const bool defined = centres.size() >= 3 && rr > 0 && vv > 0;
   fit.explained =
-      centres.size() < 3 || rr <= 0 || vv <= 0 ? std::numeric_limits<double>::quiet_NaN() : rv * rv / (rr * vv);
+      defined ? 1 - (1 - rv * rv / (rr * vv)) * (n - 1) / (n - 2) : std::numeric_limits<double>::quiet_NaN();
   return fit;
 }
 

@@ -18,7 +18,7 @@ namespace seaglint {
 struct LineFit {
   double slope = 0;      // 1/s
   double intercept = 0;  // m/s
-  double explained = 0;  // share of the velocities' variance that the line explains, 0..1; NaN below 3 centres
+  double explained = 0;  // adjusted R^2: 1 = all on the line, 0 on average for loose points, NaN below 3 centres
 };
 LineFit fit_line(const std::vector<StoredCentre>& centres);
 

@@ -115,7 +115,7 @@ void add_maps(FigureList& list, const ReportData& data) {
     const LineFit line = fit_line(shown.sample.centre_list);
     list.add(
         "maps", fmt::format("map_{}_{:g}deg", file_word(record.target_name), record.azimuth_deg), std::move(map),
-        {900, 560},
+        {720, 450},
         fmt::format("<b>{}</b>, azimuth {:g}°, H<sub>s</sub> {:g} m (sample {}). Strongest cell {:.3g} m ({:.1f} "
                     "dBsm), {} centres, "
                     "MWR {:.3g} (m/s)², CCF {:.2f}, σ<sub>r</sub> {:.1f} m, σ<sub>v</sub> {:.2f} m/s; the straight "
@@ -136,8 +136,7 @@ void add_accuracy(FigureList& list, const nlohmann::ordered_json& metrics) {
     LinePlot plot;
     plot.title = protocol == std::string("random") ? "Random split of the maps" : "Split by sea realisation";
     plot.x.label = "significant wave height (m)";
-    plot.y = {"accuracy on test maps (%)", AxisRange{40, 102}, false};
-    double span = 0;
+    double span = 0, lowest = 50;
     for (const auto& row : metrics.at("handmade").at(protocol).at("by_wave_height")) {
       span = std::max(span, row.at("significant_wave_height_m").get<double>());
     }
@@ -153,11 +152,13 @@ void add_accuracy(FigureList& list, const nlohmann::ordered_json& metrics) {
         series.x.push_back(row.at("significant_wave_height_m").get<double>() + shift);
         series.y.push_back(accuracy);
         series.interval.push_back({std::isfinite(low) ? low : accuracy, std::isfinite(high) ? high : accuracy});
+        lowest = std::min(lowest, series.interval.back()[0]);
       }
       plot.series.push_back(std::move(series));
       shift += 0.012 * span;
     }
-    list.add("accuracy", fmt::format("accuracy_{}", protocol), std::move(plot), {760, 460},
+    plot.y = {"accuracy on test maps (%)", AxisRange{std::floor(lowest / 10) * 10, 102}, false};
+    list.add("accuracy", fmt::format("accuracy_{}", protocol), std::move(plot), {640, 400},
              protocol == std::string("random") ? "Random split: the paper's protocol. Maps of the same sea lie on both "
                                                  "sides. Bars: 95 % bootstrap over seas."
                                                : "Split by sea: no test map shares its sea with a training map. No bar "
@@ -204,8 +205,9 @@ void add_features(FigureList& list, const ReportData& data, std::uint64_t seed) 
   residual.title = "Line residual and contrast of the spreads";
   residual.x = {"MWR ((m/s)^2)", {}, true};
   residual.y = {"CCF", AxisRange{0, 1.02}, false};
-  list.add("features", "features_mwr_ccf", std::move(residual), {760, 460},
-           "The paper's two new features, every map a point.", "Scatter of MWR and CCF by class");
+  list.add("features", "features_mwr_ccf", std::move(residual), {640, 400},
+           "The paper's two new features, every map a point; a residual of zero stands at 1e-6.",
+           "Scatter of MWR and CCF by class");
   LinePlot spreads = class_scatter(
       data,
       [&](std::size_t i) {
@@ -215,7 +217,7 @@ void add_features(FigureList& list, const ReportData& data, std::uint64_t seed) 
   spreads.title = "Spreads of the scattering centres";
   spreads.x.label = "sigma_r (m)";
   spreads.y.label = "sigma_v (m/s)";
-  list.add("features", "features_spreads", std::move(spreads), {760, 460},
+  list.add("features", "features_spreads", std::move(spreads), {640, 400},
            "Standard deviations of the centres' ranges and velocities.",
            "Scatter of range and velocity spread by class");
 
@@ -231,7 +233,7 @@ void add_features(FigureList& list, const ReportData& data, std::uint64_t seed) 
     plot.title = title;
     plot.x.label = "t-SNE 1";
     plot.y.label = "t-SNE 2";
-    list.add("features", name, std::move(plot), {760, 460},
+    list.add("features", name, std::move(plot), {640, 400},
              fmt::format("{}: neighbours stay neighbours, distances between clusters mean nothing. {} maps, training "
                          "and test together.",
                          title, few.size()),
@@ -248,17 +250,18 @@ void add_aspects(FigureList& list, const ReportData& data) {
     std::function<double(const ReportRow&)> value;
     const char* caption;
   };
-  const Quantity quantities[] = {{"line_by_azimuth",
-                                  "How much of a line a map shows",
-                                  {"velocity variance explained by the line (%)", AxisRange{0, 102}, false},
-                                  [](const ReportRow& row) { return 100 * row.line.explained; },
-                                  "Share of the centres' velocity variance that a straight line in range explains: "
-                                  "median and quartiles over all maps of the aspect."},
-                                 {"mwr_by_azimuth",
-                                  "Line residual by aspect",
-                                  {"MWR ((m/s)^2)", {}, true},
-                                  [](const ReportRow& row) { return std::max(row.record.mwr, 1e-6); },
-                                  "MWR by aspect: median and quartiles."}};
+  const Quantity quantities[] = {
+      {"line_by_azimuth",
+       "How much of a line a map shows",
+       {"velocity variance explained by the line (%)", AxisRange{-55, 102}, false},
+       [](const ReportRow& row) { return 100 * row.line.explained; },
+       "Share of the centres' velocity variance that a straight line in range explains, adjusted for the number of "
+       "centres (0 = loose points): median and quartiles over all maps of the aspect."},
+      {"mwr_by_azimuth",
+       "Line residual by aspect",
+       {"MWR ((m/s)^2)", {}, true},
+       [](const ReportRow& row) { return std::max(row.record.mwr, 1e-6); },
+       "MWR by aspect: median and quartiles."}};
   for (const Quantity& quantity : quantities) {
     LinePlot plot;
     plot.title = fmt::format("{}, Hs {:g} m", quantity.title, data.shown_wave_height_m);
@@ -276,7 +279,7 @@ void add_aspects(FigureList& list, const ReportData& data) {
       }
       plot.series.push_back(std::move(series));
     }
-    list.add("aspects", quantity.file, std::move(plot), {760, 460}, quantity.caption, quantity.title);
+    list.add("aspects", quantity.file, std::move(plot), {640, 400}, quantity.caption, quantity.title);
   }
 }
 
@@ -315,14 +318,14 @@ void add_sea(FigureList& list, const Scenario& scenario, const std::vector<Targe
   Series full{scenario.sea.order == 2 ? "second order" : "linear", times, {}, {}, SeriesStyle::kLines};
   for (const double t : times) full.y.push_back(scene.sea.surface(0, 0, t).elevation);
   waves.series.push_back(std::move(full));
-  list.add("sea", "sea_surface", std::move(waves), {760, 380},
+  list.add("sea", "sea_surface", std::move(waves), {640, 330},
            "One minute of the first sea realisation; all targets and aspects see this sea.",
            "Elevation of the sea against time");
   for (std::size_t t = 0; t < targets.size(); ++t) {
     if (scene.bodies[t].empty()) continue;
     const std::string who = scene.bodies[t].size() > 1 ? targets[t].spec.name + ", first body" : targets[t].spec.name;
     list.add("sea", fmt::format("motion_{}", file_word(targets[t].spec.name)),
-             angle_plot(fmt::format("Motion of {}", who), scene.bodies[t].front(), times), {760, 380},
+             angle_plot(fmt::format("Motion of {}", who), scene.bodies[t].front(), times), {640, 330},
              fmt::format("Angles of <b>{}</b> in that sea (right-handed: pitch &gt; 0 puts the bow down).",
                          escape_html(who)),
              fmt::format("Angles of {} against time", who));

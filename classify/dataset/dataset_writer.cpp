@@ -31,6 +31,13 @@ std::string first_difference(const std::string& there, const std::string& here) 
   }
 }
 
+// The scenario as far as it decides the maps: learning may be changed over the same maps.
+std::string maps_yaml(Scenario scenario) {
+  scenario.learning = {};
+  scenario.dataset.train_share = DatasetSpec{}.train_share;
+  return effective_yaml(scenario);
+}
+
 bool is_empty_or_absent(const fs::path& directory) {
   std::error_code error;
   if (!fs::exists(directory, error)) return true;
@@ -53,14 +60,13 @@ DatasetWriter::DatasetWriter(fs::path directory, const Scenario& scenario, bool 
   make_directory(directory_);
   const fs::path scenario_file = directory_ / kScenarioFile;
   if (fs::exists(scenario_file)) {
-    const std::string there = read_file(scenario_file);
-    if (there != scenario_yaml_) {
+    const std::string there = maps_yaml(read_scenario(scenario_file)), here = maps_yaml(scenario_);
+    if (there != here) {
       throw InputError(fmt::format("{}: the directory holds another scenario ({}); choose another directory",
-                                   scenario_file.string(), first_difference(there, scenario_yaml_)));
+                                   scenario_file.string(), first_difference(there, here)));
     }
-  } else {
-    write_file(scenario_file, scenario_yaml_);
   }
+  write_file(scenario_file, scenario_yaml_);
   const fs::path manifest_file = directory_ / kManifestFile;
   if (fs::exists(manifest_file)) {
     for (const ManifestShard& shard : read_manifest(manifest_file).shards) known_sha256_.push_back(shard.sha256);

@@ -22,8 +22,8 @@ inline constexpr const char* kDataCardFile = "README.md";
 class DatasetWriter {
  public:
   // Makes the directory and writes scenario.yaml. Without `resume` the directory must be new or empty; with it, a
-  // scenario.yaml that is there must be the same. Throws InputError naming the directory, WorkError when the disk
-  // refuses.
+  // scenario.yaml that is there must make the same maps (its learning section and split may differ). Throws InputError
+  // naming the directory and the difference, WorkError when the disk refuses.
   DatasetWriter(std::filesystem::path directory, const Scenario& scenario, bool resume);
 
   // True when the shard is on the disk and sound: by the manifest's checksum where there is one, else by reading it

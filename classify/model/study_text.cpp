@@ -79,6 +79,7 @@ std::string to_json(const Study& study, const LearningSpec& spec) {
     entry["group"] = to_object(probe.evaluations[1]);
     json["probes"].push_back(entry);
   }
+  json["split_repeats"] = spec.split_repeats;
   json["network"] = {{"parameters", study.network_parameters},
                      {"epochs", spec.epochs},
                      {"threads", spec.threads},

@@ -111,6 +111,15 @@ TEST_F(DataDirectory, OfAnotherScenarioIsRefusedWithTheFirstDifference) {
               HasSubstr("`seed: 42` there, `seed: 43` here"));
 }
 
+TEST_F(DataDirectory, KeepsItsMapsWhenOnlyLearningChanges) {
+  make_whole();
+  Scenario other = scenario_;
+  other.learning.epochs = 7;
+  other.dataset.train_share = 0.5;
+  EXPECT_TRUE(DatasetWriter(directory_, other, true).complete(0));
+  EXPECT_EQ(read_scenario(directory_ / kScenarioFile).learning.epochs, 7);
+}
+
 TEST_F(DataDirectory, ResumesOnlyWhatIsUnsound) {
   make_whole();
   fs::remove(directory_ / kManifestFile);
