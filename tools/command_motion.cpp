@@ -44,7 +44,7 @@ std::vector<NamedTrajectory> simulate_all(const Scenario& scenario, double durat
     if (stop) throw Interrupted();
     const Bounds box = bounds(read_mesh(find_mesh(scenario, target), target.unit));
     const std::vector<Trajectory> all =
-        simulate_target(target, box, state, sea, duration_s, scenario.seed, index, threads);
+        simulate_target(target, box, state, sea, duration_s, scenario.seed, index, bodies.size(), threads);
     for (std::size_t i = 0; i < all.size(); ++i) {
       bodies.push_back({target.line ? fmt::format("{}_{}", target.name, i + 1) : target.name, all[i]});
     }

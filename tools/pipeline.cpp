@@ -9,6 +9,7 @@
 #include "radar/echo/echo.h"
 #include "sim/core/constants.h"
 #include "sim/core/error.h"
+#include "sim/motion/target_motion.h"
 #include "sim/scattering/point_response.h"
 
 namespace seaglint {
@@ -143,7 +144,7 @@ MadeSample Pipeline::make(std::size_t sample) const {
   record.seed = static_cast<std::int64_t>(scenario_.seed);
   record.sea_key = static_cast<std::int64_t>(plan_.sea_key(at.sea_state, at.realisation));
   record.first_motion_key =
-      static_cast<std::int64_t>(motion_key(plan_.sea_key(at.sea_state, at.realisation), target.first_body));
+      static_cast<std::int64_t>(body_index(plan_.sea_key(at.sea_state, at.realisation), target.first_body));
   record.radar_key = static_cast<std::int64_t>(sample);
   record.empty_carriers = made.received.map.empty_carriers;
   record.scr_per_pulse_db = made.received.scr.per_pulse_db;

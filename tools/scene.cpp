@@ -6,22 +6,11 @@
 
 #include "sim/geometry/mesh_io.h"
 #include "sim/motion/simulate.h"
+#include "sim/motion/target_motion.h"
 
 namespace seaglint {
 
 namespace {
-
-// Seas that a body has to itself (`waves: independent`) take keys no shared sea uses.
-constexpr std::uint64_t kOwnSeas = std::uint64_t{1} << 60;
-
-std::vector<Vec3> rest_positions(const TargetSpec& spec) {
-  const double height = spec.motion.model == MotionModel::kFloat ? spec.motion.centre_above_water_m : 0.0;
-  const int count = spec.line ? spec.line->count : 1;
-  const double spacing = spec.line ? spec.line->spacing_m : 0.0;
-  std::vector<Vec3> positions;
-  for (int i = 0; i < count; ++i) positions.emplace_back((i - 0.5 * (count - 1)) * spacing, 0.0, height);
-  return positions;
-}
 
 // Radius about the target's reference point that the target never leaves.
 double reach_m(const Target& target, double interval_s) {
@@ -41,14 +30,16 @@ double reach_m(const Target& target, double interval_s) {
 
 std::vector<Target> load_targets(const Scenario& scenario) {
   std::vector<Target> targets;
-  std::uint64_t bodies = 0;
+  std::size_t bodies = 0;
   for (const TargetSpec& spec : scenario.targets) {
     Target target;
     target.spec = spec;
     target.first_body = bodies;
     if (!spec.mesh.empty()) {
       target.mesh = read_mesh(find_mesh(scenario, spec), spec.unit);
-      target.rest_positions = rest_positions(spec);
+      for (const Vec2& place : layout_places(spec)) {
+        target.rest_positions.push_back(rest_position(spec.motion, place.x(), place.y()));
+      }
       bodies += target.rest_positions.size();
     }
     targets.push_back(std::move(target));
@@ -64,10 +55,6 @@ double range_window_m(const Scenario& scenario, const std::vector<Target>& targe
   return std::max(scenario.map.range_span_m, 2.2 * reach);
 }
 
-std::uint64_t motion_key(std::uint64_t sea_key, std::uint64_t body) {
-  return sea_key * 64 + body % 64 + ((body / 64) << 40);
-}
-
 Scene make_scene(const Scenario& scenario, const std::vector<Target>& targets, int sea_state, int realisation,
                  double at_least_s) {
   const SamplePlan plan(scenario);
@@ -79,15 +66,10 @@ Scene make_scene(const Scenario& scenario, const std::vector<Target>& targets, i
   Scene scene{realize_sea(state, scenario.seed, sea_key), {}};
   for (const Target& target : targets) {
     const Bounds box = target.rest_positions.empty() ? Bounds{} : bounds(target.mesh);
-    std::vector<Trajectory> trajectories;
-    for (std::size_t i = 0; i < target.rest_positions.size(); ++i) {
-      const std::uint64_t key = motion_key(sea_key, target.first_body + i);
-      const bool own_sea = target.spec.motion.waves == WaveSharing::kIndependent;
-      const WaveField sea = own_sea ? realize_sea(state, scenario.seed, kOwnSeas + key) : scene.sea;
-      trajectories.push_back(
-          simulate_motion(target.spec.motion, box, target.rest_positions[i], sea, duration_s, scenario.seed, key));
-    }
-    scene.bodies.push_back(std::move(trajectories));
+    scene.bodies.push_back(target.rest_positions.empty()
+                               ? std::vector<Trajectory>{}
+                               : simulate_target(target.spec, box, state, scene.sea, duration_s, scenario.seed, sea_key,
+                                                 target.first_body));
   }
   return scene;
 }

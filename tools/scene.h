@@ -21,7 +21,7 @@ struct Target {
   TargetSpec spec;
   TriangleMesh mesh;                 // empty for points
   std::vector<Vec3> rest_positions;  // of the bodies' origins, target frame; empty for points
-  std::uint64_t first_body = 0;      // bodies are counted over all targets, in order
+  std::size_t first_body = 0;        // bodies are counted over all targets, in order
 };
 
 // Throws InputError for a mesh that is missing or unsound.
@@ -36,9 +36,6 @@ struct Scene {
   WaveField sea;
   std::vector<std::vector<Trajectory>> bodies;  // [target][body]; none for points
 };
-
-// The key of a body's own random numbers (stream kFloatYaw) in the realisation with this sea key.
-std::uint64_t motion_key(std::uint64_t sea_key, std::uint64_t body);
 
 // Longer than its intervals need where at_least_s says so; the beginning is the same.
 Scene make_scene(const Scenario& scenario, const std::vector<Target>& targets, int sea_state, int realisation,

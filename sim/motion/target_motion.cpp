@@ -11,7 +11,7 @@ namespace seaglint {
 
 namespace {
 
-constexpr std::uint64_t kMaxBodies = 1024;  // of a target; LineLayout allows 1000
+constexpr std::uint64_t kMaxBodies = 65536;  // of a scenario; a line holds up to 1000
 constexpr std::uint64_t kIndependentSeas = std::uint64_t{1} << 48;
 
 }  // namespace
@@ -30,11 +30,11 @@ std::uint64_t body_index(std::uint64_t sea_index, std::size_t body) {
 
 std::vector<Trajectory> simulate_target(const TargetSpec& target, const Bounds& bounds, const SeaState& state,
                                         const WaveField& sea, double duration_s, std::uint64_t seed,
-                                        std::uint64_t sea_index, int threads) {
+                                        std::uint64_t sea_index, std::size_t first_body, int threads) {
   const std::vector<Vec2> places = layout_places(target);
   std::vector<Trajectory> trajectories(places.size());
   parallel_for(places.size(), thread_count(threads), [&](std::size_t body) {
-    const std::uint64_t index = body_index(sea_index, body);
+    const std::uint64_t index = body_index(sea_index, first_body + body);
     const Vec3 rest = rest_position(target.motion, places[body].x(), places[body].y());
     if (target.motion.waves == WaveSharing::kIndependent) {
       const WaveField own = realize_sea(state, seed, kIndependentSeas + index);

@@ -34,7 +34,7 @@ TEST(LayoutPlaces, AreCentredOnTheOriginAlongX) {
 TEST(SimulateTarget, MovesEachBodyAtItsOwnPlaceInTheSameSea) {
   const SeaState state = state_of(1, 5);
   const WaveField sea = realize_sea(state, 42, 7);
-  const std::vector<Trajectory> bodies = simulate_target(array_of(4), kReflector, state, sea, 3, 42, 7, 2);
+  const std::vector<Trajectory> bodies = simulate_target(array_of(4), kReflector, state, sea, 3, 42, 7, 0, 2);
   ASSERT_EQ(bodies.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) {
     const Pose pose = bodies[i].pose(2.5);
@@ -48,8 +48,8 @@ TEST(SimulateTarget, MovesEachBodyAtItsOwnPlaceInTheSameSea) {
 TEST(SimulateTarget, DoesNotDependOnThreads) {
   const SeaState state = state_of(1, 5);
   const WaveField sea = realize_sea(state, 42, 7);
-  const auto one = simulate_target(array_of(3), kReflector, state, sea, 2, 42, 7, 1);
-  const auto two = simulate_target(array_of(3), kReflector, state, sea, 2, 42, 7, 2);
+  const auto one = simulate_target(array_of(3), kReflector, state, sea, 2, 42, 7, 0, 1);
+  const auto two = simulate_target(array_of(3), kReflector, state, sea, 2, 42, 7, 0, 2);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(one[i].sample(1.7).angles, two[i].sample(1.7).angles);
 }
 
@@ -75,8 +75,8 @@ TEST(SimulateTarget, GivesIndependentBodiesSeasOfTheirOwn) {
 }
 
 TEST(BodyIndex, NeverMeetsAnotherRealisation) {
-  EXPECT_EQ(body_index(3, 0), body_index(2, 1023) + 1);
-  EXPECT_THROW(body_index(0, 1024), std::logic_error);
+  EXPECT_EQ(body_index(3, 0), body_index(2, 65535) + 1);
+  EXPECT_THROW(body_index(0, 65536), std::logic_error);
 }
 
 }  // namespace

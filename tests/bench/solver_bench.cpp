@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The solver on the 144 m ship and the 1 m reflector, beside Embree alone on rays of the same spacing.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+
+#include "sim/core/constants.h"
+#include "sim/geometry/generators.h"
+#include "sim/geometry/mesh_io.h"
+#include "sim/scattering/respond.h"
+
+namespace seaglint {
+namespace {
+
+Vec3 direction(double azimuth_deg) {
+  const double az = radians(azimuth_deg), el = radians(2);
+  return {std::cos(el) * std::cos(az), std::cos(el) * std::sin(az), std::sin(el)};
+}
+
+const Scatterer& ship() {
+  static const Scatterer scatterer(read_mesh(SEAGLINT_SOURCE_DIR "/assets/combatant_144m.glb"));
+  return scatterer;
+}
+
+IntervalSampling paper_interval() {
+  IntervalSampling sampling;
+  sampling.step_hz = 0.625e6;
+  sampling.first_hz = 16e9 - 12.5e6 + 0.5 * sampling.step_hz;
+  sampling.count = 320;
+  sampling.per_pulse = 40;
+  for (int n = 0; n < 256; ++n) {
+    sampling.pulse_first.push_back(40 * (n * 5 % 8));
+    sampling.pulse_time_s.push_back(0.5 + 250e-6 * n);
+  }
+  return sampling;
+}
+
+// Rolls with the given rate, rad/s.
+Trajectory rolling(double rate, const Vec3& centre) {
+  std::vector<MotionSample> samples(101);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    samples[i].angles.x() = rate * 0.01 * static_cast<double>(i);
+    samples[i].angle_rates.x() = rate;
+  }
+  return Trajectory(0, 0.01, samples, Vec3::Zero(), centre);
+}
+
+// Embree alone: primary rays 0.1 m apart over the ship's window, packets of 16.
+void EmbreeAloneOnTheShip(benchmark::State& state) {
+  const RadarBasis basis = radar_basis(direction(static_cast<double>(state.range(0))));
+  std::vector<Ray> rays;
+  Vec2 lower = Vec2::Constant(1e9), upper = -lower;
+  for (const Facet& facet : ship().facets()) {
+    for (const Vec3& x : facet.corner) {
+      lower = lower.cwiseMin(Vec2(x.dot(basis.h), x.dot(basis.v)));
+      upper = upper.cwiseMax(Vec2(x.dot(basis.h), x.dot(basis.v)));
+    }
+  }
+  for (double y = lower.y(); y < upper.y(); y += 0.1) {
+    for (double x = lower.x(); x < upper.x(); x += 0.1) rays.push_back({x * basis.h + y * basis.v + 75 * basis.r, -basis.r});
+  }
+  std::vector<int> hits(rays.size());
+  for (auto _ : state) ship().rays().first_hits(rays, hits);
+  state.counters["rays/s"] = benchmark::Counter(static_cast<double>(rays.size() * state.iterations()), benchmark::Counter::kIsRate);
+}
+BENCHMARK(EmbreeAloneOnTheShip)->Arg(10)->Arg(50)->Arg(90)->Unit(benchmark::kMillisecond);
+
+// One trace and the whole band and interval from it, two threads; rays/s counts the solver's own rays.
+void ShipInterval(benchmark::State& state) {
+  const Trajectory trajectory = rolling(0.005, {0, 0, 1.7});
+  const Vec3 r = direction(static_cast<double>(state.range(0)));
+  for (auto _ : state) benchmark::DoNotOptimize(respond(ship(), trajectory, r, Polarisation::kVv, paper_interval(), {}, 2));
+}
+BENCHMARK(ShipInterval)->Arg(10)->Arg(50)->Arg(90)->Arg(130)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+// At the roll rate of Hs 2 m, Tp 8 s: as many traces as the turn needs.
+void ShipIntervalRollingAtOneRms(benchmark::State& state) {
+  const Trajectory trajectory = rolling(0.014, {0, 0, 1.7});
+  const Vec3 r = direction(static_cast<double>(state.range(0)));
+  int traces = 0;
+  for (auto _ : state) traces = respond(ship(), trajectory, r, Polarisation::kVv, paper_interval(), {}, 2).traces;
+  state.counters["traces"] = traces;
+}
+BENCHMARK(ShipIntervalRollingAtOneRms)->Arg(50)->Arg(90)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+// A float tilting by 2.2 deg in the interval, one thread.
+void ReflectorInterval(benchmark::State& state) {
+  const Scatterer reflector(make_icosahedral_reflector());
+  const Trajectory trajectory = rolling(0.6, {0, 0, -0.75});
+  int traces = 0;
+  for (auto _ : state) traces = respond(reflector, trajectory, direction(80), Polarisation::kVv, paper_interval(), {}).traces;
+  state.counters["traces"] = traces;
+}
+BENCHMARK(ReflectorInterval)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+// The trace alone at one frequency: what a sweep of aspects costs.
+void ShipAspect(benchmark::State& state) {
+  const RadarBasis basis = radar_basis(direction(static_cast<double>(state.range(0))));
+  const std::vector<double> k(static_cast<std::size_t>(state.range(1)), 2 * kPi * 16e9 / kSpeedOfLight);
+  std::size_t rays = 0;
+  for (auto _ : state) benchmark::DoNotOptimize(scattering_matrices(ship(), basis, k, {}, 2, &rays));
+  state.counters["rays/s"] = benchmark::Counter(static_cast<double>(rays), benchmark::Counter::kIsRate);
+}
+BENCHMARK(ShipAspect)->Args({50, 1})->Args({50, 16})->Unit(benchmark::kMillisecond)->UseRealTime();
+
+}  // namespace
+}  // namespace seaglint
