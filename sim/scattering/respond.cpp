@@ -102,41 +102,39 @@ BodyResponse respond(const Scatterer& scatterer, const Trajectory& trajectory, c
     return std::span<Complex>(&result.response.values[static_cast<std::size_t>(n) * sampling.per_pulse],
                               sampling.per_pulse);
   };
-  // Traces the body at one instant for the pulses [first, last], each weighted by weight(n).
-  const auto trace = [&](double instant, int first, int last, const auto& weight) {
-    const RadarBasis basis = body_basis(world, trajectory.pose(instant));
+  // Traces the body at the middles of equal spans of the interval; between two instants their answers are blended linearly, before the first and
+  // after the last one that one's stands alone.
+  const double start = sampling.pulse_time_s.front(), length = sampling.pulse_time_s.back() - start;
+  const double wavelength = 2 * kPi / wavenumbers.at(wavenumbers.centre_index());
+  const double served = solver.max_turn_deg > 0 ? radians(solver.max_turn_deg) : default_turn(scatterer, wavelength);
+  const int spans = std::max(1, static_cast<int>(std::ceil(turn / served)));
+  for (int i = 0; i < spans; ++i) {
+    const auto weight = [&](int n) {
+      const double position = length > 0 ? (sampling.pulse_time_s[n] - start) / length * spans - 0.5 : 0.0;
+      return std::max(0.0, 1 - std::abs(std::clamp(position, 0.0, spans - 1.0) - i));
+    };
+    int first = pulses, last = -1;
+    for (int n = 0; n < pulses; ++n) {
+      if (weight(n) <= 0) continue;
+      first = std::min(first, n);
+      last = n;
+    }
+    if (first > last) continue;
+
+    const RadarBasis basis = body_basis(world, trajectory.pose(start + length * (i + 0.5) / spans));
     const Vec3 chord = directions[last] - directions[first];
     const Vec3 level = chord - basis.r * basis.r.dot(chord);
     const Vec3 track = level.norm() > 1e-12 ? Vec3(level.normalized()) : across(basis.r);
     double reach = 0;
     for (int n = first; n <= last; ++n) reach = std::max(reach, std::abs((directions[n] - basis.r).dot(track)));
-    const ReturnGrid returns = trace_returns(scatterer, basis, track, reach, wavenumbers, channel, solver, threads);
+    const ReturnGrid returns =
+        trace_returns(scatterer, basis, track, reach, wavenumbers, channel, solver, threads);
     for (int n = first; n <= last; ++n) {
       returns.response(sampling.pulse_first[n], (directions[n] - basis.r).dot(track), scratch);
       const std::span<Complex> out = band(n);
       for (std::size_t b = 0; b < out.size(); ++b) out[b] += weight(n) * scratch[b];
     }
     ++result.traces;
-  };
-
-  const double start = sampling.pulse_time_s.front(), length = sampling.pulse_time_s.back() - start;
-  const double wavelength = 2 * kPi / wavenumbers.at(wavenumbers.centre_index());
-  const double served = solver.max_turn_deg > 0 ? radians(solver.max_turn_deg) : default_turn(scatterer, wavelength);
-  const int spans = static_cast<int>(std::ceil(turn / served));
-  if (spans <= 1) {
-    trace(start + 0.5 * length, 0, pulses - 1, [](int) { return 1.0; });
-  } else {
-    for (int i = 0; i <= spans; ++i) {
-      const double instant = start + length * i / spans, reach = length / spans;
-      const auto hat = [&](int n) { return 1 - std::abs(sampling.pulse_time_s[n] - instant) / reach; };
-      int first = pulses, last = -1;
-      for (int n = 0; n < pulses; ++n) {
-        if (hat(n) <= 0) continue;
-        first = std::min(first, n);
-        last = n;
-      }
-      if (first <= last) trace(instant, first, last, hat);
-    }
   }
 
   // The body's origin moves too: e^{+j 2k r^.p}, exact for every pulse and frequency.

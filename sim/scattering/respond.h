@@ -26,9 +26,10 @@ struct BodyResponse {
 double default_turn(const Scatterer& scatterer, double wavelength);
 
 // H(f, attitude at t_n) of a body on its trajectory, seen along r_hat (target frame). One trace serves pulses while the
-// body turns by at most solver.max_turn_deg; a faster body is traced at instants that far apart, and neighbouring
-// traces are blended linearly in time. Error against a fresh trace per pulse and frequency: sim/scattering/README.md.
-// Polarisation basis: that of the world, turned into the body at each trace. The trajectory must cover the interval.
+// body turns by at most solver.max_turn_deg; a faster body is traced at the middles of spans that short, and
+// neighbouring traces are blended linearly in time. Error against a fresh trace per pulse and frequency:
+// sim/scattering/README.md. Polarisation basis: that of the world, turned into the body at each trace. The trajectory
+// must cover the interval.
 BodyResponse respond(const Scatterer& scatterer, const Trajectory& trajectory, const Vec3& r_hat,
                      Polarisation polarisation, const IntervalSampling& sampling, const SolverSpec& solver,
                      int threads = 1);
