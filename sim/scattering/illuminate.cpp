@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_set>
 
 #include "sim/core/error.h"
 
@@ -25,7 +24,8 @@ struct Leg {
 struct Candidate {
   FacetImage image;
   std::vector<MovingPolygon> lit;
-  bool asked = false;  // every piece has been confirmed by a ray since it was last cut
+  bool asked = false;     // every piece has been confirmed by a ray since it was last cut
+  bool extended = false;  // its neighbours have been added
 };
 
 class BeamTracer {
@@ -93,14 +93,16 @@ class BeamTracer {
    public:
     Candidates(const BeamTracer& tracer, const Leg& leg, std::span<const MovingPolygon> window)
         : tracer_(tracer), leg_(leg), window_(window) {
-      met_.insert(kNoFacet);
-      met_.insert(leg.from_facet);
+      met_.push_back(kNoFacet);
+      met_.push_back(leg.from_facet);
     }
 
     std::vector<Candidate>& all() { return all_; }
 
     void add(int facet) {
-      if (!met_.insert(facet).second) return;
+      // A beam meets a few tens of facets: looking through them is faster than hashing.
+      if (std::find(met_.begin(), met_.end(), facet) != met_.end()) return;
+      met_.push_back(facet);
       // The lit side of a closed part faces the beam.
       const Facet& f = tracer_.facets_[facet];
       if (!f.open && f.normal.dot(leg_.direction) >= 0) return;
@@ -137,7 +139,7 @@ class BeamTracer {
     const Leg& leg_;
     std::span<const MovingPolygon> window_;
     std::vector<Candidate> all_;
-    std::unordered_set<int> met_;
+    std::vector<int> met_;
   };
 
   // Lights what the leg reaches inside the window (convex pieces of the aperture).
@@ -156,11 +158,11 @@ class BeamTracer {
     // Topology completes them: the neighbours of what is lit are candidates too. A ray through each lit piece confirms it; what it meets instead
     // joins. This ends because a facet joins once.
     std::vector<Candidate>& all = candidates.all();
-    std::unordered_set<int> spread;
     for (bool grown = true; grown;) {
       const std::size_t known = all.size();
       for (std::size_t i = 0; i < all.size(); ++i) {
-        if (all[i].lit.empty() || !spread.insert(all[i].image.facet).second) continue;
+        if (all[i].lit.empty() || all[i].extended) continue;
+        all[i].extended = true;
         for (const int neighbour : facets_[all[i].image.facet].neighbour) candidates.add(neighbour);
       }
       for (std::size_t i = 0; i < all.size(); ++i) {

@@ -106,6 +106,11 @@ void ReturnGrid::spread(std::span<const Contribution> contributions, const Vec3&
   }
 }
 
+void ReturnGrid::add(const ReturnGrid& other) {
+  SEAGLINT_CHECK(cells_.size() == other.cells_.size(), fmt::format("{} and {} cells", cells_.size(), other.cells_.size()));
+  for (std::size_t i = 0; i < cells_.size(); ++i) cells_[i] += other.cells_[i];
+}
+
 void ReturnGrid::transform() {
   auto* data = reinterpret_cast<fftw_complex*>(cells_.data());
   fftw_plan plan;

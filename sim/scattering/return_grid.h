@@ -37,6 +37,9 @@ class ReturnGrid {
 
   // Adds contributions whose direction moves along `track` (unit vector, body frame).
   void spread(std::span<const Contribution> contributions, const Vec3& track);
+  // Adds another grid made with the same arguments.
+  void add(const ReturnGrid& other);
+
   // Transforms along psi; afterwards the response can be asked for.
   void transform();
   // H at k_q for q = first..first + out.size() - 1 and the displacement s along the track, |s| <= s_limit.
