@@ -266,7 +266,7 @@ Illumination::Illumination(const Scatterer& scatterer, const RadarBasis& basis, 
     : scatterer_(scatterer),
       basis_(basis),
       settings_(settings),
-      min_area_(1e-9 * scatterer.radius() * scatterer.radius()),
+      min_area_(2e-9 * scatterer.radius() * scatterer.radius()),
       visible_(scatterer.facets(), basis, min_area_, threads) {
   for (int facet = 0; facet < static_cast<int>(scatterer.facets().size()); ++facet) {
     if (!visible_.pieces(facet).empty()) seen_.push_back(facet);

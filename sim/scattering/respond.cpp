@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "sim/core/constants.h"
 #include "sim/core/error.h"
@@ -85,6 +86,7 @@ BodyResponse respond(const Scatterer& scatterer, const Trajectory& trajectory, c
   const int pulses = static_cast<int>(sampling.pulse_time_s.size());
   SEAGLINT_CHECK(pulses > 0 && sampling.pulse_first.size() == sampling.pulse_time_s.size(),
                  fmt::format("{} pulse times, {} bands", pulses, sampling.pulse_first.size()));
+  threads = std::max(1, threads);
   const RadarBasis world = radar_basis(r_hat);
   const int channel = static_cast<int>(polarisation);
   constexpr double kToWavenumber = 2 * kPi / kSpeedOfLight;
@@ -108,37 +110,52 @@ BodyResponse respond(const Scatterer& scatterer, const Trajectory& trajectory, c
     return std::span<Complex>(&result.response.values[static_cast<std::size_t>(n) * sampling.per_pulse],
                               sampling.per_pulse);
   };
-  // Traces the body at the middles of equal spans of the interval; between two instants their answers are blended linearly, before the first and
-  // after the last one that one's stands alone.
+  // Traces the body at the middles of equal spans of the interval; between two instants their answers are blended
+  // linearly, before the first and after the last one that one's stands alone.
   const double start = sampling.pulse_time_s.front(), length = sampling.pulse_time_s.back() - start;
   const double wavelength = 2 * kPi / wavenumbers.at(wavenumbers.centre_index());
   const double served = solver.max_turn_deg > 0 ? radians(solver.max_turn_deg) : default_turn(scatterer, wavelength);
   const int spans = std::max(1, static_cast<int>(std::ceil(turn / served)));
-  for (int i = 0; i < spans; ++i) {
-    const auto weight = [&](int n) {
-      const double position = length > 0 ? (sampling.pulse_time_s[n] - start) / length * spans - 0.5 : 0.0;
-      return std::max(0.0, 1 - std::abs(std::clamp(position, 0.0, spans - 1.0) - i));
-    };
-    int first = pulses, last = -1;
+  const auto weight = [&](int span, int n) {
+    const double position = length > 0 ? (sampling.pulse_time_s[n] - start) / length * spans - 0.5 : 0.0;
+    return std::max(0.0, 1 - std::abs(std::clamp(position, 0.0, spans - 1.0) - span));
+  };
+  struct Trace {
+    int first = 0, last = -1;  // pulses it has a weight in
+    RadarBasis basis;
+    Vec3 track;
+    std::optional<ReturnGrid> returns;
+  };
+  std::vector<Trace> traces(spans);
+  // Traces side by side before facets side by side: the threads then meet less often.
+  const int side_by_side = std::min(threads, spans);
+  parallel_for(traces.size(), side_by_side, [&](std::size_t i) {
+    Trace& trace = traces[i];
+    trace.first = pulses;
     for (int n = 0; n < pulses; ++n) {
-      if (weight(n) <= 0) continue;
-      first = std::min(first, n);
-      last = n;
+      if (weight(static_cast<int>(i), n) <= 0) continue;
+      trace.first = std::min(trace.first, n);
+      trace.last = n;
     }
-    if (first > last) continue;
-
-    const RadarBasis basis = body_basis(world, trajectory.pose(start + length * (i + 0.5) / spans));
-    const Vec3 chord = directions[last] - directions[first];
-    const Vec3 level = chord - basis.r * basis.r.dot(chord);
-    const Vec3 track = level.norm() > 1e-12 ? Vec3(level.normalized()) : across(basis.r);
+    if (trace.first > trace.last) return;
+    trace.basis = body_basis(world, trajectory.pose(start + length * (static_cast<double>(i) + 0.5) / spans));
+    const Vec3 chord = directions[trace.last] - directions[trace.first];
+    const Vec3 level = chord - trace.basis.r * trace.basis.r.dot(chord);
+    trace.track = level.norm() > 1e-12 ? Vec3(level.normalized()) : across(trace.basis.r);
     double reach = 0;
-    for (int n = first; n <= last; ++n) reach = std::max(reach, std::abs((directions[n] - basis.r).dot(track)));
-    const ReturnGrid returns =
-        trace_returns(scatterer, basis, track, reach, wavenumbers, channel, solver, threads);
-    for (int n = first; n <= last; ++n) {
-      returns.response(sampling.pulse_first[n], (directions[n] - basis.r).dot(track), scratch);
+    for (int n = trace.first; n <= trace.last; ++n) {
+      reach = std::max(reach, std::abs((directions[n] - trace.basis.r).dot(trace.track)));
+    }
+    trace.returns = trace_returns(scatterer, trace.basis, trace.track, reach, wavenumbers, channel, solver,
+                                  std::max(1, threads / side_by_side));
+  });
+  for (int i = 0; i < spans; ++i) {
+    const Trace& trace = traces[i];
+    if (!trace.returns) continue;
+    for (int n = trace.first; n <= trace.last; ++n) {
+      trace.returns->response(sampling.pulse_first[n], (directions[n] - trace.basis.r).dot(trace.track), scratch);
       const std::span<Complex> out = band(n);
-      for (std::size_t b = 0; b < out.size(); ++b) out[b] += weight(n) * scratch[b];
+      for (std::size_t b = 0; b < out.size(); ++b) out[b] += weight(i, n) * scratch[b];
     }
     ++result.traces;
   }
