@@ -51,6 +51,19 @@ void check_target(const TargetSpec& target, const ScenarioDocument& document) {
   }
 }
 
+// The response of a mesh is that of a target at rest during a pulse; only ideal points carry the f/mu term in their
+// echo.
+void check_intra_pulse_motion(const Scenario& scenario, const ScenarioDocument& document) {
+  if (!scenario.radar.intra_pulse_motion) return;
+  for (const TargetSpec& target : scenario.targets) {
+    if (!target.mesh.empty()) {
+      document.fail_at(
+          "radar.intra_pulse_motion",
+          fmt::format("must be false with a mesh, here targets.{}: only points move during a pulse", target.name));
+    }
+  }
+}
+
 void check_dataset(const Scenario& scenario, const ScenarioDocument& document) {
   const DatasetSpec& dataset = scenario.dataset;
   if (dataset.maps_per_case % dataset.realisations_per_case != 0) {
@@ -84,6 +97,7 @@ void check_contradictions(const Scenario& scenario, const ScenarioDocument& docu
   check_case_count(scenario, document);
   check_sea(scenario.sea, document);
   for (const TargetSpec& target : scenario.targets) check_target(target, document);
+  check_intra_pulse_motion(scenario, document);
   check_dataset(scenario, document);
 }
 

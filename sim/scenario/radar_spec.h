@@ -23,7 +23,7 @@ struct RadarSpec {
   double pri_us = 250;           // 0.01 <= x <= 1e7
   int pulses = 256;              // of one coherent interval, 1 <= x <= 65536
   Polarisation polarisation = Polarisation::kVv;
-  bool intra_pulse_motion = false;  // the f/mu term of Doppler inside the pulse, in echo and map alike
+  bool intra_pulse_motion = false;  // the f/mu term of Doppler inside the pulse, in echo and map alike; only with points as targets
 };
 
 using Sweep = std::vector<double>;  // a number, a list, or from:to:step in the file

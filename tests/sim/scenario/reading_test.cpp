@@ -95,6 +95,12 @@ TEST(Reading, PointsAreTargets) {
   EXPECT_EQ(scenario.targets[0].points[1].amplitude_m, 1);
 }
 
+TEST(Reading, IntraPulseMotionIsForPoints) {
+  EXPECT_TRUE(parse("seaglint: 1\nradar: {intra_pulse_motion: true}\n"
+                    "targets: {p: {label: 0, points: [{position_m: [0, 0, 0]}]}}\n")
+                  .radar.intra_pulse_motion);
+}
+
 TEST(Reading, SweepsAreNumbersListsOrRangesInBlocksAndBraces) {
   const auto azimuths = [](const std::string& value) { return parse(kShort + value).view.azimuth_deg; };
   EXPECT_THAT(azimuths("view: {azimuth_deg: 30}"), ElementsAre(30));
@@ -193,6 +199,10 @@ TEST(Reading, EveryMistakeIsNamedWithItsPlaceValueAndBound) {
       {"radar: {pulse_width_us: 300}", "25: radar.pulse_width_us: value '300': must be shorter than radar.pri_us, 250"},
       {"radar: {pri_us: 36}", "8: radar.pulse_width_us: must be shorter than radar.pri_us, 36"},
       {"radar: {bandwidth_mhz: 60}", "24: radar.bandwidth_mhz: value '60': must be at most radar.sampling_mhz, 50"},
+      {"radar: {intra_pulse_motion: true}",
+       "29: radar.intra_pulse_motion: value 'true': must be false with a mesh, here targets.a: only points move during "
+       "a "
+       "pulse"},
       {"dataset: {maps_per_case: 15}",
        "26: dataset.maps_per_case: value '15': must be a multiple of dataset.realisations_per_case, 10"},
       {"dataset: {maps_per_case: 5}",

@@ -138,6 +138,9 @@ void make_consistent(Scenario& scenario) {
   scenario.dataset.realisations_per_case = 7;
   scenario.dataset.maps_per_case = 7 * 13;
   for (double& height : scenario.sea.significant_wave_height_m) height *= 1e-3;
+  for (const TargetSpec& target : scenario.targets) {
+    if (!target.mesh.empty()) scenario.radar.intra_pulse_motion = false;
+  }
 }
 
 TEST(RoundTrip, EveryFieldComesBackToTheBit) {
@@ -149,6 +152,7 @@ TEST(RoundTrip, EveryFieldComesBackToTheBit) {
       scenario.sea.dnv_wind_sea = true;
       scenario.sea.peak_period_s.clear();
     }
+    if (round % 4 == 1) scenario.targets.erase(scenario.targets.begin(), scenario.targets.begin() + 2);  // the meshes
     Mutator mutator(round);
     visit_fields(scenario, mutator);
     make_consistent(scenario);
@@ -185,6 +189,7 @@ TEST(RoundTrip, EveryAllowedWordIsRead) {
         Turn() : Mutator(0) {}
         void number(const char*, double&, const Bound&) override {}
         void integer(const char*, int&, const Bound&) override {}
+        void flag(const char*, bool&) override {}
         void text(const char*, std::string&) override {}
         void triple(const char*, std::array<double, 3>&, const Bound&) override {}
         void ratio(const char*, double&) override {}
