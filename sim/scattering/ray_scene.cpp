@@ -20,6 +20,25 @@ struct RayScene::Impl {
   }
 };
 
+namespace {
+
+// Embree wants denormal numbers as zero; the caller's arithmetic is its own again afterwards.
+class DenormalsAreZero {
+ public:
+  DenormalsAreZero() : before_(_mm_getcsr()) {
+    _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
+    _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
+  }
+  ~DenormalsAreZero() { _mm_setcsr(before_); }
+  DenormalsAreZero(const DenormalsAreZero&) = delete;
+  DenormalsAreZero& operator=(const DenormalsAreZero&) = delete;
+
+ private:
+  unsigned before_;
+};
+
+}  // namespace
+
 RayScene::RayScene(std::span<const Facet> facets) : impl_(std::make_unique<Impl>()) {
   // One building thread: the tree, and so the order of ties, never depends on the machine's load.
   impl_->device = rtcNewDevice("threads=1,set_affinity=0");
@@ -55,8 +74,7 @@ RayScene::RayScene(RayScene&&) noexcept = default;
 RayScene& RayScene::operator=(RayScene&&) noexcept = default;
 
 void RayScene::first_hits(std::span<const Ray> rays, std::span<int> facets) const {
-  _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
-  _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
+  const DenormalsAreZero mode;
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
@@ -91,6 +109,7 @@ void RayScene::first_hits(std::span<const Ray> rays, std::span<int> facets) cons
 }
 
 int RayScene::first_hit(const Ray& ray) const {
+  const DenormalsAreZero mode;
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   RTCRayHit query;
