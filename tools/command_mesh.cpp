@@ -173,9 +173,9 @@ struct InfoArguments {
 void print_info(const InfoArguments& arguments) {
   const TriangleMesh mesh = read_mesh(arguments.file, arguments.unit);
   const Topology topology = topology_of(mesh);
+  if (!arguments.picture.empty()) write_file(arguments.picture, png_bytes(picture_of(mesh, arguments.view)));
   fmt::print("{}\n{}{}{}{}{}", arguments.file, size_line(mesh), counts_line(mesh), part_lines(mesh, topology),
              material_lines(mesh), topology_lines(mesh, topology, arguments.wedge_deg));
-  if (!arguments.picture.empty()) write_file(arguments.picture, png_bytes(picture_of(mesh, arguments.view)));
 }
 
 void add_info(CLI::App& mesh, Shell& shell) {

@@ -79,7 +79,6 @@ std::string run_scenario(const Scenario& scenario, const fs::path& directory, co
                          const StopFlag* stop) {
   check_learnable(scenario);
   if (!options.resume) require_new_directory(directory);
-  make_directory(directory);
 
   StageClock clock;
   const GenerateResult made = clock.time("maps", [&] {

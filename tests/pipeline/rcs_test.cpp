@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `seaglint rcs`: its table, and a plate against the closed form.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <complex>
+#include <sstream>
+
+#include "sim/core/constants.h"
+#include "tests/pipeline/program.h"
+
+namespace seaglint {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr double kLengthM = 0.5, kWidthM = 0.3;
+
+// A folder with plate.glb, as the program makes it.
+class RcsCommand : public testing::Test {
+ protected:
+  void SetUp() override {
+    const ProgramResult made =
+        run_program({"mesh", "make", "plate", "--length-m", "0.5", "--width-m", "0.3", "-o", plate()});
+    ASSERT_EQ(made.code, 0) << made.err;
+  }
+  std::string plate() const { return folder_.path() / "plate.glb"; }
+  std::string table() const { return folder_.path() / "rcs.csv"; }
+  ProgramResult rcs(std::vector<std::string> more) const {
+    more.insert(more.begin(), {"rcs", "--target", plate(), "-o", table()});
+    return run_program(more);
+  }
+
+  TemporaryFolder folder_;
+};
+
+struct Table {
+  std::string header;
+  std::vector<std::vector<double>> rows;
+};
+
+Table read_table(const std::string& file) {
+  Table table;
+  std::istringstream lines(read_file(file));
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("#")) continue;
+    if (table.header.empty()) {
+      table.header = line;
+      continue;
+    }
+    std::istringstream cells(line);
+    table.rows.emplace_back();
+    for (std::string cell; std::getline(cells, cell, ',');) table.rows.back().push_back(std::stod(cell));
+  }
+  return table;
+}
+
+TEST_F(RcsCommand, WritesTheHeaderAndFrequencySlowestThenElevationThenAzimuth) {
+  const ProgramResult result =
+      rcs({"--frequency-ghz", "9:10:0.5", "--azimuth-deg", "-1:1:1", "--elevation-deg", "0:2:2"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  const Table read = read_table(table());
+  EXPECT_EQ(read.header,
+            "frequency_hz,azimuth_deg,elevation_deg,hh_re,hh_im,hv_re,hv_im,vh_re,vh_im,vv_re,vv_im,hh_dbsm,vv_dbsm");
+  ASSERT_EQ(read.rows.size(), 3u * 2u * 3u);
+  std::size_t row = 0;
+  for (const double frequency_hz : {9e9, 9.5e9, 10e9}) {
+    for (const double elevation_deg : {0.0, 2.0}) {
+      for (const double azimuth_deg : {-1.0, 0.0, 1.0}) {
+        const std::vector<double>& cells = read.rows[row++];
+        ASSERT_EQ(cells.size(), 13u);
+        EXPECT_EQ(cells[0], frequency_hz);
+        EXPECT_EQ(cells[1], azimuth_deg);
+        EXPECT_EQ(cells[2], elevation_deg);
+      }
+    }
+  }
+}
+
+TEST_F(RcsCommand, DecibelsBelongToTheAmplitudesBesideThem) {
+  ASSERT_EQ(rcs({"--frequency-ghz", "10", "--azimuth-deg", "0:3:0.5"}).code, 0);
+  for (const auto& cells : read_table(table()).rows) {
+    // Printed with four digits after the point.
+    EXPECT_NEAR(cells[11], 10 * std::log10(4 * kPi * std::norm(std::complex(cells[3], cells[4]))), 1e-4);
+    EXPECT_NEAR(cells[12], 10 * std::log10(4 * kPi * std::norm(std::complex(cells[9], cells[10]))), 1e-4);
+  }
+}
+
+// Physical optics of a flat plate of area A seen square: S = -j A / lambda in e^{+jwt}, so sigma = 4 pi A^2 / lambda^2.
+TEST_F(RcsCommand, APlateSeenSquareHasItsClosedForm) {
+  ASSERT_EQ(rcs({"--frequency-ghz", "8:16:4", "--azimuth-deg", "0", "--elevation-deg", "0"}).code, 0);
+  const Table read = read_table(table());
+  ASSERT_EQ(read.rows.size(), 3u);
+  for (const auto& cells : read.rows) {
+    const double area = kLengthM * kWidthM, wavelength = kSpeedOfLight / cells[0];
+    const double sigma_db = 10 * std::log10(4 * kPi * area * area / (wavelength * wavelength));
+    EXPECT_NEAR(cells[11], sigma_db, 0.05) << cells[0];
+    EXPECT_NEAR(cells[12], sigma_db, 0.05) << cells[0];
+    EXPECT_NEAR(degrees(std::arg(std::complex(cells[3], cells[4]))), -90, 1) << cells[0];
+    EXPECT_NEAR(degrees(std::arg(std::complex(cells[9], cells[10]))), -90, 1) << cells[0];
+  }
+}
+
+TEST_F(RcsCommand, GivesTheSameBytesForOneAndTwoThreads) {
+  std::string first;
+  for (const char* threads : {"1", "2"}) {
+    ASSERT_EQ(rcs({"--frequency-ghz", "9:10:0.1", "--azimuth-deg", "-30:30:5", "--threads", threads}).code, 0);
+    const std::string bytes = read_file(table());
+    if (first.empty()) first = bytes;
+    EXPECT_EQ(bytes, first);
+  }
+}
+
+TEST_F(RcsCommand, RefusesEdgesAndRangesThatCannotBe) {
+  const auto refused = [&](std::vector<std::string> arguments, const std::string& message) {
+    const ProgramResult result = rcs(std::move(arguments));
+    EXPECT_EQ(result.code, 2) << result.err;
+    EXPECT_THAT(result.err, testing::StartsWith("seaglint: "));
+    EXPECT_THAT(result.err, HasSubstr(message));
+    EXPECT_FALSE(std::filesystem::exists(table()));
+  };
+  refused({"--frequency-ghz", "10", "--azimuth-deg", "0", "--edges", "on"},
+          "--edges on: edge currents are not modelled in this version; physical optics alone is --edges off\n");
+  refused({"--frequency-ghz", "0", "--azimuth-deg", "0"}, "--frequency-ghz: value 0: must be");
+  refused({"--frequency-ghz", "nan", "--azimuth-deg", "0"}, "--frequency-ghz");
+  refused({"--frequency-ghz", "10:9:1", "--azimuth-deg", "0"}, "--frequency-ghz");
+  refused({"--frequency-ghz", "10", "--azimuth-deg", "0:360"}, "--azimuth-deg");
+  refused({"--frequency-ghz", "10", "--azimuth-deg", "0", "--elevation-deg", "91"},
+          "--elevation-deg: value 91: must be");
+  refused({"--frequency-ghz", "10"}, "--azimuth-deg is required");
+}
+
+}  // namespace
+}  // namespace seaglint

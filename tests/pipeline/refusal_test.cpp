@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Whatever is wrong, every command says so in one line, exits as promised and leaves no file behind.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "tests/pipeline/program.h"
+
+namespace seaglint {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+using Words = std::vector<std::string>;
+
+std::set<std::string> files_below(const fs::path& folder) {
+  std::set<std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) files.insert(entry.path());
+  return files;
+}
+
+// Runs the program, which must fail with one line that holds `message` and leave the folder as it was.
+void expect_failure(const fs::path& folder, const Words& words, int code, const std::string& message) {
+  SCOPED_TRACE(testing::PrintToString(words));
+  const std::set<std::string> before = files_below(folder);
+  const ProgramResult result = run_program(words);
+  EXPECT_EQ(result.code, code) << result.err;
+  EXPECT_EQ(result.out, "");
+  EXPECT_THAT(result.err, StartsWith("seaglint: "));
+  EXPECT_THAT(result.err, HasSubstr(message));
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  EXPECT_EQ(files_below(folder), before);
+}
+
+// The commands that read a scenario, with the output in `output` where they have one.
+std::vector<Words> scenario_commands(const std::string& scenario, const fs::path& output) {
+  return {{"check", scenario},
+          {"sea", scenario, "-o", output / "sea.csv"},
+          {"motion", scenario, "-o", output / "motion.csv"},
+          {"map", scenario, "-o", output / "map.png"},
+          {"generate", scenario, "-o", output / "data"},
+          {"run", scenario, "-o", output / "run"}};
+}
+
+// A folder with a scenario of two meshes, one of which is a shipped asset cut in half.
+class Refusal : public testing::Test {
+ protected:
+  Refusal() {
+    const std::string whole = read_file(SEAGLINT_SOURCE_DIR "/assets/icosahedral_reflector.glb");
+    write_file(folder() / "whole.glb", whole);
+    write_file(folder() / "truncated.glb", whole.substr(0, whole.size() / 2));
+  }
+  const fs::path& folder() const { return folder_.path(); }
+  std::string scenario(const std::string& lines, const std::string& mesh = "whole.glb") const {
+    const fs::path file = folder() / "scenario.yaml";
+    write_file(file, "seaglint: 1\n" + lines +
+                         "targets:\n  ship: {label: 1, mesh: whole.glb}\n  array: {label: 0, mesh: " + mesh + "}\n");
+    return file;
+  }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+TEST_F(Refusal, OfATypoInAKey) {
+  const std::string file = scenario("sea: {peek_period_s: 8}\n");
+  for (const Words& words : scenario_commands(file, folder()))
+    expect_failure(folder(), words, 2,
+                   "scenario.yaml:2:7: sea.peek_period_s: unknown key: did you mean 'peak_period_s'?\n");
+}
+
+TEST_F(Refusal, OfANegativeWaveHeight) {
+  const std::string file = scenario("sea: {significant_wave_height_m: -1}\n");
+  for (const Words& words : scenario_commands(file, folder()))
+    expect_failure(folder(), words, 2,
+                   "scenario.yaml:2:34: sea.significant_wave_height_m: value '-1': must be a number");
+}
+
+// The sea has no targets in it: `sea` reads no mesh.
+TEST_F(Refusal, OfAMeshThatIsMissingOrCutShort) {
+  for (const std::string mesh : {"none.glb", "truncated.glb"}) {
+    const std::string file = scenario("", mesh);
+    for (const Words& words : scenario_commands(file, folder())) {
+      if (words.front() != "sea") expect_failure(folder(), words, 2, mesh);
+    }
+    const std::string path = folder() / mesh;
+    expect_failure(folder(), {"mesh", "info", path, "--picture", folder() / "mesh.png"}, 2, mesh + ": ");
+    expect_failure(folder(),
+                   {"rcs", "--target", path, "--frequency-ghz", "10", "--azimuth-deg", "0", "-o", folder() / "rcs.csv"},
+                   2, mesh + ": ");
+  }
+}
+
+// Below a file and in /proc nobody may write, not even root; a folder without write permission stops everybody else.
+TEST_F(Refusal, OfAPlaceWhereNothingCanBeWritten) {
+  const fs::path locked = folder() / "locked";
+  fs::create_directory(locked);
+  fs::permissions(locked, fs::perms::owner_read | fs::perms::owner_exec);
+  std::vector<fs::path> places{folder() / "whole.glb", "/proc"};
+  if (::geteuid() != 0) places.push_back(locked);
+  for (const fs::path& place : places) {
+    for (const Words& words : scenario_commands("scenarios/points.yaml", place)) {
+      if (words.front() == "check" || words.front() == "motion") continue;  // no output; no points
+      expect_failure(folder(), words, 1, place);
+    }
+    const std::string mesh = folder() / "whole.glb";
+    expect_failure(folder(), {"mesh", "make", "plate", "-o", place / "plate.glb"}, 1, place);
+    expect_failure(folder(), {"mesh", "info", mesh, "--picture", place / "mesh.png"}, 1, place);
+    expect_failure(folder(),
+                   {"rcs", "--target", mesh, "--frequency-ghz", "10", "--azimuth-deg", "0", "-o", place / "x.csv"}, 1,
+                   place);
+  }
+}
+
+}  // namespace
+}  // namespace seaglint
