@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gmock/gmock.h>
+#include <unistd.h>
 #include <gtest/gtest.h>
 
 #include <CLI/CLI.hpp>
@@ -21,7 +22,7 @@ namespace fs = std::filesystem;
 
 class MeshCommand : public testing::Test {
  protected:
-  MeshCommand() : folder(fs::path(testing::TempDir()) / "seaglint_mesh_command") { fs::create_directories(folder); }
+  MeshCommand() : folder(fs::path(testing::TempDir()) / ("seaglint_mesh_command_" + std::to_string(::getpid()))) { fs::create_directories(folder); }
   ~MeshCommand() override { fs::remove_all(folder); }
 
   // What the command prints.

@@ -2,6 +2,7 @@
 #include "tools/figure.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -19,7 +20,7 @@ class Figure : public testing::Test {
  protected:
   void SetUp() override {
     folder_ = fs::path(testing::TempDir()) /
-              ("seaglint figure's " + std::to_string(::testing::UnitTest::GetInstance()->random_seed()) +
+              ("seaglint figure's " + std::to_string(::getpid()) +
                testing::UnitTest::GetInstance()->current_test_info()->name());
     fs::remove_all(folder_);
     fs::create_directories(folder_);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The files in assets/ are what the generators make.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -17,7 +18,7 @@ const std::filesystem::path kAssets = std::filesystem::path(SEAGLINT_SOURCE_DIR)
 
 void expect_same_bytes(const TriangleMesh& mesh, const char* name) {
   const std::filesystem::path again =
-      std::filesystem::path(testing::TempDir()) / (std::string("seaglint_again_") + name);
+      std::filesystem::path(testing::TempDir()) / ("seaglint_again_" + std::to_string(::getpid()) + name);
   write_mesh(again, mesh);
   // Not EXPECT_EQ, which would print half a megabyte.
   EXPECT_TRUE(read_file(again) == read_file(kAssets / name))

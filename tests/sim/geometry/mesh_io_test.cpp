@@ -2,6 +2,7 @@
 #include "sim/geometry/mesh_io.h"
 
 #include <gmock/gmock.h>
+#include <unistd.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -24,7 +25,7 @@ class MeshFile : public testing::Test {
  protected:
   void SetUp() override {
     folder = fs::path(testing::TempDir()) /
-             ("seaglint_mesh_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+             ("seaglint_mesh_" + std::to_string(::getpid()) + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
     fs::remove_all(folder);
     fs::create_directories(folder);
   }
