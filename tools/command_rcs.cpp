@@ -70,7 +70,7 @@ void run_rcs(const RcsArguments& arguments, const Shell& shell) {
       const double az = radians(azimuths[view % azimuths.size()]), el = radians(elevations[view / azimuths.size()]);
       const RadarBasis basis = radar_basis({std::cos(el) * std::cos(az), std::cos(el) * std::sin(az), std::sin(el)});
       matrices[view] = scattering_matrices(
-          scatterer, basis, wavenumbers, {arguments.ray_spacing_m, arguments.max_bounces}, threads, &rays, &shell.stop);
+          scatterer, monostatic(basis), wavenumbers, {arguments.ray_spacing_m, arguments.max_bounces}, threads, &rays, &shell.stop);
       progress.advance();
     }
   }

@@ -16,9 +16,10 @@ class Splitter {
   Splitter(const Footprint& footprint, const RadarBasis& basis, const SplitSettings& settings,
            std::vector<Contribution>& out)
       : footprint_(footprint), basis_(basis), settings_(settings), out_(out) {
+    prototype_.facet = footprint.facet;
     prototype_.part = footprint.part;
     prototype_.bounces = footprint.bounces;
-    for (int i = 0; i < 4; ++i) prototype_.pattern[i] = static_cast<float>(footprint.pattern[i]);
+    for (int i = 0; i < 4; ++i) prototype_.pattern[i] = std::complex<float>(footprint.pattern[i]);
     threshold_ = std::max(settings.turn_rad * footprint.surface_slope_turn / kAmplitudeError, 1e-9);
   }
 
@@ -34,7 +35,7 @@ class Splitter {
   }
 
  private:
-  void emit(const Complex& integral, double psi, const Vec3& gradient) {
+  void emit(const Complex& integral, double psi, const PathGradient& gradient) {
     Contribution c = prototype_;
     c.amplitude = Complex(0, -settings_.kc / (2 * kPi)) * integral;
     c.psi = psi;
@@ -108,11 +109,12 @@ class Splitter {
     const double k = settings_.kc;
     const double slope = std::max(std::abs(run), kAmplitudeError * threshold_ * length);
     const int pieces = std::max(1, static_cast<int>(std::ceil(k * slope / 2 / kPieceHalfPhase)));
-    const Vec3 ga = phase_gradient(footprint_, a, basis_), gb = phase_gradient(footprint_, b, basis_);
+    const PathGradient ga = phase_gradient(footprint_, a, basis_), gb = phase_gradient(footprint_, b, basis_);
     const double psi_a = footprint_.psi(a.p);
     for (int i = 0; i < pieces; ++i) {
       const double s = (i + 0.5) / pieces;
-      emit(edge * (sinc(k * run / pieces) / pieces), psi_a + s * run, ga + s * (gb - ga));
+      emit(edge * (sinc(k * run / pieces) / pieces), psi_a + s * run,
+           {ga.transmit + s * (gb.transmit - ga.transmit), ga.receive + s * (gb.receive - ga.receive)});
     }
   }
 
@@ -126,16 +128,16 @@ class Splitter {
 
 }  // namespace
 
-void split(const Footprint& footprint, const RadarBasis& basis, const SplitSettings& settings,
+void split(const Footprint& footprint, const RadarBasis& transmit, const SplitSettings& settings,
            std::vector<Contribution>& out) {
-  Splitter(footprint, basis, settings, out).run();
+  Splitter(footprint, transmit, settings, out).run();
 }
 
 std::array<Complex, 4> direct_sum(std::span<const Contribution> contributions, double k, const Vec3& turn) {
   std::array<Complex, 4> sum{};
   for (const Contribution& c : contributions) {
-    const Complex term = c.amplitude * std::polar(1.0, k * (c.psi + c.gradient.dot(turn)));
-    for (int i = 0; i < 4; ++i) sum[i] += term * static_cast<double>(c.pattern[i]);
+    const Complex term = c.amplitude * std::polar(1.0, k * (c.psi + c.gradient.sum().dot(turn)));
+    for (int i = 0; i < 4; ++i) sum[i] += term * Complex(c.pattern[i]);
   }
   return sum;
 }

@@ -15,12 +15,14 @@
 namespace seaglint {
 
 struct Contribution {
-  Complex amplitude;               // S-amplitude of unit pattern at kc without its phase e^{jk psi}, m
-  double psi = 0;                  // minus the two-way path, m
-  Vec3 gradient = Vec3::Zero();    // d psi / d r^, body frame, m
-  std::array<float, 4> pattern{};  // hh, hv, vh, vv
+  Complex amplitude;       // S-amplitude of unit pattern at kc without its phase e^{jk psi}, m
+  double psi = 0;          // minus the two-way path, m
+  PathGradient gradient;   // d psi / d r^, body frame, m
+  std::array<std::complex<float>, 4> pattern{};  // hh, hv, vh, vv
+  std::int32_t facet = -1;  // where it leaves the target
   std::uint16_t part = 0;
   std::uint8_t bounces = 1;
+  Mechanism mechanism = Mechanism::kPhysicalOptics;
 };
 
 struct SplitSettings {
@@ -36,11 +38,11 @@ struct SplitSettings {
 inline constexpr double kAmplitudeError =
     0.04;  // -28 dB of a single end point; the sum over many is far better (tests, README)
 inline constexpr double kPieceHalfPhase = 0.5;  // rad
-void split(const Footprint& footprint, const RadarBasis& basis, const SplitSettings& settings,
+void split(const Footprint& footprint, const RadarBasis& transmit, const SplitSettings& settings,
            std::vector<Contribution>& out);
 
-// sum of pattern amplitude e^{jk (psi + gradient . turn)} over all contributions: the direct sum, for tests and for few
-// points.
+// sum of pattern amplitude e^{jk (psi + gradient . turn)} over all contributions, both directions turning alike: the direct sum, for tests and for
+// few points.
 std::array<Complex, 4> direct_sum(std::span<const Contribution> contributions, double k, const Vec3& turn);
 
 }  // namespace seaglint

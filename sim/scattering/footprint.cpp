@@ -44,6 +44,10 @@ RadarBasis radar_basis(const Vec3& r_hat) {
   return basis;
 }
 
+AntennaPair monostatic(const RadarBasis& basis) { return {basis, basis, true}; }
+
+AntennaPair bistatic(const RadarBasis& transmit, const RadarBasis& receive) { return {transmit, receive, false}; }
+
 MovingLine ImagePlane::moving() const {
   MovingLine line;
   line.value = z0;
@@ -60,33 +64,36 @@ ImagePlane image_plane(const Vec3& n, double offset, const RadarBasis& basis) {
   return {offset / nr, Vec2(-n.dot(basis.h) / nr, -n.dot(basis.v) / nr)};
 }
 
-void set_phase(Footprint& footprint, const Vec3& n_image, const RadarBasis& basis) {
-  // psi = r^.X' + r^.X = (r^ + L r^).X' + constant; over the aperture X' = p1 h + p2 v + r^ z(p).
+void set_phase(Footprint& footprint, const Vec3& n_image, const AntennaPair& antennas) {
+  // psi = r^_t.X' + r^_s.X = (r^_t + L r^_s).X' + constant; over the aperture X' = p1 h + p2 v + r^_t z(p).
+  const RadarBasis& basis = antennas.transmit;
   const Mat3& L = footprint.mirrors.L;
-  const Vec3 both = basis.r + L * basis.r;
+  const Vec3 both = basis.r + L * antennas.receive.r;
   footprint.w = Vec2(both.dot(basis.h), both.dot(basis.v)) + both.dot(basis.r) * footprint.plane.slope;
   const Vec3 origin = image_point(footprint, Vec2::Zero(), basis);
-  footprint.psi0 = basis.r.dot(origin + footprint.mirrors.real(origin));
-  // Along the facet the gradient is the tangential part of r^ + L r^; turning r^ by e changes it by that of e + L e.
+  footprint.psi0 = basis.r.dot(origin) + antennas.receive.r.dot(footprint.mirrors.real(origin));
+  // Along the facet the gradient is the tangential part of r^ + L r^; turning r^ by e changes it by that of e + L e (of two
+  // directions, which turn about as one, too).
   const auto tangential = [&](const Vec3& x) -> Vec3 { return x - n_image * n_image.dot(x); };
   footprint.surface_slope = tangential(both).norm();
   footprint.surface_slope_turn =
       std::hypot(tangential(basis.h + L * basis.h).norm(), tangential(basis.v + L * basis.v).norm());
 }
 
-Vec3 phase_gradient(const Footprint& footprint, const Vec2& p, const RadarBasis& basis) {
-  const Vec3 image = image_point(footprint, p, basis);
-  return image + footprint.mirrors.real(image);
+PathGradient phase_gradient(const Footprint& footprint, const Vec2& p, const RadarBasis& transmit) {
+  const Vec3 image = image_point(footprint, p, transmit);
+  return {image, footprint.mirrors.real(image)};
 }
 
-Vec3 phase_gradient(const Footprint& footprint, const Corner& corner, const RadarBasis& basis) {
+PathGradient phase_gradient(const Footprint& footprint, const Corner& corner, const RadarBasis& transmit) {
   // A body-fixed point at height z moves by -z d_i in the aperture; what the corner moves beyond that, it slips in the
   // facet.
   const double z = footprint.plane.at(corner.p);
   const Vec2 slip1 = corner.d1 + Vec2(z, 0);
   const Vec2 slip2 = corner.d2 + Vec2(0, z);
-  return phase_gradient(footprint, corner.p, basis) + footprint.w.dot(slip1) * basis.h +
-         footprint.w.dot(slip2) * basis.v;
+  PathGradient gradient = phase_gradient(footprint, corner.p, transmit);
+  gradient.transmit += footprint.w.dot(slip1) * transmit.h + footprint.w.dot(slip2) * transmit.v;
+  return gradient;
 }
 
 double sinc(double x) {

@@ -20,6 +20,21 @@ struct RadarBasis {
   Vec3 v = Vec3::UnitZ();
 };
 
+// Where the wave comes from and where its echo is received, each with the polarisation basis of its own direction.
+struct AntennaPair {
+  RadarBasis transmit;
+  RadarBasis receive;
+  bool monostatic = true;  // receive is transmit
+};
+AntennaPair monostatic(const RadarBasis& basis);
+AntennaPair bistatic(const RadarBasis& transmit, const RadarBasis& receive);
+
+// By which current an echo arises.
+enum class Mechanism : std::uint8_t {
+  kPhysicalOptics,  // surface currents of geometrical optics
+  kEdge,            // fringe currents at sharp edges
+};
+
 // h = z^ x r^ / |z^ x r^| (y^ when r^ is vertical), v = r^ x h.
 RadarBasis radar_basis(const Vec3& r_hat);
 
@@ -54,9 +69,10 @@ struct Footprint {
   Vec2 w = Vec2::Zero();
   double surface_slope = 0;         // |gradient of psi| along the facet itself, 0..2
   double surface_slope_turn = 0;    // bound of its change per radian of turn, 0..2
-  double facet_size = 0;          // longest edge of the whole facet, m
-  std::array<double, 4> pattern{};  // hh, hv, vh, vv (received, transmitted) of n x (k^ x E) / |n . k^|, real for PEC
-  std::uint16_t part = 0;           // of the last facet
+  double facet_size = 0;            // longest edge of the whole facet, m
+  std::array<Complex, 4> pattern{};  // hh, hv, vh, vv (received, transmitted) of n x (k^ x E) / |n . k^|
+  int facet = -1;                   // the last one
+  std::uint16_t part = 0;           // its part
   std::uint8_t bounces = 1;
 
   double psi(const Vec2& p) const { return psi0 + w.dot(p); }
@@ -65,13 +81,21 @@ struct Footprint {
 };
 
 // Fills psi0, w and the surface slopes from plane and mirrors. n_image: unit normal of the last facet's image.
-void set_phase(Footprint& footprint, const Vec3& n_image, const RadarBasis& basis);
+void set_phase(Footprint& footprint, const Vec3& n_image, const AntennaPair& antennas);
 
-// Gradient of psi with the direction for the body-fixed point at p: x_image + x_real (Fermat).
-Vec3 phase_gradient(const Footprint& footprint, const Vec2& p, const RadarBasis& basis);
+// How psi changes as the directions turn, m: d psi = transmit . d r^_t + receive . d r^_s. One direction for both: their sum.
+struct PathGradient {
+  Vec3 transmit = Vec3::Zero();
+  Vec3 receive = Vec3::Zero();
 
-// The same for a corner that moves in the facet as the direction turns: adds w . slip.
-Vec3 phase_gradient(const Footprint& footprint, const Corner& corner, const RadarBasis& basis);
+  Vec3 sum() const { return transmit + receive; }
+};
+
+// For the body-fixed point at p: x_image to the transmitter, x_real to the receiver (Fermat).
+PathGradient phase_gradient(const Footprint& footprint, const Vec2& p, const RadarBasis& transmit);
+
+// The same for a corner that moves in the facet as the direction turns: adds w . slip to the transmitter's part.
+PathGradient phase_gradient(const Footprint& footprint, const Corner& corner, const RadarBasis& transmit);
 
 // I(k) = integral over the footprint of e^{jk psi(p)} d^2p, m^2. Gordon's contour form (W. B. Gordon, IEEE Trans.
 // AP-23, 1975, 590-592), by the divergence theorem with F = w e^{jk w.p} / (jk |w|^2); a series where |w| is small.

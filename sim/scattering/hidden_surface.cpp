@@ -160,13 +160,13 @@ VisibleSurface::VisibleSurface(std::span<const Facet> facets, const RadarBasis& 
 }
 
 void VisibleSurface::seen_through(int facet, const Mirror& mirrors, const ImagePlane& plane, const MovingPolygon& lit,
-                                  std::vector<MovingPolygon>& seen) const {
+                                  const RadarBasis& transmit, std::vector<MovingPolygon>& seen) const {
   if (pieces_[facet].empty()) return;
   // Where the lit part lies in the radar's own aperture.
   Box direct;
   for (std::size_t i = 0; i < lit.size(); ++i) {
     const Vec2& p = lit[i].p;
-    const Vec3 x = mirrors.real(p.x() * basis_.h + p.y() * basis_.v + plane.at(p) * basis_.r);
+    const Vec3 x = mirrors.real(p.x() * transmit.h + p.y() * transmit.v + plane.at(p) * transmit.r);
     const Vec2 q(x.dot(basis_.h), x.dot(basis_.v));
     direct.lower = i == 0 ? q : Vec2(direct.lower.cwiseMin(q));
     direct.upper = i == 0 ? q : Vec2(direct.upper.cwiseMax(q));
@@ -180,13 +180,13 @@ void VisibleSurface::seen_through(int facet, const Mirror& mirrors, const ImageP
       // The corner's point on the facet, and how far it slips in the facet beyond what a body-fixed point moves.
       const double z = own.at(corner.p);
       const Vec3 x = mirrors.image(corner.p.x() * basis_.h + corner.p.y() * basis_.v + z * basis_.r);
-      const double height = x.dot(basis_.r);
+      const double height = x.dot(transmit.r);
       const auto moved = [&](const Vec2& slip) -> Vec3 {
         return mirrors.L * (slip.x() * basis_.h + slip.y() * basis_.v + own.slope.dot(slip) * basis_.r);
       };
       const Vec3 x1 = moved(corner.d1 + Vec2(z, 0)), x2 = moved(corner.d2 + Vec2(0, z));
-      image.push_back({Vec2(x.dot(basis_.h), x.dot(basis_.v)), Vec2(x1.dot(basis_.h) - height, x1.dot(basis_.v)),
-                       Vec2(x2.dot(basis_.h), x2.dot(basis_.v) - height)});
+      image.push_back({Vec2(x.dot(transmit.h), x.dot(transmit.v)), Vec2(x1.dot(transmit.h) - height, x1.dot(transmit.v)),
+                       Vec2(x2.dot(transmit.h), x2.dot(transmit.v) - height)});
     }
     if (signed_area(image) < 0) std::reverse(image.begin(), image.end());
     if (apart(lit, image)) continue;

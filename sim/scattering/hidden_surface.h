@@ -48,8 +48,8 @@ class VisibleSurface {
   std::span<const MovingPolygon> pieces(int facet) const { return pieces_[facet]; }
 
   // What the radar sees directly of a part of a facet that a beam lights: `lit` is the part's image through the beam's mirrors, `plane` the
-  // facet's image plane. Appends convex pieces in the beam's aperture.
-  void seen_through(int facet, const Mirror& mirrors, const ImagePlane& plane, const MovingPolygon& lit,
+  // facet's image plane. Appends convex pieces in the beam's aperture, that of `transmit`.
+  void seen_through(int facet, const Mirror& mirrors, const ImagePlane& plane, const MovingPolygon& lit, const RadarBasis& transmit,
                     std::vector<MovingPolygon>& seen) const;
 
  private:

@@ -30,11 +30,13 @@ struct Candidate {
 
 class BeamTracer {
  public:
-  BeamTracer(const Scatterer& scatterer, const RadarBasis& basis, const IlluminationSettings& settings, const VisibleSurface& visible,
-             double min_area, std::vector<Footprint>& out)
+  BeamTracer(const Scatterer& scatterer, const AntennaPair& antennas, const IlluminationSettings& settings, const VisibleSurface& lit,
+             const VisibleSurface& visible, double min_area, std::vector<Footprint>& out)
       : facets_(scatterer.facets()),
         scene_(scatterer.rays()),
-        basis_(basis),
+        antennas_(antennas),
+        basis_(antennas.transmit),
+        lit_(lit),
         visible_(visible),
         out_(out),
         max_bounces_(settings.max_bounces),
@@ -53,8 +55,9 @@ class BeamTracer {
     Candidate candidate;
     candidate.image.facet = facet;
     candidate.image.plane = image_plane(facets_[facet].normal, facets_[facet].offset, basis_);
-    candidate.lit.assign(visible_.pieces(facet).begin(), visible_.pieces(facet).end());
-    radiate(first, candidate, candidate.lit);
+    candidate.lit.assign(lit_.pieces(facet).begin(), lit_.pieces(facet).end());
+    // What the transmitter lights at first, a receiver at the same place sees.
+    radiate(first, candidate, antennas_.monostatic ? candidate.lit : seen_part(first, candidate));
     if (max_bounces_ > 1) follow(reflected(first, candidate), candidate.lit);
   }
 
@@ -189,7 +192,7 @@ class BeamTracer {
   std::vector<MovingPolygon> seen_part(const Leg& leg, const Candidate& candidate) const {
     std::vector<MovingPolygon> seen;
     for (const MovingPolygon& piece : candidate.lit) {
-      visible_.seen_through(candidate.image.facet, leg.mirrors, candidate.image.plane, piece, seen);
+      visible_.seen_through(candidate.image.facet, leg.mirrors, candidate.image.plane, piece, basis_, seen);
     }
     return seen;
   }
@@ -222,19 +225,21 @@ class BeamTracer {
   void radiate(const Leg& leg, const Candidate& candidate, std::span<const MovingPolygon> pieces) {
     const Facet& facet = facets_[candidate.image.facet];
     const Vec3 n = facing(leg, candidate.image.facet);
-    if (pieces.empty() || n.dot(basis_.r) <= 1e-9) return;  // hidden, or its lit side faces away
+    if (pieces.empty() || n.dot(antennas_.receive.r) <= 1e-9) return;  // hidden, or its lit side faces away
 
     Footprint footprint;
     footprint.plane = candidate.image.plane;
     footprint.mirrors = leg.mirrors;
+    footprint.facet = candidate.image.facet;
     footprint.part = facet.part;
     footprint.facet_size = facet.size;
     footprint.bounces = static_cast<std::uint8_t>(leg.bounce);
-    set_phase(footprint, leg.mirrors.L * facet.normal, basis_);
+    set_phase(footprint, leg.mirrors.L * facet.normal, antennas_);
     const double grazing = std::abs(n.dot(leg.direction));
     const Vec3 J_h = n.cross(leg.direction.cross(leg.E_h)) / grazing;
     const Vec3 J_v = n.cross(leg.direction.cross(leg.E_v)) / grazing;
-    footprint.pattern = {basis_.h.dot(J_h), basis_.h.dot(J_v), basis_.v.dot(J_h), basis_.v.dot(J_v)};
+    const auto& [r, h, v] = antennas_.receive;
+    footprint.pattern = {h.dot(J_h), h.dot(J_v), v.dot(J_h), v.dot(J_v)};
     for (const MovingPolygon& piece : pieces) {
       footprint.polygon = piece;
       out_.push_back(footprint);
@@ -243,8 +248,10 @@ class BeamTracer {
 
   std::span<const Facet> facets_;
   const RayScene& scene_;
-  const RadarBasis& basis_;
-  const VisibleSurface& visible_;
+  const AntennaPair& antennas_;
+  const RadarBasis& basis_;  // of the aperture: the transmitter's
+  const VisibleSurface& lit_;
+  const VisibleSurface& visible_;  // to the receiver
   std::vector<Footprint>& out_;
   int max_bounces_;
   double spacing_, lift_, min_area_;
@@ -262,19 +269,21 @@ Scatterer::Scatterer(const TriangleMesh& mesh) : facets_(make_facets(mesh)), ray
 
 double default_ray_spacing(const Scatterer& scatterer) { return std::min(0.1, 0.04 * scatterer.radius()); }
 
-Illumination::Illumination(const Scatterer& scatterer, const RadarBasis& basis, const IlluminationSettings& settings, int threads)
+Illumination::Illumination(const Scatterer& scatterer, const AntennaPair& antennas, const IlluminationSettings& settings, int threads)
     : scatterer_(scatterer),
-      basis_(basis),
+      antennas_(antennas),
       settings_(settings),
       min_area_(2e-9 * scatterer.radius() * scatterer.radius()),
-      visible_(scatterer.facets(), basis, min_area_, threads) {
+      lit_(scatterer.facets(), antennas.transmit, min_area_, threads) {
+  if (!antennas.monostatic) seen_from_receiver_.emplace(scatterer.facets(), antennas.receive, min_area_, threads);
   for (int facet = 0; facet < static_cast<int>(scatterer.facets().size()); ++facet) {
-    if (!visible_.pieces(facet).empty()) seen_.push_back(facet);
+    if (!lit_.pieces(facet).empty()) seen_.push_back(facet);
   }
 }
 
 std::size_t Illumination::light(int facet, std::vector<Footprint>& footprints) const {
-  BeamTracer tracer(scatterer_, basis_, settings_, visible_, min_area_, footprints);
+  const VisibleSurface& visible = seen_from_receiver_ ? *seen_from_receiver_ : lit_;
+  BeamTracer tracer(scatterer_, antennas_, settings_, lit_, visible, min_area_, footprints);
   tracer.light(facet);
   return tracer.rays_traced();
 }

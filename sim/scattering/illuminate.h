@@ -4,6 +4,7 @@
 // Shooting and bouncing rays, with polygons in place of ray cells: rays find which sequences of facets the radar lights, the polygons of
 // those facets measure exactly what is lit and seen (sim/scattering/README.md). The result holds for every frequency.
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -38,25 +39,25 @@ class Scatterer {
 // 0.1 m, or a twenty-fifth of the radius of a small target: what a ship's detail and a 1 m reflector need (README.md).
 double default_ray_spacing(const Scatterer& scatterer);
 
-// What one direction lights. The constructor finds what the radar sees of every facet; light() follows the beams that leave one facet. Facets are
+// What one direction lights and another (or the same) sees. The constructor finds what the radar sees of every facet; light() follows the beams that leave one facet. Facets are
 // independent and may be lit in any order by any thread.
 class Illumination {
  public:
-  Illumination(const Scatterer& scatterer, const RadarBasis& basis, const IlluminationSettings& settings, int threads = 1);
+  Illumination(const Scatterer& scatterer, const AntennaPair& antennas, const IlluminationSettings& settings, int threads = 1);
 
-  // Facets the radar sees, ascending.
+  // Facets the transmitter sees, ascending.
   std::span<const int> seen() const { return seen_; }
-  const RadarBasis& basis() const { return basis_; }
 
   // Appends the footprints of all beams whose first mirror is this facet, its own first-bounce footprints included; returns the rays traced.
   std::size_t light(int facet, std::vector<Footprint>& footprints) const;
 
  private:
   const Scatterer& scatterer_;
-  RadarBasis basis_;
+  AntennaPair antennas_;
   IlluminationSettings settings_;
   double min_area_;
-  VisibleSurface visible_;
+  VisibleSurface lit_;                  // seen from the transmitter
+  std::optional<VisibleSurface> seen_from_receiver_;  // where that is another direction
   std::vector<int> seen_;
 };
 

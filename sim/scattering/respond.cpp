@@ -31,14 +31,13 @@ RadarBasis body_basis(const RadarBasis& world, const Pose& pose) {
   return {R_BT * world.r, R_BT * world.h, R_BT * world.v};
 }
 
-// One trace: what the body answers while its direction moves along `track` (unit vector across basis.r), by at most
-// `reach`.
-ReturnGrid trace_returns(const Scatterer& scatterer, const RadarBasis& basis, const Vec3& track, double reach,
+// One trace: what the body answers while its directions move along `track`, the transmitter's (a unit vector across it) by at most `reach`.
+ReturnGrid trace_returns(const Scatterer& scatterer, const AntennaPair& antennas, const Track& track, double reach,
                          const WavenumberGrid& wavenumbers, int channel, const SolverSpec& solver, int threads) {
   // A shadow edge at grazing runs along its facet much faster than any point of the body moves. Beyond four times the
   // body's size its speed is cut: such ends are faint and run through many velocity cells.
   const double limit = 8 * scatterer.radius();
-  const Illumination illumination(scatterer, basis, {solver.ray_spacing_m, solver.max_bounces}, threads);
+  const Illumination illumination(scatterer, antennas, {solver.ray_spacing_m, solver.max_bounces}, threads);
   const SplitSettings split_settings{wavenumbers.at(wavenumbers.centre_index()), reach};
   const std::size_t chunks = chunk_count(illumination);
   std::vector<std::vector<Contribution>> contributions(chunks);
@@ -48,12 +47,12 @@ ReturnGrid trace_returns(const Scatterer& scatterer, const RadarBasis& basis, co
     for (const int facet : chunk_of(illumination, chunk)) {
       footprints.clear();
       illumination.light(facet, footprints);
-      for (const Footprint& footprint : footprints) split(footprint, basis, split_settings, contributions[chunk]);
+      for (const Footprint& footprint : footprints) split(footprint, antennas.transmit, split_settings, contributions[chunk]);
     }
     for (Contribution& c : contributions[chunk]) {
-      const double size = c.gradient.norm();
-      if (size > limit) c.gradient *= limit / size;
-      fastest[chunk] = std::max(fastest[chunk], std::abs(c.gradient.dot(track)));
+      const double size = c.gradient.sum().norm();
+      if (size > limit) c.gradient = {c.gradient.transmit * (limit / size), c.gradient.receive * (limit / size)};
+      fastest[chunk] = std::max(fastest[chunk], std::abs(track.speed(c.gradient)));
     }
   });
   const double u_limit = fastest.empty() ? 0 : *std::max_element(fastest.begin(), fastest.end());
@@ -146,7 +145,7 @@ BodyResponse respond(const Scatterer& scatterer, const Trajectory& trajectory, c
     for (int n = trace.first; n <= trace.last; ++n) {
       reach = std::max(reach, std::abs((directions[n] - trace.basis.r).dot(trace.track)));
     }
-    trace.returns = trace_returns(scatterer, trace.basis, trace.track, reach, wavenumbers, channel, solver,
+    trace.returns = trace_returns(scatterer, monostatic(trace.basis), {trace.track, trace.track}, reach, wavenumbers, channel, solver,
                                   std::max(1, threads / side_by_side));
   });
   for (int i = 0; i < spans; ++i) {
@@ -170,12 +169,12 @@ BodyResponse respond(const Scatterer& scatterer, const Trajectory& trajectory, c
   return result;
 }
 
-std::vector<std::array<Complex, 4>> scattering_matrices(const Scatterer& scatterer, const RadarBasis& basis,
+std::vector<std::array<Complex, 4>> scattering_matrices(const Scatterer& scatterer, const AntennaPair& antennas,
                                                         std::span<const double> wavenumbers,
                                                         const IlluminationSettings& settings, int threads,
                                                         std::size_t* rays, const StopFlag* stop) {
   using Matrices = std::vector<std::array<Complex, 4>>;
-  const Illumination illumination(scatterer, basis, settings, threads);
+  const Illumination illumination(scatterer, antennas, settings, threads);
   const std::size_t chunks = chunk_count(illumination);
   std::vector<Matrices> parts(chunks, Matrices(wavenumbers.size()));
   std::vector<std::size_t> traced(chunks, 0);

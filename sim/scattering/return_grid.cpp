@@ -80,20 +80,21 @@ ReturnGrid::ReturnGrid(const WavenumberGrid& wavenumbers, double u_limit, double
   }
 }
 
-void ReturnGrid::spread(std::span<const Contribution> contributions, const Vec3& track) {
+void ReturnGrid::spread(std::span<const Contribution> contributions, const Track& track) {
   for (const Contribution& c : contributions) {
-    const double pattern = c.pattern[channel_];
-    if (pattern == 0) continue;
+    const Complex pattern(c.pattern[channel_]);
+    if (pattern == 0.0) continue;
     const Complex value = pattern * c.amplitude * std::polar(1.0, kc_ * c.psi);
 
     // The grid is periodic in psi: frequencies on a grid of step dk cannot tell psi from psi + 2 pi / dk.
     const double x = c.psi / psi_cell_;
     const int first_psi = static_cast<int>(std::ceil(x - 0.5 * kWidth));
     const auto along_psi = weights(x - first_psi);
-    const double y = (c.gradient.dot(track) - u_first_) / u_cell_;
+    const double speed = track.speed(c.gradient);
+    const double y = (speed - u_first_) / u_cell_;
     const int first_u = static_cast<int>(std::ceil(y - 0.5 * kWidth));
     SEAGLINT_CHECK(first_u >= 0 && first_u + kWidth <= u_cells_,
-                   fmt::format("u = {} m lies outside the grid", c.gradient.dot(track)));
+                   fmt::format("u = {} m lies outside the grid", speed));
     const auto along_u = weights(y - first_u);
 
     std::array<int, kWidth> column;

@@ -30,13 +30,24 @@ struct WavenumberGrid {
   int centre_index() const { return count / 2; }
 };
 
+// The way both directions move per radian of turn: r^_t(s) = r^_t + s transmit, r^_s(s) = r^_s + s receive.
+struct Track {
+  Vec3 transmit = Vec3::UnitX();
+  Vec3 receive = Vec3::UnitX();
+
+  // d psi / ds of a contribution, m.
+  double speed(const PathGradient& gradient) const {
+    return gradient.transmit.dot(transmit) + gradient.receive.dot(receive);
+  }
+};
+
 class ReturnGrid {
  public:
   // u_limit: bound of |u| of all contributions, m. s_limit: bound of |s|, rad. channel: 0..3 for hh, hv, vh, vv.
   ReturnGrid(const WavenumberGrid& wavenumbers, double u_limit, double s_limit, int channel);
 
-  // Adds contributions whose direction moves along `track` (unit vector, body frame).
-  void spread(std::span<const Contribution> contributions, const Vec3& track);
+  // Adds contributions whose directions move along `track` (body frame; a unit vector for the transmitter).
+  void spread(std::span<const Contribution> contributions, const Track& track);
   // Adds another grid made with the same arguments.
   void add(const ReturnGrid& other);
 

@@ -98,7 +98,7 @@ void ShipAspect(benchmark::State& state) {
   const RadarBasis basis = radar_basis(direction(static_cast<double>(state.range(0))));
   const std::vector<double> k(static_cast<std::size_t>(state.range(1)), 2 * kPi * 16e9 / kSpeedOfLight);
   std::size_t rays = 0;
-  for (auto _ : state) benchmark::DoNotOptimize(scattering_matrices(ship(), basis, k, {}, 2, &rays));
+  for (auto _ : state) benchmark::DoNotOptimize(scattering_matrices(ship(), monostatic(basis), k, {}, 2, &rays));
   state.counters["rays/s"] = benchmark::Counter(static_cast<double>(rays), benchmark::Counter::kIsRate);
 }
 BENCHMARK(ShipAspect)->Args({50, 1})->Args({50, 16})->Unit(benchmark::kMillisecond)->UseRealTime();

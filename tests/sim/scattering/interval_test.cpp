@@ -76,7 +76,7 @@ double error_against_fresh_traces(const Scatterer& scatterer, const Trajectory& 
 TEST(Contributions, SumToTheClosedFormWhereTheyWereMade) {
   const Scatterer reflector(make_icosahedral_reflector());
   const RadarBasis basis = radar_basis(direction(67, 2));
-  const Illumination illumination(reflector, basis, {0.02, 8});
+  const Illumination illumination(reflector, monostatic(basis), {0.02, 8});
   const double kc = wavenumber(16.1e9);
   for (const double turn : {0.0, 1e-3, 1e-2}) {
     std::vector<Contribution> contributions;
@@ -102,11 +102,11 @@ TEST(ReturnGrid, EqualsTheDirectSumOfTheSamePoints) {
   for (Contribution& c : points) {
     c.amplitude = Complex(random.normal(), random.normal());
     c.psi = 300 * (random.uniform() - 0.5);
-    c.gradient = Vec3(0, 80 * (random.uniform() - 0.5), 0);
+    c.gradient.transmit = Vec3(0, 80 * (random.uniform() - 0.5), 0);
     c.pattern = {0, 0, 0, 1};
   }
   ReturnGrid grid(wavenumbers, 40, 2e-3, kVvChannel);
-  grid.spread(points, track);
+  grid.spread(points, {track, track});
   grid.transform();
   double error = 0, power = 0;
   std::vector<Complex> out(40);
