@@ -334,7 +334,7 @@ class Reader : public FieldVisitor {
 
 }  // namespace
 
-Scenario read_fields(const ScenarioDocument& document) {
+void read_fields(const ScenarioDocument& document, const std::function<void(FieldVisitor&)>& fields) {
   if (document.root.kind == YamlNode::Kind::kNull) {
     throw InputError(fmt::format("{}: the file is empty: must be a map of key: value", document.file_name));
   }
@@ -342,8 +342,12 @@ Scenario read_fields(const ScenarioDocument& document) {
     throw InputError(fmt::format("{}:{}:{}: {}: must be a map of key: value", document.file_name,
                                  document.root.location.line, document.root.location.column, shown(document.root)));
   }
+  Reader::read(document, document.root, "", fields);
+}
+
+Scenario read_fields(const ScenarioDocument& document) {
   Scenario scenario;
-  Reader::read(document, document.root, "", [&](FieldVisitor& visitor) { visit_fields(scenario, visitor); });
+  read_fields(document, [&](FieldVisitor& visitor) { visit_fields(scenario, visitor); });
   return scenario;
 }
 

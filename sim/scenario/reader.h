@@ -3,6 +3,7 @@
 
 // From the YAML tree to the structs: what each field accepts, and where the complaint about it points.
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,8 @@
 #include "sim/scenario/scenario.h"
 
 namespace seaglint {
+
+class FieldVisitor;
 
 // A scenario's tree with the overrides applied, and what its complaints need.
 struct ScenarioDocument {
@@ -31,5 +34,7 @@ void apply_override(ScenarioDocument& document, const Override& override_value);
 // Reads every field. Throws InputError for unknown and duplicate keys, missing required ones, wrong types and values
 // out of bounds.
 Scenario read_fields(const ScenarioDocument& document);
+// The same for another kind of file.
+void read_fields(const ScenarioDocument& document, const std::function<void(FieldVisitor&)>& fields);
 
 }  // namespace seaglint

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Material files: their fields, and what is wrong although each field is right.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <system_error>
+
+#include "sim/core/error.h"
+#include "sim/core/file.h"
+#include "sim/core/suggestion.h"
+#include "sim/scenario/fields.h"
+#include "sim/scenario/material_spec.h"
+#include "sim/scenario/reader.h"
+
+namespace seaglint {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t kMaxTerms = 64, kMaxRows = 10000, kMaxLayers = 100;
+
+void visit(DebyeSpec& spec, FieldVisitor& v) {
+  v.require("strength");
+  v.number("strength", spec.strength, within(0, 1e5));
+  v.require("relaxation_ghz");
+  v.number("relaxation_ghz", spec.relaxation_ghz, within(1e-6, 1e6));
+}
+
+void visit(MeasuredSpec& spec, FieldVisitor& v) {
+  v.require("frequency_ghz");
+  v.number("frequency_ghz", spec.frequency_ghz, within(1e-3, 1000));
+  v.require("real");
+  v.number("real", spec.real, above_up_to(0, 1e5));
+  v.number("loss", spec.loss, within(0, 1e5));
+}
+
+void visit(LayerSpec& spec, FieldVisitor& v);
+
+template <typename Item>
+void visit_list(FieldVisitor& v, const char* key, std::vector<Item>& items, std::size_t max_size) {
+  if (!v.optional(key, !items.empty())) return;
+  v.list(
+      key, items.size(), max_size, [&](std::size_t size) { items.resize(size); },
+      [&](std::size_t i, FieldVisitor& item) { visit(items[i], item); });
+}
+
+void visit(DispersionSpec& spec, FieldVisitor& v) {
+  v.number("real", spec.real, above_up_to(0, 1e5));
+  v.number("loss", spec.loss, within(0, 1e5));
+  v.number("conductivity_s_m", spec.conductivity_s_m, within(0, 1e9));
+  visit_list(v, "debye", spec.debye, kMaxTerms);
+  visit_list(v, "table", spec.table, kMaxRows);
+}
+
+void visit(LayerSpec& spec, FieldVisitor& v) {
+  v.require("thickness_mm");
+  v.number("thickness_mm", spec.thickness_mm, above_up_to(0, 1000));
+  v.section("permittivity", [&](FieldVisitor& section) { visit(spec.permittivity, section); });
+  v.section("permeability", [&](FieldVisitor& section) { visit(spec.permeability, section); });
+}
+
+void visit(MaterialSpec& spec, FieldVisitor& v) {
+  v.require("material");
+  v.text("material", spec.name);
+  v.require("source");
+  v.text("source", spec.source);
+  v.require("kind");
+  auto kind = static_cast<std::size_t>(spec.kind);
+  v.choice("kind", kind, std::array{"pec", "conductor", "impedance", "layers", "sea_water"});
+  spec.kind = static_cast<SurfaceKind>(kind);
+  v.number("lowest_ghz", spec.lowest_ghz, within(0.001, 1000));
+  v.number("highest_ghz", spec.highest_ghz, within(0.001, 1000));
+  v.number("roughness_mm", spec.roughness_mm, within(0, 100));
+  if (v.optional("conductivity_s_m", spec.kind == SurfaceKind::kConductor)) {
+    v.number("conductivity_s_m", spec.conductivity_s_m, within(1, 1e9));
+  }
+  if (v.optional("resistance", spec.kind == SurfaceKind::kImpedance)) {
+    v.number("resistance", spec.resistance, within(0, 1e6));
+  }
+  if (v.optional("reactance", spec.kind == SurfaceKind::kImpedance)) {
+    v.number("reactance", spec.reactance, within(-1e6, 1e6));
+  }
+  if (v.optional("backing", spec.kind == SurfaceKind::kLayers)) {
+    auto backing = static_cast<std::size_t>(spec.backing);
+    v.choice("backing", backing, std::array{"pec", "air"});
+    spec.backing = static_cast<Backing>(backing);
+  }
+  visit_list(v, "layers", spec.layers, kMaxLayers);
+  if (v.optional("temperature_c", spec.kind == SurfaceKind::kSeaWater)) {
+    v.number("temperature_c", spec.temperature_c, within(-2, 29));
+  }
+  if (v.optional("salinity_psu", spec.kind == SurfaceKind::kSeaWater)) {
+    v.number("salinity_psu", spec.salinity_psu, within(0, 40));
+  }
+}
+
+void check_dispersion(const DispersionSpec& spec, const std::string& path, bool magnetic,
+                      const ScenarioDocument& document) {
+  if (magnetic && spec.conductivity_s_m > 0) {
+    document.fail_at(path + ".conductivity_s_m", "must stand with a permittivity");
+  }
+  for (std::size_t i = 1; i < spec.table.size(); ++i) {
+    if (spec.table[i].frequency_ghz <= spec.table[i - 1].frequency_ghz) {
+      document.fail_at(fmt::format("{}.table.{}.frequency_ghz", path, i),
+                       fmt::format("must be greater than the row before, {}", spec.table[i - 1].frequency_ghz));
+    }
+  }
+}
+
+// Keys that say nothing about this kind would be ignored.
+void check_material(const MaterialSpec& spec, const ScenarioDocument& document) {
+  if (spec.highest_ghz < spec.lowest_ghz) {
+    document.fail_at("highest_ghz", fmt::format("must be at least lowest_ghz, {}", spec.lowest_ghz));
+  }
+  const auto only = [&](const char* key, SurfaceKind kind, const char* name) {
+    if (spec.kind != kind && document.root.find(key) != nullptr) {
+      document.fail_at(key, fmt::format("must not stand here, it belongs to kind: {}", name));
+    }
+  };
+  only("conductivity_s_m", SurfaceKind::kConductor, "conductor");
+  only("resistance", SurfaceKind::kImpedance, "impedance");
+  only("reactance", SurfaceKind::kImpedance, "impedance");
+  only("backing", SurfaceKind::kLayers, "layers");
+  only("layers", SurfaceKind::kLayers, "layers");
+  only("temperature_c", SurfaceKind::kSeaWater, "sea_water");
+  only("salinity_psu", SurfaceKind::kSeaWater, "sea_water");
+  if (spec.kind == SurfaceKind::kLayers && spec.layers.empty()) document.fail_at("layers", "this key is missing");
+  for (std::size_t i = 0; i < spec.layers.size(); ++i) {
+    const std::string path = fmt::format("layers.{}", i);
+    check_dispersion(spec.layers[i].permittivity, path + ".permittivity", false, document);
+    check_dispersion(spec.layers[i].permeability, path + ".permeability", true, document);
+  }
+}
+
+}  // namespace
+
+MaterialSpec read_material(const fs::path& file) {
+  return parse_material(read_file(file, kMaxYamlBytes), file.string());
+}
+
+MaterialSpec parse_material(const std::string& yaml, const std::string& file_name) {
+  const ScenarioDocument document{file_name, {}, parse_yaml(yaml, file_name)};
+  MaterialSpec spec;
+  read_fields(document, [&](FieldVisitor& visitor) { visit(spec, visitor); });
+  check_material(spec, document);
+  return spec;
+}
+
+MaterialSpec find_material(const std::string& name, const fs::path& folder, const std::string& where) {
+  if (name == "pec") return {};
+  const bool is_file = name.ends_with(".yaml") || name.find('/') != std::string::npos;
+  const fs::path path = is_file ? fs::path(name) : fs::path("assets/materials") / (name + ".yaml");
+  std::error_code error;
+  std::vector<std::string> names{"pec"};
+  for (const fs::path& candidate : {folder / path, path}) {
+    if (fs::is_regular_file(candidate, error)) return read_material(candidate);
+    if (is_file) continue;
+    for (const auto& entry : fs::directory_iterator(candidate.parent_path(), error)) {
+      if (entry.path().extension() == ".yaml") names.push_back(entry.path().stem().string());
+    }
+  }
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  throw InputError(fmt::format("{}: value '{}': no such material{}", where, name,
+                               is_file ? " file" : ": " + suggestion(name, names)));
+}
+
+}  // namespace seaglint

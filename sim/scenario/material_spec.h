@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// What a surface is made of, as a file of assets/materials says it. Time factor e^{+jwt}: permittivity and permeability
+// are real - j loss, and a passive medium has loss >= 0.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace seaglint {
+
+// strength / (1 + j f / relaxation)
+struct DebyeSpec {
+  double strength = 0;         // 0 <= x <= 1e5
+  double relaxation_ghz = 10;  // 1e-6 <= x <= 1e6
+};
+
+struct MeasuredSpec {
+  double frequency_ghz = 10;  // 1e-3 <= x <= 1000, ascending
+  double real = 1;            // 0 < x <= 1e5
+  double loss = 0;            // 0 <= x <= 1e5
+};
+
+// A relative permittivity or permeability over frequency: a table of measured values, linear in the logarithm of frequency and held beyond its ends;
+// without a table real - j loss + sum of Debye terms - j conductivity / (w eps0).
+struct DispersionSpec {
+  double real = 1;              // at infinite frequency when there are Debye terms, 0 < x <= 1e5
+  double loss = 0;              // 0 <= x <= 1e5
+  double conductivity_s_m = 0;  // 0 <= x <= 1e9; of a permittivity
+  std::vector<DebyeSpec> debye;
+  std::vector<MeasuredSpec> table;
+};
+
+struct LayerSpec {
+  double thickness_mm = 1;  // 0 < x <= 1000
+  DispersionSpec permittivity;
+  DispersionSpec permeability;
+};
+
+enum class SurfaceKind {
+  kPec,        // perfect electric conductor
+  kConductor,  // half-space of finite conductivity
+  kImpedance,  // surface impedance relative to that of free space, the same at every angle (Leontovich)
+  kLayers,     // stack of flat layers, first the one the wave meets, on a perfect conductor or with air behind
+  kSeaWater    // half-space of sea water
+};
+enum class Backing { kPec, kAir };
+
+struct MaterialSpec {
+  std::string name = "pec";
+  std::string source;             // where the values come from
+  SurfaceKind kind = SurfaceKind::kPec;
+  double lowest_ghz = 0.001;      // range the source covers, 0.001 <= x <= 1000
+  double highest_ghz = 1000;      // lowest_ghz <= x <= 1000
+  double roughness_mm = 0;        // RMS height, 0 <= x <= 100
+  double conductivity_s_m = 1e7;  // of a conductor, 1 <= x <= 1e9
+  double resistance = 0;          // of an impedance, in units of that of free space, 0 <= x <= 1e6
+  double reactance = 0;           // of an impedance, positive = inductive, |x| <= 1e6
+  Backing backing = Backing::kPec;
+  std::vector<LayerSpec> layers;
+  double temperature_c = 20;      // of sea water, -2 <= x <= 29
+  double salinity_psu = 35;       // of sea water, 0 <= x <= 40
+};
+
+// Reads and checks a material file. Throws InputError "file:line:col: key.path: value ...: bound".
+MaterialSpec read_material(const std::filesystem::path& file);
+MaterialSpec parse_material(const std::string& yaml, const std::string& file_name);
+
+// `pec`, a file, or NAME for assets/materials/NAME.yaml: beside `folder` or below the working directory. Throws InputError
+// that begins with `where` when there is none.
+MaterialSpec find_material(const std::string& name, const std::filesystem::path& folder, const std::string& where);
+
+}  // namespace seaglint
