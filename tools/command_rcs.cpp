@@ -16,6 +16,8 @@
 #include "sim/geometry/mesh_io.h"
 #include "sim/scattering/respond.h"
 #include "tools/command.h"
+#include "tools/rcs_comparison.h"
+#include "tools/reference_arguments.h"
 
 namespace seaglint {
 
@@ -25,6 +27,7 @@ struct RcsArguments {
   std::string target, unit = "m", frequency_ghz, azimuth_deg, elevation_deg = "0", edges = "off", output;
   double ray_spacing_m = 0;
   int max_bounces = 8;
+  ReferenceArguments reference;
 };
 
 std::vector<double> range(const std::string& option, const std::string& text, double lower, double upper) {
@@ -43,39 +46,7 @@ std::vector<double> range(const std::string& option, const std::string& text, do
 
 double dbsm(const Complex& s) { return 10 * std::log10(std::max(4 * kPi * std::norm(s), 1e-30)); }
 
-void run_rcs(const RcsArguments& arguments, const Shell& shell) {
-  if (arguments.edges != "off") {
-    throw InputError(
-        "--edges on: edge currents are not modelled in this version; physical optics alone is --edges off");
-  }
-  const std::vector<double> frequencies = range("--frequency-ghz", arguments.frequency_ghz, 1e-3, 1000);
-  const std::vector<double> azimuths = range("--azimuth-deg", arguments.azimuth_deg, -720, 720);
-  const std::vector<double> elevations = range("--elevation-deg", arguments.elevation_deg, -90, 90);
-  const std::size_t views = azimuths.size() * elevations.size(), rows = views * frequencies.size();
-  constexpr std::size_t kMostRows = 4'000'000;  // 256 MB of matrices
-  if (rows > kMostRows) throw InputError(fmt::format("{} rows of output: at most {}", rows, kMostRows));
-
-  const TriangleMesh mesh = read_mesh(arguments.target, arguments.unit);
-  const Scatterer scatterer(mesh);
-  std::vector<double> wavenumbers;
-  for (const double ghz : frequencies) wavenumbers.push_back(2 * kPi * ghz * 1e9 / kSpeedOfLight);
-
-  const int threads = thread_count(shell.threads);
-  const auto start = std::chrono::steady_clock::now();
-  std::vector<std::vector<std::array<Complex, 4>>> matrices(views);
-  std::size_t rays = 0;
-  {
-    Progress progress("rcs", views);
-    for (std::size_t view = 0; view < views; ++view) {
-      const double az = radians(azimuths[view % azimuths.size()]), el = radians(elevations[view / azimuths.size()]);
-      const RadarBasis basis = radar_basis({std::cos(el) * std::cos(az), std::cos(el) * std::sin(az), std::sin(el)});
-      matrices[view] = scattering_matrices(
-          scatterer, monostatic(basis), wavenumbers, {arguments.ray_spacing_m, arguments.max_bounces}, threads, &rays, &shell.stop);
-      progress.advance();
-    }
-  }
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-
+std::string table_text(const RcsArguments& arguments, const Scatterer& scatterer, const RcsSweep& sweep) {
   std::string csv = fmt::format(
       "# seaglint {} rcs\n# target {} unit {}: {} facets, radius {:.6g} m\n# physical optics at every visible bounce, "
       "max_bounces {}, edges off, "
@@ -84,19 +55,85 @@ void run_rcs(const RcsArguments& arguments, const Shell& shell) {
       "frequency_hz,azimuth_deg,elevation_deg,hh_re,hh_im,hv_re,hv_im,vh_re,vh_im,vv_re,vv_im,hh_dbsm,vv_dbsm\n",
       kVersion, arguments.target, arguments.unit, scatterer.facets().size(), scatterer.radius(), arguments.max_bounces,
       arguments.ray_spacing_m > 0 ? arguments.ray_spacing_m : default_ray_spacing(scatterer));
-  for (std::size_t q = 0; q < frequencies.size(); ++q) {
-    for (std::size_t view = 0; view < views; ++view) {
-      const auto& s = matrices[view][q];
-      csv += fmt::format("{:.9g},{:.9g},{:.9g}", frequencies[q] * 1e9, azimuths[view % azimuths.size()],
-                         elevations[view / azimuths.size()]);
+  for (std::size_t q = 0; q < sweep.frequency_hz.size(); ++q) {
+    for (std::size_t view = 0; view < sweep.views(); ++view) {
+      const auto& s = sweep.models.back().matrices[view][q];
+      csv += fmt::format("{:.9g},{:.9g},{:.9g}", sweep.frequency_hz[q], sweep.azimuth_deg[view % sweep.azimuth_deg.size()],
+                         sweep.elevation_deg[view / sweep.azimuth_deg.size()]);
       for (const Complex& x : s) csv += fmt::format(",{:.9g},{:.9g}", x.real(), x.imag());
       csv += fmt::format(",{:.4f},{:.4f}\n", dbsm(s[0]), dbsm(s[3]));
     }
   }
-  write_file(arguments.output, csv);
-  fmt::print(stderr, "{}: {} rows, {} views in {:.2f} s ({:.2f} M rays, {:.2f} M rays/s)\n", arguments.output, rows,
-             views, seconds, 1e-6 * static_cast<double>(rays),
-             1e-6 * static_cast<double>(rays) / std::max(seconds, 1e-9));
+  return csv;
+}
+
+// Fills the sweep's models, one view after the other; returns the rays traced.
+std::size_t trace_views(const RcsArguments& arguments, const Scatterer& scatterer, const Shell& shell, RcsSweep& sweep) {
+  std::vector<double> wavenumbers;
+  for (const double hz : sweep.frequency_hz) wavenumbers.push_back(2 * kPi * hz / kSpeedOfLight);
+  sweep.models = {{"po", std::vector<std::vector<std::array<Complex, 4>>>(sweep.views())}};
+  std::size_t rays = 0;
+  Progress progress("rcs", sweep.views(), "views");
+  for (std::size_t view = 0; view < sweep.views(); ++view) {
+    const double az = radians(sweep.azimuth_deg[view % sweep.azimuth_deg.size()]),
+                 el = radians(sweep.elevation_deg[view / sweep.azimuth_deg.size()]);
+    const RadarBasis basis = radar_basis({std::cos(el) * std::cos(az), std::cos(el) * std::sin(az), std::sin(el)});
+    try {
+      sweep.models[0].matrices[view] =
+          scattering_matrices(scatterer, monostatic(basis), wavenumbers, {arguments.ray_spacing_m, arguments.max_bounces},
+                              thread_count(shell.threads), &rays, &shell.stop);
+    } catch (const Interrupted&) {
+      throw WorkError(fmt::format("interrupted after {} of {} views; {} is not written", view, sweep.views(), arguments.output));
+    }
+    progress.advance();
+  }
+  return rays;
+}
+
+void compare(const RcsArguments& arguments, const std::vector<RcsReference>& references, const RcsSweep& sweep) {
+  std::vector<PairedCut> cuts;
+  for (const RcsReference& reference : references) {
+    for (PairedCut& cut : pair_with(sweep, reference)) cuts.push_back(std::move(cut));
+  }
+  fmt::print("{}", difference_table(cuts, arguments.reference.floor_db));
+  const std::filesystem::path figure =
+      arguments.reference.figure.empty() ? std::filesystem::path(arguments.output).replace_extension(".png") : std::filesystem::path(arguments.reference.figure);
+  const std::string title = fmt::format("{}, seaglint {}", std::filesystem::path(arguments.target).filename().string(), kVersion);
+  if (draw_comparison(cuts, arguments.reference.floor_db, title, figure)) {
+    fmt::print("Figure: {}\n", figure.string());
+  } else {
+    fmt::print("No figure: it needs a cut along azimuth, elevation or frequency of two points or more\n");
+  }
+}
+
+void run_rcs(const RcsArguments& arguments, const Shell& shell) {
+  if (arguments.edges != "off") {
+    throw InputError(
+        "--edges on: edge currents are not modelled in this version; physical optics alone is --edges off");
+  }
+  RcsSweep sweep;
+  sweep.frequency_hz = range("--frequency-ghz", arguments.frequency_ghz, 1e-3, 1000);
+  for (double& f : sweep.frequency_hz) f *= 1e9;
+  sweep.azimuth_deg = range("--azimuth-deg", arguments.azimuth_deg, -720, 720);
+  sweep.elevation_deg = range("--elevation-deg", arguments.elevation_deg, -90, 90);
+  const std::size_t rows = sweep.views() * sweep.frequency_hz.size();
+  constexpr std::size_t kMostRows = 4'000'000;  // 256 MB of matrices
+  if (rows > kMostRows) throw InputError(fmt::format("{} rows of output: at most {}", rows, kMostRows));
+  // A reference that does not fit is refused before any work.
+  const std::vector<RcsReference> references = arguments.reference.read();
+  for (const RcsReference& reference : references) pair_with(sweep, reference);
+
+  const TriangleMesh mesh = read_mesh(arguments.target, arguments.unit);
+  const Scatterer scatterer(mesh);
+  const auto start = std::chrono::steady_clock::now();
+  const std::size_t rays = trace_views(arguments, scatterer, shell, sweep);
+  const double seconds = std::max(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 1e-9);
+
+  write_file(arguments.output, table_text(arguments, scatterer, sweep));
+  const double million_rays = 1e-6 * static_cast<double>(rays), views = static_cast<double>(sweep.views());
+  fmt::print(stderr, "{}: {} rows, {} views in {:.2f} s ({:.3g} views/s, {:.2f} M rays, {:.2f} M rays/s)\n", arguments.output, rows, sweep.views(),
+             seconds, views / seconds, million_rays, million_rays / seconds);
+  if (!references.empty()) compare(arguments, references, sweep);
 }
 
 }  // namespace
@@ -120,10 +157,12 @@ void add_rcs(CLI::App& app, Shell& shell) {
                    "Spacing of the rays that look for facets; 0 = 0.1 or radius / 25, the smaller")
       ->check(CLI::Range(0.0, 1e6));
   command->add_option("-o,--output", arguments->output, "CSV file to write")->required();
+  arguments->reference.add_to(*command);
   add_threads_option(*command, shell);
   command->footer(
       "Example:\n  seaglint rcs --target assets/icosahedral_reflector.glb --frequency-ghz 16 --azimuth-deg 0:360:0.5 "
-      "--elevation-deg 2 -o rcs.csv");
+      "--elevation-deg 2 -o rcs.csv\n  seaglint rcs --target plate.glb --frequency-ghz 10.24 --azimuth-deg 0:60:0.5 -o plate.csv --reference "
+      "ref.H.txt --reference ref.V.txt");
   command->callback([arguments, &shell] { shell.work = [arguments, &shell] { run_rcs(*arguments, shell); }; });
 }
 

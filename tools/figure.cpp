@@ -184,7 +184,14 @@ void write_figure(const Heatmap& figure, const fs::path& file, FigureSize size) 
   draw(file, size, figure.title, data, commands + "\n");
 }
 
-void write_figure(const LinePlot& figure, const fs::path& file, FigureSize size) {
+namespace {
+
+// The commands that draw a plot whose series begin at `first_index` of the data, and those series' data.
+struct PlotText {
+  std::string commands, data;
+};
+
+PlotText plot_text(const LinePlot& figure, std::size_t first_index) {
   std::string data, plots;
   bool named = false;
   for (std::size_t s = 0; s < figure.series.size(); ++s) {
@@ -204,7 +211,7 @@ void write_figure(const LinePlot& figure, const fs::path& file, FigureSize size)
     const char* colour = kLineColours[s % std::size(kLineColours)];
     const std::string title = series.name.empty() ? "notitle" : "title " + quoted(series.name);
     named = named || !series.name.empty();
-    const std::string index = fmt::format("data index {} using ", s);
+    const std::string index = fmt::format("data index {} using ", first_index + s);
     if (!series.interval.empty()) {
       plots += fmt::format("{}1:2:3:4 with yerrorbars lc rgb '{}' lw 1.2 ps 0 notitle, ", index, colour);
     }
@@ -220,11 +227,34 @@ void write_figure(const LinePlot& figure, const fs::path& file, FigureSize size)
   SEAGLINT_CHECK(!plots.empty(), "a plot without series");
   std::string commands = axis_commands("x", figure.x) + axis_commands("y", figure.y);
   commands += "set grid lc rgb '#d8d8d8' lw 0.6\nset boxwidth 0.8 relative\n";
-  commands += named ? "set key outside right top reverse Left samplen 2\n" : "unset key\n";
+  const char* place = figure.legend_below ? "outside center bottom horizontal" : "outside right top";
+  commands += named ? fmt::format("set key {} reverse Left samplen 2\n", place) : "unset key\n";
   if (!figure.x.range && !figure.x.logarithmic)
     commands += "set autoscale xfix\nset offsets graph 0.03, graph 0.03, 0, 0\n";
   if (figure.equal_axes) commands += "set size ratio -1\n";
-  draw(file, size, figure.title, data, commands + "plot " + plots.substr(0, plots.size() - 2) + "\n");
+  return {commands + "plot " + plots.substr(0, plots.size() - 2) + "\n", data};
+}
+
+}  // namespace
+
+void write_figure(const LinePlot& figure, const fs::path& file, FigureSize size) {
+  const PlotText text = plot_text(figure, 0);
+  draw(file, size, figure.title, text.data, text.commands);
+}
+
+void write_figure(const std::string& title, std::span<const LinePlot> plots, int columns, const fs::path& file, FigureSize size) {
+  SEAGLINT_CHECK(!plots.empty() && columns >= 1, fmt::format("{} plots in {} columns", plots.size(), columns));
+  const std::size_t rows = (plots.size() + static_cast<std::size_t>(columns) - 1) / static_cast<std::size_t>(columns);
+  std::string data, commands = fmt::format("set multiplot layout {},{} rowsfirst title {}\nset lmargin 9\nset rmargin 3\n", rows, columns, quoted(title));
+  std::size_t index = 0;
+  for (const LinePlot& plot : plots) {
+    const PlotText text = plot_text(plot, index);
+    // Each plot begins with the axes that gnuplot has of itself.
+    commands += fmt::format("unset logscale\nset format\nset xlabel offset 0,0.7\nset xrange [*:*]\nset yrange [*:*]\nset offsets\nset title {}\n", quoted(plot.title)) + text.commands;
+    data += text.data;
+    index += plot.series.size();
+  }
+  draw(file, size, "", data, commands + "unset multiplot\n");
 }
 
 }  // namespace seaglint

@@ -6,6 +6,7 @@
 #include <array>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -47,6 +48,7 @@ struct LinePlot {
   FigureAxis x, y;
   std::vector<Series> series;
   bool equal_axes = false;  // one metre is one metre in x and y
+  bool legend_below = false;
 };
 
 struct FigureSize {
@@ -59,5 +61,9 @@ struct FigureSize {
 // fails (with its message) or the disk refuses.
 void write_figure(const Heatmap& figure, const std::filesystem::path& file, FigureSize size = {});
 void write_figure(const LinePlot& figure, const std::filesystem::path& file, FigureSize size = {});
+
+// Several plots in one picture, in rows of `columns`, their frames one below the other; `title` stands above all.
+void write_figure(const std::string& title, std::span<const LinePlot> plots, int columns,
+                  const std::filesystem::path& file, FigureSize size = {});
 
 }  // namespace seaglint

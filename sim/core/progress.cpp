@@ -24,17 +24,19 @@ std::string duration(double seconds) {
 
 }  // namespace
 
-std::string progress_line(const std::string& what, std::size_t done, std::size_t total, double elapsed_s) {
+std::string progress_line(const std::string& what, std::size_t done, std::size_t total, double elapsed_s, const std::string& steps) {
   constexpr std::size_t kWidth = 20;
   const double share = total == 0 ? 1 : std::min(1.0, static_cast<double>(done) / static_cast<double>(total));
   const auto filled = static_cast<std::size_t>(share * kWidth);
   const std::string left = share > 0 ? duration(elapsed_s * (1 - share) / share) + " left" : "no estimate yet";
-  return fmt::format("{}  [{}{}] {:3.0f} %, {}", what, std::string(filled, '#'), std::string(kWidth - filled, '.'),
-                     std::floor(100 * share), left);
+  const std::string rate = steps.empty() || done == 0 ? std::string() : fmt::format(", {:.3g} {}/s", static_cast<double>(done) / elapsed_s, steps);
+  return fmt::format("{}  [{}{}] {:3.0f} %, {}{}", what, std::string(filled, '#'), std::string(kWidth - filled, '.'),
+                     std::floor(100 * share), left, rate);
 }
 
-Progress::Progress(std::string what, std::size_t total)
+Progress::Progress(std::string what, std::size_t total, std::string steps)
     : what_(std::move(what)),
+      steps_(std::move(steps)),
       total_(total),
       start_(std::chrono::steady_clock::now()),
       next_draw_(start_ + kQuiet),
@@ -57,7 +59,7 @@ void Progress::advance(std::size_t steps) {
   next_draw_ = now + kRedraw;
   shown_ = true;
   const double elapsed_s = std::chrono::duration<double>(now - start_).count();
-  std::fputs(fmt::format("\r{}\033[K", progress_line(what_, done, total_, elapsed_s)).c_str(), stderr);
+  std::fputs(fmt::format("\r{}\033[K", progress_line(what_, done, total_, elapsed_s, steps_)).c_str(), stderr);
   std::fflush(stderr);
 }
 

@@ -13,7 +13,8 @@ namespace seaglint {
 
 class Progress {
  public:
-  Progress(std::string what, std::size_t total);
+  // `steps` names them in the rate ("views": 3.1 views/s); without a name no rate is shown.
+  Progress(std::string what, std::size_t total, std::string steps = {});
   ~Progress();  // wipes the bar
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -21,7 +22,7 @@ class Progress {
   void advance(std::size_t steps = 1);  // any thread
 
  private:
-  std::string what_;
+  std::string what_, steps_;
   std::size_t total_;
   std::atomic<std::size_t> done_{0};
   std::chrono::steady_clock::time_point start_;
@@ -31,7 +32,7 @@ class Progress {
   bool shown_ = false;
 };
 
-// One line, e.g. "maps  [#######.............]  35 %, 2 min 10 s left"; done <= total, elapsed_s > 0.
-std::string progress_line(const std::string& what, std::size_t done, std::size_t total, double elapsed_s);
+// One line, e.g. "maps  [#######.............]  35 %, 2 min 10 s left", with steps named also ", 3.1 maps/s"; done <= total, elapsed_s > 0.
+std::string progress_line(const std::string& what, std::size_t done, std::size_t total, double elapsed_s, const std::string& steps = {});
 
 }  // namespace seaglint

@@ -24,6 +24,11 @@ TEST(ProgressLine, ShowsShareAndTimeLeft) {
   EXPECT_EQ(progress_line("maps", 0, 0, 1), "maps  [####################] 100 %, 0 s left");
 }
 
+TEST(ProgressLine, ShowsARateWhereTheStepsHaveAName) {
+  EXPECT_EQ(progress_line("rcs", 1, 4, 10, "views"), "rcs  [#####...............]  25 %, 30 s left, 0.1 views/s");
+  EXPECT_EQ(progress_line("rcs", 0, 4, 10, "views"), "rcs  [....................]   0 %, no estimate yet");
+}
+
 TEST(Progress, IsSilentWhereThereIsNoTerminal) {
   ::testing::internal::CaptureStderr();
   {

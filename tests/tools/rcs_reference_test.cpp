@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// References of the radar cross section: formats as other programs write them, and the pairing with a sweep.
+#include "tools/rcs_reference.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "sim/core/constants.h"
+#include "sim/core/error.h"
+#include "tools/rcs_comparison.h"
+
+namespace seaglint {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+constexpr double kPrinted_db = 1e-9;  // rounding of logarithm and power
+
+class RcsReferenceFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(testing::TempDir()) / ("rcs reference " + std::to_string(::getpid()) + testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  RcsReference read(const std::string& name, const std::string& text, const ReferenceSettings& settings = {}) const {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+    return read_reference(folder_ / name, settings);
+  }
+  std::string refusal(const std::string& name, const std::string& text, const ReferenceSettings& settings = {}) const {
+    try {
+      read(name, text, settings);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    ADD_FAILURE() << "no error for " << name;
+    return "";
+  }
+
+  fs::path folder_;
+};
+
+ReferenceSettings as(Element element, double frequency_ghz = 10) {
+  ReferenceSettings settings;
+  settings.element = element;
+  settings.frequency_hz = frequency_ghz * 1e9;
+  return settings;
+}
+
+// A table as CST 2020 writes it: names padded inside parentheses, units inside brackets, CRLF, theta fastest and through 0.
+std::string cst_table(const std::string& unit, const std::string& rows) {
+  return "Theta [deg.]  Phi   [deg.]  Abs(RCS )[" + unit + "]   Abs(Theta)[" + unit + "]  Phase(Theta)[deg.]  Abs(Phi  )[" + unit +
+         "]  Phase(Phi  )[deg.]  Ax.Ratio[dB    ]    \r\n"
+         "------------------------------------------------------------------------------------------\r\n" +
+         rows;
+}
+
+TEST_F(RcsReferenceFile, OfFourColumnsTakesItsPolarisationFromTheName) {
+  const std::string text = "5120000000.000000 90.000000 0.000000 8.073421 \n5120000000 90 -10.5 -667.1\n\n";
+  const RcsReference h = read("ref_rcs.II.B.sx1.f10.H.txt", text);
+  EXPECT_EQ(h.element, Element::kHh);
+  ASSERT_EQ(h.samples.size(), 2u);
+  EXPECT_EQ(h.samples[0].level_dbsm, 8.073421);
+  EXPECT_EQ(h.samples[1].frequency_hz, 5.12e9);
+  EXPECT_EQ(h.samples[1].phi_deg, 349.5);
+  EXPECT_EQ(h.samples[1].level_dbsm, -667.1);
+  EXPECT_FALSE(h.has_phase());
+  EXPECT_EQ(read("ref.V.txt", text).element, Element::kVv);
+  EXPECT_EQ(read("ref.txt", text, as(Element::kVv)).element, Element::kVv);
+}
+
+TEST_F(RcsReferenceFile, OfCstHasItsColumnsByNameAndItsUnitsByHeader) {
+  // A received theta component of 4 m^2 at 30 deg, a phi component of 0.01 m^2 at 350 deg.
+  const double level = 10 * std::log10(4.0);
+  const auto row = [](double theta, double phi) {
+    return "     90.000          180.000            6.02060e+00          " + std::to_string(theta) + "              30.000          " + std::to_string(phi) +
+           "             350.000           2.684e+01     \r\n";
+  };
+  const std::string area = cst_table("m^2", row(4, 0.01));
+  const RcsReference vv = read("farfield (f=10) [pw].txt", area, as(Element::kVv));
+  ASSERT_EQ(vv.samples.size(), 1u);
+  EXPECT_EQ(vv.samples[0].frequency_hz, 10e9);
+  EXPECT_EQ(vv.samples[0].theta_deg, 90);
+  EXPECT_EQ(vv.samples[0].phi_deg, 180);
+  EXPECT_NEAR(vv.samples[0].level_dbsm, level, kPrinted_db);
+  ASSERT_TRUE(vv.has_phase());
+  // sigma = 4 pi |S|^2; theta^ = -v at both ends leaves the co-polar term as it is.
+  EXPECT_LT(std::abs(*vv.samples[0].amplitude_m - std::polar(std::sqrt(4 / (4 * kPi)), radians(30))), 1e-12);
+  const RcsReference hh = read("a.txt", area, as(Element::kHh));
+  EXPECT_NEAR(hh.samples[0].level_dbsm, -20, kPrinted_db);
+  EXPECT_NEAR(degrees(std::arg(*hh.samples[0].amplitude_m)), -10, 1e-9);
+  // v transmitted as -theta^, h received as phi^: the cross-polar term changes sign.
+  EXPECT_NEAR(degrees(std::arg(*read("a.txt", area, as(Element::kHv)).samples[0].amplitude_m)), 170, 1e-9);
+  EXPECT_NEAR(degrees(std::arg(*read("a.txt", area, as(Element::kVh)).samples[0].amplitude_m)), -150, 1e-9);
+
+  EXPECT_NEAR(read("a.txt", cst_table("dB(m^2)", row(-3.5, 0)), as(Element::kVv)).samples[0].level_dbsm, -3.5, kPrinted_db);
+  EXPECT_NEAR(read("a.txt", cst_table("dBm^2 ", row(-3.5, 0)), as(Element::kVv)).samples[0].level_dbsm, -3.5, kPrinted_db);
+  EXPECT_NEAR(read("a.txt", cst_table("mm^2", row(4e6, 0)), as(Element::kVv)).samples[0].level_dbsm, level, kPrinted_db);
+  EXPECT_NEAR(read("a.txt", cst_table("dB(mm^2)", row(60, 0)), as(Element::kVv)).samples[0].level_dbsm, 0, kPrinted_db);
+  const double wavelength_db = 20 * std::log10(kSpeedOfLight / 10e9);
+  EXPECT_NEAR(read("a.txt", cst_table("dB(lambda^2)", row(60, 0)), as(Element::kVv)).samples[0].level_dbsm, 60 + wavelength_db, kPrinted_db);
+  EXPECT_NEAR(read("a.txt", cst_table("m^2", row(0, 0)), as(Element::kVv)).samples[0].level_dbsm, -1000, kPrinted_db);
+}
+
+TEST_F(RcsReferenceFile, OfCstWithNegativeThetaIsFoldedAndChangesSign) {
+  const std::string row = " -30,000  90,000  0,000e+00  0,000e+00  10,000  0,000e+00  20,000  0,000e+00\r\n";  // a localised machine's decimals
+  const RcsReference vv = read("a.txt", cst_table("dB(m^2)", row), as(Element::kVv));
+  EXPECT_EQ(vv.samples[0].theta_deg, 30);
+  EXPECT_EQ(vv.samples[0].phi_deg, 270);
+  EXPECT_NEAR(degrees(std::arg(*vv.samples[0].amplitude_m)), 10 - 180, 1e-9);
+}
+
+TEST_F(RcsReferenceFile, OfThisProgramIsReadByItsColumnsNames) {
+  const std::string text =
+      "# seaglint\nfrequency_hz,azimuth_deg,elevation_deg,vv_re,vv_im,hh_dbsm\n1e10,-20,2,0.3,-0.4,-7\n";
+  const RcsReference vv = read("own.csv", text, as(Element::kVv));
+  ASSERT_EQ(vv.samples.size(), 1u);
+  EXPECT_EQ(vv.samples[0].theta_deg, 88);
+  EXPECT_EQ(vv.samples[0].phi_deg, 340);
+  EXPECT_EQ(*vv.samples[0].amplitude_m, Complex(0.3, -0.4));
+  EXPECT_NEAR(vv.samples[0].level_dbsm, 10 * std::log10(kPi), kPrinted_db);  // 4 pi 0.25
+  const RcsReference hh = read("own.csv", text, as(Element::kHh));
+  EXPECT_EQ(hh.samples[0].level_dbsm, -7);
+  EXPECT_FALSE(hh.has_phase());
+}
+
+TEST_F(RcsReferenceFile, ThatCannotBeUsedIsRefusedWithItsPlace) {
+  EXPECT_THAT(refusal("a.txt", "1e9 90 0 1\n"), HasSubstr("--reference-polarisation"));
+  EXPECT_THAT(refusal("a.H.txt", "1e9 90 0 1\n1e9 90 0.5\n"), HasSubstr("a.H.txt:2: 3 columns"));
+  EXPECT_THAT(refusal("a.H.txt", "1e9 90 0 1\n1e9 90 0.5 nan\n"), HasSubstr("a.H.txt:2: 'nan'"));
+  EXPECT_THAT(refusal("a.H.txt", "0 90 0 1\n"), HasSubstr("must be > 0"));
+  EXPECT_THAT(refusal("a.H.txt", "a report\n"), HasSubstr("not a cut of the radar cross section"));
+  EXPECT_THAT(refusal("a.H.txt", ""), HasSubstr("not a cut of the radar cross section"));
+  EXPECT_THAT(refusal("a.H.ffs", "// CST Farfield Source File\n"), HasSubstr(".ffs"));
+  const std::string row = "90 0 1 1 0 1 0 1\r\n";
+  ReferenceSettings no_frequency;
+  no_frequency.element = Element::kVv;
+  EXPECT_THAT(refusal("a.txt", cst_table("m^2", row), no_frequency), HasSubstr("--reference-frequency-ghz"));
+  EXPECT_THAT(refusal("a.txt", cst_table("dB    ", row), as(Element::kVv)), HasSubstr("relative to its own maximum"));
+  EXPECT_THAT(refusal("a.txt", cst_table("V/m", row), as(Element::kVv)), HasSubstr("[V/m]: the unit must be"));
+  EXPECT_THAT(refusal("a.txt", cst_table("m^2", "90 0 1\r\n"), as(Element::kVv)), HasSubstr("a.txt:3: 3 columns: the header has 8"));
+  EXPECT_THAT(refusal("a.txt", cst_table("m^2", ""), as(Element::kVv)), HasSubstr("holds no values"));
+  EXPECT_THAT(refusal("own.csv", "frequency_hz,azimuth_deg,elevation_deg,vv_re\n", as(Element::kHh)), HasSubstr("hh_dbsm"));
+}
+
+RcsSweep sweep_of(std::vector<double> azimuth_deg, std::vector<Complex> vv) {
+  RcsSweep sweep;
+  sweep.frequency_hz = {10e9};
+  sweep.azimuth_deg = std::move(azimuth_deg);
+  sweep.elevation_deg = {0};
+  sweep.models = {{"po", {}}};
+  for (const Complex& s : vv) sweep.models[0].matrices.push_back({std::array<Complex, 4>{0, 0, 0, s}});
+  return sweep;
+}
+
+RcsReference cut_of(std::vector<std::pair<double, Complex>> values, const ReferenceSettings& settings = as(Element::kVv)) {
+  RcsReference reference{"other", Element::kVv, settings, {}};
+  for (const auto& [phi, s] : values) reference.samples.push_back({10e9, 90, phi, 10 * std::log10(4 * kPi * std::norm(s)), s});
+  return reference;
+}
+
+TEST(RcsComparison, FindsTheSameDirectionsThroughTheAnglesMap) {
+  ReferenceSettings settings = as(Element::kVv);
+  settings.phi_scale = -1;
+  settings.phi_offset_deg = 180;
+  // Azimuth 0, 90, 200 deg are phi 180, 90, 340 of the reference; 0.0004 deg are the printed digits' rounding.
+  const auto cuts = pair_with(sweep_of({0, 45, 90, 200}, {1, 2, 3, 4}), cut_of({{180.0004, 10}, {89.9996, 30}, {340, 40}, {7, 70}}, settings));
+  ASSERT_EQ(cuts.size(), 1u);
+  EXPECT_EQ(cuts[0].x, (std::vector<double>{0, 90, 200}));
+  EXPECT_EQ(cuts[0].models[0].amplitude_m, (std::vector<Complex>{1, 3, 4}));
+  EXPECT_EQ(*cuts[0].frequency_hz, 10e9);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(difference_of(cuts[0], cuts[0].models[0], 80).bias_db, -20, kPrinted_db);
+}
+
+TEST(RcsComparison, TakesLevelsBelowTheFloorAsTheFloor) {
+  // 0, -10 and -300 dB against 0, -13 and -90 dB below the maximum.
+  const auto db = [](double x) { return std::pow(10.0, x / 20); };
+  const auto cuts = pair_with(sweep_of({0, 1, 2}, {1, db(-10), db(-300)}), cut_of({{0, 1}, {1, db(-13)}, {2, db(-90)}}));
+  const Difference wide = difference_of(cuts[0], cuts[0].models[0], 80);
+  EXPECT_NEAR(wide.mean_db, 1, kPrinted_db);  // 0, 3, 0
+  EXPECT_NEAR(wide.rms_db, std::sqrt(3.0), kPrinted_db);
+  EXPECT_NEAR(wide.largest_db, 3, kPrinted_db);
+  EXPECT_EQ(wide.largest_at, 1);
+  const Difference deep = difference_of(cuts[0], cuts[0].models[0], 100);
+  EXPECT_NEAR(deep.largest_db, -10, kPrinted_db);
+  EXPECT_NEAR(deep.bias_db, (3.0 - 10) / 3, kPrinted_db);
+}
+
+TEST(RcsComparison, CorrelatesComplexValuesAboutTheBodysOrigin) {
+  // The same point scatterer at x0, told about the body's origin here and about x0 there: S = e^{2jk r.x0} (CONVENTIONS.md).
+  const Vec3 x0(0.3, -0.2, 0.1);
+  const double k = 2 * kPi * 10e9 / kSpeedOfLight;
+  std::vector<double> azimuths;
+  std::vector<Complex> ours;
+  std::vector<std::pair<double, Complex>> theirs;
+  for (double az = 0; az < 90; az += 5) {
+    azimuths.push_back(az);
+    ours.push_back(std::polar(1.0, 2 * k * Vec3(std::cos(radians(az)), std::sin(radians(az)), 0).dot(x0)));
+    theirs.push_back({az, std::polar(1.0, radians(-25))});
+  }
+  ReferenceSettings settings = as(Element::kVv);
+  settings.origin_m = x0;
+  const auto moved = pair_with(sweep_of(azimuths, ours), cut_of(theirs, settings));
+  const Complex correlation = *difference_of(moved[0], moved[0].models[0], 80).correlation;
+  EXPECT_NEAR(std::abs(correlation), 1, 1e-9);
+  EXPECT_NEAR(degrees(std::arg(correlation)), 25, 1e-6);
+  const auto unmoved = pair_with(sweep_of(azimuths, ours), cut_of(theirs));
+  EXPECT_LT(std::abs(*difference_of(unmoved[0], unmoved[0].models[0], 80).correlation), 0.5);
+}
+
+TEST(RcsComparison, RefusesAReferenceThatHasNothingInCommonAndSaysWhatBothHold) {
+  try {
+    pair_with(sweep_of({0, 1}, {1, 1}), cut_of({{30, 1}, {60, 1}}));
+    ADD_FAILURE() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("phi 30 to 60 (2 values)"));
+    EXPECT_THAT(error.what(), HasSubstr("phi 0 to 1 (2 values)"));
+  }
+  EXPECT_THROW(pair_with(sweep_of({0}, {1}), cut_of({{0, 1}, {0, 2}})), InputError) << "one direction with two levels";
+}
+
+}  // namespace
+}  // namespace seaglint
