@@ -56,6 +56,7 @@ std::vector<Facet> make_facets(const TriangleMesh& mesh) {
     facet.offset = facet.normal.dot(facet.corner[0]);
     facet.size = longest;
     facet.part = mesh.triangle_part.empty() ? std::uint16_t{0} : mesh.triangle_part[t];
+    facet.material = mesh.triangle_material.empty() ? std::uint16_t{0} : mesh.triangle_material[t];
     facets.push_back(facet);
     indices.push_back({welded[triangle[0]], welded[triangle[1]], welded[triangle[2]]});
   }

@@ -20,6 +20,7 @@ struct Facet {
                                                       // next of the ring where more than two facets share it
   bool open = false;  // its connected surface has a rim: either side may be seen
   std::uint16_t part = 0;
+  std::uint16_t material = 0;  // of the mesh
 };
 
 // Triangles without area are left out. Neighbours are found by position, so that seams of duplicated vertices do not

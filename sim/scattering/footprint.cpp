@@ -118,10 +118,11 @@ Complex phase_integral(const Footprint& footprint, double k) {
   return phase_c * sum / (Complex(0, 1) * kw.squaredNorm());
 }
 
-std::array<Complex, 4> scattered(const Footprint& footprint, double k) {
+std::array<Complex, 4> scattered(const Footprint& footprint, double k, std::size_t index) {
   const Complex factor = Complex(0, -k / (2 * kPi)) * phase_integral(footprint, k);
+  const std::array<Complex, 4>& pattern = footprint.patterns.empty() ? footprint.pattern : footprint.patterns[index];
   std::array<Complex, 4> s;
-  for (int i = 0; i < 4; ++i) s[i] = factor * footprint.pattern[i];
+  for (int i = 0; i < 4; ++i) s[i] = factor * pattern[i];
   return s;
 }
 

@@ -71,6 +71,8 @@ struct Footprint {
   double surface_slope_turn = 0;    // bound of its change per radian of turn, 0..2
   double facet_size = 0;            // longest edge of the whole facet, m
   std::array<Complex, 4> pattern{};  // hh, hv, vh, vv (received, transmitted) of n x (k^ x E) / |n . k^|
+  // The same for each of the illumination's wavenumbers where a material on the way makes it depend on them; empty where pattern serves all.
+  std::vector<std::array<Complex, 4>> patterns;
   int facet = -1;                   // the last one
   std::uint16_t part = 0;           // its part
   std::uint8_t bounces = 1;
@@ -106,7 +108,7 @@ double sinc(double x);
 
 // S = -jk/(2 pi) pattern I(k): physical optics, E_s = -(jk eta / 4 pi) (e^{-jkr}/r) integral (J - r^ r^.J) e^{jk r^.x}
 // dS with J = 2 n x H (Balanis, Advanced Engineering Electromagnetics, eqs. 6-95, 7-54), dS = d^2p / |n . k^|. Elements
-// hh, hv, vh, vv in metres.
-std::array<Complex, 4> scattered(const Footprint& footprint, double k);
+// hh, hv, vh, vv in metres. k is the illumination's wavenumber number `index` where materials make the pattern depend on it.
+std::array<Complex, 4> scattered(const Footprint& footprint, double k, std::size_t index = 0);
 
 }  // namespace seaglint

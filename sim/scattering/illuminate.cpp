@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/scattering/illuminate.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "sim/core/error.h"
+#include "sim/scattering/reflect.h"
 
 namespace seaglint {
 namespace {
@@ -13,7 +16,8 @@ namespace {
 struct Leg {
   Mirror mirrors;                   // of the facets passed
   Vec3 direction;                   // real, unit
-  Vec3 E_h, E_v;                    // field for each transmitted polarisation, real space
+  Vec3 E_h, E_v;                    // field for each transmitted polarisation, real space, all mirrors perfect conductors
+  std::vector<BeamField> fields;    // the field per wavenumber once a mirror was of another material
   int from_facet = kNoFacet;
   ImagePlane from_plane;            // of the last mirror
   Vec3 from_normal = Vec3::Zero();  // real, on the side the beam leaves
@@ -31,13 +35,14 @@ struct Candidate {
 class BeamTracer {
  public:
   BeamTracer(const Scatterer& scatterer, const AntennaPair& antennas, const IlluminationSettings& settings, const VisibleSurface& lit,
-             const VisibleSurface& visible, double min_area, std::vector<Footprint>& out)
+             const VisibleSurface& visible, std::span<const std::vector<Surface>> surfaces, double min_area, std::vector<Footprint>& out)
       : facets_(scatterer.facets()),
         scene_(scatterer.rays()),
         antennas_(antennas),
         basis_(antennas.transmit),
         lit_(lit),
         visible_(visible),
+        surfaces_(surfaces),
         out_(out),
         max_bounces_(settings.max_bounces),
         spacing_(settings.ray_spacing_m > 0 ? settings.ray_spacing_m : default_ray_spacing(scatterer)),
@@ -48,6 +53,7 @@ class BeamTracer {
   std::size_t rays_traced() const { return rays_traced_; }
 
   void light(int facet) {
+    if (is_under_water(facet)) return;
     Leg first;
     first.direction = -basis_.r;
     first.E_h = basis_.h;
@@ -182,7 +188,7 @@ class BeamTracer {
     }
 
     for (const Candidate& candidate : all) {
-      if (candidate.lit.empty()) continue;
+      if (candidate.lit.empty() || is_under_water(candidate.image.facet)) continue;
       radiate(leg, candidate, seen_part(leg, candidate));
       if (leg.bounce < max_bounces_) follow(reflected(leg, candidate), candidate.lit);
     }
@@ -203,6 +209,52 @@ class BeamTracer {
     return n.dot(leg.direction) < 0 ? n : Vec3(-n);
   }
 
+  // What the facet is made of at each wavenumber; none when it is a perfect conductor.
+  std::span<const Surface> surface_of(int facet) const {
+    return surfaces_.empty() ? std::span<const Surface>() : std::span<const Surface>(surfaces_[facets_[facet].material]);
+  }
+  bool is_under_water(int facet) const {
+    const std::span<const Surface> surface = surface_of(facet);
+    return !surface.empty() && surface.front().is_under_water();
+  }
+
+  // The leg's field at wavenumber number q.
+  static BeamField field_at(const Leg& leg, std::size_t q) {
+    return leg.fields.empty() ? BeamField{leg.E_h.cast<Complex>(), leg.E_v.cast<Complex>()} : leg.fields[q];
+  }
+
+  // The fields after a mirror, where it or one before it is no perfect conductor.
+  std::vector<BeamField> reflected_fields(const Leg& leg, int facet, const Vec3& n) const {
+    const std::span<const Surface> surface = surface_of(facet);
+    const double cosine = std::abs(n.dot(leg.direction));
+    std::vector<BeamField> fields(surface.empty() ? leg.fields.size() : surface.size());
+    for (std::size_t q = 0; q < fields.size(); ++q) {
+      const SurfaceFields at = surface.empty() ? SurfaceFields{} : surface[q].at(cosine);
+      const double coherence = surface.empty() ? 1.0 : surface[q].coherence(cosine, cosine);
+      const BeamField before = field_at(leg, q);
+      fields[q] = {coherence * reflected_field(at, leg.direction, n, before.h),
+                   coherence * reflected_field(at, leg.direction, n, before.v)};
+    }
+    return fields;
+  }
+
+  // The footprint's pattern per wavenumber, where the facet or a mirror before it is no perfect conductor.
+  std::vector<std::array<Complex, 4>> patterns(const Leg& leg, int facet, const Vec3& n) const {
+    const std::span<const Surface> surface = surface_of(facet);
+    const auto& [r, h, v] = antennas_.receive;
+    const double cosine = std::abs(n.dot(leg.direction));
+    std::vector<std::array<Complex, 4>> patterns(surface.empty() ? leg.fields.size() : surface.size());
+    for (std::size_t q = 0; q < patterns.size(); ++q) {
+      const SurfaceFields at = surface.empty() ? SurfaceFields{} : surface[q].at(cosine);
+      const double coherence = surface.empty() ? 1.0 : surface[q].coherence(cosine, n.dot(r));
+      const BeamField field = field_at(leg, q);
+      const CVec3 by_h = coherence * radiated_field(at, leg.direction, n, r, field.h),
+                  by_v = coherence * radiated_field(at, leg.direction, n, r, field.v);
+      patterns[q] = {along(h, by_h), along(h, by_v), along(v, by_h), along(v, by_v)};
+    }
+    return patterns;
+  }
+
   // Geometrical optics at a perfect conductor: E' = 2 (n.E) n - E.
   Leg reflected(const Leg& leg, const Candidate& candidate) const {
     const int facet = candidate.image.facet;
@@ -214,6 +266,7 @@ class BeamTracer {
     next.direction = leg.direction - 2 * n.dot(leg.direction) * n;
     next.E_h = 2 * n.dot(leg.E_h) * n - leg.E_h;
     next.E_v = 2 * n.dot(leg.E_v) * n - leg.E_v;
+    if (!leg.fields.empty() || !surface_of(facet).empty()) next.fields = reflected_fields(leg, facet, n);
     next.from_facet = facet;
     next.from_plane = candidate.image.plane;
     next.from_normal = n;
@@ -240,6 +293,10 @@ class BeamTracer {
     const Vec3 J_v = n.cross(leg.direction.cross(leg.E_v)) / grazing;
     const auto& [r, h, v] = antennas_.receive;
     footprint.pattern = {h.dot(J_h), h.dot(J_v), v.dot(J_h), v.dot(J_v)};
+    if (!leg.fields.empty() || !surface_of(footprint.facet).empty()) {
+      footprint.patterns = patterns(leg, footprint.facet, n);
+      footprint.pattern = footprint.patterns.front();
+    }
     for (const MovingPolygon& piece : pieces) {
       footprint.polygon = piece;
       out_.push_back(footprint);
@@ -252,6 +309,7 @@ class BeamTracer {
   const RadarBasis& basis_;  // of the aperture: the transmitter's
   const VisibleSurface& lit_;
   const VisibleSurface& visible_;  // to the receiver
+  std::span<const std::vector<Surface>> surfaces_;
   std::vector<Footprint>& out_;
   int max_bounces_;
   double spacing_, lift_, min_area_;
@@ -260,7 +318,12 @@ class BeamTracer {
 
 }  // namespace
 
-Scatterer::Scatterer(const TriangleMesh& mesh) : facets_(make_facets(mesh)), rays_(facets_) {
+Scatterer::Scatterer(const TriangleMesh& mesh, std::vector<MaterialSpec> materials)
+    : facets_(make_facets(mesh)), rays_(facets_), materials_(std::move(materials)) {
+  for (const Facet& facet : facets_) {
+    SEAGLINT_CHECK(materials_.empty() || facet.material < materials_.size(),
+                   fmt::format("material {} of {}", facet.material, materials_.size()));
+  }
   if (facets_.empty()) throw InputError("the mesh has no triangle with an area: nothing scatters");
   for (const Facet& facet : facets_) {
     for (const Vec3& corner : facet.corner) radius_ = std::max(radius_, corner.norm());
@@ -269,7 +332,8 @@ Scatterer::Scatterer(const TriangleMesh& mesh) : facets_(make_facets(mesh)), ray
 
 double default_ray_spacing(const Scatterer& scatterer) { return std::min(0.1, 0.04 * scatterer.radius()); }
 
-Illumination::Illumination(const Scatterer& scatterer, const AntennaPair& antennas, const IlluminationSettings& settings, int threads)
+Illumination::Illumination(const Scatterer& scatterer, const AntennaPair& antennas, const IlluminationSettings& settings, int threads,
+                           std::span<const double> wavenumbers)
     : scatterer_(scatterer),
       antennas_(antennas),
       settings_(settings),
@@ -279,11 +343,17 @@ Illumination::Illumination(const Scatterer& scatterer, const AntennaPair& antenn
   for (int facet = 0; facet < static_cast<int>(scatterer.facets().size()); ++facet) {
     if (!lit_.pieces(facet).empty()) seen_.push_back(facet);
   }
+  for (const MaterialSpec& material : scatterer.materials()) {
+    std::vector<Surface>& surface = surfaces_.emplace_back();
+    if (material.kind == SurfaceKind::kPec && material.roughness_mm == 0) continue;
+    SEAGLINT_CHECK(!wavenumbers.empty(), "the material " + material.name + " needs a wavenumber");
+    for (const double k : wavenumbers) surface.emplace_back(material, k);
+  }
 }
 
 std::size_t Illumination::light(int facet, std::vector<Footprint>& footprints) const {
   const VisibleSurface& visible = seen_from_receiver_ ? *seen_from_receiver_ : lit_;
-  BeamTracer tracer(scatterer_, antennas_, settings_, lit_, visible, min_area_, footprints);
+  BeamTracer tracer(scatterer_, antennas_, settings_, lit_, visible, surfaces_, min_area_, footprints);
   tracer.light(facet);
   return tracer.rays_traced();
 }

@@ -11,6 +11,7 @@
 #include "sim/scattering/facets.h"
 #include "sim/scattering/footprint.h"
 #include "sim/scattering/hidden_surface.h"
+#include "sim/scattering/material.h"
 #include "sim/scattering/ray_scene.h"
 
 namespace seaglint {
@@ -23,16 +24,18 @@ struct IlluminationSettings {
 // A target ready to be lit from any direction: its facets and the ray tracer's tree. Built once per mesh; safe to share between threads.
 class Scatterer {
  public:
-  // Throws InputError when no triangle of the mesh has an area.
-  explicit Scatterer(const TriangleMesh& mesh);
+  // materials[i] is what mesh.materials[i] is made of; none: all is perfect conductor. Throws InputError when no triangle of the mesh has an area.
+  explicit Scatterer(const TriangleMesh& mesh, std::vector<MaterialSpec> materials = {});
 
   std::span<const Facet> facets() const { return facets_; }
   const RayScene& rays() const { return rays_; }
   double radius() const { return radius_; }  // of the bounding sphere about the body's origin, m
+  std::span<const MaterialSpec> materials() const { return materials_; }  // empty: all is perfect conductor
 
  private:
   std::vector<Facet> facets_;
   RayScene rays_;
+  std::vector<MaterialSpec> materials_;
   double radius_ = 0;
 };
 
@@ -43,7 +46,9 @@ double default_ray_spacing(const Scatterer& scatterer);
 // independent and may be lit in any order by any thread.
 class Illumination {
  public:
-  Illumination(const Scatterer& scatterer, const AntennaPair& antennas, const IlluminationSettings& settings, int threads = 1);
+  // wavenumbers: those at which materials are evaluated; a perfect conductor needs none.
+  Illumination(const Scatterer& scatterer, const AntennaPair& antennas, const IlluminationSettings& settings, int threads = 1,
+               std::span<const double> wavenumbers = {});
 
   // Facets the transmitter sees, ascending.
   std::span<const int> seen() const { return seen_; }
@@ -59,6 +64,7 @@ class Illumination {
   VisibleSurface lit_;                  // seen from the transmitter
   std::optional<VisibleSurface> seen_from_receiver_;  // where that is another direction
   std::vector<int> seen_;
+  std::vector<std::vector<Surface>> surfaces_;  // [material][wavenumber]; none for a perfect conductor
 };
 
 }  // namespace seaglint

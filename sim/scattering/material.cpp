@@ -68,6 +68,8 @@ Surface::Surface(const MaterialSpec& spec, double k) : kind_(spec.kind), k_(k), 
       slabs_.push_back({sea_water_permittivity(frequency_hz, spec.temperature_c, spec.salinity_psu), 1.0, 0});
       half_space_ = true;
       break;
+    case SurfaceKind::kUnderWater:
+      break;
   }
 }
 
@@ -78,13 +80,16 @@ SurfaceFields Surface::at(double cos_incidence) const {
     const Complex z = impedance_;
     fields.te = (z * cos_incidence - 1.0) / (z * cos_incidence + 1.0);
     fields.tm = (cos_incidence - z) / (cos_incidence + z);
+  } else if (kind_ == SurfaceKind::kUnderWater) {
+    fields.te = fields.tm = 0;
   } else if (kind_ != SurfaceKind::kPec) {
     fields = stack(cos_incidence);
   }
-  const double loss = roughness_ > 0 ? ament_loss(k_, roughness_, cos_incidence) : 1.0;
-  fields.te *= loss;
-  fields.tm *= loss;
   return fields;
+}
+
+double Surface::coherence(double cos_in, double cos_out) const {
+  return roughness_ > 0 ? ament_loss(k_, roughness_, 0.5 * (cos_in + cos_out)) : 1.0;
 }
 
 SurfaceFields Surface::stack(double cos_incidence) const {

@@ -30,13 +30,15 @@ class Surface {
   // k: wavenumber in free space, rad/m. The material's stated frequency range is not enforced here.
   Surface(const MaterialSpec& spec, double k);
 
-  bool is_pec() const { return kind_ == SurfaceKind::kPec && roughness_ == 0; }
-  // Whether a part of the wave passes through: an air-backed sheet.
-  bool is_sheet() const { return kind_ == SurfaceKind::kLayers && air_behind_; }
+  bool is_under_water() const { return kind_ == SurfaceKind::kUnderWater; }
 
-  // cos_incidence = |n.d|, 0 < x <= 1. Layers by the recursion of generalised reflection coefficients (W. C. Chew, Waves and Fields in Inhomogeneous
-  // Media, eq. 2.1.24, with j for -i), with the Ament loss of the roughness.
+  // cos_incidence = |n.d|, 0 < x <= 1, for the smooth surface. Layers by the recursion of generalised reflection coefficients (W. C. Chew, Waves and
+  // Fields in Inhomogeneous Media, eq. 2.1.24, with j for -i).
   SurfaceFields at(double cos_incidence) const;
+
+  // What roughness leaves of the coherent field scattered from cos_in = |n.d| to cos_out = n.r^: e^{-(k sigma (cos_in + cos_out))^2 / 2}, the mean of
+  // e^{jk zeta (cos_in + cos_out)} over Gaussian heights zeta; Ament's factor for a mirror.
+  double coherence(double cos_in, double cos_out) const;
 
  private:
   struct Slab {

@@ -37,8 +37,10 @@ ReturnGrid trace_returns(const Scatterer& scatterer, const AntennaPair& antennas
   // A shadow edge at grazing runs along its facet much faster than any point of the body moves. Beyond four times the
   // body's size its speed is cut: such ends are faint and run through many velocity cells.
   const double limit = 8 * scatterer.radius();
-  const Illumination illumination(scatterer, antennas, {solver.ray_spacing_m, solver.max_bounces}, threads);
-  const SplitSettings split_settings{wavenumbers.at(wavenumbers.centre_index()), reach};
+  const double kc = wavenumbers.at(wavenumbers.centre_index());
+  const Illumination illumination(scatterer, antennas, {solver.ray_spacing_m, solver.max_bounces}, threads,
+                                  std::array{kc});
+  const SplitSettings split_settings{kc, reach};
   const std::size_t chunks = chunk_count(illumination);
   std::vector<std::vector<Contribution>> contributions(chunks);
   std::vector<double> fastest(chunks, 0);
@@ -174,7 +176,7 @@ std::vector<std::array<Complex, 4>> scattering_matrices(const Scatterer& scatter
                                                         const IlluminationSettings& settings, int threads,
                                                         std::size_t* rays, const StopFlag* stop) {
   using Matrices = std::vector<std::array<Complex, 4>>;
-  const Illumination illumination(scatterer, antennas, settings, threads);
+  const Illumination illumination(scatterer, antennas, settings, threads, wavenumbers);
   const std::size_t chunks = chunk_count(illumination);
   std::vector<Matrices> parts(chunks, Matrices(wavenumbers.size()));
   std::vector<std::size_t> traced(chunks, 0);
@@ -187,7 +189,7 @@ std::vector<std::array<Complex, 4>> scattering_matrices(const Scatterer& scatter
           traced[chunk] += illumination.light(facet, footprints);
           for (const Footprint& footprint : footprints) {
             for (std::size_t q = 0; q < wavenumbers.size(); ++q) {
-              const auto s = scattered(footprint, wavenumbers[q]);
+              const auto s = scattered(footprint, wavenumbers[q], q);
               for (int i = 0; i < 4; ++i) parts[chunk][q][i] += s[i];
             }
           }

@@ -216,10 +216,9 @@ TEST(Material, RoughnessTakesItsShareOfTheCoherentField) {
   MaterialSpec rough;
   rough.roughness_mm = 1.5;
   const double k = 335, cosine = 0.4;
-  const SurfaceFields fields = Surface(rough, k).at(cosine);
-  EXPECT_FALSE(Surface(rough, k).is_pec());
-  EXPECT_NEAR(fields.te.real(), -std::exp(-2 * std::pow(k * 1.5e-3 * cosine, 2)), kRounding);
-  EXPECT_NEAR(fields.tm.real(), +std::exp(-2 * std::pow(k * 1.5e-3 * cosine, 2)), kRounding);
+  const Surface surface(rough, k);
+  EXPECT_NEAR(surface.coherence(cosine, cosine), std::exp(-2 * std::pow(k * 1.5e-3 * cosine, 2)), kRounding);
+  EXPECT_NEAR(surface.coherence(1, -1), 1, kRounding);  // straight on, heights do not matter
 }
 
 TEST(Material, DispersionIsADebyeSumOrATable) {
