@@ -6,8 +6,8 @@
 #include <memory>
 
 #include "radar/waveform/pulse_train.h"
-#include "sim/geometry/mesh_io.h"
 #include "tools/command.h"
+#include "tools/scene.h"
 
 namespace seaglint {
 
@@ -15,9 +15,7 @@ namespace {
 
 // Reads every file the scenario names.
 void check_files(const Scenario& scenario) {
-  for (const TargetSpec& target : scenario.targets) {
-    if (!target.mesh.empty()) read_mesh(find_mesh(scenario, target), target.unit);
-  }
+  load_targets(scenario);
 }
 
 std::string summary(const Scenario& scenario) {

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -14,6 +15,7 @@
 #include "sim/core/number.h"
 #include "sim/core/progress.h"
 #include "sim/geometry/mesh_io.h"
+#include "sim/scattering/material_parts.h"
 #include "sim/scattering/respond.h"
 #include "tools/command.h"
 #include "tools/rcs_comparison.h"
@@ -28,6 +30,7 @@ struct RcsArguments {
   double ray_spacing_m = 0;
   int max_bounces = 8;
   ReferenceArguments reference;
+  std::vector<std::string> materials;  // NAME or PART=NAME
 };
 
 std::vector<double> range(const std::string& option, const std::string& text, double lower, double upper) {
@@ -44,16 +47,38 @@ std::vector<double> range(const std::string& option, const std::string& text, do
   return values;
 }
 
+// Gives the mesh its materials; the specifications in the order of mesh.materials.
+std::vector<MaterialSpec> choose_materials(const std::vector<std::string>& chosen, TriangleMesh& mesh) {
+  MaterialSpec all;
+  std::vector<PartMaterial> parts;
+  for (const std::string& text : chosen) {
+    const std::size_t equals = text.find('=');
+    const std::string name = equals == std::string::npos ? text : text.substr(equals + 1);
+    const MaterialSpec material = find_material(name, "", "--material " + text);
+    if (equals == std::string::npos) {
+      all = material;
+    } else {
+      parts.push_back({text.substr(0, equals), material});
+    }
+  }
+  try {
+    return assign_materials(mesh, all, parts);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("--material: {}", error.what()));
+  }
+}
+
 double dbsm(const Complex& s) { return 10 * std::log10(std::max(4 * kPi * std::norm(s), 1e-30)); }
 
 std::string table_text(const RcsArguments& arguments, const Scatterer& scatterer, const RcsSweep& sweep) {
   std::string csv = fmt::format(
-      "# seaglint {} rcs\n# target {} unit {}: {} facets, radius {:.6g} m\n# physical optics at every visible bounce, "
+      "# seaglint {} rcs\n# target {} unit {}: {} facets, radius {:.6g} m\n# material {}\n# physical optics at every visible bounce, "
       "max_bounces {}, edges off, "
       "ray_spacing_m {:.6g}\n# amplitudes in metres, e^{{+jwt}}, phase origin at the body's origin, S_pq: q "
       "transmitted, p received; basis of CONVENTIONS.md\n"
       "frequency_hz,azimuth_deg,elevation_deg,hh_re,hh_im,hv_re,hv_im,vh_re,vh_im,vv_re,vv_im,hh_dbsm,vv_dbsm\n",
-      kVersion, arguments.target, arguments.unit, scatterer.facets().size(), scatterer.radius(), arguments.max_bounces,
+      kVersion, arguments.target, arguments.unit, scatterer.facets().size(), scatterer.radius(),
+      arguments.materials.empty() ? "pec" : fmt::format("{}", fmt::join(arguments.materials, " ")), arguments.max_bounces,
       arguments.ray_spacing_m > 0 ? arguments.ray_spacing_m : default_ray_spacing(scatterer));
   for (std::size_t q = 0; q < sweep.frequency_hz.size(); ++q) {
     for (std::size_t view = 0; view < sweep.views(); ++view) {
@@ -123,8 +148,11 @@ void run_rcs(const RcsArguments& arguments, const Shell& shell) {
   const std::vector<RcsReference> references = arguments.reference.read();
   for (const RcsReference& reference : references) pair_with(sweep, reference);
 
-  const TriangleMesh mesh = read_mesh(arguments.target, arguments.unit);
-  const Scatterer scatterer(mesh);
+  TriangleMesh mesh = read_mesh(arguments.target, arguments.unit);
+  const std::vector<MaterialSpec> materials = choose_materials(arguments.materials, mesh);
+  const auto [lowest, highest] = std::minmax_element(sweep.frequency_hz.begin(), sweep.frequency_hz.end());
+  check_frequencies(materials, *lowest, *highest);
+  const Scatterer scatterer(mesh, materials);
   const auto start = std::chrono::steady_clock::now();
   const std::size_t rays = trace_views(arguments, scatterer, shell, sweep);
   const double seconds = std::max(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 1e-9);
@@ -156,6 +184,11 @@ void add_rcs(CLI::App& app, Shell& shell) {
       ->add_option("--ray-spacing-m", arguments->ray_spacing_m,
                    "Spacing of the rays that look for facets; 0 = 0.1 or radius / 25, the smaller")
       ->check(CLI::Range(0.0, 1e6));
+  command
+      ->add_option("--material", arguments->materials,
+                   "What the target is made of: pec, a name of assets/materials or a file; PART=NAME for one part, PART* for all that begin so (repeatable)")
+      ->type_name("[PART=]NAME")
+      ->allow_extra_args(false);
   command->add_option("-o,--output", arguments->output, "CSV file to write")->required();
   arguments->reference.add_to(*command);
   add_threads_option(*command, shell);

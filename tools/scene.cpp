@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/scene.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "sim/core/error.h"
 #include "sim/geometry/mesh_io.h"
 #include "sim/motion/simulate.h"
 #include "sim/motion/target_motion.h"
+#include "sim/scattering/material_parts.h"
 
 namespace seaglint {
 
@@ -26,6 +30,28 @@ double reach_m(const Target& target, double interval_s) {
   return reach;
 }
 
+// What the target is made of, known at all frequencies of the radar.
+std::vector<MaterialSpec> load_materials(const Scenario& scenario, const TargetSpec& spec, TriangleMesh& mesh) {
+  const std::string path = "targets." + spec.name;
+  std::vector<PartMaterial> parts;
+  for (std::size_t i = 0; i < spec.part_materials.size(); ++i) {
+    const std::string where = fmt::format("{}.part_materials.{}.material", path, i);
+    parts.push_back({spec.part_materials[i].part, find_material(spec.part_materials[i].material, scenario.folder, where)});
+  }
+  const MaterialSpec all = find_material(spec.material, scenario.folder, path + ".material");
+  std::vector<MaterialSpec> materials;
+  try {
+    materials = assign_materials(mesh, all, parts);
+    const RadarSpec& radar = scenario.radar;
+    const double lowest_hz = 1e9 * radar.carrier_ghz - 0.5e6 * radar.bandwidth_mhz;
+    const double highest_hz = lowest_hz + 1e6 * (radar.bandwidth_mhz + (radar.hop_count - 1) * radar.hop_step_mhz);
+    check_frequencies(materials, lowest_hz, highest_hz);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", path, error.what()));
+  }
+  return materials;
+}
+
 }  // namespace
 
 std::vector<Target> load_targets(const Scenario& scenario) {
@@ -37,6 +63,7 @@ std::vector<Target> load_targets(const Scenario& scenario) {
     target.first_body = bodies;
     if (!spec.mesh.empty()) {
       target.mesh = read_mesh(find_mesh(scenario, spec), spec.unit);
+      target.materials = load_materials(scenario, spec, target.mesh);
       for (const Vec2& place : layout_places(spec)) {
         target.rest_positions.push_back(rest_position(spec.motion, place.x(), place.y()));
       }

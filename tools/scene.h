@@ -11,6 +11,7 @@
 #include "classify/dataset/plan.h"
 #include "sim/geometry/triangle_mesh.h"
 #include "sim/motion/trajectory.h"
+#include "sim/scenario/material_spec.h"
 #include "sim/scenario/scenario.h"
 #include "sim/sea/wave_field.h"
 
@@ -20,11 +21,12 @@ namespace seaglint {
 struct Target {
   TargetSpec spec;
   TriangleMesh mesh;                 // empty for points
+  std::vector<MaterialSpec> materials;  // of mesh.materials
   std::vector<Vec3> rest_positions;  // of the bodies' origins, target frame; empty for points
   std::size_t first_body = 0;        // bodies are counted over all targets, in order
 };
 
-// Throws InputError for a mesh that is missing or unsound.
+// Throws InputError for a mesh that is missing or unsound, and for a material that is missing, unsound or not known at the radar's frequencies.
 std::vector<Target> load_targets(const Scenario& scenario);
 
 // Full width of the range window that holds the response of every target of the scenario, wherever it is seen from. It

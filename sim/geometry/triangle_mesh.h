@@ -14,7 +14,7 @@
 namespace seaglint {
 
 struct Material {
-  std::string name = "pec";  // perfect electric conductor, the only kind the solver knows so far
+  std::string name = "pec";  // perfect electric conductor; what other names mean is said by material files
 };
 
 // Lengths in metres, body frame (CONVENTIONS.md): x forward, y to port, z up. Triangles are counter-clockwise seen from

@@ -123,6 +123,13 @@ void visit(PointSpec& spec, FieldVisitor& v) {
   v.triple("velocity_mps", spec.velocity_mps, within(-10000, 10000));
 }
 
+void visit(PartMaterialSpec& spec, FieldVisitor& v) {
+  v.require("part");
+  v.text("part", spec.part);
+  v.require("material");
+  v.text("material", spec.material);
+}
+
 // A mesh with its motion, or ideal points; what belongs to a mesh is not written beside points.
 void visit(TargetSpec& spec, FieldVisitor& v) {
   const auto label = [&] {
@@ -140,6 +147,13 @@ void visit(TargetSpec& spec, FieldVisitor& v) {
   if (v.optional("mesh", !spec.mesh.empty())) v.text("mesh", spec.mesh);
   const bool is_mesh = spec.points.empty();
   if (v.optional("unit", is_mesh)) visit_word(v, "unit", spec.unit, {"m", "cm", "mm", "km", "in", "ft"});
+  if (v.optional("material", is_mesh)) v.text("material", spec.material);
+  if (v.optional("part_materials", !spec.part_materials.empty())) {
+    v.list(
+        "part_materials", spec.part_materials.size(), 1000,
+        [&](std::size_t size) { spec.part_materials.resize(size); },
+        [&](std::size_t i, FieldVisitor& item) { visit(spec.part_materials[i], item); });
+  }
   if (v.optional("layout", spec.line.has_value())) {
     if (!spec.line) spec.line.emplace();
     v.section("layout", [&](FieldVisitor& layout) {

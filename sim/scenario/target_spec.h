@@ -55,11 +55,19 @@ struct SolverSpec {
   double max_turn_deg = 0;   // (auto) turn of the body served by one trace, 0 or 0.001 <= x <= 5
 };
 
+// A part of the mesh that is made of something else than the rest.
+struct PartMaterialSpec {
+  std::string part;      // its name; with a * at the end, all parts whose names begin so
+  std::string material;  // as TargetSpec::material
+};
+
 struct TargetSpec {
   std::string name;
   int label = 0;                    // 1 = ship, 0 = corner-reflector array
   std::string mesh;                 // path relative to the scenario's folder or the working directory; empty for points
   std::string unit = "m";           // of the mesh file: m, cm, mm, km, in, ft
+  std::string material = "pec";     // pec, a name of assets/materials, or a file
+  std::vector<PartMaterialSpec> part_materials;  // later ones win
   std::optional<LineLayout> line;   // along x of the target frame, centred
   MotionSpec motion;
   SolverSpec solver;

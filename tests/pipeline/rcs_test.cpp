@@ -189,5 +189,31 @@ TEST_F(RcsCommand, RefusesEdgesAndRangesThatCannotBe) {
   refused({"--frequency-ghz", "10"}, "--azimuth-deg is required");
 }
 
+TEST_F(RcsCommand, ACoatedPlateDropsByItsMaterial) {
+  // Aluminium's surface resistance is 1e-4 of free space's: nothing is lost. The coating's |Gamma| is that of its quarter-wave layer, about -11 dB at 16 GHz.
+  const std::string library = SEAGLINT_SOURCE_DIR "/assets/materials/";
+  const auto square = [&](const std::string& material) {
+    const ProgramResult done = rcs({"--frequency-ghz", "16", "--azimuth-deg", "0", "--material", material});
+    EXPECT_EQ(done.code, 0) << done.err;
+    return read_table(table()).rows.at(0).at(12);
+  };
+  const double metal = square("pec");
+  EXPECT_NEAR(square(library + "aluminium.yaml"), metal, 0.01);
+  EXPECT_NEAR(square(library + "ram_loaded_epoxy.yaml"), metal - 11.1, 0.5);
+  EXPECT_NEAR(square("*=" + library + "ram_loaded_epoxy.yaml"), metal - 11.1, 0.5);
+}
+
+TEST_F(RcsCommand, RefusesMaterialsThatAreNotKnownThere) {
+  const std::string library = SEAGLINT_SOURCE_DIR "/assets/materials/";
+  const auto refused = [&](const std::string& ghz, const std::string& material) {
+    const ProgramResult done = rcs({"--frequency-ghz", ghz, "--azimuth-deg", "0", "--material", material});
+    EXPECT_EQ(done.code, 2);
+    return done.err;
+  };
+  EXPECT_THAT(refused("16", "unobtainium"), HasSubstr("--material unobtainium: value 'unobtainium': no such material"));
+  EXPECT_THAT(refused("16", "mast=pec"), HasSubstr("part 'mast': the mesh has no such part"));
+  EXPECT_THAT(refused("36", library + "grp_sheet.yaml"), HasSubstr("its source covers 1 to 20 GHz"));
+}
+
 }  // namespace
 }  // namespace seaglint

@@ -346,5 +346,16 @@ TEST(Overrides, AreCheckedLikeTheFile) {
   EXPECT_EQ(complaint("targets.boat.label", "1"), "--set targets.boat.label: targets.boat: must have a mesh or points");
 }
 
+TEST(Reading, MaterialsOfATargetAndItsPartsComeBackFromTheEffectiveForm) {
+  const Scenario scenario = parse(
+      "seaglint: 1\ntargets:\n  a: {label: 1, mesh: a.glb, material: aluminium, part_materials: [{part: mast*, material: m.yaml}]}\n");
+  ASSERT_EQ(scenario.targets[0].part_materials.size(), 1u);
+  EXPECT_EQ(scenario.targets[0].material, "aluminium");
+  EXPECT_EQ(scenario.targets[0].part_materials[0].part, "mast*");
+  const Scenario again = parse(effective_yaml(scenario));
+  EXPECT_EQ(again.targets[0].part_materials[0].material, "m.yaml");
+  EXPECT_EQ(parse(kShort).targets[0].material, "pec");
+}
+
 }  // namespace
 }  // namespace seaglint
