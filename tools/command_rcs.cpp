@@ -92,12 +92,12 @@ std::string table_text(const RcsArguments& arguments, const Scatterer& scatterer
   return csv;
 }
 
-// Fills the sweep's models, one view after the other; returns the rays traced.
+// Fills the sweep's models, one view after the other; returns the legs of beams followed.
 std::size_t trace_views(const RcsArguments& arguments, const Scatterer& scatterer, const Shell& shell, RcsSweep& sweep) {
   std::vector<double> wavenumbers;
   for (const double hz : sweep.frequency_hz) wavenumbers.push_back(2 * kPi * hz / kSpeedOfLight);
   sweep.models = {{"po", std::vector<std::vector<std::array<Complex, 4>>>(sweep.views())}};
-  std::size_t rays = 0;
+  std::size_t legs = 0;
   Progress progress("rcs", sweep.views(), "views");
   for (std::size_t view = 0; view < sweep.views(); ++view) {
     const double az = radians(sweep.azimuth_deg[view % sweep.azimuth_deg.size()]),
@@ -106,13 +106,13 @@ std::size_t trace_views(const RcsArguments& arguments, const Scatterer& scattere
     try {
       sweep.models[0].matrices[view] =
           scattering_matrices(scatterer, monostatic(basis), wavenumbers, {arguments.ray_spacing_m, arguments.max_bounces},
-                              thread_count(shell.threads), &rays, &shell.stop);
+                              thread_count(shell.threads), &legs, &shell.stop);
     } catch (const Interrupted&) {
       throw WorkError(fmt::format("interrupted after {} of {} views; {} is not written", view, sweep.views(), arguments.output));
     }
     progress.advance();
   }
-  return rays;
+  return legs;
 }
 
 void compare(const RcsArguments& arguments, const std::vector<RcsReference>& references, const RcsSweep& sweep) {
@@ -154,13 +154,13 @@ void run_rcs(const RcsArguments& arguments, const Shell& shell) {
   check_frequencies(materials, *lowest, *highest);
   const Scatterer scatterer(mesh, materials);
   const auto start = std::chrono::steady_clock::now();
-  const std::size_t rays = trace_views(arguments, scatterer, shell, sweep);
+  const std::size_t legs = trace_views(arguments, scatterer, shell, sweep);
   const double seconds = std::max(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 1e-9);
 
   write_file(arguments.output, table_text(arguments, scatterer, sweep));
-  const double million_rays = 1e-6 * static_cast<double>(rays), views = static_cast<double>(sweep.views());
-  fmt::print(stderr, "{}: {} rows, {} views in {:.2f} s ({:.3g} views/s, {:.2f} M rays, {:.2f} M rays/s)\n", arguments.output, rows, sweep.views(),
-             seconds, views / seconds, million_rays, million_rays / seconds);
+  const double million_legs = 1e-6 * static_cast<double>(legs), views = static_cast<double>(sweep.views());
+  fmt::print(stderr, "{}: {} rows, {} views in {:.2f} s ({:.3g} views/s, {:.2f} M beam legs, {:.2f} M/s)\n", arguments.output, rows, sweep.views(),
+             seconds, views / seconds, million_legs, million_legs / seconds);
   if (!references.empty()) compare(arguments, references, sweep);
 }
 
@@ -182,7 +182,7 @@ void add_rcs(CLI::App& app, Shell& shell) {
   command->add_option("--max-bounces", arguments->max_bounces, "Reflections followed")->check(CLI::Range(1, 64));
   command
       ->add_option("--ray-spacing-m", arguments->ray_spacing_m,
-                   "Spacing of the rays that look for facets; 0 = 0.1 or radius / 25, the smaller")
+                   "Detail followed, as the spacing of rays that would find it: pieces below a fourteenth are left out; 0 = 0.0014 radius, the coarsest")
       ->check(CLI::Range(0.0, 1e6));
   command
       ->add_option("--material", arguments->materials,

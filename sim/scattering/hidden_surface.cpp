@@ -3,64 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sim/core/parallel.h"
 
 namespace seaglint {
-namespace {
-
-// Facet images sorted into the cells of a grid, to find what may overlap what.
-class CellIndex {
- public:
-  explicit CellIndex(std::span<const FacetImage> images) {
-    Box all = images.empty() ? Box{} : images[0].box;
-    for (const FacetImage& image : images) {
-      all.lower = all.lower.cwiseMin(image.box.lower);
-      all.upper = all.upper.cwiseMax(image.box.upper);
-    }
-    lower_ = all.lower;
-    // About two images per cell if they were evenly spread; long facets fill many cells, which a smaller cell would only worsen.
-    const Vec2 extent = (all.upper - all.lower).cwiseMax(1e-12);
-    const double cells = std::max<double>(1, 0.5 * static_cast<double>(images.size()));
-    size_ = std::max(std::sqrt(extent.prod() / cells), extent.maxCoeff() / 4096);
-    columns_ = static_cast<int>(extent.x() / size_) + 1;
-    rows_ = static_cast<int>(extent.y() / size_) + 1;
-    cells_.resize(static_cast<std::size_t>(columns_) * rows_);
-    for (std::size_t i = 0; i < images.size(); ++i) {
-      visit(images[i].box, [&](std::vector<int>& cell) { cell.push_back(static_cast<int>(i)); });
-    }
-  }
-
-  // Images whose cells the box touches, ascending, each once.
-  std::vector<int> near(const Box& box) {
-    std::vector<int> found;
-    visit(box, [&](const std::vector<int>& cell) { found.insert(found.end(), cell.begin(), cell.end()); });
-    std::sort(found.begin(), found.end());
-    found.erase(std::unique(found.begin(), found.end()), found.end());
-    return found;
-  }
-
- private:
-  template <typename Action>
-  void visit(const Box& box, const Action& action) {
-    const auto index = [this](double x, double from, int count) {
-      return std::clamp(static_cast<int>((x - from) / size_), 0, count - 1);
-    };
-    for (int row = index(box.lower.y(), lower_.y(), rows_); row <= index(box.upper.y(), lower_.y(), rows_); ++row) {
-      for (int column = index(box.lower.x(), lower_.x(), columns_); column <= index(box.upper.x(), lower_.x(), columns_); ++column) {
-        action(cells_[static_cast<std::size_t>(row) * columns_ + column]);
-      }
-    }
-  }
-
-  Vec2 lower_ = Vec2::Zero();
-  double size_ = 1;
-  int columns_ = 1, rows_ = 1;
-  std::vector<std::vector<int>> cells_;
-};
-
-}  // namespace
-
 std::optional<FacetImage> facet_image(std::span<const Facet> facets, int facet, const Mirror& mirrors, const RadarBasis& basis,
                                       double min_area) {
   const Facet& f = facets[facet];
@@ -77,8 +24,18 @@ std::optional<FacetImage> facet_image(std::span<const Facet> facets, int facet, 
   }
   result.polygon = counter_clockwise(std::move(result.polygon));
   if (signed_area(result.polygon) < min_area) return {};
-  result.box = box_of(result.polygon);
+  set_extent(result);
   return result;
+}
+
+void set_extent(FacetImage& image) {
+  image.box = box_of(image.polygon);
+  image.nearest = image.farthest = image.plane.at(image.polygon[0].p);
+  for (const Corner& corner : image.polygon) {
+    const double z = image.plane.at(corner.p);
+    image.nearest = std::max(image.nearest, z);
+    image.farthest = std::min(image.farthest, z);
+  }
 }
 
 MovingLine depth_between(const ImagePlane& a, const ImagePlane& b) {
@@ -104,57 +61,60 @@ MovingPolygon nearer_part(const FacetImage& b, const FacetImage& a) {
   return lowest >= 0 ? b.polygon : clip(b.polygon, above, +1);
 }
 
-bool cut(std::vector<MovingPolygon>& pieces, const MovingPolygon& hole, double min_area) {
-  const Box box = box_of(hole);
-  const auto touched = [&](const MovingPolygon& piece) {
-    return overlap(box_of(piece), box) && !apart(piece, hole) && signed_area(intersect(piece, hole)) > min_area;
-  };
-  const auto first = std::find_if(pieces.begin(), pieces.end(), touched);
-  if (first == pieces.end()) return false;
-  std::vector<MovingPolygon> rest(std::make_move_iterator(pieces.begin()), std::make_move_iterator(first));
-  for (auto piece = first; piece != pieces.end(); ++piece) {
-    if (piece == first || touched(*piece)) {
-      subtract(*piece, hole, min_area, rest);
-    } else {
-      rest.push_back(std::move(*piece));
-    }
+bool cut(std::vector<MovingPolygon>& pieces, const MovingPolygon& hole, const Box& box, double min_area) {
+  std::vector<MovingPolygon> left;  // of the pieces that were cut
+  std::size_t whole = 0;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    if (overlap(box_of(pieces[i]), box) && subtract_common(pieces[i], hole, min_area, left)) continue;
+    if (whole < i) pieces[whole] = std::move(pieces[i]);
+    ++whole;
   }
-  pieces = std::move(rest);
+  if (whole == pieces.size()) return false;
+  pieces.resize(whole);
+  pieces.insert(pieces.end(), left.begin(), left.end());
   return true;
 }
 
-std::vector<MovingPolygon> inside(const FacetImage& image, std::span<const MovingPolygon> window, double min_area) {
-  std::vector<MovingPolygon> pieces;
-  for (const MovingPolygon& piece : window) {
-    if (!overlap(box_of(piece), image.box) || apart(piece, image.polygon)) continue;
-    MovingPolygon common = intersect(piece, image.polygon);
-    if (signed_area(common) > min_area) pieces.push_back(std::move(common));
-  }
-  return pieces;
+bool hide(const FacetImage& behind, const FacetImage& front, double min_area, std::vector<MovingPolygon>& pieces) {
+  if (front.nearest < behind.farthest - kCoincident || !overlap(front.box, behind.box)) return false;
+  if (front.farthest > behind.nearest + kCoincident) return cut(pieces, front.polygon, front.box, min_area);
+  if (std::none_of(pieces.begin(), pieces.end(), [&](const MovingPolygon& piece) { return !apart(piece, front.polygon); })) return false;
+  const MovingPolygon hole = nearer_part(front, behind);
+  return !hole.empty() && cut(pieces, hole, box_of(hole), min_area);
 }
 
-VisibleSurface::VisibleSurface(std::span<const Facet> facets, const RadarBasis& basis, double min_area, int threads)
+VisibleSurface::VisibleSurface(std::span<const Facet> facets, const FacetTree& tree, const RadarBasis& basis, double min_area, int threads)
     : facets_(facets), basis_(basis), min_area_(min_area), pieces_(facets.size()), boxes_(facets.size()) {
   // The far side of a closed part is hidden by its near side: only what faces the radar, and open sheets, can be seen or hide anything.
   std::vector<FacetImage> images;
+  std::vector<int> image_of(facets.size(), -1);
   for (int f = 0; f < static_cast<int>(facets.size()); ++f) {
     if (!facets[f].open && facets[f].normal.dot(basis.r) <= 0) continue;
-    if (auto image = facet_image(facets, f, Mirror{}, basis, min_area)) images.push_back(std::move(*image));
+    if (auto image = facet_image(facets, f, Mirror{}, basis, min_area)) {
+      image_of[f] = static_cast<int>(images.size());
+      images.push_back(std::move(*image));
+    }
   }
-  CellIndex index(images);
   constexpr std::size_t kImagesPerChunk = 64;
   parallel_for((images.size() + kImagesPerChunk - 1) / kImagesPerChunk, threads, [&](std::size_t chunk) {
+    std::vector<MovingPolygon> seen;
     for (std::size_t i = chunk * kImagesPerChunk; i < std::min(images.size(), (chunk + 1) * kImagesPerChunk); ++i) {
       const FacetImage& image = images[i];
-      std::vector<MovingPolygon> seen{image.polygon};
-      for (const int other : index.near(image.box)) {
-        if (static_cast<std::size_t>(other) == i || !overlap(images[other].box, image.box)) continue;
-        const MovingPolygon hole = nearer_part(images[other], image);
-        if (!hole.empty()) cut(seen, hole, min_area);
-        if (seen.empty()) break;
-      }
+      const Facet& facet = facets[image.facet];
+      const Vec3 towards = facet.normal.dot(basis.r) > 0 ? facet.normal : Vec3(-facet.normal);
+      const Prism prism{{basis.h, basis.v},
+                        {image.box.lower.x(), image.box.lower.y()},
+                        {image.box.upper.x(), image.box.upper.y()},
+                        towards,
+                        towards.dot(facet.corner[0]),
+                        basis.r};
+      seen.assign(1, image.polygon);
+      tree.walk(prism, [&](int other) {
+        if (other != image.facet && image_of[other] >= 0) hide(image, images[image_of[other]], min_area, seen);
+        return seen.empty() ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
+      });
       for (const MovingPolygon& piece : seen) boxes_[image.facet].push_back(box_of(piece));
-      pieces_[image.facet] = std::move(seen);
+      pieces_[image.facet].assign(seen.begin(), seen.end());
     }
   });
 }
@@ -189,7 +149,6 @@ void VisibleSurface::seen_through(int facet, const Mirror& mirrors, const ImageP
                        Vec2(x2.dot(transmit.h), x2.dot(transmit.v) - height)});
     }
     if (signed_area(image) < 0) std::reverse(image.begin(), image.end());
-    if (apart(lit, image)) continue;
     MovingPolygon both = intersect(lit, image);
     if (signed_area(both) > min_area_) seen.push_back(std::move(both));
   }

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "sim/scattering/facet_tree.h"
 #include "sim/scattering/facets.h"
 #include "sim/scattering/footprint.h"
 
@@ -21,11 +22,15 @@ struct FacetImage {
   ImagePlane plane;
   MovingPolygon polygon;  // of the projected facet
   Box box;
+  double nearest = 0, farthest = 0;  // heights towards the radar of the polygon's corners, m
 };
 
 // Nothing when the facet is edge-on to the ray or its image is smaller than min_area.
 std::optional<FacetImage> facet_image(std::span<const Facet> facets, int facet, const Mirror& mirrors, const RadarBasis& basis,
                                       double min_area);
+
+// Fills box and heights from polygon and plane.
+void set_extent(FacetImage& image);
 
 // Height of plane b above plane a as a moving line: positive where b is nearer to the radar along the unfolded ray.
 MovingLine depth_between(const ImagePlane& a, const ImagePlane& b);
@@ -33,16 +38,16 @@ MovingLine depth_between(const ImagePlane& a, const ImagePlane& b);
 // The part of b that lies nearer to the radar than plane a. Facets that coincide are ordered by number, the lower one in front.
 MovingPolygon nearer_part(const FacetImage& b, const FacetImage& a);
 
-// Takes the hole out of every piece; pieces it does not touch stay as they are. True when any piece was cut.
-bool cut(std::vector<MovingPolygon>& pieces, const MovingPolygon& hole, double min_area);
+// Takes the hole, whose box is given, out of every piece; pieces it does not touch stay as they are. True when any piece was cut.
+bool cut(std::vector<MovingPolygon>& pieces, const MovingPolygon& hole, const Box& box, double min_area);
 
-// Pieces of the polygon in the window.
-std::vector<MovingPolygon> inside(const FacetImage& image, std::span<const MovingPolygon> window, double min_area);
+// Takes every part of the image out of the pieces of `behind` that lies nearer to the radar. True when any was cut.
+bool hide(const FacetImage& behind, const FacetImage& front, double min_area, std::vector<MovingPolygon>& pieces);
 
 // What the radar sees of every facet: convex pieces without overlap, exact for the flat facets given.
 class VisibleSurface {
  public:
-  VisibleSurface(std::span<const Facet> facets, const RadarBasis& basis, double min_area, int threads);
+  VisibleSurface(std::span<const Facet> facets, const FacetTree& tree, const RadarBasis& basis, double min_area, int threads);
 
   // Pieces of one facet in the radar's aperture; empty when it is hidden or faces away (a facet of an open sheet shows either side).
   std::span<const MovingPolygon> pieces(int facet) const { return pieces_[facet]; }

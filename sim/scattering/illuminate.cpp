@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sim/core/error.h"
 #include "sim/scattering/reflect.h"
@@ -26,18 +27,20 @@ struct Leg {
 
 // A facet that a leg may light, and what of it is lit as far as is known.
 struct Candidate {
-  FacetImage image;
+  FacetImage image;  // its polygon clipped to what lies beyond the last mirror
   std::vector<MovingPolygon> lit;
-  bool asked = false;     // every piece has been confirmed by a ray since it was last cut
-  bool extended = false;  // its neighbours have been added
+  double nearest = 0, farthest = 0;  // heights of the lit pieces before anything was hidden, m
 };
+
+// Cosine below which a facet is edge-on to the receiver.
+constexpr double kEdgeOn = 1e-9;
 
 class BeamTracer {
  public:
   BeamTracer(const Scatterer& scatterer, const AntennaPair& antennas, const IlluminationSettings& settings, const VisibleSurface& lit,
              const VisibleSurface& visible, std::span<const std::vector<Surface>> surfaces, double min_area, std::vector<Footprint>& out)
       : facets_(scatterer.facets()),
-        scene_(scatterer.rays()),
+        tree_(scatterer.tree()),
         antennas_(antennas),
         basis_(antennas.transmit),
         lit_(lit),
@@ -45,12 +48,10 @@ class BeamTracer {
         surfaces_(surfaces),
         out_(out),
         max_bounces_(settings.max_bounces),
-        spacing_(settings.ray_spacing_m > 0 ? settings.ray_spacing_m : default_ray_spacing(scatterer)),
-        // Single-precision coordinates are off by 6e-8 of their size; leave five times that between a facet and a ray that starts on it.
-        lift_(3e-7 * scatterer.radius()),
-        min_area_(min_area) {}
+        min_area_(min_area),
+        scratch_(static_cast<std::size_t>(settings.max_bounces) + 1) {}
 
-  std::size_t rays_traced() const { return rays_traced_; }
+  std::size_t legs() const { return legs_; }
 
   void light(int facet) {
     if (is_under_water(facet)) return;
@@ -63,144 +64,176 @@ class BeamTracer {
     candidate.image.plane = image_plane(facets_[facet].normal, facets_[facet].offset, basis_);
     candidate.lit.assign(lit_.pieces(facet).begin(), lit_.pieces(facet).end());
     // What the transmitter lights at first, a receiver at the same place sees.
-    radiate(first, candidate, antennas_.monostatic ? candidate.lit : seen_part(first, candidate));
+    std::vector<MovingPolygon> seen;
+    if (!antennas_.monostatic) seen_part(first, candidate, seen);
+    radiate(first, candidate, antennas_.monostatic ? candidate.lit : seen);
     if (max_bounces_ > 1) follow(reflected(first, candidate), candidate.lit);
   }
 
  private:
-  Vec3 aperture_point(const Vec2& p, double z) const { return p.x() * basis_.h + p.y() * basis_.v + z * basis_.r; }
-
-  Ray ray_at(const Leg& leg, const Vec2& p) const {
-    const Vec3 start = leg.mirrors.real(aperture_point(p, leg.from_plane.at(p)));
-    return {start + lift_ * leg.from_normal, leg.direction};
-  }
-
-  // Points that sample a piece of the aperture: a lattice common to all pieces, the centroid, and one point just inside each corner, where what a
-  // beam lights only in part begins.
-  void sample(const MovingPolygon& piece, std::vector<Vec2>& points) const {
-    const Vec2 c = centroid(piece);
-    points.push_back(c);
-    for (const Corner& corner : piece) points.push_back(corner.p + 0.02 * (c - corner.p));
-    const Box box = box_of(piece);
-    const auto first = [this](double x) { return std::ceil(x / spacing_) * spacing_; };
-    for (double y = first(box.lower.y()); y <= box.upper.y(); y += spacing_) {
-      for (double x = first(box.lower.x()); x <= box.upper.x(); x += spacing_) {
-        const Vec2 p(x, y);
-        const auto right_of = [&](std::size_t i) {
-          const Vec2 a = piece[i].p, along = piece[(i + 1) % piece.size()].p - a;
-          return along.x() * (y - a.y()) - along.y() * (x - a.x()) < 0;
-        };
-        bool within = true;
-        for (std::size_t i = 0; within && i < piece.size(); ++i) within = !right_of(i);
-        if (within) points.push_back(p);
-      }
-    }
-  }
-
-  // The facets that a leg may light inside its window, resolved against each other as they come.
-  class Candidates {
-   public:
-    Candidates(const BeamTracer& tracer, const Leg& leg, std::span<const MovingPolygon> window)
-        : tracer_(tracer), leg_(leg), window_(window) {
-      met_.push_back(kNoFacet);
-      met_.push_back(leg.from_facet);
-    }
-
-    std::vector<Candidate>& all() { return all_; }
-
-    void add(int facet) {
-      // A beam meets a few tens of facets: looking through them is faster than hashing.
-      if (std::find(met_.begin(), met_.end(), facet) != met_.end()) return;
-      met_.push_back(facet);
-      // The lit side of a closed part faces the beam.
-      const Facet& f = tracer_.facets_[facet];
-      if (!f.open && f.normal.dot(leg_.direction) >= 0) return;
-      auto image = facet_image(tracer_.facets_, facet, leg_.mirrors, tracer_.basis_, tracer_.min_area_);
-      if (!image) return;
-      const MovingLine beyond = depth_between(image->plane, leg_.from_plane);
-      double farthest = 0;
-      for (const Corner& corner : image->polygon) farthest = std::max(farthest, beyond.at(corner.p));
-      if (farthest < kCoincident) return;  // it lies in the mirror or behind it
-      image->polygon = clip(image->polygon, beyond, +1);
-      if (image->polygon.empty() || signed_area(image->polygon) < tracer_.min_area_) return;
-      image->box = box_of(image->polygon);
-
-      Candidate fresh;
-      fresh.image = std::move(*image);
-      fresh.lit = inside(fresh.image, window_, tracer_.min_area_);
-      if (fresh.lit.empty()) return;
-      for (Candidate& other : all_) {
-        if (!overlap(other.image.box, fresh.image.box)) continue;
-        if (!fresh.lit.empty()) {
-          const MovingPolygon hole = nearer_part(other.image, fresh.image);
-          if (!hole.empty()) cut(fresh.lit, hole, tracer_.min_area_);
-        }
-        if (!other.lit.empty()) {
-          const MovingPolygon hole = nearer_part(fresh.image, other.image);
-          if (!hole.empty() && cut(other.lit, hole, tracer_.min_area_)) other.asked = false;
-        }
-      }
-      all_.push_back(std::move(fresh));
-    }
-
-   private:
-    const BeamTracer& tracer_;
-    const Leg& leg_;
-    std::span<const MovingPolygon> window_;
-    std::vector<Candidate> all_;
-    std::vector<int> met_;
+  // What every facet that the leg may meet is asked.
+  struct Window {
+    std::span<const MovingPolygon> pieces;
+    std::vector<Box> boxes;  // of the pieces
+    Prism prism;             // around them, on the side of the mirror that the leg leaves
   };
+
+  void set_window(Window& window, const Leg& leg, std::span<const MovingPolygon> pieces) const {
+    window.pieces = pieces;
+    window.boxes.clear();
+    for (const MovingPolygon& piece : pieces) window.boxes.push_back(box_of(piece));
+    Box all = window.boxes.front();
+    for (const Box& box : window.boxes) all = {all.lower.cwiseMin(box.lower), all.upper.cwiseMax(box.upper)};
+    const Vec2 t(leg.mirrors.t.dot(basis_.h), leg.mirrors.t.dot(basis_.v));
+    const Vec2 lower = all.lower - t, upper = all.upper - t;
+    window.prism = {{leg.mirrors.L.transpose() * basis_.h, leg.mirrors.L.transpose() * basis_.v},
+                    {lower.x(), lower.y()},
+                    {upper.x(), upper.y()},
+                    leg.from_normal,
+                    leg.from_normal.dot(facets_[leg.from_facet].corner[0]) + kCoincident,
+                    leg.direction};
+  }
+
+  // How a facet whose box meets a leg's prism stands to the prism itself.
+  struct Meeting {
+    bool may = false;  // they may meet; false for most: they face away, lie behind the mirror or beside the window
+    // Where along the prism nothing more can be lit, since the facet covers all of it.
+    double covered = std::numeric_limits<double>::infinity();
+  };
+
+  Meeting meeting(const Leg& leg, const Prism& prism, const Facet& facet) const {
+    // The lit side of a closed part faces the beam.
+    const double facing = facet.normal.dot(leg.direction);
+    if (!facet.open && facing >= 0) return {};
+    int beyond = 0;
+    for (const Vec3& x : facet.corner) beyond += prism.normal.dot(x) > prism.offset;
+    if (beyond == 0) return {};
+    std::array<Vec2, 3> p;
+    for (int i = 0; i < 3; ++i) p[i] = Vec2(prism.across[0].dot(facet.corner[i]), prism.across[1].dot(facet.corner[i]));
+    const Vec2 middle(0.5 * (prism.lower[0] + prism.upper[0]), 0.5 * (prism.lower[1] + prism.upper[1]));
+    const Vec2 half(0.5 * (prism.upper[0] - prism.lower[0]), 0.5 * (prism.upper[1] - prism.lower[1]));
+    for (int i = 0; i < 2; ++i) {
+      if (std::max({p[0][i], p[1][i], p[2][i]}) <= prism.lower[i] || std::min({p[0][i], p[1][i], p[2][i]}) >= prism.upper[i]) return {};
+    }
+    // The window's box may lie outside an edge of the triangle, or inside all three.
+    const Vec2 ab = p[1] - p[0], ac = p[2] - p[0];
+    const double turn = ab.x() * ac.y() - ab.y() * ac.x() > 0 ? 1 : -1;
+    bool covers = beyond == 3;
+    for (int i = 0; i < 3; ++i) {
+      const Vec2 along = p[(i + 1) % 3] - p[i], to = middle - p[i];
+      const double centre = turn * (along.x() * to.y() - along.y() * to.x());
+      const double reach = std::abs(along.x()) * half.y() + std::abs(along.y()) * half.x();
+      if (centre + reach <= 0) return {};
+      covers &= centre - reach > 0;
+    }
+    Meeting result{true};
+    if (covers && std::abs(facing) > kEdgeOn) {
+      // The farthest point of the facet's plane in the prism: along . x = (offset - across part of normal . x) / (normal . along).
+      const double a = facet.normal.dot(prism.across[0]), b = facet.normal.dot(prism.across[1]);
+      const double centre = (facet.normal.dot(facet.corner[0]) - a * middle.x() - b * middle.y()) / facing;
+      result.covered = centre + (std::abs(a) * half.x() + std::abs(b) * half.y()) / std::abs(facing);
+    }
+    return result;
+  }
+
+  // Memory of one leg, kept for the next of its bounce.
+  struct Scratch {
+    Window window;
+    std::vector<int> found;
+    std::vector<Candidate> met;  // as many as any leg needed so far
+    std::vector<std::uint32_t> order;
+    std::vector<MovingPolygon> seen;
+  };
+
+  // A facet as the leg meets it; false when it misses the window.
+  bool meet(const Leg& leg, const Window& window, int facet, Candidate& candidate) const {
+    auto image = facet_image(facets_, facet, leg.mirrors, basis_, min_area_);
+    if (!image) return false;
+    const MovingLine beyond = depth_between(image->plane, leg.from_plane);
+    double farthest = 0, nearest = 0;
+    for (const Corner& corner : image->polygon) {
+      farthest = std::max(farthest, beyond.at(corner.p));
+      nearest = std::min(nearest, beyond.at(corner.p));
+    }
+    if (farthest < kCoincident) return false;  // it lies in the mirror or behind it
+    if (nearest < 0) {
+      image->polygon = clip(image->polygon, beyond, +1);
+      if (image->polygon.empty() || signed_area(image->polygon) < min_area_) return false;
+      set_extent(*image);
+    }
+    candidate.lit.clear();
+    for (std::size_t i = 0; i < window.pieces.size(); ++i) {
+      if (!overlap(window.boxes[i], image->box)) continue;
+      MovingPolygon common = intersect(window.pieces[i], image->polygon);
+      if (common.empty() || signed_area(common) <= min_area_) continue;
+      for (const Corner& corner : common) {
+        const double z = image->plane.at(corner.p);
+        candidate.nearest = candidate.lit.empty() && &corner == common.begin() ? z : std::max(candidate.nearest, z);
+        candidate.farthest = candidate.lit.empty() && &corner == common.begin() ? z : std::min(candidate.farthest, z);
+      }
+      candidate.lit.push_back(std::move(common));
+    }
+    if (candidate.lit.empty()) return false;
+    candidate.image = std::move(*image);
+    return true;
+  }
 
   // Lights what the leg reaches inside the window (convex pieces of the aperture).
   void follow(const Leg& leg, std::span<const MovingPolygon> window) {
-    // Rays find facets.
-    std::vector<Vec2> points;
-    for (const MovingPolygon& piece : window) sample(piece, points);
-    std::vector<Ray> rays(points.size());
-    std::vector<int> hits(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i) rays[i] = ray_at(leg, points[i]);
-    scene_.first_hits(rays, hits);
-    rays_traced_ += rays.size();
-    Candidates candidates(*this, leg, window);
-    for (const int facet : hits) candidates.add(facet);
+    ++legs_;
+    Scratch& scratch = scratch_[leg.bounce];
+    set_window(scratch.window, leg, window);
+    scratch.found.clear();
+    double covered = std::numeric_limits<double>::infinity();
+    tree_.walk(scratch.window.prism, [&](int facet) {
+      if (facet == leg.from_facet) return covered;
+      const Meeting met = meeting(leg, scratch.window.prism, facets_[facet]);
+      if (met.may) scratch.found.push_back(facet);
+      return covered = std::min(covered, met.covered);
+    });
 
-    // Topology completes them: the neighbours of what is lit are candidates too. A ray through each lit piece confirms it; what it meets instead
-    // joins. This ends because a facet joins once.
-    std::vector<Candidate>& all = candidates.all();
-    for (bool grown = true; grown;) {
-      const std::size_t known = all.size();
-      for (std::size_t i = 0; i < all.size(); ++i) {
-        if (all[i].lit.empty() || all[i].extended) continue;
-        all[i].extended = true;
-        for (const int neighbour : facets_[all[i].image.facet].neighbour) candidates.add(neighbour);
+    std::vector<Candidate>& met = scratch.met;
+    std::vector<std::uint32_t>& order = scratch.order;
+    order.clear();
+    for (const int facet : scratch.found) {
+      if (met.size() == order.size()) met.emplace_back();
+      if (meet(leg, scratch.window, facet, met[order.size()])) order.push_back(static_cast<std::uint32_t>(order.size()));
+    }
+    const std::size_t count = order.size();
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return met[a].nearest != met[b].nearest ? met[a].nearest > met[b].nearest : met[a].image.facet < met[b].image.facet;
+    });
+
+    // From the nearest on, each hides from the others what lies behind it. What is hidden in whole hides nothing that its own hiders do not.
+    for (std::size_t i = 0; i < count; ++i) {
+      Candidate& fresh = met[order[i]];
+      for (std::size_t j = 0; j < i && !fresh.lit.empty(); ++j) {
+        const Candidate& other = met[order[j]];
+        if (!other.lit.empty()) hide(fresh.image, other.image, min_area_, fresh.lit);
       }
-      for (std::size_t i = 0; i < all.size(); ++i) {
-        if (all[i].asked) continue;
-        all[i].asked = true;
-        std::vector<Vec2> centres;  // taken first: pieces may be cut below
-        for (const MovingPolygon& piece : all[i].lit) centres.push_back(centroid(piece));
-        for (const Vec2& p : centres) {
-          ++rays_traced_;
-          candidates.add(scene_.first_hit(ray_at(leg, p)));
-        }
+      if (fresh.lit.empty()) continue;
+      for (std::size_t j = 0; j < i; ++j) {
+        Candidate& other = met[order[j]];
+        if (!other.lit.empty() && fresh.nearest > other.farthest - kCoincident) hide(other.image, fresh.image, min_area_, other.lit);
       }
-      grown = all.size() > known;
     }
 
-    for (const Candidate& candidate : all) {
+    for (const std::uint32_t i : order) {
+      const Candidate& candidate = met[i];
       if (candidate.lit.empty() || is_under_water(candidate.image.facet)) continue;
-      radiate(leg, candidate, seen_part(leg, candidate));
+      scratch.seen.clear();
+      seen_part(leg, candidate, scratch.seen);
+      radiate(leg, candidate, scratch.seen);
       if (leg.bounce < max_bounces_) follow(reflected(leg, candidate), candidate.lit);
     }
   }
 
   // What of the lit pieces the radar sees directly.
-  std::vector<MovingPolygon> seen_part(const Leg& leg, const Candidate& candidate) const {
-    std::vector<MovingPolygon> seen;
+  void seen_part(const Leg& leg, const Candidate& candidate, std::vector<MovingPolygon>& seen) const {
+    if (facing(leg, candidate.image.facet).dot(antennas_.receive.r) <= kEdgeOn) return;  // its lit side faces away
     for (const MovingPolygon& piece : candidate.lit) {
       visible_.seen_through(candidate.image.facet, leg.mirrors, candidate.image.plane, piece, basis_, seen);
     }
-    return seen;
   }
 
   // The facet's unit normal on the side the leg comes from.
@@ -278,7 +311,7 @@ class BeamTracer {
   void radiate(const Leg& leg, const Candidate& candidate, std::span<const MovingPolygon> pieces) {
     const Facet& facet = facets_[candidate.image.facet];
     const Vec3 n = facing(leg, candidate.image.facet);
-    if (pieces.empty() || n.dot(antennas_.receive.r) <= 1e-9) return;  // hidden, or its lit side faces away
+    if (pieces.empty() || n.dot(antennas_.receive.r) <= kEdgeOn) return;
 
     Footprint footprint;
     footprint.plane = candidate.image.plane;
@@ -304,7 +337,7 @@ class BeamTracer {
   }
 
   std::span<const Facet> facets_;
-  const RayScene& scene_;
+  const FacetTree& tree_;
   const AntennaPair& antennas_;
   const RadarBasis& basis_;  // of the aperture: the transmitter's
   const VisibleSurface& lit_;
@@ -312,14 +345,15 @@ class BeamTracer {
   std::span<const std::vector<Surface>> surfaces_;
   std::vector<Footprint>& out_;
   int max_bounces_;
-  double spacing_, lift_, min_area_;
-  std::size_t rays_traced_ = 0;
+  double min_area_;
+  std::vector<Scratch> scratch_;  // by the bounce a leg ends in
+  std::size_t legs_ = 0;
 };
 
 }  // namespace
 
 Scatterer::Scatterer(const TriangleMesh& mesh, std::vector<MaterialSpec> materials)
-    : facets_(make_facets(mesh)), rays_(facets_), materials_(std::move(materials)) {
+    : facets_(make_facets(mesh)), tree_(facets_), rays_(facets_), materials_(std::move(materials)) {
   for (const Facet& facet : facets_) {
     SEAGLINT_CHECK(materials_.empty() || facet.material < materials_.size(),
                    fmt::format("material {} of {}", facet.material, materials_.size()));
@@ -330,16 +364,32 @@ Scatterer::Scatterer(const TriangleMesh& mesh, std::vector<MaterialSpec> materia
   }
 }
 
-double default_ray_spacing(const Scatterer& scatterer) { return std::min(0.1, 0.04 * scatterer.radius()); }
+namespace {
+
+// Side of the smallest lit piece that is followed, in radii: 7 mm on the 144 m ship. What is left out costs -33 dB there, and a third of the time is saved
+// against a fifth of the area (README.md).
+constexpr double kSmallestSide = 1e-4;
+// A lattice of rays finds most pieces whose side is a fourteenth of its spacing, with one more ray inside every corner.
+constexpr double kSpacingPerSide = 14;
+
+double smallest_area(const Scatterer& scatterer, const IlluminationSettings& settings) {
+  const double side = kSmallestSide * scatterer.radius();
+  const double finer = settings.ray_spacing_m > 0 ? std::min(side, settings.ray_spacing_m / kSpacingPerSide) : side;
+  return finer * finer;
+}
+
+}  // namespace
+
+double default_ray_spacing(const Scatterer& scatterer) { return kSpacingPerSide * kSmallestSide * scatterer.radius(); }
 
 Illumination::Illumination(const Scatterer& scatterer, const AntennaPair& antennas, const IlluminationSettings& settings, int threads,
                            std::span<const double> wavenumbers)
     : scatterer_(scatterer),
       antennas_(antennas),
       settings_(settings),
-      min_area_(2e-9 * scatterer.radius() * scatterer.radius()),
-      lit_(scatterer.facets(), antennas.transmit, min_area_, threads) {
-  if (!antennas.monostatic) seen_from_receiver_.emplace(scatterer.facets(), antennas.receive, min_area_, threads);
+      min_area_(smallest_area(scatterer, settings)),
+      lit_(scatterer.facets(), scatterer.tree(), antennas.transmit, min_area_, threads) {
+  if (!antennas.monostatic) seen_from_receiver_.emplace(scatterer.facets(), scatterer.tree(), antennas.receive, min_area_, threads);
   for (int facet = 0; facet < static_cast<int>(scatterer.facets().size()); ++facet) {
     if (!lit_.pieces(facet).empty()) seen_.push_back(facet);
   }
@@ -351,11 +401,11 @@ Illumination::Illumination(const Scatterer& scatterer, const AntennaPair& antenn
   }
 }
 
-std::size_t Illumination::light(int facet, std::vector<Footprint>& footprints) const {
+std::size_t Illumination::light(std::span<const int> facets, std::vector<Footprint>& footprints) const {
   const VisibleSurface& visible = seen_from_receiver_ ? *seen_from_receiver_ : lit_;
   BeamTracer tracer(scatterer_, antennas_, settings_, lit_, visible, surfaces_, min_area_, footprints);
-  tracer.light(facet);
-  return tracer.rays_traced();
+  for (const int facet : facets) tracer.light(facet);
+  return tracer.legs();
 }
 
 }  // namespace seaglint

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace seaglint {
 namespace {
@@ -27,16 +28,29 @@ Corner meet(const Corner& a, const Corner& b, double fa, double fb, const Moving
   return corner;
 }
 
-void clip_into(const MovingPolygon& polygon, const MovingLine& line, int keep, MovingPolygon& kept) {
-  kept.clear();
-  kept.reserve(polygon.size() + 1);
-  if (polygon.empty()) return;
+// Where the corners of a polygon lie with respect to a line.
+enum class Side { kInside, kOutside, kBoth };
+
+// Clips by f >= 0, where f(corner) is the distance inside the line; corners within kOnLine of it are on it. make_line() is called only where an
+// edge is cut, and `kept` is filled only where the line passes through.
+template <typename Distance, typename MakeLine>
+Side clip_by(const MovingPolygon& polygon, const Distance& distance, const MakeLine& make_line, int keep, MovingPolygon& kept) {
   const auto value = [&](const Corner& c) {
-    const double f = keep * line.at(c.p);
+    const double f = keep * distance(c.p);
     return std::abs(f) < kOnLine ? 0.0 : f;
   };
-  double fa = value(polygon.back());
+  bool any_inside = false, any_outside = false;
+  for (const Corner& c : polygon) {
+    const double f = keep * distance(c.p);
+    any_inside |= f >= kOnLine;
+    any_outside |= f <= -kOnLine;
+  }
+  if (!any_outside) return any_inside ? Side::kInside : Side::kOutside;  // all on the line: no area
+  if (!any_inside) return Side::kOutside;
+  kept.clear();
+  const MovingLine line = make_line();
   const Corner* a = &polygon.back();
+  double fa = value(*a);
   for (const Corner& b : polygon) {
     const double fb = value(b);
     if ((fa > 0 && fb < 0) || (fa < 0 && fb > 0)) kept.push_back(meet(*a, b, keep * fa, keep * fb, line));
@@ -44,7 +58,14 @@ void clip_into(const MovingPolygon& polygon, const MovingLine& line, int keep, M
     a = &b;
     fa = fb;
   }
-  if (kept.size() < 3) kept.clear();
+  return kept.size() < 3 ? Side::kOutside : Side::kBoth;
+}
+
+// Clips by one edge of another polygon: its left side, or its right side with keep = -1.
+Side clip_by_edge(const MovingPolygon& polygon, const Corner& from, const Corner& to, double length, int keep, MovingPolygon& kept) {
+  const Vec2 left = Vec2(from.p.y() - to.p.y(), to.p.x() - from.p.x()) / length;
+  return clip_by(
+      polygon, [&](const Vec2& p) { return left.dot(p - from.p); }, [&] { return line_through(from, to); }, keep, kept);
 }
 
 }  // namespace
@@ -92,48 +113,68 @@ MovingLine line_through(const Corner& from, const Corner& to) {
 
 MovingPolygon clip(const MovingPolygon& polygon, const MovingLine& line, int keep) {
   MovingPolygon kept;
-  clip_into(polygon, line, keep, kept);
+  switch (clip_by(polygon, [&](const Vec2& p) { return line.at(p); }, [&] { return line; }, keep, kept)) {
+    case Side::kInside: return polygon;
+    case Side::kOutside: return {};
+    case Side::kBoth: return kept;
+  }
   return kept;
 }
 
 bool apart(const MovingPolygon& a, const MovingPolygon& b) {
-  // Separating axes: all corners of one polygon outside an edge of the other, or on it.
   const auto outside_an_edge = [](const MovingPolygon& edges, const MovingPolygon& corners) {
-    for (std::size_t i = 0; i < edges.size(); ++i) {
-      const Vec2& from = edges[i].p;
-      const Vec2 along = edges[(i + 1) % edges.size()].p - from;
+    const Vec2* from = &edges.back().p;
+    for (const Corner& to : edges) {
+      const Vec2 along = to.p - *from;
       const double on_line = kOnLine * along.norm();
-      if (std::all_of(corners.begin(), corners.end(), [&](const Corner& c) { return cross(along, c.p - from) <= on_line; })) return true;
+      if (std::all_of(corners.begin(), corners.end(), [&](const Corner& c) { return cross(along, c.p - *from) <= on_line; })) return true;
+      from = &to.p;
     }
     return false;
   };
   return outside_an_edge(a, b) || outside_an_edge(b, a);
 }
 
-void subtract(const MovingPolygon& polygon, const MovingPolygon& hole, double min_area,
-              std::vector<MovingPolygon>& pieces) {
-  MovingPolygon rest = polygon;
-  for (std::size_t i = 0; i < hole.size() && !rest.empty(); ++i) {
-    const Corner& from = hole[i];
-    const Corner& to = hole[(i + 1) % hole.size()];
-    if ((to.p - from.p).norm() < kOnLine) continue;
-    const MovingLine line = line_through(from, to);
-    MovingPolygon outside = clip(rest, line, -1);
-    if (signed_area(outside) > min_area) pieces.push_back(std::move(outside));
-    rest = clip(rest, line, +1);
+void subtract(const MovingPolygon& polygon, const MovingPolygon& hole, double min_area, std::vector<MovingPolygon>& pieces) {
+  if (!subtract_common(polygon, hole, min_area, pieces) && signed_area(polygon) > min_area) pieces.push_back(polygon);
+}
+
+bool subtract_common(const MovingPolygon& polygon, const MovingPolygon& hole, double min_area, std::vector<MovingPolygon>& pieces) {
+  const std::size_t before = pieces.size();
+  MovingPolygon rests[2], outside;  // what is inside all edges so far, and where the next clip goes
+  const MovingPolygon* rest = &polygon;
+  for (std::size_t i = 0; i < hole.size(); ++i) {
+    const Corner &from = hole[i], &to = hole[i + 1 == hole.size() ? 0 : i + 1];
+    const double length = (to.p - from.p).norm();
+    if (length < kOnLine) continue;
+    MovingPolygon& next = rests[rest == &rests[0] ? 1 : 0];
+    const Side side = clip_by_edge(*rest, from, to, length, +1, next);
+    if (side == Side::kInside) continue;
+    if (side == Side::kOutside) {
+      pieces.resize(before);
+      return false;
+    }
+    if (clip_by_edge(*rest, from, to, length, -1, outside) == Side::kBoth && signed_area(outside) > min_area) pieces.push_back(outside);
+    rest = &next;
   }
+  if (signed_area(*rest) > min_area) return true;
+  pieces.resize(before);
+  return false;
 }
 
 MovingPolygon intersect(const MovingPolygon& a, const MovingPolygon& b) {
-  MovingPolygon rest = a, next;
-  for (std::size_t i = 0; i < b.size() && !rest.empty(); ++i) {
-    const Corner& from = b[i];
-    const Corner& to = b[(i + 1) % b.size()];
-    if ((to.p - from.p).norm() < kOnLine) continue;
-    clip_into(rest, line_through(from, to), +1, next);
-    std::swap(rest, next);
+  MovingPolygon rests[2];
+  const MovingPolygon* rest = &a;
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    const Corner &from = b[i], &to = b[i + 1 == b.size() ? 0 : i + 1];
+    const double length = (to.p - from.p).norm();
+    if (length < kOnLine) continue;
+    MovingPolygon& next = rests[rest == &rests[0] ? 1 : 0];
+    const Side side = clip_by_edge(*rest, from, to, length, +1, next);
+    if (side == Side::kOutside) return {};
+    if (side == Side::kBoth) rest = &next;
   }
-  return rest;
+  return *rest;
 }
 
 Box box_of(const MovingPolygon& polygon) {

@@ -8,6 +8,10 @@
 // intersection does. So the end points of a lit region keep their first-order phase over a whole interval, shadow edges
 // included.
 
+#include <memory>
+#include <new>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "sim/core/linear.h"
@@ -20,7 +24,90 @@ struct Corner {
   Vec2 d2 = Vec2::Zero();  // dp / d d2
 };
 
-using MovingPolygon = std::vector<Corner>;  // convex, counter-clockwise
+// Corners in order: convex, counter-clockwise. Up to kInPlace of them need no memory of their own, which is nearly always enough and makes
+// polygons cheap to come and go.
+class MovingPolygon {
+ public:
+  static constexpr std::size_t kInPlace = 8;
+
+  MovingPolygon() = default;
+  explicit MovingPolygon(std::size_t count) { resize(count); }
+  MovingPolygon(const MovingPolygon& other) { assign(other); }
+  MovingPolygon(MovingPolygon&& other) noexcept { take(other); }
+  MovingPolygon& operator=(const MovingPolygon& other) {
+    if (this != &other) assign(other);
+    return *this;
+  }
+  MovingPolygon& operator=(MovingPolygon&& other) noexcept {
+    if (this != &other) take(other);
+    return *this;
+  }
+  ~MovingPolygon() { release(); }
+
+  std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+  Corner* begin() { return corners_; }
+  Corner* end() { return corners_ + size_; }
+  const Corner* begin() const { return corners_; }
+  const Corner* end() const { return corners_ + size_; }
+  Corner& operator[](std::size_t i) { return corners_[i]; }
+  const Corner& operator[](std::size_t i) const { return corners_[i]; }
+  const Corner& back() const { return corners_[size_ - 1]; }
+
+  void clear() { size_ = 0; }
+  void resize(std::size_t count) {
+    reserve(count);
+    for (; size_ < count; ++size_) new (corners_ + size_) Corner();
+    size_ = count;
+  }
+  void push_back(const Corner& corner) {
+    if (size_ == capacity_) {
+      const Corner copy = corner;  // it may be one of ours
+      reserve(2 * capacity_);
+      new (corners_ + size_++) Corner(copy);
+    } else {
+      new (corners_ + size_++) Corner(corner);
+    }
+  }
+  void reserve(std::size_t count) {
+    if (count <= capacity_) return;
+    Corner* larger = std::allocator<Corner>().allocate(count);
+    std::uninitialized_copy_n(corners_, size_, larger);
+    release();
+    corners_ = larger;
+    capacity_ = count;
+  }
+
+ private:
+  static_assert(std::is_trivially_destructible_v<Corner>);
+
+  Corner* in_place() { return reinterpret_cast<Corner*>(place_); }
+  void release() {
+    if (corners_ != in_place()) std::allocator<Corner>().deallocate(corners_, capacity_);
+    corners_ = in_place();
+    capacity_ = kInPlace;
+  }
+  void assign(const MovingPolygon& other) {
+    size_ = 0;
+    reserve(other.size_);
+    std::uninitialized_copy_n(other.corners_, other.size_, corners_);
+    size_ = other.size_;
+  }
+  void take(MovingPolygon& other) {
+    if (other.corners_ == other.in_place()) {
+      std::uninitialized_copy_n(other.corners_, other.size_, corners_);  // other holds at most kInPlace, and so do we at least
+    } else {
+      release();
+      corners_ = std::exchange(other.corners_, other.in_place());
+      capacity_ = std::exchange(other.capacity_, kInPlace);
+    }
+    size_ = std::exchange(other.size_, 0);
+  }
+
+  alignas(Corner) std::byte place_[kInPlace * sizeof(Corner)];
+  Corner* corners_ = in_place();
+  std::size_t size_ = 0, capacity_ = kInPlace;
+};
 
 // A function that is linear on the plane, f = value + gradient . p, with its derivatives by d1 and d2 at fixed p.
 struct MovingLine {
@@ -44,12 +131,14 @@ MovingLine line_through(const Corner& from, const Corner& to);
 inline constexpr double kOnLine = 1e-10;
 MovingPolygon clip(const MovingPolygon& polygon, const MovingLine& line, int keep = +1);
 
-// True when the polygons have no interior point in common (edges and corners may touch).
+// True when an edge of one of the polygons has the other wholly outside it or on it: then they have no area in common.
 bool apart(const MovingPolygon& a, const MovingPolygon& b);
 
 // polygon minus hole: appends convex pieces with an area above min_area to pieces.
-void subtract(const MovingPolygon& polygon, const MovingPolygon& hole, double min_area,
-              std::vector<MovingPolygon>& pieces);
+void subtract(const MovingPolygon& polygon, const MovingPolygon& hole, double min_area, std::vector<MovingPolygon>& pieces);
+
+// The same where they have more than min_area in common; else false, and nothing is appended.
+bool subtract_common(const MovingPolygon& polygon, const MovingPolygon& hole, double min_area, std::vector<MovingPolygon>& pieces);
 
 // The common part; empty when there is none.
 MovingPolygon intersect(const MovingPolygon& a, const MovingPolygon& b);

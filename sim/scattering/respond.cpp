@@ -46,11 +46,8 @@ ReturnGrid trace_returns(const Scatterer& scatterer, const AntennaPair& antennas
   std::vector<double> fastest(chunks, 0);
   parallel_for(chunks, threads, [&](std::size_t chunk) {
     std::vector<Footprint> footprints;
-    for (const int facet : chunk_of(illumination, chunk)) {
-      footprints.clear();
-      illumination.light(facet, footprints);
-      for (const Footprint& footprint : footprints) split(footprint, antennas.transmit, split_settings, contributions[chunk]);
-    }
+    illumination.light(chunk_of(illumination, chunk), footprints);
+    for (const Footprint& footprint : footprints) split(footprint, antennas.transmit, split_settings, contributions[chunk]);
     for (Contribution& c : contributions[chunk]) {
       const double size = c.gradient.sum().norm();
       if (size > limit) c.gradient = {c.gradient.transmit * (limit / size), c.gradient.receive * (limit / size)};
@@ -174,31 +171,28 @@ BodyResponse respond(const Scatterer& scatterer, const Trajectory& trajectory, c
 std::vector<std::array<Complex, 4>> scattering_matrices(const Scatterer& scatterer, const AntennaPair& antennas,
                                                         std::span<const double> wavenumbers,
                                                         const IlluminationSettings& settings, int threads,
-                                                        std::size_t* rays, const StopFlag* stop) {
+                                                        std::size_t* legs, const StopFlag* stop) {
   using Matrices = std::vector<std::array<Complex, 4>>;
   const Illumination illumination(scatterer, antennas, settings, threads, wavenumbers);
   const std::size_t chunks = chunk_count(illumination);
   std::vector<Matrices> parts(chunks, Matrices(wavenumbers.size()));
-  std::vector<std::size_t> traced(chunks, 0);
+  std::vector<std::size_t> followed(chunks, 0);
   parallel_for(
       chunks, threads,
       [&](std::size_t chunk) {
         std::vector<Footprint> footprints;
-        for (const int facet : chunk_of(illumination, chunk)) {
-          footprints.clear();
-          traced[chunk] += illumination.light(facet, footprints);
-          for (const Footprint& footprint : footprints) {
-            for (std::size_t q = 0; q < wavenumbers.size(); ++q) {
-              const auto s = scattered(footprint, wavenumbers[q], q);
-              for (int i = 0; i < 4; ++i) parts[chunk][q][i] += s[i];
-            }
+        followed[chunk] = illumination.light(chunk_of(illumination, chunk), footprints);
+        for (const Footprint& footprint : footprints) {
+          for (std::size_t q = 0; q < wavenumbers.size(); ++q) {
+            const auto s = scattered(footprint, wavenumbers[q], q);
+            for (int i = 0; i < 4; ++i) parts[chunk][q][i] += s[i];
           }
         }
       },
       stop);
   Matrices sum(wavenumbers.size());
   for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
-    if (rays) *rays += traced[chunk];
+    if (legs) *legs += followed[chunk];
     for (std::size_t q = 0; q < wavenumbers.size(); ++q) {
       for (int i = 0; i < 4; ++i) sum[q][i] += parts[chunk][q][i];
     }

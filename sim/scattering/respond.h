@@ -35,10 +35,10 @@ BodyResponse respond(const Scatterer& scatterer, const Trajectory& trajectory, c
                      int threads = 1);
 
 // The scattering matrix hh, hv, vh, vv (received, transmitted) in metres at each wavenumber, body at rest: one trace, and the exact phase
-// integral of every footprint at every frequency. Each direction has its own basis. Raises *rays by the rays traced.
+// integral of every footprint at every frequency. Each direction has its own basis. Raises *legs by the legs of beams followed.
 std::vector<std::array<Complex, 4>> scattering_matrices(const Scatterer& scatterer, const AntennaPair& antennas,
                                                         std::span<const double> wavenumbers,
                                                         const IlluminationSettings& settings, int threads = 1,
-                                                        std::size_t* rays = nullptr, const StopFlag* stop = nullptr);
+                                                        std::size_t* legs = nullptr, const StopFlag* stop = nullptr);
 
 }  // namespace seaglint

@@ -50,7 +50,7 @@ struct PointSpec {
 
 // Zero in a field marked (auto) means: derived from the mesh's size by the formula in sim/scattering/README.md.
 struct SolverSpec {
-  double ray_spacing_m = 0;  // (auto) of the rays that look for facets, 0 or 0.001 <= x <= 10
+  double ray_spacing_m = 0;  // (auto) of rays that would find the detail followed, 0 or 0.001 <= x <= 10
   int max_bounces = 8;       // 1 <= x <= 64
   double max_turn_deg = 0;   // (auto) turn of the body served by one trace, 0 or 0.001 <= x <= 5
 };

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// Which facets may a beam meet? A tree of boxes over the facets, asked with a prism instead of a ray: nothing is missed, however small.
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "sim/scattering/facets.h"
+
+namespace seaglint {
+
+// A bundle of parallel rays from one side of a plane: the points with lower[i] <= across[i] . x <= upper[i] and normal . x >= offset, all axes unit
+// vectors. It is walked along `along`.
+struct Prism {
+  std::array<Vec3, 2> across;
+  std::array<double, 2> lower{}, upper{};  // m
+  Vec3 normal = Vec3::UnitX();
+  double offset = 0;  // m
+  Vec3 along = Vec3::UnitX();
+};
+
+// Immutable after construction; any number of threads may ask at once.
+class FacetTree {
+ public:
+  explicit FacetTree(std::span<const Facet> facets);
+
+  // Calls visit(facet) for every facet that has a point in the prism, and for some whose box only comes near; roughly from near to far, in an order that
+  // depends on tree and prism alone. visit returns how far along the prism facets still matter, m; those that begin beyond may be left out.
+  template <typename Visit>
+  void walk(const Prism& prism, const Visit& visit) const;
+
+ private:
+  // Four boxes side by side, so that the compiler compares them at once. A child below zero is facet -1 - child.
+  struct Node {
+    std::array<std::array<float, 4>, 3> centre, half;  // m; half < 0: no box
+    std::array<std::int32_t, 4> child;
+  };
+  // A subtree or facet still to be looked at, and where along the prism it begins.
+  struct Waiting {
+    std::int32_t child;
+    float begin;
+  };
+  struct Builder;
+
+  // Three of each level wait at most; the builder sees to it that there are fewer levels than a third of this.
+  static constexpr std::size_t kMostWaiting = 256;
+
+  std::vector<Node> nodes_;  // the first is the root
+  double slack_ = 0;         // m, of single-precision boxes
+};
+
+template <typename Visit>
+void FacetTree::walk(const Prism& prism, const Visit& visit) const {
+  if (nodes_.empty()) return;
+  // |across . centre - middle| <= width + |across| . half, and normal . centre + |normal| . half >= offset, for four boxes at once.
+  std::array<std::array<float, 3>, 4> axis, reach;
+  std::array<float, 2> middle, width;
+  for (int i = 0; i < 4; ++i) {
+    for (int a = 0; a < 3; ++a) {
+      axis[i][a] = static_cast<float>(i < 2 ? prism.across[i][a] : i == 2 ? prism.normal[a] : prism.along[a]);
+      reach[i][a] = std::abs(axis[i][a]);
+    }
+  }
+  for (int i = 0; i < 2; ++i) {
+    middle[i] = static_cast<float>((prism.lower[i] + prism.upper[i]) / 2);
+    width[i] = static_cast<float>((prism.upper[i] - prism.lower[i]) / 2 + slack_);
+  }
+  const auto offset = static_cast<float>(prism.offset - slack_);
+  float far = std::numeric_limits<float>::infinity();
+  std::array<Waiting, kMostWaiting> stack;
+  std::size_t waiting = 0;
+  stack[waiting++] = {0, -far};
+  while (waiting > 0) {
+    const Waiting next = stack[--waiting];
+    if (next.begin > far) continue;
+    if (next.child < 0) {
+      far = static_cast<float>(visit(-1 - next.child) + slack_);
+      continue;
+    }
+    const Node& node = nodes_[next.child];
+    std::array<float, 4> gap;  // largest distance between prism and box along an axis; above zero they do not meet
+    std::array<float, 4> begin;
+    for (int lane = 0; lane < 4; ++lane) {
+      const auto at = [&](int i) {
+        return axis[i][0] * node.centre[0][lane] + axis[i][1] * node.centre[1][lane] + axis[i][2] * node.centre[2][lane];
+      };
+      const auto half = [&](int i) {
+        return reach[i][0] * node.half[0][lane] + reach[i][1] * node.half[1][lane] + reach[i][2] * node.half[2][lane];
+      };
+      const float first = std::abs(at(0) - middle[0]) - half(0) - width[0];
+      const float second = std::abs(at(1) - middle[1]) - half(1) - width[1];
+      const float third = offset - at(2) - half(2);
+      const float larger = first > second ? first : second;
+      gap[lane] = larger > third ? larger : third;
+      begin[lane] = at(3) - half(3);
+    }
+    unsigned met = 0;
+    for (unsigned lane = 0; lane < 4; ++lane) met |= static_cast<unsigned>(gap[lane] <= 0) << lane;
+    // The nearest comes on top.
+    const std::size_t base = waiting;
+    for (; met != 0; met &= met - 1) {
+      const int lane = std::countr_zero(met);
+      std::size_t place = waiting++;
+      for (; place > base && stack[place - 1].begin < begin[lane]; --place) stack[place] = stack[place - 1];
+      stack[place] = {node.child[lane], begin[lane]};
+    }
+  }
+}
+
+}  // namespace seaglint
