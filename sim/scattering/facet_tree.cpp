@@ -25,10 +25,10 @@ struct Extent {
   }
 };
 
-Extent extent_of(const Facet& facet) {
-  Extent bounds;
-  for (const Vec3& x : facet.corner) bounds.add(x);
-  return bounds;
+Extent extent_of(std::span<const Vec3> corners) {
+  Extent extent;
+  for (const Vec3& x : corners) extent.add(x);
+  return extent;
 }
 
 }  // namespace
@@ -131,15 +131,15 @@ struct FacetTree::Builder {
   }
 };
 
-FacetTree::FacetTree(std::span<const Facet> facets) {
+FacetTree::FacetTree(std::span<const Facet> facets, const Panels& panels) {
   if (facets.empty()) return;
   Builder builder{nodes_, {}, {}};
   for (std::size_t f = 0; f < facets.size(); ++f) {
-    builder.bounds.push_back(extent_of(facets[f]));
-    builder.order.push_back(static_cast<int>(f));
+    builder.bounds.push_back(extent_of(panels.outline(static_cast<int>(f))));
+    if (panels.is_first(static_cast<int>(f))) builder.order.push_back(static_cast<int>(f));
   }
-  const auto whole = builder.range(0, facets.size());
-  nodes_.reserve(facets.size() / 2 + 1);
+  const auto whole = builder.range(0, builder.order.size());
+  nodes_.reserve(builder.order.size() / 2 + 1);
   builder.build(whole, 0);
   // Centres, halves and the sums made of them are off by a few units in the last place of the largest coordinate, 6e-8 of it each.
   slack_ = 1e-6 * (whole.bounds.lower.norm() + whole.bounds.upper.norm());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Which facets may a beam meet? A tree of boxes over the facets, asked with a prism instead of a ray: nothing is missed, however small.
+// Which panels may a beam meet? A tree of boxes over the panels, asked with a prism instead of a ray: nothing is missed, however small.
 
 #include <array>
 #include <bit>
@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "sim/scattering/facets.h"
+#include "sim/scattering/panels.h"
 
 namespace seaglint {
 
@@ -28,10 +28,10 @@ struct Prism {
 // Immutable after construction; any number of threads may ask at once.
 class FacetTree {
  public:
-  explicit FacetTree(std::span<const Facet> facets);
+  FacetTree(std::span<const Facet> facets, const Panels& panels);
 
-  // Calls visit(facet) for every facet that has a point in the prism, and for some whose box only comes near; roughly from near to far, in an order that
-  // depends on tree and prism alone. visit returns how far along the prism facets still matter, m; those that begin beyond may be left out.
+  // Calls visit(facet) for every panel, by the facet it goes by, that has a point in the prism, and for some whose box only comes near; roughly from near to far, in an order that
+  // depends on tree and prism alone. visit returns how far along the prism panels still matter, m; those that begin beyond may be left out.
   template <typename Visit>
   void walk(const Prism& prism, const Visit& visit) const;
 

@@ -8,7 +8,7 @@
 #include "sim/core/parallel.h"
 
 namespace seaglint {
-std::optional<FacetImage> facet_image(std::span<const Facet> facets, int facet, const Mirror& mirrors, const RadarBasis& basis,
+std::optional<FacetImage> facet_image(std::span<const Facet> facets, const Panels& panels, int facet, const Mirror& mirrors, const RadarBasis& basis,
                                       double min_area) {
   const Facet& f = facets[facet];
   const Vec3 n_image = mirrors.L * f.normal;
@@ -16,7 +16,7 @@ std::optional<FacetImage> facet_image(std::span<const Facet> facets, int facet, 
   FacetImage result;
   result.facet = facet;
   result.plane = image_plane(n_image, n_image.dot(mirrors.image(f.corner[0])), basis);
-  for (const Vec3& corner : f.corner) {
+  for (const Vec3& corner : panels.outline(facet)) {
     // A point fixed to the body at height z moves by -z d_i in the aperture when the direction turns by d_i.
     const Vec3 image = mirrors.image(corner);
     const double z = image.dot(basis.r);
@@ -83,14 +83,14 @@ bool hide(const FacetImage& behind, const FacetImage& front, double min_area, st
   return !hole.empty() && cut(pieces, hole, box_of(hole), min_area);
 }
 
-VisibleSurface::VisibleSurface(std::span<const Facet> facets, const FacetTree& tree, const RadarBasis& basis, double min_area, int threads)
+VisibleSurface::VisibleSurface(std::span<const Facet> facets, const Panels& panels, const FacetTree& tree, const RadarBasis& basis, double min_area, int threads)
     : facets_(facets), basis_(basis), min_area_(min_area), pieces_(facets.size()), boxes_(facets.size()) {
   // The far side of a closed part is hidden by its near side: only what faces the radar, and open sheets, can be seen or hide anything.
   std::vector<FacetImage> images;
   std::vector<int> image_of(facets.size(), -1);
   for (int f = 0; f < static_cast<int>(facets.size()); ++f) {
-    if (!facets[f].open && facets[f].normal.dot(basis.r) <= 0) continue;
-    if (auto image = facet_image(facets, f, Mirror{}, basis, min_area)) {
+    if (!panels.is_first(f) || (!facets[f].open && facets[f].normal.dot(basis.r) <= 0)) continue;
+    if (auto image = facet_image(facets, panels, f, Mirror{}, basis, min_area)) {
       image_of[f] = static_cast<int>(images.size());
       images.push_back(std::move(*image));
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Hidden surfaces as polygons of the aperture plane: which part of each facet does the radar, or a beam, see?
+// Hidden surfaces as polygons of the aperture plane: which part of each panel does the radar, or a beam, see? Panels go by their first facet.
 
 #include <optional>
 #include <span>
@@ -16,17 +16,17 @@ namespace seaglint {
 // Facets nearer to each other than this are one surface: 1e-5 of a 10 mm wavelength.
 inline constexpr double kCoincident = 1e-7;  // m
 
-// A facet's image through the mirrors of a beam, projected along the unfolded ray.
+// A panel's image through the mirrors of a beam, projected along the unfolded ray.
 struct FacetImage {
   int facet = -1;
   ImagePlane plane;
-  MovingPolygon polygon;  // of the projected facet
+  MovingPolygon polygon;  // of the projected panel
   Box box;
   double nearest = 0, farthest = 0;  // heights towards the radar of the polygon's corners, m
 };
 
-// Nothing when the facet is edge-on to the ray or its image is smaller than min_area.
-std::optional<FacetImage> facet_image(std::span<const Facet> facets, int facet, const Mirror& mirrors, const RadarBasis& basis,
+// Nothing when the panel is edge-on to the ray or its image is smaller than min_area.
+std::optional<FacetImage> facet_image(std::span<const Facet> facets, const Panels& panels, int facet, const Mirror& mirrors, const RadarBasis& basis,
                                       double min_area);
 
 // Fills box and heights from polygon and plane.
@@ -47,9 +47,10 @@ bool hide(const FacetImage& behind, const FacetImage& front, double min_area, st
 // What the radar sees of every facet: convex pieces without overlap, exact for the flat facets given.
 class VisibleSurface {
  public:
-  VisibleSurface(std::span<const Facet> facets, const FacetTree& tree, const RadarBasis& basis, double min_area, int threads);
+  VisibleSurface(std::span<const Facet> facets, const Panels& panels, const FacetTree& tree, const RadarBasis& basis, double min_area, int threads);
 
-  // Pieces of one facet in the radar's aperture; empty when it is hidden or faces away (a facet of an open sheet shows either side).
+  // Pieces of the panel that goes by this facet in the radar's aperture; empty when it is hidden or faces away (an open sheet shows either side) and
+  // for facets whose panel goes by another.
   std::span<const MovingPolygon> pieces(int facet) const { return pieces_[facet]; }
 
   // What the radar sees directly of a part of a facet that a beam lights: `lit` is the part's image through the beam's mirrors, `plane` the

@@ -40,6 +40,7 @@ class BeamTracer {
   BeamTracer(const Scatterer& scatterer, const AntennaPair& antennas, const IlluminationSettings& settings, const VisibleSurface& lit,
              const VisibleSurface& visible, std::span<const std::vector<Surface>> surfaces, double min_area, std::vector<Footprint>& out)
       : facets_(scatterer.facets()),
+        panels_(scatterer.panels()),
         tree_(scatterer.tree()),
         antennas_(antennas),
         basis_(antennas.transmit),
@@ -101,30 +102,35 @@ class BeamTracer {
     double covered = std::numeric_limits<double>::infinity();
   };
 
-  Meeting meeting(const Leg& leg, const Prism& prism, const Facet& facet) const {
+  Meeting meeting(const Leg& leg, const Prism& prism, int number) const {
     // The lit side of a closed part faces the beam.
+    const Facet& facet = facets_[number];
     const double facing = facet.normal.dot(leg.direction);
     if (!facet.open && facing >= 0) return {};
-    int beyond = 0;
-    for (const Vec3& x : facet.corner) beyond += prism.normal.dot(x) > prism.offset;
+    const std::span<const Vec3> outline = panels_.outline(number);
+    std::size_t beyond = 0;
+    for (const Vec3& x : outline) beyond += prism.normal.dot(x) > prism.offset;
     if (beyond == 0) return {};
-    std::array<Vec2, 3> p;
-    for (int i = 0; i < 3; ++i) p[i] = Vec2(prism.across[0].dot(facet.corner[i]), prism.across[1].dot(facet.corner[i]));
+    // The window's box may lie outside an edge of the panel, or inside all of them. Seen along the beam, the panel turns left or right.
     const Vec2 middle(0.5 * (prism.lower[0] + prism.upper[0]), 0.5 * (prism.lower[1] + prism.upper[1]));
     const Vec2 half(0.5 * (prism.upper[0] - prism.lower[0]), 0.5 * (prism.upper[1] - prism.lower[1]));
-    for (int i = 0; i < 2; ++i) {
-      if (std::max({p[0][i], p[1][i], p[2][i]}) <= prism.lower[i] || std::min({p[0][i], p[1][i], p[2][i]}) >= prism.upper[i]) return {};
-    }
-    // The window's box may lie outside an edge of the triangle, or inside all three.
-    const Vec2 ab = p[1] - p[0], ac = p[2] - p[0];
-    const double turn = ab.x() * ac.y() - ab.y() * ac.x() > 0 ? 1 : -1;
-    bool covers = beyond == 3;
-    for (int i = 0; i < 3; ++i) {
-      const Vec2 along = p[(i + 1) % 3] - p[i], to = middle - p[i];
+    const double turn = prism.across[0].cross(prism.across[1]).dot(facet.normal) > 0 ? 1 : -1;
+    const auto across = [&](const Vec3& x) { return Vec2(prism.across[0].dot(x), prism.across[1].dot(x)); };
+    bool covers = beyond == outline.size();
+    Vec2 p = across(outline.back()), lower = p, upper = p;
+    for (const Vec3& x : outline) {
+      const Vec2 q = across(x);
+      const Vec2 along = q - p, to = middle - p;
       const double centre = turn * (along.x() * to.y() - along.y() * to.x());
       const double reach = std::abs(along.x()) * half.y() + std::abs(along.y()) * half.x();
       if (centre + reach <= 0) return {};
       covers &= centre - reach > 0;
+      p = q;
+      lower = lower.cwiseMin(q);
+      upper = upper.cwiseMax(q);
+    }
+    for (int i = 0; i < 2; ++i) {
+      if (upper[i] <= prism.lower[i] || lower[i] >= prism.upper[i]) return {};
     }
     Meeting result{true};
     if (covers && std::abs(facing) > kEdgeOn) {
@@ -147,7 +153,7 @@ class BeamTracer {
 
   // A facet as the leg meets it; false when it misses the window.
   bool meet(const Leg& leg, const Window& window, int facet, Candidate& candidate) const {
-    auto image = facet_image(facets_, facet, leg.mirrors, basis_, min_area_);
+    auto image = facet_image(facets_, panels_, facet, leg.mirrors, basis_, min_area_);
     if (!image) return false;
     const MovingLine beyond = depth_between(image->plane, leg.from_plane);
     double farthest = 0, nearest = 0;
@@ -187,7 +193,7 @@ class BeamTracer {
     double covered = std::numeric_limits<double>::infinity();
     tree_.walk(scratch.window.prism, [&](int facet) {
       if (facet == leg.from_facet) return covered;
-      const Meeting met = meeting(leg, scratch.window.prism, facets_[facet]);
+      const Meeting met = meeting(leg, scratch.window.prism, facet);
       if (met.may) scratch.found.push_back(facet);
       return covered = std::min(covered, met.covered);
     });
@@ -318,7 +324,7 @@ class BeamTracer {
     footprint.mirrors = leg.mirrors;
     footprint.facet = candidate.image.facet;
     footprint.part = facet.part;
-    footprint.facet_size = facet.size;
+    footprint.facet_size = panels_.size(candidate.image.facet);
     footprint.bounces = static_cast<std::uint8_t>(leg.bounce);
     set_phase(footprint, leg.mirrors.L * facet.normal, antennas_);
     const double grazing = std::abs(n.dot(leg.direction));
@@ -337,6 +343,7 @@ class BeamTracer {
   }
 
   std::span<const Facet> facets_;
+  const Panels& panels_;
   const FacetTree& tree_;
   const AntennaPair& antennas_;
   const RadarBasis& basis_;  // of the aperture: the transmitter's
@@ -353,7 +360,7 @@ class BeamTracer {
 }  // namespace
 
 Scatterer::Scatterer(const TriangleMesh& mesh, std::vector<MaterialSpec> materials)
-    : facets_(make_facets(mesh)), tree_(facets_), rays_(facets_), materials_(std::move(materials)) {
+    : facets_(make_facets(mesh)), panels_(facets_), tree_(facets_, panels_), rays_(facets_), materials_(std::move(materials)) {
   for (const Facet& facet : facets_) {
     SEAGLINT_CHECK(materials_.empty() || facet.material < materials_.size(),
                    fmt::format("material {} of {}", facet.material, materials_.size()));
@@ -388,8 +395,8 @@ Illumination::Illumination(const Scatterer& scatterer, const AntennaPair& antenn
       antennas_(antennas),
       settings_(settings),
       min_area_(smallest_area(scatterer, settings)),
-      lit_(scatterer.facets(), scatterer.tree(), antennas.transmit, min_area_, threads) {
-  if (!antennas.monostatic) seen_from_receiver_.emplace(scatterer.facets(), scatterer.tree(), antennas.receive, min_area_, threads);
+      lit_(scatterer.facets(), scatterer.panels(), scatterer.tree(), antennas.transmit, min_area_, threads) {
+  if (!antennas.monostatic) seen_from_receiver_.emplace(scatterer.facets(), scatterer.panels(), scatterer.tree(), antennas.receive, min_area_, threads);
   for (int facet = 0; facet < static_cast<int>(scatterer.facets().size()); ++facet) {
     if (!lit_.pieces(facet).empty()) seen_.push_back(facet);
   }

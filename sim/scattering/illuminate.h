@@ -13,6 +13,7 @@
 #include "sim/scattering/footprint.h"
 #include "sim/scattering/hidden_surface.h"
 #include "sim/scattering/material.h"
+#include "sim/scattering/panels.h"
 #include "sim/scattering/ray_scene.h"
 
 namespace seaglint {
@@ -31,6 +32,7 @@ class Scatterer {
   explicit Scatterer(const TriangleMesh& mesh, std::vector<MaterialSpec> materials = {});
 
   std::span<const Facet> facets() const { return facets_; }
+  const Panels& panels() const { return panels_; }
   const FacetTree& tree() const { return tree_; }
   const RayScene& rays() const { return rays_; }
   double radius() const { return radius_; }  // of the bounding sphere about the body's origin, m
@@ -38,6 +40,7 @@ class Scatterer {
 
  private:
   std::vector<Facet> facets_;
+  Panels panels_;
   FacetTree tree_;
   RayScene rays_;
   std::vector<MaterialSpec> materials_;
@@ -55,10 +58,10 @@ class Illumination {
   Illumination(const Scatterer& scatterer, const AntennaPair& antennas, const IlluminationSettings& settings, int threads = 1,
                std::span<const double> wavenumbers = {});
 
-  // Facets the transmitter sees, ascending.
+  // Panels the transmitter sees, by the facets they go by, ascending.
   std::span<const int> seen() const { return seen_; }
 
-  // Appends the footprints of all beams whose first mirror is this facet, its own first-bounce footprints included; returns the
+  // Appends the footprints of all beams whose first mirror is the panel of this facet, its own first-bounce footprints included; returns the
   // number of legs followed, a beam's way from one mirror to the next.
   std::size_t light(int facet, std::vector<Footprint>& footprints) const { return light({&facet, 1}, footprints); }
   std::size_t light(std::span<const int> facets, std::vector<Footprint>& footprints) const;
