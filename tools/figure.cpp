@@ -227,7 +227,7 @@ PlotText plot_text(const LinePlot& figure, std::size_t first_index) {
   SEAGLINT_CHECK(!plots.empty(), "a plot without series");
   std::string commands = axis_commands("x", figure.x) + axis_commands("y", figure.y);
   commands += "set grid lc rgb '#d8d8d8' lw 0.6\nset boxwidth 0.8 relative\n";
-  const char* place = figure.legend_below ? "outside center bottom horizontal" : "outside right top";
+  const char* place = figure.legend_above ? "outside center top horizontal" : "outside right top";
   commands += named ? fmt::format("set key {} reverse Left samplen 2\n", place) : "unset key\n";
   if (!figure.x.range && !figure.x.logarithmic)
     commands += "set autoscale xfix\nset offsets graph 0.03, graph 0.03, 0, 0\n";
@@ -250,7 +250,7 @@ void write_figure(const std::string& title, std::span<const LinePlot> plots, int
   for (const LinePlot& plot : plots) {
     const PlotText text = plot_text(plot, index);
     // Each plot begins with the axes that gnuplot has of itself.
-    commands += fmt::format("unset logscale\nset format\nset xlabel offset 0,0.7\nset xrange [*:*]\nset yrange [*:*]\nset offsets\nset title {}\n", quoted(plot.title)) + text.commands;
+    commands += fmt::format("unset logscale\nset format\nset xlabel offset 0,0.3\nset xrange [*:*]\nset yrange [*:*]\nset offsets\nset title {}\n", quoted(plot.title)) + text.commands;
     data += text.data;
     index += plot.series.size();
   }

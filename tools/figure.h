@@ -48,7 +48,7 @@ struct LinePlot {
   FigureAxis x, y;
   std::vector<Series> series;
   bool equal_axes = false;  // one metre is one metre in x and y
-  bool legend_below = false;
+  bool legend_above = false;
 };
 
 struct FigureSize {

@@ -259,13 +259,13 @@ bool draw_comparison(const std::vector<PairedCut>& cuts, double floor_db, const 
       return values;
     };
     LinePlot level, difference;
-    level.legend_below = difference.legend_below = true;
+    level.legend_above = difference.legend_above = true;
     level.title = upper(kElementNames[static_cast<int>(first.element)]) +
                   (first.frequency_hz ? fmt::format(", {:g} GHz", *first.frequency_hz * 1e-9) : std::string());
     level.x.label = difference.x.label = axis_label(first.axis);
     level.x.range = difference.x.range = AxisRange{*std::min_element(first.x.begin(), first.x.end()), *std::max_element(first.x.begin(), first.x.end())};
     difference.y.label = "computed - reference (dB)";
-    double widest = 1, lowest = highest;
+    double widest = 0.2, lowest = highest;
     for (const PairedCut* cut : column) {
       const std::string& name = cut->reference;
       lowest = std::min(lowest, *std::min_element(cut->level_dbsm.begin(), cut->level_dbsm.end()));

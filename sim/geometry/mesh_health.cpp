@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/geometry/mesh_health.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace seaglint {
+namespace {
+
+// Which triangles hang together.
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
+  std::uint32_t root(std::uint32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(std::uint32_t a, std::uint32_t b) { parent_[root(a)] = root(b); }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+// The corners in ascending order, and whether the triangle runs through them in an even permutation.
+struct Corners {
+  std::array<std::uint32_t, 3> sorted;
+  bool even;
+  std::uint32_t triangle;
+};
+
+Corners corners_of(const TriangleMesh& mesh, std::uint32_t triangle) {
+  Corners c{mesh.triangles[triangle], true, triangle};
+  for (const auto& [i, j] : {std::pair{0, 1}, {1, 2}, {0, 1}}) {
+    if (c.sorted[i] > c.sorted[j]) {
+      std::swap(c.sorted[i], c.sorted[j]);
+      c.even = !c.even;
+    }
+  }
+  return c;
+}
+
+struct Diagnosis {
+  MeshHealth health;
+  std::vector<char> drop;  // degenerate or repeated
+  std::vector<char> turn;  // of an inverted surface
+};
+
+// Marks what is there more than once.
+void find_copies(const TriangleMesh& mesh, Diagnosis& d) {
+  std::vector<Corners> all;
+  all.reserve(mesh.triangles.size());
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (!d.drop[t]) all.push_back(corners_of(mesh, t));
+  }
+  std::sort(all.begin(), all.end(), [](const Corners& a, const Corners& b) {
+    return a.sorted != b.sorted ? a.sorted < b.sorted : a.triangle < b.triangle;
+  });
+  for (std::size_t i = 0; i < all.size();) {
+    std::size_t end = i;
+    bool even = false, odd = false;
+    for (; end < all.size() && all[end].sorted == all[i].sorted; ++end) {
+      bool& known = all[end].even ? even : odd;
+      if (known) {
+        d.drop[all[end].triangle] = 1;
+        ++d.health.repeated;
+      }
+      known = true;
+    }
+    if (even && odd) d.health.two_sided += 2;
+    i = end;
+  }
+}
+
+Diagnosis diagnose(const TriangleMesh& mesh) {
+  const std::size_t count = mesh.triangles.size();
+  Diagnosis d;
+  d.drop.assign(count, 0);
+  d.turn.assign(count, 0);
+  d.health.triangles = count;
+  const Topology topology = topology_of(mesh);
+  for (const std::uint32_t t : topology.degenerate) d.drop[t] = 1;
+  d.health.degenerate = topology.degenerate.size();
+  find_copies(mesh, d);
+
+  // Edges as they are once copies are gone.
+  DisjointSets sets(count);
+  std::vector<std::uint32_t> rims;
+  for (const MeshEdge& edge : topology.edges) {
+    std::uint32_t uses = 0, first = 0;
+    int balance = 0;
+    for (std::uint32_t u = edge.first_use; u < edge.first_use + edge.use_count; ++u) {
+      const EdgeUse& use = topology.uses[u];
+      if (d.drop[use.triangle]) continue;
+      if (uses++ == 0) first = use.triangle;
+      sets.join(first, use.triangle);
+      balance += use.forward ? 1 : -1;
+    }
+    if (uses == 0) continue;
+    if (balance != 0) rims.push_back(first);
+    if (uses == 1) ++d.health.open_edges;
+    if (uses == 2 && balance != 0) ++d.health.mixed_edges;
+    if (uses > 2) ++d.health.non_manifold_edges;
+  }
+
+  struct Surface {
+    bool open = false;
+    double volume = 0, area = 0;
+    std::size_t triangles = 0;
+  };
+  std::vector<Surface> surfaces(count);  // at their root
+  for (const std::uint32_t t : rims) surfaces[sets.root(t)].open = true;
+  // Volumes about a point of the mesh: far from the origin the divergence theorem's terms would cancel badly.
+  const Bounds box = bounds(mesh);
+  const Vec3 centre = (box.lower + box.upper) / 2;
+  for (std::uint32_t t = 0; t < count; ++t) {
+    if (d.drop[t]) continue;
+    Surface& surface = surfaces[sets.root(t)];
+    const Vec3 area = area_vector(mesh, t);
+    surface.volume += (mesh.vertices[mesh.triangles[t][0]] - centre).dot(area) / 3;
+    surface.area += area.norm();
+    ++surface.triangles;
+  }
+  // A sheet with two sides encloses nothing but rounding.
+  constexpr double kLeastVolume = 1e-9;  // of size times area
+  const double size = (box.upper - box.lower).norm();
+  const auto inverted = [&](const Surface& s) { return !s.open && s.volume < -kLeastVolume * size * s.area; };
+  for (const Surface& surface : surfaces) {
+    if (surface.triangles == 0) continue;
+    ++d.health.surfaces;
+    d.health.open_surfaces += surface.open;
+    if (!inverted(surface)) continue;
+    ++d.health.inverted_surfaces;
+    d.health.inverted_triangles += surface.triangles;
+  }
+  for (std::uint32_t t = 0; t < count; ++t) d.turn[t] = !d.drop[t] && inverted(surfaces[sets.root(t)]);
+  return d;
+}
+
+std::string counted(std::size_t n, const char* one, const char* many) { return fmt::format("{} {}", n, n == 1 ? one : many); }
+
+}  // namespace
+
+MeshHealth examine(const TriangleMesh& mesh) { return diagnose(mesh).health; }
+
+std::vector<std::string> findings(const MeshHealth& h) {
+  std::vector<std::string> found;
+  if (h.degenerate > 0) found.push_back(counted(h.degenerate, "triangle has", "triangles have") + " no area: left out");
+  if (h.repeated > 0) found.push_back(counted(h.repeated, "triangle repeats", "triangles repeat") + " another: left out");
+  if (h.inverted_surfaces > 0) {
+    found.push_back(fmt::format("{} inside out ({}): turned outwards", counted(h.inverted_surfaces, "closed surface is", "closed surfaces are"),
+                                counted(h.inverted_triangles, "triangle", "triangles")));
+  }
+  if (h.open_edges > 0) {
+    found.push_back(fmt::format("{}; {} of {} surfaces are open: holes, or sheets, seen from both sides and through their holes",
+                                counted(h.open_edges, "open edge", "open edges"), h.open_surfaces, h.surfaces));
+  }
+  if (h.mixed_edges > 0) {
+    found.push_back(counted(h.mixed_edges, "edge has", "edges have") +
+                    " neighbours that face opposite ways: their surfaces are taken as sheets, seen from both sides");
+  }
+  if (h.non_manifold_edges > 0) found.push_back(counted(h.non_manifold_edges, "edge has", "edges have") + " three triangles or more");
+  if (h.two_sided > 0) found.push_back(counted(h.two_sided, "triangle is", "triangles are") + " one of a pair back to back: sheets without thickness");
+  return found;
+}
+
+TriangleMesh repaired(const TriangleMesh& mesh) {
+  const Diagnosis d = diagnose(mesh);
+  TriangleMesh result = mesh;
+  result.triangles.clear();
+  result.triangle_part.clear();
+  result.triangle_material.clear();
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (d.drop[t]) continue;
+    auto triangle = mesh.triangles[t];
+    if (d.turn[t]) std::swap(triangle[1], triangle[2]);
+    result.triangles.push_back(triangle);
+    result.triangle_part.push_back(mesh.triangle_part[t]);
+    result.triangle_material.push_back(mesh.triangle_material[t]);
+  }
+  return result;
+}
+
+}  // namespace seaglint

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// What is wrong with a mesh, counted, and the part of it that can be put right without guessing.
+
+#include <string>
+#include <vector>
+
+#include "sim/geometry/topology.h"
+#include "sim/geometry/triangle_mesh.h"
+
+namespace seaglint {
+
+// Surfaces are triangles that hang together along edges. One is closed when every edge is run through as often in either direction.
+struct MeshHealth {
+  std::size_t triangles = 0;
+  std::size_t degenerate = 0;    // without area
+  std::size_t repeated = 0;      // further copies of a triangle, facing the same way
+  std::size_t two_sided = 0;     // triangles whose back is another triangle: sheets without thickness
+  std::size_t open_edges = 0;    // of one triangle: holes, rims of sheets
+  std::size_t non_manifold_edges = 0;  // of three and more
+  std::size_t mixed_edges = 0;   // whose two triangles face opposite ways
+  std::size_t surfaces = 0;
+  std::size_t open_surfaces = 0;
+  std::size_t inverted_surfaces = 0;   // closed and enclosing a negative volume: inside out
+  std::size_t inverted_triangles = 0;  // of those surfaces
+};
+
+// Vertices are one when their index is: weld first (read_mesh does).
+MeshHealth examine(const TriangleMesh& mesh);
+
+// One sentence for each finding, with what the solver makes of it; empty for a sound closed mesh.
+std::vector<std::string> findings(const MeshHealth& health);
+
+// Without degenerate and repeated triangles, and with closed surfaces turned outwards: a solver that leaves out what faces away would show the inside of
+// the others. A closed cavity within a closed body is turned too, which nobody sees. Everything else stays, in its order.
+TriangleMesh repaired(const TriangleMesh& mesh);
+
+}  // namespace seaglint
