@@ -9,6 +9,7 @@
 #include "sim/core/file.h"
 #include "sim/geometry/generators.h"
 #include "sim/geometry/make_ship.h"
+#include "sim/geometry/mesh_health.h"
 #include "sim/geometry/mesh_io.h"
 #include "sim/geometry/topology.h"
 #include "tools/command.h"
@@ -176,6 +177,7 @@ void print_info(const InfoArguments& arguments) {
   if (!arguments.picture.empty()) write_file(arguments.picture, png_bytes(picture_of(mesh, arguments.view)));
   fmt::print("{}\n{}{}{}{}{}", arguments.file, size_line(mesh), counts_line(mesh), part_lines(mesh, topology),
              material_lines(mesh), topology_lines(mesh, topology, arguments.wedge_deg));
+  for (const std::string& finding : findings(examine(mesh))) fmt::print("finding    {}\n", finding);
 }
 
 void add_info(CLI::App& mesh, Shell& shell) {

@@ -14,9 +14,11 @@
 #include "sim/core/file.h"
 #include "sim/core/number.h"
 #include "sim/core/progress.h"
+#include "sim/geometry/mesh_health.h"
 #include "sim/geometry/mesh_io.h"
 #include "sim/scattering/material_parts.h"
 #include "sim/scattering/respond.h"
+#include "sim/scattering/target_check.h"
 #include "tools/command.h"
 #include "tools/rcs_comparison.h"
 #include "tools/reference_arguments.h"
@@ -69,6 +71,19 @@ std::vector<MaterialSpec> choose_materials(const std::vector<std::string>& chose
 }
 
 double dbsm(const Complex& s) { return 10 * std::log10(std::max(4 * kPi * std::norm(s), 1e-30)); }
+
+void warn(const std::vector<std::string>& sentences) {
+  for (const std::string& sentence : sentences) fmt::print(stderr, "seaglint: warning: {}\n", sentence);
+}
+
+// The mesh as the solver takes it, with a warning for everything that is wrong with the file's.
+TriangleMesh read_sound_mesh(const std::string& file, const std::string& unit) {
+  const TriangleMesh mesh = read_mesh(file, unit);
+  TriangleMesh sound = repaired(mesh);
+  if (sound.triangles.empty()) throw InputError(fmt::format("{}: no triangle has an area: nothing scatters", file));
+  warn(findings(examine(mesh)));
+  return sound;
+}
 
 std::string table_text(const RcsArguments& arguments, const Scatterer& scatterer, const RcsSweep& sweep) {
   std::string csv = fmt::format(
@@ -148,10 +163,11 @@ void run_rcs(const RcsArguments& arguments, const Shell& shell) {
   const std::vector<RcsReference> references = arguments.reference.read();
   for (const RcsReference& reference : references) pair_with(sweep, reference);
 
-  TriangleMesh mesh = read_mesh(arguments.target, arguments.unit);
+  TriangleMesh mesh = read_sound_mesh(arguments.target, arguments.unit);
   const std::vector<MaterialSpec> materials = choose_materials(arguments.materials, mesh);
   const auto [lowest, highest] = std::minmax_element(sweep.frequency_hz.begin(), sweep.frequency_hz.end());
   check_frequencies(materials, *lowest, *highest);
+  warn(check_target(mesh, *lowest, arguments.ray_spacing_m));
   const Scatterer scatterer(mesh, materials);
   const auto start = std::chrono::steady_clock::now();
   const std::size_t legs = trace_views(arguments, scatterer, shell, sweep);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "sim/core/error.h"
+#include "sim/geometry/mesh_health.h"
 #include "sim/geometry/mesh_io.h"
 #include "sim/motion/simulate.h"
 #include "sim/motion/target_motion.h"
@@ -62,7 +63,7 @@ std::vector<Target> load_targets(const Scenario& scenario) {
     target.spec = spec;
     target.first_body = bodies;
     if (!spec.mesh.empty()) {
-      target.mesh = read_mesh(find_mesh(scenario, spec), spec.unit);
+      target.mesh = repaired(read_mesh(find_mesh(scenario, spec), spec.unit));
       target.materials = load_materials(scenario, spec, target.mesh);
       for (const Vec2& place : layout_places(spec)) {
         target.rest_positions.push_back(rest_position(spec.motion, place.x(), place.y()));

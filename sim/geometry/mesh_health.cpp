@@ -44,7 +44,7 @@ Corners corners_of(const TriangleMesh& mesh, std::uint32_t triangle) {
 
 struct Diagnosis {
   MeshHealth health;
-  std::vector<char> drop;  // degenerate or repeated
+  std::vector<char> drop;  // degenerate or a copy
   std::vector<char> turn;  // of an inverted surface
 };
 
@@ -59,18 +59,13 @@ void find_copies(const TriangleMesh& mesh, Diagnosis& d) {
     return a.sorted != b.sorted ? a.sorted < b.sorted : a.triangle < b.triangle;
   });
   for (std::size_t i = 0; i < all.size();) {
-    std::size_t end = i;
-    bool even = false, odd = false;
-    for (; end < all.size() && all[end].sorted == all[i].sorted; ++end) {
-      bool& known = all[end].even ? even : odd;
-      if (known) {
-        d.drop[all[end].triangle] = 1;
-        ++d.health.repeated;
-      }
-      known = true;
+    // The first stays; what faces the same way repeats it, what faces the other way is its back.
+    std::size_t next = i + 1;
+    for (; next < all.size() && all[next].sorted == all[i].sorted; ++next) {
+      d.drop[all[next].triangle] = 1;
+      ++(all[next].even == all[i].even ? d.health.repeated : d.health.two_sided);
     }
-    if (even && odd) d.health.two_sided += 2;
-    i = end;
+    i = next;
   }
 }
 
@@ -123,7 +118,7 @@ Diagnosis diagnose(const TriangleMesh& mesh) {
     surface.area += area.norm();
     ++surface.triangles;
   }
-  // A sheet with two sides encloses nothing but rounding.
+  // Rounding of what encloses nothing.
   constexpr double kLeastVolume = 1e-9;  // of size times area
   const double size = (box.upper - box.lower).norm();
   const auto inverted = [&](const Surface& s) { return !s.open && s.volume < -kLeastVolume * size * s.area; };
@@ -162,7 +157,7 @@ std::vector<std::string> findings(const MeshHealth& h) {
                     " neighbours that face opposite ways: their surfaces are taken as sheets, seen from both sides");
   }
   if (h.non_manifold_edges > 0) found.push_back(counted(h.non_manifold_edges, "edge has", "edges have") + " three triangles or more");
-  if (h.two_sided > 0) found.push_back(counted(h.two_sided, "triangle is", "triangles are") + " one of a pair back to back: sheets without thickness");
+  if (h.two_sided > 0) found.push_back(counted(h.two_sided, "triangle is", "triangles are") + " the back of another: left out, a sheet is seen from both sides");
   return found;
 }
 

@@ -16,7 +16,8 @@ struct MeshHealth {
   std::size_t triangles = 0;
   std::size_t degenerate = 0;    // without area
   std::size_t repeated = 0;      // further copies of a triangle, facing the same way
-  std::size_t two_sided = 0;     // triangles whose back is another triangle: sheets without thickness
+  std::size_t two_sided = 0;     // further copies facing the other way: the backs of sheets without thickness
+  // The rest as it is without those.
   std::size_t open_edges = 0;    // of one triangle: holes, rims of sheets
   std::size_t non_manifold_edges = 0;  // of three and more
   std::size_t mixed_edges = 0;   // whose two triangles face opposite ways
@@ -32,8 +33,8 @@ MeshHealth examine(const TriangleMesh& mesh);
 // One sentence for each finding, with what the solver makes of it; empty for a sound closed mesh.
 std::vector<std::string> findings(const MeshHealth& health);
 
-// Without degenerate and repeated triangles, and with closed surfaces turned outwards: a solver that leaves out what faces away would show the inside of
-// the others. A closed cavity within a closed body is turned too, which nobody sees. Everything else stays, in its order.
+// Without degenerate triangles and copies, and with closed surfaces turned outwards. Of coinciding triangles a ray meets only one, of a surface inside out a
+// solver that leaves out what faces away sees the inside. A closed cavity within a closed body is turned too, which nobody sees. Everything else stays, in its order.
 TriangleMesh repaired(const TriangleMesh& mesh);
 
 }  // namespace seaglint

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Meshes as they come out of CAD: what is wrong with them is said, and what can be right is.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "sim/core/error.h"
+#include "sim/geometry/generators.h"
+#include "sim/geometry/mesh_health.h"
+#include "sim/scattering/target_check.h"
+#include "tests/sim/scattering/echoes.h"
+
+namespace seaglint {
+namespace {
+
+using namespace testing_echoes;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr double kRounding = 1e-9;  // relative; the same facets in another order
+const double k10 = wavenumber(10e9);
+
+void flip(TriangleMesh& mesh, std::size_t triangle) { std::swap(mesh.triangles[triangle][1], mesh.triangles[triangle][2]); }
+
+void add(TriangleMesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
+  mesh.triangles.push_back(triangle);
+  mesh.triangle_part.push_back(0);
+  mesh.triangle_material.push_back(0);
+}
+
+// The largest difference of the two scattering matrices over a few directions, relative to the largest element.
+double difference(const TriangleMesh& a, const TriangleMesh& b) {
+  double most = 0, size = 0;
+  for (const double azimuth : {3.0, 40.0, 111.0, 200.0}) {
+    const auto sa = echo(a, direction(azimuth, 20), k10), sb = echo(b, direction(azimuth, 20), k10);
+    for (int i = 0; i < 4; ++i) {
+      most = std::max(most, std::abs(sa[i] - sb[i]));
+      size = std::max(size, std::abs(sa[i]));
+    }
+  }
+  return most / size;
+}
+
+TEST(DirtyMesh, InsideOutEchoesAsTheSoundOneOnceRepaired) {
+  const TriangleMesh sound = make_icosahedral_reflector();
+  TriangleMesh inverted = sound;
+  for (std::size_t t = 0; t < inverted.triangles.size(); ++t) flip(inverted, t);
+  EXPECT_GT(difference(sound, inverted), 0.1) << "as it stands it shows its inside";
+  EXPECT_LT(difference(sound, repaired(inverted)), kRounding);
+}
+
+TEST(DirtyMesh, OfMixedNormalsEchoesAsTheSoundOne) {
+  const TriangleMesh sound = make_icosahedral_reflector();
+  TriangleMesh mixed = sound;
+  for (std::size_t t = 0; t < mixed.triangles.size(); t += 3) flip(mixed, t);
+  EXPECT_LT(difference(sound, repaired(mixed)), 1e-6);  // both sides are looked at: what is hidden is hidden by polygons, to their smallest area
+}
+
+TEST(DirtyMesh, WithRepeatedAndDegenerateTrianglesEchoesAsTheSoundOne) {
+  const TriangleMesh sound = make_icosahedral_reflector();
+  TriangleMesh dirty = sound;
+  for (std::size_t t = 0; t < 60; t += 7) {
+    add(dirty, sound.triangles[t]);
+    add(dirty, {sound.triangles[t][0], sound.triangles[t][1], sound.triangles[t][1]});
+  }
+  EXPECT_LT(difference(sound, repaired(dirty)), kRounding);
+}
+
+TEST(DirtyMesh, OfTwoSidedSheetsEchoesAsTheSheets) {
+  const TriangleMesh sheet = make_triangular_trihedral(0.3);
+  TriangleMesh two_sided = sheet;
+  for (const auto& t : sheet.triangles) add(two_sided, {t[0], t[2], t[1]});
+  EXPECT_LT(difference(sheet, repaired(two_sided)), kRounding);
+}
+
+TEST(TargetCheck, HasNothingToSayOfAReflectorAtSixteenGigahertz) {
+  EXPECT_THAT(check_target(make_icosahedral_reflector(), 16e9, 0), ElementsAre());
+}
+
+TEST(TargetCheck, WarnsOfTargetsTooSmallTooLargeAndTooFar) {
+  EXPECT_THAT(check_target(make_sphere(0.0005, 2), 10e9, 0), ElementsAre(HasSubstr("0.0578 wavelengths at 10 GHz")));
+  EXPECT_THAT(check_target(make_plate(100e3, 10), 10e9, 1), ElementsAre(HasSubstr("1e+05 m across; is its unit right?")));
+  EXPECT_THROW(check_target(make_plate(100e3, 20e3), 10e9, 0), InputError) << "2e11 rays";
+  EXPECT_THAT(check_target(transformed(make_sphere(1, 2), Mat3::Identity(), Vec3(50, 0, 0)), 10e9, 0), ElementsAre(HasSubstr("from its origin")));
+  EXPECT_THROW(check_target(transformed(make_sphere(1, 2), Mat3::Identity(), Vec3(5e3, 0, 0)), 10e9, 0), InputError);
+}
+
+}  // namespace
+}  // namespace seaglint
