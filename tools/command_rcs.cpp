@@ -167,7 +167,7 @@ void run_rcs(const RcsArguments& arguments, const Shell& shell) {
   const std::vector<MaterialSpec> materials = choose_materials(arguments.materials, mesh);
   const auto [lowest, highest] = std::minmax_element(sweep.frequency_hz.begin(), sweep.frequency_hz.end());
   check_frequencies(materials, *lowest, *highest);
-  warn(check_target(mesh, *lowest, arguments.ray_spacing_m));
+  warn(check_target(mesh, *lowest));
   const Scatterer scatterer(mesh, materials);
   const auto start = std::chrono::steady_clock::now();
   const std::size_t legs = trace_views(arguments, scatterer, shell, sweep);

@@ -10,9 +10,8 @@
 
 namespace seaglint {
 
-// What a user should know before the first trace, one sentence each; empty for most targets. lowest_hz: of the sweep; ray_spacing_m: 0 = the default.
-// Throws InputError when the answer would be nothing (the target lies so far from its origin that its polygons fall below the smallest that are kept) or
-// would not come (rays for one view beyond 1e8).
-std::vector<std::string> check_target(const TriangleMesh& mesh, double lowest_hz, double ray_spacing_m);
+// What a user should know before the first trace, one sentence each; empty for most targets. lowest_hz: of the sweep. Throws InputError when the target lies
+// so far from its origin that its details fall below the smallest that are followed.
+std::vector<std::string> check_target(const TriangleMesh& mesh, double lowest_hz);
 
 }  // namespace seaglint

@@ -9,6 +9,8 @@
 #include <sstream>
 
 #include "sim/core/constants.h"
+#include "sim/geometry/generators.h"
+#include "sim/geometry/mesh_io.h"
 #include "tests/pipeline/program.h"
 
 namespace seaglint {
@@ -168,6 +170,37 @@ TEST_F(RcsCommand, RefusesAReferenceThatDoesNotFitBeforeAnyWork) {
   refused({"--reference-phi", "1,0", "--reference-phi", "1,0"}, "is given 2 times for 1 references");
   refused({"--reference", "missing.H.txt"}, "missing.H.txt");
   refused({"--floor-db", "0"}, "--floor-db");
+}
+
+// A reflector inside out with a hole beside it: one echoes as it should, the other's interior is seen; both are said, in one line each.
+TEST_F(RcsCommand, WarnsOfWhatIsWrongWithAMeshAndGoesOn) {
+  TriangleMesh mesh = make_icosahedral_reflector();
+  for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+  TriangleMesh holed = transformed(make_sphere(0.3, 2), Mat3::Identity(), Vec3(0, 3, 0));
+  holed.triangles[0] = holed.triangles[1];
+  mesh.append(holed);
+  write_mesh(plate(), mesh);
+  const ProgramResult result = rcs({"--frequency-ghz", "0.1:10:9.9", "--azimuth-deg", "0"});
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_THAT(result.err, testing::StartsWith("seaglint: warning: 1 triangle repeats another: left out\n"
+                                              "seaglint: warning: 1 closed surface is inside out (60 triangles): turned outwards\n"
+                                              "seaglint: warning: 3 open edges; 1 of 2 surfaces are open"));
+  EXPECT_THAT(result.err, HasSubstr("wavelengths at 0.1 GHz; physical optics needs 3 and more"));
+}
+
+TEST_F(RcsCommand, RefusesMeshesWithoutAnythingThatScatters) {
+  const std::string file = folder_.path() / "bad.obj";
+  const auto refused = [&](const std::string& text, const std::string& message) {
+    write_file(file, text);
+    const ProgramResult result = run_program({"rcs", "--target", file, "-o", table(), "--frequency-ghz", "10", "--azimuth-deg", "0"});
+    EXPECT_EQ(result.code, 2) << result.err;
+    EXPECT_THAT(result.err, HasSubstr(message));
+    EXPECT_FALSE(std::filesystem::exists(table()));
+  };
+  refused("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "no triangle has an area: nothing scatters");
+  refused("v 0 0 0\nv 1 0 0\nv 0 nan 1\nf 1 2 3\n", "bad.obj");
+  refused("v 0 0 0\nv 1 0 0\nv 0 1 1\n", "holds no triangles");
+  refused("v 9000 0 0\nv 9000 1 0\nv 9000 0 1\nf 1 2 3\n", "from its origin");
 }
 
 TEST_F(RcsCommand, RefusesEdgesAndRangesThatCannotBe) {
