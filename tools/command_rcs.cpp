@@ -22,6 +22,7 @@
 #include "tools/command.h"
 #include "tools/rcs_comparison.h"
 #include "tools/reference_arguments.h"
+#include "tools/sea_arguments.h"
 
 namespace seaglint {
 
@@ -33,6 +34,7 @@ struct RcsArguments {
   int max_bounces = 8;
   ReferenceArguments reference;
   std::vector<std::string> materials;  // NAME or PART=NAME
+  SeaArguments sea;
 };
 
 std::vector<double> range(const std::string& option, const std::string& text, double lower, double upper) {
@@ -87,13 +89,13 @@ TriangleMesh read_sound_mesh(const std::string& file, const std::string& unit) {
 
 std::string table_text(const RcsArguments& arguments, const Scatterer& scatterer, const RcsSweep& sweep) {
   std::string csv = fmt::format(
-      "# seaglint {} rcs\n# target {} unit {}: {} facets, radius {:.6g} m\n# material {}\n# physical optics at every visible bounce, "
+      "# seaglint {} rcs\n# target {} unit {}: {} facets, radius {:.6g} m\n# material {}\n{}# physical optics at every visible bounce, "
       "max_bounces {}, edges off, "
       "ray_spacing_m {:.6g}\n# amplitudes in metres, e^{{+jwt}}, phase origin at the body's origin, S_pq: q "
       "transmitted, p received; basis of CONVENTIONS.md\n"
       "frequency_hz,azimuth_deg,elevation_deg,hh_re,hh_im,hv_re,hv_im,vh_re,vh_im,vv_re,vv_im,hh_dbsm,vv_dbsm\n",
       kVersion, arguments.target, arguments.unit, scatterer.facets().size(), scatterer.radius(),
-      arguments.materials.empty() ? "pec" : fmt::format("{}", fmt::join(arguments.materials, " ")), arguments.max_bounces,
+      arguments.materials.empty() ? "pec" : fmt::format("{}", fmt::join(arguments.materials, " ")), arguments.sea.text(), arguments.max_bounces,
       arguments.ray_spacing_m > 0 ? arguments.ray_spacing_m : default_ray_spacing(scatterer));
   for (std::size_t q = 0; q < sweep.frequency_hz.size(); ++q) {
     for (std::size_t view = 0; view < sweep.views(); ++view) {
@@ -120,7 +122,10 @@ std::size_t trace_views(const RcsArguments& arguments, const Scatterer& scattere
     const RadarBasis basis = radar_basis({std::cos(el) * std::cos(az), std::cos(el) * std::sin(az), std::sin(el)});
     try {
       sweep.models[0].matrices[view] =
-          scattering_matrices(scatterer, monostatic(basis), wavenumbers, {arguments.ray_spacing_m, arguments.max_bounces},
+          arguments.sea.reflection
+              ? scattering_matrices_over_sea(scatterer, basis.r, arguments.sea.height_m, arguments.sea.mirror(), wavenumbers,
+                                             {arguments.ray_spacing_m, arguments.max_bounces}, thread_count(shell.threads), &legs, &shell.stop)
+              : scattering_matrices(scatterer, monostatic(basis), wavenumbers, {arguments.ray_spacing_m, arguments.max_bounces},
                               thread_count(shell.threads), &legs, &shell.stop);
     } catch (const Interrupted&) {
       throw WorkError(fmt::format("interrupted after {} of {} views; {} is not written", view, sweep.views(), arguments.output));
@@ -156,6 +161,7 @@ void run_rcs(const RcsArguments& arguments, const Shell& shell) {
   for (double& f : sweep.frequency_hz) f *= 1e9;
   sweep.azimuth_deg = range("--azimuth-deg", arguments.azimuth_deg, -720, 720);
   sweep.elevation_deg = range("--elevation-deg", arguments.elevation_deg, -90, 90);
+  arguments.sea.check_elevations(sweep.elevation_deg);
   const std::size_t rows = sweep.views() * sweep.frequency_hz.size();
   constexpr std::size_t kMostRows = 4'000'000;  // 256 MB of matrices
   if (rows > kMostRows) throw InputError(fmt::format("{} rows of output: at most {}", rows, kMostRows));
@@ -164,10 +170,11 @@ void run_rcs(const RcsArguments& arguments, const Shell& shell) {
   for (const RcsReference& reference : references) pair_with(sweep, reference);
 
   TriangleMesh mesh = read_sound_mesh(arguments.target, arguments.unit);
-  const std::vector<MaterialSpec> materials = choose_materials(arguments.materials, mesh);
+  std::vector<MaterialSpec> materials = choose_materials(arguments.materials, mesh);
   const auto [lowest, highest] = std::minmax_element(sweep.frequency_hz.begin(), sweep.frequency_hz.end());
   check_frequencies(materials, *lowest, *highest);
   warn(check_target(mesh, *lowest));
+  if (arguments.sea.reflection) put_in_water(mesh, materials, -arguments.sea.height_m);
   const Scatterer scatterer(mesh, materials);
   const auto start = std::chrono::steady_clock::now();
   const std::size_t legs = trace_views(arguments, scatterer, shell, sweep);
@@ -205,6 +212,7 @@ void add_rcs(CLI::App& app, Shell& shell) {
                    "What the target is made of: pec, a name of assets/materials or a file; PART=NAME for one part, PART* for all that begin so (repeatable)")
       ->type_name("[PART=]NAME")
       ->allow_extra_args(false);
+  arguments->sea.add_to(*command);
   command->add_option("-o,--output", arguments->output, "CSV file to write")->required();
   arguments->reference.add_to(*command);
   add_threads_option(*command, shell);

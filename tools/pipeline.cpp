@@ -85,15 +85,20 @@ std::shared_ptr<const Scene> Pipeline::scene(int sea_state, int realisation) con
   return slot->scene;
 }
 
-BodyResponse Pipeline::target_response(std::size_t target, const Scene& scene, const View& view,
+BodyResponse Pipeline::target_response(std::size_t target, const Scene& scene, const View& view, const SeaState& state,
                                        const IntervalSampling& sampling) const {
   const Vec3 r_hat = direction_to_radar(view);
+  const SeaMirror mirror(scenario_.sea_reflection, state.significant_wave_height_m);
+  const SeaMirror* sea = scenario_.sea_reflection.enabled ? &mirror : nullptr;
   const TargetSpec& spec = targets_[target].spec;
-  if (!scatterers_[target]) return {point_response(spec.points, r_hat, sampling), 0};
+  if (!scatterers_[target]) {
+    if (sea != nullptr) return {point_response_over_sea(spec.points, r_hat, sampling, scenario_.radar.polarisation, *sea), 0};
+    return {point_response(spec.points, r_hat, sampling), 0};
+  }
   BodyResponse sum;
   for (const Trajectory& body : scene.bodies[target]) {
     const BodyResponse term =
-        respond(*scatterers_[target], body, r_hat, scenario_.radar.polarisation, sampling, spec.solver);
+        respond(*scatterers_[target], body, r_hat, scenario_.radar.polarisation, sampling, spec.solver, 1, sea);
     sum.traces += term.traces;
     if (sum.response.values.empty()) {
       sum.response = term.response;
@@ -115,15 +120,15 @@ MadeSample Pipeline::make(std::size_t sample) const {
   // Sea and motion are shared by both classes and all views; hop code, clutter and noise are the sample's own.
   const std::shared_ptr<const Scene> moving = scene(at.sea_state, at.realisation);
   made.train = make_pulse_train(scenario_.radar, range_window_m_, scenario_.seed, sample);
+  const SeaState& state = sea_states_[static_cast<std::size_t>(at.sea_state)];
   const BodyResponse response =
-      target_response(static_cast<std::size_t>(at.target), *moving, view, interval_sampling(made.train, start_s));
+      target_response(static_cast<std::size_t>(at.target), *moving, view, state, interval_sampling(made.train, start_s));
   const Echo echo = synthesize_echo(made.train, response.response, scenario_.clutter, scenario_.seed, sample);
   made.received = receive(echo, made.train, scenario_.clutter, scenario_.map, scenario_.radar.intra_pulse_motion);
   made.centres = extract_centres(made.received.echo, made.train, scenario_.map, scenario_.radar.intra_pulse_motion,
                                  scenario_.features);
   made.features = compute_features(made.centres, scenario_.features);
 
-  const SeaState& state = sea_states_[static_cast<std::size_t>(at.sea_state)];
   SampleRecord& record = made.stored.record;
   record.sample = static_cast<std::int64_t>(sample);
   record.label = target.spec.label;

@@ -44,7 +44,7 @@ class Pipeline {
 
  private:
   // H of a target seen from `view` over an interval: the sum over its bodies, or its ideal points.
-  BodyResponse target_response(std::size_t target, const Scene& scene, const View& view,
+  BodyResponse target_response(std::size_t target, const Scene& scene, const View& view, const SeaState& state,
                                const IntervalSampling& sampling) const;
 
   Scenario scenario_;

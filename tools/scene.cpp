@@ -65,6 +65,8 @@ std::vector<Target> load_targets(const Scenario& scenario) {
     if (!spec.mesh.empty()) {
       target.mesh = repaired(read_mesh(find_mesh(scenario, spec), spec.unit));
       target.materials = load_materials(scenario, spec, target.mesh);
+      // The radar's image looks at the hull from below.
+      if (scenario.sea_reflection.enabled) put_in_water(target.mesh, target.materials, -rest_position(spec.motion, 0, 0).z());
       for (const Vec2& place : layout_places(spec)) {
         target.rest_positions.push_back(rest_position(spec.motion, place.x(), place.y()));
       }

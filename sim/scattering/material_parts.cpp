@@ -7,6 +7,7 @@
 
 #include "sim/core/error.h"
 #include "sim/core/suggestion.h"
+#include "sim/geometry/waterline.h"
 
 namespace seaglint {
 
@@ -34,6 +35,20 @@ std::vector<MaterialSpec> assign_materials(TriangleMesh& mesh, const MaterialSpe
     if (t < mesh.triangle_part.size()) mesh.triangle_material[t] = of_part[mesh.triangle_part[t]];
   }
   return materials;
+}
+
+void put_in_water(TriangleMesh& mesh, std::vector<MaterialSpec>& materials, double height) {
+  WaterlineCut cut = cut_at_waterline(mesh, height);
+  mesh = std::move(cut.mesh);
+  MaterialSpec water;
+  water.name = "under_water";
+  water.kind = SurfaceKind::kUnderWater;
+  mesh.triangle_material.resize(mesh.triangles.size(), 0);
+  for (std::size_t t = 0; t < cut.below.size(); ++t) {
+    if (cut.below[t]) mesh.triangle_material[t] = static_cast<std::uint16_t>(materials.size());
+  }
+  mesh.materials.push_back({water.name});
+  materials.push_back(water);
 }
 
 void check_frequencies(std::span<const MaterialSpec> materials, double lowest_hz, double highest_hz) {

@@ -46,6 +46,33 @@ void add_point_to_pulse(Complex* pulse, const IntervalSampling& sampling, int fi
 
 }  // namespace
 
+FrequencyResponse point_response_over_sea(std::span<const PointSpec> points, const Vec3& r_hat, const IntervalSampling& sampling,
+                                          Polarisation polarisation, const SeaMirror& sea) {
+  FrequencyResponse response;
+  response.pulses = static_cast<int>(sampling.pulse_first.size());
+  response.per_pulse = sampling.per_pulse;
+  response.values.assign(static_cast<std::size_t>(response.pulses) * sampling.per_pulse, Complex{});
+  const Vec3 image_r = image_direction(r_hat);
+  for (int n = 0; n < response.pulses; ++n) {
+    for (int b = 0; b < response.per_pulse; ++b) {
+      const double k = 2 * kPi / kSpeedOfLight * (sampling.first_hz + (sampling.pulse_first[n] + b) * sampling.step_hz);
+      const double baseband_hz = (b - 0.5 * (sampling.per_pulse - 1)) * sampling.step_hz;
+      const double elapsed_s = sampling.pulse_time_s[n] - sampling.pulse_time_s.front() +
+                               (sampling.chirp_rate_hz_s == 0 ? 0 : baseband_hz / sampling.chirp_rate_hz_s);
+      const SeaCoefficients rho = sea.at(k, r_hat.z());
+      for (const PointSpec& point : points) {
+        const Vec3 x = as_vector(point.position_m) + elapsed_s * as_vector(point.velocity_mps);
+        for (const SeaPath& path : kSeaPaths) {
+          if (!sea.wanted(path)) continue;
+          const double psi = ((path.there ? image_r : r_hat) + (path.back ? image_r : r_hat)).dot(x);
+          response.at(n, b) += point.amplitude_m * SeaMirror::weight(path, rho, static_cast<int>(polarisation)) * std::polar(1.0, k * psi);
+        }
+      }
+    }
+  }
+  return response;
+}
+
 Vec3 direction_to_radar(const View& view) {
   return {std::cos(view.elevation_rad) * std::cos(view.azimuth_rad),
           std::cos(view.elevation_rad) * std::sin(view.azimuth_rad), std::sin(view.elevation_rad)};

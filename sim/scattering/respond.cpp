@@ -72,6 +72,14 @@ Vec3 across(const Vec3& r) {
   return (std::abs(r.z()) < 0.9 ? Vec3(Vec3::UnitZ().cross(r)) : Vec3(Vec3::UnitX().cross(r))).normalized();
 }
 
+// The common way of two directions from pulse `first` to `last`, of unit length in both together.
+Track track_of(std::span<const Vec3> transmit, std::span<const Vec3> receive, int first, int last, const Vec3& transmit_at) {
+  const Vec3 t = transmit[last] - transmit[first], r = receive[last] - receive[first];
+  const double length = std::sqrt(t.squaredNorm() + r.squaredNorm());
+  if (length < 1e-12) return {across(transmit_at), Vec3::Zero()};
+  return {t / length, r / length};
+}
+
 }  // namespace
 
 double default_turn(const Scatterer& scatterer, double wavelength) {
@@ -80,24 +88,35 @@ double default_turn(const Scatterer& scatterer, double wavelength) {
 
 BodyResponse respond(const Scatterer& scatterer, const Trajectory& trajectory, const Vec3& r_hat,
                      Polarisation polarisation, const IntervalSampling& sampling, const SolverSpec& solver,
-                     int threads) {
+                     int threads, const SeaMirror* sea) {
   const int pulses = static_cast<int>(sampling.pulse_time_s.size());
   SEAGLINT_CHECK(pulses > 0 && sampling.pulse_first.size() == sampling.pulse_time_s.size(),
                  fmt::format("{} pulse times, {} bands", pulses, sampling.pulse_first.size()));
   threads = std::max(1, threads);
   const RadarBasis world = radar_basis(r_hat);
+  const Vec3 image_r = image_direction(r_hat);
+  const RadarBasis image{image_r, world.h, image_r.cross(world.h)};
   const int channel = static_cast<int>(polarisation);
   constexpr double kToWavenumber = 2 * kPi / kSpeedOfLight;
   const WavenumberGrid wavenumbers{kToWavenumber * sampling.first_hz, kToWavenumber * sampling.step_hz, sampling.count};
 
   std::vector<Pose> poses(pulses);
-  std::vector<Vec3> directions(pulses);
+  std::vector<Vec3> directions(pulses), image_directions(pulses);
   for (int n = 0; n < pulses; ++n) {
     poses[n] = trajectory.pose(sampling.pulse_time_s[n]);
     directions[n] = poses[n].R_TB.transpose() * r_hat;
+    image_directions[n] = poses[n].R_TB.transpose() * image_r;
   }
   double turn = 0;  // length of the direction's path over the interval
   for (int n = 1; n < pulses; ++n) turn += (directions[n] - directions[n - 1]).norm();
+
+  if (sea != nullptr) {
+    double image_turn = 0;
+    for (int n = 1; n < pulses; ++n) image_turn += (image_directions[n] - image_directions[n - 1]).norm();
+    turn = std::max(turn, image_turn);
+  }
+  std::vector<SeaCoefficients> mirror;  // per frequency
+  for (int q = 0; sea != nullptr && q < wavenumbers.count; ++q) mirror.push_back(sea->at(wavenumbers.at(q), r_hat.z()));
 
   BodyResponse result;
   result.response.pulses = pulses;
@@ -118,12 +137,24 @@ BodyResponse respond(const Scatterer& scatterer, const Trajectory& trajectory, c
     const double position = length > 0 ? (sampling.pulse_time_s[n] - start) / length * spans - 0.5 : 0.0;
     return std::max(0.0, 1 - std::abs(std::clamp(position, 0.0, spans - 1.0) - span));
   };
+  // What comes one way: both directions move along `track`, and s measures how far.
+  struct Way {
+    Vec3 transmit = Vec3::Zero(), receive = Vec3::Zero();  // where the trace was made
+    Track track;
+    std::optional<ReturnGrid> returns;
+  };
   struct Trace {
     int first = 0, last = -1;  // pulses it has a weight in
     RadarBasis basis;
     Vec3 track;
     std::optional<ReturnGrid> returns;
+    std::array<Way, kSeaPaths.size()> by_sea;
   };
+  const auto displacement = [&](const Way& way, const SeaPath& path, int n) {
+    const Vec3 &transmit = path.there ? image_directions[n] : directions[n], &receive = path.back ? image_directions[n] : directions[n];
+    return (transmit - way.transmit).dot(way.track.transmit) + (receive - way.receive).dot(way.track.receive);
+  };
+  const bool direct = sea == nullptr || sea->wanted(SeaPath{});
   std::vector<Trace> traces(spans);
   // Traces side by side before facets side by side: the threads then meet less often.
   const int side_by_side = std::min(threads, spans);
@@ -144,18 +175,53 @@ BodyResponse respond(const Scatterer& scatterer, const Trajectory& trajectory, c
     for (int n = trace.first; n <= trace.last; ++n) {
       reach = std::max(reach, std::abs((directions[n] - trace.basis.r).dot(trace.track)));
     }
-    trace.returns = trace_returns(scatterer, monostatic(trace.basis), {trace.track, trace.track}, reach, wavenumbers, channel, solver,
-                                  std::max(1, threads / side_by_side));
+    const int threads_each = std::max(1, threads / side_by_side);
+    if (direct) {
+      trace.returns = trace_returns(scatterer, monostatic(trace.basis), {trace.track, trace.track}, reach, wavenumbers, channel, solver, threads_each);
+    }
+    if (sea == nullptr) return;
+    const RadarBasis image_basis = body_basis(image, trajectory.pose(start + length * (static_cast<double>(i) + 0.5) / spans));
+    for (std::size_t p = 0; p < kSeaPaths.size(); ++p) {
+      const SeaPath& path = kSeaPaths[p];
+      if (!path.multipath() || !sea->wanted(path)) continue;
+      Way& way = trace.by_sea[p];
+      const RadarBasis &transmit = path.there ? image_basis : trace.basis, &receive = path.back ? image_basis : trace.basis;
+      way.transmit = transmit.r;
+      way.receive = receive.r;
+      way.track = track_of(path.there ? image_directions : directions, path.back ? image_directions : directions, trace.first, trace.last,
+                           transmit.r);
+      double way_reach = 0;
+      for (int n = trace.first; n <= trace.last; ++n) way_reach = std::max(way_reach, std::abs(displacement(way, path, n)));
+      const AntennaPair antennas = path.there == path.back ? monostatic(transmit) : bistatic(transmit, receive);
+      way.returns = trace_returns(scatterer, antennas, way.track, way_reach, wavenumbers, channel, solver, threads_each);
+    }
   });
   for (int i = 0; i < spans; ++i) {
     const Trace& trace = traces[i];
-    if (!trace.returns) continue;
+    if (trace.first > trace.last) continue;
     for (int n = trace.first; n <= trace.last; ++n) {
+      if (!trace.returns) break;
       trace.returns->response(sampling.pulse_first[n], (directions[n] - trace.basis.r).dot(trace.track), scratch);
       const std::span<Complex> out = band(n);
       for (std::size_t b = 0; b < out.size(); ++b) out[b] += weight(i, n) * scratch[b];
     }
-    ++result.traces;
+    result.traces += trace.returns ? 1 : 0;
+    for (std::size_t p = 0; p < kSeaPaths.size(); ++p) {
+      const SeaPath& path = kSeaPaths[p];
+      const Way& way = trace.by_sea[p];
+      if (!way.returns) continue;
+      for (int n = trace.first; n <= trace.last; ++n) {
+        way.returns->response(sampling.pulse_first[n], displacement(way, path, n), scratch);
+        // Beyond the direct path to the body's origin, which all ways share below: e^{jk (a + b - 2 r^).p}.
+        const double detour = ((path.there ? image_r : r_hat) + (path.back ? image_r : r_hat) - 2 * r_hat).dot(poses[n].p_TB);
+        const std::span<Complex> out = band(n);
+        for (std::size_t b = 0; b < out.size(); ++b) {
+          const int q = sampling.pulse_first[n] + static_cast<int>(b);
+          out[b] += weight(i, n) * SeaMirror::weight(path, mirror[q], channel) * std::polar(1.0, wavenumbers.at(q) * detour) * scratch[b];
+        }
+      }
+      ++result.traces;
+    }
   }
 
   // The body's origin moves too: e^{+j 2k r^.p}, exact for every pulse and frequency.

@@ -11,6 +11,7 @@
 #include "sim/motion/trajectory.h"
 #include "sim/scattering/frequency_response.h"
 #include "sim/scattering/illuminate.h"
+#include "sim/scattering/sea_mirror.h"
 #include "sim/scenario/radar_spec.h"
 #include "sim/scenario/target_spec.h"
 
@@ -29,10 +30,11 @@ double default_turn(const Scatterer& scatterer, double wavelength);
 // body turns by at most solver.max_turn_deg; a faster body is traced at the middles of spans that short, and
 // neighbouring traces are blended linearly in time. Error against a fresh trace per pulse and frequency:
 // sim/scattering/README.md. Polarisation basis: that of the world, turned into the body at each trace. The trajectory
-// must cover the interval.
+// must cover the interval. With `sea` the echo comes four ways over the surface z = 0 of the target frame (sea_mirror.h), each traced
+// by itself; r_hat.z() > 0.
 BodyResponse respond(const Scatterer& scatterer, const Trajectory& trajectory, const Vec3& r_hat,
                      Polarisation polarisation, const IntervalSampling& sampling, const SolverSpec& solver,
-                     int threads = 1);
+                     int threads = 1, const SeaMirror* sea = nullptr);
 
 // The scattering matrix hh, hv, vh, vv (received, transmitted) in metres at each wavenumber, body at rest: one trace, and the exact phase
 // integral of every footprint at every frequency. Each direction has its own basis. Raises *legs by the legs of beams followed.

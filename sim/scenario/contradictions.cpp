@@ -38,6 +38,17 @@ void check_sea(const SeaSpec& sea, const ScenarioDocument& document) {
   }
 }
 
+// A radar at or below the horizon has no image to see the target from; sea water's model ends at 90 GHz.
+void check_sea_reflection(const Scenario& scenario, const ScenarioDocument& document) {
+  if (!scenario.sea_reflection.enabled) return;
+  for (const double elevation : scenario.view.elevation_deg) {
+    if (elevation <= 0) document.fail_at("view.elevation_deg", "must be greater than 0 with sea_reflection");
+  }
+  if (scenario.sea_reflection.surface == SeaSurface::kSeaWater && scenario.radar.carrier_ghz > 89) {
+    document.fail_at("radar.carrier_ghz", "must be at most 89 with sea_reflection of sea_water");
+  }
+}
+
 void check_target(const TargetSpec& target, const ScenarioDocument& document) {
   const std::string path = "targets." + target.name;
   if (target.mesh.empty() && target.points.empty()) document.fail_at(path, "must have a mesh or points");
@@ -96,6 +107,7 @@ void check_contradictions(const Scenario& scenario, const ScenarioDocument& docu
   check_radar(scenario.radar, document);
   check_case_count(scenario, document);
   check_sea(scenario.sea, document);
+  check_sea_reflection(scenario, document);
   for (const TargetSpec& target : scenario.targets) check_target(target, document);
   check_intra_pulse_motion(scenario, document);
   check_dataset(scenario, document);

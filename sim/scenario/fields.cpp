@@ -79,6 +79,15 @@ void visit(SeaSpec& spec, FieldVisitor& v) {
   v.number("second_order_cutoff_rad_s", spec.second_order_cutoff_rad_s, within(0, 1000));
 }
 
+void visit(SeaReflectionSpec& spec, FieldVisitor& v) {
+  v.flag("enabled", spec.enabled);
+  visit_choice(v, "surface", spec.surface, {"sea_water", "conductor"});
+  v.number("temperature_c", spec.temperature_c, within(-2, 29));
+  v.number("salinity_psu", spec.salinity_psu, within(0, 40));
+  visit_choice(v, "roughness", spec.roughness, {"miller_brown_vegh", "ament", "none"});
+  visit_choice(v, "paths", spec.paths, {"all", "direct", "multipath"});
+}
+
 void visit(LineLayout& layout, FieldVisitor& v) {
   v.integer("count", layout.count, within(1, 1000));
   v.number("spacing_m", layout.spacing_m, above_up_to(0, 10000));
@@ -238,6 +247,7 @@ void visit_fields(Scenario& scenario, FieldVisitor& v) {
   visit_section(v, "radar", scenario.radar);
   visit_section(v, "view", scenario.view);
   visit_section(v, "sea", scenario.sea);
+  visit_section(v, "sea_reflection", scenario.sea_reflection);
   std::vector<std::string> names;
   for (const TargetSpec& target : scenario.targets) names.push_back(target.name);
   v.require("targets");

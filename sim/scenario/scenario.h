@@ -22,6 +22,7 @@ struct Scenario {
   RadarSpec radar;
   ViewSpec view;
   SeaSpec sea;
+  SeaReflectionSpec sea_reflection;
   std::vector<TargetSpec> targets;  // in the order of the file
   ClutterSpec clutter;
   MapSpec map;

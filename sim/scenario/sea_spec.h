@@ -19,6 +19,21 @@ struct SeaSpec {
   double second_order_cutoff_rad_s = 0;  // highest component in the quadratic sums; 0 = sqrt(2 g / Hs); 0 <= x <= 1000
 };
 
+enum class SeaSurface { kSeaWater, kConductor };
+enum class SeaRoughness { kMillerBrownVegh, kAment, kNone };
+enum class SeaPaths { kAll, kDirect, kMultipath };
+
+// The `sea_reflection` section: the mean sea surface as a mirror between radar and target (sim/scattering/README.md, "Sea reflection"). The loss by
+// waves follows the significant wave height of the sea state.
+struct SeaReflectionSpec {
+  bool enabled = false;
+  SeaSurface surface = SeaSurface::kSeaWater;
+  double temperature_c = 20;  // -2 <= x <= 29
+  double salinity_psu = 35;   // 0 <= x <= 40
+  SeaRoughness roughness = SeaRoughness::kMillerBrownVegh;
+  SeaPaths paths = SeaPaths::kAll;  // direct: without those by way of the sea; multipath: those alone
+};
+
 // One sea state: a SeaSpec with one value of each sweep.
 struct SeaState {
   double significant_wave_height_m = 1;

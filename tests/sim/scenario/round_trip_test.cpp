@@ -110,6 +110,7 @@ Scenario full_scenario() {
   ship.label = 1;
   ship.mesh = "ship.glb";
   ship.motion.rotation_centre_m = {1, 2, 3};
+  ship.part_materials = {{"mast", "pec"}, {"hull*", "steel"}};
   TargetSpec array;
   array.name = "array";
   array.mesh = "null";
@@ -138,6 +139,10 @@ void make_consistent(Scenario& scenario) {
   scenario.dataset.realisations_per_case = 7;
   scenario.dataset.maps_per_case = 7 * 13;
   for (double& height : scenario.sea.significant_wave_height_m) height *= 1e-3;
+  if (scenario.sea_reflection.enabled) {
+    scenario.radar.carrier_ghz = std::min(scenario.radar.carrier_ghz, 88.1);
+    for (double& elevation : scenario.view.elevation_deg) elevation = std::max(std::abs(elevation), 1e-3);
+  }
   for (const TargetSpec& target : scenario.targets) {
     if (!target.mesh.empty()) scenario.radar.intra_pulse_motion = false;
   }

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/sea_arguments.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "sim/core/error.h"
+
+namespace seaglint {
+
+void SeaArguments::add_to(CLI::App& command) {
+  CLI::Option* sea = command.add_flag("--sea-reflection", reflection,
+                                      "Four ways between radar and target: direct and by the mean sea surface; elevations must be above 0");
+  command.add_option("--height-m", height_m, "Height of the mesh's origin above the mean sea surface")->check(CLI::Range(-1e4, 1e4))->needs(sea);
+  command.add_option("--wave-height-m", wave_height_m, "Significant wave height: roughness of the mirror")->check(CLI::Range(0.0, 30.0))->needs(sea);
+  command.add_option("--sea-surface", surface, "sea_water (20 deg C, 35 psu) or conductor")
+      ->check(CLI::IsMember({"sea_water", "conductor"}))
+      ->needs(sea);
+  command.add_option("--sea-paths", paths, "all, direct or multipath")->check(CLI::IsMember({"all", "direct", "multipath"}))->needs(sea);
+}
+
+SeaMirror SeaArguments::mirror() const {
+  SeaReflectionSpec spec;
+  spec.surface = surface == "conductor" ? SeaSurface::kConductor : SeaSurface::kSeaWater;
+  spec.paths = paths == "multipath" ? SeaPaths::kMultipath : paths == "direct" ? SeaPaths::kDirect : SeaPaths::kAll;
+  return SeaMirror(spec, wave_height_m);
+}
+
+void SeaArguments::check_elevations(std::span<const double> elevation_deg) const {
+  for (const double elevation : elevation_deg) {
+    if (reflection && elevation <= 0) {
+      throw InputError(fmt::format("--elevation-deg: value {}: must be greater than 0 with --sea-reflection", elevation));
+    }
+  }
+}
+
+std::string SeaArguments::text() const {
+  if (!reflection) return "";
+  return fmt::format("# over {}, origin {:.6g} m above the mean surface, significant wave height {:.6g} m, paths {}\n", surface, height_m, wave_height_m,
+                     paths);
+}
+
+}  // namespace seaglint

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// The sea under a target at rest, as options of a command.
+
+#include <CLI/App.hpp>
+#include <span>
+#include <string>
+
+#include "sim/scattering/sea_mirror.h"
+
+namespace seaglint {
+
+struct SeaArguments {
+  bool reflection = false;
+  double height_m = 0;       // of the mesh's origin above the mean surface
+  double wave_height_m = 0;  // significant
+  std::string surface = "sea_water", paths = "all";
+
+  void add_to(CLI::App& command);
+  SeaMirror mirror() const;
+  // Throws InputError for a direction without an image.
+  void check_elevations(std::span<const double> elevation_deg) const;
+  // A comment line for the head of a table; empty without the sea.
+  std::string text() const;
+};
+
+}  // namespace seaglint
