@@ -40,6 +40,36 @@ TEST(MapCommand, DrawsTheMapAndListsTheCentre) {
   EXPECT_THAT(result.out, HasSubstr("SCR per pulse 20.00 dB"));
 }
 
+TEST(MapCommand, APointOnAConductingSeaIsSeenFourTimesAsStrong) {
+  // On the plane itself all four paths are equal, and rho_v = +1.
+  const TemporaryFolder folder;
+  const auto amplitude = [&](std::vector<std::string> more) {
+    const std::vector<std::string> scene = {"--set", "view={azimuth_deg: 0, elevation_deg: 2}", "--set",
+                                            "targets={line: {label: 1, points: [{position_m: [30, 0, 0], amplitude_m: 2}]}}"};
+    more.insert(more.begin(), scene.begin(), scene.end());
+    const ProgramResult result = run_program(map_of(folder.path() / "map.png", more));
+    EXPECT_EQ(result.code, 0) << result.err;
+    std::istringstream lines(result.out);
+    std::string header;
+    double range_m = 0, velocity_mps = 0, amplitude_m = 0;
+    std::getline(lines, header);
+    lines >> range_m >> velocity_mps >> amplitude_m;
+    return amplitude_m;
+  };
+  EXPECT_NEAR(amplitude({}), 2, 0.04);
+  EXPECT_NEAR(amplitude({"--set", "sea_reflection={enabled: true, surface: conductor, roughness: none}"}), 8, 0.16);
+  EXPECT_NEAR(amplitude({"--set", "sea_reflection={enabled: true, surface: conductor, roughness: none, paths: multipath}"}), 6, 0.12);
+}
+
+TEST(MapCommand, RefusesASeaReflectionWithoutAnImage) {
+  const TemporaryFolder folder;
+  std::vector<std::string> more = kOnePoint;  // seen at elevation 0
+  more.insert(more.end(), {"--set", "sea_reflection.enabled=true"});
+  const ProgramResult result = run_program(map_of(folder.path() / "map.png", more));
+  EXPECT_EQ(result.code, 2);
+  EXPECT_THAT(result.err, HasSubstr("view.elevation_deg: value '0': must be greater than 0 with sea_reflection"));
+}
+
 TEST(MapCommand, WarnsAboutPointsOutsideTheMap) {
   const TemporaryFolder folder;
   std::vector<std::string> more = kOnePoint;

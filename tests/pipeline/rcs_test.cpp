@@ -248,5 +248,25 @@ TEST_F(RcsCommand, RefusesMaterialsThatAreNotKnownThere) {
   EXPECT_THAT(refused("36", library + "grp_sheet.yaml"), HasSubstr("its source covers 1 to 20 GHz"));
 }
 
+TEST_F(RcsCommand, APlateStandingOnAConductingSeaIsADihedral) {
+  // kWidthM high, its centre half of that above the water: image theory makes it 2 A cos(el) / lambda, less or more the direct lobe of the doubled
+  // plate, which is a sine over k kWidthM sin(el) = 50 at 30 deg, two ways.
+  const ProgramResult done = rcs({"--frequency-ghz", "16", "--azimuth-deg", "0", "--elevation-deg", "30", "--sea-reflection", "--sea-surface", "conductor",
+                                  "--height-m", "0.15"});
+  ASSERT_EQ(done.code, 0) << done.err;
+  const auto row = read_table(table()).rows.at(0);
+  const double lambda = kSpeedOfLight / 16e9, dihedral = 2 * kLengthM * kWidthM * std::cos(radians(30)) / lambda;
+  const double level = 10 * std::log10(4 * kPi * dihedral * dihedral);
+  EXPECT_NEAR(row.at(11), level, 20 * std::log10(1 + 1.0 / 50));
+  EXPECT_NEAR(row.at(12), level, 20 * std::log10(1 + 1.0 / 50));
+}
+
+TEST_F(RcsCommand, RefusesASeaReflectionWithoutAnImage) {
+  const ProgramResult done = rcs({"--frequency-ghz", "16", "--azimuth-deg", "0", "--elevation-deg", "0", "--sea-reflection"});
+  EXPECT_EQ(done.code, 2);
+  EXPECT_THAT(done.err, HasSubstr("--elevation-deg: value 0: must be greater than 0 with --sea-reflection"));
+  EXPECT_EQ(rcs({"--frequency-ghz", "16", "--azimuth-deg", "0", "--height-m", "3"}).code, 2);
+}
+
 }  // namespace
 }  // namespace seaglint
