@@ -133,6 +133,28 @@ void split(const Footprint& footprint, const RadarBasis& transmit, const SplitSe
   Splitter(footprint, transmit, settings, out).run();
 }
 
+void split_over_band(const Footprint& footprint, const RadarBasis& transmit, const SplitSettings& settings, double half_band,
+                     std::vector<Contribution>& out) {
+  split(footprint, transmit, settings, out);
+  if (footprint.patterns.size() != 3 || half_band <= 0) return;
+  std::array<Complex, 4> slope;
+  double largest = 0, change = 0;
+  for (int i = 0; i < 4; ++i) {
+    slope[i] = (footprint.patterns[2][i] - footprint.patterns[0][i]) / (2 * half_band);
+    largest = std::max(largest, std::abs(footprint.pattern[i]));
+    change = std::max(change, std::abs(slope[i]) * half_band);
+  }
+  if (change < 1e-4 * largest) return;  // -80 dB
+  const double delta = kSlopePhase / half_band;
+  for (const double side : {1.0, -1.0}) {
+    Footprint shifted = footprint;
+    shifted.psi0 += side * delta;
+    const Complex factor = side / Complex(0, 2 * delta) * std::polar(1.0, -side * settings.kc * delta);
+    for (int i = 0; i < 4; ++i) shifted.pattern[i] = factor * slope[i];
+    split(shifted, transmit, settings, out);
+  }
+}
+
 std::array<Complex, 4> direct_sum(std::span<const Contribution> contributions, double k, const Vec3& turn) {
   std::array<Complex, 4> sum{};
   for (const Contribution& c : contributions) {

@@ -41,6 +41,14 @@ inline constexpr double kPieceHalfPhase = 0.5;  // rad
 void split(const Footprint& footprint, const RadarBasis& transmit, const SplitSettings& settings,
            std::vector<Contribution>& out);
 
+// The same over a band kc -+ half_band for a footprint whose patterns belong to the band's lower end, centre and upper end: their first-order change with k
+// becomes two more sets of points. With P1 = dP/dk and a small delta,
+//     (k - kc) P1 e^{jk psi}  is  sin((k - kc) delta) / delta P1 e^{jk psi},
+// points at psi +- delta; kSlopePhase = half_band delta bounds the error by kSlopePhase^2 / 6 of that change.
+inline constexpr double kSlopePhase = 0.2;  // rad
+void split_over_band(const Footprint& footprint, const RadarBasis& transmit, const SplitSettings& settings, double half_band,
+                     std::vector<Contribution>& out);
+
 // sum of pattern amplitude e^{jk (psi + gradient . turn)} over all contributions, both directions turning alike: the direct sum, for tests and for
 // few points.
 std::array<Complex, 4> direct_sum(std::span<const Contribution> contributions, double k, const Vec3& turn);

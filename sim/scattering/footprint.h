@@ -71,7 +71,7 @@ struct Footprint {
   double surface_slope_turn = 0;    // bound of its change per radian of turn, 0..2
   double facet_size = 0;            // longest edge of the whole facet, m
   std::array<Complex, 4> pattern{};  // hh, hv, vh, vv (received, transmitted) of n x (k^ x E) / |n . k^|
-  // The same for each of the illumination's wavenumbers where a material on the way makes it depend on them; empty where pattern serves all.
+  // The same for each of the illumination's wavenumbers where a material on the way makes it depend on them, pattern being the middle one; empty where pattern serves all.
   std::vector<std::array<Complex, 4>> patterns;
   int facet = -1;                   // the last one
   std::uint16_t part = 0;           // its part

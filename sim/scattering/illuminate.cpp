@@ -334,7 +334,7 @@ class BeamTracer {
     footprint.pattern = {h.dot(J_h), h.dot(J_v), v.dot(J_h), v.dot(J_v)};
     if (!leg.fields.empty() || !surface_of(footprint.facet).empty()) {
       footprint.patterns = patterns(leg, footprint.facet, n);
-      footprint.pattern = footprint.patterns.front();
+      footprint.pattern = footprint.patterns[footprint.patterns.size() / 2];
     }
     for (const MovingPolygon& piece : pieces) {
       footprint.polygon = piece;

@@ -38,8 +38,10 @@ ReturnGrid trace_returns(const Scatterer& scatterer, const AntennaPair& antennas
   // body's size its speed is cut: such ends are faint and run through many velocity cells.
   const double limit = 8 * scatterer.radius();
   const double kc = wavenumbers.at(wavenumbers.centre_index());
+  // Materials are met at the band's middle and at as far to either side as its lower end lies.
+  const double half_band = kc - wavenumbers.first;
   const Illumination illumination(scatterer, antennas, {solver.ray_spacing_m, solver.max_bounces}, threads,
-                                  std::array{kc});
+                                  std::array{kc - half_band, kc, kc + half_band});
   const SplitSettings split_settings{kc, reach};
   const std::size_t chunks = chunk_count(illumination);
   std::vector<std::vector<Contribution>> contributions(chunks);
@@ -47,7 +49,9 @@ ReturnGrid trace_returns(const Scatterer& scatterer, const AntennaPair& antennas
   parallel_for(chunks, threads, [&](std::size_t chunk) {
     std::vector<Footprint> footprints;
     illumination.light(chunk_of(illumination, chunk), footprints);
-    for (const Footprint& footprint : footprints) split(footprint, antennas.transmit, split_settings, contributions[chunk]);
+    for (const Footprint& footprint : footprints) {
+      split_over_band(footprint, antennas.transmit, split_settings, half_band, contributions[chunk]);
+    }
     for (Contribution& c : contributions[chunk]) {
       const double size = c.gradient.sum().norm();
       if (size > limit) c.gradient = {c.gradient.transmit * (limit / size), c.gradient.receive * (limit / size)};

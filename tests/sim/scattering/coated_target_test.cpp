@@ -119,7 +119,8 @@ TEST(Coated, DihedralMultipliesTheCoefficientsOfItsTwoFaces) {
   const double side_lobe = 2 * a * b * k16 / (2 * kPi) / (k16 * a);
   EXPECT_LT(std::abs(s[kVvChannel] - first.te * second.te * pec[kVvChannel]), 2 * side_lobe);
   EXPECT_LT(std::abs(s[kHhChannel] - first.tm * second.tm * pec[kHhChannel]), 2 * side_lobe);
-  RecordProperty("drop_db", std::to_string(20 * std::log10(std::abs(s[kVvChannel] / pec[kVvChannel]))));
+  fmt::print("dihedral: vv {:.2f} dB below the conductor's, the product's {:.2f} dB\n", -20 * std::log10(std::abs(s[kVvChannel] / pec[kVvChannel])),
+             -20 * std::log10(std::abs(first.te * second.te)));
 }
 
 TEST(Coated, SheetOfVacuumScattersNothingInAnyDirection) {
@@ -131,8 +132,7 @@ TEST(Coated, SheetOfVacuumScattersNothingInAnyDirection) {
 }
 
 TEST(Coated, SphereTendsToTheConductorsEchoTimesItsCoefficientAtNormalIncidence) {
-  // Only the front matters, where the wave comes in along the normal; the zones around it meet at angles below (2 / ka)^(1/2), and the false echo of
-  // the shadow edge, 1 / (2 ka) of a conductor, stays. Both vanish with ka.
+  // Only the front matters, where the wave comes in along the normal; what stays is the false echo of the shadow edge, 1 / (2 ka) of the conductor's.
   const MaterialSpec material = impedance(0.4, 0.25);
   const TriangleMesh mesh = make_sphere(1, 5);
   const Scatterer target = coated(mesh, material), metal(mesh);
@@ -140,7 +140,8 @@ TEST(Coated, SphereTendsToTheConductorsEchoTimesItsCoefficientAtNormalIncidence)
   for (const double ka : {80.0, 120.0}) {
     const RadarBasis basis = radar_basis(direction(23, 11));
     const Complex ratio = echo(target, basis, ka, 0.02)[kVvChannel] / echo(metal, basis, ka, 0.02)[kVvChannel];
-    EXPECT_NEAR(std::abs(ratio - gamma), 0, 2 / ka + 1 / (2 * ka)) << ka;
+    fmt::print("sphere of impedance at ka {}: {:.4f} off its coefficient {:.4f}\n", ka, std::abs(ratio - gamma), std::abs(gamma));
+    EXPECT_LT(std::abs(ratio - gamma), 1 / (2 * ka)) << ka;
   }
 }
 
@@ -155,24 +156,8 @@ TEST(Coated, EveryFrequencyOfASweepHasItsOwnCoefficients) {
   }
 }
 
-// An interval's response takes the coefficients at the band's centre. Over 200 MHz at 16.1 GHz that leaves what the coefficients themselves change:
-// measured here for the library, and seen in the response of a coated reflector.
-TEST(Coated, IntervalTakesTheCoefficientsOfTheBandsCentre) {
-  const auto change = [](const std::string& name) {
-    double worst = 0;
-    for (const double cosine : {1.0, 0.7, 0.3}) {
-      const SurfaceFields centre = Surface(library(name), wavenumber(16.1e9)).at(cosine);
-      for (const double f : {16.0e9, 16.2e9}) {
-        const SurfaceFields edge = Surface(library(name), wavenumber(f)).at(cosine);
-        worst = std::max({worst, std::abs(edge.te - centre.te), std::abs(edge.tm - centre.tm)});
-      }
-    }
-    return worst;
-  };
-  for (const char* name : {"aluminium", "stainless_steel", "sea_water", "ram_loaded_epoxy", "grp_sheet", "window_glass"}) {
-    fmt::print("{}: coefficients change by {:.2g} over +-100 MHz\n", name, change(name));
-  }
-  const Scatterer target = coated(make_icosahedral_reflector(), library("ram_loaded_epoxy"));
+// An interval's response takes the coefficients at the band's middle and their first-order change over the band.
+TEST(Coated, IntervalFollowsTheCoefficientsOverItsBand) {
   IntervalSampling sampling;
   sampling.first_hz = 16.0e9;
   sampling.step_hz = 5e6;
@@ -180,18 +165,22 @@ TEST(Coated, IntervalTakesTheCoefficientsOfTheBandsCentre) {
   sampling.pulse_first = {0};
   sampling.pulse_time_s = {0};
   const Vec3 r = direction(3, 2);
-  const BodyResponse body = respond(target, Trajectory::at_rest(Vec3::Zero()), r, Polarisation::kVv, sampling, SolverSpec{});
-  double error = 0, power = 0;
-  for (int b = 0; b < 41; b += 4) {
-    const Complex fresh = echo(target, radar_basis(r), wavenumber(16.0e9 + 5e6 * b))[kVvChannel];
-    error += std::norm(body.response.at(0, b) - fresh);
-    power += std::norm(fresh);
+  for (const char* name : {"sea_water", "ram_loaded_epoxy", "grp_sheet", "window_glass"}) {
+    const Scatterer target = coated(make_icosahedral_reflector(), library(name));
+    const BodyResponse body = respond(target, Trajectory::at_rest(Vec3::Zero()), r, Polarisation::kVv, sampling, SolverSpec{});
+    double error = 0, power = 0;
+    std::vector<Complex> fresh;
+    for (int b = 0; b < 41; ++b) fresh.push_back(echo(target, radar_basis(r), wavenumber(16.0e9 + 5e6 * b))[kVvChannel]);
+    for (int b = 0; b < 41; ++b) {
+      error += std::norm(body.response.at(0, b) - fresh[b]);
+      power += std::norm(fresh[b]);
+    }
+    const double error_db = 10 * std::log10(error / power);
+    fmt::print("{} over 200 MHz: {:.1f} dB\n", name, error_db);
+    // What is left: the second order of three coefficients, each of which changes by at most 5 % over +-100 MHz, 3 (0.05)^2 / 2, and |k/kc - 1| = 0.6 %
+    // of the end points.
+    EXPECT_LT(error_db, 20 * std::log10(3 * 0.05 * 0.05 / 2 + 0.006)) << name;
   }
-  const double error_db = 10 * std::log10(error / power);
-  fmt::print("coated reflector over 200 MHz: {:.1f} dB\n", error_db);
-  // The first mirror's coefficient counts once for one bounce and three times for three: three times the change at the band's ends, over the mean of
-  // its square within the band (1/3), relative to coefficients of about 0.3.
-  EXPECT_LT(error_db, 20 * std::log10(3 * change("ram_loaded_epoxy") / std::sqrt(3.0) / 0.28) + 1);
 }
 
 TEST(Coated, TurningTargetAndRadarTogetherChangesNothing) {
