@@ -161,7 +161,7 @@ void run_rcs(const RcsArguments& arguments, const Shell& shell) {
   for (double& f : sweep.frequency_hz) f *= 1e9;
   sweep.azimuth_deg = range("--azimuth-deg", arguments.azimuth_deg, -720, 720);
   sweep.elevation_deg = range("--elevation-deg", arguments.elevation_deg, -90, 90);
-  arguments.sea.check_elevations(sweep.elevation_deg);
+  arguments.sea.check(sweep.elevation_deg, sweep.frequency_hz);
   const std::size_t rows = sweep.views() * sweep.frequency_hz.size();
   constexpr std::size_t kMostRows = 4'000'000;  // 256 MB of matrices
   if (rows > kMostRows) throw InputError(fmt::format("{} rows of output: at most {}", rows, kMostRows));

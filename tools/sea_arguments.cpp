@@ -27,10 +27,14 @@ SeaMirror SeaArguments::mirror() const {
   return SeaMirror(spec, wave_height_m);
 }
 
-void SeaArguments::check_elevations(std::span<const double> elevation_deg) const {
+void SeaArguments::check(std::span<const double> elevation_deg, std::span<const double> frequency_hz) const {
+  if (!reflection) return;
   for (const double elevation : elevation_deg) {
-    if (reflection && elevation <= 0) {
-      throw InputError(fmt::format("--elevation-deg: value {}: must be greater than 0 with --sea-reflection", elevation));
+    if (elevation <= 0) throw InputError(fmt::format("--elevation-deg: value {}: must be greater than 0 with --sea-reflection", elevation));
+  }
+  for (const double frequency : frequency_hz) {
+    if (surface == "sea_water" && frequency > 90e9) {
+      throw InputError(fmt::format("--frequency-ghz: value {}: must be at most 90 with --sea-reflection over sea_water", 1e-9 * frequency));
     }
   }
 }

@@ -19,8 +19,8 @@ struct SeaArguments {
 
   void add_to(CLI::App& command);
   SeaMirror mirror() const;
-  // Throws InputError for a direction without an image.
-  void check_elevations(std::span<const double> elevation_deg) const;
+  // Throws InputError for a direction without an image, and for frequencies beyond the model of sea water.
+  void check(std::span<const double> elevation_deg, std::span<const double> frequency_hz) const;
   // A comment line for the head of a table; empty without the sea.
   std::string text() const;
 };

@@ -266,6 +266,8 @@ TEST_F(RcsCommand, RefusesASeaReflectionWithoutAnImage) {
   EXPECT_EQ(done.code, 2);
   EXPECT_THAT(done.err, HasSubstr("--elevation-deg: value 0: must be greater than 0 with --sea-reflection"));
   EXPECT_EQ(rcs({"--frequency-ghz", "16", "--azimuth-deg", "0", "--height-m", "3"}).code, 2);
+  EXPECT_THAT(rcs({"--frequency-ghz", "94", "--azimuth-deg", "0", "--elevation-deg", "2", "--sea-reflection"}).err,
+              HasSubstr("--frequency-ghz: value 94: must be at most 90"));
 }
 
 }  // namespace
