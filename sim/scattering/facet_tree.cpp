@@ -36,7 +36,9 @@ Extent extent_of(std::span<const Vec3> corners) {
 struct FacetTree::Builder {
   static constexpr int kLevelsBySlices = 48;
 
+  std::span<const Facet> facets;
   std::vector<Node>& nodes;
+  std::vector<Leaf>& leaves;
   std::vector<Extent> bounds;  // of each facet
   std::vector<int> order;      // facets; every node owns a range of it
 
@@ -53,24 +55,24 @@ struct FacetTree::Builder {
     return result;
   }
 
-  // Where to part a range: the surface area heuristic over 16 slices of the longest axis of the facets' centres (I. Wald, On fast construction of
-  // SAH-based bounding volume hierarchies, RT 2007); in the middle where all centres coincide.
+  // Where to part a range: the surface area heuristic over 16 slices of each axis of the facets' centres (I. Wald, On fast construction of SAH-based
+  // bounding volume hierarchies, RT 2007); in the middle where all centres coincide.
   std::pair<Range, Range> parted(const Range& whole, bool by_slices) {
     constexpr int kSlices = 16;
     Extent centres;
     for (std::size_t i = whole.first; i < whole.last; ++i) centres.add(bounds[order[i]].lower + bounds[order[i]].upper);
-    int axis = 0;
-    const double longest = (centres.upper - centres.lower).maxCoeff(&axis);
-    std::size_t middle = whole.first + whole.size() / 2;
-    if (by_slices && longest > 0) {
-      const auto slice_of = [&](int facet) {
-        const double x = bounds[facet].lower[axis] + bounds[facet].upper[axis] - centres.lower[axis];
-        return std::min(kSlices - 1, static_cast<int>(kSlices * x / longest));
-      };
+    const auto slice_of = [&](int facet, int axis) {
+      const double x = bounds[facet].lower[axis] + bounds[facet].upper[axis] - centres.lower[axis];
+      return std::min(kSlices - 1, static_cast<int>(kSlices * x / (centres.upper[axis] - centres.lower[axis])));
+    };
+    int best_axis = -1, best = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (int axis = 0; by_slices && axis < 3; ++axis) {
+      if (!(centres.upper[axis] > centres.lower[axis])) continue;
       std::array<Extent, kSlices> slice;
       std::array<std::size_t, kSlices> count{};
       for (std::size_t i = whole.first; i < whole.last; ++i) {
-        const int s = slice_of(order[i]);
+        const int s = slice_of(order[i], axis);
         slice[s].add(bounds[order[i]]);
         ++count[s];
       }
@@ -84,8 +86,6 @@ struct FacetTree::Builder {
       }
       sweep = {};
       swept = 0;
-      int best = 0;
-      double least = std::numeric_limits<double>::infinity();
       for (int s = 0; s + 1 < kSlices; ++s) {
         if (count[s] > 0) sweep.add(slice[s]);
         swept += count[s];
@@ -93,22 +93,34 @@ struct FacetTree::Builder {
         const double cost = sweep.half_surface() * static_cast<double>(swept) + above[s];
         if (cost < least) {
           least = cost;
+          best_axis = axis;
           best = s;
         }
       }
+    }
+    std::size_t middle = whole.first + whole.size() / 2;
+    if (best_axis >= 0) {
       const auto split = std::stable_partition(order.begin() + whole.first, order.begin() + whole.last,
-                                               [&](int facet) { return slice_of(facet) <= best; });
+                                               [&](int facet) { return slice_of(facet, best_axis) <= best; });
       middle = static_cast<std::size_t>(split - order.begin());
     }
     return {range(whole.first, middle), range(middle, whole.last)};
   }
 
+  static double weight(const Range& range) { return range.size() < 2 ? -1 : range.bounds.half_surface(); }
+
+  std::int32_t leaf(int facet) {
+    const Vec3 normal = facets[facet].open ? Vec3(Vec3::Zero()) : facets[facet].normal;
+    leaves.push_back({{static_cast<float>(normal.x()), static_cast<float>(normal.y()), static_cast<float>(normal.z())}, facet});
+    return -static_cast<std::int32_t>(leaves.size());
+  }
+
   // Facets below the depth where slices may still part them are parted in the middle, which ends within 32 levels more.
   std::int32_t build(const Range& whole, int depth) {
-    // The largest child is parted until there are four.
+    // The child most likely to be met is parted until there are four.
     std::vector<Range> children{whole};
     while (children.size() < 4) {
-      const auto largest = std::max_element(children.begin(), children.end(), [](const Range& a, const Range& b) { return a.size() < b.size(); });
+      const auto largest = std::max_element(children.begin(), children.end(), [](const Range& a, const Range& b) { return weight(a) < weight(b); });
       if (largest->size() < 2) break;
       auto [low, high] = parted(*largest, depth < kLevelsBySlices);
       *largest = low;
@@ -124,7 +136,7 @@ struct FacetTree::Builder {
         node.half[a][lane] = used ? static_cast<float>((children[lane].bounds.upper[a] - children[lane].bounds.lower[a]) / 2)
                                   : -1e30F;
       }
-      node.child[lane] = !used ? -1 : children[lane].size() == 1 ? -1 - order[children[lane].first] : build(children[lane], depth + 1);
+      node.child[lane] = !used ? -1 : children[lane].size() == 1 ? leaf(order[children[lane].first]) : build(children[lane], depth + 1);
     }
     nodes[index] = node;
     return index;
@@ -133,7 +145,7 @@ struct FacetTree::Builder {
 
 FacetTree::FacetTree(std::span<const Facet> facets, const Panels& panels) {
   if (facets.empty()) return;
-  Builder builder{nodes_, {}, {}};
+  Builder builder{facets, nodes_, leaves_, {}, {}};
   for (std::size_t f = 0; f < facets.size(); ++f) {
     builder.bounds.push_back(extent_of(panels.outline(static_cast<int>(f))));
     if (panels.is_first(static_cast<int>(f))) builder.order.push_back(static_cast<int>(f));

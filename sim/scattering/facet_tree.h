@@ -23,6 +23,7 @@ struct Prism {
   Vec3 normal = Vec3::UnitX();
   double offset = 0;  // m
   Vec3 along = Vec3::UnitX();
+  Vec3 wave = Vec3::UnitX();  // what it lights faces this way: panels of closed surfaces with normal . wave > 0 are left out
 };
 
 // Immutable after construction; any number of threads may ask at once.
@@ -36,12 +37,17 @@ class FacetTree {
   void walk(const Prism& prism, const Visit& visit) const;
 
  private:
-  // Four boxes side by side, so that the compiler compares them at once. A child below zero is facet -1 - child.
+  // Four boxes side by side, so that the compiler compares them at once. A child below zero is leaf -1 - child.
   struct Node {
     std::array<std::array<float, 4>, 3> centre, half;  // m; half < 0: no box
     std::array<std::int32_t, 4> child;
   };
-  // A subtree or facet still to be looked at, and where along the prism it begins.
+  // A panel by the facet it goes by, with its normal; of open surfaces none.
+  struct Leaf {
+    std::array<float, 3> normal;
+    std::int32_t facet;
+  };
+  // A subtree or leaf still to be looked at, and where along the prism it begins.
   struct Waiting {
     std::int32_t child;
     float begin;
@@ -52,6 +58,7 @@ class FacetTree {
   static constexpr std::size_t kMostWaiting = 256;
 
   std::vector<Node> nodes_;  // the first is the root
+  std::vector<Leaf> leaves_;
   double slack_ = 0;         // m, of single-precision boxes
 };
 
@@ -72,6 +79,7 @@ void FacetTree::walk(const Prism& prism, const Visit& visit) const {
     width[i] = static_cast<float>((prism.upper[i] - prism.lower[i]) / 2 + slack_);
   }
   const auto offset = static_cast<float>(prism.offset - slack_);
+  const std::array<float, 3> wave{static_cast<float>(prism.wave[0]), static_cast<float>(prism.wave[1]), static_cast<float>(prism.wave[2])};
   float far = std::numeric_limits<float>::infinity();
   std::array<Waiting, kMostWaiting> stack;
   std::size_t waiting = 0;
@@ -80,7 +88,11 @@ void FacetTree::walk(const Prism& prism, const Visit& visit) const {
     const Waiting next = stack[--waiting];
     if (next.begin > far) continue;
     if (next.child < 0) {
-      far = static_cast<float>(visit(-1 - next.child) + slack_);
+      const Leaf& leaf = leaves_[-1 - next.child];
+      // Single precision decides only where it is sure.
+      if (leaf.normal[0] * wave[0] + leaf.normal[1] * wave[1] + leaf.normal[2] * wave[2] < 1e-5F) {
+        far = static_cast<float>(visit(leaf.facet) + slack_);
+      }
       continue;
     }
     const Node& node = nodes_[next.child];

@@ -8,24 +8,25 @@
 #include "sim/core/parallel.h"
 
 namespace seaglint {
-std::optional<FacetImage> facet_image(std::span<const Facet> facets, const Panels& panels, int facet, const Mirror& mirrors, const RadarBasis& basis,
-                                      double min_area) {
+bool set_image(FacetImage& result, std::span<const Facet> facets, const Panels& panels, int facet, const Mirror& mirrors, const RadarBasis& basis,
+               double min_area) {
   const Facet& f = facets[facet];
   const Vec3 n_image = mirrors.L * f.normal;
-  if (std::abs(n_image.dot(basis.r)) < 1e-6) return {};
-  FacetImage result;
+  if (std::abs(n_image.dot(basis.r)) < 1e-6) return false;
   result.facet = facet;
   result.plane = image_plane(n_image, n_image.dot(mirrors.image(f.corner[0])), basis);
+  result.polygon.clear();
   for (const Vec3& corner : panels.outline(facet)) {
     // A point fixed to the body at height z moves by -z d_i in the aperture when the direction turns by d_i.
     const Vec3 image = mirrors.image(corner);
     const double z = image.dot(basis.r);
     result.polygon.push_back({Vec2(image.dot(basis.h), image.dot(basis.v)), Vec2(-z, 0), Vec2(0, -z)});
   }
-  result.polygon = counter_clockwise(std::move(result.polygon));
-  if (signed_area(result.polygon) < min_area) return {};
+  const double area = signed_area(result.polygon);
+  if (area < 0) std::reverse(result.polygon.begin(), result.polygon.end());
+  if (std::abs(area) < min_area) return false;
   set_extent(result);
-  return result;
+  return true;
 }
 
 void set_extent(FacetImage& image) {
@@ -84,16 +85,16 @@ bool hide(const FacetImage& behind, const FacetImage& front, double min_area, st
 }
 
 VisibleSurface::VisibleSurface(std::span<const Facet> facets, const Panels& panels, const FacetTree& tree, const RadarBasis& basis, double min_area, int threads)
-    : facets_(facets), basis_(basis), min_area_(min_area), pieces_(facets.size()), boxes_(facets.size()) {
+    : facets_(facets), basis_(basis), min_area_(min_area), pieces_(facets.size()), boxes_(facets.size()), whole_(facets.size(), 0) {
   // The far side of a closed part is hidden by its near side: only what faces the radar, and open sheets, can be seen or hide anything.
   std::vector<FacetImage> images;
   std::vector<int> image_of(facets.size(), -1);
+  FacetImage image;
   for (int f = 0; f < static_cast<int>(facets.size()); ++f) {
     if (!panels.is_first(f) || (!facets[f].open && facets[f].normal.dot(basis.r) <= 0)) continue;
-    if (auto image = facet_image(facets, panels, f, Mirror{}, basis, min_area)) {
-      image_of[f] = static_cast<int>(images.size());
-      images.push_back(std::move(*image));
-    }
+    if (!set_image(image, facets, panels, f, Mirror{}, basis, min_area)) continue;
+    image_of[f] = static_cast<int>(images.size());
+    images.push_back(image);
   }
   constexpr std::size_t kImagesPerChunk = 64;
   parallel_for((images.size() + kImagesPerChunk - 1) / kImagesPerChunk, threads, [&](std::size_t chunk) {
@@ -107,50 +108,61 @@ VisibleSurface::VisibleSurface(std::span<const Facet> facets, const Panels& pane
                         {image.box.upper.x(), image.box.upper.y()},
                         towards,
                         towards.dot(facet.corner[0]),
-                        basis.r};
+                        basis.r,
+                        -basis.r};
       seen.assign(1, image.polygon);
+      bool whole = true;
       tree.walk(prism, [&](int other) {
-        if (other != image.facet && image_of[other] >= 0) hide(image, images[image_of[other]], min_area, seen);
+        if (other != image.facet && image_of[other] >= 0 && hide(image, images[image_of[other]], min_area, seen)) whole = false;
         return seen.empty() ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
       });
       for (const MovingPolygon& piece : seen) boxes_[image.facet].push_back(box_of(piece));
       pieces_[image.facet].assign(seen.begin(), seen.end());
+      whole_[image.facet] = whole && !seen.empty();
     }
   });
 }
 
-void VisibleSurface::seen_through(int facet, const Mirror& mirrors, const ImagePlane& plane, const MovingPolygon& lit,
-                                  const RadarBasis& transmit, std::vector<MovingPolygon>& seen) const {
-  if (pieces_[facet].empty()) return;
-  // Where the lit part lies in the radar's own aperture.
-  Box direct;
-  for (std::size_t i = 0; i < lit.size(); ++i) {
-    const Vec2& p = lit[i].p;
-    const Vec3 x = mirrors.real(p.x() * transmit.h + p.y() * transmit.v + plane.at(p) * transmit.r);
-    const Vec2 q(x.dot(basis_.h), x.dot(basis_.v));
-    direct.lower = i == 0 ? q : Vec2(direct.lower.cwiseMin(q));
-    direct.upper = i == 0 ? q : Vec2(direct.upper.cwiseMax(q));
+void VisibleSurface::seen_through(int facet, const Mirror& mirrors, std::span<const MovingPolygon> lit, const RadarBasis& transmit,
+                                  std::vector<MovingPolygon>& seen) const {
+  if (whole_[facet]) {
+    seen.insert(seen.end(), lit.begin(), lit.end());
+    return;
   }
+  if (pieces_[facet].empty()) return;
+  // On the panel's plane, the way from the radar's own aperture to the beam's is affine: q -> origin + q1 first + q2 second, heights included.
   const ImagePlane own = image_plane(facets_[facet].normal, facets_[facet].offset, basis_);
+  const auto in_beam = [&](const Vec3& x) { return Vec3(x.dot(transmit.h), x.dot(transmit.v), x.dot(transmit.r)); };
+  const Vec3 origin = in_beam(mirrors.image(own.z0 * basis_.r));
+  const Vec3 first = in_beam(mirrors.L * (basis_.h + own.slope.x() * basis_.r)), second = in_beam(mirrors.L * (basis_.v + own.slope.y() * basis_.r));
+  // Back from there, to tell which pieces may have to do with what is lit.
+  const double determinant = first.x() * second.y() - first.y() * second.x();
+  Box direct;
+  for (const MovingPolygon& part : lit) {
+    for (const Corner& corner : part) {
+      const Vec2 p = corner.p - origin.head<2>();
+      const Vec2 q = Vec2(p.x() * second.y() - p.y() * second.x(), p.y() * first.x() - p.x() * first.y()) / determinant;
+      const bool start = &corner == lit.front().begin();
+      direct = {start ? q : Vec2(direct.lower.cwiseMin(q)), start ? q : Vec2(direct.upper.cwiseMax(q))};
+    }
+  }
   MovingPolygon image;
   for (std::size_t i = 0; i < pieces_[facet].size(); ++i) {
     if (!overlap(boxes_[facet][i], direct)) continue;
+    const MovingPolygon& piece = pieces_[facet][i];
     image.clear();
-    for (const Corner& corner : pieces_[facet][i]) {
-      // The corner's point on the facet, and how far it slips in the facet beyond what a body-fixed point moves.
+    for (const Corner& corner : piece) {
+      // The corner's point on the panel, and how far it slips in the panel beyond what a body-fixed point moves.
       const double z = own.at(corner.p);
-      const Vec3 x = mirrors.image(corner.p.x() * basis_.h + corner.p.y() * basis_.v + z * basis_.r);
-      const double height = x.dot(transmit.r);
-      const auto moved = [&](const Vec2& slip) -> Vec3 {
-        return mirrors.L * (slip.x() * basis_.h + slip.y() * basis_.v + own.slope.dot(slip) * basis_.r);
-      };
-      const Vec3 x1 = moved(corner.d1 + Vec2(z, 0)), x2 = moved(corner.d2 + Vec2(0, z));
-      image.push_back({Vec2(x.dot(transmit.h), x.dot(transmit.v)), Vec2(x1.dot(transmit.h) - height, x1.dot(transmit.v)),
-                       Vec2(x2.dot(transmit.h), x2.dot(transmit.v) - height)});
+      const Vec3 x = origin + corner.p.x() * first + corner.p.y() * second;
+      const auto moved = [&](const Vec2& slip) -> Vec2 { return (slip.x() * first + slip.y() * second).head<2>(); };
+      image.push_back({x.head<2>(), moved(corner.d1 + Vec2(z, 0)) - Vec2(x.z(), 0), moved(corner.d2 + Vec2(0, z)) - Vec2(0, x.z())});
     }
     if (signed_area(image) < 0) std::reverse(image.begin(), image.end());
-    MovingPolygon both = intersect(lit, image);
-    if (signed_area(both) > min_area_) seen.push_back(std::move(both));
+    for (const MovingPolygon& part : lit) {
+      MovingPolygon both = intersect(part, image);
+      if (signed_area(both) > min_area_) seen.push_back(std::move(both));
+    }
   }
 }
 

@@ -3,7 +3,6 @@
 
 // Hidden surfaces as polygons of the aperture plane: which part of each panel does the radar, or a beam, see? Panels go by their first facet.
 
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -25,9 +24,9 @@ struct FacetImage {
   double nearest = 0, farthest = 0;  // heights towards the radar of the polygon's corners, m
 };
 
-// Nothing when the panel is edge-on to the ray or its image is smaller than min_area.
-std::optional<FacetImage> facet_image(std::span<const Facet> facets, const Panels& panels, int facet, const Mirror& mirrors, const RadarBasis& basis,
-                                      double min_area);
+// False when the panel is edge-on to the ray or its image is smaller than min_area.
+bool set_image(FacetImage& image, std::span<const Facet> facets, const Panels& panels, int facet, const Mirror& mirrors, const RadarBasis& basis,
+               double min_area);
 
 // Fills box and heights from polygon and plane.
 void set_extent(FacetImage& image);
@@ -53,9 +52,9 @@ class VisibleSurface {
   // for facets whose panel goes by another.
   std::span<const MovingPolygon> pieces(int facet) const { return pieces_[facet]; }
 
-  // What the radar sees directly of a part of a facet that a beam lights: `lit` is the part's image through the beam's mirrors, `plane` the
-  // facet's image plane. Appends convex pieces in the beam's aperture, that of `transmit`.
-  void seen_through(int facet, const Mirror& mirrors, const ImagePlane& plane, const MovingPolygon& lit, const RadarBasis& transmit,
+  // What the radar sees directly of the parts of a panel that a beam lights: `lit` are the parts' images through the beam's mirrors, in the aperture of
+  // `transmit`. Appends convex pieces there.
+  void seen_through(int facet, const Mirror& mirrors, std::span<const MovingPolygon> lit, const RadarBasis& transmit,
                     std::vector<MovingPolygon>& seen) const;
 
  private:
@@ -64,6 +63,7 @@ class VisibleSurface {
   double min_area_;
   std::vector<std::vector<MovingPolygon>> pieces_;
   std::vector<std::vector<Box>> boxes_;  // of the pieces
+  std::vector<char> whole_;              // nothing hides any of it
 };
 
 }  // namespace seaglint

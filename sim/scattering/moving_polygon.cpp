@@ -70,14 +70,6 @@ Side clip_by_edge(const MovingPolygon& polygon, const Corner& from, const Corner
 
 }  // namespace
 
-double signed_area(const MovingPolygon& polygon) {
-  double twice = 0;
-  for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
-    twice += cross(polygon[i].p - polygon[0].p, polygon[i + 1].p - polygon[0].p);
-  }
-  return 0.5 * twice;
-}
-
 Vec2 centroid(const MovingPolygon& polygon) {
   Vec2 weighted = Vec2::Zero(), mean = Vec2::Zero();
   double area = 0;
@@ -175,19 +167,6 @@ MovingPolygon intersect(const MovingPolygon& a, const MovingPolygon& b) {
     if (side == Side::kBoth) rest = &next;
   }
   return *rest;
-}
-
-Box box_of(const MovingPolygon& polygon) {
-  Box box{polygon[0].p, polygon[0].p};
-  for (const Corner& c : polygon) {
-    box.lower = box.lower.cwiseMin(c.p);
-    box.upper = box.upper.cwiseMax(c.p);
-  }
-  return box;
-}
-
-bool overlap(const Box& a, const Box& b) {
-  return (a.lower.array() < b.upper.array()).all() && (b.lower.array() < a.upper.array()).all();
 }
 
 }  // namespace seaglint

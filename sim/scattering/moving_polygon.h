@@ -119,7 +119,14 @@ struct MovingLine {
   double at(const Vec2& p) const { return value + gradient.dot(p); }
 };
 
-double signed_area(const MovingPolygon& polygon);
+inline double signed_area(const MovingPolygon& polygon) {
+  double twice = 0;
+  for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
+    const Vec2 a = polygon[i].p - polygon[0].p, b = polygon[i + 1].p - polygon[0].p;
+    twice += a.x() * b.y() - a.y() * b.x();
+  }
+  return 0.5 * twice;
+}
 Vec2 centroid(const MovingPolygon& polygon);  // of the area; of the corners when there is no area
 MovingPolygon counter_clockwise(MovingPolygon polygon);
 
@@ -147,7 +154,16 @@ struct Box {
   Vec2 lower = Vec2::Zero();
   Vec2 upper = Vec2::Zero();
 };
-Box box_of(const MovingPolygon& polygon);
-bool overlap(const Box& a, const Box& b);
+inline Box box_of(const MovingPolygon& polygon) {
+  Box box{polygon[0].p, polygon[0].p};
+  for (const Corner& c : polygon) {
+    box.lower = box.lower.cwiseMin(c.p);
+    box.upper = box.upper.cwiseMax(c.p);
+  }
+  return box;
+}
+inline bool overlap(const Box& a, const Box& b) {
+  return a.lower.x() < b.upper.x() && b.lower.x() < a.upper.x() && a.lower.y() < b.upper.y() && b.lower.y() < a.upper.y();
+}
 
 }  // namespace seaglint

@@ -19,7 +19,8 @@ using namespace testing_echoes;
 std::vector<int> walked(const Scatterer& scatterer, const Ray& ray, double width) {
   const RadarBasis across = radar_basis(ray.direction);
   const double x = across.h.dot(ray.origin), y = across.v.dot(ray.origin);
-  const Prism prism{{across.h, across.v}, {x - width / 2, y - width / 2}, {x + width / 2, y + width / 2}, ray.direction, ray.direction.dot(ray.origin), ray.direction};
+  const Prism prism{{across.h, across.v}, {x - width / 2, y - width / 2}, {x + width / 2, y + width / 2}, ray.direction, ray.direction.dot(ray.origin), ray.direction,
+                    Vec3::Zero()};
   std::vector<int> found;
   scatterer.tree().walk(prism, [&](int facet) {
     found.push_back(facet);
