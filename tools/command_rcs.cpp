@@ -23,6 +23,7 @@
 #include "tools/rcs_comparison.h"
 #include "tools/reference_arguments.h"
 #include "tools/sea_arguments.h"
+#include "tools/view_export.h"
 
 namespace seaglint {
 
@@ -33,6 +34,7 @@ struct RcsArguments {
   double ray_spacing_m = 0;
   int max_bounces = 8;
   ReferenceArguments reference;
+  ViewExportArguments view;
   std::vector<std::string> materials;  // NAME or PART=NAME
   SeaArguments sea;
 };
@@ -89,13 +91,14 @@ TriangleMesh read_sound_mesh(const std::string& file, const std::string& unit) {
 
 std::string table_text(const RcsArguments& arguments, const Scatterer& scatterer, const RcsSweep& sweep) {
   std::string csv = fmt::format(
-      "# seaglint {} rcs\n# target {} unit {}: {} facets, radius {:.6g} m\n# material {}\n{}# physical optics at every visible bounce, "
+      "# seaglint {} rcs\n# target {} unit {}: {} facets, radius {:.6g} m\n# material {}, echoes of {}\n{}# physical optics at every visible bounce, "
       "max_bounces {}, edges off, "
       "ray_spacing_m {:.6g}\n# amplitudes in metres, e^{{+jwt}}, phase origin at the body's origin, S_pq: q "
       "transmitted, p received; basis of CONVENTIONS.md\n"
       "frequency_hz,azimuth_deg,elevation_deg,hh_re,hh_im,hv_re,hv_im,vh_re,vh_im,vv_re,vv_im,hh_dbsm,vv_dbsm\n",
       kVersion, arguments.target, arguments.unit, scatterer.facets().size(), scatterer.radius(),
-      arguments.materials.empty() ? "pec" : fmt::format("{}", fmt::join(arguments.materials, " ")), arguments.sea.text(), arguments.max_bounces,
+      arguments.materials.empty() ? "pec" : fmt::format("{}", fmt::join(arguments.materials, " ")), arguments.view.text(), arguments.sea.text(),
+      arguments.max_bounces,
       arguments.ray_spacing_m > 0 ? arguments.ray_spacing_m : default_ray_spacing(scatterer));
   for (std::size_t q = 0; q < sweep.frequency_hz.size(); ++q) {
     for (std::size_t view = 0; view < sweep.views(); ++view) {
@@ -110,11 +113,12 @@ std::string table_text(const RcsArguments& arguments, const Scatterer& scatterer
 }
 
 // Fills the sweep's models, one view after the other; returns the legs of beams followed.
-std::size_t trace_views(const RcsArguments& arguments, const Scatterer& scatterer, const Shell& shell, RcsSweep& sweep) {
+std::size_t trace_views(const RcsArguments& arguments, const Scatterer& scatterer, const EchoFilter& filter, const Shell& shell, RcsSweep& sweep) {
   std::vector<double> wavenumbers;
   for (const double hz : sweep.frequency_hz) wavenumbers.push_back(2 * kPi * hz / kSpeedOfLight);
   sweep.models = {{"po", std::vector<std::vector<std::array<Complex, 4>>>(sweep.views())}};
   std::size_t legs = 0;
+  const IlluminationSettings settings{arguments.ray_spacing_m, arguments.max_bounces, filter};
   Progress progress("rcs", sweep.views(), "views");
   for (std::size_t view = 0; view < sweep.views(); ++view) {
     const double az = radians(sweep.azimuth_deg[view % sweep.azimuth_deg.size()]),
@@ -123,9 +127,9 @@ std::size_t trace_views(const RcsArguments& arguments, const Scatterer& scattere
     try {
       sweep.models[0].matrices[view] =
           arguments.sea.reflection
-              ? scattering_matrices_over_sea(scatterer, basis.r, arguments.sea.height_m, arguments.sea.mirror(), wavenumbers,
-                                             {arguments.ray_spacing_m, arguments.max_bounces}, thread_count(shell.threads), &legs, &shell.stop)
-              : scattering_matrices(scatterer, monostatic(basis), wavenumbers, {arguments.ray_spacing_m, arguments.max_bounces},
+              ? scattering_matrices_over_sea(scatterer, basis.r, arguments.sea.height_m, arguments.sea.mirror(), wavenumbers, settings,
+                                             thread_count(shell.threads), &legs, &shell.stop)
+              : scattering_matrices(scatterer, monostatic(basis), wavenumbers, settings,
                               thread_count(shell.threads), &legs, &shell.stop);
     } catch (const Interrupted&) {
       throw WorkError(fmt::format("interrupted after {} of {} views; {} is not written", view, sweep.views(), arguments.output));
@@ -151,6 +155,22 @@ void compare(const RcsArguments& arguments, const std::vector<RcsReference>& ref
   }
 }
 
+Vec3 direction_of(const RcsSweep& sweep, std::size_t view) {
+  const double az = radians(sweep.azimuth_deg[view % sweep.azimuth_deg.size()]), el = radians(sweep.elevation_deg[view / sweep.azimuth_deg.size()]);
+  return {std::cos(el) * std::cos(az), std::cos(el) * std::sin(az), std::sin(el)};
+}
+
+void export_one_view(const RcsArguments& arguments, const TriangleMesh& mesh, const Scatterer& scatterer, const EchoFilter& filter, const Shell& shell,
+                     const RcsSweep& sweep) {
+  const std::string heading = fmt::format(
+      "# seaglint {} rcs: scattering centres\n# target {} unit {}, {:.9g} Hz, azimuth {:.9g} deg, elevation {:.9g} deg, max_bounces {}, edges {}, of {}\n"
+      "# body frame, e^{{+jwt}}, phase origin at the body's origin, S_pq: q transmitted, p received; basis of CONVENTIONS.md\n",
+      kVersion, arguments.target, arguments.unit, sweep.frequency_hz[0], sweep.azimuth_deg[0], sweep.elevation_deg[0], arguments.max_bounces, arguments.edges,
+      arguments.view.text());
+  export_view(arguments.view, mesh, scatterer, radar_basis(direction_of(sweep, 0)), 2 * kPi * sweep.frequency_hz[0] / kSpeedOfLight,
+              {arguments.ray_spacing_m, arguments.max_bounces, filter}, heading, thread_count(shell.threads), &shell.stop);
+}
+
 void run_rcs(const RcsArguments& arguments, const Shell& shell) {
   if (arguments.edges != "off") {
     throw InputError(
@@ -165,6 +185,8 @@ void run_rcs(const RcsArguments& arguments, const Shell& shell) {
   const std::size_t rows = sweep.views() * sweep.frequency_hz.size();
   constexpr std::size_t kMostRows = 4'000'000;  // 256 MB of matrices
   if (rows > kMostRows) throw InputError(fmt::format("{} rows of output: at most {}", rows, kMostRows));
+  if (arguments.view.wanted() && rows != 1) throw InputError(fmt::format("exports of a view need one frequency, azimuth and elevation; there are {} rows", rows));
+  if (arguments.view.wanted() && arguments.sea.reflection) throw InputError("exports of a view are of the target alone: leave out --sea-reflection");
   // A reference that does not fit is refused before any work.
   const std::vector<RcsReference> references = arguments.reference.read();
   for (const RcsReference& reference : references) pair_with(sweep, reference);
@@ -176,14 +198,16 @@ void run_rcs(const RcsArguments& arguments, const Shell& shell) {
   warn(check_target(mesh, *lowest));
   if (arguments.sea.reflection) put_in_water(mesh, materials, -arguments.sea.height_m);
   const Scatterer scatterer(mesh, materials);
+  const EchoFilter filter = arguments.view.filter(mesh);
   const auto start = std::chrono::steady_clock::now();
-  const std::size_t legs = trace_views(arguments, scatterer, shell, sweep);
+  const std::size_t legs = trace_views(arguments, scatterer, filter, shell, sweep);
   const double seconds = std::max(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 1e-9);
 
   write_file(arguments.output, table_text(arguments, scatterer, sweep));
   const double million_legs = 1e-6 * static_cast<double>(legs), views = static_cast<double>(sweep.views());
   fmt::print(stderr, "{}: {} rows, {} views in {:.2f} s ({:.3g} views/s, {:.2f} M beam legs, {:.2f} M/s)\n", arguments.output, rows, sweep.views(),
              seconds, views / seconds, million_legs, million_legs / seconds);
+  if (arguments.view.wanted()) export_one_view(arguments, mesh, scatterer, filter, shell, sweep);
   if (!references.empty()) compare(arguments, references, sweep);
 }
 
@@ -214,6 +238,7 @@ void add_rcs(CLI::App& app, Shell& shell) {
       ->allow_extra_args(false);
   arguments->sea.add_to(*command);
   command->add_option("-o,--output", arguments->output, "CSV file to write")->required();
+  arguments->view.add_to(*command);
   arguments->reference.add_to(*command);
   add_threads_option(*command, shell);
   command->footer(

@@ -272,7 +272,7 @@ Piece piece_of(const TriangleMesh& mesh, std::size_t part, std::size_t material)
 
 class Writer {
  public:
-  explicit Writer(const TriangleMesh& mesh) {
+  explicit Writer(const TriangleMesh& mesh, std::span<const std::array<double, 3>> colours) {
     model_.asset.version = "2.0";
     model_.asset.generator = "seaglint";
     model_.defaultScene = 0;
@@ -286,6 +286,10 @@ class Writer {
       model_.materials.back().pbrMetallicRoughness.baseColorFactor = {0.56, 0.60, 0.63, 1.0};
       model_.materials.back().pbrMetallicRoughness.metallicFactor = 0.2;
       model_.materials.back().pbrMetallicRoughness.roughnessFactor = 0.8;
+      if (model_.materials.size() > colours.size()) continue;
+      const auto& [red, green, blue] = colours[model_.materials.size() - 1];
+      model_.materials.back().pbrMetallicRoughness.baseColorFactor = {red, green, blue, 1.0};
+      model_.materials.back().pbrMetallicRoughness.metallicFactor = 0;
     }
     for (std::size_t part = 0; part < mesh.part_names.size(); ++part) add_part(mesh, part);
   }
@@ -377,6 +381,8 @@ TriangleMesh read_gltf(const std::string& bytes, const fs::path& path) {
   return Reader(model, path.string()).read();
 }
 
-std::string gltf_bytes(const TriangleMesh& mesh, bool binary) { return Writer(mesh).bytes(binary); }
+std::string gltf_bytes(const TriangleMesh& mesh, bool binary, std::span<const std::array<double, 3>> material_colours) {
+  return Writer(mesh, material_colours).bytes(binary);
+}
 
 }  // namespace seaglint

@@ -3,7 +3,9 @@
 
 // glTF 2.0 through tinygltf; used by mesh_io.
 
+#include <array>
 #include <filesystem>
+#include <span>
 #include <string>
 
 #include "sim/geometry/triangle_mesh.h"
@@ -14,7 +16,7 @@ namespace seaglint {
 // folder and no other.
 TriangleMesh read_gltf(const std::string& bytes, const std::filesystem::path& path);
 
-// A .glb, or a .gltf with its buffer as a data URI.
-std::string gltf_bytes(const TriangleMesh& mesh, bool binary);
+// A .glb, or a .gltf with its buffer as a data URI. material_colours: linear red, green, blue in 0..1 for each material; none: grey.
+std::string gltf_bytes(const TriangleMesh& mesh, bool binary, std::span<const std::array<double, 3>> material_colours = {});
 
 }  // namespace seaglint

@@ -3,7 +3,9 @@
 
 // Meshes from and to files: .glb and .gltf (tinygltf), .obj, .stl and .ply (OpenMesh). The ending of the name decides.
 
+#include <array>
 #include <filesystem>
+#include <span>
 #include <string>
 
 #include "sim/geometry/triangle_mesh.h"
@@ -27,5 +29,8 @@ TriangleMesh read_mesh(const std::filesystem::path& path, const std::string& uni
 // The file is whole or absent (sim/core/file.h) and equal meshes give equal bytes. InputError for an unknown ending or
 // an empty mesh, WorkError when the disk refuses.
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh);
+
+// A glTF file whose materials have colours: linear red, green, blue in 0..1, one for each of mesh.materials.
+void write_coloured_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, std::span<const std::array<double, 3>> material_colours);
 
 }  // namespace seaglint

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "sim/scattering/echo_filter.h"
 #include "sim/scattering/facet_tree.h"
 #include "sim/scattering/facets.h"
 #include "sim/scattering/footprint.h"
@@ -23,6 +24,7 @@ struct IlluminationSettings {
   // default_ray_spacing: that.
   double ray_spacing_m = 0;
   int max_bounces = 8;       // 1 <= x <= 64
+  EchoFilter filter = {};    // which echoes are summed; all are followed
 };
 
 // A target ready to be lit from any direction: its facets and their trees, for beams and for rays. Built once per mesh; safe to share between threads.

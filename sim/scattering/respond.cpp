@@ -253,6 +253,7 @@ std::vector<std::array<Complex, 4>> scattering_matrices(const Scatterer& scatter
         std::vector<Footprint> footprints;
         followed[chunk] = illumination.light(chunk_of(illumination, chunk), footprints);
         for (const Footprint& footprint : footprints) {
+          if (!settings.filter.keeps(footprint.part, footprint.bounces, Mechanism::kPhysicalOptics)) continue;
           for (std::size_t q = 0; q < wavenumbers.size(); ++q) {
             const auto s = scattered(footprint, wavenumbers[q], q);
             for (int i = 0; i < 4; ++i) parts[chunk][q][i] += s[i];
@@ -268,6 +269,26 @@ std::vector<std::array<Complex, 4>> scattering_matrices(const Scatterer& scatter
     }
   }
   return sum;
+}
+
+std::vector<Contribution> view_contributions(const Scatterer& scatterer, const AntennaPair& antennas, const SplitSettings& split_settings,
+                                             const IlluminationSettings& settings, int threads, const StopFlag* stop) {
+  const Illumination illumination(scatterer, antennas, settings, threads, std::array{split_settings.kc});
+  std::vector<std::vector<Contribution>> chunks(chunk_count(illumination));
+  parallel_for(
+      chunks.size(), threads,
+      [&](std::size_t chunk) {
+        std::vector<Footprint> footprints;
+        illumination.light(chunk_of(illumination, chunk), footprints);
+        for (const Footprint& footprint : footprints) {
+          if (!settings.filter.keeps(footprint.part, footprint.bounces, Mechanism::kPhysicalOptics)) continue;
+          split(footprint, antennas.transmit, split_settings, chunks[chunk]);
+        }
+      },
+      stop);
+  std::vector<Contribution> all;
+  for (const auto& chunk : chunks) all.insert(all.end(), chunk.begin(), chunk.end());
+  return all;
 }
 
 }  // namespace seaglint

@@ -9,6 +9,7 @@
 
 #include "sim/core/parallel.h"
 #include "sim/motion/trajectory.h"
+#include "sim/scattering/contributions.h"
 #include "sim/scattering/frequency_response.h"
 #include "sim/scattering/illuminate.h"
 #include "sim/scattering/sea_mirror.h"
@@ -42,5 +43,9 @@ std::vector<std::array<Complex, 4>> scattering_matrices(const Scatterer& scatter
                                                         std::span<const double> wavenumbers,
                                                         const IlluminationSettings& settings, int threads = 1,
                                                         std::size_t* legs = nullptr, const StopFlag* stop = nullptr);
+
+// What one view consists of, point by point, in an order that does not depend on the number of threads. Their direct sum at split.kc is the scattering matrix.
+std::vector<Contribution> view_contributions(const Scatterer& scatterer, const AntennaPair& antennas, const SplitSettings& split,
+                                             const IlluminationSettings& settings, int threads = 1, const StopFlag* stop = nullptr);
 
 }  // namespace seaglint

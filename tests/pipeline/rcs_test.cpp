@@ -172,6 +172,51 @@ TEST_F(RcsCommand, RefusesAReferenceThatDoesNotFitBeforeAnyWork) {
   refused({"--floor-db", "0"}, "--floor-db");
 }
 
+TEST_F(RcsCommand, ExportsCentresAndHotSpotsOfOneViewAndSelects) {
+  const std::string centres = folder_.path() / "centres.csv", spots = folder_.path() / "spots.glb";
+  const auto reflector = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"rcs", "--target", "assets/icosahedral_reflector.glb", "-o", table(), "--frequency-ghz", "16", "--azimuth-deg", "0"});
+    return run_program(more);
+  };
+  const ProgramResult result = reflector({"--export-centres", centres, "--export-hot-spots", spots, "--export-range-db", "40"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  std::istringstream lines(read_file(centres));
+  std::string line;
+  while (std::getline(lines, line) && line.starts_with("#")) continue;
+  EXPECT_EQ(line, "x_m,y_m,z_m,psi_m,hh_re,hh_im,hv_re,hv_im,vh_re,vh_im,vv_re,vv_im,strongest_dbsm,part,bounces,mechanism");
+  // Face on, the cell that looks at the radar is the strongest: its three-bounce echo comes from the apex.
+  ASSERT_TRUE(std::getline(lines, line));
+  EXPECT_THAT(line, testing::EndsWith("cell_01,3,po"));
+  // The picture has the mesh's facets and materials named by level.
+  const TriangleMesh coloured = read_mesh(spots);
+  EXPECT_EQ(coloured.triangles.size(), 60u);
+  EXPECT_THAT(coloured.materials.front().name, HasSubstr("dBsm"));
+
+  const auto vv = [&] {
+    const auto cells = read_table(table()).rows.at(0);
+    return std::complex<double>(cells[9], cells[10]);
+  };
+  const std::complex<double> all = vv();
+  ASSERT_EQ(reflector({"--only", "part=cell_01", "--only", "bounces=3"}).code, 0);
+  const std::complex<double> one = vv();
+  ASSERT_EQ(reflector({"--without", "mechanism=edge", "--without", "part=cell_01"}).code, 0);
+  const std::complex<double> rest = vv();
+  ASSERT_EQ(reflector({"--only", "part=cell_01", "--without", "bounces=3"}).code, 0);
+  EXPECT_LT(std::abs(one + rest + vv() - all), 1e-7 * std::abs(all)) << "nine printed digits";
+
+  const auto refused = [&](std::vector<std::string> more, const std::string& message) {
+    const ProgramResult answer = reflector(std::move(more));
+    EXPECT_EQ(answer.code, 2);
+    EXPECT_THAT(answer.err, HasSubstr(message));
+  };
+  refused({"--only", "part=cell_1"}, "did you mean 'cell_01'?");
+  refused({"--only", "bounces=0"}, "bounces must be 1, 2, ... 64");
+  refused({"--without", "mechanism=magic"}, "must be one of po, edge");
+  refused({"--only", "colour=red"}, "must be part=NAME");
+  refused({"--export-centres", centres, "--elevation-deg", "0:1:1"}, "one frequency, azimuth and elevation; there are 2 rows");
+  refused({"--export-hot-spots", folder_.path() / "spots.stl"}, "colours need the ending .glb or .gltf");
+}
+
 // A reflector inside out with a hole beside it: one echoes as it should, the other's interior is seen; both are said, in one line each.
 TEST_F(RcsCommand, WarnsOfWhatIsWrongWithAMeshAndGoesOn) {
   TriangleMesh mesh = make_icosahedral_reflector();
