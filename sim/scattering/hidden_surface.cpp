@@ -89,12 +89,12 @@ VisibleSurface::VisibleSurface(std::span<const Facet> facets, const Panels& pane
   // The far side of a closed part is hidden by its near side: only what faces the radar, and open sheets, can be seen or hide anything.
   std::vector<FacetImage> images;
   std::vector<int> image_of(facets.size(), -1);
-  FacetImage image;
+  FacetImage fresh;
   for (int f = 0; f < static_cast<int>(facets.size()); ++f) {
     if (!panels.is_first(f) || (!facets[f].open && facets[f].normal.dot(basis.r) <= 0)) continue;
-    if (!set_image(image, facets, panels, f, Mirror{}, basis, min_area)) continue;
+    if (!set_image(fresh, facets, panels, f, Mirror{}, basis, min_area)) continue;
     image_of[f] = static_cast<int>(images.size());
-    images.push_back(image);
+    images.push_back(fresh);
   }
   constexpr std::size_t kImagesPerChunk = 64;
   parallel_for((images.size() + kImagesPerChunk - 1) / kImagesPerChunk, threads, [&](std::size_t chunk) {

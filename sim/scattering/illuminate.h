@@ -49,7 +49,7 @@ class Scatterer {
   double radius_ = 0;
 };
 
-// 1.4e-3 of the radius: 0.1 m on the 144 m ship, pieces of 7 mm (README.md).
+// 2e-3 of the radius: 0.14 m on the 144 m ship, pieces of 10 mm (README.md).
 double default_ray_spacing(const Scatterer& scatterer);
 
 // What one direction lights and another (or the same) sees. The constructor finds what the radar sees of every facet; light() follows the beams that leave one facet. Facets are

@@ -28,7 +28,7 @@ struct Corner {
 // polygons cheap to come and go.
 class MovingPolygon {
  public:
-  static constexpr std::size_t kInPlace = 8;
+  static constexpr std::size_t kInPlace = 6;
 
   MovingPolygon() = default;
   explicit MovingPolygon(std::size_t count) { resize(count); }

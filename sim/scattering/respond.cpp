@@ -15,14 +15,23 @@
 namespace seaglint {
 namespace {
 
-// Facets are lit in chunks of fixed size whose results are summed in their order, so that no bit depends on the number of threads.
-constexpr std::size_t kFacetsPerChunk = 32;
+// Panels are lit in chunks whose results are summed in their order, so that no bit depends on the number of threads. A large mesh has larger chunks:
+// what is kept per chunk and frequency stays below 100 MB for 640 frequencies.
+constexpr std::size_t kPanelsPerChunk = 32;
+constexpr std::size_t kMostChunks = 2048;
 
-std::size_t chunk_count(const Illumination& illumination) { return (illumination.seen().size() + kFacetsPerChunk - 1) / kFacetsPerChunk; }
+std::size_t panels_per_chunk(const Illumination& illumination) {
+  return std::max(kPanelsPerChunk, (illumination.seen().size() + kMostChunks - 1) / kMostChunks);
+}
+
+std::size_t chunk_count(const Illumination& illumination) {
+  const std::size_t size = panels_per_chunk(illumination);
+  return (illumination.seen().size() + size - 1) / size;
+}
 
 std::span<const int> chunk_of(const Illumination& illumination, std::size_t chunk) {
-  const std::size_t first = chunk * kFacetsPerChunk;
-  return illumination.seen().subspan(first, std::min(kFacetsPerChunk, illumination.seen().size() - first));
+  const std::size_t size = panels_per_chunk(illumination), first = chunk * size;
+  return illumination.seen().subspan(first, std::min(size, illumination.seen().size() - first));
 }
 
 // The world's polarisation basis as the turned body sees it.

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The solver on the 144 m ship and the 1 m reflector, beside Embree alone on rays of the same spacing.
 #include <benchmark/benchmark.h>
+#include <sys/resource.h>
 
 #include <cmath>
+#include <ctime>
 
 #include "sim/core/constants.h"
 #include "sim/geometry/generators.h"
@@ -45,9 +47,8 @@ Trajectory rolling(double rate, const Vec3& centre) {
   return Trajectory(0, 0.01, samples, Vec3::Zero(), centre);
 }
 
-// Embree alone: primary rays 0.1 m apart over the ship's window, packets of 16.
-void EmbreeAloneOnTheShip(benchmark::State& state) {
-  const RadarBasis basis = radar_basis(direction(static_cast<double>(state.range(0))));
+// Primary rays 0.1 m apart over the ship's window.
+std::vector<Ray> primary_rays(const RadarBasis& basis) {
   std::vector<Ray> rays;
   Vec2 lower = Vec2::Constant(1e9), upper = -lower;
   for (const Facet& facet : ship().facets()) {
@@ -59,13 +60,19 @@ void EmbreeAloneOnTheShip(benchmark::State& state) {
   for (double y = lower.y(); y < upper.y(); y += 0.1) {
     for (double x = lower.x(); x < upper.x(); x += 0.1) rays.push_back({x * basis.h + y * basis.v + 75 * basis.r, -basis.r});
   }
+  return rays;
+}
+
+// Embree alone, packets of 16.
+void EmbreeAloneOnTheShip(benchmark::State& state) {
+  const std::vector<Ray> rays = primary_rays(radar_basis(direction(static_cast<double>(state.range(0)))));
   std::vector<int> hits(rays.size());
   for (auto _ : state) ship().rays().first_hits(rays, hits);
   state.counters["rays/s"] = benchmark::Counter(static_cast<double>(rays.size() * state.iterations()), benchmark::Counter::kIsRate);
 }
 BENCHMARK(EmbreeAloneOnTheShip)->Arg(10)->Arg(50)->Arg(90)->Unit(benchmark::kMillisecond);
 
-// One trace and the whole band and interval from it, two threads; rays/s counts the solver's own rays.
+// One trace and the whole band and interval from it, two threads.
 void ShipInterval(benchmark::State& state) {
   const Trajectory trajectory = rolling(0.005, {0, 0, 1.7});
   const Vec3 r = direction(static_cast<double>(state.range(0)));
@@ -97,11 +104,69 @@ BENCHMARK(ReflectorInterval)->Unit(benchmark::kMillisecond)->UseRealTime();
 void ShipAspect(benchmark::State& state) {
   const RadarBasis basis = radar_basis(direction(static_cast<double>(state.range(0))));
   const std::vector<double> k(static_cast<std::size_t>(state.range(1)), 2 * kPi * 16e9 / kSpeedOfLight);
-  std::size_t rays = 0;
-  for (auto _ : state) benchmark::DoNotOptimize(scattering_matrices(ship(), monostatic(basis), k, {}, 2, &rays));
-  state.counters["rays/s"] = benchmark::Counter(static_cast<double>(rays), benchmark::Counter::kIsRate);
+  std::size_t legs = 0;
+  for (auto _ : state) benchmark::DoNotOptimize(scattering_matrices(ship(), monostatic(basis), k, {}, 2, &legs));
+  state.counters["legs/s"] = benchmark::Counter(static_cast<double>(legs), benchmark::Counter::kIsRate);
 }
 BENCHMARK(ShipAspect)->Args({50, 1})->Args({50, 16})->Unit(benchmark::kMillisecond)->UseRealTime();
+
+// The whole solver beside Embree alone on its primary rays 0.1 m apart, turn by turn in one run and one thread each. The solver traces no rays; its beams
+// see every bounce, these rays the first alone.
+void WholeSolverOverEmbreeAlone(benchmark::State& state) {
+  const RadarBasis basis = radar_basis(direction(static_cast<double>(state.range(0))));
+  const std::vector<Ray> rays = primary_rays(basis);
+  std::vector<int> hits(rays.size());
+  const std::vector<double> k(1, 2 * kPi * 16e9 / kSpeedOfLight);
+  std::clock_t solver = 0, embree = 0;
+  for (auto _ : state) {
+    const std::clock_t start = std::clock();
+    benchmark::DoNotOptimize(scattering_matrices(ship(), monostatic(basis), k, {}, 1));
+    const std::clock_t middle = std::clock();
+    ship().rays().first_hits(rays, hits);
+    benchmark::DoNotOptimize(hits.data());
+    solver += middle - start;
+    embree += std::clock() - middle;
+  }
+  state.counters["ratio"] = static_cast<double>(solver) / static_cast<double>(embree);
+  state.counters["ns/ray"] = 1e9 * static_cast<double>(solver) / CLOCKS_PER_SEC / static_cast<double>(rays.size() * state.iterations());
+}
+BENCHMARK(WholeSolverOverEmbreeAlone)->Arg(10)->Arg(50)->Arg(90)->Unit(benchmark::kMillisecond);
+
+// Cost against the ship's length in metres.
+void ShipLength(benchmark::State& state) {
+  TriangleMesh mesh = read_mesh(SEAGLINT_SOURCE_DIR "/assets/combatant_144m.glb");
+  for (Vec3& x : mesh.vertices) x *= static_cast<double>(state.range(0)) / 144;
+  const Scatterer scaled(mesh);
+  const RadarBasis basis = radar_basis(direction(50));
+  const std::vector<double> k(1, 2 * kPi * 16e9 / kSpeedOfLight);
+  for (auto _ : state) benchmark::DoNotOptimize(scattering_matrices(scaled, monostatic(basis), k, {}, 1));
+}
+BENCHMARK(ShipLength)->Arg(36)->Arg(72)->Arg(144)->Arg(288)->Unit(benchmark::kMillisecond);
+
+// Cost of a body at rest for one pulse against the carrier in GHz and the number of frequencies.
+void ShipBand(benchmark::State& state) {
+  IntervalSampling sampling;
+  sampling.step_hz = 0.3125e6;
+  sampling.first_hz = 1e9 * static_cast<double>(state.range(0));
+  sampling.count = sampling.per_pulse = static_cast<int>(state.range(1));
+  sampling.pulse_first.push_back(0);
+  sampling.pulse_time_s.push_back(0);
+  const Trajectory rest = Trajectory::at_rest(Vec3::Zero());
+  for (auto _ : state) benchmark::DoNotOptimize(respond(ship(), rest, direction(50), Polarisation::kVv, sampling, {}, 1));
+}
+BENCHMARK(ShipBand)->ArgsProduct({{1, 2, 4, 8, 16, 32}, {320}})->ArgsProduct({{16}, {1, 16, 160, 640}})->Unit(benchmark::kMillisecond);
+
+// A sphere of 1.3 million facets with the largest resident memory of the process so far.
+void MillionFacets(benchmark::State& state) {
+  const Scatterer sphere(make_sphere(10, 8));
+  const std::vector<double> k(1, 2 * kPi * 1e9 * static_cast<double>(state.range(0)) / kSpeedOfLight);
+  for (auto _ : state) benchmark::DoNotOptimize(scattering_matrices(sphere, monostatic(radar_basis(direction(50))), k, {}, 2));
+  rusage usage;
+  getrusage(RUSAGE_SELF, &usage);
+  state.counters["facets"] = static_cast<double>(sphere.facets().size());
+  state.counters["peak_MB"] = 1e-3 * static_cast<double>(usage.ru_maxrss);
+}
+BENCHMARK(MillionFacets)->Arg(16)->Unit(benchmark::kMillisecond)->UseRealTime()->Iterations(1);
 
 }  // namespace
 }  // namespace seaglint
