@@ -32,6 +32,7 @@ namespace {
 struct RcsArguments {
   std::string target, unit = "m", frequency_ghz, azimuth_deg, elevation_deg = "0", edges = "off", output;
   double ray_spacing_m = 0;
+  double crease_deg = kDefaultCreaseDeg;
   int max_bounces = 8;
   ReferenceArguments reference;
   ViewExportArguments view;
@@ -92,13 +93,13 @@ TriangleMesh read_sound_mesh(const std::string& file, const std::string& unit) {
 std::string table_text(const RcsArguments& arguments, const Scatterer& scatterer, const RcsSweep& sweep) {
   std::string csv = fmt::format(
       "# seaglint {} rcs\n# target {} unit {}: {} facets, radius {:.6g} m\n# material {}, echoes of {}\n{}# physical optics at every visible bounce, "
-      "max_bounces {}, edges off, "
+      "max_bounces {}, edges off, crease_deg {:.6g}, "
       "ray_spacing_m {:.6g}\n# amplitudes in metres, e^{{+jwt}}, phase origin at the body's origin, S_pq: q "
       "transmitted, p received; basis of CONVENTIONS.md\n"
       "frequency_hz,azimuth_deg,elevation_deg,hh_re,hh_im,hv_re,hv_im,vh_re,vh_im,vv_re,vv_im,hh_dbsm,vv_dbsm\n",
       kVersion, arguments.target, arguments.unit, scatterer.facets().size(), scatterer.radius(),
       arguments.materials.empty() ? "pec" : fmt::format("{}", fmt::join(arguments.materials, " ")), arguments.view.text(), arguments.sea.text(),
-      arguments.max_bounces,
+      arguments.max_bounces, arguments.crease_deg,
       arguments.ray_spacing_m > 0 ? arguments.ray_spacing_m : default_ray_spacing(scatterer));
   for (std::size_t q = 0; q < sweep.frequency_hz.size(); ++q) {
     for (std::size_t view = 0; view < sweep.views(); ++view) {
@@ -197,7 +198,7 @@ void run_rcs(const RcsArguments& arguments, const Shell& shell) {
   check_frequencies(materials, *lowest, *highest);
   warn(check_target(mesh, *lowest));
   if (arguments.sea.reflection) put_in_water(mesh, materials, -arguments.sea.height_m);
-  const Scatterer scatterer(mesh, materials);
+  const Scatterer scatterer(mesh, materials, radians(arguments.crease_deg));
   const EchoFilter filter = arguments.view.filter(mesh);
   const auto start = std::chrono::steady_clock::now();
   const std::size_t legs = trace_views(arguments, scatterer, filter, shell, sweep);
@@ -226,6 +227,9 @@ void add_rcs(CLI::App& app, Shell& shell) {
   command->add_option("--elevation-deg", arguments->elevation_deg, "A or A:B:STEP; of the radar seen from the target");
   command->add_option("--edges", arguments->edges, "Edge currents; only off in this version")
       ->check(CLI::IsMember({"on", "off"}));
+  command
+      ->add_option("--crease-deg", arguments->crease_deg, "Facets that turn by less belong to one smooth surface; 0 = all facets flat")
+      ->check(CLI::Range(0.0, 60.0));
   command->add_option("--max-bounces", arguments->max_bounces, "Reflections followed")->check(CLI::Range(1, 64));
   command
       ->add_option("--ray-spacing-m", arguments->ray_spacing_m,

@@ -60,7 +60,9 @@ Pipeline::Pipeline(Scenario scenario)
       targets_(load_targets(scenario_)),
       range_window_m_(range_window_m(scenario_, targets_)) {
   for (const Target& target : targets_) {
-    scatterers_.push_back(target.rest_positions.empty() ? nullptr : std::make_unique<const Scatterer>(target.mesh, target.materials));
+    const double crease = radians(target.spec.solver.crease_deg);
+    scatterers_.push_back(target.rest_positions.empty() ? nullptr
+                                                        : std::make_unique<const Scatterer>(target.mesh, target.materials, crease));
   }
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sim/core/constants.h"
+#include "sim/scattering/curvature.h"
 
 namespace seaglint {
 namespace {
@@ -24,6 +25,10 @@ class Splitter {
   }
 
   void run() {
+    if (footprint_.curvature) {
+      curved();
+      return;
+    }
     // Only a phase that runs through a good part of a cycle has end points. The whole facet decides, not this piece of it: pieces that share a
     // moving boundary must be treated alike, or its two sides do not cancel.
     const double half_phase = settings_.kc * footprint_.surface_slope * footprint_.facet_size / 2;
@@ -41,6 +46,18 @@ class Splitter {
     c.psi = psi;
     c.gradient = gradient;
     out_.push_back(c);
+  }
+
+  void curved() {
+    std::vector<CurvedTerm> terms;
+    curved_terms(footprint_, settings_.kc, threshold_, terms);
+    for (const CurvedTerm& term : terms) {
+      const auto pattern = pattern_at(footprint_, term.p, 0);
+      for (int i = 0; i < 4; ++i) prototype_.pattern[i] = std::complex<float>(pattern[i]);
+      PathGradient gradient = phase_gradient(footprint_, term.p, basis_);
+      gradient.transmit += term.slide1 * basis_.h + term.slide2 * basis_.v;
+      emit(term.integral, term.psi, gradient);
+    }
   }
 
   // Pieces small enough for their own integral to be slow, each a point at its centroid.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sim/core/constants.h"
+#include "sim/scattering/curvature.h"
 
 namespace seaglint {
 namespace {
@@ -102,6 +103,13 @@ double sinc(double x) {
 }
 
 Complex phase_integral(const Footprint& footprint, double k) {
+  if (footprint.curvature) {
+    std::vector<CurvedTerm> terms;
+    curved_terms(footprint, k, 0, terms);
+    Complex sum = 0;
+    for (const CurvedTerm& term : terms) sum += term.integral * std::polar(1.0, k * term.psi);
+    return sum;
+  }
   const MovingPolygon& polygon = footprint.polygon;
   const Vec2 c = centroid(polygon);
   const Complex phase_c = std::polar(1.0, k * footprint.psi(c));
@@ -119,9 +127,19 @@ Complex phase_integral(const Footprint& footprint, double k) {
 }
 
 std::array<Complex, 4> scattered(const Footprint& footprint, double k, std::size_t index) {
+  std::array<Complex, 4> s{};
+  if (footprint.curvature) {
+    std::vector<CurvedTerm> terms;
+    curved_terms(footprint, k, 0, terms);
+    for (const CurvedTerm& term : terms) {
+      const Complex value = Complex(0, -k / (2 * kPi)) * term.integral * std::polar(1.0, k * term.psi);
+      const auto pattern = pattern_at(footprint, term.p, index);
+      for (int i = 0; i < 4; ++i) s[i] += value * pattern[i];
+    }
+    return s;
+  }
   const Complex factor = Complex(0, -k / (2 * kPi)) * phase_integral(footprint, k);
   const std::array<Complex, 4>& pattern = footprint.patterns.empty() ? footprint.pattern : footprint.patterns[index];
-  std::array<Complex, 4> s;
   for (int i = 0; i < 4; ++i) s[i] = factor * pattern[i];
   return s;
 }

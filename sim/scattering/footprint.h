@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "sim/scattering/moving_polygon.h"
@@ -61,6 +62,8 @@ struct ImagePlane {
 // The plane n . x = offset (image space, n need not point to the radar); n . r^ must not vanish.
 ImagePlane image_plane(const Vec3& n, double offset, const RadarBasis& basis);
 
+struct Curvature;
+
 struct Footprint {
   MovingPolygon polygon;  // in the aperture plane
   ImagePlane plane;       // of the last facet's image
@@ -76,7 +79,9 @@ struct Footprint {
   int facet = -1;                   // the last one
   std::uint16_t part = 0;           // its part
   std::uint8_t bounces = 1;
+  std::shared_ptr<const Curvature> curvature;  // null when the facet and all mirrors are flat
 
+  // Of the flat facet.
   double psi(const Vec2& p) const { return psi0 + w.dot(p); }
   // Length on the facet of a step in the aperture, m.
   double surface_length(const Vec2& step) const { return std::hypot(step.norm(), plane.slope.dot(step)); }
@@ -100,7 +105,8 @@ PathGradient phase_gradient(const Footprint& footprint, const Vec2& p, const Rad
 PathGradient phase_gradient(const Footprint& footprint, const Corner& corner, const RadarBasis& transmit);
 
 // I(k) = integral over the footprint of e^{jk psi(p)} d^2p, m^2. Gordon's contour form (W. B. Gordon, IEEE Trans.
-// AP-23, 1975, 590-592), by the divergence theorem with F = w e^{jk w.p} / (jk |w|^2); a series where |w| is small.
+// AP-23, 1975, 590-592), by the divergence theorem with F = w e^{jk w.p} / (jk |w|^2); a series where |w| is small. With
+// curvature the sum of curved_terms, fading included.
 Complex phase_integral(const Footprint& footprint, double k);
 
 // (e^{jx} - 1)/(jx) e^{-jx/2} = sin(x/2)/(x/2)

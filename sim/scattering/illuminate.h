@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "sim/core/constants.h"
 #include "sim/scattering/echo_filter.h"
 #include "sim/scattering/facet_tree.h"
 #include "sim/scattering/facets.h"
@@ -16,6 +17,7 @@
 #include "sim/scattering/material.h"
 #include "sim/scattering/panels.h"
 #include "sim/scattering/ray_scene.h"
+#include "sim/scattering/smooth_surface.h"
 
 namespace seaglint {
 
@@ -30,10 +32,12 @@ struct IlluminationSettings {
 // A target ready to be lit from any direction: its facets and their trees, for beams and for rays. Built once per mesh; safe to share between threads.
 class Scatterer {
  public:
-  // materials[i] is what mesh.materials[i] is made of; none: all is perfect conductor. Throws InputError when no triangle of the mesh has an area.
-  explicit Scatterer(const TriangleMesh& mesh, std::vector<MaterialSpec> materials = {});
+  // materials[i] is what mesh.materials[i] is made of; none: all is perfect conductor. Facets that turn by less than crease_rad (0..pi; 0 = all flat)
+  // belong to one smooth surface. Throws InputError when no triangle of the mesh has an area.
+  explicit Scatterer(const TriangleMesh& mesh, std::vector<MaterialSpec> materials = {}, double crease_rad = radians(kDefaultCreaseDeg));
 
   std::span<const Facet> facets() const { return facets_; }
+  const SmoothSurface& surface() const { return surface_; }
   const Panels& panels() const { return panels_; }
   const FacetTree& tree() const { return tree_; }
   const RayScene& rays() const { return rays_; }
@@ -42,11 +46,12 @@ class Scatterer {
 
  private:
   std::vector<Facet> facets_;
+  double radius_ = 0;
+  SmoothSurface surface_;
   Panels panels_;
   FacetTree tree_;
   RayScene rays_;
   std::vector<MaterialSpec> materials_;
-  double radius_ = 0;
 };
 
 // 2e-3 of the radius: 0.14 m on the 144 m ship, pieces of 10 mm (README.md).

@@ -41,7 +41,7 @@ bool grow(Outline& outline, std::size_t i, int facet, int edge, const Vec3& apex
 
 }  // namespace
 
-Panels::Panels(std::span<const Facet> facets) : of_(facets.size(), -1), size_(facets.size(), 0) {
+Panels::Panels(std::span<const Facet> facets, const SmoothSurface& surface) : of_(facets.size(), -1), size_(facets.size(), 0) {
   Outline outline;
   for (int f = 0; f < static_cast<int>(facets.size()); ++f) {
     first_corner_.push_back(static_cast<std::uint32_t>(corners_.size()));
@@ -55,7 +55,7 @@ Panels::Panels(std::span<const Facet> facets) : of_(facets.size(), -1), size_(fa
       const auto [from, edge] = outline.side[i];
       const int g = facets[from].neighbour[edge];
       const auto joins = [&] {
-        if (g < 0 || of_[g] >= 0) return false;
+        if (g < 0 || of_[g] >= 0 || surface.curved(f) || surface.curved(g)) return false;
         const Facet& other = facets[g];
         // Two facets and no third share the edge.
         const auto back = std::find(other.neighbour.begin(), other.neighbour.end(), from);

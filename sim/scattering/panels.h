@@ -9,12 +9,15 @@
 #include <vector>
 
 #include "sim/scattering/facets.h"
+#include "sim/scattering/smooth_surface.h"
 
 namespace seaglint {
 
 class Panels {
  public:
-  explicit Panels(std::span<const Facet> facets);
+  // A facet of a curved surface is a panel by itself.
+  Panels(std::span<const Facet> facets, const SmoothSurface& surface);
+  explicit Panels(std::span<const Facet> facets) : Panels(facets, SmoothSurface(facets, 0, 0)) {}
 
   // The facet that the panel of this facet goes by.
   int of(int facet) const { return of_[facet]; }

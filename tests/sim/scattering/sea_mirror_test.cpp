@@ -158,10 +158,11 @@ TEST(SeaMirror, AFloatingBodyIsItsDryPartAlone) {
   for (Vec3& x : top.vertices) x.z() += 0.15;
   std::vector<MaterialSpec> materials{MaterialSpec{}};
   put_in_water(mesh, materials, 0);
-  const Scatterer floating(mesh, materials);
-  const auto broadside = echo(floating, radar_basis(Vec3::UnitX()), k16, 0.01), half = echo(Scatterer(top), radar_basis(Vec3::UnitX()), k16, 0.01);
+  // Flat facets: a cut through them makes vertices that do not lie on the smooth surface.
+  const Scatterer floating(mesh, materials, 0);
+  const auto broadside = echo(floating, radar_basis(Vec3::UnitX()), k16, 0.01), half = echo(Scatterer(top, {}, 0), radar_basis(Vec3::UnitX()), k16, 0.01);
   for (int i = 0; i < 4; ++i) EXPECT_LT(std::abs(broadside[i] - half[i]), 1e-9 * largest(half));
-  const auto above = echo(floating, radar_basis(Vec3::UnitZ()), k16, 0.01), full = echo(Scatterer(whole), radar_basis(Vec3::UnitZ()), k16, 0.01);
+  const auto above = echo(floating, radar_basis(Vec3::UnitZ()), k16, 0.01), full = echo(Scatterer(whole, {}, 0), radar_basis(Vec3::UnitZ()), k16, 0.01);
   for (int i = 0; i < 4; ++i) EXPECT_LT(std::abs(above[i] - full[i]), 1e-9 * largest(full));
   EXPECT_EQ(largest(echo(floating, radar_basis(-Vec3::UnitZ()), k16, 0.01)), 0);
 }
