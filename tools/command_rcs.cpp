@@ -30,7 +30,7 @@ namespace seaglint {
 namespace {
 
 struct RcsArguments {
-  std::string target, unit = "m", frequency_ghz, azimuth_deg, elevation_deg = "0", edges = "off", output;
+  std::string target, unit = "m", frequency_ghz, azimuth_deg, elevation_deg = "0", edges = "on", output;
   double ray_spacing_m = 0;
   double crease_deg = kDefaultCreaseDeg;
   int max_bounces = 8;
@@ -93,13 +93,13 @@ TriangleMesh read_sound_mesh(const std::string& file, const std::string& unit) {
 std::string table_text(const RcsArguments& arguments, const Scatterer& scatterer, const RcsSweep& sweep) {
   std::string csv = fmt::format(
       "# seaglint {} rcs\n# target {} unit {}: {} facets, radius {:.6g} m\n# material {}, echoes of {}\n{}# physical optics at every visible bounce, "
-      "max_bounces {}, edges off, crease_deg {:.6g}, "
+      "max_bounces {}, edges {}, crease_deg {:.6g}, "
       "ray_spacing_m {:.6g}\n# amplitudes in metres, e^{{+jwt}}, phase origin at the body's origin, S_pq: q "
       "transmitted, p received; basis of CONVENTIONS.md\n"
       "frequency_hz,azimuth_deg,elevation_deg,hh_re,hh_im,hv_re,hv_im,vh_re,vh_im,vv_re,vv_im,hh_dbsm,vv_dbsm\n",
       kVersion, arguments.target, arguments.unit, scatterer.facets().size(), scatterer.radius(),
       arguments.materials.empty() ? "pec" : fmt::format("{}", fmt::join(arguments.materials, " ")), arguments.view.text(), arguments.sea.text(),
-      arguments.max_bounces, arguments.crease_deg,
+      arguments.max_bounces, arguments.edges, arguments.crease_deg,
       arguments.ray_spacing_m > 0 ? arguments.ray_spacing_m : default_ray_spacing(scatterer));
   for (std::size_t q = 0; q < sweep.frequency_hz.size(); ++q) {
     for (std::size_t view = 0; view < sweep.views(); ++view) {
@@ -117,21 +117,26 @@ std::string table_text(const RcsArguments& arguments, const Scatterer& scatterer
 std::size_t trace_views(const RcsArguments& arguments, const Scatterer& scatterer, const EchoFilter& filter, const Shell& shell, RcsSweep& sweep) {
   std::vector<double> wavenumbers;
   for (const double hz : sweep.frequency_hz) wavenumbers.push_back(2 * kPi * hz / kSpeedOfLight);
-  sweep.models = {{"po", std::vector<std::vector<std::array<Complex, 4>>>(sweep.views())}};
+  // What is written comes last; a reference is shown beside physical optics alone too.
+  const std::vector<std::vector<std::array<Complex, 4>>> empty(sweep.views());
+  const bool edges = arguments.edges == "on";
+  if (!edges || !arguments.reference.files.empty()) sweep.models.push_back({"po", empty});
+  if (edges) sweep.models.push_back({"edges", empty});
   std::size_t legs = 0;
-  const IlluminationSettings settings{arguments.ray_spacing_m, arguments.max_bounces, filter};
   Progress progress("rcs", sweep.views(), "views");
   for (std::size_t view = 0; view < sweep.views(); ++view) {
     const double az = radians(sweep.azimuth_deg[view % sweep.azimuth_deg.size()]),
                  el = radians(sweep.elevation_deg[view / sweep.azimuth_deg.size()]);
     const RadarBasis basis = radar_basis({std::cos(el) * std::cos(az), std::cos(el) * std::sin(az), std::sin(el)});
     try {
-      sweep.models[0].matrices[view] =
-          arguments.sea.reflection
-              ? scattering_matrices_over_sea(scatterer, basis.r, arguments.sea.height_m, arguments.sea.mirror(), wavenumbers, settings,
-                                             thread_count(shell.threads), &legs, &shell.stop)
-              : scattering_matrices(scatterer, monostatic(basis), wavenumbers, settings,
-                              thread_count(shell.threads), &legs, &shell.stop);
+      for (auto& model : sweep.models) {
+        const IlluminationSettings settings{arguments.ray_spacing_m, arguments.max_bounces, model.name == "edges", filter};
+        const int threads = thread_count(shell.threads);
+        model.matrices[view] =
+            arguments.sea.reflection
+                ? scattering_matrices_over_sea(scatterer, basis.r, arguments.sea.height_m, arguments.sea.mirror(), wavenumbers, settings, threads, &legs, &shell.stop)
+                : scattering_matrices(scatterer, monostatic(basis), wavenumbers, settings, threads, &legs, &shell.stop);
+      }
     } catch (const Interrupted&) {
       throw WorkError(fmt::format("interrupted after {} of {} views; {} is not written", view, sweep.views(), arguments.output));
     }
@@ -169,14 +174,10 @@ void export_one_view(const RcsArguments& arguments, const TriangleMesh& mesh, co
       kVersion, arguments.target, arguments.unit, sweep.frequency_hz[0], sweep.azimuth_deg[0], sweep.elevation_deg[0], arguments.max_bounces, arguments.edges,
       arguments.view.text());
   export_view(arguments.view, mesh, scatterer, radar_basis(direction_of(sweep, 0)), 2 * kPi * sweep.frequency_hz[0] / kSpeedOfLight,
-              {arguments.ray_spacing_m, arguments.max_bounces, filter}, heading, thread_count(shell.threads), &shell.stop);
+              {arguments.ray_spacing_m, arguments.max_bounces, arguments.edges == "on", filter}, heading, thread_count(shell.threads), &shell.stop);
 }
 
 void run_rcs(const RcsArguments& arguments, const Shell& shell) {
-  if (arguments.edges != "off") {
-    throw InputError(
-        "--edges on: edge currents are not modelled in this version; physical optics alone is --edges off");
-  }
   RcsSweep sweep;
   sweep.frequency_hz = range("--frequency-ghz", arguments.frequency_ghz, 1e-3, 1000);
   for (double& f : sweep.frequency_hz) f *= 1e9;
@@ -225,7 +226,7 @@ void add_rcs(CLI::App& app, Shell& shell) {
                    "A or A:B:STEP; 0 = radar ahead of the bow, counter-clockwise from above")
       ->required();
   command->add_option("--elevation-deg", arguments->elevation_deg, "A or A:B:STEP; of the radar seen from the target");
-  command->add_option("--edges", arguments->edges, "Edge currents; only off in this version")
+  command->add_option("--edges", arguments->edges, "Fringe currents at sharp edges: on, or off for physical optics alone")
       ->check(CLI::IsMember({"on", "off"}));
   command
       ->add_option("--crease-deg", arguments->crease_deg, "Facets that turn by less belong to one smooth surface; 0 = all facets flat")

@@ -13,5 +13,6 @@ using Complex = std::complex<double>;
 using Vec2 = Eigen::Vector2d;
 using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
+using CVec3 = Eigen::Vector3cd;
 
 }  // namespace seaglint

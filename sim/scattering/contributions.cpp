@@ -172,6 +172,39 @@ void split_over_band(const Footprint& footprint, const RadarBasis& transmit, con
   }
 }
 
+void split(const EdgeFootprint& footprint, const SplitSettings& settings, std::vector<Contribution>& out) {
+  Contribution c;
+  c.facet = footprint.facet;
+  c.part = footprint.part;
+  c.bounces = footprint.bounces;
+  c.mechanism = Mechanism::kEdge;
+  for (int i = 0; i < 4; ++i) c.pattern[i] = std::complex<float>(footprint.pattern[i]);
+  const double k = settings.kc, run = footprint.psi[1] - footprint.psi[0];
+  const Complex extent = footprint.length * range_factor(footprint, k);
+  // Turning by u changes psi's slope along the edge by at most 2 u.
+  const double threshold = 2 * settings.turn_rad / kAmplitudeError * footprint.length;
+  if (std::abs(run) > threshold && std::abs(k * run) / 2 > kPieceHalfPhase) {
+    const Complex end = extent / Complex(0, k * run);
+    for (int i = 0; i < 2; ++i) {
+      c.amplitude = i == 0 ? -end : end;
+      c.psi = footprint.psi[i];
+      c.gradient = footprint.gradient[i];
+      out.push_back(c);
+    }
+    return;
+  }
+  const double slope = std::max(std::abs(run), kAmplitudeError * threshold);
+  const int pieces = std::max(1, static_cast<int>(std::ceil(k * slope / 2 / kPieceHalfPhase)));
+  c.amplitude = extent * (sinc(k * run / pieces) / pieces);
+  const PathGradient &a = footprint.gradient[0], &b = footprint.gradient[1];
+  for (int i = 0; i < pieces; ++i) {
+    const double s = (i + 0.5) / pieces;
+    c.psi = footprint.psi[0] + s * run;
+    c.gradient = {a.transmit + s * (b.transmit - a.transmit), a.receive + s * (b.receive - a.receive)};
+    out.push_back(c);
+  }
+}
+
 std::array<Complex, 4> direct_sum(std::span<const Contribution> contributions, double k, const Vec3& turn) {
   std::array<Complex, 4> sum{};
   for (const Contribution& c : contributions) {

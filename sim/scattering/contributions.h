@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "sim/scattering/edge_light.h"
 #include "sim/scattering/footprint.h"
 
 namespace seaglint {
@@ -48,6 +49,9 @@ void split(const Footprint& footprint, const RadarBasis& transmit, const SplitSe
 inline constexpr double kSlopePhase = 0.2;  // rad
 void split_over_band(const Footprint& footprint, const RadarBasis& transmit, const SplitSettings& settings, double half_band,
                      std::vector<Contribution>& out);
+
+// The same for a stretch of sharp edge: its ends, or pieces short enough for one point.
+void split(const EdgeFootprint& footprint, const SplitSettings& settings, std::vector<Contribution>& out);
 
 // sum of pattern amplitude e^{jk (psi + gradient . turn)} over all contributions, both directions turning alike: the direct sum, for tests and for
 // few points.

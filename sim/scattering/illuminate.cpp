@@ -45,10 +45,11 @@ constexpr double kEdgeOn = 1e-9;
 class BeamTracer {
  public:
   BeamTracer(const Scatterer& scatterer, const AntennaPair& antennas, const IlluminationSettings& settings, const VisibleSurface& lit,
-             const VisibleSurface& visible, std::span<const std::vector<Surface>> surfaces, double min_area, std::vector<Footprint>& out)
+             const VisibleSurface& visible, std::span<const std::vector<Surface>> surfaces, double min_area, Lit& out)
       : facets_(scatterer.facets()),
         surface_(scatterer.surface()),
         panels_(scatterer.panels()),
+        edges_(settings.edges ? &scatterer.edges() : nullptr),
         tree_(scatterer.tree()),
         antennas_(antennas),
         basis_(antennas.transmit),
@@ -76,6 +77,7 @@ class BeamTracer {
     std::vector<MovingPolygon> seen;
     if (!antennas_.monostatic) seen_part(first, candidate, seen);
     radiate(first, candidate, antennas_.monostatic ? candidate.lit : seen);
+    if (edges_) reach_edges(first, candidate);
     if (max_bounces_ > 1) follow(reflected(first, candidate), candidate.lit);
   }
 
@@ -238,6 +240,7 @@ class BeamTracer {
       scratch.seen.clear();
       seen_part(leg, candidate, scratch.seen);
       radiate(leg, candidate, scratch.seen);
+      if (edges_) reach_edges(leg, candidate);
       if (leg.bounce < max_bounces_) follow(reflected(leg, candidate), candidate.lit);
     }
   }
@@ -324,6 +327,13 @@ class BeamTracer {
       next.rays.reflect(bump(Barycentric(projected(leg, facet)), over_edges(leg, facet, [](double cosine) { return 2 * cosine; })));
     }
     return next;
+  }
+
+  // Wedges are perfect conductors, and so is what the wave met before.
+  void reach_edges(const Leg& leg, const Candidate& candidate) {
+    if (!leg.fields.empty() || !surface_of(candidate.image.facet).empty()) return;
+    const WaveOnFacet wave{basis_, leg.mirrors, candidate.image.plane, leg.direction, leg.E_h, leg.E_v, leg.bounce};
+    find_arrivals(*edges_, facets_, panels_, candidate.image.facet, wave, candidate.lit, out_.arrivals);
   }
 
   // The rays where they meet the candidate's plane.
@@ -444,20 +454,21 @@ class BeamTracer {
     footprint.curvature = curvature(leg, candidate, footprint);
     for (const MovingPolygon& piece : pieces) {
       footprint.polygon = piece;
-      out_.push_back(footprint);
+      out_.footprints.push_back(footprint);
     }
   }
 
   std::span<const Facet> facets_;
   const SmoothSurface& surface_;
   const Panels& panels_;
+  const SharpEdges* edges_;  // null when nobody asks for edges
   const FacetTree& tree_;
   const AntennaPair& antennas_;
   const RadarBasis& basis_;  // of the aperture: the transmitter's
   const VisibleSurface& lit_;
   const VisibleSurface& visible_;  // to the receiver
   std::span<const std::vector<Surface>> surfaces_;
-  std::vector<Footprint>& out_;
+  Lit& out_;
   int max_bounces_;
   double min_area_;
   std::vector<Scratch> scratch_;  // by the bounce a leg ends in
@@ -484,6 +495,7 @@ Scatterer::Scatterer(const TriangleMesh& mesh, std::vector<MaterialSpec> materia
       radius_(radius_of(facets_)),
       surface_(facets_, crease_rad, 1e-7 * radius_),
       panels_(facets_, surface_),
+      edges_(sharp_edges(facets_, crease_rad > 0 ? crease_rad : radians(kDefaultCreaseDeg))),
       tree_(facets_, panels_),
       rays_(facets_),
       materials_(std::move(materials)) {
@@ -492,6 +504,14 @@ Scatterer::Scatterer(const TriangleMesh& mesh, std::vector<MaterialSpec> materia
                    fmt::format("material {} of {}", facet.material, materials_.size()));
   }
   if (facets_.empty()) throw InputError("the mesh has no triangle with an area: nothing scatters");
+  // Only wedges of perfect conductors on both sides diffract; where a hull enters the water there is none.
+  for (auto& sides : edges_.of_facet) {
+    for (int& edge : sides) {
+      if (edge == kNoEdge || materials_.empty()) continue;
+      const auto conducts = [&](int facet) { return materials_[facets_[facet].material].kind == SurfaceKind::kPec; };
+      if (const SharpEdge& wedge = edges_.edges[edge]; !conducts(wedge.facet[0]) || !conducts(wedge.facet[1])) edge = kNoEdge;
+    }
+  }
 }
 
 namespace {
@@ -531,9 +551,9 @@ Illumination::Illumination(const Scatterer& scatterer, const AntennaPair& antenn
   }
 }
 
-std::size_t Illumination::light(std::span<const int> facets, std::vector<Footprint>& footprints) const {
+std::size_t Illumination::light(std::span<const int> facets, Lit& lit) const {
   const VisibleSurface& visible = seen_from_receiver_ ? *seen_from_receiver_ : lit_;
-  BeamTracer tracer(scatterer_, antennas_, settings_, lit_, visible, surfaces_, min_area_, footprints);
+  BeamTracer tracer(scatterer_, antennas_, settings_, lit_, visible, surfaces_, min_area_, lit);
   for (const int facet : facets) tracer.light(facet);
   return tracer.legs();
 }

@@ -10,6 +10,8 @@
 
 #include "sim/core/constants.h"
 #include "sim/scattering/echo_filter.h"
+#include "sim/scattering/edge_light.h"
+#include "sim/scattering/edges.h"
 #include "sim/scattering/facet_tree.h"
 #include "sim/scattering/facets.h"
 #include "sim/scattering/footprint.h"
@@ -26,6 +28,7 @@ struct IlluminationSettings {
   // default_ray_spacing: that.
   double ray_spacing_m = 0;
   int max_bounces = 8;       // 1 <= x <= 64
+  bool edges = false;        // follow the waves that reach sharp edges too
   EchoFilter filter = {};    // which echoes are summed; all are followed
 };
 
@@ -41,6 +44,7 @@ class Scatterer {
   const Panels& panels() const { return panels_; }
   const FacetTree& tree() const { return tree_; }
   const RayScene& rays() const { return rays_; }
+  const SharpEdges& edges() const { return edges_; }
   double radius() const { return radius_; }  // of the bounding sphere about the body's origin, m
   std::span<const MaterialSpec> materials() const { return materials_; }  // empty: all is perfect conductor
 
@@ -49,6 +53,7 @@ class Scatterer {
   double radius_ = 0;
   SmoothSurface surface_;
   Panels panels_;
+  SharpEdges edges_;
   FacetTree tree_;
   RayScene rays_;
   std::vector<MaterialSpec> materials_;
@@ -56,6 +61,17 @@ class Scatterer {
 
 // 2e-3 of the radius: 0.14 m on the 144 m ship, pieces of 10 mm (README.md).
 double default_ray_spacing(const Scatterer& scatterer);
+
+// What the beams that leave one facet, or several, meet.
+struct Lit {
+  std::vector<Footprint> footprints;
+  std::vector<EdgeArrival> arrivals;  // only when the settings ask for edges
+
+  void clear() {
+    footprints.clear();
+    arrivals.clear();
+  }
+};
 
 // What one direction lights and another (or the same) sees. The constructor finds what the radar sees of every facet; light() follows the beams that leave one facet. Facets are
 // independent and may be lit in any order by any thread.
@@ -68,10 +84,10 @@ class Illumination {
   // Panels the transmitter sees, by the facets they go by, ascending.
   std::span<const int> seen() const { return seen_; }
 
-  // Appends the footprints of all beams whose first mirror is the panel of this facet, its own first-bounce footprints included; returns the
-  // number of legs followed, a beam's way from one mirror to the next.
-  std::size_t light(int facet, std::vector<Footprint>& footprints) const { return light({&facet, 1}, footprints); }
-  std::size_t light(std::span<const int> facets, std::vector<Footprint>& footprints) const;
+  // Appends what all beams light whose first mirror is the panel of one of these facets, their own first bounce included; returns the number of legs
+  // followed, a beam's way from one mirror to the next.
+  std::size_t light(int facet, Lit& lit) const { return light({&facet, 1}, lit); }
+  std::size_t light(std::span<const int> facets, Lit& lit) const;
 
  private:
   const Scatterer& scatterer_;

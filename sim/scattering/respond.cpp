@@ -10,6 +10,7 @@
 #include "sim/core/constants.h"
 #include "sim/core/error.h"
 #include "sim/scattering/contributions.h"
+#include "sim/scattering/edge_waves.h"
 #include "sim/scattering/return_grid.h"
 
 namespace seaglint {
@@ -34,6 +35,37 @@ std::span<const int> chunk_of(const Illumination& illumination, std::size_t chun
   return illumination.seen().subspan(first, std::min(size, illumination.seen().size() - first));
 }
 
+// All chunks' arrivals edge by edge, in an order that does not depend on the number of threads.
+std::vector<EdgeArrival> by_edge(std::span<const Lit> chunks) {
+  std::vector<EdgeArrival> all;
+  for (const Lit& lit : chunks) all.insert(all.end(), lit.arrivals.begin(), lit.arrivals.end());
+  std::stable_sort(all.begin(), all.end(), [](const EdgeArrival& a, const EdgeArrival& b) { return a.edge < b.edge; });
+  return all;
+}
+
+// What sharp edges answer to the waves that `chunks` hold. A receiver elsewhere needs the waves it would send.
+std::vector<EdgeFootprint> edge_echoes(const Scatterer& scatterer, const AntennaPair& antennas, const IlluminationSettings& settings,
+                                       std::span<const double> wavenumbers, std::span<const Lit> chunks, int threads) {
+  if (!settings.edges) return {};
+  const std::vector<EdgeArrival> incoming = by_edge(chunks);
+  std::vector<EdgeArrival> backwards;
+  if (!antennas.monostatic) {
+    const Illumination illumination(scatterer, monostatic(antennas.receive), settings, threads, wavenumbers);
+    std::vector<Lit> lit(chunk_count(illumination));
+    parallel_for(lit.size(), threads, [&](std::size_t chunk) {
+      illumination.light(chunk_of(illumination, chunk), lit[chunk]);
+      lit[chunk].footprints = {};
+    });
+    backwards = by_edge(lit);
+  }
+  const std::vector<EdgeArrival>& outgoing = antennas.monostatic ? incoming : backwards;
+  std::vector<EdgeFootprint> once = edge_footprints(scatterer.edges(), scatterer.facets(), antennas, incoming, outgoing, settings.max_bounces);
+  const std::vector<EdgeFootprint> twice = edge_wave_footprints(scatterer.edges(), scatterer.facets(), antennas, incoming, outgoing);
+  once.insert(once.end(), twice.begin(), twice.end());
+  std::erase_if(once, [&](const EdgeFootprint& f) { return !settings.filter.keeps(f.part, f.bounces, Mechanism::kEdge); });
+  return once;
+}
+
 // The world's polarisation basis as the turned body sees it.
 RadarBasis body_basis(const RadarBasis& world, const Pose& pose) {
   const Mat3 R_BT = pose.R_TB.transpose();
@@ -49,30 +81,39 @@ ReturnGrid trace_returns(const Scatterer& scatterer, const AntennaPair& antennas
   const double kc = wavenumbers.at(wavenumbers.centre_index());
   // Materials are met at the band's middle and at as far to either side as its lower end lies.
   const double half_band = kc - wavenumbers.first;
-  const Illumination illumination(scatterer, antennas, {solver.ray_spacing_m, solver.max_bounces}, threads,
-                                  std::array{kc - half_band, kc, kc + half_band});
+  const std::array band{kc - half_band, kc, kc + half_band};
+  const IlluminationSettings settings{solver.ray_spacing_m, solver.max_bounces, solver.edges};
+  const Illumination illumination(scatterer, antennas, settings, threads, band);
   const SplitSettings split_settings{kc, reach};
   const std::size_t chunks = chunk_count(illumination);
-  std::vector<std::vector<Contribution>> contributions(chunks);
-  std::vector<double> fastest(chunks, 0);
-  parallel_for(chunks, threads, [&](std::size_t chunk) {
-    std::vector<Footprint> footprints;
-    illumination.light(chunk_of(illumination, chunk), footprints);
-    for (const Footprint& footprint : footprints) {
-      split_over_band(footprint, antennas.transmit, split_settings, half_band, contributions[chunk]);
-    }
+  std::vector<Lit> lit(chunks);
+  std::vector<std::vector<Contribution>> contributions(chunks + 1);  // the last ones are those of the edges
+  std::vector<double> fastest(chunks + 1, 0);
+  const auto limit_speed = [&](std::size_t chunk) {
     for (Contribution& c : contributions[chunk]) {
       const double size = c.gradient.sum().norm();
       if (size > limit) c.gradient = {c.gradient.transmit * (limit / size), c.gradient.receive * (limit / size)};
       fastest[chunk] = std::max(fastest[chunk], std::abs(track.speed(c.gradient)));
     }
+  };
+  parallel_for(chunks, threads, [&](std::size_t chunk) {
+    illumination.light(chunk_of(illumination, chunk), lit[chunk]);
+    for (const Footprint& footprint : lit[chunk].footprints) {
+      split_over_band(footprint, antennas.transmit, split_settings, half_band, contributions[chunk]);
+    }
+    lit[chunk].footprints = {};
+    limit_speed(chunk);
   });
-  const double u_limit = fastest.empty() ? 0 : *std::max_element(fastest.begin(), fastest.end());
+  for (const EdgeFootprint& footprint : edge_echoes(scatterer, antennas, settings, band, lit, threads)) {
+    split(footprint, split_settings, contributions[chunks]);
+  }
+  limit_speed(chunks);
+  const double u_limit = *std::max_element(fastest.begin(), fastest.end());
   // Four grids, whatever the number of threads, each for every fourth chunk; their sum is taken in order.
   constexpr std::size_t kGrids = 4;
   std::vector<ReturnGrid> grids(kGrids, ReturnGrid(wavenumbers, u_limit, reach, channel));
   parallel_for(kGrids, threads, [&](std::size_t g) {
-    for (std::size_t chunk = g; chunk < chunks; chunk += kGrids) grids[g].spread(contributions[chunk], track);
+    for (std::size_t chunk = g; chunk <= chunks; chunk += kGrids) grids[g].spread(contributions[chunk], track);
   });
   ReturnGrid grid = std::move(grids[0]);
   for (std::size_t g = 1; g < kGrids; ++g) grid.add(grids[g]);
@@ -253,28 +294,32 @@ std::vector<std::array<Complex, 4>> scattering_matrices(const Scatterer& scatter
                                                         std::size_t* legs, const StopFlag* stop) {
   using Matrices = std::vector<std::array<Complex, 4>>;
   const Illumination illumination(scatterer, antennas, settings, threads, wavenumbers);
+  const auto add = [](const std::array<Complex, 4>& s, std::array<Complex, 4>& sum) {
+    for (int i = 0; i < 4; ++i) sum[i] += s[i];
+  };
   const std::size_t chunks = chunk_count(illumination);
   std::vector<Matrices> parts(chunks, Matrices(wavenumbers.size()));
+  std::vector<Lit> lit(chunks);
   std::vector<std::size_t> followed(chunks, 0);
   parallel_for(
       chunks, threads,
       [&](std::size_t chunk) {
-        std::vector<Footprint> footprints;
-        followed[chunk] = illumination.light(chunk_of(illumination, chunk), footprints);
-        for (const Footprint& footprint : footprints) {
+        followed[chunk] = illumination.light(chunk_of(illumination, chunk), lit[chunk]);
+        for (const Footprint& footprint : lit[chunk].footprints) {
           if (!settings.filter.keeps(footprint.part, footprint.bounces, Mechanism::kPhysicalOptics)) continue;
-          for (std::size_t q = 0; q < wavenumbers.size(); ++q) {
-            const auto s = scattered(footprint, wavenumbers[q], q);
-            for (int i = 0; i < 4; ++i) parts[chunk][q][i] += s[i];
-          }
+          for (std::size_t q = 0; q < wavenumbers.size(); ++q) add(scattered(footprint, wavenumbers[q], q), parts[chunk][q]);
         }
+        lit[chunk].footprints = {};
       },
       stop);
   Matrices sum(wavenumbers.size());
+  for (const EdgeFootprint& footprint : edge_echoes(scatterer, antennas, settings, wavenumbers, lit, threads)) {
+    for (std::size_t q = 0; q < wavenumbers.size(); ++q) add(scattered(footprint, wavenumbers[q]), sum[q]);
+  }
   for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
     if (legs) *legs += followed[chunk];
     for (std::size_t q = 0; q < wavenumbers.size(); ++q) {
-      for (int i = 0; i < 4; ++i) sum[q][i] += parts[chunk][q][i];
+      add(parts[chunk][q], sum[q]);
     }
   }
   return sum;
@@ -284,19 +329,23 @@ std::vector<Contribution> view_contributions(const Scatterer& scatterer, const A
                                              const IlluminationSettings& settings, int threads, const StopFlag* stop) {
   const Illumination illumination(scatterer, antennas, settings, threads, std::array{split_settings.kc});
   std::vector<std::vector<Contribution>> chunks(chunk_count(illumination));
+  std::vector<Lit> lit(chunks.size());
   parallel_for(
       chunks.size(), threads,
       [&](std::size_t chunk) {
-        std::vector<Footprint> footprints;
-        illumination.light(chunk_of(illumination, chunk), footprints);
-        for (const Footprint& footprint : footprints) {
+        illumination.light(chunk_of(illumination, chunk), lit[chunk]);
+        for (const Footprint& footprint : lit[chunk].footprints) {
           if (!settings.filter.keeps(footprint.part, footprint.bounces, Mechanism::kPhysicalOptics)) continue;
           split(footprint, antennas.transmit, split_settings, chunks[chunk]);
         }
+        lit[chunk].footprints = {};
       },
       stop);
   std::vector<Contribution> all;
   for (const auto& chunk : chunks) all.insert(all.end(), chunk.begin(), chunk.end());
+  for (const EdgeFootprint& footprint : edge_echoes(scatterer, antennas, settings, std::array{split_settings.kc}, lit, threads)) {
+    split(footprint, split_settings, all);
+  }
   return all;
 }
 

@@ -124,6 +124,7 @@ void visit(SolverSpec& spec, FieldVisitor& v) {
   v.integer("max_bounces", spec.max_bounces, within(1, 64));
   v.number("max_turn_deg", spec.max_turn_deg, zero_or_within(0.001, 5));
   v.number("crease_deg", spec.crease_deg, within(0, 60));
+  v.flag("edges", spec.edges);
 }
 
 void visit(PointSpec& spec, FieldVisitor& v) {

@@ -54,6 +54,7 @@ struct SolverSpec {
   int max_bounces = 8;       // 1 <= x <= 64
   double max_turn_deg = 0;   // (auto) turn of the body served by one trace, 0 or 0.001 <= x <= 5
   double crease_deg = 20;    // facets that turn by less belong to one smooth surface, 0 <= x <= 60; 0 = all facets flat
+  bool edges = true;         // fringe currents at sharp edges
 };
 
 // A part of the mesh that is made of something else than the rest.

@@ -21,8 +21,8 @@ inline Vec3 direction(double azimuth_deg, double elevation_deg) {
 }
 
 inline std::array<Complex, 4> echo(const Scatterer& scatterer, const RadarBasis& basis, double k, double spacing = 0,
-                                   int bounces = 8) {
-  return scattering_matrices(scatterer, monostatic(basis), std::array{k}, {spacing, bounces})[0];
+                                   int bounces = 8, bool edges = false) {
+  return scattering_matrices(scatterer, monostatic(basis), std::array{k}, {spacing, bounces, edges})[0];
 }
 
 inline std::array<Complex, 4> echo(const TriangleMesh& mesh, const Vec3& r_hat, double k, double spacing = 0,

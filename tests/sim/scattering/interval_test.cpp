@@ -65,7 +65,7 @@ double error_against_fresh_traces(const Scatterer& scatterer, const Trajectory& 
     const Mat3 R_BT = pose.R_TB.transpose();
     const double k = wavenumber(sampling.first_hz + (sampling.pulse_first[n] + b) * sampling.step_hz);
     const Complex s =
-        echo(scatterer, {R_BT * world.r, R_BT * world.h, R_BT * world.v}, k, solver.ray_spacing_m)[kVvChannel];
+        echo(scatterer, {R_BT * world.r, R_BT * world.h, R_BT * world.v}, k, solver.ray_spacing_m, 8, solver.edges)[kVvChannel];
     const Complex fresh = s * std::polar(1.0, 2 * k * r_hat.dot(pose.p_TB));
     error += std::norm(body.response.at(n, b) - fresh);
     power += std::norm(fresh);
@@ -81,9 +81,9 @@ TEST(Contributions, SumToTheClosedFormWhereTheyWereMade) {
   for (const double turn : {0.0, 1e-3, 1e-2}) {
     std::vector<Contribution> contributions;
     std::array<Complex, 4> exact{};
-    std::vector<Footprint> footprints;
-    for (const int facet : illumination.seen()) illumination.light(facet, footprints);
-    for (const Footprint& footprint : footprints) {
+    Lit lit;
+    for (const int facet : illumination.seen()) illumination.light(facet, lit);
+    for (const Footprint& footprint : lit.footprints) {
       split(footprint, basis, {kc, turn}, contributions);
       const auto s = scattered(footprint, kc);
       for (int i = 0; i < 4; ++i) exact[i] += s[i];
@@ -135,7 +135,7 @@ TEST(Response, OfABodyAtRestEqualsItsScatteringMatrix) {
     for (const int b : {0, 39}) {
       const double k = wavenumber(sampling.first_hz + (sampling.pulse_first[n] + b) * sampling.step_hz);
       const Complex expected =
-          echo(reflector, radar_basis(r_hat), k)[kHhChannel] * std::polar(1.0, 2 * k * r_hat.dot(rest));
+          echo(reflector, radar_basis(r_hat), k, 0, 8, SolverSpec{}.edges)[kHhChannel] * std::polar(1.0, 2 * k * r_hat.dot(rest));
       // Amplitudes frozen at the band's centre: 0.6 % at its ends.
       EXPECT_LT(std::abs(body.response.at(n, b) - expected), 0.012 * std::abs(expected)) << n << " " << b;
     }

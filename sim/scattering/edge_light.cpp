@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/scattering/edge_light.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace seaglint {
+namespace {
+
+// Corners this near to an edge lie on it: cuts are exact to rounding of the target's size.
+constexpr double kOnEdge = 1e-7;  // m
+
+// Mirrors on both ways together. Three suffice for what a corner reflector's rims return; what is left out has left the target's straight ways.
+constexpr int kMostMirrors = 3;
+
+// The facet of an edge that faces the wave more squarely.
+int owner(const SharpEdge& edge, std::span<const Facet> facets, const Vec3& direction) {
+  const auto squarely = [&](int f) {
+    const double cosine = -facets[f].normal.dot(direction);
+    return facets[f].open ? std::abs(cosine) : cosine;
+  };
+  return squarely(edge.facet[0]) >= squarely(edge.facet[1]) ? edge.facet[0] : edge.facet[1];
+}
+
+struct Stretch {
+  std::array<double, 2> s;
+  std::array<Vec2, 2> slip;
+};
+
+// Stretches that meet become one.
+void join(std::vector<Stretch>& stretches) {
+  std::sort(stretches.begin(), stretches.end(), [](const Stretch& a, const Stretch& b) { return a.s[0] < b.s[0]; });
+  std::size_t kept = 0;
+  for (std::size_t i = 1; i < stretches.size(); ++i) {
+    Stretch& last = stretches[kept];
+    if (stretches[i].s[0] <= last.s[1] + kOnEdge) {
+      if (stretches[i].s[1] > last.s[1]) {
+        last.s[1] = stretches[i].s[1];
+        last.slip[1] = stretches[i].slip[1];
+      }
+    } else {
+      stretches[++kept] = stretches[i];
+    }
+  }
+  if (!stretches.empty()) stretches.resize(kept + 1);
+}
+
+// Where sides of the lit pieces lie on an edge, given by its image's start and direction.
+std::vector<Stretch> lit_stretches(const Vec3& image, const Vec3& along, double length, const WaveOnFacet& wave, std::span<const MovingPolygon> lit) {
+  const RadarBasis& a = wave.antenna;
+  const Vec2 start(image.dot(a.h), image.dot(a.v)), run(along.dot(a.h), along.dot(a.v));
+  const double shortened = run.norm();  // of a metre of edge in the aperture
+  std::vector<Stretch> stretches;
+  if (shortened < 1e-6) return stretches;  // seen end-on
+  const Vec2 across(-run.y() / shortened, run.x() / shortened);
+  const auto place = [&](const Corner& corner) { return run.dot(corner.p - start) / (shortened * shortened); };
+  // Beyond what a body-fixed point moves in the aperture (-z d_i), a corner slips along the edge.
+  const auto slip = [&](const Corner& corner) -> Vec2 {
+    const double z = wave.plane.at(corner.p);
+    return Vec2(run.dot(corner.d1 + Vec2(z, 0)), run.dot(corner.d2 + Vec2(0, z))) / (shortened * shortened);
+  };
+  for (const MovingPolygon& piece : lit) {
+    for (std::size_t i = 0; i < piece.size(); ++i) {
+      const Corner &p = piece[i], &q = piece[(i + 1) % piece.size()];
+      if (std::abs(across.dot(p.p - start)) > kOnEdge || std::abs(across.dot(q.p - start)) > kOnEdge) continue;
+      Stretch stretch{{place(p), place(q)}, {slip(p), slip(q)}};
+      if (stretch.s[0] > stretch.s[1]) {
+        std::swap(stretch.s[0], stretch.s[1]);
+        std::swap(stretch.slip[0], stretch.slip[1]);
+      }
+      // A side may run on along the next edge of the same line: this one's own ends stay where they are.
+      if (stretch.s[0] < 0) {
+        stretch.s[0] = 0;
+        stretch.slip[0].setZero();
+      }
+      if (stretch.s[1] > length) {
+        stretch.s[1] = length;
+        stretch.slip[1].setZero();
+      }
+      if (stretch.s[1] - stretch.s[0] > kOnEdge) stretches.push_back(stretch);
+    }
+  }
+  join(stretches);
+  return stretches;
+}
+
+// hh, hv, vh, vv of what leaves by `out`. The received polarisation, sent backwards, arrives as the outgoing wave.
+std::array<Complex, 4> pattern(const WedgeFrame& wedge, const EdgeArrival& in, const EdgeArrival& out) {
+  const auto received = [](const Vec3& E, const CVec3& J) { return E.cast<Complex>().cwiseProduct(J).sum(); };
+  const CVec3 J_h = edge_current(wedge, in.direction, in.E_h, -out.direction);
+  const CVec3 J_v = edge_current(wedge, in.direction, in.E_v, -out.direction);
+  return {received(out.E_h, J_h), received(out.E_h, J_v), received(out.E_v, J_h), received(out.E_v, J_v)};
+}
+
+std::array<Complex, 4> transposed(const std::array<Complex, 4>& s) { return {s[0], s[2], s[1], s[3]}; }
+
+}  // namespace
+
+void find_arrivals(const SharpEdges& edges, std::span<const Facet> facets, const Panels& panels, int facet, const WaveOnFacet& wave,
+                   std::span<const MovingPolygon> lit, std::vector<EdgeArrival>& arrivals) {
+  if (lit.empty()) return;
+  for (const int member : panels.members(facet)) {
+    for (const int number : edges.of_facet[member]) {
+      if (number == kNoEdge) continue;
+      const SharpEdge& edge = edges.edges[number];
+      if (owner(edge, facets, wave.direction) != member || !wedge_towards(edge, wave.direction)) continue;
+      const Vec3 image = wave.mirrors.image(edge.a), along = wave.mirrors.L * (edge.b - edge.a).normalized();
+      for (const Stretch& stretch : lit_stretches(image, along, edge.length(), wave, lit)) {
+        arrivals.push_back({number, stretch.s, stretch.slip, image, along, wave.direction, wave.E_h, wave.E_v,
+                            static_cast<std::uint8_t>(wave.bounce - 1)});
+      }
+    }
+  }
+}
+
+std::vector<EdgeFootprint> edge_footprints(const SharpEdges& edges, std::span<const Facet> facets, const AntennaPair& antennas,
+                                           std::span<const EdgeArrival> incoming, std::span<const EdgeArrival> outgoing, int max_bounces) {
+  std::vector<EdgeFootprint> result;
+  const int most_mirrors = std::min(kMostMirrors, max_bounces - 1);
+  const auto echo = [&](const EdgeArrival& in, const EdgeArrival& out) {
+    const double first = std::max(in.s[0], out.s[0]), last = std::min(in.s[1], out.s[1]);
+    if (last - first <= kOnEdge || in.mirrors + out.mirrors > most_mirrors) return;
+    const SharpEdge& edge = edges.edges[in.edge];
+    const WedgeFrame* wedge = wedge_towards(edge, in.direction);
+    if (!wedge || wedge_towards(edge, out.direction) != wedge) return;
+
+    EdgeFootprint footprint;
+    footprint.length = last - first;
+    footprint.facet = edge.facet[0];
+    footprint.part = facets[edge.facet[0]].part;
+    footprint.bounces = static_cast<std::uint8_t>(in.mirrors + out.mirrors + 1);
+    // Physical optics radiates what more mirrors lit straight to the receiver: there its share is what edge_current() leaves out. The same way run
+    // backwards has the same answer (reciprocity); ways with as many mirrors on either side share both.
+    if (in.mirrors > out.mirrors) {
+      footprint.pattern = pattern(*wedge, in, out);
+    } else if (in.mirrors < out.mirrors) {
+      footprint.pattern = transposed(pattern(*wedge, out, in));
+    } else {
+      const auto there = pattern(*wedge, in, out), back = transposed(pattern(*wedge, out, in));
+      for (int i = 0; i < 4; ++i) footprint.pattern[i] = 0.5 * (there[i] + back[i]);
+    }
+
+    const RadarBasis &t = antennas.transmit, &r = antennas.receive;
+    const double slope = t.r.dot(in.image_along) + r.r.dot(out.image_along);  // of psi along the edge
+    for (int end = 0; end < 2; ++end) {
+      const double s = end == 0 ? first : last;
+      const Vec3 X = in.image + s * in.image_along, Y = out.image + s * out.image_along;
+      footprint.psi[end] = t.r.dot(X) + r.r.dot(Y);
+      // The end belongs to whichever stretch ends there, and slips with it.
+      const bool by_in = end == 0 ? in.s[0] >= out.s[0] : in.s[1] <= out.s[1];
+      const Vec2 slip = slope * (by_in ? in.slip[end] : out.slip[end]);
+      footprint.gradient[end] = {X, Y};
+      if (by_in) {
+        footprint.gradient[end].transmit += slip.x() * t.h + slip.y() * t.v;
+      } else {
+        footprint.gradient[end].receive += slip.x() * r.h + slip.y() * r.v;
+      }
+    }
+    result.push_back(footprint);
+  };
+
+  // Both lists edge by edge.
+  std::size_t i = 0, o = 0;
+  while (i < incoming.size() && o < outgoing.size()) {
+    const int edge = std::max(incoming[i].edge, outgoing[o].edge);
+    while (i < incoming.size() && incoming[i].edge < edge) ++i;
+    while (o < outgoing.size() && outgoing[o].edge < edge) ++o;
+    std::size_t i_end = i, o_end = o;
+    while (i_end < incoming.size() && incoming[i_end].edge == edge) ++i_end;
+    while (o_end < outgoing.size() && outgoing[o_end].edge == edge) ++o_end;
+    for (std::size_t a = i; a < i_end; ++a) {
+      for (std::size_t b = o; b < o_end; ++b) echo(incoming[a], outgoing[b]);
+    }
+    i = i_end;
+    o = o_end;
+  }
+  return result;
+}
+
+Complex range_factor(const EdgeFootprint& footprint, double k) {
+  if (!footprint.edge_wave) return 1;
+  return transition(2 * k * footprint.edge_wave->departure_m) * transition(2 * k * footprint.edge_wave->arrival_m) / std::sqrt(k);
+}
+
+std::array<Complex, 4> scattered(const EdgeFootprint& footprint, double k) {
+  const double run = footprint.psi[1] - footprint.psi[0];
+  const Complex integral = range_factor(footprint, k) * footprint.length * sinc(k * run) * std::polar(1.0, k * 0.5 * (footprint.psi[0] + footprint.psi[1]));
+  std::array<Complex, 4> s;
+  for (int i = 0; i < 4; ++i) s[i] = footprint.pattern[i] * integral;
+  return s;
+}
+
+}  // namespace seaglint

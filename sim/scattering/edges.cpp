@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/scattering/edges.h"
+
+#include <cmath>
+
+#include "sim/core/constants.h"
+
+namespace seaglint {
+namespace {
+
+Vec3 side(const Facet& facet, int i) { return facet.corner[(i + 1) % 3] - facet.corner[i]; }
+
+// The face's frame for an edge direction t: n = t x x points out of the conductor.
+WedgeFace face_along(const Vec3& t, const Vec3& x) { return {x, t.cross(x), t}; }
+
+WedgeFrame wedge_of(const WedgeFace& first, const Vec3& x_second) {
+  double exterior = std::atan2(x_second.dot(first.n), x_second.dot(first.x));
+  // Two faces back to back, a sheet drawn with both its sides, are a half-plane.
+  constexpr double kBackToBack = 1e-6;
+  if (exterior <= kBackToBack) exterior += 2 * kPi;
+  return {{first, face_along(-first.t, x_second)}, exterior / kPi};
+}
+
+// Which side of `facet` is the edge between these two points, and in which direction? -1 when none.
+int side_between(const Facet& facet, const Vec3& a, const Vec3& b) {
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 &p = facet.corner[i], &q = facet.corner[(i + 1) % 3];
+    if ((p == a && q == b) || (p == b && q == a)) return i;
+  }
+  return -1;
+}
+
+// Across the edge into the facet.
+Vec3 into(const Facet& facet, int i) {
+  const Vec3 t = side(facet, i).normalized();
+  return facet.normal.cross(t);
+}
+
+}  // namespace
+
+SharpEdges sharp_edges(std::span<const Facet> facets, double least_turn) {
+  SharpEdges result;
+  result.of_facet.assign(facets.size(), {kNoEdge, kNoEdge, kNoEdge});
+  const auto add = [&](const SharpEdge& edge, int f, int i, int g, int k) {
+    const int number = static_cast<int>(result.edges.size());
+    result.edges.push_back(edge);
+    result.of_facet[f][i] = number;
+    result.of_facet[g][k] = number;
+  };
+  for (int f = 0; f < static_cast<int>(facets.size()); ++f) {
+    for (int i = 0; i < 3; ++i) {
+      const Facet& facet = facets[f];
+      const int g = facet.neighbour[i];
+      if (g >= 0 && g <= f) continue;  // found from the other facet
+      const Vec3 &a = facet.corner[i], &b = facet.corner[(i + 1) % 3];
+      const Vec3 t = (b - a).normalized();
+      SharpEdge edge{a, b, {f, f}, {}, {}, facet.open};
+      if (g < 0) {
+        edge.outside = {{face_along(t, into(facet, i)), face_along(-t, into(facet, i))}, 2};
+        edge.inside = {{face_along(-t, into(facet, i)), face_along(t, into(facet, i))}, 2};
+        add(edge, f, i, f, i);
+        continue;
+      }
+      // Two facets and no third: each is the other's neighbour here.
+      const int k = side_between(facets[g], a, b);
+      if (k < 0 || facets[g].neighbour[k] != f) continue;
+      const Vec3 x_second = into(facets[g], k);
+      edge.facet[1] = g;
+      edge.outside = wedge_of(face_along(t, into(facet, i)), x_second);
+      edge.inside = wedge_of(face_along(-t, into(facet, i)), x_second);
+      if (std::abs(edge.outside.N - 1) * kPi >= least_turn) add(edge, f, i, g, k);
+    }
+  }
+  return result;
+}
+
+const WedgeFrame* wedge_towards(const SharpEdge& edge, const Vec3& k_hat) {
+  const WedgeFace& first = edge.outside.face[0];
+  double phi = std::atan2(-k_hat.dot(first.n), -k_hat.dot(first.x));
+  if (phi < 0) phi += 2 * kPi;
+  if (phi <= edge.outside.N * kPi) return edge.outside.N > 1 ? &edge.outside : nullptr;
+  return edge.open && edge.inside.N > 1 ? &edge.inside : nullptr;
+}
+
+}  // namespace seaglint

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/scattering/fringe.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/core/constants.h"
+
+namespace seaglint {
+namespace {
+
+constexpr Complex j(0, 1);
+
+// (1/N) cot(x / 2N), less cot(x / 2) where physical optics has a share: regular at x = 0 then.
+Complex half_cotangents(const Complex& x, double N, bool less_optics) {
+  if (less_optics && std::abs(x) < 1e-3) return x / 6.0 * (1 - 1 / (N * N));
+  const Complex wedge = 1.0 / (N * std::tan(x / (2 * N)));
+  return less_optics ? wedge - 1.0 / std::tan(x / 2.0) : wedge;
+}
+
+// Angle of the direction against the face, in the plane across the edge, 0..2 pi.
+double angle_from_face(const WedgeFace& face, const Vec3& towards_source) {
+  const double angle = std::atan2(towards_source.dot(face.n), towards_source.dot(face.x));
+  return angle < 0 ? angle + 2 * kPi : angle;
+}
+
+// Integrals of eta k J over one face along the grazing diffracted ray. Michaeli 1984 eqs. 12-14 with 1986 eqs. 5-8 (his alpha is pi - a here):
+// with H_t = 1 and E_t = 1 the wedge's exact currents give cotangents of (a +- phi') / 2N, those of physical optics the same with N = 1.
+CVec3 face_current(const WedgeFace& face, double N, double phi, bool less_optics, const Vec3& k_hat, const Vec3& E, const Vec3& s) {
+  const double cos_b = k_hat.dot(face.t);
+  const double sin_b = std::sqrt(std::max(1 - cos_b * cos_b, 1e-12));
+  const double mu = (sin_b * s.dot(face.x) + cos_b * (s.dot(face.t) - cos_b)) / (sin_b * sin_b);
+  // cos a = -mu; mu <= 1 for real directions, and a is imaginary where mu < -1. Both ends are removable, the one at pi only in the sum over the
+  // current's components across s: keep away from 0/0.
+  Complex a = mu >= -1 ? Complex(std::acos(std::clamp(-mu, -1.0, 1.0))) : Complex(0, std::acosh(-mu));
+  constexpr double kAside = 1e-5;
+  if (std::abs(a) < kAside) a = kAside;
+  if (std::abs(a - kPi) < kAside) a = kPi - kAside;
+
+  const Complex minus = half_cotangents(a - phi, N, less_optics), plus = half_cotangents(a + phi, N, less_optics);
+  const double H_t = k_hat.cross(E).dot(face.t), E_t = E.dot(face.t);
+  const Complex across = 2.0 * j * H_t / sin_b * 0.5 * (minus + plus) / std::sin(a);
+  Complex along = 2.0 * j * E_t / (sin_b * sin_b) * 0.5 * (minus - plus) + cos_b / sin_b * mu * across;
+  // What physical optics has of the current along the edge, written without its pole.
+  if (less_optics) along += cos_b / sin_b * 2.0 * j * H_t / sin_b;
+  return face.x * across + face.t * along;
+}
+
+}  // namespace
+
+CVec3 edge_current(const WedgeFrame& wedge, const Vec3& k_hat, const Vec3& E, const Vec3& s) {
+  const double phi = angle_from_face(wedge.face[0], -k_hat);
+  CVec3 sum = CVec3::Zero();
+  if (phi > wedge.N * kPi) return sum;
+  for (int i = 0; i < 2; ++i) {
+    const double own = i == 0 ? phi : wedge.N * kPi - phi;
+    const bool lit = own < kPi;
+    sum += face_current(wedge.face[i], wedge.N, own, lit, k_hat, E, s);
+  }
+  // E_s = -(jk eta / 4 pi) (e^{-jkr}/r) integral J e^{jk s.x}; the integrals above are of eta k J.
+  return -j / (4 * kPi) * sum;
+}
+
+EdgeWave edge_wave(const WedgeFrame& wedge, int face, const Vec3& k_hat, const Vec3& E) {
+  const WedgeFace& f = wedge.face[face];
+  const double N = wedge.N;
+  const double cos_b = k_hat.dot(f.t);
+  const double sin_b = std::sqrt(std::max(1 - cos_b * cos_b, 1e-12));
+  const double phi = angle_from_face(f, -k_hat);
+  EdgeWave wave{sin_b * f.x + cos_b * f.t, 0.0};
+  if (phi > N * kPi) return wave;
+  const Complex D = std::polar(1.0, -kPi / 4) * std::sin(kPi / N) / (N * std::sqrt(2 * kPi) * sin_b) * 2.0 /
+                    (std::cos(kPi / N) - std::cos(phi / N));
+  // H along t on the cone is sin_b of the whole, and E = H x direction lies along n.
+  wave.amplitude = k_hat.cross(E).dot(f.t) * D / sin_b;
+  return wave;
+}
+
+double shadow_distance(const Vec3& edge, const Vec3& along_face, const Vec3& other) {
+  const auto across = [&](const Vec3& x) -> Vec3 { return x - edge * edge.dot(x); };
+  const Vec3 a = across(along_face), b = across(other);
+  const double lengths = a.norm() * b.norm();
+  return lengths > 1e-12 ? 0.5 * (1 - std::clamp(a.dot(b) / lengths, -1.0, 1.0)) : 0;
+}
+
+Complex transition(double x) {
+  // Far away the first terms of the asymptotic series; its next one, 945 / (32 x^5), bounds the error.
+  if (x > 12) return 1.0 + j / (2 * x) - 3 / (4 * x * x) - 15.0 * j / (8 * x * x * x) + 75 / (16 * x * x * x * x);
+  // Near, the power series of the integral from 0 to sqrt(x), sum of (-j)^n x^(n + 1/2) / (n! (2n + 1)).
+  Complex term = std::sqrt(x), sum = term;
+  for (int n = 1; n < 80; ++n) {
+    term *= -j * x / static_cast<double>(n);
+    sum += term / (2.0 * n + 1);
+  }
+  return 2.0 * j * std::sqrt(x) * std::polar(1.0, x) * (std::polar(std::sqrt(kPi) / 2, -kPi / 4) - sum);
+}
+
+}  // namespace seaglint
