@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/core/constants.h"
+
 namespace seaglint {
 namespace {
 
@@ -92,6 +94,13 @@ std::array<Complex, 4> pattern(const WedgeFrame& wedge, const EdgeArrival& in, c
   return {received(out.E_h, J_h), received(out.E_h, J_v), received(out.E_v, J_h), received(out.E_v, J_v)};
 }
 
+// Ahead of an edge, near the shadow boundary of the beam that it cuts, the diffracted field towards a mirror at a finite distance is no ray of its own: the
+// beam's end on that mirror carries it. An echo by mirrors fades out from right angles to the wave's way on to 30 deg off it.
+double beside_the_beam(const Vec3& k_hat, const Vec3& s) {
+  const double ahead = std::clamp(k_hat.dot(s) / std::cos(kPi / 6), 0.0, 1.0);
+  return 1 - ahead * ahead * (3 - 2 * ahead);
+}
+
 std::array<Complex, 4> transposed(const std::array<Complex, 4>& s) { return {s[0], s[2], s[1], s[3]}; }
 
 }  // namespace
@@ -138,6 +147,12 @@ std::vector<EdgeFootprint> edge_footprints(const SharpEdges& edges, std::span<co
     } else {
       const auto there = pattern(*wedge, in, out), back = transposed(pattern(*wedge, out, in));
       for (int i = 0; i < 4; ++i) footprint.pattern[i] = 0.5 * (there[i] + back[i]);
+    }
+
+    if (in.mirrors + out.mirrors > 0) {
+      const double weight = beside_the_beam(in.direction, -out.direction);
+      if (weight <= 0) return;
+      for (Complex& element : footprint.pattern) element *= weight;
     }
 
     const RadarBasis &t = antennas.transmit, &r = antennas.receive;
