@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Which panels may a beam meet? A tree of boxes over the panels, asked with a prism instead of a ray: nothing is missed, however small.
+// Which panels may a beam meet? Embree's tree of boxes over the panels, asked with a prism instead of a ray: nothing is missed, however small.
 
 #include <array>
 #include <bit>
@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "sim/scattering/embree_scene.h"
 #include "sim/scattering/panels.h"
 
 namespace seaglint {
@@ -52,10 +53,8 @@ class FacetTree {
     std::int32_t child;
     float begin;
   };
-  struct Builder;
-
-  // Three of each level wait at most; the builder sees to it that there are fewer levels than a third of this.
-  static constexpr std::size_t kMostWaiting = 256;
+  // Three of each level wait at most, and all four of the last.
+  static constexpr std::size_t kMostWaiting = 3 * kMostLevels + 4;
 
   std::vector<Node> nodes_;  // the first is the root
   std::vector<Leaf> leaves_;

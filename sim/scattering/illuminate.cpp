@@ -497,7 +497,6 @@ Scatterer::Scatterer(const TriangleMesh& mesh, std::vector<MaterialSpec> materia
       panels_(facets_, surface_),
       edges_(sharp_edges(facets_, crease_rad > 0 ? crease_rad : radians(kDefaultCreaseDeg))),
       tree_(facets_, panels_),
-      rays_(facets_),
       materials_(std::move(materials)) {
   for (const Facet& facet : facets_) {
     SEAGLINT_CHECK(materials_.empty() || facet.material < materials_.size(),

@@ -18,7 +18,6 @@
 #include "sim/scattering/hidden_surface.h"
 #include "sim/scattering/material.h"
 #include "sim/scattering/panels.h"
-#include "sim/scattering/ray_scene.h"
 #include "sim/scattering/smooth_surface.h"
 
 namespace seaglint {
@@ -43,7 +42,6 @@ class Scatterer {
   const SmoothSurface& surface() const { return surface_; }
   const Panels& panels() const { return panels_; }
   const FacetTree& tree() const { return tree_; }
-  const RayScene& rays() const { return rays_; }
   const SharpEdges& edges() const { return edges_; }
   double radius() const { return radius_; }  // of the bounding sphere about the body's origin, m
   std::span<const MaterialSpec> materials() const { return materials_; }  // empty: all is perfect conductor
@@ -55,7 +53,6 @@ class Scatterer {
   Panels panels_;
   SharpEdges edges_;
   FacetTree tree_;
-  RayScene rays_;
   std::vector<MaterialSpec> materials_;
 };
 

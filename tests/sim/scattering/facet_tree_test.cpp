@@ -8,6 +8,7 @@
 #include "sim/core/random.h"
 #include "sim/geometry/generators.h"
 #include "sim/geometry/mesh_io.h"
+#include "sim/scattering/embree_scene.h"
 #include "tests/sim/scattering/echoes.h"
 
 namespace seaglint {
@@ -37,11 +38,12 @@ Ray random_ray(Random& random, double radius) {
 
 TEST(FacetTree, FindsWhatARayHits) {
   const Scatterer ship(read_mesh(SEAGLINT_SOURCE_DIR "/assets/combatant_144m.glb"));
+  const RayScene scene(ship.facets());
   Random random({23, Stream::kTest, 0});
   int hits = 0;
   for (int trial = 0; trial < 20000; ++trial) {
     const Ray ray = random_ray(random, ship.radius());
-    const int hit = ship.rays().first_hit(ray);
+    const int hit = scene.first_hit(ray);
     if (hit == kNoFacet) continue;
     ++hits;
     // Embree's coordinates are single precision: 6e-8 of 72 m.

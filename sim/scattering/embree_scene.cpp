@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/scattering/ray_scene.h"
+#include "sim/scattering/embree_scene.h"
 
 #include <embree3/rtcore.h>
 #include <pmmintrin.h>
 #include <xmmintrin.h>
 
+#include <cmath>
 #include <limits>
+#include <new>
 #include <stdexcept>
+#include <string>
 
 namespace seaglint {
 
@@ -38,6 +41,107 @@ class DenormalsAreZero {
 };
 
 }  // namespace
+
+namespace {
+
+// What the builder makes, in its own arena, before it is laid out as BoxNodes.
+struct Built {
+  int box = -1;  // of a leaf
+  unsigned children = 0;
+  std::array<Built*, 4> child{};
+  std::array<RTCBounds, 4> bounds{};
+};
+
+float rounded_down(double x) {
+  const auto f = static_cast<float>(x);
+  return f > x ? std::nextafter(f, -std::numeric_limits<float>::infinity()) : f;
+}
+float rounded_up(double x) { return -rounded_down(-x); }
+
+RTCBuildPrimitive primitive(const Box3& box, unsigned number) {
+  RTCBuildPrimitive p;
+  p.lower_x = rounded_down(box.lower.x());
+  p.lower_y = rounded_down(box.lower.y());
+  p.lower_z = rounded_down(box.lower.z());
+  p.upper_x = rounded_up(box.upper.x());
+  p.upper_y = rounded_up(box.upper.y());
+  p.upper_z = rounded_up(box.upper.z());
+  p.geomID = 0;
+  p.primID = number;
+  return p;
+}
+
+void* create(RTCThreadLocalAllocator allocator) { return new (rtcThreadLocalAlloc(allocator, sizeof(Built), alignof(Built))) Built; }
+
+std::int32_t lay_out(const Built& built, std::vector<BoxNode>& nodes) {
+  const auto index = static_cast<std::int32_t>(nodes.size());
+  nodes.emplace_back();
+  BoxNode node;
+  node.children = static_cast<int>(built.children);
+  for (unsigned i = 0; i < built.children; ++i) {
+    const RTCBounds& b = built.bounds[i];
+    const Built& child = *built.child[i];
+    node.child[i] = {child.box >= 0 ? -1 - child.box : lay_out(child, nodes), {b.lower_x, b.lower_y, b.lower_z}, {b.upper_x, b.upper_y, b.upper_z}};
+  }
+  nodes[index] = node;
+  return index;
+}
+
+}  // namespace
+
+std::vector<BoxNode> box_tree(std::span<const Box3> boxes) {
+  std::vector<BoxNode> nodes;
+  if (boxes.empty()) return nodes;
+  std::vector<RTCBuildPrimitive> primitives;
+  primitives.reserve(boxes.size());
+  for (const Box3& box : boxes) primitives.push_back(primitive(box, static_cast<unsigned>(primitives.size())));
+
+  // One building thread, as for the scene: the tree never depends on the machine's load.
+  const RTCDevice device = rtcNewDevice("threads=1,set_affinity=0");
+  if (!device) throw std::runtime_error("Embree: no device");
+  const RTCBVH bvh = rtcNewBVH(device);
+  RTCBuildArguments arguments = rtcDefaultBuildArguments();
+  arguments.byteSize = sizeof(arguments);
+  arguments.maxBranchingFactor = 4;
+  arguments.maxDepth = kMostLevels;
+  arguments.sahBlockSize = 1;
+  arguments.minLeafSize = 1;
+  arguments.maxLeafSize = 1;
+  arguments.bvh = bvh;
+  arguments.primitives = primitives.data();
+  arguments.primitiveCount = primitives.size();
+  arguments.primitiveArrayCapacity = primitives.size();
+  arguments.createNode = [](RTCThreadLocalAllocator allocator, unsigned, void*) { return create(allocator); };
+  arguments.setNodeChildren = [](void* node, void** children, unsigned count, void*) {
+    auto& built = *static_cast<Built*>(node);
+    built.children = count;
+    for (unsigned i = 0; i < count; ++i) built.child[i] = static_cast<Built*>(children[i]);
+  };
+  arguments.setNodeBounds = [](void* node, const RTCBounds** bounds, unsigned count, void*) {
+    for (unsigned i = 0; i < count; ++i) static_cast<Built*>(node)->bounds[i] = *bounds[i];
+  };
+  arguments.createLeaf = [](RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* leaf, std::size_t, void*) {
+    void* built = create(allocator);
+    static_cast<Built*>(built)->box = static_cast<int>(leaf->primID);
+    return built;
+  };
+  const auto* root = static_cast<const Built*>(rtcBuildBVH(&arguments));
+  if (root && root->box >= 0) {
+    // A single box is a leaf without a node above it.
+    const RTCBuildPrimitive p = primitive(boxes[0], 0);
+    BoxNode node;
+    node.children = 1;
+    node.child[0] = {-1, {p.lower_x, p.lower_y, p.lower_z}, {p.upper_x, p.upper_y, p.upper_z}};
+    nodes.push_back(node);
+  } else if (root) {
+    lay_out(*root, nodes);
+  }
+  const RTCError error = rtcGetDeviceError(device);
+  rtcReleaseBVH(bvh);
+  rtcReleaseDevice(device);
+  if (nodes.empty()) throw std::runtime_error("Embree: no tree, error " + std::to_string(static_cast<int>(error)));
+  return nodes;
+}
 
 RayScene::RayScene(std::span<const Facet> facets) : impl_(std::make_unique<Impl>()) {
   // One building thread: the tree, and so the order of ties, never depends on the machine's load.
