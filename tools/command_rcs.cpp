@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include "seaglint_version.h"
 #include "sim/core/constants.h"
@@ -31,7 +32,8 @@ namespace {
 
 struct RcsArguments {
   std::string target, unit = "m", frequency_ghz, azimuth_deg, elevation_deg = "0", edges = "on", output;
-  double ray_spacing_m = 0;
+  double ray_spacing_m = 0, range_m = 0;
+  std::optional<double> transmit_azimuth_deg, transmit_elevation_deg;  // bistatic: the sweep is then the receiver's
   double crease_deg = kDefaultCreaseDeg;
   int max_bounces = 8;
   ReferenceArguments reference;
@@ -93,13 +95,16 @@ TriangleMesh read_sound_mesh(const std::string& file, const std::string& unit) {
 std::string table_text(const RcsArguments& arguments, const Scatterer& scatterer, const RcsSweep& sweep) {
   std::string csv = fmt::format(
       "# seaglint {} rcs\n# target {} unit {}: {} facets, radius {:.6g} m\n# material {}, echoes of {}\n{}# physical optics at every visible bounce, "
-      "max_bounces {}, edges {}, crease_deg {:.6g}, "
+      "max_bounces {}, edges {}, crease_deg {:.6g}, range_m {:.9g} (0 = far field), {}, "
       "ray_spacing_m {:.6g}\n# amplitudes in metres, e^{{+jwt}}, phase origin at the body's origin, S_pq: q "
       "transmitted, p received; basis of CONVENTIONS.md\n"
       "frequency_hz,azimuth_deg,elevation_deg,hh_re,hh_im,hv_re,hv_im,vh_re,vh_im,vv_re,vv_im,hh_dbsm,vv_dbsm\n",
       kVersion, arguments.target, arguments.unit, scatterer.facets().size(), scatterer.radius(),
       arguments.materials.empty() ? "pec" : fmt::format("{}", fmt::join(arguments.materials, " ")), arguments.view.text(), arguments.sea.text(),
-      arguments.max_bounces, arguments.edges, arguments.crease_deg,
+      arguments.max_bounces, arguments.edges, arguments.crease_deg, arguments.range_m,
+      arguments.transmit_azimuth_deg ? fmt::format("transmitter at azimuth {:.9g} deg, elevation {:.9g} deg", *arguments.transmit_azimuth_deg,
+                                                   arguments.transmit_elevation_deg.value_or(0))
+                                     : "monostatic",
       arguments.ray_spacing_m > 0 ? arguments.ray_spacing_m : default_ray_spacing(scatterer));
   for (std::size_t q = 0; q < sweep.frequency_hz.size(); ++q) {
     for (std::size_t view = 0; view < sweep.views(); ++view) {
@@ -111,6 +116,20 @@ std::string table_text(const RcsArguments& arguments, const Scatterer& scatterer
     }
   }
   return csv;
+}
+
+Vec3 direction_at(double azimuth_deg, double elevation_deg) {
+  const double az = radians(azimuth_deg), el = radians(elevation_deg);
+  return {std::cos(el) * std::cos(az), std::cos(el) * std::sin(az), std::sin(el)};
+}
+
+Vec3 direction_of(const RcsSweep& sweep, std::size_t view) {
+  return direction_at(sweep.azimuth_deg[view % sweep.azimuth_deg.size()], sweep.elevation_deg[view / sweep.azimuth_deg.size()]);
+}
+
+AntennaPair antennas_of(const RcsArguments& arguments, const RadarBasis& swept) {
+  if (!arguments.transmit_azimuth_deg) return monostatic(swept);
+  return bistatic(radar_basis(direction_at(*arguments.transmit_azimuth_deg, arguments.transmit_elevation_deg.value_or(0))), swept);
 }
 
 // Fills the sweep's models, one view after the other; returns the legs of beams followed.
@@ -125,17 +144,15 @@ std::size_t trace_views(const RcsArguments& arguments, const Scatterer& scattere
   std::size_t legs = 0;
   Progress progress("rcs", sweep.views(), "views");
   for (std::size_t view = 0; view < sweep.views(); ++view) {
-    const double az = radians(sweep.azimuth_deg[view % sweep.azimuth_deg.size()]),
-                 el = radians(sweep.elevation_deg[view / sweep.azimuth_deg.size()]);
-    const RadarBasis basis = radar_basis({std::cos(el) * std::cos(az), std::cos(el) * std::sin(az), std::sin(el)});
+    const RadarBasis basis = radar_basis(direction_of(sweep, view));
     try {
       for (auto& model : sweep.models) {
-        const IlluminationSettings settings{arguments.ray_spacing_m, arguments.max_bounces, model.name == "edges", filter};
+        const IlluminationSettings settings{arguments.ray_spacing_m, arguments.max_bounces, model.name == "edges", filter, arguments.range_m};
         const int threads = thread_count(shell.threads);
         model.matrices[view] =
             arguments.sea.reflection
                 ? scattering_matrices_over_sea(scatterer, basis.r, arguments.sea.height_m, arguments.sea.mirror(), wavenumbers, settings, threads, &legs, &shell.stop)
-                : scattering_matrices(scatterer, monostatic(basis), wavenumbers, settings, threads, &legs, &shell.stop);
+                : scattering_matrices(scatterer, antennas_of(arguments, basis), wavenumbers, settings, threads, &legs, &shell.stop);
       }
     } catch (const Interrupted&) {
       throw WorkError(fmt::format("interrupted after {} of {} views; {} is not written", view, sweep.views(), arguments.output));
@@ -161,11 +178,6 @@ void compare(const RcsArguments& arguments, const std::vector<RcsReference>& ref
   }
 }
 
-Vec3 direction_of(const RcsSweep& sweep, std::size_t view) {
-  const double az = radians(sweep.azimuth_deg[view % sweep.azimuth_deg.size()]), el = radians(sweep.elevation_deg[view / sweep.azimuth_deg.size()]);
-  return {std::cos(el) * std::cos(az), std::cos(el) * std::sin(az), std::sin(el)};
-}
-
 void export_one_view(const RcsArguments& arguments, const TriangleMesh& mesh, const Scatterer& scatterer, const EchoFilter& filter, const Shell& shell,
                      const RcsSweep& sweep) {
   const std::string heading = fmt::format(
@@ -174,7 +186,7 @@ void export_one_view(const RcsArguments& arguments, const TriangleMesh& mesh, co
       kVersion, arguments.target, arguments.unit, sweep.frequency_hz[0], sweep.azimuth_deg[0], sweep.elevation_deg[0], arguments.max_bounces, arguments.edges,
       arguments.view.text());
   export_view(arguments.view, mesh, scatterer, radar_basis(direction_of(sweep, 0)), 2 * kPi * sweep.frequency_hz[0] / kSpeedOfLight,
-              {arguments.ray_spacing_m, arguments.max_bounces, arguments.edges == "on", filter}, heading, thread_count(shell.threads), &shell.stop);
+              {arguments.ray_spacing_m, arguments.max_bounces, arguments.edges == "on", filter, arguments.range_m}, heading, thread_count(shell.threads), &shell.stop);
 }
 
 void run_rcs(const RcsArguments& arguments, const Shell& shell) {
@@ -189,6 +201,10 @@ void run_rcs(const RcsArguments& arguments, const Shell& shell) {
   if (rows > kMostRows) throw InputError(fmt::format("{} rows of output: at most {}", rows, kMostRows));
   if (arguments.view.wanted() && rows != 1) throw InputError(fmt::format("exports of a view need one frequency, azimuth and elevation; there are {} rows", rows));
   if (arguments.view.wanted() && arguments.sea.reflection) throw InputError("exports of a view are of the target alone: leave out --sea-reflection");
+  if (arguments.transmit_elevation_deg && !arguments.transmit_azimuth_deg) throw InputError("--transmit-elevation-deg needs --transmit-azimuth-deg");
+  if (arguments.transmit_azimuth_deg && (arguments.view.wanted() || arguments.sea.reflection)) {
+    throw InputError("--transmit-azimuth-deg: exports of a view and --sea-reflection are monostatic");
+  }
   // A reference that does not fit is refused before any work.
   const std::vector<RcsReference> references = arguments.reference.read();
   for (const RcsReference& reference : references) pair_with(sweep, reference);
@@ -231,6 +247,13 @@ void add_rcs(CLI::App& app, Shell& shell) {
   command
       ->add_option("--crease-deg", arguments->crease_deg, "Facets that turn by less belong to one smooth surface; 0 = all facets flat")
       ->check(CLI::Range(0.0, 60.0));
+  command
+      ->add_option("--transmit-azimuth-deg", arguments->transmit_azimuth_deg,
+                   "Bistatic: a transmitter that stands still, while azimuth and elevation are the receiver's")
+      ->check(CLI::Range(-720.0, 720.0));
+  command->add_option("--transmit-elevation-deg", arguments->transmit_elevation_deg, "Its elevation; 0 unless given")->check(CLI::Range(-90.0, 90.0));
+  command->add_option("--range-m", arguments->range_m, "Of the radar from the target's origin, for the curvature of the wavefront; 0 = far field")
+      ->check(CLI::Range(0.0, 1e9));
   command->add_option("--max-bounces", arguments->max_bounces, "Reflections followed")->check(CLI::Range(1, 64));
   command
       ->add_option("--ray-spacing-m", arguments->ray_spacing_m,

@@ -205,6 +205,19 @@ void split(const EdgeFootprint& footprint, const SplitSettings& settings, std::v
   }
 }
 
+void bend_wavefront(std::span<Contribution> contributions, const AntennaPair& antennas, const Vec3& origin, double range_m) {
+  for (Contribution& c : contributions) {
+    for (const bool out : {false, true}) {
+      const Vec3& r = out ? antennas.receive.r : antennas.transmit.r;
+      Vec3& gradient = out ? c.gradient.receive : c.gradient.transmit;
+      const Vec3 x = origin + gradient;
+      const double along = r.dot(x);
+      c.psi -= (x - along * r).squaredNorm() / (2 * range_m);
+      gradient += along / range_m * x;  // of -|x_perp|^2 / (2 R) with r
+    }
+  }
+}
+
 std::array<Complex, 4> direct_sum(std::span<const Contribution> contributions, double k, const Vec3& turn) {
   std::array<Complex, 4> sum{};
   for (const Contribution& c : contributions) {

@@ -53,6 +53,11 @@ void split_over_band(const Footprint& footprint, const RadarBasis& transmit, con
 // The same for a stretch of sharp edge: its ends, or pieces short enough for one point.
 void split(const EdgeFootprint& footprint, const SplitSettings& settings, std::vector<Contribution>& out);
 
+// The wavefront at a finite range, to second order (CONVENTIONS.md, "Plane waves"): each way is longer by |x_perp|^2 / (2 R), x counted from where the range
+// is, `origin` of the contributions' frame away. The gradients follow. Contributions must have been split for a turn of radius / R besides their own, since the
+// radar stands in another direction from every point.
+void bend_wavefront(std::span<Contribution> contributions, const AntennaPair& antennas, const Vec3& origin, double range_m);
+
 // sum of pattern amplitude e^{jk (psi + gradient . turn)} over all contributions, both directions turning alike: the direct sum, for tests and for
 // few points.
 std::array<Complex, 4> direct_sum(std::span<const Contribution> contributions, double k, const Vec3& turn);

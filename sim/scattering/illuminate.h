@@ -29,6 +29,7 @@ struct IlluminationSettings {
   int max_bounces = 8;       // 1 <= x <= 64
   bool edges = false;        // follow the waves that reach sharp edges too
   EchoFilter filter = {};    // which echoes are summed; all are followed
+  double range_m = 0;        // of the radar, 0 = far field; else beyond ten radii of the target
 };
 
 // A target ready to be lit from any direction: its facets and their trees, for beams and for rays. Built once per mesh; safe to share between threads.

@@ -66,6 +66,17 @@ std::vector<EdgeFootprint> edge_echoes(const Scatterer& scatterer, const Antenna
   return once;
 }
 
+// The radar stands in directions that differ by this much over the target, rad; 0 in the far field. Throws InputError when it is too near for the
+// second order of the wavefront: there the third is below a twentieth of it.
+double spread_of_directions(const Scatterer& scatterer, double range_m) {
+  if (range_m <= 0) return 0;
+  if (range_m < 10 * scatterer.radius()) {
+    throw InputError(fmt::format("radar range {} m: the target reaches {:.3g} m from its origin, and the range must be ten times that or more", range_m,
+                                 scatterer.radius()));
+  }
+  return scatterer.radius() / range_m;
+}
+
 // The world's polarisation basis as the turned body sees it.
 RadarBasis body_basis(const RadarBasis& world, const Pose& pose) {
   const Mat3 R_BT = pose.R_TB.transpose();
@@ -73,8 +84,9 @@ RadarBasis body_basis(const RadarBasis& world, const Pose& pose) {
 }
 
 // One trace: what the body answers while its directions move along `track`, the transmitter's (a unit vector across it) by at most `reach`.
+// `origin`: where the body stands from the point that the radar's range is counted from, body frame.
 ReturnGrid trace_returns(const Scatterer& scatterer, const AntennaPair& antennas, const Track& track, double reach,
-                         const WavenumberGrid& wavenumbers, int channel, const SolverSpec& solver, int threads) {
+                         const Vec3& origin, const WavenumberGrid& wavenumbers, int channel, const SolverSpec& solver, int threads) {
   // A shadow edge at grazing runs along its facet much faster than any point of the body moves. Beyond four times the
   // body's size its speed is cut: such ends are faint and run through many velocity cells.
   const double limit = 8 * scatterer.radius();
@@ -84,12 +96,13 @@ ReturnGrid trace_returns(const Scatterer& scatterer, const AntennaPair& antennas
   const std::array band{kc - half_band, kc, kc + half_band};
   const IlluminationSettings settings{solver.ray_spacing_m, solver.max_bounces, solver.edges};
   const Illumination illumination(scatterer, antennas, settings, threads, band);
-  const SplitSettings split_settings{kc, reach};
+  const SplitSettings split_settings{kc, reach + spread_of_directions(scatterer, solver.radar_range_m)};
   const std::size_t chunks = chunk_count(illumination);
   std::vector<Lit> lit(chunks);
   std::vector<std::vector<Contribution>> contributions(chunks + 1);  // the last ones are those of the edges
   std::vector<double> fastest(chunks + 1, 0);
   const auto limit_speed = [&](std::size_t chunk) {
+    if (solver.radar_range_m > 0) bend_wavefront(contributions[chunk], antennas, origin, solver.radar_range_m);
     for (Contribution& c : contributions[chunk]) {
       const double size = c.gradient.sum().norm();
       if (size > limit) c.gradient = {c.gradient.transmit * (limit / size), c.gradient.receive * (limit / size)};
@@ -230,8 +243,10 @@ BodyResponse respond(const Scatterer& scatterer, const Trajectory& trajectory, c
       reach = std::max(reach, std::abs((directions[n] - trace.basis.r).dot(trace.track)));
     }
     const int threads_each = std::max(1, threads / side_by_side);
+    const Pose pose = trajectory.pose(start + length * (static_cast<double>(i) + 0.5) / spans);
+    const Vec3 origin = pose.R_TB.transpose() * pose.p_TB;
     if (direct) {
-      trace.returns = trace_returns(scatterer, monostatic(trace.basis), {trace.track, trace.track}, reach, wavenumbers, channel, solver, threads_each);
+      trace.returns = trace_returns(scatterer, monostatic(trace.basis), {trace.track, trace.track}, reach, origin, wavenumbers, channel, solver, threads_each);
     }
     if (sea == nullptr) return;
     const RadarBasis image_basis = body_basis(image, trajectory.pose(start + length * (static_cast<double>(i) + 0.5) / spans));
@@ -247,7 +262,7 @@ BodyResponse respond(const Scatterer& scatterer, const Trajectory& trajectory, c
       double way_reach = 0;
       for (int n = trace.first; n <= trace.last; ++n) way_reach = std::max(way_reach, std::abs(displacement(way, path, n)));
       const AntennaPair antennas = path.there == path.back ? monostatic(transmit) : bistatic(transmit, receive);
-      way.returns = trace_returns(scatterer, antennas, way.track, way_reach, wavenumbers, channel, solver, threads_each);
+      way.returns = trace_returns(scatterer, antennas, way.track, way_reach, origin, wavenumbers, channel, solver, threads_each);
     }
   });
   for (int i = 0; i < spans; ++i) {
@@ -293,6 +308,14 @@ std::vector<std::array<Complex, 4>> scattering_matrices(const Scatterer& scatter
                                                         const IlluminationSettings& settings, int threads,
                                                         std::size_t* legs, const StopFlag* stop) {
   using Matrices = std::vector<std::array<Complex, 4>>;
+  if (settings.range_m > 0) {
+    Matrices sum;
+    for (const double k : wavenumbers) {
+      const auto contributions = view_contributions(scatterer, antennas, {k, 0}, settings, threads, stop);
+      sum.push_back(direct_sum(contributions, k, Vec3::Zero()));
+    }
+    return sum;
+  }
   const Illumination illumination(scatterer, antennas, settings, threads, wavenumbers);
   const auto add = [](const std::array<Complex, 4>& s, std::array<Complex, 4>& sum) {
     for (int i = 0; i < 4; ++i) sum[i] += s[i];
@@ -327,6 +350,8 @@ std::vector<std::array<Complex, 4>> scattering_matrices(const Scatterer& scatter
 
 std::vector<Contribution> view_contributions(const Scatterer& scatterer, const AntennaPair& antennas, const SplitSettings& split_settings,
                                              const IlluminationSettings& settings, int threads, const StopFlag* stop) {
+  SplitSettings bent = split_settings;
+  bent.turn_rad += spread_of_directions(scatterer, settings.range_m);
   const Illumination illumination(scatterer, antennas, settings, threads, std::array{split_settings.kc});
   std::vector<std::vector<Contribution>> chunks(chunk_count(illumination));
   std::vector<Lit> lit(chunks.size());
@@ -336,7 +361,7 @@ std::vector<Contribution> view_contributions(const Scatterer& scatterer, const A
         illumination.light(chunk_of(illumination, chunk), lit[chunk]);
         for (const Footprint& footprint : lit[chunk].footprints) {
           if (!settings.filter.keeps(footprint.part, footprint.bounces, Mechanism::kPhysicalOptics)) continue;
-          split(footprint, antennas.transmit, split_settings, chunks[chunk]);
+          split(footprint, antennas.transmit, bent, chunks[chunk]);
         }
         lit[chunk].footprints = {};
       },
@@ -344,8 +369,9 @@ std::vector<Contribution> view_contributions(const Scatterer& scatterer, const A
   std::vector<Contribution> all;
   for (const auto& chunk : chunks) all.insert(all.end(), chunk.begin(), chunk.end());
   for (const EdgeFootprint& footprint : edge_echoes(scatterer, antennas, settings, std::array{split_settings.kc}, lit, threads)) {
-    split(footprint, split_settings, all);
+    split(footprint, bent, all);
   }
+  if (settings.range_m > 0) bend_wavefront(all, antennas, Vec3::Zero(), settings.range_m);
   return all;
 }
 

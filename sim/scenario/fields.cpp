@@ -125,6 +125,7 @@ void visit(SolverSpec& spec, FieldVisitor& v) {
   v.number("max_turn_deg", spec.max_turn_deg, zero_or_within(0.001, 5));
   v.number("crease_deg", spec.crease_deg, within(0, 60));
   v.flag("edges", spec.edges);
+  v.number("radar_range_m", spec.radar_range_m, zero_or_within(100, 1e7));
 }
 
 void visit(PointSpec& spec, FieldVisitor& v) {

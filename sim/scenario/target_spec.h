@@ -55,6 +55,7 @@ struct SolverSpec {
   double max_turn_deg = 0;   // (auto) turn of the body served by one trace, 0 or 0.001 <= x <= 5
   double crease_deg = 20;    // facets that turn by less belong to one smooth surface, 0 <= x <= 60; 0 = all facets flat
   bool edges = true;         // fringe currents at sharp edges
+  double radar_range_m = 0;  // for the curvature of the wavefront, 0 or 100 <= x <= 1e7; 0 = far field at any range
 };
 
 // A part of the mesh that is made of something else than the rest.

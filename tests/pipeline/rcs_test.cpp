@@ -253,6 +253,36 @@ TEST_F(RcsCommand, RefusesMeshesWithoutAnythingThatScatters) {
   refused("v 9000 0 0\nv 9000 1 0\nv 9000 0 1\nf 1 2 3\n", "from its origin");
 }
 
+TEST_F(RcsCommand, SweepsAReceiverRoundATransmitterThatStandsStill) {
+  ASSERT_EQ(run_program({"mesh", "make", "plate", "--length-m", "0.3", "--width-m", "0.2", "-o", plate()}).code, 0);
+  ASSERT_EQ(rcs({"--frequency-ghz", "10", "--azimuth-deg", "-40:40:20", "--transmit-azimuth-deg", "20", "--edges", "off"}).code, 0);
+  const auto rows = read_table(table()).rows;
+  ASSERT_EQ(rows.size(), 5u);
+  // All of the plate in phase in the mirror direction: 4 pi (A cos(20 deg) / lambda)^2.
+  const double area = 0.06 * std::cos(20 * kPi / 180), lambda = 0.0299792458;
+  EXPECT_NEAR(rows[1].back(), 10 * std::log10(4 * kPi * area * area / (lambda * lambda)), 1e-3);
+  for (const std::size_t other : {0u, 2u, 4u}) EXPECT_LT(rows[other].back(), rows[1].back() - 10);
+  // The trip back from there is the same.
+  ASSERT_EQ(rcs({"--frequency-ghz", "10", "--azimuth-deg", "20", "--transmit-azimuth-deg", "20", "--edges", "off"}).code, 0);
+  const double there = read_table(table()).rows.at(0).back();
+  ASSERT_EQ(rcs({"--frequency-ghz", "10", "--azimuth-deg", "20", "--edges", "off"}).code, 0);
+  EXPECT_NEAR(read_table(table()).rows.at(0).back(), there, 1e-3);
+}
+
+TEST_F(RcsCommand, BendsTheWavefrontOfARadarNearby) {
+  ASSERT_EQ(run_program({"mesh", "make", "plate", "--length-m", "2", "--width-m", "0.2", "-o", plate()}).code, 0);
+  const auto level = [&](const std::string& range_m) {
+    EXPECT_EQ(rcs({"--frequency-ghz", "10", "--azimuth-deg", "0", "--edges", "off", "--range-m", range_m}).code, 0);
+    return read_table(table()).rows.at(0).back();
+  };
+  // 2 L^2 / lambda = 267 m: far beyond it nothing changes, at 30 m the ends are 14 rad behind.
+  EXPECT_NEAR(level("100000"), level("0"), 0.01);
+  EXPECT_LT(level("30"), level("0") - 6);
+  const ProgramResult inside = rcs({"--frequency-ghz", "10", "--azimuth-deg", "0", "--range-m", "0.5"});
+  EXPECT_EQ(inside.code, 2);
+  EXPECT_THAT(inside.err, HasSubstr("radar range 0.5 m: the target reaches"));
+}
+
 TEST_F(RcsCommand, RefusesEdgesAndRangesThatCannotBe) {
   const auto refused = [&](std::vector<std::string> arguments, const std::string& message) {
     const ProgramResult result = rcs(std::move(arguments));
@@ -269,6 +299,9 @@ TEST_F(RcsCommand, RefusesEdgesAndRangesThatCannotBe) {
   refused({"--frequency-ghz", "10", "--azimuth-deg", "0", "--elevation-deg", "91"},
           "--elevation-deg: value 91: must be");
   refused({"--frequency-ghz", "10"}, "--azimuth-deg is required");
+  refused({"--frequency-ghz", "10", "--azimuth-deg", "0", "--transmit-elevation-deg", "3"}, "--transmit-elevation-deg needs --transmit-azimuth-deg");
+  refused({"--frequency-ghz", "10", "--azimuth-deg", "0", "--elevation-deg", "2", "--transmit-azimuth-deg", "3", "--sea-reflection", "--height-m", "5"}, "are monostatic");
+  refused({"--frequency-ghz", "10", "--azimuth-deg", "0", "--range-m", "-1"}, "--range-m");
 }
 
 TEST_F(RcsCommand, ACoatedPlateDropsByItsMaterial) {
