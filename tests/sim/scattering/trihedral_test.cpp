@@ -66,14 +66,14 @@ double mean_difference_db(const TriangleMesh& mesh, double b, const std::functio
 TEST(Trihedral, TriangularFollowsItsApertureOver25Degrees) {
   double largest = 0;
   const double mean = mean_difference_db(make_triangular_trihedral(0.8), 0.8, triangular_aperture, largest);
-  fmt::print("triangular trihedral, +-25 deg: mean {:.2f} dB, largest {:.2f} dB\n", mean, largest);
+  fmt::print("triangular trihedral, +-25 deg: mean {:.4f} dB, largest {:.4f} dB\n", mean, largest);
   EXPECT_LT(mean, 0.3);
 }
 
 TEST(Trihedral, SquareFollowsItsApertureOver25Degrees) {
   double largest = 0;
   const double mean = mean_difference_db(square_trihedral(0.8), 0.8, square_aperture, largest);
-  fmt::print("square trihedral, +-25 deg: mean {:.2f} dB, largest {:.2f} dB\n", mean, largest);
+  fmt::print("square trihedral, +-25 deg: mean {:.4f} dB, largest {:.4f} dB\n", mean, largest);
   EXPECT_LT(mean, 0.3);
 }
 
