@@ -5,24 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+
+#include "sim/geometry/disjoint_sets.h"
 
 namespace seaglint {
 namespace {
-
-// Which triangles hang together.
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
-  std::uint32_t root(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::uint32_t a, std::uint32_t b) { parent_[root(a)] = root(b); }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 // The corners in ascending order, and whether the triangle runs through them in an even permutation.
 struct Corners {

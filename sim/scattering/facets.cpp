@@ -5,6 +5,8 @@
 #include <map>
 #include <tuple>
 
+#include "sim/geometry/disjoint_sets.h"
+
 namespace seaglint {
 namespace {
 
@@ -18,22 +20,6 @@ std::vector<std::uint32_t> weld(const std::vector<Vec3>& vertices) {
   }
   return number;
 }
-
-// Which facets hang together.
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t count) : parent_(count) {
-    for (std::uint32_t i = 0; i < count; ++i) parent_[i] = i;
-  }
-  std::uint32_t root(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::uint32_t a, std::uint32_t b) { parent_[root(a)] = root(b); }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 }  // namespace
 
