@@ -8,17 +8,12 @@
 #include <span>
 #include <vector>
 
-#include "sim/core/constants.h"
 #include "sim/scattering/echo_filter.h"
 #include "sim/scattering/edge_light.h"
-#include "sim/scattering/edges.h"
-#include "sim/scattering/facet_tree.h"
-#include "sim/scattering/facets.h"
 #include "sim/scattering/footprint.h"
 #include "sim/scattering/hidden_surface.h"
 #include "sim/scattering/material.h"
-#include "sim/scattering/panels.h"
-#include "sim/scattering/smooth_surface.h"
+#include "sim/scattering/scatterer.h"
 
 namespace seaglint {
 
@@ -30,31 +25,6 @@ struct IlluminationSettings {
   bool edges = false;        // follow the waves that reach sharp edges too
   EchoFilter filter = {};    // which echoes are summed; all are followed
   double range_m = 0;        // of the radar, 0 = far field; else beyond ten radii of the target
-};
-
-// A target ready to be lit from any direction: its facets and their trees, for beams and for rays. Built once per mesh; safe to share between threads.
-class Scatterer {
- public:
-  // materials[i] is what mesh.materials[i] is made of; none: all is perfect conductor. Facets that turn by less than crease_rad (0..pi; 0 = all flat)
-  // belong to one smooth surface. Throws InputError when no triangle of the mesh has an area.
-  explicit Scatterer(const TriangleMesh& mesh, std::vector<MaterialSpec> materials = {}, double crease_rad = radians(kDefaultCreaseDeg));
-
-  std::span<const Facet> facets() const { return facets_; }
-  const SmoothSurface& surface() const { return surface_; }
-  const Panels& panels() const { return panels_; }
-  const FacetTree& tree() const { return tree_; }
-  const SharpEdges& edges() const { return edges_; }
-  double radius() const { return radius_; }  // of the bounding sphere about the body's origin, m
-  std::span<const MaterialSpec> materials() const { return materials_; }  // empty: all is perfect conductor
-
- private:
-  std::vector<Facet> facets_;
-  double radius_ = 0;
-  SmoothSurface surface_;
-  Panels panels_;
-  SharpEdges edges_;
-  FacetTree tree_;
-  std::vector<MaterialSpec> materials_;
 };
 
 // 2e-3 of the radius: 0.14 m on the 144 m ship, pieces of 10 mm (README.md).
@@ -71,8 +41,8 @@ struct Lit {
   }
 };
 
-// What one direction lights and another (or the same) sees. The constructor finds what the radar sees of every facet; light() follows the beams that leave one facet. Facets are
-// independent and may be lit in any order by any thread.
+// What one direction lights and another (or the same) sees. The constructor finds what the radar sees of every facet; light() follows the beams that
+// leave one facet. Facets are independent and may be lit in any order by any thread.
 class Illumination {
  public:
   // wavenumbers: those at which materials are evaluated; a perfect conductor needs none.

@@ -1,0 +1,483 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/scattering/beam_tracer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sim/core/error.h"
+#include "sim/scattering/curvature.h"
+#include "sim/scattering/reflect.h"
+
+namespace seaglint {
+namespace {
+
+// One leg of a beam: what travels from the last mirror towards the next facet.
+struct Leg {
+  Mirror mirrors;                   // of the facets passed
+  Vec3 direction;                   // real, unit
+  Vec3 E_h, E_v;                    // field for each transmitted polarisation, real space, all mirrors perfect conductors
+  std::vector<BeamField> fields;    // the field per wavenumber once a mirror was of another material
+  int from_facet = kNoFacet;
+  ImagePlane from_plane;            // of the last mirror
+  Vec3 from_normal = Vec3::Zero();  // real, on the side the beam leaves
+  int bounce = 1;                   // of the hits at this leg's end
+  bool bent = false;                // a mirror on the way was curved:
+  BentRays rays;                    // the rays as they left the last mirror
+};
+
+// A facet that a leg may light, and what of it is lit as far as is known.
+struct Candidate {
+  FacetImage image;  // its polygon clipped to what lies beyond the last mirror
+  std::vector<MovingPolygon> lit;
+  double nearest = 0, farthest = 0;  // heights of the lit pieces before anything was hidden, m
+};
+
+// Behind curved mirrors rays are followed to second order while a bundle's width grows to less than this. Farther away it lands beside the window it was
+// measured in by more than its own width, and the mirrors count as flat: the parting of their facets' bundles is then all that spreads them.
+constexpr double kMostSpread = 4;
+
+// Cosine below which a facet is edge-on to the receiver.
+constexpr double kEdgeOn = 1e-9;
+
+class BeamTracer {
+ public:
+  BeamTracer(const BeamScene& scene, Lit& out)
+      : facets_(scene.scatterer.facets()),
+        surface_(scene.scatterer.surface()),
+        panels_(scene.scatterer.panels()),
+        edges_(scene.settings.edges ? &scene.scatterer.edges() : nullptr),
+        tree_(scene.scatterer.tree()),
+        antennas_(scene.antennas),
+        basis_(scene.antennas.transmit),
+        lit_(scene.lit),
+        visible_(scene.visible),
+        surfaces_(scene.surfaces),
+        out_(out),
+        max_bounces_(scene.settings.max_bounces),
+        min_area_(scene.min_area),
+        scratch_(static_cast<std::size_t>(scene.settings.max_bounces) + 1) {}
+
+  std::size_t legs() const { return legs_; }
+
+  void light(int facet) {
+    if (is_under_water(facet)) return;
+    Leg first;
+    first.direction = -basis_.r;
+    first.E_h = basis_.h;
+    first.E_v = basis_.v;
+    Candidate candidate;
+    candidate.image.facet = facet;
+    candidate.image.plane = image_plane(facets_[facet].normal, facets_[facet].offset, basis_);
+    candidate.lit.assign(lit_.pieces(facet).begin(), lit_.pieces(facet).end());
+    // What the transmitter lights at first, a receiver at the same place sees.
+    std::vector<MovingPolygon> seen;
+    if (!antennas_.monostatic) seen_part(first, candidate, seen);
+    radiate(first, candidate, antennas_.monostatic ? candidate.lit : seen);
+    if (edges_) reach_edges(first, candidate);
+    if (max_bounces_ > 1) follow(reflected(first, candidate), candidate.lit);
+  }
+
+ private:
+  // What every facet that the leg may meet is asked.
+  struct Window {
+    std::span<const MovingPolygon> pieces;
+    std::vector<Box> boxes;  // of the pieces
+    Prism prism;             // around them, on the side of the mirror that the leg leaves
+  };
+
+  void set_window(Window& window, const Leg& leg, std::span<const MovingPolygon> pieces) const {
+    window.pieces = pieces;
+    window.boxes.clear();
+    for (const MovingPolygon& piece : pieces) window.boxes.push_back(box_of(piece));
+    Box all = window.boxes.front();
+    for (const Box& box : window.boxes) all = {all.lower.cwiseMin(box.lower), all.upper.cwiseMax(box.upper)};
+    const Vec2 t(leg.mirrors.t.dot(basis_.h), leg.mirrors.t.dot(basis_.v));
+    const Vec2 lower = all.lower - t, upper = all.upper - t;
+    window.prism = {{leg.mirrors.L.transpose() * basis_.h, leg.mirrors.L.transpose() * basis_.v},
+                    {lower.x(), lower.y()},
+                    {upper.x(), upper.y()},
+                    leg.from_normal,
+                    leg.from_normal.dot(facets_[leg.from_facet].corner[0]) + kCoincident,
+                    leg.direction,
+                    leg.direction};
+  }
+
+  // How a facet whose box meets a leg's prism stands to the prism itself.
+  struct Meeting {
+    bool may = false;  // they may meet; false for most: they face away, lie behind the mirror or beside the window
+    // Where along the prism nothing more can be lit, since the facet covers all of it.
+    double covered = std::numeric_limits<double>::infinity();
+  };
+
+  Meeting meeting(const Leg& leg, const Prism& prism, int number) const {
+    // The lit side of a closed part faces the beam.
+    const Facet& facet = facets_[number];
+    const double facing = facet.normal.dot(leg.direction);
+    if (!facet.open && facing >= 0) return {};
+    const std::span<const Vec3> outline = panels_.outline(number);
+    std::size_t beyond = 0;
+    for (const Vec3& x : outline) beyond += prism.normal.dot(x) > prism.offset;
+    if (beyond == 0) return {};
+    // The window's box may lie outside an edge of the panel, or inside all of them. Seen along the beam, the panel turns left or right.
+    const Vec2 middle(0.5 * (prism.lower[0] + prism.upper[0]), 0.5 * (prism.lower[1] + prism.upper[1]));
+    const Vec2 half(0.5 * (prism.upper[0] - prism.lower[0]), 0.5 * (prism.upper[1] - prism.lower[1]));
+    const double turn = prism.across[0].cross(prism.across[1]).dot(facet.normal) > 0 ? 1 : -1;
+    const auto across = [&](const Vec3& x) { return Vec2(prism.across[0].dot(x), prism.across[1].dot(x)); };
+    bool covers = beyond == outline.size();
+    Vec2 p = across(outline.back()), lower = p, upper = p;
+    for (const Vec3& x : outline) {
+      const Vec2 q = across(x);
+      const Vec2 along = q - p, to = middle - p;
+      const double centre = turn * (along.x() * to.y() - along.y() * to.x());
+      const double reach = std::abs(along.x()) * half.y() + std::abs(along.y()) * half.x();
+      if (centre + reach <= 0) return {};
+      covers &= centre - reach > 0;
+      p = q;
+      lower = lower.cwiseMin(q);
+      upper = upper.cwiseMax(q);
+    }
+    for (int i = 0; i < 2; ++i) {
+      if (upper[i] <= prism.lower[i] || lower[i] >= prism.upper[i]) return {};
+    }
+    Meeting result{true};
+    if (covers && std::abs(facing) > kEdgeOn) {
+      // The farthest point of the facet's plane in the prism: along . x = (offset - across part of normal . x) / (normal . along).
+      const double a = facet.normal.dot(prism.across[0]), b = facet.normal.dot(prism.across[1]);
+      const double centre = (facet.normal.dot(facet.corner[0]) - a * middle.x() - b * middle.y()) / facing;
+      result.covered = centre + (std::abs(a) * half.x() + std::abs(b) * half.y()) / std::abs(facing);
+    }
+    return result;
+  }
+
+  // Memory of one leg, kept for the next of its bounce.
+  struct Scratch {
+    Window window;
+    std::vector<int> found;
+    std::vector<Candidate> met;  // as many as any leg needed so far
+    std::vector<std::uint32_t> order;
+    std::vector<MovingPolygon> seen;
+  };
+
+  // A facet as the leg meets it; false when it misses the window.
+  bool meet(const Leg& leg, const Window& window, int facet, Candidate& candidate) const {
+    FacetImage& image = candidate.image;
+    if (!set_image(image, facets_, panels_, facet, leg.mirrors, basis_, min_area_)) return false;
+    double farthest = 0, nearest = 0;  // beyond the mirror
+    for (const Corner& corner : image.polygon) {
+      const double beyond = leg.from_plane.at(corner.p) - image.plane.at(corner.p);
+      farthest = std::max(farthest, beyond);
+      nearest = std::min(nearest, beyond);
+    }
+    if (farthest < kCoincident) return false;  // it lies in the mirror or behind it
+    if (nearest < 0) {
+      image.polygon = clip(image.polygon, depth_between(image.plane, leg.from_plane), +1);
+      if (image.polygon.empty() || signed_area(image.polygon) < min_area_) return false;
+      set_extent(image);
+    }
+    candidate.lit.clear();
+    for (std::size_t i = 0; i < window.pieces.size(); ++i) {
+      if (!overlap(window.boxes[i], image.box)) continue;
+      MovingPolygon common = intersect(window.pieces[i], image.polygon);
+      if (common.empty() || signed_area(common) <= min_area_) continue;
+      for (const Corner& corner : common) {
+        const double z = image.plane.at(corner.p);
+        candidate.nearest = candidate.lit.empty() && &corner == common.begin() ? z : std::max(candidate.nearest, z);
+        candidate.farthest = candidate.lit.empty() && &corner == common.begin() ? z : std::min(candidate.farthest, z);
+      }
+      candidate.lit.push_back(std::move(common));
+    }
+    if (candidate.lit.empty()) return false;
+    return true;
+  }
+
+  // Lights what the leg reaches inside the window (convex pieces of the aperture).
+  void follow(const Leg& leg, std::span<const MovingPolygon> window) {
+    ++legs_;
+    Scratch& scratch = scratch_[leg.bounce];
+    set_window(scratch.window, leg, window);
+    scratch.found.clear();
+    double covered = std::numeric_limits<double>::infinity();
+    tree_.walk(scratch.window.prism, [&](int facet) {
+      if (facet == leg.from_facet) return covered;
+      const Meeting met = meeting(leg, scratch.window.prism, facet);
+      if (met.may) scratch.found.push_back(facet);
+      return covered = std::min(covered, met.covered);
+    });
+
+    std::vector<Candidate>& met = scratch.met;
+    std::vector<std::uint32_t>& order = scratch.order;
+    order.clear();
+    for (const int facet : scratch.found) {
+      if (met.size() == order.size()) met.emplace_back();
+      if (meet(leg, scratch.window, facet, met[order.size()])) order.push_back(static_cast<std::uint32_t>(order.size()));
+    }
+    const std::size_t count = order.size();
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return met[a].nearest != met[b].nearest ? met[a].nearest > met[b].nearest : met[a].image.facet < met[b].image.facet;
+    });
+
+    // From the nearest on, each hides from the others what lies behind it. What is hidden in whole hides nothing that its own hiders do not.
+    for (std::size_t i = 0; i < count; ++i) {
+      Candidate& fresh = met[order[i]];
+      for (std::size_t j = 0; j < i && !fresh.lit.empty(); ++j) {
+        const Candidate& other = met[order[j]];
+        if (!other.lit.empty()) hide(fresh.image, other.image, min_area_, fresh.lit);
+      }
+      if (fresh.lit.empty()) continue;
+      for (std::size_t j = 0; j < i; ++j) {
+        Candidate& other = met[order[j]];
+        if (!other.lit.empty() && fresh.nearest > other.farthest - kCoincident) hide(other.image, fresh.image, min_area_, other.lit);
+      }
+    }
+
+    for (const std::uint32_t i : order) {
+      const Candidate& candidate = met[i];
+      if (candidate.lit.empty() || is_under_water(candidate.image.facet)) continue;
+      scratch.seen.clear();
+      seen_part(leg, candidate, scratch.seen);
+      radiate(leg, candidate, scratch.seen);
+      if (edges_) reach_edges(leg, candidate);
+      if (leg.bounce < max_bounces_) follow(reflected(leg, candidate), candidate.lit);
+    }
+  }
+
+  // What of the lit pieces the radar sees directly.
+  void seen_part(const Leg& leg, const Candidate& candidate, std::vector<MovingPolygon>& seen) const {
+    if (facing(leg, candidate.image.facet).dot(antennas_.receive.r) <= kEdgeOn) return;  // its lit side faces away
+    visible_.seen_through(candidate.image.facet, leg.mirrors, candidate.lit, basis_, seen);
+  }
+
+  // The facet's unit normal on the side the leg comes from.
+  Vec3 facing(const Leg& leg, int facet) const {
+    const Vec3& n = facets_[facet].normal;
+    return n.dot(leg.direction) < 0 ? n : Vec3(-n);
+  }
+
+  // What the facet is made of at each wavenumber; none when it is a perfect conductor.
+  std::span<const Surface> surface_of(int facet) const {
+    return surfaces_.empty() ? std::span<const Surface>() : std::span<const Surface>(surfaces_[facets_[facet].material]);
+  }
+  bool is_under_water(int facet) const {
+    const std::span<const Surface> surface = surface_of(facet);
+    return !surface.empty() && surface.front().is_under_water();
+  }
+
+  // The leg's field at wavenumber number q.
+  static BeamField field_at(const Leg& leg, std::size_t q) {
+    return leg.fields.empty() ? BeamField{leg.E_h.cast<Complex>(), leg.E_v.cast<Complex>()} : leg.fields[q];
+  }
+
+  // The fields after a mirror, where it or one before it is no perfect conductor.
+  std::vector<BeamField> reflected_fields(const Leg& leg, int facet, const Vec3& n) const {
+    const std::span<const Surface> surface = surface_of(facet);
+    const double cosine = std::abs(n.dot(leg.direction));
+    std::vector<BeamField> fields(surface.empty() ? leg.fields.size() : surface.size());
+    for (std::size_t q = 0; q < fields.size(); ++q) {
+      const SurfaceFields at = surface.empty() ? SurfaceFields{} : surface[q].at(cosine);
+      const double coherence = surface.empty() ? 1.0 : surface[q].coherence(cosine, cosine);
+      const BeamField before = field_at(leg, q);
+      fields[q] = {coherence * reflected_field(at, leg.direction, n, before.h),
+                   coherence * reflected_field(at, leg.direction, n, before.v)};
+    }
+    return fields;
+  }
+
+  // The footprint's pattern per wavenumber, where the facet or a mirror before it is no perfect conductor.
+  std::vector<std::array<Complex, 4>> patterns(const Leg& leg, int facet, const Vec3& n) const {
+    const std::span<const Surface> surface = surface_of(facet);
+    const auto& [r, h, v] = antennas_.receive;
+    const double cosine = std::abs(n.dot(leg.direction));
+    std::vector<std::array<Complex, 4>> patterns(surface.empty() ? leg.fields.size() : surface.size());
+    for (std::size_t q = 0; q < patterns.size(); ++q) {
+      const SurfaceFields at = surface.empty() ? SurfaceFields{} : surface[q].at(cosine);
+      const double coherence = surface.empty() ? 1.0 : surface[q].coherence(cosine, n.dot(r));
+      const BeamField field = field_at(leg, q);
+      const CVec3 by_h = coherence * radiated_field(at, leg.direction, n, r, field.h),
+                  by_v = coherence * radiated_field(at, leg.direction, n, r, field.v);
+      patterns[q] = {along(h, by_h), along(h, by_v), along(v, by_h), along(v, by_v)};
+    }
+    return patterns;
+  }
+
+  // Geometrical optics at a perfect conductor: E' = 2 (n.E) n - E.
+  Leg reflected(const Leg& leg, const Candidate& candidate) const {
+    const int facet = candidate.image.facet;
+    const Vec3 n = facing(leg, facet);
+    const double offset = n.dot(facets_[facet].corner[0]);
+    Leg next;
+    next.mirrors.L = leg.mirrors.L * (Mat3::Identity() - 2 * n * n.transpose());
+    next.mirrors.t = leg.mirrors.L * (2 * offset * n) + leg.mirrors.t;
+    next.direction = leg.direction - 2 * n.dot(leg.direction) * n;
+    next.E_h = 2 * n.dot(leg.E_h) * n - leg.E_h;
+    next.E_v = 2 * n.dot(leg.E_v) * n - leg.E_v;
+    if (!leg.fields.empty() || !surface_of(facet).empty()) next.fields = reflected_fields(leg, facet, n);
+    next.from_facet = facet;
+    next.from_plane = candidate.image.plane;
+    next.from_normal = n;
+    next.bounce = leg.bounce + 1;
+    const CurvedFacet* curved = surface_.curved(facet);
+    next.bent = leg.bent || curved;
+    if (leg.bent) next.rays = travelled(leg, candidate);
+    if (curved) {
+      // Fermat: a mirror that stands higher by s shortens the path by 2 s cos(incidence).
+      next.rays.reflect(bump(Barycentric(projected(leg, facet)), over_edges(leg, facet, [](double cosine) { return 2 * cosine; })));
+    }
+    return next;
+  }
+
+  // Wedges are perfect conductors, and so is what the wave met before.
+  void reach_edges(const Leg& leg, const Candidate& candidate) {
+    if (!leg.fields.empty() || !surface_of(candidate.image.facet).empty()) return;
+    const WaveOnFacet wave{basis_, leg.mirrors, candidate.image.plane, leg.direction, leg.E_h, leg.E_v, leg.bounce};
+    find_arrivals(*edges_, facets_, panels_, candidate.image.facet, wave, candidate.lit, out_.arrivals);
+  }
+
+  // The rays where they meet the candidate's plane.
+  BentRays travelled(const Leg& leg, const Candidate& candidate) const {
+    const Vec2 c = centroid(candidate.lit.front());
+    BentRays rays = leg.rays;
+    rays.travel(leg.from_plane.at(c) - candidate.image.plane.at(c));
+    return rays;
+  }
+
+  std::array<Vec2, 3> projected(const Leg& leg, int facet) const {
+    std::array<Vec2, 3> corner;
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 image = leg.mirrors.image(facets_[facet].corner[i]);
+      corner[i] = Vec2(image.dot(basis_.h), image.dot(basis_.v));
+    }
+    return corner;
+  }
+
+  // Cosine of the incidence at a normal of the smooth surface. Beyond the shadow boundary, where currents have faded, it stays positive.
+  double smooth_cosine(const Leg& leg, int facet, const Vec3& normal) const {
+    return std::max(-normal.dot(leg.direction), 0.25 * std::abs(facets_[facet].normal.dot(leg.direction)));
+  }
+
+  // The sagittas of a curved facet's edges on the leg's side, each times a factor of the cosine of the incidence there. An edge whose arc of half-angle
+  // 4 sagitta / length comes near the shadow boundary, where currents have faded, keeps twice that angle from it.
+  template <typename Factor>
+  std::array<double, 3> over_edges(const Leg& leg, int facet, const Factor& factor) const {
+    const CurvedFacet& curved = *surface_.curved(facet);
+    const Facet& flat = facets_[facet];
+    const double side = flat.normal.dot(leg.direction) < 0 ? 1 : -1;
+    std::array<double, 3> middle;
+    for (int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3;
+      const Vec3 mean = side * (surface_.vertex(curved.vertex[i]).normal + surface_.vertex(curved.vertex[j]).normal).normalized();
+      const double least = 8 * std::abs(curved.sagitta[i]) / (flat.corner[j] - flat.corner[i]).norm();
+      middle[i] = side * curved.sagitta[i] * factor(std::max({-mean.dot(leg.direction), least, 1e-6}));
+    }
+    return middle;
+  }
+
+  // n x (k^ x E) / |n . k^| along the receiver's basis.
+  std::array<Complex, 4> pattern(const Leg& leg, const Vec3& n, double cosine) const {
+    const Vec3 J_h = n.cross(leg.direction.cross(leg.E_h)) / cosine;
+    const Vec3 J_v = n.cross(leg.direction.cross(leg.E_v)) / cosine;
+    const auto& [r, h, v] = antennas_.receive;
+    return {h.dot(J_h), h.dot(J_v), v.dot(J_h), v.dot(J_v)};
+  }
+
+  // What the curvature of a facet and of the mirrors before it adds to a footprint whose flat phase and pattern are set.
+  std::shared_ptr<const Curvature> curvature(const Leg& leg, const Candidate& candidate, const Footprint& footprint) const {
+    const int facet = candidate.image.facet;
+    const CurvedFacet* curved = surface_.curved(facet);
+    BentRays rays;
+    if (leg.bent) rays = travelled(leg, candidate);
+    const bool bent = leg.bent && rays.landing.matrix.norm() < kMostSpread;
+    if (!bent) rays = {};
+    if (!curved && !bent) return nullptr;
+    const auto corner = projected(leg, facet);
+    const Barycentric lambda(corner);
+
+    // The surface stands higher by z / cos(incidence) along the ray, both ways.
+    const Mat3& L = leg.mirrors.L;
+    const Vec3 both = basis_.r + L * antennas_.receive.r;
+    const double both_ways = both.dot(basis_.r);
+    Quadratic standing;
+    if (curved) standing = bump(lambda, over_edges(leg, facet, [&](double cosine) { return both_ways / cosine; }));
+
+    Curvature c{corner, lambda, rays.phase, {}, {}, {}, {}, {}, {}};
+    c.phase += compose({0, footprint.w, Mat2::Zero()}, {rays.landing.offset, rays.landing.matrix - Mat2::Identity()});
+    c.phase += compose(standing, rays.landing);
+    // A bundle that widens by det lights as much area more with a field as much weaker: the square root of it. Behind one focus the phase has advanced by
+    // a quarter, behind two by a half of a cycle.
+    const double widened = rays.landing.matrix.determinant();
+    c.spread = std::sqrt(std::abs(widened)) * (widened < 0 ? Complex(0, 1) : rays.landing.matrix.trace() < 0 ? Complex(-1) : Complex(1));
+    const double side = facets_[facet].normal.dot(leg.direction) < 0 ? 1 : -1;
+    for (int i = 0; i < 3; ++i) {
+      c.lit[i] = c.seen[i] = std::numeric_limits<double>::infinity();
+      c.w[i] = c.slope[i] = footprint.w + c.phase.slope(corner[i]);
+      c.pattern[i] = footprint.pattern;
+      if (curved) {
+        const int vertex = curved->vertex[i];
+        c.lit[i] = surface_.terminator_distance(vertex, -leg.direction, side);
+        if (!antennas_.monostatic || leg.bounce > 1) c.seen[i] = surface_.terminator_distance(vertex, antennas_.receive.r, side);
+        const Vec3 n = side * surface_.vertex(vertex).normal;
+        const double cosine = smooth_cosine(leg, facet, n);
+        const Vec3 image = L * n;
+        const Vec2 slope = -Vec2(image.dot(basis_.h), image.dot(basis_.v)) / cosine;
+        c.w[i] += both_ways * (slope - footprint.plane.slope) - standing.slope(corner[i]);
+        const Vec3 tangential = both - image * image.dot(both);
+        c.slope[i] += Vec2(tangential.dot(basis_.h), tangential.dot(basis_.v)) + tangential.dot(basis_.r) * footprint.plane.slope - footprint.w -
+                      standing.slope(corner[i]);
+        if (footprint.patterns.empty()) c.pattern[i] = pattern(leg, n, cosine);
+      }
+    }
+    return std::make_shared<const Curvature>(c);
+  }
+
+  // Footprints of the pieces that are lit and seen.
+  void radiate(const Leg& leg, const Candidate& candidate, std::span<const MovingPolygon> pieces) {
+    const Facet& facet = facets_[candidate.image.facet];
+    const Vec3 n = facing(leg, candidate.image.facet);
+    if (pieces.empty() || n.dot(antennas_.receive.r) <= kEdgeOn) return;
+
+    Footprint footprint;
+    footprint.plane = candidate.image.plane;
+    footprint.mirrors = leg.mirrors;
+    footprint.facet = candidate.image.facet;
+    footprint.part = facet.part;
+    footprint.facet_size = panels_.size(candidate.image.facet);
+    footprint.bounces = static_cast<std::uint8_t>(leg.bounce);
+    set_phase(footprint, leg.mirrors.L * facet.normal, antennas_);
+    footprint.pattern = pattern(leg, n, std::abs(n.dot(leg.direction)));
+    if (!leg.fields.empty() || !surface_of(footprint.facet).empty()) {
+      footprint.patterns = patterns(leg, footprint.facet, n);
+      footprint.pattern = footprint.patterns[footprint.patterns.size() / 2];
+    }
+    footprint.curvature = curvature(leg, candidate, footprint);
+    for (const MovingPolygon& piece : pieces) {
+      footprint.polygon = piece;
+      out_.footprints.push_back(footprint);
+    }
+  }
+
+  std::span<const Facet> facets_;
+  const SmoothSurface& surface_;
+  const Panels& panels_;
+  const SharpEdges* edges_;  // null when nobody asks for edges
+  const FacetTree& tree_;
+  const AntennaPair& antennas_;
+  const RadarBasis& basis_;  // of the aperture: the transmitter's
+  const VisibleSurface& lit_;
+  const VisibleSurface& visible_;  // to the receiver
+  std::span<const std::vector<Surface>> surfaces_;
+  Lit& out_;
+  int max_bounces_;
+  double min_area_;
+  std::vector<Scratch> scratch_;  // by the bounce a leg ends in
+  std::size_t legs_ = 0;
+};
+
+}  // namespace
+
+std::size_t trace_beams(const BeamScene& scene, std::span<const int> facets, Lit& out) {
+  BeamTracer tracer(scene, out);
+  for (const int facet : facets) tracer.light(facet);
+  return tracer.legs();
+}
+
+}  // namespace seaglint
