@@ -150,7 +150,7 @@ Track track_of(std::span<const Vec3> transmit, std::span<const Vec3> receive, in
 }  // namespace
 
 double default_turn(const Scatterer& scatterer, double wavelength) {
-  return std::min(radians(0.15), 2 * wavelength / scatterer.radius());
+  return std::min(radians(0.15), 1.2 * wavelength / scatterer.radius());
 }
 
 BodyResponse respond(const Scatterer& scatterer, const Trajectory& trajectory, const Vec3& r_hat,
