@@ -52,7 +52,7 @@ class Splitter {
     std::vector<CurvedTerm> terms;
     curved_terms(footprint_, settings_.kc, threshold_, terms);
     for (const CurvedTerm& term : terms) {
-      const auto pattern = pattern_at(footprint_, term.p, 0);
+      const auto pattern = pattern_at(footprint_, term.p, footprint_.pattern);
       for (int i = 0; i < 4; ++i) prototype_.pattern[i] = std::complex<float>(pattern[i]);
       PathGradient gradient = phase_gradient(footprint_, term.p, basis_);
       gradient.transmit += term.slide1 * basis_.h + term.slide2 * basis_.v;

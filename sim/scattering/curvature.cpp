@@ -210,11 +210,11 @@ void curved_terms(const Footprint& footprint, double k, double least_slope, std:
   CurvedSplitter(footprint, k, least_slope, terms).run();
 }
 
-std::array<Complex, 4> pattern_at(const Footprint& footprint, const Vec2& p, std::size_t index) {
+std::array<Complex, 4> pattern_at(const Footprint& footprint, const Vec2& p, const std::array<Complex, 4>& flat) {
   const Curvature& curvature = *footprint.curvature;
   std::array<Complex, 4> pattern{};
   if (!footprint.patterns.empty()) {
-    for (int q = 0; q < 4; ++q) pattern[q] = curvature.spread * footprint.patterns[index][q];
+    for (int q = 0; q < 4; ++q) pattern[q] = curvature.spread * flat[q];
     return pattern;
   }
   for (int i = 0; i < 3; ++i) {

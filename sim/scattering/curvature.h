@@ -49,7 +49,8 @@ struct CurvedTerm {
 // the lit part of it.
 void curved_terms(const Footprint& footprint, double k, double least_slope, std::vector<CurvedTerm>& terms);
 
-// Pattern at a point, between those at the facet's corners; the flat facet's at wavenumber number `index` where materials make it depend on that.
-std::array<Complex, 4> pattern_at(const Footprint& footprint, const Vec2& p, std::size_t index);
+// Pattern at a point, between those at the facet's corners. Where materials make it depend on the wavenumber only the flat facet's is known: that is
+// `flat`, whichever wavenumber it belongs to.
+std::array<Complex, 4> pattern_at(const Footprint& footprint, const Vec2& p, const std::array<Complex, 4>& flat);
 
 }  // namespace seaglint

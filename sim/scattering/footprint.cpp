@@ -127,19 +127,19 @@ Complex phase_integral(const Footprint& footprint, double k) {
 }
 
 std::array<Complex, 4> scattered(const Footprint& footprint, double k, std::size_t index) {
+  const std::array<Complex, 4>& pattern = footprint.patterns.empty() ? footprint.pattern : footprint.patterns[index];
   std::array<Complex, 4> s{};
   if (footprint.curvature) {
     std::vector<CurvedTerm> terms;
     curved_terms(footprint, k, 0, terms);
     for (const CurvedTerm& term : terms) {
       const Complex value = Complex(0, -k / (2 * kPi)) * term.integral * std::polar(1.0, k * term.psi);
-      const auto pattern = pattern_at(footprint, term.p, index);
-      for (int i = 0; i < 4; ++i) s[i] += value * pattern[i];
+      const auto local = pattern_at(footprint, term.p, pattern);
+      for (int i = 0; i < 4; ++i) s[i] += value * local[i];
     }
     return s;
   }
   const Complex factor = Complex(0, -k / (2 * kPi)) * phase_integral(footprint, k);
-  const std::array<Complex, 4>& pattern = footprint.patterns.empty() ? footprint.pattern : footprint.patterns[index];
   for (int i = 0; i < 4; ++i) s[i] = factor * pattern[i];
   return s;
 }
