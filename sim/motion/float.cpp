@@ -82,7 +82,7 @@ class Water {
         y_(y),
         start_(start),
         step_(step) {
-    if (!moving) series_.emplace(field_, x, y, start, step);
+    if (!moving) series_.emplace(field_, x, y, start, step, SurfaceDetail::kShape);
   }
   Water(const Water&) = delete;
   Water& operator=(const Water&) = delete;

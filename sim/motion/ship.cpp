@@ -50,11 +50,10 @@ class Forcing {
   // Waves that the hull averages away are left out: with less than 1e-9 of the largest contribution to an acceleration.
   UniformPhasors make(const ShipParticulars& ship, const WaveField& sea, double x, double y, double start,
                       double step) {
-    const double mu = std::atan2(sea.direction().y(), sea.direction().x());
-    const double xi = sea.direction().x() * x + sea.direction().y() * y;
     std::vector<std::array<Complex, kMaxDegrees>> accelerations;
     std::array<double, kMaxDegrees> largest{};
     for (const WaveComponent& component : sea.components()) {
+      const double mu = std::atan2(component.direction.y(), component.direction.x());
       const ShipExcitation e = ship_excitation(ship, component.omega, mu);
       std::array<Complex, kMaxDegrees> all{e.roll, e.pitch, e.yaw, e.surge, e.sway, e.heave};
       for (std::size_t d = 0; d < degrees_; ++d) {
@@ -71,7 +70,8 @@ class Forcing {
       if (!counts) continue;
       const WaveComponent& component = sea.components()[i];
       omega_.push_back(component.omega);
-      phase.push_back(component.phase - component.wavenumber * xi);
+      phase.push_back(component.phase -
+                      component.wavenumber * (component.direction.x() * x + component.direction.y() * y));
       for (std::size_t d = 0; d < degrees_; ++d) {
         real_[d].push_back(accelerations[i][d].real());
         imaginary_[d].push_back(accelerations[i][d].imag());

@@ -6,41 +6,48 @@
 // literature.
 
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "sim/core/linear.h"
 #include "sim/core/random.h"
 #include "sim/scenario/sea_spec.h"
+#include "sim/sea/second_order.h"
 #include "sim/sea/unit_phasors.h"
+#include "sim/sea/wave_component.h"
 
 namespace seaglint {
 
-// One linear component a cos(w t - k.x + phase), deep water, w^2 = g k.
-struct WaveComponent {
-  double omega = 0;       // rad/s
-  double amplitude = 0;   // m
-  double phase = 0;       // rad, at x = 0, t = 0
-  double wavenumber = 0;  // rad/m
-};
+// What is asked of a surface: elevation and slopes, or the motion of the water too.
+enum class SurfaceDetail { kShape, kMotion };
 
+// To the field's order. Order 1 takes velocity and acceleration at the mean level, order 2 at the moving surface:
+// velocity = u1 + eta1 du1/dz + u2, acceleration that of the water particle there (du/dt + u.grad u).
 struct SurfaceState {
-  double elevation = 0;         // m, to the field's order
+  double elevation = 0;         // m
   double elevation_linear = 0;  // m
-  double slope_x = 0;           // d eta / dx, to the field's order
+  double slope_x = 0;           // d eta / dx
   double slope_y = 0;
-  Vec3 velocity = Vec3::Zero();  // m/s, orbital velocity of the linear waves at the mean level
+  Vec3 velocity = Vec3::Zero();      // m/s; NaN when only the shape was asked for
+  Vec3 acceleration = Vec3::Zero();  // m/s^2; likewise
 };
 
-// Long-crested: all components travel towards `direction`.
+// Waves of one direction in deep water cost O(N) per point and time at either order, others O(N^2) at order 2
+// (PairInteractions).
 class WaveField {
  public:
   WaveField() = default;  // flat water
-  // Components ascending in omega; direction of any length but zero; order 1 or 2. Components up to the cut-off enter
-  // the quadratic sums of order 2.
-  WaveField(std::vector<WaveComponent> components, Vec2 direction, int order, double second_order_cutoff_rad_s);
+  // Components ascending in omega, each of the depth's wavenumber; order 1 or 2. Components up to the cut-off enter the
+  // quadratic sums of order 2: at most PairInteractions::kMostComponents unless all travel one way in deep water.
+  WaveField(std::vector<WaveComponent> components, int order, double second_order_cutoff_rad_s,
+            double depth = kDeepWater);
+  // The same with all components travelling towards `direction`, of any length but zero.
+  WaveField(std::vector<WaveComponent> components, Vec2 direction, int order, double second_order_cutoff_rad_s,
+            double depth = kDeepWater);
 
-  // |w t| and |k.x| up to 2e8 rad; about 4 us for 512 components.
-  SurfaceState surface(double x, double y, double t) const;
+  // |w t| and |k.x| up to 2e8 rad; 512 components of one direction in deep water about 6 us.
+  SurfaceState surface(double x, double y, double t, SurfaceDetail detail = SurfaceDetail::kMotion) const;
 
   // The field whose every amplitude is multiplied by gain(wavenumber), as a body's waterplane filters it.
   template <typename Gain>
@@ -53,30 +60,38 @@ class WaveField {
   }
 
   const std::vector<WaveComponent>& components() const { return components_; }
-  const Vec2& direction() const { return direction_; }
+  double depth() const { return depth_; }              // m, kDeepWater when infinite
+  bool long_crested() const { return long_crested_; }  // all components travel one way
   int order() const { return order_; }
   std::size_t second_order_count() const { return second_order_count_; }
 
  private:
   friend class SurfaceSeries;
 
+  // From the cosines and sines of all components' angles.
+  SurfaceState state(std::span<const double> cosine, std::span<const double> sine, SurfaceDetail detail) const;
+
   std::vector<WaveComponent> components_;
-  Vec2 direction_{1, 0};
+  double depth_ = kDeepWater;
+  bool long_crested_ = true;
   int order_ = 1;
-  std::size_t second_order_count_ = 0;  // the first so many components enter the quadratic sums
+  std::size_t second_order_count_ = 0;             // the first so many components enter the quadratic sums
+  std::shared_ptr<const PairInteractions> pairs_;  // where the quadratic sums have no closed form
 };
 
 // The surface at one fixed point at t = start + n step, n = 0, 1, 2, ...: what WaveField::surface gives, to 1e-12 of
 // the significant wave height, at a third of its price. The field must outlive it.
 class SurfaceSeries {
  public:
-  SurfaceSeries(const WaveField& field, double x, double y, double start, double step);
+  SurfaceSeries(const WaveField& field, double x, double y, double start, double step,
+                SurfaceDetail detail = SurfaceDetail::kMotion);
 
-  SurfaceState state() const;
+  SurfaceState state() const { return field_->state(phasors_.cosine(), phasors_.sine(), detail_); }
   void advance() { phasors_.advance(); }
 
  private:
   const WaveField* field_;
+  SurfaceDetail detail_;
   UniformPhasors phasors_;
 };
 

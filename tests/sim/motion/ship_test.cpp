@@ -119,7 +119,7 @@ TEST(SimulateShip, IsTheSumOfItsResponsesToTheComponents) {
     const WaveField sea = realize_sea(state_of(2, 8, mu_deg), 42, 1);
     const ShipParticulars ship = ship_particulars(spec, kHull);
     const std::vector<MotionSample> samples = simulate_ship(ship, spec, sea, 30, -10, 60);
-    const Vec2 direction = sea.direction();
+    const Vec2 direction = sea.components().front().direction;
     for (std::size_t n = 0; n < samples.size(); n += 250) {
       const double t = spec.step_s * static_cast<double>(n);
       Vec3 angles = Vec3::Zero(), rates = Vec3::Zero(), shift = Vec3::Zero();

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// What every pair of waves adds to the surface at second order: any directions, any depth.
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "sim/sea/wave_component.h"
+
+namespace seaglint {
+
+// The second-order part of the surface at one place and time.
+struct SecondOrder {
+  double elevation = 0;  // m
+  Vec2 slope = Vec2::Zero();
+  double rate = 0;               // d elevation / dt, m/s
+  double rate_of_rate = 0;       // m/s^2
+  Vec2 velocity = Vec2::Zero();  // gradient of the second-order potential at the mean level, m/s
+};
+
+// Sums and differences of all pairs, with kernels computed once (Sharma and Dean 1981; see second_order.cpp). Memory
+// and time of one evaluation grow with the square of the count.
+class PairInteractions {
+ public:
+  static constexpr std::size_t kMostComponents = 2048;  // 134 MB of kernels
+
+  // Components of one depth, at most kMostComponents.
+  PairInteractions(std::span<const WaveComponent> components, double depth);
+
+  // cosine, sine: a cos and a sin of each component's angle w t - k.x + phase. The components are those of the
+  // constructor, whose amplitudes may have been changed since. Without motion the last three fields stay 0.
+  SecondOrder evaluate(std::span<const WaveComponent> components, std::span<const double> cosine,
+                       std::span<const double> sine, bool motion) const;
+
+  std::size_t size() const { return size_; }
+
+ private:
+  std::size_t size_ = 0;
+  std::size_t stride_ = 0;  // of a column: size_ rounded up to kLanes
+  // B+, B-, P+, P- of all pairs, column by column.
+  std::vector<double> elevation_sum_, elevation_difference_, potential_sum_, potential_difference_;
+};
+
+}  // namespace seaglint
