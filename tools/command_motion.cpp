@@ -14,6 +14,7 @@
 #include "sim/geometry/mesh_io.h"
 #include "sim/motion/target_motion.h"
 #include "tools/command.h"
+#include "tools/scene.h"
 #include "tools/series_times.h"
 
 namespace seaglint {
@@ -42,9 +43,9 @@ std::vector<NamedTrajectory> simulate_all(const Scenario& scenario, double durat
   for (const TargetSpec& target : scenario.targets) {
     if (target.mesh.empty()) continue;
     if (stop) throw Interrupted();
-    const Bounds box = bounds(read_mesh(find_mesh(scenario, target), target.unit));
+    const Body body = load_body(scenario, target, read_mesh(find_mesh(scenario, target), target.unit));
     const std::vector<Trajectory> all =
-        simulate_target(target, box, state, sea, duration_s, scenario.seed, index, bodies.size(), threads);
+        simulate_target(target, body, state, sea, duration_s, scenario.seed, index, bodies.size(), threads);
     for (std::size_t i = 0; i < all.size(); ++i) {
       bodies.push_back({target.line ? fmt::format("{}_{}", target.name, i + 1) : target.name, all[i]});
     }

@@ -55,6 +55,14 @@ std::vector<MaterialSpec> load_materials(const Scenario& scenario, const TargetS
 
 }  // namespace
 
+Body load_body(const Scenario& scenario, const TargetSpec& spec, const TriangleMesh& mesh) {
+  try {
+    return make_body(spec.motion, shape_of(mesh), scenario.folder);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("targets.{}: {}", spec.name, error.what()));
+  }
+}
+
 std::vector<Target> load_targets(const Scenario& scenario) {
   std::vector<Target> targets;
   std::size_t bodies = 0;
@@ -65,6 +73,7 @@ std::vector<Target> load_targets(const Scenario& scenario) {
     if (!spec.mesh.empty()) {
       target.mesh = repaired(read_mesh(find_mesh(scenario, spec), spec.unit));
       target.materials = load_materials(scenario, spec, target.mesh);
+      target.body = load_body(scenario, spec, target.mesh);
       // The radar's image looks at the hull from below.
       if (scenario.sea_reflection.enabled) put_in_water(target.mesh, target.materials, -rest_position(spec.motion, 0, 0).z());
       for (const Vec2& place : layout_places(spec)) {
@@ -95,10 +104,9 @@ Scene make_scene(const Scenario& scenario, const std::vector<Target>& targets, i
 
   Scene scene{realize_sea(state, scenario.seed, sea_key), {}};
   for (const Target& target : targets) {
-    const Bounds box = target.rest_positions.empty() ? Bounds{} : bounds(target.mesh);
     scene.bodies.push_back(target.rest_positions.empty()
                                ? std::vector<Trajectory>{}
-                               : simulate_target(target.spec, box, state, scene.sea, duration_s, scenario.seed, sea_key,
+                               : simulate_target(target.spec, target.body, state, scene.sea, duration_s, scenario.seed, sea_key,
                                                  target.first_body));
   }
   return scene;

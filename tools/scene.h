@@ -10,6 +10,7 @@
 
 #include "classify/dataset/plan.h"
 #include "sim/geometry/triangle_mesh.h"
+#include "sim/motion/body.h"
 #include "sim/motion/trajectory.h"
 #include "sim/scenario/material_spec.h"
 #include "sim/scenario/scenario.h"
@@ -22,9 +23,13 @@ struct Target {
   TargetSpec spec;
   TriangleMesh mesh;                 // empty for points
   std::vector<MaterialSpec> materials;  // of mesh.materials
+  Body body;                         // how it moves; unused for points
   std::vector<Vec3> rest_positions;  // of the bodies' origins, target frame; empty for points
   std::size_t first_body = 0;        // bodies are counted over all targets, in order
 };
+
+// How a target moves, from its mesh and the files its motion names. Throws InputError naming the target.
+Body load_body(const Scenario& scenario, const TargetSpec& spec, const TriangleMesh& mesh);
 
 // Throws InputError for a mesh that is missing or unsound, and for a material that is missing, unsound or not known at the radar's frequencies.
 std::vector<Target> load_targets(const Scenario& scenario);

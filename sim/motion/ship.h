@@ -1,50 +1,55 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// A ship without speed: each degree of freedom is a damped oscillator forced by the waves averaged over the hull.
+// A ship in waves: heave with pitch, and sway with roll and yaw, by strip theory; roll damping may be nonlinear.
 
-#include <array>
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
 
-#include "sim/geometry/triangle_mesh.h"
+#include "sim/motion/hull_sections.h"
 #include "sim/motion/oscillator.h"
+#include "sim/motion/strip_theory.h"
 #include "sim/motion/trajectory.h"
 #include "sim/scenario/target_spec.h"
 #include "sim/sea/wave_field.h"
 
 namespace seaglint {
 
-// Shape of the hull below the waterline; by default that of model DTMB 5415, a fast displacement hull.
-struct HullForm {
-  double block = 0.507;       // volume / (L B T)
-  double waterplane = 0.778;  // waterplane area / (L B)
-  double midship = 0.821;     // area of the midship section / (B T)
-};
-
-// Everything the equations of motion need, with the zero fields of the spec filled in (README.md, "Ship").
+// Everything the equations of motion need, with the zero fields of the spec filled in (README.md, "Ship"). SI, about
+// the origin (waterline amidships) where not said otherwise.
 struct ShipParticulars {
-  double length = 0;              // waterline length L, m
-  double beam = 0;                // waterline beam B, m
-  double draught = 0;             // T, m
+  double length = 0;              // of the waterline, m
+  double beam = 0;                // m
+  double draught = 0;             // m
   double metacentric_height = 0;  // GM, m
-  HullForm form;
-  double centre_of_gravity = 0;  // above the waterline, m
-  Oscillator roll, pitch, yaw, surge, sway, heave;
+  double speed = 0;               // along +x, m/s
+  Vec3 centre_of_gravity = Vec3::Zero();
+  Vec3 rotation_centre = Vec3::Zero();  // whose translations are told
+  Vec3 gyration = Vec3::Zero();         // radii of the mass about the centre of gravity in roll, pitch, yaw, m
+
+  // Roll as it is near its resonance, sway and yaw following freely: natural frequency and damping with added mass and
+  // radiation. Pitch and heave likewise, each alone.
+  Oscillator roll, pitch, heave;
+
+  std::shared_ptr<const StripTheory> strips;
+  Eigen::Matrix3d lateral_mass, lateral_damping, lateral_stiffness;  // sway, roll, yaw
+  Eigen::Matrix2d vertical_mass, vertical_stiffness;                 // heave, pitch
+  double pitch_damping = 0;                                          // beyond radiation (below: less than), N m s
 };
 
-// Throws InputError when the mesh has no size to derive from, or a derived size contradicts a given one.
-ShipParticulars ship_particulars(const MotionSpec& spec, const Bounds& bounds, const HullForm& form = {});
+// Throws InputError when the hull and the spec contradict each other.
+ShipParticulars ship_particulars(const MotionSpec& spec, const HullSections& hull);
 
-// Accelerations (rad/s^2 or m/s^2) per metre of a long-crested wave eta = Re{e^{j(w t - k.x)}}, phase reference the
-// elevation at the ship's origin; deep water, mu the direction of travel in the ship's frame.
-struct ShipExcitation {
-  Complex roll, pitch, yaw, surge, sway, heave;
+// Response amplitude operators, rad/m and m/m, in the time factor e^{j w_e t} of the encounter frequency; translations
+// of the rotation centre. The phase reference is the elevation at the ship's origin.
+struct ShipResponse {
+  Complex surge, sway, heave, roll, pitch, yaw;
 };
-ShipExcitation ship_excitation(const ShipParticulars& ship, double omega, double mu);
+ShipResponse ship_rao(const ShipParticulars& ship, const ShipWave& wave);
 
-// Response amplitude operators, rad/m and m/m: excitation through each oscillator's linear response.
-ShipExcitation ship_rao(const ShipParticulars& ship, double omega, double mu);
-
-// Samples at t = 0, step, ..., at least up to duration_s, of a ship whose origin rests at (x, y).
+// Samples at t = 0, step, ..., at least up to duration_s, of a ship whose origin rests at (x, y) at t = 0 and goes on
+// with its speed; the samples are relative to that mean way.
 std::vector<MotionSample> simulate_ship(const ShipParticulars& ship, const MotionSpec& spec, const WaveField& sea,
                                         double x, double y, double duration_s);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 #include "sim/core/constants.h"
@@ -11,76 +13,148 @@ namespace seaglint {
 
 namespace {
 
-// Ratios of a fast displacement hull; model DTMB 5415 (ITTC, L 142 m, B 19.06 m, T 6.15 m) has these.
-constexpr double kWaterlineToOverallLength = 0.985;
-constexpr double kWaterlineToOverallBeam = 0.95;
-constexpr double kBeamToDraught = 3.1;
-
 constexpr double kRollRadius = 0.40;    // of gyration with added mass, per beam: 10.9 s at GM 1.95 m
-constexpr double kPitchRadius = 0.25;   // of gyration of the mass alone, per length
+constexpr double kPitchRadius = 0.25;   // of gyration of the mass alone, per length, in pitch and yaw
 constexpr double kRollDamping = 0.075;  // bilge keels, no speed: 0.05-0.10
-constexpr double kPitchDamping = 0.25;  // radiation of waves: 0.2-0.35
-constexpr double kHeaveDamping = 0.25;
-
-// Two-dimensional added mass in heave as a share of rho pi b^2/8, near the natural periods of pitch and heave, where a
-// semicircle has its minimum 0.6 (Ursell 1949) and wider sections have more.
-constexpr double kVerticalAddedMass = 0.7;
-
-// Waterplane of half-breadth B/2 (1 - |2x/L|^n), n = Cwp/(1 - Cwp): what of L B/2-sided integrals remains.
-struct Waterplane {
-  explicit Waterplane(double coefficient) : n(coefficient / (1 - coefficient)) {}
-  double n;
-  double longitudinal() const { return n / (n + 3); }                                        // of B L^3 / 12
-  double transverse() const { return 1 - 3 / (n + 1) + 3 / (2 * n + 1) - 1 / (3 * n + 1); }  // of L B^3 / 12
-  double squared_breadth() const { return 1 - 2 / (n + 1) + 1 / (2 * n + 1); }               // of L B^2
-  double squared_breadth_moment() const { return 1 - 6 / (n + 3) + 3 / (2 * n + 3); }        // of B^2 L^3 / 12
-};
 
 double given_or(double value, double derived) { return value > 0 ? value : derived; }
 
+// -w^2 M + C - T of sway, roll and yaw without speed, the inertia of roll about G and further damping left out.
+Eigen::Matrix3cd lateral_impedance(const ShipParticulars& ship, double omega) {
+  return -omega * omega * ship.lateral_mass.cast<Complex>() + ship.lateral_stiffness.cast<Complex>() -
+         ship.strips->radiation(omega, 0).lateral;
+}
+
+// Roll with sway and yaw following: the moment per roll angle when neither is held.
+Complex roll_impedance(const ShipParticulars& ship, double omega) {
+  const Eigen::Matrix3cd z = lateral_impedance(ship, omega);
+  Eigen::Matrix2cd others;
+  others << z(0, 0), z(0, 2), z(2, 0), z(2, 2);
+  const Eigen::Vector2cd from_roll(z(0, 1), z(2, 1));
+  const Eigen::RowVector2cd to_roll(z(1, 0), z(1, 2));
+  const Complex released = to_roll * others.partialPivLu().solve(from_roll);
+  return z(1, 1) - released;
+}
+
+// w with w^2 inertia = Re impedance(w), for an impedance that holds C - w^2 (added inertia).
+template <typename Impedance>
+double natural_frequency(double inertia, double stiffness, const Impedance& impedance) {
+  double omega = std::sqrt(stiffness / (1.2 * inertia));
+  for (int i = 0; i < 100; ++i) {
+    const double added = (stiffness - impedance(omega).real()) / (omega * omega);
+    omega = 0.5 * (omega + std::sqrt(stiffness / (inertia + added)));
+  }
+  return omega;
+}
+
+// The inertia that has a given period.
+template <typename Impedance>
+double inertia_of_period(double omega, const Impedance& impedance, const char* key) {
+  const double inertia = impedance(omega).real() / (omega * omega);
+  if (!(inertia > 0)) {
+    throw InputError(fmt::format("motion.{}: value {:.4g}: too short for this hull, whose added mass alone is slower",
+                                 key, 2 * kPi / omega));
+  }
+  return inertia;
+}
+
+void set_roll(ShipParticulars& ship, const MotionSpec& spec, double mass) {
+  const double stiffness = ship.lateral_stiffness(1, 1);
+  const auto impedance = [&](double omega) { return roll_impedance(ship, omega); };
+  double inertia = mass * spec.roll_radius_m * spec.roll_radius_m;
+  if (spec.roll_radius_m > 0) {
+    ship.roll.omega0 = natural_frequency(inertia, stiffness, impedance);
+  } else {
+    ship.roll.omega0 =
+        2 * kPi /
+        given_or(spec.roll_period_s, 2 * kPi * kRollRadius * ship.beam / std::sqrt(kGravity * ship.metacentric_height));
+    inertia = inertia_of_period(ship.roll.omega0, impedance, "roll_period_s");
+  }
+  // Damping as a ratio to critical; what radiation does not give comes from bilge keels and friction.
+  const double omega = ship.roll.omega0;
+  const double critical = 2 * stiffness / omega;
+  const double radiated = impedance(omega).imag() / omega;
+  const double viscous = std::max(0.0, given_or(spec.roll_damping, kRollDamping) * critical - radiated);
+  ship.roll.damping = (radiated + viscous) / critical;
+  ship.roll.quadratic = spec.roll_quadratic_damping;
+  ship.lateral_damping(1, 1) += viscous;
+  ship.lateral_mass(1, 1) += inertia;
+  ship.gyration.x() = std::sqrt(inertia / mass);
+}
+
+void set_pitch_and_heave(ShipParticulars& ship, const MotionSpec& spec, double mass) {
+  const double stiffness = ship.vertical_stiffness(1, 1);
+  const auto impedance = [&](double omega) -> Complex {
+    return stiffness - omega * omega * ship.vertical_mass(1, 1) - ship.strips->radiation(omega, 0).vertical(1, 1);
+  };
+  const double radius = given_or(spec.pitch_radius_m, kPitchRadius * ship.length);
+  double inertia = mass * radius * radius;
+  if (spec.pitch_period_s > 0 && !(spec.pitch_radius_m > 0)) {
+    inertia = inertia_of_period(2 * kPi / spec.pitch_period_s, impedance, "pitch_period_s");
+  }
+  ship.pitch.omega0 = natural_frequency(inertia, stiffness, impedance);
+  const double critical = 2 * stiffness / ship.pitch.omega0;
+  const double radiated = impedance(ship.pitch.omega0).imag() / ship.pitch.omega0;
+  ship.pitch.damping = given_or(spec.pitch_damping, radiated / critical);
+  ship.pitch_damping = ship.pitch.damping * critical - radiated;
+  ship.vertical_mass(1, 1) += inertia;
+  ship.gyration.y() = std::sqrt(inertia / mass);
+
+  const auto heave = [&](double omega) -> Complex {
+    return ship.vertical_stiffness(0, 0) - ship.strips->radiation(omega, 0).vertical(0, 0);
+  };
+  ship.heave.omega0 = natural_frequency(mass, ship.vertical_stiffness(0, 0), heave);
+  ship.heave.damping = heave(ship.heave.omega0).imag() / (2 * ship.vertical_stiffness(0, 0));
+}
+
 }  // namespace
 
-ShipParticulars ship_particulars(const MotionSpec& spec, const Bounds& bounds, const HullForm& form) {
-  const Vec3 size = bounds.upper - bounds.lower;
+ShipParticulars ship_particulars(const MotionSpec& spec, const HullSections& hull) {
   ShipParticulars ship;
-  ship.form = form;
-  ship.length = given_or(spec.length_m, kWaterlineToOverallLength * size.x());
-  ship.beam = given_or(spec.beam_m, kWaterlineToOverallBeam * size.y());
-  ship.draught = given_or(spec.draught_m, ship.beam / kBeamToDraught);
+  ship.strips = std::make_shared<StripTheory>(hull);
+  ship.length = hull.length;
+  ship.beam = hull.beam();
+  ship.draught = hull.draught();
   ship.metacentric_height = spec.metacentric_height_m;
-  if (!(ship.length > 0) || !(ship.beam > 0)) {
-    throw InputError(
-        fmt::format("motion.length_m, motion.beam_m: the mesh measures {:.4g} x {:.4g} m, which gives no "
-                    "waterline; write them down",
-                    size.x(), size.y()));
-  }
+  ship.speed = spec.speed_mps;
   if (!(ship.metacentric_height > 0)) {
     throw InputError(fmt::format("motion.metacentric_height_m: value {}: must be > 0", ship.metacentric_height));
   }
 
-  // Centre of gravity: KG = KB + BM - GM, with Morrish's KB = T (5/6 - Cb / (3 Cwp)) and BM = I_T / volume.
-  const Waterplane plane(form.waterplane);
-  const double kb = ship.draught * (5.0 / 6 - form.block / (3 * form.waterplane));
-  const double bm = plane.transverse() * ship.beam * ship.beam / (12 * form.block * ship.draught);
-  ship.centre_of_gravity = kb + bm - ship.metacentric_height - ship.draught;
+  // The ship floats on an even keel: G above B, below the metacentre by GM.
+  const Hydrostatics& h = ship.strips->hydrostatics();
+  ship.centre_of_gravity = {h.buoyancy_x, 0, h.buoyancy_z + h.waterplane_yy / h.volume - ship.metacentric_height};
+  ship.rotation_centre = ship.centre_of_gravity;
+  if (spec.rotation_centre_m) ship.rotation_centre = Eigen::Map<const Vec3>(spec.rotation_centre_m->data());
 
-  // Roll: w4^2 = g GM / (k44^2).
-  const double roll_period =
-      given_or(spec.roll_period_s, 2 * kPi * kRollRadius * ship.beam / std::sqrt(kGravity * ship.metacentric_height));
-  // Pitch: w5^2 = C55 / (I55 + A55), all over rho L^3/12: C55 = g B J, I55 = 12 k55^2 Cb B T, A55 = c pi/8 B^2 J2.
-  const double i55 = 12 * kPitchRadius * kPitchRadius * form.block * ship.beam * ship.draught;
-  const double a55 = kVerticalAddedMass * kPi / 8 * ship.beam * ship.beam * plane.squared_breadth_moment();
-  const double pitch_period =
-      given_or(spec.pitch_period_s, 2 * kPi * std::sqrt((i55 + a55) / (kGravity * ship.beam * plane.longitudinal())));
-  // Heave: w3^2 = C33 / (m + A33), over rho L: C33 = g Cwp B.
-  const double a33 = kVerticalAddedMass * kPi / 8 * ship.beam * ship.beam * plane.squared_breadth();
-  const double heave_period =
-      2 * kPi * std::sqrt((form.block * ship.beam * ship.draught + a33) / (kGravity * form.waterplane * ship.beam));
+  const double mass = kSeaWaterDensity * h.volume;
+  const double x = ship.centre_of_gravity.x();
+  const double z = ship.centre_of_gravity.z();
+  const double weight = kSeaWaterDensity * kGravity;
+  const double yaw_radius = given_or(spec.yaw_radius_m, kPitchRadius * ship.length);
+  ship.gyration.z() = yaw_radius;
+  // A body's momentum with G beside the origin; roll's and pitch's own inertia follow below.
+  ship.lateral_mass << 1, -z, x,  //
+      -z, z * z, -x * z,          //
+      x, -x * z, x * x + yaw_radius * yaw_radius;
+  ship.lateral_mass *= mass;
+  ship.lateral_damping.setZero();
+  ship.lateral_stiffness.setZero();
+  ship.lateral_stiffness(1, 1) = weight * h.volume * ship.metacentric_height;
+  ship.vertical_mass << mass, -mass * x, -mass * x, mass * x * x;
+  // The slender hull's: pitch leaves out BG beside BM, as the forces of its waves do.
+  ship.vertical_stiffness << h.waterplane, -h.waterplane_x, -h.waterplane_x, h.waterplane_xx;
+  ship.vertical_stiffness *= weight;
 
-  ship.roll = {2 * kPi / roll_period, given_or(spec.roll_damping, kRollDamping), spec.roll_quadratic_damping};
-  ship.pitch = {2 * kPi / pitch_period, given_or(spec.pitch_damping, kPitchDamping), 0};
-  ship.heave = {2 * kPi / heave_period, kHeaveDamping, 0};
-  if (spec.yaw_period_s > 0) ship.yaw = {2 * kPi / spec.yaw_period_s, spec.yaw_damping, 0};
+  if (spec.yaw_period_s > 0) {
+    const double omega = 2 * kPi / spec.yaw_period_s;
+    const double turning =
+        ship.lateral_mass(2, 2) + ship.strips->radiation(omega, 0).lateral(2, 2).real() / (omega * omega);
+    ship.lateral_stiffness(2, 2) = omega * omega * turning;
+    ship.lateral_damping(2, 2) = 2 * spec.yaw_damping * omega * turning;
+  }
+  set_roll(ship, spec, mass);
+  set_pitch_and_heave(ship, spec, mass);
   return ship;
 }
 

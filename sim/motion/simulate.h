@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Motion of a ship or a float in a wave field.
+// Motion of a body in a wave field.
 
 #include <cstdint>
 
-#include "sim/geometry/triangle_mesh.h"
+#include "sim/motion/body.h"
 #include "sim/motion/trajectory.h"
-#include "sim/scenario/target_spec.h"
 #include "sim/sea/wave_field.h"
 
 namespace seaglint {
@@ -16,15 +15,10 @@ namespace seaglint {
 // fixed body, spec.centre_above_water_m higher for a float, whose mesh has its origin in the middle.
 Vec3 rest_position(const MotionSpec& spec, double x, double y);
 
-// What a body turns about, in its own frame: spec.rotation_centre_m, else a ship's centre of gravity or a float's
-// centre of flotation.
-Vec3 rotation_centre(const MotionSpec& spec, const Bounds& bounds);
-
 // The motion of one body resting with its origin at rest_position (target frame), from t = 0 to duration_s or the end
-// of the step that holds it. `bounds` is the box of its mesh (zero fields of the spec are derived from it). The random
-// yaw of a float uses stream kFloatYaw of (seed, index). For `waves: independent` the caller gives each body a sea of
-// its own. Throws InputError when the spec contradicts itself.
-Trajectory simulate_motion(const MotionSpec& spec, const Bounds& bounds, const Vec3& rest_position,
-                           const WaveField& sea, double duration_s, std::uint64_t seed, std::uint64_t index);
+// of the step that holds it. The random yaw of a float uses stream kFloatYaw of (seed, index). For `waves: independent`
+// the caller gives each body a sea of its own.
+Trajectory simulate_motion(const Body& body, const Vec3& rest_position, const WaveField& sea, double duration_s,
+                           std::uint64_t seed, std::uint64_t index);
 
 }  // namespace seaglint

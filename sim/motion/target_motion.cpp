@@ -28,19 +28,19 @@ std::uint64_t body_index(std::uint64_t sea_index, std::size_t body) {
   return sea_index * kMaxBodies + body;
 }
 
-std::vector<Trajectory> simulate_target(const TargetSpec& target, const Bounds& bounds, const SeaState& state,
+std::vector<Trajectory> simulate_target(const TargetSpec& target, const Body& body, const SeaState& state,
                                         const WaveField& sea, double duration_s, std::uint64_t seed,
                                         std::uint64_t sea_index, std::size_t first_body, int threads) {
   const std::vector<Vec2> places = layout_places(target);
   std::vector<Trajectory> trajectories(places.size());
-  parallel_for(places.size(), thread_count(threads), [&](std::size_t body) {
-    const std::uint64_t index = body_index(sea_index, first_body + body);
-    const Vec3 rest = rest_position(target.motion, places[body].x(), places[body].y());
+  parallel_for(places.size(), thread_count(threads), [&](std::size_t i) {
+    const std::uint64_t index = body_index(sea_index, first_body + i);
+    const Vec3 rest = rest_position(target.motion, places[i].x(), places[i].y());
     if (target.motion.waves == WaveSharing::kIndependent) {
       const WaveField own = realize_sea(state, seed, kIndependentSeas + index);
-      trajectories[body] = simulate_motion(target.motion, bounds, rest, own, duration_s, seed, index);
+      trajectories[i] = simulate_motion(body, rest, own, duration_s, seed, index);
     } else {
-      trajectories[body] = simulate_motion(target.motion, bounds, rest, sea, duration_s, seed, index);
+      trajectories[i] = simulate_motion(body, rest, sea, duration_s, seed, index);
     }
   });
   return trajectories;

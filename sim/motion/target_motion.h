@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "sim/geometry/triangle_mesh.h"
+#include "sim/motion/body.h"
 #include "sim/motion/trajectory.h"
 #include "sim/scenario/target_spec.h"
 #include "sim/sea/wave_field.h"
@@ -21,11 +21,11 @@ std::vector<Vec2> layout_places(const TargetSpec& target);
 // order (below 65536).
 std::uint64_t body_index(std::uint64_t sea_index, std::size_t body);
 
-// One trajectory per body of the layout, from t = 0 to duration_s. `bounds` is the box of the target's mesh; `sea` is
+// One trajectory per body of the layout, from t = 0 to duration_s, all moving as `body` does; `sea` is
 // realize_sea(state, seed, sea_index), which every body sees unless the spec says `waves: independent`: then each body
 // has a realisation of its own (index body_index + 2^48). The result does not depend on
-// `threads` (0 = all). first_body: how many bodies the targets before this one have. Throws InputError when the spec contradicts itself.
-std::vector<Trajectory> simulate_target(const TargetSpec& target, const Bounds& bounds, const SeaState& state,
+// `threads` (0 = all). first_body: how many bodies the targets before this one have.
+std::vector<Trajectory> simulate_target(const TargetSpec& target, const Body& body, const SeaState& state,
                                         const WaveField& sea, double duration_s, std::uint64_t seed,
                                         std::uint64_t sea_index, std::size_t first_body = 0, int threads = 1);
 

@@ -112,6 +112,11 @@ void visit(MotionSpec& spec, FieldVisitor& v) {
   v.number("beam_m", spec.beam_m, within(0, 200));
   v.number("draught_m", spec.draught_m, within(0, 50));
   v.number("metacentric_height_m", spec.metacentric_height_m, within(0.01, 20));
+  v.number("roll_radius_m", spec.roll_radius_m, within(0, 100));
+  v.number("pitch_radius_m", spec.pitch_radius_m, within(0, 500));
+  v.number("yaw_radius_m", spec.yaw_radius_m, within(0, 500));
+  v.number("speed_mps", spec.speed_mps, within(0, 40));
+  if (v.optional("sections", !spec.sections.empty())) v.text("sections", spec.sections);
   v.number("diameter_m", spec.diameter_m, within(0, 50));
   v.number("centre_above_water_m", spec.centre_above_water_m, within(-10, 50));
   visit_choice(v, "waves", spec.waves, {"same_field", "independent"});

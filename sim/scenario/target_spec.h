@@ -30,6 +30,11 @@ struct MotionSpec {
   double beam_m = 0;                  // (auto) waterline beam, 0 <= x <= 200
   double draught_m = 0;               // (auto) 0 <= x <= 50
   double metacentric_height_m = 1.95;  // 0.01 <= x <= 20
+  double roll_radius_m = 0;           // of gyration of the mass about the centre of gravity; 0: the one of roll_period_s, 0 <= x <= 100
+  double pitch_radius_m = 0;          // (auto) 0 <= x <= 500
+  double yaw_radius_m = 0;            // (auto) 0 <= x <= 500
+  double speed_mps = 0;               // of a ship, forward, 0 <= x <= 40
+  std::string sections;               // file of a ship's sections below the waterline; default: the mesh's, else a form
   double diameter_m = 0;              // (auto) of a float's waterplane, 0 <= x <= 50
   double centre_above_water_m = 0.75;  // height of a float's mesh origin above its centre of flotation, -10 <= x <= 50
   WaveSharing waves = WaveSharing::kSameField;

@@ -111,7 +111,8 @@ TEST(SimulateFloat, ItsMastMovesLessThanTheWaterBelowResonance) {
   const double omega = 0.8, amplitude = 0.05;
   const double k = omega * omega / kGravity;
   const WaveField sea = regular_wave(amplitude, omega, {1, 0});
-  const Trajectory trajectory = simulate_motion(spec, kReflector, rest_position(spec, 0, 0), sea, 60, 1, 0);
+  const Trajectory trajectory =
+      simulate_motion(make_body(spec, {kReflector, {}}), rest_position(spec, 0, 0), sea, 60, 1, 0);
   const double height = 5;  // of a point above the centre of flotation
   const Vec3 point(0, 0, height - spec.centre_above_water_m);
   double largest = 0;
@@ -177,7 +178,8 @@ TEST(SimulateFloat, TurnsAboutItsCentreOfFlotation) {
   const MotionSpec spec = float_spec();
   const Vec3 rest = rest_position(spec, 40, 0);
   EXPECT_EQ((rest - Vec3(40, 0, 0.75)).norm(), 0);
-  const Trajectory trajectory = simulate_motion(spec, kReflector, rest, realize_sea(state_of(1, 5), 1, 0), 5, 42, 0);
+  const Trajectory trajectory =
+      simulate_motion(make_body(spec, {kReflector, {}}), rest, realize_sea(state_of(1, 5), 1, 0), 5, 42, 0);
   for (const double t : {0.0, 1.234, 5.0}) {
     const Pose pose = trajectory.pose(t);
     EXPECT_NEAR((pose.R_TB * Vec3(0, 0, -0.75) + pose.p_TB - Vec3(40, 0, 0)).norm(), 0, 1e-12);
@@ -215,15 +217,17 @@ TEST(SimulateMotion, IsTheSameForTheSameKey) {
   spec.yaw_rate_deg_s = 3;
   const WaveField sea = realize_sea(state_of(1, 5), 1, 0);
   const auto angles = [&](std::uint64_t index) {
-    return simulate_motion(spec, kReflector, rest_position(spec, 0, 0), sea, 5, 42, index).sample(4.321).angles;
+    return simulate_motion(make_body(spec, {kReflector, {}}), rest_position(spec, 0, 0), sea, 5, 42, index)
+        .sample(4.321)
+        .angles;
   };
   EXPECT_EQ((angles(1) - angles(1)).norm(), 0);
   EXPECT_GT((angles(1) - angles(2)).norm(), 0);
 }
 
 TEST(SimulateMotion, AFixedBodyStays) {
-  const Trajectory still =
-      simulate_motion(MotionSpec{}, kReflector, {1, 2, 3}, realize_sea(state_of(1, 5), 1, 0), 5, 42, 0);
+  const Trajectory still = simulate_motion(make_body(MotionSpec{}, {kReflector, {}}), {1, 2, 3},
+                                           realize_sea(state_of(1, 5), 1, 0), 5, 42, 0);
   EXPECT_EQ((still.pose(3).p_TB - Vec3(1, 2, 3)).norm(), 0);
 }
 

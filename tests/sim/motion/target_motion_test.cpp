@@ -15,6 +15,8 @@ TargetSpec array_of(int count) {
   return target;
 }
 
+Body body_of(const TargetSpec& target) { return make_body(target.motion, {kReflector, {}}); }
+
 SeaState state_of(double height, double period) {
   SeaState state;
   state.significant_wave_height_m = height;
@@ -34,7 +36,7 @@ TEST(LayoutPlaces, AreCentredOnTheOriginAlongX) {
 TEST(SimulateTarget, MovesEachBodyAtItsOwnPlaceInTheSameSea) {
   const SeaState state = state_of(1, 5);
   const WaveField sea = realize_sea(state, 42, 7);
-  const std::vector<Trajectory> bodies = simulate_target(array_of(4), kReflector, state, sea, 3, 42, 7, 0, 2);
+  const std::vector<Trajectory> bodies = simulate_target(array_of(4), body_of(array_of(4)), state, sea, 3, 42, 7, 0, 2);
   ASSERT_EQ(bodies.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) {
     const Pose pose = bodies[i].pose(2.5);
@@ -48,8 +50,8 @@ TEST(SimulateTarget, MovesEachBodyAtItsOwnPlaceInTheSameSea) {
 TEST(SimulateTarget, DoesNotDependOnThreads) {
   const SeaState state = state_of(1, 5);
   const WaveField sea = realize_sea(state, 42, 7);
-  const auto one = simulate_target(array_of(3), kReflector, state, sea, 2, 42, 7, 0, 1);
-  const auto two = simulate_target(array_of(3), kReflector, state, sea, 2, 42, 7, 0, 2);
+  const auto one = simulate_target(array_of(3), body_of(array_of(3)), state, sea, 2, 42, 7, 0, 1);
+  const auto two = simulate_target(array_of(3), body_of(array_of(3)), state, sea, 2, 42, 7, 0, 2);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(one[i].sample(1.7).angles, two[i].sample(1.7).angles);
 }
 
@@ -62,7 +64,7 @@ TEST(SimulateTarget, GivesIndependentBodiesSeasOfTheirOwn) {
   TargetSpec target = array_of(2);
   target.line->spacing_m = 1;
   const auto difference = [&] {
-    const auto bodies = simulate_target(target, kReflector, long_waves, sea, 30, 42, 7);
+    const auto bodies = simulate_target(target, body_of(target), long_waves, sea, 30, 42, 7);
     double sum = 0;
     for (double t = 0; t <= 30; t += 1) sum += (bodies[0].sample(t).angles - bodies[1].sample(t).angles).norm();
     double size = 0;

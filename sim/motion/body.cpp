@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/motion/body.h"
+
+#include <fmt/format.h>
+
+#include <system_error>
+
+#include "sim/core/error.h"
+
+namespace seaglint {
+
+namespace {
+
+// As many strips as leave S175's responses within 0.5 % of those with 100.
+constexpr int kStrips = 40;
+
+// Ratios of a fast displacement hull; model DTMB 5415 (ITTC, L 142 m, B 19.06 m, T 6.15 m) has these.
+constexpr double kWaterlineToOverallLength = 0.985;
+constexpr double kWaterlineToOverallBeam = 0.95;
+constexpr double kBeamToDraught = 3.1;
+
+double given_or(double value, double derived) { return value > 0 ? value : derived; }
+
+std::filesystem::path find_file(const std::string& name, const std::filesystem::path& folder, const char* key) {
+  const std::filesystem::path beside = folder / name;
+  std::error_code error;
+  for (const std::filesystem::path& candidate : {beside, std::filesystem::path(name)}) {
+    if (std::filesystem::exists(candidate, error)) return candidate;
+  }
+  throw InputError(fmt::format("motion.{}: value '{}': no such file, neither {} nor below the working directory", key,
+                               name, beside.string()));
+}
+
+}  // namespace
+
+BodyShape shape_of(const TriangleMesh& mesh) { return {bounds(mesh), sections_of_mesh(mesh, kStrips)}; }
+
+HullSections ship_sections(const MotionSpec& spec, const BodyShape& shape, const std::filesystem::path& folder,
+                           const HullForm& form) {
+  if (!spec.sections.empty()) {
+    const HullSections given = read_sections(find_file(spec.sections, folder, "sections"), kStrips);
+    return stretched(given, spec.length_m, spec.beam_m, spec.draught_m);
+  }
+  if (!shape.hull.sections.empty()) return stretched(shape.hull, spec.length_m, spec.beam_m, spec.draught_m);
+  const Vec3 size = shape.box.upper - shape.box.lower;
+  const double length = given_or(spec.length_m, kWaterlineToOverallLength * size.x());
+  const double beam = given_or(spec.beam_m, kWaterlineToOverallBeam * size.y());
+  if (!(length > 0) || !(beam > 0)) {
+    throw InputError(
+        fmt::format("motion.length_m, motion.beam_m: the mesh measures {:.4g} x {:.4g} m, which gives no "
+                    "waterline; write them down",
+                    size.x(), size.y()));
+  }
+  return sections_of_form(length, beam, given_or(spec.draught_m, beam / kBeamToDraught), form, kStrips);
+}
+
+Body make_body(const MotionSpec& spec, const BodyShape& shape, const std::filesystem::path& folder) {
+  if (!(spec.step_s > 0)) throw InputError(fmt::format("motion.step_s: value {}: must be > 0", spec.step_s));
+  if (!(spec.preroll_s >= 0)) throw InputError(fmt::format("motion.preroll_s: value {}: must be >= 0", spec.preroll_s));
+  Body body{spec, {}, Vec3::Zero()};
+  if (spec.model == MotionModel::kShip) {
+    const ShipParticulars ship = ship_particulars(spec, ship_sections(spec, shape, folder));
+    body.rotation_centre = ship.rotation_centre;
+    body.model = ship;
+  } else if (spec.model == MotionModel::kFloat) {
+    body.model = float_particulars(spec, shape.box);
+    body.rotation_centre = {0, 0, -spec.centre_above_water_m};
+  }
+  if (spec.rotation_centre_m) body.rotation_centre = Eigen::Map<const Vec3>(spec.rotation_centre_m->data());
+  return body;
+}
+
+}  // namespace seaglint

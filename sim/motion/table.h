@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// Tables of numbers in text files written by people and by other programs.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace seaglint {
+
+// Named columns of finite numbers, with the lines of the file they came from.
+class Table {
+ public:
+  Table(std::string file, std::vector<std::string> names, std::vector<std::vector<double>> cells,
+        std::vector<int> lines);
+
+  std::size_t rows() const { return cells_.size(); }
+  double at(std::size_t row, std::size_t column) const { return cells_[row][column]; }
+  const std::vector<std::string>& names() const { return names_; }
+  // "FILE:LINE" of a row.
+  std::string place(std::size_t row) const;
+
+  // Throws InputError unless the column's values grow from row to row.
+  void check_ascending(const std::string& name) const;
+  // Throws InputError unless lowest <= value <= highest.
+  void check_within(std::size_t row, std::size_t column, double lowest, double highest) const;
+
+ private:
+  std::string file_;
+  std::vector<std::string> names_;
+  std::vector<std::vector<double>> cells_;
+  std::vector<int> lines_;
+};
+
+// How a table is laid out: comments of '#' and empty lines first, then a line of column names, then as many lines of
+// units as said, then rows. A separator of ' ' stands for spaces and tabs.
+struct TableLayout {
+  char separator = ',';
+  int unit_lines = 0;
+};
+
+// The wanted columns, in this order, whatever else the file holds; at least two rows. Throws InputError with file, line
+// and column for a missing column, a row of another length, and a cell that is no finite number.
+Table read_table(const std::filesystem::path& file, const std::vector<std::string>& wanted, TableLayout layout = {});
+
+// The same of a text whose first row of names stands in the given line (counted from 1).
+Table parse_table(const std::string& text, const std::string& file, const std::vector<std::string>& wanted,
+                  TableLayout layout, int names_line = 0);
+
+}  // namespace seaglint
