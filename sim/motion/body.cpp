@@ -31,6 +31,22 @@ std::filesystem::path find_file(const std::string& name, const std::filesystem::
                                name, beside.string()));
 }
 
+// What each kind of file says about speed and reference point, and what the user must.
+RaoTable read_table_of(const MotionSpec& spec, const std::filesystem::path& file, const Vec3& reference) {
+  if (file.extension() == ".4") {
+    if (spec.speed_mps > 0) {
+      throw InputError(fmt::format("motion.speed_mps: value {}: must be 0 with {}: its responses are without speed",
+                                   spec.speed_mps, file.string()));
+    }
+    return read_wamit_rao(file, spec.rao_length_m, reference);
+  }
+  if (spec.rotation_centre_m) {
+    throw InputError(
+        fmt::format("motion.rotation_centre_m: must not stand with {}, which says where it is", file.string()));
+  }
+  return read_veres_rao(file, spec.speed_mps);
+}
+
 }  // namespace
 
 BodyShape shape_of(const TriangleMesh& mesh) { return {bounds(mesh), sections_of_mesh(mesh, kStrips)}; }
@@ -67,6 +83,13 @@ Body make_body(const MotionSpec& spec, const BodyShape& shape, const std::filesy
     body.rotation_centre = {0, 0, -spec.centre_above_water_m};
   }
   if (spec.rotation_centre_m) body.rotation_centre = Eigen::Map<const Vec3>(spec.rotation_centre_m->data());
+  if (spec.model == MotionModel::kSeries) {
+    body.model = read_attitude_series(find_file(spec.file, folder, "file"));
+  } else if (spec.model == MotionModel::kRao) {
+    const RaoTable table = read_table_of(spec, find_file(spec.file, folder, "file"), body.rotation_centre);
+    body.rotation_centre = table.reference();
+    body.model = table;
+  }
   return body;
 }
 

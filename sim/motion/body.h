@@ -7,8 +7,10 @@
 #include <variant>
 
 #include "sim/geometry/triangle_mesh.h"
+#include "sim/motion/attitude_series.h"
 #include "sim/motion/float.h"
 #include "sim/motion/hull_sections.h"
+#include "sim/motion/rao_table.h"
 #include "sim/motion/ship.h"
 #include "sim/scenario/target_spec.h"
 
@@ -23,7 +25,8 @@ BodyShape shape_of(const TriangleMesh& mesh);
 
 struct Body {
   MotionSpec spec;
-  std::variant<std::monostate, ShipParticulars, FloatParticulars> model;  // nothing moves a fixed body
+  std::variant<std::monostate, ShipParticulars, FloatParticulars, AttitudeSeries, RaoTable>
+      model;                            // nothing moves a fixed body
   Vec3 rotation_centre = Vec3::Zero();  // in its own frame: spec.rotation_centre_m, else a ship's centre of gravity or
                                         // a float's centre of flotation
 };

@@ -186,7 +186,7 @@ RaoTable read_veres_rao(const std::filesystem::path& file, double speed) {
 
 // Rows `PER BETA I MOD PHA RE IM`: period in s, direction of propagation and phase in degrees, e^{+iwt}; mode I is over
 // A / ULEN^n with n = 0 for translations, 1 for rotations. PER < 0 stands for zero frequency, 0 for infinite.
-RaoTable read_wamit_rao(const std::filesystem::path& file, double unit_length) {
+RaoTable read_wamit_rao(const std::filesystem::path& file, double unit_length, const Vec3& reference) {
   Words words(file);
   std::map<double, std::map<double, std::array<std::optional<Complex>, 6>>> rows;  // [mu][omega]
   while (!words.at_end()) {
@@ -235,7 +235,7 @@ RaoTable read_wamit_rao(const std::filesystem::path& file, double unit_length) {
     }
   }
   mirror(headings);
-  return table_of(words.file(), headings, omega, Vec3::Zero(), 0);
+  return table_of(words.file(), headings, omega, reference, 0);
 }
 
 }  // namespace seaglint

@@ -51,7 +51,8 @@ RaoTable read_veres_rao(const std::filesystem::path& file, double speed);
 
 // A table of WAMIT, .4 with periods (IPERIO = 1): heading is the direction of propagation, x forward, y to port,
 // lengths in units of `unit_length` (ULEN, m). Rows of zero and infinite period are left out.
-RaoTable read_wamit_rao(const std::filesystem::path& file, double unit_length);
+// `reference` is where WAMIT's body origin lies in the body's frame (the file does not say).
+RaoTable read_wamit_rao(const std::filesystem::path& file, double unit_length, const Vec3& reference = Vec3::Zero());
 
 // The largest share of the waves' variance that may lie outside of a table's frequencies.
 inline constexpr double kMostUncovered = 0.01;

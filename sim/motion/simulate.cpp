@@ -23,6 +23,11 @@ Trajectory simulate_motion(const Body& body, const Vec3& rest_position, const Wa
     samples = simulate_ship(*ship, body.spec, sea, x, y, duration_s);
   } else if (const auto* raft = std::get_if<FloatParticulars>(&body.model)) {
     samples = simulate_float(*raft, body.spec, sea, x, y, duration_s, seed, index);
+  } else if (const auto* table = std::get_if<RaoTable>(&body.model)) {
+    samples = simulate_rao(*table, body.spec, sea, x, y, duration_s);
+  } else if (const auto* series = std::get_if<AttitudeSeries>(&body.model)) {
+    return trajectory_of(*series, body.spec.series_start_s, duration_s, body.spec.translations, rest_position,
+                         body.rotation_centre);
   } else {
     return Trajectory::at_rest(rest_position);
   }

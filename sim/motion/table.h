@@ -18,6 +18,7 @@ class Table {
   std::size_t rows() const { return cells_.size(); }
   double at(std::size_t row, std::size_t column) const { return cells_[row][column]; }
   const std::vector<std::string>& names() const { return names_; }
+  int line(std::size_t row) const { return lines_[row]; }
   // "FILE:LINE" of a row.
   std::string place(std::size_t row) const;
 

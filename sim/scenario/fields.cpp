@@ -94,7 +94,7 @@ void visit(LineLayout& layout, FieldVisitor& v) {
 }
 
 void visit(MotionSpec& spec, FieldVisitor& v) {
-  visit_choice(v, "model", spec.model, {"fixed", "ship", "float"});
+  visit_choice(v, "model", spec.model, {"fixed", "ship", "float", "series", "rao"});
   v.flag("translations", spec.translations);
   if (v.optional("rotation_centre_m", spec.rotation_centre_m.has_value())) {
     if (!spec.rotation_centre_m) spec.rotation_centre_m.emplace();
@@ -116,6 +116,9 @@ void visit(MotionSpec& spec, FieldVisitor& v) {
   v.number("pitch_radius_m", spec.pitch_radius_m, within(0, 500));
   v.number("yaw_radius_m", spec.yaw_radius_m, within(0, 500));
   v.number("speed_mps", spec.speed_mps, within(0, 40));
+  if (v.optional("file", !spec.file.empty())) v.text("file", spec.file);
+  v.number("series_start_s", spec.series_start_s, within(-1e6, 1e6));
+  v.number("rao_length_m", spec.rao_length_m, above_up_to(0, 1000));
   if (v.optional("sections", !spec.sections.empty())) v.text("sections", spec.sections);
   v.number("diameter_m", spec.diameter_m, within(0, 50));
   v.number("centre_above_water_m", spec.centre_above_water_m, within(-10, 50));

@@ -10,7 +10,7 @@
 
 namespace seaglint {
 
-enum class MotionModel { kFixed, kShip, kFloat };
+enum class MotionModel { kFixed, kShip, kFloat, kSeries, kRao };
 enum class WaveSharing { kSameField, kIndependent };
 
 // Zero in a field marked (auto) means: derived from the mesh's size by the formulas in sim/motion/README.md.
@@ -34,6 +34,9 @@ struct MotionSpec {
   double pitch_radius_m = 0;          // (auto) 0 <= x <= 500
   double yaw_radius_m = 0;            // (auto) 0 <= x <= 500
   double speed_mps = 0;               // of a ship, forward, 0 <= x <= 40
+  std::string file;                   // of model series (attitude over time) or rao (response operators)
+  double series_start_s = 0;          // time in the series that is t = 0, -1e6 <= x <= 1e6
+  double rao_length_m = 1;            // ULEN of a WAMIT table, 0 < x <= 1000
   std::string sections;               // file of a ship's sections below the waterline; default: the mesh's, else a form
   double diameter_m = 0;              // (auto) of a float's waterplane, 0 <= x <= 50
   double centre_above_water_m = 0.75;  // height of a float's mesh origin above its centre of flotation, -10 <= x <= 50
