@@ -73,6 +73,12 @@ HullSections ship_sections(const MotionSpec& spec, const BodyShape& shape, const
 Body make_body(const MotionSpec& spec, const BodyShape& shape, const std::filesystem::path& folder) {
   if (!(spec.step_s > 0)) throw InputError(fmt::format("motion.step_s: value {}: must be > 0", spec.step_s));
   if (!(spec.preroll_s >= 0)) throw InputError(fmt::format("motion.preroll_s: value {}: must be >= 0", spec.preroll_s));
+  const bool from_file = spec.model == MotionModel::kSeries || spec.model == MotionModel::kRao;
+  if (from_file == spec.file.empty()) {
+    throw InputError(fmt::format("motion.file: {}", from_file
+                                                        ? "this key is missing: model series and rao need it"
+                                                        : "must not stand here, it belongs to model: series or rao"));
+  }
   Body body{spec, {}, Vec3::Zero()};
   if (spec.model == MotionModel::kShip) {
     const ShipParticulars ship = ship_particulars(spec, ship_sections(spec, shape, folder));

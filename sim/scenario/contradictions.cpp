@@ -52,13 +52,6 @@ void check_sea_reflection(const Scenario& scenario, const ScenarioDocument& docu
 void check_target(const TargetSpec& target, const ScenarioDocument& document) {
   const std::string path = "targets." + target.name;
   if (target.mesh.empty() && target.points.empty()) document.fail_at(path, "must have a mesh or points");
-  const bool from_file = target.motion.model == MotionModel::kSeries || target.motion.model == MotionModel::kRao;
-  if (from_file && target.motion.file.empty()) {
-    document.fail_at(path + ".motion.model", "needs motion.file: the series or the response operators");
-  }
-  if (!from_file && !target.motion.file.empty()) {
-    document.fail_at(path + ".motion.file", "must not stand here, it belongs to model: series or rao");
-  }
   if (target.points.empty()) return;
   if (!target.mesh.empty()) document.fail_at(path, "must have a mesh or points, not both");
   // Points carry their own velocity: a motion beside them would be ignored.
