@@ -245,7 +245,7 @@ void write_figure(const LinePlot& figure, const fs::path& file, FigureSize size)
 void write_figure(const std::string& title, std::span<const LinePlot> plots, int columns, const fs::path& file, FigureSize size) {
   SEAGLINT_CHECK(!plots.empty() && columns >= 1, fmt::format("{} plots in {} columns", plots.size(), columns));
   const std::size_t rows = (plots.size() + static_cast<std::size_t>(columns) - 1) / static_cast<std::size_t>(columns);
-  std::string data, commands = fmt::format("set multiplot layout {},{} rowsfirst title {}\nset lmargin 9\nset rmargin 3\n", rows, columns, quoted(title));
+  std::string data, commands = fmt::format("set multiplot layout {},{} rowsfirst title {}\nset lmargin 11\nset rmargin 3\n", rows, columns, quoted(title));
   std::size_t index = 0;
   for (const LinePlot& plot : plots) {
     const PlotText text = plot_text(plot, index);

@@ -90,7 +90,7 @@ std::shared_ptr<const Scene> Pipeline::scene(int sea_state, int realisation) con
 BodyResponse Pipeline::target_response(std::size_t target, const Scene& scene, const View& view, const SeaState& state,
                                        const IntervalSampling& sampling) const {
   const Vec3 r_hat = direction_to_radar(view);
-  const SeaMirror mirror(scenario_.sea_reflection, state.significant_wave_height_m);
+  const SeaMirror mirror(scenario_.sea_reflection, total_wave_height(state));
   const SeaMirror* sea = scenario_.sea_reflection.enabled ? &mirror : nullptr;
   const TargetSpec& spec = targets_[target].spec;
   if (!scatterers_[target]) {

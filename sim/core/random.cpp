@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "sim/core/error.h"
+#include "sim/core/exact_functions.h"
 
 namespace seaglint {
 
@@ -20,26 +21,6 @@ double polynomial(const std::array<double, n>& c, double x) {
   double sum = c[n - 1];
   for (std::size_t i = n - 1; i-- > 0;) sum = sum * x + c[i];
   return sum;
-}
-
-// Natural logarithm from +, -, *, / and frexp alone, which IEEE 754 rounds alike everywhere (libm's log differs between
-// versions). x = m 2^e with m in [sqrt(1/2), sqrt(2)); ln m = 2 atanh s, s = (m-1)/(m+1), |s| < 0.172: thirteen terms
-// leave 1e-21.
-double exact_log(double x) {
-  int exponent = 0;
-  double m = std::frexp(x, &exponent);
-  if (m < 0.70710678118654752440) {
-    m *= 2;
-    --exponent;
-  }
-  const double s = (m - 1) / (m + 1);
-  const double s2 = s * s;
-  double series = 0;
-  for (int k = 12; k >= 0; --k) series = series * s2 + 1.0 / (2 * k + 1);
-  // ln 2 in two parts: the product of an exponent below 2^11 with the first is exact.
-  constexpr double kLn2High = 0x1.62e42fefa3800p-1;
-  constexpr double kLn2Low = 0x1.ef35793c76730p-45;
-  return exponent * kLn2High + (2 * s * series + exponent * kLn2Low);
 }
 
 }  // namespace

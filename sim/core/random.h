@@ -23,6 +23,8 @@ enum class Stream : std::uint32_t {
   kBootstrap = 9,
   kEmbeddingPlot = 10,
   kTargetOrder = 11,
+  kWaveDirection = 12,
+  kWaveAmplitude = 13,
   kTest = 1000,
 };
 

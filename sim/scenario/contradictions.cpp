@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "sim/core/constants.h"
+#include "sim/core/dispersion.h"
 #include "sim/scenario/scenario.h"
 
 namespace seaglint {
@@ -21,19 +22,66 @@ void check_radar(const RadarSpec& radar, const ScenarioDocument& document) {
   }
 }
 
-// Regular deep-water waves break at a steepness H/L of 1/7 (Michell 1893), L = g T^2 / (2 pi). A sea whose significant
-// height lies beyond that at its peak period does not exist.
+// Keys that say nothing about this spectrum would be ignored.
+void check_spectrum(const SeaSpec& sea, const ScenarioDocument& document) {
+  const YamlNode* node = document.root.find("sea");
+  const auto stands = [&](const char* key) { return node != nullptr && node->find(key) != nullptr; };
+  const auto only = [&](const char* key, bool allowed, const char* with) {
+    if (stands(key) && !allowed) {
+      document.fail_at(fmt::format("sea.{}", key), fmt::format("must not stand here, it belongs to {}", with));
+    }
+  };
+  const bool is_table = sea.spectrum == SpectrumKind::kTable;
+  const bool is_jonswap = sea.spectrum == SpectrumKind::kJonswap;
+  only("table", is_table, "spectrum: table");
+  only("peak_period_s", !is_table, "spectrum: jonswap or bretschneider; a table has its own peak");
+  only("gamma", is_jonswap, "spectrum: jonswap");
+  only("normalisation", is_jonswap, "spectrum: jonswap");
+  only("wind", sea.period_rule == PeakPeriod::kWindAndFetch, "peak_period_s: wind_and_fetch");
+  if (is_table && sea.table.empty()) document.fail_at("sea.table", "this key is missing");
+  if (sea.height_rule == WaveHeight::kOfTable && !is_table) {
+    document.fail_at("sea.significant_wave_height_m", "must be a number without spectrum: table");
+  }
+}
+
+// A sea whose significant height lies beyond what a regular wave of its peak period can have does not exist.
+void check_breaking(const std::string& key, double height, double period, double depth,
+                    const ScenarioDocument& document) {
+  const double highest = breaking_height(2 * kPi / period, depth);
+  if (height > highest) {
+    const std::string place = depth == kDeepWater ? "" : fmt::format(" in {} m of water", depth);
+    document.fail_at(
+        key, fmt::format("waves of {:.6g} m break at a peak period of {:.6g} s{}: must be at most {:.4g} m", height,
+                         period, place, highest));
+  }
+}
+
 void check_sea(const SeaSpec& sea, const ScenarioDocument& document) {
   for (const SeaState& state : sea_states(sea)) {
     const double height = state.significant_wave_height_m;
-    if (sea.dnv_wind_sea && height == 0) {
+    if (sea.period_rule == PeakPeriod::kDnvWindSea && height == 0) {
       document.fail_at("sea.significant_wave_height_m", "must be greater than 0 with peak_period_s: dnv_wind_sea");
     }
-    const double wavelength = kGravity * state.peak_period_s * state.peak_period_s / (2 * kPi);
-    if (height > wavelength / 7) {
-      document.fail_at("sea.significant_wave_height_m",
-                       fmt::format("waves of {} m break at a peak period of {} s: must be at most {:.4g} m", height,
-                                   state.peak_period_s, wavelength / 7));
+    const WaveSystemState& swell = state.swell;
+    check_breaking("sea.significant_wave_height_m", height, state.peak_period_s, state.depth_m, document);
+    check_breaking("sea.swell.significant_wave_height_m", swell.significant_wave_height_m, swell.peak_period_s,
+                   state.depth_m, document);
+    const double peak = 2 * kPi / state.peak_period_s;
+    if (state.cutoff_rad_s <= peak) {
+      document.fail_at("sea.cutoff_rad_s",
+                       fmt::format("must be above the peak, {:.4g} rad/s (four times the peak holds "
+                                   "all but 0.4 % of the energy)",
+                                   peak));
+    }
+    const bool pairs =
+        state.depth_m != kDeepWater || state.spreading.kind != Spreading::kNone || swell.significant_wave_height_m > 0;
+    constexpr int kMostPaired = 2048;
+    if (pairs && state.order == 2 && state.components + swell.components > kMostPaired) {
+      document.fail_at(
+          "sea.components",
+          fmt::format("with those of the swell must be at most {} at order 2 in a sea of finite depth or of "
+                      "several directions, whose cost grows with their square",
+                      kMostPaired));
     }
   }
 }
@@ -106,6 +154,7 @@ void check_case_count(const Scenario& scenario, const ScenarioDocument& document
 void check_contradictions(const Scenario& scenario, const ScenarioDocument& document) {
   check_radar(scenario.radar, document);
   check_case_count(scenario, document);
+  check_spectrum(scenario.sea, document);
   check_sea(scenario.sea, document);
   check_sea_reflection(scenario, document);
   for (const TargetSpec& target : scenario.targets) check_target(target, document);

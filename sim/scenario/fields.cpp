@@ -68,11 +68,62 @@ void visit(ViewSpec& spec, FieldVisitor& v) {
   v.sweep("elevation_deg", spec.elevation_deg, within(-90, 90));
 }
 
+// A sweep where words may stand for the values of an enumeration beyond its first.
+template <typename Enumeration, std::size_t n>
+void visit_sweep(FieldVisitor& v, const char* key, Sweep& values, const Bound& bound, Enumeration& rule,
+                 const char* const (&words)[n]) {
+  auto word = static_cast<std::size_t>(rule);
+  v.sweep(key, values, bound, words, &word);
+  rule = static_cast<Enumeration>(word);
+}
+
+void visit(SpreadingSpec& spec, FieldVisitor& v) {
+  visit_choice(v, "kind", spec.kind, {"none", "cos2s", "mitsuyasu", "wrapped_normal"});
+  v.number("s", spec.s, above_up_to(0, 200));
+  v.number("width_deg", spec.width_deg, above_up_to(0, 180));
+}
+
+void visit(WindSpec& spec, FieldVisitor& v) {
+  v.number("speed_mps", spec.speed_mps, within(1, 60));
+  v.number("fetch_km", spec.fetch_km, within(0.1, 5000));
+}
+
+void visit(SwellSpec& spec, FieldVisitor& v) {
+  v.number("significant_wave_height_m", spec.significant_wave_height_m, within(0, 30));
+  v.number("peak_period_s", spec.peak_period_s, within(0.5, 40));
+  v.number("gamma", spec.gamma, within(1, 20));
+  v.number("propagation_deg", spec.propagation_deg, within(-360, 360));
+  v.integer("components", spec.components, within(1, 100000));
+  v.section("spreading", [&](FieldVisitor& spreading) { visit(spec.spreading, spreading); });
+}
+
 void visit(SeaSpec& spec, FieldVisitor& v) {
-  v.sweep("significant_wave_height_m", spec.significant_wave_height_m, within(0, 30));
-  v.sweep("peak_period_s", spec.peak_period_s, within(0.5, 40), "dnv_wind_sea", &spec.dnv_wind_sea);
-  v.sweep("gamma", spec.gamma, within(1, 20));
+  // A table stands for the peak and its form, Bretschneider's spectrum has gamma 1.
+  visit_choice(v, "spectrum", spec.spectrum, {"jonswap", "bretschneider", "table"});
+  if (v.optional("table", !spec.table.empty())) v.text("table", spec.table);
+  visit_sweep(v, "significant_wave_height_m", spec.significant_wave_height_m, within(0, 30), spec.height_rule,
+              {"of_table"});
+  if (v.optional("peak_period_s", spec.spectrum != SpectrumKind::kTable)) {
+    visit_sweep(v, "peak_period_s", spec.peak_period_s, within(0.5, 40), spec.period_rule,
+                {"dnv_wind_sea", "wind_and_fetch"});
+  }
+  if (v.optional("wind", spec.period_rule == PeakPeriod::kWindAndFetch)) {
+    v.section("wind", [&](FieldVisitor& wind) { visit(spec.wind, wind); });
+  }
+  if (v.optional("gamma", spec.spectrum == SpectrumKind::kJonswap)) {
+    visit_sweep(v, "gamma", spec.gamma, within(1, 20), spec.gamma_rule, {"dnv_rule"});
+  }
+  if (v.optional("normalisation", spec.spectrum == SpectrumKind::kJonswap)) {
+    visit_choice(v, "normalisation", spec.normalisation, {"exact", "dnv"});
+  }
   v.sweep("propagation_deg", spec.propagation_deg, within(-360, 360));
+  v.section("spreading", [&](FieldVisitor& spreading) { visit(spec.spreading, spreading); });
+  v.section("swell", [&](FieldVisitor& swell) { visit(spec.swell, swell); });
+  if (v.optional("depth_m", spec.depth_m.has_value())) {
+    if (!spec.depth_m) spec.depth_m.emplace(20);
+    v.number("depth_m", *spec.depth_m, within(0.5, 12000));
+  }
+  visit_choice(v, "amplitude", spec.amplitude, {"fixed", "random"});
   v.integer("order", spec.order, within(1, 2));
   v.integer("components", spec.components, within(1, 100000));
   v.number("cutoff_rad_s", spec.cutoff_rad_s, within(0, 100));
@@ -170,8 +221,7 @@ void visit(TargetSpec& spec, FieldVisitor& v) {
   if (v.optional("material", is_mesh)) v.text("material", spec.material);
   if (v.optional("part_materials", !spec.part_materials.empty())) {
     v.list(
-        "part_materials", spec.part_materials.size(), 1000,
-        [&](std::size_t size) { spec.part_materials.resize(size); },
+        "part_materials", spec.part_materials.size(), 1000, [&](std::size_t size) { spec.part_materials.resize(size); },
         [&](std::size_t i, FieldVisitor& item) { visit(spec.part_materials[i], item); });
   }
   if (v.optional("layout", spec.line.has_value())) {

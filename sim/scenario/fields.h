@@ -53,9 +53,10 @@ class FieldVisitor {
   virtual void choice(const char* key, std::size_t& index, Names names) = 0;  // names[index]
   virtual void triple(const char* key, std::array<double, 3>& values, const Bound& bound) = 0;
   virtual void ratio(const char* key, double& share) = 0;  // a:b for the share a/(a+b)
-  // A number, a list or from:to:step. Where a word may stand instead, *is_word says that it does and values is empty.
-  virtual void sweep(const char* key, Sweep& values, const Bound& bound, const char* word = nullptr,
-                     bool* is_word = nullptr) = 0;
+  // A number, a list or from:to:step, or one of `words`: *word is 0 for numbers, else the place of the word counted
+  // from 1, and values is empty.
+  virtual void sweep(const char* key, Sweep& values, const Bound& bound, Names words = {},
+                     std::size_t* word = nullptr) = 0;
   virtual void section(const char* key, const Fields& fields) = 0;
   // A list of maps: resize(n) is called when reading, then item(i, visitor) for each.
   virtual void list(const char* key, std::size_t size, std::size_t max_size,

@@ -24,7 +24,7 @@ class Lister : public FieldVisitor {
   std::vector<Row> rows;
 
   void number(const char* key, double& value, const Bound& bound) override {
-    add(key, fmt::format("{}", value), number_text(bound));
+    add(key, is_optional_ ? "" : fmt::format("{}", value), number_text(bound));
   }
   void integer(const char* key, int& value, const Bound& bound) override {
     const bool single = bound.lowest == bound.highest;
@@ -42,12 +42,13 @@ class Lister : public FieldVisitor {
   void ratio(const char* key, double& share) override {
     add(key, fmt::format("{:g}:{:g}", 10 * share, 10 * (1 - share)), "a:b, both greater than 0");
   }
-  void sweep(const char* key, Sweep& values, const Bound& bound, const char* word, bool*) override {
-    const std::string other = word == nullptr ? "" : fmt::format(", or {}", word);
+  void sweep(const char* key, Sweep& values, const Bound& bound, Names words, std::size_t*) override {
+    const std::string other = words.empty() ? "" : fmt::format(", or {}", fmt::join(words, " or "));
     add(key, fmt::format("{}", fmt::join(values, ", ")),
         fmt::format("number, list or from:to:step, {}{}", bound.text(), other));
   }
   void section(const char* key, const Fields& fields) override {
+    is_optional_ = false;
     below(key, [&] { fields(*this); });
   }
   void list(const char* key, std::size_t, std::size_t, const std::function<void(std::size_t)>& resize,

@@ -50,7 +50,7 @@ class KeyCollector : public FieldVisitor {
   void choice(const char* key, std::size_t&, Names) override { keys.emplace_back(key); }
   void triple(const char* key, std::array<double, 3>&, const Bound&) override { keys.emplace_back(key); }
   void ratio(const char* key, double&) override { keys.emplace_back(key); }
-  void sweep(const char* key, Sweep&, const Bound&, const char*, bool*) override { keys.emplace_back(key); }
+  void sweep(const char* key, Sweep&, const Bound&, Names, std::size_t*) override { keys.emplace_back(key); }
   void section(const char* key, const Fields&) override { keys.emplace_back(key); }
   void list(const char* key, std::size_t, std::size_t, const std::function<void(std::size_t)>&,
             const std::function<void(std::size_t, FieldVisitor&)>&) override {
@@ -164,16 +164,18 @@ class Reader : public FieldVisitor {
     fail(*node, path_of(key), "must be a ratio a:b of two positive numbers");
   }
 
-  void sweep(const char* key, Sweep& values, const Bound& bound, const char* word, bool* is_word) override {
+  void sweep(const char* key, Sweep& values, const Bound& bound, Names words, std::size_t* word) override {
     const YamlNode* node = map_.find(key);
     if (node == nullptr) return;
-    if (word != nullptr && node->kind == YamlNode::Kind::kScalar && node->text == word) {
-      *is_word = true;
+    const auto found = std::find(words.begin(), words.end(), std::string_view(node->text));
+    if (node->kind == YamlNode::Kind::kScalar && found != words.end()) {
+      *word = static_cast<std::size_t>(found - words.begin()) + 1;
       values.clear();
       return;
     }
+    if (word != nullptr) *word = 0;
     values = node->kind == YamlNode::Kind::kList ? list_sweep(*node, path_of(key), bound)
-                                                 : scalar_sweep(*node, path_of(key), bound, word);
+                                                 : scalar_sweep(*node, path_of(key), bound, words);
     Sweep sorted = values;
     std::sort(sorted.begin(), sorted.end());
     const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
@@ -309,8 +311,8 @@ class Reader : public FieldVisitor {
     return values;
   }
 
-  Sweep scalar_sweep(const YamlNode& node, const std::string& path, const Bound& bound, const char* word) const {
-    const std::string other = word == nullptr ? "" : fmt::format(", or {}", word);
+  Sweep scalar_sweep(const YamlNode& node, const std::string& path, const Bound& bound, Names words) const {
+    const std::string other = words.empty() ? "" : fmt::format(", or {}", fmt::join(words, " or "));
     const std::string what = fmt::format("must be a number, a list or from:to:step, {}{}", bound.text(), other);
     // A range may stand in quotes, as other YAML readers need it.
     const bool readable = is_plain(node) || (node.quoted && node.text.find(':') != std::string::npos);

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -53,8 +54,19 @@ std::string list_keys();
 // The file a target's mesh path names: beside the scenario or below the working directory. Throws InputError when neither exists.
 std::filesystem::path find_mesh(const Scenario& scenario, const TargetSpec& target);
 
+// Reads the file that `sea.table` names, beside the scenario or below the working directory; nothing where no table is
+// asked for. Throws InputError when neither exists or it is no spectrum.
+std::shared_ptr<const SpectrumTable> find_spectrum_table(const Scenario& scenario);
+
 // The sea states of the sweeps, significant wave height slowest, then peak period, gamma, propagation.
 std::vector<SeaState> sea_states(const SeaSpec& spec);
+
+// Significant wave height of the wind sea and the swell together, m.
+double total_wave_height(const SeaState& state);
+
+// The frequency where k Hs = 2, rad/s: components above it would enter the second order as ripples steeper than the
+// expansion holds for. The linear cut-off on flat water.
+double convergent_cutoff(const SeaState& state);
 
 struct View {
   double azimuth_rad = 0;

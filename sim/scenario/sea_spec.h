@@ -3,28 +3,81 @@
 
 // The `sea` section of a scenario, and one state picked from its sweeps.
 
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "sim/core/dispersion.h"
 #include "sim/scenario/radar_spec.h"
+#include "sim/scenario/spectrum_table.h"
 
 namespace seaglint {
 
+enum class SpectrumKind { kJonswap, kBretschneider, kTable };
+
+// kExact: the density integrates to Hs^2/16. kDnv: the factor 1 - 0.287 ln gamma of DNV-RP-C205, which is +0.24 % off
+// at gamma 3.3 and -1.8 % at 7.
+enum class SpectrumNormalisation { kExact, kDnv };
+
+// `peak_period_s: dnv_wind_sea` is Tp = 3.96 sqrt(Hs); wind_and_fetch follows from the section `wind`.
+enum class PeakPeriod { kGiven, kDnvWindSea, kWindAndFetch };
+enum class PeakEnhancement { kGiven, kDnvRule };  // `gamma: dnv_rule`: from Tp / sqrt(Hs)
+enum class WaveHeight { kGiven, kOfTable };       // `significant_wave_height_m: of_table`: the table's own energy
+enum class WaveAmplitude { kFixed, kRandom };
+enum class Spreading { kNone, kCos2s, kMitsuyasu, kWrappedNormal };
+
+// How the energy of one frequency is spread over directions (sim/sea/README.md, "Directions").
+struct SpreadingSpec {
+  Spreading kind = Spreading::kNone;
+  double s = 10;          // of cos2s; of mitsuyasu at the peak; 0 < x <= 200
+  double width_deg = 30;  // standard deviation of wrapped_normal, 0 < x <= 180
+};
+
+// U and F of Hasselmann et al. (1973), for `peak_period_s: wind_and_fetch`.
+struct WindSpec {
+  double speed_mps = 10;  // 10 m above the water, 1 <= x <= 60
+  double fetch_km = 100;  // 0.1 <= x <= 5000
+};
+
+// A second system of waves, from a storm elsewhere.
+struct SwellSpec {
+  double significant_wave_height_m = 0;  // 0 = none; 0 <= x <= 30
+  double peak_period_s = 12;             // 0.5 <= x <= 40
+  double gamma = 5;                      // 1 <= x <= 20
+  double propagation_deg = 120;          // as of the sea, -360 <= x <= 360
+  int components = 128;                  // 1 <= x <= 100000
+  SpreadingSpec spreading;
+};
+
 struct SeaSpec {
-  Sweep significant_wave_height_m{1};  // 0 <= x <= 30
-  Sweep peak_period_s{8};              // 0.5 <= x <= 40; empty when dnv_wind_sea
-  bool dnv_wind_sea = false;           // `peak_period_s: dnv_wind_sea`: Tp = 3.96 sqrt(Hs)
-  Sweep gamma{3.3};                    // peak enhancement, 1 <= x <= 20
-  Sweep propagation_deg{120};          // direction the waves travel towards, in the target frame, -360 <= x <= 360
-  int order = 2;                       // 1 or 2
-  int components = 512;                // 1 <= x <= 100000
-  double cutoff_rad_s = 0;             // highest linear component; 0 = max(8, 4 wp); 0 <= x <= 100
-  double second_order_cutoff_rad_s = 0;  // highest component in the quadratic sums; 0 = sqrt(2 g / Hs); 0 <= x <= 1000
+  Sweep significant_wave_height_m{1};  // of the wind sea, 0 <= x <= 30; empty when of_table
+  WaveHeight height_rule = WaveHeight::kGiven;
+  Sweep peak_period_s{8};  // 0.5 <= x <= 40; empty when a rule gives it
+  PeakPeriod period_rule = PeakPeriod::kGiven;
+  WindSpec wind;
+  SpectrumKind spectrum = SpectrumKind::kJonswap;
+  std::string table;  // file of spectrum: table, beside the scenario or below the working directory
+  std::shared_ptr<const SpectrumTable> table_values;  // what it holds, read with the scenario
+  Sweep gamma{3.3};                                   // peak enhancement, 1 <= x <= 20; empty when a rule gives it
+  PeakEnhancement gamma_rule = PeakEnhancement::kGiven;
+  SpectrumNormalisation normalisation = SpectrumNormalisation::kExact;
+  Sweep propagation_deg{120};  // direction the waves travel towards, in the target frame, -360 <= x <= 360
+  SpreadingSpec spreading;
+  SwellSpec swell;
+  std::optional<double> depth_m;  // 0.5 <= x <= 12000; deep water without it
+  WaveAmplitude amplitude = WaveAmplitude::kFixed;
+  int order = 2;                         // 1 or 2
+  int components = 512;                  // of the wind sea, 1 <= x <= 100000
+  double cutoff_rad_s = 0;               // highest linear component; 0 = max(8, 4 wp); 0 <= x <= 100
+  double second_order_cutoff_rad_s = 0;  // highest component in the quadratic sums; 0 = where k Hs = 2; 0 <= x <= 1000
 };
 
 enum class SeaSurface { kSeaWater, kConductor };
 enum class SeaRoughness { kMillerBrownVegh, kAment, kNone };
 enum class SeaPaths { kAll, kDirect, kMultipath };
 
-// The `sea_reflection` section: the mean sea surface as a mirror between radar and target (sim/scattering/README.md, "Sea reflection"). The loss by
-// waves follows the significant wave height of the sea state.
+// The `sea_reflection` section: the mean sea surface as a mirror between radar and target (sim/scattering/README.md,
+// "Sea reflection"). The loss by waves follows the significant wave height of the sea state.
 struct SeaReflectionSpec {
   bool enabled = false;
   SeaSurface surface = SeaSurface::kSeaWater;
@@ -34,7 +87,17 @@ struct SeaReflectionSpec {
   SeaPaths paths = SeaPaths::kAll;  // direct: without those by way of the sea; multipath: those alone
 };
 
-// One sea state: a SeaSpec with one value of each sweep.
+// A system of waves of one origin: the wind sea or the swell of a state.
+struct WaveSystemState {
+  double significant_wave_height_m = 0;
+  double peak_period_s = 8;
+  double gamma = 3.3;
+  double propagation_rad = 0;
+  SpreadingSpec spreading;
+  int components = 128;
+};
+
+// One sea state: a SeaSpec with one value of each sweep. The first four fields are the wind sea's.
 struct SeaState {
   double significant_wave_height_m = 1;
   double peak_period_s = 8;
@@ -44,6 +107,12 @@ struct SeaState {
   int components = 512;
   double cutoff_rad_s = 8;
   double second_order_cutoff_rad_s = 4.43;
+  SpreadingSpec spreading;
+  SpectrumNormalisation normalisation = SpectrumNormalisation::kExact;
+  std::shared_ptr<const SpectrumTable> table;  // replaces JONSWAP, scaled to the significant wave height
+  WaveSystemState swell;                       // none when its height is 0
+  double depth_m = kDeepWater;
+  WaveAmplitude amplitude = WaveAmplitude::kFixed;
 };
 
 }  // namespace seaglint

@@ -58,9 +58,9 @@ class Writer : public FieldVisitor {
     line(key, fmt::format("[{}]", fmt::join(values, ", ")));
   }
   void ratio(const char* key, double& share) override { line(key, ratio_as_yaml(share)); }
-  void sweep(const char* key, Sweep& values, const Bound&, const char* word, bool* is_word) override {
-    if (is_word != nullptr && *is_word) {
-      line(key, word);
+  void sweep(const char* key, Sweep& values, const Bound&, Names words, std::size_t* word) override {
+    if (word != nullptr && *word > 0) {
+      line(key, words[*word - 1]);
     } else if (values.size() == 1) {
       line(key, fmt::format("{}", values[0]));
     } else {

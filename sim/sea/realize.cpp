@@ -1,110 +1,153 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "sim/sea/wave_field.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <utility>
 
 #include "sim/core/constants.h"
 #include "sim/core/error.h"
+#include "sim/core/exact_functions.h"
+#include "sim/scenario/scenario.h"
 #include "sim/sea/spectrum.h"
-#include "sim/sea/wave_field.h"
+#include "sim/sea/spreading.h"
 
 namespace seaglint {
 
 namespace {
 
-void check_state(const SeaState& state) {
-  const double height = state.significant_wave_height_m;
-  const double period = state.peak_period_s;
+void check_system(const std::string& section, double height, double period, double gamma, int components, double cutoff,
+                  double depth) {
   if (!(height >= 0) || !std::isfinite(height)) {
-    throw InputError(fmt::format("sea.significant_wave_height_m: value {}: must be >= 0", height));
+    throw InputError(fmt::format("{}.significant_wave_height_m: value {}: must be >= 0", section, height));
   }
   if (!(period > 0) || !std::isfinite(period)) {
-    throw InputError(fmt::format("sea.peak_period_s: value {}: must be > 0", period));
+    throw InputError(fmt::format("{}.peak_period_s: value {}: must be > 0", section, period));
   }
-  if (!(state.gamma >= 1)) throw InputError(fmt::format("sea.gamma: value {}: must be >= 1", state.gamma));
-  if (state.components < 1) throw InputError(fmt::format("sea.components: value {}: must be >= 1", state.components));
+  if (!(gamma >= 1)) throw InputError(fmt::format("{}.gamma: value {}: must be >= 1", section, gamma));
+  if (components < 1) throw InputError(fmt::format("{}.components: value {}: must be >= 1", section, components));
   const double peak = 2 * kPi / period;
-  if (!(linear_cutoff(state) > peak)) {
+  if (!(cutoff > peak)) {
     throw InputError(
         fmt::format("sea.cutoff_rad_s: value {}: must be above the peak, {:.4g} rad/s (4 times the peak holds "
                     "all but 0.4 % of the energy)",
-                    state.cutoff_rad_s, peak));
+                    cutoff, peak));
   }
-  // A regular wave breaks at a height of one seventh of its length (Michell 1893).
-  const double steepest = kGravity * period * period / (2 * kPi) / 7;
+  const double steepest = breaking_height(peak, depth);
   if (height > steepest) {
     throw InputError(
-        fmt::format("sea.peak_period_s: value {}: too short for Hs = {} m, whose waves would be steeper than breaking "
+        fmt::format("{}.peak_period_s: value {}: too short for Hs = {} m, whose waves would be steeper than breaking "
                     "(Hs <= {:.3g} m)",
-                    period, height, steepest));
+                    section, period, height, steepest));
   }
+}
+
+void check_state(const SeaState& state) {
+  if (!(state.depth_m > 0)) throw InputError(fmt::format("sea.depth_m: value {}: must be > 0", state.depth_m));
+  check_system("sea", state.significant_wave_height_m, state.peak_period_s, state.gamma, state.components,
+               linear_cutoff(state), state.depth_m);
+  const WaveSystemState& swell = state.swell;
+  if (swell.significant_wave_height_m == 0) return;
+  check_system("sea.swell", swell.significant_wave_height_m, swell.peak_period_s, swell.gamma, swell.components,
+               swell_cutoff(state), state.depth_m);
+}
+
+// Waves of one origin, as they are cut into strata.
+struct WaveSystem {
+  std::unique_ptr<Spectrum> spectrum;
+  double cutoff = 0;  // rad/s
+  int components = 0;
+  double propagation = 0;  // rad
+  SpreadingSpec spreading;
+};
+
+std::vector<WaveSystem> systems_of(const SeaState& state) {
+  std::vector<WaveSystem> systems;
+  if (auto spectrum = wind_sea_spectrum(state)) {
+    systems.push_back(
+        {std::move(spectrum), linear_cutoff(state), state.components, state.propagation_rad, state.spreading});
+  }
+  if (auto spectrum = swell_spectrum(state)) {
+    systems.push_back({std::move(spectrum), swell_cutoff(state), state.swell.components, state.swell.propagation_rad,
+                       state.swell.spreading});
+  }
+  return systems;
+}
+
+Vec2 unit_vector(double angle) {
+  Vec2 direction;
+  unit_phasors({&angle, 1}, {&direction.x(), 1}, {&direction.y(), 1});
+  return direction;
+}
+
+// The streams of one realisation; the swell goes on where the wind sea ends.
+struct WaveRandom {
+  Random place, phase, direction, amplitude;
+};
+
+std::vector<WaveComponent> realize_system(const WaveSystem& system, const SeaState& state, WaveRandom& random) {
+  const Spectrum& spectrum = *system.spectrum;
+  const double lowest = spectrum.lowest_omega();
+  const double width = (system.cutoff - lowest) / system.components;
+  // Neighbours in frequency are sent as far apart as can be: the golden ratio's multiples fill (0, 1) evenly.
+  constexpr double kGolden = 0.61803398874989484820;
+  double share = system.spreading.kind == Spreading::kNone ? 0 : random.direction.uniform();
+  std::vector<WaveComponent> components(static_cast<std::size_t>(system.components));
+  double energy = 0;
+  for (std::size_t i = 0; i < components.size(); ++i) {
+    WaveComponent& component = components[i];
+    const double lower = lowest + width * static_cast<double>(i);
+    component.omega = lower + width * random.place.uniform();
+    component.wavenumber = wavenumber_at(component.omega, state.depth_m);
+    component.phase = 2 * kPi * random.phase.uniform();
+    component.amplitude = std::sqrt(2 * spectrum.energy(lower, lower + width));
+    energy += 0.5 * component.amplitude * component.amplitude;
+    double angle = 0;
+    if (system.spreading.kind != Spreading::kNone) {
+      share += kGolden;
+      if (share >= 1) share -= 1;
+      // A share of 0 or 1 lies at the ends of the turn.
+      angle = spreading_quantile(system.spreading, std::clamp(share, 1e-12, 1 - 1e-12),
+                                 component.omega / spectrum.peak_omega());
+    }
+    component.direction = unit_vector(system.propagation + angle);
+  }
+  // The energy below and above the strata goes to the components in proportion, so that Hs is met exactly.
+  const double scale = std::sqrt(spectrum.total_energy()) / std::sqrt(energy);
+  for (WaveComponent& component : components) component.amplitude *= scale;
+  if (state.amplitude == WaveAmplitude::kRandom) {
+    // Two normal quadratures of equal variance: a^2 is exponential.
+    for (WaveComponent& component : components) {
+      component.amplitude *= std::sqrt(-exact_log(random.amplitude.uniform()));
+    }
+  }
+  return components;
 }
 
 }  // namespace
 
 WaveField realize_sea(const SeaState& state, std::uint64_t seed, std::uint64_t index) {
   check_state(state);
-  const Vec2 direction(std::cos(state.propagation_rad), std::sin(state.propagation_rad));
-  if (state.significant_wave_height_m == 0) return WaveField({}, direction, state.order, second_order_cutoff(state));
-
-  const JonswapSpectrum spectrum(state.significant_wave_height_m, state.peak_period_s, state.gamma);
-  const double lowest = kLowestPeakMultiple * spectrum.peak_omega();
-  const double width = (linear_cutoff(state) - lowest) / state.components;
-  Random place({seed, Stream::kWaveFrequency, index});
-  Random phase({seed, Stream::kWavePhase, index});
-  std::vector<WaveComponent> components(static_cast<std::size_t>(state.components));
-  double energy = 0;
-  for (std::size_t i = 0; i < components.size(); ++i) {
-    WaveComponent& component = components[i];
-    const double lower = lowest + width * static_cast<double>(i);
-    component.omega = lower + width * place.uniform();
-    component.wavenumber = component.omega * component.omega / kGravity;
-    component.phase = 2 * kPi * phase.uniform();
-    component.amplitude = std::sqrt(2 * spectrum.energy(lower, lower + width));
-    energy += 0.5 * component.amplitude * component.amplitude;
+  WaveRandom random{Random({seed, Stream::kWaveFrequency, index}), Random({seed, Stream::kWavePhase, index}),
+                    Random({seed, Stream::kWaveDirection, index}), Random({seed, Stream::kWaveAmplitude, index})};
+  std::vector<WaveComponent> components;
+  for (const WaveSystem& system : systems_of(state)) {
+    const std::vector<WaveComponent> part = realize_system(system, state, random);
+    components.insert(components.end(), part.begin(), part.end());
   }
-  // The energy below and above the strata goes to the components in proportion, so that Hs is met exactly.
-  const double scale = 0.25 * state.significant_wave_height_m / std::sqrt(energy);
-  for (WaveComponent& component : components) component.amplitude *= scale;
-  return WaveField(std::move(components), direction, state.order, second_order_cutoff(state));
+  std::stable_sort(components.begin(), components.end(),
+                   [](const WaveComponent& a, const WaveComponent& b) { return a.omega < b.omega; });
+  return WaveField(std::move(components), state.order, second_order_cutoff(state), state.depth_m);
 }
 
 std::uint64_t realisation_index(std::size_t sea_state, std::size_t realisation) {
   constexpr std::uint64_t kMaxRealisations = 1000000;
   SEAGLINT_CHECK(realisation < kMaxRealisations, fmt::format("realisation {}", realisation));
   return sea_state * kMaxRealisations + realisation;
-}
-
-SeaSummary summarize(const SeaState& state, const WaveField& field) {
-  SeaSummary summary;
-  summary.cutoff_rad_s = linear_cutoff(state);
-  summary.second_order_cutoff_rad_s = second_order_cutoff(state);
-  double m0 = 0;
-  for (const WaveComponent& c : field.components()) {
-    m0 += 0.5 * c.amplitude * c.amplitude;
-    summary.slope_variance += 0.5 * c.amplitude * c.amplitude * c.wavenumber * c.wavenumber;
-  }
-  summary.significant_wave_height_m = 4 * std::sqrt(m0);
-  if (m0 == 0) return summary;
-
-  const JonswapSpectrum spectrum(state.significant_wave_height_m, state.peak_period_s, state.gamma);
-  summary.energy_share_above_cutoff = spectrum.energy_above(summary.cutoff_rad_s) / spectrum.energy_above(0);
-
-  // Third cumulant 3 E[eta1^2 eta2] = 3 sum_ij e_i e_j min(k_i, k_j) with e = a^2/2, since B+ + B- = min(k_i, k_j)/2
-  // (the statistic as in Marthinsen and Winterstein 1992, ISOPE III, 472); a component of fixed amplitude has half of
-  // its own term.
-  double below = 0;  // sum of k_j e_j over j < i
-  double third = 0;
-  for (std::size_t i = 0; i < field.second_order_count(); ++i) {
-    const WaveComponent& c = field.components()[i];
-    const double e = 0.5 * c.amplitude * c.amplitude;
-    third += 3 * e * (2 * below + 0.5 * e * c.wavenumber);
-    below += e * c.wavenumber;
-  }
-  summary.skewness = third / std::pow(m0, 1.5);
-  return summary;
 }
 
 }  // namespace seaglint

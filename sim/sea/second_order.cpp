@@ -8,6 +8,7 @@
 
 #include "sim/core/constants.h"
 #include "sim/core/error.h"
+#include "sim/core/exact_functions.h"
 
 namespace seaglint {
 
@@ -23,13 +24,14 @@ struct Wave {
   Vec2 k = Vec2::Zero();
 };
 
+double k_tanh(double k, double depth) { return std::isinf(depth) ? k : k * exact_tanh(k * depth); }
+
 Wave wave_of(const WaveComponent& component, double depth) {
   const double k = component.wavenumber;
-  const double ratio = std::isinf(depth) ? 0 : k / std::cosh(k * depth);  // 0 for k h above 710
-  return {component.omega, std::isinf(depth) ? k : k * std::tanh(k * depth), ratio * ratio, k * component.direction};
+  const double e = std::isinf(depth) ? 0 : exact_exp(-k * depth);
+  const double per_cosh = 2 * k * e / (1 + e * e);  // k / cosh(k h)
+  return {component.omega, k_tanh(k, depth), per_cosh * per_cosh, k * component.direction};
 }
-
-double k_tanh(double k, double depth) { return std::isinf(depth) ? k : k * std::tanh(k * depth); }
 
 // Kernels of one pair: the elevation is sum_ij a_i a_j [B+ cos(th_i + th_j) + B- cos(th_i - th_j)], the potential at
 // the mean level -sum_ij a_i a_j [P+ sin(th_i + th_j) + P- sin(th_i - th_j)], th = w t - k.x + phase.
@@ -159,6 +161,22 @@ SecondOrder PairInteractions::evaluate(std::span<const WaveComponent> components
     second.velocity += 2 * components[i].wavenumber * real * components[i].direction;
   }
   return second;
+}
+
+// 3 E[eta1^2 eta2] = 6 sum_ij e_i e_j (B+ + B-), e = a^2/2; the term i = j of a wave of fixed amplitude is half of
+// that.
+double PairInteractions::third_cumulant(std::span<const WaveComponent> components) const {
+  SEAGLINT_CHECK(components.size() == size_, fmt::format("{} components instead of {}", components.size(), size_));
+  double sum = 0;
+  for (std::size_t j = 0; j < size_; ++j) {
+    const double ej = 0.5 * components[j].amplitude * components[j].amplitude;
+    for (std::size_t i = 0; i < size_; ++i) {
+      const double ei = 0.5 * components[i].amplitude * components[i].amplitude;
+      const std::size_t pair = j * stride_ + i;
+      sum += (i == j ? 3.0 : 6.0) * ei * ej * (elevation_sum_[pair] + elevation_difference_[pair]);
+    }
+  }
+  return sum;
 }
 
 }  // namespace seaglint

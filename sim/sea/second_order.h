@@ -34,6 +34,9 @@ class PairInteractions {
   SecondOrder evaluate(std::span<const WaveComponent> components, std::span<const double> cosine,
                        std::span<const double> sine, bool motion) const;
 
+  // Third cumulant of the elevation to leading order, m^3.
+  double third_cumulant(std::span<const WaveComponent> components) const;
+
   std::size_t size() const { return size_; }
 
  private:

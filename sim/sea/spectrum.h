@@ -3,25 +3,41 @@
 
 // How the energy of a sea is spread over frequency.
 
+#include <memory>
+
 #include "sim/scenario/sea_spec.h"
 
 namespace seaglint {
 
-// kExact: the density integrates to Hs^2/16. kDnv: the factor 1 - 0.287 ln gamma of DNV-RP-C205, which is +0.24 % off
-// at gamma 3.3 and -1.8 % at 7.
-enum class SpectrumNormalisation { kExact, kDnv };
+// One-sided density of the elevation over angular frequency.
+class Spectrum {
+ public:
+  virtual ~Spectrum() = default;
 
-// JONSWAP (gamma = 1: Pierson-Moskowitz), all values in SI: Hs and Tp > 0, gamma >= 1.
-class JonswapSpectrum {
+  virtual double density(double omega) const = 0;               // m^2 s/rad; 0 for omega <= 0
+  virtual double energy(double lower, double upper) const = 0;  // integral of the density over [lower, upper], m^2
+  virtual double energy_above(double omega) const = 0;          // m^2
+  virtual double total_energy() const = 0;                      // m^2
+  virtual double peak_omega() const = 0;                        // rad/s
+  virtual double lowest_omega() const = 0;                      // below it lies no energy to speak of, rad/s
+};
+
+// Below this multiple of the peak frequency a JONSWAP sea holds less than 1e-20 of its energy: realisations start here.
+inline constexpr double kLowestPeakMultiple = 0.4;
+
+// JONSWAP (gamma = 1: Pierson-Moskowitz in Bretschneider's form), all values in SI: Hs and Tp > 0, gamma >= 1. Relative
+// error of energies 1e-10.
+class JonswapSpectrum : public Spectrum {
  public:
   JonswapSpectrum(double significant_wave_height_m, double peak_period_s, double gamma,
                   SpectrumNormalisation normalisation = SpectrumNormalisation::kExact);
 
-  double density(double omega) const;  // one-sided, m^2 s/rad; 0 for omega <= 0
-  double energy(double lower,
-                double upper) const;        // integral of the density over [lower, upper], m^2; relative error 1e-10
-  double energy_above(double omega) const;  // m^2
-  double peak_omega() const { return peak_omega_; }
+  double density(double omega) const override;
+  double energy(double lower, double upper) const override;
+  double energy_above(double omega) const override;
+  double total_energy() const override { return total_; }
+  double peak_omega() const override { return peak_omega_; }
+  double lowest_omega() const override { return kLowestPeakMultiple * peak_omega_; }
 
  private:
   double shape(double u) const;  // density times peak_omega_ over scale_, u = omega / peak_omega_
@@ -30,13 +46,38 @@ class JonswapSpectrum {
   double peak_omega_;
   double gamma_;
   double scale_;  // m^2
+  double total_;  // m^2
 };
 
-// Below this multiple of the peak frequency a JONSWAP sea holds less than 1e-20 of its energy: realisations start here.
-inline constexpr double kLowestPeakMultiple = 0.4;
+// The straight lines of a table, scaled to a significant wave height.
+class TableSpectrum : public Spectrum {
+ public:
+  TableSpectrum(std::shared_ptr<const SpectrumTable> table, double significant_wave_height_m);
 
-// The cut-offs of a state in rad/s; a zero field stands for max(8, 4 wp) and for sqrt(2 g / Hs) (no limit for Hs = 0).
+  double density(double omega) const override;
+  double energy(double lower, double upper) const override;
+  double energy_above(double omega) const override;
+  double total_energy() const override { return total_; }
+  double peak_omega() const override { return table_->peak_omega(); }
+  double lowest_omega() const override;
+
+ private:
+  double cumulative(double omega) const;  // integral up to omega before scaling
+
+  std::shared_ptr<const SpectrumTable> table_;
+  double total_;  // m^2
+  double scale_;
+};
+
+// Spectrum of a state's wind sea (or table), and of its swell; nothing where their height is 0.
+std::unique_ptr<Spectrum> wind_sea_spectrum(const SeaState& state);
+std::unique_ptr<Spectrum> swell_spectrum(const SeaState& state);
+
+// The cut-offs of a state in rad/s; a zero field stands for max(8, 4 wp) (the end of a table) and for the frequency
+// where k Hs = 2 (no limit for Hs = 0). Swell, which has no tail of short waves, ends at four times its peak or at the
+// sea's cut-off.
 double linear_cutoff(const SeaState& state);
+double swell_cutoff(const SeaState& state);
 double second_order_cutoff(const SeaState& state);
 
 }  // namespace seaglint

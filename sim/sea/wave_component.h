@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// One plane wave of the sea, and how long a wave of a given frequency is.
+// One plane wave of the sea.
 
-#include <limits>
-
+#include "sim/core/dispersion.h"
 #include "sim/core/linear.h"
 
 namespace seaglint {
-
-inline constexpr double kDeepWater = std::numeric_limits<double>::infinity();  // as a depth, m
 
 // a cos(w t - k d.x + phase), d the unit vector it travels along.
 struct WaveComponent {
@@ -19,8 +16,5 @@ struct WaveComponent {
   double wavenumber = 0;  // rad/m, of the depth's dispersion relation
   Vec2 direction{1, 0};   // of travel, of length 1, in T
 };
-
-// The wavenumber of linear waves, w^2 = g k tanh(k h) (Airy), rad/m, to rounding; omega >= 0, depth > 0.
-double wavenumber_at(double omega, double depth = kDeepWater);
 
 }  // namespace seaglint

@@ -10,6 +10,7 @@
 
 #include "sim/core/constants.h"
 #include "sim/core/error.h"
+#include "sim/core/exact_functions.h"
 #include "sim/sea/long_crested.h"
 
 namespace seaglint {
@@ -27,7 +28,7 @@ bool disperse(const std::vector<WaveComponent>& components, double depth) {
   constexpr double kDigits = 1e-6;
   return std::all_of(components.begin(), components.end(), [&](const WaveComponent& c) {
     const double of_length =
-        kGravity * c.wavenumber * (std::isinf(depth) ? 1.0 : std::tanh(c.wavenumber * depth));  // g k tanh(k h)
+        kGravity * c.wavenumber * (std::isinf(depth) ? 1.0 : exact_tanh(c.wavenumber * depth));  // g k tanh(k h)
     return std::abs(of_length - c.omega * c.omega) <= kDigits * c.omega * c.omega;
   });
 }
@@ -171,6 +172,21 @@ SurfaceState WaveField::surface(double x, double y, double t, SurfaceDetail deta
   }
   unit_phasors(angle, cosine, sine);
   return state(cosine, sine, detail);
+}
+
+// 3 E[eta1^2 eta2] = 3 sum_ij e_i e_j min(k_i, k_j) with e = a^2/2 in deep water, since B+ + B- = min(k_i, k_j)/2
+// (Marthinsen and Winterstein 1992, ISOPE III, 472); a component of fixed amplitude has half of its own term.
+double WaveField::third_cumulant() const {
+  if (pairs_) return pairs_->third_cumulant(std::span(components_).first(second_order_count_));
+  double below = 0;  // sum of k_j e_j over j < i
+  double third = 0;
+  for (std::size_t i = 0; i < second_order_count_; ++i) {
+    const WaveComponent& c = components_[i];
+    const double e = 0.5 * c.amplitude * c.amplitude;
+    third += 3 * e * (2 * below + 0.5 * e * c.wavenumber);
+    below += e * c.wavenumber;
+  }
+  return third;
 }
 
 namespace {

@@ -65,6 +65,9 @@ class WaveField {
   int order() const { return order_; }
   std::size_t second_order_count() const { return second_order_count_; }
 
+  // Third cumulant of the elevation at any place, to leading order, m^3: 3 E[eta1^2 eta2]. 0 at order 1.
+  double third_cumulant() const;
+
  private:
   friend class SurfaceSeries;
 
@@ -95,26 +98,17 @@ class SurfaceSeries {
   UniformPhasors phasors_;
 };
 
-// A realisation: components in strata uniform in omega from 0.4 wp to the cut-off, each at a random place of its
-// stratum (so that nothing repeats) with the energy of its stratum and a random phase, then scaled so that sum a^2/2 =
-// Hs^2/16. Streams kWaveFrequency and kWavePhase of (seed, index). Hs = 0 gives flat water. Throws InputError for a
-// state that no sea can have: a cut-off at or below the peak, or waves steeper than breaking (Hs above 1/7 of the
-// peak's wavelength).
+// A realisation: the components of the wind sea, and of the swell, in strata uniform in omega from the lowest frequency
+// with energy to the cut-off, each at a random place of its stratum (so that nothing repeats) with the energy of its
+// stratum, a random phase and, in a spread sea, a direction of its own, then scaled so that sum a^2/2 is the spectrum's
+// energy. `amplitude: random` gives a^2 an exponential distribution with that mean, so that Hs varies between
+// realisations as it does in records. Streams kWaveFrequency, kWavePhase, kWaveDirection, kWaveAmplitude of (seed,
+// index). Hs = 0 gives flat water. Throws InputError for a state that no sea can have: a cut-off at or below the peak,
+// waves steeper than breaking (breaking_height), no depth.
 WaveField realize_sea(const SeaState& state, std::uint64_t seed, std::uint64_t index);
 
 // The index of a realisation of one of a scenario's sea states, both counted from 0, as data sets and commands use it;
 // realisation below 1000000.
 std::uint64_t realisation_index(std::size_t sea_state, std::size_t realisation);
-
-// What a realisation holds and leaves out.
-struct SeaSummary {
-  double significant_wave_height_m = 0;  // 4 sqrt(sum a^2/2)
-  double cutoff_rad_s = 0;
-  double second_order_cutoff_rad_s = 0;  // infinite in flat water
-  double energy_share_above_cutoff = 0;  // of the state's spectrum, added to the components below
-  double slope_variance = 0;             // of the linear part; grows with the logarithm of the cut-off
-  double skewness = 0;                   // of the elevation to leading order; 0 at order 1
-};
-SeaSummary summarize(const SeaState& state, const WaveField& field);
 
 }  // namespace seaglint

@@ -49,7 +49,8 @@ TEST(Keys, AreListedWithDefaultAndBound) {
       ContainsRegex("\ntargets.NAME.points.N.position_m +required +\\[x, y, z\\], within -100000 and 100000\n"));
   EXPECT_THAT(
       result.out,
-      ContainsRegex("\nsea.peak_period_s +8 +number, list or from:to:step, within 0.5 and 40, or dnv_wind_sea\n"));
+      ContainsRegex("\nsea.peak_period_s +8 +number, list or from:to:step, within 0.5 and 40, or dnv_wind_sea or "
+                    "wind_and_fetch\n"));
 }
 
 TEST(Check, RefusesATypoInAKey) {
@@ -60,9 +61,9 @@ TEST(Check, RefusesATypoInAKey) {
 }
 
 TEST(Check, RefusesANegativeWaveHeight) {
-  expect_refused(
-      {"check", kPoints, "--set", "sea.significant_wave_height_m=-1"},
-      "--set sea.significant_wave_height_m: value '-1': must be a number, a list or from:to:step, within 0 and 30\n");
+  expect_refused({"check", kPoints, "--set", "sea.significant_wave_height_m=-1"},
+                 "--set sea.significant_wave_height_m: value '-1': must be a number, a list or from:to:step, within 0 "
+                 "and 30, or of_table\n");
 }
 
 TEST(Check, RefusesAMeshThatIsNotThere) {

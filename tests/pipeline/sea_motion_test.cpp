@@ -72,6 +72,77 @@ TEST(Sea, WritesTheSurfaceOfTheFirstSeaState) {
   EXPECT_THAT(text, HasSubstr("cut-off"));
 }
 
+TEST(Sea, AddsTheMotionOfTheWaterWhenAsked) {
+  const TemporaryFolder folder;
+  const std::string file = folder.path() / "sea.csv";
+  ASSERT_EQ(run_program({"sea", kPoints, "--kinematics", "--duration-s", "4", "--step-s", "0.5", "-o", file, "--set",
+                         "sea.spreading.kind=cos2s", "--set", "sea.depth_m=15"})
+                .code,
+            0);
+  const std::vector<std::string> lines = data_lines(file);
+  EXPECT_THAT(lines[0], HasSubstr("slope_y,velocity_x_mps,velocity_y_mps,velocity_z_mps,acceleration_x_mps2"));
+  const Scenario scenario =
+      read_scenario(SEAGLINT_SOURCE_DIR "/" + kPoints, {{"sea.spreading.kind", "cos2s"}, {"sea.depth_m", "15"}});
+  const WaveField field = realize_sea(sea_states(scenario.sea).front(), scenario.seed, realisation_index(0, 0));
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    const std::vector<double> row = numbers(lines[i]);
+    ASSERT_EQ(row.size(), 11u);
+    const SurfaceState surface = field.surface(0, 0, row[0]);
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_NEAR(row[static_cast<std::size_t>(5 + axis)], surface.velocity[axis], 1e-8);
+      EXPECT_NEAR(row[static_cast<std::size_t>(8 + axis)], surface.acceleration[axis], 1e-8);
+    }
+  }
+  EXPECT_THAT(read_file(file), HasSubstr("# depth_m 15, Ursell number"));
+}
+
+// The spectrum's file is a spectrum that a scenario can name; statistics do not depend on threads.
+TEST(Sea, WritesASpectrumThatAScenarioReads) {
+  const TemporaryFolder folder;
+  const std::filesystem::path one = folder.path() / "one.csv", two = folder.path() / "two.csv";
+  const auto run = [&](const std::filesystem::path& spectrum, const std::string& threads) {
+    return run_program({"sea", kPoints, "--duration-s", "200", "--realisations", "40", "--spectrum", spectrum,
+                        "--threads", threads, "-o", folder.path() / "sea.csv"});
+  };
+  const ProgramResult result = run(one, "1");
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("40 realisations: 4 sigma "));
+  EXPECT_THAT(result.out, HasSubstr("Forristall"));
+  EXPECT_EQ(run(two, "2").out, result.out);
+  EXPECT_EQ(read_file(one), read_file(two));
+
+  double target = 0, realised = 0;
+  const std::vector<std::string> lines = data_lines(one);
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    target += numbers(lines[i])[1];
+    realised += numbers(lines[i])[3];
+  }
+  // Forty windowed records of 25 waves, some four of them independent in energy: 8 %; three times that.
+  EXPECT_NEAR(realised / target, 1, 0.24);
+
+  const ProgramResult again = run_program({"sea", kPoints, "--duration-s", "1", "-o", folder.path() / "again.csv",
+                                           "--set", "sea.spectrum=table", "--set", "sea.table=" + one.string(), "--set",
+                                           "sea.significant_wave_height_m=of_table"});
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_THAT(again.out, HasSubstr("4 sqrt(m0) 0.99"));  // the table ends at 1.2 times the cut-off
+}
+
+TEST(Sea, DrawsItsFigureOrLeavesNothingBehind) {
+  const TemporaryFolder folder;
+  const std::filesystem::path csv = folder.path() / "sea.csv", figure = folder.path() / "sea.png";
+  ASSERT_EQ(
+      run_program({"sea", kPoints, "--duration-s", "100", "--realisations", "2", "--figure", figure, "-o", csv}).code,
+      0);
+  EXPECT_GT(std::filesystem::file_size(figure), 20000u);
+  std::filesystem::remove(csv);
+  const ProgramResult wrong =
+      run_program({"sea", kPoints, "--duration-s", "100", "--figure", folder.path() / "sea.bmp", "-o", csv});
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_FALSE(std::filesystem::exists(csv));
+  EXPECT_EQ(
+      run_program({"sea", kPoints, "--figure", figure, "-o", csv, "--set", "sea.significant_wave_height_m=0"}).code, 2);
+}
+
 TEST(Sea, RefusesRangesThatMakeNoSense) {
   for (const auto& wrong :
        {std::pair{"--step-s", "0"}, std::pair{"--duration-s", "-1"}, std::pair{"--at", "1"}, std::pair{"--at", "nan,0"},

@@ -112,7 +112,7 @@ TEST(Reading, SweepsAreNumbersListsOrRangesInBlocksAndBraces) {
 
 TEST(Reading, TheWindSeaRuleIsAWordInPlaceOfAPeriod) {
   const Scenario scenario = parse(kShort + "sea: {peak_period_s: dnv_wind_sea, significant_wave_height_m: [1, 4]}");
-  EXPECT_TRUE(scenario.sea.dnv_wind_sea);
+  EXPECT_EQ(scenario.sea.period_rule, PeakPeriod::kDnvWindSea);
   const auto states = sea_states(scenario.sea);
   ASSERT_EQ(states.size(), 2u);
   EXPECT_DOUBLE_EQ(states[0].peak_period_s, 3.96);
@@ -180,7 +180,8 @@ TEST(Reading, EveryMistakeIsNamedWithItsPlaceValueAndBound) {
        "26: learning.map_floor_db: value '0': must be a number at least -120 and less than 0"},
       {"learning: {subsample: 0}", "23: learning.subsample: value '0': must be a number greater than 0 and at most 1"},
       {"sea: {significant_wave_height_m: -1}",
-       "34: sea.significant_wave_height_m: value '-1': must be a number, a list or from:to:step, within 0 and 30"},
+       "34: sea.significant_wave_height_m: value '-1': must be a number, a list or from:to:step, within 0 and 30, or "
+       "of_table"},
       // Sweeps.
       {"view: {azimuth_deg: [1, x]}", "25: view.azimuth_deg: value 'x': must be a list of numbers within -360 and 360"},
       {"view: {azimuth_deg: [1, 400]}",
@@ -194,7 +195,7 @@ TEST(Reading, EveryMistakeIsNamedWithItsPlaceValueAndBound) {
        "21: view.azimuth_deg: value '0:400:100': must be a number, a list or from:to:step, within -360 and 360"},
       {"sea: {peak_period_s: dnv}",
        "22: sea.peak_period_s: value 'dnv': must be a number, a list or from:to:step, within 0.5 and 40, or "
-       "dnv_wind_sea"},
+       "dnv_wind_sea or wind_and_fetch"},
       // Contradictions.
       {"radar: {pulse_width_us: 300}", "25: radar.pulse_width_us: value '300': must be shorter than radar.pri_us, 250"},
       {"radar: {pri_us: 36}", "8: radar.pulse_width_us: must be shorter than radar.pri_us, 36"},
@@ -348,7 +349,8 @@ TEST(Overrides, AreCheckedLikeTheFile) {
 
 TEST(Reading, MaterialsOfATargetAndItsPartsComeBackFromTheEffectiveForm) {
   const Scenario scenario = parse(
-      "seaglint: 1\ntargets:\n  a: {label: 1, mesh: a.glb, material: aluminium, part_materials: [{part: mast*, material: m.yaml}]}\n");
+      "seaglint: 1\ntargets:\n  a: {label: 1, mesh: a.glb, material: aluminium, part_materials: [{part: mast*, "
+      "material: m.yaml}]}\n");
   ASSERT_EQ(scenario.targets[0].part_materials.size(), 1u);
   EXPECT_EQ(scenario.targets[0].material, "aluminium");
   EXPECT_EQ(scenario.targets[0].part_materials[0].part, "mast*");

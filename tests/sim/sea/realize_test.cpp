@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "sim/core/constants.h"
 #include "sim/core/error.h"
 #include "sim/sea/spectrum.h"
+#include "sim/sea/statistics.h"
 #include "sim/sea/wave_field.h"
 
 namespace seaglint {
@@ -125,6 +127,102 @@ TEST(RealizeSea, CorrelatesTwoPointsAsItsSpectrumSays) {
   }
 }
 
+double energy_of(const WaveField& field) {
+  double energy = 0;
+  for (const WaveComponent& c : field.components()) energy += 0.5 * c.amplitude * c.amplitude;
+  return energy;
+}
+
+// Fixed amplitudes carry the spectrum's energy in every sea; random ones on the average, with the scatter of a sum of
+// exponential deviates: variance sum e^2.
+TEST(RealizeSea, ScattersItsEnergyWithRandomAmplitudes) {
+  SeaState state = state_of(1, 8);
+  const WaveField fixed = realize_sea(state, 42, 0);
+  double expected_variance = 0;
+  for (const WaveComponent& c : fixed.components()) expected_variance += std::pow(0.5 * c.amplitude * c.amplitude, 2);
+  state.amplitude = WaveAmplitude::kRandom;
+  constexpr int kSeeds = 400;
+  double mean = 0, square = 0;
+  for (int seed = 0; seed < kSeeds; ++seed) {
+    const WaveField field = realize_sea(state, 42, static_cast<std::uint64_t>(seed));
+    // Places and phases are those of the fixed amplitudes.
+    if (seed == 0) {
+      EXPECT_EQ(field.components()[100].omega, fixed.components()[100].omega);
+    }
+    mean += energy_of(field) / kSeeds;
+    square += std::pow(energy_of(field), 2) / kSeeds;
+  }
+  EXPECT_NEAR(mean, 1.0 / 16, 4 * std::sqrt(expected_variance / kSeeds));
+  // The variance of 400 draws is known to 1/sqrt(200), more with the exponential's tail: 7 %; three times that.
+  EXPECT_NEAR(square - mean * mean, expected_variance, 0.25 * expected_variance);
+}
+
+TEST(RealizeSea, AddsSwellOfItsOwnDirectionAndEnergy) {
+  SeaState state = state_of(1, 5);
+  const WaveField wind = realize_sea(state, 42, 0);
+  state.propagation_rad = radians(120);
+  state.swell = {0.8, 12, 5, radians(40), {}, 128};
+  const WaveField both = realize_sea(state, 42, 0);
+  ASSERT_EQ(both.components().size(), 512u + 128u);
+  EXPECT_FALSE(both.long_crested());
+  double swell = 0;
+  for (const WaveComponent& c : both.components()) {
+    if (c.direction.x() < 0) continue;
+    swell += 0.5 * c.amplitude * c.amplitude;
+    EXPECT_NEAR(std::atan2(c.direction.y(), c.direction.x()), radians(40), 1e-15);
+    EXPECT_LE(c.omega, 4 * 2 * kPi / 12);
+  }
+  EXPECT_NEAR(swell, 0.04, 1e-15);
+  EXPECT_NEAR(energy_of(both) - swell, energy_of(wind), 1e-15);
+  EXPECT_NEAR(summarize(state, both).significant_wave_height_m, std::sqrt(1.64), 1e-13);
+  // Swell alone, and swell along the wind sea, whose waves then share one direction.
+  state.significant_wave_height_m = 0;
+  EXPECT_EQ(realize_sea(state, 42, 0).components().size(), 128u);
+  state.significant_wave_height_m = 1;
+  state.swell.propagation_rad = state.propagation_rad;
+  EXPECT_TRUE(realize_sea(state, 42, 0).long_crested());
+}
+
+TEST(RealizeSea, KeepsTheEnergyOfItsNormalisation) {
+  SeaState state = state_of(2, 8);
+  state.normalisation = SpectrumNormalisation::kDnv;
+  const double dnv = JonswapSpectrum(2, 8, 3.3, SpectrumNormalisation::kDnv).energy_above(0);
+  EXPECT_NEAR(energy_of(realize_sea(state, 42, 0)), dnv, 1e-13);
+  EXPECT_NEAR(16 * dnv / 4, 1.0024, 0.0001);
+}
+
+TEST(RealizeSea, FollowsATable) {
+  SeaState state = state_of(1.5, 2 * kPi / 0.8);
+  auto table = std::make_shared<SpectrumTable>();
+  table->omega = {0.4, 0.8, 1.0, 1.6};
+  table->density = {0, 0.5, 0.1, 0};
+  state.table = table;
+  const WaveField field = realize_sea(state, 42, 0);
+  EXPECT_NEAR(energy_of(field), 1.5 * 1.5 / 16, 1e-14);
+  EXPECT_GE(field.components().front().omega, 0.4);
+  EXPECT_LE(field.components().back().omega, 1.6);
+  // Share of the energy below 0.8: the first triangle.
+  double below = 0;
+  for (const WaveComponent& c : field.components()) below += c.omega < 0.8 ? 0.5 * c.amplitude * c.amplitude : 0;
+  // The stratum at 0.8 holds 1/160 of the energy and lies on either side.
+  EXPECT_NEAR(below / energy_of(field), 0.1 / (0.1 + 0.06 + 0.03), 1.0 / 160);
+  const TableSpectrum spectrum(table, 1.5);
+  EXPECT_NEAR(spectrum.energy(0, 10), 1.5 * 1.5 / 16, 1e-15);
+  EXPECT_NEAR(spectrum.energy(0.5, 1.2) + spectrum.energy_above(1.2), spectrum.energy_above(0.5), 1e-15);
+  EXPECT_NEAR(spectrum.density(0.6) / spectrum.density(0.8), 0.5, 1e-14);
+  EXPECT_EQ(spectrum.density(1.7), 0);
+}
+
+TEST(RealizeSea, HasTheWavenumbersOfItsDepth) {
+  SeaState state = state_of(1, 8);
+  state.depth_m = 10;
+  const WaveField field = realize_sea(state, 42, 0);
+  EXPECT_EQ(field.depth(), 10);
+  for (const WaveComponent& c : field.components()) {
+    EXPECT_NEAR(kGravity * c.wavenumber * std::tanh(10 * c.wavenumber), c.omega * c.omega, 4e-15 * c.omega * c.omega);
+  }
+}
+
 TEST(RealizeSea, IsFlatWithoutWaves) {
   const WaveField field = realize_sea(state_of(0, 8), 1, 1);
   const SurfaceState surface = field.surface(3, 4, 5);
@@ -150,6 +248,15 @@ TEST(RealizeSea, RefusesStatesThatNoSeaCanHave) {
   EXPECT_THROW(realize_sea(state_of(NAN, 8), 1, 0), InputError);
   SeaState state = state_of(1, 8);
   state.cutoff_rad_s = 0.5;
+  EXPECT_THROW(realize_sea(state, 1, 0), InputError);
+  state = state_of(1, 8);
+  state.depth_m = 0;
+  EXPECT_THROW(realize_sea(state, 1, 0), InputError);
+  state.depth_m = 1;  // waves of 8 s are at most 0.87 m high here
+  EXPECT_THROW(realize_sea(state, 1, 0), InputError);
+  state = state_of(1, 8);
+  state.swell.significant_wave_height_m = 3;
+  state.swell.peak_period_s = 3;
   EXPECT_THROW(realize_sea(state, 1, 0), InputError);
 }
 

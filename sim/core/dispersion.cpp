@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/sea/wave_component.h"
+#include "sim/core/dispersion.h"
 
 #include <fmt/format.h>
 
@@ -7,6 +7,7 @@
 
 #include "sim/core/constants.h"
 #include "sim/core/error.h"
+#include "sim/core/exact_functions.h"
 
 namespace seaglint {
 
@@ -17,15 +18,20 @@ double wavenumber_at(double omega, double depth) {
   const double deep = omega * omega / kGravity;
   if (std::isinf(depth) || deep == 0) return deep;
   const double a = deep * depth;
-  double x = a / std::sqrt(std::tanh(a));
+  double x = a / std::sqrt(exact_tanh(a));
   constexpr int kMostSteps = 20;
   for (int i = 0; i < kMostSteps; ++i) {
-    const double t = std::tanh(x);
+    const double t = exact_tanh(x);
     const double step = (x * t - a) / (t + x * (1 - t * t));
     x -= step;
     if (std::abs(step) <= 1e-16 * x) break;
   }
   return x / depth;
+}
+
+double breaking_height(double omega, double depth) {
+  const double k = wavenumber_at(omega, depth);
+  return 2 * kPi / k / 7 * (std::isinf(depth) ? 1 : exact_tanh(k * depth));
 }
 
 }  // namespace seaglint

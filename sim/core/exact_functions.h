@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// Logarithm, exponential and hyperbolic tangent from +, -, *, / and scaling by powers of two alone, which IEEE 754
+// rounds alike everywhere; libm's differ between versions and processors.
+
+namespace seaglint {
+
+double exact_log(double x);   // x > 0 and normal; relative error below 4e-16, absolute near 1
+double exact_exp(double x);   // relative error below 4e-16; 0 below -700
+double exact_tanh(double x);  // relative error below 1e-15
+
+}  // namespace seaglint

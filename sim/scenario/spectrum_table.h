@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// A wave spectrum as a table, read from a file.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace seaglint {
+
+// One-sided density over angular frequency; zero outside, straight lines between.
+struct SpectrumTable {
+  std::vector<double> omega;    // rad/s, ascending, > 0
+  std::vector<double> density;  // m^2 s/rad, >= 0, not all zero
+
+  double energy() const;      // the integral, m^2
+  double peak_omega() const;  // where the density is highest, rad/s; of several places the first
+};
+
+// Reads comma-separated columns named `omega_rad_s` and `density_m2_s`, or `frequency_hz` and `density_m2_hz`, in any
+// order and beside any others; lines that begin with # are comments. Throws InputError "file:line: what" for missing
+// columns, what is not a finite number, negative densities, frequencies that do not ascend, fewer than two rows, and a
+// table of zeros.
+SpectrumTable read_spectrum_table(const std::filesystem::path& file);
+SpectrumTable parse_spectrum_table(const std::string& text, const std::string& file_name);
+
+}  // namespace seaglint

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/sea/spreading.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/core/constants.h"
+#include "sim/core/error.h"
+#include "sim/core/exact_functions.h"
+#include "sim/core/random.h"
+#include "sim/sea/quadrature.h"
+#include "sim/sea/unit_phasors.h"
+
+namespace seaglint {
+
+namespace {
+
+// cos^2s(x), |x| <= pi/2.
+double cosine_power(double x, double s) {
+  double cosine = 1, sine = 0;
+  unit_phasors({&x, 1}, {&cosine, 1}, {&sine, 1});
+  return cosine > 0 ? exact_exp(2 * s * exact_log(cosine)) : 0;
+}
+
+// Integral of cos^2s(x/2) over a full turn, 2 sqrt(pi) Gamma(s + 1/2) / Gamma(s + 1) (Longuet-Higgins, Cartwright and
+// Smith 1963).
+double cos2s_norm(double s) { return 2 * std::sqrt(kPi) * std::exp(std::lgamma(s + 0.5) - std::lgamma(s + 1)); }
+
+// Integral of cos^2s over [0, pi/2], bit for bit the same everywhere. With x = pi/2 - y^4 the integrand has no steep
+// end where s is small.
+double quarter_norm(double s, double piece) {
+  const double end = std::sqrt(std::sqrt(kPi / 2));
+  return integrate(0, end, piece / 6, [s](double y) {
+    const double y3 = y * y * y;
+    return cosine_power(kPi / 2 - y3 * y, s) * 4 * y3;
+  });
+}
+
+}  // namespace
+
+double spreading_exponent(const SpreadingSpec& spec, double omega_over_peak) {
+  if (spec.kind != Spreading::kMitsuyasu) return spec.s;
+  return spec.s * exact_exp((omega_over_peak <= 1 ? 5 : -2.5) * exact_log(omega_over_peak));
+}
+
+double spreading_density(const SpreadingSpec& spec, double angle, double omega_over_peak) {
+  SEAGLINT_CHECK(spec.kind != Spreading::kNone, "no density of a single direction");
+  const double theta = std::remainder(angle, 2 * kPi);
+  if (spec.kind == Spreading::kWrappedNormal) {
+    const double sigma = radians(spec.width_deg);
+    double sum = 0;
+    constexpr int kTurns = 6;  // of images: beyond lies less than 1e-20 of the energy up to a width of 180 deg
+    for (int turn = -kTurns; turn <= kTurns; ++turn) {
+      const double z = (theta + 2 * kPi * turn) / sigma;
+      sum += std::exp(-0.5 * z * z);
+    }
+    return sum / (sigma * std::sqrt(2 * kPi));
+  }
+  const double s = spreading_exponent(spec, omega_over_peak);
+  return cosine_power(0.5 * theta, s) / cos2s_norm(s);
+}
+
+double spreading_r1(const SpreadingSpec& spec, double omega_over_peak) {
+  if (spec.kind == Spreading::kNone) return 1;
+  if (spec.kind == Spreading::kWrappedNormal) {
+    const double sigma = radians(spec.width_deg);
+    return std::exp(-0.5 * sigma * sigma);
+  }
+  const double s = spreading_exponent(spec, omega_over_peak);
+  return s / (s + 1);
+}
+
+double spreading_quantile(const SpreadingSpec& spec, double probability, double omega_over_peak) {
+  SEAGLINT_CHECK(probability > 0 && probability < 1, fmt::format("probability {}", probability));
+  if (spec.kind == Spreading::kNone) return 0;
+  if (spec.kind == Spreading::kWrappedNormal) return radians(spec.width_deg) * normal_quantile(probability);
+
+  // Of x = angle/2 the share within [0, x] is I(x)/(2 I(pi/2)), I the integral of cos^2s. It is concave, so that
+  // Newton's method from 0 climbs to the root without passing it.
+  const double s = spreading_exponent(spec, omega_over_peak);
+  const auto power = [s](double x) { return cosine_power(x, s); };
+  const double piece = std::min(0.1, 0.5 / std::sqrt(s));  // a fraction of the width of cos^2s
+  const double wanted = std::abs(2 * probability - 1) * quarter_norm(s, piece);
+  double x = 0, reached = 0;
+  constexpr int kMostSteps = 200;
+  for (int i = 0; i < kMostSteps; ++i) {
+    const double next = std::min(x + (wanted - reached) / power(x), kPi / 2);
+    if (!(next - x > 1e-11)) break;
+    reached += integrate(x, next, piece, power);
+    x = next;
+  }
+  return std::copysign(2 * x, probability - 0.5);
+}
+
+}  // namespace seaglint

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/sea/statistics.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/core/constants.h"
+#include "sim/sea/quadrature.h"
+#include "sim/sea/spectrum.h"
+
+namespace seaglint {
+
+namespace {
+
+double slope_variance_between(const Spectrum& spectrum, double lower, double upper, double depth) {
+  return integrate(lower, upper, 0.02 * lower, [&](double omega) {
+    const double k = wavenumber_at(omega, depth);
+    return spectrum.density(omega) * k * k;
+  });
+}
+
+}  // namespace
+
+SeaSummary summarize(const SeaState& state, const WaveField& field) {
+  SeaSummary summary;
+  summary.cutoff_rad_s = linear_cutoff(state);
+  summary.second_order_cutoff_rad_s = second_order_cutoff(state);
+  double m0 = 0, m1 = 0;
+  Vec2 direction = Vec2::Zero();
+  for (const WaveComponent& c : field.components()) {
+    const double e = 0.5 * c.amplitude * c.amplitude;
+    m0 += e;
+    m1 += e * c.omega;
+    direction += e * c.direction;
+    summary.slope_variance += e * c.wavenumber * c.wavenumber;
+  }
+  summary.significant_wave_height_m = 4 * std::sqrt(m0);
+  if (m0 == 0) return summary;
+
+  if (const auto wind_sea = wind_sea_spectrum(state)) {
+    const double cutoff = summary.cutoff_rad_s;
+    summary.energy_share_above_cutoff = wind_sea->energy_above(cutoff) / wind_sea->total_energy();
+    summary.slope_variance_beyond = slope_variance_between(*wind_sea, cutoff, 2 * cutoff, field.depth());
+  }
+  summary.mean_period_s = 2 * kPi * m0 / m1;
+  summary.direction_r1 = direction.norm() / m0;
+  summary.skewness = field.third_cumulant() / std::pow(m0, 1.5);
+  const double omega1 = m1 / m0;
+  summary.steepness = summary.significant_wave_height_m * omega1 * omega1 / (2 * kPi * kGravity);
+  if (field.depth() != kDeepWater) {
+    const double k1 = wavenumber_at(omega1, field.depth());
+    summary.ursell = summary.significant_wave_height_m / (k1 * k1 * std::pow(field.depth(), 3));
+  }
+  return summary;
+}
+
+double target_density(const SeaState& state, double omega) {
+  const auto wind_sea = wind_sea_spectrum(state);
+  const auto swell = swell_spectrum(state);
+  return (wind_sea ? wind_sea->density(omega) : 0) + (swell ? swell->density(omega) : 0);
+}
+
+std::vector<double> crest_heights(std::span<const double> elevation) {
+  std::vector<double> crests;
+  bool in_wave = false;  // since an up-crossing
+  std::size_t highest = 0;
+  for (std::size_t i = 1; i < elevation.size(); ++i) {
+    if (elevation[i - 1] <= 0 && elevation[i] > 0) {
+      in_wave = true;
+      highest = i;
+    } else if (in_wave && elevation[i] <= 0) {
+      // The parabola through three samples peaks (a - c)^2 / (8 (2 b - a - c)) above the middle one.
+      const double a = elevation[highest - 1], b = elevation[highest], c = elevation[highest + 1];
+      const double curvature = 2 * b - a - c;
+      crests.push_back(b + (curvature > 0 ? (a - c) * (a - c) / (8 * curvature) : 0));
+      in_wave = false;
+    } else if (in_wave && elevation[i] > elevation[highest]) {
+      highest = i;
+    }
+  }
+  return crests;
+}
+
+double rayleigh_exceedance(double height, double significant_wave_height) {
+  const double ratio = height / significant_wave_height;
+  return height > 0 ? std::exp(-8 * ratio * ratio) : 1;
+}
+
+ForristallCrests forristall_crests(double significant_wave_height, double steepness, double ursell, bool long_crested) {
+  const double alpha =
+      long_crested ? 0.3536 + 0.2892 * steepness + 0.1060 * ursell : 0.3536 + 0.2568 * steepness + 0.0800 * ursell;
+  const double beta = long_crested ? 2 - 2.1597 * steepness + 0.0968 * ursell * ursell
+                                   : 2 - 1.7912 * steepness - 0.5302 * ursell + 0.2824 * ursell * ursell;
+  return {alpha * significant_wave_height, beta};
+}
+
+double ForristallCrests::exceedance(double height) const {
+  return height > 0 ? std::exp(-std::pow(height / scale, beta)) : 1;
+}
+
+double ForristallCrests::height(double probability) const { return scale * std::pow(-std::log(probability), 1 / beta); }
+
+}  // namespace seaglint
