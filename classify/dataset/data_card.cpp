@@ -31,6 +31,17 @@ std::string columns_table() {
   return table;
 }
 
+// Of the sea states, each once; a table of the spectrum may have given them.
+std::vector<double> wave_heights(const Scenario& scenario) {
+  std::vector<double> heights;
+  for (const SeaState& state : sea_states(scenario.sea)) {
+    if (heights.empty() || heights.back() != state.significant_wave_height_m) {
+      heights.push_back(state.significant_wave_height_m);
+    }
+  }
+  return heights;
+}
+
 }  // namespace
 
 std::string data_card(const Scenario& scenario, const Manifest& manifest, const StoredAxes& axes) {
@@ -48,7 +59,7 @@ std::string data_card(const Scenario& scenario, const Manifest& manifest, const 
       "* A map has {} velocity cells ({:.3f} to {:.3f} m/s, positive = receding) and {} range cells ({:.2f} to {:.2f} "
       "m, positive = farther).\n"
       "* Values are |RV| in metres: a point scatterer of amplitude a = sqrt(sigma / 4 pi) peaks at a.\n\n",
-      join(scenario.sea.significant_wave_height_m), join(scenario.view.azimuth_deg), join(scenario.view.elevation_deg),
+      join(wave_heights(scenario)), join(scenario.view.azimuth_deg), join(scenario.view.elevation_deg),
       set.maps_per_case, set.realisations_per_case, set.interval_spacing_s, axes.velocity_mps.size(),
       axes.velocity_mps.front(), axes.velocity_mps.back(), axes.range_m.size(), axes.range_m.front(),
       axes.range_m.back());

@@ -24,9 +24,6 @@ WaveField field_of(int components, Spreading spreading, double depth) {
 void time_surface(benchmark::State& state, const WaveField& field, SurfaceDetail detail) {
   double t = 0;
   for (auto _ : state) benchmark::DoNotOptimize(field.surface(3, 4, t += 0.01, detail).elevation);
-  state.counters["per_component_ns"] =
-      benchmark::Counter(static_cast<double>(state.iterations() * state.range(0)) * 1e-9,
-                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
 void time_series(benchmark::State& state, const WaveField& field, SurfaceDetail detail) {
