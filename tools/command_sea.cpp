@@ -129,7 +129,7 @@ void write_sea(const SeaArguments& arguments, const Shell& shell) {
     if (total_wave_height(state) == 0) throw InputError("sea.significant_wave_height_m: flat water has no spectrum");
     const SeaEnsemble ensemble = make_ensemble(state, 0, scenario.seed, arguments.realisations, arguments.duration_s,
                                                arguments.step_s, thread_count(shell.threads), shell.stop);
-    statistics = ensemble_text(ensemble, state, summary);
+    statistics = ensemble_text(ensemble, summary);
     if (!arguments.figure.empty()) {
       const std::string title =
           fmt::format("{}: Hs {:.3g} m, Tp {:.3g} s", scenario.name, total_wave_height(state), state.peak_period_s);

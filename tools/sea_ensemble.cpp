@@ -11,6 +11,7 @@
 #include "radar/waveform/fourier.h"
 #include "sim/core/constants.h"
 #include "sim/core/error.h"
+#include "sim/core/progress.h"
 #include "sim/scenario/scenario.h"
 
 namespace seaglint {
@@ -56,6 +57,7 @@ SeaEnsemble make_ensemble(const SeaState& state, std::size_t state_index, std::u
     std::array<double, 4> moments{};             // means of eta, its square, cube and fourth power
   };
   std::vector<Part> parts(static_cast<std::size_t>(count));
+  Progress progress("sea", parts.size(), "realisations");
   parallel_for(
       parts.size(), threads,
       [&](std::size_t i) {
@@ -74,6 +76,7 @@ SeaEnsemble make_ensemble(const SeaState& state, std::size_t state_index, std::u
         }
         part.crests = crest_heights(elevation[0]);
         part.density = periodograms(elevation, step, lines);
+        progress.advance();
       },
       &stop);
 
@@ -131,16 +134,15 @@ double exceeded_by(const std::vector<double>& ascending, double share) {
 
 }  // namespace
 
-std::string ensemble_text(const SeaEnsemble& ensemble, const SeaState& state, const SeaSummary& summary) {
+std::string ensemble_text(const SeaEnsemble& ensemble, const SeaSummary& summary) {
   std::string text;
   auto out = std::back_inserter(text);
   fmt::format_to(out,
                  "{} realisations: 4 sigma {:.4g} m, skewness {:.3f} (expected {:.3f}), kurtosis {:.3f}, Tz {:.3g} s\n",
                  ensemble.realisations, ensemble.significant_wave_height_m, ensemble.skewness, summary.skewness,
                  ensemble.kurtosis, ensemble.zero_crossing_period_s);
-  const bool long_crested = state.spreading.kind == Spreading::kNone;
   const ForristallCrests forristall =
-      forristall_crests(summary.significant_wave_height_m, summary.steepness, summary.ursell, long_crested);
+      forristall_crests(summary.significant_wave_height_m, summary.steepness, summary.ursell, summary.long_crested);
   fmt::format_to(out, "{} crests; height passed by 10 / 1 / 0.1 %:", ensemble.crests.size());
   for (const double share : {0.1, 0.01, 0.001}) {
     // Ten crests at least, or a height is chance.

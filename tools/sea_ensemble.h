@@ -41,6 +41,6 @@ void write_sea_figure(const SeaState& state, const WaveField& field, const SeaSu
                       const SeaEnsemble& ensemble, const std::string& title, const std::filesystem::path& file);
 
 // The ensemble's numbers beside what theory says, one line each.
-std::string ensemble_text(const SeaEnsemble& ensemble, const SeaState& state, const SeaSummary& summary);
+std::string ensemble_text(const SeaEnsemble& ensemble, const SeaSummary& summary);
 
 }  // namespace seaglint

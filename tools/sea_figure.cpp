@@ -49,10 +49,10 @@ LinePlot spectrum_plot(const SeaSummary& summary, const SeaEnsemble& ensemble) {
   return plot;
 }
 
-LinePlot crest_plot(const SeaState& state, const SeaSummary& summary, const SeaEnsemble& ensemble) {
+LinePlot crest_plot(const SeaSummary& summary, const SeaEnsemble& ensemble) {
   const double height = summary.significant_wave_height_m;
-  const bool long_crested = state.spreading.kind == Spreading::kNone;
-  const ForristallCrests forristall = forristall_crests(height, summary.steepness, summary.ursell, long_crested);
+  const ForristallCrests forristall =
+      forristall_crests(height, summary.steepness, summary.ursell, summary.long_crested);
   Series simulated{.name = "simulated", .x = {}, .y = {}, .interval = {}, .style = SeriesStyle::kPoints};
   // Every crest among the highest, the others thinned.
   const auto count = static_cast<double>(ensemble.crests.size());
@@ -60,7 +60,7 @@ LinePlot crest_plot(const SeaState& state, const SeaSummary& summary, const SeaE
     simulated.x.push_back(ensemble.crests[ensemble.crests.size() - static_cast<std::size_t>(rank)] / height);
     simulated.y.push_back(rank / (count + 1));
   }
-  Series fit{.name = fmt::format("Forristall (2000), {}-crested", long_crested ? "long" : "short"),
+  Series fit{.name = fmt::format("Forristall (2000), {}-crested", summary.long_crested ? "long" : "short"),
              .x = {},
              .y = {},
              .interval = {}};
@@ -113,8 +113,8 @@ LinePlot slope_plot(const SeaState& state, const WaveField& field, const SeaSumm
 
 void write_sea_figure(const SeaState& state, const WaveField& field, const SeaSummary& summary,
                       const SeaEnsemble& ensemble, const std::string& title, const std::filesystem::path& file) {
-  const std::array plots{elevation_plot(state, field), spectrum_plot(summary, ensemble),
-                         crest_plot(state, summary, ensemble), slope_plot(state, field, summary)};
+  const std::array plots{elevation_plot(state, field), spectrum_plot(summary, ensemble), crest_plot(summary, ensemble),
+                         slope_plot(state, field, summary)};
   write_figure(title, plots, 2, file, {1300, 940});
 }
 

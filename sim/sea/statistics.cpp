@@ -25,6 +25,7 @@ SeaSummary summarize(const SeaState& state, const WaveField& field) {
   SeaSummary summary;
   summary.cutoff_rad_s = linear_cutoff(state);
   summary.second_order_cutoff_rad_s = second_order_cutoff(state);
+  summary.long_crested = field.long_crested();
   double m0 = 0, m1 = 0;
   Vec2 direction = Vec2::Zero();
   for (const WaveComponent& c : field.components()) {

@@ -20,6 +20,7 @@ struct SeaSummary {
   double energy_share_above_cutoff = 0;  // of the wind sea's spectrum, added to the components below
   double slope_variance = 0;             // of the linear part; grows with the logarithm of the cut-off
   double slope_variance_beyond = 0;      // what the spectrum would add between the cut-off and twice that
+  bool long_crested = true;              // all components travel one way
   double direction_r1 = 0;               // length of the components' mean direction weighted with energy
   double skewness = 0;                   // of the elevation to leading order; 0 at order 1
   double steepness = 0;                  // S1 = 2 pi Hs / (g T1^2)

@@ -169,6 +169,7 @@ TEST(SeaSummary, KnowsSteepnessUrsellAndDirection) {
   const WaveField field = realize_sea(state, 1, 0);
   const SeaSummary summary = summarize(state, field);
   EXPECT_NEAR(summary.mean_period_s, 0.834 * 7, 0.02 * 7);  // T1/Tp of JONSWAP at gamma 3.3 (DNV-RP-C205: 0.834)
+  EXPECT_FALSE(summary.long_crested);
   EXPECT_NEAR(summary.steepness, 2 * kPi * 2 / (kGravity * summary.mean_period_s * summary.mean_period_s), 1e-12);
   const double k1 = wavenumber_at(2 * kPi / summary.mean_period_s, 15);
   EXPECT_NEAR(summary.ursell, 2 / (k1 * k1 * 15 * 15 * 15), 1e-12);
