@@ -66,29 +66,18 @@ Kernels kernels_of(const Wave& a, const Wave& b, double depth) {
   return {elevation_sum, elevation_difference, potential_sum, potential_difference};
 }
 
-// One complex number per component, padded with zeros to whole lanes.
-struct Column {
-  explicit Column(std::size_t stride) : re(stride), im(stride) {}
-  std::vector<double> re, im;
-};
-
 // kernel times x, four columns at a time: every element of the result is summed in the same order on any processor.
-Column multiply(const std::vector<double>& kernel, const Column& x) {
-  const std::size_t stride = x.re.size();
-  Column y(stride);
-  double* re = y.re.data();
-  double* im = y.im.data();
+std::vector<double> multiply(const std::vector<double>& kernel, const std::vector<double>& x) {
+  const std::size_t stride = x.size();
+  std::vector<double> result(stride);
+  double* y = result.data();
   for (std::size_t j = 0; j < stride; j += kLanes) {
     const double* k0 = kernel.data() + j * stride;
     const double *k1 = k0 + stride, *k2 = k1 + stride, *k3 = k2 + stride;
-    const double re0 = x.re[j], re1 = x.re[j + 1], re2 = x.re[j + 2], re3 = x.re[j + 3];
-    const double im0 = x.im[j], im1 = x.im[j + 1], im2 = x.im[j + 2], im3 = x.im[j + 3];
-    for (std::size_t i = 0; i < stride; ++i) {
-      re[i] += (k0[i] * re0 + k1[i] * re1) + (k2[i] * re2 + k3[i] * re3);
-      im[i] += (k0[i] * im0 + k1[i] * im1) + (k2[i] * im2 + k3[i] * im3);
-    }
+    const double x0 = x[j], x1 = x[j + 1], x2 = x[j + 2], x3 = x[j + 3];
+    for (std::size_t i = 0; i < stride; ++i) y[i] += (k0[i] * x0 + k1[i] * x1) + (k2[i] * x2 + k3[i] * x3);
   }
-  return y;
+  return result;
 }
 
 }  // namespace
@@ -99,66 +88,61 @@ PairInteractions::PairInteractions(std::span<const WaveComponent> components, do
   std::vector<Wave> waves;
   for (const WaveComponent& component : components) waves.push_back(wave_of(component, depth));
   const std::size_t entries = stride_ * stride_;
-  elevation_sum_.resize(entries);
-  elevation_difference_.resize(entries);
-  potential_sum_.resize(entries);
-  potential_difference_.resize(entries);
+  elevation_even_.resize(entries);
+  elevation_odd_.resize(entries);
+  potential_even_.resize(entries);
+  potential_odd_.resize(entries);
   for (std::size_t j = 0; j < size_; ++j) {
     for (std::size_t i = 0; i <= j; ++i) {
       const Kernels k = kernels_of(waves[i], waves[j], depth);
       const std::size_t upper = j * stride_ + i, lower = i * stride_ + j;
-      elevation_sum_[upper] = elevation_sum_[lower] = k.elevation_sum;
-      elevation_difference_[upper] = elevation_difference_[lower] = k.elevation_difference;
-      potential_sum_[upper] = potential_sum_[lower] = k.potential_sum;
-      potential_difference_[upper] = k.potential_difference;
-      potential_difference_[lower] = -k.potential_difference;
+      elevation_even_[upper] = elevation_even_[lower] = k.elevation_sum + k.elevation_difference;
+      elevation_odd_[upper] = elevation_odd_[lower] = k.elevation_sum - k.elevation_difference;
+      // P- is antisymmetric.
+      potential_even_[upper] = potential_odd_[lower] = k.potential_sum + k.potential_difference;
+      potential_odd_[upper] = potential_even_[lower] = k.potential_sum - k.potential_difference;
     }
   }
 }
 
-// With z_i = a_i e^{j th_i} and symmetric kernels, eta2 = Re sum_i z_i [(B+ z)_i + conj (B- z)_i]; a derivative acts on
-// both factors alike and so doubles that of the first: d/dt z = j w z, d/dx z = -j k_x z. Likewise for the potential.
+// With z_i = a_i e^{j th_i} and symmetric kernels, eta2 = Re sum_i z_i [(B+ z)_i + conj (B- z)_i], and the bracket has
+// the real part (B+ + B-) Re z and the imaginary part (B+ - B-) Im z. A derivative acts on both factors alike and so
+// doubles that of the first: d/dt z = j w z, d/dx z = -j k_x z. Likewise for the potential.
 SecondOrder PairInteractions::evaluate(std::span<const WaveComponent> components, std::span<const double> cosine,
                                        std::span<const double> sine, bool motion) const {
   SEAGLINT_CHECK(components.size() == size_ && cosine.size() == size_ && sine.size() == size_,
                  fmt::format("{} components instead of {}", components.size(), size_));
-  Column z(stride_);
-  for (std::size_t i = 0; i < size_; ++i) {
-    z.re[i] = cosine[i];
-    z.im[i] = sine[i];
-  }
-  const Column sum = multiply(elevation_sum_, z);
-  const Column difference = multiply(elevation_difference_, z);
+  std::vector<double> re(cosine.begin(), cosine.end()), im(sine.begin(), sine.end());
+  re.resize(stride_);
+  im.resize(stride_);
+  const std::vector<double> bracket_re = multiply(elevation_even_, re);
+  const std::vector<double> bracket_im = multiply(elevation_odd_, im);
   SecondOrder second;
   for (std::size_t i = 0; i < size_; ++i) {
-    const double k = components[i].wavenumber;
-    second.elevation += z.re[i] * (sum.re[i] + difference.re[i]) - z.im[i] * (sum.im[i] - difference.im[i]);
-    const double imaginary = z.re[i] * (sum.im[i] - difference.im[i]) + z.im[i] * (sum.re[i] + difference.re[i]);
-    second.slope += 2 * k * imaginary * components[i].direction;
-    second.rate -= 2 * components[i].omega * imaginary;
+    second.elevation += re[i] * bracket_re[i] - im[i] * bracket_im[i];
+    const double imaginary = re[i] * bracket_im[i] + im[i] * bracket_re[i];
+    second.slope += 2 * components[i].wavenumber * imaginary * components[i].direction;
   }
-  if (!motion) {
-    second.rate = 0;
-    return second;
-  }
+  if (!motion) return second;
 
-  Column wz(stride_);
+  std::vector<double> w_re(stride_), w_im(stride_);
   for (std::size_t i = 0; i < size_; ++i) {
-    wz.re[i] = components[i].omega * z.re[i];
-    wz.im[i] = components[i].omega * z.im[i];
+    w_re[i] = components[i].omega * re[i];
+    w_im[i] = components[i].omega * im[i];
   }
-  const Column sum_w = multiply(elevation_sum_, wz);
-  const Column difference_w = multiply(elevation_difference_, wz);
-  const Column sum_p = multiply(potential_sum_, z);
-  const Column difference_p = multiply(potential_difference_, z);
+  const std::vector<double> mixed_re = multiply(elevation_odd_, w_re);
+  const std::vector<double> mixed_im = multiply(elevation_even_, w_im);
+  const std::vector<double> potential_re = multiply(potential_even_, re);
+  const std::vector<double> potential_im = multiply(potential_odd_, im);
   for (std::size_t i = 0; i < size_; ++i) {
     const double w = components[i].omega;
+    second.rate -= 2 * w * (re[i] * bracket_im[i] + im[i] * bracket_re[i]);
     // (w_i +- w_j)^2 = w_i^2 + w_j^2 +- 2 w_i w_j
-    const double first = z.re[i] * (sum.re[i] + difference.re[i]) - z.im[i] * (sum.im[i] - difference.im[i]);
-    const double mixed = z.re[i] * (sum_w.re[i] - difference_w.re[i]) - z.im[i] * (sum_w.im[i] + difference_w.im[i]);
-    second.rate_of_rate -= 2 * w * (w * first + mixed);
-    const double real = z.re[i] * (sum_p.re[i] + difference_p.re[i]) - z.im[i] * (sum_p.im[i] - difference_p.im[i]);
-    second.velocity += 2 * components[i].wavenumber * real * components[i].direction;
+    const double equal = re[i] * bracket_re[i] - im[i] * bracket_im[i];
+    const double mixed = re[i] * mixed_re[i] - im[i] * mixed_im[i];
+    second.rate_of_rate -= 2 * w * (w * equal + mixed);
+    const double flow = re[i] * potential_re[i] - im[i] * potential_im[i];
+    second.velocity += 2 * components[i].wavenumber * flow * components[i].direction;
   }
   return second;
 }
@@ -172,8 +156,7 @@ double PairInteractions::third_cumulant(std::span<const WaveComponent> component
     const double ej = 0.5 * components[j].amplitude * components[j].amplitude;
     for (std::size_t i = 0; i < size_; ++i) {
       const double ei = 0.5 * components[i].amplitude * components[i].amplitude;
-      const std::size_t pair = j * stride_ + i;
-      sum += (i == j ? 3.0 : 6.0) * ei * ej * (elevation_sum_[pair] + elevation_difference_[pair]);
+      sum += (i == j ? 3.0 : 6.0) * ei * ej * elevation_even_[j * stride_ + i];
     }
   }
   return sum;

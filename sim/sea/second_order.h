@@ -42,8 +42,8 @@ class PairInteractions {
  private:
   std::size_t size_ = 0;
   std::size_t stride_ = 0;  // of a column: size_ rounded up to kLanes
-  // B+, B-, P+, P- of all pairs, column by column.
-  std::vector<double> elevation_sum_, elevation_difference_, potential_sum_, potential_difference_;
+  // B+ + B-, B+ - B-, P+ + P-, P+ - P- of all pairs, column by column.
+  std::vector<double> elevation_even_, elevation_odd_, potential_even_, potential_odd_;
 };
 
 }  // namespace seaglint
