@@ -40,6 +40,7 @@ FloatParticulars float_particulars(const MotionSpec& spec, const Bounds& bounds)
   if (!(body.diameter > 0)) {
     throw InputError("motion.diameter_m: the mesh has no width to derive a float's diameter from; write it down");
   }
+  body.draught = spec.draught_m;
   const double scale = std::sqrt(body.diameter);
   const auto tilt = [&](double period, double damping) {
     return Oscillator{2 * kPi / given_or(period, kTiltPeriod * scale), given_or(damping, kTiltDamping), 0};
@@ -47,7 +48,8 @@ FloatParticulars float_particulars(const MotionSpec& spec, const Bounds& bounds)
   body.roll = tilt(spec.roll_period_s, spec.roll_damping);
   body.roll.quadratic = spec.roll_quadratic_damping;
   body.pitch = tilt(spec.pitch_period_s, spec.pitch_damping);
-  body.heave = {2 * kPi / (kHeavePeriod * scale), kHeaveDamping, 0};
+  body.heave = {2 * kPi / given_or(spec.heave_period_s, kHeavePeriod * scale),
+                given_or(spec.heave_damping, kHeaveDamping), 0};
   return body;
 }
 
@@ -66,6 +68,10 @@ double disc_slope_filter(double wavenumber, double radius) {
   return 8 * std::cyl_bessel_j(2.0, x) / (x * x);
 }
 
+double float_filter(const FloatParticulars& body, double wavenumber) {
+  return disc_slope_filter(wavenumber, 0.5 * body.diameter) * std::exp(-wavenumber * body.draught);
+}
+
 Vec2 limited_slope(const Vec2& slope) {
   const double share = slope.squaredNorm() / (kBreakingSlope * kBreakingSlope);
   return slope / std::sqrt(std::sqrt(1 + share * share));
@@ -77,7 +83,7 @@ namespace {
 class Water {
  public:
   Water(const WaveField& sea, const FloatParticulars& body, double x, double y, bool moving, double start, double step)
-      : field_(sea.filtered([&](double k) { return disc_slope_filter(k, 0.5 * body.diameter); })),
+      : field_(sea.filtered([&](double k) { return float_filter(body, k); })),
         x_(x),
         y_(y),
         start_(start),

@@ -162,6 +162,8 @@ void visit(MotionSpec& spec, FieldVisitor& v) {
   v.number("length_m", spec.length_m, within(0, 1000));
   v.number("beam_m", spec.beam_m, within(0, 200));
   v.number("draught_m", spec.draught_m, within(0, 50));
+  v.number("heave_period_s", spec.heave_period_s, zero_or_within(0.2, 60));
+  v.number("heave_damping", spec.heave_damping, within(0, 2));
   v.number("metacentric_height_m", spec.metacentric_height_m, within(0.01, 20));
   v.number("roll_radius_m", spec.roll_radius_m, within(0, 100));
   v.number("pitch_radius_m", spec.pitch_radius_m, within(0, 500));

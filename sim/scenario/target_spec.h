@@ -28,7 +28,9 @@ struct MotionSpec {
   double yaw_rate_deg_s = 0;          // standard deviation of a float's slow random rotation, 0 <= x <= 180
   double length_m = 0;                // (auto) waterline length, 0 <= x <= 1000
   double beam_m = 0;                  // (auto) waterline beam, 0 <= x <= 200
-  double draught_m = 0;               // (auto) 0 <= x <= 50
+  double draught_m = 0;               // (auto) of a ship; of a float, 0 = too shallow to matter; 0 <= x <= 50
+  double heave_period_s = 0;          // (auto) of a float, 0 or 0.2 <= x <= 60
+  double heave_damping = 0;           // (auto) of a float, ratio to critical, 0 <= x <= 2
   double metacentric_height_m = 1.95;  // 0.01 <= x <= 20
   double roll_radius_m = 0;           // of gyration of the mass about the centre of gravity; 0: the one of roll_period_s, 0 <= x <= 100
   double pitch_radius_m = 0;          // (auto) 0 <= x <= 500
