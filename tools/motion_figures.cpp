@@ -37,11 +37,12 @@ std::vector<double> angle_deg(const std::vector<MotionSample>& samples, int axis
 double window_power(const std::vector<double>& values, std::size_t begin, std::size_t length, double omega) {
   double mean = 0;
   for (std::size_t n = 0; n < length; ++n) mean += values[begin + n] / static_cast<double>(length);
-  Complex sum = 0;
+  Complex sum = 0, phasor = 1;
+  const Complex turn = std::polar(1.0, -omega * kSampling);
   double weight = 0;
-  for (std::size_t n = 0; n < length; ++n) {
+  for (std::size_t n = 0; n < length; ++n, phasor *= turn) {
     const double hann = 0.5 - 0.5 * std::cos(2 * kPi * (static_cast<double>(n) + 0.5) / static_cast<double>(length));
-    sum += hann * (values[begin + n] - mean) * std::polar(1.0, -omega * kSampling * static_cast<double>(n));
+    sum += hann * (values[begin + n] - mean) * phasor;
     weight += hann * hann;
   }
   return std::norm(sum) * kSampling / weight / kPi;
@@ -105,6 +106,7 @@ void write_motion_figure(const std::vector<NamedTrajectory>& bodies, double dura
   for (std::size_t axis = 0; axis < 3; ++axis) {
     plots[axis].x.label = "time (s)";
     plots[axis].y.label = fmt::format("{} (deg)", kAngles[axis]);
+    plots[axis].legend_above = axis == 0;
     for (std::size_t i = 0; i < std::min(bodies.size(), kMostBodies); ++i) {
       const std::vector<MotionSample> samples = sampled(bodies[i].trajectory, std::min(duration_s, kLongest));
       Series series;
@@ -160,12 +162,13 @@ Series silhouette(const TriangleMesh& mesh, const Pose& pose) {
 LinePlot frame(const NamedTrajectory& body, const WaveField& sea, double t) {
   const Pose pose = body.trajectory.pose(std::min(t, body.trajectory.end_s()));
   const Bounds box = bounds(body.mesh);
-  const double reach = 0.65 * (box.upper.x() - box.lower.x());
+  const double reach = std::max(2.0, 0.65 * (box.upper.x() - box.lower.x()));
+  const double level = sea.surface(pose.p_TB.x(), pose.p_TB.y(), t, SurfaceDetail::kShape).elevation;
+  const double lowest = std::min(level, pose.p_TB.z() + box.lower.z());
   LinePlot plot;
   plot.title = fmt::format("{}, {:.1f} s", body.body, t);
   plot.x = {"x (m)", AxisRange{pose.p_TB.x() - reach, pose.p_TB.x() + reach}};
-  plot.y = {"z (m)",
-            AxisRange{pose.p_TB.z() + box.lower.z() - 0.3 * reach, pose.p_TB.z() + box.upper.z() + 0.3 * reach}};
+  plot.y = {"z (m)", AxisRange{lowest - 0.2 * reach, pose.p_TB.z() + box.upper.z() + 0.2 * reach}};
   plot.equal_axes = true;
   Series water;
   constexpr int kPoints = 200;
@@ -224,6 +227,7 @@ void write_rao_figure(const ShipParticulars& ship, double mu, const std::filesys
   for (std::size_t axis = 0; axis < 3; ++axis) {
     plots[axis].x.label = "wave frequency (rad/s)";
     plots[axis].y.label = fmt::format("{} (deg/m)", kAngles[axis]);
+    plots[axis].legend_above = axis == 0;
     if (axis == 0) ours[axis].name = "seaglint";
     plots[axis].series.push_back(ours[axis]);
     if (reference.empty()) continue;

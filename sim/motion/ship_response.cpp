@@ -21,7 +21,9 @@ constexpr double kSlowestEncounter = 0.1;
 
 ShipResponse ship_rao(const ShipParticulars& ship, const ShipWave& wave) {
   double omega = encounter_frequency(wave, ship.speed);
-  if (ship.speed > 0 && std::abs(omega) < kSlowestEncounter) omega = std::copysign(kSlowestEncounter, omega);
+  // A wave that is as slow by itself is none of these.
+  const double slowest = std::min(kSlowestEncounter, 0.5 * wave.omega);
+  if (ship.speed > 0 && std::abs(omega) < slowest) omega = std::copysign(slowest, omega);
   const ShipForces force = ship.strips->excitation(wave, ship.speed);
   const StripTheory::Radiation radiation = ship.strips->radiation(omega, ship.speed);
 
