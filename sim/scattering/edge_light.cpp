@@ -12,7 +12,8 @@ namespace {
 // Corners this near to an edge lie on it: cuts are exact to rounding of the target's size.
 constexpr double kOnEdge = 1e-7;  // m
 
-// Mirrors on both ways together. Three suffice for what a corner reflector's rims return; what is left out has left the target's straight ways.
+// Mirrors on both ways together. Three suffice for what a corner reflector's rims return; what is left out has left the
+// target's straight ways.
 constexpr int kMostMirrors = 3;
 
 // The facet of an edge that faces the wave more squarely.
@@ -48,7 +49,8 @@ void join(std::vector<Stretch>& stretches) {
 }
 
 // Where sides of the lit pieces lie on an edge, given by its image's start and direction.
-std::vector<Stretch> lit_stretches(const Vec3& image, const Vec3& along, double length, const WaveOnFacet& wave, std::span<const MovingPolygon> lit) {
+std::vector<Stretch> lit_stretches(const Vec3& image, const Vec3& along, double length, const WaveOnFacet& wave,
+                                   std::span<const MovingPolygon> lit) {
   const RadarBasis& a = wave.antenna;
   const Vec2 start(image.dot(a.h), image.dot(a.v)), run(along.dot(a.h), along.dot(a.v));
   const double shortened = run.norm();  // of a metre of edge in the aperture
@@ -94,8 +96,9 @@ std::array<Complex, 4> pattern(const WedgeFrame& wedge, const EdgeArrival& in, c
   return {received(out.E_h, J_h), received(out.E_h, J_v), received(out.E_v, J_h), received(out.E_v, J_v)};
 }
 
-// Ahead of an edge, near the shadow boundary of the beam that it cuts, the diffracted field towards a mirror at a finite distance is no ray of its own: the
-// beam's end on that mirror carries it. An echo by mirrors fades out from right angles to the wave's way on to 30 deg off it.
+// Ahead of an edge, near the shadow boundary of the beam that it cuts, the diffracted field towards a mirror at a
+// finite distance is no ray of its own: the beam's end on that mirror carries it. An echo by mirrors fades out from
+// right angles to the wave's way on to 30 deg off it.
 double beside_the_beam(const Vec3& k_hat, const Vec3& s) {
   const double ahead = std::clamp(k_hat.dot(s) / std::cos(kPi / 6), 0.0, 1.0);
   return 1 - ahead * ahead * (3 - 2 * ahead);
@@ -105,8 +108,8 @@ std::array<Complex, 4> transposed(const std::array<Complex, 4>& s) { return {s[0
 
 }  // namespace
 
-void find_arrivals(const SharpEdges& edges, std::span<const Facet> facets, const Panels& panels, int facet, const WaveOnFacet& wave,
-                   std::span<const MovingPolygon> lit, std::vector<EdgeArrival>& arrivals) {
+void find_arrivals(const SharpEdges& edges, std::span<const Facet> facets, const Panels& panels, int facet,
+                   const WaveOnFacet& wave, std::span<const MovingPolygon> lit, std::vector<EdgeArrival>& arrivals) {
   if (lit.empty()) return;
   for (const int member : panels.members(facet)) {
     for (const int number : edges.of_facet[member]) {
@@ -122,11 +125,15 @@ void find_arrivals(const SharpEdges& edges, std::span<const Facet> facets, const
   }
 }
 
-std::vector<EdgeFootprint> edge_footprints(const SharpEdges& edges, std::span<const Facet> facets, const AntennaPair& antennas,
-                                           std::span<const EdgeArrival> incoming, std::span<const EdgeArrival> outgoing, int max_bounces) {
+std::vector<EdgeFootprint> edge_footprints(const SharpEdges& edges, std::span<const Facet> facets,
+                                           const AntennaPair& antennas, std::span<const EdgeArrival> incoming,
+                                           std::span<const EdgeArrival> outgoing, int max_bounces) {
   std::vector<EdgeFootprint> result;
   const int most_mirrors = std::min(kMostMirrors, max_bounces - 1);
+  // Of one antenna's two ways by the same arrivals only one is followed: run backwards it has the same path and the
+  // transposed pattern.
   const auto echo = [&](const EdgeArrival& in, const EdgeArrival& out) {
+    const bool both_ways = antennas.monostatic && &in != &out;
     const double first = std::max(in.s[0], out.s[0]), last = std::min(in.s[1], out.s[1]);
     if (last - first <= kOnEdge || in.mirrors + out.mirrors > most_mirrors) return;
     const SharpEdge& edge = edges.edges[in.edge];
@@ -138,15 +145,20 @@ std::vector<EdgeFootprint> edge_footprints(const SharpEdges& edges, std::span<co
     footprint.facet = edge.facet[0];
     footprint.part = facets[edge.facet[0]].part;
     footprint.bounces = static_cast<std::uint8_t>(in.mirrors + out.mirrors + 1);
-    // Physical optics radiates what more mirrors lit straight to the receiver: there its share is what edge_current() leaves out. The same way run
-    // backwards has the same answer (reciprocity); ways with as many mirrors on either side share both.
+    // Physical optics radiates what more mirrors lit straight to the receiver: there its share is what edge_current()
+    // leaves out. The same way run backwards has the same answer (reciprocity); ways with as many mirrors on either
+    // side share both.
     if (in.mirrors > out.mirrors) {
       footprint.pattern = pattern(*wedge, in, out);
     } else if (in.mirrors < out.mirrors) {
       footprint.pattern = transposed(pattern(*wedge, out, in));
     } else {
-      const auto there = pattern(*wedge, in, out), back = transposed(pattern(*wedge, out, in));
+      const auto there = pattern(*wedge, in, out), back = transposed(&in == &out ? there : pattern(*wedge, out, in));
       for (int i = 0; i < 4; ++i) footprint.pattern[i] = 0.5 * (there[i] + back[i]);
+    }
+    if (both_ways) {
+      const auto backwards = transposed(footprint.pattern);
+      for (int i = 0; i < 4; ++i) footprint.pattern[i] += backwards[i];
     }
 
     if (in.mirrors + out.mirrors > 0) {
@@ -184,7 +196,7 @@ std::vector<EdgeFootprint> edge_footprints(const SharpEdges& edges, std::span<co
     while (i_end < incoming.size() && incoming[i_end].edge == edge) ++i_end;
     while (o_end < outgoing.size() && outgoing[o_end].edge == edge) ++o_end;
     for (std::size_t a = i; a < i_end; ++a) {
-      for (std::size_t b = o; b < o_end; ++b) echo(incoming[a], outgoing[b]);
+      for (std::size_t b = antennas.monostatic ? o + (a - i) : o; b < o_end; ++b) echo(incoming[a], outgoing[b]);
     }
     i = i_end;
     o = o_end;
@@ -194,12 +206,14 @@ std::vector<EdgeFootprint> edge_footprints(const SharpEdges& edges, std::span<co
 
 Complex range_factor(const EdgeFootprint& footprint, double k) {
   if (!footprint.edge_wave) return 1;
-  return transition(2 * k * footprint.edge_wave->departure_m) * transition(2 * k * footprint.edge_wave->arrival_m) / std::sqrt(k);
+  return transition(2 * k * footprint.edge_wave->departure_m) * transition(2 * k * footprint.edge_wave->arrival_m) /
+         std::sqrt(k);
 }
 
 std::array<Complex, 4> scattered(const EdgeFootprint& footprint, double k) {
   const double run = footprint.psi[1] - footprint.psi[0];
-  const Complex integral = range_factor(footprint, k) * footprint.length * sinc(k * run) * std::polar(1.0, k * 0.5 * (footprint.psi[0] + footprint.psi[1]));
+  const Complex integral = range_factor(footprint, k) * footprint.length * sinc(k * run) *
+                           std::polar(1.0, k * 0.5 * (footprint.psi[0] + footprint.psi[1]));
   std::array<Complex, 4> s;
   for (int i = 0; i < 4; ++i) s[i] = footprint.pattern[i] * integral;
   return s;

@@ -3,8 +3,9 @@
 
 // Which stretches of sharp edges does the wave reach, by which mirrors, and what do they send back?
 //
-// A wave reaches a stretch of an edge directly or by mirrors; what the edge sends back leaves by any of the ways on which the receiver's wave, sent
-// backwards, would reach it (reciprocity). Every pair of an arrival and a departure that share a stretch is one echo.
+// A wave reaches a stretch of an edge directly or by mirrors; what the edge sends back leaves by any of the ways on
+// which the receiver's wave, sent backwards, would reach it (reciprocity). Every pair of an arrival and a departure
+// that share a stretch is one echo.
 
 #include <array>
 #include <cstdint>
@@ -21,13 +22,13 @@ namespace seaglint {
 // A wave on a stretch of an edge.
 struct EdgeArrival {
   int edge = kNoEdge;
-  std::array<double, 2> s{};       // the stretch, m from the edge's start
-  std::array<Vec2, 2> slip{};      // d s / d (d1, d2) of its ends as the antenna's direction turns, m/rad
-  Vec3 image;                      // of the edge's start, through the mirrors
-  Vec3 image_along;                // unit, of the edge's direction
-  Vec3 direction;                  // of the wave at the edge, unit
-  Vec3 E_h, E_v;                   // field for each polarisation of the antenna
-  std::uint8_t mirrors = 0;        // passed before
+  std::array<double, 2> s{};   // the stretch, m from the edge's start
+  std::array<Vec2, 2> slip{};  // d s / d (d1, d2) of its ends as the antenna's direction turns, m/rad
+  Vec3 image;                  // of the edge's start, through the mirrors
+  Vec3 image_along;            // unit, of the edge's direction
+  Vec3 direction;              // of the wave at the edge, unit
+  Vec3 E_h, E_v;               // field for each polarisation of the antenna
+  std::uint8_t mirrors = 0;    // passed before
 };
 
 // A wave that falls on a facet through mirrors, as a beam's leg carries it.
@@ -39,31 +40,34 @@ struct WaveOnFacet {
   int bounce = 1;  // of the hit on the facet
 };
 
-// Appends the stretches of the sharp edges of a panel (by the facet it goes by) that bound what the wave lights of it (convex pieces of the aperture). Of an edge's two facets the
-// one that faces the wave more squarely speaks for both.
-void find_arrivals(const SharpEdges& edges, std::span<const Facet> facets, const Panels& panels, int facet, const WaveOnFacet& wave,
-                   std::span<const MovingPolygon> lit, std::vector<EdgeArrival>& arrivals);
+// Appends the stretches of the sharp edges of a panel (by the facet it goes by) that bound what the wave lights of it
+// (convex pieces of the aperture). Of an edge's two facets the one that faces the wave more squarely speaks for both.
+void find_arrivals(const SharpEdges& edges, std::span<const Facet> facets, const Panels& panels, int facet,
+                   const WaveOnFacet& wave, std::span<const MovingPolygon> lit, std::vector<EdgeArrival>& arrivals);
 
 // The echo of a stretch of edge: S = pattern times the integral of e^{jk psi} along it, psi linear.
 struct EdgeFootprint {
-  std::array<double, 2> psi{};            // at its ends, m
-  std::array<PathGradient, 2> gradient;   // of the ends, m
-  double length = 0;                      // m
-  std::array<Complex, 4> pattern{};       // hh, hv, vh, vv per metre, dimensionless; times sqrt(1/m) after an edge wave
-  // An edge wave of length l decays as 1/sqrt(k l), less where it starts or ends near a shadow boundary: l sin^2 of half the angle from there.
+  std::array<double, 2> psi{};           // at its ends, m
+  std::array<PathGradient, 2> gradient;  // of the ends, m
+  double length = 0;                     // m
+  std::array<Complex, 4> pattern{};      // hh, hv, vh, vv per metre, dimensionless; times sqrt(1/m) after an edge wave
+  // An edge wave of length l decays as 1/sqrt(k l), less where it starts or ends near a shadow boundary: l sin^2 of
+  // half the angle from there.
   struct EdgeWaveRange {
     double departure_m = 0, arrival_m = 0;
   };
   std::optional<EdgeWaveRange> edge_wave;
-  std::int32_t facet = -1;                // the edge's first
+  std::int32_t facet = -1;  // the edge's first
   std::uint16_t part = 0;
-  std::uint8_t bounces = 1;               // mirrors on both ways and the edge itself
+  std::uint8_t bounces = 1;  // mirrors on both ways and the edge itself
 };
 
-// Echoes of all stretches that a wave from the transmitter (`incoming`) shares with one from the receiver (`outgoing`; the same list when both are
-// one antenna), with at most `max_bounces` in all. Arrivals must be grouped by edge in ascending order.
-std::vector<EdgeFootprint> edge_footprints(const SharpEdges& edges, std::span<const Facet> facets, const AntennaPair& antennas,
-                                           std::span<const EdgeArrival> incoming, std::span<const EdgeArrival> outgoing, int max_bounces);
+// Echoes of all stretches that a wave from the transmitter (`incoming`) shares with one from the receiver (`outgoing`),
+// with at most `max_bounces` in all. Arrivals must be in ascending order of their edges. When both are one antenna
+// `incoming` is a part of `outgoing` that holds all or none of an edge's.
+std::vector<EdgeFootprint> edge_footprints(const SharpEdges& edges, std::span<const Facet> facets,
+                                           const AntennaPair& antennas, std::span<const EdgeArrival> incoming,
+                                           std::span<const EdgeArrival> outgoing, int max_bounces);
 
 // What an edge wave's range makes of the pattern; 1 without one.
 Complex range_factor(const EdgeFootprint& footprint, double k);

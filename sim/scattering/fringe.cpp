@@ -12,10 +12,22 @@ namespace {
 constexpr Complex j(0, 1);
 
 // (1/N) cot(x / 2N), less cot(x / 2) where physical optics has a share: regular at x = 0 then.
-Complex half_cotangents(const Complex& x, double N, bool less_optics) {
+template <typename Angle>
+Angle half_cotangents(const Angle& x, double N, bool less_optics) {
   if (less_optics && std::abs(x) < 1e-3) return x / 6.0 * (1 - 1 / (N * N));
-  const Complex wedge = 1.0 / (N * std::tan(x / (2 * N)));
+  const Angle wedge = 1.0 / (N * std::tan(x / (2 * N)));
   return less_optics ? wedge - 1.0 / std::tan(x / 2.0) : wedge;
+}
+
+// Half the sum and half the difference of those at a - phi and a + phi, over sin a the first.
+struct Cotangents {
+  Complex sum, difference;
+};
+template <typename Angle>
+Cotangents cotangents(const Angle& a, double phi, double N, bool less_optics) {
+  const Angle minus = half_cotangents(Angle(a - phi), N, less_optics),
+              plus = half_cotangents(Angle(a + phi), N, less_optics);
+  return {0.5 * (minus + plus) / std::sin(a), 0.5 * (minus - plus)};
 }
 
 // Angle of the direction against the face, in the plane across the edge, 0..2 pi.
@@ -24,23 +36,23 @@ double angle_from_face(const WedgeFace& face, const Vec3& towards_source) {
   return angle < 0 ? angle + 2 * kPi : angle;
 }
 
-// Integrals of eta k J over one face along the grazing diffracted ray. Michaeli 1984 eqs. 12-14 with 1986 eqs. 5-8 (his alpha is pi - a here):
-// with H_t = 1 and E_t = 1 the wedge's exact currents give cotangents of (a +- phi') / 2N, those of physical optics the same with N = 1.
-CVec3 face_current(const WedgeFace& face, double N, double phi, bool less_optics, const Vec3& k_hat, const Vec3& E, const Vec3& s) {
+// Integrals of eta k J over one face along the grazing diffracted ray. Michaeli 1984 eqs. 12-14 with 1986 eqs. 5-8 (his
+// alpha is pi - a here): with H_t = 1 and E_t = 1 the wedge's exact currents give cotangents of (a +- phi') / 2N, those
+// of physical optics the same with N = 1.
+CVec3 face_current(const WedgeFace& face, double N, double phi, bool less_optics, const Vec3& k_hat, const Vec3& E,
+                   const Vec3& s) {
   const double cos_b = k_hat.dot(face.t);
   const double sin_b = std::sqrt(std::max(1 - cos_b * cos_b, 1e-12));
   const double mu = (sin_b * s.dot(face.x) + cos_b * (s.dot(face.t) - cos_b)) / (sin_b * sin_b);
-  // cos a = -mu; mu <= 1 for real directions, and a is imaginary where mu < -1. Both ends are removable, the one at pi only in the sum over the
-  // current's components across s: keep away from 0/0.
-  Complex a = mu >= -1 ? Complex(std::acos(std::clamp(-mu, -1.0, 1.0))) : Complex(0, std::acosh(-mu));
+  // cos a = -mu; mu <= 1 for real directions, and a is imaginary where mu < -1. Both ends are removable, the one at pi
+  // only in the sum over the current's components across s: keep away from 0/0.
   constexpr double kAside = 1e-5;
-  if (std::abs(a) < kAside) a = kAside;
-  if (std::abs(a - kPi) < kAside) a = kPi - kAside;
-
-  const Complex minus = half_cotangents(a - phi, N, less_optics), plus = half_cotangents(a + phi, N, less_optics);
+  const Cotangents cot = mu >= -1 ? cotangents(std::clamp(std::acos(std::clamp(-mu, -1.0, 1.0)), kAside, kPi - kAside),
+                                               phi, N, less_optics)
+                                  : cotangents(Complex(0, std::max(std::acosh(-mu), kAside)), phi, N, less_optics);
   const double H_t = k_hat.cross(E).dot(face.t), E_t = E.dot(face.t);
-  const Complex across = 2.0 * j * H_t / sin_b * 0.5 * (minus + plus) / std::sin(a);
-  Complex along = 2.0 * j * E_t / (sin_b * sin_b) * 0.5 * (minus - plus) + cos_b / sin_b * mu * across;
+  const Complex across = 2.0 * j * H_t / sin_b * cot.sum;
+  Complex along = 2.0 * j * E_t / (sin_b * sin_b) * cot.difference + cos_b / sin_b * mu * across;
   // What physical optics has of the current along the edge, written without its pole.
   if (less_optics) along += cos_b / sin_b * 2.0 * j * H_t / sin_b;
   return face.x * across + face.t * along;

@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Diffraction by a sharp edge of a perfect conductor as a line of equivalent currents: the part of the wedge's exact surface current that
-// geometrical optics lacks (the fringe current of Ufimtsev's physical theory of diffraction), integrated over both faces.
+// Diffraction by a sharp edge of a perfect conductor as a line of equivalent currents: the part of the wedge's exact
+// surface current that geometrical optics lacks (the fringe current of Ufimtsev's physical theory of diffraction),
+// integrated over both faces.
 //
-// A. Michaeli, "Equivalent edge currents for arbitrary aspects of observation", IEEE Trans. AP-32 (1984) 252-258, and "Elimination of infinities
-// in equivalent edge currents, part I: fringe current components", AP-34 (1986) 912-918: the faces are integrated along the diffracted ray that
-// grazes them, so the result is finite in every direction but the grazing ray's own of a wave that grazes the face already.
+// A. Michaeli, "Equivalent edge currents for arbitrary aspects of observation", IEEE Trans. AP-32 (1984) 252-258, and
+// "Elimination of infinities in equivalent edge currents, part I: fringe current components", AP-34 (1986) 912-918: the
+// faces are integrated along the diffracted ray that grazes them, so the result is finite in every direction but the
+// grazing ray's own of a wave that grazes the face already.
 
 #include "sim/core/linear.h"
 
 namespace seaglint {
 
-// One face of a wedge in its own frame: x into the face, across the edge; n out of the conductor; t = x x n along the edge.
+// One face of a wedge in its own frame: x into the face, across the edge; n out of the conductor; t = x x n along the
+// edge.
 struct WedgeFace {
   Vec3 x, n, t;
 };
@@ -23,27 +26,28 @@ struct WedgeFrame {
   double N = 2;  // the exterior angle is N pi, 1 < N <= 2; 2 is a half-plane
 };
 
-// The wedge's answer in direction s to a plane wave of unit amplitude along `k_hat` with electric field E (across it), per metre of edge:
-// p . edge_current(...) is the field amplitude S / length, dimensionless, independent of frequency, for the received polarisation p. Phase:
-// e^{jk s.x} of the edge's point and that of the incident wave there. Zero when the wave comes from inside the conductor.
+// The wedge's answer in direction s to a plane wave of unit amplitude along `k_hat` with electric field E (across it),
+// per metre of edge: p . edge_current(...) is the field amplitude S / length, dimensionless, independent of frequency,
+// for the received polarisation p. Phase: e^{jk s.x} of the edge's point and that of the incident wave there. Zero when
+// the wave comes from inside the conductor.
 CVec3 edge_current(const WedgeFrame& wedge, const Vec3& k_hat, const Vec3& E, const Vec3& s);
 
-// Field of the edge wave that a hard-polarised plane wave sends along a face: unit amplitude along k_hat, electric field E. The wave travels
-// along `direction` (in the face, on Keller's cone) and its electric field across the face at distance l > 0 from the edge is
-// amplitude e^{-jkl} / sqrt(k l), half of it the incident wave for an edge it meets (J. B. Keller, J. Opt. Soc. Am. 52 (1962) 116-130, eq. 10 and
-// section 6). The field along n.
+// Field of the edge wave that a hard-polarised plane wave sends along a face: unit amplitude along k_hat, electric
+// field E. The wave travels along `direction` (in the face, on Keller's cone) and its electric field across the face at
+// distance l > 0 from the edge is amplitude e^{-jkl} / sqrt(k l), half of it the incident wave for an edge it meets (J.
+// B. Keller, J. Opt. Soc. Am. 52 (1962) 116-130, eq. 10 and section 6). The field along n.
 struct EdgeWave {
   Vec3 direction;
   Complex amplitude;
 };
 EdgeWave edge_wave(const WedgeFrame& wedge, int face, const Vec3& k_hat, const Vec3& E);
 
-// sin^2 of half the angle between the wave's own way on along a face and the direction s, both about the edge: zero on the shadow boundary. For a
-// wave that arrives, s = k_hat; for one that leaves along the face, k_hat is its direction.
+// sin^2 of half the angle between the wave's own way on along a face and the direction s, both about the edge: zero on
+// the shadow boundary. For a wave that arrives, s = k_hat; for one that leaves along the face, k_hat is its direction.
 double shadow_distance(const Vec3& edge, const Vec3& along_face, const Vec3& other);
 
-// F(x) = 2j sqrt(x) e^{jx} integral from sqrt(x) to infinity of e^{-j t^2} dt, x >= 0: 0 on a shadow boundary, 1 far from it (R. G. Kouyoumjian and
-// P. H. Pathak, Proc. IEEE 62 (1974) 1448-1461, eq. 26). Error below 2e-4.
+// F(x) = 2j sqrt(x) e^{jx} integral from sqrt(x) to infinity of e^{-j t^2} dt, x >= 0: 0 on a shadow boundary, 1 far
+// from it (R. G. Kouyoumjian and P. H. Pathak, Proc. IEEE 62 (1974) 1448-1461, eq. 26). Error below 2e-4.
 Complex transition(double x);
 
 }  // namespace seaglint

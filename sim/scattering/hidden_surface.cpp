@@ -8,8 +8,14 @@
 #include "sim/core/parallel.h"
 
 namespace seaglint {
-bool set_image(FacetImage& result, std::span<const Facet> facets, const Panels& panels, int facet, const Mirror& mirrors, const RadarBasis& basis,
-               double min_area) {
+namespace {
+
+constexpr std::size_t kImagesPerChunk = 64;
+
+}  // namespace
+
+bool set_image(FacetImage& result, std::span<const Facet> facets, const Panels& panels, int facet,
+               const Mirror& mirrors, const RadarBasis& basis, double min_area) {
   const Facet& f = facets[facet];
   const Vec3 n_image = mirrors.L * f.normal;
   if (std::abs(n_image.dot(basis.r)) < 1e-6) return false;
@@ -79,28 +85,36 @@ bool cut(std::vector<MovingPolygon>& pieces, const MovingPolygon& hole, const Bo
 bool hide(const FacetImage& behind, const FacetImage& front, double min_area, std::vector<MovingPolygon>& pieces) {
   if (front.nearest < behind.farthest - kCoincident || !overlap(front.box, behind.box)) return false;
   if (front.farthest > behind.nearest + kCoincident) return cut(pieces, front.polygon, front.box, min_area);
-  if (std::none_of(pieces.begin(), pieces.end(), [&](const MovingPolygon& piece) { return !apart(piece, front.polygon); })) return false;
+  if (std::none_of(pieces.begin(), pieces.end(),
+                   [&](const MovingPolygon& piece) { return !apart(piece, front.polygon); }))
+    return false;
   const MovingPolygon hole = nearer_part(front, behind);
   return !hole.empty() && cut(pieces, hole, box_of(hole), min_area);
 }
 
-VisibleSurface::VisibleSurface(std::span<const Facet> facets, const Panels& panels, const FacetTree& tree, const RadarBasis& basis, double min_area, int threads)
-    : facets_(facets), basis_(basis), min_area_(min_area), pieces_(facets.size()), boxes_(facets.size()), whole_(facets.size(), 0) {
-  // The far side of a closed part is hidden by its near side: only what faces the radar, and open sheets, can be seen or hide anything.
-  std::vector<FacetImage> images;
-  std::vector<int> image_of(facets.size(), -1);
+VisibleSurface::VisibleSurface(std::span<const Facet> facets, const Panels& panels, const FacetTree& tree,
+                               const RadarBasis& basis, double min_area, int threads)
+    : facets_(facets), basis_(basis), min_area_(min_area), image_of_(facets.size(), -1) {
+  // The far side of a closed part is hidden by its near side: only what faces the radar, and open sheets, can be seen
+  // or hide anything.
+  const auto may_be_seen = [&](int f) {
+    return panels.is_first(f) && (facets[f].open || facets[f].normal.dot(basis.r) > 0);
+  };
+  std::size_t most = 0;
+  for (int f = 0; f < static_cast<int>(facets.size()); ++f) most += may_be_seen(f);
+  images_.reserve(most);
   FacetImage fresh;
   for (int f = 0; f < static_cast<int>(facets.size()); ++f) {
-    if (!panels.is_first(f) || (!facets[f].open && facets[f].normal.dot(basis.r) <= 0)) continue;
-    if (!set_image(fresh, facets, panels, f, Mirror{}, basis, min_area)) continue;
-    image_of[f] = static_cast<int>(images.size());
-    images.push_back(fresh);
+    if (!may_be_seen(f) || !set_image(fresh, facets, panels, f, Mirror{}, basis, min_area)) continue;
+    image_of_[f] = static_cast<std::int32_t>(images_.size());
+    images_.push_back(fresh);
   }
-  constexpr std::size_t kImagesPerChunk = 64;
-  parallel_for((images.size() + kImagesPerChunk - 1) / kImagesPerChunk, threads, [&](std::size_t chunk) {
-    std::vector<MovingPolygon> seen;
-    for (std::size_t i = chunk * kImagesPerChunk; i < std::min(images.size(), (chunk + 1) * kImagesPerChunk); ++i) {
-      const FacetImage& image = images[i];
+  seen_.resize(images_.size());
+  pieces_.resize((images_.size() + kImagesPerChunk - 1) / kImagesPerChunk);
+  parallel_for(pieces_.size(), threads, [&](std::size_t chunk) {
+    std::vector<MovingPolygon> left;
+    for (std::size_t i = chunk * kImagesPerChunk; i < std::min(images_.size(), (chunk + 1) * kImagesPerChunk); ++i) {
+      const FacetImage& image = images_[i];
       const Facet& facet = facets[image.facet];
       const Vec3 towards = facet.normal.dot(basis.r) > 0 ? facet.normal : Vec3(-facet.normal);
       const Prism prism{{basis.h, basis.v},
@@ -110,31 +124,46 @@ VisibleSurface::VisibleSurface(std::span<const Facet> facets, const Panels& pane
                         towards.dot(facet.corner[0]),
                         basis.r,
                         -basis.r};
-      seen.assign(1, image.polygon);
-      bool whole = true;
+      left.assign(1, image.polygon);
+      Seen& seen = seen_[i];
       tree.walk(prism, [&](int other) {
-        if (other != image.facet && image_of[other] >= 0 && hide(image, images[image_of[other]], min_area, seen)) whole = false;
-        return seen.empty() ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
+        if (other != image.facet && image_of_[other] >= 0 && hide(image, images_[image_of_[other]], min_area, left))
+          seen.whole = false;
+        return left.empty() ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
       });
-      for (const MovingPolygon& piece : seen) boxes_[image.facet].push_back(box_of(piece));
-      pieces_[image.facet].assign(seen.begin(), seen.end());
-      whole_[image.facet] = whole && !seen.empty();
+      if (seen.whole) continue;
+      std::vector<MovingPolygon>& pieces = pieces_[chunk];
+      seen.first = static_cast<std::uint32_t>(pieces.size());
+      seen.count = static_cast<std::uint32_t>(left.size());
+      pieces.insert(pieces.end(), left.begin(), left.end());
     }
+    pieces_[chunk].shrink_to_fit();
   });
 }
 
-void VisibleSurface::seen_through(int facet, const Mirror& mirrors, std::span<const MovingPolygon> lit, const RadarBasis& transmit,
-                                  std::vector<MovingPolygon>& seen) const {
-  if (whole_[facet]) {
+std::span<const MovingPolygon> VisibleSurface::pieces(int facet) const {
+  if (image_of_[facet] < 0) return {};
+  const std::size_t i = static_cast<std::size_t>(image_of_[facet]);
+  if (seen_[i].whole) return {&images_[i].polygon, 1};
+  return {pieces_[i / kImagesPerChunk].data() + seen_[i].first, seen_[i].count};
+}
+
+void VisibleSurface::seen_through(int facet, const Mirror& mirrors, std::span<const MovingPolygon> lit,
+                                  const RadarBasis& transmit, std::vector<MovingPolygon>& seen) const {
+  if (image_of_[facet] < 0) return;
+  if (seen_[static_cast<std::size_t>(image_of_[facet])].whole) {
     seen.insert(seen.end(), lit.begin(), lit.end());
     return;
   }
-  if (pieces_[facet].empty()) return;
-  // On the panel's plane, the way from the radar's own aperture to the beam's is affine: q -> origin + q1 first + q2 second, heights included.
+  const std::span<const MovingPolygon> direct_view = pieces(facet);
+  if (direct_view.empty()) return;
+  // On the panel's plane, the way from the radar's own aperture to the beam's is affine: q -> origin + q1 first + q2
+  // second, heights included.
   const ImagePlane own = image_plane(facets_[facet].normal, facets_[facet].offset, basis_);
   const auto in_beam = [&](const Vec3& x) { return Vec3(x.dot(transmit.h), x.dot(transmit.v), x.dot(transmit.r)); };
   const Vec3 origin = in_beam(mirrors.image(own.z0 * basis_.r));
-  const Vec3 first = in_beam(mirrors.L * (basis_.h + own.slope.x() * basis_.r)), second = in_beam(mirrors.L * (basis_.v + own.slope.y() * basis_.r));
+  const Vec3 first = in_beam(mirrors.L * (basis_.h + own.slope.x() * basis_.r)),
+             second = in_beam(mirrors.L * (basis_.v + own.slope.y() * basis_.r));
   // Back from there, to tell which pieces may have to do with what is lit.
   const double determinant = first.x() * second.y() - first.y() * second.x();
   Box direct;
@@ -147,16 +176,16 @@ void VisibleSurface::seen_through(int facet, const Mirror& mirrors, std::span<co
     }
   }
   MovingPolygon image;
-  for (std::size_t i = 0; i < pieces_[facet].size(); ++i) {
-    if (!overlap(boxes_[facet][i], direct)) continue;
-    const MovingPolygon& piece = pieces_[facet][i];
+  for (const MovingPolygon& piece : direct_view) {
+    if (!overlap(box_of(piece), direct)) continue;
     image.clear();
     for (const Corner& corner : piece) {
       // The corner's point on the panel, and how far it slips in the panel beyond what a body-fixed point moves.
       const double z = own.at(corner.p);
       const Vec3 x = origin + corner.p.x() * first + corner.p.y() * second;
       const auto moved = [&](const Vec2& slip) -> Vec2 { return (slip.x() * first + slip.y() * second).head<2>(); };
-      image.push_back({x.head<2>(), moved(corner.d1 + Vec2(z, 0)) - Vec2(x.z(), 0), moved(corner.d2 + Vec2(0, z)) - Vec2(0, x.z())});
+      image.push_back({x.head<2>(), moved(corner.d1 + Vec2(z, 0)) - Vec2(x.z(), 0),
+                       moved(corner.d2 + Vec2(0, z)) - Vec2(0, x.z())});
     }
     if (signed_area(image) < 0) std::reverse(image.begin(), image.end());
     for (const MovingPolygon& part : lit) {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Hidden surfaces as polygons of the aperture plane: which part of each panel does the radar, or a beam, see? Panels go by their first facet.
+// Hidden surfaces as polygons of the aperture plane: which part of each panel does the radar, or a beam, see? Panels go
+// by their first facet.
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -25,8 +27,8 @@ struct FacetImage {
 };
 
 // False when the panel is edge-on to the ray or its image is smaller than min_area.
-bool set_image(FacetImage& image, std::span<const Facet> facets, const Panels& panels, int facet, const Mirror& mirrors, const RadarBasis& basis,
-               double min_area);
+bool set_image(FacetImage& image, std::span<const Facet> facets, const Panels& panels, int facet, const Mirror& mirrors,
+               const RadarBasis& basis, double min_area);
 
 // Fills box and heights from polygon and plane.
 void set_extent(FacetImage& image);
@@ -34,10 +36,12 @@ void set_extent(FacetImage& image);
 // Height of plane b above plane a as a moving line: positive where b is nearer to the radar along the unfolded ray.
 MovingLine depth_between(const ImagePlane& a, const ImagePlane& b);
 
-// The part of b that lies nearer to the radar than plane a. Facets that coincide are ordered by number, the lower one in front.
+// The part of b that lies nearer to the radar than plane a. Facets that coincide are ordered by number, the lower one
+// in front.
 MovingPolygon nearer_part(const FacetImage& b, const FacetImage& a);
 
-// Takes the hole, whose box is given, out of every piece; pieces it does not touch stay as they are. True when any piece was cut.
+// Takes the hole, whose box is given, out of every piece; pieces it does not touch stay as they are. True when any
+// piece was cut.
 bool cut(std::vector<MovingPolygon>& pieces, const MovingPolygon& hole, const Box& box, double min_area);
 
 // Takes every part of the image out of the pieces of `behind` that lies nearer to the radar. True when any was cut.
@@ -46,14 +50,15 @@ bool hide(const FacetImage& behind, const FacetImage& front, double min_area, st
 // What the radar sees of every facet: convex pieces without overlap, exact for the flat facets given.
 class VisibleSurface {
  public:
-  VisibleSurface(std::span<const Facet> facets, const Panels& panels, const FacetTree& tree, const RadarBasis& basis, double min_area, int threads);
+  VisibleSurface(std::span<const Facet> facets, const Panels& panels, const FacetTree& tree, const RadarBasis& basis,
+                 double min_area, int threads);
 
-  // Pieces of the panel that goes by this facet in the radar's aperture; empty when it is hidden or faces away (an open sheet shows either side) and
-  // for facets whose panel goes by another.
-  std::span<const MovingPolygon> pieces(int facet) const { return pieces_[facet]; }
+  // Pieces of the panel that goes by this facet in the radar's aperture; empty when it is hidden or faces away (an open
+  // sheet shows either side) and for facets whose panel goes by another.
+  std::span<const MovingPolygon> pieces(int facet) const;
 
-  // What the radar sees directly of the parts of a panel that a beam lights: `lit` are the parts' images through the beam's mirrors, in the aperture of
-  // `transmit`. Appends convex pieces there.
+  // What the radar sees directly of the parts of a panel that a beam lights: `lit` are the parts' images through the
+  // beam's mirrors, in the aperture of `transmit`. Appends convex pieces there.
   void seen_through(int facet, const Mirror& mirrors, std::span<const MovingPolygon> lit, const RadarBasis& transmit,
                     std::vector<MovingPolygon>& seen) const;
 
@@ -61,9 +66,16 @@ class VisibleSurface {
   std::span<const Facet> facets_;
   RadarBasis basis_;
   double min_area_;
+  // Panels that face the radar, and the pieces of those that something hides a part of, chunk by chunk of images. Most
+  // are whole.
+  std::vector<FacetImage> images_;
+  std::vector<std::int32_t> image_of_;  // of each facet; -1: it faces away or its panel goes by another
+  struct Seen {
+    bool whole = true;
+    std::uint32_t first = 0, count = 0;  // of its pieces in those of its chunk
+  };
+  std::vector<Seen> seen_;  // of each image
   std::vector<std::vector<MovingPolygon>> pieces_;
-  std::vector<std::vector<Box>> boxes_;  // of the pieces
-  std::vector<char> whole_;              // nothing hides any of it
 };
 
 }  // namespace seaglint

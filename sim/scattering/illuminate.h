@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Shooting and bouncing rays, with polygons in place of rays: a beam is a bundle of parallel rays, a tree finds the facets it may meet, and the polygons of
-// those facets measure exactly what is lit and seen (sim/scattering/README.md). The result holds for every frequency.
+// Shooting and bouncing rays, with polygons in place of rays: a beam is a bundle of parallel rays, a tree finds the
+// facets it may meet, and the polygons of those facets measure exactly what is lit and seen (sim/scattering/README.md).
+// The result holds for every frequency.
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "sim/core/parallel.h"
 #include "sim/scattering/echo_filter.h"
 #include "sim/scattering/edge_light.h"
 #include "sim/scattering/footprint.h"
@@ -18,13 +21,13 @@
 namespace seaglint {
 
 struct IlluminationSettings {
-  // The detail that is followed, as the spacing of rays that would find it: lit pieces with a side below a fourteenth are left out. 0 or coarser than
-  // default_ray_spacing: that.
+  // The detail that is followed, as the spacing of rays that would find it: lit pieces with a side below a fourteenth
+  // are left out. 0 or coarser than default_ray_spacing: that.
   double ray_spacing_m = 0;
-  int max_bounces = 8;       // 1 <= x <= 64
-  bool edges = false;        // follow the waves that reach sharp edges too
-  EchoFilter filter = {};    // which echoes are summed; all are followed
-  double range_m = 0;        // of the radar, 0 = far field; else beyond ten radii of the target
+  int max_bounces = 8;     // 1 <= x <= 64
+  bool edges = false;      // follow the waves that reach sharp edges too
+  EchoFilter filter = {};  // which echoes are summed; all are followed
+  double range_m = 0;      // of the radar, 0 = far field; else beyond ten radii of the target
 };
 
 // 2e-3 of the radius: 0.14 m on the 144 m ship, pieces of 10 mm (README.md).
@@ -34,35 +37,46 @@ double default_ray_spacing(const Scatterer& scatterer);
 struct Lit {
   std::vector<Footprint> footprints;
   std::vector<EdgeArrival> arrivals;  // only when the settings ask for edges
-
-  void clear() {
-    footprints.clear();
-    arrivals.clear();
-  }
 };
 
-// What one direction lights and another (or the same) sees. The constructor finds what the radar sees of every facet; light() follows the beams that
-// leave one facet. Facets are independent and may be lit in any order by any thread.
+// The waves that reached sharp edges, in ascending order of the edges, and the number of legs followed, a beam's way
+// from one mirror to the next.
+struct Reached {
+  std::vector<EdgeArrival> arrivals;
+  std::size_t legs = 0;
+};
+
+// What one direction lights and another (or the same) sees. The constructor finds what the radar sees of every facet;
+// light() follows the beams that leave one facet. Facets are independent and may be lit in any order by any thread.
 class Illumination {
  public:
   // wavenumbers: those at which materials are evaluated; a perfect conductor needs none.
-  Illumination(const Scatterer& scatterer, const AntennaPair& antennas, const IlluminationSettings& settings, int threads = 1,
-               std::span<const double> wavenumbers = {});
+  Illumination(const Scatterer& scatterer, const AntennaPair& antennas, const IlluminationSettings& settings,
+               int threads = 1, std::span<const double> wavenumbers = {});
 
   // Panels the transmitter sees, by the facets they go by, ascending.
   std::span<const int> seen() const { return seen_; }
 
-  // Appends what all beams light whose first mirror is the panel of one of these facets, their own first bounce included; returns the number of legs
-  // followed, a beam's way from one mirror to the next.
+  // Lights everything chunk by chunk of panels, on `threads` threads: visit(chunk, footprints) gets what each chunk
+  // lights, once and from any thread. Chunks do not depend on the number of threads. Throws Interrupted when *stop
+  // becomes true.
+  std::size_t chunk_count() const;
+  Reached light_all(int threads, const std::function<void(std::size_t, std::span<const Footprint>)>& visit,
+                    const StopFlag* stop = nullptr) const;
+
+  // Appends what all beams light whose first mirror is the panel of one of these facets, their own first bounce
+  // included; returns the legs followed.
   std::size_t light(int facet, Lit& lit) const { return light({&facet, 1}, lit); }
   std::size_t light(std::span<const int> facets, Lit& lit) const;
 
  private:
+  std::size_t panels_per_chunk() const;
+
   const Scatterer& scatterer_;
   AntennaPair antennas_;
   IlluminationSettings settings_;
   double min_area_;
-  VisibleSurface lit_;                  // seen from the transmitter
+  VisibleSurface lit_;                                // seen from the transmitter
   std::optional<VisibleSurface> seen_from_receiver_;  // where that is another direction
   std::vector<int> seen_;
   std::vector<std::vector<Surface>> surfaces_;  // [material][wavenumber]; none for a perfect conductor

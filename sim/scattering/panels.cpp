@@ -20,18 +20,24 @@ struct Outline {
   std::vector<std::array<int, 2>> side;  // facet and its edge from corner[i] to corner[i + 1]
 };
 
-// Positive where the way a, b, c turns left about the normal, m^2; within kStraight of its length squared it goes straight on.
-double turn(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& normal) { return normal.dot((b - a).cross(c - b)); }
+// Positive where the way a, b, c turns left about the normal, m^2; within kStraight of its length squared it goes
+// straight on.
+double turn(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& normal) {
+  return normal.dot((b - a).cross(c - b));
+}
 constexpr double kStraight = 1e-12;
 
-// Puts the far corner of the facet across side i, which it shares as `edge`, into the outline. False where that would not be convex.
+// Puts the far corner of the facet across side i, which it shares as `edge`, into the outline. False where that would
+// not be convex.
 bool grow(Outline& outline, std::size_t i, int facet, int edge, const Vec3& apex) {
   const std::size_t n = outline.corner.size();
   const auto at = [&](std::size_t j) -> const Vec3& { return outline.corner[j % n]; };
   const double straight = kStraight * (apex - at(i)).squaredNorm();
   // A facet folded back upon this one has its far corner on the wrong side.
   if (!(turn(at(i), apex, at(i + 1), outline.normal) > straight)) return false;
-  if (turn(at(i + n - 1), at(i), apex, outline.normal) < -straight || turn(apex, at(i + 1), at(i + 2), outline.normal) < -straight) return false;
+  if (turn(at(i + n - 1), at(i), apex, outline.normal) < -straight ||
+      turn(apex, at(i + 1), at(i + 2), outline.normal) < -straight)
+    return false;
   const auto place = static_cast<std::ptrdiff_t>(i) + 1;
   outline.corner.insert(outline.corner.begin() + place, apex);
   outline.side[i] = {facet, (edge + 1) % 3};
@@ -41,7 +47,11 @@ bool grow(Outline& outline, std::size_t i, int facet, int edge, const Vec3& apex
 
 }  // namespace
 
-Panels::Panels(std::span<const Facet> facets, const SmoothSurface& surface) : of_(facets.size(), -1), size_(facets.size(), 0) {
+Panels::Panels(std::span<const Facet> facets, const SmoothSurface& surface)
+    : facets_(facets), of_(facets.size(), -1), size_(facets.size(), 0) {
+  first_corner_.reserve(facets.size() + 1);
+  first_member_.reserve(facets.size() + 1);
+  members_.reserve(facets.size());
   Outline outline;
   for (int f = 0; f < static_cast<int>(facets.size()); ++f) {
     first_corner_.push_back(static_cast<std::uint32_t>(corners_.size()));
@@ -59,7 +69,9 @@ Panels::Panels(std::span<const Facet> facets, const SmoothSurface& surface) : of
         const Facet& other = facets[g];
         // Two facets and no third share the edge.
         const auto back = std::find(other.neighbour.begin(), other.neighbour.end(), from);
-        if (back == other.neighbour.end() || other.part != first.part || other.material != first.material || other.open != first.open) return false;
+        if (back == other.neighbour.end() || other.part != first.part || other.material != first.material ||
+            other.open != first.open)
+          return false;
         if (other.normal.dot(first.normal) < kSameWay) return false;
         for (const Vec3& x : other.corner) {
           if (std::abs(first.normal.dot(x) - first.offset) > kInPlane) return false;
@@ -77,8 +89,10 @@ Panels::Panels(std::span<const Facet> facets, const SmoothSurface& surface) : of
     }
     const std::size_t n = outline.corner.size();
     for (std::size_t i = 0; i < n; ++i) {
-      const Vec3 &before = outline.corner[(i + n - 1) % n], &here = outline.corner[i], &after = outline.corner[(i + 1) % n];
-      if (n == 3 || turn(before, here, after, outline.normal) > kStraight * (after - before).squaredNorm()) corners_.push_back(here);
+      const Vec3 &before = outline.corner[(i + n - 1) % n], &here = outline.corner[i],
+                 &after = outline.corner[(i + 1) % n];
+      if (n > 3 && turn(before, here, after, outline.normal) > kStraight * (after - before).squaredNorm())
+        corners_.push_back(here);
       for (const Vec3& other : outline.corner) size_[f] = std::max(size_[f], (other - here).norm());
     }
   }

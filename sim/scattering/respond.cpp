@@ -10,69 +10,20 @@
 #include "sim/core/constants.h"
 #include "sim/core/error.h"
 #include "sim/scattering/contributions.h"
-#include "sim/scattering/edge_waves.h"
+#include "sim/scattering/edge_echoes.h"
 #include "sim/scattering/return_grid.h"
 
 namespace seaglint {
 namespace {
 
-// Panels are lit in chunks whose results are summed in their order, so that no bit depends on the number of threads. A large mesh has larger chunks:
-// what is kept per chunk and frequency stays below 100 MB for 640 frequencies.
-constexpr std::size_t kPanelsPerChunk = 32;
-constexpr std::size_t kMostChunks = 2048;
-
-std::size_t panels_per_chunk(const Illumination& illumination) {
-  return std::max(kPanelsPerChunk, (illumination.seen().size() + kMostChunks - 1) / kMostChunks);
-}
-
-std::size_t chunk_count(const Illumination& illumination) {
-  const std::size_t size = panels_per_chunk(illumination);
-  return (illumination.seen().size() + size - 1) / size;
-}
-
-std::span<const int> chunk_of(const Illumination& illumination, std::size_t chunk) {
-  const std::size_t size = panels_per_chunk(illumination), first = chunk * size;
-  return illumination.seen().subspan(first, std::min(size, illumination.seen().size() - first));
-}
-
-// All chunks' arrivals edge by edge, in an order that does not depend on the number of threads.
-std::vector<EdgeArrival> by_edge(std::span<const Lit> chunks) {
-  std::vector<EdgeArrival> all;
-  for (const Lit& lit : chunks) all.insert(all.end(), lit.arrivals.begin(), lit.arrivals.end());
-  std::stable_sort(all.begin(), all.end(), [](const EdgeArrival& a, const EdgeArrival& b) { return a.edge < b.edge; });
-  return all;
-}
-
-// What sharp edges answer to the waves that `chunks` hold. A receiver elsewhere needs the waves it would send.
-std::vector<EdgeFootprint> edge_echoes(const Scatterer& scatterer, const AntennaPair& antennas, const IlluminationSettings& settings,
-                                       std::span<const double> wavenumbers, std::span<const Lit> chunks, int threads) {
-  if (!settings.edges) return {};
-  const std::vector<EdgeArrival> incoming = by_edge(chunks);
-  std::vector<EdgeArrival> backwards;
-  if (!antennas.monostatic) {
-    const Illumination illumination(scatterer, monostatic(antennas.receive), settings, threads, wavenumbers);
-    std::vector<Lit> lit(chunk_count(illumination));
-    parallel_for(lit.size(), threads, [&](std::size_t chunk) {
-      illumination.light(chunk_of(illumination, chunk), lit[chunk]);
-      lit[chunk].footprints = {};
-    });
-    backwards = by_edge(lit);
-  }
-  const std::vector<EdgeArrival>& outgoing = antennas.monostatic ? incoming : backwards;
-  std::vector<EdgeFootprint> once = edge_footprints(scatterer.edges(), scatterer.facets(), antennas, incoming, outgoing, settings.max_bounces);
-  const std::vector<EdgeFootprint> twice = edge_wave_footprints(scatterer.edges(), scatterer.facets(), antennas, incoming, outgoing);
-  once.insert(once.end(), twice.begin(), twice.end());
-  std::erase_if(once, [&](const EdgeFootprint& f) { return !settings.filter.keeps(f.part, f.bounces, Mechanism::kEdge); });
-  return once;
-}
-
-// The radar stands in directions that differ by this much over the target, rad; 0 in the far field. Throws InputError when it is too near for the
-// second order of the wavefront: there the third is below a twentieth of it.
+// The radar stands in directions that differ by this much over the target, rad; 0 in the far field. Throws InputError
+// when it is too near for the second order of the wavefront: there the third is below a tenth of it.
 double spread_of_directions(const Scatterer& scatterer, double range_m) {
   if (range_m <= 0) return 0;
   if (range_m < 10 * scatterer.radius()) {
-    throw InputError(fmt::format("radar range {} m: the target reaches {:.3g} m from its origin, and the range must be ten times that or more", range_m,
-                                 scatterer.radius()));
+    throw InputError(fmt::format(
+        "radar range {} m: the target reaches {:.3g} m from its origin, and the range must be ten times that or more",
+        range_m, scatterer.radius()));
   }
   return scatterer.radius() / range_m;
 }
@@ -83,10 +34,12 @@ RadarBasis body_basis(const RadarBasis& world, const Pose& pose) {
   return {R_BT * world.r, R_BT * world.h, R_BT * world.v};
 }
 
-// One trace: what the body answers while its directions move along `track`, the transmitter's (a unit vector across it) by at most `reach`.
-// `origin`: where the body stands from the point that the radar's range is counted from, body frame.
+// One trace: what the body answers while its directions move along `track`, the transmitter's (a unit vector across it)
+// by at most `reach`. `origin`: where the body stands from the point that the radar's range is counted from, body
+// frame.
 ReturnGrid trace_returns(const Scatterer& scatterer, const AntennaPair& antennas, const Track& track, double reach,
-                         const Vec3& origin, const WavenumberGrid& wavenumbers, int channel, const SolverSpec& solver, int threads) {
+                         const Vec3& origin, const WavenumberGrid& wavenumbers, int channel, const SolverSpec& solver,
+                         int threads) {
   // A shadow edge at grazing runs along its facet much faster than any point of the body moves. Beyond four times the
   // body's size its speed is cut: such ends are faint and run through many velocity cells.
   const double limit = 8 * scatterer.radius();
@@ -97,36 +50,40 @@ ReturnGrid trace_returns(const Scatterer& scatterer, const AntennaPair& antennas
   const IlluminationSettings settings{solver.ray_spacing_m, solver.max_bounces, solver.edges};
   const Illumination illumination(scatterer, antennas, settings, threads, band);
   const SplitSettings split_settings{kc, reach + spread_of_directions(scatterer, solver.radar_range_m)};
-  const std::size_t chunks = chunk_count(illumination);
-  std::vector<Lit> lit(chunks);
-  std::vector<std::vector<Contribution>> contributions(chunks + 1);  // the last ones are those of the edges
+  const std::size_t chunks = illumination.chunk_count();
+  std::vector<std::vector<ReturnPoint>> points(chunks + 1);  // the last ones are those of the edges
   std::vector<double> fastest(chunks + 1, 0);
-  const auto limit_speed = [&](std::size_t chunk) {
-    if (solver.radar_range_m > 0) bend_wavefront(contributions[chunk], antennas, origin, solver.radar_range_m);
-    for (Contribution& c : contributions[chunk]) {
-      const double size = c.gradient.sum().norm();
-      if (size > limit) c.gradient = {c.gradient.transmit * (limit / size), c.gradient.receive * (limit / size)};
-      fastest[chunk] = std::max(fastest[chunk], std::abs(track.speed(c.gradient)));
+  const auto keep = [&](std::size_t chunk, std::span<Contribution> contributions) {
+    if (solver.radar_range_m > 0) bend_wavefront(contributions, antennas, origin, solver.radar_range_m);
+    for (const Contribution& c : contributions) {
+      const Complex amplitude = c.amplitude * Complex(c.pattern[channel]);
+      if (amplitude == 0.0) continue;
+      const double u = track.speed(c.gradient) * std::min(1.0, limit / c.gradient.sum().norm());
+      points[chunk].push_back({amplitude, c.psi, u});
+      fastest[chunk] = std::max(fastest[chunk], std::abs(u));
     }
   };
-  parallel_for(chunks, threads, [&](std::size_t chunk) {
-    illumination.light(chunk_of(illumination, chunk), lit[chunk]);
-    for (const Footprint& footprint : lit[chunk].footprints) {
-      split_over_band(footprint, antennas.transmit, split_settings, half_band, contributions[chunk]);
-    }
-    lit[chunk].footprints = {};
-    limit_speed(chunk);
-  });
-  for (const EdgeFootprint& footprint : edge_echoes(scatterer, antennas, settings, band, lit, threads)) {
-    split(footprint, split_settings, contributions[chunks]);
+  const Reached reached =
+      illumination.light_all(threads, [&](std::size_t chunk, std::span<const Footprint> footprints) {
+        std::vector<Contribution> contributions;
+        for (const Footprint& footprint : footprints) {
+          contributions.clear();
+          split_over_band(footprint, antennas.transmit, split_settings, half_band, contributions);
+          keep(chunk, contributions);
+        }
+      });
+  std::vector<Contribution> contributions;
+  for (const EdgeFootprint& footprint : edge_echoes(scatterer, antennas, settings, band, reached.arrivals, threads)) {
+    contributions.clear();
+    split(footprint, split_settings, contributions);
+    keep(chunks, contributions);
   }
-  limit_speed(chunks);
   const double u_limit = *std::max_element(fastest.begin(), fastest.end());
   // Four grids, whatever the number of threads, each for every fourth chunk; their sum is taken in order.
   constexpr std::size_t kGrids = 4;
-  std::vector<ReturnGrid> grids(kGrids, ReturnGrid(wavenumbers, u_limit, reach, channel));
+  std::vector<ReturnGrid> grids(kGrids, ReturnGrid(wavenumbers, u_limit, reach));
   parallel_for(kGrids, threads, [&](std::size_t g) {
-    for (std::size_t chunk = g; chunk <= chunks; chunk += kGrids) grids[g].spread(contributions[chunk], track);
+    for (std::size_t chunk = g; chunk <= chunks; chunk += kGrids) grids[g].spread(points[chunk]);
   });
   ReturnGrid grid = std::move(grids[0]);
   for (std::size_t g = 1; g < kGrids; ++g) grid.add(grids[g]);
@@ -140,7 +97,8 @@ Vec3 across(const Vec3& r) {
 }
 
 // The common way of two directions from pulse `first` to `last`, of unit length in both together.
-Track track_of(std::span<const Vec3> transmit, std::span<const Vec3> receive, int first, int last, const Vec3& transmit_at) {
+Track track_of(std::span<const Vec3> transmit, std::span<const Vec3> receive, int first, int last,
+               const Vec3& transmit_at) {
   const Vec3 t = transmit[last] - transmit[first], r = receive[last] - receive[first];
   const double length = std::sqrt(t.squaredNorm() + r.squaredNorm());
   if (length < 1e-12) return {across(transmit_at), Vec3::Zero()};
@@ -154,8 +112,8 @@ double default_turn(const Scatterer& scatterer, double wavelength) {
 }
 
 BodyResponse respond(const Scatterer& scatterer, const Trajectory& trajectory, const Vec3& r_hat,
-                     Polarisation polarisation, const IntervalSampling& sampling, const SolverSpec& solver,
-                     int threads, const SeaMirror* sea) {
+                     Polarisation polarisation, const IntervalSampling& sampling, const SolverSpec& solver, int threads,
+                     const SeaMirror* sea) {
   const int pulses = static_cast<int>(sampling.pulse_time_s.size());
   SEAGLINT_CHECK(pulses > 0 && sampling.pulse_first.size() == sampling.pulse_time_s.size(),
                  fmt::format("{} pulse times, {} bands", pulses, sampling.pulse_first.size()));
@@ -218,7 +176,8 @@ BodyResponse respond(const Scatterer& scatterer, const Trajectory& trajectory, c
     std::array<Way, kSeaPaths.size()> by_sea;
   };
   const auto displacement = [&](const Way& way, const SeaPath& path, int n) {
-    const Vec3 &transmit = path.there ? image_directions[n] : directions[n], &receive = path.back ? image_directions[n] : directions[n];
+    const Vec3 &transmit = path.there ? image_directions[n] : directions[n],
+               &receive = path.back ? image_directions[n] : directions[n];
     return (transmit - way.transmit).dot(way.track.transmit) + (receive - way.receive).dot(way.track.receive);
   };
   const bool direct = sea == nullptr || sea->wanted(SeaPath{});
@@ -234,7 +193,8 @@ BodyResponse respond(const Scatterer& scatterer, const Trajectory& trajectory, c
       trace.last = n;
     }
     if (trace.first > trace.last) return;
-    trace.basis = body_basis(world, trajectory.pose(start + length * (static_cast<double>(i) + 0.5) / spans));
+    const Pose pose = trajectory.pose(start + length * (static_cast<double>(i) + 0.5) / spans);
+    trace.basis = body_basis(world, pose);
     const Vec3 chord = directions[trace.last] - directions[trace.first];
     const Vec3 level = chord - trace.basis.r * trace.basis.r.dot(chord);
     trace.track = level.norm() > 1e-12 ? Vec3(level.normalized()) : across(trace.basis.r);
@@ -243,26 +203,29 @@ BodyResponse respond(const Scatterer& scatterer, const Trajectory& trajectory, c
       reach = std::max(reach, std::abs((directions[n] - trace.basis.r).dot(trace.track)));
     }
     const int threads_each = std::max(1, threads / side_by_side);
-    const Pose pose = trajectory.pose(start + length * (static_cast<double>(i) + 0.5) / spans);
     const Vec3 origin = pose.R_TB.transpose() * pose.p_TB;
     if (direct) {
-      trace.returns = trace_returns(scatterer, monostatic(trace.basis), {trace.track, trace.track}, reach, origin, wavenumbers, channel, solver, threads_each);
+      trace.returns = trace_returns(scatterer, monostatic(trace.basis), {trace.track, trace.track}, reach, origin,
+                                    wavenumbers, channel, solver, threads_each);
     }
     if (sea == nullptr) return;
-    const RadarBasis image_basis = body_basis(image, trajectory.pose(start + length * (static_cast<double>(i) + 0.5) / spans));
+    const RadarBasis image_basis = body_basis(image, pose);
     for (std::size_t p = 0; p < kSeaPaths.size(); ++p) {
       const SeaPath& path = kSeaPaths[p];
       if (!path.multipath() || !sea->wanted(path)) continue;
       Way& way = trace.by_sea[p];
-      const RadarBasis &transmit = path.there ? image_basis : trace.basis, &receive = path.back ? image_basis : trace.basis;
+      const RadarBasis &transmit = path.there ? image_basis : trace.basis,
+                       &receive = path.back ? image_basis : trace.basis;
       way.transmit = transmit.r;
       way.receive = receive.r;
-      way.track = track_of(path.there ? image_directions : directions, path.back ? image_directions : directions, trace.first, trace.last,
-                           transmit.r);
+      way.track = track_of(path.there ? image_directions : directions, path.back ? image_directions : directions,
+                           trace.first, trace.last, transmit.r);
       double way_reach = 0;
-      for (int n = trace.first; n <= trace.last; ++n) way_reach = std::max(way_reach, std::abs(displacement(way, path, n)));
+      for (int n = trace.first; n <= trace.last; ++n)
+        way_reach = std::max(way_reach, std::abs(displacement(way, path, n)));
       const AntennaPair antennas = path.there == path.back ? monostatic(transmit) : bistatic(transmit, receive);
-      way.returns = trace_returns(scatterer, antennas, way.track, way_reach, origin, wavenumbers, channel, solver, threads_each);
+      way.returns =
+          trace_returns(scatterer, antennas, way.track, way_reach, origin, wavenumbers, channel, solver, threads_each);
     }
   });
   for (int i = 0; i < spans; ++i) {
@@ -282,11 +245,13 @@ BodyResponse respond(const Scatterer& scatterer, const Trajectory& trajectory, c
       for (int n = trace.first; n <= trace.last; ++n) {
         way.returns->response(sampling.pulse_first[n], displacement(way, path, n), scratch);
         // Beyond the direct path to the body's origin, which all ways share below: e^{jk (a + b - 2 r^).p}.
-        const double detour = ((path.there ? image_r : r_hat) + (path.back ? image_r : r_hat) - 2 * r_hat).dot(poses[n].p_TB);
+        const double detour =
+            ((path.there ? image_r : r_hat) + (path.back ? image_r : r_hat) - 2 * r_hat).dot(poses[n].p_TB);
         const std::span<Complex> out = band(n);
         for (std::size_t b = 0; b < out.size(); ++b) {
           const int q = sampling.pulse_first[n] + static_cast<int>(b);
-          out[b] += weight(i, n) * SeaMirror::weight(path, mirror[q], channel) * std::polar(1.0, wavenumbers.at(q) * detour) * scratch[b];
+          out[b] += weight(i, n) * SeaMirror::weight(path, mirror[q], channel) *
+                    std::polar(1.0, wavenumbers.at(q) * detour) * scratch[b];
         }
       }
       ++result.traces;
@@ -308,67 +273,72 @@ std::vector<std::array<Complex, 4>> scattering_matrices(const Scatterer& scatter
                                                         const IlluminationSettings& settings, int threads,
                                                         std::size_t* legs, const StopFlag* stop) {
   using Matrices = std::vector<std::array<Complex, 4>>;
-  if (settings.range_m > 0) {
-    Matrices sum;
-    for (const double k : wavenumbers) {
-      const auto contributions = view_contributions(scatterer, antennas, {k, 0}, settings, threads, stop);
-      sum.push_back(direct_sum(contributions, k, Vec3::Zero()));
-    }
-    return sum;
-  }
-  const Illumination illumination(scatterer, antennas, settings, threads, wavenumbers);
+  const double spread = spread_of_directions(scatterer, settings.range_m);
+  // At a finite range closed forms give way to points, which the wavefront moves one by one.
+  const auto bent = [&](std::vector<Contribution>& points, double k) {
+    bend_wavefront(points, antennas, Vec3::Zero(), settings.range_m);
+    return direct_sum(points, k, Vec3::Zero());
+  };
+  const auto of_facet = [&](Footprint footprint, std::size_t q) {
+    if (settings.range_m <= 0) return scattered(footprint, wavenumbers[q], q);
+    if (!footprint.patterns.empty()) footprint.pattern = footprint.patterns[q];
+    std::vector<Contribution> points;
+    split(footprint, antennas.transmit, {wavenumbers[q], spread}, points);
+    return bent(points, wavenumbers[q]);
+  };
+  const auto of_edge = [&](const EdgeFootprint& footprint, double k) {
+    if (settings.range_m <= 0) return scattered(footprint, k);
+    std::vector<Contribution> points;
+    split(footprint, {k, spread}, points);
+    return bent(points, k);
+  };
   const auto add = [](const std::array<Complex, 4>& s, std::array<Complex, 4>& sum) {
     for (int i = 0; i < 4; ++i) sum[i] += s[i];
   };
-  const std::size_t chunks = chunk_count(illumination);
-  std::vector<Matrices> parts(chunks, Matrices(wavenumbers.size()));
-  std::vector<Lit> lit(chunks);
-  std::vector<std::size_t> followed(chunks, 0);
-  parallel_for(
-      chunks, threads,
-      [&](std::size_t chunk) {
-        followed[chunk] = illumination.light(chunk_of(illumination, chunk), lit[chunk]);
-        for (const Footprint& footprint : lit[chunk].footprints) {
+
+  const Illumination illumination(scatterer, antennas, settings, threads, wavenumbers);
+  std::vector<Matrices> parts(illumination.chunk_count(), Matrices(wavenumbers.size()));
+  const Reached reached = illumination.light_all(
+      threads,
+      [&](std::size_t chunk, std::span<const Footprint> footprints) {
+        for (const Footprint& footprint : footprints) {
           if (!settings.filter.keeps(footprint.part, footprint.bounces, Mechanism::kPhysicalOptics)) continue;
-          for (std::size_t q = 0; q < wavenumbers.size(); ++q) add(scattered(footprint, wavenumbers[q], q), parts[chunk][q]);
+          for (std::size_t q = 0; q < wavenumbers.size(); ++q) add(of_facet(footprint, q), parts[chunk][q]);
         }
-        lit[chunk].footprints = {};
       },
       stop);
+  if (legs) *legs += reached.legs;
   Matrices sum(wavenumbers.size());
-  for (const EdgeFootprint& footprint : edge_echoes(scatterer, antennas, settings, wavenumbers, lit, threads)) {
-    for (std::size_t q = 0; q < wavenumbers.size(); ++q) add(scattered(footprint, wavenumbers[q]), sum[q]);
+  for (const EdgeFootprint& footprint :
+       edge_echoes(scatterer, antennas, settings, wavenumbers, reached.arrivals, threads)) {
+    for (std::size_t q = 0; q < wavenumbers.size(); ++q) add(of_edge(footprint, wavenumbers[q]), sum[q]);
   }
-  for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
-    if (legs) *legs += followed[chunk];
-    for (std::size_t q = 0; q < wavenumbers.size(); ++q) {
-      add(parts[chunk][q], sum[q]);
-    }
+  for (const Matrices& part : parts) {
+    for (std::size_t q = 0; q < wavenumbers.size(); ++q) add(part[q], sum[q]);
   }
   return sum;
 }
 
-std::vector<Contribution> view_contributions(const Scatterer& scatterer, const AntennaPair& antennas, const SplitSettings& split_settings,
-                                             const IlluminationSettings& settings, int threads, const StopFlag* stop) {
+std::vector<Contribution> view_contributions(const Scatterer& scatterer, const AntennaPair& antennas,
+                                             const SplitSettings& split_settings, const IlluminationSettings& settings,
+                                             int threads, const StopFlag* stop) {
   SplitSettings bent = split_settings;
   bent.turn_rad += spread_of_directions(scatterer, settings.range_m);
   const Illumination illumination(scatterer, antennas, settings, threads, std::array{split_settings.kc});
-  std::vector<std::vector<Contribution>> chunks(chunk_count(illumination));
-  std::vector<Lit> lit(chunks.size());
-  parallel_for(
-      chunks.size(), threads,
-      [&](std::size_t chunk) {
-        illumination.light(chunk_of(illumination, chunk), lit[chunk]);
-        for (const Footprint& footprint : lit[chunk].footprints) {
+  std::vector<std::vector<Contribution>> chunks(illumination.chunk_count());
+  const Reached reached = illumination.light_all(
+      threads,
+      [&](std::size_t chunk, std::span<const Footprint> footprints) {
+        for (const Footprint& footprint : footprints) {
           if (!settings.filter.keeps(footprint.part, footprint.bounces, Mechanism::kPhysicalOptics)) continue;
           split(footprint, antennas.transmit, bent, chunks[chunk]);
         }
-        lit[chunk].footprints = {};
       },
       stop);
   std::vector<Contribution> all;
   for (const auto& chunk : chunks) all.insert(all.end(), chunk.begin(), chunk.end());
-  for (const EdgeFootprint& footprint : edge_echoes(scatterer, antennas, settings, std::array{split_settings.kc}, lit, threads)) {
+  for (const EdgeFootprint& footprint :
+       edge_echoes(scatterer, antennas, settings, std::array{split_settings.kc}, reached.arrivals, threads)) {
     split(footprint, bent, all);
   }
   if (settings.range_m > 0) bend_wavefront(all, antennas, Vec3::Zero(), settings.range_m);

@@ -41,13 +41,19 @@ struct Track {
   }
 };
 
+// What one polarisation channel and one track need of a contribution.
+struct ReturnPoint {
+  Complex amplitude;  // pattern included, without the phase e^{jk psi}, m
+  double psi = 0;     // m
+  double u = 0;       // d psi / ds, m
+};
+
 class ReturnGrid {
  public:
-  // u_limit: bound of |u| of all contributions, m. s_limit: bound of |s|, rad. channel: 0..3 for hh, hv, vh, vv.
-  ReturnGrid(const WavenumberGrid& wavenumbers, double u_limit, double s_limit, int channel);
+  // u_limit: bound of |u| of all points, m. s_limit: bound of |s|, rad.
+  ReturnGrid(const WavenumberGrid& wavenumbers, double u_limit, double s_limit);
 
-  // Adds contributions whose directions move along `track` (body frame; a unit vector for the transmitter).
-  void spread(std::span<const Contribution> contributions, const Track& track);
+  void spread(std::span<const ReturnPoint> points);
   // Adds another grid made with the same arguments.
   void add(const ReturnGrid& other);
 
@@ -60,7 +66,6 @@ class ReturnGrid {
   std::size_t cell(int u, int psi) const { return static_cast<std::size_t>(u) * psi_cells_ + psi; }
 
   WavenumberGrid wavenumbers_;
-  int channel_;
   double kc_;                // of centre_index
   int psi_cells_;            // 2 count, rounded up to a length FFTs like
   double psi_cell_;          // m

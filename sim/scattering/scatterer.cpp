@@ -21,7 +21,8 @@ double radius_of(std::span<const Facet> facets) {
 
 }  // namespace
 
-// Rounding of single-precision coordinates bends a surface by less than 1e-7 of its radius: 7 um on the ship, 0.3 deg of phase at 16 GHz.
+// Rounding of single-precision coordinates bends a surface by less than 1e-7 of its radius: 7 um on the ship, 0.3 deg
+// of phase at 16 GHz.
 Scatterer::Scatterer(const TriangleMesh& mesh, std::vector<MaterialSpec> materials, double crease_rad)
     : facets_(make_facets(mesh)),
       radius_(radius_of(facets_)),
@@ -40,7 +41,8 @@ Scatterer::Scatterer(const TriangleMesh& mesh, std::vector<MaterialSpec> materia
     for (int& edge : sides) {
       if (edge == kNoEdge || materials_.empty()) continue;
       const auto conducts = [&](int facet) { return materials_[facets_[facet].material].kind == SurfaceKind::kPec; };
-      if (const SharpEdge& wedge = edges_.edges[edge]; !conducts(wedge.facet[0]) || !conducts(wedge.facet[1])) edge = kNoEdge;
+      if (const SharpEdge& wedge = edges_.edges[edge]; !conducts(wedge.facet[0]) || !conducts(wedge.facet[1]))
+        edge = kNoEdge;
     }
   }
 }

@@ -16,13 +16,19 @@
 
 namespace seaglint {
 
-// A target ready to be lit from any direction: its facets, the smooth surface behind them, panels, sharp edges and the tree that beams are
-// walked through. Built once per mesh; safe to share between threads.
+// A target ready to be lit from any direction: its facets, the smooth surface behind them, panels, sharp edges and the
+// tree that beams are walked through. Built once per mesh; safe to share between threads.
 class Scatterer {
  public:
-  // materials[i] is what mesh.materials[i] is made of; none: all is perfect conductor. Facets that turn by less than crease_rad (0..pi; 0 = all flat)
-  // belong to one smooth surface. Throws InputError when no triangle of the mesh has an area.
-  explicit Scatterer(const TriangleMesh& mesh, std::vector<MaterialSpec> materials = {}, double crease_rad = radians(kDefaultCreaseDeg));
+  // materials[i] is what mesh.materials[i] is made of; none: all is perfect conductor. Facets that turn by less than
+  // crease_rad (0..pi; 0 = all flat) belong to one smooth surface. Throws InputError when no triangle of the mesh has
+  // an area.
+  explicit Scatterer(const TriangleMesh& mesh, std::vector<MaterialSpec> materials = {},
+                     double crease_rad = radians(kDefaultCreaseDeg));
+
+  // Surface and panels look at the facets: they may move, not be copied.
+  Scatterer(Scatterer&&) = default;
+  Scatterer& operator=(Scatterer&&) = default;
 
   std::span<const Facet> facets() const { return facets_; }
   const SmoothSurface& surface() const { return surface_; }

@@ -21,7 +21,8 @@ int corner_at(const Facet& facet, const Vec3& position) {
   return -1;
 }
 
-// The facet that continues f smoothly across its edge: the only other one there, run through in the opposite direction, turning by less than the crease.
+// The facet that continues f smoothly across its edge: the only other one there, run through in the opposite direction,
+// turning by less than the crease.
 int smooth_neighbour(std::span<const Facet> facets, int f, int edge, double cos_crease) {
   const int g = facets[f].neighbour[edge];
   if (g < 0 || facets[f].normal.dot(facets[g].normal) < cos_crease) return -1;
@@ -34,11 +35,13 @@ double width(const Facet& facet) {
   return (facet.corner[1] - facet.corner[0]).cross(facet.corner[2] - facet.corner[0]).norm() / facet.size;
 }
 
-// A facet's say in a vertex normal. Among facets of about the same width: sin(angle) / (product of the two sides), exact on a sphere however the facets
-// lie (N. Max, Journal of Graphics Tools 4, 1999, 1-6). Else its angle times its width, which keeps a large flat face flat beside the narrow strips of a
-// fillet: it takes no more than their sagitta. Neither depends on how a flat face is cut into triangles.
+// A facet's say in a vertex normal. Among facets of about the same width: sin(angle) / (product of the two sides),
+// exact on a sphere however the facets lie (N. Max, Journal of Graphics Tools 4, 1999, 1-6). Else its angle times its
+// width, which keeps a large flat face flat beside the narrow strips of a fillet: it takes no more than their sagitta.
+// Neither depends on how a flat face is cut into triangles.
 double weight(const Facet& facet, int corner, bool alike) {
-  const Vec3 a = facet.corner[(corner + 1) % 3] - facet.corner[corner], b = facet.corner[(corner + 2) % 3] - facet.corner[corner];
+  const Vec3 a = facet.corner[(corner + 1) % 3] - facet.corner[corner],
+             b = facet.corner[(corner + 2) % 3] - facet.corner[corner];
   const double twice_area = a.cross(b).norm();
   return alike ? twice_area / (a.squaredNorm() * b.squaredNorm()) : std::atan2(twice_area, a.dot(b)) * width(facet);
 }
@@ -58,7 +61,7 @@ Mat3 normal_derivative(const Facet& facet, const std::array<Vec3, 3>& normal) {
 }  // namespace
 
 SmoothSurface::SmoothSurface(std::span<const Facet> facets, double crease, double negligible)
-    : index_(facets.size(), -1) {
+    : index_(facets.size(), -1), facets_(facets) {
   const double cos_crease = std::cos(crease);
   const int count = static_cast<int>(facets.size());
   std::vector<std::array<std::int32_t, 3>> smooth(facets.size());
@@ -104,7 +107,7 @@ SmoothSurface::SmoothSurface(std::span<const Facet> facets, double crease, doubl
     }
   }
   fan_.reserve(members.size());
-  for (const FacetCorner& member : members) fan_.push_back(facets[member.facet].normal);
+  for (const FacetCorner& member : members) fan_.push_back(member.facet);
 
   std::vector<double> weights(vertices_.size(), 0);
   for (int f = 0; f < count; ++f) {
@@ -131,12 +134,15 @@ SmoothSurface::SmoothSurface(std::span<const Facet> facets, double crease, doubl
     }
   }
   for (std::size_t i = 0; i < vertices_.size(); ++i) vertices_[i].curvature /= weights[i];
+  curved_.shrink_to_fit();
+  vertices_.shrink_to_fit();
 }
 
 double SmoothSurface::terminator_distance(int vertex, const Vec3& direction, double side) const {
   const SmoothVertex& v = vertices_[static_cast<std::size_t>(vertex)];
   double lowest = side * v.normal.dot(direction);
-  for (std::int32_t i = v.first; i < v.first + v.count; ++i) lowest = std::min(lowest, side * fan_[i].dot(direction));
+  for (std::int32_t i = v.first; i < v.first + v.count; ++i)
+    lowest = std::min(lowest, side * facets_[fan_[i]].normal.dot(direction));
   if (lowest <= 0) return 0;
   const Vec3 along = direction - v.normal * v.normal.dot(direction);
   const double kappa = side * along.dot(v.curvature * along) / std::max(along.squaredNorm(), 1e-12);
