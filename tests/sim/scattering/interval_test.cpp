@@ -51,8 +51,9 @@ Trajectory rocking(const Vec3& rates, double period_s, const Vec3& centre) {
   return Trajectory(0, step, samples, Vec3::Zero(), centre);
 }
 
-// Relative L2 error of a response against fresh traces with exact phase integrals at `spots` random pulses and
-// frequencies.
+// Relative L2 error of a response against fresh traces with exact phase integrals, dB: their mean square difference at
+// `spots` random pulses and frequencies over the mean square of the whole response. A few spots alone may lie in a
+// fade, whose own power says nothing of the interval's.
 double error_against_fresh_traces(const Scatterer& scatterer, const Trajectory& trajectory, const Vec3& r_hat,
                                   const SolverSpec& solver, int spots, std::uint64_t index) {
   const IntervalSampling sampling = paper_interval(0.3);
@@ -65,12 +66,14 @@ double error_against_fresh_traces(const Scatterer& scatterer, const Trajectory& 
     const Pose pose = trajectory.pose(sampling.pulse_time_s[n]);
     const Mat3 R_BT = pose.R_TB.transpose();
     const double k = wavenumber(sampling.first_hz + (sampling.pulse_first[n] + b) * sampling.step_hz);
-    const Complex s = echo(scatterer, {R_BT * world.r, R_BT * world.h, R_BT * world.v}, k, solver.ray_spacing_m, 8,
-                           solver.edges)[kVvChannel];
+    const AntennaPair antennas = monostatic({R_BT * world.r, R_BT * world.h, R_BT * world.v});
+    const Complex s = scattering_matrices(scatterer, antennas, std::array{k},
+                                          {solver.ray_spacing_m, solver.max_bounces, solver.edges}, 2)[0][kVvChannel];
     const Complex fresh = s * std::polar(1.0, 2 * k * r_hat.dot(pose.p_TB));
-    error += std::norm(body.response.at(n, b) - fresh);
-    power += std::norm(fresh);
+    error += std::norm(body.response.at(n, b) - fresh) / spots;
   }
+  for (const Complex& value : body.response.values)
+    power += std::norm(value) / static_cast<double>(body.response.values.size());
   return 10 * std::log10(error / power);
 }
 
@@ -168,7 +171,7 @@ TEST(Response, OfTheRollingShipEqualsFreshTraces) {
                                                     direction(azimuth, 2), {}, 6, static_cast<std::uint64_t>(azimuth));
     RecordProperty(fmt::format("error_db_{}", azimuth), fmt::format("{:.1f}", error));
     std::printf("ship at %g deg: %.1f dB\n", azimuth, error);
-    EXPECT_LT(error, -25) << azimuth;
+    EXPECT_LT(error, -30) << azimuth;
   }
 }
 
@@ -181,7 +184,8 @@ TEST(Response, FollowsFreshTracesInRandomDirections) {
     Random random({13, Stream::kTest, 0});
     std::vector<double> errors;
     for (int i = 0; i < directions; ++i) {
-      const Vec3 r_hat = direction(360 * random.uniform(), most_elevation_deg * random.uniform());
+      const double elevation_deg = most_elevation_deg * random.uniform(), azimuth_deg = 360 * random.uniform();
+      const Vec3 r_hat = direction(azimuth_deg, elevation_deg);
       errors.push_back(error_against_fresh_traces(scatterer, rocking(rates, 8, centre), r_hat, {}, spots,
                                                   static_cast<std::uint64_t>(1000 + i)));
     }
@@ -196,11 +200,9 @@ TEST(Response, FollowsFreshTracesInRandomDirections) {
   EXPECT_LT(reflector, -40);
   EXPECT_LT(reflector_worst, -40);
   const auto [ship, ship_worst] = study("ship", Scatterer(read_mesh(SEAGLINT_SOURCE_DIR "/assets/combatant_144m.glb")),
-                                        {0.016, 0.016, 0.016}, {0, 0, 1.7}, 5, 12, 4);
+                                        {0.016, 0.016, 0.016}, {0, 0, 1.7}, 5, 12, 8);
   EXPECT_LT(ship, -30);
-  // Of so few directions this is the worst one. The goal of -30 dB is met by all others; smooth surfaces whose contour
-  // turns into an area within a trace are left.
-  EXPECT_LT(ship_worst, -20);
+  EXPECT_LT(ship_worst, -30);  // of so few directions the worst one
 }
 
 TEST(Response, OfABodyInFreeFallTurnsPhaseWithItsOrigin) {
