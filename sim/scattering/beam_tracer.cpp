@@ -5,37 +5,12 @@
 #include <cmath>
 #include <limits>
 
-#include "sim/core/error.h"
-#include "sim/scattering/curvature.h"
+#include "sim/scattering/beam_leg.h"
+#include "sim/scattering/bent_beam.h"
 #include "sim/scattering/reflect.h"
 
 namespace seaglint {
 namespace {
-
-// One leg of a beam: what travels from the last mirror towards the next facet.
-struct Leg {
-  Mirror mirrors;                   // of the facets passed
-  Vec3 direction;                   // real, unit
-  Vec3 E_h, E_v;                    // field for each transmitted polarisation, real space, all mirrors perfect conductors
-  std::vector<BeamField> fields;    // the field per wavenumber once a mirror was of another material
-  int from_facet = kNoFacet;
-  ImagePlane from_plane;            // of the last mirror
-  Vec3 from_normal = Vec3::Zero();  // real, on the side the beam leaves
-  int bounce = 1;                   // of the hits at this leg's end
-  bool bent = false;                // a mirror on the way was curved:
-  BentRays rays;                    // the rays as they left the last mirror
-};
-
-// A facet that a leg may light, and what of it is lit as far as is known.
-struct Candidate {
-  FacetImage image;  // its polygon clipped to what lies beyond the last mirror
-  std::vector<MovingPolygon> lit;
-  double nearest = 0, farthest = 0;  // heights of the lit pieces before anything was hidden, m
-};
-
-// Behind curved mirrors rays are followed to second order while a bundle's width grows to less than this. Farther away it lands beside the window it was
-// measured in by more than its own width, and the mirrors count as flat: the parting of their facets' bundles is then all that spreads them.
-constexpr double kMostSpread = 4;
 
 // Cosine below which a facet is edge-on to the receiver.
 constexpr double kEdgeOn = 1e-9;
@@ -44,7 +19,7 @@ class BeamTracer {
  public:
   BeamTracer(const BeamScene& scene, Lit& out)
       : facets_(scene.scatterer.facets()),
-        surface_(scene.scatterer.surface()),
+        curving_{facets_, scene.scatterer.surface(), scene.antennas},
         panels_(scene.scatterer.panels()),
         edges_(scene.settings.edges ? &scene.scatterer.edges() : nullptr),
         tree_(scene.scatterer.tree()),
@@ -119,7 +94,8 @@ class BeamTracer {
     std::size_t beyond = 0;
     for (const Vec3& x : outline) beyond += prism.normal.dot(x) > prism.offset;
     if (beyond == 0) return {};
-    // The window's box may lie outside an edge of the panel, or inside all of them. Seen along the beam, the panel turns left or right.
+    // The window's box may lie outside an edge of the panel, or inside all of them. Seen along the beam, the panel
+    // turns left or right.
     const Vec2 middle(0.5 * (prism.lower[0] + prism.upper[0]), 0.5 * (prism.lower[1] + prism.upper[1]));
     const Vec2 half(0.5 * (prism.upper[0] - prism.lower[0]), 0.5 * (prism.upper[1] - prism.lower[1]));
     const double turn = prism.across[0].cross(prism.across[1]).dot(facet.normal) > 0 ? 1 : -1;
@@ -142,7 +118,8 @@ class BeamTracer {
     }
     Meeting result{true};
     if (covers && std::abs(facing) > kEdgeOn) {
-      // The farthest point of the facet's plane in the prism: along . x = (offset - across part of normal . x) / (normal . along).
+      // The farthest point of the facet's plane in the prism: along . x = (offset - across part of normal . x) /
+      // (normal . along).
       const double a = facet.normal.dot(prism.across[0]), b = facet.normal.dot(prism.across[1]);
       const double centre = (facet.normal.dot(facet.corner[0]) - a * middle.x() - b * middle.y()) / facing;
       result.covered = centre + (std::abs(a) * half.x() + std::abs(b) * half.y()) / std::abs(facing);
@@ -210,14 +187,17 @@ class BeamTracer {
     order.clear();
     for (const int facet : scratch.found) {
       if (met.size() == order.size()) met.emplace_back();
-      if (meet(leg, scratch.window, facet, met[order.size()])) order.push_back(static_cast<std::uint32_t>(order.size()));
+      if (meet(leg, scratch.window, facet, met[order.size()]))
+        order.push_back(static_cast<std::uint32_t>(order.size()));
     }
     const std::size_t count = order.size();
     std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-      return met[a].nearest != met[b].nearest ? met[a].nearest > met[b].nearest : met[a].image.facet < met[b].image.facet;
+      return met[a].nearest != met[b].nearest ? met[a].nearest > met[b].nearest
+                                              : met[a].image.facet < met[b].image.facet;
     });
 
-    // From the nearest on, each hides from the others what lies behind it. What is hidden in whole hides nothing that its own hiders do not.
+    // From the nearest on, each hides from the others what lies behind it. What is hidden in whole hides nothing that
+    // its own hiders do not.
     for (std::size_t i = 0; i < count; ++i) {
       Candidate& fresh = met[order[i]];
       for (std::size_t j = 0; j < i && !fresh.lit.empty(); ++j) {
@@ -227,7 +207,8 @@ class BeamTracer {
       if (fresh.lit.empty()) continue;
       for (std::size_t j = 0; j < i; ++j) {
         Candidate& other = met[order[j]];
-        if (!other.lit.empty() && fresh.nearest > other.farthest - kCoincident) hide(other.image, fresh.image, min_area_, other.lit);
+        if (!other.lit.empty() && fresh.nearest > other.farthest - kCoincident)
+          hide(other.image, fresh.image, min_area_, other.lit);
       }
     }
 
@@ -244,19 +225,15 @@ class BeamTracer {
 
   // What of the lit pieces the radar sees directly.
   void seen_part(const Leg& leg, const Candidate& candidate, std::vector<MovingPolygon>& seen) const {
-    if (facing(leg, candidate.image.facet).dot(antennas_.receive.r) <= kEdgeOn) return;  // its lit side faces away
+    if (facing(leg, facets_[candidate.image.facet]).dot(antennas_.receive.r) <= kEdgeOn)
+      return;  // its lit side faces away
     visible_.seen_through(candidate.image.facet, leg.mirrors, candidate.lit, basis_, seen);
-  }
-
-  // The facet's unit normal on the side the leg comes from.
-  Vec3 facing(const Leg& leg, int facet) const {
-    const Vec3& n = facets_[facet].normal;
-    return n.dot(leg.direction) < 0 ? n : Vec3(-n);
   }
 
   // What the facet is made of at each wavenumber; none when it is a perfect conductor.
   std::span<const Surface> surface_of(int facet) const {
-    return surfaces_.empty() ? std::span<const Surface>() : std::span<const Surface>(surfaces_[facets_[facet].material]);
+    return surfaces_.empty() ? std::span<const Surface>()
+                             : std::span<const Surface>(surfaces_[facets_[facet].material]);
   }
   bool is_under_water(int facet) const {
     const std::span<const Surface> surface = surface_of(facet);
@@ -303,7 +280,7 @@ class BeamTracer {
   // Geometrical optics at a perfect conductor: E' = 2 (n.E) n - E.
   Leg reflected(const Leg& leg, const Candidate& candidate) const {
     const int facet = candidate.image.facet;
-    const Vec3 n = facing(leg, facet);
+    const Vec3 n = facing(leg, facets_[facet]);
     const double offset = n.dot(facets_[facet].corner[0]);
     Leg next;
     next.mirrors.L = leg.mirrors.L * (Mat3::Identity() - 2 * n * n.transpose());
@@ -316,13 +293,8 @@ class BeamTracer {
     next.from_plane = candidate.image.plane;
     next.from_normal = n;
     next.bounce = leg.bounce + 1;
-    const CurvedFacet* curved = surface_.curved(facet);
-    next.bent = leg.bent || curved;
-    if (leg.bent) next.rays = travelled(leg, candidate);
-    if (curved) {
-      // Fermat: a mirror that stands higher by s shortens the path by 2 s cos(incidence).
-      next.rays.reflect(bump(Barycentric(projected(leg, facet)), over_edges(leg, facet, [](double cosine) { return 2 * cosine; })));
-    }
+    next.bent = leg.bent || curving_.surface.curved(facet);
+    next.rays = reflected_rays(curving_, leg, candidate);
     return next;
   }
 
@@ -333,106 +305,10 @@ class BeamTracer {
     find_arrivals(*edges_, facets_, panels_, candidate.image.facet, wave, candidate.lit, out_.arrivals);
   }
 
-  // The rays where they meet the candidate's plane.
-  BentRays travelled(const Leg& leg, const Candidate& candidate) const {
-    const Vec2 c = centroid(candidate.lit.front());
-    BentRays rays = leg.rays;
-    rays.travel(leg.from_plane.at(c) - candidate.image.plane.at(c));
-    return rays;
-  }
-
-  std::array<Vec2, 3> projected(const Leg& leg, int facet) const {
-    std::array<Vec2, 3> corner;
-    for (int i = 0; i < 3; ++i) {
-      const Vec3 image = leg.mirrors.image(facets_[facet].corner[i]);
-      corner[i] = Vec2(image.dot(basis_.h), image.dot(basis_.v));
-    }
-    return corner;
-  }
-
-  // Cosine of the incidence at a normal of the smooth surface. Beyond the shadow boundary, where currents have faded, it stays positive.
-  double smooth_cosine(const Leg& leg, int facet, const Vec3& normal) const {
-    return std::max(-normal.dot(leg.direction), 0.25 * std::abs(facets_[facet].normal.dot(leg.direction)));
-  }
-
-  // The sagittas of a curved facet's edges on the leg's side, each times a factor of the cosine of the incidence there. An edge whose arc of half-angle
-  // 4 sagitta / length comes near the shadow boundary, where currents have faded, keeps twice that angle from it.
-  template <typename Factor>
-  std::array<double, 3> over_edges(const Leg& leg, int facet, const Factor& factor) const {
-    const CurvedFacet& curved = *surface_.curved(facet);
-    const Facet& flat = facets_[facet];
-    const double side = flat.normal.dot(leg.direction) < 0 ? 1 : -1;
-    std::array<double, 3> middle;
-    for (int i = 0; i < 3; ++i) {
-      const int j = (i + 1) % 3;
-      const Vec3 mean = side * (surface_.vertex(curved.vertex[i]).normal + surface_.vertex(curved.vertex[j]).normal).normalized();
-      const double least = 8 * std::abs(curved.sagitta[i]) / (flat.corner[j] - flat.corner[i]).norm();
-      middle[i] = side * curved.sagitta[i] * factor(std::max({-mean.dot(leg.direction), least, 1e-6}));
-    }
-    return middle;
-  }
-
-  // n x (k^ x E) / |n . k^| along the receiver's basis.
-  std::array<Complex, 4> pattern(const Leg& leg, const Vec3& n, double cosine) const {
-    const Vec3 J_h = n.cross(leg.direction.cross(leg.E_h)) / cosine;
-    const Vec3 J_v = n.cross(leg.direction.cross(leg.E_v)) / cosine;
-    const auto& [r, h, v] = antennas_.receive;
-    return {h.dot(J_h), h.dot(J_v), v.dot(J_h), v.dot(J_v)};
-  }
-
-  // What the curvature of a facet and of the mirrors before it adds to a footprint whose flat phase and pattern are set.
-  std::shared_ptr<const Curvature> curvature(const Leg& leg, const Candidate& candidate, const Footprint& footprint) const {
-    const int facet = candidate.image.facet;
-    const CurvedFacet* curved = surface_.curved(facet);
-    BentRays rays;
-    if (leg.bent) rays = travelled(leg, candidate);
-    const bool bent = leg.bent && rays.landing.matrix.norm() < kMostSpread;
-    if (!bent) rays = {};
-    if (!curved && !bent) return nullptr;
-    const auto corner = projected(leg, facet);
-    const Barycentric lambda(corner);
-
-    // The surface stands higher by z / cos(incidence) along the ray, both ways.
-    const Mat3& L = leg.mirrors.L;
-    const Vec3 both = basis_.r + L * antennas_.receive.r;
-    const double both_ways = both.dot(basis_.r);
-    Quadratic standing;
-    if (curved) standing = bump(lambda, over_edges(leg, facet, [&](double cosine) { return both_ways / cosine; }));
-
-    Curvature c{corner, lambda, rays.phase, {}, {}, {}, {}, {}, {}};
-    c.phase += compose({0, footprint.w, Mat2::Zero()}, {rays.landing.offset, rays.landing.matrix - Mat2::Identity()});
-    c.phase += compose(standing, rays.landing);
-    // A bundle that widens by det lights as much area more with a field as much weaker: the square root of it. Behind one focus the phase has advanced by
-    // a quarter, behind two by a half of a cycle.
-    const double widened = rays.landing.matrix.determinant();
-    c.spread = std::sqrt(std::abs(widened)) * (widened < 0 ? Complex(0, 1) : rays.landing.matrix.trace() < 0 ? Complex(-1) : Complex(1));
-    const double side = facets_[facet].normal.dot(leg.direction) < 0 ? 1 : -1;
-    for (int i = 0; i < 3; ++i) {
-      c.lit[i] = c.seen[i] = std::numeric_limits<double>::infinity();
-      c.w[i] = c.slope[i] = footprint.w + c.phase.slope(corner[i]);
-      c.pattern[i] = footprint.pattern;
-      if (curved) {
-        const int vertex = curved->vertex[i];
-        c.lit[i] = surface_.terminator_distance(vertex, -leg.direction, side);
-        if (!antennas_.monostatic || leg.bounce > 1) c.seen[i] = surface_.terminator_distance(vertex, antennas_.receive.r, side);
-        const Vec3 n = side * surface_.vertex(vertex).normal;
-        const double cosine = smooth_cosine(leg, facet, n);
-        const Vec3 image = L * n;
-        const Vec2 slope = -Vec2(image.dot(basis_.h), image.dot(basis_.v)) / cosine;
-        c.w[i] += both_ways * (slope - footprint.plane.slope) - standing.slope(corner[i]);
-        const Vec3 tangential = both - image * image.dot(both);
-        c.slope[i] += Vec2(tangential.dot(basis_.h), tangential.dot(basis_.v)) + tangential.dot(basis_.r) * footprint.plane.slope - footprint.w -
-                      standing.slope(corner[i]);
-        if (footprint.patterns.empty()) c.pattern[i] = pattern(leg, n, cosine);
-      }
-    }
-    return std::make_shared<const Curvature>(c);
-  }
-
   // Footprints of the pieces that are lit and seen.
   void radiate(const Leg& leg, const Candidate& candidate, std::span<const MovingPolygon> pieces) {
     const Facet& facet = facets_[candidate.image.facet];
-    const Vec3 n = facing(leg, candidate.image.facet);
+    const Vec3 n = facing(leg, facets_[candidate.image.facet]);
     if (pieces.empty() || n.dot(antennas_.receive.r) <= kEdgeOn) return;
 
     Footprint footprint;
@@ -443,12 +319,12 @@ class BeamTracer {
     footprint.facet_size = panels_.size(candidate.image.facet);
     footprint.bounces = static_cast<std::uint8_t>(leg.bounce);
     set_phase(footprint, leg.mirrors.L * facet.normal, antennas_);
-    footprint.pattern = pattern(leg, n, std::abs(n.dot(leg.direction)));
+    footprint.pattern = conductor_pattern(leg, n, std::abs(n.dot(leg.direction)), antennas_.receive);
     if (!leg.fields.empty() || !surface_of(footprint.facet).empty()) {
       footprint.patterns = patterns(leg, footprint.facet, n);
       footprint.pattern = footprint.patterns[footprint.patterns.size() / 2];
     }
-    footprint.curvature = curvature(leg, candidate, footprint);
+    footprint.curvature = curvature_of(curving_, leg, candidate, footprint);
     for (const MovingPolygon& piece : pieces) {
       footprint.polygon = piece;
       out_.footprints.push_back(footprint);
@@ -456,7 +332,7 @@ class BeamTracer {
   }
 
   std::span<const Facet> facets_;
-  const SmoothSurface& surface_;
+  Curving curving_;
   const Panels& panels_;
   const SharpEdges* edges_;  // null when nobody asks for edges
   const FacetTree& tree_;

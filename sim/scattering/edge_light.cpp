@@ -206,8 +206,8 @@ std::vector<EdgeFootprint> edge_footprints(const SharpEdges& edges, std::span<co
 
 Complex range_factor(const EdgeFootprint& footprint, double k) {
   if (!footprint.edge_wave) return 1;
-  return transition(2 * k * footprint.edge_wave->departure_m) * transition(2 * k * footprint.edge_wave->arrival_m) /
-         std::sqrt(k);
+  const auto& [departure_m, arrival_m, waves] = *footprint.edge_wave;
+  return transition(2 * k * departure_m) * transition(2 * k * arrival_m) * std::pow(k, -0.5 * waves);
 }
 
 std::array<Complex, 4> scattered(const EdgeFootprint& footprint, double k) {

@@ -55,6 +55,7 @@ struct EdgeFootprint {
   // half the angle from there.
   struct EdgeWaveRange {
     double departure_m = 0, arrival_m = 0;
+    int waves = 1;  // in a row
   };
   std::optional<EdgeWaveRange> edge_wave;
   std::int32_t facet = -1;  // the edge's first

@@ -9,7 +9,8 @@
 namespace seaglint {
 namespace {
 
-// Mirrors on both ways together: edge waves are weak, by mirrors they are weaker than what physical optics itself is uncertain by there.
+// Mirrors on both ways together: edge waves are weak, by mirrors they are weaker than what physical optics itself is
+// uncertain by there.
 constexpr int kMostMirrors = 0;
 // Facets that turn by less than this are one flat face: an edge wave leaves a curved one.
 constexpr double kFlat = 1e-6;
@@ -17,57 +18,99 @@ constexpr double kShortest = 1e-7;  // m
 // A grazing wave is sent down on its face by this angle, so that rounding does not put it on the other side.
 constexpr double kLift = 1e-7;
 
+// Edge waves in a row: the third edge of a face that two edges bound is the first one again, and near grazing its
+// answer is as large as the others'.
+constexpr int kMostWaves = 2;
+
+// A wave on a stretch of an edge. Its path and where the antenna sees it are linear along the stretch.
+struct Incident {
+  int edge = kNoEdge;
+  std::array<double, 2> s{};    // m from the edge's start
+  std::array<double, 2> psi{};  // minus the path, m
+  std::array<Vec3, 2> X;        // its gradient
+  Vec3 direction;
+  std::array<Vec3, 2> E;                    // for h and v
+  std::array<Complex, 2> factor{1.0, 1.0};  // of E
+  double departure_m = 0;                   // of the first edge wave, as in EdgeFootprint
+  int mirrors = 0, waves = 0;               // passed before
+};
+
 // A strip of parallel rays on a face: u across them, w along.
 struct Strip {
   Vec3 u, w;
   double from, to;  // in u
 };
 
+// A wave that leaves an edge along a face.
+struct Source {
+  const Incident& in;
+  const WedgeFace& face;
+  Vec3 start, along;  // of the edge
+  std::array<Complex, 2> amplitude;
+};
+
+// A grazing wave along w, a little down on the face.
+Vec3 grazing(const WedgeFace& face, const Vec3& w) { return (w - kLift * face.n).normalized(); }
+
 class EdgeWaves {
  public:
-  EdgeWaves(const SharpEdges& edges, std::span<const Facet> facets, const AntennaPair& antennas, std::span<const EdgeArrival> outgoing,
-            std::vector<EdgeFootprint>& out)
-      : edges_(edges), facets_(facets), antennas_(antennas), outgoing_(outgoing), out_(out), first_(edges.edges.size() + 1, 0) {
+  EdgeWaves(const SharpEdges& edges, std::span<const Facet> facets, const AntennaPair& antennas,
+            std::span<const EdgeArrival> outgoing, std::vector<EdgeFootprint>& out)
+      : edges_(edges),
+        facets_(facets),
+        antennas_(antennas),
+        outgoing_(outgoing),
+        out_(out),
+        first_(edges.edges.size() + 1, 0) {
     for (const EdgeArrival& arrival : outgoing) ++first_[arrival.edge + 1];
     for (std::size_t e = 1; e < first_.size(); ++e) first_[e] += first_[e - 1];
   }
 
-  void send(const EdgeArrival& in) {
+  void send(const EdgeArrival& arrival) {
+    Incident in{arrival.edge, arrival.s, {}, {}, arrival.direction, {arrival.E_h, arrival.E_v}};
+    in.mirrors = arrival.mirrors;
+    for (int end = 0; end < 2; ++end) {
+      in.X[end] = arrival.image + arrival.s[end] * arrival.image_along;
+      in.psi[end] = antennas_.transmit.r.dot(in.X[end]);
+    }
+    send(in);
+  }
+
+ private:
+  void send(const Incident& in) {
     const SharpEdge& edge = edges_.edges[in.edge];
     const WedgeFrame* wedge = wedge_towards(edge, in.direction);
     if (!wedge) return;
-    in_ = &in;
-    start_ = edge.a;
     for (int i = 0; i < 2; ++i) {
-      face_ = &wedge->face[i];
-      const EdgeWave h = edge_wave(*wedge, i, in.direction, in.E_h), v = edge_wave(*wedge, i, in.direction, in.E_v);
-      amplitude_h_ = h.amplitude;
-      amplitude_v_ = v.amplitude;
-      if (std::abs(amplitude_h_) + std::abs(amplitude_v_) < 1e-9) continue;
-      Strip strip{h.direction.cross(face_->n), h.direction, 0, 0};
-      along_ = (edge.b - edge.a).normalized();
-      if (std::abs(strip.u.dot(along_)) < 1e-6) continue;  // it runs along the edge itself
-      const double a = strip.u.dot(start_ + in.s[0] * along_), b = strip.u.dot(start_ + in.s[1] * along_);
+      const EdgeWave h = edge_wave(*wedge, i, in.direction, in.E[0]), v = edge_wave(*wedge, i, in.direction, in.E[1]);
+      const Source source{in,
+                          wedge->face[i],
+                          edge.a,
+                          (edge.b - edge.a).normalized(),
+                          {h.amplitude * in.factor[0], v.amplitude * in.factor[1]}};
+      if (std::abs(source.amplitude[0]) + std::abs(source.amplitude[1]) < 1e-9) continue;
+      Strip strip{h.direction.cross(source.face.n), h.direction, 0, 0};
+      if (std::abs(strip.u.dot(source.along)) < 1e-6) continue;  // it runs along the edge itself
+      const double a = strip.u.dot(edge.a + in.s[0] * source.along), b = strip.u.dot(edge.a + in.s[1] * source.along);
       strip.from = std::min(a, b);
       strip.to = std::max(a, b);
       const int facet = edge.facet[i];
       int side = 0;
       while (side < 2 && edges_.of_facet[facet][side] != in.edge) ++side;
-      cross(facet, side, strip, 0);
+      cross(source, facet, side, strip, 0);
     }
   }
 
- private:
-  // What an edge makes of a grazing wave of unit incident field along w: its fringe current, and the end of the current that the first edge alone
-  // would send on along w beyond it: J = 2 n x H = 2 w / eta there, integrated along w.
-  CVec3 diffracted(const WedgeFrame& wedge, const Vec3& along, const Vec3& w, const Vec3& s) const {
-    const Vec3 grazing = (w - kLift * face_->n).normalized();
-    const double opening = std::max(1 - s.dot(w), 1e-9);
-    return edge_current(wedge, grazing, face_->n, s) + Complex(w.cross(along).norm() / (2 * kPi * opening)) * w;
+  // What an edge makes of a grazing wave of unit incident field along w: its fringe current, and the end of the current
+  // that the first edge alone would send on along w beyond it: J = 2 n x H = 2 w / eta there, integrated along w.
+  static CVec3 diffracted(const WedgeFrame& wedge, const WedgeFace& face, const Vec3& along, const Vec3& w,
+                          const Vec3& s) {
+    const double opening = std::max(0.5 * (s - w).squaredNorm(), 1e-15);  // 1 - s.w
+    return edge_current(wedge, grazing(face, w), face.n, s) + Complex(w.cross(along).norm() / (2 * kPi * opening)) * w;
   }
 
   // Follows the strip that enters a facet by one of its sides.
-  void cross(int number, int entered, const Strip& strip, int depth) {
+  void cross(const Source& source, int number, int entered, const Strip& strip, int depth) {
     constexpr int kDeepest = 1000;  // facets of one face in a row
     if (strip.to - strip.from < kShortest || depth > kDeepest) return;
     const Facet& facet = facets_[number];
@@ -81,7 +124,7 @@ class EdgeWaves {
       if (part.to - part.from < kShortest) continue;
       const int edge = edges_.of_facet[number][side];
       if (edge != kNoEdge) {
-        diffract(edge, part);
+        diffract(source, edge, part);
       } else if (const int next = facet.neighbour[side]; next >= 0) {
         const Facet& neighbour = facets_[next];
         if (std::abs(neighbour.normal.dot(facet.normal)) < 1 - kFlat) continue;
@@ -92,55 +135,74 @@ class EdgeWaves {
         // The common side runs from p or to p in the neighbour.
         const Vec3& q = facet.corner[(side + 1) % 3];
         const int common = neighbour.corner[(k + 1) % 3] == q ? k : (k + 2) % 3;
-        cross(next, common, part, depth + 1);
+        cross(source, next, common, part, depth + 1);
       }
     }
   }
 
-  void diffract(int number, const Strip& strip) {
+  void diffract(const Source& source, int number, const Strip& strip) {
+    const Incident& in = source.in;
     const SharpEdge& edge = edges_.edges[number];
     const Vec3 along = (edge.b - edge.a).normalized();
     const double across = strip.u.dot(along);
     if (std::abs(across) < 1e-6) return;
-    const WedgeFrame* wedge = wedge_towards(edge, strip.w - kLift * face_->n);
+    const WedgeFrame* wedge = wedge_towards(edge, grazing(source.face, strip.w));
     if (!wedge) return;
-    for (std::size_t o = first_[number]; o < first_[number + 1]; ++o) {
-      const EdgeArrival& departure = outgoing_[o];
-      if (in_->mirrors + departure.mirrors > kMostMirrors || wedge_towards(edge, departure.direction) != wedge) continue;
-      // The stretch of the second edge that the strip and the departure share.
-      const auto place = [&](double u) { return (u - strip.u.dot(edge.a)) / across; };
-      const double first = std::max(std::min(place(strip.from), place(strip.to)), departure.s[0]);
-      const double last = std::min(std::max(place(strip.from), place(strip.to)), departure.s[1]);
-      if (last - first < kShortest) continue;
-
-      EdgeFootprint footprint;
-      footprint.length = last - first;
-      footprint.facet = edge.facet[0];
-      footprint.part = facets_[edge.facet[0]].part;
-      footprint.bounces = static_cast<std::uint8_t>(in_->mirrors + departure.mirrors + 2);
-      double root_sum = 0;
-      for (int end = 0; end < 2; ++end) {
-        const Vec3 Q2 = edge.a + (end == 0 ? first : last) * along;
-        const double s1 = (strip.u.dot(Q2 - start_)) / strip.u.dot(along_);
-        const Vec3 Q1 = start_ + s1 * along_;
-        const double l = std::max(strip.w.dot(Q2 - Q1), 0.0);
-        root_sum += std::sqrt(l);
-        const Vec3 X = in_->image + s1 * in_->image_along;
-        const Vec3 Y = departure.image + (end == 0 ? first : last) * departure.image_along;
-        footprint.psi[end] = antennas_.transmit.r.dot(X) - l + antennas_.receive.r.dot(Y);
-        footprint.gradient[end] = {X, Y};
-      }
-      if (root_sum < 1e-4) continue;
-      const double l = 0.25 * root_sum * root_sum;
-      footprint.edge_wave = {l * shadow_distance(along_, strip.w, in_->direction), l * shadow_distance(along, strip.w, -departure.direction)};
-      // l is linear along the stretch: the mean of 1/sqrt(l) is 2 / (sqrt(l_0) + sqrt(l_1)). Half of the wave is incident.
-      const double spread = 0.5 * 2 / root_sum;
-      const CVec3 J = diffracted(*wedge, along, strip.w, -departure.direction);
-      const auto received = [&](const Vec3& E) { return E.cast<Complex>().cwiseProduct(J).sum() * spread; };
-      const Complex h = received(departure.E_h), v = received(departure.E_v);
-      footprint.pattern = {h * amplitude_h_, h * amplitude_v_, v * amplitude_h_, v * amplitude_v_};
-      out_.push_back(footprint);
+    // The stretch of this edge that the strip meets, and the wave there: its rays come from the first edge without
+    // crossing.
+    const auto place = [&](double u) { return (u - strip.u.dot(edge.a)) / across; };
+    Incident next = in;
+    next.edge = number;
+    next.s = {std::min(place(strip.from), place(strip.to)), std::max(place(strip.from), place(strip.to))};
+    next.direction = grazing(source.face, strip.w);
+    next.E = {source.face.n, source.face.n};
+    ++next.waves;
+    double root_sum = 0;
+    for (int end = 0; end < 2; ++end) {
+      const Vec3 Q2 = edge.a + next.s[end] * along;
+      const double s1 = strip.u.dot(Q2 - source.start) / strip.u.dot(source.along);
+      const double share = (s1 - in.s[0]) / (in.s[1] - in.s[0]);
+      const double l = std::max(strip.w.dot(Q2 - source.start - s1 * source.along), 0.0);
+      root_sum += std::sqrt(l);
+      next.psi[end] = in.psi[0] + share * (in.psi[1] - in.psi[0]) - l;
+      next.X[end] = in.X[0] + share * (in.X[1] - in.X[0]);
     }
+    if (root_sum < 1e-4) return;
+    const double l = 0.25 * root_sum * root_sum;
+    if (in.waves == 0) next.departure_m = l * shadow_distance(source.along, strip.w, in.direction);
+    // l is linear along the stretch: the mean of 1/sqrt(l) is 2 / (sqrt(l_0) + sqrt(l_1)). Half of the wave is
+    // incident.
+    for (int q = 0; q < 2; ++q) next.factor[q] = source.amplitude[q] * (0.5 * 2 / root_sum);
+    for (std::size_t o = first_[number]; o < first_[number + 1]; ++o)
+      leave(next, *wedge, source.face, strip.w, l, outgoing_[o]);
+    if (next.waves < kMostWaves) send(next);
+  }
+
+  // What of a wave that came along a face goes out by a departure of the same edge.
+  void leave(const Incident& in, const WedgeFrame& wedge, const WedgeFace& face, const Vec3& w, double l,
+             const EdgeArrival& departure) {
+    const SharpEdge& edge = edges_.edges[in.edge];
+    if (in.mirrors + departure.mirrors > kMostMirrors || wedge_towards(edge, departure.direction) != &wedge) return;
+    const std::array<double, 2> s{std::max(in.s[0], departure.s[0]), std::min(in.s[1], departure.s[1])};
+    if (s[1] - s[0] < kShortest) return;
+    EdgeFootprint footprint;
+    footprint.length = s[1] - s[0];
+    footprint.facet = edge.facet[0];
+    footprint.part = facets_[edge.facet[0]].part;
+    footprint.bounces = static_cast<std::uint8_t>(in.mirrors + departure.mirrors + in.waves + 1);
+    for (int end = 0; end < 2; ++end) {
+      const double share = (s[end] - in.s[0]) / (in.s[1] - in.s[0]);
+      const Vec3 X = in.X[0] + share * (in.X[1] - in.X[0]), Y = departure.image + s[end] * departure.image_along;
+      footprint.psi[end] = in.psi[0] + share * (in.psi[1] - in.psi[0]) + antennas_.receive.r.dot(Y);
+      footprint.gradient[end] = {X, Y};
+    }
+    const Vec3 along = (edge.b - edge.a).normalized();
+    footprint.edge_wave = {in.departure_m, l * shadow_distance(along, w, -departure.direction), in.waves};
+    const CVec3 J = diffracted(wedge, face, along, w, -departure.direction);
+    const auto received = [&](const Vec3& E) { return E.cast<Complex>().cwiseProduct(J).sum(); };
+    const Complex h = received(departure.E_h), v = received(departure.E_v);
+    footprint.pattern = {h * in.factor[0], h * in.factor[1], v * in.factor[0], v * in.factor[1]};
+    out_.push_back(footprint);
   }
 
   const SharpEdges& edges_;
@@ -149,16 +211,13 @@ class EdgeWaves {
   std::span<const EdgeArrival> outgoing_;
   std::vector<EdgeFootprint>& out_;
   std::vector<std::size_t> first_;  // departure of each edge
-  const EdgeArrival* in_ = nullptr;
-  const WedgeFace* face_ = nullptr;
-  Vec3 start_, along_;  // of the first edge
-  Complex amplitude_h_, amplitude_v_;
 };
 
 }  // namespace
 
-std::vector<EdgeFootprint> edge_wave_footprints(const SharpEdges& edges, std::span<const Facet> facets, const AntennaPair& antennas,
-                                                std::span<const EdgeArrival> incoming, std::span<const EdgeArrival> outgoing) {
+std::vector<EdgeFootprint> edge_wave_footprints(const SharpEdges& edges, std::span<const Facet> facets,
+                                                const AntennaPair& antennas, std::span<const EdgeArrival> incoming,
+                                                std::span<const EdgeArrival> outgoing) {
   std::vector<EdgeFootprint> result;
   EdgeWaves waves(edges, facets, antennas, outgoing, result);
   for (const EdgeArrival& in : incoming) {

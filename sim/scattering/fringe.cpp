@@ -36,9 +36,11 @@ double angle_from_face(const WedgeFace& face, const Vec3& towards_source) {
   return angle < 0 ? angle + 2 * kPi : angle;
 }
 
-// Integrals of eta k J over one face along the grazing diffracted ray. Michaeli 1984 eqs. 12-14 with 1986 eqs. 5-8 (his
-// alpha is pi - a here): with H_t = 1 and E_t = 1 the wedge's exact currents give cotangents of (a +- phi') / 2N, those
-// of physical optics the same with N = 1.
+// Integrals of eta k J over one face along the grazing diffracted ray (Michaeli 1984 and 1986; his alpha is pi - a
+// here). At a distance x from the edge Sommerfeld's wedge currents are contour integrals of e^{jkx cos xi} with the
+// cotangents of (xi +- phi') / 2N; weighted with e^{jkx mu} and summed over the half-line, x leaves 1 / (cos xi + mu),
+// whose pole at cos a = -mu leaves the cotangents at a +- phi' over sin a. Physical optics has N = 1. The tests hold
+// the sum of both faces to Keller's coefficients.
 CVec3 face_current(const WedgeFace& face, double N, double phi, bool less_optics, const Vec3& k_hat, const Vec3& E,
                    const Vec3& s) {
   const double cos_b = k_hat.dot(face.t);
@@ -46,7 +48,7 @@ CVec3 face_current(const WedgeFace& face, double N, double phi, bool less_optics
   const double mu = (sin_b * s.dot(face.x) + cos_b * (s.dot(face.t) - cos_b)) / (sin_b * sin_b);
   // cos a = -mu; mu <= 1 for real directions, and a is imaginary where mu < -1. Both ends are removable, the one at pi
   // only in the sum over the current's components across s: keep away from 0/0.
-  constexpr double kAside = 1e-5;
+  constexpr double kAside = 1e-7;
   const Cotangents cot = mu >= -1 ? cotangents(std::clamp(std::acos(std::clamp(-mu, -1.0, 1.0)), kAside, kPi - kAside),
                                                phi, N, less_optics)
                                   : cotangents(Complex(0, std::max(std::acosh(-mu), kAside)), phi, N, less_optics);
@@ -92,7 +94,7 @@ double shadow_distance(const Vec3& edge, const Vec3& along_face, const Vec3& oth
   const auto across = [&](const Vec3& x) -> Vec3 { return x - edge * edge.dot(x); };
   const Vec3 a = across(along_face), b = across(other);
   const double lengths = a.norm() * b.norm();
-  return lengths > 1e-12 ? 0.5 * (1 - std::clamp(a.dot(b) / lengths, -1.0, 1.0)) : 0;
+  return lengths > 1e-12 ? 0.25 * (a / a.norm() - b / b.norm()).squaredNorm() : 0;
 }
 
 Complex transition(double x) {

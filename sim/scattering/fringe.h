@@ -35,15 +35,16 @@ CVec3 edge_current(const WedgeFrame& wedge, const Vec3& k_hat, const Vec3& E, co
 // Field of the edge wave that a hard-polarised plane wave sends along a face: unit amplitude along k_hat, electric
 // field E. The wave travels along `direction` (in the face, on Keller's cone) and its electric field across the face at
 // distance l > 0 from the edge is amplitude e^{-jkl} / sqrt(k l), half of it the incident wave for an edge it meets (J.
-// B. Keller, J. Opt. Soc. Am. 52 (1962) 116-130, eq. 10 and section 6). The field along n.
+// B. Keller, J. Opt. Soc. Am. 52 (1962) 116-130: his hard coefficient towards the face). The field along n.
 struct EdgeWave {
   Vec3 direction;
   Complex amplitude;
 };
 EdgeWave edge_wave(const WedgeFrame& wedge, int face, const Vec3& k_hat, const Vec3& E);
 
-// sin^2 of half the angle between the wave's own way on along a face and the direction s, both about the edge: zero on
-// the shadow boundary. For a wave that arrives, s = k_hat; for one that leaves along the face, k_hat is its direction.
+// sin^2 of half the angle, about `edge`, between a wave along a face and another direction: zero where they agree, on
+// the shadow boundary. `other` is the incident wave's direction at the edge where the wave along the face starts, and
+// the outgoing one's at the edge where it ends.
 double shadow_distance(const Vec3& edge, const Vec3& along_face, const Vec3& other);
 
 // F(x) = 2j sqrt(x) e^{jx} integral from sqrt(x) to infinity of e^{-j t^2} dt, x >= 0: 0 on a shadow boundary, 1 far

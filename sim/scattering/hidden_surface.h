@@ -18,6 +18,9 @@ namespace seaglint {
 inline constexpr double kCoincident = 1e-7;  // m
 
 // A panel's image through the mirrors of a beam, projected along the unfolded ray.
+// Cosine below which a panel is edge-on and has no image.
+inline constexpr double kEdgeOnSheet = 1e-7;
+
 struct FacetImage {
   int facet = -1;
   ImagePlane plane;

@@ -26,6 +26,25 @@ double smallest_area(const Scatterer& scatterer, const IlluminationSettings& set
   return finer * finer;
 }
 
+// In a direction that lies in a sheet's plane nothing of it would be found, not even its rims, whose echo has a limit
+// there. It is turned aside by this much, rad, which moves phases by 0.05 rad at the ends of a 144 m ship at 16 GHz.
+constexpr double kAside = 1e-6;
+
+RadarBasis beside_sheets(const Scatterer& scatterer, const RadarBasis& basis) {
+  const auto facets = scatterer.facets();
+  const bool in_a_sheet = std::any_of(facets.begin(), facets.end(), [&](const Facet& facet) {
+    return facet.open && std::abs(facet.normal.dot(basis.r)) < kEdgeOnSheet;
+  });
+  if (!in_a_sheet) return basis;
+  // Aside of h and v alike, since sheets often lie along one of them.
+  const Mat3 turn = Eigen::AngleAxisd(kAside, (basis.h - basis.v).normalized()).toRotationMatrix();
+  return {turn * basis.r, turn * basis.h, turn * basis.v};
+}
+
+AntennaPair beside_sheets(const Scatterer& scatterer, const AntennaPair& antennas) {
+  return {beside_sheets(scatterer, antennas.transmit), beside_sheets(scatterer, antennas.receive), antennas.monostatic};
+}
+
 // All chunks' arrivals in the order of their edges, those of one edge in the order of the chunks.
 std::vector<EdgeArrival> by_edge(std::span<const std::vector<EdgeArrival>> chunks, std::size_t edge_count) {
   std::vector<std::size_t> place(edge_count + 1, 0);  // where the next arrival of each edge goes
@@ -47,12 +66,12 @@ double default_ray_spacing(const Scatterer& scatterer) { return kSpacingPerSide 
 Illumination::Illumination(const Scatterer& scatterer, const AntennaPair& antennas,
                            const IlluminationSettings& settings, int threads, std::span<const double> wavenumbers)
     : scatterer_(scatterer),
-      antennas_(antennas),
+      antennas_(beside_sheets(scatterer, antennas)),
       settings_(settings),
       min_area_(smallest_area(scatterer, settings)),
-      lit_(scatterer.facets(), scatterer.panels(), scatterer.tree(), antennas.transmit, min_area_, threads) {
+      lit_(scatterer.facets(), scatterer.panels(), scatterer.tree(), antennas_.transmit, min_area_, threads) {
   if (!antennas.monostatic)
-    seen_from_receiver_.emplace(scatterer.facets(), scatterer.panels(), scatterer.tree(), antennas.receive, min_area_,
+    seen_from_receiver_.emplace(scatterer.facets(), scatterer.panels(), scatterer.tree(), antennas_.receive, min_area_,
                                 threads);
   for (int facet = 0; facet < static_cast<int>(scatterer.facets().size()); ++facet) {
     if (!lit_.pieces(facet).empty()) seen_.push_back(facet);

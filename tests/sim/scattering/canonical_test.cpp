@@ -2,8 +2,6 @@
 // Targets with known echoes: closed forms, the Mie series, and a full-wave trihedral.
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <sstream>
 #include <vector>
 
 #include "sim/geometry/generators.h"
@@ -16,21 +14,6 @@ using namespace testing_echoes;
 
 constexpr double kRounding = 1e-9;  // relative; double arithmetic on a few thousand terms
 const double k16 = wavenumber(16e9);
-
-std::vector<std::vector<std::string>> read_csv(const std::string& name) {
-  std::ifstream file(std::string(SEAGLINT_SOURCE_DIR) + "/tests/reference/rcs/" + name);
-  std::vector<std::vector<std::string>> rows;
-  std::string line;
-  std::getline(file, line);
-  while (std::getline(file, line)) {
-    std::vector<std::string> row;
-    std::istringstream cells(line);
-    for (std::string cell; std::getline(cells, cell, ',');) row.push_back(cell);
-    rows.push_back(row);
-  }
-  EXPECT_FALSE(rows.empty()) << name;
-  return rows;
-}
 
 TEST(Plate, AnswersMinusJAreaOverWavelengthAtNormalIncidenceForAnySizeAndSpacing) {
   for (const auto& [length, width] : {std::pair{0.5, 0.3}, {0.05, 0.05}, {10.0, 2.0}}) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Targets of other materials than perfect conductor: the flat surface's reflection coefficients must come out of the solver.
+// Targets of other materials than perfect conductor: the flat surface's reflection coefficients must come out of the
+// solver.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -43,24 +44,12 @@ Scatterer coated(TriangleMesh mesh, const MaterialSpec& material) {
   return Scatterer(mesh, materials);
 }
 
-// A square trihedral with a tilted plate before it.
-TriangleMesh stepped() {
-  TriangleMesh mesh = make_square_trihedral(0.4);
-  mesh.append(transformed(make_plate(0.11, 0.13),
-                          Eigen::AngleAxisd(0.4, Vec3(1, 2, 0.5).normalized()).toRotationMatrix(), {0.35, 0.22, 0.17}));
-  return mesh;
-}
-
-double largest(const std::array<Complex, 4>& s) {
-  double size = 0;
-  for (const Complex& x : s) size = std::max(size, std::abs(x));
-  return size;
-}
-
 TEST(Coated, PlateDropsByTheReflectionCoefficientSquaredAtEveryAngle) {
-  // The plate turns about z: h lies in the plane of incidence, v across it. Backscatter of physical optics is the conductor's times tm and -te.
+  // The plate turns about z: h lies in the plane of incidence, v across it. Backscatter of physical optics is the
+  // conductor's times tm and -te.
   const TriangleMesh plate = make_plate(0.3, 0.2);
-  for (const MaterialSpec& material : {impedance(0.5, 0.3), library("ram_loaded_epoxy"), library("grp_sheet"), library("sea_water")}) {
+  for (const MaterialSpec& material :
+       {impedance(0.5, 0.3), library("ram_loaded_epoxy"), library("grp_sheet"), library("sea_water")}) {
     const Scatterer target = coated(plate, material), metal(plate);
     for (const double azimuth : {0.0, 7.0, 31.0, 66.0}) {
       const RadarBasis basis = radar_basis(direction(azimuth, 0));
@@ -93,7 +82,8 @@ TEST(Coated, SpecularBistaticEchoFollowsTheCoefficientsOfItsAngle) {
     const Scatterer target = coated(make_plate(0.3, 0.2), material);
     for (const double azimuth : {10.0, 45.0, 75.0}) {
       const AntennaPair pair = bistatic(radar_basis(direction(azimuth, 0)), radar_basis(direction(-azimuth, 0)));
-      const auto s = scattering_matrices(target, pair, std::array{k16}, {0, 8})[0], pec = scattering_matrices(metal, pair, std::array{k16}, {0, 8})[0];
+      const auto s = scattering_matrices(target, pair, std::array{k16}, {0, 8})[0],
+                 pec = scattering_matrices(metal, pair, std::array{k16}, {0, 8})[0];
       const SurfaceFields fields = Surface(material, k16).at(std::cos(radians(azimuth)));
       EXPECT_LT(std::abs(s[kHhChannel] - fields.tm * pec[kHhChannel]), kRounding) << material.name << " " << azimuth;
       EXPECT_LT(std::abs(s[kVvChannel] + fields.te * pec[kVvChannel]), kRounding) << material.name << " " << azimuth;
@@ -102,7 +92,8 @@ TEST(Coated, SpecularBistaticEchoFollowsTheCoefficientsOfItsAngle) {
 }
 
 TEST(Coated, DihedralMultipliesTheCoefficientsOfItsTwoFaces) {
-  // Along the bisector both faces are met at 45 deg; seam along z, so v is across both planes of incidence and h in them.
+  // Along the bisector both faces are met at 45 deg; seam along z, so v is across both planes of incidence and h in
+  // them.
   const double a = 0.3, b = 0.25;
   const MaterialSpec one = library("ram_loaded_epoxy"), two = impedance(0.2, 0.4);
   TriangleMesh mesh = make_dihedral(b, a, kPi / 2);
@@ -119,20 +110,23 @@ TEST(Coated, DihedralMultipliesTheCoefficientsOfItsTwoFaces) {
   const double side_lobe = 2 * a * b * k16 / (2 * kPi) / (k16 * a);
   EXPECT_LT(std::abs(s[kVvChannel] - first.te * second.te * pec[kVvChannel]), 2 * side_lobe);
   EXPECT_LT(std::abs(s[kHhChannel] - first.tm * second.tm * pec[kHhChannel]), 2 * side_lobe);
-  fmt::print("dihedral: vv {:.2f} dB below the conductor's, the product's {:.2f} dB\n", -20 * std::log10(std::abs(s[kVvChannel] / pec[kVvChannel])),
+  fmt::print("dihedral: vv {:.2f} dB below the conductor's, the product's {:.2f} dB\n",
+             -20 * std::log10(std::abs(s[kVvChannel] / pec[kVvChannel])),
              -20 * std::log10(std::abs(first.te * second.te)));
 }
 
 TEST(Coated, SheetOfVacuumScattersNothingInAnyDirection) {
-  const Scatterer target = coated(stepped(), vacuum_sheet());
+  const Scatterer target = coated(stepped_corner(), vacuum_sheet());
   for (const Vec3& receive : {direction(33, 20), direction(-33, 10), direction(-140, 5)}) {
-    const auto s = scattering_matrices(target, bistatic(radar_basis(direction(33, 20)), radar_basis(receive)), std::array{k16}, {0.01, 8})[0];
+    const auto s = scattering_matrices(target, bistatic(radar_basis(direction(33, 20)), radar_basis(receive)),
+                                       std::array{k16}, {0.01, 8})[0];
     EXPECT_LT(largest(s), kRounding);
   }
 }
 
 TEST(Coated, SphereTendsToTheConductorsEchoTimesItsCoefficientAtNormalIncidence) {
-  // Only the front matters, where the wave comes in along the normal; what stays is the false echo of the shadow edge, 1 / (2 ka) of the conductor's.
+  // Only the front matters, where the wave comes in along the normal; what stays is the false echo of the shadow edge,
+  // 1 / (2 ka) of the conductor's.
   const MaterialSpec material = impedance(0.4, 0.25);
   const TriangleMesh mesh = make_sphere(1, 5);
   const Scatterer target = coated(mesh, material), metal(mesh);
@@ -140,7 +134,8 @@ TEST(Coated, SphereTendsToTheConductorsEchoTimesItsCoefficientAtNormalIncidence)
   for (const double ka : {80.0, 120.0}) {
     const RadarBasis basis = radar_basis(direction(23, 11));
     const Complex ratio = echo(target, basis, ka, 0.02)[kVvChannel] / echo(metal, basis, ka, 0.02)[kVvChannel];
-    fmt::print("sphere of impedance at ka {}: {:.4f} off its coefficient {:.4f}\n", ka, std::abs(ratio - gamma), std::abs(gamma));
+    fmt::print("sphere of impedance at ka {}: {:.4f} off its coefficient {:.4f}\n", ka, std::abs(ratio - gamma),
+               std::abs(gamma));
     EXPECT_LT(std::abs(ratio - gamma), 1 / (2 * ka)) << ka;
   }
 }
@@ -156,8 +151,8 @@ TEST(Coated, EveryFrequencyOfASweepHasItsOwnCoefficients) {
   }
 }
 
-// Relative L2 error, dB, of the response over 16.0-16.2 GHz against fresh traces per frequency. It takes the coefficients at the band's middle and their
-// first-order change over the band.
+// Relative L2 error, dB, of the response over 16.0-16.2 GHz against fresh traces per frequency. It takes the
+// coefficients at the band's middle and their first-order change over the band.
 double band_error_db(const Scatterer& target, const Vec3& r) {
   IntervalSampling sampling;
   sampling.first_hz = 16.0e9;
@@ -165,17 +160,20 @@ double band_error_db(const Scatterer& target, const Vec3& r) {
   sampling.count = sampling.per_pulse = 41;
   sampling.pulse_first = {0};
   sampling.pulse_time_s = {0};
-  const BodyResponse body = respond(target, Trajectory::at_rest(Vec3::Zero()), r, Polarisation::kVv, sampling, SolverSpec{});
+  const BodyResponse body =
+      respond(target, Trajectory::at_rest(Vec3::Zero()), r, Polarisation::kVv, sampling, SolverSpec{});
   double error = 0, power = 0;
   for (int b = 0; b < sampling.count; ++b) {
-    const Complex fresh = echo(target, radar_basis(r), wavenumber(sampling.first_hz + sampling.step_hz * b), 0, 8, true)[kVvChannel];
+    const Complex fresh =
+        echo(target, radar_basis(r), wavenumber(sampling.first_hz + sampling.step_hz * b), 0, 8, true)[kVvChannel];
     error += std::norm(body.response.at(0, b) - fresh);
     power += std::norm(fresh);
   }
   return 10 * std::log10(error / power);
 }
 
-// The second order of three coefficients, each of which changes by at most 5 % over +-100 MHz, 3 (0.05)^2 / 2, and |k/kc - 1| = 0.6 % of the end points.
+// The second order of three coefficients, each of which changes by at most 5 % over +-100 MHz, 3 (0.05)^2 / 2, and
+// |k/kc - 1| = 0.6 % of the end points.
 const double kBandErrorDb = 20 * std::log10(3 * 0.05 * 0.05 / 2 + 0.006);
 
 TEST(Coated, IntervalFollowsTheCoefficientsOverItsBand) {
@@ -205,7 +203,7 @@ TEST(Coated, TurningTargetAndRadarTogetherChangesNothing) {
 }
 
 TEST(Coated, FirstBounceIsReciprocal) {
-  const Scatterer target = coated(stepped(), impedance(0.7, -0.4));
+  const Scatterer target = coated(stepped_corner(), impedance(0.7, -0.4));
   const auto s = echo(target, radar_basis(direction(12, 24)), k16, 0.01, 1);
   EXPECT_LT(std::abs(s[kHvChannel] - s[kVhChannel]), kRounding * largest(s));
 }

@@ -3,10 +3,19 @@
 
 // Short cuts shared by the scattering tests.
 
+#include <gtest/gtest.h>
+
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include "sim/core/constants.h"
+#include "sim/core/random.h"
+#include "sim/geometry/generators.h"
 #include "sim/scattering/respond.h"
 
 namespace seaglint::testing_echoes {
@@ -31,5 +40,48 @@ inline std::array<Complex, 4> echo(const TriangleMesh& mesh, const Vec3& r_hat, 
 }
 
 enum Channel { kHhChannel, kHvChannel, kVhChannel, kVvChannel };
+
+inline double largest(const std::array<Complex, 4>& s) {
+  double size = 0;
+  for (const Complex& x : s) size = std::max(size, std::abs(x));
+  return size;
+}
+
+// A square trihedral with a tilted plate before it: first, second and third bounces, shadows on both ways.
+inline TriangleMesh stepped_corner() {
+  TriangleMesh mesh = make_square_trihedral(0.4);
+  mesh.append(transformed(make_plate(0.11, 0.13),
+                          Eigen::AngleAxisd(0.4, Vec3(1, 2, 0.5).normalized()).toRotationMatrix(), {0.35, 0.22, 0.17}));
+  return mesh;
+}
+
+// The paper's interval: 8 carriers by 25 MHz from 16 GHz, 40 frequencies each, 256 pulses by 250 us.
+inline IntervalSampling paper_interval(double start_s) {
+  IntervalSampling sampling;
+  sampling.step_hz = 0.625e6;
+  sampling.first_hz = 16e9 - 12.5e6 + 0.5 * sampling.step_hz;
+  sampling.count = 320;
+  sampling.per_pulse = 40;
+  Random random({7, Stream::kTest, 0});
+  for (int n = 0; n < 256; ++n) {
+    sampling.pulse_first.push_back(40 * static_cast<int>(random.below(8)));
+    sampling.pulse_time_s.push_back(start_s + 250e-6 * n);
+  }
+  return sampling;
+}
+
+// Rows of a table in tests/reference/rcs without its heading and comments.
+inline std::vector<std::vector<std::string>> read_csv(const std::string& name) {
+  std::ifstream file(std::string(SEAGLINT_SOURCE_DIR) + "/tests/reference/rcs/" + name);
+  std::vector<std::vector<std::string>> rows;
+  for (std::string line; std::getline(file, line);) {
+    if (line.empty() || line[0] == '#' || !(std::isdigit(line[0]) || line[0] == '-')) continue;
+    std::istringstream cells(line);
+    rows.emplace_back();
+    for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(cell);
+  }
+  EXPECT_FALSE(rows.empty()) << name;
+  return rows;
+}
 
 }  // namespace seaglint::testing_echoes

@@ -20,21 +20,6 @@ namespace {
 
 using namespace testing_echoes;
 
-// The paper's interval: 8 carriers by 25 MHz from 16 GHz, 40 frequencies each, 256 pulses by 250 us.
-IntervalSampling paper_interval(double start_s) {
-  IntervalSampling sampling;
-  sampling.step_hz = 0.625e6;
-  sampling.first_hz = 16e9 - 12.5e6 + 0.5 * sampling.step_hz;
-  sampling.count = 320;
-  sampling.per_pulse = 40;
-  Random random({7, Stream::kTest, 0});
-  for (int n = 0; n < 256; ++n) {
-    sampling.pulse_first.push_back(40 * static_cast<int>(random.below(8)));
-    sampling.pulse_time_s.push_back(start_s + 250e-6 * n);
-  }
-  return sampling;
-}
-
 // Roll, pitch and yaw as sinusoids with the given rates (rad/s, amplitude of the rate) at period_s.
 Trajectory rocking(const Vec3& rates, double period_s, const Vec3& centre) {
   const double omega = 2 * kPi / period_s, step = 0.01;

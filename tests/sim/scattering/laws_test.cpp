@@ -14,20 +14,6 @@ using namespace testing_echoes;
 
 const double k10 = wavenumber(10e9);
 
-// A step with a corner: first, second and third bounces, shadows on both ways.
-TriangleMesh stepped_corner() {
-  TriangleMesh mesh = make_square_trihedral(0.4);
-  mesh.append(transformed(make_plate(0.11, 0.13),
-                          Eigen::AngleAxisd(0.4, Vec3(1, 2, 0.5).normalized()).toRotationMatrix(), {0.35, 0.22, 0.17}));
-  return mesh;
-}
-
-double largest(const std::array<Complex, 4>& s) {
-  double size = 0;
-  for (const Complex& x : s) size = std::max(size, std::abs(x));
-  return size;
-}
-
 double difference(const std::array<Complex, 4>& a, const std::array<Complex, 4>& b) {
   double size = 0;
   for (int i = 0; i < 4; ++i) size = std::max(size, std::abs(a[i] - b[i]));
