@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "classify/dataset/planned_record.h"
 #include "radar/echo/echo.h"
 #include "sim/core/constants.h"
 #include "sim/core/error.h"
-#include "sim/motion/target_motion.h"
 #include "sim/scattering/point_response.h"
 
 namespace seaglint {
@@ -61,8 +61,9 @@ Pipeline::Pipeline(Scenario scenario)
       range_window_m_(range_window_m(scenario_, targets_)) {
   for (const Target& target : targets_) {
     const double crease = radians(target.spec.solver.crease_deg);
-    scatterers_.push_back(target.rest_positions.empty() ? nullptr
-                                                        : std::make_unique<const Scatterer>(target.mesh, target.materials, crease));
+    scatterers_.push_back(target.rest_positions.empty()
+                              ? nullptr
+                              : std::make_unique<const Scatterer>(target.mesh, target.materials, crease));
   }
 }
 
@@ -94,7 +95,8 @@ BodyResponse Pipeline::target_response(std::size_t target, const Scene& scene, c
   const SeaMirror* sea = scenario_.sea_reflection.enabled ? &mirror : nullptr;
   const TargetSpec& spec = targets_[target].spec;
   if (!scatterers_[target]) {
-    if (sea != nullptr) return {point_response_over_sea(spec.points, r_hat, sampling, scenario_.radar.polarisation, *sea), 0};
+    if (sea != nullptr)
+      return {point_response_over_sea(spec.points, r_hat, sampling, scenario_.radar.polarisation, *sea), 0};
     return {point_response(spec.points, r_hat, sampling), 0};
   }
   BodyResponse sum;
@@ -123,8 +125,8 @@ MadeSample Pipeline::make(std::size_t sample) const {
   const std::shared_ptr<const Scene> moving = scene(at.sea_state, at.realisation);
   made.train = make_pulse_train(scenario_.radar, range_window_m_, scenario_.seed, sample);
   const SeaState& state = sea_states_[static_cast<std::size_t>(at.sea_state)];
-  const BodyResponse response =
-      target_response(static_cast<std::size_t>(at.target), *moving, view, state, interval_sampling(made.train, start_s));
+  const BodyResponse response = target_response(static_cast<std::size_t>(at.target), *moving, view, state,
+                                                interval_sampling(made.train, start_s));
   const Echo echo = synthesize_echo(made.train, response.response, scenario_.clutter, scenario_.seed, sample);
   made.received = receive(echo, made.train, scenario_.clutter, scenario_.map, scenario_.radar.intra_pulse_motion);
   made.centres = extract_centres(made.received.echo, made.train, scenario_.map, scenario_.radar.intra_pulse_motion,
@@ -132,27 +134,7 @@ MadeSample Pipeline::make(std::size_t sample) const {
   made.features = compute_features(made.centres, scenario_.features);
 
   SampleRecord& record = made.stored.record;
-  record.sample = static_cast<std::int64_t>(sample);
-  record.label = target.spec.label;
-  record.target = at.target;
-  record.target_name = target.spec.name;
-  record.group = plan_.group(at);
-  record.sea_state = at.sea_state;
-  record.significant_wave_height_m = state.significant_wave_height_m;
-  record.peak_period_s = state.peak_period_s;
-  record.gamma = state.gamma;
-  record.propagation_deg = degrees(state.propagation_rad);
-  record.view = at.view;
-  record.azimuth_deg = degrees(view.azimuth_rad);
-  record.elevation_deg = degrees(view.elevation_rad);
-  record.realisation = at.realisation;
-  record.interval = at.interval;
-  record.start_s = start_s;
-  record.seed = static_cast<std::int64_t>(scenario_.seed);
-  record.sea_key = static_cast<std::int64_t>(plan_.sea_key(at.sea_state, at.realisation));
-  record.first_motion_key =
-      static_cast<std::int64_t>(body_index(plan_.sea_key(at.sea_state, at.realisation), target.first_body));
-  record.radar_key = static_cast<std::int64_t>(sample);
+  record = planned_record(scenario_, plan_, sample);
   record.empty_carriers = made.received.map.empty_carriers;
   record.scr_per_pulse_db = made.received.scr.per_pulse_db;
   record.scr_peak_cell_db = made.received.scr.peak_cell_db;

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// An audit must find each fault that was put into a sound data set, and no other.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "classify/dataset/audit.h"
+#include "classify/dataset/checksum.h"
+#include "classify/dataset/dataset_reader.h"
+#include "classify/dataset/dataset_writer.h"
+#include "classify/dataset/planned_record.h"
+#include "sim/core/file.h"
+
+namespace seaglint {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+class AuditedDirectory : public testing::Test {
+ protected:
+  void SetUp() override {
+    directory_ = fs::temp_directory_path() / ("seaglint_audit_" + std::to_string(::getpid()) + "_" +
+                                              testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::remove_all(directory_);
+    DatasetWriter writer(directory_, scenario_, false);
+    for (std::size_t i = 0; i < plan_.shards(); ++i) writer.put(i, shard_of(i));
+    ASSERT_EQ(writer.finish("0.0.0"), 0u);
+  }
+  void TearDown() override { fs::remove_all(directory_); }
+
+  Shard shard_of(std::size_t index) const {
+    Shard shard;
+    shard.axes.range_m = {0, 1};
+    shard.axes.velocity_mps = {0, 1};
+    for (std::size_t i = 0; i < plan_.shard(index).count; ++i) {
+      Sample sample;
+      sample.record = planned_record(scenario_, plan_, plan_.shard(index).first + i);
+      const auto last = 4 + static_cast<float>(sample.record.sample);
+      sample.magnitude = {1, 2, 3, last};
+      sample.record.peak_m = last;
+      sample.record.energy_m2 = 14 + last * last;
+      sample.hop_code = {1, 0};
+      shard.samples.push_back(sample);
+    }
+    return shard;
+  }
+
+  // Changes a shard and its checksum, as a faulty program would write it.
+  void falsify(std::size_t index, const std::function<void(Shard&)>& change) {
+    Shard shard = shard_of(index);
+    change(shard);
+    const fs::path file = directory_ / shard_name(index);
+    fs::remove(file);
+    write_shard(file, shard, scenario_.features.max_centres);
+    Manifest manifest = read_manifest(directory_ / kManifestFile);
+    manifest.shards[index].sha256 = sha256_file(file);
+    write_file(directory_ / kManifestFile, to_json(manifest));
+  }
+
+  std::vector<std::string> faults() const { return audit(directory_).faults; }
+
+  Scenario scenario_ = parse_scenario(R"(
+seaglint: 1
+name: small
+targets:
+  ship: {label: 1, points: [{position_m: [0, 0, 0]}]}
+  array: {label: 0, points: [{position_m: [5, 0, 0]}]}
+dataset: {maps_per_case: 4, realisations_per_case: 2, maps_per_shard: 3}
+)",
+                                      "small.yaml");
+  SamplePlan plan_{scenario_};
+  fs::path directory_;
+};
+
+TEST_F(AuditedDirectory, WithoutFaultIsCounted) {
+  const Audit result = audit(directory_);
+  EXPECT_THAT(result.faults, IsEmpty());
+  EXPECT_EQ(result.shards, plan_.shards());
+  EXPECT_EQ(result.samples, plan_.size());
+  EXPECT_EQ(result.groups, 2u);
+  EXPECT_THAT(result.per_target, ElementsAre(plan_.size() / 2, plan_.size() / 2));
+}
+
+TEST_F(AuditedDirectory, ShowsAWrongLabel) {
+  falsify(1, [](Shard& shard) { shard.samples[0].record.label = 1 - shard.samples[0].record.label; });
+  EXPECT_THAT(faults(), ElementsAre(HasSubstr("sample 3: label")));
+}
+
+TEST_F(AuditedDirectory, ShowsASampleThatIsThereTwiceAndTheOneThatIsMissing) {
+  falsify(0, [](Shard& shard) { shard.samples[1] = shard.samples[0]; });
+  EXPECT_THAT(faults(), ElementsAre(HasSubstr("there twice"), HasSubstr("1 of 8 samples are missing")));
+}
+
+TEST_F(AuditedDirectory, ShowsAMapThatAppearsUnderTwoNumbers) {
+  falsify(0, [](Shard& shard) {
+    shard.samples[1].magnitude = shard.samples[0].magnitude;
+    shard.samples[1].record.peak_m = shard.samples[0].record.peak_m;
+    shard.samples[1].record.energy_m2 = shard.samples[0].record.energy_m2;
+  });
+  EXPECT_THAT(faults(), ElementsAre(HasSubstr("the same map as sample 0")));
+}
+
+TEST_F(AuditedDirectory, ShowsMapsThatAreNotThoseOfTheirRows) {
+  falsify(2, [](Shard& shard) { shard.samples[0].magnitude[1] = 2.5F; });
+  EXPECT_THAT(faults(), ElementsAre(HasSubstr("energy_m2")));
+  falsify(2, [](Shard& shard) { shard.samples[0].magnitude[1] = std::numeric_limits<float>::quiet_NaN(); });
+  EXPECT_THAT(faults(), ElementsAre(HasSubstr("no magnitude")));
+}
+
+TEST_F(AuditedDirectory, ShowsASeaInTwoGroups) {
+  falsify(0, [](Shard& shard) { shard.samples[0].record.group = 1; });
+  EXPECT_THAT(faults(),
+              ElementsAre(HasSubstr("sample 0: group 1, by the scenario 0"),
+                          HasSubstr("group 1: holds 2 sea realisations"), HasSubstr("a split by group would leak")));
+}
+
+TEST_F(AuditedDirectory, ShowsFilesThatAreDamagedHalfWrittenOrForeign) {
+  write_file(directory_ / "shard_00007.h5.tmp", "half");
+  write_file(directory_ / "other.h5", "foreign");
+  std::string bytes = read_file(directory_ / shard_name(1));
+  bytes[bytes.size() / 2] ^= 1;
+  write_file(directory_ / shard_name(1), bytes);
+  const std::vector<std::string> found = faults();
+  EXPECT_EQ(found.size(), 4u);  // and three samples are missing
+  EXPECT_THAT(found, Contains(HasSubstr("half-written")));
+  EXPECT_THAT(found, Contains(HasSubstr("other.h5: not in the manifest")));
+  EXPECT_THAT(found, Contains(HasSubstr("truncated or changed")));
+  EXPECT_THAT(found, Contains(HasSubstr("3 of 8 samples are missing")));
+}
+
+TEST_F(AuditedDirectory, ShowsAnotherScenario) {
+  std::string yaml = read_file(directory_ / kScenarioFile);
+  const std::string seed = "seed: ";
+  yaml.insert(yaml.find(seed) + seed.size(), "9");
+  write_file(directory_ / kScenarioFile, yaml);
+  const std::vector<std::string> found = faults();
+  EXPECT_THAT(found.front(), HasSubstr("is not the one that the manifest was written for"));
+  EXPECT_THAT(found, Contains(HasSubstr("sample 0: seed")));
+}
+
+}  // namespace
+}  // namespace seaglint

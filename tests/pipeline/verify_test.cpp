@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `seaglint verify` on data sets that the real program made.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/pipeline/program.h"
+
+namespace seaglint {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class VerifiedData : public testing::Test {
+ protected:
+  void SetUp() override {
+    directory_ = folder_.path() / "data";
+    const ProgramResult made =
+        run_program({"generate", "scenarios/points.yaml", "-o", directory_, "--set", "dataset.maps_per_shard=5"});
+    ASSERT_EQ(made.code, 0) << made.err;
+  }
+
+  TemporaryFolder folder_;
+  fs::path directory_;
+};
+
+TEST_F(VerifiedData, IsFoundSoundAndTheSameWhenMadeAgain) {
+  const ProgramResult result = run_program({"verify", directory_, "--remake", "4"});
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("4 samples made again are as stored"));
+  EXPECT_THAT(result.out, HasSubstr("no fault found"));
+}
+
+TEST_F(VerifiedData, IsRefusedWhenAShardIsCutOff) {
+  fs::path shard;
+  for (const auto& entry : fs::directory_iterator(directory_)) {
+    if (entry.path().extension() == ".h5") shard = entry.path();
+  }
+  fs::resize_file(shard, fs::file_size(shard) / 2);
+  const ProgramResult result = run_program({"verify", directory_});
+  EXPECT_EQ(result.code, 2);
+  EXPECT_THAT(result.err, HasSubstr("faults, the first: " + shard.string()));
+}
+
+TEST_F(VerifiedData, IsRefusedWithoutItsManifest) {
+  fs::remove(directory_ / "manifest.json");
+  const ProgramResult result = run_program({"verify", directory_});
+  EXPECT_EQ(result.code, 2);
+  EXPECT_THAT(result.err, HasSubstr("manifest.json"));
+}
+
+}  // namespace
+}  // namespace seaglint
