@@ -12,10 +12,18 @@
 #include "sim/motion/simulate.h"
 #include "sim/motion/target_motion.h"
 #include "sim/scattering/material_parts.h"
+#include "sim/scattering/target_check.h"
 
 namespace seaglint {
 
 namespace {
+
+// How far a mesh reaches from its origin.
+double radius_m(const TriangleMesh& mesh) {
+  double radius = 0;
+  for (const Vec3& vertex : mesh.vertices) radius = std::max(radius, vertex.norm());
+  return radius;
+}
 
 // Radius about the target's reference point that the target never leaves.
 double reach_m(const Target& target, double interval_s) {
@@ -25,8 +33,7 @@ double reach_m(const Target& target, double interval_s) {
     const Vec3 velocity(point.velocity_mps[0], point.velocity_mps[1], point.velocity_mps[2]);
     reach = std::max({reach, position.norm(), (position + velocity * interval_s).norm()});
   }
-  double radius = 0;
-  for (const Vec3& vertex : target.mesh.vertices) radius = std::max(radius, vertex.norm());
+  const double radius = radius_m(target.mesh);
   for (const Vec3& rest : target.rest_positions) reach = std::max(reach, rest.norm() + radius);
   return reach;
 }
@@ -37,7 +44,8 @@ std::vector<MaterialSpec> load_materials(const Scenario& scenario, const TargetS
   std::vector<PartMaterial> parts;
   for (std::size_t i = 0; i < spec.part_materials.size(); ++i) {
     const std::string where = fmt::format("{}.part_materials.{}.material", path, i);
-    parts.push_back({spec.part_materials[i].part, find_material(spec.part_materials[i].material, scenario.folder, where)});
+    parts.push_back(
+        {spec.part_materials[i].part, find_material(spec.part_materials[i].material, scenario.folder, where)});
   }
   const MaterialSpec all = find_material(spec.material, scenario.folder, path + ".material");
   std::vector<MaterialSpec> materials;
@@ -51,6 +59,15 @@ std::vector<MaterialSpec> load_materials(const Scenario& scenario, const TargetS
     throw InputError(fmt::format("{}: {}", path, error.what()));
   }
   return materials;
+}
+
+// The mesh alone tells how near the radar may be.
+void check_scene_range(const TargetSpec& spec, const TriangleMesh& mesh) {
+  try {
+    check_range(radius_m(mesh), spec.solver.radar_range_m);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("targets.{}.solver: {}", spec.name, error.what()));
+  }
 }
 
 }  // namespace
@@ -72,10 +89,12 @@ std::vector<Target> load_targets(const Scenario& scenario) {
     target.first_body = bodies;
     if (!spec.mesh.empty()) {
       target.mesh = repaired(read_mesh(find_mesh(scenario, spec), spec.unit));
+      check_scene_range(spec, target.mesh);
       target.materials = load_materials(scenario, spec, target.mesh);
       target.body = load_body(scenario, spec, target.mesh);
       // The radar's image looks at the hull from below.
-      if (scenario.sea_reflection.enabled) put_in_water(target.mesh, target.materials, -rest_position(spec.motion, 0, 0).z());
+      if (scenario.sea_reflection.enabled)
+        put_in_water(target.mesh, target.materials, -rest_position(spec.motion, 0, 0).z());
       for (const Vec2& place : layout_places(spec)) {
         target.rest_positions.push_back(rest_position(spec.motion, place.x(), place.y()));
       }
@@ -106,8 +125,8 @@ Scene make_scene(const Scenario& scenario, const std::vector<Target>& targets, i
   for (const Target& target : targets) {
     scene.bodies.push_back(target.rest_positions.empty()
                                ? std::vector<Trajectory>{}
-                               : simulate_target(target.spec, target.body, state, scene.sea, duration_s, scenario.seed, sea_key,
-                                                 target.first_body));
+                               : simulate_target(target.spec, target.body, state, scene.sea, duration_s, scenario.seed,
+                                                 sea_key, target.first_body));
   }
   return scene;
 }

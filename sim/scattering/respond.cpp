@@ -12,20 +12,16 @@
 #include "sim/scattering/contributions.h"
 #include "sim/scattering/edge_echoes.h"
 #include "sim/scattering/return_grid.h"
+#include "sim/scattering/target_check.h"
 
 namespace seaglint {
 namespace {
 
 // The radar stands in directions that differ by this much over the target, rad; 0 in the far field. Throws InputError
-// when it is too near for the second order of the wavefront: there the third is below a tenth of it.
+// when it is too near.
 double spread_of_directions(const Scatterer& scatterer, double range_m) {
-  if (range_m <= 0) return 0;
-  if (range_m < 10 * scatterer.radius()) {
-    throw InputError(fmt::format(
-        "radar range {} m: the target reaches {:.3g} m from its origin, and the range must be ten times that or more",
-        range_m, scatterer.radius()));
-  }
-  return scatterer.radius() / range_m;
+  check_range(scatterer.radius(), range_m);
+  return range_m > 0 ? scatterer.radius() / range_m : 0;
 }
 
 // The world's polarisation basis as the turned body sees it.

@@ -12,11 +12,11 @@
 namespace seaglint {
 namespace {
 
-constexpr double kFewestWavelengths = 3;    // physical optics of a plate this wide is off by a dB at its normal
-constexpr double kLongestTarget_m = 5e3;    // no ship is longer than a tenth of it
-constexpr double kFarOrigin = 10;           // half-sizes from the origin
-constexpr double kTooFarOrigin = 300;       // details of a thirtieth of the half-size would be left out
-constexpr double kLeastDetail = 1e-4;       // of the radius about the origin (default_ray_spacing / 14)
+constexpr double kFewestWavelengths = 3;  // physical optics of a plate this wide is off by a dB at its normal
+constexpr double kLongestTarget_m = 5e3;  // no ship is longer than a tenth of it
+constexpr double kFarOrigin = 10;         // half-sizes from the origin
+constexpr double kTooFarOrigin = 300;     // details of a thirtieth of the half-size would be left out
+constexpr double kLeastDetail = 1e-4;     // of the radius about the origin (default_ray_spacing / 14)
 constexpr std::size_t kManyTriangles = 1'000'000;
 constexpr double kGigabytesPerMillion = 1.4, kSecondsPerMillion = 5;  // a sheet of 10 million on two cores
 
@@ -27,24 +27,42 @@ std::vector<std::string> check_target(const TriangleMesh& mesh, double lowest_hz
   const Bounds box = bounds(mesh);
   const Vec3 size = box.upper - box.lower, centre = (box.upper + box.lower) / 2;
   const double longest = size.norm(), wavelength = kSpeedOfLight / lowest_hz;
-  if (longest > kLongestTarget_m) found.push_back(fmt::format("the target is {:.4g} m across; is its unit right?", longest));
+  if (longest > kLongestTarget_m)
+    found.push_back(fmt::format("the target is {:.4g} m across; is its unit right?", longest));
   if (longest < kFewestWavelengths * wavelength) {
-    found.push_back(fmt::format("the target is {:.3g} m across, {:.3g} wavelengths at {:g} GHz; physical optics needs {:g} and more{}", longest,
-                                longest / wavelength, lowest_hz * 1e-9, kFewestWavelengths, longest < 0.01 ? "; is its unit right?" : ""));
+    found.push_back(fmt::format(
+        "the target is {:.3g} m across, {:.3g} wavelengths at {:g} GHz; physical optics needs {:g} and more{}", longest,
+        longest / wavelength, lowest_hz * 1e-9, kFewestWavelengths, longest < 0.01 ? "; is its unit right?" : ""));
   }
 
   const double distance = centre.norm() / std::max(longest / 2, 1e-300);
   if (distance > kTooFarOrigin) {
-    throw InputError(fmt::format("the target of {:.4g} m lies {:.4g} m from its origin, about which it turns and has its phase: move it there", longest, centre.norm()));
+    throw InputError(fmt::format(
+        "the target of {:.4g} m lies {:.4g} m from its origin, about which it turns and has its phase: move it there",
+        longest, centre.norm()));
   }
-  if (distance > kFarOrigin) found.push_back(fmt::format("the target of {:.4g} m lies {:.4g} m from its origin; details below {:.2g} m are left out", longest, centre.norm(), kLeastDetail * (centre.norm() + longest / 2)));
+  if (distance > kFarOrigin)
+    found.push_back(
+        fmt::format("the target of {:.4g} m lies {:.4g} m from its origin; details below {:.2g} m are left out",
+                    longest, centre.norm(), kLeastDetail * (centre.norm() + longest / 2)));
 
   if (mesh.triangles.size() > kManyTriangles) {
     const double millions = 1e-6 * static_cast<double>(mesh.triangles.size());
-    found.push_back(fmt::format("{:.1f} million triangles: expect about {:.0f} GB of memory and {:.0f} s before the first view, as long again for every view",
-                                millions, std::ceil(kGigabytesPerMillion * millions), std::ceil(kSecondsPerMillion * millions)));
+    found.push_back(
+        fmt::format("{:.1f} million triangles: expect about {:.0f} GB of memory and {:.0f} s before the first view, as "
+                    "long again for every view",
+                    millions, std::ceil(kGigabytesPerMillion * millions), std::ceil(kSecondsPerMillion * millions)));
   }
   return found;
+}
+
+void check_range(double radius_m, double range_m) {
+  constexpr double kNearestRadii = 10;
+  if (range_m > 0 && range_m < kNearestRadii * radius_m) {
+    throw InputError(fmt::format(
+        "radar range {} m: the target reaches {:.3g} m from its origin, and the range must be ten times that or more",
+        range_m, radius_m));
+  }
 }
 
 }  // namespace seaglint

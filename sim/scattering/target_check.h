@@ -14,4 +14,8 @@ namespace seaglint {
 // so far from its origin that its details fall below the smallest that are followed.
 std::vector<std::string> check_target(const TriangleMesh& mesh, double lowest_hz);
 
+// Throws InputError where a radar at this range (0: far field) stands too near for the second order of the wavefront over a target that reaches
+// `radius_m` from its origin: beyond ten radii the third order is below a tenth of it.
+void check_range(double radius_m, double range_m);
+
 }  // namespace seaglint

@@ -95,6 +95,15 @@ TEST_F(Refusal, OfAMeshThatIsMissingOrCutShort) {
   }
 }
 
+// The 144 m ship reaches 72 m from its origin; the second order of the wavefront needs ten times that.
+TEST_F(Refusal, OfARadarTooNearForItsWavefront) {
+  for (const char* command : {"check", "generate"}) {
+    Words words{command, "scenarios/quick.yaml", "--set", "targets.ship.solver.radar_range_m=500"};
+    if (words.front() != "check") words.insert(words.end(), {"-o", folder() / "data"});
+    expect_failure(folder(), words, 2, "targets.ship.solver: radar range 500 m");
+  }
+}
+
 // Below a file and in /proc nobody may write, not even root; a folder without write permission stops everybody else.
 TEST_F(Refusal, OfAPlaceWhereNothingCanBeWritten) {
   const fs::path locked = folder() / "locked";
