@@ -118,7 +118,6 @@ MadeSample Pipeline::make(std::size_t sample) const {
   made.address = plan_.address(sample);
   const SampleAddress& at = made.address;
   const View& view = views_[static_cast<std::size_t>(at.view)];
-  const Target& target = targets_[static_cast<std::size_t>(at.target)];
   const double start_s = plan_.start_s(at);
 
   // Sea and motion are shared by both classes and all views; hop code, clutter and noise are the sample's own.

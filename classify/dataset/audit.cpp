@@ -109,7 +109,10 @@ class Auditor {
       fault(where, fmt::format("the scenario has {} samples", plan_.size()));
       return;
     }
-    if (!seen_.insert(record.sample).second) fault(where, "there twice");
+    if (!seen_.insert(record.sample).second) {
+      fault(where, "there twice");
+      return;
+    }
     const SampleRecord planned = planned_record(result_.scenario, plan_, static_cast<std::size_t>(record.sample));
     for (const SampleColumn& column : planned_columns()) {
       std::visit(
