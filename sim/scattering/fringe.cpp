@@ -11,6 +11,10 @@ namespace {
 
 constexpr Complex j(0, 1);
 
+// A wave that arrives along a face, against the face's own way, sends an infinite one along it, whose transition
+// function is zero; their product has a limit. Both keep this angle from there, rad.
+constexpr double kFromBoundary = 1e-7;
+
 // (1/N) cot(x / 2N), less cot(x / 2) where physical optics has a share: regular at x = 0 then.
 template <typename Angle>
 Angle half_cotangents(const Angle& x, double N, bool less_optics) {
@@ -80,9 +84,10 @@ EdgeWave edge_wave(const WedgeFrame& wedge, int face, const Vec3& k_hat, const V
   const double N = wedge.N;
   const double cos_b = k_hat.dot(f.t);
   const double sin_b = std::sqrt(std::max(1 - cos_b * cos_b, 1e-12));
-  const double phi = angle_from_face(f, -k_hat);
+  double phi = angle_from_face(f, -k_hat);
   EdgeWave wave{sin_b * f.x + cos_b * f.t, 0.0};
   if (phi > N * kPi) return wave;
+  if (std::abs(phi - kPi) < kFromBoundary) phi = kPi - kFromBoundary;
   const Complex D = std::polar(1.0, -kPi / 4) * std::sin(kPi / N) / (N * std::sqrt(2 * kPi) * sin_b) * 2.0 /
                     (std::cos(kPi / N) - std::cos(phi / N));
   // H along t on the cone is sin_b of the whole, and E = H x direction lies along n.
@@ -94,7 +99,8 @@ double shadow_distance(const Vec3& edge, const Vec3& along_face, const Vec3& oth
   const auto across = [&](const Vec3& x) -> Vec3 { return x - edge * edge.dot(x); };
   const Vec3 a = across(along_face), b = across(other);
   const double lengths = a.norm() * b.norm();
-  return lengths > 1e-12 ? 0.25 * (a / a.norm() - b / b.norm()).squaredNorm() : 0;
+  constexpr double kLeast = 0.25 * kFromBoundary * kFromBoundary;
+  return lengths > 1e-12 ? std::max(0.25 * (a / a.norm() - b / b.norm()).squaredNorm(), kLeast) : kLeast;
 }
 
 Complex transition(double x) {

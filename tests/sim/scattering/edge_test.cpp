@@ -9,6 +9,7 @@
 
 #include "sim/core/random.h"
 #include "sim/geometry/generators.h"
+#include "sim/geometry/mesh_io.h"
 #include "sim/scattering/edges.h"
 #include "sim/scattering/fringe.h"
 #include "tests/sim/scattering/echoes.h"
@@ -241,6 +242,54 @@ TEST(Plate, EdgeOnAnswersOnlyTheFieldAlongItsRim) {
     // off.
     EXPECT_LT(std::abs(s[kHhChannel]), 0.1 * rim) << off_deg;
     EXPECT_NEAR(std::abs(s[kVvChannel]), rim, 0.1 * rim) << off_deg;
+  }
+}
+
+// 0.4 x 0.3 x 0.2 m, closed.
+TriangleMesh box() {
+  TriangleMesh mesh;
+  for (const double z : {-0.1, 0.1}) {
+    for (const auto& [x, y] : {std::pair{-0.2, -0.15}, {0.2, -0.15}, {0.2, 0.15}, {-0.2, 0.15}})
+      mesh.vertices.push_back({x, y, z});
+  }
+  mesh.triangles = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}, {0, 1, 5}, {0, 5, 4},
+                    {1, 2, 6}, {1, 6, 5}, {2, 3, 7}, {2, 7, 6}, {3, 0, 4}, {3, 4, 7}};
+  mesh.part_names = {"box"};
+  mesh.triangle_part.assign(12, 0);
+  mesh.triangle_material.assign(12, 0);
+  return mesh;
+}
+
+// In the plane of a face edge waves have a pole whose product with the transition function has a limit: what the edges
+// answer there stays within half of the longest edge's answer of that 0.01 deg beside it, where it is still settling.
+TEST(Edges, HaveALimitInThePlaneOfAFace) {
+  const Scatterer target(box());
+  const double k = wavenumber(10e9), one_edge = 0.4 / (2 * kPi);
+  const auto edge_part = [&](double azimuth, double elevation) {
+    const RadarBasis basis = radar_basis(direction(azimuth, elevation));
+    auto s = echo(target, basis, k, 0, 8, true);
+    const auto optics = echo(target, basis, k, 0, 8, false);
+    for (int i = 0; i < 4; ++i) s[i] -= optics[i];
+    return s;
+  };
+  for (const double elevation : {0.0, 2.0}) {
+    for (const double azimuth : {0.0, 90.0, 180.0}) {
+      const auto in_plane = edge_part(azimuth, elevation), beside = edge_part(azimuth - 0.01, elevation);
+      for (const int channel : {kHhChannel, kVvChannel}) {
+        EXPECT_LT(std::abs(in_plane[channel] - beside[channel]), 0.5 * one_edge) << azimuth << ' ' << elevation;
+      }
+    }
+  }
+}
+
+TEST(Edges, OfTheShipAreFiniteInThePlanesOfItsFaces) {
+  const Scatterer ship(read_mesh(SEAGLINT_SOURCE_DIR "/assets/combatant_144m.glb"));
+  for (const double elevation : {0.0, 2.0}) {
+    for (const double azimuth : {0.0, 45.0, 90.0, 180.0}) {
+      const AntennaPair antennas = monostatic(radar_basis(direction(azimuth, elevation)));
+      const auto s = scattering_matrices(ship, antennas, std::array{wavenumber(16e9)}, {0, 8, true}, 2)[0];
+      for (const Complex& x : s) EXPECT_LT(std::abs(x), 1e4) << azimuth << ' ' << elevation;  // which no NaN is
+    }
   }
 }
 
