@@ -11,8 +11,8 @@ namespace {
 
 constexpr Complex j(0, 1);
 
-// A wave that arrives along a face, against the face's own way, sends an infinite one along it, whose transition
-// function is zero; their product has a limit. Both keep this angle from there, rad.
+// A wave that travels in a face's plane from its edge on sends an infinite edge wave along it, whose transition function
+// is zero; their product has a limit. Both keep this angle from there, rad.
 constexpr double kFromBoundary = 1e-7;
 
 // (1/N) cot(x / 2N), less cot(x / 2) where physical optics has a share: regular at x = 0 then.
