@@ -2,7 +2,6 @@
 // An audit must find each fault that was put into a sound data set, and no other.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <functional>
@@ -10,9 +9,8 @@
 #include "classify/dataset/audit.h"
 #include "classify/dataset/checksum.h"
 #include "classify/dataset/dataset_reader.h"
-#include "classify/dataset/dataset_writer.h"
-#include "classify/dataset/planned_record.h"
 #include "sim/core/file.h"
+#include "tests/classify/dataset/data_directory.h"
 
 namespace seaglint {
 namespace {
@@ -23,33 +21,11 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-class AuditedDirectory : public testing::Test {
+class AuditedDirectory : public DataDirectory {
  protected:
   void SetUp() override {
-    directory_ = fs::temp_directory_path() / ("seaglint_audit_" + std::to_string(::getpid()) + "_" +
-                                              testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::remove_all(directory_);
-    DatasetWriter writer(directory_, scenario_, false);
-    for (std::size_t i = 0; i < plan_.shards(); ++i) writer.put(i, shard_of(i));
-    ASSERT_EQ(writer.finish("0.0.0"), 0u);
-  }
-  void TearDown() override { fs::remove_all(directory_); }
-
-  Shard shard_of(std::size_t index) const {
-    Shard shard;
-    shard.axes.range_m = {0, 1};
-    shard.axes.velocity_mps = {0, 1};
-    for (std::size_t i = 0; i < plan_.shard(index).count; ++i) {
-      Sample sample;
-      sample.record = planned_record(scenario_, plan_, plan_.shard(index).first + i);
-      const auto last = 4 + static_cast<float>(sample.record.sample);
-      sample.magnitude = {1, 2, 3, last};
-      sample.record.peak_m = last;
-      sample.record.energy_m2 = 14 + last * last;
-      sample.hop_code = {1, 0};
-      shard.samples.push_back(sample);
-    }
-    return shard;
+    DataDirectory::SetUp();
+    make_whole();
   }
 
   // Changes a shard and its checksum, as a faulty program would write it.
@@ -65,18 +41,6 @@ class AuditedDirectory : public testing::Test {
   }
 
   std::vector<std::string> faults() const { return audit(directory_).faults; }
-
-  Scenario scenario_ = parse_scenario(R"(
-seaglint: 1
-name: small
-targets:
-  ship: {label: 1, points: [{position_m: [0, 0, 0]}]}
-  array: {label: 0, points: [{position_m: [5, 0, 0]}]}
-dataset: {maps_per_case: 4, realisations_per_case: 2, maps_per_shard: 3}
-)",
-                                      "small.yaml");
-  SamplePlan plan_{scenario_};
-  fs::path directory_;
 };
 
 TEST_F(AuditedDirectory, WithoutFaultIsCounted) {

@@ -2,15 +2,14 @@
 // The life of a data set directory: made, resumed, damaged, read.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <fstream>
 
 #include "classify/dataset/checksum.h"
 #include "classify/dataset/dataset_reader.h"
-#include "classify/dataset/dataset_writer.h"
 #include "sim/core/error.h"
 #include "sim/core/file.h"
+#include "tests/classify/dataset/data_directory.h"
 
 namespace seaglint {
 namespace {
@@ -18,64 +17,15 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-Scenario small_scenario() {
-  return parse_scenario(R"(
-seaglint: 1
-name: small
-targets:
-  ship: {label: 1, points: [{position_m: [0, 0, 0]}]}
-  array: {label: 0, points: [{position_m: [5, 0, 0]}]}
-dataset: {maps_per_case: 4, realisations_per_case: 2, maps_per_shard: 3}
-)",
-                        "small.yaml");
+template <class Action>
+std::string error_of(Action action) {
+  try {
+    action();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
 }
-
-Shard shard_of(const SamplePlan& plan, std::size_t index) {
-  Shard shard;
-  shard.axes.range_m = {0, 1};
-  shard.axes.velocity_mps = {0, 1};
-  for (std::size_t i = 0; i < plan.shard(index).count; ++i) {
-    Sample sample;
-    const SampleAddress at = plan.address(plan.shard(index).first + i);
-    sample.record.sample = static_cast<std::int64_t>(plan.shard(index).first + i);
-    sample.record.label = at.target == 0 ? 1 : 0;
-    sample.record.group = plan.group(at);
-    sample.magnitude = {1, 2, 3, static_cast<float>(sample.record.sample)};
-    sample.hop_code = {1, 0};
-    shard.samples.push_back(sample);
-  }
-  return shard;
-}
-
-class DataDirectory : public testing::Test {
- protected:
-  void SetUp() override {
-    directory_ = fs::temp_directory_path() / ("seaglint_data_" + std::to_string(::getpid()) + "_" +
-                                              testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::remove_all(directory_);
-  }
-  void TearDown() override { fs::remove_all(directory_); }
-
-  void make_whole() {
-    DatasetWriter writer(directory_, scenario_, false);
-    for (std::size_t i = 0; i < plan_.shards(); ++i) writer.put(i, shard_of(plan_, i));
-    ASSERT_EQ(writer.finish("0.0.0"), 0u);
-  }
-
-  template <class Action>
-  std::string error_of(Action action) {
-    try {
-      action();
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "no error";
-  }
-
-  fs::path directory_;
-  Scenario scenario_ = small_scenario();
-  SamplePlan plan_{scenario_};
-};
 
 TEST_F(DataDirectory, IsReadBackWhole) {
   make_whole();
@@ -92,7 +42,7 @@ TEST_F(DataDirectory, IsReadBackWhole) {
 
 TEST_F(DataDirectory, IsNotWholeUntilTheLastShardIsThere) {
   DatasetWriter writer(directory_, scenario_, false);
-  writer.put(0, shard_of(plan_, 0));
+  writer.put(0, shard_of(0));
   EXPECT_EQ(writer.finish("0.0.0"), plan_.shards() - 1);
   EXPECT_THAT(error_of([&] { DatasetReader reader(directory_); }), HasSubstr("no manifest.json"));
 }

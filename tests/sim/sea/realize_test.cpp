@@ -10,18 +10,10 @@
 #include "sim/sea/spectrum.h"
 #include "sim/sea/statistics.h"
 #include "sim/sea/wave_field.h"
+#include "tests/sim/sea/sea_state.h"
 
 namespace seaglint {
 namespace {
-
-SeaState state_of(double height, double period) {
-  SeaState state;
-  state.significant_wave_height_m = height;
-  state.peak_period_s = period;
-  state.cutoff_rad_s = 0;
-  state.second_order_cutoff_rad_s = 0;
-  return state;
-}
 
 TEST(RealizeSea, MeetsTheSignificantWaveHeightExactly) {
   for (const double height : {0.1, 1.0, 2.0, 8.0}) {

@@ -11,18 +11,10 @@
 #include "sim/core/constants.h"
 #include "sim/sea/spectrum.h"
 #include "tests/sim/sea/reference_table.h"
+#include "tests/sim/sea/sea_state.h"
 
 namespace seaglint {
 namespace {
-
-SeaState state_of(double height, double period) {
-  SeaState state;
-  state.significant_wave_height_m = height;
-  state.peak_period_s = period;
-  state.cutoff_rad_s = 0;
-  state.second_order_cutoff_rad_s = 0;
-  return state;
-}
 
 // All crests of an ensemble, ascending.
 std::vector<double> ensemble(const SeaState& state, int seeds, double duration, double step) {
