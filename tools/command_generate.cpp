@@ -55,7 +55,8 @@ void generate(const Arguments& arguments, const Shell& shell) {
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   fmt::print("{}: {} maps made in {:.1f} s, {} kept\n", arguments.directory, result.made, seconds, result.kept);
   if (result.missing > 0)
-    fmt::print("{} shards of other parts are still missing; the last part writes the manifest\n", result.missing);
+    fmt::print("{} shards of other parts are still missing or damaged; the last part writes the manifest\n",
+               result.missing);
 }
 
 }  // namespace

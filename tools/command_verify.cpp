@@ -3,74 +3,29 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <memory>
 #include <mutex>
-#include <type_traits>
 
 #include "classify/dataset/audit.h"
-#include "classify/dataset/dataset_reader.h"
-#include "seaglint_version.h"
 #include "sim/core/error.h"
 #include "sim/core/progress.h"
 #include "tools/command.h"
-#include "tools/pipeline.h"
+#include "tools/remake.h"
 
 namespace seaglint {
 
 namespace {
-
-// Another kind of processor may round transforms otherwise: so much of the map's peak, and of a measured column.
-constexpr double kOtherProcessor = 1e-5;
 
 struct Arguments {
   std::string directory;
   int remake = 2;
 };
 
-// Columns of a row made again that are not the stored ones.
-std::string different_columns(const SampleRecord& stored, const SampleRecord& again, double tolerance) {
-  std::string names;
-  for (const SampleColumn& column : sample_columns()) {
-    const bool same = std::visit(
-        [&](auto member) {
-          const auto &a = stored.*member, &b = again.*member;
-          if constexpr (std::is_same_v<std::decay_t<decltype(a)>, double>) {
-            return a == b || std::abs(a - b) <= tolerance * std::max(std::abs(a), std::abs(b));
-          } else {
-            return a == b;
-          }
-        },
-        column.member);
-    if (!same) names += (names.empty() ? "" : ", ") + std::string(column.name);
-  }
-  return names;
-}
-
-// What is not as stored in one sample made again, SCR and features included.
-std::vector<std::string> differences(const Sample& stored, const Sample& again, double tolerance) {
-  std::vector<std::string> found;
-  double largest = stored.magnitude.size() == again.magnitude.size() ? 0 : std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < std::min(stored.magnitude.size(), again.magnitude.size()); ++i) {
-    largest = std::max<double>(largest, std::abs(stored.magnitude[i] - again.magnitude[i]));
-  }
-  if (!(largest <= tolerance * stored.record.peak_m)) {
-    found.push_back(fmt::format("its map differs by up to {:.3g} of its peak", largest / stored.record.peak_m));
-  }
-  if (stored.hop_code != again.hop_code) found.push_back("its hop code differs");
-  if (const std::string columns = different_columns(stored.record, again.record, tolerance); !columns.empty())
-    found.push_back("other " + columns);
-  return found;
-}
-
 // Makes `count` samples again, spread evenly over the data set; returns what is not as stored.
 std::vector<std::string> remake(const std::string& directory, std::size_t count, const Scenario& scenario,
                                 const Shell& shell) {
   const DatasetReader reader(directory);
   const Pipeline pipeline(scenario);
-  const bool same_program =
-      reader.manifest().processor == processor_kind() && reader.manifest().program_version == kVersion;
   std::vector<std::vector<std::string>> faults(count);
   std::mutex reading;  // HDF5 serves one thread at a time
   Progress progress("making samples again", count);
@@ -79,16 +34,13 @@ std::vector<std::string> remake(const std::string& directory, std::size_t count,
       [&](std::size_t n) {
         const std::size_t number = (2 * n + 1) * reader.size() / (2 * count);
         const SampleAddress address = pipeline.plan().address(number);
-        Sample stored;
+        StoredSample stored;
         {
           const std::lock_guard lock(reading);
-          const std::vector<ManifestShard>& shards = reader.manifest().shards;
-          const auto after = std::find_if(shards.begin(), shards.end(),
-                                          [&](const ManifestShard& s) { return number < s.first_sample + s.samples; });
-          stored = reader.shard(static_cast<std::size_t>(after - shards.begin())).samples[number - after->first_sample];
+          stored = stored_sample(reader, number);
         }
-        for (const std::string& what :
-             differences(stored, pipeline.make(number).stored, same_program ? 0 : kOtherProcessor)) {
+        const Sample again = pipeline.make(number).stored;
+        for (const std::string& what : differences(stored.sample, again, remake_tolerance(stored.origin))) {
           faults[n].push_back(fmt::format("sample {} ({}) made again: {}", number,
                                           scenario.targets[static_cast<std::size_t>(address.target)].name, what));
         }

@@ -26,7 +26,7 @@ GenerateResult generate_dataset(const Scenario& scenario, const std::filesystem:
                                 const GenerateOptions& options, const StopFlag* stop) {
   const Pipeline pipeline(scenario);
   const SamplePlan& plan = pipeline.plan();
-  DatasetWriter writer(directory, scenario, options.resume);
+  DatasetWriter writer(directory, scenario, options.resume, kVersion);
 
   // The part's shards that are to be made, and their samples in order.
   GenerateResult result;
@@ -67,12 +67,12 @@ GenerateResult generate_dataset(const Scenario& scenario, const std::filesystem:
             open.erase(work[i].shard);
           }
         }
-        if (!whole.samples.empty()) writer.put(work[i].shard, whole);
+        if (!whole.samples.empty()) writer.put(work[i].shard, std::move(whole));
         progress.advance();
       },
       stop);
   result.made = work.size();
-  result.missing = writer.finish(kVersion);
+  result.missing = writer.finish().size();
   return result;
 }
 

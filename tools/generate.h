@@ -20,7 +20,7 @@ struct GenerateOptions {
 struct GenerateResult {
   std::size_t made = 0;     // samples made now
   std::size_t kept = 0;     // samples of this part that were there already
-  std::size_t missing = 0;  // shards of other parts that are not there yet; 0 = the data set is whole
+  std::size_t missing = 0;  // shards of other parts that are missing or damaged; 0 = the data set is whole
 };
 
 // The bytes of every shard depend on scenario and program alone. Throws Interrupted after whole shards only.

@@ -370,7 +370,8 @@ std::string provenance_table(const ordered_json& metrics) {
                                                 metrics.at("seed").get<std::uint64_t>())});
   rows.push_back({"scenario SHA-256",
                   "<code>" + escape_html(metrics.at("data").at("scenario_sha256").get<std::string>()) + "</code>"});
-  rows.push_back({"processor", escape_html(metrics.at("data").at("processor").get<std::string>())});
+  const auto processors = metrics.at("data").at("processors").get<std::vector<std::string>>();
+  rows.push_back({"processor", escape_html(fmt::format("{}", fmt::join(processors, "; ")))});
   const auto& network = metrics.at("network");
   rows.push_back(
       {"network", fmt::format("{} parameters, {} epochs, {} thread{}", network.at("parameters").get<std::size_t>(),

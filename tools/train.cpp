@@ -41,7 +41,7 @@ std::string metrics_json(const Study& study, const LearningTable& table, const S
   json["seed"] = scenario.seed;
   json["data"] = {{"maps", table.rows()},
                   {"maps_with_fewer_than_3_centres", table.degenerate},
-                  {"processor", manifest.processor},
+                  {"processors", manifest.processors},
                   {"scenario_sha256", manifest.scenario_sha256}};
   return json.dump(2) + "\n";
 }

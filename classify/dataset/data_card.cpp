@@ -92,7 +92,7 @@ std::string data_card(const Scenario& scenario, const Manifest& manifest, const 
       "`seaglint generate scenario.yaml -o DIR` with the same version makes the same bytes on the same kind of "
       "processor\n"
       "(`{}`), for any number of threads and parts. Mesh paths in `scenario.yaml` start at the working directory.\n",
-      scenario.clutter.scr_db, manifest.processor);
+      scenario.clutter.scr_db, fmt::join(manifest.processors, "; "));
   return text;
 }
 

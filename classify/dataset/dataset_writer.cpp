@@ -3,15 +3,16 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <set>
 #include <sstream>
 #include <utility>
 
 #include "classify/dataset/checksum.h"
 #include "classify/dataset/data_card.h"
-#include "classify/dataset/manifest.h"
+#include "classify/dataset/planned_record.h"
 #include "sim/core/error.h"
 #include "sim/core/file.h"
+#include "sim/core/progress.h"
 
 namespace seaglint {
 
@@ -49,76 +50,143 @@ bool is_empty_or_absent(const fs::path& directory) {
   return empty;
 }
 
+// Another process that finishes the same data set writes the same bytes, and may have removed our temporary file.
+void write_in_company(const fs::path& file, const std::string& content) {
+  try {
+    write_file(file, content);
+  } catch (const WorkError&) {
+    std::error_code error;
+    if (!fs::is_regular_file(file, error) || read_file(file) != content) throw;
+  }
+}
+
+// What runs that were killed left half-written.
+void remove_temporaries(const fs::path& directory) {
+  std::error_code error;  // what cannot be removed is shown by `verify`
+  std::vector<fs::path> files;
+  for (fs::directory_iterator it(directory, error), end; !error && it != end; it.increment(error)) {
+    if (it->path().extension() == ".tmp") files.push_back(it->path());
+  }
+  for (const fs::path& file : files) fs::remove(file, error);
+}
+
 }  // namespace
 
-DatasetWriter::DatasetWriter(fs::path directory, const Scenario& scenario, bool resume)
-    : directory_(std::move(directory)), scenario_(scenario), plan_(scenario), scenario_yaml_(effective_yaml(scenario)) {
+DatasetWriter::DatasetWriter(fs::path directory, const Scenario& scenario, bool resume, std::string program_version)
+    : directory_(std::move(directory)),
+      scenario_(scenario),
+      plan_(scenario),
+      origin_{std::move(program_version), processor_kind()},
+      scenario_yaml_(effective_yaml(scenario)),
+      known_(plan_.shards()) {
   if (!resume && !is_empty_or_absent(directory_)) {
     throw InputError(
         fmt::format("{}: the directory is not empty; go on with what is there by --resume", directory_.string()));
   }
   make_directory(directory_);
   const fs::path scenario_file = directory_ / kScenarioFile;
+  bool same_text = false;
   if (fs::exists(scenario_file)) {
+    same_text = read_file(scenario_file) == scenario_yaml_;
     const std::string there = maps_yaml(read_scenario(scenario_file)), here = maps_yaml(scenario_);
     if (there != here) {
       throw InputError(fmt::format("{}: the directory holds another scenario ({}); choose another directory",
                                    scenario_file.string(), first_difference(there, here)));
     }
   }
-  write_file(scenario_file, scenario_yaml_);
   const fs::path manifest_file = directory_ / kManifestFile;
   if (fs::exists(manifest_file)) {
-    for (const ManifestShard& shard : read_manifest(manifest_file).shards) known_sha256_.push_back(shard.sha256);
+    earlier_ = read_manifest(manifest_file);
+    require_version(manifest_file, earlier_.program_version);
   }
+  if (!same_text) write_file(scenario_file, scenario_yaml_);
 }
 
 fs::path DatasetWriter::shard_file(std::size_t shard) const { return directory_ / shard_name(shard); }
 
-bool DatasetWriter::complete(std::size_t shard) const {
+void DatasetWriter::require_version(const fs::path& file, const std::string& version) const {
+  if (version == origin_.program_version) return;
+  throw InputError(fmt::format(
+      "{}: made by seaglint {}, this is seaglint {}, whose maps may differ; go on with that version or choose another "
+      "directory",
+      file.string(), version, origin_.program_version));
+}
+
+bool DatasetWriter::complete(std::size_t shard) {
+  known_[shard].sound = false;
   const fs::path file = shard_file(shard);
   if (!fs::is_regular_file(file)) return false;
-  if (shard < known_sha256_.size()) return sha256_file(file) == known_sha256_[shard];
+  Shard content;
   try {
-    const Shard content = read_shard(file);
-    const ShardRange range = plan_.shard(shard);
-    if (content.samples.size() != range.count) return false;
-    for (std::size_t i = 0; i < range.count; ++i) {
-      if (content.samples[i].record.sample != static_cast<std::int64_t>(range.first + i)) return false;
-    }
-    return true;
+    content = read_shard(file);
+  } catch (const OtherFormat&) {
+    throw;
   } catch (const InputError&) {
     return false;
   }
+  require_version(file, content.origin.program_version);
+  const ShardRange range = plan_.shard(shard);
+  if (content.samples.size() != range.count) return false;
+  for (std::size_t i = 0; i < range.count; ++i) {
+    const SampleRecord planned = planned_record(scenario_, plan_, range.first + i);
+    if (!contradictions(content.samples[i].record, planned).empty()) return false;
+  }
+  if (axes_ && *axes_ != content.axes) return false;
+  const std::string sha256 = sha256_file(file);
+  if (shard < earlier_.shards.size() && earlier_.shards[shard].sha256 != sha256) return false;
+  axes_ = content.axes;
+  known_[shard] = {true, content.origin.processor, sha256};
+  return true;
 }
 
-void DatasetWriter::put(std::size_t shard, const Shard& content) {
-  const std::lock_guard lock(mutex_);
-  write_shard(shard_file(shard), content, scenario_.features.max_centres);
+void DatasetWriter::put(std::size_t shard, Shard content) {
+  const fs::path file = shard_file(shard);
+  content.origin = origin_;
+  {
+    const std::lock_guard lock(mutex_);
+    write_shard(file, content, scenario_.features.max_centres);
+    axes_ = content.axes;
+  }
+  known_[shard] = {true, origin_.processor, sha256_file(file)};
 }
 
-std::size_t DatasetWriter::finish(const std::string& program_version) {
-  std::size_t missing = 0;
-  for (std::size_t i = 0; i < plan_.shards(); ++i) missing += fs::is_regular_file(shard_file(i)) ? 0 : 1;
-  if (missing > 0) return missing;
-
+Manifest DatasetWriter::manifest() const {
   Manifest manifest;
   manifest.scenario = scenario_.name;
   manifest.scenario_sha256 = sha256(scenario_yaml_);
-  manifest.program_version = program_version;
-  manifest.processor = processor_kind();
+  manifest.program_version = origin_.program_version;
   manifest.seed = scenario_.seed;
   manifest.samples = plan_.size();
-  const StoredAxes axes = read_shard(shard_file(0)).axes;
-  manifest.rows = axes.velocity_mps.size();
-  manifest.columns = axes.range_m.size();
+  manifest.rows = axes_->velocity_mps.size();
+  manifest.columns = axes_->range_m.size();
+  std::set<std::string> processors;
   for (std::size_t i = 0; i < plan_.shards(); ++i) {
     const ShardRange range = plan_.shard(i);
-    manifest.shards.push_back({shard_name(i), range.first, range.count, sha256_file(shard_file(i))});
+    manifest.shards.push_back({shard_name(i), range.first, range.count, known_[i].sha256});
+    processors.insert(known_[i].processor);
   }
-  write_file(directory_ / kDataCardFile, data_card(scenario_, manifest, axes));
-  write_file(directory_ / kManifestFile, to_json(manifest));
-  return 0;
+  manifest.processors.assign(processors.begin(), processors.end());
+  return manifest;
+}
+
+std::vector<std::size_t> DatasetWriter::finish() {
+  std::vector<std::size_t> missing;
+  for (std::size_t i = 0; i < plan_.shards(); ++i) {
+    if (!fs::is_regular_file(shard_file(i))) missing.push_back(i);
+  }
+  if (!missing.empty()) return missing;
+  Progress progress("checking shards", plan_.shards());
+  for (std::size_t i = 0; i < plan_.shards(); ++i) {
+    if (!known_[i].sound && !complete(i)) missing.push_back(i);
+    progress.advance();
+  }
+  if (!missing.empty()) return missing;
+
+  const Manifest whole = manifest();
+  write_in_company(directory_ / kDataCardFile, data_card(scenario_, whole, *axes_));
+  write_in_company(directory_ / kManifestFile, to_json(whole));
+  remove_temporaries(directory_);
+  return {};
 }
 
 }  // namespace seaglint

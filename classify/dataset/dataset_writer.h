@@ -2,14 +2,16 @@
 #pragma once
 
 // A data set directory in the making: scenario.yaml first, then shards in any order and by any number of processes,
-// then manifest.json and the data card. A process that is killed leaves whole shards and at most a `.tmp` that the next
-// run replaces.
+// then manifest.json and the data card. A process that is killed leaves whole shards and at most a `.tmp`, which goes
+// when the data set is whole.
 
 #include <filesystem>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "classify/dataset/manifest.h"
 #include "classify/dataset/plan.h"
 #include "classify/dataset/shard.h"
 
@@ -22,31 +24,46 @@ inline constexpr const char* kDataCardFile = "README.md";
 class DatasetWriter {
  public:
   // Makes the directory and writes scenario.yaml. Without `resume` the directory must be new or empty; with it, a
-  // scenario.yaml that is there must make the same maps (its learning section and split may differ). Throws InputError
-  // naming the directory and the difference, WorkError when the disk refuses.
-  DatasetWriter(std::filesystem::path directory, const Scenario& scenario, bool resume);
+  // scenario.yaml that is there must make the same maps (its learning section and split may differ) and the manifest,
+  // if any, be of `program_version`. Throws InputError naming the directory and the difference, WorkError when the disk
+  // refuses.
+  DatasetWriter(std::filesystem::path directory, const Scenario& scenario, bool resume, std::string program_version);
 
   // True when the shard is on the disk and sound: by the manifest's checksum where there is one, else by reading it
-  // all.
-  bool complete(std::size_t shard) const;
+  // all and comparing its rows with the scenario. Throws InputError when it is sound but another version of the program
+  // made it: a data set of two versions would be neither's.
+  bool complete(std::size_t shard);
 
-  // Writes a shard; from any thread.
-  void put(std::size_t shard, const Shard& content);
+  // Writes a shard, with this program and processor as its origin; from any thread.
+  void put(std::size_t shard, Shard content);
 
-  // Writes manifest and data card when all shards are there. Returns the number of shards that are still missing.
-  std::size_t finish(const std::string& program_version);
+  // Writes manifest and data card when all shards are there and sound, and removes what killed runs left half-written.
+  // Returns the shards that are missing or damaged.
+  std::vector<std::size_t> finish();
 
   const std::filesystem::path& directory() const { return directory_; }
 
  private:
+  // What finish() needs to know of a sound shard.
+  struct Known {
+    bool sound = false;
+    std::string processor;
+    std::string sha256;
+  };
+
   std::filesystem::path shard_file(std::size_t shard) const;
+  void require_version(const std::filesystem::path& file, const std::string& version) const;
+  Manifest manifest() const;  // of a whole data set
 
   std::filesystem::path directory_;
   Scenario scenario_;
   SamplePlan plan_;
+  Origin origin_;
   std::string scenario_yaml_;
-  std::vector<std::string> known_sha256_;  // of a manifest that was there already, by shard; empty without one
-  std::mutex mutex_;                       // the HDF5 library serves one thread at a time
+  Manifest earlier_;                // the manifest that was there already; without shards where there was none
+  std::vector<Known> known_;        // by shard
+  std::optional<StoredAxes> axes_;  // of all shards
+  std::mutex mutex_;                // the HDF5 library serves one thread at a time
 };
 
 }  // namespace seaglint

@@ -14,7 +14,7 @@ namespace seaglint {
 
 namespace {
 
-constexpr const char* kFormat = "seaglint data set 1";
+constexpr const char* kFormat = "seaglint data set 2";
 
 }  // namespace
 
@@ -25,7 +25,7 @@ std::string to_json(const Manifest& manifest) {
   json["scenario"] = manifest.scenario;
   json["scenario_sha256"] = manifest.scenario_sha256;
   json["program_version"] = manifest.program_version;
-  json["processor"] = manifest.processor;
+  json["processors"] = manifest.processors;
   json["seed"] = manifest.seed;
   json["samples"] = manifest.samples;
   json["map"] = {{"rows", manifest.rows}, {"columns", manifest.columns}, {"units", "m"}};
@@ -49,13 +49,13 @@ Manifest read_manifest(const std::filesystem::path& file) {
     const nlohmann::json json = nlohmann::json::parse(text);
     if (json.at("format") != kFormat) {
       throw InputError(
-          fmt::format("{}: format: {}; this program reads \"{}\"", file.string(), json.at("format").dump(), kFormat));
+          fmt::format("{}: format {}; this program reads \"{}\"", file.string(), json.at("format").dump(), kFormat));
     }
     Manifest manifest;
     manifest.scenario = json.at("scenario").get<std::string>();
     manifest.scenario_sha256 = json.at("scenario_sha256").get<std::string>();
     manifest.program_version = json.at("program_version").get<std::string>();
-    manifest.processor = json.at("processor").get<std::string>();
+    manifest.processors = json.at("processors").get<std::vector<std::string>>();
     manifest.seed = json.at("seed").get<std::uint64_t>();
     manifest.samples = json.at("samples").get<std::uint64_t>();
     manifest.rows = json.at("map").at("rows").get<std::uint64_t>();

@@ -22,7 +22,7 @@ struct Manifest {
   std::string scenario;         // its name
   std::string scenario_sha256;  // of scenario.yaml
   std::string program_version;
-  std::string processor;  // the kind that made the bytes: another one may differ in the last bit
+  std::vector<std::string> processors;  // kinds that made the bytes, in order: another one may differ in the last bit
   std::uint64_t seed = 0;
   std::uint64_t samples = 0;
   std::uint64_t rows = 0;     // velocity cells of a map

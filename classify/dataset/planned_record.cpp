@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "classify/dataset/planned_record.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string_view>
 
@@ -43,6 +45,19 @@ SampleRecord planned_record(const Scenario& scenario, const SamplePlan& plan, st
   record.first_motion_key = static_cast<std::int64_t>(body_index(sea_key, first_body));
   record.radar_key = static_cast<std::int64_t>(sample);
   return record;
+}
+
+std::vector<std::string> contradictions(const SampleRecord& record, const SampleRecord& planned) {
+  std::vector<std::string> found;
+  for (const SampleColumn& column : planned_columns()) {
+    std::visit(
+        [&](auto member) {
+          if (record.*member != planned.*member)
+            found.push_back(fmt::format("{} {}, by the scenario {}", column.name, record.*member, planned.*member));
+        },
+        column.member);
+  }
+  return found;
 }
 
 std::span<const SampleColumn> planned_columns() {

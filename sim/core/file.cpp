@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <limits.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -46,23 +47,32 @@ class Descriptor {
   throw WorkError(fmt::format("{}: cannot write: {}", path.string(), std::strerror(errno)));
 }
 
-void write_all(const fs::path& path, int flags, std::string_view content) {
+// Errors name the file as `name`.
+void write_all(const fs::path& path, const fs::path& name, int flags, std::string_view content) {
   Descriptor file(path, O_WRONLY | flags);
-  if (file.number() < 0) fail_writing(path);
+  if (file.number() < 0) fail_writing(name);
   while (!content.empty()) {
     const ssize_t written = ::write(file.number(), content.data(), content.size());
     if (written < 0 && errno == EINTR) continue;
-    if (written < 0) fail_writing(path);
+    if (written < 0) fail_writing(name);
     content.remove_prefix(static_cast<std::size_t>(written));
   }
-  if (!file.close()) fail_writing(path);
+  if (!file.close()) fail_writing(name);
 }
 
 // Waits until what was written is on the disk. File systems that cannot synchronise directories say EINVAL: they have
 // nothing to wait for.
-void synchronise(const fs::path& path, int flags) {
+void synchronise(const fs::path& path, const fs::path& name, int flags) {
   const Descriptor file(path, O_RDONLY | flags);
-  if (file.number() < 0 || (::fsync(file.number()) != 0 && errno != EINVAL)) fail_writing(path);
+  if (file.number() < 0 || (::fsync(file.number()) != 0 && errno != EINVAL)) fail_writing(name);
+}
+
+// "<path>.<host>-<process>.tmp"
+fs::path temporary_name(fs::path path) {
+  char host[HOST_NAME_MAX + 1] = {};
+  ::gethostname(host, HOST_NAME_MAX);
+  path += fmt::format(".{}-{}.tmp", host, ::getpid());
+  return path;
 }
 
 // A pipe, a terminal or a device: written through, since renaming would replace it.
@@ -103,9 +113,9 @@ std::string read_file(const fs::path& path, std::size_t max_bytes) {
 
 void write_file(const fs::path& path, std::string_view content) {
   if (is_stream(path)) {
-    write_all(path, 0, content);
+    write_all(path, path, 0, content);
   } else {
-    write_file_with(path, [&](const fs::path& temporary) { write_all(temporary, O_CREAT | O_TRUNC, content); });
+    write_file_with(path, [&](const fs::path& temporary) { write_all(temporary, path, O_CREAT | O_TRUNC, content); });
   }
 }
 
@@ -116,21 +126,20 @@ void write_file_with(const fs::path& path, const std::function<void(const fs::pa
   const fs::path resolved = fs::canonical(path, error);
   const fs::path target = error ? path : resolved;
   const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
-  fs::path temporary = target;
-  temporary += ".tmp";
+  const fs::path temporary = temporary_name(target);
   try {
     if (fs::is_directory(target, error)) {
       errno = EISDIR;
       fail_writing(target);
     }
     write(temporary);
-    synchronise(temporary, 0);
+    synchronise(temporary, target, 0);
     if (::rename(temporary.c_str(), target.c_str()) != 0) fail_writing(target);
   } catch (...) {
     fs::remove(temporary, error);
     throw;
   }
-  synchronise(folder, O_DIRECTORY);
+  synchronise(folder, folder, O_DIRECTORY);
 }
 
 void make_directory(const fs::path& path) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Files that are either whole or absent: written as `<name>.tmp`, synchronised, renamed.
+// Files that are either whole or absent: written beside their place as `<name>.<host>-<process>.tmp`, synchronised,
+// renamed. The temporary name is the process's own, so that two processes may write the same file: the last one counts.
 
 #include <cstddef>
 #include <filesystem>

@@ -14,6 +14,8 @@
 
 namespace seaglint {
 
+inline constexpr const char* kTestVersion = "0.0.0";
+
 class DataDirectory : public testing::Test {
  protected:
   void SetUp() override {
@@ -26,6 +28,7 @@ class DataDirectory : public testing::Test {
 
   Shard shard_of(std::size_t index) const {
     Shard shard;
+    shard.origin = {kTestVersion, processor_kind()};
     shard.axes.range_m = {0, 1};
     shard.axes.velocity_mps = {0, 1};
     for (std::size_t i = 0; i < plan_.shard(index).count; ++i) {
@@ -42,10 +45,12 @@ class DataDirectory : public testing::Test {
   }
 
   void make_whole() {
-    DatasetWriter writer(directory_, scenario_, false);
+    DatasetWriter writer(directory_, scenario_, false, kTestVersion);
     for (std::size_t i = 0; i < plan_.shards(); ++i) writer.put(i, shard_of(i));
-    ASSERT_EQ(writer.finish("0.0.0"), 0u);
+    ASSERT_TRUE(writer.finish().empty());
   }
+
+  void make_manifest_again() { DatasetWriter(directory_, scenario_, true, kTestVersion).finish(); }
 
   std::filesystem::path directory_;
   Scenario scenario_ = parse_scenario(R"(

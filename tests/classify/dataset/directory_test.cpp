@@ -7,6 +7,7 @@
 
 #include "classify/dataset/checksum.h"
 #include "classify/dataset/dataset_reader.h"
+#include "classify/dataset/hdf5_file.h"
 #include "sim/core/error.h"
 #include "sim/core/file.h"
 #include "tests/classify/dataset/data_directory.h"
@@ -15,6 +16,7 @@ namespace seaglint {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::ElementsAre;
 using testing::HasSubstr;
 
 template <class Action>
@@ -41,23 +43,23 @@ TEST_F(DataDirectory, IsReadBackWhole) {
 }
 
 TEST_F(DataDirectory, IsNotWholeUntilTheLastShardIsThere) {
-  DatasetWriter writer(directory_, scenario_, false);
+  DatasetWriter writer(directory_, scenario_, false, kTestVersion);
   writer.put(0, shard_of(0));
-  EXPECT_EQ(writer.finish("0.0.0"), plan_.shards() - 1);
+  EXPECT_THAT(writer.finish(), ElementsAre(1, 2));
   EXPECT_THAT(error_of([&] { DatasetReader reader(directory_); }), HasSubstr("no manifest.json"));
 }
 
 TEST_F(DataDirectory, ThatIsNotEmptyNeedsResume) {
   make_whole();
-  EXPECT_THAT(error_of([&] { DatasetWriter(directory_, scenario_, false); }), HasSubstr("--resume"));
-  EXPECT_NO_THROW(DatasetWriter(directory_, scenario_, true));
+  EXPECT_THAT(error_of([&] { DatasetWriter(directory_, scenario_, false, kTestVersion); }), HasSubstr("--resume"));
+  EXPECT_NO_THROW(DatasetWriter(directory_, scenario_, true, kTestVersion));
 }
 
 TEST_F(DataDirectory, OfAnotherScenarioIsRefusedWithTheFirstDifference) {
   make_whole();
   Scenario other = scenario_;
   other.seed = 43;
-  EXPECT_THAT(error_of([&] { DatasetWriter(directory_, other, true); }),
+  EXPECT_THAT(error_of([&] { DatasetWriter(directory_, other, true, kTestVersion); }),
               HasSubstr("`seed: 42` there, `seed: 43` here"));
 }
 
@@ -66,7 +68,7 @@ TEST_F(DataDirectory, KeepsItsMapsWhenOnlyLearningChanges) {
   Scenario other = scenario_;
   other.learning.epochs = 7;
   other.dataset.train_share = 0.5;
-  EXPECT_TRUE(DatasetWriter(directory_, other, true).complete(0));
+  EXPECT_TRUE(DatasetWriter(directory_, other, true, kTestVersion).complete(0));
   EXPECT_EQ(read_scenario(directory_ / kScenarioFile).learning.epochs, 7);
 }
 
@@ -75,7 +77,7 @@ TEST_F(DataDirectory, ResumesOnlyWhatIsUnsound) {
   fs::remove(directory_ / kManifestFile);
   fs::resize_file(directory_ / shard_name(1), fs::file_size(directory_ / shard_name(1)) - 10);
   fs::remove(directory_ / shard_name(2));
-  const DatasetWriter writer(directory_, scenario_, true);
+  DatasetWriter writer(directory_, scenario_, true, kTestVersion);
   EXPECT_TRUE(writer.complete(0));
   EXPECT_FALSE(writer.complete(1));
   EXPECT_FALSE(writer.complete(2));
@@ -88,9 +90,63 @@ TEST_F(DataDirectory, WithAChangedShardIsRefusedWithTheFilesName) {
   bytes.back() = static_cast<char>(bytes.back() ^ 1);
   write_file(file, bytes);
   EXPECT_THAT(error_of([&] { DatasetReader(directory_).shard(1); }), HasSubstr("shard_00001.h5: truncated or changed"));
-  EXPECT_FALSE(DatasetWriter(directory_, scenario_, true).complete(1));
+  EXPECT_FALSE(DatasetWriter(directory_, scenario_, true, kTestVersion).complete(1));
   fs::remove(file);
   EXPECT_THAT(error_of([&] { DatasetReader reader(directory_); }), HasSubstr("shard_00001.h5: missing"));
+}
+
+// Before there is a manifest nothing but the file itself says what it should be.
+TEST_F(DataDirectory, IsNotWholeWithAShardThatIsDamagedOrOfAnotherScenario) {
+  DatasetWriter writer(directory_, scenario_, false, kTestVersion);
+  for (std::size_t i = 0; i < plan_.shards(); ++i) writer.put(i, shard_of(i));
+  fs::resize_file(directory_ / shard_name(0), fs::file_size(directory_ / shard_name(0)) - 10);
+  Shard other = shard_of(2);
+  for (Sample& sample : other.samples) sample.record.seed = 43;
+  other.origin.program_version = kTestVersion;
+  fs::remove(directory_ / shard_name(2));
+  write_shard(directory_ / shard_name(2), other, scenario_.features.max_centres);
+  EXPECT_THAT(DatasetWriter(directory_, scenario_, true, kTestVersion).finish(), ElementsAre(0, 2));
+  EXPECT_FALSE(fs::exists(directory_ / kManifestFile));
+}
+
+TEST_F(DataDirectory, LosesWhatKilledRunsLeftHalfWrittenWhenItIsWhole) {
+  DatasetWriter writer(directory_, scenario_, false, kTestVersion);
+  write_file(directory_ / "shard_00001.h5.node-77.tmp", "half");
+  writer.put(0, shard_of(0));
+  EXPECT_THAT(writer.finish(), ElementsAre(1, 2));
+  EXPECT_TRUE(fs::exists(directory_ / "shard_00001.h5.node-77.tmp"));  // another process may be writing it
+  for (const std::size_t i : {1u, 2u}) writer.put(i, shard_of(i));
+  EXPECT_THAT(writer.finish(), testing::IsEmpty());
+  for (const auto& entry : fs::directory_iterator(directory_)) EXPECT_NE(entry.path().extension(), ".tmp");
+}
+
+TEST_F(DataDirectory, OfAnotherVersionIsReadButNotContinued) {
+  make_whole();
+  const auto resume = [&] { DatasetWriter(directory_, scenario_, true, "0.0.1").finish(); };
+  EXPECT_THAT(error_of(resume), HasSubstr("manifest.json: made by seaglint 0.0.0, this is seaglint 0.0.1"));
+  fs::remove(directory_ / kManifestFile);
+  EXPECT_THAT(error_of(resume), HasSubstr("shard_00000.h5: made by seaglint 0.0.0, this is seaglint 0.0.1"));
+  make_manifest_again();
+  EXPECT_EQ(DatasetReader(directory_).shard(0).origin.program_version, kTestVersion);
+}
+
+TEST_F(DataDirectory, OfAnotherFormatIsRefused) {
+  make_whole();
+  const auto replace = [&](const fs::path& file, const std::string& from, const std::string& to) {
+    std::string bytes = read_file(file);
+    bytes.replace(bytes.find(from), from.size(), to);
+    write_file(file, bytes);
+  };
+  replace(directory_ / kManifestFile, "seaglint data set 2", "seaglint data set 9");
+  EXPECT_THAT(error_of([&] { DatasetReader reader(directory_); }),
+              HasSubstr("manifest.json: format \"seaglint data set 9\"; this program reads \"seaglint data set 2\""));
+  fs::remove(directory_ / kManifestFile);
+  // A whole file of another format must not be taken for a damaged one and made anew.
+  Hdf5Writer other(directory_ / shard_name(1), Hdf5Version::k18);
+  other.attribute("format", "seaglint shard 9");
+  other.close();
+  EXPECT_THAT(error_of([&] { DatasetWriter(directory_, scenario_, true, kTestVersion).complete(1); }),
+              HasSubstr("shard_00001.h5: format \"seaglint shard 9\"; this program reads \"seaglint shard 2\""));
 }
 
 TEST_F(DataDirectory, WithABrokenManifestIsRefused) {

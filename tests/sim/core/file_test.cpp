@@ -82,7 +82,7 @@ TEST_F(Files, AFailedWriteLeavesTheOldFileAndNothingElse) {
 
 TEST_F(Files, WritingNamesTheFileAndTheReason) {
   const auto writing = [](const fs::path& path) { return message_of<WorkError>([&] { write_file(path, "content"); }); };
-  EXPECT_THAT(writing(folder_ / "none" / "x"), HasSubstr("none/x.tmp: cannot write: No such file or directory"));
+  EXPECT_THAT(writing(folder_ / "none" / "x"), HasSubstr("none/x: cannot write: No such file or directory"));
   EXPECT_THAT(writing(folder_), HasSubstr("cannot write: Is a directory"));
   EXPECT_EQ(writing("/dev/full"), "/dev/full: cannot write: No space left on device");
   EXPECT_EQ(entries(), 0u);
@@ -90,7 +90,7 @@ TEST_F(Files, WritingNamesTheFileAndTheReason) {
 
 TEST_F(Files, AWriterThatMakesNoFileIsAnError) {
   EXPECT_THAT(message_of<WorkError>([&] { write_file_with(folder_ / "x", [](const fs::path&) {}); }),
-              HasSubstr("x.tmp: cannot write: No such file or directory"));
+              HasSubstr("x: cannot write: No such file or directory"));
 }
 
 TEST_F(Files, ADeviceIsWrittenThroughNotReplaced) {

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// As much of HDF5 as data sets need. Bytes depend on what is written alone: no times, fixed little-endian types.
+// Files are opened without locks, which some file systems of clusters refuse: nobody writes a file that another reads,
+// since files appear by renaming. One thread at a time may use the library.
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace seaglint {
+
+inline constexpr std::size_t kNameBytes = 64;  // of a string in an array, UTF-8, zero-padded
+
+// What an array holds; kName is kNameBytes characters.
+enum class Element { kFloat, kDouble, kInt64, kUint16, kName };
+
+template <class T>
+constexpr Element element_of() {
+  if constexpr (std::is_same_v<T, float>) return Element::kFloat;
+  if constexpr (std::is_same_v<T, double>) return Element::kDouble;
+  if constexpr (std::is_same_v<T, std::int64_t>) return Element::kInt64;
+  if constexpr (std::is_same_v<T, std::uint16_t>) return Element::kUint16;
+  if constexpr (std::is_same_v<T, std::string>) return Element::kName;
+}
+
+std::size_t bytes_of(Element element);
+
+using Dimensions = std::vector<std::uint64_t>;
+
+// What an array says of itself.
+struct ArrayText {
+  std::string units;  // "1" where there are none
+  std::string description;
+};
+
+// Rows `first` to `first + count - 1` of a virtual array, which are all of the array of the same path in `file`
+// (relative to the folder of the virtual array's file).
+struct VirtualSource {
+  std::string file;
+  std::uint64_t first = 0;
+  std::uint64_t count = 0;
+
+  bool operator==(const VirtualSource&) const = default;
+};
+
+enum class Hdf5Version { k18, k110 };  // oldest library that reads the file; virtual arrays need 1.10
+
+// Names as an array stores them, kNameBytes each.
+std::string packed_names(std::span<const std::string> names);
+
+// A file in the making. Every call throws WorkError with what could not be written and the system's reason.
+class Hdf5Writer {
+ public:
+  Hdf5Writer(const std::filesystem::path& file, Hdf5Version version);
+  ~Hdf5Writer();
+  Hdf5Writer(const Hdf5Writer&) = delete;
+  Hdf5Writer& operator=(const Hdf5Writer&) = delete;
+
+  void attribute(const std::string& name, const std::string& text);  // of the file
+  void group(const std::string& path);
+
+  // An array in chunks of `chunk`, each with a Fletcher-32 checksum; filled by write().
+  void array(const std::string& path, Element element, const Dimensions& size, const Dimensions& chunk,
+             const ArrayText& text);
+  // An array whose rows lie in other files; where one is missing, readers see NaN or the largest integer.
+  void virtual_array(const std::string& path, Element element, const Dimensions& size,
+                     std::span<const VirtualSource> sources, const ArrayText& text);
+
+  // Rows `first` and following of an array; `values` hold whole rows.
+  template <class T>
+  void write(const std::string& path, std::uint64_t first, std::span<const T> values) {
+    write_bytes(path, element_of<T>(), first, values.data(), values.size());
+  }
+  void write_names(const std::string& path, std::uint64_t first, std::span<const std::string> names);
+
+  void close();  // must be called: a late failure of the disk shows here
+
+ private:
+  void write_bytes(const std::string& path, Element element, std::uint64_t first, const void* values,
+                   std::size_t count);
+  struct Open;
+  std::unique_ptr<Open> open_;
+};
+
+template <class T>
+struct ReadArray {
+  Dimensions size;
+  std::vector<T> values;
+};
+
+// A file that may be damaged in any way: every call throws WorkError with what is missing or wrong.
+class Hdf5Reader {
+ public:
+  explicit Hdf5Reader(const std::filesystem::path& file);
+  ~Hdf5Reader();
+  Hdf5Reader(const Hdf5Reader&) = delete;
+  Hdf5Reader& operator=(const Hdf5Reader&) = delete;
+
+  std::string attribute(const std::string& name) const;  // of the file; "" where there is none
+  bool has(const std::string& path) const;
+  Dimensions size(const std::string& path) const;
+  std::vector<VirtualSource> sources(const std::string& path) const;  // none for an array of this file
+
+  // All of an array of this file, which must have `rank` dimensions. Memory is taken for what the file can hold only.
+  template <class T>
+  ReadArray<T> read(const std::string& path, std::size_t rank) const {
+    ReadArray<T> array;
+    array.size = size(path);
+    array.values.resize(checked_count(path, element_of<T>(), rank));
+    read_bytes(path, element_of<T>(), 0, array.size.empty() ? 0 : array.size[0], array.values.data());
+    return array;
+  }
+  // Rows of an array of one dimension.
+  template <class T>
+  std::vector<T> rows(const std::string& path, std::uint64_t first, std::uint64_t count) const {
+    checked_rows(path, first, count);
+    std::vector<T> values(count);
+    read_bytes(path, element_of<T>(), first, count, values.data());
+    return values;
+  }
+  std::vector<std::string> names(const std::string& path) const;
+  std::vector<std::string> names(const std::string& path, std::uint64_t first, std::uint64_t count) const;
+
+ private:
+  std::size_t checked_count(const std::string& path, Element element, std::size_t rank) const;
+  void checked_rows(const std::string& path, std::uint64_t first, std::uint64_t count) const;
+  void read_bytes(const std::string& path, Element element, std::uint64_t first, std::uint64_t count,
+                  void* values) const;
+  struct Open;
+  std::unique_ptr<Open> open_;
+};
+
+}  // namespace seaglint
