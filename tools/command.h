@@ -29,6 +29,7 @@ void add_motion(CLI::App& app, Shell& shell);
 void add_rcs(CLI::App& app, Shell& shell);
 void add_map(CLI::App& app, Shell& shell);
 void add_generate(CLI::App& app, Shell& shell);
+void add_merge(CLI::App& app, Shell& shell);
 void add_verify(CLI::App& app, Shell& shell);
 void add_train(CLI::App& app, Shell& shell);
 void add_run(CLI::App& app, Shell& shell);

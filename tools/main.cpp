@@ -46,6 +46,7 @@ void add_commands(CLI::App& app, Shell& shell) {
   add_rcs(app, shell);
   add_map(app, shell);
   add_generate(app, shell);
+  add_merge(app, shell);
   add_verify(app, shell);
   add_train(app, shell);
   add_run(app, shell);

@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <string_view>
 
 #include "classify/dataset/checksum.h"
 #include "classify/dataset/dataset_reader.h"
 #include "classify/dataset/dataset_writer.h"
+#include "classify/dataset/merged.h"
 #include "classify/dataset/planned_record.h"
 #include "sim/core/error.h"
 #include "sim/core/file.h"
@@ -25,11 +27,6 @@ namespace {
 
 // Maps are stored in single precision: peak and energy of a row were taken before, and agree to its rounding.
 constexpr double kSinglePrecision = 1e-6;
-
-template <typename T>
-std::string text(const T& value) {
-  return fmt::format("{}", value);
-}
 
 class Auditor {
  public:
@@ -62,8 +59,13 @@ class Auditor {
     for (std::size_t i = manifest.shards.size(); i < plan_.shards(); ++i) fault(shard_name(i), "not in the manifest");
     for (const auto& entry : fs::directory_iterator(reader_.directory())) {
       const std::string name = entry.path().filename();
-      if (name.ends_with(".tmp")) fault(name, "half-written; a resumed `generate` makes it anew");
-      if (name.ends_with(".h5") && !listed.contains(name)) fault(name, "not in the manifest");
+      if (name.ends_with(".tmp")) fault(name, "half-written; a resumed `generate` removes it");
+      if (!name.ends_with(".h5") || listed.contains(name)) continue;
+      if (is_merged(entry.path())) {
+        merged_.emplace_back(entry.path(), reader_);
+      } else {
+        fault(name, "not in the manifest");
+      }
     }
   }
 
@@ -72,7 +74,10 @@ class Auditor {
     try {
       const Shard content = reader_.shard(index);
       ++result_.shards;
+      if (!axes_) axes_ = content.axes;
+      if (*axes_ != content.axes) fault(name, "other axes than the first shard");
       for (const Sample& sample : content.samples) check(name, sample);
+      for (MergedCheck& merged : merged_) merged.compare(index, content);
     } catch (const InputError& error) {
       result_.faults.push_back(error.what());
     }
@@ -92,6 +97,8 @@ class Auditor {
         fault(fmt::format("sea {}", sea), fmt::format("lies in {} groups: a split by group would leak", groups.size()));
     }
     result_.groups = seas_of_group_.size();
+    for (const MergedCheck& merged : merged_)
+      result_.faults.insert(result_.faults.end(), merged.faults().begin(), merged.faults().end());
     if (seen_.size() < plan_.size())
       fault("data set", fmt::format("{} of {} samples are missing", plan_.size() - seen_.size(), plan_.size()));
   }
@@ -114,16 +121,7 @@ class Auditor {
       return;
     }
     const SampleRecord planned = planned_record(result_.scenario, plan_, static_cast<std::size_t>(record.sample));
-    for (const SampleColumn& column : planned_columns()) {
-      std::visit(
-          [&](auto member) {
-            if (record.*member != planned.*member) {
-              fault(where,
-                    fmt::format("{} {}, by the scenario {}", column.name, text(record.*member), text(planned.*member)));
-            }
-          },
-          column.member);
-    }
+    for (const std::string& what : contradictions(record, planned)) fault(where, what);
     ++result_.per_target[static_cast<std::size_t>(planned.target)];
     seas_of_group_[record.group].insert(record.sea_key);
     check_map(where, sample);
@@ -162,6 +160,8 @@ class Auditor {
   const DatasetReader& reader_;
   SamplePlan plan_;
   Audit& result_;
+  std::vector<MergedCheck> merged_;  // files over all shards that lie beside them
+  std::optional<StoredAxes> axes_;   // of the first sound shard
   std::set<std::int64_t> seen_;
   std::map<std::string, std::int64_t> maps_;  // sample of each map's checksum
   std::map<std::int64_t, std::set<std::int64_t>> seas_of_group_;

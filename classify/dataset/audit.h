@@ -24,7 +24,8 @@ struct Audit {
 // - samples that are missing, repeated (by number or by map) or out of order;
 // - rows that contradict the scenario: label, target, sea, view, interval, keys, group;
 // - maps with values that are no magnitudes, or whose peak and energy are not those of the row;
-// - hop codes beyond the scenario's carriers;
+// - hop codes beyond the scenario's carriers; axes that differ between shards;
+// - a merged file beside the shards that is damaged, of another manifest or not what the shards hold;
 // - a sea realisation in two groups or two in one, by which a split would leak.
 // Throws InputError when manifest or scenario cannot be read, Interrupted when *stop becomes true.
 Audit audit(const std::filesystem::path& directory, const StopFlag* stop = nullptr);

@@ -60,8 +60,12 @@ void require(herr_t status, const std::string& what) {
   if (status < 0) throw WorkError(what + system_reason());
 }
 
-// Errors are reported by our own exceptions; HDF5 would print its stack on stderr.
-void silence_library() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+// Before the first file. Errors are reported by our own exceptions; HDF5 would print its stack on stderr. Files are
+// closed by their owners; at the program's end HDF5 would try once more to write what a full disk refused, and crash.
+void prepare_library() {
+  H5dont_atexit();
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
 
 Handle text_type(std::size_t bytes, H5T_str_t padding) {
   Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "string type");
@@ -126,7 +130,7 @@ Handle file_access(Hdf5Version version) {
 }
 
 Handle create_file(const std::filesystem::path& file, Hdf5Version version) {
-  silence_library();
+  prepare_library();
   const Handle access = file_access(version);
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "file creation");
   require(H5Pset_obj_track_times(creation, false), "file creation");
@@ -134,7 +138,7 @@ Handle create_file(const std::filesystem::path& file, Hdf5Version version) {
 }
 
 Handle open_file(const std::filesystem::path& file) {
-  silence_library();
+  prepare_library();
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "file access");
   require(H5Pset_file_locking(access, false, true), "file locking");
   return Handle(H5Fopen(file.c_str(), H5F_ACC_RDONLY, access), H5Fclose,
@@ -346,7 +350,9 @@ std::size_t Hdf5Reader::checked_count(const std::string& path, Element element, 
   if (extent.size() != rank) throw WorkError(fmt::format("{} has not {} dimensions", path, rank));
   const double bytes = std::accumulate(extent.begin(), extent.end(), static_cast<double>(bytes_of(element)),
                                        [](double a, std::uint64_t b) { return a * static_cast<double>(b); });
-  if (bytes > static_cast<double>(H5Dget_storage_size(open_->array(path))))
+  const Handle properties(H5Dget_create_plist(open_->array(path)), H5Pclose, fmt::format("{} is damaged", path));
+  const bool elsewhere = H5Pget_layout(properties) == H5D_VIRTUAL;
+  if (!elsewhere && bytes > static_cast<double>(H5Dget_storage_size(open_->array(path))))
     throw WorkError(fmt::format("{} is incomplete", path));
   return product(extent);
 }

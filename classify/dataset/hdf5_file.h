@@ -108,7 +108,8 @@ class Hdf5Reader {
   Dimensions size(const std::string& path) const;
   std::vector<VirtualSource> sources(const std::string& path) const;  // none for an array of this file
 
-  // All of an array of this file, which must have `rank` dimensions. Memory is taken for what the file can hold only.
+  // All of an array, which must have `rank` dimensions. Memory is taken for what the file can hold only, or for what a
+  // virtual array says.
   template <class T>
   ReadArray<T> read(const std::string& path, std::size_t rank) const {
     ReadArray<T> array;
