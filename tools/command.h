@@ -31,6 +31,8 @@ void add_map(CLI::App& app, Shell& shell);
 void add_generate(CLI::App& app, Shell& shell);
 void add_merge(CLI::App& app, Shell& shell);
 void add_verify(CLI::App& app, Shell& shell);
+void add_remake(CLI::App& app, Shell& shell);
+void add_export(CLI::App& app, Shell& shell);
 void add_train(CLI::App& app, Shell& shell);
 void add_run(CLI::App& app, Shell& shell);
 void add_report(CLI::App& app, Shell& shell);

@@ -48,6 +48,8 @@ void add_commands(CLI::App& app, Shell& shell) {
   add_generate(app, shell);
   add_merge(app, shell);
   add_verify(app, shell);
+  add_remake(app, shell);
+  add_export(app, shell);
   add_train(app, shell);
   add_run(app, shell);
   add_report(app, shell);
