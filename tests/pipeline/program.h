@@ -43,14 +43,16 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-// `seaglint arguments...` with the project's root as working directory.
-inline ProgramResult run_program(std::vector<std::string> arguments) {
+inline constexpr const char* kProgram = SEAGLINT_BINARY_DIR "/seaglint";
+
+// Any program, words[0], with the project's root as working directory.
+inline ProgramResult run_words(std::vector<std::string> words) {
   const TemporaryFolder folder;
   const std::string out = folder.path() / "out";
   const std::string err = folder.path() / "err";
-  std::string program = SEAGLINT_BINARY_DIR "/seaglint";
-  std::vector<char*> argv{program.data()};
-  for (std::string& argument : arguments) argv.push_back(argument.data());
+  const std::string program = words.front();
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
 
   posix_spawn_file_actions_t actions;
@@ -72,6 +74,12 @@ inline ProgramResult run_program(std::vector<std::string> arguments) {
   result.out = read_file(out);
   result.err = read_file(err);
   return result;
+}
+
+// `seaglint arguments...`
+inline ProgramResult run_program(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), kProgram);
+  return run_words(std::move(arguments));
 }
 
 }  // namespace seaglint
