@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/pipeline/program.h"
 
 namespace seaglint {
@@ -149,6 +151,20 @@ TEST_F(UsedData, IsNotExportedWithAShardDamagedNorOntoAFullDisk) {
   EXPECT_THAT(limited.err, HasSubstr("x.npz: cannot write: "));
   for (const auto& entry : fs::directory_iterator(data)) {
     EXPECT_THAT(entry.path().filename().string(), testing::Not(testing::StartsWith("x.npz")));
+  }
+}
+
+// In /proc nobody may write, not even root.
+TEST_F(UsedData, SaysWhereItCannotBeWritten) {
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{{"merge", data_, "-o", "/proc/x.h5"},
+                                             {"export", data_, "-o", "/proc/x.npz"},
+                                             {"export", data_, "-o", "/proc/x"},
+                                             {"remake", data_, "--sample", "3", "-o", "/proc/x.npz"}}) {
+    const ProgramResult result = run_program(words);
+    EXPECT_EQ(result.code, 1) << words[0];
+    EXPECT_THAT(result.err, HasSubstr("seaglint: /proc/x")) << words[0];
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
   }
 }
 
