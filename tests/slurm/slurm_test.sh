@@ -62,7 +62,8 @@ start_slurm() {
   dd if=/dev/urandom of="$work/munge/key" bs=128 count=1 status=none
   chmod 400 "$work/munge/key"
   chown -R munge "$work/munge"
-  setpriv --reuid=munge --regid=munge --clear-groups munged --foreground --force --socket="$work/munge/socket" \
+  # However this script ends, the daemons end with it.
+  setpriv --pdeathsig=KILL --reuid=munge --regid=munge --clear-groups munged --foreground --force --socket="$work/munge/socket" \
     --key-file="$work/munge/key" --log-file="$work/munge/log" --pid-file="$work/munge/pid" \
     --seed-file="$work/munge/seed" >"$work/munged.log" 2>&1 &
   daemons+=($!)
@@ -100,11 +101,11 @@ PartitionName=all Nodes=n1,n2 Default=YES MaxTime=INFINITE State=UP
 END
   export SLURM_CONF=$work/slurm.conf
   mkdir "$work/state" "$work/spool_n1" "$work/spool_n2"
-  slurmctld -D >"$work/slurmctld.log" 2>&1 &
+  setpriv --pdeathsig=KILL slurmctld -D >"$work/slurmctld.log" 2>&1 &
   daemons+=($!)
-  slurmd -D -N n1 >"$work/slurmd_n1.log" 2>&1 &
+  setpriv --pdeathsig=KILL slurmd -D -N n1 >"$work/slurmd_n1.log" 2>&1 &
   daemons+=($!)
-  slurmd -D -N n2 >"$work/slurmd_n2.log" 2>&1 &
+  setpriv --pdeathsig=KILL slurmd -D -N n2 >"$work/slurmd_n2.log" 2>&1 &
   daemons+=($!)
   node_2=$!
   until_true 20 sh -c "sinfo --noheader --format=%T | grep -qx idle && ! sinfo --noheader --format=%T | grep -vqx idle"
@@ -132,12 +133,13 @@ chmod +x "$work/program"
 
 tools/slurm "${scenario[@]}" -o "$work/data" --parts 6 --program "$work/program" --wait >"$work/submit.log" 2>&1 &
 waiting=$!
+daemons+=("$waiting")
 until_true 30 running_on_node_2
 sleep 1
 echo "== killing node n2 with the processes of its job"
 squeue
 victims=$(job_processes n2)
-ps --no-headers -o pid,args -p "${victims//$'\n'/,}"
+for pid in $victims; do echo "$pid $(tr '\0' ' ' <"/proc/$pid/cmdline")"; done
 kill -9 "$node_2" $victims
 wait "$waiting" || { cat "$work/submit.log"; fail "tools/slurm --wait"; }
 
