@@ -63,11 +63,12 @@ class ReturnGrid {
   void response(int first, double s, std::span<Complex> out) const;
 
  private:
-  std::size_t cell(int u, int psi) const { return static_cast<std::size_t>(u) * psi_cells_ + psi; }
+  std::size_t cell(int u, int psi) const { return static_cast<std::size_t>(u) * row_length_ + psi; }
 
   WavenumberGrid wavenumbers_;
   double kc_;                // of centre_index
   int psi_cells_;            // 2 count, rounded up to a length FFTs like
+  int row_length_ = 0;       // of one u: its period and a kernel's width
   double psi_cell_;          // m
   double u_cell_, u_first_;  // m
   int u_cells_;
