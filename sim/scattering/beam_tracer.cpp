@@ -49,7 +49,7 @@ class BeamTracer {
     std::vector<MovingPolygon> seen;
     if (!antennas_.monostatic) seen_part(first, candidate, seen);
     radiate(first, candidate, antennas_.monostatic ? candidate.lit : seen);
-    if (edges_) reach_edges(first, candidate);
+    if (reaches_edges(first)) reach_edges(first, candidate);
     if (max_bounces_ > 1) follow(reflected(first, candidate), candidate.lit);
   }
 
@@ -85,12 +85,11 @@ class BeamTracer {
     double covered = std::numeric_limits<double>::infinity();
   };
 
-  Meeting meeting(const Leg& leg, const Prism& prism, int number) const {
+  static Meeting meeting(const Leg& leg, const Prism& prism, const TreePanel& panel) {
     // The lit side of a closed part faces the beam.
-    const Facet& facet = facets_[number];
-    const double facing = facet.normal.dot(leg.direction);
-    if (!facet.open && facing >= 0) return {};
-    const std::span<const Vec3> outline = panels_.outline(number);
+    const double facing = panel.normal.dot(leg.direction);
+    if (!panel.open && facing >= 0) return {};
+    const std::span<const Vec3> outline = panel.outline();
     std::size_t beyond = 0;
     for (const Vec3& x : outline) beyond += prism.normal.dot(x) > prism.offset;
     if (beyond == 0) return {};
@@ -98,7 +97,7 @@ class BeamTracer {
     // turns left or right.
     const Vec2 middle(0.5 * (prism.lower[0] + prism.upper[0]), 0.5 * (prism.lower[1] + prism.upper[1]));
     const Vec2 half(0.5 * (prism.upper[0] - prism.lower[0]), 0.5 * (prism.upper[1] - prism.lower[1]));
-    const double turn = prism.across[0].cross(prism.across[1]).dot(facet.normal) > 0 ? 1 : -1;
+    const double turn = prism.across[0].cross(prism.across[1]).dot(panel.normal) > 0 ? 1 : -1;
     const auto across = [&](const Vec3& x) { return Vec2(prism.across[0].dot(x), prism.across[1].dot(x)); };
     bool covers = beyond == outline.size();
     Vec2 p = across(outline.back()), lower = p, upper = p;
@@ -120,8 +119,8 @@ class BeamTracer {
     if (covers && std::abs(facing) > kEdgeOn) {
       // The farthest point of the facet's plane in the prism: along . x = (offset - across part of normal . x) /
       // (normal . along).
-      const double a = facet.normal.dot(prism.across[0]), b = facet.normal.dot(prism.across[1]);
-      const double centre = (facet.normal.dot(facet.corner[0]) - a * middle.x() - b * middle.y()) / facing;
+      const double a = panel.normal.dot(prism.across[0]), b = panel.normal.dot(prism.across[1]);
+      const double centre = (panel.normal.dot(outline.front()) - a * middle.x() - b * middle.y()) / facing;
       result.covered = centre + (std::abs(a) * half.x() + std::abs(b) * half.y()) / std::abs(facing);
     }
     return result;
@@ -175,12 +174,18 @@ class BeamTracer {
     set_window(scratch.window, leg, window);
     scratch.found.clear();
     double covered = std::numeric_limits<double>::infinity();
-    tree_.walk(scratch.window.prism, [&](int facet) {
-      if (facet == leg.from_facet) return covered;
-      const Meeting met = meeting(leg, scratch.window.prism, facet);
-      if (met.may) scratch.found.push_back(facet);
+    bool any_seen = false;
+    tree_.walk(scratch.window.prism, [&](const TreePanel& panel) {
+      if (panel.facet == leg.from_facet) return covered;
+      const Meeting met = meeting(leg, scratch.window.prism, panel);
+      if (met.may) {
+        scratch.found.push_back(panel.facet);
+        any_seen = any_seen || !visible_.pieces(panel.facet).empty();
+      }
       return covered = std::min(covered, met.covered);
     });
+    // Of the last leg only what the radar sees, or an edge, can answer.
+    if (leg.bounce == max_bounces_ && !any_seen && !reaches_edges(leg)) return;
 
     std::vector<Candidate>& met = scratch.met;
     std::vector<std::uint32_t>& order = scratch.order;
@@ -218,7 +223,7 @@ class BeamTracer {
       scratch.seen.clear();
       seen_part(leg, candidate, scratch.seen);
       radiate(leg, candidate, scratch.seen);
-      if (edges_) reach_edges(leg, candidate);
+      if (reaches_edges(leg)) reach_edges(leg, candidate);
       if (leg.bounce < max_bounces_) follow(reflected(leg, candidate), candidate.lit);
     }
   }
@@ -298,6 +303,9 @@ class BeamTracer {
     return next;
   }
 
+  // With more mirrors before it an edge is not followed.
+  bool reaches_edges(const Leg& leg) const { return edges_ && leg.bounce <= kMostEdgeMirrors + 1; }
+
   // Wedges are perfect conductors, and so is what the wave met before.
   void reach_edges(const Leg& leg, const Candidate& candidate) {
     if (!leg.fields.empty() || !surface_of(candidate.image.facet).empty()) return;
@@ -350,9 +358,13 @@ class BeamTracer {
 
 }  // namespace
 
-std::size_t trace_beams(const BeamScene& scene, std::span<const int> facets, Lit& out) {
+std::size_t trace_beams(const BeamScene& scene, std::span<const int> facets, Lit& out,
+                        const std::function<void()>& after_each) {
   BeamTracer tracer(scene, out);
-  for (const int facet : facets) tracer.light(facet);
+  for (const int facet : facets) {
+    tracer.light(facet);
+    after_each();
+  }
   return tracer.legs();
 }
 

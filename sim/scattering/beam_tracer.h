@@ -3,6 +3,7 @@
 
 // Follows beams from mirror to mirror and writes down what they light. Illumination is the way in.
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -21,7 +22,9 @@ struct BeamScene {
   double min_area = 0;            // of lit pieces that are followed, m^2
 };
 
-// Appends what all beams light whose first mirror is the panel of one of these facets; returns the legs followed.
-std::size_t trace_beams(const BeamScene& scene, std::span<const int> facets, Lit& out);
+// Appends what all beams light whose first mirror is the panel of one of these facets; returns the legs followed. Calls
+// after_each() when the beams of one are followed.
+std::size_t trace_beams(
+    const BeamScene& scene, std::span<const int> facets, Lit& out, const std::function<void()>& after_each = [] {});
 
 }  // namespace seaglint

@@ -106,10 +106,10 @@ class Splitter {
       const Vec2 along = b.p - a.p;
       const double length = footprint_.surface_length(along);
       if (length < 1e-12) continue;
-      const Complex edge = cross(footprint_.w, along) / (Complex(0, k) * footprint_.w.squaredNorm());
+      const Complex edge(0, -cross(footprint_.w, along) / (k * footprint_.w.squaredNorm()));  // cross / (jk w^2)
       const double run = footprint_.w.dot(along);  // psi from a to b
       if (std::abs(run) > threshold_ * length && std::abs(k * run) / 2 > kPieceHalfPhase) {
-        const Complex ends = edge / Complex(0, k * run);
+        const double ends = edge.imag() / (k * run);  // edge / (jk run)
         end[(i + 1) % n] += ends;
         end[i] -= ends;
         has_end[i] = has_end[(i + 1) % n] = 1;

@@ -8,14 +8,12 @@
 namespace seaglint {
 namespace {
 
-constexpr std::size_t kChunks = 16;
-
 // The arrivals cut into chunks of about the same size; one edge's stay together.
 std::vector<std::span<const EdgeArrival>> chunks_of(std::span<const EdgeArrival> arrivals) {
   std::vector<std::span<const EdgeArrival>> chunks;
   std::size_t first = 0;
-  for (std::size_t c = 1; c <= kChunks; ++c) {
-    std::size_t last = std::max(first, arrivals.size() * c / kChunks);
+  for (std::size_t c = 1; c <= kEdgeChunks; ++c) {
+    std::size_t last = std::max(first, arrivals.size() * c / kEdgeChunks);
     while (last > first && last < arrivals.size() && arrivals[last].edge == arrivals[last - 1].edge) ++last;
     chunks.push_back(arrivals.subspan(first, last - first));
     first = last;
@@ -25,10 +23,10 @@ std::vector<std::span<const EdgeArrival>> chunks_of(std::span<const EdgeArrival>
 
 }  // namespace
 
-std::vector<EdgeFootprint> edge_echoes(const Scatterer& scatterer, const AntennaPair& antennas,
-                                       const IlluminationSettings& settings, std::span<const double> wavenumbers,
-                                       std::span<const EdgeArrival> incoming, int threads) {
-  if (!settings.edges) return {};
+void edge_echoes(const Scatterer& scatterer, const AntennaPair& antennas, const IlluminationSettings& settings,
+                 std::span<const double> wavenumbers, std::span<const EdgeArrival> incoming, int threads,
+                 const std::function<void(std::size_t, std::span<const EdgeFootprint>)>& visit) {
+  if (!settings.edges) return;
   Reached backwards;
   if (!antennas.monostatic) {
     backwards = Illumination(scatterer, monostatic(antennas.receive), settings, threads, wavenumbers)
@@ -36,19 +34,14 @@ std::vector<EdgeFootprint> edge_echoes(const Scatterer& scatterer, const Antenna
   }
   const std::span<const EdgeArrival> outgoing = antennas.monostatic ? incoming : backwards.arrivals;
   const auto chunks = chunks_of(incoming);
-  std::vector<std::vector<EdgeFootprint>> answers(chunks.size());
   parallel_for(chunks.size(), threads, [&](std::size_t chunk) {
-    std::vector<EdgeFootprint>& answer = answers[chunk];
-    answer =
+    std::vector<EdgeFootprint> answer =
         edge_footprints(scatterer.edges(), scatterer.facets(), antennas, chunks[chunk], outgoing, settings.max_bounces);
-    const auto waves = edge_wave_footprints(scatterer.edges(), scatterer.facets(), antennas, chunks[chunk], outgoing);
-    answer.insert(answer.end(), waves.begin(), waves.end());
+    edge_wave_footprints(scatterer.edges(), scatterer.facets(), antennas, chunks[chunk], outgoing, answer);
     std::erase_if(answer,
                   [&](const EdgeFootprint& f) { return !settings.filter.keeps(f.part, f.bounces, Mechanism::kEdge); });
+    visit(chunk, answer);
   });
-  std::vector<EdgeFootprint> all;
-  for (const auto& answer : answers) all.insert(all.end(), answer.begin(), answer.end());
-  return all;
 }
 
 }  // namespace seaglint

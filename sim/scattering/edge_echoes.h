@@ -3,6 +3,7 @@
 
 // Everything that sharp edges answer: single diffraction by all ways, and the edge waves that meet a second edge.
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -10,11 +11,13 @@
 
 namespace seaglint {
 
-// `incoming`: what the transmitter's illumination reached, edge by edge. A receiver elsewhere needs the waves it would
-// send, which are followed here. Echoes that the settings' filter leaves out are not among them. The order does not
-// depend on `threads`.
-std::vector<EdgeFootprint> edge_echoes(const Scatterer& scatterer, const AntennaPair& antennas,
-                                       const IlluminationSettings& settings, std::span<const double> wavenumbers,
-                                       std::span<const EdgeArrival> incoming, int threads);
+// Calls visit(chunk, footprints) for chunk = 0..kEdgeChunks-1, each once, from any of the threads. `incoming`: what the
+// transmitter's illumination reached, edge by edge. A receiver elsewhere needs the waves it would send, which are
+// followed here. Echoes that the settings' filter leaves out are not among them. Chunks do not depend on `threads`;
+// without edges in the settings there are none.
+inline constexpr std::size_t kEdgeChunks = 16;
+void edge_echoes(const Scatterer& scatterer, const AntennaPair& antennas, const IlluminationSettings& settings,
+                 std::span<const double> wavenumbers, std::span<const EdgeArrival> incoming, int threads,
+                 const std::function<void(std::size_t, std::span<const EdgeFootprint>)>& visit);
 
 }  // namespace seaglint

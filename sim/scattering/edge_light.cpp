@@ -12,10 +12,6 @@ namespace {
 // Corners this near to an edge lie on it: cuts are exact to rounding of the target's size.
 constexpr double kOnEdge = 1e-7;  // m
 
-// Mirrors on both ways together. Three suffice for what a corner reflector's rims return; what is left out has left the
-// target's straight ways.
-constexpr int kMostMirrors = 3;
-
 // The facet of an edge that faces the wave more squarely.
 int owner(const SharpEdge& edge, std::span<const Facet> facets, const Vec3& direction) {
   const auto squarely = [&](int f) {
@@ -91,8 +87,7 @@ std::vector<Stretch> lit_stretches(const Vec3& image, const Vec3& along, double 
 // hh, hv, vh, vv of what leaves by `out`. The received polarisation, sent backwards, arrives as the outgoing wave.
 std::array<Complex, 4> pattern(const WedgeFrame& wedge, const EdgeArrival& in, const EdgeArrival& out) {
   const auto received = [](const Vec3& E, const CVec3& J) { return E.cast<Complex>().cwiseProduct(J).sum(); };
-  const CVec3 J_h = edge_current(wedge, in.direction, in.E_h, -out.direction);
-  const CVec3 J_v = edge_current(wedge, in.direction, in.E_v, -out.direction);
+  const auto [J_h, J_v] = edge_currents(wedge, in.direction, {in.E_h, in.E_v}, -out.direction);
   return {received(out.E_h, J_h), received(out.E_h, J_v), received(out.E_v, J_h), received(out.E_v, J_v)};
 }
 
@@ -129,7 +124,7 @@ std::vector<EdgeFootprint> edge_footprints(const SharpEdges& edges, std::span<co
                                            const AntennaPair& antennas, std::span<const EdgeArrival> incoming,
                                            std::span<const EdgeArrival> outgoing, int max_bounces) {
   std::vector<EdgeFootprint> result;
-  const int most_mirrors = std::min(kMostMirrors, max_bounces - 1);
+  const int most_mirrors = std::min(kMostEdgeMirrors, max_bounces - 1);
   // Of one antenna's two ways by the same arrivals only one is followed: run backwards it has the same path and the
   // transposed pattern.
   const auto echo = [&](const EdgeArrival& in, const EdgeArrival& out) {
@@ -139,6 +134,9 @@ std::vector<EdgeFootprint> edge_footprints(const SharpEdges& edges, std::span<co
     const SharpEdge& edge = edges.edges[in.edge];
     const WedgeFrame* wedge = wedge_towards(edge, in.direction);
     if (!wedge || wedge_towards(edge, out.direction) != wedge) return;
+
+    const double weight = in.mirrors + out.mirrors > 0 ? beside_the_beam(in.direction, -out.direction) : 1.0;
+    if (weight <= 0) return;
 
     EdgeFootprint footprint;
     footprint.length = last - first;
@@ -160,10 +158,7 @@ std::vector<EdgeFootprint> edge_footprints(const SharpEdges& edges, std::span<co
       const auto backwards = transposed(footprint.pattern);
       for (int i = 0; i < 4; ++i) footprint.pattern[i] += backwards[i];
     }
-
-    if (in.mirrors + out.mirrors > 0) {
-      const double weight = beside_the_beam(in.direction, -out.direction);
-      if (weight <= 0) return;
+    if (weight < 1) {
       for (Complex& element : footprint.pattern) element *= weight;
     }
 

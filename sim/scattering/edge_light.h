@@ -19,6 +19,10 @@
 
 namespace seaglint {
 
+// Mirrors on both ways together. Three suffice for what a corner reflector's rims return; what is left out has left the
+// target's straight ways.
+inline constexpr int kMostEdgeMirrors = 3;
+
 // A wave on a stretch of an edge.
 struct EdgeArrival {
   int edge = kNoEdge;

@@ -215,15 +215,13 @@ class EdgeWaves {
 
 }  // namespace
 
-std::vector<EdgeFootprint> edge_wave_footprints(const SharpEdges& edges, std::span<const Facet> facets,
-                                                const AntennaPair& antennas, std::span<const EdgeArrival> incoming,
-                                                std::span<const EdgeArrival> outgoing) {
-  std::vector<EdgeFootprint> result;
-  EdgeWaves waves(edges, facets, antennas, outgoing, result);
+void edge_wave_footprints(const SharpEdges& edges, std::span<const Facet> facets, const AntennaPair& antennas,
+                          std::span<const EdgeArrival> incoming, std::span<const EdgeArrival> outgoing,
+                          std::vector<EdgeFootprint>& footprints) {
+  EdgeWaves waves(edges, facets, antennas, outgoing, footprints);
   for (const EdgeArrival& in : incoming) {
     if (in.mirrors <= kMostMirrors) waves.send(in);
   }
-  return result;
 }
 
 }  // namespace seaglint

@@ -13,12 +13,12 @@
 
 namespace seaglint {
 
-// Echoes along transmitter - first edge - face - second edge (- face - third edge) - receiver, for every stretch of first
+// Appends the echoes along transmitter - first edge - face - second edge (- face - third edge) - receiver, for every stretch of first
 // edges in `incoming` and of last edges in `outgoing` (the same list when both are one antenna), each sorted by edge. The strip of
 // grazing rays is followed across coplanar facets; it ends at edges that are not sharp. Fields fall as 1/sqrt(k l) with
 // the distance l between two edges; at the later one half of the wave is incident.
-std::vector<EdgeFootprint> edge_wave_footprints(const SharpEdges& edges, std::span<const Facet> facets,
-                                                const AntennaPair& antennas, std::span<const EdgeArrival> incoming,
-                                                std::span<const EdgeArrival> outgoing);
+void edge_wave_footprints(const SharpEdges& edges, std::span<const Facet> facets, const AntennaPair& antennas,
+                          std::span<const EdgeArrival> incoming, std::span<const EdgeArrival> outgoing,
+                          std::vector<EdgeFootprint>& footprints);
 
 }  // namespace seaglint

@@ -10,6 +10,7 @@ namespace seaglint {
 
 FacetTree::FacetTree(std::span<const Facet> facets, const Panels& panels) {
   std::vector<Box3> boxes;
+  std::vector<TreePanel> by_box;
   Box3 all;
   for (int f = 0; f < static_cast<int>(facets.size()); ++f) {
     if (!panels.is_first(f)) continue;
@@ -18,8 +19,8 @@ FacetTree::FacetTree(std::span<const Facet> facets, const Panels& panels) {
       box.add(corner);
       all.add(corner);
     }
-    const Vec3 normal = facets[f].open ? Vec3(Vec3::Zero()) : facets[f].normal;
-    leaves_.push_back({{static_cast<float>(normal.x()), static_cast<float>(normal.y()), static_cast<float>(normal.z())}, f});
+    const std::span<const Vec3> outline = panels.outline(f);
+    by_box.push_back({facets[f].normal, outline.data(), f, static_cast<std::uint16_t>(outline.size()), facets[f].open});
   }
   for (const BoxNode& built : box_tree(boxes)) {
     Node node;
@@ -31,6 +32,9 @@ FacetTree::FacetTree(std::span<const Facet> facets, const Panels& panels) {
         node.half[a][lane] = used ? (child.upper[a] - child.lower[a]) / 2 : -1e30F;
       }
       node.child[lane] = used ? child.index : -1;
+      if (!used || child.index >= 0) continue;
+      node.child[lane] = -1 - static_cast<std::int32_t>(panels_.size());
+      panels_.push_back(by_box[-1 - child.index]);
     }
     nodes_.push_back(node);
   }

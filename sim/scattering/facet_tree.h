@@ -27,37 +27,50 @@ struct Prism {
   Vec3 wave = Vec3::UnitX();  // what it lights faces this way: panels of closed surfaces with normal . wave > 0 are left out
 };
 
-// Immutable after construction; any number of threads may ask at once.
+// A panel as a walk comes upon it: what decides whether a beam meets it, side by side in memory.
+struct TreePanel {
+  Vec3 normal;                // unit
+  const Vec3* corner = nullptr;  // its outline, counter-clockwise seen against the normal
+  std::int32_t facet = -1;    // the one it goes by
+  std::uint16_t corners = 0;
+  bool open = false;          // either side may be seen
+
+  std::span<const Vec3> outline() const { return {corner, corners}; }
+};
+
+// Immutable after construction; any number of threads may ask at once. Facets and panels must outlive it.
 class FacetTree {
  public:
   FacetTree(std::span<const Facet> facets, const Panels& panels);
 
-  // Calls visit(facet) for every panel, by the facet it goes by, that has a point in the prism, and for some whose box only comes near; roughly from near to far, in an order that
+  // Calls visit(panel) for every panel that has a point in the prism, and for some whose box only comes near; roughly from near to far, in an order that
   // depends on tree and prism alone. visit returns how far along the prism panels still matter, m; those that begin beyond may be left out.
   template <typename Visit>
   void walk(const Prism& prism, const Visit& visit) const;
 
  private:
-  // Four boxes side by side, so that the compiler compares them at once. A child below zero is leaf -1 - child.
-  struct Node {
+  // Four boxes side by side, so that the compiler compares them at once; two cache lines. A child below zero is panel -1 - child.
+  struct alignas(64) Node {
     std::array<std::array<float, 4>, 3> centre, half;  // m; half < 0: no box
     std::array<std::int32_t, 4> child;
-  };
-  // A panel by the facet it goes by, with its normal; of open surfaces none.
-  struct Leaf {
-    std::array<float, 3> normal;
-    std::int32_t facet;
   };
   // A subtree or leaf still to be looked at, and where along the prism it begins.
   struct Waiting {
     std::int32_t child;
     float begin;
   };
+  // What the walk will look at soon is on its way from memory before it is needed.
+  void fetch(std::int32_t child) const {
+    const char* at = child < 0 ? reinterpret_cast<const char*>(&panels_[-1 - child])
+                               : reinterpret_cast<const char*>(&nodes_[child]);
+    __builtin_prefetch(at);
+    __builtin_prefetch(at + 64);
+  }
   // Three of each level wait at most, and all four of the last.
   static constexpr std::size_t kMostWaiting = 3 * kMostLevels + 4;
 
   std::vector<Node> nodes_;  // the first is the root
-  std::vector<Leaf> leaves_;
+  std::vector<TreePanel> panels_;  // in the order of the nodes that hold them
   double slack_ = 0;         // m, of single-precision boxes
 };
 
@@ -78,7 +91,6 @@ void FacetTree::walk(const Prism& prism, const Visit& visit) const {
     width[i] = static_cast<float>((prism.upper[i] - prism.lower[i]) / 2 + slack_);
   }
   const auto offset = static_cast<float>(prism.offset - slack_);
-  const std::array<float, 3> wave{static_cast<float>(prism.wave[0]), static_cast<float>(prism.wave[1]), static_cast<float>(prism.wave[2])};
   float far = std::numeric_limits<float>::infinity();
   std::array<Waiting, kMostWaiting> stack;
   std::size_t waiting = 0;
@@ -87,11 +99,8 @@ void FacetTree::walk(const Prism& prism, const Visit& visit) const {
     const Waiting next = stack[--waiting];
     if (next.begin > far) continue;
     if (next.child < 0) {
-      const Leaf& leaf = leaves_[-1 - next.child];
-      // Single precision decides only where it is sure.
-      if (leaf.normal[0] * wave[0] + leaf.normal[1] * wave[1] + leaf.normal[2] * wave[2] < 1e-5F) {
-        far = static_cast<float>(visit(leaf.facet) + slack_);
-      }
+      const TreePanel& panel = panels_[-1 - next.child];
+      if (panel.open || panel.normal.dot(prism.wave) < 1e-5) far = static_cast<float>(visit(panel) + slack_);
       continue;
     }
     const Node& node = nodes_[next.child];
@@ -120,6 +129,7 @@ void FacetTree::walk(const Prism& prism, const Visit& visit) const {
       std::size_t place = waiting++;
       for (; place > base && stack[place - 1].begin < begin[lane]; --place) stack[place] = stack[place - 1];
       stack[place] = {node.child[lane], begin[lane]};
+      fetch(node.child[lane]);
     }
   }
 }

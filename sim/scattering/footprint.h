@@ -84,7 +84,10 @@ struct Footprint {
   // Of the flat facet.
   double psi(const Vec2& p) const { return psi0 + w.dot(p); }
   // Length on the facet of a step in the aperture, m.
-  double surface_length(const Vec2& step) const { return std::hypot(step.norm(), plane.slope.dot(step)); }
+  double surface_length(const Vec2& step) const {
+    const double rise = plane.slope.dot(step);
+    return std::sqrt(step.squaredNorm() + rise * rise);
+  }
 };
 
 // Fills psi0, w and the surface slopes from plane and mirrors. n_image: unit normal of the last facet's image.

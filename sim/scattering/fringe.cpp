@@ -2,7 +2,9 @@
 #include "sim/scattering/fringe.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 #include "sim/core/constants.h"
 
@@ -45,8 +47,8 @@ double angle_from_face(const WedgeFace& face, const Vec3& towards_source) {
 // cotangents of (xi +- phi') / 2N; weighted with e^{jkx mu} and summed over the half-line, x leaves 1 / (cos xi + mu),
 // whose pole at cos a = -mu leaves the cotangents at a +- phi' over sin a. Physical optics has N = 1. The tests hold
 // the sum of both faces to Keller's coefficients.
-CVec3 face_current(const WedgeFace& face, double N, double phi, bool less_optics, const Vec3& k_hat, const Vec3& E,
-                   const Vec3& s) {
+void add_face_current(const WedgeFace& face, double N, double phi, bool less_optics, const Vec3& k_hat,
+                      std::span<const Vec3> fields, const Vec3& s, std::span<CVec3> sums) {
   const double cos_b = k_hat.dot(face.t);
   const double sin_b = std::sqrt(std::max(1 - cos_b * cos_b, 1e-12));
   const double mu = (sin_b * s.dot(face.x) + cos_b * (s.dot(face.t) - cos_b)) / (sin_b * sin_b);
@@ -56,27 +58,42 @@ CVec3 face_current(const WedgeFace& face, double N, double phi, bool less_optics
   const Cotangents cot = mu >= -1 ? cotangents(std::clamp(std::acos(std::clamp(-mu, -1.0, 1.0)), kAside, kPi - kAside),
                                                phi, N, less_optics)
                                   : cotangents(Complex(0, std::max(std::acosh(-mu), kAside)), phi, N, less_optics);
-  const double H_t = k_hat.cross(E).dot(face.t), E_t = E.dot(face.t);
-  const Complex across = 2.0 * j * H_t / sin_b * cot.sum;
-  Complex along = 2.0 * j * E_t / (sin_b * sin_b) * cot.difference + cos_b / sin_b * mu * across;
-  // What physical optics has of the current along the edge, written without its pole.
-  if (less_optics) along += cos_b / sin_b * 2.0 * j * H_t / sin_b;
-  return face.x * across + face.t * along;
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    const double H_t = k_hat.cross(fields[i]).dot(face.t), E_t = fields[i].dot(face.t);
+    const Complex across = 2.0 * j * H_t / sin_b * cot.sum;
+    Complex along = 2.0 * j * E_t / (sin_b * sin_b) * cot.difference + cos_b / sin_b * mu * across;
+    // What physical optics has of the current along the edge, written without its pole.
+    if (less_optics) along += cos_b / sin_b * 2.0 * j * H_t / sin_b;
+    sums[i] += face.x * across + face.t * along;
+  }
+}
+
+void add_edge_currents(const WedgeFrame& wedge, const Vec3& k_hat, std::span<const Vec3> fields, const Vec3& s,
+                       std::span<CVec3> sums) {
+  const double phi = angle_from_face(wedge.face[0], -k_hat);
+  if (phi > wedge.N * kPi) return;
+  for (int i = 0; i < 2; ++i) {
+    const double own = i == 0 ? phi : wedge.N * kPi - phi;
+    const bool lit = own < kPi;
+    add_face_current(wedge.face[i], wedge.N, own, lit, k_hat, fields, s, sums);
+  }
+  // E_s = -(jk eta / 4 pi) (e^{-jkr}/r) integral J e^{jk s.x}; the integrals above are of eta k J.
+  for (CVec3& sum : sums) sum *= -j / (4 * kPi);
 }
 
 }  // namespace
 
 CVec3 edge_current(const WedgeFrame& wedge, const Vec3& k_hat, const Vec3& E, const Vec3& s) {
-  const double phi = angle_from_face(wedge.face[0], -k_hat);
   CVec3 sum = CVec3::Zero();
-  if (phi > wedge.N * kPi) return sum;
-  for (int i = 0; i < 2; ++i) {
-    const double own = i == 0 ? phi : wedge.N * kPi - phi;
-    const bool lit = own < kPi;
-    sum += face_current(wedge.face[i], wedge.N, own, lit, k_hat, E, s);
-  }
-  // E_s = -(jk eta / 4 pi) (e^{-jkr}/r) integral J e^{jk s.x}; the integrals above are of eta k J.
-  return -j / (4 * kPi) * sum;
+  add_edge_currents(wedge, k_hat, {&E, 1}, s, {&sum, 1});
+  return sum;
+}
+
+std::array<CVec3, 2> edge_currents(const WedgeFrame& wedge, const Vec3& k_hat, const std::array<Vec3, 2>& fields,
+                                   const Vec3& s) {
+  std::array<CVec3, 2> sums{CVec3::Zero(), CVec3::Zero()};
+  add_edge_currents(wedge, k_hat, fields, s, sums);
+  return sums;
 }
 
 EdgeWave edge_wave(const WedgeFrame& wedge, int face, const Vec3& k_hat, const Vec3& E) {
@@ -107,11 +124,14 @@ Complex transition(double x) {
   // Far away the first terms of the asymptotic series; its next one, 945 / (32 x^5), bounds the error.
   if (x > 12) return 1.0 + j / (2 * x) - 3 / (4 * x * x) - 15.0 * j / (8 * x * x * x) + 75 / (16 * x * x * x * x);
   // Near, the power series of the integral from 0 to sqrt(x), sum of (-j)^n x^(n + 1/2) / (n! (2n + 1)).
-  Complex term = std::sqrt(x), sum = term;
-  for (int n = 1; n < 80; ++n) {
-    term *= -j * x / static_cast<double>(n);
-    sum += term / (2.0 * n + 1);
+  // Its terms are real and imaginary by turns, and fall from n = x on.
+  double term = std::sqrt(x);
+  std::array<double, 2> part{term, 0};
+  for (int n = 1; n < 80 && term > 1e-18; ++n) {
+    term *= x / n;
+    part[n % 2] += (n % 4 == 1 || n % 4 == 2 ? -term : term) / (2.0 * n + 1);
   }
+  const Complex sum(part[0], part[1]);
   return 2.0 * j * std::sqrt(x) * std::polar(1.0, x) * (std::polar(std::sqrt(kPi) / 2, -kPi / 4) - sum);
 }
 

@@ -111,6 +111,7 @@ VisibleSurface::VisibleSurface(std::span<const Facet> facets, const Panels& pane
   }
   seen_.resize(images_.size());
   pieces_.resize((images_.size() + kImagesPerChunk - 1) / kImagesPerChunk);
+  boxes_.resize(pieces_.size());
   parallel_for(pieces_.size(), threads, [&](std::size_t chunk) {
     std::vector<MovingPolygon> left;
     for (std::size_t i = chunk * kImagesPerChunk; i < std::min(images_.size(), (chunk + 1) * kImagesPerChunk); ++i) {
@@ -126,7 +127,8 @@ VisibleSurface::VisibleSurface(std::span<const Facet> facets, const Panels& pane
                         -basis.r};
       left.assign(1, image.polygon);
       Seen& seen = seen_[i];
-      tree.walk(prism, [&](int other) {
+      tree.walk(prism, [&](const TreePanel& panel) {
+        const int other = panel.facet;
         if (other != image.facet && image_of_[other] >= 0 && hide(image, images_[image_of_[other]], min_area, left))
           seen.whole = false;
         return left.empty() ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
@@ -138,6 +140,8 @@ VisibleSurface::VisibleSurface(std::span<const Facet> facets, const Panels& pane
       pieces.insert(pieces.end(), left.begin(), left.end());
     }
     pieces_[chunk].shrink_to_fit();
+    boxes_[chunk].reserve(pieces_[chunk].size());
+    for (const MovingPolygon& piece : pieces_[chunk]) boxes_[chunk].push_back(box_of(piece));
   });
 }
 
@@ -157,6 +161,8 @@ void VisibleSurface::seen_through(int facet, const Mirror& mirrors, std::span<co
   }
   const std::span<const MovingPolygon> direct_view = pieces(facet);
   if (direct_view.empty()) return;
+  const auto image_number = static_cast<std::size_t>(image_of_[facet]);
+  const Box* boxes = &boxes_[image_number / kImagesPerChunk][seen_[image_number].first];
   // On the panel's plane, the way from the radar's own aperture to the beam's is affine: q -> origin + q1 first + q2
   // second, heights included.
   const ImagePlane own = image_plane(facets_[facet].normal, facets_[facet].offset, basis_);
@@ -176,8 +182,9 @@ void VisibleSurface::seen_through(int facet, const Mirror& mirrors, std::span<co
     }
   }
   MovingPolygon image;
-  for (const MovingPolygon& piece : direct_view) {
-    if (!overlap(box_of(piece), direct)) continue;
+  for (std::size_t i = 0; i < direct_view.size(); ++i) {
+    const MovingPolygon& piece = direct_view[i];
+    if (!overlap(boxes[i], direct)) continue;
     image.clear();
     for (const Corner& corner : piece) {
       // The corner's point on the panel, and how far it slips in the panel beyond what a body-fixed point moves.

@@ -79,6 +79,7 @@ class VisibleSurface {
   };
   std::vector<Seen> seen_;  // of each image
   std::vector<std::vector<MovingPolygon>> pieces_;
+  std::vector<std::vector<Box>> boxes_;  // of the pieces
 };
 
 }  // namespace seaglint

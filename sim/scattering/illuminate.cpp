@@ -101,8 +101,11 @@ Reached Illumination::light_all(int threads, const std::function<void(std::size_
       chunk_count(), threads,
       [&](std::size_t chunk) {
         Lit lit;
-        legs[chunk] = light(seen().subspan(chunk * size, std::min(size, seen_.size() - chunk * size)), lit);
-        visit(chunk, lit.footprints);
+        const auto panels = seen().subspan(chunk * size, std::min(size, seen_.size() - chunk * size));
+        legs[chunk] = trace_beams(scene(), panels, lit, [&] {
+          visit(chunk, lit.footprints);
+          lit.footprints.clear();
+        });
         arrivals[chunk] = std::move(lit.arrivals);
       },
       stop);
@@ -110,9 +113,13 @@ Reached Illumination::light_all(int threads, const std::function<void(std::size_
           std::accumulate(legs.begin(), legs.end(), std::size_t{0})};
 }
 
-std::size_t Illumination::light(std::span<const int> facets, Lit& lit) const {
+BeamScene Illumination::scene() const {
   const VisibleSurface& visible = seen_from_receiver_ ? *seen_from_receiver_ : lit_;
-  return trace_beams({scatterer_, antennas_, settings_, lit_, visible, surfaces_, min_area_}, facets, lit);
+  return {scatterer_, antennas_, settings_, lit_, visible, surfaces_, min_area_};
+}
+
+std::size_t Illumination::light(std::span<const int> facets, Lit& lit) const {
+  return trace_beams(scene(), facets, lit);
 }
 
 }  // namespace seaglint

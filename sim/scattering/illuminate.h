@@ -39,6 +39,8 @@ struct Lit {
   std::vector<EdgeArrival> arrivals;  // only when the settings ask for edges
 };
 
+struct BeamScene;
+
 // The waves that reached sharp edges, in ascending order of the edges, and the number of legs followed, a beam's way
 // from one mirror to the next.
 struct Reached {
@@ -58,8 +60,8 @@ class Illumination {
   std::span<const int> seen() const { return seen_; }
 
   // Lights everything chunk by chunk of panels, on `threads` threads: visit(chunk, footprints) gets what each chunk
-  // lights, once and from any thread. Chunks do not depend on the number of threads. Throws Interrupted when *stop
-  // becomes true.
+  // lights, panel by panel in order, from one thread or another. Chunks do not depend on the number of threads. Throws
+  // Interrupted when *stop becomes true.
   std::size_t chunk_count() const;
   Reached light_all(int threads, const std::function<void(std::size_t, std::span<const Footprint>)>& visit,
                     const StopFlag* stop = nullptr) const;
@@ -71,6 +73,7 @@ class Illumination {
 
  private:
   std::size_t panels_per_chunk() const;
+  BeamScene scene() const;
 
   const Scatterer& scatterer_;
   AntennaPair antennas_;

@@ -47,8 +47,9 @@ ReturnGrid trace_returns(const Scatterer& scatterer, const AntennaPair& antennas
   const Illumination illumination(scatterer, antennas, settings, threads, band);
   const SplitSettings split_settings{kc, reach + spread_of_directions(scatterer, solver.radar_range_m)};
   const std::size_t chunks = illumination.chunk_count();
-  std::vector<std::vector<ReturnPoint>> points(chunks + 1);  // the last ones are those of the edges
-  std::vector<double> fastest(chunks + 1, 0);
+  const std::size_t all_chunks = chunks + kEdgeChunks;  // the last ones are those of the edges
+  std::vector<std::vector<ReturnPoint>> points(all_chunks);
+  std::vector<double> fastest(all_chunks, 0);
   const auto keep = [&](std::size_t chunk, std::span<Contribution> contributions) {
     if (solver.radar_range_m > 0) bend_wavefront(contributions, antennas, origin, solver.radar_range_m);
     for (const Contribution& c : contributions) {
@@ -68,18 +69,21 @@ ReturnGrid trace_returns(const Scatterer& scatterer, const AntennaPair& antennas
           keep(chunk, contributions);
         }
       });
-  std::vector<Contribution> contributions;
-  for (const EdgeFootprint& footprint : edge_echoes(scatterer, antennas, settings, band, reached.arrivals, threads)) {
-    contributions.clear();
-    split(footprint, split_settings, contributions);
-    keep(chunks, contributions);
-  }
+  edge_echoes(scatterer, antennas, settings, band, reached.arrivals, threads,
+              [&](std::size_t chunk, std::span<const EdgeFootprint> footprints) {
+                std::vector<Contribution> contributions;
+                for (const EdgeFootprint& footprint : footprints) {
+                  contributions.clear();
+                  split(footprint, split_settings, contributions);
+                  keep(chunks + chunk, contributions);
+                }
+              });
   const double u_limit = *std::max_element(fastest.begin(), fastest.end());
   // Four grids, whatever the number of threads, each for every fourth chunk; their sum is taken in order.
   constexpr std::size_t kGrids = 4;
   std::vector<ReturnGrid> grids(kGrids, ReturnGrid(wavenumbers, u_limit, reach));
   parallel_for(kGrids, threads, [&](std::size_t g) {
-    for (std::size_t chunk = g; chunk <= chunks; chunk += kGrids) grids[g].spread(points[chunk]);
+    for (std::size_t chunk = g; chunk < all_chunks; chunk += kGrids) grids[g].spread(points[chunk]);
   });
   ReturnGrid grid = std::move(grids[0]);
   for (std::size_t g = 1; g < kGrids; ++g) grid.add(grids[g]);
@@ -304,11 +308,16 @@ std::vector<std::array<Complex, 4>> scattering_matrices(const Scatterer& scatter
       },
       stop);
   if (legs) *legs += reached.legs;
+  const std::size_t facet_parts = parts.size();
+  parts.resize(facet_parts + kEdgeChunks, Matrices(wavenumbers.size()));
+  edge_echoes(scatterer, antennas, settings, wavenumbers, reached.arrivals, threads,
+              [&](std::size_t chunk, std::span<const EdgeFootprint> footprints) {
+                for (const EdgeFootprint& footprint : footprints) {
+                  for (std::size_t q = 0; q < wavenumbers.size(); ++q)
+                    add(of_edge(footprint, wavenumbers[q]), parts[facet_parts + chunk][q]);
+                }
+              });
   Matrices sum(wavenumbers.size());
-  for (const EdgeFootprint& footprint :
-       edge_echoes(scatterer, antennas, settings, wavenumbers, reached.arrivals, threads)) {
-    for (std::size_t q = 0; q < wavenumbers.size(); ++q) add(of_edge(footprint, wavenumbers[q]), sum[q]);
-  }
   for (const Matrices& part : parts) {
     for (std::size_t q = 0; q < wavenumbers.size(); ++q) add(part[q], sum[q]);
   }
@@ -331,12 +340,14 @@ std::vector<Contribution> view_contributions(const Scatterer& scatterer, const A
         }
       },
       stop);
+  const std::size_t facet_chunks = chunks.size();
+  chunks.resize(facet_chunks + kEdgeChunks);
+  edge_echoes(scatterer, antennas, settings, std::array{split_settings.kc}, reached.arrivals, threads,
+              [&](std::size_t chunk, std::span<const EdgeFootprint> footprints) {
+                for (const EdgeFootprint& footprint : footprints) split(footprint, bent, chunks[facet_chunks + chunk]);
+              });
   std::vector<Contribution> all;
   for (const auto& chunk : chunks) all.insert(all.end(), chunk.begin(), chunk.end());
-  for (const EdgeFootprint& footprint :
-       edge_echoes(scatterer, antennas, settings, std::array{split_settings.kc}, reached.arrivals, threads)) {
-    split(footprint, bent, all);
-  }
   if (settings.range_m > 0) bend_wavefront(all, antennas, Vec3::Zero(), settings.range_m);
   return all;
 }

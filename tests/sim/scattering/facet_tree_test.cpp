@@ -23,8 +23,8 @@ std::vector<int> walked(const Scatterer& scatterer, const Ray& ray, double width
   const Prism prism{{across.h, across.v}, {x - width / 2, y - width / 2}, {x + width / 2, y + width / 2}, ray.direction, ray.direction.dot(ray.origin), ray.direction,
                     Vec3::Zero()};
   std::vector<int> found;
-  scatterer.tree().walk(prism, [&](int facet) {
-    found.push_back(facet);
+  scatterer.tree().walk(prism, [&](const TreePanel& panel) {
+    found.push_back(panel.facet);
     return std::numeric_limits<double>::infinity();
   });
   std::sort(found.begin(), found.end());
