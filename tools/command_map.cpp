@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -12,6 +13,7 @@
 #include "sim/core/error.h"
 #include "sim/scattering/point_response.h"
 #include "tools/command.h"
+#include "tools/map_products.h"
 #include "tools/pipeline.h"
 #include "tools/rv_figure.h"
 
@@ -46,23 +48,55 @@ void print_result(const ReceivedInterval& received, const std::vector<Scattering
     fmt::print("SCR per pulse {:.2f} dB, peak cell {:.2f} dB, extent {:.2f} dB\n", received.scr.per_pulse_db,
                received.scr.peak_cell_db, received.scr.extent_db);
   }
+  if (!std::isnan(received.scr.snr_per_pulse_db)) fmt::print("SNR per pulse {:.2f} dB\n", received.scr.snr_per_pulse_db);
   if (received.map.empty_carriers > 0) fmt::print("carriers without a pulse: {}\n", received.map.empty_carriers);
 }
 
-void show_map(const Scenario& scenario, std::size_t sample, const std::string& file) {
-  const std::size_t samples = SamplePlan(scenario).size();
+struct Arguments : ScenarioArguments {
+  std::size_t sample = 0;
+  std::string output;
+  std::string product = "rv";
+};
+
+// Profiles of single pulses as a heat map over time, dB against the largest value.
+Heatmap profile_figure(const RangeProfiles& profiles, const std::string& title) {
+  const double peak = *std::max_element(profiles.magnitude_m.begin(), profiles.magnitude_m.end());
+  Heatmap figure;
+  figure.title = title;
+  figure.x.label = "range against the reference point (m), positive = farther";
+  figure.y.label = "time in the interval (ms)";
+  figure.colour = {"|HRRP| against the peak (dB)", AxisRange{-40, 0}, false};
+  figure.x_cells = profiles.range_m;
+  for (const double t : profiles.time_s) figure.y_cells.push_back(1e3 * t);
+  for (const double m : profiles.magnitude_m) figure.values.push_back(std::max(-40.0, 20 * std::log10(m / peak)));
+  return figure;
+}
+
+void show_map(const Arguments& arguments) {
+  const Scenario scenario = arguments.read();
+  const std::size_t sample = arguments.sample, samples = SamplePlan(scenario).size();
   if (sample >= samples)
     throw InputError(fmt::format("--sample {}: the scenario has samples 0 to {}", sample, samples - 1));
   const Pipeline pipeline(scenario);
-  const MadeSample made = pipeline.make(sample);
-  const TargetSpec& target = scenario.targets[static_cast<std::size_t>(made.address.target)];
-  const View view = views(scenario.view)[static_cast<std::size_t>(made.address.view)];
-
-  warn_outside(target, direction_to_radar(view), made.received.map);
+  const SampleAddress address = pipeline.plan().address(sample);
+  const TargetSpec& target = scenario.targets[static_cast<std::size_t>(address.target)];
+  const View view = views(scenario.view)[static_cast<std::size_t>(address.view)];
   const std::string title = fmt::format(
       "{}: sample {}, {}, Hs {:g} m, azimuth {:g} deg, elevation {:g} deg", scenario.name, sample, target.name,
-      made.stored.record.significant_wave_height_m, degrees(view.azimuth_rad), degrees(view.elevation_rad));
-  write_figure(rv_figure(made.received.map, made.centres, title), file);
+      sea_states(scenario.sea)[static_cast<std::size_t>(address.sea_state)].significant_wave_height_m,
+      degrees(view.azimuth_rad), degrees(view.elevation_rad));
+  if (arguments.product == "isar" || arguments.product == "hrrp") {
+    const WholeBand band = whole_band(pipeline, sample);
+    if (arguments.product == "isar") {
+      write_figure(rv_figure(band.image, {}, title + ", whole band every pulse"), arguments.output);
+    } else {
+      write_figure(profile_figure(range_profiles(band, scenario.map), title), arguments.output);
+    }
+    return;
+  }
+  const MadeSample made = pipeline.make(sample);
+  warn_outside(target, direction_to_radar(view), made.received.map);
+  write_figure(rv_figure(made.received.map, made.centres, title), arguments.output);
   print_result(made.received, made.centres, made.features);
 }
 
@@ -71,20 +105,22 @@ void show_map(const Scenario& scenario, std::size_t sample, const std::string& f
 void add_map(CLI::App& app, Shell& shell) {
   CLI::App* command =
       app.add_subcommand("map", "Draw one range-velocity map, list its scattering centres and features");
-  struct Arguments : ScenarioArguments {
-    std::size_t sample = 0;
-    std::string output;
-  };
   auto arguments = std::make_shared<Arguments>();
   add_scenario_arguments(*command, *arguments);
   command->add_option("--sample", arguments->sample, "Number of the sample in the scenario's plan")
       ->capture_default_str();
   command->add_option("-o,--output", arguments->output, "Picture, .png or .svg")->required();
+  command
+      ->add_option("--product", arguments->product,
+                   "rv: the map; isar: the target's image, and hrrp: its range profiles, as a radar has them that sends "
+                   "the whole band with every pulse, without clutter and noise")
+      ->check(CLI::IsMember({"rv", "isar", "hrrp"}))
+      ->capture_default_str();
   add_threads_option(*command, shell);
-  command->footer("Example:\n  seaglint map scenarios/points.yaml --sample 0 -o map.png");
-  command->callback([arguments, &shell] {
-    shell.work = [arguments] { show_map(arguments->read(), arguments->sample, arguments->output); };
-  });
+  command->footer(
+      "Example:\n  seaglint map scenarios/points.yaml --sample 0 -o map.png\n"
+      "  seaglint map scenarios/points.yaml --sample 0 --set map.clean=true -o clean.png");
+  command->callback([arguments, &shell] { shell.work = [arguments] { show_map(*arguments); }; });
 }
 
 }  // namespace seaglint

@@ -59,11 +59,14 @@ Pipeline::Pipeline(Scenario scenario)
       views_(views(scenario_.view)),
       targets_(load_targets(scenario_)),
       range_window_m_(range_window_m(scenario_, targets_)) {
-  for (const Target& target : targets_) {
+  for (std::size_t t = 0; t < targets_.size(); ++t) {
+    const Target& target = targets_[t];
+    if (target.shape != t || target.rest_positions.empty()) {
+      scatterers_.push_back(target.rest_positions.empty() ? nullptr : scatterers_[target.shape]);
+      continue;
+    }
     const double crease = radians(target.spec.solver.crease_deg);
-    scatterers_.push_back(target.rest_positions.empty()
-                              ? nullptr
-                              : std::make_unique<const Scatterer>(target.mesh, target.materials, crease));
+    scatterers_.push_back(std::make_shared<const Scatterer>(target.mesh, target.materials, crease));
   }
 }
 
@@ -86,6 +89,17 @@ std::shared_ptr<const Scene> Pipeline::scene(int sea_state, int realisation) con
     slot->scene = std::make_shared<const Scene>(make_scene(scenario_, targets_, sea_state, realisation));
   });
   return slot->scene;
+}
+
+BodyResponse Pipeline::scene_response(std::size_t target, const Scene& scene, const View& view, const SeaState& state,
+                                      const IntervalSampling& sampling) const {
+  BodyResponse sum = target_response(target, scene, view, state, sampling);
+  for (const std::size_t companion : targets_[target].with) {
+    const BodyResponse term = target_response(companion, scene, view, state, sampling);
+    sum.response += term.response;
+    sum.traces += term.traces;
+  }
+  return sum;
 }
 
 BodyResponse Pipeline::target_response(std::size_t target, const Scene& scene, const View& view, const SeaState& state,
@@ -113,23 +127,47 @@ BodyResponse Pipeline::target_response(std::size_t target, const Scene& scene, c
   return sum;
 }
 
+IntervalSampling Pipeline::sampling(const PulseTrain& train, double start_s) const {
+  IntervalSampling sampling = interval_sampling(train, start_s);
+  sampling.sight_rate = Vec3(scenario_.radar.platform.velocity_mps.data()) / (scenario_.radar.range_km * 1e3);
+  return sampling;
+}
+
+ClutterScene Pipeline::clutter_scene(const SampleAddress& at, const Scene& scene) const {
+  // Maps of one sea, view and target see one texture; those of another target do not, as a texture that two labels
+  // shared would tell one from the other.
+  const std::uint64_t seen = static_cast<std::uint64_t>(plan_.group(at)) * views_.size() + static_cast<std::uint64_t>(at.view);
+  return {scenario_.radar,
+          direction_to_radar(views_[static_cast<std::size_t>(at.view)]),
+          total_wave_height(sea_states_[static_cast<std::size_t>(at.sea_state)]),
+          &scene.sea,
+          plan_.start_s(at),
+          seen * scenario_.targets.size() + static_cast<std::uint64_t>(at.target)};
+}
+
+BodyResponse Pipeline::response(std::size_t sample, const PulseTrain& train) const {
+  const SampleAddress at = plan_.address(sample);
+  return scene_response(static_cast<std::size_t>(at.target), *scene(at.sea_state, at.realisation),
+                        views_[static_cast<std::size_t>(at.view)], sea_states_[static_cast<std::size_t>(at.sea_state)],
+                        sampling(train, plan_.start_s(at)));
+}
+
 MadeSample Pipeline::make(std::size_t sample) const {
   MadeSample made;
   made.address = plan_.address(sample);
   const SampleAddress& at = made.address;
-  const View& view = views_[static_cast<std::size_t>(at.view)];
-  const double start_s = plan_.start_s(at);
 
   // Sea and motion are shared by both classes and all views; hop code, clutter and noise are the sample's own.
   const std::shared_ptr<const Scene> moving = scene(at.sea_state, at.realisation);
   made.train = make_pulse_train(scenario_.radar, range_window_m_, scenario_.seed, sample);
-  const SeaState& state = sea_states_[static_cast<std::size_t>(at.sea_state)];
-  const BodyResponse response = target_response(static_cast<std::size_t>(at.target), *moving, view, state,
-                                                interval_sampling(made.train, start_s));
-  const Echo echo = synthesize_echo(made.train, response.response, scenario_.clutter, scenario_.seed, sample);
+  const BodyResponse response = this->response(sample, made.train);
+  const Echo echo = synthesize_echo(made.train, response.response, scenario_.clutter, scenario_.seed, sample,
+                                    clutter_scene(at, *moving));
   made.received = receive(echo, made.train, scenario_.clutter, scenario_.map, scenario_.radar.intra_pulse_motion);
-  made.centres = extract_centres(made.received.echo, made.train, scenario_.map, scenario_.radar.intra_pulse_motion,
+  CleanedMap cleaned = clean_map(made.received.echo, made.train, scenario_.map, scenario_.radar.intra_pulse_motion,
                                  scenario_.features);
+  if (scenario_.map.clean) made.received.map.values = restored_map(cleaned, made.train, scenario_.map).values;
+  made.centres = std::move(cleaned.centres);
   made.features = compute_features(made.centres, scenario_.features);
 
   SampleRecord& record = made.stored.record;
@@ -138,6 +176,7 @@ MadeSample Pipeline::make(std::size_t sample) const {
   record.scr_per_pulse_db = made.received.scr.per_pulse_db;
   record.scr_peak_cell_db = made.received.scr.peak_cell_db;
   record.scr_extent_db = made.received.scr.extent_db;
+  record.snr_per_pulse_db = made.received.scr.snr_per_pulse_db;
   record.mwr = made.features.mwr;
   record.ccf = made.features.ccf;
   record.sigma_r_m = made.features.sigma_r;

@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -39,10 +40,23 @@ class Pipeline {
 
   MadeSample make(std::size_t sample) const;  // sample < plan().size(); throws InputError when the target has no power
 
+  double window_m() const { return range_window_m_; }  // the range window of all its maps
+
+  // H of a sample's target with its companions, where `train` asks for it.
+  BodyResponse response(std::size_t sample, const PulseTrain& train) const;
+
+  // What the clutter of a sample follows; refers to the scene.
+  ClutterScene clutter_scene(const SampleAddress& at, const Scene& scene) const;
+
   // The scene of a realisation; the last few are kept.
   std::shared_ptr<const Scene> scene(int sea_state, int realisation) const;
 
  private:
+  // H of a target with its companions.
+  BodyResponse scene_response(std::size_t target, const Scene& scene, const View& view, const SeaState& state,
+                              const IntervalSampling& sampling) const;
+  // Where the interval that starts at start_s samples the response, with the radar's own motion.
+  IntervalSampling sampling(const PulseTrain& train, double start_s) const;
   // H of a target seen from `view` over an interval: the sum over its bodies, or its ideal points.
   BodyResponse target_response(std::size_t target, const Scene& scene, const View& view, const SeaState& state,
                                const IntervalSampling& sampling) const;
@@ -52,7 +66,7 @@ class Pipeline {
   std::vector<SeaState> sea_states_;
   std::vector<View> views_;
   std::vector<Target> targets_;
-  std::vector<std::unique_ptr<const Scatterer>> scatterers_;  // one per target, null for points
+  std::vector<std::shared_ptr<const Scatterer>> scatterers_;  // one per target, null for points
   double range_window_m_ = 0;
 
   struct SceneSlot;

@@ -80,27 +80,66 @@ Body load_body(const Scenario& scenario, const TargetSpec& spec, const TriangleM
   }
 }
 
+namespace {
+
+Target load_target(const Scenario& scenario, const TargetSpec& spec) {
+  Target target;
+  target.spec = spec;
+  if (spec.mesh.empty()) return target;
+  target.mesh = repaired(read_mesh(find_mesh(scenario, spec), spec.unit));
+  check_scene_range(spec, target.mesh);
+  target.materials = load_materials(scenario, spec, target.mesh);
+  target.body = load_body(scenario, spec, target.mesh);
+  // The radar's image looks at the hull from below.
+  if (scenario.sea_reflection.enabled)
+    put_in_water(target.mesh, target.materials, -rest_position(spec.motion, 0, 0).z());
+  return target;
+}
+
+// Its bodies at rest, the first of them numbered `bodies`, which is raised by their number.
+void place_bodies(Target& target, std::size_t& bodies) {
+  target.first_body = bodies;
+  if (target.spec.mesh.empty()) return;
+  for (const Vec2& place : layout_places(target.spec))
+    target.rest_positions.push_back(rest_position(target.spec.motion, place.x(), place.y()));
+  bodies += target.rest_positions.size();
+}
+
+// Another target where a companion of it stands.
+Target moved(const Target& original, const CompanionSpec& companion) {
+  Target target = original;
+  target.spec.name += " (companion)";
+  target.rest_positions.clear();
+  for (PointSpec& point : target.spec.points) {
+    point.position_m[0] += companion.x_m;
+    point.position_m[1] += companion.y_m;
+  }
+  LineLayout line = target.spec.line.value_or(LineLayout{});
+  line.centre_x_m += companion.x_m;
+  line.centre_y_m += companion.y_m;
+  target.spec.line = line;
+  return target;
+}
+
+}  // namespace
+
 std::vector<Target> load_targets(const Scenario& scenario) {
   std::vector<Target> targets;
   std::size_t bodies = 0;
   for (const TargetSpec& spec : scenario.targets) {
-    Target target;
-    target.spec = spec;
-    target.first_body = bodies;
-    if (!spec.mesh.empty()) {
-      target.mesh = repaired(read_mesh(find_mesh(scenario, spec), spec.unit));
-      check_scene_range(spec, target.mesh);
-      target.materials = load_materials(scenario, spec, target.mesh);
-      target.body = load_body(scenario, spec, target.mesh);
-      // The radar's image looks at the hull from below.
-      if (scenario.sea_reflection.enabled)
-        put_in_water(target.mesh, target.materials, -rest_position(spec.motion, 0, 0).z());
-      for (const Vec2& place : layout_places(spec)) {
-        target.rest_positions.push_back(rest_position(spec.motion, place.x(), place.y()));
-      }
-      bodies += target.rest_positions.size();
+    targets.push_back(load_target(scenario, spec));
+    targets.back().shape = targets.size() - 1;
+    place_bodies(targets.back(), bodies);
+  }
+  for (std::size_t t = 0; t < scenario.targets.size(); ++t) {
+    for (const CompanionSpec& companion : scenario.targets[t].with) {
+      const auto named = std::find_if(scenario.targets.begin(), scenario.targets.end(),
+                                      [&](const TargetSpec& spec) { return spec.name == companion.target; });
+      Target target = moved(targets[static_cast<std::size_t>(named - scenario.targets.begin())], companion);
+      place_bodies(target, bodies);
+      targets[t].with.push_back(targets.size());
+      targets.push_back(std::move(target));
     }
-    targets.push_back(std::move(target));
   }
   return targets;
 }

@@ -30,6 +30,7 @@ std::span<const SampleColumn> sample_columns() {
       {"scr_per_pulse_db", "dB", "target to clutter, mean over pulses and frequencies", &R::scr_per_pulse_db},
       {"scr_peak_cell_db", "dB", "target's largest cell to mean clutter cell", &R::scr_peak_cell_db},
       {"scr_extent_db", "dB", "target to clutter inside the target's own box", &R::scr_extent_db},
+      {"snr_per_pulse_db", "dB", "target to receiver noise, mean over pulses and frequencies", &R::snr_per_pulse_db},
       {"peak_m", "m", "largest |RV| of the map", &R::peak_m},
       {"energy_m2", "m2", "sum of |RV|^2 over the map", &R::energy_m2},
       {"mwr", "(m/s)^2", "mean weighted residual of the range-velocity line", &R::mwr},

@@ -38,6 +38,7 @@ struct SampleRecord {
   double scr_per_pulse_db = 0;
   double scr_peak_cell_db = 0;
   double scr_extent_db = 0;
+  double snr_per_pulse_db = 0;
   double peak_m = 0;
   double energy_m2 = 0;
   double mwr = 0;

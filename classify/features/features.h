@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "classify/features/residual_echo.h"
 #include "radar/rvmap/rv_map.h"
 #include "radar/waveform/pulse_train.h"
 #include "sim/scenario/learning_spec.h"
@@ -31,9 +32,22 @@ struct FeatureVector {
 // with the point response of the map's actual code, holes and tapers included (classify/features/README.md). A centre
 // lies inside the map, within dynamic_range_db of the strongest, above the floor of the final residual by the factor
 // that noise passes in one map out of a hundred, and more than a lobe's width away from every stronger one.
+struct CleanedMap {
+  std::vector<ScatteringCentre> centres;  // strongest first
+  std::vector<PointComponent> removed;    // what was taken out of the echo, in that order
+  RvMap residual;                         // exact map of what is left
+};
+CleanedMap clean_map(std::span<const Complex> echo, const PulseTrain& train, const MapSpec& map_spec,
+                     bool intra_pulse_motion, const FeatureSpec& spec);
+
+// Its centres alone.
 std::vector<ScatteringCentre> extract_centres(std::span<const Complex> echo, const PulseTrain& train,
                                               const MapSpec& map_spec, bool intra_pulse_motion,
                                               const FeatureSpec& spec);
+
+// The map as a radar would see it that sends the whole band with every pulse: what was removed comes back with the
+// lobes of the tapers alone, without the hop code's pedestal and without holes.
+RvMap restored_map(const CleanedMap& cleaned, const PulseTrain& train, const MapSpec& map_spec);
 
 // Method, section 4. With N_sc centres, weights w_i = N_sc A_i / sum A, and the least-squares line v^ = a r + b
 // (unweighted unless spec.weighted_fit; a = 0 for centres at one range):

@@ -118,9 +118,8 @@ std::vector<PointComponent> merge(std::vector<PointComponent> components, double
 
 }  // namespace
 
-std::vector<ScatteringCentre> extract_centres(std::span<const Complex> echo, const PulseTrain& train,
-                                              const MapSpec& map_spec, bool intra_pulse_motion,
-                                              const FeatureSpec& spec) {
+CleanedMap clean_map(std::span<const Complex> echo, const PulseTrain& train, const MapSpec& map_spec,
+                     bool intra_pulse_motion, const FeatureSpec& spec) {
   const double cell_r = train.range_resolution_m(), cell_v = train.velocity_resolution_mps();
   const double lobe_r = cell_r * lobe_width(map_spec.range_taper),
                lobe_v = cell_v * lobe_width(map_spec.velocity_taper);
@@ -179,7 +178,13 @@ std::vector<ScatteringCentre> extract_centres(std::span<const Complex> echo, con
     if (centres.size() >= static_cast<std::size_t>(spec.max_centres)) break;
     centres.push_back({point.range_m, point.velocity_mps, std::sqrt(power)});
   }
-  return centres;
+  return {std::move(centres), std::move(components), std::move(map)};
+}
+
+std::vector<ScatteringCentre> extract_centres(std::span<const Complex> echo, const PulseTrain& train,
+                                              const MapSpec& map_spec, bool intra_pulse_motion,
+                                              const FeatureSpec& spec) {
+  return clean_map(echo, train, map_spec, intra_pulse_motion, spec).centres;
 }
 
 }  // namespace seaglint

@@ -5,7 +5,10 @@
 
 #include <cmath>
 
+#include "radar/echo/receiver_noise.h"
 #include "radar/echo/sea_clutter.h"
+#include "radar/echo/sea_reflectivity.h"
+#include "sim/core/constants.h"
 #include "sim/core/error.h"
 #include "sim/core/random.h"
 
@@ -20,11 +23,71 @@ double mean_power(std::span<const Complex> values) {
 std::vector<Complex> Echo::total() const {
   std::vector<Complex> sum = target;
   for (std::size_t i = 0; i < clutter.size(); ++i) sum[i] += clutter[i];
+  for (std::size_t i = 0; i < noise.size(); ++i) sum[i] += noise[i];
   return sum;
 }
 
+namespace {
+
+// The sea as it answers before any scaling: in m^2 per frequency with level nrl, of mean power 1 otherwise.
+std::vector<Complex> clutter_echo(const PulseTrain& train, const ClutterSpec& clutter, const ClutterScene& scene,
+                                  std::uint64_t seed, std::uint64_t index) {
+  double power = 1;
+  if (clutter.level == ClutterLevel::kNrl) {
+    const double grazing = std::asin(scene.r_hat.z());
+    const double state = clutter.sea_state.value_or(douglas_sea_state(scene.significant_wave_height_m));
+    const double sigma0 = std::pow(
+        10, nrl_reflectivity_db(scene.radar.polarisation, grazing, train.band_centre_hz(), state) / 10);
+    const double window_m = train.unambiguous_range_m() / train.refinement;
+    power = sigma0 * clutter_area_m2(scene.radar, grazing, window_m) / (4 * kPi);
+  }
+  std::vector<Complex> echo = clutter_response(train, clutter, scene, seed, index);
+  for (std::size_t i = 0; i < echo.size(); ++i)
+    echo[i] *= std::sqrt(power) * train.chirp_spectrum[i % train.frequencies()];
+  return echo;
+}
+
+// White and complex Gaussian over the band, mean power 1.
+std::vector<Complex> white_noise(std::size_t size, std::uint64_t seed, std::uint64_t index) {
+  Random random({seed, Stream::kNoise, index});
+  std::vector<Complex> noise;
+  noise.reserve(size);
+  for (std::size_t i = 0; i < size; ++i) {
+    const double re = random.normal();
+    noise.push_back(Complex(re, random.normal()) * std::sqrt(0.5));
+  }
+  return noise;
+}
+
+// The phase of the radar's own way from the reference point, where the receiver does not take it out: range R(t) - R(0),
+// R(t) = |R_0 r^ + u t|.
+void add_own_motion(std::vector<Complex>& echo, const PulseTrain& train, const ClutterScene& scene) {
+  const PlatformSpec& platform = scene.radar.platform;
+  const Vec3 velocity(platform.velocity_mps.data());
+  if (platform.compensated || velocity.isZero(0)) return;
+  const double start_m = scene.radar.range_km * 1e3;
+  for (std::size_t n = 0; n < train.pulses(); ++n) {
+    for (std::size_t b = 0; b < train.frequencies(); ++b) {
+      const double t = train.time_s[n] + (train.intra_pulse_motion ? train.baseband_hz[b] / train.chirp_rate_hz_s : 0);
+      const double along = scene.r_hat.dot(velocity) * t, way_2 = velocity.squaredNorm() * t * t;
+      const double now_m = std::sqrt(start_m * start_m + 2 * start_m * along + way_2);
+      const double farther_m = (2 * start_m * along + way_2) / (now_m + start_m);
+      echo[n * train.frequencies() + b] *=
+          std::polar(1.0, -4 * kPi * (train.carrier_hz[n] + train.baseband_hz[b]) * farther_m / kSpeedOfLight);
+    }
+  }
+}
+
+void scale(std::vector<Complex>& values, double power_gain) {
+  for (Complex& value : values) value *= std::sqrt(power_gain);
+}
+
+double ratio(double db) { return std::pow(10, db / 10); }
+
+}  // namespace
+
 Echo synthesize_echo(const PulseTrain& train, const FrequencyResponse& response, const ClutterSpec& clutter,
-                     std::uint64_t seed, std::uint64_t index) {
+                     std::uint64_t seed, std::uint64_t index, const ClutterScene& scene) {
   const std::size_t frequencies = train.frequencies();
   SEAGLINT_CHECK(response.values.size() == train.pulses() * frequencies,
                  fmt::format("response of {} values for {} pulses x {} frequencies", response.values.size(),
@@ -41,19 +104,27 @@ Echo synthesize_echo(const PulseTrain& train, const FrequencyResponse& response,
         "the target's echo has no power (mean {} m^2): nothing faces the radar, or the polarisation is not returned",
         target_power));
   }
-  if (!clutter.enabled) return echo;
 
-  // Clutter passes through the same transmit waveform; noise is white over the band.
-  echo.clutter = clutter_response(train, clutter, seed, index);
-  for (std::size_t i = 0; i < echo.clutter.size(); ++i) echo.clutter[i] *= train.chirp_spectrum[i % frequencies];
-  const double noise_power = mean_power(train.chirp_spectrum) * std::pow(10, clutter.noise_to_clutter_db / 10);
-  Random random({seed, Stream::kNoise, index});
-  for (Complex& value : echo.clutter) {
-    const double re = random.normal();
-    value += Complex(re, random.normal()) * std::sqrt(noise_power / 2);
+  add_own_motion(echo.target, train, scene);
+  if (clutter.enabled) {
+    echo.clutter = clutter_echo(train, clutter, scene, seed, index);
+    add_own_motion(echo.clutter, train, scene);
+    if (clutter.level == ClutterLevel::kScr)
+      scale(echo.clutter, target_power / mean_power(echo.clutter) / ratio(clutter.scr_db));
   }
-  const double scale = std::sqrt(target_power / mean_power(echo.clutter) * std::pow(10, -clutter.scr_db / 10));
-  for (Complex& value : echo.clutter) value *= scale;
+  if (clutter.noise_level == NoiseLevel::kToClutter && echo.clutter.empty()) return echo;
+  echo.noise = white_noise(echo.target.size(), seed, index);
+  switch (clutter.noise_level) {
+    case NoiseLevel::kToClutter:
+      scale(echo.noise, mean_power(echo.clutter) / mean_power(echo.noise) * ratio(clutter.noise_to_clutter_db));
+      break;
+    case NoiseLevel::kSnr:
+      scale(echo.noise, target_power / mean_power(echo.noise) / ratio(clutter.snr_db));
+      break;
+    case NoiseLevel::kThermal:
+      scale(echo.noise, thermal_noise_m2(train, scene.radar));
+      break;
+  }
   return echo;
 }
 

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "radar/echo/clutter_motion.h"
 #include "radar/waveform/pulse_train.h"
 #include "sim/scattering/frequency_response.h"
 #include "sim/scenario/radar_spec.h"
@@ -17,26 +18,30 @@ struct Echo {
   int pulses = 0;
   int frequencies = 0;
   std::vector<Complex> target;   // P(f) H, [pulse][frequency]
-  std::vector<Complex> clutter;  // clutter and noise together; empty when switched off
+  std::vector<Complex> clutter;  // P(f) H of the sea; empty when switched off
+  std::vector<Complex> noise;    // of the receiver; empty when it is relative to clutter that is switched off
 
   std::vector<Complex> total() const;  // what the radar receives
 };
 
-// Levels relative to the target, all measured after generation (radar/echo/README.md); NaN when there is no clutter.
+// Levels relative to the target, all measured after generation (radar/echo/README.md); NaN when there is no clutter, or
+// no noise.
 struct ScrMeasured {
   double per_pulse_db = 0;
   double peak_cell_db = 0;
   double extent_db = 0;
+  double snr_per_pulse_db = 0;
 };
 
 // Mean of |x|^2; 0 without values.
 double mean_power(std::span<const Complex> values);
 
-// The target's echo with sea clutter and noise, scaled so that the per-pulse ratio of mean |target|^2 to mean |clutter
-// + noise|^2 is scr_db exactly, whatever the definition: the other two need maps (radar/rvmap/scr.h scales on from
-// here). The response is the one asked for by interval_sampling(train, ...). Streams kClutter and kNoise of (seed,
-// index). Throws InputError when the target has no power.
+// The target's echo with sea clutter and noise. Where the level is a ratio, the clutter is scaled so that mean
+// |target|^2 over mean |clutter|^2 is scr_db exactly, per pulse, whatever the definition: the other two need maps
+// (radar/rvmap/scr.h scales on from here); where it is the sea's own, its mean power is sigma0 A / (4 pi), A the area
+// of the range window. The response is the one asked for by interval_sampling(train, ...). Streams kClutter,
+// kClutterPlace and kNoise of (seed, index). Throws InputError when the target has no power.
 Echo synthesize_echo(const PulseTrain& train, const FrequencyResponse& response, const ClutterSpec& clutter,
-                     std::uint64_t seed, std::uint64_t index);
+                     std::uint64_t seed, std::uint64_t index, const ClutterScene& scene = {});
 
 }  // namespace seaglint

@@ -27,6 +27,23 @@ constexpr double kKernelReach = 3.5;
 // Pulses further apart than this many 1/w are independent to 4e-6; faster Doppler spreads change nothing any more.
 constexpr double kIndependence = 5;
 
+// The nodes that a moment x (in 1/w) needs, from number `first` on, with weights whose squares add up to 1.
+struct Kernel {
+  double first = 0;
+  std::vector<double> weight;
+};
+
+Kernel kernel_at(double x) {
+  Kernel kernel{std::ceil((x - kKernelReach) / kNodeSpacing), {}};
+  double power = 0;
+  for (double q = kernel.first; q <= std::floor((x + kKernelReach) / kNodeSpacing); ++q) {
+    kernel.weight.push_back(std::exp(-(x - q * kNodeSpacing) * (x - q * kNodeSpacing)));
+    power += kernel.weight.back() * kernel.weight.back();
+  }
+  for (double& w : kernel.weight) w /= std::sqrt(power);
+  return kernel;
+}
+
 Complex complex_normal(Random& random) {
   const double re = random.normal();
   return Complex(re, random.normal()) * std::sqrt(0.5);
@@ -40,29 +57,20 @@ class Speckle {
 
   // Values at time_s >= 0, ascending from call to call.
   void at(double time_s, Complex* values) {
-    const double x = time_s * rate_;
-    const double from = std::ceil((x - kKernelReach) / kNodeSpacing);
-    const double to = std::floor((x + kKernelReach) / kNodeSpacing);
-    while (!nodes_.empty() && first_ < from) {
+    const Kernel kernel = kernel_at(time_s * rate_);
+    while (!nodes_.empty() && first_ < kernel.first) {
       nodes_.pop_front();
       ++first_;
     }
-    first_ = std::max(first_, from);
-    while (first_ + static_cast<double>(nodes_.size()) <= to) {
+    first_ = std::max(first_, kernel.first);
+    while (nodes_.size() < kernel.weight.size()) {
       std::vector<Complex> node(scatterers_);
       for (Complex& value : node) value = complex_normal(random_);
       nodes_.push_back(std::move(node));
     }
-    std::vector<double> weight;
-    double power = 0;
-    for (double q = from; q <= to; ++q) {
-      weight.push_back(std::exp(-(x - q * kNodeSpacing) * (x - q * kNodeSpacing)));
-      power += weight.back() * weight.back();
-    }
     std::fill(values, values + scatterers_, Complex{});
-    for (std::size_t i = 0; i < weight.size(); ++i) {
-      const double w = weight[i] / std::sqrt(power);
-      for (int k = 0; k < scatterers_; ++k) values[k] += w * nodes_[i][k];
+    for (std::size_t i = 0; i < kernel.weight.size(); ++i) {
+      for (int k = 0; k < scatterers_; ++k) values[k] += kernel.weight[i] * nodes_[i][k];
     }
   }
 
@@ -76,9 +84,18 @@ class Speckle {
 
 }  // namespace
 
-std::vector<double> sea_texture(int cells, double shape, double correlation_cells, Random& random) {
+std::vector<double> sea_texture(int cells, double correlation_cells, const ClutterSpec& spec, double time_s,
+                                std::uint64_t seed, std::uint64_t key) {
+  // White on the ring, correlated in time: nodes of their own keys, so that any time can be asked for alone. Numbers of
+  // nodes before t = 0 are negative.
+  const std::uint64_t own_seed = Random({seed, Stream::kTexture, key}).bits();
+  const Kernel in_time = kernel_at(time_s / spec.texture_time_s);
   std::vector<double> white(cells);
-  for (double& value : white) value = random.normal();
+  for (std::size_t i = 0; i < in_time.weight.size(); ++i) {
+    const auto node = static_cast<std::int64_t>(in_time.first) + static_cast<std::int64_t>(i);
+    Random random({own_seed, Stream::kTexture, static_cast<std::uint64_t>(node)});
+    for (double& value : white) value += in_time.weight[i] * random.normal();
+  }
   // The kernel e^{-d^2/l^2} folded onto the ring.
   const int reach = static_cast<int>(std::ceil(kKernelReach * correlation_cells));
   std::vector<double> kernel(std::min(cells, 2 * reach + 1));
@@ -92,38 +109,78 @@ std::vector<double> sea_texture(int cells, double shape, double correlation_cell
   for (int k = 0; k < cells; ++k) {
     double sum = 0;
     for (std::size_t i = 0; i < kernel.size(); ++i) sum += kernel[i] * white[(k + i) % cells];
-    texture[k] = gamma_texture(shape, sum / std::sqrt(power));
+    texture[k] = gamma_texture(spec.texture_shape, sum / std::sqrt(power));
   }
   return texture;
 }
 
-std::vector<Complex> clutter_response(const PulseTrain& train, const ClutterSpec& spec, std::uint64_t seed,
-                                      std::uint64_t index) {
-  Random random({seed, Stream::kClutter, index});
-  const int scatterers = kScatterersPerCell * train.band_bins();
-  const std::vector<double> texture =
-      sea_texture(scatterers, spec.texture_shape, kScatterersPerCell * kTextureCells, random);
+namespace {
 
-  // Doppler f_D = -2 v / lambda, so a velocity spread s gives the correlation e^{-(4 pi s tau / lambda)^2 / 2}.
+// Scatterer k of K lies in place k of the window, or k - K: on the half-window on either side of the reference point.
+int place_of(int k, int scatterers) { return k < (scatterers + 1) / 2 ? k : k - scatterers; }
+
+std::vector<double> scatterer_ranges(double window_m, int scatterers) {
+  std::vector<double> range_m;
+  for (int k = 0; k < scatterers; ++k) range_m.push_back(place_of(k, scatterers) * window_m / scatterers);
+  return range_m;
+}
+
+}  // namespace
+
+std::vector<Complex> clutter_response(const PulseTrain& train, const ClutterSpec& spec, const ClutterScene& scene,
+                                      std::uint64_t seed, std::uint64_t index) {
+  Random random({seed, Stream::kClutter, index});
+  const int scatterers = kScatterersPerCell * train.band_bins() / train.refinement;
+  const double window_m = train.unambiguous_range_m() / train.refinement;
+  const std::vector<double> texture = sea_texture(scatterers, kScatterersPerCell * kTextureCells, spec, scene.start_s,
+                                                  seed, scene.texture_key);
+
+  // What the waves add to the given velocity.
   const double wavelength = kSpeedOfLight / train.band_centre_hz();
   const double duration = std::max(train.time_s.back(), train.pri_s);
-  const double rate =
-      std::clamp(4 * kPi * spec.doppler_spread_mps / wavelength, 1e-6 / duration, kIndependence / train.pri_s);
+  double mean_mps = spec.doppler_mean_mps, spread_mps = spec.doppler_spread_mps;
+  spread_mps = std::hypot(spread_mps, platform_spread_mps(scene));
+  FloatingScatterers floating;
+  if (spec.doppler != ClutterDoppler::kGiven) {
+    const VelocityMoments sea = sea_velocity(spec, scene, wavelength);
+    mean_mps += sea.mean_mps;
+    if (spec.doppler == ClutterDoppler::kSea) spread_mps = std::hypot(spread_mps, sea.spread_mps);
+    if (spec.doppler == ClutterDoppler::kWaveField)
+      floating = floating_scatterers(scene, scatterer_ranges(window_m, scatterers), duration, seed, index);
+  }
+
+  // Doppler f_D = -2 v / lambda, so a velocity spread s gives the correlation e^{-(4 pi s tau / lambda)^2 / 2}.
+  const double rate = std::clamp(4 * kPi * spread_mps / wavelength, 1e-6 / duration, kIndependence / train.pri_s);
   Speckle speckle(scatterers, rate, random);
 
   // Scatterer k of K lies at range k W / K of the window W = c/(2 step): at frequency i step its phase -4 pi f R / c is
-  // -2 pi i k / K, and a forward transform sums all of them. The first frequency's phase is part of the speckle.
-  FourierBatch transform(scatterers, 1, Fourier::kForward);
+  // -2 pi i k / K, and a forward transform sums all of them. The first frequency's phase is part of the speckle. On a
+  // grid m times finer the transform is m times longer, and (m - 1)/2 steps come before the first coarse frequency.
+  const int length = scatterers * train.refinement;
+  std::vector<Complex> first(scatterers);
+  for (int k = 0; k < scatterers; ++k)
+    first[k] = std::sqrt(texture[k] / scatterers) *
+               std::polar(1.0, kPi * place_of(k, scatterers) * (train.refinement - 1) / length);
+  FourierBatch transform(length, 1, Fourier::kForward);
+  std::vector<Complex> values(scatterers);
   std::vector<Complex> response;
   response.reserve(train.pulses() * train.frequencies());
   for (std::size_t n = 0; n < train.pulses(); ++n) {
+    const double t = train.time_s[n];
+    speckle.at(t, values.data());
+    for (int k = 0; k < scatterers; ++k) values[k] *= first[k];
+    // A scatterer on the waves has moved, seen at the pulse's own carrier.
+    for (std::size_t k = 0; k < floating.velocity_mps.size(); ++k) {
+      const double moved_m = t * (floating.velocity_mps[k] + 0.5 * t * floating.acceleration_mps2[k]);
+      values[k] *= std::polar(1.0, -4 * kPi * train.carrier_hz[n] * moved_m / kSpeedOfLight);
+    }
     Complex* row = transform.row(0);
-    speckle.at(train.time_s[n], row);
-    for (int k = 0; k < scatterers; ++k) row[k] *= std::sqrt(texture[k] / scatterers);
+    std::fill(row, row + length, Complex{});
+    for (int k = 0; k < scatterers; ++k) row[(place_of(k, scatterers) + length) % length] = values[k];
     transform.execute();
     for (std::size_t b = 0; b < train.frequencies(); ++b) {
       const double sweep_s = train.intra_pulse_motion ? train.baseband_hz[b] / train.chirp_rate_hz_s : 0;
-      const double range_m = spec.doppler_mean_mps * (train.time_s[n] + sweep_s);
+      const double range_m = mean_mps * (t + sweep_s);
       const double frequency = train.carrier_hz[n] + train.baseband_hz[b];
       response.push_back(row[train.code[n] * train.bins_per_hop + b] *
                          std::polar(1.0, -4 * kPi * frequency * range_m / kSpeedOfLight));

@@ -6,21 +6,24 @@
 #include <cstdint>
 #include <vector>
 
+#include "radar/echo/clutter_motion.h"
 #include "radar/waveform/pulse_train.h"
 #include "sim/core/random.h"
 #include "sim/scenario/radar_spec.h"
 
 namespace seaglint {
 
-// Texture g(r) of mean 1 on `cells` points of a ring, gamma distributed with the given shape; its Gaussian generator is
-// correlated as exp(-d^2 / (2 l^2)), d and l in cells.
-
-std::vector<double> sea_texture(int cells, double shape, double correlation_cells, Random& random);
+// Texture of mean 1 on `cells` points of a ring at one time, gamma distributed with spec.texture_shape. Its Gaussian
+// generator is correlated as e^{-d^2 / (2 l^2)} along the ring, d and l in cells, and as e^{-(t / texture_time_s)^2 / 2}
+// between times of one key (stream kTexture).
+std::vector<double> sea_texture(int cells, double correlation_cells, const ClutterSpec& spec, double time_s,
+                                std::uint64_t seed, std::uint64_t key);
 
 // H of the clutter at the frequencies of every pulse, [pulse][frequency], mean power 1 over all realisations. The
-// scatterers fill the whole unambiguous range window and are the same ones at every carrier. Stream kClutter of (seed,
-// index).
-std::vector<Complex> clutter_response(const PulseTrain& train, const ClutterSpec& spec, std::uint64_t seed,
-                                      std::uint64_t index);
+// scatterers fill the whole unambiguous range window of the map and are the same ones at every carrier and on every
+// refinement of the frequency grid; their velocities are those
+// that spec.doppler asks for. Speckle: stream kClutter of (seed, index); texture: scene.texture_key.
+std::vector<Complex> clutter_response(const PulseTrain& train, const ClutterSpec& spec, const ClutterScene& scene,
+                                      std::uint64_t seed, std::uint64_t index);
 
 }  // namespace seaglint

@@ -51,36 +51,41 @@ MapBox target_box(const RvMap& target) {
 
 ReceivedInterval receive(const Echo& echo, const PulseTrain& train, const ClutterSpec& clutter, const MapSpec& spec,
                          bool intra_pulse_motion) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   ReceivedInterval received;
-  received.map = form_rv_map(echo.target, train, spec, intra_pulse_motion);
-  if (echo.clutter.empty()) {
-    received.echo = echo.target;
-    received.scr = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN(),
-                    std::numeric_limits<double>::quiet_NaN()};
-    return received;
-  }
-  const RvMap clutter_map = form_rv_map(echo.clutter, train, spec, intra_pulse_motion);
-  const double clutter_cell = mean_power(clutter_map.values);
-  const double target_peak = largest_power(received.map);
-  if (!(target_peak > 0 && clutter_cell > 0)) {
-    throw InputError(
-        fmt::format("map: no power in the map's window (target {} m^2, clutter {} m^2)", target_peak, clutter_cell));
-  }
-  received.scr.per_pulse_db = decibel(mean_power(echo.target) / mean_power(echo.clutter));
-  received.scr.peak_cell_db = decibel(target_peak / clutter_cell);
-  received.scr.extent_db = decibel(box_power(received.map, target_box(received.map)) / clutter_cell);
-
-  const double measured = clutter.scr_definition == ScrDefinition::kPerPulse   ? received.scr.per_pulse_db
-                          : clutter.scr_definition == ScrDefinition::kPeakCell ? received.scr.peak_cell_db
-                                                                               : received.scr.extent_db;
-  const double gain_db = measured - clutter.scr_db;
-  received.scr.per_pulse_db -= gain_db;
-  received.scr.peak_cell_db -= gain_db;
-  received.scr.extent_db -= gain_db;
-  const double gain = std::pow(10, gain_db / 20);
   received.echo = echo.target;
-  for (std::size_t i = 0; i < received.echo.size(); ++i) received.echo[i] += gain * echo.clutter[i];
-  for (std::size_t i = 0; i < received.map.values.size(); ++i) received.map.values[i] += gain * clutter_map.values[i];
+  received.map = form_rv_map(echo.target, train, spec, intra_pulse_motion);
+  received.scr = {kNone, kNone, kNone, kNone};
+  const auto add = [&](const std::vector<Complex>& part, const RvMap& map, double gain) {
+    for (std::size_t i = 0; i < part.size(); ++i) received.echo[i] += gain * part[i];
+    for (std::size_t i = 0; i < map.values.size(); ++i) received.map.values[i] += gain * map.values[i];
+  };
+
+  double gain_db = 0;
+  if (!echo.clutter.empty()) {
+    const RvMap clutter_map = form_rv_map(echo.clutter, train, spec, intra_pulse_motion);
+    const double clutter_cell = mean_power(clutter_map.values);
+    const double target_peak = largest_power(received.map);
+    if (!(target_peak > 0 && clutter_cell > 0)) {
+      throw InputError(
+          fmt::format("map: no power in the map's window (target {} m^2, clutter {} m^2)", target_peak, clutter_cell));
+    }
+    ScrMeasured& scr = received.scr;
+    scr.per_pulse_db = decibel(mean_power(echo.target) / mean_power(echo.clutter));
+    scr.peak_cell_db = decibel(target_peak / clutter_cell);
+    scr.extent_db = decibel(box_power(received.map, target_box(received.map)) / clutter_cell);
+    const double measured = clutter.scr_definition == ScrDefinition::kPerPulse   ? scr.per_pulse_db
+                            : clutter.scr_definition == ScrDefinition::kPeakCell ? scr.peak_cell_db
+                                                                                 : scr.extent_db;
+    if (clutter.level == ClutterLevel::kScr) gain_db = measured - clutter.scr_db;
+    for (double* ratio : {&scr.per_pulse_db, &scr.peak_cell_db, &scr.extent_db}) *ratio -= gain_db;
+    add(echo.clutter, clutter_map, std::pow(10, gain_db / 20));
+  }
+  if (!echo.noise.empty()) {
+    const double noise_db = clutter.noise_level == NoiseLevel::kToClutter ? gain_db : 0;
+    received.scr.snr_per_pulse_db = decibel(mean_power(echo.target) / mean_power(echo.noise)) - noise_db;
+    add(echo.noise, form_rv_map(echo.noise, train, spec, intra_pulse_motion), std::pow(10, noise_db / 20));
+  }
   return received;
 }
 

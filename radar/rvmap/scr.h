@@ -19,15 +19,16 @@ MapBox target_box(const RvMap& target);
 struct ReceivedInterval {
   std::vector<Complex> echo;  // target + clutter + noise, [pulse][frequency]
   RvMap map;                  // of that echo
-  ScrMeasured scr;            // NaN without clutter
+  ScrMeasured scr;
 };
 
-// Scales the clutter so that the ratio named by clutter.scr_definition is scr_db exactly in this map, and adds it to
-// the target:
+// Adds everything up and measures the ratio of target and clutter in its three meanings, and of target and noise per
+// pulse. Where clutter.level is scr, the clutter is first scaled so that the ratio named by clutter.scr_definition is
+// scr_db exactly in this map, with the noise where that is relative to it:
 //   per_pulse  mean |Y_target|^2 over mean |Y_clutter|^2, all pulses and in-band frequencies
 //   peak_cell  largest |RV|^2 of the target over the mean |RV|^2 of the clutter's map
 //   extent     mean |RV|^2 of the target inside target_box over the mean |RV|^2 of the clutter's map
-// Clutter stands for clutter and noise together. Throws InputError when the map holds nothing of the target.
+// Throws InputError when the map holds nothing of the target, or nothing of the clutter.
 ReceivedInterval receive(const Echo& echo, const PulseTrain& train, const ClutterSpec& clutter, const MapSpec& spec,
                          bool intra_pulse_motion);
 

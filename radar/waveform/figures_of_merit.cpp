@@ -11,25 +11,21 @@
 namespace seaglint {
 namespace {
 
-// (1/N) sum_{n < N} e^{j n x}
-Complex mean_phasor(double x, double count) {
-  const double half = std::remainder(x, 2 * kPi) / 2;
-  const double denominator = count * std::sin(half);
-  const double magnitude = std::abs(half) * count < 1e-8 ? 1 : std::sin(count * half) / denominator;
-  return std::polar(1.0, (count - 1) * half) * magnitude;
-}
-
 // The highest of 2048 exponentially distributed cells against their mean, 10 log10 ln 2048.
 constexpr double kLargestOfMapDb = 8.8;
 
 std::string code_name(HopCode code) {
-  return code == HopCode::kRandom ? "random" : code == HopCode::kBalanced ? "balanced" : "stepped";
+  return code == HopCode::kRandom     ? "random"
+         : code == HopCode::kBalanced ? "balanced"
+         : code == HopCode::kStepped  ? "stepped"
+                                      : "given";
 }
 
 // The pedestal lies within half a hop cell's range on either side; from two velocity cells on it is clear of the main
 // lobe.
 std::string pedestal_line(const PulseTrain& train, const RadarSpec& spec) {
   if (train.carriers == 1) return "none, one carrier";
+  if (spec.hop_code == HopCode::kFile) return "of the given code: see the map of a point";
   if (spec.hop_code == HopCode::kStepped) {
     return fmt::format("none; each carrier comes every {} pulses: lobes repeat in velocity every {:.4g} m/s",
                        train.carriers, 2 * train.unambiguous_velocity_mps() / train.carriers);
@@ -68,11 +64,13 @@ double expected_response_power(const PulseTrain& train, double range_offset_m, d
   for (const int c : train.code) ++count[c];
   const auto used = static_cast<double>(std::count_if(count.begin(), count.end(), [](double n) { return n > 0; }));
 
-  // phi_i(n) = -4 pi f_i (dR + dv n T_r) / c; m_i its mean phasor over all pulses; c_ij depends on i - j alone.
+  // phi_i(n) = -4 pi f_i (dR + dv t_n) / c; m_i its mean phasor over all pulses; c_ij depends on i - j alone.
   const double per_hz = -4 * kPi / kSpeedOfLight;
   const auto mean_at = [&](double frequency_hz) {
-    return std::polar(1.0, per_hz * frequency_hz * range_offset_m) *
-           mean_phasor(per_hz * frequency_hz * velocity_offset_mps * train.pri_s, pulses);
+    Complex sum;
+    for (const double t : train.time_s)
+      sum += std::polar(1.0, per_hz * frequency_hz * (range_offset_m + velocity_offset_mps * t));
+    return sum / pulses;
   };
   std::vector<Complex> m(train.carriers);
   std::vector<double> c(train.carriers);
@@ -107,6 +105,9 @@ std::string describe(const PulseTrain& train, const RadarSpec& spec) {
   text += fmt::format("synthesised band    {:.6g} MHz in {} bins of {:.6g} MHz, {} per pulse\n",
                       train.synthetic_bandwidth_hz() * mhz, train.band_bins(), train.baseband_step_hz * mhz,
                       train.frequencies());
+  for (std::size_t i = 0; i < count.size(); ++i) {
+    if (count[i] == 0) text += fmt::format("hole                no pulse of the first interval uses carrier {}\n", i);
+  }
   if (train.bandwidth_hz < train.hop_step_hz * (1 - 1e-9)) {
     text += fmt::format(
         "gaps                {:.6g} MHz between the bands of neighbouring carriers: range sidelobes every {:.4g} m\n",
@@ -116,8 +117,9 @@ std::string describe(const PulseTrain& train, const RadarSpec& spec) {
                       train.unambiguous_range_m());
   text += fmt::format("velocity resolution {:.4g} m/s, unambiguous within +-{:.4g} m/s\n",
                       train.velocity_resolution_mps(), train.unambiguous_velocity_mps());
-  text += fmt::format("coherent interval   {:.4g} ms, {} pulses\n",
-                      static_cast<double>(train.pulses()) * train.pri_s * 1e3, train.pulses());
+  text += fmt::format("coherent interval   {:.4g} ms, {} pulses{}\n",
+                      static_cast<double>(train.pulses()) * train.pri_s * 1e3, train.pulses(),
+                      spec.pri_jitter_us > 0 ? fmt::format(", jitter +-{:g} us", spec.pri_jitter_us) : "");
   text += fmt::format("blind range         {:.4g} m, first range ambiguity {:.4g} km\n",
                       kSpeedOfLight * spec.pulse_width_us * 1e-6 / 2, kSpeedOfLight * train.pri_s / 2 * 1e-3);
   text += fmt::format("hop pedestal        {}\n", pedestal_line(train, spec));

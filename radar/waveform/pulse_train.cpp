@@ -49,6 +49,26 @@ std::vector<int> hop_code(HopCode kind, int pulses, int carriers, std::uint64_t 
   return code;
 }
 
+std::vector<int> hop_code(const RadarSpec& spec, std::uint64_t seed, std::uint64_t index) {
+  if (spec.hop_code != HopCode::kFile) return hop_code(spec.hop_code, spec.pulses, spec.hop_count, seed, index);
+  SEAGLINT_CHECK(spec.hop_codes && spec.hop_codes->size() >= static_cast<std::size_t>(spec.pulses),
+                 "a hop code from a file has been read");
+  const auto pulses = static_cast<std::size_t>(spec.pulses);
+  const std::size_t first = index % (spec.hop_codes->size() / pulses) * pulses;
+  const auto begin = spec.hop_codes->begin() + static_cast<std::ptrdiff_t>(first);
+  return {begin, begin + spec.pulses};
+}
+
+std::vector<double> pulse_times(const RadarSpec& spec, std::uint64_t seed, std::uint64_t index) {
+  Random random({seed, Stream::kPriJitter, index});
+  std::vector<double> time_s;
+  for (int n = 0; n < spec.pulses; ++n) {
+    const double early_or_late = n > 0 && spec.pri_jitter_us > 0 ? spec.pri_jitter_us * (2 * random.uniform() - 1) : 0;
+    time_s.push_back((n * spec.pri_us + early_or_late) * 1e-6);
+  }
+  return time_s;
+}
+
 std::vector<Complex> chirp_spectrum(double bandwidth_hz, double pulse_width_s, double sampling_hz,
                                     const std::vector<double>& frequency_hz) {
   const double chirp_rate = bandwidth_hz / pulse_width_s;
@@ -110,11 +130,9 @@ PulseTrain make_pulse_train(const RadarSpec& spec, double range_window_m, std::u
   }
   train.chirp_spectrum = chirp_spectrum(train.bandwidth_hz, pulse_width_s, spec.sampling_mhz * 1e6, train.baseband_hz);
 
-  train.code = hop_code(spec.hop_code, spec.pulses, spec.hop_count, seed, index);
-  for (std::size_t n = 0; n < train.code.size(); ++n) {
-    train.carrier_hz.push_back(train.first_carrier_hz + train.code[n] * train.hop_step_hz);
-    train.time_s.push_back(static_cast<double>(n) * train.pri_s);
-  }
+  train.code = hop_code(spec, seed, index);
+  train.time_s = pulse_times(spec, seed, index);
+  for (const int c : train.code) train.carrier_hz.push_back(train.first_carrier_hz + c * train.hop_step_hz);
   return train;
 }
 

@@ -16,7 +16,7 @@ namespace seaglint {
 struct PulseTrain {
   std::vector<int> code;            // C_n in 0..M-1, one per pulse
   std::vector<double> carrier_hz;   // f_n = f_0 + C_n df
-  std::vector<double> time_s;       // t_n = n T_r, the middle of pulse n, from the interval's start
+  std::vector<double> time_s;       // t_n = n T_r + jitter, the middle of pulse n, from the interval's start; ascending
   int carriers = 1;                 // M
   double first_carrier_hz = 0;      // f_0
   double hop_step_hz = 0;           // df
@@ -28,6 +28,7 @@ struct PulseTrain {
       baseband_hz;  // uniform grid inside |f| <= B/2, symmetric about 0, cells' centres; step divides df
   double baseband_step_hz = 0;
   int bins_per_hop = 1;                 // df / step, exact
+  int refinement = 1;                   // odd: so many steps of this grid make one of the map's (radar/echo/sampled_echo.h)
   std::vector<Complex> chirp_spectrum;  // P(f) on baseband_hz: THE transmit waveform, |P| about 1
 
   std::size_t pulses() const { return code.size(); }
@@ -45,6 +46,14 @@ struct PulseTrain {
 // carrier floor(N/M) or ceil(N/M) times in random order, stepped = n mod M.
 std::vector<int> hop_code(HopCode kind, int pulses, int carriers, std::uint64_t seed, std::uint64_t index);
 
+// The same as a scenario asks for it. Codes from a file are used in blocks of spec.pulses, block index modulo their
+// number.
+std::vector<int> hop_code(const RadarSpec& spec, std::uint64_t seed, std::uint64_t index);
+
+// t_n = n T_r + jitter, s; the jitter of all pulses but the first is uniform within +-pri_jitter_us, stream kPriJitter of
+// (seed, index).
+std::vector<double> pulse_times(const RadarSpec& spec, std::uint64_t seed, std::uint64_t index);
+
 // range_window_m: the response's extent plus margin; the baseband step is df / ceil(df 2 window / c), smaller when B is
 // below that. Throws InputError when the interval would need more than 2^26 samples or the pulse more than 2^24.
 PulseTrain make_pulse_train(const RadarSpec& spec, double range_window_m, std::uint64_t seed, std::uint64_t index);
@@ -58,8 +67,8 @@ std::vector<Complex> chirp_spectrum(double bandwidth_hz, double pulse_width_s, d
 IntervalSampling interval_sampling(const PulseTrain& train, double start_s);
 
 // Mean power of the point response at (range_offset_m, velocity_offset_mps) from its peak of 1, over all codes with
-// this train's counts of pulses per carrier: coherent sidelobe plus random-hop pedestal, of the carriers alone (one
-// frequency per pulse, no taper). Closed form of radar/waveform/README.md.
+// this train's times and counts of pulses per carrier: coherent sidelobe plus random-hop pedestal, of the carriers alone
+// (one frequency per pulse, no taper). Closed form of radar/waveform/README.md.
 double expected_response_power(const PulseTrain& train, double range_offset_m, double velocity_offset_mps);
 
 // Resolutions, ambiguities, blind range and expected pedestal, one line each, for `seaglint check`.

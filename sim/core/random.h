@@ -25,6 +25,9 @@ enum class Stream : std::uint32_t {
   kTargetOrder = 11,
   kWaveDirection = 12,
   kWaveAmplitude = 13,
+  kTexture = 14,
+  kClutterPlace = 15,
+  kPriJitter = 16,
   kTest = 1000,
 };
 

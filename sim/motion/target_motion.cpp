@@ -19,7 +19,8 @@ constexpr std::uint64_t kIndependentSeas = std::uint64_t{1} << 48;
 std::vector<Vec2> layout_places(const TargetSpec& target) {
   std::vector<Vec2> places;
   const LineLayout line = target.line.value_or(LineLayout{});
-  for (int i = 0; i < line.count; ++i) places.emplace_back((i - 0.5 * (line.count - 1)) * line.spacing_m, 0);
+  for (int i = 0; i < line.count; ++i)
+    places.emplace_back(line.centre_x_m + (i - 0.5 * (line.count - 1)) * line.spacing_m, line.centre_y_m);
   return places;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sim/core/constants.h"
+#include "sim/scattering/passing_radar.h"
 
 namespace seaglint {
 namespace {
@@ -54,6 +55,7 @@ FrequencyResponse point_response_over_sea(std::span<const PointSpec> points, con
   response.values.assign(static_cast<std::size_t>(response.pulses) * sampling.per_pulse, Complex{});
   const Vec3 image_r = image_direction(r_hat);
   for (int n = 0; n < response.pulses; ++n) {
+    const Mat3 turn = turn_of_scene(sampling, r_hat, sampling.pulse_time_s[n]);
     for (int b = 0; b < response.per_pulse; ++b) {
       const double k = 2 * kPi / kSpeedOfLight * (sampling.first_hz + (sampling.pulse_first[n] + b) * sampling.step_hz);
       const double baseband_hz = (b - 0.5 * (sampling.per_pulse - 1)) * sampling.step_hz;
@@ -61,7 +63,7 @@ FrequencyResponse point_response_over_sea(std::span<const PointSpec> points, con
                                (sampling.chirp_rate_hz_s == 0 ? 0 : baseband_hz / sampling.chirp_rate_hz_s);
       const SeaCoefficients rho = sea.at(k, r_hat.z());
       for (const PointSpec& point : points) {
-        const Vec3 x = as_vector(point.position_m) + elapsed_s * as_vector(point.velocity_mps);
+        const Vec3 x = turn * (as_vector(point.position_m) + elapsed_s * as_vector(point.velocity_mps));
         for (const SeaPath& path : kSeaPaths) {
           if (!sea.wanted(path)) continue;
           const double psi = ((path.there ? image_r : r_hat) + (path.back ? image_r : r_hat)).dot(x);
@@ -84,13 +86,16 @@ FrequencyResponse point_response(std::span<const PointSpec> points, const Vec3& 
   response.pulses = static_cast<int>(sampling.pulse_first.size());
   response.per_pulse = sampling.per_pulse;
   response.values.assign(static_cast<std::size_t>(response.pulses) * sampling.per_pulse, Complex{});
+  // The direction to the radar at each pulse.
+  std::vector<Vec3> sight;
+  for (const double time_s : sampling.pulse_time_s)
+    sight.push_back(turn_of_scene(sampling, r_hat, time_s).transpose() * r_hat);
   for (const PointSpec& point : points) {
-    const double range_m = -r_hat.dot(as_vector(point.position_m));
-    const double velocity_mps = -r_hat.dot(as_vector(point.velocity_mps));
+    const Vec3 position = as_vector(point.position_m), velocity = as_vector(point.velocity_mps);
     for (int n = 0; n < response.pulses; ++n) {
       const double elapsed_s = sampling.pulse_time_s[n] - sampling.pulse_time_s.front();
       add_point_to_pulse(&response.at(n, 0), sampling, sampling.pulse_first[n], point.amplitude_m,
-                         range_m + velocity_mps * elapsed_s, velocity_mps);
+                         -sight[n].dot(position + elapsed_s * velocity), -sight[n].dot(velocity));
     }
   }
   return response;

@@ -11,6 +11,7 @@
 #include "sim/core/error.h"
 #include "sim/scattering/contributions.h"
 #include "sim/scattering/edge_echoes.h"
+#include "sim/scattering/passing_radar.h"
 #include "sim/scattering/return_grid.h"
 #include "sim/scattering/target_check.h"
 
@@ -128,7 +129,7 @@ BodyResponse respond(const Scatterer& scatterer, const Trajectory& trajectory, c
   std::vector<Pose> poses(pulses);
   std::vector<Vec3> directions(pulses), image_directions(pulses);
   for (int n = 0; n < pulses; ++n) {
-    poses[n] = trajectory.pose(sampling.pulse_time_s[n]);
+    poses[n] = seen_pose(trajectory, sampling, r_hat, sampling.pulse_time_s[n]);
     directions[n] = poses[n].R_TB.transpose() * r_hat;
     image_directions[n] = poses[n].R_TB.transpose() * image_r;
   }
@@ -193,7 +194,8 @@ BodyResponse respond(const Scatterer& scatterer, const Trajectory& trajectory, c
       trace.last = n;
     }
     if (trace.first > trace.last) return;
-    const Pose pose = trajectory.pose(start + length * (static_cast<double>(i) + 0.5) / spans);
+    const double middle = start + length * (static_cast<double>(i) + 0.5) / spans;
+    const Pose pose = seen_pose(trajectory, sampling, r_hat, middle);
     trace.basis = body_basis(world, pose);
     const Vec3 chord = directions[trace.last] - directions[trace.first];
     const Vec3 level = chord - trace.basis.r * trace.basis.r.dot(chord);

@@ -22,6 +22,51 @@ void check_radar(const RadarSpec& radar, const ScenarioDocument& document) {
   }
 }
 
+// Pulses that jitter must not overlap, and a hop code comes from a file or a rule.
+void check_pulse_train(const RadarSpec& radar, const ScenarioDocument& document) {
+  if (2 * radar.pri_jitter_us > radar.pri_us - radar.pulse_width_us) {
+    document.fail_at("radar.pri_jitter_us",
+                     fmt::format("pulses would overlap: must be at most (pri_us - pulse_width_us) / 2, {}",
+                                 (radar.pri_us - radar.pulse_width_us) / 2));
+  }
+  const YamlNode* node = document.root.find("radar");
+  const bool has_file = node != nullptr && node->find("hop_code_file") != nullptr;
+  if (has_file && radar.hop_code != HopCode::kFile)
+    document.fail_at("radar.hop_code_file", "must not stand here, it belongs to hop_code: file");
+  if (!has_file && radar.hop_code == HopCode::kFile) document.fail_at("radar.hop_code_file", "this key is missing");
+}
+
+// The echo of the whole window must be over before the next pulse is sent.
+void check_window(const Scenario& scenario, const ScenarioDocument& document) {
+  const RadarSpec& radar = scenario.radar;
+  const double echo_us = radar.pulse_width_us + 2e6 * scenario.map.range_span_m / kSpeedOfLight;
+  if (echo_us > radar.pri_us) {
+    document.fail_at("map.range_span_m",
+                     fmt::format("its echo lasts {:.6g} us with the pulse: must end within radar.pri_us, {}", echo_us,
+                                 radar.pri_us));
+  }
+}
+
+// The sea's own reflectivity is known where it was fitted.
+void check_clutter(const Scenario& scenario, const ScenarioDocument& document) {
+  const ClutterSpec& clutter = scenario.clutter;
+  if (!clutter.enabled || clutter.level != ClutterLevel::kNrl) return;
+  const RadarSpec& radar = scenario.radar;
+  const char* where = "with clutter.level: nrl";
+  if (radar.polarisation != Polarisation::kHh && radar.polarisation != Polarisation::kVv)
+    document.fail_at("radar.polarisation", fmt::format("must be hh or vv {}", where));
+  if (radar.carrier_ghz < 0.5 || radar.carrier_ghz > 35)
+    document.fail_at("radar.carrier_ghz", fmt::format("must be within 0.5 and 35 {}", where));
+  for (const double elevation : scenario.view.elevation_deg) {
+    if (elevation < 0.1 || elevation > 60)
+      document.fail_at("view.elevation_deg", fmt::format("must be within 0.1 and 60 {}", where));
+  }
+  for (const SeaState& state : sea_states(scenario.sea)) {
+    if (!clutter.sea_state && total_wave_height(state) > 6)
+      document.fail_at("sea.significant_wave_height_m", fmt::format("must be at most 6 {}, sea state 6", where));
+  }
+}
+
 // Keys that say nothing about this spectrum would be ignored.
 void check_spectrum(const SeaSpec& sea, const ScenarioDocument& document) {
   const YamlNode* node = document.root.find("sea");
@@ -97,6 +142,18 @@ void check_sea_reflection(const Scenario& scenario, const ScenarioDocument& docu
   }
 }
 
+// A companion is another target of the file, and brings no companions of its own.
+void check_companions(const Scenario& scenario, const TargetSpec& target, const ScenarioDocument& document) {
+  for (std::size_t i = 0; i < target.with.size(); ++i) {
+    const std::string key = fmt::format("targets.{}.with.{}.target", target.name, i);
+    const auto found = std::find_if(scenario.targets.begin(), scenario.targets.end(),
+                                    [&](const TargetSpec& other) { return other.name == target.with[i].target; });
+    if (found == scenario.targets.end() || found->name == target.name)
+      document.fail_at(key, "must be the name of another target");
+    if (!found->with.empty()) document.fail_at(key, "must be a target without companions of its own");
+  }
+}
+
 void check_target(const TargetSpec& target, const ScenarioDocument& document) {
   const std::string path = "targets." + target.name;
   if (target.mesh.empty() && target.points.empty()) document.fail_at(path, "must have a mesh or points");
@@ -153,11 +210,15 @@ void check_case_count(const Scenario& scenario, const ScenarioDocument& document
 
 void check_contradictions(const Scenario& scenario, const ScenarioDocument& document) {
   check_radar(scenario.radar, document);
+  check_pulse_train(scenario.radar, document);
+  check_window(scenario, document);
+  check_clutter(scenario, document);
   check_case_count(scenario, document);
   check_spectrum(scenario.sea, document);
   check_sea(scenario.sea, document);
   check_sea_reflection(scenario, document);
   for (const TargetSpec& target : scenario.targets) check_target(target, document);
+  for (const TargetSpec& target : scenario.targets) check_companions(scenario, target, document);
   check_intra_pulse_motion(scenario, document);
   check_dataset(scenario, document);
 }

@@ -49,18 +49,37 @@ void visit_word(FieldVisitor& v, const char* key, std::string& value, const char
   value = names[index];
 }
 
+void visit(BudgetSpec& spec, FieldVisitor& v) {
+  v.number("beamwidth_deg", spec.beamwidth_deg, within(0.01, 60));
+  v.number("peak_power_kw", spec.peak_power_kw, within(1e-6, 1e5));
+  v.number("antenna_gain_db", spec.antenna_gain_db, within(0, 70));
+  v.number("noise_figure_db", spec.noise_figure_db, within(0, 40));
+  v.number("losses_db", spec.losses_db, within(0, 60));
+  v.number("temperature_k", spec.temperature_k, within(1, 10000));
+}
+
+void visit(PlatformSpec& spec, FieldVisitor& v) {
+  v.triple("velocity_mps", spec.velocity_mps, within(-1000, 1000));
+  v.flag("compensated", spec.compensated);
+}
+
 void visit(RadarSpec& spec, FieldVisitor& v) {
   v.number("carrier_ghz", spec.carrier_ghz, within(0.1, 300));
   v.integer("hop_count", spec.hop_count, within(1, 1024));
   v.number("hop_step_mhz", spec.hop_step_mhz, above(0));
-  visit_choice(v, "hop_code", spec.hop_code, {"random", "balanced", "stepped"});
+  visit_choice(v, "hop_code", spec.hop_code, {"random", "balanced", "stepped", "file"});
+  if (v.optional("hop_code_file", !spec.hop_code_file.empty())) v.text("hop_code_file", spec.hop_code_file);
   v.number("bandwidth_mhz", spec.bandwidth_mhz, within(0.001, 10000));
   v.number("pulse_width_us", spec.pulse_width_us, within(0.001, 1e6));
   v.number("sampling_mhz", spec.sampling_mhz, within(0.001, 1e6));
   v.number("pri_us", spec.pri_us, within(0.01, 1e7));
+  v.number("pri_jitter_us", spec.pri_jitter_us, within(0, 1e7));
   v.integer("pulses", spec.pulses, within(1, 65536));
   visit_choice(v, "polarisation", spec.polarisation, {"hh", "hv", "vh", "vv"});
   v.flag("intra_pulse_motion", spec.intra_pulse_motion);
+  v.number("range_km", spec.range_km, within(0.1, 1000));
+  v.section("budget", [&](FieldVisitor& budget) { visit(spec.budget, budget); });
+  v.section("platform", [&](FieldVisitor& platform) { visit(spec.platform, platform); });
 }
 
 void visit(ViewSpec& spec, FieldVisitor& v) {
@@ -142,6 +161,8 @@ void visit(SeaReflectionSpec& spec, FieldVisitor& v) {
 void visit(LineLayout& layout, FieldVisitor& v) {
   v.integer("count", layout.count, within(1, 1000));
   v.number("spacing_m", layout.spacing_m, above_up_to(0, 10000));
+  v.number("centre_x_m", layout.centre_x_m, within(-1e5, 1e5));
+  v.number("centre_y_m", layout.centre_y_m, within(-1e5, 1e5));
 }
 
 void visit(MotionSpec& spec, FieldVisitor& v) {
@@ -203,6 +224,13 @@ void visit(PartMaterialSpec& spec, FieldVisitor& v) {
   v.text("material", spec.material);
 }
 
+void visit(CompanionSpec& spec, FieldVisitor& v) {
+  v.require("target");
+  v.text("target", spec.target);
+  v.number("x_m", spec.x_m, within(-1e5, 1e5));
+  v.number("y_m", spec.y_m, within(-1e5, 1e5));
+}
+
 // A mesh with its motion, or ideal points; what belongs to a mesh is not written beside points.
 void visit(TargetSpec& spec, FieldVisitor& v) {
   const auto label = [&] {
@@ -235,16 +263,31 @@ void visit(TargetSpec& spec, FieldVisitor& v) {
   }
   if (v.optional("motion", is_mesh)) v.section("motion", [&](FieldVisitor& motion) { visit(spec.motion, motion); });
   if (v.optional("solver", is_mesh)) v.section("solver", [&](FieldVisitor& solver) { visit(spec.solver, solver); });
+  if (v.optional("with", !spec.with.empty())) {
+    v.list(
+        "with", spec.with.size(), 100, [&](std::size_t size) { spec.with.resize(size); },
+        [&](std::size_t i, FieldVisitor& item) { visit(spec.with[i], item); });
+  }
 }
 
 void visit(ClutterSpec& spec, FieldVisitor& v) {
+  visit_choice(v, "level", spec.level, {"scr", "nrl"});
   v.number("scr_db", spec.scr_db, within(-60, 200));
   visit_choice(v, "scr_definition", spec.scr_definition, {"per_pulse", "peak_cell", "extent"});
   v.flag("enabled", spec.enabled);
+  visit_choice(v, "noise_level", spec.noise_level, {"to_clutter", "snr", "thermal"});
   v.number("noise_to_clutter_db", spec.noise_to_clutter_db, within(-200, 60));
+  v.number("snr_db", spec.snr_db, within(-100, 200));
   v.number("texture_shape", spec.texture_shape, within(0.1, 1000));
+  v.number("texture_time_s", spec.texture_time_s, within(0.1, 1000));
+  visit_choice(v, "doppler", spec.doppler, {"given", "sea", "wave_field"});
   v.number("doppler_mean_mps", spec.doppler_mean_mps, within(-20, 20));
   v.number("doppler_spread_mps", spec.doppler_spread_mps, within(0, 20));
+  v.number("hh_velocity_factor", spec.hh_velocity_factor, within(0, 5));
+  if (v.optional("sea_state", spec.sea_state.has_value())) {
+    if (!spec.sea_state) spec.sea_state.emplace();
+    v.number("sea_state", *spec.sea_state, within(0, 6));
+  }
 }
 
 void visit(MapSpec& spec, FieldVisitor& v) {
@@ -256,6 +299,7 @@ void visit(MapSpec& spec, FieldVisitor& v) {
   visit_choice(v, "compression", spec.compression, {"inverse", "matched"});
   visit_choice(v, "range_taper", spec.range_taper, kTapers);
   visit_choice(v, "velocity_taper", spec.velocity_taper, kTapers);
+  v.flag("clean", spec.clean);
 }
 
 void visit(DatasetSpec& spec, FieldVisitor& v) {

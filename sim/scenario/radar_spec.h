@@ -4,26 +4,52 @@
 // The `radar`, `view`, `clutter` and `map` sections of a scenario, in the units of their keys. Defaults are the paper's
 // radar; the inequality beside a field is checked by the reader (sim/scenario/fields.cpp).
 
+#include <array>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace seaglint {
 
-enum class HopCode { kRandom, kBalanced, kStepped };
+enum class HopCode { kRandom, kBalanced, kStepped, kFile };
 enum class Polarisation { kHh, kHv, kVh, kVv };  // first letter received, second transmitted
+
+// What the radar equation needs, for clutter and noise whose level is not given as a ratio.
+struct BudgetSpec {
+  double beamwidth_deg = 1.5;   // of the antenna in azimuth, one way at half power, 0.01 <= x <= 60
+  double peak_power_kw = 10;    // 1e-6 <= x <= 1e5
+  double antenna_gain_db = 40;  // 0 <= x <= 70
+  double noise_figure_db = 4;   // 0 <= x <= 40
+  double losses_db = 6;         // 0 <= x <= 60
+  double temperature_k = 290;   // 1 <= x <= 10000
+};
+
+// The radar's own motion; the target's reference point stays where it is, and the line of sight turns as the radar
+// passes by.
+struct PlatformSpec {
+  std::array<double, 3> velocity_mps{0, 0, 0};  // target frame, |x| <= 1000
+  bool compensated = true;  // the radar takes its own radial motion towards the reference point out of the echo
+};
 
 struct RadarSpec {
   double carrier_ghz = 16;       // lowest carrier, 0.1 <= x <= 300
   int hop_count = 8;             // number of carriers M, 1 <= x <= 1024
   double hop_step_mhz = 25;      // carrier spacing, > 0
-  HopCode hop_code = HopCode::kRandom;  // random (independent, as in the paper), balanced, stepped
+  HopCode hop_code = HopCode::kRandom;  // random (independent, as in the paper), balanced, stepped, file
+  std::string hop_code_file;     // of hop_code: file, beside the scenario or below the working directory
+  std::shared_ptr<const std::vector<int>> hop_codes;  // what it holds, read with the scenario; at least `pulses` codes
   double bandwidth_mhz = 25;     // LFM bandwidth B, 0.001 <= x <= 10000
   double pulse_width_us = 36;    // 0.001 <= x <= 1e6, shorter than pri_us
   double sampling_mhz = 50;      // complex sampling of the time-domain echo, >= bandwidth_mhz
   double pri_us = 250;           // 0.01 <= x <= 1e7
+  double pri_jitter_us = 0;      // every pulse but the first comes up to this much early or late, uniformly; pulses never overlap
   int pulses = 256;              // of one coherent interval, 1 <= x <= 65536
   Polarisation polarisation = Polarisation::kVv;
   bool intra_pulse_motion = false;  // the f/mu term of Doppler inside the pulse, in echo and map alike; only with points as targets
+  double range_km = 20;             // to the target's reference point, for budget and platform, 0.1 <= x <= 1000
+  BudgetSpec budget;
+  PlatformSpec platform;
 };
 
 using Sweep = std::vector<double>;  // a number, a list, or from:to:step in the file
@@ -35,14 +61,29 @@ struct ViewSpec {
 
 enum class ScrDefinition { kPerPulse, kPeakCell, kExtent };
 
+// kScr: by the ratio to the target. kNrl: by the sea's mean reflectivity, the radar's range and beam.
+enum class ClutterLevel { kScr, kNrl };
+// kToClutter: by the ratio to the clutter. kSnr: by the ratio to the target. kThermal: by the radar equation.
+enum class NoiseLevel { kToClutter, kSnr, kThermal };
+// What the waves add to the given mean and spread. kGiven: nothing. kSea: mean and spread of a sea of these waves.
+// kWaveField: the sea's mean, and to every scatterer the velocity of the water where it floats in this very sea.
+enum class ClutterDoppler { kGiven, kSea, kWaveField };
+
 struct ClutterSpec {
-  double scr_db = 20;  // signal-to-clutter ratio, -60 <= x <= 200
+  ClutterLevel level = ClutterLevel::kScr;
+  double scr_db = 20;  // signal-to-clutter ratio, -60 <= x <= 200; where the level is scr
   ScrDefinition scr_definition = ScrDefinition::kPerPulse;
   bool enabled = true;
+  NoiseLevel noise_level = NoiseLevel::kToClutter;
   double noise_to_clutter_db = -30;  // receiver noise relative to clutter, -200 <= x <= 60
+  double snr_db = 20;                // target to noise, per pulse, -100 <= x <= 200; where noise_level is snr
   double texture_shape = 2;          // shape of the K distribution's gamma texture, 0.1 <= x <= 1000
+  double texture_time_s = 3;         // the texture's correlation falls to e^{-1/2} in this time, 0.1 <= x <= 1000
+  ClutterDoppler doppler = ClutterDoppler::kGiven;
   double doppler_mean_mps = 0;       // mean velocity of the clutter, positive = receding, |x| <= 20
   double doppler_spread_mps = 0.5;   // standard deviation of its velocity, 0 <= x <= 20
+  double hh_velocity_factor = 1.5;   // mean velocity by waves and wind of hh, hv, vh against vv's, 0 <= x <= 5
+  std::optional<double> sea_state;   // Douglas, 0 <= x <= 6; by the significant wave height without it
 };
 
 enum class Compression { kInverse, kMatched };
@@ -56,6 +97,7 @@ struct MapSpec {
   Compression compression = Compression::kInverse;
   Taper range_taper = Taper::kHann;
   Taper velocity_taper = Taper::kNone;
+  bool clean = false;  // points that CLEAN finds come back without the hop code's pedestal
 };
 
 }  // namespace seaglint

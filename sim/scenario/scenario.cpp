@@ -12,6 +12,7 @@
 #include "sim/core/exact_functions.h"
 #include "sim/core/file.h"
 #include "sim/scenario/contradictions.h"
+#include "sim/scenario/hop_code_file.h"
 #include "sim/scenario/document.h"
 #include "sim/scenario/reader.h"
 
@@ -41,31 +42,41 @@ Scenario parse_scenario(const std::string& yaml, const std::string& file_name, c
   Scenario scenario = read_fields(document);
   scenario.folder = fs::path(file_name).parent_path();
   scenario.sea.table_values = find_spectrum_table(scenario);
+  scenario.radar.hop_codes = find_hop_codes(scenario);
   check_contradictions(scenario, document);
   if (scenario.name.empty()) scenario.name = name_of_file(file_name);
   return scenario;
 }
 
-fs::path find_mesh(const Scenario& scenario, const TargetSpec& target) {
-  const fs::path beside = scenario.folder / target.mesh;
+namespace {
+
+// A file that a key names, beside the scenario or below the working directory.
+fs::path find_file(const Scenario& scenario, const std::string& name, const std::string& key) {
+  const fs::path beside = scenario.folder / name;
   std::error_code error;
-  for (const fs::path& candidate : {beside, fs::path(target.mesh)}) {
+  for (const fs::path& candidate : {beside, fs::path(name)}) {
     if (fs::exists(candidate, error)) return candidate;
   }
-  throw InputError(fmt::format("targets.{}.mesh: value '{}': no such file, neither {} nor below the working directory",
-                               target.name, target.mesh, beside.string()));
+  throw InputError(fmt::format("{}: value '{}': no such file, neither {} nor below the working directory", key, name,
+                               beside.string()));
+}
+
+}  // namespace
+
+fs::path find_mesh(const Scenario& scenario, const TargetSpec& target) {
+  return find_file(scenario, target.mesh, fmt::format("targets.{}.mesh", target.name));
 }
 
 std::shared_ptr<const SpectrumTable> find_spectrum_table(const Scenario& scenario) {
   if (scenario.sea.spectrum != SpectrumKind::kTable || scenario.sea.table.empty()) return nullptr;
-  std::error_code error;
-  for (const fs::path& candidate : {scenario.folder / scenario.sea.table, fs::path(scenario.sea.table)}) {
-    if (fs::exists(candidate, error)) return std::make_shared<SpectrumTable>(read_spectrum_table(candidate));
-  }
-  throw InputError(
-      fmt::format("sea.table: value '{}': no such file, neither beside the scenario nor below the working "
-                  "directory",
-                  scenario.sea.table));
+  return std::make_shared<SpectrumTable>(read_spectrum_table(find_file(scenario, scenario.sea.table, "sea.table")));
+}
+
+std::shared_ptr<const std::vector<int>> find_hop_codes(const Scenario& scenario) {
+  const RadarSpec& radar = scenario.radar;
+  if (radar.hop_code != HopCode::kFile || radar.hop_code_file.empty()) return nullptr;
+  const fs::path file = find_file(scenario, radar.hop_code_file, "radar.hop_code_file");
+  return std::make_shared<std::vector<int>>(read_hop_code(file, radar.pulses, radar.hop_count));
 }
 
 namespace {

@@ -58,6 +58,9 @@ std::filesystem::path find_mesh(const Scenario& scenario, const TargetSpec& targ
 // asked for. Throws InputError when neither exists or it is no spectrum.
 std::shared_ptr<const SpectrumTable> find_spectrum_table(const Scenario& scenario);
 
+// Reads the file that `radar.hop_code_file` names, likewise.
+std::shared_ptr<const std::vector<int>> find_hop_codes(const Scenario& scenario);
+
 // The sea states of the sweeps, significant wave height slowest, then peak period, gamma, propagation.
 std::vector<SeaState> sea_states(const SeaSpec& spec);
 

@@ -50,6 +50,15 @@ struct MotionSpec {
 struct LineLayout {
   int count = 1;         // 1 <= x <= 1000
   double spacing_m = 40;  // 0 < x <= 10000
+  double centre_x_m = 0;  // of the line, target frame, |x| <= 1e5
+  double centre_y_m = 0;
+};
+
+// Another target that stands in the same sea and is seen in the same maps; its own label does not count there.
+struct CompanionSpec {
+  std::string target;  // its name
+  double x_m = 0;      // where its reference point stands, target frame, |x| <= 1e5
+  double y_m = 0;
 };
 
 struct PointSpec {
@@ -85,6 +94,7 @@ struct TargetSpec {
   MotionSpec motion;
   SolverSpec solver;
   std::vector<PointSpec> points;
+  std::vector<CompanionSpec> with;  // echoes add up; nothing shadows or lights across targets
 };
 
 }  // namespace seaglint

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <filesystem>
 #include <sstream>
 
@@ -85,6 +86,56 @@ TEST(MapCommand, RefusesSamplesAndFilesThatCannotBe) {
   EXPECT_EQ(run_program(map_of(folder.path() / "map.jpg")).code, 2);
   EXPECT_EQ(run_program(map_of(folder.path() / "missing" / "map.png")).code, 1);
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+// Range, velocity and amplitude of the listed centres.
+std::vector<std::array<double, 3>> centres_of(const std::vector<std::string>& more) {
+  const TemporaryFolder folder;
+  const ProgramResult result = run_program(map_of(folder.path() / "map.png", more));
+  EXPECT_EQ(result.code, 0) << result.err;
+  std::istringstream lines(result.out);
+  std::string header;
+  std::getline(lines, header);
+  std::vector<std::array<double, 3>> centres;
+  for (std::array<double, 3> c{}; lines >> c[0] >> c[1] >> c[2];) centres.push_back(c);
+  return centres;
+}
+
+TEST(MapCommand, ACompanionIsSeenInTheSameMap) {
+  const auto centres = centres_of(
+      {"--set", "view={azimuth_deg: 0, elevation_deg: 0}", "--set",
+       "targets={one: {label: 1, points: [{position_m: [30, 0, 0], amplitude_m: 2, velocity_mps: [1, 0, 0]}], with: "
+       "[{target: other, x_m: -50, y_m: 8}]}, other: {label: 0, points: [{position_m: [5, 0, 0]}]}}",
+       "--set", "dataset.maps_per_case=1", "--set", "dataset.realisations_per_case=1", "--sample", "0", "--set",
+       "clutter.scr_db=60"});
+  // Which of the two targets sample 0 shows is random; the companion comes with one of them.
+  const auto again = centres_of(
+      {"--set", "view={azimuth_deg: 0, elevation_deg: 0}", "--set",
+       "targets={one: {label: 1, points: [{position_m: [30, 0, 0], amplitude_m: 2, velocity_mps: [1, 0, 0]}], with: "
+       "[{target: other, x_m: -50, y_m: 8}]}, other: {label: 0, points: [{position_m: [5, 0, 0]}]}}",
+       "--set", "dataset.maps_per_case=1", "--set", "dataset.realisations_per_case=1", "--sample", "1", "--set",
+       "clutter.scr_db=60"});
+  const auto& both = centres.size() > again.size() ? centres : again;
+  const auto& alone = centres.size() > again.size() ? again : centres;
+  ASSERT_EQ(both.size(), 2u);
+  ASSERT_EQ(alone.size(), 1u);
+  EXPECT_NEAR(both[0][0], -30, 0.02);
+  EXPECT_NEAR(both[0][1], -1, 0.005);
+  EXPECT_NEAR(both[1][0], 45, 0.02);
+  EXPECT_NEAR(both[1][2], 1, 0.02);
+  EXPECT_NEAR(alone[0][0], -5, 0.02);
+}
+
+TEST(MapCommand, TheRadarsOwnWayShowsUnlessItIsTakenOut) {
+  std::vector<std::string> moving = kOnePoint;
+  moving.insert(moving.end(), {"--set", "radar.platform={velocity_mps: [2.5, 0, 0], compensated: false}", "--set",
+                               "clutter.scr_db=60"});
+  const auto seen = centres_of(moving);
+  ASSERT_GE(seen.size(), 1u);
+  EXPECT_NEAR(seen[0][1], -1.5 + 2.5, 0.005);  // the radar ahead draws away
+  EXPECT_NEAR(seen[0][0], -30, 0.02);
+  moving.insert(moving.end(), {"--set", "radar.platform.compensated=true"});
+  EXPECT_NEAR(centres_of(moving)[0][1], -1.5, 0.005);
 }
 
 }  // namespace

@@ -21,6 +21,13 @@ FrequencyResponse one_point(const PulseTrain& train, double amplitude = 1) {
   return point_response({&point, 1}, Vec3(1, 0, 0), interval_sampling(train, 0));
 }
 
+// An interval whose texture is its own.
+ClutterScene interval(std::uint64_t index) {
+  ClutterScene scene;
+  scene.texture_key = index;
+  return scene;
+}
+
 // Mean over intervals of a ratio of echo powers, and so on, needs many small intervals: one carrier's worth of range
 // cells.
 RadarSpec small_radar() {
@@ -79,7 +86,7 @@ TEST(Clutter, HasMeanPowerOneAtEveryShapeAndSpread) {
     double mean = 0, square = 0;
     const int intervals = 400;
     for (int i = 0; i < intervals; ++i) {
-      const double power = mean_power(clutter_response(train, spec, 3, i));
+      const double power = mean_power(clutter_response(train, spec, interval(i), 3, i));
       mean += power / intervals;
       square += power * power / intervals;
     }
@@ -122,7 +129,7 @@ TEST(Clutter, IsKDistributedInTheCellsItIsMeantFor) {
     for (int batch = 0; batch < 20; ++batch) {
       double first = 0, second = 0, count = 0;
       for (int i = 0; i < 20; ++i) {
-        for (const Complex& value : range_profile(train, clutter_response(train, spec, 3, 20 * batch + i))) {
+        for (const Complex& value : range_profile(train, clutter_response(train, spec, interval(20 * batch + i), 3, 20 * batch + i))) {
           const double intensity = std::norm(value);
           first += intensity;
           second += intensity * intensity;
@@ -153,7 +160,7 @@ TEST(Clutter, IsTheSameSeaAtEveryCarrier) {
   const PulseTrain train = make_pulse_train(radar, 100, 1, 2);
   ClutterSpec spec;
   spec.doppler_spread_mps = 0;
-  const std::vector<Complex> response = clutter_response(train, spec, 3, 4);
+  const std::vector<Complex> response = clutter_response(train, spec, {}, 3, 4);
   const std::size_t hop = train.bins_per_hop, bins = train.frequencies();
   for (std::size_t b = hop; b < bins; ++b) {
     EXPECT_NEAR(std::abs(response[b] - response[bins + b - hop]), 0, 1e-5);  // 1e-6 of drift in a coherent interval
@@ -169,7 +176,7 @@ TEST(Clutter, DecorrelatesWithinTheChirpAsItsRangeWindowDemands) {
   double power = 0;
   const int intervals = 300;
   for (int i = 0; i < intervals; ++i) {
-    const std::vector<Complex> response = clutter_response(train, spec, 3, i);
+    const std::vector<Complex> response = clutter_response(train, spec, interval(i), 3, i);
     for (std::size_t b = 1; b < train.frequencies(); ++b) {
       sum += response[b] * std::conj(response[b - 1]);
       power += std::norm(response[b]);
@@ -193,7 +200,7 @@ TEST(Clutter, HasTheStatedDopplerMeanAndSpread) {
     Complex sum;
     double power = 0;
     for (int i = 0; i < 200; ++i) {
-      const std::vector<Complex> response = clutter_response(train, spec, 3, i);
+      const std::vector<Complex> response = clutter_response(train, spec, interval(i), 3, i);
       const std::size_t bins = train.frequencies();
       for (std::size_t n = 0; n + lag < train.pulses(); ++n) {
         for (std::size_t b = 0; b < bins; ++b) {
@@ -216,23 +223,22 @@ TEST(Clutter, HasTheStatedDopplerMeanAndSpread) {
 TEST(Clutter, ReceiverNoiseIsWhiteAndHasItsLevel) {
   const PulseTrain train = make_pulse_train({}, kShipWindow, 1, 2);
   ClutterSpec clutter;
-  clutter.noise_to_clutter_db = 60;  // nearly all noise
-  const Echo echo = synthesize_echo(train, one_point(train), clutter, 1, 1);
+  const std::vector<Complex> noise = synthesize_echo(train, one_point(train), clutter, 1, 1).noise;
   const std::size_t bins = train.frequencies();
   Complex along_frequency, along_pulses;
   double power = 0;
-  for (std::size_t i = bins; i < echo.clutter.size(); ++i) {
-    along_frequency += echo.clutter[i] * std::conj(echo.clutter[i - 1]);
-    along_pulses += echo.clutter[i] * std::conj(echo.clutter[i - bins]);
-    power += std::norm(echo.clutter[i]);
+  for (std::size_t i = bins; i < noise.size(); ++i) {
+    along_frequency += noise[i] * std::conj(noise[i - 1]);
+    along_pulses += noise[i] * std::conj(noise[i - bins]);
+    power += std::norm(noise[i]);
   }
-  const double bound = 4 / std::sqrt(static_cast<double>(echo.clutter.size()));
+  const double bound = 4 / std::sqrt(static_cast<double>(noise.size()));
   EXPECT_LT(std::abs(along_frequency) / power, bound);
   EXPECT_LT(std::abs(along_pulses) / power, bound);
   double edge = 0;  // white although |P|^2 falls to a quarter at the band's edge
   for (std::size_t n = 0; n < train.pulses(); ++n)
-    edge += std::norm(echo.clutter[n * bins]) / static_cast<double>(train.pulses());
-  EXPECT_NEAR(edge / mean_power(echo.clutter), 1, 4 / std::sqrt(256.0));
+    edge += std::norm(noise[n * bins]) / static_cast<double>(train.pulses());
+  EXPECT_NEAR(edge / mean_power(noise), 1, 4 / std::sqrt(256.0));
 }
 
 }  // namespace

@@ -72,6 +72,18 @@ TEST(Pedestal, OfOneFrequencyPerPulseIsTheClosedForm) {
   }
 }
 
+TEST(Pedestal, OfPulsesThatJitterIsTheClosedFormAtTheirTimes) {
+  RadarSpec radar;
+  radar.hop_code = HopCode::kBalanced;
+  radar.pri_jitter_us = 100;
+  for (const Offset& offset : {Offset{1.5, 1.757, 0, 0}, Offset{0, 5, 0, 0}}) {
+    const Means means = mean_response(radar, offset, 5.9);
+    std::printf("jitter   dR %.1f m dv %.3f m/s: measured %.2f, closed form %.2f dB\n", offset.range_m,
+                offset.velocity_mps, decibel(means.measured), decibel(means.expected));
+    EXPECT_NEAR(decibel(means.measured), decibel(means.expected), kPedestalTolerance);
+  }
+}
+
 // The whole chirp: the pedestal is shaped in range by the chirp's own resolution, sinc^2(2 B dR / c).
 TEST(Pedestal, OfTheWholeChirpFollowsTheRangeCellOfOnePulse) {
   for (const Offset& offset : {Offset{1.5, 1.757, 0, 0}, Offset{0, 5, 0, 0}, Offset{4, 3.3, 0, 0}}) {

@@ -95,6 +95,26 @@ TEST(Reading, PointsAreTargets) {
   EXPECT_EQ(scenario.targets[0].points[1].amplitude_m, 1);
 }
 
+TEST(Reading, TheRadarChainsContradictionsAreNamed) {
+  const std::pair<std::vector<Override>, const char*> cases[] = {
+      {{{"radar.pri_jitter_us", "108"}}, "radar.pri_jitter_us: value '108': pulses would overlap: must be at most"},
+      {{{"radar.hop_code", "file"}}, "radar.hop_code_file: this key is missing"},
+      {{{"radar.hop_code_file", "codes.txt"}}, "radar.hop_code_file: value 'codes.txt': must not stand here"},
+      {{{"radar.hop_code", "file"}, {"radar.hop_code_file", "none.txt"}}, "radar.hop_code_file: value 'none.txt': no such file"},
+      {{{"map.range_span_m", "40000"}}, "map.range_span_m: value '40000': its echo lasts 302.8"},
+      {{{"clutter.level", "nrl"}, {"radar.polarisation", "hv"}}, "radar.polarisation: value 'hv': must be hh or vv"},
+      {{{"clutter.level", "nrl"}, {"radar.carrier_ghz", "94"}}, "radar.carrier_ghz: value '94': must be within 0.5 and 35"},
+      {{{"clutter.level", "nrl"}, {"view", "{elevation_deg: 0}"}}, "view.elevation_deg: value '0': must be within 0.1 and 60"},
+      {{{"clutter.level", "nrl"}, {"sea", "{significant_wave_height_m: 7, peak_period_s: 14}"}},
+       "sea.significant_wave_height_m: value '7': must be at most 6"},
+      {{{"targets.a.with", "[{target: b}]"}}, "must be the name of another target"},
+      {{{"targets.a.with", "[{target: a}]"}}, "must be the name of another target"}};
+  for (const auto& [overrides, message] : cases) {
+    EXPECT_THAT(complaint_about(kShort, overrides), HasSubstr(message)) << message;
+  }
+  EXPECT_EQ(complaint_about(kShort, {{"clutter.level", "nrl"}}), "none");
+}
+
 TEST(Reading, IntraPulseMotionIsForPoints) {
   EXPECT_TRUE(parse("seaglint: 1\nradar: {intra_pulse_motion: true}\n"
                     "targets: {p: {label: 0, points: [{position_m: [0, 0, 0]}]}}\n")

@@ -120,7 +120,8 @@ TEST_F(SeaKeys, ThatContradictEachOtherAreNamed) {
   EXPECT_EQ(complaint("depth_m: 0"), "sea.depth_m: value '0': must be a number within 0.5 and 12000");
   EXPECT_EQ(complaint("spectrum: table"), "sea.table: this key is missing");
   EXPECT_EQ(complaint("spectrum: table, table: none.csv"),
-            "sea.table: value 'none.csv': no such file, neither beside the scenario nor below the working directory");
+            fmt::format("sea.table: value 'none.csv': no such file, neither {} nor below the working directory",
+                        (folder_ / "none.csv").string()));
   EXPECT_EQ(complaint("table: buoy.csv"),
             "sea.table: value 'buoy.csv': must not stand here, it belongs to spectrum: table");
   EXPECT_EQ(

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "radar/echo/clutter_motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/core/constants.h"
+#include "sim/core/error.h"
+#include "sim/core/random.h"
+
+namespace seaglint {
+namespace {
+
+constexpr double kSurfaceTension = 0.074;  // N/m, sea water
+constexpr double kWindDrift = 0.03;        // of the wind 10 m above the water
+constexpr double kFullyDeveloped = 0.22;   // Hs = 0.22 U^2 / g
+
+// Phase speed of the ripples that answer by Bragg's law, k_B = 2 k cos(grazing).
+double bragg_speed_mps(double wavelength_m, double cos_grazing) {
+  const double k = 4 * kPi / wavelength_m * cos_grazing;
+  return std::sqrt(kGravity / k + kSurfaceTension / kSeaWaterDensity * k);
+}
+
+// Two-way gain e^{-8 ln2 phi^2 / width^2} is a normal density of deviation width / (4 sqrt(ln 2)).
+double beam_deviation_rad(const RadarSpec& radar) {
+  return radians(radar.budget.beamwidth_deg) / (4 * std::sqrt(std::log(2.0)));
+}
+
+}  // namespace
+
+VelocityMoments sea_velocity(const ClutterSpec& spec, const ClutterScene& scene, double wavelength_m) {
+  SEAGLINT_CHECK(scene.waves != nullptr, "clutter that follows the sea needs its waves");
+  const double cos_grazing = std::hypot(scene.r_hat.x(), scene.r_hat.y()), sin_grazing = scene.r_hat.z();
+  const Vec2 look = Vec2(scene.r_hat.x(), scene.r_hat.y());  // of length cos_grazing
+
+  // Stokes drift of a wave of amplitude a: a^2 w k along its way (deep water); orbital velocity a w, both ways.
+  Vec2 stokes = Vec2::Zero();
+  double variance = 0;
+  for (const WaveComponent& wave : scene.waves->components()) {
+    const double speed = wave.amplitude * wave.omega;
+    stokes += speed * wave.amplitude * wave.wavenumber * wave.direction;
+    const double horizontal = look.dot(wave.direction) / std::tanh(std::min(20.0, wave.wavenumber * scene.waves->depth()));
+    variance += 0.5 * speed * speed * (horizontal * horizontal + sin_grazing * sin_grazing);
+  }
+  if (!(stokes.norm() > 0)) return {};
+  const double wind = std::sqrt(kGravity * scene.significant_wave_height_m / kFullyDeveloped);
+  const double along_waves = bragg_speed_mps(wavelength_m, cos_grazing) + kWindDrift * wind + stokes.norm();
+  const double factor = scene.radar.polarisation == Polarisation::kVv ? 1 : spec.hh_velocity_factor;
+  return {-factor * along_waves * look.dot(stokes.normalized()), std::sqrt(variance)};
+}
+
+double platform_spread_mps(const ClutterScene& scene) {
+  const Vec3 velocity(scene.radar.platform.velocity_mps.data());
+  const Vec3 sideways = Vec3::UnitZ().cross(scene.r_hat);
+  const double level = sideways.norm();
+  return level > 0 ? std::abs(velocity.dot(sideways)) / level * beam_deviation_rad(scene.radar) : 0;
+}
+
+FloatingScatterers floating_scatterers(const ClutterScene& scene, const std::vector<double>& range_m, double duration_s,
+                                       std::uint64_t seed, std::uint64_t index) {
+  SEAGLINT_CHECK(scene.waves != nullptr && duration_s > 0, "clutter on the waves needs waves and an interval");
+  Random random({seed, Stream::kClutterPlace, index});
+  const double cos_grazing = std::hypot(scene.r_hat.x(), scene.r_hat.y());
+  const Vec2 away = -Vec2(scene.r_hat.x(), scene.r_hat.y()) / cos_grazing, across(-away.y(), away.x());
+  const double deviation_m = scene.radar.range_km * 1e3 * beam_deviation_rad(scene.radar);
+  FloatingScatterers floating;
+  for (const double range : range_m) {
+    const Vec2 place = away * (range / cos_grazing) + across * (deviation_m * random.normal());
+    const auto radial = [&](double time_s) {
+      return -scene.r_hat.dot(scene.waves->surface(place.x(), place.y(), time_s).velocity);
+    };
+    const double first = radial(scene.start_s), last = radial(scene.start_s + duration_s);
+    floating.velocity_mps.push_back(first);
+    floating.acceleration_mps2.push_back((last - first) / duration_s);
+  }
+  return floating;
+}
+
+}  // namespace seaglint

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// The echo as a receiver samples it over time, and back to frequencies.
+
+#include <vector>
+
+#include "radar/waveform/pulse_train.h"
+#include "sim/core/linear.h"
+#include "sim/scenario/radar_spec.h"
+
+namespace seaglint {
+
+// Complex samples of every pulse after mixing with the pulse's own carrier. A point of scattering amplitude a answers
+// with the transmitted chirp times a.
+struct SampledEcho {
+  double sampling_hz = 0;
+  std::vector<double> time_s;   // of the samples; 0 = the middle of the pulse returns from the reference point
+  int pulses = 0;
+  std::vector<Complex> values;  // metres, [pulse][sample]
+
+  std::size_t samples() const { return time_s.size(); }
+};
+
+// The same pulses on a frequency grid finer by an odd whole number, so that a whole pulse and the range window fit into
+// one period of the samples and that every frequency of the coarse grid is one of the fine grid. Throws InputError when
+// radar.sampling_mhz is no whole multiple of any such step up to four times the smallest number.
+PulseTrain train_for_samples(const PulseTrain& train, const RadarSpec& radar);
+
+// y_n(t) = integral of Y_n(f) e^{+j 2 pi f t} df / sqrt(mu), Y on the grid of `fine`, [pulse][frequency].
+SampledEcho sample_echo(const std::vector<Complex>& echo, const PulseTrain& fine, double sampling_hz);
+
+// Y_n(f) = sqrt(mu) / fs sum_k y_n(t_k) e^{-j 2 pi f t_k} at the frequencies of `train` (method, section 2, as P(f)), whose
+// step is an odd multiple of the one the samples' period allows.
+std::vector<Complex> spectrum_of(const SampledEcho& sampled, const PulseTrain& train);
+
+}  // namespace seaglint

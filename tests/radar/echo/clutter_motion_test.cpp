@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "radar/echo/clutter_motion.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "radar/echo/sea_clutter.h"
+#include "sim/core/constants.h"
+#include "sim/scenario/scenario.h"
+
+namespace seaglint {
+namespace {
+
+constexpr double kWavelength = 0.01864;
+
+SeaState waves_towards(double degrees) {
+  SeaState state;
+  state.propagation_rad = radians(degrees);
+  state.order = 1;
+  return state;
+}
+
+ClutterScene scene_of(const WaveField& waves) {
+  ClutterScene scene;
+  scene.radar.polarisation = Polarisation::kVv;
+  scene.significant_wave_height_m = 1;
+  scene.waves = &waves;
+  return scene;
+}
+
+TEST(SeaVelocity, IsTheSumOfRipplesDriftAndWind) {
+  const WaveField waves = realize_sea(waves_towards(180), 1, 1);  // away from a radar ahead
+  const ClutterScene scene = scene_of(waves);
+  // Bragg ripples of 4 pi / 18.64 mm: sqrt(9.81 / 674.2 + 0.074 / 1025 x 674.2) = 0.2514 m/s. Wind of Hs 1 m:
+  // sqrt(9.81 / 0.22) = 6.678 m/s, 3 % of it 0.2003 m/s. Stokes drift (2 / g) integral w^3 S dw, here of the components.
+  double stokes = 0;
+  for (const WaveComponent& wave : waves.components())
+    stokes += wave.amplitude * wave.amplitude * std::pow(wave.omega, 3) / kGravity;
+  const VelocityMoments vv = sea_velocity({}, scene, kWavelength);
+  std::printf("vv %.4f m/s with a Stokes drift of %.4f, spread %.4f m/s\n", vv.mean_mps, stokes, vv.spread_mps);
+  EXPECT_NEAR(vv.mean_mps, 0.2514 + 0.2003 + stokes, 2e-4);
+  EXPECT_GT(stokes, 0.01);
+}
+
+TEST(SeaVelocity, IsOppositeFromBehindNoneFromTheSideAndFasterInHh) {
+  const WaveField away = realize_sea(waves_towards(180), 1, 1), nearer = realize_sea(waves_towards(0), 1, 1),
+                  aside = realize_sea(waves_towards(90), 1, 1);
+  const double mean = sea_velocity({}, scene_of(away), kWavelength).mean_mps;
+  EXPECT_NEAR(sea_velocity({}, scene_of(nearer), kWavelength).mean_mps, -mean, 1e-12);
+  EXPECT_NEAR(sea_velocity({}, scene_of(aside), kWavelength).mean_mps, 0, 1e-12);
+  ClutterScene hh = scene_of(away);
+  hh.radar.polarisation = Polarisation::kHh;
+  EXPECT_NEAR(sea_velocity({}, hh, kWavelength).mean_mps, 1.5 * mean, 1e-12);
+  // Long-crested waves seen from the side move up and down only: nothing along a level line of sight.
+  EXPECT_NEAR(sea_velocity({}, scene_of(aside), kWavelength).spread_mps, 0, 1e-9);
+}
+
+TEST(SeaVelocity, SpreadIsTheOneOfTheWaterAndOfFloatingScatterers) {
+  const WaveField waves = realize_sea(waves_towards(150), 1, 1);
+  ClutterScene scene = scene_of(waves);
+  const double grazing = radians(10);
+  scene.r_hat = Vec3(std::cos(grazing), 0, std::sin(grazing));
+  scene.radar.range_km = 2;
+  const double spread = sea_velocity({}, scene, kWavelength).spread_mps;
+  // The water's own velocity at many places and times.
+  std::vector<double> ranges;
+  for (int i = 0; i < 400; ++i) ranges.push_back(-4000 + 20.0 * i);
+  double square = 0, count = 0;
+  for (int moment = 0; moment < 25; ++moment) {
+    scene.start_s = 37.0 * moment;
+    for (const double v : floating_scatterers(scene, ranges, 0.064, 1, moment).velocity_mps) square += v * v, ++count;
+  }
+  std::printf("spread %.4f m/s, of the water %.4f\n", spread, std::sqrt(square / count));
+  // 8 km hold about 80 waves of 100 m, 25 times: 2000 independent values.
+  EXPECT_NEAR(std::sqrt(square / count) / spread, 1, 4 / std::sqrt(2 * 2000.0));
+}
+
+TEST(FloatingScatterers, GoAlongWithTheWaves) {
+  // One wave of 1 m amplitude and 8 s towards the radar: u = a w cos(w t - k x) along it; radial velocity is minus that.
+  const double omega = 2 * kPi / 8, k = omega * omega / kGravity;
+  const WaveField wave({WaveComponent{omega, 1, 0, k, {1, 0}}}, Vec2(1, 0), 1, 10);
+  ClutterScene scene = scene_of(wave);
+  scene.radar.budget.beamwidth_deg = 0.01;
+  scene.start_s = 3;
+  const FloatingScatterers floating = floating_scatterers(scene, {0, 25}, 0.064, 1, 1);
+  for (const int i : {0, 1}) {
+    const double phase = omega * 3 + k * 25 * i;  // x = -range
+    EXPECT_NEAR(floating.velocity_mps[i], -omega * std::cos(phase), 1e-9);
+    EXPECT_NEAR(floating.acceleration_mps2[i], omega * omega * std::sin(phase), 0.5 * 0.064 * std::pow(omega, 3) + 1e-9);
+  }
+}
+
+TEST(ClutterOnWaves, HasTheDopplerOfTheSea) {
+  RadarSpec radar;
+  radar.hop_count = 1;
+  radar.pulses = 64;
+  const PulseTrain train = make_pulse_train(radar, 100, 1, 2);
+  const double wavelength = kSpeedOfLight / train.band_centre_hz();
+  const WaveField waves = realize_sea(waves_towards(180), 1, 1);
+  ClutterScene scene = scene_of(waves);
+  scene.radar = radar;
+  constexpr std::size_t kLag = 4;
+  for (const ClutterDoppler doppler : {ClutterDoppler::kSea, ClutterDoppler::kWaveField}) {
+    ClutterSpec spec;
+    spec.doppler = doppler;
+    spec.doppler_spread_mps = 0.1;
+    Complex sum;
+    double power = 0;
+    for (int i = 0; i < 300; ++i) {
+      scene.start_s = 41.0 * i;
+      scene.texture_key = i;
+      const std::vector<Complex> response = clutter_response(train, spec, scene, 3, i);
+      const std::size_t bins = train.frequencies();
+      for (std::size_t j = kLag * bins; j < response.size(); ++j) {
+        sum += response[j] * std::conj(response[j - kLag * bins]);
+        power += 0.5 * (std::norm(response[j]) + std::norm(response[j - kLag * bins]));
+      }
+    }
+    // A small lag: the phase is the mean velocity, the loss of magnitude the spread.
+    const VelocityMoments sea = sea_velocity(spec, scene, wavelength);
+    const double per_mps = 4 * kPi * kLag * train.pri_s / wavelength;
+    const double mean = -std::arg(sum) / per_mps;
+    const double spread = std::sqrt(-2 * std::log(std::abs(sum) / power)) / per_mps;
+    std::printf("mean %.3f (law %.3f), spread %.3f (law %.3f) m/s\n", mean, sea.mean_mps, spread,
+                std::hypot(sea.spread_mps, 0.1));
+    // 300 intervals of two to three waves' worth of water each: about 5 % of the spread.
+    EXPECT_NEAR(mean, sea.mean_mps, 4 * sea.spread_mps / std::sqrt(300.0));
+    EXPECT_NEAR(spread / std::hypot(sea.spread_mps, 0.1), 1, 4 / std::sqrt(2 * 300.0));
+  }
+}
+
+}  // namespace
+}  // namespace seaglint
