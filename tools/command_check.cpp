@@ -7,16 +7,12 @@
 
 #include "radar/waveform/pulse_train.h"
 #include "tools/command.h"
+#include "tools/map_coverage.h"
 #include "tools/scene.h"
 
 namespace seaglint {
 
 namespace {
-
-// Reads every file the scenario names.
-void check_files(const Scenario& scenario) {
-  load_targets(scenario);
-}
 
 std::string summary(const Scenario& scenario) {
   const std::size_t seas = sea_states(scenario.sea).size();
@@ -38,12 +34,13 @@ void add_check(CLI::App& app, Shell& shell) {
   command->callback([arguments, &shell] {
     shell.work = [arguments] {
       const Scenario scenario = arguments->read();
-      check_files(scenario);
-      const PulseTrain train = make_pulse_train(scenario.radar, scenario.map.range_span_m, scenario.seed, 0);
+      const std::vector<Target> targets = load_targets(scenario);  // reads every file the scenario names
+      const PulseTrain train = make_pulse_train(scenario.radar, range_window_m(scenario, targets), scenario.seed, 0);
       fmt::print("{}", effective_yaml(scenario));
       std::fflush(stdout);
       fmt::print(stderr, "{}", summary(scenario));
       fmt::print(stderr, "{}", describe(train, scenario.radar));
+      for (const std::string& line : outside_of_map(scenario, targets)) fmt::print(stderr, "warning: {}\n", line);
     };
   });
 }

@@ -11,30 +11,14 @@
 #include "classify/dataset/plan.h"
 #include "sim/core/constants.h"
 #include "sim/core/error.h"
-#include "sim/scattering/point_response.h"
 #include "tools/command.h"
+#include "tools/map_coverage.h"
 #include "tools/map_products.h"
 #include "tools/pipeline.h"
 #include "tools/rv_figure.h"
 
 namespace seaglint {
 namespace {
-
-void warn_outside(const TargetSpec& target, const Vec3& r_hat, const RvMap& map) {
-  for (std::size_t i = 0; i < target.points.size(); ++i) {
-    const double range = -r_hat.dot(Vec3(target.points[i].position_m.data()));
-    const double velocity = -r_hat.dot(Vec3(target.points[i].velocity_mps.data()));
-    if (range >= map.range_m.front() && range <= map.range_m.back() && velocity >= map.velocity_mps.front() &&
-        velocity <= map.velocity_mps.back()) {
-      continue;
-    }
-    fmt::print(stderr,
-               "seaglint: warning: point {} at {:.2f} m, {:.2f} m/s lies outside the map ({:.2f} to {:.2f} m, {:.2f} "
-               "to {:.2f} m/s)\n",
-               i + 1, range, velocity, map.range_m.front(), map.range_m.back(), map.velocity_mps.front(),
-               map.velocity_mps.back());
-  }
-}
 
 void print_result(const ReceivedInterval& received, const std::vector<ScatteringCentre>& centres,
                   const FeatureVector& features) {
@@ -95,7 +79,8 @@ void show_map(const Arguments& arguments) {
     return;
   }
   const MadeSample made = pipeline.make(sample);
-  warn_outside(target, direction_to_radar(view), made.received.map);
+  for (const std::string& line : outside_of_map(scenario, pipeline.targets()))
+    fmt::print(stderr, "seaglint: warning: {}\n", line);
   write_figure(rv_figure(made.received.map, made.centres, title), arguments.output);
   print_result(made.received, made.centres, made.features);
 }

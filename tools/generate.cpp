@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/generate.h"
 
+#include <fmt/format.h>
+
 #include <map>
 #include <mutex>
 #include <vector>
@@ -8,6 +10,7 @@
 #include "classify/dataset/dataset_writer.h"
 #include "seaglint_version.h"
 #include "sim/core/progress.h"
+#include "tools/map_coverage.h"
 #include "tools/pipeline.h"
 
 namespace seaglint {
@@ -26,6 +29,8 @@ GenerateResult generate_dataset(const Scenario& scenario, const std::filesystem:
                                 const GenerateOptions& options, const StopFlag* stop) {
   const Pipeline pipeline(scenario);
   const SamplePlan& plan = pipeline.plan();
+  for (const std::string& line : outside_of_map(scenario, pipeline.targets()))
+    fmt::print(stderr, "seaglint: warning: {}\n", line);
   DatasetWriter writer(directory, scenario, options.resume, kVersion);
 
   // The part's shards that are to be made, and their samples in order.

@@ -77,7 +77,7 @@ TEST(MapCommand, WarnsAboutPointsOutsideTheMap) {
   more.insert(more.end(), {"--set", "map.velocity_span_mps=2"});
   const ProgramResult result = run_program(map_of(folder.path() / "map.svg", more));
   EXPECT_EQ(result.code, 0);
-  EXPECT_THAT(result.err, HasSubstr("lies outside the map"));
+  EXPECT_THAT(result.err, HasSubstr("moves at -1.50 to 0.00 m/s, the map shows"));
 }
 
 TEST(MapCommand, RefusesSamplesAndFilesThatCannotBe) {

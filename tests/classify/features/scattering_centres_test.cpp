@@ -113,6 +113,22 @@ TEST(Centres, OfKnownPointsAreRecoveredToATenthOfACell) {
   }
 }
 
+TEST(Centres, AnIsolatedPointIsFoundToACentimetreAndAMillimetrePerSecond) {
+  Random random({1, Stream::kTest, 77});
+  double worst_m = 0, worst_mps = 0;
+  for (int i = 0; i < 20; ++i) {
+    const PulseTrain train = make_pulse_train({}, kShipWindow, 5, i);
+    const ScatteringCentre truth{80 * (2 * random.uniform() - 1), 4 * (2 * random.uniform() - 1), 1};
+    const auto centres = extract_centres(echo_of(train, {truth}, no_clutter()), train, {}, false, {});
+    ASSERT_EQ(centres.size(), 1u);
+    worst_m = std::max(worst_m, std::abs(centres[0].range_m - truth.range_m));
+    worst_mps = std::max(worst_mps, std::abs(centres[0].velocity_mps - truth.velocity_mps));
+  }
+  std::printf("isolated points: worst %.1e m, %.1e m/s\n", worst_m, worst_mps);
+  EXPECT_LT(worst_m, 0.01);
+  EXPECT_LT(worst_mps, 1e-3);
+}
+
 TEST(Centres, AWeakPointHiddenInTheStrongOnesPedestalIsFound) {
   // 20 dB below, in the same 6 m range cell, where the pedestal alone reaches -15 to -24 dB.
   int found = 0;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 
 #include "radar/echo/echo.h"
 #include "radar/rvmap/map_weights.h"
@@ -204,6 +205,32 @@ TEST(RvMap, ThePhaseOfAPeakIsThatOfThePointAtTheBandsCentre) {
   const Peak peak = peak_of(form_rv_map(echo_of(train, {{range_m, 0, 1}}), train, {}, false));
   const Complex expected = std::polar(1.0, -4 * kPi * train.band_centre_hz() * range_m / kSpeedOfLight);
   EXPECT_NEAR(std::abs(peak.value - expected), 0, 1e-9);
+}
+
+TEST(CompressedPulses, FollowThePhaseOfAPointOverTheWholeInterval) {
+  for (const bool intra_pulse_motion : {false, true}) {
+    RadarSpec radar;
+    radar.intra_pulse_motion = intra_pulse_motion;
+    radar.pri_jitter_us = 50;
+    const PulseTrain train = make_pulse_train(radar, 239.8, 1, 2);
+    const PointSpec point{{-31, 0, 0}, 1, {-7, 0, 0}};
+    ClutterSpec off;
+    off.enabled = false;
+    const Echo echo =
+        synthesize_echo(train, point_response({&point, 1}, Vec3(1, 0, 0), interval_sampling(train, 0)), off, 1, 1);
+    const std::vector<Complex> compressed = compress_pulses(echo.target, train, Compression::kInverse);
+    double worst = 0;
+    for (std::size_t n = 0; n < train.pulses(); ++n) {
+      for (std::size_t b = 0; b < train.frequencies(); ++b) {
+        const double f = train.carrier_hz[n] + train.baseband_hz[b];
+        const double t = train.time_s[n] + (intra_pulse_motion ? train.baseband_hz[b] / train.chirp_rate_hz_s : 0);
+        const Complex law = std::polar(1.0, -4 * kPi * f * (31 + 7 * t) / kSpeedOfLight);
+        worst = std::max(worst, std::abs(std::arg(compressed[n * train.frequencies() + b] / law)));
+      }
+    }
+    std::printf("phase over the interval: worst error %.1e rad\n", worst);
+    EXPECT_LT(worst, 1e-9);  // 20,000 rad of phase carry 20,000 eps
+  }
 }
 
 TEST(RvMap, FastPointsLoseNothingToRangeMigration) {
