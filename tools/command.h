@@ -27,6 +27,7 @@ void add_mesh(CLI::App& app, Shell& shell);
 void add_sea(CLI::App& app, Shell& shell);
 void add_motion(CLI::App& app, Shell& shell);
 void add_rcs(CLI::App& app, Shell& shell);
+void add_echo(CLI::App& app, Shell& shell);
 void add_map(CLI::App& app, Shell& shell);
 void add_generate(CLI::App& app, Shell& shell);
 void add_merge(CLI::App& app, Shell& shell);

@@ -44,6 +44,7 @@ void add_commands(CLI::App& app, Shell& shell) {
   add_sea(app, shell);
   add_motion(app, shell);
   add_rcs(app, shell);
+  add_echo(app, shell);
   add_map(app, shell);
   add_generate(app, shell);
   add_merge(app, shell);

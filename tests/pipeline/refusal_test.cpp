@@ -41,6 +41,7 @@ std::vector<Words> scenario_commands(const std::string& scenario, const fs::path
   return {{"check", scenario},
           {"sea", scenario, "-o", output / "sea.csv"},
           {"motion", scenario, "-o", output / "motion.csv"},
+          {"echo", scenario, "-o", output / "echo.npz"},
           {"map", scenario, "-o", output / "map.png"},
           {"generate", scenario, "-o", output / "data"},
           {"run", scenario, "-o", output / "run"}};
