@@ -102,21 +102,18 @@ std::vector<std::array<double, 3>> centres_of(const std::vector<std::string>& mo
 }
 
 TEST(MapCommand, ACompanionIsSeenInTheSameMap) {
-  const auto centres = centres_of(
-      {"--set", "view={azimuth_deg: 0, elevation_deg: 0}", "--set",
-       "targets={one: {label: 1, points: [{position_m: [30, 0, 0], amplitude_m: 2, velocity_mps: [1, 0, 0]}], with: "
-       "[{target: other, x_m: -50, y_m: 8}]}, other: {label: 0, points: [{position_m: [5, 0, 0]}]}}",
-       "--set", "dataset.maps_per_case=1", "--set", "dataset.realisations_per_case=1", "--sample", "0", "--set",
-       "clutter.scr_db=60"});
+  const auto centres_in = [](const std::string& sample) {
+    return centres_of(
+        {"--set", "view={azimuth_deg: 0, elevation_deg: 0}", "--set",
+         "targets={one: {label: 1, points: [{position_m: [30, 0, 0], amplitude_m: 2, velocity_mps: [1, 0, 0]}], with: "
+         "[{target: other, x_m: -50, y_m: 8}]}, other: {label: 0, points: [{position_m: [5, 0, 0]}]}}",
+         "--set", "dataset={maps_per_case: 1, realisations_per_case: 1}", "--set", "clutter.scr_db=60", "--sample",
+         sample});
+  };
   // Which of the two targets sample 0 shows is random; the companion comes with one of them.
-  const auto again = centres_of(
-      {"--set", "view={azimuth_deg: 0, elevation_deg: 0}", "--set",
-       "targets={one: {label: 1, points: [{position_m: [30, 0, 0], amplitude_m: 2, velocity_mps: [1, 0, 0]}], with: "
-       "[{target: other, x_m: -50, y_m: 8}]}, other: {label: 0, points: [{position_m: [5, 0, 0]}]}}",
-       "--set", "dataset.maps_per_case=1", "--set", "dataset.realisations_per_case=1", "--sample", "1", "--set",
-       "clutter.scr_db=60"});
-  const auto& both = centres.size() > again.size() ? centres : again;
-  const auto& alone = centres.size() > again.size() ? again : centres;
+  const auto first = centres_in("0"), second = centres_in("1");
+  const auto& both = first.size() > second.size() ? first : second;
+  const auto& alone = first.size() > second.size() ? second : first;
   ASSERT_EQ(both.size(), 2u);
   ASSERT_EQ(alone.size(), 1u);
   EXPECT_NEAR(both[0][0], -30, 0.02);
