@@ -21,6 +21,11 @@ constexpr double kMaxCells = 1 << 26;
 // 16 to 64.
 constexpr std::size_t kBlock = 32;
 
+// std::complex's own product also settles infinities.
+Complex times(Complex a, Complex b) {
+  return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
+}
+
 // Complex numbers of one block of velocities, real and imaginary parts apart so that loops become vector instructions.
 struct Block {
   alignas(64) std::array<double, kBlock> re{};
@@ -43,14 +48,23 @@ Block phase_ramp(double phase, double step) {
   for (std::size_t l = 0; l < kBlock; ++l) {
     block.re[l] = value.real();
     block.im[l] = value.imag();
-    value = {value.real() * ratio.real() - value.imag() * ratio.imag(),
-             value.real() * ratio.imag() + value.imag() * ratio.real()};
+    value = times(value, ratio);
   }
   return block;
 }
 
+// Compiled for wider vectors too, chosen when the program starts. Lanes never mix and nothing is contracted to fused
+// products (-ffp-contract=off), so all of them give the same bits. Not under a sanitizer, which starts too late for it.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
+    !defined(__SANITIZE_THREAD__)
+#define SEAGLINT_FOR_WIDER_VECTORS __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#else
+#define SEAGLINT_FOR_WIDER_VECTORS
+#endif
+
 // S += x e^{j ...} of one pulse over all its frequencies: `factor` is the compensation at the first frequency, `step`
 // its change from one frequency to the next (f_b v t_n couples frequency and velocity: range migration).
+SEAGLINT_FOR_WIDER_VECTORS
 void add_pulse(const Complex* x, std::size_t frequencies, Block factor, const Block& step, Block* sums) {
   for (std::size_t b = 0; b < frequencies; ++b) {
     Block& sum = sums[b];
@@ -143,16 +157,19 @@ RvMap form_rv_map(std::span<const Complex> echo, const PulseTrain& train, const 
                                 train.baseband_hz[b] / train.chirp_rate_hz_s;
           sums[b].rotate(phase_ramp(metres * velocity, metres * velocity_step));
         }
-        const std::size_t k = static_cast<std::size_t>(i) * train.bins_per_hop + b;
-        for (std::size_t l = 0; l < rows; ++l) {
-          profile.row(l)[k % length] += weights.bin[k] * Complex(sums[b].re[l], sums[b].im[l]);
-        }
+      }
+      // Along a row of the transform at a time.
+      const std::size_t first_bin = static_cast<std::size_t>(i) * train.bins_per_hop;
+      for (std::size_t l = 0; l < rows; ++l) {
+        Complex* row = profile.row(l);
+        for (std::size_t b = 0, k = first_bin % length; b < frequencies; ++b, k = k + 1 == length ? 0 : k + 1)
+          row[k] += weights.bin[first_bin + b] * Complex(sums[b].re[l], sums[b].im[l]);
       }
     }
     profile.execute();
     for (std::size_t l = 0; l < rows; ++l) {
       Complex* row = &map.values[(first + l) * grid.range_m.size()];
-      for (std::size_t r = 0; r < grid.range_m.size(); ++r) row[r] = profile.row(l)[cell[r]] * centre_phase[r];
+      for (std::size_t r = 0; r < grid.range_m.size(); ++r) row[r] = times(profile.row(l)[cell[r]], centre_phase[r]);
     }
   }
   return map;
