@@ -52,7 +52,13 @@ std::vector<std::string> outside_of_map(const Scenario& scenario, const std::vec
   const PlatformSpec& platform = scenario.radar.platform;
   std::vector<std::string> lines;
   std::size_t more = 0;
-  const auto tell = [&](const std::string& line) { lines.size() < kMostLines ? lines.push_back(line) : void(++more); };
+  const auto tell = [&](const std::string& line) {
+    if (lines.size() < kMostLines) {
+      lines.push_back(line);
+    } else {
+      ++more;
+    }
+  };
   for (std::size_t t = 0; t < scenario.targets.size(); ++t) {
     for (const View& view : views(scenario.view)) {
       const Vec3 r_hat = direction_to_radar(view);

@@ -21,7 +21,6 @@ WholeBand whole_band(const Pipeline& pipeline, std::size_t sample) {
 
   WholeBand band;
   band.train = make_pulse_train(radar, pipeline.window_m(), scenario.seed, sample);
-  band.train.time_s = pulse_times(scenario.radar, scenario.seed, sample);
   ClutterSpec none;
   none.enabled = false;
   band.echo = synthesize_echo(band.train, pipeline.response(sample, band.train).response, none, scenario.seed, sample).target;

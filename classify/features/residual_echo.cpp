@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/core/complex_product.h"
 #include "sim/core/constants.h"
 
 namespace seaglint {
@@ -13,10 +14,6 @@ namespace {
 // further take them anew where they arrived.
 constexpr double kMomentReach = 0.2;
 constexpr int kMaxPasses = 4;
-
-Complex times(Complex a, Complex b) {
-  return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
-}
 
 // Phase factors e^{j phase(b)} of one pulse, phase = 4 pi [f v (t + f_b/mu) + (f - f_c) r] / c, quadratic in b: each
 // factor is the last one times a ratio, the ratio bends by a constant (1 without motion inside the pulse).

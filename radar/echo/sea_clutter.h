@@ -21,8 +21,8 @@ std::vector<double> sea_texture(int cells, double correlation_cells, const Clutt
 
 // H of the clutter at the frequencies of every pulse, [pulse][frequency], mean power 1 over all realisations. The
 // scatterers fill the whole unambiguous range window of the map and are the same ones at every carrier and on every
-// refinement of the frequency grid; their velocities are those
-// that spec.doppler asks for. Speckle: stream kClutter of (seed, index); texture: scene.texture_key.
+// refinement of the frequency grid; their velocities are those that spec.doppler asks for. Speckle: stream kClutter of
+// (seed, index); texture: scene.texture_key.
 std::vector<Complex> clutter_response(const PulseTrain& train, const ClutterSpec& spec, const ClutterScene& scene,
                                       std::uint64_t seed, std::uint64_t index);
 

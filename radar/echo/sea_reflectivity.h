@@ -8,7 +8,7 @@
 namespace seaglint {
 
 // Mean reflectivity sigma0 of the sea, dB m^2/m^2. Gregers-Hansen and Mital, "An improved empirical model for radar sea
-// clutter reflectivity", NRL/MR/5310-12-9346 (2012), eq. 1, without look direction: fitted to measurements between 0.5
+// clutter reflectivity", NRL/MR/5310-12-9346 (2012), its closed form and coefficients: fitted to measurements between 0.5
 // and 35 GHz, 0.1 and 60 deg of grazing, Douglas sea state 0 to 6, within 2 to 3 dB. hh or vv.
 double nrl_reflectivity_db(Polarisation polarisation, double grazing_rad, double frequency_hz, double sea_state);
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/core/complex_product.h"
 #include "sim/core/constants.h"
 #include "sim/core/error.h"
 
@@ -115,9 +116,7 @@ std::vector<Complex> compress_pulses(std::span<const Complex> echo, const PulseT
   std::vector<Complex> compressed(echo.size());
   for (std::size_t n = 0; n < train.pulses(); ++n) {
     for (std::size_t b = 0; b < frequencies; ++b) {
-      const Complex x = filter[b], y = echo[n * frequencies + b];
-      compressed[n * frequencies + b] = {x.real() * y.real() - x.imag() * y.imag(),
-                                         x.real() * y.imag() + x.imag() * y.real()};
+      compressed[n * frequencies + b] = times(filter[b], echo[n * frequencies + b]);
     }
   }
   return compressed;

@@ -9,6 +9,7 @@
 
 #include "radar/rvmap/map_weights.h"
 #include "radar/waveform/fourier.h"
+#include "sim/core/complex_product.h"
 #include "sim/core/constants.h"
 #include "sim/core/error.h"
 
@@ -20,11 +21,6 @@ constexpr double kMaxCells = 1 << 26;
 // Velocities summed together: their phase factors and the sums of one carrier stay in the first-level cache. Flat from
 // 16 to 64.
 constexpr std::size_t kBlock = 32;
-
-// std::complex's own product also settles infinities.
-Complex times(Complex a, Complex b) {
-  return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
-}
 
 // Complex numbers of one block of velocities, real and imaginary parts apart so that loops become vector instructions.
 struct Block {

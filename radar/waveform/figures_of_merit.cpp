@@ -11,6 +11,22 @@
 namespace seaglint {
 namespace {
 
+// (1/N) sum_{n < N} e^{j n x}
+Complex mean_phasor(double x, double count) {
+  const double half = std::remainder(x, 2 * kPi) / 2;
+  const double denominator = count * std::sin(half);
+  const double magnitude = std::abs(half) * count < 1e-8 ? 1 : std::sin(count * half) / denominator;
+  return std::polar(1.0, (count - 1) * half) * magnitude;
+}
+
+// Whether pulses come at n T_r, to rounding: then sums over them have a closed form.
+bool are_regular(const PulseTrain& train) {
+  for (std::size_t n = 0; n < train.pulses(); ++n) {
+    if (std::abs(train.time_s[n] - static_cast<double>(n) * train.pri_s) > 1e-9 * train.pri_s) return false;
+  }
+  return true;
+}
+
 // The highest of 2048 exponentially distributed cells against their mean, 10 log10 ln 2048.
 constexpr double kLargestOfMapDb = 8.8;
 
@@ -66,7 +82,12 @@ double expected_response_power(const PulseTrain& train, double range_offset_m, d
 
   // phi_i(n) = -4 pi f_i (dR + dv t_n) / c; m_i its mean phasor over all pulses; c_ij depends on i - j alone.
   const double per_hz = -4 * kPi / kSpeedOfLight;
+  const bool regular = are_regular(train);
   const auto mean_at = [&](double frequency_hz) {
+    if (regular) {
+      return std::polar(1.0, per_hz * frequency_hz * range_offset_m) *
+             mean_phasor(per_hz * frequency_hz * velocity_offset_mps * train.pri_s, pulses);
+    }
     Complex sum;
     for (const double t : train.time_s)
       sum += std::polar(1.0, per_hz * frequency_hz * (range_offset_m + velocity_offset_mps * t));

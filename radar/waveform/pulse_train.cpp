@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/core/complex_product.h"
 #include "sim/core/constants.h"
 #include "sim/core/error.h"
 #include "sim/core/random.h"
@@ -19,10 +20,6 @@ constexpr double kMaxPulseSamples = 1 << 24;
 constexpr double kMaxSpectrumTerms = 4e9;  // pulse samples times frequencies, about ten seconds
 // Bounds on ratios of decimal inputs (25 / 0.625 must count as 40).
 constexpr double kRatioSlack = 1e-9;
-
-Complex times(Complex a, Complex b) {
-  return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
-}
 
 }  // namespace
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/core/complex_product.h"
 #include "sim/core/constants.h"
 #include "sim/scattering/passing_radar.h"
 
@@ -15,11 +16,6 @@ namespace {
 constexpr int kRenewal = 32;
 
 Vec3 as_vector(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
-
-// std::complex's own product also settles infinities, which costs half the time of a response.
-Complex times(Complex a, Complex b) {
-  return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
-}
 
 // Adds amplitude e^{-j 4 pi f (R + v f_b/mu) / c} over the frequencies of one pulse; f_b is 0 in their middle, and the
 // term with the chirp rate mu is there only when the pulse sweeps. The phase is quadratic in the frequency's number:

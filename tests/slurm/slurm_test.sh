@@ -11,7 +11,7 @@ for needed in munged slurmctld slurmd sbatch; do
 done
 [[ $(id -u) -eq 0 ]] || { echo "skipped: the daemons need root"; exit 77; }
 
-work=$(mktemp -d /tmp/seaglint_slurm_XXXXXX)
+work=$(mktemp -d -t seaglint_slurm_XXXXXX)
 chmod 755 "$work"
 daemons=()
 

@@ -84,8 +84,26 @@ TEST(SampledEcho, HoldsTheWholePulseAndTheWindow) {
   EXPECT_EQ(sampled.samples(), 2000u);  // 36 us of pulse and 1.6 us of window fit into 40 us
   for (std::size_t b = 0; b < train.frequencies(); ++b)
     EXPECT_NEAR(fine.baseband_hz[25 * b + 12], train.baseband_hz[b], 1e-6);
-  // Unit amplitude inside the pulse of a point at rest; band-limited, so with ripples of a few percent.
   EXPECT_EQ(sampled.time_s.size() * 64, sampled.values.size());
+}
+
+TEST(SampledEcho, OfAPointAtRestIsTheChirpTimesItsAmplitude) {
+  const RadarSpec radar = radar_with(false);
+  const PulseTrain fine = train_for_samples(make_pulse_train(radar, 239.8, 1, 2), radar);
+  std::vector<Complex> echo;
+  for (std::size_t n = 0; n < fine.pulses(); ++n)
+    for (const Complex& p : fine.chirp_spectrum) echo.push_back(3.0 * p);
+  const SampledEcho sampled = sample_echo(echo, fine, 50e6);
+  const double mu = fine.chirp_rate_hz_s, half_pulse_s = 18e-6;
+  for (std::size_t k = 0; k < sampled.samples(); ++k) {
+    const double t = sampled.time_s[k];
+    const Complex chirp = std::abs(t) < half_pulse_s ? std::polar(3.0, kPi * mu * t * t) : 0.0;
+    // The band's limit rounds both ends of the pulse: Fresnel ripples 1 / (pi sqrt(2) u) at u = |t - end| sqrt(mu) from
+    // each, twice that as bound, and 2 % for what the sampled chirp folds into the band.
+    const double u = std::abs(std::abs(t) - half_pulse_s) * std::sqrt(mu);
+    if (u < 1) continue;
+    EXPECT_NEAR(std::abs(sampled.values[k] - chirp), 0, 3 * (4 / (kPi * std::sqrt(2.0) * u) + 0.02)) << t;
+  }
 }
 
 TEST(SampledEcho, GivesTheSameMapAsTheFrequencyDomain) {
