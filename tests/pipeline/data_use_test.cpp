@@ -13,8 +13,6 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-constexpr const char* kPython = "/usr/bin/python3";  // Debian's packages are for Debian's Python
-
 bool has_python() { return fs::exists(kPython) && run_words({kPython, "-c", "import h5py, numpy"}).code == 0; }
 
 #define SKIP_WITHOUT_PYTHON() \

@@ -92,16 +92,8 @@ void expect_kept(const Finished& before, const Finished& after) {
 
 // Starts the program and kills it after a time. True when it was still running then.
 bool run_and_kill(Words words, Seconds after) {
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addchdir_np(&actions, SEAGLINT_SOURCE_DIR);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  pid_t process = 0;
-  EXPECT_EQ(posix_spawn(&process, argv[0], &actions, nullptr, argv.data(), environ), 0);
-  posix_spawn_file_actions_destroy(&actions);
+  const pid_t process = start_words(std::move(words), "/dev/null", "/dev/null");
+  if (process < 0) return false;
   std::this_thread::sleep_for(after);
   ::kill(process, SIGKILL);
   int status = 0;

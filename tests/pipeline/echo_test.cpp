@@ -25,9 +25,9 @@ TEST(EchoCommand, WritesSamplesThatNumpyCompressesToThePoint) {
   const ProgramResult result = run_program(echo_of(file));
   ASSERT_EQ(result.code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("256 pulses of"));
-  if (run_words({"/usr/bin/python3", "-c", "import numpy"}).code != 0) GTEST_SKIP() << "needs the package python3-numpy";
+  if (run_words({kPython, "-c", "import numpy"}).code != 0) GTEST_SKIP() << "needs the package python3-numpy";
   // Correlates pulses with the ideal chirp, delayed, and removes the carrier's phase of the point's range.
-  const ProgramResult read = run_words({"/usr/bin/python3", "-c", R"(
+  const ProgramResult read = run_words({kPython, "-c", R"(
 import sys, numpy as np
 a = np.load(sys.argv[1])
 c, mu, width = 299792458.0, 25e6 / 36e-6, 36e-6

@@ -67,19 +67,9 @@ std::size_t shards_in(const fs::path& directory) {
 int run_and_signal(const std::vector<std::string>& arguments, const fs::path& directory, std::size_t shards,
                    int signal) {
   std::vector<std::string> words = arguments;
-  std::string program = SEAGLINT_BINARY_DIR "/seaglint";
-  std::vector<char*> argv{program.data()};
-  for (std::string& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addchdir_np(&actions, SEAGLINT_SOURCE_DIR);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, (directory.string() + ".err").c_str(),
-                                   O_CREAT | O_WRONLY | O_TRUNC, 0600);
-  pid_t process = 0;
-  EXPECT_EQ(posix_spawn(&process, program.c_str(), &actions, nullptr, argv.data(), environ), 0);
-  posix_spawn_file_actions_destroy(&actions);
+  words.insert(words.begin(), kProgram);
+  const pid_t process = start_words(std::move(words), "/dev/null", directory.string() + ".err");
+  if (process < 0) return -1;
   int status = 0;
   while (::waitpid(process, &status, WNOHANG) == 0) {
     if (shards_in(directory) >= shards) {

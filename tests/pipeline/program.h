@@ -45,29 +45,34 @@ class TemporaryFolder {
 
 inline constexpr const char* kProgram = SEAGLINT_BINARY_DIR "/seaglint";
 
-// Any program, words[0], with the project's root as working directory.
+inline constexpr const char* kPython = "/usr/bin/python3";  // Debian's packages are for Debian's Python
+
+// Starts any program, words[0], with the project's root as working directory; both files are written anew.
+inline pid_t start_words(std::vector<std::string> words, const std::string& out, const std::string& err) {
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addchdir_np(&actions, SEAGLINT_SOURCE_DIR);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out.c_str(), O_CREAT | O_WRONLY | O_TRUNC, 0600);
+  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, err.c_str(), O_CREAT | O_WRONLY | O_TRUNC, 0600);
+  pid_t process = 0;
+  const int error = posix_spawn(&process, argv[0], &actions, nullptr, argv.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (error == 0) return process;
+  ADD_FAILURE() << words.front() << ": " << std::strerror(error);
+  return -1;
+}
+
+// The same, until it ends.
 inline ProgramResult run_words(std::vector<std::string> words) {
   const TemporaryFolder folder;
   const std::string out = folder.path() / "out";
   const std::string err = folder.path() / "err";
-  const std::string program = words.front();
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
-
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addchdir_np(&actions, SEAGLINT_SOURCE_DIR);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out.c_str(), O_CREAT | O_WRONLY, 0600);
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, err.c_str(), O_CREAT | O_WRONLY, 0600);
-  pid_t process = 0;
-  const int error = posix_spawn(&process, program.c_str(), &actions, nullptr, argv.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
+  const pid_t process = start_words(std::move(words), out, err);
   ProgramResult result;
-  if (error != 0) {
-    ADD_FAILURE() << program << ": " << std::strerror(error);
-    return result;
-  }
+  if (process < 0) return result;
   int status = 0;
   ::waitpid(process, &status, 0);
   result.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
