@@ -31,6 +31,7 @@ class BeamTracer {
         out_(out),
         max_bounces_(scene.settings.max_bounces),
         min_area_(scene.min_area),
+        radius_(scene.scatterer.radius()),
         scratch_(static_cast<std::size_t>(scene.settings.max_bounces) + 1) {}
 
   std::size_t legs() const { return legs_; }
@@ -335,6 +336,7 @@ class BeamTracer {
     footprint.curvature = curvature_of(curving_, leg, candidate, footprint);
     for (const MovingPolygon& piece : pieces) {
       footprint.polygon = piece;
+      limit_slip(footprint, 2 * radius_);
       out_.footprints.push_back(footprint);
     }
   }
@@ -352,6 +354,7 @@ class BeamTracer {
   Lit& out_;
   int max_bounces_;
   double min_area_;
+  double radius_;  // of the whole body
   std::vector<Scratch> scratch_;  // by the bounce a leg ends in
   std::size_t legs_ = 0;
 };

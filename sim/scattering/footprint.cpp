@@ -86,15 +86,32 @@ PathGradient phase_gradient(const Footprint& footprint, const Vec2& p, const Rad
   return {image, footprint.mirrors.real(image)};
 }
 
-PathGradient phase_gradient(const Footprint& footprint, const Corner& corner, const RadarBasis& transmit) {
-  // A body-fixed point at height z moves by -z d_i in the aperture; what the corner moves beyond that, it slips in the
-  // facet.
+namespace {
+
+// A body-fixed point at height z moves by -z d_i in the aperture; what the corner moves beyond that, it slips in the facet.
+std::array<Vec2, 2> slips(const Footprint& footprint, const Corner& corner) {
   const double z = footprint.plane.at(corner.p);
-  const Vec2 slip1 = corner.d1 + Vec2(z, 0);
-  const Vec2 slip2 = corner.d2 + Vec2(0, z);
+  return {corner.d1 + Vec2(z, 0), corner.d2 + Vec2(0, z)};
+}
+
+}  // namespace
+
+PathGradient phase_gradient(const Footprint& footprint, const Corner& corner, const RadarBasis& transmit) {
+  const auto [slip1, slip2] = slips(footprint, corner);
   PathGradient gradient = phase_gradient(footprint, corner.p, transmit);
   gradient.transmit += footprint.w.dot(slip1) * transmit.h + footprint.w.dot(slip2) * transmit.v;
   return gradient;
+}
+
+void limit_slip(Footprint& footprint, double most) {
+  for (Corner& corner : footprint.polygon) {
+    const auto [slip1, slip2] = slips(footprint, corner);
+    const double squared = slip1.squaredNorm() + slip2.squaredNorm();
+    if (squared <= most * most) continue;
+    const double too_much = 1 - most / std::sqrt(squared);
+    corner.d1 -= too_much * slip1;
+    corner.d2 -= too_much * slip2;
+  }
 }
 
 double sinc(double x) {

@@ -107,6 +107,12 @@ PathGradient phase_gradient(const Footprint& footprint, const Vec2& p, const Rad
 // The same for a corner that moves in the facet as the direction turns: adds w . slip to the transmitter's part.
 PathGradient phase_gradient(const Footprint& footprint, const Corner& corner, const RadarBasis& transmit);
 
+// Slows corners down that slip in the facet by more than `most`, m of the aperture per radian. A shadow edge slips by the
+// distance between what casts it and the facet; only where two edges cross that are nearly parallel a corner runs faster,
+// and soon off the end of one of them, so that its way cannot be told from its speed. The speed is the corner's own:
+// pieces that share it still do.
+void limit_slip(Footprint& footprint, double most);
+
 // I(k) = integral over the footprint of e^{jk psi(p)} d^2p, m^2. Gordon's contour form (W. B. Gordon, IEEE Trans.
 // AP-23, 1975, 590-592), by the divergence theorem with F = w e^{jk w.p} / (jk |w|^2); a series where |w| is small. With
 // curvature the sum of curved_terms, fading included.

@@ -10,6 +10,7 @@
 #include "sim/core/constants.h"
 #include "sim/core/error.h"
 #include "sim/scattering/contributions.h"
+#include "sim/scattering/direction_path.h"
 #include "sim/scattering/edge_echoes.h"
 #include "sim/scattering/passing_radar.h"
 #include "sim/scattering/return_grid.h"
@@ -31,10 +32,12 @@ RadarBasis body_basis(const RadarBasis& world, const Pose& pose) {
   return {R_BT * world.r, R_BT * world.h, R_BT * world.v};
 }
 
-// One trace: what the body answers while its directions move along `track`, the transmitter's (a unit vector across it)
-// by at most `reach`. `origin`: where the body stands from the point that the radar's range is counted from, body
-// frame.
-ReturnGrid trace_returns(const Scatterer& scatterer, const AntennaPair& antennas, const Track& track, double reach,
+// Body-fixed points go no faster than this beside a track, m: shadow edges that do are faint.
+double beside_limit(const Scatterer& scatterer) { return 2 * scatterer.radius(); }
+
+// One trace: what the body answers while its directions move by `path`. `origin`: where the body stands from the point
+// that the radar's range is counted from, body frame.
+ReturnGrid trace_returns(const Scatterer& scatterer, const AntennaPair& antennas, const DirectionPath& path,
                          const Vec3& origin, const WavenumberGrid& wavenumbers, int channel, const SolverSpec& solver,
                          int threads) {
   // A shadow edge at grazing runs along its facet much faster than any point of the body moves. Beyond four times the
@@ -46,7 +49,7 @@ ReturnGrid trace_returns(const Scatterer& scatterer, const AntennaPair& antennas
   const std::array band{kc - half_band, kc, kc + half_band};
   const IlluminationSettings settings{solver.ray_spacing_m, solver.max_bounces, solver.edges};
   const Illumination illumination(scatterer, antennas, settings, threads, band);
-  const SplitSettings split_settings{kc, reach + spread_of_directions(scatterer, solver.radar_range_m)};
+  const SplitSettings split_settings{kc, path.turn + spread_of_directions(scatterer, solver.radar_range_m)};
   const std::size_t chunks = illumination.chunk_count();
   const std::size_t all_chunks = chunks + kEdgeChunks;  // the last ones are those of the edges
   std::vector<std::vector<ReturnPoint>> points(all_chunks);
@@ -56,8 +59,9 @@ ReturnGrid trace_returns(const Scatterer& scatterer, const AntennaPair& antennas
     for (const Contribution& c : contributions) {
       const Complex amplitude = c.amplitude * Complex(c.pattern[channel]);
       if (amplitude == 0.0) continue;
-      const double u = track.speed(c.gradient) * std::min(1.0, limit / c.gradient.sum().norm());
-      points[chunk].push_back({amplitude, c.psi, u});
+      const double cut = std::min(1.0, limit / c.gradient.sum().norm());
+      const double u = cut * path.track.speed(c.gradient), v = cut * path.bend.speed(c.gradient);
+      points[chunk].push_back({amplitude, c.psi, u, v});
       fastest[chunk] = std::max(fastest[chunk], std::abs(u));
     }
   };
@@ -79,10 +83,11 @@ ReturnGrid trace_returns(const Scatterer& scatterer, const AntennaPair& antennas
                   keep(chunks + chunk, contributions);
                 }
               });
-  const double u_limit = *std::max_element(fastest.begin(), fastest.end());
+  const GridLimits limits{*std::max_element(fastest.begin(), fastest.end()), path.s_limit,
+                          beside_limit(scatterer), path.q_limit};
   // Four grids, whatever the number of threads, each for every fourth chunk; their sum is taken in order.
   constexpr std::size_t kGrids = 4;
-  std::vector<ReturnGrid> grids(kGrids, ReturnGrid(wavenumbers, u_limit, reach));
+  std::vector<ReturnGrid> grids(kGrids, ReturnGrid(wavenumbers, limits));
   parallel_for(kGrids, threads, [&](std::size_t g) {
     for (std::size_t chunk = g; chunk < all_chunks; chunk += kGrids) grids[g].spread(points[chunk]);
   });
@@ -92,24 +97,10 @@ ReturnGrid trace_returns(const Scatterer& scatterer, const AntennaPair& antennas
   return grid;
 }
 
-// Any unit vector across r, for a body at rest.
-Vec3 across(const Vec3& r) {
-  return (std::abs(r.z()) < 0.9 ? Vec3(Vec3::UnitZ().cross(r)) : Vec3(Vec3::UnitX().cross(r))).normalized();
-}
-
-// The common way of two directions from pulse `first` to `last`, of unit length in both together.
-Track track_of(std::span<const Vec3> transmit, std::span<const Vec3> receive, int first, int last,
-               const Vec3& transmit_at) {
-  const Vec3 t = transmit[last] - transmit[first], r = receive[last] - receive[first];
-  const double length = std::sqrt(t.squaredNorm() + r.squaredNorm());
-  if (length < 1e-12) return {across(transmit_at), Vec3::Zero()};
-  return {t / length, r / length};
-}
-
 }  // namespace
 
 double default_turn(const Scatterer& scatterer, double wavelength) {
-  return std::min(radians(0.15), 1.2 * wavelength / scatterer.radius());
+  return std::min(radians(0.15), 2.4 * wavelength / scatterer.radius());
 }
 
 BodyResponse respond(const Scatterer& scatterer, const Trajectory& trajectory, const Vec3& r_hat,
@@ -133,14 +124,12 @@ BodyResponse respond(const Scatterer& scatterer, const Trajectory& trajectory, c
     directions[n] = poses[n].R_TB.transpose() * r_hat;
     image_directions[n] = poses[n].R_TB.transpose() * image_r;
   }
-  double turn = 0;  // length of the direction's path over the interval
-  for (int n = 1; n < pulses; ++n) turn += (directions[n] - directions[n - 1]).norm();
-
-  if (sea != nullptr) {
-    double image_turn = 0;
-    for (int n = 1; n < pulses; ++n) image_turn += (image_directions[n] - image_directions[n - 1]).norm();
-    turn = std::max(turn, image_turn);
-  }
+  const auto path_length = [](std::span<const Vec3> way) {
+    double length = 0;
+    for (std::size_t n = 1; n < way.size(); ++n) length += (way[n] - way[n - 1]).norm();
+    return length;
+  };
+  const double turn = std::max(path_length(directions), sea != nullptr ? path_length(image_directions) : 0.0);
   std::vector<SeaCoefficients> mirror;  // per frequency
   for (int q = 0; sea != nullptr && q < wavenumbers.count; ++q) mirror.push_back(sea->at(wavenumbers.at(q), r_hat.z()));
 
@@ -148,115 +137,92 @@ BodyResponse respond(const Scatterer& scatterer, const Trajectory& trajectory, c
   result.response.pulses = pulses;
   result.response.per_pulse = sampling.per_pulse;
   result.response.values.assign(static_cast<std::size_t>(pulses) * sampling.per_pulse, 0.0);
-  std::vector<Complex> scratch(sampling.per_pulse);
-  const auto band = [&](int n) {
-    return std::span<Complex>(&result.response.values[static_cast<std::size_t>(n) * sampling.per_pulse],
-                              sampling.per_pulse);
-  };
   // Traces the body at the middles of equal spans of the interval; between two instants their answers are blended
   // linearly, before the first and after the last one that one's stands alone.
   const double start = sampling.pulse_time_s.front(), length = sampling.pulse_time_s.back() - start;
-  const double wavelength = 2 * kPi / wavenumbers.at(wavenumbers.centre_index());
-  const double served = solver.max_turn_deg > 0 ? radians(solver.max_turn_deg) : default_turn(scatterer, wavelength);
-  const int spans = std::max(1, static_cast<int>(std::ceil(turn / served)));
-  const auto weight = [&](int span, int n) {
-    const double position = length > 0 ? (sampling.pulse_time_s[n] - start) / length * spans - 0.5 : 0.0;
-    return std::max(0.0, 1 - std::abs(std::clamp(position, 0.0, spans - 1.0) - span));
-  };
-  // What comes one way: both directions move along `track`, and s measures how far.
+  const double k_last = wavenumbers.at(wavenumbers.count - 1), kc = wavenumbers.at(wavenumbers.centre_index());
+  const double served = solver.max_turn_deg > 0 ? radians(solver.max_turn_deg) : default_turn(scatterer, 2 * kPi / kc);
+  // What comes one way, directly or by the sea.
   struct Way {
-    Vec3 transmit = Vec3::Zero(), receive = Vec3::Zero();  // where the trace was made
-    Track track;
+    SeaPath path;
+    AntennaPair antennas;
+    DirectionPath moves;
     std::optional<ReturnGrid> returns;
   };
   struct Trace {
     int first = 0, last = -1;  // pulses it has a weight in
-    RadarBasis basis;
-    Vec3 track;
-    std::optional<ReturnGrid> returns;
-    std::array<Way, kSeaPaths.size()> by_sea;
+    Vec3 origin;
+    std::vector<Way> ways;
   };
-  const auto displacement = [&](const Way& way, const SeaPath& path, int n) {
-    const Vec3 &transmit = path.there ? image_directions[n] : directions[n],
-               &receive = path.back ? image_directions[n] : directions[n];
-    return (transmit - way.transmit).dot(way.track.transmit) + (receive - way.receive).dot(way.track.receive);
+  int spans = std::max(1, static_cast<int>(std::ceil(turn / served)));
+  const auto weight = [&](int span, int n) {
+    const double position = length > 0 ? (sampling.pulse_time_s[n] - start) / length * spans - 0.5 : 0.0;
+    return std::max(0.0, 1 - std::abs(std::clamp(position, 0.0, spans - 1.0) - span));
   };
-  const bool direct = sea == nullptr || sea->wanted(SeaPath{});
-  std::vector<Trace> traces(spans);
-  // Traces side by side before facets side by side: the threads then meet less often.
-  const int side_by_side = std::min(threads, spans);
-  parallel_for(traces.size(), side_by_side, [&](std::size_t i) {
-    Trace& trace = traces[i];
+  const auto planned = [&](int span) {
+    Trace trace;
     trace.first = pulses;
     for (int n = 0; n < pulses; ++n) {
-      if (weight(static_cast<int>(i), n) <= 0) continue;
+      if (weight(span, n) <= 0) continue;
       trace.first = std::min(trace.first, n);
       trace.last = n;
     }
-    if (trace.first > trace.last) return;
-    const double middle = start + length * (static_cast<double>(i) + 0.5) / spans;
-    const Pose pose = seen_pose(trajectory, sampling, r_hat, middle);
-    trace.basis = body_basis(world, pose);
-    const Vec3 chord = directions[trace.last] - directions[trace.first];
-    const Vec3 level = chord - trace.basis.r * trace.basis.r.dot(chord);
-    trace.track = level.norm() > 1e-12 ? Vec3(level.normalized()) : across(trace.basis.r);
-    double reach = 0;
-    for (int n = trace.first; n <= trace.last; ++n) {
-      reach = std::max(reach, std::abs((directions[n] - trace.basis.r).dot(trace.track)));
+    if (trace.first > trace.last) return trace;
+    const Pose pose = seen_pose(trajectory, sampling, r_hat, start + length * (span + 0.5) / spans);
+    trace.origin = pose.R_TB.transpose() * pose.p_TB;
+    const RadarBasis direct = body_basis(world, pose), mirrored = body_basis(image, pose);
+    for (const SeaPath& path : kSeaPaths) {
+      if (sea == nullptr ? path.multipath() : !sea->wanted(path)) continue;
+      const RadarBasis &transmit = path.there ? mirrored : direct, &receive = path.back ? mirrored : direct;
+      const auto served_part = [&](const std::vector<Vec3>& all) {
+        return std::span<const Vec3>(all).subspan(static_cast<std::size_t>(trace.first),
+                                                  static_cast<std::size_t>(trace.last - trace.first + 1));
+      };
+      trace.ways.push_back({path, path.there == path.back ? monostatic(transmit) : bistatic(transmit, receive),
+                            direction_path(served_part(path.there ? image_directions : directions),
+                                           served_part(path.back ? image_directions : directions), transmit.r, receive.r),
+                            {}});
     }
-    const int threads_each = std::max(1, threads / side_by_side);
-    const Vec3 origin = pose.R_TB.transpose() * pose.p_TB;
-    if (direct) {
-      trace.returns = trace_returns(scatterer, monostatic(trace.basis), {trace.track, trace.track}, reach, origin,
-                                    wavenumbers, channel, solver, threads_each);
+    return trace;
+  };
+  // Spans get shorter until no path bends by more than a grid takes.
+  std::vector<Trace> traces;
+  for (;; spans += (spans + 1) / 2) {
+    traces.clear();
+    double most_beside = 0;
+    for (int span = 0; span < spans; ++span) {
+      traces.push_back(planned(span));
+      for (const Way& way : traces.back().ways) most_beside = std::max(most_beside, way.moves.q_limit);
     }
-    if (sea == nullptr) return;
-    const RadarBasis image_basis = body_basis(image, pose);
-    for (std::size_t p = 0; p < kSeaPaths.size(); ++p) {
-      const SeaPath& path = kSeaPaths[p];
-      if (!path.multipath() || !sea->wanted(path)) continue;
-      Way& way = trace.by_sea[p];
-      const RadarBasis &transmit = path.there ? image_basis : trace.basis,
-                       &receive = path.back ? image_basis : trace.basis;
-      way.transmit = transmit.r;
-      way.receive = receive.r;
-      way.track = track_of(path.there ? image_directions : directions, path.back ? image_directions : directions,
-                           trace.first, trace.last, transmit.r);
-      double way_reach = 0;
-      for (int n = trace.first; n <= trace.last; ++n)
-        way_reach = std::max(way_reach, std::abs(displacement(way, path, n)));
-      const AntennaPair antennas = path.there == path.back ? monostatic(transmit) : bistatic(transmit, receive);
-      way.returns =
-          trace_returns(scatterer, antennas, way.track, way_reach, origin, wavenumbers, channel, solver, threads_each);
+    if (k_last * beside_limit(scatterer) * most_beside <= kMostBesidePhase || spans >= pulses) break;
+  }
+  // Traces side by side before facets side by side: the threads then meet less often.
+  const int side_by_side = std::min(threads, spans), threads_each = std::max(1, threads / side_by_side);
+  parallel_for(traces.size(), side_by_side, [&](std::size_t i) {
+    for (Way& way : traces[i].ways) {
+      way.returns = trace_returns(scatterer, way.antennas, way.moves, traces[i].origin, wavenumbers, channel, solver,
+                                  threads_each);
     }
   });
+  std::vector<Complex> answer(static_cast<std::size_t>(sampling.per_pulse));
   for (int i = 0; i < spans; ++i) {
-    const Trace& trace = traces[i];
-    if (trace.first > trace.last) continue;
-    for (int n = trace.first; n <= trace.last; ++n) {
-      if (!trace.returns) break;
-      trace.returns->response(sampling.pulse_first[n], (directions[n] - trace.basis.r).dot(trace.track), scratch);
-      const std::span<Complex> out = band(n);
-      for (std::size_t b = 0; b < out.size(); ++b) out[b] += weight(i, n) * scratch[b];
-    }
-    result.traces += trace.returns ? 1 : 0;
-    for (std::size_t p = 0; p < kSeaPaths.size(); ++p) {
-      const SeaPath& path = kSeaPaths[p];
-      const Way& way = trace.by_sea[p];
-      if (!way.returns) continue;
+    const Trace& trace = traces[static_cast<std::size_t>(i)];
+    for (const Way& way : trace.ways) {
+      ++result.traces;
       for (int n = trace.first; n <= trace.last; ++n) {
-        way.returns->response(sampling.pulse_first[n], displacement(way, path, n), scratch);
-        // Beyond the direct path to the body's origin, which all ways share below: e^{jk (a + b - 2 r^).p}.
+        const auto at = static_cast<std::size_t>(n - trace.first);
+        way.returns->response(sampling.pulse_first[n], way.moves.s[at], way.moves.q[at], answer);
+        // By the sea: beyond the direct path to the body's origin, which all ways share below: e^{jk (a + b - 2 r^).p}.
         const double detour =
-            ((path.there ? image_r : r_hat) + (path.back ? image_r : r_hat) - 2 * r_hat).dot(poses[n].p_TB);
-        const std::span<Complex> out = band(n);
-        for (std::size_t b = 0; b < out.size(); ++b) {
-          const int q = sampling.pulse_first[n] + static_cast<int>(b);
-          out[b] += weight(i, n) * SeaMirror::weight(path, mirror[q], channel) *
-                    std::polar(1.0, wavenumbers.at(q) * detour) * scratch[b];
+            ((way.path.there ? image_r : r_hat) + (way.path.back ? image_r : r_hat) - 2 * r_hat).dot(poses[n].p_TB);
+        for (int b = 0; b < sampling.per_pulse; ++b) {
+          const int q = sampling.pulse_first[n] + b;
+          const Complex by_sea = way.path.multipath() ? SeaMirror::weight(way.path, mirror[q], channel) *
+                                                            std::polar(1.0, wavenumbers.at(q) * detour)
+                                                      : 1.0;
+          result.response.at(n, b) += weight(i, n) * by_sea * answer[b];
         }
       }
-      ++result.traces;
     }
   }
 

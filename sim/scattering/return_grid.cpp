@@ -17,6 +17,8 @@ namespace {
 
 constexpr int kWidth = 6;                // cells
 constexpr double kBeta = 2.30 * kWidth;  // Barnett et al. 2019, section 4.2, for oversampling 2
+constexpr int kMostTerms = 5;
+constexpr double kLeftOut = 0.03;  // of e^{jx} by its first terms
 
 // phi(x), x in cells, |x| <= W/2.
 double kernel(double x) {
@@ -103,10 +105,23 @@ int fft_length(int n) {
   }
 }
 
+// j^n z.
+Complex times_j(const Complex& z, int n) {
+  const Complex turned = n % 2 == 0 ? z : Complex(-z.imag(), z.real());
+  return n % 4 < 2 ? turned : -turned;
+}
+
+// Terms of e^{jx} that leave out less than kLeftOut, by the first one left out: x^p / p!.
+int terms_of_series(double x) {
+  int terms = 1;
+  for (double next = x; next > kLeftOut && terms < kMostTerms; ++terms) next *= x / (terms + 1);
+  return terms;
+}
+
 }  // namespace
 
-ReturnGrid::ReturnGrid(const WavenumberGrid& wavenumbers, double u_limit, double s_limit)
-    : wavenumbers_(wavenumbers), kc_(wavenumbers.at(wavenumbers.centre_index())) {
+ReturnGrid::ReturnGrid(const WavenumberGrid& wavenumbers, const GridLimits& limits)
+    : wavenumbers_(wavenumbers), kc_(wavenumbers.at(wavenumbers.centre_index())), v_limit_(limits.v) {
   SEAGLINT_CHECK(wavenumbers.count >= 1 && wavenumbers.step > 0 && kc_ > 0,
                  fmt::format("count {}, step {}, centre {}", wavenumbers.count, wavenumbers.step, kc_));
   psi_cells_ = fft_length(std::max(2 * wavenumbers.count, 2 * kWidth));
@@ -114,13 +129,14 @@ ReturnGrid::ReturnGrid(const WavenumberGrid& wavenumbers, double u_limit, double
   // Displacements up to s_limit make phases e^{jk u s}: cells of half the Nyquist spacing at the band's upper end. A
   // body at rest still has one cell.
   const double k_last = wavenumbers.at(wavenumbers.count - 1);
-  const double s_bound = std::max(s_limit, 1e-3 / (k_last * std::max(u_limit, 1e-9)));
+  const double s_bound = std::max(limits.s, 1e-3 / (k_last * std::max(limits.u, 1e-9)));
   u_cell_ = kPi / (2 * k_last * s_bound);
-  const int half = static_cast<int>(std::ceil(u_limit / u_cell_)) + kWidth / 2 + 1;
+  const int half = static_cast<int>(std::ceil(limits.u / u_cell_)) + kWidth / 2 + 1;
   u_cells_ = 2 * half + 1;
   u_first_ = -half * u_cell_;
   row_length_ = psi_cells_ + kWidth;
-  cells_.assign(static_cast<std::size_t>(u_cells_) * row_length_, 0.0);
+  terms_ = terms_of_series(k_last * limits.v * limits.q);
+  cells_.assign(terms_ * cells_per_term(), 0.0);
 
   psi_correction_.resize(wavenumbers.count);
   for (int q = 0; q < wavenumbers.count; ++q) {
@@ -132,6 +148,7 @@ ReturnGrid::ReturnGrid(const WavenumberGrid& wavenumbers, double u_limit, double
 void ReturnGrid::spread(std::span<const ReturnPoint> points) {
   for (const ReturnPoint& point : points) {
     const Complex value = point.amplitude * std::polar(1.0, kc_ * point.psi);
+    const double beside = terms_ > 1 ? std::clamp(point.v / v_limit_, -1.0, 1.0) : 0;
 
     // The grid is periodic in psi: frequencies on a grid of step dk cannot tell psi from psi + 2 pi / dk.
     const double x = point.psi / psi_cell_;
@@ -145,12 +162,16 @@ void ReturnGrid::spread(std::span<const ReturnPoint> points) {
 
     // A row goes on for W cells beyond its period, so that a kernel is never cut; transform() folds them back.
     const int column = ((first_psi % psi_cells_) + psi_cells_) % psi_cells_;
-    for (int j = 0; j < kWidth; ++j) {
-      const double re = along_u[j] * value.real(), im = along_u[j] * value.imag();
-      auto* cells = reinterpret_cast<double*>(&cells_[cell(first_u + j, column)]);
-      for (int i = 0; i < kWidth; ++i) {
-        cells[2 * i] += along_psi[i] * re;
-        cells[2 * i + 1] += along_psi[i] * im;
+    double power = 1;  // of beside
+    for (int term = 0; term < terms_; ++term, power *= beside) {
+      Complex* of_term = &cells_[term * cells_per_term()];
+      for (int j = 0; j < kWidth; ++j) {
+        const double share = power * along_u[j], re = share * value.real(), im = share * value.imag();
+        auto* cells = reinterpret_cast<double*>(of_term + cell(first_u + j, column));
+        for (int i = 0; i < kWidth; ++i) {
+          cells[2 * i] += along_psi[i] * re;
+          cells[2 * i + 1] += along_psi[i] * im;
+        }
       }
     }
   }
@@ -163,15 +184,16 @@ void ReturnGrid::add(const ReturnGrid& other) {
 }
 
 void ReturnGrid::transform() {
-  for (int u = 0; u < u_cells_; ++u) {
-    for (int i = 0; i < kWidth; ++i) cells_[cell(u, i)] += cells_[cell(u, psi_cells_ + i)];
+  const int rows = terms_ * u_cells_;
+  for (int row = 0; row < rows; ++row) {
+    for (int i = 0; i < kWidth; ++i) cells_[cell(row, i)] += cells_[cell(row, psi_cells_ + i)];
   }
   auto* data = reinterpret_cast<fftw_complex*>(cells_.data());
   fftw_plan plan;
   {
     const std::lock_guard lock(fftw_planner_mutex());
     const int length = psi_cells_;
-    plan = fftw_plan_many_dft(1, &length, u_cells_, data, nullptr, 1, row_length_, data, nullptr, 1, row_length_,
+    plan = fftw_plan_many_dft(1, &length, rows, data, nullptr, 1, row_length_, data, nullptr, 1, row_length_,
                               FFTW_BACKWARD, FFTW_ESTIMATE);
   }
   SEAGLINT_CHECK(plan != nullptr, "FFTW has no plan");
@@ -180,7 +202,7 @@ void ReturnGrid::transform() {
   fftw_destroy_plan(plan);
 }
 
-void ReturnGrid::response(int first, double s, std::span<Complex> out) const {
+void ReturnGrid::response(int first, double s, double q_beside, std::span<Complex> out) const {
   // A few frequencies side by side, real and imaginary parts apart: the compiler makes vectors of them.
   constexpr std::size_t kLanes = 8;
   for (std::size_t begin = 0; begin < out.size(); begin += kLanes) {
@@ -188,6 +210,7 @@ void ReturnGrid::response(int first, double s, std::span<Complex> out) const {
     // e^{jk u_j s} by recurrence over the cells in u.
     std::array<double, kLanes> turn_re{}, turn_im{}, step_re{}, step_im{}, sum_re{}, sum_im{};
     std::array<std::size_t, kLanes> bin{};
+    std::array<double, kLanes> beside{};  // k v_limit q
     for (std::size_t l = 0; l < lanes; ++l) {
       const int q = first + static_cast<int>(begin + l);
       const int m = q - wavenumbers_.centre_index();
@@ -198,6 +221,7 @@ void ReturnGrid::response(int first, double s, std::span<Complex> out) const {
       turn_im[l] = turn.imag();
       step_re[l] = step.real();
       step_im[l] = step.imag();
+      beside[l] = k * v_limit_ * q_beside;
     }
     for (int u = 0; u < u_cells_; ++u) {
       std::array<double, kLanes> re, im;
@@ -205,6 +229,17 @@ void ReturnGrid::response(int first, double s, std::span<Complex> out) const {
       for (std::size_t l = 0; l < kLanes; ++l) {
         re[l] = row[bin[l]].real();
         im[l] = row[bin[l]].imag();
+      }
+      std::array<double, kLanes> share;  // beside^term / term!, to be turned by j^term
+      share.fill(1);
+      for (int term = 1; term < terms_; ++term) {
+        row += cells_per_term();
+        for (std::size_t l = 0; l < kLanes; ++l) {
+          share[l] *= beside[l] / term;
+          const Complex more = share[l] * times_j(row[bin[l]], term);
+          re[l] += more.real();
+          im[l] += more.imag();
+        }
       }
       for (std::size_t l = 0; l < kLanes; ++l) {
         sum_re[l] += re[l] * turn_re[l] - im[l] * turn_im[l];

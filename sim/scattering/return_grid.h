@@ -11,8 +11,11 @@
 // where F_q[j] is the Fourier transform along psi of the amplitudes spread with the kernel phi. Kernel: "exponential of
 // semicircle" of A. H. Barnett, J. Magland and L. af Klinteberg, SIAM J. Sci. Comput. 41 (2019) C479, eq. 1.8, width W
 // = 6, oversampling 2: relative error 1e-5.
+//
+// A path that bends leaves the line by q(t), which turns a point's phase by k v q, v = gradient . (the way it bends):
+// less than a cycle, so that the first terms of e^{jkvq} = sum (jkvq)^p / p! do, each with a grid of its own of the
+// amplitudes times v^p.
 
-#include <array>
 #include <span>
 #include <vector>
 
@@ -30,28 +33,28 @@ struct WavenumberGrid {
   int centre_index() const { return count / 2; }
 };
 
-// The way both directions move per radian of turn: r^_t(s) = r^_t + s transmit, r^_s(s) = r^_s + s receive.
-struct Track {
-  Vec3 transmit = Vec3::UnitX();
-  Vec3 receive = Vec3::UnitX();
-
-  // d psi / ds of a contribution, m.
-  double speed(const PathGradient& gradient) const {
-    return gradient.transmit.dot(transmit) + gradient.receive.dot(receive);
-  }
-};
-
 // What one polarisation channel and one track need of a contribution.
 struct ReturnPoint {
   Complex amplitude;  // pattern included, without the phase e^{jk psi}, m
   double psi = 0;     // m
   double u = 0;       // d psi / ds, m
+  double v = 0;       // d psi / dq, m
 };
+
+// How fast points go, m, and how far the direction moves, rad: along the track and beside it.
+struct GridLimits {
+  double u = 0, s = 0;
+  double v = 0, q = 0;
+};
+
+// Phase k v q beside the track that a grid takes: its series then has five terms.
+inline constexpr double kMostBesidePhase = 1.2;  // rad
 
 class ReturnGrid {
  public:
-  // u_limit: bound of |u| of all points, m. s_limit: bound of |s|, rad.
-  ReturnGrid(const WavenumberGrid& wavenumbers, double u_limit, double s_limit);
+  // Bounds of |u| and |s|; for |q| <= limits.q and points with |v| <= limits.v, whose product times k is at most
+  // kMostBesidePhase, the terms left out are below 3 % of such a point. A larger |v| counts as limits.v.
+  ReturnGrid(const WavenumberGrid& wavenumbers, const GridLimits& limits);
 
   void spread(std::span<const ReturnPoint> points);
   // Adds another grid made with the same arguments.
@@ -59,11 +62,12 @@ class ReturnGrid {
 
   // Transforms along psi; afterwards the response can be asked for.
   void transform();
-  // H at k_q for q = first..first + out.size() - 1 and the displacement s along the track, |s| <= s_limit.
-  void response(int first, double s, std::span<Complex> out) const;
+  // H at k_q for q = first..first + out.size() - 1 and the displacement s along the track and q beside it.
+  void response(int first, double s, double q, std::span<Complex> out) const;
 
  private:
   std::size_t cell(int u, int psi) const { return static_cast<std::size_t>(u) * row_length_ + psi; }
+  std::size_t cells_per_term() const { return static_cast<std::size_t>(u_cells_) * row_length_; }
 
   WavenumberGrid wavenumbers_;
   double kc_;                // of centre_index
@@ -72,7 +76,9 @@ class ReturnGrid {
   double psi_cell_;          // m
   double u_cell_, u_first_;  // m
   int u_cells_;
-  std::vector<Complex> cells_;          // [u][psi], after transform [u][frequency]
+  double v_limit_;  // m; the grid of v^p holds amplitudes times (v / v_limit)^p
+  int terms_;       // of the series in q, 1..kMostTerms
+  std::vector<Complex> cells_;          // [term][u][psi], after transform [term][u][frequency]
   std::vector<double> psi_correction_;  // 1 / phi^ per frequency
 };
 
