@@ -31,6 +31,7 @@ class BeamTracer {
         out_(out),
         max_bounces_(scene.settings.max_bounces),
         min_area_(scene.min_area),
+        min_beam_area_(scene.min_beam_area),
         radius_(scene.scatterer.radius()),
         scratch_(static_cast<std::size_t>(scene.settings.max_bounces) + 1) {}
 
@@ -51,7 +52,7 @@ class BeamTracer {
     if (!antennas_.monostatic) seen_part(first, candidate, seen);
     radiate(first, candidate, antennas_.monostatic ? candidate.lit : seen);
     if (reaches_edges(first)) reach_edges(first, candidate);
-    if (max_bounces_ > 1) follow(reflected(first, candidate), candidate.lit);
+    if (goes_on(first, candidate)) follow(reflected(first, candidate), candidate.lit);
   }
 
  private:
@@ -225,7 +226,7 @@ class BeamTracer {
       seen_part(leg, candidate, scratch.seen);
       radiate(leg, candidate, scratch.seen);
       if (reaches_edges(leg)) reach_edges(leg, candidate);
-      if (leg.bounce < max_bounces_) follow(reflected(leg, candidate), candidate.lit);
+      if (goes_on(leg, candidate)) follow(reflected(leg, candidate), candidate.lit);
     }
   }
 
@@ -304,6 +305,14 @@ class BeamTracer {
     return next;
   }
 
+  // Whether what the candidate reflects is worth following.
+  bool goes_on(const Leg& leg, const Candidate& candidate) const {
+    if (leg.bounce >= max_bounces_) return false;
+    double area = 0;
+    for (const MovingPolygon& piece : candidate.lit) area += signed_area(piece);
+    return area >= min_beam_area_;
+  }
+
   // With more mirrors before it an edge is not followed.
   bool reaches_edges(const Leg& leg) const { return edges_ && leg.bounce <= kMostEdgeMirrors + 1; }
 
@@ -353,7 +362,7 @@ class BeamTracer {
   std::span<const std::vector<Surface>> surfaces_;
   Lit& out_;
   int max_bounces_;
-  double min_area_;
+  double min_area_, min_beam_area_;
   double radius_;  // of the whole body
   std::vector<Scratch> scratch_;  // by the bounce a leg ends in
   std::size_t legs_ = 0;

@@ -21,8 +21,8 @@
 namespace seaglint {
 
 struct IlluminationSettings {
-  // The detail that is followed, as the spacing of rays that would find it: lit pieces with a side below a fourteenth
-  // are left out. 0 or coarser than default_ray_spacing: that.
+  // The detail that counts, as the spacing of rays that would find it: lit pieces with a side below a fourteenth are left
+  // out, and beams below a quarter of it are not followed to further mirrors. 0 or coarser than default_ray_spacing: that.
   double ray_spacing_m = 0;
   int max_bounces = 8;     // 1 <= x <= 64
   bool edges = false;      // follow the waves that reach sharp edges too
@@ -30,7 +30,7 @@ struct IlluminationSettings {
   double range_m = 0;      // of the radar, 0 = far field; else beyond ten radii of the target
 };
 
-// 2e-3 of the radius: 0.14 m on the 144 m ship, pieces of 10 mm (README.md).
+// 1e-3 of the radius: 0.07 m on the 144 m ship, pieces of 5 mm (README.md).
 double default_ray_spacing(const Scatterer& scatterer);
 
 // What the beams that leave one facet, or several, meet.

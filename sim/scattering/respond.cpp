@@ -100,7 +100,7 @@ ReturnGrid trace_returns(const Scatterer& scatterer, const AntennaPair& antennas
 }  // namespace
 
 double default_turn(const Scatterer& scatterer, double wavelength) {
-  return std::min(radians(0.15), 2.4 * wavelength / scatterer.radius());
+  return std::min(radians(0.15), 3 * wavelength / scatterer.radius());
 }
 
 BodyResponse respond(const Scatterer& scatterer, const Trajectory& trajectory, const Vec3& r_hat,

@@ -16,7 +16,7 @@ constexpr double kFewestWavelengths = 3;  // physical optics of a plate this wid
 constexpr double kLongestTarget_m = 5e3;  // no ship is longer than a tenth of it
 constexpr double kFarOrigin = 10;         // half-sizes from the origin
 constexpr double kTooFarOrigin = 300;     // details of a thirtieth of the half-size would be left out
-constexpr double kLeastDetail = 1e-4;     // of the radius about the origin (default_ray_spacing / 14)
+constexpr double kLeastDetail = 7e-5;     // of the radius about the origin (default_ray_spacing / 14)
 constexpr std::size_t kManyTriangles = 1'000'000;
 constexpr double kGigabytesPerMillion = 1.4, kSecondsPerMillion = 5;  // a sheet of 10 million on two cores
 

@@ -193,7 +193,6 @@ TEST(Response, FollowsFreshTracesInRandomDirections) {
       errors.push_back(error_against_fresh_traces(scatterer, rocking(rates, 8, centre), r_hat, {}, spots,
                                                   static_cast<std::uint64_t>(1000 + i)));
     }
-    for (double e : errors) fmt::print("{:.1f} ", e);
     std::sort(errors.begin(), errors.end());
     const double median = errors[errors.size() / 2],
                  worst = errors[static_cast<std::size_t>(0.95 * static_cast<double>(errors.size()))];
