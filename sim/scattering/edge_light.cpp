@@ -59,10 +59,14 @@ std::vector<Stretch> lit_stretches(const Vec3& image, const Vec3& along, double 
     const double z = wave.plane.at(corner.p);
     return Vec2(run.dot(corner.d1 + Vec2(z, 0)), run.dot(corner.d2 + Vec2(0, z))) / (shortened * shortened);
   };
+  const auto on_edge = [&](const Corner& corner) { return std::abs(across.dot(corner.p - start)) <= kOnEdge; };
   for (const MovingPolygon& piece : lit) {
+    bool here = on_edge(piece.back());
     for (std::size_t i = 0; i < piece.size(); ++i) {
-      const Corner &p = piece[i], &q = piece[(i + 1) % piece.size()];
-      if (std::abs(across.dot(p.p - start)) > kOnEdge || std::abs(across.dot(q.p - start)) > kOnEdge) continue;
+      const Corner &p = i == 0 ? piece.back() : piece[i - 1], &q = piece[i];
+      const bool before = here;
+      here = on_edge(q);
+      if (!before || !here) continue;
       Stretch stretch{{place(p), place(q)}, {slip(p), slip(q)}};
       if (stretch.s[0] > stretch.s[1]) {
         std::swap(stretch.s[0], stretch.s[1]);

@@ -86,7 +86,9 @@ bool hide(const FacetImage& behind, const FacetImage& front, double min_area, st
   if (front.nearest < behind.farthest - kCoincident || !overlap(front.box, behind.box)) return false;
   if (front.farthest > behind.nearest + kCoincident) return cut(pieces, front.polygon, front.box, min_area);
   if (std::none_of(pieces.begin(), pieces.end(),
-                   [&](const MovingPolygon& piece) { return !apart(piece, front.polygon); }))
+                   [&](const MovingPolygon& piece) {
+                     return overlap(box_of(piece), front.box) && !apart(piece, front.polygon);
+                   }))
     return false;
   const MovingPolygon hole = nearer_part(front, behind);
   return !hole.empty() && cut(pieces, hole, box_of(hole), min_area);

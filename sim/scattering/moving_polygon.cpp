@@ -32,9 +32,10 @@ Corner meet(const Corner& a, const Corner& b, double fa, double fb, const Moving
 enum class Side { kInside, kOutside, kBoth };
 
 // Clips by f >= 0, where f(corner) is the distance inside the line; corners within kOnLine of it are on it. make_line() is called only where an
-// edge is cut, and `kept` is filled only where the line passes through.
+// edge is cut; `kept` and what is cut off, if anybody asks for it, are filled only where the line passes through.
 template <typename Distance, typename MakeLine>
-Side clip_by(const MovingPolygon& polygon, const Distance& distance, const MakeLine& make_line, int keep, MovingPolygon& kept) {
+Side clip_by(const MovingPolygon& polygon, const Distance& distance, const MakeLine& make_line, int keep, MovingPolygon& kept,
+             MovingPolygon* cut_off = nullptr) {
   const auto value = [&](const Corner& c) {
     const double f = keep * distance(c.p);
     return std::abs(f) < kOnLine ? 0.0 : f;
@@ -48,24 +49,30 @@ Side clip_by(const MovingPolygon& polygon, const Distance& distance, const MakeL
   if (!any_outside) return any_inside ? Side::kInside : Side::kOutside;  // all on the line: no area
   if (!any_inside) return Side::kOutside;
   kept.clear();
+  if (cut_off) cut_off->clear();
   const MovingLine line = make_line();
   const Corner* a = &polygon.back();
   double fa = value(*a);
   for (const Corner& b : polygon) {
     const double fb = value(b);
-    if ((fa > 0 && fb < 0) || (fa < 0 && fb > 0)) kept.push_back(meet(*a, b, keep * fa, keep * fb, line));
+    if ((fa > 0 && fb < 0) || (fa < 0 && fb > 0)) {
+      kept.push_back(meet(*a, b, keep * fa, keep * fb, line));
+      if (cut_off) cut_off->push_back(kept.back());
+    }
     if (fb >= 0) kept.push_back(b);
+    if (fb <= 0 && cut_off) cut_off->push_back(b);
     a = &b;
     fa = fb;
   }
   return kept.size() < 3 ? Side::kOutside : Side::kBoth;
 }
 
-// Clips by one edge of another polygon: its left side, or its right side with keep = -1.
-Side clip_by_edge(const MovingPolygon& polygon, const Corner& from, const Corner& to, double length, int keep, MovingPolygon& kept) {
+// Clips by one edge of another polygon: keeps its left side.
+Side clip_by_edge(const MovingPolygon& polygon, const Corner& from, const Corner& to, double length, MovingPolygon& kept,
+                  MovingPolygon* cut_off = nullptr) {
   const Vec2 left = Vec2(from.p.y() - to.p.y(), to.p.x() - from.p.x()) / length;
   return clip_by(
-      polygon, [&](const Vec2& p) { return left.dot(p - from.p); }, [&] { return line_through(from, to); }, keep, kept);
+      polygon, [&](const Vec2& p) { return left.dot(p - from.p); }, [&] { return line_through(from, to); }, +1, kept, cut_off);
 }
 
 }  // namespace
@@ -140,13 +147,13 @@ bool subtract_common(const MovingPolygon& polygon, const MovingPolygon& hole, do
     const double length = (to.p - from.p).norm();
     if (length < kOnLine) continue;
     MovingPolygon& next = rests[rest == &rests[0] ? 1 : 0];
-    const Side side = clip_by_edge(*rest, from, to, length, +1, next);
+    const Side side = clip_by_edge(*rest, from, to, length, next, &outside);
     if (side == Side::kInside) continue;
     if (side == Side::kOutside) {
       pieces.resize(before);
       return false;
     }
-    if (clip_by_edge(*rest, from, to, length, -1, outside) == Side::kBoth && signed_area(outside) > min_area) pieces.push_back(outside);
+    if (outside.size() >= 3 && signed_area(outside) > min_area) pieces.push_back(outside);
     rest = &next;
   }
   if (signed_area(*rest) > min_area) return true;
@@ -162,7 +169,7 @@ MovingPolygon intersect(const MovingPolygon& a, const MovingPolygon& b) {
     const double length = (to.p - from.p).norm();
     if (length < kOnLine) continue;
     MovingPolygon& next = rests[rest == &rests[0] ? 1 : 0];
-    const Side side = clip_by_edge(*rest, from, to, length, +1, next);
+    const Side side = clip_by_edge(*rest, from, to, length, next);
     if (side == Side::kOutside) return {};
     if (side == Side::kBoth) rest = &next;
   }
