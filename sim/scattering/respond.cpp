@@ -5,16 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <numbers>
 
 #include "sim/core/constants.h"
 #include "sim/core/error.h"
 #include "sim/scattering/contributions.h"
-#include "sim/scattering/direction_path.h"
 #include "sim/scattering/edge_echoes.h"
-#include "sim/scattering/passing_radar.h"
 #include "sim/scattering/return_grid.h"
 #include "sim/scattering/target_check.h"
+#include "sim/scattering/trace_plan.h"
 
 namespace seaglint {
 namespace {
@@ -26,20 +25,16 @@ double spread_of_directions(const Scatterer& scatterer, double range_m) {
   return range_m > 0 ? scatterer.radius() / range_m : 0;
 }
 
-// The world's polarisation basis as the turned body sees it.
-RadarBasis body_basis(const RadarBasis& world, const Pose& pose) {
-  const Mat3 R_BT = pose.R_TB.transpose();
-  return {R_BT * world.r, R_BT * world.h, R_BT * world.v};
-}
+// Body-fixed points go no faster than this beside a track, m, its two parts having unit length together. Shadow edges
+// that do are faint.
+double beside_limit(const Scatterer& scatterer) { return std::numbers::sqrt2 * scatterer.radius(); }
 
-// Body-fixed points go no faster than this beside a track, m: shadow edges that do are faint.
-double beside_limit(const Scatterer& scatterer) { return 2 * scatterer.radius(); }
-
-// One trace: what the body answers while its directions move by `path`. `origin`: where the body stands from the point
-// that the radar's range is counted from, body frame.
-ReturnGrid trace_returns(const Scatterer& scatterer, const AntennaPair& antennas, const DirectionPath& path,
-                         const Vec3& origin, const WavenumberGrid& wavenumbers, int channel, const SolverSpec& solver,
-                         int threads) {
+// One trace: what the body answers by one way. `origin`: where the body stands from the point that the radar's range is
+// counted from, body frame.
+ReturnGrid trace_returns(const Scatterer& scatterer, const PlannedWay& way, const Vec3& origin,
+                         const WavenumberGrid& wavenumbers, int channel, const SolverSpec& solver, int threads) {
+  const AntennaPair& antennas = way.antennas;
+  const DirectionPath& path = way.moves;
   // A shadow edge at grazing runs along its facet much faster than any point of the body moves. Beyond four times the
   // body's size its speed is cut: such ends are faint and run through many velocity cells.
   const double limit = 8 * scatterer.radius();
@@ -109,128 +104,56 @@ BodyResponse respond(const Scatterer& scatterer, const Trajectory& trajectory, c
   const int pulses = static_cast<int>(sampling.pulse_time_s.size());
   SEAGLINT_CHECK(pulses > 0 && sampling.pulse_first.size() == sampling.pulse_time_s.size(),
                  fmt::format("{} pulse times, {} bands", pulses, sampling.pulse_first.size()));
-  threads = std::max(1, threads);
-  const RadarBasis world = radar_basis(r_hat);
-  const Vec3 image_r = image_direction(r_hat);
-  const RadarBasis image{image_r, world.h, image_r.cross(world.h)};
   const int channel = static_cast<int>(polarisation);
   constexpr double kToWavenumber = 2 * kPi / kSpeedOfLight;
   const WavenumberGrid wavenumbers{kToWavenumber * sampling.first_hz, kToWavenumber * sampling.step_hz, sampling.count};
+  const double k_last = wavenumbers.at(wavenumbers.count - 1), kc = wavenumbers.at(wavenumbers.centre_index());
 
-  std::vector<Pose> poses(pulses);
-  std::vector<Vec3> directions(pulses), image_directions(pulses);
-  for (int n = 0; n < pulses; ++n) {
-    poses[n] = seen_pose(trajectory, sampling, r_hat, sampling.pulse_time_s[n]);
-    directions[n] = poses[n].R_TB.transpose() * r_hat;
-    image_directions[n] = poses[n].R_TB.transpose() * image_r;
+  std::vector<SeaPath> paths;
+  for (const SeaPath& path : kSeaPaths) {
+    if (sea == nullptr ? !path.multipath() : sea->wanted(path)) paths.push_back(path);
   }
-  const auto path_length = [](std::span<const Vec3> way) {
-    double length = 0;
-    for (std::size_t n = 1; n < way.size(); ++n) length += (way[n] - way[n - 1]).norm();
-    return length;
-  };
-  const double turn = std::max(path_length(directions), sea != nullptr ? path_length(image_directions) : 0.0);
-  std::vector<SeaCoefficients> mirror;  // per frequency
-  for (int q = 0; sea != nullptr && q < wavenumbers.count; ++q) mirror.push_back(sea->at(wavenumbers.at(q), r_hat.z()));
+  const double served = solver.max_turn_deg > 0 ? radians(solver.max_turn_deg) : default_turn(scatterer, 2 * kPi / kc);
+  const TracePlan plan(trajectory, sampling, r_hat, paths,
+                       {served, kMostBesidePhase / (k_last * beside_limit(scatterer))});
+
+  // Traces side by side before facets side by side: the threads then meet less often.
+  threads = std::max(1, threads);
+  const auto traces = plan.traces();
+  const int side_by_side = std::min(threads, static_cast<int>(traces.size()));
+  std::vector<std::vector<ReturnGrid>> returns(traces.size());  // by trace and way
+  parallel_for(traces.size(), side_by_side, [&](std::size_t i) {
+    for (const PlannedWay& way : traces[i].ways) {
+      returns[i].push_back(trace_returns(scatterer, way, traces[i].origin, wavenumbers, channel, solver,
+                                         std::max(1, threads / side_by_side)));
+    }
+  });
 
   BodyResponse result;
   result.response.pulses = pulses;
   result.response.per_pulse = sampling.per_pulse;
   result.response.values.assign(static_cast<std::size_t>(pulses) * sampling.per_pulse, 0.0);
-  // Traces the body at the middles of equal spans of the interval; between two instants their answers are blended
-  // linearly, before the first and after the last one that one's stands alone.
-  const double start = sampling.pulse_time_s.front(), length = sampling.pulse_time_s.back() - start;
-  const double k_last = wavenumbers.at(wavenumbers.count - 1), kc = wavenumbers.at(wavenumbers.centre_index());
-  const double served = solver.max_turn_deg > 0 ? radians(solver.max_turn_deg) : default_turn(scatterer, 2 * kPi / kc);
-  // What comes one way, directly or by the sea.
-  struct Way {
-    SeaPath path;
-    AntennaPair antennas;
-    DirectionPath moves;
-    std::optional<ReturnGrid> returns;
-  };
-  struct Trace {
-    int first = 0, last = -1;  // pulses it has a weight in
-    Vec3 origin;
-    std::vector<Way> ways;
-  };
-  int spans = std::max(1, static_cast<int>(std::ceil(turn / served)));
-  const auto weight = [&](int span, int n) {
-    const double position = length > 0 ? (sampling.pulse_time_s[n] - start) / length * spans - 0.5 : 0.0;
-    return std::max(0.0, 1 - std::abs(std::clamp(position, 0.0, spans - 1.0) - span));
-  };
-  const auto planned = [&](int span) {
-    Trace trace;
-    trace.first = pulses;
-    for (int n = 0; n < pulses; ++n) {
-      if (weight(span, n) <= 0) continue;
-      trace.first = std::min(trace.first, n);
-      trace.last = n;
-    }
-    if (trace.first > trace.last) return trace;
-    const Pose pose = seen_pose(trajectory, sampling, r_hat, start + length * (span + 0.5) / spans);
-    trace.origin = pose.R_TB.transpose() * pose.p_TB;
-    const RadarBasis direct = body_basis(world, pose), mirrored = body_basis(image, pose);
-    for (const SeaPath& path : kSeaPaths) {
-      if (sea == nullptr ? path.multipath() : !sea->wanted(path)) continue;
-      const RadarBasis &transmit = path.there ? mirrored : direct, &receive = path.back ? mirrored : direct;
-      const auto served_part = [&](const std::vector<Vec3>& all) {
-        return std::span<const Vec3>(all).subspan(static_cast<std::size_t>(trace.first),
-                                                  static_cast<std::size_t>(trace.last - trace.first + 1));
-      };
-      trace.ways.push_back({path, path.there == path.back ? monostatic(transmit) : bistatic(transmit, receive),
-                            direction_path(served_part(path.there ? image_directions : directions),
-                                           served_part(path.back ? image_directions : directions), transmit.r, receive.r),
-                            {}});
-    }
-    return trace;
-  };
-  // Spans get shorter until no path bends by more than a grid takes.
-  std::vector<Trace> traces;
-  for (;; spans += (spans + 1) / 2) {
-    traces.clear();
-    double most_beside = 0;
-    for (int span = 0; span < spans; ++span) {
-      traces.push_back(planned(span));
-      for (const Way& way : traces.back().ways) most_beside = std::max(most_beside, way.moves.q_limit);
-    }
-    if (k_last * beside_limit(scatterer) * most_beside <= kMostBesidePhase || spans >= pulses) break;
-  }
-  // Traces side by side before facets side by side: the threads then meet less often.
-  const int side_by_side = std::min(threads, spans), threads_each = std::max(1, threads / side_by_side);
-  parallel_for(traces.size(), side_by_side, [&](std::size_t i) {
-    for (Way& way : traces[i].ways) {
-      way.returns = trace_returns(scatterer, way.antennas, way.moves, traces[i].origin, wavenumbers, channel, solver,
-                                  threads_each);
-    }
-  });
+  std::vector<SeaCoefficients> mirror;  // per frequency
+  for (int q = 0; sea != nullptr && q < wavenumbers.count; ++q) mirror.push_back(sea->at(wavenumbers.at(q), r_hat.z()));
+  const auto towards = [&](bool by_sea) { return by_sea ? image_direction(r_hat) : r_hat; };
   std::vector<Complex> answer(static_cast<std::size_t>(sampling.per_pulse));
-  for (int i = 0; i < spans; ++i) {
-    const Trace& trace = traces[static_cast<std::size_t>(i)];
-    for (const Way& way : trace.ways) {
+  for (std::size_t i = 0; i < traces.size(); ++i) {
+    for (std::size_t w = 0; w < traces[i].ways.size(); ++w) {
+      const auto& [path, antennas, moves] = traces[i].ways[w];
       ++result.traces;
-      for (int n = trace.first; n <= trace.last; ++n) {
-        const auto at = static_cast<std::size_t>(n - trace.first);
-        way.returns->response(sampling.pulse_first[n], way.moves.s[at], way.moves.q[at], answer);
-        // By the sea: beyond the direct path to the body's origin, which all ways share below: e^{jk (a + b - 2 r^).p}.
-        const double detour =
-            ((way.path.there ? image_r : r_hat) + (way.path.back ? image_r : r_hat) - 2 * r_hat).dot(poses[n].p_TB);
+      for (int n = traces[i].first; n <= traces[i].last; ++n) {
+        const auto at = static_cast<std::size_t>(n - traces[i].first);
+        returns[i][w].response(sampling.pulse_first[n], moves.s[at], moves.q[at], answer);
+        // The body's origin moves too: e^{jk (a + b).p} with the directions a and b of either way, exact for every pulse
+        // and frequency.
+        const double origin_path = (towards(path.there) + towards(path.back)).dot(plan.pose(n).p_TB);
         for (int b = 0; b < sampling.per_pulse; ++b) {
           const int q = sampling.pulse_first[n] + b;
-          const Complex by_sea = way.path.multipath() ? SeaMirror::weight(way.path, mirror[q], channel) *
-                                                            std::polar(1.0, wavenumbers.at(q) * detour)
-                                                      : 1.0;
-          result.response.at(n, b) += weight(i, n) * by_sea * answer[b];
+          const Complex by_sea = path.multipath() ? SeaMirror::weight(path, mirror[q], channel) : 1.0;
+          result.response.at(n, b) +=
+              plan.share(i, n) * by_sea * std::polar(1.0, wavenumbers.at(q) * origin_path) * answer[b];
         }
       }
-    }
-  }
-
-  // The body's origin moves too: e^{+j 2k r^.p}, exact for every pulse and frequency.
-  for (int n = 0; n < pulses; ++n) {
-    const double path = 2 * r_hat.dot(poses[n].p_TB);
-    for (int b = 0; b < sampling.per_pulse; ++b) {
-      result.response.at(n, b) *= std::polar(1.0, wavenumbers.at(sampling.pulse_first[n] + b) * path);
     }
   }
   return result;

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/scattering/trace_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "sim/scattering/passing_radar.h"
+
+namespace seaglint {
+namespace {
+
+// The world's polarisation basis as the turned body sees it.
+RadarBasis body_basis(const RadarBasis& world, const Pose& pose) {
+  const Mat3 R_BT = pose.R_TB.transpose();
+  return {R_BT * world.r, R_BT * world.h, R_BT * world.v};
+}
+
+double length_of(std::span<const Vec3> way) {
+  double length = 0;
+  for (std::size_t n = 1; n < way.size(); ++n) length += (way[n] - way[n - 1]).norm();
+  return length;
+}
+
+}  // namespace
+
+// Where the radar and its image in the sea stand for the body: at every pulse, and at any time.
+struct TracePlan::Directions {
+  RadarBasis radar, image;  // world
+  std::function<Pose(double)> pose_at;  // by the time in intervals
+  std::vector<Vec3> to_radar, to_image;  // at every pulse, body frame
+
+  std::span<const Vec3> of(bool by_sea) const { return by_sea ? to_image : to_radar; }
+};
+
+TracePlan::TracePlan(const Trajectory& trajectory, const IntervalSampling& sampling, const Vec3& r_hat,
+                     std::span<const SeaPath> paths, const TraceLimits& limits) {
+  const double start = sampling.pulse_time_s.front(), length = sampling.pulse_time_s.back() - start;
+  const Vec3 image_r = image_direction(r_hat);
+  Directions seen;
+  seen.radar = radar_basis(r_hat);
+  seen.image = {image_r, seen.radar.h, image_r.cross(seen.radar.h)};
+  seen.pose_at = [&](double time) { return seen_pose(trajectory, sampling, r_hat, start + length * time); };
+  for (const double time_s : sampling.pulse_time_s) {
+    time_.push_back(length > 0 ? (time_s - start) / length : 0);
+    const Pose& pose = poses_.emplace_back(seen_pose(trajectory, sampling, r_hat, time_s));
+    seen.to_radar.push_back(pose.R_TB.transpose() * r_hat);
+    seen.to_image.push_back(pose.R_TB.transpose() * image_r);
+  }
+  double turn = 0;
+  for (const SeaPath& path : paths) {
+    for (const bool by_sea : {path.there, path.back}) turn = std::max(turn, length_of(seen.of(by_sea)));
+  }
+  // Spans get shorter until no path bends by more than its limit, or holds one pulse.
+  spans_ = std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(turn / limits.turn)));
+  for (;; spans_ += (spans_ + 1) / 2) {
+    traces_.clear();
+    double beside = 0;
+    for (std::size_t i = 0; i < spans_; ++i) {
+      traces_.push_back(planned(i, seen, paths));
+      for (const PlannedWay& way : traces_.back().ways) beside = std::max(beside, way.moves.q_limit);
+    }
+    if (beside <= limits.beside || spans_ >= time_.size()) break;
+  }
+}
+
+double TracePlan::share(std::size_t trace, int pulse) const {
+  const auto spans = static_cast<double>(spans_), own = static_cast<double>(trace);
+  const double place = std::clamp(time_[static_cast<std::size_t>(pulse)] * spans - 0.5, 0.0, spans - 1);
+  return std::max(0.0, 1 - std::abs(place - own));
+}
+
+PlannedTrace TracePlan::planned(std::size_t trace, const Directions& seen, std::span<const SeaPath> paths) const {
+  const int pulses = static_cast<int>(time_.size());
+  PlannedTrace plan;
+  plan.first = pulses;
+  for (int n = 0; n < pulses; ++n) {
+    if (share(trace, n) <= 0) continue;
+    plan.first = std::min(plan.first, n);
+    plan.last = n;
+  }
+  if (plan.first > plan.last) return plan;
+  const Pose pose = seen.pose_at((static_cast<double>(trace) + 0.5) / static_cast<double>(spans_));
+  plan.origin = pose.R_TB.transpose() * pose.p_TB;
+  const RadarBasis radar = body_basis(seen.radar, pose), image = body_basis(seen.image, pose);
+  for (const SeaPath& path : paths) {
+    const RadarBasis &transmit = path.there ? image : radar, &receive = path.back ? image : radar;
+    const auto own = [&](bool by_sea) {
+      return seen.of(by_sea).subspan(static_cast<std::size_t>(plan.first),
+                                     static_cast<std::size_t>(plan.last - plan.first + 1));
+    };
+    plan.ways.push_back({path, path.there == path.back ? monostatic(transmit) : bistatic(transmit, receive),
+                         direction_path(own(path.there), own(path.back), transmit.r, receive.r)});
+  }
+  return plan;
+}
+
+}  // namespace seaglint

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// In which directions a body is traced over an interval, and what share every trace has of every pulse.
+
+#include <span>
+#include <vector>
+
+#include "sim/motion/trajectory.h"
+#include "sim/scattering/direction_path.h"
+#include "sim/scattering/frequency_response.h"
+#include "sim/scattering/illuminate.h"
+#include "sim/scattering/sea_mirror.h"
+
+namespace seaglint {
+
+// One way that a trace's waves take, directly or by the sea.
+struct PlannedWay {
+  SeaPath path;
+  AntennaPair antennas;  // where the trace is made, body frame
+  DirectionPath moves;   // of the trace's pulses
+};
+
+struct PlannedTrace {
+  int first = 0, last = -1;     // pulses that it has a share of; none when the last comes before the first
+  Vec3 origin = Vec3::Zero();   // where the body stands from the scene's reference point, body frame, m
+  std::vector<PlannedWay> ways;
+};
+
+// How far directions may move under one trace, rad.
+struct TraceLimits {
+  double turn = 0;    // the length of their path
+  double beside = 0;  // off a straight track
+};
+
+// Equal spans of the interval, each traced at its middle. Between two instants their answers are blended linearly;
+// before the first and after the last one that one's stands alone.
+class TracePlan {
+ public:
+  // The trajectory must cover the interval of one or more pulses; r_hat in the target frame.
+  TracePlan(const Trajectory& trajectory, const IntervalSampling& sampling, const Vec3& r_hat,
+            std::span<const SeaPath> paths, const TraceLimits& limits);
+
+  std::span<const PlannedTrace> traces() const { return traces_; }
+  // A trace's share of a pulse; those of all traces sum to one.
+  double share(std::size_t trace, int pulse) const;
+  // The body at a pulse, as the radar sees it.
+  const Pose& pose(int pulse) const { return poses_[static_cast<std::size_t>(pulse)]; }
+
+ private:
+  struct Directions;
+  PlannedTrace planned(std::size_t trace, const Directions& seen, std::span<const SeaPath> paths) const;
+
+  std::vector<double> time_;  // of each pulse from the first one on, in intervals; all 0 of one pulse
+  std::vector<Pose> poses_;
+  std::size_t spans_ = 1;
+  std::vector<PlannedTrace> traces_;
+};
+
+}  // namespace seaglint
