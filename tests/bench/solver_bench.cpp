@@ -182,7 +182,7 @@ void ShipBand(benchmark::State& state) {
 }
 BENCHMARK(ShipBand)->ArgsProduct({{1, 2, 4, 8, 16, 32}, {320}})->ArgsProduct({{16}, {1, 16, 160, 640}})->Unit(benchmark::kMillisecond);
 
-// Relative L2 error of the default against pieces of a twenty-thousandth of the area, over 24 frequencies of 200 MHz, hh and vv.
+// Relative L2 error of the default against pieces of a five-thousandth of the area, over 24 frequencies of 200 MHz, hh and vv.
 void ShipErrorOfTheDefault(benchmark::State& state) {
   const RadarBasis basis = radar_basis(direction(static_cast<double>(state.range(0))));
   std::vector<double> k;
