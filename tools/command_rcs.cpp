@@ -257,7 +257,7 @@ void add_rcs(CLI::App& app, Shell& shell) {
   command->add_option("--max-bounces", arguments->max_bounces, "Reflections followed")->check(CLI::Range(1, 64));
   command
       ->add_option("--ray-spacing-m", arguments->ray_spacing_m,
-                   "Detail followed, as the spacing of rays that would find it: pieces below a fourteenth are left out; 0 = 0.002 radius, the coarsest")
+                   "Detail followed, as the spacing of rays that would find it: pieces below a fourteenth are left out; 0 = 0.001 radius, the coarsest")
       ->check(CLI::Range(0.0, 1e6));
   command
       ->add_option("--material", arguments->materials,

@@ -18,7 +18,7 @@ bool set_image(FacetImage& result, std::span<const Facet> facets, const Panels& 
                const Mirror& mirrors, const RadarBasis& basis, double min_area) {
   const Facet& f = facets[facet];
   const Vec3 n_image = mirrors.L * f.normal;
-  if (std::abs(n_image.dot(basis.r)) < kEdgeOnSheet) return false;
+  if (std::abs(n_image.dot(basis.r)) < kEdgeOnPanel) return false;
   result.facet = facet;
   result.plane = image_plane(n_image, n_image.dot(mirrors.image(f.corner[0])), basis);
   result.polygon.clear();

@@ -17,10 +17,10 @@ namespace seaglint {
 // Facets nearer to each other than this are one surface: 1e-5 of a 10 mm wavelength.
 inline constexpr double kCoincident = 1e-7;  // m
 
-// A panel's image through the mirrors of a beam, projected along the unfolded ray.
 // Cosine below which a panel is edge-on and has no image.
-inline constexpr double kEdgeOnSheet = 1e-7;
+inline constexpr double kEdgeOnPanel = 1e-7;
 
+// A panel's image through the mirrors of a beam, projected along the unfolded ray.
 struct FacetImage {
   int facet = -1;
   ImagePlane plane;

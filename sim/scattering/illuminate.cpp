@@ -36,7 +36,7 @@ constexpr double kAside = 1e-6;
 RadarBasis beside_faces(const Scatterer& scatterer, const RadarBasis& basis, bool edges) {
   const auto facets = scatterer.facets();
   const bool in_a_face = std::any_of(facets.begin(), facets.end(), [&](const Facet& facet) {
-    return (facet.open || edges) && std::abs(facet.normal.dot(basis.r)) < kEdgeOnSheet;
+    return (facet.open || edges) && std::abs(facet.normal.dot(basis.r)) < kEdgeOnPanel;
   });
   if (!in_a_face) return basis;
   // Aside of h and v alike, since faces often lie along one of them.

@@ -17,8 +17,14 @@ namespace {
 
 constexpr int kWidth = 6;                // cells
 constexpr double kBeta = 2.30 * kWidth;  // Barnett et al. 2019, section 4.2, for oversampling 2
-constexpr int kMostTerms = 5;
-constexpr double kLeftOut = 0.03;  // of e^{jx} by its first terms
+
+// Terms of e^{jx} that leave out less than 3 %, by the first one left out: x^p / p!.
+constexpr int terms_of_series(double x) {
+  int terms = 1;
+  for (double next = x; next > 0.03; ++terms) next *= x / (terms + 1);
+  return terms;
+}
+static_assert(terms_of_series(kMostBesidePhase) == 5);
 
 // phi(x), x in cells, |x| <= W/2.
 double kernel(double x) {
@@ -111,13 +117,6 @@ Complex times_j(const Complex& z, int n) {
   return n % 4 < 2 ? turned : -turned;
 }
 
-// Terms of e^{jx} that leave out less than kLeftOut, by the first one left out: x^p / p!.
-int terms_of_series(double x) {
-  int terms = 1;
-  for (double next = x; next > kLeftOut && terms < kMostTerms; ++terms) next *= x / (terms + 1);
-  return terms;
-}
-
 }  // namespace
 
 ReturnGrid::ReturnGrid(const WavenumberGrid& wavenumbers, const GridLimits& limits)
@@ -135,7 +134,7 @@ ReturnGrid::ReturnGrid(const WavenumberGrid& wavenumbers, const GridLimits& limi
   u_cells_ = 2 * half + 1;
   u_first_ = -half * u_cell_;
   row_length_ = psi_cells_ + kWidth;
-  terms_ = terms_of_series(k_last * limits.v * limits.q);
+  terms_ = terms_of_series(std::min(k_last * limits.v * limits.q, kMostBesidePhase));
   cells_.assign(terms_ * cells_per_term(), 0.0);
 
   psi_correction_.resize(wavenumbers.count);
@@ -202,7 +201,7 @@ void ReturnGrid::transform() {
   fftw_destroy_plan(plan);
 }
 
-void ReturnGrid::response(int first, double s, double q_beside, std::span<Complex> out) const {
+void ReturnGrid::response(int first, double s, double beside, std::span<Complex> out) const {
   // A few frequencies side by side, real and imaginary parts apart: the compiler makes vectors of them.
   constexpr std::size_t kLanes = 8;
   for (std::size_t begin = 0; begin < out.size(); begin += kLanes) {
@@ -210,7 +209,7 @@ void ReturnGrid::response(int first, double s, double q_beside, std::span<Comple
     // e^{jk u_j s} by recurrence over the cells in u.
     std::array<double, kLanes> turn_re{}, turn_im{}, step_re{}, step_im{}, sum_re{}, sum_im{};
     std::array<std::size_t, kLanes> bin{};
-    std::array<double, kLanes> beside{};  // k v_limit q
+    std::array<double, kLanes> phase{};  // k v_limit q
     for (std::size_t l = 0; l < lanes; ++l) {
       const int q = first + static_cast<int>(begin + l);
       const int m = q - wavenumbers_.centre_index();
@@ -221,7 +220,7 @@ void ReturnGrid::response(int first, double s, double q_beside, std::span<Comple
       turn_im[l] = turn.imag();
       step_re[l] = step.real();
       step_im[l] = step.imag();
-      beside[l] = k * v_limit_ * q_beside;
+      phase[l] = k * v_limit_ * beside;
     }
     for (int u = 0; u < u_cells_; ++u) {
       std::array<double, kLanes> re, im;
@@ -230,12 +229,12 @@ void ReturnGrid::response(int first, double s, double q_beside, std::span<Comple
         re[l] = row[bin[l]].real();
         im[l] = row[bin[l]].imag();
       }
-      std::array<double, kLanes> share;  // beside^term / term!, to be turned by j^term
+      std::array<double, kLanes> share;  // phase^term / term!, to be turned by j^term
       share.fill(1);
       for (int term = 1; term < terms_; ++term) {
         row += cells_per_term();
         for (std::size_t l = 0; l < kLanes; ++l) {
-          share[l] *= beside[l] / term;
+          share[l] *= phase[l] / term;
           const Complex more = share[l] * times_j(row[bin[l]], term);
           re[l] += more.real();
           im[l] += more.imag();

@@ -62,8 +62,9 @@ class ReturnGrid {
 
   // Transforms along psi; afterwards the response can be asked for.
   void transform();
-  // H at k_q for q = first..first + out.size() - 1 and the displacement s along the track and q beside it.
-  void response(int first, double s, double q, std::span<Complex> out) const;
+  // H at wavenumbers first..first + out.size() - 1 for the displacements |s| <= limits.s along the track and
+  // |beside| <= limits.q beside it.
+  void response(int first, double s, double beside, std::span<Complex> out) const;
 
  private:
   std::size_t cell(int u, int psi) const { return static_cast<std::size_t>(u) * row_length_ + psi; }
@@ -77,7 +78,7 @@ class ReturnGrid {
   double u_cell_, u_first_;  // m
   int u_cells_;
   double v_limit_;  // m; the grid of v^p holds amplitudes times (v / v_limit)^p
-  int terms_;       // of the series in q, 1..kMostTerms
+  int terms_;       // of the series in q, 1..5
   std::vector<Complex> cells_;          // [term][u][psi], after transform [term][u][frequency]
   std::vector<double> psi_correction_;  // 1 / phi^ per frequency
 };

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "sim/scattering/passing_radar.h"
 
@@ -24,10 +23,9 @@ double length_of(std::span<const Vec3> way) {
 
 }  // namespace
 
-// Where the radar and its image in the sea stand for the body: at every pulse, and at any time.
+// Where the radar and its image in the sea stand.
 struct TracePlan::Directions {
-  RadarBasis radar, image;  // world
-  std::function<Pose(double)> pose_at;  // by the time in intervals
+  RadarBasis radar, image;               // world
   std::vector<Vec3> to_radar, to_image;  // at every pulse, body frame
 
   std::span<const Vec3> of(bool by_sea) const { return by_sea ? to_image : to_radar; }
@@ -40,7 +38,6 @@ TracePlan::TracePlan(const Trajectory& trajectory, const IntervalSampling& sampl
   Directions seen;
   seen.radar = radar_basis(r_hat);
   seen.image = {image_r, seen.radar.h, image_r.cross(seen.radar.h)};
-  seen.pose_at = [&](double time) { return seen_pose(trajectory, sampling, r_hat, start + length * time); };
   for (const double time_s : sampling.pulse_time_s) {
     time_.push_back(length > 0 ? (time_s - start) / length : 0);
     const Pose& pose = poses_.emplace_back(seen_pose(trajectory, sampling, r_hat, time_s));
@@ -57,7 +54,8 @@ TracePlan::TracePlan(const Trajectory& trajectory, const IntervalSampling& sampl
     traces_.clear();
     double beside = 0;
     for (std::size_t i = 0; i < spans_; ++i) {
-      traces_.push_back(planned(i, seen, paths));
+      const double middle_s = start + length * (static_cast<double>(i) + 0.5) / static_cast<double>(spans_);
+      traces_.push_back(planned(i, seen_pose(trajectory, sampling, r_hat, middle_s), seen, paths));
       for (const PlannedWay& way : traces_.back().ways) beside = std::max(beside, way.moves.q_limit);
     }
     if (beside <= limits.beside || spans_ >= time_.size()) break;
@@ -70,7 +68,8 @@ double TracePlan::share(std::size_t trace, int pulse) const {
   return std::max(0.0, 1 - std::abs(place - own));
 }
 
-PlannedTrace TracePlan::planned(std::size_t trace, const Directions& seen, std::span<const SeaPath> paths) const {
+PlannedTrace TracePlan::planned(std::size_t trace, const Pose& pose, const Directions& seen,
+                                std::span<const SeaPath> paths) const {
   const int pulses = static_cast<int>(time_.size());
   PlannedTrace plan;
   plan.first = pulses;
@@ -80,7 +79,6 @@ PlannedTrace TracePlan::planned(std::size_t trace, const Directions& seen, std::
     plan.last = n;
   }
   if (plan.first > plan.last) return plan;
-  const Pose pose = seen.pose_at((static_cast<double>(trace) + 0.5) / static_cast<double>(spans_));
   plan.origin = pose.R_TB.transpose() * pose.p_TB;
   const RadarBasis radar = body_basis(seen.radar, pose), image = body_basis(seen.image, pose);
   for (const SeaPath& path : paths) {

@@ -22,8 +22,8 @@ struct PlannedWay {
 };
 
 struct PlannedTrace {
-  int first = 0, last = -1;     // pulses that it has a share of; none when the last comes before the first
-  Vec3 origin = Vec3::Zero();   // where the body stands from the scene's reference point, body frame, m
+  int first = 0, last = -1;    // pulses that it has a share of; none when the last comes before the first
+  Vec3 origin = Vec3::Zero();  // where the body stands from the scene's reference point, body frame, m
   std::vector<PlannedWay> ways;
 };
 
@@ -49,9 +49,11 @@ class TracePlan {
 
  private:
   struct Directions;
-  PlannedTrace planned(std::size_t trace, const Directions& seen, std::span<const SeaPath> paths) const;
+  // A span's trace, made where the body then stands.
+  PlannedTrace planned(std::size_t trace, const Pose& pose, const Directions& seen,
+                       std::span<const SeaPath> paths) const;
 
-  std::vector<double> time_;  // of each pulse from the first one on, in intervals; all 0 of one pulse
+  std::vector<double> time_;  // of each pulse, 0 at the first and 1 at the last; all 0 of one pulse
   std::vector<Pose> poses_;
   std::size_t spans_ = 1;
   std::vector<PlannedTrace> traces_;

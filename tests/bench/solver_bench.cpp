@@ -1,68 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The solver on the 144 m ship and the 1 m reflector, beside Embree alone on rays of the same spacing.
+// The solver on the 144 m ship and the 1 m reflector, beside Embree alone on primary rays.
 #include <benchmark/benchmark.h>
 #include <sys/resource.h>
 
-#include <cmath>
-#include <ctime>
-
-#include "sim/core/constants.h"
 #include "sim/geometry/generators.h"
-#include "sim/geometry/mesh_io.h"
 #include "sim/scattering/embree_scene.h"
-#include "sim/scattering/respond.h"
+#include "tests/bench/ship.h"
 
 namespace seaglint {
 namespace {
-
-Vec3 direction(double azimuth_deg) {
-  const double az = radians(azimuth_deg), el = radians(2);
-  return {std::cos(el) * std::cos(az), std::cos(el) * std::sin(az), std::sin(el)};
-}
-
-const Scatterer& ship() {
-  static const Scatterer scatterer(read_mesh(SEAGLINT_SOURCE_DIR "/assets/combatant_144m.glb"));
-  return scatterer;
-}
 
 const RayScene& ship_rays() {
   static const RayScene scene(ship().facets());
   return scene;
 }
 
-IntervalSampling paper_interval() {
-  IntervalSampling sampling;
-  sampling.step_hz = 0.625e6;
-  sampling.first_hz = 16e9 - 12.5e6 + 0.5 * sampling.step_hz;
-  sampling.count = 320;
-  sampling.per_pulse = 40;
-  for (int n = 0; n < 256; ++n) {
-    sampling.pulse_first.push_back(40 * (n * 5 % 8));
-    sampling.pulse_time_s.push_back(0.5 + 250e-6 * n);
-  }
-  return sampling;
-}
-
-// Rolls with the given rate, rad/s.
-Trajectory rolling(double rate, const Vec3& centre) {
-  std::vector<MotionSample> samples(101);
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    samples[i].angles.x() = rate * 0.01 * static_cast<double>(i);
-    samples[i].angle_rates.x() = rate;
-  }
-  return Trajectory(0, 0.01, samples, Vec3::Zero(), centre);
-}
-
 // Primary rays 0.1 m apart over the ship's window.
 std::vector<Ray> primary_rays(const RadarBasis& basis) {
   std::vector<Ray> rays;
-  Vec2 lower = Vec2::Constant(1e9), upper = -lower;
-  for (const Facet& facet : ship().facets()) {
-    for (const Vec3& x : facet.corner) {
-      lower = lower.cwiseMin(Vec2(x.dot(basis.h), x.dot(basis.v)));
-      upper = upper.cwiseMax(Vec2(x.dot(basis.h), x.dot(basis.v)));
-    }
-  }
+  const auto [lower, upper] = window_of(ship(), basis);
   for (double y = lower.y(); y < upper.y(); y += 0.1) {
     for (double x = lower.x(); x < upper.x(); x += 0.1) rays.push_back({x * basis.h + y * basis.v + 75 * basis.r, -basis.r});
   }
@@ -77,14 +33,6 @@ void EmbreeAloneOnTheShip(benchmark::State& state) {
   state.counters["rays/s"] = benchmark::Counter(static_cast<double>(rays.size() * state.iterations()), benchmark::Counter::kIsRate);
 }
 BENCHMARK(EmbreeAloneOnTheShip)->Arg(10)->Arg(50)->Arg(90)->Unit(benchmark::kMillisecond);
-
-// Processor time of all threads, s.
-template <typename Work>
-double processor_seconds(const Work& work) {
-  const std::clock_t start = std::clock();
-  work();
-  return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-}
 
 // One trace and the whole band and interval from it, two threads; beside it Embree alone, first hits of primary rays
 // 0.1 m apart, in processor time of the same run.

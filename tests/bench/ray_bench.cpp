@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What would rays cost? The usual solver of shooting and bouncing rays, with Embree, beside beams: error and time of both on the 144 m ship.
+#include <benchmark/benchmark.h>
+
+#include "sim/scattering/beam_leg.h"
+#include "sim/scattering/embree_scene.h"
+#include "tests/bench/ship.h"
+
+namespace seaglint {
+namespace {
+
+using Matrices = std::vector<std::array<Complex, 4>>;
+
+constexpr int kMostBounces = 8;  // the solver's default
+
+// Facets flat for both solvers.
+const Scatterer& flat_ship() {
+  static const Scatterer scatterer(read_mesh(SEAGLINT_SOURCE_DIR "/assets/combatant_144m.glb"), {}, 0);
+  return scatterer;
+}
+
+// A few frequencies of 200 MHz.
+std::vector<double> band() {
+  std::vector<double> k;
+  for (int q = 0; q < 6; ++q) k.push_back(2 * kPi * (16e9 + 200e6 * q / 6) / kSpeedOfLight);
+  return k;
+}
+
+double relative_error_db(const Matrices& S, const Matrices& exact) {
+  double error = 0, power = 0;
+  for (std::size_t q = 0; q < S.size(); ++q) {
+    for (const int channel : {0, 3}) {
+      error += std::norm(S[q][channel] - exact[q][channel]);
+      power += std::norm(exact[q][channel]);
+    }
+  }
+  return 10 * std::log10(error / power);
+}
+
+// One ray for each square of the aperture, a tube with the square's side: physical optics at every bounce that the radar sees, with the closed-form phase
+// integral over the tube's whole footprint. Everything in double but what Embree answers, facet numbers.
+class RaySolver {
+ public:
+  RaySolver(const Scatterer& scatterer, const RadarBasis& basis, double side)
+      : scatterer_(scatterer), scene_(scatterer.facets()), antennas_(monostatic(basis)), side_(side) {}
+
+  Matrices solve(std::span<const double> k) {
+    const RadarBasis& basis = antennas_.transmit;
+    const auto [lower, upper] = window_of(scatterer_, basis);
+    Matrices sum(k.size());
+    // Tiles of rays: packets of neighbours.
+    constexpr int kTile = 64;
+    const double tile = kTile * side_;
+    for (double y = lower.y(); y < upper.y(); y += tile) {
+      for (double x = lower.x(); x < upper.x(); x += tile) {
+        std::vector<Tube> tubes;
+        for (int i = 0; i < kTile * kTile; ++i) {
+          const Vec2 p(x + (i % kTile + 0.5) * side_, y + (i / kTile + 0.5) * side_);
+          Tube& tube = tubes.emplace_back();
+          tube.p = p;
+          tube.ray = {p.x() * basis.h + p.y() * basis.v + 2 * scatterer_.radius() * basis.r, -basis.r};
+          tube.leg.direction = -basis.r;
+          tube.leg.E_h = basis.h;
+          tube.leg.E_v = basis.v;
+        }
+        follow(tubes, k, sum);
+      }
+    }
+    return sum;
+  }
+
+  double embree_seconds() const { return static_cast<double>(embree_) / CLOCKS_PER_SEC; }
+  std::size_t rays() const { return rays_; }
+
+ private:
+  struct Tube {
+    Vec2 p;  // in the aperture
+    Ray ray;
+    Leg leg;
+  };
+
+  std::vector<int> first_hits(const std::vector<Ray>& rays) {
+    std::vector<int> hits(rays.size());
+    const std::clock_t start = std::clock();
+    scene_.first_hits(rays, hits);
+    embree_ += std::clock() - start;
+    rays_ += rays.size();
+    return hits;
+  }
+
+  void follow(std::vector<Tube>& tubes, std::span<const double> k, Matrices& sum) {
+    constexpr double kOffSurface = 1e-4;  // m
+    for (int bounce = 1; bounce <= kMostBounces && !tubes.empty(); ++bounce) {
+      std::vector<Ray> rays;
+      for (const Tube& tube : tubes) rays.push_back(tube.ray);
+      const std::vector<int> hits = first_hits(rays);
+      std::vector<Tube> lit;
+      std::vector<Footprint> footprints;
+      std::vector<Ray> to_radar;
+      for (std::size_t i = 0; i < tubes.size(); ++i) {
+        if (hits[i] == kNoFacet) continue;
+        Tube tube = tubes[i];
+        const Facet& facet = scatterer_.facets()[hits[i]];
+        const Vec3 n = facing(tube.leg, facet);
+        const double cosine = -n.dot(tube.leg.direction);
+        if (cosine < 1e-6 || (!facet.open && facet.normal.dot(tube.leg.direction) > 0)) continue;
+        const double way = n.dot(facet.corner[0] - tube.ray.origin) / n.dot(tube.leg.direction);
+        const Vec3 hit = tube.ray.origin + way * tube.leg.direction + kOffSurface * n;
+        if (n.dot(antennas_.receive.r) > 1e-6) {
+          footprints.push_back(footprint(tube, facet, n, cosine, bounce));
+          to_radar.push_back({hit, antennas_.receive.r});
+        }
+        tube.leg.mirrors = {tube.leg.mirrors.L * (Mat3::Identity() - 2 * n * n.transpose()),
+                            tube.leg.mirrors.L * (2 * n.dot(facet.corner[0]) * n) + tube.leg.mirrors.t};
+        tube.leg.direction += 2 * cosine * n;
+        tube.leg.E_h = 2 * n.dot(tube.leg.E_h) * n - tube.leg.E_h;
+        tube.leg.E_v = 2 * n.dot(tube.leg.E_v) * n - tube.leg.E_v;
+        tube.ray = {hit, tube.leg.direction};
+        lit.push_back(tube);
+      }
+      // What is hit first is seen.
+      const std::vector<int> hidden =
+          bounce == 1 ? std::vector<int>(to_radar.size(), kNoFacet) : first_hits(to_radar);
+      for (std::size_t i = 0; i < footprints.size(); ++i) {
+        if (hidden[i] != kNoFacet) continue;
+        for (std::size_t q = 0; q < k.size(); ++q) {
+          const std::array<Complex, 4> s = scattered(footprints[i], k[q]);
+          for (int c = 0; c < 4; ++c) sum[q][c] += s[c];
+        }
+      }
+      tubes = std::move(lit);
+    }
+  }
+
+  Footprint footprint(const Tube& tube, const Facet& facet, const Vec3& n, double cosine, int bounce) const {
+    Footprint footprint;
+    footprint.mirrors = tube.leg.mirrors;
+    const Vec3 n_image = tube.leg.mirrors.L * facet.normal;
+    footprint.plane = image_plane(n_image, n_image.dot(tube.leg.mirrors.image(facet.corner[0])), antennas_.transmit);
+    footprint.bounces = static_cast<std::uint8_t>(bounce);
+    set_phase(footprint, n_image, antennas_);
+    footprint.pattern = conductor_pattern(tube.leg, n, cosine, antennas_.receive);
+    const double half = side_ / 2;
+    for (const Vec2& corner : {Vec2(-half, -half), Vec2(half, -half), Vec2(half, half), Vec2(-half, half)})
+      footprint.polygon.push_back({tube.p + corner, Vec2::Zero(), Vec2::Zero()});
+    return footprint;
+  }
+
+  const Scatterer& scatterer_;
+  RayScene scene_;
+  AntennaPair antennas_;
+  double side_;  // m
+  std::clock_t embree_ = 0;
+  std::size_t rays_ = 0;
+};
+
+// Azimuth in degrees, side of a tube in mm; 18 is that of the smallest beam that goes on to further mirrors. embree_s is the time of Embree's queries alone,
+// for every bounce and from each hit behind the first one towards the radar. Beside it the solver's own, one thread each: a matrix without edges, which is
+// what the rays compute, and the default, edges and all of an interval's 256 pulses and 320 frequencies. Errors against beams with pieces of 1 mm.
+void ShipByRays(benchmark::State& state) {
+  const Vec3 r = direction(static_cast<double>(state.range(0)));
+  const RadarBasis basis = radar_basis(r);
+  const std::vector<double> k = band(), one(1, k.front());
+  const Matrices exact = scattering_matrices(flat_ship(), monostatic(basis), k, {0.014, kMostBounces}, 2);
+  const Matrices by_beams = scattering_matrices(flat_ship(), monostatic(basis), k, {0, kMostBounces}, 2);
+  const Trajectory trajectory = rolling(0.005, {0, 0, 1.7});
+  for (auto _ : state) {
+    RaySolver rays(flat_ship(), basis, 1e-3 * static_cast<double>(state.range(1)));
+    const Matrices by_rays = rays.solve(k);
+    const double matrix = processor_seconds(
+        [&] { benchmark::DoNotOptimize(scattering_matrices(flat_ship(), monostatic(basis), one, {0, kMostBounces}, 1)); });
+    const double interval = processor_seconds(
+        [&] { benchmark::DoNotOptimize(respond(ship(), trajectory, r, Polarisation::kVv, paper_interval(), {}, 1)); });
+    state.counters["rays_dB"] = relative_error_db(by_rays, exact);
+    state.counters["beams_dB"] = relative_error_db(by_beams, exact);
+    state.counters["Mrays"] = 1e-6 * static_cast<double>(rays.rays());
+    state.counters["embree_s"] = rays.embree_seconds();
+    state.counters["matrix/embree"] = matrix / rays.embree_seconds();
+    state.counters["interval/embree"] = interval / rays.embree_seconds();
+  }
+}
+BENCHMARK(ShipByRays)->ArgsProduct({{10, 50, 90}, {100, 50, 18, 10}})->Unit(benchmark::kMillisecond)->Iterations(1);
+
+}  // namespace
+}  // namespace seaglint
