@@ -29,6 +29,12 @@ double spread_of_directions(const Scatterer& scatterer, double range_m) {
 // that do are faint.
 double beside_limit(const Scatterer& scatterer) { return std::numbers::sqrt2 * scatterer.radius(); }
 
+// What one chunk of panels or edges adds, in cache lines of its own: threads fill neighbouring chunks side by side.
+struct alignas(64) ChunkPoints {
+  std::vector<ReturnPoint> points;
+  double fastest = 0;  // largest |u|, m
+};
+
 // One trace: what the body answers by one way. `origin`: where the body stands from the point that the radar's range is
 // counted from, body frame.
 ReturnGrid trace_returns(const Scatterer& scatterer, const PlannedWay& way, const Vec3& origin,
@@ -47,8 +53,7 @@ ReturnGrid trace_returns(const Scatterer& scatterer, const PlannedWay& way, cons
   const SplitSettings split_settings{kc, path.turn + spread_of_directions(scatterer, solver.radar_range_m)};
   const std::size_t chunks = illumination.chunk_count();
   const std::size_t all_chunks = chunks + kEdgeChunks;  // the last ones are those of the edges
-  std::vector<std::vector<ReturnPoint>> points(all_chunks);
-  std::vector<double> fastest(all_chunks, 0);
+  std::vector<ChunkPoints> points(all_chunks);
   const auto keep = [&](std::size_t chunk, std::span<Contribution> contributions) {
     if (solver.radar_range_m > 0) bend_wavefront(contributions, antennas, origin, solver.radar_range_m);
     for (const Contribution& c : contributions) {
@@ -56,8 +61,8 @@ ReturnGrid trace_returns(const Scatterer& scatterer, const PlannedWay& way, cons
       if (amplitude == 0.0) continue;
       const double cut = std::min(1.0, limit / c.gradient.sum().norm());
       const double u = cut * path.track.speed(c.gradient), v = cut * path.bend.speed(c.gradient);
-      points[chunk].push_back({amplitude, c.psi, u, v});
-      fastest[chunk] = std::max(fastest[chunk], std::abs(u));
+      points[chunk].points.push_back({amplitude, c.psi, u, v});
+      points[chunk].fastest = std::max(points[chunk].fastest, std::abs(u));
     }
   };
   const Reached reached =
@@ -78,13 +83,14 @@ ReturnGrid trace_returns(const Scatterer& scatterer, const PlannedWay& way, cons
                   keep(chunks + chunk, contributions);
                 }
               });
-  const GridLimits limits{*std::max_element(fastest.begin(), fastest.end()), path.s_limit,
-                          beside_limit(scatterer), path.q_limit};
+  double fastest = 0;
+  for (const ChunkPoints& chunk : points) fastest = std::max(fastest, chunk.fastest);
+  const GridLimits limits{fastest, path.s_limit, beside_limit(scatterer), path.q_limit};
   // Four grids, whatever the number of threads, each for every fourth chunk; their sum is taken in order.
   constexpr std::size_t kGrids = 4;
   std::vector<ReturnGrid> grids(kGrids, ReturnGrid(wavenumbers, limits));
   parallel_for(kGrids, threads, [&](std::size_t g) {
-    for (std::size_t chunk = g; chunk < all_chunks; chunk += kGrids) grids[g].spread(points[chunk]);
+    for (std::size_t chunk = g; chunk < all_chunks; chunk += kGrids) grids[g].spread(points[chunk].points);
   });
   ReturnGrid grid = std::move(grids[0]);
   for (std::size_t g = 1; g < kGrids; ++g) grid.add(grids[g]);
