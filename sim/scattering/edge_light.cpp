@@ -90,9 +90,8 @@ std::vector<Stretch> lit_stretches(const Vec3& image, const Vec3& along, double 
 
 // hh, hv, vh, vv of what leaves by `out`. The received polarisation, sent backwards, arrives as the outgoing wave.
 std::array<Complex, 4> pattern(const WedgeFrame& wedge, const EdgeArrival& in, const EdgeArrival& out) {
-  const auto received = [](const Vec3& E, const CVec3& J) { return E.cast<Complex>().cwiseProduct(J).sum(); };
   const auto [J_h, J_v] = edge_currents(wedge, in.direction, {in.E_h, in.E_v}, -out.direction);
-  return {received(out.E_h, J_h), received(out.E_h, J_v), received(out.E_v, J_h), received(out.E_v, J_v)};
+  return {out.E_h.dot(J_h), out.E_h.dot(J_v), out.E_v.dot(J_h), out.E_v.dot(J_v)};
 }
 
 // Ahead of an edge, near the shadow boundary of the beam that it cuts, the diffracted field towards a mirror at a
@@ -115,7 +114,7 @@ void find_arrivals(const SharpEdges& edges, std::span<const Facet> facets, const
       if (number == kNoEdge) continue;
       const SharpEdge& edge = edges.edges[number];
       if (owner(edge, facets, wave.direction) != member || !wedge_towards(edge, wave.direction)) continue;
-      const Vec3 image = wave.mirrors.image(edge.a), along = wave.mirrors.L * (edge.b - edge.a).normalized();
+      const Vec3 image = wave.mirrors.image(edge.a), along = wave.mirrors.L * edge.along();
       for (const Stretch& stretch : lit_stretches(image, along, edge.length(), wave, lit)) {
         arrivals.push_back({number, stretch.s, stretch.slip, image, along, wave.direction, wave.E_h, wave.E_v,
                             static_cast<std::uint8_t>(wave.bounce - 1)});

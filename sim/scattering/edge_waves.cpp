@@ -86,7 +86,7 @@ class EdgeWaves {
       const Source source{in,
                           wedge->face[i],
                           edge.a,
-                          (edge.b - edge.a).normalized(),
+                          edge.along(),
                           {h.amplitude * in.factor[0], v.amplitude * in.factor[1]}};
       if (std::abs(source.amplitude[0]) + std::abs(source.amplitude[1]) < 1e-9) continue;
       Strip strip{h.direction.cross(source.face.n), h.direction, 0, 0};
@@ -103,10 +103,10 @@ class EdgeWaves {
 
   // What an edge makes of a grazing wave of unit incident field along w: its fringe current, and the end of the current
   // that the first edge alone would send on along w beyond it: J = 2 n x H = 2 w / eta there, integrated along w.
-  static CVec3 diffracted(const WedgeFrame& wedge, const WedgeFace& face, const Vec3& along, const Vec3& w,
-                          const Vec3& s) {
+  static Vec3 diffracted(const WedgeFrame& wedge, const WedgeFace& face, const Vec3& along, const Vec3& w,
+                         const Vec3& s) {
     const double opening = std::max(0.5 * (s - w).squaredNorm(), 1e-15);  // 1 - s.w
-    return edge_current(wedge, grazing(face, w), face.n, s) + Complex(w.cross(along).norm() / (2 * kPi * opening)) * w;
+    return edge_current(wedge, grazing(face, w), face.n, s) + w.cross(along).norm() / (2 * kPi * opening) * w;
   }
 
   // Follows the strip that enters a facet by one of its sides.
@@ -143,7 +143,7 @@ class EdgeWaves {
   void diffract(const Source& source, int number, const Strip& strip) {
     const Incident& in = source.in;
     const SharpEdge& edge = edges_.edges[number];
-    const Vec3 along = (edge.b - edge.a).normalized();
+    const Vec3& along = edge.along();
     const double across = strip.u.dot(along);
     if (std::abs(across) < 1e-6) return;
     const WedgeFrame* wedge = wedge_towards(edge, grazing(source.face, strip.w));
@@ -196,11 +196,10 @@ class EdgeWaves {
       footprint.psi[end] = in.psi[0] + share * (in.psi[1] - in.psi[0]) + antennas_.receive.r.dot(Y);
       footprint.gradient[end] = {X, Y};
     }
-    const Vec3 along = (edge.b - edge.a).normalized();
+    const Vec3& along = edge.along();
     footprint.edge_wave = {in.departure_m, l * shadow_distance(along, w, -departure.direction), in.waves};
-    const CVec3 J = diffracted(wedge, face, along, w, -departure.direction);
-    const auto received = [&](const Vec3& E) { return E.cast<Complex>().cwiseProduct(J).sum(); };
-    const Complex h = received(departure.E_h), v = received(departure.E_v);
+    const Vec3 J = diffracted(wedge, face, along, w, -departure.direction);
+    const double h = departure.E_h.dot(J), v = departure.E_v.dot(J);
     footprint.pattern = {h * in.factor[0], h * in.factor[1], v * in.factor[0], v * in.factor[1]};
     out_.push_back(footprint);
   }

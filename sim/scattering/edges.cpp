@@ -75,10 +75,14 @@ SharpEdges sharp_edges(std::span<const Facet> facets, double least_turn) {
 }
 
 const WedgeFrame* wedge_towards(const SharpEdge& edge, const Vec3& k_hat) {
-  const WedgeFace& first = edge.outside.face[0];
-  double phi = std::atan2(-k_hat.dot(first.n), -k_hat.dot(first.x));
-  if (phi < 0) phi += 2 * kPi;
-  if (phi <= edge.outside.N * kPi) return edge.outside.N > 1 ? &edge.outside : nullptr;
+  // Outside a convex wedge is what lies before either face, outside a concave one what lies before both.
+  const auto before = [&](const WedgeFace& face) { return k_hat.dot(face.n) <= 0; };
+  const auto& [first, second] = edge.outside.face;
+  if (edge.outside.N > 1) {
+    if (before(first) || before(second)) return &edge.outside;
+  } else if (before(first) && before(second)) {
+    return nullptr;
+  }
   return edge.open && edge.inside.N > 1 ? &edge.inside : nullptr;
 }
 

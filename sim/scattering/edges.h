@@ -23,6 +23,7 @@ struct SharpEdge {
   bool open = false;               // the wave may come from either side
 
   double length() const { return (b - a).norm(); }
+  const Vec3& along() const { return outside.face[0].t; }  // unit, from a to b
 };
 
 struct SharpEdges {

@@ -17,23 +17,38 @@ constexpr Complex j(0, 1);
 // is zero; their product has a limit. Both keep this angle from there, rad.
 constexpr double kFromBoundary = 1e-7;
 
+// Half the sum of (1/N) cot((a - phi) / 2N) and (1/N) cot((a + phi) / 2N), over sin a, and half their difference.
+struct Cotangents {
+  double sum, difference;
+};
+
 // (1/N) cot(x / 2N), less cot(x / 2) where physical optics has a share: regular at x = 0 then.
-template <typename Angle>
-Angle half_cotangents(const Angle& x, double N, bool less_optics) {
-  if (less_optics && std::abs(x) < 1e-3) return x / 6.0 * (1 - 1 / (N * N));
-  const Angle wedge = 1.0 / (N * std::tan(x / (2 * N)));
-  return less_optics ? wedge - 1.0 / std::tan(x / 2.0) : wedge;
+double half_cotangent(double x, double N, bool less_optics) {
+  if (less_optics && std::abs(x) < 1e-3) return x / 6 * (1 - 1 / (N * N));
+  const double wedge = 1 / (N * std::tan(x / (2 * N)));
+  return less_optics ? wedge - 1 / std::tan(x / 2) : wedge;
 }
 
-// Half the sum and half the difference of those at a - phi and a + phi, over sin a the first.
-struct Cotangents {
-  Complex sum, difference;
-};
-template <typename Angle>
-Cotangents cotangents(const Angle& a, double phi, double N, bool less_optics) {
-  const Angle minus = half_cotangents(Angle(a - phi), N, less_optics),
-              plus = half_cotangents(Angle(a + phi), N, less_optics);
+Cotangents cotangents(double a, double phi, double N, bool less_optics) {
+  const double minus = half_cotangent(a - phi, N, less_optics), plus = half_cotangent(a + phi, N, less_optics);
   return {0.5 * (minus + plus) / std::sin(a), 0.5 * (minus - plus)};
+}
+
+// The same for imaginary a = j alpha, alpha > 0: the sum is sin(a / N) / sin a, the difference sin(phi / N), over
+// N (cos(phi / N) - cos(a / N)).
+Cotangents cotangents_of_imaginary(double alpha, double phi, double N, bool less_optics) {
+  const auto of_wedge = [&](double n) {
+    const double pole = n * (std::cos(phi / n) - std::cosh(alpha / n));
+    return Cotangents{std::sinh(alpha / n) / (std::sinh(alpha) * pole), std::sin(phi / n) / pole};
+  };
+  if (!less_optics) return of_wedge(N);
+  // Near the common pole at 0 the first term of their difference errs by 1e-6, and so does the difference.
+  if (phi * phi + alpha * alpha < 4e-5) {
+    const double rest = (1 - 1 / (N * N)) / 6;
+    return {rest, -phi * rest};
+  }
+  const Cotangents wedge = of_wedge(N), optics = of_wedge(1);
+  return {wedge.sum - optics.sum, wedge.difference - optics.difference};
 }
 
 // Angle of the direction against the face, in the plane across the edge, 0..2 pi.
@@ -42,34 +57,34 @@ double angle_from_face(const WedgeFace& face, const Vec3& towards_source) {
   return angle < 0 ? angle + 2 * kPi : angle;
 }
 
-// Integrals of eta k J over one face along the grazing diffracted ray (Michaeli 1984 and 1986; his alpha is pi - a
+// Integrals of eta k J / 2j over one face along the grazing diffracted ray (Michaeli 1984 and 1986; his alpha is pi - a
 // here). At a distance x from the edge Sommerfeld's wedge currents are contour integrals of e^{jkx cos xi} with the
 // cotangents of (xi +- phi') / 2N; weighted with e^{jkx mu} and summed over the half-line, x leaves 1 / (cos xi + mu),
 // whose pole at cos a = -mu leaves the cotangents at a +- phi' over sin a. Physical optics has N = 1. The tests hold
 // the sum of both faces to Keller's coefficients.
 void add_face_current(const WedgeFace& face, double N, double phi, bool less_optics, const Vec3& k_hat,
-                      std::span<const Vec3> fields, const Vec3& s, std::span<CVec3> sums) {
+                      std::span<const Vec3> fields, const Vec3& s, std::span<Vec3> sums) {
   const double cos_b = k_hat.dot(face.t);
   const double sin_b = std::sqrt(std::max(1 - cos_b * cos_b, 1e-12));
   const double mu = (sin_b * s.dot(face.x) + cos_b * (s.dot(face.t) - cos_b)) / (sin_b * sin_b);
   // cos a = -mu; mu <= 1 for real directions, and a is imaginary where mu < -1. Both ends are removable, the one at pi
   // only in the sum over the current's components across s: keep away from 0/0.
   constexpr double kAside = 1e-7;
-  const Cotangents cot = mu >= -1 ? cotangents(std::clamp(std::acos(std::clamp(-mu, -1.0, 1.0)), kAside, kPi - kAside),
-                                               phi, N, less_optics)
-                                  : cotangents(Complex(0, std::max(std::acosh(-mu), kAside)), phi, N, less_optics);
+  const Cotangents cot =
+      mu >= -1 ? cotangents(std::clamp(std::acos(std::clamp(-mu, -1.0, 1.0)), kAside, kPi - kAside), phi, N, less_optics)
+               : cotangents_of_imaginary(std::max(std::acosh(-mu), kAside), phi, N, less_optics);
   for (std::size_t i = 0; i < fields.size(); ++i) {
     const double H_t = k_hat.cross(fields[i]).dot(face.t), E_t = fields[i].dot(face.t);
-    const Complex across = 2.0 * j * H_t / sin_b * cot.sum;
-    Complex along = 2.0 * j * E_t / (sin_b * sin_b) * cot.difference + cos_b / sin_b * mu * across;
+    const double across = H_t / sin_b * cot.sum;
+    double along = E_t / (sin_b * sin_b) * cot.difference + cos_b / sin_b * mu * across;
     // What physical optics has of the current along the edge, written without its pole.
-    if (less_optics) along += cos_b / sin_b * 2.0 * j * H_t / sin_b;
-    sums[i] += face.x * across + face.t * along;
+    if (less_optics) along += cos_b / sin_b * H_t / sin_b;
+    sums[i] += across * face.x + along * face.t;
   }
 }
 
 void add_edge_currents(const WedgeFrame& wedge, const Vec3& k_hat, std::span<const Vec3> fields, const Vec3& s,
-                       std::span<CVec3> sums) {
+                       std::span<Vec3> sums) {
   const double phi = angle_from_face(wedge.face[0], -k_hat);
   if (phi > wedge.N * kPi) return;
   for (int i = 0; i < 2; ++i) {
@@ -77,21 +92,21 @@ void add_edge_currents(const WedgeFrame& wedge, const Vec3& k_hat, std::span<con
     const bool lit = own < kPi;
     add_face_current(wedge.face[i], wedge.N, own, lit, k_hat, fields, s, sums);
   }
-  // E_s = -(jk eta / 4 pi) (e^{-jkr}/r) integral J e^{jk s.x}; the integrals above are of eta k J.
-  for (CVec3& sum : sums) sum *= -j / (4 * kPi);
+  // E_s = -(jk eta / 4 pi) (e^{-jkr}/r) integral J e^{jk s.x}; the integrals above are of eta k J / 2j.
+  for (Vec3& sum : sums) sum /= 2 * kPi;
 }
 
 }  // namespace
 
-CVec3 edge_current(const WedgeFrame& wedge, const Vec3& k_hat, const Vec3& E, const Vec3& s) {
-  CVec3 sum = CVec3::Zero();
+Vec3 edge_current(const WedgeFrame& wedge, const Vec3& k_hat, const Vec3& E, const Vec3& s) {
+  Vec3 sum = Vec3::Zero();
   add_edge_currents(wedge, k_hat, {&E, 1}, s, {&sum, 1});
   return sum;
 }
 
-std::array<CVec3, 2> edge_currents(const WedgeFrame& wedge, const Vec3& k_hat, const std::array<Vec3, 2>& fields,
-                                   const Vec3& s) {
-  std::array<CVec3, 2> sums{CVec3::Zero(), CVec3::Zero()};
+std::array<Vec3, 2> edge_currents(const WedgeFrame& wedge, const Vec3& k_hat, const std::array<Vec3, 2>& fields,
+                                  const Vec3& s) {
+  std::array<Vec3, 2> sums{Vec3::Zero(), Vec3::Zero()};
   add_edge_currents(wedge, k_hat, fields, s, sums);
   return sums;
 }

@@ -32,9 +32,9 @@ struct WedgeFrame {
 // per metre of edge: p . edge_current(...) is the field amplitude S / length, dimensionless, independent of frequency,
 // for the received polarisation p. Phase: e^{jk s.x} of the edge's point and that of the incident wave there. Zero when
 // the wave comes from inside the conductor.
-CVec3 edge_current(const WedgeFrame& wedge, const Vec3& k_hat, const Vec3& E, const Vec3& s);
+Vec3 edge_current(const WedgeFrame& wedge, const Vec3& k_hat, const Vec3& E, const Vec3& s);
 // The same for two fields at once, which share everything that costs time.
-std::array<CVec3, 2> edge_currents(const WedgeFrame& wedge, const Vec3& k_hat, const std::array<Vec3, 2>& fields,
+std::array<Vec3, 2> edge_currents(const WedgeFrame& wedge, const Vec3& k_hat, const std::array<Vec3, 2>& fields,
                                    const Vec3& s);
 
 // Field of the edge wave that a hard-polarised plane wave sends along a face: unit amplitude along k_hat, electric
