@@ -67,17 +67,39 @@ class BeamTracer {
     window.pieces = pieces;
     window.boxes.clear();
     for (const MovingPolygon& piece : pieces) window.boxes.push_back(box_of(piece));
-    Box all = window.boxes.front();
-    for (const Box& box : window.boxes) all = {all.lower.cwiseMin(box.lower), all.upper.cwiseMax(box.upper)};
+    // The prism runs along the window's longest side: a long window lies askew as often as not.
+    Vec2 longest = Vec2::UnitX();
+    double most = 0;
+    for (const MovingPolygon& piece : pieces) {
+      const Vec2* from = &piece.back().p;
+      for (const Corner& to : piece) {
+        const double squared = (to.p - *from).squaredNorm();
+        if (squared > most) {
+          most = squared;
+          longest = to.p - *from;
+        }
+        from = &to.p;
+      }
+    }
+    longest.normalize();
+    const std::array<Vec2, 2> axis{longest, Vec2(-longest.y(), longest.x())};
     const Vec2 t(leg.mirrors.t.dot(basis_.h), leg.mirrors.t.dot(basis_.v));
-    const Vec2 lower = all.lower - t, upper = all.upper - t;
-    window.prism = {{leg.mirrors.L.transpose() * basis_.h, leg.mirrors.L.transpose() * basis_.v},
-                    {lower.x(), lower.y()},
-                    {upper.x(), upper.y()},
-                    leg.from_normal,
-                    leg.from_normal.dot(facets_[leg.from_facet].corner[0]) + kCoincident,
-                    leg.direction,
-                    leg.direction};
+    Prism& prism = window.prism;
+    for (int i = 0; i < 2; ++i) {
+      prism.across[i] = leg.mirrors.L.transpose() * (axis[i].x() * basis_.h + axis[i].y() * basis_.v);
+      prism.lower[i] = std::numeric_limits<double>::infinity();
+      prism.upper[i] = -prism.lower[i];
+      for (const MovingPolygon& piece : pieces) {
+        for (const Corner& corner : piece) {
+          const double at = axis[i].dot(corner.p - t);
+          prism.lower[i] = std::min(prism.lower[i], at);
+          prism.upper[i] = std::max(prism.upper[i], at);
+        }
+      }
+    }
+    prism.normal = leg.from_normal;
+    prism.offset = leg.from_normal.dot(facets_[leg.from_facet].corner[0]) + kCoincident;
+    prism.along = prism.wave = leg.direction;
   }
 
   // How a facet whose box meets a leg's prism stands to the prism itself.
