@@ -42,6 +42,13 @@ std::vector<double> wave_heights(const Scenario& scenario) {
   return heights;
 }
 
+std::string clutter_level(const ClutterSpec& clutter) {
+  if (!clutter.enabled) return "There is no clutter.";
+  if (clutter.level == ClutterLevel::kNrl)
+    return "The clutter has the sea's own level, so its ratio to the target tells the target's size too (`scr_*_db`).";
+  return fmt::format("The clutter is set relative to the target (SCR {:g} dB).", clutter.scr_db);
+}
+
 }  // namespace
 
 std::string data_card(const Scenario& scenario, const Manifest& manifest, const StoredAxes& axes) {
@@ -85,15 +92,14 @@ std::string data_card(const Scenario& scenario, const Manifest& manifest, const 
       "lie on one side of\n"
       "a split. A random split of the rows cuts through groups and looks better than it is.\n\n"
       "## What gives the class away\n\n"
-      "The clutter is set relative to the target (SCR {:g} dB), so the absolute level of a map tells the target's "
-      "size: `peak_m` and\n"
+      "{} The absolute level of a map tells the target's size: `peak_m` and\n"
       "`energy_m2` separate the classes by themselves. A classifier of shape and motion must be given maps divided by "
       "their own energy.\n\n"
       "## Reproduction\n\n"
       "`seaglint generate scenario.yaml -o DIR` with the same version makes the same bytes on the same kind of "
       "processor\n"
       "(`{}`), for any number of threads and parts. Mesh paths in `scenario.yaml` start at the working directory.\n",
-      scenario.clutter.scr_db, fmt::join(manifest.processors, "; "));
+      clutter_level(scenario.clutter), fmt::join(manifest.processors, "; "));
   return text;
 }
 

@@ -39,7 +39,7 @@ std::span<const SampleColumn> sample_columns() {
       {"sigma_v_mps", "m/s", "standard deviation of the centres' velocities", &R::sigma_v_mps},
       {"centres", "1", "number of scattering centres", &R::centres},
       {"degenerate", "1", "1 when fewer than 3 centres were found", &R::degenerate},
-      {"traces", "1", "attitudes at which rays were traced, all bodies", &R::traces},
+      {"traces", "1", "traces made: directions that were lit, all bodies and ways over the sea", &R::traces},
   };
   return columns;
 }

@@ -49,7 +49,7 @@ std::vector<ScatteringCentre> extract_centres(std::span<const Complex> echo, con
 // lobes of the tapers alone, without the hop code's pedestal and without holes.
 RvMap restored_map(const CleanedMap& cleaned, const PulseTrain& train, const MapSpec& map_spec);
 
-// Method, section 4. With N_sc centres, weights w_i = N_sc A_i / sum A, and the least-squares line v^ = a r + b
+// README.md. With N_sc centres, weights w_i = N_sc A_i / sum A, and the least-squares line v^ = a r + b
 // (unweighted unless spec.weighted_fit; a = 0 for centres at one range):
 //   MWR = (1/N_sc) sum w_i (v_i - v^_i)^2      sigma_r, sigma_v standard deviations (divisor N_sc)
 //   CCF = |(s_r - s_v) / (s_r + s_v + 1e-6)|   s_r = sigma_r / range_scale_m, s_v = sigma_v / velocity_scale_mps

@@ -30,7 +30,7 @@ PulseTrain train_for_samples(const PulseTrain& train, const RadarSpec& radar);
 // y_n(t) = integral of Y_n(f) e^{+j 2 pi f t} df / sqrt(mu), Y on the grid of `fine`, [pulse][frequency].
 SampledEcho sample_echo(const std::vector<Complex>& echo, const PulseTrain& fine, double sampling_hz);
 
-// Y_n(f) = sqrt(mu) / fs sum_k y_n(t_k) e^{-j 2 pi f t_k} at the frequencies of `train` (method, section 2, as P(f)), whose
+// Y_n(f) = sqrt(mu) / fs sum_k y_n(t_k) e^{-j 2 pi f t_k} at the frequencies of `train` (as P(f), radar/waveform/README.md), whose
 // step is an odd multiple of the one the samples' period allows.
 std::vector<Complex> spectrum_of(const SampledEcho& sampled, const PulseTrain& train);
 

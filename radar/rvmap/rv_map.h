@@ -36,7 +36,7 @@ struct MapGrid {
 };
 MapGrid map_grid(const PulseTrain& train, const MapSpec& spec);
 
-// Forms the map of an echo given as [pulse][frequency] (method, section 3). A point scatterer of amplitude a metres
+// Forms the map of an echo given as [pulse][frequency] (README.md). A point scatterer of amplitude a metres
 // peaks at |RV| = a, whatever the tapers and holes; its phase there is that of its answer at the band's centre at the
 // first pulse.
 RvMap form_rv_map(std::span<const Complex> echo, const PulseTrain& train, const MapSpec& spec, bool intra_pulse_motion);

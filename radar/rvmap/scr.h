@@ -28,7 +28,7 @@ struct ReceivedInterval {
 //   per_pulse  mean |Y_target|^2 over mean |Y_clutter|^2, all pulses and in-band frequencies
 //   peak_cell  largest |RV|^2 of the target over the mean |RV|^2 of the clutter's map
 //   extent     mean |RV|^2 of the target inside target_box over the mean |RV|^2 of the clutter's map
-// Throws InputError when the map holds nothing of the target, or nothing of the clutter.
+// With clutter, throws InputError when the map holds nothing of the target, or nothing of the clutter.
 ReceivedInterval receive(const Echo& echo, const PulseTrain& train, const ClutterSpec& clutter, const MapSpec& spec,
                          bool intra_pulse_motion);
 

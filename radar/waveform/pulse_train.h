@@ -55,10 +55,11 @@ std::vector<int> hop_code(const RadarSpec& spec, std::uint64_t seed, std::uint64
 std::vector<double> pulse_times(const RadarSpec& spec, std::uint64_t seed, std::uint64_t index);
 
 // range_window_m: the response's extent plus margin; the baseband step is df / ceil(df 2 window / c), smaller when B is
-// below that. Throws InputError when the interval would need more than 2^26 samples or the pulse more than 2^24.
+// below that. Throws InputError when the interval would need more than 2^26 samples, the pulse more than 2^24, or its spectrum
+// more than 4e9 samples times frequencies.
 PulseTrain make_pulse_train(const RadarSpec& spec, double range_window_m, std::uint64_t seed, std::uint64_t index);
 
-// P(f) = sqrt(mu)/fs sum_k e^{j pi mu t_k^2} e^{-j 2 pi f t_k}, t_k = (k + 1/2)/fs - T_p/2 (method, section 2); the
+// P(f) = sqrt(mu)/fs sum_k e^{j pi mu t_k^2} e^{-j 2 pi f t_k}, t_k = (k + 1/2)/fs - T_p/2 (README.md, "Transmit waveform"); the
 // factor sqrt(mu) makes |P| about 1 in band (stationary phase).
 std::vector<Complex> chirp_spectrum(double bandwidth_hz, double pulse_width_s, double sampling_hz,
                                     const std::vector<double>& frequency_hz);

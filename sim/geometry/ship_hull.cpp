@@ -10,7 +10,7 @@
 namespace seaglint {
 namespace {
 
-// Design offsets in metres on the 144 m ship; the waterline is 5.3 m shorter aft and 8 m forward than the deck.
+// Design offsets in metres on the 144 m ship; the waterline is 1.4 m shorter aft and 8 m forward than the deck.
 constexpr double kSternAtWater = -70.6, kSternAtDeck = -72.0, kStemAtWater = 64.0, kStemAtDeck = 72.0;
 constexpr double kDeckToWaterBeam = 1.085;  // flare of about 7 deg amidships
 constexpr double kKnuckle = 0.68;           // of the side's height

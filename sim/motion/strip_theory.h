@@ -40,7 +40,7 @@ struct ShipForces {
 
 class StripTheory {
  public:
-  // Solves the radiation problem of every strip at kFrequencies up to K B/2 = kHighestBreadth; about 0.3 s. Throws
+  // Solves the radiation problem of every strip at kFrequencies up to K B/2 = kHighestBreadth; about 0.2 s. Throws
   // InputError for a hull without breadth or draught.
   explicit StripTheory(const HullSections& hull);
 

@@ -2,7 +2,7 @@
 #pragma once
 
 // A footprint's phase integral as points that hold over a band and a small turn: each with its own path and the
-// gradient of that path, and an amplitude that varies slowly (design: closed forms may not be frozen while their phase
+// gradient of that path, and an amplitude that varies slowly (README.md: closed forms may not be frozen while their phase
 // runs through cycles; their end points may).
 
 #include <array>
@@ -53,8 +53,8 @@ void split_over_band(const Footprint& footprint, const RadarBasis& transmit, con
 // The same for a stretch of sharp edge: its ends, or pieces short enough for one point.
 void split(const EdgeFootprint& footprint, const SplitSettings& settings, std::vector<Contribution>& out);
 
-// The wavefront at a finite range, to second order (CONVENTIONS.md, "Plane waves"): each way is longer by |x_perp|^2 / (2 R), x counted from where the range
-// is, `origin` of the contributions' frame away. The gradients follow. Contributions must have been split for a turn of radius / R besides their own, since the
+// The wavefront at a finite range, to second order (CONVENTIONS.md, "Plane waves"): each way is longer by |x_perp|^2 / (2 R), x counted from the point
+// that the range refers to; `origin` is where the contributions' frame stands from there. The gradients follow. Contributions must have been split for a turn of radius / R besides their own, since the
 // radar stands in another direction from every point.
 void bend_wavefront(std::span<Contribution> contributions, const AntennaPair& antennas, const Vec3& origin, double range_m);
 

@@ -64,12 +64,12 @@ struct EdgeFootprint {
   std::optional<EdgeWaveRange> edge_wave;
   std::int32_t facet = -1;  // the edge's first
   std::uint16_t part = 0;
-  std::uint8_t bounces = 1;  // mirrors on both ways and the edge itself
+  std::uint8_t bounces = 1;  // mirrors on both ways and every edge met
 };
 
 // Echoes of all stretches that a wave from the transmitter (`incoming`) shares with one from the receiver (`outgoing`),
 // with at most `max_bounces` in all. Arrivals must be in ascending order of their edges. When both are one antenna
-// `incoming` is a part of `outgoing` that holds all or none of an edge's.
+// `incoming` is a part of `outgoing` that holds all or none of an edge's. Edge waves are apart (edge_waves.h).
 std::vector<EdgeFootprint> edge_footprints(const SharpEdges& edges, std::span<const Facet> facets,
                                            const AntennaPair& antennas, std::span<const EdgeArrival> incoming,
                                            std::span<const EdgeArrival> outgoing, int max_bounces);

@@ -72,7 +72,7 @@ struct Footprint {
   Vec2 w = Vec2::Zero();
   double surface_slope = 0;         // |gradient of psi| along the facet itself, 0..2
   double surface_slope_turn = 0;    // bound of its change per radian of turn, 0..2
-  double facet_size = 0;            // longest edge of the whole facet, m
+  double facet_size = 0;            // longest distance of two corners of its panel, m
   std::array<Complex, 4> pattern{};  // hh, hv, vh, vv (received, transmitted) of n x (k^ x E) / |n . k^|
   // The same for each of the illumination's wavenumbers where a material on the way makes it depend on them, pattern being the middle one; empty where pattern serves all.
   std::vector<std::array<Complex, 4>> patterns;

@@ -25,7 +25,7 @@ struct WedgeFace {
 // An infinite wedge with perfectly conducting faces. The second face's t is minus the first one's.
 struct WedgeFrame {
   WedgeFace face[2];
-  double N = 2;  // the exterior angle is N pi, 1 < N <= 2; 2 is a half-plane
+  double N = 2;  // the exterior angle is N pi, 0 < N <= 2; 2 is a half-plane, below 1 nothing is diffracted
 };
 
 // The wedge's answer in direction s to a plane wave of unit amplitude along `k_hat` with electric field E (across it),

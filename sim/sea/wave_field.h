@@ -46,7 +46,7 @@ class WaveField {
   WaveField(std::vector<WaveComponent> components, Vec2 direction, int order, double second_order_cutoff_rad_s,
             double depth = kDeepWater);
 
-  // |w t| and |k.x| up to 2e8 rad; 512 components of one direction in deep water about 6 us.
+  // |w t| and |k.x| up to 2e8 rad; 512 components of one direction in deep water about 10 us.
   SurfaceState surface(double x, double y, double t, SurfaceDetail detail = SurfaceDetail::kMotion) const;
 
   // The field whose every amplitude is multiplied by gain(wavenumber), as a body's waterplane filters it.
@@ -83,7 +83,7 @@ class WaveField {
 };
 
 // The surface at one fixed point at t = start + n step, n = 0, 1, 2, ...: what WaveField::surface gives, to 1e-12 of
-// the significant wave height, at a third of its price. The field must outlive it.
+// the significant wave height, at 60 % of its price (a quarter for the shape alone). The field must outlive it.
 class SurfaceSeries {
  public:
   SurfaceSeries(const WaveField& field, double x, double y, double start, double step,

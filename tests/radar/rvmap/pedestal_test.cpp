@@ -23,7 +23,7 @@ constexpr int kCodes = 1000;
 struct Offset {
   double range_m, velocity_mps, balanced_db, random_db;
 };
-// Design, "Random hopping leaves a pedestal".
+// Random hopping leaves a pedestal (radar/waveform/README.md).
 constexpr Offset kListed[] = {
     {1.5, 1.757, -24.1, -24.1}, {0, 1, -34.3, -33.1}, {0, 5, -31.4, -30.7}, {2, 0, -18.09, -18.09}};
 

@@ -53,7 +53,7 @@ Peak peak_of(const RvMap& map) {
   return peak;
 }
 
-// One cell of the map straight from the definition (method, section 3): compress, compensate, mean over each carrier's
+// One cell of the map straight from the definition (radar/rvmap/README.md): compress, compensate, mean over each carrier's
 // pulses, inverse transform over the synthesised band; the band's centre is the phase reference.
 Complex by_definition(const std::vector<Complex>& echo, const PulseTrain& train, const MapSpec& spec, bool intra_pulse,
                       double range_m, double velocity_mps) {

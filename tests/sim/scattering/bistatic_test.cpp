@@ -74,7 +74,7 @@ TEST(Bistatic, MovingTheTargetTurnsThePhaseByBothPaths) {
   const auto after = bistatic_echo(Scatterer(mesh), r_t, r_s);
   const Complex phase = std::polar(1.0, wavenumber(kF) * shift.dot(r_t + r_s));
   const double size = std::abs(before[kVvChannel]) + std::abs(before[kHhChannel]);
-  // As for one direction (laws_test): slivers that rays find or miss.
+  // As for one direction (laws_test): slivers about as large as the detail.
   for (int i = 0; i < 4; ++i) EXPECT_NEAR(std::abs(after[i] - before[i] * phase), 0, 1e-3 * size);
 }
 

@@ -18,7 +18,7 @@ const double k16 = wavenumber(16e9);
 TEST(Plate, AnswersMinusJAreaOverWavelengthAtNormalIncidenceForAnySizeAndSpacing) {
   for (const auto& [length, width] : {std::pair{0.5, 0.3}, {0.05, 0.05}, {10.0, 2.0}}) {
     for (const double spacing : {0.001, 0.01, 0.3, 20.0}) {
-      if (length / spacing > 2000) continue;  // twenty million rays say nothing new
+      if (length / spacing > 2000) continue;  // so much finer than the plate says nothing new
       const auto s = echo(make_plate(length, width), Vec3::UnitX(), k16, spacing);
       const Complex expected(0, -length * width * k16 / (2 * kPi));
       EXPECT_LT(std::abs(s[kHhChannel] - expected), kRounding * std::abs(expected))

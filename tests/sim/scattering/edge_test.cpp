@@ -154,7 +154,7 @@ std::map<double, double> austin(const std::string& file) {
 
 // Austin RCS benchmark suite, problem IIB: 6 x 10.5 inch, 64 mil (here without thickness), in the plane of the long
 // side, 0-60 deg from normal. Physical optics alone has 4.3-5.4 dB; measurement and method of moments differ by 0.3-0.5
-// dB. What is left is third-order diffraction, corners and the plate's thickness (k t = 0.17 and 0.35).
+// dB. What is left is fourth-order diffraction, corners and the plate's thickness (k t = 0.17 and 0.35).
 TEST(Plate, FollowsTheMethodOfMomentsWithItsEdges) {
   const Scatterer plate(make_plate(10.5 * 0.0254, 6 * 0.0254));
   for (const auto& [name, hz] : {std::pair{"f10", 5.12e9}, std::pair{"f11", 10.24e9}}) {

@@ -20,9 +20,8 @@ double difference(const std::array<Complex, 4>& a, const std::array<Complex, 4>&
   return size;
 }
 
-// The rays that look for facet sequences fall elsewhere on a moved target: a sliver narrower than the ray spacing may
-// be found in one and not in the other. At 400 rays across, slivers are below 1e-3 of the aperture's width and their
-// echo below 1e-4 of the whole.
+// A piece that is just below the detail on one target may be just above it on the moved one. At a detail of a 400th of
+// the target, such slivers are below 1e-3 of the aperture's width and their echo below 1e-4 of the whole.
 constexpr double kSlivers = 2e-4;
 constexpr double kFine = 0.002;  // m
 
