@@ -3,10 +3,25 @@
 
 #include <CLI/CLI.hpp>
 
+#include "classify/dataset/dataset_writer.h"
 #include "sim/core/error.h"
 #include "tools/command.h"
 
 namespace seaglint {
+
+CLI::Validator number_within(double lowest, double highest) {
+  const auto check = [lowest, highest](const std::string& text) {
+    double value = 0;
+    const bool inside = CLI::detail::lexical_cast(text, value) && value >= lowest && value <= highest;
+    return inside ? std::string() : fmt::format("value {}: must be within {} and {}", text, lowest, highest);
+  };
+  return CLI::Validator(check, fmt::format("within {} and {}", lowest, highest));
+}
+
+std::filesystem::path find_data_set(const std::filesystem::path& directory) {
+  const bool below = !exists(directory / kManifestFile) && exists(directory / "data" / kScenarioFile);
+  return below ? directory / "data" : directory;
+}
 
 void add_threads_option(CLI::App& command, Shell& shell) {
   command.add_option("--threads", shell.threads, "Number of threads; 0 = all processors")->check(CLI::Range(0, 1024));

@@ -4,6 +4,8 @@
 // The subcommands of `seaglint`, one file command_<verb>.cpp each, in the order of the data flow.
 
 #include <CLI/App.hpp>
+#include <CLI/Validators.hpp>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -37,6 +39,12 @@ void add_export(CLI::App& app, Shell& shell);
 void add_train(CLI::App& app, Shell& shell);
 void add_run(CLI::App& app, Shell& shell);
 void add_report(CLI::App& app, Shell& shell);
+
+// A number of the interval; unlike CLI::Range it refuses NaN.
+CLI::Validator number_within(double lowest, double highest);
+
+// The data set in a directory: there, or in the `data` below it that `run` makes.
+std::filesystem::path find_data_set(const std::filesystem::path& directory);
 
 // Adds --threads to a command.
 void add_threads_option(CLI::App& command, Shell& shell);

@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 void export_dataset(const std::string& directory, const fs::path& output, const StopFlag& stop) {
-  const DatasetReader reader(directory);
+  const DatasetReader reader(find_data_set(directory));
   if (output.extension() == ".npz") {
     export_shards(reader, 0, reader.shards(), output, &stop);
     fmt::print("{}: {} samples\n", output.string(), reader.size());
@@ -48,7 +48,7 @@ void add_export(CLI::App& app, Shell& shell) {
           "FILE.npz: everything in one file, for up to some 10,000 maps; else a directory for one file a shard")
       ->required();
   command->footer(
-      "Example:\n  seaglint export build/points -o build/points.npz\n  seaglint export build/paper -o build/paper_npz");
+      "Example:\n  seaglint export build/points/data -o build/points.npz\n  seaglint export build/paper -o build/paper_npz");
   command->callback([arguments, &shell] {
     shell.work = [arguments, &shell] { export_dataset(arguments->directory, arguments->output, shell.stop); };
   });

@@ -20,10 +20,10 @@ void add_merge(CLI::App& app, Shell& shell) {
   auto arguments = std::make_shared<Arguments>();
   command->add_option("directory", arguments->directory, "Directory of the data set")->required();
   command->add_option("-o,--output", arguments->file, "The merged file; DIRECTORY/dataset.h5 unless told");
-  command->footer("Example:\n  seaglint merge build/points");
+  command->footer("Example:\n  seaglint merge build/points/data");
   command->callback([arguments, &shell] {
     shell.work = [arguments, &shell] {
-      const std::filesystem::path directory = arguments->directory;
+      const std::filesystem::path directory = find_data_set(arguments->directory);
       std::filesystem::path file = arguments->file;
       if (file.empty()) file = directory / kMergedFile;
       const Merged merged = merge_dataset(directory, file, kVersion, &shell.stop);

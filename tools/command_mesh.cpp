@@ -187,14 +187,15 @@ void add_info(CLI::App& mesh, Shell& shell) {
   info->add_option("FILE", arguments->file, "Mesh file: .glb .gltf .obj .stl or .ply")->required();
   info->add_option("--unit", arguments->unit, "Unit of the file's lengths: m cm mm km in ft")->capture_default_str();
   info->add_option("--wedge-deg", arguments->wedge_deg, "Least turn of an edge that counts as a wedge")
-      ->check(CLI::Range(0.0, 180.0))
+      ->check(number_within(0.0, 180.0))
       ->capture_default_str();
   CLI::Option* picture = info->add_option("--picture", arguments->picture, "Write a picture as PNG");
   info->add_option("--azimuth-deg", arguments->view.azimuth_deg, "The picture's viewpoint, as the radar's")
+      ->check(number_within(-720, 720))
       ->capture_default_str()
       ->needs(picture);
   info->add_option("--elevation-deg", arguments->view.elevation_deg, "The picture's viewpoint, as the radar's")
-      ->check(CLI::Range(-90.0, 90.0))
+      ->check(number_within(-90.0, 90.0))
       ->capture_default_str()
       ->needs(picture);
   info->add_option("--width", arguments->view.width, "The picture's width in pixels")

@@ -235,30 +235,35 @@ void add_rcs(CLI::App& app, Shell& shell) {
   CLI::App* command = app.add_subcommand("rcs", "Scattering matrix of a mesh at rest over frequency and aspect");
   auto arguments = std::make_shared<RcsArguments>();
   command->add_option("--target", arguments->target, "Mesh file: .glb, .gltf, .obj, .stl or .ply")->required();
-  command->add_option("--unit", arguments->unit, "Unit of the mesh: m, cm, mm, km, in, ft");
+  command->add_option("--unit", arguments->unit, "Unit of the mesh: m, cm, mm, km, in, ft")->capture_default_str();
   command->add_option("--frequency-ghz", arguments->frequency_ghz, "A or A:B:STEP, both ends included")->required();
   command
       ->add_option("--azimuth-deg", arguments->azimuth_deg,
                    "A or A:B:STEP; 0 = radar ahead of the bow, counter-clockwise from above")
       ->required();
-  command->add_option("--elevation-deg", arguments->elevation_deg, "A or A:B:STEP; of the radar seen from the target");
+  command->add_option("--elevation-deg", arguments->elevation_deg, "A or A:B:STEP; of the radar seen from the target")
+      ->capture_default_str();
   command->add_option("--edges", arguments->edges, "Fringe currents at sharp edges: on, or off for physical optics alone")
-      ->check(CLI::IsMember({"on", "off"}));
+      ->check(CLI::IsMember({"on", "off"}))
+      ->capture_default_str();
   command
       ->add_option("--crease-deg", arguments->crease_deg, "Facets that turn by less belong to one smooth surface; 0 = all facets flat")
-      ->check(CLI::Range(0.0, 60.0));
+      ->check(number_within(0.0, 60.0))
+      ->capture_default_str();
   command
       ->add_option("--transmit-azimuth-deg", arguments->transmit_azimuth_deg,
                    "Bistatic: a transmitter that stands still, while azimuth and elevation are the receiver's")
-      ->check(CLI::Range(-720.0, 720.0));
-  command->add_option("--transmit-elevation-deg", arguments->transmit_elevation_deg, "Its elevation; 0 unless given")->check(CLI::Range(-90.0, 90.0));
+      ->check(number_within(-720.0, 720.0));
+  command->add_option("--transmit-elevation-deg", arguments->transmit_elevation_deg, "Its elevation; 0 unless given")->check(number_within(-90.0, 90.0));
   command->add_option("--range-m", arguments->range_m, "Of the radar from the target's origin, for the curvature of the wavefront; 0 = far field")
-      ->check(CLI::Range(0.0, 1e9));
-  command->add_option("--max-bounces", arguments->max_bounces, "Reflections followed")->check(CLI::Range(1, 64));
+      ->check(number_within(0.0, 1e9));
+  command->add_option("--max-bounces", arguments->max_bounces, "Reflections followed")
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
   command
       ->add_option("--ray-spacing-m", arguments->ray_spacing_m,
                    "Detail followed, as the spacing of rays that would find it: pieces below a fourteenth are left out; 0 = 0.001 radius, the coarsest")
-      ->check(CLI::Range(0.0, 1e6));
+      ->check(number_within(0.0, 1e6));
   command
       ->add_option("--material", arguments->materials,
                    "What the target is made of: pec, a name of assets/materials or a file; PART=NAME for one part, PART* for all that begin so (repeatable)")

@@ -52,7 +52,7 @@ std::vector<NpzArray> arrays_of(const Sample& sample, const StoredAxes& axes) {
 }
 
 void remake_sample(const Arguments& arguments) {
-  const DatasetReader reader(arguments.directory);
+  const DatasetReader reader(find_data_set(arguments.directory));
   if (arguments.sample >= reader.size())
     throw InputError(fmt::format("--sample {}: the data set has samples 0 to {}", arguments.sample, reader.size() - 1));
   const StoredSample stored = stored_sample(reader, arguments.sample);
@@ -97,10 +97,10 @@ void add_remake(CLI::App& app, Shell& shell) {
       app.add_subcommand("remake", "Make one sample of a data set again and hold it against what is stored");
   auto arguments = std::make_shared<Arguments>();
   command->add_option("directory", arguments->directory, "Directory of the data set")->required();
-  command->add_option("--sample", arguments->sample, "Number of the sample")->required();
+  command->add_option("--sample", arguments->sample, "Number of the sample")->check(CLI::NonNegativeNumber)->required();
   command->add_option("-o,--output", arguments->output,
                       "Map (also complex), axes, hop code, centres and row as NumPy's .npz");
-  command->footer("Example:\n  seaglint remake build/points --sample 7 -o build/sample_7.npz");
+  command->footer("Example:\n  seaglint remake build/points/data --sample 7 -o build/sample_7.npz");
   command->callback([arguments, &shell] { shell.work = [arguments] { remake_sample(*arguments); }; });
 }
 

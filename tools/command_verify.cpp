@@ -52,7 +52,8 @@ std::vector<std::string> remake(const std::string& directory, std::size_t count,
   return all;
 }
 
-void verify(const Arguments& arguments, const Shell& shell) {
+void verify(const Arguments& given, const Shell& shell) {
+  const Arguments arguments{find_data_set(given.directory), given.remake};
   Audit result = audit(arguments.directory, &shell.stop);
   fmt::print("{}: {} sound shards, {} samples in {} groups\n", arguments.directory, result.shards, result.samples,
              result.groups);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "radar/rvmap/rv_map.h"
 #include "sim/core/constants.h"
@@ -21,7 +22,11 @@ struct Span {
     low = std::min(low, value);
     high = std::max(high, value);
   }
-  bool within(const std::vector<double>& axis) const { return low >= axis.front() && high <= axis.back(); }
+  // In the cells of the axis; one cell alone holds everything.
+  bool within(const std::vector<double>& axis) const {
+    const double half = axis.size() > 1 ? (axis[1] - axis[0]) / 2 : std::numeric_limits<double>::infinity();
+    return low >= axis.front() - half && high <= axis.back() + half;
+  }
 };
 
 // Of a target with its companions, as the radar sees it.
@@ -75,10 +80,12 @@ std::vector<std::string> outside_of_map(const Scenario& scenario, const std::vec
                          reach.range_m.low, reach.range_m.high, grid.range_m.front(), grid.range_m.back()));
       }
       if (!reach.velocity_mps.within(grid.velocity_mps)) {
-        tell(fmt::format("{} moves at {:.2f} to {:.2f} m/s, the map shows {:.2f} to {:.2f} m/s (unambiguous within +-{:.2f}): "
-                         "raise map.velocity_span_mps",
+        const double unambiguous = train.unambiguous_velocity_mps();
+        const bool folds = std::max(-reach.velocity_mps.low, reach.velocity_mps.high) > unambiguous;
+        tell(fmt::format("{} moves at {:.2f} to {:.2f} m/s, the map shows {:.2f} to {:.2f} m/s (unambiguous within +-{:.2f}): {}",
                          who, reach.velocity_mps.low, reach.velocity_mps.high, grid.velocity_mps.front(),
-                         grid.velocity_mps.back(), train.unambiguous_velocity_mps()));
+                         grid.velocity_mps.back(), unambiguous,
+                         folds ? "shorten radar.pri_us" : "raise map.velocity_span_mps"));
       }
     }
   }

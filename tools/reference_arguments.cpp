@@ -9,6 +9,7 @@
 
 #include "sim/core/error.h"
 #include "sim/core/number.h"
+#include "tools/command.h"
 
 namespace seaglint {
 namespace {
@@ -58,7 +59,7 @@ void ReferenceArguments::add_to(CLI::App& command) {
   repeatable("--reference-frequency-ghz", frequency_ghz, "Frequency of a reference that does not say it (CST)", "GHZ")->needs(reference);
   repeatable("--reference-origin-m", origin_m, "The reference's phase origin in the body's frame; default 0,0,0", "X,Y,Z")->needs(reference);
   command.add_option("--floor-db", floor_db, "Levels further below the reference's maximum than this count as this")
-      ->check(CLI::Range(1.0, 300.0))
+      ->check(number_within(1.0, 300.0))
       ->capture_default_str()
       ->needs(reference)
       ->group("Reference");

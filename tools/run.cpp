@@ -46,15 +46,19 @@ class StageClock {
   std::vector<std::pair<std::string, double>> seconds_;
 };
 
-void require_new_directory(const fs::path& directory) {
+// To go on in a directory it must be one of a run, to begin it must be empty.
+void require_directory(const fs::path& directory, bool resume) {
   std::error_code error;
   if (fs::exists(directory, error) && !fs::is_directory(directory, error)) {
     throw InputError(fmt::format("{}: is a file, not a directory", directory.string()));
   }
-  if (fs::exists(directory, error) && !fs::is_empty(directory, error)) {
+  if (!fs::exists(directory, error) || fs::is_empty(directory, error)) return;
+  if (!resume) {
     throw InputError(
         fmt::format("{}: the directory is not empty; go on with what is there by --resume", directory.string()));
   }
+  if (!fs::is_directory(directory / "data", error))
+    throw InputError(fmt::format("{}: the directory holds something else than a run", directory.string()));
 }
 
 // What learning would refuse after all maps were made.
@@ -78,7 +82,7 @@ void check_learnable(const Scenario& scenario) {
 std::string run_scenario(const Scenario& scenario, const fs::path& directory, const RunOptions& options,
                          const StopFlag* stop) {
   check_learnable(scenario);
-  if (!options.resume) require_new_directory(directory);
+  require_directory(directory, options.resume);
 
   StageClock clock;
   const GenerateResult made = clock.time("maps", [&] {

@@ -6,18 +6,20 @@
 #include <CLI/CLI.hpp>
 
 #include "sim/core/error.h"
+#include "tools/command.h"
 
 namespace seaglint {
 
 void SeaArguments::add_to(CLI::App& command) {
   CLI::Option* sea = command.add_flag("--sea-reflection", reflection,
                                       "Four ways between radar and target: direct and by the mean sea surface; elevations must be above 0");
-  command.add_option("--height-m", height_m, "Height of the mesh's origin above the mean sea surface")->check(CLI::Range(-1e4, 1e4))->needs(sea);
-  command.add_option("--wave-height-m", wave_height_m, "Significant wave height: roughness of the mirror")->check(CLI::Range(0.0, 30.0))->needs(sea);
+  command.add_option("--height-m", height_m, "Height of the mesh's origin above the mean sea surface")->check(number_within(-1e4, 1e4))->capture_default_str()->needs(sea);
+  command.add_option("--wave-height-m", wave_height_m, "Significant wave height: roughness of the mirror")->check(number_within(0.0, 30.0))->capture_default_str()->needs(sea);
   command.add_option("--sea-surface", surface, "sea_water (20 deg C, 35 psu) or conductor")
       ->check(CLI::IsMember({"sea_water", "conductor"}))
+      ->capture_default_str()
       ->needs(sea);
-  command.add_option("--sea-paths", paths, "all, direct or multipath")->check(CLI::IsMember({"all", "direct", "multipath"}))->needs(sea);
+  command.add_option("--sea-paths", paths, "all, direct or multipath")->check(CLI::IsMember({"all", "direct", "multipath"}))->capture_default_str()->needs(sea);
 }
 
 SeaMirror SeaArguments::mirror() const {

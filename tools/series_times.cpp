@@ -7,17 +7,9 @@
 #include <cmath>
 
 #include "sim/core/error.h"
+#include "tools/command.h"
 
 namespace seaglint {
-
-CLI::Validator number_within(double lowest, double highest) {
-  const auto check = [lowest, highest](const std::string& text) {
-    double value = 0;
-    const bool inside = CLI::detail::lexical_cast(text, value) && value >= lowest && value <= highest;
-    return inside ? std::string() : fmt::format("value {}: must be within {} and {}", text, lowest, highest);
-  };
-  return CLI::Validator(check, fmt::format("within {} and {}", lowest, highest));
-}
 
 void add_time_options(CLI::App& command, double& duration_s, double& step_s) {
   command.add_option("--duration-s", duration_s, "Length of the series")

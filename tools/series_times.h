@@ -4,13 +4,9 @@
 // The times of a command that writes a series.
 
 #include <CLI/App.hpp>
-#include <CLI/Validators.hpp>
 #include <cstddef>
 
 namespace seaglint {
-
-// A number of the interval; unlike CLI::Range it refuses NaN.
-CLI::Validator number_within(double lowest, double highest);
 
 // Adds --duration-s and --step-s with the values there as defaults.
 void add_time_options(CLI::App& command, double& duration_s, double& step_s);

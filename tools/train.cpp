@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "classify/dataset/dataset_writer.h"
@@ -46,19 +47,20 @@ std::string metrics_json(const Study& study, const LearningTable& table, const S
   return json.dump(2) + "\n";
 }
 
+// Empty, absent, or with a model in it, be it one that a killed training left half-written.
 void require_own_directory(const fs::path& directory) {
-  std::error_code error;
-  if (!fs::exists(directory, error) || fs::is_empty(directory, error) || fs::exists(directory / "network.bin")) return;
-  throw InputError(fmt::format("{}: the directory is not empty and holds no model", directory.string()));
+  if (!fs::exists(directory)) return;
+  if (!fs::is_directory(directory)) throw InputError(fmt::format("{}: is a file, not a directory", directory.string()));
+  if (fs::exists(directory / kNetworkFile)) return;
+  const std::vector<std::string> ours = model_files();
+  for (const auto& entry : fs::directory_iterator(directory)) {
+    const std::string name = entry.path().filename();
+    if (name.ends_with(".tmp") || std::find(ours.begin(), ours.end(), name) != ours.end()) continue;
+    throw InputError(fmt::format("{}: the directory holds no model, but {}", directory.string(), name));
+  }
 }
 
 }  // namespace
-
-fs::path find_data_set(const fs::path& directory) {
-  if (!fs::exists(directory / kManifestFile) && fs::exists(directory / "data" / kManifestFile))
-    return directory / "data";
-  return directory;
-}
 
 Study train_model(const fs::path& data_set, const fs::path& model_directory, const std::vector<Override>& overrides,
                   int threads, const StopFlag* stop) {

@@ -16,9 +16,6 @@ namespace seaglint {
 inline constexpr const char* kMetricsFile = "metrics.json";
 inline constexpr const char* kEmbeddingsFile = "embeddings.csv";
 
-// The data set in a directory, or in the `data` below it that `run` makes. Throws InputError when there is none.
-std::filesystem::path find_data_set(const std::filesystem::path& directory);
-
 // Trains and evaluates with the learning section of the data set's own scenario, changed by `overrides`. The model
 // directory is made; what an earlier training left there is replaced. Throws InputError for an unsound data set or a
 // directory of something else.

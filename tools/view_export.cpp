@@ -15,6 +15,7 @@
 #include "sim/core/suggestion.h"
 #include "sim/geometry/mesh_io.h"
 #include "sim/scattering/view_echoes.h"
+#include "tools/command.h"
 
 namespace seaglint {
 namespace {
@@ -143,13 +144,13 @@ void ViewExportArguments::add_to(CLI::App& command) {
   selectors("--without", without, "Leave out the echoes of any of these (repeatable)");
   command.add_option("--export-centres", centres, "Scattering centres of one view at one frequency, as CSV")->group("Selection and export");
   command.add_option("--centre-cell-m", cell_m, "Size of the cells whose contributions become one centre")
-      ->check(CLI::Range(1e-4, 100.0))
+      ->check(number_within(1e-4, 100.0))
       ->capture_default_str()
       ->group("Selection and export");
   command.add_option("--export-hot-spots", hot_spots, "The mesh, .glb or .gltf, its facets coloured by the strength of what leaves them in one view")
       ->group("Selection and export");
   command.add_option("--export-range-db", range_db, "Weakest of the exports below the strongest")
-      ->check(CLI::Range(2.0, 300.0))
+      ->check(number_within(2.0, 300.0))
       ->capture_default_str()
       ->group("Selection and export");
 }

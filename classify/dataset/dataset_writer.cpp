@@ -50,6 +50,24 @@ bool is_empty_or_absent(const fs::path& directory) {
   return empty;
 }
 
+std::set<std::string> file_names(const fs::path& directory) {
+  std::set<std::string> names;
+  std::error_code error;
+  for (fs::directory_iterator it(directory, error), end; !error && it != end; it.increment(error))
+    names.insert(it->path().filename());
+  if (error) throw WorkError(fmt::format("{}: {}", directory.string(), error.message()));
+  return names;
+}
+
+// Without a scenario a directory to go on in may hold shards, what belongs to them, and what a kill left half-written.
+void require_own_directory(const fs::path& directory) {
+  if (is_empty_or_absent(directory) || fs::exists(directory / kScenarioFile)) return;
+  for (const std::string& name : file_names(directory)) {
+    if (name.ends_with(".tmp") || name.ends_with(".h5") || name == kManifestFile) continue;
+    throw InputError(fmt::format("{}: the directory holds no data set, but {}", directory.string(), name));
+  }
+}
+
 // Another process that finishes the same data set writes the same bytes, and may have removed our temporary file.
 void write_in_company(const fs::path& file, const std::string& content) {
   try {
@@ -58,15 +76,6 @@ void write_in_company(const fs::path& file, const std::string& content) {
     std::error_code error;
     if (!fs::is_regular_file(file, error) || read_file(file) != content) throw;
   }
-}
-
-std::set<std::string> file_names(const fs::path& directory) {
-  std::set<std::string> names;
-  std::error_code error;
-  for (fs::directory_iterator it(directory, error), end; !error && it != end; it.increment(error))
-    names.insert(it->path().filename());
-  if (error) throw WorkError(fmt::format("{}: {}", directory.string(), error.message()));
-  return names;
 }
 
 // What runs that were killed left half-written.
@@ -90,6 +99,7 @@ DatasetWriter::DatasetWriter(fs::path directory, const Scenario& scenario, bool 
     throw InputError(
         fmt::format("{}: the directory is not empty; go on with what is there by --resume", directory_.string()));
   }
+  require_own_directory(directory_);
   make_directory(directory_);
   const fs::path scenario_file = directory_ / kScenarioFile;
   bool same_text = false;

@@ -60,6 +60,13 @@ void refuse_foreign_files(const fs::path& directory, std::size_t shards) {
   }
 }
 
+// What stands at the merged file's place and is none itself would be lost, a shard above all.
+void require_own_place(const fs::path& file) {
+  if (file.extension() != ".h5") throw InputError(fmt::format("{}: the name of a merged file ends in .h5", file.string()));
+  if (fs::exists(file) && !is_merged(file))
+    throw InputError(fmt::format("{}: exists and is no merged file; choose another name", file.string()));
+}
+
 void write_missing_manifest(const fs::path& directory, const Scenario& scenario, const std::string& program_version) {
   DatasetWriter writer(directory, scenario, true, program_version);
   const std::vector<std::size_t> missing = writer.finish();
@@ -148,6 +155,7 @@ void write_merged(const DatasetReader& reader, const fs::path& temporary, const 
 Merged merge_dataset(const fs::path& directory, const fs::path& file, const std::string& program_version,
                      const StopFlag* stop) {
   if (!fs::is_directory(directory)) throw InputError(fmt::format("{}: no such directory", directory.string()));
+  require_own_place(file);
   const Scenario scenario = read_scenario(directory / kScenarioFile);
   refuse_foreign_files(directory, SamplePlan(scenario).shards());
   Merged result;

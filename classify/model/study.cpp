@@ -185,6 +185,12 @@ void check_splits(std::span<const RowGroup> rows, const LearningSpec& spec, doub
   for (const Job& job : all_jobs(spec)) rows_of(job, rows, spec, train_share, seed);
 }
 
+std::vector<std::string> model_files() {
+  std::vector<std::string> files{kNetworkFile, kSplitsFile};
+  for (const char* name : kGroupNames) files.push_back(fmt::format("{}.json", name));
+  return files;
+}
+
 Study run_study(const LearningTable& table, const LearningSpec& spec, double train_share, std::uint64_t seed,
                 const std::filesystem::path& model_directory, int threads, const StopFlag* stop) {
   const std::vector<Job> jobs = all_jobs(spec);
@@ -246,8 +252,8 @@ Study run_study(const LearningTable& table, const LearningSpec& spec, double tra
   study.network_losses = group.network->losses();
   study.splits = {random.split, group.split};
   study.embeddings = std::move(group.embeddings);
-  group.network->save(model_directory / "network.bin");
-  write_file(model_directory / "splits.csv", splits_csv(table, study.splits));
+  group.network->save(model_directory / kNetworkFile);
+  write_file(model_directory / kSplitsFile, splits_csv(table, study.splits));
   return study;
 }
 

@@ -53,6 +53,12 @@ struct Study {
 // Throws InputError when rows in these groups leave a side of a split without rows; known before any map is made.
 void check_splits(std::span<const RowGroup> rows, const LearningSpec& spec, double train_share, std::uint64_t seed);
 
+inline constexpr const char* kNetworkFile = "network.bin";
+inline constexpr const char* kSplitsFile = "splits.csv";
+
+// Names of the files that run_study() writes.
+std::vector<std::string> model_files();
+
 // Trains, evaluates, and saves the models of the group protocol (first repeat, main fusion) in `model_directory`:
 // network.bin, handmade.json, cnn.json, fused.json, splits.csv. The result depends on data, spec and seed alone, not on
 // `threads`.

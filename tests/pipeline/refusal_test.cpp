@@ -105,6 +105,26 @@ TEST_F(Refusal, OfARadarTooNearForItsWavefront) {
   }
 }
 
+TEST_F(Refusal, OfANumberThatIsNone) {
+  const std::string mesh = folder() / "whole.glb";
+  for (const char* option : {"--range-m", "--crease-deg", "--ray-spacing-m", "--transmit-azimuth-deg", "--centre-cell-m"}) {
+    expect_failure(folder(),
+                   {"rcs", "--target", mesh, "--frequency-ghz", "10", "--azimuth-deg", "0", "-o", folder() / "rcs.csv",
+                    option, "nan"},
+                   2, std::string(option) + ": value nan: must be within");
+  }
+  expect_failure(folder(), {"mesh", "info", mesh, "--wedge-deg", "nan"}, 2, "value nan");
+  expect_failure(folder(), {"map", "scenarios/points.yaml", "--sample", "-1", "-o", folder() / "map.png"}, 2, "-1");
+}
+
+// A directory of something else is none to go on in.
+TEST_F(Refusal, OfGoingOnAmongOtherFiles) {
+  make_directory(folder() / "other");
+  write_file(folder() / "other" / "notes.txt", "mine");
+  for (const char* command : {"generate", "run"})
+    expect_failure(folder(), {command, "scenarios/points.yaml", "-o", folder() / "other", "--resume"}, 2, "other: the directory holds");
+}
+
 // Below a file and in /proc nobody may write, not even root; a folder without write permission stops everybody else.
 TEST_F(Refusal, OfAPlaceWhereNothingCanBeWritten) {
   const fs::path locked = folder() / "locked";

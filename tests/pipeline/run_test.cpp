@@ -84,6 +84,25 @@ TEST_F(FinishedRun, IsRefusedAsATargetWithoutResumeAndContinuedWithIt) {
   EXPECT_EQ(read_file(directory_ / "model" / "fused.json"), before);
 }
 
+TEST_F(FinishedRun, GoesOnAfterAKillThatLeftHalfAModel) {
+  for (const char* name : {"network.bin", "splits.csv", "embeddings.csv", "metrics.json"})
+    fs::remove(directory_ / "model" / name);
+  const ProgramResult resumed =
+      run_program({"run", "scenarios/points.yaml", "-o", directory_, "--resume", "--set", "learning.epochs=3"});
+  EXPECT_EQ(resumed.code, 0) << resumed.err;
+  EXPECT_TRUE(fs::exists(directory_ / "model" / "network.bin"));
+}
+
+TEST_F(FinishedRun, IsADataSetForTheCommandsOfOne) {
+  const TemporaryFolder folder;
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"verify", directory_}, {"merge", directory_, "-o", folder.path() / "all.h5"},
+        {"export", directory_, "-o", folder.path() / "all.npz"}, {"remake", directory_, "--sample", "3"}}) {
+    const ProgramResult result = run_program(words);
+    EXPECT_EQ(result.code, 0) << words[0] << ": " << result.err;
+  }
+}
+
 TEST_F(FinishedRun, CanBeTrainedOnAndReportedAgain) {
   const TemporaryFolder folder;
   const ProgramResult trained =

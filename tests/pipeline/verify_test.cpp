@@ -31,6 +31,22 @@ TEST_F(VerifiedData, IsFoundSoundAndTheSameWhenMadeAgain) {
   EXPECT_THAT(result.out, HasSubstr("no fault found"));
 }
 
+TEST_F(VerifiedData, IsNeitherMergedOverItselfNorTakenForARun) {
+  const std::string shard = read_file(directory_ / "shard_00000.h5"), scenario = read_file(directory_ / "scenario.yaml");
+  for (const char* name : {"shard_00000.h5", "scenario.yaml", "manifest.json", "merged.txt"}) {
+    const ProgramResult merged = run_program({"merge", directory_, "-o", directory_ / name});
+    EXPECT_EQ(merged.code, 2) << name;
+    EXPECT_THAT(merged.err, HasSubstr(name));
+  }
+  const ProgramResult run =
+      run_program({"run", "scenarios/points.yaml", "--set", "seed=99", "-o", directory_, "--resume"});
+  EXPECT_EQ(run.code, 2);
+  EXPECT_THAT(run.err, HasSubstr("holds something else than a run"));
+  EXPECT_EQ(read_file(directory_ / "shard_00000.h5"), shard);
+  EXPECT_EQ(read_file(directory_ / "scenario.yaml"), scenario);
+  EXPECT_EQ(run_program({"verify", directory_, "--remake", "0"}).code, 0);
+}
+
 TEST_F(VerifiedData, IsRefusedWhenAShardIsCutOff) {
   fs::path shard;
   for (const auto& entry : fs::directory_iterator(directory_)) {
