@@ -20,6 +20,7 @@ struct Shell {
   StopFlag stop{false};
   int threads = 0;             // --threads, 0 = all processors
   std::function<void()> work;  // set by the chosen command's callback, run by main
+  bool one_piece = false;      // the work never looks at `stop`: Ctrl-C ends it at once
 };
 
 // Each adds its command to the program, with a footer that shows an example; listed in main.cpp too.

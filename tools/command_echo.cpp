@@ -77,7 +77,10 @@ void add_echo(CLI::App& app, Shell& shell) {
   command->add_option("-o,--output", arguments->output, "File, .npz")->required();
   add_threads_option(*command, shell);
   command->footer("Example:\n  seaglint echo scenarios/points.yaml --sample 0 -o echo.npz");
-  command->callback([arguments, &shell] { shell.work = [arguments] { write_echo(*arguments); }; });
+  command->callback([arguments, &shell] {
+    shell.one_piece = true;
+    shell.work = [arguments] { write_echo(*arguments); };
+  });
 }
 
 }  // namespace seaglint

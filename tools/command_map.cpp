@@ -106,7 +106,10 @@ void add_map(CLI::App& app, Shell& shell) {
   command->footer(
       "Example:\n  seaglint map scenarios/points.yaml --sample 0 -o map.png\n"
       "  seaglint map scenarios/points.yaml --sample 0 --set map.clean=true -o clean.png");
-  command->callback([arguments, &shell] { shell.work = [arguments] { show_map(*arguments); }; });
+  command->callback([arguments, &shell] {
+    shell.one_piece = true;
+    shell.work = [arguments] { show_map(*arguments); };
+  });
 }
 
 }  // namespace seaglint

@@ -101,7 +101,10 @@ void add_remake(CLI::App& app, Shell& shell) {
   command->add_option("-o,--output", arguments->output,
                       "Map (also complex), axes, hop code, centres and row as NumPy's .npz");
   command->footer("Example:\n  seaglint remake build/points/data --sample 7 -o build/sample_7.npz");
-  command->callback([arguments, &shell] { shell.work = [arguments] { remake_sample(*arguments); }; });
+  command->callback([arguments, &shell] {
+    shell.one_piece = true;
+    shell.work = [arguments] { remake_sample(*arguments); };
+  });
 }
 
 }  // namespace seaglint

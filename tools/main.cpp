@@ -109,6 +109,6 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return end_parsing(app, error, argc > 1 ? argv[1] : "");
   }
-  handle_signals(shell);
+  if (!shell.one_piece) handle_signals(shell);
   return run(shell);
 }
