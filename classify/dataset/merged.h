@@ -26,8 +26,8 @@ struct Merged {
 
 // Reads every shard against its checksum, then writes `file`. Without a manifest the shards are held against the
 // scenario first and the manifest is written for `program_version`. Throws InputError naming the file that is missing,
-// damaged or foreign, or when `file` does not end in .h5 or is something else than a merged file already, and then leaves `file` as it was; WorkError when the disk refuses; Interrupted when *stop becomes
-// true.
+// damaged or foreign, or `file` when it does not end in .h5 or is something else than a merged file already, and then
+// leaves `file` as it was; WorkError when the disk refuses; Interrupted when *stop becomes true.
 Merged merge_dataset(const std::filesystem::path& directory, const std::filesystem::path& file,
                      const std::string& program_version, const StopFlag* stop = nullptr);
 
