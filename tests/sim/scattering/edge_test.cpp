@@ -96,6 +96,51 @@ TEST(Fringe, IsTheSameOnEveryOneOfKellersCones) {
   }
 }
 
+// Off the cones the grazing ray's angle a may be imaginary. Here it is complex and the cotangents are Sommerfeld's own.
+TEST(Fringe, IsTheCotangentsOfAComplexAngle) {
+  Random random({3, Stream::kTest, 19});
+  int imaginary = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const double N = 1.05 + 0.95 * random.uniform(), phi = N * kPi * random.uniform(), beta = 0.2 + 1.2 * random.uniform();
+    const Vec3 k_hat(-std::sin(beta) * std::cos(phi), -std::sin(beta) * std::sin(phi), std::cos(beta));
+    const Vec3 E = k_hat.cross(Vec3(0.3, -0.5, 0.8)).normalized();
+    const double z = 2 * random.uniform() - 1, turn = 2 * kPi * random.uniform();
+    const Vec3 s(std::sqrt(1 - z * z) * std::cos(turn), std::sqrt(1 - z * z) * std::sin(turn), z);
+    const WedgeFrame frame = wedge(N);
+    CVec3 expected = CVec3::Zero();
+    bool near_a_pole = false;
+    for (int face = 0; face < 2; ++face) {
+      const auto& [x, n, t] = frame.face[face];
+      const double own = face == 0 ? phi : N * kPi - phi, sin_b = std::sin(beta), cos_b = k_hat.dot(t);
+      const double mu = (sin_b * s.dot(x) + cos_b * (s.dot(t) - cos_b)) / (sin_b * sin_b);
+      imaginary += mu < -1;
+      const Complex a = std::acos(Complex(-mu, 0));
+      near_a_pole |= std::abs(a - own) < 0.05 || std::abs(a - kPi) < 0.05 || std::abs(a) < 0.05;
+      const auto currents = [&](double wedge_N) {
+        const Complex minus = 1.0 / (wedge_N * std::tan((a - own) / (2 * wedge_N))),
+                      plus = 1.0 / (wedge_N * std::tan((a + own) / (2 * wedge_N)));
+        return std::array<Complex, 2>{0.5 * (minus + plus) / std::sin(a), 0.5 * (minus - plus)};
+      };
+      auto [sum, difference] = currents(N);
+      const double H_t = k_hat.cross(E).dot(t), E_t = E.dot(t);
+      Complex optics_along = 0;
+      if (own < kPi) {
+        const auto [sum_1, difference_1] = currents(1);
+        sum -= sum_1;
+        difference -= difference_1;
+        optics_along = 2.0 * j * cos_b / (sin_b * sin_b) * H_t;
+      }
+      const Complex across = 2.0 * j * H_t / sin_b * sum;
+      expected += -j / (4 * kPi) *
+                  (x * across + t * (2.0 * j * E_t / (sin_b * sin_b) * difference + cos_b / sin_b * mu * across + optics_along));
+    }
+    if (near_a_pole) continue;
+    const Vec3 K = edge_current(frame, k_hat, E, s);
+    EXPECT_LT((K.cast<Complex>() - expected).norm(), 1e-9 * (1 + K.norm())) << N << ' ' << phi << ' ' << beta;
+  }
+  EXPECT_GT(imaginary, 200);
+}
+
 TEST(Fringe, IsFiniteEverywhereButAlongTheGrazingRay) {
   Random random({3, Stream::kTest, 18});
   for (int i = 0; i < 20000; ++i) {

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// What every panel that a leg of a beam may meet is asked, before any polygon is cut.
+
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "sim/scattering/beam_leg.h"
+#include "sim/scattering/facet_tree.h"
+
+namespace seaglint {
+
+// Cosine below which a facet is edge-on to a beam or to the receiver.
+inline constexpr double kEdgeOn = 1e-9;
+
+// The window that a leg comes through: convex pieces of the aperture.
+struct BeamWindow {
+  std::span<const MovingPolygon> pieces;
+  std::vector<Box> boxes;  // of the pieces
+  Prism prism;             // around them, on the side of the mirror that the leg leaves
+};
+
+// One or more pieces, which must outlive the window; `basis` is that of the aperture.
+void set_window(BeamWindow& window, const Leg& leg, std::span<const MovingPolygon> pieces, const RadarBasis& basis,
+                std::span<const Facet> facets);
+
+// How a panel whose box meets a leg's prism stands to the prism itself.
+struct Meeting {
+  bool may = false;  // they may meet; false for most: they face away, lie behind the mirror or beside the window
+  // Where along the prism nothing more can be lit, m, since the panel covers all of it.
+  double covered = std::numeric_limits<double>::infinity();
+};
+Meeting meeting(const Leg& leg, const Prism& prism, const TreePanel& panel);
+
+}  // namespace seaglint
