@@ -2,6 +2,7 @@
 #include "sim/scattering/moving_polygon.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -9,6 +10,24 @@ namespace seaglint {
 namespace {
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+Vec2 left_of(const Vec2& along) { return {-along.y(), along.x()}; }
+
+// The line through two corners, positive on the left and as steep as they are apart. The scale may stay fixed as they
+// move: only the zero of the function matters.
+MovingLine line_of_edge(const Corner& from, const Corner& to) {
+  MovingLine line;
+  line.gradient = left_of(to.p - from.p);
+  line.value = -line.gradient.dot(from.p);
+  line.gradient_d1 = left_of(to.d1 - from.d1);
+  line.gradient_d2 = left_of(to.d2 - from.d2);
+  line.value_d1 = -line.gradient_d1.dot(from.p) - line.gradient.dot(from.d1);
+  line.value_d2 = -line.gradient_d2.dot(from.p) - line.gradient.dot(from.d2);
+  return line;
+}
+
+MovingLine opposite(const MovingLine& line) {
+  return {-line.value, -line.gradient, -line.value_d1, -line.value_d2, -line.gradient_d1, -line.gradient_d2};
+}
 
 // Where the edge a -> b meets the line, whose values fa and fb at its ends have opposite signs.
 Corner meet(const Corner& a, const Corner& b, double fa, double fb, const MovingLine& line) {
@@ -31,32 +50,37 @@ Corner meet(const Corner& a, const Corner& b, double fa, double fb, const Moving
 // Where the corners of a polygon lie with respect to a line.
 enum class Side { kInside, kOutside, kBoth };
 
-// Clips by f >= 0, where f(corner) is the distance inside the line; corners within kOnLine of it are on it. make_line() is called only where an
-// edge is cut; `kept` and what is cut off, if anybody asks for it, are filled only where the line passes through.
+// Clips by f >= 0, where f(p) is the distance inside the line in units of which `on_line` counts as none. make_line() is
+// called only where an edge is cut, and its line is in the same units; `kept` and what is cut off, if anybody asks for
+// it, are filled only where the line passes through.
 template <typename Distance, typename MakeLine>
-Side clip_by(const MovingPolygon& polygon, const Distance& distance, const MakeLine& make_line, int keep, MovingPolygon& kept,
+Side clip_by(const MovingPolygon& polygon, const Distance& distance, double on_line, const MakeLine& make_line, MovingPolygon& kept,
              MovingPolygon* cut_off = nullptr) {
-  const auto value = [&](const Corner& c) {
-    const double f = keep * distance(c.p);
-    return std::abs(f) < kOnLine ? 0.0 : f;
-  };
+  constexpr std::size_t kRemembered = 16;  // distances of the first corners
+  std::array<double, kRemembered> remembered;
   bool any_inside = false, any_outside = false;
-  for (const Corner& c : polygon) {
-    const double f = keep * distance(c.p);
-    any_inside |= f >= kOnLine;
-    any_outside |= f <= -kOnLine;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const double f = distance(polygon[i].p);
+    any_inside |= f >= on_line;
+    any_outside |= f <= -on_line;
+    if (i < kRemembered) remembered[i] = f;
   }
   if (!any_outside) return any_inside ? Side::kInside : Side::kOutside;  // all on the line: no area
   if (!any_inside) return Side::kOutside;
   kept.clear();
   if (cut_off) cut_off->clear();
   const MovingLine line = make_line();
+  const auto value = [&](std::size_t i) {
+    const double f = i < kRemembered ? remembered[i] : distance(polygon[i].p);
+    return std::abs(f) < on_line ? 0.0 : f;
+  };
   const Corner* a = &polygon.back();
-  double fa = value(*a);
-  for (const Corner& b : polygon) {
-    const double fb = value(b);
+  double fa = value(polygon.size() - 1);
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Corner& b = polygon[i];
+    const double fb = value(i);
     if ((fa > 0 && fb < 0) || (fa < 0 && fb > 0)) {
-      kept.push_back(meet(*a, b, keep * fa, keep * fb, line));
+      kept.push_back(meet(*a, b, fa, fb, line));
       if (cut_off) cut_off->push_back(kept.back());
     }
     if (fb >= 0) kept.push_back(b);
@@ -67,12 +91,14 @@ Side clip_by(const MovingPolygon& polygon, const Distance& distance, const MakeL
   return kept.size() < 3 ? Side::kOutside : Side::kBoth;
 }
 
-// Clips by one edge of another polygon: keeps its left side.
+// Clips by one edge of another polygon: keeps its left side. The line is as steep as the edge is long, which saves a
+// division for each.
 Side clip_by_edge(const MovingPolygon& polygon, const Corner& from, const Corner& to, double length, MovingPolygon& kept,
                   MovingPolygon* cut_off = nullptr) {
-  const Vec2 left = Vec2(from.p.y() - to.p.y(), to.p.x() - from.p.x()) / length;
+  const Vec2 left = left_of(to.p - from.p);
   return clip_by(
-      polygon, [&](const Vec2& p) { return left.dot(p - from.p); }, [&] { return line_through(from, to); }, +1, kept, cut_off);
+      polygon, [&](const Vec2& p) { return left.dot(p - from.p); }, kOnLine * length,
+      [&] { return line_of_edge(from, to); }, kept, cut_off);
 }
 
 }  // namespace
@@ -95,24 +121,10 @@ MovingPolygon counter_clockwise(MovingPolygon polygon) {
   return polygon;
 }
 
-MovingLine line_through(const Corner& from, const Corner& to) {
-  const auto left = [](const Vec2& t) { return Vec2(-t.y(), t.x()); };
-  const Vec2 along = to.p - from.p;
-  const double scale = 1 / along.norm();
-  MovingLine line;
-  line.gradient = scale * left(along);
-  line.value = -line.gradient.dot(from.p);
-  // The scale may stay fixed: only the zero of the function matters.
-  line.gradient_d1 = scale * left(to.d1 - from.d1);
-  line.gradient_d2 = scale * left(to.d2 - from.d2);
-  line.value_d1 = -line.gradient_d1.dot(from.p) - line.gradient.dot(from.d1);
-  line.value_d2 = -line.gradient_d2.dot(from.p) - line.gradient.dot(from.d2);
-  return line;
-}
-
 MovingPolygon clip(const MovingPolygon& polygon, const MovingLine& line, int keep) {
+  const MovingLine inside = keep > 0 ? line : opposite(line);
   MovingPolygon kept;
-  switch (clip_by(polygon, [&](const Vec2& p) { return line.at(p); }, [&] { return line; }, keep, kept)) {
+  switch (clip_by(polygon, [&](const Vec2& p) { return inside.at(p); }, kOnLine, [&] { return inside; }, kept)) {
     case Side::kInside: return polygon;
     case Side::kOutside: return {};
     case Side::kBoth: return kept;

@@ -130,9 +130,6 @@ inline double signed_area(const MovingPolygon& polygon) {
 Vec2 centroid(const MovingPolygon& polygon);  // of the area; of the corners when there is no area
 MovingPolygon counter_clockwise(MovingPolygon polygon);
 
-// The line through two corners, scaled to signed distance, positive on the left.
-MovingLine line_through(const Corner& from, const Corner& to);
-
 // The part of the polygon where line >= 0 (or <= 0 with keep = -1). Corners nearer to the line than kOnLine count as on
 // it.
 inline constexpr double kOnLine = 1e-10;
