@@ -4,7 +4,6 @@
 // Which panels may a beam meet? Embree's tree of boxes over the panels, asked with a prism instead of a ray: nothing is missed, however small.
 
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -43,7 +42,7 @@ class FacetTree {
  public:
   FacetTree(std::span<const Facet> facets, const Panels& panels);
 
-  // Calls visit(panel) for every panel that has a point in the prism, and for some whose box only comes near; roughly from near to far, in an order that
+  // Calls visit(panel) for every panel that has a point in the prism, and for some whose box only comes near, in an order that
   // depends on tree and prism alone. visit returns how far along the prism panels still matter, m; those that begin beyond may be left out.
   template <typename Visit>
   void walk(const Prism& prism, const Visit& visit) const;
@@ -59,13 +58,6 @@ class FacetTree {
     std::int32_t child;
     float begin;
   };
-  // What the walk will look at soon is on its way from memory before it is needed.
-  void fetch(std::int32_t child) const {
-    const char* at = child < 0 ? reinterpret_cast<const char*>(&panels_[-1 - child])
-                               : reinterpret_cast<const char*>(&nodes_[child]);
-    __builtin_prefetch(at);
-    __builtin_prefetch(at + 64);
-  }
   // Three of each level wait at most, and all four of the last.
   static constexpr std::size_t kMostWaiting = 3 * kMostLevels + 4;
 
@@ -120,16 +112,11 @@ void FacetTree::walk(const Prism& prism, const Visit& visit) const {
       gap[lane] = larger > third ? larger : third;
       begin[lane] = at(3) - half(3);
     }
-    unsigned met = 0;
-    for (unsigned lane = 0; lane < 4; ++lane) met |= static_cast<unsigned>(gap[lane] <= 0) << lane;
-    // The nearest comes on top.
-    const std::size_t base = waiting;
-    for (; met != 0; met &= met - 1) {
-      const int lane = std::countr_zero(met);
-      std::size_t place = waiting++;
-      for (; place > base && stack[place - 1].begin < begin[lane]; --place) stack[place] = stack[place - 1];
-      stack[place] = {node.child[lane], begin[lane]};
-      fetch(node.child[lane]);
+    // Every child is put on top, and stays there if it meets the prism: no branch that nobody can foresee. To bring the
+    // nearest on top costs more than it saves.
+    for (int lane = 0; lane < 4; ++lane) {
+      stack[waiting] = {node.child[lane], begin[lane]};
+      waiting += gap[lane] <= 0;
     }
   }
 }
