@@ -246,7 +246,7 @@ class BeamTracer {
   void reach_edges(const Leg& leg, const Candidate& candidate) {
     if (!leg.fields.empty() || !surface_of(candidate.image.facet).empty()) return;
     const WaveOnFacet wave{basis_, leg.mirrors, candidate.image.plane, leg.direction, leg.E_h, leg.E_v, leg.bounce};
-    find_arrivals(*edges_, facets_, panels_, candidate.image.facet, wave, candidate.lit, out_.arrivals);
+    find_arrivals(*edges_, candidate.image.facet, wave, candidate.lit, out_.arrivals);
   }
 
   // Footprints of the pieces that are lit and seen.

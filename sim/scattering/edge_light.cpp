@@ -12,15 +12,6 @@ namespace {
 // Corners this near to an edge lie on it: cuts are exact to rounding of the target's size.
 constexpr double kOnEdge = 1e-7;  // m
 
-// The facet of an edge that faces the wave more squarely.
-int owner(const SharpEdge& edge, std::span<const Facet> facets, const Vec3& direction) {
-  const auto squarely = [&](int f) {
-    const double cosine = -facets[f].normal.dot(direction);
-    return facets[f].open ? std::abs(cosine) : cosine;
-  };
-  return squarely(edge.facet[0]) >= squarely(edge.facet[1]) ? edge.facet[0] : edge.facet[1];
-}
-
 struct Stretch {
   std::array<double, 2> s;
   std::array<Vec2, 2> slip;
@@ -106,19 +97,18 @@ std::array<Complex, 4> transposed(const std::array<Complex, 4>& s) { return {s[0
 
 }  // namespace
 
-void find_arrivals(const SharpEdges& edges, std::span<const Facet> facets, const Panels& panels, int facet,
-                   const WaveOnFacet& wave, std::span<const MovingPolygon> lit, std::vector<EdgeArrival>& arrivals) {
+void find_arrivals(const SharpEdges& edges, int facet, const WaveOnFacet& wave, std::span<const MovingPolygon> lit,
+                   std::vector<EdgeArrival>& arrivals) {
   if (lit.empty()) return;
-  for (const int member : panels.members(facet)) {
-    for (const int number : edges.of_facet[member]) {
-      if (number == kNoEdge) continue;
-      const SharpEdge& edge = edges.edges[number];
-      if (owner(edge, facets, wave.direction) != member || !wedge_towards(edge, wave.direction)) continue;
-      const Vec3 image = wave.mirrors.image(edge.a), along = wave.mirrors.L * edge.along();
-      for (const Stretch& stretch : lit_stretches(image, along, edge.length(), wave, lit)) {
-        arrivals.push_back({number, stretch.s, stretch.slip, image, along, wave.direction, wave.E_h, wave.E_v,
-                            static_cast<std::uint8_t>(wave.bounce - 1)});
-      }
+  for (const PanelEdge& side : edges.of_panel(facet)) {
+    if (!side.speaks(wave.direction)) continue;
+    const SharpEdge& edge = edges.edges[side.edge];
+    // Of a closed surface it is convex, and the wave, which lights this side, comes from outside.
+    if (edge.open && !wedge_towards(edge, wave.direction)) continue;
+    const Vec3 image = wave.mirrors.image(edge.a), along = wave.mirrors.L * edge.along();
+    for (const Stretch& stretch : lit_stretches(image, along, edge.length(), wave, lit)) {
+      arrivals.push_back({side.edge, stretch.s, stretch.slip, image, along, wave.direction, wave.E_h, wave.E_v,
+                          static_cast<std::uint8_t>(wave.bounce - 1)});
     }
   }
 }

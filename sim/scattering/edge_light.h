@@ -15,7 +15,6 @@
 
 #include "sim/scattering/edges.h"
 #include "sim/scattering/footprint.h"
-#include "sim/scattering/panels.h"
 
 namespace seaglint {
 
@@ -45,9 +44,9 @@ struct WaveOnFacet {
 };
 
 // Appends the stretches of the sharp edges of a panel (by the facet it goes by) that bound what the wave lights of it
-// (convex pieces of the aperture). Of an edge's two facets the one that faces the wave more squarely speaks for both.
-void find_arrivals(const SharpEdges& edges, std::span<const Facet> facets, const Panels& panels, int facet,
-                   const WaveOnFacet& wave, std::span<const MovingPolygon> lit, std::vector<EdgeArrival>& arrivals);
+// (convex pieces of the aperture).
+void find_arrivals(const SharpEdges& edges, int facet, const WaveOnFacet& wave, std::span<const MovingPolygon> lit,
+                   std::vector<EdgeArrival>& arrivals);
 
 // The echo of a stretch of edge: S = pattern times the integral of e^{jk psi} along it, psi linear.
 struct EdgeFootprint {

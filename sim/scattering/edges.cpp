@@ -74,6 +74,25 @@ SharpEdges sharp_edges(std::span<const Facet> facets, double least_turn) {
   return result;
 }
 
+void list_by_panel(SharpEdges& edges, std::span<const Facet> facets, const Panels& panels) {
+  edges.by_panel.clear();
+  edges.first_of_panel.assign(1, 0);
+  for (int panel = 0; panel < static_cast<int>(facets.size()); ++panel) {
+    for (const int own : panels.members(panel)) {
+      for (const int number : edges.of_facet[own]) {
+        if (number == kNoEdge) continue;
+        const SharpEdge& edge = edges.edges[number];
+        if (edge.outside.N <= 1 && !edge.open) continue;
+        const auto [f, g] = edge.facet;
+        const int other = own == f ? g : f;
+        edges.by_panel.push_back({facets[own].normal, facets[other].normal, number, facets[own].open,
+                                  facets[other].open, own == f});
+      }
+    }
+    edges.first_of_panel.push_back(static_cast<std::uint32_t>(edges.by_panel.size()));
+  }
+}
+
 const WedgeFrame* wedge_towards(const SharpEdge& edge, const Vec3& k_hat) {
   // Outside a convex wedge is what lies before either face, outside a concave one what lies before both.
   const auto before = [&](const WedgeFace& face) { return k_hat.dot(face.n) <= 0; };

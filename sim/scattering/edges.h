@@ -10,6 +10,7 @@
 
 #include "sim/scattering/facets.h"
 #include "sim/scattering/fringe.h"
+#include "sim/scattering/panels.h"
 
 namespace seaglint {
 
@@ -26,13 +27,42 @@ struct SharpEdge {
   const Vec3& along() const { return outside.face[0].t; }  // unit, from a to b
 };
 
+// An edge that may diffract as the panel on one of its sides keeps it: what tells whether a wave on the panel has to do
+// with the edge, side by side in memory.
+struct PanelEdge {
+  Vec3 normal, beyond;  // of the facet on this side and of the one on the other
+  std::int32_t edge = kNoEdge;
+  bool open = false, open_beyond = false;  // either side of the facet may be seen
+  bool first = false;                      // the facet is the edge's first
+
+  // Of an edge's two facets the one that faces the wave more squarely speaks for both.
+  bool speaks(const Vec3& direction) const {
+    const auto squarely = [&](const Vec3& n, bool either_side) {
+      const double cosine = -n.dot(direction);
+      return either_side ? std::abs(cosine) : cosine;
+    };
+    const double here = squarely(normal, open), there = squarely(beyond, open_beyond);
+    return first ? here >= there : here > there;
+  }
+};
+
 struct SharpEdges {
   std::vector<SharpEdge> edges;
   std::vector<std::array<int, 3>> of_facet;  // edge along corner[i] -> corner[i + 1], or kNoEdge
+  std::vector<PanelEdge> by_panel;            // panel after panel, by the facets they go by
+  std::vector<std::uint32_t> first_of_panel;  // of each facet, and one more
+
+  // None when the facet's panel goes by another.
+  std::span<const PanelEdge> of_panel(int facet) const {
+    return {by_panel.data() + first_of_panel[facet], first_of_panel[facet + 1] - first_of_panel[facet]};
+  }
 };
 
 // Edges whose faces turn by at least `least_turn` (rad). Edges of three and more facets are left out: nobody can tell their wedge.
 SharpEdges sharp_edges(std::span<const Facet> facets, double least_turn);
+
+// Fills by_panel from of_facet. Concave edges of closed surfaces are left out: no wave meets a wedge there.
+void list_by_panel(SharpEdges& edges, std::span<const Facet> facets, const Panels& panels);
 
 // The wedge a wave along k_hat meets, or nothing when it comes from the concave side, whose reflections the beams follow, or from within.
 const WedgeFrame* wedge_towards(const SharpEdge& edge, const Vec3& k_hat);

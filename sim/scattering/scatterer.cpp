@@ -45,6 +45,7 @@ Scatterer::Scatterer(const TriangleMesh& mesh, std::vector<MaterialSpec> materia
         edge = kNoEdge;
     }
   }
+  list_by_panel(edges_, facets_, panels_);
 }
 
 }  // namespace seaglint
