@@ -29,8 +29,7 @@ struct Leg {
 // A facet that a leg may light, and what of it is lit as far as is known.
 struct Candidate {
   FacetImage image;  // its polygon clipped to what lies beyond the last mirror
-  std::vector<MovingPolygon> lit;
-  double nearest = 0, farthest = 0;  // heights of the lit pieces before anything was hidden, m
+  Pieces lit;
 };
 
 // The facet's unit normal on the side the leg comes from.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "sim/scattering/beam_leg.h"
 #include "sim/scattering/beam_window.h"
@@ -44,11 +45,11 @@ class BeamTracer {
     Candidate candidate;
     candidate.image.facet = facet;
     candidate.image.plane = image_plane(facets_[facet].normal, facets_[facet].offset, basis_);
-    candidate.lit.assign(lit_.pieces(facet).begin(), lit_.pieces(facet).end());
+    candidate.lit.assign(lit_.pieces(facet));
     // What the transmitter lights at first, a receiver at the same place sees.
     std::vector<MovingPolygon> seen;
     if (!antennas_.monostatic) seen_part(first, candidate, seen);
-    radiate(first, candidate, antennas_.monostatic ? candidate.lit : seen);
+    radiate(first, candidate, antennas_.monostatic ? candidate.lit.polygons() : seen);
     if (reaches_edges(first)) reach_edges(first, candidate);
     if (goes_on(first, candidate)) follow(reflected(first, candidate), candidate.lit);
   }
@@ -56,15 +57,15 @@ class BeamTracer {
  private:
   // Memory of one leg, kept for the next of its bounce.
   struct Scratch {
-    BeamWindow window;
     std::vector<int> found;
     std::vector<Candidate> met;  // as many as any leg needed so far
+    std::vector<Extent> extent;  // of what the window shows of each that was met
     std::vector<std::uint32_t> order;
     std::vector<MovingPolygon> seen;
   };
 
   // A facet as the leg meets it; false when it misses the window.
-  bool meet(const Leg& leg, const BeamWindow& window, int facet, Candidate& candidate) const {
+  bool meet(const Leg& leg, const Pieces& window, int facet, Candidate& candidate) const {
     FacetImage& image = candidate.image;
     if (!set_image(image, facets_, panels_, facet, leg.mirrors, basis_, min_area_)) return false;
     double farthest = 0, nearest = 0;  // beyond the mirror
@@ -77,35 +78,28 @@ class BeamTracer {
     if (nearest < 0) {
       image.polygon = clip(image.polygon, depth_between(image.plane, leg.from_plane), +1);
       if (image.polygon.empty() || signed_area(image.polygon) < min_area_) return false;
-      set_extent(image);
     }
+    const Box box = box_of(image.polygon);
     candidate.lit.clear();
-    for (std::size_t i = 0; i < window.pieces.size(); ++i) {
-      if (!overlap(window.boxes[i], image.box)) continue;
-      MovingPolygon common = intersect(window.pieces[i], image.polygon);
-      if (common.empty() || signed_area(common) <= min_area_) continue;
-      for (const Corner& corner : common) {
-        const double z = image.plane.at(corner.p);
-        candidate.nearest = candidate.lit.empty() && &corner == common.begin() ? z : std::max(candidate.nearest, z);
-        candidate.farthest = candidate.lit.empty() && &corner == common.begin() ? z : std::min(candidate.farthest, z);
-      }
-      candidate.lit.push_back(std::move(common));
+    for (std::size_t i = 0; i < window.size(); ++i) {
+      if (!overlap(window.boxes()[i], box)) continue;
+      MovingPolygon common = intersect(window.polygons()[i], image.polygon);
+      if (!common.empty() && signed_area(common) > min_area_) candidate.lit.push_back(std::move(common));
     }
-    if (candidate.lit.empty()) return false;
-    return true;
+    return !candidate.lit.empty();
   }
 
   // Lights what the leg reaches inside the window (convex pieces of the aperture).
-  void follow(const Leg& leg, std::span<const MovingPolygon> window) {
+  void follow(const Leg& leg, const Pieces& window) {
     ++legs_;
     Scratch& scratch = scratch_[leg.bounce];
-    set_window(scratch.window, leg, window, basis_, facets_);
+    const Prism prism = prism_around(window.polygons(), leg, basis_, facets_);
     scratch.found.clear();
     double covered = std::numeric_limits<double>::infinity();
     bool any_seen = false;
-    tree_.walk(scratch.window.prism, [&](const TreePanel& panel) {
+    tree_.walk(prism, [&](const TreePanel& panel) {
       if (panel.facet == leg.from_facet) return covered;
-      const Meeting met = meeting(leg, scratch.window.prism, panel);
+      const Meeting met = meeting(leg, prism, panel);
       if (met.may) {
         scratch.found.push_back(panel.facet);
         any_seen = any_seen || !visible_.pieces(panel.facet).empty();
@@ -116,33 +110,31 @@ class BeamTracer {
     if (leg.bounce == max_bounces_ && !any_seen && !reaches_edges(leg)) return;
 
     std::vector<Candidate>& met = scratch.met;
-    std::vector<std::uint32_t>& order = scratch.order;
-    order.clear();
+    std::vector<Extent>& extent = scratch.extent;
+    extent.clear();
     for (const int facet : scratch.found) {
-      if (met.size() == order.size()) met.emplace_back();
-      if (meet(leg, scratch.window, facet, met[order.size()]))
-        order.push_back(static_cast<std::uint32_t>(order.size()));
+      if (met.size() == extent.size()) met.emplace_back();
+      Candidate& next = met[extent.size()];
+      if (meet(leg, window, facet, next)) extent.push_back(extent_of(next.lit.polygons(), next.image.plane));
     }
-    const std::size_t count = order.size();
+    std::vector<std::uint32_t>& order = scratch.order;
+    order.resize(extent.size());
+    std::iota(order.begin(), order.end(), 0);
     std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-      return met[a].nearest != met[b].nearest ? met[a].nearest > met[b].nearest
-                                              : met[a].image.facet < met[b].image.facet;
+      return extent[a].nearest != extent[b].nearest ? extent[a].nearest > extent[b].nearest
+                                                    : met[a].image.facet < met[b].image.facet;
     });
 
     // From the nearest on, each hides from the others what lies behind it. What is hidden in whole hides nothing that
     // its own hiders do not.
-    for (std::size_t i = 0; i < count; ++i) {
-      Candidate& fresh = met[order[i]];
-      for (std::size_t j = 0; j < i && !fresh.lit.empty(); ++j) {
-        const Candidate& other = met[order[j]];
-        if (!other.lit.empty()) hide(fresh.image, other.image, min_area_, fresh.lit);
-      }
-      if (fresh.lit.empty()) continue;
-      for (std::size_t j = 0; j < i; ++j) {
-        Candidate& other = met[order[j]];
-        if (!other.lit.empty() && fresh.nearest > other.farthest - kCoincident)
-          hide(other.image, fresh.image, min_area_, other.lit);
-      }
+    const auto hides = [&](std::uint32_t front, std::uint32_t behind) {
+      if (!may_hide(extent[behind], extent[front])) return;
+      hide(met[behind].image, extent[behind], met[front].image, extent[front], min_area_, met[behind].lit);
+      if (met[behind].lit.empty()) extent[behind] = nowhere();
+    };
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) hides(order[j], order[i]);
+      for (std::size_t j = 0; j < i; ++j) hides(order[i], order[j]);
     }
 
     for (const std::uint32_t i : order) {
@@ -160,7 +152,7 @@ class BeamTracer {
   void seen_part(const Leg& leg, const Candidate& candidate, std::vector<MovingPolygon>& seen) const {
     if (facing(leg, facets_[candidate.image.facet]).dot(antennas_.receive.r) <= kEdgeOn)
       return;  // its lit side faces away
-    visible_.seen_through(candidate.image.facet, leg.mirrors, candidate.lit, basis_, seen);
+    visible_.seen_through(candidate.image.facet, leg.mirrors, candidate.lit.polygons(), basis_, seen);
   }
 
   // What the facet is made of at each wavenumber; none when it is a perfect conductor.
@@ -234,9 +226,7 @@ class BeamTracer {
   // Whether what the candidate reflects is worth following.
   bool goes_on(const Leg& leg, const Candidate& candidate) const {
     if (leg.bounce >= max_bounces_) return false;
-    double area = 0;
-    for (const MovingPolygon& piece : candidate.lit) area += signed_area(piece);
-    return area >= min_beam_area_;
+    return candidate.lit.area() >= min_beam_area_;
   }
 
   // With more mirrors before it an edge is not followed.
@@ -246,7 +236,7 @@ class BeamTracer {
   void reach_edges(const Leg& leg, const Candidate& candidate) {
     if (!leg.fields.empty() || !surface_of(candidate.image.facet).empty()) return;
     const WaveOnFacet wave{basis_, leg.mirrors, candidate.image.plane, leg.direction, leg.E_h, leg.E_v, leg.bounce};
-    find_arrivals(*edges_, candidate.image.facet, wave, candidate.lit, out_.arrivals);
+    find_arrivals(*edges_, candidate.image.facet, wave, candidate.lit.polygons(), out_.arrivals);
   }
 
   // Footprints of the pieces that are lit and seen.

@@ -7,15 +7,12 @@
 
 namespace seaglint {
 
-void set_window(BeamWindow& window, const Leg& leg, std::span<const MovingPolygon> pieces, const RadarBasis& basis,
-                std::span<const Facet> facets) {
-  window.pieces = pieces;
-  window.boxes.clear();
-  for (const MovingPolygon& piece : pieces) window.boxes.push_back(box_of(piece));
+Prism prism_around(std::span<const MovingPolygon> window, const Leg& leg, const RadarBasis& basis,
+                   std::span<const Facet> facets) {
   // The prism runs along the window's longest side: a long window lies askew as often as not.
   Vec2 longest = Vec2::UnitX();
   double most = 0;
-  for (const MovingPolygon& piece : pieces) {
+  for (const MovingPolygon& piece : window) {
     const Vec2* from = &piece.back().p;
     for (const Corner& to : piece) {
       const double squared = (to.p - *from).squaredNorm();
@@ -29,12 +26,12 @@ void set_window(BeamWindow& window, const Leg& leg, std::span<const MovingPolygo
   longest.normalize();
   const std::array<Vec2, 2> axis{longest, Vec2(-longest.y(), longest.x())};
   const Vec2 t(leg.mirrors.t.dot(basis.h), leg.mirrors.t.dot(basis.v));
-  Prism& prism = window.prism;
+  Prism prism;
   for (int i = 0; i < 2; ++i) {
     prism.across[i] = leg.mirrors.L.transpose() * (axis[i].x() * basis.h + axis[i].y() * basis.v);
     prism.lower[i] = std::numeric_limits<double>::infinity();
     prism.upper[i] = -prism.lower[i];
-    for (const MovingPolygon& piece : pieces) {
+    for (const MovingPolygon& piece : window) {
       for (const Corner& corner : piece) {
         const double at = axis[i].dot(corner.p - t);
         prism.lower[i] = std::min(prism.lower[i], at);
@@ -45,6 +42,7 @@ void set_window(BeamWindow& window, const Leg& leg, std::span<const MovingPolygo
   prism.normal = leg.from_normal;
   prism.offset = leg.from_normal.dot(facets[leg.from_facet].corner[0]) + kCoincident;
   prism.along = prism.wave = leg.direction;
+  return prism;
 }
 
 Meeting meeting(const Leg& leg, const Prism& prism, const TreePanel& panel) {

@@ -5,7 +5,6 @@
 
 #include <limits>
 #include <span>
-#include <vector>
 
 #include "sim/scattering/beam_leg.h"
 #include "sim/scattering/facet_tree.h"
@@ -15,16 +14,10 @@ namespace seaglint {
 // Cosine below which a facet is edge-on to a beam or to the receiver.
 inline constexpr double kEdgeOn = 1e-9;
 
-// The window that a leg comes through: convex pieces of the aperture.
-struct BeamWindow {
-  std::span<const MovingPolygon> pieces;
-  std::vector<Box> boxes;  // of the pieces
-  Prism prism;             // around them, on the side of the mirror that the leg leaves
-};
-
-// One or more pieces, which must outlive the window; `basis` is that of the aperture.
-void set_window(BeamWindow& window, const Leg& leg, std::span<const MovingPolygon> pieces, const RadarBasis& basis,
-                std::span<const Facet> facets);
+// Around the convex pieces of the aperture that a leg comes through, one or more, on the side of the mirror that the leg
+// leaves; `basis` is that of the aperture.
+Prism prism_around(std::span<const MovingPolygon> window, const Leg& leg, const RadarBasis& basis,
+                   std::span<const Facet> facets);
 
 // How a panel whose box meets a leg's prism stands to the prism itself.
 struct Meeting {

@@ -15,7 +15,7 @@ constexpr double kMostSpread = 4;
 
 // The rays where they meet the candidate's plane.
 BentRays travelled(const Leg& leg, const Candidate& candidate) {
-  const Vec2 c = centroid(candidate.lit.front());
+  const Vec2 c = centroid(candidate.lit.polygons().front());
   BentRays rays = leg.rays;
   rays.travel(leg.from_plane.at(c) - candidate.image.plane.at(c));
   return rays;

@@ -30,19 +30,22 @@ bool set_image(FacetImage& result, std::span<const Facet> facets, const Panels& 
   }
   const double area = signed_area(result.polygon);
   if (area < 0) std::reverse(result.polygon.begin(), result.polygon.end());
-  if (std::abs(area) < min_area) return false;
-  set_extent(result);
-  return true;
+  return std::abs(area) >= min_area;
 }
 
-void set_extent(FacetImage& image) {
-  image.box = box_of(image.polygon);
-  image.nearest = image.farthest = image.plane.at(image.polygon[0].p);
-  for (const Corner& corner : image.polygon) {
-    const double z = image.plane.at(corner.p);
-    image.nearest = std::max(image.nearest, z);
-    image.farthest = std::min(image.farthest, z);
+Extent extent_of(std::span<const MovingPolygon> polygons, const ImagePlane& plane) {
+  const Corner& start = polygons.front()[0];
+  Extent extent{{start.p, start.p}, plane.at(start.p), plane.at(start.p)};
+  for (const MovingPolygon& polygon : polygons) {
+    for (const Corner& corner : polygon) {
+      const double z = plane.at(corner.p);
+      extent.box.lower = extent.box.lower.cwiseMin(corner.p);
+      extent.box.upper = extent.box.upper.cwiseMax(corner.p);
+      extent.nearest = std::max(extent.nearest, z);
+      extent.farthest = std::min(extent.farthest, z);
+    }
   }
+  return extent;
 }
 
 MovingLine depth_between(const ImagePlane& a, const ImagePlane& b) {
@@ -68,30 +71,18 @@ MovingPolygon nearer_part(const FacetImage& b, const FacetImage& a) {
   return lowest >= 0 ? b.polygon : clip(b.polygon, above, +1);
 }
 
-bool cut(std::vector<MovingPolygon>& pieces, const MovingPolygon& hole, const Box& box, double min_area) {
-  std::vector<MovingPolygon> left;  // of the pieces that were cut
-  std::size_t whole = 0;
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    if (overlap(box_of(pieces[i]), box) && subtract_common(pieces[i], hole, min_area, left)) continue;
-    if (whole < i) pieces[whole] = std::move(pieces[i]);
-    ++whole;
-  }
-  if (whole == pieces.size()) return false;
-  pieces.resize(whole);
-  pieces.insert(pieces.end(), left.begin(), left.end());
-  return true;
-}
-
-bool hide(const FacetImage& behind, const FacetImage& front, double min_area, std::vector<MovingPolygon>& pieces) {
-  if (front.nearest < behind.farthest - kCoincident || !overlap(front.box, behind.box)) return false;
-  if (front.farthest > behind.nearest + kCoincident) return cut(pieces, front.polygon, front.box, min_area);
-  if (std::none_of(pieces.begin(), pieces.end(),
-                   [&](const MovingPolygon& piece) {
-                     return overlap(box_of(piece), front.box) && !apart(piece, front.polygon);
-                   }))
-    return false;
+bool hide(const FacetImage& behind, const Extent& behind_extent, const FacetImage& front, const Extent& front_extent,
+          double min_area, Pieces& pieces) {
+  if (front_extent.farthest > behind_extent.nearest + kCoincident)
+    return pieces.cut(front.polygon, box_of(front.polygon), min_area);
+  const auto touched = [&](std::size_t i) {
+    return overlap(pieces.boxes()[i], front_extent.box) && !apart(pieces.polygons()[i], front.polygon);
+  };
+  std::size_t i = 0;
+  while (i < pieces.size() && !touched(i)) ++i;
+  if (i == pieces.size()) return false;
   const MovingPolygon hole = nearer_part(front, behind);
-  return !hole.empty() && cut(pieces, hole, box_of(hole), min_area);
+  return !hole.empty() && pieces.cut(hole, box_of(hole), min_area);
 }
 
 VisibleSurface::VisibleSurface(std::span<const Facet> facets, const Panels& panels, const FacetTree& tree,
@@ -105,33 +96,37 @@ VisibleSurface::VisibleSurface(std::span<const Facet> facets, const Panels& pane
   std::size_t most = 0;
   for (int f = 0; f < static_cast<int>(facets.size()); ++f) most += may_be_seen(f);
   images_.reserve(most);
+  extents_.reserve(most);
   FacetImage fresh;
   for (int f = 0; f < static_cast<int>(facets.size()); ++f) {
     if (!may_be_seen(f) || !set_image(fresh, facets, panels, f, Mirror{}, basis, min_area)) continue;
     image_of_[f] = static_cast<std::int32_t>(images_.size());
     images_.push_back(fresh);
+    extents_.push_back(extent_of({&fresh.polygon, 1}, fresh.plane));
   }
   seen_.resize(images_.size());
   pieces_.resize((images_.size() + kImagesPerChunk - 1) / kImagesPerChunk);
   boxes_.resize(pieces_.size());
   parallel_for(pieces_.size(), threads, [&](std::size_t chunk) {
-    std::vector<MovingPolygon> left;
+    Pieces left;
     for (std::size_t i = chunk * kImagesPerChunk; i < std::min(images_.size(), (chunk + 1) * kImagesPerChunk); ++i) {
       const FacetImage& image = images_[i];
+      const Extent& extent = extents_[i];
       const Facet& facet = facets[image.facet];
       const Vec3 towards = facet.normal.dot(basis.r) > 0 ? facet.normal : Vec3(-facet.normal);
       const Prism prism{{basis.h, basis.v},
-                        {image.box.lower.x(), image.box.lower.y()},
-                        {image.box.upper.x(), image.box.upper.y()},
+                        {extent.box.lower.x(), extent.box.lower.y()},
+                        {extent.box.upper.x(), extent.box.upper.y()},
                         towards,
                         towards.dot(facet.corner[0]),
                         basis.r,
                         -basis.r};
-      left.assign(1, image.polygon);
+      left.assign({&image.polygon, 1});
       Seen& seen = seen_[i];
       tree.walk(prism, [&](const TreePanel& panel) {
-        const int other = panel.facet;
-        if (other != image.facet && image_of_[other] >= 0 && hide(image, images_[image_of_[other]], min_area, left))
+        const std::int32_t other = image_of_[panel.facet];
+        if (other >= 0 && panel.facet != image.facet && may_hide(extent, extents_[other]) &&
+            hide(image, extent, images_[other], extents_[other], min_area, left))
           seen.whole = false;
         return left.empty() ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
       });
@@ -139,11 +134,10 @@ VisibleSurface::VisibleSurface(std::span<const Facet> facets, const Panels& pane
       std::vector<MovingPolygon>& pieces = pieces_[chunk];
       seen.first = static_cast<std::uint32_t>(pieces.size());
       seen.count = static_cast<std::uint32_t>(left.size());
-      pieces.insert(pieces.end(), left.begin(), left.end());
+      pieces.insert(pieces.end(), left.polygons().begin(), left.polygons().end());
+      boxes_[chunk].insert(boxes_[chunk].end(), left.boxes().begin(), left.boxes().end());
     }
     pieces_[chunk].shrink_to_fit();
-    boxes_[chunk].reserve(pieces_[chunk].size());
-    for (const MovingPolygon& piece : pieces_[chunk]) boxes_[chunk].push_back(box_of(piece));
   });
 }
 

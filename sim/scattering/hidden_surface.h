@@ -5,12 +5,14 @@
 // by their first facet.
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
 #include "sim/scattering/facet_tree.h"
 #include "sim/scattering/facets.h"
 #include "sim/scattering/footprint.h"
+#include "sim/scattering/pieces.h"
 
 namespace seaglint {
 
@@ -25,16 +27,27 @@ struct FacetImage {
   int facet = -1;
   ImagePlane plane;
   MovingPolygon polygon;  // of the projected panel
-  Box box;
-  double nearest = 0, farthest = 0;  // heights towards the radar of the polygon's corners, m
 };
 
 // False when the panel is edge-on to the ray or its image is smaller than min_area.
 bool set_image(FacetImage& image, std::span<const Facet> facets, const Panels& panels, int facet, const Mirror& mirrors,
                const RadarBasis& basis, double min_area);
 
-// Fills box and heights from polygon and plane.
-void set_extent(FacetImage& image);
+// Where polygons of one plane lie: their box in the aperture, and the heights of their corners towards the radar, m.
+struct Extent {
+  Box box;
+  double nearest = 0, farthest = 0;
+};
+Extent extent_of(std::span<const MovingPolygon> polygons, const ImagePlane& plane);  // of one polygon or more
+
+// An extent that hides nothing and is hidden by nothing.
+inline constexpr double kNowhere = std::numeric_limits<double>::infinity();
+inline Extent nowhere() { return {{}, -kNowhere, kNowhere}; }
+
+// False when nothing within one extent hides anything within the other, as for nearly all pairs.
+inline bool may_hide(const Extent& behind, const Extent& front) {
+  return front.nearest >= behind.farthest - kCoincident && overlap(front.box, behind.box);
+}
 
 // Height of plane b above plane a as a moving line: positive where b is nearer to the radar along the unfolded ray.
 MovingLine depth_between(const ImagePlane& a, const ImagePlane& b);
@@ -43,12 +56,10 @@ MovingLine depth_between(const ImagePlane& a, const ImagePlane& b);
 // in front.
 MovingPolygon nearer_part(const FacetImage& b, const FacetImage& a);
 
-// Takes the hole, whose box is given, out of every piece; pieces it does not touch stay as they are. True when any
-// piece was cut.
-bool cut(std::vector<MovingPolygon>& pieces, const MovingPolygon& hole, const Box& box, double min_area);
-
-// Takes every part of the image out of the pieces of `behind` that lies nearer to the radar. True when any was cut.
-bool hide(const FacetImage& behind, const FacetImage& front, double min_area, std::vector<MovingPolygon>& pieces);
+// Takes every part of the image `front` out of the pieces of `behind` that lies nearer to the radar. The extents are
+// those of the pieces and of all of the front that may lie before them. True when any was cut.
+bool hide(const FacetImage& behind, const Extent& behind_extent, const FacetImage& front, const Extent& front_extent,
+          double min_area, Pieces& pieces);
 
 // What the radar sees of every facet: convex pieces without overlap, exact for the flat facets given.
 class VisibleSurface {
@@ -72,6 +83,7 @@ class VisibleSurface {
   // Panels that face the radar, and the pieces of those that something hides a part of, chunk by chunk of images. Most
   // are whole.
   std::vector<FacetImage> images_;
+  std::vector<Extent> extents_;         // of the images
   std::vector<std::int32_t> image_of_;  // of each facet; -1: it faces away or its panel goes by another
   struct Seen {
     bool whole = true;
