@@ -17,7 +17,7 @@ constexpr double kSmallestSide = 0.7e-4;
 constexpr double kBeamPerPiece = 3.6;
 // A large mesh has larger chunks of panels: what is kept per chunk and frequency stays below 100 MB for 640
 // frequencies.
-constexpr std::size_t kPanelsPerChunk = 32;
+constexpr std::size_t kPanelsPerChunk = 64;
 constexpr std::size_t kMostChunks = 2048;
 // A lattice of rays finds most pieces whose side is a fourteenth of its spacing, with one more ray inside every corner.
 constexpr double kSpacingPerSide = 14;

@@ -56,6 +56,7 @@ class Illumination {
   Illumination(const Scatterer& scatterer, const AntennaPair& antennas, const IlluminationSettings& settings,
                int threads = 1, std::span<const double> wavenumbers = {});
 
+  double min_area() const { return min_area_; }  // of the smallest lit piece that counts, m^2
   // Panels the transmitter sees, by the facets they go by, ascending.
   std::span<const int> seen() const { return seen_; }
 
