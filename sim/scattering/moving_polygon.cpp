@@ -146,11 +146,7 @@ bool apart(const MovingPolygon& a, const MovingPolygon& b) {
   return outside_an_edge(a, b) || outside_an_edge(b, a);
 }
 
-void subtract(const MovingPolygon& polygon, const MovingPolygon& hole, double min_area, std::vector<MovingPolygon>& pieces) {
-  if (!subtract_common(polygon, hole, min_area, pieces) && signed_area(polygon) > min_area) pieces.push_back(polygon);
-}
-
-bool subtract_common(const MovingPolygon& polygon, const MovingPolygon& hole, double min_area, std::vector<MovingPolygon>& pieces) {
+bool subtract(const MovingPolygon& polygon, const MovingPolygon& hole, double min_area, std::vector<MovingPolygon>& pieces) {
   const std::size_t before = pieces.size();
   MovingPolygon rests[2], outside;  // what is inside all edges so far, and where the next clip goes
   const MovingPolygon* rest = &polygon;

@@ -138,11 +138,9 @@ MovingPolygon clip(const MovingPolygon& polygon, const MovingLine& line, int kee
 // True when an edge of one of the polygons has the other wholly outside it or on it: then they have no area in common.
 bool apart(const MovingPolygon& a, const MovingPolygon& b);
 
-// polygon minus hole: appends convex pieces with an area above min_area to pieces.
-void subtract(const MovingPolygon& polygon, const MovingPolygon& hole, double min_area, std::vector<MovingPolygon>& pieces);
-
-// The same where they have more than min_area in common; else false, and nothing is appended.
-bool subtract_common(const MovingPolygon& polygon, const MovingPolygon& hole, double min_area, std::vector<MovingPolygon>& pieces);
+// polygon minus hole where they have more than min_area in common: appends convex pieces with an area above min_area to
+// pieces. Else false, and nothing is appended.
+bool subtract(const MovingPolygon& polygon, const MovingPolygon& hole, double min_area, std::vector<MovingPolygon>& pieces);
 
 // The common part; empty when there is none.
 MovingPolygon intersect(const MovingPolygon& a, const MovingPolygon& b);

@@ -200,6 +200,32 @@ std::map<double, double> austin(const std::string& file) {
 // Austin RCS benchmark suite, problem IIB: 6 x 10.5 inch, 64 mil (here without thickness), in the plane of the long
 // side, 0-60 deg from normal. Physical optics alone has 4.3-5.4 dB; measurement and method of moments differ by 0.3-0.5
 // dB. What is left is fourth-order diffraction, corners and the plate's thickness (k t = 0.17 and 0.35).
+TEST(SharpEdges, OfEveryWedgeThatDiffractsOneSideSpeaks) {
+  const TriangleMesh ship = read_mesh(SEAGLINT_SOURCE_DIR "/assets/combatant_144m.glb");
+  for (const TriangleMesh& mesh : {ship, make_square_trihedral(0.4)}) {
+    const Scatterer scatterer(mesh);
+    const SharpEdges& edges = scatterer.edges();
+    Random random({3, Stream::kTest, 18});
+    for (int i = 0; i < 20; ++i) {
+      const Vec3 k_hat = Vec3(random.normal(), random.normal(), random.normal()).normalized();
+      std::vector<int> speaking(edges.edges.size(), 0);
+      for (int panel = 0; panel < static_cast<int>(scatterer.facets().size()); ++panel) {
+        for (const PanelEdge& side : edges.of_panel(panel)) speaking[side.edge] += side.speaks(k_hat);
+      }
+      for (std::size_t number = 0; number < edges.edges.size(); ++number) {
+        const SharpEdge& edge = edges.edges[number];
+        // The rim of a sheet has one facet, which keeps it once.
+        if (wedge_towards(edge, k_hat)) {
+          EXPECT_EQ(speaking[number], 1) << number;
+        }
+        if (!edge.open && edge.outside.N <= 1) {
+          EXPECT_EQ(speaking[number], 0) << number;
+        }
+      }
+    }
+  }
+}
+
 TEST(Plate, FollowsTheMethodOfMomentsWithItsEdges) {
   const Scatterer plate(make_plate(10.5 * 0.0254, 6 * 0.0254));
   for (const auto& [name, hz] : {std::pair{"f10", 5.12e9}, std::pair{"f11", 10.24e9}}) {
