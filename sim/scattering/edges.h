@@ -61,7 +61,8 @@ struct SharpEdges {
 // Edges whose faces turn by at least `least_turn` (rad). Edges of three and more facets are left out: nobody can tell their wedge.
 SharpEdges sharp_edges(std::span<const Facet> facets, double least_turn);
 
-// Fills by_panel from of_facet. Concave edges of closed surfaces are left out: no wave meets a wedge there.
+// Fills by_panel from of_facet, before which of_panel() must not be asked. Concave edges of closed surfaces are left out:
+// no wave meets a wedge there.
 void list_by_panel(SharpEdges& edges, std::span<const Facet> facets, const Panels& panels);
 
 // The wedge a wave along k_hat meets, or nothing when it comes from the concave side, whose reflections the beams follow, or from within.

@@ -41,8 +41,10 @@ struct Extent {
 Extent extent_of(std::span<const MovingPolygon> polygons, const ImagePlane& plane);  // of one polygon or more
 
 // An extent that hides nothing and is hidden by nothing.
-inline constexpr double kNowhere = std::numeric_limits<double>::infinity();
-inline Extent nowhere() { return {{}, -kNowhere, kNowhere}; }
+inline Extent nowhere() {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  return {{}, -kInfinity, kInfinity};
+}
 
 // False when nothing within one extent hides anything within the other, as for nearly all pairs.
 inline bool may_hide(const Extent& behind, const Extent& front) {
