@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/scattering/pieces.h"
 
-#include <utility>
-
 namespace seaglint {
 
 void Pieces::assign(std::span<const MovingPolygon> polygons) {

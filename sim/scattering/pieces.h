@@ -4,6 +4,7 @@
 // A region of the aperture plane as convex pieces, each with its box.
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "sim/scattering/moving_polygon.h"
