@@ -85,17 +85,14 @@ std::array<Complex, 4> pattern(const WedgeFrame& wedge, const EdgeArrival& in, c
   return {out.E_h.dot(J_h), out.E_h.dot(J_v), out.E_v.dot(J_h), out.E_v.dot(J_v)};
 }
 
-// Ahead of an edge, near the shadow boundary of the beam that it cuts, the diffracted field towards a mirror at a
-// finite distance is no ray of its own: the beam's end on that mirror carries it. An echo by mirrors fades out from
-// right angles to the wave's way on to 30 deg off it.
+std::array<Complex, 4> transposed(const std::array<Complex, 4>& s) { return {s[0], s[2], s[1], s[3]}; }
+
+}  // namespace
+
 double beside_the_beam(const Vec3& k_hat, const Vec3& s) {
   const double ahead = std::clamp(k_hat.dot(s) / std::cos(kPi / 6), 0.0, 1.0);
   return 1 - ahead * ahead * (3 - 2 * ahead);
 }
-
-std::array<Complex, 4> transposed(const std::array<Complex, 4>& s) { return {s[0], s[2], s[1], s[3]}; }
-
-}  // namespace
 
 void find_arrivals(const SharpEdges& edges, int facet, const WaveOnFacet& wave, std::span<const MovingPolygon> lit,
                    std::vector<EdgeArrival>& arrivals) {
@@ -195,7 +192,8 @@ std::vector<EdgeFootprint> edge_footprints(const SharpEdges& edges, std::span<co
 Complex range_factor(const EdgeFootprint& footprint, double k) {
   if (!footprint.edge_wave) return 1;
   const auto& [departure_m, arrival_m, waves] = *footprint.edge_wave;
-  return transition(2 * k * departure_m) * transition(2 * k * arrival_m) * std::pow(k, -0.5 * waves);
+  const double x = 2 * k * departure_m, y = 2 * k * arrival_m;
+  return (waves == 1 ? transition(x, y) : transition(x) * transition(y)) * std::pow(k, -0.5 * waves);
 }
 
 std::array<Complex, 4> scattered(const EdgeFootprint& footprint, double k) {

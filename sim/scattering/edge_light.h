@@ -55,7 +55,7 @@ struct EdgeFootprint {
   double length = 0;                     // m
   std::array<Complex, 4> pattern{};      // hh, hv, vh, vv per metre, dimensionless; times sqrt(1/m) after an edge wave
   // An edge wave of length l decays as 1/sqrt(k l), less where it starts or ends near a shadow boundary: l sin^2 of
-  // half the angle from there.
+  // half the angle from there, of the first and the last in a row.
   struct EdgeWaveRange {
     double departure_m = 0, arrival_m = 0;
     int waves = 1;  // in a row
@@ -65,6 +65,11 @@ struct EdgeFootprint {
   std::uint16_t part = 0;
   std::uint8_t bounces = 1;  // mirrors on both ways and every edge met
 };
+
+// Ahead of an edge, near the shadow boundary of the beam along k_hat that it cuts, the diffracted field towards a mirror
+// at a finite distance is no ray of its own: the beam's end on that mirror carries it. An echo by mirrors in direction s
+// (before the first of them) fades out from right angles to the wave's way on, 1, to 30 deg off it, 0.
+double beside_the_beam(const Vec3& k_hat, const Vec3& s);
 
 // Echoes of all stretches that a wave from the transmitter (`incoming`) shares with one from the receiver (`outgoing`),
 // with at most `max_bounces` in all. Arrivals must be in ascending order of their edges. When both are one antenna

@@ -21,6 +21,8 @@ constexpr double kLift = 1e-7;
 // Edge waves in a row: the third edge of a face that two edges bound is the first one again, and near grazing its
 // answer is as large as the others'.
 constexpr int kMostWaves = 2;
+// Upright walls between two edges: those of a right-angled corner.
+constexpr int kMostWalls = 2;
 
 // A wave on a stretch of an edge. Its path and where the antenna sees it are linear along the stretch.
 struct Incident {
@@ -31,8 +33,11 @@ struct Incident {
   Vec3 direction;
   std::array<Vec3, 2> E;                    // for h and v
   std::array<Complex, 2> factor{1.0, 1.0};  // of E
+  Vec3 first_direction = Vec3::Zero();      // of the wave at the first edge
   double departure_m = 0;                   // of the first edge wave, as in EdgeFootprint
   int mirrors = 0, waves = 0;               // passed before
+  int walls = 0;                            // that edge waves were reflected by
+  Mat3 unfolded = Mat3::Identity();         // takes directions after those walls back to before them
 };
 
 // A strip of parallel rays on a face: u across them, w along.
@@ -41,12 +46,15 @@ struct Strip {
   double from, to;  // in u
 };
 
-// A wave that leaves an edge along a face.
+// A wave that leaves an edge along a face; after an upright wall it comes from the edge's image.
 struct Source {
   const Incident& in;
   const WedgeFace& face;
   Vec3 start, along;  // of the edge
   std::array<Complex, 2> amplitude;
+  double departure = 0;  // shadow_distance() at the edge
+  int walls = 0;
+  Mat3 unfolded = Mat3::Identity();
 };
 
 // A grazing wave along w, a little down on the face.
@@ -68,6 +76,7 @@ class EdgeWaves {
 
   void send(const EdgeArrival& arrival) {
     Incident in{arrival.edge, arrival.s, {}, {}, arrival.direction, {arrival.E_h, arrival.E_v}};
+    in.first_direction = arrival.direction;
     in.mirrors = arrival.mirrors;
     for (int end = 0; end < 2; ++end) {
       in.X[end] = arrival.image + arrival.s[end] * arrival.image_along;
@@ -87,7 +96,8 @@ class EdgeWaves {
                           wedge->face[i],
                           edge.a,
                           edge.along(),
-                          {h.amplitude * in.factor[0], v.amplitude * in.factor[1]}};
+                          {h.amplitude * in.factor[0], v.amplitude * in.factor[1]},
+                          shadow_distance(edge.along(), h.direction, in.direction)};
       if (std::abs(source.amplitude[0]) + std::abs(source.amplitude[1]) < 1e-9) continue;
       Strip strip{h.direction.cross(source.face.n), h.direction, 0, 0};
       if (std::abs(strip.u.dot(source.along)) < 1e-6) continue;  // it runs along the edge itself
@@ -123,7 +133,9 @@ class EdgeWaves {
       part.to = std::min(strip.to, std::max(split, other));
       if (part.to - part.from < kShortest) continue;
       const int edge = edges_.of_facet[number][side];
-      if (edge != kNoEdge) {
+      if (edge != kNoEdge && stands_upright(edges_.edges[edge], source.face.n)) {
+        reflect(source, number, side, edges_.edges[edge], part, depth);
+      } else if (edge != kNoEdge) {
         diffract(source, edge, part);
       } else if (const int next = facet.neighbour[side]; next >= 0) {
         const Facet& neighbour = facets_[next];
@@ -138,6 +150,34 @@ class EdgeWaves {
         cross(source, next, common, part, depth + 1);
       }
     }
+  }
+
+  // Whether the edge is the foot of a wall at right angles to a face, on the side of the face's normal.
+  static bool stands_upright(const SharpEdge& edge, const Vec3& n) {
+    const auto faces = [&](const WedgeFrame& wedge) {
+      return wedge.face[0].n.dot(n) > 0.5 || wedge.face[1].n.dot(n) > 0.5;
+    };
+    const auto right = [](const WedgeFrame& wedge) { return std::abs(wedge.N - 0.5) < kFlat; };
+    return faces(edge.outside) ? right(edge.outside) : edge.open && faces(edge.inside) && right(edge.inside);
+  }
+
+  // An upright wall sends the strip back over the facet that it stands on. The electric field, across the face and so
+  // along the wall, turns round.
+  void reflect(const Source& source, int facet, int side, const SharpEdge& foot, const Strip& strip, int depth) {
+    if (source.walls >= kMostWalls) return;
+    const Vec3 n = source.face.n.cross(foot.along());  // of the wall
+    const Mat3 mirror = Mat3::Identity() - 2 * n * n.transpose();
+    const Vec3 shift = 2 * n.dot(foot.a) * n;
+    const Source image{source.in,
+                       source.face,
+                       mirror * source.start + shift,
+                       mirror * source.along,
+                       {-source.amplitude[0], -source.amplitude[1]},
+                       source.departure,
+                       source.walls + 1,
+                       source.unfolded * mirror};
+    const Vec3 u = mirror * strip.u;
+    cross(image, facet, side, {u, mirror * strip.w, strip.from + u.dot(shift), strip.to + u.dot(shift)}, depth + 1);
   }
 
   void diffract(const Source& source, int number, const Strip& strip) {
@@ -157,6 +197,8 @@ class EdgeWaves {
     next.direction = grazing(source.face, strip.w);
     next.E = {source.face.n, source.face.n};
     ++next.waves;
+    next.walls += source.walls;
+    next.unfolded = in.unfolded * source.unfolded;
     double root_sum = 0;
     for (int end = 0; end < 2; ++end) {
       const Vec3 Q2 = edge.a + next.s[end] * along;
@@ -169,7 +211,7 @@ class EdgeWaves {
     }
     if (root_sum < 1e-4) return;
     const double l = 0.25 * root_sum * root_sum;
-    if (in.waves == 0) next.departure_m = l * shadow_distance(source.along, strip.w, in.direction);
+    if (in.waves == 0) next.departure_m = l * source.departure;
     // l is linear along the stretch: the mean of 1/sqrt(l) is 2 / (sqrt(l_0) + sqrt(l_1)). Half of the wave is
     // incident.
     for (int q = 0; q < 2; ++q) next.factor[q] = source.amplitude[q] * (0.5 * 2 / root_sum);
@@ -185,11 +227,13 @@ class EdgeWaves {
     if (in.mirrors + departure.mirrors > kMostMirrors || wedge_towards(edge, departure.direction) != &wedge) return;
     const std::array<double, 2> s{std::max(in.s[0], departure.s[0]), std::min(in.s[1], departure.s[1])};
     if (s[1] - s[0] < kShortest) return;
+    const double weight = in.walls > 0 ? beside_the_beam(in.first_direction, in.unfolded * -departure.direction) : 1.0;
+    if (weight <= 0) return;
     EdgeFootprint footprint;
     footprint.length = s[1] - s[0];
     footprint.facet = edge.facet[0];
     footprint.part = facets_[edge.facet[0]].part;
-    footprint.bounces = static_cast<std::uint8_t>(in.mirrors + departure.mirrors + in.waves + 1);
+    footprint.bounces = static_cast<std::uint8_t>(in.mirrors + departure.mirrors + in.walls + in.waves + 1);
     for (int end = 0; end < 2; ++end) {
       const double share = (s[end] - in.s[0]) / (in.s[1] - in.s[0]);
       const Vec3 X = in.X[0] + share * (in.X[1] - in.X[0]), Y = departure.image + s[end] * departure.image_along;
@@ -198,7 +242,7 @@ class EdgeWaves {
     }
     const Vec3& along = edge.along();
     footprint.edge_wave = {in.departure_m, l * shadow_distance(along, w, -departure.direction), in.waves};
-    const Vec3 J = diffracted(wedge, face, along, w, -departure.direction);
+    const Vec3 J = weight * diffracted(wedge, face, along, w, -departure.direction);
     const double h = departure.E_h.dot(J), v = departure.E_v.dot(J);
     footprint.pattern = {h * in.factor[0], h * in.factor[1], v * in.factor[0], v * in.factor[1]};
     out_.push_back(footprint);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Diffraction in a row: a hard-polarised wave that a sharp edge sends along a flat face runs into the face's other edges
-// and is diffracted again, twice and three times in all (J. B. Keller, J. Opt. Soc. Am. 52 (1962) 116-130). It is what
-// physical optics and single fringe currents lack on plates of a few wavelengths, and all that lets the echo of a sheet
-// vanish where the field stands across it: there what one edge answers, the waves from the other take away.
+// Diffraction in a row: a hard-polarised wave that a sharp edge sends along a flat face runs into the face's other
+// edges and is diffracted again, twice and three times in all (J. B. Keller, J. Opt. Soc. Am. 52 (1962) 116-130). It is
+// what physical optics and single fringe currents lack on plates of a few wavelengths, and all that lets the echo of a
+// sheet vanish where the field stands across it: there what one edge answers, the waves from the other take away. A
+// wall that stands upright on the face sends the wave back along it, as the rims of corner reflectors see it.
 
 #include <span>
 #include <vector>
@@ -13,10 +14,11 @@
 
 namespace seaglint {
 
-// Appends the echoes along transmitter - first edge - face - second edge (- face - third edge) - receiver, for every stretch of first
-// edges in `incoming` and of last edges in `outgoing` (the same list when both are one antenna), each sorted by edge. The strip of
-// grazing rays is followed across coplanar facets; it ends at edges that are not sharp. Fields fall as 1/sqrt(k l) with
-// the distance l between two edges; at the later one half of the wave is incident.
+// Appends the echoes along transmitter - first edge - face - second edge (- face - third edge) - receiver, for every
+// stretch of first edges in `incoming` and of last edges in `outgoing` (the same list when both are one antenna), each
+// sorted by edge. The strip of grazing rays is followed across coplanar facets and by up to two upright walls from one
+// edge to the next; it ends at edges that are not sharp. Fields fall as 1/sqrt(k l) with the distance l between two
+// edges; at the later one half of the wave is incident.
 void edge_wave_footprints(const SharpEdges& edges, std::span<const Facet> facets, const AntennaPair& antennas,
                           std::span<const EdgeArrival> incoming, std::span<const EdgeArrival> outgoing,
                           std::vector<EdgeFootprint>& footprints);

@@ -136,10 +136,17 @@ double shadow_distance(const Vec3& edge, const Vec3& along_face, const Vec3& oth
 }
 
 Complex transition(double x) {
-  // Far away the first terms of the asymptotic series; its next one, 945 / (32 x^5), bounds the error.
-  if (x > 12) return 1.0 + j / (2 * x) - 3 / (4 * x * x) - 15.0 * j / (8 * x * x * x) + 75 / (16 * x * x * x * x);
-  // Near, the power series of the integral from 0 to sqrt(x), sum of (-j)^n x^(n + 1/2) / (n! (2n + 1)).
-  // Its terms are real and imaginary by turns, and fall from n = x on.
+  // Far away the asymptotic series, sum of (2n - 1)!! (j / 2x)^n, to its smallest term, which bounds the error: e^{-x}.
+  if (x > 17) {
+    Complex sum = 1, term = 1;
+    for (int n = 1; n < x && std::norm(term) > 1e-32; ++n) {
+      term *= (2.0 * n - 1) * j / (2 * x);
+      sum += term;
+    }
+    return sum;
+  }
+  // Near, the power series of the integral from 0 to sqrt(x), sum of (-j)^n x^(n + 1/2) / (n! (2n + 1)), to rounding of
+  // its largest term, e^x. Its terms are real and imaginary by turns, and fall from n = x on.
   double term = std::sqrt(x);
   std::array<double, 2> part{term, 0};
   for (int n = 1; n < 80 && term > 1e-18; ++n) {
@@ -148,6 +155,16 @@ Complex transition(double x) {
   }
   const Complex sum(part[0], part[1]);
   return 2.0 * j * std::sqrt(x) * std::polar(1.0, x) * (std::polar(std::sqrt(kPi) / 2, -kPi / 4) - sum);
+}
+
+Complex transition(double x, double y) {
+  // Between equals F - x F', with F' = F / 2x + j F - j; farther apart errors of F grow five-hundredfold at most.
+  if (std::abs(x - y) < 1e-3 * (x + y)) {
+    const double mean = 0.5 * (x + y);
+    const Complex F = transition(mean);
+    return 0.5 * F - j * mean * (F - 1.0);
+  }
+  return (y * transition(x) - x * transition(y)) / (y - x);
 }
 
 }  // namespace seaglint

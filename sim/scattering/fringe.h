@@ -53,7 +53,13 @@ EdgeWave edge_wave(const WedgeFrame& wedge, int face, const Vec3& k_hat, const V
 double shadow_distance(const Vec3& edge, const Vec3& along_face, const Vec3& other);
 
 // F(x) = 2j sqrt(x) e^{jx} integral from sqrt(x) to infinity of e^{-j t^2} dt, x >= 0: 0 on a shadow boundary, 1 far
-// from it (R. G. Kouyoumjian and P. H. Pathak, Proc. IEEE 62 (1974) 1448-1461, eq. 26). Error below 2e-4.
+// from it (R. G. Kouyoumjian and P. H. Pathak, Proc. IEEE 62 (1974) 1448-1461, eq. 26). Error below 1e-7.
 Complex transition(double x);
+
+// The same for a wave that runs along a face from one edge to another, where x and y belong to the two: F(x) when y is
+// large. Not their product: with both boundaries near it is (y F(x) - x F(y)) / (y - x), what a plane wave past the first
+// edge leaves at the second one of the integral over both apertures on a hard floor (the far-field limit of the
+// generalised Fresnel integrals of F. Capolino, M. Albani, S. Maci and R. Tiberio, IEEE Trans. AP-45 (1997) 1240-1248).
+Complex transition(double x, double y);
 
 }  // namespace seaglint

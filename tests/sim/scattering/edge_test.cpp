@@ -158,20 +158,6 @@ TEST(Fringe, IsFiniteEverywhereButAlongTheGrazingRay) {
   }
 }
 
-TEST(Transition, FollowsItsIntegral) {
-  for (const double x : {0.01, 0.3, 1.0, 5.5, 11.9, 12.1, 40.0}) {
-    // 2j sqrt(x) e^{jx} integral; t = sqrt(x) + u e^{-j pi/4} turns the oscillation into decay.
-    Complex integral = 0;
-    const double step = 1e-4, root = std::sqrt(x);
-    for (double u = step / 2; u < 12; u += step) {
-      const Complex t = root + u * std::polar(1.0, -kPi / 4);
-      integral += std::exp(-j * t * t) * std::polar(step, -kPi / 4);
-    }
-    const Complex exact = 2.0 * j * root * std::polar(1.0, x) * integral;
-    EXPECT_NEAR(std::abs(transition(x) - exact), 0, 2e-4) << x;
-  }
-}
-
 TEST(SharpEdges, AreThoseOfAPlateABoxAndADihedral) {
   const auto edges_of = [](const TriangleMesh& mesh) { return Scatterer(mesh).edges().edges; };
   const auto rims = edges_of(make_plate(0.3, 0.2));
@@ -197,9 +183,6 @@ std::map<double, double> austin(const std::string& file) {
   return cut;
 }
 
-// Austin RCS benchmark suite, problem IIB: 6 x 10.5 inch, 64 mil (here without thickness), in the plane of the long
-// side, 0-60 deg from normal. Physical optics alone has 4.3-5.4 dB; measurement and method of moments differ by 0.3-0.5
-// dB. What is left is fourth-order diffraction, corners and the plate's thickness (k t = 0.17 and 0.35).
 TEST(SharpEdges, OfEveryWedgeThatDiffractsOneSideSpeaks) {
   const TriangleMesh ship = read_mesh(SEAGLINT_SOURCE_DIR "/assets/combatant_144m.glb");
   for (const TriangleMesh& mesh : {ship, make_square_trihedral(0.4)}) {
@@ -226,6 +209,9 @@ TEST(SharpEdges, OfEveryWedgeThatDiffractsOneSideSpeaks) {
   }
 }
 
+// Austin RCS benchmark suite, problem IIB: 6 x 10.5 inch, 64 mil (here without thickness), in the plane of the long
+// side, 0-60 deg from normal. Physical optics alone has 4.3-5.4 dB; measurement and method of moments differ by 0.3-0.5
+// dB. What is left is fourth-order diffraction, corners and the plate's thickness (k t = 0.17 and 0.35).
 TEST(Plate, FollowsTheMethodOfMomentsWithItsEdges) {
   const Scatterer plate(make_plate(10.5 * 0.0254, 6 * 0.0254));
   for (const auto& [name, hz] : {std::pair{"f10", 5.12e9}, std::pair{"f11", 10.24e9}}) {
@@ -270,8 +256,8 @@ TEST(Trihedral, IsNearerToTheFullWaveSolutionWithItsEdges) {
   const double rms = std::sqrt(squares[1] / count), correlation = std::abs(product[1]) / std::sqrt(powers[1] * power);
   RecordProperty("rms_db", std::to_string(rms));
   RecordProperty("correlation", std::to_string(correlation));
-  // The reference's own 0.3 dB, and at 4-5 wavelengths what three diffractions and the corners add.
-  EXPECT_LT(rms, 0.40);
+  // The reference's own 0.3 dB, and at 4-5 wavelengths what more diffractions and the corners add.
+  EXPECT_LT(rms, 0.35);
   EXPECT_LT(rms, std::sqrt(squares[0] / count));
   EXPECT_GT(correlation, 0.995);
 }

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Waves along a face from edge to edge: their transition functions against integrals, upright walls against images.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "sim/scattering/edge_waves.h"
+#include "sim/scattering/fringe.h"
+#include "sim/scattering/illuminate.h"
+#include "tests/sim/scattering/echoes.h"
+
+namespace seaglint {
+namespace {
+
+using namespace testing_echoes;
+
+constexpr Complex j(0, 1);
+
+TEST(Transition, FollowsItsIntegral) {
+  for (const double x : {0.01, 0.3, 1.0, 5.5, 11.9, 16.9, 17.1, 40.0}) {
+    // 2j sqrt(x) e^{jx} integral; t = sqrt(x) + u e^{-j pi/4} turns the oscillation into decay.
+    Complex integral = 0;
+    const double step = 1e-4, root = std::sqrt(x);
+    for (double u = step / 2; u < 12; u += step) {
+      const Complex tilted = u * std::polar(1.0, -kPi / 4);
+      integral += std::exp(-j * tilted * (2 * root + tilted)) * std::polar(step, -kPi / 4);
+    }
+    const Complex exact = 2.0 * j * root * integral;
+    EXPECT_NEAR(std::abs(transition(x) - exact), 0, 1e-7 + x * step * step / 6) << x;
+  }
+}
+
+// A plane wave e^{-j k1 z} falls on the aperture above the first edge, crosses a hard floor of unit length (paraxial,
+// k = 1: G(z - z') + G(z + z'), G(z) = sqrt(j / 2 pi) e^{-j z^2 / 2}) and is received as e^{-j k2 z} above the second.
+// Both heights tilted, z = e^{-j pi/4} t, everything decays. Far from both boundaries, where a transition is 1, the
+// integral is -2 G(0) / (k1 k2); x = k1^2 / 2, y = k2^2 / 2.
+TEST(Transition, BetweenTwoEdgesIsTheIntegralOverBothApertures) {
+  const auto two_apertures = [](double x, double y) {
+    const double k1 = std::sqrt(2 * x), k2 = std::sqrt(2 * y);
+    const Complex tilt = std::polar(1.0, kPi / 4);
+    constexpr int n = 2000;  // Simpson's rule
+    constexpr double step = 14.0 / n;
+    std::vector<Complex> first, second;
+    for (int i = 0; i <= n; ++i) {
+      const double weight = step / 3 * (i == 0 || i == n ? 1 : i % 2 == 1 ? 4 : 2);
+      first.push_back(weight * std::exp(-k1 * i * step * tilt));
+      second.push_back(weight * std::exp(-k2 * i * step * tilt));
+    }
+    Complex sum = 0;
+    for (int a = 0; a <= n; ++a) {
+      Complex inner = 0;
+      for (int b = 0; b <= n; ++b) {
+        const double less = (a - b) * step, more = (a + b) * step;
+        inner += (std::exp(-less * less / 2) + std::exp(-more * more / 2)) * first[b];
+      }
+      sum += second[a] * inner;
+    }
+    return sum * std::polar(1.0, -kPi / 2) / (-2.0 / (k1 * k2));
+  };
+  for (const auto& [x, y] : {std::pair{8.0, 5.0}, {2.0, 2.0}, {2.0, 2.0001}, {0.5, 1.5}, {3.0, 0.05}, {1.0, 10.0}}) {
+    EXPECT_NEAR(std::abs(transition(x, y) - two_apertures(x, y)), 0, 1e-6) << x << ' ' << y;
+    EXPECT_EQ(transition(x, y), transition(y, x));
+  }
+  EXPECT_NEAR(std::abs(transition(0.7, 1e8) - transition(0.7)), 0, 1e-6);
+}
+
+// A closed body of this profile (x, z), counter-clockwise seen against y, and width along y; every corner of the
+// profile is seen from the second one.
+TriangleMesh extruded(const std::vector<Vec2>& profile, double width) {
+  TriangleMesh mesh;
+  const auto n = static_cast<std::uint32_t>(profile.size());
+  for (const double y : {0.0, width}) {
+    for (const Vec2& p : profile) mesh.vertices.push_back({p.x(), y, p.y()});
+  }
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const std::uint32_t next = (i + 1) % n;
+    mesh.triangles.push_back({i, i + n, next + n});
+    mesh.triangles.push_back({i, next + n, next});
+    if (i == 1 || next == 1) continue;
+    mesh.triangles.push_back({1, i, next});
+    mesh.triangles.push_back({1 + n, next + n, i + n});
+  }
+  return mesh;
+}
+
+struct EdgeWaveSum {
+  std::array<Complex, 4> S{};
+  int count = 0;
+};
+
+// What edge waves of one span answer that start at rims of the floor z = 0 with all x up to `first_below` and end at
+// those with all x from `last_above` on; `walls` on the way.
+EdgeWaveSum edge_wave_sum(const TriangleMesh& mesh, const AntennaPair& antennas, double k, double first_below,
+                          double last_above, int walls) {
+  const Scatterer scatterer(mesh);
+  const auto reached = [&](const AntennaPair& pair) {
+    return Illumination(scatterer, pair, {0, 1, true}).light_all(1, [](std::size_t, auto) {}).arrivals;
+  };
+  std::vector<EdgeArrival> incoming = reached(monostatic(antennas.transmit)),
+                           outgoing = antennas.monostatic ? incoming : reached(monostatic(antennas.receive));
+  const auto edge = [&](const EdgeArrival& arrival) { return scatterer.edges().edges[arrival.edge]; };
+  const auto off_floor = [&](const EdgeArrival& a) { return edge(a).a.z() != 0 || edge(a).b.z() != 0; };
+  std::erase_if(incoming, [&](const EdgeArrival& a) {
+    return off_floor(a) || std::max(edge(a).a.x(), edge(a).b.x()) > first_below;
+  });
+  std::erase_if(outgoing, [&](const EdgeArrival& a) {
+    return off_floor(a) || std::min(edge(a).a.x(), edge(a).b.x()) < last_above;
+  });
+  std::vector<EdgeFootprint> footprints;
+  edge_wave_footprints(scatterer.edges(), scatterer.facets(), antennas, incoming, outgoing, footprints);
+  EdgeWaveSum sum;
+  for (const EdgeFootprint& footprint : footprints) {
+    if (footprint.edge_wave->waves != 1 || footprint.bounces != 2 + walls) continue;
+    const auto s = scattered(footprint, k);
+    for (int i = 0; i < 4; ++i) sum.S[i] += s[i];
+    ++sum.count;
+  }
+  return sum;
+}
+
+// Image theory: a wave that an upright wall sends back ends at the edges' images, received along the image direction
+// with the image of the polarisation, which a conductor turns round: p' = -(p - 2 (n.p) n). Steep enough that nothing
+// fades (beside_the_beam).
+TEST(EdgeWave, OffAnUprightWallIsThatOfTheImage) {
+  const double length = 0.31, width = 0.22, k = wavenumber(10e9);
+  const TriangleMesh twice = extruded({{length, 0}, {0, 0}, {-length, 0}, {-length, -0.1}, {length, -0.1}}, width);
+  const TriangleMesh corner =
+      extruded({{0, 0.5}, {0, 0}, {-length, 0}, {-length, -0.1}, {0.1, -0.1}, {0.1, 0.5}}, width);
+  const auto image = [](const Vec3& x) { return Vec3(-x.x(), x.y(), x.z()); };
+  for (const double azimuth : {175.0, 160.0, 215.0}) {
+    const RadarBasis basis = radar_basis(direction(azimuth, 55));
+    // The image basis is right-handed with -h' and v'; the conductor turns both round.
+    const RadarBasis mirrored{image(basis.r), -image(basis.h), image(basis.v)};
+    const EdgeWaveSum wall = edge_wave_sum(corner, monostatic(basis), k, 0, -length, 1),
+                      slab = edge_wave_sum(twice, bistatic(basis, mirrored), k, 0, 0, 0);
+    EXPECT_GT(slab.count, 0);
+    for (const int channel : {kHhChannel, kHvChannel})
+      EXPECT_NEAR(std::abs(wall.S[channel] - slab.S[channel]), 0, 1e-9 * largest(slab.S)) << azimuth;
+    for (const int channel : {kVhChannel, kVvChannel})
+      EXPECT_NEAR(std::abs(wall.S[channel] + slab.S[channel]), 0, 1e-9 * largest(slab.S)) << azimuth;
+  }
+}
+
+}  // namespace
+}  // namespace seaglint
