@@ -35,7 +35,7 @@ struct RcsArguments {
   double ray_spacing_m = 0, range_m = 0;
   std::optional<double> transmit_azimuth_deg, transmit_elevation_deg;  // bistatic: the sweep is then the receiver's
   double crease_deg = kDefaultCreaseDeg;
-  int max_bounces = 8;
+  int max_bounces = kDefaultBounces;
   ReferenceArguments reference;
   ViewExportArguments view;
   std::vector<std::string> materials;  // NAME or PART=NAME
@@ -258,7 +258,7 @@ void add_rcs(CLI::App& app, Shell& shell) {
   command->add_option("--range-m", arguments->range_m, "Of the radar from the target's origin, for the curvature of the wavefront; 0 = far field")
       ->check(number_within(0.0, 1e9));
   command->add_option("--max-bounces", arguments->max_bounces, "Reflections followed")
-      ->check(CLI::Range(1, 64))
+      ->check(CLI::Range(1, kMostBounces))
       ->capture_default_str();
   command
       ->add_option("--ray-spacing-m", arguments->ray_spacing_m,

@@ -34,8 +34,8 @@ EchoSelector selector(const std::string& option, const std::string& text, const 
   }
   if (kind == "bounces") {
     const std::optional<double> count = parse_number(value);
-    if (!count || *count < 1 || *count > 64 || *count != std::floor(*count))
-      throw InputError(fmt::format("{} {}: bounces must be 1, 2, ... 64", option, text));
+    if (!count || *count < 1 || *count > kMostBounces || *count != std::floor(*count))
+      throw InputError(fmt::format("{} {}: bounces must be 1, 2, ... {}", option, text, kMostBounces));
     return {EchoSelector::Kind::kBounces, static_cast<int>(*count)};
   }
   if (kind == "mechanism") {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "sim/core/parallel.h"
+#include "sim/scenario/target_spec.h"
 #include "sim/scattering/echo_filter.h"
 #include "sim/scattering/edge_light.h"
 #include "sim/scattering/footprint.h"
@@ -24,7 +25,7 @@ struct IlluminationSettings {
   // The detail that counts, as the spacing of rays that would find it: lit pieces with a side below a fourteenth are left
   // out, and beams below a quarter of it are not followed to further mirrors. 0 or coarser than default_ray_spacing: that.
   double ray_spacing_m = 0;
-  int max_bounces = 8;     // 1 <= x <= 64
+  int max_bounces = kDefaultBounces;  // 1 <= x <= kMostBounces
   bool edges = false;      // follow the waves that reach sharp edges too
   EchoFilter filter = {};  // which echoes are summed; all are followed
   double range_m = 0;      // of the radar, 0 = far field; else beyond ten radii of the target

@@ -203,7 +203,7 @@ void visit(MotionSpec& spec, FieldVisitor& v) {
 
 void visit(SolverSpec& spec, FieldVisitor& v) {
   v.number("ray_spacing_m", spec.ray_spacing_m, zero_or_within(0.001, 10));
-  v.integer("max_bounces", spec.max_bounces, within(1, 64));
+  v.integer("max_bounces", spec.max_bounces, within(1, kMostBounces));
   v.number("max_turn_deg", spec.max_turn_deg, zero_or_within(0.001, 5));
   v.number("crease_deg", spec.crease_deg, within(0, 60));
   v.flag("edges", spec.edges);

@@ -67,10 +67,14 @@ struct PointSpec {
   std::array<double, 3> velocity_mps{0, 0, 0};  // target frame
 };
 
+// How many bounces count, and how many may be asked for. On the ship 8 leave out up to -11 dB, 40 less than -39 dB
+// (sim/scattering/README.md, "Deep legs").
+inline constexpr int kDefaultBounces = 40, kMostBounces = 200;
+
 // Zero in a field marked (auto) means: derived from the mesh's size by the formula in sim/scattering/README.md.
 struct SolverSpec {
   double ray_spacing_m = 0;  // (auto) of rays that would find the detail followed, 0 or 0.001 <= x <= 10
-  int max_bounces = 8;       // 1 <= x <= 64
+  int max_bounces = kDefaultBounces;  // 1 <= x <= kMostBounces
   double max_turn_deg = 0;   // (auto) turn of the body served by one trace, 0 or 0.001 <= x <= 5
   double crease_deg = 20;    // facets that turn by less belong to one smooth surface, 0 <= x <= 60; 0 = all facets flat
   bool edges = true;         // fringe currents at sharp edges

@@ -11,7 +11,6 @@ namespace {
 
 using Matrices = std::vector<std::array<Complex, 4>>;
 
-constexpr int kMostBounces = 8;  // the solver's default
 
 // Facets flat for both solvers.
 const Scatterer& flat_ship() {
@@ -90,7 +89,7 @@ class RaySolver {
 
   void follow(std::vector<Tube>& tubes, std::span<const double> k, Matrices& sum) {
     constexpr double kOffSurface = 1e-4;  // m
-    for (int bounce = 1; bounce <= kMostBounces && !tubes.empty(); ++bounce) {
+    for (int bounce = 1; bounce <= kDefaultBounces && !tubes.empty(); ++bounce) {
       std::vector<Ray> rays;
       for (const Tube& tube : tubes) rays.push_back(tube.ray);
       const std::vector<int> hits = first_hits(rays);
@@ -161,14 +160,14 @@ void ShipByRays(benchmark::State& state) {
   const Vec3 r = direction(static_cast<double>(state.range(0)));
   const RadarBasis basis = radar_basis(r);
   const std::vector<double> k = band(), one(1, k.front());
-  const Matrices exact = scattering_matrices(flat_ship(), monostatic(basis), k, {0.014, kMostBounces}, 2);
-  const Matrices by_beams = scattering_matrices(flat_ship(), monostatic(basis), k, {0, kMostBounces}, 2);
+  const Matrices exact = scattering_matrices(flat_ship(), monostatic(basis), k, {0.014, kDefaultBounces}, 2);
+  const Matrices by_beams = scattering_matrices(flat_ship(), monostatic(basis), k, {0, kDefaultBounces}, 2);
   const Trajectory trajectory = rolling(0.005, {0, 0, 1.7});
   for (auto _ : state) {
     RaySolver rays(flat_ship(), basis, 1e-3 * static_cast<double>(state.range(1)));
     const Matrices by_rays = rays.solve(k);
     const double matrix = processor_seconds(
-        [&] { benchmark::DoNotOptimize(scattering_matrices(flat_ship(), monostatic(basis), one, {0, kMostBounces}, 1)); });
+        [&] { benchmark::DoNotOptimize(scattering_matrices(flat_ship(), monostatic(basis), one, {0, kDefaultBounces}, 1)); });
     const double interval = processor_seconds(
         [&] { benchmark::DoNotOptimize(respond(ship(), trajectory, r, Polarisation::kVv, paper_interval(), {}, 1)); });
     state.counters["rays_dB"] = relative_error_db(by_rays, exact);

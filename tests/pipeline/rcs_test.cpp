@@ -215,7 +215,7 @@ TEST_F(RcsCommand, ExportsCentresAndHotSpotsOfOneViewAndSelects) {
     EXPECT_THAT(answer.err, HasSubstr(message));
   };
   refused({"--only", "part=cell_1"}, "did you mean 'cell_01'?");
-  refused({"--only", "bounces=0"}, "bounces must be 1, 2, ... 64");
+  refused({"--only", "bounces=0"}, "bounces must be 1, 2, ... 200");
   refused({"--without", "mechanism=magic"}, "must be one of po, edge");
   refused({"--only", "colour=red"}, "must be part=NAME");
   refused({"--export-centres", centres, "--elevation-deg", "0:1:1"}, "one frequency, azimuth and elevation; there are 2 rows");

@@ -238,7 +238,8 @@ double error_against_fresh_traces(const Scatterer& scatterer, const Trajectory& 
       const RadarBasis &t = path.there ? image : radar, &s = path.back ? image : radar;
       const AntennaPair pair = path.there == path.back ? monostatic(turned(t)) : bistatic(turned(t), turned(s));
       fresh += SeaMirror::weight(path, sea.at(k, r.z()), element) * std::polar(1.0, k * (t.r + s.r).dot(pose.p_TB)) *
-               scattering_matrices(scatterer, pair, std::array{k}, {0, 8, SolverSpec{}.edges}, 2)[0][element];
+               scattering_matrices(scatterer, pair, std::array{k},
+                                   {0, kDefaultBounces, SolverSpec{}.edges}, 2)[0][element];
     }
     error += std::norm(body.response.at(n, b) - fresh);
     power += std::norm(fresh);
