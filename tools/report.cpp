@@ -7,6 +7,7 @@
 
 #include "sim/core/error.h"
 #include "sim/core/file.h"
+#include "sim/core/json_problem.h"
 #include "tools/html.h"
 #include "tools/report_figures.h"
 #include "tools/report_text.h"
@@ -33,7 +34,7 @@ ordered_json read_metrics(const fs::path& directory) {
     }
     return metrics;
   } catch (const nlohmann::json::exception& error) {
-    throw InputError(fmt::format("{}: {}", file.string(), error.what()));
+    throw InputError(fmt::format("{}: {}", file.string(), json_problem(error)));
   }
 }
 
@@ -115,7 +116,7 @@ void write_report(const fs::path& directory, const Scenario& scenario, int threa
   try {
     html = page(metrics, scenario, all);
   } catch (const nlohmann::json::exception& error) {
-    throw InputError(fmt::format("{}: {}", (directory / kMetricsFile).string(), error.what()));
+    throw InputError(fmt::format("{}: {}", (directory / kMetricsFile).string(), json_problem(error)));
   }
   write_file(directory / kMetricsFile, metrics.dump(2) + "\n");
   write_file(directory / kReportFile, html);

@@ -43,11 +43,11 @@ std::vector<MaterialSpec> load_materials(const Scenario& scenario, const TargetS
   const std::string path = "targets." + spec.name;
   std::vector<PartMaterial> parts;
   for (std::size_t i = 0; i < spec.part_materials.size(); ++i) {
-    const std::string where = fmt::format("{}.part_materials.{}.material", path, i);
+    const std::string where = place_of(scenario, fmt::format("{}.part_materials.{}.material", path, i));
     parts.push_back(
         {spec.part_materials[i].part, find_material(spec.part_materials[i].material, scenario.folder, where)});
   }
-  const MaterialSpec all = find_material(spec.material, scenario.folder, path + ".material");
+  const MaterialSpec all = find_material(spec.material, scenario.folder, place_of(scenario, path + ".material"));
   std::vector<MaterialSpec> materials;
   try {
     materials = assign_materials(mesh, all, parts);
@@ -56,17 +56,18 @@ std::vector<MaterialSpec> load_materials(const Scenario& scenario, const TargetS
     const double highest_hz = lowest_hz + 1e6 * (radar.bandwidth_mhz + (radar.hop_count - 1) * radar.hop_step_mhz);
     check_frequencies(materials, lowest_hz, highest_hz);
   } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}", path, error.what()));
+    throw InputError(fmt::format("{}: {}", place_of(scenario, path), error.what()));
   }
   return materials;
 }
 
 // The mesh alone tells how near the radar may be.
-void check_scene_range(const TargetSpec& spec, const TriangleMesh& mesh) {
+void check_scene_range(const Scenario& scenario, const TargetSpec& spec, const TriangleMesh& mesh) {
   try {
     check_range(radius_m(mesh), spec.solver.radar_range_m);
   } catch (const InputError& error) {
-    throw InputError(fmt::format("targets.{}.solver: {}", spec.name, error.what()));
+    throw InputError(
+        fmt::format("{}: {}", place_of(scenario, fmt::format("targets.{}.solver", spec.name)), error.what()));
   }
 }
 
@@ -76,7 +77,7 @@ Body load_body(const Scenario& scenario, const TargetSpec& spec, const TriangleM
   try {
     return make_body(spec.motion, shape_of(mesh), scenario.folder);
   } catch (const InputError& error) {
-    throw InputError(fmt::format("targets.{}: {}", spec.name, error.what()));
+    throw InputError(fmt::format("{}: {}", place_of(scenario, "targets." + spec.name), error.what()));
   }
 }
 
@@ -87,7 +88,7 @@ Target load_target(const Scenario& scenario, const TargetSpec& spec) {
   target.spec = spec;
   if (spec.mesh.empty()) return target;
   target.mesh = repaired(read_mesh(find_mesh(scenario, spec), spec.unit));
-  check_scene_range(spec, target.mesh);
+  check_scene_range(scenario, spec, target.mesh);
   target.materials = load_materials(scenario, spec, target.mesh);
   target.body = load_body(scenario, spec, target.mesh);
   // The radar's image looks at the hull from below.

@@ -9,6 +9,7 @@
 #include "classify/dataset/sample.h"
 #include "sim/core/error.h"
 #include "sim/core/file.h"
+#include "sim/core/json_problem.h"
 
 namespace seaglint {
 
@@ -80,7 +81,7 @@ Manifest read_manifest(const std::filesystem::path& file) {
     }
     return manifest;
   } catch (const nlohmann::json::exception& error) {
-    throw InputError(fmt::format("{}: {}", file.string(), error.what()));
+    throw InputError(fmt::format("{}: {}", file.string(), json_problem(error)));
   }
 }
 

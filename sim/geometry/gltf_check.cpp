@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sim/core/error.h"
+#include "sim/core/json_problem.h"
 
 namespace seaglint {
 namespace {
@@ -347,7 +348,7 @@ Json parsed(std::string_view text, const std::string& file) {
   try {
     root = Json::parse(text.begin(), text.end(), guard);
   } catch (const Json::exception& error) {
-    if (!too_deep) throw InputError(fmt::format("{}: the JSON is broken: {}", file, error.what()));
+    if (!too_deep) throw InputError(fmt::format("{}: {}", file, json_problem(error)));
   }
   if (too_deep) throw InputError(fmt::format("{}: the JSON is nested more than {} levels deep", file, kDeepest));
   return root;
@@ -364,7 +365,7 @@ std::string plain_gltf(std::string_view bytes, const std::string& file) {
   try {
     json = Checker(root, file, chunks.binary.size()).reduced().dump();
   } catch (const Json::exception& error) {
-    throw InputError(fmt::format("{}: {}", file, error.what()));
+    throw InputError(fmt::format("{}: {}", file, json_problem(error)));
   }
   if (!is_glb(bytes)) return json;
 

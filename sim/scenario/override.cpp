@@ -19,6 +19,22 @@ std::vector<std::string> split_path(const std::string& path) {
   return keys;
 }
 
+// The node of a key path, or its closest parent.
+struct Closest {
+  const YamlNode* node;
+  bool itself;
+};
+
+Closest closest(const YamlNode& root, const std::string& key_path) {
+  const YamlNode* node = &root;
+  for (const std::string& key : split_path(key_path)) {
+    const YamlNode* child = node->find(key);
+    if (child == nullptr) return {node, false};
+    node = child;
+  }
+  return {node, true};
+}
+
 void mark_as_override(YamlNode& node, int index) {
   node.location.override_index = index;
   for (YamlNode& item : node.items) mark_as_override(item, index);
@@ -30,27 +46,23 @@ void mark_as_override(YamlNode& node, int index) {
 
 }  // namespace
 
+std::string ScenarioDocument::place(const Location& location, const std::string& key_path) const {
+  if (location.override_index < 0) return fmt::format("{}:{}:{}: {}", file_name, location.line, location.column, key_path);
+  const std::string& override_path = override_paths[static_cast<std::size_t>(location.override_index)];
+  return key_path == override_path ? "--set " + override_path : fmt::format("--set {}: {}", override_path, key_path);
+}
+
+std::string ScenarioDocument::place_of(const std::string& key_path) const {
+  return place(closest(root, key_path).node->location, key_path);
+}
+
 void ScenarioDocument::fail(const Location& location, const std::string& key_path, const std::string& what) const {
-  std::string place = fmt::format("{}:{}:{}", file_name, location.line, location.column);
-  std::string path = key_path;
-  if (location.override_index >= 0) {
-    const std::string& override_path = override_paths[static_cast<std::size_t>(location.override_index)];
-    place = "--set " + override_path;
-    if (path == override_path) path.clear();
-  }
-  throw InputError(fmt::format("{}: {}{}{}", place, path, path.empty() ? "" : ": ", what));
+  throw InputError(fmt::format("{}: {}", place(location, key_path), what));
 }
 
 void ScenarioDocument::fail_at(const std::string& key_path, const std::string& what) const {
-  const YamlNode* node = &root;
-  bool found = true;
-  for (const std::string& key : split_path(key_path)) {
-    const YamlNode* child = node->find(key);
-    found = child != nullptr;
-    if (!found) break;
-    node = child;
-  }
-  const bool quotable = found && node->kind == YamlNode::Kind::kScalar;
+  const auto [node, itself] = closest(root, key_path);
+  const bool quotable = itself && node->kind == YamlNode::Kind::kScalar;
   fail(node->location, key_path, quotable ? fmt::format("value '{}': {}", node->text, what) : what);
 }
 

@@ -20,6 +20,11 @@ struct ScenarioDocument {
   std::vector<std::string> override_paths;
   YamlNode root;
 
+  // "file:line:col: key.path" or "--set path: key.path".
+  std::string place(const Location& location, const std::string& key_path) const;
+  // The same of a key path, or of its closest parent where it is not in the file.
+  std::string place_of(const std::string& key_path) const;
+
   // Throws InputError "file:line:col: key.path: what" or "--set path: key.path: what".
   [[noreturn]] void fail(const Location& location, const std::string& key_path, const std::string& what) const;
   // The same, at the place of a key path, or of its closest parent where it is not in the file. A value that is there

@@ -37,15 +37,21 @@ Scenario read_scenario(const fs::path& file, const std::vector<Override>& overri
 }
 
 Scenario parse_scenario(const std::string& yaml, const std::string& file_name, const std::vector<Override>& overrides) {
-  ScenarioDocument document{file_name, {}, parse_yaml(yaml, file_name)};
+  const auto read = std::make_shared<ScenarioDocument>(file_name, std::vector<std::string>{}, parse_yaml(yaml, file_name));
+  ScenarioDocument& document = *read;
   for (const Override& override_value : overrides) apply_override(document, override_value);
   Scenario scenario = read_fields(document);
+  scenario.document = read;
   scenario.folder = fs::path(file_name).parent_path();
   scenario.sea.table_values = find_spectrum_table(scenario);
   scenario.radar.hop_codes = find_hop_codes(scenario);
   check_contradictions(scenario, document);
   if (scenario.name.empty()) scenario.name = name_of_file(file_name);
   return scenario;
+}
+
+std::string place_of(const Scenario& scenario, const std::string& key_path) {
+  return scenario.document ? scenario.document->place_of(key_path) : key_path;
 }
 
 namespace {
@@ -57,8 +63,8 @@ fs::path find_file(const Scenario& scenario, const std::string& name, const std:
   for (const fs::path& candidate : {beside, fs::path(name)}) {
     if (fs::exists(candidate, error)) return candidate;
   }
-  throw InputError(fmt::format("{}: value '{}': no such file, neither {} nor below the working directory", key, name,
-                               beside.string()));
+  throw InputError(fmt::format("{}: value '{}': no such file, neither {} nor below the working directory",
+                               place_of(scenario, key), name, beside.string()));
 }
 
 }  // namespace

@@ -16,6 +16,8 @@
 
 namespace seaglint {
 
+struct ScenarioDocument;
+
 struct Scenario {
   int version = 1;  // `seaglint: 1`
   std::string name;  // the file's name without extension when not given
@@ -31,6 +33,7 @@ struct Scenario {
   FeatureSpec features;
   LearningSpec learning;
   std::filesystem::path folder;  // of the file: relative mesh paths start here, then at the working directory
+  std::shared_ptr<const ScenarioDocument> document;  // where its keys stand; null when it was not read
 };
 
 // `key.path=value` of --set; the value is YAML and is checked like the file.
@@ -47,6 +50,9 @@ Scenario parse_scenario(const std::string& yaml, const std::string& file_name,
 
 // The scenario with every default written out, as YAML that read_scenario takes back to the same value.
 std::string effective_yaml(const Scenario& scenario);
+
+// "file:line:col: key.path" of a key or of its closest parent in the file; the key path alone when nothing was read.
+std::string place_of(const Scenario& scenario, const std::string& key_path);
 
 // Every key with its default and what it allows, one line each.
 std::string list_keys();

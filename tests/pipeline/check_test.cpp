@@ -71,7 +71,10 @@ TEST(Check, RefusesAMeshThatIsNotThere) {
   const std::string file = folder.path() / "missing.yaml";
   write_file(file, "seaglint: 1\ntargets: {a: {label: 1, mesh: none.glb}}\n");
   expect_refused({"check", file},
-                 "targets.a.mesh: value 'none.glb': no such file, neither " + (folder.path() / "none.glb").string());
+                 "missing.yaml:2:31: targets.a.mesh: value 'none.glb': no such file, neither " +
+                     (folder.path() / "none.glb").string());
+  expect_refused({"check", file, "--set", "targets.a.mesh=other.glb"},
+                 "--set targets.a.mesh: value 'other.glb': no such file");
 }
 
 TEST(Check, RefusesAMeshThatIsNoMesh) {
