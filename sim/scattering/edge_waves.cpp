@@ -21,7 +21,8 @@ constexpr double kLift = 1e-7;
 // Edge waves in a row: the third edge of a face that two edges bound is the first one again, and near grazing its
 // answer is as large as the others'.
 constexpr int kMostWaves = 2;
-// Upright walls between two edges: those of a right-angled corner.
+// Upright walls between two edges: those of a right-angled corner. A wave by walls is the only one of its row: near
+// grazing, where a third diffraction counts, echoes by walls have faded.
 constexpr int kMostWalls = 2;
 
 // A wave on a stretch of an edge. Its path and where the antenna sees it are linear along the stretch.
@@ -33,11 +34,11 @@ struct Incident {
   Vec3 direction;
   std::array<Vec3, 2> E;                    // for h and v
   std::array<Complex, 2> factor{1.0, 1.0};  // of E
-  Vec3 first_direction = Vec3::Zero();      // of the wave at the first edge
   double departure_m = 0;                   // of the first edge wave, as in EdgeFootprint
   int mirrors = 0, waves = 0;               // passed before
-  int walls = 0;                            // that edge waves were reflected by
+  int walls = 0;                            // that the edge wave was reflected by
   Mat3 unfolded = Mat3::Identity();         // takes directions after those walls back to before them
+  Vec3 before = Vec3::Zero();               // direction of the wave at the edge before
 };
 
 // A strip of parallel rays on a face: u across them, w along.
@@ -76,7 +77,6 @@ class EdgeWaves {
 
   void send(const EdgeArrival& arrival) {
     Incident in{arrival.edge, arrival.s, {}, {}, arrival.direction, {arrival.E_h, arrival.E_v}};
-    in.first_direction = arrival.direction;
     in.mirrors = arrival.mirrors;
     for (int end = 0; end < 2; ++end) {
       in.X[end] = arrival.image + arrival.s[end] * arrival.image_along;
@@ -164,7 +164,7 @@ class EdgeWaves {
   // An upright wall sends the strip back over the facet that it stands on. The electric field, across the face and so
   // along the wall, turns round.
   void reflect(const Source& source, int facet, int side, const SharpEdge& foot, const Strip& strip, int depth) {
-    if (source.walls >= kMostWalls) return;
+    if (source.walls >= kMostWalls || source.in.waves > 0) return;
     const Vec3 n = source.face.n.cross(foot.along());  // of the wall
     const Mat3 mirror = Mat3::Identity() - 2 * n * n.transpose();
     const Vec3 shift = 2 * n.dot(foot.a) * n;
@@ -197,8 +197,9 @@ class EdgeWaves {
     next.direction = grazing(source.face, strip.w);
     next.E = {source.face.n, source.face.n};
     ++next.waves;
-    next.walls += source.walls;
-    next.unfolded = in.unfolded * source.unfolded;
+    next.walls = source.walls;
+    next.unfolded = source.unfolded;
+    next.before = in.direction;
     double root_sum = 0;
     for (int end = 0; end < 2; ++end) {
       const Vec3 Q2 = edge.a + next.s[end] * along;
@@ -217,7 +218,7 @@ class EdgeWaves {
     for (int q = 0; q < 2; ++q) next.factor[q] = source.amplitude[q] * (0.5 * 2 / root_sum);
     for (std::size_t o = first_[number]; o < first_[number + 1]; ++o)
       leave(next, *wedge, source.face, strip.w, l, outgoing_[o]);
-    if (next.waves < kMostWaves) send(next);
+    if (next.waves < kMostWaves && next.walls == 0) send(next);
   }
 
   // What of a wave that came along a face goes out by a departure of the same edge.
@@ -227,7 +228,7 @@ class EdgeWaves {
     if (in.mirrors + departure.mirrors > kMostMirrors || wedge_towards(edge, departure.direction) != &wedge) return;
     const std::array<double, 2> s{std::max(in.s[0], departure.s[0]), std::min(in.s[1], departure.s[1])};
     if (s[1] - s[0] < kShortest) return;
-    const double weight = in.walls > 0 ? beside_the_beam(in.first_direction, in.unfolded * -departure.direction) : 1.0;
+    const double weight = in.walls > 0 ? beside_the_beam(in.before, in.unfolded * -departure.direction) : 1.0;
     if (weight <= 0) return;
     EdgeFootprint footprint;
     footprint.length = s[1] - s[0];

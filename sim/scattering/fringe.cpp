@@ -138,15 +138,16 @@ double shadow_distance(const Vec3& edge, const Vec3& along_face, const Vec3& oth
 Complex transition(double x) {
   // Far away the asymptotic series, sum of (2n - 1)!! (j / 2x)^n, to its smallest term, which bounds the error: e^{-x}.
   if (x > 17) {
-    Complex sum = 1, term = 1;
-    for (int n = 1; n < x && std::norm(term) > 1e-32; ++n) {
-      term *= (2.0 * n - 1) * j / (2 * x);
-      sum += term;
+    double term = 1;
+    std::array<double, 2> part{term, 0};
+    for (int n = 1; n < x && term > 1e-16; ++n) {
+      term *= (2.0 * n - 1) / (2 * x);
+      part[n % 2] += n % 4 >= 2 ? -term : term;
     }
-    return sum;
+    return {part[0], part[1]};
   }
   // Near, the power series of the integral from 0 to sqrt(x), sum of (-j)^n x^(n + 1/2) / (n! (2n + 1)), to rounding of
-  // its largest term, e^x. Its terms are real and imaginary by turns, and fall from n = x on.
+  // its largest term, e^x. Terms of both are real and imaginary by turns; these fall from n = x on.
   double term = std::sqrt(x);
   std::array<double, 2> part{term, 0};
   for (int n = 1; n < 80 && term > 1e-18; ++n) {
