@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/sampled_interval.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "radar/echo/echo.h"
+#include "sim/core/error.h"
 
 namespace seaglint {
 namespace {
@@ -11,6 +14,18 @@ namespace {
 // Mean power at the map's frequencies.
 double power_of_map(const SampledEcho& sampled, const PulseTrain& train) {
   return mean_power(spectrum_of(sampled, train));
+}
+
+// Samples of all pulses: 2 GB for each of target, clutter and noise.
+constexpr double kMostSamples = 134217728;
+
+void check_size(const Scenario& scenario, const PulseTrain& fine, double sampling_hz) {
+  const double per_pulse = std::round(sampling_hz / fine.baseband_step_hz);
+  const auto pulses = static_cast<double>(scenario.radar.pulses);
+  if (pulses * per_pulse <= kMostSamples) return;
+  throw InputError(fmt::format("{}: value {}: with {:.0f} samples of each pulse at most {:.0f} pulses make an echo",
+                               place_of(scenario, "radar.pulses"), pulses, per_pulse,
+                               std::floor(kMostSamples / per_pulse)));
 }
 
 void scale(SampledEcho& sampled, double power_gain) {
@@ -21,9 +36,11 @@ void scale(SampledEcho& sampled, double power_gain) {
 
 SampledInterval sampled_interval(const Pipeline& pipeline, std::size_t sample) {
   const Scenario& scenario = pipeline.scenario();
-  const MadeSample made = pipeline.make(sample);
-  const PulseTrain fine = train_for_samples(made.train, scenario.radar);
   const double sampling_hz = scenario.radar.sampling_mhz * 1e6;
+  const PulseTrain fine = train_for_samples(
+      make_pulse_train(scenario.radar, pipeline.window_m(), scenario.seed, sample), scenario.radar);
+  check_size(scenario, fine, sampling_hz);
+  const MadeSample made = pipeline.make(sample);
   const auto moving = pipeline.scene(made.address.sea_state, made.address.realisation);
   const Echo echo = synthesize_echo(fine, pipeline.response(sample, fine).response, scenario.clutter, scenario.seed,
                                     sample, pipeline.clutter_scene(made.address, *moving));

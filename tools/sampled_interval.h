@@ -16,7 +16,7 @@ struct SampledInterval {
   std::optional<SampledEcho> clutter, noise;  // nothing where the scenario has none
 };
 
-// Throws InputError when radar.sampling_mhz fits no frequency grid.
+// Throws InputError when radar.sampling_mhz fits no frequency grid, or the echo would hold more than 2^27 samples.
 SampledInterval sampled_interval(const Pipeline& pipeline, std::size_t sample);
 
 }  // namespace seaglint

@@ -56,5 +56,16 @@ TEST(EchoCommand, RefusesSamplesThatAreNotThere) {
   EXPECT_THAT(result.err, HasSubstr("--sample 1000000: the scenario has samples 0 to"));
 }
 
+TEST(EchoCommand, RefusesMoreSamplesThanMemoryHolds) {
+  const TemporaryFolder folder;
+  const std::string file = folder.path() / "echo.npz";
+  const ProgramResult result =
+      run_program(echo_of(file, {"--set", "radar.pulses=65536", "--set", "radar.sampling_mhz=1000"}));
+  EXPECT_EQ(result.code, 2);
+  EXPECT_THAT(result.err, HasSubstr("--set radar.pulses: value 65536: with 38280 samples of each pulse at most 3506 "
+                                    "pulses make an echo"));
+  EXPECT_FALSE(std::filesystem::exists(file));
+}
+
 }  // namespace
 }  // namespace seaglint
