@@ -12,6 +12,7 @@
 #include "sim/core/constants.h"
 #include "sim/core/error.h"
 #include "tools/command.h"
+#include "tools/figure.h"
 #include "tools/map_coverage.h"
 #include "tools/map_products.h"
 #include "tools/pipeline.h"
@@ -57,6 +58,7 @@ Heatmap profile_figure(const RangeProfiles& profiles, const std::string& title) 
 }
 
 void show_map(const Arguments& arguments) {
+  require_figure(arguments.output);
   const Scenario scenario = arguments.read();
   const std::size_t sample = arguments.sample, samples = SamplePlan(scenario).size();
   if (sample >= samples)

@@ -14,6 +14,7 @@
 #include "sim/geometry/mesh_io.h"
 #include "sim/motion/target_motion.h"
 #include "tools/command.h"
+#include "tools/figure.h"
 #include "tools/motion_figures.h"
 #include "tools/scene.h"
 #include "tools/series_times.h"
@@ -94,6 +95,8 @@ void write_pictures(const MotionArguments& arguments, const Scenario& scenario, 
 }
 
 void write_motion(const MotionArguments& arguments, const Shell& shell) {
+  for (const std::string& file : {arguments.output, arguments.spectrum}) require_writable(file);
+  for (const std::string& file : {arguments.figure, arguments.frames, arguments.rao}) require_figure(file);
   const Scenario scenario = arguments.scenario.read();
   const std::size_t count = uniform_time_count(arguments.duration_s, arguments.step_s);
   const MovingScene scene = simulate_all(scenario, arguments.duration_s, shell.threads, shell.stop);

@@ -21,6 +21,7 @@
 #include "sim/scattering/respond.h"
 #include "sim/scattering/target_check.h"
 #include "tools/command.h"
+#include "tools/figure.h"
 #include "tools/rcs_comparison.h"
 #include "tools/reference_arguments.h"
 #include "tools/sea_arguments.h"
@@ -162,14 +163,18 @@ std::size_t trace_views(const RcsArguments& arguments, const Scatterer& scattere
   return legs;
 }
 
+std::filesystem::path comparison_figure(const RcsArguments& arguments) {
+  if (!arguments.reference.figure.empty()) return arguments.reference.figure;
+  return std::filesystem::path(arguments.output).replace_extension(".png");
+}
+
 void compare(const RcsArguments& arguments, const std::vector<RcsReference>& references, const RcsSweep& sweep) {
   std::vector<PairedCut> cuts;
   for (const RcsReference& reference : references) {
     for (PairedCut& cut : pair_with(sweep, reference)) cuts.push_back(std::move(cut));
   }
   fmt::print("{}", difference_table(cuts, arguments.reference.floor_db));
-  const std::filesystem::path figure =
-      arguments.reference.figure.empty() ? std::filesystem::path(arguments.output).replace_extension(".png") : std::filesystem::path(arguments.reference.figure);
+  const std::filesystem::path figure = comparison_figure(arguments);
   const std::string title = fmt::format("{}, seaglint {}", std::filesystem::path(arguments.target).filename().string(), kVersion);
   if (draw_comparison(cuts, arguments.reference.floor_db, title, figure)) {
     fmt::print("Figure: {}\n", figure.string());
@@ -190,6 +195,9 @@ void export_one_view(const RcsArguments& arguments, const TriangleMesh& mesh, co
 }
 
 void run_rcs(const RcsArguments& arguments, const Shell& shell) {
+  for (const std::string& file : {arguments.output, arguments.view.centres, arguments.view.hot_spots})
+    require_writable(file);
+  if (!arguments.reference.figure.empty()) require_figure(comparison_figure(arguments));
   RcsSweep sweep;
   sweep.frequency_hz = range("--frequency-ghz", arguments.frequency_ghz, 1e-3, 1000);
   for (double& f : sweep.frequency_hz) f *= 1e9;

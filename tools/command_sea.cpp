@@ -14,6 +14,7 @@
 #include "sim/sea/statistics.h"
 #include "sim/sea/wave_field.h"
 #include "tools/command.h"
+#include "tools/figure.h"
 #include "tools/sea_ensemble.h"
 #include "tools/series_times.h"
 
@@ -117,6 +118,8 @@ std::string series_csv(const WaveField& field, const SeaArguments& arguments, co
 }
 
 void write_sea(const SeaArguments& arguments, const Shell& shell) {
+  for (const std::string& file : {arguments.output, arguments.spectrum}) require_writable(file);
+  require_figure(arguments.figure);
   const Scenario scenario = arguments.scenario.read();
   const SeaState state = sea_states(scenario.sea).front();
   const WaveField field = realize_sea(state, scenario.seed, realisation_index(0, 0));

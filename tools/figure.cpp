@@ -104,10 +104,8 @@ std::string axis_commands(const char* name, const FigureAxis& axis) {
 // Writes data and script, runs gnuplot into a temporary file, and gives it the figure's name.
 void draw(const fs::path& file, FigureSize size, const std::string& title, const std::string& data,
           const std::string& commands) {
+  require_figure(file);
   const std::string extension = file.extension();
-  if (extension != ".png" && extension != ".svg") {
-    throw InputError(fmt::format("{}: a figure's name ends in .png or .svg", file.string()));
-  }
   const Scratch scratch(file);
   write_file(scratch.data, data);
   write_file_with(file, [&](const fs::path& temporary) {
@@ -127,6 +125,13 @@ void draw(const fs::path& file, FigureSize size, const std::string& title, const
 }
 
 }  // namespace
+
+void require_figure(const fs::path& file) {
+  if (file.empty()) return;
+  if (file.extension() != ".png" && file.extension() != ".svg")
+    throw InputError(fmt::format("{}: a figure's name ends in .png or .svg", file.string()));
+  require_writable(file);
+}
 
 void write_figure(const Heatmap& figure, const fs::path& file, FigureSize size) {
   const std::size_t columns = figure.x_cells.size(), rows = figure.y_cells.size();

@@ -18,6 +18,10 @@ std::string read_file(const std::filesystem::path& path, std::size_t max_bytes =
 // Throws WorkError (with the system's reason) when the directory or disk refuses; then nothing is left behind.
 void write_file(const std::filesystem::path& path, std::string_view content);
 
+// Throws the WorkError that write_file would where the file's directory is missing or refuses, before long work is done
+// for nothing. An empty path names no file.
+void require_writable(const std::filesystem::path& path);
+
 // Calls write(temporary path), synchronises and renames; for libraries that write files themselves.
 void write_file_with(const std::filesystem::path& path, const std::function<void(const std::filesystem::path&)>& write);
 

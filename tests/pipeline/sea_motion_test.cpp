@@ -164,6 +164,19 @@ TEST(Sea, FailsWhereItCannotWrite) {
   EXPECT_THAT(result.err, HasSubstr("/nonexistent/sea.csv"));
 }
 
+// An hour of sea takes minutes: what cannot be written is known before.
+TEST(Sea, AsksForAPlaceBeforeTheWork) {
+  const TemporaryFolder folder;
+  const std::string series = folder.path() / "sea.csv";
+  for (const auto& [figure, code, what] :
+       {std::tuple{"figure.bmp", 2, "a figure's name ends in .png or .svg"},
+        {"/nonexistent/figure.png", 1, "/nonexistent/figure.png: cannot write: No such file or directory"}}) {
+    const ProgramResult result = run_program({"sea", "no.yaml", "-o", series, "--figure", figure});
+    EXPECT_EQ(result.code, code);
+    EXPECT_THAT(result.err, HasSubstr(what));
+  }
+}
+
 TEST(Motion, WritesEveryBodyAtEveryTime) {
   const TemporaryFolder folder;
   const std::string scenario = write_boxes(folder.path());
