@@ -9,9 +9,6 @@
 namespace seaglint {
 namespace {
 
-// Mirrors on both ways together: edge waves are weak, by mirrors they are weaker than what physical optics itself is
-// uncertain by there.
-constexpr int kMostMirrors = 0;
 // Facets that turn by less than this are one flat face: an edge wave leaves a curved one.
 constexpr double kFlat = 1e-6;
 constexpr double kShortest = 1e-7;  // m
@@ -35,7 +32,7 @@ struct Incident {
   std::array<Vec3, 2> E;                    // for h and v
   std::array<Complex, 2> factor{1.0, 1.0};  // of E
   double departure_m = 0;                   // of the first edge wave, as in EdgeFootprint
-  int mirrors = 0, waves = 0;               // passed before
+  int waves = 0;                            // passed before
   int walls = 0;                            // that the edge wave was reflected by
   Mat3 unfolded = Mat3::Identity();         // takes directions after those walls back to before them
   Vec3 before = Vec3::Zero();               // direction of the wave at the edge before
@@ -58,6 +55,10 @@ struct Source {
   Mat3 unfolded = Mat3::Identity();
 };
 
+// Edge waves are weak; with mirrors on the way in or out they are weaker than what physical optics itself is uncertain
+// by there, and left out.
+bool by_mirrors(const EdgeArrival& way) { return way.mirrors > 0; }
+
 // A grazing wave along w, a little down on the face.
 Vec3 grazing(const WedgeFace& face, const Vec3& w) { return (w - kLift * face.n).normalized(); }
 
@@ -77,7 +78,6 @@ class EdgeWaves {
 
   void send(const EdgeArrival& arrival) {
     Incident in{arrival.edge, arrival.s, {}, {}, arrival.direction, {arrival.E_h, arrival.E_v}};
-    in.mirrors = arrival.mirrors;
     for (int end = 0; end < 2; ++end) {
       in.X[end] = arrival.image + arrival.s[end] * arrival.image_along;
       in.psi[end] = antennas_.transmit.r.dot(in.X[end]);
@@ -225,7 +225,7 @@ class EdgeWaves {
   void leave(const Incident& in, const WedgeFrame& wedge, const WedgeFace& face, const Vec3& w, double l,
              const EdgeArrival& departure) {
     const SharpEdge& edge = edges_.edges[in.edge];
-    if (in.mirrors + departure.mirrors > kMostMirrors || wedge_towards(edge, departure.direction) != &wedge) return;
+    if (by_mirrors(departure) || wedge_towards(edge, departure.direction) != &wedge) return;
     const std::array<double, 2> s{std::max(in.s[0], departure.s[0]), std::min(in.s[1], departure.s[1])};
     if (s[1] - s[0] < kShortest) return;
     const double weight = in.walls > 0 ? beside_the_beam(in.before, in.unfolded * -departure.direction) : 1.0;
@@ -234,7 +234,7 @@ class EdgeWaves {
     footprint.length = s[1] - s[0];
     footprint.facet = edge.facet[0];
     footprint.part = facets_[edge.facet[0]].part;
-    footprint.bounces = static_cast<std::uint8_t>(in.mirrors + departure.mirrors + in.walls + in.waves + 1);
+    footprint.bounces = static_cast<std::uint8_t>(in.walls + in.waves + 1);
     for (int end = 0; end < 2; ++end) {
       const double share = (s[end] - in.s[0]) / (in.s[1] - in.s[0]);
       const Vec3 X = in.X[0] + share * (in.X[1] - in.X[0]), Y = departure.image + s[end] * departure.image_along;
@@ -264,7 +264,7 @@ void edge_wave_footprints(const SharpEdges& edges, std::span<const Facet> facets
                           std::vector<EdgeFootprint>& footprints) {
   EdgeWaves waves(edges, facets, antennas, outgoing, footprints);
   for (const EdgeArrival& in : incoming) {
-    if (in.mirrors <= kMostMirrors) waves.send(in);
+    if (!by_mirrors(in)) waves.send(in);
   }
 }
 

@@ -11,7 +11,6 @@ namespace {
 
 using Matrices = std::vector<std::array<Complex, 4>>;
 
-
 // Facets flat for both solvers.
 const Scatterer& flat_ship() {
   static const Scatterer scatterer(read_mesh(SEAGLINT_SOURCE_DIR "/assets/combatant_144m.glb"), {}, 0);
