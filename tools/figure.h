@@ -56,13 +56,13 @@ struct FigureSize {
   int height = 560;
 };
 
-// Writes the figure whole or not at all. Text is taken literally (no markup). Temporary files stand beside the figure
-// and are removed. Throws InputError for a file that is neither .png nor .svg, WorkError when gnuplot is missing or
-// fails (with its message) or the disk refuses.
-// Throws, as write_figure would, where the name ends in neither .png nor .svg or its directory refuses; nothing for an
+// Throws, before any work and as write_figure would, where the name ends in neither .png nor .svg or its directory refuses; nothing for an
 // empty name.
 void require_figure(const std::filesystem::path& file);
 
+// Writes the figure whole or not at all. Text is taken literally (no markup). Temporary files stand beside the figure
+// and are removed. Throws InputError for a file that is neither .png nor .svg, WorkError when gnuplot is missing or
+// fails (with its message) or the disk refuses.
 void write_figure(const Heatmap& figure, const std::filesystem::path& file, FigureSize size = {});
 void write_figure(const LinePlot& figure, const std::filesystem::path& file, FigureSize size = {});
 

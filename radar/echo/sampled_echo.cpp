@@ -62,9 +62,13 @@ PulseTrain train_for_samples(const PulseTrain& train, const RadarSpec& radar) {
   return fine;
 }
 
+double samples_per_pulse(const PulseTrain& fine, double sampling_hz) {
+  return whole_ratio(sampling_hz, fine.baseband_step_hz);
+}
+
 SampledEcho sample_echo(const std::vector<Complex>& echo, const PulseTrain& fine, double sampling_hz) {
   const std::size_t frequencies = fine.frequencies();
-  const double length = whole_ratio(sampling_hz, fine.baseband_step_hz);
+  const double length = samples_per_pulse(fine, sampling_hz);
   SEAGLINT_CHECK(length >= static_cast<double>(frequencies) && echo.size() == fine.pulses() * frequencies,
                  fmt::format("{} values, {} frequencies, {} samples", echo.size(), frequencies, length));
   SampledEcho sampled;

@@ -27,6 +27,9 @@ struct SampledEcho {
 // radar.sampling_mhz is no whole multiple of any such step up to four times the smallest number.
 PulseTrain train_for_samples(const PulseTrain& train, const RadarSpec& radar);
 
+// Samples in one period of the grid of `fine`; 0 where sampling_hz is no whole multiple of its step.
+double samples_per_pulse(const PulseTrain& fine, double sampling_hz);
+
 // y_n(t) = integral of Y_n(f) e^{+j 2 pi f t} df / sqrt(mu), Y on the grid of `fine`, [pulse][frequency].
 SampledEcho sample_echo(const std::vector<Complex>& echo, const PulseTrain& fine, double sampling_hz);
 

@@ -122,7 +122,7 @@ void write_file(const fs::path& path, std::string_view content) {
 void require_writable(const fs::path& path) {
   if (path.empty() || is_stream(path)) return;
   const fs::path folder = path.parent_path().empty() ? fs::path(".") : path.parent_path();
-  if (access(folder.c_str(), W_OK | X_OK) != 0) fail_writing(path);
+  if (::access(folder.c_str(), W_OK | X_OK) != 0) fail_writing(path);
 }
 
 void write_file_with(const fs::path& path, const std::function<void(const fs::path&)>& write) {

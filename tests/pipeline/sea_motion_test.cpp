@@ -164,16 +164,30 @@ TEST(Sea, FailsWhereItCannotWrite) {
   EXPECT_THAT(result.err, HasSubstr("/nonexistent/sea.csv"));
 }
 
-// An hour of sea takes minutes: what cannot be written is known before.
-TEST(Sea, AsksForAPlaceBeforeTheWork) {
+// Before the work, and so before the scenario or mesh, which is not there either.
+TEST(Commands, AskForThePlacesOfTheirFilesFirst) {
   const TemporaryFolder folder;
-  const std::string series = folder.path() / "sea.csv";
-  for (const auto& [figure, code, what] :
-       {std::tuple{"figure.bmp", 2, "a figure's name ends in .png or .svg"},
-        {"/nonexistent/figure.png", 1, "/nonexistent/figure.png: cannot write: No such file or directory"}}) {
-    const ProgramResult result = run_program({"sea", "no.yaml", "-o", series, "--figure", figure});
-    EXPECT_EQ(result.code, code);
-    EXPECT_THAT(result.err, HasSubstr(what));
+  const std::string table = folder.path() / "table.csv", nowhere = "/nonexistent/file.png";
+  const std::vector<std::string> rcs{"rcs", "--target", "no.glb", "--frequency-ghz", "16", "--azimuth-deg", "0"};
+  const auto with = [](std::vector<std::string> words, std::initializer_list<std::string> more) {
+    words.insert(words.end(), more);
+    return words;
+  };
+  for (const auto& words :
+       {std::vector<std::string>{"sea", "no.yaml", "-o", nowhere}, {"sea", "no.yaml", "-o", table, "--figure", nowhere},
+        {"motion", "no.yaml", "-o", nowhere}, {"motion", "no.yaml", "-o", table, "--rao", nowhere},
+        {"map", "no.yaml", "-o", nowhere}, {"echo", "no.yaml", "-o", nowhere}, with(rcs, {"-o", nowhere}),
+        with(rcs, {"-o", table, "--export-centres", nowhere})}) {
+    const ProgramResult result = run_program(words);
+    EXPECT_EQ(result.code, 1) << words.front();
+    EXPECT_THAT(result.err, HasSubstr(nowhere + ": cannot write: No such file or directory"));
+  }
+  for (const auto& words : {std::vector<std::string>{"sea", "no.yaml", "-o", table, "--figure", "figure.bmp"},
+                            {"motion", "no.yaml", "-o", table, "--frames", "figure.bmp"},
+                            {"map", "no.yaml", "-o", "figure.bmp"}}) {
+    const ProgramResult result = run_program(words);
+    EXPECT_EQ(result.code, 2) << words.front();
+    EXPECT_THAT(result.err, HasSubstr("figure.bmp: a figure's name ends in .png or .svg"));
   }
 }
 
