@@ -44,12 +44,14 @@ class DenormalsAreZero {
 
 namespace {
 
-// What the builder makes, in its own arena, before it is laid out as BoxNodes.
+// What the builder makes, in its own arena, before it is laid out as BoxNodes: a leaf, or a node where it has no box.
 struct Built {
-  int box = -1;  // of a leaf
+  int box = -1;
+};
+struct BuiltNode : Built {
   unsigned children = 0;
-  std::array<Built*, 4> child{};
-  std::array<RTCBounds, 4> bounds{};
+  std::array<Built*, kMostChildren> child{};
+  std::array<RTCBounds, kMostChildren> bounds{};
 };
 
 float rounded_down(double x) {
@@ -71,9 +73,14 @@ RTCBuildPrimitive primitive(const Box3& box, unsigned number) {
   return p;
 }
 
-void* create(RTCThreadLocalAllocator allocator) { return new (rtcThreadLocalAlloc(allocator, sizeof(Built), alignof(Built))) Built; }
+template <typename T>
+T* create(RTCThreadLocalAllocator allocator) {
+  return new (rtcThreadLocalAlloc(allocator, sizeof(T), alignof(T))) T;
+}
 
-std::int32_t lay_out(const Built& built, std::vector<BoxNode>& nodes) {
+BuiltNode& node_at(void* built) { return static_cast<BuiltNode&>(*static_cast<Built*>(built)); }
+
+std::int32_t lay_out(const BuiltNode& built, std::vector<BoxNode>& nodes) {
   const auto index = static_cast<std::int32_t>(nodes.size());
   nodes.emplace_back();
   BoxNode node;
@@ -81,7 +88,9 @@ std::int32_t lay_out(const Built& built, std::vector<BoxNode>& nodes) {
   for (unsigned i = 0; i < built.children; ++i) {
     const RTCBounds& b = built.bounds[i];
     const Built& child = *built.child[i];
-    node.child[i] = {child.box >= 0 ? -1 - child.box : lay_out(child, nodes), {b.lower_x, b.lower_y, b.lower_z}, {b.upper_x, b.upper_y, b.upper_z}};
+    node.child[i] = {child.box >= 0 ? -1 - child.box : lay_out(static_cast<const BuiltNode&>(child), nodes),
+                     {b.lower_x, b.lower_y, b.lower_z},
+                     {b.upper_x, b.upper_y, b.upper_z}};
   }
   nodes[index] = node;
   return index;
@@ -102,7 +111,7 @@ std::vector<BoxNode> box_tree(std::span<const Box3> boxes) {
   const RTCBVH bvh = rtcNewBVH(device);
   RTCBuildArguments arguments = rtcDefaultBuildArguments();
   arguments.byteSize = sizeof(arguments);
-  arguments.maxBranchingFactor = 4;
+  arguments.maxBranchingFactor = kMostChildren;
   arguments.maxDepth = kMostLevels;
   arguments.sahBlockSize = 1;
   arguments.minLeafSize = 1;
@@ -111,18 +120,20 @@ std::vector<BoxNode> box_tree(std::span<const Box3> boxes) {
   arguments.primitives = primitives.data();
   arguments.primitiveCount = primitives.size();
   arguments.primitiveArrayCapacity = primitives.size();
-  arguments.createNode = [](RTCThreadLocalAllocator allocator, unsigned, void*) { return create(allocator); };
+  arguments.createNode = [](RTCThreadLocalAllocator allocator, unsigned, void*) -> void* {
+    return static_cast<Built*>(create<BuiltNode>(allocator));
+  };
   arguments.setNodeChildren = [](void* node, void** children, unsigned count, void*) {
-    auto& built = *static_cast<Built*>(node);
+    BuiltNode& built = node_at(node);
     built.children = count;
     for (unsigned i = 0; i < count; ++i) built.child[i] = static_cast<Built*>(children[i]);
   };
   arguments.setNodeBounds = [](void* node, const RTCBounds** bounds, unsigned count, void*) {
-    for (unsigned i = 0; i < count; ++i) static_cast<Built*>(node)->bounds[i] = *bounds[i];
+    for (unsigned i = 0; i < count; ++i) node_at(node).bounds[i] = *bounds[i];
   };
-  arguments.createLeaf = [](RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* leaf, std::size_t, void*) {
-    void* built = create(allocator);
-    static_cast<Built*>(built)->box = static_cast<int>(leaf->primID);
+  arguments.createLeaf = [](RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* leaf, std::size_t, void*) -> void* {
+    Built* const built = create<Built>(allocator);
+    built->box = static_cast<int>(leaf->primID);
     return built;
   };
   const auto* root = static_cast<const Built*>(rtcBuildBVH(&arguments));
@@ -134,7 +145,7 @@ std::vector<BoxNode> box_tree(std::span<const Box3> boxes) {
     node.child[0] = {-1, {p.lower_x, p.lower_y, p.lower_z}, {p.upper_x, p.upper_y, p.upper_z}};
     nodes.push_back(node);
   } else if (root) {
-    lay_out(*root, nodes);
+    lay_out(static_cast<const BuiltNode&>(*root), nodes);
   }
   const RTCError error = rtcGetDeviceError(device);
   rtcReleaseBVH(bvh);

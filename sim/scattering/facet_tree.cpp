@@ -23,8 +23,8 @@ FacetTree::FacetTree(std::span<const Facet> facets, const Panels& panels) {
     by_box.push_back({facets[f].normal, outline.data(), f, static_cast<std::uint16_t>(outline.size()), facets[f].open});
   }
   for (const BoxNode& built : box_tree(boxes)) {
-    Node node;
-    for (int lane = 0; lane < 4; ++lane) {
+    Node node{};
+    for (int lane = 0; lane < kMostChildren; ++lane) {
       const bool used = lane < built.children;
       const BoxNode::Child& child = built.child[lane];
       for (int a = 0; a < 3; ++a) {
@@ -34,7 +34,9 @@ FacetTree::FacetTree(std::span<const Facet> facets, const Panels& panels) {
       node.child[lane] = used ? child.index : -1;
       if (!used || child.index >= 0) continue;
       node.child[lane] = -1 - static_cast<std::int32_t>(panels_.size());
-      panels_.push_back(by_box[-1 - child.index]);
+      const TreePanel& panel = panels_.emplace_back(by_box[-1 - child.index]);
+      if (panel.open) continue;
+      for (int a = 0; a < 3; ++a) node.normal[a][lane] = static_cast<float>(panel.normal[a]);
     }
     nodes_.push_back(node);
   }

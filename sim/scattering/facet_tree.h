@@ -42,24 +42,30 @@ class FacetTree {
  public:
   FacetTree(std::span<const Facet> facets, const Panels& panels);
 
-  // Calls visit(panel) for every panel that has a point in the prism, and for some whose box only comes near, in an order that
-  // depends on tree and prism alone. visit returns how far along the prism panels still matter, m; those that begin beyond may be left out.
+  // Calls visit(panel) for every panel that has a point in the prism and does not face away, and for some whose box only comes near or
+  // that lie edge-on, in an order that depends on tree and prism alone. visit returns how far along the prism panels still matter, m;
+  // those that begin beyond may be left out.
   template <typename Visit>
   void walk(const Prism& prism, const Visit& visit) const;
 
  private:
-  // Four boxes side by side, so that the compiler compares them at once; two cache lines. A child below zero is panel -1 - child.
+  // Boxes side by side, so that the compiler compares them at once. A child below zero is panel -1 - child.
+  template <typename T>
+  using OfChildren = std::array<T, kMostChildren>;
   struct alignas(64) Node {
-    std::array<std::array<float, 4>, 3> centre, half;  // m; half < 0: no box
-    std::array<std::int32_t, 4> child;
+    std::array<OfChildren<float>, 3> centre, half;  // m; half < 0: no box
+    std::array<OfChildren<float>, 3> normal;        // of a panel seen from one side; 0 of all else, which no direction rules out
+    OfChildren<std::int32_t> child;
   };
   // A subtree or leaf still to be looked at, and where along the prism it begins.
   struct Waiting {
     std::int32_t child;
     float begin;
   };
-  // Three of each level wait at most, and all four of the last.
-  static constexpr std::size_t kMostWaiting = 3 * kMostLevels + 4;
+  // All children but one of each level wait at most, and all of the last.
+  static constexpr std::size_t kMostWaiting = (kMostChildren - 1) * kMostLevels + kMostChildren;
+  // Cosine above which a panel faces away for certain, single precision allowed for.
+  static constexpr float kFacesAway = 1e-5F;
 
   std::vector<Node> nodes_;  // the first is the root
   std::vector<TreePanel> panels_;  // in the order of the nodes that hold them
@@ -69,8 +75,10 @@ class FacetTree {
 template <typename Visit>
 void FacetTree::walk(const Prism& prism, const Visit& visit) const {
   if (nodes_.empty()) return;
-  // |across . centre - middle| <= width + |across| . half, and normal . centre + |normal| . half >= offset, for four boxes at once.
+  // |across . centre - middle| <= width + |across| . half, normal . centre + |normal| . half >= offset, and wave . normal of a panel not above zero,
+  // for all children at once.
   std::array<std::array<float, 3>, 4> axis, reach;
+  std::array<float, 3> wave;
   std::array<float, 2> middle, width;
   for (int i = 0; i < 4; ++i) {
     for (int a = 0; a < 3; ++a) {
@@ -78,6 +86,7 @@ void FacetTree::walk(const Prism& prism, const Visit& visit) const {
       reach[i][a] = std::abs(axis[i][a]);
     }
   }
+  for (int a = 0; a < 3; ++a) wave[a] = static_cast<float>(prism.wave[a]);
   for (int i = 0; i < 2; ++i) {
     middle[i] = static_cast<float>((prism.lower[i] + prism.upper[i]) / 2);
     width[i] = static_cast<float>((prism.upper[i] - prism.lower[i]) / 2 + slack_);
@@ -91,14 +100,13 @@ void FacetTree::walk(const Prism& prism, const Visit& visit) const {
     const Waiting next = stack[--waiting];
     if (next.begin > far) continue;
     if (next.child < 0) {
-      const TreePanel& panel = panels_[-1 - next.child];
-      if (panel.open || panel.normal.dot(prism.wave) < 1e-5) far = static_cast<float>(visit(panel) + slack_);
+      far = static_cast<float>(visit(panels_[-1 - next.child]) + slack_);
       continue;
     }
     const Node& node = nodes_[next.child];
-    std::array<float, 4> gap;  // largest distance between prism and box along an axis; above zero they do not meet
-    std::array<float, 4> begin;
-    for (int lane = 0; lane < 4; ++lane) {
+    OfChildren<float> gap;  // largest distance between prism and box along an axis, or a panel's facing away; above zero they do not meet
+    OfChildren<float> begin;
+    for (int lane = 0; lane < kMostChildren; ++lane) {
       const auto at = [&](int i) {
         return axis[i][0] * node.centre[0][lane] + axis[i][1] * node.centre[1][lane] + axis[i][2] * node.centre[2][lane];
       };
@@ -108,13 +116,15 @@ void FacetTree::walk(const Prism& prism, const Visit& visit) const {
       const float first = std::abs(at(0) - middle[0]) - half(0) - width[0];
       const float second = std::abs(at(1) - middle[1]) - half(1) - width[1];
       const float third = offset - at(2) - half(2);
-      const float larger = first > second ? first : second;
-      gap[lane] = larger > third ? larger : third;
+      const float away =
+          wave[0] * node.normal[0][lane] + wave[1] * node.normal[1][lane] + wave[2] * node.normal[2][lane] - kFacesAway;
+      const float across = first > second ? first : second, beyond = third > away ? third : away;
+      gap[lane] = across > beyond ? across : beyond;
       begin[lane] = at(3) - half(3);
     }
     // Every child is put on top, and stays there if it meets the prism: no branch that nobody can foresee. To bring the
     // nearest on top costs more than it saves.
-    for (int lane = 0; lane < 4; ++lane) {
+    for (int lane = 0; lane < kMostChildren; ++lane) {
       stack[waiting] = {node.child[lane], begin[lane]};
       waiting += gap[lane] <= 0;
     }
