@@ -80,9 +80,9 @@ void show_map(const Arguments& arguments) {
     }
     return;
   }
-  const MadeSample made = pipeline.make(sample);
-  for (const std::string& line : outside_of_map(scenario, pipeline.targets()))
+  for (const std::string& line : outside_of_map(scenario, pipeline.targets()))  // a map of too many cells ends here
     fmt::print(stderr, "seaglint: warning: {}\n", line);
+  const MadeSample made = pipeline.make(sample);
   write_figure(rv_figure(made.received.map, made.centres, title), arguments.output);
   print_result(made.received, made.centres, made.features);
 }

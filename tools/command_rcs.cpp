@@ -244,12 +244,12 @@ void add_rcs(CLI::App& app, Shell& shell) {
   auto arguments = std::make_shared<RcsArguments>();
   command->add_option("--target", arguments->target, "Mesh file: .glb, .gltf, .obj, .stl or .ply")->required();
   command->add_option("--unit", arguments->unit, "Unit of the mesh: m, cm, mm, km, in, ft")->capture_default_str();
-  command->add_option("--frequency-ghz", arguments->frequency_ghz, "A or A:B:STEP, both ends included")->required();
+  command->add_option("--frequency-ghz", arguments->frequency_ghz, "A or A:B:STEP, both ends included, within 0.001 and 1000")->required();
   command
       ->add_option("--azimuth-deg", arguments->azimuth_deg,
-                   "A or A:B:STEP; 0 = radar ahead of the bow, counter-clockwise from above")
+                   "A or A:B:STEP within -720 and 720; 0 = radar ahead of the bow, counter-clockwise from above")
       ->required();
-  command->add_option("--elevation-deg", arguments->elevation_deg, "A or A:B:STEP; of the radar seen from the target")
+  command->add_option("--elevation-deg", arguments->elevation_deg, "A or A:B:STEP within -90 and 90; of the radar seen from the target")
       ->capture_default_str();
   command->add_option("--edges", arguments->edges, "Fringe currents at sharp edges: on, or off for physical optics alone")
       ->check(CLI::IsMember({"on", "off"}))
