@@ -14,6 +14,8 @@ namespace {
 // further take them anew where they arrived.
 constexpr double kMomentReach = 0.2;
 constexpr int kMaxPasses = 4;
+// ln |RV| bends this much less along one axis than along the other when the echo tells nothing along it.
+constexpr double kFlat = 1e-9;
 
 // Phase factors e^{j phase(b)} of one pulse, phase = 4 pi [f v (t + f_b/mu) + (f - f_c) r] / c, quadratic in b: each
 // factor is the last one times a ratio, the ratio bends by a constant (1 without motion inside the pulse).
@@ -132,9 +134,19 @@ PointComponent ResidualEcho::fit(double range_m, double velocity_mps, double rea
       const double hrr = std::real(here.rr / here.rv - here.r * here.r / (here.rv * here.rv));
       const double hvv = std::real(here.vv / here.rv - here.v * here.v / (here.rv * here.rv));
       const double hrv = std::real(here.rv_mixed / here.rv - here.r * here.v / (here.rv * here.rv));
-      const double determinant = hrr * hvv - hrv * hrv;
-      if (!(hrr < 0 && determinant > 0)) break;
-      double step_r = -(hvv * gr - hrv * gv) / determinant, step_v = -(hrr * gv - hrv * gr) / determinant;
+      // One pulse tells no velocity, one frequency no range: there the other is fitted alone.
+      const double bend_r = -hrr * reach_r * reach_r, bend_v = -hvv * reach_v * reach_v;
+      double step_r = 0, step_v = 0;
+      if (bend_r > 0 && std::abs(bend_v) < kFlat * bend_r) {
+        step_r = -gr / hrr;
+      } else if (bend_v > 0 && std::abs(bend_r) < kFlat * bend_v) {
+        step_v = -gv / hvv;
+      } else {
+        const double determinant = hrr * hvv - hrv * hrv;
+        if (!(hrr < 0 && determinant > 0)) break;
+        step_r = -(hvv * gr - hrv * gv) / determinant;
+        step_v = -(hrr * gv - hrv * gr) / determinant;
+      }
       // Steps below a hundredth of the reach are the last: Newton's error after them is the square of that.
       const bool last = std::abs(step_r) < 1e-2 * reach_r && std::abs(step_v) < 1e-2 * reach_v;
       bool climbed = false;

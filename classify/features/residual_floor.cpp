@@ -12,6 +12,8 @@ constexpr double kRowQuantile = 0.2;
 constexpr double kColumnQuantile = 0.5;
 constexpr double kMapQuantile = 0.5;
 constexpr double kFalseMaps = 0.01;
+// A line of fewer cells tells no level: its quantile may be a target's own cell.
+constexpr std::size_t kLeastCells = 8;
 // A maximum is the highest of all positions inside its cell, not of one: four times the chances.
 constexpr double kPositionsPerCell = 4;
 
@@ -30,12 +32,12 @@ std::vector<double> residual_floor(const RvMap& residual) {
   for (std::size_t i = 0; i < powers.size(); ++i) powers[i] = std::norm(residual.values[i]);
 
   const double all = mean_from_quantile(powers, kMapQuantile);
-  std::vector<double> row(rows), column(columns), line;
-  for (std::size_t v = 0; v < rows; ++v) {
+  std::vector<double> row(rows, 0), column(columns, 0), line;
+  for (std::size_t v = 0; v < rows && columns >= kLeastCells; ++v) {
     line.assign(&powers[v * columns], &powers[v * columns] + columns);
     row[v] = mean_from_quantile(line, kRowQuantile);
   }
-  for (std::size_t r = 0; r < columns; ++r) {
+  for (std::size_t r = 0; r < columns && rows >= kLeastCells; ++r) {
     line.clear();
     for (std::size_t v = 0; v < rows; ++v) line.push_back(powers[v * columns + r]);
     column[r] = mean_from_quantile(line, kColumnQuantile);

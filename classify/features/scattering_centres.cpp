@@ -139,16 +139,18 @@ CleanedMap clean_map(std::span<const Complex> echo, const PulseTrain& train, con
     found = false;
     const std::vector<Maximum> maxima = local_maxima(map, depth * strongest, factor, floor);
     if (maxima.empty()) break;
-    // Below the round's depth a maximum may be a sidelobe or pedestal of a stronger one: it waits for the next map.
-    const double round_floor = maxima.front().power * decibel_ratio(-kRoundDepthDb);
+    // Below the round's depth, counted from the strongest maximum that holds, one may be a sidelobe or pedestal of a stronger one: it waits for the
+    // next map. What does not hold, a ridge of clutter say, has been looked at and decides nothing.
+    double round_floor = 0;
     std::size_t fits = 0;
     for (const Maximum& cell : maxima) {
-      if (cell.power < round_floor && found) break;
+      if (cell.power < round_floor) break;
       if (++fits > kMaxFitsPerRound || components.size() >= max_components) break;
       PointComponent point = residual.fit(map.range_m[cell.r], map.velocity_mps[cell.v], step_r, step_v);
       const double power = std::norm(point.amplitude_m);
       if (power < depth * strongest || power < factor * floor[cell.v * map.columns() + cell.r]) continue;
       if (power < round_floor) continue;
+      if (!found) round_floor = cell.power * decibel_ratio(-kRoundDepthDb);
       strongest = std::max(strongest, power);
       point.amplitude_m *= spec.clean_gain;
       residual.subtract(point);

@@ -179,6 +179,65 @@ TEST(Centres, InClutterAreThePointsAndHardlyAnythingElse) {
   EXPECT_LE(extra, 2);
 }
 
+// A ridge of clutter as strong as the target in one cell, whose highest crest may miss its own floor by less than the
+// parabola's shortfall: it must not keep CLEAN from what stands clear of the ridge.
+TEST(Centres, ClearOfAStrongRidgeAreFoundWhateverItsCrestDoes) {
+  RadarSpec radar;
+  radar.hop_count = 1;
+  radar.bandwidth_mhz = 200;
+  radar.sampling_mhz = 400;
+  ClutterSpec clutter;
+  clutter.scr_definition = ScrDefinition::kPeakCell;
+  clutter.scr_db = 0;
+  clutter.doppler_spread_mps = 0.15;
+  clutter.texture_shape = 1000;
+  clutter.noise_to_clutter_db = -60;
+  MapSpec map;
+  map.velocity_taper = Taper::kHann;
+  const std::vector<ScatteringCentre> truth{{-40, 3, 4}, {0, 3, 4}, {40, 3, 4}};
+  for (std::uint64_t trial = 0; trial < 20; ++trial) {
+    const PulseTrain train = make_pulse_train(radar, kShipWindow, 1, trial);
+    std::vector<PointSpec> points;
+    for (const ScatteringCentre& p : truth) points.push_back({{-p.range_m, 0, 0}, p.amplitude_m, {-p.velocity_mps, 0, 0}});
+    const Echo echo =
+        synthesize_echo(train, point_response(points, Vec3(1, 0, 0), interval_sampling(train, 0)), clutter, 11, trial);
+    const auto centres = extract_centres(receive(echo, train, clutter, map, false).echo, train, map, false, {});
+    EXPECT_EQ(centres.size(), 3U) << trial;
+    for (const ScatteringCentre& t : truth) EXPECT_LT(match(centres, t, train).cells, 0.3) << trial;
+  }
+}
+
+// With one pulse there is no velocity to fit, with one range cell shown no level along range.
+TEST(Centres, OfMapsThatAreShortAlongOneAxisAreFound) {
+  RadarSpec radar;
+  radar.hop_count = 1;
+  radar.bandwidth_mhz = 200;
+  radar.sampling_mhz = 400;
+  {
+    RadarSpec one = radar;
+    one.pulses = 1;
+    const PulseTrain train = make_pulse_train(one, kShipWindow, 1, 1);
+    const std::vector<ScatteringCentre> truth{{-40.3, 0, 1}, {0.2, 0, 2}, {30.1, 0, 1}};
+    MapSpec map;
+    map.range_taper = Taper::kHann;
+    const auto centres = extract_centres(echo_of(train, truth, no_clutter()), train, map, false, {});
+    ASSERT_GE(centres.size(), 3U);
+    for (const ScatteringCentre& t : truth) {
+      const Match found = match(centres, t, train);
+      EXPECT_LT(found.cells, 0.05);
+      EXPECT_LT(found.amplitude_error, 0.05);
+    }
+  }
+  const PulseTrain train = make_pulse_train(radar, kShipWindow, 1, 1);
+  MapSpec map;
+  map.range_span_m = train.range_resolution_m();
+  map.velocity_taper = Taper::kHann;
+  const ScatteringCentre truth{0, 1.03, 1};
+  const auto centres = extract_centres(echo_of(train, {truth}, no_clutter()), train, map, false, {});
+  ASSERT_GE(centres.size(), 1U);
+  EXPECT_LT(match(centres, truth, train).cells, 0.05);
+}
+
 TEST(Centres, AreNoMoreThanAskedForAndWithinTheDynamicRange) {
   const PulseTrain train = make_pulse_train({}, kShipWindow, 1, 1);
   std::vector<ScatteringCentre> truth;
