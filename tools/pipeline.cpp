@@ -142,6 +142,7 @@ ClutterScene Pipeline::clutter_scene(const SampleAddress& at, const Scene& scene
           total_wave_height(sea_states_[static_cast<std::size_t>(at.sea_state)]),
           &scene.sea,
           plan_.start_s(at),
+          Vec3(scenario_.targets[static_cast<std::size_t>(at.target)].motion.speed_mps, 0, 0),
           seen * scenario_.targets.size() + static_cast<std::uint64_t>(at.target)};
 }
 

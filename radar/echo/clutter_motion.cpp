@@ -42,15 +42,16 @@ VelocityMoments sea_velocity(const ClutterSpec& spec, const ClutterScene& scene,
     const double horizontal = look.dot(wave.direction) / std::tanh(std::min(20.0, wave.wavenumber * scene.waves->depth()));
     variance += 0.5 * speed * speed * (horizontal * horizontal + sin_grazing * sin_grazing);
   }
-  if (!(stokes.norm() > 0)) return {};
+  const double past_mps = scene.r_hat.dot(scene.way_mps);  // water that stands still falls behind the target
+  if (!(stokes.norm() > 0)) return {past_mps, 0};
   const double wind = std::sqrt(kGravity * scene.significant_wave_height_m / kFullyDeveloped);
   const double along_waves = bragg_speed_mps(wavelength_m, cos_grazing) + kWindDrift * wind + stokes.norm();
   const double factor = scene.radar.polarisation == Polarisation::kVv ? 1 : spec.hh_velocity_factor;
-  return {-factor * along_waves * look.dot(stokes.normalized()), std::sqrt(variance)};
+  return {past_mps - factor * along_waves * look.dot(stokes.normalized()), std::sqrt(variance)};
 }
 
 double platform_spread_mps(const ClutterScene& scene) {
-  const Vec3 velocity(scene.radar.platform.velocity_mps.data());
+  const Vec3 velocity = Vec3(scene.radar.platform.velocity_mps.data()) + scene.way_mps;
   const Vec3 sideways = Vec3::UnitZ().cross(scene.r_hat);
   const double level = sideways.norm();
   return level > 0 ? std::abs(velocity.dot(sideways)) / level * beam_deviation_rad(scene.radar) : 0;
@@ -63,9 +64,10 @@ FloatingScatterers floating_scatterers(const ClutterScene& scene, const std::vec
   const double cos_grazing = std::hypot(scene.r_hat.x(), scene.r_hat.y());
   const Vec2 away = -Vec2(scene.r_hat.x(), scene.r_hat.y()) / cos_grazing, across(-away.y(), away.x());
   const double deviation_m = scene.radar.range_km * 1e3 * beam_deviation_rad(scene.radar);
+  const Vec2 sailed_m = scene.start_s * scene.way_mps.head<2>();  // where the target is in the waves by now
   FloatingScatterers floating;
   for (const double range : range_m) {
-    const Vec2 place = away * (range / cos_grazing) + across * (deviation_m * random.normal());
+    const Vec2 place = sailed_m + away * (range / cos_grazing) + across * (deviation_m * random.normal());
     const auto radial = [&](double time_s) {
       return -scene.r_hat.dot(scene.waves->surface(place.x(), place.y(), time_s).velocity);
     };

@@ -20,6 +20,7 @@ struct ClutterScene {
   double significant_wave_height_m = 0;
   const WaveField* waves = nullptr;     // needed unless clutter.doppler is given
   double start_s = 0;                   // of the interval, in the waves' time
+  Vec3 way_mps = Vec3::Zero();          // of the target through the water, which its frame and the radar go along with
   std::uint64_t texture_key = 0;        // intervals of one key see one texture that changes over time
 };
 
@@ -33,11 +34,11 @@ struct VelocityMoments {
 // Stokes drift, all along the waves; other polarisations are faster by hh_velocity_factor, as that paper found without a
 // model. Spread: the radial part of the waves' orbital velocity. The wind is that of a fully developed sea of this
 // height (Pierson and Moskowitz, J. Geophys. Res. 69 (1964) 5181), and drifts the surface by 3 % of its speed (Wu, J.
-// Fluid Mech. 68 (1975) 49). No waves: no motion.
+// Fluid Mech. 68 (1975) 49). No waves: no motion but that of the water past a target on its way.
 VelocityMoments sea_velocity(const ClutterSpec& spec, const ClutterScene& scene, double wavelength_m);
 
-// What a radar that passes by adds to the spread: scatterers off the middle of the beam come nearer or go away, by the
-// speed across the line of sight times the deviation of the two-way Gaussian beam, width / (4 sqrt(ln 2)).
+// What a radar that passes by adds to the spread, on its own way and the target's: scatterers off the middle of the beam
+// come nearer or go away, by the speed across the line of sight times the deviation of the two-way Gaussian beam, width / (4 sqrt(ln 2)).
 double platform_spread_mps(const ClutterScene& scene);
 
 // Radial motion of scatterers that float on the waves: displacement at the time t after the interval's start is v t + a

@@ -92,6 +92,35 @@ TEST(FloatingScatterers, GoAlongWithTheWaves) {
   }
 }
 
+// The frame of a ship that makes way goes along with it, and so does the radar.
+TEST(ClutterOfAShipOnItsWay, IsThePassingWaters) {
+  const WaveField waves = realize_sea(waves_towards(150), 1, 1), calm({}, Vec2(1, 0), 1, 10);
+  ClutterScene scene = scene_of(waves);
+  const double grazing = radians(2), azimuth = radians(30);
+  scene.r_hat = Vec3(std::cos(grazing) * std::cos(azimuth), std::cos(grazing) * std::sin(azimuth), std::sin(grazing));
+  scene.start_s = 20;
+  ClutterScene sailing = scene;
+  sailing.way_mps = {10, 0, 0};
+  // Seen from ahead the water falls behind, away from the radar.
+  const double past = 10 * scene.r_hat.x();
+  EXPECT_NEAR(sea_velocity({}, sailing, kWavelength).mean_mps, sea_velocity({}, scene, kWavelength).mean_mps + past, 1e-12);
+  sailing.waves = &calm;
+  EXPECT_NEAR(sea_velocity({}, sailing, kWavelength).mean_mps, past, 1e-12);
+  sailing.waves = &waves;
+
+  // The waves that it meets are those where it has got to: 200 m on along x, x = -range cos(azimuth) without beam.
+  scene.radar.budget.beamwidth_deg = sailing.radar.budget.beamwidth_deg = 1e-9;
+  const FloatingScatterers floating = floating_scatterers(sailing, {0, 70}, 0.064, 1, 1);
+  for (const int i : {0, 1}) {
+    const double x = 200 - 70 * i / std::cos(grazing) * std::cos(azimuth), y = -70 * i / std::cos(grazing) * std::sin(azimuth);
+    EXPECT_NEAR(floating.velocity_mps[i], -scene.r_hat.dot(waves.surface(x, y, 20).velocity), 1e-6);
+  }
+  // Across the line of sight the whole beam passes by.
+  EXPECT_EQ(platform_spread_mps(scene), 0);
+  scene.radar.budget.beamwidth_deg = sailing.radar.budget.beamwidth_deg = 2;
+  EXPECT_NEAR(platform_spread_mps(sailing), 10 * std::sin(azimuth) * radians(2) / (4 * std::sqrt(std::log(2.0))), 1e-9);
+}
+
 TEST(ClutterOnWaves, HasTheDopplerOfTheSea) {
   RadarSpec radar;
   radar.hop_count = 1;
