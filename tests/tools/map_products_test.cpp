@@ -57,6 +57,21 @@ TEST(WholeBand, ImageHasThePointAndNoPedestal) {
   }
 }
 
+TEST(WholeBand, MovesWithARadarWhoseOwnWayIsNotCompensated) {
+  const char* const moving = "platform: {velocity_mps: [0.8, 0, 0], compensated: ";
+  double step_mps = 0;
+  const auto velocity = [&](const char* compensated) {
+    std::string text = kOnePoint;
+    text.replace(text.find("pulses: 64"), 10, std::string("pulses: 64, ") + moving + compensated + "}");
+    const WholeBand band = whole_band(Pipeline(parse_scenario(text, "point.yaml")), 0);
+    step_mps = band.image.velocity_mps[1] - band.image.velocity_mps[0];
+    return peak_of(band.image).velocity_mps;
+  };
+  // A radar ahead that goes on away from the target; each peak lies on the map's cells.
+  const double difference = velocity("false") - velocity("true");
+  EXPECT_NEAR(difference, 0.8, step_mps);
+}
+
 TEST(RangeProfiles, FollowThePoint) {
   const Pipeline pipeline(parse_scenario(kOnePoint, "point.yaml"));
   const RangeProfiles profiles = range_profiles(whole_band(pipeline, 0), pipeline.scenario().map);
