@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/core/constants.h"
 #include "sim/core/error.h"
 #include "sim/geometry/mesh_health.h"
 #include "sim/geometry/mesh_io.h"
@@ -150,7 +151,15 @@ double range_window_m(const Scenario& scenario, const std::vector<Target>& targe
   double reach = 0;
   for (const Target& target : targets) reach = std::max(reach, reach_m(target, interval_s));
   // A tenth more than the target, since bodies drift and shadowed paths are longer than straight ones.
-  return std::max(scenario.map.range_span_m, 2.2 * reach);
+  const double window_m = std::max(scenario.map.range_span_m, 2.2 * reach);
+  const RadarSpec& radar = scenario.radar;
+  const double echo_us = radar.pulse_width_us + 2e6 * window_m / kSpeedOfLight;
+  if (echo_us > radar.pri_us) {
+    throw InputError(fmt::format("{}: a target reaches {:.6g} m from the reference point: its echo lasts {:.6g} us with the pulse and "
+                                 "must end within radar.pri_us, {}",
+                                 place_of(scenario, "targets"), reach, echo_us, radar.pri_us));
+  }
+  return window_m;
 }
 
 Scene make_scene(const Scenario& scenario, const std::vector<Target>& targets, int sea_state, int realisation,

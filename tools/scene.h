@@ -38,7 +38,8 @@ Body load_body(const Scenario& scenario, const TargetSpec& spec, const TriangleM
 std::vector<Target> load_targets(const Scenario& scenario);
 
 // Full width of the range window that holds the response of every target of the scenario, wherever it is seen from. It
-// is one number for all samples: a window that followed the target would tell its size.
+// is one number for all samples: a window that followed the target would tell its size. Throws InputError when its echo
+// would not be over before the next pulse is sent.
 double range_window_m(const Scenario& scenario, const std::vector<Target>& targets);
 
 // One sea realisation with the motion of every body, from t = 0 to the end of the last interval.

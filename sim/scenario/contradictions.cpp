@@ -13,12 +13,28 @@ namespace seaglint {
 
 namespace {
 
+constexpr int kLeastSamples = 8;  // of a pulse
+
+// Edges of the whole band.
+double lowest_ghz(const RadarSpec& radar) { return radar.carrier_ghz - 0.5e-3 * radar.bandwidth_mhz; }
+double highest_ghz(const RadarSpec& radar) {
+  return radar.carrier_ghz + 1e-3 * ((radar.hop_count - 1) * radar.hop_step_mhz + 0.5 * radar.bandwidth_mhz);
+}
+
 void check_radar(const RadarSpec& radar, const ScenarioDocument& document) {
   if (radar.pulse_width_us >= radar.pri_us) {
     document.fail_at("radar.pulse_width_us", fmt::format("must be shorter than radar.pri_us, {}", radar.pri_us));
   }
   if (radar.bandwidth_mhz > radar.sampling_mhz) {
     document.fail_at("radar.bandwidth_mhz", fmt::format("must be at most radar.sampling_mhz, {}", radar.sampling_mhz));
+  }
+  if (!(lowest_ghz(radar) > 0)) {
+    document.fail_at("radar.bandwidth_mhz", fmt::format("must be below twice radar.carrier_ghz, {:g}", 2e3 * radar.carrier_ghz));
+  }
+  // Fewer samples are no chirp: one sample of a shorter pulse would have the energy of one as long as a sample.
+  if (radar.pulse_width_us * radar.sampling_mhz < kLeastSamples) {
+    document.fail_at("radar.pulse_width_us", fmt::format("must be at least {:g} us, {} samples of radar.sampling_mhz",
+                                                         kLeastSamples / radar.sampling_mhz, kLeastSamples));
   }
 }
 
@@ -55,8 +71,10 @@ void check_clutter(const Scenario& scenario, const ScenarioDocument& document) {
   const char* where = "with clutter.level: nrl";
   if (radar.polarisation != Polarisation::kHh && radar.polarisation != Polarisation::kVv)
     document.fail_at("radar.polarisation", fmt::format("must be hh or vv {}", where));
-  if (radar.carrier_ghz < 0.5 || radar.carrier_ghz > 35)
-    document.fail_at("radar.carrier_ghz", fmt::format("must be within 0.5 and 35 {}", where));
+  if (lowest_ghz(radar) < 0.5 || highest_ghz(radar) > 35) {
+    document.fail_at("radar.carrier_ghz", fmt::format("all carriers with their band, {:g} to {:g} GHz, must be within 0.5 and 35 {}",
+                                                      lowest_ghz(radar), highest_ghz(radar), where));
+  }
   for (const double elevation : scenario.view.elevation_deg) {
     if (elevation < 0.1 || elevation > 60)
       document.fail_at("view.elevation_deg", fmt::format("must be within 0.1 and 60 {}", where));
@@ -137,8 +155,8 @@ void check_sea_reflection(const Scenario& scenario, const ScenarioDocument& docu
   for (const double elevation : scenario.view.elevation_deg) {
     if (elevation <= 0) document.fail_at("view.elevation_deg", "must be greater than 0 with sea_reflection");
   }
-  if (scenario.sea_reflection.surface == SeaSurface::kSeaWater && scenario.radar.carrier_ghz > 89) {
-    document.fail_at("radar.carrier_ghz", "must be at most 89 with sea_reflection of sea_water");
+  if (scenario.sea_reflection.surface == SeaSurface::kSeaWater && highest_ghz(scenario.radar) > 89) {
+    document.fail_at("radar.carrier_ghz", "the highest carrier with its band must be at most 89 with sea_reflection of sea_water");
   }
 }
 

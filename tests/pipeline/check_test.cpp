@@ -53,6 +53,13 @@ TEST(Keys, AreListedWithDefaultAndBound) {
                     "wind_and_fetch\n"));
 }
 
+TEST(Check, RefusesATargetWhoseEchoOutlastsThePulse) {
+  const TemporaryFolder folder;
+  const std::string file = folder.path() / "far.yaml";
+  write_file(file, "seaglint: 1\ntargets:\n  far: {label: 1, points: [{position_m: [20000, 0, 0], amplitude_m: 1}]}\n");
+  expect_refused({"check", file}, "far.yaml:3:3: targets: a target reaches 20000 m from the reference point: its echo lasts");
+}
+
 TEST(Check, RefusesATypoInAKey) {
   const TemporaryFolder folder;
   const std::string file = folder.path() / "typo.yaml";

@@ -140,7 +140,12 @@ void make_consistent(Scenario& scenario) {
   }
   scenario.radar.pri_jitter_us = scenario.radar.pri_us / 3.1 * (0.5 + 0.4 / (1 + scenario.radar.pri_jitter_us));
   scenario.map.range_span_m = std::min(scenario.map.range_span_m, 90 * scenario.radar.pri_us);
-  scenario.radar.sampling_mhz = scenario.radar.bandwidth_mhz * 1.7;
+  if (scenario.sea_reflection.enabled) {
+    scenario.radar.carrier_ghz = std::min(scenario.radar.carrier_ghz, 48.1);
+    scenario.radar.hop_step_mhz = std::min(scenario.radar.hop_step_mhz, 30e3 / scenario.radar.hop_count);
+  }
+  scenario.radar.bandwidth_mhz = std::min(scenario.radar.bandwidth_mhz, 1.3e3 * scenario.radar.carrier_ghz);
+  scenario.radar.sampling_mhz = std::max(scenario.radar.bandwidth_mhz * 1.7, 8.3 / scenario.radar.pulse_width_us);
   scenario.dataset.realisations_per_case = 7;
   scenario.dataset.maps_per_case = 7 * 13;
   for (double& height : scenario.sea.significant_wave_height_m) height *= 1e-3;
@@ -149,7 +154,6 @@ void make_consistent(Scenario& scenario) {
   scenario.sea.components = 1 + scenario.sea.components % 1000;
   scenario.sea.swell.components = 1 + scenario.sea.swell.components % 1000;
   if (scenario.sea_reflection.enabled) {
-    scenario.radar.carrier_ghz = std::min(scenario.radar.carrier_ghz, 88.1);
     for (double& elevation : scenario.view.elevation_deg) elevation = std::max(std::abs(elevation), 1e-3);
   }
   for (TargetSpec& target : scenario.targets) {
