@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -61,13 +62,33 @@ const ordered_json* probe(const ordered_json& metrics, const std::string& name) 
   return nullptr;
 }
 
+// What knowing nothing but the classes' shares reaches: from guessing at those shares to naming the larger class always.
+struct Guessing {
+  double least = 0.5, most = 0.5;
+
+  std::string text() const {
+    const std::string high = fmt::format("{:.1f} %", 100 * most);
+    return most - least < 5e-4 ? high : fmt::format("{:.1f} to {}", 100 * least, high);
+  }
+};
+Guessing guessing(const ordered_json& scores) {
+  const auto count = [&](const char* entry) { return scores.at("confusion").at(entry).get<double>(); };
+  const double arrays = count("array_as_array") + count("array_as_ship"),
+               ships = count("ship_as_array") + count("ship_as_ship");
+  if (!(arrays + ships > 0)) return {};
+  const double larger = std::max(arrays, ships) / (arrays + ships);
+  return {larger * larger + (1 - larger) * (1 - larger), larger};
+}
+
 // Whether a probe is compatible with guessing. What is random by construction is independent from map to map: the 99 %
 // binomial interval of one split's rows (repeats reuse the same maps). Anything else goes by its bootstrap over seas.
 bool as_chance(const ordered_json& scores, bool independent, int repeats) {
+  const Guessing guess = guessing(scores);
   const double low = value(scores.at("accuracy_95")[0]), high = value(scores.at("accuracy_95")[1]);
-  if (!independent && std::isfinite(low)) return low <= 0.5 && 0.5 <= high;
-  const double rows = scores.at("rows").get<double>() / repeats;
-  return std::abs(value(scores.at("accuracy")) - 0.5) <= 2.576 * 0.5 / std::sqrt(rows);
+  if (!independent && std::isfinite(low)) return low <= guess.most && guess.least <= high;
+  const double rows = scores.at("rows").get<double>() / repeats, accuracy = value(scores.at("accuracy"));
+  const double off = std::max({accuracy - guess.most, guess.least - accuracy, 0.0});
+  return off <= 2.576 * std::sqrt(guess.most * (1 - guess.most) / rows);
 }
 
 bool as_chance(const ordered_json& metrics, const ordered_json& probe) {
@@ -100,6 +121,14 @@ std::string compared_protocols(const ordered_json& random, const ordered_json& g
   const bool known = std::isfinite(low(random)) && std::isfinite(low(group));
   return fmt::format("; random rows come out {} {}, {}", direction, by,
                      known ? "which is within the intervals" : "without intervals to judge it by");
+}
+
+// What sets the level of a map.
+std::string level_of_maps(const ClutterSpec& clutter) {
+  if (!clutter.enabled) return "There is no clutter, so the level of a map is the target’s size.";
+  if (clutter.level == ClutterLevel::kNrl)
+    return "The clutter has the sea’s own level, so the level of a map and its ratio to the clutter tell the target’s size.";
+  return fmt::format("The clutter follows the target (SCR {:g} dB), so the level of a map is the target’s size.", clutter.scr_db);
 }
 
 std::string item(const std::string& text) { return "<li>" + text + "</li>\n"; }
@@ -230,7 +259,7 @@ std::string probes_table(const ordered_json& metrics) {
     const std::string kind = entry.at("kind");
     const bool half = as_chance(metrics, entry);
     std::string reading;
-    if (kind == "blind") reading = half ? "as chance" : "<b>away from 50 %: look for a leak</b>";
+    if (kind == "blind") reading = half ? "as chance" : "<b>away from chance: look for a leak</b>";
     if (kind == "scale") reading = half ? "level does not tell" : "level tells the class; no feature uses it";
     if (kind == "shape") reading = half ? "does not tell" : "tells by shape or strength of the target";
     if (kind == "feature") reading = half ? "does not tell by itself" : "tells by itself";
@@ -275,12 +304,11 @@ std::string expert_notes(const ordered_json& metrics, const Scenario& scenario) 
       seas));
   if (const ordered_json* power = probe(metrics, "total power")) {
     html += item(
-        fmt::format("<b>Absolute level would settle it.</b> The clutter follows the target (SCR {:g} dB), so the level "
-                    "of a map is the target’s size: total power alone "
+        fmt::format("<b>Absolute level would settle it.</b> {} Total power alone "
                     "reaches {} on unseen seas. No feature group sees it: centre weights are normalised, the network’s "
                     "input is divided by its energy. "
-                    "Any pipeline with this SCR rule and unnormalised maps would look perfect for the wrong reason.",
-                    scenario.clutter.scr_db, percent(value(power->at("group").at("accuracy")))));
+                    "A pipeline with unnormalised maps would look better for the wrong reason.",
+                    level_of_maps(scenario.clutter), percent(value(power->at("group").at("accuracy")))));
   }
   const auto alone = [&metrics](const char* name) {
     const ordered_json* found = probe(metrics, name);
@@ -306,12 +334,15 @@ std::string expert_notes(const ordered_json& metrics, const Scenario& scenario) 
   for (const auto& entry : metrics.at("probes")) {
     if (entry.at("kind") == "blind") clean = clean && as_chance(metrics, entry);
   }
-  html += item(clean ? "<b>No leak by construction.</b> Hop code and sample order, which know nothing of the target, "
-                       "stay at chance."
-                     : "<b>Look for a leak.</b> A quantity that knows nothing of the target (hop code or sample order) "
-                       "is away from 50 % by more than its interval. "
-                       "With several probes and few seas this happens by chance now and then; repeat with another seed "
-                       "before believing it.");
+  const std::string chance = guessing(group).text();
+  html += item(fmt::format(
+      fmt::runtime(clean ? "<b>No leak by construction.</b> Hop code and sample order, which know nothing of the target, "
+                           "stay at chance ({} on unseen seas, from the shares of the classes)."
+                         : "<b>Look for a leak.</b> A quantity that knows nothing of the target (hop code or sample order) "
+                           "is away from chance ({} on unseen seas, from the shares of the classes) by more than its interval. "
+                           "With several probes and few seas this happens by chance now and then; repeat with another seed "
+                           "before believing it."),
+      chance));
   // The random code's pedestal and the velocity cell set what the features can resolve.
   const PulseTrain train = make_pulse_train(scenario.radar, scenario.map.range_span_m, scenario.seed, 0);
   const double cell = train.velocity_resolution_mps();
