@@ -7,6 +7,7 @@
 
 #include "classify/dataset/dataset_writer.h"
 #include "classify/dataset/hdf5_file.h"
+#include "classify/dataset/input_list.h"
 #include "classify/dataset/npz.h"
 #include "sim/core/error.h"
 #include "tools/command.h"
@@ -57,6 +58,7 @@ void remake_sample(const Arguments& arguments) {
     throw InputError(fmt::format("--sample {}: the data set has samples 0 to {}", arguments.sample, reader.size() - 1));
   const StoredSample stored = stored_sample(reader, arguments.sample);
   Scenario scenario = read_scenario(reader.directory() / kScenarioFile);
+  require_same_inputs(reader.directory(), scenario);
   scenario.dataset.complex_maps = true;  // for the output; it changes nothing else
   const Pipeline pipeline(scenario);
   if (arguments.sample >= pipeline.plan().size()) {

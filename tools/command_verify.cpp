@@ -7,6 +7,7 @@
 #include <mutex>
 
 #include "classify/dataset/audit.h"
+#include "classify/dataset/input_list.h"
 #include "sim/core/error.h"
 #include "sim/core/progress.h"
 #include "tools/command.h"
@@ -25,6 +26,7 @@ struct Arguments {
 std::vector<std::string> remake(const std::string& directory, std::size_t count, const Scenario& scenario,
                                 const Shell& shell) {
   const DatasetReader reader(directory);
+  require_same_inputs(directory, scenario);
   const Pipeline pipeline(scenario);
   std::vector<std::vector<std::string>> faults(count);
   std::mutex reading;  // HDF5 serves one thread at a time

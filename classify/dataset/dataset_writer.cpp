@@ -9,6 +9,7 @@
 
 #include "classify/dataset/checksum.h"
 #include "classify/dataset/data_card.h"
+#include "classify/dataset/input_list.h"
 #include "classify/dataset/planned_record.h"
 #include "sim/core/error.h"
 #include "sim/core/file.h"
@@ -116,6 +117,7 @@ DatasetWriter::DatasetWriter(fs::path directory, const Scenario& scenario, bool 
     earlier_ = read_manifest(manifest_file);
     require_version(manifest_file, earlier_.program_version);
   }
+  keep_inputs(directory_, scenario_);
   if (!same_text) write_file(scenario_file, scenario_yaml_);
 }
 

@@ -147,14 +147,14 @@ MaterialSpec parse_material(const std::string& yaml, const std::string& file_nam
   return spec;
 }
 
-MaterialSpec find_material(const std::string& name, const fs::path& folder, const std::string& where) {
-  if (name == "pec") return {};
+std::optional<fs::path> find_material_file(const std::string& name, const fs::path& folder, const std::string& where) {
+  if (name == "pec") return std::nullopt;
   const bool is_file = name.ends_with(".yaml") || name.find('/') != std::string::npos;
   const fs::path path = is_file ? fs::path(name) : fs::path("assets/materials") / (name + ".yaml");
   std::error_code error;
   std::vector<std::string> names{"pec"};
   for (const fs::path& candidate : {folder / path, path}) {
-    if (fs::is_regular_file(candidate, error)) return read_material(candidate);
+    if (fs::is_regular_file(candidate, error)) return candidate;
     if (is_file) continue;
     for (const auto& entry : fs::directory_iterator(candidate.parent_path(), error)) {
       if (entry.path().extension() == ".yaml") names.push_back(entry.path().stem().string());
@@ -164,6 +164,11 @@ MaterialSpec find_material(const std::string& name, const fs::path& folder, cons
   names.erase(std::unique(names.begin(), names.end()), names.end());
   throw InputError(fmt::format("{}: value '{}': no such material{}", where, name,
                                is_file ? " file" : ": " + suggestion(name, names)));
+}
+
+MaterialSpec find_material(const std::string& name, const fs::path& folder, const std::string& where) {
+  const std::optional<fs::path> file = find_material_file(name, folder, where);
+  return file ? read_material(*file) : MaterialSpec{};
 }
 
 }  // namespace seaglint

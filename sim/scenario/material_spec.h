@@ -5,6 +5,7 @@
 // are real - j loss, and a passive medium has loss >= 0.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -68,8 +69,12 @@ struct MaterialSpec {
 MaterialSpec read_material(const std::filesystem::path& file);
 MaterialSpec parse_material(const std::string& yaml, const std::string& file_name);
 
-// `pec`, a file, or NAME for assets/materials/NAME.yaml: beside `folder` or below the working directory. Throws InputError
-// that begins with `where` when there is none.
+// The file of a material, a file itself or NAME for assets/materials/NAME.yaml: beside `folder` or below the working
+// directory; none of `pec`. Throws InputError that begins with `where` when there is none.
+std::optional<std::filesystem::path> find_material_file(const std::string& name, const std::filesystem::path& folder,
+                                                        const std::string& where);
+
+// What it says, likewise.
 MaterialSpec find_material(const std::string& name, const std::filesystem::path& folder, const std::string& where);
 
 }  // namespace seaglint

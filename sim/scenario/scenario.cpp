@@ -13,6 +13,7 @@
 #include "sim/core/file.h"
 #include "sim/scenario/contradictions.h"
 #include "sim/scenario/hop_code_file.h"
+#include "sim/scenario/material_spec.h"
 #include "sim/scenario/document.h"
 #include "sim/scenario/reader.h"
 
@@ -71,6 +72,29 @@ fs::path find_file(const Scenario& scenario, const std::string& name, const std:
 
 fs::path find_mesh(const Scenario& scenario, const TargetSpec& target) {
   return find_file(scenario, target.mesh, fmt::format("targets.{}.mesh", target.name));
+}
+
+std::vector<InputFile> input_files(const Scenario& scenario) {
+  std::vector<InputFile> files;
+  const auto add = [&](const std::string& name, const std::string& key) {
+    if (!name.empty()) files.push_back({key, find_file(scenario, name, key)});
+  };
+  if (scenario.radar.hop_code == HopCode::kFile) add(scenario.radar.hop_code_file, "radar.hop_code_file");
+  if (scenario.sea.spectrum == SpectrumKind::kTable) add(scenario.sea.table, "sea.table");
+  for (const TargetSpec& target : scenario.targets) {
+    const std::string path = "targets." + target.name;
+    add(target.mesh, path + ".mesh");
+    add(target.motion.sections, path + ".motion.sections");
+    add(target.motion.file, path + ".motion.file");
+    const auto add_material = [&](const std::string& name, const std::string& key) {
+      if (const auto file = find_material_file(name, scenario.folder, place_of(scenario, key))) files.push_back({key, *file});
+    };
+    add_material(target.material, path + ".material");
+    for (std::size_t i = 0; i < target.part_materials.size(); ++i) {
+      add_material(target.part_materials[i].material, fmt::format("{}.part_materials.{}.material", path, i));
+    }
+  }
+  return files;
 }
 
 std::shared_ptr<const SpectrumTable> find_spectrum_table(const Scenario& scenario) {

@@ -60,6 +60,15 @@ std::string list_keys();
 // The file a target's mesh path names: beside the scenario or below the working directory. Throws InputError when neither exists.
 std::filesystem::path find_mesh(const Scenario& scenario, const TargetSpec& target);
 
+// A file that a scenario names: what decides its maps beside its own text.
+struct InputFile {
+  std::string key;             // that names it
+  std::filesystem::path path;  // where it was found
+};
+
+// All of them, in the order of the targets; a scenario of points alone has none. Throws InputError when one is missing.
+std::vector<InputFile> input_files(const Scenario& scenario);
+
 // Reads the file that `sea.table` names, beside the scenario or below the working directory; nothing where no table is
 // asked for. Throws InputError when neither exists or it is no spectrum.
 std::shared_ptr<const SpectrumTable> find_spectrum_table(const Scenario& scenario);

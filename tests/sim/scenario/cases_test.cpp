@@ -53,6 +53,36 @@ TEST(Cases, ViewsRunThroughTheSweepsWithTheAzimuthSlowest) {
   EXPECT_DOUBLE_EQ(all[3].azimuth_rad, kPi / 2);
 }
 
+TEST(Cases, TheFilesThatAScenarioNamesAreListedByTheirKeys) {
+  namespace fs = std::filesystem;
+  std::string pattern = (fs::temp_directory_path() / "seaglint_inputs_test_XXXXXX").string();
+  const fs::path folder = ::mkdtemp(pattern.data());
+  for (const char* name : {"a.glb", "steel.yaml", "moves.csv", "codes.txt"}) std::ofstream(folder / name) << "x";
+  Scenario scenario;
+  scenario.folder = folder;
+  scenario.radar.hop_code = HopCode::kFile;
+  scenario.radar.hop_code_file = "codes.txt";
+  TargetSpec ship;
+  ship.name = "ship";
+  ship.mesh = "a.glb";
+  ship.part_materials = {{"mast*", "pec"}, {"hull", "steel.yaml"}};
+  ship.motion.file = "moves.csv";
+  TargetSpec points;
+  points.name = "points";
+  points.points.push_back({});
+  scenario.targets = {ship, points};
+  std::string listed;
+  for (const InputFile& file : input_files(scenario)) listed += file.key + " " + file.path.filename().string() + "\n";
+  EXPECT_EQ(listed,
+            "radar.hop_code_file codes.txt\n"
+            "targets.ship.mesh a.glb\n"
+            "targets.ship.motion.file moves.csv\n"
+            "targets.ship.part_materials.1.material steel.yaml\n");
+  fs::remove(folder / "moves.csv");
+  EXPECT_THROW(input_files(scenario), InputError);
+  fs::remove_all(folder);
+}
+
 TEST(Cases, AMeshIsFoundBesideTheScenarioOrBelowTheWorkingDirectory) {
   namespace fs = std::filesystem;
   std::string pattern = (fs::temp_directory_path() / "seaglint_mesh_test_XXXXXX").string();

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "classify/dataset/input_list.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <sstream>
+#include <string>
+
+#include "classify/dataset/checksum.h"
+#include "sim/core/error.h"
+#include "sim/core/file.h"
+
+namespace seaglint {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Checksums by key of a list's lines, "CHECKSUM  KEY".
+std::map<std::string, std::string> read_list(const fs::path& file) {
+  std::map<std::string, std::string> checksums;
+  std::istringstream lines(read_file(file));
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t gap = line.find("  ");
+    if (gap == std::string::npos) throw InputError(fmt::format("{}: '{}': must be a checksum and a key", file.string(), line));
+    checksums[line.substr(gap + 2)] = line.substr(0, gap);
+  }
+  return checksums;
+}
+
+}  // namespace
+
+void require_same_inputs(const fs::path& directory, const Scenario& scenario) {
+  const fs::path list = directory / kInputsFile;
+  if (!fs::exists(list)) return;
+  const std::map<std::string, std::string> checksums = read_list(list);
+  for (const InputFile& file : input_files(scenario)) {
+    const auto known = checksums.find(file.key);
+    if (known != checksums.end() && known->second == sha256_file(file.path)) continue;
+    throw InputError(fmt::format("{}: {}: {} is not the file that the data set was begun with; bring that one back or choose another directory",
+                                 list.string(), file.key, file.path.string()));
+  }
+}
+
+void keep_inputs(const fs::path& directory, const Scenario& scenario) {
+  require_same_inputs(directory, scenario);
+  const fs::path list = directory / kInputsFile;
+  if (fs::exists(list)) return;
+  std::string text;
+  for (const InputFile& file : input_files(scenario)) text += fmt::format("{}  {}\n", sha256_file(file.path), file.key);
+  if (!text.empty()) write_file(list, text);
+}
+
+}  // namespace seaglint

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A data set is of one scenario and of the files that it names.
+#include "classify/dataset/input_list.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "classify/dataset/checksum.h"
+#include "sim/core/error.h"
+#include "sim/core/file.h"
+
+namespace seaglint {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+class InputList : public ::testing::Test {
+ protected:
+  InputList() {
+    std::string pattern = (fs::temp_directory_path() / "seaglint_inputs_XXXXXX").string();
+    folder_ = ::mkdtemp(pattern.data());
+    fs::create_directory(folder_ / "data");
+    write("ship.glb", "ship");
+    scenario_.folder = folder_;
+    scenario_.targets.resize(1);
+    scenario_.targets[0].name = "ship";
+    scenario_.targets[0].mesh = "ship.glb";
+  }
+  ~InputList() override { fs::remove_all(folder_); }
+
+  void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
+  std::string complaint() const {
+    try {
+      keep_inputs(folder_ / "data", scenario_);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  fs::path folder_;
+  Scenario scenario_;
+};
+
+TEST_F(InputList, IsWrittenOnceAndHoldsTheFilesToIt) {
+  EXPECT_EQ(complaint(), "");
+  EXPECT_EQ(read_file(folder_ / "data" / kInputsFile), sha256("ship") + "  targets.ship.mesh\n");
+  EXPECT_EQ(complaint(), "");
+  write("ship.glb", "another");
+  EXPECT_THAT(complaint(), HasSubstr(fmt::format("inputs.sha256: targets.ship.mesh: {} is not the file that the data set was begun with",
+                                                 (folder_ / "ship.glb").string())));
+  EXPECT_EQ(read_file(folder_ / "data" / kInputsFile), sha256("ship") + "  targets.ship.mesh\n");
+  write("ship.glb", "ship");
+  EXPECT_EQ(complaint(), "");
+}
+
+TEST_F(InputList, IsNotWrittenWhereNoFileIsNamed) {
+  scenario_.targets[0].mesh.clear();
+  EXPECT_EQ(complaint(), "");
+  EXPECT_FALSE(fs::exists(folder_ / "data" / kInputsFile));
+}
+
+TEST_F(InputList, ThatIsNoListIsRefused) {
+  write("data/inputs.sha256", "nonsense\n");
+  EXPECT_THAT(complaint(), HasSubstr("inputs.sha256: 'nonsense': must be a checksum and a key"));
+}
+
+}  // namespace
+}  // namespace seaglint
