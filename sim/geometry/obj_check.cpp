@@ -16,6 +16,9 @@ class ObjCheck {
   ObjCheck(std::string_view bytes, const std::string& file) : rest_(bytes), file_(file) {}
 
   PlainPolygons check() {
+    // The mark that some editors put before the first line (UTF-8's byte order mark).
+    constexpr std::string_view kMark = "\xEF\xBB\xBF";
+    if (rest_.starts_with(kMark)) rest_.remove_prefix(kMark.size());
     // Faces may name vertices of later lines, so the vertices are counted first.
     std::string_view all = rest_;
     while (!all.empty()) {
@@ -29,8 +32,8 @@ class ObjCheck {
     while (!rest_.empty()) {
       ++line_;
       std::string_view line = next_line(rest_);
-      // A line that ends in a backslash goes on in the next.
-      if (line.ends_with('\\')) {
+      // A line that ends in a backslash goes on in the next, a comment does not.
+      if (line.ends_with('\\') && !has_comment(line)) {
         joined += line.substr(0, line.size() - 1);
         joined += ' ';
         continue;
@@ -44,6 +47,10 @@ class ObjCheck {
       }
     }
     if (!joined.empty()) statement(joined);
+    if (vertices_so_far_ != vertex_count_) {
+      fail(fmt::format("{} lines begin with v, {} of them are vertices: a backslash joins one to the line before it",
+                       vertex_count_, vertices_so_far_));
+    }
     plain_.bytes += faces_;
     return std::move(plain_);
   }
@@ -51,6 +58,13 @@ class ObjCheck {
  private:
   [[noreturn]] void fail(const std::string& what) const {
     throw InputError(fmt::format("{}:{}: {}", file_, line_, what));
+  }
+
+  static bool has_comment(std::string_view line) {
+    for (std::string_view word = next_word(line); !word.empty(); word = next_word(line)) {
+      if (word.starts_with('#')) return true;
+    }
+    return false;
   }
 
   void statement(std::string_view line) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstring>
@@ -212,11 +213,13 @@ class PlyCheck {
   }
 
   void vertices(const Element& element) {
-    int axes = 0;
-    for (const Property& property : element.properties) {
-      if (!property.is_list && (property.name == "x" || property.name == "y" || property.name == "z")) ++axes;
+    for (const char* axis : {"x", "y", "z"}) {
+      const auto count =
+          std::count_if(element.properties.begin(), element.properties.end(),
+                        [&](const Property& property) { return !property.is_list && property.name == axis; });
+      if (count != 1)
+        fail(fmt::format("its vertices have {} properties {}: must have x, y and z once each", count, axis));
     }
-    if (axes != 3) fail("its vertices have no x, y and z");
     vertex_count_ = element.count;
     if (vertex_count_ > 0x7fffffff) fail(fmt::format("{} vertices are too many", vertex_count_));
     for (std::uint64_t i = 0; i < element.count; ++i) {
@@ -236,16 +239,21 @@ class PlyCheck {
     }
   }
 
+  static bool has_corners(const Property& property) {
+    return property.is_list && (property.name == "vertex_indices" || property.name == "vertex_index");
+  }
+
   void faces(const Element& element) {
+    // Before the loop, whose count nothing bounds where the faces have no properties.
+    if (element.count > 0 && std::none_of(element.properties.begin(), element.properties.end(), has_corners))
+      fail("its faces have no vertex_indices");
     std::vector<std::uint32_t> polygon;
-    bool has_corners = false;
     for (std::uint64_t i = 0; i < element.count; ++i) {
       for (const Property& property : element.properties) {
-        if (!property.is_list || (property.name != "vertex_indices" && property.name != "vertex_index")) {
+        if (!has_corners(property)) {
           skip(property);
           continue;
         }
-        has_corners = true;
         polygon.clear();
         const std::uint64_t count = read_count(property);
         for (std::uint64_t k = 0; k < count; ++k) {
@@ -260,7 +268,6 @@ class PlyCheck {
         }
       }
     }
-    if (element.count > 0 && !has_corners) fail("its faces have no vertex_indices");
   }
 
   PlainPolygons written() const {

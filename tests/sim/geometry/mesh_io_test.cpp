@@ -226,6 +226,23 @@ TEST_F(MeshFile, ObjReadsPolygonsRelativeIndicesAndContinuedLines) {
   EXPECT_EQ(mesh.part_names, std::vector<std::string>{"box lid"});
 }
 
+// A comment that ends in a backslash, as Windows' folders do, ends with its line; so does one behind numbers.
+TEST_F(MeshFile, ObjCommentsNeverGoOnInTheNextLine) {
+  const std::string corners = "v 0 0 0\nv 2 0 0\nv 0 1 0\nv 0 3 0\n";
+  for (const std::string& text :
+       {"# made from C:\\models\\\n" + corners + "f 1 2 3\n", "  #\\\r\n" + corners + "f 1 2 3\n",
+        corners + "f 1 2 2 # C:\\\n# C:\\\nf 1 2 3\n", "v 0 0 0 # C:\\\n" + corners.substr(8) + "f 1 2 3\n"}) {
+    EXPECT_NEAR(surface_area(read_mesh(put("a.obj", text))), 1.0, 1e-15) << text;
+  }
+  expect_error(put("a.obj", "v 0 0 0 \\\n" + corners.substr(8) + "f 1 2 3\n"),
+               "4 lines begin with v, 3 of them are vertices");
+}
+
+TEST_F(MeshFile, ObjMayBeginWithAByteOrderMark) {
+  EXPECT_NEAR(surface_area(read_mesh(put("a.obj", "\xEF\xBB\xBFv 0 0 0\nv 2 0 0\nv 0 1 0\nv 0 3 0\nf 1 2 3\n"))), 1.0,
+              1e-15);
+}
+
 TEST_F(MeshFile, BrokenObjIsRefusedWithItsLine) {
   expect_error(put("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n"), ":4: the face names vertex 4");
   expect_error(put("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -4\n"), ":4: the face names vertex -4");
@@ -305,7 +322,17 @@ TEST_F(MeshFile, BrokenPlyIsRefused) {
                "list of 200");
   expect_error(ply("element vertex 3\n" + vertex + "element face 1\n" + face, "0 0 nan 1 0 0 0 1 0 3 0 1 2"),
                "coordinate nan");
-  expect_error(ply("element vertex 1\nproperty float x\n", "0\n"), "no x, y and z");
+  expect_error(ply("element vertex 1\nproperty float x\n", "0\n"), "must have x, y and z once each");
+  expect_error(ply("element vertex 3\nproperty float x\nproperty float x\nproperty float y\nelement face 1\n" + face,
+                   "0 0 0 1 0 0 0 1 0 3 0 1 2"),
+               "must have x, y and z once each");
+  // Faces without properties cost no bytes; a billion times a billion of them must not be counted through.
+  for (const char* properties : {"", "property uchar flags\n", "property list uchar int texcoord\n"}) {
+    expect_error(ply("element vertex 1\n" + vertex + "element face " +
+                         (*properties == 0 ? "1000000000000000000" : "1") + "\n" + properties,
+                     "0 0 0\n0\n"),
+                 "its faces have no vertex_indices");
+  }
   expect_error(ply("element vertex 3\n" + vertex, "0 0 0 1 0 0 0 1 0"), "no triangles");
   expect_error(put("a.ply", "ply\nformat ascii 1.0\nelement vertex 3\n"), "no end_header");
   expect_error(put("a.ply", "ply\nformat binary_middle_endian 1.0\nend_header\n"), "binary_middle_endian");
