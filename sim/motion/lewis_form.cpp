@@ -51,7 +51,8 @@ LewisForm lewis_form(double breadth, double draught, double area) {
   const double s = std::clamp(area / (breadth * draught), range.least, range.largest);
   const double c = 3 + 4 * s / kPi + (1 - 4 * s / kPi) * q * q;
   LewisForm form;
-  form.a3 = (3 - c + std::sqrt(9 - 2 * c)) / c;
+  // At the largest area 9 - 2 c is 0 to its rounding, of either sign.
+  form.a3 = (3 - c + std::sqrt(std::max(0.0, 9 - 2 * c))) / c;
   form.a1 = q * (1 + form.a3);
   form.scale = 0.5 * breadth / (1 + form.a1 + form.a3);
   return form;

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/motion/response_series.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+
+#include "sim/core/error.h"
 
 namespace seaglint {
 
@@ -27,6 +31,9 @@ UniformPhasors ResponseSeries::make(const WaveField& sea,
     ResponseChannels& all = responses.emplace_back(response(ship_wave(component)));
     for (std::size_t d = 0; d < kResponseChannels; ++d) {
       all[d] *= component.amplitude;
+      // No comparison below would find it.
+      SEAGLINT_CHECK(std::isfinite(all[d].real()) && std::isfinite(all[d].imag()),
+                     fmt::format("channel {} at {} rad/s: {} + {}j", d, component.omega, all[d].real(), all[d].imag()));
       largest[d] = std::max(largest[d], std::abs(all[d]));
     }
   }

@@ -93,6 +93,8 @@ StripTheory::StripTheory(const HullSections& hull) {
   if (strips_.empty()) throw InputError("hull sections: none holds enough water to carry a ship");
   h.buoyancy_x = volume_x / h.volume;
   h.buoyancy_z = volume_z / h.volume;
+  SEAGLINT_CHECK(std::isfinite(h.buoyancy_x) && std::isfinite(h.buoyancy_z),
+                 fmt::format("volume {} m^3 about ({}, {}) m", h.volume, h.buoyancy_x, h.buoyancy_z));
 }
 
 // Lagrange's cubic through four tabulated frequencies; the first and last serve beyond the ends.

@@ -72,6 +72,18 @@ TEST(LewisForm, NeverCutsItself) {
   }
 }
 
+// The root of the quadratic for a3 is 0 at the largest area, whose rounding may fall on either side of it.
+TEST(LewisForm, OfTheLargestAreaIsANumberAtEveryRatio) {
+  for (int i = 0; i <= 2000; ++i) {
+    const double draught = std::pow(10, -1.5 + 3.0 * i / 2000);
+    const LewisForm form = lewis_form(2, draught, 1e3 * draught);
+    const double largest = lewis_area_range(1 / draught).largest;
+    ASSERT_NEAR(form.a3, -1.0 / 3, 1e-7) << draught;  // the square root of the rounding of 9 - 2 c
+    EXPECT_NEAR(form.area() / (2 * draught), largest, 1e-7 * largest) << draught;
+    EXPECT_TRUE(std::isfinite(form.area_centre())) << draught;
+  }
+}
+
 struct Section {
   LewisForm form;
   Contour contour;

@@ -3,13 +3,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "sim/core/constants.h"
 #include "sim/core/error.h"
 #include "sim/motion/rao_table.h"
+#include "sim/motion/response_series.h"
 #include "sim/motion/simulate.h"
 #include "sim/motion/table.h"
 #include "sim/sea/spectrum.h"
@@ -104,6 +107,31 @@ TEST(ShipParticulars, RefuseWhatNoHullIs) {
   spec = combatant();
   spec.roll_period_s = 0.5;
   EXPECT_THROW(ship_of(spec), InputError);
+}
+
+// Walls that lean out below the water hold more than any Lewis form.
+TEST(SimulateShip, MovesAHullWiderBelowTheWater) {
+  HullSections hull;
+  hull.length = 60;
+  for (int i = 0; i < 10; ++i) hull.sections.push_back({-27.0 + 6 * i, 8.5, 6, 85.5});
+  MotionSpec spec = ship_spec();
+  spec.roll_radius_m = 7;
+  const ShipParticulars ship = ship_particulars(spec, hull);
+  EXPECT_TRUE(std::isfinite(ship.roll.omega0) && std::isfinite(ship.heave.omega0));
+  const std::vector<MotionSample> samples = simulate_ship(ship, spec, realize_sea(state_of(2, 8, 60), 1, 0), 0, 0, 20);
+  double largest = 0;
+  for (const MotionSample& sample : samples) largest = std::max(largest, std::abs(sample.angles.y()));
+  EXPECT_GT(degrees(largest), 0.1);
+}
+
+TEST(ResponseSeries, RefusesResponsesThatAreNoNumbers) {
+  const WaveField sea = realize_sea(state_of(2, 8, 60), 1, 0);
+  const auto response = [](const ShipWave&) {
+    ResponseChannels all{};
+    all[kHeaveShift] = std::nan("");
+    return all;
+  };
+  EXPECT_THROW(ResponseSeries(sea, response, 0, 0, 0, 0, 0.1), std::logic_error);
 }
 
 TEST(ShipRao, FollowsTheSlopeOfLongWaves) {
