@@ -55,14 +55,19 @@ ShipResponse RaoTable::at(double omega, double wavenumber, double mu) const {
   double place = heading - mu_[left];
   if (gap <= 0) gap += 2 * kPi;
   if (place < 0) place += 2 * kPi;
-  // Exactly on a heading (or the only one) there is nothing to bridge.
-  const bool on_right = above < count && std::abs(mu_[above] - heading) < 1e-9;
+  // On a heading (or the only one), to the rounding of angles, there is nothing to bridge.
+  constexpr double kSameHeading = 1e-9;
+  const bool on_right = above < count && std::abs(mu_[above] - heading) < kSameHeading;
+  double v = on_right ? 1 : place / gap;
   if (!on_right && gap > kWidestGap) {
-    throw InputError(fmt::format(
-        "{}: no responses near waves travelling towards {:.4g} deg: its headings leave a gap from {:.4g} to {:.4g} deg",
-        source_, degrees(heading), degrees(mu_[left]), degrees(mu_[right])));
+    if (place >= kSameHeading && gap - place >= kSameHeading) {
+      throw InputError(
+          fmt::format("{}: no responses near waves travelling towards {:.4g} deg: its headings leave a gap from {:.4g} "
+                      "to {:.4g} deg",
+                      source_, degrees(heading), degrees(mu_[left]), degrees(mu_[right])));
+    }
+    v = std::round(v);
   }
-  const double v = on_right ? 1 : place / gap;
   const auto next = static_cast<std::size_t>(std::lower_bound(omega_.begin(), omega_.end(), omega) - omega_.begin());
   const std::size_t low = next == 0 ? 0 : next - 1;
   const double width = omega_[next] - omega_[low];
