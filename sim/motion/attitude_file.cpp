@@ -22,7 +22,7 @@ namespace {
 
 bool has(std::string_view text, std::string_view part) { return text.find(part) != std::string_view::npos; }
 
-// The first line that holds `part`, and its number counted from 1; nothing without one.
+// The first line that holds `part` and is no comment, and its number counted from 1; nothing without one.
 struct FoundLine {
   std::string_view text;
   int number;
@@ -30,7 +30,8 @@ struct FoundLine {
 std::optional<FoundLine> line_with(std::string_view text, std::string_view part) {
   for (int number = 1; !text.empty(); ++number) {
     const std::string_view line = next_line(text);
-    if (has(line, part)) return FoundLine{line, number};
+    std::string_view rest = line;
+    if (has(line, part) && !next_word(rest).starts_with('#')) return FoundLine{line, number};
   }
   return std::nullopt;
 }

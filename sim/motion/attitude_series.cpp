@@ -152,7 +152,8 @@ AttitudeSeries read_attitude_series(const std::filesystem::path& file) {
 Trajectory trajectory_of(const AttitudeSeries& series, double start_s, double duration_s, bool translations,
                          const Vec3& rest_position, const Vec3& rotation_centre) {
   const std::vector<double>& time = series.time;
-  const double slack = 1e-9 * (time.back() - time.front());
+  // Half of what the trajectory takes for its ends.
+  const double slack = 0.5 * Trajectory::kEndSlack * (time.back() - time.front());
   if (start_s < time.front() - slack || start_s + duration_s > time.back() + slack) {
     throw InputError(fmt::format("{}: lasts from {:.6g} to {:.6g} s, {:.6g} to {:.6g} s are needed", series.source,
                                  time.front(), time.back(), start_s, start_s + duration_s));

@@ -59,11 +59,12 @@ Hermite hermite(const Vec3& a, const Vec3& da, const Vec3& b, const Vec3& db, do
 }  // namespace
 
 MotionSample Trajectory::sample(double t) const {
-  if (!(t >= start_s() && t <= end_s())) {
+  if (samples_.empty() && !std::isnan(t)) return {};
+  const double slack = kEndSlack * (end_s() - start_s());
+  if (!(t >= start_s() - slack && t <= end_s() + slack)) {
     throw std::out_of_range(fmt::format("time {} s outside the trajectory's {} to {} s", t, start_s(), end_s()));
   }
-  if (samples_.empty()) return {};
-  const double place = (t - start_s_) / step_s_;
+  const double place = (std::clamp(t, start_s(), end_s()) - start_s_) / step_s_;
   const auto last = static_cast<double>(samples_.size() - 2);
   const double index = std::min(std::floor(place), last);
   const double u = place - index;

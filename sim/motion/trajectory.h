@@ -36,7 +36,10 @@ class Trajectory {
   // A body that never moves.
   static Trajectory at_rest(const Vec3& rest_position);
 
-  MotionSample sample(double t) const;  // t within [start, end], else throws std::out_of_range
+  // t within [start, end], else throws std::out_of_range; beyond them by kEndSlack of their distance it is rounding,
+  // and taken for the end.
+  MotionSample sample(double t) const;
+  static constexpr double kEndSlack = 2e-9;
   // p_TB = rest + shift + c - R c with c the rotation centre.
   Pose pose(double t) const;
 

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <stdexcept>
 
 #include "sim/core/constants.h"
 #include "sim/core/error.h"
@@ -65,6 +66,16 @@ TEST(AttitudeSeries, AreReadFromThisProgramsTables) {
   }
   expect_wave(read_attitude_series(write(in_degrees)), false);
   expect_wave(read_attitude_series(write(in_radians)), true);
+}
+
+// Comments may hold any words, those that tell the kinds of tables apart among them.
+TEST(AttitudeSeries, AreToldApartByTheirNamesAlone) {
+  for (const char* comment : {"night_time_sea", "roll [deg]", "PtfmRoll"}) {
+    const AttitudeSeries series = read_attitude_series(write(
+        std::string("\n# scenario ") + comment +
+        "\n  # time_s\ntime_s,roll_deg,pitch_deg,yaw_deg,surge_m,sway_m,heave_m\n0,1,2,3,4,5,6\n1,1,2,3,4,5,6\n"));
+    EXPECT_EQ(series.samples.front().shift, Vec3(4, 5, 6)) << comment;
+  }
 }
 
 // The header as DualSPHysics' FloatingInfo writes it; pitch with either sign beside the same angular velocity.
@@ -169,6 +180,20 @@ TEST(AttitudeSeries, NameDegreesWhereRadiansAreDeclared) {
   const std::string message = message_of([&] { read_attitude_series(write(half)); });
   EXPECT_THAT(message, testing::HasSubstr("series.csv:228: roll"));
   EXPECT_THAT(message, testing::HasSubstr("a 57-fold jump, as between radians and degrees"));
+}
+
+// Times with rounding in them are those of the series' ends.
+TEST(TrajectoryOf, CoversTheTimesItWasAskedForToTheirRounding) {
+  const AttitudeSeries series =
+      read_attitude_series(write("time_s,roll_deg,pitch_deg,yaw_deg\n0,0,0,0\n1,1,0,0\n2,2,0,0\n3,3,0,0\n"));
+  for (const double start : {-2.9e-9, -1e-9, 0.0, 1e-9, 2.9e-9}) {
+    const Trajectory trajectory = trajectory_of(series, start, 3, false, Vec3::Zero(), Vec3::Zero());
+    EXPECT_NEAR(degrees(trajectory.sample(0).angles.x()), 0, 1e-8) << start;
+    EXPECT_NEAR(degrees(trajectory.sample(3).angles.x()), 3, 1e-8) << start;
+    EXPECT_THROW(trajectory.sample(-1e-6), std::out_of_range);
+    EXPECT_THROW(trajectory.sample(3 + 1e-6), std::out_of_range);
+  }
+  EXPECT_NE(message_of([&] { trajectory_of(series, -4e-9, 3, false, Vec3::Zero(), Vec3::Zero()); }), "");
 }
 
 TEST(SimulateMotion, FollowsASeries) {
