@@ -25,8 +25,10 @@ class Spectrum {
 // Below this multiple of the peak frequency a JONSWAP sea holds less than 1e-20 of its energy: realisations start here.
 inline constexpr double kLowestPeakMultiple = 0.4;
 
-// JONSWAP (gamma = 1: Pierson-Moskowitz in Bretschneider's form), all values in SI: Hs and Tp > 0, gamma >= 1. Relative
-// error of energies 1e-10.
+// JONSWAP (gamma = 1: Pierson-Moskowitz in Bretschneider's form), all values in SI: Hs and Tp > 0, gamma >= 1. Error
+// of energies: 1e-10 of them or, where that is more, 5e-17 of (5/16) Hs^2, the rounding of the two cumulatives near 0.2
+// whose difference they are far above the peak. Of the last of 512 strata up to 8 rad/s that is 1e-10 at Tp 8 s and
+// 8e-8 at 40 s; up to 100 rad/s at 40 s it is 0.3 %.
 class JonswapSpectrum : public Spectrum {
  public:
   JonswapSpectrum(double significant_wave_height_m, double peak_period_s, double gamma,
