@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "sim/core/constants.h"
 #include "sim/core/error.h"
 
 namespace seaglint {
@@ -63,6 +64,12 @@ void unit_phasors(std::span<const double> angle, std::span<double> cosine, std::
   }
 }
 
+double turned_back(double angle) {
+  if (std::abs(angle) <= kLargestAngle) return angle;
+  SEAGLINT_CHECK(std::abs(angle) <= 1e12, fmt::format("phase of a wave {} rad", angle));
+  return std::remainder(angle, 2 * kPi);
+}
+
 UniformPhasors::UniformPhasors(std::vector<double> omega, std::vector<double> phase, double start, double step)
     : omega_(std::move(omega)), phase_(std::move(phase)), start_(start), step_(step) {
   const std::size_t count = omega_.size();
@@ -79,10 +86,7 @@ UniformPhasors::UniformPhasors(std::vector<double> omega, std::vector<double> ph
 
 void UniformPhasors::synchronise() {
   const double t = time();
-  for (std::size_t i = 0; i < omega_.size(); ++i) {
-    angle_[i] = omega_[i] * t + phase_[i];
-    SEAGLINT_CHECK(std::abs(angle_[i]) <= kLargestAngle, fmt::format("phase of a wave {} rad", angle_[i]));
-  }
+  for (std::size_t i = 0; i < omega_.size(); ++i) angle_[i] = turned_back(omega_[i] * t + phase_[i]);
   unit_phasors(angle_, cosine_, sine_);
 }
 

@@ -167,9 +167,7 @@ SurfaceState WaveField::surface(double x, double y, double t, SurfaceDetail deta
     angle[i] = c.omega * t - c.wavenumber * (c.direction.x() * x + c.direction.y() * y) + c.phase;
   }
   // The highest component turns fastest, but a far point can make any of them large.
-  for (std::size_t i = 0; i < count; ++i) {
-    SEAGLINT_CHECK(std::abs(angle[i]) <= kLargestAngle, fmt::format("phase of a wave {} rad", angle[i]));
-  }
+  for (double& phase : angle) phase = turned_back(phase);
   unit_phasors(angle, cosine, sine);
   return state(cosine, sine, detail);
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <string>
 
 #include "sim/core/constants.h"
@@ -200,6 +201,21 @@ TEST(UnitPhasors, AreCosinesAndSines) {
     EXPECT_NEAR(cosine[i], std::cos(angle[i]), 4e-16) << angle[i];
     EXPECT_NEAR(sine[i], std::sin(angle[i]), 4e-16) << angle[i];
   }
+}
+
+// Far from the origin a short wave has more phase than unit_phasors takes; whole turns of it do not count.
+TEST(WaveField, GoesOnFarFromTheOrigin) {
+  const WaveComponent wave{100, 0.01, 0.3, 100 * 100 / kGravity, Vec2(1, 0)};
+  const WaveField field({wave}, 1, 0);
+  const double x = -5e6, t = 7;
+  const double angle = std::fmod(wave.omega * t - wave.wavenumber * x + wave.phase, 2 * kPi);
+  // The rounding of 5e9 rad and of 8e8 times 2 pi.
+  const double tolerance = 0.01 * 2e-6;
+  EXPECT_NEAR(field.surface(x, 0, t, SurfaceDetail::kShape).elevation, 0.01 * std::cos(angle), tolerance);
+  SurfaceSeries series(field, x, 0, t, 0.01, SurfaceDetail::kShape);
+  EXPECT_NEAR(series.state().elevation, 0.01 * std::cos(angle), tolerance);
+  // Where a phase's own rounding is a share of a turn there is no wave to speak of.
+  EXPECT_THROW(field.surface(1e12, 0, t), std::logic_error);
 }
 
 }  // namespace
