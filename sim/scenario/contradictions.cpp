@@ -136,6 +136,12 @@ void check_sea(const SeaSpec& sea, const ScenarioDocument& document) {
                                    "all but 0.4 % of the energy)",
                                    peak));
     }
+    const double swell_peak = 2 * kPi / swell.peak_period_s;
+    if (swell.significant_wave_height_m > 0 && state.cutoff_rad_s <= swell_peak) {
+      document.fail_at("sea.swell.peak_period_s",
+                       fmt::format("must be greater than {:.4g}, the period of the sea's cut-off, {:.4g} rad/s",
+                                   2 * kPi / state.cutoff_rad_s, state.cutoff_rad_s));
+    }
     const bool pairs =
         state.depth_m != kDeepWater || state.spreading.kind != Spreading::kNone || swell.significant_wave_height_m > 0;
     constexpr int kMostPaired = 2048;

@@ -107,8 +107,11 @@ void visit(WindSpec& spec, FieldVisitor& v) {
   v.number("fetch_km", spec.fetch_km, within(0.1, 5000));
 }
 
+// The energy of lower waves, their height squared, would end below the numbers a double can hold.
+constexpr Bound kWaveHeights = zero_or_within(1e-6, 30);
+
 void visit(SwellSpec& spec, FieldVisitor& v) {
-  v.number("significant_wave_height_m", spec.significant_wave_height_m, within(0, 30));
+  v.number("significant_wave_height_m", spec.significant_wave_height_m, kWaveHeights);
   v.number("peak_period_s", spec.peak_period_s, within(0.5, 40));
   v.number("gamma", spec.gamma, within(1, 20));
   v.number("propagation_deg", spec.propagation_deg, within(-360, 360));
@@ -120,7 +123,7 @@ void visit(SeaSpec& spec, FieldVisitor& v) {
   // A table stands for the peak and its form, Bretschneider's spectrum has gamma 1.
   visit_choice(v, "spectrum", spec.spectrum, {"jonswap", "bretschneider", "table"});
   if (v.optional("table", !spec.table.empty())) v.text("table", spec.table);
-  visit_sweep(v, "significant_wave_height_m", spec.significant_wave_height_m, within(0, 30), spec.height_rule,
+  visit_sweep(v, "significant_wave_height_m", spec.significant_wave_height_m, kWaveHeights, spec.height_rule,
               {"of_table"});
   if (v.optional("peak_period_s", spec.spectrum != SpectrumKind::kTable)) {
     visit_sweep(v, "peak_period_s", spec.peak_period_s, within(0.5, 40), spec.period_rule,

@@ -45,7 +45,7 @@ class Lister : public FieldVisitor {
   void sweep(const char* key, Sweep& values, const Bound& bound, Names words, std::size_t*) override {
     const std::string other = words.empty() ? "" : fmt::format(", or {}", fmt::join(words, " or "));
     add(key, fmt::format("{}", fmt::join(values, ", ")),
-        fmt::format("number, list or from:to:step, {}{}", bound.text(), other));
+        fmt::format("number, list or from:to:step, {}{}", number_text(bound), other));
   }
   void section(const char* key, const Fields& fields) override {
     is_optional_ = false;

@@ -313,7 +313,8 @@ class Reader : public FieldVisitor {
 
   Sweep scalar_sweep(const YamlNode& node, const std::string& path, const Bound& bound, Names words) const {
     const std::string other = words.empty() ? "" : fmt::format(", or {}", fmt::join(words, " or "));
-    const std::string what = fmt::format("must be a number, a list or from:to:step, {}{}", bound.text(), other);
+    const std::string what = fmt::format("must be a number, a list or from:to:step, {}{}{}",
+                                         bound.or_zero ? "0 or " : "", bound.text(), other);
     // A range may stand in quotes, as other YAML readers need it.
     const bool readable = is_plain(node) || (node.quoted && node.text.find(':') != std::string::npos);
     if (!readable) fail(node, path, what);

@@ -41,7 +41,7 @@ struct WindSpec {
 
 // A second system of waves, from a storm elsewhere.
 struct SwellSpec {
-  double significant_wave_height_m = 0;  // 0 = none; 0 <= x <= 30
+  double significant_wave_height_m = 0;  // 0 = none, or 1e-6 <= x <= 30
   double peak_period_s = 12;             // 0.5 <= x <= 40
   double gamma = 5;                      // 1 <= x <= 20
   double propagation_deg = 120;          // as of the sea, -360 <= x <= 360
@@ -50,7 +50,7 @@ struct SwellSpec {
 };
 
 struct SeaSpec {
-  Sweep significant_wave_height_m{1};  // of the wind sea, 0 <= x <= 30; empty when of_table
+  Sweep significant_wave_height_m{1};  // of the wind sea, 0 or 1e-6 <= x <= 30; empty when of_table
   WaveHeight height_rule = WaveHeight::kGiven;
   Sweep peak_period_s{8};  // 0.5 <= x <= 40; empty when a rule gives it
   PeakPeriod period_rule = PeakPeriod::kGiven;

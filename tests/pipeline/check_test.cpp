@@ -69,8 +69,8 @@ TEST(Check, RefusesATypoInAKey) {
 
 TEST(Check, RefusesANegativeWaveHeight) {
   expect_refused({"check", kPoints, "--set", "sea.significant_wave_height_m=-1"},
-                 "--set sea.significant_wave_height_m: value '-1': must be a number, a list or from:to:step, within 0 "
-                 "and 30, or of_table\n");
+                 "--set sea.significant_wave_height_m: value '-1': must be a number, a list or from:to:step, 0 or "
+                 "within 1e-06 and 30, or of_table\n");
 }
 
 TEST(Check, RefusesAMeshThatIsNotThere) {

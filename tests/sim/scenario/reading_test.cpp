@@ -203,8 +203,8 @@ TEST(Reading, EveryMistakeIsNamedWithItsPlaceValueAndBound) {
        "26: learning.map_floor_db: value '0': must be a number at least -120 and less than 0"},
       {"learning: {subsample: 0}", "23: learning.subsample: value '0': must be a number greater than 0 and at most 1"},
       {"sea: {significant_wave_height_m: -1}",
-       "34: sea.significant_wave_height_m: value '-1': must be a number, a list or from:to:step, within 0 and 30, or "
-       "of_table"},
+       "34: sea.significant_wave_height_m: value '-1': must be a number, a list or from:to:step, 0 or within 1e-06 and "
+       "30, or of_table"},
       // Sweeps.
       {"view: {azimuth_deg: [1, x]}", "25: view.azimuth_deg: value 'x': must be a list of numbers within -360 and 360"},
       {"view: {azimuth_deg: [1, 400]}",

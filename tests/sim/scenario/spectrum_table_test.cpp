@@ -116,6 +116,24 @@ TEST_F(SeaKeys, DepthAndSwellReachTheState) {
   EXPECT_EQ(sea_states(read("order: 1").sea)[0].depth_m, kDeepWater);
 }
 
+// A height whose square is no number any more would make a sea of NaN.
+TEST_F(SeaKeys, WavesAreNothingOrHighEnoughToSquare) {
+  for (const char* height : {"1e-162", "9e-7", "30.1"}) {
+    EXPECT_EQ(complaint(fmt::format("significant_wave_height_m: {}", height)),
+              fmt::format("sea.significant_wave_height_m: value '{}': must be a number, a list or from:to:step, "
+                          "0 or within 1e-06 and 30, or of_table",
+                          height));
+    EXPECT_EQ(complaint(fmt::format("swell: {{significant_wave_height_m: {}}}", height)),
+              fmt::format("sea.swell.significant_wave_height_m: value '{}': must be 0 or a number within 1e-06 and 30",
+                          height));
+  }
+  for (const char* height : {"0", "1e-6"}) {
+    EXPECT_EQ(
+        complaint(fmt::format("significant_wave_height_m: {0}, swell: {{significant_wave_height_m: {0}}}", height)),
+        "accepted");
+  }
+}
+
 TEST_F(SeaKeys, ThatContradictEachOtherAreNamed) {
   EXPECT_EQ(complaint("depth_m: 0"), "sea.depth_m: value '0': must be a number within 0.5 and 12000");
   EXPECT_EQ(complaint("spectrum: table"), "sea.table: this key is missing");
@@ -146,6 +164,17 @@ TEST_F(SeaKeys, ThatContradictEachOtherAreNamed) {
       complaint("swell: {significant_wave_height_m: 3, peak_period_s: 3}"),
       "sea.swell.significant_wave_height_m: value '3': waves of 3 m break at a peak period of 3 s: must be at most "
       "2.007 m");
+  EXPECT_EQ(
+      complaint("swell: {significant_wave_height_m: 0.02, peak_period_s: 0.5}"),
+      "sea.swell.peak_period_s: value '0.5': must be greater than 0.7854, the period of the sea's cut-off, 8 rad/s");
+  EXPECT_EQ(
+      complaint("significant_wave_height_m: 0.5, peak_period_s: [2, 12], swell: {significant_wave_height_m: 0.02, "
+                "peak_period_s: 0.7}"),
+      "sea.swell.peak_period_s: value '0.7': must be greater than 0.7854, the period of the sea's cut-off, 8 rad/s");
+  EXPECT_EQ(complaint("significant_wave_height_m: 0.5, peak_period_s: 2, swell: {significant_wave_height_m: 0.02, "
+                      "peak_period_s: 0.7}"),
+            "accepted");
+  EXPECT_EQ(complaint("swell: {peak_period_s: 0.5}"), "accepted");
   EXPECT_EQ(complaint("components: 3000, depth_m: 20"),
             "sea.components: value '3000': with those of the swell must be at most 2048 at order 2 in a sea of finite "
             "depth or of several directions, whose cost grows with their square");
