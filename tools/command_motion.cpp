@@ -40,6 +40,13 @@ struct MovingScene {
   std::vector<NamedTrajectory> bodies;
 };
 
+// How fast a body goes along x beside its motion in the waves, m/s.
+double mean_speed(const Body& body) {
+  if (const auto* ship = std::get_if<ShipParticulars>(&body.model)) return ship->speed;
+  if (const auto* table = std::get_if<RaoTable>(&body.model)) return table->speed();
+  return 0;
+}
+
 MovingScene simulate_all(const Scenario& scenario, double duration_s, int threads, const StopFlag& stop) {
   MovingScene scene;
   scene.state = sea_states(scenario.sea).front();
@@ -53,7 +60,8 @@ MovingScene simulate_all(const Scenario& scenario, double duration_s, int thread
     const std::vector<Trajectory> all = simulate_target(target, scene.targets.back(), scene.state, scene.sea,
                                                         duration_s, scenario.seed, index, scene.bodies.size(), threads);
     for (std::size_t i = 0; i < all.size(); ++i) {
-      scene.bodies.push_back({target.line ? fmt::format("{}_{}", target.name, i + 1) : target.name, all[i], mesh});
+      scene.bodies.push_back({target.line ? fmt::format("{}_{}", target.name, i + 1) : target.name, all[i], mesh,
+                              mean_speed(scene.targets.back())});
     }
   }
   if (scene.bodies.empty()) throw InputError("targets: none of them is a mesh, so nothing moves in the waves");
@@ -84,7 +92,8 @@ void write_pictures(const MotionArguments& arguments, const Scenario& scenario, 
   if (arguments.rao.empty()) return;
   for (const Body& body : scene.targets) {
     if (const auto* ship = std::get_if<ShipParticulars>(&body.model)) {
-      write_rao_figure(*ship, scene.state.propagation_rad, arguments.rao_reference,
+      write_rao_figure(*ship, scene.state.propagation_rad, scene.state.depth_m,
+                       {arguments.rao_reference, body.spec.rao_length_m},
                        fmt::format("{}: waves towards {:.4g} deg, speed {:.3g} m/s", scenario.name,
                                    degrees(scene.state.propagation_rad), ship->speed),
                        arguments.rao);

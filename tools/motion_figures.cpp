@@ -9,6 +9,7 @@
 #include <iterator>
 
 #include "sim/core/constants.h"
+#include "sim/core/dispersion.h"
 #include "sim/motion/rao_table.h"
 #include "tools/figure.h"
 
@@ -158,12 +159,15 @@ Series silhouette(const TriangleMesh& mesh, const Pose& pose) {
   return outline;
 }
 
-// A window of the water's surface about a body, as wide as it takes.
+// A window of the water's surface about a body, as wide as it takes, that goes on with the body's mean way.
 LinePlot frame(const NamedTrajectory& body, const WaveField& sea, double t) {
   const Pose pose = body.trajectory.pose(std::min(t, body.trajectory.end_s()));
   const Bounds box = bounds(body.mesh);
   const double reach = std::max(2.0, 0.65 * (box.upper.x() - box.lower.x()));
-  const double level = sea.surface(pose.p_TB.x(), pose.p_TB.y(), t, SurfaceDetail::kShape).elevation;
+  const auto elevation = [&](double x) {
+    return sea.surface(x + body.speed * t, pose.p_TB.y(), t, SurfaceDetail::kShape).elevation;
+  };
+  const double level = elevation(pose.p_TB.x());
   const double lowest = std::min(level, pose.p_TB.z() + box.lower.z());
   LinePlot plot;
   plot.title = fmt::format("{}, {:.1f} s", body.body, t);
@@ -174,7 +178,7 @@ LinePlot frame(const NamedTrajectory& body, const WaveField& sea, double t) {
   constexpr int kPoints = 200;
   for (int i = 0; i <= kPoints; ++i) {
     water.x.push_back(pose.p_TB.x() + reach * (2.0 * i / kPoints - 1));
-    water.y.push_back(sea.surface(water.x.back(), pose.p_TB.y(), t, SurfaceDetail::kShape).elevation);
+    water.y.push_back(elevation(water.x.back()));
   }
   plot.series = {water, silhouette(body.mesh, pose)};
   return plot;
@@ -195,7 +199,7 @@ void write_motion_frames(const std::vector<NamedTrajectory>& bodies, const WaveF
   write_figure(title, plots, kMoments, file, {2000, rows == 2 ? 800 : 420});
 }
 
-void write_rao_figure(const ShipParticulars& ship, double mu, const std::filesystem::path& reference,
+void write_rao_figure(const ShipParticulars& ship, double mu, double depth, const RaoReference& reference,
                       const std::string& title, const std::filesystem::path& file) {
   constexpr int kPoints = 150;
   constexpr double kHighest = 2;
@@ -203,7 +207,7 @@ void write_rao_figure(const ShipParticulars& ship, double mu, const std::filesys
   std::array<Series, 3> ours;
   for (int i = 1; i <= kPoints; ++i) {
     const double omega = kHighest * i / kPoints;
-    const ShipResponse r = ship_rao(ship, {omega, omega * omega / kGravity, mu});
+    const ShipResponse r = ship_rao(ship, {omega, wavenumber_at(omega, depth), mu});
     const std::array<Complex, 3> angles{r.roll, r.pitch, r.yaw};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       ours[axis].x.push_back(omega);
@@ -211,12 +215,12 @@ void write_rao_figure(const ShipParticulars& ship, double mu, const std::filesys
     }
   }
   std::array<Series, 3> theirs;
-  if (!reference.empty()) {
-    const RaoTable table =
-        reference.extension() == ".4" ? read_wamit_rao(reference, 1) : read_veres_rao(reference, ship.speed);
+  if (!reference.file.empty()) {
+    const RaoTable table = reference.file.extension() == ".4" ? read_wamit_rao(reference.file, reference.unit_length)
+                                                              : read_veres_rao(reference.file, ship.speed);
     for (const double omega : table.omegas()) {
       if (omega > kHighest) break;
-      const ShipResponse r = table.at(omega, omega * omega / kGravity, mu);
+      const ShipResponse r = table.at(omega, wavenumber_at(omega, depth), mu);
       const std::array<Complex, 3> angles{r.roll, r.pitch, r.yaw};
       for (std::size_t axis = 0; axis < 3; ++axis) {
         theirs[axis].x.push_back(omega);
@@ -230,8 +234,8 @@ void write_rao_figure(const ShipParticulars& ship, double mu, const std::filesys
     plots[axis].legend_above = axis == 0;
     if (axis == 0) ours[axis].name = "seaglint";
     plots[axis].series.push_back(ours[axis]);
-    if (reference.empty()) continue;
-    if (axis == 0) theirs[axis].name = reference.filename().string();
+    if (reference.file.empty()) continue;
+    if (axis == 0) theirs[axis].name = reference.file.filename().string();
     theirs[axis].style = SeriesStyle::kPoints;
     plots[axis].series.push_back(theirs[axis]);
     // A resonance whose damping is not known would hide all else.

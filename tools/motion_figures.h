@@ -18,6 +18,7 @@ struct NamedTrajectory {
   std::string body;
   Trajectory trajectory;
   TriangleMesh mesh;  // in the body's frame
+  double speed = 0;   // of the mean way along x that the trajectory is told from, m/s
 };
 
 // One line per body: root mean square, largest modulus and mean period between zero crossings (2 pi rms/rms of the
@@ -33,13 +34,18 @@ void write_motion_figure(const std::vector<NamedTrajectory>& bodies, double dura
                          const std::filesystem::path& file);
 
 // Five moments, a wave period apart in all, of the first and the last body seen from starboard, with the water where
-// they are.
+// they are; x is counted from their mean way.
 void write_motion_frames(const std::vector<NamedTrajectory>& bodies, const WaveField& sea, double period_s,
                          const std::string& title, const std::filesystem::path& file);
 
-// Moduli of a ship's responses over frequency, in waves towards mu (rad), beside a table of VERES or WAMIT (empty:
-// none).
-void write_rao_figure(const ShipParticulars& ship, double mu, const std::filesystem::path& reference,
+// A table of VERES or WAMIT to draw beside a ship's responses.
+struct RaoReference {
+  std::filesystem::path file;  // empty: none
+  double unit_length = 1;      // of WAMIT's (ULEN), m
+};
+
+// Moduli of a ship's responses over frequency, in waves towards mu (rad) on water of a depth (m).
+void write_rao_figure(const ShipParticulars& ship, double mu, double depth, const RaoReference& reference,
                       const std::string& title, const std::filesystem::path& file);
 
 }  // namespace seaglint

@@ -191,6 +191,29 @@ TEST(Commands, AskForThePlacesOfTheirFilesFirst) {
   }
 }
 
+// Rotations of WAMIT are per rao_length_m, and waves of finite depth are shorter.
+TEST(Motion, DrawsResponsesInTheScenariosUnitsAndDepth) {
+  const TemporaryFolder folder;
+  const auto picture = [&](const std::string& scale, const std::vector<std::string>& settings) {
+    const std::string reference = folder.path() / "ship.4", figure = folder.path() / "rao.svg";
+    std::string rows;
+    for (const char* period : {"6", "8", "12"}) {
+      for (int mode = 1; mode <= 6; ++mode)
+        rows += std::string(period) + " 120 " + std::to_string(mode) + " " + scale + " 0 " + scale + " 0\n";
+    }
+    write_file(reference, rows);
+    std::vector<std::string> words{"motion", "scenarios/quick.yaml", "--duration-s", "1"};
+    words.insert(words.end(), {"-o", folder.path() / "motion.csv", "--rao", figure, "--rao-reference", reference});
+    for (const std::string& setting : settings) words.insert(words.end(), {"--set", setting});
+    const ProgramResult result = run_program(words);
+    EXPECT_EQ(result.code, 0) << result.err;
+    return read_file(figure);
+  };
+  const std::string of_metres = picture("0.02", {});
+  EXPECT_EQ(picture("2", {"targets.ship.motion.rao_length_m=100"}), of_metres);
+  EXPECT_NE(picture("0.02", {"sea.depth_m=12"}), of_metres);
+}
+
 TEST(Motion, WritesEveryBodyAtEveryTime) {
   const TemporaryFolder folder;
   const std::string scenario = write_boxes(folder.path());
