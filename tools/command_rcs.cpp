@@ -203,6 +203,8 @@ void run_rcs(const RcsArguments& arguments, const Shell& shell) {
   for (double& f : sweep.frequency_hz) f *= 1e9;
   sweep.azimuth_deg = range("--azimuth-deg", arguments.azimuth_deg, -720, 720);
   sweep.elevation_deg = range("--elevation-deg", arguments.elevation_deg, -90, 90);
+  if (arguments.transmit_azimuth_deg)
+    sweep.transmitter = direction_at(*arguments.transmit_azimuth_deg, arguments.transmit_elevation_deg.value_or(0));
   arguments.sea.check(sweep.elevation_deg, sweep.frequency_hz);
   const std::size_t rows = sweep.views() * sweep.frequency_hz.size();
   constexpr std::size_t kMostRows = 4'000'000;  // 256 MB of matrices
@@ -263,7 +265,7 @@ void add_rcs(CLI::App& app, Shell& shell) {
                    "Bistatic: a transmitter that stands still, while azimuth and elevation are the receiver's")
       ->check(number_within(-720.0, 720.0));
   command->add_option("--transmit-elevation-deg", arguments->transmit_elevation_deg, "Its elevation; 0 unless given")->check(number_within(-90.0, 90.0));
-  command->add_option("--range-m", arguments->range_m, "Of the radar from the target's origin, for the curvature of the wavefront; 0 = far field")
+  command->add_option("--range-m", arguments->range_m, "Of the radar from the target's origin, with --sea-reflection from the sea below it, for the curvature of the wavefront; 0 = far field")
       ->check(number_within(0.0, 1e9));
   command->add_option("--max-bounces", arguments->max_bounces, "Reflections followed")
       ->check(CLI::Range(1, kMostBounces))

@@ -137,9 +137,9 @@ std::vector<PairedCut> pair_with(const RcsSweep& sweep, const RcsReference& refe
                                                     : static_cast<double>(cut.x.size() + 1));
       cut.level_dbsm.push_back(sample->level_dbsm);
       if (sample->amplitude_m) {
-        // A phase origin at x0 lies 2 r^.x0 nearer to the radar than the body's (CONVENTIONS.md, "Scattering").
+        // A phase origin at x0 lies (r^_t + r^_s).x0 nearer to the radar, both ways, than the body's (CONVENTIONS.md, "Scattering").
         const Vec3 r(std::cos(radians(el)) * std::cos(radians(az)), std::cos(radians(el)) * std::sin(radians(az)), std::sin(radians(el)));
-        cut.amplitude_m.push_back(*sample->amplitude_m * std::polar(1.0, 2 * k * r.dot(reference.settings.origin_m)));
+        cut.amplitude_m.push_back(*sample->amplitude_m * std::polar(1.0, k * (sweep.transmitter.value_or(r) + r).dot(reference.settings.origin_m)));
       }
       for (std::size_t m = 0; m < sweep.models.size(); ++m) {
         const Complex s = sweep.models[m].matrices[view][q][static_cast<std::size_t>(element)];

@@ -22,6 +22,7 @@ struct RcsSweep {
     std::vector<std::vector<std::array<Complex, 4>>> matrices;  // [view][frequency], view = elevation * azimuths + azimuth
   };
   std::vector<Model> models;
+  std::optional<Vec3> transmitter;  // its direction where it stands still while the sweep is the receiver's
 
   std::size_t views() const { return azimuth_deg.size() * elevation_deg.size(); }
 };

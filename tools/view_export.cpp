@@ -111,7 +111,8 @@ void write_hot_spots(const ViewExportArguments& arguments, const TriangleMesh& m
     level[f] = level_of(4 * kPi * most);
     highest = std::max(highest, level[f]);
   }
-  const double top = std::ceil(highest / kStep_db) * kStep_db;
+  const bool silent = highest <= level_of(0);
+  const double top = silent ? 0 : std::ceil(highest / kStep_db) * kStep_db;
   const int steps = static_cast<int>(std::ceil(arguments.range_db / kStep_db));
   TriangleMesh coloured;
   coloured.part_names = mesh.part_names;
@@ -130,7 +131,8 @@ void write_hot_spots(const ViewExportArguments& arguments, const TriangleMesh& m
     coloured.triangle_material.push_back(static_cast<std::uint16_t>(std::clamp(step, 0, steps)));
   }
   write_coloured_mesh(arguments.hot_spots, welded(coloured), colours);
-  fmt::print("{}: facets by the strength of what leaves them, up to {:.1f} dBsm\n", arguments.hot_spots, highest);
+  fmt::print("{}: facets by the strength of what leaves them, {}\n", arguments.hot_spots,
+             silent ? "no echo in this view" : fmt::format("up to {:.1f} dBsm", highest));
 }
 
 }  // namespace

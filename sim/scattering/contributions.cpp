@@ -55,7 +55,8 @@ class Splitter {
       const auto pattern = pattern_at(footprint_, term.p, footprint_.pattern);
       for (int i = 0; i < 4; ++i) prototype_.pattern[i] = std::complex<float>(pattern[i]);
       PathGradient gradient = phase_gradient(footprint_, term.p, basis_);
-      gradient.transmit += term.slide1 * basis_.h + term.slide2 * basis_.v;
+      gradient.transmit_slip = term.slide1 * basis_.h + term.slide2 * basis_.v;
+      gradient.transmit += gradient.transmit_slip;
       emit(term.integral, term.psi, gradient);
     }
   }
@@ -130,8 +131,7 @@ class Splitter {
     const double psi_a = footprint_.psi(a.p);
     for (int i = 0; i < pieces; ++i) {
       const double s = (i + 0.5) / pieces;
-      emit(edge * (sinc(k * run / pieces) / pieces), psi_a + s * run,
-           {ga.transmit + s * (gb.transmit - ga.transmit), ga.receive + s * (gb.receive - ga.receive)});
+      emit(edge * (sinc(k * run / pieces) / pieces), psi_a + s * run, between(ga, gb, s));
     }
   }
 
@@ -200,7 +200,7 @@ void split(const EdgeFootprint& footprint, const SplitSettings& settings, std::v
   for (int i = 0; i < pieces; ++i) {
     const double s = (i + 0.5) / pieces;
     c.psi = footprint.psi[0] + s * run;
-    c.gradient = {a.transmit + s * (b.transmit - a.transmit), a.receive + s * (b.receive - a.receive)};
+    c.gradient = between(a, b, s);
     out.push_back(c);
   }
 }
@@ -210,7 +210,7 @@ void bend_wavefront(std::span<Contribution> contributions, const AntennaPair& an
     for (const bool out : {false, true}) {
       const Vec3& r = out ? antennas.receive.r : antennas.transmit.r;
       Vec3& gradient = out ? c.gradient.receive : c.gradient.transmit;
-      const Vec3 x = origin + gradient;
+      const Vec3 x = origin + gradient - (out ? c.gradient.receive_slip : c.gradient.transmit_slip);
       const double along = r.dot(x);
       c.psi -= (x - along * r).squaredNorm() / (2 * range_m);
       gradient += along / range_m * x;  // of -|x_perp|^2 / (2 R) with r

@@ -105,12 +105,18 @@ class CurvedSplitter {
       point(polygon);
       return;
     }
-    // A cut of our own is at rest.
+    // A cut of our own is fixed to the body, whose points at height z move by -z d_i when the direction turns by d_i: at rest in the aperture it
+    // would slip in the facet.
     const Vec2 &a = triangle[longest], &b = triangle[(longest + 1) % 3], &far = triangle[(longest + 2) % 3];
     const Vec2 middle = 0.5 * (a + b), along = far - middle;
     MovingLine line;
     line.gradient = Vec2(-along.y(), along.x()).normalized();
     line.value = -line.gradient.dot(middle);
+    const ImagePlane& plane = footprint_.plane;
+    line.value_d1 = line.gradient.x() * plane.z0;
+    line.value_d2 = line.gradient.y() * plane.z0;
+    line.gradient_d1 = line.gradient.x() * plane.slope;
+    line.gradient_d2 = line.gradient.y() * plane.slope;
     const int side = line.at(a) > line.at(b) ? +1 : -1;
     const MovingPolygon near_a = clip(polygon, line, side), near_b = clip(polygon, line, -side);
     if (!near_a.empty()) part(near_a, {a, middle, far});

@@ -161,12 +161,14 @@ std::vector<EdgeFootprint> edge_footprints(const SharpEdges& edges, std::span<co
       // The end belongs to whichever stretch ends there, and slips with it.
       const bool by_in = end == 0 ? in.s[0] >= out.s[0] : in.s[1] <= out.s[1];
       const Vec2 slip = slope * (by_in ? in.slip[end] : out.slip[end]);
-      footprint.gradient[end] = {X, Y};
+      PathGradient& gradient = footprint.gradient[end];
       if (by_in) {
-        footprint.gradient[end].transmit += slip.x() * t.h + slip.y() * t.v;
+        gradient.transmit_slip = slip.x() * t.h + slip.y() * t.v;
       } else {
-        footprint.gradient[end].receive += slip.x() * r.h + slip.y() * r.v;
+        gradient.receive_slip = slip.x() * r.h + slip.y() * r.v;
       }
+      gradient.transmit = X + gradient.transmit_slip;
+      gradient.receive = Y + gradient.receive_slip;
     }
     result.push_back(footprint);
   };

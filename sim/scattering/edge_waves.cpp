@@ -239,7 +239,8 @@ class EdgeWaves {
       const double share = (s[end] - in.s[0]) / (in.s[1] - in.s[0]);
       const Vec3 X = in.X[0] + share * (in.X[1] - in.X[0]), Y = departure.image + s[end] * departure.image_along;
       footprint.psi[end] = in.psi[0] + share * (in.psi[1] - in.psi[0]) + antennas_.receive.r.dot(Y);
-      footprint.gradient[end] = {X, Y};
+      footprint.gradient[end].transmit = X;
+      footprint.gradient[end].receive = Y;
     }
     const Vec3& along = edge.along();
     footprint.edge_wave = {in.departure_m, l * shadow_distance(along, w, -departure.direction), in.waves};

@@ -82,8 +82,16 @@ void set_phase(Footprint& footprint, const Vec3& n_image, const AntennaPair& ant
 }
 
 PathGradient phase_gradient(const Footprint& footprint, const Vec2& p, const RadarBasis& transmit) {
-  const Vec3 image = image_point(footprint, p, transmit);
-  return {image, footprint.mirrors.real(image)};
+  PathGradient gradient;
+  gradient.transmit = image_point(footprint, p, transmit);
+  gradient.receive = footprint.mirrors.real(gradient.transmit);
+  return gradient;
+}
+
+PathGradient between(const PathGradient& a, const PathGradient& b, double s) {
+  const auto mean = [s](const Vec3& from, const Vec3& to) -> Vec3 { return from + s * (to - from); };
+  return {mean(a.transmit, b.transmit), mean(a.receive, b.receive), mean(a.transmit_slip, b.transmit_slip),
+          mean(a.receive_slip, b.receive_slip)};
 }
 
 namespace {
@@ -99,7 +107,8 @@ std::array<Vec2, 2> slips(const Footprint& footprint, const Corner& corner) {
 PathGradient phase_gradient(const Footprint& footprint, const Corner& corner, const RadarBasis& transmit) {
   const auto [slip1, slip2] = slips(footprint, corner);
   PathGradient gradient = phase_gradient(footprint, corner.p, transmit);
-  gradient.transmit += footprint.w.dot(slip1) * transmit.h + footprint.w.dot(slip2) * transmit.v;
+  gradient.transmit_slip = footprint.w.dot(slip1) * transmit.h + footprint.w.dot(slip2) * transmit.v;
+  gradient.transmit += gradient.transmit_slip;
   return gradient;
 }
 

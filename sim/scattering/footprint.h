@@ -94,14 +94,19 @@ struct Footprint {
 void set_phase(Footprint& footprint, const Vec3& n_image, const AntennaPair& antennas);
 
 // How psi changes as the directions turn, m: d psi = transmit . d r^_t + receive . d r^_s. One direction for both: their sum.
+// Points of the body give their places, x_image to the transmitter and x_real to the receiver (Fermat); corners that slip in the body give more.
 struct PathGradient {
   Vec3 transmit = Vec3::Zero();
   Vec3 receive = Vec3::Zero();
+  Vec3 transmit_slip = Vec3::Zero(), receive_slip = Vec3::Zero();  // what of them is slip
 
   Vec3 sum() const { return transmit + receive; }
 };
 
-// For the body-fixed point at p: x_image to the transmitter, x_real to the receiver (Fermat).
+// On the way from a to b, 0 <= s <= 1.
+PathGradient between(const PathGradient& a, const PathGradient& b, double s);
+
+// For the body-fixed point at p.
 PathGradient phase_gradient(const Footprint& footprint, const Vec2& p, const RadarBasis& transmit);
 
 // The same for a corner that moves in the facet as the direction turns: adds w . slip to the transmitter's part.

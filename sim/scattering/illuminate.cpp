@@ -35,13 +35,20 @@ constexpr double kAside = 1e-6;
 
 RadarBasis beside_faces(const Scatterer& scatterer, const RadarBasis& basis, bool edges) {
   const auto facets = scatterer.facets();
-  const bool in_a_face = std::any_of(facets.begin(), facets.end(), [&](const Facet& facet) {
-    return (facet.open || edges) && std::abs(facet.normal.dot(basis.r)) < kEdgeOnPanel;
-  });
-  if (!in_a_face) return basis;
-  // Aside of h and v alike, since faces often lie along one of them.
-  const Mat3 turn = Eigen::AngleAxisd(kAside, (basis.h - basis.v).normalized()).toRotationMatrix();
-  return {turn * basis.r, turn * basis.h, turn * basis.v};
+  const auto in_a_face = [&](const Vec3& r) {
+    return std::any_of(facets.begin(), facets.end(), [&](const Facet& facet) {
+      return (facet.open || edges) && std::abs(facet.normal.dot(r)) < kEdgeOnPanel;
+    });
+  };
+  if (!in_a_face(basis.r)) return basis;
+  // About h - v first, since faces often lie along h or v; a face across the axis stays edge-on and asks for another one.
+  RadarBasis aside = basis;
+  for (const Vec2& axis : {Vec2(1, -1), Vec2(1, 0.6), Vec2(0.3, 1), Vec2(1, 0.1), Vec2(-0.2, 1)}) {
+    const Mat3 turn = Eigen::AngleAxisd(kAside, (axis.x() * basis.h + axis.y() * basis.v).normalized()).toRotationMatrix();
+    aside = {turn * basis.r, turn * basis.h, turn * basis.v};
+    if (!in_a_face(aside.r)) break;
+  }
+  return aside;
 }
 
 AntennaPair beside_faces(const Scatterer& scatterer, const AntennaPair& antennas, bool edges) {

@@ -28,7 +28,8 @@ struct IlluminationSettings {
   int max_bounces = kDefaultBounces;  // 1 <= x <= kMostBounces
   bool edges = false;      // follow the waves that reach sharp edges too
   EchoFilter filter = {};  // which echoes are summed; all are followed
-  double range_m = 0;      // of the radar, 0 = far field; else beyond ten radii of the target
+  double range_m = 0;      // of the radar, 0 = far field; else beyond ten times the target's reach from where it is counted
+  Vec3 origin = Vec3::Zero();  // where the target's frame stands from the point that range_m is counted from, m
 };
 
 // 1e-3 of the radius: 0.07 m on the 144 m ship, pieces of 5 mm (README.md).

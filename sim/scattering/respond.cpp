@@ -20,9 +20,10 @@ namespace {
 
 // The radar stands in directions that differ by this much over the target, rad; 0 in the far field. Throws InputError
 // when it is too near.
-double spread_of_directions(const Scatterer& scatterer, double range_m) {
-  check_range(scatterer.radius(), range_m);
-  return range_m > 0 ? scatterer.radius() / range_m : 0;
+double spread_of_directions(const Scatterer& scatterer, double range_m, const Vec3& origin = Vec3::Zero()) {
+  const double reach = scatterer.radius() + origin.norm();
+  check_range(reach, range_m);
+  return range_m > 0 ? reach / range_m : 0;
 }
 
 // Body-fixed points go no faster than this beside a track, m, its two parts having unit length together. Shadow edges
@@ -173,10 +174,10 @@ std::vector<std::array<Complex, 4>> scattering_matrices(const Scatterer& scatter
                                                         const IlluminationSettings& settings, int threads,
                                                         std::size_t* legs, const StopFlag* stop) {
   using Matrices = std::vector<std::array<Complex, 4>>;
-  const double spread = spread_of_directions(scatterer, settings.range_m);
+  const double spread = spread_of_directions(scatterer, settings.range_m, settings.origin);
   // At a finite range closed forms give way to points, which the wavefront moves one by one.
   const auto bent = [&](std::vector<Contribution>& points, double k) {
-    bend_wavefront(points, antennas, Vec3::Zero(), settings.range_m);
+    bend_wavefront(points, antennas, settings.origin, settings.range_m);
     return direct_sum(points, k, Vec3::Zero());
   };
   const auto of_facet = [&](Footprint footprint, std::size_t q) {
@@ -228,7 +229,7 @@ std::vector<Contribution> view_contributions(const Scatterer& scatterer, const A
                                              const SplitSettings& split_settings, const IlluminationSettings& settings,
                                              int threads, const StopFlag* stop) {
   SplitSettings bent = split_settings;
-  bent.turn_rad += spread_of_directions(scatterer, settings.range_m);
+  bent.turn_rad += spread_of_directions(scatterer, settings.range_m, settings.origin);
   const Illumination illumination(scatterer, antennas, settings, threads, std::array{split_settings.kc});
   std::vector<std::vector<Contribution>> chunks(illumination.chunk_count());
   const Reached reached = illumination.light_all(
@@ -248,7 +249,7 @@ std::vector<Contribution> view_contributions(const Scatterer& scatterer, const A
               });
   std::vector<Contribution> all;
   for (const auto& chunk : chunks) all.insert(all.end(), chunk.begin(), chunk.end());
-  if (settings.range_m > 0) bend_wavefront(all, antennas, Vec3::Zero(), settings.range_m);
+  if (settings.range_m > 0) bend_wavefront(all, antennas, settings.origin, settings.range_m);
   return all;
 }
 

@@ -44,12 +44,14 @@ std::vector<std::array<Complex, 4>> scattering_matrices_over_sea(const Scatterer
   // The image shares h, also where r^ is vertical.
   const Vec3 image_r = image_direction(r_hat);
   const RadarBasis image{image_r, radar.h, image_r.cross(radar.h)};
+  IlluminationSettings raised = settings;
+  raised.origin = {0, 0, height_m};
   std::vector<std::array<Complex, 4>> sum(wavenumbers.size());
   for (const SeaPath& path : kSeaPaths) {
     if (!sea.wanted(path)) continue;
     const RadarBasis &transmit = path.there ? image : radar, &receive = path.back ? image : radar;
     const AntennaPair antennas = path.there == path.back ? monostatic(transmit) : bistatic(transmit, receive);
-    const auto matrices = scattering_matrices(scatterer, antennas, wavenumbers, settings, threads, legs, stop);
+    const auto matrices = scattering_matrices(scatterer, antennas, wavenumbers, raised, threads, legs, stop);
     // About the body's origin at (0, 0, height): e^{jk (a + b - 2 r).(0, 0, height)}.
     const double detour = -2 * r_hat.z() * height_m * ((path.there ? 1 : 0) + (path.back ? 1 : 0));
     for (std::size_t q = 0; q < wavenumbers.size(); ++q) {

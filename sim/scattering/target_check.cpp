@@ -60,7 +60,7 @@ void check_range(double radius_m, double range_m) {
   constexpr double kNearestRadii = 10;
   if (range_m > 0 && range_m < kNearestRadii * radius_m) {
     throw InputError(fmt::format(
-        "radar range {} m: the target reaches {:.3g} m from its origin, and the range must be ten times that or more",
+        "radar range {} m: the target reaches {:.3g} m from where it is counted, and the range must be ten times that or more",
         range_m, radius_m));
   }
 }

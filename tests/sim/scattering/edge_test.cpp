@@ -288,6 +288,19 @@ TEST(Plate, HasNoSpikesInASweepAllTheWayRound) {
 // A sheet without thickness does nothing to a wave whose electric field stands on it everywhere: edge-on, HH vanishes,
 // while VV is what a half-plane's rim of this length returns, width / 2 pi, and the rear rim's share. Each order of
 // diffraction alone is as large.
+// Exactly edge-on a sheet is looked at a little aside, whichever way it stands about the line of sight.
+TEST(Plate, EdgeOnIsSeenHoweverItIsTurned) {
+  const double k = wavenumber(10e9);
+  for (const double turned_deg : {0.0, 20.0, 45.0, 90.0, 135.0, 160.0}) {
+    const Mat3 turn = Eigen::AngleAxisd(radians(turned_deg), Vec3::UnitX()).toRotationMatrix();
+    const Scatterer sheet(transformed(make_plate(0.3, 0.2), turn * Eigen::AngleAxisd(kPi / 2, Vec3::UnitY()).toRotationMatrix(), Vec3::Zero()));
+    const double exactly = largest(echo(sheet, radar_basis(direction(0, 0)), k, 0, 8, true));
+    const double beside = largest(echo(sheet, radar_basis(direction(1e-3, 1.3e-3)), k, 0, 8, true));
+    EXPECT_GT(exactly, 0.5 * beside) << turned_deg;
+    EXPECT_LT(exactly, 2 * beside) << turned_deg;
+  }
+}
+
 TEST(Plate, EdgeOnAnswersOnlyTheFieldAlongItsRim) {
   const double width = 0.15, rim = width / (2 * kPi);
   const Scatterer plate(make_plate(0.25, width));

@@ -52,6 +52,39 @@ TEST(FiniteRange, PlateIsTheSumOverItsCurvedWavefront) {
   }
 }
 
+// Nothing changes for a body on the line of sight but what its own size does.
+TEST(FiniteRange, CurvedBodyOnTheLineOfSightKeepsItsEcho) {
+  const double k = wavenumber(10e9);
+  const TriangleMesh sphere = transformed(make_sphere(1, 4), Mat3::Identity(), {20, 0, 0});
+  const Vec3 r = direction(0, 0);
+  const Complex far = echo(sphere, r, k)[kVvChannel];
+  for (const double range_m : {100e3, 20e3, 5e3}) {
+    // Amplitudes are frozen over radius / R, 21 / R.
+    EXPECT_LT(std::abs(at_range(sphere, r, k, range_m) - far), (1e-3 + 21 / range_m) * std::abs(far)) << range_m;
+  }
+}
+
+// A shadow edge on the axis has no second order, however fast it slips in the plate that it falls on.
+TEST(FiniteRange, SlipOfAShadowEdgeIsNoPlace) {
+  const double k = wavenumber(3e9);
+  const Mat3 tilt = Eigen::AngleAxisd(radians(50), Vec3::UnitY()).toRotationMatrix();
+  TriangleMesh mesh = transformed(make_plate(2, 2), tilt, Vec3::Zero());
+  TriangleMesh screen = transformed(make_plate(4, 4), Mat3::Identity(), {8, 2, 0});
+  screen.part_names = {"screen"};
+  mesh.append(screen);
+  IlluminationSettings settings;
+  settings.max_bounces = 1;
+  settings.filter.only = {{EchoSelector::Kind::kPart, 0}};
+  const Vec3 r = direction(0, 0);
+  const auto seen_from = [&](double range_m) {
+    settings.range_m = range_m;
+    return scattering_matrices(Scatterer(mesh), monostatic(radar_basis(r)), std::array{k}, settings)[0][kVvChannel];
+  };
+  const Complex far = seen_from(0), near = seen_from(10e3);
+  // Half the plate reaches 1 m off the axis: k 1 / R = 6e-3 rad; amplitudes are frozen over 10 / R.
+  EXPECT_LT(std::abs(near - far), 0.02 * std::abs(far));
+}
+
 TEST(FiniteRange, FarAwayIsTheFarField) {
   const double k = wavenumber(16e9);
   const Vec3 r = direction(20, 10);
