@@ -22,6 +22,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
+// The run's numbers, which must be those of the model beside them: tables and figures would be of two trainings.
 ordered_json read_metrics(const fs::path& directory) {
   const fs::path file = directory / kMetricsFile;
   if (!fs::exists(file))
@@ -31,6 +32,17 @@ ordered_json read_metrics(const fs::path& directory) {
     // What every part of the page leans on; an older or foreign file is told apart here.
     for (const char* member : {"handmade", "cnn", "fused", "probes", "network", "data", "run"}) {
       if (!metrics.contains(member)) throw InputError(fmt::format("{}: no member `{}`", file.string(), member));
+    }
+    const fs::path of_model = directory / "model" / kMetricsFile;
+    if (!fs::exists(of_model)) {
+      throw InputError(fmt::format("{}: missing: the last training did not end; go on by `seaglint run --resume`",
+                                   of_model.string()));
+    }
+    const ordered_json model = ordered_json::parse(read_file(of_model));
+    for (const auto& [member, value] : model.items()) {
+      if (metrics.contains(member) && metrics[member] == value) continue;
+      throw InputError(fmt::format("{}: `{}` is of another training than {}; go on by `seaglint run --resume`",
+                                   file.string(), member, of_model.string()));
     }
     return metrics;
   } catch (const nlohmann::json::exception& error) {

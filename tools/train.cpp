@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <system_error>
 
 #include "classify/dataset/dataset_writer.h"
 #include "seaglint_version.h"
@@ -69,10 +70,18 @@ Study train_model(const fs::path& data_set, const fs::path& model_directory, con
   require_own_directory(model_directory);
   const LearningTable table = load_learning_table(data, scenario.learning, stop);
   make_directory(model_directory);
-  Study study = run_study(table, scenario.learning, scenario.dataset.train_share, scenario.seed, model_directory,
-                          thread_count(threads), stop);
+  Study study =
+      run_study(table, scenario.learning, scenario.dataset.train_share, scenario.seed, thread_count(threads), stop);
+  const std::string metrics = metrics_json(study, table, scenario, data.manifest());
+
+  // metrics.json is the mark of a whole model: the earlier one goes before any other file is replaced.
+  const fs::path mark = model_directory / kMetricsFile;
+  std::error_code error;
+  fs::remove(mark, error);
+  if (error) throw WorkError(fmt::format("{}: cannot remove: {}", mark.string(), error.message()));
+  save_models(study, table, model_directory);
   write_file(model_directory / kEmbeddingsFile, embeddings_csv(table, study.embeddings));
-  write_file(model_directory / kMetricsFile, metrics_json(study, table, scenario, data.manifest()));
+  write_file(mark, metrics);
   return study;
 }
 

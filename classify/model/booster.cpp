@@ -75,7 +75,8 @@ struct Booster::Model {
   }
 };
 
-Booster Booster::train(const FeatureMatrix& features, std::span<const int> labels, const LearningSpec& spec) {
+Booster Booster::train(const FeatureMatrix& features, std::span<const int> labels, const LearningSpec& spec,
+                       const StopFlag* stop) {
   SEAGLINT_CHECK(features.rows() == labels.size() && !labels.empty(),
                  fmt::format("{} rows, {} labels", features.rows(), labels.size()));
   quieten();
@@ -94,7 +95,10 @@ Booster Booster::train(const FeatureMatrix& features, std::span<const int> label
   model->set("subsample", fmt::format("{}", spec.subsample));
   model->set("colsample_bytree", fmt::format("{}", spec.colsample_bytree));
   model->set("seed", std::to_string(spec.tree_seed));
-  for (int i = 0; i < spec.trees; ++i) require(XGBoosterUpdateOneIter(model->handle, i, rows.get()), "training");
+  for (int i = 0; i < spec.trees; ++i) {
+    if (stop && *stop) throw Interrupted();
+    require(XGBoosterUpdateOneIter(model->handle, i, rows.get()), "training");
+  }
   return Booster(std::move(model));
 }
 

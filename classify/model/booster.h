@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/core/parallel.h"
 #include "sim/scenario/learning_spec.h"
 
 namespace seaglint {
@@ -34,7 +35,9 @@ FeatureMatrix join_columns(const FeatureMatrix& left, const FeatureMatrix& right
 class Booster {
  public:
   // Labels 0 or 1, one per row, at least one row. Objective binary:logistic, evaluation logloss, tree method hist.
-  static Booster train(const FeatureMatrix& features, std::span<const int> labels, const LearningSpec& spec);
+  // Throws Interrupted when *stop becomes true.
+  static Booster train(const FeatureMatrix& features, std::span<const int> labels, const LearningSpec& spec,
+                       const StopFlag* stop = nullptr);
   static Booster load(const std::filesystem::path& file);  // throws InputError when the file is not such a model
 
   std::vector<double> predict(const FeatureMatrix& features) const;  // same number of columns as in training

@@ -4,9 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
 
-#include "classify/cnn/network.h"
 #include "sim/core/error.h"
 #include "sim/core/file.h"
 #include "sim/core/progress.h"
@@ -120,7 +118,7 @@ JobResult run_job(const Job& job, const LearningTable& table, const LearningSpec
   for (int group = 0; group < 3; ++group) {
     result.train_rows[group] = rows.trees.size();
     const Booster booster =
-        Booster::train(select_rows(*features[group], rows.trees), select(table.labels, rows.trees), spec);
+        Booster::train(select_rows(*features[group], rows.trees), select(table.labels, rows.trees), spec, stop);
     result.predictions[group] = predict_rows(booster, *features[group], table, result.split.test);
     result.boosters.push_back(booster);
   }
@@ -145,7 +143,7 @@ class Evaluator {
 };
 
 std::vector<ProbeResult> run_probes(const LearningTable& table, const LearningSpec& spec, double train_share,
-                                    std::uint64_t seed, Evaluator& evaluate) {
+                                    std::uint64_t seed, Evaluator& evaluate, Progress& progress, const StopFlag* stop) {
   std::vector<ProbeResult> results;
   for (const Probe& probe : table.probes) {
     ProbeResult result{probe.name, probe.kind, probe.meaning, {}};
@@ -155,10 +153,11 @@ std::vector<ProbeResult> run_probes(const LearningTable& table, const LearningSp
       for (int repeat = 0; repeat < spec.split_repeats; ++repeat) {
         const Split split = split_rows(table.groups, protocol, train_share, seed, static_cast<std::uint64_t>(repeat));
         const Booster booster =
-            Booster::train(select_rows(probe.features, split.train), select(table.labels, split.train), spec);
+            Booster::train(select_rows(probe.features, split.train), select(table.labels, split.train), spec, stop);
         const std::vector<Prediction> more = predict_rows(booster, probe.features, table, split.test);
         predictions.insert(predictions.end(), more.begin(), more.end());
         if (repeat == 0) train_rows = split.train.size();
+        progress.advance();
       }
       result.evaluations.push_back(evaluate(predictions, train_rows));
     }
@@ -185,17 +184,12 @@ void check_splits(std::span<const RowGroup> rows, const LearningSpec& spec, doub
   for (const Job& job : all_jobs(spec)) rows_of(job, rows, spec, train_share, seed);
 }
 
-std::vector<std::string> model_files() {
-  std::vector<std::string> files{kNetworkFile, kSplitsFile};
-  for (const char* name : kGroupNames) files.push_back(fmt::format("{}.json", name));
-  return files;
-}
-
 Study run_study(const LearningTable& table, const LearningSpec& spec, double train_share, std::uint64_t seed,
-                const std::filesystem::path& model_directory, int threads, const StopFlag* stop) {
+                int threads, const StopFlag* stop) {
   const std::vector<Job> jobs = all_jobs(spec);
+  const std::size_t repeats = static_cast<std::size_t>(spec.split_repeats);
   std::vector<JobResult> done(jobs.size());
-  Progress progress("training", jobs.size());
+  Progress progress("training", jobs.size() + table.probes.size() * 2 * repeats);
   parallel_for(
       jobs.size(), threads,
       [&](std::size_t i) {
@@ -205,7 +199,6 @@ Study run_study(const LearningTable& table, const LearningSpec& spec, double tra
       stop);
 
   // Job numbers: protocol slowest, then main and other fusion, then repeat.
-  const std::size_t repeats = static_cast<std::size_t>(spec.split_repeats);
   const auto pooled = [&](std::size_t protocol, std::size_t fusion, int group) {
     std::vector<Prediction> predictions;
     for (std::size_t repeat = 0; repeat < repeats; ++repeat) {
@@ -236,25 +229,34 @@ Study run_study(const LearningTable& table, const LearningSpec& spec, double tra
           if (group != 1) result.columns = table.handmade.names;
           if (group != 0) result.columns.insert(result.columns.end(), embeddings.names.begin(), embeddings.names.end());
           result.gain = first.boosters[static_cast<std::size_t>(group)].gains(result.columns.size());
-          first.boosters[static_cast<std::size_t>(group)].save(model_directory /
-                                                               fmt::format("{}.json", kGroupNames[group]));
+          study.trees.push_back(first.boosters[static_cast<std::size_t>(group)]);
         }
       }
       result.outcomes.push_back(outcome);
     }
     study.groups.push_back(std::move(result));
   }
-  study.probes = run_probes(table, spec, train_share, seed, evaluate);
+  study.probes = run_probes(table, spec, train_share, seed, evaluate, progress, stop);
 
   const JobResult& random = done[0];
   JobResult& group = done[2 * repeats];
-  study.network_parameters = group.network->parameter_count();
-  study.network_losses = group.network->losses();
+  study.network = std::move(group.network);
   study.splits = {random.split, group.split};
   study.embeddings = std::move(group.embeddings);
-  group.network->save(model_directory / kNetworkFile);
-  write_file(model_directory / kSplitsFile, splits_csv(table, study.splits));
   return study;
+}
+
+std::vector<std::string> model_files() {
+  std::vector<std::string> files{kNetworkFile, kSplitsFile};
+  for (const char* name : kGroupNames) files.push_back(fmt::format("{}.json", name));
+  return files;
+}
+
+void save_models(const Study& study, const LearningTable& table, const std::filesystem::path& model_directory) {
+  for (std::size_t group = 0; group < 3; ++group)
+    study.trees[group].save(model_directory / fmt::format("{}.json", kGroupNames[group]));
+  study.network->save(model_directory / kNetworkFile);
+  write_file(model_directory / kSplitsFile, splits_csv(table, study.splits));
 }
 
 }  // namespace seaglint

@@ -6,9 +6,11 @@
 // for what would give the class away.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "classify/cnn/network.h"
 #include "classify/model/learning_table.h"
 #include "classify/model/scores.h"
 
@@ -41,13 +43,14 @@ struct ProbeResult {
   std::vector<Evaluation> evaluations;  // random, then group
 };
 
+// The models are those of the group protocol, main fusion, first repeat.
 struct Study {
   std::vector<FeatureGroupResult> groups;  // handmade, cnn, fused
   std::vector<ProbeResult> probes;
-  std::size_t network_parameters = 0;
-  std::vector<double> network_losses;  // per epoch, group protocol, main fusion, first repeat
-  std::vector<Split> splits;           // random, then group, of the first repeat
-  FeatureMatrix embeddings;            // of all rows, of that network: embedding values, then the logit
+  std::optional<Network> network;  // always there when the study is done
+  std::vector<Booster> trees;      // handmade, cnn, fused
+  std::vector<Split> splits;       // random, then group, of the first repeat
+  FeatureMatrix embeddings;        // of all rows, of the network: embedding values, then the logit
 };
 
 // Throws InputError when rows in these groups leave a side of a split without rows; known before any map is made.
@@ -56,14 +59,17 @@ void check_splits(std::span<const RowGroup> rows, const LearningSpec& spec, doub
 inline constexpr const char* kNetworkFile = "network.bin";
 inline constexpr const char* kSplitsFile = "splits.csv";
 
-// Names of the files that run_study() writes.
+// Trains and evaluates; writes nothing. The result depends on data, spec and seed alone, not on `threads`. Throws
+// InputError as check_splits() does, Interrupted when *stop becomes true.
+Study run_study(const LearningTable& table, const LearningSpec& spec, double train_share, std::uint64_t seed,
+                int threads, const StopFlag* stop = nullptr);
+
+// Names of the files that save_models() writes.
 std::vector<std::string> model_files();
 
-// Trains, evaluates, and saves the models of the group protocol (first repeat, main fusion) in `model_directory`:
-// network.bin, handmade.json, cnn.json, fused.json, splits.csv. The result depends on data, spec and seed alone, not on
-// `threads`.
-Study run_study(const LearningTable& table, const LearningSpec& spec, double train_share, std::uint64_t seed,
-                const std::filesystem::path& model_directory, int threads, const StopFlag* stop = nullptr);
+// Writes network.bin, handmade.json, cnn.json, fused.json and splits.csv of the table's study. Throws WorkError when
+// the disk refuses.
+void save_models(const Study& study, const LearningTable& table, const std::filesystem::path& model_directory);
 
 // The table of accuracies against wave height as plain text.
 std::string accuracy_table(const Study& study);

@@ -80,10 +80,10 @@ std::string to_json(const Study& study, const LearningSpec& spec) {
     json["probes"].push_back(entry);
   }
   json["split_repeats"] = spec.split_repeats;
-  json["network"] = {{"parameters", study.network_parameters},
+  json["network"] = {{"parameters", study.network->parameter_count()},
                      {"epochs", spec.epochs},
                      {"threads", spec.threads},
-                     {"training_loss", study.network_losses}};
+                     {"training_loss", study.network->losses()}};
   return json.dump(2);
 }
 

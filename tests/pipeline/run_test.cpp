@@ -116,6 +116,20 @@ TEST_F(FinishedRun, CanBeTrainedOnAndReportedAgain) {
   EXPECT_EQ(reported.code, 0) << reported.err;
 }
 
+TEST_F(FinishedRun, IsNotReportedWithTheModelOfAnotherTrainingOrHalfOfOne) {
+  const TemporaryFolder folder;
+  fs::copy(directory_, folder.path() / "run", fs::copy_options::recursive);
+  const fs::path model = folder.path() / "run" / "model";
+  ASSERT_EQ(run_program({"train", folder.path() / "run", "-o", model, "--set", "learning.epochs=2"}).code, 0);
+  const ProgramResult other = run_program({"report", folder.path() / "run"});
+  EXPECT_EQ(other.code, 2);
+  EXPECT_THAT(other.err, HasSubstr("is of another training than " + (model / "metrics.json").string()));
+  fs::remove(model / "metrics.json");
+  const ProgramResult half = run_program({"report", folder.path() / "run"});
+  EXPECT_EQ(half.code, 2);
+  EXPECT_THAT(half.err, HasSubstr((model / "metrics.json").string() + ": missing"));
+}
+
 TEST_F(FinishedRun, ReportHoldsEverythingInItself) {
   const std::string page = read_file(directory_ / "report.html");
   EXPECT_THAT(page, HasSubstr("<h2>Range-velocity maps</h2>"));

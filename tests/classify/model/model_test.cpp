@@ -169,6 +169,13 @@ TEST(Booster, RepeatsBitForBitAndComesBackFromItsFile) {
   std::filesystem::remove(file);
 }
 
+TEST(Booster, StopsBetweenTwoTrees) {
+  std::vector<int> labels;
+  const FeatureMatrix features = noise_and_signal(labels, 50);
+  const StopFlag stop = true;
+  EXPECT_THROW(Booster::train(features, labels, LearningSpec{}, &stop), Interrupted);
+}
+
 TEST(Booster, GivesOneProbabilityWhenThereIsNothingToLearn) {
   FeatureMatrix features{{"constant"}, std::vector<float>(50, 1.0f)};
   std::vector<int> labels(50, 0);

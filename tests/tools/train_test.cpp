@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A model directory is that of one whole training, whatever ends another one.
+#include "tools/train.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <map>
+#include <thread>
+
+#include "sim/core/error.h"
+#include "sim/core/file.h"
+#include "tools/generate.h"
+
+namespace seaglint {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Training : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = fs::path(testing::TempDir()) / ("seaglint_train_" + std::to_string(::getpid()));
+    fs::remove_all(folder_);
+    const Scenario scenario =
+        read_scenario(SEAGLINT_SOURCE_DIR "/scenarios/points.yaml",
+                      {{"dataset.maps_per_case", "4"}, {"dataset.realisations_per_case", "4"}, {"radar.pulses", "64"}});
+    generate_dataset(scenario, folder_ / "data", {1, 1, false, 1});
+    train({});
+  }
+  static void TearDownTestSuite() { fs::remove_all(folder_); }
+
+  static void train(std::vector<Override> overrides, const StopFlag* stop = nullptr) {
+    overrides.push_back({"learning.epochs", "1"});
+    train_model(folder_ / "data", folder_ / "model", overrides, 1, stop);
+  }
+
+  static std::map<std::string, std::string> files() {
+    std::map<std::string, std::string> bytes;
+    for (const auto& entry : fs::directory_iterator(folder_ / "model")) {
+      if (entry.is_regular_file()) bytes[entry.path().filename()] = read_file(entry.path());
+    }
+    return bytes;
+  }
+
+  static inline fs::path folder_;
+};
+
+TEST_F(Training, ThatIsStoppedEndsSoonAndLeavesTheEarlierModel) {
+  const auto before = files();
+  ASSERT_TRUE(before.contains(kMetricsFile));
+  StopFlag stop = false;
+  std::jthread user([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    stop = true;
+  });
+  // This many trees take minutes: the time limit of the test would end it.
+  EXPECT_THROW(train({{"learning.trees", "100000"}}, &stop), Interrupted);
+  EXPECT_EQ(files(), before);
+}
+
+TEST_F(Training, WithoutItsLastFileHasNoMetrics) {
+  train({});
+  fs::remove(folder_ / "model" / kEmbeddingsFile);
+  fs::create_directory(folder_ / "model" / kEmbeddingsFile);
+  EXPECT_THROW(train({{"learning.trees", "3"}}), WorkError);
+  EXPECT_FALSE(fs::exists(folder_ / "model" / kMetricsFile));
+
+  fs::remove(folder_ / "model" / kEmbeddingsFile);
+  train({});
+  EXPECT_TRUE(fs::exists(folder_ / "model" / kMetricsFile));
+}
+
+}  // namespace
+}  // namespace seaglint
