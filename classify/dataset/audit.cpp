@@ -15,6 +15,7 @@
 #include "classify/dataset/dataset_writer.h"
 #include "classify/dataset/merged.h"
 #include "classify/dataset/planned_record.h"
+#include "classify/dataset/temporary.h"
 #include "sim/core/error.h"
 #include "sim/core/file.h"
 #include "sim/core/progress.h"
@@ -59,7 +60,7 @@ class Auditor {
     for (std::size_t i = manifest.shards.size(); i < plan_.shards(); ++i) fault(shard_name(i), "not in the manifest");
     for (const auto& entry : fs::directory_iterator(reader_.directory())) {
       const std::string name = entry.path().filename();
-      if (name.ends_with(".tmp")) fault(name, "half-written; a resumed `generate` removes it");
+      if (is_left_behind(entry.path())) fault(name, "half-written; a resumed `generate` removes it");
       if (!name.ends_with(".h5") || listed.contains(name)) continue;
       if (is_merged(entry.path())) {
         merged_.emplace_back(entry.path(), reader_);

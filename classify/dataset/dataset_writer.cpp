@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 #include <sstream>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "classify/dataset/data_card.h"
 #include "classify/dataset/input_list.h"
 #include "classify/dataset/planned_record.h"
+#include "classify/dataset/temporary.h"
 #include "sim/core/error.h"
 #include "sim/core/file.h"
 #include "sim/core/progress.h"
@@ -64,7 +66,7 @@ std::set<std::string> file_names(const fs::path& directory) {
 void require_own_directory(const fs::path& directory) {
   if (is_empty_or_absent(directory) || fs::exists(directory / kScenarioFile)) return;
   for (const std::string& name : file_names(directory)) {
-    if (name.ends_with(".tmp") || name.ends_with(".h5") || name == kManifestFile) continue;
+    if (is_temporary(name) || name.ends_with(".h5") || name == kManifestFile) continue;
     throw InputError(fmt::format("{}: the directory holds no data set, but {}", directory.string(), name));
   }
 }
@@ -83,8 +85,36 @@ void write_in_company(const fs::path& file, const std::string& content) {
 void remove_temporaries(const fs::path& directory) {
   for (const std::string& name : file_names(directory)) {
     std::error_code ignored;  // what cannot be removed is shown by `verify`
-    if (name.ends_with(".tmp")) fs::remove(directory / name, ignored);
+    if (is_left_behind(directory / name)) fs::remove(directory / name, ignored);
   }
+}
+
+bool same_row(const SampleRecord& a, const SampleRecord& b) {
+  const auto same = [&](const SampleColumn& column) {
+    return std::visit(
+        [&](auto member) {
+          // Rows without clutter hold NaN, which is never equal to itself.
+          return a.*member == b.*member || (a.*member != a.*member && b.*member != b.*member);
+        },
+        column.member);
+  };
+  return std::all_of(sample_columns().begin(), sample_columns().end(), same);
+}
+
+// A shard's bytes depend on its content alone, so equal content is equal bytes.
+bool holds(const fs::path& file, const Shard& content) {
+  Shard there;
+  try {
+    there = read_shard(file);
+  } catch (const InputError&) {
+    return false;
+  }
+  const auto same = [](const Sample& a, const Sample& b) {
+    return same_row(a.record, b.record) && a.magnitude == b.magnitude && a.complex_values == b.complex_values &&
+           a.hop_code == b.hop_code && a.centre_list == b.centre_list;
+  };
+  return there.origin == content.origin && there.axes == content.axes &&
+         std::equal(there.samples.begin(), there.samples.end(), content.samples.begin(), content.samples.end(), same);
 }
 
 }  // namespace
@@ -163,7 +193,12 @@ void DatasetWriter::put(std::size_t shard, Shard content) {
   content.origin = origin_;
   {
     const std::lock_guard lock(mutex_);
-    write_shard(file, content, scenario_.features.max_centres);
+    try {
+      write_shard(file, content, scenario_.features.max_centres);
+    } catch (const WorkError&) {
+      // Another process that makes the same shard may have been in the way.
+      if (!holds(file, content)) throw;
+    }
     axes_ = content.axes;
   }
   known_[shard] = {true, origin_.processor, sha256_file(file)};

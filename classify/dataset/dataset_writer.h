@@ -2,8 +2,8 @@
 #pragma once
 
 // A data set directory in the making: scenario.yaml first, then shards in any order and by any number of processes,
-// then manifest.json and the data card. A process that is killed leaves whole shards and at most a `.tmp`, which goes
-// when the data set is whole.
+// then manifest.json and the data card. A process that is killed leaves whole shards and at most a temporary file
+// (classify/dataset/temporary.h), which goes when the data set is whole.
 
 #include <filesystem>
 #include <mutex>
@@ -34,7 +34,8 @@ class DatasetWriter {
   // made it: a data set of two versions would be neither's.
   bool complete(std::size_t shard);
 
-  // Writes a shard, with this program and processor as its origin; from any thread.
+  // Writes a shard, with this program and processor as its origin; from any thread. Throws WorkError when the disk
+  // refuses and the shard is not there already.
   void put(std::size_t shard, Shard content);
 
   // Writes manifest and data card when all shards are there and sound, and removes what killed runs left half-written.

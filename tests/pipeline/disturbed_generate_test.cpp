@@ -153,6 +153,24 @@ TEST(DisturbedGenerate, GivesTheSameBytesInSevenPartsAtTheSameTime) {
   EXPECT_THAT(differences(data), IsEmpty());
 }
 
+// The first to end clears up while the other still writes.
+TEST(DisturbedGenerate, GivesTheSameBytesWhenTwoProcessesMakeAllOfIt) {
+  for (int round = 0; round < 4; ++round) {
+    const TemporaryFolder folder;
+    const fs::path data = folder.path() / "data";
+    std::vector<ProgramResult> results(2);
+    {
+      std::vector<std::jthread> processes;
+      for (ProgramResult& result : results) {
+        processes.emplace_back([&] { result = run_words(generate(data, {"--resume", "--threads", "1"})); });
+        std::this_thread::sleep_for(undisturbed().time / 10);
+      }
+    }
+    for (const ProgramResult& result : results) EXPECT_EQ(result.code, 0) << result.err;
+    EXPECT_THAT(differences(data), IsEmpty());
+  }
+}
+
 void expect_one_line(const ProgramResult& result, const std::string& message) {
   EXPECT_EQ(result.code, 1) << result.err;
   EXPECT_THAT(result.err, HasSubstr(message));

@@ -86,7 +86,9 @@ TEST_F(AuditedDirectory, ShowsASeaInTwoGroups) {
 }
 
 TEST_F(AuditedDirectory, ShowsFilesThatAreDamagedHalfWrittenOrForeign) {
-  write_file(directory_ / "shard_00007.h5.tmp", "half");
+  write_file(directory_ / temporary_name("shard_00007.h5", dead_process()), "half");
+  write_file(directory_ / temporary_name("dataset.h5", ::getpid()), "being written");
+  write_file(directory_ / "notes.tmp", "no file of a data set");
   write_file(directory_ / "other.h5", "foreign");
   std::string bytes = read_file(directory_ / shard_name(1));
   bytes[bytes.size() / 2] ^= 1;

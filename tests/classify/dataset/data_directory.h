@@ -3,7 +3,10 @@
 
 // A small data set in a directory of its own, whose rows and maps agree with its scenario.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <limits.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -15,6 +18,20 @@
 namespace seaglint {
 
 inline constexpr const char* kTestVersion = "0.0.0";
+
+// The name under which a process of this host writes a file.
+inline std::string temporary_name(const std::string& file, pid_t process) {
+  char host[HOST_NAME_MAX + 1] = {};
+  ::gethostname(host, HOST_NAME_MAX);
+  return fmt::format("{}.{}-{}.tmp", file, host, process);
+}
+
+inline pid_t dead_process() {
+  const pid_t process = ::fork();
+  if (process == 0) ::_exit(0);
+  ::waitpid(process, nullptr, 0);
+  return process;
+}
 
 class DataDirectory : public testing::Test {
  protected:

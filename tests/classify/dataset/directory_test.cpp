@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <fstream>
+#include <limits>
 
 #include "classify/dataset/checksum.h"
 #include "classify/dataset/dataset_reader.h"
@@ -111,13 +113,51 @@ TEST_F(DataDirectory, IsNotWholeWithAShardThatIsDamagedOrOfAnotherScenario) {
 
 TEST_F(DataDirectory, LosesWhatKilledRunsLeftHalfWrittenWhenItIsWhole) {
   DatasetWriter writer(directory_, scenario_, false, kTestVersion);
-  write_file(directory_ / "shard_00001.h5.node-77.tmp", "half");
+  const pid_t dead = dead_process();
+  const std::vector<std::string> left{temporary_name("shard_00001.h5", dead), temporary_name("manifest.json", dead),
+                                      temporary_name("README.md", dead),      temporary_name("scenario.yaml", dead),
+                                      temporary_name("all.h5", dead),         "shard_00001.h5.old-node.sea-77.tmp"};
+  const std::vector<std::string> others{temporary_name("dataset.h5", ::getpid()),
+                                        "shard_00001.h5.other-node.sea-77.tmp",
+                                        temporary_name("notes", dead),
+                                        "notes.tmp",
+                                        "shard_00001.h5.tmp",
+                                        "shard_00001.h5.node-x.tmp"};
+  for (const auto* names : {&left, &others}) {
+    for (const std::string& name : *names) write_file(directory_ / name, "half");
+  }
+  fs::last_write_time(directory_ / left.back(), fs::file_time_type::clock::now() - std::chrono::hours(25));
   writer.put(0, shard_of(0));
   EXPECT_THAT(writer.finish(), ElementsAre(1, 2));
-  EXPECT_TRUE(fs::exists(directory_ / "shard_00001.h5.node-77.tmp"));  // another process may be writing it
+  for (const std::string& name : left) EXPECT_TRUE(fs::exists(directory_ / name)) << name;
   for (const std::size_t i : {1u, 2u}) writer.put(i, shard_of(i));
   EXPECT_THAT(writer.finish(), testing::IsEmpty());
-  for (const auto& entry : fs::directory_iterator(directory_)) EXPECT_NE(entry.path().extension(), ".tmp");
+  for (const std::string& name : left) EXPECT_FALSE(fs::exists(directory_ / name)) << name;
+  for (const std::string& name : others) EXPECT_TRUE(fs::exists(directory_ / name)) << name;
+}
+
+TEST_F(DataDirectory, BeforeItsScenarioMayHoldItsOwnTemporaryFilesOnly) {
+  fs::create_directories(directory_);
+  write_file(directory_ / temporary_name("scenario.yaml", dead_process()), "half");
+  EXPECT_NO_THROW(DatasetWriter(directory_, scenario_, true, kTestVersion));
+  fs::remove(directory_ / kScenarioFile);
+  write_file(directory_ / "notes.tmp", "mine");
+  EXPECT_THAT(error_of([&] { DatasetWriter(directory_, scenario_, true, kTestVersion); }),
+              HasSubstr("the directory holds no data set, but notes.tmp"));
+}
+
+TEST_F(DataDirectory, TakesAShardThatAnotherProcessWroteMeanwhileForItsOwn) {
+  make_whole();
+  DatasetWriter writer(directory_, scenario_, true, kTestVersion);
+  // A folder in the place of the temporary file: nothing can be written.
+  fs::create_directories(directory_ / temporary_name(shard_name(0), ::getpid()) / "in the way");
+  EXPECT_NO_THROW(writer.put(0, shard_of(0)));
+  Shard other = shard_of(0);
+  other.samples[0].record.mwr = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(writer.put(0, other), WorkError);
+  other = shard_of(0);
+  other.samples[2].magnitude[0] = 2;
+  EXPECT_THROW(writer.put(0, other), WorkError);
 }
 
 TEST_F(DataDirectory, OfAnotherVersionIsReadButNotContinued) {
