@@ -142,11 +142,7 @@ DatasetWriter::DatasetWriter(fs::path directory, const Scenario& scenario, bool 
                                    scenario_file.string(), first_difference(there, here)));
     }
   }
-  const fs::path manifest_file = directory_ / kManifestFile;
-  if (fs::exists(manifest_file)) {
-    earlier_ = read_manifest(manifest_file);
-    require_version(manifest_file, earlier_.program_version);
-  }
+  earlier_ = manifest_there();
   keep_inputs(directory_, scenario_);
   if (!same_text) write_file(scenario_file, scenario_yaml_);
 }
@@ -159,6 +155,28 @@ void DatasetWriter::require_version(const fs::path& file, const std::string& ver
       "{}: made by seaglint {}, this is seaglint {}, whose maps may differ; go on with that version or choose another "
       "directory",
       file.string(), version, origin_.program_version));
+}
+
+Manifest DatasetWriter::manifest_there() const {
+  const fs::path file = directory_ / kManifestFile;
+  if (!fs::exists(file)) return {};
+  try {
+    Manifest manifest = read_manifest(file);
+    require_version(file, manifest.program_version);
+    return manifest;
+  } catch (const InputError&) {
+    if (fs::exists(file)) throw;
+    return {};  // another part retired it meanwhile
+  }
+}
+
+void DatasetWriter::retire_manifest() {
+  if (earlier_.shards.empty()) return;
+  const fs::path file = directory_ / kManifestFile;
+  std::error_code error;
+  fs::remove(file, error);
+  if (error) throw WorkError(fmt::format("{}: cannot remove: {}", file.string(), error.message()));
+  earlier_ = {};
 }
 
 bool DatasetWriter::complete(std::size_t shard) {
@@ -193,6 +211,7 @@ void DatasetWriter::put(std::size_t shard, Shard content) {
   content.origin = origin_;
   {
     const std::lock_guard lock(mutex_);
+    retire_manifest();
     try {
       write_shard(file, content, scenario_.features.max_centres);
     } catch (const WorkError&) {
@@ -231,6 +250,8 @@ std::vector<std::size_t> DatasetWriter::finish() {
     if (!there.contains(shard_name(i))) missing.push_back(i);
   }
   if (!missing.empty()) return missing;
+  // Another part may have retired it, or written it anew.
+  if (!earlier_.shards.empty()) earlier_ = manifest_there();
   Progress progress("checking shards", plan_.shards());
   for (std::size_t i = 0; i < plan_.shards(); ++i) {
     if (!known_[i].sound && !complete(i)) missing.push_back(i);

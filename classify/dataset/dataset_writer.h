@@ -29,13 +29,14 @@ class DatasetWriter {
   // refuses.
   DatasetWriter(std::filesystem::path directory, const Scenario& scenario, bool resume, std::string program_version);
 
-  // True when the shard is on the disk and sound: by the manifest's checksum where there is one, else by reading it
-  // all and comparing its rows with the scenario. Throws InputError when it is sound but another version of the program
+  // True when the shard is on the disk and sound: it is read, its rows are compared with the scenario, and its checksum
+  // with the manifest's where there is one. Throws InputError when it is sound but another version of the program
   // made it: a data set of two versions would be neither's.
   bool complete(std::size_t shard);
 
   // Writes a shard, with this program and processor as its origin; from any thread. Throws WorkError when the disk
-  // refuses and the shard is not there already.
+  // refuses and the shard is not there already. A manifest that was there goes first: other parts would hold the new
+  // shard against it for ever.
   void put(std::size_t shard, Shard content);
 
   // Writes manifest and data card when all shards are there and sound, and removes what killed runs left half-written.
@@ -54,6 +55,8 @@ class DatasetWriter {
 
   std::filesystem::path shard_file(std::size_t shard) const;
   void require_version(const std::filesystem::path& file, const std::string& version) const;
+  Manifest manifest_there() const;  // without shards where there is none
+  void retire_manifest();
   Manifest manifest() const;  // of a whole data set
 
   std::filesystem::path directory_;
@@ -61,7 +64,7 @@ class DatasetWriter {
   SamplePlan plan_;
   Origin origin_;
   std::string scenario_yaml_;
-  Manifest earlier_;                // the manifest that was there already; without shards where there was none
+  Manifest earlier_;                // the manifest that was there already; without shards where none is, or retired
   std::vector<Known> known_;        // by shard
   std::optional<StoredAxes> axes_;  // of all shards
   std::mutex mutex_;                // the HDF5 library serves one thread at a time

@@ -160,6 +160,50 @@ TEST_F(DataDirectory, TakesAShardThatAnotherProcessWroteMeanwhileForItsOwn) {
   EXPECT_THROW(writer.put(0, other), WorkError);
 }
 
+// A manifest whose checksums of two shards are wrong, as after another processor made these with other last bits.
+class DirectoryOfTwoWrongChecksums : public DataDirectory {
+ protected:
+  void SetUp() override {
+    DataDirectory::SetUp();
+    make_whole();
+    Manifest manifest = read_manifest(directory_ / kManifestFile);
+    for (const std::size_t i : {0u, 2u}) manifest.shards[i].sha256 = std::string(64, '0');
+    write_file(directory_ / kManifestFile, to_json(manifest));
+  }
+
+  // The shards from `first` to `last`, as one part makes them.
+  void make_part(DatasetWriter& writer, std::size_t first, std::size_t last) const {
+    for (std::size_t i = first; i < last; ++i) {
+      if (!writer.complete(i)) writer.put(i, shard_of(i));
+    }
+  }
+
+  void expect_whole() const {
+    const DatasetReader reader(directory_);
+    for (std::size_t i = 0; i < reader.shards(); ++i) EXPECT_EQ(reader.shard(i).samples.size(), plan_.shard(i).count);
+  }
+};
+
+TEST_F(DirectoryOfTwoWrongChecksums, IsWholeAfterOneRoundOfParts) {
+  for (const auto& [first, last] : {std::pair<std::size_t, std::size_t>{0, 1}, {1, 3}}) {
+    DatasetWriter writer(directory_, scenario_, true, kTestVersion);
+    make_part(writer, first, last);
+    EXPECT_THAT(writer.finish(), testing::IsEmpty());
+  }
+  expect_whole();
+}
+
+TEST_F(DirectoryOfTwoWrongChecksums, IsWholeWhenPartsMakeItAtTheSameTime) {
+  DatasetWriter one(directory_, scenario_, true, kTestVersion), two(directory_, scenario_, true, kTestVersion),
+      looks_only(directory_, scenario_, true, kTestVersion);
+  make_part(one, 0, 1);
+  make_part(two, 2, 3);
+  for (DatasetWriter* writer : {&one, &two, &looks_only}) {
+    EXPECT_THAT(writer->finish(), testing::IsEmpty());
+    expect_whole();
+  }
+}
+
 TEST_F(DataDirectory, OfAnotherVersionIsReadButNotContinued) {
   make_whole();
   const auto resume = [&] { DatasetWriter(directory_, scenario_, true, "0.0.1").finish(); };
