@@ -20,8 +20,8 @@ class DatasetReader {
   std::size_t size() const { return static_cast<std::size_t>(manifest_.samples); }
   std::size_t shards() const { return manifest_.shards.size(); }
 
-  // Reads one shard after comparing its checksum with the manifest's. Throws InputError naming the file and what is
-  // wrong.
+  // Reads one shard after comparing its checksum with the manifest's; its samples are those of the manifest, in order.
+  // Throws InputError naming the file and what is wrong.
   Shard shard(std::size_t index) const;
 
  private:

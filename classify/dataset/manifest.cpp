@@ -17,6 +17,10 @@ namespace {
 
 constexpr const char* kFormat = "seaglint data set 2";
 
+// The most that a scenario can ask for: dataset.maps_per_shard, and all maps of its sweeps.
+constexpr std::uint64_t kMaxShardSamples = 10000;
+constexpr std::uint64_t kMaxSamples = 1000000000;
+
 }  // namespace
 
 std::string to_json(const Manifest& manifest) {
@@ -70,14 +74,22 @@ Manifest read_manifest(const std::filesystem::path& file) {
         throw InputError(
             fmt::format("{}: shards: \"{}\" is not the name of a file beside it", file.string(), shard.file));
       }
-      if (shard.first_sample != next || shard.samples == 0) {
+      if (shard.first_sample != next) {
         throw InputError(fmt::format("{}: shards: {} does not follow on sample {}", file.string(), shard.file, next));
+      }
+      if (shard.samples < 1 || shard.samples > kMaxShardSamples) {
+        throw InputError(fmt::format("{}: shards: {}: samples: {}, must be within 1 and {}", file.string(), shard.file,
+                                     shard.samples, kMaxShardSamples));
       }
       next += shard.samples;
       manifest.shards.push_back(std::move(shard));
     }
     if (next != manifest.samples) {
       throw InputError(fmt::format("{}: samples: {}, but the shards hold {}", file.string(), manifest.samples, next));
+    }
+    if (next < 1 || next > kMaxSamples) {
+      throw InputError(
+          fmt::format("{}: samples: {}, must be within 1 and {}", file.string(), manifest.samples, kMaxSamples));
     }
     return manifest;
   } catch (const nlohmann::json::exception& error) {

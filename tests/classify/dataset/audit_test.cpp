@@ -59,7 +59,14 @@ TEST_F(AuditedDirectory, ShowsAWrongLabel) {
 
 TEST_F(AuditedDirectory, ShowsASampleThatIsThereTwiceAndTheOneThatIsMissing) {
   falsify(0, [](Shard& shard) { shard.samples[1] = shard.samples[0]; });
-  EXPECT_THAT(faults(), ElementsAre(HasSubstr("there twice"), HasSubstr("1 of 8 samples are missing")));
+  EXPECT_THAT(faults(), ElementsAre(HasSubstr("shard_00000.h5: row 1 holds sample 0, by the manifest 1"),
+                                    HasSubstr("3 of 8 samples are missing")));
+}
+
+TEST_F(AuditedDirectory, ShowsSamplesOutOfOrder) {
+  falsify(0, [](Shard& shard) { std::swap(shard.samples[1], shard.samples[2]); });
+  EXPECT_THAT(faults(), ElementsAre(HasSubstr("shard_00000.h5: row 1 holds sample 2, by the manifest 1"),
+                                    HasSubstr("3 of 8 samples are missing")));
 }
 
 TEST_F(AuditedDirectory, ShowsAMapThatAppearsUnderTwoNumbers) {

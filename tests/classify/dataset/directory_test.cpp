@@ -236,8 +236,9 @@ TEST_F(DataDirectory, OfAnotherFormatIsRefused) {
 TEST_F(DataDirectory, WithABrokenManifestIsRefused) {
   make_whole();
   const std::string good = read_file(directory_ / kManifestFile);
-  const auto refused = [&](const std::string& manifest) {
-    write_file(directory_ / kManifestFile, manifest);
+  Manifest manifest = read_manifest(directory_ / kManifestFile);
+  const auto refused = [&](const std::string& text) {
+    write_file(directory_ / kManifestFile, text);
     return error_of([&] { DatasetReader reader(directory_); });
   };
   EXPECT_THAT(refused(good.substr(0, good.size() / 2)), HasSubstr("manifest.json"));
@@ -246,6 +247,13 @@ TEST_F(DataDirectory, WithABrokenManifestIsRefused) {
   std::string outside = good;
   outside.replace(outside.find("shard_00000.h5"), 14, "../secret.h5");
   EXPECT_THAT(refused(outside), HasSubstr("is not the name of a file beside it"));
+  manifest.shards.back().samples = 100000000000000;
+  manifest.samples = manifest.shards.back().first_sample + manifest.shards.back().samples;
+  EXPECT_THAT(refused(to_json(manifest)),
+              HasSubstr("manifest.json: shards: shard_00002.h5: samples: 100000000000000, must be within 1 and 10000"));
+  manifest.shards.clear();
+  manifest.samples = 0;
+  EXPECT_THAT(refused(to_json(manifest)), HasSubstr("manifest.json: samples: 0, must be within 1 and 1000000000"));
 }
 
 }  // namespace
