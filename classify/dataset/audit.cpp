@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -28,6 +29,7 @@ namespace {
 
 // Maps are stored in single precision: peak and energy of a row were taken before, and agree to its rounding.
 constexpr double kSinglePrecision = 1e-6;
+constexpr double kSmallest = std::numeric_limits<float>::min();  // m; the rounding of what is below is not relative
 
 class Auditor {
  public:
@@ -142,12 +144,12 @@ class Auditor {
       peak = std::max<double>(peak, value);
       energy += static_cast<double>(value) * value;
     }
-    const auto differs = [](double a, double b) {
-      return !(std::abs(a - b) <= kSinglePrecision * std::max(std::abs(a), std::abs(b)));
+    const auto differs = [](double a, double b, double smallest) {
+      return !(std::abs(a - b) <= std::max(smallest, kSinglePrecision * std::max(std::abs(a), std::abs(b))));
     };
-    if (differs(peak, sample.record.peak_m))
+    if (differs(peak, sample.record.peak_m, kSmallest))
       fault(where, fmt::format("peak_m {:.9g}, the map's {:.9g}", sample.record.peak_m, peak));
-    if (differs(energy, sample.record.energy_m2))
+    if (differs(energy, sample.record.energy_m2, kSmallest * kSmallest))
       fault(where, fmt::format("energy_m2 {:.9g}, the map's {:.9g}", sample.record.energy_m2, energy));
     const auto* bytes = reinterpret_cast<const char*>(sample.magnitude.data());
     const auto [other, fresh] =

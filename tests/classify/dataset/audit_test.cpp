@@ -69,6 +69,23 @@ TEST_F(AuditedDirectory, ShowsSamplesOutOfOrder) {
                                     HasSubstr("3 of 8 samples are missing")));
 }
 
+// A map near the smallest float loses digits when it is stored; peak and energy were taken before.
+TEST_F(AuditedDirectory, AllowsForTheRoundingOfTheSmallestNumbers) {
+  const auto with_factor = [&](double stored, double recorded) {
+    falsify(0, [&](Shard& shard) {
+      for (Sample& sample : shard.samples) {
+        for (float& value : sample.magnitude) value = static_cast<float>(value * stored);
+        sample.record.peak_m *= recorded;
+        sample.record.energy_m2 *= recorded * recorded;
+      }
+    });
+    return faults();
+  };
+  EXPECT_THAT(with_factor(1.2e-41, 1.2e-41), IsEmpty());
+  EXPECT_THAT(with_factor(1e-30, 1.001e-30), Contains(HasSubstr("peak_m")));
+  EXPECT_THAT(with_factor(1e-30, 1.001e-30), Contains(HasSubstr("energy_m2")));
+}
+
 TEST_F(AuditedDirectory, ShowsAMapThatAppearsUnderTwoNumbers) {
   falsify(0, [](Shard& shard) {
     shard.samples[1].magnitude = shard.samples[0].magnitude;
