@@ -18,6 +18,9 @@ std::uint64_t key_index(std::uint64_t repeat, Protocol protocol, bool fusion, st
   return ((repeat * 2 + (protocol == Protocol::kGroup ? 1 : 0)) * 2 + (fusion ? 1 : 0)) * 1000000u + state;
 }
 
+// Added to the index of state 0: the order of the states has a key above those of the states themselves.
+constexpr std::uint64_t kOrderOfStates = std::uint64_t{1} << 32;
+
 template <class T>
 void shuffle(std::vector<T>& values, const RandomKey& key) {
   Random random(key);
@@ -37,9 +40,14 @@ Split cut(std::span<const RowGroup> rows, const std::vector<std::size_t>& candid
   } else {
     std::map<std::int64_t, std::set<std::int64_t>> groups_of_state;
     for (const std::size_t row : candidates) groups_of_state[rows[row].sea_state].insert(rows[row].group);
+    std::vector<std::int64_t> states;
+    for (const auto& [state, groups] : groups_of_state) states.push_back(state);
+    // In a fixed order the carried rounding would give every repeat's test groups to the same states.
+    shuffle(states, {seed, Stream::kSplit, kOrderOfStates + key_index(repeat, protocol, fusion, 0)});
     std::set<std::int64_t> chosen;
     double wanted = 0;
-    for (const auto& [state, groups] : groups_of_state) {
+    for (const std::int64_t state : states) {
+      const std::set<std::int64_t>& groups = groups_of_state[state];
       std::vector<std::int64_t> order(groups.begin(), groups.end());
       shuffle(order, {seed, Stream::kSplit, key_index(repeat, protocol, fusion, static_cast<std::uint64_t>(state))});
       wanted += share * static_cast<double>(order.size());

@@ -29,8 +29,8 @@ struct Split {
 
 // kRandom: rows are shuffled and cut at the share (the paper's way: maps of one sea lie on both sides). kGroup: whole
 // groups are shuffled and cut, state by state, so that no test map shares its sea with a training map. `train_share` of
-// the rows or groups go to `train`; rounding is carried from state to state, and both sides get one group at least
-// where there are two.
+// the rows or groups go to `train`; rounding is carried from state to state, in an order of the states that is shuffled
+// for every repeat, and both sides get one group at least where there are two.
 Split split_rows(std::span<const RowGroup> rows, Protocol protocol, double train_share, std::uint64_t seed,
                  std::uint64_t repeat);
 

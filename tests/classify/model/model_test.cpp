@@ -4,7 +4,9 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <map>
 #include <set>
+#include <span>
 
 #include "classify/model/booster.h"
 #include "classify/model/scores.h"
@@ -38,6 +40,36 @@ TEST(Split, ByGroupNeverDividesASea) {
     std::set<std::int64_t> states;
     for (const std::int64_t group : test) states.insert(group / 5);
     EXPECT_EQ(states.size(), 3u);
+  }
+}
+
+// One sea of each of four states: 2.8 go to training.
+TEST(Split, ByGroupTestsOnEveryStateInSomeRepeat) {
+  std::vector<RowGroup> rows;
+  for (int group = 0; group < 4; ++group) rows.insert(rows.end(), 20, {group, group});
+  std::map<std::int64_t, int> repeats_of_state;
+  for (std::uint64_t repeat = 0; repeat < 400; ++repeat) {
+    const Split split = split_rows(rows, Protocol::kGroup, 0.7, 42, repeat);
+    ASSERT_EQ(split.test.size(), 20u) << "repeat " << repeat;
+    ++repeats_of_state[rows[split.test.front()].sea_state];
+  }
+  // A quarter of 400 each; four standard deviations of the binomial count are 4 sqrt(400 / 4 * 3 / 4) = 35.
+  for (int state = 0; state < 4; ++state) EXPECT_NEAR(repeats_of_state[state], 100, 35) << "state " << state;
+}
+
+// Ten seas of each of three states: 7 of each train, nothing is carried, so no state knows of the others.
+TEST(Split, ByGroupOfWholeSharesIsThatOfEachStateAlone) {
+  std::vector<RowGroup> rows;
+  for (int group = 0; group < 30; ++group) rows.push_back({group, group / 10});
+  for (std::uint64_t repeat = 0; repeat < 20; ++repeat) {
+    std::vector<std::size_t> alone;
+    for (std::size_t state = 0; state < 3; ++state) {
+      const std::span<const RowGroup> of_state(rows.data() + 10 * state, 10);
+      for (const std::size_t row : split_rows(of_state, Protocol::kGroup, 0.7, 42, repeat).test)
+        alone.push_back(10 * state + row);
+    }
+    EXPECT_EQ(alone.size(), 9u);
+    EXPECT_EQ(split_rows(rows, Protocol::kGroup, 0.7, 42, repeat).test, alone);
   }
 }
 
