@@ -71,7 +71,7 @@ void check_learnable(const Scenario& scenario) {
   const SamplePlan plan(scenario);
   std::vector<RowGroup> rows;
   for (std::size_t sample = 0; sample < plan.size(); ++sample) {
-    const SampleAddress address = plan.address(sample);
+    const SampleAddress address = plan.sea_address(sample);
     rows.push_back({plan.group(address), address.sea_state});
   }
   check_splits(rows, scenario.learning, scenario.dataset.train_share, scenario.seed);

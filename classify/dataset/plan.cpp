@@ -41,17 +41,22 @@ std::vector<std::uint32_t> SamplePlan::order(std::size_t realisation_number) con
   return order;
 }
 
-SampleAddress SamplePlan::address(std::size_t sample) const {
+SampleAddress SamplePlan::sea_address(std::size_t sample) const {
   SEAGLINT_CHECK(sample < size(), fmt::format("sample {} of {}", sample, size()));
   const std::size_t realisation_number = sample / per_realisation_;
-  const std::size_t place = order(realisation_number)[sample % per_realisation_];
-  const std::size_t intervals = static_cast<std::size_t>(intervals_);
   SampleAddress address;
+  address.realisation = static_cast<int>(realisation_number % realisations_);
+  address.sea_state = static_cast<int>(realisation_number / realisations_);
+  return address;
+}
+
+SampleAddress SamplePlan::address(std::size_t sample) const {
+  SampleAddress address = sea_address(sample);
+  const std::size_t place = order(sample / per_realisation_)[sample % per_realisation_];
+  const std::size_t intervals = static_cast<std::size_t>(intervals_);
   address.target = static_cast<int>(place % targets_);
   address.interval = static_cast<int>(place / targets_ % intervals);
   address.view = static_cast<int>(place / targets_ / intervals);
-  address.realisation = static_cast<int>(realisation_number % realisations_);
-  address.sea_state = static_cast<int>(realisation_number / realisations_);
   return address;
 }
 

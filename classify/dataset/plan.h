@@ -39,6 +39,8 @@ class SamplePlan {
   std::size_t size() const;
   SampleAddress address(std::size_t sample) const;         // sample < size()
   std::size_t sample(const SampleAddress& address) const;  // inverse of address()
+  // Sea state and realisation of a sample, zero elsewhere: what group() needs. address() shuffles the realisation.
+  SampleAddress sea_address(std::size_t sample) const;
 
   std::size_t shards() const;
   ShardRange shard(std::size_t index) const;  // the last shard may hold fewer samples

@@ -43,6 +43,10 @@ TEST(SamplePlan, NumbersEveryAddressOnce) {
     const SampleAddress at = plan.address(i);
     seen.insert({at.sea_state, at.realisation, at.view, at.interval, at.target});
     EXPECT_EQ(plan.sample(at), i);
+    const SampleAddress sea = plan.sea_address(i);
+    EXPECT_EQ(sea.sea_state, at.sea_state);
+    EXPECT_EQ(sea.realisation, at.realisation);
+    EXPECT_EQ(plan.group(sea), plan.group(at));
   }
   EXPECT_EQ(seen.size(), plan.size());
 }
