@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <system_error>
 
 #include "classify/dataset/dataset_writer.h"
@@ -35,12 +36,32 @@ std::string embeddings_csv(const LearningTable& table, const FeatureMatrix& embe
   return text;
 }
 
+// The keys of a section of the effective scenario with their values as YAML has them: numbers, flags, words.
+nlohmann::ordered_json section_of(const Scenario& scenario, const std::string& section) {
+  nlohmann::ordered_json json;
+  std::istringstream yaml(effective_yaml(scenario));
+  bool inside = false;
+  for (std::string line; std::getline(yaml, line);) {
+    if (!line.starts_with("  ")) {
+      inside = line == section + ":";
+    } else if (inside) {
+      const std::size_t colon = line.find(": ");
+      const std::string value = line.substr(colon + 2);
+      const auto number = nlohmann::ordered_json::parse(value, nullptr, false);
+      json[line.substr(2, colon - 2)] = number.is_discarded() ? nlohmann::ordered_json(value) : number;
+    }
+  }
+  return json;
+}
+
 std::string metrics_json(const Study& study, const LearningTable& table, const Scenario& scenario,
                          const Manifest& manifest) {
   nlohmann::ordered_json json = nlohmann::ordered_json::parse(to_json(study, scenario.learning));
   json["scenario"] = scenario.name;
   json["version"] = kVersion;
   json["seed"] = scenario.seed;
+  json["learning"] = section_of(scenario, "learning");
+  json["dataset"]["split"] = section_of(scenario, "dataset").at("split");
   json["data"] = {{"maps", table.rows()},
                   {"maps_with_fewer_than_3_centres", table.degenerate},
                   {"processors", manifest.processors},

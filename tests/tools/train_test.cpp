@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <map>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "sim/core/error.h"
@@ -57,6 +58,28 @@ TEST_F(Training, ThatIsStoppedEndsSoonAndLeavesTheEarlierModel) {
   // This many trees take minutes: the time limit of the test would end it.
   EXPECT_THROW(train({{"learning.trees", "100000"}}, &stop), Interrupted);
   EXPECT_EQ(files(), before);
+}
+
+TEST_F(Training, IsWrittenDownWithWhatItWasTrainedBy) {
+  const std::vector<Override> overrides{{"learning.epochs", "1"},
+                                        {"learning.fusion", "in_sample"},
+                                        {"learning.map_floor_db", "-50"},
+                                        {"learning.learning_rate", "0.002"},
+                                        {"dataset.split", "5:3"}};
+  train_model(folder_ / "data", folder_ / "other", overrides, 1);
+  const nlohmann::json metrics = nlohmann::json::parse(read_file(folder_ / "other" / kMetricsFile));
+  EXPECT_EQ(metrics.at("dataset").at("split"), "5:3");
+  const nlohmann::json& learning = metrics.at("learning");
+  EXPECT_EQ(learning.at("fusion"), "in_sample");
+  EXPECT_EQ(learning.at("map_floor_db"), -50);
+  EXPECT_EQ(learning.at("learning_rate"), 0.002);
+
+  // What is written is enough to set every key again.
+  std::vector<Override> again{{"dataset.split", metrics.at("dataset").at("split")}};
+  for (const auto& [key, value] : learning.items())
+    again.push_back({"learning." + key, value.is_string() ? value.get<std::string>() : value.dump()});
+  EXPECT_EQ(effective_yaml(read_scenario(folder_ / "data" / "scenario.yaml", again)),
+            effective_yaml(read_scenario(folder_ / "data" / "scenario.yaml", overrides)));
 }
 
 TEST_F(Training, WithoutItsLastFileHasNoMetrics) {
