@@ -143,8 +143,9 @@ DatasetWriter::DatasetWriter(fs::path directory, const Scenario& scenario, bool 
     }
   }
   earlier_ = manifest_there();
-  keep_inputs(directory_, scenario_);
+  require_same_inputs(directory_, scenario_);
   if (!same_text) write_file(scenario_file, scenario_yaml_);
+  keep_inputs(directory_, scenario_);
 }
 
 fs::path DatasetWriter::shard_file(std::size_t shard) const { return directory_ / shard_name(shard); }

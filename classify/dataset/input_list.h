@@ -15,7 +15,7 @@ inline constexpr const char* kInputsFile = "inputs.sha256";
 // everything.
 void require_same_inputs(const std::filesystem::path& directory, const Scenario& scenario);
 
-// The same, and writes the list where there is none and the scenario names files.
+// Writes the list where there is none and the scenario names files.
 void keep_inputs(const std::filesystem::path& directory, const Scenario& scenario);
 
 }  // namespace seaglint

@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include "classify/dataset/dataset_writer.h"
+#include "classify/dataset/input_list.h"
 
 namespace seaglint {
 
@@ -28,7 +29,7 @@ struct Author {
 
 // What stands behind the name of one of our files, from its dot on; empty where none begins so.
 std::string_view behind_own_name(std::string_view name) {
-  for (const std::string_view own : {kScenarioFile, kManifestFile, kDataCardFile}) {
+  for (const std::string_view own : {kScenarioFile, kInputsFile, kManifestFile, kDataCardFile}) {
     if (name.starts_with(own)) return name.substr(own.size());
   }
   for (const std::string_view ending : {".h5.", ".npz."}) {

@@ -36,6 +36,7 @@ class InputList : public ::testing::Test {
   void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
   std::string complaint() const {
     try {
+      require_same_inputs(folder_ / "data", scenario_);
       keep_inputs(folder_ / "data", scenario_);
     } catch (const InputError& error) {
       return error.what();
