@@ -69,7 +69,7 @@ TEST(FiniteRange, SlipOfAShadowEdgeIsNoPlace) {
   const double k = wavenumber(3e9);
   const Mat3 tilt = Eigen::AngleAxisd(radians(50), Vec3::UnitY()).toRotationMatrix();
   TriangleMesh mesh = transformed(make_plate(2, 2), tilt, Vec3::Zero());
-  TriangleMesh screen = transformed(make_plate(4, 4), Mat3::Identity(), {8, 2, 0});
+  TriangleMesh screen = transformed(make_plate(4, 4), Mat3::Identity(), {8, 0, 2});
   screen.part_names = {"screen"};
   mesh.append(screen);
   IlluminationSettings settings;
