@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "sim/core/file.h"
+#include "tests/temporary_folder.h"
 
 namespace seaglint {
 
@@ -22,25 +23,6 @@ struct ProgramResult {
   int code = -1;  // exit code; 128 + n when signal n ended it
   std::string out;
   std::string err;
-};
-
-// An empty folder that lives as long as this object.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "seaglint_pipeline_XXXXXX").string();
-    path_ = ::mkdtemp(pattern.data());
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
 };
 
 inline constexpr const char* kProgram = SEAGLINT_BINARY_DIR "/seaglint";

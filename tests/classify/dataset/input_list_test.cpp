@@ -6,12 +6,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <fstream>
 
 #include "classify/dataset/checksum.h"
 #include "sim/core/error.h"
 #include "sim/core/file.h"
+#include "tests/temporary_folder.h"
 
 namespace seaglint {
 namespace {
@@ -22,8 +22,6 @@ using ::testing::HasSubstr;
 class InputList : public ::testing::Test {
  protected:
   InputList() {
-    std::string pattern = (fs::temp_directory_path() / "seaglint_inputs_XXXXXX").string();
-    folder_ = ::mkdtemp(pattern.data());
     fs::create_directory(folder_ / "data");
     write("ship.glb", "ship");
     scenario_.folder = folder_;
@@ -31,7 +29,6 @@ class InputList : public ::testing::Test {
     scenario_.targets[0].name = "ship";
     scenario_.targets[0].mesh = "ship.glb";
   }
-  ~InputList() override { fs::remove_all(folder_); }
 
   void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
   std::string complaint() const {
@@ -44,7 +41,8 @@ class InputList : public ::testing::Test {
     return "";
   }
 
-  fs::path folder_;
+  TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_.path();
   Scenario scenario_;
 };
 

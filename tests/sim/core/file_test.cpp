@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "sim/core/error.h"
+#include "tests/temporary_folder.h"
 
 namespace seaglint {
 namespace {
@@ -19,12 +20,6 @@ using ::testing::HasSubstr;
 // An empty folder of its own for each test.
 class Files : public ::testing::Test {
  protected:
-  Files() {
-    std::string pattern = (fs::temp_directory_path() / "seaglint_file_test_XXXXXX").string();
-    folder_ = ::mkdtemp(pattern.data());
-  }
-  ~Files() override { fs::remove_all(folder_); }
-
   std::size_t entries() const {
     return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
   }
@@ -39,7 +34,8 @@ class Files : public ::testing::Test {
     return "no error of this type";
   }
 
-  fs::path folder_;
+  TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_.path();
 };
 
 TEST_F(Files, WhatIsWrittenIsRead) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <cmath>
 #include <filesystem>
@@ -10,6 +9,7 @@
 #include "sim/core/constants.h"
 #include "sim/core/error.h"
 #include "sim/scenario/scenario.h"
+#include "tests/temporary_folder.h"
 
 namespace seaglint {
 namespace {
@@ -55,8 +55,8 @@ TEST(Cases, ViewsRunThroughTheSweepsWithTheAzimuthSlowest) {
 
 TEST(Cases, TheFilesThatAScenarioNamesAreListedByTheirKeys) {
   namespace fs = std::filesystem;
-  std::string pattern = (fs::temp_directory_path() / "seaglint_inputs_test_XXXXXX").string();
-  const fs::path folder = ::mkdtemp(pattern.data());
+  const TemporaryFolder temporary;
+  const fs::path& folder = temporary.path();
   for (const char* name : {"a.glb", "steel.yaml", "moves.csv", "codes.txt"}) std::ofstream(folder / name) << "x";
   Scenario scenario;
   scenario.folder = folder;
@@ -80,13 +80,12 @@ TEST(Cases, TheFilesThatAScenarioNamesAreListedByTheirKeys) {
             "targets.ship.part_materials.1.material steel.yaml\n");
   fs::remove(folder / "moves.csv");
   EXPECT_THROW(input_files(scenario), InputError);
-  fs::remove_all(folder);
 }
 
 TEST(Cases, AMeshIsFoundBesideTheScenarioOrBelowTheWorkingDirectory) {
   namespace fs = std::filesystem;
-  std::string pattern = (fs::temp_directory_path() / "seaglint_mesh_test_XXXXXX").string();
-  const fs::path folder = ::mkdtemp(pattern.data());
+  const TemporaryFolder temporary;
+  const fs::path& folder = temporary.path();
   std::ofstream(folder / "a.glb") << "x";
   Scenario scenario;
   scenario.folder = folder;
@@ -108,7 +107,6 @@ TEST(Cases, AMeshIsFoundBesideTheScenarioOrBelowTheWorkingDirectory) {
         error.what(),
         "targets.ship.mesh: value 'b.glb': no such file, neither elsewhere/b.glb nor below the working directory");
   }
-  fs::remove_all(folder);
 }
 
 }  // namespace
