@@ -15,6 +15,7 @@
 #include "tools/figure.h"
 #include "tools/html.h"
 #include "tools/mesh_picture.h"
+#include "tools/metrics.h"
 #include "tools/scene.h"
 #include "tools/summary.h"
 
@@ -128,8 +129,6 @@ void add_maps(FigureList& list, const ReportData& data) {
         fmt::format("Range-velocity map of {} at azimuth {:g} degrees", record.target_name, record.azimuth_deg), false);
   }
 }
-
-double value_or_nan(const nlohmann::ordered_json& json) { return json.is_number() ? json.get<double>() : std::nan(""); }
 
 void add_accuracy(FigureList& list, const nlohmann::ordered_json& metrics) {
   for (const char* protocol : {"random", "group"}) {

@@ -9,6 +9,7 @@
 
 #include "radar/waveform/pulse_train.h"
 #include "tools/html.h"
+#include "tools/metrics.h"
 
 namespace seaglint {
 
@@ -21,27 +22,25 @@ constexpr const char* kGroups[3] = {"handmade", "cnn", "fused"};
 constexpr const char* kGroupNames[3] = {"hand-made", "CNN", "fused"};
 constexpr const char* kProtocols[2] = {"random", "group"};
 
-double value(const ordered_json& json) { return json.is_number() ? json.get<double>() : std::nan(""); }
-
 std::string percent(double share) { return std::isfinite(share) ? fmt::format("{:.1f} %", 100 * share) : "–"; }
 
 // "93.3 % (88–98)"
 std::string accuracy_cell(const ordered_json& scores) {
-  const double low = value(scores.at("accuracy_95")[0]), high = value(scores.at("accuracy_95")[1]);
-  std::string cell = percent(value(scores.at("accuracy")));
+  const double low = value_or_nan(scores.at("accuracy_95")[0]), high = value_or_nan(scores.at("accuracy_95")[1]);
+  std::string cell = percent(value_or_nan(scores.at("accuracy")));
   if (std::isfinite(low)) cell += fmt::format(" <small>({:.0f}–{:.0f})</small>", 100 * low, 100 * high);
   return cell;
 }
 
 double accuracy(const ordered_json& metrics, const char* group, const char* protocol) {
-  return value(metrics.at(group).at(protocol).at("accuracy"));
+  return value_or_nan(metrics.at(group).at(protocol).at("accuracy"));
 }
 
 // "62.0, 81.3, 90.0 %" by ascending wave height
 std::string by_height(const ordered_json& scores) {
   std::string text;
   for (const auto& row : scores.at("by_wave_height"))
-    text += fmt::format("{}{:.1f}", text.empty() ? "" : ", ", 100 * value(row.at("accuracy")));
+    text += fmt::format("{}{:.1f}", text.empty() ? "" : ", ", 100 * value_or_nan(row.at("accuracy")));
   return text + " %";
 }
 
@@ -49,8 +48,8 @@ std::string by_height(const ordered_json& scores) {
 bool rises(const ordered_json& scores) {
   double last = -1;
   for (const auto& row : scores.at("by_wave_height")) {
-    if (!(value(row.at("accuracy")) > last)) return false;
-    last = value(row.at("accuracy"));
+    if (!(value_or_nan(row.at("accuracy")) > last)) return false;
+    last = value_or_nan(row.at("accuracy"));
   }
   return scores.at("by_wave_height").size() > 1;
 }
@@ -62,46 +61,11 @@ const ordered_json* probe(const ordered_json& metrics, const std::string& name) 
   return nullptr;
 }
 
-// What knowing nothing but the classes' shares reaches: from guessing at those shares to naming the larger class always.
-struct Guessing {
-  double least = 0.5, most = 0.5;
-
-  std::string text() const {
-    const std::string high = fmt::format("{:.1f} %", 100 * most);
-    return most - least < 5e-4 ? high : fmt::format("{:.1f} to {}", 100 * least, high);
-  }
-};
-Guessing guessing(const ordered_json& scores) {
-  const auto count = [&](const char* entry) { return scores.at("confusion").at(entry).get<double>(); };
-  const double arrays = count("array_as_array") + count("array_as_ship"),
-               ships = count("ship_as_array") + count("ship_as_ship");
-  if (!(arrays + ships > 0)) return {};
-  const double larger = std::max(arrays, ships) / (arrays + ships);
-  return {larger * larger + (1 - larger) * (1 - larger), larger};
-}
-
-// Whether a probe is compatible with guessing. What is random by construction is independent from map to map: the 99 %
-// binomial interval of one split's rows (repeats reuse the same maps). Anything else goes by its bootstrap over seas.
-bool as_chance(const ordered_json& scores, bool independent, int repeats) {
-  const Guessing guess = guessing(scores);
-  const double low = value(scores.at("accuracy_95")[0]), high = value(scores.at("accuracy_95")[1]);
-  if (!independent && std::isfinite(low)) return low <= guess.most && guess.least <= high;
-  const double rows = scores.at("rows").get<double>() / repeats, accuracy = value(scores.at("accuracy"));
-  const double off = std::max({accuracy - guess.most, guess.least - accuracy, 0.0});
-  return off <= 2.576 * std::sqrt(guess.most * (1 - guess.most) / rows);
-}
-
-bool as_chance(const ordered_json& metrics, const ordered_json& probe) {
-  const bool blind = probe.at("kind") == "blind";
-  const int repeats = metrics.at("split_repeats");
-  return as_chance(probe.at("random"), blind, repeats) && as_chance(probe.at("group"), blind, repeats);
-}
-
 // The median of a feature over both wave heights given, of one class.
 double median_at(const ordered_json& metrics, const char* list, const char* key, double at, int label,
                  const char* feature) {
   for (const auto& entry : metrics.at("report").at(list)) {
-    if (entry.at(key) == at && entry.at("label") == label) return value(entry.at(feature).at("median"));
+    if (entry.at(key) == at && entry.at("label") == label) return value_or_nan(entry.at(feature).at("median"));
   }
   return std::nan("");
 }
@@ -109,9 +73,9 @@ double median_at(const ordered_json& metrics, const char* list, const char* key,
 // How the accuracy on random rows compares with that on unseen seas: two figures whose 95 % intervals reach each other
 // are not told apart.
 std::string compared_protocols(const ordered_json& random, const ordered_json& group) {
-  const double gap = 100 * (value(random.at("accuracy")) - value(group.at("accuracy")));
-  const auto low = [](const ordered_json& scores) { return value(scores.at("accuracy_95")[0]); };
-  const auto high = [](const ordered_json& scores) { return value(scores.at("accuracy_95")[1]); };
+  const double gap = 100 * (value_or_nan(random.at("accuracy")) - value_or_nan(group.at("accuracy")));
+  const auto low = [](const ordered_json& scores) { return value_or_nan(scores.at("accuracy_95")[0]); };
+  const auto high = [](const ordered_json& scores) { return value_or_nan(scores.at("accuracy_95")[1]); };
   const std::string by = fmt::format("by {:.1f} points", std::abs(gap));
   if (!std::isfinite(gap)) return "";
   if (std::abs(gap) < 0.05) return "; here they agree";
@@ -140,7 +104,7 @@ std::string summary_tiles(const ordered_json& metrics) {
     return fmt::format("<div class=\"tile\"><b>{}</b><span>{}</span></div>\n", number, words);
   };
   double seconds = 0;
-  for (const auto& entry : metrics.at("run").at("seconds")) seconds += value(entry);
+  for (const auto& entry : metrics.at("run").at("seconds")) seconds += value_or_nan(entry);
   std::string html = "<div class=\"tiles\">\n";
   html += tile(fmt::format("{}", metrics.at("data").at("maps").get<std::size_t>()), "range-velocity maps");
   html += tile(percent(accuracy(metrics, "handmade", "group")), "hand-made features, unseen seas");
@@ -182,8 +146,8 @@ std::string accuracy_tables(const ordered_json& metrics) {
     const auto number = [](double x, const char* format) {
       return std::isfinite(x) ? fmt::format(fmt::runtime(format), x) : "–";
     };
-    rows.push_back({name, fusion, accuracy_cell(e), number(value(e.at("auc")), "{:.3f}"),
-                    number(value(e.at("log_loss")), "{:.3f}"),
+    rows.push_back({name, fusion, accuracy_cell(e), number(value_or_nan(e.at("auc")), "{:.3f}"),
+                    number(value_or_nan(e.at("log_loss")), "{:.3f}"),
                     fmt::format("{}", e.at("confusion").at("array_as_ship").get<std::size_t>()),
                     fmt::format("{}", e.at("confusion").at("ship_as_array").get<std::size_t>()),
                     fmt::format("{}", e.at("train_rows").get<std::size_t>())});
@@ -274,7 +238,7 @@ std::string feature_table(const ordered_json& metrics) {
   Rows rows{{"class, H<sub>s</sub>", "MWR ((m/s)²)", "CCF", "σ<sub>r</sub> (m)", "σ<sub>v</sub> (m/s)", "centres",
              "line explains"}};
   const auto cell = [](const ordered_json& q, const char* format, double scale) {
-    const auto number = [&](const char* key) { return fmt::format(fmt::runtime(format), scale * value(q.at(key))); };
+    const auto number = [&](const char* key) { return fmt::format(fmt::runtime(format), scale * value_or_nan(q.at(key))); };
     return fmt::format("{} <small>({}–{})</small>", number("median"), number("lower"), number("upper"));
   };
   for (const auto& e : metrics.at("report").at("features_by_wave_height")) {
@@ -294,7 +258,7 @@ std::string expert_notes(const ordered_json& metrics, const Scenario& scenario) 
       "<b>Two protocols.</b> Fused features reach {} on random maps and {} on unseen seas{}. Maps of one sea, {:g} s "
       "apart and seen "
       "from several aspects, are not independent: the second figure is the one that would carry over to another day.",
-      percent(value(random.at("accuracy"))), percent(value(group.at("accuracy"))), compared_protocols(random, group),
+      percent(value_or_nan(random.at("accuracy"))), percent(value_or_nan(group.at("accuracy"))), compared_protocols(random, group),
       scenario.dataset.interval_spacing_s));
   const std::size_t seas = metrics.at("handmade").at("group").at("groups");
   html += item(fmt::format(
@@ -308,11 +272,11 @@ std::string expert_notes(const ordered_json& metrics, const Scenario& scenario) 
                     "reaches {} on unseen seas. No feature group sees it: centre weights are normalised, the network’s "
                     "input is divided by its energy. "
                     "A pipeline with unnormalised maps would look better for the wrong reason.",
-                    level_of_maps(scenario.clutter), percent(value(power->at("group").at("accuracy")))));
+                    level_of_maps(scenario.clutter), percent(value_or_nan(power->at("group").at("accuracy")))));
   }
   const auto alone = [&metrics](const char* name) {
     const ordered_json* found = probe(metrics, name);
-    return found ? percent(value(found->at("group").at("accuracy"))) : std::string("–");
+    return found ? percent(value_or_nan(found->at("group").at("accuracy"))) : std::string("–");
   };
   html +=
       item(fmt::format("<b>Geometry or motion?</b> By itself, on unseen seas, the range spread σ<sub>r</sub> reaches "
@@ -335,14 +299,15 @@ std::string expert_notes(const ordered_json& metrics, const Scenario& scenario) 
     if (entry.at("kind") == "blind") clean = clean && as_chance(metrics, entry);
   }
   const std::string chance = guessing(group).text();
-  html += item(fmt::format(
-      fmt::runtime(clean ? "<b>No leak by construction.</b> Hop code and sample order, which know nothing of the target, "
-                           "stay at chance ({} on unseen seas, from the shares of the classes)."
-                         : "<b>Look for a leak.</b> A quantity that knows nothing of the target (hop code or sample order) "
-                           "is away from chance ({} on unseen seas, from the shares of the classes) by more than its interval. "
-                           "With several probes and few seas this happens by chance now and then; repeat with another seed "
-                           "before believing it."),
-      chance));
+  html += item(
+      clean ? fmt::format("<b>No leak by construction.</b> Hop code and sample order, which know nothing of the target, "
+                          "stay at chance ({} on unseen seas, from the shares of the classes).",
+                          chance)
+            : fmt::format("<b>Look for a leak.</b> A quantity that knows nothing of the target (hop code or sample order) "
+                          "is away from chance ({} on unseen seas, from the shares of the classes) by more than its "
+                          "interval. With several probes and few seas this happens by chance now and then; repeat with "
+                          "another seed before believing it.",
+                          chance));
   // The random code's pedestal and the velocity cell set what the features can resolve.
   const PulseTrain train = make_pulse_train(scenario.radar, scenario.map.range_span_m, scenario.seed, 0);
   const double cell = train.velocity_resolution_mps();
@@ -358,7 +323,7 @@ std::string expert_notes(const ordered_json& metrics, const Scenario& scenario) 
   for (const auto& e : metrics.at("report").at("features_by_azimuth")) {
     if (e.at("label") != 1) continue;
     const double azimuth = e.at("azimuth_deg");
-    const double line = value(e.at("line_explained").at("median"));
+    const double line = value_or_nan(e.at("line_explained").at("median"));
     const double other = median_at(metrics, "features_by_azimuth", "azimuth_deg", azimuth, 0, "line_explained");
     aspects += fmt::format("{}{:g}°: {:.0f} / {:.0f} %", aspects.empty() ? "" : ", ", azimuth, 100 * line, 100 * other);
   }
@@ -391,7 +356,7 @@ std::string provenance_table(const ordered_json& metrics) {
   Rows rows{{"item", "value"}};
   const auto& run = metrics.at("run");
   for (const auto& [stage, seconds] : run.at("seconds").items())
-    rows.push_back({fmt::format("time for {}", stage), fmt::format("{:.1f} s", value(seconds))});
+    rows.push_back({fmt::format("time for {}", stage), fmt::format("{:.1f} s", value_or_nan(seconds))});
   rows.push_back({"threads", fmt::format("{}", run.at("threads").get<int>())});
   rows.push_back(
       {"maps made in this run / kept from an earlier one",
@@ -411,7 +376,7 @@ std::string provenance_table(const ordered_json& metrics) {
   const auto& losses = network.at("training_loss");
   if (!losses.empty())
     rows.push_back({"network’s training loss, first and last epoch",
-                    fmt::format("{:.3f}, {:.3f}", value(losses.front()), value(losses.back()))});
+                    fmt::format("{:.3f}, {:.3f}", value_or_nan(losses.front()), value_or_nan(losses.back()))});
   return html_table(rows, false);
 }
 
