@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/core/constants.h"
 #include "sim/core/error.h"
 #include "sim/geometry/mesh_health.h"
 #include "sim/geometry/mesh_io.h"
@@ -153,7 +152,7 @@ double range_window_m(const Scenario& scenario, const std::vector<Target>& targe
   // A tenth more than the target, since bodies drift and shadowed paths are longer than straight ones.
   const double window_m = std::max(scenario.map.range_span_m, 2.2 * reach);
   const RadarSpec& radar = scenario.radar;
-  const double echo_us = radar.pulse_width_us + 2e6 * window_m / kSpeedOfLight;
+  const double echo_us = echo_duration_us(radar, window_m);
   if (echo_us > radar.pri_us) {
     throw InputError(fmt::format("{}: a target reaches {:.6g} m from the reference point: its echo lasts {:.6g} us with the pulse and "
                                  "must end within radar.pri_us, {}",

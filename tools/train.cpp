@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <system_error>
 
 #include "classify/dataset/dataset_writer.h"
 #include "seaglint_version.h"
 #include "sim/core/error.h"
 #include "sim/core/file.h"
+#include "sim/scenario/document.h"
 
 namespace seaglint {
 
@@ -39,17 +39,10 @@ std::string embeddings_csv(const LearningTable& table, const FeatureMatrix& embe
 // The keys of a section of the effective scenario with their values as YAML has them: numbers, flags, words.
 nlohmann::ordered_json section_of(const Scenario& scenario, const std::string& section) {
   nlohmann::ordered_json json;
-  std::istringstream yaml(effective_yaml(scenario));
-  bool inside = false;
-  for (std::string line; std::getline(yaml, line);) {
-    if (!line.starts_with("  ")) {
-      inside = line == section + ":";
-    } else if (inside) {
-      const std::size_t colon = line.find(": ");
-      const std::string value = line.substr(colon + 2);
-      const auto number = nlohmann::ordered_json::parse(value, nullptr, false);
-      json[line.substr(2, colon - 2)] = number.is_discarded() ? nlohmann::ordered_json(value) : number;
-    }
+  const YamlNode effective = parse_yaml(effective_yaml(scenario), scenario.name);
+  for (const YamlEntry& entry : effective.find(section)->entries) {
+    const auto value = nlohmann::ordered_json::parse(entry.value.text, nullptr, false);
+    json[entry.key] = value.is_discarded() ? nlohmann::ordered_json(entry.value.text) : value;
   }
   return json;
 }

@@ -25,8 +25,8 @@ class DatasetWriter {
  public:
   // Makes the directory and writes scenario.yaml. Without `resume` the directory must be new or empty; with it, a
   // scenario.yaml that is there must make the same maps (its learning section and split may differ), the files that it
-  // names be those that the directory was begun with, and the manifest, if any, be of `program_version`. Throws InputError naming the directory and the difference, WorkError when the disk
-  // refuses.
+  // names be those that the directory was begun with, and the manifest, if any, be of `program_version`. Throws
+  // InputError naming the directory and the difference, WorkError when the disk refuses.
   DatasetWriter(std::filesystem::path directory, const Scenario& scenario, bool resume, std::string program_version);
 
   // True when the shard is on the disk and sound: it is read, its rows are compared with the scenario, and its checksum

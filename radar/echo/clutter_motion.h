@@ -38,7 +38,8 @@ struct VelocityMoments {
 VelocityMoments sea_velocity(const ClutterSpec& spec, const ClutterScene& scene, double wavelength_m);
 
 // What a radar that passes by adds to the spread, on its own way and the target's: scatterers off the middle of the beam
-// come nearer or go away, by the speed across the line of sight times the deviation of the two-way Gaussian beam, width / (4 sqrt(ln 2)).
+// come nearer or go away, by the speed across the line of sight times the deviation of the two-way Gaussian beam,
+// width / (4 sqrt(ln 2)).
 double platform_spread_mps(const ClutterScene& scene);
 
 // Radial motion of scatterers that float on the waves: displacement at the time t after the interval's start is v t + a

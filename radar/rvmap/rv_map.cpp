@@ -129,11 +129,12 @@ RvMap form_rv_map(std::span<const Complex> echo, const PulseTrain& train, const 
 
   std::vector<Block> sums(frequencies);
   std::vector<Complex> weighted(frequencies);
-  FourierBatch profile(length, std::min(kBlock, grid.velocity_mps.size()), Fourier::kInverse);
+  const std::size_t most_rows = std::min(kBlock, grid.velocity_mps.size());
+  FourierBatch profile(length, most_rows, Fourier::kInverse);
   for (std::size_t first = 0; first < grid.velocity_mps.size(); first += kBlock) {
     const std::size_t rows = std::min(kBlock, grid.velocity_mps.size() - first);
     const double velocity = grid.velocity_mps[first];
-    std::fill(profile.row(0), profile.row(0) + std::min(kBlock, grid.velocity_mps.size()) * length, Complex{});
+    std::fill(profile.row(0), profile.row(0) + most_rows * length, Complex{});
     for (int i = 0; i < train.carriers; ++i) {
       const double lowest_hz = train.first_carrier_hz + i * train.hop_step_hz + train.baseband_hz.front();
       std::fill(sums.begin(), sums.end(), Block{});

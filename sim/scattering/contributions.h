@@ -55,8 +55,8 @@ void split(const EdgeFootprint& footprint, const SplitSettings& settings, std::v
 
 // The wavefront at a finite range, to second order (CONVENTIONS.md, "Plane waves"): each way is longer by |x_perp|^2 / (2 R), x counted from the point
 // that the range refers to; `origin` is where the contributions' frame stands from there. The gradients follow, but for what a slipping
-// corner's way over the bent front adds, |x_perp| / R of its slip. Contributions must have been split for a turn of radius / R besides their own, since the
-// radar stands in another direction from every point.
+// corner's way over the bent front adds, |x_perp| / R of its slip. Contributions must have been split for a turn of
+// (reach from that point) / R besides their own, since the radar stands in another direction from every point.
 void bend_wavefront(std::span<Contribution> contributions, const AntennaPair& antennas, const Vec3& origin, double range_m);
 
 // sum of pattern amplitude e^{jk (psi + gradient . turn)} over all contributions, both directions turning alike: the direct sum, for tests and for

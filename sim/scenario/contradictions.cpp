@@ -55,7 +55,7 @@ void check_pulse_train(const RadarSpec& radar, const ScenarioDocument& document)
 // The echo of the whole window must be over before the next pulse is sent.
 void check_window(const Scenario& scenario, const ScenarioDocument& document) {
   const RadarSpec& radar = scenario.radar;
-  const double echo_us = radar.pulse_width_us + 2e6 * scenario.map.range_span_m / kSpeedOfLight;
+  const double echo_us = echo_duration_us(radar, scenario.map.range_span_m);
   if (echo_us > radar.pri_us) {
     document.fail_at("map.range_span_m",
                      fmt::format("its echo lasts {:.6g} us with the pulse: must end within radar.pri_us, {}", echo_us,

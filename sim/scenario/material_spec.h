@@ -74,7 +74,7 @@ MaterialSpec parse_material(const std::string& yaml, const std::string& file_nam
 std::optional<std::filesystem::path> find_material_file(const std::string& name, const std::filesystem::path& folder,
                                                         const std::string& where);
 
-// What it says, likewise.
+// What that file says, a perfect conductor for `pec`; likewise.
 MaterialSpec find_material(const std::string& name, const std::filesystem::path& folder, const std::string& where);
 
 }  // namespace seaglint

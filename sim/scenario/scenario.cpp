@@ -74,6 +74,10 @@ fs::path find_mesh(const Scenario& scenario, const TargetSpec& target) {
   return find_file(scenario, target.mesh, fmt::format("targets.{}.mesh", target.name));
 }
 
+double echo_duration_us(const RadarSpec& radar, double window_m) {
+  return radar.pulse_width_us + 2e6 * window_m / kSpeedOfLight;
+}
+
 std::vector<InputFile> input_files(const Scenario& scenario) {
   std::vector<InputFile> files;
   const auto add = [&](const std::string& name, const std::string& key) {

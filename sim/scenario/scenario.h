@@ -76,6 +76,9 @@ std::shared_ptr<const SpectrumTable> find_spectrum_table(const Scenario& scenari
 // Reads the file that `radar.hop_code_file` names, likewise.
 std::shared_ptr<const std::vector<int>> find_hop_codes(const Scenario& scenario);
 
+// How long the echo of a range window of this full width lasts with the pulse, us; it must end before the next pulse.
+double echo_duration_us(const RadarSpec& radar, double window_m);
+
 // The sea states of the sweeps, significant wave height slowest, then peak period, gamma, propagation.
 std::vector<SeaState> sea_states(const SeaSpec& spec);
 
