@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "seaglint_version.h"
+#include "sim/cavity/cavity_echo.h"
 #include "sim/core/constants.h"
 #include "sim/core/error.h"
 #include "sim/core/file.h"
@@ -20,6 +21,7 @@
 #include "sim/scattering/material_parts.h"
 #include "sim/scattering/respond.h"
 #include "sim/scattering/target_check.h"
+#include "tools/cavity_arguments.h"
 #include "tools/command.h"
 #include "tools/figure.h"
 #include "tools/rcs_comparison.h"
@@ -41,6 +43,7 @@ struct RcsArguments {
   ViewExportArguments view;
   std::vector<std::string> materials;  // NAME or PART=NAME
   SeaArguments sea;
+  CavityArguments cavities;
 };
 
 std::vector<double> range(const std::string& option, const std::string& text, double lower, double upper) {
@@ -97,7 +100,7 @@ std::string table_text(const RcsArguments& arguments, const Scatterer& scatterer
   std::string csv = fmt::format(
       "# seaglint {} rcs\n# target {} unit {}: {} facets, radius {:.6g} m\n# material {}, echoes of {}\n{}# physical optics at every visible bounce, "
       "max_bounces {}, edges {}, crease_deg {:.6g}, range_m {:.9g} (0 = far field), {}, "
-      "ray_spacing_m {:.6g}\n# amplitudes in metres, e^{{+jwt}}, phase origin at the body's origin, S_pq: q "
+      "ray_spacing_m {:.6g}\n{}# amplitudes in metres, e^{{+jwt}}, phase origin at the body's origin, S_pq: q "
       "transmitted, p received; basis of CONVENTIONS.md\n"
       "frequency_hz,azimuth_deg,elevation_deg,hh_re,hh_im,hv_re,hv_im,vh_re,vh_im,vv_re,vv_im,hh_dbsm,vv_dbsm\n",
       kVersion, arguments.target, arguments.unit, scatterer.facets().size(), scatterer.radius(),
@@ -106,7 +109,7 @@ std::string table_text(const RcsArguments& arguments, const Scatterer& scatterer
       arguments.transmit_azimuth_deg ? fmt::format("transmitter at azimuth {:.9g} deg, elevation {:.9g} deg", *arguments.transmit_azimuth_deg,
                                                    arguments.transmit_elevation_deg.value_or(0))
                                      : "monostatic",
-      arguments.ray_spacing_m > 0 ? arguments.ray_spacing_m : default_ray_spacing(scatterer));
+      arguments.ray_spacing_m > 0 ? arguments.ray_spacing_m : default_ray_spacing(scatterer), arguments.cavities.text());
   for (std::size_t q = 0; q < sweep.frequency_hz.size(); ++q) {
     for (std::size_t view = 0; view < sweep.views(); ++view) {
       const auto& s = sweep.models.back().matrices[view][q];
@@ -163,6 +166,33 @@ std::size_t trace_views(const RcsArguments& arguments, const Scatterer& scattere
   return legs;
 }
 
+// Adds the echoes of cavities to every model of the sweep.
+void add_cavities(const RcsArguments& arguments, const TriangleMesh& mesh, const Scatterer& scatterer, const EchoFilter& filter, const Shell& shell,
+                  RcsSweep& sweep) {
+  std::vector<AntennaPair> views;
+  for (std::size_t view = 0; view < sweep.views(); ++view) views.push_back(antennas_of(arguments, radar_basis(direction_of(sweep, view))));
+  Progress progress("cavity", filter.cavities.size() * sweep.frequency_hz.size(), "frequencies");
+  for (const int part : filter.cavities) {
+    const Cavity cavity(mesh, static_cast<std::size_t>(part), scatterer, arguments.cavities.patches_per_wavelength);
+    for (std::size_t q = 0; q < sweep.frequency_hz.size(); ++q) {
+      const double k = 2 * kPi * sweep.frequency_hz[q] / kSpeedOfLight;
+      try {
+        const auto matrices = cavity.scattering_matrices(k, views, thread_count(shell.threads), &shell.stop);
+        for (auto& model : sweep.models) {
+          for (std::size_t view = 0; filter.keeps_cavity(part) && view < sweep.views(); ++view) {
+            for (int i = 0; i < 4; ++i) model.matrices[view][q][i] += matrices[view][i];
+          }
+        }
+      } catch (const Interrupted&) {
+        throw WorkError(fmt::format("interrupted in the cavity at {:.6g} GHz; {} is not written", 1e-9 * sweep.frequency_hz[q], arguments.output));
+      } catch (const InputError& error) {
+        throw InputError(fmt::format("--cavity {}, {:.6g} GHz: {}", mesh.part_names[static_cast<std::size_t>(part)], 1e-9 * sweep.frequency_hz[q], error.what()));
+      }
+      progress.advance();
+    }
+  }
+}
+
 std::filesystem::path comparison_figure(const RcsArguments& arguments) {
   if (!arguments.reference.figure.empty()) return arguments.reference.figure;
   return std::filesystem::path(arguments.output).replace_extension(".png");
@@ -206,6 +236,8 @@ void run_rcs(const RcsArguments& arguments, const Shell& shell) {
   if (arguments.transmit_azimuth_deg)
     sweep.transmitter = direction_at(*arguments.transmit_azimuth_deg, arguments.transmit_elevation_deg.value_or(0));
   arguments.sea.check(sweep.elevation_deg, sweep.frequency_hz);
+  if (arguments.cavities.wanted() && (arguments.sea.reflection || arguments.range_m > 0 || arguments.view.wanted()))
+    throw InputError("--cavity is of the far field and the target alone: leave out --sea-reflection, --range-m and exports of a view");
   const std::size_t rows = sweep.views() * sweep.frequency_hz.size();
   constexpr std::size_t kMostRows = 4'000'000;  // 256 MB of matrices
   if (rows > kMostRows) throw InputError(fmt::format("{} rows of output: at most {}", rows, kMostRows));
@@ -226,9 +258,11 @@ void run_rcs(const RcsArguments& arguments, const Shell& shell) {
   warn(check_target(mesh, *lowest));
   if (arguments.sea.reflection) put_in_water(mesh, materials, -arguments.sea.height_m);
   const Scatterer scatterer(mesh, materials, radians(arguments.crease_deg));
-  const EchoFilter filter = arguments.view.filter(mesh);
+  EchoFilter filter = arguments.view.filter(mesh);
+  filter.cavities = arguments.cavities.find(mesh, materials, filter);
   const auto start = std::chrono::steady_clock::now();
   const std::size_t legs = trace_views(arguments, scatterer, filter, shell, sweep);
+  if (arguments.cavities.wanted()) add_cavities(arguments, mesh, scatterer, filter, shell, sweep);
   const double seconds = std::max(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 1e-9);
 
   write_file(arguments.output, table_text(arguments, scatterer, sweep));
@@ -279,6 +313,7 @@ void add_rcs(CLI::App& app, Shell& shell) {
                    "What the target is made of: pec, a name of assets/materials or a file; PART=NAME for one part, PART* for all that begin so (repeatable)")
       ->type_name("[PART=]NAME")
       ->allow_extra_args(false);
+  arguments->cavities.add_to(*command);
   arguments->sea.add_to(*command);
   command->add_option("-o,--output", arguments->output, "CSV file to write")->required();
   arguments->view.add_to(*command);

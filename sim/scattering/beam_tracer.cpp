@@ -27,6 +27,7 @@ class BeamTracer {
         lit_(scene.lit),
         visible_(scene.visible),
         surfaces_(scene.surfaces),
+        filter_(scene.settings.filter),
         out_(out),
         max_bounces_(scene.settings.max_bounces),
         min_area_(scene.min_area),
@@ -225,7 +226,7 @@ class BeamTracer {
 
   // Whether what the candidate reflects is worth following.
   bool goes_on(const Leg& leg, const Candidate& candidate) const {
-    if (leg.bounce >= max_bounces_) return false;
+    if (leg.bounce >= max_bounces_ || filter_.is_cavity(facets_[candidate.image.facet].part)) return false;
     return candidate.lit.area() >= min_beam_area_;
   }
 
@@ -276,6 +277,7 @@ class BeamTracer {
   const VisibleSurface& lit_;
   const VisibleSurface& visible_;  // to the receiver
   std::span<const std::vector<Surface>> surfaces_;
+  const EchoFilter& filter_;
   Lit& out_;
   int max_bounces_;
   double min_area_, min_beam_area_;

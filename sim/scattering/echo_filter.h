@@ -18,8 +18,16 @@ struct EchoSelector {
 // Empty: everything counts. `only`: an echo must meet a selector of every kind that is named. `without`: it must meet none.
 struct EchoFilter {
   std::vector<EchoSelector> only, without;
+  // Parts whose echoes are found from the field inside (sim/cavity): beams end at their walls, what walls and edges of
+  // theirs return does not count.
+  std::vector<int> cavities;
 
+  bool is_cavity(int part) const;
   bool keeps(int part, int bounces, Mechanism mechanism) const;
+  // An edge counts as its first facet's. Between a cavity and another part it is the rim, which stays.
+  bool keeps_edge(int part, int part_beyond, int bounces) const;
+  // Whether the echo of a cavity as a whole counts, by selectors of parts.
+  bool keeps_cavity(int part) const;
 };
 
 }  // namespace seaglint

@@ -39,7 +39,7 @@ void edge_echoes(const Scatterer& scatterer, const AntennaPair& antennas, const 
         edge_footprints(scatterer.edges(), scatterer.facets(), antennas, chunks[chunk], outgoing, settings.max_bounces);
     edge_wave_footprints(scatterer.edges(), scatterer.facets(), antennas, chunks[chunk], outgoing, answer);
     std::erase_if(answer,
-                  [&](const EdgeFootprint& f) { return !settings.filter.keeps(f.part, f.bounces, Mechanism::kEdge); });
+                  [&](const EdgeFootprint& f) { return !settings.filter.keeps_edge(f.part, f.part_beyond, f.bounces); });
     visit(chunk, answer);
   });
 }

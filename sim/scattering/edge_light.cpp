@@ -132,6 +132,7 @@ std::vector<EdgeFootprint> edge_footprints(const SharpEdges& edges, std::span<co
     footprint.length = last - first;
     footprint.facet = edge.facet[0];
     footprint.part = facets[edge.facet[0]].part;
+    footprint.part_beyond = facets[edge.facet[1]].part;
     footprint.bounces = static_cast<std::uint8_t>(in.mirrors + out.mirrors + 1);
     // Physical optics radiates what more mirrors lit straight to the receiver: there its share is what edge_current()
     // leaves out. The same way run backwards has the same answer (reciprocity); ways with as many mirrors on either

@@ -62,7 +62,7 @@ struct EdgeFootprint {
   };
   std::optional<EdgeWaveRange> edge_wave;
   std::int32_t facet = -1;  // the edge's first
-  std::uint16_t part = 0;
+  std::uint16_t part = 0, part_beyond = 0;  // of that facet and of the other one
   std::uint8_t bounces = 1;  // mirrors on both ways and every edge met
 };
 

@@ -234,6 +234,7 @@ class EdgeWaves {
     footprint.length = s[1] - s[0];
     footprint.facet = edge.facet[0];
     footprint.part = facets_[edge.facet[0]].part;
+    footprint.part_beyond = facets_[edge.facet[1]].part;
     footprint.bounces = static_cast<std::uint8_t>(in.walls + in.waves + 1);
     for (int end = 0; end < 2; ++end) {
       const double share = (s[end] - in.s[0]) / (in.s[1] - in.s[0]);

@@ -27,7 +27,7 @@ struct IlluminationSettings {
   double ray_spacing_m = 0;
   int max_bounces = kDefaultBounces;  // 1 <= x <= kMostBounces
   bool edges = false;      // follow the waves that reach sharp edges too
-  EchoFilter filter = {};  // which echoes are summed; all are followed
+  EchoFilter filter = {};  // which echoes are summed; all are followed but those into cavities
   double range_m = 0;      // of the radar, 0 = far field; else beyond ten times the target's reach from where it is counted
   Vec3 origin = Vec3::Zero();  // where the target's frame stands from the point that range_m is counted from, m
 };

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/cavity/cavity_echo.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "sim/cavity/mouth.h"
+#include "sim/cavity/mouth_field.h"
+#include "sim/cavity/wall_currents.h"
+#include "sim/core/constants.h"
+#include "sim/core/error.h"
+
+namespace seaglint {
+namespace {
+
+// The mouth is cut finer than the walls: its cells lie as near as half a patch.
+constexpr double kCellsPerPatch = 2;
+// Directions whose fields in the mouth are taken together.
+constexpr std::size_t kViewsTogether = 128;
+// Fields in the mouth are kept to this, root mean square over directions; no new ones are solved where those known
+// leave less than ten times as much.
+constexpr double kFieldError = 1e-4;
+
+// Neighbours follow each other, from the mouth inwards.
+void sort_inwards(const std::vector<MouthCell>& mouth, std::vector<WallPatch>& walls) {
+  Vec3 middle = Vec3::Zero();
+  double area = 0;
+  for (const MouthCell& cell : mouth) {
+    middle += cell.area * cell.centre;
+    area += cell.area;
+  }
+  middle /= area;
+  std::stable_sort(walls.begin(), walls.end(), [&](const WallPatch& a, const WallPatch& b) { return (a.centre - middle).squaredNorm() < (b.centre - middle).squaredNorm(); });
+}
+
+struct Modes {
+  MouthFields fields;        // orthonormal
+  Eigen::VectorXd strength;  // root of the sum of their squares in all directions
+};
+
+// What, with the columns of `basis`, holds every column of `fields`.
+Modes new_modes(const MouthFields& basis, const MouthFields& fields) {
+  MouthFields rest = fields;
+  for (int pass = 0; pass < 2; ++pass) rest -= basis * (basis.adjoint() * rest);
+  const double negligible = kFieldError * kFieldError * fields.squaredNorm() / static_cast<double>(fields.cols());
+  if (basis.cols() > 0 && rest.squaredNorm() < 100 * negligible) return {MouthFields(fields.rows(), 0), {}};
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> modes(rest.adjoint() * rest);
+  double dropped = 0;
+  Eigen::Index first = 0;
+  while (first < rest.cols() && dropped + std::max(modes.eigenvalues()(first), 0.0) <= negligible) dropped += std::max(modes.eigenvalues()(first++), 0.0);
+  const Eigen::Index count = rest.cols() - first;
+  const Eigen::VectorXd strength = modes.eigenvalues().tail(count).cwiseSqrt();
+  return {rest * modes.eigenvectors().rightCols(count) * strength.cwiseInverse().asDiagonal(), strength};
+}
+
+// Each spread over all views: what the first one finds serves the others.
+std::vector<std::vector<std::size_t>> batches(std::size_t views) {
+  std::vector<std::vector<std::size_t>> result((views + kViewsTogether - 1) / kViewsTogether);
+  for (std::size_t view = 0; view < views; ++view) result[view % result.size()].push_back(view);
+  return result;
+}
+
+// The columns of b to the right of those of a.
+template <typename Columns>
+void append(Columns& a, const Columns& b) {
+  const Eigen::Index before = a.cols();
+  a.conservativeResize(b.rows(), before + b.cols());
+  a.rightCols(b.cols()) = b;
+}
+
+}  // namespace
+
+Cavity::Cavity(const TriangleMesh& mesh, std::size_t part, const Scatterer& whole, double patches_per_wavelength)
+    : walls_(welded(part_of(mesh, part))), scene_(whole.facets()), radius_(whole.radius()), patches_per_wavelength_(patches_per_wavelength) {}
+
+std::vector<std::array<Complex, 4>> Cavity::scattering_matrices(double k, std::span<const AntennaPair> views, int threads, const StopFlag* stop,
+                                                                CavitySize* size) const {
+  const double wavelength = 2 * kPi / k;
+  const std::vector<MouthCell> mouth = mouth_cells(walls_, wavelength / (kCellsPerPatch * patches_per_wavelength_));
+  std::vector<WallPatch> walls = wall_patches(walls_, wavelength / patches_per_wavelength_);
+  sort_inwards(mouth, walls);
+  const WallCurrents currents(walls, k, threads, stop);
+
+  // The mouth's answer to its own fields: reaction(m, n) = -jk/(4 pi) integral over the walls of E_m . eta J_n.
+  MouthFields basis(4 * static_cast<Eigen::Index>(mouth.size()), 0);
+  WallColumns electric(2 * static_cast<Eigen::Index>(walls.size()), 0), answer = electric;
+  Eigen::MatrixXcd reaction;
+  Eigen::VectorXd area(electric.rows());
+  for (std::size_t i = 0; i < walls.size(); ++i) area.segment(2 * static_cast<Eigen::Index>(i), 2).setConstant(walls[i].area);
+
+  std::vector<std::array<Complex, 4>> result(views.size(), std::array<Complex, 4>{});
+  for (const std::vector<std::size_t>& batch : batches(views.size())) {
+    std::vector<AntennaPair> together;
+    for (const std::size_t view : batch) together.push_back(views[view]);
+    const MouthFields sent = incident_fields(mouth, k, together, &AntennaPair::transmit, scene_, radius_);
+    const bool one_antenna = std::all_of(together.begin(), together.end(), [](const AntennaPair& a) { return a.monostatic; });
+    const MouthFields received = one_antenna ? sent : incident_fields(mouth, k, together, &AntennaPair::receive, scene_, radius_);
+    if (sent.squaredNorm() == 0 || received.squaredNorm() == 0) continue;
+    MouthFields both = sent;
+    if (!one_antenna) append(both, received);
+    const Modes fresh = new_modes(basis, both);
+    if (fresh.fields.cols() > 0) {
+      const FieldsOnWalls lit = fields_on_walls(mouth, walls, k, fresh.fields, threads, stop);
+      append(basis, fresh.fields);
+      append(electric, lit.electric);
+      append(answer, currents.solve(lit.driven, fresh.strength, threads, stop));
+      reaction = Complex(0, -k / (4 * kPi)) * (electric.cast<Complex>().transpose() * area.asDiagonal() * answer.cast<Complex>());
+      // The true one is symmetric (reciprocity); walls that end at the mouth leave some percent (README.md).
+      reaction = 0.5 * (reaction + reaction.transpose().eval());
+    }
+    const Eigen::MatrixXcd s = basis.adjoint() * sent, r = basis.adjoint() * received;
+    for (std::size_t i = 0; i < together.size(); ++i) {
+      const auto at = 2 * static_cast<Eigen::Index>(i);
+      const Eigen::Matrix2cd S = r.middleCols(at, 2).transpose() * reaction * s.middleCols(at, 2);
+      result[batch[i]] = {S(0, 0), S(0, 1), S(1, 0), S(1, 1)};
+    }
+  }
+  if (size) {
+    *size = {0, surface_area(walls_), walls.size(), static_cast<int>(basis.cols())};
+    for (const MouthCell& cell : mouth) size->mouth_m2 += cell.area;
+  }
+  return result;
+}
+
+}  // namespace seaglint

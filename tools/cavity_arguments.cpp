@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/cavity_arguments.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "sim/core/error.h"
+#include "sim/core/suggestion.h"
+#include "tools/command.h"
+
+namespace seaglint {
+
+void CavityArguments::add_to(CLI::App& command) {
+  command
+      .add_option("--cavity", parts,
+                  "Part of the mesh that is the walls of a cavity with an open mouth, some wavelengths wide: its echo from the field inside (integral "
+                  "equation) instead of rays; minutes per frequency (repeatable)")
+      ->type_name("PART")
+      ->allow_extra_args(false);
+  command.add_option("--cavity-patches", patches_per_wavelength, "Patches of its walls per wavelength: time goes with the fourth power")
+      ->check(number_within(4.0, 20.0))
+      ->capture_default_str()
+      ->needs("--cavity");
+}
+
+std::vector<int> CavityArguments::find(const TriangleMesh& mesh, const std::vector<MaterialSpec>& materials, const EchoFilter& selection) const {
+  std::vector<int> indices;
+  for (const std::string& name : parts) {
+    const auto place = std::find(mesh.part_names.begin(), mesh.part_names.end(), name);
+    if (place == mesh.part_names.end()) throw InputError(fmt::format("--cavity {}: the mesh has no such part: {}", name, suggestion(name, mesh.part_names)));
+    const auto part = static_cast<int>(place - mesh.part_names.begin());
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      if (mesh.triangle_part[t] == part && materials[mesh.triangle_material[t]].kind != SurfaceKind::kPec)
+        throw InputError(fmt::format("--cavity {}: its walls must be pec, not {}", name, mesh.materials[mesh.triangle_material[t]].name));
+    }
+    if (std::find(indices.begin(), indices.end(), part) == indices.end()) indices.push_back(part);
+  }
+  for (const auto* selectors : {&selection.only, &selection.without}) {
+    for (const EchoSelector& s : *selectors) {
+      if (wanted() && s.kind != EchoSelector::Kind::kPart)
+        throw InputError("--cavity: what comes out of a cavity has neither bounces nor a mechanism; select by part=NAME");
+    }
+  }
+  return indices;
+}
+
+std::string CavityArguments::text() const {
+  if (!wanted()) return "";
+  return fmt::format("# cavities {}: from the currents on their walls (magnetic-field integral equation, {:.6g} patches per wavelength), fed through their mouths\n",
+                     fmt::join(parts, " "), patches_per_wavelength);
+}
+
+}  // namespace seaglint
