@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "sim/core/constants.h"
 #include "sim/core/error.h"
 #include "sim/core/suggestion.h"
 #include "tools/command.h"
@@ -45,6 +46,21 @@ std::vector<int> CavityArguments::find(const TriangleMesh& mesh, const std::vect
     }
   }
   return indices;
+}
+
+std::vector<NamedCavity> CavityArguments::make(const TriangleMesh& mesh, const std::vector<int>& indices, const Scatterer& whole, double highest_hz) const {
+  std::vector<NamedCavity> cavities;
+  for (const int part : indices) {
+    const std::string& name = mesh.part_names[static_cast<std::size_t>(part)];
+    cavities.push_back({name, part, Cavity(mesh, static_cast<std::size_t>(part), whole, patches_per_wavelength)});
+    try {
+      const CavitySize size = cavities.back().cavity.size(2 * kPi * highest_hz / kSpeedOfLight);
+      fmt::print(stderr, "cavity {}: mouth of {:.4g} m^2, walls of {:.4g} m^2, {} patches at {:.6g} GHz\n", name, size.mouth_m2, size.walls_m2, size.patches, 1e-9 * highest_hz);
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("--cavity {}, {:.6g} GHz: {}", name, 1e-9 * highest_hz, error.what()));
+    }
+  }
+  return cavities;
 }
 
 std::string CavityArguments::text() const {

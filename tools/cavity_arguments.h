@@ -14,6 +14,12 @@
 
 namespace seaglint {
 
+struct NamedCavity {
+  std::string name;
+  int part = 0;
+  Cavity cavity;
+};
+
 struct CavityArguments {
   std::vector<std::string> parts;
   double patches_per_wavelength = kPatchesPerWavelength;
@@ -23,6 +29,8 @@ struct CavityArguments {
   // Their indices. Throws InputError for a part that is not there or no perfect conductor, and for a selection by
   // anything but parts.
   std::vector<int> find(const TriangleMesh& mesh, const std::vector<MaterialSpec>& materials, const EchoFilter& selection) const;
+  // Those parts of the mesh as cavities; says their sizes. Throws InputError for what is none at the highest frequency.
+  std::vector<NamedCavity> make(const TriangleMesh& mesh, const std::vector<int>& indices, const Scatterer& whole, double highest_hz) const;
   // A comment line for the head of a table; empty without cavities.
   std::string text() const;
 };

@@ -10,7 +10,6 @@
 #include <optional>
 
 #include "seaglint_version.h"
-#include "sim/cavity/cavity_echo.h"
 #include "sim/core/constants.h"
 #include "sim/core/error.h"
 #include "sim/core/file.h"
@@ -167,26 +166,21 @@ std::size_t trace_views(const RcsArguments& arguments, const Scatterer& scattere
 }
 
 // Adds the echoes of cavities to every model of the sweep.
-void add_cavities(const RcsArguments& arguments, const TriangleMesh& mesh, const Scatterer& scatterer, const EchoFilter& filter, const Shell& shell,
-                  RcsSweep& sweep) {
+void add_cavities(const RcsArguments& arguments, const std::vector<NamedCavity>& cavities, const EchoFilter& filter, const Shell& shell, RcsSweep& sweep) {
   std::vector<AntennaPair> views;
   for (std::size_t view = 0; view < sweep.views(); ++view) views.push_back(antennas_of(arguments, radar_basis(direction_of(sweep, view))));
-  Progress progress("cavity", filter.cavities.size() * sweep.frequency_hz.size(), "frequencies");
-  for (const int part : filter.cavities) {
-    const Cavity cavity(mesh, static_cast<std::size_t>(part), scatterer, arguments.cavities.patches_per_wavelength);
-    for (std::size_t q = 0; q < sweep.frequency_hz.size(); ++q) {
-      const double k = 2 * kPi * sweep.frequency_hz[q] / kSpeedOfLight;
+  Progress progress("cavity", cavities.size() * sweep.frequency_hz.size(), "frequencies");
+  for (const NamedCavity& named : cavities) {
+    for (std::size_t q = 0; filter.keeps_cavity(named.part) && q < sweep.frequency_hz.size(); ++q) {
       try {
-        const auto matrices = cavity.scattering_matrices(k, views, thread_count(shell.threads), &shell.stop);
+        const auto echo = named.cavity.scattering_matrices(2 * kPi * sweep.frequency_hz[q] / kSpeedOfLight, views, thread_count(shell.threads), &shell.stop);
         for (auto& model : sweep.models) {
-          for (std::size_t view = 0; filter.keeps_cavity(part) && view < sweep.views(); ++view) {
-            for (int i = 0; i < 4; ++i) model.matrices[view][q][i] += matrices[view][i];
+          for (std::size_t view = 0; view < sweep.views(); ++view) {
+            for (int i = 0; i < 4; ++i) model.matrices[view][q][i] += echo[view][i];
           }
         }
       } catch (const Interrupted&) {
-        throw WorkError(fmt::format("interrupted in the cavity at {:.6g} GHz; {} is not written", 1e-9 * sweep.frequency_hz[q], arguments.output));
-      } catch (const InputError& error) {
-        throw InputError(fmt::format("--cavity {}, {:.6g} GHz: {}", mesh.part_names[static_cast<std::size_t>(part)], 1e-9 * sweep.frequency_hz[q], error.what()));
+        throw WorkError(fmt::format("interrupted in cavity {} at {:.6g} GHz; {} is not written", named.name, 1e-9 * sweep.frequency_hz[q], arguments.output));
       }
       progress.advance();
     }
@@ -260,9 +254,10 @@ void run_rcs(const RcsArguments& arguments, const Shell& shell) {
   const Scatterer scatterer(mesh, materials, radians(arguments.crease_deg));
   EchoFilter filter = arguments.view.filter(mesh);
   filter.cavities = arguments.cavities.find(mesh, materials, filter);
+  const std::vector<NamedCavity> cavities = arguments.cavities.make(mesh, filter.cavities, scatterer, *highest);
   const auto start = std::chrono::steady_clock::now();
   const std::size_t legs = trace_views(arguments, scatterer, filter, shell, sweep);
-  if (arguments.cavities.wanted()) add_cavities(arguments, mesh, scatterer, filter, shell, sweep);
+  if (!cavities.empty()) add_cavities(arguments, cavities, filter, shell, sweep);
   const double seconds = std::max(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 1e-9);
 
   write_file(arguments.output, table_text(arguments, scatterer, sweep));

@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/cavity/cavity_echo.h"
 
-#include <fmt/format.h>
-
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
-#include "sim/cavity/mouth.h"
 #include "sim/cavity/mouth_field.h"
 #include "sim/cavity/wall_currents.h"
 #include "sim/core/constants.h"
-#include "sim/core/error.h"
 
 namespace seaglint {
 namespace {
@@ -76,11 +72,19 @@ void append(Columns& a, const Columns& b) {
 Cavity::Cavity(const TriangleMesh& mesh, std::size_t part, const Scatterer& whole, double patches_per_wavelength)
     : walls_(welded(part_of(mesh, part))), scene_(whole.facets()), radius_(whole.radius()), patches_per_wavelength_(patches_per_wavelength) {}
 
-std::vector<std::array<Complex, 4>> Cavity::scattering_matrices(double k, std::span<const AntennaPair> views, int threads, const StopFlag* stop,
-                                                                CavitySize* size) const {
-  const double wavelength = 2 * kPi / k;
-  const std::vector<MouthCell> mouth = mouth_cells(walls_, wavelength / (kCellsPerPatch * patches_per_wavelength_));
-  std::vector<WallPatch> walls = wall_patches(walls_, wavelength / patches_per_wavelength_);
+std::vector<MouthCell> Cavity::mouth(double k) const { return mouth_cells(walls_, 2 * kPi / k / (kCellsPerPatch * patches_per_wavelength_)); }
+
+std::vector<WallPatch> Cavity::patches(double k) const { return wall_patches(walls_, 2 * kPi / k / patches_per_wavelength_); }
+
+CavitySize Cavity::size(double k) const {
+  CavitySize result{0, surface_area(walls_), patches(k).size()};
+  for (const MouthCell& cell : mouth(k)) result.mouth_m2 += cell.area;
+  return result;
+}
+
+std::vector<std::array<Complex, 4>> Cavity::scattering_matrices(double k, std::span<const AntennaPair> views, int threads, const StopFlag* stop) const {
+  const std::vector<MouthCell> mouth = this->mouth(k);
+  std::vector<WallPatch> walls = patches(k);
   sort_inwards(mouth, walls);
   const WallCurrents currents(walls, k, threads, stop);
 
@@ -117,10 +121,6 @@ std::vector<std::array<Complex, 4>> Cavity::scattering_matrices(double k, std::s
       const Eigen::Matrix2cd S = r.middleCols(at, 2).transpose() * reaction * s.middleCols(at, 2);
       result[batch[i]] = {S(0, 0), S(0, 1), S(1, 0), S(1, 1)};
     }
-  }
-  if (size) {
-    *size = {0, surface_area(walls_), walls.size(), static_cast<int>(basis.cols())};
-    for (const MouthCell& cell : mouth) size->mouth_m2 += cell.area;
   }
   return result;
 }

@@ -4,10 +4,11 @@
 // What an open cavity in a perfect conductor returns, from the field inside instead of rays (README.md).
 
 #include <array>
-#include <memory>
 #include <span>
 #include <vector>
 
+#include "sim/cavity/mouth.h"
+#include "sim/cavity/wall_patches.h"
 #include "sim/core/parallel.h"
 #include "sim/geometry/triangle_mesh.h"
 #include "sim/scattering/embree_scene.h"
@@ -19,7 +20,6 @@ namespace seaglint {
 struct CavitySize {
   double mouth_m2 = 0, walls_m2 = 0;
   std::size_t patches = 0;  // of the walls
-  int fields = 0;           // in the mouth that were solved
 };
 
 inline constexpr double kPatchesPerWavelength = 6;
@@ -31,13 +31,19 @@ class Cavity {
   // over patches_per_wavelength (README.md, "Accuracy").
   Cavity(const TriangleMesh& mesh, std::size_t part, const Scatterer& whole, double patches_per_wavelength = kPatchesPerWavelength);
 
+  // Throws InputError for walls that are closed, too large for the wavelength, or face outwards. k: 1/m.
+  CavitySize size(double k) const;
+
   // hh, hv, vh, vv (received, transmitted) in metres for each pair of antennas, phase origin at the body's origin; to be
-  // added to what the rest of the target returns, without what leaves the walls. Throws InputError for walls that are
-  // closed, too large for the wavelength, or face outwards; Interrupted when *stop becomes true.
+  // added to what the rest of the target returns, without what leaves the walls. Throws as size() does, WorkError when
+  // the currents do not settle, and Interrupted when *stop becomes true.
   std::vector<std::array<Complex, 4>> scattering_matrices(double k, std::span<const AntennaPair> views, int threads,
-                                                          const StopFlag* stop = nullptr, CavitySize* size = nullptr) const;
+                                                          const StopFlag* stop = nullptr) const;
 
  private:
+  std::vector<MouthCell> mouth(double k) const;
+  std::vector<WallPatch> patches(double k) const;
+
   TriangleMesh walls_;
   RayScene scene_;
   double radius_;

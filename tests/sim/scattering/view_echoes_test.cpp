@@ -116,5 +116,22 @@ TEST(EchoCentres, OfATrihedralsThreeBouncesLieAtItsApex) {
   EXPECT_EQ(centres.front().bounces, 3);
 }
 
+TEST(EchoFilterOfACavity, KeepsTheRimWhicheverPartComesFirst) {
+  EchoFilter filter;
+  filter.cavities = {1};
+  EXPECT_FALSE(filter.keeps(1, 1, Mechanism::kPhysicalOptics));
+  EXPECT_TRUE(filter.keeps(0, 1, Mechanism::kPhysicalOptics));
+  EXPECT_FALSE(filter.keeps_edge(1, 1, 1));
+  EXPECT_TRUE(filter.keeps_edge(0, 1, 1));
+  EXPECT_TRUE(filter.keeps_edge(1, 0, 1));
+  // The rim counts as the other part's, in a selection too.
+  filter.without = {{EchoSelector::Kind::kPart, 1}};
+  EXPECT_TRUE(filter.keeps_edge(1, 0, 1));
+  EXPECT_FALSE(filter.keeps_cavity(1));
+  filter.without = {{EchoSelector::Kind::kPart, 0}};
+  EXPECT_FALSE(filter.keeps_edge(1, 0, 1));
+  EXPECT_TRUE(filter.keeps_cavity(1));
+}
+
 }  // namespace
 }  // namespace seaglint
