@@ -47,7 +47,8 @@ MouthFields incident_fields(std::span<const MouthCell> mouth, double k, std::spa
   return fields;
 }
 
-// Of currents J and M at a distance R (Balanis, Advanced Engineering Electromagnetics, eqs. 6-101, 6-111; G = e^{-jkR}/(4 pi R)):
+// A current element at a distance R (Harrington, Time-Harmonic Electromagnetic Fields, sec. 2-9), and by duality (3-2) a
+// magnetic one, with G = e^{-jkR}/(4 pi R):
 //   eta H = grad G x eta J - jk G [a M - b R^ (R^ . M)],   E = -grad G x M - jk G [a eta J - b R^ (R^ . eta J)]
 //   grad G = -(1 + jkR) G R^ / R,   a = 1 - j/kR - 1/(kR)^2,   b = 1 - 3j/kR - 3/(kR)^2
 FieldsOnWalls fields_on_walls(std::span<const MouthCell> mouth, std::span<const WallPatch> walls, double k, const MouthFields& fields, int threads,
