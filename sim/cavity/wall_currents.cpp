@@ -6,7 +6,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 
 #include "sim/core/constants.h"
 #include "sim/core/error.h"
@@ -16,25 +15,27 @@ namespace {
 
 // Patches that are solved together. A duct of 3,000: 19, 17, 12, 7 sweeps with 64, 128, 256, 512 of them; with more the
 // blocks' own solutions take over.
-constexpr std::size_t kBlock = 512;
+constexpr int kBlock = 512;
 constexpr std::size_t kTile = 32;      // patches of a block whose rows one thread takes at a time
 constexpr std::size_t kColumns = 128;  // patches whose coupling to a tile is formed at once: 64 x 256 numbers stay in the cache
 constexpr Eigen::Index kTogether = 32;  // fields solved side by side, which share the coupling's making
 constexpr int kMostSweeps = 100;
 
-// e^{-j 2 pi x}, to 2e-7: sine and cosine of the fraction's eighth turn by their series. A third of the solution's time
-// would go into the library's.
-std::complex<float> turned_back(double x) {
-  const auto whole = static_cast<std::int64_t>(4 * x + 0.5);  // quarters of a turn, x >= 0
-  const auto a = static_cast<float>((kPi / 2) * (4 * x - static_cast<double>(whole))), a2 = a * a;
-  const float sine = a * (1 + a2 * (-1 / 6.f + a2 * (1 / 120.f + a2 * (-1 / 5040.f + a2 / 362880.f))));
-  const float cosine = 1 + a2 * (-1 / 2.f + a2 * (1 / 24.f + a2 * (-1 / 720.f + a2 / 40320.f)));
-  switch (whole & 3) {
-    case 0: return {cosine, -sine};
-    case 1: return {-sine, -cosine};
-    case 2: return {-cosine, sine};
-    default: return {sine, cosine};
-  }
+// One number for each patch of a block at most; SSE takes four at a time.
+using Line = Eigen::Array<float, Eigen::Dynamic, 1, 0, kBlock, 1>;
+
+struct Phasors {
+  Line cosine, sine;
+};
+
+// Of angles >= 0 in turns, below 4 million, to their own rounding: the fraction's half by its series, |x| <= pi/2, then
+// doubled. The library's sine and cosine would take a third of the solution's time.
+Phasors phasors(const Line& turns) {
+  constexpr float kRound = 1.5f * (1 << 23);  // added and taken away, it leaves the nearest whole number
+  const Line x = static_cast<float>(kPi) * (turns - ((turns + kRound) - kRound)), x2 = x.square();
+  const Line sine = x * (1 + x2 * (-1 / 6.f + x2 * (1 / 120.f + x2 * (-1 / 5040.f + x2 * (1 / 362880.f - x2 / 39916800.f)))));
+  const Line cosine = 1 + x2 * (-1 / 2.f + x2 * (1 / 24.f + x2 * (-1 / 720.f + x2 * (1 / 40320.f + x2 * (-1 / 3628800.f + x2 / 479001600.f)))));
+  return {1 - 2 * sine.square(), 2 * sine * cosine};
 }
 
 // Least squares of one column of the block: minimises |beta e_1 - H y| (Saad and Schultz 1986, eq. 12).
@@ -55,44 +56,58 @@ struct WallCurrents::Rows {
   Eigen::Index count() const { return static_cast<Eigen::Index>(2 * (last - first)); }
 };
 
-std::size_t WallCurrents::blocks() const { return (walls_.size() + kBlock - 1) / kBlock; }
+std::size_t WallCurrents::blocks() const { return (patches_ + kBlock - 1) / kBlock; }
 
-WallCurrents::Rows WallCurrents::block(std::size_t i) const { return {i * kBlock, std::min(walls_.size(), (i + 1) * kBlock)}; }
+WallCurrents::Rows WallCurrents::block(std::size_t i) const { return {i * kBlock, std::min(patches_, (i + 1) * kBlock)}; }
 
 // 2 n x (grad G x t') A' on either tangent t of the patches `to`, transposed, from a unit current along t' on `from`:
 //   t . [n x (grad G x t')] = (t . grad G)(n . t') - (t . t')(n . grad G),  grad G = -(1 + jkR) e^{-jkR} / (4 pi R^3) R
 // with R from the source to the patch. A patch does not act on itself: it is flat.
 WallColumns WallCurrents::coupling(const Rows& to, const Rows& from) const {
   WallColumns transposed(from.count(), to.count());
+  const auto first = static_cast<Eigen::Index>(from.first), count = static_cast<Eigen::Index>(from.last - from.first);
+  const auto dot = [&](const Eigen::Vector3f& a, const Eigen::ArrayX3f& b) -> Line {
+    return a.x() * b.col(0).segment(first, count) + a.y() * b.col(1).segment(first, count) + a.z() * b.col(2).segment(first, count);
+  };
   for (std::size_t i = to.first; i < to.last; ++i) {
-    const WallPatch& patch = walls_[i];
-    for (std::size_t j = from.first; j < from.last; ++j) {
-      const WallPatch& source = walls_[j];
-      const Vec3 R = patch.centre - source.centre;
-      const double r2 = R.squaredNorm();
-      std::complex<float> g = 0;
-      if (i != j) {
-        const double r = std::sqrt(r2), kr = k_ * r, level = -source.area / (2 * kPi * r2 * r);
-        const std::complex<float> wave = turned_back(kr / (2 * kPi));
-        const auto real = static_cast<float>(level), imaginary = static_cast<float>(level * kr);
-        g = {real * wave.real() - imaginary * wave.imag(), real * wave.imag() + imaginary * wave.real()};
-      }
-      const double height = patch.normal.dot(R);
-      for (int a = 0; a < 2; ++a) {
-        const double along = patch.tangent[a].dot(R);
-        for (int b = 0; b < 2; ++b) {
-          const double shape = along * patch.normal.dot(source.tangent[b]) - patch.tangent[a].dot(source.tangent[b]) * height;
-          transposed(static_cast<Eigen::Index>(2 * (j - from.first) + b), static_cast<Eigen::Index>(2 * (i - to.first) + a)) =
-              g * static_cast<float>(shape);
-        }
+    const auto at = static_cast<Eigen::Index>(i);
+    const auto column = 2 * static_cast<Eigen::Index>(i - to.first);
+    const Eigen::Vector3f centre = centre_.row(at), normal = normal_.row(at);
+    const Line X = centre.x() - centre_.col(0).segment(first, count), Y = centre.y() - centre_.col(1).segment(first, count),
+               Z = centre.z() - centre_.col(2).segment(first, count);
+    const Line r2 = X.square() + Y.square() + Z.square(), r = r2.sqrt(), kr = static_cast<float>(k_) * r;
+    const auto [cosine, sine] = phasors(static_cast<float>(k_ / (2 * kPi)) * r);
+    const Line level = -area_.segment(first, count) / (static_cast<float>(2 * kPi) * r2 * r);
+    const Line real = level * (cosine + kr * sine), imaginary = level * (kr * cosine - sine);
+    const auto towards = [&](const Eigen::Vector3f& v) -> Line { return v.x() * X + v.y() * Y + v.z() * Z; };
+    const Line height = towards(normal);
+    for (int a = 0; a < 2; ++a) {
+      const Eigen::Vector3f t = tangent_[a].row(at);
+      const Line along = towards(t);
+      for (int b = 0; b < 2; ++b) {
+        const Line shape = along * dot(normal, tangent_[b]) - dot(t, tangent_[b]) * height;
+        Eigen::Map<Eigen::ArrayXcf, 0, Eigen::InnerStride<2>> line(&transposed(b, column + a), count);
+        line.real() = real * shape;
+        line.imag() = imaginary * shape;
       }
     }
+    if (i >= from.first && i < from.last) transposed.block(2 * static_cast<Eigen::Index>(i - from.first), column, 2, 2).setZero();
   }
   return transposed;
 }
 
 WallCurrents::WallCurrents(std::span<const WallPatch> walls, double k, int threads, const StopFlag* stop)
-    : walls_(walls), k_(k), own_(blocks()) {
+    : patches_(walls.size()), k_(k), area_(static_cast<Eigen::Index>(patches_)), centre_(area_.size(), 3), normal_(area_.size(), 3), own_(blocks()) {
+  tangent_.fill(Eigen::ArrayX3f(area_.size(), 3));
+  Vec3 middle = Vec3::Zero();  // distances in single precision are those of the cavity, wherever it lies
+  for (const WallPatch& patch : walls) middle += patch.centre / static_cast<double>(walls.size());
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    area_(at) = static_cast<float>(walls[i].area);
+    centre_.row(at) = (walls[i].centre - middle).cast<float>().transpose();
+    normal_.row(at) = walls[i].normal.cast<float>().transpose();
+    for (int t = 0; t < 2; ++t) tangent_[t].row(at) = walls[i].tangent[t].cast<float>().transpose();
+  }
   parallel_for(
       blocks(), threads,
       [&](std::size_t i) {
@@ -119,7 +134,7 @@ WallColumns WallCurrents::solve_one_way(const WallColumns& x, bool upwards, int 
     const std::size_t at = upwards ? blocks() - 1 - n : n;
     const Rows rows = block(at);
     WallColumns known = x.middleRows(rows.start(), rows.count());
-    const Rows done = upwards ? Rows{rows.last, walls_.size()} : Rows{0, rows.first};
+    const Rows done = upwards ? Rows{rows.last, patches_} : Rows{0, rows.first};
     const std::size_t tiles = (rows.last - rows.first + kTile - 1) / kTile;
     parallel_for(
         done.first == done.last ? 0 : tiles, threads,

@@ -3,6 +3,7 @@
 
 // The currents on perfectly conducting walls of a cavity, from what falls on them: the magnetic-field integral equation.
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -36,8 +37,11 @@ class WallCurrents {
   WallColumns own(const WallColumns& x, int threads) const;
   WallColumns solve_one_way(const WallColumns& x, bool upwards, int threads, const StopFlag* stop) const;
 
-  std::span<const WallPatch> walls_;
+  std::size_t patches_;
   double k_;
+  Eigen::ArrayXf area_;  // of the patches, m^2
+  Eigen::ArrayX3f centre_, normal_;
+  std::array<Eigen::ArrayX3f, 2> tangent_;
   std::vector<Eigen::PartialPivLU<WallColumns>> own_;  // of each block alone
 };
 
