@@ -19,7 +19,7 @@ constexpr int kBlock = 512;
 constexpr std::size_t kTile = 32;      // patches of a block whose rows one thread takes at a time
 constexpr std::size_t kColumns = 128;  // patches whose coupling to a tile is formed at once: 64 x 256 numbers stay in the cache
 constexpr Eigen::Index kTogether = 32;  // fields solved side by side, which share the coupling's making
-constexpr int kMostSweeps = 100;
+constexpr std::size_t kMostSweeps = 100;
 
 // One number for each patch of a block at most; SSE takes four at a time.
 using Line = Eigen::Array<float, Eigen::Dynamic, 1, 0, kBlock, 1>;
@@ -38,14 +38,40 @@ Phasors phasors(const Line& turns) {
   return {1 - 2 * sine.square(), 2 * sine * cosine};
 }
 
-// Least squares of one column of the block: minimises |beta e_1 - H y| (Saad and Schultz 1986, eq. 12).
-Eigen::VectorXcd least_squares(const Eigen::MatrixXcd& hessenberg, double beta, double* residual) {
-  Eigen::VectorXcd right = Eigen::VectorXcd::Zero(hessenberg.rows());
-  right(0) = beta;
-  const Eigen::VectorXcd y = hessenberg.householderQr().solve(right);
-  *residual = (right - hessenberg * y).norm();
-  return y;
-}
+// One field's share of the minimal residuals: its column of every direction, and what they make of it (Saad and Schultz
+// 1986, algorithm 3).
+struct Projection {
+  Eigen::Index column = 0;
+  double length = 0;  // of the driving field
+  Eigen::MatrixXcd hessenberg;
+  Eigen::VectorXcd weights;  // of the directions in the solution
+  double residual = 0;
+
+  // Makes the column of `next`, the image of the last direction, one more direction.
+  void add(const std::vector<WallColumns>& directions, WallColumns& next) {
+    if (length == 0) return;
+    const auto known = static_cast<Eigen::Index>(directions.size());
+    hessenberg.conservativeResizeLike(Eigen::MatrixXcd::Zero(known + 1, known));
+    for (Eigen::Index m = 0; m < known; ++m) {
+      const auto direction = directions[static_cast<std::size_t>(m)].col(column);
+      const std::complex<float> share = direction.dot(next.col(column));
+      hessenberg(m, known - 1) = share;
+      next.col(column) -= share * direction;
+    }
+    const float rest = next.col(column).norm();
+    hessenberg(known, known - 1) = rest;
+    if (rest > 0) next.col(column) /= rest;
+    const Eigen::VectorXcd right = length * Eigen::VectorXcd::Unit(known + 1, 0);
+    weights = hessenberg.householderQr().solve(right);
+    residual = (right - hessenberg * weights).norm();
+  }
+
+  // The weights' sum of the directions.
+  void sum(const std::vector<WallColumns>& directions, WallColumns& into) const {
+    for (Eigen::Index m = 0; m < weights.size(); ++m)
+      into.col(column) += std::complex<float>(weights(m)) * directions[static_cast<std::size_t>(m)].col(column);
+  }
+};
 
 }  // namespace
 
@@ -159,50 +185,32 @@ WallColumns WallCurrents::solve_one_way(const WallColumns& x, bool upwards, int 
 // so that each application costs one product with K (Eisenstat, SIAM J. Sci. Stat. Comput. 2, 1981, 1-4).
 WallColumns WallCurrents::solve(const WallColumns& driven, const Eigen::VectorXd& strength, int threads, const StopFlag* stop) const {
   WallColumns currents(driven.rows(), driven.cols());
-  double strongest = 0;
-  for (Eigen::Index c = 0; c < driven.cols(); ++c) strongest = std::max(strongest, strength(c) * driven.col(c).norm());
+  const double strongest = (driven.colwise().norm().transpose().cast<double>().array() * strength.array()).maxCoeff();
   for (Eigen::Index first = 0; first < driven.cols(); first += kTogether) {
     const Eigen::Index count = std::min(kTogether, driven.cols() - first);
-    WallColumns v = solve_one_way(driven.middleCols(first, count), false, threads, stop);
-    std::vector<double> beta(static_cast<std::size_t>(count));
-    std::vector<Eigen::MatrixXcd> hessenberg(beta.size());
-    std::vector<Eigen::VectorXcd> y(beta.size());
+    std::vector<WallColumns> directions{solve_one_way(driven.middleCols(first, count), false, threads, stop)};
+    std::vector<Projection> fields(static_cast<std::size_t>(count));
     for (Eigen::Index c = 0; c < count; ++c) {
-      beta[static_cast<std::size_t>(c)] = v.col(c).norm();
-      if (beta[static_cast<std::size_t>(c)] > 0) v.col(c) /= static_cast<float>(beta[static_cast<std::size_t>(c)]);
+      auto direction = directions.front().col(c);
+      fields[static_cast<std::size_t>(c)].column = c;
+      fields[static_cast<std::size_t>(c)].length = direction.norm();
+      direction.normalize();
     }
-    std::vector<WallColumns> basis{std::move(v)};
-    double worst = 1;
-    while (worst > kResidual) {
-      const auto sweep = static_cast<Eigen::Index>(basis.size());
-      if (sweep > kMostSweeps) throw WorkError(fmt::format("the cavity's currents did not settle in {} sweeps: residual {:.1e}", kMostSweeps, worst));
-      const WallColumns outward = solve_one_way(own(basis.back(), threads), true, threads, stop);
-      WallColumns next = outward + solve_one_way(own(basis.back() - outward, threads), false, threads, stop);
+    for (double worst = strongest; !(worst <= kResidual * strongest);) {
+      if (directions.size() > kMostSweeps)
+        throw WorkError(fmt::format("the cavity's currents did not settle in {} sweeps: residual {:.1e}", kMostSweeps, worst / strongest));
+      const WallColumns outward = solve_one_way(own(directions.back(), threads), true, threads, stop);
+      WallColumns next = outward + solve_one_way(own(directions.back() - outward, threads), false, threads, stop);
       worst = 0;
-      for (Eigen::Index c = 0; c < count; ++c) {
-        const auto at = static_cast<std::size_t>(c);
-        if (beta[at] == 0) continue;
-        hessenberg[at].conservativeResizeLike(Eigen::MatrixXcd::Zero(sweep + 1, sweep));
-        for (Eigen::Index m = 0; m < sweep; ++m) {
-          const std::complex<float> share = basis[static_cast<std::size_t>(m)].col(c).dot(next.col(c));
-          hessenberg[at](m, sweep - 1) = share;
-          next.col(c) -= share * basis[static_cast<std::size_t>(m)].col(c);
-        }
-        const float length = next.col(c).norm();
-        hessenberg[at](sweep, sweep - 1) = length;
-        if (length > 0) next.col(c) /= length;
-        double residual = 0;
-        y[at] = least_squares(hessenberg[at], beta[at], &residual);
-        worst = std::max(worst, residual * strength(first + c) / strongest);
+      for (Projection& field : fields) {
+        field.add(directions, next);
+        const double left = field.residual * strength(first + field.column);
+        if (!(left <= worst)) worst = left;  // no number never settles
       }
-      basis.push_back(std::move(next));
+      directions.push_back(std::move(next));
     }
     WallColumns sum = WallColumns::Zero(driven.rows(), count);
-    for (Eigen::Index c = 0; c < count; ++c) {
-      const Eigen::VectorXcd& weights = y[static_cast<std::size_t>(c)];
-      for (Eigen::Index m = 0; m < weights.size(); ++m)
-        sum.col(c) += std::complex<float>(weights(m)) * basis[static_cast<std::size_t>(m)].col(c);
-    }
+    for (const Projection& field : fields) field.sum(directions, sum);
     currents.middleCols(first, count) = solve_one_way(own(sum, threads), true, threads, stop);
   }
   return currents;

@@ -114,7 +114,7 @@ std::vector<WallPatch> wall_patches(const TriangleMesh& walls, double size) {
 
   std::vector<int> owner(pieces.size(), -1);
   std::vector<double> owned;
-  constexpr int kRounds = 5;  // echoes are the same with eight
+  constexpr int kRounds = 5;  // with eight a box with a duct differs by 0.01 dB on the mean
   for (int round = 0; round < kRounds; ++round) {
     SeedLattice lattice(size);
     for (std::size_t s = 0; s < seeds.size(); ++s) lattice.add(seeds[s].centre, static_cast<int>(s));
