@@ -87,10 +87,11 @@ TEST(Mouth, RefusesWhatIsNoCavity) {
   };
   refused(turned(guide(0.3, 0.2, 0.5)), "face away from its inside");
 
+  // Its two halves, mouth to mouth.
   TriangleMesh closed = guide(0.3, 0.2, 0.5);
-  closed.triangles.push_back({0, 1, 2});
-  closed.triangles.push_back({0, 2, 3});
-  refused(closed, "closed");
+  const Mat3 half_turn = Vec3(-1, -1, 1).asDiagonal();
+  closed.append(transformed(closed, half_turn, Vec3(0, 0.3, 0)));
+  refused(welded(closed), "closed");
 
   TriangleMesh uneven = guide(0.3, 0.2, 0.5);
   uneven.vertices[2].x() = 0.05;
