@@ -54,8 +54,8 @@ struct EdgeFootprint {
   std::array<PathGradient, 2> gradient;  // of the ends, m
   double length = 0;                     // m
   std::array<Complex, 4> pattern{};      // hh, hv, vh, vv per metre, dimensionless; times sqrt(1/m) after an edge wave
-  // An edge wave of length l decays as 1/sqrt(k l), less where it starts or ends near a shadow boundary: l sin^2 of
-  // half the angle from there, of the first and the last in a row.
+  // An edge wave of length l decays as 1/sqrt(k l), less where it starts or ends near a shadow boundary: l times the
+  // shadow_distance() there, of the first and the last in a row.
   struct EdgeWaveRange {
     double departure_m = 0, arrival_m = 0;
     int waves = 1;  // in a row

@@ -47,9 +47,11 @@ struct EdgeWave {
 };
 EdgeWave edge_wave(const WedgeFrame& wedge, int face, const Vec3& k_hat, const Vec3& E);
 
-// sin^2 of half the angle, about `edge`, between a wave along a face and another direction: least, and never zero,
-// where they agree, on the shadow boundary. `other` is the incident wave's direction at the edge where the wave along
-// the face starts, and the outgoing one's at the edge where it ends.
+// How far a wave along a face is from another direction's shadow boundary: sin^2 of half the angle about `edge` between
+// them, times sin^2 of the angle b between `other` and the edge. Least, and never zero, where they agree. `other` is
+// the incident wave's direction at the edge where the wave along the face starts, and the outgoing one's at the edge
+// where it ends. A face's length l along the ray counts as L = l sin^2 b (Kouyoumjian and Pathak 1974, plane wave on a
+// wedge): nearly along an edge the angles about it are large, while the rays hardly differ.
 double shadow_distance(const Vec3& edge, const Vec3& along_face, const Vec3& other);
 
 // F(x) = 2j sqrt(x) e^{jx} integral from sqrt(x) to infinity of e^{-j t^2} dt, x >= 0: 0 on a shadow boundary, 1 far

@@ -86,6 +86,21 @@ TriangleMesh extruded(const std::vector<Vec2>& profile, double width) {
   return mesh;
 }
 
+// Kouyoumjian and Pathak (1974): L = l sin^2 b for a plane wave at angle b to the edge. On the cone that both rays lie
+// on, the angle about the edge counts by what the rays themselves differ.
+TEST(Transition, OnKellersConeCountsTheAngleBetweenTheRays) {
+  for (const double b : {1.5, 0.6, 0.05}) {
+    for (const double about : {3.0, 0.4, 1e-4}) {
+      const auto ray = [&](double angle) {
+        return Vec3(std::sin(b) * std::cos(angle), std::sin(b) * std::sin(angle), std::cos(b));
+      };
+      const double between = 0.25 * (ray(0) - ray(about)).squaredNorm();
+      // Rounding of differences of 1e-4.
+      EXPECT_NEAR(shadow_distance(Vec3::UnitZ(), ray(0), ray(about)), between, 1e-10 * between) << b << ' ' << about;
+    }
+  }
+}
+
 struct EdgeWaveSum {
   std::array<Complex, 4> S{};
   int count = 0;
