@@ -2,6 +2,7 @@
 #include "sim/scattering/edge_echoes.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "sim/scattering/edge_waves.h"
 
@@ -21,6 +22,38 @@ std::vector<std::span<const EdgeArrival>> chunks_of(std::span<const EdgeArrival>
   return chunks;
 }
 
+// The same path run from the receiver to the transmitter (reciprocity).
+EdgeFootprint reversed(const EdgeFootprint& footprint) {
+  EdgeFootprint result = footprint;
+  std::swap(result.pattern[1], result.pattern[2]);
+  std::swap(result.edge_wave->departure_m, result.edge_wave->arrival_m);
+  for (PathGradient& g : result.gradient) g = {g.receive, g.transmit, g.receive_slip, g.transmit_slip};
+  return result;
+}
+
+// Edge waves, each the mean of its way and of the same way run backwards, as in single diffraction: off Keller's cone
+// the wave that leaves an edge is not the one that would come back by it. One antenna's backward ways are its forward
+// ones.
+void append_edge_waves(const Scatterer& scatterer, const AntennaPair& antennas,
+                       std::span<const EdgeArrival> incoming_chunk, std::span<const EdgeArrival> incoming,
+                       std::span<const EdgeArrival> outgoing_chunk, std::span<const EdgeArrival> outgoing,
+                       std::vector<EdgeFootprint>& answer) {
+  const std::size_t first = answer.size();
+  edge_wave_footprints(scatterer.edges(), scatterer.facets(), antennas, incoming_chunk, outgoing, answer);
+  const std::span there(answer.begin() + first, answer.end());
+  if (antennas.monostatic) {
+    for (EdgeFootprint& f : there) f.pattern[1] = f.pattern[2] = 0.5 * (f.pattern[1] + f.pattern[2]);
+    return;
+  }
+  std::vector<EdgeFootprint> back;
+  edge_wave_footprints(scatterer.edges(), scatterer.facets(), {antennas.receive, antennas.transmit, false},
+                       outgoing_chunk, incoming, back);
+  for (const EdgeFootprint& f : back) answer.push_back(reversed(f));
+  for (std::size_t i = first; i < answer.size(); ++i) {
+    for (Complex& element : answer[i].pattern) element *= 0.5;
+  }
+}
+
 }  // namespace
 
 void edge_echoes(const Scatterer& scatterer, const AntennaPair& antennas, const IlluminationSettings& settings,
@@ -33,11 +66,11 @@ void edge_echoes(const Scatterer& scatterer, const AntennaPair& antennas, const 
                     .light_all(threads, [](std::size_t, auto) {});
   }
   const std::span<const EdgeArrival> outgoing = antennas.monostatic ? incoming : backwards.arrivals;
-  const auto chunks = chunks_of(incoming);
+  const auto chunks = chunks_of(incoming), chunks_back = chunks_of(outgoing);
   parallel_for(chunks.size(), threads, [&](std::size_t chunk) {
     std::vector<EdgeFootprint> answer =
         edge_footprints(scatterer.edges(), scatterer.facets(), antennas, chunks[chunk], outgoing, settings.max_bounces);
-    edge_wave_footprints(scatterer.edges(), scatterer.facets(), antennas, chunks[chunk], outgoing, answer);
+    append_edge_waves(scatterer, antennas, chunks[chunk], incoming, chunks_back[chunk], outgoing, answer);
     std::erase_if(answer,
                   [&](const EdgeFootprint& f) { return !settings.filter.keeps_edge(f.part, f.part_beyond, f.bounces); });
     visit(chunk, answer);

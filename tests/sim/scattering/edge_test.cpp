@@ -373,11 +373,11 @@ TEST(Edges, AnswerAlikeWhenTransmitterAndReceiverChangePlaces) {
     return s;
   };
   const auto there = edge_part(bistatic(t, r)), back = edge_part(bistatic(r, t));
-  // Edge waves (twice diffracted) are not symmetric off Keller's cone: a tenth of the edges' answer.
-  const double size = std::abs(there[kHhChannel]) + std::abs(there[kVvChannel]);
-  EXPECT_NEAR(std::abs(there[kHhChannel] - back[kHhChannel]), 0, 0.1 * size);
-  EXPECT_NEAR(std::abs(there[kVvChannel] - back[kVvChannel]), 0, 0.1 * size);
-  EXPECT_NEAR(std::abs(there[kHvChannel] - back[kVhChannel]), 0, 0.1 * size);
+  const double rounding = 1e-12 * (std::abs(there[kHhChannel]) + std::abs(there[kVvChannel]));
+  EXPECT_NEAR(std::abs(there[kHhChannel] - back[kHhChannel]), 0, rounding);
+  EXPECT_NEAR(std::abs(there[kVvChannel] - back[kVvChannel]), 0, rounding);
+  EXPECT_NEAR(std::abs(there[kHvChannel] - back[kVhChannel]), 0, rounding);
+  EXPECT_NEAR(std::abs(there[kVhChannel] - back[kHvChannel]), 0, rounding);
 }
 
 }  // namespace
