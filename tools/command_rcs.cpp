@@ -171,16 +171,21 @@ void add_cavities(const RcsArguments& arguments, const std::vector<NamedCavity>&
   for (std::size_t view = 0; view < sweep.views(); ++view) views.push_back(antennas_of(arguments, radar_basis(direction_of(sweep, view))));
   Progress progress("cavity", cavities.size() * sweep.frequency_hz.size(), "frequencies");
   for (const NamedCavity& named : cavities) {
-    for (std::size_t q = 0; filter.keeps_cavity(named.part) && q < sweep.frequency_hz.size(); ++q) {
+    for (std::size_t q = 0; q < sweep.frequency_hz.size(); ++q) {
+      const auto failed = [&](const char* why) {
+        return WorkError(fmt::format("cavity {} at {:.6g} GHz: {}; {} is not written", named.name, 1e-9 * sweep.frequency_hz[q], why, arguments.output));
+      };
+      std::vector<std::array<Complex, 4>> echo(sweep.views());
       try {
-        const auto echo = named.cavity.scattering_matrices(2 * kPi * sweep.frequency_hz[q] / kSpeedOfLight, views, thread_count(shell.threads), &shell.stop);
-        for (auto& model : sweep.models) {
-          for (std::size_t view = 0; view < sweep.views(); ++view) {
-            for (int i = 0; i < 4; ++i) model.matrices[view][q][i] += echo[view][i];
-          }
+        if (filter.keeps_cavity(named.part))
+          echo = named.cavity.scattering_matrices(2 * kPi * sweep.frequency_hz[q] / kSpeedOfLight, views, thread_count(shell.threads), &shell.stop);
+      } catch (const WorkError& error) {
+        throw failed(error.what());
+      }
+      for (auto& model : sweep.models) {
+        for (std::size_t view = 0; view < sweep.views(); ++view) {
+          for (int i = 0; i < 4; ++i) model.matrices[view][q][i] += echo[view][i];
         }
-      } catch (const Interrupted&) {
-        throw WorkError(fmt::format("interrupted in cavity {} at {:.6g} GHz; {} is not written", named.name, 1e-9 * sweep.frequency_hz[q], arguments.output));
       }
       progress.advance();
     }
@@ -254,7 +259,7 @@ void run_rcs(const RcsArguments& arguments, const Shell& shell) {
   const Scatterer scatterer(mesh, materials, radians(arguments.crease_deg));
   EchoFilter filter = arguments.view.filter(mesh);
   filter.cavities = arguments.cavities.find(mesh, materials, filter);
-  const std::vector<NamedCavity> cavities = arguments.cavities.make(mesh, filter.cavities, scatterer, *highest);
+  const std::vector<NamedCavity> cavities = arguments.cavities.make(mesh, filter.cavities, scatterer, *lowest, *highest);
   const auto start = std::chrono::steady_clock::now();
   const std::size_t legs = trace_views(arguments, scatterer, filter, shell, sweep);
   if (!cavities.empty()) add_cavities(arguments, cavities, filter, shell, sweep);

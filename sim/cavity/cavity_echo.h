@@ -31,7 +31,8 @@ class Cavity {
   // over patches_per_wavelength (README.md, "Accuracy").
   Cavity(const TriangleMesh& mesh, std::size_t part, const Scatterer& whole, double patches_per_wavelength = kPatchesPerWavelength);
 
-  // Throws InputError for walls that are closed, too large for the wavelength, or face outwards. k: 1/m.
+  // Throws InputError for walls that are closed, face outwards, are too large for the wavelength or too near each other
+  // or the mouth, and for a mouth below half a wavelength. k: 1/m.
   CavitySize size(double k) const;
 
   // hh, hv, vh, vv (received, transmitted) in metres for each pair of antennas, phase origin at the body's origin; to be
@@ -41,8 +42,11 @@ class Cavity {
                                                           const StopFlag* stop = nullptr) const;
 
  private:
-  std::vector<MouthCell> mouth(double k) const;
-  std::vector<WallPatch> patches(double k) const;
+  struct Shape {
+    std::vector<MouthCell> mouth;
+    std::vector<WallPatch> walls;
+  };
+  Shape shape(double k) const;
 
   TriangleMesh walls_;
   RayScene scene_;

@@ -9,8 +9,7 @@
 
 namespace seaglint {
 
-// A piece of an opening. Where one rim lies within another, pieces of both overlap and cancel there: `inward` of the
-// inner one points the other way.
+// A piece of an opening, without the islands that lie in it.
 struct MouthCell {
   Vec3 centre;        // m, body frame
   Vec3 inward;        // unit, into the cavity
@@ -19,8 +18,8 @@ struct MouthCell {
 };
 
 // The openings of `walls`, whose triangles face into the cavity, cut into cells of `pitch` metres by a lattice of each
-// opening's own. Throws InputError when the walls are closed, when a rim is not flat to within a quarter of the pitch
-// or touches itself, and when the walls face out of the cavity.
+// opening's own. Throws InputError when the walls are closed, face out of the cavity, enclose nothing or have edges of
+// more than two or of opposite triangles, and when a rim is not flat to within a quarter of the pitch or touches itself.
 std::vector<MouthCell> mouth_cells(const TriangleMesh& walls, double pitch);
 
 }  // namespace seaglint

@@ -15,8 +15,11 @@ constexpr std::size_t kTile = 32;  // patches that one thread takes at a time
 // Cells of the mouth from which nothing hides the antenna.
 std::vector<bool> seen_from(std::span<const MouthCell> mouth, const Vec3& r_hat, const RayScene& scene, double radius) {
   std::vector<Ray> rays;
-  // Rays leave off the mouth's plane, so that its own rim is not met.
-  for (const MouthCell& cell : mouth) rays.push_back({cell.centre + 1e-4 * radius * (r_hat - cell.inward), r_hat});
+  // Rays leave off the mouth's plane, so that its own rim is not met; Embree's numbers are single.
+  for (const MouthCell& cell : mouth) {
+    const double off = 1e-2 * std::sqrt(cell.area) + 1e-6 * radius;
+    rays.push_back({cell.centre + off * (r_hat - cell.inward), r_hat});
+  }
   std::vector<int> hit(rays.size());
   scene.first_hits(rays, hit);
   std::vector<bool> seen(mouth.size());

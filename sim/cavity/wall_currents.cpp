@@ -19,7 +19,7 @@ constexpr int kBlock = 512;
 constexpr std::size_t kTile = 32;      // patches of a block whose rows one thread takes at a time
 constexpr std::size_t kColumns = 128;  // patches whose coupling to a tile is formed at once: 64 x 256 numbers stay in the cache
 constexpr Eigen::Index kTogether = 32;  // fields solved side by side, which share the coupling's making
-constexpr std::size_t kMostSweeps = 100;
+constexpr std::size_t kMostSweeps = 150;
 
 // One number for each patch of a block at most; SSE takes four at a time.
 using Line = Eigen::Array<float, Eigen::Dynamic, 1, 0, kBlock, 1>;
@@ -46,10 +46,11 @@ struct Projection {
   Eigen::MatrixXcd hessenberg;
   Eigen::VectorXcd weights;  // of the directions in the solution
   double residual = 0;
+  bool exact = false;  // the directions hold the solution
 
   // Makes the column of `next`, the image of the last direction, one more direction.
   void add(const std::vector<WallColumns>& directions, WallColumns& next) {
-    if (length == 0) return;
+    if (length == 0 || exact) return;
     const auto known = static_cast<Eigen::Index>(directions.size());
     hessenberg.conservativeResizeLike(Eigen::MatrixXcd::Zero(known + 1, known));
     for (Eigen::Index m = 0; m < known; ++m) {
@@ -60,7 +61,8 @@ struct Projection {
     }
     const float rest = next.col(column).norm();
     hessenberg(known, known - 1) = rest;
-    if (rest > 0) next.col(column) /= rest;
+    exact = !(rest > 0);
+    if (!exact) next.col(column) /= rest;
     const Eigen::VectorXcd right = length * Eigen::VectorXcd::Unit(known + 1, 0);
     weights = hessenberg.householderQr().solve(right);
     residual = (right - hessenberg * weights).norm();
@@ -196,7 +198,7 @@ WallColumns WallCurrents::solve(const WallColumns& driven, const Eigen::VectorXd
       fields[static_cast<std::size_t>(c)].length = direction.norm();
       direction.normalize();
     }
-    for (double worst = strongest; !(worst <= kResidual * strongest);) {
+    for (double worst = strongest; worst > kResidual * strongest;) {
       if (directions.size() > kMostSweeps)
         throw WorkError(fmt::format("the cavity's currents did not settle in {} sweeps: residual {:.1e}", kMostSweeps, worst / strongest));
       const WallColumns outward = solve_one_way(own(directions.back(), threads), true, threads, stop);
@@ -205,7 +207,8 @@ WallColumns WallCurrents::solve(const WallColumns& driven, const Eigen::VectorXd
       for (Projection& field : fields) {
         field.add(directions, next);
         const double left = field.residual * strength(first + field.column);
-        if (!(left <= worst)) worst = left;  // no number never settles
+        if (!std::isfinite(left)) throw WorkError("the cavity's currents have no finite answer: walls too near each other for their patches");
+        worst = std::max(worst, left);
       }
       directions.push_back(std::move(next));
     }

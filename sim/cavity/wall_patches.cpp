@@ -39,7 +39,7 @@ void cut(const Vec3& a, const Vec3& b, const Vec3& c, double longest, std::vecto
   }
   const Vec3 area = 0.5 * (b - a).cross(c - a);
   if (!(area.norm() > 0)) return;
-  if (pieces.size() == kMostPieces) throw InputError("the cavity's walls are made of too many long, thin triangles: mesh them anew");
+  if (pieces.size() == kMostPieces) throw InputError("the cavity's walls are made of too many or too thin triangles: mesh them anew");
   pieces.push_back({(a + b + c) / 3, area.normalized(), area.norm()});
 }
 
@@ -90,7 +90,8 @@ std::vector<WallPatch> wall_patches(const TriangleMesh& walls, double size) {
   const double area = surface_area(walls);
   const auto refuse_more = [&](double patches) {
     if (patches > kMostPatches)
-      throw InputError(fmt::format("the cavity's {:.3g} m^2 of walls need about {:.0f} patches of {:.3g} m at this wavelength: at most {}", area, patches, size, kMostPatches));
+      throw InputError(fmt::format("the cavity's {:.3g} m^2 of walls need about {:.0f} patches of {:.3g} m at this wavelength: at most {}", area, patches,
+                                   size, kMostPatches));
   };
   refuse_more(area / (size * size));
   std::vector<Piece> pieces;

@@ -23,7 +23,7 @@ struct WallPatch {
 // when that makes more than kMostPatches.
 std::vector<WallPatch> wall_patches(const TriangleMesh& walls, double size);
 
-// Their currents take a quarter of an hour per frequency on two cores, and 1 GB.
+// Their currents take a quarter of an hour per frequency on two cores, and some GB.
 inline constexpr std::size_t kMostPatches = 20'000;
 
 }  // namespace seaglint

@@ -72,8 +72,13 @@ TEST(Mouth, WithAnIslandIsTheRingBetweenTheRims) {
   TriangleMesh mesh = pit({{0, 0}, {3, 0}, {3, 3}, {0, 3}}, {1.5, 1.5});
   const TriangleMesh post = turned(pit({{1, 1}, {2, 1}, {2, 2}, {1, 2}}, {1.5, 1.5}));
   mesh.append(post);
-  const Sum sum = sum_of(mouth_cells(mesh, 0.1));
+  const auto cells = mouth_cells(mesh, 0.1);
+  const Sum sum = sum_of(cells);
   EXPECT_LT((sum.area - Vec3(0, 0, -8)).norm(), 1e-11);
+  for (const MouthCell& cell : cells) {
+    EXPECT_LT(cell.inward.z(), -0.99);  // a wave from above falls into all of them
+    EXPECT_GT((cell.centre - Vec3(1.5, 1.5, 0)).cwiseAbs().maxCoeff(), 0.5 - 1e-9);
+  }
 }
 
 TEST(Mouth, RefusesWhatIsNoCavity) {
@@ -97,10 +102,22 @@ TEST(Mouth, RefusesWhatIsNoCavity) {
   uneven.vertices[2].x() = 0.05;
   refused(uneven, "not flat");
 
-  // Two guides that share one corner of their mouths.
-  TriangleMesh touching = guide(0.3, 0.2, 0.5);
-  touching.append(transformed(guide(0.3, 0.2, 0.5), Mat3::Identity(), Vec3(0, 0.3, 0.2)));
+  // Two guides that share one edge, or one corner of their mouths.
+  TriangleMesh sharing = guide(0.3, 0.2, 0.5), touching = sharing;
+  sharing.append(transformed(guide(0.3, 0.2, 0.5), Mat3::Identity(), Vec3(0, 0.3, 0.2)));
+  refused(welded(sharing), "more than two triangles");
+  const Mat3 aside = Eigen::AngleAxisd(0.1, Vec3::UnitY()).toRotationMatrix();
+  touching.append(transformed(guide(0.3, 0.2, 0.5), aside, Vec3(0, 0.3, 0.2)));
   refused(welded(touching), "touches itself");
+
+  TriangleMesh flipped = guide(0.3, 0.2, 0.5);
+  std::swap(flipped.triangles[8][1], flipped.triangles[8][2]);
+  refused(flipped, "face opposite ways");
+
+  MeshBuilder sheet;
+  sheet.begin_part("sheet");
+  sheet.quad(sheet.vertex({0, 0, 0}), sheet.vertex({0, 0, 1}), sheet.vertex({0.3, 1, 1}), sheet.vertex({0.3, 1, 0}));
+  refused(sheet.take(), "enclose nothing");
 }
 
 }  // namespace
