@@ -54,11 +54,11 @@ std::vector<NamedCavity> CavityArguments::make(const TriangleMesh& mesh, const s
   for (const int part : indices) {
     const std::string& name = mesh.part_names[static_cast<std::size_t>(part)];
     cavities.push_back({name, part, Cavity(mesh, static_cast<std::size_t>(part), whole, patches_per_wavelength)});
-    double hz = lowest_hz;
+    double hz = highest_hz;
     try {
-      cavities.back().cavity.size(2 * kPi * lowest_hz / kSpeedOfLight);
-      hz = highest_hz;
       const CavitySize size = cavities.back().cavity.size(2 * kPi * highest_hz / kSpeedOfLight);
+      hz = lowest_hz;
+      if (lowest_hz < highest_hz) cavities.back().cavity.size(2 * kPi * lowest_hz / kSpeedOfLight);
       fmt::print(stderr, "cavity {}: mouth of {:.4g} m^2, walls of {:.4g} m^2, {} patches at {:.6g} GHz\n", name, size.mouth_m2,
                  size.walls_m2, size.patches, 1e-9 * highest_hz);
     } catch (const InputError& error) {

@@ -157,7 +157,7 @@ void add_cells(const std::vector<std::vector<Vec3>>& rims, double pitch, std::ve
 std::vector<MouthCell> mouth_cells(const TriangleMesh& walls, double pitch) {
   std::vector<MouthCell> cells;
   for (const auto& rims : openings_of(rims_of(walls), pitch)) add_cells(rims, pitch, cells);
-  if (cells.empty()) throw InputError("the cavity's walls are closed: nothing can get in");
+  if (cells.empty()) throw InputError("the cavity's walls are closed, or open by nothing at this wavelength");
   // Walls and openings together enclose the cavity; their normals point into it.
   const Vec3 origin = walls.vertices[walls.triangles.front()[0]];
   double volume = enclosed_volume(transformed(walls, Mat3::Identity(), -origin));

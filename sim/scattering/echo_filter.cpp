@@ -5,12 +5,10 @@
 #include <array>
 
 namespace seaglint {
-
 namespace {
 
 bool selected(const EchoFilter& filter, int part, int bounces, Mechanism mechanism) {
-  const auto& only = filter.only;
-  const auto& without = filter.without;
+  const auto &only = filter.only, &without = filter.without;
   if (only.empty() && without.empty()) return true;
   const std::array<int, 3> of{part, bounces, static_cast<int>(mechanism)};
   const auto meets = [&](const EchoSelector& s) { return of[static_cast<std::size_t>(s.kind)] == s.value; };
