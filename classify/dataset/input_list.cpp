@@ -6,10 +6,12 @@
 #include <map>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "classify/dataset/checksum.h"
 #include "sim/core/error.h"
 #include "sim/core/file.h"
+#include "sim/geometry/mesh_io.h"
 
 namespace seaglint {
 
@@ -29,13 +31,27 @@ std::map<std::string, std::string> read_list(const fs::path& file) {
   return checksums;
 }
 
+// Every file that the scenario names, and under "KEY/NAME" what a mesh keeps beside itself.
+std::vector<InputFile> all_files(const Scenario& scenario) {
+  std::vector<InputFile> files;
+  for (const InputFile& named : input_files(scenario)) {
+    files.push_back(named);
+    if (!named.key.ends_with(".mesh")) continue;
+    for (const fs::path& beside : files_beside_mesh(named.path)) {
+      const fs::path name = beside.lexically_relative(fs::canonical(named.path).parent_path());
+      files.push_back({fmt::format("{}/{}", named.key, name.string()), beside});
+    }
+  }
+  return files;
+}
+
 }  // namespace
 
 void require_same_inputs(const fs::path& directory, const Scenario& scenario) {
   const fs::path list = directory / kInputsFile;
   if (!fs::exists(list)) return;
   const std::map<std::string, std::string> checksums = read_list(list);
-  for (const InputFile& file : input_files(scenario)) {
+  for (const InputFile& file : all_files(scenario)) {
     const auto known = checksums.find(file.key);
     if (known != checksums.end() && known->second == sha256_file(file.path)) continue;
     throw InputError(fmt::format("{}: {}: {} is not the file that the data set was begun with; bring that one back or choose another directory",
@@ -47,7 +63,7 @@ void keep_inputs(const fs::path& directory, const Scenario& scenario) {
   const fs::path list = directory / kInputsFile;
   if (fs::exists(list)) return;
   std::string text;
-  for (const InputFile& file : input_files(scenario)) text += fmt::format("{}  {}\n", sha256_file(file.path), file.key);
+  for (const InputFile& file : all_files(scenario)) text += fmt::format("{}  {}\n", sha256_file(file.path), file.key);
   if (!text.empty()) write_file(list, text);
 }
 

@@ -33,6 +33,7 @@ const Mat3& body_from_gltf() {
 // The only files tinygltf may open are those below the glTF's own folder.
 struct Folder {
   fs::path root;
+  std::vector<fs::path> opened;
 
   bool holds(const std::string& name) const {
     std::error_code error;
@@ -50,14 +51,16 @@ bool exists_in_folder(const std::string& name, void* folder) {
 
 std::string same_path(const std::string& name, void*) { return name; }
 
-bool read_in_folder(std::vector<unsigned char>* content, std::string* problem, const std::string& name, void* folder) {
-  if (!static_cast<const Folder*>(folder)->holds(name)) {
+bool read_in_folder(std::vector<unsigned char>* content, std::string* problem, const std::string& name, void* user) {
+  Folder& folder = *static_cast<Folder*>(user);
+  if (!folder.holds(name)) {
     *problem += name + " is outside the file's folder";
     return false;
   }
   try {
     const std::string bytes = read_file(name);
     content->assign(bytes.begin(), bytes.end());
+    folder.opened.emplace_back(name);
     return true;
   } catch (const InputError& error) {
     *problem += error.what();
@@ -73,10 +76,15 @@ std::string one_line(std::string text) {
   return text;
 }
 
-tinygltf::Model load(const std::string& bytes, const fs::path& path) {
+struct Loaded {
+  tinygltf::Model model;
+  std::vector<fs::path> buffer_files;  // in the order of the buffers
+};
+
+Loaded load(const std::string& bytes, const fs::path& path) {
   const std::string plain = plain_gltf(bytes, path.string());
   std::error_code error;
-  Folder folder{fs::canonical(path, error).parent_path()};
+  Folder folder{fs::canonical(path, error).parent_path(), {}};
   if (error) throw InputError(fmt::format("{}: {}", path.string(), error.message()));
 
   tinygltf::TinyGLTF loader;
@@ -94,7 +102,7 @@ tinygltf::Model load(const std::string& bytes, const fs::path& path) {
     problem = thrown.what();
   }
   if (!good || !problem.empty()) throw InputError(fmt::format("{}: {}", path.string(), one_line(problem)));
-  return model;
+  return {std::move(model), std::move(folder.opened)};
 }
 
 // glTF 2.0, section 3.5.3: a matrix in column-major order, or translation * rotation * scale with the quaternion as (x,
@@ -377,9 +385,11 @@ class Writer {
 }  // namespace
 
 TriangleMesh read_gltf(const std::string& bytes, const fs::path& path) {
-  const tinygltf::Model model = load(bytes, path);
-  return Reader(model, path.string()).read();
+  const Loaded loaded = load(bytes, path);
+  return Reader(loaded.model, path.string()).read();
 }
+
+std::vector<fs::path> gltf_buffer_files(const std::string& bytes, const fs::path& path) { return load(bytes, path).buffer_files; }
 
 std::string gltf_bytes(const TriangleMesh& mesh, bool binary, std::span<const std::array<double, 3>> material_colours) {
   return Writer(mesh, material_colours).bytes(binary);

@@ -80,6 +80,11 @@ TriangleMesh read_mesh(const std::filesystem::path& path, const std::string& uni
   return welded(mesh);
 }
 
+std::vector<std::filesystem::path> files_beside_mesh(const std::filesystem::path& path) {
+  if (!is_gltf(ending_of(path))) return {};
+  return gltf_buffer_files(read_file(path, kMostBytes), path);
+}
+
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh) {
   const std::string ending = ending_of(path);
   require_known(ending, path);

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "sim/geometry/triangle_mesh.h"
 
@@ -24,6 +25,9 @@ double metres_per(const std::string& unit);
 //   OBJ, STL and PLY have no convention: their axes are taken as the body frame's. Groups, objects and solids are
 //   parts.
 TriangleMesh read_mesh(const std::filesystem::path& path, const std::string& unit = "m");
+
+// The files beside a mesh's own that it is read from: buffers of a glTF, in their order; else none. InputError where read_mesh() finds the glTF wrong.
+std::vector<std::filesystem::path> files_beside_mesh(const std::filesystem::path& path);
 
 // Positions are rounded to float32, lengths are metres. glTF keeps parts and materials, OBJ parts, STL and PLY neither.
 // The file is whole or absent (sim/core/file.h) and equal meshes give equal bytes. InputError for an unknown ending or

@@ -23,11 +23,11 @@ class InputList : public ::testing::Test {
  protected:
   InputList() {
     fs::create_directory(folder_ / "data");
-    write("ship.glb", "ship");
+    write("ship.obj", "ship");
     scenario_.folder = folder_;
     scenario_.targets.resize(1);
     scenario_.targets[0].name = "ship";
-    scenario_.targets[0].mesh = "ship.glb";
+    scenario_.targets[0].mesh = "ship.obj";
   }
 
   void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
@@ -50,12 +50,28 @@ TEST_F(InputList, IsWrittenOnceAndHoldsTheFilesToIt) {
   EXPECT_EQ(complaint(), "");
   EXPECT_EQ(read_file(folder_ / "data" / kInputsFile), sha256("ship") + "  targets.ship.mesh\n");
   EXPECT_EQ(complaint(), "");
-  write("ship.glb", "another");
+  write("ship.obj", "another");
   EXPECT_THAT(complaint(), HasSubstr(fmt::format("inputs.sha256: targets.ship.mesh: {} is not the file that the data set was begun with",
-                                                 (folder_ / "ship.glb").string())));
+                                                 (folder_ / "ship.obj").string())));
   EXPECT_EQ(read_file(folder_ / "data" / kInputsFile), sha256("ship") + "  targets.ship.mesh\n");
-  write("ship.glb", "ship");
+  write("ship.obj", "ship");
   EXPECT_EQ(complaint(), "");
+}
+
+TEST_F(InputList, HoldsAMeshToItsBuffersToo) {
+  constexpr std::size_t kTriangleBytes = 36;
+  write("ship.gltf",
+        R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],)"
+        R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],)"
+        R"("bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,"uri":"parts/hull.bin"}]})");
+  fs::create_directory(folder_ / "parts");
+  write("parts/hull.bin", std::string(kTriangleBytes, '\0'));
+  scenario_.targets[0].mesh = "ship.gltf";
+  EXPECT_EQ(complaint(), "");
+  EXPECT_THAT(read_file(folder_ / "data" / kInputsFile),
+              HasSubstr(sha256(std::string(kTriangleBytes, '\0')) + "  targets.ship.mesh/parts/hull.bin\n"));
+  write("parts/hull.bin", std::string(kTriangleBytes, '\1'));
+  EXPECT_THAT(complaint(), HasSubstr("inputs.sha256: targets.ship.mesh/parts/hull.bin: "));
 }
 
 TEST_F(InputList, IsNotWrittenWhereNoFileIsNamed) {
