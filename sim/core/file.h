@@ -12,6 +12,9 @@
 
 namespace seaglint {
 
+// Where the file is that `where` names: beside `folder`, else below the working directory. InputError when in neither.
+std::filesystem::path find_file(const std::string& name, const std::filesystem::path& folder, const std::string& where);
+
 // Throws InputError when the file is missing, not a regular file, or larger than max_bytes.
 std::string read_file(const std::filesystem::path& path, std::size_t max_bytes = std::size_t{1} << 30);
 

@@ -3,9 +3,8 @@
 
 #include <fmt/format.h>
 
-#include <system_error>
-
 #include "sim/core/error.h"
+#include "sim/core/file.h"
 
 namespace seaglint {
 
@@ -20,16 +19,6 @@ constexpr double kWaterlineToOverallBeam = 0.95;
 constexpr double kBeamToDraught = 3.1;
 
 double given_or(double value, double derived) { return value > 0 ? value : derived; }
-
-std::filesystem::path find_file(const std::string& name, const std::filesystem::path& folder, const char* key) {
-  const std::filesystem::path beside = folder / name;
-  std::error_code error;
-  for (const std::filesystem::path& candidate : {beside, std::filesystem::path(name)}) {
-    if (std::filesystem::exists(candidate, error)) return candidate;
-  }
-  throw InputError(fmt::format("motion.{}: value '{}': no such file, neither {} nor below the working directory", key,
-                               name, beside.string()));
-}
 
 // What each kind of file says about speed and reference point, and what the user must.
 RaoTable read_table_of(const MotionSpec& spec, const std::filesystem::path& file, const Vec3& reference) {
@@ -54,7 +43,7 @@ BodyShape shape_of(const TriangleMesh& mesh) { return {bounds(mesh), sections_of
 HullSections ship_sections(const MotionSpec& spec, const BodyShape& shape, const std::filesystem::path& folder,
                            const HullForm& form) {
   if (!spec.sections.empty()) {
-    const HullSections given = read_sections(find_file(spec.sections, folder, "sections"), kStrips);
+    const HullSections given = read_sections(find_file(spec.sections, folder, "motion.sections"), kStrips);
     return stretched(given, spec.length_m, spec.beam_m, spec.draught_m);
   }
   if (!shape.hull.sections.empty()) return stretched(shape.hull, spec.length_m, spec.beam_m, spec.draught_m);
@@ -90,9 +79,9 @@ Body make_body(const MotionSpec& spec, const BodyShape& shape, const std::filesy
   }
   if (spec.rotation_centre_m) body.rotation_centre = Eigen::Map<const Vec3>(spec.rotation_centre_m->data());
   if (spec.model == MotionModel::kSeries) {
-    body.model = read_attitude_series(find_file(spec.file, folder, "file"));
+    body.model = read_attitude_series(find_file(spec.file, folder, "motion.file"));
   } else if (spec.model == MotionModel::kRao) {
-    const RaoTable table = read_table_of(spec, find_file(spec.file, folder, "file"), body.rotation_centre);
+    const RaoTable table = read_table_of(spec, find_file(spec.file, folder, "motion.file"), body.rotation_centre);
     body.rotation_centre = table.reference();
     body.model = table;
   }

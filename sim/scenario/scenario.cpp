@@ -5,10 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <system_error>
 
 #include "sim/core/constants.h"
-#include "sim/core/error.h"
 #include "sim/core/exact_functions.h"
 #include "sim/core/file.h"
 #include "sim/scenario/contradictions.h"
@@ -57,21 +55,15 @@ std::string place_of(const Scenario& scenario, const std::string& key_path) {
 
 namespace {
 
-// A file that a key names, beside the scenario or below the working directory.
-fs::path find_file(const Scenario& scenario, const std::string& name, const std::string& key) {
-  const fs::path beside = scenario.folder / name;
-  std::error_code error;
-  for (const fs::path& candidate : {beside, fs::path(name)}) {
-    if (fs::exists(candidate, error)) return candidate;
-  }
-  throw InputError(fmt::format("{}: value '{}': no such file, neither {} nor below the working directory",
-                               place_of(scenario, key), name, beside.string()));
+// A file that a key names.
+fs::path file_of(const Scenario& scenario, const std::string& name, const std::string& key) {
+  return find_file(name, scenario.folder, place_of(scenario, key));
 }
 
 }  // namespace
 
 fs::path find_mesh(const Scenario& scenario, const TargetSpec& target) {
-  return find_file(scenario, target.mesh, fmt::format("targets.{}.mesh", target.name));
+  return file_of(scenario, target.mesh, fmt::format("targets.{}.mesh", target.name));
 }
 
 double echo_duration_us(const RadarSpec& radar, double window_m) {
@@ -81,7 +73,7 @@ double echo_duration_us(const RadarSpec& radar, double window_m) {
 std::vector<InputFile> input_files(const Scenario& scenario) {
   std::vector<InputFile> files;
   const auto add = [&](const std::string& name, const std::string& key) {
-    if (!name.empty()) files.push_back({key, find_file(scenario, name, key)});
+    if (!name.empty()) files.push_back({key, file_of(scenario, name, key)});
   };
   if (scenario.radar.hop_code == HopCode::kFile) add(scenario.radar.hop_code_file, "radar.hop_code_file");
   if (scenario.sea.spectrum == SpectrumKind::kTable) add(scenario.sea.table, "sea.table");
@@ -103,13 +95,13 @@ std::vector<InputFile> input_files(const Scenario& scenario) {
 
 std::shared_ptr<const SpectrumTable> find_spectrum_table(const Scenario& scenario) {
   if (scenario.sea.spectrum != SpectrumKind::kTable || scenario.sea.table.empty()) return nullptr;
-  return std::make_shared<SpectrumTable>(read_spectrum_table(find_file(scenario, scenario.sea.table, "sea.table")));
+  return std::make_shared<SpectrumTable>(read_spectrum_table(file_of(scenario, scenario.sea.table, "sea.table")));
 }
 
 std::shared_ptr<const std::vector<int>> find_hop_codes(const Scenario& scenario) {
   const RadarSpec& radar = scenario.radar;
   if (radar.hop_code != HopCode::kFile || radar.hop_code_file.empty()) return nullptr;
-  const fs::path file = find_file(scenario, radar.hop_code_file, "radar.hop_code_file");
+  const fs::path file = file_of(scenario, radar.hop_code_file, "radar.hop_code_file");
   return std::make_shared<std::vector<int>>(read_hop_code(file, radar.pulses, radar.hop_count));
 }
 
