@@ -47,6 +47,13 @@ CLI::Validator number_within(double lowest, double highest);
 // The data set in a directory: there, or in the `data` below it that `run` makes.
 std::filesystem::path find_data_set(const std::filesystem::path& directory);
 
+// Before any work: every file that a command is going to write can be written (WorkError), and none is another of them or one that the command reads
+// (InputError). Empty names are none.
+void require_outputs(const std::vector<std::string>& outputs, const std::vector<std::filesystem::path>& inputs);
+
+// The scenario's file and all that it names.
+std::vector<std::filesystem::path> files_of(const std::string& scenario_file, const Scenario& scenario);
+
 // Adds --threads to a command.
 void add_threads_option(CLI::App& command, Shell& shell);
 

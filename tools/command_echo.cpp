@@ -10,7 +10,6 @@
 #include "classify/dataset/plan.h"
 #include "seaglint_version.h"
 #include "sim/core/error.h"
-#include "sim/core/file.h"
 #include "tools/command.h"
 #include "tools/sampled_interval.h"
 
@@ -33,7 +32,7 @@ NpzArray samples_over_time(const char* name, const SampledEcho& sampled) {
 }
 
 void write_echo(const Arguments& arguments) {
-  require_writable(arguments.output);
+  require_npz(arguments.output);
   const Scenario scenario = arguments.read();
   const std::size_t samples = SamplePlan(scenario).size();
   if (arguments.sample >= samples)

@@ -172,6 +172,7 @@ struct InfoArguments {
 };
 
 void print_info(const InfoArguments& arguments) {
+  require_outputs({arguments.picture}, {arguments.file});
   const TriangleMesh mesh = read_mesh(arguments.file, arguments.unit);
   const Topology topology = topology_of(mesh);
   if (!arguments.picture.empty()) write_file(arguments.picture, png_bytes(picture_of(mesh, arguments.view)));

@@ -224,9 +224,15 @@ void export_one_view(const RcsArguments& arguments, const TriangleMesh& mesh, co
 }
 
 void run_rcs(const RcsArguments& arguments, const Shell& shell) {
-  for (const std::string& file : {arguments.output, arguments.view.centres, arguments.view.hot_spots})
-    require_writable(file);
-  if (!arguments.reference.figure.empty()) require_figure(comparison_figure(arguments));
+  std::vector<std::filesystem::path> inputs(arguments.reference.files.begin(), arguments.reference.files.end());
+  inputs.emplace_back(arguments.target);
+  std::vector<std::string> outputs{arguments.output, arguments.view.centres, arguments.view.hot_spots};
+  if (!arguments.reference.files.empty()) {
+    outputs.push_back(comparison_figure(arguments));
+    require_figure(outputs.back());
+  }
+  require_outputs(outputs, inputs);
+  if (!arguments.view.hot_spots.empty()) require_coloured_mesh(arguments.view.hot_spots);
   RcsSweep sweep;
   sweep.frequency_hz = range("--frequency-ghz", arguments.frequency_ghz, 1e-3, 1000);
   for (double& f : sweep.frequency_hz) f *= 1e9;

@@ -53,6 +53,7 @@ std::vector<NpzArray> arrays_of(const Sample& sample, const StoredAxes& axes) {
 }
 
 void remake_sample(const Arguments& arguments) {
+  require_npz(arguments.output);
   const DatasetReader reader(find_data_set(arguments.directory));
   if (arguments.sample >= reader.size())
     throw InputError(fmt::format("--sample {}: the data set has samples 0 to {}", arguments.sample, reader.size() - 1));

@@ -118,9 +118,9 @@ std::string series_csv(const WaveField& field, const SeaArguments& arguments, co
 }
 
 void write_sea(const SeaArguments& arguments, const Shell& shell) {
-  for (const std::string& file : {arguments.output, arguments.spectrum}) require_writable(file);
   require_figure(arguments.figure);
   const Scenario scenario = arguments.scenario.read();
+  require_outputs({arguments.output, arguments.spectrum, arguments.figure}, files_of(arguments.scenario.file, scenario));
   const SeaState state = sea_states(scenario.sea).front();
   const WaveField field = realize_sea(state, scenario.seed, realisation_index(0, 0));
   const SeaSummary summary = summarize(state, field);

@@ -12,6 +12,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <string_view>
 #include <utility>
 
 #include "sim/core/error.h"
@@ -93,6 +94,15 @@ void run_gnuplot(const Scratch& scratch) {
   throw WorkError(fmt::format("gnuplot failed: {}", messages.substr(0, 500)));
 }
 
+// gnuplot does not look whether its writes succeed: a figure cut off by a full disk lacks the end of its format. Throws WorkError.
+void require_whole(const fs::path& drawn, const fs::path& file) {
+  const std::string bytes = read_file(drawn);
+  const std::string_view end = file.extension() == ".png" ? "IEND\xae\x42\x60\x82" : "</svg>";
+  const std::size_t last = bytes.find_last_not_of(" \r\n");
+  if (last == std::string::npos || !std::string_view(bytes).substr(0, last + 1).ends_with(end))
+    throw WorkError(fmt::format("{}: gnuplot did not write it to its end: is the disk full?", file.string()));
+}
+
 std::string axis_commands(const char* name, const FigureAxis& axis) {
   std::string text = fmt::format("set {}label {}\n", name, quoted(axis.label));
   if (axis.logarithmic) text += fmt::format("set logscale {0}\nset format {0} '%.0e'\n", name);
@@ -121,6 +131,7 @@ void draw(const fs::path& file, FigureSize size, const std::string& title, const
     script += commands + "set output\n";
     write_file(scratch.script, script);
     run_gnuplot(scratch);
+    require_whole(temporary, file);
   });
 }
 

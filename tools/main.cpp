@@ -26,6 +26,9 @@ seaglint::StopFlag* stop_flag = nullptr;
 
 void request_stop(int) { *stop_flag = true; }
 
+// A write beyond the limit on file sizes fails like one to a full disk, instead of killing.
+void survive_file_size_limit() { signal(SIGXFSZ, SIG_IGN); }
+
 // The first Ctrl-C asks the work to stop; the handler is then gone, so that the second one kills.
 void handle_signals(Shell& shell) {
   stop_flag = &shell.stop;
@@ -109,6 +112,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return end_parsing(app, error, argc > 1 ? argv[1] : "");
   }
+  survive_file_size_limit();
   if (!shell.one_piece) handle_signals(shell);
   return run(shell);
 }

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Sourced by tools/demo and tools/check: installs missing packages, configures and builds build/release.
 set -euo pipefail
+export LC_ALL=C.UTF-8  # awk's numbers have points
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 # install_packages KIND...: installs what is missing of the packages of these kinds in tools/packages.txt.

@@ -156,6 +156,11 @@ NpzArray npz_array(std::string name, std::string type, std::vector<std::uint64_t
           [bytes = std::move(bytes)]() mutable { return std::exchange(bytes, std::string()); }};
 }
 
+void require_npz(const std::filesystem::path& file) {
+  if (!file.empty() && file.extension() != ".npz") throw InputError(fmt::format("{}: NumPy's archives end in .npz", file.string()));
+  require_writable(file);
+}
+
 void write_npz(const std::filesystem::path& file, const std::vector<NpzArray>& arrays,
                const std::vector<NpzText>& texts) {
   std::vector<Member> members;

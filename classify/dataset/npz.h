@@ -39,6 +39,9 @@ std::string bytes_of_values(std::span<const T> values) {
   return {reinterpret_cast<const char*>(values.data()), values.size_bytes()};
 }
 
+// Throws InputError unless the name ends in .npz, and WorkError where write_npz() would find the place refusing. An empty name is none.
+void require_npz(const std::filesystem::path& file);
+
 // Writes the archive whole or not at all, arrays in their order. What next() throws is passed on; an array that does
 // not yield the bytes of its shape is a programmer's error. Throws WorkError when the disk refuses.
 void write_npz(const std::filesystem::path& file, const std::vector<NpzArray>& arrays,

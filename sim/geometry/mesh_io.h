@@ -34,6 +34,9 @@ std::vector<std::filesystem::path> files_beside_mesh(const std::filesystem::path
 // an empty mesh, WorkError when the disk refuses.
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh);
 
+// InputError unless write_coloured_mesh() knows the ending.
+void require_coloured_mesh(const std::filesystem::path& path);
+
 // A glTF file whose materials have colours: linear red, green, blue in 0..1, one for each of mesh.materials.
 void write_coloured_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, std::span<const std::array<double, 3>> material_colours);
 

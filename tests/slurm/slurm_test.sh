@@ -131,7 +131,7 @@ exec "$program" "\$@"
 END
 chmod +x "$work/program"
 
-setpriv --pdeathsig=KILL tools/slurm "${scenario[@]}" -o "$work/data" --parts 6 --program "$work/program" --wait >"$work/submit.log" 2>&1 &
+setpriv --pdeathsig=KILL tools/slurm "${scenario[@]}" -o "$work/data" --parts 6 --retries 08 --program "$work/program" --wait >"$work/submit.log" 2>&1 &
 waiting=$!
 daemons+=("$waiting")
 until_true 30 running_on_node_2
