@@ -12,6 +12,14 @@ namespace {
 
 constexpr std::size_t kImagesPerChunk = 64;
 
+// Cosine below which a panel is measured by its own area, not by its image's: however nearly edge-on, its rims answer.
+constexpr double kNearlyEdgeOn = 0.01;
+
+// The smallest image that counts of a panel with this normal, m^2.
+double least_area(const Vec3& normal, const RadarBasis& basis, double min_area) {
+  return min_area * std::min(1.0, std::abs(normal.dot(basis.r)) / kNearlyEdgeOn);
+}
+
 }  // namespace
 
 bool set_image(FacetImage& result, std::span<const Facet> facets, const Panels& panels, int facet,
@@ -99,7 +107,7 @@ VisibleSurface::VisibleSurface(std::span<const Facet> facets, const Panels& pane
   extents_.reserve(most);
   FacetImage fresh;
   for (int f = 0; f < static_cast<int>(facets.size()); ++f) {
-    if (!may_be_seen(f) || !set_image(fresh, facets, panels, f, Mirror{}, basis, min_area)) continue;
+    if (!may_be_seen(f) || !set_image(fresh, facets, panels, f, Mirror{}, basis, least_area(facets[f].normal, basis, min_area))) continue;
     image_of_[f] = static_cast<std::int32_t>(images_.size());
     images_.push_back(fresh);
     extents_.push_back(extent_of({&fresh.polygon, 1}, fresh.plane));
@@ -113,6 +121,7 @@ VisibleSurface::VisibleSurface(std::span<const Facet> facets, const Panels& pane
       const FacetImage& image = images_[i];
       const Extent& extent = extents_[i];
       const Facet& facet = facets[image.facet];
+      const double least = least_area(facet.normal, basis, min_area);
       const Vec3 towards = facet.normal.dot(basis.r) > 0 ? facet.normal : Vec3(-facet.normal);
       const Prism prism{{basis.h, basis.v},
                         {extent.box.lower.x(), extent.box.lower.y()},
@@ -126,7 +135,7 @@ VisibleSurface::VisibleSurface(std::span<const Facet> facets, const Panels& pane
       tree.walk(prism, [&](const TreePanel& panel) {
         const std::int32_t other = image_of_[panel.facet];
         if (other >= 0 && panel.facet != image.facet && may_hide(extent, extents_[other]) &&
-            hide(image, extent, images_[other], extents_[other], min_area, left))
+            hide(image, extent, images_[other], extents_[other], least, left))
           seen.whole = false;
         return left.empty() ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
       });
@@ -177,6 +186,7 @@ void VisibleSurface::seen_through(int facet, const Mirror& mirrors, std::span<co
       direct = {start ? q : Vec2(direct.lower.cwiseMin(q)), start ? q : Vec2(direct.upper.cwiseMax(q))};
     }
   }
+  const double least = least_area(facets_[facet].normal, basis_, min_area_);
   MovingPolygon image;
   for (std::size_t i = 0; i < direct_view.size(); ++i) {
     const MovingPolygon& piece = direct_view[i];
@@ -193,7 +203,7 @@ void VisibleSurface::seen_through(int facet, const Mirror& mirrors, std::span<co
     if (signed_area(image) < 0) std::reverse(image.begin(), image.end());
     for (const MovingPolygon& part : lit) {
       MovingPolygon both = intersect(part, image);
-      if (signed_area(both) > min_area_) seen.push_back(std::move(both));
+      if (signed_area(both) > least) seen.push_back(std::move(both));
     }
   }
 }

@@ -301,6 +301,23 @@ TEST(Plate, EdgeOnIsSeenHoweverItIsTurned) {
   }
 }
 
+// A sheet in the line of sight answers however small it is beside the body's radius: far from the origin as at it, but for the phase.
+TEST(Plate, EdgeOnAnswersWhereverItIs) {
+  const double k = wavenumber(10e9);
+  const Mat3 flat = Eigen::AngleAxisd(kPi / 2, Vec3::UnitY()).toRotationMatrix();
+  for (const double elevation_deg : {0.0, 5e-4}) {
+    const Vec3 r = direction(0, elevation_deg);
+    const Complex here = echo(Scatterer(transformed(make_plate(0.2, 0.2), flat, Vec3::Zero())), radar_basis(r), k, 0, 8, true)[kHhChannel];
+    EXPECT_GT(std::abs(here), 0.01);  // m
+    for (const Vec3& place : {Vec3(3, 0, 0), Vec3(5, 20, 1)}) {
+      const Complex there = echo(Scatterer(transformed(make_plate(0.2, 0.2), flat, place)), radar_basis(r), k, 0, 8, true)[kHhChannel];
+      // Exactly in its plane it is looked at 1e-6 rad aside, and corners lie within 1e-7 m of it.
+      const double tolerance = 2 * k * (1e-6 * place.norm() + 1e-7);
+      EXPECT_LT(std::abs(there / here * std::polar(1.0, -2 * k * r.dot(place)) - 1.0), tolerance) << elevation_deg << ' ' << place.transpose();
+    }
+  }
+}
+
 TEST(Plate, EdgeOnAnswersOnlyTheFieldAlongItsRim) {
   const double width = 0.15, rim = width / (2 * kPi);
   const Scatterer plate(make_plate(0.25, width));
