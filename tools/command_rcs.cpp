@@ -126,13 +126,21 @@ Vec3 direction_at(double azimuth_deg, double elevation_deg) {
   return {std::cos(el) * std::cos(az), std::cos(el) * std::sin(az), std::sin(el)};
 }
 
-Vec3 direction_of(const RcsSweep& sweep, std::size_t view) {
-  return direction_at(sweep.azimuth_deg[view % sweep.azimuth_deg.size()], sweep.elevation_deg[view / sweep.azimuth_deg.size()]);
+// At the zenith and below the keel h is that of the azimuth's lower elevations, phi^ of a spherical table.
+RadarBasis basis_at(double azimuth_deg, double elevation_deg) {
+  const Vec3 r = direction_at(azimuth_deg, elevation_deg);
+  if (std::abs(elevation_deg) != 90) return radar_basis(r);
+  const Vec3 h = direction_at(azimuth_deg + 90, 0);
+  return {r, h, r.cross(h)};
+}
+
+RadarBasis basis_of(const RcsSweep& sweep, std::size_t view) {
+  return basis_at(sweep.azimuth_deg[view % sweep.azimuth_deg.size()], sweep.elevation_deg[view / sweep.azimuth_deg.size()]);
 }
 
 AntennaPair antennas_of(const RcsArguments& arguments, const RadarBasis& swept) {
   if (!arguments.transmit_azimuth_deg) return monostatic(swept);
-  return bistatic(radar_basis(direction_at(*arguments.transmit_azimuth_deg, arguments.transmit_elevation_deg.value_or(0))), swept);
+  return bistatic(basis_at(*arguments.transmit_azimuth_deg, arguments.transmit_elevation_deg.value_or(0)), swept);
 }
 
 // Fills the sweep's models, one view after the other; returns the legs of beams followed.
@@ -147,7 +155,7 @@ std::size_t trace_views(const RcsArguments& arguments, const Scatterer& scattere
   std::size_t legs = 0;
   Progress progress("rcs", sweep.views(), "views");
   for (std::size_t view = 0; view < sweep.views(); ++view) {
-    const RadarBasis basis = radar_basis(direction_of(sweep, view));
+    const RadarBasis basis = basis_of(sweep, view);
     try {
       for (auto& model : sweep.models) {
         const IlluminationSettings settings{arguments.ray_spacing_m, arguments.max_bounces, model.name == "edges", filter, arguments.range_m};
@@ -168,7 +176,7 @@ std::size_t trace_views(const RcsArguments& arguments, const Scatterer& scattere
 // Adds the echoes of cavities to every model of the sweep.
 void add_cavities(const RcsArguments& arguments, const std::vector<NamedCavity>& cavities, const EchoFilter& filter, const Shell& shell, RcsSweep& sweep) {
   std::vector<AntennaPair> views;
-  for (std::size_t view = 0; view < sweep.views(); ++view) views.push_back(antennas_of(arguments, radar_basis(direction_of(sweep, view))));
+  for (std::size_t view = 0; view < sweep.views(); ++view) views.push_back(antennas_of(arguments, basis_of(sweep, view)));
   Progress progress("cavity", cavities.size() * sweep.frequency_hz.size(), "frequencies");
   for (const NamedCavity& named : cavities) {
     for (std::size_t q = 0; q < sweep.frequency_hz.size(); ++q) {
@@ -219,7 +227,7 @@ void export_one_view(const RcsArguments& arguments, const TriangleMesh& mesh, co
       "# body frame, e^{{+jwt}}, phase origin at the body's origin, S_pq: q transmitted, p received; basis of CONVENTIONS.md\n",
       kVersion, arguments.target, arguments.unit, sweep.frequency_hz[0], sweep.azimuth_deg[0], sweep.elevation_deg[0], arguments.max_bounces, arguments.edges,
       arguments.view.text());
-  export_view(arguments.view, mesh, scatterer, radar_basis(direction_of(sweep, 0)), 2 * kPi * sweep.frequency_hz[0] / kSpeedOfLight,
+  export_view(arguments.view, mesh, scatterer, basis_of(sweep, 0), 2 * kPi * sweep.frequency_hz[0] / kSpeedOfLight,
               {arguments.ray_spacing_m, arguments.max_bounces, arguments.edges == "on", filter, arguments.range_m}, heading, thread_count(shell.threads), &shell.stop);
 }
 

@@ -25,8 +25,9 @@ Complex amplitude_of(double level_dbsm, double phase_rad) {
   return std::polar(std::sqrt(std::pow(10.0, level_dbsm / 10) / (4 * kPi)), phase_rad);
 }
 
-// Brings a direction to theta 0..180, phi 0..360; true when theta was negative.
+// Brings a direction to theta 0..180, phi 0..360; true when it lay on the circle's other half, theta below 0 or above 180.
 bool fold(double& theta_deg, double& phi_deg) {
+  theta_deg = std::remainder(theta_deg, 360);
   const bool negative = theta_deg < 0;
   if (negative) {
     theta_deg = -theta_deg;
@@ -85,6 +86,11 @@ double number_in(const Lines& lines, const std::string& cell) {
   return *value;
 }
 
+// A level in dB; the logarithm of an exact zero is the floor.
+double level_in(const Lines& lines, const std::string& cell) {
+  return cell == "-inf" || cell == "-Inf" || cell == "-INF" ? kLeastLevel_dbsm : number_in(lines, cell);
+}
+
 bool is_blank(const std::string& line) { return line.find_first_not_of(" \t") == std::string::npos; }
 
 bool transmits_v(Element element) { return element == Element::kHv || element == Element::kVv; }
@@ -93,10 +99,10 @@ bool receives_v(Element element) { return element == Element::kVh || element == 
 // Frequency in Hz, theta, phi, dBsm.
 void read_four_columns(Lines& lines, RcsReference& reference) {
   for (std::string line; lines.next(line);) {
-    if (is_blank(line)) continue;
+    if (is_blank(line) || line.front() == '#') continue;
     const std::vector<std::string> words = words_of(line);
     if (words.size() != 4) lines.fail(fmt::format("{} columns: must be 4 (frequency_hz theta_deg phi_deg dBsm)", words.size()));
-    ReferenceSample sample{number_in(lines, words[0]), number_in(lines, words[1]), number_in(lines, words[2]), number_in(lines, words[3]), {}};
+    ReferenceSample sample{number_in(lines, words[0]), number_in(lines, words[1]), number_in(lines, words[2]), level_in(lines, words[3]), {}};
     if (sample.frequency_hz <= 0) lines.fail(fmt::format("frequency {} Hz: must be > 0", words[0]));
     fold(sample.theta_deg, sample.phi_deg);
     reference.samples.push_back(sample);
@@ -134,7 +140,7 @@ void read_own_table(Lines& lines, RcsReference& reference) {
       sample.amplitude_m = Complex(at(re), at(im));
       sample.level_dbsm = level_of(*sample.amplitude_m);
     } else {
-      sample.level_dbsm = at(level);
+      sample.level_dbsm = level_in(lines, cells[static_cast<std::size_t>(level)]);
     }
     reference.samples.push_back(sample);
   }
@@ -225,7 +231,7 @@ void read_cst_table(Lines& lines, RcsReference& reference) {
     sample.theta_deg = at(theta);
     sample.phi_deg = at(phi);
     const bool folded = fold(sample.theta_deg, sample.phi_deg);
-    sample.level_dbsm = unit.level(lines, at(magnitude));
+    sample.level_dbsm = unit.level(lines, level_in(lines, words[static_cast<std::size_t>(magnitude)]));
     if (phase >= 0) {
       const bool cross = transmits_v(reference.element) != receives_v(reference.element);
       sample.amplitude_m = amplitude_of(sample.level_dbsm, radians(at(phase))) * (folded ? -1.0 : 1.0) * (cross ? -1.0 : 1.0);
@@ -245,7 +251,7 @@ Format format_of(const std::string& text, const std::string& file) {
     if (line.find("Theta") != std::string::npos && line.find('[') != std::string::npos) return Format::kCstTable;
     if (line.starts_with("frequency_hz,")) return Format::kOwnTable;
     const std::vector<std::string> words = words_of(line);
-    if (words.size() == 4 && std::all_of(words.begin(), words.end(), [](const std::string& w) { return parse_number(w).has_value(); }))
+    if (words.size() == 4 && std::all_of(words.begin(), words.end() - 1, [](const std::string& w) { return parse_number(w).has_value(); }))
       return Format::kFourColumns;
     break;
   }

@@ -283,6 +283,22 @@ TEST_F(RcsCommand, BendsTheWavefrontOfARadarNearby) {
   EXPECT_THAT(inside.err, HasSubstr("radar range 0.5 m: the target reaches"));
 }
 
+// A strip that leans is no disc: at the zenith its matrix turns with the azimuth as it does just below.
+TEST_F(RcsCommand, KeepsItsBasisThroughTheZenith) {
+  const Mat3 leaning = (Eigen::AngleAxisd(0.15, Vec3::UnitX()) * Eigen::AngleAxisd(kPi / 2 - 0.02, Vec3::UnitY())).toRotationMatrix();
+  write_mesh(plate(), transformed(make_plate(0.04, 0.3), leaning, Vec3::Zero()));
+  for (const char* azimuth : {"0", "60", "-110"}) {
+    const ProgramResult result = rcs({"--frequency-ghz", "10", "--azimuth-deg", azimuth, "--elevation-deg", "89.999:90:0.001"});
+    ASSERT_EQ(result.code, 0) << result.err;
+    const auto rows = read_table(table()).rows;
+    ASSERT_EQ(rows.size(), 2u);
+    // 1e-3 deg turn the phase at the strip's ends by 2 k 0.15 m 1.7e-5 rad.
+    const double tolerance = 1.1e-3 * std::hypot(rows[1][3], rows[1][4]);
+    for (std::size_t column = 3; column <= 10; ++column) EXPECT_NEAR(rows[0][column], rows[1][column], tolerance) << azimuth << ' ' << column;
+    EXPECT_GT(std::hypot(rows[1][9] - rows[1][3], rows[1][10] - rows[1][4]) + std::hypot(rows[1][5], rows[1][6]), 10 * tolerance);
+  }
+}
+
 TEST_F(RcsCommand, RefusesEdgesAndRangesThatCannotBe) {
   const auto refused = [&](std::vector<std::string> arguments, const std::string& message) {
     const ProgramResult result = rcs(std::move(arguments));

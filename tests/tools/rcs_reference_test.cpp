@@ -116,6 +116,25 @@ TEST_F(RcsReferenceFile, OfCstWithNegativeThetaIsFoldedAndChangesSign) {
   EXPECT_NEAR(degrees(std::arg(*vv.samples[0].amplitude_m)), 10 - 180, 1e-9);
 }
 
+TEST_F(RcsReferenceFile, OfAFullCircleIsFoldedAtBothPoles) {
+  const RcsReference circle = read("a.H.txt", "1e10 190 20 -3\n1e10 -170 20 -3\n1e10 370 20 -4\n");
+  for (const std::size_t i : {0u, 1u}) {
+    EXPECT_EQ(circle.samples[i].theta_deg, 170);
+    EXPECT_EQ(circle.samples[i].phi_deg, 200);
+  }
+  EXPECT_EQ(circle.samples[2].theta_deg, 10);
+  EXPECT_EQ(circle.samples[2].phi_deg, 20);
+  const RcsReference cst = read("a.txt", cst_table("dB(m^2)", "190 20 0 0 30 0 0 0\r\n170 200 0 0 30 0 0 0\r\n"), as(Element::kVv));
+  EXPECT_LT(std::abs(*cst.samples[0].amplitude_m + *cst.samples[1].amplitude_m), kPrinted_db);
+}
+
+TEST_F(RcsReferenceFile, MayHaveAHeadAndExactZeros) {
+  const RcsReference reference = read("a.V.txt", "# frequency_hz theta_deg phi_deg dBsm\n1e10 90 0 -inf\n1e10 90 1 -3\n");
+  ASSERT_EQ(reference.samples.size(), 2u);
+  EXPECT_LT(reference.samples[0].level_dbsm, -300);
+  EXPECT_THAT(refusal("b.V.txt", "1e10 90 0 low\n"), HasSubstr("b.V.txt:1: 'low': must be a number"));
+}
+
 TEST_F(RcsReferenceFile, OfThisProgramIsReadByItsColumnsNames) {
   const std::string text =
       "# seaglint\nfrequency_hz,azimuth_deg,elevation_deg,vv_re,vv_im,hh_dbsm\n1e10,-20,2,0.3,-0.4,-7\n";
