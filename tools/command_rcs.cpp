@@ -271,6 +271,7 @@ void run_rcs(const RcsArguments& arguments, const Shell& shell) {
   warn(check_target(mesh, *lowest));
   if (arguments.sea.reflection) put_in_water(mesh, materials, -arguments.sea.height_m);
   const Scatterer scatterer(mesh, materials, radians(arguments.crease_deg));
+  if (arguments.edges == "on") warn(check_edges(scatterer, *lowest));
   EchoFilter filter = arguments.view.filter(mesh);
   filter.cavities = arguments.cavities.find(mesh, materials, filter);
   const std::vector<NamedCavity> cavities = arguments.cavities.make(mesh, filter.cavities, scatterer, *lowest, *highest);

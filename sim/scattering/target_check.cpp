@@ -20,6 +20,18 @@ constexpr double kLeastDetail = 7e-5;     // of the radius about the origin (def
 constexpr std::size_t kManyTriangles = 1'000'000;
 constexpr double kGigabytesPerMillion = 1.4, kSecondsPerMillion = 5;  // a sheet of 10 million on two cores
 
+constexpr double kNarrow = 1.0 / 3;       // wavelengths
+
+// Of the panel that the facet belongs to, m^2.
+double panel_area(const Scatterer& scatterer, int facet) {
+  double area = 0;
+  for (const int member : scatterer.panels().members(scatterer.panels().of(facet))) {
+    const auto& corner = scatterer.facets()[member].corner;
+    area += 0.5 * (corner[1] - corner[0]).cross(corner[2] - corner[0]).norm();
+  }
+  return area;
+}
+
 }  // namespace
 
 std::vector<std::string> check_target(const TriangleMesh& mesh, double lowest_hz) {
@@ -54,6 +66,21 @@ std::vector<std::string> check_target(const TriangleMesh& mesh, double lowest_hz
                     millions, std::ceil(kGigabytesPerMillion * millions), std::ceil(kSecondsPerMillion * millions)));
   }
   return found;
+}
+
+std::vector<std::string> check_edges(const Scatterer& scatterer, double lowest_hz) {
+  const double wavelength = kSpeedOfLight / lowest_hz;
+  double all = 0, narrow = 0;
+  for (const SharpEdge& edge : scatterer.edges().edges) {
+    const double length = edge.length();
+    all += length;
+    const auto is_narrow = [&](int facet) { return panel_area(scatterer, facet) < kNarrow * wavelength * length; };
+    if (length > wavelength && is_narrow(edge.facet[0]) && is_narrow(edge.facet[1])) narrow += length;
+  }
+  if (narrow == 0) return {};
+  return {fmt::format("{:.3g} m of {:.3g} m of sharp edges bound bars or strips narrower than a third of the wavelength at {:g} GHz, which return too much "
+                      "with edges on",
+                      narrow, all, lowest_hz * 1e-9)};
 }
 
 void check_range(double radius_m, double range_m) {

@@ -7,12 +7,17 @@
 #include <vector>
 
 #include "sim/geometry/triangle_mesh.h"
+#include "sim/scattering/scatterer.h"
 
 namespace seaglint {
 
 // What a user should know before the first trace, one sentence each; empty for most targets. lowest_hz: of the sweep. Throws InputError when the target lies
 // so far from its origin that its details fall below the smallest that are followed.
 std::vector<std::string> check_target(const TriangleMesh& mesh, double lowest_hz);
+
+// One sentence where sharp edges longer than a wavelength bound bars and strips narrower than a third of it on every side, else nothing: the edges'
+// currents are those of half-planes that do not know of each other, and return too much.
+std::vector<std::string> check_edges(const Scatterer& scatterer, double lowest_hz);
 
 // Throws InputError where a radar at this range (0: far field) stands too near for the second order of the wavefront over a target that reaches
 // `radius_m` from its origin: beyond ten radii the third order is below a tenth of it.

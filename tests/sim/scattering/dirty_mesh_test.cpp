@@ -3,17 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "sim/core/error.h"
 #include "sim/geometry/generators.h"
 #include "sim/geometry/mesh_health.h"
-#include "sim/scattering/target_check.h"
 #include "tests/sim/scattering/echoes.h"
 
 namespace seaglint {
 namespace {
 
 using namespace testing_echoes;
-using testing::ElementsAre;
 using testing::HasSubstr;
 
 constexpr double kRounding = 1e-9;  // relative; the same facets in another order
@@ -70,17 +67,6 @@ TEST(DirtyMesh, OfTwoSidedSheetsEchoesAsTheSheets) {
   TriangleMesh two_sided = sheet;
   for (const auto& t : sheet.triangles) add(two_sided, {t[0], t[2], t[1]});
   EXPECT_LT(difference(sheet, repaired(two_sided)), kRounding);
-}
-
-TEST(TargetCheck, HasNothingToSayOfAReflectorAtSixteenGigahertz) {
-  EXPECT_THAT(check_target(make_icosahedral_reflector(), 16e9), ElementsAre());
-}
-
-TEST(TargetCheck, WarnsOfTargetsTooSmallTooLargeAndTooFar) {
-  EXPECT_THAT(check_target(make_sphere(0.0005, 2), 10e9), ElementsAre(HasSubstr("0.0578 wavelengths at 10 GHz")));
-  EXPECT_THAT(check_target(make_plate(100e3, 10), 10e9), ElementsAre(HasSubstr("1e+05 m across; is its unit right?")));
-  EXPECT_THAT(check_target(transformed(make_sphere(1, 2), Mat3::Identity(), Vec3(50, 0, 0)), 10e9), ElementsAre(HasSubstr("from its origin")));
-  EXPECT_THROW(check_target(transformed(make_sphere(1, 2), Mat3::Identity(), Vec3(5e3, 0, 0)), 10e9), InputError);
 }
 
 }  // namespace

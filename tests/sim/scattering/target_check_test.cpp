@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Targets that the solver cannot answer for, or not well.
+#include "sim/scattering/target_check.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "sim/core/error.h"
+#include "sim/geometry/generators.h"
+
+namespace seaglint {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+TEST(TargetCheck, HasNothingToSayOfAReflectorAtSixteenGigahertz) {
+  EXPECT_THAT(check_target(make_icosahedral_reflector(), 16e9), ElementsAre());
+}
+
+TEST(TargetCheck, WarnsOfTargetsTooSmallTooLargeAndTooFar) {
+  EXPECT_THAT(check_target(make_sphere(0.0005, 2), 10e9), ElementsAre(HasSubstr("0.0578 wavelengths at 10 GHz")));
+  EXPECT_THAT(check_target(make_plate(100e3, 10), 10e9), ElementsAre(HasSubstr("1e+05 m across; is its unit right?")));
+  EXPECT_THAT(check_target(transformed(make_sphere(1, 2), Mat3::Identity(), Vec3(50, 0, 0)), 10e9), ElementsAre(HasSubstr("from its origin")));
+  EXPECT_THROW(check_target(transformed(make_sphere(1, 2), Mat3::Identity(), Vec3(5e3, 0, 0)), 10e9), InputError);
+}
+
+// A bar of 1 m with sides of 9 mm: a wavelength is 10 mm at 30 GHz, 30 mm at 10 GHz.
+TEST(TargetCheck, WarnsOfBarsThinnerThanAThirdOfAWavelength) {
+  TriangleMesh mesh;
+  for (const double z : {0.0, 0.009}) {
+    for (const auto& [x, y] : {std::pair{0.0, 0.0}, {0.009, 0.0}, {0.009, 1.0}, {0.0, 1.0}}) mesh.vertices.push_back({x, y, z});
+  }
+  mesh.triangles = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}, {0, 1, 5}, {0, 5, 4}, {1, 2, 6}, {1, 6, 5}, {2, 3, 7}, {2, 7, 6}, {3, 0, 4}, {3, 4, 7}};
+  mesh.part_names = {"bar"};
+  mesh.triangle_part.assign(12, 0);
+  mesh.triangle_material.assign(12, 0);
+  const Scatterer bar(mesh);
+  EXPECT_THAT(check_edges(bar, 30e9), ElementsAre());
+  EXPECT_THAT(check_edges(bar, 10e9), ElementsAre(HasSubstr("4 m of 4.07 m of sharp edges bound bars or strips narrower than a third of the wavelength at 10 GHz")));
+  EXPECT_THAT(check_edges(Scatterer(make_plate(1, 0.009)), 10e9), ElementsAre(HasSubstr("2 m of 2.02 m")));
+  EXPECT_THAT(check_edges(Scatterer(make_icosahedral_reflector()), 1e9), ElementsAre());
+}
+
+}  // namespace
+}  // namespace seaglint
