@@ -11,13 +11,16 @@ namespace {
 
 // Facets that turn by less than this are one flat face: an edge wave leaves a curved one.
 constexpr double kFlat = 1e-6;
-constexpr double kShortest = 1e-7;  // m
+constexpr double kShortest = 1e-7;   // m
+constexpr double kNarrowest = 1e-9;  // m
+// Sine of the angle between a wave and a rim that it does not meet. Directions that would run along one are turned aside by more (illuminate.cpp).
+constexpr double kAlong = 1e-9;
 // A grazing wave is sent down on its face by this angle, so that rounding does not put it on the other side.
 constexpr double kLift = 1e-7;
 
-// Edge waves in a row: the third edge of a face that two edges bound is the first one again, and near grazing its
-// answer is as large as the others'.
-constexpr int kMostWaves = 2;
+// Edge waves in a row: on a face that two edges bound the third edge is the first one again, and the fourth the second; near grazing each one's answer is
+// as large as the one's before.
+constexpr int kMostWaves = 2, kMostWavesOfLong = 3;
 // Upright walls between two edges: those of a right-angled corner. A wave by walls is the only one of its row: near
 // grazing, where a third diffraction counts, echoes by walls have faded.
 constexpr int kMostWalls = 2;
@@ -65,11 +68,12 @@ Vec3 grazing(const WedgeFace& face, const Vec3& w) { return (w - kLift * face.n)
 class EdgeWaves {
  public:
   EdgeWaves(const SharpEdges& edges, std::span<const Facet> facets, const AntennaPair& antennas,
-            std::span<const EdgeArrival> outgoing, std::vector<EdgeFootprint>& out)
+            std::span<const EdgeArrival> outgoing, double long_from_m, std::vector<EdgeFootprint>& out)
       : edges_(edges),
         facets_(facets),
         antennas_(antennas),
         outgoing_(outgoing),
+        long_from_m_(long_from_m),
         out_(out),
         first_(edges.edges.size() + 1, 0) {
     for (const EdgeArrival& arrival : outgoing) ++first_[arrival.edge + 1];
@@ -122,7 +126,7 @@ class EdgeWaves {
   // Follows the strip that enters a facet by one of its sides.
   void cross(const Source& source, int number, int entered, const Strip& strip, int depth) {
     constexpr int kDeepest = 1000;  // facets of one face in a row
-    if (strip.to - strip.from < kShortest || depth > kDeepest) return;
+    if (strip.to - strip.from < kNarrowest || depth > kDeepest) return;
     const Facet& facet = facets_[number];
     const double split = strip.u.dot(facet.corner[(entered + 2) % 3]);
     for (const int side : {(entered + 1) % 3, (entered + 2) % 3}) {
@@ -131,7 +135,7 @@ class EdgeWaves {
       Strip part = strip;
       part.from = std::max(strip.from, std::min(split, other));
       part.to = std::min(strip.to, std::max(split, other));
-      if (part.to - part.from < kShortest) continue;
+      if (part.to - part.from < kNarrowest) continue;
       const int edge = edges_.of_facet[number][side];
       if (edge != kNoEdge && stands_upright(edges_.edges[edge], source.face.n)) {
         reflect(source, number, side, edges_.edges[edge], part, depth);
@@ -185,7 +189,7 @@ class EdgeWaves {
     const SharpEdge& edge = edges_.edges[number];
     const Vec3& along = edge.along();
     const double across = strip.u.dot(along);
-    if (std::abs(across) < 1e-6) return;
+    if (std::abs(across) < kAlong) return;
     const WedgeFrame* wedge = wedge_towards(edge, grazing(source.face, strip.w));
     if (!wedge) return;
     // The stretch of this edge that the strip meets, and the wave there: its rays come from the first edge without
@@ -218,7 +222,8 @@ class EdgeWaves {
     for (int q = 0; q < 2; ++q) next.factor[q] = source.amplitude[q] * (0.5 * 2 / root_sum);
     for (std::size_t o = first_[number]; o < first_[number + 1]; ++o)
       leave(next, *wedge, source.face, strip.w, l, outgoing_[o]);
-    if (next.waves < kMostWaves && next.walls == 0) send(next);
+    const bool is_long = edge.length() >= long_from_m_;
+    if (next.waves < (is_long ? kMostWavesOfLong : kMostWaves) && next.walls == 0) send(next);
   }
 
   // What of a wave that came along a face goes out by a departure of the same edge.
@@ -255,6 +260,7 @@ class EdgeWaves {
   std::span<const Facet> facets_;
   const AntennaPair& antennas_;
   std::span<const EdgeArrival> outgoing_;
+  double long_from_m_;
   std::vector<EdgeFootprint>& out_;
   std::vector<std::size_t> first_;  // departure of each edge
 };
@@ -262,9 +268,9 @@ class EdgeWaves {
 }  // namespace
 
 void edge_wave_footprints(const SharpEdges& edges, std::span<const Facet> facets, const AntennaPair& antennas,
-                          std::span<const EdgeArrival> incoming, std::span<const EdgeArrival> outgoing,
+                          std::span<const EdgeArrival> incoming, std::span<const EdgeArrival> outgoing, double long_from_m,
                           std::vector<EdgeFootprint>& footprints) {
-  EdgeWaves waves(edges, facets, antennas, outgoing, footprints);
+  EdgeWaves waves(edges, facets, antennas, outgoing, long_from_m, footprints);
   for (const EdgeArrival& in : incoming) {
     if (!by_mirrors(in)) waves.send(in);
   }

@@ -35,18 +35,22 @@ constexpr double kAside = 1e-6;
 
 RadarBasis beside_faces(const Scatterer& scatterer, const RadarBasis& basis, bool edges) {
   const auto facets = scatterer.facets();
+  const auto across_an_edge = [&](const Vec3& r) {
+    const auto& sharp = scatterer.edges().edges;
+    return edges && std::any_of(sharp.begin(), sharp.end(), [&](const SharpEdge& edge) { return std::abs(edge.along().dot(r)) < kEdgeOnPanel; });
+  };
   const auto in_a_face = [&](const Vec3& r) {
     return std::any_of(facets.begin(), facets.end(), [&](const Facet& facet) {
       return (facet.open || edges) && std::abs(facet.normal.dot(r)) < kEdgeOnPanel;
     });
   };
-  if (!in_a_face(basis.r)) return basis;
+  if (!in_a_face(basis.r) && !across_an_edge(basis.r)) return basis;
   // About h - v first, since faces often lie along h or v; a face across the axis stays edge-on and asks for another one.
   RadarBasis aside = basis;
   for (const Vec2& axis : {Vec2(1, -1), Vec2(1, 0.6), Vec2(0.3, 1), Vec2(1, 0.1), Vec2(-0.2, 1)}) {
     const Mat3 turn = Eigen::AngleAxisd(kAside, (axis.x() * basis.h + axis.y() * basis.v).normalized()).toRotationMatrix();
     aside = {turn * basis.r, turn * basis.h, turn * basis.v};
-    if (!in_a_face(aside.r)) break;
+    if (!in_a_face(aside.r) && !across_an_edge(aside.r)) break;
   }
   return aside;
 }

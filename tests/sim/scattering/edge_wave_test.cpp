@@ -125,7 +125,7 @@ EdgeWaveSum edge_wave_sum(const TriangleMesh& mesh, const AntennaPair& antennas,
     return off_floor(a) || std::min(edge(a).a.x(), edge(a).b.x()) < last_above;
   });
   std::vector<EdgeFootprint> footprints;
-  edge_wave_footprints(scatterer.edges(), scatterer.facets(), antennas, incoming, outgoing, footprints);
+  edge_wave_footprints(scatterer.edges(), scatterer.facets(), antennas, incoming, outgoing, 0, footprints);
   EdgeWaveSum sum;
   for (const EdgeFootprint& footprint : footprints) {
     if (footprint.edge_wave->waves != 1 || footprint.bounces != 2 + walls) continue;
