@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <set>
+#include <map>
 
 #include "tests/pipeline/program.h"
 
@@ -17,23 +17,25 @@ using testing::StartsWith;
 
 using Words = std::vector<std::string>;
 
-std::set<std::string> files_below(const fs::path& folder) {
-  std::set<std::string> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) files.insert(entry.path());
+// What every file below a folder holds; of a folder nothing.
+std::map<std::string, std::string> files_below(const fs::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    files[entry.path()] = entry.is_regular_file() ? read_file(entry.path()) : std::string();
   return files;
 }
 
 // Runs the program, which must fail with one line that holds `message` and leave the folder as it was.
 void expect_failure(const fs::path& folder, const Words& words, int code, const std::string& message) {
   SCOPED_TRACE(testing::PrintToString(words));
-  const std::set<std::string> before = files_below(folder);
+  const std::map<std::string, std::string> before = files_below(folder);
   const ProgramResult result = run_program(words);
   EXPECT_EQ(result.code, code) << result.err;
   EXPECT_EQ(result.out, "");
   EXPECT_THAT(result.err, StartsWith("seaglint: "));
   EXPECT_THAT(result.err, HasSubstr(message));
   EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
-  EXPECT_EQ(files_below(folder), before);
+  EXPECT_TRUE(files_below(folder) == before);
 }
 
 // The commands that read a scenario, with the output in `output` where they have one.
@@ -123,6 +125,67 @@ TEST_F(Refusal, OfGoingOnAmongOtherFiles) {
   write_file(folder() / "other" / "notes.txt", "mine");
   for (const char* command : {"generate", "run"})
     expect_failure(folder(), {command, "scenarios/points.yaml", "-o", folder() / "other", "--resume"}, 2, "other: the directory holds");
+}
+
+// By whatever name a command's input is called, and whichever key of a scenario names it.
+TEST_F(Refusal, OfWritingOverWhatIsRead) {
+  const std::string mesh = folder() / "whole.glb", file = scenario(""), rao = folder() / "rao.csv", link = folder() / "link.glb";
+  write_file(rao, "none");
+  fs::create_symlink(mesh, link);
+  const Words rcs{"rcs", "--target", mesh, "--frequency-ghz", "10", "--azimuth-deg", "0"};
+  const auto with = [](Words words, const Words& more) {
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  };
+  for (const Words& words : {with(rcs, {"-o", mesh}), with(rcs, {"-o", link}), with(rcs, {"-o", rao, "--reference", rao}),
+                             with(rcs, {"-o", folder() / "rcs.csv", "--export-centres", folder() / "." / "whole.glb"}),
+                             Words{"mesh", "info", mesh, "--picture", mesh},
+                             Words{"sea", file, "-o", file},
+                             Words{"motion", file, "-o", file},
+                             Words{"motion", file, "-o", mesh},
+                             Words{"motion", file, "-o", rao, "--rao", folder() / "rao.png", "--rao-reference", rao}}) {
+    expect_failure(folder(), words, 2, "is read here, and would be written over");
+  }
+}
+
+TEST_F(Refusal, OfTwoOutputsInOneFile) {
+  const std::string mesh = folder() / "whole.glb", file = scenario(""), csv = folder() / "out.csv", png = folder() / "out.png";
+  for (const Words& words :
+       {Words{"sea", file, "-o", csv, "--spectrum", csv, "--realisations", "2"}, Words{"motion", file, "-o", csv, "--spectrum", folder() / "." / "out.csv"},
+        Words{"motion", file, "-o", csv, "--figure", png, "--frames", png},
+        Words{"rcs", "--target", mesh, "--frequency-ghz", "10", "--azimuth-deg", "0", "-o", csv, "--export-centres", csv}}) {
+    expect_failure(folder(), words, 2, "would be written twice");
+  }
+}
+
+TEST_F(Refusal, OfAnEndingThatSaysAnotherFormat) {
+  const std::string mesh = folder() / "whole.glb";
+  expect_failure(folder(), {"echo", "scenarios/points.yaml", "-o", folder() / "echo.csv"}, 2, "echo.csv: NumPy's archives end in .npz");
+  expect_failure(folder(), {"remake", folder(), "--sample", "0", "-o", folder() / "sample"}, 2, "sample: NumPy's archives end in .npz");
+  expect_failure(folder(),
+                 {"rcs", "--target", mesh, "--frequency-ghz", "10", "--azimuth-deg", "0", "-o", folder() / "rcs.csv", "--export-hot-spots",
+                  folder() / "spots.obj"},
+                 2, "spots.obj: colours need the ending .glb or .gltf");
+}
+
+// The shell's limit is in units of 1024 bytes; without care the system kills what goes beyond it.
+TEST_F(Refusal, OfALimitOnFileSizes) {
+  const auto limited = [&](const Words& words) {
+    SCOPED_TRACE(words.front());
+    Words all{"/bin/bash", "-c", "ulimit -f 20; exec \"$@\"", "limited", kProgram};
+    all.insert(all.end(), words.begin(), words.end());
+    const ProgramResult result = run_words(all);
+    EXPECT_EQ(result.code, 1);
+    EXPECT_THAT(result.err, testing::AllOf(HasSubstr("cannot write"), HasSubstr("File too large")));
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  };
+  const auto before = files_below(folder());
+  limited({"mesh", "make", "sphere", "-o", folder() / "sphere.obj"});
+  EXPECT_TRUE(files_below(folder()) == before);
+  limited({"generate", "scenarios/points.yaml", "-o", folder() / "data"});
+  Words names;
+  for (const auto& entry : fs::directory_iterator(folder() / "data")) names.push_back(entry.path().filename());
+  EXPECT_THAT(names, testing::ElementsAre("scenario.yaml"));
 }
 
 // Below a file and in /proc nobody may write, not even root; a folder without write permission stops everybody else.

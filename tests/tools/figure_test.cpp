@@ -2,6 +2,8 @@
 #include "tools/figure.h"
 
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -82,6 +84,37 @@ TEST_F(Figure, RefusesOtherFormatsAndFoldersThatAreNotThere) {
   EXPECT_THROW(write_figure(ripple(4, 4), folder_ / "map.jpg"), InputError);
   EXPECT_THROW(write_figure(ripple(4, 4), folder_ / "missing" / "map.png"), WorkError);
   EXPECT_EQ(files(), 0u);
+}
+
+// While it lives no file grows beyond `bytes`; writes fail as on a full disk.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) : handler_(::signal(SIGXFSZ, SIG_IGN)) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() {
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+    ::signal(SIGXFSZ, handler_);
+  }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int);
+};
+
+// Script and data fit, the picture does not.
+TEST_F(Figure, CutShortByAFullDiskIsAnErrorAndNoFile) {
+  for (const char* name : {"map.png", "map.svg"}) {
+    const FileSizeLimit limit(4096);
+    EXPECT_THROW(write_figure(ripple(4, 4), folder_ / name), WorkError) << name;
+    EXPECT_EQ(files(), 0u) << name;
+  }
+  write_figure(ripple(4, 4), folder_ / "map.png");
+  EXPECT_GT(read_file(folder_ / "map.png").size(), 4096u);
 }
 
 TEST_F(Figure, SaysSoWhenGnuplotIsMissing) {
