@@ -62,12 +62,25 @@ std::set<std::string> file_names(const fs::path& directory) {
   return names;
 }
 
-// Without a scenario a directory to go on in may hold shards, what belongs to them, and what a kill left half-written.
+// The data set's own files, those that `merge` and `export` make of it, what a kill left half-written, and hidden ones:
+// a file server keeps so what was removed while another process had it open.
+bool may_lie_in_data_set(const std::string& name) {
+  for (const char* own : {kScenarioFile, kInputsFile, kManifestFile, kDataCardFile}) {
+    if (name == own) return true;
+  }
+  return name.ends_with(".h5") || name.ends_with(".npz") || name.starts_with('.') || is_temporary(name);
+}
+
+// A directory to go on in holds nothing else than a data set. That of a run has a scenario too; its data set lies below.
 void require_own_directory(const fs::path& directory) {
-  if (is_empty_or_absent(directory) || fs::exists(directory / kScenarioFile)) return;
+  if (is_empty_or_absent(directory)) return;
   for (const std::string& name : file_names(directory)) {
-    if (is_temporary(name) || name.ends_with(".h5") || name == kManifestFile) continue;
-    throw InputError(fmt::format("{}: the directory holds no data set, but {}", directory.string(), name));
+    if (may_lie_in_data_set(name)) continue;
+    const fs::path of_run = directory / "data";
+    std::error_code error;
+    const bool is_run = fs::exists(of_run / kScenarioFile, error);
+    throw InputError(fmt::format("{}: the directory holds {}, which is no file of a data set{}", directory.string(), name,
+                                 is_run ? "; the run's data set is " + of_run.string() : ""));
   }
 }
 

@@ -23,8 +23,8 @@ inline constexpr const char* kDataCardFile = "README.md";
 
 class DatasetWriter {
  public:
-  // Makes the directory and writes scenario.yaml. Without `resume` the directory must be new or empty; with it, a
-  // scenario.yaml that is there must make the same maps (its learning section and split may differ), the files that it
+  // Makes the directory and writes scenario.yaml. Without `resume` the directory must be new or empty; with it, it must
+  // hold nothing but files of a data set, a scenario.yaml that is there must make the same maps (its learning section and split may differ), the files that it
   // names be those that the directory was begun with, and the manifest, if any, be of `program_version`. Throws
   // InputError naming the directory and the difference, WorkError when the disk refuses.
   DatasetWriter(std::filesystem::path directory, const Scenario& scenario, bool resume, std::string program_version);

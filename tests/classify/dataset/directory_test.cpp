@@ -143,7 +143,20 @@ TEST_F(DataDirectory, BeforeItsScenarioMayHoldItsOwnTemporaryFilesOnly) {
   fs::remove(directory_ / kScenarioFile);
   write_file(directory_ / "notes.tmp", "mine");
   EXPECT_THAT(error_of([&] { DatasetWriter(directory_, scenario_, true, kTestVersion); }),
-              HasSubstr("the directory holds no data set, but notes.tmp"));
+              HasSubstr("the directory holds notes.tmp, which is no file of a data set"));
+}
+
+// Its scenario alone makes a directory no data set's: a run has one too.
+TEST_F(DataDirectory, ToGoOnInMayHoldNothingButADataSet) {
+  make_whole();
+  for (const char* name : {"all.h5", "all.npz", ".nfs0001"}) write_file(directory_ / name, "ours, or the system's");
+  EXPECT_NO_THROW(DatasetWriter(directory_, scenario_, true, kTestVersion));
+  write_file(directory_ / "metrics.json", "{}");
+  const auto refusal = [&] { return error_of([&] { DatasetWriter(directory_, scenario_, true, kTestVersion); }); };
+  EXPECT_THAT(refusal(), testing::EndsWith("the directory holds metrics.json, which is no file of a data set"));
+  fs::create_directories(directory_ / "data");
+  write_file(directory_ / "data" / kScenarioFile, effective_yaml(scenario_));
+  EXPECT_THAT(refusal(), testing::EndsWith("which is no file of a data set; the run's data set is " + (directory_ / "data").string()));
 }
 
 TEST_F(DataDirectory, TakesAShardThatAnotherProcessWroteMeanwhileForItsOwn) {
