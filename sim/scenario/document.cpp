@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "sim/core/error.h"
+#include "sim/core/utf8.h"
 
 namespace seaglint {
 
@@ -158,11 +159,13 @@ class TreeBuilder : public YAML::EventHandler {
   std::size_t nodes_ = 0;
 };
 
-// Control characters mean that this is not a text.
+// Control characters mean that this is not a text. Another encoding than UTF-8 could not be written to JSON.
 void check_text(const std::string& text, const std::string& name) {
   Location location;
-  for (const char character : text) {
-    const auto c = static_cast<unsigned char>(character);
+  const std::size_t utf8 = utf8_prefix(text);
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto c = static_cast<unsigned char>(text[i]);
+    if (i == utf8) fail(name, location, fmt::format("byte 0x{:02x}: not a text in UTF-8", c));
     if ((c < 0x20 && c != '\n' && c != '\r' && c != '\t') || c == 0x7f) {
       fail(name, location, fmt::format("byte 0x{:02x}: not a text file", c));
     }

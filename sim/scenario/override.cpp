@@ -3,6 +3,7 @@
 
 #include "sim/core/error.h"
 #include "sim/core/number.h"
+#include "sim/core/utf8.h"
 #include "sim/scenario/reader.h"
 
 namespace seaglint {
@@ -33,6 +34,15 @@ Closest closest(const YamlNode& root, const std::string& key_path) {
     node = child;
   }
   return {node, true};
+}
+
+void require_utf8(const Override& override_value) {
+  const std::string text = override_value.key_path + "=" + override_value.value;
+  const std::size_t utf8 = utf8_prefix(text);
+  if (utf8 < text.size()) {
+    throw InputError(
+        fmt::format("--set {}: byte 0x{:02x}: must be UTF-8", text.substr(0, utf8), static_cast<unsigned char>(text[utf8])));
+  }
 }
 
 void mark_as_override(YamlNode& node, int index) {
@@ -67,6 +77,7 @@ void ScenarioDocument::fail_at(const std::string& key_path, const std::string& w
 }
 
 void apply_override(ScenarioDocument& document, const Override& override_value) {
+  require_utf8(override_value);
   const std::string name = "--set " + override_value.key_path;
   const int index = static_cast<int>(document.override_paths.size());
   document.override_paths.push_back(override_value.key_path);

@@ -9,6 +9,7 @@
 #include "sim/core/constants.h"
 #include "sim/core/exact_functions.h"
 #include "sim/core/file.h"
+#include "sim/core/utf8.h"
 #include "sim/scenario/contradictions.h"
 #include "sim/scenario/hop_code_file.h"
 #include "sim/scenario/material_spec.h"
@@ -26,6 +27,7 @@ std::string name_of_file(const fs::path& file) {
   std::string name = file.stem().string();
   std::replace_if(
       name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, '_');
+  for (std::size_t i = utf8_prefix(name); i < name.size(); i = utf8_prefix(name)) name[i] = '_';
   return name.empty() ? "scenario" : name;
 }
 

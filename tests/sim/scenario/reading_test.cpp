@@ -83,6 +83,15 @@ TEST(Reading, WhatIsNotGivenKeepsItsDefault) {
   EXPECT_EQ(scenario.targets[0].motion.model, MotionModel::kFixed);
 }
 
+// Names go into JSON, which holds nothing else.
+TEST(Reading, TextIsUtf8) {
+  EXPECT_EQ(parse(kShort + "name: caf\xc3\xa9\n").name, "caf\xc3\xa9");
+  EXPECT_EQ(complaint_about(kShort + "name: caf\xe9\n"), "folder/file.yaml:4:10: byte 0xe9: not a text in UTF-8");
+  EXPECT_EQ(complaint_about(kShort, {{"name", "caf\xe9"}}), "--set name=caf: byte 0xe9: must be UTF-8");
+  EXPECT_EQ(complaint_about(kShort, {{"targets.\xff.label", "1"}}), "--set targets.: byte 0xff: must be UTF-8");
+  EXPECT_EQ(parse_scenario(kShort, "folder/caf\xe9.yaml").name, "caf_");
+}
+
 TEST(Reading, PointsAreTargets) {
   const Scenario scenario = parse(
       "seaglint: 1\ntargets:\n  p:\n    label: 0\n    points:\n"
@@ -296,7 +305,7 @@ TEST(Reading, FilesThatAreNoScenarioAtAllGetAClearAnswer) {
   EXPECT_EQ(complaint_about("just words"), "folder/file.yaml:1:1: value 'just words': must be a map of key: value");
   EXPECT_EQ(complaint_about("- 1\n"), "folder/file.yaml:1:1: a list: must be a map of key: value");
   EXPECT_EQ(complaint_about(std::string("\x89PNG\r\n\x1a\n\0\0", 10)),
-            "folder/file.yaml:2:1: byte 0x1a: not a text file");
+            "folder/file.yaml:1:1: byte 0x89: not a text in UTF-8");
   EXPECT_EQ(complaint_about(std::string("s\0e\0", 4)), "folder/file.yaml:1:2: byte 0x00: not a text file");
   EXPECT_THAT(complaint_about("\xff\xfe\xfd\x80"), StartsWith("folder/file.yaml:1:"));
 }
