@@ -5,11 +5,31 @@
 #include <filesystem>
 #include <memory>
 
+#include "classify/dataset/dataset_writer.h"
 #include "sim/core/error.h"
+#include "sim/core/text_difference.h"
 #include "tools/command.h"
 #include "tools/report.h"
 
 namespace seaglint {
+
+namespace {
+
+// The run's own scenario, which its data set was made by: the page would show one and speak of another.
+Scenario read_own_scenario(const std::filesystem::path& run) {
+  const std::filesystem::path file = run / "scenario.yaml", of_data = run / "data" / kScenarioFile;
+  if (!std::filesystem::exists(file))
+    throw InputError(fmt::format("{}: not the directory of a run: no scenario.yaml", run.string()));
+  const Scenario scenario = read_scenario(file);
+  const std::string here = effective_yaml(scenario), there = effective_yaml(read_scenario(of_data));
+  if (here != there) {
+    throw InputError(fmt::format("{}: is not the scenario of {} ({}); bring the run's own back", file.string(), of_data.string(),
+                                 first_difference(there, here)));
+  }
+  return scenario;
+}
+
+}  // namespace
 
 void add_report(CLI::App& app, Shell& shell) {
   CLI::App* command = app.add_subcommand("report", "Draw the figures of a run again and write its report.html");
@@ -20,11 +40,7 @@ void add_report(CLI::App& app, Shell& shell) {
   command->callback([directory, &shell] {
     shell.work = [directory, &shell] {
       const std::filesystem::path run = *directory;
-      const std::filesystem::path scenario = run / "scenario.yaml";
-      if (!std::filesystem::exists(scenario)) {
-        throw InputError(fmt::format("{}: not the directory of a run: no scenario.yaml", run.string()));
-      }
-      write_report(run, read_scenario(scenario), shell.threads, &shell.stop);
+      write_report(run, read_own_scenario(run), shell.threads, &shell.stop);
       fmt::print("Report: {}\n", (run / kReportFile).string());
     };
   });

@@ -170,7 +170,7 @@ class Auditor {
 }  // namespace
 
 Audit audit(const fs::path& directory, const StopFlag* stop) {
-  const DatasetReader reader(directory);
+  const DatasetReader reader(directory, OtherScenario::kRead);
   Audit result;
   result.scenario = read_scenario(directory / kScenarioFile);
   Auditor auditor(reader, result);

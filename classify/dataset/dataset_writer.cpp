@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <set>
-#include <sstream>
 #include <utility>
 
 #include "classify/dataset/checksum.h"
@@ -16,24 +15,13 @@
 #include "sim/core/error.h"
 #include "sim/core/file.h"
 #include "sim/core/progress.h"
+#include "sim/core/text_difference.h"
 
 namespace seaglint {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-// "line 12: `seed: 43` there, `seed: 42` here"
-std::string first_difference(const std::string& there, const std::string& here) {
-  std::istringstream a(there), b(here);
-  for (int line = 1;; ++line) {
-    std::string left, right;
-    const bool more_left = static_cast<bool>(std::getline(a, left));
-    const bool more_right = static_cast<bool>(std::getline(b, right));
-    if (!more_left && !more_right) return "the ends of the lines differ";
-    if (left != right) return fmt::format("line {}: `{}` there, `{}` here", line, left, right);
-  }
-}
 
 // The scenario as far as it decides the maps: learning may be changed over the same maps.
 std::string maps_yaml(Scenario scenario) {

@@ -130,6 +130,30 @@ TEST_F(FinishedRun, IsNotReportedWithTheModelOfAnotherTrainingOrHalfOfOne) {
   EXPECT_THAT(half.err, HasSubstr((model / "metrics.json").string() + ": missing"));
 }
 
+// The stored scenario says what the maps are of.
+TEST_F(FinishedRun, IsReadWithItsOwnScenarioOnly) {
+  const TemporaryFolder folder;
+  const fs::path run = folder.path() / "run";
+  fs::copy(directory_, run, fs::copy_options::recursive);
+  const std::string whole = read_file(run / "scenario.yaml");
+  std::string edited = whole;
+  edited.replace(edited.find("scr_db: 20"), 10, "scr_db: 26");
+  write_file(run / "scenario.yaml", edited);
+  const ProgramResult reported = run_program({"report", run});
+  EXPECT_EQ(reported.code, 2);
+  EXPECT_THAT(reported.err, HasSubstr((run / "scenario.yaml").string() + ": is not the scenario of " + (run / "data" / "scenario.yaml").string()));
+  EXPECT_THAT(reported.err, HasSubstr("scr_db: 20` there, `"));
+  write_file(run / "data" / "scenario.yaml", edited);
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"report", run}, {"train", run, "-o", folder.path() / "model"}, {"export", run, "-o", folder.path() / "all.npz"},
+        {"remake", run, "--sample", "3"}, {"merge", run, "-o", folder.path() / "all.h5"}}) {
+    const ProgramResult result = run_program(words);
+    EXPECT_EQ(result.code, 2) << words[0];
+    EXPECT_THAT(result.err, HasSubstr((run / "data" / "scenario.yaml").string() + ": is not the one that the manifest was written for")) << words[0];
+  }
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 1);
+}
+
 TEST_F(FinishedRun, ReportHoldsEverythingInItself) {
   const std::string page = read_file(directory_ / "report.html");
   EXPECT_THAT(page, HasSubstr("<h2>Range-velocity maps</h2>"));

@@ -227,6 +227,14 @@ TEST_F(DataDirectory, OfAnotherVersionIsReadButNotContinued) {
   EXPECT_EQ(DatasetReader(directory_).shard(0).origin.program_version, kTestVersion);
 }
 
+TEST_F(DataDirectory, WhoseScenarioWasChangedIsReadForAnAuditOnly) {
+  make_whole();
+  write_file(directory_ / kScenarioFile, read_file(directory_ / kScenarioFile) + "# mine\n");
+  EXPECT_THAT(error_of([&] { DatasetReader reader(directory_); }),
+              HasSubstr("scenario.yaml: is not the one that the manifest was written for"));
+  EXPECT_NO_THROW(DatasetReader(directory_, OtherScenario::kRead).shard(0));
+}
+
 TEST_F(DataDirectory, OfAnotherFormatIsRefused) {
   make_whole();
   const auto replace = [&](const fs::path& file, const std::string& from, const std::string& to) {
