@@ -11,6 +11,7 @@
 #include "tools/html.h"
 #include "tools/report_figures.h"
 #include "tools/report_text.h"
+#include "tools/scene.h"
 #include "tools/summary.h"
 #include "tools/train.h"
 
@@ -50,6 +51,17 @@ ordered_json read_metrics(const fs::path& directory) {
   }
 }
 
+// Why neither the targets' pictures nor their motion can be drawn: a file that the scenario names and that is not to be
+// found from here. Empty where all are.
+std::string missing_input(const Scenario& scenario) {
+  try {
+    input_files(scenario);
+    return "";
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
 // The figures of a section, two abreast.
 std::string figures(const std::vector<ReportFigure>& all, const std::string& section) {
   std::string html;
@@ -64,7 +76,16 @@ std::string section(const char* id, const char* title, const std::string& conten
   return fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n{}</section>\n", id, title, content);
 }
 
-std::string page(const ordered_json& metrics, const Scenario& scenario, const std::vector<ReportFigure>& all) {
+std::string targets_section(const std::vector<ReportFigure>& all, const std::string& missing) {
+  if (!missing.empty()) {
+    return fmt::format("<p>Neither the targets nor their motion are drawn: {}. Report the run again where its files are found.</p>\n",
+                       escape_html(missing));
+  }
+  const std::string pictures = figures(all, "targets");
+  return pictures.empty() ? "<p>Ideal point scatterers; there is nothing to draw.</p>\n" : pictures;
+}
+
+std::string page(const ordered_json& metrics, const Scenario& scenario, const std::vector<ReportFigure>& all, const std::string& missing) {
   const std::string name = escape_html(scenario.name);
   std::string body = fmt::format(
       "<header>\n<h1>Ship or corner-reflector array?</h1>\n<p class=\"lead\">Simulated frequency-agile radar maps, "
@@ -101,9 +122,7 @@ std::string page(const ordered_json& metrics, const Scenario& scenario, const st
                       probes_table(metrics));
   body += section("notes", "What an expert should notice", expert_notes(metrics, scenario));
   body += section("sea", "Sea and motion", figures(all, "sea"));
-  const std::string pictures = figures(all, "targets");
-  body += section("targets", "Targets",
-                  pictures.empty() ? "<p>Ideal point scatterers; there is nothing to draw.</p>\n" : pictures);
+  body += section("targets", "Targets", targets_section(all, missing));
   body += section("run", "Run time, versions, seeds", provenance_table(metrics));
   body += section("scenario", "Effective scenario",
                   "<details><summary>Every key with its value</summary>\n<pre>" +
@@ -121,12 +140,15 @@ void write_report(const fs::path& directory, const Scenario& scenario, int threa
   ordered_json metrics = read_metrics(directory);
   const ReportData data = load_report_data(directory, scenario, stop);
   metrics["report"] = report_numbers(data);
+  const std::string missing = missing_input(scenario);
+  if (!missing.empty()) fmt::print(stderr, "seaglint: warning: {}; neither the targets nor their motion are drawn\n", missing);
+  const std::vector<Target> targets = missing.empty() ? load_targets(scenario) : std::vector<Target>();
   const std::vector<ReportFigure> all =
-      draw_report_figures(directory, scenario, data, metrics, thread_count(threads), stop);
+      draw_report_figures(directory, scenario, targets, data, metrics, thread_count(threads), stop);
   metrics["run"]["seconds"]["report"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   std::string html;
   try {
-    html = page(metrics, scenario, all);
+    html = page(metrics, scenario, all, missing);
   } catch (const nlohmann::json::exception& error) {
     throw InputError(fmt::format("{}: {}", (directory / kMetricsFile).string(), json_problem(error)));
   }

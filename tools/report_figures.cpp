@@ -354,9 +354,9 @@ void add_targets(FigureList& list, const std::vector<Target>& targets) {
 }  // namespace
 
 std::vector<ReportFigure> draw_report_figures(const fs::path& directory, const Scenario& scenario,
-                                              const ReportData& data, const nlohmann::ordered_json& metrics,
-                                              int threads, const StopFlag* stop) {
-  const std::vector<Target> targets = load_targets(scenario);
+                                              const std::vector<Target>& targets, const ReportData& data,
+                                              const nlohmann::ordered_json& metrics, int threads,
+                                              const StopFlag* stop) {
   FigureList list(directory);
   add_maps(list, data);
   add_accuracy(list, metrics);

@@ -11,6 +11,7 @@
 #include "sim/core/parallel.h"
 #include "sim/scenario/scenario.h"
 #include "tools/report_data.h"
+#include "tools/scene.h"
 
 namespace seaglint {
 
@@ -23,9 +24,11 @@ struct ReportFigure {
   std::string alternative;  // plain text
 };
 
-// Draws all figures into the run's directory, on `threads` threads; the order of the list is that of the page.
+// Draws all figures into the run's directory, on `threads` threads; the order of the list is that of the page. `targets` are the scenario's, or none:
+// then neither they nor their motion are drawn.
 std::vector<ReportFigure> draw_report_figures(const std::filesystem::path& directory, const Scenario& scenario,
-                                              const ReportData& data, const nlohmann::ordered_json& metrics,
-                                              int threads, const StopFlag* stop);
+                                              const std::vector<Target>& targets, const ReportData& data,
+                                              const nlohmann::ordered_json& metrics, int threads,
+                                              const StopFlag* stop);
 
 }  // namespace seaglint

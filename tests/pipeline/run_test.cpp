@@ -199,6 +199,27 @@ TEST_F(FinishedRun, ReportShowsEveryPictureInABrowser) {
   EXPECT_EQ(found[4], "false") << "the page is wider than the window";
 }
 
+// The page needs the maps; the targets' files are needed for their pictures and motion alone.
+TEST(Report, IsMadeWithoutTheMeshesWhereTheyAreNotFound) {
+  const TemporaryFolder folder;
+  const fs::path run = folder.path() / "run", scenario = folder.path() / "scenario.yaml";
+  write_file(scenario,
+             "seaglint: 1\ntargets:\n  one: {label: 1, mesh: assets/icosahedral_reflector.glb, motion: {model: float}}\n"
+             "  two: {label: 0, mesh: assets/icosahedral_reflector.glb, layout: {line: {count: 2, spacing_m: 20}}}\n"
+             "radar: {pulses: 32}\ndataset: {maps_per_case: 10, realisations_per_case: 5}\nlearning: {epochs: 1}\n");
+  const ProgramResult made = run_program({"run", scenario, "-o", run});
+  ASSERT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(read_file(run / "report.html"), HasSubstr("Picture of one"));
+  const ProgramResult elsewhere = run_words({"/bin/bash", "-c", "cd / && exec \"$@\"", "elsewhere", kProgram, "report", run});
+  ASSERT_EQ(elsewhere.code, 0) << elsewhere.err;
+  EXPECT_THAT(elsewhere.err, HasSubstr("seaglint: warning: "));
+  EXPECT_THAT(elsewhere.err, HasSubstr("targets.one.mesh: value 'assets/icosahedral_reflector.glb': no such file"));
+  const std::string page = read_file(run / "report.html");
+  EXPECT_THAT(page, Not(HasSubstr("Picture of one")));
+  EXPECT_THAT(page, HasSubstr("Neither the targets nor their motion are drawn"));
+  EXPECT_THAT(page, HasSubstr("Elevation of the sea against time"));
+}
+
 TEST(Run, SaysBeforeAnyWorkWhatLearningWouldRefuse) {
   const TemporaryFolder folder;
   const ProgramResult few = run_program({"run", "scenarios/points.yaml", "-o", folder.path() / "run", "--set",
