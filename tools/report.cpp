@@ -23,32 +23,39 @@ namespace {
 
 using nlohmann::ordered_json;
 
+// Throws InputError naming the file where it is no JSON object.
+ordered_json read_object(const fs::path& file) {
+  try {
+    ordered_json object = ordered_json::parse(read_file(file));
+    if (!object.is_object()) throw InputError(fmt::format("{}: must be a JSON object", file.string()));
+    return object;
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(fmt::format("{}: {}", file.string(), json_problem(error)));
+  }
+}
+
 // The run's numbers, which must be those of the model beside them: tables and figures would be of two trainings.
 ordered_json read_metrics(const fs::path& directory) {
   const fs::path file = directory / kMetricsFile;
   if (!fs::exists(file))
     throw InputError(fmt::format("{}: not the directory of a finished run: no {}", directory.string(), kMetricsFile));
-  try {
-    ordered_json metrics = ordered_json::parse(read_file(file));
-    // What every part of the page leans on; an older or foreign file is told apart here.
-    for (const char* member : {"handmade", "cnn", "fused", "probes", "network", "data", "run"}) {
-      if (!metrics.contains(member)) throw InputError(fmt::format("{}: no member `{}`", file.string(), member));
-    }
-    const fs::path of_model = directory / "model" / kMetricsFile;
-    if (!fs::exists(of_model)) {
-      throw InputError(fmt::format("{}: missing: the last training did not end; go on by `seaglint run --resume`",
-                                   of_model.string()));
-    }
-    const ordered_json model = ordered_json::parse(read_file(of_model));
-    for (const auto& [member, value] : model.items()) {
-      if (metrics.contains(member) && metrics[member] == value) continue;
-      throw InputError(fmt::format("{}: `{}` is of another training than {}; go on by `seaglint run --resume`",
-                                   file.string(), member, of_model.string()));
-    }
-    return metrics;
-  } catch (const nlohmann::json::exception& error) {
-    throw InputError(fmt::format("{}: {}", file.string(), json_problem(error)));
+  ordered_json metrics = read_object(file);
+  // What every part of the page leans on; an older or foreign file is told apart here.
+  for (const char* member : {"handmade", "cnn", "fused", "probes", "network", "data", "run"}) {
+    if (!metrics.contains(member)) throw InputError(fmt::format("{}: no member `{}`", file.string(), member));
   }
+  const fs::path of_model = directory / "model" / kMetricsFile;
+  if (!fs::exists(of_model)) {
+    throw InputError(fmt::format("{}: missing: the last training did not end; go on by `seaglint run --resume`",
+                                 of_model.string()));
+  }
+  const ordered_json model = read_object(of_model);
+  for (const auto& [member, value] : model.items()) {
+    if (metrics.contains(member) && metrics[member] == value) continue;
+    throw InputError(fmt::format("{}: `{}` is of another training than {}; go on by `seaglint run --resume`",
+                                 file.string(), member, of_model.string()));
+  }
+  return metrics;
 }
 
 // Why neither the targets' pictures nor their motion can be drawn: a file that the scenario names and that is not to be

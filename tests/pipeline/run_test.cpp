@@ -124,6 +124,10 @@ TEST_F(FinishedRun, IsNotReportedWithTheModelOfAnotherTrainingOrHalfOfOne) {
   const ProgramResult other = run_program({"report", folder.path() / "run"});
   EXPECT_EQ(other.code, 2);
   EXPECT_THAT(other.err, HasSubstr("is of another training than " + (model / "metrics.json").string()));
+  write_file(model / "metrics.json", "{\"seed\": ");
+  const ProgramResult damaged = run_program({"report", folder.path() / "run"});
+  EXPECT_EQ(damaged.code, 2);
+  EXPECT_THAT(damaged.err, testing::StartsWith("seaglint: " + (model / "metrics.json").string() + ": no valid JSON"));
   fs::remove(model / "metrics.json");
   const ProgramResult half = run_program({"report", folder.path() / "run"});
   EXPECT_EQ(half.code, 2);
