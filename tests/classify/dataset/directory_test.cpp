@@ -254,6 +254,21 @@ TEST_F(DataDirectory, OfAnotherFormatIsRefused) {
               HasSubstr("shard_00001.h5: format \"seaglint shard 9\"; this program reads \"seaglint shard 2\""));
 }
 
+// What the message advises, it keeps.
+TEST_F(DataDirectory, WithADamagedManifestGoesOnWithoutIt) {
+  make_whole();
+  const fs::path file = directory_ / kManifestFile;
+  const std::string good = read_file(file);
+  write_file(file, good.substr(0, good.size() / 2));
+  EXPECT_THAT(error_of([&] { DatasetWriter(directory_, scenario_, true, kTestVersion); }),
+              testing::EndsWith("; the shards are kept: remove this file and go on by `seaglint generate SCENARIO -o DIR --resume`"));
+  fs::remove(file);
+  DatasetWriter writer(directory_, scenario_, true, kTestVersion);
+  for (std::size_t i = 0; i < plan_.shards(); ++i) EXPECT_TRUE(writer.complete(i));
+  EXPECT_THAT(writer.finish(), testing::IsEmpty());
+  EXPECT_EQ(read_file(file), good);
+}
+
 TEST_F(DataDirectory, WithABrokenManifestIsRefused) {
   make_whole();
   const std::string good = read_file(directory_ / kManifestFile);
