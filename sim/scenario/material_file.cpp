@@ -162,8 +162,14 @@ std::optional<fs::path> find_material_file(const std::string& name, const fs::pa
   }
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
-  throw InputError(fmt::format("{}: value '{}': no such material{}", where, name,
-                               is_file ? " file" : ": " + suggestion(name, names)));
+  const fs::path beside = folder / path;
+  if (is_file) {
+    throw InputError(fmt::format("{}: value '{}': no such material file{} below the working directory", where, name,
+                                 folder.empty() ? "" : fmt::format(", neither {} nor", beside.string())));
+  }
+  throw InputError(fmt::format("{}: value '{}': no such material{} in {} below the working directory: {}", where, name,
+                               folder.empty() ? "" : fmt::format(", neither in {} nor", beside.parent_path().string()),
+                               path.parent_path().string(), suggestion(name, names)));
 }
 
 MaterialSpec find_material(const std::string& name, const fs::path& folder, const std::string& where) {

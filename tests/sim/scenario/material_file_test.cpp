@@ -84,9 +84,20 @@ TEST(MaterialFile, IsFoundByNameOrPath) {
     find_material("aluminum", root, "targets.ship.material");
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "targets.ship.material: value 'aluminum': no such material: did you mean 'aluminium'?");
+    EXPECT_EQ(error.what(), "targets.ship.material: value 'aluminum': no such material, neither in " + root +
+                                "/assets/materials nor in assets/materials below the working directory: did you mean 'aluminium'?");
   }
-  EXPECT_THROW(find_material("none.yaml", root, "x"), InputError);
+  const auto refusal = [](const std::string& name, const std::string& folder) {
+    try {
+      find_material(name, folder, "x");
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("none");
+  };
+  EXPECT_THAT(refusal("unobtainium", ""), HasSubstr("no such material in assets/materials below the working directory: "));
+  EXPECT_EQ(refusal("none.yaml", "/there"), "x: value 'none.yaml': no such material file, neither /there/none.yaml nor below the working directory");
+  EXPECT_EQ(refusal("none.yaml", ""), "x: value 'none.yaml': no such material file below the working directory");
 }
 
 TEST(MaterialFile, BrokenFilesAreReadOrRefusedWithAnInputError) {
