@@ -11,7 +11,9 @@
 #include <atomic>
 #include <cerrno>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
+#include <sstream>
 #include <string_view>
 #include <utility>
 
@@ -66,6 +68,10 @@ class Scratch {
   fs::path script, data, messages;
 };
 
+WorkError cannot_start(int error) {
+  return WorkError(fmt::format("gnuplot cannot be started ({}): install the package gnuplot-nox", std::strerror(error)));
+}
+
 // Runs gnuplot on a script, its messages into a file. Throws WorkError.
 void run_gnuplot(const Scratch& scratch) {
   posix_spawn_file_actions_t actions;
@@ -80,9 +86,7 @@ void run_gnuplot(const Scratch& scratch) {
   pid_t child = 0;
   const int refused = ::posix_spawnp(&child, "gnuplot", &actions, nullptr, arguments, environ);
   posix_spawn_file_actions_destroy(&actions);
-  if (refused != 0)
-    throw WorkError(
-        fmt::format("gnuplot cannot be started ({}): install the package gnuplot-nox", std::strerror(refused)));
+  if (refused != 0) throw cannot_start(refused);
   int status = 0;
   while (::waitpid(child, &status, 0) < 0) {
     if (errno != EINTR) throw WorkError(fmt::format("gnuplot was lost ({})", std::strerror(errno)));
@@ -137,11 +141,21 @@ void draw(const fs::path& file, FigureSize size, const std::string& title, const
 
 }  // namespace
 
+void require_gnuplot() {
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path ? path : "/bin:/usr/bin");
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    if (::access((fs::path(folder) / "gnuplot").c_str(), X_OK) == 0) return;
+  }
+  throw cannot_start(ENOENT);
+}
+
 void require_figure(const fs::path& file) {
   if (file.empty()) return;
   if (file.extension() != ".png" && file.extension() != ".svg")
     throw InputError(fmt::format("{}: a figure's name ends in .png or .svg", file.string()));
   require_writable(file);
+  require_gnuplot();
 }
 
 void write_figure(const Heatmap& figure, const fs::path& file, FigureSize size) {

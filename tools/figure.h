@@ -56,8 +56,11 @@ struct FigureSize {
   int height = 560;
 };
 
-// Throws, before any work and as write_figure would, where the name ends in neither .png nor .svg or its directory refuses; nothing for an
-// empty name.
+// Throws WorkError, before any work and as write_figure would, where there is no gnuplot.
+void require_gnuplot();
+
+// Throws, before any work and as write_figure would, where the name ends in neither .png nor .svg, its directory refuses or there is no gnuplot;
+// nothing for an empty name.
 void require_figure(const std::filesystem::path& file);
 
 // Writes the figure whole or not at all. Text is taken literally (no markup). Temporary files stand beside the figure

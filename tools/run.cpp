@@ -12,6 +12,7 @@
 #include "classify/dataset/plan.h"
 #include "sim/core/error.h"
 #include "sim/core/file.h"
+#include "tools/figure.h"
 #include "tools/generate.h"
 #include "tools/report.h"
 #include "tools/train.h"
@@ -83,6 +84,7 @@ std::string run_scenario(const Scenario& scenario, const fs::path& directory, co
                          const StopFlag* stop) {
   check_learnable(scenario);
   require_directory(directory, options.resume);
+  require_gnuplot();
 
   StageClock clock;
   const GenerateResult made = clock.time("maps", [&] {

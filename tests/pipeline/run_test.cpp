@@ -237,6 +237,15 @@ TEST(Run, SaysBeforeAnyWorkWhatLearningWouldRefuse) {
   EXPECT_FALSE(fs::exists(folder.path() / "run"));
 }
 
+TEST(Run, SaysBeforeAnyWorkThatGnuplotIsMissing) {
+  const TemporaryFolder folder;
+  const ProgramResult result =
+      run_words({"/usr/bin/env", "PATH=" + folder.path().string(), kProgram, "run", "scenarios/points.yaml", "-o", folder.path() / "run"});
+  EXPECT_EQ(result.code, 1);
+  EXPECT_THAT(result.err, HasSubstr("install the package gnuplot-nox"));
+  EXPECT_FALSE(fs::exists(folder.path() / "run"));
+}
+
 TEST(Report, RefusesWhatIsNotARun) {
   const TemporaryFolder folder;
   const ProgramResult result = run_program({"report", folder.path()});

@@ -126,7 +126,10 @@ TEST_F(Figure, SaysSoWhenGnuplotIsMissing) {
   } catch (const WorkError& error) {
     EXPECT_NE(std::string(error.what()).find("gnuplot-nox"), std::string::npos) << error.what();
   }
+  EXPECT_THROW(require_figure(folder_ / "map.png"), WorkError);
+  EXPECT_NO_THROW(require_figure(""));
   ::setenv("PATH", path.c_str(), 1);
+  EXPECT_NO_THROW(require_figure(folder_ / "map.png"));
   EXPECT_EQ(files(), 0u);
 }
 
