@@ -4,6 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
 
 #include "sim/core/constants.h"
 #include "sim/core/dispersion.h"
@@ -212,6 +215,19 @@ void check_dataset(const Scenario& scenario, const ScenarioDocument& document) {
   }
 }
 
+// Two cases of one direction would be equal.
+void check_directions(const std::string& key, const Sweep& values_deg, const ScenarioDocument& document) {
+  constexpr double kSame = 1e-9;  // deg, beyond the rounding of a turn
+  std::vector<std::pair<double, double>> directions;  // within a turn, as given
+  for (const double value : values_deg) directions.emplace_back(value - 360 * std::floor((value + kSame) / 360), value);
+  std::sort(directions.begin(), directions.end());
+  for (std::size_t i = 1; i < directions.size(); ++i) {
+    if (directions[i].first - directions[i - 1].first > kSame) continue;
+    const auto [lower, higher] = std::minmax(directions[i].second, directions[i - 1].second);
+    document.fail_at(key, fmt::format("{} and {} are one direction: must not stand twice", lower, higher));
+  }
+}
+
 // The product of all sweeps, as a number that cannot overflow.
 void check_case_count(const Scenario& scenario, const ScenarioDocument& document) {
   constexpr double kMaxCases = 1e6;
@@ -238,6 +254,8 @@ void check_contradictions(const Scenario& scenario, const ScenarioDocument& docu
   check_window(scenario, document);
   check_clutter(scenario, document);
   check_case_count(scenario, document);
+  check_directions("view.azimuth_deg", scenario.view.azimuth_deg, document);
+  check_directions("sea.propagation_deg", scenario.sea.propagation_deg, document);
   check_spectrum(scenario.sea, document);
   check_sea(scenario.sea, document);
   check_sea_reflection(scenario, document);

@@ -92,6 +92,16 @@ TEST(Reading, TextIsUtf8) {
   EXPECT_EQ(parse_scenario(kShort, "folder/caf\xe9.yaml").name, "caf_");
 }
 
+TEST(Reading, OneDirectionStandsOnceInASweep) {
+  EXPECT_EQ(complaint_about(kShort + "view: {azimuth_deg: [30, -330]}\n"),
+            "folder/file.yaml:4:21: view.azimuth_deg: -330 and 30 are one direction: must not stand twice");
+  EXPECT_THAT(complaint_about(kShort + "view: {azimuth_deg: 0:360:10}\n"), HasSubstr("0 and 360 are one direction"));
+  EXPECT_THAT(complaint_about(kShort + "view: {azimuth_deg: [-180, 90, 180]}\n"), HasSubstr("-180 and 180 are one direction"));
+  EXPECT_THAT(complaint_about(kShort + "sea: {propagation_deg: [270, -90]}\n"), HasSubstr("sea.propagation_deg: -90 and 270 are one direction"));
+  EXPECT_EQ(complaint_about(kShort + "view: {azimuth_deg: -180:179.9:0.1}\n"), "none");
+  EXPECT_EQ(complaint_about(kShort + "view: {azimuth_deg: -360}\n"), "none");
+}
+
 TEST(Reading, PointsAreTargets) {
   const Scenario scenario = parse(
       "seaglint: 1\ntargets:\n  p:\n    label: 0\n    points:\n"
