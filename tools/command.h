@@ -44,6 +44,9 @@ void add_report(CLI::App& app, Shell& shell);
 // A number of the interval; unlike CLI::Range it refuses NaN.
 CLI::Validator number_within(double lowest, double highest);
 
+// Refuses what is not a whole number of 0 or more.
+CLI::Validator whole_number();
+
 // The data set in a directory: there, or in the `data` below it that `run` makes.
 std::filesystem::path find_data_set(const std::filesystem::path& directory);
 

@@ -8,6 +8,8 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <filesystem>
+#include <iostream>
 #include <new>
 #include <string>
 #include <vector>
@@ -65,12 +67,27 @@ int fail(int code, const std::string& message) {
   return code;
 }
 
+// 0, or 1 where standard output did not take all that was printed.
+int end_output() {
+  std::cout.flush();
+  if (std::cout && std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return 0;
+  return fail(1, fmt::format("standard output: cannot write: {}", std::strerror(errno)));
+}
+
+// The words that chose a command: " mesh make sphere".
+std::string chosen_words(const CLI::App& app) {
+  const auto chosen = app.get_subcommands();
+  return chosen.empty() ? "" : " " + chosen.front()->get_name() + chosen_words(*chosen.front());
+}
+
 // CLI11 prints what was asked for (--help, --version); everything else is wrong input.
 int end_parsing(const CLI::App& app, const CLI::ParseError& error, const std::string& first_argument) {
-  if (error.get_exit_code() == 0) return app.exit(error);
-  const auto chosen = app.get_subcommands();
-  if (!chosen.empty())
-    return fail(2, fmt::format("{} (see seaglint {} --help)", error.what(), chosen.front()->get_name()));
+  if (error.get_exit_code() == 0) {
+    app.exit(error);
+    return end_output();
+  }
+  const std::string chosen = chosen_words(app);
+  if (!chosen.empty()) return fail(2, fmt::format("{} (see seaglint{} --help)", error.what(), chosen));
   if (first_argument.empty() || first_argument[0] == '-')
     return fail(2, fmt::format("{} (see seaglint --help)", error.what()));
   std::vector<std::string> names;
@@ -82,12 +99,11 @@ int end_parsing(const CLI::App& app, const CLI::ParseError& error, const std::st
 int run(Shell& shell) {
   try {
     shell.work();
-    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-      return fail(1, fmt::format("standard output: cannot write: {}", std::strerror(errno)));
-    }
-    return 0;
+    return end_output();
   } catch (const seaglint::InputError& error) {
     return fail(2, error.what());
+  } catch (const std::filesystem::filesystem_error& error) {
+    return fail(1, fmt::format("{}: {}", error.path1().string(), error.code().message()));
   } catch (const std::bad_alloc&) {
     return fail(1, "out of memory");
   } catch (const std::exception& error) {

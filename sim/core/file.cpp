@@ -165,7 +165,8 @@ void make_directory(const fs::path& path) {
   fs::create_directories(path, error);
   if (error) fail(error.message());
   if (!fs::is_directory(path, error)) fail("a file of this name exists");
-  if (::access(path.c_str(), W_OK | X_OK) != 0) fail(std::strerror(errno));
+  if (::access(path.c_str(), W_OK | X_OK) != 0)
+    throw WorkError(fmt::format("{}: the directory is not writable: {}", path.string(), std::strerror(errno)));
 }
 
 }  // namespace seaglint

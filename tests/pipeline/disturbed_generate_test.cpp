@@ -221,7 +221,7 @@ TEST_F(SmallDisk, ThatIsFullEndsWithAMessageAndADataSetThatResumes) {
 TEST_F(SmallDisk, ThatBecameReadOnlyEndsWithAMessage) {
   fs::create_directories(data_);
   ASSERT_EQ(::mount("tmpfs", folder_.path().c_str(), "tmpfs", MS_REMOUNT | MS_RDONLY, "size=16m"), 0);
-  expect_one_line(run_words(generate(data_, {"--resume"})), data_.string() + ": cannot make the directory: Read-only");
+  expect_one_line(run_words(generate(data_, {"--resume"})), data_.string() + ": the directory is not writable: Read-only");
   ASSERT_EQ(::mount("tmpfs", folder_.path().c_str(), "tmpfs", MS_REMOUNT, "size=16m"), 0);
   ASSERT_EQ(run_words(generate(data_, {"--resume"})).code, 0);
   EXPECT_THAT(differences(data_), IsEmpty());

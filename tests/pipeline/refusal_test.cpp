@@ -119,6 +119,29 @@ TEST_F(Refusal, OfANumberThatIsNone) {
   expect_failure(folder(), {"map", "scenarios/points.yaml", "--sample", "-1", "-o", folder() / "map.png"}, 2, "-1");
 }
 
+// Bounds and places to look are those of the very command.
+TEST_F(Refusal, OfAnOptionInWordsThatHelp) {
+  for (const char* value : {"-1", "2.5", "1e3", "99999999999999999999"}) {
+    for (const Words& words : {Words{"map", "scenarios/points.yaml", "-o", folder() / "map.png"}, Words{"echo", "scenarios/points.yaml", "-o", folder() / "e.npz"},
+                               Words{"remake", folder()}}) {
+      Words all = words;
+      all.insert(all.end(), {"--sample", value});
+      expect_failure(folder(), all, 2, std::string("--sample: value ") + value + ": must be a whole number, 0 or more (see seaglint " + words[0] + " --help)\n");
+    }
+  }
+  expect_failure(folder(), {"mesh", "make", "sphere", "--diameter-m", "1"}, 2, "(see seaglint mesh make sphere --help)\n");
+  expect_failure(folder(), {"mesh", "info"}, 2, "(see seaglint mesh info --help)\n");
+  expect_failure(folder(), {"verify", std::string(300, 'x')}, 1, "xxx/manifest.json: File name too long\n");
+}
+
+TEST_F(Refusal, OfAFullStandardOutput) {
+  for (const char* words : {"--help", "--version", "rcs --help"}) {
+    const ProgramResult result = run_words({"/bin/bash", "-c", std::string("exec \"$0\" ") + words + " >/dev/full", kProgram});
+    EXPECT_EQ(result.code, 1) << words;
+    EXPECT_EQ(result.err, "seaglint: standard output: cannot write: No space left on device\n") << words;
+  }
+}
+
 // A directory of something else is none to go on in.
 TEST_F(Refusal, OfGoingOnAmongOtherFiles) {
   make_directory(folder() / "other");

@@ -6,7 +6,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <fstream>
+#include <iostream>
 
 #include "sim/core/error.h"
 #include "tests/temporary_folder.h"
@@ -110,6 +112,18 @@ TEST_F(Files, MakesADirectoryWithItsParents) {
   make_directory(folder_ / "a");
   write_file(folder_ / "x", "");
   EXPECT_THAT(message_of<WorkError>([&] { make_directory(folder_ / "x"); }), HasSubstr("x: cannot make the directory"));
+  // Root may write anywhere: a child process that is not root asks.
+  fs::permissions(folder_, fs::perms::group_exec | fs::perms::others_exec, fs::perm_options::add);
+  const fs::path locked = folder_ / "locked";
+  fs::create_directory(locked);
+  fs::permissions(locked, fs::perms::owner_read | fs::perms::owner_exec | fs::perms::others_read | fs::perms::others_exec);
+  EXPECT_EXIT(
+      {
+        if (::geteuid() == 0 && ::setuid(65534) != 0) std::abort();
+        std::cerr << message_of<WorkError>([&] { make_directory(locked); });
+        std::_Exit(0);
+      },
+      testing::ExitedWithCode(0), "locked: the directory is not writable: Permission denied");
   EXPECT_THAT(message_of<WorkError>([&] { make_directory(folder_ / "x" / "y"); }), HasSubstr("Not a directory"));
   EXPECT_THROW(make_directory(""), WorkError);
 }
