@@ -269,7 +269,10 @@ void run_rcs(const RcsArguments& arguments, const Shell& shell) {
   const auto [lowest, highest] = std::minmax_element(sweep.frequency_hz.begin(), sweep.frequency_hz.end());
   check_frequencies(materials, *lowest, *highest);
   warn(check_target(mesh, *lowest));
-  if (arguments.sea.reflection) put_in_water(mesh, materials, -arguments.sea.height_m);
+  if (arguments.sea.reflection) {
+    arguments.sea.check(mesh);
+    put_in_water(mesh, materials, -arguments.sea.height_m);
+  }
   const Scatterer scatterer(mesh, materials, radians(arguments.crease_deg));
   if (arguments.edges == "on") warn(check_edges(scatterer, *lowest));
   EchoFilter filter = arguments.view.filter(mesh);

@@ -41,6 +41,14 @@ void SeaArguments::check(std::span<const double> elevation_deg, std::span<const 
   }
 }
 
+void SeaArguments::check(const TriangleMesh& mesh) const {
+  const double top_m = bounds(mesh).upper.z();
+  if (!(top_m + height_m > 0)) {
+    throw InputError(
+        fmt::format("--height-m: value {}: must be greater than {:.6g}, else the whole target is under water", height_m, -top_m));
+  }
+}
+
 std::string SeaArguments::text() const {
   if (!reflection) return "";
   return fmt::format("# over {}, origin {:.6g} m above the mean surface, significant wave height {:.6g} m, paths {}\n", surface, height_m, wave_height_m,

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 
+#include "sim/geometry/triangle_mesh.h"
 #include "sim/scattering/sea_mirror.h"
 
 namespace seaglint {
@@ -21,6 +22,8 @@ struct SeaArguments {
   SeaMirror mirror() const;
   // Throws InputError for a direction without an image, and for frequencies beyond the model of sea water.
   void check(std::span<const double> elevation_deg, std::span<const double> frequency_hz) const;
+  // Throws InputError where the whole mesh lies under water.
+  void check(const TriangleMesh& mesh) const;
   // A comment line for the head of a table; empty without the sea.
   std::string text() const;
 };

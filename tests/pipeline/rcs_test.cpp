@@ -359,6 +359,14 @@ TEST_F(RcsCommand, APlateStandingOnAConductingSeaIsADihedral) {
   EXPECT_NEAR(row.at(12), level, 20 * std::log10(1 + 1.0 / 50));
 }
 
+// kWidthM high about its middle: a table of zeros would say that it does not scatter.
+TEST_F(RcsCommand, RefusesATargetThatIsWhollyUnderWater) {
+  const ProgramResult done = rcs({"--frequency-ghz", "16", "--azimuth-deg", "0", "--elevation-deg", "30", "--sea-reflection", "--height-m", "-5"});
+  EXPECT_EQ(done.code, 2);
+  EXPECT_THAT(done.err, HasSubstr("--height-m: value -5: must be greater than -0.15, else the whole target is under water\n"));
+  EXPECT_EQ(rcs({"--frequency-ghz", "16", "--azimuth-deg", "0", "--elevation-deg", "30", "--sea-reflection", "--height-m", "-0.14"}).code, 0);
+}
+
 TEST_F(RcsCommand, RefusesASeaReflectionWithoutAnImage) {
   const ProgramResult done = rcs({"--frequency-ghz", "16", "--azimuth-deg", "0", "--elevation-deg", "0", "--sea-reflection"});
   EXPECT_EQ(done.code, 2);
