@@ -5,18 +5,14 @@
 
 namespace seaglint {
 
-Mat3 turn_of_scene(const IntervalSampling& sampling, const Vec3& r_hat, double time_s) {
-  if (sampling.sight_rate.isZero(0)) return Mat3::Identity();
-  const Vec3 now = (r_hat + (time_s - sampling.pulse_time_s.front()) * sampling.sight_rate).normalized();
-  return Eigen::Quaterniond::FromTwoVectors(now, r_hat).toRotationMatrix();
-}
-
-Pose seen_pose(const Trajectory& trajectory, const IntervalSampling& sampling, const Vec3& r_hat, double time_s) {
-  Pose pose = trajectory.pose(time_s);
-  const Mat3 turn = turn_of_scene(sampling, r_hat, time_s);
-  pose.R_TB = turn * pose.R_TB;
-  pose.p_TB = turn * pose.p_TB;
-  return pose;
+Sight sight_at(const IntervalSampling& sampling, const Vec3& r_hat, double time_s) {
+  RadarBasis radar = radar_basis(r_hat);
+  if (!sampling.sight_rate.isZero(0)) {
+    const Vec3 now = (r_hat + (time_s - sampling.pulse_time_s.front()) * sampling.sight_rate).normalized();
+    const Mat3 turn = Eigen::Quaterniond::FromTwoVectors(r_hat, now).toRotationMatrix();
+    radar = {now, turn * radar.h, turn * radar.v};
+  }
+  return {radar, image_basis(radar)};
 }
 
 }  // namespace seaglint

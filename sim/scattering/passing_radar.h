@@ -1,19 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// A radar that moves past the target: in the far field nothing but the direction to it counts, so that turning the
-// scene about the reference point is the same.
+// A radar that moves past the target: in the far field nothing but the direction to it counts. The scene stands still,
+// since the sea as a mirror does: the radar's image goes down where the radar goes up.
 
 #include "sim/core/linear.h"
-#include "sim/motion/trajectory.h"
 #include "sim/scattering/frequency_response.h"
+#include "sim/scattering/sea_mirror.h"
 
 namespace seaglint {
 
-// The rotation, without any about the line of sight, that brings the direction to the radar at time_s back to r_hat.
-Mat3 turn_of_scene(const IntervalSampling& sampling, const Vec3& r_hat, double time_s);
+// Where the radar and its image in the sea stand at one instant, target frame.
+struct Sight {
+  RadarBasis radar, image;
 
-// A body's pose in the turned scene.
-Pose seen_pose(const Trajectory& trajectory, const IntervalSampling& sampling, const Vec3& r_hat, double time_s);
+  const RadarBasis& of(bool by_sea) const { return by_sea ? image : radar; }
+  // Both ways of a path along x, m: its length is shorter by this.
+  double gain(const SeaPath& path, const Vec3& x) const { return (of(path.there).r + of(path.back).r).dot(x); }
+};
+
+// The first pulse's basis, that of r_hat, is carried along without any turn about the line of sight; the image's is its
+// mirror image.
+Sight sight_at(const IntervalSampling& sampling, const Vec3& r_hat, double time_s);
 
 }  // namespace seaglint

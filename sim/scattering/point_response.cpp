@@ -49,21 +49,20 @@ FrequencyResponse point_response_over_sea(std::span<const PointSpec> points, con
   response.pulses = static_cast<int>(sampling.pulse_first.size());
   response.per_pulse = sampling.per_pulse;
   response.values.assign(static_cast<std::size_t>(response.pulses) * sampling.per_pulse, Complex{});
-  const Vec3 image_r = image_direction(r_hat);
   for (int n = 0; n < response.pulses; ++n) {
-    const Mat3 turn = turn_of_scene(sampling, r_hat, sampling.pulse_time_s[n]);
+    const Sight sight = sight_at(sampling, r_hat, sampling.pulse_time_s[n]);
     for (int b = 0; b < response.per_pulse; ++b) {
       const double k = 2 * kPi / kSpeedOfLight * (sampling.first_hz + (sampling.pulse_first[n] + b) * sampling.step_hz);
       const double baseband_hz = (b - 0.5 * (sampling.per_pulse - 1)) * sampling.step_hz;
       const double elapsed_s = sampling.pulse_time_s[n] - sampling.pulse_time_s.front() +
                                (sampling.chirp_rate_hz_s == 0 ? 0 : baseband_hz / sampling.chirp_rate_hz_s);
-      const SeaCoefficients rho = sea.at(k, r_hat.z());
+      const SeaCoefficients rho = sea.at(k, sight.radar.r.z());
       for (const PointSpec& point : points) {
-        const Vec3 x = turn * (as_vector(point.position_m) + elapsed_s * as_vector(point.velocity_mps));
+        const Vec3 x = as_vector(point.position_m) + elapsed_s * as_vector(point.velocity_mps);
         for (const SeaPath& path : kSeaPaths) {
           if (!sea.wanted(path)) continue;
-          const double psi = ((path.there ? image_r : r_hat) + (path.back ? image_r : r_hat)).dot(x);
-          response.at(n, b) += point.amplitude_m * SeaMirror::weight(path, rho, static_cast<int>(polarisation)) * std::polar(1.0, k * psi);
+          response.at(n, b) += point.amplitude_m * SeaMirror::weight(path, rho, static_cast<int>(polarisation)) *
+                               std::polar(1.0, k * sight.gain(path, x));
         }
       }
     }
@@ -84,8 +83,7 @@ FrequencyResponse point_response(std::span<const PointSpec> points, const Vec3& 
   response.values.assign(static_cast<std::size_t>(response.pulses) * sampling.per_pulse, Complex{});
   // The direction to the radar at each pulse.
   std::vector<Vec3> sight;
-  for (const double time_s : sampling.pulse_time_s)
-    sight.push_back(turn_of_scene(sampling, r_hat, time_s).transpose() * r_hat);
+  for (const double time_s : sampling.pulse_time_s) sight.push_back(sight_at(sampling, r_hat, time_s).radar.r);
   for (const PointSpec& point : points) {
     const Vec3 position = as_vector(point.position_m), velocity = as_vector(point.velocity_mps);
     for (int n = 0; n < response.pulses; ++n) {

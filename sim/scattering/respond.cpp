@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "sim/core/constants.h"
 #include "sim/core/error.h"
@@ -102,6 +103,32 @@ ReturnGrid trace_returns(const Scatterer& scatterer, const PlannedWay& way, cons
   return grid;
 }
 
+// The sea's coefficients at every pulse's frequencies: they follow the elevation of a radar that moves; of one that
+// stands they are formed once per frequency.
+class MirrorOverPulses {
+ public:
+  MirrorOverPulses(const SeaMirror& sea, const TracePlan& plan, const IntervalSampling& sampling,
+                   const WavenumberGrid& wavenumbers)
+      : sampling_(sampling), moves_(!sampling.sight_rate.isZero(0)) {
+    const int rows = moves_ ? static_cast<int>(sampling.pulse_first.size()) : 1;
+    for (int n = 0; n < rows; ++n) {
+      for (int b = 0; b < (moves_ ? sampling.per_pulse : wavenumbers.count); ++b) {
+        const double k = wavenumbers.at(moves_ ? sampling.pulse_first[n] + b : b);
+        coefficients_.push_back(sea.at(k, plan.sight(n).radar.r.z()));
+      }
+    }
+  }
+
+  const SeaCoefficients& at(int pulse, int b) const {
+    return coefficients_[static_cast<std::size_t>(moves_ ? pulse * sampling_.per_pulse + b : sampling_.pulse_first[pulse] + b)];
+  }
+
+ private:
+  const IntervalSampling& sampling_;
+  bool moves_;
+  std::vector<SeaCoefficients> coefficients_;
+};
+
 }  // namespace
 
 double default_turn(const Scatterer& scatterer, double wavelength) {
@@ -143,9 +170,8 @@ BodyResponse respond(const Scatterer& scatterer, const Trajectory& trajectory, c
   result.response.pulses = pulses;
   result.response.per_pulse = sampling.per_pulse;
   result.response.values.assign(static_cast<std::size_t>(pulses) * sampling.per_pulse, 0.0);
-  std::vector<SeaCoefficients> mirror;  // per frequency
-  for (int q = 0; sea != nullptr && q < wavenumbers.count; ++q) mirror.push_back(sea->at(wavenumbers.at(q), r_hat.z()));
-  const auto towards = [&](bool by_sea) { return by_sea ? image_direction(r_hat) : r_hat; };
+  std::optional<MirrorOverPulses> mirror;
+  if (sea != nullptr) mirror.emplace(*sea, plan, sampling, wavenumbers);
   std::vector<Complex> answer(static_cast<std::size_t>(sampling.per_pulse));
   for (std::size_t i = 0; i < traces.size(); ++i) {
     for (std::size_t w = 0; w < traces[i].ways.size(); ++w) {
@@ -156,10 +182,10 @@ BodyResponse respond(const Scatterer& scatterer, const Trajectory& trajectory, c
         returns[i][w].response(sampling.pulse_first[n], moves.s[at], moves.q[at], answer);
         // The body's origin moves too: e^{jk (a + b).p} with the directions a and b of either way, exact for every pulse
         // and frequency.
-        const double origin_path = (towards(path.there) + towards(path.back)).dot(plan.pose(n).p_TB);
+        const double origin_path = plan.sight(n).gain(path, plan.pose(n).p_TB);
         for (int b = 0; b < sampling.per_pulse; ++b) {
           const int q = sampling.pulse_first[n] + b;
-          const Complex by_sea = path.multipath() ? SeaMirror::weight(path, mirror[q], channel) : 1.0;
+          const Complex by_sea = path.multipath() ? SeaMirror::weight(path, mirror->at(n, b), channel) : 1.0;
           result.response.at(n, b) +=
               plan.share(i, n) * by_sea * std::polar(1.0, wavenumbers.at(q) * origin_path) * answer[b];
         }

@@ -12,6 +12,11 @@
 
 namespace seaglint {
 
+RadarBasis image_basis(const RadarBasis& radar) {
+  const Vec3 r = image_direction(radar.r), h = image_direction(radar.h);
+  return {r, h, r.cross(h)};
+}
+
 SeaMirror::SeaMirror(const SeaReflectionSpec& spec, double significant_wave_height_m)
     : spec_(spec), rms_m_(significant_wave_height_m / 4) {}
 
@@ -40,10 +45,7 @@ Complex SeaMirror::weight(const SeaPath& path, const SeaCoefficients& rho, int e
 std::vector<std::array<Complex, 4>> scattering_matrices_over_sea(const Scatterer& scatterer, const Vec3& r_hat, double height_m, const SeaMirror& sea,
                                                                  std::span<const double> wavenumbers, const IlluminationSettings& settings,
                                                                  int threads, std::size_t* legs, const StopFlag* stop) {
-  const RadarBasis radar = radar_basis(r_hat);
-  // The image shares h, also where r^ is vertical.
-  const Vec3 image_r = image_direction(r_hat);
-  const RadarBasis image{image_r, radar.h, image_r.cross(radar.h)};
+  const RadarBasis radar = radar_basis(r_hat), image = image_basis(radar);
   IlluminationSettings raised = settings;
   raised.origin = {0, 0, height_m};
   std::vector<std::array<Complex, 4>> sum(wavenumbers.size());

@@ -23,6 +23,9 @@ namespace seaglint {
 // Direction to the radar's image in the mean sea surface.
 inline Vec3 image_direction(const Vec3& r_hat) { return {r_hat.x(), r_hat.y(), -r_hat.z()}; }
 
+// The image's basis: h mirrored, which a level h does not notice, and v' = r' x h'.
+RadarBasis image_basis(const RadarBasis& radar);
+
 // By way of the sea on the way to the target, back, or neither.
 struct SeaPath {
   bool there = false;

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/scattering/passing_radar.h"
-
 namespace seaglint {
 namespace {
 
@@ -23,10 +21,9 @@ double length_of(std::span<const Vec3> way) {
 
 }  // namespace
 
-// Where the radar and its image in the sea stand.
+// Where the radar and its image in the sea stand at every pulse, body frame.
 struct TracePlan::Directions {
-  RadarBasis radar, image;               // world
-  std::vector<Vec3> to_radar, to_image;  // at every pulse, body frame
+  std::vector<Vec3> to_radar, to_image;
 
   std::span<const Vec3> of(bool by_sea) const { return by_sea ? to_image : to_radar; }
 };
@@ -34,15 +31,13 @@ struct TracePlan::Directions {
 TracePlan::TracePlan(const Trajectory& trajectory, const IntervalSampling& sampling, const Vec3& r_hat,
                      std::span<const SeaPath> paths, const TraceLimits& limits) {
   const double start = sampling.pulse_time_s.front(), length = sampling.pulse_time_s.back() - start;
-  const Vec3 image_r = image_direction(r_hat);
   Directions seen;
-  seen.radar = radar_basis(r_hat);
-  seen.image = {image_r, seen.radar.h, image_r.cross(seen.radar.h)};
   for (const double time_s : sampling.pulse_time_s) {
     time_.push_back(length > 0 ? (time_s - start) / length : 0);
-    const Pose& pose = poses_.emplace_back(seen_pose(trajectory, sampling, r_hat, time_s));
-    seen.to_radar.push_back(pose.R_TB.transpose() * r_hat);
-    seen.to_image.push_back(pose.R_TB.transpose() * image_r);
+    const Pose& pose = poses_.emplace_back(trajectory.pose(time_s));
+    const Sight& sight = sights_.emplace_back(sight_at(sampling, r_hat, time_s));
+    seen.to_radar.push_back(pose.R_TB.transpose() * sight.radar.r);
+    seen.to_image.push_back(pose.R_TB.transpose() * sight.image.r);
   }
   double turn = 0;
   for (const SeaPath& path : paths) {
@@ -55,7 +50,7 @@ TracePlan::TracePlan(const Trajectory& trajectory, const IntervalSampling& sampl
     double beside = 0;
     for (std::size_t i = 0; i < spans_; ++i) {
       const double middle_s = start + length * (static_cast<double>(i) + 0.5) / static_cast<double>(spans_);
-      traces_.push_back(planned(i, seen_pose(trajectory, sampling, r_hat, middle_s), seen, paths));
+      traces_.push_back(planned(i, trajectory.pose(middle_s), sight_at(sampling, r_hat, middle_s), seen, paths));
       for (const PlannedWay& way : traces_.back().ways) beside = std::max(beside, way.moves.q_limit);
     }
     if (beside <= limits.beside || spans_ >= time_.size()) break;
@@ -68,7 +63,7 @@ double TracePlan::share(std::size_t trace, int pulse) const {
   return std::max(0.0, 1 - std::abs(place - own));
 }
 
-PlannedTrace TracePlan::planned(std::size_t trace, const Pose& pose, const Directions& seen,
+PlannedTrace TracePlan::planned(std::size_t trace, const Pose& pose, const Sight& sight, const Directions& seen,
                                 std::span<const SeaPath> paths) const {
   const int pulses = static_cast<int>(time_.size());
   PlannedTrace plan;
@@ -80,7 +75,7 @@ PlannedTrace TracePlan::planned(std::size_t trace, const Pose& pose, const Direc
   }
   if (plan.first > plan.last) return plan;
   plan.origin = pose.R_TB.transpose() * pose.p_TB;
-  const RadarBasis radar = body_basis(seen.radar, pose), image = body_basis(seen.image, pose);
+  const RadarBasis radar = body_basis(sight.radar, pose), image = body_basis(sight.image, pose);
   for (const SeaPath& path : paths) {
     const RadarBasis &transmit = path.there ? image : radar, &receive = path.back ? image : radar;
     const auto own = [&](bool by_sea) {

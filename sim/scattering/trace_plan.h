@@ -10,7 +10,7 @@
 #include "sim/scattering/direction_path.h"
 #include "sim/scattering/frequency_response.h"
 #include "sim/scattering/illuminate.h"
-#include "sim/scattering/sea_mirror.h"
+#include "sim/scattering/passing_radar.h"
 
 namespace seaglint {
 
@@ -44,17 +44,19 @@ class TracePlan {
   std::span<const PlannedTrace> traces() const { return traces_; }
   // A trace's share of a pulse; those of all traces sum to one.
   double share(std::size_t trace, int pulse) const;
-  // The body at a pulse, as the radar sees it.
+  // The body at a pulse, and from where it is seen.
   const Pose& pose(int pulse) const { return poses_[static_cast<std::size_t>(pulse)]; }
+  const Sight& sight(int pulse) const { return sights_[static_cast<std::size_t>(pulse)]; }
 
  private:
   struct Directions;
-  // A span's trace, made where the body then stands.
-  PlannedTrace planned(std::size_t trace, const Pose& pose, const Directions& seen,
+  // A span's trace, made where body and radar then stand.
+  PlannedTrace planned(std::size_t trace, const Pose& pose, const Sight& sight, const Directions& seen,
                        std::span<const SeaPath> paths) const;
 
   std::vector<double> time_;  // of each pulse, 0 at the first and 1 at the last; all 0 of one pulse
   std::vector<Pose> poses_;
+  std::vector<Sight> sights_;
   std::size_t spans_ = 1;
   std::vector<PlannedTrace> traces_;
 };

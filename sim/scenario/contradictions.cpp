@@ -163,6 +163,16 @@ void check_sea_reflection(const Scenario& scenario, const ScenarioDocument& docu
   if (!scenario.sea_reflection.enabled) return;
   for (const double elevation : scenario.view.elevation_deg) {
     if (elevation <= 0) document.fail_at("view.elevation_deg", "must be greater than 0 with sea_reflection");
+    // One on its way must stay above it to the interval's end.
+    const RadarSpec& radar = scenario.radar;
+    const double sunk_m = -radar.platform.velocity_mps[2] * radar.pulses * radar.pri_us * 1e-6;
+    const double height_m = radar.range_km * 1e3 * std::sin(radians(elevation));
+    if (sunk_m >= height_m) {
+      document.fail_at("radar.platform.velocity_mps",
+                       fmt::format("value {:g} upwards: the radar sinks {:.4g} m in an interval, must be less than its height, {:.4g} m, with "
+                                   "sea_reflection",
+                                   radar.platform.velocity_mps[2], sunk_m, height_m));
+    }
   }
   if (scenario.sea_reflection.surface == SeaSurface::kSeaWater && highest_ghz(scenario.radar) > 89) {
     document.fail_at("radar.carrier_ghz", "the highest carrier with its band must be at most 89 with sea_reflection of sea_water");

@@ -71,6 +71,18 @@ TEST(MapCommand, RefusesASeaReflectionWithoutAnImage) {
   EXPECT_THAT(result.err, HasSubstr("view.elevation_deg: value '0': must be greater than 0 with sea_reflection"));
 }
 
+TEST(MapCommand, RefusesARadarThatSinksBelowTheSeaThatReflects) {
+  // 64 ms at 1000 m/s, from 0.2 deg at 10 km.
+  const TemporaryFolder folder;
+  std::vector<std::string> more = kOnePoint;
+  more.insert(more.end(), {"--set", "view.elevation_deg=0.2", "--set", "sea_reflection.enabled=true", "--set",
+                           "radar.range_km=10", "--set", "radar.platform.velocity_mps=[0, 0, -1000]"});
+  const ProgramResult result = run_program(map_of(folder.path() / "map.png", more));
+  EXPECT_EQ(result.code, 2);
+  EXPECT_THAT(result.err, HasSubstr("radar.platform.velocity_mps: value -1000 upwards: the radar sinks 64 m in an interval, "
+                                    "must be less than its height, 34.91 m, with sea_reflection"));
+}
+
 TEST(MapCommand, WarnsAboutPointsOutsideTheMap) {
   const TemporaryFolder folder;
   std::vector<std::string> more = kOnePoint;

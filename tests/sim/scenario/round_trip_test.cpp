@@ -155,6 +155,7 @@ void make_consistent(Scenario& scenario) {
   scenario.sea.swell.components = 1 + scenario.sea.swell.components % 1000;
   if (scenario.sea_reflection.enabled) {
     for (double& elevation : scenario.view.elevation_deg) elevation = std::max(std::abs(elevation), 1e-3);
+    scenario.radar.platform.velocity_mps[2] = std::abs(scenario.radar.platform.velocity_mps[2]);
   }
   for (TargetSpec& target : scenario.targets) {
     if (!target.mesh.empty()) scenario.radar.intra_pulse_motion = false;
