@@ -191,8 +191,20 @@ void check_companions(const Scenario& scenario, const TargetSpec& target, const 
   }
 }
 
+// The frame of a target that makes way goes along with it, and the water falls behind; a float and a body at rest stay in
+// the water.
+void check_speed(const TargetSpec& target, const ScenarioDocument& document) {
+  const MotionModel model = target.motion.model;
+  if (target.motion.speed_mps > 0 && (model == MotionModel::kFixed || model == MotionModel::kFloat)) {
+    document.fail_at(fmt::format("targets.{}.motion.speed_mps", target.name),
+                     fmt::format("must be 0 with model: {}, which stays where it is in the water",
+                                 model == MotionModel::kFixed ? "fixed" : "float"));
+  }
+}
+
 void check_target(const TargetSpec& target, const ScenarioDocument& document) {
   const std::string path = "targets." + target.name;
+  check_speed(target, document);
   if (target.mesh.empty() && target.points.empty()) document.fail_at(path, "must have a mesh or points");
   if (target.points.empty()) return;
   if (!target.mesh.empty()) document.fail_at(path, "must have a mesh or points, not both");

@@ -35,7 +35,7 @@ struct MotionSpec {
   double roll_radius_m = 0;           // of gyration of the mass about the centre of gravity; 0: the one of roll_period_s, 0 <= x <= 100
   double pitch_radius_m = 0;          // (auto) 0 <= x <= 500
   double yaw_radius_m = 0;            // (auto) 0 <= x <= 500
-  double speed_mps = 0;               // of a ship, forward, 0 <= x <= 40
+  double speed_mps = 0;               // of model ship, rao or series, forward, 0 <= x <= 40
   std::string file;                   // of model series (attitude over time) or rao (response operators)
   double series_start_s = 0;          // time in the series that is t = 0, -1e6 <= x <= 1e6
   double rao_length_m = 1;            // ULEN of a WAMIT table, 0 < x <= 1000

@@ -160,6 +160,7 @@ void make_consistent(Scenario& scenario) {
   for (TargetSpec& target : scenario.targets) {
     if (!target.mesh.empty()) scenario.radar.intra_pulse_motion = false;
     for (CompanionSpec& companion : target.with) companion.target = "array";
+    if (target.motion.model == MotionModel::kFixed || target.motion.model == MotionModel::kFloat) target.motion.speed_mps = 0;
   }
 }
 
