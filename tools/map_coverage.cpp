@@ -43,9 +43,13 @@ void extend(Reach& reach, const Target& target, const Vec3& r_hat, double interv
   }
   Span body;
   for (const Vec3& vertex : target.mesh.vertices) body.include(-r_hat.dot(vertex));
+  const double passing_mps = -r_hat.dot(target.passing_mps);
   for (const Vec3& rest : target.rest_positions) {
-    reach.range_m.include(-r_hat.dot(rest) + body.low);
-    reach.range_m.include(-r_hat.dot(rest) + body.high);
+    for (const double passed_m : {0.0, passing_mps * interval_s}) {
+      reach.range_m.include(-r_hat.dot(rest) + passed_m + body.low);
+      reach.range_m.include(-r_hat.dot(rest) + passed_m + body.high);
+    }
+    if (passing_mps != 0) reach.velocity_mps.include(passing_mps);
   }
 }
 

@@ -108,6 +108,7 @@ BodyResponse Pipeline::target_response(std::size_t target, const Scene& scene, c
   const SeaMirror mirror(scenario_.sea_reflection, total_wave_height(state));
   const SeaMirror* sea = scenario_.sea_reflection.enabled ? &mirror : nullptr;
   const TargetSpec& spec = targets_[target].spec;
+  const Vec3& passing_mps = targets_[target].passing_mps;
   if (!scatterers_[target]) {
     if (sea != nullptr)
       return {point_response_over_sea(spec.points, r_hat, sampling, scenario_.radar.polarisation, *sea), 0};
@@ -115,8 +116,10 @@ BodyResponse Pipeline::target_response(std::size_t target, const Scene& scene, c
   }
   BodyResponse sum;
   for (const Trajectory& body : scene.bodies[target]) {
+    // A companion is at its place when the interval begins.
+    const Trajectory carried = passing_mps.isZero(0) ? body : body.carried(passing_mps, sampling.pulse_time_s.front());
     const BodyResponse term =
-        respond(*scatterers_[target], body, r_hat, scenario_.radar.polarisation, sampling, spec.solver, 1, sea);
+        respond(*scatterers_[target], carried, r_hat, scenario_.radar.polarisation, sampling, spec.solver, 1, sea);
     sum.traces += term.traces;
     if (sum.response.values.empty()) {
       sum.response = term.response;

@@ -34,7 +34,8 @@ double reach_m(const Target& target, double interval_s) {
     reach = std::max({reach, position.norm(), (position + velocity * interval_s).norm()});
   }
   const double radius = radius_m(target.mesh);
-  for (const Vec3& rest : target.rest_positions) reach = std::max(reach, rest.norm() + radius);
+  for (const Vec3& rest : target.rest_positions)
+    reach = std::max({reach, rest.norm() + radius, (rest + target.passing_mps * interval_s).norm() + radius});
   return reach;
 }
 
@@ -106,14 +107,17 @@ void place_bodies(Target& target, std::size_t& bodies) {
   bodies += target.rest_positions.size();
 }
 
-// Another target where a companion of it stands.
-Target moved(const Target& original, const CompanionSpec& companion) {
+// Another target where a companion of it stands. Each makes its own way through the water: a decoy stays in it and falls
+// behind a ship whose frame goes along with the ship.
+Target moved(const Target& original, const TargetSpec& host, const CompanionSpec& companion) {
   Target target = original;
   target.spec.name += " (companion)";
   target.rest_positions.clear();
+  target.passing_mps = Vec3(original.spec.motion.speed_mps - host.motion.speed_mps, 0, 0);
   for (PointSpec& point : target.spec.points) {
     point.position_m[0] += companion.x_m;
     point.position_m[1] += companion.y_m;
+    point.velocity_mps[0] += target.passing_mps.x();
   }
   LineLayout line = target.spec.line.value_or(LineLayout{});
   line.centre_x_m += companion.x_m;
@@ -136,7 +140,7 @@ std::vector<Target> load_targets(const Scenario& scenario) {
     for (const CompanionSpec& companion : scenario.targets[t].with) {
       const auto named = std::find_if(scenario.targets.begin(), scenario.targets.end(),
                                       [&](const TargetSpec& spec) { return spec.name == companion.target; });
-      Target target = moved(targets[static_cast<std::size_t>(named - scenario.targets.begin())], companion);
+      Target target = moved(targets[static_cast<std::size_t>(named - scenario.targets.begin())], scenario.targets[t], companion);
       place_bodies(target, bodies);
       targets[t].with.push_back(targets.size());
       targets.push_back(std::move(target));

@@ -28,6 +28,7 @@ struct Target {
   std::size_t first_body = 0;        // bodies are counted over all targets, in order
   std::size_t shape = 0;             // the target whose mesh, materials and points these are: itself, or the one a companion stands for
   std::vector<std::size_t> with;     // its companions, as further targets behind those of the scenario
+  Vec3 passing_mps = Vec3::Zero();   // of a companion, in the frame of the target that it stands with, which makes way of its own
 };
 
 // How a target moves, from its mesh and the files its motion names. Throws InputError naming the target.

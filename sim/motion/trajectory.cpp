@@ -35,6 +35,13 @@ Trajectory Trajectory::at_rest(const Vec3& rest_position) {
   return still;
 }
 
+Trajectory Trajectory::carried(const Vec3& velocity, double from_s) const {
+  Trajectory moving = *this;
+  moving.carrying_mps_ = velocity;
+  moving.carried_from_s_ = from_s;
+  return moving;
+}
+
 double Trajectory::start_s() const { return samples_.empty() ? -std::numeric_limits<double>::infinity() : start_s_; }
 
 double Trajectory::end_s() const {
@@ -80,6 +87,7 @@ Pose Trajectory::pose(double t) const {
   Pose pose;
   pose.R_TB = rotation_from_angles(motion.angles.x(), motion.angles.y(), motion.angles.z());
   pose.p_TB = rest_position_ + motion.shift + rotation_centre_ - pose.R_TB * rotation_centre_;
+  pose.p_TB += (t - carried_from_s_) * carrying_mps_;
   return pose;
 }
 

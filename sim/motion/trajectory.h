@@ -36,11 +36,14 @@ class Trajectory {
   // A body that never moves.
   static Trajectory at_rest(const Vec3& rest_position);
 
+  // The same body carried along: its pose is displaced by velocity (t - from_s) besides, of which sample() knows nothing.
+  Trajectory carried(const Vec3& velocity, double from_s) const;
+
   // t within [start, end], else throws std::out_of_range; beyond them by kEndSlack of their distance it is rounding,
   // and taken for the end.
   MotionSample sample(double t) const;
   static constexpr double kEndSlack = 2e-9;
-  // p_TB = rest + shift + c - R c with c the rotation centre.
+  // p_TB = rest + shift + c - R c with c the rotation centre, and where it has been carried.
   Pose pose(double t) const;
 
   // A body at rest is at rest for ever: its start and end are infinite.
@@ -53,6 +56,8 @@ class Trajectory {
   std::vector<MotionSample> samples_;
   Vec3 rest_position_ = Vec3::Zero();
   Vec3 rotation_centre_ = Vec3::Zero();
+  Vec3 carrying_mps_ = Vec3::Zero();
+  double carried_from_s_ = 0;
 };
 
 }  // namespace seaglint

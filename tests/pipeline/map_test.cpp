@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <sstream>
 
@@ -133,6 +134,37 @@ TEST(MapCommand, ACompanionIsSeenInTheSameMap) {
   EXPECT_NEAR(both[1][0], 45, 0.02);
   EXPECT_NEAR(both[1][2], 1, 0.02);
   EXPECT_NEAR(alone[0][0], -5, 0.02);
+}
+
+// A ship at 2 m/s, seen from 60 deg off the bow: what stays in the water falls behind by 2 cos 60 = 1 m/s, a float and an
+// ideal point alike; another ship of its speed keeps station.
+TEST(MapCommand, CompanionsOfAShipUnderWayStayInTheWater) {
+  const std::string corner = "mesh: assets/icosahedral_reflector.glb", hull = "length_m: 140, beam_m: 19, draught_m: 6";
+  const auto centres = [&](const std::string& with) {
+    std::vector<std::array<double, 3>> most;
+    for (const char* sample : {"0", "1", "2", "3"}) {
+      const auto found = centres_of(
+          {"--set", "view={azimuth_deg: 60, elevation_deg: 0}", "--set", "sea={significant_wave_height_m: 0}", "--set",
+           "targets={flagship: {label: 1, " + corner + ", motion: {model: ship, speed_mps: 2, " + hull + "}, with: [" + with +
+               "]}, consort: {label: 1, " + corner + ", motion: {model: ship, speed_mps: 2, " + hull +
+               "}}, decoy: {label: 0, " + corner + ", motion: {model: float}}, buoy: {label: 0, points: [{position_m: [0, 0, 0], "
+               "amplitude_m: 4}]}}",
+           "--set", "dataset={maps_per_case: 1, realisations_per_case: 1}", "--set", "clutter.enabled=false", "--sample", sample});
+      if (found.size() > most.size()) most = found;
+    }
+    return most;
+  };
+  // Velocity of the strongest centre within a metre of the range at which a companion at x = -80 m stands.
+  const auto velocity_at_40_m = [&](const std::string& companion) {
+    std::array<double, 3> strongest{0, 99, 0};
+    for (const auto& centre : centres("{target: " + companion + ", x_m: -80}")) {
+      if (std::abs(centre[0] - 40) < 1 && centre[2] > strongest[2]) strongest = centre;
+    }
+    return strongest[1];
+  };
+  EXPECT_NEAR(velocity_at_40_m("decoy"), 1, 0.0146);  // a tenth of a cell
+  EXPECT_NEAR(velocity_at_40_m("buoy"), 1, 0.0146);
+  EXPECT_NEAR(velocity_at_40_m("consort"), 0, 0.0146);
 }
 
 TEST(MapCommand, TheRadarsOwnWayShowsUnlessItIsTakenOut) {

@@ -25,6 +25,14 @@ TEST(RotationFromAngles, IsYawTimesPitchTimesRoll) {
   EXPECT_NEAR((rotation_from_angles(0.2, -0.3, 0.7) - product).norm(), 0, 1e-15);
 }
 
+TEST(Trajectory, IsCarriedAlongFromAMomentOn) {
+  const Vec3 rest(1, 2, 3), velocity(-10, 0, 0);
+  const Trajectory still = Trajectory::at_rest(rest).carried(velocity, 20);
+  EXPECT_EQ(still.pose(20).p_TB, rest);
+  EXPECT_NEAR((still.pose(20.064).p_TB - Vec3(1 - 0.64, 2, 3)).norm(), 0, 1e-12);
+  EXPECT_EQ(still.pose(20.064).R_TB, Mat3(Mat3::Identity()));
+}
+
 std::vector<MotionSample> oscillation(double omega, double step, int count) {
   std::vector<MotionSample> samples;
   for (int n = 0; n < count; ++n) {
