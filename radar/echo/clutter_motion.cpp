@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "sim/core/constants.h"
 #include "sim/core/error.h"
@@ -24,6 +25,15 @@ double bragg_speed_mps(double wavelength_m, double cos_grazing) {
 // Two-way gain e^{-8 ln2 phi^2 / width^2} is a normal density of deviation width / (4 sqrt(ln 2)).
 double beam_deviation_rad(const RadarSpec& radar) {
   return radians(radar.budget.beamwidth_deg) / (4 * std::sqrt(std::log(2.0)));
+}
+
+// Mean of the water's velocity at the moving surface: that of eta1 du1/dz, 1/2 a^2 w k along every component's way, in any
+// depth; the rest of the Stokes drift, as much again, is what a particle gathers on its orbit. None at order 1.
+Vec2 mean_at_the_surface(const WaveField& waves) {
+  Vec2 mean = Vec2::Zero();
+  for (const WaveComponent& wave : std::span(waves.components()).first(waves.second_order_count()))
+    mean += 0.5 * wave.amplitude * wave.amplitude * wave.omega * wave.wavenumber * wave.direction;
+  return mean;
 }
 
 }  // namespace
@@ -65,11 +75,13 @@ FloatingScatterers floating_scatterers(const ClutterScene& scene, const std::vec
   const Vec2 away = -Vec2(scene.r_hat.x(), scene.r_hat.y()) / cos_grazing, across(-away.y(), away.x());
   const double deviation_m = scene.radar.range_km * 1e3 * beam_deviation_rad(scene.radar);
   const Vec2 sailed_m = scene.start_s * scene.way_mps.head<2>();  // where the target is in the waves by now
+  const Vec2 mean = mean_at_the_surface(*scene.waves);
   FloatingScatterers floating;
   for (const double range : range_m) {
     const Vec2 place = sailed_m + away * (range / cos_grazing) + across * (deviation_m * random.normal());
     const auto radial = [&](double time_s) {
-      return -scene.r_hat.dot(scene.waves->surface(place.x(), place.y(), time_s).velocity);
+      const Vec3 velocity = scene.waves->surface(place.x(), place.y(), time_s).velocity;
+      return -scene.r_hat.dot(velocity - Vec3(mean.x(), mean.y(), 0));
     };
     const double first = radial(scene.start_s), last = radial(scene.start_s + duration_s);
     floating.velocity_mps.push_back(first);

@@ -50,8 +50,9 @@ struct FloatingScatterers {
 };
 
 // The water's motion in scene.waves at scatterers of the given slant ranges from the reference point (positive =
-// farther), each at a random place across the beam (Gaussian, two ways), stream kClutterPlace of (seed, index). Velocity
-// is taken at both ends of the interval.
+// farther), each at a random place across the beam (Gaussian, two ways), stream kClutterPlace of (seed, index), less the
+// mean that it has at the moving surface: sea_velocity holds the whole Stokes drift. Velocity is taken at both ends of
+// the interval.
 FloatingScatterers floating_scatterers(const ClutterScene& scene, const std::vector<double>& range_m, double duration_s,
                                        std::uint64_t seed, std::uint64_t index);
 
