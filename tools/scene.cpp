@@ -107,8 +107,8 @@ void place_bodies(Target& target, std::size_t& bodies) {
   bodies += target.rest_positions.size();
 }
 
-// Another target where a companion of it stands. Each makes its own way through the water: a decoy stays in it and falls
-// behind a ship whose frame goes along with the ship.
+// Another target where a companion of it stands. Each makes its own way through the water: a decoy stays in it and
+// falls behind a ship whose frame goes along with the ship.
 Target moved(const Target& original, const TargetSpec& host, const CompanionSpec& companion) {
   Target target = original;
   target.spec.name += " (companion)";
@@ -140,7 +140,8 @@ std::vector<Target> load_targets(const Scenario& scenario) {
     for (const CompanionSpec& companion : scenario.targets[t].with) {
       const auto named = std::find_if(scenario.targets.begin(), scenario.targets.end(),
                                       [&](const TargetSpec& spec) { return spec.name == companion.target; });
-      Target target = moved(targets[static_cast<std::size_t>(named - scenario.targets.begin())], scenario.targets[t], companion);
+      Target target =
+          moved(targets[static_cast<std::size_t>(named - scenario.targets.begin())], scenario.targets[t], companion);
       place_bodies(target, bodies);
       targets[t].with.push_back(targets.size());
       targets.push_back(std::move(target));

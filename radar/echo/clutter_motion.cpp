@@ -27,8 +27,8 @@ double beam_deviation_rad(const RadarSpec& radar) {
   return radians(radar.budget.beamwidth_deg) / (4 * std::sqrt(std::log(2.0)));
 }
 
-// Mean of the water's velocity at the moving surface: that of eta1 du1/dz, 1/2 a^2 w k along every component's way, in any
-// depth; the rest of the Stokes drift, as much again, is what a particle gathers on its orbit. None at order 1.
+// Mean of the water's velocity at the moving surface: that of eta1 du1/dz, 1/2 a^2 w k along every component's way, in
+// any depth; the rest of the Stokes drift, as much again, is what a particle gathers on its orbit. None at order 1.
 Vec2 mean_at_the_surface(const WaveField& waves) {
   Vec2 mean = Vec2::Zero();
   for (const WaveComponent& wave : std::span(waves.components()).first(waves.second_order_count()))

@@ -120,7 +120,8 @@ class MirrorOverPulses {
   }
 
   const SeaCoefficients& at(int pulse, int b) const {
-    return coefficients_[static_cast<std::size_t>(moves_ ? pulse * sampling_.per_pulse + b : sampling_.pulse_first[pulse] + b)];
+    return coefficients_[static_cast<std::size_t>(moves_ ? pulse * sampling_.per_pulse + b
+                                                         : sampling_.pulse_first[pulse] + b)];
   }
 
  private:

@@ -169,8 +169,8 @@ void check_sea_reflection(const Scenario& scenario, const ScenarioDocument& docu
     const double height_m = radar.range_km * 1e3 * std::sin(radians(elevation));
     if (sunk_m >= height_m) {
       document.fail_at("radar.platform.velocity_mps",
-                       fmt::format("value {:g} upwards: the radar sinks {:.4g} m in an interval, must be less than its height, {:.4g} m, with "
-                                   "sea_reflection",
+                       fmt::format("value {:g} upwards: the radar sinks {:.4g} m in an interval, must be less than its "
+                                   "height, {:.4g} m, with sea_reflection",
                                    radar.platform.velocity_mps[2], sunk_m, height_m));
     }
   }
@@ -191,8 +191,8 @@ void check_companions(const Scenario& scenario, const TargetSpec& target, const 
   }
 }
 
-// The frame of a target that makes way goes along with it, and the water falls behind; a float and a body at rest stay in
-// the water.
+// The frame of a target that makes way goes along with it, and the water falls behind; a float and a body at rest stay
+// in the water.
 void check_speed(const TargetSpec& target, const ScenarioDocument& document) {
   const MotionModel model = target.motion.model;
   if (target.motion.speed_mps > 0 && (model == MotionModel::kFixed || model == MotionModel::kFloat)) {

@@ -80,8 +80,9 @@ TEST(MapCommand, RefusesARadarThatSinksBelowTheSeaThatReflects) {
                            "radar.range_km=10", "--set", "radar.platform.velocity_mps=[0, 0, -1000]"});
   const ProgramResult result = run_program(map_of(folder.path() / "map.png", more));
   EXPECT_EQ(result.code, 2);
-  EXPECT_THAT(result.err, HasSubstr("radar.platform.velocity_mps: value -1000 upwards: the radar sinks 64 m in an interval, "
-                                    "must be less than its height, 34.91 m, with sea_reflection"));
+  EXPECT_THAT(result.err,
+              HasSubstr("radar.platform.velocity_mps: value -1000 upwards: the radar sinks 64 m in an interval, "
+                        "must be less than its height, 34.91 m, with sea_reflection"));
 }
 
 TEST(MapCommand, WarnsAboutPointsOutsideTheMap) {
@@ -136,8 +137,8 @@ TEST(MapCommand, ACompanionIsSeenInTheSameMap) {
   EXPECT_NEAR(alone[0][0], -5, 0.02);
 }
 
-// A ship at 2 m/s, seen from 60 deg off the bow: what stays in the water falls behind by 2 cos 60 = 1 m/s, a float and an
-// ideal point alike; another ship of its speed keeps station.
+// A ship at 2 m/s, seen from 60 deg off the bow: what stays in the water falls behind by 2 cos 60 = 1 m/s, a float and
+// an ideal point alike; another ship of its speed keeps station.
 TEST(MapCommand, CompanionsOfAShipUnderWayStayInTheWater) {
   const std::string corner = "mesh: assets/icosahedral_reflector.glb", hull = "length_m: 140, beam_m: 19, draught_m: 6";
   const auto centres = [&](const std::string& with) {
@@ -145,11 +146,13 @@ TEST(MapCommand, CompanionsOfAShipUnderWayStayInTheWater) {
     for (const char* sample : {"0", "1", "2", "3"}) {
       const auto found = centres_of(
           {"--set", "view={azimuth_deg: 60, elevation_deg: 0}", "--set", "sea={significant_wave_height_m: 0}", "--set",
-           "targets={flagship: {label: 1, " + corner + ", motion: {model: ship, speed_mps: 2, " + hull + "}, with: [" + with +
-               "]}, consort: {label: 1, " + corner + ", motion: {model: ship, speed_mps: 2, " + hull +
-               "}}, decoy: {label: 0, " + corner + ", motion: {model: float}}, buoy: {label: 0, points: [{position_m: [0, 0, 0], "
+           "targets={flagship: {label: 1, " + corner + ", motion: {model: ship, speed_mps: 2, " + hull + "}, with: [" +
+               with + "]}, consort: {label: 1, " + corner + ", motion: {model: ship, speed_mps: 2, " + hull +
+               "}}, decoy: {label: 0, " + corner +
+               ", motion: {model: float}}, buoy: {label: 0, points: [{position_m: [0, 0, 0], "
                "amplitude_m: 4}]}}",
-           "--set", "dataset={maps_per_case: 1, realisations_per_case: 1}", "--set", "clutter.enabled=false", "--sample", sample});
+           "--set", "dataset={maps_per_case: 1, realisations_per_case: 1}", "--set", "clutter.enabled=false",
+           "--sample", sample});
       if (found.size() > most.size()) most = found;
     }
     return most;

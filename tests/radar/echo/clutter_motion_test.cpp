@@ -92,8 +92,8 @@ TEST(FloatingScatterers, GoAlongWithTheWaves) {
   }
 }
 
-// At order 2 the water's velocity at the moving surface has a mean, that of eta1 du1/dz: 1/2 a^2 w k of every component in
-// the quadratic sums. It is part of the Stokes drift, which sea_velocity holds, and so none of the scatterers' own.
+// At order 2 the water's velocity at the moving surface has a mean, that of eta1 du1/dz: 1/2 a^2 w k of every component
+// in the quadratic sums. It is part of the Stokes drift, which sea_velocity holds, and so none of the scatterers' own.
 TEST(FloatingScatterers, HaveNoMeanOfTheirOwnBesidesTheSeas) {
   SeaState state = waves_towards(180);
   state.significant_wave_height_m = 2;
@@ -107,7 +107,8 @@ TEST(FloatingScatterers, HaveNoMeanOfTheirOwnBesidesTheSeas) {
   }
   ClutterScene scene = scene_of(waves);
   scene.radar.budget.beamwidth_deg = 1e-9;
-  // Over 40 km and 10 moments, each range weighted by Hann's window: what is left of a wave is its spectrum's side lobe.
+  // Over 40 km and 10 moments, each range weighted by Hann's window: what is left of a wave is its spectrum's side
+  // lobe.
   std::vector<double> ranges;
   for (int i = 0; i < 4000; ++i) ranges.push_back(10.0 * (i - 2000));
   double sum = 0, weights = 0;
@@ -115,15 +116,16 @@ TEST(FloatingScatterers, HaveNoMeanOfTheirOwnBesidesTheSeas) {
     scene.start_s = 37.0 * moment;
     const std::vector<double> velocity = floating_scatterers(scene, ranges, 0.064, 1, moment).velocity_mps;
     for (std::size_t i = 0; i < velocity.size(); ++i) {
-      const double weight = 1 - std::cos(2 * kPi * (static_cast<double>(i) + 0.5) / static_cast<double>(velocity.size()));
+      const double weight =
+          1 - std::cos(2 * kPi * (static_cast<double>(i) + 0.5) / static_cast<double>(velocity.size()));
       sum += weight * velocity[i];
       weights += weight;
     }
   }
   std::printf("mean %.4f m/s, half of the Stokes drift %.4f m/s\n", sum / weights, half_drift);
-  // Difference waves that are longer than the window are no zero there. Neighbours are one or two kilometres apart (0.01
-  // rad/s), but strata are filled at random and a tenth of the pairs is ten times as close: of the hundred components
-  // with the energy ten pairs of random phase, sqrt(10) / 100 of the drift; three standard deviations.
+  // Difference waves that are longer than the window are no zero there. Neighbours are one or two kilometres apart
+  // (0.01 rad/s), but strata are filled at random and a tenth of the pairs is ten times as close: of the hundred
+  // components with the energy ten pairs of random phase, sqrt(10) / 100 of the drift; three standard deviations.
   EXPECT_NEAR(sum / weights, 0, 3 * std::sqrt(10.0) / 100 * half_drift);
   EXPECT_GT(half_drift, 0.05);
 }

@@ -82,8 +82,8 @@ TEST(PassingRadar, BodiesAnswerAsFromTheDirectionsOfItsWay) {
   EXPECT_LT(std::sqrt(difference / power), 0.01);
 }
 
-// Over the sea each way is r^.x or r'.x at the direction of the radar's true place, r' with r_z turned over: a radar that
-// comes nearer in level flight, climbs or passes by sees the image move the other way.
+// Over the sea each way is r^.x or r'.x at the direction of the radar's true place, r' with r_z turned over: a radar
+// that comes nearer in level flight, climbs or passes by sees the image move the other way.
 constexpr double kNearRange = 4e3;
 const std::array<Vec3, 4> kVelocities{Vec3(-300, 0, 0), Vec3(0, 0, 100), Vec3(0, 100, 0), Vec3(-200, 80, -30)};
 
@@ -115,7 +115,9 @@ TEST(PassingRadar, PointsOverTheSeaAnswerFourWaysFromWhereItIs) {
       for (int b = 0; b < sampling.per_pulse; ++b) {
         const double k = 2 * kPi * (sampling.first_hz + b * sampling.step_hz) / kSpeedOfLight;
         const SeaCoefficients rho = sea.at(k, r.z());
-        const auto way = [&](const Complex& c) { return std::polar(1.0, k * r.dot(now)) + c * std::polar(1.0, k * image.dot(now)); };
+        const auto way = [&](const Complex& c) {
+          return std::polar(1.0, k * r.dot(now)) + c * std::polar(1.0, k * image.dot(now));
+        };
         const Complex four = way(rho.h) * way(rho.v);
         difference += std::norm(response.at(static_cast<int>(n), b) - four);
         power += std::norm(four);
@@ -139,7 +141,8 @@ TEST(PassingRadar, BodiesOverTheSeaAnswerAsFromTheDirectionsOfItsWay) {
   const SeaMirror sea = rough_water();
   for (const Vec3& velocity : kVelocities) {
     const IntervalSampling sampling = over_the_sea(velocity);
-    const FrequencyResponse passing = respond(scatterer, body, r_hat, Polarisation::kHh, sampling, {}, 2, &sea).response;
+    const FrequencyResponse passing =
+        respond(scatterer, body, r_hat, Polarisation::kHh, sampling, {}, 2, &sea).response;
     double difference = 0, power = 0;
     for (const int n : {0, 7, 15}) {
       IntervalSampling one = sampling;

@@ -140,13 +140,18 @@ TEST(Reading, TheRadarChainsContradictionsAreNamed) {
 // A float and a body at rest stay in the water that a speed would have fall behind.
 TEST(Reading, OnlyModelsThatMakeWayHaveASpeed) {
   for (const char* model : {"fixed", "float"}) {
-    EXPECT_EQ(complaint_about(fmt::format("seaglint: 1\ntargets:\n  a: {{label: 1, mesh: a.glb, motion: {{model: {}, speed_mps: 5}}}}\n", model)),
-              fmt::format("folder/file.yaml:3:{}: targets.a.motion.speed_mps: value '5': must be 0 with model: {}, which stays where it is in "
-                          "the water",
-                          59 + std::string(model).size(), model));
+    EXPECT_EQ(
+        complaint_about(fmt::format(
+            "seaglint: 1\ntargets:\n  a: {{label: 1, mesh: a.glb, motion: {{model: {}, speed_mps: 5}}}}\n", model)),
+        fmt::format("folder/file.yaml:3:{}: targets.a.motion.speed_mps: value '5': must be 0 with model: {}, which "
+                    "stays where it is in "
+                    "the water",
+                    59 + std::string(model).size(), model));
   }
   for (const char* model : {"model: ship", "model: rao, file: a.re1", "model: series, file: a.csv"})
-    EXPECT_EQ(complaint_about(fmt::format("seaglint: 1\ntargets:\n  a: {{label: 1, mesh: a.glb, motion: {{{}, speed_mps: 5}}}}\n", model)), "none");
+    EXPECT_EQ(complaint_about(fmt::format(
+                  "seaglint: 1\ntargets:\n  a: {{label: 1, mesh: a.glb, motion: {{{}, speed_mps: 5}}}}\n", model)),
+              "none");
 }
 
 TEST(Reading, IntraPulseMotionIsForPoints) {
