@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <utility>
 
 #include "sim/geometry/disjoint_sets.h"
 
@@ -28,6 +30,8 @@ Corners corners_of(const TriangleMesh& mesh, std::uint32_t triangle) {
   }
   return c;
 }
+
+std::span<const EdgeUse> uses_of(const Topology& topology, const MeshEdge& edge) { return {topology.uses.data() + edge.first_use, edge.use_count}; }
 
 struct Diagnosis {
   MeshHealth health;
@@ -56,35 +60,79 @@ void find_copies(const TriangleMesh& mesh, Diagnosis& d) {
   }
 }
 
+// The edges as they are once dropped triangles are gone.
+Topology remaining(Topology topology, const std::vector<char>& drop) {
+  std::vector<EdgeUse> uses;
+  for (MeshEdge& edge : topology.edges) {
+    const auto first = static_cast<std::uint32_t>(uses.size());
+    for (const EdgeUse& use : uses_of(topology, edge)) {
+      if (!drop[use.triangle]) uses.push_back(use);
+    }
+    edge.first_use = first;
+    edge.use_count = static_cast<std::uint32_t>(uses.size()) - first;
+  }
+  topology.uses = std::move(uses);
+  std::erase_if(topology.edges, [](const MeshEdge& edge) { return edge.use_count == 0; });
+  return topology;
+}
+
+bool is_mixed(std::span<const EdgeUse> uses) { return uses.size() == 2 && uses[0].forward == uses[1].forward; }
+
+// At the root of each set of triangles: does any edge remain that its own triangles do not run through as often in either direction?
+std::vector<char> unclosed(const Topology& topology, std::size_t triangles, DisjointSets& sets) {
+  std::vector<char> open(triangles, 0);
+  std::vector<EdgeUse> uses;
+  for (const MeshEdge& edge : topology.edges) {
+    const auto all = uses_of(topology, edge);
+    uses.assign(all.begin(), all.end());
+    std::sort(uses.begin(), uses.end(), [&](const EdgeUse& a, const EdgeUse& b) { return sets.root(a.triangle) < sets.root(b.triangle); });
+    for (std::size_t i = 0; i < uses.size();) {
+      const std::uint32_t root = sets.root(uses[i].triangle);
+      int balance = 0;
+      for (; i < uses.size() && sets.root(uses[i].triangle) == root; ++i) balance += uses[i].forward ? 1 : -1;
+      if (balance != 0) open[root] = 1;
+    }
+  }
+  return open;
+}
+
 Diagnosis diagnose(const TriangleMesh& mesh) {
   const std::size_t count = mesh.triangles.size();
   Diagnosis d;
   d.drop.assign(count, 0);
   d.turn.assign(count, 0);
   d.health.triangles = count;
-  const Topology topology = topology_of(mesh);
+  Topology topology = topology_of(mesh);
   for (const std::uint32_t t : topology.degenerate) d.drop[t] = 1;
   d.health.degenerate = topology.degenerate.size();
   find_copies(mesh, d);
+  topology = remaining(std::move(topology), d.drop);
 
-  // Edges as they are once copies are gone.
+  // Only an edge of two says which triangles go on in each other.
   DisjointSets sets(count);
-  std::vector<std::uint32_t> rims;
   for (const MeshEdge& edge : topology.edges) {
-    std::uint32_t uses = 0, first = 0;
-    int balance = 0;
-    for (std::uint32_t u = edge.first_use; u < edge.first_use + edge.use_count; ++u) {
-      const EdgeUse& use = topology.uses[u];
-      if (d.drop[use.triangle]) continue;
-      if (uses++ == 0) first = use.triangle;
-      sets.join(first, use.triangle);
-      balance += use.forward ? 1 : -1;
+    const auto uses = uses_of(topology, edge);
+    if (uses.size() == 2) sets.join(uses[0].triangle, uses[1].triangle);
+    if (uses.size() == 1) ++d.health.open_edges;
+    if (is_mixed(uses)) ++d.health.mixed_edges;
+    if (uses.size() > 2) ++d.health.non_manifold_edges;
+  }
+  // What is closed by that is a body of its own and may touch others along edges. What is not hangs together there, and may be closed as a whole.
+  const std::vector<char> ends = unclosed(topology, count, sets);
+  DisjointSets joined = sets;
+  for (const MeshEdge& edge : topology.edges) {
+    std::uint32_t first = kNoIndex;
+    for (const EdgeUse& use : uses_of(topology, edge)) {
+      if (!ends[sets.root(use.triangle)]) continue;
+      if (first == kNoIndex) first = use.triangle;
+      joined.join(first, use.triangle);
     }
-    if (uses == 0) continue;
-    if (balance != 0) rims.push_back(first);
-    if (uses == 1) ++d.health.open_edges;
-    if (uses == 2 && balance != 0) ++d.health.mixed_edges;
-    if (uses > 2) ++d.health.non_manifold_edges;
+  }
+  const std::vector<char> open = unclosed(topology, count, joined);
+  std::vector<char> has_rim(count, 0);
+  for (const MeshEdge& edge : topology.edges) {
+    const auto uses = uses_of(topology, edge);
+    if (uses.size() == 1 || is_mixed(uses)) has_rim[joined.root(uses[0].triangle)] = 1;
   }
 
   struct Surface {
@@ -93,13 +141,13 @@ Diagnosis diagnose(const TriangleMesh& mesh) {
     std::size_t triangles = 0;
   };
   std::vector<Surface> surfaces(count);  // at their root
-  for (const std::uint32_t t : rims) surfaces[sets.root(t)].open = true;
   // Volumes about a point of the mesh: far from the origin the divergence theorem's terms would cancel badly.
   const Bounds box = bounds(mesh);
   const Vec3 centre = (box.lower + box.upper) / 2;
   for (std::uint32_t t = 0; t < count; ++t) {
     if (d.drop[t]) continue;
-    Surface& surface = surfaces[sets.root(t)];
+    Surface& surface = surfaces[joined.root(t)];
+    surface.open = open[joined.root(t)];
     const Vec3 area = area_vector(mesh, t);
     surface.volume += (mesh.vertices[mesh.triangles[t][0]] - centre).dot(area) / 3;
     surface.area += area.norm();
@@ -109,15 +157,17 @@ Diagnosis diagnose(const TriangleMesh& mesh) {
   constexpr double kLeastVolume = 1e-9;  // of size times area
   const double size = (box.upper - box.lower).norm();
   const auto inverted = [&](const Surface& s) { return !s.open && s.volume < -kLeastVolume * size * s.area; };
-  for (const Surface& surface : surfaces) {
+  for (std::uint32_t root = 0; root < count; ++root) {
+    const Surface& surface = surfaces[root];
     if (surface.triangles == 0) continue;
     ++d.health.surfaces;
     d.health.open_surfaces += surface.open;
+    d.health.branching_surfaces += surface.open && !has_rim[root];
     if (!inverted(surface)) continue;
     ++d.health.inverted_surfaces;
     d.health.inverted_triangles += surface.triangles;
   }
-  for (std::uint32_t t = 0; t < count; ++t) d.turn[t] = !d.drop[t] && inverted(surfaces[sets.root(t)]);
+  for (std::uint32_t t = 0; t < count; ++t) d.turn[t] = !d.drop[t] && inverted(surfaces[joined.root(t)]);
   return d;
 }
 
@@ -143,7 +193,12 @@ std::vector<std::string> findings(const MeshHealth& h) {
     found.push_back(counted(h.mixed_edges, "edge has", "edges have") +
                     " neighbours that face opposite ways: their surfaces are taken as sheets, seen from both sides");
   }
-  if (h.non_manifold_edges > 0) found.push_back(counted(h.non_manifold_edges, "edge has", "edges have") + " three triangles or more");
+  if (h.non_manifold_edges > 0) {
+    found.push_back(counted(h.non_manifold_edges, "edge has", "edges have") + " three triangles or more" +
+                    (h.branching_surfaces == 0 ? std::string()
+                                               : fmt::format("; {} there: no telling which side is inside, taken as sheets, seen from both sides",
+                                                             counted(h.branching_surfaces, "surface that branches", "surfaces that branch"))));
+  }
   if (h.two_sided > 0) found.push_back(counted(h.two_sided, "triangle is", "triangles are") + " the back of another: left out, a sheet is seen from both sides");
   return found;
 }

@@ -11,7 +11,8 @@
 
 namespace seaglint {
 
-// Surfaces are triangles that hang together along edges. One is closed when every edge is run through as often in either direction.
+// Surfaces are triangles that hang together along edges of two. One is closed when every edge is run through as often in either direction: it is judged by
+// itself, though it may touch others along edges of four and more. Those that end at such edges hang together there too.
 struct MeshHealth {
   std::size_t triangles = 0;
   std::size_t degenerate = 0;    // without area
@@ -23,6 +24,7 @@ struct MeshHealth {
   std::size_t mixed_edges = 0;   // whose two triangles face opposite ways
   std::size_t surfaces = 0;
   std::size_t open_surfaces = 0;
+  std::size_t branching_surfaces = 0;  // of them without open or mixed edges: three or five triangles meet somewhere
   std::size_t inverted_surfaces = 0;   // closed and enclosing a negative volume: inside out
   std::size_t inverted_triangles = 0;  // of those surfaces
 };

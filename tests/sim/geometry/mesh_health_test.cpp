@@ -4,7 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "sim/core/constants.h"
 #include "sim/geometry/generators.h"
+#include "sim/geometry/mesh_builder.h"
 
 namespace seaglint {
 namespace {
@@ -87,6 +91,60 @@ TEST(MeshHealth, CountsEdgesOfThreeTriangles) {
   fin.vertices.push_back({1, 0, 0});
   add(fin, {fin.triangles[0][0], fin.triangles[0][2], static_cast<std::uint32_t>(fin.vertices.size() - 1)});  // on the diagonal
   EXPECT_EQ(examine(fin).non_manifold_edges, 1u);
+}
+
+// A cube of edge 1 with its lower corner here.
+TriangleMesh cube_at(const Vec3& lower) {
+  MeshBuilder builder;
+  for (int i = 0; i < 8; ++i) builder.vertex(lower + Vec3(i & 1, (i >> 1) & 1, i >> 2));
+  builder.quad(0, 2, 3, 1), builder.quad(4, 5, 7, 6), builder.quad(0, 1, 5, 4);
+  builder.quad(2, 6, 7, 3), builder.quad(0, 4, 6, 2), builder.quad(1, 3, 7, 5);
+  return builder.take();
+}
+
+TEST(MeshHealth, JudgesBodiesThatTouchAlongAnEdgeEachByItself) {
+  const TriangleMesh first = cube_at(Vec3::Zero()), second = cube_at({1, 1, 0});
+  ASSERT_NEAR(enclosed_volume(first), 1, 1e-12);
+  for (const bool larger_first : {true, false}) {
+    TriangleMesh inverted = second;
+    for (std::size_t t = 0; t < inverted.triangles.size(); ++t) flip(inverted, t);
+    TriangleMesh both = larger_first ? first : inverted;
+    both.append(larger_first ? inverted : first);
+    both = welded(both);
+    const MeshHealth health = examine(both);
+    EXPECT_EQ(health.non_manifold_edges, 1u);
+    EXPECT_EQ(health.surfaces, 2u);
+    EXPECT_EQ(health.open_surfaces, 0u);
+    EXPECT_EQ(health.inverted_triangles, 12u);
+    EXPECT_NEAR(enclosed_volume(repaired(both)), 2, 1e-12);
+  }
+}
+
+// Two caps and two discs between them on one ring of edges: none is closed alone, all together are the skin of a hollow body.
+TEST(MeshHealth, JudgesPiecesThatOnlyCloseTogetherAsOne) {
+  MeshBuilder builder;
+  for (int i = 0; i < 4; ++i) builder.vertex({std::cos(i * kPi / 2), std::sin(i * kPi / 2), 0});
+  for (const double z : {1.0, -1.0, 0.2, -0.2}) builder.vertex({0, 0, z});
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    const std::uint32_t next = (i + 1) % 4;
+    builder.triangle(i, next, 4), builder.triangle(next, i, 5), builder.triangle(next, i, 6), builder.triangle(i, next, 7);
+  }
+  TriangleMesh mesh = builder.take();
+  const double volume = enclosed_volume(mesh);
+  ASSERT_GT(volume, 1.0);
+  EXPECT_THAT(findings(examine(mesh)), ElementsAre(HasSubstr("4 edges have three triangles or more")));
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) flip(mesh, t);
+  EXPECT_EQ(examine(mesh).inverted_triangles, 16u);
+  EXPECT_NEAR(enclosed_volume(repaired(mesh)), volume, 1e-12);
+}
+
+TEST(MeshHealth, SaysWhereAPartitionLeavesNoInside) {
+  TriangleMesh divided = cube_at(Vec3::Zero());
+  for (const auto& t : {std::array<std::uint32_t, 3>{0, 1, 7}, {0, 7, 6}}) add(divided, t);  // a slanting wall from edge to edge
+  const MeshHealth health = examine(divided);
+  EXPECT_EQ(health.open_edges, 0u);
+  EXPECT_EQ(health.branching_surfaces, 1u);
+  EXPECT_THAT(findings(health), ElementsAre(HasSubstr("1 surface that branches there: no telling which side is inside")));
 }
 
 }  // namespace
