@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 
 #include "sim/core/error.h"
 #include "sim/geometry/polygon_file.h"
+#include "sim/geometry/split_polygon.h"
 #include "sim/geometry/text_number.h"
 
 namespace seaglint {
@@ -51,11 +53,17 @@ class ObjCheck {
       fail(fmt::format("{} lines begin with v, {} of them are vertices: a backslash joins one to the line before it",
                        vertex_count_, vertices_so_far_));
     }
-    plain_.bytes += faces_;
+    for (const Face& face : faces_) write(face);
     return std::move(plain_);
   }
 
  private:
+  struct Face {
+    std::size_t first, count;  // corners
+    std::size_t line;
+    std::uint16_t part;
+  };
+
   [[noreturn]] void fail(const std::string& what) const {
     throw InputError(fmt::format("{}:{}: {}", file_, line_, what));
   }
@@ -82,6 +90,7 @@ class ObjCheck {
       const auto number = number_of(word);
       const auto coordinate = number ? coordinate_of(*number) : std::nullopt;
       if (!coordinate) fail(fmt::format("\"{}\" is not a coordinate", word));
+      positions_.push_back(*coordinate);
       fmt::format_to(std::back_inserter(plain_.bytes), " {}", *coordinate);
     }
     plain_.bytes += '\n';
@@ -89,7 +98,7 @@ class ObjCheck {
   }
 
   void face(std::string_view line) {
-    corners_.clear();
+    const std::size_t first = corners_.size();
     for (std::string_view word = next_word(line); !word.empty() && word[0] != '#'; word = next_word(line)) {
       const auto value = integer_of(word.substr(0, word.find('/')));
       if (!value || *value == 0) fail(fmt::format("\"{}\" is not a corner of a face", word));
@@ -97,18 +106,29 @@ class ObjCheck {
       const std::int64_t index = *value > 0 ? *value : vertices_so_far_ + *value + 1;
       if (index < 1 || index > vertex_count_)
         fail(fmt::format("the face names vertex {}, there are {}", *value, vertex_count_));
-      corners_.push_back(index);
+      corners_.push_back(static_cast<std::uint32_t>(index - 1));
     }
-    if (corners_.size() < 3) fail(fmt::format("a face of {} corners", corners_.size()));
-    for (std::size_t i = 1; i + 1 < corners_.size(); ++i) triangle(corners_[0], corners_[i], corners_[i + 1]);
+    const std::size_t count = corners_.size() - first;
+    if (count < 3) fail(fmt::format("a face of {} corners", count));
+    if (plain_.part_names.empty()) plain_.part_names.push_back("body");
+    faces_.push_back({first, count, line_, part_});
   }
 
-  void triangle(std::int64_t a, std::int64_t b, std::int64_t c) {
-    if (a == b || b == c || c == a) return;
-    fmt::format_to(std::back_inserter(faces_), "f {} {} {}\n", a, b, c);
-    ++plain_.triangle_count;
-    if (plain_.part_names.empty()) plain_.part_names.push_back("body");
-    plain_.triangle_part.push_back(part_);
+  // Once all vertices are known.
+  void write(const Face& face) {
+    line_ = face.line;
+    const std::span<const std::uint32_t> corners(corners_.data() + face.first, face.count);
+    polygon_.clear();
+    for (const std::uint32_t v : corners) polygon_.push_back({positions_[3 * v], positions_[3 * v + 1], positions_[3 * v + 2]});
+    const auto triangles = split_polygon(polygon_);
+    if (!triangles) fail(unsplit_polygon(face.count));
+    for (const auto& [i, j, k] : *triangles) {
+      const std::uint32_t a = corners[i], b = corners[j], c = corners[k];
+      if (a == b || b == c || c == a) continue;
+      fmt::format_to(std::back_inserter(plain_.bytes), "f {} {} {}\n", a + 1, b + 1, c + 1);
+      ++plain_.triangle_count;
+      plain_.triangle_part.push_back(face.part);
+    }
   }
 
   void group(std::string_view line) {
@@ -128,8 +148,10 @@ class ObjCheck {
   std::string_view rest_;
   const std::string& file_;
   PlainPolygons plain_;
-  std::string faces_;
-  std::vector<std::int64_t> corners_;
+  std::vector<float> positions_;
+  std::vector<std::uint32_t> corners_;  // of all faces
+  std::vector<Face> faces_;
+  std::vector<Vec3> polygon_;
   std::int64_t vertex_count_ = 0;
   std::int64_t vertices_so_far_ = 0;
   std::size_t line_ = 0;

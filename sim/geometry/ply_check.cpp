@@ -5,9 +5,11 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <span>
 
 #include "sim/core/error.h"
 #include "sim/geometry/polygon_file.h"
+#include "sim/geometry/split_polygon.h"
 #include "sim/geometry/text_number.h"
 
 namespace seaglint {
@@ -99,6 +101,8 @@ class PlyCheck {
     for (std::uint32_t index : corners_) {
       if (index >= vertex_count_) fail(fmt::format("a face names vertex {}, there are {}", index, vertex_count_));
     }
+    std::size_t first = 0;
+    for (std::size_t face = 0; face < corner_count_.size(); first += corner_count_[face++]) split(face, {corners_.data() + first, corner_count_[face]});
     return written();
   }
 
@@ -247,41 +251,52 @@ class PlyCheck {
     // Before the loop, whose count nothing bounds where the faces have no properties.
     if (element.count > 0 && std::none_of(element.properties.begin(), element.properties.end(), has_corners))
       fail("its faces have no vertex_indices");
-    std::vector<std::uint32_t> polygon;
     for (std::uint64_t i = 0; i < element.count; ++i) {
       for (const Property& property : element.properties) {
         if (!has_corners(property)) {
           skip(property);
           continue;
         }
-        polygon.clear();
         const std::uint64_t count = read_count(property);
         for (std::uint64_t k = 0; k < count; ++k) {
           const double index = read(property.value);
           if (!(index >= 0 && index < 2147483648.0)) fail(fmt::format("face {} names vertex {}", i, index));
-          polygon.push_back(static_cast<std::uint32_t>(index));
+          corners_.push_back(static_cast<std::uint32_t>(index));
         }
         if (count < 3) fail(fmt::format("face {} has {} corners", i, count));
-        for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
-          if (polygon[0] == polygon[k] || polygon[k] == polygon[k + 1] || polygon[k + 1] == polygon[0]) continue;
-          corners_.insert(corners_.end(), {polygon[0], polygon[k], polygon[k + 1]});
-        }
+        corner_count_.push_back(static_cast<std::uint32_t>(count));
       }
+    }
+  }
+
+  // Once all vertices are known.
+  void split(std::size_t face, std::span<const std::uint32_t> corners) {
+    polygon_.clear();
+    for (const std::uint32_t v : corners) {
+      std::array<float, 3> p;
+      std::memcpy(p.data(), positions_.data() + v * sizeof p, sizeof p);
+      polygon_.push_back({p[0], p[1], p[2]});
+    }
+    const auto triangles = split_polygon(polygon_);
+    if (!triangles) fail(fmt::format("face {}: {}", face, unsplit_polygon(corners.size())));
+    for (const auto& [i, j, k] : *triangles) {
+      const std::uint32_t a = corners[i], b = corners[j], c = corners[k];
+      if (a != b && b != c && c != a) triangles_.insert(triangles_.end(), {a, b, c});
     }
   }
 
   PlainPolygons written() const {
     PlainPolygons plain;
-    plain.triangle_count = corners_.size() / 3;
+    plain.triangle_count = triangles_.size() / 3;
     plain.bytes = fmt::format(
         "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float "
         "z\n"
         "element face {}\nproperty list uchar uint vertex_indices\nend_header\n",
         vertex_count_, plain.triangle_count);
     plain.bytes += positions_;
-    for (std::size_t i = 0; i < corners_.size(); i += 3) {
+    for (std::size_t i = 0; i < triangles_.size(); i += 3) {
       plain.bytes += '\3';
-      plain.bytes.append(reinterpret_cast<const char*>(&corners_[i]), 12);
+      plain.bytes.append(reinterpret_cast<const char*>(&triangles_[i]), 12);
     }
     return plain;
   }
@@ -293,7 +308,10 @@ class PlyCheck {
   std::vector<Element> elements_;
   std::uint64_t vertex_count_ = 0;
   std::string positions_;
-  std::vector<std::uint32_t> corners_;
+  std::vector<std::uint32_t> corners_;       // of all faces
+  std::vector<std::uint32_t> corner_count_;  // of each
+  std::vector<Vec3> polygon_;
+  std::vector<std::uint32_t> triangles_;
 };
 
 }  // namespace

@@ -22,8 +22,8 @@ struct PlainPolygons {
   std::vector<std::uint16_t> triangle_part;  // as many as triangles, or none
 };
 
-// One for each format. InputError names the file, the line or byte, and what is wrong. Polygons become fans; triangles
-// with two equal corners are left out.
+// One for each format. InputError names the file, the line or byte, and what is wrong. Polygons are split
+// (split_polygon); triangles with two equal corners are left out.
 PlainPolygons plain_obj(std::string_view bytes, const std::string& file);
 PlainPolygons plain_stl(std::string bytes, const std::string& file);
 PlainPolygons plain_ply(std::string_view bytes, const std::string& file);

@@ -226,6 +226,22 @@ TEST_F(MeshFile, ObjReadsPolygonsRelativeIndicesAndContinuedLines) {
   EXPECT_EQ(mesh.part_names, std::vector<std::string>{"box lid"});
 }
 
+TEST_F(MeshFile, ConcavePolygonsAreCoveredOnce) {
+  // An L of area 3, from a corner whose fan would reach outside; its vertices stand behind the face.
+  const std::string corners = "1 0 0\n2 0 0\n2 1 0\n1 1 0\n1 2 0\n0 2 0\n0 0 0\n";
+  std::string obj = "f 2 3 4 5 6 7 1\n";
+  std::istringstream lines(corners);
+  for (std::string line; std::getline(lines, line);) obj += "v " + line + "\n";
+  EXPECT_NEAR(surface_area(read_mesh(put("a.obj", obj))), 3.0, 1e-12);
+  const std::string header = "property float x\nproperty float y\nproperty float z\n";
+  const auto ply = [&](const std::string& face) {
+    return put("a.ply", "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_indices\nelement vertex 7\n" + header + "end_header\n" + face + corners);
+  };
+  EXPECT_NEAR(surface_area(read_mesh(ply("7 1 2 3 4 5 6 0\n"))), 3.0, 1e-12);
+  expect_error(ply("4 0 2 1 5\n"), "face 0: a polygon of 4 corners that crosses itself");
+  expect_error(put("a.obj", obj + "f 1 3 2 6\n"), ":9: a polygon of 4 corners that crosses itself");
+}
+
 // A comment that ends in a backslash, as Windows' folders do, ends with its line; so does one behind numbers.
 TEST_F(MeshFile, ObjCommentsNeverGoOnInTheNextLine) {
   const std::string corners = "v 0 0 0\nv 2 0 0\nv 0 1 0\nv 0 3 0\n";
