@@ -87,8 +87,7 @@ void warn(const std::vector<std::string>& sentences) {
 }
 
 // The mesh as the solver takes it, with a warning for everything that is wrong with the file's.
-TriangleMesh read_sound_mesh(const std::string& file, const std::string& unit) {
-  const TriangleMesh mesh = read_mesh(file, unit);
+TriangleMesh sound_mesh(const TriangleMesh& mesh, const std::string& file) {
   TriangleMesh sound = repaired(mesh);
   if (sound.triangles.empty()) throw InputError(fmt::format("{}: no triangle has an area: nothing scatters", file));
   warn(findings(examine(mesh)));
@@ -264,8 +263,9 @@ void run_rcs(const RcsArguments& arguments, const Shell& shell) {
   const std::vector<RcsReference> references = arguments.reference.read();
   for (const RcsReference& reference : references) pair_with(sweep, reference);
 
-  TriangleMesh mesh = read_sound_mesh(arguments.target, arguments.unit);
+  TriangleMesh mesh = read_mesh(arguments.target, arguments.unit);
   std::vector<MaterialSpec> materials = choose_materials(arguments.materials, mesh);
+  mesh = sound_mesh(mesh, arguments.target);
   const auto [lowest, highest] = std::minmax_element(sweep.frequency_hz.begin(), sweep.frequency_hz.end());
   check_frequencies(materials, *lowest, *highest);
   warn(check_target(mesh, *lowest));

@@ -88,9 +88,10 @@ Target load_target(const Scenario& scenario, const TargetSpec& spec) {
   Target target;
   target.spec = spec;
   if (spec.mesh.empty()) return target;
-  target.mesh = repaired(read_mesh(find_mesh(scenario, spec), spec.unit));
-  check_scene_range(scenario, spec, target.mesh);
+  target.mesh = read_mesh(find_mesh(scenario, spec), spec.unit);
   target.materials = load_materials(scenario, spec, target.mesh);
+  target.mesh = repaired(target.mesh);
+  check_scene_range(scenario, spec, target.mesh);
   target.body = load_body(scenario, spec, target.mesh);
   // The radar's image looks at the hull from below.
   if (scenario.sea_reflection.enabled)

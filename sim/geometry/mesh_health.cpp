@@ -39,8 +39,8 @@ struct Diagnosis {
   std::vector<char> turn;  // of an inverted surface
 };
 
-// Marks what is there more than once.
-void find_copies(const TriangleMesh& mesh, Diagnosis& d) {
+// Marks what is there more than once. Returned are the backs of another material than their fronts, front and back.
+std::vector<std::array<std::uint32_t, 2>> find_copies(const TriangleMesh& mesh, Diagnosis& d) {
   std::vector<Corners> all;
   all.reserve(mesh.triangles.size());
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -49,15 +49,26 @@ void find_copies(const TriangleMesh& mesh, Diagnosis& d) {
   std::sort(all.begin(), all.end(), [](const Corners& a, const Corners& b) {
     return a.sorted != b.sorted ? a.sorted < b.sorted : a.triangle < b.triangle;
   });
+  std::vector<std::array<std::uint32_t, 2>> backs;
   for (std::size_t i = 0; i < all.size();) {
     // The first stays; what faces the same way repeats it, what faces the other way is its back.
+    const Corners& front = all[i];
+    bool has_back = false;
     std::size_t next = i + 1;
-    for (; next < all.size() && all[next].sorted == all[i].sorted; ++next) {
-      d.drop[all[next].triangle] = 1;
-      ++(all[next].even == all[i].even ? d.health.repeated : d.health.two_sided);
+    for (; next < all.size() && all[next].sorted == front.sorted; ++next) {
+      const Corners& copy = all[next];
+      const bool differs = copy.even != front.even && mesh.triangle_material[copy.triangle] != mesh.triangle_material[front.triangle];
+      if (differs && !has_back) {
+        backs.push_back({front.triangle, copy.triangle});
+        has_back = true;
+      } else {
+        d.drop[copy.triangle] = 1;
+        ++(copy.even == front.even ? d.health.repeated : d.health.two_sided);
+      }
     }
     i = next;
   }
+  return backs;
 }
 
 // The edges as they are once dropped triangles are gone.
@@ -96,6 +107,29 @@ std::vector<char> unclosed(const Topology& topology, std::size_t triangles, Disj
   return open;
 }
 
+// A sheet of two materials needs both its sides. The solver tells them apart where what hangs together with them is closed; elsewhere it looks at either side of
+// every triangle, and the first of two that coincide hides the other from both.
+void choose_backs(const TriangleMesh& mesh, const Topology& topology, std::span<const std::array<std::uint32_t, 2>> backs, Diagnosis& d) {
+  if (backs.empty()) return;
+  const Topology left = remaining(topology, d.drop);
+  DisjointSets sets(mesh.triangles.size());
+  for (const MeshEdge& edge : left.edges) {
+    for (const EdgeUse& use : uses_of(left, edge)) sets.join(left.uses[edge.first_use].triangle, use.triangle);
+  }
+  const std::vector<char> open = unclosed(left, mesh.triangles.size(), sets);
+  for (const auto& [front, back] : backs) {
+    if (!open[sets.root(front)]) {
+      ++d.health.other_sides;
+      continue;
+    }
+    d.drop[back] = 1;
+    if (d.health.lost_sides++ == 0) {
+      d.health.lost_part = mesh.part_names[mesh.triangle_part[back]];
+      d.health.lost_behind = mesh.part_names[mesh.triangle_part[front]];
+    }
+  }
+}
+
 Diagnosis diagnose(const TriangleMesh& mesh) {
   const std::size_t count = mesh.triangles.size();
   Diagnosis d;
@@ -105,7 +139,8 @@ Diagnosis diagnose(const TriangleMesh& mesh) {
   Topology topology = topology_of(mesh);
   for (const std::uint32_t t : topology.degenerate) d.drop[t] = 1;
   d.health.degenerate = topology.degenerate.size();
-  find_copies(mesh, d);
+  const auto backs = find_copies(mesh, d);
+  choose_backs(mesh, topology, backs, d);
   topology = remaining(std::move(topology), d.drop);
 
   // Only an edge of two says which triangles go on in each other.
@@ -199,7 +234,12 @@ std::vector<std::string> findings(const MeshHealth& h) {
                                                : fmt::format("; {} there: no telling which side is inside, taken as sheets, seen from both sides",
                                                              counted(h.branching_surfaces, "surface that branches", "surfaces that branch"))));
   }
-  if (h.two_sided > 0) found.push_back(counted(h.two_sided, "triangle is", "triangles are") + " the back of another: left out, a sheet is seen from both sides");
+  if (h.two_sided > 0) found.push_back(counted(h.two_sided, "triangle is", "triangles are") + " the back of another: left out, a sheet of one material is seen from both sides");
+  if (h.lost_sides > 0) {
+    found.push_back(fmt::format("{} the back of another in another material, the first of them of part '{}' behind part '{}': left out, their surfaces are open; "
+                                "both sides answer as the front does",
+                                counted(h.lost_sides, "triangle is", "triangles are"), h.lost_part, h.lost_behind));
+  }
   return found;
 }
 

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "sim/core/constants.h"
@@ -84,6 +85,44 @@ TEST(MeshHealth, LeavesOneSideOfSheetsOfTwo) {
   EXPECT_EQ(health.open_edges, 4u);
   EXPECT_THAT(findings(health), ElementsAre(HasSubstr("4 open edges"), HasSubstr("2 triangles are the back of another")));
   EXPECT_EQ(repaired(two_sided).triangles, sheet.triangles);
+}
+
+// A plate whose back is a part and a material of its own, in either order.
+TriangleMesh plate_of_two_materials(bool front_first) {
+  TriangleMesh mesh = make_plate(1, 1);
+  mesh.part_names = {"front", "back"};
+  mesh.materials = {Material{"pec"}, Material{"canvas"}};
+  const auto front = mesh.triangles;
+  for (const auto& t : front) add(mesh, {t[0], t[2], t[1]});
+  mesh.triangle_part = mesh.triangle_material = {0, 0, 1, 1};
+  if (!front_first) {
+    std::rotate(mesh.triangles.begin(), mesh.triangles.begin() + 2, mesh.triangles.end());
+    mesh.triangle_part = mesh.triangle_material = {1, 1, 0, 0};
+  }
+  return mesh;
+}
+
+TEST(MeshHealth, KeepsBothSidesOfASheetOfTwoMaterials) {
+  for (const bool front_first : {true, false}) {
+    TriangleMesh mesh = plate_of_two_materials(front_first);
+    EXPECT_EQ(examine(mesh).other_sides, 2u);
+    EXPECT_EQ(examine(mesh).open_surfaces, 0u);
+    EXPECT_EQ(repaired(mesh).triangles, mesh.triangles);
+    EXPECT_EQ(repaired(mesh).triangle_material, mesh.triangle_material);
+    add(mesh, mesh.triangles[2]);  // a second copy of the later side
+    EXPECT_EQ(repaired(mesh).triangles.size(), 4u);
+    mesh.triangle_material.assign(5, 0);
+    EXPECT_EQ(repaired(mesh).triangles.size(), 2u) << "parts of one material are one sheet";
+  }
+}
+
+TEST(MeshHealth, NamesTheSideThatAnOpenSurfaceLoses) {
+  TriangleMesh mesh = plate_of_two_materials(true);
+  mesh.vertices.push_back({1, 0, 0});
+  add(mesh, {mesh.triangles[0][0], mesh.triangles[0][1], static_cast<std::uint32_t>(mesh.vertices.size() - 1)});  // a fin of one side
+  EXPECT_EQ(examine(mesh).lost_sides, 2u);
+  EXPECT_THAT(findings(examine(mesh)), testing::Contains(HasSubstr("2 triangles are the back of another in another material, the first of them of part 'back' behind part 'front'")));
+  EXPECT_EQ(repaired(mesh).triangles.size(), 3u);
 }
 
 TEST(MeshHealth, CountsEdgesOfThreeTriangles) {

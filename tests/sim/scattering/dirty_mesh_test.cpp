@@ -5,6 +5,7 @@
 
 #include "sim/geometry/generators.h"
 #include "sim/geometry/mesh_health.h"
+#include "sim/scattering/material_parts.h"
 #include "tests/sim/scattering/echoes.h"
 
 namespace seaglint {
@@ -67,6 +68,39 @@ TEST(DirtyMesh, OfTwoSidedSheetsEchoesAsTheSheets) {
   TriangleMesh two_sided = sheet;
   for (const auto& t : sheet.triangles) add(two_sided, {t[0], t[2], t[1]});
   EXPECT_LT(difference(sheet, repaired(two_sided)), kRounding);
+}
+
+// Front and back of a corner are parts of their own, of conductor and of an impedance: from either side what stands there answers, whichever part comes first.
+TEST(DirtyMesh, SheetsOfTwoMaterialsShowEachSideItsOwn) {
+  MaterialSpec dull;
+  dull.name = "dull";
+  dull.kind = SurfaceKind::kImpedance;
+  dull.resistance = 0.5;
+  const TriangleMesh sheet = make_triangular_trihedral(0.3);
+  const auto side = [&](const std::string& name, bool back) {
+    TriangleMesh mesh = sheet;
+    mesh.part_names = {name};
+    mesh.triangle_part.assign(mesh.triangles.size(), 0);
+    for (std::size_t t = 0; back && t < mesh.triangles.size(); ++t) flip(mesh, t);
+    return mesh;
+  };
+  const auto seen = [&](TriangleMesh mesh, const Vec3& r_hat, const std::vector<PartMaterial>& parts) {
+    const auto materials = assign_materials(mesh, {}, parts);
+    return echo(Scatterer(repaired(mesh), materials, radians(20)), radar_basis(r_hat), k10);
+  };
+  for (const char* first : {"front", "back"}) {
+    const bool back_first = first == std::string("back");
+    TriangleMesh both = side(first, back_first);
+    both.append(side(back_first ? "front" : "back", !back_first));
+    both = welded(both);
+    const Vec3 into = direction(40, 30), behind = direction(220, -30);
+    const auto front = seen(both, into, {{"back", dull}}), front_alone = seen(side("front", false), into, {});
+    const auto back = seen(both, behind, {{"back", dull}}), back_alone = seen(side("back", true), behind, {{"back", dull}});
+    for (int i = 0; i < 4; ++i) {
+      EXPECT_LT(std::abs(front[i] - front_alone[i]), 1e-6 * largest(front_alone)) << first << " comes first";
+      EXPECT_LT(std::abs(back[i] - back_alone[i]), 1e-6 * largest(back_alone)) << first << " comes first";
+    }
+  }
 }
 
 }  // namespace
