@@ -35,12 +35,16 @@ std::string counts_line(const TriangleMesh& mesh) {
 
 // One line for each part: triangles, volume where it is closed, material.
 std::string part_lines(const TriangleMesh& mesh, const Topology& topology) {
+  std::vector<std::size_t> count(mesh.part_names.size(), 0);
+  std::vector<double> volume(mesh.part_names.size(), 0);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    ++count[mesh.triangle_part[t]];
+    volume[mesh.triangle_part[t]] += mesh.vertices[mesh.triangles[t][0]].dot(area_vector(mesh, t)) / 3;
+  }
   std::string text = fmt::format("parts      {}\n", mesh.part_names.size());
   for (std::size_t p = 0; p < mesh.part_names.size(); ++p) {
-    const TriangleMesh part = part_of(mesh, p);
-    const std::string state =
-        topology.part_closed[p] ? fmt::format("closed, {:.6g} m^3", enclosed_volume(part)) : "open";
-    text += fmt::format("  {:<24} {:>7} triangles, {}\n", mesh.part_names[p], part.triangles.size(), state);
+    const std::string state = topology.part_closed[p] ? fmt::format("closed, {:.6g} m^3", volume[p]) : "open";
+    text += fmt::format("  {:<24} {:>7} triangles, {}\n", mesh.part_names[p], count[p], state);
   }
   return text;
 }

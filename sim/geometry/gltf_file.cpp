@@ -6,7 +6,8 @@
 
 #include <algorithm>
 #include <cstring>
-#include <limits>
+#include <numeric>
+#include <span>
 #include <sstream>
 #include <system_error>
 #include <vector>
@@ -257,25 +258,38 @@ class Reader {
 
 // One part of one material with its own float32 vertices in glTF's axes.
 struct Piece {
+  std::uint16_t part = 0, material = 0;
   std::vector<float> positions;
   std::vector<std::uint32_t> indices;
 };
 
-Piece piece_of(const TriangleMesh& mesh, std::size_t part, std::size_t material) {
-  Piece piece;
-  std::vector<std::uint32_t> index(mesh.vertices.size(), std::numeric_limits<std::uint32_t>::max());
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (mesh.triangle_part[t] != part || mesh.triangle_material[t] != material) continue;
+// Ascending in part, then material.
+std::vector<Piece> pieces_of(const TriangleMesh& mesh) {
+  std::vector<std::size_t> order(mesh.triangles.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto key = [&](std::size_t t) { return std::pair{mesh.triangle_part[t], mesh.triangle_material[t]}; };
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+
+  std::vector<Piece> pieces;
+  struct Placed {
+    std::size_t pieces = 0;  // as many as there were when it was placed last
+    std::uint32_t index = 0;
+  };
+  std::vector<Placed> placed(mesh.vertices.size());
+  for (const std::size_t t : order) {
+    const auto [part, material] = key(t);
+    if (pieces.empty() || pieces.back().part != part || pieces.back().material != material) pieces.push_back({part, material, {}, {}});
+    Piece& piece = pieces.back();
     for (std::uint32_t v : mesh.triangles[t]) {
-      if (index[v] == std::numeric_limits<std::uint32_t>::max()) {
-        index[v] = static_cast<std::uint32_t>(piece.positions.size() / 3);
+      if (placed[v].pieces != pieces.size()) {
+        placed[v] = {pieces.size(), static_cast<std::uint32_t>(piece.positions.size() / 3)};
         const Vec3 p = body_from_gltf().transpose() * mesh.vertices[v];
         for (int i = 0; i < 3; ++i) piece.positions.push_back(static_cast<float>(p[i]) + 0.0f);
       }
-      piece.indices.push_back(index[v]);
+      piece.indices.push_back(placed[v].index);
     }
   }
-  return piece;
+  return pieces;
 }
 
 class Writer {
@@ -299,7 +313,13 @@ class Writer {
       model_.materials.back().pbrMetallicRoughness.baseColorFactor = {red, green, blue, 1.0};
       model_.materials.back().pbrMetallicRoughness.metallicFactor = 0;
     }
-    for (std::size_t part = 0; part < mesh.part_names.size(); ++part) add_part(mesh, part);
+    const std::vector<Piece> pieces = pieces_of(mesh);
+    for (std::size_t first = 0; first < pieces.size();) {
+      std::size_t end = first;
+      while (end < pieces.size() && pieces[end].part == pieces[first].part) ++end;
+      add_part(mesh.part_names[pieces[first].part], {pieces.data() + first, end - first});
+      first = end;
+    }
   }
 
   std::string bytes(bool binary) {
@@ -311,14 +331,10 @@ class Writer {
   }
 
  private:
-  void add_part(const TriangleMesh& mesh, std::size_t part) {
+  void add_part(const std::string& name, std::span<const Piece> pieces) {
     tinygltf::Mesh shape;
-    shape.name = mesh.part_names[part];
-    for (std::size_t material = 0; material < mesh.materials.size(); ++material) {
-      const Piece piece = piece_of(mesh, part, material);
-      if (!piece.indices.empty()) shape.primitives.push_back(primitive(piece, static_cast<int>(material)));
-    }
-    if (shape.primitives.empty()) return;
+    shape.name = name;
+    for (const Piece& piece : pieces) shape.primitives.push_back(primitive(piece, piece.material));
     tinygltf::Node node;
     node.name = shape.name;
     node.mesh = static_cast<int>(model_.meshes.size());

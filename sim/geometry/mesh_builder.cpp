@@ -3,29 +3,29 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <utility>
 
 #include "sim/core/error.h"
 
 namespace seaglint {
+namespace {
+
+constexpr std::size_t kMostNames = 65536;  // of parts or materials: triangles hold 16 bits of each
+
+}  // namespace
 
 void MeshBuilder::begin_part(const std::string& name) {
-  auto& names = mesh_.part_names;
-  auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) found = names.insert(names.end(), name);
-  const auto index = found - names.begin();
-  SEAGLINT_CHECK(index < 65536, fmt::format("{} parts", names.size()));
-  part_ = static_cast<std::uint16_t>(index);
+  const auto [place, is_new] = part_of_name_.try_emplace(name, mesh_.part_names.size());
+  if (is_new) mesh_.part_names.push_back(name);
+  SEAGLINT_CHECK(place->second < kMostNames, fmt::format("{} parts", mesh_.part_names.size()));
+  part_ = static_cast<std::uint16_t>(place->second);
 }
 
 void MeshBuilder::begin_material(const std::string& name) {
-  auto& materials = mesh_.materials;
-  auto found = std::find_if(materials.begin(), materials.end(), [&](const Material& m) { return m.name == name; });
-  if (found == materials.end()) found = materials.insert(materials.end(), Material{name});
-  const auto index = found - materials.begin();
-  SEAGLINT_CHECK(index < 65536, fmt::format("{} materials", materials.size()));
-  material_ = static_cast<std::uint16_t>(index);
+  const auto [place, is_new] = material_of_name_.try_emplace(name, mesh_.materials.size());
+  if (is_new) mesh_.materials.push_back(Material{name});
+  SEAGLINT_CHECK(place->second < kMostNames, fmt::format("{} materials", mesh_.materials.size()));
+  material_ = static_cast<std::uint16_t>(place->second);
 }
 
 std::uint32_t MeshBuilder::vertex(const Vec3& position) {
@@ -46,6 +46,6 @@ void MeshBuilder::quad(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::u
   triangle(a, c, d);
 }
 
-TriangleMesh MeshBuilder::take() { return std::exchange(mesh_, {}); }
+TriangleMesh MeshBuilder::take() { return std::exchange(*this, {}).mesh_; }
 
 }  // namespace seaglint

@@ -4,6 +4,7 @@
 // Collects triangles part by part into a mesh; what every generator and reader writes into.
 
 #include <string>
+#include <unordered_map>
 
 #include "sim/geometry/triangle_mesh.h"
 
@@ -29,6 +30,7 @@ class MeshBuilder {
 
  private:
   TriangleMesh mesh_;
+  std::unordered_map<std::string, std::size_t> part_of_name_, material_of_name_;
   std::uint16_t part_ = 0;
   std::uint16_t material_ = 0;
 };

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <limits>
 #include <span>
+#include <unordered_map>
 
 #include "sim/core/error.h"
 #include "sim/geometry/polygon_file.h"
@@ -110,7 +110,7 @@ class ObjCheck {
     }
     const std::size_t count = corners_.size() - first;
     if (count < 3) fail(fmt::format("a face of {} corners", count));
-    if (plain_.part_names.empty()) plain_.part_names.push_back("body");
+    if (plain_.part_names.empty()) begin_part("body");
     faces_.push_back({first, count, line_, part_});
   }
 
@@ -137,12 +137,15 @@ class ObjCheck {
       if (!name.empty()) name += ' ';
       name += word;
     }
-    if (name.empty()) name = "default";
+    begin_part(name.empty() ? "default" : name);
+  }
+
+  void begin_part(const std::string& name) {
     auto& names = plain_.part_names;
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found == names.end() && names.size() > 65000) fail("more than 65000 groups");
-    part_ = static_cast<std::uint16_t>(found - names.begin());
-    if (found == names.end()) names.push_back(name);
+    const auto [place, is_new] = part_of_name_.try_emplace(name, names.size());
+    if (is_new && names.size() > 65000) fail("more than 65000 groups");
+    if (is_new) names.push_back(name);
+    part_ = static_cast<std::uint16_t>(place->second);
   }
 
   std::string_view rest_;
@@ -155,6 +158,7 @@ class ObjCheck {
   std::int64_t vertex_count_ = 0;
   std::int64_t vertices_so_far_ = 0;
   std::size_t line_ = 0;
+  std::unordered_map<std::string, std::size_t> part_of_name_;
   std::uint16_t part_ = 0;
 };
 

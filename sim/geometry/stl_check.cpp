@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstring>
+#include <unordered_map>
 
 #include "sim/core/error.h"
 #include "sim/geometry/polygon_file.h"
@@ -82,10 +83,10 @@ class AsciiStl {
     std::string name(next_word(line));
     if (name.empty()) name = "body";
     auto& names = plain_.part_names;
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found == names.end() && names.size() > 65000) fail("more than 65000 solids");
-    part_ = static_cast<std::uint16_t>(found - names.begin());
-    if (found == names.end()) names.push_back(name);
+    const auto [place, is_new] = part_of_name_.try_emplace(name, names.size());
+    if (is_new && names.size() > 65000) fail("more than 65000 solids");
+    if (is_new) names.push_back(name);
+    part_ = static_cast<std::uint16_t>(place->second);
   }
 
   float coordinate() {
@@ -121,6 +122,7 @@ class AsciiStl {
   std::string_view rest_;
   const std::string& file_;
   PlainPolygons plain_;
+  std::unordered_map<std::string, std::size_t> part_of_name_;
   std::uint16_t part_ = 0;
 };
 
