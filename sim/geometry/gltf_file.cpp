@@ -23,6 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 using Mat4 = Eigen::Matrix4d;
 
+constexpr std::size_t kMostParts = 65000, kMostMaterials = 65000;
 constexpr std::size_t kMostPlacedTriangles = 50'000'000;  // a mesh may be placed by many nodes
 
 // glTF 2.0, section 3.4: +Y up, +Z forward, so +X is to port. Column i is where glTF's axis i goes in the body frame.
@@ -127,6 +128,7 @@ class Reader {
   Reader(const tinygltf::Model& model, std::string file) : model_(model), file_(std::move(file)) {}
 
   TriangleMesh read() {
+    if (model_.materials.size() > kMostMaterials) throw InputError(fmt::format("{}: {} materials are more than {}", file_, model_.materials.size(), kMostMaterials));
     struct Visit {
       int node;
       Mat4 parent;
@@ -212,6 +214,7 @@ class Reader {
     builder_.begin_part(!node.name.empty()   ? node.name
                         : !mesh.name.empty() ? mesh.name
                                              : fmt::format("mesh_{}", node.mesh));
+    if (builder_.part_count() > kMostParts) throw InputError(fmt::format("{}: its nodes make more than {} parts", file_, kMostParts));
     const bool is_mirrored = world.topLeftCorner<3, 3>().determinant() < 0;
     for (const tinygltf::Primitive& primitive : mesh.primitives) {
       if (primitive.mode >= TINYGLTF_MODE_TRIANGLES) add_primitive(primitive, world, is_mirrored);

@@ -23,6 +23,7 @@ class MeshBuilder {
   // Two triangles a b c, a c d.
   void quad(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d);
 
+  std::size_t part_count() const { return mesh_.part_names.size(); }
   std::size_t triangle_count() const { return mesh_.triangles.size(); }
   const std::vector<Vec3>& vertices() const { return mesh_.vertices; }
 

@@ -137,7 +137,7 @@ class ObjCheck {
       if (!name.empty()) name += ' ';
       name += word;
     }
-    begin_part(name.empty() ? "default" : name);
+    begin_part(name.empty() ? "default" : utf8_of(name));
   }
 
   void begin_part(const std::string& name) {

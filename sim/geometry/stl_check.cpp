@@ -80,7 +80,7 @@ class AsciiStl {
 
   void begin_solid() {
     std::string_view line = next_line(rest_);
-    std::string name(next_word(line));
+    std::string name = utf8_of(next_word(line));
     if (name.empty()) name = "body";
     auto& names = plain_.part_names;
     const auto [place, is_new] = part_of_name_.try_emplace(name, names.size());

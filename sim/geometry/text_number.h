@@ -16,6 +16,9 @@ std::string_view next_word(std::string_view& text);
 // The next line without its line end (\n or \r\n), removed from the front of `text`.
 std::string_view next_line(std::string_view& text);
 
+// A name as UTF-8, which glTF needs: text that is none already is taken as Latin-1.
+std::string utf8_of(std::string_view name);
+
 std::optional<double> number_of(std::string_view word);
 std::optional<std::int64_t> integer_of(std::string_view word);
 

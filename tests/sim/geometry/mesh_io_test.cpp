@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/geometry/mesh_io.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <unistd.h>
 #include <gtest/gtest.h>
@@ -260,7 +261,7 @@ TEST_F(MeshFile, SixtyThousandPartsAreReadAndWrittenInSeconds) {
   constexpr int kParts = 60000;
   std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
   for (const char* face : {"f 1 2 3\n", "f 1 2 4\n"}) {
-    for (int i = 0; i < kParts; ++i) obj += "g part_number_" + std::to_string(i) + "\n" + face;
+    for (int i = 0; i < kParts; ++i) obj += fmt::format("g part_number_{}\n{}", i, face);
   }
   const auto start = std::chrono::steady_clock::now();
   const TriangleMesh mesh = read_mesh(put("a.obj", obj));
@@ -270,6 +271,28 @@ TEST_F(MeshFile, SixtyThousandPartsAreReadAndWrittenInSeconds) {
   EXPECT_EQ(mesh.part_names.size(), std::size_t{kParts});
   EXPECT_EQ(mesh.triangle_part.back(), kParts - 1);
   EXPECT_EQ(read_mesh(folder / "a.glb").part_names, mesh.part_names);
+}
+
+TEST_F(MeshFile, GltfOfTooManyPartsIsRefused) {
+  std::string nodes = R"([{"children":[1)", rest;
+  for (int i = 2; i <= 65001; ++i) nodes += fmt::format(",{}", i);
+  for (int i = 1; i <= 65001; ++i) rest += fmt::format(R"(,{{"mesh":0,"name":"n{}"}})", i);
+  expect_error(put("a.gltf", gltf_with(nodes + "]}" + rest + "]")), "its nodes make more than 65000 parts");
+}
+
+TEST_F(MeshFile, NamesThatAreNotUtf8AreLatin1) {
+  const std::string corners = "v 0 0 0\nv 2 0 0\nv 0 1 0\n";
+  for (const auto& [written, read] : {std::pair<std::string, std::string>{"Br\xFC" "cke", "Br\xC3\xBC" "cke"},
+                                      {"Br\xC3\xBC" "cke", "Br\xC3\xBC" "cke"},
+                                      {"\xE6\xA9\x8B \xF0\x9F\x9A\xA2", "\xE6\xA9\x8B \xF0\x9F\x9A\xA2"},
+                                      {"cut \xC3", "cut \xC3\x83"},
+                                      {"\xED\xA0\x80", "\xC3\xAD\xC2\xA0\xC2\x80"},
+                                      {"\xC0\x80", "\xC3\x80\xC2\x80"}}) {
+    const TriangleMesh mesh = read_mesh(put("a.obj", corners + "g " + written + "\nf 1 2 3\n"));
+    EXPECT_EQ(mesh.part_names, std::vector<std::string>{read});
+    write_mesh(folder / "a.glb", mesh);
+    EXPECT_EQ(read_mesh(folder / "a.glb").part_names, mesh.part_names);
+  }
 }
 
 TEST_F(MeshFile, ObjMayBeginWithAByteOrderMark) {
