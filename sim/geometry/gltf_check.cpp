@@ -267,6 +267,7 @@ class Checker {
       }
       plain["indices"] = indices;
     }
+    if (p.contains("targets")) fail(at + " has morph targets, which are not supported: bake the shape into the positions");
     if (p.contains("material")) plain["material"] = index(p, "material", "materials", at);
     return plain;
   }
@@ -295,6 +296,10 @@ class Checker {
 
   Json node(const Json& n, const std::string& at) const {
     Json plain{{"name", text(n, "name")}};
+    // These would place or bend its mesh.
+    if (n.contains("skin")) fail(at + " has a skin, which is not supported: bake the pose into the positions");
+    const auto extensions = n.find("extensions");
+    if (extensions != n.end() && extensions->contains("EXT_mesh_gpu_instancing")) fail(at + " has instances (EXT_mesh_gpu_instancing), which are not supported: make them nodes");
     if (n.contains("children")) {
       Json children = index_list(n, "children", "nodes", at);
       if (!children.empty()) plain["children"] = children;

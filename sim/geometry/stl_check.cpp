@@ -80,8 +80,12 @@ class AsciiStl {
 
   void begin_solid() {
     std::string_view line = next_line(rest_);
-    std::string name = utf8_of(next_word(line));
-    if (name.empty()) name = "body";
+    std::string name;
+    for (std::string_view word = next_word(line); !word.empty(); word = next_word(line)) {
+      if (!name.empty()) name += ' ';
+      name += word;
+    }
+    name = name.empty() ? "body" : utf8_of(name);
     auto& names = plain_.part_names;
     const auto [place, is_new] = part_of_name_.try_emplace(name, names.size());
     if (is_new && names.size() > 65000) fail("more than 65000 solids");

@@ -192,6 +192,15 @@ TEST_F(MeshFile, GltfThatPromisesWhatItDoesNotHoldIsRefused) {
   expect_error(put("a.gltf", R"({"asset":{"version":"2.0"}})"), "no triangles");
 }
 
+// What would move or bend vertices is not read, and must not be left out in silence.
+TEST_F(MeshFile, GltfThatPlacesItsMeshOtherwiseIsRefused) {
+  expect_error(put("a.gltf", gltf_with(R"([{"mesh":0,"skin":0}])")), "nodes[0] has a skin");
+  expect_error(put("a.gltf", gltf_with(R"([{"mesh":0,"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":0}}}}])")), "EXT_mesh_gpu_instancing");
+  std::string json = gltf_with(R"([{"mesh":0}])");
+  expect_error(put("a.gltf", json.insert(json.find("\"attributes\""), R"("targets":[{"POSITION":0}],)")), "meshes[0].primitives[0] has morph targets");
+  EXPECT_EQ(read_mesh(put("a.gltf", gltf_with(R"([{"mesh":0,"extensions":{"KHR_lights_punctual":{"light":0}}}])"))).triangles.size(), 1u);
+}
+
 TEST_F(MeshFile, GltfIndicesBeyondTheirVerticesAreRefused) {
   const TriangleMesh mesh = make_plate(1, 1);
   write_mesh(folder / "a.glb", mesh);
@@ -317,7 +326,7 @@ TEST_F(MeshFile, AsciiStlIsReadWithItsSolids) {
       "facet normal 0 0 nan\n outer loop\n vertex 0 0 0\n vertex 1 0 0\n vertex 0 1 0\n endloop\nendfacet\n";
   const TriangleMesh mesh =
       read_mesh(put("a.stl", "solid hull\n" + facet + "endsolid hull\nsolid mast 2\n" + facet + "endsolid\n"));
-  EXPECT_EQ(mesh.part_names, (std::vector<std::string>{"hull", "mast"}));
+  EXPECT_EQ(mesh.part_names, (std::vector<std::string>{"hull", "mast 2"}));
   EXPECT_EQ(mesh.triangles.size(), 2u);
   expect_error(put("a.stl", "solid a\nfacet normal 0 0 1 outer loop vertex 0 0 inf"), ":2: \"inf\"");
   expect_error(put("a.stl", "solid a\nfacet normal 0 0 1 outer loop vertex 0 0"), "not a coordinate");
