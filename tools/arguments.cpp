@@ -54,8 +54,8 @@ void require_outputs(const std::vector<std::string>& outputs, const std::vector<
   }
 }
 
-std::vector<std::filesystem::path> files_of(const std::string& scenario_file, const Scenario& scenario) {
-  std::vector<std::filesystem::path> files{scenario_file};
+std::vector<std::filesystem::path> files_of(const Scenario& scenario) {
+  std::vector<std::filesystem::path> files;
   for (const InputFile& named : input_files(scenario)) files.push_back(named.path);
   return files;
 }

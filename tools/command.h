@@ -54,8 +54,8 @@ std::filesystem::path find_data_set(const std::filesystem::path& directory);
 // (InputError). Empty names are none.
 void require_outputs(const std::vector<std::string>& outputs, const std::vector<std::filesystem::path>& inputs);
 
-// The scenario's file and all that it names.
-std::vector<std::filesystem::path> files_of(const std::string& scenario_file, const Scenario& scenario);
+// The files that a scenario names.
+std::vector<std::filesystem::path> files_of(const Scenario& scenario);
 
 // Adds --threads to a command.
 void add_threads_option(CLI::App& command, Shell& shell);

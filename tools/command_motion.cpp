@@ -105,10 +105,10 @@ void write_pictures(const MotionArguments& arguments, const Scenario& scenario, 
 
 void write_motion(const MotionArguments& arguments, const Shell& shell) {
   for (const std::string& file : {arguments.figure, arguments.frames, arguments.rao}) require_figure(file);
+  const std::vector<std::string> outputs{arguments.output, arguments.spectrum, arguments.figure, arguments.frames, arguments.rao};
+  require_outputs(outputs, {arguments.scenario.file, arguments.rao_reference});
   const Scenario scenario = arguments.scenario.read();
-  std::vector<std::filesystem::path> inputs = files_of(arguments.scenario.file, scenario);
-  inputs.emplace_back(arguments.rao_reference);
-  require_outputs({arguments.output, arguments.spectrum, arguments.figure, arguments.frames, arguments.rao}, inputs);
+  require_outputs(outputs, files_of(scenario));
   const std::size_t count = uniform_time_count(arguments.duration_s, arguments.step_s);
   const MovingScene scene = simulate_all(scenario, arguments.duration_s, shell.threads, shell.stop);
   const std::vector<NamedTrajectory>& bodies = scene.bodies;

@@ -119,8 +119,10 @@ std::string series_csv(const WaveField& field, const SeaArguments& arguments, co
 
 void write_sea(const SeaArguments& arguments, const Shell& shell) {
   require_figure(arguments.figure);
+  const std::vector<std::string> outputs{arguments.output, arguments.spectrum, arguments.figure};
+  require_outputs(outputs, {arguments.scenario.file});
   const Scenario scenario = arguments.scenario.read();
-  require_outputs({arguments.output, arguments.spectrum, arguments.figure}, files_of(arguments.scenario.file, scenario));
+  require_outputs(outputs, files_of(scenario));
   const SeaState state = sea_states(scenario.sea).front();
   const WaveField field = realize_sea(state, scenario.seed, realisation_index(0, 0));
   const SeaSummary summary = summarize(state, field);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "classify/dataset/checksum.h"
 #include "tests/pipeline/program.h"
 
 namespace seaglint {
@@ -92,6 +93,12 @@ TEST_F(UsedData, SaysWhatIsOtherInASampleMadeAgain) {
   std::string yaml = read_file(data / "scenario.yaml");
   yaml.replace(yaml.find("scr_db: 20"), 10, "scr_db: 15");
   write_file(data / "scenario.yaml", yaml);
+  // As if the maps had been made by it.
+  std::string manifest = read_file(data / "manifest.json");
+  const std::string original = sha256_file(data_ / "scenario.yaml");
+  ASSERT_NE(manifest.find(original), std::string::npos);
+  manifest.replace(manifest.find(original), original.size(), sha256(yaml));
+  write_file(data / "manifest.json", manifest);
   const ProgramResult result = run_program({"remake", data, "--sample", "3"});
   EXPECT_EQ(result.code, 2);
   EXPECT_THAT(result.err, HasSubstr("sample 3 made again: its map differs by up to"));
