@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <numeric>
 #include <span>
 #include <sstream>
 #include <system_error>
@@ -15,6 +14,7 @@
 #include "sim/core/error.h"
 #include "sim/core/file.h"
 #include "sim/geometry/gltf_check.h"
+#include "sim/geometry/gltf_pieces.h"
 #include "sim/geometry/mesh_builder.h"
 
 namespace seaglint {
@@ -25,12 +25,6 @@ using Mat4 = Eigen::Matrix4d;
 
 constexpr std::size_t kMostParts = 65000, kMostMaterials = 65000;
 constexpr std::size_t kMostPlacedTriangles = 50'000'000;  // a mesh may be placed by many nodes
-
-// glTF 2.0, section 3.4: +Y up, +Z forward, so +X is to port. Column i is where glTF's axis i goes in the body frame.
-const Mat3& body_from_gltf() {
-  static const Mat3 R = (Mat3() << 0, 0, 1, 1, 0, 0, 0, 1, 0).finished();
-  return R;
-}
 
 // The only files tinygltf may open are those below the glTF's own folder.
 struct Folder {
@@ -259,42 +253,6 @@ class Reader {
   MeshBuilder builder_;
 };
 
-// One part of one material with its own float32 vertices in glTF's axes.
-struct Piece {
-  std::uint16_t part = 0, material = 0;
-  std::vector<float> positions;
-  std::vector<std::uint32_t> indices;
-};
-
-// Ascending in part, then material.
-std::vector<Piece> pieces_of(const TriangleMesh& mesh) {
-  std::vector<std::size_t> order(mesh.triangles.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto key = [&](std::size_t t) { return std::pair{mesh.triangle_part[t], mesh.triangle_material[t]}; };
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
-
-  std::vector<Piece> pieces;
-  struct Placed {
-    std::size_t pieces = 0;  // as many as there were when it was placed last
-    std::uint32_t index = 0;
-  };
-  std::vector<Placed> placed(mesh.vertices.size());
-  for (const std::size_t t : order) {
-    const auto [part, material] = key(t);
-    if (pieces.empty() || pieces.back().part != part || pieces.back().material != material) pieces.push_back({part, material, {}, {}});
-    Piece& piece = pieces.back();
-    for (std::uint32_t v : mesh.triangles[t]) {
-      if (placed[v].pieces != pieces.size()) {
-        placed[v] = {pieces.size(), static_cast<std::uint32_t>(piece.positions.size() / 3)};
-        const Vec3 p = body_from_gltf().transpose() * mesh.vertices[v];
-        for (int i = 0; i < 3; ++i) piece.positions.push_back(static_cast<float>(p[i]) + 0.0f);
-      }
-      piece.indices.push_back(placed[v].index);
-    }
-  }
-  return pieces;
-}
-
 class Writer {
  public:
   explicit Writer(const TriangleMesh& mesh, std::span<const std::array<double, 3>> colours) {
@@ -316,7 +274,7 @@ class Writer {
       model_.materials.back().pbrMetallicRoughness.baseColorFactor = {red, green, blue, 1.0};
       model_.materials.back().pbrMetallicRoughness.metallicFactor = 0;
     }
-    const std::vector<Piece> pieces = pieces_of(mesh);
+    const std::vector<GltfPiece> pieces = pieces_of(mesh);
     for (std::size_t first = 0; first < pieces.size();) {
       std::size_t end = first;
       while (end < pieces.size() && pieces[end].part == pieces[first].part) ++end;
@@ -334,10 +292,10 @@ class Writer {
   }
 
  private:
-  void add_part(const std::string& name, std::span<const Piece> pieces) {
+  void add_part(const std::string& name, std::span<const GltfPiece> pieces) {
     tinygltf::Mesh shape;
     shape.name = name;
-    for (const Piece& piece : pieces) shape.primitives.push_back(primitive(piece, piece.material));
+    for (const GltfPiece& piece : pieces) shape.primitives.push_back(primitive(piece, piece.material));
     tinygltf::Node node;
     node.name = shape.name;
     node.mesh = static_cast<int>(model_.meshes.size());
@@ -346,7 +304,7 @@ class Writer {
     model_.nodes.push_back(std::move(node));
   }
 
-  tinygltf::Primitive primitive(const Piece& piece, int material) {
+  tinygltf::Primitive primitive(const GltfPiece& piece, int material) {
     const std::size_t vertex_count = piece.positions.size() / 3;
     std::vector<std::uint16_t> narrow;
     if (vertex_count <= 65535) narrow.assign(piece.indices.begin(), piece.indices.end());

@@ -6,7 +6,6 @@
 #include <unistd.h>
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -265,18 +264,15 @@ TEST_F(MeshFile, ObjCommentsNeverGoOnInTheNextLine) {
                "4 lines begin with v, 3 of them are vertices");
 }
 
-// The work goes with the number of faces, not with its product with the number of parts, which would take minutes.
-TEST_F(MeshFile, SixtyThousandPartsAreReadAndWrittenInSeconds) {
+// What they cost is in tests/bench/mesh_bench.cpp.
+TEST_F(MeshFile, SixtyThousandPartsAreReadAndWritten) {
   constexpr int kParts = 60000;
   std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
   for (const char* face : {"f 1 2 3\n", "f 1 2 4\n"}) {
     for (int i = 0; i < kParts; ++i) obj += fmt::format("g part_number_{}\n{}", i, face);
   }
-  const auto start = std::chrono::steady_clock::now();
   const TriangleMesh mesh = read_mesh(put("a.obj", obj));
   write_mesh(folder / "a.glb", mesh);
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  EXPECT_LT(seconds.count(), 15);
   EXPECT_EQ(mesh.part_names.size(), std::size_t{kParts});
   EXPECT_EQ(mesh.triangle_part.back(), kParts - 1);
   EXPECT_EQ(read_mesh(folder / "a.glb").part_names, mesh.part_names);

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a mesh file costs against the number of its parts: the same faces in one and in 60,000.
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include "sim/core/file.h"
+#include "sim/geometry/mesh_io.h"
+#include "tests/temporary_folder.h"
+
+namespace seaglint {
+namespace {
+
+void MeshOfManyParts(benchmark::State& state) {
+  const TemporaryFolder folder;
+  std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
+  for (const char* face : {"f 1 2 3\n", "f 1 2 4\n"}) {
+    for (int i = 0; i < 60000; ++i) obj += fmt::format("g part_number_{}\n{}", i % state.range(0), face);
+  }
+  write_file(folder.path() / "parts.obj", obj);
+  for (auto _ : state) write_mesh(folder.path() / "parts.glb", read_mesh(folder.path() / "parts.obj"));
+}
+BENCHMARK(MeshOfManyParts)->Arg(1)->Arg(60000)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace seaglint
