@@ -33,6 +33,15 @@ IntervalSampling interval() {
   return sampling;
 }
 
+// That pulse alone, from where the radar then stands.
+IntervalSampling only_pulse(const IntervalSampling& sampling, int pulse) {
+  IntervalSampling one = sampling;
+  one.pulse_first = {0};
+  one.pulse_time_s = {sampling.pulse_time_s[pulse]};
+  one.sight_rate = Vec3::Zero();
+  return one;
+}
+
 TEST(PassingRadar, PointsChangeTheirRangeAsTheWayDemands) {
   const IntervalSampling sampling = interval();
   const Vec3 r_hat = direction_to_radar({radians(30), radians(3)});
@@ -66,10 +75,7 @@ TEST(PassingRadar, BodiesAnswerAsFromTheDirectionsOfItsWay) {
   const FrequencyResponse passing = respond(scatterer, still, r_hat, Polarisation::kVv, sampling, {}).response;
   double difference = 0, power = 0;
   for (const int n : {0, 7, 15}) {
-    IntervalSampling one = sampling;
-    one.pulse_first = {0};
-    one.pulse_time_s = {sampling.pulse_time_s[n]};
-    one.sight_rate = Vec3::Zero();
+    const IntervalSampling one = only_pulse(sampling, n);
     const double t = sampling.pulse_time_s[n] - sampling.pulse_time_s.front();
     const Vec3 direction = (r_hat + t * sampling.sight_rate).normalized();
     const FrequencyResponse fresh = respond(scatterer, still, direction, Polarisation::kVv, one, {}).response;
@@ -145,10 +151,7 @@ TEST(PassingRadar, BodiesOverTheSeaAnswerAsFromTheDirectionsOfItsWay) {
         respond(scatterer, body, r_hat, Polarisation::kHh, sampling, {}, 2, &sea).response;
     double difference = 0, power = 0;
     for (const int n : {0, 7, 15}) {
-      IntervalSampling one = sampling;
-      one.pulse_first = {0};
-      one.pulse_time_s = {sampling.pulse_time_s[n]};
-      one.sight_rate = Vec3::Zero();
+      const IntervalSampling one = only_pulse(sampling, n);
       const Vec3 direction = direction_at(sampling, r_hat, static_cast<std::size_t>(n));
       const FrequencyResponse fresh = respond(scatterer, body, direction, Polarisation::kHh, one, {}, 2, &sea).response;
       for (int b = 0; b < sampling.per_pulse; ++b) {

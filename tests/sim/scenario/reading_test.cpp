@@ -9,46 +9,15 @@
 #include "sim/core/error.h"
 #include "sim/scenario/document.h"
 #include "sim/scenario/scenario.h"
+#include "tests/sim/scenario/parsing.h"
 
 namespace seaglint {
 namespace {
 
+using namespace testing_scenarios;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
-
-// The scenario of the project's description, to the letter.
-const char* const kPaper = R"(seaglint: 1
-name: paper
-seed: 42
-radar:   {carrier_ghz: 16, hop_count: 8, hop_step_mhz: 25, hop_code: random, bandwidth_mhz: 25, pulse_width_us: 36, sampling_mhz: 50,
-          pri_us: 250, pulses: 256, polarisation: vv}
-view:    {azimuth_deg: 10:170:10, elevation_deg: 2}
-sea:     {significant_wave_height_m: [0.1, 1, 2], peak_period_s: 8, gamma: 3.3, propagation_deg: 120, order: 2}   # or peak_period_s: dnv_wind_sea
-targets:
-  ship:  {label: 1, mesh: assets/combatant_144m.glb, motion: {model: ship}}
-  array: {label: 0, mesh: assets/icosahedral_reflector.glb, layout: {line: {count: 4, spacing_m: 40}}, motion: {model: float}}
-clutter: {scr_db: 20, scr_definition: per_pulse}
-map:     {range_span_m: 192}
-dataset: {maps_per_case: 100, realisations_per_case: 10, interval_spacing_s: 10, split: 7:3}
-learning: {fusion: split}
-)";
-
-// The shortest valid scenario, and the same with lines added.
-const std::string kShort = "seaglint: 1\ntargets:\n  a: {label: 1, mesh: a.glb}\n";
-
-Scenario parse(const std::string& yaml, const std::vector<Override>& overrides = {}) {
-  return parse_scenario(yaml, "folder/file.yaml", overrides);
-}
-
-std::string complaint_about(const std::string& yaml, const std::vector<Override>& overrides = {}) {
-  try {
-    parse(yaml, overrides);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "none";
-}
 
 TEST(Reading, TheExampleOfTheDescriptionIsUnderstood) {
   const Scenario scenario = parse(kPaper);
@@ -354,56 +323,6 @@ TEST(Reading, HostileFilesAreRefusedBeforeTheyCost) {
     for (int k = 0; k < 10; ++k) laughs += fmt::format("*a{}{}", i - 1, k < 9 ? "," : "]\n");
   }
   EXPECT_THAT(complaint_about(laughs), HasSubstr("more than 300000 values"));
-}
-
-TEST(Overrides, ReplaceAndAddValuesOfTheFile) {
-  const Scenario scenario = parse(kPaper, {{"radar.pulses", "64"},
-                                           {"view.azimuth_deg", "0:20:10"},
-                                           {"sea.significant_wave_height_m", "[1, 2]"},
-                                           {"clutter.enabled", "false"},
-                                           {"features.max_centres", "10"},
-                                           {"targets.array.layout.line.count", "2"},
-                                           {"map", "{range_span_m: 100}"},
-                                           {"radar.pulses", "32"}});
-  EXPECT_EQ(scenario.radar.pulses, 32);
-  EXPECT_THAT(scenario.view.azimuth_deg, ElementsAre(0, 10, 20));
-  EXPECT_THAT(scenario.sea.significant_wave_height_m, ElementsAre(1, 2));
-  EXPECT_FALSE(scenario.clutter.enabled);
-  EXPECT_EQ(scenario.features.max_centres, 10);
-  EXPECT_EQ(scenario.targets[1].line->count, 2);
-  EXPECT_EQ(scenario.map.range_span_m, 100);
-}
-
-TEST(Overrides, ReachIntoLists) {
-  const std::string yaml =
-      "seaglint: 1\ntargets:\n  p: {label: 0, points: [{position_m: [0, 0, 0]}, {position_m: [1, 1, 1]}]}\n";
-  const Scenario scenario =
-      parse(yaml, {{"targets.p.points.1.amplitude_m", "3"}, {"targets.p.points.0.position_m.2", "7"}});
-  EXPECT_EQ(scenario.targets[0].points[1].amplitude_m, 3);
-  EXPECT_EQ(scenario.targets[0].points[0].position_m[2], 7);
-  EXPECT_EQ(complaint_about(yaml, {{"targets.p.points.2.amplitude_m", "3"}}),
-            "--set targets.p.points.2.amplitude_m: '2' must be the number of an item, from 0 to 1");
-}
-
-TEST(Overrides, AreCheckedLikeTheFile) {
-  const auto complaint = [](const std::string& path, const std::string& value) {
-    return complaint_about(kPaper, {{path, value}});
-  };
-  EXPECT_EQ(complaint("radar.pulses", "0"), "--set radar.pulses: value '0': must be a whole number within 1 and 65536");
-  EXPECT_EQ(complaint("radar.pulse", "5"), "--set radar.pulse: unknown key: did you mean 'pulses'?");
-  EXPECT_EQ(complaint("rader.pulses", "5"), "--set rader.pulses: rader: unknown key: did you mean 'radar'?");
-  EXPECT_EQ(complaint("radar", "{pulses: x}"),
-            "--set radar: radar.pulses: value 'x': must be a whole number within 1 and 65536");
-  EXPECT_EQ(complaint("radar", "{pulses: 1, pulses: 2}"),
-            "--set radar: radar.pulses: this key appears twice, first in line 1");
-  EXPECT_EQ(complaint("radar.pulses.x", "5"), "--set radar.pulses.x: there is nothing below the value '256'");
-  EXPECT_EQ(complaint("radar.pulses", ""), "--set radar.pulses: no value: must be a whole number within 1 and 65536");
-  EXPECT_EQ(complaint("radar.pulses", "[1"), "--set radar.pulses: value '[1': not valid YAML");
-  EXPECT_EQ(complaint("radar.pulse_width_us", "300"),
-            "--set radar.pulse_width_us: value '300': must be shorter than radar.pri_us, 250");
-  EXPECT_EQ(complaint("", "5"), "--set : must be key.path=value");
-  EXPECT_EQ(complaint("radar..pulses", "5"), "--set radar..pulses: must be key.path=value");
-  EXPECT_EQ(complaint("targets.boat.label", "1"), "--set targets.boat.label: targets.boat: must have a mesh or points");
 }
 
 TEST(Reading, MaterialsOfATargetAndItsPartsComeBackFromTheEffectiveForm) {
