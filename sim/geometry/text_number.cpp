@@ -5,6 +5,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "sim/core/utf8.h"
+
 namespace seaglint {
 namespace {
 
@@ -19,31 +21,10 @@ std::optional<Number> whole_word(std::string_view word) {
   return value;
 }
 
-// Unicode Standard, table 3-7: the bytes of well-formed UTF-8.
-bool is_utf8(std::string_view text) {
-  for (std::size_t i = 0; i < text.size();) {
-    const auto byte = [&](std::size_t n) { return i + n < text.size() ? static_cast<unsigned char>(text[i + n]) : 0u; };
-    const unsigned first = byte(0);
-    if (first < 0x80) {
-      ++i;
-      continue;
-    }
-    const std::size_t more = first >= 0xF0 ? 3 : first >= 0xE0 ? 2 : 1;
-    // Neither longer than need be, nor half a surrogate pair, nor beyond the last character.
-    const unsigned lowest = first == 0xE0 ? 0xA0 : first == 0xF0 ? 0x90 : 0x80, highest = first == 0xED ? 0x9F : first == 0xF4 ? 0x8F : 0xBF;
-    if (first < 0xC2 || first > 0xF4 || byte(1) < lowest || byte(1) > highest) return false;
-    for (std::size_t n = 2; n <= more; ++n) {
-      if (byte(n) < 0x80 || byte(n) > 0xBF) return false;
-    }
-    i += more + 1;
-  }
-  return true;
-}
-
 }  // namespace
 
 std::string utf8_of(std::string_view name) {
-  if (is_utf8(name)) return std::string(name);
+  if (utf8_prefix(name) == name.size()) return std::string(name);
   std::string text;
   for (const char c : name) {
     const auto byte = static_cast<unsigned char>(c);
