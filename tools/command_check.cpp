@@ -8,7 +8,8 @@
 #include "radar/waveform/pulse_train.h"
 #include "tools/command.h"
 #include "tools/map_coverage.h"
-#include "tools/scene.h"
+#include "tools/pipeline.h"
+#include "tools/warnings.h"
 
 namespace seaglint {
 
@@ -34,13 +35,14 @@ void add_check(CLI::App& app, Shell& shell) {
   command->callback([arguments, &shell] {
     shell.work = [arguments] {
       const Scenario scenario = arguments->read();
-      const std::vector<Target> targets = load_targets(scenario);  // reads every file the scenario names
-      const PulseTrain train = make_pulse_train(scenario.radar, range_window_m(scenario, targets), scenario.seed, 0);
+      const Pipeline pipeline(scenario);  // reads every file the scenario names
+      const PulseTrain train = make_pulse_train(scenario.radar, pipeline.window_m(), scenario.seed, 0);
       fmt::print("{}", effective_yaml(scenario));
       std::fflush(stdout);
       fmt::print(stderr, "{}", summary(scenario));
       fmt::print(stderr, "{}", describe(train, scenario.radar));
-      for (const std::string& line : outside_of_map(scenario, targets)) fmt::print(stderr, "warning: {}\n", line);
+      warn(mesh_doubts(pipeline));
+      warn(outside_of_map(scenario, pipeline.targets()));
     };
   });
 }

@@ -12,6 +12,7 @@
 #include "sim/core/error.h"
 #include "tools/command.h"
 #include "tools/sampled_interval.h"
+#include "tools/warnings.h"
 
 namespace seaglint {
 namespace {
@@ -38,6 +39,7 @@ void write_echo(const Arguments& arguments) {
   if (arguments.sample >= samples)
     throw InputError(fmt::format("--sample {}: the scenario has samples 0 to {}", arguments.sample, samples - 1));
   const Pipeline pipeline(scenario);
+  warn(mesh_doubts(pipeline));
   const SampledInterval interval = sampled_interval(pipeline, arguments.sample);
   const std::vector<std::int64_t> code(interval.train.code.begin(), interval.train.code.end());
 

@@ -5,7 +5,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <memory>
 
 #include "classify/dataset/plan.h"
@@ -17,6 +16,7 @@
 #include "tools/map_products.h"
 #include "tools/pipeline.h"
 #include "tools/rv_figure.h"
+#include "tools/warnings.h"
 
 namespace seaglint {
 namespace {
@@ -64,6 +64,7 @@ void show_map(const Arguments& arguments) {
   if (sample >= samples)
     throw InputError(fmt::format("--sample {}: the scenario has samples 0 to {}", sample, samples - 1));
   const Pipeline pipeline(scenario);
+  warn(mesh_doubts(pipeline));
   const SampleAddress address = pipeline.plan().address(sample);
   const TargetSpec& target = scenario.targets[static_cast<std::size_t>(address.target)];
   const View view = views(scenario.view)[static_cast<std::size_t>(address.view)];
@@ -80,8 +81,7 @@ void show_map(const Arguments& arguments) {
     }
     return;
   }
-  for (const std::string& line : outside_of_map(scenario, pipeline.targets()))  // a map of too many cells ends here
-    fmt::print(stderr, "seaglint: warning: {}\n", line);
+  warn(outside_of_map(scenario, pipeline.targets()));  // a map of too many cells ends here
   const MadeSample made = pipeline.make(sample);
   write_figure(rv_figure(made.received.map, made.centres, title), arguments.output);
   print_result(made.received, made.centres, made.features);

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "seaglint_version.h"
 #include "sim/core/constants.h"
@@ -15,7 +16,6 @@
 #include "sim/core/file.h"
 #include "sim/core/number.h"
 #include "sim/core/progress.h"
-#include "sim/geometry/mesh_health.h"
 #include "sim/geometry/mesh_io.h"
 #include "sim/scattering/material_parts.h"
 #include "sim/scattering/respond.h"
@@ -26,7 +26,9 @@
 #include "tools/rcs_comparison.h"
 #include "tools/reference_arguments.h"
 #include "tools/sea_arguments.h"
+#include "tools/sound_mesh.h"
 #include "tools/view_export.h"
+#include "tools/warnings.h"
 
 namespace seaglint {
 
@@ -81,18 +83,6 @@ std::vector<MaterialSpec> choose_materials(const std::vector<std::string>& chose
 }
 
 double dbsm(const Complex& s) { return 10 * std::log10(std::max(4 * kPi * std::norm(s), 1e-30)); }
-
-void warn(const std::vector<std::string>& sentences) {
-  for (const std::string& sentence : sentences) fmt::print(stderr, "seaglint: warning: {}\n", sentence);
-}
-
-// The mesh as the solver takes it, with a warning for everything that is wrong with the file's.
-TriangleMesh sound_mesh(const TriangleMesh& mesh, const std::string& file) {
-  TriangleMesh sound = repaired(mesh);
-  if (sound.triangles.empty()) throw InputError(fmt::format("{}: no triangle has an area: nothing scatters", file));
-  warn(findings(examine(mesh)));
-  return sound;
-}
 
 std::string table_text(const RcsArguments& arguments, const Scatterer& scatterer, const RcsSweep& sweep) {
   std::string csv = fmt::format(
@@ -265,10 +255,15 @@ void run_rcs(const RcsArguments& arguments, const Shell& shell) {
 
   TriangleMesh mesh = read_mesh(arguments.target, arguments.unit);
   std::vector<MaterialSpec> materials = choose_materials(arguments.materials, mesh);
-  mesh = sound_mesh(mesh, arguments.target);
   const auto [lowest, highest] = std::minmax_element(sweep.frequency_hz.begin(), sweep.frequency_hz.end());
   check_frequencies(materials, *lowest, *highest);
-  warn(check_target(mesh, *lowest));
+  try {
+    SoundMesh sound = sound_mesh(mesh, *lowest);
+    warn(sound.doubts);
+    mesh = std::move(sound.mesh);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", arguments.target, error.what()));
+  }
   if (arguments.sea.reflection) {
     arguments.sea.check(mesh);
     put_in_water(mesh, materials, -arguments.sea.height_m);

@@ -12,6 +12,7 @@
 #include "sim/core/progress.h"
 #include "tools/map_coverage.h"
 #include "tools/pipeline.h"
+#include "tools/warnings.h"
 
 namespace seaglint {
 
@@ -29,8 +30,8 @@ GenerateResult generate_dataset(const Scenario& scenario, const std::filesystem:
                                 const GenerateOptions& options, const StopFlag* stop) {
   const Pipeline pipeline(scenario);
   const SamplePlan& plan = pipeline.plan();
-  for (const std::string& line : outside_of_map(scenario, pipeline.targets()))
-    fmt::print(stderr, "seaglint: warning: {}\n", line);
+  warn(mesh_doubts(pipeline));
+  warn(outside_of_map(scenario, pipeline.targets()));
   DatasetWriter writer(directory, scenario, options.resume, kVersion);
 
   // The part's shards that are to be made, and their samples in order.

@@ -11,6 +11,7 @@
 #include "sim/core/constants.h"
 #include "sim/core/error.h"
 #include "sim/scattering/point_response.h"
+#include "sim/scattering/target_check.h"
 
 namespace seaglint {
 
@@ -60,13 +61,16 @@ Pipeline::Pipeline(Scenario scenario)
       targets_(load_targets(scenario_)),
       range_window_m_(range_window_m(scenario_, targets_)) {
   for (std::size_t t = 0; t < targets_.size(); ++t) {
-    const Target& target = targets_[t];
+    Target& target = targets_[t];
     if (target.shape != t || target.rest_positions.empty()) {
       scatterers_.push_back(target.rest_positions.empty() ? nullptr : scatterers_[target.shape]);
       continue;
     }
     const double crease = radians(target.spec.solver.crease_deg);
     scatterers_.push_back(std::make_shared<const Scatterer>(target.mesh, target.materials, crease));
+    if (!target.spec.solver.edges) continue;
+    const std::vector<std::string> of_edges = check_edges(*scatterers_.back(), 1e9 * lowest_ghz(scenario_.radar));
+    target.doubts.insert(target.doubts.end(), of_edges.begin(), of_edges.end());
   }
 }
 

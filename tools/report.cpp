@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <chrono>
 
 #include "sim/core/error.h"
@@ -14,6 +15,7 @@
 #include "tools/scene.h"
 #include "tools/summary.h"
 #include "tools/train.h"
+#include "tools/warnings.h"
 
 namespace seaglint {
 
@@ -148,7 +150,7 @@ void write_report(const fs::path& directory, const Scenario& scenario, int threa
   const ReportData data = load_report_data(directory, scenario, stop);
   metrics["report"] = report_numbers(data);
   const std::string missing = missing_input(scenario);
-  if (!missing.empty()) fmt::print(stderr, "seaglint: warning: {}; neither the targets nor their motion are drawn\n", missing);
+  if (!missing.empty()) warn(std::array{missing + "; neither the targets nor their motion are drawn"});
   const std::vector<Target> targets = missing.empty() ? load_targets(scenario) : std::vector<Target>();
   const std::vector<ReportFigure> all =
       draw_report_figures(directory, scenario, targets, data, metrics, thread_count(threads), stop);

@@ -5,14 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "sim/core/error.h"
-#include "sim/geometry/mesh_health.h"
 #include "sim/geometry/mesh_io.h"
 #include "sim/motion/simulate.h"
 #include "sim/motion/target_motion.h"
 #include "sim/scattering/material_parts.h"
 #include "sim/scattering/target_check.h"
+#include "tools/sound_mesh.h"
 
 namespace seaglint {
 
@@ -52,14 +53,22 @@ std::vector<MaterialSpec> load_materials(const Scenario& scenario, const TargetS
   std::vector<MaterialSpec> materials;
   try {
     materials = assign_materials(mesh, all, parts);
-    const RadarSpec& radar = scenario.radar;
-    const double lowest_hz = 1e9 * radar.carrier_ghz - 0.5e6 * radar.bandwidth_mhz;
-    const double highest_hz = lowest_hz + 1e6 * (radar.bandwidth_mhz + (radar.hop_count - 1) * radar.hop_step_mhz);
-    check_frequencies(materials, lowest_hz, highest_hz);
+    check_frequencies(materials, 1e9 * lowest_ghz(scenario.radar), 1e9 * highest_ghz(scenario.radar));
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", place_of(scenario, path), error.what()));
   }
   return materials;
+}
+
+// The mesh as the solver takes it, and what is doubtful about it.
+void check_mesh(const Scenario& scenario, Target& target) {
+  try {
+    SoundMesh sound = sound_mesh(target.mesh, 1e9 * lowest_ghz(scenario.radar));
+    target.mesh = std::move(sound.mesh);
+    target.doubts = std::move(sound.doubts);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", place_of(scenario, fmt::format("targets.{}.mesh", target.spec.name)), error.what()));
+  }
 }
 
 // The mesh alone tells how near the radar may be.
@@ -90,7 +99,7 @@ Target load_target(const Scenario& scenario, const TargetSpec& spec) {
   if (spec.mesh.empty()) return target;
   target.mesh = read_mesh(find_mesh(scenario, spec), spec.unit);
   target.materials = load_materials(scenario, spec, target.mesh);
-  target.mesh = repaired(target.mesh);
+  check_mesh(scenario, target);
   check_scene_range(scenario, spec, target.mesh);
   target.body = load_body(scenario, spec, target.mesh);
   // The radar's image looks at the hull from below.

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <string>
 #include <vector>
 
 #include "classify/dataset/plan.h"
@@ -23,6 +24,7 @@ struct Target {
   TargetSpec spec;
   TriangleMesh mesh;                 // empty for points
   std::vector<MaterialSpec> materials;  // of mesh.materials
+  std::vector<std::string> doubts;      // about the mesh, a sentence each
   Body body;                         // how it moves; unused for points
   std::vector<Vec3> rest_positions;  // of the bodies' origins, target frame; empty for points
   std::size_t first_body = 0;        // bodies are counted over all targets, in order

@@ -18,12 +18,6 @@ namespace {
 
 constexpr int kLeastSamples = 8;  // of a pulse
 
-// Edges of the whole band.
-double lowest_ghz(const RadarSpec& radar) { return radar.carrier_ghz - 0.5e-3 * radar.bandwidth_mhz; }
-double highest_ghz(const RadarSpec& radar) {
-  return radar.carrier_ghz + 1e-3 * ((radar.hop_count - 1) * radar.hop_step_mhz + 0.5 * radar.bandwidth_mhz);
-}
-
 void check_radar(const RadarSpec& radar, const ScenarioDocument& document) {
   if (radar.pulse_width_us >= radar.pri_us) {
     document.fail_at("radar.pulse_width_us", fmt::format("must be shorter than radar.pri_us, {}", radar.pri_us));

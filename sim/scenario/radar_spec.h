@@ -52,6 +52,12 @@ struct RadarSpec {
   PlatformSpec platform;
 };
 
+// Edges of the whole band.
+inline double lowest_ghz(const RadarSpec& radar) { return radar.carrier_ghz - 0.5e-3 * radar.bandwidth_mhz; }
+inline double highest_ghz(const RadarSpec& radar) {
+  return radar.carrier_ghz + 1e-3 * ((radar.hop_count - 1) * radar.hop_step_mhz + 0.5 * radar.bandwidth_mhz);
+}
+
 using Sweep = std::vector<double>;  // a number, a list, or from:to:step in the file
 
 struct ViewSpec {

@@ -39,6 +39,43 @@ TEST(Check, PrintsAScenarioThatReadsBackTheSame) {
   EXPECT_EQ(parse_scenario(result.out, kPoints).radar.pulses, 64);
 }
 
+// What rcs says of a mesh, a scenario says too, of each target once.
+TEST(Check, SaysWhatIsDoubtfulAboutMeshes) {
+  const TemporaryFolder folder;
+  TriangleMesh inside_out = make_icosahedral_reflector();
+  for (auto& t : inside_out.triangles) std::swap(t[1], t[2]);
+  write_mesh(folder.path() / "inside_out.obj", inside_out);
+  TriangleMesh holed = make_sphere(0.01, 2);  // below three wavelengths at the radar's lowest frequency
+  holed.triangles.pop_back();
+  write_mesh(folder.path() / "holed.obj", holed);
+  const std::string file = folder.path() / "doubtful.yaml";
+  write_file(file,
+             "seaglint: 1\nview: {azimuth_deg: 10}\nsea: {significant_wave_height_m: 1}\n"
+             "targets:\n  a: {label: 1, mesh: inside_out.obj, motion: {model: fixed}, with: [{target: b, x_m: 10}]}\n"
+             "  b: {label: 0, mesh: holed.obj, motion: {model: fixed}}\n");
+  const std::string said =
+      "seaglint: warning: targets.a.mesh: 1 closed surface is inside out (60 triangles): turned outwards\n"
+      "seaglint: warning: targets.b.mesh: 3 open edges; 1 of 1 surfaces are open: holes, or sheets, seen from both sides and through their holes\n"
+      "seaglint: warning: targets.b.mesh: the target is 0.0346 m across, 1.85 wavelengths at 15.9875 GHz; physical optics needs 3 and more\n";
+  const ProgramResult check = run_program({"check", file});
+  EXPECT_EQ(check.code, 0);
+  EXPECT_THAT(check.err, HasSubstr(said));
+  EXPECT_THAT(run_program({"map", file, "--sample", "0", "-o", folder.path() / "map.png"}).err, StartsWith(said));
+}
+
+TEST(Check, RefusesMeshesThatScatterNothing) {
+  const TemporaryFolder folder;
+  write_file(folder.path() / "line.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
+  write_file(folder.path() / "far.obj", "v 9000 0 0\nv 9000 1 0\nv 9000 0 1\nf 1 2 3\n");
+  const std::string file = folder.path() / "bad.yaml";
+  const auto refused = [&](const std::string& mesh, const std::string& message) {
+    write_file(file, "seaglint: 1\ntargets:\n  a: {label: 1, mesh: " + mesh + ", motion: {model: fixed}}\n");
+    expect_refused({"check", file}, "bad.yaml:3:23: targets.a.mesh: " + message);
+  };
+  refused("line.obj", "no triangle has an area: nothing scatters");
+  refused("far.obj", "the target of 1.414 m lies 9000 m from its origin");
+}
+
 TEST(Keys, AreListedWithDefaultAndBound) {
   const ProgramResult result = run_program({"keys"});
   EXPECT_EQ(result.code, 0);
