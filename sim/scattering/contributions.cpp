@@ -180,12 +180,11 @@ void split(const EdgeFootprint& footprint, const SplitSettings& settings, std::v
   c.mechanism = Mechanism::kEdge;
   for (int i = 0; i < 4; ++i) c.pattern[i] = std::complex<float>(footprint.pattern[i]);
   const double k = settings.kc, run = footprint.psi[1] - footprint.psi[0];
-  const Complex extent = footprint.length * range_factor(footprint, k);
   // Turning by u changes psi's slope along the edge by at most 2 u.
   const double threshold = 2 * settings.turn_rad / kAmplitudeError * footprint.length;
   if (std::abs(run) > threshold && std::abs(k * run) / 2 > kPieceHalfPhase) {
-    const Complex end = extent / Complex(0, k * run);
     for (int i = 0; i < 2; ++i) {
+      const Complex end = end_term(footprint, k, i);
       c.amplitude = i == 0 ? -end : end;
       c.psi = footprint.psi[i];
       c.gradient = footprint.gradient[i];
@@ -195,10 +194,10 @@ void split(const EdgeFootprint& footprint, const SplitSettings& settings, std::v
   }
   const double slope = std::max(std::abs(run), kAmplitudeError * threshold);
   const int pieces = std::max(1, static_cast<int>(std::ceil(k * slope / 2 / kPieceHalfPhase)));
-  c.amplitude = extent * (sinc(k * run / pieces) / pieces);
   const PathGradient &a = footprint.gradient[0], &b = footprint.gradient[1];
   for (int i = 0; i < pieces; ++i) {
-    const double s = (i + 0.5) / pieces;
+    const double s = (i + 0.5) / pieces, half = 0.5 / pieces;
+    c.amplitude = part_integral(footprint, k, s - half, s + half);
     c.psi = footprint.psi[0] + s * run;
     c.gradient = between(a, b, s);
     out.push_back(c);

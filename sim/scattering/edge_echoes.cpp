@@ -29,7 +29,6 @@ std::vector<std::span<const EdgeArrival>> chunks_of(std::span<const EdgeArrival>
 EdgeFootprint reversed(const EdgeFootprint& footprint) {
   EdgeFootprint result = footprint;
   std::swap(result.pattern[1], result.pattern[2]);
-  std::swap(result.edge_wave->departure_m, result.edge_wave->arrival_m);
   for (PathGradient& g : result.gradient) g = {g.receive, g.transmit, g.receive_slip, g.transmit_slip};
   return result;
 }

@@ -192,17 +192,42 @@ std::vector<EdgeFootprint> edge_footprints(const SharpEdges& edges, std::span<co
   return result;
 }
 
-Complex range_factor(const EdgeFootprint& footprint, double k) {
-  if (!footprint.edge_wave) return 1;
-  const auto& [departure_m, arrival_m, waves] = *footprint.edge_wave;
-  const double x = 2 * k * departure_m, y = 2 * k * arrival_m;
-  return (waves == 1 ? transition(x, y) : transition(x) * transition(y)) * std::pow(k, -0.5 * waves);
+namespace {
+
+// k (psi_1 - psi_0), kept from 0: where it changes by less, the integral does by the square of this.
+double phase_run(const EdgeFootprint& footprint, double k) {
+  constexpr double kLeast = 1e-3;  // rad
+  const double run = k * (footprint.psi[1] - footprint.psi[0]);
+  return std::abs(run) < kLeast ? std::copysign(kLeast, run) : run;
+}
+
+// What the range makes of the pattern at one end of a part of the stretch.
+Complex range_at(const EdgeFootprint::EdgeWaveRange& range, double k, double run, double share) {
+  constexpr double kLeastLength = 1e-12;  // m: in a corner, where both edges meet, the product with the decay is finite
+  constexpr double kFar = 1e15;           // parallel edges
+  const double l = std::max(range.l[0] + share * (range.l[1] - range.l[0]), kLeastLength);
+  const double phase = std::clamp(run * l / (range.l[1] - range.l[0]), -kFar, kFar);
+  const double x = 2 * k * range.departure * (range.waves == 1 ? l : range.first_m), y = 2 * k * range.arrival * l;
+  const Complex boundaries = range.waves == 1 ? transition(x, y, -phase) : transition(x) * transition(y, -phase);
+  return boundaries * std::pow(k, -0.5 * range.waves) / std::sqrt(l);
+}
+
+}  // namespace
+
+Complex end_term(const EdgeFootprint& footprint, double k, double share) {
+  const double run = phase_run(footprint, k);
+  const Complex end = footprint.length / Complex(0, run);
+  return footprint.edge_wave ? end * range_at(*footprint.edge_wave, k, run, share) : end;
+}
+
+Complex part_integral(const EdgeFootprint& footprint, double k, double from, double to) {
+  if (!footprint.edge_wave) return footprint.length * (to - from) * sinc(k * (footprint.psi[1] - footprint.psi[0]) * (to - from));
+  const Complex half = std::polar(1.0, 0.5 * (to - from) * phase_run(footprint, k));
+  return end_term(footprint, k, to) * half - end_term(footprint, k, from) * std::conj(half);
 }
 
 std::array<Complex, 4> scattered(const EdgeFootprint& footprint, double k) {
-  const double run = footprint.psi[1] - footprint.psi[0];
-  const Complex integral = range_factor(footprint, k) * footprint.length * sinc(k * run) *
-                           std::polar(1.0, k * 0.5 * (footprint.psi[0] + footprint.psi[1]));
+  const Complex integral = part_integral(footprint, k, 0, 1) * std::polar(1.0, k * 0.5 * (footprint.psi[0] + footprint.psi[1]));
   std::array<Complex, 4> s;
   for (int i = 0; i < 4; ++i) s[i] = footprint.pattern[i] * integral;
   return s;

@@ -53,12 +53,13 @@ struct EdgeFootprint {
   std::array<double, 2> psi{};           // at its ends, m
   std::array<PathGradient, 2> gradient;  // of the ends, m
   double length = 0;                     // m
-  std::array<Complex, 4> pattern{};      // hh, hv, vh, vv per metre, dimensionless; times sqrt(1/m) after an edge wave
-  // An edge wave of length l decays as 1/sqrt(k l), less where it starts or ends near a shadow boundary: l times the
-  // shadow_distance() there, of the first and the last in a row.
+  std::array<Complex, 4> pattern{};      // hh, hv, vh, vv per metre, dimensionless; but for the last of several edge waves in a row times sqrt(1/m)
+  // An edge wave of length l decays as 1/sqrt(k l), less where it starts or ends near a shadow boundary.
   struct EdgeWaveRange {
-    double departure_m = 0, arrival_m = 0;
-    int waves = 1;  // in a row
+    std::array<double, 2> l{};          // at the ends of the stretch, m; linear in between. Of several waves in a row, of the last
+    double departure = 0, arrival = 0;  // shadow_distance() where the first starts and the last ends
+    double first_m = 0;                 // mean length of the first of several
+    int waves = 1;                      // in a row
   };
   std::optional<EdgeWaveRange> edge_wave;
   std::int32_t facet = -1;  // the edge's first
@@ -78,8 +79,12 @@ std::vector<EdgeFootprint> edge_footprints(const SharpEdges& edges, std::span<co
                                            const AntennaPair& antennas, std::span<const EdgeArrival> incoming,
                                            std::span<const EdgeArrival> outgoing, int max_bounces);
 
-// What an edge wave's range makes of the pattern; 1 without one.
-Complex range_factor(const EdgeFootprint& footprint, double k);
+// The integral of e^{jk psi} along the stretch, m, an edge wave's range included, is what these leave of it at its ends: end_term(1) e^{jk psi_1} - end_term(0) e^{jk psi_0}.
+// `share` of the way from one end to the other: between them the terms of two parts cancel.
+Complex end_term(const EdgeFootprint& footprint, double k, double share);
+
+// The same integral from one share of the way to another, about the phase halfway: also where psi does not change.
+Complex part_integral(const EdgeFootprint& footprint, double k, double from, double to);
 
 // hh, hv, vh, vv in metres.
 std::array<Complex, 4> scattered(const EdgeFootprint& footprint, double k);

@@ -18,6 +18,10 @@ constexpr double kAlong = 1e-9;
 // A grazing wave is sent down on its face by this angle, so that rounding does not put it on the other side.
 constexpr double kLift = 1e-7;
 
+// What an edge wave does to the one after it enters by its mean, over stretches along which its length grows no more than this; on long edges. What is shorter than
+// a hundredth of the longest counts as one.
+constexpr double kMostGrowth = 4, kShortestShare = 0.01;
+
 // Edge waves in a row: on a face that two edges bound the third edge is the first one again, and the fourth the second; near grazing each one's answer is
 // as large as the one's before.
 constexpr int kMostWaves = 2, kMostWavesOfLong = 3;
@@ -34,7 +38,8 @@ struct Incident {
   Vec3 direction;
   std::array<Vec3, 2> E;                    // for h and v
   std::array<Complex, 2> factor{1.0, 1.0};  // of E
-  double departure_m = 0;                   // of the first edge wave, as in EdgeFootprint
+  std::array<double, 2> l{};                // of the edge wave that it is, at the stretch's ends, m
+  double departure = 0, first_m = 0;        // of the first edge wave, as in EdgeFootprint
   int waves = 0;                            // passed before
   int walls = 0;                            // that the edge wave was reflected by
   Mat3 unfolded = Mat3::Identity();         // takes directions after those walls back to before them
@@ -46,6 +51,20 @@ struct Strip {
   Vec3 u, w;
   double from, to;  // in u
 };
+
+// Mean of 1/sqrt(l) where l is linear between its ends.
+double mean_decay(const std::array<double, 2>& l) { return 2 / (std::sqrt(l[0]) + std::sqrt(l[1])); }
+
+// The part of it on a part of its stretch, from one share of the way to another.
+Incident part_of(const Incident& in, double from, double to) {
+  const auto mean = [](const auto& ends, double share) { return ends[0] + share * (ends[1] - ends[0]); };
+  Incident part = in;
+  part.s = {mean(in.s, from), mean(in.s, to)};
+  part.psi = {mean(in.psi, from), mean(in.psi, to)};
+  part.X = {Vec3(mean(in.X, from)), Vec3(mean(in.X, to))};
+  part.l = {mean(in.l, from), mean(in.l, to)};
+  return part;
+}
 
 // A wave that leaves an edge along a face; after an upright wall it comes from the edge's image.
 struct Source {
@@ -90,17 +109,32 @@ class EdgeWaves {
   }
 
  private:
+  // Sends an edge wave on, part by part of its stretch.
+  void send_on(const Incident& in) {
+    const auto [shortest, longest] = std::minmax(in.l[0], in.l[1]);
+    const double first = std::max(shortest, kShortestShare * longest), growth = longest / first;
+    const bool is_long = edges_.edges[in.edge].length() >= long_from_m_;
+    const double parts = is_long ? std::max(1.0, std::ceil(std::log(growth) / std::log(kMostGrowth))) : 1.0;
+    double before = 0;  // share of the way from the end where it is shortest
+    for (double n = 1; n <= parts; ++n) {
+      const double here = n < parts ? (first * std::pow(growth, n / parts) - shortest) / (longest - shortest) : 1.0;
+      send(in.l[0] < in.l[1] ? part_of(in, before, here) : part_of(in, 1 - here, 1 - before));
+      before = here;
+    }
+  }
+
   void send(const Incident& in) {
     const SharpEdge& edge = edges_.edges[in.edge];
     const WedgeFrame* wedge = wedge_towards(edge, in.direction);
     if (!wedge) return;
+    const double decay = in.waves > 0 ? mean_decay(in.l) : 1.0;
     for (int i = 0; i < 2; ++i) {
       const EdgeWave h = edge_wave(*wedge, i, in.direction, in.E[0]), v = edge_wave(*wedge, i, in.direction, in.E[1]);
       const Source source{in,
                           wedge->face[i],
                           edge.a,
                           edge.along(),
-                          {h.amplitude * in.factor[0], v.amplitude * in.factor[1]},
+                          {h.amplitude * decay * in.factor[0], v.amplitude * decay * in.factor[1]},
                           shadow_distance(edge.along(), h.direction, in.direction)};
       if (std::abs(source.amplitude[0]) + std::abs(source.amplitude[1]) < 1e-9) continue;
       Strip strip{h.direction.cross(source.face.n), h.direction, 0, 0};
@@ -204,31 +238,26 @@ class EdgeWaves {
     next.walls = source.walls;
     next.unfolded = source.unfolded;
     next.before = in.direction;
-    double root_sum = 0;
     for (int end = 0; end < 2; ++end) {
       const Vec3 Q2 = edge.a + next.s[end] * along;
       const double s1 = strip.u.dot(Q2 - source.start) / strip.u.dot(source.along);
       const double share = (s1 - in.s[0]) / (in.s[1] - in.s[0]);
       const double l = std::max(strip.w.dot(Q2 - source.start - s1 * source.along), 0.0);
-      root_sum += std::sqrt(l);
+      next.l[end] = l;
       next.psi[end] = in.psi[0] + share * (in.psi[1] - in.psi[0]) - l;
       next.X[end] = in.X[0] + share * (in.X[1] - in.X[0]);
     }
-    if (root_sum < 1e-4) return;
-    const double l = 0.25 * root_sum * root_sum;
-    if (in.waves == 0) next.departure_m = l * source.departure;
-    // l is linear along the stretch: the mean of 1/sqrt(l) is 2 / (sqrt(l_0) + sqrt(l_1)). Half of the wave is
-    // incident.
-    for (int q = 0; q < 2; ++q) next.factor[q] = source.amplitude[q] * (0.5 * 2 / root_sum);
-    for (std::size_t o = first_[number]; o < first_[number + 1]; ++o)
-      leave(next, *wedge, source.face, strip.w, l, outgoing_[o]);
+    if (mean_decay(next.l) > 2e4) return;
+    if (in.waves == 0) next.departure = source.departure;
+    if (in.waves == 1) next.first_m = std::pow(mean_decay(in.l), -2);
+    for (int q = 0; q < 2; ++q) next.factor[q] = 0.5 * source.amplitude[q];  // half of the wave is incident
+    for (std::size_t o = first_[number]; o < first_[number + 1]; ++o) leave(next, *wedge, source.face, strip.w, outgoing_[o]);
     const bool is_long = edge.length() >= long_from_m_;
-    if (next.waves < (is_long ? kMostWavesOfLong : kMostWaves) && next.walls == 0) send(next);
+    if (next.waves < (is_long ? kMostWavesOfLong : kMostWaves) && next.walls == 0) send_on(next);
   }
 
   // What of a wave that came along a face goes out by a departure of the same edge.
-  void leave(const Incident& in, const WedgeFrame& wedge, const WedgeFace& face, const Vec3& w, double l,
-             const EdgeArrival& departure) {
+  void leave(const Incident& in, const WedgeFrame& wedge, const WedgeFace& face, const Vec3& w, const EdgeArrival& departure) {
     const SharpEdge& edge = edges_.edges[in.edge];
     if (by_mirrors(departure) || wedge_towards(edge, departure.direction) != &wedge) return;
     const std::array<double, 2> s{std::max(in.s[0], departure.s[0]), std::min(in.s[1], departure.s[1])};
@@ -241,15 +270,21 @@ class EdgeWaves {
     footprint.part = facets_[edge.facet[0]].part;
     footprint.part_beyond = facets_[edge.facet[1]].part;
     footprint.bounces = static_cast<std::uint8_t>(in.walls + in.waves + 1);
+    EdgeFootprint::EdgeWaveRange range;
     for (int end = 0; end < 2; ++end) {
       const double share = (s[end] - in.s[0]) / (in.s[1] - in.s[0]);
       const Vec3 X = in.X[0] + share * (in.X[1] - in.X[0]), Y = departure.image + s[end] * departure.image_along;
       footprint.psi[end] = in.psi[0] + share * (in.psi[1] - in.psi[0]) + antennas_.receive.r.dot(Y);
       footprint.gradient[end].transmit = X;
       footprint.gradient[end].receive = Y;
+      range.l[end] = in.l[0] + share * (in.l[1] - in.l[0]);
     }
     const Vec3& along = edge.along();
-    footprint.edge_wave = {in.departure_m, l * shadow_distance(along, w, -departure.direction), in.waves};
+    range.departure = in.departure;
+    range.arrival = shadow_distance(along, w, -departure.direction);
+    range.first_m = in.first_m;
+    range.waves = in.waves;
+    footprint.edge_wave = range;
     const Vec3 J = weight * diffracted(wedge, face, along, w, -departure.direction);
     const double h = departure.E_h.dot(J), v = departure.E_v.dot(J);
     footprint.pattern = {h * in.factor[0], h * in.factor[1], v * in.factor[0], v * in.factor[1]};

@@ -136,6 +136,7 @@ double shadow_distance(const Vec3& edge, const Vec3& along_face, const Vec3& oth
 }
 
 Complex transition(double x) {
+  if (x < 0) return std::conj(transition(-x));
   // Far away the asymptotic series, sum of (2n - 1)!! (j / 2x)^n, to its smallest term, which bounds the error: e^{-x}.
   if (x > 17) {
     double term = 1;
@@ -158,14 +159,36 @@ Complex transition(double x) {
   return 2.0 * j * std::sqrt(x) * std::polar(1.0, x) * (std::polar(std::sqrt(kPi) / 2, -kPi / 4) - sum);
 }
 
-Complex transition(double x, double y) {
+namespace {
+
+// Arguments nearer to each other than this, of their sum, count as equal.
+constexpr double kEqual = 1e-3;
+
+bool nearly_equal(double x, double y) { return std::abs(x - y) < kEqual * std::abs(x + y); }
+
+// transition(x, y), of which F(x) and F(y) are known.
+Complex between_two(double x, const Complex& F_x, double y, const Complex& F_y) {
   // Between equals F - x F', with F' = F / 2x + j F - j; farther apart errors of F grow five-hundredfold at most.
-  if (std::abs(x - y) < 1e-3 * (x + y)) {
+  if (nearly_equal(x, y)) {
     const double mean = 0.5 * (x + y);
     const Complex F = transition(mean);
     return 0.5 * F - j * mean * (F - 1.0);
   }
-  return (y * transition(x) - x * transition(y)) / (y - x);
+  return (y * F_x - x * F_y) / (y - x);
+}
+
+}  // namespace
+
+Complex transition(double x, double y) { return between_two(x, transition(x), y, transition(y)); }
+
+Complex transition(double x, double y, double z) {
+  if (nearly_equal(x, y)) {  // moved apart, which errs by its square
+    const double mean = 0.5 * (x + y);
+    x = (1 - kEqual) * mean;
+    y = (1 + kEqual) * mean;
+  }
+  const Complex F_x = transition(x), F_y = transition(y), F_z = transition(z);
+  return (y * between_two(x, F_x, z, F_z) - x * between_two(y, F_y, z, F_z)) / (y - x);
 }
 
 }  // namespace seaglint

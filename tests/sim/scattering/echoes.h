@@ -47,6 +47,26 @@ inline double largest(const std::array<Complex, 4>& s) {
   return size;
 }
 
+// make_plate() cut into `cells` squares along either side, two triangles each.
+inline TriangleMesh cut_plate(double length, double width, std::uint32_t cells) {
+  TriangleMesh cut = make_plate(length, width);
+  cut.vertices.clear();
+  cut.triangles.clear();
+  for (std::uint32_t j = 0; j <= cells; ++j) {
+    for (std::uint32_t i = 0; i <= cells; ++i) cut.vertices.push_back({0, length * i / cells - length / 2, width * j / cells - width / 2});
+  }
+  for (std::uint32_t j = 0; j < cells; ++j) {
+    for (std::uint32_t i = 0; i < cells; ++i) {
+      const std::uint32_t a = j * (cells + 1) + i, b = a + 1, c = a + cells + 1, d = c + 1;
+      cut.triangles.push_back({a, b, d});
+      cut.triangles.push_back({a, d, c});
+    }
+  }
+  cut.triangle_part.assign(cut.triangles.size(), 0);
+  cut.triangle_material.assign(cut.triangles.size(), 0);
+  return cut;
+}
+
 // A square trihedral with a tilted plate before it: first, second and third bounces, shadows on both ways.
 inline TriangleMesh stepped_corner() {
   TriangleMesh mesh = make_square_trihedral(0.4);

@@ -67,6 +67,28 @@ TEST(Transition, BetweenTwoEdgesIsTheIntegralOverBothApertures) {
   EXPECT_NEAR(std::abs(transition(0.7, 1e8) - transition(0.7)), 0, 1e-6);
 }
 
+// The integral over the length of an edge wave, with its boundaries and a phase that runs along the edge, is what stands at its ends.
+TEST(Transition, WithAThirdBoundaryIsTheEndOfAnIntegralAlongTheEdge) {
+  struct Case {
+    double a, b, p;  // per metre
+  };
+  for (const auto& [a, b, p] : {Case{7, 3, 5}, {7, 3, -5}, {7, 7.001, 5}, {7, 3, -7}, {7, 7, -7}, {0.02, 30, 11}, {40, 1e-9, -3}, {2, 5, 300}}) {
+    for (const double shortest : {1e-12, 0.2}) {  // from a corner on, and from afar
+      constexpr double kLongest = 1.7;
+      constexpr int n = 20000;  // Simpson's rule over sqrt(l), where all is smooth
+      const double from = std::sqrt(shortest), step = (std::sqrt(kLongest) - from) / n;
+      Complex integral = 0;
+      for (int i = 0; i <= n; ++i) {
+        const double root = from + i * step, l = root * root;
+        integral += step / 3 * (i == 0 || i == n ? 1 : i % 2 == 1 ? 4 : 2) * 2.0 * transition(a * l, b * l) * std::polar(1.0, p * l);
+      }
+      const auto end = [&](double l) { return transition(a * l, b * l, -p * l) * std::polar(1.0, p * l) / (j * p * std::sqrt(l)); };
+      // Equal arguments are moved apart by 1e-3, which errs by its square, and magnifies F's 1e-7 by as much.
+      EXPECT_NEAR(std::abs(end(kLongest) - end(shortest) - integral), 0, 1e-4 * std::abs(integral)) << a << ' ' << b << ' ' << p << ' ' << shortest;
+    }
+  }
+}
+
 // A closed body of this profile (x, z), counter-clockwise seen against y, and width along y; every corner of the
 // profile is seen from the second one.
 TriangleMesh extruded(const std::vector<Vec2>& profile, double width) {
@@ -182,6 +204,39 @@ TEST(EdgeWave, OfAGrazedSheetAreReciprocalAndKeepItsMirrorSymmetry) {
   }
   RecordProperty("crossed_dbsm", std::to_string(dbsm(most)));
   RecordProperty("bound_dbsm", std::to_string(dbsm(left_out + aside)));
+}
+
+// Off its principal planes, where each edge answers from its corners alone.
+TEST(EdgeWave, DoNotDependOnHowTheirFaceIsCut) {
+  const double k = wavenumber(10e9);
+  const Scatterer whole(make_plate(0.25, 0.125)), cut(cut_plate(0.25, 0.125, 16));
+  double difference = 0, power = 0;
+  for (double azimuth = 20; azimuth <= 85; azimuth += 2.5) {
+    const RadarBasis basis = radar_basis(direction(azimuth, 13));
+    const auto of_edges = [&](const Scatterer& plate, bool once) {
+      const auto arrivals = Illumination(plate, monostatic(basis), {0, 1, true}).light_all(1, [](std::size_t, auto) {}).arrivals;
+      std::vector<EdgeFootprint> footprints;
+      edge_wave_footprints(plate.edges(), plate.facets(), monostatic(basis), arrivals, arrivals, 0, footprints);
+      std::array<Complex, 4> sum{};
+      for (const EdgeFootprint& footprint : footprints) {
+        if (once && footprint.edge_wave->waves > 1) continue;
+        const auto s = scattered(footprint, k);
+        for (int i = 0; i < 4; ++i) sum[i] += s[i];
+      }
+      return sum;
+    };
+    // Diffracted twice: to rounding, of edges' ends that cancel.
+    const auto one = of_edges(whole, true), many = of_edges(cut, true);
+    for (int i = 0; i < 4; ++i) EXPECT_NEAR(std::abs(one[i] - many[i]), 0, 1e-9 * 0.25) << azimuth << ' ' << i;
+    const auto all = of_edges(whole, false), all_of_many = of_edges(cut, false);
+    for (int i = 0; i < 4; ++i) {
+      difference += std::norm(all[i] - all_of_many[i]);
+      power += std::norm(all_of_many[i]);
+    }
+  }
+  // Three times and four: by means over lengths that grow fourfold.
+  EXPECT_LT(std::sqrt(difference / power), 0.05);
+  RecordProperty("difference", std::to_string(std::sqrt(difference / power)));
 }
 
 }  // namespace

@@ -81,23 +81,7 @@ TEST(Laws, ManyBouncesAreReciprocalAsFarAsPhysicalOpticsIs) {
 }
 
 TEST(Laws, AFlatFaceAnswersAlikeHoweverItIsCutIntoTriangles) {
-  TriangleMesh whole = make_plate(0.5, 0.4);
-  TriangleMesh cut;
-  cut.materials = whole.materials;
-  cut.part_names = whole.part_names;
-  constexpr int kCells = 17;
-  for (int j = 0; j <= kCells; ++j) {
-    for (int i = 0; i <= kCells; ++i) cut.vertices.push_back({0, 0.5 * i / kCells - 0.25, 0.4 * j / kCells - 0.2});
-  }
-  for (std::uint32_t j = 0; j < kCells; ++j) {
-    for (std::uint32_t i = 0; i < kCells; ++i) {
-      const std::uint32_t a = j * (kCells + 1) + i, b = a + 1, c = a + kCells + 1, d = c + 1;
-      cut.triangles.push_back({a, b, d});
-      cut.triangles.push_back({a, d, c});
-      cut.triangle_part.insert(cut.triangle_part.end(), 2, 0);
-      cut.triangle_material.insert(cut.triangle_material.end(), 2, 0);
-    }
-  }
+  const TriangleMesh whole = make_plate(0.5, 0.4), cut = cut_plate(0.5, 0.4, 17);
   for (const double azimuth : {0.0, 17.0, 58.0}) {
     const auto one = echo(whole, direction(azimuth, 9), k10, 0.02), many = echo(cut, direction(azimuth, 9), k10, 0.02);
     EXPECT_LT(difference(one, many), 1e-9 * 0.2 * k10) << azimuth;
