@@ -39,10 +39,9 @@ EdgeFootprint reversed(const EdgeFootprint& footprint) {
 void append_edge_waves(const Scatterer& scatterer, const AntennaPair& antennas,
                        std::span<const EdgeArrival> incoming_chunk, std::span<const EdgeArrival> incoming,
                        std::span<const EdgeArrival> outgoing_chunk, std::span<const EdgeArrival> outgoing,
-                       std::vector<EdgeFootprint>& answer) {
+                       const EdgeWaveLimits& limits, std::vector<EdgeFootprint>& answer) {
   const std::size_t first = answer.size();
-  edge_wave_footprints(scatterer.edges(), scatterer.facets(), antennas, incoming_chunk, outgoing,
-                       kLongEdge * scatterer.radius(), answer);
+  edge_wave_footprints(scatterer.edges(), scatterer.facets(), antennas, incoming_chunk, outgoing, limits, answer);
   const std::span there(answer.begin() + first, answer.end());
   if (antennas.monostatic) {
     for (EdgeFootprint& f : there) f.pattern[1] = f.pattern[2] = 0.5 * (f.pattern[1] + f.pattern[2]);
@@ -50,7 +49,7 @@ void append_edge_waves(const Scatterer& scatterer, const AntennaPair& antennas,
   }
   std::vector<EdgeFootprint> back;
   edge_wave_footprints(scatterer.edges(), scatterer.facets(), {antennas.receive, antennas.transmit, false},
-                       outgoing_chunk, incoming, kLongEdge * scatterer.radius(), back);
+                       outgoing_chunk, incoming, limits, back);
   for (const EdgeFootprint& f : back) answer.push_back(reversed(f));
   for (std::size_t i = first; i < answer.size(); ++i) {
     for (Complex& element : answer[i].pattern) element *= 0.5;
@@ -69,11 +68,13 @@ void edge_echoes(const Scatterer& scatterer, const AntennaPair& antennas, const 
                     .light_all(threads, [](std::size_t, auto) {});
   }
   const std::span<const EdgeArrival> outgoing = antennas.monostatic ? incoming : backwards.arrivals;
+  const double lowest = *std::ranges::min_element(wavenumbers);
+  const EdgeWaveLimits limits{kLongEdge * scatterer.radius(), faintest_echo(scatterer, settings, lowest), lowest};
   const auto chunks = chunks_of(incoming), chunks_back = chunks_of(outgoing);
   parallel_for(chunks.size(), threads, [&](std::size_t chunk) {
     std::vector<EdgeFootprint> answer =
         edge_footprints(scatterer.edges(), scatterer.facets(), antennas, chunks[chunk], outgoing, settings.max_bounces);
-    append_edge_waves(scatterer, antennas, chunks[chunk], incoming, chunks_back[chunk], outgoing, answer);
+    append_edge_waves(scatterer, antennas, chunks[chunk], incoming, chunks_back[chunk], outgoing, limits, answer);
     std::erase_if(answer,
                   [&](const EdgeFootprint& f) { return !settings.filter.keeps_edge(f.part, f.part_beyond, f.bounces); });
     visit(chunk, answer);

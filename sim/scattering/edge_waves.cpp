@@ -22,6 +22,10 @@ constexpr double kLift = 1e-7;
 // a hundredth of the longest counts as one.
 constexpr double kMostGrowth = 4, kShortestShare = 0.01;
 
+// No current of a grazing wave along w answers louder in direction s, times 1 - s.w; 0.37 was the most met on the ship.
+constexpr double kMostCurrent = 0.5;
+constexpr double kNoField = 1e-9;  // relative to the incident one
+
 // Edge waves in a row: on a face that two edges bound the third edge is the first one again, and the fourth the second; near grazing each one's answer is
 // as large as the one's before.
 constexpr int kMostWaves = 2, kMostWavesOfLong = 3;
@@ -84,15 +88,18 @@ bool by_mirrors(const EdgeArrival& way) { return way.mirrors > 0; }
 // A grazing wave along w, a little down on the face.
 Vec3 grazing(const WedgeFace& face, const Vec3& w) { return (w - kLift * face.n).normalized(); }
 
+// 1 - s.w, never zero.
+double opening(const Vec3& w, const Vec3& s) { return std::max(0.5 * (s - w).squaredNorm(), 1e-15); }
+
 class EdgeWaves {
  public:
   EdgeWaves(const SharpEdges& edges, std::span<const Facet> facets, const AntennaPair& antennas,
-            std::span<const EdgeArrival> outgoing, double long_from_m, std::vector<EdgeFootprint>& out)
+            std::span<const EdgeArrival> outgoing, const EdgeWaveLimits& limits, std::vector<EdgeFootprint>& out)
       : edges_(edges),
         facets_(facets),
         antennas_(antennas),
         outgoing_(outgoing),
-        long_from_m_(long_from_m),
+        limits_(limits),
         out_(out),
         first_(edges.edges.size() + 1, 0) {
     for (const EdgeArrival& arrival : outgoing) ++first_[arrival.edge + 1];
@@ -113,7 +120,7 @@ class EdgeWaves {
   void send_on(const Incident& in) {
     const auto [shortest, longest] = std::minmax(in.l[0], in.l[1]);
     const double first = std::max(shortest, kShortestShare * longest), growth = longest / first;
-    const bool is_long = edges_.edges[in.edge].length() >= long_from_m_;
+    const bool is_long = edges_.edges[in.edge].length() >= limits_.long_from_m;
     const double parts = is_long ? std::max(1.0, std::ceil(std::log(growth) / std::log(kMostGrowth))) : 1.0;
     double before = 0;  // share of the way from the end where it is shortest
     for (double n = 1; n <= parts; ++n) {
@@ -129,15 +136,15 @@ class EdgeWaves {
     if (!wedge) return;
     const double decay = in.waves > 0 ? mean_decay(in.l) : 1.0;
     for (int i = 0; i < 2; ++i) {
-      const EdgeWave h = edge_wave(*wedge, i, in.direction, in.E[0]), v = edge_wave(*wedge, i, in.direction, in.E[1]);
+      const EdgeWave wave = edge_wave(*wedge, i, in.direction, in.E);
       const Source source{in,
                           wedge->face[i],
                           edge.a,
                           edge.along(),
-                          {h.amplitude * decay * in.factor[0], v.amplitude * decay * in.factor[1]},
-                          shadow_distance(edge.along(), h.direction, in.direction)};
-      if (std::abs(source.amplitude[0]) + std::abs(source.amplitude[1]) < 1e-9) continue;
-      Strip strip{h.direction.cross(source.face.n), h.direction, 0, 0};
+                          {wave.amplitude[0] * decay * in.factor[0], wave.amplitude[1] * decay * in.factor[1]},
+                          shadow_distance(edge.along(), wave.direction, in.direction)};
+      if (!counts(source)) continue;
+      Strip strip{wave.direction.cross(source.face.n), wave.direction, 0, 0};
       if (std::abs(strip.u.dot(source.along)) < 1e-6) continue;  // it runs along the edge itself
       const double a = strip.u.dot(edge.a + in.s[0] * source.along), b = strip.u.dot(edge.a + in.s[1] * source.along);
       strip.from = std::min(a, b);
@@ -153,8 +160,7 @@ class EdgeWaves {
   // that the first edge alone would send on along w beyond it: J = 2 n x H = 2 w / eta there, integrated along w.
   static Vec3 diffracted(const WedgeFrame& wedge, const WedgeFace& face, const Vec3& along, const Vec3& w,
                          const Vec3& s) {
-    const double opening = std::max(0.5 * (s - w).squaredNorm(), 1e-15);  // 1 - s.w
-    return edge_current(wedge, grazing(face, w), face.n, s) + w.cross(along).norm() / (2 * kPi * opening) * w;
+    return edge_current(wedge, grazing(face, w), face.n, s) + w.cross(along).norm() / (2 * kPi * opening(w, s)) * w;
   }
 
   // Follows the strip that enters a facet by one of its sides.
@@ -242,9 +248,8 @@ class EdgeWaves {
       const Vec3 Q2 = edge.a + next.s[end] * along;
       const double s1 = strip.u.dot(Q2 - source.start) / strip.u.dot(source.along);
       const double share = (s1 - in.s[0]) / (in.s[1] - in.s[0]);
-      const double l = std::max(strip.w.dot(Q2 - source.start - s1 * source.along), 0.0);
-      next.l[end] = l;
-      next.psi[end] = in.psi[0] + share * (in.psi[1] - in.psi[0]) - l;
+      next.l[end] = std::max(0.0, strip.w.dot(Q2 - source.start - s1 * source.along));
+      next.psi[end] = in.psi[0] + share * (in.psi[1] - in.psi[0]) - next.l[end];
       next.X[end] = in.X[0] + share * (in.X[1] - in.X[0]);
     }
     if (mean_decay(next.l) > 2e4) return;
@@ -252,8 +257,27 @@ class EdgeWaves {
     if (in.waves == 1) next.first_m = std::pow(mean_decay(in.l), -2);
     for (int q = 0; q < 2; ++q) next.factor[q] = 0.5 * source.amplitude[q];  // half of the wave is incident
     for (std::size_t o = first_[number]; o < first_[number + 1]; ++o) leave(next, *wedge, source.face, strip.w, outgoing_[o]);
-    const bool is_long = edge.length() >= long_from_m_;
+    const bool is_long = edge.length() >= limits_.long_from_m;
     if (next.waves < (is_long ? kMostWavesOfLong : kMostWaves) && next.walls == 0) send_on(next);
+  }
+
+  // Whether what an edge sends along a face may count: the echo of the next edge, its stretch in phase and its diffraction
+  // coefficient one. On the ship what is left out by that is -89 dB.
+  bool counts(const Source& source) const {
+    const Incident& in = source.in;
+    const double fields = std::abs(source.amplitude[0]) + std::abs(source.amplitude[1]);
+    if (in.waves == 0) return fields > kNoField;
+    return fields * std::pow(limits_.k, -0.5 * (in.waves + 1)) * std::sqrt(in.s[1] - in.s[0]) > limits_.faintest_m;
+  }
+
+  // Whether an echo may, whose phase runs at `rate` along a stretch of that length: transition functions are at most 1 and
+  // at most sqrt(pi x).
+  bool counts(const Incident& in, const Vec3& w, const Vec3& s, double arrival, double rate, double length) const {
+    const double fields = std::abs(in.factor[0]) + std::abs(in.factor[1]);
+    const double shadow = in.waves == 1 ? std::min(in.departure, arrival) : arrival;
+    const double decay = std::min(1 / std::sqrt(std::min(in.l[0], in.l[1])), std::sqrt(2 * kPi * limits_.k * shadow));
+    const double extent = length / std::max(limits_.k * std::abs(rate) * length, 1.0);
+    return fields * kMostCurrent / opening(w, s) * std::pow(limits_.k, -0.5 * in.waves) * decay * extent >= limits_.faintest_m;
   }
 
   // What of a wave that came along a face goes out by a departure of the same edge.
@@ -264,6 +288,11 @@ class EdgeWaves {
     if (s[1] - s[0] < kShortest) return;
     const double weight = in.walls > 0 ? beside_the_beam(in.before, in.unfolded * -departure.direction) : 1.0;
     if (weight <= 0) return;
+    const Vec3& along = edge.along();
+    const Vec3 out = -departure.direction;
+    const double arrival = shadow_distance(along, w, out);
+    const double rate = (in.psi[1] - in.psi[0]) / (in.s[1] - in.s[0]) + antennas_.receive.r.dot(departure.image_along);
+    if (!counts(in, w, out, arrival, rate, s[1] - s[0])) return;
     EdgeFootprint footprint;
     footprint.length = s[1] - s[0];
     footprint.facet = edge.facet[0];
@@ -279,13 +308,12 @@ class EdgeWaves {
       footprint.gradient[end].receive = Y;
       range.l[end] = in.l[0] + share * (in.l[1] - in.l[0]);
     }
-    const Vec3& along = edge.along();
     range.departure = in.departure;
-    range.arrival = shadow_distance(along, w, -departure.direction);
+    range.arrival = arrival;
     range.first_m = in.first_m;
     range.waves = in.waves;
     footprint.edge_wave = range;
-    const Vec3 J = weight * diffracted(wedge, face, along, w, -departure.direction);
+    const Vec3 J = weight * diffracted(wedge, face, along, w, out);
     const double h = departure.E_h.dot(J), v = departure.E_v.dot(J);
     footprint.pattern = {h * in.factor[0], h * in.factor[1], v * in.factor[0], v * in.factor[1]};
     out_.push_back(footprint);
@@ -295,7 +323,7 @@ class EdgeWaves {
   std::span<const Facet> facets_;
   const AntennaPair& antennas_;
   std::span<const EdgeArrival> outgoing_;
-  double long_from_m_;
+  EdgeWaveLimits limits_;
   std::vector<EdgeFootprint>& out_;
   std::vector<std::size_t> first_;  // departure of each edge
 };
@@ -303,9 +331,9 @@ class EdgeWaves {
 }  // namespace
 
 void edge_wave_footprints(const SharpEdges& edges, std::span<const Facet> facets, const AntennaPair& antennas,
-                          std::span<const EdgeArrival> incoming, std::span<const EdgeArrival> outgoing, double long_from_m,
+                          std::span<const EdgeArrival> incoming, std::span<const EdgeArrival> outgoing, const EdgeWaveLimits& limits,
                           std::vector<EdgeFootprint>& footprints) {
-  EdgeWaves waves(edges, facets, antennas, outgoing, long_from_m, footprints);
+  EdgeWaves waves(edges, facets, antennas, outgoing, limits, footprints);
   for (const EdgeArrival& in : incoming) {
     if (!by_mirrors(in)) waves.send(in);
   }

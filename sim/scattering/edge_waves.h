@@ -14,13 +14,19 @@
 
 namespace seaglint {
 
+struct EdgeWaveLimits {
+  double long_from_m = 0;  // length of edges from which on a fourth diffraction is followed
+  double faintest_m = 0;   // echoes that cannot reach this are left out, judged at
+  double k = 1;            // this wavenumber, 1/m
+};
+
 // Appends the echoes along transmitter - first edge - face - second edge (- face - third edge) - receiver, for every
 // stretch of first edges in `incoming` and of last edges in `outgoing` (the same list when both are one antenna), each
 // sorted by edge. The strip of grazing rays is followed across coplanar facets and by up to two upright walls from one
-// edge to the next; it ends at edges that are not sharp. From edges of long_from_m on a fourth one is followed. Fields fall as 1/sqrt(k l) with the distance l between two
-// edges; at the later one half of the wave is incident.
+// edge to the next; it ends at edges that are not sharp. Fields fall as 1/sqrt(k l) with the distance l between two edges; at the
+// later one half of the wave is incident.
 void edge_wave_footprints(const SharpEdges& edges, std::span<const Facet> facets, const AntennaPair& antennas,
-                          std::span<const EdgeArrival> incoming, std::span<const EdgeArrival> outgoing, double long_from_m,
+                          std::span<const EdgeArrival> incoming, std::span<const EdgeArrival> outgoing, const EdgeWaveLimits& limits,
                           std::vector<EdgeFootprint>& footprints);
 
 }  // namespace seaglint

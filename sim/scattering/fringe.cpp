@@ -111,19 +111,19 @@ std::array<Vec3, 2> edge_currents(const WedgeFrame& wedge, const Vec3& k_hat, co
   return sums;
 }
 
-EdgeWave edge_wave(const WedgeFrame& wedge, int face, const Vec3& k_hat, const Vec3& E) {
+EdgeWave edge_wave(const WedgeFrame& wedge, int face, const Vec3& k_hat, const std::array<Vec3, 2>& fields) {
   const WedgeFace& f = wedge.face[face];
   const double N = wedge.N;
   const double cos_b = k_hat.dot(f.t);
   const double sin_b = std::sqrt(std::max(1 - cos_b * cos_b, 1e-12));
   double phi = angle_from_face(f, -k_hat);
-  EdgeWave wave{sin_b * f.x + cos_b * f.t, 0.0};
+  EdgeWave wave{sin_b * f.x + cos_b * f.t, {}};
   if (phi > N * kPi) return wave;
   if (std::abs(phi - kPi) < kFromBoundary) phi = kPi - kFromBoundary;
   const Complex D = std::polar(1.0, -kPi / 4) * std::sin(kPi / N) / (N * std::sqrt(2 * kPi) * sin_b) * 2.0 /
                     (std::cos(kPi / N) - std::cos(phi / N));
   // H along t on the cone is sin_b of the whole, and E = H x direction lies along n.
-  wave.amplitude = k_hat.cross(E).dot(f.t) * D / sin_b;
+  for (int i = 0; i < 2; ++i) wave.amplitude[i] = k_hat.cross(fields[i]).dot(f.t) * D / sin_b;
   return wave;
 }
 

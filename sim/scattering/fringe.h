@@ -37,15 +37,15 @@ Vec3 edge_current(const WedgeFrame& wedge, const Vec3& k_hat, const Vec3& E, con
 std::array<Vec3, 2> edge_currents(const WedgeFrame& wedge, const Vec3& k_hat, const std::array<Vec3, 2>& fields,
                                    const Vec3& s);
 
-// Field of the edge wave that a hard-polarised plane wave sends along a face: unit amplitude along k_hat, electric
-// field E. The wave travels along `direction` (in the face, on Keller's cone) and its electric field across the face at
+// Fields of the edge waves that hard-polarised plane waves send along a face: unit amplitude along k_hat, electric
+// fields `fields`. The wave travels along `direction` (in the face, on Keller's cone) and its electric field across the face at
 // distance l > 0 from the edge is amplitude e^{-jkl} / sqrt(k l), half of it the incident wave for an edge it meets (J.
 // B. Keller, J. Opt. Soc. Am. 52 (1962) 116-130: his hard coefficient towards the face). The field along n.
 struct EdgeWave {
   Vec3 direction;
-  Complex amplitude;
+  std::array<Complex, 2> amplitude;
 };
-EdgeWave edge_wave(const WedgeFrame& wedge, int face, const Vec3& k_hat, const Vec3& E);
+EdgeWave edge_wave(const WedgeFrame& wedge, int face, const Vec3& k_hat, const std::array<Vec3, 2>& fields);
 
 // How far a wave along a face is from another direction's shadow boundary: sin^2 of half the angle about `edge` between
 // them, times sin^2 of the angle b between `other` and the edge. Least, and never zero, where they agree. `other` is

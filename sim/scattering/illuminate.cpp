@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "sim/core/constants.h"
 #include "sim/core/error.h"
 #include "sim/scattering/beam_tracer.h"
 
@@ -75,6 +76,10 @@ std::vector<EdgeArrival> by_edge(std::span<const std::vector<EdgeArrival>> chunk
 }  // namespace
 
 double default_ray_spacing(const Scatterer& scatterer) { return kSpacingPerSide * kSmallestSide * scatterer.radius(); }
+
+double faintest_echo(const Scatterer& scatterer, const IlluminationSettings& settings, double k) {
+  return 0.1 * k * smallest_area(scatterer, settings) / (2 * kPi);
+}
 
 Illumination::Illumination(const Scatterer& scatterer, const AntennaPair& antennas,
                            const IlluminationSettings& settings, int threads, std::span<const double> wavenumbers)

@@ -35,6 +35,10 @@ struct IlluminationSettings {
 // 1e-3 of the radius: 0.07 m on the 144 m ship, pieces of 5 mm (README.md).
 double default_ray_spacing(const Scatterer& scatterer);
 
+// A tenth of what the smallest lit piece that counts returns, k area / 2 pi, m: ends of currents and edge waves below may be left out. Together they are -65 dB of the
+// ship's echo.
+double faintest_echo(const Scatterer& scatterer, const IlluminationSettings& settings, double k);
+
 // What the beams that leave one facet, or several, meet.
 struct Lit {
   std::vector<Footprint> footprints;
@@ -58,7 +62,6 @@ class Illumination {
   Illumination(const Scatterer& scatterer, const AntennaPair& antennas, const IlluminationSettings& settings,
                int threads = 1, std::span<const double> wavenumbers = {});
 
-  double min_area() const { return min_area_; }  // of the smallest lit piece that counts, m^2
   // Panels the transmitter sees, by the facets they go by, ascending.
   std::span<const int> seen() const { return seen_; }
 

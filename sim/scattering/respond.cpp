@@ -55,9 +55,8 @@ ReturnGrid trace_returns(const Scatterer& scatterer, const PlannedWay& way, cons
   const SplitSettings split_settings{kc, path.turn + spread_of_directions(scatterer, solver.radar_range_m)};
   const std::size_t chunks = illumination.chunk_count();
   const std::size_t all_chunks = chunks + kEdgeChunks;  // the last ones are those of the edges
-  // Half of all points, ends of currents that fade or run out of phase, are fainter than a tenth of the smallest piece
-  // that counts, k area / 2 pi. Together they are -65 dB of the ship's echo.
-  const double faint = 0.1 * kc * illumination.min_area() / (2 * kPi);
+  // Half of all points, ends of currents that fade or run out of phase, are fainter.
+  const double faint = faintest_echo(scatterer, settings, kc);
   std::vector<ChunkPoints> points(all_chunks);
   const auto keep = [&](std::size_t chunk, std::span<Contribution> contributions) {
     if (solver.radar_range_m > 0) bend_wavefront(contributions, antennas, origin, solver.radar_range_m);
