@@ -121,10 +121,10 @@ class EdgeWaves {
     const auto [shortest, longest] = std::minmax(in.l[0], in.l[1]);
     const double first = std::max(shortest, kShortestShare * longest), growth = longest / first;
     const bool is_long = edges_.edges[in.edge].length() >= limits_.long_from_m;
-    const double parts = is_long ? std::max(1.0, std::ceil(std::log(growth) / std::log(kMostGrowth))) : 1.0;
+    const int parts = is_long ? std::max(1, static_cast<int>(std::ceil(std::log(growth) / std::log(kMostGrowth)))) : 1;
     double before = 0;  // share of the way from the end where it is shortest
-    for (double n = 1; n <= parts; ++n) {
-      const double here = n < parts ? (first * std::pow(growth, n / parts) - shortest) / (longest - shortest) : 1.0;
+    for (int n = 1; n <= parts; ++n) {
+      const double here = n < parts ? (first * std::pow(growth, static_cast<double>(n) / parts) - shortest) / (longest - shortest) : 1.0;
       send(in.l[0] < in.l[1] ? part_of(in, before, here) : part_of(in, 1 - here, 1 - before));
       before = here;
     }
