@@ -194,7 +194,7 @@ std::vector<EdgeFootprint> edge_footprints(const SharpEdges& edges, std::span<co
 
 namespace {
 
-// k (psi_1 - psi_0), kept from 0: where it changes by less, the integral does by the square of this.
+// k (psi_1 - psi_0), kept from 0, where the terms of both ends would be infinite: moves the integral by a part of this at most.
 double phase_run(const EdgeFootprint& footprint, double k) {
   constexpr double kLeast = 1e-3;  // rad
   const double run = k * (footprint.psi[1] - footprint.psi[0]);
