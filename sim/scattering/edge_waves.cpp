@@ -15,6 +15,8 @@ constexpr double kShortest = 1e-7;   // m
 constexpr double kNarrowest = 1e-9;  // m
 // Sine of the angle between a wave and a rim that it does not meet. Directions that would run along one are turned aside by more (illuminate.cpp).
 constexpr double kAlong = 1e-9;
+// Sine of the angle between an edge and what it sends along a face: for a wave from outside and for an edge wave.
+constexpr double kAlongItself = 1e-6, kBeside = 1e-5;
 // A grazing wave is sent down on its face by this angle, so that rounding does not put it on the other side.
 constexpr double kLift = 1e-7;
 
@@ -145,7 +147,9 @@ class EdgeWaves {
                           shadow_distance(edge.along(), wave.direction, in.direction)};
       if (!counts(source)) continue;
       Strip strip{wave.direction.cross(source.face.n), wave.direction, 0, 0};
-      if (std::abs(strip.u.dot(source.along)) < 1e-6) continue;  // it runs along the edge itself
+      // It runs along the edge itself. An edge wave that met it nearly so is the one that goes on beside it; as a ray off it, it would have the pole without
+      // the zero.
+      if (std::abs(strip.u.dot(source.along)) < (in.waves > 0 ? kBeside : kAlongItself)) continue;
       const double a = strip.u.dot(edge.a + in.s[0] * source.along), b = strip.u.dot(edge.a + in.s[1] * source.along);
       strip.from = std::min(a, b);
       strip.to = std::max(a, b);
