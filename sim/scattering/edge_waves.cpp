@@ -61,14 +61,19 @@ struct Strip {
 // Mean of 1/sqrt(l) where l is linear between its ends.
 double mean_decay(const std::array<double, 2>& l) { return 2 / (std::sqrt(l[0]) + std::sqrt(l[1])); }
 
+// What is linear along a stretch, at a share of the way from its first end.
+template <typename T>
+T at_share(const std::array<T, 2>& ends, double share) {
+  return ends[0] + share * (ends[1] - ends[0]);
+}
+
 // The part of it on a part of its stretch, from one share of the way to another.
 Incident part_of(const Incident& in, double from, double to) {
-  const auto mean = [](const auto& ends, double share) { return ends[0] + share * (ends[1] - ends[0]); };
   Incident part = in;
-  part.s = {mean(in.s, from), mean(in.s, to)};
-  part.psi = {mean(in.psi, from), mean(in.psi, to)};
-  part.X = {Vec3(mean(in.X, from)), Vec3(mean(in.X, to))};
-  part.l = {mean(in.l, from), mean(in.l, to)};
+  part.s = {at_share(in.s, from), at_share(in.s, to)};
+  part.psi = {at_share(in.psi, from), at_share(in.psi, to)};
+  part.X = {at_share(in.X, from), at_share(in.X, to)};
+  part.l = {at_share(in.l, from), at_share(in.l, to)};
   return part;
 }
 
@@ -253,8 +258,8 @@ class EdgeWaves {
       const double s1 = strip.u.dot(Q2 - source.start) / strip.u.dot(source.along);
       const double share = (s1 - in.s[0]) / (in.s[1] - in.s[0]);
       next.l[end] = std::max(0.0, strip.w.dot(Q2 - source.start - s1 * source.along));
-      next.psi[end] = in.psi[0] + share * (in.psi[1] - in.psi[0]) - next.l[end];
-      next.X[end] = in.X[0] + share * (in.X[1] - in.X[0]);
+      next.psi[end] = at_share(in.psi, share) - next.l[end];
+      next.X[end] = at_share(in.X, share);
     }
     if (mean_decay(next.l) > 2e4) return;
     if (in.waves == 0) next.departure = source.departure;
@@ -306,11 +311,11 @@ class EdgeWaves {
     EdgeFootprint::EdgeWaveRange range;
     for (int end = 0; end < 2; ++end) {
       const double share = (s[end] - in.s[0]) / (in.s[1] - in.s[0]);
-      const Vec3 X = in.X[0] + share * (in.X[1] - in.X[0]), Y = departure.image + s[end] * departure.image_along;
-      footprint.psi[end] = in.psi[0] + share * (in.psi[1] - in.psi[0]) + antennas_.receive.r.dot(Y);
-      footprint.gradient[end].transmit = X;
+      const Vec3 Y = departure.image + s[end] * departure.image_along;
+      footprint.psi[end] = at_share(in.psi, share) + antennas_.receive.r.dot(Y);
+      footprint.gradient[end].transmit = at_share(in.X, share);
       footprint.gradient[end].receive = Y;
-      range.l[end] = in.l[0] + share * (in.l[1] - in.l[0]);
+      range.l[end] = at_share(in.l, share);
     }
     range.departure = in.departure;
     range.arrival = arrival;

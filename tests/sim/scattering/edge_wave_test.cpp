@@ -213,7 +213,8 @@ TEST(EdgeWave, LeaveNothingOfAPlateEdgeOnAcrossTheField) {
   const double k = wavenumber(10e9);
   const Scatterer plate(make_plate(0.25, 0.15)), cut(cut_plate(0.25, 0.15, 16));
   const auto hh = [&](const Scatterer& scatterer, double azimuth) { return echo(scatterer, radar_basis(direction(azimuth, 0)), k, 0, 8, true)[kHhChannel]; };
-  EXPECT_LT(dbsm(hh(plate, 90)), -80);  // looked at 1e-6 rad aside, of which edge waves take the root
+  // Looked at 1e-6 rad aside, of which edge waves take the root: a rim's answer, width / 2 pi, times 1e-3.
+  EXPECT_LT(dbsm(hh(plate, 90)), -80);
   for (const double azimuth : {75.0, 85.0, 89.0}) {
     // The rims beside, which the waves run along 1e-6 rad off.
     EXPECT_LT(std::abs(hh(plate, azimuth) - hh(cut, azimuth)), 1e-3 * std::abs(hh(cut, azimuth))) << azimuth;
@@ -270,7 +271,8 @@ TEST(EdgeWave, DoNotDependOnHowTheirFaceIsCut) {
       power += std::norm(all_of_many[i]);
     }
   }
-  // Three times and four: by means over lengths that grow fourfold.
+  // Three times and four, nine tenths of this field: 1/sqrt(l) leaves its mean over a fourfold growth by a fifth in the root
+  // mean square, a sixth of which the phases along the stretches let through (0.033 was found).
   EXPECT_LT(std::sqrt(difference / power), 0.05);
   RecordProperty("difference", std::to_string(std::sqrt(difference / power)));
 }
