@@ -38,7 +38,7 @@ struct RcsArguments {
   std::string target, unit = "m", frequency_ghz, azimuth_deg, elevation_deg = "0", edges = "on", output;
   double ray_spacing_m = 0, range_m = 0;
   std::optional<double> transmit_azimuth_deg, transmit_elevation_deg;  // bistatic: the sweep is then the receiver's
-  double crease_deg = kDefaultCreaseDeg;
+  double crease_deg = kDefaultCreaseDeg, sheet_thickness_mm = 0;
   int max_bounces = kDefaultBounces;
   ReferenceArguments reference;
   ViewExportArguments view;
@@ -87,13 +87,13 @@ double dbsm(const Complex& s) { return 10 * std::log10(std::max(4 * kPi * std::n
 std::string table_text(const RcsArguments& arguments, const Scatterer& scatterer, const RcsSweep& sweep) {
   std::string csv = fmt::format(
       "# seaglint {} rcs\n# target {} unit {}: {} facets, radius {:.6g} m\n# material {}, echoes of {}\n{}# physical optics at every visible bounce, "
-      "max_bounces {}, edges {}, crease_deg {:.6g}, range_m {:.9g} (0 = far field), {}, "
+      "max_bounces {}, edges {}, crease_deg {:.6g}, sheet_thickness_mm {:.6g}, range_m {:.9g} (0 = far field), {}, "
       "ray_spacing_m {:.6g}\n{}# amplitudes in metres, e^{{+jwt}}, phase origin at the body's origin, S_pq: q "
       "transmitted, p received; basis of CONVENTIONS.md\n"
       "frequency_hz,azimuth_deg,elevation_deg,hh_re,hh_im,hv_re,hv_im,vh_re,vh_im,vv_re,vv_im,hh_dbsm,vv_dbsm\n",
       kVersion, arguments.target, arguments.unit, scatterer.facets().size(), scatterer.radius(),
       arguments.materials.empty() ? "pec" : fmt::format("{}", fmt::join(arguments.materials, " ")), arguments.view.text(), arguments.sea.text(),
-      arguments.max_bounces, arguments.edges, arguments.crease_deg, arguments.range_m,
+      arguments.max_bounces, arguments.edges, arguments.crease_deg, arguments.sheet_thickness_mm, arguments.range_m,
       arguments.transmit_azimuth_deg ? fmt::format("transmitter at azimuth {:.9g} deg, elevation {:.9g} deg", *arguments.transmit_azimuth_deg,
                                                    arguments.transmit_elevation_deg.value_or(0))
                                      : "monostatic",
@@ -268,8 +268,8 @@ void run_rcs(const RcsArguments& arguments, const Shell& shell) {
     arguments.sea.check(mesh);
     put_in_water(mesh, materials, -arguments.sea.height_m);
   }
-  const Scatterer scatterer(mesh, materials, radians(arguments.crease_deg));
-  if (arguments.edges == "on") warn(check_edges(scatterer, *lowest));
+  const Scatterer scatterer(mesh, materials, radians(arguments.crease_deg), 1e-3 * arguments.sheet_thickness_mm);
+  warn(check_edges(scatterer, arguments.edges == "on", *lowest, *highest));
   EchoFilter filter = arguments.view.filter(mesh);
   filter.cavities = arguments.cavities.find(mesh, materials, filter);
   const std::vector<NamedCavity> cavities = arguments.cavities.make(mesh, filter.cavities, scatterer, *lowest, *highest);
@@ -306,6 +306,11 @@ void add_rcs(CLI::App& app, Shell& shell) {
   command
       ->add_option("--crease-deg", arguments->crease_deg, "Facets that turn by less belong to one smooth surface; 0 = all facets flat")
       ->check(number_within(0.0, 60.0))
+      ->capture_default_str();
+  command
+      ->add_option("--sheet-thickness-mm", arguments->sheet_thickness_mm,
+                   "Of open surfaces, drawn where their lit faces are: changes what their rims return, to a tenth of the wavelength")
+      ->check(number_within(0.0, 1000.0))
       ->capture_default_str();
   command
       ->add_option("--transmit-azimuth-deg", arguments->transmit_azimuth_deg,

@@ -67,9 +67,9 @@ Pipeline::Pipeline(Scenario scenario)
       continue;
     }
     const double crease = radians(target.spec.solver.crease_deg);
-    scatterers_.push_back(std::make_shared<const Scatterer>(target.mesh, target.materials, crease));
-    if (!target.spec.solver.edges) continue;
-    const std::vector<std::string> of_edges = check_edges(*scatterers_.back(), 1e9 * lowest_ghz(scenario_.radar));
+    scatterers_.push_back(std::make_shared<const Scatterer>(target.mesh, target.materials, crease, 1e-3 * target.spec.sheet_thickness_mm));
+    const std::vector<std::string> of_edges =
+        check_edges(*scatterers_.back(), target.spec.solver.edges, 1e9 * lowest_ghz(scenario_.radar), 1e9 * highest_ghz(scenario_.radar));
     target.doubts.insert(target.doubts.end(), of_edges.begin(), of_edges.end());
   }
 }

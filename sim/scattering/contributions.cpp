@@ -178,7 +178,8 @@ void split(const EdgeFootprint& footprint, const SplitSettings& settings, std::v
   c.part = footprint.part;
   c.bounces = footprint.bounces;
   c.mechanism = Mechanism::kEdge;
-  for (int i = 0; i < 4; ++i) c.pattern[i] = std::complex<float>(footprint.pattern[i]);
+  const std::array<Complex, 4> pattern = footprint.pattern.at(settings.kc);
+  for (int i = 0; i < 4; ++i) c.pattern[i] = std::complex<float>(pattern[i]);
   const double k = settings.kc, run = footprint.psi[1] - footprint.psi[0];
   // Turning by u changes psi's slope along the edge by at most 2 u.
   const double threshold = 2 * settings.turn_rad / kAmplitudeError * footprint.length;

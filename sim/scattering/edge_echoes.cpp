@@ -28,7 +28,7 @@ std::vector<std::span<const EdgeArrival>> chunks_of(std::span<const EdgeArrival>
 // The same path run from the receiver to the transmitter (reciprocity).
 EdgeFootprint reversed(const EdgeFootprint& footprint) {
   EdgeFootprint result = footprint;
-  std::swap(result.pattern[1], result.pattern[2]);
+  result.pattern = transposed(footprint.pattern);
   for (PathGradient& g : result.gradient) g = {g.receive, g.transmit, g.receive_slip, g.transmit_slip};
   return result;
 }
@@ -44,16 +44,17 @@ void append_edge_waves(const Scatterer& scatterer, const AntennaPair& antennas,
   edge_wave_footprints(scatterer.edges(), scatterer.facets(), antennas, incoming_chunk, outgoing, limits, answer);
   const std::span there(answer.begin() + first, answer.end());
   if (antennas.monostatic) {
-    for (EdgeFootprint& f : there) f.pattern[1] = f.pattern[2] = 0.5 * (f.pattern[1] + f.pattern[2]);
+    for (EdgeFootprint& f : there) {
+      f.pattern += transposed(f.pattern);
+      f.pattern *= 0.5;
+    }
     return;
   }
   std::vector<EdgeFootprint> back;
   edge_wave_footprints(scatterer.edges(), scatterer.facets(), {antennas.receive, antennas.transmit, false},
                        outgoing_chunk, incoming, limits, back);
   for (const EdgeFootprint& f : back) answer.push_back(reversed(f));
-  for (std::size_t i = first; i < answer.size(); ++i) {
-    for (Complex& element : answer[i].pattern) element *= 0.5;
-  }
+  for (std::size_t i = first; i < answer.size(); ++i) answer[i].pattern *= 0.5;
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sim/core/constants.h"
+#include "sim/scattering/thick_rim.h"
 
 namespace seaglint {
 namespace {
@@ -80,14 +81,51 @@ std::vector<Stretch> lit_stretches(const Vec3& image, const Vec3& along, double 
 }
 
 // hh, hv, vh, vv of what leaves by `out`. The received polarisation, sent backwards, arrives as the outgoing wave.
-std::array<Complex, 4> pattern(const WedgeFrame& wedge, const EdgeArrival& in, const EdgeArrival& out) {
+EdgePattern pattern(const WedgeFrame& wedge, const EdgeArrival& in, const EdgeArrival& out) {
+  const auto received = [&](const auto& J_h, const auto& J_v) -> std::array<Complex, 4> {
+    return {out.E_h.dot(J_h), out.E_h.dot(J_v), out.E_v.dot(J_h), out.E_v.dot(J_v)};
+  };
   const auto [J_h, J_v] = edge_currents(wedge, in.direction, {in.E_h, in.E_v}, -out.direction);
-  return {out.E_h.dot(J_h), out.E_h.dot(J_v), out.E_v.dot(J_h), out.E_v.dot(J_v)};
+  EdgePattern pattern{received(J_h, J_v), {}, {}, wedge.thickness_m};
+  if (wedge.thickness_m > 0) {
+    const auto [T_h, T_v] = thick_rim_currents(wedge, in.direction, {in.E_h, in.E_v}, -out.direction);
+    pattern.thick = received(T_h.constant, T_v.constant);
+    pattern.thick_log = received(T_h.logarithm, T_v.logarithm);
+  }
+  return pattern;
 }
 
-std::array<Complex, 4> transposed(const std::array<Complex, 4>& s) { return {s[0], s[2], s[1], s[3]}; }
-
 }  // namespace
+
+std::array<Complex, 4> EdgePattern::at(double k) const {
+  std::array<Complex, 4> all = sharp;
+  if (thickness_m > 0) {
+    const double kt = k * thickness_m, logarithm = std::log(kt);
+    for (int i = 0; i < 4; ++i) all[i] += kt * (thick[i] + logarithm * thick_log[i]);
+  }
+  return all;
+}
+
+EdgePattern& EdgePattern::operator+=(const EdgePattern& other) {
+  for (int i = 0; i < 4; ++i) {
+    sharp[i] += other.sharp[i];
+    thick[i] += other.thick[i];
+    thick_log[i] += other.thick_log[i];
+  }
+  return *this;
+}
+
+EdgePattern& EdgePattern::operator*=(double factor) {
+  for (auto* part : {&sharp, &thick, &thick_log}) {
+    for (Complex& element : *part) element *= factor;
+  }
+  return *this;
+}
+
+EdgePattern transposed(EdgePattern pattern) {
+  for (auto* part : {&pattern.sharp, &pattern.thick, &pattern.thick_log}) std::swap((*part)[1], (*part)[2]);
+  return pattern;
+}
 
 double beside_the_beam(const Vec3& k_hat, const Vec3& s) {
   const double ahead = std::clamp(k_hat.dot(s) / std::cos(kPi / 6), 0.0, 1.0);
@@ -142,16 +180,12 @@ std::vector<EdgeFootprint> edge_footprints(const SharpEdges& edges, std::span<co
     } else if (in.mirrors < out.mirrors) {
       footprint.pattern = transposed(pattern(*wedge, out, in));
     } else {
-      const auto there = pattern(*wedge, in, out), back = transposed(&in == &out ? there : pattern(*wedge, out, in));
-      for (int i = 0; i < 4; ++i) footprint.pattern[i] = 0.5 * (there[i] + back[i]);
+      footprint.pattern = pattern(*wedge, in, out);
+      footprint.pattern += transposed(&in == &out ? footprint.pattern : pattern(*wedge, out, in));
+      footprint.pattern *= 0.5;
     }
-    if (both_ways) {
-      const auto backwards = transposed(footprint.pattern);
-      for (int i = 0; i < 4; ++i) footprint.pattern[i] += backwards[i];
-    }
-    if (weight < 1) {
-      for (Complex& element : footprint.pattern) element *= weight;
-    }
+    if (both_ways) footprint.pattern += transposed(footprint.pattern);
+    if (weight < 1) footprint.pattern *= weight;
 
     const RadarBasis &t = antennas.transmit, &r = antennas.receive;
     const double slope = t.r.dot(in.image_along) + r.r.dot(out.image_along);  // of psi along the edge
@@ -228,8 +262,8 @@ Complex part_integral(const EdgeFootprint& footprint, double k, double from, dou
 
 std::array<Complex, 4> scattered(const EdgeFootprint& footprint, double k) {
   const Complex integral = part_integral(footprint, k, 0, 1) * std::polar(1.0, k * 0.5 * (footprint.psi[0] + footprint.psi[1]));
-  std::array<Complex, 4> s;
-  for (int i = 0; i < 4; ++i) s[i] = footprint.pattern[i] * integral;
+  std::array<Complex, 4> s = footprint.pattern.at(k);
+  for (Complex& element : s) element *= integral;
   return s;
 }
 

@@ -48,12 +48,23 @@ struct WaveOnFacet {
 void find_arrivals(const SharpEdges& edges, int facet, const WaveOnFacet& wave, std::span<const MovingPolygon> lit,
                    std::vector<EdgeArrival>& arrivals);
 
+// hh, hv, vh, vv per metre of edge, dimensionless; where sheets end k t (thick + thick_log ln(k t)) more, t their thickness.
+struct EdgePattern {
+  std::array<Complex, 4> sharp{}, thick{}, thick_log{};
+  double thickness_m = 0;  // t; 0: neither is filled
+
+  std::array<Complex, 4> at(double k) const;
+  EdgePattern& operator+=(const EdgePattern& other);  // of the same edges
+  EdgePattern& operator*=(double factor);
+};
+EdgePattern transposed(EdgePattern pattern);
+
 // The echo of a stretch of edge: S = pattern times the integral of e^{jk psi} along it, psi linear.
 struct EdgeFootprint {
   std::array<double, 2> psi{};           // at its ends, m
   std::array<PathGradient, 2> gradient;  // of the ends, m
   double length = 0;                     // m
-  std::array<Complex, 4> pattern{};      // hh, hv, vh, vv per metre, dimensionless; but for the last of several edge waves in a row times sqrt(1/m)
+  EdgePattern pattern;                   // but for the last of several edge waves in a row times sqrt(1/m)
   // An edge wave of length l decays as 1/sqrt(k l), less where it starts or ends near a shadow boundary.
   struct EdgeWaveRange {
     std::array<double, 2> l{};          // at the ends of the stretch, m; linear in between. Of several waves in a row, of the last

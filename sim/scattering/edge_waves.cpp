@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sim/core/constants.h"
+#include "sim/scattering/thick_rim.h"
 
 namespace seaglint {
 namespace {
@@ -35,6 +36,18 @@ constexpr int kMostWaves = 2, kMostWavesOfLong = 3;
 // grazing, where a third diffraction counts, echoes by walls have faded.
 constexpr int kMostWalls = 2;
 
+// By how much of itself the thickness of the rims that an edge wave met changes it: to first order the sum over them.
+struct RowOfRims {
+  OfThickness<Complex> change;
+  double thickness_m = 0;  // 0: none is a sheet's
+};
+
+RowOfRims with_rim(RowOfRims rims, const WedgeFrame& wedge, const Vec3& towards) {
+  if (wedge.thickness_m <= 0) return rims;
+  const OfThickness<Complex> more = thick_rim_wave(wedge, towards);
+  return {{rims.change.constant + more.constant, rims.change.logarithm + more.logarithm}, wedge.thickness_m};
+}
+
 // A wave on a stretch of an edge. Its path and where the antenna sees it are linear along the stretch.
 struct Incident {
   int edge = kNoEdge;
@@ -46,6 +59,7 @@ struct Incident {
   std::array<Complex, 2> factor{1.0, 1.0};  // of E
   std::array<double, 2> l{};                // of the edge wave that it is, at the stretch's ends, m
   double departure = 0, first_m = 0;        // of the first edge wave, as in EdgeFootprint
+  RowOfRims rims{};                         // of sheets, passed before
   int waves = 0;                            // passed before
   int walls = 0;                            // that the edge wave was reflected by
   Mat3 unfolded = Mat3::Identity();         // takes directions after those walls back to before them
@@ -84,6 +98,7 @@ struct Source {
   Vec3 start, along;  // of the edge
   std::array<Complex, 2> amplitude;
   double departure = 0;  // shadow_distance() at the edge
+  RowOfRims rims = {};   // the edge's own with those before
   int walls = 0;
   Mat3 unfolded = Mat3::Identity();
 };
@@ -141,6 +156,7 @@ class EdgeWaves {
     const SharpEdge& edge = edges_.edges[in.edge];
     const WedgeFrame* wedge = wedge_towards(edge, in.direction);
     if (!wedge) return;
+    const RowOfRims rims = with_rim(in.rims, *wedge, -in.direction);
     const double decay = in.waves > 0 ? mean_decay(in.l) : 1.0;
     for (int i = 0; i < 2; ++i) {
       const EdgeWave wave = edge_wave(*wedge, i, in.direction, in.E);
@@ -149,7 +165,8 @@ class EdgeWaves {
                           edge.a,
                           edge.along(),
                           {wave.amplitude[0] * decay * in.factor[0], wave.amplitude[1] * decay * in.factor[1]},
-                          shadow_distance(edge.along(), wave.direction, in.direction)};
+                          shadow_distance(edge.along(), wave.direction, in.direction),
+                          rims};
       if (!counts(source)) continue;
       Strip strip{wave.direction.cross(source.face.n), wave.direction, 0, 0};
       // It runs along the edge itself. An edge wave that met it nearly so is the one that goes on beside it; as a ray off it, it would have the pole without
@@ -227,6 +244,7 @@ class EdgeWaves {
                        mirror * source.along,
                        {-source.amplitude[0], -source.amplitude[1]},
                        source.departure,
+                       source.rims,
                        source.walls + 1,
                        source.unfolded * mirror};
     const Vec3 u = mirror * strip.u;
@@ -253,6 +271,7 @@ class EdgeWaves {
     next.walls = source.walls;
     next.unfolded = source.unfolded;
     next.before = in.direction;
+    next.rims = source.rims;
     for (int end = 0; end < 2; ++end) {
       const Vec3 Q2 = edge.a + next.s[end] * along;
       const double s1 = strip.u.dot(Q2 - source.start) / strip.u.dot(source.along);
@@ -324,7 +343,14 @@ class EdgeWaves {
     footprint.edge_wave = range;
     const Vec3 J = weight * diffracted(wedge, face, along, w, out);
     const double h = departure.E_h.dot(J), v = departure.E_v.dot(J);
-    footprint.pattern = {h * in.factor[0], h * in.factor[1], v * in.factor[0], v * in.factor[1]};
+    EdgePattern& pattern = footprint.pattern;
+    pattern.sharp = {h * in.factor[0], h * in.factor[1], v * in.factor[0], v * in.factor[1]};
+    const RowOfRims rims = with_rim(in.rims, wedge, out);
+    pattern.thickness_m = rims.thickness_m;
+    for (int i = 0; i < 4; ++i) {
+      pattern.thick[i] = pattern.sharp[i] * rims.change.constant;
+      pattern.thick_log[i] = pattern.sharp[i] * rims.change.logarithm;
+    }
     out_.push_back(footprint);
   }
 

@@ -13,10 +13,11 @@ Vec3 side(const Facet& facet, int i) { return facet.corner[(i + 1) % 3] - facet.
 // The face's frame for an edge direction t: n = t x x points out of the conductor.
 WedgeFace face_along(const Vec3& t, const Vec3& x) { return {x, t.cross(x), t}; }
 
+// Two faces that turn back by less than this, a sheet drawn with both its sides, are a half-plane.
+constexpr double kBackToBack = 1e-6;  // rad
+
 WedgeFrame wedge_of(const WedgeFace& first, const Vec3& x_second) {
   double exterior = std::atan2(x_second.dot(first.n), x_second.dot(first.x));
-  // Two faces back to back, a sheet drawn with both its sides, are a half-plane.
-  constexpr double kBackToBack = 1e-6;
   if (exterior <= kBackToBack) exterior += 2 * kPi;
   return {{first, face_along(-first.t, x_second)}, exterior / kPi};
 }
@@ -38,11 +39,12 @@ Vec3 into(const Facet& facet, int i) {
 
 }  // namespace
 
-SharpEdges sharp_edges(std::span<const Facet> facets, double least_turn) {
+SharpEdges sharp_edges(std::span<const Facet> facets, double least_turn, double sheet_thickness_m) {
   SharpEdges result;
   result.of_facet.assign(facets.size(), {kNoEdge, kNoEdge, kNoEdge});
-  const auto add = [&](const SharpEdge& edge, int f, int i, int g, int k) {
+  const auto add = [&](SharpEdge edge, int f, int i, int g, int k) {
     const int number = static_cast<int>(result.edges.size());
+    for (WedgeFrame* wedge : {&edge.outside, &edge.inside}) wedge->thickness_m = std::abs(wedge->N - 2) < kBackToBack ? sheet_thickness_m : 0;
     result.edges.push_back(edge);
     result.of_facet[f][i] = number;
     result.of_facet[g][k] = number;

@@ -26,6 +26,7 @@ struct WedgeFace {
 struct WedgeFrame {
   WedgeFace face[2];
   double N = 2;  // the exterior angle is N pi, 0 < N <= 2; 2 is a half-plane, below 1 nothing is diffracted
+  double thickness_m = 0;  // of a half-plane (thick_rim.h)
 };
 
 // The wedge's answer in direction s to a plane wave of unit amplitude along `k_hat` with electric field E (across it),

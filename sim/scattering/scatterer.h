@@ -21,10 +21,10 @@ namespace seaglint {
 class Scatterer {
  public:
   // materials[i] is what mesh.materials[i] is made of; none: all is perfect conductor. Facets that turn by less than
-  // crease_rad (0..pi; 0 = all flat) belong to one smooth surface. Throws InputError when no triangle of the mesh has
-  // an area.
+  // crease_rad (0..pi; 0 = all flat) belong to one smooth surface. Rims of open surfaces are those of sheets of
+  // sheet_thickness_m. Throws InputError when no triangle of the mesh has an area.
   explicit Scatterer(const TriangleMesh& mesh, std::vector<MaterialSpec> materials = {},
-                     double crease_rad = radians(kDefaultCreaseDeg));
+                     double crease_rad = radians(kDefaultCreaseDeg), double sheet_thickness_m = 0);
 
   // Surface and panels look at the facets: they may move, not be copied.
   Scatterer(Scatterer&&) = default;
@@ -35,12 +35,13 @@ class Scatterer {
   const Panels& panels() const { return panels_; }
   const FacetTree& tree() const { return tree_; }
   const SharpEdges& edges() const { return edges_; }
+  double sheet_thickness() const { return sheet_thickness_; }  // m
   double radius() const { return radius_; }  // of the bounding sphere about the body's origin, m
   std::span<const MaterialSpec> materials() const { return materials_; }  // empty: all is perfect conductor
 
  private:
   std::vector<Facet> facets_;
-  double radius_ = 0;
+  double radius_ = 0, sheet_thickness_ = 0;
   SmoothSurface surface_;
   Panels panels_;
   SharpEdges edges_;

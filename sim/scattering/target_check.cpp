@@ -21,6 +21,7 @@ constexpr std::size_t kManyTriangles = 1'000'000;
 constexpr double kGigabytesPerMillion = 1.4, kSecondsPerMillion = 5;  // a sheet of 10 million on two cores
 
 constexpr double kNarrow = 1.0 / 3;       // wavelengths
+constexpr double kThickSheet = 0.1;       // wavelengths: 0.2 dB of a strip's soft, 0.8 of its hard echo (README.md, "Thick sheets")
 
 // Of the panel that the facet belongs to, m^2.
 double panel_area(const Scatterer& scatterer, int facet) {
@@ -68,19 +69,32 @@ std::vector<std::string> check_target(const TriangleMesh& mesh, double lowest_hz
   return found;
 }
 
-std::vector<std::string> check_edges(const Scatterer& scatterer, double lowest_hz) {
-  const double wavelength = kSpeedOfLight / lowest_hz;
+std::vector<std::string> check_edges(const Scatterer& scatterer, bool followed, double lowest_hz, double highest_hz) {
+  const double longest = kSpeedOfLight / lowest_hz, shortest = kSpeedOfLight / highest_hz, thickness = scatterer.sheet_thickness();
+  const auto changes_nothing = [&](const char* why) { return fmt::format("a sheet thickness of {:g} mm changes nothing: {}", 1e3 * thickness, why); };
+  if (!followed) return thickness > 0 ? std::vector{changes_nothing("edges are off")} : std::vector<std::string>{};
   double all = 0, narrow = 0;
+  bool any_rim = false;
   for (const SharpEdge& edge : scatterer.edges().edges) {
     const double length = edge.length();
     all += length;
-    const auto is_narrow = [&](int facet) { return panel_area(scatterer, facet) < kNarrow * wavelength * length; };
-    if (length > wavelength && is_narrow(edge.facet[0]) && is_narrow(edge.facet[1])) narrow += length;
+    any_rim = any_rim || edge.outside.thickness_m > 0;
+    const auto is_narrow = [&](int facet) { return panel_area(scatterer, facet) < kNarrow * longest * length; };
+    if (length > longest && is_narrow(edge.facet[0]) && is_narrow(edge.facet[1])) narrow += length;
   }
-  if (narrow == 0) return {};
-  return {fmt::format("{:.3g} m of {:.3g} m of sharp edges bound bars or strips narrower than a third of the wavelength at {:g} GHz, which return too much "
-                      "with edges on",
-                      narrow, all, lowest_hz * 1e-9)};
+  std::vector<std::string> found;
+  if (narrow > 0) {
+    found.push_back(fmt::format("{:.3g} m of {:.3g} m of sharp edges bound bars or strips narrower than a third of the wavelength at {:g} GHz, which return too "
+                                "much with edges on",
+                                narrow, all, lowest_hz * 1e-9));
+  }
+  if (thickness > 0 && !any_rim) {
+    found.push_back(changes_nothing("no surface is open"));
+  } else if (thickness > kThickSheet * shortest) {
+    found.push_back(fmt::format("sheets of {:g} mm are {:.2g} wavelengths thick at {:g} GHz; their rims are followed to first order, good up to a tenth", 1e3 * thickness,
+                                thickness / shortest, highest_hz * 1e-9));
+  }
+  return found;
 }
 
 void check_range(double radius_m, double range_m) {

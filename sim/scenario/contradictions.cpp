@@ -204,7 +204,7 @@ void check_target(const TargetSpec& target, const ScenarioDocument& document) {
   if (!target.mesh.empty()) document.fail_at(path, "must have a mesh or points, not both");
   // Points carry their own velocity: a motion beside them would be ignored.
   const YamlNode* node = document.root.find("targets")->find(target.name);
-  for (const char* key : {"unit", "material", "part_materials", "layout", "motion", "solver"}) {
+  for (const char* key : {"unit", "material", "part_materials", "sheet_thickness_mm", "layout", "motion", "solver"}) {
     if (node->find(key) != nullptr)
       document.fail_at(fmt::format("{}.{}", path, key), "must not stand beside points, it belongs to a mesh");
   }

@@ -94,6 +94,7 @@ struct TargetSpec {
   std::string unit = "m";           // of the mesh file: m, cm, mm, km, in, ft
   std::string material = "pec";     // pec, a name of assets/materials, or a file
   std::vector<PartMaterialSpec> part_materials;  // later ones win
+  double sheet_thickness_mm = 0;    // of open surfaces, 0 <= x <= 1000
   std::optional<LineLayout> line;   // along x of the target frame, centred
   MotionSpec motion;
   SolverSpec solver;

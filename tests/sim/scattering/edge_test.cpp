@@ -166,26 +166,30 @@ std::map<double, double> austin(const std::string& file) {
   return cut;
 }
 
-// Austin RCS benchmark suite, problem IIB: 6 x 10.5 inch, 64 mil (here without thickness), in the plane of the long
-// side, 0-60 deg from normal. Physical optics alone has 4.3-5.4 dB; measurement and method of moments differ by 0.3-0.5
-// dB. What is left is fourth-order diffraction, corners and the plate's thickness (k t = 0.17 and 0.35).
+// Austin RCS benchmark suite, problem IIB: 6 x 10.5 inch, 64 mil, in the plane of the long side, 0-60 deg from normal.
+// Physical optics alone has 4.3-5.4 dB; measurement and method of moments differ by 0.3-0.5 dB. As a sheet without
+// thickness the plate is off by that (k t = 0.17 and 0.35): a strip of this width by 0.3 and 0.7, 0.6 and 1.2 dB.
+// With it there are left corners, the next order in k t and fifth-order diffraction, at 4.6 wavelengths half a decibel.
 TEST(Plate, FollowsTheMethodOfMomentsWithItsEdges) {
-  const Scatterer plate(make_plate(10.5 * 0.0254, 6 * 0.0254));
+  const TriangleMesh mesh = make_plate(10.5 * 0.0254, 6 * 0.0254);
+  const Scatterer sheet(mesh), plate(mesh, {}, radians(kDefaultCreaseDeg), 0.064 * 0.0254);
   for (const auto& [name, hz] : {std::pair{"f10", 5.12e9}, std::pair{"f11", 10.24e9}}) {
     for (const char polarisation : {'H', 'V'}) {
       const auto reference = austin(std::string("ref_rcs.II.B.sx1.") + name + '.' + polarisation + ".txt");
-      double with = 0, without = 0;
+      double thick = 0, thin = 0, without = 0;
       int count = 0;
       for (const auto& [phi, moments] : reference) {
         if (phi > 60) break;
         const RadarBasis basis = radar_basis(direction(phi, 0));
         const int channel = polarisation == 'H' ? kHhChannel : kVvChannel;
-        with += std::abs(dbsm(echo(plate, basis, wavenumber(hz), 0, 8, true)[channel]) - moments);
-        without += std::abs(dbsm(echo(plate, basis, wavenumber(hz), 0, 8, false)[channel]) - moments);
+        thick += std::abs(dbsm(echo(plate, basis, wavenumber(hz), 0, 8, true)[channel]) - moments);
+        thin += std::abs(dbsm(echo(sheet, basis, wavenumber(hz), 0, 8, true)[channel]) - moments);
+        without += std::abs(dbsm(echo(sheet, basis, wavenumber(hz), 0, 8, false)[channel]) - moments);
         ++count;
       }
-      RecordProperty(std::string(name) + polarisation + "_mean_db", std::to_string(with / count));
-      EXPECT_LT(with / count, 1.5) << name << polarisation;
+      RecordProperty(std::string(name) + polarisation + "_mean_db", std::to_string(thick / count));
+      EXPECT_LT(thick / count, hz < 6e9 ? 0.55 : 0.25) << name << polarisation;
+      EXPECT_LT(thin / count, 1.5) << name << polarisation;
       EXPECT_GT(without / count, 4) << name << polarisation;
     }
   }

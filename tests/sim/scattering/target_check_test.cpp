@@ -36,10 +36,21 @@ TEST(TargetCheck, WarnsOfBarsThinnerThanAThirdOfAWavelength) {
   mesh.triangle_part.assign(12, 0);
   mesh.triangle_material.assign(12, 0);
   const Scatterer bar(mesh);
-  EXPECT_THAT(check_edges(bar, 30e9), ElementsAre());
-  EXPECT_THAT(check_edges(bar, 10e9), ElementsAre(HasSubstr("4 m of 4.07 m of sharp edges bound bars or strips narrower than a third of the wavelength at 10 GHz")));
-  EXPECT_THAT(check_edges(Scatterer(make_plate(1, 0.009)), 10e9), ElementsAre(HasSubstr("2 m of 2.02 m")));
-  EXPECT_THAT(check_edges(Scatterer(make_icosahedral_reflector()), 1e9), ElementsAre());
+  EXPECT_THAT(check_edges(bar, true, 30e9, 30e9), ElementsAre());
+  EXPECT_THAT(check_edges(bar, true, 10e9, 10e9), ElementsAre(HasSubstr("4 m of 4.07 m of sharp edges bound bars or strips narrower than a third of the wavelength at 10 GHz")));
+  EXPECT_THAT(check_edges(Scatterer(make_plate(1, 0.009)), true, 10e9, 10e9), ElementsAre(HasSubstr("2 m of 2.02 m")));
+  EXPECT_THAT(check_edges(Scatterer(make_icosahedral_reflector()), true, 1e9, 1e9), ElementsAre());
+}
+
+TEST(TargetCheck, WarnsOfSheetsThickerThanATenthOfAWavelength) {
+  const auto found = [](const TriangleMesh& mesh, double thickness_m, bool followed = true) {
+    return check_edges(Scatterer(mesh, {}, 0.3, thickness_m), followed, 8e9, 16e9);
+  };
+  EXPECT_THAT(found(make_plate(1, 1), 1.8e-3), ElementsAre());
+  EXPECT_THAT(found(make_plate(1, 1), 2e-3), ElementsAre(HasSubstr("sheets of 2 mm are 0.11 wavelengths thick at 16 GHz")));
+  EXPECT_THAT(found(make_icosahedral_reflector(), 1e-3), ElementsAre(HasSubstr("1 mm changes nothing: no surface is open")));
+  EXPECT_THAT(found(make_plate(1, 1), 1e-3, false), ElementsAre(HasSubstr("1 mm changes nothing: edges are off")));
+  EXPECT_THAT(found(make_icosahedral_reflector(), 0), ElementsAre());
 }
 
 }  // namespace

@@ -337,5 +337,11 @@ TEST(Reading, MaterialsOfATargetAndItsPartsComeBackFromTheEffectiveForm) {
   EXPECT_EQ(parse(kShort).targets[0].material, "pec");
 }
 
+TEST(Reading, ThicknessOfSheetsBelongsToAMesh) {
+  const auto with = [](const std::string& keys) { return "seaglint: 1\ntargets:\n  a: {label: 1, " + keys + ", sheet_thickness_mm: 1.5}\n"; };
+  EXPECT_DOUBLE_EQ(parse(effective_yaml(parse(with("mesh: a.glb")))).targets[0].sheet_thickness_mm, 1.5);
+  EXPECT_THAT(complaint_about(with("points: [{position_m: [0, 0, 0]}]")), HasSubstr("sheet_thickness_mm: value '1.5': must not stand beside points"));
+}
+
 }  // namespace
 }  // namespace seaglint
