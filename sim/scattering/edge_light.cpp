@@ -172,10 +172,11 @@ std::vector<EdgeFootprint> edge_footprints(const SharpEdges& edges, std::span<co
     footprint.part = facets[edge.facet[0]].part;
     footprint.part_beyond = facets[edge.facet[1]].part;
     footprint.bounces = static_cast<std::uint8_t>(in.mirrors + out.mirrors + 1);
-    // Physical optics radiates what more mirrors lit straight to the receiver: there its share is what edge_current()
-    // leaves out. The same way run backwards has the same answer (reciprocity); ways with as many mirrors on either
-    // side share both.
-    if (in.mirrors > out.mirrors) {
+    // Physical optics radiates what the transmitter or more mirrors lit straight to the receiver: there its share is what
+    // edge_current() leaves out, and only with that the sum is Keller's and reciprocal. A way with more mirrors on its end
+    // is the same way run backwards (reciprocity); ways with as many on either side share both.
+    const bool by_optics = out.mirrors == 0 && (in.mirrors > 0 || !antennas.monostatic);
+    if (by_optics || in.mirrors > out.mirrors) {
       footprint.pattern = pattern(*wedge, in, out);
     } else if (in.mirrors < out.mirrors) {
       footprint.pattern = transposed(pattern(*wedge, out, in));

@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Backscatter of an infinitely long perfectly conducting strip, 0.2667 m wide at 10.24 GHz, by integral equations: strip.py > strip.csv
+"""Scattering of an infinitely long perfectly conducting strip, 0.2667 m wide at 10.24 GHz, by integral equations: strip.py > strip.csv
 
 Without thickness: both integral equations in Chebyshev functions of the strip's own coordinate, which have the currents' edge singularities, with Kress'
 quadrature for the logarithm (R. Kress, J. Comput. Appl. Math. 61, 1995, 345-360): the echo to 1e-9. With one: the currents round the rectangle's outline on elements
 that shrink to its corners; pulses and point matching for the soft field (along the edges), triangles and the weak form of the hypersingular equation
 (A. W. Maue, Z. Phys. 126, 1949, 601-618) for the hard one.
 
-Needs numpy and scipy. Columns: thickness; angle from the normal, turned about the strip's axis; P soft (vv of a strip that stands upright) and hard (hh), the
-field's amplitude along the edges as P sqrt(2 / pi k r) e^{-jkr + j pi/4}, e^{+jwt}, phase from the middle of the cross-section.
+Needs numpy and scipy. Columns: thickness; angles of transmitter and receiver from the normal, turned about the strip's axis; P soft (vv of a strip that stands
+upright) and hard (hh), the amplitude of the field's component along the edges as P sqrt(2 / pi k r) e^{-jkr + j pi/4}, e^{+jwt}, phase from the middle of the cross-section.
 """
 import numpy as np
 from scipy.special import j0, y0
@@ -19,7 +19,7 @@ GAMMA = np.euler_gamma
 LARGEST = 0.15e-3  # element, m
 
 
-def thin(angles):
+def thin(angles):  # both P for every pair of angles
     ka = K * WIDTH / 2
     n = int(2 * ka + 60)  # Chebyshev functions
     P = 2 * n
@@ -42,13 +42,9 @@ def thin(angles):
     N = ka**2 * (B @ A @ B.T) - D @ A @ D.T
     theta = np.pi * (np.arange(4000) + 0.5) / 4000
     basis = np.cos(np.arange(P)[:, None] * theta) * np.pi / 4000
-    soft, hard = [], []
-    for angle in np.radians(angles):
-        b = basis @ np.exp(1j * ka * np.sin(angle) * np.cos(theta))
-        soft.append(-b[:n] @ np.linalg.solve(A[:n, :n], b[:n]))
-        bb = B @ b * ka * np.cos(angle)
-        hard.append(bb @ np.linalg.solve(N, bb))
-    return np.array(soft), np.array(hard)
+    waves = basis @ np.exp(1j * ka * np.sin(np.radians(angles)) * np.cos(theta)[:, None])
+    slopes = B @ waves * ka * np.cos(np.radians(angles))
+    return -waves[:n].T @ np.linalg.solve(A[:n, :n], waves[:n]), slopes.T @ np.linalg.solve(N, slopes)
 
 
 def outline(t):
@@ -105,12 +101,15 @@ def thick(t, angles):
         soft.append(wave)
         hard.append(0.5 * (slope + slope[before]))
     soft, hard = np.array(soft).T, np.array(hard).T
-    return -np.sum(soft * length[:, None] * np.linalg.solve(G, soft), 0), -np.sum(hard * np.linalg.solve(Z, hard), 0)
+    return -(soft * length[:, None]).T @ np.linalg.solve(G, soft), -hard.T @ np.linalg.solve(Z, hard)
 
 
-angles = np.arange(0, 90.5, 1.5)
-print("thickness_mm,angle_deg,soft_re,soft_im,hard_re,hard_im")
+angles = np.arange(-90, 90.5, 1.5)
+print("thickness_mm,transmit_deg,receive_deg,soft_re,soft_im,hard_re,hard_im")
 for t_mm in (0, 0.5, 1.6256, 3):
     soft, hard = thick(1e-3 * t_mm, angles) if t_mm > 0 else thin(angles)
-    for row in zip(angles, soft, hard):
-        print(f"{t_mm:g},{row[0]:g},{row[1].real:.6g},{row[1].imag:.6g},{row[2].real:.6g},{row[2].imag:.6g}")
+    pairs = [(i, i) for i in range(len(angles)) if angles[i] >= 0]
+    if t_mm in (0, 1.6256):
+        pairs += [(i, o) for i in range(len(angles)) if angles[i] in (21, 51) for o in range(len(angles)) if abs(angles[o]) <= 75]
+    for i, o in pairs:
+        print(f"{t_mm:g},{angles[i]:g},{angles[o]:g},{soft[o, i].real:.6g},{soft[o, i].imag:.6g},{hard[o, i].real:.6g},{hard[o, i].imag:.6g}")
