@@ -17,6 +17,7 @@ namespace seaglint {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr double kLengthM = 0.5, kWidthM = 0.3;
 
@@ -267,6 +268,25 @@ TEST_F(RcsCommand, SweepsAReceiverRoundATransmitterThatStandsStill) {
   const double there = read_table(table()).rows.at(0).back();
   ASSERT_EQ(rcs({"--frequency-ghz", "10", "--azimuth-deg", "20", "--edges", "off"}).code, 0);
   EXPECT_NEAR(read_table(table()).rows.at(0).back(), there, 1e-3);
+  const auto warned = [&](const char* azimuth) { return rcs({"--frequency-ghz", "10", "--azimuth-deg", azimuth, "--transmit-azimuth-deg", "20"}).err; };
+  EXPECT_THAT(warned("-90:130:20"), Not(HasSubstr("behind the target")));
+  EXPECT_THAT(warned("-90:160:10"), HasSubstr("receivers up to 140 deg from the transmitter: the field behind the target"));
+}
+
+TEST_F(RcsCommand, AddsTheThicknessOfSheets) {
+  ASSERT_EQ(run_program({"mesh", "make", "plate", "--length-m", "0.3", "--width-m", "0.2", "-o", plate()}).code, 0);
+  const auto level = [&](const char* thickness_mm, const char* edges, const char* warning) {
+    const ProgramResult run = rcs({"--frequency-ghz", "10", "--azimuth-deg", "50", "--sheet-thickness-mm", thickness_mm, "--edges", edges});
+    EXPECT_EQ(run.code, 0);
+    EXPECT_THAT(run.err, HasSubstr(warning));
+    return read_table(table()).rows.at(0).back();
+  };
+  const double thin = level("0", "on", ""), thick = level("1.6", "on", "");
+  EXPECT_GT(std::abs(thick - thin), 0.3);
+  EXPECT_THAT(read_file(table()), HasSubstr("sheet_thickness_mm 1.6"));
+  EXPECT_DOUBLE_EQ(level("1.6", "off", "a sheet thickness of 1.6 mm changes nothing: edges are off"), level("0", "off", ""));
+  level("4", "on", "sheets of 4 mm are 0.13 wavelengths thick at 10 GHz");
+  EXPECT_EQ(rcs({"--frequency-ghz", "10", "--azimuth-deg", "50", "--sheet-thickness-mm", "-1"}).code, 2);
 }
 
 TEST_F(RcsCommand, BendsTheWavefrontOfARadarNearby) {
