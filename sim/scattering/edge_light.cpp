@@ -175,8 +175,8 @@ std::vector<EdgeFootprint> edge_footprints(const SharpEdges& edges, std::span<co
     // Physical optics radiates what the transmitter or more mirrors lit straight to the receiver: there its share is what
     // edge_current() leaves out, and only with that the sum is Keller's and reciprocal. A way with more mirrors on its end
     // is the same way run backwards (reciprocity); ways with as many on either side share both.
-    const bool by_optics = out.mirrors == 0 && (in.mirrors > 0 || !antennas.monostatic);
-    if (by_optics || in.mirrors > out.mirrors) {
+    const bool both_direct = in.mirrors == 0 && out.mirrors == 0;
+    if (in.mirrors > out.mirrors || (both_direct && !antennas.monostatic)) {
       footprint.pattern = pattern(*wedge, in, out);
     } else if (in.mirrors < out.mirrors) {
       footprint.pattern = transposed(pattern(*wedge, out, in));

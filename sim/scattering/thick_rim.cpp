@@ -2,6 +2,7 @@
 #include "sim/scattering/thick_rim.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "sim/core/constants.h"

@@ -7,24 +7,21 @@
 // for a boundary moved outwards by t/2 holds together: delta P = (j/4) integral t/2 (du/dn du'/dn) ds for the soft field, (j/4) integral
 // t/2 (k^2 u u' - du/ds du'/ds) ds for the hard one, u and u' the half-plane's exact fields for the two directions. Both integrals are closed forms
 // (by Laplace transforms of the currents) but for a logarithm at the edge, which the conformal map of the square end fixes: they begin t / (4 pi e)
-// from its face. The closed forms are derived in README.md, "Thick sheets", and held against integral equations of strips as thick as 0.06 wavelengths.
+// from its face. The closed forms are derived in README.md, "Thick sheets", and held against integral equations of strips up to 0.1 wavelengths thick.
 //
 // The sheet is drawn where its lit face is: then what is left is the rim's alone, without the phase of a face that stands t/2 before the middle. A wave
 // that comes from one side and is received on the other has its phase counted from the middle.
 
 #include <array>
-#include <cmath>
 
 #include "sim/scattering/fringe.h"
 
 namespace seaglint {
 
-// A quantity of first order in k t.
+// A quantity of first order in k t: k t (constant + logarithm ln(k t)).
 template <typename T>
 struct OfThickness {
   T constant{}, logarithm{};
-
-  T at(double kt) const { return kt * (constant + std::log(kt) * logarithm); }
 };
 
 // Of the rim's edge_currents(), in the same units: p . current is what the thickness adds to S per metre of rim, for received
