@@ -58,7 +58,7 @@ struct SharpEdges {
   }
 };
 
-// Edges whose faces turn by at least `least_turn` (rad); sheets have a thickness. Edges of three and more facets are left out: nobody can tell their wedge.
+// Edges whose faces turn by at least `least_turn` (rad); the rims of sheets get their thickness. Edges of three and more facets are left out: nobody can tell their wedge.
 SharpEdges sharp_edges(std::span<const Facet> facets, double least_turn, double sheet_thickness_m = 0);
 
 // Fills by_panel from of_facet, before which of_panel() must not be asked. Concave edges of closed surfaces are left out:

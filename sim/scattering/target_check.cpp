@@ -74,14 +74,15 @@ std::vector<std::string> check_edges(const Scatterer& scatterer, bool followed, 
   const auto changes_nothing = [&](const char* why) { return fmt::format("a sheet thickness of {:g} mm changes nothing: {}", 1e3 * thickness, why); };
   if (!followed) return thickness > 0 ? std::vector{changes_nothing("edges are off")} : std::vector<std::string>{};
   double all = 0, narrow = 0;
-  bool any_rim = false;
   for (const SharpEdge& edge : scatterer.edges().edges) {
     const double length = edge.length();
     all += length;
-    any_rim = any_rim || edge.outside.thickness_m > 0;
     const auto is_narrow = [&](int facet) { return panel_area(scatterer, facet) < kNarrow * longest * length; };
     if (length > longest && is_narrow(edge.facet[0]) && is_narrow(edge.facet[1])) narrow += length;
   }
+  // As panels list them, only edges of perfect conductors.
+  const SharpEdges& edges = scatterer.edges();
+  const bool any_rim = std::ranges::any_of(edges.by_panel, [&](const PanelEdge& side) { return edges.edges[side.edge].outside.thickness_m > 0; });
   std::vector<std::string> found;
   if (narrow > 0) {
     found.push_back(fmt::format("{:.3g} m of {:.3g} m of sharp edges bound bars or strips narrower than a third of the wavelength at {:g} GHz, which return too "
@@ -89,7 +90,7 @@ std::vector<std::string> check_edges(const Scatterer& scatterer, bool followed, 
                                 narrow, all, lowest_hz * 1e-9));
   }
   if (thickness > 0 && !any_rim) {
-    found.push_back(changes_nothing("no surface is open"));
+    found.push_back(changes_nothing("no surface is open and a perfect conductor"));
   } else if (thickness > kThickSheet * shortest) {
     found.push_back(fmt::format("sheets of {:g} mm are {:.2g} wavelengths thick at {:g} GHz; their rims are followed to first order, good up to a tenth", 1e3 * thickness,
                                 thickness / shortest, highest_hz * 1e-9));

@@ -221,6 +221,24 @@ TEST(EdgeWave, LeaveNothingOfAPlateEdgeOnAcrossTheField) {
   }
 }
 
+// With two antennas they are the mean of both ways: reciprocal by construction, with a thickness too.
+TEST(EdgeWave, AnswerAlikeWhenTransmitterAndReceiverChangePlaces) {
+  IlluminationSettings several{0, 1, true};
+  for (const int bounces : {2, 3, 4}) several.filter.only.push_back({EchoSelector::Kind::kBounces, bounces});
+  const RadarBasis t = radar_basis(direction(20, 10)), r = radar_basis(direction(33, -7));
+  for (const double thickness_m : {0.0, 1e-3}) {
+    const Scatterer plate(make_plate(0.25, 0.15), {}, radians(kDefaultCreaseDeg), thickness_m);
+    const auto of = [&](const AntennaPair& antennas) { return scattering_matrices(plate, antennas, std::array{wavenumber(10e9)}, several)[0]; };
+    const auto there = of(bistatic(t, r)), back = of(bistatic(r, t));
+    EXPECT_GT(largest(there), 1e-4);
+    const double rounding = 1e-12 * (std::abs(there[kHhChannel]) + std::abs(there[kVvChannel]));
+    EXPECT_NEAR(std::abs(there[kHhChannel] - back[kHhChannel]), 0, rounding);
+    EXPECT_NEAR(std::abs(there[kVvChannel] - back[kVvChannel]), 0, rounding);
+    EXPECT_NEAR(std::abs(there[kHvChannel] - back[kVhChannel]), 0, rounding);
+    EXPECT_NEAR(std::abs(there[kVhChannel] - back[kHvChannel]), 0, rounding);
+  }
+}
+
 // What is left out before its current is known is fainter than asked for; and much is.
 TEST(EdgeWave, LeaveOutOnlyWhatIsFaint) {
   const double k = wavenumber(10e9), faintest = 1e-4;

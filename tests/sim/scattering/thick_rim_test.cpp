@@ -69,8 +69,8 @@ Deviation against_integral_equations(double thickness_mm, bool soft, const Wante
   return deviation;
 }
 
-// The limits, by thickness: without one, what fifth and higher diffractions leave; else the next order, about (k t)^2 of what the rims add, themselves k t / 10 of the
-// field (soft); the hard wave runs to and fro along the strip and meets two rims each time. Rims without thickness are off by 0.64 and 1.2 dB at 1.6 mm.
+// The limits, by thickness: without one, what fifth and higher diffractions leave; else the next order, (k t)^2 of the field times 0.06 to 0.03 (soft) and 0.15 to 0.06
+// (hard, which meets two rims on each way along the strip), falling as a logarithm of k t does. Rims without thickness are off by 0.64 and 1.2 dB at 1.6 mm.
 TEST(ThickRim, OfStripsFollowsIntegralEquations) {
   struct Case {
     double t_mm, soft, hard;  // largest relative errors, 0 to 90 deg
@@ -109,7 +109,7 @@ TEST(ThickRim, IsReciprocal) {
 }
 
 // Where the sheet reflects one direction into the other, where the light passes the rim, and in the sheet's plane the closed forms are 0/0: there the currents are
-// the mean of those beside to the square of the distance.
+// the mean of those beside to the square of the distance, times a curvature of 30 at 0.1 rad from the plane.
 TEST(ThickRim, HasNoJumps) {
   const WedgeFrame rim = rim_of(1e-3);
   const auto response = [&](double phi, double phi_in) {
