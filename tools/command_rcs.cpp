@@ -220,15 +220,15 @@ void export_one_view(const RcsArguments& arguments, const TriangleMesh& mesh, co
               {arguments.ray_spacing_m, arguments.max_bounces, arguments.edges == "on", filter, arguments.range_m}, heading, thread_count(shell.threads), &shell.stop);
 }
 
-// Physical optics has no field behind what it lights: a sphere's echo errs by 0.65 dB in the mean between 90 and 120 deg from the transmitter.
+// Behind a target only its sharp edges scatter: a sphere's echo errs by 0.65 dB in the mean between 90 and 120 deg from the transmitter.
 void warn_of_receivers_behind(const RcsSweep& sweep) {
   constexpr double kFarthestDeg = 120;
   double farthest = 0;
   for (std::size_t view = 0; sweep.transmitter && view < sweep.views(); ++view)
     farthest = std::max(farthest, degrees(std::acos(std::clamp(sweep.transmitter->dot(basis_of(sweep, view).r), -1.0, 1.0))));
   if (farthest <= kFarthestDeg) return;
-  warn(std::vector{fmt::format("receivers up to {:.0f} deg from the transmitter: the field behind the target, its shadow included, is not modelled; beyond {:g} deg, and behind "
-                               "sheets, echoes mean little",
+  warn(std::vector{fmt::format("receivers up to {:.0f} deg from the transmitter: behind the target, beyond {:g} deg, only sharp edges scatter, and the shadow's own field, within 15 deg of "
+                               "the wave's way on, is not modelled",
                                farthest, kFarthestDeg)});
 }
 

@@ -11,9 +11,6 @@
 
 namespace seaglint {
 
-// Cosine below which a facet is edge-on to a beam or to the receiver.
-inline constexpr double kEdgeOn = 1e-9;
-
 // Around the convex pieces of the aperture that a leg comes through, one or more, on the side of the mirror that the leg
 // leaves; `basis` is that of the aperture.
 Prism prism_around(std::span<const MovingPolygon> window, const Leg& leg, const RadarBasis& basis,

@@ -173,7 +173,7 @@ std::vector<EdgeFootprint> edge_footprints(const SharpEdges& edges, std::span<co
     footprint.part_beyond = facets[edge.facet[1]].part;
     footprint.bounces = static_cast<std::uint8_t>(in.mirrors + out.mirrors + 1);
     // Physical optics radiates what the transmitter or more mirrors lit straight to the receiver: there its share is what
-    // edge_current() leaves out, and only with that the sum is Keller's and reciprocal. A way with more mirrors on its end
+    // edge_currents() leaves out, and only with that the sum is Keller's and reciprocal. A way with more mirrors on its end
     // is the same way run backwards (reciprocity); ways with as many on either side share both.
     const bool both_direct = in.mirrors == 0 && out.mirrors == 0;
     if (in.mirrors > out.mirrors || (both_direct && !antennas.monostatic)) {

@@ -186,7 +186,7 @@ class EdgeWaves {
   // that the first edge alone would send on along w beyond it: J = 2 n x H = 2 w / eta there, integrated along w.
   static Vec3 diffracted(const WedgeFrame& wedge, const WedgeFace& face, const Vec3& along, const Vec3& w,
                          const Vec3& s) {
-    return edge_current(wedge, grazing(face, w), face.n, s) + w.cross(along).norm() / (2 * kPi * opening(w, s)) * w;
+    return fringe_current(wedge, grazing(face, w), face.n, s) + w.cross(along).norm() / (2 * kPi * opening(w, s)) * w;
   }
 
   // Follows the strip that enters a facet by one of its sides.

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "sim/core/constants.h"
+#include "sim/scattering/facets.h"
 
 namespace seaglint {
 namespace {
@@ -62,7 +63,8 @@ double angle_from_face(const WedgeFace& face, const Vec3& towards_source) {
 // cotangents of (xi +- phi') / 2N; weighted with e^{jkx mu} and summed over the half-line, x leaves 1 / (cos xi + mu),
 // whose pole at cos a = -mu leaves the cotangents at a +- phi' over sin a. Physical optics has N = 1. The tests hold
 // the sum of both faces to Keller's coefficients.
-void add_face_current(const WedgeFace& face, double N, double phi, bool less_optics, const Vec3& k_hat,
+// Of lit faces physical optics is left out, unless `only_seen` and s does not see the face.
+void add_face_current(const WedgeFace& face, double N, double phi, bool only_seen, const Vec3& k_hat,
                       std::span<const Vec3> fields, const Vec3& s, std::span<Vec3> sums) {
   const double cos_b = k_hat.dot(face.t);
   const double sin_b = std::sqrt(std::max(1 - cos_b * cos_b, 1e-12));
@@ -70,9 +72,11 @@ void add_face_current(const WedgeFace& face, double N, double phi, bool less_opt
   // cos a = -mu; mu <= 1 for real directions, and a is imaginary where mu < -1. Both ends are removable, the one at pi
   // only in the sum over the current's components across s: keep away from 0/0.
   constexpr double kAside = 1e-7;
-  const Cotangents cot =
-      mu >= -1 ? cotangents(std::clamp(std::acos(std::clamp(-mu, -1.0, 1.0)), kAside, kPi - kAside), phi, N, less_optics)
-               : cotangents_of_imaginary(std::max(std::acosh(-mu), kAside), phi, N, less_optics);
+  const bool real = mu >= -1;
+  const double a = real ? std::clamp(std::acos(std::clamp(-mu, -1.0, 1.0)), kAside, kPi - kAside) : std::max(std::acosh(-mu), kAside);
+  const bool in_shadow_boundary = (real ? std::abs(a - phi) : std::hypot(a, phi)) < kShadow;
+  const bool less_optics = phi < kPi && (!only_seen || in_shadow_boundary || s.dot(face.n) > kEdgeOn);
+  const Cotangents cot = real ? cotangents(a, phi, N, less_optics) : cotangents_of_imaginary(a, phi, N, less_optics);
   for (std::size_t i = 0; i < fields.size(); ++i) {
     const double H_t = k_hat.cross(fields[i]).dot(face.t), E_t = fields[i].dot(face.t);
     const double across = H_t / sin_b * cot.sum;
@@ -83,31 +87,27 @@ void add_face_current(const WedgeFace& face, double N, double phi, bool less_opt
   }
 }
 
-void add_edge_currents(const WedgeFrame& wedge, const Vec3& k_hat, std::span<const Vec3> fields, const Vec3& s,
-                       std::span<Vec3> sums) {
+void add_currents(const WedgeFrame& wedge, const Vec3& k_hat, std::span<const Vec3> fields, const Vec3& s, bool only_seen,
+                  std::span<Vec3> sums) {
   const double phi = angle_from_face(wedge.face[0], -k_hat);
   if (phi > wedge.N * kPi) return;
-  for (int i = 0; i < 2; ++i) {
-    const double own = i == 0 ? phi : wedge.N * kPi - phi;
-    const bool lit = own < kPi;
-    add_face_current(wedge.face[i], wedge.N, own, lit, k_hat, fields, s, sums);
-  }
+  for (int i = 0; i < 2; ++i) add_face_current(wedge.face[i], wedge.N, i == 0 ? phi : wedge.N * kPi - phi, only_seen, k_hat, fields, s, sums);
   // E_s = -(jk eta / 4 pi) (e^{-jkr}/r) integral J e^{jk s.x}; the integrals above are of eta k J / 2j.
   for (Vec3& sum : sums) sum /= 2 * kPi;
 }
 
 }  // namespace
 
-Vec3 edge_current(const WedgeFrame& wedge, const Vec3& k_hat, const Vec3& E, const Vec3& s) {
+Vec3 fringe_current(const WedgeFrame& wedge, const Vec3& k_hat, const Vec3& E, const Vec3& s) {
   Vec3 sum = Vec3::Zero();
-  add_edge_currents(wedge, k_hat, {&E, 1}, s, {&sum, 1});
+  add_currents(wedge, k_hat, {&E, 1}, s, false, {&sum, 1});
   return sum;
 }
 
 std::array<Vec3, 2> edge_currents(const WedgeFrame& wedge, const Vec3& k_hat, const std::array<Vec3, 2>& fields,
                                   const Vec3& s) {
   std::array<Vec3, 2> sums{Vec3::Zero(), Vec3::Zero()};
-  add_edge_currents(wedge, k_hat, fields, s, sums);
+  add_currents(wedge, k_hat, fields, s, true, sums);
   return sums;
 }
 

@@ -29,14 +29,19 @@ struct WedgeFrame {
   double thickness_m = 0;  // of a half-plane (thick_rim.h)
 };
 
-// The wedge's answer in direction s to a plane wave of unit amplitude along `k_hat` with electric field E (across it),
-// per metre of edge: p . edge_current(...) is the field amplitude S / length, dimensionless, independent of frequency,
-// for the received polarisation p. Phase: e^{jk s.x} of the edge's point and that of the incident wave there. Zero when
-// the wave comes from inside the conductor.
-Vec3 edge_current(const WedgeFrame& wedge, const Vec3& k_hat, const Vec3& E, const Vec3& s);
-// The same for two fields at once, which share everything that costs time.
+// The fringe current: the wedge's answer in direction s to a plane wave of unit amplitude along `k_hat` with electric
+// field E (across it) without that of physical optics on the faces that the wave lights, per metre of edge:
+// p . fringe_current(...) is the field amplitude S / length, dimensionless, independent of frequency, for the received
+// polarisation p. Phase: e^{jk s.x} of the edge's point and that of the incident wave there. Zero when the wave comes
+// from inside the conductor.
+Vec3 fringe_current(const WedgeFrame& wedge, const Vec3& k_hat, const Vec3& E, const Vec3& s);
+
+// What facets leave to the edge, for two fields at once, which share everything that costs time: the same without
+// physical optics only on lit faces that s sees too, since facets radiate to nowhere else. With theirs it is Keller's field
+// on either side of a face. Within kShadow of a boundary of shadow, where his is infinite, the fringe current.
 std::array<Vec3, 2> edge_currents(const WedgeFrame& wedge, const Vec3& k_hat, const std::array<Vec3, 2>& fields,
                                    const Vec3& s);
+inline constexpr double kShadow = 0.26;  // rad, 15 deg: of the grazing ray's angle against the wave's
 
 // Fields of the edge waves that hard-polarised plane waves send along a face: unit amplitude along k_hat, electric
 // fields `fields`. The wave travels along `direction` (in the face, on Keller's cone) and its electric field across the face at

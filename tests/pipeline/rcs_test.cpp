@@ -270,7 +270,7 @@ TEST_F(RcsCommand, SweepsAReceiverRoundATransmitterThatStandsStill) {
   EXPECT_NEAR(read_table(table()).rows.at(0).back(), there, 1e-3);
   const auto warned = [&](const char* azimuth) { return rcs({"--frequency-ghz", "10", "--azimuth-deg", azimuth, "--transmit-azimuth-deg", "20"}).err; };
   EXPECT_THAT(warned("-90:130:20"), Not(HasSubstr("behind the target")));
-  EXPECT_THAT(warned("-90:160:10"), HasSubstr("receivers up to 140 deg from the transmitter: the field behind the target"));
+  EXPECT_THAT(warned("-90:160:10"), HasSubstr("receivers up to 140 deg from the transmitter: behind the target"));
 }
 
 TEST_F(RcsCommand, AddsTheThicknessOfSheets) {

@@ -3,15 +3,16 @@
 """Scattering of an infinitely long perfectly conducting strip, 0.2667 m wide at 10.24 GHz, by integral equations: strip.py > strip.csv
 
 Without thickness: both integral equations in Chebyshev functions of the strip's own coordinate, which have the currents' edge singularities, with Kress'
-quadrature for the logarithm (R. Kress, J. Comput. Appl. Math. 61, 1995, 345-360): the echo to 1e-9. With one: the currents round the rectangle's outline on elements
-that shrink to its corners; pulses and point matching for the soft field (along the edges), triangles and the weak form of the hypersingular equation
-(A. W. Maue, Z. Phys. 126, 1949, 601-618) for the hard one.
+quadrature for the logarithm (R. Kress, J. Comput. Appl. Math. 61, 1995, 345-360): the echo to 1e-9. With one: the rectangle by
+sections.py.
 
 Needs numpy and scipy. Columns: thickness; angles of transmitter and receiver from the normal, turned about the strip's axis; P soft (vv of a strip that stands
 upright) and hard (hh), the amplitude of the field's component along the edges as P sqrt(2 / pi k r) e^{-jkr + j pi/4}, e^{+jwt}, phase from the middle of the cross-section.
 """
 import numpy as np
 from scipy.special import j0, y0
+
+from sections import directions, echoes, graded
 
 WIDTH, FREQUENCY = 0.2667, 10.24e9
 K = 2 * np.pi * FREQUENCY / 299792458
@@ -47,61 +48,11 @@ def thin(angles):  # both P for every pair of angles
     return -waves[:n].T @ np.linalg.solve(A[:n, :n], waves[:n]), slopes.T @ np.linalg.solve(N, slopes)
 
 
-def outline(t):
-    def graded(length, smallest, largest):
-        s, h = [0.0], smallest
-        while s[-1] < length / 2:
-            s.append(s[-1] + h)
-            h = min(1.2 * h, largest)
-        s = np.array(s) * (length / 2 / s[-1])
-        return np.r_[s, (length - s[::-1])[1:]][:-1]
-
-    along, across = graded(WIDTH, t / 40, LARGEST), graded(t, t / 40, t / 8)
-    return np.array([(t / 2, -WIDTH / 2 + s) for s in along] + [(t / 2 - s, WIDTH / 2) for s in across]
-                    + [(-t / 2, WIDTH / 2 - s) for s in along] + [(-t / 2 + s, -WIDTH / 2) for s in across])
-
-
 def thick(t, angles):
-    p = outline(t)
-    q = np.roll(p, -1, 0)
-    middle, length = (p + q) / 2, np.linalg.norm(q - p, axis=1)
-    tangent = (q - p) / length[:, None]
-    normal = np.c_[tangent[:, 1], -tangent[:, 0]]
-    points, weights = np.polynomial.legendre.leggauss(4)
-
-    def integral_of_ln(x):  # over each element, seen from x
-        d = x[:, None, :] - p[None, :, :]
-        a, b = np.einsum("ijk,jk->ij", d, tangent), np.einsum("ijk,jk->ij", d, normal)
-
-        def primitive(u):
-            with np.errstate(all="ignore"):
-                value = 0.5 * u * np.log(u * u + b * b) - u + np.abs(b) * np.arctan2(u, np.abs(b))
-            return np.where(u * u + b * b < 1e-300, 0, value)
-
-        return primitive(a) - primitive(a - length[None, :])
-
-    smooth = np.zeros((len(p), len(p)), complex)  # integral of H0 less its logarithm
-    for x, w in zip(points, weights):
-        r = np.maximum(np.linalg.norm(middle[:, None, :] - (p + 0.5 * (1 + x) * length[:, None] * tangent)[None], axis=2), 1e-12)
-        smooth += (j0(K * r) - 1j * (y0(K * r) - 2 / np.pi * np.log(r))) * (0.5 * w * length)[None, :]
-    G = smooth - 2j / np.pi * integral_of_ln(middle)
-    twice = sum(0.5 * w * integral_of_ln(p + 0.5 * (1 + x) * length[:, None] * tangent) for x, w in zip(points, weights))
-    np.fill_diagonal(twice, length * (np.log(length) - 1.5))
-    double = length[:, None] * (smooth - 2j / np.pi * twice)
-    double = 0.5 * (double + double.T)
-    before = np.roll(np.arange(len(p)), 1)
-    equal, mixed = lambda M: M + M[np.ix_(before, before)], lambda M: M[before] + M[:, before]  # of triangles on two elements
-    currents, charges = K**2 * (normal @ normal.T) * double, double / (length[:, None] * length[None, :])
-    Z = 0.25 * (equal(currents) + mixed(currents)) - (equal(charges) - mixed(charges))
-    soft, hard = [], []
-    for angle in np.radians(angles):
-        r_hat = np.array([np.cos(angle), np.sin(angle)])
-        wave = sum(0.5 * w * np.exp(1j * K * ((p + 0.5 * (1 + x) * length[:, None] * tangent) @ r_hat)) for x, w in zip(points, weights))
-        slope = 1j * K * (normal @ r_hat) * wave * length
-        soft.append(wave)
-        hard.append(0.5 * (slope + slope[before]))
-    soft, hard = np.array(soft).T, np.array(hard).T
-    return -(soft * length[:, None]).T @ np.linalg.solve(G, soft), -hard.T @ np.linalg.solve(Z, hard)
+    along, across = graded(WIDTH, t / 40, LARGEST)[:-1], graded(t, t / 40, t / 8)[:-1]
+    outline = np.array([(t / 2, -WIDTH / 2 + s) for s in along] + [(t / 2 - s, WIDTH / 2) for s in across]
+                       + [(-t / 2, WIDTH / 2 - s) for s in along] + [(-t / 2 + s, -WIDTH / 2) for s in across])
+    return echoes(outline, K, directions(angles), directions(angles))
 
 
 angles = np.arange(-90, 90.5, 1.5)

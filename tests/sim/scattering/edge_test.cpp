@@ -64,11 +64,11 @@ TEST(Fringe, IsKellersCoefficientLessThatOfPhysicalOptics) {
     const auto [soft_1, hard_1] = optics(phi, phi_in);
     const auto [soft_2, hard_2] = optics(N * kPi - phi, N * kPi - phi_in);
     const Vec3 z = Vec3::UnitZ();
-    const Vec3 K_soft = edge_current(wedge(N), k_hat, z, s);
+    const Vec3 K_soft = fringe_current(wedge(N), k_hat, z, s);
     EXPECT_NEAR(std::abs(K_soft.z() - (soft - soft_1 - soft_2) / (2 * kPi)), 0, 1e-9 * (1 + std::abs(soft)))
         << N << ' ' << phi_in << ' ' << phi;
     // Hard: H along z, E = H x k; the scattered H along z is (s x E_s).
-    const Vec3 K_hard = edge_current(wedge(N), k_hat, z.cross(k_hat), s);
+    const Vec3 K_hard = fringe_current(wedge(N), k_hat, z.cross(k_hat), s);
     const Vec3 p = z.cross(s);
     EXPECT_NEAR(std::abs(p.dot(K_hard) - (hard - hard_1 - hard_2) / (2 * kPi)), 0, 1e-9 * (1 + std::abs(hard)))
         << N << ' ' << phi_in << ' ' << phi;
@@ -90,8 +90,8 @@ TEST(Fringe, IsTheSameOnEveryOneOfKellersCones) {
     const Vec3 phi_hat = Vec3::UnitZ().cross(s).normalized(), beta_out = s.cross(phi_hat);
     // The field along the edge keeps its sign with respect to beta^ of either ray; H along the edge with respect to
     // phi^.
-    const double K_soft = beta_out.dot(edge_current(wedge(N), k_hat, beta_in, s));
-    const double K_hard = phi_hat.dot(edge_current(wedge(N), k_hat, phi_hat_in, s));
+    const double K_soft = beta_out.dot(fringe_current(wedge(N), k_hat, beta_in, s));
+    const double K_hard = phi_hat.dot(fringe_current(wedge(N), k_hat, phi_hat_in, s));
     EXPECT_NEAR(std::abs(K_soft), std::abs(soft - soft_1 - soft_2) / (2 * kPi), 1e-9) << beta;
     EXPECT_NEAR(std::abs(K_hard), std::abs(hard - hard_1 - hard_2) / (2 * kPi), 1e-9) << beta;
   }
@@ -136,10 +136,37 @@ TEST(Fringe, IsTheCotangentsOfAComplexAngle) {
                   (x * across + t * (2.0 * j * E_t / (sin_b * sin_b) * difference + cos_b / sin_b * mu * across + optics_along));
     }
     if (near_a_pole) continue;
-    const Vec3 K = edge_current(frame, k_hat, E, s);
+    const Vec3 K = fringe_current(frame, k_hat, E, s);
     EXPECT_LT((K.cast<Complex>() - expected).norm(), 1e-9 * (1 + K.norm())) << N << ' ' << phi << ' ' << beta;
   }
   EXPECT_GT(imaginary, 200);
+}
+
+// A face radiates to where it is seen and nowhere else: there the edge has all of Keller's field, but near the boundary of shadow.
+TEST(EdgeCurrents, LeaveOutPhysicalOpticsOnlyOfFacesThatAreSeen) {
+  Random random({3, Stream::kTest, 20});
+  int unseen = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const double N = 1.05 + 0.95 * random.uniform();
+    const double phi_in = N * kPi * random.uniform(), phi = N * kPi * random.uniform();
+    const double from_shadow = std::abs(std::abs(phi - phi_in) - kPi);
+    if (std::abs(from_shadow - kShadow) < 1e-3 || std::abs(phi + phi_in - kPi) < 0.05 || std::abs(2 * N * kPi - phi - phi_in - kPi) < 0.05) continue;
+    if (from_shadow < 0.05) continue;
+    const Vec3 k_hat(-std::cos(phi_in), -std::sin(phi_in), 0), s(std::cos(phi), std::sin(phi), 0), z = Vec3::UnitZ();
+    auto [soft, hard] = keller(N, phi, phi_in);
+    for (const bool second : {false, true}) {
+      const double out = second ? N * kPi - phi : phi, in = second ? N * kPi - phi_in : phi_in;
+      if (in < kPi && out > kPi) ++unseen;
+      if (out > kPi && from_shadow > kShadow) continue;
+      const auto [soft_face, hard_face] = optics(out, in);
+      soft -= soft_face;
+      hard -= hard_face;
+    }
+    const auto [K_soft, K_hard] = edge_currents(wedge(N), k_hat, {z, z.cross(k_hat)}, s);
+    EXPECT_NEAR(K_soft.z(), soft / (2 * kPi), 1e-9 * (1 + std::abs(soft))) << N << ' ' << phi_in << ' ' << phi;
+    EXPECT_NEAR(z.cross(s).dot(K_hard), hard / (2 * kPi), 1e-9 * (1 + std::abs(hard))) << N << ' ' << phi_in << ' ' << phi;
+  }
+  EXPECT_GT(unseen, 300);
 }
 
 TEST(Fringe, IsFiniteEverywhereButAlongTheGrazingRay) {
@@ -153,8 +180,10 @@ TEST(Fringe, IsFiniteEverywhereButAlongTheGrazingRay) {
     const Vec3 E = k_hat.cross(any()).normalized();
     // Backscatter, as in every monostatic sweep: what is received lies across the direction.
     for (const double N : {1.2, 1.5, 2.0}) {
-      const Vec3 K = edge_current(wedge(N), k_hat, E, -k_hat);
+      const Vec3 K = fringe_current(wedge(N), k_hat, E, -k_hat);
       EXPECT_LT((K - k_hat * k_hat.dot(K)).cwiseAbs().maxCoeff(), 1) << N << ' ' << k_hat.transpose();
+      const auto [all, again] = edge_currents(wedge(N), k_hat, {E, E}, -k_hat);
+      EXPECT_LT((all - K).norm(), 1e-12) << N << ' ' << k_hat.transpose();
     }
   }
 }

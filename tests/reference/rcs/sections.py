@@ -1,0 +1,96 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Scattering of infinitely long perfectly conducting prisms at 10.24 GHz, by integral equations: sections.py > sections.csv
+
+The currents round the outline of the cross-section on elements that shrink to its corners; pulses and point matching for the soft field (along the edges), triangles
+and the weak form of the hypersingular equation (A. W. Maue, Z. Phys. 126, 1949, 601-618) for the hard one.
+
+Needs numpy and scipy. Columns: azimuths of transmitter and receiver, deg; P soft (vv of a prism that stands upright) and hard (hh), the amplitude of the
+field's component along the edges as P sqrt(2 / pi k r) e^{-jkr + j pi/4}, e^{+jwt}, phase from the origin of the cross-section; its name.
+"""
+import numpy as np
+from scipy.special import j0, y0
+
+WAVELENGTH = 299792458 / 10.24e9
+
+
+def graded(length, smallest, largest, growth=1.2):  # places from 0 to length, close together at both ends
+    s, h = [0.0], smallest
+    while s[-1] < length / 2:
+        s.append(s[-1] + h)
+        h = min(growth * h, largest)
+    s = np.array(s) * (length / 2 / s[-1])
+    return np.r_[s, (length - s[::-1])[1:]]
+
+
+def directions(azimuths_deg):
+    return np.c_[np.cos(np.radians(azimuths_deg)), np.sin(np.radians(azimuths_deg))]
+
+
+def closed(corners, smallest, largest):  # the nodes round a polygon
+    corners = np.array(corners)
+    sides = [(a, b - a, np.linalg.norm(b - a)) for a, b in zip(corners, np.roll(corners, -1, 0))]
+    return np.array([a + along * s / length for a, along, length in sides for s in graded(length, smallest, largest)[:-1]])
+
+
+def echoes(p, k, incident, scattered):  # P soft and hard [receiver, transmitter] of the outline through the nodes p; unit vectors towards either
+    q = np.roll(p, -1, 0)
+    middle, length = (p + q) / 2, np.linalg.norm(q - p, axis=1)
+    tangent = (q - p) / length[:, None]
+    normal = np.c_[tangent[:, 1], -tangent[:, 0]]
+    points, weights = np.polynomial.legendre.leggauss(4)
+
+    def integral_of_ln(x):  # over each element, seen from x
+        d = x[:, None, :] - p[None, :, :]
+        a, b = np.einsum("ijk,jk->ij", d, tangent), np.einsum("ijk,jk->ij", d, normal)
+
+        def primitive(u):
+            with np.errstate(all="ignore"):
+                value = 0.5 * u * np.log(u * u + b * b) - u + np.abs(b) * np.arctan2(u, np.abs(b))
+            return np.where(u * u + b * b < 1e-300, 0, value)
+
+        return primitive(a) - primitive(a - length[None, :])
+
+    smooth = np.zeros((len(p), len(p)), complex)  # integral of H0 less its logarithm
+    for x, w in zip(points, weights):
+        r = np.maximum(np.linalg.norm(middle[:, None, :] - (p + 0.5 * (1 + x) * length[:, None] * tangent)[None], axis=2), 1e-12)
+        smooth += (j0(k * r) - 1j * (y0(k * r) - 2 / np.pi * np.log(r))) * (0.5 * w * length)[None, :]
+    G = smooth - 2j / np.pi * integral_of_ln(middle)
+    twice = sum(0.5 * w * integral_of_ln(p + 0.5 * (1 + x) * length[:, None] * tangent) for x, w in zip(points, weights))
+    np.fill_diagonal(twice, length * (np.log(length) - 1.5))
+    double = length[:, None] * (smooth - 2j / np.pi * twice)
+    double = 0.5 * (double + double.T)
+    before = np.roll(np.arange(len(p)), 1)
+    equal, mixed = lambda M: M + M[np.ix_(before, before)], lambda M: M[before] + M[:, before]  # of triangles on two elements
+    currents, charges = k**2 * (normal @ normal.T) * double, double / (length[:, None] * length[None, :])
+    Z = 0.25 * (equal(currents) + mixed(currents)) - (equal(charges) - mixed(charges))
+
+    def waves(towards):
+        soft, hard = [], []
+        for r_hat in towards:
+            wave = sum(0.5 * w * np.exp(1j * k * ((p + 0.5 * (1 + x) * length[:, None] * tangent) @ r_hat)) for x, w in zip(points, weights))
+            slope = 1j * k * (normal @ r_hat) * wave * length
+            soft.append(wave)
+            hard.append(0.5 * (slope + slope[before]))
+        return np.array(soft).T, np.array(hard).T
+
+    (soft_in, hard_in), (soft_out, hard_out) = waves(incident), waves(scattered)
+    return -(soft_out * length[:, None]).T @ np.linalg.solve(G, soft_in), -hard_out.T @ np.linalg.solve(Z, hard_in)
+
+
+SECTIONS = {
+    "box": [(-0.05, -0.075), (0.05, -0.075), (0.05, 0.075), (-0.05, 0.075)],
+    "triangle": [(0.1 * np.cos(t), 0.1 * np.sin(t)) for t in np.radians([10, 130, 250])],
+    "knife": [(-0.1, 0), (0.1, -0.02), (0.1, 0.02)],
+}
+
+if __name__ == "__main__":
+    print("transmit_deg,receive_deg,soft_re,soft_im,hard_re,hard_im,section")
+    azimuths = np.arange(1, 361, 4)
+    for name, corners in SECTIONS.items():
+        nodes = closed(corners, WAVELENGTH / 7200, WAVELENGTH / 240)
+        soft, hard = echoes(nodes, 2 * np.pi / WAVELENGTH, directions(azimuths), directions(azimuths))
+        pairs = [(i, i) for i in range(len(azimuths))]
+        pairs += [(i, o) for i in range(len(azimuths)) if azimuths[i] in (33, 77) for o in range(len(azimuths)) if o != i]
+        for i, o in pairs:
+            print(f"{azimuths[i]},{azimuths[o]},{soft[o, i].real:.5g},{soft[o, i].imag:.5g},{hard[o, i].real:.5g},{hard[o, i].imag:.5g},{name}")
