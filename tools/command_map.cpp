@@ -71,7 +71,7 @@ void show_map(const Arguments& arguments) {
   const std::string title = fmt::format(
       "{}: sample {}, {}, Hs {:g} m, azimuth {:g} deg, elevation {:g} deg", scenario.name, sample, target.name,
       sea_states(scenario.sea)[static_cast<std::size_t>(address.sea_state)].significant_wave_height_m,
-      degrees(view.azimuth_rad), degrees(view.elevation_rad));
+      view.azimuth_deg, view.elevation_deg);
   if (arguments.product == "isar" || arguments.product == "hrrp") {
     const WholeBand band = whole_band(pipeline, sample);
     if (arguments.product == "isar") {

@@ -78,7 +78,7 @@ std::vector<std::string> outside_of_map(const Scenario& scenario, const std::vec
         const double own_mps = r_hat.dot(Vec3(platform.velocity_mps.data()));
         reach.velocity_mps = {reach.velocity_mps.low + own_mps, reach.velocity_mps.high + own_mps};
       }
-      const std::string who = fmt::format("targets.{} at azimuth {:g} deg", scenario.targets[t].name, degrees(view.azimuth_rad));
+      const std::string who = fmt::format("targets.{} at azimuth {:g} deg", scenario.targets[t].name, view.azimuth_deg);
       if (!reach.range_m.within(grid.range_m)) {
         tell(fmt::format("{} reaches from {:.1f} to {:.1f} m, the map from {:.1f} to {:.1f} m: raise map.range_span_m", who,
                          reach.range_m.low, reach.range_m.high, grid.range_m.front(), grid.range_m.back()));

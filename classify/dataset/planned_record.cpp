@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <string_view>
 
-#include "sim/core/constants.h"
 #include "sim/motion/target_motion.h"
 
 namespace seaglint {
@@ -32,10 +31,10 @@ SampleRecord planned_record(const Scenario& scenario, const SamplePlan& plan, st
   record.significant_wave_height_m = state.significant_wave_height_m;
   record.peak_period_s = state.peak_period_s;
   record.gamma = state.gamma;
-  record.propagation_deg = degrees(state.propagation_rad);
+  record.propagation_deg = state.propagation_deg;
   record.view = at.view;
-  record.azimuth_deg = degrees(view.azimuth_rad);
-  record.elevation_deg = degrees(view.elevation_rad);
+  record.azimuth_deg = view.azimuth_deg;
+  record.elevation_deg = view.elevation_deg;
   record.realisation = at.realisation;
   record.interval = at.interval;
   record.start_s = plan.start_s(at);

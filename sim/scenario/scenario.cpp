@@ -178,6 +178,7 @@ std::vector<SeaState> sea_states(const SeaSpec& spec) {
           state.peak_period_s = period;
           state.gamma = gamma;
           state.propagation_rad = radians(propagation);
+          state.propagation_deg = propagation;
           state.order = spec.order;
           state.components = spec.components;
           state.spreading = spec.spreading;
@@ -200,7 +201,7 @@ std::vector<SeaState> sea_states(const SeaSpec& spec) {
 std::vector<View> views(const ViewSpec& spec) {
   std::vector<View> all;
   for (const double azimuth : spec.azimuth_deg) {
-    for (const double elevation : spec.elevation_deg) all.push_back({radians(azimuth), radians(elevation)});
+    for (const double elevation : spec.elevation_deg) all.push_back({radians(azimuth), radians(elevation), azimuth, elevation});
   }
   return all;
 }

@@ -92,6 +92,8 @@ double convergent_cutoff(const SeaState& state);
 struct View {
   double azimuth_rad = 0;
   double elevation_rad = 0;
+  double azimuth_deg = 0;  // as given: a turn to radians and back moves the last bit
+  double elevation_deg = 0;
 };
 
 // The views of the sweeps, azimuth slowest.

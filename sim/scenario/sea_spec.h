@@ -103,6 +103,7 @@ struct SeaState {
   double peak_period_s = 8;
   double gamma = 3.3;
   double propagation_rad = 0;
+  double propagation_deg = 0;  // as the scenario gives it, for records; waves go by propagation_rad
   int order = 2;
   int components = 512;
   double cutoff_rad_s = 8;
