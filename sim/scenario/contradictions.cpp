@@ -60,6 +60,21 @@ void check_window(const Scenario& scenario, const ScenarioDocument& document) {
   }
 }
 
+// The sea's own level and motion are those of water that the radar sees from above the horizon and not from overhead,
+// within the elevations that the reflectivity was fitted to.
+void check_grazing(const Scenario& scenario, const ScenarioDocument& document) {
+  const ClutterSpec& clutter = scenario.clutter;
+  const bool own_level = clutter.level == ClutterLevel::kNrl, own_motion = clutter.doppler != ClutterDoppler::kGiven;
+  if (!clutter.enabled || !(own_level || own_motion)) return;
+  const char* where = own_level                                     ? "level: nrl"
+                      : clutter.doppler == ClutterDoppler::kSea ? "doppler: sea"
+                                                                : "doppler: wave_field";
+  for (const double elevation : scenario.view.elevation_deg) {
+    if (elevation < 0.1 || elevation > 60)
+      document.fail_at("view.elevation_deg", fmt::format("must be within 0.1 and 60 with clutter.{}", where));
+  }
+}
+
 // The sea's own reflectivity is known where it was fitted.
 void check_clutter(const Scenario& scenario, const ScenarioDocument& document) {
   const ClutterSpec& clutter = scenario.clutter;
@@ -71,10 +86,6 @@ void check_clutter(const Scenario& scenario, const ScenarioDocument& document) {
   if (lowest_ghz(radar) < 0.5 || highest_ghz(radar) > 35) {
     document.fail_at("radar.carrier_ghz", fmt::format("all carriers with their band, {:g} to {:g} GHz, must be within 0.5 and 35 {}",
                                                       lowest_ghz(radar), highest_ghz(radar), where));
-  }
-  for (const double elevation : scenario.view.elevation_deg) {
-    if (elevation < 0.1 || elevation > 60)
-      document.fail_at("view.elevation_deg", fmt::format("must be within 0.1 and 60 {}", where));
   }
   for (const SeaState& state : sea_states(scenario.sea)) {
     if (!clutter.sea_state && total_wave_height(state) > 6)
@@ -268,6 +279,7 @@ void check_contradictions(const Scenario& scenario, const ScenarioDocument& docu
   check_radar(scenario.radar, document);
   check_pulse_train(scenario.radar, document);
   check_window(scenario, document);
+  check_grazing(scenario, document);
   check_clutter(scenario, document);
   check_case_count(scenario, document);
   check_directions("view.azimuth_deg", scenario.view.azimuth_deg, document);

@@ -96,6 +96,8 @@ TEST(Reading, TheRadarChainsContradictionsAreNamed) {
       {{{"radar.carrier_ghz", "0.1"}, {"radar.bandwidth_mhz", "200"}, {"radar.sampling_mhz", "400"}}, "radar.bandwidth_mhz: value '200': must be below twice radar.carrier_ghz, 200"},
       {{{"radar.pulse_width_us", "0.1"}}, "radar.pulse_width_us: value '0.1': must be at least 0.16 us, 8 samples of radar.sampling_mhz"},
       {{{"clutter.level", "nrl"}, {"view", "{elevation_deg: 0}"}}, "view.elevation_deg: value '0': must be within 0.1 and 60"},
+      {{{"clutter.doppler", "wave_field"}, {"view", "{elevation_deg: [2, 90]}"}}, "must be within 0.1 and 60 with clutter.doppler: wave_field"},
+      {{{"clutter.doppler", "sea"}, {"view", "{elevation_deg: -1}"}}, "view.elevation_deg: value '-1': must be within 0.1 and 60 with clutter.doppler: sea"},
       {{{"clutter.level", "nrl"}, {"sea", "{significant_wave_height_m: 7, peak_period_s: 14}"}},
        "sea.significant_wave_height_m: value '7': must be at most 6"},
       {{{"targets.a.with", "[{target: b}]"}}, "must be the name of another target"},
@@ -104,6 +106,11 @@ TEST(Reading, TheRadarChainsContradictionsAreNamed) {
     EXPECT_THAT(complaint_about(kShort, overrides), HasSubstr(message)) << message;
   }
   EXPECT_EQ(complaint_about(kShort, {{"clutter.level", "nrl"}}), "none");
+  EXPECT_EQ(complaint_about("seaglint: 1\nview:\n  elevation_deg: 90\nclutter: {doppler: wave_field}\ntargets:\n  a: {label: 1, mesh: a.glb}\n"),
+            "folder/file.yaml:3:18: view.elevation_deg: value '90': must be within 0.1 and 60 with clutter.doppler: wave_field");
+  // Clutter at a ratio and of a given Doppler spectrum is seen from anywhere, and none at all has no sea to be seen.
+  EXPECT_EQ(complaint_about(kShort, {{"view.elevation_deg", "90"}}), "none");
+  EXPECT_EQ(complaint_about(kShort, {{"view.elevation_deg", "90"}, {"clutter", "{enabled: false, doppler: wave_field}"}}), "none");
 }
 
 // A float and a body at rest stay in the water that a speed would have fall behind.
