@@ -27,8 +27,20 @@ double beam_deviation_rad(const RadarSpec& radar) {
   return radians(radar.budget.beamwidth_deg) / (4 * std::sqrt(std::log(2.0)));
 }
 
+// coth(k h): how much longer than high a wave's orbits are at the surface, 1 in deep water.
+double orbit_ratio(const WaveComponent& wave, double depth) { return 1 / std::tanh(std::min(20.0, wave.wavenumber * depth)); }
+
+// Mean velocity of the water's particles at the surface, along the wave's way (Stokes 1847; Phillips, "The Dynamics of
+// the Upper Ocean", 2nd ed. 1977, section 3.3):
+// a^2 w k cosh(2 k h) / (2 sinh^2 k h) = a^2 w k (1 + coth^2 k h) / 2.
+double stokes_drift(const WaveComponent& wave, double depth) {
+  const double coth = orbit_ratio(wave, depth);
+  return wave.amplitude * wave.amplitude * wave.omega * wave.wavenumber * (1 + coth * coth) / 2;
+}
+
 // Mean of the water's velocity at the moving surface: that of eta1 du1/dz, 1/2 a^2 w k along every component's way, in
-// any depth; the rest of the Stokes drift, as much again, is what a particle gathers on its orbit. None at order 1.
+// any depth; the rest of the Stokes drift, as much again times coth^2 kh, is what a particle gathers on its orbit. None
+// at order 1.
 Vec2 mean_at_the_surface(const WaveField& waves) {
   Vec2 mean = Vec2::Zero();
   for (const WaveComponent& wave : std::span(waves.components()).first(waves.second_order_count()))
@@ -43,13 +55,13 @@ VelocityMoments sea_velocity(const ClutterSpec& spec, const ClutterScene& scene,
   const double cos_grazing = std::hypot(scene.r_hat.x(), scene.r_hat.y()), sin_grazing = scene.r_hat.z();
   const Vec2 look = Vec2(scene.r_hat.x(), scene.r_hat.y());  // of length cos_grazing
 
-  // Stokes drift of a wave of amplitude a: a^2 w k along its way (deep water); orbital velocity a w, both ways.
+  // Orbital velocity of a wave of amplitude a: a w upwards, a w coth(k h) along its way.
   Vec2 stokes = Vec2::Zero();
   double variance = 0;
   for (const WaveComponent& wave : scene.waves->components()) {
     const double speed = wave.amplitude * wave.omega;
-    stokes += speed * wave.amplitude * wave.wavenumber * wave.direction;
-    const double horizontal = look.dot(wave.direction) / std::tanh(std::min(20.0, wave.wavenumber * scene.waves->depth()));
+    stokes += stokes_drift(wave, scene.waves->depth()) * wave.direction;
+    const double horizontal = look.dot(wave.direction) * orbit_ratio(wave, scene.waves->depth());
     variance += 0.5 * speed * speed * (horizontal * horizontal + sin_grazing * sin_grazing);
   }
   const double past_mps = scene.r_hat.dot(scene.way_mps);  // water that stands still falls behind the target

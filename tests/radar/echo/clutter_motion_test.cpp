@@ -8,6 +8,7 @@
 
 #include "radar/echo/sea_clutter.h"
 #include "sim/core/constants.h"
+#include "sim/core/dispersion.h"
 #include "sim/scenario/scenario.h"
 
 namespace seaglint {
@@ -55,6 +56,36 @@ TEST(SeaVelocity, IsOppositeFromBehindNoneFromTheSideAndFasterInHh) {
   EXPECT_NEAR(sea_velocity({}, hh, kWavelength).mean_mps, 1.5 * mean, 1e-12);
   // Long-crested waves seen from the side move up and down only: nothing along a level line of sight.
   EXPECT_NEAR(sea_velocity({}, scene_of(aside), kWavelength).spread_mps, 0, 1e-9);
+}
+
+// What drifts with the waves drifts as a particle of the second-order surface does: in water of 8 m, whose orbits are
+// 1.54 times as long as high, 1.7 times as fast as in deep water.
+TEST(SeaVelocity, HoldsTheDriftOfAParticleInAnyDepth) {
+  const double omega = 2 * kPi / 8, period = 8, amplitude = 0.02;
+  for (const double depth : {8.0, 25.0, kDeepWater}) {
+    const double k = wavenumber_at(omega, depth);
+    const WaveField wave({WaveComponent{omega, amplitude, 0, k, {1, 0}}}, 2, 10, depth);
+    // Ten of the particle's own periods, to the very moment within the last step.
+    const double step = period / 4000, end = 20 * kPi;
+    double x = 0, t = 0, phase = 0;
+    while (phase < end) {
+      const double half = x + 0.5 * step * wave.surface(x, 0, t).velocity.x();
+      const double way = step * wave.surface(half, 0, t + 0.5 * step).velocity.x();
+      const double share = std::min(1.0, (end - phase) / (omega * step - k * way));
+      x += share * way;
+      t += share * step;
+      phase = share < 1 ? end : phase + omega * step - k * way;
+    }
+    ClutterScene scene = scene_of(wave);
+    scene.significant_wave_height_m = 0;  // no wind
+    const double bragg_k = 4 * kPi / kWavelength, bragg = std::sqrt(kGravity / bragg_k + 0.074 / 1025 * bragg_k);
+    const double drift = -sea_velocity({}, scene, kWavelength).mean_mps - bragg;
+    std::printf("depth %.4g m: drift %.6g mm/s, of a particle %.6g, a^2 w k %.6g\n", depth, 1e3 * drift, 1e3 * x / t,
+                1e3 * amplitude * amplitude * omega * k);
+    // The next order is smaller by (3/8 Ur)^2 = (3/8 a / (k^2 h^3))^2 and (k a)^2, 4e-6 at most; the midpoint rule errs by
+    // (w step)^2 / 24 = 1e-7 of orbital speeds that are up to 800 times the drift.
+    EXPECT_NEAR(drift / (x / t), 1, 1e-4) << depth << " m";
+  }
 }
 
 TEST(SeaVelocity, SpreadIsTheOneOfTheWaterAndOfFloatingScatterers) {
