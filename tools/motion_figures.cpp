@@ -57,17 +57,21 @@ std::string motion_statistics(const std::vector<NamedTrajectory>& bodies, double
     const std::vector<MotionSample> samples = sampled(body.trajectory, duration_s);
     text += body.body + ":";
     for (int axis = 0; axis < 3; ++axis) {
-      double square = 0, rate = 0, largest = 0;
+      const double count = static_cast<double>(samples.size());
+      double mean = 0, largest = 0;
       for (const MotionSample& s : samples) {
-        square += s.angles[axis] * s.angles[axis];
-        rate += s.angle_rates[axis] * s.angle_rates[axis];
+        mean += s.angles[axis] / count;
         largest = std::max(largest, std::abs(s.angles[axis]));
       }
-      const double rms = std::sqrt(square / static_cast<double>(samples.size()));
-      fmt::format_to(std::back_inserter(text), " {} rms {:.3g} deg, largest {:.3g} deg",
-                     kAngles[static_cast<std::size_t>(axis)], degrees(rms), degrees(largest));
-      if (rate > 0)
-        fmt::format_to(std::back_inserter(text), ", mean period {:.3g} s", 2 * kPi * std::sqrt(square / rate));
+      // Mean period 2 pi sqrt(m0 / m2), m0 the variance about the mean and m2 that of the rate.
+      double m0 = 0, m2 = 0;
+      for (const MotionSample& s : samples) {
+        m0 += (s.angles[axis] - mean) * (s.angles[axis] - mean) / count;
+        m2 += s.angle_rates[axis] * s.angle_rates[axis] / count;
+      }
+      fmt::format_to(std::back_inserter(text), " {} mean {:.3g} deg, rms about it {:.3g} deg, largest {:.3g} deg",
+                     kAngles[static_cast<std::size_t>(axis)], degrees(mean), degrees(std::sqrt(m0)), degrees(largest));
+      if (m2 > 0) fmt::format_to(std::back_inserter(text), ", mean period {:.3g} s", 2 * kPi * std::sqrt(m0 / m2));
       text += axis < 2 ? ";" : "\n";
     }
   }
