@@ -42,6 +42,7 @@ void add_check(CLI::App& app, Shell& shell) {
       fmt::print(stderr, "{}", summary(scenario));
       fmt::print(stderr, "{}", describe(train, scenario.radar));
       warn(mesh_doubts(pipeline));
+      warn(sea_doubts(scenario));
       warn(outside_of_map(scenario, pipeline.targets()));
     };
   });

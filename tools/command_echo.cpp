@@ -40,6 +40,7 @@ void write_echo(const Arguments& arguments) {
     throw InputError(fmt::format("--sample {}: the scenario has samples 0 to {}", arguments.sample, samples - 1));
   const Pipeline pipeline(scenario);
   warn(mesh_doubts(pipeline));
+  warn(sea_doubts(scenario));
   const SampledInterval interval = sampled_interval(pipeline, arguments.sample);
   const std::vector<std::int64_t> code(interval.train.code.begin(), interval.train.code.end());
 

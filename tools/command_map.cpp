@@ -65,6 +65,7 @@ void show_map(const Arguments& arguments) {
     throw InputError(fmt::format("--sample {}: the scenario has samples 0 to {}", sample, samples - 1));
   const Pipeline pipeline(scenario);
   warn(mesh_doubts(pipeline));
+  warn(sea_doubts(scenario));
   const SampleAddress address = pipeline.plan().address(sample);
   const TargetSpec& target = scenario.targets[static_cast<std::size_t>(address.target)];
   const View view = views(scenario.view)[static_cast<std::size_t>(address.view)];

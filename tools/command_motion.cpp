@@ -18,6 +18,7 @@
 #include "tools/motion_figures.h"
 #include "tools/scene.h"
 #include "tools/series_times.h"
+#include "tools/warnings.h"
 
 namespace seaglint {
 
@@ -109,6 +110,7 @@ void write_motion(const MotionArguments& arguments, const Shell& shell) {
   require_outputs(outputs, {arguments.scenario.file, arguments.rao_reference});
   const Scenario scenario = arguments.scenario.read();
   require_outputs(outputs, files_of(scenario));
+  warn(sea_doubts(scenario));
   const std::size_t count = uniform_time_count(arguments.duration_s, arguments.step_s);
   const MovingScene scene = simulate_all(scenario, arguments.duration_s, shell.threads, shell.stop);
   const std::vector<NamedTrajectory>& bodies = scene.bodies;

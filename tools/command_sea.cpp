@@ -17,6 +17,7 @@
 #include "tools/figure.h"
 #include "tools/sea_ensemble.h"
 #include "tools/series_times.h"
+#include "tools/warnings.h"
 
 namespace seaglint {
 
@@ -123,6 +124,7 @@ void write_sea(const SeaArguments& arguments, const Shell& shell) {
   require_outputs(outputs, {arguments.scenario.file});
   const Scenario scenario = arguments.scenario.read();
   require_outputs(outputs, files_of(scenario));
+  warn(sea_doubts(scenario));
   const SeaState state = sea_states(scenario.sea).front();
   const WaveField field = realize_sea(state, scenario.seed, realisation_index(0, 0));
   const SeaSummary summary = summarize(state, field);

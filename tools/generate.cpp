@@ -31,6 +31,7 @@ GenerateResult generate_dataset(const Scenario& scenario, const std::filesystem:
   const Pipeline pipeline(scenario);
   const SamplePlan& plan = pipeline.plan();
   warn(mesh_doubts(pipeline));
+  warn(sea_doubts(scenario));
   warn(outside_of_map(scenario, pipeline.targets()));
   DatasetWriter writer(directory, scenario, options.resume, kVersion);
 

@@ -9,10 +9,14 @@
 
 namespace seaglint {
 
+struct Scenario;
 class Pipeline;
 
 // One line for everything that is doubtful about the meshes of the scenario's targets.
 std::vector<std::string> mesh_doubts(const Pipeline& pipeline);
+
+// One line for each system of waves with too few components to be the same sea from one realisation to the next.
+std::vector<std::string> sea_doubts(const Scenario& scenario);
 
 // Prints each as a warning.
 void warn(std::span<const std::string> sentences);

@@ -58,6 +58,7 @@ void check_state(const SeaState& state) {
 
 // Waves of one origin, as they are cut into strata.
 struct WaveSystem {
+  double StratumWidths::*width = nullptr;  // where its own stands
   std::unique_ptr<Spectrum> spectrum;
   double cutoff = 0;  // rad/s
   int components = 0;
@@ -68,14 +69,18 @@ struct WaveSystem {
 std::vector<WaveSystem> systems_of(const SeaState& state) {
   std::vector<WaveSystem> systems;
   if (auto spectrum = wind_sea_spectrum(state)) {
-    systems.push_back(
-        {std::move(spectrum), linear_cutoff(state), state.components, state.propagation_rad, state.spreading});
+    systems.push_back({&StratumWidths::wind_sea, std::move(spectrum), linear_cutoff(state), state.components,
+                       state.propagation_rad, state.spreading});
   }
   if (auto spectrum = swell_spectrum(state)) {
-    systems.push_back({std::move(spectrum), swell_cutoff(state), state.swell.components, state.swell.propagation_rad,
-                       state.swell.spreading});
+    systems.push_back({&StratumWidths::swell, std::move(spectrum), swell_cutoff(state), state.swell.components,
+                       state.swell.propagation_rad, state.swell.spreading});
   }
   return systems;
+}
+
+double stratum_width(const WaveSystem& system) {  // rad/s
+  return (system.cutoff - system.spectrum->lowest_omega()) / system.components;
 }
 
 Vec2 unit_vector(double angle) {
@@ -92,7 +97,7 @@ struct WaveRandom {
 std::vector<WaveComponent> realize_system(const WaveSystem& system, const SeaState& state, WaveRandom& random) {
   const Spectrum& spectrum = *system.spectrum;
   const double lowest = spectrum.lowest_omega();
-  const double width = (system.cutoff - lowest) / system.components;
+  const double width = stratum_width(system);
   // Neighbours in frequency are sent as far apart as can be: the golden ratio's multiples fill (0, 1) evenly.
   constexpr double kGolden = 0.61803398874989484820;
   double share = system.spreading.kind == Spreading::kNone ? 0 : random.direction.uniform();
@@ -142,6 +147,12 @@ WaveField realize_sea(const SeaState& state, std::uint64_t seed, std::uint64_t i
   std::stable_sort(components.begin(), components.end(),
                    [](const WaveComponent& a, const WaveComponent& b) { return a.omega < b.omega; });
   return WaveField(std::move(components), state.order, second_order_cutoff(state), state.depth_m);
+}
+
+StratumWidths stratum_widths(const SeaState& state) {
+  StratumWidths widths;
+  for (const WaveSystem& system : systems_of(state)) widths.*system.width = stratum_width(system) / system.spectrum->peak_omega();
+  return widths;
 }
 
 std::uint64_t realisation_index(std::size_t sea_state, std::size_t realisation) {

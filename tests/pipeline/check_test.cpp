@@ -17,6 +17,7 @@ namespace {
 
 using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 const std::string kPoints = "scenarios/points.yaml";
@@ -61,6 +62,19 @@ TEST(Check, SaysWhatIsDoubtfulAboutMeshes) {
   EXPECT_EQ(check.code, 0);
   EXPECT_THAT(check.err, HasSubstr(said));
   EXPECT_THAT(run_program({"map", file, "--sample", "0", "-o", folder.path() / "map.png"}).err, StartsWith(said));
+}
+
+// Eight components are another sea in every realisation; the default 512 are not.
+TEST(Check, SaysWhereComponentsAreTooFew) {
+  const std::string said =
+      "seaglint: warning: sea.components: 8 for waves of Tp 8 s make strata 1.2 of the peak frequency wide, and the mean period is another "
+      "one in every realisation: 98 and more hold it within about 1 %\n";
+  EXPECT_THAT(run_program({"check", kPoints, "--set", "sea.components=8"}).err, HasSubstr(said));
+  const TemporaryFolder folder;
+  EXPECT_THAT(run_program({"sea", kPoints, "--duration-s", "1", "-o", folder.path() / "sea.csv", "--set", "sea.components=8"}).err, HasSubstr(said));
+  EXPECT_THAT(run_program({"check", kPoints, "--set", "sea.components=98"}).err, Not(HasSubstr("sea.components")));
+  EXPECT_THAT(run_program({"check", kPoints, "--set", "sea.swell={significant_wave_height_m: 1, components: 9}"}).err,
+              HasSubstr("sea.swell.components: 9 for waves of Tp 12 s make strata 0.4 of the peak frequency wide"));
 }
 
 TEST(Check, RefusesMeshesThatScatterNothing) {
