@@ -43,7 +43,7 @@ struct MotionSpec {
   double diameter_m = 0;              // (auto) of a float's waterplane, 0 <= x <= 50
   double centre_above_water_m = 0.75;  // height of a float's mesh origin above its centre of flotation, -10 <= x <= 50
   WaveSharing waves = WaveSharing::kSameField;
-  double step_s = 0.02;               // integration step, 0.001 <= x <= 0.1
+  double step_s = 0.02;               // between samples and of integration, 0.001 <= x <= 0.1, at most an eighth of the shortest natural period
   double preroll_s = 120;             // simulated before t = 0, 0 <= x <= 3600
 };
 
