@@ -26,6 +26,22 @@ bool scores_as_chance(const ordered_json& scores, bool independent, int repeats)
 
 double value_or_nan(const ordered_json& json) { return json.is_number() ? json.get<double>() : std::nan(""); }
 
+std::string percent(double share) { return std::isfinite(share) ? fmt::format("{:.1f} %", 100 * share) : "–"; }
+
+std::string accuracy_cell(const ordered_json& scores) {
+  const double low = value_or_nan(scores.at("accuracy_95")[0]), high = value_or_nan(scores.at("accuracy_95")[1]);
+  std::string cell = percent(value_or_nan(scores.at("accuracy")));
+  if (std::isfinite(low)) cell += fmt::format(" <small>({:.0f}–{:.0f})</small>", 100 * low, 100 * high);
+  return cell;
+}
+
+double probe_accuracy(const ordered_json& metrics, const std::string& name) {
+  for (const auto& probe : metrics.at("probes")) {
+    if (probe.at("name") == name) return value_or_nan(probe.at("group").at("accuracy"));
+  }
+  return std::nan("");
+}
+
 std::string Guessing::text() const {
   const std::string high = fmt::format("{:.1f} %", 100 * most);
   return most - least < 5e-4 ? high : fmt::format("{:.1f} to {}", 100 * least, high);

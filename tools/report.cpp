@@ -10,6 +10,7 @@
 #include "sim/core/file.h"
 #include "sim/core/json_problem.h"
 #include "tools/html.h"
+#include "tools/probe_text.h"
 #include "tools/report_figures.h"
 #include "tools/report_text.h"
 #include "tools/scene.h"
@@ -128,7 +129,7 @@ std::string page(const ordered_json& metrics, const Scenario& scenario, const st
   body += section("probes", "Probes: what else could tell the class",
                   "<p>Each quantity is given to the same trees by itself. Quantities that know nothing of the target "
                   "must stay near 50 %.</p>\n" +
-                      probes_table(metrics));
+                      probes_table(metrics, scenario));
   body += section("notes", "What an expert should notice", expert_notes(metrics, scenario));
   body += section("sea", "Sea and motion", figures(all, "sea"));
   body += section("targets", "Targets", targets_section(all, missing));

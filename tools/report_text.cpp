@@ -10,6 +10,7 @@
 #include "radar/waveform/pulse_train.h"
 #include "tools/html.h"
 #include "tools/metrics.h"
+#include "tools/probe_text.h"
 
 namespace seaglint {
 
@@ -21,16 +22,6 @@ using Rows = std::vector<std::vector<std::string>>;
 constexpr const char* kGroups[3] = {"handmade", "cnn", "fused"};
 constexpr const char* kGroupNames[3] = {"hand-made", "CNN", "fused"};
 constexpr const char* kProtocols[2] = {"random", "group"};
-
-std::string percent(double share) { return std::isfinite(share) ? fmt::format("{:.1f} %", 100 * share) : "–"; }
-
-// "93.3 % (88–98)"
-std::string accuracy_cell(const ordered_json& scores) {
-  const double low = value_or_nan(scores.at("accuracy_95")[0]), high = value_or_nan(scores.at("accuracy_95")[1]);
-  std::string cell = percent(value_or_nan(scores.at("accuracy")));
-  if (std::isfinite(low)) cell += fmt::format(" <small>({:.0f}–{:.0f})</small>", 100 * low, 100 * high);
-  return cell;
-}
 
 double accuracy(const ordered_json& metrics, const char* group, const char* protocol) {
   return value_or_nan(metrics.at(group).at(protocol).at("accuracy"));
@@ -52,13 +43,6 @@ bool rises(const ordered_json& scores) {
     last = value_or_nan(row.at("accuracy"));
   }
   return scores.at("by_wave_height").size() > 1;
-}
-
-const ordered_json* probe(const ordered_json& metrics, const std::string& name) {
-  for (const auto& entry : metrics.at("probes")) {
-    if (entry.at("name") == name) return &entry;
-  }
-  return nullptr;
 }
 
 // The median of a feature over both wave heights given, of one class.
@@ -85,14 +69,6 @@ std::string compared_protocols(const ordered_json& random, const ordered_json& g
   const bool known = std::isfinite(low(random)) && std::isfinite(low(group));
   return fmt::format("; random rows come out {} {}, {}", direction, by,
                      known ? "which is within the intervals" : "without intervals to judge it by");
-}
-
-// What sets the level of a map.
-std::string level_of_maps(const ClutterSpec& clutter) {
-  if (!clutter.enabled) return "There is no clutter, so the level of a map is the target’s size.";
-  if (clutter.level == ClutterLevel::kNrl)
-    return "The clutter has the sea’s own level, so the level of a map and its ratio to the clutter tell the target’s size.";
-  return fmt::format("The clutter follows the target (SCR {:g} dB), so the level of a map is the target’s size.", clutter.scr_db);
 }
 
 std::string item(const std::string& text) { return "<li>" + text + "</li>\n"; }
@@ -217,23 +193,6 @@ std::string claims_table(const ordered_json& metrics) {
   return html_table(rows, false);
 }
 
-std::string probes_table(const ordered_json& metrics) {
-  Rows rows{{"probe", "what it is", "random split", "split by sea", "reading"}};
-  for (const auto& entry : metrics.at("probes")) {
-    const std::string kind = entry.at("kind");
-    const bool half = as_chance(metrics, entry);
-    std::string reading;
-    if (kind == "blind") reading = half ? "as chance" : "<b>away from chance: look for a leak</b>";
-    if (kind == "scale") reading = half ? "level does not tell" : "level tells the class; no feature uses it";
-    if (kind == "shape") reading = half ? "does not tell" : "tells by shape or strength of the target";
-    if (kind == "feature") reading = half ? "does not tell by itself" : "tells by itself";
-    rows.push_back({escape_html(entry.at("name").get<std::string>()),
-                    escape_html(entry.at("meaning").get<std::string>()), accuracy_cell(entry.at("random")),
-                    accuracy_cell(entry.at("group")), reading});
-  }
-  return html_table(rows, false);
-}
-
 std::string feature_table(const ordered_json& metrics) {
   Rows rows{{"class, H<sub>s</sub>", "MWR ((m/s)²)", "CCF", "σ<sub>r</sub> (m)", "σ<sub>v</sub> (m/s)", "centres",
              "line explains"}};
@@ -266,18 +225,8 @@ std::string expert_notes(const ordered_json& metrics, const Scenario& scenario) 
       "maps; with so few it is rough, and "
       "a height with one test sea has no interval at all. Differences smaller than the intervals are not findings.",
       seas));
-  if (const ordered_json* power = probe(metrics, "total power")) {
-    html += item(
-        fmt::format("<b>Absolute level would settle it.</b> {} Total power alone "
-                    "reaches {} on unseen seas. No feature group sees it: centre weights are normalised, the network’s "
-                    "input is divided by its energy. "
-                    "A pipeline with unnormalised maps would look better for the wrong reason.",
-                    level_of_maps(scenario.clutter), percent(value_or_nan(power->at("group").at("accuracy")))));
-  }
-  const auto alone = [&metrics](const char* name) {
-    const ordered_json* found = probe(metrics, name);
-    return found ? percent(value_or_nan(found->at("group").at("accuracy"))) : std::string("–");
-  };
+  html += item(note_of_level(metrics, scenario));
+  const auto alone = [&metrics](const char* name) { return percent(probe_accuracy(metrics, name)); };
   html +=
       item(fmt::format("<b>Geometry or motion?</b> By itself, on unseen seas, the range spread σ<sub>r</sub> reaches "
                        "{}, the velocity spread σ<sub>v</sub> {}, MWR {}, CCF {}; the mere "

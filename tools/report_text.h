@@ -15,7 +15,6 @@ namespace seaglint {
 std::string summary_tiles(const nlohmann::ordered_json& metrics);
 std::string accuracy_tables(const nlohmann::ordered_json& metrics);
 std::string claims_table(const nlohmann::ordered_json& metrics);
-std::string probes_table(const nlohmann::ordered_json& metrics);
 std::string feature_table(const nlohmann::ordered_json& metrics);
 std::string expert_notes(const nlohmann::ordered_json& metrics, const Scenario& scenario);
 std::string provenance_table(const nlohmann::ordered_json& metrics);

@@ -22,6 +22,15 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
+// Target over clutter and noise together, dB: 1/R = 1/SCR + 1/SNR, of those that there are; 300 without either.
+double signal_to_rest_db(const SampleRecord& record) {
+  double inverse = 0;
+  for (const double ratio_db : {record.scr_per_pulse_db, record.snr_per_pulse_db}) {
+    if (!std::isnan(ratio_db)) inverse += std::pow(10, -0.1 * ratio_db);
+  }
+  return std::clamp(-decibel(inverse), -300.0, 300.0);
+}
+
 // Levels of one map that a classifier might lean on instead of on the target's motion.
 struct MapLevels {
   double floor_db = 0;         // median cell below the map's energy
@@ -58,6 +67,7 @@ std::vector<float> carrier_counts(const std::vector<std::uint16_t>& code, std::s
 enum ProbeIndex {
   kPower,
   kPeak,
+  kRatio,
   kFloor,
   kPedestal,
   kAbove,
@@ -75,6 +85,10 @@ std::vector<Probe> empty_probes(std::size_t bands) {
   std::vector<Probe> probes(kProbes);
   probes[kPower] = {"total power", ProbeKind::kScale, "energy of the map, dB", {{"energy_db"}, {}}};
   probes[kPeak] = {"peak", ProbeKind::kScale, "strongest cell, dB", {{"peak_db"}, {}}};
+  probes[kRatio] = {"signal to clutter and noise",
+                    ProbeKind::kRatio,
+                    "target's echo over clutter and noise, mean over pulses and frequencies, dB",
+                    {{"ratio_db"}, {}}};
   probes[kFloor] = {"floor", ProbeKind::kShape, "median cell below the map's energy, dB", {{"floor_db"}, {}}};
   probes[kPedestal] = {"pedestal",
                        ProbeKind::kShape,
@@ -91,9 +105,10 @@ std::vector<Probe> empty_probes(std::size_t bands) {
   probes[kCcf] = {"CCF alone", ProbeKind::kFeature, "contrast of the spreads", {{"ccf"}, {}}};
   probes[kSigmaR] = {"sigma_r alone",
                      ProbeKind::kFeature,
-                     "range spread: the target's length and layout, not its motion",
+                     "range spread of the centres found: the target's length and layout, not its motion",
                      {{"sigma_r_m"}, {}}};
-  probes[kSigmaV] = {"sigma_v alone", ProbeKind::kFeature, "velocity spread: motion alone", {{"sigma_v_mps"}, {}}};
+  probes[kSigmaV] = {
+      "sigma_v alone", ProbeKind::kFeature, "velocity spread of the centres found: motion", {{"sigma_v_mps"}, {}}};
   return probes;
 }
 
@@ -105,6 +120,8 @@ const char* name(ProbeKind kind) {
       return "blind";
     case ProbeKind::kScale:
       return "scale";
+    case ProbeKind::kRatio:
+      return "ratio";
     case ProbeKind::kShape:
       return "shape";
     case ProbeKind::kFeature:
@@ -150,6 +167,7 @@ LearningTable load_learning_table(const DatasetReader& data, const LearningSpec&
       };
       add(kPower, decibel(record.energy_m2));
       add(kPeak, 2 * decibel(record.peak_m));
+      add(kRatio, signal_to_rest_db(record));
       add(kFloor, levels.floor_db);
       add(kPedestal, levels.pedestal_db);
       add(kAbove, levels.above_threshold);

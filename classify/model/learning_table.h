@@ -16,11 +16,12 @@ namespace seaglint {
 // What a probe may say about the classes.
 enum class ProbeKind {
   kBlind,    // random by construction: any accuracy away from 50 % is a leak
-  kScale,    // absolute level: a ship is stronger, so it separates, and no feature group may use it
+  kScale,    // absolute level: a ship is stronger, so it separates; features are normalised and see it by kRatio alone
+  kRatio,    // target over clutter and noise: decides which centres are found, and so reaches every feature
   kFeature,  // a hand-made feature alone: which of them carries the result
   kShape,    // follows from the target's shape or motion: may separate honestly, shown to judge the features by
 };
-const char* name(ProbeKind kind);  // "blind", "scale", "shape", "feature"
+const char* name(ProbeKind kind);  // "blind", "scale", "ratio", "shape", "feature"
 
 // Nuisance quantities of every map, to be classified by themselves.
 struct Probe {

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the report says of probes that know nothing.
+// What the report says of probes, of the level among them.
 #include "tools/report_text.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "tools/probe_text.h"
 
 namespace seaglint {
 namespace {
@@ -27,7 +29,8 @@ ordered_json scores(double ships, double ships_right, double arrays_right) {
 
 std::string table_of(const ordered_json& scores) {
   return probes_table({{"split_repeats", 1},
-                       {"probes", {{{"name", "hop code"}, {"kind", "blind"}, {"meaning", "-"}, {"random", scores}, {"group", scores}}}}});
+                       {"probes", {{{"name", "hop code"}, {"kind", "blind"}, {"meaning", "-"}, {"random", scores}, {"group", scores}}}}},
+                      {});
 }
 
 TEST(ProbesTable, CallsTheSharesOfTheClassesChance) {
@@ -40,6 +43,49 @@ TEST(ProbesTable, CallsTheSharesOfTheClassesChance) {
   EXPECT_THAT(table_of(scores(200, 133, 33)), Not(HasSubstr("leak")));
   EXPECT_THAT(table_of(scores(200, 180, 50)), HasSubstr("look for a leak"));
   EXPECT_THAT(table_of(scores(200, 100, 20)), HasSubstr("look for a leak"));
+}
+
+// A probe of each kind that tells the classes.
+ordered_json telling_probes() {
+  ordered_json metrics{{"split_repeats", 1}, {"probes", ordered_json::array()}};
+  const ordered_json right = scores(150, 145, 145);
+  for (const auto& [name, kind] : {std::pair{"total power", "scale"}, {"signal to clutter and noise", "ratio"}, {"sigma_v alone", "feature"}})
+    metrics["probes"].push_back({{"name", name}, {"kind", kind}, {"meaning", "-"}, {"random", right}, {"group", right}});
+  return metrics;
+}
+
+Scenario with_clutter(ClutterLevel level, NoiseLevel noise, bool enabled = true) {
+  Scenario scenario;
+  scenario.clutter.level = level;
+  scenario.clutter.noise_level = noise;
+  scenario.clutter.enabled = enabled;
+  return scenario;
+}
+
+// Where clutter or noise keep their own level, the ratio of the target to them decides which centres are found.
+TEST(Level, IsSeenByFeaturesWhereClutterOrNoiseDoNotFollowTheTarget) {
+  const ordered_json metrics = telling_probes();
+  for (const Scenario& unseen : {with_clutter(ClutterLevel::kScr, NoiseLevel::kToClutter), with_clutter(ClutterLevel::kScr, NoiseLevel::kSnr),
+                                 with_clutter(ClutterLevel::kNrl, NoiseLevel::kSnr, false)}) {
+    EXPECT_THAT(note_of_level(metrics, unseen), HasSubstr("Total power alone reaches 96.7 % on unseen seas. No feature group sees it"));
+    EXPECT_THAT(probes_table(metrics, unseen), HasSubstr("no feature uses it"));
+    EXPECT_THAT(probes_table(metrics, unseen), Not(HasSubstr("level has a part")));
+  }
+  const std::pair<Scenario, const char*> cases[] = {
+      {with_clutter(ClutterLevel::kNrl, NoiseLevel::kToClutter), "The clutter is not scaled"},
+      {with_clutter(ClutterLevel::kNrl, NoiseLevel::kThermal), "Clutter and receiver noise are not scaled"},
+      {with_clutter(ClutterLevel::kScr, NoiseLevel::kThermal), "The receiver’s noise is not scaled"},
+      {with_clutter(ClutterLevel::kNrl, NoiseLevel::kThermal, false), "The receiver’s noise is not scaled"}};
+  for (const auto& [seen, words] : cases) {
+    const std::string note = note_of_level(metrics, seen), table = probes_table(metrics, seen);
+    EXPECT_THAT(note, HasSubstr("Features see the level.</b> " + std::string(words)));
+    EXPECT_THAT(note, HasSubstr("the ratio of the target to clutter and noise 96.7 %"));
+    EXPECT_THAT(note, Not(HasSubstr("No feature group sees it")));
+    EXPECT_THAT(table, HasSubstr("features see it by what is found"));
+    EXPECT_THAT(table, HasSubstr("it decides what is found"));
+    EXPECT_THAT(table, HasSubstr("level has a part in what is found"));
+    EXPECT_THAT(table, Not(HasSubstr("no feature uses it")));
+  }
 }
 
 }  // namespace
