@@ -71,6 +71,14 @@ std::string compared_protocols(const ordered_json& random, const ordered_json& g
                      known ? "which is within the intervals" : "without intervals to judge it by");
 }
 
+// Of what the rows of a table are counted.
+std::string pooled_splits(int repeats) {
+  if (repeats == 1) return "<p>One split under each protocol: a test prediction is a map.</p>\n";
+  return fmt::format("<p>{} splits under each protocol, pooled: a map that several of them test has a prediction of each, so that there "
+                     "may be more predictions than maps. A test sea counts once.</p>\n",
+                     repeats);
+}
+
 std::string item(const std::string& text) { return "<li>" + text + "</li>\n"; }
 
 }  // namespace
@@ -97,7 +105,7 @@ std::string accuracy_tables(const ordered_json& metrics) {
     const bool random = protocol == kProtocols[0];
     html += random ? "<h3>Random split of the maps (the paper’s protocol)</h3>\n"
                    : "<h3>Split by sea realisation (no test sea was seen in training)</h3>\n";
-    Rows rows{{"H<sub>s</sub> (m)", "hand-made", "CNN", "fused", "test maps", "test seas"}};
+    Rows rows{{"H<sub>s</sub> (m)", "hand-made", "CNN", "fused", "test predictions", "test seas"}};
     const auto& heights = metrics.at("handmade").at(protocol).at("by_wave_height");
     for (std::size_t i = 0; i <= heights.size(); ++i) {
       const bool total = i == heights.size();
@@ -116,8 +124,8 @@ std::string accuracy_tables(const ordered_json& metrics) {
   }
 
   html += "<h3>Further figures of merit, all wave heights</h3>\n";
-  Rows rows{{"features, split", "fusion", "accuracy", "AUC", "log loss", "array as ship", "ship as array",
-             "maps the trees learned from"}};
+  Rows rows{{"features, split", "fusion", "accuracy", "AUC", "log loss", "predictions: array as ship", "ship as array",
+             "maps the trees learned from, each split"}};
   const auto add = [&rows](const std::string& name, const std::string& fusion, const ordered_json& e) {
     const auto number = [](double x, const char* format) {
       return std::isfinite(x) ? fmt::format(fmt::runtime(format), x) : "–";
@@ -143,6 +151,7 @@ std::string accuracy_tables(const ordered_json& metrics) {
     }
   }
   html += html_table(rows);
+  html += pooled_splits(metrics.at("split_repeats"));
   html +=
       "<p>Fusion <code>split</code>: the network learns from one part of the training maps, the trees from the other, "
       "so that the trees never see "
@@ -210,6 +219,16 @@ std::string feature_table(const ordered_json& metrics) {
   return html_table(rows) + "<p>Median and quartiles over all aspects.</p>\n";
 }
 
+std::string note_of_seas(const ordered_json& metrics) {
+  const std::size_t seas = metrics.at("handmade").at("group").at("groups");
+  const int repeats = metrics.at("split_repeats");
+  return fmt::format(
+      "<b>Few seas, wide intervals.</b> {} {} sea realisations{}. The bootstrap draws seas, not maps; with so few it is rough, and a "
+      "height with one test sea has no interval at all. Differences smaller than the intervals are not findings.",
+      repeats == 1 ? "The split by sea tests on" : fmt::format("{} splits by sea, pooled, test on", repeats), seas,
+      repeats == 1 ? "" : " in all, each on a part of them");
+}
+
 std::string expert_notes(const ordered_json& metrics, const Scenario& scenario) {
   std::string html = "<ul>\n";
   const ordered_json &random = metrics.at("fused").at("random"), &group = metrics.at("fused").at("group");
@@ -219,12 +238,7 @@ std::string expert_notes(const ordered_json& metrics, const Scenario& scenario) 
       "from several aspects, are not independent: the second figure is the one that would carry over to another day.",
       percent(value_or_nan(random.at("accuracy"))), percent(value_or_nan(group.at("accuracy"))), compared_protocols(random, group),
       scenario.dataset.interval_spacing_s));
-  const std::size_t seas = metrics.at("handmade").at("group").at("groups");
-  html += item(fmt::format(
-      "<b>Few seas, wide intervals.</b> The split by sea tests on {} sea realisations. The bootstrap draws seas, not "
-      "maps; with so few it is rough, and "
-      "a height with one test sea has no interval at all. Differences smaller than the intervals are not findings.",
-      seas));
+  html += item(note_of_seas(metrics));
   html += item(note_of_level(metrics, scenario));
   const auto alone = [&metrics](const char* name) { return percent(probe_accuracy(metrics, name)); };
   html +=

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the report says of probes, of the level among them.
+// What the report says of probes, of the level among them, and of how many predictions and seas its figures are.
 #include "tools/report_text.h"
 
 #include <gmock/gmock.h>
@@ -86,6 +86,27 @@ TEST(Level, IsSeenByFeaturesWhereClutterOrNoiseDoNotFollowTheTarget) {
     EXPECT_THAT(table, HasSubstr("level has a part in what is found"));
     EXPECT_THAT(table, Not(HasSubstr("no feature uses it")));
   }
+}
+
+// 36 predictions of three splits are not 36 of a data set's 40 maps, 28 of which each split learns from.
+TEST(AccuracyTables, CallPredictionsOfPooledSplitsSo) {
+  ordered_json evaluation = scores(150, 140, 140);
+  evaluation.update({{"rows", 36}, {"groups", 8}, {"auc", 0.9}, {"log_loss", 0.2}, {"train_rows", 28}, {"by_wave_height", ordered_json::array()}});
+  const ordered_json both{{"random", evaluation}, {"group", evaluation}};
+  ordered_json metrics{{"split_repeats", 3}};
+  for (const char* group : {"handmade", "cnn", "fused"}) {
+    metrics[group] = both;
+    metrics[group].update({{"fusion", "split"}, {"fewer_rows", both}, {"in_sample", both}});
+  }
+  const std::string pooled = accuracy_tables(metrics);
+  EXPECT_THAT(pooled, Not(HasSubstr("test maps")));
+  EXPECT_THAT(pooled, HasSubstr("test predictions"));
+  EXPECT_THAT(pooled, HasSubstr("predictions: array as ship"));
+  EXPECT_THAT(pooled, HasSubstr("3 splits under each protocol, pooled: a map that several of them test has a prediction of each"));
+  EXPECT_THAT(note_of_seas(metrics), HasSubstr("3 splits by sea, pooled, test on 8 sea realisations in all, each on a part of them."));
+  metrics["split_repeats"] = 1;
+  EXPECT_THAT(accuracy_tables(metrics), HasSubstr("a test prediction is a map"));
+  EXPECT_THAT(note_of_seas(metrics), HasSubstr("The split by sea tests on 8 sea realisations."));
 }
 
 }  // namespace
