@@ -22,6 +22,7 @@ void export_dataset(const std::string& directory, const fs::path& output, const 
     fmt::print("{}: {} samples\n", output.string(), reader.size());
     return;
   }
+  require_export_directory(reader, output);
   make_directory(output);
   Progress progress("exporting shards", reader.shards());
   for (std::size_t i = 0; i < reader.shards(); ++i) {

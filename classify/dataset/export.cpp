@@ -12,6 +12,7 @@
 #include "classify/dataset/hdf5_file.h"
 #include "classify/dataset/layout.h"
 #include "classify/dataset/npz.h"
+#include "classify/dataset/temporary.h"
 #include "sim/core/error.h"
 
 namespace seaglint {
@@ -19,6 +20,8 @@ namespace seaglint {
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr const char* kDescription = "description.json";
 
 std::string name_of(const std::string& path) { return path.substr(1); }
 
@@ -67,6 +70,17 @@ std::string column_bytes(const std::vector<SampleRecord>& rows, T SampleRecord::
     return packed_names(values);
   } else {
     return bytes_of_values(std::span<const T>(values));
+  }
+}
+
+// Of the data set that an archive was exported from; empty where it is no export.
+std::string exported_manifest(const fs::path& file) {
+  try {
+    return nlohmann::json::parse(read_npz_text(file, kDescription)).at("manifest_sha256").get<std::string>();
+  } catch (const InputError&) {
+    return {};
+  } catch (const nlohmann::json::exception&) {
+    return {};
   }
 }
 
@@ -126,7 +140,29 @@ void export_shards(const DatasetReader& reader, std::size_t first, std::size_t c
         },
         column.member);
   }
-  write_npz(file, arrays, {{"description.json", description(range, processors, complex_maps)}});
+  write_npz(file, arrays, {{kDescription, description(range, processors, complex_maps)}});
+}
+
+void require_export_directory(const DatasetReader& reader, const fs::path& directory) {
+  std::error_code error;
+  if (!fs::exists(directory, error)) return;
+  if (!fs::is_directory(directory, error)) throw InputError(fmt::format("{}: is a file, not a directory", directory.string()));
+  if (fs::equivalent(directory, reader.directory(), error))
+    throw InputError(fmt::format("{}: is the data set itself; export it into another directory", directory.string()));
+
+  std::set<std::string> ours;
+  for (const ManifestShard& shard : reader.manifest().shards) ours.insert(fs::path(shard.file).replace_extension(".npz"));
+  const std::string manifest = sha256_file(reader.directory() / kManifestFile);
+  std::set<std::string> there;
+  for (fs::directory_iterator it(directory, error), end; !error && it != end; it.increment(error)) there.insert(it->path().filename());
+  if (error) throw WorkError(fmt::format("{}: {}", directory.string(), error.message()));
+  for (const std::string& name : there) {
+    // A file server keeps under a hidden name what was removed while another process had it open.
+    if (name.starts_with('.') || is_temporary(name)) continue;
+    if (ours.contains(name) && exported_manifest(directory / name) == manifest) continue;
+    throw InputError(fmt::format("{}: the directory holds {}, which is not of this data set's export; choose a new directory",
+                                 directory.string(), name));
+  }
 }
 
 }  // namespace seaglint

@@ -19,4 +19,8 @@ namespace seaglint {
 void export_shards(const DatasetReader& reader, std::size_t first, std::size_t count, const std::filesystem::path& file,
                    const StopFlag* stop = nullptr);
 
+// A directory for one file a shard is new or empty, or holds an export of this very data set, whole or cut short, and
+// nothing else. Throws InputError naming the directory and what it holds; that of the data set is refused too.
+void require_export_directory(const DatasetReader& reader, const std::filesystem::path& directory);
+
 }  // namespace seaglint

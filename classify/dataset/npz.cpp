@@ -156,6 +156,20 @@ NpzArray npz_array(std::string name, std::string type, std::vector<std::uint64_t
           [bytes = std::move(bytes)]() mutable { return std::exchange(bytes, std::string()); }};
 }
 
+std::string read_npz_text(const std::filesystem::path& file, const std::string& name) {
+  constexpr zip_uint64_t kMostBytes = 16 << 20;
+  const auto fail = [&] { throw InputError(fmt::format("{}: no archive with a {} inside", file.string(), name)); };
+  int code = 0;
+  const std::unique_ptr<zip_t, decltype(&zip_discard)> archive(zip_open(file.c_str(), ZIP_RDONLY, &code), &zip_discard);
+  if (!archive) fail();
+  zip_stat_t stat;
+  if (zip_stat(archive.get(), name.c_str(), 0, &stat) != 0 || !(stat.valid & ZIP_STAT_SIZE) || stat.size > kMostBytes) fail();
+  const std::unique_ptr<zip_file_t, decltype(&zip_fclose)> member(zip_fopen(archive.get(), name.c_str(), 0), &zip_fclose);
+  std::string text(stat.size, '\0');
+  if (!member || zip_fread(member.get(), text.data(), stat.size) != static_cast<zip_int64_t>(stat.size)) fail();
+  return text;
+}
+
 void require_npz(const std::filesystem::path& file) {
   if (!file.empty() && file.extension() != ".npz") throw InputError(fmt::format("{}: NumPy's archives end in .npz", file.string()));
   require_writable(file);

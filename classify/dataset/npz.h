@@ -39,6 +39,9 @@ std::string bytes_of_values(std::span<const T> values) {
   return {reinterpret_cast<const char*>(values.data()), values.size_bytes()};
 }
 
+// The text file `name` inside an archive. Throws InputError naming the archive where there is none of at most 16 MB.
+std::string read_npz_text(const std::filesystem::path& file, const std::string& name);
+
 // Throws InputError unless the name ends in .npz, and WorkError where write_npz() would find the place refusing. An empty name is none.
 void require_npz(const std::filesystem::path& file);
 

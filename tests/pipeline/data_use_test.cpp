@@ -144,6 +144,31 @@ TEST_F(UsedData, IsExportedInTheSameBytesAtAnotherTime) {
   EXPECT_EQ(read_file(out), first);
 }
 
+// Two data sets in one directory would be read as one.
+TEST_F(UsedData, IsNotExportedAmongFilesOfAnother) {
+  const fs::path other = folder_->path() / "other", out = folder_->path() / "shards";
+  ASSERT_EQ(run_program({"generate", "scenarios/points.yaml", "-o", other, "--set", "dataset.maps_per_case=10"}).code, 0);
+  ASSERT_EQ(run_program({"export", other, "-o", out}).code, 0);
+  const auto refused = [](const fs::path& data, const fs::path& place, const std::string& message) {
+    const ProgramResult result = run_program({"export", data, "-o", place});
+    EXPECT_EQ(result.code, 2);
+    EXPECT_THAT(result.err, HasSubstr(message));
+  };
+  const std::string before = read_file(out / "shard_00000.npz");
+  refused(data_, out, "shards: the directory holds shard_00000.npz, which is not of this data set's export; choose a new directory\n");
+  EXPECT_EQ(read_file(out / "shard_00000.npz"), before);
+  // Its own export goes on after it was cut short.
+  fs::remove(out / "shard_00000.npz");
+  write_file(out / "shard_00000.npz.elsewhere-12.tmp", "half");
+  EXPECT_EQ(run_program({"export", other, "-o", out}).code, 0);
+  EXPECT_EQ(read_file(out / "shard_00000.npz"), before);
+  write_file(out / "notes.txt", "mine");
+  refused(other, out, "shards: the directory holds notes.txt");
+  refused(other, out / "notes.txt", "notes.txt: is a file, not a directory");
+  refused(other, other, "other: is the data set itself; export it into another directory\n");
+  EXPECT_FALSE(fs::exists(other / "shard_00000.npz"));
+}
+
 TEST_F(UsedData, IsNotExportedWithAShardDamagedNorOntoAFullDisk) {
   const fs::path data = copy();
   fs::resize_file(data / "shard_00002.h5", fs::file_size(data / "shard_00002.h5") / 2);
