@@ -81,6 +81,32 @@ std::string span_text(std::vector<double> values) {
                   reference.settings.phi_scale, reference.settings.phi_offset_deg));
 }
 
+Vec3 unit_vector(double theta_deg, double phi_deg) {
+  const double theta = radians(theta_deg), phi = radians(phi_deg);
+  return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
+}
+
+// A monostatic echo and one from another transmitter are different quantities, however well their angles fit.
+void require_same_transmitter(const RcsSweep& sweep, const RcsReference& reference) {
+  if (!reference.transmitter) return;
+  const StatedTransmitter& theirs = *reference.transmitter;
+  const auto fail = [&](const std::string& ours) {
+    throw InputError(fmt::format("{}: {}, {}", reference.name,
+                                 theirs.moves_along ? std::string("is monostatic by its own words")
+                                                    : fmt::format("its transmitter stands at azimuth {:g} deg, elevation {:g} deg", theirs.phi_deg, 90 - theirs.theta_deg),
+                                 ours));
+  };
+  if (!sweep.transmitter) {
+    if (!theirs.moves_along) fail("the sweep is monostatic: give --transmit-azimuth-deg and --transmit-elevation-deg");
+    return;
+  }
+  const Vec3& t = *sweep.transmitter;
+  const double theta_deg = degrees(std::acos(std::clamp(t.z(), -1.0, 1.0)));
+  const double phi_deg = reference.settings.phi_scale * degrees(std::atan2(t.y(), t.x())) + reference.settings.phi_offset_deg;
+  const std::string ours = fmt::format("the sweep's transmitter stands at azimuth {:g} deg, elevation {:g} deg of the same angles", phi_deg, 90 - theta_deg);
+  if (theirs.moves_along || (unit_vector(theta_deg, phi_deg) - unit_vector(theirs.theta_deg, theirs.phi_deg)).norm() > radians(kAngleStep_deg)) fail(ours);
+}
+
 CutAxis axis_of(const RcsSweep& sweep) {
   if (sweep.views() == 1) return CutAxis::kFrequency;
   if (sweep.elevation_deg.size() == 1) return CutAxis::kAzimuth;
@@ -112,6 +138,7 @@ std::string upper(std::string text) {
 }  // namespace
 
 std::vector<PairedCut> pair_with(const RcsSweep& sweep, const RcsReference& reference) {
+  require_same_transmitter(sweep, reference);
   const CutAxis axis = axis_of(sweep);
   const int element = static_cast<int>(reference.element);
   std::vector<PairedCut> cuts;

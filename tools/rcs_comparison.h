@@ -48,7 +48,8 @@ struct PairedCut {
 };
 
 // The sweep's directions and frequencies that the reference holds to 0.001 deg and 1e-6 of the frequency; nothing is interpolated. One cut for each
-// frequency, or one in all when there is one direction. Throws InputError when nothing fits, with what either side holds.
+// frequency, or one in all when there is one direction. Throws InputError when nothing fits, with what either side holds, and when the reference says that
+// its transmitter stands elsewhere than the sweep's.
 std::vector<PairedCut> pair_with(const RcsSweep& sweep, const RcsReference& reference);
 
 struct Difference {

@@ -109,12 +109,26 @@ void read_four_columns(Lines& lines, RcsReference& reference) {
   }
 }
 
+// What the head of a table of `seaglint rcs` says of the transmitter; nothing where the line is another.
+std::optional<StatedTransmitter> stated_transmitter(const Lines& lines, const std::string& line) {
+  if (!line.starts_with("# physical optics")) return std::nullopt;
+  if (line.find(", monostatic,") != std::string::npos) return StatedTransmitter{};
+  const std::string azimuth = ", transmitter at azimuth ", elevation = " deg, elevation ", end = " deg,";
+  const std::size_t at = line.find(azimuth), middle = line.find(elevation, at), last = line.find(end, middle + elevation.size());
+  if (at == std::string::npos || middle == std::string::npos || last == std::string::npos) return std::nullopt;
+  const std::size_t begin = at + azimuth.size(), second = middle + elevation.size();
+  StatedTransmitter there{false, 90 - number_in(lines, line.substr(second, last - second)), number_in(lines, line.substr(begin, middle - begin))};
+  fold(there.theta_deg, there.phi_deg);
+  return there;
+}
+
 // The table of `seaglint rcs`.
 void read_own_table(Lines& lines, RcsReference& reference) {
   const std::string element = kElementNames[static_cast<int>(reference.element)];
   std::vector<std::string> names;
   int frequency = -1, azimuth = -1, elevation = -1, re = -1, im = -1, level = -1;
   for (std::string line; lines.next(line);) {
+    if (!reference.transmitter) reference.transmitter = stated_transmitter(lines, line);
     if (is_blank(line) || line.front() == '#') continue;
     if (names.empty()) {
       names = split_at(line, ',');
@@ -268,6 +282,17 @@ Element element_of(const std::string& name, const ReferenceSettings& settings) {
   throw InputError(fmt::format("{}: its name does not say the polarisation: give --reference-polarisation", name));
 }
 
+// A frequency that is given beside the file's own must be it.
+void require_own_frequency(const RcsReference& reference, const std::string& file) {
+  if (!reference.settings.frequency_hz) return;
+  constexpr double kTolerance = 1e-6;
+  for (const ReferenceSample& sample : reference.samples) {
+    if (std::abs(sample.frequency_hz - *reference.settings.frequency_hz) <= kTolerance * sample.frequency_hz) continue;
+    throw InputError(fmt::format("{}: holds {:g} GHz by its own words: leave out --reference-frequency-ghz {:g}", file, sample.frequency_hz * 1e-9,
+                                 *reference.settings.frequency_hz * 1e-9));
+  }
+}
+
 }  // namespace
 
 RcsReference read_reference(const std::filesystem::path& file, const ReferenceSettings& settings) {
@@ -284,6 +309,7 @@ RcsReference read_reference(const std::filesystem::path& file, const ReferenceSe
     case Format::kCstTable: read_cst_table(lines, reference); break;
   }
   if (reference.samples.empty()) throw InputError(fmt::format("{}: holds no values", file.string()));
+  require_own_frequency(reference, file.string());
   return reference;
 }
 

@@ -33,21 +33,28 @@ struct ReferenceSample {
   std::optional<Complex> amplitude_m;  // about the file's phase origin; absent without a phase
 };
 
+// Where a file says that its transmitter stands, in its own angles.
+struct StatedTransmitter {
+  bool moves_along = true;  // with the receiver: monostatic, and no angles
+  double theta_deg = 0, phi_deg = 0;
+};
+
 struct RcsReference {
   std::string name;  // the file's, without its folder
   Element element = Element::kHh;
   ReferenceSettings settings;
   std::vector<ReferenceSample> samples;
+  std::optional<StatedTransmitter> transmitter;  // absent where the file does not say
   bool has_phase() const { return !samples.empty() && samples.front().amplitude_m.has_value(); }
 };
 
 // Reads, by what is in the file,
 //   four columns without header: frequency in Hz, theta, phi in degrees, dBsm (Austin RCS Benchmark Suite);
-//   the table of `seaglint rcs` (columns by name; xx_re and xx_im, or xx_dbsm alone);
+//   the table of `seaglint rcs` (columns by name; xx_re and xx_im, or xx_dbsm alone; its head says where the transmitter stands);
 //   a CST farfield table of the RCS: columns by their squeezed names, `Theta[deg.] Phi[deg.] Abs(Theta)[unit] Phase(Theta)[deg.] ...`, v received
 //   = Theta, h received = Phi, units m^2, mm^2, lambda^2 or dB() of them; no frequency inside. Theta below 0 is folded (|theta|, phi + 180, sign
 //   of both unit vectors changed). e^{+jwt}; theta^ = -v, phi^ = h, so cross-polar terms change sign.
-// Throws InputError with the file, the line and what is missing.
+// Throws InputError with the file, the line and what is missing, and where settings.frequency_hz is another than the file's own.
 RcsReference read_reference(const std::filesystem::path& file, const ReferenceSettings& settings);
 
 }  // namespace seaglint

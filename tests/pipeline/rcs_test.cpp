@@ -219,8 +219,6 @@ TEST_F(RcsCommand, ExportsCentresAndHotSpotsOfOneViewAndSelects) {
   refused({"--only", "bounces=0"}, "bounces must be 1, 2, ... 200");
   refused({"--without", "mechanism=magic"}, "must be one of po, edge");
   refused({"--only", "colour=red"}, "must be part=NAME");
-  refused({"--export-centres", centres, "--elevation-deg", "0:1:1"}, "one frequency, azimuth and elevation; there are 2 rows");
-  refused({"--export-hot-spots", folder_.path() / "spots.stl"}, "colours need the ending .glb or .gltf");
 }
 
 // A reflector inside out with a hole beside it: one echoes as it should, the other's interior is seen; both are said, in one line each.
@@ -268,6 +266,21 @@ TEST_F(RcsCommand, SweepsAReceiverRoundATransmitterThatStandsStill) {
   const double there = read_table(table()).rows.at(0).back();
   ASSERT_EQ(rcs({"--frequency-ghz", "10", "--azimuth-deg", "20", "--edges", "off"}).code, 0);
   EXPECT_NEAR(read_table(table()).rows.at(0).back(), there, 1e-3);
+  // A table says where its transmitter stood, and is compared with no other.
+  const std::string own = folder_.path() / "own.csv";
+  const auto against = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"rcs", "--target", plate(), "-o", table(), "--frequency-ghz", "10", "--azimuth-deg", "-40:40:20", "--reference", own, "--reference-polarisation", "vv"});
+    return run_program(more);
+  };
+  std::filesystem::remove(table());
+  ASSERT_EQ(run_program({"rcs", "--target", plate(), "-o", own, "--frequency-ghz", "10", "--azimuth-deg", "-40:40:20", "--transmit-azimuth-deg", "20"}).code, 0);
+  for (const auto& other : {std::vector<std::string>{}, {"--transmit-azimuth-deg", "21"}}) {
+    const ProgramResult compared = against(other);
+    EXPECT_EQ(compared.code, 2);
+    EXPECT_THAT(compared.err, HasSubstr("own.csv: its transmitter stands at azimuth 20 deg, elevation 0 deg, the sweep"));
+    EXPECT_FALSE(std::filesystem::exists(table()));
+  }
+  EXPECT_EQ(against({"--transmit-azimuth-deg", "20"}).code, 0);
   const auto warned = [&](const char* azimuth) { return rcs({"--frequency-ghz", "10", "--azimuth-deg", azimuth, "--transmit-azimuth-deg", "20"}).err; };
   EXPECT_THAT(warned("-90:130:20"), Not(HasSubstr("behind the target")));
   EXPECT_THAT(warned("-90:160:10"), HasSubstr("receivers up to 140 deg from the transmitter: behind the target"));

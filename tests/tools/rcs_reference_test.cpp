@@ -53,6 +53,12 @@ ReferenceSettings as(Element element, double frequency_ghz = 10) {
   return settings;
 }
 
+// What `seaglint rcs` writes above its columns.
+std::string own_table(const std::string& transmitter) {
+  return "# seaglint 0.1.0 rcs\n# physical optics at every visible bounce, max_bounces 40, edges on, crease_deg 20, sheet_thickness_mm 0, range_m 0 (0 = far field), " +
+         transmitter + ", ray_spacing_m 0.001\nfrequency_hz,azimuth_deg,elevation_deg,vv_dbsm\n1e+10,3,4,-5\n";
+}
+
 // A table as CST 2020 writes it: names padded inside parentheses, units inside brackets, CRLF, theta fastest and through 0.
 std::string cst_table(const std::string& unit, const std::string& rows) {
   return "Theta [deg.]  Phi   [deg.]  Abs(RCS )[" + unit + "]   Abs(Theta)[" + unit + "]  Phase(Theta)[deg.]  Abs(Phi  )[" + unit +
@@ -72,7 +78,7 @@ TEST_F(RcsReferenceFile, OfFourColumnsTakesItsPolarisationFromTheName) {
   EXPECT_EQ(h.samples[1].level_dbsm, -667.1);
   EXPECT_FALSE(h.has_phase());
   EXPECT_EQ(read("ref.V.txt", text).element, Element::kVv);
-  EXPECT_EQ(read("ref.txt", text, as(Element::kVv)).element, Element::kVv);
+  EXPECT_EQ(read("ref.txt", text, as(Element::kVv, 5.12)).element, Element::kVv);
 }
 
 TEST_F(RcsReferenceFile, OfCstHasItsColumnsByNameAndItsUnitsByHeader) {
@@ -168,6 +174,24 @@ TEST_F(RcsReferenceFile, ThatCannotBeUsedIsRefusedWithItsPlace) {
   EXPECT_THAT(refusal("own.csv", "frequency_hz,azimuth_deg,elevation_deg,vv_re\n", as(Element::kHh)), HasSubstr("hh_dbsm"));
 }
 
+TEST_F(RcsReferenceFile, SaysWhereItsTransmitterStands) {
+  const RcsReference monostatic = read("m.csv", own_table("monostatic"), as(Element::kVv));
+  ASSERT_TRUE(monostatic.transmitter);
+  EXPECT_TRUE(monostatic.transmitter->moves_along);
+  const RcsReference bistatic = read("b.csv", own_table("transmitter at azimuth -20 deg, elevation 30.5 deg"), as(Element::kVv));
+  ASSERT_TRUE(bistatic.transmitter);
+  EXPECT_FALSE(bistatic.transmitter->moves_along);
+  EXPECT_EQ(bistatic.transmitter->phi_deg, 340);
+  EXPECT_EQ(bistatic.transmitter->theta_deg, 59.5);
+  EXPECT_FALSE(read("a.V.txt", "10e9 90 0 -3\n").transmitter);
+}
+
+TEST_F(RcsReferenceFile, IsRefusedWithAFrequencyThatIsNotItsOwn) {
+  EXPECT_THAT(refusal("a.V.txt", "10e9 90 0 -3\n", as(Element::kVv, 11)), HasSubstr("a.V.txt: holds 10 GHz by its own words: leave out --reference-frequency-ghz 11"));
+  EXPECT_THAT(refusal("own.csv", own_table("monostatic"), as(Element::kVv, 11)), HasSubstr("own.csv: holds 10 GHz by its own words"));
+  EXPECT_EQ(read("b.V.txt", "10e9 90 0 -3\n", as(Element::kVv, 10)).samples.size(), 1u);
+}
+
 RcsSweep sweep_of(std::vector<double> azimuth_deg, std::vector<Complex> vv) {
   RcsSweep sweep;
   sweep.frequency_hz = {10e9};
@@ -179,7 +203,7 @@ RcsSweep sweep_of(std::vector<double> azimuth_deg, std::vector<Complex> vv) {
 }
 
 RcsReference cut_of(std::vector<std::pair<double, Complex>> values, const ReferenceSettings& settings = as(Element::kVv)) {
-  RcsReference reference{"other", Element::kVv, settings, {}};
+  RcsReference reference{"other", Element::kVv, settings, {}, {}};
   for (const auto& [phi, s] : values) reference.samples.push_back({10e9, 90, phi, 10 * std::log10(4 * kPi * std::norm(s)), s});
   return reference;
 }
@@ -242,6 +266,33 @@ TEST(RcsComparison, RefusesAReferenceThatHasNothingInCommonAndSaysWhatBothHold) 
     EXPECT_THAT(error.what(), HasSubstr("phi 0 to 1 (2 values)"));
   }
   EXPECT_THROW(pair_with(sweep_of({0}, {1}), cut_of({{0, 1}, {0, 2}})), InputError) << "one direction with two levels";
+}
+
+// At azimuth 20, elevation 10 deg by both, whatever the file counts phi from; a file that says nothing may be either.
+TEST(RcsComparison, RefusesAReferenceOfAnotherTransmitter) {
+  const auto refusal = [](const RcsSweep& sweep, const RcsReference& reference) -> std::string {
+    try {
+      pair_with(sweep, reference);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  RcsSweep sweep = sweep_of({0, 1}, {1, 1});
+  RcsReference monostatic = cut_of({{0, 1}, {1, 1}}), bistatic = monostatic, silent = monostatic;
+  monostatic.transmitter.emplace();
+  bistatic.transmitter = StatedTransmitter{false, 80, 20};
+  EXPECT_EQ(refusal(sweep, silent), "");
+  EXPECT_EQ(refusal(sweep, monostatic), "");
+  EXPECT_THAT(refusal(sweep, bistatic), HasSubstr("its transmitter stands at azimuth 20 deg, elevation 10 deg, the sweep is monostatic: give --transmit"));
+  sweep.transmitter = Vec3(std::cos(radians(10)) * std::cos(radians(20)), std::cos(radians(10)) * std::sin(radians(20)), std::sin(radians(10)));
+  EXPECT_EQ(refusal(sweep, silent), "");
+  EXPECT_EQ(refusal(sweep, bistatic), "");
+  EXPECT_THAT(refusal(sweep, monostatic), HasSubstr("is monostatic by its own words, the sweep's transmitter stands at azimuth 20 deg"));
+  bistatic.transmitter->phi_deg = 21;
+  EXPECT_THAT(refusal(sweep, bistatic), HasSubstr("azimuth 21 deg, elevation 10 deg, the sweep's transmitter stands at azimuth 20 deg, elevation 10 deg"));
+  bistatic.settings.phi_offset_deg = 1;
+  EXPECT_EQ(refusal(sweep, bistatic), "");
 }
 
 }  // namespace
