@@ -86,7 +86,7 @@ class Reader : public FieldVisitor {
   void integer(const char* key, int& value, const Bound& bound) override {
     const YamlNode* node = map_.find(key);
     if (node == nullptr) return;
-    const std::optional<std::int64_t> read = integer_of<std::int64_t>(*node);
+    const std::optional<std::int64_t> read = integer_of(*node);
     if (!read || !bound.holds(static_cast<double>(*read))) {
       const bool single = bound.lowest == bound.highest;
       fail(*node, path_of(key),
@@ -98,9 +98,9 @@ class Reader : public FieldVisitor {
   void natural(const char* key, std::uint64_t& value) override {
     const YamlNode* node = map_.find(key);
     if (node == nullptr) return;
-    const std::optional<std::uint64_t> read = integer_of<std::uint64_t>(*node);
-    if (!read) fail(*node, path_of(key), "must be a whole number within 0 and 18446744073709551615");
-    value = *read;
+    const std::optional<std::int64_t> read = integer_of(*node);
+    if (!read || *read < 0) fail(*node, path_of(key), "must be a whole number within 0 and 9223372036854775807");
+    value = static_cast<std::uint64_t>(*read);
   }
 
   void flag(const char* key, bool& value) override {
@@ -293,9 +293,8 @@ class Reader : public FieldVisitor {
     return *value;
   }
 
-  template <typename Integer>
-  static std::optional<Integer> integer_of(const YamlNode& node) {
-    Integer value = 0;
+  static std::optional<std::int64_t> integer_of(const YamlNode& node) {
+    std::int64_t value = 0;
     const char* end = node.text.data() + node.text.size();
     const auto [stop, error] = std::from_chars(node.text.data(), end, value);
     if (!is_plain(node) || error != std::errc() || stop != end) return std::nullopt;

@@ -79,7 +79,7 @@ class Mutator : public Walker {
     const auto high = static_cast<std::int64_t>(std::floor(bound.highest));
     value = static_cast<int>(low + random_.below(static_cast<std::uint32_t>(high - low)));
   }
-  void natural(const char*, std::uint64_t& value) override { value = random_.bits(); }
+  void natural(const char*, std::uint64_t& value) override { value = random_.bits() >> 1; }
   void flag(const char*, bool& value) override { value = !value; }
   void text(const char*, std::string& value) override { value += " \"'\\ #: \xc3\xa9 {[&*"; }
   void choice(const char*, std::size_t& index, Names names) override { index = (index + 1) % names.size(); }
