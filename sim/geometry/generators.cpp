@@ -14,10 +14,10 @@
 namespace seaglint {
 namespace {
 
+// Written so that a NaN fails.
 void require_size(double value, const char* name) {
-  if (!(std::isfinite(value) && value > 0)) {
-    throw InputError(fmt::format("{}: {} m is not a size; it must be above 0 and finite", name, value));
-  }
+  if (!(value >= kLeastSize && value <= kLargestSize))
+    throw InputError(fmt::format("{}: {} m is outside {:g}..{:g} m", name, value, kLeastSize, kLargestSize));
 }
 
 void require_count(int value, int least, int most, const char* name) {
@@ -84,7 +84,7 @@ TriangleMesh make_dihedral(double length, double width, double opening) {
   require_size(length, "dihedral length");
   require_size(width, "dihedral width");
   if (!(opening > 0 && opening < kPi)) {
-    throw InputError(fmt::format("dihedral opening: {} deg is outside 0..180 deg", degrees(opening)));
+    throw InputError(fmt::format("dihedral opening: {} deg must be greater than 0 and less than 180 deg", degrees(opening)));
   }
   MeshBuilder builder;
   builder.begin_part("dihedral");

@@ -6,11 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "sim/core/error.h"
 #include "sim/core/json_problem.h"
+#include "sim/geometry/glb_chunks.h"
 
 namespace seaglint {
 namespace {
@@ -19,7 +20,6 @@ using Json = nlohmann::json;
 
 constexpr int kDeepest = 64;                                  // levels of JSON; real files use about ten
 constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30;  // of one buffer
-constexpr std::uint32_t kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
 
 // glTF 2.0, section 3.6.2.2: bytes of a component.
 std::uint64_t component_size(std::uint64_t type) {
@@ -38,18 +38,6 @@ std::uint64_t component_size(std::uint64_t type) {
   }
 }
 
-std::uint32_t word(std::string_view bytes, std::size_t at) {
-  std::uint32_t value = 0;
-  std::memcpy(&value, bytes.data() + at, 4);
-  return value;
-}
-
-void put_word(std::string& bytes, std::uint32_t value) {
-  char raw[4];
-  std::memcpy(raw, &value, 4);
-  bytes.append(raw, 4);
-}
-
 class Checker {
  public:
   Checker(const Json& root, const std::string& file, std::uint64_t binary_size)
@@ -61,6 +49,7 @@ class Checker {
     if (asset == root_.end() || !asset->is_object() || text(*asset, "version").substr(0, 2) != "2.") {
       fail("is not glTF 2 (asset.version)");
     }
+    if (asset->contains("minVersion") && text(*asset, "minVersion").substr(0, 2) != "2.") fail("needs more than glTF 2 (asset.minVersion)");
     refuse_required_extensions();
     Json plain = {{"asset", {{"version", "2.0"}}}};
     plain["buffers"] = each("buffers", [&](const Json& b, const std::string& at) { return buffer(b, at); });
@@ -240,6 +229,16 @@ class Checker {
     if (!a.contains("bufferView")) fail(fmt::format("{}: accessors[{}] ({}) has no data", at, i, use));
   }
 
+  // glTF 2.0, section 3.7.2.1: triangles have three corners each, strips and fans one for each after the second.
+  void check_corners(const Json& plain, std::uint64_t mode, const std::string& at) const {
+    const bool indexed = plain.contains("indices");
+    const auto accessor = (indexed ? plain["indices"] : plain["attributes"]["POSITION"]).get<std::uint64_t>();
+    const std::uint64_t count = whole(root_["accessors"][accessor], "count", at, 0);
+    const char* what = indexed ? "indices" : "vertices without indices";
+    if (mode == 4 && count % 3 != 0) fail(fmt::format("{}: {} {} are no whole number of triangles", at, count, what));
+    if (count < 3) fail(fmt::format("{}: {} {} make no triangle", at, count, what));
+  }
+
   Json primitive(const Json& p, const std::string& at) const {
     const std::uint64_t mode = whole(p, "mode", at, 4);
     if (mode > 6) fail(fmt::format("{}.mode = {} is unknown", at, mode));
@@ -267,6 +266,7 @@ class Checker {
       }
       plain["indices"] = indices;
     }
+    if (is_surface) check_corners(plain, mode, at);
     if (p.contains("targets")) fail(at + " has morph targets, which are not supported: bake the shape into the positions");
     if (p.contains("material")) plain["material"] = index(p, "material", "materials", at);
     return plain;
@@ -294,6 +294,26 @@ class Checker {
     to[key] = *found;
   }
 
+  // glTF 2.0, section 3.5.3: one affine matrix, or translation, rotation and scale.
+  void check_transform(const Json& plain, const std::string& at) const {
+    constexpr double kRounding = 1e-6;  // of a matrix that was kept in float32
+    if (plain.contains("matrix")) {
+      for (const char* key : {"translation", "rotation", "scale"}) {
+        if (plain.contains(key)) fail(fmt::format("{} has a matrix and a {}: only one of them may place it", at, key));
+      }
+      for (std::size_t column = 0; column < 4; ++column) {
+        const double last = plain["matrix"][4 * column + 3].get<double>();
+        if (std::abs(last - (column == 3 ? 1 : 0)) > kRounding) fail(fmt::format("{}.matrix has {} in its last row, which must be 0 0 0 1", at, last));
+      }
+    }
+    double norm = 1;
+    if (plain.contains("rotation")) {
+      norm = 0;
+      for (const Json& q : plain["rotation"]) norm = std::hypot(norm, q.get<double>());
+    }
+    if (norm < kRounding) fail(fmt::format("{}.rotation is zero, no quaternion of a rotation", at));
+  }
+
   Json node(const Json& n, const std::string& at) const {
     Json plain{{"name", text(n, "name")}};
     // These would place or bend its mesh.
@@ -309,6 +329,7 @@ class Checker {
     copy_numbers(n, plain, "translation", 3, at);
     copy_numbers(n, plain, "rotation", 4, at);
     copy_numbers(n, plain, "scale", 3, at);
+    check_transform(plain, at);
     return plain;
   }
 
@@ -316,33 +337,6 @@ class Checker {
   const std::string& file_;
   std::uint64_t binary_size_;
 };
-
-struct Chunks {
-  std::string_view json;
-  std::string_view binary;
-};
-
-// glTF 2.0, section 4.4: 12 bytes of header, then chunks of length, type, data.
-Chunks chunks_of(std::string_view bytes, const std::string& file) {
-  if (!is_glb(bytes)) return {bytes, {}};
-  const auto fail = [&](const std::string& what) { throw InputError(fmt::format("{}: {}", file, what)); };
-  if (bytes.size() < 20) fail(fmt::format("is cut short: {} bytes are no .glb", bytes.size()));
-  if (word(bytes, 4) != 2) fail(fmt::format("is .glb version {}, not 2", word(bytes, 4)));
-  if (word(bytes, 8) > bytes.size())
-    fail(fmt::format("is cut short: its header promises {} bytes, it has {}", word(bytes, 8), bytes.size()));
-  Chunks chunks;
-  std::size_t at = 12;
-  const std::size_t end = word(bytes, 8);
-  for (int n = 0; at + 8 <= end; ++n) {
-    const std::uint32_t size = word(bytes, at), type = word(bytes, at + 4);
-    if (size > end - at - 8) fail(fmt::format("chunk {} promises {} bytes, {} are left", n, size, end - at - 8));
-    if (n == 0 && type != kJsonChunk) fail("the first chunk is not JSON");
-    if (n == 0) chunks.json = bytes.substr(at + 8, size);
-    if (n == 1 && type == kBinaryChunk) chunks.binary = bytes.substr(at + 8, size);
-    at += 8 + std::size_t{size};
-  }
-  return chunks;
-}
 
 // Levels of lists and objects within each other. The library's own callback looks through all of a list at every object that ends in it.
 int depth_of(std::string_view text) {
@@ -370,10 +364,8 @@ Json parsed(std::string_view text, const std::string& file) {
 
 }  // namespace
 
-bool is_glb(std::string_view bytes) { return bytes.substr(0, 4) == "glTF"; }
-
 std::string plain_gltf(std::string_view bytes, const std::string& file) {
-  const Chunks chunks = chunks_of(bytes, file);
+  const GlbChunks chunks = glb_chunks(bytes, file);
   const Json root = parsed(chunks.json, file);
   std::string json;
   try {
@@ -381,23 +373,7 @@ std::string plain_gltf(std::string_view bytes, const std::string& file) {
   } catch (const Json::exception& error) {
     throw InputError(fmt::format("{}: {}", file, json_problem(error)));
   }
-  if (!is_glb(bytes)) return json;
-
-  json.resize((json.size() + 3) / 4 * 4, ' ');
-  std::string binary(chunks.binary);
-  binary.resize((binary.size() + 3) / 4 * 4, '\0');
-  std::string plain = "glTF";
-  put_word(plain, 2);
-  put_word(plain, static_cast<std::uint32_t>(12 + 8 + json.size() + (binary.empty() ? 0 : 8 + binary.size())));
-  put_word(plain, static_cast<std::uint32_t>(json.size()));
-  put_word(plain, kJsonChunk);
-  plain += json;
-  if (!binary.empty()) {
-    put_word(plain, static_cast<std::uint32_t>(binary.size()));
-    put_word(plain, kBinaryChunk);
-    plain += binary;
-  }
-  return plain;
+  return is_glb(bytes) ? glb_of(std::move(json), chunks.binary) : json;
 }
 
 }  // namespace seaglint

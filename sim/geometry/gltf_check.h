@@ -13,6 +13,4 @@ namespace seaglint {
 // .glb gives a .glb. InputError says what is wrong.
 std::string plain_gltf(std::string_view bytes, const std::string& file);
 
-bool is_glb(std::string_view bytes);
-
 }  // namespace seaglint

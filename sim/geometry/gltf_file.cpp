@@ -13,6 +13,7 @@
 
 #include "sim/core/error.h"
 #include "sim/core/file.h"
+#include "sim/geometry/glb_chunks.h"
 #include "sim/geometry/gltf_check.h"
 #include "sim/geometry/gltf_pieces.h"
 #include "sim/geometry/mesh_builder.h"

@@ -90,6 +90,7 @@ void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh) {
   require_known(ending, path);
   if (mesh.triangles.empty())
     throw InputError(fmt::format("{}: a mesh without triangles is not written", path.string()));
+  check_mesh(mesh, path.string());
   const std::string bytes = is_gltf(ending) ? gltf_bytes(mesh, ending == ".glb") : polygon_bytes(mesh, ending);
   write_file(path, bytes);
 }

@@ -30,8 +30,8 @@ TriangleMesh read_mesh(const std::filesystem::path& path, const std::string& uni
 std::vector<std::filesystem::path> files_beside_mesh(const std::filesystem::path& path);
 
 // Positions are rounded to float32, lengths are metres. glTF keeps parts and materials, OBJ parts, STL and PLY neither.
-// The file is whole or absent (sim/core/file.h) and equal meshes give equal bytes. InputError for an unknown ending or
-// an empty mesh, WorkError when the disk refuses.
+// The file is whole or absent (sim/core/file.h) and equal meshes give equal bytes. InputError for an unknown ending,
+// an empty mesh and one that read_mesh() refuses, WorkError when the disk refuses.
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh);
 
 // InputError unless write_coloured_mesh() knows the ending.

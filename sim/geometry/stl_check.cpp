@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kHeader = 84,
                       kFacet = 50;  // bytes: 80 of comment and the count; normal, three corners, attribute
 
-// Header, count, then facets of a normal and three corners as little-endian float32.
+// Header, count, then facets of a normal and three corners as little-endian float32, and nothing behind them.
 PlainPolygons check_binary(std::string bytes, const std::string& file) {
   if (bytes.size() < kHeader)
     throw InputError(fmt::format("{}: {} bytes are no binary STL, which begins with 84", file, bytes.size()));
@@ -24,6 +24,9 @@ PlainPolygons check_binary(std::string bytes, const std::string& file) {
   std::memcpy(&count, bytes.data() + 80, 4);
   const std::size_t held = (bytes.size() - kHeader) / kFacet;
   if (count > held) throw InputError(fmt::format("{}: promises {} triangles, holds {}", file, count, held));
+  const std::size_t end = kHeader + kFacet * count;
+  if (bytes.size() > end)
+    throw InputError(fmt::format("{}: promises {} triangles, which end at byte {}; {} bytes are left over", file, count, end, bytes.size() - end));
   for (std::size_t t = 0; t < count; ++t) {
     for (std::size_t i = 0; i < 9; ++i) {
       char* at = bytes.data() + kHeader + t * kFacet + 12 + 4 * i;
