@@ -2,8 +2,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <charconv>
-#include <cstdint>
 #include <set>
 #include <system_error>
 
@@ -13,25 +11,6 @@
 #include "tools/command.h"
 
 namespace seaglint {
-
-CLI::Validator number_within(double lowest, double highest) {
-  const auto check = [lowest, highest](const std::string& text) {
-    double value = 0;
-    const bool inside = CLI::detail::lexical_cast(text, value) && value >= lowest && value <= highest;
-    return inside ? std::string() : fmt::format("value {}: must be within {} and {}", text, lowest, highest);
-  };
-  return CLI::Validator(check, fmt::format("within {} and {}", lowest, highest));
-}
-
-CLI::Validator whole_number() {
-  const auto check = [](const std::string& text) {
-    std::uint64_t value = 0;
-    const char* end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(text.data(), end, value);
-    return error == std::errc() && stop == end ? std::string() : fmt::format("value {}: must be a whole number, 0 or more", text);
-  };
-  return CLI::Validator(check, "0 or more");
-}
 
 std::filesystem::path find_data_set(const std::filesystem::path& directory) {
   const bool below = !exists(directory / kManifestFile) && exists(directory / "data" / kScenarioFile);

@@ -44,8 +44,8 @@ void add_report(CLI::App& app, Shell& shell);
 // A number of the interval; unlike CLI::Range it refuses NaN.
 CLI::Validator number_within(double lowest, double highest);
 
-// Refuses what is not a whole number of 0 or more.
-CLI::Validator whole_number();
+// Holds every option of numbers, of all commands below too, to decimal numbers.
+void require_decimal_numbers(CLI::App& app);
 
 // The data set in a directory: there, or in the `data` below it that `run` makes.
 std::filesystem::path find_data_set(const std::filesystem::path& directory);

@@ -76,7 +76,6 @@ void add_echo(CLI::App& app, Shell& shell) {
   auto arguments = std::make_shared<Arguments>();
   add_scenario_arguments(*command, *arguments);
   command->add_option("--sample", arguments->sample, "Number of the sample in the scenario's plan")
-      ->check(whole_number())
       ->capture_default_str();
   command->add_option("-o,--output", arguments->output, "File, .npz")->required();
   add_threads_option(*command, shell);

@@ -96,7 +96,6 @@ void add_map(CLI::App& app, Shell& shell) {
   auto arguments = std::make_shared<Arguments>();
   add_scenario_arguments(*command, *arguments);
   command->add_option("--sample", arguments->sample, "Number of the sample in the scenario's plan")
-      ->check(whole_number())
       ->capture_default_str();
   command->add_option("-o,--output", arguments->output, "Picture, .png or .svg")->required();
   command

@@ -100,7 +100,7 @@ void add_remake(CLI::App& app, Shell& shell) {
       app.add_subcommand("remake", "Make one sample of a data set again and hold it against what is stored");
   auto arguments = std::make_shared<Arguments>();
   command->add_option("directory", arguments->directory, "Directory of the data set")->required();
-  command->add_option("--sample", arguments->sample, "Number of the sample")->check(whole_number())->required();
+  command->add_option("--sample", arguments->sample, "Number of the sample")->required();
   command->add_option("-o,--output", arguments->output,
                       "Map (also complex), axes, hop code, centres and row as NumPy's .npz");
   command->footer("Example:\n  seaglint remake build/points/data --sample 7 -o build/sample_7.npz");

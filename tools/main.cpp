@@ -12,12 +12,11 @@
 #include <iostream>
 #include <new>
 #include <string>
-#include <vector>
 
 #include "seaglint_version.h"
 #include "sim/core/error.h"
-#include "sim/core/suggestion.h"
 #include "tools/command.h"
+#include "tools/unknown_word.h"
 
 namespace {
 
@@ -81,19 +80,13 @@ std::string chosen_words(const CLI::App& app) {
 }
 
 // CLI11 prints what was asked for (--help, --version); everything else is wrong input.
-int end_parsing(const CLI::App& app, const CLI::ParseError& error, const std::string& first_argument) {
+int end_parsing(const CLI::App& app, const CLI::ParseError& error) {
   if (error.get_exit_code() == 0) {
     app.exit(error);
     return end_output();
   }
-  const std::string chosen = chosen_words(app);
-  if (!chosen.empty()) return fail(2, fmt::format("{} (see seaglint{} --help)", error.what(), chosen));
-  if (first_argument.empty() || first_argument[0] == '-')
-    return fail(2, fmt::format("{} (see seaglint --help)", error.what()));
-  std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
-    names.push_back(command->get_name());
-  return fail(2, fmt::format("unknown command '{}': {}", first_argument, seaglint::suggestion(first_argument, names)));
+  const std::string message = seaglint::unknown_word(app).value_or(error.what());
+  return fail(2, fmt::format("{} (see seaglint{} --help)", message, chosen_words(app)));
 }
 
 int run(Shell& shell) {
@@ -123,10 +116,11 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer("Example:\n  seaglint check scenarios/quick.yaml\n\nEvery command has --help with an example.");
   add_commands(app, shell);
+  seaglint::require_decimal_numbers(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return end_parsing(app, error, argc > 1 ? argv[1] : "");
+    return end_parsing(app, error);
   }
   survive_file_size_limit();
   if (!shell.one_piece) handle_signals(shell);

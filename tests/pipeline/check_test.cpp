@@ -163,9 +163,9 @@ TEST(Check, RefusesScenariosThatCannotBeRead) {
 
 TEST(CommandLine, RefusesWhatItDoesNotKnow) {
   expect_refused({}, "A subcommand is required (see seaglint --help)\n");
-  expect_refused({"chek", kPoints}, "unknown command 'chek': did you mean 'check'?\n");
+  expect_refused({"chek", kPoints}, "unknown command 'chek': did you mean 'check'? (see seaglint --help)\n");
   expect_refused({"check"}, "SCENARIO is required (see seaglint check --help)\n");
-  expect_refused({"check", kPoints, "--bogus"}, "--bogus (see seaglint check --help)\n");
+  expect_refused({"check", kPoints, "--bogus"}, "unknown option '--bogus' (see seaglint check --help)\n");
   expect_refused({"check", kPoints, "--set", "radar.pulses"}, "--set radar.pulses: must be key.path=value\n");
   expect_refused({"--bogus"}, "(see seaglint --help)\n");
 }
