@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <set>
 #include <system_error>
 
@@ -11,6 +13,11 @@
 #include "tools/command.h"
 
 namespace seaglint {
+
+void require_any_of(const CLI::App& command, const std::string& option, const std::vector<std::string>& others) {
+  const auto given = [&](const std::string& name) { return command.count(name) > 0; };
+  if (given(option) && std::none_of(others.begin(), others.end(), given)) throw CLI::RequiresError(option, fmt::format("{}", fmt::join(others, " or ")));
+}
 
 std::filesystem::path find_data_set(const std::filesystem::path& directory) {
   const bool below = !exists(directory / kManifestFile) && exists(directory / "data" / kScenarioFile);

@@ -47,6 +47,9 @@ CLI::Validator number_within(double lowest, double highest);
 // Holds every option of numbers, of all commands below too, to decimal numbers.
 void require_decimal_numbers(CLI::App& app);
 
+// Throws CLI11's error for an option that is given with none of those that it belongs to.
+void require_any_of(const CLI::App& command, const std::string& option, const std::vector<std::string>& others);
+
 // The data set in a directory: there, or in the `data` below it that `run` makes.
 std::filesystem::path find_data_set(const std::filesystem::path& directory);
 

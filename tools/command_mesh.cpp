@@ -177,6 +177,8 @@ struct InfoArguments {
 
 void print_info(const InfoArguments& arguments) {
   require_outputs({arguments.picture}, {arguments.file});
+  if (!arguments.picture.empty() && std::filesystem::path(arguments.picture).extension() != ".png")
+    throw InputError(fmt::format("{}: the name of a mesh's picture ends in .png", arguments.picture));
   const TriangleMesh mesh = read_mesh(arguments.file, arguments.unit);
   const Topology topology = topology_of(mesh);
   if (!arguments.picture.empty()) write_file(arguments.picture, png_bytes(picture_of(mesh, arguments.view)));
@@ -194,7 +196,7 @@ void add_info(CLI::App& mesh, Shell& shell) {
   info->add_option("--wedge-deg", arguments->wedge_deg, "Least turn of an edge that counts as a wedge")
       ->check(number_within(0.0, 180.0))
       ->capture_default_str();
-  CLI::Option* picture = info->add_option("--picture", arguments->picture, "Write a picture as PNG");
+  CLI::Option* picture = info->add_option("--picture", arguments->picture, "Write a picture, .png");
   info->add_option("--azimuth-deg", arguments->view.azimuth_deg, "The picture's viewpoint, as the radar's")
       ->check(number_within(-720, 720))
       ->capture_default_str()

@@ -258,7 +258,6 @@ void run_rcs(const RcsArguments& arguments, const Shell& shell) {
   if (rows > kMostRows) throw InputError(fmt::format("{} rows of output: at most {}", rows, kMostRows));
   if (arguments.view.wanted() && rows != 1) throw InputError(fmt::format("exports of a view need one frequency, azimuth and elevation; there are {} rows", rows));
   if (arguments.view.wanted() && arguments.sea.reflection) throw InputError("exports of a view are of the target alone: leave out --sea-reflection");
-  if (arguments.transmit_elevation_deg && !arguments.transmit_azimuth_deg) throw InputError("--transmit-elevation-deg needs --transmit-azimuth-deg");
   if (arguments.transmit_azimuth_deg && (arguments.view.wanted() || arguments.sea.reflection)) {
     throw InputError("--transmit-azimuth-deg: exports of a view and --sea-reflection are monostatic");
   }
@@ -283,7 +282,7 @@ void run_rcs(const RcsArguments& arguments, const Shell& shell) {
   }
   const Scatterer scatterer(mesh, materials, radians(arguments.crease_deg), 1e-3 * arguments.sheet_thickness_mm);
   warn(check_edges(scatterer, arguments.edges == "on", *lowest, *highest));
-  EchoFilter filter = arguments.view.filter(mesh);
+  EchoFilter filter = arguments.view.filter(mesh, arguments.max_bounces, arguments.edges == "on");
   filter.cavities = arguments.cavities.find(mesh, materials, filter);
   const std::vector<NamedCavity> cavities = arguments.cavities.make(mesh, filter.cavities, scatterer, *lowest, *highest);
   const auto start = std::chrono::steady_clock::now();
@@ -306,7 +305,7 @@ void add_rcs(CLI::App& app, Shell& shell) {
   auto arguments = std::make_shared<RcsArguments>();
   command->add_option("--target", arguments->target, "Mesh file: .glb, .gltf, .obj, .stl or .ply")->required();
   command->add_option("--unit", arguments->unit, "Unit of the mesh: m, cm, mm, km, in, ft")->capture_default_str();
-  command->add_option("--frequency-ghz", arguments->frequency_ghz, "A or A:B:STEP, both ends included, within 0.001 and 1000")->required();
+  command->add_option("--frequency-ghz", arguments->frequency_ghz, "A or A:B:STEP (B included where a step meets it), within 0.001 and 1000")->required();
   command
       ->add_option("--azimuth-deg", arguments->azimuth_deg,
                    "A or A:B:STEP within -720 and 720; 0 = radar ahead of the bow, counter-clockwise from above")
@@ -354,7 +353,12 @@ void add_rcs(CLI::App& app, Shell& shell) {
       "Example:\n  seaglint rcs --target assets/icosahedral_reflector.glb --frequency-ghz 16 --azimuth-deg 0:360:0.5 "
       "--elevation-deg 2 -o rcs.csv\n  seaglint rcs --target plate.glb --frequency-ghz 10.24 --azimuth-deg 0:60:0.5 -o plate.csv --reference "
       "ref.H.txt --reference ref.V.txt");
-  command->callback([arguments, &shell] { shell.work = [arguments, &shell] { run_rcs(*arguments, shell); }; });
+  command->callback([arguments, command, &shell] {
+    require_any_of(*command, "--transmit-elevation-deg", {"--transmit-azimuth-deg"});
+    require_any_of(*command, "--centre-cell-m", {"--export-centres"});
+    require_any_of(*command, "--export-range-db", {"--export-centres", "--export-hot-spots"});
+    shell.work = [arguments, &shell] { run_rcs(*arguments, shell); };
+  });
 }
 
 }  // namespace seaglint

@@ -174,7 +174,10 @@ void add_sea(CLI::App& app, Shell& shell) {
   command->footer(
       "Example:\n  seaglint sea scenarios/quick.yaml --at 40,0 --duration-s 100 -o sea.csv\n"
       "  seaglint sea scenarios/quick.yaml --realisations 100 --figure sea.png -o sea.csv");
-  command->callback([arguments, &shell] { shell.work = [arguments, &shell] { write_sea(*arguments, shell); }; });
+  command->callback([arguments, command, &shell] {
+    require_any_of(*command, "--realisations", {"--spectrum", "--figure"});
+    shell.work = [arguments, &shell] { write_sea(*arguments, shell); };
+  });
 }
 
 }  // namespace seaglint

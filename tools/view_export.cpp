@@ -157,10 +157,19 @@ void ViewExportArguments::add_to(CLI::App& command) {
       ->group("Selection and export");
 }
 
-EchoFilter ViewExportArguments::filter(const TriangleMesh& mesh) const {
+EchoFilter ViewExportArguments::filter(const TriangleMesh& mesh, int max_bounces, bool edges) const {
   EchoFilter result;
-  for (const std::string& text : only) result.only.push_back(selector("--only", text, mesh));
   for (const std::string& text : without) result.without.push_back(selector("--without", text, mesh));
+  for (const std::string& text : only) {
+    const EchoSelector one = selector("--only", text, mesh);
+    if (one.kind == EchoSelector::Kind::kBounces && one.value > max_bounces)
+      throw InputError(fmt::format("--only {} requires --max-bounces {} or more; {} are followed", text, one.value, max_bounces));
+    if (one.kind == EchoSelector::Kind::kMechanism && one.value == static_cast<int>(Mechanism::kEdge) && !edges)
+      throw InputError(fmt::format("--only {} requires --edges on", text));
+    const auto same = [&](const EchoSelector& other) { return other.kind == one.kind && other.value == one.value; };
+    if (std::any_of(result.without.begin(), result.without.end(), same)) throw InputError(fmt::format("--only {0} and --without {0} leave nothing of it", text));
+    result.only.push_back(one);
+  }
   return result;
 }
 

@@ -19,7 +19,8 @@ struct ViewExportArguments {
 
   void add_to(CLI::App& command);
   bool wanted() const { return !centres.empty() || !hot_spots.empty(); }
-  EchoFilter filter(const TriangleMesh& mesh) const;  // throws InputError
+  // Throws InputError, also for a selection that nothing can meet: with so many bounces followed, with edges or without.
+  EchoFilter filter(const TriangleMesh& mesh, int max_bounces, bool edges) const;
   // The selection as it was given, for the head of a table; "everything" without one.
   std::string text() const;
 };

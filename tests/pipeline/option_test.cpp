@@ -78,5 +78,11 @@ TEST_F(Options, AndCommandsThatAreMisspeltAreNamed) {
   expect_refused({"check", "scenarios/points.yaml", "other.yaml"}, {}, "other.yaml");
 }
 
+TEST_F(Options, ThatBelongToOthersAskForThem) {
+  const Words sea{"sea", "scenarios/points.yaml", "-o", folder_.path() / "sea.csv"};
+  expect_refused(sea, {"--realisations", "2"}, "--realisations requires --spectrum or --figure (see seaglint sea --help)\n");
+  expect_refused(rcs(), {"--transmit-elevation-deg", "2"}, "--transmit-elevation-deg requires --transmit-azimuth-deg (see seaglint rcs --help)\n");
+}
+
 }  // namespace
 }  // namespace seaglint

@@ -219,6 +219,14 @@ TEST_F(RcsCommand, ExportsCentresAndHotSpotsOfOneViewAndSelects) {
   refused({"--only", "bounces=0"}, "bounces must be 1, 2, ... 200");
   refused({"--without", "mechanism=magic"}, "must be one of po, edge");
   refused({"--only", "colour=red"}, "must be part=NAME");
+  refused({"--only", "bounces=41"}, "--only bounces=41 requires --max-bounces 41 or more; 40 are followed");
+  refused({"--only", "mechanism=edge", "--edges", "off"}, "--only mechanism=edge requires --edges on");
+  refused({"--only", "mechanism=po", "--without", "mechanism=po"}, "--only mechanism=po and --without mechanism=po leave nothing of it");
+  refused({"--centre-cell-m", "0.2"}, "--centre-cell-m requires --export-centres (see seaglint rcs --help)");
+  refused({"--centre-cell-m", "0.2", "--export-hot-spots", spots}, "--centre-cell-m requires --export-centres");
+  refused({"--export-range-db", "40"}, "--export-range-db requires --export-centres or --export-hot-spots");
+  refused({"--export-centres", centres, "--elevation-deg", "0:1:1"}, "one frequency, azimuth and elevation; there are 2 rows");
+  refused({"--export-hot-spots", folder_.path() / "spots.stl"}, "colours need the ending .glb or .gltf");
 }
 
 // A reflector inside out with a hole beside it: one echoes as it should, the other's interior is seen; both are said, in one line each.
@@ -348,7 +356,7 @@ TEST_F(RcsCommand, RefusesEdgesAndRangesThatCannotBe) {
   refused({"--frequency-ghz", "10", "--azimuth-deg", "0", "--elevation-deg", "91"},
           "--elevation-deg: value 91: must be");
   refused({"--frequency-ghz", "10"}, "--azimuth-deg is required");
-  refused({"--frequency-ghz", "10", "--azimuth-deg", "0", "--transmit-elevation-deg", "3"}, "--transmit-elevation-deg needs --transmit-azimuth-deg");
+  refused({"--frequency-ghz", "10", "--azimuth-deg", "0", "--transmit-elevation-deg", "3"}, "--transmit-elevation-deg requires --transmit-azimuth-deg");
   refused({"--frequency-ghz", "10", "--azimuth-deg", "0", "--elevation-deg", "2", "--transmit-azimuth-deg", "3", "--sea-reflection", "--height-m", "5"}, "are monostatic");
   refused({"--frequency-ghz", "10", "--azimuth-deg", "0", "--range-m", "-1"}, "--range-m");
 }

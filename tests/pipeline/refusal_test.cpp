@@ -184,6 +184,8 @@ TEST_F(Refusal, OfTwoOutputsInOneFile) {
 TEST_F(Refusal, OfAnEndingThatSaysAnotherFormat) {
   const std::string mesh = folder() / "whole.glb";
   expect_failure(folder(), {"echo", "scenarios/points.yaml", "-o", folder() / "echo.csv"}, 2, "echo.csv: NumPy's archives end in .npz");
+  for (const char* name : {"ship.jpg", "ship.svg", "ship"})
+    expect_failure(folder(), {"mesh", "info", mesh, "--picture", folder() / name}, 2, std::string(name) + ": the name of a mesh's picture ends in .png");
   expect_failure(folder(), {"remake", folder(), "--sample", "0", "-o", folder() / "sample"}, 2, "sample: NumPy's archives end in .npz");
   expect_failure(folder(),
                  {"rcs", "--target", mesh, "--frequency-ghz", "10", "--azimuth-deg", "0", "-o", folder() / "rcs.csv", "--export-hot-spots",
