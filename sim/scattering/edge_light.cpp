@@ -138,8 +138,8 @@ void find_arrivals(const SharpEdges& edges, int facet, const WaveOnFacet& wave, 
   for (const PanelEdge& side : edges.of_panel(facet)) {
     if (!side.speaks(wave.direction)) continue;
     const SharpEdge& edge = edges.edges[side.edge];
-    // Of a closed surface it is convex, and the wave, which lights this side, comes from outside.
-    if (edge.open && !wedge_towards(edge, wave.direction)) continue;
+    const WedgeFrame* wedge = wedge_towards(edge, wave.direction);
+    if (!wedge || (wedge->N < 1 && wave.bounce > 1)) continue;  // of a corner the reflections are part of its answer
     const Vec3 image = wave.mirrors.image(edge.a), along = wave.mirrors.L * edge.along();
     for (const Stretch& stretch : lit_stretches(image, along, edge.length(), wave, lit)) {
       arrivals.push_back({side.edge, stretch.s, stretch.slip, image, along, wave.direction, wave.E_h, wave.E_v,

@@ -155,7 +155,7 @@ class EdgeWaves {
   void send(const Incident& in) {
     const SharpEdge& edge = edges_.edges[in.edge];
     const WedgeFrame* wedge = wedge_towards(edge, in.direction);
-    if (!wedge) return;
+    if (!wedge || wedge->N < 1) return;
     const RowOfRims rims = with_rim(in.rims, *wedge, -in.direction);
     const double decay = in.waves > 0 ? mean_decay(in.l) : 1.0;
     for (int i = 0; i < 2; ++i) {
@@ -258,7 +258,7 @@ class EdgeWaves {
     const double across = strip.u.dot(along);
     if (std::abs(across) < kAlong) return;
     const WedgeFrame* wedge = wedge_towards(edge, grazing(source.face, strip.w));
-    if (!wedge) return;
+    if (!wedge || wedge->N < 1) return;
     // The stretch of this edge that the strip meets, and the wave there: its rays come from the first edge without
     // crossing.
     const auto place = [&](double u) { return (u - strip.u.dot(edge.a)) / across; };

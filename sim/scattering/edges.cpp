@@ -37,6 +37,9 @@ Vec3 into(const Facet& facet, int i) {
   return facet.normal.cross(t);
 }
 
+// Where the exterior angle goes into pi without a rest images solve a corner, and its edge sends nothing.
+bool diffracts(const WedgeFrame& wedge) { return wedge.N > 1 || std::abs(std::sin(kPi / wedge.N)) > 1e-3; }
+
 }  // namespace
 
 SharpEdges sharp_edges(std::span<const Facet> facets, double least_turn, double sheet_thickness_m) {
@@ -84,7 +87,7 @@ void list_by_panel(SharpEdges& edges, std::span<const Facet> facets, const Panel
       for (const int number : edges.of_facet[own]) {
         if (number == kNoEdge) continue;
         const SharpEdge& edge = edges.edges[number];
-        if (edge.outside.N <= 1 && !edge.open) continue;
+        if (!edge.open && !diffracts(edge.outside)) continue;
         const auto [f, g] = edge.facet;
         const int other = own == f ? g : f;
         edges.by_panel.push_back({facets[own].normal, facets[other].normal, number, facets[own].open,
@@ -99,12 +102,9 @@ const WedgeFrame* wedge_towards(const SharpEdge& edge, const Vec3& k_hat) {
   // Outside a convex wedge is what lies before either face, outside a concave one what lies before both.
   const auto before = [&](const WedgeFace& face) { return k_hat.dot(face.n) <= 0; };
   const auto& [first, second] = edge.outside.face;
-  if (edge.outside.N > 1) {
-    if (before(first) || before(second)) return &edge.outside;
-  } else if (before(first) && before(second)) {
-    return nullptr;
-  }
-  return edge.open && edge.inside.N > 1 ? &edge.inside : nullptr;
+  const bool outside = edge.outside.N > 1 ? before(first) || before(second) : before(first) && before(second);
+  const WedgeFrame* wedge = outside ? &edge.outside : edge.open ? &edge.inside : nullptr;
+  return wedge && diffracts(*wedge) ? wedge : nullptr;
 }
 
 }  // namespace seaglint

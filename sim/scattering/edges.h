@@ -61,11 +61,11 @@ struct SharpEdges {
 // Edges whose faces turn by at least `least_turn` (rad); the rims of sheets get their thickness. Edges of three and more facets are left out: nobody can tell their wedge.
 SharpEdges sharp_edges(std::span<const Facet> facets, double least_turn, double sheet_thickness_m = 0);
 
-// Fills by_panel from of_facet, before which of_panel() must not be asked. Concave edges of closed surfaces are left out:
-// no wave meets a wedge there.
+// Fills by_panel from of_facet, before which of_panel() must not be asked. Edges that no wave is diffracted by are left out:
+// corners of closed surfaces with a right angle, or any other that goes into pi.
 void list_by_panel(SharpEdges& edges, std::span<const Facet> facets, const Panels& panels);
 
-// The wedge a wave along k_hat meets, or nothing when it comes from the concave side, whose reflections the beams follow, or from within.
+// The wedge or corner (N < 1) a wave along k_hat meets, or nothing when it comes from within or images solve the corner.
 const WedgeFrame* wedge_towards(const SharpEdge& edge, const Vec3& k_hat);
 
 }  // namespace seaglint

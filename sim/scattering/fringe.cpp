@@ -23,33 +23,67 @@ struct Cotangents {
   double sum, difference;
 };
 
-// (1/N) cot(x / 2N), less cot(x / 2) where physical optics has a share: regular at x = 0 then.
-double half_cotangent(double x, double N, bool less_optics) {
-  if (less_optics && std::abs(x) < 1e-3) return x / 6 * (1 - 1 / (N * N));
-  const double wedge = 1 / (N * std::tan(x / (2 * N)));
-  return less_optics ? wedge - 1 / std::tan(x / 2) : wedge;
+// The angles at which the waves of physical optics meet a face: the wave itself at phi and, in a corner (N < 1), what the faces send to one another.
+// The sources' images stand at phi + 2 N pi m, an odd number of times mirrored where that is negative, and light the face from before it.
+class WavesOnFace {
+ public:
+  WavesOnFace(double phi, double N) {
+    const double round = 2 * N * kPi;
+    for (double angle = phi - round * std::floor((phi + kPi) / round); angle < kPi && count_ < kMost; angle += round) {
+      if (angle > -kPi) angle_[count_++] = angle;
+    }
+  }
+  WavesOnFace() = default;  // none
+
+  const double* begin() const { return angle_.data(); }
+  const double* end() const { return angle_.data() + count_; }
+  int size() const { return count_; }
+
+ private:
+  static constexpr int kMost = 16;  // a corner of 22 deg; those sharper are followed by beams alone
+  std::array<double, kMost> angle_{};
+  int count_ = 0;
+};
+
+// (1/N) cot(x / 2N) at x = a - sign phi, less (1/2) cot of half of a - sign angle for each wave of physical optics: regular where one of these is 0.
+double half_cotangent(double a, double phi, double N, const WavesOnFace& optics, double sign) {
+  const double x = a - sign * phi;
+  double sum = 0;
+  bool wedge = true;
+  for (const double angle : optics) {
+    const double y = a - sign * angle;
+    const bool at_pole = std::abs(y) < 1e-3;
+    sum += at_pole ? y / 6 * (1 - 1 / (N * N)) : -1 / std::tan(y / 2);
+    wedge = wedge && !at_pole;
+  }
+  return wedge ? sum + 1 / (N * std::tan(x / (2 * N))) : sum;
 }
 
-Cotangents cotangents(double a, double phi, double N, bool less_optics) {
-  const double minus = half_cotangent(a - phi, N, less_optics), plus = half_cotangent(a + phi, N, less_optics);
+Cotangents cotangents(double a, double phi, double N, const WavesOnFace& optics) {
+  const double minus = half_cotangent(a, phi, N, optics, 1), plus = half_cotangent(a, phi, N, optics, -1);
   return {0.5 * (minus + plus) / std::sin(a), 0.5 * (minus - plus)};
 }
 
 // The same for imaginary a = j alpha, alpha > 0: the sum is sin(a / N) / sin a, the difference sin(phi / N), over
 // N (cos(phi / N) - cos(a / N)).
-Cotangents cotangents_of_imaginary(double alpha, double phi, double N, bool less_optics) {
-  const auto of_wedge = [&](double n) {
-    const double pole = n * (std::cos(phi / n) - std::cosh(alpha / n));
-    return Cotangents{std::sinh(alpha / n) / (std::sinh(alpha) * pole), std::sin(phi / n) / pole};
+Cotangents cotangents_of_imaginary(double alpha, double phi, double N, const WavesOnFace& optics) {
+  const auto of_wedge = [&](double n, double angle) {
+    const double pole = n * (std::cos(angle / n) - std::cosh(alpha / n));
+    return Cotangents{std::sinh(alpha / n) / (std::sinh(alpha) * pole), std::sin(angle / n) / pole};
   };
-  if (!less_optics) return of_wedge(N);
-  // Near the common pole at 0 the first term of their difference errs by 1e-6, and so does the difference.
-  if (phi * phi + alpha * alpha < 4e-5) {
+  Cotangents sum{0, 0};
+  bool wedge = true;
+  const auto add = [&](double factor, const Cotangents& c) { sum = {sum.sum + factor * c.sum, sum.difference + factor * c.difference}; };
+  for (const double angle : optics) {
+    // Near the common pole at 0 the first term of their difference errs by 1e-6, and so does the difference.
+    const bool at_pole = angle * angle + alpha * alpha < 4e-5;
     const double rest = (1 - 1 / (N * N)) / 6;
-    return {rest, -phi * rest};
+    if (at_pole) add(1, {rest, -angle * rest});
+    else add(-1, of_wedge(1, angle));
+    wedge = wedge && !at_pole;
   }
-  const Cotangents wedge = of_wedge(N), optics = of_wedge(1);
-  return {wedge.sum - optics.sum, wedge.difference - optics.difference};
+  if (wedge) add(1, of_wedge(N, phi));
+  return sum;
 }
 
 // Angle of the direction against the face, in the plane across the edge, 0..2 pi.
@@ -63,7 +97,7 @@ double angle_from_face(const WedgeFace& face, const Vec3& towards_source) {
 // cotangents of (xi +- phi') / 2N; weighted with e^{jkx mu} and summed over the half-line, x leaves 1 / (cos xi + mu),
 // whose pole at cos a = -mu leaves the cotangents at a +- phi' over sin a. Physical optics has N = 1. The tests hold
 // the sum of both faces to Keller's coefficients.
-// Of lit faces physical optics is left out, unless `only_seen` and s does not see the face.
+// Physical optics is left out, unless `only_seen` and s does not see the face.
 void add_face_current(const WedgeFace& face, double N, double phi, bool only_seen, const Vec3& k_hat,
                       std::span<const Vec3> fields, const Vec3& s, std::span<Vec3> sums) {
   const double cos_b = k_hat.dot(face.t);
@@ -75,14 +109,14 @@ void add_face_current(const WedgeFace& face, double N, double phi, bool only_see
   const bool real = mu >= -1;
   const double a = real ? std::clamp(std::acos(std::clamp(-mu, -1.0, 1.0)), kAside, kPi - kAside) : std::max(std::acosh(-mu), kAside);
   const bool in_shadow_boundary = (real ? std::abs(a - phi) : std::hypot(a, phi)) < kShadow;
-  const bool less_optics = phi < kPi && (!only_seen || in_shadow_boundary || s.dot(face.n) > kEdgeOn);
-  const Cotangents cot = real ? cotangents(a, phi, N, less_optics) : cotangents_of_imaginary(a, phi, N, less_optics);
+  const WavesOnFace optics = !only_seen || in_shadow_boundary || s.dot(face.n) > kEdgeOn ? WavesOnFace(phi, N) : WavesOnFace();
+  const Cotangents cot = real ? cotangents(a, phi, N, optics) : cotangents_of_imaginary(a, phi, N, optics);
   for (std::size_t i = 0; i < fields.size(); ++i) {
     const double H_t = k_hat.cross(fields[i]).dot(face.t), E_t = fields[i].dot(face.t);
     const double across = H_t / sin_b * cot.sum;
     double along = E_t / (sin_b * sin_b) * cot.difference + cos_b / sin_b * mu * across;
     // What physical optics has of the current along the edge, written without its pole.
-    if (less_optics) along += cos_b / sin_b * H_t / sin_b;
+    along += optics.size() * cos_b / sin_b * H_t / sin_b;
     sums[i] += across * face.x + along * face.t;
   }
 }

@@ -25,7 +25,7 @@ struct WedgeFace {
 // An infinite wedge with perfectly conducting faces. The second face's t is minus the first one's.
 struct WedgeFrame {
   WedgeFace face[2];
-  double N = 2;  // the exterior angle is N pi, 0 < N <= 2; 2 is a half-plane, below 1 nothing is diffracted
+  double N = 2;  // the exterior angle is N pi, 0 < N <= 2; 2 is a half-plane, below 1 a corner
   double thickness_m = 0;  // of a half-plane (thick_rim.h)
 };
 
@@ -33,7 +33,8 @@ struct WedgeFrame {
 // field E (across it) without that of physical optics on the faces that the wave lights, per metre of edge:
 // p . fringe_current(...) is the field amplitude S / length, dimensionless, independent of frequency, for the received
 // polarisation p. Phase: e^{jk s.x} of the edge's point and that of the incident wave there. Zero when the wave comes
-// from inside the conductor.
+// from inside the conductor. In a corner physical optics is that of all its reflections; where N is 1 / 2, 1 / 3, ... they
+// are exact and nothing is left.
 Vec3 fringe_current(const WedgeFrame& wedge, const Vec3& k_hat, const Vec3& E, const Vec3& s);
 
 // What facets leave to the edge, for two fields at once, which share everything that costs time: the same without

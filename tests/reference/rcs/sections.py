@@ -78,10 +78,18 @@ def echoes(p, k, incident, scattered):  # P soft and hard [receiver, transmitter
     return -(soft_out * length[:, None]).T @ np.linalg.solve(G, soft_in), -hard_out.T @ np.linalg.solve(Z, hard_in)
 
 
+def chevron(opening_deg, arm, thickness):  # its inner corner in the origin, towards azimuth 0
+    half = np.radians(opening_deg / 2)
+    end = arm * np.array([np.cos(half), np.sin(half)])
+    back = end + thickness * np.array([-np.sin(half), np.cos(half)])
+    return [(0, 0), tuple(end), tuple(back), (-thickness / np.sin(half), 0), (back[0], -back[1]), (end[0], -end[1])]
+
+
 SECTIONS = {
     "box": [(-0.05, -0.075), (0.05, -0.075), (0.05, 0.075), (-0.05, 0.075)],
     "triangle": [(0.1 * np.cos(t), 0.1 * np.sin(t)) for t in np.radians([10, 130, 250])],
     "knife": [(-0.1, 0), (0.1, -0.02), (0.1, 0.02)],
+    "chevron": chevron(150, 0.1, 0.04),
 }
 
 if __name__ == "__main__":

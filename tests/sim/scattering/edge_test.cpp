@@ -142,6 +142,41 @@ TEST(Fringe, IsTheCotangentsOfAComplexAngle) {
   EXPECT_GT(imaginary, 200);
 }
 
+// In a corner, too, where physical optics is that of all images: each face is lit by the wave and by what the faces send to one another, and where images solve the corner
+// nothing is left.
+TEST(Fringe, OfACornerIsKellersCoefficientLessThatOfItsReflections) {
+  Random random({3, Stream::kTest, 21});
+  int reflected = 0;
+  for (int i = 0; i < 600; ++i) {
+    const double N = i % 3 == 0 ? 1.0 / (2 + i % 4) : 0.3 + 0.65 * random.uniform();
+    const double phi_in = N * kPi * random.uniform(), phi = N * kPi * random.uniform();
+    const Vec3 k_hat(-std::cos(phi_in), -std::sin(phi_in), 0), s(std::cos(phi), std::sin(phi), 0), z = Vec3::UnitZ();
+    auto [soft, hard] = keller(N, phi, phi_in);
+    bool near_a_boundary = false;
+    for (const bool second : {false, true}) {
+      const double out = second ? N * kPi - phi : phi, in = second ? N * kPi - phi_in : phi_in;
+      for (int m = -5; m <= 5; ++m) {
+        const double image = in + 2 * m * N * kPi;
+        near_a_boundary |= std::abs(std::abs(image) - kPi) < 0.02 || std::abs(std::cos(out) + std::cos(image)) < 0.05;
+        if (std::abs(image) > kPi) continue;
+        // Mirrored once more the electric field along the edge turns round, the magnetic one does not.
+        const double pole = std::cos(out) + std::cos(image);
+        soft -= std::sin(image) / pole;
+        hard += std::sin(out) / pole;
+        reflected += m != 0;
+      }
+    }
+    if (near_a_boundary) continue;
+    const double K_soft = fringe_current(wedge(N), k_hat, z, s).z(), K_hard = z.cross(s).dot(fringe_current(wedge(N), k_hat, z.cross(k_hat), s));
+    EXPECT_NEAR(K_soft, soft / (2 * kPi), 1e-9 * (1 + std::abs(soft))) << N << ' ' << phi_in << ' ' << phi;
+    EXPECT_NEAR(K_hard, hard / (2 * kPi), 1e-9 * (1 + std::abs(hard))) << N << ' ' << phi_in << ' ' << phi;
+    if (i % 3 != 0) continue;
+    EXPECT_NEAR(K_soft, 0, 1e-9) << N;
+    EXPECT_NEAR(K_hard, 0, 1e-9) << N;
+  }
+  EXPECT_GT(reflected, 500);
+}
+
 // A face radiates to where it is seen and nowhere else: there the edge has all of Keller's field, but near the boundary of shadow.
 TEST(EdgeCurrents, LeaveOutPhysicalOpticsOnlyOfFacesThatAreSeen) {
   Random random({3, Stream::kTest, 20});

@@ -18,13 +18,16 @@ const std::map<std::string, std::vector<Vec2>>& sections() {
   static const auto all = [] {
     std::map<std::string, std::vector<Vec2>> result{{"box", {{-0.05, -0.075}, {0.05, -0.075}, {0.05, 0.075}, {-0.05, 0.075}}},
                                                     {"knife", {{-0.1, 0}, {0.1, -0.02}, {0.1, 0.02}}}};
+    const double half = radians(75);
+    const Vec2 end = 0.1 * Vec2(std::cos(half), std::sin(half)), back = end + 0.04 * Vec2(-std::sin(half), std::cos(half));
+    result["chevron"] = {{0, 0}, end, back, {-0.04 / std::sin(half), 0}, {back.x(), -back.y()}, {end.x(), -end.y()}};
     for (const double at : {10.0, 130.0, 250.0}) result["triangle"].push_back(0.1 * Vec2(std::cos(radians(at)), std::sin(radians(at))));
     return result;
   }();
   return all;
 }
 
-// A convex cross-section stood upright, its middle at z = 0.
+// A cross-section whose first corner sees all of it stood upright, its middle at z = 0.
 TriangleMesh prism(const std::vector<Vec2>& corners, double height) {
   TriangleMesh mesh;
   const auto n = static_cast<std::uint32_t>(corners.size());
@@ -79,17 +82,24 @@ Deviation against_integral_equations(const std::string& section, double least_de
 
 // What higher diffractions and, of the hard field, the last elements of the integral equations leave.
 TEST(Section, AnswersAsIntegralEquationsSay) {
-  for (const auto& [section, corners] : sections()) {
+  for (const std::string section : {"box", "knife", "triangle"}) {
     const Deviation back = against_integral_equations(section, 0, 0, 0);
     EXPECT_LT(back.soft, 0.0015) << section;
     EXPECT_LT(back.hard, 0.003) << section;
   }
 }
 
+// The corner of a chevron diffracts; left out, the soft field errs by 0.04. Of the hard one what runs along one wall and is reflected or diffracted by the other is left.
+TEST(Section, WithACornerAnswersAsIntegralEquationsSay) {
+  const Deviation back = against_integral_equations("chevron", 0, 0, 0);
+  EXPECT_LT(back.soft, 0.02);
+  EXPECT_LT(back.hard, 0.1);
+}
+
 // Lit faces that the receiver does not see radiate nothing to it: without their share in the edges' field it errs by 0.03 to 0.1. Behind the target soft waves that graze
 // a face (slope diffraction) are left; to within 20 deg of the wave's way on.
 TEST(Section, AnswersOtherReceiversAsIntegralEquationsSay) {
-  for (const auto& [section, corners] : sections()) {
+  for (const std::string section : {"box", "knife", "triangle"}) {
     for (const double elevation : {0.0, 40.0}) {
       const Deviation before = against_integral_equations(section, 1, 90, elevation), behind = against_integral_equations(section, 90, 160, elevation);
       EXPECT_LT(before.soft, 0.005) << section;

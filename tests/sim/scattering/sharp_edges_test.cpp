@@ -49,7 +49,7 @@ TEST(SharpEdges, OfEveryWedgeThatDiffractsOneSideSpeaks) {
         if (wedge_towards(edge, k_hat)) {
           EXPECT_EQ(speaking[number], 1) << number;
         }
-        if (!edge.open && edge.outside.N <= 1) {
+        if (!edge.open && edge.outside.N < 1 && std::abs(std::sin(kPi / edge.outside.N)) < 1e-3) {
           EXPECT_EQ(speaking[number], 0) << number;
         }
       }
