@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "sim/core/error.h"
@@ -25,6 +26,8 @@ double radius_m(const TriangleMesh& mesh) {
   for (const Vec3& vertex : mesh.vertices) radius = std::max(radius, vertex.norm());
   return radius;
 }
+
+double interval_length_s(const RadarSpec& radar) { return radar.pulses * radar.pri_us * 1e-6; }
 
 // Radius about the target's reference point that the target never leaves.
 double reach_m(const Target& target, double interval_s) {
@@ -71,13 +74,13 @@ void check_mesh(const Scenario& scenario, Target& target) {
   }
 }
 
-// The mesh alone tells how near the radar may be.
-void check_scene_range(const Scenario& scenario, const TargetSpec& spec, const TriangleMesh& mesh) {
+// The radar must be far from all that stands in one map, however far from the reference point its bodies are. `companion`: which one of the target's, if any.
+void check_scene_range(const Scenario& scenario, const TargetSpec& spec, const Target& body, std::optional<std::size_t> companion) {
   try {
-    check_range(radius_m(mesh), spec.solver.radar_range_m);
+    check_range(reach_m(body, interval_length_s(scenario.radar)), spec.solver.radar_range_m);
   } catch (const InputError& error) {
-    throw InputError(
-        fmt::format("{}: {}", place_of(scenario, fmt::format("targets.{}.solver", spec.name)), error.what()));
+    const std::string key = fmt::format("targets.{}.{}", spec.name, companion ? fmt::format("with.{}", *companion) : "solver");
+    throw InputError(fmt::format("{}: {}", place_of(scenario, key), error.what()));
   }
 }
 
@@ -100,7 +103,6 @@ Target load_target(const Scenario& scenario, const TargetSpec& spec) {
   target.mesh = read_mesh(find_mesh(scenario, spec), spec.unit);
   target.materials = load_materials(scenario, spec, target.mesh);
   check_mesh(scenario, target);
-  check_scene_range(scenario, spec, target.mesh);
   target.body = load_body(scenario, spec, target.mesh);
   // The radar's image looks at the hull from below.
   if (scenario.sea_reflection.enabled)
@@ -145,6 +147,7 @@ std::vector<Target> load_targets(const Scenario& scenario) {
     targets.push_back(load_target(scenario, spec));
     targets.back().shape = targets.size() - 1;
     place_bodies(targets.back(), bodies);
+    check_scene_range(scenario, spec, targets.back(), std::nullopt);
   }
   for (std::size_t t = 0; t < scenario.targets.size(); ++t) {
     for (const CompanionSpec& companion : scenario.targets[t].with) {
@@ -153,6 +156,7 @@ std::vector<Target> load_targets(const Scenario& scenario) {
       Target target =
           moved(targets[static_cast<std::size_t>(named - scenario.targets.begin())], scenario.targets[t], companion);
       place_bodies(target, bodies);
+      check_scene_range(scenario, scenario.targets[t], target, targets[t].with.size());
       targets[t].with.push_back(targets.size());
       targets.push_back(std::move(target));
     }
@@ -161,9 +165,8 @@ std::vector<Target> load_targets(const Scenario& scenario) {
 }
 
 double range_window_m(const Scenario& scenario, const std::vector<Target>& targets) {
-  const double interval_s = scenario.radar.pulses * scenario.radar.pri_us * 1e-6;
   double reach = 0;
-  for (const Target& target : targets) reach = std::max(reach, reach_m(target, interval_s));
+  for (const Target& target : targets) reach = std::max(reach, reach_m(target, interval_length_s(scenario.radar)));
   // A tenth more than the target, since bodies drift and shadowed paths are longer than straight ones.
   const double window_m = std::max(scenario.map.range_span_m, 2.2 * reach);
   const RadarSpec& radar = scenario.radar;
@@ -181,8 +184,7 @@ Scene make_scene(const Scenario& scenario, const std::vector<Target>& targets, i
   const SamplePlan plan(scenario);
   const SeaState state = sea_states(scenario.sea)[static_cast<std::size_t>(sea_state)];
   const std::uint64_t sea_key = plan.sea_key(sea_state, realisation);
-  const double duration_s =
-      std::max(at_least_s, plan.last_start_s() + scenario.radar.pulses * scenario.radar.pri_us * 1e-6);
+  const double duration_s = std::max(at_least_s, plan.last_start_s() + interval_length_s(scenario.radar));
 
   Scene scene{realize_sea(state, scenario.seed, sea_key), {}};
   for (const Target& target : targets) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// A radar that moves past the target: in the far field nothing but the direction to it counts. The scene stands still,
+// A radar that moves past the target, or is near enough to be seen in another direction from each of its bodies: in the far field nothing but the direction to it counts. The scene stands still,
 // since the sea as a mirror does: the radar's image goes down where the radar goes up.
 
 #include "sim/core/linear.h"
@@ -15,12 +15,15 @@ struct Sight {
   RadarBasis radar, image;
 
   const RadarBasis& of(bool by_sea) const { return by_sea ? image : radar; }
-  // Both ways of a path along x, m: its length is shorter by this.
-  double gain(const SeaPath& path, const Vec3& x) const { return (of(path.there).r + of(path.back).r).dot(x); }
+  // Both ways of a path to x, m: its length is shorter by this than to the origin, from which the radar stands at range_m; 0: in the far field.
+  double gain(const SeaPath& path, const Vec3& x, double range_m = 0) const;
 };
 
 // The first pulse's basis, that of r_hat, is carried along without any turn about the line of sight; the image's is its
 // mirror image.
 Sight sight_at(const IntervalSampling& sampling, const Vec3& r_hat, double time_s);
+
+// Both as they are seen from x, likewise without any turn about the line of sight.
+Sight sight_from(const Sight& origin, const Vec3& x, double range_m);
 
 }  // namespace seaglint

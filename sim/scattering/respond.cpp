@@ -37,10 +37,9 @@ struct alignas(64) ChunkPoints {
   double fastest = 0;  // largest |u|, m
 };
 
-// One trace: what the body answers by one way. `origin`: where the body stands from the point that the radar's range is
-// counted from, body frame.
-ReturnGrid trace_returns(const Scatterer& scatterer, const PlannedWay& way, const Vec3& origin,
-                         const WavenumberGrid& wavenumbers, int channel, const SolverSpec& solver, int threads) {
+// One trace: what the body answers by one way. At a finite range the wavefront is bent about the body's own origin, from which the way sees the radar.
+ReturnGrid trace_returns(const Scatterer& scatterer, const PlannedWay& way, const WavenumberGrid& wavenumbers, int channel,
+                         const SolverSpec& solver, int threads) {
   const AntennaPair& antennas = way.antennas;
   const DirectionPath& path = way.moves;
   // A shadow edge at grazing runs along its facet much faster than any point of the body moves. Beyond four times the
@@ -59,7 +58,7 @@ ReturnGrid trace_returns(const Scatterer& scatterer, const PlannedWay& way, cons
   const double faint = faintest_echo(scatterer, settings, kc);
   std::vector<ChunkPoints> points(all_chunks);
   const auto keep = [&](std::size_t chunk, std::span<Contribution> contributions) {
-    if (solver.radar_range_m > 0) bend_wavefront(contributions, antennas, origin, solver.radar_range_m);
+    if (solver.radar_range_m > 0) bend_wavefront(contributions, antennas, Vec3::Zero(), solver.radar_range_m);
     for (const Contribution& c : contributions) {
       const Complex amplitude = c.amplitude * Complex(c.pattern[channel]);
       if (std::norm(amplitude) < faint * faint) continue;
@@ -151,7 +150,7 @@ BodyResponse respond(const Scatterer& scatterer, const Trajectory& trajectory, c
     if (sea == nullptr ? !path.multipath() : sea->wanted(path)) paths.push_back(path);
   }
   const double served = solver.max_turn_deg > 0 ? radians(solver.max_turn_deg) : default_turn(scatterer, 2 * kPi / kc);
-  const TracePlan plan(trajectory, sampling, r_hat, paths,
+  const TracePlan plan(trajectory, sampling, r_hat, solver.radar_range_m, paths,
                        {served, kMostBesidePhase / (k_last * beside_limit(scatterer))});
 
   // Traces side by side before facets side by side: the threads then meet less often.
@@ -161,8 +160,7 @@ BodyResponse respond(const Scatterer& scatterer, const Trajectory& trajectory, c
   std::vector<std::vector<ReturnGrid>> returns(traces.size());  // by trace and way
   parallel_for(traces.size(), side_by_side, [&](std::size_t i) {
     for (const PlannedWay& way : traces[i].ways) {
-      returns[i].push_back(trace_returns(scatterer, way, traces[i].origin, wavenumbers, channel, solver,
-                                         std::max(1, threads / side_by_side)));
+      returns[i].push_back(trace_returns(scatterer, way, wavenumbers, channel, solver, std::max(1, threads / side_by_side)));
     }
   });
 
@@ -180,9 +178,9 @@ BodyResponse respond(const Scatterer& scatterer, const Trajectory& trajectory, c
       for (int n = traces[i].first; n <= traces[i].last; ++n) {
         const auto at = static_cast<std::size_t>(n - traces[i].first);
         returns[i][w].response(sampling.pulse_first[n], moves.s[at], moves.q[at], answer);
-        // The body's origin moves too: e^{jk (a + b).p} with the directions a and b of either way, exact for every pulse
-        // and frequency.
-        const double origin_path = plan.sight(n).gain(path, plan.pose(n).p_TB);
+        // The body's origin moves too: e^{jk (a + b).p} with the directions a and b of either way, of a radar at a finite
+        // range by its distances, exact for every pulse and frequency.
+        const double origin_path = plan.gain(path, n);
         for (int b = 0; b < sampling.per_pulse; ++b) {
           const int q = sampling.pulse_first[n] + b;
           const Complex by_sea = path.multipath() ? SeaMirror::weight(path, mirror->at(n, b), channel) : 1.0;

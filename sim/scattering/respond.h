@@ -31,8 +31,10 @@ double default_turn(const Scatterer& scatterer, double wavelength);
 // body turns by at most solver.max_turn_deg; a faster body is traced at the middles of spans that short, and
 // neighbouring traces are blended linearly in time; spans get shorter still where the direction's path bends by more
 // than a grid takes. Error against a fresh trace per pulse and frequency: sim/scattering/README.md. Polarisation basis:
-// that of the world, turned into the body at each trace. The trajectory must cover the interval. With `sea` the echo
-// comes four ways over the surface z = 0 of the target frame (sea_mirror.h), each traced by itself; r_hat.z() > 0.
+// that of the world, turned into the body at each trace. A radar at
+// solver.radar_range_m from the target frame's origin is seen by the body from where it stands. The trajectory must
+// cover the interval. With `sea` the echo comes four ways over the surface z = 0 of the target frame (sea_mirror.h),
+// each traced by itself; r_hat.z() > 0.
 BodyResponse respond(const Scatterer& scatterer, const Trajectory& trajectory, const Vec3& r_hat,
                      Polarisation polarisation, const IntervalSampling& sampling, const SolverSpec& solver,
                      int threads = 1, const SeaMirror* sea = nullptr);

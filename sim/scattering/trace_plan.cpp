@@ -28,14 +28,15 @@ struct TracePlan::Directions {
   std::span<const Vec3> of(bool by_sea) const { return by_sea ? to_image : to_radar; }
 };
 
-TracePlan::TracePlan(const Trajectory& trajectory, const IntervalSampling& sampling, const Vec3& r_hat,
-                     std::span<const SeaPath> paths, const TraceLimits& limits) {
+TracePlan::TracePlan(const Trajectory& trajectory, const IntervalSampling& sampling, const Vec3& r_hat, double range_m,
+                     std::span<const SeaPath> paths, const TraceLimits& limits)
+    : range_m_(range_m) {
   const double start = sampling.pulse_time_s.front(), length = sampling.pulse_time_s.back() - start;
   Directions seen;
   for (const double time_s : sampling.pulse_time_s) {
     time_.push_back(length > 0 ? (time_s - start) / length : 0);
     const Pose& pose = poses_.emplace_back(trajectory.pose(time_s));
-    const Sight& sight = sights_.emplace_back(sight_at(sampling, r_hat, time_s));
+    const Sight sight = sight_from(sights_.emplace_back(sight_at(sampling, r_hat, time_s)), pose.p_TB, range_m);
     seen.to_radar.push_back(pose.R_TB.transpose() * sight.radar.r);
     seen.to_image.push_back(pose.R_TB.transpose() * sight.image.r);
   }
@@ -50,7 +51,8 @@ TracePlan::TracePlan(const Trajectory& trajectory, const IntervalSampling& sampl
     double beside = 0;
     for (std::size_t i = 0; i < spans_; ++i) {
       const double middle_s = start + length * (static_cast<double>(i) + 0.5) / static_cast<double>(spans_);
-      traces_.push_back(planned(i, trajectory.pose(middle_s), sight_at(sampling, r_hat, middle_s), seen, paths));
+      const Pose pose = trajectory.pose(middle_s);
+      traces_.push_back(planned(i, pose, sight_from(sight_at(sampling, r_hat, middle_s), pose.p_TB, range_m), seen, paths));
       for (const PlannedWay& way : traces_.back().ways) beside = std::max(beside, way.moves.q_limit);
     }
     if (beside <= limits.beside || spans_ >= time_.size()) break;
@@ -74,7 +76,6 @@ PlannedTrace TracePlan::planned(std::size_t trace, const Pose& pose, const Sight
     plan.last = n;
   }
   if (plan.first > plan.last) return plan;
-  plan.origin = pose.R_TB.transpose() * pose.p_TB;
   const RadarBasis radar = body_basis(sight.radar, pose), image = body_basis(sight.image, pose);
   for (const SeaPath& path : paths) {
     const RadarBasis &transmit = path.there ? image : radar, &receive = path.back ? image : radar;

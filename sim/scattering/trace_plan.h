@@ -22,8 +22,7 @@ struct PlannedWay {
 };
 
 struct PlannedTrace {
-  int first = 0, last = -1;    // pulses that it has a share of; none when the last comes before the first
-  Vec3 origin = Vec3::Zero();  // where the body stands from the scene's reference point, body frame, m
+  int first = 0, last = -1;  // pulses that it has a share of; none when the last comes before the first
   std::vector<PlannedWay> ways;
 };
 
@@ -37,23 +36,26 @@ struct TraceLimits {
 // before the first and after the last one that one's stands alone.
 class TracePlan {
  public:
-  // The trajectory must cover the interval of one or more pulses; r_hat in the target frame.
-  TracePlan(const Trajectory& trajectory, const IntervalSampling& sampling, const Vec3& r_hat,
+  // The trajectory must cover the interval of one or more pulses; r_hat in the target frame, from whose origin the radar stands at range_m, 0 = far field.
+  TracePlan(const Trajectory& trajectory, const IntervalSampling& sampling, const Vec3& r_hat, double range_m,
             std::span<const SeaPath> paths, const TraceLimits& limits);
 
   std::span<const PlannedTrace> traces() const { return traces_; }
   // A trace's share of a pulse; those of all traces sum to one.
   double share(std::size_t trace, int pulse) const;
-  // The body at a pulse, and from where it is seen.
+  // The body at a pulse, and from where the origin of the target frame is seen.
   const Pose& pose(int pulse) const { return poses_[static_cast<std::size_t>(pulse)]; }
   const Sight& sight(int pulse) const { return sights_[static_cast<std::size_t>(pulse)]; }
+  // Both ways of a path to the body's origin, m: shorter by this than to that of the target frame.
+  double gain(const SeaPath& path, int pulse) const { return sight(pulse).gain(path, pose(pulse).p_TB, range_m_); }
 
  private:
   struct Directions;
-  // A span's trace, made where body and radar then stand.
+  // A span's trace, made where the body then stands and sees the radar.
   PlannedTrace planned(std::size_t trace, const Pose& pose, const Sight& sight, const Directions& seen,
                        std::span<const SeaPath> paths) const;
 
+  double range_m_;
   std::vector<double> time_;  // of each pulse, 0 at the first and 1 at the last; all 0 of one pulse
   std::vector<Pose> poses_;
   std::vector<Sight> sights_;

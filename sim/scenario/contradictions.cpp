@@ -184,6 +184,16 @@ void check_sea_reflection(const Scenario& scenario, const ScenarioDocument& docu
   }
 }
 
+// One map is seen by one radar; from points, which have no such key, it is far away.
+void check_one_range(const TargetSpec& target, const TargetSpec& companion, const ScenarioDocument& document) {
+  const double range_m = target.solver.radar_range_m, other_m = companion.solver.radar_range_m;
+  if (range_m == other_m) return;
+  const auto key = [](const TargetSpec& of) { return fmt::format("targets.{}.solver.radar_range_m", of.name); };
+  const TargetSpec &wrong = companion.points.empty() ? companion : target, &right = companion.points.empty() ? target : companion;
+  document.fail_at(key(wrong), fmt::format("must be {}, as targets.{} has it in the same maps ({})", right.solver.radar_range_m, right.name,
+                                           document.place_of(key(right))));
+}
+
 // A companion is another target of the file, and brings no companions of its own.
 void check_companions(const Scenario& scenario, const TargetSpec& target, const ScenarioDocument& document) {
   for (std::size_t i = 0; i < target.with.size(); ++i) {
@@ -193,6 +203,7 @@ void check_companions(const Scenario& scenario, const TargetSpec& target, const 
     if (found == scenario.targets.end() || found->name == target.name)
       document.fail_at(key, "must be the name of another target");
     if (!found->with.empty()) document.fail_at(key, "must be a target without companions of its own");
+    check_one_range(target, *found, document);
   }
 }
 

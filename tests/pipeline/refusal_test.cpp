@@ -107,6 +107,26 @@ TEST_F(Refusal, OfARadarTooNearForItsWavefront) {
   }
 }
 
+// Four reflectors 40 m apart reach 60.5 m, wherever each has its own origin; a companion reaches as far as it stands away.
+TEST_F(Refusal, OfARadarTooNearForALayoutOrACompanion) {
+  write_file(folder() / "near.yaml",
+             "seaglint: 1\ntargets:\n"
+             "  ship: {label: 1, mesh: assets/icosahedral_reflector.glb, with: [{target: decoy, x_m: 0, y_m: 60}], solver: {radar_range_m: 400}}\n"
+             "  decoy: {label: 0, mesh: assets/icosahedral_reflector.glb, solver: {radar_range_m: 400}}\n"
+             "  array: {label: 0, mesh: assets/icosahedral_reflector.glb, layout: {line: {count: 4, spacing_m: 40}}}\n");
+  const std::string file = folder() / "near.yaml";
+  for (const Words& more : {Words{}, Words{"--set", "targets.array.solver.radar_range_m=600"}}) {
+    for (Words words : {Words{"check", file}, Words{"map", file, "-o", folder() / "map.png"}, Words{"generate", file, "-o", folder() / "data"}}) {
+      words.insert(words.end(), more.begin(), more.end());
+      expect_failure(folder(), words, 2, more.empty() ? "near.yaml:3:66: targets.ship.with.0: radar range 400 m: the target reaches 60.5 m from where it is counted"
+                                                      : "targets.array.solver: radar range 600 m: the target reaches 60.5 m");
+    }
+  }
+  const ProgramResult far = run_program({"check", file, "--set", "targets.ship.solver.radar_range_m=610", "--set", "targets.decoy.solver.radar_range_m=610",
+                                         "--set", "targets.array.solver.radar_range_m=610"});
+  EXPECT_EQ(far.code, 0) << far.err;
+}
+
 TEST_F(Refusal, OfANumberThatIsNone) {
   const std::string mesh = folder() / "whole.glb";
   for (const char* option : {"--range-m", "--crease-deg", "--ray-spacing-m", "--transmit-azimuth-deg", "--centre-cell-m"}) {

@@ -21,7 +21,7 @@ namespace {
 using namespace testing_echoes;
 
 // Roll, pitch and yaw as sinusoids with the given rates (rad/s, amplitude of the rate) at period_s.
-Trajectory rocking(const Vec3& rates, double period_s, const Vec3& centre) {
+Trajectory rocking(const Vec3& rates, double period_s, const Vec3& centre, const Vec3& rest = Vec3::Zero()) {
   const double omega = 2 * kPi / period_s, step = 0.01;
   std::vector<MotionSample> samples;
   for (int i = 0; i <= 100; ++i) {
@@ -33,7 +33,7 @@ Trajectory rocking(const Vec3& rates, double period_s, const Vec3& centre) {
     }
     samples.push_back(sample);
   }
-  return Trajectory(0, step, samples, Vec3::Zero(), centre);
+  return Trajectory(0, step, samples, rest, centre);
 }
 
 // Relative L2 error of a response against fresh traces with exact phase integrals, dB: their mean square difference at
@@ -44,6 +44,7 @@ double error_against_fresh_traces(const Scatterer& scatterer, const Trajectory& 
   const IntervalSampling sampling = paper_interval(0.3);
   const BodyResponse body = respond(scatterer, trajectory, r_hat, Polarisation::kVv, sampling, solver, 2);
   const RadarBasis world = radar_basis(r_hat);
+  const double range_m = solver.radar_range_m;
   Random random({11, Stream::kTest, index});
   double error = 0, power = 0;
   for (int i = 0; i < spots; ++i) {
@@ -51,10 +52,12 @@ double error_against_fresh_traces(const Scatterer& scatterer, const Trajectory& 
     const Pose pose = trajectory.pose(sampling.pulse_time_s[n]);
     const Mat3 R_BT = pose.R_TB.transpose();
     const double k = wavenumber(sampling.first_hz + (sampling.pulse_first[n] + b) * sampling.step_hz);
-    const AntennaPair antennas = monostatic({R_BT * world.r, R_BT * world.h, R_BT * world.v});
-    const Complex s = scattering_matrices(scatterer, antennas, std::array{k},
-                                          {solver.ray_spacing_m, solver.max_bounces, solver.edges}, 2)[0][kVvChannel];
-    const Complex fresh = s * std::polar(1.0, 2 * k * r_hat.dot(pose.p_TB));
+    const RadarBasis seen = range_m > 0 ? radar_basis((range_m * r_hat - pose.p_TB).normalized()) : world;
+    const double nearer_m = range_m > 0 ? range_m - (range_m * r_hat - pose.p_TB).norm() : r_hat.dot(pose.p_TB);
+    const AntennaPair antennas = monostatic({R_BT * seen.r, R_BT * seen.h, R_BT * seen.v});
+    const IlluminationSettings settings{solver.ray_spacing_m, solver.max_bounces, solver.edges, {}, range_m};
+    const Complex s = scattering_matrices(scatterer, antennas, std::array{k}, settings, 2)[0][kVvChannel];
+    const Complex fresh = s * std::polar(1.0, 2 * k * nearer_m);
     error += std::norm(body.response.at(n, b) - fresh) / spots;
   }
   for (const Complex& value : body.response.values)
@@ -165,6 +168,20 @@ TEST(Response, OfATiltingReflectorEqualsFreshTraces) {
   }
   EXPECT_LT(sum / count, -38);
   EXPECT_LT(worst, -30);
+}
+
+// Beside the point that the radar's range is counted from, and left behind.
+TEST(Response, OfAFloatBesideTheReferencePointAtAFiniteRangeEqualsFreshTraces) {
+  const Scatterer reflector(make_icosahedral_reflector());
+  SolverSpec solver;
+  solver.radar_range_m = 1000;
+  const Trajectory floating = rocking({0.6, 0.4, 0.1}, 1.3, {0, 0, -0.75}, {45, -40, 0.75}).carried({-10, 0, 0}, 0.3);
+  for (const double azimuth : {10.0, 48.0, 131.0}) {
+    const double error = error_against_fresh_traces(reflector, floating, direction(azimuth, 2), solver, 60, static_cast<std::uint64_t>(azimuth));
+    RecordProperty(fmt::format("error_db_{}", azimuth), fmt::format("{:.1f}", error));
+    fmt::print("float at {} deg: {:.1f} dB\n", azimuth, error);
+    EXPECT_LT(error, -30) << azimuth;  // as at its reference point
+  }
 }
 
 TEST(Response, OfTheRollingShipEqualsFreshTraces) {

@@ -345,6 +345,22 @@ TEST(Reading, MaterialsOfATargetAndItsPartsComeBackFromTheEffectiveForm) {
   EXPECT_EQ(parse(kShort).targets[0].material, "pec");
 }
 
+TEST(Reading, OneMapHasOneRadarRange) {
+  const auto with = [](const std::string& ship, const std::string& decoy) {
+    return "seaglint: 1\ntargets:\n  ship: {label: 1, " + ship + ", with: [{target: decoy}]}\n  decoy: {label: 0, " + decoy + "}\n";
+  };
+  const std::string mesh = "mesh: a.glb", far = "mesh: a.glb, solver: {radar_range_m: 20000}", near = "mesh: a.glb, solver: {radar_range_m: 5000.5}",
+                    points = "points: [{position_m: [0, 0, 0]}]";
+  EXPECT_EQ(complaint_about(with(far, near)), "folder/file.yaml:4:58: targets.decoy.solver.radar_range_m: value '5000.5': must be 20000, as targets.ship has it in the same "
+                                              "maps (folder/file.yaml:3:57: targets.ship.solver.radar_range_m)");
+  EXPECT_THAT(complaint_about(with(far, mesh)), HasSubstr("4:10: targets.decoy.solver.radar_range_m: must be 20000"));
+  EXPECT_THAT(complaint_about(with(mesh, far)), HasSubstr("targets.decoy.solver.radar_range_m: value '20000': must be 0"));
+  EXPECT_THAT(complaint_about(with(far, points)), HasSubstr("3:57: targets.ship.solver.radar_range_m: value '20000': must be 0, as targets.decoy has it"));
+  EXPECT_THAT(complaint_about(with(points, far)), HasSubstr("4:58: targets.decoy.solver.radar_range_m: value '20000': must be 0"));
+  EXPECT_EQ(complaint_about(with(far, far)), "none");
+  EXPECT_EQ(complaint_about(with(points, points)), "none");
+}
+
 TEST(Reading, ThicknessOfSheetsBelongsToAMesh) {
   const auto with = [](const std::string& keys) { return "seaglint: 1\ntargets:\n  a: {label: 1, " + keys + ", sheet_thickness_mm: 1.5}\n"; };
   EXPECT_DOUBLE_EQ(parse(effective_yaml(parse(with("mesh: a.glb")))).targets[0].sheet_thickness_mm, 1.5);

@@ -160,6 +160,9 @@ void make_consistent(Scenario& scenario) {
   for (TargetSpec& target : scenario.targets) {
     if (!target.mesh.empty()) scenario.radar.intra_pulse_motion = false;
     for (CompanionSpec& companion : target.with) companion.target = "array";
+    for (TargetSpec& array : scenario.targets) {
+      if (!target.with.empty() && array.name == "array") array.solver.radar_range_m = target.solver.radar_range_m;
+    }
     if (target.motion.model == MotionModel::kFixed || target.motion.model == MotionModel::kFloat) target.motion.speed_mps = 0;
   }
 }
