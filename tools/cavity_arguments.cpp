@@ -9,6 +9,7 @@
 
 #include "sim/core/constants.h"
 #include "sim/core/error.h"
+#include "sim/core/standard_error.h"
 #include "sim/core/suggestion.h"
 #include "tools/command.h"
 
@@ -59,8 +60,8 @@ std::vector<NamedCavity> CavityArguments::make(const TriangleMesh& mesh, const s
       const CavitySize size = cavities.back().cavity.size(2 * kPi * highest_hz / kSpeedOfLight);
       hz = lowest_hz;
       if (lowest_hz < highest_hz) cavities.back().cavity.size(2 * kPi * lowest_hz / kSpeedOfLight);
-      fmt::print(stderr, "cavity {}: mouth of {:.4g} m^2, walls of {:.4g} m^2, {} patches at {:.6g} GHz\n", name, size.mouth_m2,
-                 size.walls_m2, size.patches, 1e-9 * highest_hz);
+      print_error(fmt::format("cavity {}: mouth of {:.4g} m^2, walls of {:.4g} m^2, {} patches at {:.6g} GHz\n", name, size.mouth_m2,
+                              size.walls_m2, size.patches, 1e-9 * highest_hz));
     } catch (const InputError& error) {
       throw InputError(fmt::format("--cavity {}, {:.6g} GHz: {}", name, 1e-9 * hz, error.what()));
     }

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "radar/waveform/pulse_train.h"
+#include "sim/core/standard_error.h"
 #include "tools/command.h"
 #include "tools/map_coverage.h"
 #include "tools/pipeline.h"
@@ -39,8 +40,7 @@ void add_check(CLI::App& app, Shell& shell) {
       const PulseTrain train = make_pulse_train(scenario.radar, pipeline.window_m(), scenario.seed, 0);
       fmt::print("{}", effective_yaml(scenario));
       std::fflush(stdout);
-      fmt::print(stderr, "{}", summary(scenario));
-      fmt::print(stderr, "{}", describe(train, scenario.radar));
+      print_error(summary(scenario) + describe(train, scenario.radar));
       warn(mesh_doubts(pipeline));
       warn(sea_doubts(scenario));
       warn(outside_of_map(scenario, pipeline.targets()));

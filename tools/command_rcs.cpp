@@ -16,6 +16,7 @@
 #include "sim/core/file.h"
 #include "sim/core/number.h"
 #include "sim/core/progress.h"
+#include "sim/core/standard_error.h"
 #include "sim/geometry/mesh_io.h"
 #include "sim/scattering/material_parts.h"
 #include "sim/scattering/respond.h"
@@ -292,8 +293,8 @@ void run_rcs(const RcsArguments& arguments, const Shell& shell) {
 
   write_file(arguments.output, table_text(arguments, scatterer, sweep));
   const double million_legs = 1e-6 * static_cast<double>(legs), views = static_cast<double>(sweep.views());
-  fmt::print(stderr, "{}: {} rows, {} views in {:.2f} s ({:.3g} views/s, {:.2f} M beam legs, {:.2f} M/s)\n", arguments.output, rows, sweep.views(),
-             seconds, views / seconds, million_legs, million_legs / seconds);
+  print_error(fmt::format("{}: {} rows, {} views in {:.2f} s ({:.3g} views/s, {:.2f} M beam legs, {:.2f} M/s)\n", arguments.output, rows, sweep.views(),
+                          seconds, views / seconds, million_legs, million_legs / seconds));
   if (arguments.view.wanted()) export_one_view(arguments, mesh, scatterer, filter, shell, sweep);
   if (!references.empty()) compare(arguments, references, sweep);
 }

@@ -15,6 +15,7 @@
 
 #include "seaglint_version.h"
 #include "sim/core/error.h"
+#include "sim/core/standard_error.h"
 #include "tools/command.h"
 #include "tools/unknown_word.h"
 
@@ -62,7 +63,7 @@ void add_commands(CLI::App& app, Shell& shell) {
 
 int fail(int code, const std::string& message) {
   std::fflush(stdout);
-  fmt::print(stderr, "seaglint: {}\n", message);
+  seaglint::print_error(fmt::format("seaglint: {}\n", seaglint::on_one_line(message)));
   return code;
 }
 
@@ -107,6 +108,7 @@ int run(Shell& shell) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  seaglint::hold_standard_streams();
   Shell shell;
   CLI::App app(
       "Ships and corner-reflector decoys at sea as a frequency-agile radar sees them: from a scenario to classified "

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdio>
 
+#include "sim/core/standard_error.h"
 #include "tools/pipeline.h"
 
 namespace seaglint {
@@ -49,7 +49,7 @@ std::vector<std::string> sea_doubts(const Scenario& scenario) {
 }
 
 void warn(std::span<const std::string> sentences) {
-  for (const std::string& sentence : sentences) fmt::print(stderr, "seaglint: warning: {}\n", sentence);
+  for (const std::string& sentence : sentences) print_error(fmt::format("seaglint: warning: {}\n", on_one_line(sentence)));
 }
 
 }  // namespace seaglint

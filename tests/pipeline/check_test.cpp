@@ -176,6 +176,31 @@ TEST(CommandLine, SaysWhenItsOutputCannotBeWritten) {
   EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 1);
 }
 
+// What cannot be shown is no failure, and no file takes the number of a stream that is closed.
+TEST(CommandLine, ClosedOrFullStandardErrorChangesNoExitCode) {
+  const TemporaryFolder folder;
+  const std::string csv = folder.path() / "cut.csv",
+                    rcs = "rcs --target assets/icosahedral_reflector.glb --frequency-ghz 10 --azimuth-deg 0 -o '" + csv + "'";
+  const auto code = [](const std::string& arguments) { return run_words({"/bin/bash", "-c", "exec \"$0\" " + arguments, kProgram}).code; };
+  for (const std::string quiet : {" 2>&-", " 2>/dev/full", " <&- 2>&-"}) {
+    EXPECT_EQ(code("check scenarios/points.yaml" + quiet), 0) << quiet;
+    EXPECT_EQ(code("check none.yaml" + quiet), 2) << quiet;
+    EXPECT_EQ(code("check scenarios/points.yaml --set map.range_span_m=20" + quiet), 0) << "a warning" << quiet;
+    EXPECT_EQ(code("check scenarios/points.yaml >/dev/full" + quiet), 1) << quiet;
+    EXPECT_EQ(code("check scenarios/points.yaml >&-" + quiet), 1) << quiet;
+    ASSERT_EQ(code(rcs), 0);
+    const std::string whole = read_file(csv);
+    EXPECT_EQ(code(rcs + " >/dev/null" + quiet), 0) << quiet;
+    EXPECT_EQ(read_file(csv), whole) << quiet;
+  }
+}
+
+TEST(CommandLine, SaysWhyOnOneLine) {
+  const ProgramResult result = run_program({"check", kPoints, "--set", "seed=1\nview: 3"});
+  EXPECT_EQ(result.code, 2);
+  EXPECT_EQ(result.err, "seaglint: --set seed: value '1\\nview: 3': not valid YAML\n");
+}
+
 // Each line of the list of commands in --help names one.
 std::vector<std::string> command_names() {
   std::istringstream help(run_program({"--help"}).out);
