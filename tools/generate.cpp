@@ -9,6 +9,7 @@
 
 #include "classify/dataset/dataset_writer.h"
 #include "seaglint_version.h"
+#include "sim/core/error.h"
 #include "sim/core/progress.h"
 #include "tools/map_coverage.h"
 #include "tools/pipeline.h"
@@ -57,27 +58,33 @@ GenerateResult generate_dataset(const Scenario& scenario, const std::filesystem:
 
   Progress progress("making maps", work.size());
   std::mutex mutex;
-  parallel_for(
-      work.size(), thread_count(options.threads),
-      [&](std::size_t i) {
-        MadeSample made = pipeline.make(work[i].sample);
-        const ShardRange range = plan.shard(work[i].shard);
-        Shard whole;
-        {
-          const std::lock_guard lock(mutex);
-          OpenShard& shard = open[work[i].shard];
-          shard.content.samples.resize(range.count);
-          shard.content.axes = stored_axes(made.received.map);
-          shard.content.samples[work[i].sample - range.first] = std::move(made.stored);
-          if (--shard.waiting == 0) {
-            whole = std::move(shard.content);
-            open.erase(work[i].shard);
+  try {
+    parallel_for(
+        work.size(), thread_count(options.threads),
+        [&](std::size_t i) {
+          MadeSample made = pipeline.make(work[i].sample);
+          const ShardRange range = plan.shard(work[i].shard);
+          Shard whole;
+          {
+            const std::lock_guard lock(mutex);
+            OpenShard& shard = open[work[i].shard];
+            shard.content.samples.resize(range.count);
+            shard.content.axes = stored_axes(made.received.map);
+            shard.content.samples[work[i].sample - range.first] = std::move(made.stored);
+            if (--shard.waiting == 0) {
+              whole = std::move(shard.content);
+              open.erase(work[i].shard);
+            }
           }
-        }
-        if (!whole.samples.empty()) writer.put(work[i].shard, std::move(whole));
-        progress.advance();
-      },
-      stop);
+          if (!whole.samples.empty()) writer.put(work[i].shard, std::move(whole));
+          progress.advance();
+        },
+        stop);
+  } catch (const InputError&) {
+    // The scenario put right must find the directory as it was; other parts may be at work in it.
+    if (parts == 1) writer.withdraw();
+    throw;
+  }
   result.made = work.size();
   result.missing = writer.finish().size();
   return result;

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "classify/dataset/planned_record.h"
-#include "radar/echo/echo.h"
 #include "sim/core/constants.h"
 #include "sim/core/error.h"
 #include "sim/scattering/point_response.h"
@@ -160,6 +159,19 @@ BodyResponse Pipeline::response(std::size_t sample, const PulseTrain& train) con
                         sampling(train, plan_.start_s(at)));
 }
 
+Echo Pipeline::echo_of(const MadeSample& made, const BodyResponse& response, const Scene& scene) const {
+  const SampleAddress& at = made.address;
+  const std::size_t sample = plan_.sample(at);
+  try {
+    return synthesize_echo(made.train, response.response, scenario_.clutter, scenario_.seed, sample, clutter_scene(at, scene));
+  } catch (const InputError& error) {
+    const TargetSpec& target = scenario_.targets[static_cast<std::size_t>(at.target)];
+    const View& view = views_[static_cast<std::size_t>(at.view)];
+    throw InputError(fmt::format("{}: sample {}, azimuth {:g} deg, elevation {:g} deg: {}", place_of(scenario_, "targets." + target.name), sample,
+                                 degrees(view.azimuth_rad), degrees(view.elevation_rad), error.what()));
+  }
+}
+
 MadeSample Pipeline::make(std::size_t sample) const {
   MadeSample made;
   made.address = plan_.address(sample);
@@ -169,8 +181,7 @@ MadeSample Pipeline::make(std::size_t sample) const {
   const std::shared_ptr<const Scene> moving = scene(at.sea_state, at.realisation);
   made.train = make_pulse_train(scenario_.radar, range_window_m_, scenario_.seed, sample);
   const BodyResponse response = this->response(sample, made.train);
-  const Echo echo = synthesize_echo(made.train, response.response, scenario_.clutter, scenario_.seed, sample,
-                                    clutter_scene(at, *moving));
+  const Echo echo = echo_of(made, response, *moving);
   made.received = receive(echo, made.train, scenario_.clutter, scenario_.map, scenario_.radar.intra_pulse_motion);
   CleanedMap cleaned = clean_map(made.received.echo, made.train, scenario_.map, scenario_.radar.intra_pulse_motion,
                                  scenario_.features);

@@ -12,6 +12,7 @@
 #include "classify/dataset/plan.h"
 #include "classify/dataset/sample.h"
 #include "classify/features/features.h"
+#include "radar/echo/echo.h"
 #include "radar/rvmap/scr.h"
 #include "radar/waveform/pulse_train.h"
 #include "sim/scattering/respond.h"
@@ -60,6 +61,9 @@ class Pipeline {
   // H of a target seen from `view` over an interval: the sum over its bodies, or its ideal points.
   BodyResponse target_response(std::size_t target, const Scene& scene, const View& view, const SeaState& state,
                                const IntervalSampling& sampling) const;
+
+  // The echo of a sample. Throws InputError, naming target and sample, when it has no power.
+  Echo echo_of(const MadeSample& made, const BodyResponse& response, const Scene& scene) const;
 
   Scenario scenario_;
   SamplePlan plan_;

@@ -29,6 +29,9 @@ double radius_m(const TriangleMesh& mesh) {
 
 double interval_length_s(const RadarSpec& radar) { return radar.pulses * radar.pri_us * 1e-6; }
 
+// From t = 0 to the end of a realisation's last interval.
+double scene_duration_s(const Scenario& scenario) { return SamplePlan(scenario).last_start_s() + interval_length_s(scenario.radar); }
+
 // Radius about the target's reference point that the target never leaves.
 double reach_m(const Target& target, double interval_s) {
   double reach = 0;
@@ -84,6 +87,30 @@ void check_scene_range(const Scenario& scenario, const TargetSpec& spec, const T
   }
 }
 
+// The intervals of a realisation must lie within a series that is played to them.
+void check_series(const Scenario& scenario, const TargetSpec& spec, const Body& body) {
+  const auto* series = std::get_if<AttitudeSeries>(&body.model);
+  if (series == nullptr) return;
+  try {
+    trajectory_of(*series, spec.motion.series_start_s, scene_duration_s(scenario), spec.motion.translations, Vec3::Zero(), Vec3::Zero());
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: value {}: {}", place_of(scenario, fmt::format("targets.{}.motion.series_start_s", spec.name)),
+                                 spec.motion.series_start_s, error.what()));
+  }
+}
+
+// The sea's mirror shows nothing of what lies below it.
+void check_above_water(const Scenario& scenario, const TargetSpec& spec, const TriangleMesh& mesh) {
+  const double top_m = bounds(mesh).upper.z(), height_m = rest_position(spec.motion, 0, 0).z();
+  if (!scenario.sea_reflection.enabled || top_m + height_m > 0) return;
+  if (spec.motion.model == MotionModel::kFloat) {
+    throw InputError(fmt::format("{}: value {}: must be greater than {:.6g} with sea_reflection, else the whole target is under water",
+                                 place_of(scenario, fmt::format("targets.{}.motion.centre_above_water_m", spec.name)), height_m, -top_m));
+  }
+  throw InputError(fmt::format("{}: its highest point is at z = {:.6g} m: must be above 0, the water, with sea_reflection, else the whole target is under water",
+                               place_of(scenario, fmt::format("targets.{}.mesh", spec.name)), top_m));
+}
+
 }  // namespace
 
 Body load_body(const Scenario& scenario, const TargetSpec& spec, const TriangleMesh& mesh) {
@@ -104,6 +131,8 @@ Target load_target(const Scenario& scenario, const TargetSpec& spec) {
   target.materials = load_materials(scenario, spec, target.mesh);
   check_mesh(scenario, target);
   target.body = load_body(scenario, spec, target.mesh);
+  check_series(scenario, spec, target.body);
+  check_above_water(scenario, spec, target.mesh);
   // The radar's image looks at the hull from below.
   if (scenario.sea_reflection.enabled)
     put_in_water(target.mesh, target.materials, -rest_position(spec.motion, 0, 0).z());
@@ -184,7 +213,7 @@ Scene make_scene(const Scenario& scenario, const std::vector<Target>& targets, i
   const SamplePlan plan(scenario);
   const SeaState state = sea_states(scenario.sea)[static_cast<std::size_t>(sea_state)];
   const std::uint64_t sea_key = plan.sea_key(sea_state, realisation);
-  const double duration_s = std::max(at_least_s, plan.last_start_s() + interval_length_s(scenario.radar));
+  const double duration_s = std::max(at_least_s, scene_duration_s(scenario));
 
   Scene scene{realize_sea(state, scenario.seed, sea_key), {}};
   for (const Target& target : targets) {

@@ -132,6 +132,8 @@ DatasetWriter::DatasetWriter(fs::path directory, const Scenario& scenario, bool 
         fmt::format("{}: the directory is not empty; go on with what is there by --resume", directory_.string()));
   }
   require_own_directory(directory_);
+  made_here_ = !fs::exists(directory_);
+  begun_here_ = is_empty_or_absent(directory_);
   make_directory(directory_);
   const fs::path scenario_file = directory_ / kScenarioFile;
   bool same_text = false;
@@ -147,6 +149,16 @@ DatasetWriter::DatasetWriter(fs::path directory, const Scenario& scenario, bool 
   require_same_inputs(directory_, scenario_);
   if (!same_text) write_file(scenario_file, scenario_yaml_);
   keep_inputs(directory_, scenario_);
+}
+
+void DatasetWriter::withdraw() {
+  if (!begun_here_) return;
+  for (const std::string& name : file_names(directory_)) {
+    if (name != kScenarioFile && name != kInputsFile) return;
+  }
+  std::error_code ignored;  // what cannot be removed was whole, and names the scenario that it is of
+  for (const char* own : {kInputsFile, kScenarioFile}) fs::remove(directory_ / own, ignored);
+  if (made_here_) fs::remove(directory_, ignored);
 }
 
 fs::path DatasetWriter::shard_file(std::size_t shard) const { return directory_ / shard_name(shard); }

@@ -43,6 +43,10 @@ class DatasetWriter {
   // Returns the shards that are missing or damaged.
   std::vector<std::size_t> finish();
 
+  // Takes back what the constructor put into a new or empty directory, where nothing else is yet; for a scenario of which no sample can be made, by a
+  // process that nobody shares the directory with.
+  void withdraw();
+
   const std::filesystem::path& directory() const { return directory_; }
 
  private:
@@ -60,6 +64,7 @@ class DatasetWriter {
   Manifest manifest() const;  // of a whole data set
 
   std::filesystem::path directory_;
+  bool begun_here_ = false, made_here_ = false;  // the directory was empty; it was not there
   Scenario scenario_;
   SamplePlan plan_;
   Origin origin_;

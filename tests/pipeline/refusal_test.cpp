@@ -127,6 +127,46 @@ TEST_F(Refusal, OfARadarTooNearForALayoutOrACompanion) {
   EXPECT_EQ(far.code, 0) << far.err;
 }
 
+// Of a scenario of which no sample can be made `generate` leaves nothing, so that the one put right can follow.
+TEST_F(Refusal, OfASeriesThatDoesNotCoverTheIntervals) {
+  std::string series = "time_s,roll_deg,pitch_deg,yaw_deg\n";
+  for (int t = 0; t <= 40; ++t) series += std::to_string(t) + ",0,0,0\n";
+  write_file(folder() / "series.csv", series);
+  const std::string file = folder() / "series.yaml";
+  write_file(file,
+             "seaglint: 1\ntargets:\n  ship: {label: 1, mesh: whole.glb, motion: {model: series, file: series.csv}}\n"
+             "dataset: {maps_per_case: 4, realisations_per_case: 2}\n");
+  for (const char* start : {"35", "-5", "1e6"}) {
+    for (Words words : {Words{"check", file}, Words{"map", file, "-o", folder() / "map.png"}, Words{"generate", file, "-o", folder() / "data"}}) {
+      words.insert(words.end(), {"--set", std::string("targets.ship.motion.series_start_s=") + start});
+      expect_failure(folder(), words, 2, "targets.ship.motion.series_start_s: value ");
+    }
+  }
+  EXPECT_EQ(run_program({"check", file}).code, 0);
+}
+
+TEST_F(Refusal, OfATargetUnderWater) {
+  const std::string file = folder() / "water.yaml";
+  write_file(file, "seaglint: 1\nsea_reflection: {enabled: true}\ntargets:\n"
+                   "  array: {label: 0, mesh: assets/icosahedral_reflector.glb, motion: {model: float, centre_above_water_m: -10}}\n");
+  for (const Words& words : {Words{"check", file}, Words{"map", file, "-o", folder() / "map.png"}, Words{"generate", file, "-o", folder() / "data"}})
+    expect_failure(folder(), words, 2, "water.yaml:4:106: targets.array.motion.centre_above_water_m: value -10: must be greater than ");
+  EXPECT_EQ(run_program({"check", file, "--set", "sea_reflection.enabled=false"}).code, 0);
+}
+
+// That a plate does not return this polarisation is known when it has been traced.
+TEST_F(Refusal, OfATargetWithoutAnEcho) {
+  const std::string plate = folder() / "plate.obj", file = folder() / "plate.yaml";
+  write_file(plate, "v 0 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n");
+  write_file(file, "seaglint: 1\nradar: {polarisation: hv}\nview: {azimuth_deg: 0, elevation_deg: 0}\ntargets:\n  plate: {label: 1, mesh: plate.obj, solver: {edges: false}}\n");
+  const auto before = files_below(folder());
+  const ProgramResult result = run_program({"generate", file, "-o", folder() / "data"});
+  EXPECT_EQ(result.code, 2);
+  EXPECT_THAT(result.err, HasSubstr("\nseaglint: " + file + ":5:10: targets.plate: sample "));  // after a warning of its open edges
+  EXPECT_THAT(result.err, HasSubstr("has no power"));
+  EXPECT_TRUE(files_below(folder()) == before);
+}
+
 TEST_F(Refusal, OfANumberThatIsNone) {
   const std::string mesh = folder() / "whole.glb";
   for (const char* option : {"--range-m", "--crease-deg", "--ray-spacing-m", "--transmit-azimuth-deg", "--centre-cell-m"}) {
