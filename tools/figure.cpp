@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -10,15 +11,18 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <sstream>
 #include <string_view>
+#include <thread>
 #include <utility>
 
 #include "sim/core/error.h"
 #include "sim/core/file.h"
+#include "tools/held_signals.h"
 
 extern char** environ;
 
@@ -72,7 +76,20 @@ WorkError cannot_start(int error) {
   return WorkError(fmt::format("gnuplot cannot be started ({}): install the package gnuplot-nox", std::strerror(error)));
 }
 
-// Runs gnuplot on a script, its messages into a file. Throws WorkError.
+// A child's status when it has ended; Ctrl-C ends it. Throws WorkError.
+int wait_for(pid_t child) {
+  constexpr std::chrono::milliseconds kLook{5};  // gnuplot takes a hundred times that
+  for (;;) {
+    int status = 0;
+    const pid_t ended = ::waitpid(child, &status, WNOHANG);
+    if (ended == child) return status;
+    if (ended < 0 && errno != EINTR) throw WorkError(fmt::format("gnuplot was lost ({})", std::strerror(errno)));
+    if (HeldSignals::noted()) ::kill(child, SIGKILL);
+    std::this_thread::sleep_for(kLook);
+  }
+}
+
+// Runs gnuplot on a script, its messages into a file. Throws WorkError, Interrupted after Ctrl-C.
 void run_gnuplot(const Scratch& scratch) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
@@ -87,10 +104,8 @@ void run_gnuplot(const Scratch& scratch) {
   const int refused = ::posix_spawnp(&child, "gnuplot", &actions, nullptr, arguments, environ);
   posix_spawn_file_actions_destroy(&actions);
   if (refused != 0) throw cannot_start(refused);
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0) {
-    if (errno != EINTR) throw WorkError(fmt::format("gnuplot was lost ({})", std::strerror(errno)));
-  }
+  const int status = wait_for(child);
+  if (HeldSignals::noted()) throw Interrupted();
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
   std::string messages = fs::exists(scratch.messages) ? read_file(scratch.messages) : std::string();
   messages.erase(0, messages.find_first_not_of(" \n"));
@@ -120,6 +135,7 @@ void draw(const fs::path& file, FigureSize size, const std::string& title, const
           const std::string& commands) {
   require_figure(file);
   const std::string extension = file.extension();
+  const HeldSignals held;  // let go when all files are removed
   const Scratch scratch(file);
   write_file(scratch.data, data);
   write_file_with(file, [&](const fs::path& temporary) {

@@ -65,7 +65,7 @@ void require_figure(const std::filesystem::path& file);
 
 // Writes the figure whole or not at all. Text is taken literally (no markup). Temporary files stand beside the figure
 // and are removed. Throws InputError for a file that is neither .png nor .svg, WorkError when gnuplot is missing or
-// fails (with its message) or the disk refuses.
+// fails (with its message) or the disk refuses. Ctrl-C ends gnuplot, and is heard when these files are gone: where the program goes on, Interrupted is thrown.
 void write_figure(const Heatmap& figure, const std::filesystem::path& file, FigureSize size = {});
 void write_figure(const LinePlot& figure, const std::filesystem::path& file, FigureSize size = {});
 
