@@ -63,6 +63,7 @@ class Auditor {
     for (const auto& entry : fs::directory_iterator(reader_.directory())) {
       const std::string name = entry.path().filename();
       if (is_left_behind(entry.path())) fault(name, "half-written; a resumed `generate` removes it");
+      if (!may_lie_in_data_set(name)) fault(name, "is no file of a data set");
       if (!name.ends_with(".h5") || listed.contains(name)) continue;
       if (is_merged(entry.path())) {
         merged_.emplace_back(entry.path(), reader_);

@@ -20,7 +20,7 @@ struct Audit {
 };
 
 // Reads all shards. Faults are
-// - shards that are missing, damaged, foreign or left half-written;
+// - shards that are missing, damaged, foreign or left half-written, and other files that do not belong there;
 // - samples that are missing, repeated (by number or by map) or out of order;
 // - rows that contradict the scenario: label, target, sea, view, interval, keys, group;
 // - maps with values that are no magnitudes, or whose peak and energy are not those of the row;

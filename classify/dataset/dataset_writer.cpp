@@ -50,15 +50,6 @@ std::set<std::string> file_names(const fs::path& directory) {
   return names;
 }
 
-// The data set's own files, those that `merge` and `export` make of it, what a kill left half-written, and hidden ones:
-// a file server keeps so what was removed while another process had it open.
-bool may_lie_in_data_set(const std::string& name) {
-  for (const char* own : {kScenarioFile, kInputsFile, kManifestFile, kDataCardFile}) {
-    if (name == own) return true;
-  }
-  return name.ends_with(".h5") || name.ends_with(".npz") || name.starts_with('.') || is_temporary(name);
-}
-
 // A directory to go on in holds nothing else than a data set. That of a run has a scenario too; its data set lies below.
 void require_own_directory(const fs::path& directory) {
   if (is_empty_or_absent(directory)) return;
@@ -119,6 +110,13 @@ bool holds(const fs::path& file, const Shard& content) {
 }
 
 }  // namespace
+
+bool may_lie_in_data_set(const std::string& name) {
+  for (const char* own : {kScenarioFile, kInputsFile, kManifestFile, kDataCardFile}) {
+    if (name == own) return true;
+  }
+  return name.ends_with(".h5") || name.ends_with(".npz") || name.starts_with('.') || is_temporary(name);
+}
 
 DatasetWriter::DatasetWriter(fs::path directory, const Scenario& scenario, bool resume, std::string program_version)
     : directory_(std::move(directory)),

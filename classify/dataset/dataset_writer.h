@@ -21,6 +21,10 @@ inline constexpr const char* kScenarioFile = "scenario.yaml";
 inline constexpr const char* kManifestFile = "manifest.json";
 inline constexpr const char* kDataCardFile = "README.md";
 
+// The data set's own files, those that `merge` and `export` make of it, what a kill left half-written, and hidden ones:
+// a file server keeps so what was removed while another process had it open.
+bool may_lie_in_data_set(const std::string& name);
+
 class DatasetWriter {
  public:
   // Makes the directory and writes scenario.yaml. Without `resume` the directory must be new or empty; with it, it must

@@ -58,6 +58,16 @@ TEST_F(VerifiedData, IsRefusedWhenAShardIsCutOff) {
   EXPECT_THAT(result.err, HasSubstr("faults, the first: " + shard.string()));
 }
 
+TEST_F(VerifiedData, IsRefusedWithAFileThatDoesNotBelongThere) {
+  write_file(directory_ / "foo", "");
+  const ProgramResult result = run_program({"verify", directory_});
+  EXPECT_EQ(result.code, 2);
+  EXPECT_THAT(result.out, HasSubstr("fault: foo: is no file of a data set\n"));
+  fs::remove(directory_ / "foo");
+  write_file(directory_ / ".nfs0001", "");  // a file server's own
+  EXPECT_EQ(run_program({"verify", directory_, "--remake", "0"}).code, 0);
+}
+
 TEST_F(VerifiedData, IsRefusedWithoutItsManifest) {
   fs::remove(directory_ / "manifest.json");
   const ProgramResult result = run_program({"verify", directory_});

@@ -118,9 +118,10 @@ TEST_F(AuditedDirectory, ShowsFilesThatAreDamagedHalfWrittenOrForeign) {
   bytes[bytes.size() / 2] ^= 1;
   write_file(directory_ / shard_name(1), bytes);
   const std::vector<std::string> found = faults();
-  EXPECT_EQ(found.size(), 4u);  // and three samples are missing
+  EXPECT_EQ(found.size(), 5u);  // and three samples are missing
   EXPECT_THAT(found, Contains(HasSubstr("half-written")));
   EXPECT_THAT(found, Contains(HasSubstr("other.h5: not in the manifest")));
+  EXPECT_THAT(found, Contains("notes.tmp: is no file of a data set"));
   EXPECT_THAT(found, Contains(HasSubstr("truncated or changed")));
   EXPECT_THAT(found, Contains(HasSubstr("3 of 8 samples are missing")));
 }
