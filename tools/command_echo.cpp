@@ -41,6 +41,7 @@ void write_echo(const Arguments& arguments) {
   const Pipeline pipeline(scenario);
   warn(mesh_doubts(pipeline));
   warn(sea_doubts(scenario));
+  warn(band_doubts(pipeline));
   const SampledInterval interval = sampled_interval(pipeline, arguments.sample);
   const std::vector<std::int64_t> code(interval.train.code.begin(), interval.train.code.end());
 

@@ -82,6 +82,7 @@ void show_map(const Arguments& arguments) {
     }
     return;
   }
+  warn(band_doubts(pipeline));
   warn(outside_of_map(scenario, pipeline.targets()));  // a map of too many cells ends here
   const MadeSample made = pipeline.make(sample);
   write_figure(rv_figure(made.received.map, made.centres, title), arguments.output);

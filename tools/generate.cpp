@@ -33,6 +33,7 @@ GenerateResult generate_dataset(const Scenario& scenario, const std::filesystem:
   const SamplePlan& plan = pipeline.plan();
   warn(mesh_doubts(pipeline));
   warn(sea_doubts(scenario));
+  warn(band_doubts(pipeline));
   warn(outside_of_map(scenario, pipeline.targets()));
   DatasetWriter writer(directory, scenario, options.resume, kVersion);
 

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "radar/waveform/pulse_train.h"
 #include "sim/core/standard_error.h"
 #include "tools/pipeline.h"
 
@@ -46,6 +47,13 @@ std::vector<std::string> sea_doubts(const Scenario& scenario) {
   add_doubt(lines, "sea.components", scenario.sea.components, wind_sea);
   add_doubt(lines, "sea.swell.components", scenario.sea.swell.components, swell);
   return lines;
+}
+
+std::vector<std::string> band_doubts(const Pipeline& pipeline) {
+  const Scenario& scenario = pipeline.scenario();
+  const std::string gaps = band_gaps(make_pulse_train(scenario.radar, pipeline.window_m(), scenario.seed, 0));
+  if (gaps.empty()) return {};
+  return {fmt::format("radar.bandwidth_mhz: {}", gaps)};
 }
 
 void warn(std::span<const std::string> sentences) {

@@ -18,6 +18,9 @@ std::vector<std::string> mesh_doubts(const Pipeline& pipeline);
 // One line for each system of waves with too few components to be the same sea from one realisation to the next.
 std::vector<std::string> sea_doubts(const Scenario& scenario);
 
+// One line where the carriers' bands leave gaps: maps then show targets in false places too.
+std::vector<std::string> band_doubts(const Pipeline& pipeline);
+
 // Prints each as a warning.
 void warn(std::span<const std::string> sentences);
 

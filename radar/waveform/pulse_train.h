@@ -72,6 +72,9 @@ IntervalSampling interval_sampling(const PulseTrain& train, double start_s);
 // (one frequency per pulse, no taper). Closed form of radar/waveform/README.md.
 double expected_response_power(const PulseTrain& train, double range_offset_m, double velocity_offset_mps);
 
+// What the carriers leave out of the band between them, and the sidelobes that follow; empty where nothing.
+std::string band_gaps(const PulseTrain& train);
+
 // Resolutions, ambiguities, blind range and expected pedestal, one line each, for `seaglint check`.
 std::string describe(const PulseTrain& train, const RadarSpec& spec);
 

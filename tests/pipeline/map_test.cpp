@@ -42,6 +42,23 @@ TEST(MapCommand, DrawsTheMapAndListsTheCentre) {
   EXPECT_THAT(result.out, HasSubstr("SCR per pulse 20.00 dB"));
 }
 
+// A chirp narrower than the step leaves the band in pieces, and centres are listed where nothing is.
+TEST(MapCommand, EchoAndGenerateWarnOfGapsInTheBand) {
+  const TemporaryFolder folder;
+  const std::string warning = "seaglint: warning: radar.bandwidth_mhz: 24 MHz between the bands of neighbouring carriers: range sidelobes every 5.996 m\n";
+  const std::vector<std::string> gaps{"--set", "radar.bandwidth_mhz=1"};
+  std::vector<std::string> echo{"echo", kPoints, "-o", folder.path() / "echo.npz"}, generate{"generate", kPoints, "-o", folder.path() / "data"};
+  echo.insert(echo.end(), gaps.begin(), gaps.end());
+  generate.insert(generate.end(), gaps.begin(), gaps.end());
+  generate.insert(generate.end(), {"--set", "dataset={maps_per_case: 1, realisations_per_case: 1}"});
+  for (const std::vector<std::string>& words : {map_of(folder.path() / "map.png", gaps), echo, generate}) {
+    const ProgramResult result = run_program(words);
+    EXPECT_EQ(result.code, 0) << words[0] << ": " << result.err;
+    EXPECT_THAT(result.err, HasSubstr(warning)) << words[0];
+  }
+  EXPECT_EQ(run_program(map_of(folder.path() / "map.png")).err, "");
+}
+
 TEST(MapCommand, APointOnAConductingSeaIsSeenFourTimesAsStrong) {
   // On the plane itself all four paths are equal, and rho_v = +1.
   const TemporaryFolder folder;
