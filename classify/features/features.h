@@ -31,8 +31,8 @@ struct FeatureVector {
 // Scattering centres of an interval's echo (target, clutter and noise, [pulse][frequency]), strongest first, by CLEAN
 // with the point response of the map's actual code, holes and tapers included (classify/features/README.md). A centre
 // lies inside the map or less than a cell beside it, within dynamic_range_db of the strongest, above the floor of the
-// final residual by the factor that noise passes in one map out of a hundred, and more than a lobe's width away from
-// every stronger one.
+// final residual and the mean of its surroundings in it by what noise and textured clutter pass in one map out of a
+// hundred, and more than a lobe's width away from every stronger one.
 struct CleanedMap {
   std::vector<ScatteringCentre> centres;  // strongest first
   std::vector<PointComponent> removed;    // what was taken out of the echo, in that order

@@ -12,8 +12,6 @@ constexpr double kRowQuantile = 0.2;
 constexpr double kColumnQuantile = 0.5;
 constexpr double kMapQuantile = 0.5;
 constexpr double kFalseMaps = 0.01;
-// A line of fewer cells tells no level: its quantile may be a target's own cell.
-constexpr std::size_t kLeastCells = 8;
 // A maximum is the highest of all positions inside its cell, not of one: four times the chances.
 constexpr double kPositionsPerCell = 4;
 

@@ -3,11 +3,15 @@
 
 // What a range-velocity map holds besides its centres: noise, clutter and residual pedestal, as one level per cell.
 
+#include <cstddef>
 #include <vector>
 
 #include "radar/rvmap/rv_map.h"
 
 namespace seaglint {
+
+// A line of fewer cells tells no level: its quantile may be a target's own cell.
+inline constexpr std::size_t kLeastCells = 8;
 
 // Mean power of the residual at every cell, [velocity][range], estimated so that a few centres do not raise it. The
 // three causes differ in shape: noise is flat, clutter a ridge along range at its Doppler, pedestals lie along velocity

@@ -7,8 +7,10 @@
 #include <limits>
 
 #include "classify/features/features.h"
+#include "classify/features/local_level.h"
 #include "classify/features/residual_echo.h"
 #include "classify/features/residual_floor.h"
+#include "radar/rvmap/map_weights.h"
 
 namespace seaglint {
 namespace {
@@ -38,6 +40,17 @@ double lobe_width(Taper taper) {
       return 1.35;
   }
   return 1;
+}
+
+// Power that a point of amplitude 1 spreads over the resolution cells of one axis: count sum w^2 / (sum w)^2, the
+// equivalent noise bandwidth (Harris, Proc. IEEE 66 (1978) 51, equation 11).
+double lobe_power(Taper taper, std::size_t count) {
+  double sum = 0, squares = 0;
+  for (const double w : taper_samples(taper, count)) {
+    sum += w;
+    squares += w * w;
+  }
+  return static_cast<double>(count) * squares / (sum * sum);
 }
 
 struct Maximum {
@@ -85,11 +98,6 @@ std::vector<Maximum> local_maxima(const RvMap& map, double threshold, double fac
 
 double step_of(const std::vector<double>& axis, double otherwise) {
   return axis.size() > 1 ? axis[1] - axis[0] : otherwise;
-}
-
-std::size_t nearest(const std::vector<double>& axis, double value, double step) {
-  const double i = std::round((value - axis.front()) / step);
-  return static_cast<std::size_t>(std::clamp(i, 0.0, static_cast<double>(axis.size() - 1)));
 }
 
 // Components of one lobe become one centre: those within half a lobe add up (what a loop gain below 1 takes in several
@@ -169,16 +177,20 @@ CleanedMap clean_map(std::span<const Complex> echo, const PulseTrain& train, con
     map = residual.map();
     floor = residual_floor(map);
   }
-  std::vector<ScatteringCentre> centres;
-  for (PointComponent point : merge(components, lobe_r, lobe_v)) {
-    // A loop gain below 1 leaves a part of every centre behind.
+  std::vector<PointComponent> points = merge(components, lobe_r, lobe_v);
+  // A loop gain below 1 leaves a part of every centre behind.
+  for (PointComponent& point : points) {
     if (spec.clean_gain < 1) point.amplitude_m += residual.value(point.range_m, point.velocity_mps);
-    const double power = std::norm(point.amplitude_m);
-    const std::size_t v = nearest(map.velocity_mps, point.velocity_mps, step_v),
-                      r = nearest(map.range_m, point.range_m, step_r);
-    if (power < depth * strongest || power < factor * floor[v * map.columns() + r]) continue;
+  }
+  const CellSizes cells{cell_r, cell_v, map_spec.range_oversampling, map_spec.velocity_oversampling,
+                        lobe_power(map_spec.range_taper, static_cast<std::size_t>(train.band_bins())) *
+                            lobe_power(map_spec.velocity_taper, train.pulses())};
+  const std::vector<bool> stays = stands_out(points, map, floor, factor, depth * strongest, cells);
+  std::vector<ScatteringCentre> centres;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!stays[i]) continue;
     if (centres.size() >= static_cast<std::size_t>(spec.max_centres)) break;
-    centres.push_back({point.range_m, point.velocity_mps, std::sqrt(power)});
+    centres.push_back({points[i].range_m, points[i].velocity_mps, std::abs(points[i].amplitude_m)});
   }
   return {std::move(centres), std::move(components), std::move(map)};
 }
