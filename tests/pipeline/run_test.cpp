@@ -114,7 +114,7 @@ TEST_F(FinishedRun, CanBeTrainedOnAndReportedAgain) {
   EXPECT_EQ(wrong.code, 2);
   const ProgramResult reported = run_program({"report", directory_});
   EXPECT_EQ(reported.code, 0) << reported.err;
-  for (const std::string data : {directory_.string() + "/data", directory_.string() + "/data/"}) {
+  for (const std::string& data : {directory_.string() + "/data", directory_.string() + "/data/"}) {
     const ProgramResult of_data = run_program({"report", data});
     EXPECT_EQ(of_data.code, 2);
     EXPECT_EQ(of_data.err, "seaglint: " + data + ": not the directory of a run: it is the data set of " + directory_.string() + "\n");
