@@ -16,8 +16,8 @@ constexpr double kHalfVelocities = 2;
 constexpr double kHalfRanges = 6;
 // Points that hold this many times the rest explain their surroundings, the strongest left out, since it would shelter
 // the clutter around it: so for 77 to 80 % of the judgements of points on ships, for 0.2 % or less of those of crests
-// of clutter (3 % where its texture's shape is 0.5 or its spread 0.05 m/s). With 2 three times as many false centres
-// in such spiky clutter, with 6 twice as many weak centres of ships lost.
+// of clutter (3 % where its texture's shape is 0.5 or its spread 0.05 m/s). With 2 three times as many maps of
+// shape 0.5 held a false centre, with 6 ships lost 1.3 to 2 times as many weak centres.
 constexpr double kPointsOverRest = 3;
 // Texture of the sea at metres of resolution (the default of `clutter.texture_shape`).
 constexpr double kTextureShape = 2;
