@@ -168,7 +168,7 @@ Echo Pipeline::echo_of(const MadeSample& made, const BodyResponse& response, con
     const TargetSpec& target = scenario_.targets[static_cast<std::size_t>(at.target)];
     const View& view = views_[static_cast<std::size_t>(at.view)];
     throw InputError(fmt::format("{}: sample {}, azimuth {:g} deg, elevation {:g} deg: {}", place_of(scenario_, "targets." + target.name), sample,
-                                 degrees(view.azimuth_rad), degrees(view.elevation_rad), error.what()));
+                                 view.azimuth_deg, view.elevation_deg, error.what()));
   }
 }
 

@@ -37,8 +37,11 @@ Vec3 into(const Facet& facet, int i) {
   return facet.normal.cross(t);
 }
 
-// Where the exterior angle goes into pi without a rest images solve a corner, and its edge sends nothing.
-bool diffracts(const WedgeFrame& wedge) { return wedge.N > 1 || std::abs(std::sin(kPi / wedge.N)) > 1e-3; }
+// Where the exterior angle goes into pi without a rest images solve a corner, and its edge sends nothing. The limit is
+// -60 dB of an edge: Keller's coefficients have the sine for a factor.
+bool diffracts(const WedgeFrame& wedge) {
+  return wedge.N > 1 || (wedge.N > kSharpestCorner && std::abs(std::sin(kPi / wedge.N)) > 1e-3);
+}
 
 }  // namespace
 

@@ -40,7 +40,7 @@ class WavesOnFace {
   int size() const { return count_; }
 
  private:
-  static constexpr int kMost = 16;  // a corner of 22 deg; those sharper are followed by beams alone
+  static constexpr int kMost = 16;  // 1 / N + 1 at kSharpestCorner
   std::array<double, kMost> angle_{};
   int count_ = 0;
 };

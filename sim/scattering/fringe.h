@@ -22,10 +22,13 @@ struct WedgeFace {
   Vec3 x, n, t;
 };
 
+// Of corners sharper than this, 12 deg, as N: their reflections are followed by beams, their edges are not asked.
+inline constexpr double kSharpestCorner = 1.0 / 15;
+
 // An infinite wedge with perfectly conducting faces. The second face's t is minus the first one's.
 struct WedgeFrame {
   WedgeFace face[2];
-  double N = 2;  // the exterior angle is N pi, 0 < N <= 2; 2 is a half-plane, below 1 a corner
+  double N = 2;  // the exterior angle is N pi, 0 < N <= 2; 2 is a half-plane, below 1 a corner, not below kSharpestCorner
   double thickness_m = 0;  // of a half-plane (thick_rim.h)
 };
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "sim/core/random.h"
 #include "sim/geometry/generators.h"
@@ -29,6 +30,25 @@ TEST(SharpEdges, AreThoseOfAPlateABoxAndADihedral) {
   }
   EXPECT_EQ(seams, 1);
   EXPECT_TRUE(edges_of(make_sphere(1, 3)).empty());
+}
+
+// Corners: those that images solve send nothing, nor are those asked that have more images than a sum of them holds.
+TEST(SharpEdges, OfCornersDiffractBetweenTwelveDegAndAHalfTurn) {
+  const auto corner_diffracts = [](double opening_deg) {
+    const Scatterer scatterer(make_dihedral(0.25, 0.3, radians(opening_deg)));
+    for (const SharpEdge& edge : scatterer.edges().edges) {
+      if (edge.facet[0] == edge.facet[1]) continue;
+      const WedgeFrame& corner = edge.outside.N < 1 ? edge.outside : edge.inside;
+      const Vec3 between = (corner.face[0].x + corner.face[1].x).normalized();
+      const WedgeFrame* met = wedge_towards(edge, -between);
+      EXPECT_TRUE(met == nullptr || met == &corner) << opening_deg;
+      return met != nullptr;
+    }
+    ADD_FAILURE() << "no seam";
+    return false;
+  };
+  for (const double opening_deg : {150.0, 100.0, 50.0, 13.0}) EXPECT_TRUE(corner_diffracts(opening_deg)) << opening_deg;
+  for (const double opening_deg : {90.0, 60.0, 45.0, 11.0, 3.0}) EXPECT_FALSE(corner_diffracts(opening_deg)) << opening_deg;
 }
 
 TEST(SharpEdges, OfEveryWedgeThatDiffractsOneSideSpeaks) {
