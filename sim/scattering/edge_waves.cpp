@@ -165,7 +165,7 @@ class EdgeWaves {
                           edge.a,
                           edge.along(),
                           {wave.amplitude[0] * decay * in.factor[0], wave.amplitude[1] * decay * in.factor[1]},
-                          shadow_distance(edge.along(), wave.direction, in.direction),
+                          shadow_distance(wave.direction, in.direction),
                           rims};
       if (!counts(source)) continue;
       Strip strip{wave.direction.cross(source.face.n), wave.direction, 0, 0};
@@ -318,7 +318,7 @@ class EdgeWaves {
     if (weight <= 0) return;
     const Vec3& along = edge.along();
     const Vec3 out = -departure.direction;
-    const double arrival = shadow_distance(along, w, out);
+    const double arrival = shadow_distance(w, out);
     const double rate = (in.psi[1] - in.psi[0]) / (in.s[1] - in.s[0]) + antennas_.receive.r.dot(departure.image_along);
     if (!counts(in, w, out, arrival, rate, s[1] - s[0])) return;
     EdgeFootprint footprint;

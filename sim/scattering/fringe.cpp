@@ -161,12 +161,8 @@ EdgeWave edge_wave(const WedgeFrame& wedge, int face, const Vec3& k_hat, const s
   return wave;
 }
 
-double shadow_distance(const Vec3& edge, const Vec3& along_face, const Vec3& other) {
-  const auto across = [&](const Vec3& x) -> Vec3 { return x - edge * edge.dot(x); };
-  const Vec3 a = across(along_face), b = across(other);
-  constexpr double kLeast = 0.25 * kFromBoundary * kFromBoundary;
-  if (a.norm() * b.norm() < 1e-12) return kLeast;
-  return b.squaredNorm() * std::max(0.25 * (a / a.norm() - b / b.norm()).squaredNorm(), kLeast);
+double shadow_distance(const Vec3& along_face, const Vec3& other) {
+  return 0.25 * std::max((along_face - other).squaredNorm(), kFromBoundary * kFromBoundary);
 }
 
 Complex transition(double x) {

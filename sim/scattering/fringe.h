@@ -57,12 +57,11 @@ struct EdgeWave {
 };
 EdgeWave edge_wave(const WedgeFrame& wedge, int face, const Vec3& k_hat, const std::array<Vec3, 2>& fields);
 
-// How far a wave along a face is from another direction's shadow boundary: sin^2 of half the angle about `edge` between
-// them, times sin^2 of the angle b between `other` and the edge. Least, and never zero, where they agree. `other` is
-// the incident wave's direction at the edge where the wave along the face starts, and the outgoing one's at the edge
-// where it ends. A face's length l along the ray counts as L = l sin^2 b (Kouyoumjian and Pathak 1974, plane wave on a
-// wedge): nearly along an edge the angles about it are large, while the rays hardly differ.
-double shadow_distance(const Vec3& edge, const Vec3& along_face, const Vec3& other);
+// How far a wave along a face is from another direction's shadow boundary: half of what their paths differ by per metre of face, (1 - w.s) / 2, least and
+// never zero where they agree. `other` is the incident wave's direction at the edge where the wave along the face starts, and the outgoing one's at the edge
+// where it ends. On Keller's cone this is sin^2 b times the sine squared of half the angle about the edge (Kouyoumjian and Pathak 1974, a plane wave on a
+// wedge: L = l sin^2 b); off it the current that ends at an edge has this phase along the face, and the fringe current the same pole.
+double shadow_distance(const Vec3& along_face, const Vec3& other);
 
 // F(x) = 2j sqrt(x) e^{jx} integral from sqrt(x) to infinity of e^{-j t^2} dt: 0 on a shadow boundary, 1 far from it
 // (R. G. Kouyoumjian and P. H. Pathak, Proc. IEEE 62 (1974) 1448-1461, eq. 26). F(-x) is its conjugate. Error below 1e-7.
