@@ -24,6 +24,7 @@ struct Leg {
   int bounce = 1;                   // of the hits at this leg's end
   bool bent = false;                // a mirror on the way was curved:
   BentRays rays;                    // the rays as they left the last mirror
+  const Leg* before = nullptr;      // the leg to the last mirror
 };
 
 // A facet that a leg may light, and what of it is lit as far as is known.

@@ -9,6 +9,7 @@
 #include "sim/scattering/beam_leg.h"
 #include "sim/scattering/beam_window.h"
 #include "sim/scattering/bent_beam.h"
+#include "sim/scattering/knife_edges.h"
 #include "sim/scattering/reflect.h"
 
 namespace seaglint {
@@ -219,6 +220,7 @@ class BeamTracer {
     next.from_plane = candidate.image.plane;
     next.from_normal = n;
     next.bounce = leg.bounce + 1;
+    next.before = &leg;
     next.bent = leg.bent || curving_.surface.curved(facet);
     next.rays = reflected_rays(curving_, leg, candidate);
     return next;
@@ -238,6 +240,16 @@ class BeamTracer {
     if (!leg.fields.empty() || !surface_of(candidate.image.facet).empty()) return;
     const WaveOnFacet wave{basis_, leg.mirrors, candidate.image.plane, leg.direction, leg.E_h, leg.E_v, leg.bounce};
     find_arrivals(*edges_, candidate.image.facet, wave, candidate.lit.polygons(), out_.arrivals);
+  }
+
+  // What the footprint lacks between two rims of its mirrors and facet; perfect conductors, as wedges are.
+  void reach_knife_edges(const Leg& leg, const Footprint& footprint) {
+    if (!edges_ || leg.bounce < 2 || leg.bounce > kMostEdgeMirrors || leg.bent || footprint.curvature || !footprint.patterns.empty()) return;
+    std::array<Screen, kMostEdgeMirrors> screens;
+    std::size_t place = static_cast<std::size_t>(leg.bounce) - 1;
+    screens[place] = {footprint.facet, &leg.mirrors, &footprint.plane, leg.direction};
+    for (const Leg* after = &leg; place > 0; after = after->before) screens[--place] = {after->from_facet, &after->mirrors, &after->from_plane, after->before->direction};
+    find_knife_edges(*edges_, panels_, antennas_.transmit, {screens.data(), static_cast<std::size_t>(leg.bounce)}, footprint, out_.knife_edges);
   }
 
   // Footprints of the pieces that are lit and seen.
@@ -263,6 +275,7 @@ class BeamTracer {
     for (const MovingPolygon& piece : pieces) {
       footprint.polygon = piece;
       limit_slip(footprint, 2 * radius_);
+      reach_knife_edges(leg, footprint);
       out_.footprints.push_back(footprint);
     }
   }

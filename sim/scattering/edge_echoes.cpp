@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "sim/scattering/edge_waves.h"
+#include "sim/scattering/knife_edges.h"
 
 namespace seaglint {
 namespace {
@@ -41,7 +42,7 @@ void append_edge_waves(const Scatterer& scatterer, const AntennaPair& antennas, 
 }  // namespace
 
 void edge_echoes(const Scatterer& scatterer, const AntennaPair& antennas, const IlluminationSettings& settings,
-                 std::span<const double> wavenumbers, std::span<const EdgeArrival> incoming, int threads,
+                 std::span<const double> wavenumbers, const Reached& reached, int threads,
                  const std::function<void(std::size_t, std::span<const EdgeFootprint>)>& visit) {
   if (!settings.edges) return;
   Reached backwards;
@@ -49,14 +50,18 @@ void edge_echoes(const Scatterer& scatterer, const AntennaPair& antennas, const 
     backwards = Illumination(scatterer, monostatic(antennas.receive), settings, threads, wavenumbers)
                     .light_all(threads, [](std::size_t, auto) {});
   }
-  const std::span<const EdgeArrival> outgoing = antennas.monostatic ? incoming : backwards.arrivals;
+  const std::span<const EdgeArrival> incoming = reached.arrivals, outgoing = antennas.monostatic ? incoming : backwards.arrivals;
   const double lowest = *std::ranges::min_element(wavenumbers);
   const EdgeWaveLimits limits{kLongEdge * scatterer.radius(), faintest_echo(scatterer, settings, lowest), lowest};
   const auto chunks = chunks_of(incoming);
+  const std::span<const EdgeFootprint> knife_edges = reached.knife_edges;
   parallel_for(chunks.size(), threads, [&](std::size_t chunk) {
     std::vector<EdgeFootprint> answer =
         edge_footprints(scatterer.edges(), scatterer.facets(), antennas, chunks[chunk], outgoing, settings.max_bounces);
     append_edge_waves(scatterer, antennas, chunks[chunk], outgoing, limits, answer);
+    for (std::size_t i = knife_edges.size() * chunk / chunks.size(); i < knife_edges.size() * (chunk + 1) / chunks.size(); ++i) {
+      if (bound_of_knife_edges(knife_edges[i], lowest) >= limits.faintest_m) answer.push_back(knife_edges[i]);
+    }
     std::erase_if(answer,
                   [&](const EdgeFootprint& f) { return !settings.filter.keeps_edge(f.part, f.part_beyond, f.bounces); });
     visit(chunk, answer);

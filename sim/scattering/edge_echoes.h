@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Everything that sharp edges answer: single diffraction by all ways, and the edge waves that meet a second edge.
+// Everything that sharp edges answer: single diffraction by all ways, edge waves that meet a second edge, and beams that two rims cut.
 
 #include <functional>
 #include <span>
@@ -11,13 +11,13 @@
 
 namespace seaglint {
 
-// Calls visit(chunk, footprints) for chunk = 0..kEdgeChunks-1, each once, from any of the threads. `incoming`: what the
-// transmitter's illumination reached, edge by edge. A receiver elsewhere needs the waves it would send, which are
+// Calls visit(chunk, footprints) for chunk = 0..kEdgeChunks-1, each once, from any of the threads. `reached`: by the
+// transmitter's illumination. A receiver elsewhere needs the waves it would send, which are
 // followed here. Echoes that the settings' filter leaves out are not among them. Chunks do not depend on `threads`;
 // without edges in the settings there are none.
 inline constexpr std::size_t kEdgeChunks = 16;
 void edge_echoes(const Scatterer& scatterer, const AntennaPair& antennas, const IlluminationSettings& settings,
-                 std::span<const double> wavenumbers, std::span<const EdgeArrival> incoming, int threads,
+                 std::span<const double> wavenumbers, const Reached& reached, int threads,
                  const std::function<void(std::size_t, std::span<const EdgeFootprint>)>& visit);
 
 }  // namespace seaglint

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -73,6 +74,17 @@ struct EdgeFootprint {
     int waves = 1;                      // in a row
   };
   std::optional<EdgeWaveRange> edge_wave;
+  // What a beam lacks between two rims that cut it one after the other (knife_edges.h), k times metres of its width.
+  struct KnifeEdges {
+    std::array<double, 2> distance{}, excess{};  // of the way from rim to rim: along the beam, and how much longer it is than that, m
+    double slope = 0;                            // of psi across the rims
+
+    // At an end the phase may run along the stretch, by `run` over all of it, rad.
+    Complex width(double k, double share, double run = std::numeric_limits<double>::infinity()) const;
+    // 1 along the wave, 0 from where the shadow lines of both ways lie apart by the light's spread, k d slope^2 / 2 = 1 rad: there the ends of the currents would move.
+    double fade(double k, double distance_m) const;
+  };
+  std::optional<KnifeEdges> knife_edges;
   std::int32_t facet = -1;  // the edge's first
   std::uint16_t part = 0, part_beyond = 0;  // of that facet and of the other one
   std::uint8_t bounces = 1;  // mirrors on both ways and every edge met

@@ -112,6 +112,7 @@ Reached Illumination::light_all(int threads, const std::function<void(std::size_
                                 const StopFlag* stop) const {
   const std::size_t size = panels_per_chunk();
   std::vector<std::vector<EdgeArrival>> arrivals(chunk_count());
+  std::vector<std::vector<EdgeFootprint>> knife_edges(chunk_count());
   std::vector<std::size_t> legs(chunk_count(), 0);
   parallel_for(
       chunk_count(), threads,
@@ -123,9 +124,12 @@ Reached Illumination::light_all(int threads, const std::function<void(std::size_
           lit.footprints.clear();
         });
         arrivals[chunk] = std::move(lit.arrivals);
+        knife_edges[chunk] = std::move(lit.knife_edges);
       },
       stop);
-  return {by_edge(arrivals, scatterer_.edges().edges.size()),
+  std::vector<EdgeFootprint> all_knife_edges;
+  for (const auto& chunk : knife_edges) all_knife_edges.insert(all_knife_edges.end(), chunk.begin(), chunk.end());
+  return {by_edge(arrivals, scatterer_.edges().edges.size()), std::move(all_knife_edges),
           std::accumulate(legs.begin(), legs.end(), std::size_t{0})};
 }
 

@@ -42,7 +42,8 @@ double faintest_echo(const Scatterer& scatterer, const IlluminationSettings& set
 // What the beams that leave one facet, or several, meet.
 struct Lit {
   std::vector<Footprint> footprints;
-  std::vector<EdgeArrival> arrivals;  // only when the settings ask for edges
+  std::vector<EdgeArrival> arrivals;     // only when the settings ask for edges, as are
+  std::vector<EdgeFootprint> knife_edges;  // what beams lack between two rims
 };
 
 struct BeamScene;
@@ -51,6 +52,7 @@ struct BeamScene;
 // from one mirror to the next.
 struct Reached {
   std::vector<EdgeArrival> arrivals;
+  std::vector<EdgeFootprint> knife_edges;  // what beams lack between two rims, in the order of the beams
   std::size_t legs = 0;
 };
 

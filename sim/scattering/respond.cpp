@@ -77,7 +77,7 @@ ReturnGrid trace_returns(const Scatterer& scatterer, const PlannedWay& way, cons
           keep(chunk, contributions);
         }
       });
-  edge_echoes(scatterer, antennas, settings, band, reached.arrivals, threads,
+  edge_echoes(scatterer, antennas, settings, band, reached, threads,
               [&](std::size_t chunk, std::span<const EdgeFootprint> footprints) {
                 std::vector<Contribution> contributions;
                 for (const EdgeFootprint& footprint : footprints) {
@@ -235,7 +235,7 @@ std::vector<std::array<Complex, 4>> scattering_matrices(const Scatterer& scatter
   if (legs) *legs += reached.legs;
   const std::size_t facet_parts = parts.size();
   parts.resize(facet_parts + kEdgeChunks, Matrices(wavenumbers.size()));
-  edge_echoes(scatterer, antennas, settings, wavenumbers, reached.arrivals, threads,
+  edge_echoes(scatterer, antennas, settings, wavenumbers, reached, threads,
               [&](std::size_t chunk, std::span<const EdgeFootprint> footprints) {
                 for (const EdgeFootprint& footprint : footprints) {
                   for (std::size_t q = 0; q < wavenumbers.size(); ++q)
@@ -267,7 +267,7 @@ std::vector<Contribution> view_contributions(const Scatterer& scatterer, const A
       stop);
   const std::size_t facet_chunks = chunks.size();
   chunks.resize(facet_chunks + kEdgeChunks);
-  edge_echoes(scatterer, antennas, settings, std::array{split_settings.kc}, reached.arrivals, threads,
+  edge_echoes(scatterer, antennas, settings, std::array{split_settings.kc}, reached, threads,
               [&](std::size_t chunk, std::span<const EdgeFootprint> footprints) {
                 for (const EdgeFootprint& footprint : footprints) split(footprint, bent, chunks[facet_chunks + chunk]);
               });

@@ -90,6 +90,7 @@ SECTIONS = {
     "triangle": [(0.1 * np.cos(t), 0.1 * np.sin(t)) for t in np.radians([10, 130, 250])],
     "knife": [(-0.1, 0), (0.1, -0.02), (0.1, 0.02)],
     "chevron": chevron(150, 0.1, 0.04),
+    "dihedral": chevron(90, 0.15, 0.04),
 }
 
 if __name__ == "__main__":

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/scattering/knife_edges.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/core/constants.h"
+
+namespace seaglint {
+namespace {
+
+constexpr double kOnRim = 1e-7;       // m, as for edges that bound a lit polygon (edge_light.cpp)
+constexpr double kShortest = 1e-4;     // m of stretch
+constexpr double kMostSlope = 0.2;     // of psi across the rims; what counts is far less (KnifeEdges::fade)
+constexpr double kMostAngle = 0.4;     // rad, of the way from rim to rim against the beam
+constexpr double kMostAskew = 0.3;     // sine of the angle between the rims
+
+// A rim as the transmitter sees it through the mirrors before.
+struct Rim {
+  std::size_t screen;
+  Vec2 a, b;
+  Vec2 inside;  // a point of its panel
+};
+
+std::vector<Rim> rims_of(const SharpEdges& edges, const Panels& panels, const RadarBasis& transmit, std::span<const Screen> screens) {
+  std::vector<Rim> rims;
+  for (std::size_t i = 0; i < screens.size(); ++i) {
+    const Screen& screen = screens[i];
+    const auto image = [&](const Vec3& x) {
+      const Vec3 at = screen.mirrors->image(x);
+      return Vec2(at.dot(transmit.h), at.dot(transmit.v));
+    };
+    const std::span<const Vec3> outline = panels.outline(screen.facet);
+    Vec3 middle = Vec3::Zero();
+    for (const Vec3& x : outline) middle += x / static_cast<double>(outline.size());
+    for (const PanelEdge& side : edges.of_panel(screen.facet)) {
+      const SharpEdge& edge = edges.edges[side.edge];
+      const WedgeFrame* wedge = wedge_towards(edge, screen.direction);
+      if (wedge && wedge->N > 1) rims.push_back({i, image(edge.a), image(edge.b), image(middle)});
+    }
+  }
+  return rims;
+}
+
+// Along one side of a lit piece, t from its start and x across into the piece.
+struct SideFrame {
+  const Corner &from, &to;
+  double length;
+  Vec2 along, across;
+
+  double t(const Vec2& p) const { return along.dot(p - from.p); }
+  double x(const Vec2& p) const { return across.dot(p - from.p); }
+  bool holds(const Rim& rim) const { return std::abs(x(rim.a)) <= kOnRim && std::abs(x(rim.b)) <= kOnRim && x(rim.inside) > 0; }
+};
+
+// Along a side that the inner one of two rims bounds, where both are.
+class Pair {
+ public:
+  Pair(const SideFrame& side, const Rim& inner, const Rim& outer, std::span<const Screen> screens)
+      : side_(side), outer_(outer), first_(screens[std::min(inner.screen, outer.screen)]), second_(screens[std::max(inner.screen, outer.screen)]),
+        outer_is_first_(outer.screen < inner.screen), end_{of_corner(side.from), of_corner(side.to)} {
+    for (const Rim* rim : {&inner, &outer}) {
+      End a = of_rim(*rim, rim->a, screens), b = of_rim(*rim, rim->b, screens);
+      if (a.t > b.t) std::swap(a, b);
+      if (a.t > end_[0].t) end_[0] = a;
+      if (b.t < end_[1].t) end_[1] = b;
+    }
+  }
+
+  double length() const { return end_[1].t - end_[0].t; }
+
+  // Places on the first and on the second rim, in the aperture, and what the way between them is, m.
+  struct Places {
+    Vec2 first, second;
+    double first_height, apart, distance;
+    Vec2 moves;  // of their t as the direction turns by d1 and by d2
+  };
+  Places at(std::size_t end) const {
+    const auto& [t, moves] = end_[end];
+    const double share = (t - side_.t(outer_.a)) / (side_.t(outer_.b) - side_.t(outer_.a));
+    const Vec2 on_side = side_.from.p + t * side_.along, on_outer = outer_.a + share * (outer_.b - outer_.a);
+    const Vec2 &first = outer_is_first_ ? on_outer : on_side, &second = outer_is_first_ ? on_side : on_outer;
+    const double height = first_.plane->at(first);
+    return {first, second, height, -side_.x(on_outer), height - second_.plane->at(second), moves};
+  }
+
+ private:
+  struct End {
+    double t;
+    Vec2 moves;
+  };
+  End of_corner(const Corner& corner) const { return {side_.t(corner.p), {side_.along.dot(corner.d1), side_.along.dot(corner.d2)}}; }
+  // The end of a rim stays where it is in the body and moves by -z d_i in the aperture.
+  End of_rim(const Rim& rim, const Vec2& p, std::span<const Screen> screens) const { return {side_.t(p), -screens[rim.screen].plane->at(p) * side_.along}; }
+
+  const SideFrame& side_;
+  const Rim& outer_;
+  const Screen &first_, &second_;
+  bool outer_is_first_;
+  std::array<End, 2> end_;
+};
+
+}  // namespace
+
+void find_knife_edges(const SharpEdges& edges, const Panels& panels, const RadarBasis& transmit, std::span<const Screen> screens,
+                      const Footprint& footprint, std::vector<EdgeFootprint>& out) {
+  std::vector<Rim> rims;
+  const auto pair = [&](const SideFrame& side, const Rim& inner, const Rim& outer) {
+    if (inner.screen == outer.screen || side.x(outer.inside) <= 0) return;
+    const Vec2 run = outer.b - outer.a;
+    if (std::abs(side.across.dot(run)) > kMostAskew * run.norm()) return;
+    if (side.holds(outer) && outer.screen < inner.screen) return;  // found the other way round
+    const Pair both(side, inner, outer, screens);
+    if (both.length() < kShortest) return;
+    EdgeFootprint lacking;
+    lacking.length = both.length();
+    lacking.facet = footprint.facet;
+    lacking.part = lacking.part_beyond = footprint.part;
+    lacking.bounces = footprint.bounces;
+    for (int i = 0; i < 4; ++i) lacking.pattern.sharp[i] = Complex(0, 1 / (2 * kPi)) * footprint.pattern[i];
+    EdgeFootprint::KnifeEdges knives;
+    knives.slope = footprint.w.dot(side.across);
+    for (std::size_t end = 0; end < 2; ++end) {
+      const auto [first, second, height, apart, distance, moves] = both.at(end);
+      // Rims of neighbours meet.
+      if (apart < -kOnRim || distance < -kOnRim || apart > kMostAngle * distance + kOnRim) return;
+      knives.distance[end] = std::max(distance, 0.0);
+      knives.excess[end] = std::hypot(distance, apart) - std::abs(distance);
+      lacking.psi[end] = footprint.psi(second) - knives.excess[end];
+      // The path is stationary where the ray meets the first rim, not where it meets the facet: how far that place slips there counts.
+      const Vec2 slip = footprint.w.dot(side.along) * (moves + footprint.plane.at(second) * side.along);
+      PathGradient& gradient = lacking.gradient[end];
+      gradient.transmit_slip = slip.x() * transmit.h + slip.y() * transmit.v;
+      gradient.transmit = first.x() * transmit.h + first.y() * transmit.v + height * transmit.r + gradient.transmit_slip;
+      gradient.receive = phase_gradient(footprint, second, transmit).receive;
+    }
+    lacking.knife_edges = knives;
+    out.push_back(lacking);
+  };
+
+  const MovingPolygon& piece = footprint.polygon;
+  for (std::size_t i = 0; i < piece.size(); ++i) {
+    const Corner &from = piece[i], &to = piece[i + 1 == piece.size() ? 0 : i + 1];
+    const double length = (to.p - from.p).norm();
+    if (length < kShortest) continue;
+    const Vec2 along = (to.p - from.p) / length;
+    const SideFrame side{from, to, length, along, {-along.y(), along.x()}};
+    if (std::abs(footprint.w.dot(side.across)) > kMostSlope) continue;
+    if (rims.empty()) rims = rims_of(edges, panels, transmit, screens);
+    for (const Rim& inner : rims) {
+      if (!side.holds(inner)) continue;
+      for (const Rim& outer : rims) pair(side, inner, outer);
+    }
+  }
+}
+
+double bound_of_knife_edges(const EdgeFootprint& footprint, double k) {
+  double pattern = 0;
+  for (const Complex& element : footprint.pattern.sharp) pattern = std::max(pattern, std::abs(element));
+  const EdgeFootprint::KnifeEdges& knives = *footprint.knife_edges;
+  const double distance = std::max(knives.distance[0], knives.distance[1]), excess = std::min(knives.excess[0], knives.excess[1]);
+  // |1 - F(x)| is at most 1 and at most 1 / 2x, and a stretch of running phase answers from its ends.
+  const double run = k * std::abs(footprint.psi[1] - footprint.psi[0]);
+  return pattern * footprint.length * std::sqrt(k * distance / (2 * kPi)) * std::min(1.0, 0.5 / (k * excess)) * std::min(1.0, 2 / run);
+}
+
+}  // namespace seaglint

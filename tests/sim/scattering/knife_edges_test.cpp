@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Beams that two rims cut one after the other: their width against Fresnel's integral, their points against fresh traces. Their echo is held to integral equations in section_test.cpp.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "sim/geometry/mesh_io.h"
+#include "sim/scattering/contributions.h"
+#include "sim/scattering/illuminate.h"
+#include "tests/sim/scattering/echoes.h"
+
+namespace seaglint {
+namespace {
+
+using namespace testing_echoes;
+
+constexpr Complex j(0, 1);
+
+// Behind a half-plane the field at u beyond the shadow line is erfc(e^{j pi/4} u) / 2; the beam lacks its integral from the second rim on. With both integrals turned
+// by e^{-j pi/4} and their order changed it is that of t e^{-(a + t)^2} / sqrt(pi) over t > 0, a = e^{j pi/4} u.
+TEST(KnifeEdges, LackWhatFresnelsFieldHasBeyondTheSecondRim) {
+  const double k = wavenumber(10e9), d = 0.7;
+  for (const double apart : {0.0, 0.01, 0.05, 0.2}) {
+    EdgeFootprint::KnifeEdges knives{{d, d}, {apart * apart / (2 * d), apart * apart / (2 * d)}};
+    const Complex a = std::polar(apart * std::sqrt(k / (2 * d)), kPi / 4);
+    Complex integral = 0;
+    constexpr double step = 1e-3;
+    for (double t = step / 2; t < 12; t += step) integral += step * t * std::exp(-(a + t) * (a + t)) / std::sqrt(kPi);
+    const Complex lacking = k * std::sqrt(2 * d / k) * std::polar(1.0, -kPi / 4) * integral * std::exp(j * std::norm(a));
+    // The transition function errs by 1e-7, the sum by step^2 / 24 of the integrand's slope.
+    EXPECT_NEAR(std::abs(knives.width(k, 0.5) - lacking), 0, 1e-6 * k * std::sqrt(2 * d / k)) << apart;
+  }
+}
+
+// Rims that meet in one point: the way between them grows from 0. The closed form of the ends takes over where the phase runs through ten cycles.
+TEST(KnifeEdges, AnswerFromTheirEndsWherePhasesRun) {
+  const double k = wavenumber(10e9);
+  EdgeFootprint footprint;
+  footprint.length = 0.4;
+  footprint.knife_edges = EdgeFootprint::KnifeEdges{{0, 0.5}, {0, 1e-4}};
+  footprint.psi = {0, 59.9 / k};
+  const Complex summed = part_integral(footprint, k, 0, 1), half = std::polar(1.0, 0.5 * 59.9);
+  const Complex ends = end_term(footprint, k, 1) * half - end_term(footprint, k, 0) * std::conj(half);
+  EXPECT_LT(std::abs(summed - ends), 0.02 * std::abs(summed));
+  // Parts sum to the whole.
+  Complex parts = 0;
+  for (int i = 0; i < 5; ++i) parts += part_integral(footprint, k, 0.2 * i, 0.2 * (i + 1)) * std::polar(1.0, 59.9 * (0.2 * i - 0.4));
+  EXPECT_NEAR(std::abs(parts - summed), 0, 1e-3 * std::abs(summed));
+}
+
+// What one trace knows of them serves a turn of 0.1 deg: the icosahedral reflector, where they answer most.
+TEST(KnifeEdges, FollowATurnAsFreshTracesDo) {
+  const Scatterer reflector(read_mesh(SEAGLINT_SOURCE_DIR "/assets/icosahedral_reflector.glb"));
+  const double k = wavenumber(16e9);
+  const auto knife_edges = [&](const Vec3& r) {
+    return Illumination(reflector, monostatic(radar_basis(r)), {0, 8, true}).light_all(1, [](std::size_t, auto) {}).knife_edges;
+  };
+  for (const auto& [azimuth, elevation] : {std::pair{48.0, 20.0}, {70.0, 2.0}, {33.0, 20.0}}) {
+    const Vec3 r = direction(azimuth, elevation);
+    std::vector<Contribution> points;
+    for (const EdgeFootprint& footprint : knife_edges(r)) split(footprint, {k, radians(0.15)}, points);
+    double error = 0, power = 0;
+    for (const double turn : {-0.07, 0.07}) {
+      const Vec3 turned = direction(azimuth + turn, elevation + 0.7 * turn);
+      const auto frozen = direct_sum(points, k, turned - r);
+      std::array<Complex, 4> fresh{};
+      for (const EdgeFootprint& footprint : knife_edges(turned)) {
+        const auto s = scattered(footprint, k);
+        for (int i = 0; i < 4; ++i) fresh[i] += s[i];
+      }
+      for (int i = 0; i < 4; ++i) {
+        error += std::norm(frozen[i] - fresh[i]);
+        power += std::norm(fresh[i]);
+      }
+    }
+    std::printf("%g deg: %.3f m, error %.1f dB\n", azimuth, std::sqrt(power / 2), 10 * std::log10(error / power));
+    EXPECT_GT(std::sqrt(power / 2), 0.05);
+    EXPECT_LT(error, 2e-3 * power) << azimuth;  // ends that slip and widths are frozen: -27 dB of what is -30 dB of the reflector's echo itself
+  }
+}
+
+}  // namespace
+}  // namespace seaglint
