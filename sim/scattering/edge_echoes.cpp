@@ -51,7 +51,7 @@ void edge_echoes(const Scatterer& scatterer, const AntennaPair& antennas, const 
                     .light_all(threads, [](std::size_t, auto) {});
   }
   const std::span<const EdgeArrival> incoming = reached.arrivals, outgoing = antennas.monostatic ? incoming : backwards.arrivals;
-  const double lowest = *std::ranges::min_element(wavenumbers);
+  const auto [lowest, highest] = std::ranges::minmax(wavenumbers);
   const EdgeWaveLimits limits{kLongEdge * scatterer.radius(), faintest_echo(scatterer, settings, lowest), lowest};
   const auto chunks = chunks_of(incoming);
   const std::span<const EdgeFootprint> knife_edges = reached.knife_edges;
@@ -60,7 +60,7 @@ void edge_echoes(const Scatterer& scatterer, const AntennaPair& antennas, const 
         edge_footprints(scatterer.edges(), scatterer.facets(), antennas, chunks[chunk], outgoing, settings.max_bounces);
     append_edge_waves(scatterer, antennas, chunks[chunk], outgoing, limits, answer);
     for (std::size_t i = knife_edges.size() * chunk / chunks.size(); i < knife_edges.size() * (chunk + 1) / chunks.size(); ++i) {
-      if (bound_of_knife_edges(knife_edges[i], lowest) >= limits.faintest_m) answer.push_back(knife_edges[i]);
+      if (bound_of_knife_edges(knife_edges[i], lowest, highest) >= limits.faintest_m) answer.push_back(knife_edges[i]);
     }
     std::erase_if(answer,
                   [&](const EdgeFootprint& f) { return !settings.filter.keeps_edge(f.part, f.part_beyond, f.bounces); });

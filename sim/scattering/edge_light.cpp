@@ -127,10 +127,12 @@ EdgePattern transposed(EdgePattern pattern) {
   return pattern;
 }
 
-double beside_the_beam(const Vec3& k_hat, const Vec3& s) {
-  const double ahead = std::clamp(k_hat.dot(s) / std::cos(kPi / 6), 0.0, 1.0);
-  return 1 - ahead * ahead * (3 - 2 * ahead);
+double fading(double x, const std::array<double, 2>& from_to) {
+  const double beyond = std::clamp((x - from_to[0]) / (from_to[1] - from_to[0]), 0.0, 1.0);
+  return 1 - beyond * beyond * (3 - 2 * beyond);
 }
+
+double beside_the_beam(const Vec3& k_hat, const Vec3& s) { return fading(k_hat.dot(s), {0, std::cos(kPi / 6)}); }
 
 void find_arrivals(const SharpEdges& edges, int facet, const WaveOnFacet& wave, std::span<const MovingPolygon> lit,
                    std::vector<EdgeArrival>& arrivals) {
@@ -279,16 +281,15 @@ Complex amplitude_at(const EdgeFootprint& footprint, double k, double run, doubl
 
 }  // namespace
 
-double EdgeFootprint::KnifeEdges::fade(double k, double distance_m) const {
-  const double x = std::min(0.5 * k * distance_m * slope * slope, 1.0);
-  return 1 - x * x * (3 - 2 * x);
-}
+double EdgeFootprint::KnifeEdges::fade_by_slope(double k, double distance_m) const { return fading(0.5 * k * distance_m * slope * slope, {0, 1}); }
+
+double EdgeFootprint::KnifeEdges::fade_by_depth(double k, double distance_m) const { return fading(2 * distance_m / (k * depth * depth), {0.3, 1}); }
 
 Complex EdgeFootprint::KnifeEdges::width(double k, double share, double run) const {
   const double d = at_share(distance, share);
   // An end of running phase a along a root: the integral of sqrt(t) e^{jat} from 0 on is (j / a) sqrt(pi j / 4a), that of sqrt(d + t) to first order (j / a) sqrt(d + j / a).
   const Complex reached = d + (distance[1] - distance[0]) * Complex(0, kPi / 4 / run);
-  return std::polar(fade(k, d), -kPi / 4) * std::sqrt(k / (2 * kPi) * reached) * (1.0 - transition(k * at_share(excess, share)));
+  return std::polar(fade_by_slope(k, d) * fade_by_depth(k, d), -kPi / 4) * std::sqrt(k / (2 * kPi) * reached) * (1.0 - transition(k * at_share(excess, share)));
 }
 
 Complex end_term(const EdgeFootprint& footprint, double k, double share) {

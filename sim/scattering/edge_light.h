@@ -78,17 +78,23 @@ struct EdgeFootprint {
   struct KnifeEdges {
     std::array<double, 2> distance{}, excess{};  // of the way from rim to rim: along the beam, and how much longer it is than that, m
     double slope = 0;                            // of psi across the rims
+    double depth = 0;                            // of the shallower of their panels, m
 
     // At an end the phase may run along the stretch, by `run` over all of it, rad.
     Complex width(double k, double share, double run = std::numeric_limits<double>::infinity()) const;
     // 1 along the wave, 0 from where the shadow lines of both ways lie apart by the light's spread, k d slope^2 / 2 = 1 rad: there the ends of the currents would move.
-    double fade(double k, double distance_m) const;
+    double fade_by_slope(double k, double distance_m) const;
+    // 0 where a panel is no deeper than the spread, (2 d / k)^(1/2), and its other side counts as much; 1 where that is beside the matter.
+    double fade_by_depth(double k, double distance_m) const;
   };
   std::optional<KnifeEdges> knife_edges;
   std::int32_t facet = -1;  // the edge's first
   std::uint16_t part = 0, part_beyond = 0;  // of that facet and of the other one
   std::uint8_t bounces = 1;  // mirrors on both ways and every edge met
 };
+
+// 1 up to the one value of x, 0 from the other on, smooth between.
+double fading(double x, const std::array<double, 2>& from_to);
 
 // Ahead of an edge, near the shadow boundary of the beam along k_hat that it cuts, the diffracted field towards a mirror
 // at a finite distance is no ray of its own: the beam's end on that mirror carries it. An echo by mirrors in direction s

@@ -2,24 +2,28 @@
 #include "sim/scattering/knife_edges.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 
 #include "sim/core/constants.h"
 
 namespace seaglint {
 namespace {
 
-constexpr double kOnRim = 1e-7;       // m, as for edges that bound a lit polygon (edge_light.cpp)
-constexpr double kShortest = 1e-4;     // m of stretch
-constexpr double kMostSlope = 0.2;     // of psi across the rims; what counts is far less (KnifeEdges::fade)
-constexpr double kMostAngle = 0.4;     // rad, of the way from rim to rim against the beam
-constexpr double kMostAskew = 0.3;     // sine of the angle between the rims
+constexpr double kOnRim = 1e-7;     // m, as for edges that bound a lit polygon (edge_light.cpp)
+constexpr double kShortest = 1e-4;  // m
+constexpr double kMostSlope = 0.2;  // of psi across the rims; what counts is far less (KnifeEdges::fade_by_slope)
+// What is followed in full, and from where on not at all: angles of the way from rim to rim against the beam, rad, for Fresnel's form, and sines of the angle
+// between the rims, which near their crossing cut no more than lambda d.
+constexpr std::array<double, 2> kSteep{0.2, 0.5}, kAskew{0.3, 0.7};
 
 // A rim as the transmitter sees it through the mirrors before.
 struct Rim {
   std::size_t screen;
   Vec2 a, b;
   Vec2 inside;  // a point of its panel
+  double depth;  // how far that reaches from the rim, m
 };
 
 std::vector<Rim> rims_of(const SharpEdges& edges, const Panels& panels, const RadarBasis& transmit, std::span<const Screen> screens) {
@@ -36,7 +40,11 @@ std::vector<Rim> rims_of(const SharpEdges& edges, const Panels& panels, const Ra
     for (const PanelEdge& side : edges.of_panel(screen.facet)) {
       const SharpEdge& edge = edges.edges[side.edge];
       const WedgeFrame* wedge = wedge_towards(edge, screen.direction);
-      if (wedge && wedge->N > 1) rims.push_back({i, image(edge.a), image(edge.b), image(middle)});
+      if (!wedge || wedge->N <= 1) continue;
+      const Vec2 a = image(edge.a), b = image(edge.b), along = (b - a).normalized();
+      double depth = 0;
+      for (const Vec3& x : outline) depth = std::max(depth, std::abs(along.x() * (image(x) - a).y() - along.y() * (image(x) - a).x()));
+      if (depth > kShortest) rims.push_back({i, a, b, image(middle), depth});
     }
   }
   return rims;
@@ -104,28 +112,37 @@ class Pair {
 
 void find_knife_edges(const SharpEdges& edges, const Panels& panels, const RadarBasis& transmit, std::span<const Screen> screens,
                       const Footprint& footprint, std::vector<EdgeFootprint>& out) {
-  std::vector<Rim> rims;
+  std::optional<std::vector<Rim>> rims;  // once a side asks for them
   const auto pair = [&](const SideFrame& side, const Rim& inner, const Rim& outer) {
-    if (inner.screen == outer.screen || side.x(outer.inside) <= 0) return;
-    const Vec2 run = outer.b - outer.a;
-    if (std::abs(side.across.dot(run)) > kMostAskew * run.norm()) return;
+    if (inner.screen == outer.screen || side.x(outer.inside) <= 0.5 * (side.x(outer.a) + side.x(outer.b))) return;
+    const Vec2 run = (outer.b - outer.a).normalized();
+    const double askew = fading(std::abs(side.across.dot(run)), kAskew), parallel = std::abs(side.along.dot(run));
+    if (askew <= 0) return;
     if (side.holds(outer) && outer.screen < inner.screen) return;  // found the other way round
     const Pair both(side, inner, outer, screens);
     if (both.length() < kShortest) return;
+    // Lengths are the first rim's, distances from its line.
+    const double turned = outer.screen < inner.screen ? parallel : 1.0;
     EdgeFootprint lacking;
-    lacking.length = both.length();
+    lacking.length = turned * both.length();
     lacking.facet = footprint.facet;
     lacking.part = lacking.part_beyond = footprint.part;
     lacking.bounces = footprint.bounces;
-    for (int i = 0; i < 4; ++i) lacking.pattern.sharp[i] = Complex(0, 1 / (2 * kPi)) * footprint.pattern[i];
     EdgeFootprint::KnifeEdges knives;
     knives.slope = footprint.w.dot(side.across);
+    knives.depth = std::min(inner.depth, outer.depth);
+    const std::array<Pair::Places, 2> ends{both.at(0), both.at(1)};
+    const double way = ends[0].distance + ends[1].distance;
+    if (way < kShortest) return;
+    const double weight = askew * fading(turned * (ends[0].apart + ends[1].apart) / way, kSteep);
+    if (weight <= 0) return;
+    for (int i = 0; i < 4; ++i) lacking.pattern.sharp[i] = Complex(0, weight / (2 * kPi)) * footprint.pattern[i];
     for (std::size_t end = 0; end < 2; ++end) {
-      const auto [first, second, height, apart, distance, moves] = both.at(end);
+      const auto& [first, second, height, apart, distance, moves] = ends[end];
       // Rims of neighbours meet.
-      if (apart < -kOnRim || distance < -kOnRim || apart > kMostAngle * distance + kOnRim) return;
+      if (apart < -kOnRim || distance < -kOnRim) return;
       knives.distance[end] = std::max(distance, 0.0);
-      knives.excess[end] = std::hypot(distance, apart) - std::abs(distance);
+      knives.excess[end] = std::hypot(distance, turned * apart) - std::abs(distance);
       lacking.psi[end] = footprint.psi(second) - knives.excess[end];
       // The path is stationary where the ray meets the first rim, not where it meets the facet: how far that place slips there counts.
       const Vec2 slip = footprint.w.dot(side.along) * (moves + footprint.plane.at(second) * side.along);
@@ -146,22 +163,24 @@ void find_knife_edges(const SharpEdges& edges, const Panels& panels, const Radar
     const Vec2 along = (to.p - from.p) / length;
     const SideFrame side{from, to, length, along, {-along.y(), along.x()}};
     if (std::abs(footprint.w.dot(side.across)) > kMostSlope) continue;
-    if (rims.empty()) rims = rims_of(edges, panels, transmit, screens);
-    for (const Rim& inner : rims) {
+    if (!rims) rims = rims_of(edges, panels, transmit, screens);
+    for (const Rim& inner : *rims) {
       if (!side.holds(inner)) continue;
-      for (const Rim& outer : rims) pair(side, inner, outer);
+      for (const Rim& outer : *rims) pair(side, inner, outer);
     }
   }
 }
 
-double bound_of_knife_edges(const EdgeFootprint& footprint, double k) {
+double bound_of_knife_edges(const EdgeFootprint& footprint, double lowest, double highest) {
   double pattern = 0;
   for (const Complex& element : footprint.pattern.sharp) pattern = std::max(pattern, std::abs(element));
   const EdgeFootprint::KnifeEdges& knives = *footprint.knife_edges;
-  const double distance = std::max(knives.distance[0], knives.distance[1]), excess = std::min(knives.excess[0], knives.excess[1]);
+  const auto [nearest, farthest] = std::minmax(knives.distance[0], knives.distance[1]);
+  const double excess = std::min(knives.excess[0], knives.excess[1]);
   // |1 - F(x)| is at most 1 and at most 1 / 2x, and a stretch of running phase answers from its ends.
-  const double run = k * std::abs(footprint.psi[1] - footprint.psi[0]);
-  return pattern * footprint.length * std::sqrt(k * distance / (2 * kPi)) * std::min(1.0, 0.5 / (k * excess)) * std::min(1.0, 2 / run);
+  const double run = lowest * std::abs(footprint.psi[1] - footprint.psi[0]);
+  return pattern * footprint.length * std::sqrt(lowest * farthest / (2 * kPi)) * std::min(1.0, 0.5 / (lowest * excess)) * std::min(1.0, 2 / run) *
+         knives.fade_by_slope(lowest, nearest) * knives.fade_by_depth(highest, nearest);
 }
 
 }  // namespace seaglint

@@ -30,11 +30,12 @@ struct Screen {
 };
 
 // Appends what is lacking of a footprint between each two nearly parallel rims of `screens`, of which the first lies nearest to the transmitter and the last is
-// the footprint's own facet. Only where the footprint is received about along the wave, across the rims.
+// the footprint's own facet. They fade out where Fresnel's form for half-planes ends (README.md, "Between two rims"): off the wave's direction across the rims, far from the
+// beam, where rims cross, at panels narrower than the light's spread.
 void find_knife_edges(const SharpEdges& edges, const Panels& panels, const RadarBasis& transmit, std::span<const Screen> screens,
                       const Footprint& footprint, std::vector<EdgeFootprint>& out);
 
-// No more than this is returned by one at wavenumbers from k on, m.
-double bound_of_knife_edges(const EdgeFootprint& footprint, double k);
+// What one returns at most at the lowest of some wavenumbers, m; 0 where it has faded out at all of them.
+double bound_of_knife_edges(const EdgeFootprint& footprint, double lowest, double highest);
 
 }  // namespace seaglint

@@ -22,7 +22,7 @@ constexpr Complex j(0, 1);
 TEST(KnifeEdges, LackWhatFresnelsFieldHasBeyondTheSecondRim) {
   const double k = wavenumber(10e9), d = 0.7;
   for (const double apart : {0.0, 0.01, 0.05, 0.2}) {
-    EdgeFootprint::KnifeEdges knives{{d, d}, {apart * apart / (2 * d), apart * apart / (2 * d)}};
+    EdgeFootprint::KnifeEdges knives{{d, d}, {apart * apart / (2 * d), apart * apart / (2 * d)}, 0, 10};
     const Complex a = std::polar(apart * std::sqrt(k / (2 * d)), kPi / 4);
     Complex integral = 0;
     constexpr double step = 1e-3;
@@ -38,7 +38,7 @@ TEST(KnifeEdges, AnswerFromTheirEndsWherePhasesRun) {
   const double k = wavenumber(10e9);
   EdgeFootprint footprint;
   footprint.length = 0.4;
-  footprint.knife_edges = EdgeFootprint::KnifeEdges{{0, 0.5}, {0, 1e-4}};
+  footprint.knife_edges = EdgeFootprint::KnifeEdges{{0, 0.5}, {0, 1e-4}, 0, 10};
   footprint.psi = {0, 59.9 / k};
   const Complex summed = part_integral(footprint, k, 0, 1), half = std::polar(1.0, 0.5 * 59.9);
   const Complex ends = end_term(footprint, k, 1) * half - end_term(footprint, k, 0) * std::conj(half);
