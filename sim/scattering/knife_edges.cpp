@@ -13,10 +13,9 @@ namespace {
 
 constexpr double kOnRim = 1e-7;     // m, as for edges that bound a lit polygon (edge_light.cpp)
 constexpr double kShortest = 1e-4;  // m
-constexpr double kMostSlope = 0.2;  // of psi across the rims; what counts is far less (KnifeEdges::fade_by_slope)
-// What is followed in full, and from where on not at all: angles of the way from rim to rim against the beam, rad, for Fresnel's form, and sines of the angle
-// between the rims, which near their crossing cut no more than lambda d.
-constexpr std::array<double, 2> kSteep{0.2, 0.5}, kAskew{0.3, 0.7};
+// What is followed in full, and from where on not at all: slopes of psi across the rims, where KnifeEdges::fade_by_slope leaves any, and angles of the way from
+// rim to rim against the beam, rad, both for Fresnel's form; sines of the angle between the rims, which near their crossing cut no more than lambda d.
+constexpr std::array<double, 2> kSlope{0.1, 0.2}, kSteep{0.2, 0.5}, kAskew{0.3, 0.7};
 
 // A rim as the transmitter sees it through the mirrors before.
 struct Rim {
@@ -134,7 +133,7 @@ void find_knife_edges(const SharpEdges& edges, const Panels& panels, const Radar
     const std::array<Pair::Places, 2> ends{both.at(0), both.at(1)};
     const double way = ends[0].distance + ends[1].distance;
     if (way < kShortest) return;
-    const double weight = askew * fading(turned * (ends[0].apart + ends[1].apart) / way, kSteep);
+    const double weight = askew * fading(std::abs(knives.slope), kSlope) * fading(turned * (ends[0].apart + ends[1].apart) / way, kSteep);
     if (weight <= 0) return;
     for (int i = 0; i < 4; ++i) lacking.pattern.sharp[i] = Complex(0, weight / (2 * kPi)) * footprint.pattern[i];
     for (std::size_t end = 0; end < 2; ++end) {
@@ -162,7 +161,7 @@ void find_knife_edges(const SharpEdges& edges, const Panels& panels, const Radar
     if (length < kShortest) continue;
     const Vec2 along = (to.p - from.p) / length;
     const SideFrame side{from, to, length, along, {-along.y(), along.x()}};
-    if (std::abs(footprint.w.dot(side.across)) > kMostSlope) continue;
+    if (std::abs(footprint.w.dot(side.across)) >= kSlope[1]) continue;
     if (!rims) rims = rims_of(edges, panels, transmit, screens);
     for (const Rim& inner : *rims) {
       if (!side.holds(inner)) continue;

@@ -9,7 +9,7 @@
 // Fresnel diffraction by two parallel screens in a row (G. Millington, R. Hewitt and F. S. Immirzi, Proc. IEE 109C (1962) 419-429), received along the wave:
 // with E the field of a half-plane, u its argument, w the second rim's distance from the first one's shadow line, d the way between them,
 //
-//     -integral over the half-line from w on of (E(-x) - 0) dx = -sqrt(2 d / k) e^{-j pi/4} / (2 sqrt(pi)) e^{-ju^2} (1 - F(u^2)),   u^2 = k w^2 / 2d
+//     -integral over the half-line from w on of (E(-x) - 0) dx = -sqrt(2 d / k) e^{-j pi/4} / (2 sqrt(pi)) e^{-ju^2} (1 - F(u^2)),   u^2 = k (sqrt(d^2 + w^2) - d)
 //
 // metres wide is what is lacking of the beam on either side of the shadow line (E is odd about it), F as in fringe.h.
 
@@ -23,10 +23,10 @@ namespace seaglint {
 
 // What a beam passes: one of its mirrors, or the facet at its end.
 struct Screen {
-  int facet = -1;         // its panel goes by
-  const Mirror* mirrors;  // that take its own points to where the beam meets them
-  const ImagePlane* plane;
-  Vec3 direction;         // of the wave at it
+  int facet = -1;                    // its panel goes by
+  const Mirror* mirrors = nullptr;   // that take its own points to where the beam meets them
+  const ImagePlane* plane = nullptr;
+  Vec3 direction = Vec3::Zero();     // of the wave at it
 };
 
 // Appends what is lacking of a footprint between each two nearly parallel rims of `screens`, of which the first lies nearest to the transmitter and the last is
