@@ -138,10 +138,12 @@ void find_arrivals(const SharpEdges& edges, int facet, const WaveOnFacet& wave, 
                    std::vector<EdgeArrival>& arrivals) {
   if (lit.empty()) return;
   for (const PanelEdge& side : edges.of_panel(facet)) {
-    if (!side.speaks(wave.direction)) continue;
+    if (!side.may_speak(wave.direction)) continue;
     const SharpEdge& edge = edges.edges[side.edge];
-    const WedgeFrame* wedge = wedge_towards(edge, wave.direction);
-    if (!wedge || (wedge->N < 1 && wave.bounce > 1)) continue;  // of a corner the reflections are part of its answer
+    const WedgeFrame* wedge = wedge_lit(edge, side.first, wave.direction);
+    const bool rim = edge.facet[0] == edge.facet[1];
+    if (!wedge || !(rim || speaks(*wedge, side.first, wave.direction))) continue;
+    if (wedge->N < 1 && wave.bounce > 1) continue;  // of a corner the reflections are part of its answer
     const Vec3 image = wave.mirrors.image(edge.a), along = wave.mirrors.L * edge.along();
     for (const Stretch& stretch : lit_stretches(image, along, edge.length(), wave, lit)) {
       arrivals.push_back({side.edge, stretch.s, stretch.slip, image, along, wave.direction, wave.E_h, wave.E_v,

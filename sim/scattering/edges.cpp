@@ -93,8 +93,7 @@ void list_by_panel(SharpEdges& edges, std::span<const Facet> facets, const Panel
         if (!edge.open && !diffracts(edge.outside)) continue;
         const auto [f, g] = edge.facet;
         const int other = own == f ? g : f;
-        edges.by_panel.push_back({facets[own].normal, facets[other].normal, number, facets[own].open,
-                                  facets[other].open, own == f});
+        edges.by_panel.push_back({facets[own].normal, facets[other].normal, number, edge.open, own == f});
       }
     }
     edges.first_of_panel.push_back(static_cast<std::uint32_t>(edges.by_panel.size()));
@@ -108,6 +107,17 @@ const WedgeFrame* wedge_towards(const SharpEdge& edge, const Vec3& k_hat) {
   const bool outside = edge.outside.N > 1 ? before(first) || before(second) : before(first) && before(second);
   const WedgeFrame* wedge = outside ? &edge.outside : edge.open ? &edge.inside : nullptr;
   return wedge && diffracts(*wedge) ? wedge : nullptr;
+}
+
+const WedgeFrame* wedge_lit(const SharpEdge& edge, bool first, const Vec3& k_hat) {
+  const WedgeFrame* wedge = wedge_towards(edge, k_hat);
+  const bool rim = edge.facet[0] == edge.facet[1];
+  return wedge && (rim || k_hat.dot(wedge->face[first ? 0 : 1].n) <= 0) ? wedge : nullptr;
+}
+
+bool speaks(const WedgeFrame& wedge, bool first, const Vec3& k_hat) {
+  const double of_first = -k_hat.dot(wedge.face[0].n), of_second = -k_hat.dot(wedge.face[1].n);
+  return first ? of_first >= of_second : of_second > of_first;
 }
 
 }  // namespace seaglint

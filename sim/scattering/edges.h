@@ -32,17 +32,13 @@ struct SharpEdge {
 struct PanelEdge {
   Vec3 normal, beyond;  // of the facet on this side and of the one on the other
   std::int32_t edge = kNoEdge;
-  bool open = false, open_beyond = false;  // either side of the facet may be seen
-  bool first = false;                      // the facet is the edge's first
+  bool open = false;   // the wave may come from either side
+  bool first = false;  // the facet is the edge's first
 
-  // Of an edge's two facets the one that faces the wave more squarely speaks for both.
-  bool speaks(const Vec3& direction) const {
-    const auto squarely = [&](const Vec3& n, bool either_side) {
-      const double cosine = -n.dot(direction);
-      return either_side ? std::abs(cosine) : cosine;
-    };
-    const double here = squarely(normal, open), there = squarely(beyond, open_beyond);
-    return first ? here >= there : here > there;
+  // False where speaks() is, of closed surfaces; of sheets it depends on the side that the wave comes from.
+  bool may_speak(const Vec3& direction) const {
+    const double here = -normal.dot(direction), there = -beyond.dot(direction);
+    return open || (first ? here >= there : here > there);
   }
 };
 
@@ -67,5 +63,12 @@ void list_by_panel(SharpEdges& edges, std::span<const Facet> facets, const Panel
 
 // The wedge or corner (N < 1) a wave along k_hat meets, or nothing when it comes from within or images solve the corner.
 const WedgeFrame* wedge_towards(const SharpEdge& edge, const Vec3& k_hat);
+
+// The same of a wave that lights the panel on one side of the edge (`first`: that of its first facet). Nothing where the sheet's lit side is not the wedge's face there: the wave was
+// reflected by the panel beyond the edge, comes as if from behind it, and is a part of the corner's answer.
+const WedgeFrame* wedge_lit(const SharpEdge& edge, bool first, const Vec3& k_hat);
+
+// Of the wedge's two faces the one that faces the wave more squarely speaks for both: this one?
+bool speaks(const WedgeFrame& wedge, bool first, const Vec3& k_hat);
 
 }  // namespace seaglint

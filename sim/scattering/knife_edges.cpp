@@ -38,7 +38,7 @@ std::vector<Rim> rims_of(const SharpEdges& edges, const Panels& panels, const Ra
     for (const Vec3& x : outline) middle += x / static_cast<double>(outline.size());
     for (const PanelEdge& side : edges.of_panel(screen.facet)) {
       const SharpEdge& edge = edges.edges[side.edge];
-      const WedgeFrame* wedge = wedge_towards(edge, screen.direction);
+      const WedgeFrame* wedge = wedge_lit(edge, side.first, screen.direction);
       if (!wedge || wedge->N <= 1) continue;
       const Vec2 a = image(edge.a), b = image(edge.b), along = (b - a).normalized();
       double depth = 0;

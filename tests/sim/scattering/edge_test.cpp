@@ -84,6 +84,23 @@ TEST(Trihedral, IsNearerToTheFullWaveSolutionWithItsEdges) {
   EXPECT_GT(correlation, 0.995);
 }
 
+// Where a trihedral's direction passes the plane halfway between two of its faces, these change places on the ways by both. Nothing steps there: over 0.002 deg the echo of 6.5 m moves by less than
+// its lobes, k times the leg per radian of turn, and 0.01 m of edge waves that run along the rims from a vertex, on one side of the plane or the other. Reflected waves that met the seams as if
+// from behind stepped by 0.7 m.
+TEST(Trihedral, HasNoStepWhereTwoFacesChangePlaces) {
+  constexpr double leg = 4, aside_deg = 0.001;
+  const Scatterer trihedral(make_triangular_trihedral(leg));
+  const double k = wavenumber(0.3e9);
+  for (const double elevation_deg : {10.0, 25.0, 35.0}) {
+    const double middle_deg = degrees(std::asin(std::tan(radians(elevation_deg))));  // y = z
+    const auto at = [&](double azimuth_deg) { return echo(trihedral, radar_basis(direction(azimuth_deg, elevation_deg)), k, 0, 8, true); };
+    const auto before = at(middle_deg - aside_deg), after = at(middle_deg + aside_deg);
+    for (const int channel : {kHhChannel, kVvChannel}) {
+      EXPECT_LT(std::abs(after[channel] - before[channel]), 0.01 + std::abs(before[channel]) * k * leg * 2 * radians(aside_deg)) << elevation_deg << ' ' << channel;
+    }
+  }
+}
+
 // A sweep in small steps has no spikes: nothing in it changes faster than the plate's own lobes, k times its length per
 // radian and as large as their envelope: the sinc's 1 or 1 / X, X = k length u, and an edge's, which does not grow
 // towards the normal.

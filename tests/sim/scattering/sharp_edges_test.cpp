@@ -51,6 +51,27 @@ TEST(SharpEdges, OfCornersDiffractBetweenTwelveDegAndAHalfTurn) {
   for (const double opening_deg : {90.0, 60.0, 45.0, 11.0, 3.0}) EXPECT_FALSE(corner_diffracts(opening_deg)) << opening_deg;
 }
 
+// A wave between the faces of a corner of sheets meets the corner. Reflected by one face it lights the other one up to the seam and comes as if from behind the first, where there is a wedge; it
+// meets neither, its echo being a part of the corner's answer. A wave that does come from behind meets that wedge by the face it lights.
+TEST(SharpEdges, OfACornerAreNotMetByWhatItsOwnFacesReflect) {
+  for (const double opening_deg : {90.0, 135.0, 150.0}) {
+    const Scatterer scatterer(make_dihedral(0.25, 0.3, radians(opening_deg)));
+    for (const SharpEdge& edge : scatterer.edges().edges) {
+      if (edge.facet[0] == edge.facet[1]) continue;
+      const bool concave_outside = edge.outside.N < 1;
+      const WedgeFrame &corner = concave_outside ? edge.outside : edge.inside, &back = concave_outside ? edge.inside : edge.outside;
+      const double above = 0.5 * (kPi - radians(opening_deg));  // the mirror; from twice that on nothing reflected meets the other face
+      for (const int mirror : {0, 1}) {
+        const WedgeFace& face = corner.face[mirror];
+        const Vec3 reflected = -std::cos(above) * face.x + std::sin(above) * face.n;
+        EXPECT_EQ(wedge_towards(edge, reflected), &back) << opening_deg;
+        EXPECT_EQ(wedge_lit(edge, mirror == 1, reflected), nullptr) << opening_deg;
+        EXPECT_EQ(wedge_lit(edge, mirror == 0, reflected), &back) << opening_deg;
+      }
+    }
+  }
+}
+
 TEST(SharpEdges, OfEveryWedgeThatDiffractsOneSideSpeaks) {
   const TriangleMesh ship = read_mesh(SEAGLINT_SOURCE_DIR "/assets/combatant_144m.glb");
   for (const TriangleMesh& mesh : {ship, make_square_trihedral(0.4)}) {
@@ -61,7 +82,11 @@ TEST(SharpEdges, OfEveryWedgeThatDiffractsOneSideSpeaks) {
       const Vec3 k_hat = Vec3(random.normal(), random.normal(), random.normal()).normalized();
       std::vector<int> speaking(edges.edges.size(), 0);
       for (int panel = 0; panel < static_cast<int>(scatterer.facets().size()); ++panel) {
-        for (const PanelEdge& side : edges.of_panel(panel)) speaking[side.edge] += side.speaks(k_hat);
+        for (const PanelEdge& side : edges.of_panel(panel)) {
+          const SharpEdge& edge = edges.edges[side.edge];
+          const WedgeFrame* wedge = side.may_speak(k_hat) ? wedge_lit(edge, side.first, k_hat) : nullptr;
+          speaking[side.edge] += wedge && (edge.facet[0] == edge.facet[1] || speaks(*wedge, side.first, k_hat));
+        }
       }
       for (std::size_t number = 0; number < edges.edges.size(); ++number) {
         const SharpEdge& edge = edges.edges[number];
