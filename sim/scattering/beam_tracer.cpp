@@ -220,6 +220,7 @@ class BeamTracer {
     next.from_plane = candidate.image.plane;
     next.from_normal = n;
     next.bounce = leg.bounce + 1;
+    next.first_mirror = leg.bounce == 1 ? n : Vec3(leg.first_mirror - 2 * n.dot(leg.first_mirror) * n);
     next.before = &leg;
     next.bent = leg.bent || curving_.surface.curved(facet);
     next.rays = reflected_rays(curving_, leg, candidate);
@@ -238,7 +239,7 @@ class BeamTracer {
   // Wedges are perfect conductors, and so is what the wave met before.
   void reach_edges(const Leg& leg, const Candidate& candidate) {
     if (!leg.fields.empty() || !surface_of(candidate.image.facet).empty()) return;
-    const WaveOnFacet wave{basis_, leg.mirrors, candidate.image.plane, leg.direction, leg.E_h, leg.E_v, leg.bounce};
+    const WaveOnFacet wave{basis_, leg.mirrors, candidate.image.plane, leg.direction, leg.E_h, leg.E_v, leg.bounce, leg.first_mirror};
     find_arrivals(*edges_, candidate.image.facet, wave, candidate.lit.polygons(), out_.arrivals);
   }
 

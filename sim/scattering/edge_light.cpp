@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sim/core/constants.h"
+#include "sim/scattering/mirrored_rim.h"
 #include "sim/scattering/thick_rim.h"
 
 namespace seaglint {
@@ -95,6 +96,59 @@ EdgePattern pattern(const WedgeFrame& wedge, const EdgeArrival& in, const EdgeAr
   return pattern;
 }
 
+// A way and the same one run backwards, half of each.
+EdgePattern mean(EdgePattern there, const EdgePattern& back) {
+  there += transposed(back);
+  there *= 0.5;
+  return there;
+}
+
+EdgePattern mean_of_both(const WedgeFrame& wedge, const EdgeArrival& in, const EdgeArrival& out) {
+  const EdgePattern there = pattern(wedge, in, out);
+  return mean(there, &in == &out ? there : pattern(wedge, out, in));
+}
+
+// What edge_currents() leaves out is what facets radiate straight to the receiver, of the transmitter's wave: with one antenna single diffraction is reciprocal as the mean of both ways; with two
+// antennas only the transmitter's and theirs together are Keller's.
+EdgePattern direct(const WedgeFrame& wedge, const EdgeArrival& in, const EdgeArrival& out, bool monostatic) {
+  return monostatic ? mean_of_both(wedge, in, out) : pattern(wedge, in, out);
+}
+
+// The same along the beam that a face of the wedge reflects, for mirrors to send on (mirrored_rim.h).
+EdgePattern along_the_beam(const WedgeFrame& wedge, const WedgeFace& face, const EdgeArrival& in, const EdgeArrival& out, bool monostatic) {
+  const auto way = [&](const EdgeArrival& from, const EdgeArrival& to) {
+    EdgePattern answer = pattern(wedge, from, to);
+    const std::array<double, 4> ends = ends_of_beam(face, from, to);
+    for (int i = 0; i < 4; ++i) answer.sharp[i] += ends[i];
+    return answer;
+  };
+  return monostatic ? mean(way(in, out), way(out, in)) : way(in, out);
+}
+
+// In other directions: what facets radiate straight to the receiver is what the transmitter or more mirrors lit. A way with more mirrors on its end is the same way run backwards; ways with as many
+// on either side share both.
+EdgePattern beside_reflection(const WedgeFrame& wedge, const EdgeArrival& in, const EdgeArrival& out) {
+  if (in.mirrors > out.mirrors) return pattern(wedge, in, out);
+  return in.mirrors < out.mirrors ? transposed(pattern(wedge, out, in)) : mean_of_both(wedge, in, out);
+}
+
+// By mirrors; nothing where it has faded out ahead of the edge.
+std::optional<EdgePattern> by_mirrors(const WedgeFrame& wedge, const EdgeArrival& in, const EdgeArrival& out, bool monostatic) {
+  const Vec3 s = -out.direction;
+  const ReflectingFace reflecting = reflecting_face(wedge, in.direction, s);
+  const double along = reflecting.share, beside = (1 - reflecting.share) * beside_the_beam(in.direction, s);
+  if (along <= 0 && beside <= 0) return std::nullopt;
+  EdgePattern answer;
+  answer.thickness_m = wedge.thickness_m;
+  const auto add = [&](EdgePattern part, double share) {
+    part *= share;
+    answer += part;
+  };
+  if (along > 0) add(along_the_beam(wedge, wedge.face[reflecting.face], in, out, monostatic), along);
+  if (beside > 0) add(beside_reflection(wedge, in, out), beside);
+  return answer;
+}
+
 }  // namespace
 
 std::array<Complex, 4> EdgePattern::at(double k) const {
@@ -134,6 +188,8 @@ double fading(double x, const std::array<double, 2>& from_to) {
 
 double beside_the_beam(const Vec3& k_hat, const Vec3& s) { return fading(k_hat.dot(s), {0, std::cos(kPi / 6)}); }
 
+double before_the_beam(const Vec3& k_hat, const Vec3& s) { return fading(k_hat.dot(s), {0.95, 0.999}); }
+
 void find_arrivals(const SharpEdges& edges, int facet, const WaveOnFacet& wave, std::span<const MovingPolygon> lit,
                    std::vector<EdgeArrival>& arrivals) {
   if (lit.empty()) return;
@@ -147,7 +203,7 @@ void find_arrivals(const SharpEdges& edges, int facet, const WaveOnFacet& wave, 
     const Vec3 image = wave.mirrors.image(edge.a), along = wave.mirrors.L * edge.along();
     for (const Stretch& stretch : lit_stretches(image, along, edge.length(), wave, lit)) {
       arrivals.push_back({side.edge, stretch.s, stretch.slip, image, along, wave.direction, wave.E_h, wave.E_v,
-                          static_cast<std::uint8_t>(wave.bounce - 1)});
+                          static_cast<std::uint8_t>(wave.bounce - 1), wave.first_mirror});
     }
   }
 }
@@ -167,8 +223,9 @@ std::vector<EdgeFootprint> edge_footprints(const SharpEdges& edges, std::span<co
     const WedgeFrame* wedge = wedge_towards(edge, in.direction);
     if (!wedge || wedge_towards(edge, out.direction) != wedge) return;
 
-    const double weight = in.mirrors + out.mirrors > 0 ? beside_the_beam(in.direction, -out.direction) : 1.0;
-    if (weight <= 0) return;
+    const std::optional<EdgePattern> answer =
+        in.mirrors + out.mirrors > 0 ? by_mirrors(*wedge, in, out, antennas.monostatic) : direct(*wedge, in, out, antennas.monostatic);
+    if (!answer) return;
 
     EdgeFootprint footprint;
     footprint.length = last - first;
@@ -176,21 +233,8 @@ std::vector<EdgeFootprint> edge_footprints(const SharpEdges& edges, std::span<co
     footprint.part = facets[edge.facet[0]].part;
     footprint.part_beyond = facets[edge.facet[1]].part;
     footprint.bounces = static_cast<std::uint8_t>(in.mirrors + out.mirrors + 1);
-    // Physical optics radiates what the transmitter or more mirrors lit straight to the receiver: there its share is what
-    // edge_currents() leaves out, and only with that the sum is Keller's and reciprocal. A way with more mirrors on its end
-    // is the same way run backwards (reciprocity); ways with as many on either side share both.
-    const bool both_direct = in.mirrors == 0 && out.mirrors == 0;
-    if (in.mirrors > out.mirrors || (both_direct && !antennas.monostatic)) {
-      footprint.pattern = pattern(*wedge, in, out);
-    } else if (in.mirrors < out.mirrors) {
-      footprint.pattern = transposed(pattern(*wedge, out, in));
-    } else {
-      footprint.pattern = pattern(*wedge, in, out);
-      footprint.pattern += transposed(&in == &out ? footprint.pattern : pattern(*wedge, out, in));
-      footprint.pattern *= 0.5;
-    }
-    if (both_ways) footprint.pattern += transposed(footprint.pattern);
-    if (weight < 1) footprint.pattern *= weight;
+    footprint.pattern = *answer;
+    if (both_ways) footprint.pattern += transposed(*answer);
 
     const RadarBasis &t = antennas.transmit, &r = antennas.receive;
     const double slope = t.r.dot(in.image_along) + r.r.dot(out.image_along);  // of psi along the edge

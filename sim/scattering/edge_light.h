@@ -33,6 +33,7 @@ struct EdgeArrival {
   Vec3 direction;              // of the wave at the edge, unit
   Vec3 E_h, E_v;               // field for each polarisation of the antenna
   std::uint8_t mirrors = 0;    // passed before
+  Vec3 first_mirror = Vec3::Zero();  // normal of the first of them, unit, as the others show it to the edge
 };
 
 // A wave that falls on a facet through mirrors, as a beam's leg carries it.
@@ -42,6 +43,7 @@ struct WaveOnFacet {
   const ImagePlane& plane;  // of the facet's image
   Vec3 direction, E_h, E_v;
   int bounce = 1;  // of the hit on the facet
+  Vec3 first_mirror = Vec3::Zero();  // as in EdgeArrival
 };
 
 // Appends the stretches of the sharp edges of a panel (by the facet it goes by) that bound what the wave lights of it
@@ -100,6 +102,9 @@ double fading(double x, const std::array<double, 2>& from_to);
 // at a finite distance is no ray of its own: the beam's end on that mirror carries it. An echo by mirrors in direction s
 // (before the first of them) fades out from right angles to the wave's way on, 1, to 30 deg off it, 0.
 double beside_the_beam(const Vec3& k_hat, const Vec3& s);
+
+// The same along what a face of the edge reflects, the beam itself: from 18 deg off the wave's way on, 1, to 2.6 deg, 0.
+double before_the_beam(const Vec3& k_hat, const Vec3& s);
 
 // Echoes of all stretches that a wave from the transmitter (`incoming`) shares with one from the receiver (`outgoing`),
 // with at most `max_bounces` in all. Arrivals must be in ascending order of their edges. When both are one antenna

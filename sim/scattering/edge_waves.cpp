@@ -314,7 +314,7 @@ class EdgeWaves {
     if (by_mirrors(departure) || wedge_towards(edge, departure.direction) != &wedge) return;
     const std::array<double, 2> s{std::max(in.s[0], departure.s[0]), std::min(in.s[1], departure.s[1])};
     if (s[1] - s[0] < kShortest) return;
-    const double weight = in.walls > 0 ? beside_the_beam(in.before, in.unfolded * -departure.direction) : 1.0;
+    const double weight = in.walls > 0 ? before_the_beam(in.before, in.unfolded * -departure.direction) : 1.0;
     if (weight <= 0) return;
     const Vec3& along = edge.along();
     const Vec3 out = -departure.direction;

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Rims of mirrors along the beam that these reflect: closed forms.
+#include "sim/scattering/mirrored_rim.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sim/core/constants.h"
+
+namespace seaglint {
+namespace {
+
+// The rim of a right-angled dihedral's arm y = 0, x <= 0, of which the other arm stands at a place x < 0; the wave comes from before the rim and leaves the arm at an angle `above` towards the other one.
+struct DihedralRim {
+  WedgeFrame wedge;
+  EdgeArrival in, out;
+};
+
+DihedralRim dihedral_rim(double above, double beside = 0) {
+  const Vec3 x = -Vec3::UnitX(), y = Vec3::UnitY(), t = x.cross(y);
+  const double c = std::cos(above), s = std::sin(above), c2 = std::cos(above + beside), s2 = std::sin(above + beside);
+  DihedralRim rim{{{{x, y, t}, {x, -y, -t}}, 2}, {}, {}};
+  rim.in.direction = {-c, -s, 0};
+  rim.in.E_h = {-s, c, 0};  // hard: across the rim
+  rim.in.E_v = Vec3::UnitZ();
+  // The receiver's wave, sent backwards, after the other arm: E' = 2 (n.E) n - E.
+  rim.out.direction = {c2, -s2, 0};
+  rim.out.E_h = {-s2, -c2, 0};
+  rim.out.E_v = -Vec3::UnitZ();
+  rim.out.mirrors = 1;
+  rim.out.first_mirror = Vec3::UnitX();
+  return rim;
+}
+
+// hh and vv of the rim along the beam, per metre.
+std::array<double, 2> answer(const DihedralRim& rim) {
+  const auto currents = edge_currents(rim.wedge, rim.in.direction, {rim.in.E_h, rim.in.E_v}, -rim.out.direction);
+  const auto ends = ends_of_beam(rim.wedge.face[0], rim.in, rim.out);
+  return {rim.out.E_h.dot(currents[0]) + ends[0], rim.out.E_v.dot(currents[1]) + ends[3]};
+}
+
+// Keller's 1 / (2 sin a) less tan(a) / 2 of the other arm's end, over 2 pi; soft and hard coefficients have opposite signs, and so have a dihedral's echoes.
+TEST(MirroredRim, OfADihedralIsKellersCoefficientLessTheEndOnTheOtherArm) {
+  for (const double above_deg : {10.0, 20.0, 33.0, 45.0, 60.0}) {
+    const double above = radians(above_deg), expected = (1 / std::sin(above) - std::tan(above)) / (4 * kPi);
+    const auto [hard, soft] = answer(dihedral_rim(above));
+    // To either side of the beam by 1e-4 rad, of a curve that bends by 1 / a^3.
+    EXPECT_NEAR(std::abs(hard), std::abs(expected), 1e-6) << above_deg;
+    EXPECT_NEAR(soft, hard, 1e-6) << above_deg;
+    EXPECT_GT(hard * expected * answer(dihedral_rim(radians(20)))[0], 0) << above_deg;
+  }
+}
+
+// On a dihedral's axis both arms are alike, and so are the rims that the beam meets first and last.
+TEST(MirroredRim, OnADihedralsAxisIsWhatItIsOfTheLastMirror) {
+  const DihedralRim first = dihedral_rim(radians(45));
+  const auto currents = edge_currents(first.wedge, first.out.direction, {first.out.E_h, first.out.E_v}, -first.in.direction);
+  const auto [hard, soft] = answer(first);
+  EXPECT_NEAR(first.in.E_h.dot(currents[0]), hard, 1e-6);
+  EXPECT_NEAR(first.in.E_v.dot(currents[1]), soft, 1e-6);
+}
+
+TEST(MirroredRim, HasNoOtherEndWhereItsFaceIsTheLastMirror) {
+  const DihedralRim rim = dihedral_rim(radians(30));
+  for (const double end : ends_of_beam(rim.wedge.face[0], rim.out, rim.in)) EXPECT_EQ(end, 0);
+}
+
+TEST(MirroredRim, IsToldByTheDirectionOfReflection) {
+  const auto share = [](double above, double beside) {
+    const DihedralRim rim = dihedral_rim(above, beside);
+    return reflecting_face(rim.wedge, rim.in.direction, -rim.out.direction).share;
+  };
+  EXPECT_DOUBLE_EQ(share(radians(30), 0), 1);
+  EXPECT_DOUBLE_EQ(share(radians(30), 0.05), 1);
+  EXPECT_EQ(share(radians(30), 0.25), 0);
+  EXPECT_EQ(share(radians(1.5), 0), 0);  // grazing
+  EXPECT_EQ(reflecting_face(dihedral_rim(radians(30)).wedge, dihedral_rim(radians(30)).in.direction, -dihedral_rim(radians(30)).out.direction).face, 0);
+}
+
+}  // namespace
+}  // namespace seaglint
