@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "sim/scattering/edge_light.h"
+#include "sim/scattering/edge_footprint.h"
 #include "sim/scattering/footprint.h"
 
 namespace seaglint {

@@ -111,13 +111,12 @@ const WedgeFrame* wedge_towards(const SharpEdge& edge, const Vec3& k_hat) {
 
 const WedgeFrame* wedge_lit(const SharpEdge& edge, bool first, const Vec3& k_hat) {
   const WedgeFrame* wedge = wedge_towards(edge, k_hat);
-  const bool rim = edge.facet[0] == edge.facet[1];
-  return wedge && (rim || k_hat.dot(wedge->face[first ? 0 : 1].n) <= 0) ? wedge : nullptr;
+  return wedge && (edge.is_rim() || k_hat.dot(wedge->face[first ? 0 : 1].n) <= 0) ? wedge : nullptr;
 }
 
-bool speaks(const WedgeFrame& wedge, bool first, const Vec3& k_hat) {
+bool speaks(const SharpEdge& edge, const WedgeFrame& wedge, bool first, const Vec3& k_hat) {
   const double of_first = -k_hat.dot(wedge.face[0].n), of_second = -k_hat.dot(wedge.face[1].n);
-  return first ? of_first >= of_second : of_second > of_first;
+  return edge.is_rim() || (first ? of_first >= of_second : of_second > of_first);
 }
 
 }  // namespace seaglint

@@ -23,6 +23,7 @@ struct SharpEdge {
   WedgeFrame inside;               // the other one, of an open sheet
   bool open = false;               // the wave may come from either side
 
+  bool is_rim() const { return facet[0] == facet[1]; }
   double length() const { return (b - a).norm(); }
   const Vec3& along() const { return outside.face[0].t; }  // unit, from a to b
 };
@@ -68,7 +69,7 @@ const WedgeFrame* wedge_towards(const SharpEdge& edge, const Vec3& k_hat);
 // reflected by the panel beyond the edge, comes as if from behind it, and is a part of the corner's answer.
 const WedgeFrame* wedge_lit(const SharpEdge& edge, bool first, const Vec3& k_hat);
 
-// Of the wedge's two faces the one that faces the wave more squarely speaks for both: this one?
-bool speaks(const WedgeFrame& wedge, bool first, const Vec3& k_hat);
+// Whether that panel speaks for the edge, whose wedge the wave meets: of its two faces the one that faces the wave more squarely does; a rim has one panel.
+bool speaks(const SharpEdge& edge, const WedgeFrame& wedge, bool first, const Vec3& k_hat);
 
 }  // namespace seaglint

@@ -16,7 +16,9 @@
 #include <span>
 #include <vector>
 
-#include "sim/scattering/edge_light.h"
+#include "sim/scattering/edge_footprint.h"
+#include "sim/scattering/edges.h"
+#include "sim/scattering/edges.h"
 #include "sim/scattering/panels.h"
 
 namespace seaglint {

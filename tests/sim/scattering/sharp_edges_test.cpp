@@ -23,7 +23,7 @@ TEST(SharpEdges, AreThoseOfAPlateABoxAndADihedral) {
   // Seen from within the corner the seam is concave; from behind it is a wedge of three right angles.
   int seams = 0;
   for (const SharpEdge& edge : edges_of(make_dihedral(0.25, 0.3, kPi / 2))) {
-    if (edge.facet[0] == edge.facet[1]) continue;
+    if (edge.is_rim()) continue;
     ++seams;
     EXPECT_NEAR(std::min(edge.outside.N, edge.inside.N), 0.5, 1e-12);
     EXPECT_NEAR(std::max(edge.outside.N, edge.inside.N), 1.5, 1e-12);
@@ -37,7 +37,7 @@ TEST(SharpEdges, OfCornersDiffractBetweenTwelveDegAndAHalfTurn) {
   const auto corner_diffracts = [](double opening_deg) {
     const Scatterer scatterer(make_dihedral(0.25, 0.3, radians(opening_deg)));
     for (const SharpEdge& edge : scatterer.edges().edges) {
-      if (edge.facet[0] == edge.facet[1]) continue;
+      if (edge.is_rim()) continue;
       const WedgeFrame& corner = edge.outside.N < 1 ? edge.outside : edge.inside;
       const Vec3 between = (corner.face[0].x + corner.face[1].x).normalized();
       const WedgeFrame* met = wedge_towards(edge, -between);
@@ -57,7 +57,7 @@ TEST(SharpEdges, OfACornerAreNotMetByWhatItsOwnFacesReflect) {
   for (const double opening_deg : {90.0, 135.0, 150.0}) {
     const Scatterer scatterer(make_dihedral(0.25, 0.3, radians(opening_deg)));
     for (const SharpEdge& edge : scatterer.edges().edges) {
-      if (edge.facet[0] == edge.facet[1]) continue;
+      if (edge.is_rim()) continue;
       const bool concave_outside = edge.outside.N < 1;
       const WedgeFrame &corner = concave_outside ? edge.outside : edge.inside, &back = concave_outside ? edge.inside : edge.outside;
       const double above = 0.5 * (kPi - radians(opening_deg));  // the mirror; from twice that on nothing reflected meets the other face
@@ -85,7 +85,7 @@ TEST(SharpEdges, OfEveryWedgeThatDiffractsOneSideSpeaks) {
         for (const PanelEdge& side : edges.of_panel(panel)) {
           const SharpEdge& edge = edges.edges[side.edge];
           const WedgeFrame* wedge = side.may_speak(k_hat) ? wedge_lit(edge, side.first, k_hat) : nullptr;
-          speaking[side.edge] += wedge && (edge.facet[0] == edge.facet[1] || speaks(*wedge, side.first, k_hat));
+          speaking[side.edge] += wedge && speaks(edge, *wedge, side.first, k_hat);
         }
       }
       for (std::size_t number = 0; number < edges.edges.size(); ++number) {

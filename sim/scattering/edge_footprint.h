@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// The echo of a stretch of an edge: a pattern per metre and the integral of the phase along it, at any frequency. Single diffraction, edge waves and what beams lack between two rims differ in what
+// their amplitude does along the stretch.
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+#include "sim/scattering/footprint.h"
+
+namespace seaglint {
+
+// 1 up to the one value of x, 0 from the other on, smooth between.
+double fading(double x, const std::array<double, 2>& from_to);
+
+// hh, hv, vh, vv per metre of edge, dimensionless; where sheets end k t (thick + thick_log ln(k t)) more, t their thickness.
+struct EdgePattern {
+  std::array<Complex, 4> sharp{}, thick{}, thick_log{};
+  double thickness_m = 0;  // t; 0: neither is filled
+
+  std::array<Complex, 4> at(double k) const;
+  EdgePattern& operator+=(const EdgePattern& other);  // of the same edges
+  EdgePattern& operator*=(double factor);
+};
+EdgePattern transposed(EdgePattern pattern);
+
+// The echo of a stretch of edge: S = pattern times the integral of e^{jk psi} along it, psi linear.
+struct EdgeFootprint {
+  std::array<double, 2> psi{};           // at its ends, m
+  std::array<PathGradient, 2> gradient;  // of the ends, m
+  double length = 0;                     // m
+  EdgePattern pattern;                   // but for the last of several edge waves in a row times sqrt(1/m)
+  // An edge wave of length l decays as 1/sqrt(k l), less where it starts or ends near a shadow boundary.
+  struct EdgeWaveRange {
+    std::array<double, 2> l{};          // at the ends of the stretch, m; linear in between. Of several waves in a row, of the last
+    double departure = 0, arrival = 0;  // shadow_distance() where the first starts and the last ends
+    double first_m = 0;                 // mean length of the first of several
+    int waves = 1;                      // in a row
+  };
+  std::optional<EdgeWaveRange> edge_wave;
+  // What a beam lacks between two rims that cut it one after the other (knife_edges.h), k times metres of its width.
+  struct KnifeEdges {
+    std::array<double, 2> distance{}, excess{};  // of the way from rim to rim: along the beam, and how much longer it is than that, m
+    double slope = 0;                            // of psi across the rims
+    double depth = 0;                            // of the shallower of their panels, m
+
+    // At an end the phase may run along the stretch, by `run` over all of it, rad.
+    Complex width(double k, double share, double run = std::numeric_limits<double>::infinity()) const;
+    // 1 along the wave, 0 from where the shadow lines of both ways lie apart by the light's spread, k d slope^2 / 2 = 1 rad: there the ends of the currents would move.
+    double fade_by_slope(double k, double distance_m) const;
+    // 0 where a panel is no deeper than the spread, (2 d / k)^(1/2), and its other side counts as much; 1 where that is beside the matter.
+    double fade_by_depth(double k, double distance_m) const;
+  };
+  std::optional<KnifeEdges> knife_edges;
+  std::int32_t facet = -1;  // the edge's first
+  std::uint16_t part = 0, part_beyond = 0;  // of that facet and of the other one
+  std::uint8_t bounces = 1;  // mirrors on both ways and every edge met
+};
+
+// The integral of e^{jk psi} along the stretch, m, an edge wave's range included, is what these leave of it at its ends: end_term(1) e^{jk psi_1} - end_term(0) e^{jk psi_0}.
+// `share` of the way from one end to the other: between them the terms of two parts cancel.
+Complex end_term(const EdgeFootprint& footprint, double k, double share);
+
+// The same integral from one share of the way to another, about the phase halfway: also where psi does not change.
+Complex part_integral(const EdgeFootprint& footprint, double k, double from, double to);
+
+// hh, hv, vh, vv in metres.
+std::array<Complex, 4> scattered(const EdgeFootprint& footprint, double k);
+
+}  // namespace seaglint
