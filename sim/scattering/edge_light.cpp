@@ -162,7 +162,7 @@ void find_arrivals(const SharpEdges& edges, int facet, const WaveOnFacet& wave, 
   for (const PanelEdge& side : edges.of_panel(facet)) {
     if (!side.may_speak(wave.direction)) continue;
     const SharpEdge& edge = edges.edges[side.edge];
-    const WedgeFrame* wedge = wedge_lit(edge, side.first, wave.direction);
+    const WedgeFrame* wedge = wedge_towards(edge, wave.direction);
     if (!wedge || !speaks(edge, *wedge, side.first, wave.direction)) continue;
     if (wedge->N < 1 && wave.bounce > 1) continue;  // of a corner the reflections are part of its answer
     const Vec3 image = wave.mirrors.image(edge.a), along = wave.mirrors.L * edge.along();

@@ -69,7 +69,8 @@ const WedgeFrame* wedge_towards(const SharpEdge& edge, const Vec3& k_hat);
 // reflected by the panel beyond the edge, comes as if from behind it, and is a part of the corner's answer.
 const WedgeFrame* wedge_lit(const SharpEdge& edge, bool first, const Vec3& k_hat);
 
-// Whether that panel speaks for the edge, whose wedge the wave meets: of its two faces the one that faces the wave more squarely does; a rim has one panel.
+// Whether that panel speaks for the edge, whose wedge the wave meets: of its two faces the one that faces the wave more squarely does, which
+// wedge_lit() has lit; a rim has one panel.
 bool speaks(const SharpEdge& edge, const WedgeFrame& wedge, bool first, const Vec3& k_hat);
 
 }  // namespace seaglint

@@ -15,7 +15,7 @@ constexpr std::array<double, 2> kOffGrazing{0.25, 0.5};
 // Cosine against the normal, below which a wave grazes the rim's face: 2 and 6 deg. Nearer to it the next mirror stands in the zone that the beam, the wave beside it and what the rim diffracts
 // share.
 constexpr std::array<double, 2> kGrazingFace{0.035, 0.11};
-// The ends are taken this far to either side of the direction of reflection, rad, and their poles cancel: the constant errs by as much.
+// The ends are taken this far to either side of the direction of reflection, rad, and their poles cancel: the constant errs by its square times the ends' second derivative, 1e-6 at 10 deg.
 constexpr double kAside = 1e-4;
 // Cosine below which a beam grazes the last mirror: its end there would be far away, and infinite at last.
 constexpr std::array<double, 2> kGrazing{0.05, 0.15};

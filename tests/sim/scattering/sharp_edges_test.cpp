@@ -67,6 +67,7 @@ TEST(SharpEdges, OfACornerAreNotMetByWhatItsOwnFacesReflect) {
         EXPECT_EQ(wedge_towards(edge, reflected), &back) << opening_deg;
         EXPECT_EQ(wedge_lit(edge, mirror == 1, reflected), nullptr) << opening_deg;
         EXPECT_EQ(wedge_lit(edge, mirror == 0, reflected), &back) << opening_deg;
+        EXPECT_FALSE(speaks(edge, back, mirror == 1, reflected)) << opening_deg;
       }
     }
   }
@@ -84,8 +85,12 @@ TEST(SharpEdges, OfEveryWedgeThatDiffractsOneSideSpeaks) {
       for (int panel = 0; panel < static_cast<int>(scatterer.facets().size()); ++panel) {
         for (const PanelEdge& side : edges.of_panel(panel)) {
           const SharpEdge& edge = edges.edges[side.edge];
-          const WedgeFrame* wedge = side.may_speak(k_hat) ? wedge_lit(edge, side.first, k_hat) : nullptr;
-          speaking[side.edge] += wedge && speaks(edge, *wedge, side.first, k_hat);
+          const WedgeFrame* wedge = side.may_speak(k_hat) ? wedge_towards(edge, k_hat) : nullptr;
+          const bool speaking_here = wedge && speaks(edge, *wedge, side.first, k_hat);
+          speaking[side.edge] += speaking_here;
+          if (speaking_here) {
+            EXPECT_EQ(wedge_lit(edge, side.first, k_hat), wedge) << side.edge;
+          }
         }
       }
       for (std::size_t number = 0; number < edges.edges.size(); ++number) {
