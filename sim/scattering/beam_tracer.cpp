@@ -5,11 +5,13 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 
+#include "sim/scattering/beam_ends.h"
 #include "sim/scattering/beam_leg.h"
 #include "sim/scattering/beam_window.h"
 #include "sim/scattering/bent_beam.h"
-#include "sim/scattering/knife_edges.h"
+#include "sim/scattering/mirrored_rim.h"
 #include "sim/scattering/reflect.h"
 
 namespace seaglint {
@@ -243,14 +245,19 @@ class BeamTracer {
     find_arrivals(*edges_, candidate.image.facet, wave, candidate.lit.polygons(), out_.arrivals);
   }
 
-  // What the footprint lacks between two rims of its mirrors and facet; perfect conductors, as wedges are.
-  void reach_knife_edges(const Leg& leg, const Footprint& footprint) {
-    if (!edges_ || leg.bounce < 2 || leg.bounce > kMostEdgeMirrors || leg.bent || footprint.curvature || !footprint.patterns.empty()) return;
-    std::array<Screen, kMostEdgeMirrors> screens;
-    std::size_t place = static_cast<std::size_t>(leg.bounce) - 1;
-    screens[place] = {footprint.facet, &leg.mirrors, &footprint.plane, leg.direction};
+  // Perfect conductors, as wedges are, and flat.
+  bool has_beam_ends(const Leg& leg, const Footprint& footprint) const {
+    return edges_ && leg.bounce > 1 && leg.bounce <= kMostMoved + 1 && !leg.bent && !footprint.curvature && footprint.patterns.empty();
+  }
+
+  // The leg's mirrors and the candidate, as the beam meets them.
+  using Screens = std::array<Screen, kMostMoved + 1>;
+  static Screens screens_of(const Leg& leg, const Candidate& candidate) {
+    Screens screens;
+    auto place = static_cast<std::size_t>(leg.bounce) - 1;
+    screens[place] = {candidate.image.facet, &leg.mirrors, &candidate.image.plane, leg.direction};
     for (const Leg* after = &leg; place > 0; after = after->before) screens[--place] = {after->from_facet, &after->mirrors, &after->from_plane, after->before->direction};
-    find_knife_edges(*edges_, panels_, antennas_.transmit, {screens.data(), static_cast<std::size_t>(leg.bounce)}, footprint, out_.knife_edges);
+    return screens;
   }
 
   // Footprints of the pieces that are lit and seen.
@@ -273,10 +280,16 @@ class BeamTracer {
       footprint.pattern = footprint.patterns[footprint.patterns.size() / 2];
     }
     footprint.curvature = curvature_of(curving_, leg, candidate, footprint);
+    Screens screens;
+    std::optional<BeamEnds> ends;
+    if (has_beam_ends(leg, footprint)) {
+      screens = screens_of(leg, candidate);
+      ends.emplace(*edges_, panels_, antennas_, std::span<const Screen>(screens.data(), static_cast<std::size_t>(leg.bounce)));
+    }
     for (const MovingPolygon& piece : pieces) {
       footprint.polygon = piece;
       limit_slip(footprint, 2 * radius_);
-      reach_knife_edges(leg, footprint);
+      if (ends) ends->find(footprint, out_.beam_ends);
       out_.footprints.push_back(footprint);
     }
   }

@@ -183,7 +183,7 @@ void split(const EdgeFootprint& footprint, const SplitSettings& settings, std::v
   const double k = settings.kc, run = footprint.psi[1] - footprint.psi[0];
   // Turning by u changes psi's slope along the edge by at most 2 u.
   const double threshold = 2 * settings.turn_rad / kAmplitudeError * footprint.length;
-  if (std::abs(run) > threshold && std::abs(k * run) / 2 > kPieceHalfPhase) {
+  if (std::abs(run) > threshold && std::abs(k * run) / 2 > kPieceHalfPhase && ends_answer_alone(footprint, k)) {
     for (int i = 0; i < 2; ++i) {
       const Complex end = end_term(footprint, k, i);
       c.amplitude = i == 0 ? -end : end;

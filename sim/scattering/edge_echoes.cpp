@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "sim/scattering/beam_ends.h"
 #include "sim/scattering/edge_waves.h"
-#include "sim/scattering/knife_edges.h"
 
 namespace seaglint {
 namespace {
@@ -54,13 +54,13 @@ void edge_echoes(const Scatterer& scatterer, const AntennaPair& antennas, const 
   const auto [lowest, highest] = std::ranges::minmax(wavenumbers);
   const EdgeWaveLimits limits{kLongEdge * scatterer.radius(), faintest_echo(scatterer, settings, lowest), lowest};
   const auto chunks = chunks_of(incoming);
-  const std::span<const EdgeFootprint> knife_edges = reached.knife_edges;
+  const std::span<const EdgeFootprint> beam_ends = reached.beam_ends;
   parallel_for(chunks.size(), threads, [&](std::size_t chunk) {
     std::vector<EdgeFootprint> answer =
         edge_footprints(scatterer.edges(), scatterer.facets(), antennas, chunks[chunk], outgoing, settings.max_bounces);
     append_edge_waves(scatterer, antennas, chunks[chunk], outgoing, limits, answer);
-    for (std::size_t i = knife_edges.size() * chunk / chunks.size(); i < knife_edges.size() * (chunk + 1) / chunks.size(); ++i) {
-      if (bound_of_knife_edges(knife_edges[i], lowest, highest) >= limits.faintest_m) answer.push_back(knife_edges[i]);
+    for (std::size_t i = beam_ends.size() * chunk / chunks.size(); i < beam_ends.size() * (chunk + 1) / chunks.size(); ++i) {
+      if (bound_of_beam_end(beam_ends[i], lowest, highest) >= limits.faintest_m) answer.push_back(beam_ends[i]);
     }
     std::erase_if(answer,
                   [&](const EdgeFootprint& f) { return !settings.filter.keeps_edge(f.part, f.part_beyond, f.bounces); });

@@ -100,17 +100,52 @@ double EdgeFootprint::KnifeEdges::fade_by_slope(double k, double distance_m) con
 
 double EdgeFootprint::KnifeEdges::fade_by_depth(double k, double distance_m) const { return fading(2 * distance_m / (k * depth * depth), {0.3, 1}); }
 
+namespace {
+
+// F(u^2) / u, u of either sign.
+Complex over_root(double u) {
+  constexpr double kAtBoundary = 1e-6;
+  return std::abs(u) < kAtBoundary ? std::polar(std::copysign(std::sqrt(kPi), u), kPi / 4) : transition(u * u) / u;
+}
+double bound_of_over_root(double u) { return std::min(std::sqrt(kPi), 1 / u); }
+
+}  // namespace
+
+Complex EdgeFootprint::KnifeEdges::sloping(double k, double share) const {
+  constexpr double kEqual = 0.05;  // below it the difference is that of F(u^2) / u, 2j (F - 1), to its square
+  const double past = at_share(beyond, share);
+  const double u = (shadow_within ? 1 : -1) * std::sqrt(k * at_share(excess, share)), v = std::copysign(std::sqrt(k * std::abs(past)), past);
+  if (u * v >= 0 && std::abs(u - v) < kEqual) return (u - v) / (std::sqrt(kPi) * slope) * (1.0 - transition(u * v));
+  return Complex(0, 1 / (2 * std::sqrt(kPi) * slope)) * (over_root(u) - over_root(v));
+}
+
 Complex EdgeFootprint::KnifeEdges::width(double k, double share, double run) const {
   const double d = at_share(distance, share);
-  // An end of running phase a along a root: the integral of sqrt(t) e^{jat} from 0 on is (j / a) sqrt(pi j / 4a), that of sqrt(d + t) to first order (j / a) sqrt(d + j / a).
-  const Complex reached = d + (distance[1] - distance[0]) * Complex(0, kPi / 4 / run);
-  return std::polar(fade_by_slope(k, d) * fade_by_depth(k, d), -kPi / 4) * std::sqrt(k / (2 * kPi) * reached) * (1.0 - transition(k * at_share(excess, share)));
+  Complex sum = moved > 0 ? moved * sloping(k, share) : 0;
+  if (still > 0) {
+    // An end of running phase a along a root: the integral of sqrt(t) e^{jat} from 0 on is (j / a) sqrt(pi j / 4a), that of sqrt(d + t) to first order (j / a) sqrt(d + j / a).
+    const Complex reached = d + (distance[1] - distance[0]) * Complex(0, kPi / 4 / run);
+    sum += still * fade_by_slope(k, d) * std::sqrt(k / (2 * kPi) * reached) * (1.0 - transition(k * at_share(excess, share)));
+  }
+  return std::polar(fade_by_depth(k, d), -kPi / 4) * sum;
+}
+
+double EdgeFootprint::KnifeEdges::bound(double lowest, double highest) const {
+  const auto [nearest, farthest] = std::minmax(distance[0], distance[1]);
+  const double shortest = std::min(excess[0], excess[1]), past = beyond[0] * beyond[1] > 0 ? std::min(std::abs(beyond[0]), std::abs(beyond[1])) : 0.0;
+  double bound = 0;
+  if (moved > 0) bound += moved / (2 * std::sqrt(kPi) * std::abs(slope)) * (bound_of_over_root(std::sqrt(lowest * shortest)) + bound_of_over_root(std::sqrt(lowest * past)));
+  // |1 - F(x)| is at most 1 and at most 1 / 2x.
+  if (still > 0) bound += still * fade_by_slope(lowest, nearest) * std::sqrt(lowest * farthest / (2 * kPi)) * std::min(1.0, 0.5 / (lowest * shortest));
+  return bound * fade_by_depth(highest, nearest);
 }
 
 Complex end_term(const EdgeFootprint& footprint, double k, double share) {
   const double run = phase_run(footprint, k);
   return footprint.length / Complex(0, run) * amplitude_at(footprint, k, run, share);
 }
+
+bool ends_answer_alone(const EdgeFootprint& footprint, double k) { return !footprint.knife_edges || k * std::abs(footprint.psi[1] - footprint.psi[0]) >= kFast; }
 
 Complex part_integral(const EdgeFootprint& footprint, double k, double from, double to) {
   const double phase = k * (footprint.psi[1] - footprint.psi[0]) * (to - from);

@@ -41,15 +41,23 @@ struct EdgeFootprint {
     int waves = 1;                      // in a row
   };
   std::optional<EdgeWaveRange> edge_wave;
-  // What a beam lacks between two rims that cut it one after the other (knife_edges.h), k times metres of its width.
+  // What a beam lacks between two rims that cut it one after the other (beam_ends.h), k times metres of its width.
   struct KnifeEdges {
-    std::array<double, 2> distance{}, excess{};  // of the way from rim to rim: along the beam, and how much longer it is than that, m
-    double slope = 0;                            // of psi across the rims
+    std::array<double, 2> distance{}, excess{};  // of the way over both rims: from the one to the other along the beam, and how much longer it is than the beam's over the second alone, m
+    double slope = 0;                            // of psi across the rims, out of the light
     double depth = 0;                            // of the shallower of their panels, m
+    std::array<double, 2> beyond{};              // how much longer it is than the way out over the first rim alone, m; below zero where the second one hides that way
+    bool shadow_within = false;                  // the second rim lies in the first one's shadow
+    double moved = 0, still = 1;                 // shares of the slope's form, and of that of none, which fades out
 
     // At an end the phase may run along the stretch, by `run` over all of it, rad.
     Complex width(double k, double share, double run = std::numeric_limits<double>::infinity()) const;
-    // 1 along the wave, 0 from where the shadow lines of both ways lie apart by the light's spread, k d slope^2 / 2 = 1 rad: there the ends of the currents would move.
+    // Bounds of it at wavenumbers from the lowest to the highest.
+    double bound(double lowest, double highest) const;
+
+   private:
+    Complex sloping(double k, double share) const;
+    // 1 along the wave, 0 from where the shadow lines of both ways lie apart by the light's spread, k d slope^2 / 2 = 1 rad: there the ends of the currents move.
     double fade_by_slope(double k, double distance_m) const;
     // 0 where a panel is no deeper than the spread, (2 d / k)^(1/2), and its other side counts as much; 1 where that is beside the matter.
     double fade_by_depth(double k, double distance_m) const;
@@ -63,6 +71,9 @@ struct EdgeFootprint {
 // The integral of e^{jk psi} along the stretch, m, an edge wave's range included, is what these leave of it at its ends: end_term(1) e^{jk psi_1} - end_term(0) e^{jk psi_0}.
 // `share` of the way from one end to the other: between them the terms of two parts cancel.
 Complex end_term(const EdgeFootprint& footprint, double k, double share);
+
+// False between knife edges where the phase runs through less than ten cycles: the terms of the ends err by what the width changes in one.
+bool ends_answer_alone(const EdgeFootprint& footprint, double k);
 
 // The same integral from one share of the way to another, about the phase halfway: also where psi does not change.
 Complex part_integral(const EdgeFootprint& footprint, double k, double from, double to);

@@ -115,8 +115,8 @@ EdgePattern direct(const WedgeFrame& wedge, const EdgeArrival& in, const EdgeArr
   return monostatic ? mean_of_both(wedge, in, out) : pattern(wedge, in, out);
 }
 
-// The same along the beam that a face of the wedge reflects, for mirrors to send on (mirrored_rim.h).
-EdgePattern along_the_beam(const WedgeFrame& wedge, const WedgeFace& face, const EdgeArrival& in, const EdgeArrival& out, bool monostatic) {
+// By mirrors that the edge's own field reaches beside the beam that its face reflects to them (mirrored_rim.h).
+EdgePattern by_the_rim(const WedgeFrame& wedge, const WedgeFace& face, const EdgeArrival& in, const EdgeArrival& out, bool monostatic) {
   const auto way = [&](const EdgeArrival& from, const EdgeArrival& to) {
     EdgePattern answer = pattern(wedge, from, to);
     const std::array<double, 4> ends = ends_of_beam(face, from, to);
@@ -126,27 +126,26 @@ EdgePattern along_the_beam(const WedgeFrame& wedge, const WedgeFace& face, const
   return monostatic ? mean(way(in, out), way(out, in)) : way(in, out);
 }
 
-// In other directions: what facets radiate straight to the receiver is what the transmitter or more mirrors lit. A way with more mirrors on its end is the same way run backwards; ways with as many
-// on either side share both.
-EdgePattern beside_reflection(const WedgeFrame& wedge, const EdgeArrival& in, const EdgeArrival& out) {
+// Where that is not told apart from the beam: what facets radiate straight to the receiver is what the transmitter or more mirrors lit. A way with more mirrors on its end is the same way run backwards;
+// ways with as many on either side share both.
+EdgePattern by_the_beam(const WedgeFrame& wedge, const EdgeArrival& in, const EdgeArrival& out) {
   if (in.mirrors > out.mirrors) return pattern(wedge, in, out);
   return in.mirrors < out.mirrors ? transposed(pattern(wedge, out, in)) : mean_of_both(wedge, in, out);
 }
 
 // By mirrors; nothing where it has faded out ahead of the edge.
 std::optional<EdgePattern> by_mirrors(const WedgeFrame& wedge, const EdgeArrival& in, const EdgeArrival& out, bool monostatic) {
-  const Vec3 s = -out.direction;
-  const ReflectingFace reflecting = reflecting_face(wedge, in.direction, s);
-  const double along = reflecting.share, beside = (1 - reflecting.share) * beside_the_beam(in.direction, s);
-  if (along <= 0 && beside <= 0) return std::nullopt;
+  const ReflectingFace reflecting = reflecting_face(wedge, in, out);
+  const double by_rim = reflecting.share, by_beam = (1 - reflecting.share) * beside_the_beam(in.direction, -out.direction);
+  if (by_rim <= 0 && by_beam <= 0) return std::nullopt;
   EdgePattern answer;
   answer.thickness_m = wedge.thickness_m;
   const auto add = [&](EdgePattern part, double share) {
     part *= share;
     answer += part;
   };
-  if (along > 0) add(along_the_beam(wedge, wedge.face[reflecting.face], in, out, monostatic), along);
-  if (beside > 0) add(beside_reflection(wedge, in, out), beside);
+  if (by_rim > 0) add(by_the_rim(wedge, wedge.face[reflecting.face], in, out, monostatic), by_rim);
+  if (by_beam > 0) add(by_the_beam(wedge, in, out), by_beam);
   return answer;
 }
 

@@ -54,7 +54,7 @@ void find_arrivals(const SharpEdges& edges, int facet, const WaveOnFacet& wave, 
 // (before the first of them) fades out from right angles to the wave's way on, 1, to 30 deg off it, 0.
 double beside_the_beam(const Vec3& k_hat, const Vec3& s);
 
-// The same along what a face of the edge reflects, the beam itself: from 18 deg off the wave's way on, 1, to 2.6 deg, 0.
+// The same of the edge's own field, where that is told apart from the beam: from 18 deg off the wave's way on, 1, to 2.6 deg, 0.
 double before_the_beam(const Vec3& k_hat, const Vec3& s);
 
 // Echoes of all stretches that a wave from the transmitter (`incoming`) shares with one from the receiver (`outgoing`),

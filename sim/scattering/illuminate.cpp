@@ -112,7 +112,7 @@ Reached Illumination::light_all(int threads, const std::function<void(std::size_
                                 const StopFlag* stop) const {
   const std::size_t size = panels_per_chunk();
   std::vector<std::vector<EdgeArrival>> arrivals(chunk_count());
-  std::vector<std::vector<EdgeFootprint>> knife_edges(chunk_count());
+  std::vector<std::vector<EdgeFootprint>> beam_ends(chunk_count());
   std::vector<std::size_t> legs(chunk_count(), 0);
   parallel_for(
       chunk_count(), threads,
@@ -124,12 +124,12 @@ Reached Illumination::light_all(int threads, const std::function<void(std::size_
           lit.footprints.clear();
         });
         arrivals[chunk] = std::move(lit.arrivals);
-        knife_edges[chunk] = std::move(lit.knife_edges);
+        beam_ends[chunk] = std::move(lit.beam_ends);
       },
       stop);
-  std::vector<EdgeFootprint> all_knife_edges;
-  for (const auto& chunk : knife_edges) all_knife_edges.insert(all_knife_edges.end(), chunk.begin(), chunk.end());
-  return {by_edge(arrivals, scatterer_.edges().edges.size()), std::move(all_knife_edges),
+  std::vector<EdgeFootprint> all_beam_ends;
+  for (const auto& chunk : beam_ends) all_beam_ends.insert(all_beam_ends.end(), chunk.begin(), chunk.end());
+  return {by_edge(arrivals, scatterer_.edges().edges.size()), std::move(all_beam_ends),
           std::accumulate(legs.begin(), legs.end(), std::size_t{0})};
 }
 

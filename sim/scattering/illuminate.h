@@ -43,7 +43,7 @@ double faintest_echo(const Scatterer& scatterer, const IlluminationSettings& set
 struct Lit {
   std::vector<Footprint> footprints;
   std::vector<EdgeArrival> arrivals;     // only when the settings ask for edges, as are
-  std::vector<EdgeFootprint> knife_edges;  // what beams lack between two rims
+  std::vector<EdgeFootprint> beam_ends;  // what physical optics lacks where beams end
 };
 
 struct BeamScene;
@@ -52,7 +52,7 @@ struct BeamScene;
 // from one mirror to the next.
 struct Reached {
   std::vector<EdgeArrival> arrivals;
-  std::vector<EdgeFootprint> knife_edges;  // what beams lack between two rims, in the order of the beams
+  std::vector<EdgeFootprint> beam_ends;  // what physical optics lacks where beams end, in the order of the beams
   std::size_t legs = 0;
 };
 

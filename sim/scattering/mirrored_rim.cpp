@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/scattering/mirrored_rim.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "sim/core/constants.h"
@@ -8,17 +9,19 @@
 namespace seaglint {
 namespace {
 
-// |s - direction of reflection| within which the expansion holds and from where on it does not.
+// Angle off the direction of reflection within which the poles of both ends must cancel and from where on either stands alone, rad.
 constexpr std::array<double, 2> kOffReflection{0.1, 0.2};
 // The same as a part of the way from there to the wave's way on, where what another face that is grazed leaves has its pole.
 constexpr std::array<double, 2> kOffGrazing{0.25, 0.5};
 // Cosine against the normal, below which a wave grazes the rim's face: 2 and 6 deg. Nearer to it the next mirror stands in the zone that the beam, the wave beside it and what the rim diffracts
 // share.
 constexpr std::array<double, 2> kGrazingFace{0.035, 0.11};
-// The ends are taken this far to either side of the direction of reflection, rad, and their poles cancel: the constant errs by its square times the ends' second derivative, 1e-6 at 10 deg.
-constexpr double kAside = 1e-4;
-// Cosine below which a beam grazes the last mirror: its end there would be far away, and infinite at last.
+// Cosine below which a beam or a way out grazes the last mirror: the beam's end there would be far away, and infinite at last.
 constexpr std::array<double, 2> kGrazing{0.05, 0.15};
+// Component along the rim by which a way out leaves Keller's cone.
+constexpr std::array<double, 2> kOffCone{0.1, 0.2};
+// Nearer to the direction of reflection than this, rad, the ends are taken at this far to either side of it, and their poles cancel: the constant errs by its square times the ends' second derivative, 1e-6 at 10 deg.
+constexpr double kAtReflection = 1e-3, kAside = 1e-4;
 
 Vec3 reflect(const Vec3& x, const Vec3& n) { return x - 2 * n.dot(x) * n; }
 
@@ -27,13 +30,27 @@ Vec3 current(const Vec3& n, const Vec3& k_hat, const Vec3& E) { return n.cross(k
 
 }  // namespace
 
-ReflectingFace reflecting_face(const WedgeFrame& wedge, const Vec3& k_hat, const Vec3& s) {
+double lands_on(const Vec3& beam, const Vec3& s, const Vec3& last) { return 1 - fading(last.dot(s) < 0 ? -last.dot(beam) : last.dot(beam), kGrazing); }
+
+double rim_share(const Vec3& n, const Vec3& t, const Vec3& k_hat, const Vec3& s, const Vec3& last) {
+  const double cosine = -n.dot(k_hat);
+  if (cosine <= 0) return 0;
+  return before_the_beam(k_hat, s) * (1 - fading(cosine, kGrazingFace)) * (1 - fading(std::abs(last.dot(s)), kGrazing)) * fading(std::abs(t.dot(s - k_hat)), kOffCone);
+}
+
+ReflectingFace reflecting_face(const WedgeFrame& wedge, const EdgeArrival& in, const EdgeArrival& out) {
   ReflectingFace best;
+  const Vec3 &k_hat = in.direction, s = -out.direction;
   for (int i = 0; i < 2; ++i) {
-    const Vec3& n = wedge.face[i].n;
-    if (n.dot(k_hat) >= 0) continue;
-    const double off = (s - reflect(k_hat, n)).norm(), cosine = -n.dot(k_hat);
-    const double share = fading(off, kOffReflection) * fading(off / (2 * cosine), kOffGrazing) * (1 - fading(cosine, kGrazingFace)) * before_the_beam(k_hat, s);
+    const auto& [x, n, t] = wedge.face[i];
+    if (n.dot(k_hat) >= 0 || n.dot(s) <= 0) continue;
+    double share = 1;
+    if (out.mirrors > 0) share = rim_share(n, t, k_hat, s, out.first_mirror);
+    if (in.mirrors > 0) share = std::min(share, rim_share(n, t, -s, -k_hat, in.first_mirror));
+    if (in.mirrors + out.mirrors > kMostMoved) {
+      const double off = (s - reflect(k_hat, n)).norm(), cosine = -n.dot(k_hat);
+      share *= fading(off, kOffReflection) * fading(off / (2 * cosine), kOffGrazing);
+    }
     if (share > best.share) best = {i, share};
   }
   return best;
@@ -42,24 +59,27 @@ ReflectingFace reflecting_face(const WedgeFrame& wedge, const Vec3& k_hat, const
 std::array<double, 4> ends_of_beam(const WedgeFace& face, const EdgeArrival& in, const EdgeArrival& out) {
   std::array<double, 4> ends{};
   if (out.mirrors == 0) return ends;
-  const Vec3& k_hat = in.direction;
+  const Vec3 &k_hat = in.direction, s = -out.direction;
   const Vec3 beam = reflect(k_hat, face.n), n = out.first_mirror.dot(beam) < 0 ? out.first_mirror : Vec3(-out.first_mirror);
-  const double cosine = n.dot(beam);
-  const double share = 1 - fading(-cosine, kGrazing);
-  if (share <= 0) return ends;
   // On the last mirror the rim's shadow, and into the light from there, as long as on the rim.
+  const double cosine = n.dot(beam), lands = lands_on(beam, s, n);
   const Vec3 shadow = face.t - face.t.dot(n) / cosine * beam, into = face.x - face.x.dot(n) / cosine * beam;
   const double area = shadow.cross(into).norm();
-  for (const double aside : {-kAside, kAside}) {
-    const Eigen::AngleAxisd turn(aside, face.t);
-    const Vec3 away = turn * beam - beam;
-    const std::array<Vec3, 2> received{turn * out.E_h, turn * out.E_v};
+  const auto about_rim = [&](const Vec3& x) { return std::atan2(face.n.dot(x), face.x.dot(x)); };
+  const double off = std::remainder(about_rim(s) - about_rim(beam), 2 * kPi);
+  // Where there is no end on the last mirror that of the rim's face stands alone, away from its pole.
+  const double alone = 1 - (1 - lands) * fading(std::abs(off), kOffReflection);
+  const bool at_reflection = std::abs(off) < kAtReflection;
+  for (const double angle : {at_reflection ? -kAside : off, at_reflection ? kAside : off}) {
+    const Vec3 on_cone = Eigen::AngleAxisd(angle, face.t) * beam, away = on_cone - beam;
+    const auto turned = Eigen::Quaterniond::FromTwoVectors(s, on_cone);
+    const std::array<Vec3, 2> received{turned * out.E_h, turned * out.E_v};
     for (int t = 0; t < 2; ++t) {
       const Vec3& E = t == 0 ? in.E_h : in.E_v;
       // The integral of e^{jk away.x u} du from 0 on, times -jk / 2 pi.
-      const Vec3 of_face = current(face.n, k_hat, E) / (2 * kPi * away.dot(face.x));
-      const Vec3 of_last = current(n, beam, -reflect(E, face.n)) * area / (2 * kPi * away.dot(into));
-      for (int r = 0; r < 2; ++r) ends[2 * r + t] += 0.5 * share * (received[r].dot(of_face) + reflect(received[r], n).dot(of_last));
+      Vec3 of_face = alone / (2 * kPi * away.dot(face.x)) * current(face.n, k_hat, E), of_last = Vec3::Zero();
+      if (lands > 0) of_last = lands * area / (2 * kPi * away.dot(into)) * current(n, beam, -reflect(E, face.n));
+      for (int r = 0; r < 2; ++r) ends[2 * r + t] += 0.5 * (received[r].dot(of_face) + reflect(received[r], n).dot(of_last));
     }
   }
   return ends;

@@ -91,6 +91,8 @@ SECTIONS = {
     "knife": [(-0.1, 0), (0.1, -0.02), (0.1, 0.02)],
     "chevron": chevron(150, 0.1, 0.04),
     "dihedral": chevron(90, 0.15, 0.04),
+    "dihedral85": chevron(85, 0.15, 0.04),
+    "dihedral95": chevron(95, 0.15, 0.04),
 }
 
 if __name__ == "__main__":

@@ -66,16 +66,53 @@ TEST(MirroredRim, HasNoOtherEndWhereItsFaceIsTheLastMirror) {
   for (const double end : ends_of_beam(rim.wedge.face[0], rim.out, rim.in)) EXPECT_EQ(end, 0);
 }
 
-TEST(MirroredRim, IsToldByTheDirectionOfReflection) {
-  const auto share = [](double above, double beside) {
-    const DihedralRim rim = dihedral_rim(above, beside);
-    return reflecting_face(rim.wedge, rim.in.direction, -rim.out.direction).share;
+// Off the direction of reflection, by an angle b about the rim: Keller's coefficients of a half-plane less the end of physical optics on the other arm, whose currents go with the cosine of incidence
+// (soft) or of the way out (hard).
+TEST(MirroredRim, LacksTheEndOnTheOtherArmOffTheDirectionOfReflectionToo) {
+  for (const double above_deg : {20.0, 45.0, 60.0}) {
+    const double above = radians(above_deg), sign = std::copysign(1.0, answer(dihedral_rim(radians(45)))[0]);
+    for (const double beside : {-0.15, -0.002, 0.002, 0.05, 0.3}) {
+      const double direct = 1 / std::cos(0.5 * (kPi - 2 * above - beside)), pole = 1 / std::sin(0.5 * beside);
+      const double run = std::sin(above + beside) - std::sin(above);
+      const auto [hard, soft] = answer(dihedral_rim(above, beside));
+      // Rounding of the poles.
+      EXPECT_NEAR(soft, sign * ((direct + pole) / (4 * kPi) - std::cos(above) / (2 * kPi * run)), 1e-9) << above_deg << " " << beside;
+      EXPECT_NEAR(hard, sign * ((direct - pole) / (4 * kPi) + std::cos(above + beside) / (2 * kPi * run)), 1e-9) << above_deg << " " << beside;
+    }
+  }
+}
+
+// A beam that leaves away from the other mirror ends nowhere: what physical optics of the rim's own face leaves out is put back, and the rim's field is Keller's.
+TEST(MirroredRim, HasKellersFieldWhereNoBeamComesDown) {
+  DihedralRim rim = dihedral_rim(radians(50));
+  rim.in.direction = {std::cos(radians(50)), -std::sin(radians(50)), 0};  // by the other arm too, and back the same way
+  rim.in.E_h = {-std::sin(radians(50)), -std::cos(radians(50)), 0};
+  rim.in.mirrors = 1;
+  rim.in.first_mirror = Vec3::UnitX();
+  rim.out = rim.in;
+  const auto [hard, soft] = answer(rim);
+  EXPECT_NEAR(std::abs(soft), std::abs(1 - 1 / std::cos(radians(50))) / (4 * kPi), 1e-9);
+  EXPECT_NEAR(std::abs(hard), std::abs(1 + 1 / std::cos(radians(50))) / (4 * kPi), 1e-9);
+}
+
+TEST(MirroredRim, IsToldFromTheBeam) {
+  const auto share = [](double above, double beside, int mirrors = 1) {
+    DihedralRim rim = dihedral_rim(above, beside);
+    rim.out.mirrors = static_cast<std::uint8_t>(mirrors);
+    return reflecting_face(rim.wedge, rim.in, rim.out);
   };
-  EXPECT_DOUBLE_EQ(share(radians(30), 0), 1);
-  EXPECT_DOUBLE_EQ(share(radians(30), 0.05), 1);
-  EXPECT_EQ(share(radians(30), 0.25), 0);
-  EXPECT_EQ(share(radians(1.5), 0), 0);  // grazing
-  EXPECT_EQ(reflecting_face(dihedral_rim(radians(30)).wedge, dihedral_rim(radians(30)).in.direction, -dihedral_rim(radians(30)).out.direction).face, 0);
+  EXPECT_EQ(share(radians(30), 0).face, 0);
+  for (const double beside : {0.0, 0.05, 0.25, -0.2}) EXPECT_DOUBLE_EQ(share(radians(30), beside).share, 1) << beside;
+  // Shadow lines behind three mirrors keep their ends: only where it makes no difference.
+  EXPECT_DOUBLE_EQ(share(radians(30), 0.05, 3).share, 1);
+  EXPECT_EQ(share(radians(30), 0.25, 3).share, 0);
+  // Grazing: the rim's face, the other mirror.
+  EXPECT_EQ(share(radians(1.5), 0).share, 0);
+  EXPECT_EQ(share(radians(60), radians(29)).share, 0);
+  // Off Keller's cone.
+  DihedralRim rim = dihedral_rim(radians(30));
+  rim.out.direction = (rim.out.direction + 0.3 * Vec3::UnitZ()).normalized();
+  EXPECT_EQ(reflecting_face(rim.wedge, rim.in, rim.out).share, 0);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Beams that two rims cut one after the other: their width against Fresnel's integral, their points against fresh traces. Their echo is held to integral equations in section_test.cpp.
+// Where beams end: the width of what two rims share against Fresnel's integral, its points against fresh traces. The echo is held to integral equations in section_test.cpp.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -33,6 +33,35 @@ TEST(KnifeEdges, LackWhatFresnelsFieldHasBeyondTheSecondRim) {
   }
 }
 
+// The same where psi slopes by `slope`: what is left of the integral of E(x) e^{jk slope x} up to the second rim at w, when the end of physical optics there and the first rim's own, as far as it
+// lands within the second one, are taken off. The field beyond the second rim is turned and its order changed as above.
+TEST(KnifeEdges, ShareTheirEndsWherePsiSlopes) {
+  const double k = wavenumber(10e9), d = 0.7, unit = std::sqrt(2 * d / k);
+  for (const double slope : {-0.3, -0.05, 0.04, 0.15}) {
+    for (const double w : {-0.3, -0.08, -0.01, 0.003, 0.05, 0.4}) {
+      const double landed = w - slope * d, sigma = k * slope * unit;
+      EdgeFootprint::KnifeEdges knives{{d, d}, {w * w / (2 * d), w * w / (2 * d)}, slope, 10};
+      knives.beyond.fill(std::copysign(landed * landed / (2 * d), landed));
+      knives.shadow_within = w > 0;
+      knives.moved = 1;
+      knives.still = 0;
+      // What the first rim's field has beyond the second one, times e^{-jk slope w}.
+      const Complex a = std::polar(1.0, kPi / 4) * (w / unit), c = j * sigma * std::polar(1.0, -kPi / 4);
+      Complex beyond = 0;
+      constexpr double step = 2e-4;
+      for (double r = step / 2; r < 40; r += step) beyond += step * (std::exp(c * r - (a + r) * (a + r)) - std::exp(-(a + r) * (a + r))) / (c * std::sqrt(kPi));
+      beyond *= unit * std::polar(1.0, -kPi / 4);
+      const auto end = [&](double phase) { return std::polar(1.0, phase) / (j * k * slope); };
+      // All of it is e^{j k slope^2 d / 2}'s, of which the second rim takes `beyond`.
+      const Complex all = end(0.5 * k * slope * slope * d - k * slope * w) - beyond;
+      const Complex told = (landed > 0 ? end(0.5 * k * slope * slope * d - k * slope * w) : 0.0) + (w < 0 ? end(0) : 0.0);
+      const Complex width = -k * (all - told) * std::polar(1.0, k * w * w / (2 * d));
+      // The transition function errs by 1e-7 of the ends, nearly equal arguments by the square of 0.05 over 24.
+      EXPECT_NEAR(std::abs(j * knives.width(k, 0.5) - j * width), 0, 2e-4 / std::abs(slope) + 1e-6 * k * unit) << slope << " " << w;
+    }
+  }
+}
+
 // Rims that meet in one point: the way between them grows from 0. The closed form of the ends takes over where the phase runs through ten cycles.
 TEST(KnifeEdges, AnswerFromTheirEndsWherePhasesRun) {
   const double k = wavenumber(10e9);
@@ -53,19 +82,19 @@ TEST(KnifeEdges, AnswerFromTheirEndsWherePhasesRun) {
 TEST(KnifeEdges, FollowATurnAsFreshTracesDo) {
   const Scatterer reflector(read_mesh(SEAGLINT_SOURCE_DIR "/assets/icosahedral_reflector.glb"));
   const double k = wavenumber(16e9);
-  const auto knife_edges = [&](const Vec3& r) {
-    return Illumination(reflector, monostatic(radar_basis(r)), {0, 8, true}).light_all(1, [](std::size_t, auto) {}).knife_edges;
+  const auto beam_ends = [&](const Vec3& r) {
+    return Illumination(reflector, monostatic(radar_basis(r)), {0, 8, true}).light_all(1, [](std::size_t, auto) {}).beam_ends;
   };
   for (const auto& [azimuth, elevation] : {std::pair{48.0, 20.0}, {70.0, 2.0}, {33.0, 20.0}}) {
     const Vec3 r = direction(azimuth, elevation);
     std::vector<Contribution> points;
-    for (const EdgeFootprint& footprint : knife_edges(r)) split(footprint, {k, radians(0.15)}, points);
+    for (const EdgeFootprint& footprint : beam_ends(r)) split(footprint, {k, radians(0.15)}, points);
     double error = 0, power = 0;
     for (const double turn : {-0.07, 0.07}) {
       const Vec3 turned = direction(azimuth + turn, elevation + 0.7 * turn);
       const auto frozen = direct_sum(points, k, turned - r);
       std::array<Complex, 4> fresh{};
-      for (const EdgeFootprint& footprint : knife_edges(turned)) {
+      for (const EdgeFootprint& footprint : beam_ends(turned)) {
         const auto s = scattered(footprint, k);
         for (int i = 0; i < 4; ++i) fresh[i] += s[i];
       }
