@@ -69,6 +69,16 @@ class SideEnds {
   SideEnds(const Footprint& footprint, const SideFrame& side, std::span<const Screen> screens, const RimWays& ways, const RadarBasis& transmit, std::vector<EdgeFootprint>& out)
       : footprint_(footprint), side_(side), screens_(screens), ways_(ways), transmit_(transmit), out_(out), slope_(-footprint.w.dot(side.across)) {}
 
+  // Depth of the last panel, whose outline is given in the aperture, across the side, m.
+  void set_depth(std::span<const Vec2> outline) {
+    double least = 0, most = 0;
+    for (const Vec2& p : outline) {
+      least = std::min(least, side_.x(p));
+      most = std::max(most, side_.x(p));
+    }
+    depth_ = most - least;
+  }
+
   // Takes the end off the shadow line that a rim casts on this side, and puts it on the rim when nothing else hides the way from there.
   void move_to_rim(const Rim& rim, bool hidden) {
     const auto [share, seen] = ways_.share(rim, slope_);
@@ -76,7 +86,10 @@ class SideEnds {
     const double a = side_.t(rim.a), b = side_.t(rim.b), length = side_.length;
     const std::array<double, 2> t{std::max(0.0, std::min(a, b)), std::min(length, std::max(a, b))};
     if (t[1] - t[0] < kShortest) return;
-    EdgeFootprint on_line = of_footprint(t[1] - t[0]), on_rim = on_line;
+    EdgeFootprint on_line = of_footprint(t[1] - t[0]);
+    const Vec2 middle = side_.from.p + 0.5 * (t[0] + t[1]) * side_.along;
+    set_spread(screens_[rim.screen].plane->at(middle) - footprint_.plane.at(middle), rim.depth, on_line);
+    EdgeFootprint on_rim = on_line;
     set_pattern(share, on_line);
     set_pattern(-share, on_rim);
     std::array<Vec2, 2> moves;
@@ -117,7 +130,7 @@ class SideEnds {
     EdgeFootprint lacking = of_footprint(turned * both.length());
     EdgeFootprint::KnifeEdges knives;
     knives.slope = slope_;
-    knives.depth = std::min(inner.depth, outer.depth);
+    set_spread(0.5 * way, first.depth, lacking);
     knives.shadow_within = &first == &inner;
     // Between rims of two mirrors the last facet tells nothing of what either hides.
     const RimWays::Share share = second.screen + 1 == screens_.size() ? ways_.share(first, slope_) : RimWays::Share{};
@@ -142,7 +155,7 @@ class SideEnds {
       gradient.transmit = over_first.transmit + gradient.transmit_slip;
       gradient.receive = phase_gradient(footprint_, on_second, transmit_).receive;
     }
-    if (!knives.shadow_within && share.seen && landed > 0) put_on_rim(first, ends, askew * share.moved, lacking.length);
+    if (!knives.shadow_within && share.seen && landed > 0) put_on_rim(first, ends, askew * share.moved, lacking);
     const double weight = askew * fading(turned * (ends[0].apart + ends[1].apart) / way, kSteep);
     if (weight > 0 && knives.moved + knives.still > 0) {
       for (int i = 0; i < 4; ++i) lacking.pattern.sharp[i] = Complex(0, weight / (2 * kPi)) * footprint_.pattern[i];
@@ -160,6 +173,11 @@ class SideEnds {
     end.part = end.part_beyond = footprint_.part;
     end.bounces = footprint_.bounces;
     return end;
+  }
+
+  void set_spread(double distance, double mirror_depth, EdgeFootprint& end) const {
+    const double depth = std::min(mirror_depth, depth_);
+    end.spread = 2 * distance / (depth * depth);
   }
 
   // What Gordon's contour has of the end along this side (phase_integral), with the sign that takes `share` of it off.
@@ -188,9 +206,10 @@ class SideEnds {
   }
 
   // The end of a beam that goes on beyond the facet, whose rim's field lands on it.
-  void put_on_rim(const Rim& rim, const std::array<Pair::Places, 2>& ends, double share, double length) {
+  void put_on_rim(const Rim& rim, const std::array<Pair::Places, 2>& ends, double share, const EdgeFootprint& shared) {
     if (share <= 0) return;
-    EdgeFootprint on_rim = of_footprint(length);
+    EdgeFootprint on_rim = of_footprint(shared.length);
+    on_rim.spread = shared.spread;
     set_pattern(-share, on_rim);
     std::array<Vec2, 2> moves;
     for (std::size_t end = 0; end < 2; ++end) {
@@ -207,13 +226,17 @@ class SideEnds {
   const RimWays& ways_;
   const RadarBasis& transmit_;
   std::vector<EdgeFootprint>& out_;
-  double slope_;  // of psi, out of the piece
+  double slope_;      // of psi, out of the piece
+  double depth_ = 0;  // m
 };
 
 }  // namespace
 
 void BeamEnds::find(const Footprint& footprint, std::vector<EdgeFootprint>& out) {
-  if (!rims_) rims_ = rims_of(edges_, panels_, antennas_.transmit, screens_);
+  if (!rims_) {
+    rims_ = rims_of(edges_, panels_, antennas_.transmit, screens_);
+    outline_ = outline_of(panels_, antennas_.transmit, screens_.back());
+  }
   std::optional<RimWays> ways;
   const MovingPolygon& piece = footprint.polygon;
   for (std::size_t i = 0; i < piece.size(); ++i) {
@@ -224,6 +247,7 @@ void BeamEnds::find(const Footprint& footprint, std::vector<EdgeFootprint>& out)
       if (!side.holds(inner)) continue;
       if (!ways) ways.emplace(antennas_, screens_, footprint);
       SideEnds ends(footprint, side, screens_, *ways, antennas_.transmit, out);
+      ends.set_depth(outline_);
       bool hidden = false;
       for (const Rim& outer : *rims_) hidden |= ends.share_between(inner, outer);
       if (inner.screen + 1 < screens_.size()) ends.move_to_rim(inner, hidden);
@@ -236,7 +260,7 @@ double bound_of_beam_end(const EdgeFootprint& footprint, double lowest, double h
   for (const Complex& element : footprint.pattern.sharp) pattern = std::max(pattern, std::abs(element));
   // A stretch of running phase answers from its ends.
   const double run = lowest * std::abs(footprint.psi[1] - footprint.psi[0]);
-  return pattern * footprint.length * std::min(1.0, 2 / run) * (footprint.knife_edges ? footprint.knife_edges->bound(lowest, highest) : 1.0);
+  return pattern * footprint.length * std::min(1.0, 2 / run) * (footprint.knife_edges ? footprint.knife_edges->bound(lowest) : 1.0) * footprint.fade_by_spread(highest);
 }
 
 }  // namespace seaglint

@@ -43,6 +43,7 @@ class BeamEnds {
   const AntennaPair& antennas_;
   std::span<const Screen> screens_;
   std::optional<std::vector<Rim>> rims_;  // once a footprint asks for them
+  std::vector<Vec2> outline_;             // of the facet's panel, in the aperture
 };
 
 // What one returns at most at any of some wavenumbers, m; 0 where it has faded out at all of them.

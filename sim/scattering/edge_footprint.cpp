@@ -98,7 +98,7 @@ Complex amplitude_at(const EdgeFootprint& footprint, double k, double run, doubl
 
 double EdgeFootprint::KnifeEdges::fade_by_slope(double k, double distance_m) const { return fading(0.5 * k * distance_m * slope * slope, {0, 1}); }
 
-double EdgeFootprint::KnifeEdges::fade_by_depth(double k, double distance_m) const { return fading(2 * distance_m / (k * depth * depth), {0.3, 1}); }
+double EdgeFootprint::fade_by_spread(double k) const { return fading(spread / k, {0.3, 1}); }
 
 namespace {
 
@@ -127,30 +127,31 @@ Complex EdgeFootprint::KnifeEdges::width(double k, double share, double run) con
     const Complex reached = d + (distance[1] - distance[0]) * Complex(0, kPi / 4 / run);
     sum += still * fade_by_slope(k, d) * std::sqrt(k / (2 * kPi) * reached) * (1.0 - transition(k * at_share(excess, share)));
   }
-  return std::polar(fade_by_depth(k, d), -kPi / 4) * sum;
+  return std::polar(1.0, -kPi / 4) * sum;
 }
 
-double EdgeFootprint::KnifeEdges::bound(double lowest, double highest) const {
+double EdgeFootprint::KnifeEdges::bound(double lowest) const {
   const auto [nearest, farthest] = std::minmax(distance[0], distance[1]);
   const double shortest = std::min(excess[0], excess[1]), past = beyond[0] * beyond[1] > 0 ? std::min(std::abs(beyond[0]), std::abs(beyond[1])) : 0.0;
   double bound = 0;
   if (moved > 0) bound += moved / (2 * std::sqrt(kPi) * std::abs(slope)) * (bound_of_over_root(std::sqrt(lowest * shortest)) + bound_of_over_root(std::sqrt(lowest * past)));
   // |1 - F(x)| is at most 1 and at most 1 / 2x.
   if (still > 0) bound += still * fade_by_slope(lowest, nearest) * std::sqrt(lowest * farthest / (2 * kPi)) * std::min(1.0, 0.5 / (lowest * shortest));
-  return bound * fade_by_depth(highest, nearest);
+  return bound;
 }
 
 Complex end_term(const EdgeFootprint& footprint, double k, double share) {
   const double run = phase_run(footprint, k);
-  return footprint.length / Complex(0, run) * amplitude_at(footprint, k, run, share);
+  return footprint.fade_by_spread(k) * footprint.length / Complex(0, run) * amplitude_at(footprint, k, run, share);
 }
 
 bool ends_answer_alone(const EdgeFootprint& footprint, double k) { return !footprint.knife_edges || k * std::abs(footprint.psi[1] - footprint.psi[0]) >= kFast; }
 
 Complex part_integral(const EdgeFootprint& footprint, double k, double from, double to) {
   const double phase = k * (footprint.psi[1] - footprint.psi[0]) * (to - from);
-  if (!footprint.edge_wave && !footprint.knife_edges) return footprint.length * (to - from) * sinc(phase);
-  if (footprint.knife_edges && std::abs(phase) < kFast) return footprint.length * (to - from) * mean_width(*footprint.knife_edges, k, phase, from, to);
+  const double length = footprint.fade_by_spread(k) * footprint.length * (to - from);
+  if (!footprint.edge_wave && !footprint.knife_edges) return length * sinc(phase);
+  if (footprint.knife_edges && std::abs(phase) < kFast) return length * mean_width(*footprint.knife_edges, k, phase, from, to);
   const Complex half = std::polar(1.0, 0.5 * (to - from) * phase_run(footprint, k));
   return end_term(footprint, k, to) * half - end_term(footprint, k, from) * std::conj(half);
 }

@@ -45,24 +45,24 @@ struct EdgeFootprint {
   struct KnifeEdges {
     std::array<double, 2> distance{}, excess{};  // of the way over both rims: from the one to the other along the beam, and how much longer it is than the beam's over the second alone, m
     double slope = 0;                            // of psi across the rims, out of the light
-    double depth = 0;                            // of the shallower of their panels, m
     std::array<double, 2> beyond{};              // how much longer it is than the way out over the first rim alone, m; below zero where the second one hides that way
     bool shadow_within = false;                  // the second rim lies in the first one's shadow
     double moved = 0, still = 1;                 // shares of the slope's form, and of that of none, which fades out
 
     // At an end the phase may run along the stretch, by `run` over all of it, rad.
     Complex width(double k, double share, double run = std::numeric_limits<double>::infinity()) const;
-    // Bounds of it at wavenumbers from the lowest to the highest.
-    double bound(double lowest, double highest) const;
+    // Bound of it from a wavenumber on.
+    double bound(double lowest) const;
 
    private:
     Complex sloping(double k, double share) const;
     // 1 along the wave, 0 from where the shadow lines of both ways lie apart by the light's spread, k d slope^2 / 2 = 1 rad: there the ends of the currents move.
     double fade_by_slope(double k, double distance_m) const;
-    // 0 where a panel is no deeper than the spread, (2 d / k)^(1/2), and its other side counts as much; 1 where that is beside the matter.
-    double fade_by_depth(double k, double distance_m) const;
   };
   std::optional<KnifeEdges> knife_edges;
+  // Where a beam ends: 2 d / depth^2 of its way and the shallower panel, rad/m. It fades out towards wavenumbers as low, where the panel is no deeper than the light's spread and its other side counts as much.
+  double spread = 0;
+  double fade_by_spread(double k) const;
   std::int32_t facet = -1;  // the edge's first
   std::uint16_t part = 0, part_beyond = 0;  // of that facet and of the other one
   std::uint8_t bounces = 1;  // mirrors on both ways and every edge met

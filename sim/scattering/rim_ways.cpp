@@ -17,29 +17,39 @@ constexpr std::array<double, 2> kFlat{0.03, 0.08};
 
 Vec3 normal_of(const ImagePlane& plane, const RadarBasis& basis) { return (basis.r - plane.slope.x() * basis.h - plane.slope.y() * basis.v).normalized(); }
 
+// From real points to the aperture.
+struct IntoAperture {
+  Vec3 h, v;
+  Vec2 shift;
+
+  IntoAperture(const RadarBasis& transmit, const Mirror& mirrors)
+      : h(mirrors.L.transpose() * transmit.h), v(mirrors.L.transpose() * transmit.v), shift(mirrors.t.dot(transmit.h), mirrors.t.dot(transmit.v)) {}
+  Vec2 operator()(const Vec3& x) const { return Vec2(h.dot(x), v.dot(x)) + shift; }
+};
+
 Vec3 reflect(const Vec3& x, const Vec3& n) { return x - 2 * n.dot(x) * n; }
 
 }  // namespace
 
+std::vector<Vec2> outline_of(const Panels& panels, const RadarBasis& transmit, const Screen& screen) {
+  const IntoAperture into(transmit, *screen.mirrors);
+  std::vector<Vec2> outline;
+  for (const Vec3& x : panels.outline(screen.facet)) outline.push_back(into(x));
+  return outline;
+}
+
 std::vector<Rim> rims_of(const SharpEdges& edges, const Panels& panels, const RadarBasis& transmit, std::span<const Screen> screens) {
   std::vector<Rim> rims;
-  std::vector<Vec2> outline;  // of a screen, in the aperture
   for (std::size_t i = 0; i < screens.size(); ++i) {
     const Screen& screen = screens[i];
-    // Rows of L along h and v.
-    const Mat3& L = screen.mirrors->L;
-    const Vec3 h = L.transpose() * transmit.h, v = L.transpose() * transmit.v;
-    const Vec2 shift(screen.mirrors->t.dot(transmit.h), screen.mirrors->t.dot(transmit.v));
-    const auto image = [&](const Vec3& x) -> Vec2 { return Vec2(h.dot(x), v.dot(x)) + shift; };
-    outline.clear();
+    const IntoAperture into(transmit, *screen.mirrors);
+    std::vector<Vec2> outline;
     for (const PanelEdge& side : edges.of_panel(screen.facet)) {
       const SharpEdge& edge = edges.edges[side.edge];
       const WedgeFrame* wedge = wedge_lit(edge, side.first, screen.direction);
       if (!wedge || wedge->N <= 1) continue;
-      if (outline.empty()) {
-        for (const Vec3& x : panels.outline(screen.facet)) outline.push_back(image(x));
-      }
-      const Vec2 a = image(edge.a), b = image(edge.b), along = (b - a).normalized();
+      if (outline.empty()) outline = outline_of(panels, transmit, screen);
+      const Vec2 a = into(edge.a), b = into(edge.b), along = (b - a).normalized();
       Vec2 middle = Vec2::Zero();
       double depth = 0;
       for (const Vec2& p : outline) {

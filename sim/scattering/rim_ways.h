@@ -29,6 +29,9 @@ struct Rim {
   double depth;  // how far that reaches from the rim, m
 };
 
+// The outline of a screen's panel in the aperture.
+std::vector<Vec2> outline_of(const Panels& panels, const RadarBasis& transmit, const Screen& screen);
+
 // Of all screens, of which the first lies nearest to the transmitter: the wedges that the wave meets at their panels.
 std::vector<Rim> rims_of(const SharpEdges& edges, const Panels& panels, const RadarBasis& transmit, std::span<const Screen> screens);
 

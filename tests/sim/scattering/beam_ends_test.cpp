@@ -22,7 +22,7 @@ constexpr Complex j(0, 1);
 TEST(KnifeEdges, LackWhatFresnelsFieldHasBeyondTheSecondRim) {
   const double k = wavenumber(10e9), d = 0.7;
   for (const double apart : {0.0, 0.01, 0.05, 0.2}) {
-    EdgeFootprint::KnifeEdges knives{{d, d}, {apart * apart / (2 * d), apart * apart / (2 * d)}, 0, 10};
+    EdgeFootprint::KnifeEdges knives{{d, d}, {apart * apart / (2 * d), apart * apart / (2 * d)}, 0};
     const Complex a = std::polar(apart * std::sqrt(k / (2 * d)), kPi / 4);
     Complex integral = 0;
     constexpr double step = 1e-3;
@@ -40,7 +40,7 @@ TEST(KnifeEdges, ShareTheirEndsWherePsiSlopes) {
   for (const double slope : {-0.3, -0.05, 0.04, 0.15}) {
     for (const double w : {-0.3, -0.08, -0.01, 0.003, 0.05, 0.4}) {
       const double landed = w - slope * d, sigma = k * slope * unit;
-      EdgeFootprint::KnifeEdges knives{{d, d}, {w * w / (2 * d), w * w / (2 * d)}, slope, 10};
+      EdgeFootprint::KnifeEdges knives{{d, d}, {w * w / (2 * d), w * w / (2 * d)}, slope};
       knives.beyond.fill(std::copysign(landed * landed / (2 * d), landed));
       knives.shadow_within = w > 0;
       knives.moved = 1;
@@ -67,7 +67,7 @@ TEST(KnifeEdges, AnswerFromTheirEndsWherePhasesRun) {
   const double k = wavenumber(10e9);
   EdgeFootprint footprint;
   footprint.length = 0.4;
-  footprint.knife_edges = EdgeFootprint::KnifeEdges{{0, 0.5}, {0, 1e-4}, 0, 10};
+  footprint.knife_edges = EdgeFootprint::KnifeEdges{{0, 0.5}, {0, 1e-4}, 0};
   footprint.psi = {0, 59.9 / k};
   const Complex summed = part_integral(footprint, k, 0, 1), half = std::polar(1.0, 0.5 * 59.9);
   const Complex ends = end_term(footprint, k, 1) * half - end_term(footprint, k, 0) * std::conj(half);
