@@ -98,7 +98,7 @@ Complex amplitude_at(const EdgeFootprint& footprint, double k, double run, doubl
 
 double EdgeFootprint::KnifeEdges::fade_by_slope(double k, double distance_m) const { return fading(0.5 * k * distance_m * slope * slope, {0, 1}); }
 
-double EdgeFootprint::fade_by_spread(double k) const { return fading(spread / k, {0.3, 1}); }
+double EdgeFootprint::fade_by_spread(double k) const { return fading(spread / k, {1, 2.5}); }
 
 namespace {
 
