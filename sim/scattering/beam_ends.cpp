@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <ranges>
 
 #include "sim/core/constants.h"
 
 namespace seaglint {
 namespace {
 
-constexpr double kOnRim = 1e-7;     // m, as for edges that bound a lit polygon (edge_light.cpp)
 constexpr double kShortest = 1e-4;  // m
 // What is followed in full, and from where on not at all: slopes of psi across rims whose ends do not move, where KnifeEdges::fade_by_slope leaves any; angles of the way from
 // rim to rim against the beam, rad, for Fresnel's form; sines of the angle between the rims, which near their crossing cut no more than lambda d.
@@ -35,7 +35,7 @@ class Pair {
   // Places on the first and on the second rim, in the aperture, and what the way between them is, m.
   struct Places {
     Vec2 first, second;
-    double first_height, apart, distance;
+    double apart, distance;
     Vec2 moves;  // of their t as the direction turns by d1 and by d2
   };
   Places at(std::size_t end) const {
@@ -43,8 +43,7 @@ class Pair {
     const double share = (t - side_.t(outer_.a)) / (side_.t(outer_.b) - side_.t(outer_.a));
     const Vec2 on_side = side_.from.p + t * side_.along, on_outer = outer_.a + share * (outer_.b - outer_.a);
     const Vec2 &first = outer_is_first_ ? on_outer : on_side, &second = outer_is_first_ ? on_side : on_outer;
-    const double height = first_.plane->at(first);
-    return {first, second, height, -side_.x(on_outer), height - second_.plane->at(second), moves};
+    return {first, second, -side_.x(on_outer), first_.plane->at(first) - second_.plane->at(second), moves};
   }
 
  private:
@@ -63,21 +62,11 @@ class Pair {
   std::array<End, 2> end_;
 };
 
-// What one footprint lacks along one of its sides.
+// What one footprint lacks along one of its sides; the outline of its panel is given in the aperture.
 class SideEnds {
  public:
-  SideEnds(const Footprint& footprint, const SideFrame& side, std::span<const Screen> screens, const RimWays& ways, const RadarBasis& transmit, std::vector<EdgeFootprint>& out)
-      : footprint_(footprint), side_(side), screens_(screens), ways_(ways), transmit_(transmit), out_(out), slope_(-footprint.w.dot(side.across)) {}
-
-  // Depth of the last panel, whose outline is given in the aperture, across the side, m.
-  void set_depth(std::span<const Vec2> outline) {
-    double least = 0, most = 0;
-    for (const Vec2& p : outline) {
-      least = std::min(least, side_.x(p));
-      most = std::max(most, side_.x(p));
-    }
-    depth_ = most - least;
-  }
+  SideEnds(const SideFrame& side, const RimWays& ways, std::span<const Vec2> outline, std::vector<EdgeFootprint>& out)
+      : footprint_(ways.footprint()), side_(side), screens_(ways.screens()), ways_(ways), transmit_(ways.aperture()), out_(out), slope_(-footprint_.w.dot(side.across)), depth_(depth_across(side, outline)) {}
 
   // Takes the end off the shadow line that a rim casts on this side, and puts it on the rim when nothing else hides the way from there.
   void move_to_rim(const Rim& rim, bool hidden) {
@@ -87,24 +76,21 @@ class SideEnds {
     const std::array<double, 2> t{std::max(0.0, std::min(a, b)), std::min(length, std::max(a, b))};
     if (t[1] - t[0] < kShortest) return;
     EdgeFootprint on_line = of_footprint(t[1] - t[0]);
+    const ImagePlane& plane = *screens_[rim.screen].plane;
     const Vec2 middle = side_.from.p + 0.5 * (t[0] + t[1]) * side_.along;
-    set_spread(screens_[rim.screen].plane->at(middle) - footprint_.plane.at(middle), rim.depth, on_line);
-    EdgeFootprint on_rim = on_line;
+    set_spread(plane.at(middle) - footprint_.plane.at(middle), rim.depth, on_line);
     set_pattern(share, on_line);
-    set_pattern(-share, on_rim);
-    std::array<Vec2, 2> moves;
+    std::array<Vec2, 2> places, moves;
     for (std::size_t end = 0; end < 2; ++end) {
       const double s = t[end] / length;
       const Corner corner{side_.from.p + s * (side_.to.p - side_.from.p), side_.from.d1 + s * (side_.to.d1 - side_.from.d1), side_.from.d2 + s * (side_.to.d2 - side_.from.d2)};
       on_line.psi[end] = footprint_.psi(corner.p);
       on_line.gradient[end] = phase_gradient(footprint_, corner, transmit_);
-      set_way(ways_.over(rim.screen, corner.p), on_rim, end);
-      moves[end] = along_body(Vec2(side_.along.dot(corner.d1), side_.along.dot(corner.d2)), screens_[rim.screen].plane->at(corner.p));
+      places[end] = corner.p;
+      moves[end] = {side_.along.dot(corner.d1), side_.along.dot(corner.d2)};
     }
     out_.push_back(on_line);
-    if (!seen || hidden) return;
-    slip(moves, on_rim);
-    out_.push_back(on_rim);
+    if (seen && !hidden) put_on_rim(rim.screen, places, moves, share, on_line);
   }
 
   // What two rims share, of which `inner` bounds this side. True when the outer one hides the way over the inner one to the receiver.
@@ -137,17 +123,16 @@ class SideEnds {
     knives.moved = share.moved;
     knives.still = (1 - share.moved) * fading(std::abs(slope_), kSlope);
     const Vec2 way_out = ways_.across(side_.across);
-    double landed = 0;  // within the second rim, m
+    std::array<double, 2> within{};  // how far within the second rim the way over the first one lands, m
     for (std::size_t end = 0; end < 2; ++end) {
-      const auto& [on_first, on_second, height, apart, distance, moves] = ends[end];
+      const auto& [on_first, on_second, apart, distance, moves] = ends[end];
       knives.distance[end] = std::max(distance, 0.0);
       knives.excess[end] = std::hypot(distance, turned * apart) - std::abs(distance);
       lacking.psi[end] = footprint_.psi(on_second) - knives.excess[end];
       const RimWays::Way over_first = ways_.over(first.screen, on_first);
-      const double within = side_.x(ways_.landing(first.screen, on_first)) - side_.x(on_second);
+      within[end] = side_.x(ways_.landing(first.screen, on_first)) - side_.x(on_second);
       const Vec2 step(distance, turned * side_.across.dot(on_second - on_first));
-      knives.beyond[end] = std::copysign(std::max(step.norm() - step.dot(way_out), 0.0), within);
-      landed += within;
+      knives.beyond[end] = std::max(step.norm() - step.dot(way_out), 0.0);
       // The path is stationary where the ray meets the first rim, not where it meets the facet: how far that place slips there counts.
       const Vec2 slip = footprint_.w.dot(side_.along) * along_body(moves, footprint_.plane.at(on_second));
       PathGradient& gradient = lacking.gradient[end];
@@ -155,7 +140,10 @@ class SideEnds {
       gradient.transmit = over_first.transmit + gradient.transmit_slip;
       gradient.receive = phase_gradient(footprint_, on_second, transmit_).receive;
     }
-    if (!knives.shadow_within && share.seen && landed > 0) put_on_rim(first, ends, askew * share.moved, lacking);
+    // Where both rims meet the sign is that of the rest of the stretch.
+    const double landed = within[0] + within[1];
+    for (std::size_t end = 0; end < 2; ++end) knives.beyond[end] = std::copysign(knives.beyond[end], std::abs(within[end]) < kOnRim ? landed : within[end]);
+    if (!knives.shadow_within && share.seen && landed > 0) put_on_rim(first.screen, {ends[0].first, ends[1].first}, {ends[0].moves, ends[1].moves}, askew * share.moved, lacking);
     const double weight = askew * fading(turned * (ends[0].apart + ends[1].apart) / way, kSteep);
     if (weight > 0 && knives.moved + knives.still > 0) {
       for (int i = 0; i < 4; ++i) lacking.pattern.sharp[i] = Complex(0, weight / (2 * kPi)) * footprint_.pattern[i];
@@ -187,37 +175,32 @@ class SideEnds {
     for (int i = 0; i < 4; ++i) end.pattern.sharp[i] = factor * footprint_.pattern[i];
   }
 
-  static void set_way(const RimWays::Way& way, EdgeFootprint& footprint, std::size_t end) {
-    footprint.psi[end] = way.psi;
-    footprint.gradient[end].transmit = way.transmit;
-    footprint.gradient[end].receive = way.receive;
-  }
-
   // How far a place slips along the side in the body, whose points at this height move by -z d_i in the aperture.
   Vec2 along_body(const Vec2& moves, double height) const { return moves + height * side_.along; }
 
-  void slip(const std::array<Vec2, 2>& moves, EdgeFootprint& on_rim) const {
-    const double run = (on_rim.psi[1] - on_rim.psi[0]) / on_rim.length;
+  // The end on the rim of a mirror, `moves` how its places move along the side as the direction turns; as long and with as much spread as another one.
+  void put_on_rim(std::size_t screen, const std::array<Vec2, 2>& places, const std::array<Vec2, 2>& moves, double share, const EdgeFootprint& other) {
+    if (share <= 0) return;
+    EdgeFootprint on_rim = of_footprint(other.length);
+    on_rim.spread = other.spread;
+    set_pattern(-share, on_rim);
+    std::array<RimWays::Way, 2> way{ways_.over(screen, places[0]), ways_.over(screen, places[1])};
+    const double run = (way[1].psi - way[0].psi) / on_rim.length;
     for (std::size_t end = 0; end < 2; ++end) {
+      const Vec2 slip = run * along_body(moves[end], screens_[screen].plane->at(places[end]));
       PathGradient& gradient = on_rim.gradient[end];
-      gradient.transmit_slip = run * (moves[end].x() * transmit_.h + moves[end].y() * transmit_.v);
-      gradient.transmit += gradient.transmit_slip;
+      on_rim.psi[end] = way[end].psi;
+      gradient.transmit_slip = slip.x() * transmit_.h + slip.y() * transmit_.v;
+      gradient.transmit = way[end].transmit + gradient.transmit_slip;
+      gradient.receive = way[end].receive;
     }
+    out_.push_back(on_rim);
   }
 
-  // The end of a beam that goes on beyond the facet, whose rim's field lands on it.
-  void put_on_rim(const Rim& rim, const std::array<Pair::Places, 2>& ends, double share, const EdgeFootprint& shared) {
-    if (share <= 0) return;
-    EdgeFootprint on_rim = of_footprint(shared.length);
-    on_rim.spread = shared.spread;
-    set_pattern(-share, on_rim);
-    std::array<Vec2, 2> moves;
-    for (std::size_t end = 0; end < 2; ++end) {
-      set_way(ways_.over(rim.screen, ends[end].first), on_rim, end);
-      moves[end] = along_body(ends[end].moves, ends[end].first_height);
-    }
-    slip(moves, on_rim);
-    out_.push_back(on_rim);
+  // Depth of the panel across the side, m.
+  static double depth_across(const SideFrame& side, std::span<const Vec2> outline) {
+    const auto [least, most] = std::ranges::minmax(outline | std::views::transform([&](const Vec2& p) { return side.x(p); }));
+    return most - least;
   }
 
   const Footprint& footprint_;
@@ -226,8 +209,8 @@ class SideEnds {
   const RimWays& ways_;
   const RadarBasis& transmit_;
   std::vector<EdgeFootprint>& out_;
-  double slope_;      // of psi, out of the piece
-  double depth_ = 0;  // m
+  double slope_;  // of psi, out of the piece
+  double depth_;  // of the last panel, m
 };
 
 }  // namespace
@@ -246,8 +229,7 @@ void BeamEnds::find(const Footprint& footprint, std::vector<EdgeFootprint>& out)
     for (const Rim& inner : *rims_) {
       if (!side.holds(inner)) continue;
       if (!ways) ways.emplace(antennas_, screens_, footprint);
-      SideEnds ends(footprint, side, screens_, *ways, antennas_.transmit, out);
-      ends.set_depth(outline_);
+      SideEnds ends(side, *ways, outline_, out);
       bool hidden = false;
       for (const Rim& outer : *rims_) hidden |= ends.share_between(inner, outer);
       if (inner.screen + 1 < screens_.size()) ends.move_to_rim(inner, hidden);

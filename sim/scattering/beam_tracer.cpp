@@ -214,7 +214,7 @@ class BeamTracer {
     Leg next;
     next.mirrors.L = leg.mirrors.L * (Mat3::Identity() - 2 * n * n.transpose());
     next.mirrors.t = leg.mirrors.L * (2 * offset * n) + leg.mirrors.t;
-    next.direction = leg.direction - 2 * n.dot(leg.direction) * n;
+    next.direction = mirrored(leg.direction, n);
     next.E_h = 2 * n.dot(leg.E_h) * n - leg.E_h;
     next.E_v = 2 * n.dot(leg.E_v) * n - leg.E_v;
     if (!leg.fields.empty() || !surface_of(facet).empty()) next.fields = reflected_fields(leg, facet, n);
@@ -222,7 +222,7 @@ class BeamTracer {
     next.from_plane = candidate.image.plane;
     next.from_normal = n;
     next.bounce = leg.bounce + 1;
-    next.first_mirror = leg.bounce == 1 ? n : Vec3(leg.first_mirror - 2 * n.dot(leg.first_mirror) * n);
+    next.first_mirror = leg.bounce == 1 ? n : mirrored(leg.first_mirror, n);
     next.before = &leg;
     next.bent = leg.bent || curving_.surface.curved(facet);
     next.rays = reflected_rays(curving_, leg, candidate);

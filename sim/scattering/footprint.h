@@ -48,6 +48,9 @@ struct Mirror {
   Vec3 real(const Vec3& image) const { return L.transpose() * (image - t); }
 };
 
+// A direction as the plane with unit normal n mirrors it.
+inline Vec3 mirrored(const Vec3& x, const Vec3& n) { return x - 2 * n.dot(x) * n; }
+
 // A facet's plane seen along the unfolded ray: height above the aperture plane z(p) = z0 + slope . p, positive towards
 // the radar.
 struct ImagePlane {

@@ -23,8 +23,6 @@ constexpr std::array<double, 2> kOffCone{0.1, 0.2};
 // Nearer to the direction of reflection than this, rad, the ends are taken at this far to either side of it, and their poles cancel: the constant errs by its square times the ends' second derivative, 1e-6 at 10 deg.
 constexpr double kAtReflection = 1e-3, kAside = 1e-4;
 
-Vec3 reflect(const Vec3& x, const Vec3& n) { return x - 2 * n.dot(x) * n; }
-
 // n x (k^ x E): half of physical optics' current times eta, the wave being in the vacuum before the conductor.
 Vec3 current(const Vec3& n, const Vec3& k_hat, const Vec3& E) { return n.cross(k_hat.cross(E)); }
 
@@ -48,7 +46,7 @@ ReflectingFace reflecting_face(const WedgeFrame& wedge, const EdgeArrival& in, c
     if (out.mirrors > 0) share = rim_share(n, t, k_hat, s, out.first_mirror);
     if (in.mirrors > 0) share = std::min(share, rim_share(n, t, -s, -k_hat, in.first_mirror));
     if (in.mirrors + out.mirrors > kMostMoved) {
-      const double off = (s - reflect(k_hat, n)).norm(), cosine = -n.dot(k_hat);
+      const double off = (s - mirrored(k_hat, n)).norm(), cosine = -n.dot(k_hat);
       share *= fading(off, kOffReflection) * fading(off / (2 * cosine), kOffGrazing);
     }
     if (share > best.share) best = {i, share};
@@ -60,7 +58,7 @@ std::array<double, 4> ends_of_beam(const WedgeFace& face, const EdgeArrival& in,
   std::array<double, 4> ends{};
   if (out.mirrors == 0) return ends;
   const Vec3 &k_hat = in.direction, s = -out.direction;
-  const Vec3 beam = reflect(k_hat, face.n), n = out.first_mirror.dot(beam) < 0 ? out.first_mirror : Vec3(-out.first_mirror);
+  const Vec3 beam = mirrored(k_hat, face.n), n = out.first_mirror.dot(beam) < 0 ? out.first_mirror : Vec3(-out.first_mirror);
   // On the last mirror the rim's shadow, and into the light from there, as long as on the rim.
   const double cosine = n.dot(beam), lands = lands_on(beam, s, n);
   const Vec3 shadow = face.t - face.t.dot(n) / cosine * beam, into = face.x - face.x.dot(n) / cosine * beam;
@@ -69,8 +67,7 @@ std::array<double, 4> ends_of_beam(const WedgeFace& face, const EdgeArrival& in,
   const double off = std::remainder(about_rim(s) - about_rim(beam), 2 * kPi);
   // Where there is no end on the last mirror that of the rim's face stands alone, away from its pole.
   const double alone = 1 - (1 - lands) * fading(std::abs(off), kOffReflection);
-  const bool at_reflection = std::abs(off) < kAtReflection;
-  for (const double angle : {at_reflection ? -kAside : off, at_reflection ? kAside : off}) {
+  const auto add = [&](double angle, double weight) {
     const Vec3 on_cone = Eigen::AngleAxisd(angle, face.t) * beam, away = on_cone - beam;
     const auto turned = Eigen::Quaterniond::FromTwoVectors(s, on_cone);
     const std::array<Vec3, 2> received{turned * out.E_h, turned * out.E_v};
@@ -78,9 +75,15 @@ std::array<double, 4> ends_of_beam(const WedgeFace& face, const EdgeArrival& in,
       const Vec3& E = t == 0 ? in.E_h : in.E_v;
       // The integral of e^{jk away.x u} du from 0 on, times -jk / 2 pi.
       Vec3 of_face = alone / (2 * kPi * away.dot(face.x)) * current(face.n, k_hat, E), of_last = Vec3::Zero();
-      if (lands > 0) of_last = lands * area / (2 * kPi * away.dot(into)) * current(n, beam, -reflect(E, face.n));
-      for (int r = 0; r < 2; ++r) ends[2 * r + t] += 0.5 * (received[r].dot(of_face) + reflect(received[r], n).dot(of_last));
+      if (lands > 0) of_last = lands * area / (2 * kPi * away.dot(into)) * current(n, beam, -mirrored(E, face.n));
+      for (int r = 0; r < 2; ++r) ends[2 * r + t] += weight * (received[r].dot(of_face) + mirrored(received[r], n).dot(of_last));
     }
+  };
+  if (std::abs(off) < kAtReflection) {
+    add(-kAside, 0.5);
+    add(kAside, 0.5);
+  } else {
+    add(off, 1);
   }
   return ends;
 }

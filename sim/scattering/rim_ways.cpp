@@ -2,6 +2,7 @@
 #include "sim/scattering/rim_ways.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "sim/scattering/mirrored_rim.h"
@@ -9,8 +10,7 @@
 namespace seaglint {
 namespace {
 
-constexpr double kOnRim = 1e-7;     // m, as for edges that bound a lit polygon (edge_light.cpp)
-constexpr double kShallow = 1e-4;   // m, of a panel seen edge-on
+constexpr double kShallow = 1e-4;  // m, of a panel seen edge-on
 // Slopes of psi across a shadow line below which its end stays there, and from which on it moves: the ends of both ways go as 1 / slope, and an interval turns it by some thousandths; that they
 // lie apart by k d slope^2 / 2 in phase is lost.
 constexpr std::array<double, 2> kFlat{0.03, 0.08};
@@ -26,8 +26,6 @@ struct IntoAperture {
       : h(mirrors.L.transpose() * transmit.h), v(mirrors.L.transpose() * transmit.v), shift(mirrors.t.dot(transmit.h), mirrors.t.dot(transmit.v)) {}
   Vec2 operator()(const Vec3& x) const { return Vec2(h.dot(x), v.dot(x)) + shift; }
 };
-
-Vec3 reflect(const Vec3& x, const Vec3& n) { return x - 2 * n.dot(x) * n; }
 
 }  // namespace
 
@@ -72,7 +70,7 @@ RimWays::RimWays(const AntennaPair& antennas, std::span<const Screen> screens, c
       screens_(screens),
       footprint_(footprint),
       normal_(normal_of(footprint.plane, basis_)),
-      before_(reflect(footprint.mirrors.L * antennas.receive.r, normal_)) {}
+      before_(mirrored(footprint.mirrors.L * antennas.receive.r, normal_)) {}
 
 RimWays::Way RimWays::over(std::size_t screen, const Vec2& p) const {
   const Vec3 X = at(screen, p), beyond = X - 2 * normal_.dot(X - footprint_.plane.z0 * basis_.r) * normal_;
@@ -96,7 +94,7 @@ RimWays::Share RimWays::share(const Rim& rim, double slope) const {
   if (n.dot(mirror.direction) > 0) n = -n;
   const Vec2 run = (rim.b - rim.a).normalized();
   const Vec3 along = real * (run.x() * basis_.h + run.y() * basis_.v + mirror.plane->slope.dot(run) * basis_.r).normalized();
-  const double moved = rim_share(n, along, mirror.direction, s, last) * lands_on(reflect(mirror.direction, n), s, last) * (1 - fading(std::abs(slope), kFlat));
+  const double moved = rim_share(n, along, mirror.direction, s, last) * lands_on(mirrored(mirror.direction, n), s, last) * (1 - fading(std::abs(slope), kFlat));
   return {moved, n.dot(s) > 0};
 }
 

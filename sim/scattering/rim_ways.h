@@ -21,6 +21,9 @@ struct Screen {
   Vec3 direction = Vec3::Zero();     // of the wave at it
 };
 
+// Points this near to a rim lie on it, as for edges that bound a lit polygon (edge_light.cpp).
+inline constexpr double kOnRim = 1e-7;  // m
+
 // A rim as the transmitter sees it through the mirrors before.
 struct Rim {
   std::size_t screen;
@@ -47,10 +50,14 @@ struct SideFrame {
   bool holds(const Rim& rim) const;  // the rim, or its shadow line, bounds the piece here
 };
 
-// The ways of one footprint. All arguments must outlive it.
+// The ways of one footprint, of which `screens` are the mirrors and, last, the facet. All arguments must outlive it.
 class RimWays {
  public:
   RimWays(const AntennaPair& antennas, std::span<const Screen> screens, const Footprint& footprint);
+
+  const RadarBasis& aperture() const { return basis_; }  // the transmitter's
+  std::span<const Screen> screens() const { return screens_; }
+  const Footprint& footprint() const { return footprint_; }
 
   // Over a point of a screen's plane, given by its place in the aperture, and by the mirrors after it to the receiver.
   struct Way {
