@@ -25,13 +25,19 @@ std::vector<std::span<const EdgeArrival>> chunks_of(std::span<const EdgeArrival>
   return chunks;
 }
 
+// The arrivals of one antenna, and one chunk of them.
+struct Ways {
+  std::span<const EdgeArrival> all, chunk;
+};
+
 // Edge waves. With one antenna each is the mean of its way and of the same way run backwards, as in single diffraction: off Keller's cone the wave that
 // leaves an edge is not the one that would come back by it. With two antennas they are the transmitter's, as physical optics and single diffraction are:
 // near grazing all three are large, and only what one wave lights cancels.
-void append_edge_waves(const Scatterer& scatterer, const AntennaPair& antennas, std::span<const EdgeArrival> incoming,
-                       std::span<const EdgeArrival> outgoing, const EdgeWaveLimits& limits, std::vector<EdgeFootprint>& answer) {
+// Of either list one chunk, with the whole of the other.
+void append_edge_waves(const Scatterer& scatterer, const AntennaPair& antennas, const Ways& incoming, const Ways& outgoing, const EdgeWaveLimits& limits, std::vector<EdgeFootprint>& answer) {
   const std::size_t first = answer.size();
-  edge_wave_footprints(scatterer.edges(), scatterer.facets(), antennas, incoming, outgoing, limits, answer);
+  edge_wave_footprints(scatterer.edges(), scatterer.facets(), antennas, incoming.chunk, outgoing.all, limits, answer);
+  corner_wave_footprints(scatterer.edges(), scatterer.facets(), antennas, incoming.all, outgoing.chunk, limits, answer);
   if (!antennas.monostatic) return;
   for (EdgeFootprint& f : std::span(answer).subspan(first)) {
     f.pattern += transposed(f.pattern);
@@ -53,12 +59,12 @@ void edge_echoes(const Scatterer& scatterer, const AntennaPair& antennas, const 
   const std::span<const EdgeArrival> incoming = reached.arrivals, outgoing = antennas.monostatic ? incoming : backwards.arrivals;
   const auto [lowest, highest] = std::ranges::minmax(wavenumbers);
   const EdgeWaveLimits limits{kLongEdge * scatterer.radius(), faintest_echo(scatterer, settings, lowest), lowest};
-  const auto chunks = chunks_of(incoming);
+  const auto chunks = chunks_of(incoming), chunks_out = chunks_of(outgoing);
   const std::span<const EdgeFootprint> beam_ends = reached.beam_ends;
   parallel_for(chunks.size(), threads, [&](std::size_t chunk) {
     std::vector<EdgeFootprint> answer =
         edge_footprints(scatterer.edges(), scatterer.facets(), antennas, chunks[chunk], outgoing, settings.max_bounces);
-    append_edge_waves(scatterer, antennas, chunks[chunk], outgoing, limits, answer);
+    append_edge_waves(scatterer, antennas, {incoming, chunks[chunk]}, {outgoing, chunks_out[chunk]}, limits, answer);
     for (std::size_t i = beam_ends.size() * chunk / chunks.size(); i < beam_ends.size() * (chunk + 1) / chunks.size(); ++i) {
       if (bound_of_beam_end(beam_ends[i], lowest, highest) >= limits.faintest_m) answer.push_back(beam_ends[i]);
     }

@@ -62,7 +62,7 @@ struct Incident {
   RowOfRims rims{};                         // of sheets, passed before
   int waves = 0;                            // passed before
   int walls = 0;                            // that the edge wave was reflected by
-  Mat3 unfolded = Mat3::Identity();         // takes directions after those walls back to before them
+  Mat3 unfolded = Mat3::Identity();         // takes directions after those walls, or after the other wall of a corner, back to before them
   Vec3 before = Vec3::Zero();               // direction of the wave at the edge before
 };
 
@@ -107,6 +107,12 @@ struct Source {
 // by there, and left out.
 bool by_mirrors(const EdgeArrival& way) { return way.mirrors > 0; }
 
+// What the wall of a corner that an edge wave does not run along makes of directions.
+Mat3 by_the_other_wall(const WedgeFrame& wedge, int face) {
+  const Vec3& n = wedge.face[1 - face].n;
+  return wedge.N < 1 ? Mat3(Mat3::Identity() - 2 * n * n.transpose()) : Mat3(Mat3::Identity());
+}
+
 // A grazing wave along w, a little down on the face.
 Vec3 grazing(const WedgeFace& face, const Vec3& w) { return (w - kLift * face.n).normalized(); }
 
@@ -115,14 +121,8 @@ double opening(const Vec3& w, const Vec3& s) { return std::max(0.5 * (s - w).squ
 
 class EdgeWaves {
  public:
-  EdgeWaves(const SharpEdges& edges, std::span<const Facet> facets, const AntennaPair& antennas,
-            std::span<const EdgeArrival> outgoing, const EdgeWaveLimits& limits, std::vector<EdgeFootprint>& out)
-      : edges_(edges),
-        facets_(facets),
-        antennas_(antennas),
-        outgoing_(outgoing),
-        limits_(limits),
-        out_(out),
+  EdgeWaves(const SharpEdges& edges, std::span<const Facet> facets, const AntennaPair& antennas, std::span<const EdgeArrival> outgoing, const EdgeWaveLimits& limits, bool backwards, std::vector<EdgeFootprint>& out)
+      : edges_(edges), facets_(facets), antennas_(antennas), outgoing_(outgoing), limits_(limits), backwards_(backwards), out_(out),
         first_(edges.edges.size() + 1, 0) {
     for (const EdgeArrival& arrival : outgoing) ++first_[arrival.edge + 1];
     for (std::size_t e = 1; e < first_.size(); ++e) first_[e] += first_[e - 1];
@@ -155,7 +155,7 @@ class EdgeWaves {
   void send(const Incident& in) {
     const SharpEdge& edge = edges_.edges[in.edge];
     const WedgeFrame* wedge = wedge_towards(edge, in.direction);
-    if (!wedge || wedge->N < 1) return;
+    if (!wedge) return;
     const RowOfRims rims = with_rim(in.rims, *wedge, -in.direction);
     const double decay = in.waves > 0 ? mean_decay(in.l) : 1.0;
     for (int i = 0; i < 2; ++i) {
@@ -165,9 +165,13 @@ class EdgeWaves {
                           edge.a,
                           edge.along(),
                           {wave.amplitude[0] * decay * in.factor[0], wave.amplitude[1] * decay * in.factor[1]},
-                          shadow_distance(wave.direction, in.direction),
-                          rims};
+                          wave.departure,
+                          rims,
+                          0,
+                          in.waves > 0 ? in.unfolded : by_the_other_wall(*wedge, i)};
       if (!counts(source)) continue;
+      // Sharper than a right angle it also sends the edge's field back as a ray, to which this is what lacks.
+      if (wedge->N < 0.5 && in.waves > 0 && source.face.n.dot(in.E[0]) > 1 - kFlat) continue;
       Strip strip{wave.direction.cross(source.face.n), wave.direction, 0, 0};
       // It runs along the edge itself. An edge wave that met it nearly so is the one that goes on beside it; as a ray off it, it would have the pole without
       // the zero.
@@ -258,7 +262,7 @@ class EdgeWaves {
     const double across = strip.u.dot(along);
     if (std::abs(across) < kAlong) return;
     const WedgeFrame* wedge = wedge_towards(edge, grazing(source.face, strip.w));
-    if (!wedge || wedge->N < 1) return;
+    if (!wedge) return;
     // The stretch of this edge that the strip meets, and the wave there: its rays come from the first edge without
     // crossing.
     const auto place = [&](double u) { return (u - strip.u.dot(edge.a)) / across; };
@@ -284,7 +288,8 @@ class EdgeWaves {
     if (in.waves == 0) next.departure = source.departure;
     if (in.waves == 1) next.first_m = std::pow(mean_decay(in.l), -2);
     for (int q = 0; q < 2; ++q) next.factor[q] = 0.5 * source.amplitude[q];  // half of the wave is incident
-    for (std::size_t o = first_[number]; o < first_[number + 1]; ++o) leave(next, *wedge, source.face, strip.w, outgoing_[o]);
+    // What leaves by a corner is found on its way back (corner_wave_footprints).
+    for (std::size_t o = first_[number]; wedge->N > 1 && o < first_[number + 1]; ++o) leave(next, *wedge, source.face, strip.w, outgoing_[o]);
     const bool is_long = edge.length() >= limits_.long_from_m;
     if (next.waves < (is_long ? kMostWavesOfLong : kMostWaves) && next.walls == 0) send_on(next);
   }
@@ -314,7 +319,7 @@ class EdgeWaves {
     if (by_mirrors(departure) || wedge_towards(edge, departure.direction) != &wedge) return;
     const std::array<double, 2> s{std::max(in.s[0], departure.s[0]), std::min(in.s[1], departure.s[1])};
     if (s[1] - s[0] < kShortest) return;
-    const double weight = in.walls > 0 ? before_the_beam(in.before, in.unfolded * -departure.direction) : 1.0;
+    const double weight = in.walls > 0 || (backwards_ && in.waves == 1) ? before_the_beam(in.before, in.unfolded * -departure.direction) : 1.0;
     if (weight <= 0) return;
     const Vec3& along = edge.along();
     const Vec3 out = -departure.direction;
@@ -359,6 +364,7 @@ class EdgeWaves {
   const AntennaPair& antennas_;
   std::span<const EdgeArrival> outgoing_;
   EdgeWaveLimits limits_;
+  bool backwards_;  // from corners, for ways that end there
   std::vector<EdgeFootprint>& out_;
   std::vector<std::size_t> first_;  // departure of each edge
 };
@@ -368,9 +374,26 @@ class EdgeWaves {
 void edge_wave_footprints(const SharpEdges& edges, std::span<const Facet> facets, const AntennaPair& antennas,
                           std::span<const EdgeArrival> incoming, std::span<const EdgeArrival> outgoing, const EdgeWaveLimits& limits,
                           std::vector<EdgeFootprint>& footprints) {
-  EdgeWaves waves(edges, facets, antennas, outgoing, limits, footprints);
+  EdgeWaves waves(edges, facets, antennas, outgoing, limits, false, footprints);
   for (const EdgeArrival& in : incoming) {
     if (!by_mirrors(in)) waves.send(in);
+  }
+}
+
+void corner_wave_footprints(const SharpEdges& edges, std::span<const Facet> facets, const AntennaPair& antennas,
+                            std::span<const EdgeArrival> incoming, std::span<const EdgeArrival> outgoing, const EdgeWaveLimits& limits,
+                            std::vector<EdgeFootprint>& footprints) {
+  const AntennaPair exchanged{antennas.receive, antennas.transmit, antennas.monostatic};
+  std::vector<EdgeFootprint> back;
+  EdgeWaves waves(edges, facets, exchanged, incoming, limits, true, back);
+  for (const EdgeArrival& out : outgoing) {
+    const WedgeFrame* wedge = wedge_towards(edges.edges[out.edge], out.direction);
+    if (!by_mirrors(out) && wedge && wedge->N < 1) waves.send(out);
+  }
+  for (EdgeFootprint& footprint : back) {
+    for (PathGradient& gradient : footprint.gradient) std::swap(gradient.transmit, gradient.receive);
+    footprint.pattern = transposed(footprint.pattern);
+    footprints.push_back(footprint);
   }
 }
 

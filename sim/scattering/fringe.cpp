@@ -130,6 +130,13 @@ void add_currents(const WedgeFrame& wedge, const Vec3& k_hat, std::span<const Ve
   for (Vec3& sum : sums) sum /= 2 * kPi;
 }
 
+// Of the angles +-phi + 2 N pi m, at which the sources' images stand, the one next to pi.
+double grazing_image(double phi, double N) {
+  const double round = 2 * N * kPi;
+  const double plus = phi + round * std::round((kPi - phi) / round), minus = -phi + round * std::round((kPi + phi) / round);
+  return std::abs(kPi - plus) < std::abs(kPi - minus) ? plus : minus;
+}
+
 }  // namespace
 
 Vec3 fringe_current(const WedgeFrame& wedge, const Vec3& k_hat, const Vec3& E, const Vec3& s) {
@@ -153,7 +160,11 @@ EdgeWave edge_wave(const WedgeFrame& wedge, int face, const Vec3& k_hat, const s
   double phi = angle_from_face(f, -k_hat);
   EdgeWave wave{sin_b * f.x + cos_b * f.t, {}};
   if (phi > N * kPi) return wave;
-  if (std::abs(phi - kPi) < kFromBoundary) phi = kPi - kFromBoundary;
+  // Of the waves that meet the face, in a corner by way of both, the one that is next to grazing it has the pole.
+  const double image = N < 1 ? grazing_image(phi, N) : phi;
+  const double off = std::copysign(std::max(std::abs(kPi - image), kFromBoundary), kPi - image);
+  phi = kPi - off;
+  wave.departure = std::pow(sin_b * std::sin(off / 2), 2);
   const Complex D = std::polar(1.0, -kPi / 4) * std::sin(kPi / N) / (N * std::sqrt(2 * kPi) * sin_b) * 2.0 /
                     (std::cos(kPi / N) - std::cos(phi / N));
   // H along t on the cone is sin_b of the whole, and E = H x direction lies along n.

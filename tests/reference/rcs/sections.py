@@ -3,13 +3,15 @@
 """Scattering of infinitely long perfectly conducting prisms at 10.24 GHz, by integral equations: sections.py > sections.csv
 
 The currents round the outline of the cross-section on elements that shrink to its corners; pulses and point matching for the soft field (along the edges), triangles
-and the weak form of the hypersingular equation (A. W. Maue, Z. Phys. 126, 1949, 601-618) for the hard one.
+and the weak form of the hypersingular equation (A. W. Maue, Z. Phys. 126, 1949, 601-618) for the hard one; of long sections together with the double layer's
+equation (A. J. Burton and G. F. Miller, Proc. R. Soc. A 323, 1971, 201-210), since alone it has the resonances of the outline's inside for solutions, which no element
+size of use removes.
 
 Needs numpy and scipy. Columns: azimuths of transmitter and receiver, deg; P soft (vv of a prism that stands upright) and hard (hh), the amplitude of the
 field's component along the edges as P sqrt(2 / pi k r) e^{-jkr + j pi/4}, e^{+jwt}, phase from the origin of the cross-section; its name.
 """
 import numpy as np
-from scipy.special import j0, y0
+from scipy.special import j0, j1, y0, y1
 
 WAVELENGTH = 299792458 / 10.24e9
 
@@ -33,7 +35,7 @@ def closed(corners, smallest, largest):  # the nodes round a polygon
     return np.array([a + along * s / length for a, along, length in sides for s in graded(length, smallest, largest)[:-1]])
 
 
-def echoes(p, k, incident, scattered):  # P soft and hard [receiver, transmitter] of the outline through the nodes p; unit vectors towards either
+def echoes(p, k, incident, scattered, combined=False):  # P soft and hard [receiver, transmitter] of the outline through the nodes p; unit vectors towards either
     q = np.roll(p, -1, 0)
     middle, length = (p + q) / 2, np.linalg.norm(q - p, axis=1)
     tangent = (q - p) / length[:, None]
@@ -65,16 +67,34 @@ def echoes(p, k, incident, scattered):  # P soft and hard [receiver, transmitter
     currents, charges = k**2 * (normal @ normal.T) * double, double / (length[:, None] * length[None, :])
     Z = 0.25 * (equal(currents) + mixed(currents)) - (equal(charges) - mixed(charges))
 
+    def double_layer():  # over pairs of elements: half of the field on the outline less the integral of dH0/dn' times it, as multiples of what Z asks for
+        D = np.zeros((len(p), len(p)), complex)
+        for x, w in zip(points, weights):
+            d = p[None, :, :] - (p + 0.5 * (1 + x) * length[:, None] * tangent)[:, None, :]
+            a, b = -np.einsum("ijk,jk->ij", d, tangent), -np.einsum("ijk,jk->ij", d, normal)
+            angle = -np.sign(b) * (np.arctan2(a, np.abs(b)) - np.arctan2(a - length[None, :], np.abs(b)))
+            part = -2j / np.pi * np.where(np.abs(b) < 1e-13, 0, angle)
+            for x2, w2 in zip(points, weights):
+                r = np.maximum(np.hypot(0.5 * (1 + x2) * length[None, :] - a, b), 1e-12)
+                part += k * (j1(k * r) - 1j * (y1(k * r) + 2 / (np.pi * k * r))) * (b / r) * (0.5 * w2 * length)[None, :]
+            D += 0.5 * w * length[:, None] * part
+        np.fill_diagonal(D, -2j * length)
+        return 0.25 * (equal(D) + mixed(D))
+
     def waves(towards):
-        soft, hard = [], []
+        soft, hard, field = [], [], []
         for r_hat in towards:
             wave = sum(0.5 * w * np.exp(1j * k * ((p + 0.5 * (1 + x) * length[:, None] * tangent) @ r_hat)) for x, w in zip(points, weights))
             slope = 1j * k * (normal @ r_hat) * wave * length
             soft.append(wave)
             hard.append(0.5 * (slope + slope[before]))
-        return np.array(soft).T, np.array(hard).T
+            field.append(0.5 * (wave * length + (wave * length)[before]))
+        return np.array(soft).T, np.array(hard).T, np.array(field).T
 
-    (soft_in, hard_in), (soft_out, hard_out) = waves(incident), waves(scattered)
+    (soft_in, hard_in, field_in), (soft_out, hard_out, _) = waves(incident), waves(scattered)
+    if combined:
+        Z = Z - 1j * k * double_layer()
+        hard_in = hard_in - 1j * k * field_in
     return -(soft_out * length[:, None]).T @ np.linalg.solve(G, soft_in), -hard_out.T @ np.linalg.solve(Z, hard_in)
 
 
@@ -95,6 +115,8 @@ SECTIONS = {
     "dihedral95": chevron(95, 0.15, 0.04),
 }
 
+LONG = {"dihedral95long": chevron(95, 0.6, 0.04)}
+
 if __name__ == "__main__":
     print("transmit_deg,receive_deg,soft_re,soft_im,hard_re,hard_im,section")
     azimuths = np.arange(1, 361, 4)
@@ -105,3 +127,9 @@ if __name__ == "__main__":
         pairs += [(i, o) for i in range(len(azimuths)) if azimuths[i] in (33, 77) for o in range(len(azimuths)) if o != i]
         for i, o in pairs:
             print(f"{azimuths[i]},{azimuths[o]},{soft[o, i].real:.5g},{soft[o, i].imag:.5g},{hard[o, i].real:.5g},{hard[o, i].imag:.5g},{name}")
+    azimuths = np.arange(1, 47)
+    for name, corners in LONG.items():
+        towards = directions(azimuths)
+        soft, hard = echoes(closed(corners, WAVELENGTH / 400, WAVELENGTH / 60), 2 * np.pi / WAVELENGTH, towards, towards, combined=True)
+        for i, azimuth in enumerate(azimuths):
+            print(f"{azimuth},{azimuth},{soft[i, i].real:.5g},{soft[i, i].imag:.5g},{hard[i, i].real:.5g},{hard[i, i].imag:.5g},{name}")
