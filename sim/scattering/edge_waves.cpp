@@ -107,11 +107,8 @@ struct Source {
 // by there, and left out.
 bool by_mirrors(const EdgeArrival& way) { return way.mirrors > 0; }
 
-// What the wall of a corner that an edge wave does not run along makes of directions.
-Mat3 by_the_other_wall(const WedgeFrame& wedge, int face) {
-  const Vec3& n = wedge.face[1 - face].n;
-  return wedge.N < 1 ? Mat3(Mat3::Identity() - 2 * n * n.transpose()) : Mat3(Mat3::Identity());
-}
+// What a plane with unit normal n makes of directions.
+Mat3 mirror_of(const Vec3& n) { return Mat3::Identity() - 2 * n * n.transpose(); }
 
 // A grazing wave along w, a little down on the face.
 Vec3 grazing(const WedgeFace& face, const Vec3& w) { return (w - kLift * face.n).normalized(); }
@@ -168,9 +165,9 @@ class EdgeWaves {
                           wave.departure,
                           rims,
                           0,
-                          in.waves > 0 ? in.unfolded : by_the_other_wall(*wedge, i)};
+                          wedge->N < 1 && in.waves == 0 ? mirror_of(wedge->face[1 - i].n) : in.unfolded};
       if (!counts(source)) continue;
-      // Sharper than a right angle it also sends the edge's field back as a ray, to which this is what lacks.
+      // A corner below a right angle also sends the edge's field back along the face it came by, whose normal E is, as a ray, without which this is not the whole.
       if (wedge->N < 0.5 && in.waves > 0 && source.face.n.dot(in.E[0]) > 1 - kFlat) continue;
       Strip strip{wave.direction.cross(source.face.n), wave.direction, 0, 0};
       // It runs along the edge itself. An edge wave that met it nearly so is the one that goes on beside it; as a ray off it, it would have the pole without
@@ -240,7 +237,7 @@ class EdgeWaves {
   void reflect(const Source& source, int facet, int side, const SharpEdge& foot, const Strip& strip, int depth) {
     if (source.walls >= kMostWalls || source.in.waves > 0) return;
     const Vec3 n = source.face.n.cross(foot.along());  // of the wall
-    const Mat3 mirror = Mat3::Identity() - 2 * n * n.transpose();
+    const Mat3 mirror = mirror_of(n);
     const Vec3 shift = 2 * n.dot(foot.a) * n;
     const Source image{source.in,
                        source.face,

@@ -54,7 +54,7 @@ inline constexpr double kShadow = 0.26;  // rad, 15 deg: of the grazing ray's an
 struct EdgeWave {
   Vec3 direction;
   std::array<Complex, 2> amplitude;
-  double departure = 1;  // shadow_distance() of the wave that grazes the face
+  double departure = 1;  // shadow_distance() on the cone, of the wave next to grazing the face
 };
 EdgeWave edge_wave(const WedgeFrame& wedge, int face, const Vec3& k_hat, const std::array<Vec3, 2>& fields);
 

@@ -67,7 +67,7 @@ def echoes(p, k, incident, scattered, combined=False):  # P soft and hard [recei
     currents, charges = k**2 * (normal @ normal.T) * double, double / (length[:, None] * length[None, :])
     Z = 0.25 * (equal(currents) + mixed(currents)) - (equal(charges) - mixed(charges))
 
-    def double_layer():  # over pairs of elements: half of the field on the outline less the integral of dH0/dn' times it, as multiples of what Z asks for
+    def double_layer():  # (-2j + D) u = incident field, tested as Z u = its slope is; D the integral of dH0/dn', u the field on the outline over -4j
         D = np.zeros((len(p), len(p)), complex)
         for x, w in zip(points, weights):
             d = p[None, :, :] - (p + 0.5 * (1 + x) * length[:, None] * tangent)[:, None, :]
