@@ -36,8 +36,8 @@ struct Ways {
 // Of either list one chunk, with the whole of the other.
 void append_edge_waves(const Scatterer& scatterer, const AntennaPair& antennas, const Ways& incoming, const Ways& outgoing, const EdgeWaveLimits& limits, std::vector<EdgeFootprint>& answer) {
   const std::size_t first = answer.size();
-  edge_wave_footprints(scatterer.edges(), scatterer.facets(), antennas, incoming.chunk, outgoing.all, limits, answer);
-  corner_wave_footprints(scatterer.edges(), scatterer.facets(), antennas, incoming.all, outgoing.chunk, limits, answer);
+  edge_wave_footprints(scatterer.edges(), scatterer.facets(), scatterer.panels(), antennas, incoming.chunk, outgoing.all, limits, answer);
+  corner_wave_footprints(scatterer.edges(), scatterer.facets(), scatterer.panels(), antennas, incoming.all, outgoing.chunk, limits, answer);
   if (!antennas.monostatic) return;
   for (EdgeFootprint& f : std::span(answer).subspan(first)) {
     f.pattern += transposed(f.pattern);

@@ -49,11 +49,6 @@ namespace {
 // Phase along a stretch between knife edges from which on its ends answer alone, rad, and along each part of a slower one, that is summed.
 constexpr double kFast = 60, kPartPhase = 3;
 
-template <typename T>
-T at_share(const std::array<T, 2>& ends, double share) {
-  return ends[0] + share * (ends[1] - ends[0]);
-}
-
 // k (psi_1 - psi_0), kept from 0, where the terms of both ends would be infinite: moves the integral by a part of this at most.
 double phase_run(const EdgeFootprint& footprint, double k) {
   constexpr double kLeast = 1e-3;  // rad
@@ -88,9 +83,10 @@ Complex mean_width(const EdgeFootprint::KnifeEdges& knives, double k, double pha
   return sum / static_cast<double>(parts);
 }
 
-// What a range or knife edges make of the pattern there.
+// What a range, a wall or knife edges make of the pattern there.
 Complex amplitude_at(const EdgeFootprint& footprint, double k, double run, double share) {
   if (footprint.edge_wave) return range_at(*footprint.edge_wave, k, run, share);
+  if (footprint.wall) return footprint.wall->at(k, share, run);
   return footprint.knife_edges ? footprint.knife_edges->width(k, share, run) : 1.0;
 }
 
@@ -150,7 +146,7 @@ bool ends_answer_alone(const EdgeFootprint& footprint, double k) { return !footp
 Complex part_integral(const EdgeFootprint& footprint, double k, double from, double to) {
   const double phase = k * (footprint.psi[1] - footprint.psi[0]) * (to - from);
   const double length = footprint.fade_by_spread(k) * footprint.length * (to - from);
-  if (!footprint.edge_wave && !footprint.knife_edges) return length * sinc(phase);
+  if (!footprint.edge_wave && !footprint.knife_edges && !footprint.wall) return length * sinc(phase);
   if (footprint.knife_edges && std::abs(phase) < kFast) return length * mean_width(*footprint.knife_edges, k, phase, from, to);
   const Complex half = std::polar(1.0, 0.5 * (to - from) * phase_run(footprint, k));
   return end_term(footprint, k, to) * half - end_term(footprint, k, from) * std::conj(half);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The echo of a stretch of an edge: a pattern per metre and the integral of the phase along it, at any frequency. Single diffraction, edge waves and what beams lack between two rims differ in what
-// their amplitude does along the stretch.
+// The echo of a stretch of an edge: a pattern per metre and the integral of the phase along it, at any frequency. Single diffraction, edge waves, what beams lack between two rims and what walls in
+// penumbra do differ in what their amplitude does along the stretch.
 
 #include <array>
 #include <cstdint>
@@ -10,11 +10,18 @@
 #include <optional>
 
 #include "sim/scattering/footprint.h"
+#include "sim/scattering/wall_range.h"
 
 namespace seaglint {
 
 // 1 up to the one value of x, 0 from the other on, smooth between.
 double fading(double x, const std::array<double, 2>& from_to);
+
+// What is linear along a stretch, at a share of the way from its first end.
+template <typename T>
+T at_share(const std::array<T, 2>& ends, double share) {
+  return ends[0] + share * (ends[1] - ends[0]);
+}
 
 // hh, hv, vh, vv per metre of edge, dimensionless; where sheets end k t (thick + thick_log ln(k t)) more, t their thickness.
 struct EdgePattern {
@@ -60,7 +67,9 @@ struct EdgeFootprint {
     double fade_by_slope(double k, double distance_m) const;
   };
   std::optional<KnifeEdges> knife_edges;
-  // Where a beam ends: 2 d / depth^2 of its way and the shallower panel, rad/m. It fades out towards wavenumbers as low, where the panel is no deeper than the light's spread and its other side counts as much.
+  std::optional<WallRange> wall;
+  // Where a beam ends or a wall stands in penumbra: 2 d / depth^2 of the way there and the shallower panel, rad/m. It fades out towards wavenumbers as low, where the panel is no deeper than the light's
+  // spread and its other side counts as much.
   double spread = 0;
   double fade_by_spread(double k) const;
   std::int32_t facet = -1;  // the edge's first

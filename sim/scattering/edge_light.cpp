@@ -14,6 +14,8 @@ namespace {
 
 // Corners this near to an edge lie on it: cuts are exact to rounding of the target's size.
 constexpr double kOnEdge = 1e-7;  // m
+// As kShadow, where before_the_beam() fades out what grows near the boundary of shadow.
+constexpr double kShadowOfRim = 0.04;  // rad
 
 struct Stretch {
   std::array<double, 2> s;
@@ -83,11 +85,11 @@ std::vector<Stretch> lit_stretches(const Vec3& image, const Vec3& along, double 
 }
 
 // hh, hv, vh, vv of what leaves by `out`. The received polarisation, sent backwards, arrives as the outgoing wave.
-EdgePattern pattern(const WedgeFrame& wedge, const EdgeArrival& in, const EdgeArrival& out) {
+EdgePattern pattern(const WedgeFrame& wedge, const EdgeArrival& in, const EdgeArrival& out, double shadow = kShadow) {
   const auto received = [&](const auto& J_h, const auto& J_v) -> std::array<Complex, 4> {
     return {out.E_h.dot(J_h), out.E_h.dot(J_v), out.E_v.dot(J_h), out.E_v.dot(J_v)};
   };
-  const auto [J_h, J_v] = edge_currents(wedge, in.direction, {in.E_h, in.E_v}, -out.direction);
+  const auto [J_h, J_v] = edge_currents(wedge, in.direction, {in.E_h, in.E_v}, -out.direction, shadow);
   EdgePattern pattern{received(J_h, J_v), {}, {}, wedge.thickness_m};
   if (wedge.thickness_m > 0) {
     const auto [T_h, T_v] = thick_rim_currents(wedge, in.direction, {in.E_h, in.E_v}, -out.direction);
@@ -118,7 +120,7 @@ EdgePattern direct(const WedgeFrame& wedge, const EdgeArrival& in, const EdgeArr
 // By mirrors that the edge's own field reaches beside the beam that its face reflects to them (mirrored_rim.h).
 EdgePattern by_the_rim(const WedgeFrame& wedge, const WedgeFace& face, const EdgeArrival& in, const EdgeArrival& out, bool monostatic) {
   const auto way = [&](const EdgeArrival& from, const EdgeArrival& to) {
-    EdgePattern answer = pattern(wedge, from, to);
+    EdgePattern answer = pattern(wedge, from, to, kShadowOfRim);
     const std::array<double, 4> ends = ends_of_beam(face, from, to);
     for (int i = 0; i < 4; ++i) answer.sharp[i] += ends[i];
     return answer;
@@ -153,7 +155,8 @@ std::optional<EdgePattern> by_mirrors(const WedgeFrame& wedge, const EdgeArrival
 
 double beside_the_beam(const Vec3& k_hat, const Vec3& s) { return fading(k_hat.dot(s), {0, std::cos(kPi / 6)}); }
 
-double before_the_beam(const Vec3& k_hat, const Vec3& s) { return fading(k_hat.dot(s), {0.95, 0.999}); }
+double before_the_beam(const Vec3& k_hat, const Vec3& s) { return before_the_beam(k_hat.dot(s)); }
+double before_the_beam(double cosine) { return fading(cosine, {0.95, 0.999}); }
 
 void find_arrivals(const SharpEdges& edges, int facet, const WaveOnFacet& wave, std::span<const MovingPolygon> lit,
                    std::vector<EdgeArrival>& arrivals) {

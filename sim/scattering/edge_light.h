@@ -56,6 +56,7 @@ double beside_the_beam(const Vec3& k_hat, const Vec3& s);
 
 // The same of the edge's own field, where that is told apart from the beam: from 18 deg off the wave's way on, 1, to 2.6 deg, 0.
 double before_the_beam(const Vec3& k_hat, const Vec3& s);
+double before_the_beam(double cosine);
 
 // Echoes of all stretches that a wave from the transmitter (`incoming`) shares with one from the receiver (`outgoing`),
 // with at most `max_bounces` in all. Arrivals must be in ascending order of their edges. When both are one antenna

@@ -5,7 +5,8 @@
 #include <cmath>
 
 #include "sim/core/constants.h"
-#include "sim/scattering/thick_rim.h"
+#include "sim/scattering/edge_wave_strip.h"
+#include "sim/scattering/wall_penumbra.h"
 
 namespace seaglint {
 namespace {
@@ -14,6 +15,7 @@ namespace {
 constexpr double kFlat = 1e-6;
 constexpr double kShortest = 1e-7;   // m
 constexpr double kNarrowest = 1e-9;  // m
+constexpr double kOnEnd = 1e-7;      // m, from the end of a stretch
 // Sine of the angle between a wave and a rim that it does not meet. Directions that would run along one are turned aside by more (illuminate.cpp).
 constexpr double kAlong = 1e-9;
 // Sine of the angle between an edge and what it sends along a face: for a wave from outside and for an edge wave.
@@ -36,79 +38,9 @@ constexpr int kMostWaves = 2, kMostWavesOfLong = 3;
 // grazing, where a third diffraction counts, echoes by walls have faded.
 constexpr int kMostWalls = 2;
 
-// By how much of itself the thickness of the rims that an edge wave met changes it: to first order the sum over them.
-struct RowOfRims {
-  OfThickness<Complex> change;
-  double thickness_m = 0;  // 0: none is a sheet's
-};
-
-RowOfRims with_rim(RowOfRims rims, const WedgeFrame& wedge, const Vec3& towards) {
-  if (wedge.thickness_m <= 0) return rims;
-  const OfThickness<Complex> more = thick_rim_wave(wedge, towards);
-  return {{rims.change.constant + more.constant, rims.change.logarithm + more.logarithm}, wedge.thickness_m};
-}
-
-// A wave on a stretch of an edge. Its path and where the antenna sees it are linear along the stretch.
-struct Incident {
-  int edge = kNoEdge;
-  std::array<double, 2> s{};    // m from the edge's start
-  std::array<double, 2> psi{};  // minus the path, m
-  std::array<Vec3, 2> X;        // its gradient
-  Vec3 direction;
-  std::array<Vec3, 2> E;                    // for h and v
-  std::array<Complex, 2> factor{1.0, 1.0};  // of E
-  std::array<double, 2> l{};                // of the edge wave that it is, at the stretch's ends, m
-  double departure = 0, first_m = 0;        // of the first edge wave, as in EdgeFootprint
-  RowOfRims rims{};                         // of sheets, passed before
-  int waves = 0;                            // passed before
-  int walls = 0;                            // that the edge wave was reflected by
-  Mat3 unfolded = Mat3::Identity();         // takes directions after those walls, or after the other wall of a corner, back to before them
-  Vec3 before = Vec3::Zero();               // direction of the wave at the edge before
-};
-
-// A strip of parallel rays on a face: u across them, w along.
-struct Strip {
-  Vec3 u, w;
-  double from, to;  // in u
-};
-
-// Mean of 1/sqrt(l) where l is linear between its ends.
-double mean_decay(const std::array<double, 2>& l) { return 2 / (std::sqrt(l[0]) + std::sqrt(l[1])); }
-
-// What is linear along a stretch, at a share of the way from its first end.
-template <typename T>
-T at_share(const std::array<T, 2>& ends, double share) {
-  return ends[0] + share * (ends[1] - ends[0]);
-}
-
-// The part of it on a part of its stretch, from one share of the way to another.
-Incident part_of(const Incident& in, double from, double to) {
-  Incident part = in;
-  part.s = {at_share(in.s, from), at_share(in.s, to)};
-  part.psi = {at_share(in.psi, from), at_share(in.psi, to)};
-  part.X = {at_share(in.X, from), at_share(in.X, to)};
-  part.l = {at_share(in.l, from), at_share(in.l, to)};
-  return part;
-}
-
-// A wave that leaves an edge along a face; after an upright wall it comes from the edge's image.
-struct Source {
-  const Incident& in;
-  const WedgeFace& face;
-  Vec3 start, along;  // of the edge
-  std::array<Complex, 2> amplitude;
-  double departure = 0;  // shadow_distance() at the edge
-  RowOfRims rims = {};   // the edge's own with those before
-  int walls = 0;
-  Mat3 unfolded = Mat3::Identity();
-};
-
 // Edge waves are weak; with mirrors on the way in or out they are weaker than what physical optics itself is uncertain
 // by there, and left out.
 bool by_mirrors(const EdgeArrival& way) { return way.mirrors > 0; }
-
-// What a plane with unit normal n makes of directions.
-Mat3 mirror_of(const Vec3& n) { return Mat3::Identity() - 2 * n * n.transpose(); }
 
 // A grazing wave along w, a little down on the face.
 Vec3 grazing(const WedgeFace& face, const Vec3& w) { return (w - kLift * face.n).normalized(); }
@@ -118,8 +50,8 @@ double opening(const Vec3& w, const Vec3& s) { return std::max(0.5 * (s - w).squ
 
 class EdgeWaves {
  public:
-  EdgeWaves(const SharpEdges& edges, std::span<const Facet> facets, const AntennaPair& antennas, std::span<const EdgeArrival> outgoing, const EdgeWaveLimits& limits, bool backwards, std::vector<EdgeFootprint>& out)
-      : edges_(edges), facets_(facets), antennas_(antennas), outgoing_(outgoing), limits_(limits), backwards_(backwards), out_(out),
+  EdgeWaves(const SharpEdges& edges, std::span<const Facet> facets, const Panels& panels, const AntennaPair& antennas, std::span<const EdgeArrival> outgoing, const EdgeWaveLimits& limits, bool backwards, std::vector<EdgeFootprint>& out)
+      : edges_(edges), facets_(facets), panels_(panels), antennas_(antennas), outgoing_(outgoing), limits_(limits), backwards_(backwards), out_(out),
         first_(edges.edges.size() + 1, 0) {
     for (const EdgeArrival& arrival : outgoing) ++first_[arrival.edge + 1];
     for (std::size_t e = 1; e < first_.size(); ++e) first_[e] += first_[e - 1];
@@ -237,6 +169,7 @@ class EdgeWaves {
   void reflect(const Source& source, int facet, int side, const SharpEdge& foot, const Strip& strip, int depth) {
     if (source.walls >= kMostWalls || source.in.waves > 0) return;
     const Vec3 n = source.face.n.cross(foot.along());  // of the wall
+    if (source.walls == 0 && antennas_.monostatic && !backwards_) stand_in_penumbra(source, foot, n, strip);
     const Mat3 mirror = mirror_of(n);
     const Vec3 shift = 2 * n.dot(foot.a) * n;
     const Source image{source.in,
@@ -250,6 +183,28 @@ class EdgeWaves {
                        source.unfolded * mirror};
     const Vec3 u = mirror * strip.u;
     cross(image, facet, side, {u, mirror * strip.w, strip.from + u.dot(shift), strip.to + u.dot(shift)}, depth + 1);
+  }
+
+  // What the wall returns otherwise where the rim's face is grazed.
+  void stand_in_penumbra(const Source& source, const SharpEdge& foot, const Vec3& n, const Strip& strip) {
+    WallBehindRim wall{source.start, source.along, source.face.n, n.dot(strip.w) < 0 ? n : Vec3(-n), 0, {}};
+    for (int end = 0; end < 2; ++end) {
+      const double u = end == 0 ? strip.from : strip.to;
+      wall.foot[end] = foot.a + (u - strip.u.dot(foot.a)) / strip.u.dot(foot.along()) * foot.along();
+      const double s = (u - strip.u.dot(source.start)) / strip.u.dot(source.along);
+      wall.shown[end] = s - source.in.s[0] < kOnEnd || source.in.s[1] - s < kOnEnd;
+    }
+    for (const int facet : foot.facet) {
+      if (std::abs(facets_[facet].normal.dot(n)) < 1 - kFlat) continue;
+      for (const Vec3& x : panels_.outline(panels_.of(facet))) wall.height = std::max(wall.height, source.face.n.dot(x - foot.a));
+    }
+    if (wall.height < kShortest) return;
+    EdgeFootprint echo;  // of the wall, at its foot
+    echo.facet = foot.facet[0];
+    echo.part = facets_[foot.facet[0]].part;
+    echo.part_beyond = facets_[foot.facet[1]].part;
+    echo.bounces = 2;
+    append_wall_penumbra(wall, antennas_.transmit, echo, limits_.k, limits_.faintest_m, out_);
   }
 
   void diffract(const Source& source, int number, const Strip& strip) {
@@ -358,6 +313,7 @@ class EdgeWaves {
 
   const SharpEdges& edges_;
   std::span<const Facet> facets_;
+  const Panels& panels_;
   const AntennaPair& antennas_;
   std::span<const EdgeArrival> outgoing_;
   EdgeWaveLimits limits_;
@@ -368,21 +324,21 @@ class EdgeWaves {
 
 }  // namespace
 
-void edge_wave_footprints(const SharpEdges& edges, std::span<const Facet> facets, const AntennaPair& antennas,
+void edge_wave_footprints(const SharpEdges& edges, std::span<const Facet> facets, const Panels& panels, const AntennaPair& antennas,
                           std::span<const EdgeArrival> incoming, std::span<const EdgeArrival> outgoing, const EdgeWaveLimits& limits,
                           std::vector<EdgeFootprint>& footprints) {
-  EdgeWaves waves(edges, facets, antennas, outgoing, limits, false, footprints);
+  EdgeWaves waves(edges, facets, panels, antennas, outgoing, limits, false, footprints);
   for (const EdgeArrival& in : incoming) {
     if (!by_mirrors(in)) waves.send(in);
   }
 }
 
-void corner_wave_footprints(const SharpEdges& edges, std::span<const Facet> facets, const AntennaPair& antennas,
+void corner_wave_footprints(const SharpEdges& edges, std::span<const Facet> facets, const Panels& panels, const AntennaPair& antennas,
                             std::span<const EdgeArrival> incoming, std::span<const EdgeArrival> outgoing, const EdgeWaveLimits& limits,
                             std::vector<EdgeFootprint>& footprints) {
   const AntennaPair exchanged{antennas.receive, antennas.transmit, antennas.monostatic};
   std::vector<EdgeFootprint> back;
-  EdgeWaves waves(edges, facets, exchanged, incoming, limits, true, back);
+  EdgeWaves waves(edges, facets, panels, exchanged, incoming, limits, true, back);
   for (const EdgeArrival& out : outgoing) {
     const WedgeFrame* wedge = wedge_towards(edges.edges[out.edge], out.direction);
     if (!by_mirrors(out) && wedge && wedge->N < 1) waves.send(out);

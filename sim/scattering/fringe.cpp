@@ -98,7 +98,7 @@ double angle_from_face(const WedgeFace& face, const Vec3& towards_source) {
 // whose pole at cos a = -mu leaves the cotangents at a +- phi' over sin a. Physical optics has N = 1. The tests hold
 // the sum of both faces to Keller's coefficients.
 // Physical optics is left out, unless `only_seen` and s does not see the face.
-void add_face_current(const WedgeFace& face, double N, double phi, bool only_seen, const Vec3& k_hat,
+void add_face_current(const WedgeFace& face, double N, double phi, bool only_seen, double shadow, const Vec3& k_hat,
                       std::span<const Vec3> fields, const Vec3& s, std::span<Vec3> sums) {
   const double cos_b = k_hat.dot(face.t);
   const double sin_b = std::sqrt(std::max(1 - cos_b * cos_b, 1e-12));
@@ -108,7 +108,7 @@ void add_face_current(const WedgeFace& face, double N, double phi, bool only_see
   constexpr double kAside = 1e-7;
   const bool real = mu >= -1;
   const double a = real ? std::clamp(std::acos(std::clamp(-mu, -1.0, 1.0)), kAside, kPi - kAside) : std::max(std::acosh(-mu), kAside);
-  const bool in_shadow_boundary = (real ? std::abs(a - phi) : std::hypot(a, phi)) < kShadow;
+  const bool in_shadow_boundary = (real ? std::abs(a - phi) : std::hypot(a, phi)) < shadow;
   const WavesOnFace optics = !only_seen || in_shadow_boundary || s.dot(face.n) > kEdgeOn ? WavesOnFace(phi, N) : WavesOnFace();
   const Cotangents cot = real ? cotangents(a, phi, N, optics) : cotangents_of_imaginary(a, phi, N, optics);
   for (std::size_t i = 0; i < fields.size(); ++i) {
@@ -121,11 +121,11 @@ void add_face_current(const WedgeFace& face, double N, double phi, bool only_see
   }
 }
 
-void add_currents(const WedgeFrame& wedge, const Vec3& k_hat, std::span<const Vec3> fields, const Vec3& s, bool only_seen,
+void add_currents(const WedgeFrame& wedge, const Vec3& k_hat, std::span<const Vec3> fields, const Vec3& s, bool only_seen, double shadow,
                   std::span<Vec3> sums) {
   const double phi = angle_from_face(wedge.face[0], -k_hat);
   if (phi > wedge.N * kPi) return;
-  for (int i = 0; i < 2; ++i) add_face_current(wedge.face[i], wedge.N, i == 0 ? phi : wedge.N * kPi - phi, only_seen, k_hat, fields, s, sums);
+  for (int i = 0; i < 2; ++i) add_face_current(wedge.face[i], wedge.N, i == 0 ? phi : wedge.N * kPi - phi, only_seen, shadow, k_hat, fields, s, sums);
   // E_s = -(jk eta / 4 pi) (e^{-jkr}/r) integral J e^{jk s.x}; the integrals above are of eta k J / 2j.
   for (Vec3& sum : sums) sum /= 2 * kPi;
 }
@@ -141,14 +141,14 @@ double grazing_image(double phi, double N) {
 
 Vec3 fringe_current(const WedgeFrame& wedge, const Vec3& k_hat, const Vec3& E, const Vec3& s) {
   Vec3 sum = Vec3::Zero();
-  add_currents(wedge, k_hat, {&E, 1}, s, false, {&sum, 1});
+  add_currents(wedge, k_hat, {&E, 1}, s, false, kShadow, {&sum, 1});
   return sum;
 }
 
 std::array<Vec3, 2> edge_currents(const WedgeFrame& wedge, const Vec3& k_hat, const std::array<Vec3, 2>& fields,
-                                  const Vec3& s) {
+                                  const Vec3& s, double shadow) {
   std::array<Vec3, 2> sums{Vec3::Zero(), Vec3::Zero()};
-  add_currents(wedge, k_hat, fields, s, true, sums);
+  add_currents(wedge, k_hat, fields, s, true, shadow, sums);
   return sums;
 }
 

@@ -42,10 +42,10 @@ Vec3 fringe_current(const WedgeFrame& wedge, const Vec3& k_hat, const Vec3& E, c
 
 // What facets leave to the edge, for two fields at once, which share everything that costs time: the same without
 // physical optics only on lit faces that s sees too, since facets radiate to nowhere else. With theirs it is Keller's field
-// on either side of a face. Within kShadow of a boundary of shadow, where his is infinite, the fringe current.
-std::array<Vec3, 2> edge_currents(const WedgeFrame& wedge, const Vec3& k_hat, const std::array<Vec3, 2>& fields,
-                                   const Vec3& s);
+// on either side of a face. Within `shadow` of a boundary of shadow, where his is infinite, the fringe current.
 inline constexpr double kShadow = 0.26;  // rad, 15 deg: of the grazing ray's angle against the wave's
+std::array<Vec3, 2> edge_currents(const WedgeFrame& wedge, const Vec3& k_hat, const std::array<Vec3, 2>& fields,
+                                   const Vec3& s, double shadow = kShadow);
 
 // Fields of the edge waves that hard-polarised plane waves send along a face: unit amplitude along k_hat, electric
 // fields `fields`. The wave travels along `direction` (in the face, on Keller's cone) and its electric field across the face at

@@ -36,6 +36,8 @@ double rim_share(const Vec3& n, const Vec3& t, const Vec3& k_hat, const Vec3& s,
   return before_the_beam(k_hat, s) * (1 - fading(cosine, kGrazingFace)) * (1 - fading(std::abs(last.dot(s)), kGrazing)) * fading(std::abs(t.dot(s - k_hat)), kOffCone);
 }
 
+double grazing_share(double sine) { return before_the_beam(1 - 2 * sine * sine) * (1 - fading(sine, kGrazingFace)); }
+
 ReflectingFace reflecting_face(const WedgeFrame& wedge, const EdgeArrival& in, const EdgeArrival& out) {
   ReflectingFace best;
   const Vec3 &k_hat = in.direction, s = -out.direction;

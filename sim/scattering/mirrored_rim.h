@@ -26,6 +26,9 @@ double lands_on(const Vec3& beam, const Vec3& s, const Vec3& last);
 // mirror, and off Keller's cone about the rim (direction t), where its ends alone answer.
 double rim_share(const Vec3& n, const Vec3& t, const Vec3& k_hat, const Vec3& s, const Vec3& last);
 
+// Of that what the wave's sine over the face leaves of it on the way out near the direction of reflection; the rest is wall_penumbra.h's.
+double grazing_share(double sine);
+
 // The face of the wedge that sends a wave on by mirrors, and by what share; with more mirrors on both ways than kMostMoved, whose shadow lines keep their ends, near the direction of reflection alone:
 // 0 from 0.2 rad off it on.
 struct ReflectingFace {

@@ -115,7 +115,7 @@ SECTIONS = {
     "dihedral95": chevron(95, 0.15, 0.04),
 }
 
-LONG = {"dihedral95long": chevron(95, 0.6, 0.04)}
+LONG = {"dihedral90long": chevron(90, 0.6, 0.04), "dihedral95long": chevron(95, 0.6, 0.04)}
 
 if __name__ == "__main__":
     print("transmit_deg,receive_deg,soft_re,soft_im,hard_re,hard_im,section")
@@ -127,7 +127,7 @@ if __name__ == "__main__":
         pairs += [(i, o) for i in range(len(azimuths)) if azimuths[i] in (33, 77) for o in range(len(azimuths)) if o != i]
         for i, o in pairs:
             print(f"{azimuths[i]},{azimuths[o]},{soft[o, i].real:.5g},{soft[o, i].imag:.5g},{hard[o, i].real:.5g},{hard[o, i].imag:.5g},{name}")
-    azimuths = np.arange(1, 47)
+    azimuths = np.arange(1, 71)
     for name, corners in LONG.items():
         towards = directions(azimuths)
         soft, hard = echoes(closed(corners, WAVELENGTH / 400, WAVELENGTH / 60), 2 * np.pi / WAVELENGTH, towards, towards, combined=True)

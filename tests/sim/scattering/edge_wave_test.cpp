@@ -148,7 +148,7 @@ EdgeWaveSum edge_wave_sum(const TriangleMesh& mesh, const AntennaPair& antennas,
     return off_floor(a) || std::min(edge(a).a.x(), edge(a).b.x()) < last_above;
   });
   std::vector<EdgeFootprint> footprints;
-  edge_wave_footprints(scatterer.edges(), scatterer.facets(), antennas, incoming, outgoing, {}, footprints);
+  edge_wave_footprints(scatterer.edges(), scatterer.facets(), scatterer.panels(), antennas, incoming, outgoing, {}, footprints);
   EdgeWaveSum sum;
   for (const EdgeFootprint& footprint : footprints) {
     if (footprint.edge_wave->waves != 1 || footprint.bounces != 2 + walls) continue;
@@ -269,10 +269,10 @@ TEST(EdgeWave, LeaveOutOnlyWhatIsFaint) {
     const auto arrivals = Illumination(corner, antennas, {0, 4, true}).light_all(1, [](std::size_t, auto) {}).arrivals;
     const auto loud = [&](double limit, std::size_t& count) {
       std::vector<EdgeFootprint> footprints;
-      edge_wave_footprints(corner.edges(), corner.facets(), antennas, arrivals, arrivals, {0, limit, k}, footprints);
+      edge_wave_footprints(corner.edges(), corner.facets(), corner.panels(), antennas, arrivals, arrivals, {0, limit, k}, footprints);
       count += footprints.size();
       return std::count_if(footprints.begin(), footprints.end(),
-                           [&](const EdgeFootprint& f) { return f.edge_wave->waves == 1 && largest(scattered(f, k)) >= faintest; });
+                           [&](const EdgeFootprint& f) { return f.edge_wave && f.edge_wave->waves == 1 && largest(scattered(f, k)) >= faintest; });
     };
     const auto of_all = loud(0, all), of_kept = loud(faintest, kept);
     EXPECT_GT(of_all, 0) << azimuth;
@@ -291,7 +291,7 @@ TEST(EdgeWave, DoNotDependOnHowTheirFaceIsCut) {
     const auto of_edges = [&](const Scatterer& plate, bool once) {
       const auto arrivals = Illumination(plate, monostatic(basis), {0, 1, true}).light_all(1, [](std::size_t, auto) {}).arrivals;
       std::vector<EdgeFootprint> footprints;
-      edge_wave_footprints(plate.edges(), plate.facets(), monostatic(basis), arrivals, arrivals, {}, footprints);
+      edge_wave_footprints(plate.edges(), plate.facets(), plate.panels(), monostatic(basis), arrivals, arrivals, {}, footprints);
       std::array<Complex, 4> sum{};
       for (const EdgeFootprint& footprint : footprints) {
         if (once && footprint.edge_wave->waves > 1) continue;

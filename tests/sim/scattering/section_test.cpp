@@ -26,6 +26,7 @@ const std::map<std::string, std::vector<Vec2>>& sections() {
     result["dihedral"] = chevron(radians(45), 0.15);
     result["dihedral85"] = chevron(radians(42.5), 0.15);
     result["dihedral95"] = chevron(radians(47.5), 0.15);
+    result["dihedral90long"] = chevron(radians(45), 0.6);
     result["dihedral95long"] = chevron(radians(47.5), 0.6);
     for (const double at : {10.0, 130.0, 250.0}) result["triangle"].push_back(0.1 * Vec2(std::cos(radians(at)), std::sin(radians(at))));
     return result;
@@ -123,9 +124,19 @@ TEST(Section, OfADihedralAnswersAsIntegralEquationsSay) {
     EXPECT_LT(axis.hard, 0.02);
     EXPECT_LT(back.soft, 0.01);
     EXPECT_LT(back.hard, 0.02);
-    EXPECT_LT(grazing.soft, 0.03);
+    EXPECT_LT(grazing.soft, 0.03);  // 0.012 but for two antennas
     EXPECT_LT(grazing.hard, 0.03);
   }
+}
+
+// Towards an arm and beyond the other arm stands in the rim's penumbra (wall_penumbra.h): lit by physical optics in whole, arms of 5 wavelengths err by 0.10 (soft) and
+// 0.055 (hard), of 20 by 0.042 and 0.023.
+TEST(Section, OfADihedralAnswersAlongItsArmsAsIntegralEquationsSay) {
+  const Deviation near = against_integral_equations("dihedral", 0, 0, 0, 70), far = against_integral_equations("dihedral90long", 0, 0, 0, 70);
+  EXPECT_LT(near.soft, 0.015);
+  EXPECT_LT(near.hard, 0.03);
+  EXPECT_LT(far.soft, 0.003);
+  EXPECT_LT(far.hard, 0.01);
 }
 
 // Where the corner is no right angle the ways out of rims leave the beams that they bound: with ends of physical optics on shadow lines the fields err by 0.14 to 0.20 (beam_ends.h).
@@ -145,7 +156,7 @@ TEST(Section, OfADihedralOffTheRightAngleAnswersAsIntegralEquationsSay) {
 TEST(Section, OfADihedralHasWavesFromItsCorner) {
   for (const double elevation : {0.0, 40.0}) EXPECT_LT(against_integral_equations("dihedral95", 0, 0, elevation, 47).hard, 0.12) << elevation;
   EXPECT_LT(against_integral_equations("dihedral85", 0, 0, 0, 42).hard, 0.2);
-  EXPECT_LT(against_integral_equations("dihedral95long", 0, 0, 0, 47).hard, 0.16);
+  EXPECT_LT(against_integral_equations("dihedral95long", 0, 0, 0, 46).hard, 0.16);
 }
 
 // At 37.5 deg what one arm of the 95 deg dihedral reflects passes along the other, which it lights on one side of that direction only. Without waves from the corner the echo steps by 5.5 there;
