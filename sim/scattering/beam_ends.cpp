@@ -79,7 +79,7 @@ class SideEnds {
     const ImagePlane& plane = *screens_[rim.screen].plane;
     const Vec2 middle = side_.from.p + 0.5 * (t[0] + t[1]) * side_.along;
     set_spread(plane.at(middle) - footprint_.plane.at(middle), rim.depth, on_line);
-    set_pattern(share, on_line);
+    set_pattern(share, rim, on_line);
     std::array<Vec2, 2> places, moves;
     for (std::size_t end = 0; end < 2; ++end) {
       const double s = t[end] / length;
@@ -90,7 +90,7 @@ class SideEnds {
       moves[end] = {side_.along.dot(corner.d1), side_.along.dot(corner.d2)};
     }
     out_.push_back(on_line);
-    if (seen && !hidden) put_on_rim(rim.screen, places, moves, share, on_line);
+    if (seen && !hidden) put_on_rim(rim, places, moves, share, on_line);
   }
 
   // What two rims share, of which `inner` bounds this side. True when the outer one hides the way over the inner one to the receiver.
@@ -143,7 +143,7 @@ class SideEnds {
     // Where both rims meet the sign is that of the rest of the stretch.
     const double landed = within[0] + within[1];
     for (std::size_t end = 0; end < 2; ++end) knives.beyond[end] = std::copysign(knives.beyond[end], std::abs(within[end]) < kOnRim ? landed : within[end]);
-    if (!knives.shadow_within && share.seen && landed > 0) put_on_rim(first.screen, {ends[0].first, ends[1].first}, {ends[0].moves, ends[1].moves}, askew * share.moved, lacking);
+    if (!knives.shadow_within && share.seen && landed > 0) put_on_rim(first, {ends[0].first, ends[1].first}, {ends[0].moves, ends[1].moves}, askew * share.moved, lacking);
     const double weight = askew * fading(turned * (ends[0].apart + ends[1].apart) / way, kSteep);
     if (weight > 0 && knives.moved + knives.still > 0) {
       for (int i = 0; i < 4; ++i) lacking.pattern.sharp[i] = Complex(0, weight / (2 * kPi)) * footprint_.pattern[i];
@@ -168,10 +168,12 @@ class SideEnds {
     end.spread = 2 * distance / (depth * depth);
   }
 
-  // What Gordon's contour has of the end along this side (phase_integral), with the sign that takes `share` of it off.
-  void set_pattern(double share, EdgeFootprint& end) const {
-    const Vec2& w = footprint_.w;
-    const double factor = share * (w.x() * side_.along.y() - w.y() * side_.along.x()) / (2 * kPi * w.squaredNorm());
+  // What physical optics has of the end along this side, with the sign that takes `share` of it off: by the divergence theorem with F = e e^{jk w.p} / (jk w.e), e as the rim's face runs away from it. So every
+  // point of the rim has the end of the strip that it bounds, as in ends_of_beam(), and the phase may run along the side; Gordon's e = w (phase_integral) would leave it some of the ends of other sides.
+  void set_pattern(double share, const Rim& rim, EdgeFootprint& end) const {
+    const Vec2& e = rim.away;
+    const double across = e.x() * side_.along.y() - e.y() * side_.along.x(), slope = footprint_.w.dot(e) / across;
+    const double factor = share * (1 - fading(std::abs(slope), kFlat)) / (2 * kPi * slope);
     for (int i = 0; i < 4; ++i) end.pattern.sharp[i] = factor * footprint_.pattern[i];
   }
 
@@ -179,15 +181,15 @@ class SideEnds {
   Vec2 along_body(const Vec2& moves, double height) const { return moves + height * side_.along; }
 
   // The end on the rim of a mirror, `moves` how its places move along the side as the direction turns; as long and with as much spread as another one.
-  void put_on_rim(std::size_t screen, const std::array<Vec2, 2>& places, const std::array<Vec2, 2>& moves, double share, const EdgeFootprint& other) {
+  void put_on_rim(const Rim& rim, const std::array<Vec2, 2>& places, const std::array<Vec2, 2>& moves, double share, const EdgeFootprint& other) {
     if (share <= 0) return;
     EdgeFootprint on_rim = of_footprint(other.length);
     on_rim.spread = other.spread;
-    set_pattern(-share, on_rim);
-    std::array<RimWays::Way, 2> way{ways_.over(screen, places[0]), ways_.over(screen, places[1])};
+    set_pattern(-share, rim, on_rim);
+    std::array<RimWays::Way, 2> way{ways_.over(rim.screen, places[0]), ways_.over(rim.screen, places[1])};
     const double run = (way[1].psi - way[0].psi) / on_rim.length;
     for (std::size_t end = 0; end < 2; ++end) {
-      const Vec2 slip = run * along_body(moves[end], screens_[screen].plane->at(places[end]));
+      const Vec2 slip = run * along_body(moves[end], screens_[rim.screen].plane->at(places[end]));
       PathGradient& gradient = on_rim.gradient[end];
       on_rim.psi[end] = way[end].psi;
       gradient.transmit_slip = slip.x() * transmit_.h + slip.y() * transmit_.v;

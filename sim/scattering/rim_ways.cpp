@@ -11,9 +11,6 @@ namespace seaglint {
 namespace {
 
 constexpr double kShallow = 1e-4;  // m, of a panel seen edge-on
-// Slopes of psi across a shadow line below which its end stays there, and from which on it moves: the ends of both ways go as 1 / slope, and an interval turns it by some thousandths; that they
-// lie apart by k d slope^2 / 2 in phase is lost.
-constexpr std::array<double, 2> kFlat{0.03, 0.08};
 
 Vec3 normal_of(const ImagePlane& plane, const RadarBasis& basis) { return (basis.r - plane.slope.x() * basis.h - plane.slope.y() * basis.v).normalized(); }
 
@@ -41,6 +38,7 @@ std::vector<Rim> rims_of(const SharpEdges& edges, const Panels& panels, const Ra
   for (std::size_t i = 0; i < screens.size(); ++i) {
     const Screen& screen = screens[i];
     const IntoAperture into(transmit, *screen.mirrors);
+    const Vec3 n = screen.mirrors->L.transpose() * normal_of(*screen.plane, transmit);
     std::vector<Vec2> outline;
     for (const PanelEdge& side : edges.of_panel(screen.facet)) {
       const SharpEdge& edge = edges.edges[side.edge];
@@ -54,7 +52,7 @@ std::vector<Rim> rims_of(const SharpEdges& edges, const Panels& panels, const Ra
         middle += p / static_cast<double>(outline.size());
         depth = std::max(depth, std::abs(along.x() * (p - a).y() - along.y() * (p - a).x()));
       }
-      if (depth > kShallow) rims.push_back({i, a, b, middle, depth});
+      if (depth > kShallow) rims.push_back({i, a, b, middle, into(edge.a + n.cross(edge.along())) - a, depth});
     }
   }
   return rims;

@@ -4,6 +4,7 @@
 // Rims of the mirrors that a footprint's beam has passed, and the ways over them: straight on along the beam, where a rim casts its shadow line on the footprint's facet, and from the rim's point
 // by the mirrors after it to the receiver, as the field that the rim diffracts goes.
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -24,11 +25,16 @@ struct Screen {
 // Points this near to a rim lie on it, as for edges that bound a lit polygon (edge_light.cpp).
 inline constexpr double kOnRim = 1e-7;  // m
 
+// Slopes of psi across a shadow line below which its end stays there, and from which on it moves: the ends of both ways go as 1 / slope, and an interval turns it by some thousandths; that they
+// lie apart by k d slope^2 / 2 in phase is lost.
+inline constexpr std::array<double, 2> kFlat{0.03, 0.08};
+
 // A rim as the transmitter sees it through the mirrors before.
 struct Rim {
   std::size_t screen;
   Vec2 a, b;
   Vec2 inside;   // a point of its panel
+  Vec2 away;     // a metre on its face, across the rim in the body
   double depth;  // how far that reaches from the rim, m
 };
 
