@@ -117,12 +117,15 @@ EdgePattern direct(const WedgeFrame& wedge, const EdgeArrival& in, const EdgeArr
   return monostatic ? mean_of_both(wedge, in, out) : pattern(wedge, in, out);
 }
 
-// By mirrors that the edge's own field reaches beside the beam that its face reflects to them (mirrored_rim.h).
-EdgePattern by_the_rim(const WedgeFrame& wedge, const WedgeFace& face, const EdgeArrival& in, const EdgeArrival& out, bool monostatic) {
+// By mirrors that the edge's own field reaches beside the beams that its faces reflect to them, each by its share of the whole (mirrored_rim.h).
+EdgePattern by_the_rim(const WedgeFrame& wedge, const std::array<double, 2>& shares, const EdgeArrival& in, const EdgeArrival& out, bool monostatic) {
   const auto way = [&](const EdgeArrival& from, const EdgeArrival& to) {
     EdgePattern answer = pattern(wedge, from, to, kShadowOfRim);
-    const std::array<double, 4> ends = ends_of_beam(face, from, to);
-    for (int i = 0; i < 4; ++i) answer.sharp[i] += ends[i];
+    for (int f = 0; f < 2; ++f) {
+      if (shares[f] <= 0) continue;
+      const std::array<double, 4> ends = ends_of_beam(wedge.face[f], from, to);
+      for (int i = 0; i < 4; ++i) answer.sharp[i] += shares[f] * ends[i];
+    }
     return answer;
   };
   return monostatic ? mean(way(in, out), way(out, in)) : way(in, out);
@@ -137,8 +140,8 @@ EdgePattern by_the_beam(const WedgeFrame& wedge, const EdgeArrival& in, const Ed
 
 // By mirrors; nothing where it has faded out ahead of the edge.
 std::optional<EdgePattern> by_mirrors(const WedgeFrame& wedge, const EdgeArrival& in, const EdgeArrival& out, bool monostatic) {
-  const ReflectingFace reflecting = reflecting_face(wedge, in, out);
-  const double by_rim = reflecting.share, by_beam = (1 - reflecting.share) * beside_the_beam(in.direction, -out.direction);
+  std::array<double, 2> reflecting = reflecting_shares(wedge, in, out);
+  const double by_rim = std::ranges::max(reflecting), by_beam = (1 - by_rim) * beside_the_beam(in.direction, -out.direction);
   if (by_rim <= 0 && by_beam <= 0) return std::nullopt;
   EdgePattern answer;
   answer.thickness_m = wedge.thickness_m;
@@ -146,7 +149,10 @@ std::optional<EdgePattern> by_mirrors(const WedgeFrame& wedge, const EdgeArrival
     part *= share;
     answer += part;
   };
-  if (by_rim > 0) add(by_the_rim(wedge, wedge.face[reflecting.face], in, out, monostatic), by_rim);
+  if (by_rim > 0) {
+    for (double& share : reflecting) share /= by_rim;
+    add(by_the_rim(wedge, reflecting, in, out, monostatic), by_rim);
+  }
   if (by_beam > 0) add(by_the_beam(wedge, in, out), by_beam);
   return answer;
 }

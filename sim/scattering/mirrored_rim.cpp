@@ -38,22 +38,21 @@ double rim_share(const Vec3& n, const Vec3& t, const Vec3& k_hat, const Vec3& s,
 
 double grazing_share(double sine) { return before_the_beam(1 - 2 * sine * sine) * (1 - fading(sine, kGrazingFace)); }
 
-ReflectingFace reflecting_face(const WedgeFrame& wedge, const EdgeArrival& in, const EdgeArrival& out) {
-  ReflectingFace best;
+std::array<double, 2> reflecting_shares(const WedgeFrame& wedge, const EdgeArrival& in, const EdgeArrival& out) {
+  std::array<double, 2> shares{};
   const Vec3 &k_hat = in.direction, s = -out.direction;
   for (int i = 0; i < 2; ++i) {
     const auto& [x, n, t] = wedge.face[i];
     if (n.dot(k_hat) >= 0 || n.dot(s) <= 0) continue;
-    double share = 1;
-    if (out.mirrors > 0) share = rim_share(n, t, k_hat, s, out.first_mirror);
-    if (in.mirrors > 0) share = std::min(share, rim_share(n, t, -s, -k_hat, in.first_mirror));
+    shares[i] = 1;
+    if (out.mirrors > 0) shares[i] = rim_share(n, t, k_hat, s, out.first_mirror);
+    if (in.mirrors > 0) shares[i] = std::min(shares[i], rim_share(n, t, -s, -k_hat, in.first_mirror));
     if (in.mirrors + out.mirrors > kMostMoved) {
       const double off = (s - mirrored(k_hat, n)).norm(), cosine = -n.dot(k_hat);
-      share *= fading(off, kOffReflection) * fading(off / (2 * cosine), kOffGrazing);
+      shares[i] *= fading(off, kOffReflection) * fading(off / (2 * cosine), kOffGrazing);
     }
-    if (share > best.share) best = {i, share};
   }
-  return best;
+  return shares;
 }
 
 std::array<double, 4> ends_of_beam(const WedgeFace& face, const EdgeArrival& in, const EdgeArrival& out) {

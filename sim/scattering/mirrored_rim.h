@@ -29,14 +29,10 @@ double rim_share(const Vec3& n, const Vec3& t, const Vec3& k_hat, const Vec3& s,
 // Of that what the wave's sine over the face leaves of it on the way out near the direction of reflection; the rest is wall_penumbra.h's.
 double grazing_share(double sine);
 
-// The face of the wedge that sends a wave on by mirrors, and by what share; with more mirrors on both ways than kMostMoved, whose shadow lines keep their ends, near the direction of reflection alone:
+// By what shares the faces of the wedge send a wave on by mirrors; with more mirrors on both ways than kMostMoved, whose shadow lines keep their ends, near the direction of reflection alone:
 // 0 from 0.2 rad off it on.
-struct ReflectingFace {
-  int face = 0;
-  double share = 0;
-};
 inline constexpr int kMostMoved = 2;
-ReflectingFace reflecting_face(const WedgeFrame& wedge, const EdgeArrival& in, const EdgeArrival& out);
+std::array<double, 2> reflecting_shares(const WedgeFrame& wedge, const EdgeArrival& in, const EdgeArrival& out);
 
 // hh, hv, vh, vv per metre of rim, to be added to what edge_currents() returns: the end of physical optics on the rim's own face less that on the last mirror of the way out; zeros where the way
 // out is direct, the rim's face being the last mirror itself. On Keller's cone: off it the way out is turned onto it.

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "sim/core/constants.h"
@@ -99,20 +100,20 @@ TEST(MirroredRim, IsToldFromTheBeam) {
   const auto share = [](double above, double beside, int mirrors = 1) {
     DihedralRim rim = dihedral_rim(above, beside);
     rim.out.mirrors = static_cast<std::uint8_t>(mirrors);
-    return reflecting_face(rim.wedge, rim.in, rim.out);
+    return reflecting_shares(rim.wedge, rim.in, rim.out);
   };
-  EXPECT_EQ(share(radians(30), 0).face, 0);
-  for (const double beside : {0.0, 0.05, 0.25, -0.2}) EXPECT_DOUBLE_EQ(share(radians(30), beside).share, 1) << beside;
+  EXPECT_EQ(share(radians(30), 0)[1], 0);
+  for (const double beside : {0.0, 0.05, 0.25, -0.2}) EXPECT_DOUBLE_EQ(share(radians(30), beside)[0], 1) << beside;
   // Shadow lines behind three mirrors keep their ends: only where it makes no difference.
-  EXPECT_DOUBLE_EQ(share(radians(30), 0.05, 3).share, 1);
-  EXPECT_EQ(share(radians(30), 0.25, 3).share, 0);
+  EXPECT_DOUBLE_EQ(share(radians(30), 0.05, 3)[0], 1);
+  EXPECT_EQ(share(radians(30), 0.25, 3)[0], 0);
   // Grazing: the rim's face, the other mirror.
-  EXPECT_EQ(share(radians(1.5), 0).share, 0);
-  EXPECT_EQ(share(radians(60), radians(29)).share, 0);
+  EXPECT_EQ(share(radians(1.5), 0)[0], 0);
+  EXPECT_EQ(share(radians(60), radians(29))[0], 0);
   // Off Keller's cone.
   DihedralRim rim = dihedral_rim(radians(30));
   rim.out.direction = (rim.out.direction + 0.3 * Vec3::UnitZ()).normalized();
-  EXPECT_EQ(reflecting_face(rim.wedge, rim.in, rim.out).share, 0);
+  EXPECT_EQ(std::ranges::max(reflecting_shares(rim.wedge, rim.in, rim.out)), 0);
 }
 
 }  // namespace
