@@ -118,17 +118,14 @@ EdgePattern direct(const WedgeFrame& wedge, const EdgeArrival& in, const EdgeArr
 }
 
 // By mirrors that the edge's own field reaches beside the beams that its faces reflect to them, each by its share of the whole (mirrored_rim.h).
-EdgePattern by_the_rim(const WedgeFrame& wedge, const std::array<double, 2>& shares, const EdgeArrival& in, const EdgeArrival& out, bool monostatic) {
-  const auto way = [&](const EdgeArrival& from, const EdgeArrival& to) {
-    EdgePattern answer = pattern(wedge, from, to, kShadowOfRim);
-    for (int f = 0; f < 2; ++f) {
-      if (shares[f] <= 0) continue;
-      const std::array<double, 4> ends = ends_of_beam(wedge.face[f], from, to);
-      for (int i = 0; i < 4; ++i) answer.sharp[i] += shares[f] * ends[i];
-    }
-    return answer;
-  };
-  return monostatic ? mean(way(in, out), way(out, in)) : way(in, out);
+EdgePattern by_the_rim(const WedgeFrame& wedge, const std::array<double, 2>& shares, const EdgeArrival& in, const EdgeArrival& out) {
+  EdgePattern answer = pattern(wedge, in, out, kShadowOfRim);
+  for (int f = 0; f < 2; ++f) {
+    if (shares[f] <= 0) continue;
+    const std::array<double, 4> ends = ends_of_beam(wedge.face[f], in, out);
+    for (int i = 0; i < 4; ++i) answer.sharp[i] += shares[f] * ends[i];
+  }
+  return answer;
 }
 
 // Where that is not told apart from the beam: what facets radiate straight to the receiver is what the transmitter or more mirrors lit. A way with more mirrors on its end is the same way run backwards;
@@ -138,8 +135,9 @@ EdgePattern by_the_beam(const WedgeFrame& wedge, const EdgeArrival& in, const Ed
   return in.mirrors < out.mirrors ? transposed(pattern(wedge, out, in)) : mean_of_both(wedge, in, out);
 }
 
-// By mirrors; nothing where it has faded out ahead of the edge.
-std::optional<EdgePattern> by_mirrors(const WedgeFrame& wedge, const EdgeArrival& in, const EdgeArrival& out, bool monostatic) {
+// By mirrors; nothing where it has faded out ahead of the edge. `both_ways`: the way back through the same arrivals as well, of which physical optics has other ends where another facet is the last one, so
+// that only with them hv and vh are alike.
+std::optional<EdgePattern> by_mirrors(const WedgeFrame& wedge, const EdgeArrival& in, const EdgeArrival& out, bool both_ways) {
   std::array<double, 2> reflecting = reflecting_shares(wedge, in, out);
   const double by_rim = std::ranges::max(reflecting), by_beam = (1 - by_rim) * beside_the_beam(in.direction, -out.direction);
   if (by_rim <= 0 && by_beam <= 0) return std::nullopt;
@@ -151,9 +149,14 @@ std::optional<EdgePattern> by_mirrors(const WedgeFrame& wedge, const EdgeArrival
   };
   if (by_rim > 0) {
     for (double& share : reflecting) share /= by_rim;
-    add(by_the_rim(wedge, reflecting, in, out, monostatic), by_rim);
+    add(by_the_rim(wedge, reflecting, in, out), by_rim);
+    if (both_ways) add(by_the_rim(wedge, reflecting, out, in), by_rim);
   }
-  if (by_beam > 0) add(by_the_beam(wedge, in, out), by_beam);
+  if (by_beam > 0) {
+    const EdgePattern beam = by_the_beam(wedge, in, out);
+    add(beam, by_beam);
+    if (both_ways) add(transposed(beam), by_beam);
+  }
   return answer;
 }
 
@@ -186,8 +189,7 @@ std::vector<EdgeFootprint> edge_footprints(const SharpEdges& edges, std::span<co
                                            std::span<const EdgeArrival> outgoing, int max_bounces) {
   std::vector<EdgeFootprint> result;
   const int most_mirrors = std::min(kMostEdgeMirrors, max_bounces - 1);
-  // Of one antenna's two ways by the same arrivals only one is followed: run backwards it has the same path and the
-  // transposed pattern.
+  // Of one antenna's two ways by the same arrivals only one is followed: run backwards it has the same path.
   const auto echo = [&](const EdgeArrival& in, const EdgeArrival& out) {
     const bool both_ways = antennas.monostatic && &in != &out;
     const double first = std::max(in.s[0], out.s[0]), last = std::min(in.s[1], out.s[1]);
@@ -196,8 +198,13 @@ std::vector<EdgeFootprint> edge_footprints(const SharpEdges& edges, std::span<co
     const WedgeFrame* wedge = wedge_towards(edge, in.direction);
     if (!wedge || wedge_towards(edge, out.direction) != wedge) return;
 
-    const std::optional<EdgePattern> answer =
-        in.mirrors + out.mirrors > 0 ? by_mirrors(*wedge, in, out, antennas.monostatic) : direct(*wedge, in, out, antennas.monostatic);
+    std::optional<EdgePattern> answer;
+    if (in.mirrors + out.mirrors > 0) {
+      answer = by_mirrors(*wedge, in, out, both_ways);
+    } else {
+      answer = direct(*wedge, in, out, antennas.monostatic);
+      if (both_ways) *answer += transposed(*answer);
+    }
     if (!answer) return;
 
     EdgeFootprint footprint;
@@ -207,7 +214,6 @@ std::vector<EdgeFootprint> edge_footprints(const SharpEdges& edges, std::span<co
     footprint.part_beyond = facets[edge.facet[1]].part;
     footprint.bounces = static_cast<std::uint8_t>(in.mirrors + out.mirrors + 1);
     footprint.pattern = *answer;
-    if (both_ways) footprint.pattern += transposed(*answer);
 
     const RadarBasis &t = antennas.transmit, &r = antennas.receive;
     const double slope = t.r.dot(in.image_along) + r.r.dot(out.image_along);  // of psi along the edge
