@@ -173,6 +173,7 @@ class SideEnds {
   void set_pattern(double share, const Rim& rim, EdgeFootprint& end) const {
     const Vec2& e = rim.away;
     const double across = e.x() * side_.along.y() - e.y() * side_.along.x(), slope = footprint_.w.dot(e) / across;
+    if (!(std::abs(slope) > kFlat[0])) return;  // neither infinite nor, of a face seen along its rim, undefined
     const double factor = share * (1 - fading(std::abs(slope), kFlat)) / (2 * kPi * slope);
     for (int i = 0; i < 4; ++i) end.pattern.sharp[i] = factor * footprint_.pattern[i];
   }
