@@ -23,6 +23,7 @@ struct Leg {
   Vec3 from_normal = Vec3::Zero();  // real, on the side the beam leaves
   int bounce = 1;                   // of the hits at this leg's end
   Vec3 first_mirror = Vec3::Zero();  // normal of the first one as those after it show it to this leg, unit; none before
+  int first_facet = -1;             // the first one itself
   bool bent = false;                // a mirror on the way was curved:
   BentRays rays;                    // the rays as they left the last mirror
   const Leg* before = nullptr;      // the leg to the last mirror

@@ -11,6 +11,7 @@
 #include "sim/scattering/beam_leg.h"
 #include "sim/scattering/beam_window.h"
 #include "sim/scattering/bent_beam.h"
+#include "sim/scattering/grazed_mirror.h"
 #include "sim/scattering/mirrored_rim.h"
 #include "sim/scattering/reflect.h"
 
@@ -42,10 +43,7 @@ class BeamTracer {
 
   void light(int facet) {
     if (is_under_water(facet)) return;
-    Leg first;
-    first.direction = -basis_.r;
-    first.E_h = basis_.h;
-    first.E_v = basis_.v;
+    const Leg first = direct();
     Candidate candidate;
     candidate.image.facet = facet;
     candidate.image.plane = image_plane(facets_[facet].normal, facets_[facet].offset, basis_);
@@ -59,6 +57,15 @@ class BeamTracer {
   }
 
  private:
+  // From the transmitter.
+  Leg direct() const {
+    Leg leg;
+    leg.direction = -basis_.r;
+    leg.E_h = basis_.h;
+    leg.E_v = basis_.v;
+    return leg;
+  }
+
   // Memory of one leg, kept for the next of its bounce.
   struct Scratch {
     std::vector<int> found;
@@ -147,6 +154,7 @@ class BeamTracer {
       scratch.seen.clear();
       seen_part(leg, candidate, scratch.seen);
       radiate(leg, candidate, scratch.seen);
+      radiate_back(leg, candidate);
       if (reaches_edges(leg)) reach_edges(leg, candidate);
       if (goes_on(leg, candidate)) follow(reflected(leg, candidate), candidate.lit);
     }
@@ -224,6 +232,7 @@ class BeamTracer {
     next.bounce = leg.bounce + 1;
     next.first_mirror = leg.bounce == 1 ? n : mirrored(leg.first_mirror, n);
     next.before = &leg;
+    next.first_facet = leg.bounce == 1 ? facet : leg.first_facet;
     next.bent = leg.bent || curving_.surface.curved(facet);
     next.rays = reflected_rays(curving_, leg, candidate);
     return next;
@@ -286,10 +295,50 @@ class BeamTracer {
       screens = screens_of(leg, candidate);
       ends.emplace(*edges_, panels_, antennas_, std::span<const Screen>(screens.data(), static_cast<std::size_t>(leg.bounce)));
     }
+    const double share = leaves_grazing(leg, footprint.facet) ? share_of_way(leg, footprint.facet) : 1.0;
+    if (share > 1) give_share(share, footprint);  // with the ends of its beams; where less is left they have faded out as much (rim_share)
     for (const MovingPolygon& piece : pieces) {
       footprint.polygon = piece;
       limit_slip(footprint, 2 * radius_);
       if (ends) ends->find(footprint, out_.beam_ends);
+      if (share <= 0) continue;
+      out_.footprints.push_back(footprint);
+      if (share < 1) give_share(share, out_.footprints.back());
+    }
+  }
+
+  GrazedMirror mirror_of(int facet) const { return {facets_[facet].normal, panels_.outline(facet)}; }
+
+  double share_of_way(const Leg& leg, int last) const {
+    if (leg.bounce == 1) return 1;
+    const GrazedMirror first = mirror_of(leg.first_facet);
+    return leg.bounce == 3 ? share_of_three(basis_.r, first, mirror_of(leg.from_facet), mirror_of(last)) : share_of_two(basis_.r, first, mirror_of(last));
+  }
+
+  // Whether mirrors that are grazed leave their echo to other ways; without edges the last one has all of it, as usual. Flat perfect conductors, and none that are followed by other means.
+  bool leaves_grazing(const Leg& leg, int facet) const {
+    return edges_ && antennas_.monostatic && !leg.bent && !curving_.surface.curved(facet) && leg.fields.empty() && surface_of(facet).empty() && !filter_.is_cavity(facets_[facet].part);
+  }
+
+  // Footprints of what leaves by the mirror that it came by, where that is grazed: those of the facet's image, lit and seen directly.
+  void radiate_back(const Leg& leg, const Candidate& candidate) {
+    const int facet = candidate.image.facet;
+    if (leg.bounce != 2 || leg.bounce >= max_bounces_ || !leaves_grazing(leg, facet)) return;
+    const double share = share_by_image(basis_.r, mirror_of(leg.first_facet), mirror_of(facet)), cosine = std::abs(facets_[facet].normal.dot(leg.direction));
+    if (share <= 0 || cosine <= kEdgeOn) return;
+    const Vec3 n = leg.mirrors.L * facing(leg, facets_[facet]);
+    Footprint footprint;
+    footprint.plane = candidate.image.plane;
+    footprint.facet = facet;
+    footprint.part = facets_[facet].part;
+    footprint.facet_size = panels_.size(facet);
+    footprint.bounces = static_cast<std::uint8_t>(leg.bounce + 1);
+    set_phase(footprint, n, antennas_);
+    footprint.pattern = conductor_pattern(direct(), n, cosine, basis_);
+    give_share(share, footprint);
+    for (const MovingPolygon& piece : candidate.lit.polygons()) {
+      footprint.polygon = piece;
+      limit_slip(footprint, 2 * radius_);
       out_.footprints.push_back(footprint);
     }
   }

@@ -6,6 +6,7 @@
 
 #include "sim/core/constants.h"
 #include "sim/scattering/edge_wave_strip.h"
+#include "sim/scattering/grazed_mirror.h"
 #include "sim/scattering/wall_penumbra.h"
 
 namespace seaglint {
@@ -169,7 +170,7 @@ class EdgeWaves {
   void reflect(const Source& source, int facet, int side, const SharpEdge& foot, const Strip& strip, int depth) {
     if (source.walls >= kMostWalls || source.in.waves > 0) return;
     const Vec3 n = source.face.n.cross(foot.along());  // of the wall
-    if (source.walls == 0 && antennas_.monostatic && !backwards_) stand_in_penumbra(source, foot, n, strip);
+    if (source.walls == 0 && antennas_.monostatic && !backwards_) stand_in_penumbra(source, facet, foot, n, strip);
     const Mat3 mirror = mirror_of(n);
     const Vec3 shift = 2 * n.dot(foot.a) * n;
     const Source image{source.in,
@@ -185,17 +186,19 @@ class EdgeWaves {
     cross(image, facet, side, {u, mirror * strip.w, strip.from + u.dot(shift), strip.to + u.dot(shift)}, depth + 1);
   }
 
-  // What the wall returns otherwise where the rim's face is grazed.
-  void stand_in_penumbra(const Source& source, const SharpEdge& foot, const Vec3& n, const Strip& strip) {
-    WallBehindRim wall{source.start, source.along, source.face.n, n.dot(strip.w) < 0 ? n : Vec3(-n), 0, {}};
+  // What the wall returns otherwise where the rim's face is grazed, of which the facet at its foot is one.
+  void stand_in_penumbra(const Source& source, int floor, const SharpEdge& foot, const Vec3& n, const Strip& strip) {
+    WallBehindRim wall{source.start, source.along, source.face.n, n.dot(strip.w) < 0 ? n : Vec3(-n), 0, 0, {}};
     for (int end = 0; end < 2; ++end) {
       const double u = end == 0 ? strip.from : strip.to;
       wall.foot[end] = foot.a + (u - strip.u.dot(foot.a)) / strip.u.dot(foot.along()) * foot.along();
       const double s = (u - strip.u.dot(source.start)) / strip.u.dot(source.along);
       wall.shown[end] = s - source.in.s[0] < kOnEnd || source.in.s[1] - s < kOnEnd;
     }
+    const auto mirror_of = [&](int facet) { return GrazedMirror{facets_[facet].normal, panels_.outline(panels_.of(facet))}; };
     for (const int facet : foot.facet) {
       if (std::abs(facets_[facet].normal.dot(n)) < 1 - kFlat) continue;
+      wall.by_image = share_by_image(antennas_.transmit.r, mirror_of(floor), mirror_of(facet));
       for (const Vec3& x : panels_.outline(panels_.of(facet))) wall.height = std::max(wall.height, source.face.n.dot(x - foot.a));
     }
     if (wall.height < kShortest) return;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sim/core/constants.h"
+#include "sim/scattering/grazed_mirror.h"
 
 namespace seaglint {
 namespace {
@@ -16,9 +17,6 @@ constexpr std::array<double, 2> kOffGrazing{0.25, 0.5};
 // Cosine against the normal, below which a wave grazes the rim's face: 2 and 6 deg. Nearer to it the next mirror stands in the zone that the beam, the wave beside it and what the rim diffracts
 // share.
 constexpr std::array<double, 2> kGrazingFace{0.035, 0.11};
-// Cosine below which a beam or a way out grazes the last mirror: 1 to 6 deg. The beam's end there would be far away, and infinite at last, and frozen over an interval it errs as the inverse: with 1.1 to 3.4 deg
-// the worst of 12 directions of a ship falls from -31 to -27 dB. Below 5 deg a wall on a wide deck therefore loses up to half of its echo beside the plane of its normal.
-constexpr std::array<double, 2> kGrazing{0.02, 0.1};
 // Component along the rim by which a way out leaves Keller's cone.
 constexpr std::array<double, 2> kOffCone{0.1, 0.2};
 // Nearer to the direction of reflection than this, rad, the ends are taken at this far to either side of it, and their poles cancel: the constant errs by its square times the ends' second derivative, 1e-6 at 10 deg.
@@ -29,12 +27,15 @@ Vec3 current(const Vec3& n, const Vec3& k_hat, const Vec3& E) { return n.cross(k
 
 }  // namespace
 
-double lands_on(const Vec3& beam, const Vec3& s, const Vec3& last) { return 1 - fading(last.dot(s) < 0 ? -last.dot(beam) : last.dot(beam), kGrazing); }
+double lands_on(const Vec3& beam, const Vec3& s, const Vec3& last) {
+  const double lands = last.dot(s) * last.dot(beam) > 0 ? 1 - grazes(beam, last) : 0, leaves = 1 - grazes(s, last);
+  return lands < leaves ? lands / leaves : 1;
+}
 
 double rim_share(const Vec3& n, const Vec3& t, const Vec3& k_hat, const Vec3& s, const Vec3& last) {
   const double cosine = -n.dot(k_hat);
   if (cosine <= 0) return 0;
-  return before_the_beam(k_hat, s) * (1 - fading(cosine, kGrazingFace)) * (1 - fading(std::abs(last.dot(s)), kGrazing)) * fading(std::abs(t.dot(s - k_hat)), kOffCone);
+  return before_the_beam(k_hat, s) * (1 - fading(cosine, kGrazingFace)) * (1 - grazes(s, last)) * fading(std::abs(t.dot(s - k_hat)), kOffCone);
 }
 
 double grazing_share(double sine) { return before_the_beam(1 - 2 * sine * sine) * (1 - fading(sine, kGrazingFace)); }

@@ -19,7 +19,7 @@
 
 namespace seaglint {
 
-// By how much the beam along `beam` comes down on a mirror (normal `last`, of either sign) on the side that a way out along s comes from, 1, or grazes it and ends far away or nowhere, 0.
+// By how much the beam along `beam` comes down on a mirror (normal `last`, of either sign) on the side that a way out along s comes from, 1, or grazes it, more than that way does, and ends far away or nowhere, 0.
 double lands_on(const Vec3& beam, const Vec3& s, const Vec3& last);
 
 // What share of a rim's answer is as above, for a wave along k_hat on its face with normal n and a way out along s to a mirror with normal `last`: none near the wave's way on, where wave or way graze a

@@ -36,7 +36,7 @@ Pattern of_wall(const Vec3& n, const RadarBasis& antenna, const Vec3& k_hat, con
 }  // namespace
 
 void append_wall_penumbra(const WallBehindRim& wall, const RadarBasis& antenna, const EdgeFootprint& foot_echo, double k, double faintest_m, std::vector<EdgeFootprint>& footprints) {
-  const auto& [rim, along, n, wall_normal, height, foot, shown] = wall;
+  const auto& [rim, along, n, wall_normal, height, image_share, foot, shown] = wall;
   const Vec3& r = antenna.r;
   const double s = n.dot(r), c = std::sqrt(1 - s * s);
   const Vec3 back = (r - s * n).normalized();  // on the face, from the wall to the rim
@@ -88,8 +88,11 @@ void append_wall_penumbra(const WallBehindRim& wall, const RadarBasis& antenna, 
 
   // What mirrored_rim.h and edge waves by walls leave to this.
   const double ahead = 1 - before_the_beam(1 - 2 * s * s), share = grazes * faces;
-  const double by_rim = s > 0 ? (1 - grazing_share(s)) * fading(way * s / c / height, kPastTop) : 1;
+  const double past_top = s > 0 ? fading(way * s / c / height, kPastTop) : 1, by_rim = (1 - grazing_share(s)) * past_top;
+  // What the wall's image, which ends at the line, radiates already.
+  const double by_image = image_share * past_top;
   const double at_end = 1 / (4 * kPi * std::abs(s)), by_way = std::min(at_end, std::sqrt(k * std::max(l[0], l[1]) / kPi) / (2 * kPi));
+  const double at_foot = s > 0 ? share * (by_rim + by_image) : 0, at_line = s > 0 ? -share * by_image : share;
   WallRange range;
   range.l = l;
   range.sine = s;
@@ -97,7 +100,8 @@ void append_wall_penumbra(const WallBehindRim& wall, const RadarBasis& antenna, 
     range.change_m = kChangePhase / k;
     for (const bool is_soft : {false, true}) {
       range.soft = is_soft;
-      range.end = share * by_rim;
+      range.foot = at_foot;
+      range.line = at_line;
       range.from_rim = share * (is_soft ? 1 : ahead);
       range.part = WallRange::Part::kLessChange;
       append(is_soft ? soft : hard, range, 0, 0, 4 * by_way);
@@ -106,11 +110,15 @@ void append_wall_penumbra(const WallBehindRim& wall, const RadarBasis& antenna, 
     }
     return;
   }
-  range.end = share * by_rim;
   range.from_rim = 0;
-  range.fall = s > 0 ? 0 : 2 * s * s / c;
-  append(direct, range, 0, s > 0 ? 0 : (4 * s + 2 * s * s * s / (c * c)) / c, at_end);
-  range.end = 0;
+  range.foot = at_foot;
+  range.line = 0;
+  append(direct, range, 0, 0, at_end);
+  range.foot = 0;
+  range.line = at_line;
+  range.fall = 2 * s * s / c;
+  append(direct, range, 0, (4 * s + 2 * s * s * s / (c * c)) / c, at_end);
+  range.line = 0;
   range.fall = 2 * (1 - c);
   for (const bool is_soft : {false, true}) {
     range.soft = is_soft;

@@ -34,6 +34,7 @@ struct WallBehindRim {
   Vec3 face_normal;             // on the lit side
   Vec3 wall_normal;             // towards the rim
   double height = 0;            // of the wall, m; where it is no higher than the penumbra all fades out
+  double by_image = 0;          // what share of its echo by the face its image in it has (grazed_mirror.h)
   std::array<Vec3, 2> foot;     // ends of the stretch of the wall that stands behind the rim
   std::array<bool, 2> shown{};  // whether an end is where the end of the rim shows on the wall, and moves along it as the direction turns; else it stays
 };

@@ -29,7 +29,9 @@ Complex WallRange::at_sine(double s, double k, double share, double run) const {
     return run / kept * amplitude(kept) * std::polar(1.0, -lower * way);
   };
   Complex sum = 0;
-  if (end > 0) sum += with_phase(s > 0 ? 0 : 2 * s * s / c, [&](double) { return end / (4 * kPi * std::abs(s)); });
+  const double at_end = 1 / (4 * kPi * std::abs(s));
+  if (foot != 0) sum += with_phase(0, [&](double) { return foot * at_end; });
+  if (line != 0) sum += with_phase(2 * s * s / c, [&](double) { return line * at_end; });
   if (from_rim > 0) {
     sum -= with_phase(2 * (1 - c), [&](double own) {
       const double x = k * way * s * s, z = -std::clamp(own * way / more, -kFar, kFar);

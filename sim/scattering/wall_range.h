@@ -9,12 +9,12 @@
 
 namespace seaglint {
 
-// With s the sine of the wave's angle over the face, l the way on it from the rim to the wall, x = k l s^2: at the foot (s > 0) or at the rim's shadow line on the wall (s < 0), and by the way from rim
+// With s the sine of the wave's angle over the face, l the way on it from the rim to the wall, x = k l s^2: at the foot, at the rim's shadow line on the wall or on its image, and by the way from rim
 // to wall and back.
 struct WallRange {
   std::array<double, 2> l{};    // at the ends of the stretch, m, linear in between
   double sine = 0;              // s, -1 < s < 1
-  double end = 1, from_rim = 1; // shares of both
+  double foot = 0, line = 1, from_rim = 1;  // shares of the end at the foot, of that at the line, and of the way from the rim
   bool soft = false;            // the electric field along the face, or the magnetic one
   double fall = 0;              // by how much the footprint's psi is less than the foot's, per metre of l
   // The part that turns with the angle. Near grazing both ways are infinite as 1 / s and cancel, so their sum is one amplitude, with its first-order change: as a point's own phase changes, that is

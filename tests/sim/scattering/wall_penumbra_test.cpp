@@ -8,6 +8,7 @@
 
 #include "sim/scattering/edge_waves.h"
 #include "sim/scattering/fringe.h"
+#include "sim/scattering/grazed_mirror.h"
 #include "sim/scattering/illuminate.h"
 #include "tests/sim/scattering/echoes.h"
 
@@ -24,9 +25,10 @@ struct Answer {
 };
 
 Answer closed_form(double sine, double k, double height = 1000) {
-  const WallBehindRim wall{Vec3::Zero(), Vec3::UnitY(), Vec3::UnitZ(), Vec3::UnitX(), height, {Vec3(-kWay, -kWidth / 2, 0), Vec3(-kWay, kWidth / 2, 0)}};
+  const RadarBasis radar = radar_basis(Vec3(std::sqrt(1 - sine * sine), 0, sine));
+  const WallBehindRim wall{Vec3::Zero(), Vec3::UnitY(), Vec3::UnitZ(), Vec3::UnitX(), height, grazes(radar.r, Vec3::UnitZ()), {Vec3(-kWay, -kWidth / 2, 0), Vec3(-kWay, kWidth / 2, 0)}};
   std::vector<EdgeFootprint> footprints;
-  append_wall_penumbra(wall, radar_basis(Vec3(std::sqrt(1 - sine * sine), 0, sine)), {}, k, 0, footprints);
+  append_wall_penumbra(wall, radar, {}, k, 0, footprints);
   Answer sum{};
   for (const EdgeFootprint& footprint : footprints) {
     const auto s = scattered(footprint, k);
@@ -49,20 +51,20 @@ Complex half_plane(double from, double x, double z, double k) {
   const double r = std::hypot(x, z), off = std::atan2(z, -x) - from;
   return std::polar(1.0, k * r * std::cos(off)) * shadowed(-std::sqrt(2 * k * r) * std::cos(0.5 * off));
 }
-// What the field on the wall and its slope, which by reciprocity is the receiver's, have over physical optics: that lights the wall, and once more by the floor up to the rim's shadow line. They agree far
-// above the penumbra but for waves that run ever faster up the wall, which are faded out.
+// What the field on the wall and its slope, which by reciprocity is the receiver's, have over physical optics: that lights the wall, and once more by the floor up to the rim's shadow line, where the wall's image
+// radiates as well (grazed_mirror.h). They agree far above the penumbra but for waves that run ever faster up the wall, which are faded out.
 Answer integral(double sine, double k) {
   const double angle = std::asin(sine), penumbra = std::sqrt(2 * kWay / k), shadow = kWay * std::tan(angle);
-  const double line = std::max(std::abs(shadow), 0.01 * penumbra), step = line / std::ceil(line / (0.002 * penumbra));  // no step of the midpoint rule has the line within
+  const double line = shadow != 0 ? std::abs(shadow) : 0.01 * penumbra, step = line / std::ceil(line / (0.002 * penumbra));  // no step of the midpoint rule has the line within
   const double from = std::abs(shadow) + 12 * penumbra, to = from + 40 * penumbra, h = 1e-5;
   Complex soft = 0, hard = 0;
   for (double z = step / 2; z < to; z += step) {
     const Complex up = std::polar(1.0, -2 * k * kWay * std::cos(angle)) * std::polar(1.0, 2 * k * z * sine);
-    const Complex lit = z + shadow > 0 ? up : 0, by_floor = z < shadow ? std::polar(1.0, -2 * k * kWay * std::cos(angle)) : 0;
+    const Complex lit = z + shadow > 0 ? up : 0, by_floor = z < shadow ? std::polar(1.0, -2 * k * kWay * std::cos(angle)) : 0, by_image = by_floor * std::polar(1.0, -2 * k * z * sine);
     for (const double sign : {-1.0, 1.0}) {
       const auto field = [&](double x) { return half_plane(kPi - angle, x, z, k) + sign * half_plane(angle - kPi, x, z, k); };
       const Complex slope = (field(-kWay + h) - field(-kWay - h)) / Complex(0, 2 * h * k);
-      (sign < 0 ? soft : hard) += fading(z, {from, to}) * (field(-kWay) * slope - std::cos(angle) * (lit + 2 * sign * (lit == 0.0 ? 0.0 : by_floor)));
+      (sign < 0 ? soft : hard) += fading(z, {from, to}) * (field(-kWay) * slope - std::cos(angle) * (lit + by_image + 2 * sign * (lit == 0.0 ? 0.0 : by_floor)));
     }
   }
   // S is -jk / 2 pi times that; phase from the foot.
