@@ -10,20 +10,12 @@
 namespace seaglint {
 namespace {
 
-// Sine of the angle over a mirror up to which it is grazed, 2 to 6 deg: where what its rim sends to the next mirror fades as well (mirrored_rim.cpp, kGrazingFace), so that both go over into wall_penumbra.h together.
+// Sine of the angle over a mirror up to which it is grazed, 2 to 6 deg. What its rim sends to the next mirror fades alike, since that stands in the zone which the beam, the wave beside it and what the rim diffracts share: all go over into wall_penumbra.h together.
 constexpr std::array<double, 2> kGrazing{0.035, 0.11};
 // Length of a mirror along the way, beside the height of the other over it, from which it reaches far enough to show that one's image.
 constexpr std::array<double, 2> kReaches{1, 2};
 // Cosines between normals of parallel mirrors, and of a wall, that leans by less than 49 deg, and what it stands on.
 constexpr double kParallel = 1 - 1e-9, kSteep = 0.75;
-
-using Pattern = std::array<Complex, 4>;
-
-void weigh(double share, Pattern& pattern) {
-  const double there = std::min(share, 1.0), back = share - there;
-  const auto [hh, hv, vh, vv] = pattern;
-  pattern = {there * hh + back * hh, there * hv + back * vh, there * vh + back * hv, there * vv + back * vv};
-}
 
 // Whether one is a wall on the other.
 bool stands_on(const GrazedMirror& wall, const GrazedMirror& mirror) { return std::abs(mirror.normal.dot(wall.normal)) < kSteep; }
@@ -47,7 +39,9 @@ double left(const Vec3& r, const GrazedMirror& by, const GrazedMirror& to) {
 
 }  // namespace
 
-double grazes(const Vec3& s, const Vec3& n) { return fading(std::abs(n.dot(s)), kGrazing); }
+double grazes(double sine) { return fading(std::abs(sine), kGrazing); }
+
+double grazes(const Vec3& s, const Vec3& n) { return grazes(n.dot(s)); }
 
 double share_of_two(const Vec3& r, const GrazedMirror& first, const GrazedMirror& last) { return 1 - left(r, last, first) + left(r, first, last); }
 
@@ -62,9 +56,9 @@ double share_by_image(const Vec3& r, const GrazedMirror& mirror, const GrazedMir
 }
 
 void give_share(double share, Footprint& footprint) {
-  if (share == 1) return;
-  weigh(share, footprint.pattern);
-  for (Pattern& pattern : footprint.patterns) weigh(share, pattern);
+  const double there = std::min(share, 1.0), back = share - there;
+  const auto [hh, hv, vh, vv] = footprint.pattern;
+  footprint.pattern = {there * hh + back * hh, there * hv + back * vh, there * vh + back * hv, there * vv + back * vv};
 }
 
 }  // namespace seaglint

@@ -14,9 +14,6 @@ namespace {
 constexpr std::array<double, 2> kOffReflection{0.1, 0.2};
 // The same as a part of the way from there to the wave's way on, where what another face that is grazed leaves has its pole.
 constexpr std::array<double, 2> kOffGrazing{0.25, 0.5};
-// Cosine against the normal, below which a wave grazes the rim's face: 2 and 6 deg. Nearer to it the next mirror stands in the zone that the beam, the wave beside it and what the rim diffracts
-// share.
-constexpr std::array<double, 2> kGrazingFace{0.035, 0.11};
 // Component along the rim by which a way out leaves Keller's cone.
 constexpr std::array<double, 2> kOffCone{0.1, 0.2};
 // Nearer to the direction of reflection than this, rad, the ends are taken at this far to either side of it, and their poles cancel: the constant errs by its square times the ends' second derivative, 1e-6 at 10 deg.
@@ -35,10 +32,10 @@ double lands_on(const Vec3& beam, const Vec3& s, const Vec3& last) {
 double rim_share(const Vec3& n, const Vec3& t, const Vec3& k_hat, const Vec3& s, const Vec3& last) {
   const double cosine = -n.dot(k_hat);
   if (cosine <= 0) return 0;
-  return before_the_beam(k_hat, s) * (1 - fading(cosine, kGrazingFace)) * (1 - grazes(s, last)) * fading(std::abs(t.dot(s - k_hat)), kOffCone);
+  return before_the_beam(k_hat, s) * (1 - grazes(cosine)) * (1 - grazes(s, last)) * fading(std::abs(t.dot(s - k_hat)), kOffCone);
 }
 
-double grazing_share(double sine) { return before_the_beam(1 - 2 * sine * sine) * (1 - fading(sine, kGrazingFace)); }
+double grazing_share(double sine) { return before_the_beam(1 - 2 * sine * sine) * (1 - grazes(sine)); }
 
 std::array<double, 2> reflecting_shares(const WedgeFrame& wedge, const EdgeArrival& in, const EdgeArrival& out) {
   std::array<double, 2> shares{};
