@@ -43,7 +43,10 @@ class BeamTracer {
 
   void light(int facet) {
     if (is_under_water(facet)) return;
-    const Leg first = direct();
+    Leg first;
+    first.direction = -basis_.r;
+    first.E_h = basis_.h;
+    first.E_v = basis_.v;
     Candidate candidate;
     candidate.image.facet = facet;
     candidate.image.plane = image_plane(facets_[facet].normal, facets_[facet].offset, basis_);
@@ -57,15 +60,6 @@ class BeamTracer {
   }
 
  private:
-  // From the transmitter.
-  Leg direct() const {
-    Leg leg;
-    leg.direction = -basis_.r;
-    leg.E_h = basis_.h;
-    leg.E_v = basis_.v;
-    return leg;
-  }
-
   // Memory of one leg, kept for the next of its bounce.
   struct Scratch {
     std::vector<int> found;
@@ -154,7 +148,7 @@ class BeamTracer {
       scratch.seen.clear();
       seen_part(leg, candidate, scratch.seen);
       radiate(leg, candidate, scratch.seen);
-      radiate_back(leg, candidate);
+      radiate_back(leg, candidate, scratch.seen);
       if (reaches_edges(leg)) reach_edges(leg, candidate);
       if (goes_on(leg, candidate)) follow(reflected(leg, candidate), candidate.lit);
     }
@@ -220,8 +214,7 @@ class BeamTracer {
     const Vec3 n = facing(leg, facets_[facet]);
     const double offset = n.dot(facets_[facet].corner[0]);
     Leg next;
-    next.mirrors.L = leg.mirrors.L * (Mat3::Identity() - 2 * n * n.transpose());
-    next.mirrors.t = leg.mirrors.L * (2 * offset * n) + leg.mirrors.t;
+    next.mirrors = leg.mirrors * plane_mirror(n, offset);
     next.direction = mirrored(leg.direction, n);
     next.E_h = 2 * n.dot(leg.E_h) * n - leg.E_h;
     next.E_v = 2 * n.dot(leg.E_v) * n - leg.E_v;
@@ -312,7 +305,7 @@ class BeamTracer {
   double share_of_way(const Leg& leg, int last) const {
     if (leg.bounce == 1) return 1;
     const GrazedMirror first = mirror_of(leg.first_facet);
-    return leg.bounce == 3 ? share_of_three(basis_.r, first, mirror_of(leg.from_facet), mirror_of(last)) : share_of_two(basis_.r, first, mirror_of(last));
+    return leg.bounce > 2 ? share_of_more(basis_.r, first, mirror_of(leg.from_facet), mirror_of(last)) : share_of_two(basis_.r, first, mirror_of(last));
   }
 
   // Whether mirrors that are grazed leave their echo to other ways; without edges the last one has all of it, as usual. Flat perfect conductors, and none that are followed by other means.
@@ -320,23 +313,35 @@ class BeamTracer {
     return edges_ && antennas_.monostatic && !leg.bent && !curving_.surface.curved(facet) && leg.fields.empty() && surface_of(facet).empty() && !filter_.is_cavity(facets_[facet].part);
   }
 
-  // Footprints of what leaves by the mirror that it came by, where that is grazed: those of the facet's image, lit and seen directly.
-  void radiate_back(const Leg& leg, const Candidate& candidate) {
+  // Footprints of what leaves by a mirror that it came by first, where that is grazed: of the facet's image in it, lit and seen directly. `seen`: pieces of the facet that the radar sees.
+  void radiate_back(const Leg& leg, const Candidate& candidate, std::span<const MovingPolygon> seen) {
     const int facet = candidate.image.facet;
-    if (leg.bounce != 2 || leg.bounce >= max_bounces_ || !leaves_grazing(leg, facet)) return;
-    const double share = share_by_image(basis_.r, mirror_of(leg.first_facet), mirror_of(facet)), cosine = std::abs(facets_[facet].normal.dot(leg.direction));
-    if (share <= 0 || cosine <= kEdgeOn) return;
-    const Vec3 n = leg.mirrors.L * facing(leg, facets_[facet]);
+    if (leg.bounce < 2 || leg.bounce >= max_bounces_ || !leaves_grazing(leg, facet)) return;
+    const double share = share_by_image(basis_.r, mirror_of(leg.first_facet), mirror_of(facet));
+    if (share <= 0) return;
+    const Facet& mirror = facets_[leg.first_facet];
+    const Mirror by = plane_mirror(mirror.normal, mirror.offset);
+    const Vec3 lit_side = facing(leg, facets_[facet]), n = by.L * lit_side;
+    if (n.dot(basis_.r) <= kEdgeOn) return;
+    // A perfect conductor's image has the field along it turned round.
+    Leg image;
+    image.direction = by.L * leg.direction;
+    image.E_h = -by.L * leg.E_h;
+    image.E_v = -by.L * leg.E_v;
     Footprint footprint;
     footprint.plane = candidate.image.plane;
+    footprint.mirrors = leg.mirrors * by;
     footprint.facet = facet;
     footprint.part = facets_[facet].part;
     footprint.facet_size = panels_.size(facet);
     footprint.bounces = static_cast<std::uint8_t>(leg.bounce + 1);
-    set_phase(footprint, n, antennas_);
-    footprint.pattern = conductor_pattern(direct(), n, cosine, basis_);
+    set_phase(footprint, leg.mirrors.L * lit_side, antennas_);
+    footprint.pattern = conductor_pattern(image, n, std::abs(n.dot(image.direction)), basis_);
     give_share(share, footprint);
-    for (const MovingPolygon& piece : candidate.lit.polygons()) {
+    // What the mirror lights at first, a receiver at the same place sees by it.
+    std::vector<MovingPolygon> by_mirror;
+    if (leg.bounce > 2) visible_.seen_by(leg.first_facet, facet, footprint.mirrors, seen, basis_, by_mirror);
+    for (const MovingPolygon& piece : leg.bounce > 2 ? std::span<const MovingPolygon>(by_mirror) : candidate.lit.polygons()) {
       footprint.polygon = piece;
       limit_slip(footprint, 2 * radius_);
       out_.footprints.push_back(footprint);

@@ -48,6 +48,12 @@ struct Mirror {
   Vec3 real(const Vec3& image) const { return L.transpose() * (image - t); }
 };
 
+// One after the other: first b.
+inline Mirror operator*(const Mirror& a, const Mirror& b) { return {a.L * b.L, a.L * b.t + a.t}; }
+
+// By the plane n . x = offset, n unit.
+inline Mirror plane_mirror(const Vec3& n, double offset) { return {Mat3::Identity() - 2 * n * n.transpose(), 2 * offset * n}; }
+
 // A direction as the plane with unit normal n mirrors it.
 inline Vec3 mirrored(const Vec3& x, const Vec3& n) { return x - 2 * n.dot(x) * n; }
 

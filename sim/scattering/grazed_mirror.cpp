@@ -45,9 +45,9 @@ double grazes(const Vec3& s, const Vec3& n) { return grazes(n.dot(s)); }
 
 double share_of_two(const Vec3& r, const GrazedMirror& first, const GrazedMirror& last) { return 1 - left(r, last, first) + left(r, first, last); }
 
-double share_of_three(const Vec3& r, const GrazedMirror& first, const GrazedMirror& middle, const GrazedMirror& last) {
-  const bool comes_back = std::abs(first.normal.dot(last.normal)) > kParallel && stands_on(middle, last);
-  return comes_back ? 1 - share_by_image(r, last, middle) : share_of_two(r, first, last);
+double share_of_more(const Vec3& r, const GrazedMirror& first, const GrazedMirror& before, const GrazedMirror& last) {
+  const bool comes_back = std::abs(first.normal.dot(last.normal)) > kParallel && stands_on(before, last);
+  return comes_back ? 1 - share_by_image(r, last, before) : share_of_two(r, first, last);
 }
 
 double share_by_image(const Vec3& r, const GrazedMirror& mirror, const GrazedMirror& wall) {

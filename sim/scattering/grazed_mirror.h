@@ -8,7 +8,8 @@
 // wall radiates, whose ends are those of the body. So where a last mirror is grazed, by the share grazes(), and reaches as far as the first one, since else it ends before the beam does,
 //
 // * a way whose first mirror is not grazed is left to the way run backwards, S + S^T,
-// * a way from a mirror to a wall that stands on it, upright or not, and back by the same mirror, or by one parallel to it, is what the wall radiates by the mirror: by image theory what its image radiates straight.
+// * a way from a mirror to a wall that stands on it, upright or not, by others or not, and back by the same mirror, or by one parallel to it, is what the wall radiates by the mirror: by image theory what its image
+//   radiates straight.
 //
 // Over a deck without end both are image theory; what a deck's rim does besides is wall_penumbra.h's.
 
@@ -30,8 +31,8 @@ double grazes(const Vec3& s, const Vec3& n);
 // What share of its echo, 0 to 2, a way from a first to a last of two mirrors, or of more, has for one antenna along r.
 double share_of_two(const Vec3& r, const GrazedMirror& first, const GrazedMirror& last);
 
-// The same of a way by three.
-double share_of_three(const Vec3& r, const GrazedMirror& first, const GrazedMirror& middle, const GrazedMirror& last);
+// The same of a way by three and more, where `before` is the one before the last.
+double share_of_more(const Vec3& r, const GrazedMirror& first, const GrazedMirror& before, const GrazedMirror& last);
 
 // What share of the way from a mirror to a wall and back the wall's image in it has, 0 to 1: none where the two stand at less than 41 deg to each other.
 double share_by_image(const Vec3& r, const GrazedMirror& mirror, const GrazedMirror& wall);

@@ -150,11 +150,13 @@ VisibleSurface::VisibleSurface(std::span<const Facet> facets, const Panels& pane
   });
 }
 
-std::span<const MovingPolygon> VisibleSurface::pieces(int facet) const {
+std::span<const MovingPolygon> VisibleSurface::pieces(int facet) const { return window(facet).pieces; }
+
+VisibleSurface::Window VisibleSurface::window(int facet) const {
   if (image_of_[facet] < 0) return {};
-  const std::size_t i = static_cast<std::size_t>(image_of_[facet]);
-  if (seen_[i].whole) return {&images_[i].polygon, 1};
-  return {pieces_[i / kImagesPerChunk].data() + seen_[i].first, seen_[i].count};
+  const std::size_t i = static_cast<std::size_t>(image_of_[facet]), chunk = i / kImagesPerChunk;
+  if (seen_[i].whole) return {{&images_[i].polygon, 1}, &extents_[i].box};
+  return {{pieces_[chunk].data() + seen_[i].first, seen_[i].count}, boxes_[chunk].data() + seen_[i].first};
 }
 
 void VisibleSurface::seen_through(int facet, const Mirror& mirrors, std::span<const MovingPolygon> lit,
@@ -164,13 +166,21 @@ void VisibleSurface::seen_through(int facet, const Mirror& mirrors, std::span<co
     seen.insert(seen.end(), lit.begin(), lit.end());
     return;
   }
-  const std::span<const MovingPolygon> direct_view = pieces(facet);
-  if (direct_view.empty()) return;
-  const auto image_number = static_cast<std::size_t>(image_of_[facet]);
-  const Box* boxes = &boxes_[image_number / kImagesPerChunk][seen_[image_number].first];
+  const Facet& own = facets_[facet];
+  show(window(facet), own.normal, image_plane(own.normal, own.offset, basis_), mirrors, lit, transmit, seen);
+}
+
+void VisibleSurface::seen_by(int mirror, int facet, const Mirror& mirrors, std::span<const MovingPolygon> lit, const RadarBasis& transmit, std::vector<MovingPolygon>& seen) const {
+  const Mirror by = plane_mirror(facets_[mirror].normal, facets_[mirror].offset);
+  const Vec3 normal = by.L * facets_[facet].normal;
+  show(window(mirror), normal, image_plane(normal, normal.dot(by.image(facets_[facet].corner[0])), basis_), mirrors, lit, transmit, seen);
+}
+
+void VisibleSurface::show(const Window& window, const Vec3& normal, const ImagePlane& own, const Mirror& mirrors, std::span<const MovingPolygon> lit, const RadarBasis& transmit,
+                          std::vector<MovingPolygon>& seen) const {
+  if (window.pieces.empty() || lit.empty()) return;
   // On the panel's plane, the way from the radar's own aperture to the beam's is affine: q -> origin + q1 first + q2
   // second, heights included.
-  const ImagePlane own = image_plane(facets_[facet].normal, facets_[facet].offset, basis_);
   const auto in_beam = [&](const Vec3& x) { return Vec3(x.dot(transmit.h), x.dot(transmit.v), x.dot(transmit.r)); };
   const Vec3 origin = in_beam(mirrors.image(own.z0 * basis_.r));
   const Vec3 first = in_beam(mirrors.L * (basis_.h + own.slope.x() * basis_.r)),
@@ -186,11 +196,11 @@ void VisibleSurface::seen_through(int facet, const Mirror& mirrors, std::span<co
       direct = {start ? q : Vec2(direct.lower.cwiseMin(q)), start ? q : Vec2(direct.upper.cwiseMax(q))};
     }
   }
-  const double least = least_area(facets_[facet].normal, basis_, min_area_);
+  const double least = least_area(normal, basis_, min_area_);
   MovingPolygon image;
-  for (std::size_t i = 0; i < direct_view.size(); ++i) {
-    const MovingPolygon& piece = direct_view[i];
-    if (!overlap(boxes[i], direct)) continue;
+  for (std::size_t i = 0; i < window.pieces.size(); ++i) {
+    const MovingPolygon& piece = window.pieces[i];
+    if (!overlap(window.boxes[i], direct)) continue;
     image.clear();
     for (const Corner& corner : piece) {
       // The corner's point on the panel, and how far it slips in the panel beyond what a body-fixed point moves.
