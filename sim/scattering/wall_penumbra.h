@@ -12,13 +12,14 @@
 //
 // which a wall higher than the penumbra has in closed form: by parts the squares leave error functions at the foot, F(w), w^2 = jx, x = k l s^2, and the product, a convolution of two of them,
 // (l / pi k)^(1/2) e^{-j pi/4} e^{-jx} (1 - F(x)) over the b that physical optics has, F(x) the transition function (fringe.h). With erfc(w) = e^{-jx} F(x) / (pi j x)^(1/2), physical optics, that
-// follows no wave which comes and goes by the face, lacks per metre of wall and -jk / 2 pi
+// follows no wave which comes and goes by the face as rays do, lacks per metre of wall and -jk / 2 pi
 //
 //     by the rim and the wall's image of it   -1 / (2jks)                                                                      a > 0, at the phase of the foot
 //     at the rim's shadow line                 e^{-2jx} / (2jks)                                                               a < 0: that end is none
 //     from the rim to the wall and back to it  (l / pi k)^(1/2) e^{-j pi/4} e^{-jx} [F(x) / (2jx) -+ (1 - F(x))]
 //
-// whose infinities on the boundary cancel. The last is, hard, the edge wave that the wall sends back (edge_waves.h); soft it falls faster than any diffraction in a row, but in grazing
+// whose infinities on the boundary cancel. Where the wall's image in the face radiates up to z = b (grazed_mirror.h), (1 - e^{-2jx}) / (2jks), that is lacking no longer: at the foot -1 / (2jks) once more, and e^{-2jx} / (2jks)
+// at the line of a > 0 as well. The last is, hard, the edge wave that the wall sends back (edge_waves.h); soft it falls faster than any diffraction in a row, but in grazing
 // it is as large: -2 (l / pi k)^(1/2) e^{-j pi/4} in all, by which a wall of height H on a face of length l answers less, where hard nothing is lacking. Away from grazing the first is mirrored_rim.h's -1 / (4 pi sin a); both fade into one another.
 
 #include <array>
