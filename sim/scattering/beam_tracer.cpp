@@ -313,7 +313,7 @@ class BeamTracer {
     return edges_ && antennas_.monostatic && !leg.bent && !curving_.surface.curved(facet) && leg.fields.empty() && surface_of(facet).empty() && !filter_.is_cavity(facets_[facet].part);
   }
 
-  // Footprints of what leaves by a mirror that it came by first, where that is grazed: of the facet's image in it, lit and seen directly. `seen`: pieces of the facet that the radar sees.
+  // Footprints of what leaves by the mirror that it came by first, where that is grazed: of the facet's image in it, lit and seen directly. `seen`: pieces of the facet that the radar sees.
   void radiate_back(const Leg& leg, const Candidate& candidate, std::span<const MovingPolygon> seen) {
     const int facet = candidate.image.facet;
     if (leg.bounce < 2 || leg.bounce >= max_bounces_ || !leaves_grazing(leg, facet)) return;
