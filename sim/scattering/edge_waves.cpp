@@ -195,10 +195,10 @@ class EdgeWaves {
       const double s = (u - strip.u.dot(source.start)) / strip.u.dot(source.along);
       wall.shown[end] = s - source.in.s[0] < kOnEnd || source.in.s[1] - s < kOnEnd;
     }
-    const auto mirror_of = [&](int facet) { return GrazedMirror{facets_[facet].normal, panels_.outline(panels_.of(facet))}; };
+    const auto panel_of = [&](int facet) { return GrazedMirror{facets_[facet].normal, panels_.outline(panels_.of(facet))}; };
     for (const int facet : foot.facet) {
       if (std::abs(facets_[facet].normal.dot(n)) < 1 - kFlat) continue;
-      wall.by_image = share_by_image(antennas_.transmit.r, mirror_of(floor), mirror_of(facet));
+      wall.by_image = share_by_image(antennas_.transmit.r, panel_of(floor), panel_of(facet));
       for (const Vec3& x : panels_.outline(panels_.of(facet))) wall.height = std::max(wall.height, source.face.n.dot(x - foot.a));
     }
     if (wall.height < kShortest) return;

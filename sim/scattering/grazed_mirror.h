@@ -11,7 +11,7 @@
 // * a way from a mirror to a wall that stands on it, upright or not, by others or not, and back by the same mirror, or by one parallel to it, is what the wall radiates by the mirror: by image theory what its image
 //   radiates straight.
 //
-// Over a deck without end both are image theory; what a deck's rim does besides is wall_penumbra.h's.
+// Over a deck without end both are image theory (reciprocity and images: Balanis, Advanced Engineering Electromagnetics, 7.5, 7.4); what a deck's rim does besides is wall_penumbra.h's.
 
 #include <span>
 
