@@ -16,7 +16,8 @@ namespace seaglint {
 
 void require_any_of(const CLI::App& command, const std::string& option, const std::vector<std::string>& others) {
   const auto given = [&](const std::string& name) { return command.count(name) > 0; };
-  if (given(option) && std::none_of(others.begin(), others.end(), given)) throw CLI::RequiresError(option, fmt::format("{}", fmt::join(others, " or ")));
+  if (given(option) && std::none_of(others.begin(), others.end(), given))
+    throw CLI::RequiresError(option, fmt::format("{}", fmt::join(others, " or ")));
 }
 
 std::filesystem::path find_data_set(const std::filesystem::path& directory) {

@@ -28,9 +28,12 @@ struct CavityArguments {
   bool wanted() const { return !parts.empty(); }
   // Their indices. Throws InputError for a part that is not there or no perfect conductor, and for a selection by
   // anything but parts.
-  std::vector<int> find(const TriangleMesh& mesh, const std::vector<MaterialSpec>& materials, const EchoFilter& selection) const;
-  // Those parts of the mesh as cavities; says their sizes. Throws InputError for what is none at the lowest or the highest frequency.
-  std::vector<NamedCavity> make(const TriangleMesh& mesh, const std::vector<int>& indices, const Scatterer& whole, double lowest_hz, double highest_hz) const;
+  std::vector<int> find(const TriangleMesh& mesh, const std::vector<MaterialSpec>& materials,
+                        const EchoFilter& selection) const;
+  // Those parts of the mesh as cavities; says their sizes. Throws InputError for what is none at the lowest or the
+  // highest frequency.
+  std::vector<NamedCavity> make(const TriangleMesh& mesh, const std::vector<int>& indices, const Scatterer& whole,
+                                double lowest_hz, double highest_hz) const;
   // A comment line for the head of a table; empty without cavities.
   std::string text() const;
 };

@@ -53,8 +53,8 @@ void require_any_of(const CLI::App& command, const std::string& option, const st
 // The data set in a directory: there, or in the `data` below it that `run` makes.
 std::filesystem::path find_data_set(const std::filesystem::path& directory);
 
-// Before any work: every file that a command is going to write can be written (WorkError), and none is another of them or one that the command reads
-// (InputError). Empty names are none.
+// Before any work: every file that a command is going to write can be written (WorkError), and none is another of them
+// or one that the command reads (InputError). Empty names are none.
 void require_outputs(const std::vector<std::string>& outputs, const std::vector<std::filesystem::path>& inputs);
 
 // The files that a scenario names.

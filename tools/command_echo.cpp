@@ -59,7 +59,8 @@ void write_echo(const Arguments& arguments) {
       {"sample", arguments.sample},
       {"sampling_hz", interval.target.sampling_hz},
       {"target, clutter, noise",
-       "m, [pulse][sample], mixed with the pulse's carrier; a point of scattering amplitude a answers with the chirp times a"},
+       "m, [pulse][sample], mixed with the pulse's carrier; a point of scattering amplitude a answers with the chirp "
+       "times a"},
       {"time_s", "s, of the samples; 0 = the middle of the pulse returns from the reference point"},
       {"pulse_time_s", "s, middle of each pulse from the interval's start"},
       {"carrier_hz", "Hz, of each pulse"},

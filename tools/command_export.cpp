@@ -49,7 +49,8 @@ void add_export(CLI::App& app, Shell& shell) {
           "FILE.npz: everything in one file, for up to some 10,000 maps; else a directory for one file a shard")
       ->required();
   command->footer(
-      "Example:\n  seaglint export build/points/data -o build/points.npz\n  seaglint export build/paper -o build/paper_npz");
+      "Example:\n  seaglint export build/points/data -o build/points.npz\n  seaglint export build/paper -o "
+      "build/paper_npz");
   command->callback([arguments, &shell] {
     shell.work = [arguments, &shell] { export_dataset(arguments->directory, arguments->output, shell.stop); };
   });

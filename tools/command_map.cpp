@@ -33,7 +33,8 @@ void print_result(const ReceivedInterval& received, const std::vector<Scattering
     fmt::print("SCR per pulse {:.2f} dB, peak cell {:.2f} dB, extent {:.2f} dB\n", received.scr.per_pulse_db,
                received.scr.peak_cell_db, received.scr.extent_db);
   }
-  if (!std::isnan(received.scr.snr_per_pulse_db)) fmt::print("SNR per pulse {:.2f} dB\n", received.scr.snr_per_pulse_db);
+  if (!std::isnan(received.scr.snr_per_pulse_db))
+    fmt::print("SNR per pulse {:.2f} dB\n", received.scr.snr_per_pulse_db);
   if (received.map.empty_carriers > 0) fmt::print("carriers without a pulse: {}\n", received.map.empty_carriers);
 }
 
@@ -71,8 +72,8 @@ void show_map(const Arguments& arguments) {
   const View view = views(scenario.view)[static_cast<std::size_t>(address.view)];
   const std::string title = fmt::format(
       "{}: sample {}, {}, Hs {:g} m, azimuth {:g} deg, elevation {:g} deg", scenario.name, sample, target.name,
-      sea_states(scenario.sea)[static_cast<std::size_t>(address.sea_state)].significant_wave_height_m,
-      view.azimuth_deg, view.elevation_deg);
+      sea_states(scenario.sea)[static_cast<std::size_t>(address.sea_state)].significant_wave_height_m, view.azimuth_deg,
+      view.elevation_deg);
   if (arguments.product == "isar" || arguments.product == "hrrp") {
     const WholeBand band = whole_band(pipeline, sample);
     if (arguments.product == "isar") {
@@ -100,9 +101,10 @@ void add_map(CLI::App& app, Shell& shell) {
       ->capture_default_str();
   command->add_option("-o,--output", arguments->output, "Picture, .png or .svg")->required();
   command
-      ->add_option("--product", arguments->product,
-                   "rv: the map; isar: the target's image, and hrrp: its range profiles, as a radar has them that sends "
-                   "the whole band with every pulse, without clutter and noise")
+      ->add_option(
+          "--product", arguments->product,
+          "rv: the map; isar: the target's image, and hrrp: its range profiles, as a radar has them that sends "
+          "the whole band with every pulse, without clutter and noise")
       ->check(CLI::IsMember({"rv", "isar", "hrrp"}))
       ->capture_default_str();
   add_threads_option(*command, shell);

@@ -106,7 +106,8 @@ void write_pictures(const MotionArguments& arguments, const Scenario& scenario, 
 
 void write_motion(const MotionArguments& arguments, const Shell& shell) {
   for (const std::string& file : {arguments.figure, arguments.frames, arguments.rao}) require_figure(file);
-  const std::vector<std::string> outputs{arguments.output, arguments.spectrum, arguments.figure, arguments.frames, arguments.rao};
+  const std::vector<std::string> outputs{arguments.output, arguments.spectrum, arguments.figure, arguments.frames,
+                                         arguments.rao};
   require_outputs(outputs, {arguments.scenario.file, arguments.rao_reference});
   const Scenario scenario = arguments.scenario.read();
   require_outputs(outputs, files_of(scenario));

@@ -87,23 +87,28 @@ double dbsm(const Complex& s) { return 10 * std::log10(std::max(4 * kPi * std::n
 
 std::string table_text(const RcsArguments& arguments, const Scatterer& scatterer, const RcsSweep& sweep) {
   std::string csv = fmt::format(
-      "# seaglint {} rcs\n# target {} unit {}: {} facets, radius {:.6g} m\n# material {}, echoes of {}\n{}# physical optics at every visible bounce, "
+      "# seaglint {} rcs\n# target {} unit {}: {} facets, radius {:.6g} m\n# material {}, echoes of {}\n{}# physical "
+      "optics at every visible bounce, "
       "max_bounces {}, edges {}, crease_deg {:.6g}, sheet_thickness_mm {:.6g}, range_m {:.9g} (0 = far field), {}, "
       "ray_spacing_m {:.6g}\n{}# amplitudes in metres, e^{{+jwt}}, phase origin at the body's origin, S_pq: q "
       "transmitted, p received; basis of CONVENTIONS.md\n"
       "frequency_hz,azimuth_deg,elevation_deg,hh_re,hh_im,hv_re,hv_im,vh_re,vh_im,vv_re,vv_im,hh_dbsm,vv_dbsm\n",
       kVersion, arguments.target, arguments.unit, scatterer.facets().size(), scatterer.radius(),
-      arguments.materials.empty() ? "pec" : fmt::format("{}", fmt::join(arguments.materials, " ")), arguments.view.text(), arguments.sea.text(),
-      arguments.max_bounces, arguments.edges, arguments.crease_deg, arguments.sheet_thickness_mm, arguments.range_m,
-      arguments.transmit_azimuth_deg ? fmt::format("transmitter at azimuth {:.9g} deg, elevation {:.9g} deg", *arguments.transmit_azimuth_deg,
-                                                   arguments.transmit_elevation_deg.value_or(0))
-                                     : "monostatic",
-      arguments.ray_spacing_m > 0 ? arguments.ray_spacing_m : default_ray_spacing(scatterer), arguments.cavities.text());
+      arguments.materials.empty() ? "pec" : fmt::format("{}", fmt::join(arguments.materials, " ")),
+      arguments.view.text(), arguments.sea.text(), arguments.max_bounces, arguments.edges, arguments.crease_deg,
+      arguments.sheet_thickness_mm, arguments.range_m,
+      arguments.transmit_azimuth_deg
+          ? fmt::format("transmitter at azimuth {:.9g} deg, elevation {:.9g} deg", *arguments.transmit_azimuth_deg,
+                        arguments.transmit_elevation_deg.value_or(0))
+          : "monostatic",
+      arguments.ray_spacing_m > 0 ? arguments.ray_spacing_m : default_ray_spacing(scatterer),
+      arguments.cavities.text());
   for (std::size_t q = 0; q < sweep.frequency_hz.size(); ++q) {
     for (std::size_t view = 0; view < sweep.views(); ++view) {
       const auto& s = sweep.models.back().matrices[view][q];
-      csv += fmt::format("{:.9g},{:.9g},{:.9g}", sweep.frequency_hz[q], sweep.azimuth_deg[view % sweep.azimuth_deg.size()],
-                         sweep.elevation_deg[view / sweep.azimuth_deg.size()]);
+      csv +=
+          fmt::format("{:.9g},{:.9g},{:.9g}", sweep.frequency_hz[q], sweep.azimuth_deg[view % sweep.azimuth_deg.size()],
+                      sweep.elevation_deg[view / sweep.azimuth_deg.size()]);
       for (const Complex& x : s) csv += fmt::format(",{:.9g},{:.9g}", x.real(), x.imag());
       csv += fmt::format(",{:.4f},{:.4f}\n", dbsm(s[0]), dbsm(s[3]));
     }
@@ -125,7 +130,8 @@ RadarBasis basis_at(double azimuth_deg, double elevation_deg) {
 }
 
 RadarBasis basis_of(const RcsSweep& sweep, std::size_t view) {
-  return basis_at(sweep.azimuth_deg[view % sweep.azimuth_deg.size()], sweep.elevation_deg[view / sweep.azimuth_deg.size()]);
+  return basis_at(sweep.azimuth_deg[view % sweep.azimuth_deg.size()],
+                  sweep.elevation_deg[view / sweep.azimuth_deg.size()]);
 }
 
 AntennaPair antennas_of(const RcsArguments& arguments, const RadarBasis& swept) {
@@ -134,7 +140,8 @@ AntennaPair antennas_of(const RcsArguments& arguments, const RadarBasis& swept) 
 }
 
 // Fills the sweep's models, one view after the other; returns the legs of beams followed.
-std::size_t trace_views(const RcsArguments& arguments, const Scatterer& scatterer, const EchoFilter& filter, const Shell& shell, RcsSweep& sweep) {
+std::size_t trace_views(const RcsArguments& arguments, const Scatterer& scatterer, const EchoFilter& filter,
+                        const Shell& shell, RcsSweep& sweep) {
   std::vector<double> wavenumbers;
   for (const double hz : sweep.frequency_hz) wavenumbers.push_back(2 * kPi * hz / kSpeedOfLight);
   // What is written comes last; a reference is shown beside physical optics alone too.
@@ -148,15 +155,19 @@ std::size_t trace_views(const RcsArguments& arguments, const Scatterer& scattere
     const RadarBasis basis = basis_of(sweep, view);
     try {
       for (auto& model : sweep.models) {
-        const IlluminationSettings settings{arguments.ray_spacing_m, arguments.max_bounces, model.name == "edges", filter, arguments.range_m};
+        const IlluminationSettings settings{arguments.ray_spacing_m, arguments.max_bounces, model.name == "edges",
+                                            filter, arguments.range_m};
         const int threads = thread_count(shell.threads);
         model.matrices[view] =
             arguments.sea.reflection
-                ? scattering_matrices_over_sea(scatterer, basis.r, arguments.sea.height_m, arguments.sea.mirror(), wavenumbers, settings, threads, &legs, &shell.stop)
-                : scattering_matrices(scatterer, antennas_of(arguments, basis), wavenumbers, settings, threads, &legs, &shell.stop);
+                ? scattering_matrices_over_sea(scatterer, basis.r, arguments.sea.height_m, arguments.sea.mirror(),
+                                               wavenumbers, settings, threads, &legs, &shell.stop)
+                : scattering_matrices(scatterer, antennas_of(arguments, basis), wavenumbers, settings, threads, &legs,
+                                      &shell.stop);
       }
     } catch (const Interrupted&) {
-      throw WorkError(fmt::format("interrupted after {} of {} views; {} is not written", view, sweep.views(), arguments.output));
+      throw WorkError(
+          fmt::format("interrupted after {} of {} views; {} is not written", view, sweep.views(), arguments.output));
     }
     progress.advance();
   }
@@ -164,19 +175,23 @@ std::size_t trace_views(const RcsArguments& arguments, const Scatterer& scattere
 }
 
 // Adds the echoes of cavities to every model of the sweep.
-void add_cavities(const RcsArguments& arguments, const std::vector<NamedCavity>& cavities, const EchoFilter& filter, const Shell& shell, RcsSweep& sweep) {
+void add_cavities(const RcsArguments& arguments, const std::vector<NamedCavity>& cavities, const EchoFilter& filter,
+                  const Shell& shell, RcsSweep& sweep) {
   std::vector<AntennaPair> views;
-  for (std::size_t view = 0; view < sweep.views(); ++view) views.push_back(antennas_of(arguments, basis_of(sweep, view)));
+  for (std::size_t view = 0; view < sweep.views(); ++view)
+    views.push_back(antennas_of(arguments, basis_of(sweep, view)));
   Progress progress("cavity", cavities.size() * sweep.frequency_hz.size(), "frequencies");
   for (const NamedCavity& named : cavities) {
     for (std::size_t q = 0; q < sweep.frequency_hz.size(); ++q) {
       const auto failed = [&](const char* why) {
-        return WorkError(fmt::format("cavity {} at {:.6g} GHz: {}; {} is not written", named.name, 1e-9 * sweep.frequency_hz[q], why, arguments.output));
+        return WorkError(fmt::format("cavity {} at {:.6g} GHz: {}; {} is not written", named.name,
+                                     1e-9 * sweep.frequency_hz[q], why, arguments.output));
       };
       std::vector<std::array<Complex, 4>> echo(sweep.views());
       try {
         if (filter.keeps_cavity(named.part))
-          echo = named.cavity.scattering_matrices(2 * kPi * sweep.frequency_hz[q] / kSpeedOfLight, views, thread_count(shell.threads), &shell.stop);
+          echo = named.cavity.scattering_matrices(2 * kPi * sweep.frequency_hz[q] / kSpeedOfLight, views,
+                                                  thread_count(shell.threads), &shell.stop);
       } catch (const WorkError& error) {
         throw failed(error.what());
       }
@@ -202,7 +217,8 @@ void compare(const RcsArguments& arguments, const std::vector<RcsReference>& ref
   }
   fmt::print("{}", difference_table(cuts, arguments.reference.floor_db));
   const std::filesystem::path figure = comparison_figure(arguments);
-  const std::string title = fmt::format("{}, seaglint {}", std::filesystem::path(arguments.target).filename().string(), kVersion);
+  const std::string title =
+      fmt::format("{}, seaglint {}", std::filesystem::path(arguments.target).filename().string(), kVersion);
   if (draw_comparison(cuts, arguments.reference.floor_db, title, figure)) {
     fmt::print("Figure: {}\n", figure.string());
   } else {
@@ -210,27 +226,34 @@ void compare(const RcsArguments& arguments, const std::vector<RcsReference>& ref
   }
 }
 
-void export_one_view(const RcsArguments& arguments, const TriangleMesh& mesh, const Scatterer& scatterer, const EchoFilter& filter, const Shell& shell,
-                     const RcsSweep& sweep) {
+void export_one_view(const RcsArguments& arguments, const TriangleMesh& mesh, const Scatterer& scatterer,
+                     const EchoFilter& filter, const Shell& shell, const RcsSweep& sweep) {
   const std::string heading = fmt::format(
-      "# seaglint {} rcs: scattering centres\n# target {} unit {}, {:.9g} Hz, azimuth {:.9g} deg, elevation {:.9g} deg, max_bounces {}, edges {}, of {}\n"
-      "# body frame, e^{{+jwt}}, phase origin at the body's origin, S_pq: q transmitted, p received; basis of CONVENTIONS.md\n",
-      kVersion, arguments.target, arguments.unit, sweep.frequency_hz[0], sweep.azimuth_deg[0], sweep.elevation_deg[0], arguments.max_bounces, arguments.edges,
-      arguments.view.text());
+      "# seaglint {} rcs: scattering centres\n# target {} unit {}, {:.9g} Hz, azimuth {:.9g} deg, elevation {:.9g} "
+      "deg, max_bounces {}, edges {}, of {}\n"
+      "# body frame, e^{{+jwt}}, phase origin at the body's origin, S_pq: q transmitted, p received; basis of "
+      "CONVENTIONS.md\n",
+      kVersion, arguments.target, arguments.unit, sweep.frequency_hz[0], sweep.azimuth_deg[0], sweep.elevation_deg[0],
+      arguments.max_bounces, arguments.edges, arguments.view.text());
   export_view(arguments.view, mesh, scatterer, basis_of(sweep, 0), 2 * kPi * sweep.frequency_hz[0] / kSpeedOfLight,
-              {arguments.ray_spacing_m, arguments.max_bounces, arguments.edges == "on", filter, arguments.range_m}, heading, thread_count(shell.threads), &shell.stop);
+              {arguments.ray_spacing_m, arguments.max_bounces, arguments.edges == "on", filter, arguments.range_m},
+              heading, thread_count(shell.threads), &shell.stop);
 }
 
-// Behind a target only its sharp edges scatter: a sphere's echo errs by 0.65 dB in the mean between 90 and 120 deg from the transmitter.
+// Behind a target only its sharp edges scatter: a sphere's echo errs by 0.65 dB in the mean between 90 and 120 deg from
+// the transmitter.
 void warn_of_receivers_behind(const RcsSweep& sweep) {
   constexpr double kFarthestDeg = 120;
   double farthest = 0;
   for (std::size_t view = 0; sweep.transmitter && view < sweep.views(); ++view)
-    farthest = std::max(farthest, degrees(std::acos(std::clamp(sweep.transmitter->dot(basis_of(sweep, view).r), -1.0, 1.0))));
+    farthest =
+        std::max(farthest, degrees(std::acos(std::clamp(sweep.transmitter->dot(basis_of(sweep, view).r), -1.0, 1.0))));
   if (farthest <= kFarthestDeg) return;
-  warn(std::vector{fmt::format("receivers up to {:.0f} deg from the transmitter: behind the target, beyond {:g} deg, only sharp edges scatter, and the shadow's own field, within 15 deg of "
-                               "the wave's way on, is not modelled",
-                               farthest, kFarthestDeg)});
+  warn(
+      std::vector{fmt::format("receivers up to {:.0f} deg from the transmitter: behind the target, beyond {:g} deg, "
+                              "only sharp edges scatter, and the shadow's own field, within 15 deg of "
+                              "the wave's way on, is not modelled",
+                              farthest, kFarthestDeg)});
 }
 
 void run_rcs(const RcsArguments& arguments, const Shell& shell) {
@@ -253,12 +276,17 @@ void run_rcs(const RcsArguments& arguments, const Shell& shell) {
   warn_of_receivers_behind(sweep);
   arguments.sea.check(sweep.elevation_deg, sweep.frequency_hz);
   if (arguments.cavities.wanted() && (arguments.sea.reflection || arguments.range_m > 0 || arguments.view.wanted()))
-    throw InputError("--cavity is of the far field and the target alone: leave out --sea-reflection, --range-m and exports of a view");
+    throw InputError(
+        "--cavity is of the far field and the target alone: leave out --sea-reflection, --range-m and exports of a "
+        "view");
   const std::size_t rows = sweep.views() * sweep.frequency_hz.size();
   constexpr std::size_t kMostRows = 4'000'000;  // 256 MB of matrices
   if (rows > kMostRows) throw InputError(fmt::format("{} rows of output: at most {}", rows, kMostRows));
-  if (arguments.view.wanted() && rows != 1) throw InputError(fmt::format("exports of a view need one frequency, azimuth and elevation; there are {} rows", rows));
-  if (arguments.view.wanted() && arguments.sea.reflection) throw InputError("exports of a view are of the target alone: leave out --sea-reflection");
+  if (arguments.view.wanted() && rows != 1)
+    throw InputError(
+        fmt::format("exports of a view need one frequency, azimuth and elevation; there are {} rows", rows));
+  if (arguments.view.wanted() && arguments.sea.reflection)
+    throw InputError("exports of a view are of the target alone: leave out --sea-reflection");
   if (arguments.transmit_azimuth_deg && (arguments.view.wanted() || arguments.sea.reflection)) {
     throw InputError("--transmit-azimuth-deg: exports of a view and --sea-reflection are monostatic");
   }
@@ -285,16 +313,19 @@ void run_rcs(const RcsArguments& arguments, const Shell& shell) {
   warn(check_edges(scatterer, arguments.edges == "on", *lowest, *highest));
   EchoFilter filter = arguments.view.filter(mesh, arguments.max_bounces, arguments.edges == "on");
   filter.cavities = arguments.cavities.find(mesh, materials, filter);
-  const std::vector<NamedCavity> cavities = arguments.cavities.make(mesh, filter.cavities, scatterer, *lowest, *highest);
+  const std::vector<NamedCavity> cavities =
+      arguments.cavities.make(mesh, filter.cavities, scatterer, *lowest, *highest);
   const auto start = std::chrono::steady_clock::now();
   const std::size_t legs = trace_views(arguments, scatterer, filter, shell, sweep);
   if (!cavities.empty()) add_cavities(arguments, cavities, filter, shell, sweep);
-  const double seconds = std::max(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 1e-9);
+  const double seconds =
+      std::max(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 1e-9);
 
   write_file(arguments.output, table_text(arguments, scatterer, sweep));
   const double million_legs = 1e-6 * static_cast<double>(legs), views = static_cast<double>(sweep.views());
-  print_error(fmt::format("{}: {} rows, {} views in {:.2f} s ({:.3g} views/s, {:.2f} M beam legs, {:.2f} M/s)\n", arguments.output, rows, sweep.views(),
-                          seconds, views / seconds, million_legs, million_legs / seconds));
+  print_error(fmt::format("{}: {} rows, {} views in {:.2f} s ({:.3g} views/s, {:.2f} M beam legs, {:.2f} M/s)\n",
+                          arguments.output, rows, sweep.views(), seconds, views / seconds, million_legs,
+                          million_legs / seconds));
   if (arguments.view.wanted()) export_one_view(arguments, mesh, scatterer, filter, shell, sweep);
   if (!references.empty()) compare(arguments, references, sweep);
 }
@@ -306,42 +337,56 @@ void add_rcs(CLI::App& app, Shell& shell) {
   auto arguments = std::make_shared<RcsArguments>();
   command->add_option("--target", arguments->target, "Mesh file: .glb, .gltf, .obj, .stl or .ply")->required();
   command->add_option("--unit", arguments->unit, "Unit of the mesh: m, cm, mm, km, in, ft")->capture_default_str();
-  command->add_option("--frequency-ghz", arguments->frequency_ghz, "A or A:B:STEP (B included where a step meets it), within 0.001 and 1000")->required();
+  command
+      ->add_option("--frequency-ghz", arguments->frequency_ghz,
+                   "A or A:B:STEP (B included where a step meets it), within 0.001 and 1000")
+      ->required();
   command
       ->add_option("--azimuth-deg", arguments->azimuth_deg,
                    "A or A:B:STEP within -720 and 720; 0 = radar ahead of the bow, counter-clockwise from above")
       ->required();
-  command->add_option("--elevation-deg", arguments->elevation_deg, "A or A:B:STEP within -90 and 90; of the radar seen from the target")
+  command
+      ->add_option("--elevation-deg", arguments->elevation_deg,
+                   "A or A:B:STEP within -90 and 90; of the radar seen from the target")
       ->capture_default_str();
-  command->add_option("--edges", arguments->edges, "Fringe currents at sharp edges: on, or off for physical optics alone")
+  command
+      ->add_option("--edges", arguments->edges, "Fringe currents at sharp edges: on, or off for physical optics alone")
       ->check(CLI::IsMember({"on", "off"}))
       ->capture_default_str();
   command
-      ->add_option("--crease-deg", arguments->crease_deg, "Facets that turn by less belong to one smooth surface; 0 = all facets flat")
+      ->add_option("--crease-deg", arguments->crease_deg,
+                   "Facets that turn by less belong to one smooth surface; 0 = all facets flat")
       ->check(number_within(0.0, 60.0))
       ->capture_default_str();
   command
       ->add_option("--sheet-thickness-mm", arguments->sheet_thickness_mm,
-                   "Of open surfaces, drawn where their lit faces are: changes what their rims return, to a tenth of the wavelength")
+                   "Of open surfaces, drawn where their lit faces are: changes what their rims return, to a tenth of "
+                   "the wavelength")
       ->check(number_within(0.0, 1000.0))
       ->capture_default_str();
   command
       ->add_option("--transmit-azimuth-deg", arguments->transmit_azimuth_deg,
                    "Bistatic: a transmitter that stands still, while azimuth and elevation are the receiver's")
       ->check(number_within(-720.0, 720.0));
-  command->add_option("--transmit-elevation-deg", arguments->transmit_elevation_deg, "Its elevation; 0 unless given")->check(number_within(-90.0, 90.0));
-  command->add_option("--range-m", arguments->range_m, "Of the radar from the target's origin, with --sea-reflection from the sea below it, for the curvature of the wavefront; 0 = far field")
+  command->add_option("--transmit-elevation-deg", arguments->transmit_elevation_deg, "Its elevation; 0 unless given")
+      ->check(number_within(-90.0, 90.0));
+  command
+      ->add_option("--range-m", arguments->range_m,
+                   "Of the radar from the target's origin, with --sea-reflection from the sea below it, for the "
+                   "curvature of the wavefront; 0 = far field")
       ->check(number_within(0.0, 1e9));
   command->add_option("--max-bounces", arguments->max_bounces, "Reflections followed")
       ->check(CLI::Range(1, kMostBounces))
       ->capture_default_str();
   command
       ->add_option("--ray-spacing-m", arguments->ray_spacing_m,
-                   "Detail followed, as the spacing of rays that would find it: pieces below a fourteenth are left out; 0 = 0.001 radius, the coarsest")
+                   "Detail followed, as the spacing of rays that would find it: pieces below a fourteenth are left "
+                   "out; 0 = 0.001 radius, the coarsest")
       ->check(number_within(0.0, 1e6));
   command
       ->add_option("--material", arguments->materials,
-                   "What the target is made of: pec, a name of assets/materials or a file; PART=NAME for one part, PART* for all that begin so (repeatable)")
+                   "What the target is made of: pec, a name of assets/materials or a file; PART=NAME for one part, "
+                   "PART* for all that begin so (repeatable)")
       ->type_name("[PART=]NAME")
       ->allow_extra_args(false);
   arguments->cavities.add_to(*command);
@@ -352,7 +397,8 @@ void add_rcs(CLI::App& app, Shell& shell) {
   add_threads_option(*command, shell);
   command->footer(
       "Example:\n  seaglint rcs --target assets/icosahedral_reflector.glb --frequency-ghz 16 --azimuth-deg 0:360:0.5 "
-      "--elevation-deg 2 -o rcs.csv\n  seaglint rcs --target plate.glb --frequency-ghz 10.24 --azimuth-deg 0:60:0.5 -o plate.csv --reference "
+      "--elevation-deg 2 -o rcs.csv\n  seaglint rcs --target plate.glb --frequency-ghz 10.24 --azimuth-deg 0:60:0.5 -o "
+      "plate.csv --reference "
       "ref.H.txt --reference ref.V.txt");
   command->callback([arguments, command, &shell] {
     require_any_of(*command, "--transmit-elevation-deg", {"--transmit-azimuth-deg"});

@@ -21,17 +21,20 @@ Scenario read_own_scenario(const std::filesystem::path& run) {
   if (!std::filesystem::exists(file))
     throw InputError(fmt::format("{}: not the directory of a run: no scenario.yaml", run.string()));
   if (!std::filesystem::exists(of_data)) {
-    const std::filesystem::path above = (run / "..").lexically_normal(), place = run.has_filename() ? run.filename() : run.parent_path().filename();
+    const std::filesystem::path above = (run / "..").lexically_normal(),
+                                place = run.has_filename() ? run.filename() : run.parent_path().filename();
     const bool is_data = place == "data" && std::filesystem::exists(above / "scenario.yaml");
     throw InputError(fmt::format("{}: not the directory of a run: {}", run.string(),
-                                 is_data ? fmt::format("it is the data set of {}", above.has_filename() ? above.string() : above.parent_path().string())
-                                         : "no data/scenario.yaml"));
+                                 is_data
+                                     ? fmt::format("it is the data set of {}",
+                                                   above.has_filename() ? above.string() : above.parent_path().string())
+                                     : "no data/scenario.yaml"));
   }
   const Scenario scenario = read_scenario(file);
   const std::string here = effective_yaml(scenario), there = effective_yaml(read_scenario(of_data));
   if (here != there) {
-    throw InputError(fmt::format("{}: is not the scenario of {} ({}); bring the run's own back", file.string(), of_data.string(),
-                                 first_difference(there, here)));
+    throw InputError(fmt::format("{}: is not the scenario of {} ({}); bring the run's own back", file.string(),
+                                 of_data.string(), first_difference(there, here)));
   }
   return scenario;
 }

@@ -37,14 +37,10 @@ struct SeaArguments {
 
 const char* name_of(Spreading spreading) {
   switch (spreading) {
-    case Spreading::kCos2s:
-      return "cos2s";
-    case Spreading::kMitsuyasu:
-      return "mitsuyasu";
-    case Spreading::kWrappedNormal:
-      return "wrapped_normal";
-    case Spreading::kNone:
-      break;
+    case Spreading::kCos2s: return "cos2s";
+    case Spreading::kMitsuyasu: return "mitsuyasu";
+    case Spreading::kWrappedNormal: return "wrapped_normal";
+    case Spreading::kNone: break;
   }
   return "none";
 }

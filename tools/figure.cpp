@@ -73,7 +73,8 @@ class Scratch {
 };
 
 WorkError cannot_start(int error) {
-  return WorkError(fmt::format("gnuplot cannot be started ({}): install the package gnuplot-nox", std::strerror(error)));
+  return WorkError(
+      fmt::format("gnuplot cannot be started ({}): install the package gnuplot-nox", std::strerror(error)));
 }
 
 // A child's status when it has ended; Ctrl-C ends it. Throws WorkError.
@@ -113,7 +114,8 @@ void run_gnuplot(const Scratch& scratch) {
   throw WorkError(fmt::format("gnuplot failed: {}", messages.substr(0, 500)));
 }
 
-// gnuplot does not look whether its writes succeed: a figure cut off by a full disk lacks the end of its format. Throws WorkError.
+// gnuplot does not look whether its writes succeed: a figure cut off by a full disk lacks the end of its format. Throws
+// WorkError.
 void require_whole(const fs::path& drawn, const fs::path& file) {
   const std::string bytes = read_file(drawn);
   const std::string_view end = file.extension() == ".png" ? "IEND\xae\x42\x60\x82" : "</svg>";
@@ -216,8 +218,8 @@ void write_figure(const Heatmap& figure, const fs::path& file, FigureSize size) 
   commands += image ? "" : "set pm3d map corners2color c1\n";
   commands += "set bmargin 5\nset key at screen 0.99, screen 0.02 right bottom horizontal reverse Left samplen 1\n";
   for (const auto& box : figure.boxes) {
-    commands += fmt::format("set object rectangle from {},{} to {},{} front fs empty border lc rgb '#ff3b30' lw 1.6\n", number(box[0]),
-                            number(box[2]), number(box[1]), number(box[3]));
+    commands += fmt::format("set object rectangle from {},{} to {},{} front fs empty border lc rgb '#ff3b30' lw 1.6\n",
+                            number(box[0]), number(box[2]), number(box[1]), number(box[3]));
   }
   commands += "set key outside bottom right horizontal reverse Left samplen 1\n";
   commands +=
@@ -288,15 +290,22 @@ void write_figure(const LinePlot& figure, const fs::path& file, FigureSize size)
   draw(file, size, figure.title, text.data, text.commands);
 }
 
-void write_figure(const std::string& title, std::span<const LinePlot> plots, int columns, const fs::path& file, FigureSize size) {
+void write_figure(const std::string& title, std::span<const LinePlot> plots, int columns, const fs::path& file,
+                  FigureSize size) {
   SEAGLINT_CHECK(!plots.empty() && columns >= 1, fmt::format("{} plots in {} columns", plots.size(), columns));
   const std::size_t rows = (plots.size() + static_cast<std::size_t>(columns) - 1) / static_cast<std::size_t>(columns);
-  std::string data, commands = fmt::format("set multiplot layout {},{} rowsfirst title {}\nset lmargin 11\nset rmargin 3\n", rows, columns, quoted(title));
+  std::string data,
+      commands = fmt::format("set multiplot layout {},{} rowsfirst title {}\nset lmargin 11\nset rmargin 3\n", rows,
+                             columns, quoted(title));
   std::size_t index = 0;
   for (const LinePlot& plot : plots) {
     const PlotText text = plot_text(plot, index);
     // Each plot begins with the axes that gnuplot has of itself.
-    commands += fmt::format("unset logscale\nset format\nset xlabel offset 0,0.3\nset xrange [*:*]\nset yrange [*:*]\nset offsets\nset title {}\n", quoted(plot.title)) + text.commands;
+    commands += fmt::format(
+                    "unset logscale\nset format\nset xlabel offset 0,0.3\nset xrange [*:*]\nset yrange [*:*]\nset "
+                    "offsets\nset title {}\n",
+                    quoted(plot.title)) +
+                text.commands;
     data += text.data;
     index += plot.series.size();
   }

@@ -59,13 +59,14 @@ struct FigureSize {
 // Throws WorkError, before any work and as write_figure would, where there is no gnuplot.
 void require_gnuplot();
 
-// Throws, before any work and as write_figure would, where the name ends in neither .png nor .svg, its directory refuses or there is no gnuplot;
-// nothing for an empty name.
+// Throws, before any work and as write_figure would, where the name ends in neither .png nor .svg, its directory
+// refuses or there is no gnuplot; nothing for an empty name.
 void require_figure(const std::filesystem::path& file);
 
 // Writes the figure whole or not at all. Text is taken literally (no markup). Temporary files stand beside the figure
 // and are removed. Throws InputError for a file that is neither .png nor .svg, WorkError when gnuplot is missing or
-// fails (with its message) or the disk refuses. Ctrl-C ends gnuplot, and is heard when these files are gone: where the program goes on, Interrupted is thrown.
+// fails (with its message) or the disk refuses. Ctrl-C ends gnuplot, and is heard when these files are gone: where the
+// program goes on, Interrupted is thrown.
 void write_figure(const Heatmap& figure, const std::filesystem::path& file, FigureSize size = {});
 void write_figure(const LinePlot& figure, const std::filesystem::path& file, FigureSize size = {});
 

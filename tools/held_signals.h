@@ -5,8 +5,9 @@
 
 namespace seaglint {
 
-// While one of these lives, on any thread, SIGINT and SIGTERM are noted and do nothing else. When the last one goes, what was in force before is in force
-// again, and a signal that was noted is sent anew. A signal that is ignored stays so.
+// While one of these lives, on any thread, SIGINT and SIGTERM are noted and do nothing else. When the last one goes,
+// what was in force before is in force again, and a signal that was noted is sent anew. A signal that is ignored stays
+// so.
 class HeldSignals {
  public:
   HeldSignals();

@@ -36,7 +36,8 @@ struct Reach {
 
 void extend(Reach& reach, const Target& target, const Vec3& r_hat, double interval_s) {
   for (const PointSpec& point : target.spec.points) {
-    const double range = -r_hat.dot(Vec3(point.position_m.data())), velocity = -r_hat.dot(Vec3(point.velocity_mps.data()));
+    const double range = -r_hat.dot(Vec3(point.position_m.data())),
+                 velocity = -r_hat.dot(Vec3(point.velocity_mps.data()));
     reach.range_m.include(range);
     reach.range_m.include(range + velocity * interval_s);
     reach.velocity_mps.include(velocity);
@@ -80,16 +81,16 @@ std::vector<std::string> outside_of_map(const Scenario& scenario, const std::vec
       }
       const std::string who = fmt::format("targets.{} at azimuth {:g} deg", scenario.targets[t].name, view.azimuth_deg);
       if (!reach.range_m.within(grid.range_m)) {
-        tell(fmt::format("{} reaches from {:.1f} to {:.1f} m, the map from {:.1f} to {:.1f} m: raise map.range_span_m", who,
-                         reach.range_m.low, reach.range_m.high, grid.range_m.front(), grid.range_m.back()));
+        tell(fmt::format("{} reaches from {:.1f} to {:.1f} m, the map from {:.1f} to {:.1f} m: raise map.range_span_m",
+                         who, reach.range_m.low, reach.range_m.high, grid.range_m.front(), grid.range_m.back()));
       }
       if (!reach.velocity_mps.within(grid.velocity_mps)) {
         const double unambiguous = train.unambiguous_velocity_mps();
         const bool folds = std::max(-reach.velocity_mps.low, reach.velocity_mps.high) > unambiguous;
-        tell(fmt::format("{} moves at {:.2f} to {:.2f} m/s, the map shows {:.2f} to {:.2f} m/s (unambiguous within +-{:.2f}): {}",
-                         who, reach.velocity_mps.low, reach.velocity_mps.high, grid.velocity_mps.front(),
-                         grid.velocity_mps.back(), unambiguous,
-                         folds ? "shorten radar.pri_us" : "raise map.velocity_span_mps"));
+        tell(fmt::format(
+            "{} moves at {:.2f} to {:.2f} m/s, the map shows {:.2f} to {:.2f} m/s (unambiguous within +-{:.2f}): {}",
+            who, reach.velocity_mps.low, reach.velocity_mps.high, grid.velocity_mps.front(), grid.velocity_mps.back(),
+            unambiguous, folds ? "shorten radar.pri_us" : "raise map.velocity_span_mps"));
       }
     }
   }

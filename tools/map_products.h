@@ -8,8 +8,8 @@
 namespace seaglint {
 
 // Target's echo and map as a radar would have them that sends the whole synthesised band with every pulse, without
-// clutter and noise: an ISAR image, range against the velocity across it. Same carriers' band, times and motion, the radar's
-// own included.
+// clutter and noise: an ISAR image, range against the velocity across it. Same carriers' band, times and motion, the
+// radar's own included.
 struct WholeBand {
   PulseTrain train;           // of one carrier, in the middle of the band
   std::vector<Complex> echo;  // [pulse][frequency]

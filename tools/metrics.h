@@ -10,13 +10,15 @@ namespace seaglint {
 
 double value_or_nan(const nlohmann::ordered_json& json);  // JSON has no NaN: what is not defined is null
 
-std::string percent(double share);                           // "93.3 %", a dash for NaN
-std::string accuracy_cell(const nlohmann::ordered_json& scores);  // "93.3 % (88–98)" in HTML, with the interval where there is one
+std::string percent(double share);  // "93.3 %", a dash for NaN
+// "93.3 % (88–98)" in HTML, with the interval where there is one
+std::string accuracy_cell(const nlohmann::ordered_json& scores);
 
 // What a probe reaches on unseen seas; NaN where there is none of this name.
 double probe_accuracy(const nlohmann::ordered_json& metrics, const std::string& name);
 
-// What knowing nothing but the classes' shares reaches: from guessing at those shares to naming the larger class always.
+// What knowing nothing but the classes' shares reaches: from guessing at those shares to naming the larger class
+// always.
 struct Guessing {
   double least = 0.5, most = 0.5;
 

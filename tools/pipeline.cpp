@@ -66,9 +66,11 @@ Pipeline::Pipeline(Scenario scenario)
       continue;
     }
     const double crease = radians(target.spec.solver.crease_deg);
-    scatterers_.push_back(std::make_shared<const Scatterer>(target.mesh, target.materials, crease, 1e-3 * target.spec.sheet_thickness_mm));
+    scatterers_.push_back(std::make_shared<const Scatterer>(target.mesh, target.materials, crease,
+                                                            1e-3 * target.spec.sheet_thickness_mm));
     const std::vector<std::string> of_edges =
-        check_edges(*scatterers_.back(), target.spec.solver.edges, 1e9 * lowest_ghz(scenario_.radar), 1e9 * highest_ghz(scenario_.radar));
+        check_edges(*scatterers_.back(), target.spec.solver.edges, 1e9 * lowest_ghz(scenario_.radar),
+                    1e9 * highest_ghz(scenario_.radar));
     target.doubts.insert(target.doubts.end(), of_edges.begin(), of_edges.end());
   }
 }
@@ -142,7 +144,8 @@ IntervalSampling Pipeline::sampling(const PulseTrain& train, double start_s) con
 ClutterScene Pipeline::clutter_scene(const SampleAddress& at, const Scene& scene) const {
   // Maps of one sea, view and target see one texture; those of another target do not, as a texture that two labels
   // shared would tell one from the other.
-  const std::uint64_t seen = static_cast<std::uint64_t>(plan_.group(at)) * views_.size() + static_cast<std::uint64_t>(at.view);
+  const std::uint64_t seen =
+      static_cast<std::uint64_t>(plan_.group(at)) * views_.size() + static_cast<std::uint64_t>(at.view);
   return {scenario_.radar,
           direction_to_radar(views_[static_cast<std::size_t>(at.view)]),
           total_wave_height(sea_states_[static_cast<std::size_t>(at.sea_state)]),
@@ -163,12 +166,14 @@ Echo Pipeline::echo_of(const MadeSample& made, const BodyResponse& response, con
   const SampleAddress& at = made.address;
   const std::size_t sample = plan_.sample(at);
   try {
-    return synthesize_echo(made.train, response.response, scenario_.clutter, scenario_.seed, sample, clutter_scene(at, scene));
+    return synthesize_echo(made.train, response.response, scenario_.clutter, scenario_.seed, sample,
+                           clutter_scene(at, scene));
   } catch (const InputError& error) {
     const TargetSpec& target = scenario_.targets[static_cast<std::size_t>(at.target)];
     const View& view = views_[static_cast<std::size_t>(at.view)];
-    throw InputError(fmt::format("{}: sample {}, azimuth {:g} deg, elevation {:g} deg: {}", place_of(scenario_, "targets." + target.name), sample,
-                                 view.azimuth_deg, view.elevation_deg, error.what()));
+    throw InputError(fmt::format("{}: sample {}, azimuth {:g} deg, elevation {:g} deg: {}",
+                                 place_of(scenario_, "targets." + target.name), sample, view.azimuth_deg,
+                                 view.elevation_deg, error.what()));
   }
 }
 
@@ -183,8 +188,8 @@ MadeSample Pipeline::make(std::size_t sample) const {
   const BodyResponse response = this->response(sample, made.train);
   const Echo echo = echo_of(made, response, *moving);
   made.received = receive(echo, made.train, scenario_.clutter, scenario_.map, scenario_.radar.intra_pulse_motion);
-  CleanedMap cleaned = clean_map(made.received.echo, made.train, scenario_.map, scenario_.radar.intra_pulse_motion,
-                                 scenario_.features);
+  CleanedMap cleaned =
+      clean_map(made.received.echo, made.train, scenario_.map, scenario_.radar.intra_pulse_motion, scenario_.features);
   if (scenario_.map.clean) made.received.map.values = restored_map(cleaned, made.train, scenario_.map).values;
   made.centres = std::move(cleaned.centres);
   made.features = compute_features(made.centres, scenario_.features);

@@ -14,10 +14,10 @@
 namespace seaglint {
 namespace {
 
-constexpr double kAngleStep_deg = 1e-3;     // CST prints three digits after the point
-constexpr long kCircle = 360'000;            // steps in a turn
+constexpr double kAngleStep_deg = 1e-3;  // CST prints three digits after the point
+constexpr long kCircle = 360'000;        // steps in a turn
 constexpr double kFrequencyTolerance = 1e-6;
-constexpr double kSameLevel_db = 0.1;       // of a direction that a file gives twice
+constexpr double kSameLevel_db = 0.1;  // of a direction that a file gives twice
 
 double level_of(const Complex& s) { return 10 * std::log10(std::max(4 * kPi * std::norm(s), 1e-100)); }
 
@@ -36,8 +36,9 @@ class Samples {
       if (std::abs(sample.frequency_hz - frequency_hz) > kFrequencyTolerance * frequency_hz) continue;
       const auto [place, is_new] = by_direction_.try_emplace(key_of(sample.theta_deg, sample.phi_deg), &sample);
       if (!is_new && std::abs(place->second->level_dbsm - sample.level_dbsm) > kSameLevel_db) {
-        throw InputError(fmt::format("{}: theta {} phi {} at {} GHz stands twice, with {} and {} dBsm", reference.name, sample.theta_deg,
-                                     sample.phi_deg, sample.frequency_hz * 1e-9, place->second->level_dbsm, sample.level_dbsm));
+        throw InputError(fmt::format("{}: theta {} phi {} at {} GHz stands twice, with {} and {} dBsm", reference.name,
+                                     sample.theta_deg, sample.phi_deg, sample.frequency_hz * 1e-9,
+                                     place->second->level_dbsm, sample.level_dbsm));
       }
     }
   }
@@ -60,7 +61,8 @@ class Samples {
 std::string span_text(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());
-  return values.size() == 1 ? fmt::format("{:g}", values[0]) : fmt::format("{:g} to {:g} ({} values)", values.front(), values.back(), values.size());
+  return values.size() == 1 ? fmt::format("{:g}", values[0])
+                            : fmt::format("{:g} to {:g} ({} values)", values.front(), values.back(), values.size());
 }
 
 [[noreturn]] void fail_pairing(const RcsSweep& sweep, const RcsReference& reference) {
@@ -73,12 +75,14 @@ std::string span_text(std::vector<double> values) {
   std::vector<double> our_f, our_theta, our_phi;
   for (const double hz : sweep.frequency_hz) our_f.push_back(hz * 1e-9);
   for (const double el : sweep.elevation_deg) our_theta.push_back(90 - el);
-  for (const double az : sweep.azimuth_deg) our_phi.push_back(reference.settings.phi_scale * az + reference.settings.phi_offset_deg);
-  throw InputError(
-      fmt::format("{}: no direction in common with the sweep; the file has {} GHz, theta {}, phi {} deg, the sweep {} GHz, theta {}, phi {} deg "
-                  "(theta = 90 - elevation, phi by --reference-phi {:g},{:g})",
-                  reference.name, span_text(f), span_text(theta), span_text(phi), span_text(our_f), span_text(our_theta), span_text(our_phi),
-                  reference.settings.phi_scale, reference.settings.phi_offset_deg));
+  for (const double az : sweep.azimuth_deg)
+    our_phi.push_back(reference.settings.phi_scale * az + reference.settings.phi_offset_deg);
+  throw InputError(fmt::format(
+      "{}: no direction in common with the sweep; the file has {} GHz, theta {}, phi {} deg, the sweep {} GHz, theta "
+      "{}, phi {} deg "
+      "(theta = 90 - elevation, phi by --reference-phi {:g},{:g})",
+      reference.name, span_text(f), span_text(theta), span_text(phi), span_text(our_f), span_text(our_theta),
+      span_text(our_phi), reference.settings.phi_scale, reference.settings.phi_offset_deg));
 }
 
 Vec3 unit_vector(double theta_deg, double phi_deg) {
@@ -92,8 +96,10 @@ void require_same_transmitter(const RcsSweep& sweep, const RcsReference& referen
   const StatedTransmitter& theirs = *reference.transmitter;
   const auto fail = [&](const std::string& ours) {
     throw InputError(fmt::format("{}: {}, {}", reference.name,
-                                 theirs.moves_along ? std::string("is monostatic by its own words")
-                                                    : fmt::format("its transmitter stands at azimuth {:g} deg, elevation {:g} deg", theirs.phi_deg, 90 - theirs.theta_deg),
+                                 theirs.moves_along
+                                     ? std::string("is monostatic by its own words")
+                                     : fmt::format("its transmitter stands at azimuth {:g} deg, elevation {:g} deg",
+                                                   theirs.phi_deg, 90 - theirs.theta_deg),
                                  ours));
   };
   if (!sweep.transmitter) {
@@ -102,9 +108,14 @@ void require_same_transmitter(const RcsSweep& sweep, const RcsReference& referen
   }
   const Vec3& t = *sweep.transmitter;
   const double theta_deg = degrees(std::acos(std::clamp(t.z(), -1.0, 1.0)));
-  const double phi_deg = reference.settings.phi_scale * degrees(std::atan2(t.y(), t.x())) + reference.settings.phi_offset_deg;
-  const std::string ours = fmt::format("the sweep's transmitter stands at azimuth {:g} deg, elevation {:g} deg of the same angles", phi_deg, 90 - theta_deg);
-  if (theirs.moves_along || (unit_vector(theta_deg, phi_deg) - unit_vector(theirs.theta_deg, theirs.phi_deg)).norm() > radians(kAngleStep_deg)) fail(ours);
+  const double phi_deg =
+      reference.settings.phi_scale * degrees(std::atan2(t.y(), t.x())) + reference.settings.phi_offset_deg;
+  const std::string ours =
+      fmt::format("the sweep's transmitter stands at azimuth {:g} deg, elevation {:g} deg of the same angles", phi_deg,
+                  90 - theta_deg);
+  if (theirs.moves_along || (unit_vector(theta_deg, phi_deg) - unit_vector(theirs.theta_deg, theirs.phi_deg)).norm() >
+                                radians(kAngleStep_deg))
+    fail(ours);
 }
 
 CutAxis axis_of(const RcsSweep& sweep) {
@@ -155,8 +166,10 @@ std::vector<PairedCut> pair_with(const RcsSweep& sweep, const RcsReference& refe
     }
     PairedCut& cut = cuts.back();
     for (std::size_t view = 0; view < sweep.views(); ++view) {
-      const double az = sweep.azimuth_deg[view % sweep.azimuth_deg.size()], el = sweep.elevation_deg[view / sweep.azimuth_deg.size()];
-      const ReferenceSample* sample = samples.at(90 - el, reference.settings.phi_scale * az + reference.settings.phi_offset_deg);
+      const double az = sweep.azimuth_deg[view % sweep.azimuth_deg.size()],
+                   el = sweep.elevation_deg[view / sweep.azimuth_deg.size()];
+      const ReferenceSample* sample =
+          samples.at(90 - el, reference.settings.phi_scale * az + reference.settings.phi_offset_deg);
       if (!sample) continue;
       cut.x.push_back(axis == CutAxis::kAzimuth     ? az
                       : axis == CutAxis::kElevation ? el
@@ -164,9 +177,13 @@ std::vector<PairedCut> pair_with(const RcsSweep& sweep, const RcsReference& refe
                                                     : static_cast<double>(cut.x.size() + 1));
       cut.level_dbsm.push_back(sample->level_dbsm);
       if (sample->amplitude_m) {
-        // A phase origin at x0 lies (r^_t + r^_s).x0 nearer to the radar, both ways, than the body's (CONVENTIONS.md, "Scattering").
-        const Vec3 r(std::cos(radians(el)) * std::cos(radians(az)), std::cos(radians(el)) * std::sin(radians(az)), std::sin(radians(el)));
-        cut.amplitude_m.push_back(*sample->amplitude_m * std::polar(1.0, k * (sweep.transmitter.value_or(r) + r).dot(reference.settings.origin_m)));
+        // A phase origin at x0 lies (r^_t + r^_s).x0 nearer to the radar, both ways, than the body's (CONVENTIONS.md,
+        // "Scattering").
+        const Vec3 r(std::cos(radians(el)) * std::cos(radians(az)), std::cos(radians(el)) * std::sin(radians(az)),
+                     std::sin(radians(el)));
+        cut.amplitude_m.push_back(
+            *sample->amplitude_m *
+            std::polar(1.0, k * (sweep.transmitter.value_or(r) + r).dot(reference.settings.origin_m)));
       }
       for (std::size_t m = 0; m < sweep.models.size(); ++m) {
         const Complex s = sweep.models[m].matrices[view][q][static_cast<std::size_t>(element)];
@@ -232,12 +249,14 @@ std::string difference_table(const std::vector<PairedCut>& cuts, double floor_db
   };
   std::vector<Row> rows;
   for (const PairedCut& cut : cuts) {
-    for (const PairedCut::Model& model : cut.models) rows.push_back({&cut, model.name, difference_of(cut, model, floor_db)});
+    for (const PairedCut::Model& model : cut.models)
+      rows.push_back({&cut, model.name, difference_of(cut, model, floor_db)});
   }
   // How far references are apart from each other.
   for (std::size_t i = 0; i < cuts.size(); ++i) {
     for (std::size_t j = i + 1; j < cuts.size(); ++j) {
-      if (const auto model = as_model(cuts[i], cuts[j])) rows.push_back({&cuts[j], model->name, difference_of(cuts[j], *model, floor_db)});
+      if (const auto model = as_model(cuts[i], cuts[j]))
+        rows.push_back({&cuts[j], model->name, difference_of(cuts[j], *model, floor_db)});
     }
   }
   std::size_t width = 9, model_width = 5;
@@ -246,20 +265,26 @@ std::string difference_table(const std::vector<PairedCut>& cuts, double floor_db
     model_width = std::max(model_width, row.model.size());
   }
   std::string text = fmt::format(
-      "Differences, compared - reference, both clipped at {:g} dB below the reference's maximum:\n{:<{}}  pol  {:>9}  {:<{}} {:>6} {:>8} {:>7} {:>7} {:>8}  {:<13} {}\n",
-      floor_db, "reference", width, "f_ghz", "compared", std::max(model_width, std::size_t{8}), "points", "mean_db", "rms_db", "bias_db", "largest", "at", "correlation");
+      "Differences, compared - reference, both clipped at {:g} dB below the reference's maximum:\n{:<{}}  pol  {:>9}  "
+      "{:<{}} {:>6} {:>8} {:>7} {:>7} {:>8}  {:<13} {}\n",
+      floor_db, "reference", width, "f_ghz", "compared", std::max(model_width, std::size_t{8}), "points", "mean_db",
+      "rms_db", "bias_db", "largest", "at", "correlation");
   for (const Row& row : rows) {
     const Difference& d = row.difference;
     const std::string f = row.cut->frequency_hz ? fmt::format("{:g}", *row.cut->frequency_hz * 1e-9) : "sweep";
-    text += fmt::format("{:<{}}  {:<3}  {:>9}  {:<{}} {:>6} {:>8.3f} {:>7.3f} {:>7.3f} {:>8.3f}  {:<13} {}\n", row.cut->reference, width,
-                        kElementNames[static_cast<int>(row.cut->element)], f, row.model, std::max(model_width, std::size_t{8}), d.points, d.mean_db, d.rms_db,
-                        d.bias_db, d.largest_db, fmt::format("{:.6g} {}", d.largest_at, axis_unit(row.cut->axis)),
-                        d.correlation ? fmt::format("{:.4f} at {:.1f} deg", std::abs(*d.correlation), degrees(std::arg(*d.correlation))) : "-");
+    text += fmt::format(
+        "{:<{}}  {:<3}  {:>9}  {:<{}} {:>6} {:>8.3f} {:>7.3f} {:>7.3f} {:>8.3f}  {:<13} {}\n", row.cut->reference,
+        width, kElementNames[static_cast<int>(row.cut->element)], f, row.model, std::max(model_width, std::size_t{8}),
+        d.points, d.mean_db, d.rms_db, d.bias_db, d.largest_db,
+        fmt::format("{:.6g} {}", d.largest_at, axis_unit(row.cut->axis)),
+        d.correlation ? fmt::format("{:.4f} at {:.1f} deg", std::abs(*d.correlation), degrees(std::arg(*d.correlation)))
+                      : "-");
   }
   return text;
 }
 
-bool draw_comparison(const std::vector<PairedCut>& cuts, double floor_db, const std::string& title, const std::filesystem::path& file) {
+bool draw_comparison(const std::vector<PairedCut>& cuts, double floor_db, const std::string& title,
+                     const std::filesystem::path& file) {
   if (cuts.empty() || cuts.front().axis == CutAxis::kSeveral || cuts.front().x.size() < 2) return false;
   // Cuts of one frequency and polarisation share a column.
   constexpr std::size_t kMostColumns = 4;
@@ -279,7 +304,8 @@ bool draw_comparison(const std::vector<PairedCut>& cuts, double floor_db, const 
   for (const auto& column : columns) {
     const PairedCut& first = *column.front();
     double highest = -1e300;
-    for (const PairedCut* cut : column) highest = std::max(highest, *std::max_element(cut->level_dbsm.begin(), cut->level_dbsm.end()));
+    for (const PairedCut* cut : column)
+      highest = std::max(highest, *std::max_element(cut->level_dbsm.begin(), cut->level_dbsm.end()));
     const double floor = highest - floor_db;
     const auto clipped = [&](std::vector<double> values) {
       for (double& v : values) v = std::max(v, floor);
@@ -290,7 +316,8 @@ bool draw_comparison(const std::vector<PairedCut>& cuts, double floor_db, const 
     level.title = upper(kElementNames[static_cast<int>(first.element)]) +
                   (first.frequency_hz ? fmt::format(", {:g} GHz", *first.frequency_hz * 1e-9) : std::string());
     level.x.label = difference.x.label = axis_label(first.axis);
-    level.x.range = difference.x.range = AxisRange{*std::min_element(first.x.begin(), first.x.end()), *std::max_element(first.x.begin(), first.x.end())};
+    level.x.range = difference.x.range =
+        AxisRange{*std::min_element(first.x.begin(), first.x.end()), *std::max_element(first.x.begin(), first.x.end())};
     difference.y.label = "computed - reference (dB)";
     double widest = 0.2, lowest = highest;
     for (const PairedCut* cut : column) {
@@ -307,7 +334,8 @@ bool draw_comparison(const std::vector<PairedCut>& cuts, double floor_db, const 
         difference.series.push_back(std::move(series));
       }
     }
-    for (const PairedCut::Model& model : first.models) level.series.push_back({model.name, first.x, clipped(model.level_dbsm), {}, SeriesStyle::kLines});
+    for (const PairedCut::Model& model : first.models)
+      level.series.push_back({model.name, first.x, clipped(model.level_dbsm), {}, SeriesStyle::kLines});
     for (std::size_t i = 0; i + 1 < column.size(); ++i) {
       const auto other = as_model(*column[i], *column[i + 1]);
       if (!other) continue;
@@ -318,7 +346,8 @@ bool draw_comparison(const std::vector<PairedCut>& cuts, double floor_db, const 
     }
     // Nulls that only one side has would squeeze everything else.
     constexpr double kMargin_db = 3, kBelowReference_db = 12, kWidest_db = 20;
-    level.y = {"radar cross section (dBsm)", AxisRange{std::max(floor, lowest - kBelowReference_db), highest + kMargin_db}, false};
+    level.y = {"radar cross section (dBsm)",
+               AxisRange{std::max(floor, lowest - kBelowReference_db), highest + kMargin_db}, false};
     widest = std::min(1.05 * widest, kWidest_db);
     difference.y.range = AxisRange{-widest, widest};
     levels.push_back(std::move(level));
@@ -333,7 +362,8 @@ bool draw_comparison(const std::vector<PairedCut>& cuts, double floor_db, const 
     }
   }
   const int blocks = static_cast<int>((count + abreast - 1) / abreast);
-  write_figure(title, plots, static_cast<int>(abreast), file, {abreast == 1 ? 900 : static_cast<int>(750 * abreast), 860 * blocks});
+  write_figure(title, plots, static_cast<int>(abreast), file,
+               {abreast == 1 ? 900 : static_cast<int>(750 * abreast), 860 * blocks});
   return true;
 }
 

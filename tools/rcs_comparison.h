@@ -18,8 +18,9 @@ namespace seaglint {
 struct RcsSweep {
   std::vector<double> frequency_hz, azimuth_deg, elevation_deg;
   struct Model {
-    std::string name;                                          // in legends and tables
-    std::vector<std::vector<std::array<Complex, 4>>> matrices;  // [view][frequency], view = elevation * azimuths + azimuth
+    std::string name;  // in legends and tables
+    // [view][frequency], view = elevation * azimuths + azimuth
+    std::vector<std::vector<std::array<Complex, 4>>> matrices;
   };
   std::vector<Model> models;
   std::optional<Vec3> transmitter;  // its direction where it stands still while the sweep is the receiver's
@@ -47,28 +48,32 @@ struct PairedCut {
   std::vector<Model> models;
 };
 
-// The sweep's directions and frequencies that the reference holds to 0.001 deg and 1e-6 of the frequency; nothing is interpolated. One cut for each
-// frequency, or one in all when there is one direction. Throws InputError when nothing fits, with what either side holds, and when the reference says that
-// its transmitter stands elsewhere than the sweep's.
+// The sweep's directions and frequencies that the reference holds to 0.001 deg and 1e-6 of the frequency; nothing is
+// interpolated. One cut for each frequency, or one in all when there is one direction. Throws InputError when nothing
+// fits, with what either side holds, and when the reference says that its transmitter stands elsewhere than the
+// sweep's.
 std::vector<PairedCut> pair_with(const RcsSweep& sweep, const RcsReference& reference);
 
 struct Difference {
   std::size_t points = 0;
-  double mean_db = 0;     // of |computed - reference|
+  double mean_db = 0;  // of |computed - reference|
   double rms_db = 0;
-  double largest_db = 0;  // with its sign
-  double largest_at = 0;  // x there
-  double bias_db = 0;     // mean of computed - reference
+  double largest_db = 0;               // with its sign
+  double largest_at = 0;               // x there
+  double bias_db = 0;                  // mean of computed - reference
   std::optional<Complex> correlation;  // <conj(reference) computed> / (|reference| |computed|)
 };
 
-// Levels of both sides are lifted to floor_db below the reference's maximum first (the Austin suite's error measure with 80 dB).
+// Levels of both sides are lifted to floor_db below the reference's maximum first (the Austin suite's error measure
+// with 80 dB).
 Difference difference_of(const PairedCut& cut, const PairedCut::Model& model, double floor_db);
 
 // One line for every cut and model.
 std::string difference_table(const std::vector<PairedCut>& cuts, double floor_db);
 
-// Levels above, differences below; a column for each frequency and polarisation, at most four. False when there is nothing to draw a line along.
-bool draw_comparison(const std::vector<PairedCut>& cuts, double floor_db, const std::string& title, const std::filesystem::path& file);
+// Levels above, differences below; a column for each frequency and polarisation, at most four. False when there is
+// nothing to draw a line along.
+bool draw_comparison(const std::vector<PairedCut>& cuts, double floor_db, const std::string& title,
+                     const std::filesystem::path& file);
 
 }  // namespace seaglint

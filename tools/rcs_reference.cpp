@@ -25,7 +25,8 @@ Complex amplitude_of(double level_dbsm, double phase_rad) {
   return std::polar(std::sqrt(std::pow(10.0, level_dbsm / 10) / (4 * kPi)), phase_rad);
 }
 
-// Brings a direction to theta 0..180, phi 0..360; true when it lay on the circle's other half, theta below 0 or above 180.
+// Brings a direction to theta 0..180, phi 0..360; true when it lay on the circle's other half, theta below 0 or above
+// 180.
 bool fold(double& theta_deg, double& phi_deg) {
   theta_deg = std::remainder(theta_deg, 360);
   const bool negative = theta_deg < 0;
@@ -49,7 +50,9 @@ class Lines {
     ++number_;
     return true;
   }
-  [[noreturn]] void fail(const std::string& why) const { throw InputError(fmt::format("{}:{}: {}", file_, number_, why)); }
+  [[noreturn]] void fail(const std::string& why) const {
+    throw InputError(fmt::format("{}:{}: {}", file_, number_, why));
+  }
   const std::string& file() const { return file_; }
 
  private:
@@ -101,8 +104,13 @@ void read_four_columns(Lines& lines, RcsReference& reference) {
   for (std::string line; lines.next(line);) {
     if (is_blank(line) || line.front() == '#') continue;
     const std::vector<std::string> words = words_of(line);
-    if (words.size() != 4) lines.fail(fmt::format("{} columns: must be 4 (frequency_hz theta_deg phi_deg dBsm)", words.size()));
-    ReferenceSample sample{number_in(lines, words[0]), number_in(lines, words[1]), number_in(lines, words[2]), level_in(lines, words[3]), {}};
+    if (words.size() != 4)
+      lines.fail(fmt::format("{} columns: must be 4 (frequency_hz theta_deg phi_deg dBsm)", words.size()));
+    ReferenceSample sample{number_in(lines, words[0]),
+                           number_in(lines, words[1]),
+                           number_in(lines, words[2]),
+                           level_in(lines, words[3]),
+                           {}};
     if (sample.frequency_hz <= 0) lines.fail(fmt::format("frequency {} Hz: must be > 0", words[0]));
     fold(sample.theta_deg, sample.phi_deg);
     reference.samples.push_back(sample);
@@ -114,10 +122,12 @@ std::optional<StatedTransmitter> stated_transmitter(const Lines& lines, const st
   if (!line.starts_with("# physical optics")) return std::nullopt;
   if (line.find(", monostatic,") != std::string::npos) return StatedTransmitter{};
   const std::string azimuth = ", transmitter at azimuth ", elevation = " deg, elevation ", end = " deg,";
-  const std::size_t at = line.find(azimuth), middle = line.find(elevation, at), last = line.find(end, middle + elevation.size());
+  const std::size_t at = line.find(azimuth), middle = line.find(elevation, at),
+                    last = line.find(end, middle + elevation.size());
   if (at == std::string::npos || middle == std::string::npos || last == std::string::npos) return std::nullopt;
   const std::size_t begin = at + azimuth.size(), second = middle + elevation.size();
-  StatedTransmitter there{false, 90 - number_in(lines, line.substr(second, last - second)), number_in(lines, line.substr(begin, middle - begin))};
+  StatedTransmitter there{false, 90 - number_in(lines, line.substr(second, last - second)),
+                          number_in(lines, line.substr(begin, middle - begin))};
   fold(there.theta_deg, there.phi_deg);
   return there;
 }
@@ -138,12 +148,15 @@ void read_own_table(Lines& lines, RcsReference& reference) {
       };
       frequency = column("frequency_hz"), azimuth = column("azimuth_deg"), elevation = column("elevation_deg");
       re = column(element + "_re"), im = column(element + "_im"), level = column(element + "_dbsm");
-      if (frequency < 0 || azimuth < 0 || elevation < 0) lines.fail("no columns frequency_hz, azimuth_deg, elevation_deg");
-      if ((re < 0 || im < 0) && level < 0) lines.fail(fmt::format("neither columns {0}_re and {0}_im nor {0}_dbsm", element));
+      if (frequency < 0 || azimuth < 0 || elevation < 0)
+        lines.fail("no columns frequency_hz, azimuth_deg, elevation_deg");
+      if ((re < 0 || im < 0) && level < 0)
+        lines.fail(fmt::format("neither columns {0}_re and {0}_im nor {0}_dbsm", element));
       continue;
     }
     const std::vector<std::string> cells = split_at(line, ',');
-    if (cells.size() != names.size()) lines.fail(fmt::format("{} columns: the header has {}", cells.size(), names.size()));
+    if (cells.size() != names.size())
+      lines.fail(fmt::format("{} columns: the header has {}", cells.size(), names.size()));
     const auto at = [&](int column) { return number_in(lines, cells[static_cast<std::size_t>(column)]); };
     ReferenceSample sample;
     sample.frequency_hz = at(frequency);
@@ -184,7 +197,8 @@ class CstUnit {
     std::string unit = column.unit;
     decibel_ = unit.starts_with("dB");
     if (unit == "dB") {
-      lines.fail(fmt::format("column {} [dB] is relative to its own maximum: export absolute values, m^2 or dB(m^2)", column.name));
+      lines.fail(fmt::format("column {} [dB] is relative to its own maximum: export absolute values, m^2 or dB(m^2)",
+                             column.name));
     }
     if (unit == "dBsm") unit = "dB(m^2)";
     if (decibel_) unit = unit.size() > 4 && unit[2] == '(' ? unit.substr(3, unit.size() - 4) : unit.substr(2);
@@ -197,7 +211,8 @@ class CstUnit {
     } else if (unit == "lambda^2") {
       offset_db_ = 20 * std::log10(wavelength_m);
     } else {
-      lines.fail(fmt::format("column {} [{}]: the unit must be m^2, cm^2, mm^2, lambda^2, or dB() of one of them", column.name, column.unit));
+      lines.fail(fmt::format("column {} [{}]: the unit must be m^2, cm^2, mm^2, lambda^2, or dB() of one of them",
+                             column.name, column.unit));
     }
   }
   double level(const Lines& lines, double value) const {
@@ -230,15 +245,19 @@ void read_cst_table(Lines& lines, RcsReference& reference) {
     const std::string& unit = columns[static_cast<std::size_t>(needed)].unit;
     if (!unit.starts_with("deg")) lines.fail(fmt::format("angles in [{}]: must be degrees", unit));
   }
-  if (magnitude < 0) lines.fail(fmt::format("no column Abs({}), which {} needs", component, kElementNames[static_cast<int>(reference.element)]));
+  if (magnitude < 0)
+    lines.fail(fmt::format("no column Abs({}), which {} needs", component,
+                           kElementNames[static_cast<int>(reference.element)]));
   const CstUnit unit(lines, columns[static_cast<std::size_t>(magnitude)], kSpeedOfLight / frequency_hz);
-  if (phase >= 0 && !columns[static_cast<std::size_t>(phase)].unit.starts_with("deg")) lines.fail("phases must be in degrees");
+  if (phase >= 0 && !columns[static_cast<std::size_t>(phase)].unit.starts_with("deg"))
+    lines.fail("phases must be in degrees");
 
   while (lines.next(line)) {
     if (is_blank(line) || line.find_first_not_of("-= \t") == std::string::npos) continue;
     std::replace(line.begin(), line.end(), ',', '.');  // decimal commas of localised machines
     const std::vector<std::string> words = words_of(line);
-    if (words.size() != columns.size()) lines.fail(fmt::format("{} columns: the header has {}", words.size(), columns.size()));
+    if (words.size() != columns.size())
+      lines.fail(fmt::format("{} columns: the header has {}", words.size(), columns.size()));
     const auto at = [&](int c) { return number_in(lines, words[static_cast<std::size_t>(c)]); };
     ReferenceSample sample;
     sample.frequency_hz = frequency_hz;
@@ -248,7 +267,8 @@ void read_cst_table(Lines& lines, RcsReference& reference) {
     sample.level_dbsm = unit.level(lines, level_in(lines, words[static_cast<std::size_t>(magnitude)]));
     if (phase >= 0) {
       const bool cross = transmits_v(reference.element) != receives_v(reference.element);
-      sample.amplitude_m = amplitude_of(sample.level_dbsm, radians(at(phase))) * (folded ? -1.0 : 1.0) * (cross ? -1.0 : 1.0);
+      sample.amplitude_m =
+          amplitude_of(sample.level_dbsm, radians(at(phase))) * (folded ? -1.0 : 1.0) * (cross ? -1.0 : 1.0);
     }
     reference.samples.push_back(sample);
   }
@@ -261,16 +281,19 @@ Format format_of(const std::string& text, const std::string& file) {
   for (std::string line; std::getline(stream, line);) {
     if (is_blank(line) || line == "\r" || line.front() == '#') continue;
     if (line.starts_with("// CST Farfield Source"))
-      throw InputError(fmt::format("{}: a CST farfield source (.ffs) is not read: export the RCS as an ASCII table", file));
+      throw InputError(
+          fmt::format("{}: a CST farfield source (.ffs) is not read: export the RCS as an ASCII table", file));
     if (line.find("Theta") != std::string::npos && line.find('[') != std::string::npos) return Format::kCstTable;
     if (line.starts_with("frequency_hz,")) return Format::kOwnTable;
     const std::vector<std::string> words = words_of(line);
-    if (words.size() == 4 && std::all_of(words.begin(), words.end() - 1, [](const std::string& w) { return parse_number(w).has_value(); }))
+    if (words.size() == 4 &&
+        std::all_of(words.begin(), words.end() - 1, [](const std::string& w) { return parse_number(w).has_value(); }))
       return Format::kFourColumns;
     break;
   }
   throw InputError(
-      fmt::format("{}: not a cut of the radar cross section: neither four columns (frequency_hz theta_deg phi_deg dBsm), nor a table of seaglint "
+      fmt::format("{}: not a cut of the radar cross section: neither four columns (frequency_hz theta_deg phi_deg "
+                  "dBsm), nor a table of seaglint "
                   "rcs, nor a CST farfield table",
                   file));
 }
@@ -288,8 +311,8 @@ void require_own_frequency(const RcsReference& reference, const std::string& fil
   constexpr double kTolerance = 1e-6;
   for (const ReferenceSample& sample : reference.samples) {
     if (std::abs(sample.frequency_hz - *reference.settings.frequency_hz) <= kTolerance * sample.frequency_hz) continue;
-    throw InputError(fmt::format("{}: holds {:g} GHz by its own words: leave out --reference-frequency-ghz {:g}", file, sample.frequency_hz * 1e-9,
-                                 *reference.settings.frequency_hz * 1e-9));
+    throw InputError(fmt::format("{}: holds {:g} GHz by its own words: leave out --reference-frequency-ghz {:g}", file,
+                                 sample.frequency_hz * 1e-9, *reference.settings.frequency_hz * 1e-9));
   }
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Cuts of somebody else's radar cross section: measured, or exported by another solver. Read as they are written, brought to this program's conventions.
+// Cuts of somebody else's radar cross section: measured, or exported by another solver. Read as they are written,
+// brought to this program's conventions.
 
 #include <filesystem>
 #include <optional>
@@ -27,8 +28,8 @@ struct ReferenceSettings {
 
 struct ReferenceSample {
   double frequency_hz = 0;
-  double theta_deg = 0;               // 0..180
-  double phi_deg = 0;                 // 0 <= x < 360, the file's own
+  double theta_deg = 0;  // 0..180
+  double phi_deg = 0;    // 0 <= x < 360, the file's own
   double level_dbsm = 0;
   std::optional<Complex> amplitude_m;  // about the file's phase origin; absent without a phase
 };
@@ -49,12 +50,14 @@ struct RcsReference {
 };
 
 // Reads, by what is in the file,
-//   four columns without header: frequency in Hz, theta, phi in degrees, dBsm (Austin RCS Benchmark Suite);
-//   the table of `seaglint rcs` (columns by name; xx_re and xx_im, or xx_dbsm alone; its head says where the transmitter stands);
-//   a CST farfield table of the RCS: columns by their squeezed names, `Theta[deg.] Phi[deg.] Abs(Theta)[unit] Phase(Theta)[deg.] ...`, v received
-//   = Theta, h received = Phi, units m^2, mm^2, lambda^2 or dB() of them; no frequency inside. Theta below 0 is folded (|theta|, phi + 180, sign
-//   of both unit vectors changed). e^{+jwt}; theta^ = -v, phi^ = h, so cross-polar terms change sign.
-// Throws InputError with the file, the line and what is missing, and where settings.frequency_hz is another than the file's own.
+//   four columns without header: frequency in Hz, theta, phi in degrees, dBsm (Austin RCS Benchmark Suite); the table
+//   of `seaglint rcs` (columns by name; xx_re and xx_im, or xx_dbsm alone; its head says where the transmitter stands);
+//   a CST farfield table of the RCS: columns by their squeezed names, `Theta[deg.] Phi[deg.] Abs(Theta)[unit]
+//   Phase(Theta)[deg.] ...`, v received = Theta, h received = Phi, units m^2, mm^2, lambda^2 or dB() of them; no
+//   frequency inside. Theta below 0 is folded (|theta|, phi + 180, sign of both unit vectors changed). e^{+jwt}; theta^
+//   = -v, phi^ = h, so cross-polar terms change sign.
+// Throws InputError with the file, the line and what is missing, and where settings.frequency_hz is another than the
+// file's own.
 RcsReference read_reference(const std::filesystem::path& file, const ReferenceSettings& settings);
 
 }  // namespace seaglint

@@ -49,8 +49,8 @@ ordered_json read_metrics(const fs::path& directory) {
   }
   const fs::path of_model = directory / "model" / kMetricsFile;
   if (!fs::exists(of_model)) {
-    throw InputError(fmt::format("{}: missing: the last training did not end; go on by `seaglint run --resume`",
-                                 of_model.string()));
+    throw InputError(
+        fmt::format("{}: missing: the last training did not end; go on by `seaglint run --resume`", of_model.string()));
   }
   const ordered_json model = read_object(of_model);
   for (const auto& [member, value] : model.items()) {
@@ -88,14 +88,16 @@ std::string section(const char* id, const char* title, const std::string& conten
 
 std::string targets_section(const std::vector<ReportFigure>& all, const std::string& missing) {
   if (!missing.empty()) {
-    return fmt::format("<p>Neither the targets nor their motion are drawn: {}. Report the run again where its files are found.</p>\n",
-                       escape_html(missing));
+    return fmt::format(
+        "<p>Neither the targets nor their motion are drawn: {}. Report the run again where its files are found.</p>\n",
+        escape_html(missing));
   }
   const std::string pictures = figures(all, "targets");
   return pictures.empty() ? "<p>Ideal point scatterers; there is nothing to draw.</p>\n" : pictures;
 }
 
-std::string page(const ordered_json& metrics, const Scenario& scenario, const std::vector<ReportFigure>& all, const std::string& missing) {
+std::string page(const ordered_json& metrics, const Scenario& scenario, const std::vector<ReportFigure>& all,
+                 const std::string& missing) {
   const std::string name = escape_html(scenario.name);
   std::string body = fmt::format(
       "<header>\n<h1>Ship or corner-reflector array?</h1>\n<p class=\"lead\">Simulated frequency-agile radar maps, "

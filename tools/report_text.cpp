@@ -74,9 +74,11 @@ std::string compared_protocols(const ordered_json& random, const ordered_json& g
 // Of what the rows of a table are counted.
 std::string pooled_splits(int repeats) {
   if (repeats == 1) return "<p>One split under each protocol: a test prediction is a map.</p>\n";
-  return fmt::format("<p>{} splits under each protocol, pooled: a map that several of them test has a prediction of each, so that there "
-                     "may be more predictions than maps. A test sea counts once.</p>\n",
-                     repeats);
+  return fmt::format(
+      "<p>{} splits under each protocol, pooled: a map that several of them test has a prediction of each, so that "
+      "there "
+      "may be more predictions than maps. A test sea counts once.</p>\n",
+      repeats);
 }
 
 std::string item(const std::string& text) { return "<li>" + text + "</li>\n"; }
@@ -206,7 +208,9 @@ std::string feature_table(const ordered_json& metrics) {
   Rows rows{{"class, H<sub>s</sub>", "MWR ((m/s)²)", "CCF", "σ<sub>r</sub> (m)", "σ<sub>v</sub> (m/s)", "centres",
              "line explains"}};
   const auto cell = [](const ordered_json& q, const char* format, double scale) {
-    const auto number = [&](const char* key) { return fmt::format(fmt::runtime(format), scale * value_or_nan(q.at(key))); };
+    const auto number = [&](const char* key) {
+      return fmt::format(fmt::runtime(format), scale * value_or_nan(q.at(key)));
+    };
     return fmt::format("{} <small>({}–{})</small>", number("median"), number("lower"), number("upper"));
   };
   for (const auto& e : metrics.at("report").at("features_by_wave_height")) {
@@ -223,7 +227,8 @@ std::string note_of_seas(const ordered_json& metrics) {
   const std::size_t seas = metrics.at("handmade").at("group").at("groups");
   const int repeats = metrics.at("split_repeats");
   return fmt::format(
-      "<b>Few seas, wide intervals.</b> {} {} sea realisations{}. The bootstrap draws seas, not maps; with so few it is rough, and a "
+      "<b>Few seas, wide intervals.</b> {} {} sea realisations{}. The bootstrap draws seas, not maps; with so few it "
+      "is rough, and a "
       "height with one test sea has no interval at all. Differences smaller than the intervals are not findings.",
       repeats == 1 ? "The split by sea tests on" : fmt::format("{} splits by sea, pooled, test on", repeats), seas,
       repeats == 1 ? "" : " in all, each on a part of them");
@@ -236,8 +241,8 @@ std::string expert_notes(const ordered_json& metrics, const Scenario& scenario) 
       "<b>Two protocols.</b> Fused features reach {} on random maps and {} on unseen seas{}. Maps of one sea, {:g} s "
       "apart and seen "
       "from several aspects, are not independent: the second figure is the one that would carry over to another day.",
-      percent(value_or_nan(random.at("accuracy"))), percent(value_or_nan(group.at("accuracy"))), compared_protocols(random, group),
-      scenario.dataset.interval_spacing_s));
+      percent(value_or_nan(random.at("accuracy"))), percent(value_or_nan(group.at("accuracy"))),
+      compared_protocols(random, group), scenario.dataset.interval_spacing_s));
   html += item(note_of_seas(metrics));
   html += item(note_of_level(metrics, scenario));
   const auto alone = [&metrics](const char* name) { return percent(probe_accuracy(metrics, name)); };
@@ -262,15 +267,17 @@ std::string expert_notes(const ordered_json& metrics, const Scenario& scenario) 
     if (entry.at("kind") == "blind") clean = clean && as_chance(metrics, entry);
   }
   const std::string chance = guessing(group).text();
-  html += item(
-      clean ? fmt::format("<b>No leak by construction.</b> Hop code and sample order, which know nothing of the target, "
-                          "stay at chance ({} on unseen seas, from the shares of the classes).",
-                          chance)
-            : fmt::format("<b>Look for a leak.</b> A quantity that knows nothing of the target (hop code or sample order) "
-                          "is away from chance ({} on unseen seas, from the shares of the classes) by more than its "
-                          "interval. With several probes and few seas this happens by chance now and then; repeat with "
-                          "another seed before believing it.",
-                          chance));
+  html +=
+      item(clean ? fmt::format(
+                       "<b>No leak by construction.</b> Hop code and sample order, which know nothing of the target, "
+                       "stay at chance ({} on unseen seas, from the shares of the classes).",
+                       chance)
+                 : fmt::format(
+                       "<b>Look for a leak.</b> A quantity that knows nothing of the target (hop code or sample order) "
+                       "is away from chance ({} on unseen seas, from the shares of the classes) by more than its "
+                       "interval. With several probes and few seas this happens by chance now and then; repeat with "
+                       "another seed before believing it.",
+                       chance));
   // The random code's pedestal and the velocity cell set what the features can resolve.
   const PulseTrain train = make_pulse_train(scenario.radar, scenario.map.range_span_m, scenario.seed, 0);
   const double cell = train.velocity_resolution_mps();

@@ -16,7 +16,8 @@ std::string summary_tiles(const nlohmann::ordered_json& metrics);
 std::string accuracy_tables(const nlohmann::ordered_json& metrics);
 std::string claims_table(const nlohmann::ordered_json& metrics);
 std::string feature_table(const nlohmann::ordered_json& metrics);
-std::string note_of_seas(const nlohmann::ordered_json& metrics);  // on how many seas the splits test, one of the expert notes
+// on how many seas the splits test, one of the expert notes
+std::string note_of_seas(const nlohmann::ordered_json& metrics);
 std::string expert_notes(const nlohmann::ordered_json& metrics, const Scenario& scenario);
 std::string provenance_table(const nlohmann::ordered_json& metrics);
 

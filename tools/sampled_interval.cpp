@@ -56,8 +56,7 @@ SampledInterval sampled_interval(const Pipeline& pipeline, std::size_t sample) {
     return sampled;
   };
   if (!echo.clutter.empty()) interval.clutter = with_level(echo.clutter, made.received.scr.per_pulse_db, 1);
-  if (!echo.noise.empty())
-    interval.noise = with_level(echo.noise, made.received.scr.snr_per_pulse_db, fine.refinement);
+  if (!echo.noise.empty()) interval.noise = with_level(echo.noise, made.received.scr.snr_per_pulse_db, fine.refinement);
   return interval;
 }
 

@@ -11,8 +11,8 @@ namespace seaglint {
 // Target and clutter are those of the sample's map, at the levels they have there; noise has the level of the map's but
 // is another realisation, as a map's frequencies hold one part in `refinement` of it.
 struct SampledInterval {
-  PulseTrain train;                          // of the map
-  SampledEcho target;                        // of the target with its companions
+  PulseTrain train;                           // of the map
+  SampledEcho target;                         // of the target with its companions
   std::optional<SampledEcho> clutter, noise;  // nothing where the scenario has none
 };
 

@@ -30,7 +30,9 @@ double radius_m(const TriangleMesh& mesh) {
 double interval_length_s(const RadarSpec& radar) { return radar.pulses * radar.pri_us * 1e-6; }
 
 // From t = 0 to the end of a realisation's last interval.
-double scene_duration_s(const Scenario& scenario) { return SamplePlan(scenario).last_start_s() + interval_length_s(scenario.radar); }
+double scene_duration_s(const Scenario& scenario) {
+  return SamplePlan(scenario).last_start_s() + interval_length_s(scenario.radar);
+}
 
 // Radius about the target's reference point that the target never leaves.
 double reach_m(const Target& target, double interval_s) {
@@ -73,16 +75,20 @@ void check_mesh(const Scenario& scenario, Target& target) {
     target.mesh = std::move(sound.mesh);
     target.doubts = std::move(sound.doubts);
   } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}", place_of(scenario, fmt::format("targets.{}.mesh", target.spec.name)), error.what()));
+    throw InputError(
+        fmt::format("{}: {}", place_of(scenario, fmt::format("targets.{}.mesh", target.spec.name)), error.what()));
   }
 }
 
-// The radar must be far from all that stands in one map, however far from the reference point its bodies are. `companion`: which one of the target's, if any.
-void check_scene_range(const Scenario& scenario, const TargetSpec& spec, const Target& body, std::optional<std::size_t> companion) {
+// The radar must be far from all that stands in one map, however far from the reference point its bodies are.
+// `companion`: which one of the target's, if any.
+void check_scene_range(const Scenario& scenario, const TargetSpec& spec, const Target& body,
+                       std::optional<std::size_t> companion) {
   try {
     check_range(reach_m(body, interval_length_s(scenario.radar)), spec.solver.radar_range_m);
   } catch (const InputError& error) {
-    const std::string key = fmt::format("targets.{}.{}", spec.name, companion ? fmt::format("with.{}", *companion) : "solver");
+    const std::string key =
+        fmt::format("targets.{}.{}", spec.name, companion ? fmt::format("with.{}", *companion) : "solver");
     throw InputError(fmt::format("{}: {}", place_of(scenario, key), error.what()));
   }
 }
@@ -92,9 +98,11 @@ void check_series(const Scenario& scenario, const TargetSpec& spec, const Body& 
   const auto* series = std::get_if<AttitudeSeries>(&body.model);
   if (series == nullptr) return;
   try {
-    trajectory_of(*series, spec.motion.series_start_s, scene_duration_s(scenario), spec.motion.translations, Vec3::Zero(), Vec3::Zero());
+    trajectory_of(*series, spec.motion.series_start_s, scene_duration_s(scenario), spec.motion.translations,
+                  Vec3::Zero(), Vec3::Zero());
   } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: value {}: {}", place_of(scenario, fmt::format("targets.{}.motion.series_start_s", spec.name)),
+    throw InputError(fmt::format("{}: value {}: {}",
+                                 place_of(scenario, fmt::format("targets.{}.motion.series_start_s", spec.name)),
                                  spec.motion.series_start_s, error.what()));
   }
 }
@@ -104,11 +112,14 @@ void check_above_water(const Scenario& scenario, const TargetSpec& spec, const T
   const double top_m = bounds(mesh).upper.z(), height_m = rest_position(spec.motion, 0, 0).z();
   if (!scenario.sea_reflection.enabled || top_m + height_m > 0) return;
   if (spec.motion.model == MotionModel::kFloat) {
-    throw InputError(fmt::format("{}: value {}: must be greater than {:.6g} with sea_reflection, else the whole target is under water",
-                                 place_of(scenario, fmt::format("targets.{}.motion.centre_above_water_m", spec.name)), height_m, -top_m));
+    throw InputError(fmt::format(
+        "{}: value {}: must be greater than {:.6g} with sea_reflection, else the whole target is under water",
+        place_of(scenario, fmt::format("targets.{}.motion.centre_above_water_m", spec.name)), height_m, -top_m));
   }
-  throw InputError(fmt::format("{}: its highest point is at z = {:.6g} m: must be above 0, the water, with sea_reflection, else the whole target is under water",
-                               place_of(scenario, fmt::format("targets.{}.mesh", spec.name)), top_m));
+  throw InputError(
+      fmt::format("{}: its highest point is at z = {:.6g} m: must be above 0, the water, with sea_reflection, else the "
+                  "whole target is under water",
+                  place_of(scenario, fmt::format("targets.{}.mesh", spec.name)), top_m));
 }
 
 }  // namespace
@@ -201,9 +212,10 @@ double range_window_m(const Scenario& scenario, const std::vector<Target>& targe
   const RadarSpec& radar = scenario.radar;
   const double echo_us = echo_duration_us(radar, window_m);
   if (echo_us > radar.pri_us) {
-    throw InputError(fmt::format("{}: a target reaches {:.6g} m from the reference point: its echo lasts {:.6g} us with the pulse and "
-                                 "must end within radar.pri_us, {}",
-                                 place_of(scenario, "targets"), reach, echo_us, radar.pri_us));
+    throw InputError(fmt::format(
+        "{}: a target reaches {:.6g} m from the reference point: its echo lasts {:.6g} us with the pulse and "
+        "must end within radar.pri_us, {}",
+        place_of(scenario, "targets"), reach, echo_us, radar.pri_us));
   }
   return window_m;
 }

@@ -22,22 +22,25 @@ namespace seaglint {
 // A target as loaded: one mesh shared by its bodies, or ideal points.
 struct Target {
   TargetSpec spec;
-  TriangleMesh mesh;                 // empty for points
+  TriangleMesh mesh;                    // empty for points
   std::vector<MaterialSpec> materials;  // of mesh.materials
   std::vector<std::string> doubts;      // about the mesh, a sentence each
-  Body body;                         // how it moves; unused for points
-  std::vector<Vec3> rest_positions;  // of the bodies' origins, target frame; empty for points
-  std::size_t first_body = 0;        // bodies are counted over all targets, in order
-  std::size_t shape = 0;             // the target whose mesh, materials and points these are: itself, or the one a companion stands for
-  std::vector<std::size_t> with;     // its companions, as further targets behind those of the scenario
-  Vec3 passing_mps = Vec3::Zero();   // of a companion, in the frame of the target that it stands with, which makes way of its own
+  Body body;                            // how it moves; unused for points
+  std::vector<Vec3> rest_positions;     // of the bodies' origins, target frame; empty for points
+  std::size_t first_body = 0;           // bodies are counted over all targets, in order
+  // the target whose mesh, materials and points these are: itself, or the one a companion stands for
+  std::size_t shape = 0;
+  std::vector<std::size_t> with;  // its companions, as further targets behind those of the scenario
+  // of a companion, in the frame of the target that it stands with, which makes way of its own
+  Vec3 passing_mps = Vec3::Zero();
 };
 
 // How a target moves, from its mesh and the files its motion names. Throws InputError naming the target.
 Body load_body(const Scenario& scenario, const TargetSpec& spec, const TriangleMesh& mesh);
 
-// Throws InputError for a mesh that is missing or unsound, and for a material that is missing, unsound or not known at the radar's frequencies.
-// The targets of the scenario, in its order, then one more for each companion, moved to where it stands.
+// Throws InputError for a mesh that is missing or unsound, and for a material that is missing, unsound or not known at
+// the radar's frequencies. The targets of the scenario, in its order, then one more for each companion, moved to where
+// it stands.
 std::vector<Target> load_targets(const Scenario& scenario);
 
 // Full width of the range window that holds the response of every target of the scenario, wherever it is seen from. It

@@ -21,17 +21,20 @@ struct CoarsestSea {
 
 void add_doubt(std::vector<std::string>& lines, const char* key, int components, const CoarsestSea& sea) {
   if (sea.width <= kWidestStratum) return;
-  lines.push_back(fmt::format("{}: {} for waves of Tp {:.3g} s make strata {:.2g} of the peak frequency wide, and the mean period is "
-                              "another one in every realisation: {:.0f} and more hold it within about 1 %",
-                              key, components, sea.peak_period_s, sea.width, std::ceil(components * sea.width / kWidestStratum)));
+  lines.push_back(fmt::format(
+      "{}: {} for waves of Tp {:.3g} s make strata {:.2g} of the peak frequency wide, and the mean period is "
+      "another one in every realisation: {:.0f} and more hold it within about 1 %",
+      key, components, sea.peak_period_s, sea.width, std::ceil(components * sea.width / kWidestStratum)));
 }
 
 }  // namespace
 
 std::vector<std::string> mesh_doubts(const Pipeline& pipeline) {
   std::vector<std::string> lines;
-  for (const Target& target : std::span(pipeline.targets()).first(pipeline.scenario().targets.size())) {  // no companions
-    for (const std::string& doubt : target.doubts) lines.push_back(fmt::format("targets.{}.mesh: {}", target.spec.name, doubt));
+  // no companions
+  for (const Target& target : std::span(pipeline.targets()).first(pipeline.scenario().targets.size())) {
+    for (const std::string& doubt : target.doubts)
+      lines.push_back(fmt::format("targets.{}.mesh: {}", target.spec.name, doubt));
   }
   return lines;
 }
@@ -57,7 +60,8 @@ std::vector<std::string> band_doubts(const Pipeline& pipeline) {
 }
 
 void warn(std::span<const std::string> sentences) {
-  for (const std::string& sentence : sentences) print_error(fmt::format("seaglint: warning: {}\n", on_one_line(sentence)));
+  for (const std::string& sentence : sentences)
+    print_error(fmt::format("seaglint: warning: {}\n", on_one_line(sentence)));
 }
 
 }  // namespace seaglint

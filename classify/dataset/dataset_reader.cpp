@@ -35,9 +35,10 @@ DatasetReader::DatasetReader(fs::path directory, OtherScenario other) : director
   }
   const fs::path scenario = directory_ / kScenarioFile;
   if (other == OtherScenario::kRefused && sha256_file(scenario) != manifest_.scenario_sha256) {
-    throw InputError(fmt::format("{}: is not the one that the manifest was written for; bring that one back, or go on with another `learning` "
-                                 "by `seaglint generate SCENARIO -o DIR --resume`",
-                                 scenario.string()));
+    throw InputError(fmt::format(
+        "{}: is not the one that the manifest was written for; bring that one back, or go on with another `learning` "
+        "by `seaglint generate SCENARIO -o DIR --resume`",
+        scenario.string()));
   }
 }
 

@@ -50,7 +50,8 @@ std::set<std::string> file_names(const fs::path& directory) {
   return names;
 }
 
-// A directory to go on in holds nothing else than a data set. That of a run has a scenario too; its data set lies below.
+// A directory to go on in holds nothing else than a data set. That of a run has a scenario too; its data set lies
+// below.
 void require_own_directory(const fs::path& directory) {
   if (is_empty_or_absent(directory)) return;
   for (const std::string& name : file_names(directory)) {
@@ -58,8 +59,8 @@ void require_own_directory(const fs::path& directory) {
     const fs::path of_run = directory / "data";
     std::error_code error;
     const bool is_run = fs::exists(of_run / kScenarioFile, error);
-    throw InputError(fmt::format("{}: the directory holds {}, which is no file of a data set{}", directory.string(), name,
-                                 is_run ? "; the run's data set is " + of_run.string() : ""));
+    throw InputError(fmt::format("{}: the directory holds {}, which is no file of a data set{}", directory.string(),
+                                 name, is_run ? "; the run's data set is " + of_run.string() : ""));
   }
 }
 

@@ -28,9 +28,10 @@ bool may_lie_in_data_set(const std::string& name);
 class DatasetWriter {
  public:
   // Makes the directory and writes scenario.yaml. Without `resume` the directory must be new or empty; with it, it must
-  // hold nothing but files of a data set, a scenario.yaml that is there must make the same maps (its learning section and split may differ), the files that it
-  // names be those that the directory was begun with, and the manifest, if any, be of `program_version`. Throws
-  // InputError naming the directory and the difference, WorkError when the disk refuses.
+  // hold nothing but files of a data set, a scenario.yaml that is there must make the same maps (its learning section
+  // and split may differ), the files that it names be those that the directory was begun with, and the manifest, if
+  // any, be of `program_version`. Throws InputError naming the directory and the difference, WorkError when the disk
+  // refuses.
   DatasetWriter(std::filesystem::path directory, const Scenario& scenario, bool resume, std::string program_version);
 
   // True when the shard is on the disk and sound: it is read, its rows are compared with the scenario, and its checksum
@@ -47,8 +48,8 @@ class DatasetWriter {
   // Returns the shards that are missing or damaged.
   std::vector<std::size_t> finish();
 
-  // Takes back what the constructor put into a new or empty directory, where nothing else is yet; for a scenario of which no sample can be made, by a
-  // process that nobody shares the directory with.
+  // Takes back what the constructor put into a new or empty directory, where nothing else is yet; for a scenario of
+  // which no sample can be made, by a process that nobody shares the directory with.
   void withdraw();
 
   const std::filesystem::path& directory() const { return directory_; }

@@ -27,16 +27,11 @@ std::string name_of(const std::string& path) { return path.substr(1); }
 
 const char* numpy_type(Element element) {
   switch (element) {
-    case Element::kFloat:
-      return "<f4";
-    case Element::kInt64:
-      return "<i8";
-    case Element::kUint16:
-      return "<u2";
-    case Element::kName:
-      return "|S64";
-    default:
-      return "<f8";
+    case Element::kFloat: return "<f4";
+    case Element::kInt64: return "<i8";
+    case Element::kUint16: return "<u2";
+    case Element::kName: return "|S64";
+    default: return "<f8";
   }
 }
 
@@ -146,22 +141,26 @@ void export_shards(const DatasetReader& reader, std::size_t first, std::size_t c
 void require_export_directory(const DatasetReader& reader, const fs::path& directory) {
   std::error_code error;
   if (!fs::exists(directory, error)) return;
-  if (!fs::is_directory(directory, error)) throw InputError(fmt::format("{}: is a file, not a directory", directory.string()));
+  if (!fs::is_directory(directory, error))
+    throw InputError(fmt::format("{}: is a file, not a directory", directory.string()));
   if (fs::equivalent(directory, reader.directory(), error))
     throw InputError(fmt::format("{}: is the data set itself; export it into another directory", directory.string()));
 
   std::set<std::string> ours;
-  for (const ManifestShard& shard : reader.manifest().shards) ours.insert(fs::path(shard.file).replace_extension(".npz"));
+  for (const ManifestShard& shard : reader.manifest().shards)
+    ours.insert(fs::path(shard.file).replace_extension(".npz"));
   const std::string manifest = sha256_file(reader.directory() / kManifestFile);
   std::set<std::string> there;
-  for (fs::directory_iterator it(directory, error), end; !error && it != end; it.increment(error)) there.insert(it->path().filename());
+  for (fs::directory_iterator it(directory, error), end; !error && it != end; it.increment(error))
+    there.insert(it->path().filename());
   if (error) throw WorkError(fmt::format("{}: {}", directory.string(), error.message()));
   for (const std::string& name : there) {
     // A file server keeps under a hidden name what was removed while another process had it open.
     if (name.starts_with('.') || is_temporary(name)) continue;
     if (ours.contains(name) && exported_manifest(directory / name) == manifest) continue;
-    throw InputError(fmt::format("{}: the directory holds {}, which is not of this data set's export; choose a new directory",
-                                 directory.string(), name));
+    throw InputError(
+        fmt::format("{}: the directory holds {}, which is not of this data set's export; choose a new directory",
+                    directory.string(), name));
   }
 }
 

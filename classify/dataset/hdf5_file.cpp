@@ -178,14 +178,10 @@ std::vector<std::string> unpacked(const std::vector<char>& text) {
 
 std::size_t bytes_of(Element element) {
   switch (element) {
-    case Element::kFloat:
-      return sizeof(float);
-    case Element::kUint16:
-      return sizeof(std::uint16_t);
-    case Element::kName:
-      return kNameBytes;
-    default:
-      return sizeof(double);
+    case Element::kFloat: return sizeof(float);
+    case Element::kUint16: return sizeof(std::uint16_t);
+    case Element::kName: return kNameBytes;
+    default: return sizeof(double);
   }
 }
 

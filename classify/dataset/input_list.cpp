@@ -25,7 +25,8 @@ std::map<std::string, std::string> read_list(const fs::path& file) {
   std::istringstream lines(read_file(file));
   for (std::string line; std::getline(lines, line);) {
     const std::size_t gap = line.find("  ");
-    if (gap == std::string::npos) throw InputError(fmt::format("{}: '{}': must be a checksum and a key", file.string(), line));
+    if (gap == std::string::npos)
+      throw InputError(fmt::format("{}: '{}': must be a checksum and a key", file.string(), line));
     checksums[line.substr(gap + 2)] = line.substr(0, gap);
   }
   return checksums;
@@ -54,8 +55,9 @@ void require_same_inputs(const fs::path& directory, const Scenario& scenario) {
   for (const InputFile& file : all_files(scenario)) {
     const auto known = checksums.find(file.key);
     if (known != checksums.end() && known->second == sha256_file(file.path)) continue;
-    throw InputError(fmt::format("{}: {}: {} is not the file that the data set was begun with; bring that one back or choose another directory",
-                                 list.string(), file.key, file.path.string()));
+    throw InputError(fmt::format(
+        "{}: {}: {} is not the file that the data set was begun with; bring that one back or choose another directory",
+        list.string(), file.key, file.path.string()));
   }
 }
 

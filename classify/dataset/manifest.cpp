@@ -93,8 +93,9 @@ Manifest read_manifest(const std::filesystem::path& file) {
     }
     return manifest;
   } catch (const nlohmann::json::exception& error) {
-    throw InputError(fmt::format("{}: {}; the shards are kept: remove this file and go on by `seaglint generate SCENARIO -o DIR --resume`",
-                                 file.string(), json_problem(error)));
+    throw InputError(fmt::format(
+        "{}: {}; the shards are kept: remove this file and go on by `seaglint generate SCENARIO -o DIR --resume`",
+        file.string(), json_problem(error)));
   }
 }
 

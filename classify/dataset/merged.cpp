@@ -62,7 +62,8 @@ void refuse_foreign_files(const fs::path& directory, std::size_t shards) {
 
 // What stands at the merged file's place and is none itself would be lost, a shard above all.
 void require_own_place(const fs::path& file) {
-  if (file.extension() != ".h5") throw InputError(fmt::format("{}: the name of a merged file ends in .h5", file.string()));
+  if (file.extension() != ".h5")
+    throw InputError(fmt::format("{}: the name of a merged file ends in .h5", file.string()));
   if (fs::exists(file) && !is_merged(file))
     throw InputError(fmt::format("{}: exists and is no merged file; choose another name", file.string()));
 }
@@ -164,8 +165,8 @@ Merged merge_dataset(const fs::path& directory, const fs::path& file, const std:
 
   const DatasetReader reader(directory);
   if (reader.shards() != SamplePlan(scenario).shards()) {
-    throw InputError(fmt::format("{}: {} shards, the scenario has {}", (directory / kManifestFile).string(), reader.shards(),
-                                 SamplePlan(scenario).shards()));
+    throw InputError(fmt::format("{}: {} shards, the scenario has {}", (directory / kManifestFile).string(),
+                                 reader.shards(), SamplePlan(scenario).shards()));
   }
   write_file_with(file, [&](const fs::path& temporary) {
     try {

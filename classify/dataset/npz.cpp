@@ -86,11 +86,8 @@ zip_int64_t serve(void* user, void* data, zip_uint64_t length, zip_source_cmd_t 
   switch (command) {
     case ZIP_SOURCE_OPEN:
     case ZIP_SOURCE_CLOSE:
-    case ZIP_SOURCE_FREE:
-      return 0;
-    case ZIP_SOURCE_READ:
-      try {
-        return member->read(static_cast<char*>(data), length);
+    case ZIP_SOURCE_FREE: return 0;
+    case ZIP_SOURCE_READ: try { return member->read(static_cast<char*>(data), length);
       } catch (...) {  // no exception may pass through a library in C
         *member->failed = std::current_exception();
         return -1;
@@ -107,10 +104,8 @@ zip_int64_t serve(void* user, void* data, zip_uint64_t length, zip_source_cmd_t 
       std::memcpy(data, error, sizeof error);
       return sizeof error;
     }
-    case ZIP_SOURCE_SUPPORTS:
-      return ZIP_SOURCE_SUPPORTS_READABLE;
-    default:
-      return -1;
+    case ZIP_SOURCE_SUPPORTS: return ZIP_SOURCE_SUPPORTS_READABLE;
+    default: return -1;
   }
 }
 
@@ -163,15 +158,18 @@ std::string read_npz_text(const std::filesystem::path& file, const std::string& 
   const std::unique_ptr<zip_t, decltype(&zip_discard)> archive(zip_open(file.c_str(), ZIP_RDONLY, &code), &zip_discard);
   if (!archive) fail();
   zip_stat_t stat;
-  if (zip_stat(archive.get(), name.c_str(), 0, &stat) != 0 || !(stat.valid & ZIP_STAT_SIZE) || stat.size > kMostBytes) fail();
-  const std::unique_ptr<zip_file_t, decltype(&zip_fclose)> member(zip_fopen(archive.get(), name.c_str(), 0), &zip_fclose);
+  if (zip_stat(archive.get(), name.c_str(), 0, &stat) != 0 || !(stat.valid & ZIP_STAT_SIZE) || stat.size > kMostBytes)
+    fail();
+  const std::unique_ptr<zip_file_t, decltype(&zip_fclose)> member(zip_fopen(archive.get(), name.c_str(), 0),
+                                                                  &zip_fclose);
   std::string text(stat.size, '\0');
   if (!member || zip_fread(member.get(), text.data(), stat.size) != static_cast<zip_int64_t>(stat.size)) fail();
   return text;
 }
 
 void require_npz(const std::filesystem::path& file) {
-  if (!file.empty() && file.extension() != ".npz") throw InputError(fmt::format("{}: NumPy's archives end in .npz", file.string()));
+  if (!file.empty() && file.extension() != ".npz")
+    throw InputError(fmt::format("{}: NumPy's archives end in .npz", file.string()));
   require_writable(file);
 }
 

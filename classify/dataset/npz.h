@@ -42,7 +42,8 @@ std::string bytes_of_values(std::span<const T> values) {
 // The text file `name` inside an archive. Throws InputError naming the archive where there is none of at most 16 MB.
 std::string read_npz_text(const std::filesystem::path& file, const std::string& name);
 
-// Throws InputError unless the name ends in .npz, and WorkError where write_npz() would find the place refusing. An empty name is none.
+// Throws InputError unless the name ends in .npz, and WorkError where write_npz() would find the place refusing. An
+// empty name is none.
 void require_npz(const std::filesystem::path& file);
 
 // Writes the archive whole or not at all, arrays in their order. What next() throws is passed on; an array that does

@@ -9,9 +9,9 @@
 namespace seaglint {
 namespace {
 
-// Half widths of the surroundings, in resolution cells. Along velocity as far as a ridge of 0.2 m/s reaches, along range
-// about as far as texture keeps its strength (five cells): with 8 or 10 ranges two or three times as many maps of waves
-// held a false centre, with 10 half as many weak centres of ships were lost.
+// Half widths of the surroundings, in resolution cells. Along velocity as far as a ridge of 0.2 m/s reaches, along
+// range about as far as texture keeps its strength (five cells): with 8 or 10 ranges two or three times as many maps of
+// waves held a false centre, with 10 half as many weak centres of ships were lost.
 constexpr double kHalfVelocities = 2;
 constexpr double kHalfRanges = 6;
 // Points that hold this many times the rest explain their surroundings, the strongest left out, since it would shelter

@@ -14,10 +14,10 @@ namespace seaglint {
 
 // Sizes that a judgement needs: of a resolution cell, of a point's main lobe and of the map's cells.
 struct CellSizes {
-  double range_m = 1;       // c / (2 B_s)
-  double velocity_mps = 1;  // lambda / (2 N T_r)
+  double range_m = 1;                                        // c / (2 B_s)
+  double velocity_mps = 1;                                   // lambda / (2 N T_r)
   double range_oversampling = 1, velocity_oversampling = 1;  // cells of the map per resolution cell
-  double lobe_cells = 1;    // power that a point of amplitude 1 spreads over the resolution cells of its lobe
+  double lobe_cells = 1;  // power that a point of amplitude 1 spreads over the resolution cells of its lobe
 };
 
 // One answer for each of `points`: whether it is at least `least_power`, and `factor` times the level it is seen

@@ -29,7 +29,8 @@ RvMap restored_map(const CleanedMap& cleaned, const PulseTrain& train, const Map
   const auto bins = static_cast<std::size_t>(train.band_bins());
   std::vector<double> frequency_hz(bins);
   for (std::size_t k = 0; k < bins; ++k)
-    frequency_hz[k] = train.first_carrier_hz + train.baseband_hz.front() + static_cast<double>(k) * train.baseband_step_hz;
+    frequency_hz[k] =
+        train.first_carrier_hz + train.baseband_hz.front() + static_cast<double>(k) * train.baseband_step_hz;
   const std::vector<double> range_weight = normalised(taper_samples(map_spec.range_taper, bins));
   const std::vector<double> velocity_weight = normalised(taper_samples(map_spec.velocity_taper, train.pulses()));
 
@@ -40,8 +41,7 @@ RvMap restored_map(const CleanedMap& cleaned, const PulseTrain& train, const Map
     for (const double r : map.range_m)
       along_range.push_back(lobe(range_weight, frequency_hz, per_hz * (r - point.range_m), centre_hz));
     for (const double v : map.velocity_mps)
-      along_velocity.push_back(
-          lobe(velocity_weight, train.time_s, per_hz * centre_hz * (v - point.velocity_mps), 0));
+      along_velocity.push_back(lobe(velocity_weight, train.time_s, per_hz * centre_hz * (v - point.velocity_mps), 0));
     for (std::size_t v = 0; v < along_velocity.size(); ++v) {
       for (std::size_t r = 0; r < along_range.size(); ++r)
         map.values[v * map.columns() + r] += point.amplitude_m * along_velocity[v] * along_range[r];

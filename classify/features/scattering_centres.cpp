@@ -30,14 +30,10 @@ double decibel_ratio(double db) { return std::pow(10, db / 10); }
 // are one.
 double lobe_width(Taper taper) {
   switch (taper) {
-    case Taper::kNone:
-      return 1;
-    case Taper::kHann:
-      return 1.62;
-    case Taper::kHamming:
-      return 1.47;
-    case Taper::kTaylor:
-      return 1.35;
+    case Taper::kNone: return 1;
+    case Taper::kHann: return 1.62;
+    case Taper::kHamming: return 1.47;
+    case Taper::kTaylor: return 1.35;
   }
   return 1;
 }
@@ -147,8 +143,9 @@ CleanedMap clean_map(std::span<const Complex> echo, const PulseTrain& train, con
     found = false;
     const std::vector<Maximum> maxima = local_maxima(map, depth * strongest, factor, floor);
     if (maxima.empty()) break;
-    // Below the round's depth, counted from the strongest maximum that holds, one may be a sidelobe or pedestal of a stronger one: it waits for the
-    // next map. What does not hold, a ridge of clutter say, has been looked at and decides nothing.
+    // Below the round's depth, counted from the strongest maximum that holds, one may be a sidelobe or pedestal of a
+    // stronger one: it waits for the next map. What does not hold, a ridge of clutter say, has been looked at and
+    // decides nothing.
     double round_floor = 0;
     std::size_t fits = 0;
     for (const Maximum& cell : maxima) {

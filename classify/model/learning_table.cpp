@@ -116,16 +116,11 @@ std::vector<Probe> empty_probes(std::size_t bands) {
 
 const char* name(ProbeKind kind) {
   switch (kind) {
-    case ProbeKind::kBlind:
-      return "blind";
-    case ProbeKind::kScale:
-      return "scale";
-    case ProbeKind::kRatio:
-      return "ratio";
-    case ProbeKind::kShape:
-      return "shape";
-    case ProbeKind::kFeature:
-      return "feature";
+    case ProbeKind::kBlind: return "blind";
+    case ProbeKind::kScale: return "scale";
+    case ProbeKind::kRatio: return "ratio";
+    case ProbeKind::kShape: return "shape";
+    case ProbeKind::kFeature: return "feature";
   }
   return "";
 }

@@ -28,7 +28,9 @@ double beam_deviation_rad(const RadarSpec& radar) {
 }
 
 // coth(k h): how much longer than high a wave's orbits are at the surface, 1 in deep water.
-double orbit_ratio(const WaveComponent& wave, double depth) { return 1 / std::tanh(std::min(20.0, wave.wavenumber * depth)); }
+double orbit_ratio(const WaveComponent& wave, double depth) {
+  return 1 / std::tanh(std::min(20.0, wave.wavenumber * depth));
+}
 
 // Mean velocity of the water's particles at the surface, along the wave's way (Stokes 1847; Phillips, "The Dynamics of
 // the Upper Ocean", 2nd ed. 1977, section 3.3):

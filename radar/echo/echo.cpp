@@ -36,8 +36,8 @@ std::vector<Complex> clutter_echo(const PulseTrain& train, const ClutterSpec& cl
   if (clutter.level == ClutterLevel::kNrl) {
     const double grazing = std::asin(scene.r_hat.z());
     const double state = clutter.sea_state.value_or(douglas_sea_state(scene.significant_wave_height_m));
-    const double sigma0 = std::pow(
-        10, nrl_reflectivity_db(scene.radar.polarisation, grazing, train.band_centre_hz(), state) / 10);
+    const double sigma0 =
+        std::pow(10, nrl_reflectivity_db(scene.radar.polarisation, grazing, train.band_centre_hz(), state) / 10);
     const double window_m = train.unambiguous_range_m() / train.refinement;
     power = sigma0 * clutter_area_m2(scene.radar, grazing, window_m) / (4 * kPi);
   }
@@ -59,8 +59,8 @@ std::vector<Complex> white_noise(std::size_t size, std::uint64_t seed, std::uint
   return noise;
 }
 
-// The phase of the radar's own way from the reference point, where the receiver does not take it out: range R(t) - R(0),
-// R(t) = |R_0 r^ + u t|.
+// The phase of the radar's own way from the reference point, where the receiver does not take it out: range R(t) -
+// R(0), R(t) = |R_0 r^ + u t|.
 void add_own_motion(std::vector<Complex>& echo, const PulseTrain& train, const ClutterScene& scene) {
   const PlatformSpec& platform = scene.radar.platform;
   const Vec3 velocity(platform.velocity_mps.data());
@@ -118,12 +118,8 @@ Echo synthesize_echo(const PulseTrain& train, const FrequencyResponse& response,
     case NoiseLevel::kToClutter:
       scale(echo.noise, mean_power(echo.clutter) / mean_power(echo.noise) * ratio(clutter.noise_to_clutter_db));
       break;
-    case NoiseLevel::kSnr:
-      scale(echo.noise, target_power / mean_power(echo.noise) / ratio(clutter.snr_db));
-      break;
-    case NoiseLevel::kThermal:
-      scale(echo.noise, thermal_noise_m2(train, scene.radar));
-      break;
+    case NoiseLevel::kSnr: scale(echo.noise, target_power / mean_power(echo.noise) / ratio(clutter.snr_db)); break;
+    case NoiseLevel::kThermal: scale(echo.noise, thermal_noise_m2(train, scene.radar)); break;
   }
   return echo;
 }

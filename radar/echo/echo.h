@@ -40,7 +40,8 @@ double mean_power(std::span<const Complex> values);
 // |target|^2 over mean |clutter|^2 is scr_db exactly, per pulse, whatever the definition: the other two need maps
 // (radar/rvmap/scr.h scales on from here); where it is the sea's own, its mean power is sigma0 A / (4 pi), A the area
 // of the range window. The response is the one asked for by interval_sampling(train, ...). Streams kClutter,
-// kClutterPlace and kNoise of (seed, index), kTexture of (seed, scene.texture_key). Throws InputError when the target has no power.
+// kClutterPlace and kNoise of (seed, index), kTexture of (seed, scene.texture_key). Throws InputError when the target
+// has no power.
 Echo synthesize_echo(const PulseTrain& train, const FrequencyResponse& response, const ClutterSpec& clutter,
                      std::uint64_t seed, std::uint64_t index, const ClutterScene& scene = {});
 

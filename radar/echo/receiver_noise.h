@@ -9,8 +9,8 @@
 namespace seaglint {
 
 // Mean |noise|^2 of one frequency of one pulse, m^2, in the scale where a target of scattering amplitude a answers with
-// |Y| = a. Radar equation (Richards, Scheer and Holm, "Principles of Modern Radar", vol. 1 (2010), chapter 2) with sigma
-// = 4 pi a^2: energy of a pulse E = P T_p G^2 lambda^2 sigma / ((4 pi)^3 R^4 L) against N_0 = k T F. A pulse's F
+// |Y| = a. Radar equation (Richards, Scheer and Holm, "Principles of Modern Radar", vol. 1 (2010), chapter 2) with
+// sigma = 4 pi a^2: energy of a pulse E = P T_p G^2 lambda^2 sigma / ((4 pi)^3 R^4 L) against N_0 = k T F. A pulse's F
 // frequencies, summed in phase, must have the matched filter's ratio E / N_0, so noise^2 = F a^2 N_0 / E.
 double thermal_noise_m2(const PulseTrain& train, const RadarSpec& radar);
 

@@ -43,9 +43,10 @@ PulseTrain train_for_samples(const PulseTrain& train, const RadarSpec& radar) {
   while (whole_ratio(sampling_hz, train.baseband_step_hz / refinement) == 0) {
     refinement += 2;
     if (refinement > 4 * least) {
-      throw InputError(fmt::format("radar.sampling_mhz: value {}: must be a multiple of a frequency step below {:.6g} MHz "
-                                   "for an echo in samples",
-                                   radar.sampling_mhz, train.baseband_step_hz * 1e-6 / least));
+      throw InputError(
+          fmt::format("radar.sampling_mhz: value {}: must be a multiple of a frequency step below {:.6g} MHz "
+                      "for an echo in samples",
+                      radar.sampling_mhz, train.baseband_step_hz * 1e-6 / least));
     }
   }
   PulseTrain fine = train;
@@ -94,8 +95,9 @@ SampledEcho sample_echo(const std::vector<Complex>& echo, const PulseTrain& fine
 std::vector<Complex> spectrum_of(const SampledEcho& sampled, const PulseTrain& train) {
   const double length = static_cast<double>(sampled.samples());
   const double refinement = whole_ratio(train.baseband_step_hz * length, sampled.sampling_hz);
-  SEAGLINT_CHECK(std::fmod(refinement, 2) == 1 && static_cast<int>(train.pulses()) == sampled.pulses,
-                 fmt::format("{} samples at {} Hz for steps of {} Hz", length, sampled.sampling_hz, train.baseband_step_hz));
+  SEAGLINT_CHECK(
+      std::fmod(refinement, 2) == 1 && static_cast<int>(train.pulses()) == sampled.pulses,
+      fmt::format("{} samples at {} Hz for steps of {} Hz", length, sampled.sampling_hz, train.baseband_step_hz));
   const std::size_t frequencies = train.frequencies();
   const CentredTransform centred{static_cast<double>(frequencies) * refinement, length};
   const double scale = std::sqrt(train.chirp_rate_hz_s) / sampled.sampling_hz;

@@ -15,7 +15,7 @@ namespace seaglint {
 // with the transmitted chirp times a.
 struct SampledEcho {
   double sampling_hz = 0;
-  std::vector<double> time_s;   // of the samples; 0 = the middle of the pulse returns from the reference point
+  std::vector<double> time_s;  // of the samples; 0 = the middle of the pulse returns from the reference point
   int pulses = 0;
   std::vector<Complex> values;  // metres, [pulse][sample]
 
@@ -33,8 +33,8 @@ double samples_per_pulse(const PulseTrain& fine, double sampling_hz);
 // y_n(t) = integral of Y_n(f) e^{+j 2 pi f t} df / sqrt(mu), Y on the grid of `fine`, [pulse][frequency].
 SampledEcho sample_echo(const std::vector<Complex>& echo, const PulseTrain& fine, double sampling_hz);
 
-// Y_n(f) = sqrt(mu) / fs sum_k y_n(t_k) e^{-j 2 pi f t_k} at the frequencies of `train` (as P(f), radar/waveform/README.md), whose
-// step is an odd multiple of the one the samples' period allows.
+// Y_n(f) = sqrt(mu) / fs sum_k y_n(t_k) e^{-j 2 pi f t_k} at the frequencies of `train` (as P(f),
+// radar/waveform/README.md), whose step is an odd multiple of the one the samples' period allows.
 std::vector<Complex> spectrum_of(const SampledEcho& sampled, const PulseTrain& train);
 
 }  // namespace seaglint

@@ -132,8 +132,8 @@ std::vector<Complex> clutter_response(const PulseTrain& train, const ClutterSpec
   Random random({seed, Stream::kClutter, index});
   const int scatterers = kScatterersPerCell * train.band_bins() / train.refinement;
   const double window_m = train.unambiguous_range_m() / train.refinement;
-  const std::vector<double> texture = sea_texture(scatterers, kScatterersPerCell * kTextureCells, spec, scene.start_s,
-                                                  seed, scene.texture_key);
+  const std::vector<double> texture =
+      sea_texture(scatterers, kScatterersPerCell * kTextureCells, spec, scene.start_s, seed, scene.texture_key);
 
   // What the waves add to the given velocity.
   const double wavelength = kSpeedOfLight / train.band_centre_hz();

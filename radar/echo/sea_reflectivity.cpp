@@ -14,8 +14,8 @@ namespace seaglint {
 double nrl_reflectivity_db(Polarisation polarisation, double grazing_rad, double frequency_hz, double sea_state) {
   SEAGLINT_CHECK(polarisation == Polarisation::kHh || polarisation == Polarisation::kVv, "the model knows hh and vv");
   const bool hh = polarisation == Polarisation::kHh;
-  const std::array<double, 5> c = hh ? std::array{-73.00, 20.78, 7.351, 25.65, 0.00540}
-                                     : std::array{-50.79, 25.93, 0.7093, 21.58, 0.00211};
+  const std::array<double, 5> c =
+      hh ? std::array{-73.00, 20.78, 7.351, 25.65, 0.00540} : std::array{-50.79, 25.93, 0.7093, 21.58, 0.00211};
   const double alpha = degrees(grazing_rad), f = frequency_hz * 1e-9;
   return c[0] + c[1] * std::log10(std::sin(grazing_rad)) + (27.5 + c[2] * alpha) * std::log10(f) / (1 + 0.95 * alpha) +
          c[3] * std::pow(1 + sea_state, 1 / (2 + 0.085 * alpha + 0.033 * sea_state)) + c[4] * alpha * alpha;
@@ -28,7 +28,8 @@ double douglas_sea_state(double significant_wave_height_m) {
   double lower = 0, state = 0;
   for (const double upper : kUpperLimit) {
     const double width = state == 0 ? 1.5 : 1;  // calm water is 0, the end of class 1 is 1.5
-    if (significant_wave_height_m <= upper) return state + width * (significant_wave_height_m - lower) / (upper - lower);
+    if (significant_wave_height_m <= upper)
+      return state + width * (significant_wave_height_m - lower) / (upper - lower);
     state += width;
     lower = upper;
   }

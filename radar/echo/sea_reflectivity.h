@@ -8,12 +8,12 @@
 namespace seaglint {
 
 // Mean reflectivity sigma0 of the sea, dB m^2/m^2. Gregers-Hansen and Mital, "An improved empirical model for radar sea
-// clutter reflectivity", NRL/MR/5310-12-9346 (2012), its closed form and coefficients: fitted to measurements between 0.5
-// and 35 GHz, 0.1 and 60 deg of grazing, Douglas sea state 0 to 6, within 2 to 3 dB. hh or vv.
+// clutter reflectivity", NRL/MR/5310-12-9346 (2012), its closed form and coefficients: fitted to measurements between
+// 0.5 and 35 GHz, 0.1 and 60 deg of grazing, Douglas sea state 0 to 6, within 2 to 3 dB. hh or vv.
 double nrl_reflectivity_db(Polarisation polarisation, double grazing_rad, double frequency_hz, double sea_state);
 
-// Douglas sea state of a significant wave height, WMO code table 3700: class n holds the heights between its two limits,
-// which get n - 1/2 and n + 1/2, and heights between them a number between; 0 m has 0. Up to 6 m (state 6.5).
+// Douglas sea state of a significant wave height, WMO code table 3700: class n holds the heights between its two
+// limits, which get n - 1/2 and n + 1/2, and heights between them a number between; 0 m has 0. Up to 6 m (state 6.5).
 double douglas_sea_state(double significant_wave_height_m);
 
 // Area of sea that answers within range_extent_m of slant range: r theta_e / cos(grazing) on the water, theta_e the

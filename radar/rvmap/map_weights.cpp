@@ -40,14 +40,10 @@ double taylor(double u) {
 // Weight at u in (-1/2, 1/2). Hann and Hamming: Harris, "On the use of windows", Proc. IEEE 66 (1978), eq. 26b and 30b.
 double taper_at(Taper taper, double u) {
   switch (taper) {
-    case Taper::kNone:
-      return 1;
-    case Taper::kHann:
-      return 0.5 + 0.5 * std::cos(2 * kPi * u);
-    case Taper::kHamming:
-      return 0.54 + 0.46 * std::cos(2 * kPi * u);
-    case Taper::kTaylor:
-      return taylor(u);
+    case Taper::kNone: return 1;
+    case Taper::kHann: return 0.5 + 0.5 * std::cos(2 * kPi * u);
+    case Taper::kHamming: return 0.54 + 0.46 * std::cos(2 * kPi * u);
+    case Taper::kTaylor: return taylor(u);
   }
   return 1;
 }

@@ -27,8 +27,9 @@ struct PulseTrain {
   std::vector<double>
       baseband_hz;  // uniform grid inside |f| <= B/2, symmetric about 0, cells' centres; step divides df
   double baseband_step_hz = 0;
-  int bins_per_hop = 1;                 // df / step, exact
-  int refinement = 1;                   // odd: so many steps of this grid make one of the map's (radar/echo/sampled_echo.h)
+  int bins_per_hop = 1;  // df / step, exact
+  // odd: so many steps of this grid make one of the map's (radar/echo/sampled_echo.h)
+  int refinement = 1;
   std::vector<Complex> chirp_spectrum;  // P(f) on baseband_hz: THE transmit waveform, |P| about 1
 
   std::size_t pulses() const { return code.size(); }
@@ -50,17 +51,17 @@ std::vector<int> hop_code(HopCode kind, int pulses, int carriers, std::uint64_t 
 // number.
 std::vector<int> hop_code(const RadarSpec& spec, std::uint64_t seed, std::uint64_t index);
 
-// t_n = n T_r + jitter, s; the jitter of all pulses but the first is uniform within +-pri_jitter_us, stream kPriJitter of
-// (seed, index).
+// t_n = n T_r + jitter, s; the jitter of all pulses but the first is uniform within +-pri_jitter_us, stream kPriJitter
+// of (seed, index).
 std::vector<double> pulse_times(const RadarSpec& spec, std::uint64_t seed, std::uint64_t index);
 
 // range_window_m: the response's extent plus margin; the baseband step is df / ceil(df 2 window / c), smaller when B is
-// below that. Throws InputError when the interval would need more than 2^26 samples, the pulse more than 2^24, or its spectrum
-// more than 4e9 samples times frequencies.
+// below that. Throws InputError when the interval would need more than 2^26 samples, the pulse more than 2^24, or its
+// spectrum more than 4e9 samples times frequencies.
 PulseTrain make_pulse_train(const RadarSpec& spec, double range_window_m, std::uint64_t seed, std::uint64_t index);
 
-// P(f) = sqrt(mu)/fs sum_k e^{j pi mu t_k^2} e^{-j 2 pi f t_k}, t_k = (k + 1/2)/fs - T_p/2 (README.md, "Transmit waveform"); the
-// factor sqrt(mu) makes |P| about 1 in band (stationary phase).
+// P(f) = sqrt(mu)/fs sum_k e^{j pi mu t_k^2} e^{-j 2 pi f t_k}, t_k = (k + 1/2)/fs - T_p/2 (README.md, "Transmit
+// waveform"); the factor sqrt(mu) makes |P| about 1 in band (stationary phase).
 std::vector<Complex> chirp_spectrum(double bandwidth_hz, double pulse_width_s, double sampling_hz,
                                     const std::vector<double>& frequency_hz);
 
@@ -68,8 +69,8 @@ std::vector<Complex> chirp_spectrum(double bandwidth_hz, double pulse_width_s, d
 IntervalSampling interval_sampling(const PulseTrain& train, double start_s);
 
 // Mean power of the point response at (range_offset_m, velocity_offset_mps) from its peak of 1, over all codes with
-// this train's times and counts of pulses per carrier: coherent sidelobe plus random-hop pedestal, of the carriers alone
-// (one frequency per pulse, no taper). Closed form of radar/waveform/README.md.
+// this train's times and counts of pulses per carrier: coherent sidelobe plus random-hop pedestal, of the carriers
+// alone (one frequency per pulse, no taper). Closed form of radar/waveform/README.md.
 double expected_response_power(const PulseTrain& train, double range_offset_m, double velocity_offset_mps);
 
 // What the carriers leave out of the band between them, and the sidelobes that follow; empty where nothing.

@@ -17,9 +17,11 @@ namespace {
 
 // The mouth is cut finer than the walls: its cells lie as near as half a patch.
 constexpr double kCellsPerPatch = 2;
-// Directions whose fields in the mouth are taken together: at most so many, and so many numbers of theirs (some hundred MB).
+// Directions whose fields in the mouth are taken together: at most so many, and so many numbers of theirs (some hundred
+// MB).
 constexpr std::size_t kViewsTogether = 128, kViewsTimesCells = 400'000;
-// Nearer than this times a patch's size point currents do not stand for walls; the mouth comes no nearer than the other.
+// Nearer than this times a patch's size point currents do not stand for walls; the mouth comes no nearer than the
+// other.
 constexpr double kLeastGap = 0.5, kLeastFromMouth = 0.2;
 // Fields in the mouth are kept to this, root mean square over directions; no new ones are solved where those known
 // leave less than ten times as much.
@@ -35,7 +37,8 @@ void sort_inwards(const std::vector<MouthCell>& mouth, std::vector<WallPatch>& w
   }
   middle /= area;
   const auto depth2 = [&](const WallPatch& patch) { return (patch.centre - middle).squaredNorm(); };
-  std::stable_sort(walls.begin(), walls.end(), [&](const WallPatch& a, const WallPatch& b) { return depth2(a) < depth2(b); });
+  std::stable_sort(walls.begin(), walls.end(),
+                   [&](const WallPatch& a, const WallPatch& b) { return depth2(a) < depth2(b); });
 }
 
 struct Modes {
@@ -52,7 +55,8 @@ Modes new_modes(const MouthFields& basis, const MouthFields& fields) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> modes(rest.adjoint() * rest);
   double dropped = 0;
   Eigen::Index first = 0;
-  while (first < rest.cols() && dropped + std::max(modes.eigenvalues()(first), 0.0) <= negligible) dropped += std::max(modes.eigenvalues()(first++), 0.0);
+  while (first < rest.cols() && dropped + std::max(modes.eigenvalues()(first), 0.0) <= negligible)
+    dropped += std::max(modes.eigenvalues()(first++), 0.0);
   const Eigen::Index count = rest.cols() - first;
   const Eigen::VectorXd strength = modes.eigenvalues().tail(count).cwiseSqrt();
   return {rest * modes.eigenvectors().rightCols(count) * strength.cwiseInverse().asDiagonal(), strength};
@@ -77,7 +81,10 @@ void append(Columns& a, const Columns& b) {
 }  // namespace
 
 Cavity::Cavity(const TriangleMesh& mesh, std::size_t part, const Scatterer& whole, double patches_per_wavelength)
-    : walls_(welded(part_of(mesh, part))), scene_(whole.facets()), radius_(whole.radius()), patches_per_wavelength_(patches_per_wavelength) {}
+    : walls_(welded(part_of(mesh, part))),
+      scene_(whole.facets()),
+      radius_(whole.radius()),
+      patches_per_wavelength_(patches_per_wavelength) {}
 
 Cavity::Shape Cavity::shape(double k) const {
   const double wavelength = 2 * kPi / k, patch = wavelength / patches_per_wavelength_;
@@ -85,17 +92,21 @@ Cavity::Shape Cavity::shape(double k) const {
   double mouth = 0;
   for (const MouthCell& cell : shape.mouth) mouth += cell.area;
   if (std::sqrt(mouth) < wavelength / 2)
-    throw InputError(fmt::format("a mouth of {:.3g} m^2 is less than half a wavelength wide: nothing propagates", mouth));
+    throw InputError(
+        fmt::format("a mouth of {:.3g} m^2 is less than half a wavelength wide: nothing propagates", mouth));
   const auto refuse_nearer = [&](const Vec3& a, const Vec3& b, double least, const char* what) {
     if ((a - b).squaredNorm() < least * least * patch * patch)
-      throw InputError(fmt::format("{} nearer than {:.3g} m at ({:.4g}, {:.4g}, {:.4g}) m: too near at this wavelength", what, least * patch, a.x(), a.y(), a.z()));
+      throw InputError(fmt::format("{} nearer than {:.3g} m at ({:.4g}, {:.4g}, {:.4g}) m: too near at this wavelength",
+                                   what, least * patch, a.x(), a.y(), a.z()));
   };
   for (std::size_t i = 0; i < shape.walls.size(); ++i) {
     const WallPatch& wall = shape.walls[i];
-    for (const MouthCell& cell : shape.mouth) refuse_nearer(wall.centre, cell.centre, kLeastFromMouth, "the cavity's walls and mouth come");
+    for (const MouthCell& cell : shape.mouth)
+      refuse_nearer(wall.centre, cell.centre, kLeastFromMouth, "the cavity's walls and mouth come");
     for (std::size_t j = 0; j < i; ++j) {
       if (wall.normal.dot(shape.walls[j].normal) < -0.5)
-        refuse_nearer(wall.centre, shape.walls[j].centre, kLeastGap, "two walls of the cavity, or both faces of one, come");
+        refuse_nearer(wall.centre, shape.walls[j].centre, kLeastGap,
+                      "two walls of the cavity, or both faces of one, come");
     }
   }
   return shape;
@@ -108,7 +119,8 @@ CavitySize Cavity::size(double k) const {
   return result;
 }
 
-std::vector<std::array<Complex, 4>> Cavity::scattering_matrices(double k, std::span<const AntennaPair> views, int threads, const StopFlag* stop) const {
+std::vector<std::array<Complex, 4>> Cavity::scattering_matrices(double k, std::span<const AntennaPair> views,
+                                                                int threads, const StopFlag* stop) const {
   auto [mouth, walls] = shape(k);
   sort_inwards(mouth, walls);
   const WallCurrents currents(walls, k, threads, stop);
@@ -118,7 +130,8 @@ std::vector<std::array<Complex, 4>> Cavity::scattering_matrices(double k, std::s
   WallColumns electric(2 * static_cast<Eigen::Index>(walls.size()), 0), answer = electric;
   Eigen::MatrixXcd reaction;
   Eigen::VectorXd area(electric.rows());
-  for (std::size_t i = 0; i < walls.size(); ++i) area.segment(2 * static_cast<Eigen::Index>(i), 2).setConstant(walls[i].area);
+  for (std::size_t i = 0; i < walls.size(); ++i)
+    area.segment(2 * static_cast<Eigen::Index>(i), 2).setConstant(walls[i].area);
 
   std::vector<std::array<Complex, 4>> result(views.size(), std::array<Complex, 4>{});
   for (const std::vector<std::size_t>& batch : batches(views.size(), mouth.size())) {
@@ -126,7 +139,8 @@ std::vector<std::array<Complex, 4>> Cavity::scattering_matrices(double k, std::s
     std::vector<AntennaPair> together;
     for (const std::size_t view : batch) together.push_back(views[view]);
     const MouthFields sent = incident_fields(mouth, k, together, &AntennaPair::transmit, scene_, radius_);
-    const bool one_antenna = std::all_of(together.begin(), together.end(), [](const AntennaPair& a) { return a.monostatic; });
+    const bool one_antenna =
+        std::all_of(together.begin(), together.end(), [](const AntennaPair& a) { return a.monostatic; });
     MouthFields back, both;
     if (!one_antenna) {
       back = incident_fields(mouth, k, together, &AntennaPair::receive, scene_, radius_);
@@ -142,7 +156,8 @@ std::vector<std::array<Complex, 4>> Cavity::scattering_matrices(double k, std::s
       append(basis, fresh.fields);
       append(electric, lit.electric);
       append(answer, currents.solve(lit.driven, fresh.strength, threads, stop));
-      reaction = Complex(0, -k / (4 * kPi)) * (electric.cast<Complex>().transpose() * area.asDiagonal() * answer.cast<Complex>());
+      reaction = Complex(0, -k / (4 * kPi)) *
+                 (electric.cast<Complex>().transpose() * area.asDiagonal() * answer.cast<Complex>());
       // The true one is symmetric (reciprocity); walls that end at the mouth leave some percent (README.md).
       reaction = 0.5 * (reaction + reaction.transpose().eval());
     }

@@ -27,17 +27,18 @@ inline constexpr double kPatchesPerWavelength = 6;
 class Cavity {
  public:
   // `part` of the mesh (an index into part_names): the cavity's walls, perfectly conducting, whose free edges are its
-  // rims. `whole`: the target it belongs to, which may stand before the mouth. Walls are cut into patches of a wavelength
-  // over patches_per_wavelength (README.md, "Accuracy").
-  Cavity(const TriangleMesh& mesh, std::size_t part, const Scatterer& whole, double patches_per_wavelength = kPatchesPerWavelength);
+  // rims. `whole`: the target it belongs to, which may stand before the mouth. Walls are cut into patches of a
+  // wavelength over patches_per_wavelength (README.md, "Accuracy").
+  Cavity(const TriangleMesh& mesh, std::size_t part, const Scatterer& whole,
+         double patches_per_wavelength = kPatchesPerWavelength);
 
   // Throws InputError for walls that are closed, face outwards, are too large for the wavelength or too near each other
   // or the mouth, and for a mouth below half a wavelength. k: 1/m.
   CavitySize size(double k) const;
 
-  // hh, hv, vh, vv (received, transmitted) in metres for each pair of antennas, phase origin at the body's origin; to be
-  // added to what the rest of the target returns, without what leaves the walls. Throws as size() does, WorkError when
-  // the currents do not settle, and Interrupted when *stop becomes true.
+  // hh, hv, vh, vv (received, transmitted) in metres for each pair of antennas, phase origin at the body's origin; to
+  // be added to what the rest of the target returns, without what leaves the walls. Throws as size() does, WorkError
+  // when the currents do not settle, and Interrupted when *stop becomes true.
   std::vector<std::array<Complex, 4>> scattering_matrices(double k, std::span<const AntennaPair> views, int threads,
                                                           const StopFlag* stop = nullptr) const;
 

@@ -43,7 +43,8 @@ std::vector<std::vector<Vec3>> rims_of(const TriangleMesh& walls) {
       next.erase(at);
       at = next.find(end);
     }
-    if (end != start) throw InputError(fmt::format("a rim of the cavity does not close at {}", place(walls.vertices[end])));
+    if (end != start)
+      throw InputError(fmt::format("a rim of the cavity does not close at {}", place(walls.vertices[end])));
     rims.push_back(std::move(rim));
   }
   return rims;
@@ -52,7 +53,8 @@ std::vector<std::vector<Vec3>> rims_of(const TriangleMesh& walls) {
 // Newell's area vector: right for any ring of points, flat or not, convex or not.
 Vec3 area_of(const std::vector<Vec3>& ring) {
   Vec3 sum = Vec3::Zero();
-  for (std::size_t i = 0; i < ring.size(); ++i) sum += 0.5 * (ring[i] - ring[0]).cross(ring[(i + 1) % ring.size()] - ring[0]);
+  for (std::size_t i = 0; i < ring.size(); ++i)
+    sum += 0.5 * (ring[i] - ring[0]).cross(ring[(i + 1) % ring.size()] - ring[0]);
   return sum;
 }
 
@@ -89,7 +91,8 @@ Patch2 measure(const Outline& outline) {
 
 // Rims that share a plane and run opposite ways bound one opening, the largest first: islands within it.
 std::vector<std::vector<std::vector<Vec3>>> openings_of(std::vector<std::vector<Vec3>> rims, double pitch) {
-  std::stable_sort(rims.begin(), rims.end(), [](const auto& a, const auto& b) { return area_of(a).norm() > area_of(b).norm(); });
+  std::stable_sort(rims.begin(), rims.end(),
+                   [](const auto& a, const auto& b) { return area_of(a).norm() > area_of(b).norm(); });
   std::vector<std::vector<std::vector<Vec3>>> openings;
   for (const std::vector<Vec3>& rim : rims) {
     const Vec3 area = area_of(rim);
@@ -122,19 +125,22 @@ void add_cells(const std::vector<std::vector<Vec3>>& rims, double pitch, std::ve
     for (const Vec3& x : rim) {
       const double uneven = std::abs(cell.inward.dot(x - origin));
       if (uneven > pitch / 4)
-        throw InputError(fmt::format("a rim of the cavity is not flat: {} lies {:.3g} m off its plane, at most {:.3g} m at this wavelength", place(x),
-                                     uneven, pitch / 4));
+        throw InputError(fmt::format(
+            "a rim of the cavity is not flat: {} lies {:.3g} m off its plane, at most {:.3g} m at this wavelength",
+            place(x), uneven, pitch / 4));
       outlines.back().emplace_back(cell.across.dot(x - origin), cell.up.dot(x - origin));
       lower = lower.cwiseMin(outlines.back().back());
       upper = upper.cwiseMax(outlines.back().back());
     }
   }
   const Vec2 size = upper - lower;
-  const int columns = static_cast<int>(std::ceil(size.x() / pitch)), rows = static_cast<int>(std::ceil(size.y() / pitch));
+  const int columns = static_cast<int>(std::ceil(size.x() / pitch)),
+            rows = static_cast<int>(std::ceil(size.y() / pitch));
   for (int i = 0; i < columns; ++i) {
     const double left = lower.x() + size.x() * i / columns, right = lower.x() + size.x() * (i + 1) / columns;
     std::vector<Outline> column;
-    for (const Outline& outline : outlines) column.push_back(clipped(clipped(outline, Vec2::UnitX(), left), -Vec2::UnitX(), -right));
+    for (const Outline& outline : outlines)
+      column.push_back(clipped(clipped(outline, Vec2::UnitX(), left), -Vec2::UnitX(), -right));
     for (int j = 0; j < rows; ++j) {
       const double below = lower.y() + size.y() * j / rows, above = lower.y() + size.y() * (j + 1) / rows;
       Patch2 piece;
@@ -164,7 +170,8 @@ std::vector<MouthCell> mouth_cells(const TriangleMesh& walls, double pitch) {
   for (const MouthCell& cell : cells) volume += cell.area * cell.inward.dot(cell.centre - origin) / 3;
   const double area = surface_area(walls);
   if (std::abs(volume) < 1e-6 * area * std::sqrt(area))
-    throw InputError("the cavity's walls and openings enclose nothing: a sheet, or triangles whose corners do not meet");
+    throw InputError(
+        "the cavity's walls and openings enclose nothing: a sheet, or triangles whose corners do not meet");
   if (volume > 0) throw InputError("the cavity's walls face away from its inside: turn their triangles");
   return cells;
 }

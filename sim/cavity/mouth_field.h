@@ -18,8 +18,8 @@ using MouthFields = Eigen::MatrixXcd;
 
 // The plane waves e^{jk r^.x} of unit strength from the antennas' directions, columns 2 i + {h, v}; zero in cells that
 // look away from the antenna or from where `scene` hides it. radius: of the target, m.
-MouthFields incident_fields(std::span<const MouthCell> mouth, double k, std::span<const AntennaPair> views, RadarBasis AntennaPair::*antenna,
-                            const RayScene& scene, double radius);
+MouthFields incident_fields(std::span<const MouthCell> mouth, double k, std::span<const AntennaPair> views,
+                            RadarBasis AntennaPair::*antenna, const RayScene& scene, double radius);
 
 // Both tangential fields on the walls, rows of WallColumns.
 struct FieldsOnWalls {
@@ -27,7 +27,7 @@ struct FieldsOnWalls {
   WallColumns driven;    // 2 n x eta H
 };
 
-FieldsOnWalls fields_on_walls(std::span<const MouthCell> mouth, std::span<const WallPatch> walls, double k, const MouthFields& fields, int threads,
-                              const StopFlag* stop);
+FieldsOnWalls fields_on_walls(std::span<const MouthCell> mouth, std::span<const WallPatch> walls, double k,
+                              const MouthFields& fields, int threads, const StopFlag* stop);
 
 }  // namespace seaglint

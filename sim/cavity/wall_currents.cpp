@@ -16,8 +16,9 @@ namespace {
 // Patches that are solved together. A duct of 3,000: 19, 17, 12, 7 sweeps with 64, 128, 256, 512 of them; with more the
 // blocks' own solutions take over.
 constexpr int kBlock = 512;
-constexpr std::size_t kTile = 32;      // patches of a block whose rows one thread takes at a time
-constexpr std::size_t kColumns = 128;  // patches whose coupling to a tile is formed at once: 64 x 256 numbers stay in the cache
+constexpr std::size_t kTile = 32;  // patches of a block whose rows one thread takes at a time
+// patches whose coupling to a tile is formed at once: 64 x 256 numbers stay in the cache
+constexpr std::size_t kColumns = 128;
 constexpr Eigen::Index kTogether = 32;  // fields solved side by side, which share the coupling's making
 constexpr std::size_t kMostSweeps = 150;
 
@@ -33,8 +34,11 @@ struct Phasors {
 Phasors phasors(const Line& turns) {
   constexpr float kRound = 1.5f * (1 << 23);  // added and taken away, it leaves the nearest whole number
   const Line x = static_cast<float>(kPi) * (turns - ((turns + kRound) - kRound)), x2 = x.square();
-  const Line sine = x * (1 + x2 * (-1 / 6.f + x2 * (1 / 120.f + x2 * (-1 / 5040.f + x2 * (1 / 362880.f - x2 / 39916800.f)))));
-  const Line cosine = 1 + x2 * (-1 / 2.f + x2 * (1 / 24.f + x2 * (-1 / 720.f + x2 * (1 / 40320.f + x2 * (-1 / 3628800.f + x2 / 479001600.f)))));
+  const Line sine =
+      x * (1 + x2 * (-1 / 6.f + x2 * (1 / 120.f + x2 * (-1 / 5040.f + x2 * (1 / 362880.f - x2 / 39916800.f)))));
+  const Line cosine =
+      1 + x2 * (-1 / 2.f +
+                x2 * (1 / 24.f + x2 * (-1 / 720.f + x2 * (1 / 40320.f + x2 * (-1 / 3628800.f + x2 / 479001600.f)))));
   return {1 - 2 * sine.square(), 2 * sine * cosine};
 }
 
@@ -86,7 +90,9 @@ struct WallCurrents::Rows {
 
 std::size_t WallCurrents::blocks() const { return (patches_ + kBlock - 1) / kBlock; }
 
-WallCurrents::Rows WallCurrents::block(std::size_t i) const { return {i * kBlock, std::min(patches_, (i + 1) * kBlock)}; }
+WallCurrents::Rows WallCurrents::block(std::size_t i) const {
+  return {i * kBlock, std::min(patches_, (i + 1) * kBlock)};
+}
 
 // 2 n x (grad G x t') A' on either tangent t of the patches `to`, transposed, from a unit current along t' on `from`:
 //   t . [n x (grad G x t')] = (t . grad G)(n . t') - (t . t')(n . grad G),  grad G = -(1 + jkR) e^{-jkR} / (4 pi R^3) R
@@ -95,13 +101,15 @@ WallColumns WallCurrents::coupling(const Rows& to, const Rows& from) const {
   WallColumns transposed(from.count(), to.count());
   const auto first = static_cast<Eigen::Index>(from.first), count = static_cast<Eigen::Index>(from.last - from.first);
   const auto dot = [&](const Eigen::Vector3f& a, const Eigen::ArrayX3f& b) -> Line {
-    return a.x() * b.col(0).segment(first, count) + a.y() * b.col(1).segment(first, count) + a.z() * b.col(2).segment(first, count);
+    return a.x() * b.col(0).segment(first, count) + a.y() * b.col(1).segment(first, count) +
+           a.z() * b.col(2).segment(first, count);
   };
   for (std::size_t i = to.first; i < to.last; ++i) {
     const auto at = static_cast<Eigen::Index>(i);
     const auto column = 2 * static_cast<Eigen::Index>(i - to.first);
     const Eigen::Vector3f centre = centre_.row(at), normal = normal_.row(at);
-    const Line X = centre.x() - centre_.col(0).segment(first, count), Y = centre.y() - centre_.col(1).segment(first, count),
+    const Line X = centre.x() - centre_.col(0).segment(first, count),
+               Y = centre.y() - centre_.col(1).segment(first, count),
                Z = centre.z() - centre_.col(2).segment(first, count);
     const Line r2 = X.square() + Y.square() + Z.square(), r = r2.sqrt(), kr = static_cast<float>(k_) * r;
     const auto [cosine, sine] = phasors(static_cast<float>(k_ / (2 * kPi)) * r);
@@ -119,13 +127,19 @@ WallColumns WallCurrents::coupling(const Rows& to, const Rows& from) const {
         line.imag() = imaginary * shape;
       }
     }
-    if (i >= from.first && i < from.last) transposed.block(2 * static_cast<Eigen::Index>(i - from.first), column, 2, 2).setZero();
+    if (i >= from.first && i < from.last)
+      transposed.block(2 * static_cast<Eigen::Index>(i - from.first), column, 2, 2).setZero();
   }
   return transposed;
 }
 
 WallCurrents::WallCurrents(std::span<const WallPatch> walls, double k, int threads, const StopFlag* stop)
-    : patches_(walls.size()), k_(k), area_(static_cast<Eigen::Index>(patches_)), centre_(area_.size(), 3), normal_(area_.size(), 3), own_(blocks()) {
+    : patches_(walls.size()),
+      k_(k),
+      area_(static_cast<Eigen::Index>(patches_)),
+      centre_(area_.size(), 3),
+      normal_(area_.size(), 3),
+      own_(blocks()) {
   tangent_.fill(Eigen::ArrayX3f(area_.size(), 3));
   Vec3 middle = Vec3::Zero();  // distances in single precision are those of the cavity, wherever it lies
   for (const WallPatch& patch : walls) middle += patch.centre / static_cast<double>(walls.size());
@@ -150,7 +164,8 @@ WallColumns WallCurrents::own(const WallColumns& x, int threads) const {
   WallColumns result = x;
   parallel_for(blocks(), threads, [&](std::size_t i) {
     const Rows rows = block(i);
-    result.middleRows(rows.start(), rows.count()).noalias() -= coupling(rows, rows).transpose() * x.middleRows(rows.start(), rows.count());
+    result.middleRows(rows.start(), rows.count()).noalias() -=
+        coupling(rows, rows).transpose() * x.middleRows(rows.start(), rows.count());
   });
   return result;
 }
@@ -180,12 +195,13 @@ WallColumns WallCurrents::solve_one_way(const WallColumns& x, bool upwards, int 
   return y;
 }
 
-// Generalised minimal residuals (Saad and Schultz, SIAM J. Sci. Stat. Comput. 7, 1986, 856-869) of each column by itself,
-// preconditioned by a sweep inwards and one outwards, as forward-backward iterations do (Burkholder and Lundin, IEEE
-// Trans. AP-53, 2005, 793-799). With 1 - K = D - K_L - K_U and T = (D - K_U)^-1 D,
+// Generalised minimal residuals (Saad and Schultz, SIAM J. Sci. Stat. Comput. 7, 1986, 856-869) of each column by
+// itself, preconditioned by a sweep inwards and one outwards, as forward-backward iterations do (Burkholder and Lundin,
+// IEEE Trans. AP-53, 2005, 793-799). With 1 - K = D - K_L - K_U and T = (D - K_U)^-1 D,
 //   (D - K_L)^-1 (1 - K) T = T + (D - K_L)^-1 D (1 - T)
 // so that each application costs one product with K (Eisenstat, SIAM J. Sci. Stat. Comput. 2, 1981, 1-4).
-WallColumns WallCurrents::solve(const WallColumns& driven, const Eigen::VectorXd& strength, int threads, const StopFlag* stop) const {
+WallColumns WallCurrents::solve(const WallColumns& driven, const Eigen::VectorXd& strength, int threads,
+                                const StopFlag* stop) const {
   WallColumns currents(driven.rows(), driven.cols());
   const double strongest = (driven.colwise().norm().transpose().cast<double>().array() * strength.array()).maxCoeff();
   for (Eigen::Index first = 0; first < driven.cols(); first += kTogether) {
@@ -200,14 +216,16 @@ WallColumns WallCurrents::solve(const WallColumns& driven, const Eigen::VectorXd
     }
     for (double worst = strongest; worst > kResidual * strongest;) {
       if (directions.size() > kMostSweeps)
-        throw WorkError(fmt::format("the cavity's currents did not settle in {} sweeps: residual {:.1e}", kMostSweeps, worst / strongest));
+        throw WorkError(fmt::format("the cavity's currents did not settle in {} sweeps: residual {:.1e}", kMostSweeps,
+                                    worst / strongest));
       const WallColumns outward = solve_one_way(own(directions.back(), threads), true, threads, stop);
       WallColumns next = outward + solve_one_way(own(directions.back() - outward, threads), false, threads, stop);
       worst = 0;
       for (Projection& field : fields) {
         field.add(directions, next);
         const double left = field.residual * strength(first + field.column);
-        if (!std::isfinite(left)) throw WorkError("the cavity's currents have no finite answer: walls too near each other for their patches");
+        if (!std::isfinite(left))
+          throw WorkError("the cavity's currents have no finite answer: walls too near each other for their patches");
         worst = std::max(worst, left);
       }
       directions.push_back(std::move(next));

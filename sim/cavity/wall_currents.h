@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The currents on perfectly conducting walls of a cavity, from what falls on them: the magnetic-field integral equation.
+// The currents on perfectly conducting walls of a cavity, from what falls on them: the magnetic-field integral
+// equation.
 
 #include <array>
 #include <span>
@@ -24,7 +25,8 @@ class WallCurrents {
   // The eta J of J = 2 n x H + 2 n x PV integral of grad G x J' dS', in the unit of `driven` = 2 n x eta H. A column's
   // residual times its strength (> 0) is at most kResidual of the strongest one's. Throws WorkError when that takes too
   // many sweeps, Interrupted when *stop becomes true.
-  WallColumns solve(const WallColumns& driven, const Eigen::VectorXd& strength, int threads, const StopFlag* stop) const;
+  WallColumns solve(const WallColumns& driven, const Eigen::VectorXd& strength, int threads,
+                    const StopFlag* stop) const;
 
   static constexpr double kResidual = 1e-3;
 

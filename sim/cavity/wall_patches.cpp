@@ -39,7 +39,8 @@ void cut(const Vec3& a, const Vec3& b, const Vec3& c, double longest, std::vecto
   }
   const Vec3 area = 0.5 * (b - a).cross(c - a);
   if (!(area.norm() > 0)) return;
-  if (pieces.size() == kMostPieces) throw InputError("the cavity's walls are made of too many or too thin triangles: mesh them anew");
+  if (pieces.size() == kMostPieces)
+    throw InputError("the cavity's walls are made of too many or too thin triangles: mesh them anew");
   pieces.push_back({(a + b + c) / 3, area.normalized(), area.norm()});
 }
 
@@ -77,7 +78,8 @@ class SeedLattice {
   // 21 bits a side: cells that share a key are far apart, and every visitor looks at distances.
   static std::uint64_t key(const Cell& c) {
     constexpr std::uint64_t kMask = (1u << 21) - 1;
-    return (static_cast<std::uint64_t>(c[0]) & kMask) << 42 | (static_cast<std::uint64_t>(c[1]) & kMask) << 21 | (static_cast<std::uint64_t>(c[2]) & kMask);
+    return (static_cast<std::uint64_t>(c[0]) & kMask) << 42 | (static_cast<std::uint64_t>(c[1]) & kMask) << 21 |
+           (static_cast<std::uint64_t>(c[2]) & kMask);
   }
 
   double cell_;
@@ -90,12 +92,14 @@ std::vector<WallPatch> wall_patches(const TriangleMesh& walls, double size) {
   const double area = surface_area(walls);
   const auto refuse_more = [&](double patches) {
     if (patches > kMostPatches)
-      throw InputError(fmt::format("the cavity's {:.3g} m^2 of walls need about {:.0f} patches of {:.3g} m at this wavelength: at most {}", area, patches,
-                                   size, kMostPatches));
+      throw InputError(fmt::format(
+          "the cavity's {:.3g} m^2 of walls need about {:.0f} patches of {:.3g} m at this wavelength: at most {}", area,
+          patches, size, kMostPatches));
   };
   refuse_more(area / (size * size));
   std::vector<Piece> pieces;
-  for (const auto& t : walls.triangles) cut(walls.vertices[t[0]], walls.vertices[t[1]], walls.vertices[t[2]], size / 3, pieces);
+  for (const auto& t : walls.triangles)
+    cut(walls.vertices[t[0]], walls.vertices[t[1]], walls.vertices[t[2]], size / 3, pieces);
 
   // Two pieces at right angles are as far apart as 1.4 sizes.
   const auto distance2 = [&](const Piece& piece, const Seed& seed) {
@@ -107,7 +111,9 @@ std::vector<WallPatch> wall_patches(const TriangleMesh& walls, double size) {
   SeedLattice first(size);
   for (const Piece& piece : pieces) {
     bool free = true;
-    first.near(piece.centre, [&](int s) { free = free && distance2(piece, seeds[static_cast<std::size_t>(s)]) >= apart * apart * (1 - kTie); });
+    first.near(piece.centre, [&](int s) {
+      free = free && distance2(piece, seeds[static_cast<std::size_t>(s)]) >= apart * apart * (1 - kTie);
+    });
     if (!free) continue;
     first.add(piece.centre, static_cast<int>(seeds.size()));
     seeds.push_back({piece.centre, piece.normal});

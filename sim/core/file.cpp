@@ -90,7 +90,8 @@ fs::path find_file(const std::string& name, const fs::path& folder, const std::s
   for (const fs::path& candidate : {beside, fs::path(name)}) {
     if (fs::exists(candidate, error)) return candidate;
   }
-  throw InputError(fmt::format("{}: value '{}': no such file, neither {} nor below the working directory", where, name, beside.string()));
+  throw InputError(fmt::format("{}: value '{}': no such file, neither {} nor below the working directory", where, name,
+                               beside.string()));
 }
 
 std::string read_file(const fs::path& path, std::size_t max_bytes) {

@@ -32,7 +32,9 @@ class Progress {
   bool shown_ = false;
 };
 
-// One line, e.g. "maps  [#######.............]  35 %, 2 min 10 s left", with steps named also ", 3.1 maps/s"; done <= total, elapsed_s > 0.
-std::string progress_line(const std::string& what, std::size_t done, std::size_t total, double elapsed_s, const std::string& steps = {});
+// One line, e.g. "maps  [#######.............]  35 %, 2 min 10 s left", with steps named also ", 3.1 maps/s"; done <=
+// total, elapsed_s > 0.
+std::string progress_line(const std::string& what, std::size_t done, std::size_t total, double elapsed_s,
+                          const std::string& steps = {});
 
 }  // namespace seaglint

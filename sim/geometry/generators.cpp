@@ -84,7 +84,8 @@ TriangleMesh make_dihedral(double length, double width, double opening) {
   require_size(length, "dihedral length");
   require_size(width, "dihedral width");
   if (!(opening > 0 && opening < kPi)) {
-    throw InputError(fmt::format("dihedral opening: {} deg must be greater than 0 and less than 180 deg", degrees(opening)));
+    throw InputError(
+        fmt::format("dihedral opening: {} deg must be greater than 0 and less than 180 deg", degrees(opening)));
   }
   MeshBuilder builder;
   builder.begin_part("dihedral");

@@ -7,8 +7,8 @@
 
 namespace seaglint {
 
-// What every format of mesh_io.h gives back: beyond 1e7 m it refuses a mesh, and below 1e-30 m it takes coordinates for zero,
-// those of a finely divided target too.
+// What every format of mesh_io.h gives back: beyond 1e7 m it refuses a mesh, and below 1e-30 m it takes coordinates for
+// zero, those of a finely divided target too.
 inline constexpr double kLeastSize = 1e-20, kLargestSize = 1e7;
 
 // A flat sheet of two triangles in the plane x = 0, centred on the origin, `length` along y and `width` along z, normal

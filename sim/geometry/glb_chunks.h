@@ -15,7 +15,8 @@ struct GlbChunks {
 
 bool is_glb(std::string_view bytes);
 
-// A .glb by its chunks; any other text is all JSON. Throws InputError for a container that is cut short or no version 2.
+// A .glb by its chunks; any other text is all JSON. Throws InputError for a container that is cut short or no version
+// 2.
 GlbChunks glb_chunks(std::string_view bytes, const std::string& file);
 
 // A .glb of these chunks, each filled up to a multiple of 4 bytes.

@@ -25,16 +25,12 @@ constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30;  // of one buffer
 std::uint64_t component_size(std::uint64_t type) {
   switch (type) {
     case 5120:
-    case 5121:
-      return 1;
+    case 5121: return 1;
     case 5122:
-    case 5123:
-      return 2;
+    case 5123: return 2;
     case 5125:
-    case 5126:
-      return 4;
-    default:
-      return 0;
+    case 5126: return 4;
+    default: return 0;
   }
 }
 
@@ -49,7 +45,8 @@ class Checker {
     if (asset == root_.end() || !asset->is_object() || text(*asset, "version").substr(0, 2) != "2.") {
       fail("is not glTF 2 (asset.version)");
     }
-    if (asset->contains("minVersion") && text(*asset, "minVersion").substr(0, 2) != "2.") fail("needs more than glTF 2 (asset.minVersion)");
+    if (asset->contains("minVersion") && text(*asset, "minVersion").substr(0, 2) != "2.")
+      fail("needs more than glTF 2 (asset.minVersion)");
     refuse_required_extensions();
     Json plain = {{"asset", {{"version", "2.0"}}}};
     plain["buffers"] = each("buffers", [&](const Json& b, const std::string& at) { return buffer(b, at); });
@@ -267,7 +264,8 @@ class Checker {
       plain["indices"] = indices;
     }
     if (is_surface) check_corners(plain, mode, at);
-    if (p.contains("targets")) fail(at + " has morph targets, which are not supported: bake the shape into the positions");
+    if (p.contains("targets"))
+      fail(at + " has morph targets, which are not supported: bake the shape into the positions");
     if (p.contains("material")) plain["material"] = index(p, "material", "materials", at);
     return plain;
   }
@@ -303,7 +301,8 @@ class Checker {
       }
       for (std::size_t column = 0; column < 4; ++column) {
         const double last = plain["matrix"][4 * column + 3].get<double>();
-        if (std::abs(last - (column == 3 ? 1 : 0)) > kRounding) fail(fmt::format("{}.matrix has {} in its last row, which must be 0 0 0 1", at, last));
+        if (std::abs(last - (column == 3 ? 1 : 0)) > kRounding)
+          fail(fmt::format("{}.matrix has {} in its last row, which must be 0 0 0 1", at, last));
       }
     }
     double norm = 1;
@@ -319,7 +318,8 @@ class Checker {
     // These would place or bend its mesh.
     if (n.contains("skin")) fail(at + " has a skin, which is not supported: bake the pose into the positions");
     const auto extensions = n.find("extensions");
-    if (extensions != n.end() && extensions->contains("EXT_mesh_gpu_instancing")) fail(at + " has instances (EXT_mesh_gpu_instancing), which are not supported: make them nodes");
+    if (extensions != n.end() && extensions->contains("EXT_mesh_gpu_instancing"))
+      fail(at + " has instances (EXT_mesh_gpu_instancing), which are not supported: make them nodes");
     if (n.contains("children")) {
       Json children = index_list(n, "children", "nodes", at);
       if (!children.empty()) plain["children"] = children;
@@ -338,7 +338,8 @@ class Checker {
   std::uint64_t binary_size_;
 };
 
-// Levels of lists and objects within each other. The library's own callback looks through all of a list at every object that ends in it.
+// Levels of lists and objects within each other. The library's own callback looks through all of a list at every object
+// that ends in it.
 int depth_of(std::string_view text) {
   int depth = 0, deepest = 0;
   bool in_string = false;
@@ -354,7 +355,8 @@ int depth_of(std::string_view text) {
 }
 
 Json parsed(std::string_view text, const std::string& file) {
-  if (depth_of(text) > kDeepest) throw InputError(fmt::format("{}: the JSON is nested more than {} levels deep", file, kDeepest));
+  if (depth_of(text) > kDeepest)
+    throw InputError(fmt::format("{}: the JSON is nested more than {} levels deep", file, kDeepest));
   try {
     return Json::parse(text.begin(), text.end());
   } catch (const Json::exception& error) {

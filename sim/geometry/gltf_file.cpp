@@ -123,7 +123,9 @@ class Reader {
   Reader(const tinygltf::Model& model, std::string file) : model_(model), file_(std::move(file)) {}
 
   TriangleMesh read() {
-    if (model_.materials.size() > kMostMaterials) throw InputError(fmt::format("{}: {} materials are more than {}", file_, model_.materials.size(), kMostMaterials));
+    if (model_.materials.size() > kMostMaterials)
+      throw InputError(
+          fmt::format("{}: {} materials are more than {}", file_, model_.materials.size(), kMostMaterials));
     struct Visit {
       int node;
       Mat4 parent;
@@ -209,7 +211,8 @@ class Reader {
     builder_.begin_part(!node.name.empty()   ? node.name
                         : !mesh.name.empty() ? mesh.name
                                              : fmt::format("mesh_{}", node.mesh));
-    if (builder_.part_count() > kMostParts) throw InputError(fmt::format("{}: its nodes make more than {} parts", file_, kMostParts));
+    if (builder_.part_count() > kMostParts)
+      throw InputError(fmt::format("{}: its nodes make more than {} parts", file_, kMostParts));
     const bool is_mirrored = world.topLeftCorner<3, 3>().determinant() < 0;
     for (const tinygltf::Primitive& primitive : mesh.primitives) {
       if (primitive.mode >= TINYGLTF_MODE_TRIANGLES) add_primitive(primitive, world, is_mirrored);
@@ -367,7 +370,9 @@ TriangleMesh read_gltf(const std::string& bytes, const fs::path& path) {
   return Reader(loaded.model, path.string()).read();
 }
 
-std::vector<fs::path> gltf_buffer_files(const std::string& bytes, const fs::path& path) { return load(bytes, path).buffer_files; }
+std::vector<fs::path> gltf_buffer_files(const std::string& bytes, const fs::path& path) {
+  return load(bytes, path).buffer_files;
+}
 
 std::string gltf_bytes(const TriangleMesh& mesh, bool binary, std::span<const std::array<double, 3>> material_colours) {
   return Writer(mesh, material_colours).bytes(binary);

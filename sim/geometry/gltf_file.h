@@ -20,7 +20,9 @@ TriangleMesh read_gltf(const std::string& bytes, const std::filesystem::path& pa
 // The files beside it that hold buffers, in their order. InputError as read_gltf().
 std::vector<std::filesystem::path> gltf_buffer_files(const std::string& bytes, const std::filesystem::path& path);
 
-// A .glb, or a .gltf with its buffer as a data URI. material_colours: linear red, green, blue in 0..1 for each material; none: grey.
-std::string gltf_bytes(const TriangleMesh& mesh, bool binary, std::span<const std::array<double, 3>> material_colours = {});
+// A .glb, or a .gltf with its buffer as a data URI. material_colours: linear red, green, blue in 0..1 for each
+// material; none: grey.
+std::string gltf_bytes(const TriangleMesh& mesh, bool binary,
+                       std::span<const std::array<double, 3>> material_colours = {});
 
 }  // namespace seaglint

@@ -22,7 +22,8 @@ std::vector<GltfPiece> pieces_of(const TriangleMesh& mesh) {
   std::vector<Placed> placed(mesh.vertices.size());
   for (const std::size_t t : order) {
     const auto [part, material] = key(t);
-    if (pieces.empty() || pieces.back().part != part || pieces.back().material != material) pieces.push_back({part, material, {}, {}});
+    if (pieces.empty() || pieces.back().part != part || pieces.back().material != material)
+      pieces.push_back({part, material, {}, {}});
     GltfPiece& piece = pieces.back();
     for (std::uint32_t v : mesh.triangles[t]) {
       if (placed[v].pieces != pieces.size()) {

@@ -31,7 +31,9 @@ Corners corners_of(const TriangleMesh& mesh, std::uint32_t triangle) {
   return c;
 }
 
-std::span<const EdgeUse> uses_of(const Topology& topology, const MeshEdge& edge) { return {topology.uses.data() + edge.first_use, edge.use_count}; }
+std::span<const EdgeUse> uses_of(const Topology& topology, const MeshEdge& edge) {
+  return {topology.uses.data() + edge.first_use, edge.use_count};
+}
 
 struct Diagnosis {
   MeshHealth health;
@@ -57,7 +59,8 @@ std::vector<std::array<std::uint32_t, 2>> find_copies(const TriangleMesh& mesh, 
     std::size_t next = i + 1;
     for (; next < all.size() && all[next].sorted == front.sorted; ++next) {
       const Corners& copy = all[next];
-      const bool differs = copy.even != front.even && mesh.triangle_material[copy.triangle] != mesh.triangle_material[front.triangle];
+      const bool differs =
+          copy.even != front.even && mesh.triangle_material[copy.triangle] != mesh.triangle_material[front.triangle];
       if (differs && !has_back) {
         backs.push_back({front.triangle, copy.triangle});
         has_back = true;
@@ -89,14 +92,16 @@ Topology remaining(Topology topology, const std::vector<char>& drop) {
 
 bool is_mixed(std::span<const EdgeUse> uses) { return uses.size() == 2 && uses[0].forward == uses[1].forward; }
 
-// At the root of each set of triangles: does any edge remain that its own triangles do not run through as often in either direction?
+// At the root of each set of triangles: does any edge remain that its own triangles do not run through as often in
+// either direction?
 std::vector<char> unclosed(const Topology& topology, std::size_t triangles, DisjointSets& sets) {
   std::vector<char> open(triangles, 0);
   std::vector<EdgeUse> uses;
   for (const MeshEdge& edge : topology.edges) {
     const auto all = uses_of(topology, edge);
     uses.assign(all.begin(), all.end());
-    std::sort(uses.begin(), uses.end(), [&](const EdgeUse& a, const EdgeUse& b) { return sets.root(a.triangle) < sets.root(b.triangle); });
+    std::sort(uses.begin(), uses.end(),
+              [&](const EdgeUse& a, const EdgeUse& b) { return sets.root(a.triangle) < sets.root(b.triangle); });
     for (std::size_t i = 0; i < uses.size();) {
       const std::uint32_t root = sets.root(uses[i].triangle);
       int balance = 0;
@@ -107,9 +112,11 @@ std::vector<char> unclosed(const Topology& topology, std::size_t triangles, Disj
   return open;
 }
 
-// A sheet of two materials needs both its sides. The solver tells them apart where what hangs together with them is closed; elsewhere it looks at either side of
-// every triangle, and the first of two that coincide hides the other from both.
-void choose_backs(const TriangleMesh& mesh, const Topology& topology, std::span<const std::array<std::uint32_t, 2>> backs, Diagnosis& d) {
+// A sheet of two materials needs both its sides. The solver tells them apart where what hangs together with them is
+// closed; elsewhere it looks at either side of every triangle, and the first of two that coincide hides the other from
+// both.
+void choose_backs(const TriangleMesh& mesh, const Topology& topology,
+                  std::span<const std::array<std::uint32_t, 2>> backs, Diagnosis& d) {
   if (backs.empty()) return;
   const Topology left = remaining(topology, d.drop);
   DisjointSets sets(mesh.triangles.size());
@@ -152,7 +159,8 @@ Diagnosis diagnose(const TriangleMesh& mesh) {
     if (is_mixed(uses)) ++d.health.mixed_edges;
     if (uses.size() > 2) ++d.health.non_manifold_edges;
   }
-  // What is closed by that is a body of its own and may touch others along edges. What is not hangs together there, and may be closed as a whole.
+  // What is closed by that is a body of its own and may touch others along edges. What is not hangs together there, and
+  // may be closed as a whole.
   const std::vector<char> ends = unclosed(topology, count, sets);
   DisjointSets joined = sets;
   for (const MeshEdge& edge : topology.edges) {
@@ -206,7 +214,9 @@ Diagnosis diagnose(const TriangleMesh& mesh) {
   return d;
 }
 
-std::string counted(std::size_t n, const char* one, const char* many) { return fmt::format("{} {}", n, n == 1 ? one : many); }
+std::string counted(std::size_t n, const char* one, const char* many) {
+  return fmt::format("{} {}", n, n == 1 ? one : many);
+}
 
 }  // namespace
 
@@ -215,30 +225,39 @@ MeshHealth examine(const TriangleMesh& mesh) { return diagnose(mesh).health; }
 std::vector<std::string> findings(const MeshHealth& h) {
   std::vector<std::string> found;
   if (h.degenerate > 0) found.push_back(counted(h.degenerate, "triangle has", "triangles have") + " no area: left out");
-  if (h.repeated > 0) found.push_back(counted(h.repeated, "triangle repeats", "triangles repeat") + " another: left out");
+  if (h.repeated > 0)
+    found.push_back(counted(h.repeated, "triangle repeats", "triangles repeat") + " another: left out");
   if (h.inverted_surfaces > 0) {
-    found.push_back(fmt::format("{} inside out ({}): turned outwards", counted(h.inverted_surfaces, "closed surface is", "closed surfaces are"),
+    found.push_back(fmt::format("{} inside out ({}): turned outwards",
+                                counted(h.inverted_surfaces, "closed surface is", "closed surfaces are"),
                                 counted(h.inverted_triangles, "triangle", "triangles")));
   }
   if (h.open_edges > 0) {
-    found.push_back(fmt::format("{}; {} of {} surfaces are open: holes, or sheets, seen from both sides and through their holes",
-                                counted(h.open_edges, "open edge", "open edges"), h.open_surfaces, h.surfaces));
+    found.push_back(
+        fmt::format("{}; {} of {} surfaces are open: holes, or sheets, seen from both sides and through their holes",
+                    counted(h.open_edges, "open edge", "open edges"), h.open_surfaces, h.surfaces));
   }
   if (h.mixed_edges > 0) {
     found.push_back(counted(h.mixed_edges, "edge has", "edges have") +
                     " neighbours that face opposite ways: their surfaces are taken as sheets, seen from both sides");
   }
   if (h.non_manifold_edges > 0) {
-    found.push_back(counted(h.non_manifold_edges, "edge has", "edges have") + " three triangles or more" +
-                    (h.branching_surfaces == 0 ? std::string()
-                                               : fmt::format("; {} there: no telling which side is inside, taken as sheets, seen from both sides",
-                                                             counted(h.branching_surfaces, "surface that branches", "surfaces that branch"))));
+    found.push_back(
+        counted(h.non_manifold_edges, "edge has", "edges have") + " three triangles or more" +
+        (h.branching_surfaces == 0
+             ? std::string()
+             : fmt::format("; {} there: no telling which side is inside, taken as sheets, seen from both sides",
+                           counted(h.branching_surfaces, "surface that branches", "surfaces that branch"))));
   }
-  if (h.two_sided > 0) found.push_back(counted(h.two_sided, "triangle is", "triangles are") + " the back of another: left out, a sheet of one material is seen from both sides");
+  if (h.two_sided > 0)
+    found.push_back(counted(h.two_sided, "triangle is", "triangles are") +
+                    " the back of another: left out, a sheet of one material is seen from both sides");
   if (h.lost_sides > 0) {
-    found.push_back(fmt::format("{} the back of another in another material, the first of them of part '{}' behind part '{}': left out, their surfaces are open; "
-                                "both sides answer as the front does",
-                                counted(h.lost_sides, "triangle is", "triangles are"), h.lost_part, h.lost_behind));
+    found.push_back(
+        fmt::format("{} the back of another in another material, the first of them of part '{}' behind part '{}': left "
+                    "out, their surfaces are open; "
+                    "both sides answer as the front does",
+                    counted(h.lost_sides, "triangle is", "triangles are"), h.lost_part, h.lost_behind));
   }
   return found;
 }

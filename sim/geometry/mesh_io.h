@@ -26,7 +26,8 @@ double metres_per(const std::string& unit);
 //   parts.
 TriangleMesh read_mesh(const std::filesystem::path& path, const std::string& unit = "m");
 
-// The files beside a mesh's own that it is read from: buffers of a glTF, in their order; else none. InputError where read_mesh() finds the glTF wrong.
+// The files beside a mesh's own that it is read from: buffers of a glTF, in their order; else none. InputError where
+// read_mesh() finds the glTF wrong.
 std::vector<std::filesystem::path> files_beside_mesh(const std::filesystem::path& path);
 
 // Positions are rounded to float32, lengths are metres. glTF keeps parts and materials, OBJ parts, STL and PLY neither.
@@ -38,6 +39,7 @@ void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh);
 void require_coloured_mesh(const std::filesystem::path& path);
 
 // A glTF file whose materials have colours: linear red, green, blue in 0..1, one for each of mesh.materials.
-void write_coloured_mesh(const std::filesystem::path& path, const TriangleMesh& mesh, std::span<const std::array<double, 3>> material_colours);
+void write_coloured_mesh(const std::filesystem::path& path, const TriangleMesh& mesh,
+                         std::span<const std::array<double, 3>> material_colours);
 
 }  // namespace seaglint

@@ -119,7 +119,8 @@ class ObjCheck {
     line_ = face.line;
     const std::span<const std::uint32_t> corners(corners_.data() + face.first, face.count);
     polygon_.clear();
-    for (const std::uint32_t v : corners) polygon_.push_back({positions_[3 * v], positions_[3 * v + 1], positions_[3 * v + 2]});
+    for (const std::uint32_t v : corners)
+      polygon_.push_back({positions_[3 * v], positions_[3 * v + 1], positions_[3 * v + 2]});
     const auto triangles = split_polygon(polygon_);
     if (!triangles) fail(unsplit_polygon(face.count));
     for (const auto& [i, j, k] : *triangles) {

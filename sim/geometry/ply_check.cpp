@@ -33,17 +33,13 @@ struct Element {
 std::size_t size_of(Number type) {
   switch (type) {
     case Number::kInt8:
-    case Number::kUint8:
-      return 1;
+    case Number::kUint8: return 1;
     case Number::kInt16:
-    case Number::kUint16:
-      return 2;
+    case Number::kUint16: return 2;
     case Number::kInt32:
     case Number::kUint32:
-    case Number::kFloat:
-      return 4;
-    case Number::kDouble:
-      return 8;
+    case Number::kFloat: return 4;
+    case Number::kDouble: return 8;
   }
   return 0;
 }
@@ -57,22 +53,14 @@ double value_at(const char* bytes, bool swap) {
 
 double value_at(Number type, const char* bytes, bool swap) {
   switch (type) {
-    case Number::kInt8:
-      return value_at<std::int8_t>(bytes, swap);
-    case Number::kUint8:
-      return value_at<std::uint8_t>(bytes, swap);
-    case Number::kInt16:
-      return value_at<std::int16_t>(bytes, swap);
-    case Number::kUint16:
-      return value_at<std::uint16_t>(bytes, swap);
-    case Number::kInt32:
-      return value_at<std::int32_t>(bytes, swap);
-    case Number::kUint32:
-      return value_at<std::uint32_t>(bytes, swap);
-    case Number::kFloat:
-      return value_at<float>(bytes, swap);
-    case Number::kDouble:
-      return value_at<double>(bytes, swap);
+    case Number::kInt8: return value_at<std::int8_t>(bytes, swap);
+    case Number::kUint8: return value_at<std::uint8_t>(bytes, swap);
+    case Number::kInt16: return value_at<std::int16_t>(bytes, swap);
+    case Number::kUint16: return value_at<std::uint16_t>(bytes, swap);
+    case Number::kInt32: return value_at<std::int32_t>(bytes, swap);
+    case Number::kUint32: return value_at<std::uint32_t>(bytes, swap);
+    case Number::kFloat: return value_at<float>(bytes, swap);
+    case Number::kDouble: return value_at<double>(bytes, swap);
   }
   return 0;
 }
@@ -102,7 +90,8 @@ class PlyCheck {
       if (index >= vertex_count_) fail(fmt::format("a face names vertex {}, there are {}", index, vertex_count_));
     }
     std::size_t first = 0;
-    for (std::size_t face = 0; face < corner_count_.size(); first += corner_count_[face++]) split(face, {corners_.data() + first, corner_count_[face]});
+    for (std::size_t face = 0; face < corner_count_.size(); first += corner_count_[face++])
+      split(face, {corners_.data() + first, corner_count_[face]});
     return written();
   }
 

@@ -19,7 +19,8 @@ constexpr double kOverlap = 1e-6;     // of a polygon's area, that a triangle of
 // Newell's method (Sutherland, Sproull and Schumacker, ACM Computing Surveys 6, 1974, 1-55): twice the area vector.
 Vec3 newell(std::span<const Vec3> corner) {
   Vec3 normal = Vec3::Zero();
-  for (std::size_t i = 1; i + 1 < corner.size(); ++i) normal += (corner[i] - corner[0]).cross(corner[i + 1] - corner[0]);
+  for (std::size_t i = 1; i + 1 < corner.size(); ++i)
+    normal += (corner[i] - corner[0]).cross(corner[i + 1] - corner[0]);
   return normal;
 }
 
@@ -34,7 +35,8 @@ double rounding_of(std::span<const Vec3> corner) {
 bool is_flat(std::span<const Vec3> corner, double rounding) {
   double extent = 0, height = 0;
   for (std::size_t i = 1; i < corner.size(); ++i) extent = std::max(extent, (corner[i] - corner[0]).norm());
-  for (std::size_t i = 1; i + 1 < corner.size(); ++i) height = std::max(height, (corner[i] - corner[0]).cross(corner[i + 1] - corner[0]).norm());
+  for (std::size_t i = 1; i + 1 < corner.size(); ++i)
+    height = std::max(height, (corner[i] - corner[0]).cross(corner[i + 1] - corner[0]).norm());
   return height <= rounding * extent;
 }
 
@@ -44,7 +46,8 @@ Triangles fan(std::size_t corners) {
   return triangles;
 }
 
-// Triangles that all turn with the polygon cover each point as often as the polygon winds about it, so a fan of such is right unless it goes round more than once.
+// Triangles that all turn with the polygon cover each point as often as the polygon winds about it, so a fan of such is
+// right unless it goes round more than once.
 bool fan_covers(std::span<const Vec3> corner, const Vec3& area_vector, double rounding) {
   const Vec3 normal = area_vector.normalized();
   double sweep = 0;
@@ -59,7 +62,9 @@ bool fan_covers(std::span<const Vec3> corner, const Vec3& area_vector, double ro
 }
 
 // Twice the signed area of a triangle in the plane, positive counter-clockwise.
-double turn(const Vec2& a, const Vec2& b, const Vec2& c) { return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x()); }
+double turn(const Vec2& a, const Vec2& b, const Vec2& c) {
+  return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+}
 
 // How often the polygon goes counter-clockwise round the point: its crossings of the ray towards +x.
 int winding(const std::vector<Vec2>& corner, const Vec2& p) {
@@ -75,14 +80,17 @@ int winding(const std::vector<Vec2>& corner, const Vec2& p) {
 // What may be clipped, the better first; the last two only where nothing better is left.
 enum class Ear { kClear, kTouched, kFlat };
 
-// Clips ears, of which every simple polygon has two (Meisters, American Mathematical Monthly 82, 1975, 648-651; Eberly, Triangulation by Ear Clipping, 1998).
+// Clips ears, of which every simple polygon has two (Meisters, American Mathematical Monthly 82, 1975, 648-651; Eberly,
+// Triangulation by Ear Clipping, 1998).
 class EarClipper {
  public:
-  EarClipper(std::vector<Vec2> corner, double rounding) : corner_(std::move(corner)), rounding_(rounding), left_(corner_.size()) {
+  EarClipper(std::vector<Vec2> corner, double rounding)
+      : corner_(std::move(corner)), rounding_(rounding), left_(corner_.size()) {
     for (std::uint32_t i = 0; i < left_.size(); ++i) left_[i] = i;
   }
 
-  // Empty where no ear is left or what was clipped is no part of the polygon, as happens to those that cross themselves.
+  // Empty where no ear is left or what was clipped is no part of the polygon, as happens to those that cross
+  // themselves.
   Triangles clip() {
     Triangles triangles;
     // Each round tries every corner once; polygons rarely need more than a few rounds per kind.
@@ -109,7 +117,8 @@ class EarClipper {
     }
     triangles.push_back(triangle(1));
     for (const auto& [a, b, c] : triangles) {
-      const double area = turn(corner_[a], corner_[b], corner_[c]), least = least_area(corner_[a], corner_[b], corner_[c]);
+      const double area = turn(corner_[a], corner_[b], corner_[c]),
+                   least = least_area(corner_[a], corner_[b], corner_[c]);
       if (area < -least) return {};
       if (area > least && winding(corner_, (corner_[a] + corner_[b] + corner_[c]) / 3) != 1) return {};
     }
@@ -123,7 +132,9 @@ class EarClipper {
   }
 
   // Twice the area that rounding may feign, m^2.
-  double least_area(const Vec2& a, const Vec2& b, const Vec2& c) const { return rounding_ * std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()}); }
+  double least_area(const Vec2& a, const Vec2& b, const Vec2& c) const {
+    return rounding_ * std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+  }
 
   bool is_ear(std::size_t at, Ear kind) const {
     const auto [i, j, k] = triangle(at);
@@ -133,7 +144,9 @@ class EarClipper {
     if (area <= least) return false;
     // A corner on the ear's rim would be left on a side that ends elsewhere.
     const double margin = kind == Ear::kClear ? -rounding_ : rounding_;
-    const auto inside = [&](const Vec2& from, const Vec2& to, const Vec2& p) { return turn(from, to, p) > margin * (to - from).norm(); };
+    const auto inside = [&](const Vec2& from, const Vec2& to, const Vec2& p) {
+      return turn(from, to, p) > margin * (to - from).norm();
+    };
     return std::none_of(left_.begin(), left_.end(), [&](std::uint32_t other) {
       const Vec2& p = corner_[other];
       if (p == a || p == b || p == c) return false;
@@ -166,7 +179,9 @@ std::optional<Triangles> split_polygon(std::span<const Vec3> corner) {
 }
 
 std::string unsplit_polygon(std::size_t corners) {
-  if (corners > kMostConcaveCorners) return fmt::format("a polygon of {} corners that is no fan: {} at most, cut it into triangles", corners, kMostConcaveCorners);
+  if (corners > kMostConcaveCorners)
+    return fmt::format("a polygon of {} corners that is no fan: {} at most, cut it into triangles", corners,
+                       kMostConcaveCorners);
   return fmt::format("a polygon of {} corners that crosses itself: cut it into triangles", corners);
 }
 

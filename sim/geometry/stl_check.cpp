@@ -26,7 +26,8 @@ PlainPolygons check_binary(std::string bytes, const std::string& file) {
   if (count > held) throw InputError(fmt::format("{}: promises {} triangles, holds {}", file, count, held));
   const std::size_t end = kHeader + kFacet * count;
   if (bytes.size() > end)
-    throw InputError(fmt::format("{}: promises {} triangles, which end at byte {}; {} bytes are left over", file, count, end, bytes.size() - end));
+    throw InputError(fmt::format("{}: promises {} triangles, which end at byte {}; {} bytes are left over", file, count,
+                                 end, bytes.size() - end));
   for (std::size_t t = 0; t < count; ++t) {
     for (std::size_t i = 0; i < 9; ++i) {
       char* at = bytes.data() + kHeader + t * kFacet + 12 + 4 * i;

@@ -7,7 +7,8 @@
 namespace seaglint {
 namespace {
 
-// Of the mesh's largest coordinate, within which a corner lies in the surface: sixteen roundings to float32, which files keep.
+// Of the mesh's largest coordinate, within which a corner lies in the surface: sixteen roundings to float32, which
+// files keep.
 constexpr double kInSurface = 1e-6;
 
 }  // namespace
@@ -21,7 +22,8 @@ WaterlineCut cut_at_waterline(const TriangleMesh& mesh, double height) {
   const Bounds box = bounds(mesh);
   const double margin = kInSurface * std::max(box.lower.cwiseAbs().maxCoeff(), box.upper.cwiseAbs().maxCoeff());
   const auto above = [&](std::uint32_t v) { return cut.mesh.vertices[v].z() > height + margin; };
-  // Always from the lower end, so that both triangles of an edge get the same point; that end itself where it touches the surface.
+  // Always from the lower end, so that both triangles of an edge get the same point; that end itself where it touches
+  // the surface.
   const auto crossing = [&](std::uint32_t a, std::uint32_t b) {
     const std::uint32_t lower = above(a) ? b : a;
     const Vec3 low = cut.mesh.vertices[lower], high = cut.mesh.vertices[above(a) ? a : b];

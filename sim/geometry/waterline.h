@@ -14,8 +14,9 @@ struct WaterlineCut {
   std::vector<bool> below;  // one per triangle: below the water or in its surface
 };
 
-// Cuts the mesh along the plane z = height, m. Triangles that share an edge are cut at the same points; corners within 1e-6 of the mesh's largest coordinate of the
-// plane lie in it and stay where they are, so that rounding does not decide whether a bottom on the water is wet. Parts and materials are kept.
+// Cuts the mesh along the plane z = height, m. Triangles that share an edge are cut at the same points; corners within
+// 1e-6 of the mesh's largest coordinate of the plane lie in it and stay where they are, so that rounding does not
+// decide whether a bottom on the water is wet. Parts and materials are kept.
 WaterlineCut cut_at_waterline(const TriangleMesh& mesh, double height);
 
 }  // namespace seaglint

@@ -58,8 +58,9 @@ void check_step(const Body& body) {
   constexpr double kLeastSamples = 8, kPrinted = 1e-5;  // the bound is printed with six digits
   const double period = shortest_period(body), longest = period / kLeastSamples;
   if (body.spec.step_s > longest * (1 + kPrinted)) {
-    throw InputError(fmt::format("motion.step_s: value {}: must be at most {:.6g}, an eighth of the shortest natural period, {:.6g} s",
-                                 body.spec.step_s, longest, period));
+    throw InputError(fmt::format(
+        "motion.step_s: value {}: must be at most {:.6g}, an eighth of the shortest natural period, {:.6g} s",
+        body.spec.step_s, longest, period));
   }
 }
 

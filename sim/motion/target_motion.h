@@ -13,8 +13,8 @@
 
 namespace seaglint {
 
-// Where the bodies of a target's layout rest on the water, in T: a line along x about its centre; one body at the origin
-// without one.
+// Where the bodies of a target's layout rest on the water, in T: a line along x about its centre; one body at the
+// origin without one.
 std::vector<Vec2> layout_places(const TargetSpec& target);
 
 // Which realisation a body's own random numbers belong to; body counts from 0 over all targets of the scenario, in

@@ -36,7 +36,8 @@ class Trajectory {
   // A body that never moves.
   static Trajectory at_rest(const Vec3& rest_position);
 
-  // The same body carried along: its pose is displaced by velocity (t - from_s) besides, of which sample() knows nothing.
+  // The same body carried along: its pose is displaced by velocity (t - from_s) besides, of which sample() knows
+  // nothing.
   Trajectory carried(const Vec3& velocity, double from_s) const;
 
   // t within [start, end], else throws std::out_of_range; beyond them by kEndSlack of their distance it is rounding,

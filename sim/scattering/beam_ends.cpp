@@ -12,16 +12,21 @@ namespace seaglint {
 namespace {
 
 constexpr double kShortest = 1e-4;  // m
-// What is followed in full, and from where on not at all: slopes of psi across rims whose ends do not move, where KnifeEdges::fade_by_slope leaves any; angles of the way from
-// rim to rim against the beam, rad, for Fresnel's form; sines of the angle between the rims, which near their crossing cut no more than lambda d.
+// What is followed in full, and from where on not at all: slopes of psi across rims whose ends do not move, where
+// KnifeEdges::fade_by_slope leaves any; angles of the way from rim to rim against the beam, rad, for Fresnel's form;
+// sines of the angle between the rims, which near their crossing cut no more than lambda d.
 constexpr std::array<double, 2> kSlope{0.1, 0.2}, kSteep{0.2, 0.5}, kAskew{0.3, 0.7};
 
 // Along a side that the inner one of two rims bounds, where both are.
 class Pair {
  public:
   Pair(const SideFrame& side, const Rim& inner, const Rim& outer, std::span<const Screen> screens)
-      : side_(side), outer_(outer), first_(screens[std::min(inner.screen, outer.screen)]), second_(screens[std::max(inner.screen, outer.screen)]),
-        outer_is_first_(outer.screen < inner.screen), end_{of_corner(side.from), of_corner(side.to)} {
+      : side_(side),
+        outer_(outer),
+        first_(screens[std::min(inner.screen, outer.screen)]),
+        second_(screens[std::max(inner.screen, outer.screen)]),
+        outer_is_first_(outer.screen < inner.screen),
+        end_{of_corner(side.from), of_corner(side.to)} {
     for (const Rim* rim : {&inner, &outer}) {
       End a = of_rim(*rim, rim->a, screens), b = of_rim(*rim, rim->b, screens);
       if (a.t > b.t) std::swap(a, b);
@@ -51,9 +56,13 @@ class Pair {
     double t;
     Vec2 moves;
   };
-  End of_corner(const Corner& corner) const { return {side_.t(corner.p), {side_.along.dot(corner.d1), side_.along.dot(corner.d2)}}; }
+  End of_corner(const Corner& corner) const {
+    return {side_.t(corner.p), {side_.along.dot(corner.d1), side_.along.dot(corner.d2)}};
+  }
   // The end of a rim stays where it is in the body and moves by -z d_i in the aperture.
-  End of_rim(const Rim& rim, const Vec2& p, std::span<const Screen> screens) const { return {side_.t(p), -screens[rim.screen].plane->at(p) * side_.along}; }
+  End of_rim(const Rim& rim, const Vec2& p, std::span<const Screen> screens) const {
+    return {side_.t(p), -screens[rim.screen].plane->at(p) * side_.along};
+  }
 
   const SideFrame& side_;
   const Rim& outer_;
@@ -66,9 +75,17 @@ class Pair {
 class SideEnds {
  public:
   SideEnds(const SideFrame& side, const RimWays& ways, std::span<const Vec2> outline, std::vector<EdgeFootprint>& out)
-      : footprint_(ways.footprint()), side_(side), screens_(ways.screens()), ways_(ways), transmit_(ways.aperture()), out_(out), slope_(-footprint_.w.dot(side.across)), depth_(depth_across(side, outline)) {}
+      : footprint_(ways.footprint()),
+        side_(side),
+        screens_(ways.screens()),
+        ways_(ways),
+        transmit_(ways.aperture()),
+        out_(out),
+        slope_(-footprint_.w.dot(side.across)),
+        depth_(depth_across(side, outline)) {}
 
-  // Takes the end off the shadow line that a rim casts on this side, and puts it on the rim when nothing else hides the way from there.
+  // Takes the end off the shadow line that a rim casts on this side, and puts it on the rim when nothing else hides the
+  // way from there.
   void move_to_rim(const Rim& rim, bool hidden) {
     const auto [share, seen] = ways_.share(rim, slope_);
     if (share <= 0) return;
@@ -83,7 +100,9 @@ class SideEnds {
     std::array<Vec2, 2> places, moves;
     for (std::size_t end = 0; end < 2; ++end) {
       const double s = t[end] / length;
-      const Corner corner{side_.from.p + s * (side_.to.p - side_.from.p), side_.from.d1 + s * (side_.to.d1 - side_.from.d1), side_.from.d2 + s * (side_.to.d2 - side_.from.d2)};
+      const Corner corner{side_.from.p + s * (side_.to.p - side_.from.p),
+                          side_.from.d1 + s * (side_.to.d1 - side_.from.d1),
+                          side_.from.d2 + s * (side_.to.d2 - side_.from.d2)};
       on_line.psi[end] = footprint_.psi(corner.p);
       on_line.gradient[end] = phase_gradient(footprint_, corner, transmit_);
       places[end] = corner.p;
@@ -93,9 +112,11 @@ class SideEnds {
     if (seen && !hidden) put_on_rim(rim, places, moves, share, on_line);
   }
 
-  // What two rims share, of which `inner` bounds this side. True when the outer one hides the way over the inner one to the receiver.
+  // What two rims share, of which `inner` bounds this side. True when the outer one hides the way over the inner one to
+  // the receiver.
   bool share_between(const Rim& inner, const Rim& outer) {
-    if (inner.screen == outer.screen || side_.x(outer.inside) <= 0.5 * (side_.x(outer.a) + side_.x(outer.b))) return false;
+    if (inner.screen == outer.screen || side_.x(outer.inside) <= 0.5 * (side_.x(outer.a) + side_.x(outer.b)))
+      return false;
     const Vec2 run = (outer.b - outer.a).normalized();
     const double askew = fading(std::abs(side_.across.dot(run)), kAskew), parallel = std::abs(side_.along.dot(run));
     if (askew <= 0) return false;
@@ -103,7 +124,8 @@ class SideEnds {
     const Pair both(side_, inner, outer, screens_);
     if (both.length() < kShortest) return false;
     // Lengths are the first rim's, distances from its line.
-    const Rim &first = inner.screen < outer.screen ? inner : outer, &second = inner.screen < outer.screen ? outer : inner;
+    const Rim &first = inner.screen < outer.screen ? inner : outer,
+              &second = inner.screen < outer.screen ? outer : inner;
     const double turned = &first == &outer ? parallel : 1.0;
     const std::array<Pair::Places, 2> ends{both.at(0), both.at(1)};
     const double way = ends[0].distance + ends[1].distance;
@@ -133,7 +155,8 @@ class SideEnds {
       within[end] = side_.x(ways_.landing(first.screen, on_first)) - side_.x(on_second);
       const Vec2 step(distance, turned * side_.across.dot(on_second - on_first));
       knives.beyond[end] = std::max(step.norm() - step.dot(way_out), 0.0);
-      // The path is stationary where the ray meets the first rim, not where it meets the facet: how far that place slips there counts.
+      // The path is stationary where the ray meets the first rim, not where it meets the facet: how far that place
+      // slips there counts.
       const Vec2 slip = footprint_.w.dot(side_.along) * along_body(moves, footprint_.plane.at(on_second));
       PathGradient& gradient = lacking.gradient[end];
       gradient.transmit_slip = slip.x() * transmit_.h + slip.y() * transmit_.v;
@@ -142,8 +165,10 @@ class SideEnds {
     }
     // Where both rims meet the sign is that of the rest of the stretch.
     const double landed = within[0] + within[1];
-    for (std::size_t end = 0; end < 2; ++end) knives.beyond[end] = std::copysign(knives.beyond[end], std::abs(within[end]) < kOnRim ? landed : within[end]);
-    if (!knives.shadow_within && share.seen && landed > 0) put_on_rim(first, {ends[0].first, ends[1].first}, {ends[0].moves, ends[1].moves}, askew * share.moved, lacking);
+    for (std::size_t end = 0; end < 2; ++end)
+      knives.beyond[end] = std::copysign(knives.beyond[end], std::abs(within[end]) < kOnRim ? landed : within[end]);
+    if (!knives.shadow_within && share.seen && landed > 0)
+      put_on_rim(first, {ends[0].first, ends[1].first}, {ends[0].moves, ends[1].moves}, askew * share.moved, lacking);
     const double weight = askew * fading(turned * (ends[0].apart + ends[1].apart) / way, kSteep);
     if (weight > 0 && knives.moved + knives.still > 0) {
       for (int i = 0; i < 4; ++i) lacking.pattern.sharp[i] = Complex(0, weight / (2 * kPi)) * footprint_.pattern[i];
@@ -168,8 +193,10 @@ class SideEnds {
     end.spread = 2 * distance / (depth * depth);
   }
 
-  // What physical optics has of the end along this side, with the sign that takes `share` of it off: by the divergence theorem with F = e e^{jk w.p} / (jk w.e), e as the rim's face runs away from it. So every
-  // point of the rim has the end of the strip that it bounds, as in ends_of_beam(), and the phase may run along the side; Gordon's e = w (phase_integral) would leave it some of the ends of other sides.
+  // What physical optics has of the end along this side, with the sign that takes `share` of it off: by the divergence
+  // theorem with F = e e^{jk w.p} / (jk w.e), e as the rim's face runs away from it. So every point of the rim has the
+  // end of the strip that it bounds, as in ends_of_beam(), and the phase may run along the side; Gordon's e = w
+  // (phase_integral) would leave it some of the ends of other sides.
   void set_pattern(double share, const Rim& rim, EdgeFootprint& end) const {
     const Vec2& e = rim.away;
     const double across = e.x() * side_.along.y() - e.y() * side_.along.x(), slope = footprint_.w.dot(e) / across;
@@ -181,8 +208,10 @@ class SideEnds {
   // How far a place slips along the side in the body, whose points at this height move by -z d_i in the aperture.
   Vec2 along_body(const Vec2& moves, double height) const { return moves + height * side_.along; }
 
-  // The end on the rim of a mirror, `moves` how its places move along the side as the direction turns; as long and with as much spread as another one.
-  void put_on_rim(const Rim& rim, const std::array<Vec2, 2>& places, const std::array<Vec2, 2>& moves, double share, const EdgeFootprint& other) {
+  // The end on the rim of a mirror, `moves` how its places move along the side as the direction turns; as long and with
+  // as much spread as another one.
+  void put_on_rim(const Rim& rim, const std::array<Vec2, 2>& places, const std::array<Vec2, 2>& moves, double share,
+                  const EdgeFootprint& other) {
     if (share <= 0) return;
     EdgeFootprint on_rim = of_footprint(other.length);
     on_rim.spread = other.spread;
@@ -202,7 +231,8 @@ class SideEnds {
 
   // Depth of the panel across the side, m.
   static double depth_across(const SideFrame& side, std::span<const Vec2> outline) {
-    const auto [least, most] = std::ranges::minmax(outline | std::views::transform([&](const Vec2& p) { return side.x(p); }));
+    const auto [least, most] =
+        std::ranges::minmax(outline | std::views::transform([&](const Vec2& p) { return side.x(p); }));
     return most - least;
   }
 
@@ -245,7 +275,8 @@ double bound_of_beam_end(const EdgeFootprint& footprint, double lowest, double h
   for (const Complex& element : footprint.pattern.sharp) pattern = std::max(pattern, std::abs(element));
   // A stretch of running phase answers from its ends.
   const double run = lowest * std::abs(footprint.psi[1] - footprint.psi[0]);
-  return pattern * footprint.length * std::min(1.0, 2 / run) * (footprint.knife_edges ? footprint.knife_edges->bound(lowest) : 1.0) * footprint.fade_by_spread(highest);
+  return pattern * footprint.length * std::min(1.0, 2 / run) *
+         (footprint.knife_edges ? footprint.knife_edges->bound(lowest) : 1.0) * footprint.fade_by_spread(highest);
 }
 
 }  // namespace seaglint

@@ -19,14 +19,14 @@ struct Leg {
   Vec3 E_h, E_v;                  // field for each transmitted polarisation, real space, all mirrors perfect conductors
   std::vector<BeamField> fields;  // the field per wavenumber once a mirror was of another material
   int from_facet = kNoFacet;
-  ImagePlane from_plane;            // of the last mirror
-  Vec3 from_normal = Vec3::Zero();  // real, on the side the beam leaves
-  int bounce = 1;                   // of the hits at this leg's end
+  ImagePlane from_plane;             // of the last mirror
+  Vec3 from_normal = Vec3::Zero();   // real, on the side the beam leaves
+  int bounce = 1;                    // of the hits at this leg's end
   Vec3 first_mirror = Vec3::Zero();  // normal of the first one as those after it show it to this leg, unit; none before
-  int first_facet = -1;             // the first one itself
-  bool bent = false;                // a mirror on the way was curved:
-  BentRays rays;                    // the rays as they left the last mirror
-  const Leg* before = nullptr;      // the leg to the last mirror
+  int first_facet = -1;              // the first one itself
+  bool bent = false;                 // a mirror on the way was curved:
+  BentRays rays;                     // the rays as they left the last mirror
+  const Leg* before = nullptr;       // the leg to the last mirror
 };
 
 // A facet that a leg may light, and what of it is lit as far as is known.

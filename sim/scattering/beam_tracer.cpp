@@ -243,13 +243,15 @@ class BeamTracer {
   // Wedges are perfect conductors, and so is what the wave met before.
   void reach_edges(const Leg& leg, const Candidate& candidate) {
     if (!leg.fields.empty() || !surface_of(candidate.image.facet).empty()) return;
-    const WaveOnFacet wave{basis_, leg.mirrors, candidate.image.plane, leg.direction, leg.E_h, leg.E_v, leg.bounce, leg.first_mirror};
+    const WaveOnFacet wave{basis_,  leg.mirrors, candidate.image.plane, leg.direction, leg.E_h,
+                           leg.E_v, leg.bounce,  leg.first_mirror};
     find_arrivals(*edges_, candidate.image.facet, wave, candidate.lit.polygons(), out_.arrivals);
   }
 
   // Perfect conductors, as wedges are, and flat.
   bool has_beam_ends(const Leg& leg, const Footprint& footprint) const {
-    return edges_ && leg.bounce > 1 && leg.bounce <= kMostMoved + 1 && !leg.bent && !footprint.curvature && footprint.patterns.empty();
+    return edges_ && leg.bounce > 1 && leg.bounce <= kMostMoved + 1 && !leg.bent && !footprint.curvature &&
+           footprint.patterns.empty();
   }
 
   // The leg's mirrors and the candidate, as the beam meets them.
@@ -258,7 +260,8 @@ class BeamTracer {
     Screens screens;
     auto place = static_cast<std::size_t>(leg.bounce) - 1;
     screens[place] = {candidate.image.facet, &leg.mirrors, &candidate.image.plane, leg.direction};
-    for (const Leg* after = &leg; place > 0; after = after->before) screens[--place] = {after->from_facet, &after->mirrors, &after->from_plane, after->before->direction};
+    for (const Leg* after = &leg; place > 0; after = after->before)
+      screens[--place] = {after->from_facet, &after->mirrors, &after->from_plane, after->before->direction};
     return screens;
   }
 
@@ -286,10 +289,12 @@ class BeamTracer {
     std::optional<BeamEnds> ends;
     if (has_beam_ends(leg, footprint)) {
       screens = screens_of(leg, candidate);
-      ends.emplace(*edges_, panels_, antennas_, std::span<const Screen>(screens.data(), static_cast<std::size_t>(leg.bounce)));
+      ends.emplace(*edges_, panels_, antennas_,
+                   std::span<const Screen>(screens.data(), static_cast<std::size_t>(leg.bounce)));
     }
     const double share = leaves_grazing(leg, footprint.facet) ? share_of_way(leg, footprint.facet) : 1.0;
-    if (share > 1) give_share(share, footprint);  // with the ends of its beams; where less is left they have faded out as much (rim_share)
+    // with the ends of its beams; where less is left they have faded out as much (rim_share)
+    if (share > 1) give_share(share, footprint);
     for (const MovingPolygon& piece : pieces) {
       footprint.polygon = piece;
       limit_slip(footprint, 2 * radius_);
@@ -305,15 +310,19 @@ class BeamTracer {
   double share_of_way(const Leg& leg, int last) const {
     if (leg.bounce == 1) return 1;
     const GrazedMirror first = mirror_of(leg.first_facet);
-    return leg.bounce > 2 ? share_of_more(basis_.r, first, mirror_of(leg.from_facet), mirror_of(last)) : share_of_two(basis_.r, first, mirror_of(last));
+    return leg.bounce > 2 ? share_of_more(basis_.r, first, mirror_of(leg.from_facet), mirror_of(last))
+                          : share_of_two(basis_.r, first, mirror_of(last));
   }
 
-  // Whether mirrors that are grazed leave their echo to other ways; without edges the last one has all of it, as usual. Flat perfect conductors, and none that are followed by other means.
+  // Whether mirrors that are grazed leave their echo to other ways; without edges the last one has all of it, as usual.
+  // Flat perfect conductors, and none that are followed by other means.
   bool leaves_grazing(const Leg& leg, int facet) const {
-    return edges_ && antennas_.monostatic && !leg.bent && !curving_.surface.curved(facet) && leg.fields.empty() && surface_of(facet).empty() && !filter_.is_cavity(facets_[facet].part);
+    return edges_ && antennas_.monostatic && !leg.bent && !curving_.surface.curved(facet) && leg.fields.empty() &&
+           surface_of(facet).empty() && !filter_.is_cavity(facets_[facet].part);
   }
 
-  // Footprints of what leaves by the mirror that it came by first, where that is grazed: of the facet's image in it, lit and seen directly. `seen`: pieces of the facet that the radar sees.
+  // Footprints of what leaves by the mirror that it came by first, where that is grazed: of the facet's image in it,
+  // lit and seen directly. `seen`: pieces of the facet that the radar sees.
   void radiate_back(const Leg& leg, const Candidate& candidate, std::span<const MovingPolygon> seen) {
     const int facet = candidate.image.facet;
     if (leg.bounce < 2 || leg.bounce >= max_bounces_ || !leaves_grazing(leg, facet)) return;
@@ -341,7 +350,8 @@ class BeamTracer {
     // What the mirror lights at first, a receiver at the same place sees by it.
     std::vector<MovingPolygon> by_mirror;
     if (leg.bounce > 2) visible_.seen_by(leg.first_facet, facet, footprint.mirrors, seen, basis_, by_mirror);
-    for (const MovingPolygon& piece : leg.bounce > 2 ? std::span<const MovingPolygon>(by_mirror) : candidate.lit.polygons()) {
+    for (const MovingPolygon& piece :
+         leg.bounce > 2 ? std::span<const MovingPolygon>(by_mirror) : candidate.lit.polygons()) {
       footprint.polygon = piece;
       limit_slip(footprint, 2 * radius_);
       out_.footprints.push_back(footprint);
@@ -362,7 +372,7 @@ class BeamTracer {
   Lit& out_;
   int max_bounces_;
   double min_area_, min_beam_area_;
-  double radius_;  // of the whole body
+  double radius_;                 // of the whole body
   std::vector<Scratch> scratch_;  // by the bounce a leg ends in
   std::size_t legs_ = 0;
 };

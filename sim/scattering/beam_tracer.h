@@ -16,11 +16,11 @@ struct BeamScene {
   const Scatterer& scatterer;
   const AntennaPair& antennas;
   const IlluminationSettings& settings;
-  const VisibleSurface& lit;      // from the transmitter
-  const VisibleSurface& visible;  // to the receiver
+  const VisibleSurface& lit;                       // from the transmitter
+  const VisibleSurface& visible;                   // to the receiver
   std::span<const std::vector<Surface>> surfaces;  // [material][wavenumber]; none for a perfect conductor
-  double min_area = 0;            // of lit pieces that count, m^2
-  double min_beam_area = 0;       // of beams that are followed to further mirrors, m^2
+  double min_area = 0;                             // of lit pieces that count, m^2
+  double min_beam_area = 0;                        // of beams that are followed to further mirrors, m^2
 };
 
 // Appends what all beams light whose first mirror is the panel of one of these facets; returns the legs followed. Calls

@@ -11,8 +11,8 @@
 
 namespace seaglint {
 
-// Around the convex pieces of the aperture that a leg comes through, one or more, on the side of the mirror that the leg
-// leaves; `basis` is that of the aperture.
+// Around the convex pieces of the aperture that a leg comes through, one or more, on the side of the mirror that the
+// leg leaves; `basis` is that of the aperture.
 Prism prism_around(std::span<const MovingPolygon> window, const Leg& leg, const RadarBasis& basis,
                    std::span<const Facet> facets);
 

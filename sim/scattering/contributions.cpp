@@ -29,8 +29,8 @@ class Splitter {
       curved();
       return;
     }
-    // Only a phase that runs through a good part of a cycle has end points. The whole facet decides, not this piece of it: pieces that share a
-    // moving boundary must be treated alike, or its two sides do not cancel.
+    // Only a phase that runs through a good part of a cycle has end points. The whole facet decides, not this piece of
+    // it: pieces that share a moving boundary must be treated alike, or its two sides do not cancel.
     const double half_phase = settings_.kc * footprint_.surface_slope * footprint_.facet_size / 2;
     if (footprint_.surface_slope > threshold_ && half_phase > kPieceHalfPhase) {
       edges();
@@ -108,7 +108,7 @@ class Splitter {
       const double length = footprint_.surface_length(along);
       if (length < 1e-12) continue;
       const Complex edge(0, -cross(footprint_.w, along) / (k * footprint_.w.squaredNorm()));  // cross / (jk w^2)
-      const double run = footprint_.w.dot(along);  // psi from a to b
+      const double run = footprint_.w.dot(along);                                             // psi from a to b
       if (std::abs(run) > threshold_ * length && std::abs(k * run) / 2 > kPieceHalfPhase) {
         const double ends = edge.imag() / (k * run);  // edge / (jk run)
         end[(i + 1) % n] += ends;
@@ -150,8 +150,8 @@ void split(const Footprint& footprint, const RadarBasis& transmit, const SplitSe
   Splitter(footprint, transmit, settings, out).run();
 }
 
-void split_over_band(const Footprint& footprint, const RadarBasis& transmit, const SplitSettings& settings, double half_band,
-                     std::vector<Contribution>& out) {
+void split_over_band(const Footprint& footprint, const RadarBasis& transmit, const SplitSettings& settings,
+                     double half_band, std::vector<Contribution>& out) {
   split(footprint, transmit, settings, out);
   if (footprint.patterns.size() != 3 || half_band <= 0) return;
   std::array<Complex, 4> slope;
@@ -205,7 +205,8 @@ void split(const EdgeFootprint& footprint, const SplitSettings& settings, std::v
   }
 }
 
-void bend_wavefront(std::span<Contribution> contributions, const AntennaPair& antennas, const Vec3& origin, double range_m) {
+void bend_wavefront(std::span<Contribution> contributions, const AntennaPair& antennas, const Vec3& origin,
+                    double range_m) {
   for (Contribution& c : contributions) {
     for (const bool out : {false, true}) {
       const Vec3& r = out ? antennas.receive.r : antennas.transmit.r;

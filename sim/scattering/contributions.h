@@ -2,8 +2,8 @@
 #pragma once
 
 // A footprint's phase integral as points that hold over a band and a small turn: each with its own path and the
-// gradient of that path, and an amplitude that varies slowly (README.md: closed forms may not be frozen while their phase
-// runs through cycles; their end points may).
+// gradient of that path, and an amplitude that varies slowly (README.md: closed forms may not be frozen while their
+// phase runs through cycles; their end points may).
 
 #include <array>
 #include <cstdint>
@@ -16,11 +16,11 @@
 namespace seaglint {
 
 struct Contribution {
-  Complex amplitude;       // S-amplitude of unit pattern at kc without its phase e^{jk psi}, m
-  double psi = 0;          // minus the two-way path, m
-  PathGradient gradient;   // d psi / d r^, body frame, m
+  Complex amplitude;                             // S-amplitude of unit pattern at kc without its phase e^{jk psi}, m
+  double psi = 0;                                // minus the two-way path, m
+  PathGradient gradient;                         // d psi / d r^, body frame, m
   std::array<std::complex<float>, 4> pattern{};  // hh, hv, vh, vv
-  std::int32_t facet = -1;  // where it leaves the target
+  std::int32_t facet = -1;                       // where it leaves the target
   std::uint16_t part = 0;
   std::uint8_t bounces = 1;
   Mechanism mechanism = Mechanism::kPhysicalOptics;
@@ -42,25 +42,27 @@ inline constexpr double kPieceHalfPhase = 0.5;  // rad
 void split(const Footprint& footprint, const RadarBasis& transmit, const SplitSettings& settings,
            std::vector<Contribution>& out);
 
-// The same over a band kc -+ half_band for a footprint whose patterns belong to the band's lower end, centre and upper end: their first-order change with k
-// becomes two more sets of points. With P1 = dP/dk and a small delta,
+// The same over a band kc -+ half_band for a footprint whose patterns belong to the band's lower end, centre and upper
+// end: their first-order change with k becomes two more sets of points. With P1 = dP/dk and a small delta,
 //     (k - kc) P1 e^{jk psi}  is  sin((k - kc) delta) / delta P1 e^{jk psi},
 // points at psi +- delta; kSlopePhase = half_band delta bounds the error by kSlopePhase^2 / 6 of that change.
 inline constexpr double kSlopePhase = 0.2;  // rad
-void split_over_band(const Footprint& footprint, const RadarBasis& transmit, const SplitSettings& settings, double half_band,
-                     std::vector<Contribution>& out);
+void split_over_band(const Footprint& footprint, const RadarBasis& transmit, const SplitSettings& settings,
+                     double half_band, std::vector<Contribution>& out);
 
 // The same for a stretch of sharp edge: its ends, or pieces short enough for one point.
 void split(const EdgeFootprint& footprint, const SplitSettings& settings, std::vector<Contribution>& out);
 
-// The wavefront at a finite range, to second order (CONVENTIONS.md, "Plane waves"): each way is longer by |x_perp|^2 / (2 R), x counted from the point
-// that the range refers to; `origin` is where the contributions' frame stands from there. The gradients follow, but for what a slipping
-// corner's way over the bent front adds, |x_perp| / R of its slip. Contributions must have been split for a turn of
-// (reach from that point) / R besides their own, since the radar stands in another direction from every point.
-void bend_wavefront(std::span<Contribution> contributions, const AntennaPair& antennas, const Vec3& origin, double range_m);
+// The wavefront at a finite range, to second order (CONVENTIONS.md, "Plane waves"): each way is longer by |x_perp|^2 /
+// (2 R), x counted from the point that the range refers to; `origin` is where the contributions' frame stands from
+// there. The gradients follow, but for what a slipping corner's way over the bent front adds, |x_perp| / R of its slip.
+// Contributions must have been split for a turn of (reach from that point) / R besides their own, since the radar
+// stands in another direction from every point.
+void bend_wavefront(std::span<Contribution> contributions, const AntennaPair& antennas, const Vec3& origin,
+                    double range_m);
 
-// sum of pattern amplitude e^{jk (psi + gradient . turn)} over all contributions, both directions turning alike: the direct sum, for tests and for
-// few points.
+// sum of pattern amplitude e^{jk (psi + gradient . turn)} over all contributions, both directions turning alike: the
+// direct sum, for tests and for few points.
 std::array<Complex, 4> direct_sum(std::span<const Contribution> contributions, double k, const Vec3& turn);
 
 }  // namespace seaglint

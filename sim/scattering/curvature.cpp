@@ -38,12 +38,14 @@ class CurvedSplitter {
       const int j = (i + 1) % 3;
       const Vec2 along = c_.corner[j] - c_.corner[i];
       const double most = 0.25 * std::abs(along.dot(c_.phase.hessian * along));
-      skew_[i] = std::clamp(0.5 * (c_.w[i] + c_.w[j]).dot(along) - (psi(c_.corner[j]) - psi(c_.corner[i])), -most, most);
+      skew_[i] =
+          std::clamp(0.5 * (c_.w[i] + c_.w[j]).dot(along) - (psi(c_.corner[j]) - psi(c_.corner[i])), -most, most);
     }
     for (int i = 0; i < 3; ++i) slope_[i] = along_surface_ * c_.slope[i];
     for (int i = 0; i < 3; ++i) {
       const int j = (i + 1) % 3;
-      curving_ = std::max(curving_, (slope_[j] - slope_[i]).norm() / footprint.surface_length(c_.corner[j] - c_.corner[i]));
+      curving_ =
+          std::max(curving_, (slope_[j] - slope_[i]).norm() / footprint.surface_length(c_.corner[j] - c_.corner[i]));
     }
   }
 
@@ -52,7 +54,8 @@ class CurvedSplitter {
   }
 
  private:
-  // The quadratic, and along each edge the cubic x (1 - x) (1 - 2 x) that gives it the smooth surface's slopes at both ends.
+  // The quadratic, and along each edge the cubic x (1 - x) (1 - 2 x) that gives it the smooth surface's slopes at both
+  // ends.
   double psi(const Vec2& p) const {
     double sum = footprint_.psi(p) + c_.phase.at(p);
     for (int i = 0; i < 3; ++i) {
@@ -96,8 +99,10 @@ class CurvedSplitter {
     std::array<Vec2, 3> slope;
     for (int i = 0; i < 3; ++i) slope[i] = between(slope_, triangle[i]);
     const Vec2 mean = (slope[0] + slope[1] + slope[2]) / 3;
-    const double least = mean.norm() - std::max({(slope[0] - mean).norm(), (slope[1] - mean).norm(), (slope[2] - mean).norm()});
-    if (least > least_slope_ && k_ * least * size / 2 > kPieceHalfPhase && k_ * least * least > kContourRatio * curving_) {
+    const double least =
+        mean.norm() - std::max({(slope[0] - mean).norm(), (slope[1] - mean).norm(), (slope[2] - mean).norm()});
+    if (least > least_slope_ && k_ * least * size / 2 > kPieceHalfPhase &&
+        k_ * least * least > kContourRatio * curving_) {
       contour(polygon);
       return;
     }
@@ -105,8 +110,8 @@ class CurvedSplitter {
       point(polygon);
       return;
     }
-    // A cut of our own is fixed to the body, whose points at height z move by -z d_i when the direction turns by d_i: at rest in the aperture it
-    // would slip in the facet.
+    // A cut of our own is fixed to the body, whose points at height z move by -z d_i when the direction turns by d_i:
+    // at rest in the aperture it would slip in the facet.
     const Vec2 &a = triangle[longest], &b = triangle[(longest + 1) % 3], &far = triangle[(longest + 2) % 3];
     const Vec2 middle = 0.5 * (a + b), along = far - middle;
     MovingLine line;
@@ -123,8 +128,8 @@ class CurvedSplitter {
     if (!near_b.empty()) part(near_b, {middle, b, far});
   }
 
-  // The integral over a small polygon as one term at its centroid, by the seven-point rule of degree 5 on its triangles (A. H. Stroud, Approximate
-  // Calculation of Multiple Integrals, T2: 5-1).
+  // The integral over a small polygon as one term at its centroid, by the seven-point rule of degree 5 on its triangles
+  // (A. H. Stroud, Approximate Calculation of Multiple Integrals, T2: 5-1).
   void point(const MovingPolygon& polygon) {
     const Vec2 c = centroid(polygon);
     const double psi_c = psi(c);
@@ -137,15 +142,16 @@ class CurvedSplitter {
       const double area = 0.5 * cross(b - a, d - a);
       Complex mean = kWeightMiddle * value((a + b + d) / 3);
       for (const auto& [x, y, z] : {std::array{a, b, d}, {b, d, a}, {d, a, b}}) {
-        mean += kWeightNear * value((1 - 2 * kNear) * x + kNear * (y + z)) + kWeightFar * value((1 - 2 * kFar) * x + kFar * (y + z));
+        mean += kWeightNear * value((1 - 2 * kNear) * x + kNear * (y + z)) +
+                kWeightFar * value((1 - 2 * kFar) * x + kFar * (y + z));
       }
       integral += area * mean;
     }
     out_.push_back({integral, psi_c, c, 0, 0});
   }
 
-  // Leading contour term of the area: each edge carries fading cross(w, edge)/(jk |w|^2) e^{jk psi} with the local slope w, by the divergence theorem
-  // with F = w e^{jk psi} / (jk |w|^2).
+  // Leading contour term of the area: each edge carries fading cross(w, edge)/(jk |w|^2) e^{jk psi} with the local
+  // slope w, by the divergence theorem with F = w e^{jk psi} / (jk |w|^2).
   void contour(const MovingPolygon& polygon) {
     const std::size_t n = polygon.size();
     std::vector<Complex> end(n, 0.0);
@@ -160,22 +166,30 @@ class CurvedSplitter {
       const Vec2 along = b.p - a.p;
       const double length = footprint_.surface_length(along);
       if (length < 1e-12) continue;
-      const auto at = [&](double x) { return Corner{a.p + x * along, a.d1 + x * (b.d1 - a.d1), a.d2 + x * (b.d2 - a.d2)}; };
+      const auto at = [&](double x) {
+        return Corner{a.p + x * along, a.d1 + x * (b.d1 - a.d1), a.d2 + x * (b.d2 - a.d2)};
+      };
       const auto run = [&](double x) { return psi_slope(a.p + x * along).dot(along); };  // d psi / dx
       // Where psi runs fast enough a part of the edge is its ends; the ends of parts that meet inside the edge cancel.
       const auto part_of_edge = [&](const auto& self, double from, double to, double run_from, double run_to) -> void {
-        const double least = run_from * run_to > 0 ? std::min(std::abs(run_from), std::abs(run_to)) : 0, step = to - from;
+        const double least = run_from * run_to > 0 ? std::min(std::abs(run_from), std::abs(run_to)) : 0,
+                     step = to - from;
         if (least > least_slope_ * length && k_ * least * step / 2 > kPieceHalfPhase &&
             k_ * least * least * step > kContourRatio * std::abs(run_to - run_from)) {
           const Complex first = -flux(a.p + from * along, along) / Complex(0, k_ * run_from);
           const Complex last = flux(a.p + to * along, along) / Complex(0, k_ * run_to);
-          if (from == 0) end[i] += first, has_end[i] = 1;
-          else slide(first, at(from));
-          if (to == 1) end[j] += last, has_end[j] = 1;
-          else slide(last, at(to));
+          if (from == 0)
+            end[i] += first, has_end[i] = 1;
+          else
+            slide(first, at(from));
+          if (to == 1)
+            end[j] += last, has_end[j] = 1;
+          else
+            slide(last, at(to));
           return;
         }
-        const double largest = std::max({std::abs(run_from), std::abs(run_to), kAmplitudeError * least_slope_ * length});
+        const double largest =
+            std::max({std::abs(run_from), std::abs(run_to), kAmplitudeError * least_slope_ * length});
         const double middle = 0.5 * (from + to);
         if (k_ * largest * step / 2 <= kPieceHalfPhase) {
           slide(flux(a.p + middle * along, along) * (sinc(k_ * run(middle) * step) * step), at(middle));

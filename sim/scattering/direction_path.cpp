@@ -42,8 +42,7 @@ DirectionPath direction_path(std::span<const Vec3> transmit, std::span<const Vec
   path.track = chord.norm() > kAtRest ? chord.unit() : Track{any_across(transmit_at), Vec3::Zero()};
   Difference farthest{Vec3::Zero(), Vec3::Zero()};
   for (std::size_t n = 0; n < transmit.size(); ++n) {
-    const Difference beside =
-        difference(transmit[n] - transmit_at, receive[n] - receive_at).without(path.track);
+    const Difference beside = difference(transmit[n] - transmit_at, receive[n] - receive_at).without(path.track);
     if (beside.norm() > farthest.norm()) farthest = beside;
   }
   path.bend = farthest.norm() > kAtRest ? farthest.unit() : Track{Vec3::Zero(), Vec3::Zero()};

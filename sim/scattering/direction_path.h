@@ -32,7 +32,8 @@ struct DirectionPath {
   double turn = 0;                  // largest of either direction, rad
 };
 
-// Of the pulses' directions, one or more, with the trace made at transmit_at and receive_at. All are unit vectors, body frame.
+// Of the pulses' directions, one or more, with the trace made at transmit_at and receive_at. All are unit vectors, body
+// frame.
 DirectionPath direction_path(std::span<const Vec3> transmit, std::span<const Vec3> receive, const Vec3& transmit_at,
                              const Vec3& receive_at);
 

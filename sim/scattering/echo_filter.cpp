@@ -14,13 +14,16 @@ bool selected(const EchoFilter& filter, int part, int bounces, Mechanism mechani
   const auto meets = [&](const EchoSelector& s) { return of[static_cast<std::size_t>(s.kind)] == s.value; };
   if (std::any_of(without.begin(), without.end(), meets)) return false;
   return std::all_of(only.begin(), only.end(), [&](const EchoSelector& named) {
-    return std::any_of(only.begin(), only.end(), [&](const EchoSelector& s) { return s.kind == named.kind && meets(s); });
+    return std::any_of(only.begin(), only.end(),
+                       [&](const EchoSelector& s) { return s.kind == named.kind && meets(s); });
   });
 }
 
 }  // namespace
 
-bool EchoFilter::is_cavity(int part) const { return std::find(cavities.begin(), cavities.end(), part) != cavities.end(); }
+bool EchoFilter::is_cavity(int part) const {
+  return std::find(cavities.begin(), cavities.end(), part) != cavities.end();
+}
 
 bool EchoFilter::keeps(int part, int bounces, Mechanism mechanism) const {
   return !is_cavity(part) && selected(*this, part, bounces, mechanism);

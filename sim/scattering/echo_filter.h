@@ -15,7 +15,8 @@ struct EchoSelector {
   int value = 0;  // index of the part, number of bounces, or the mechanism's number
 };
 
-// Empty: everything counts. `only`: an echo must meet a selector of every kind that is named. `without`: it must meet none.
+// Empty: everything counts. `only`: an echo must meet a selector of every kind that is named. `without`: it must meet
+// none.
 struct EchoFilter {
   std::vector<EchoSelector> only, without;
   // Parts whose echoes are found from the field inside (sim/cavity): beams end at their walls, what walls and edges of

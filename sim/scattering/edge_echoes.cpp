@@ -9,7 +9,8 @@
 namespace seaglint {
 namespace {
 
-// Edges from this length on, in radii, have a fourth diffraction: 1.5 m on the 144 m ship. Those of its fittings would make a trace a tenth longer.
+// Edges from this length on, in radii, have a fourth diffraction: 1.5 m on the 144 m ship. Those of its fittings would
+// make a trace a tenth longer.
 constexpr double kLongEdge = 2e-2;
 
 // The arrivals cut into chunks of about the same size; one edge's stay together.
@@ -30,14 +31,17 @@ struct Ways {
   std::span<const EdgeArrival> all, chunk;
 };
 
-// Edge waves. With one antenna each is the mean of its way and of the same way run backwards, as in single diffraction: off Keller's cone the wave that
-// leaves an edge is not the one that would come back by it. With two antennas they are the transmitter's, as physical optics and single diffraction are:
-// near grazing all three are large, and only what one wave lights cancels.
-// Of either list one chunk, with the whole of the other.
-void append_edge_waves(const Scatterer& scatterer, const AntennaPair& antennas, const Ways& incoming, const Ways& outgoing, const EdgeWaveLimits& limits, std::vector<EdgeFootprint>& answer) {
+// Edge waves. With one antenna each is the mean of its way and of the same way run backwards, as in single diffraction:
+// off Keller's cone the wave that leaves an edge is not the one that would come back by it. With two antennas they are
+// the transmitter's, as physical optics and single diffraction are: near grazing all three are large, and only what one
+// wave lights cancels. Of either list one chunk, with the whole of the other.
+void append_edge_waves(const Scatterer& scatterer, const AntennaPair& antennas, const Ways& incoming,
+                       const Ways& outgoing, const EdgeWaveLimits& limits, std::vector<EdgeFootprint>& answer) {
   const std::size_t first = answer.size();
-  edge_wave_footprints(scatterer.edges(), scatterer.facets(), scatterer.panels(), antennas, incoming.chunk, outgoing.all, limits, answer);
-  corner_wave_footprints(scatterer.edges(), scatterer.facets(), scatterer.panels(), antennas, incoming.all, outgoing.chunk, limits, answer);
+  edge_wave_footprints(scatterer.edges(), scatterer.facets(), scatterer.panels(), antennas, incoming.chunk,
+                       outgoing.all, limits, answer);
+  corner_wave_footprints(scatterer.edges(), scatterer.facets(), scatterer.panels(), antennas, incoming.all,
+                         outgoing.chunk, limits, answer);
   if (!antennas.monostatic) return;
   for (EdgeFootprint& f : std::span(answer).subspan(first)) {
     f.pattern += transposed(f.pattern);
@@ -56,7 +60,8 @@ void edge_echoes(const Scatterer& scatterer, const AntennaPair& antennas, const 
     backwards = Illumination(scatterer, monostatic(antennas.receive), settings, threads, wavenumbers)
                     .light_all(threads, [](std::size_t, auto) {});
   }
-  const std::span<const EdgeArrival> incoming = reached.arrivals, outgoing = antennas.monostatic ? incoming : backwards.arrivals;
+  const std::span<const EdgeArrival> incoming = reached.arrivals,
+                                     outgoing = antennas.monostatic ? incoming : backwards.arrivals;
   const auto [lowest, highest] = std::ranges::minmax(wavenumbers);
   const EdgeWaveLimits limits{kLongEdge * scatterer.radius(), faintest_echo(scatterer, settings, lowest), lowest};
   const auto chunks = chunks_of(incoming), chunks_out = chunks_of(outgoing);
@@ -65,11 +70,12 @@ void edge_echoes(const Scatterer& scatterer, const AntennaPair& antennas, const 
     std::vector<EdgeFootprint> answer =
         edge_footprints(scatterer.edges(), scatterer.facets(), antennas, chunks[chunk], outgoing, settings.max_bounces);
     append_edge_waves(scatterer, antennas, {incoming, chunks[chunk]}, {outgoing, chunks_out[chunk]}, limits, answer);
-    for (std::size_t i = beam_ends.size() * chunk / chunks.size(); i < beam_ends.size() * (chunk + 1) / chunks.size(); ++i) {
+    for (std::size_t i = beam_ends.size() * chunk / chunks.size(); i < beam_ends.size() * (chunk + 1) / chunks.size();
+         ++i) {
       if (bound_of_beam_end(beam_ends[i], lowest, highest) >= limits.faintest_m) answer.push_back(beam_ends[i]);
     }
-    std::erase_if(answer,
-                  [&](const EdgeFootprint& f) { return !settings.filter.keeps_edge(f.part, f.part_beyond, f.bounces); });
+    std::erase_if(
+        answer, [&](const EdgeFootprint& f) { return !settings.filter.keeps_edge(f.part, f.part_beyond, f.bounces); });
     visit(chunk, answer);
   });
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Everything that sharp edges answer: single diffraction by all ways, edge waves that meet a second edge, and beams that two rims cut.
+// Everything that sharp edges answer: single diffraction by all ways, edge waves that meet a second edge, and beams
+// that two rims cut.
 
 #include <functional>
 #include <span>

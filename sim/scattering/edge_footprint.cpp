@@ -46,10 +46,12 @@ double fading(double x, const std::array<double, 2>& from_to) {
 
 namespace {
 
-// Phase along a stretch between knife edges from which on its ends answer alone, rad, and along each part of a slower one, that is summed.
+// Phase along a stretch between knife edges from which on its ends answer alone, rad, and along each part of a slower
+// one, that is summed.
 constexpr double kFast = 60, kPartPhase = 3;
 
-// k (psi_1 - psi_0), kept from 0, where the terms of both ends would be infinite: moves the integral by a part of this at most.
+// k (psi_1 - psi_0), kept from 0, where the terms of both ends would be infinite: moves the integral by a part of this
+// at most.
 double phase_run(const EdgeFootprint& footprint, double k) {
   constexpr double kLeast = 1e-3;  // rad
   const double run = k * (footprint.psi[1] - footprint.psi[0]);
@@ -67,8 +69,8 @@ Complex range_at(const EdgeFootprint::EdgeWaveRange& range, double k, double run
   return boundaries * std::pow(k, -0.5 * range.waves) / std::sqrt(l);
 }
 
-// Mean of width e^{j phase (share - middle)} over a part of a stretch: Gauss and Legendre's four points for each three radians, since the width goes with the
-// root of the way between rims that meet.
+// Mean of width e^{j phase (share - middle)} over a part of a stretch: Gauss and Legendre's four points for each three
+// radians, since the width goes with the root of the way between rims that meet.
 Complex mean_width(const EdgeFootprint::KnifeEdges& knives, double k, double phase, double from, double to) {
   constexpr std::array<double, 4> node{-0.861136311594053, -0.339981043584856, 0.339981043584856, 0.861136311594053},
       weight{0.347854845137454, 0.652145154862546, 0.652145154862546, 0.347854845137454};
@@ -92,7 +94,9 @@ Complex amplitude_at(const EdgeFootprint& footprint, double k, double run, doubl
 
 }  // namespace
 
-double EdgeFootprint::KnifeEdges::fade_by_slope(double k, double distance_m) const { return fading(0.5 * k * distance_m * slope * slope, {0, 1}); }
+double EdgeFootprint::KnifeEdges::fade_by_slope(double k, double distance_m) const {
+  return fading(0.5 * k * distance_m * slope * slope, {0, 1});
+}
 
 double EdgeFootprint::fade_by_spread(double k) const { return fading(spread / k, {1, 2.5}); }
 
@@ -110,7 +114,8 @@ double bound_of_over_root(double u) { return std::min(std::sqrt(kPi), 1 / u); }
 Complex EdgeFootprint::KnifeEdges::sloping(double k, double share) const {
   constexpr double kEqual = 0.05;  // below it the difference is that of F(u^2) / u, 2j (F - 1), to its square
   const double past = at_share(beyond, share);
-  const double u = (shadow_within ? 1 : -1) * std::sqrt(k * at_share(excess, share)), v = std::copysign(std::sqrt(k * std::abs(past)), past);
+  const double u = (shadow_within ? 1 : -1) * std::sqrt(k * at_share(excess, share)),
+               v = std::copysign(std::sqrt(k * std::abs(past)), past);
   if (u * v >= 0 && std::abs(u - v) < kEqual) return (u - v) / (std::sqrt(kPi) * slope) * (1.0 - transition(u * v));
   return Complex(0, 1 / (2 * std::sqrt(kPi) * slope)) * (over_root(u) - over_root(v));
 }
@@ -119,20 +124,27 @@ Complex EdgeFootprint::KnifeEdges::width(double k, double share, double run) con
   const double d = at_share(distance, share);
   Complex sum = moved > 0 ? moved * sloping(k, share) : 0;
   if (still > 0) {
-    // An end of running phase a along a root: the integral of sqrt(t) e^{jat} from 0 on is (j / a) sqrt(pi j / 4a), that of sqrt(d + t) to first order (j / a) sqrt(d + j / a).
+    // An end of running phase a along a root: the integral of sqrt(t) e^{jat} from 0 on is (j / a) sqrt(pi j / 4a),
+    // that of sqrt(d + t) to first order (j / a) sqrt(d + j / a).
     const Complex reached = d + (distance[1] - distance[0]) * Complex(0, kPi / 4 / run);
-    sum += still * fade_by_slope(k, d) * std::sqrt(k / (2 * kPi) * reached) * (1.0 - transition(k * at_share(excess, share)));
+    sum += still * fade_by_slope(k, d) * std::sqrt(k / (2 * kPi) * reached) *
+           (1.0 - transition(k * at_share(excess, share)));
   }
   return std::polar(1.0, -kPi / 4) * sum;
 }
 
 double EdgeFootprint::KnifeEdges::bound(double lowest) const {
   const auto [nearest, farthest] = std::minmax(distance[0], distance[1]);
-  const double shortest = std::min(excess[0], excess[1]), past = beyond[0] * beyond[1] > 0 ? std::min(std::abs(beyond[0]), std::abs(beyond[1])) : 0.0;
+  const double shortest = std::min(excess[0], excess[1]),
+               past = beyond[0] * beyond[1] > 0 ? std::min(std::abs(beyond[0]), std::abs(beyond[1])) : 0.0;
   double bound = 0;
-  if (moved > 0) bound += moved / (2 * std::sqrt(kPi) * std::abs(slope)) * (bound_of_over_root(std::sqrt(lowest * shortest)) + bound_of_over_root(std::sqrt(lowest * past)));
+  if (moved > 0)
+    bound += moved / (2 * std::sqrt(kPi) * std::abs(slope)) *
+             (bound_of_over_root(std::sqrt(lowest * shortest)) + bound_of_over_root(std::sqrt(lowest * past)));
   // |1 - F(x)| is at most 1 and at most 1 / 2x.
-  if (still > 0) bound += still * fade_by_slope(lowest, nearest) * std::sqrt(lowest * farthest / (2 * kPi)) * std::min(1.0, 0.5 / (lowest * shortest));
+  if (still > 0)
+    bound += still * fade_by_slope(lowest, nearest) * std::sqrt(lowest * farthest / (2 * kPi)) *
+             std::min(1.0, 0.5 / (lowest * shortest));
   return bound;
 }
 
@@ -141,19 +153,23 @@ Complex end_term(const EdgeFootprint& footprint, double k, double share) {
   return footprint.fade_by_spread(k) * footprint.length / Complex(0, run) * amplitude_at(footprint, k, run, share);
 }
 
-bool ends_answer_alone(const EdgeFootprint& footprint, double k) { return !footprint.knife_edges || k * std::abs(footprint.psi[1] - footprint.psi[0]) >= kFast; }
+bool ends_answer_alone(const EdgeFootprint& footprint, double k) {
+  return !footprint.knife_edges || k * std::abs(footprint.psi[1] - footprint.psi[0]) >= kFast;
+}
 
 Complex part_integral(const EdgeFootprint& footprint, double k, double from, double to) {
   const double phase = k * (footprint.psi[1] - footprint.psi[0]) * (to - from);
   const double length = footprint.fade_by_spread(k) * footprint.length * (to - from);
   if (!footprint.edge_wave && !footprint.knife_edges && !footprint.wall) return length * sinc(phase);
-  if (footprint.knife_edges && std::abs(phase) < kFast) return length * mean_width(*footprint.knife_edges, k, phase, from, to);
+  if (footprint.knife_edges && std::abs(phase) < kFast)
+    return length * mean_width(*footprint.knife_edges, k, phase, from, to);
   const Complex half = std::polar(1.0, 0.5 * (to - from) * phase_run(footprint, k));
   return end_term(footprint, k, to) * half - end_term(footprint, k, from) * std::conj(half);
 }
 
 std::array<Complex, 4> scattered(const EdgeFootprint& footprint, double k) {
-  const Complex integral = part_integral(footprint, k, 0, 1) * std::polar(1.0, k * 0.5 * (footprint.psi[0] + footprint.psi[1]));
+  const Complex integral =
+      part_integral(footprint, k, 0, 1) * std::polar(1.0, k * 0.5 * (footprint.psi[0] + footprint.psi[1]));
   std::array<Complex, 4> s = footprint.pattern.at(k);
   for (Complex& element : s) element *= integral;
   return s;

@@ -111,14 +111,17 @@ EdgePattern mean_of_both(const WedgeFrame& wedge, const EdgeArrival& in, const E
   return mean(there, &in == &out ? there : pattern(wedge, out, in));
 }
 
-// What edge_currents() leaves out is what facets radiate straight to the receiver, of the transmitter's wave: with one antenna single diffraction is reciprocal as the mean of both ways; with two
-// antennas only the transmitter's and theirs together are Keller's.
+// What edge_currents() leaves out is what facets radiate straight to the receiver, of the transmitter's wave: with one
+// antenna single diffraction is reciprocal as the mean of both ways; with two antennas only the transmitter's and
+// theirs together are Keller's.
 EdgePattern direct(const WedgeFrame& wedge, const EdgeArrival& in, const EdgeArrival& out, bool monostatic) {
   return monostatic ? mean_of_both(wedge, in, out) : pattern(wedge, in, out);
 }
 
-// By mirrors that the edge's own field reaches beside the beams that its faces reflect to them, each by its share of the whole (mirrored_rim.h).
-EdgePattern by_the_rim(const WedgeFrame& wedge, const std::array<double, 2>& shares, const EdgeArrival& in, const EdgeArrival& out) {
+// By mirrors that the edge's own field reaches beside the beams that its faces reflect to them, each by its share of
+// the whole (mirrored_rim.h).
+EdgePattern by_the_rim(const WedgeFrame& wedge, const std::array<double, 2>& shares, const EdgeArrival& in,
+                       const EdgeArrival& out) {
   EdgePattern answer = pattern(wedge, in, out, kShadowOfRim);
   for (int f = 0; f < 2; ++f) {
     if (shares[f] <= 0) continue;
@@ -128,18 +131,22 @@ EdgePattern by_the_rim(const WedgeFrame& wedge, const std::array<double, 2>& sha
   return answer;
 }
 
-// Where that is not told apart from the beam: what facets radiate straight to the receiver is what the transmitter or more mirrors lit. A way with more mirrors on its end is the same way run backwards;
-// ways with as many on either side share both.
+// Where that is not told apart from the beam: what facets radiate straight to the receiver is what the transmitter or
+// more mirrors lit. A way with more mirrors on its end is the same way run backwards; ways with as many on either side
+// share both.
 EdgePattern by_the_beam(const WedgeFrame& wedge, const EdgeArrival& in, const EdgeArrival& out) {
   if (in.mirrors > out.mirrors) return pattern(wedge, in, out);
   return in.mirrors < out.mirrors ? transposed(pattern(wedge, out, in)) : mean_of_both(wedge, in, out);
 }
 
-// By mirrors; nothing where it has faded out ahead of the edge. `both_ways`: the way back through the same arrivals as well, of which physical optics has other ends where another facet is the last one, so
-// that only with them hv and vh are alike.
-std::optional<EdgePattern> by_mirrors(const WedgeFrame& wedge, const EdgeArrival& in, const EdgeArrival& out, bool both_ways) {
+// By mirrors; nothing where it has faded out ahead of the edge. `both_ways`: the way back through the same arrivals as
+// well, of which physical optics has other ends where another facet is the last one, so that only with them hv and vh
+// are alike.
+std::optional<EdgePattern> by_mirrors(const WedgeFrame& wedge, const EdgeArrival& in, const EdgeArrival& out,
+                                      bool both_ways) {
   std::array<double, 2> reflecting = reflecting_shares(wedge, in, out);
-  const double by_rim = std::ranges::max(reflecting), by_beam = (1 - by_rim) * beside_the_beam(in.direction, -out.direction);
+  const double by_rim = std::ranges::max(reflecting),
+               by_beam = (1 - by_rim) * beside_the_beam(in.direction, -out.direction);
   if (by_rim <= 0 && by_beam <= 0) return std::nullopt;
   EdgePattern answer;
   answer.thickness_m = wedge.thickness_m;

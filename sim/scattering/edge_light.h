@@ -24,13 +24,13 @@ inline constexpr int kMostEdgeMirrors = 3;
 // A wave on a stretch of an edge.
 struct EdgeArrival {
   int edge = kNoEdge;
-  std::array<double, 2> s{};   // the stretch, m from the edge's start
-  std::array<Vec2, 2> slip{};  // d s / d (d1, d2) of its ends as the antenna's direction turns, m/rad
-  Vec3 image;                  // of the edge's start, through the mirrors
-  Vec3 image_along;            // unit, of the edge's direction
-  Vec3 direction;              // of the wave at the edge, unit
-  Vec3 E_h, E_v;               // field for each polarisation of the antenna
-  std::uint8_t mirrors = 0;    // passed before
+  std::array<double, 2> s{};         // the stretch, m from the edge's start
+  std::array<Vec2, 2> slip{};        // d s / d (d1, d2) of its ends as the antenna's direction turns, m/rad
+  Vec3 image;                        // of the edge's start, through the mirrors
+  Vec3 image_along;                  // unit, of the edge's direction
+  Vec3 direction;                    // of the wave at the edge, unit
+  Vec3 E_h, E_v;                     // field for each polarisation of the antenna
+  std::uint8_t mirrors = 0;          // passed before
   Vec3 first_mirror = Vec3::Zero();  // normal of the first of them, unit, as the others show it to the edge
 };
 
@@ -40,7 +40,7 @@ struct WaveOnFacet {
   const Mirror& mirrors;
   const ImagePlane& plane;  // of the facet's image
   Vec3 direction, E_h, E_v;
-  int bounce = 1;  // of the hit on the facet
+  int bounce = 1;                    // of the hit on the facet
   Vec3 first_mirror = Vec3::Zero();  // as in EdgeArrival
 };
 
@@ -49,12 +49,13 @@ struct WaveOnFacet {
 void find_arrivals(const SharpEdges& edges, int facet, const WaveOnFacet& wave, std::span<const MovingPolygon> lit,
                    std::vector<EdgeArrival>& arrivals);
 
-// Ahead of an edge, near the shadow boundary of the beam along k_hat that it cuts, the diffracted field towards a mirror
-// at a finite distance is no ray of its own: the beam's end on that mirror carries it. An echo by mirrors in direction s
-// (before the first of them) fades out from right angles to the wave's way on, 1, to 30 deg off it, 0.
+// Ahead of an edge, near the shadow boundary of the beam along k_hat that it cuts, the diffracted field towards a
+// mirror at a finite distance is no ray of its own: the beam's end on that mirror carries it. An echo by mirrors in
+// direction s (before the first of them) fades out from right angles to the wave's way on, 1, to 30 deg off it, 0.
 double beside_the_beam(const Vec3& k_hat, const Vec3& s);
 
-// The same of the edge's own field, where that is told apart from the beam: from 18 deg off the wave's way on, 1, to 2.6 deg, 0.
+// The same of the edge's own field, where that is told apart from the beam: from 18 deg off the wave's way on, 1, to
+// 2.6 deg, 0.
 double before_the_beam(const Vec3& k_hat, const Vec3& s);
 double before_the_beam(double cosine);
 

@@ -38,8 +38,9 @@ struct Incident {
   RowOfRims rims{};                         // of sheets, passed before
   int waves = 0;                            // passed before
   int walls = 0;                            // that the edge wave was reflected by
-  Mat3 unfolded = Mat3::Identity();         // takes directions after those walls, or after the other wall of a corner, back to before them
-  Vec3 before = Vec3::Zero();               // direction of the wave at the edge before
+  // takes directions after those walls, or after the other wall of a corner, back to before them
+  Mat3 unfolded = Mat3::Identity();
+  Vec3 before = Vec3::Zero();  // direction of the wave at the edge before
 };
 
 // A strip of parallel rays on a face: u across them, w along.

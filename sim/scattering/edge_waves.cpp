@@ -17,23 +17,24 @@ constexpr double kFlat = 1e-6;
 constexpr double kShortest = 1e-7;   // m
 constexpr double kNarrowest = 1e-9;  // m
 constexpr double kOnEnd = 1e-7;      // m, from the end of a stretch
-// Sine of the angle between a wave and a rim that it does not meet. Directions that would run along one are turned aside by more (illuminate.cpp).
+// Sine of the angle between a wave and a rim that it does not meet. Directions that would run along one are turned
+// aside by more (illuminate.cpp).
 constexpr double kAlong = 1e-9;
 // Sine of the angle between an edge and what it sends along a face: for a wave from outside and for an edge wave.
 constexpr double kAlongItself = 1e-6, kBeside = 1e-5;
 // A grazing wave is sent down on its face by this angle, so that rounding does not put it on the other side.
 constexpr double kLift = 1e-7;
 
-// What an edge wave does to the one after it enters by its mean, over stretches along which its length grows no more than this; on long edges. What is shorter than
-// a hundredth of the longest counts as one.
+// What an edge wave does to the one after it enters by its mean, over stretches along which its length grows no more
+// than this; on long edges. What is shorter than a hundredth of the longest counts as one.
 constexpr double kMostGrowth = 4, kShortestShare = 0.01;
 
 // No current of a grazing wave along w answers louder in direction s, times 1 - s.w; 0.37 was the most met on the ship.
 constexpr double kMostCurrent = 0.5;
 constexpr double kNoField = 1e-9;  // relative to the incident one
 
-// Edge waves in a row: on a face that two edges bound the third edge is the first one again, and the fourth the second; near grazing each one's answer is
-// as large as the one's before.
+// Edge waves in a row: on a face that two edges bound the third edge is the first one again, and the fourth the second;
+// near grazing each one's answer is as large as the one's before.
 constexpr int kMostWaves = 2, kMostWavesOfLong = 3;
 // Upright walls between two edges: those of a right-angled corner. A wave by walls is the only one of its row: near
 // grazing, where a third diffraction counts, echoes by walls have faded.
@@ -51,8 +52,17 @@ double opening(const Vec3& w, const Vec3& s) { return std::max(0.5 * (s - w).squ
 
 class EdgeWaves {
  public:
-  EdgeWaves(const SharpEdges& edges, std::span<const Facet> facets, const Panels& panels, const AntennaPair& antennas, std::span<const EdgeArrival> outgoing, const EdgeWaveLimits& limits, bool backwards, std::vector<EdgeFootprint>& out)
-      : edges_(edges), facets_(facets), panels_(panels), antennas_(antennas), outgoing_(outgoing), limits_(limits), backwards_(backwards), out_(out),
+  EdgeWaves(const SharpEdges& edges, std::span<const Facet> facets, const Panels& panels, const AntennaPair& antennas,
+            std::span<const EdgeArrival> outgoing, const EdgeWaveLimits& limits, bool backwards,
+            std::vector<EdgeFootprint>& out)
+      : edges_(edges),
+        facets_(facets),
+        panels_(panels),
+        antennas_(antennas),
+        outgoing_(outgoing),
+        limits_(limits),
+        backwards_(backwards),
+        out_(out),
         first_(edges.edges.size() + 1, 0) {
     for (const EdgeArrival& arrival : outgoing) ++first_[arrival.edge + 1];
     for (std::size_t e = 1; e < first_.size(); ++e) first_[e] += first_[e - 1];
@@ -76,7 +86,9 @@ class EdgeWaves {
     const int parts = is_long ? std::max(1, static_cast<int>(std::ceil(std::log(growth) / std::log(kMostGrowth)))) : 1;
     double before = 0;  // share of the way from the end where it is shortest
     for (int n = 1; n <= parts; ++n) {
-      const double here = n < parts ? (first * std::pow(growth, static_cast<double>(n) / parts) - shortest) / (longest - shortest) : 1.0;
+      const double here =
+          n < parts ? (first * std::pow(growth, static_cast<double>(n) / parts) - shortest) / (longest - shortest)
+                    : 1.0;
       send(in.l[0] < in.l[1] ? part_of(in, before, here) : part_of(in, 1 - here, 1 - before));
       before = here;
     }
@@ -100,11 +112,12 @@ class EdgeWaves {
                           0,
                           wedge->N < 1 && in.waves == 0 ? mirror_of(wedge->face[1 - i].n) : in.unfolded};
       if (!counts(source)) continue;
-      // A corner below a right angle also sends the edge's field back along the face it came by, whose normal E is, as a ray, without which this is not the whole.
+      // A corner below a right angle also sends the edge's field back along the face it came by, whose normal E is, as
+      // a ray, without which this is not the whole.
       if (wedge->N < 0.5 && in.waves > 0 && source.face.n.dot(in.E[0]) > 1 - kFlat) continue;
       Strip strip{wave.direction.cross(source.face.n), wave.direction, 0, 0};
-      // It runs along the edge itself. An edge wave that met it nearly so is the one that goes on beside it; as a ray off it, it would have the pole without
-      // the zero.
+      // It runs along the edge itself. An edge wave that met it nearly so is the one that goes on beside it; as a ray
+      // off it, it would have the pole without the zero.
       if (std::abs(strip.u.dot(source.along)) < (in.waves > 0 ? kBeside : kAlongItself)) continue;
       const double a = strip.u.dot(edge.a + in.s[0] * source.along), b = strip.u.dot(edge.a + in.s[1] * source.along);
       strip.from = std::min(a, b);
@@ -195,11 +208,14 @@ class EdgeWaves {
       const double s = (u - strip.u.dot(source.start)) / strip.u.dot(source.along);
       wall.shown[end] = s - source.in.s[0] < kOnEnd || source.in.s[1] - s < kOnEnd;
     }
-    const auto panel_of = [&](int facet) { return GrazedMirror{facets_[facet].normal, panels_.outline(panels_.of(facet))}; };
+    const auto panel_of = [&](int facet) {
+      return GrazedMirror{facets_[facet].normal, panels_.outline(panels_.of(facet))};
+    };
     for (const int facet : foot.facet) {
       if (std::abs(facets_[facet].normal.dot(n)) < 1 - kFlat) continue;
       wall.by_image = share_by_image(antennas_.transmit.r, panel_of(floor), panel_of(facet));
-      for (const Vec3& x : panels_.outline(panels_.of(facet))) wall.height = std::max(wall.height, source.face.n.dot(x - foot.a));
+      for (const Vec3& x : panels_.outline(panels_.of(facet)))
+        wall.height = std::max(wall.height, source.face.n.dot(x - foot.a));
     }
     if (wall.height < kShortest) return;
     EdgeFootprint echo;  // of the wall, at its foot
@@ -244,13 +260,14 @@ class EdgeWaves {
     if (in.waves == 1) next.first_m = std::pow(mean_decay(in.l), -2);
     for (int q = 0; q < 2; ++q) next.factor[q] = 0.5 * source.amplitude[q];  // half of the wave is incident
     // What leaves by a corner is found on its way back (corner_wave_footprints).
-    for (std::size_t o = first_[number]; wedge->N > 1 && o < first_[number + 1]; ++o) leave(next, *wedge, source.face, strip.w, outgoing_[o]);
+    for (std::size_t o = first_[number]; wedge->N > 1 && o < first_[number + 1]; ++o)
+      leave(next, *wedge, source.face, strip.w, outgoing_[o]);
     const bool is_long = edge.length() >= limits_.long_from_m;
     if (next.waves < (is_long ? kMostWavesOfLong : kMostWaves) && next.walls == 0) send_on(next);
   }
 
-  // Whether what an edge sends along a face may count: the echo of the next edge, its stretch in phase and its diffraction
-  // coefficient one. On the ship what is left out by that is -89 dB.
+  // Whether what an edge sends along a face may count: the echo of the next edge, its stretch in phase and its
+  // diffraction coefficient one. On the ship what is left out by that is -89 dB.
   bool counts(const Source& source) const {
     const Incident& in = source.in;
     const double fields = std::abs(source.amplitude[0]) + std::abs(source.amplitude[1]);
@@ -258,23 +275,27 @@ class EdgeWaves {
     return fields * std::pow(limits_.k, -0.5 * (in.waves + 1)) * std::sqrt(in.s[1] - in.s[0]) > limits_.faintest_m;
   }
 
-  // Whether an echo may, whose phase runs at `rate` along a stretch of that length: transition functions are at most 1 and
-  // at most sqrt(pi x).
+  // Whether an echo may, whose phase runs at `rate` along a stretch of that length: transition functions are at most 1
+  // and at most sqrt(pi x).
   bool counts(const Incident& in, const Vec3& w, const Vec3& s, double arrival, double rate, double length) const {
     const double fields = std::abs(in.factor[0]) + std::abs(in.factor[1]);
     const double shadow = in.waves == 1 ? std::min(in.departure, arrival) : arrival;
     const double decay = std::min(1 / std::sqrt(std::min(in.l[0], in.l[1])), std::sqrt(2 * kPi * limits_.k * shadow));
     const double extent = length / std::max(limits_.k * std::abs(rate) * length, 1.0);
-    return fields * kMostCurrent / opening(w, s) * std::pow(limits_.k, -0.5 * in.waves) * decay * extent >= limits_.faintest_m;
+    return fields * kMostCurrent / opening(w, s) * std::pow(limits_.k, -0.5 * in.waves) * decay * extent >=
+           limits_.faintest_m;
   }
 
   // What of a wave that came along a face goes out by a departure of the same edge.
-  void leave(const Incident& in, const WedgeFrame& wedge, const WedgeFace& face, const Vec3& w, const EdgeArrival& departure) {
+  void leave(const Incident& in, const WedgeFrame& wedge, const WedgeFace& face, const Vec3& w,
+             const EdgeArrival& departure) {
     const SharpEdge& edge = edges_.edges[in.edge];
     if (by_mirrors(departure) || wedge_towards(edge, departure.direction) != &wedge) return;
     const std::array<double, 2> s{std::max(in.s[0], departure.s[0]), std::min(in.s[1], departure.s[1])};
     if (s[1] - s[0] < kShortest) return;
-    const double weight = in.walls > 0 || (backwards_ && in.waves == 1) ? before_the_beam(in.before, in.unfolded * -departure.direction) : 1.0;
+    const double weight = in.walls > 0 || (backwards_ && in.waves == 1)
+                              ? before_the_beam(in.before, in.unfolded * -departure.direction)
+                              : 1.0;
     if (weight <= 0) return;
     const Vec3& along = edge.along();
     const Vec3 out = -departure.direction;
@@ -327,8 +348,9 @@ class EdgeWaves {
 
 }  // namespace
 
-void edge_wave_footprints(const SharpEdges& edges, std::span<const Facet> facets, const Panels& panels, const AntennaPair& antennas,
-                          std::span<const EdgeArrival> incoming, std::span<const EdgeArrival> outgoing, const EdgeWaveLimits& limits,
+void edge_wave_footprints(const SharpEdges& edges, std::span<const Facet> facets, const Panels& panels,
+                          const AntennaPair& antennas, std::span<const EdgeArrival> incoming,
+                          std::span<const EdgeArrival> outgoing, const EdgeWaveLimits& limits,
                           std::vector<EdgeFootprint>& footprints) {
   EdgeWaves waves(edges, facets, panels, antennas, outgoing, limits, false, footprints);
   for (const EdgeArrival& in : incoming) {
@@ -336,8 +358,9 @@ void edge_wave_footprints(const SharpEdges& edges, std::span<const Facet> facets
   }
 }
 
-void corner_wave_footprints(const SharpEdges& edges, std::span<const Facet> facets, const Panels& panels, const AntennaPair& antennas,
-                            std::span<const EdgeArrival> incoming, std::span<const EdgeArrival> outgoing, const EdgeWaveLimits& limits,
+void corner_wave_footprints(const SharpEdges& edges, std::span<const Facet> facets, const Panels& panels,
+                            const AntennaPair& antennas, std::span<const EdgeArrival> incoming,
+                            std::span<const EdgeArrival> outgoing, const EdgeWaveLimits& limits,
                             std::vector<EdgeFootprint>& footprints) {
   const AntennaPair exchanged{antennas.receive, antennas.transmit, antennas.monostatic};
   std::vector<EdgeFootprint> back;

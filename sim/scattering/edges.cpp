@@ -50,7 +50,8 @@ SharpEdges sharp_edges(std::span<const Facet> facets, double least_turn, double 
   result.of_facet.assign(facets.size(), {kNoEdge, kNoEdge, kNoEdge});
   const auto add = [&](SharpEdge edge, int f, int i, int g, int k) {
     const int number = static_cast<int>(result.edges.size());
-    for (WedgeFrame* wedge : {&edge.outside, &edge.inside}) wedge->thickness_m = std::abs(wedge->N - 2) * kPi <= kBackToBack ? sheet_thickness_m : 0;
+    for (WedgeFrame* wedge : {&edge.outside, &edge.inside})
+      wedge->thickness_m = std::abs(wedge->N - 2) * kPi <= kBackToBack ? sheet_thickness_m : 0;
     result.edges.push_back(edge);
     result.of_facet[f][i] = number;
     result.of_facet[g][k] = number;

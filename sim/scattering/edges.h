@@ -17,11 +17,11 @@ namespace seaglint {
 inline constexpr int kNoEdge = -1;
 
 struct SharpEdge {
-  Vec3 a, b;                       // runs along facet[0]'s side, that is with t of its face
-  std::array<int, 2> facet{};      // equal at the rim of a sheet
-  WedgeFrame outside;              // on the side of the normals
-  WedgeFrame inside;               // the other one, of an open sheet
-  bool open = false;               // the wave may come from either side
+  Vec3 a, b;                   // runs along facet[0]'s side, that is with t of its face
+  std::array<int, 2> facet{};  // equal at the rim of a sheet
+  WedgeFrame outside;          // on the side of the normals
+  WedgeFrame inside;           // the other one, of an open sheet
+  bool open = false;           // the wave may come from either side
 
   bool is_rim() const { return facet[0] == facet[1]; }
   double length() const { return (b - a).norm(); }
@@ -45,7 +45,7 @@ struct PanelEdge {
 
 struct SharpEdges {
   std::vector<SharpEdge> edges;
-  std::vector<std::array<int, 3>> of_facet;  // edge along corner[i] -> corner[i + 1], or kNoEdge
+  std::vector<std::array<int, 3>> of_facet;   // edge along corner[i] -> corner[i + 1], or kNoEdge
   std::vector<PanelEdge> by_panel;            // panel after panel, by the facets they go by
   std::vector<std::uint32_t> first_of_panel;  // of each facet, and one more
 
@@ -55,22 +55,25 @@ struct SharpEdges {
   }
 };
 
-// Edges whose faces turn by at least `least_turn` (rad); the rims of sheets get their thickness. Edges of three and more facets are left out: nobody can tell their wedge.
+// Edges whose faces turn by at least `least_turn` (rad); the rims of sheets get their thickness. Edges of three and
+// more facets are left out: nobody can tell their wedge.
 SharpEdges sharp_edges(std::span<const Facet> facets, double least_turn, double sheet_thickness_m = 0);
 
-// Fills by_panel from of_facet, before which of_panel() must not be asked. Edges that no wave is diffracted by are left out:
-// corners of closed surfaces with a right angle, or any other that goes into pi.
+// Fills by_panel from of_facet, before which of_panel() must not be asked. Edges that no wave is diffracted by are left
+// out: corners of closed surfaces with a right angle, or any other that goes into pi.
 void list_by_panel(SharpEdges& edges, std::span<const Facet> facets, const Panels& panels);
 
-// The wedge or corner (N < 1) a wave along k_hat meets, or nothing when it comes from within or images solve the corner.
+// The wedge or corner (N < 1) a wave along k_hat meets, or nothing when it comes from within or images solve the
+// corner.
 const WedgeFrame* wedge_towards(const SharpEdge& edge, const Vec3& k_hat);
 
-// The same of a wave that lights the panel on one side of the edge (`first`: that of its first facet). Nothing where the sheet's lit side is not the wedge's face there: the wave was
-// reflected by the panel beyond the edge, comes as if from behind it, and is a part of the corner's answer.
+// The same of a wave that lights the panel on one side of the edge (`first`: that of its first facet). Nothing where
+// the sheet's lit side is not the wedge's face there: the wave was reflected by the panel beyond the edge, comes as if
+// from behind it, and is a part of the corner's answer.
 const WedgeFrame* wedge_lit(const SharpEdge& edge, bool first, const Vec3& k_hat);
 
-// Whether that panel speaks for the edge, whose wedge the wave meets: of its two faces the one that faces the wave more squarely does, which
-// wedge_lit() has lit; a rim has one panel.
+// Whether that panel speaks for the edge, whose wedge the wave meets: of its two faces the one that faces the wave more
+// squarely does, which wedge_lit() has lit; a rim has one panel.
 bool speaks(const SharpEdge& edge, const WedgeFrame& wedge, bool first, const Vec3& k_hat);
 
 }  // namespace seaglint

@@ -131,7 +131,8 @@ std::vector<BoxNode> box_tree(std::span<const Box3> boxes) {
   arguments.setNodeBounds = [](void* node, const RTCBounds** bounds, unsigned count, void*) {
     for (unsigned i = 0; i < count; ++i) node_at(node).bounds[i] = *bounds[i];
   };
-  arguments.createLeaf = [](RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* leaf, std::size_t, void*) -> void* {
+  arguments.createLeaf = [](RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* leaf, std::size_t,
+                            void*) -> void* {
     Built* const built = create<Built>(allocator);
     built->box = static_cast<int>(leaf->primID);
     return built;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// What Embree builds: trees of boxes, which beams are walked through (FacetTree), and scenes that answer which facet a ray meets first, an independent
-// check of what beams meet. Of a ray only the facet's number is used, since Embree's distances are single precision.
+// What Embree builds: trees of boxes, which beams are walked through (FacetTree), and scenes that answer which facet a
+// ray meets first, an independent check of what beams meet. Of a ray only the facet's number is used, since Embree's
+// distances are single precision.
 
 #include <array>
 #include <cstdint>
@@ -32,11 +33,12 @@ struct Box3 {
   }
 };
 
-// Of one node. A walk through a tree of eight to a node passes fewer than one of four; sixteen save no more (README.md).
+// Of one node. A walk through a tree of eight to a node passes fewer than one of four; sixteen save no more
+// (README.md).
 inline constexpr int kMostChildren = 8;
 
-// A node of a tree of boxes: its children, each with its box as Embree keeps it, in single precision rounded outwards. A child below zero is box
-// -1 - child of those given.
+// A node of a tree of boxes: its children, each with its box as Embree keeps it, in single precision rounded outwards.
+// A child below zero is box -1 - child of those given.
 struct BoxNode {
   struct Child {
     std::int32_t index = 0;
@@ -49,7 +51,8 @@ struct BoxNode {
 // Levels of nodes that box_tree() never exceeds.
 inline constexpr int kMostLevels = 64;
 
-// Embree's surface-area-heuristic tree over the boxes, one box to a leaf, the root first; the same for the same boxes. Empty without boxes.
+// Embree's surface-area-heuristic tree over the boxes, one box to a leaf, the root first; the same for the same boxes.
+// Empty without boxes.
 std::vector<BoxNode> box_tree(std::span<const Box3> boxes);
 
 // Immutable after construction; any number of threads may trace at once.

@@ -40,7 +40,8 @@ FacetTree::FacetTree(std::span<const Facet> facets, const Panels& panels) {
     }
     nodes_.push_back(node);
   }
-  // Centres, halves and the sums made of them are off by a few units in the last place of the largest coordinate, 6e-8 of it each.
+  // Centres, halves and the sums made of them are off by a few units in the last place of the largest coordinate, 6e-8
+  // of it each.
   if (!boxes.empty()) slack_ = 1e-6 * (all.lower.norm() + all.upper.norm());
 }
 

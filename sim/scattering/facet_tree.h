@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Which panels may a beam meet? Embree's tree of boxes over the panels, asked with a prism instead of a ray: nothing is missed, however small.
+// Which panels may a beam meet? Embree's tree of boxes over the panels, asked with a prism instead of a ray: nothing is
+// missed, however small.
 
 #include <array>
 #include <cmath>
@@ -15,24 +16,25 @@
 
 namespace seaglint {
 
-// A bundle of parallel rays from one side of a plane: the points with lower[i] <= across[i] . x <= upper[i] and normal . x >= offset, all axes unit
-// vectors. It is walked along `along`.
+// A bundle of parallel rays from one side of a plane: the points with lower[i] <= across[i] . x <= upper[i] and normal
+// . x >= offset, all axes unit vectors. It is walked along `along`.
 struct Prism {
   std::array<Vec3, 2> across;
   std::array<double, 2> lower{}, upper{};  // m
   Vec3 normal = Vec3::UnitX();
   double offset = 0;  // m
   Vec3 along = Vec3::UnitX();
-  Vec3 wave = Vec3::UnitX();  // what it lights faces this way: panels of closed surfaces with normal . wave > 0 are left out
+  // what it lights faces this way: panels of closed surfaces with normal . wave > 0 are left out
+  Vec3 wave = Vec3::UnitX();
 };
 
 // A panel as a walk comes upon it: what decides whether a beam meets it, side by side in memory.
 struct TreePanel {
-  Vec3 normal;                // unit
+  Vec3 normal;                   // unit
   const Vec3* corner = nullptr;  // its outline, counter-clockwise seen against the normal
-  std::int32_t facet = -1;    // the one it goes by
+  std::int32_t facet = -1;       // the one it goes by
   std::uint16_t corners = 0;
-  bool open = false;          // either side may be seen
+  bool open = false;  // either side may be seen
 
   std::span<const Vec3> outline() const { return {corner, corners}; }
 };
@@ -42,9 +44,9 @@ class FacetTree {
  public:
   FacetTree(std::span<const Facet> facets, const Panels& panels);
 
-  // Calls visit(panel) for every panel that has a point in the prism and does not face away, and for some whose box only comes near or
-  // that lie edge-on, in an order that depends on tree and prism alone. visit returns how far along the prism panels still matter, m;
-  // those that begin beyond may be left out.
+  // Calls visit(panel) for every panel that has a point in the prism and does not face away, and for some whose box
+  // only comes near or that lie edge-on, in an order that depends on tree and prism alone. visit returns how far along
+  // the prism panels still matter, m; those that begin beyond may be left out.
   template <typename Visit>
   void walk(const Prism& prism, const Visit& visit) const;
 
@@ -54,7 +56,8 @@ class FacetTree {
   using OfChildren = std::array<T, kMostChildren>;
   struct alignas(64) Node {
     std::array<OfChildren<float>, 3> centre, half;  // m; half < 0: no box
-    std::array<OfChildren<float>, 3> normal;        // of a panel seen from one side; 0 of all else, which no direction rules out
+    // of a panel seen from one side; 0 of all else, which no direction rules out
+    std::array<OfChildren<float>, 3> normal;
     OfChildren<std::int32_t> child;
   };
   // A subtree or leaf still to be looked at, and where along the prism it begins.
@@ -67,16 +70,16 @@ class FacetTree {
   // Cosine above which a panel faces away for certain, single precision allowed for.
   static constexpr float kFacesAway = 1e-5F;
 
-  std::vector<Node> nodes_;  // the first is the root
+  std::vector<Node> nodes_;        // the first is the root
   std::vector<TreePanel> panels_;  // in the order of the nodes that hold them
-  double slack_ = 0;         // m, of single-precision boxes
+  double slack_ = 0;               // m, of single-precision boxes
 };
 
 template <typename Visit>
 void FacetTree::walk(const Prism& prism, const Visit& visit) const {
   if (nodes_.empty()) return;
-  // |across . centre - middle| <= width + |across| . half, normal . centre + |normal| . half >= offset, and wave . normal of a panel not above zero,
-  // for all children at once.
+  // |across . centre - middle| <= width + |across| . half, normal . centre + |normal| . half >= offset, and wave .
+  // normal of a panel not above zero, for all children at once.
   std::array<std::array<float, 3>, 4> axis, reach;
   std::array<float, 3> wave;
   std::array<float, 2> middle, width;
@@ -104,11 +107,13 @@ void FacetTree::walk(const Prism& prism, const Visit& visit) const {
       continue;
     }
     const Node& node = nodes_[next.child];
-    OfChildren<float> gap;  // largest distance between prism and box along an axis, or a panel's facing away; above zero they do not meet
+    // largest distance between prism and box along an axis, or a panel's facing away; above zero they do not meet
+    OfChildren<float> gap;
     OfChildren<float> begin;
     for (int lane = 0; lane < kMostChildren; ++lane) {
       const auto at = [&](int i) {
-        return axis[i][0] * node.centre[0][lane] + axis[i][1] * node.centre[1][lane] + axis[i][2] * node.centre[2][lane];
+        return axis[i][0] * node.centre[0][lane] + axis[i][1] * node.centre[1][lane] +
+               axis[i][2] * node.centre[2][lane];
       };
       const auto half = [&](int i) {
         return reach[i][0] * node.half[0][lane] + reach[i][1] * node.half[1][lane] + reach[i][2] * node.half[2][lane];

@@ -73,8 +73,8 @@ void set_phase(Footprint& footprint, const Vec3& n_image, const AntennaPair& ant
   footprint.w = Vec2(both.dot(basis.h), both.dot(basis.v)) + both.dot(basis.r) * footprint.plane.slope;
   const Vec3 origin = image_point(footprint, Vec2::Zero(), basis);
   footprint.psi0 = basis.r.dot(origin) + antennas.receive.r.dot(footprint.mirrors.real(origin));
-  // Along the facet the gradient is the tangential part of r^ + L r^; turning r^ by e changes it by that of e + L e (of two
-  // directions, which turn about as one, too).
+  // Along the facet the gradient is the tangential part of r^ + L r^; turning r^ by e changes it by that of e + L e (of
+  // two directions, which turn about as one, too).
   const auto tangential = [&](const Vec3& x) -> Vec3 { return x - n_image * n_image.dot(x); };
   footprint.surface_slope = tangential(both).norm();
   footprint.surface_slope_turn =
@@ -96,7 +96,8 @@ PathGradient between(const PathGradient& a, const PathGradient& b, double s) {
 
 namespace {
 
-// A body-fixed point at height z moves by -z d_i in the aperture; what the corner moves beyond that, it slips in the facet.
+// A body-fixed point at height z moves by -z d_i in the aperture; what the corner moves beyond that, it slips in the
+// facet.
 std::array<Vec2, 2> slips(const Footprint& footprint, const Corner& corner) {
   const double z = footprint.plane.at(corner.p);
   return {corner.d1 + Vec2(z, 0), corner.d2 + Vec2(0, z)};

@@ -52,7 +52,9 @@ struct Mirror {
 inline Mirror operator*(const Mirror& a, const Mirror& b) { return {a.L * b.L, a.L * b.t + a.t}; }
 
 // By the plane n . x = offset, n unit.
-inline Mirror plane_mirror(const Vec3& n, double offset) { return {Mat3::Identity() - 2 * n * n.transpose(), 2 * offset * n}; }
+inline Mirror plane_mirror(const Vec3& n, double offset) {
+  return {Mat3::Identity() - 2 * n * n.transpose(), 2 * offset * n};
+}
 
 // A direction as the plane with unit normal n mirrors it.
 inline Vec3 mirrored(const Vec3& x, const Vec3& n) { return x - 2 * n.dot(x) * n; }
@@ -79,14 +81,15 @@ struct Footprint {
   Mirror mirrors;         // of the facets before the last
   double psi0 = 0;        // minus the two-way path, psi(p) = psi0 + w . p, m
   Vec2 w = Vec2::Zero();
-  double surface_slope = 0;         // |gradient of psi| along the facet itself, 0..2
-  double surface_slope_turn = 0;    // bound of its change per radian of turn, 0..2
-  double facet_size = 0;            // longest distance of two corners of its panel, m
+  double surface_slope = 0;          // |gradient of psi| along the facet itself, 0..2
+  double surface_slope_turn = 0;     // bound of its change per radian of turn, 0..2
+  double facet_size = 0;             // longest distance of two corners of its panel, m
   std::array<Complex, 4> pattern{};  // hh, hv, vh, vv (received, transmitted) of n x (k^ x E) / |n . k^|
-  // The same for each of the illumination's wavenumbers where a material on the way makes it depend on them, pattern being the middle one; empty where pattern serves all.
+  // The same for each of the illumination's wavenumbers where a material on the way makes it depend on them, pattern
+  // being the middle one; empty where pattern serves all.
   std::vector<std::array<Complex, 4>> patterns;
-  int facet = -1;                   // the last one
-  std::uint16_t part = 0;           // its part
+  int facet = -1;          // the last one
+  std::uint16_t part = 0;  // its part
   std::uint8_t bounces = 1;
   std::shared_ptr<const Curvature> curvature;  // null when the facet and all mirrors are flat
 
@@ -102,8 +105,9 @@ struct Footprint {
 // Fills psi0, w and the surface slopes from plane and mirrors. n_image: unit normal of the last facet's image.
 void set_phase(Footprint& footprint, const Vec3& n_image, const AntennaPair& antennas);
 
-// How psi changes as the directions turn, m: d psi = transmit . d r^_t + receive . d r^_s. One direction for both: their sum.
-// Points of the body give their places, x_image to the transmitter and x_real to the receiver (Fermat); corners that slip in the body give more.
+// How psi changes as the directions turn, m: d psi = transmit . d r^_t + receive . d r^_s. One direction for both:
+// their sum. Points of the body give their places, x_image to the transmitter and x_real to the receiver (Fermat);
+// corners that slip in the body give more.
 struct PathGradient {
   Vec3 transmit = Vec3::Zero();
   Vec3 receive = Vec3::Zero();
@@ -121,15 +125,15 @@ PathGradient phase_gradient(const Footprint& footprint, const Vec2& p, const Rad
 // The same for a corner that moves in the facet as the direction turns: adds w . slip to the transmitter's part.
 PathGradient phase_gradient(const Footprint& footprint, const Corner& corner, const RadarBasis& transmit);
 
-// Slows corners down that slip in the facet by more than `most`, m of the aperture per radian. A shadow edge slips by the
-// distance between what casts it and the facet; only where two edges cross that are nearly parallel a corner runs faster,
-// and soon off the end of one of them, so that its way cannot be told from its speed. The speed is the corner's own:
-// pieces that share it still do.
+// Slows corners down that slip in the facet by more than `most`, m of the aperture per radian. A shadow edge slips by
+// the distance between what casts it and the facet; only where two edges cross that are nearly parallel a corner runs
+// faster, and soon off the end of one of them, so that its way cannot be told from its speed. The speed is the corner's
+// own: pieces that share it still do.
 void limit_slip(Footprint& footprint, double most);
 
 // I(k) = integral over the footprint of e^{jk psi(p)} d^2p, m^2. Gordon's contour form (W. B. Gordon, IEEE Trans.
-// AP-23, 1975, 590-592), by the divergence theorem with F = w e^{jk w.p} / (jk |w|^2); a series where |w| is small. With
-// curvature the sum of curved_terms, fading included.
+// AP-23, 1975, 590-592), by the divergence theorem with F = w e^{jk w.p} / (jk |w|^2); a series where |w| is small.
+// With curvature the sum of curved_terms, fading included.
 Complex phase_integral(const Footprint& footprint, double k);
 
 // (e^{jx} - 1)/(jx) e^{-jx/2} = sin(x/2)/(x/2)
@@ -137,7 +141,8 @@ double sinc(double x);
 
 // S = -jk/(2 pi) pattern I(k): physical optics, E_s = -(jk eta / 4 pi) (e^{-jkr}/r) integral (J - r^ r^.J) e^{jk r^.x}
 // dS with J = 2 n x H (Balanis, Advanced Engineering Electromagnetics, eqs. 6-95, 7-54), dS = d^2p / |n . k^|. Elements
-// hh, hv, vh, vv in metres. k is the illumination's wavenumber number `index` where materials make the pattern depend on it.
+// hh, hv, vh, vv in metres. k is the illumination's wavenumber number `index` where materials make the pattern depend
+// on it.
 std::array<Complex, 4> scattered(const Footprint& footprint, double k, std::size_t index = 0);
 
 }  // namespace seaglint

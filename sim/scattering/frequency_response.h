@@ -21,8 +21,8 @@ struct IntervalSampling {
   // Not 0: the pulse sweeps, and its baseband frequency f (0 in the middle of its frequencies) meets the target at
   // pulse_time + f / chirp_rate. 0: stop and go, the whole pulse meets the attitude at pulse_time.
   double chirp_rate_hz_s = 0;
-  // The radar's velocity over its range, 1/s, target frame: the direction to it turns from r^ to that of r^ + (t - first
-  // pulse's time) sight_rate. 0: the radar stands.
+  // The radar's velocity over its range, 1/s, target frame: the direction to it turns from r^ to that of r^ + (t -
+  // first pulse's time) sight_rate. 0: the radar stands.
   Vec3 sight_rate = Vec3::Zero();
 };
 

@@ -14,8 +14,8 @@ namespace {
 
 constexpr Complex j(0, 1);
 
-// A wave that travels in a face's plane from its edge on sends an infinite edge wave along it, whose transition function
-// is zero; their product has a limit. Both keep this angle from there, rad.
+// A wave that travels in a face's plane from its edge on sends an infinite edge wave along it, whose transition
+// function is zero; their product has a limit. Both keep this angle from there, rad.
 constexpr double kFromBoundary = 1e-7;
 
 // Half the sum of (1/N) cot((a - phi) / 2N) and (1/N) cot((a + phi) / 2N), over sin a, and half their difference.
@@ -23,8 +23,9 @@ struct Cotangents {
   double sum, difference;
 };
 
-// The angles at which the waves of physical optics meet a face: the wave itself at phi and, in a corner (N < 1), what the faces send to one another.
-// The sources' images stand at phi + 2 N pi m, an odd number of times mirrored where that is negative, and light the face from before it.
+// The angles at which the waves of physical optics meet a face: the wave itself at phi and, in a corner (N < 1), what
+// the faces send to one another. The sources' images stand at phi + 2 N pi m, an odd number of times mirrored where
+// that is negative, and light the face from before it.
 class WavesOnFace {
  public:
   WavesOnFace(double phi, double N) {
@@ -45,7 +46,8 @@ class WavesOnFace {
   int count_ = 0;
 };
 
-// (1/N) cot(x / 2N) at x = a - sign phi, less (1/2) cot of half of a - sign angle for each wave of physical optics: regular where one of these is 0.
+// (1/N) cot(x / 2N) at x = a - sign phi, less (1/2) cot of half of a - sign angle for each wave of physical optics:
+// regular where one of these is 0.
 double half_cotangent(double a, double phi, double N, const WavesOnFace& optics, double sign) {
   const double x = a - sign * phi;
   double sum = 0;
@@ -73,13 +75,17 @@ Cotangents cotangents_of_imaginary(double alpha, double phi, double N, const Wav
   };
   Cotangents sum{0, 0};
   bool wedge = true;
-  const auto add = [&](double factor, const Cotangents& c) { sum = {sum.sum + factor * c.sum, sum.difference + factor * c.difference}; };
+  const auto add = [&](double factor, const Cotangents& c) {
+    sum = {sum.sum + factor * c.sum, sum.difference + factor * c.difference};
+  };
   for (const double angle : optics) {
     // Near the common pole at 0 the first term of their difference errs by 1e-6, and so does the difference.
     const bool at_pole = angle * angle + alpha * alpha < 4e-5;
     const double rest = (1 - 1 / (N * N)) / 6;
-    if (at_pole) add(1, {rest, -angle * rest});
-    else add(-1, of_wedge(1, angle));
+    if (at_pole)
+      add(1, {rest, -angle * rest});
+    else
+      add(-1, of_wedge(1, angle));
     wedge = wedge && !at_pole;
   }
   if (wedge) add(1, of_wedge(N, phi));
@@ -107,9 +113,11 @@ void add_face_current(const WedgeFace& face, double N, double phi, bool only_see
   // only in the sum over the current's components across s: keep away from 0/0.
   constexpr double kAside = 1e-7;
   const bool real = mu >= -1;
-  const double a = real ? std::clamp(std::acos(std::clamp(-mu, -1.0, 1.0)), kAside, kPi - kAside) : std::max(std::acosh(-mu), kAside);
+  const double a = real ? std::clamp(std::acos(std::clamp(-mu, -1.0, 1.0)), kAside, kPi - kAside)
+                        : std::max(std::acosh(-mu), kAside);
   const bool in_shadow_boundary = (real ? std::abs(a - phi) : std::hypot(a, phi)) < shadow;
-  const WavesOnFace optics = !only_seen || in_shadow_boundary || s.dot(face.n) > kEdgeOn ? WavesOnFace(phi, N) : WavesOnFace();
+  const WavesOnFace optics =
+      !only_seen || in_shadow_boundary || s.dot(face.n) > kEdgeOn ? WavesOnFace(phi, N) : WavesOnFace();
   const Cotangents cot = real ? cotangents(a, phi, N, optics) : cotangents_of_imaginary(a, phi, N, optics);
   for (std::size_t i = 0; i < fields.size(); ++i) {
     const double H_t = k_hat.cross(fields[i]).dot(face.t), E_t = fields[i].dot(face.t);
@@ -121,11 +129,13 @@ void add_face_current(const WedgeFace& face, double N, double phi, bool only_see
   }
 }
 
-void add_currents(const WedgeFrame& wedge, const Vec3& k_hat, std::span<const Vec3> fields, const Vec3& s, bool only_seen, double shadow,
-                  std::span<Vec3> sums) {
+void add_currents(const WedgeFrame& wedge, const Vec3& k_hat, std::span<const Vec3> fields, const Vec3& s,
+                  bool only_seen, double shadow, std::span<Vec3> sums) {
   const double phi = angle_from_face(wedge.face[0], -k_hat);
   if (phi > wedge.N * kPi) return;
-  for (int i = 0; i < 2; ++i) add_face_current(wedge.face[i], wedge.N, i == 0 ? phi : wedge.N * kPi - phi, only_seen, shadow, k_hat, fields, s, sums);
+  for (int i = 0; i < 2; ++i)
+    add_face_current(wedge.face[i], wedge.N, i == 0 ? phi : wedge.N * kPi - phi, only_seen, shadow, k_hat, fields, s,
+                     sums);
   // E_s = -(jk eta / 4 pi) (e^{-jkr}/r) integral J e^{jk s.x}; the integrals above are of eta k J / 2j.
   for (Vec3& sum : sums) sum /= 2 * kPi;
 }
@@ -133,7 +143,8 @@ void add_currents(const WedgeFrame& wedge, const Vec3& k_hat, std::span<const Ve
 // Of the angles +-phi + 2 N pi m, at which the sources' images stand, the one next to pi.
 double grazing_image(double phi, double N) {
   const double round = 2 * N * kPi;
-  const double plus = phi + round * std::round((kPi - phi) / round), minus = -phi + round * std::round((kPi + phi) / round);
+  const double plus = phi + round * std::round((kPi - phi) / round),
+               minus = -phi + round * std::round((kPi + phi) / round);
   return std::abs(kPi - plus) < std::abs(kPi - minus) ? plus : minus;
 }
 

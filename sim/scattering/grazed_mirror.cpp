@@ -10,15 +10,20 @@
 namespace seaglint {
 namespace {
 
-// Sine of the angle over a mirror up to which it is grazed, 2 to 6 deg. What its rim sends to the next mirror fades alike, since that stands in the zone which the beam, the wave beside it and what the rim diffracts share: all go over into wall_penumbra.h together.
+// Sine of the angle over a mirror up to which it is grazed, 2 to 6 deg. What its rim sends to the next mirror fades
+// alike, since that stands in the zone which the beam, the wave beside it and what the rim diffracts share: all go over
+// into wall_penumbra.h together.
 constexpr std::array<double, 2> kGrazing{0.035, 0.11};
-// Length of a mirror along the way, beside the height of the other over it, from which it reaches far enough to show that one's image.
+// Length of a mirror along the way, beside the height of the other over it, from which it reaches far enough to show
+// that one's image.
 constexpr std::array<double, 2> kReaches{1, 2};
 // Cosines between normals of parallel mirrors, and of a wall, that leans by less than 49 deg, and what it stands on.
 constexpr double kParallel = 1 - 1e-9, kSteep = 0.75;
 
 // Whether one is a wall on the other.
-bool stands_on(const GrazedMirror& wall, const GrazedMirror& mirror) { return std::abs(mirror.normal.dot(wall.normal)) < kSteep; }
+bool stands_on(const GrazedMirror& wall, const GrazedMirror& mirror) {
+  return std::abs(mirror.normal.dot(wall.normal)) < kSteep;
+}
 
 double extent(std::span<const Vec3> outline, const Vec3& along) {
   const auto [least, most] = std::ranges::minmax(outline, {}, [&](const Vec3& x) { return along.dot(x); });
@@ -43,7 +48,9 @@ double grazes(double sine) { return fading(std::abs(sine), kGrazing); }
 
 double grazes(const Vec3& s, const Vec3& n) { return grazes(n.dot(s)); }
 
-double share_of_two(const Vec3& r, const GrazedMirror& first, const GrazedMirror& last) { return 1 - left(r, last, first) + left(r, first, last); }
+double share_of_two(const Vec3& r, const GrazedMirror& first, const GrazedMirror& last) {
+  return 1 - left(r, last, first) + left(r, first, last);
+}
 
 double share_of_more(const Vec3& r, const GrazedMirror& first, const GrazedMirror& before, const GrazedMirror& last) {
   const bool comes_back = std::abs(first.normal.dot(last.normal)) > kParallel && stands_on(before, last);

@@ -107,7 +107,9 @@ VisibleSurface::VisibleSurface(std::span<const Facet> facets, const Panels& pane
   extents_.reserve(most);
   FacetImage fresh;
   for (int f = 0; f < static_cast<int>(facets.size()); ++f) {
-    if (!may_be_seen(f) || !set_image(fresh, facets, panels, f, Mirror{}, basis, least_area(facets[f].normal, basis, min_area))) continue;
+    if (!may_be_seen(f) ||
+        !set_image(fresh, facets, panels, f, Mirror{}, basis, least_area(facets[f].normal, basis, min_area)))
+      continue;
     image_of_[f] = static_cast<std::int32_t>(images_.size());
     images_.push_back(fresh);
     extents_.push_back(extent_of({&fresh.polygon, 1}, fresh.plane));
@@ -170,13 +172,16 @@ void VisibleSurface::seen_through(int facet, const Mirror& mirrors, std::span<co
   show(window(facet), own.normal, image_plane(own.normal, own.offset, basis_), mirrors, lit, transmit, seen);
 }
 
-void VisibleSurface::seen_by(int mirror, int facet, const Mirror& mirrors, std::span<const MovingPolygon> lit, const RadarBasis& transmit, std::vector<MovingPolygon>& seen) const {
+void VisibleSurface::seen_by(int mirror, int facet, const Mirror& mirrors, std::span<const MovingPolygon> lit,
+                             const RadarBasis& transmit, std::vector<MovingPolygon>& seen) const {
   const Mirror by = plane_mirror(facets_[mirror].normal, facets_[mirror].offset);
   const Vec3 normal = by.L * facets_[facet].normal;
-  show(window(mirror), normal, image_plane(normal, normal.dot(by.image(facets_[facet].corner[0])), basis_), mirrors, lit, transmit, seen);
+  show(window(mirror), normal, image_plane(normal, normal.dot(by.image(facets_[facet].corner[0])), basis_), mirrors,
+       lit, transmit, seen);
 }
 
-void VisibleSurface::show(const Window& window, const Vec3& normal, const ImagePlane& own, const Mirror& mirrors, std::span<const MovingPolygon> lit, const RadarBasis& transmit,
+void VisibleSurface::show(const Window& window, const Vec3& normal, const ImagePlane& own, const Mirror& mirrors,
+                          std::span<const MovingPolygon> lit, const RadarBasis& transmit,
                           std::vector<MovingPolygon>& seen) const {
   if (window.pieces.empty() || lit.empty()) return;
   // On the panel's plane, the way from the radar's own aperture to the beam's is affine: q -> origin + q1 first + q2

@@ -78,8 +78,10 @@ class VisibleSurface {
   void seen_through(int facet, const Mirror& mirrors, std::span<const MovingPolygon> lit, const RadarBasis& transmit,
                     std::vector<MovingPolygon>& seen) const;
 
-  // The same of what it sees by a mirror, the panel that goes by facet `mirror`, in the plane of that one: `mirrors` are then the beam's and, before them, this one. What stands between the two panels is not looked at.
-  void seen_by(int mirror, int facet, const Mirror& mirrors, std::span<const MovingPolygon> lit, const RadarBasis& transmit, std::vector<MovingPolygon>& seen) const;
+  // The same of what it sees by a mirror, the panel that goes by facet `mirror`, in the plane of that one: `mirrors`
+  // are then the beam's and, before them, this one. What stands between the two panels is not looked at.
+  void seen_by(int mirror, int facet, const Mirror& mirrors, std::span<const MovingPolygon> lit,
+               const RadarBasis& transmit, std::vector<MovingPolygon>& seen) const;
 
  private:
   // Pieces of the radar's aperture with their boxes.
@@ -89,7 +91,8 @@ class VisibleSurface {
   };
   Window window(int facet) const;
   // What of `lit`, parts of a plane that the radar sees as `own`, shows in the window.
-  void show(const Window& window, const Vec3& normal, const ImagePlane& own, const Mirror& mirrors, std::span<const MovingPolygon> lit, const RadarBasis& transmit, std::vector<MovingPolygon>& seen) const;
+  void show(const Window& window, const Vec3& normal, const ImagePlane& own, const Mirror& mirrors,
+            std::span<const MovingPolygon> lit, const RadarBasis& transmit, std::vector<MovingPolygon>& seen) const;
 
   std::span<const Facet> facets_;
   RadarBasis basis_;

@@ -13,8 +13,8 @@ namespace {
 
 // Side of the smallest lit piece that counts, in radii: 5 mm on the 144 m ship.
 constexpr double kSmallestSide = 0.7e-4;
-// Side of the smallest beam that goes on to further mirrors, in those of pieces: 18 mm on the ship. Pieces half as large
-// and beams twice as large as one size for both err less and cost the same (README.md).
+// Side of the smallest beam that goes on to further mirrors, in those of pieces: 18 mm on the ship. Pieces half as
+// large and beams twice as large as one size for both err less and cost the same (README.md).
 constexpr double kBeamPerPiece = 3.6;
 // A large mesh has larger chunks of panels: what is kept per chunk and frequency stays below 100 MB for 640
 // frequencies.
@@ -30,9 +30,9 @@ double smallest_area(const Scatterer& scatterer, const IlluminationSettings& set
 }
 
 // In a direction that lies in a sheet's plane nothing of it would be found, not even its rims, whose echo has a limit
-// there; so have edge waves along any face, and those of an edge square to the direction, which run along the rims beside
-// it. Such a direction is turned aside by this much, rad, which moves phases by 0.05 rad at the ends of a 144 m ship at
-// 16 GHz.
+// there; so have edge waves along any face, and those of an edge square to the direction, which run along the rims
+// beside it. Such a direction is turned aside by this much, rad, which moves phases by 0.05 rad at the ends of a 144 m
+// ship at 16 GHz.
 constexpr double kAside = 1e-6;
 
 RadarBasis looking_aside(const Scatterer& scatterer, const RadarBasis& basis, bool edges) {
@@ -41,13 +41,16 @@ RadarBasis looking_aside(const Scatterer& scatterer, const RadarBasis& basis, bo
       return (facet.open || edges) && std::abs(facet.normal.dot(r)) < kEdgeOnPanel;
     };
     const auto square_to = [&](const SharpEdge& edge) { return edges && std::abs(edge.along().dot(r)) < kEdgeOnPanel; };
-    return std::ranges::any_of(scatterer.facets(), in_its_plane) || std::ranges::any_of(scatterer.edges().edges, square_to);
+    return std::ranges::any_of(scatterer.facets(), in_its_plane) ||
+           std::ranges::any_of(scatterer.edges().edges, square_to);
   };
   if (!has_a_limit(basis.r)) return basis;
-  // About h - v first, since faces often lie along h or v; a face across the axis stays edge-on and asks for another one.
+  // About h - v first, since faces often lie along h or v; a face across the axis stays edge-on and asks for another
+  // one.
   RadarBasis aside = basis;
   for (const Vec2& axis : {Vec2(1, -1), Vec2(1, 0.6), Vec2(0.3, 1), Vec2(1, 0.1), Vec2(-0.2, 1)}) {
-    const Mat3 turn = Eigen::AngleAxisd(kAside, (axis.x() * basis.h + axis.y() * basis.v).normalized()).toRotationMatrix();
+    const Mat3 turn =
+        Eigen::AngleAxisd(kAside, (axis.x() * basis.h + axis.y() * basis.v).normalized()).toRotationMatrix();
     aside = {turn * basis.r, turn * basis.h, turn * basis.v};
     if (!has_a_limit(aside.r)) break;
   }
@@ -135,7 +138,8 @@ Reached Illumination::light_all(int threads, const std::function<void(std::size_
 
 BeamScene Illumination::scene() const {
   const VisibleSurface& visible = seen_from_receiver_ ? *seen_from_receiver_ : lit_;
-  return {scatterer_, antennas_, settings_, lit_, visible, surfaces_, min_area_, kBeamPerPiece * kBeamPerPiece * min_area_};
+  return {scatterer_, antennas_, settings_, lit_,
+          visible,    surfaces_, min_area_, kBeamPerPiece * kBeamPerPiece * min_area_};
 }
 
 std::size_t Illumination::light(std::span<const int> facets, Lit& lit) const {

@@ -13,14 +13,16 @@ namespace {
 constexpr Complex kJ(0, 1);
 constexpr double kVacuumPermittivity = 8.8541878128e-12;  // F/m, CODATA 2018
 
-// Of the two roots the one that decays along the wave, e^{-j kappa z} with Im kappa <= 0; propagating when it does not decay.
+// Of the two roots the one that decays along the wave, e^{-j kappa z} with Im kappa <= 0; propagating when it does not
+// decay.
 Complex decaying_root(const Complex& square) {
   const Complex root = std::sqrt(square);
   return root.imag() > 0 ? -root : root;
 }
 
-// Reflection of tangential E at an interface from medium a to b, kappa = k_z / k0: (Z_b - Z_a) / (Z_b + Z_a) with Z = mu / kappa across the plane of
-// incidence and kappa / eps in it. Written without divisions that a vanishing kappa would spoil.
+// Reflection of tangential E at an interface from medium a to b, kappa = k_z / k0: (Z_b - Z_a) / (Z_b + Z_a) with Z =
+// mu / kappa across the plane of incidence and kappa / eps in it. Written without divisions that a vanishing kappa
+// would spoil.
 Complex interface_te(const Complex& mu_a, const Complex& kappa_a, const Complex& mu_b, const Complex& kappa_b) {
   return (mu_b * kappa_a - mu_a * kappa_b) / (mu_b * kappa_a + mu_a * kappa_b);
 }
@@ -48,15 +50,12 @@ Complex value_at(const DispersionSpec& spec, double frequency_hz) {
 Surface::Surface(const MaterialSpec& spec, double k) : kind_(spec.kind), k_(k), roughness_(1e-3 * spec.roughness_mm) {
   const double frequency_hz = k * kSpeedOfLight / (2 * kPi);
   switch (spec.kind) {
-    case SurfaceKind::kPec:
-      break;
+    case SurfaceKind::kPec: break;
     case SurfaceKind::kConductor:
       slabs_.push_back({1.0 - kJ * spec.conductivity_s_m / (2 * kPi * frequency_hz * kVacuumPermittivity), 1.0, 0});
       half_space_ = true;
       break;
-    case SurfaceKind::kImpedance:
-      impedance_ = {spec.resistance, spec.reactance};
-      break;
+    case SurfaceKind::kImpedance: impedance_ = {spec.resistance, spec.reactance}; break;
     case SurfaceKind::kLayers:
       for (const LayerSpec& layer : spec.layers) {
         slabs_.push_back({value_at(layer.permittivity, frequency_hz), value_at(layer.permeability, frequency_hz),
@@ -68,8 +67,7 @@ Surface::Surface(const MaterialSpec& spec, double k) : kind_(spec.kind), k_(k), 
       slabs_.push_back({sea_water_permittivity(frequency_hz, spec.temperature_c, spec.salinity_psu), 1.0, 0});
       half_space_ = true;
       break;
-    case SurfaceKind::kUnderWater:
-      break;
+    case SurfaceKind::kUnderWater: break;
   }
 }
 
@@ -104,8 +102,8 @@ SurfaceFields Surface::stack(double cos_incidence) const {
   }
   if (air_behind_) media.push_back(media.front());
 
-  // Gamma at the front of the last interface, then interface by interface towards the wave:
-  // Gamma_i = (rho_i + Gamma_{i+1} e^{-2j delta}) / (1 + rho_i Gamma_{i+1} e^{-2j delta}), delta = k0 kappa d of the medium between them.
+  // Gamma at the front of the last interface, then interface by interface towards the wave: Gamma_i = (rho_i +
+  // Gamma_{i+1} e^{-2j delta}) / (1 + rho_i Gamma_{i+1} e^{-2j delta}), delta = k0 kappa d of the medium between them.
   Complex te = -1, tm = -1;  // tangential E at a perfect conductor
   Complex te_through = 1, tm_through = 1;
   const bool has_conductor = !half_space_ && !air_behind_;

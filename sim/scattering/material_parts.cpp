@@ -11,7 +11,8 @@
 
 namespace seaglint {
 
-std::vector<MaterialSpec> assign_materials(TriangleMesh& mesh, const MaterialSpec& all, std::span<const PartMaterial> parts) {
+std::vector<MaterialSpec> assign_materials(TriangleMesh& mesh, const MaterialSpec& all,
+                                           std::span<const PartMaterial> parts) {
   std::vector<MaterialSpec> materials{all};
   std::vector<std::uint16_t> of_part(mesh.part_names.size(), 0);
   for (const PartMaterial& entry : parts) {
@@ -24,7 +25,8 @@ std::vector<MaterialSpec> assign_materials(TriangleMesh& mesh, const MaterialSpe
       found = true;
     }
     if (!found) {
-      throw InputError(fmt::format("part '{}': the mesh has no such part: {}", entry.part, suggestion(entry.part, mesh.part_names)));
+      throw InputError(
+          fmt::format("part '{}': the mesh has no such part: {}", entry.part, suggestion(entry.part, mesh.part_names)));
     }
     materials.push_back(entry.material);
   }
@@ -54,8 +56,9 @@ void put_in_water(TriangleMesh& mesh, std::vector<MaterialSpec>& materials, doub
 void check_frequencies(std::span<const MaterialSpec> materials, double lowest_hz, double highest_hz) {
   for (const MaterialSpec& material : materials) {
     if (lowest_hz < 1e9 * material.lowest_ghz || highest_hz > 1e9 * material.highest_ghz) {
-      throw InputError(fmt::format("material {}: its source covers {} to {} GHz, asked for {:.6g} to {:.6g} GHz", material.name, material.lowest_ghz,
-                                   material.highest_ghz, 1e-9 * lowest_hz, 1e-9 * highest_hz));
+      throw InputError(fmt::format("material {}: its source covers {} to {} GHz, asked for {:.6g} to {:.6g} GHz",
+                                   material.name, material.lowest_ghz, material.highest_ghz, 1e-9 * lowest_hz,
+                                   1e-9 * highest_hz));
     }
   }
 }

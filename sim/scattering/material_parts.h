@@ -17,12 +17,14 @@ struct PartMaterial {
   MaterialSpec material;
 };
 
-// Gives every triangle a material: `all`, or the last of `parts` that names its part. Sets mesh.materials and triangle_material, whatever the file said,
-// and returns the specifications in the order of mesh.materials. Throws InputError for a part that the mesh does not have.
-std::vector<MaterialSpec> assign_materials(TriangleMesh& mesh, const MaterialSpec& all, std::span<const PartMaterial> parts);
+// Gives every triangle a material: `all`, or the last of `parts` that names its part. Sets mesh.materials and
+// triangle_material, whatever the file said, and returns the specifications in the order of mesh.materials. Throws
+// InputError for a part that the mesh does not have.
+std::vector<MaterialSpec> assign_materials(TriangleMesh& mesh, const MaterialSpec& all,
+                                           std::span<const PartMaterial> parts);
 
-// Cuts the mesh at z = height; what lies below hides what is behind it but neither reflects nor radiates. `materials` are those of mesh.materials and get
-// one more.
+// Cuts the mesh at z = height; what lies below hides what is behind it but neither reflects nor radiates. `materials`
+// are those of mesh.materials and get one more.
 void put_in_water(TriangleMesh& mesh, std::vector<MaterialSpec>& materials, double height);
 
 // Throws InputError when a frequency lies outside the range a material's source covers.

@@ -50,12 +50,12 @@ Corner meet(const Corner& a, const Corner& b, double fa, double fb, const Moving
 // Where the corners of a polygon lie with respect to a line.
 enum class Side { kInside, kOutside, kBoth };
 
-// Clips by f >= 0, where f(p) is the distance inside the line in units of which `on_line` counts as none. make_line() is
-// called only where an edge is cut, and its line is in the same units; `kept` and what is cut off, if anybody asks for
-// it, are filled only where the line passes through.
+// Clips by f >= 0, where f(p) is the distance inside the line in units of which `on_line` counts as none. make_line()
+// is called only where an edge is cut, and its line is in the same units; `kept` and what is cut off, if anybody asks
+// for it, are filled only where the line passes through.
 template <typename Distance, typename MakeLine>
-Side clip_by(const MovingPolygon& polygon, const Distance& distance, double on_line, const MakeLine& make_line, MovingPolygon& kept,
-             MovingPolygon* cut_off = nullptr) {
+Side clip_by(const MovingPolygon& polygon, const Distance& distance, double on_line, const MakeLine& make_line,
+             MovingPolygon& kept, MovingPolygon* cut_off = nullptr) {
   constexpr std::size_t kRemembered = 16;  // distances of the first corners
   std::array<double, kRemembered> remembered;
   bool any_inside = false, any_outside = false;
@@ -93,8 +93,8 @@ Side clip_by(const MovingPolygon& polygon, const Distance& distance, double on_l
 
 // Clips by one edge of another polygon: keeps its left side. The line is as steep as the edge is long, which saves a
 // division for each.
-Side clip_by_edge(const MovingPolygon& polygon, const Corner& from, const Corner& to, double length, MovingPolygon& kept,
-                  MovingPolygon* cut_off = nullptr) {
+Side clip_by_edge(const MovingPolygon& polygon, const Corner& from, const Corner& to, double length,
+                  MovingPolygon& kept, MovingPolygon* cut_off = nullptr) {
   const Vec2 left = left_of(to.p - from.p);
   return clip_by(
       polygon, [&](const Vec2& p) { return left.dot(p - from.p); }, kOnLine * length,
@@ -124,7 +124,8 @@ MovingPolygon counter_clockwise(MovingPolygon polygon) {
 MovingPolygon clip(const MovingPolygon& polygon, const MovingLine& line, int keep) {
   const MovingLine inside = keep > 0 ? line : opposite(line);
   MovingPolygon kept;
-  switch (clip_by(polygon, [&](const Vec2& p) { return inside.at(p); }, kOnLine, [&] { return inside; }, kept)) {
+  switch (clip_by(
+      polygon, [&](const Vec2& p) { return inside.at(p); }, kOnLine, [&] { return inside; }, kept)) {
     case Side::kInside: return polygon;
     case Side::kOutside: return {};
     case Side::kBoth: return kept;
@@ -138,7 +139,9 @@ bool apart(const MovingPolygon& a, const MovingPolygon& b) {
     for (const Corner& to : edges) {
       const Vec2 along = to.p - *from;
       const double on_line = kOnLine * along.norm();
-      if (std::all_of(corners.begin(), corners.end(), [&](const Corner& c) { return cross(along, c.p - *from) <= on_line; })) return true;
+      if (std::all_of(corners.begin(), corners.end(),
+                      [&](const Corner& c) { return cross(along, c.p - *from) <= on_line; }))
+        return true;
       from = &to.p;
     }
     return false;
@@ -146,7 +149,8 @@ bool apart(const MovingPolygon& a, const MovingPolygon& b) {
   return outside_an_edge(a, b) || outside_an_edge(b, a);
 }
 
-bool subtract(const MovingPolygon& polygon, const MovingPolygon& hole, double min_area, std::vector<MovingPolygon>& pieces) {
+bool subtract(const MovingPolygon& polygon, const MovingPolygon& hole, double min_area,
+              std::vector<MovingPolygon>& pieces) {
   const std::size_t before = pieces.size();
   MovingPolygon rests[2], outside;  // what is inside all edges so far, and where the next clip goes
   const MovingPolygon* rest = &polygon;

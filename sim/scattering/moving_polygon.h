@@ -24,8 +24,8 @@ struct Corner {
   Vec2 d2 = Vec2::Zero();  // dp / d d2
 };
 
-// Corners in order: convex, counter-clockwise. Up to kInPlace of them need no memory of their own, which is nearly always enough and makes
-// polygons cheap to come and go.
+// Corners in order: convex, counter-clockwise. Up to kInPlace of them need no memory of their own, which is nearly
+// always enough and makes polygons cheap to come and go.
 class MovingPolygon {
  public:
   static constexpr std::size_t kInPlace = 6;
@@ -95,7 +95,8 @@ class MovingPolygon {
   }
   void take(MovingPolygon& other) {
     if (other.corners_ == other.in_place()) {
-      std::uninitialized_copy_n(other.corners_, other.size_, corners_);  // other holds at most kInPlace, and so do we at least
+      // other holds at most kInPlace, and so do we at least
+      std::uninitialized_copy_n(other.corners_, other.size_, corners_);
     } else {
       release();
       corners_ = std::exchange(other.corners_, other.in_place());
@@ -140,7 +141,8 @@ bool apart(const MovingPolygon& a, const MovingPolygon& b);
 
 // polygon minus hole where they have more than min_area in common: appends convex pieces with an area above min_area to
 // pieces. Else false, and nothing is appended.
-bool subtract(const MovingPolygon& polygon, const MovingPolygon& hole, double min_area, std::vector<MovingPolygon>& pieces);
+bool subtract(const MovingPolygon& polygon, const MovingPolygon& hole, double min_area,
+              std::vector<MovingPolygon>& pieces);
 
 // The common part; empty when there is none.
 MovingPolygon intersect(const MovingPolygon& a, const MovingPolygon& b);
@@ -158,7 +160,8 @@ inline Box box_of(const MovingPolygon& polygon) {
   return box;
 }
 inline bool overlap(const Box& a, const Box& b) {
-  return a.lower.x() < b.upper.x() && b.lower.x() < a.upper.x() && a.lower.y() < b.upper.y() && b.lower.y() < a.upper.y();
+  return a.lower.x() < b.upper.x() && b.lower.x() < a.upper.x() && a.lower.y() < b.upper.y() &&
+         b.lower.y() < a.upper.y();
 }
 
 }  // namespace seaglint

@@ -18,7 +18,8 @@ double Sight::gain(const SeaPath& path, const Vec3& x, double range_m) const {
   if (range_m <= 0) return (there + back).dot(x);
   double sum = 0;
   // R - |R r - x|, free of cancellation.
-  for (const Vec3& r : {there, back}) sum += (2 * r.dot(x) - x.squaredNorm() / range_m) / (1 + (r - x / range_m).norm());
+  for (const Vec3& r : {there, back})
+    sum += (2 * r.dot(x) - x.squaredNorm() / range_m) / (1 + (r - x / range_m).norm());
   return sum;
 }
 

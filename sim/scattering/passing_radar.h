@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// A radar that moves past the target, or is near enough to be seen in another direction from each of its bodies: in the far field nothing but the direction to it counts. The scene stands still,
-// since the sea as a mirror does: the radar's image goes down where the radar goes up.
+// A radar that moves past the target, or is near enough to be seen in another direction from each of its bodies: in the
+// far field nothing but the direction to it counts. The scene stands still, since the sea as a mirror does: the radar's
+// image goes down where the radar goes up.
 
 #include "sim/core/linear.h"
 #include "sim/scattering/frequency_response.h"
@@ -15,7 +16,8 @@ struct Sight {
   RadarBasis radar, image;
 
   const RadarBasis& of(bool by_sea) const { return by_sea ? image : radar; }
-  // Both ways of a path to x, m: its length is shorter by this than to the origin, from which the radar stands at range_m; 0: in the far field.
+  // Both ways of a path to x, m: its length is shorter by this than to the origin, from which the radar stands at
+  // range_m; 0: in the far field.
   double gain(const SeaPath& path, const Vec3& x, double range_m = 0) const;
 };
 

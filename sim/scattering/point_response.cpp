@@ -43,8 +43,9 @@ void add_point_to_pulse(Complex* pulse, const IntervalSampling& sampling, int fi
 
 }  // namespace
 
-FrequencyResponse point_response_over_sea(std::span<const PointSpec> points, const Vec3& r_hat, const IntervalSampling& sampling,
-                                          Polarisation polarisation, const SeaMirror& sea) {
+FrequencyResponse point_response_over_sea(std::span<const PointSpec> points, const Vec3& r_hat,
+                                          const IntervalSampling& sampling, Polarisation polarisation,
+                                          const SeaMirror& sea) {
   FrequencyResponse response;
   response.pulses = static_cast<int>(sampling.pulse_first.size());
   response.per_pulse = sampling.per_pulse;

@@ -19,9 +19,10 @@ Vec3 direction_to_radar(const View& view);
 FrequencyResponse point_response(std::span<const PointSpec> points, const Vec3& r_hat,
                                  const IntervalSampling& sampling);
 
-// The same over the sea mirror (sea_mirror.h), z = 0 of the target frame: H = sum of amplitude (e^{jk r^.x} + rho_p e^{jk r'.x}) (e^{jk r^.x} + rho_q e^{jk r'.x})
-// for p received and q transmitted, less the paths not wanted.
-FrequencyResponse point_response_over_sea(std::span<const PointSpec> points, const Vec3& r_hat, const IntervalSampling& sampling,
-                                          Polarisation polarisation, const SeaMirror& sea);
+// The same over the sea mirror (sea_mirror.h), z = 0 of the target frame: H = sum of amplitude (e^{jk r^.x} + rho_p
+// e^{jk r'.x}) (e^{jk r^.x} + rho_q e^{jk r'.x}) for p received and q transmitted, less the paths not wanted.
+FrequencyResponse point_response_over_sea(std::span<const PointSpec> points, const Vec3& r_hat,
+                                          const IntervalSampling& sampling, Polarisation polarisation,
+                                          const SeaMirror& sea);
 
 }  // namespace seaglint

@@ -37,9 +37,10 @@ struct alignas(64) ChunkPoints {
   double fastest = 0;  // largest |u|, m
 };
 
-// One trace: what the body answers by one way. At a finite range the wavefront is bent about the body's own origin, from which the way sees the radar.
-ReturnGrid trace_returns(const Scatterer& scatterer, const PlannedWay& way, const WavenumberGrid& wavenumbers, int channel,
-                         const SolverSpec& solver, int threads) {
+// One trace: what the body answers by one way. At a finite range the wavefront is bent about the body's own origin,
+// from which the way sees the radar.
+ReturnGrid trace_returns(const Scatterer& scatterer, const PlannedWay& way, const WavenumberGrid& wavenumbers,
+                         int channel, const SolverSpec& solver, int threads) {
   const AntennaPair& antennas = way.antennas;
   const DirectionPath& path = way.moves;
   // A shadow edge at grazing runs along its facet much faster than any point of the body moves. Beyond four times the
@@ -160,7 +161,8 @@ BodyResponse respond(const Scatterer& scatterer, const Trajectory& trajectory, c
   std::vector<std::vector<ReturnGrid>> returns(traces.size());  // by trace and way
   parallel_for(traces.size(), side_by_side, [&](std::size_t i) {
     for (const PlannedWay& way : traces[i].ways) {
-      returns[i].push_back(trace_returns(scatterer, way, wavenumbers, channel, solver, std::max(1, threads / side_by_side)));
+      returns[i].push_back(
+          trace_returns(scatterer, way, wavenumbers, channel, solver, std::max(1, threads / side_by_side)));
     }
   });
 
@@ -178,8 +180,8 @@ BodyResponse respond(const Scatterer& scatterer, const Trajectory& trajectory, c
       for (int n = traces[i].first; n <= traces[i].last; ++n) {
         const auto at = static_cast<std::size_t>(n - traces[i].first);
         returns[i][w].response(sampling.pulse_first[n], moves.s[at], moves.q[at], answer);
-        // The body's origin moves too: e^{jk (a + b).p} with the directions a and b of either way, of a radar at a finite
-        // range by its distances, exact for every pulse and frequency.
+        // The body's origin moves too: e^{jk (a + b).p} with the directions a and b of either way, of a radar at a
+        // finite range by its distances, exact for every pulse and frequency.
         const double origin_path = plan.gain(path, n);
         for (int b = 0; b < sampling.per_pulse; ++b) {
           const int q = sampling.pulse_first[n] + b;

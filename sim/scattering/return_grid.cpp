@@ -45,8 +45,8 @@ double kernel_transform(double theta) {
   return sum * kPi / kPoints * 0.5 * kWidth;
 }
 
-// phi^ where it is asked for, |theta| up to a quarter of a turn per cell: a Chebyshev series in theta^2, of which phi^ is
-// an entire function. Its terms fall below 1e-15 of the first before the last one.
+// phi^ where it is asked for, |theta| up to a quarter of a turn per cell: a Chebyshev series in theta^2, of which phi^
+// is an entire function. Its terms fall below 1e-15 of the first before the last one.
 class KernelTransform {
  public:
   KernelTransform() {

@@ -77,8 +77,8 @@ class ReturnGrid {
   double psi_cell_;          // m
   double u_cell_, u_first_;  // m
   int u_cells_;
-  double v_limit_;  // m; the grid of v^p holds amplitudes times (v / v_limit)^p
-  int terms_;       // of the series in q, 1..5
+  double v_limit_;                      // m; the grid of v^p holds amplitudes times (v / v_limit)^p
+  int terms_;                           // of the series in q, 1..5
   std::vector<Complex> cells_;          // [term][u][psi], after transform [term][u][frequency]
   std::vector<double> psi_correction_;  // 1 / phi^ per frequency
 };

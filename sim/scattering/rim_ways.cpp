@@ -12,7 +12,9 @@ namespace {
 
 constexpr double kShallow = 1e-4;  // m, of a panel seen edge-on
 
-Vec3 normal_of(const ImagePlane& plane, const RadarBasis& basis) { return (basis.r - plane.slope.x() * basis.h - plane.slope.y() * basis.v).normalized(); }
+Vec3 normal_of(const ImagePlane& plane, const RadarBasis& basis) {
+  return (basis.r - plane.slope.x() * basis.h - plane.slope.y() * basis.v).normalized();
+}
 
 // From real points to the aperture.
 struct IntoAperture {
@@ -20,7 +22,9 @@ struct IntoAperture {
   Vec2 shift;
 
   IntoAperture(const RadarBasis& transmit, const Mirror& mirrors)
-      : h(mirrors.L.transpose() * transmit.h), v(mirrors.L.transpose() * transmit.v), shift(mirrors.t.dot(transmit.h), mirrors.t.dot(transmit.v)) {}
+      : h(mirrors.L.transpose() * transmit.h),
+        v(mirrors.L.transpose() * transmit.v),
+        shift(mirrors.t.dot(transmit.h), mirrors.t.dot(transmit.v)) {}
   Vec2 operator()(const Vec3& x) const { return Vec2(h.dot(x), v.dot(x)) + shift; }
 };
 
@@ -33,7 +37,8 @@ std::vector<Vec2> outline_of(const Panels& panels, const RadarBasis& transmit, c
   return outline;
 }
 
-std::vector<Rim> rims_of(const SharpEdges& edges, const Panels& panels, const RadarBasis& transmit, std::span<const Screen> screens) {
+std::vector<Rim> rims_of(const SharpEdges& edges, const Panels& panels, const RadarBasis& transmit,
+                         std::span<const Screen> screens) {
   std::vector<Rim> rims;
   for (std::size_t i = 0; i < screens.size(); ++i) {
     const Screen& screen = screens[i];
@@ -58,9 +63,16 @@ std::vector<Rim> rims_of(const SharpEdges& edges, const Panels& panels, const Ra
   return rims;
 }
 
-SideFrame::SideFrame(const Corner& start, const Corner& end) : from(start), to(end), length((end.p - start.p).norm()), along((end.p - start.p) / length), across(-along.y(), along.x()) {}
+SideFrame::SideFrame(const Corner& start, const Corner& end)
+    : from(start),
+      to(end),
+      length((end.p - start.p).norm()),
+      along((end.p - start.p) / length),
+      across(-along.y(), along.x()) {}
 
-bool SideFrame::holds(const Rim& rim) const { return std::abs(x(rim.a)) <= kOnRim && std::abs(x(rim.b)) <= kOnRim && x(rim.inside) > 0; }
+bool SideFrame::holds(const Rim& rim) const {
+  return std::abs(x(rim.a)) <= kOnRim && std::abs(x(rim.b)) <= kOnRim && x(rim.inside) > 0;
+}
 
 RimWays::RimWays(const AntennaPair& antennas, std::span<const Screen> screens, const Footprint& footprint)
     : antennas_(antennas),
@@ -77,11 +89,14 @@ RimWays::Way RimWays::over(std::size_t screen, const Vec2& p) const {
 }
 
 Vec2 RimWays::landing(std::size_t screen, const Vec2& p) const {
-  const Vec3 X = at(screen, p), landed = X - normal_.dot(X - footprint_.plane.z0 * basis_.r) / normal_.dot(before_) * before_;
+  const Vec3 X = at(screen, p),
+             landed = X - normal_.dot(X - footprint_.plane.z0 * basis_.r) / normal_.dot(before_) * before_;
   return {landed.dot(basis_.h), landed.dot(basis_.v)};
 }
 
-Vec2 RimWays::across(const Vec2& direction) const { return Vec2(-before_.dot(basis_.r), before_.dot(direction.x() * basis_.h + direction.y() * basis_.v)).normalized(); }
+Vec2 RimWays::across(const Vec2& direction) const {
+  return Vec2(-before_.dot(basis_.r), before_.dot(direction.x() * basis_.h + direction.y() * basis_.v)).normalized();
+}
 
 RimWays::Share RimWays::share(const Rim& rim, double slope) const {
   const Screen& mirror = screens_[rim.screen];
@@ -91,8 +106,10 @@ RimWays::Share RimWays::share(const Rim& rim, double slope) const {
   Vec3 n = real * normal_of(*mirror.plane, basis_);
   if (n.dot(mirror.direction) > 0) n = -n;
   const Vec2 run = (rim.b - rim.a).normalized();
-  const Vec3 along = real * (run.x() * basis_.h + run.y() * basis_.v + mirror.plane->slope.dot(run) * basis_.r).normalized();
-  const double moved = rim_share(n, along, mirror.direction, s, last) * lands_on(mirrored(mirror.direction, n), s, last) * (1 - fading(std::abs(slope), kFlat));
+  const Vec3 along =
+      real * (run.x() * basis_.h + run.y() * basis_.v + mirror.plane->slope.dot(run) * basis_.r).normalized();
+  const double moved = rim_share(n, along, mirror.direction, s, last) *
+                       lands_on(mirrored(mirror.direction, n), s, last) * (1 - fading(std::abs(slope), kFlat));
   return {moved, n.dot(s) > 0};
 }
 

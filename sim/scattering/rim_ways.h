@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Rims of the mirrors that a footprint's beam has passed, and the ways over them: straight on along the beam, where a rim casts its shadow line on the footprint's facet, and from the rim's point
-// by the mirrors after it to the receiver, as the field that the rim diffracts goes.
+// Rims of the mirrors that a footprint's beam has passed, and the ways over them: straight on along the beam, where a
+// rim casts its shadow line on the footprint's facet, and from the rim's point by the mirrors after it to the receiver,
+// as the field that the rim diffracts goes.
 
 #include <array>
 #include <span>
@@ -16,17 +17,19 @@ namespace seaglint {
 
 // What a beam passes: one of its mirrors, or the facet at its end.
 struct Screen {
-  int facet = -1;                    // its panel goes by
-  const Mirror* mirrors = nullptr;   // that take its own points to where the beam meets them; of a mirror itself included
+  int facet = -1;  // its panel goes by
+  // that take its own points to where the beam meets them; of a mirror itself included
+  const Mirror* mirrors = nullptr;
   const ImagePlane* plane = nullptr;
-  Vec3 direction = Vec3::Zero();     // of the wave at it
+  Vec3 direction = Vec3::Zero();  // of the wave at it
 };
 
 // Points this near to a rim lie on it, as for edges that bound a lit polygon (edge_light.cpp).
 inline constexpr double kOnRim = 1e-7;  // m
 
-// Slopes of psi across a shadow line below which its end stays there, and from which on it moves: the ends of both ways go as 1 / slope, and an interval turns it by some thousandths; that they
-// lie apart by k d slope^2 / 2 in phase is lost.
+// Slopes of psi across a shadow line below which its end stays there, and from which on it moves: the ends of both ways
+// go as 1 / slope, and an interval turns it by some thousandths; that they lie apart by k d slope^2 / 2 in phase is
+// lost.
 inline constexpr std::array<double, 2> kFlat{0.03, 0.08};
 
 // A rim as the transmitter sees it through the mirrors before.
@@ -42,7 +45,8 @@ struct Rim {
 std::vector<Vec2> outline_of(const Panels& panels, const RadarBasis& transmit, const Screen& screen);
 
 // Of all screens, of which the first lies nearest to the transmitter: the wedges that the wave meets at their panels.
-std::vector<Rim> rims_of(const SharpEdges& edges, const Panels& panels, const RadarBasis& transmit, std::span<const Screen> screens);
+std::vector<Rim> rims_of(const SharpEdges& edges, const Panels& panels, const RadarBasis& transmit,
+                         std::span<const Screen> screens);
 
 // Along one side of a lit piece, t from its start and x across into the piece.
 struct SideFrame {
@@ -78,7 +82,8 @@ class RimWays {
   // The way out in the plane of the wave's direction and a direction across it, unit: along the wave and across.
   Vec2 across(const Vec2& direction) const;
 
-  // What share of the end that physical optics has at the rim's shadow line is the rim's own (mirrored_rim.h), by the slope of psi across that line; whether the rim's face sees the way.
+  // What share of the end that physical optics has at the rim's shadow line is the rim's own (mirrored_rim.h), by the
+  // slope of psi across that line; whether the rim's face sees the way.
   struct Share {
     double moved = 0;
     bool seen = false;
@@ -86,7 +91,9 @@ class RimWays {
   Share share(const Rim& rim, double slope) const;
 
  private:
-  Vec3 at(std::size_t screen, const Vec2& p) const { return p.x() * basis_.h + p.y() * basis_.v + screens_[screen].plane->at(p) * basis_.r; }
+  Vec3 at(std::size_t screen, const Vec2& p) const {
+    return p.x() * basis_.h + p.y() * basis_.v + screens_[screen].plane->at(p) * basis_.r;
+  }
 
   const AntennaPair& antennas_;
   const RadarBasis& basis_;  // of the aperture

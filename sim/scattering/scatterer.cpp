@@ -23,7 +23,8 @@ double radius_of(std::span<const Facet> facets) {
 
 // Rounding of single-precision coordinates bends a surface by less than 1e-7 of its radius: 7 um on the ship, 0.3 deg
 // of phase at 16 GHz.
-Scatterer::Scatterer(const TriangleMesh& mesh, std::vector<MaterialSpec> materials, double crease_rad, double sheet_thickness_m)
+Scatterer::Scatterer(const TriangleMesh& mesh, std::vector<MaterialSpec> materials, double crease_rad,
+                     double sheet_thickness_m)
     : facets_(make_facets(mesh)),
       radius_(radius_of(facets_)),
       sheet_thickness_(sheet_thickness_m),

@@ -36,7 +36,7 @@ class Scatterer {
   const FacetTree& tree() const { return tree_; }
   const SharpEdges& edges() const { return edges_; }
   double sheet_thickness() const { return sheet_thickness_; }  // m
-  double radius() const { return radius_; }  // of the bounding sphere about the body's origin, m
+  double radius() const { return radius_; }                    // of the bounding sphere about the body's origin, m
   std::span<const MaterialSpec> materials() const { return materials_; }  // empty: all is perfect conductor
 
  private:

@@ -42,9 +42,11 @@ Complex SeaMirror::weight(const SeaPath& path, const SeaCoefficients& rho, int e
   return (path.back ? received : 1.0) * (path.there ? transmitted : 1.0);
 }
 
-std::vector<std::array<Complex, 4>> scattering_matrices_over_sea(const Scatterer& scatterer, const Vec3& r_hat, double height_m, const SeaMirror& sea,
-                                                                 std::span<const double> wavenumbers, const IlluminationSettings& settings,
-                                                                 int threads, std::size_t* legs, const StopFlag* stop) {
+std::vector<std::array<Complex, 4>> scattering_matrices_over_sea(const Scatterer& scatterer, const Vec3& r_hat,
+                                                                 double height_m, const SeaMirror& sea,
+                                                                 std::span<const double> wavenumbers,
+                                                                 const IlluminationSettings& settings, int threads,
+                                                                 std::size_t* legs, const StopFlag* stop) {
   const RadarBasis radar = radar_basis(r_hat), image = image_basis(radar);
   IlluminationSettings raised = settings;
   raised.origin = {0, 0, height_m};

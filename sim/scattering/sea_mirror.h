@@ -3,11 +3,12 @@
 
 // The mean sea surface z = 0 as a mirror between radar and target: every echo comes four ways.
 //
-// With r' = (r_x, r_y, -r_z), the direction to the radar's image, and S(a, b) the echo received along a of a wave sent along b, about an origin in the
-// mirror,
+// With r' = (r_x, r_y, -r_z), the direction to the radar's image, and S(a, b) the echo received along a of a wave sent
+// along b, about an origin in the mirror,
 //     S = S(r, r) + R S(r', r) + S(r, r') R + R S(r', r') R,    R = diag(rho_h, rho_v).
-// rho_h = te and rho_v = tm of the sea (material.h): s = h is common to r and r', and p = s x d is v on the way down and v' = r' x h on the way up (both
-// change sign on the way back), so that a perfectly conducting sea, rho_h = -1 and rho_v = +1, gives what image theory gives.
+// rho_h = te and rho_v = tm of the sea (material.h): s = h is common to r and r', and p = s x d is v on the way down
+// and v' = r' x h on the way up (both change sign on the way back), so that a perfectly conducting sea, rho_h = -1 and
+// rho_v = +1, gives what image theory gives.
 
 #include <array>
 #include <span>
@@ -56,10 +57,14 @@ class SeaMirror {
   double rms_m_;
 };
 
-// The scattering matrix hh, hv, vh, vv in metres of a body at rest over the sea, at each wavenumber, about the body's origin, which is `height_m` above
-// the mean surface. r_hat in the body frame, whose z is up; r_hat.z() > 0. Raises *legs by the legs followed.
-std::vector<std::array<Complex, 4>> scattering_matrices_over_sea(const Scatterer& scatterer, const Vec3& r_hat, double height_m, const SeaMirror& sea,
-                                                                 std::span<const double> wavenumbers, const IlluminationSettings& settings,
-                                                                 int threads = 1, std::size_t* legs = nullptr, const StopFlag* stop = nullptr);
+// The scattering matrix hh, hv, vh, vv in metres of a body at rest over the sea, at each wavenumber, about the body's
+// origin, which is `height_m` above the mean surface. r_hat in the body frame, whose z is up; r_hat.z() > 0. Raises
+// *legs by the legs followed.
+std::vector<std::array<Complex, 4>> scattering_matrices_over_sea(const Scatterer& scatterer, const Vec3& r_hat,
+                                                                 double height_m, const SeaMirror& sea,
+                                                                 std::span<const double> wavenumbers,
+                                                                 const IlluminationSettings& settings, int threads = 1,
+                                                                 std::size_t* legs = nullptr,
+                                                                 const StopFlag* stop = nullptr);
 
 }  // namespace seaglint

@@ -20,8 +20,9 @@ constexpr double kLeastDetail = 7e-5;     // of the radius about the origin (def
 constexpr std::size_t kManyTriangles = 1'000'000;
 constexpr double kGigabytesPerMillion = 1.4, kSecondsPerMillion = 5;  // a sheet of 10 million on two cores
 
-constexpr double kNarrow = 1.0 / 3;       // wavelengths
-constexpr double kThickSheet = 0.1;       // wavelengths: 0.2 dB of a strip's soft, 0.8 of its hard echo (README.md, "Thick sheets")
+constexpr double kNarrow = 1.0 / 3;  // wavelengths
+// wavelengths: 0.2 dB of a strip's soft, 0.8 of its hard echo (README.md, "Thick sheets")
+constexpr double kThickSheet = 0.1;
 
 // Of the panel that the facet belongs to, m^2.
 double panel_area(const Scatterer& scatterer, int facet) {
@@ -70,8 +71,11 @@ std::vector<std::string> check_target(const TriangleMesh& mesh, double lowest_hz
 }
 
 std::vector<std::string> check_edges(const Scatterer& scatterer, bool followed, double lowest_hz, double highest_hz) {
-  const double longest = kSpeedOfLight / lowest_hz, shortest = kSpeedOfLight / highest_hz, thickness = scatterer.sheet_thickness();
-  const auto changes_nothing = [&](const char* why) { return fmt::format("a sheet thickness of {:g} mm changes nothing: {}", 1e3 * thickness, why); };
+  const double longest = kSpeedOfLight / lowest_hz, shortest = kSpeedOfLight / highest_hz,
+               thickness = scatterer.sheet_thickness();
+  const auto changes_nothing = [&](const char* why) {
+    return fmt::format("a sheet thickness of {:g} mm changes nothing: {}", 1e3 * thickness, why);
+  };
   if (!followed) return thickness > 0 ? std::vector{changes_nothing("edges are off")} : std::vector<std::string>{};
   double all = 0, narrow = 0;
   for (const SharpEdge& edge : scatterer.edges().edges) {
@@ -82,18 +86,23 @@ std::vector<std::string> check_edges(const Scatterer& scatterer, bool followed, 
   }
   // As panels list them, only edges of perfect conductors.
   const SharpEdges& edges = scatterer.edges();
-  const bool any_rim = std::ranges::any_of(edges.by_panel, [&](const PanelEdge& side) { return edges.edges[side.edge].outside.thickness_m > 0; });
+  const bool any_rim = std::ranges::any_of(
+      edges.by_panel, [&](const PanelEdge& side) { return edges.edges[side.edge].outside.thickness_m > 0; });
   std::vector<std::string> found;
   if (narrow > 0) {
-    found.push_back(fmt::format("{:.3g} m of {:.3g} m of sharp edges bound bars or strips narrower than a third of the wavelength at {:g} GHz, which return too "
-                                "much with edges on",
-                                narrow, all, lowest_hz * 1e-9));
+    found.push_back(
+        fmt::format("{:.3g} m of {:.3g} m of sharp edges bound bars or strips narrower than a third of the wavelength "
+                    "at {:g} GHz, which return too "
+                    "much with edges on",
+                    narrow, all, lowest_hz * 1e-9));
   }
   if (thickness > 0 && !any_rim) {
     found.push_back(changes_nothing("no surface is open and a perfect conductor"));
   } else if (thickness > kThickSheet * shortest) {
-    found.push_back(fmt::format("sheets of {:g} mm are {:.2g} wavelengths thick at {:g} GHz; their rims are followed to first order, good up to a tenth", 1e3 * thickness,
-                                thickness / shortest, highest_hz * 1e-9));
+    found.push_back(
+        fmt::format("sheets of {:g} mm are {:.2g} wavelengths thick at {:g} GHz; their rims are followed to first "
+                    "order, good up to a tenth",
+                    1e3 * thickness, thickness / shortest, highest_hz * 1e-9));
   }
   return found;
 }
@@ -101,9 +110,10 @@ std::vector<std::string> check_edges(const Scatterer& scatterer, bool followed, 
 void check_range(double radius_m, double range_m) {
   constexpr double kNearestRadii = 10;
   if (range_m > 0 && range_m < kNearestRadii * radius_m) {
-    throw InputError(fmt::format(
-        "radar range {} m: the target reaches {:.3g} m from where it is counted, and the range must be ten times that or more",
-        range_m, radius_m));
+    throw InputError(
+        fmt::format("radar range {} m: the target reaches {:.3g} m from where it is counted, and the range must be ten "
+                    "times that or more",
+                    range_m, radius_m));
   }
 }
 

@@ -52,7 +52,8 @@ TracePlan::TracePlan(const Trajectory& trajectory, const IntervalSampling& sampl
     for (std::size_t i = 0; i < spans_; ++i) {
       const double middle_s = start + length * (static_cast<double>(i) + 0.5) / static_cast<double>(spans_);
       const Pose pose = trajectory.pose(middle_s);
-      traces_.push_back(planned(i, pose, sight_from(sight_at(sampling, r_hat, middle_s), pose.p_TB, range_m), seen, paths));
+      traces_.push_back(
+          planned(i, pose, sight_from(sight_at(sampling, r_hat, middle_s), pose.p_TB, range_m), seen, paths));
       for (const PlannedWay& way : traces_.back().ways) beside = std::max(beside, way.moves.q_limit);
     }
     if (beside <= limits.beside || spans_ >= time_.size()) break;

@@ -36,7 +36,8 @@ struct TraceLimits {
 // before the first and after the last one that one's stands alone.
 class TracePlan {
  public:
-  // The trajectory must cover the interval of one or more pulses; r_hat in the target frame, from whose origin the radar stands at range_m, 0 = far field.
+  // The trajectory must cover the interval of one or more pulses; r_hat in the target frame, from whose origin the
+  // radar stands at range_m, 0 = far field.
   TracePlan(const Trajectory& trajectory, const IntervalSampling& sampling, const Vec3& r_hat, double range_m,
             std::span<const SeaPath> paths, const TraceLimits& limits);
 

@@ -39,7 +39,8 @@ std::vector<EchoCentre> centres_of(std::span<const Contribution> contributions, 
   std::map<Key, Cell> cells;
   for (const Contribution& c : contributions) {
     const Vec3 g = c.gradient.sum();
-    Cell& at = cells[{c.part, c.bounces, static_cast<std::int64_t>(c.mechanism), cell(c.psi), cell(g.x()), cell(g.y()), cell(g.z())}];
+    Cell& at = cells[{c.part, c.bounces, static_cast<std::int64_t>(c.mechanism), cell(c.psi), cell(g.x()), cell(g.y()),
+                      cell(g.z())}];
     const auto s = echo_of(c, k);
     double weight = 1e-300;
     for (int i = 0; i < 4; ++i) {
@@ -57,14 +58,17 @@ std::vector<EchoCentre> centres_of(std::span<const Contribution> contributions, 
   std::vector<EchoCentre> centres;
   centres.reserve(cells.size());
   for (const auto& [key, c] : cells) centres.push_back(c.centre);
-  std::stable_sort(centres.begin(), centres.end(), [](const EchoCentre& a, const EchoCentre& b) { return a.strength() > b.strength(); });
+  std::stable_sort(centres.begin(), centres.end(),
+                   [](const EchoCentre& a, const EchoCentre& b) { return a.strength() > b.strength(); });
   return centres;
 }
 
-std::vector<std::array<Complex, 4>> facet_echoes(std::span<const Contribution> contributions, double k, std::size_t facets) {
+std::vector<std::array<Complex, 4>> facet_echoes(std::span<const Contribution> contributions, double k,
+                                                 std::size_t facets) {
   std::vector<std::array<Complex, 4>> echoes(facets);
   for (const Contribution& c : contributions) {
-    SEAGLINT_CHECK(c.facet >= 0 && static_cast<std::size_t>(c.facet) < facets, fmt::format("facet {} of {}", c.facet, facets));
+    SEAGLINT_CHECK(c.facet >= 0 && static_cast<std::size_t>(c.facet) < facets,
+                   fmt::format("facet {} of {}", c.facet, facets));
     const auto s = echo_of(c, k);
     for (int i = 0; i < 4; ++i) echoes[static_cast<std::size_t>(c.facet)][i] += s[i];
   }

@@ -18,7 +18,8 @@ constexpr double kOneAmplitude = 9;
 constexpr double kChangePhase = 100;
 // Cosine between the wave's way on the face and the wall's normal below which it runs along the wall.
 constexpr std::array<double, 2> kAlongWall{0.1, 0.3};
-// Height of the image's shadow line on the wall, in those of the wall, from which on the wall's image of the rim is not seen.
+// Height of the image's shadow line on the wall, in those of the wall, from which on the wall's image of the rim is not
+// seen.
 constexpr std::array<double, 2> kPastTop{0.6, 1};
 
 // Rim and foot this near to each other meet.
@@ -35,12 +36,14 @@ Pattern of_wall(const Vec3& n, const RadarBasis& antenna, const Vec3& k_hat, con
 
 }  // namespace
 
-void append_wall_penumbra(const WallBehindRim& wall, const RadarBasis& antenna, const EdgeFootprint& foot_echo, double k, double faintest_m, std::vector<EdgeFootprint>& footprints) {
+void append_wall_penumbra(const WallBehindRim& wall, const RadarBasis& antenna, const EdgeFootprint& foot_echo,
+                          double k, double faintest_m, std::vector<EdgeFootprint>& footprints) {
   const auto& [rim, along, n, wall_normal, height, image_share, foot, shown] = wall;
   const Vec3& r = antenna.r;
   const double s = n.dot(r), c = std::sqrt(1 - s * s);
   const Vec3 back = (r - s * n).normalized();  // on the face, from the wall to the rim
-  const double grazes = fading(std::abs(s), kGrazes), faces = 1 - fading(wall_normal.dot(back), kAlongWall), length = (foot[1] - foot[0]).norm();
+  const double grazes = fading(std::abs(s), kGrazes), faces = 1 - fading(wall_normal.dot(back), kAlongWall),
+               length = (foot[1] - foot[0]).norm();
   const double across = back.cross(along).dot(n);
   if (grazes * faces <= 0 || across == 0) return;
   std::array<double, 2> l;
@@ -50,13 +53,15 @@ void append_wall_penumbra(const WallBehindRim& wall, const RadarBasis& antenna, 
     l[end] = std::max(way, 0.0);  // rim and foot may meet
   }
   const double way = 0.5 * (l[0] + l[1]);
-  // How far along the stretch an end moves as the direction turns about the face's normal, m/rad, and how the way to the rim lengthens.
+  // How far along the stretch an end moves as the direction turns about the face's normal, m/rad, and how the way to
+  // the rim lengthens.
   const Vec3 run = (foot[1] - foot[0]) / length, turn = n.cross(back) / c;
   const double slips = -1 / turn.dot(c * run), lengthens = back.dot(along) / across;
 
   // Of the wave, and of its image in the face: soft and hard are half of their difference and of their sum.
   const auto image = [&](const Vec3& x) { return mirrored(x, n); };
-  const Pattern direct = of_wall(wall_normal, antenna, -r, antenna.h, antenna.v), by_face = of_wall(wall_normal, antenna, image(-r), -image(antenna.h), -image(antenna.v));
+  const Pattern direct = of_wall(wall_normal, antenna, -r, antenna.h, antenna.v),
+                by_face = of_wall(wall_normal, antenna, image(-r), -image(antenna.h), -image(antenna.v));
   Pattern soft, hard;
   for (int i = 0; i < 4; ++i) {
     soft[i] = 0.5 * (direct[i] - by_face[i]);
@@ -73,7 +78,8 @@ void append_wall_penumbra(const WallBehindRim& wall, const RadarBasis& antenna, 
     for (int end = 0; end < 2; ++end) {
       footprint.psi[end] = 2 * r.dot(foot[end]) - range.fall * l[end];
       footprint.gradient[end] = {};
-      footprint.gradient[end].transmit = footprint.gradient[end].receive = foot[end] + 0.5 * (rise - l[end] * slope) * n - 0.5 * l[end] * range.fall * lengthens * turn;
+      footprint.gradient[end].transmit = footprint.gradient[end].receive =
+          foot[end] + 0.5 * (rise - l[end] * slope) * n - 0.5 * l[end] * range.fall * lengthens * turn;
     }
     const double rate = (footprint.psi[1] - footprint.psi[0]) / length;
     for (int end = 0; end < 2; ++end) {
@@ -88,10 +94,12 @@ void append_wall_penumbra(const WallBehindRim& wall, const RadarBasis& antenna, 
 
   // What mirrored_rim.h and edge waves by walls leave to this.
   const double ahead = 1 - before_the_beam(1 - 2 * s * s), share = grazes * faces;
-  const double past_top = s > 0 ? fading(way * s / c / height, kPastTop) : 1, by_rim = (1 - grazing_share(s)) * past_top;
+  const double past_top = s > 0 ? fading(way * s / c / height, kPastTop) : 1,
+               by_rim = (1 - grazing_share(s)) * past_top;
   // What the wall's image, which ends at the line, radiates already.
   const double by_image = image_share * past_top;
-  const double at_end = 1 / (4 * kPi * std::abs(s)), by_way = std::min(at_end, std::sqrt(k * std::max(l[0], l[1]) / kPi) / (2 * kPi));
+  const double at_end = 1 / (4 * kPi * std::abs(s)),
+               by_way = std::min(at_end, std::sqrt(k * std::max(l[0], l[1]) / kPi) / (2 * kPi));
   const double at_foot = s > 0 ? share * (by_rim + by_image) : 0, at_line = s > 0 ? -share * by_image : share;
   WallRange range;
   range.l = l;

@@ -36,7 +36,8 @@ Complex WallRange::at_sine(double s, double k, double share, double run) const {
     sum -= with_phase(2 * (1 - c), [&](double own) {
       const double x = k * way * s * s, z = -std::clamp(own * way / more, -kFar, kFar);
       const Complex hard = transition(x, x, z);
-      return from_rim / (2 * kPi * s * s * std::sqrt(kPi * k * way)) * std::polar(1.0, -kPi / 4) * (soft ? transition(x, z) - hard : hard);
+      return from_rim / (2 * kPi * s * s * std::sqrt(kPi * k * way)) * std::polar(1.0, -kPi / 4) *
+             (soft ? transition(x, z) - hard : hard);
     });
   }
   return sum;
@@ -46,7 +47,8 @@ Complex WallRange::at(double k, double share, double run) const {
   if (part == Part::kAll) return at_sine(sine, k, share, run);
   const double side = std::copysign(1.0, sine), near = std::abs(sine);
   const double least = std::max(near - kTurn, kLeastSine), most = near + kTurn;
-  const Complex change = (at_sine(side * most, k, share, run) - at_sine(side * least, k, share, run)) / (side * (most - least));
+  const Complex change =
+      (at_sine(side * most, k, share, run) - at_sine(side * least, k, share, run)) / (side * (most - least));
   const Complex of_change = change / Complex(0, k * change_m);
   if (part == Part::kChange) return of_change;
   const double here = std::max(near, kLeastSine);

@@ -26,7 +26,8 @@ void check_radar(const RadarSpec& radar, const ScenarioDocument& document) {
     document.fail_at("radar.bandwidth_mhz", fmt::format("must be at most radar.sampling_mhz, {}", radar.sampling_mhz));
   }
   if (!(lowest_ghz(radar) > 0)) {
-    document.fail_at("radar.bandwidth_mhz", fmt::format("must be below twice radar.carrier_ghz, {:g}", 2e3 * radar.carrier_ghz));
+    document.fail_at("radar.bandwidth_mhz",
+                     fmt::format("must be below twice radar.carrier_ghz, {:g}", 2e3 * radar.carrier_ghz));
   }
   // Fewer samples are no chirp: one sample of a shorter pulse would have the energy of one as long as a sample.
   if (radar.pulse_width_us * radar.sampling_mhz < kLeastSamples) {
@@ -66,7 +67,7 @@ void check_grazing(const Scenario& scenario, const ScenarioDocument& document) {
   const ClutterSpec& clutter = scenario.clutter;
   const bool own_level = clutter.level == ClutterLevel::kNrl, own_motion = clutter.doppler != ClutterDoppler::kGiven;
   if (!clutter.enabled || !(own_level || own_motion)) return;
-  const char* where = own_level                                     ? "level: nrl"
+  const char* where = own_level                                 ? "level: nrl"
                       : clutter.doppler == ClutterDoppler::kSea ? "doppler: sea"
                                                                 : "doppler: wave_field";
   for (const double elevation : scenario.view.elevation_deg) {
@@ -84,8 +85,9 @@ void check_clutter(const Scenario& scenario, const ScenarioDocument& document) {
   if (radar.polarisation != Polarisation::kHh && radar.polarisation != Polarisation::kVv)
     document.fail_at("radar.polarisation", fmt::format("must be hh or vv {}", where));
   if (lowest_ghz(radar) < 0.5 || highest_ghz(radar) > 35) {
-    document.fail_at("radar.carrier_ghz", fmt::format("all carriers with their band, {:g} to {:g} GHz, must be within 0.5 and 35 {}",
-                                                      lowest_ghz(radar), highest_ghz(radar), where));
+    document.fail_at("radar.carrier_ghz",
+                     fmt::format("all carriers with their band, {:g} to {:g} GHz, must be within 0.5 and 35 {}",
+                                 lowest_ghz(radar), highest_ghz(radar), where));
   }
   for (const SeaState& state : sea_states(scenario.sea)) {
     if (!clutter.sea_state && total_wave_height(state) > 6)
@@ -180,7 +182,8 @@ void check_sea_reflection(const Scenario& scenario, const ScenarioDocument& docu
     }
   }
   if (scenario.sea_reflection.surface == SeaSurface::kSeaWater && highest_ghz(scenario.radar) > 89) {
-    document.fail_at("radar.carrier_ghz", "the highest carrier with its band must be at most 89 with sea_reflection of sea_water");
+    document.fail_at("radar.carrier_ghz",
+                     "the highest carrier with its band must be at most 89 with sea_reflection of sea_water");
   }
 }
 
@@ -189,9 +192,10 @@ void check_one_range(const TargetSpec& target, const TargetSpec& companion, cons
   const double range_m = target.solver.radar_range_m, other_m = companion.solver.radar_range_m;
   if (range_m == other_m) return;
   const auto key = [](const TargetSpec& of) { return fmt::format("targets.{}.solver.radar_range_m", of.name); };
-  const TargetSpec &wrong = companion.points.empty() ? companion : target, &right = companion.points.empty() ? target : companion;
-  document.fail_at(key(wrong), fmt::format("must be {}, as targets.{} has it in the same maps ({})", right.solver.radar_range_m, right.name,
-                                           document.place_of(key(right))));
+  const TargetSpec &wrong = companion.points.empty() ? companion : target,
+                   &right = companion.points.empty() ? target : companion;
+  document.fail_at(key(wrong), fmt::format("must be {}, as targets.{} has it in the same maps ({})",
+                                           right.solver.radar_range_m, right.name, document.place_of(key(right))));
 }
 
 // A companion is another target of the file, and brings no companions of its own.
@@ -255,7 +259,7 @@ void check_dataset(const Scenario& scenario, const ScenarioDocument& document) {
 
 // Two cases of one direction would be equal.
 void check_directions(const std::string& key, const Sweep& values_deg, const ScenarioDocument& document) {
-  constexpr double kSame = 1e-9;  // deg, beyond the rounding of a turn
+  constexpr double kSame = 1e-9;                      // deg, beyond the rounding of a turn
   std::vector<std::pair<double, double>> directions;  // within a turn, as given
   for (const double value : values_deg) directions.emplace_back(value - 360 * std::floor((value + kSame) / 360), value);
   std::sort(directions.begin(), directions.end());

@@ -42,8 +42,8 @@ inline constexpr std::size_t kMaxYamlNodes = 300'000;
 inline constexpr int kMaxYamlDepth = 32;
 
 // Parses one document. Aliases are replaced by copies of what they name. Throws InputError "name:line:col: ..." for
-// what is not YAML, not text in UTF-8, too large or too deep, for tags, for keys that are not plain text, and for more than one
-// document.
+// what is not YAML, not text in UTF-8, too large or too deep, for tags, for keys that are not plain text, and for more
+// than one document.
 YamlNode parse_yaml(const std::string& text, const std::string& name);
 
 }  // namespace seaglint

@@ -257,7 +257,8 @@ void visit(TargetSpec& spec, FieldVisitor& v) {
         "part_materials", spec.part_materials.size(), 1000, [&](std::size_t size) { spec.part_materials.resize(size); },
         [&](std::size_t i, FieldVisitor& item) { visit(spec.part_materials[i], item); });
   }
-  if (v.optional("sheet_thickness_mm", is_mesh)) v.number("sheet_thickness_mm", spec.sheet_thickness_mm, within(0, 1000));
+  if (v.optional("sheet_thickness_mm", is_mesh))
+    v.number("sheet_thickness_mm", spec.sheet_thickness_mm, within(0, 1000));
   if (v.optional("layout", spec.line.has_value())) {
     if (!spec.line) spec.line.emplace();
     v.section("layout", [&](FieldVisitor& layout) {

@@ -47,7 +47,8 @@ class FieldVisitor {
 
   virtual void number(const char* key, double& value, const Bound& bound) = 0;
   virtual void integer(const char* key, int& value, const Bound& bound) = 0;
-  virtual void natural(const char* key, std::uint64_t& value) = 0;  // 0 <= x < 2^63: the rows of data sets hold signed numbers
+  // 0 <= x < 2^63: the rows of data sets hold signed numbers
+  virtual void natural(const char* key, std::uint64_t& value) = 0;
   virtual void flag(const char* key, bool& value) = 0;
   virtual void text(const char* key, std::string& value) = 0;
   virtual void choice(const char* key, std::size_t& index, Names names) = 0;  // names[index]

@@ -25,8 +25,8 @@ std::vector<int> parse_hop_code(const std::string& text, const std::string& file
       int code = -1;
       const auto [rest, error] = std::from_chars(word.data(), word.data() + word.size(), code);
       if (error != std::errc() || rest != word.data() + word.size() || code < 0 || code >= carriers) {
-        throw InputError(fmt::format("{}:{}: '{}': must be a carrier's number, 0 to {} (radar.hop_count - 1)", file_name,
-                                     number, word, carriers - 1));
+        throw InputError(fmt::format("{}:{}: '{}': must be a carrier's number, 0 to {} (radar.hop_count - 1)",
+                                     file_name, number, word, carriers - 1));
       }
       codes.push_back(code);
     }

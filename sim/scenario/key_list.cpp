@@ -30,7 +30,9 @@ class Lister : public FieldVisitor {
     const bool single = bound.lowest == bound.highest;
     add(key, fmt::format("{}", value), single ? fmt::format("{}", bound.lowest) : "whole, " + bound.text());
   }
-  void natural(const char* key, std::uint64_t& value) override { add(key, fmt::format("{}", value), "whole, 0 <= x < 2^63"); }
+  void natural(const char* key, std::uint64_t& value) override {
+    add(key, fmt::format("{}", value), "whole, 0 <= x < 2^63");
+  }
   void flag(const char* key, bool& value) override { add(key, value ? "true" : "false", "true, false"); }
   void text(const char* key, std::string& value) override { add(key, value, "text"); }
   void choice(const char* key, std::size_t& index, Names names) override {

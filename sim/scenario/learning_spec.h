@@ -17,33 +17,33 @@ struct DatasetSpec {
 };
 
 struct FeatureSpec {
-  double dynamic_range_db = 30;  // centres below the strongest one, 1 <= x <= 100
-  int max_centres = 64;          // 3 <= x <= 1000
-  double clean_gain = 1;         // loop gain of CLEAN, 0.05 <= x <= 1
-  double range_scale_m = 40;     // normalisation of sigma_r in CCF, > 0
+  double dynamic_range_db = 30;     // centres below the strongest one, 1 <= x <= 100
+  int max_centres = 64;             // 3 <= x <= 1000
+  double clean_gain = 1;            // loop gain of CLEAN, 0.05 <= x <= 1
+  double range_scale_m = 40;        // normalisation of sigma_r in CCF, > 0
   double velocity_scale_mps = 0.5;  // normalisation of sigma_v in CCF, > 0
-  bool weighted_fit = false;     // weights in the line fit too; the residual is weighted as printed
+  bool weighted_fit = false;        // weights in the line fit too; the residual is weighted as printed
 };
 
 enum class Fusion { kSplit, kInSample };
 
 struct LearningSpec {
   Fusion fusion = Fusion::kSplit;
-  double network_share = 0.6;     // of the training groups, for the network, when fusion is split; 0.1 <= x <= 0.9
-  int epochs = 20;                // 1 <= x <= 10000
-  int batch_size = 32;            // 1 <= x <= 4096
-  double learning_rate = 0.001;   // of the network, 1e-6 <= x <= 1
-  int embedding_size = 8;         // 1 <= x <= 512
-  int threads = 1;                // of the network, fixed and recorded: another number gives other bits; 1 <= x <= 256
-  double map_floor_db = -40;      // floor of the network's input, below the map's total energy, -120 <= x < 0
-  int trees = 200;                // XGBoost, the paper's table II from here on
+  double network_share = 0.6;    // of the training groups, for the network, when fusion is split; 0.1 <= x <= 0.9
+  int epochs = 20;               // 1 <= x <= 10000
+  int batch_size = 32;           // 1 <= x <= 4096
+  double learning_rate = 0.001;  // of the network, 1e-6 <= x <= 1
+  int embedding_size = 8;        // 1 <= x <= 512
+  int threads = 1;               // of the network, fixed and recorded: another number gives other bits; 1 <= x <= 256
+  double map_floor_db = -40;     // floor of the network's input, below the map's total energy, -120 <= x < 0
+  int trees = 200;               // XGBoost, the paper's table II from here on
   int max_depth = 6;
   double tree_learning_rate = 0.05;
   double subsample = 0.8;
   double colsample_bytree = 0.8;
   int tree_seed = 42;
-  int split_repeats = 1;          // independent splits whose test predictions are pooled, 1 <= x <= 100
-  int bootstrap_samples = 1000;   // of the grouped confidence intervals, 10 <= x <= 100000
+  int split_repeats = 1;         // independent splits whose test predictions are pooled, 1 <= x <= 100
+  int bootstrap_samples = 1000;  // of the grouped confidence intervals, 10 <= x <= 100000
 };
 
 }  // namespace seaglint

@@ -23,8 +23,8 @@ struct MeasuredSpec {
   double loss = 0;            // 0 <= x <= 1e5
 };
 
-// A relative permittivity or permeability over frequency: a table of measured values, linear in the logarithm of frequency and held beyond its ends;
-// without a table real - j loss + sum of Debye terms - j conductivity / (w eps0).
+// A relative permittivity or permeability over frequency: a table of measured values, linear in the logarithm of
+// frequency and held beyond its ends; without a table real - j loss + sum of Debye terms - j conductivity / (w eps0).
 struct DispersionSpec {
   double real = 1;              // at infinite frequency when there are Debye terms, 0 < x <= 1e5
   double loss = 0;              // 0 <= x <= 1e5
@@ -51,7 +51,7 @@ enum class Backing { kPec, kAir };
 
 struct MaterialSpec {
   std::string name = "pec";
-  std::string source;             // where the values come from
+  std::string source;  // where the values come from
   SurfaceKind kind = SurfaceKind::kPec;
   double lowest_ghz = 0.001;      // range the source covers, 0.001 <= x <= 1000
   double highest_ghz = 1000;      // lowest_ghz <= x <= 1000
@@ -61,8 +61,8 @@ struct MaterialSpec {
   double reactance = 0;           // of an impedance, positive = inductive, |x| <= 1e6
   Backing backing = Backing::kPec;
   std::vector<LayerSpec> layers;
-  double temperature_c = 20;      // of sea water, -2 <= x <= 29
-  double salinity_psu = 35;       // of sea water, 0 <= x <= 40
+  double temperature_c = 20;  // of sea water, -2 <= x <= 29
+  double salinity_psu = 35;   // of sea water, 0 <= x <= 40
 };
 
 // Reads and checks a material file. Throws InputError "file:line:col: key.path: value ...: bound".

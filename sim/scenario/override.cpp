@@ -40,8 +40,8 @@ void require_utf8(const Override& override_value) {
   const std::string text = override_value.key_path + "=" + override_value.value;
   const std::size_t utf8 = utf8_prefix(text);
   if (utf8 < text.size()) {
-    throw InputError(
-        fmt::format("--set {}: byte 0x{:02x}: must be UTF-8", text.substr(0, utf8), static_cast<unsigned char>(text[utf8])));
+    throw InputError(fmt::format("--set {}: byte 0x{:02x}: must be UTF-8", text.substr(0, utf8),
+                                 static_cast<unsigned char>(text[utf8])));
   }
 }
 
@@ -57,7 +57,8 @@ void mark_as_override(YamlNode& node, int index) {
 }  // namespace
 
 std::string ScenarioDocument::place(const Location& location, const std::string& key_path) const {
-  if (location.override_index < 0) return fmt::format("{}:{}:{}: {}", file_name, location.line, location.column, key_path);
+  if (location.override_index < 0)
+    return fmt::format("{}:{}:{}: {}", file_name, location.line, location.column, key_path);
   const std::string& override_path = override_paths[static_cast<std::size_t>(location.override_index)];
   return key_path == override_path ? "--set " + override_path : fmt::format("--set {}: {}", override_path, key_path);
 }

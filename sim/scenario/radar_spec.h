@@ -33,21 +33,23 @@ struct PlatformSpec {
 };
 
 struct RadarSpec {
-  double carrier_ghz = 16;       // lowest carrier, 0.1 <= x <= 300
-  int hop_count = 8;             // number of carriers M, 1 <= x <= 1024
-  double hop_step_mhz = 25;      // carrier spacing, > 0
+  double carrier_ghz = 16;              // lowest carrier, 0.1 <= x <= 300
+  int hop_count = 8;                    // number of carriers M, 1 <= x <= 1024
+  double hop_step_mhz = 25;             // carrier spacing, > 0
   HopCode hop_code = HopCode::kRandom;  // random (independent, as in the paper), balanced, stepped, file
-  std::string hop_code_file;     // of hop_code: file, beside the scenario or below the working directory
+  std::string hop_code_file;            // of hop_code: file, beside the scenario or below the working directory
   std::shared_ptr<const std::vector<int>> hop_codes;  // what it holds, read with the scenario; at least `pulses` codes
-  double bandwidth_mhz = 25;     // LFM bandwidth B, 0.001 <= x <= 10000
-  double pulse_width_us = 36;    // 0.001 <= x <= 1e6, shorter than pri_us
-  double sampling_mhz = 50;      // complex sampling of the time-domain echo, >= bandwidth_mhz
-  double pri_us = 250;           // 0.01 <= x <= 1e7
-  double pri_jitter_us = 0;      // every pulse but the first comes up to this much early or late, uniformly; pulses never overlap
-  int pulses = 256;              // of one coherent interval, 1 <= x <= 65536
+  double bandwidth_mhz = 25;                          // LFM bandwidth B, 0.001 <= x <= 10000
+  double pulse_width_us = 36;                         // 0.001 <= x <= 1e6, shorter than pri_us
+  double sampling_mhz = 50;                           // complex sampling of the time-domain echo, >= bandwidth_mhz
+  double pri_us = 250;                                // 0.01 <= x <= 1e7
+  // every pulse but the first comes up to this much early or late, uniformly; pulses never overlap
+  double pri_jitter_us = 0;
+  int pulses = 256;  // of one coherent interval, 1 <= x <= 65536
   Polarisation polarisation = Polarisation::kVv;
-  bool intra_pulse_motion = false;  // the f/mu term of Doppler inside the pulse, in echo and map alike; only with points as targets
-  double range_km = 20;             // to the target's reference point, for budget and platform, 0.1 <= x <= 1000
+  // the f/mu term of Doppler inside the pulse, in echo and map alike; only with points as targets
+  bool intra_pulse_motion = false;
+  double range_km = 20;  // to the target's reference point, for budget and platform, 0.1 <= x <= 1000
   BudgetSpec budget;
   PlatformSpec platform;
 };
@@ -86,19 +88,20 @@ struct ClutterSpec {
   double texture_shape = 2;          // shape of the K distribution's gamma texture, 0.1 <= x <= 1000
   double texture_time_s = 3;         // the texture's correlation falls to e^{-1/2} in this time, 0.1 <= x <= 1000
   ClutterDoppler doppler = ClutterDoppler::kGiven;
-  double doppler_mean_mps = 0;       // mean velocity of the clutter, positive = receding, |x| <= 20
-  double doppler_spread_mps = 0.5;   // standard deviation of its velocity, 0 <= x <= 20
-  double hh_velocity_factor = 1.5;   // mean velocity by waves and wind of hh, hv, vh against vv's, 0 <= x <= 5
-  std::optional<double> sea_state;   // Douglas, 0 <= x <= 6; by the significant wave height without it
+  double doppler_mean_mps = 0;      // mean velocity of the clutter, positive = receding, |x| <= 20
+  double doppler_spread_mps = 0.5;  // standard deviation of its velocity, 0 <= x <= 20
+  double hh_velocity_factor = 1.5;  // mean velocity by waves and wind of hh, hv, vh against vv's, 0 <= x <= 5
+  std::optional<double> sea_state;  // Douglas, 0 <= x <= 6; by the significant wave height without it
 };
 
 enum class Compression { kInverse, kMatched };
 enum class Taper { kNone, kHann, kHamming, kTaylor };
 
 struct MapSpec {
-  double range_span_m = 192;        // full width, centred on the target's reference point, > 0; never beyond the unambiguous window
+  // full width, centred on the target's reference point, > 0; never beyond the unambiguous window
+  double range_span_m = 192;
   double velocity_span_mps = 9.375;  // full width centred on zero, > 0
-  double range_oversampling = 1;    // cells per range resolution c/(2 B_s), 1 <= x <= 16
+  double range_oversampling = 1;     // cells per range resolution c/(2 B_s), 1 <= x <= 16
   double velocity_oversampling = 1;  // cells per velocity resolution lambda/(2 N T_r), 1 <= x <= 16
   Compression compression = Compression::kInverse;
   Taper range_taper = Taper::kHann;

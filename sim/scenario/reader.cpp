@@ -22,14 +22,10 @@ constexpr std::size_t kMaxSweepValues = 10000;
 std::string shown(const YamlNode& node) {
   constexpr std::size_t kLongest = 60;
   switch (node.kind) {
-    case YamlNode::Kind::kNull:
-      return "no value";
-    case YamlNode::Kind::kList:
-      return "a list";
-    case YamlNode::Kind::kMap:
-      return "a map";
-    case YamlNode::Kind::kScalar:
-      break;
+    case YamlNode::Kind::kNull: return "no value";
+    case YamlNode::Kind::kList: return "a list";
+    case YamlNode::Kind::kMap: return "a map";
+    case YamlNode::Kind::kScalar: break;
   }
   std::string text = node.text.substr(0, kLongest);
   std::replace_if(

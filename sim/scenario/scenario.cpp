@@ -11,9 +11,9 @@
 #include "sim/core/file.h"
 #include "sim/core/utf8.h"
 #include "sim/scenario/contradictions.h"
+#include "sim/scenario/document.h"
 #include "sim/scenario/hop_code_file.h"
 #include "sim/scenario/material_spec.h"
-#include "sim/scenario/document.h"
 #include "sim/scenario/reader.h"
 
 namespace seaglint {
@@ -38,7 +38,8 @@ Scenario read_scenario(const fs::path& file, const std::vector<Override>& overri
 }
 
 Scenario parse_scenario(const std::string& yaml, const std::string& file_name, const std::vector<Override>& overrides) {
-  const auto read = std::make_shared<ScenarioDocument>(file_name, std::vector<std::string>{}, parse_yaml(yaml, file_name));
+  const auto read =
+      std::make_shared<ScenarioDocument>(file_name, std::vector<std::string>{}, parse_yaml(yaml, file_name));
   ScenarioDocument& document = *read;
   for (const Override& override_value : overrides) apply_override(document, override_value);
   Scenario scenario = read_fields(document);
@@ -85,7 +86,8 @@ std::vector<InputFile> input_files(const Scenario& scenario) {
     add(target.motion.sections, path + ".motion.sections");
     add(target.motion.file, path + ".motion.file");
     const auto add_material = [&](const std::string& name, const std::string& key) {
-      if (const auto file = find_material_file(name, scenario.folder, place_of(scenario, key))) files.push_back({key, *file});
+      if (const auto file = find_material_file(name, scenario.folder, place_of(scenario, key)))
+        files.push_back({key, *file});
     };
     add_material(target.material, path + ".material");
     for (std::size_t i = 0; i < target.part_materials.size(); ++i) {
@@ -115,15 +117,13 @@ namespace {
 Sweep peak_periods(const SeaSpec& spec, double height) {
   if (spec.table_values) return {2 * kPi / spec.table_values->peak_omega()};
   switch (spec.period_rule) {
-    case PeakPeriod::kDnvWindSea:
-      return {3.96 * std::sqrt(height)};
+    case PeakPeriod::kDnvWindSea: return {3.96 * std::sqrt(height)};
     case PeakPeriod::kWindAndFetch: {
       const double speed = spec.wind.speed_mps;
       const double fetch = kGravity * 1000 * spec.wind.fetch_km / (speed * speed);
       return {speed / kGravity / (3.5 * exact_exp(-0.33 * exact_log(fetch)))};
     }
-    case PeakPeriod::kGiven:
-      break;
+    case PeakPeriod::kGiven: break;
   }
   return spec.peak_period_s;
 }
@@ -201,7 +201,8 @@ std::vector<SeaState> sea_states(const SeaSpec& spec) {
 std::vector<View> views(const ViewSpec& spec) {
   std::vector<View> all;
   for (const double azimuth : spec.azimuth_deg) {
-    for (const double elevation : spec.elevation_deg) all.push_back({radians(azimuth), radians(elevation), azimuth, elevation});
+    for (const double elevation : spec.elevation_deg)
+      all.push_back({radians(azimuth), radians(elevation), azimuth, elevation});
   }
   return all;
 }

@@ -19,7 +19,7 @@ namespace seaglint {
 struct ScenarioDocument;
 
 struct Scenario {
-  int version = 1;  // `seaglint: 1`
+  int version = 1;   // `seaglint: 1`
   std::string name;  // the file's name without extension when not given
   std::uint64_t seed = 42;
   RadarSpec radar;
@@ -42,8 +42,8 @@ struct Override {
   std::string value;
 };
 
-// Reads and checks a scenario. Throws InputError "file:line:col: key.path: value ...: bound" for the first thing that is
-// wrong: unknown or duplicate keys, wrong types, values out of range, contradictions.
+// Reads and checks a scenario. Throws InputError "file:line:col: key.path: value ...: bound" for the first thing that
+// is wrong: unknown or duplicate keys, wrong types, values out of range, contradictions.
 Scenario read_scenario(const std::filesystem::path& file, const std::vector<Override>& overrides = {});
 Scenario parse_scenario(const std::string& yaml, const std::string& file_name,
                         const std::vector<Override>& overrides = {});
@@ -57,7 +57,8 @@ std::string place_of(const Scenario& scenario, const std::string& key_path);
 // Every key with its default and what it allows, one line each.
 std::string list_keys();
 
-// The file a target's mesh path names: beside the scenario or below the working directory. Throws InputError when neither exists.
+// The file a target's mesh path names: beside the scenario or below the working directory. Throws InputError when
+// neither exists.
 std::filesystem::path find_mesh(const Scenario& scenario, const TargetSpec& target);
 
 // A file that a scenario names: what decides its maps beside its own text.

@@ -16,39 +16,42 @@ enum class WaveSharing { kSameField, kIndependent };
 // Zero in a field marked (auto) means: derived from the mesh's size by the formulas in sim/motion/README.md.
 struct MotionSpec {
   MotionModel model = MotionModel::kFixed;
-  bool translations = false;          // surge, sway and heave too
-  std::optional<std::array<double, 3>> rotation_centre_m;  // body frame; default: centre of gravity of a ship, centre of flotation of a float
-  double roll_period_s = 0;           // (auto) 0 or 0.2 <= x <= 60
-  double pitch_period_s = 0;          // (auto) 0 or 0.2 <= x <= 60
-  double yaw_period_s = 0;            // course-keeping or mooring spring; 0 = free; 0 or 0.2 <= x <= 1000
-  double roll_damping = 0;            // (auto) ratio to critical, 0 <= x <= 2
-  double roll_quadratic_damping = 0;  // b of b |x'| x', 1/rad, 0 <= x <= 100
-  double pitch_damping = 0;           // (auto) ratio to critical, 0 <= x <= 2
-  double yaw_damping = 0.1;           // ratio to critical at yaw_period_s, 0 <= x <= 2
-  double yaw_rate_deg_s = 0;          // standard deviation of a float's slow random rotation, 0 <= x <= 180
-  double length_m = 0;                // (auto) waterline length, 0 <= x <= 1000
-  double beam_m = 0;                  // (auto) waterline beam, 0 <= x <= 200
-  double draught_m = 0;               // (auto) of a ship; of a float, 0 = too shallow to matter; 0 <= x <= 50
-  double heave_period_s = 0;          // (auto) of a float, 0 or 0.2 <= x <= 60
-  double heave_damping = 0;           // (auto) of a float, ratio to critical, 0 <= x <= 2
+  bool translations = false;  // surge, sway and heave too
+  // body frame; default: centre of gravity of a ship, centre of flotation of a float
+  std::optional<std::array<double, 3>> rotation_centre_m;
+  double roll_period_s = 0;            // (auto) 0 or 0.2 <= x <= 60
+  double pitch_period_s = 0;           // (auto) 0 or 0.2 <= x <= 60
+  double yaw_period_s = 0;             // course-keeping or mooring spring; 0 = free; 0 or 0.2 <= x <= 1000
+  double roll_damping = 0;             // (auto) ratio to critical, 0 <= x <= 2
+  double roll_quadratic_damping = 0;   // b of b |x'| x', 1/rad, 0 <= x <= 100
+  double pitch_damping = 0;            // (auto) ratio to critical, 0 <= x <= 2
+  double yaw_damping = 0.1;            // ratio to critical at yaw_period_s, 0 <= x <= 2
+  double yaw_rate_deg_s = 0;           // standard deviation of a float's slow random rotation, 0 <= x <= 180
+  double length_m = 0;                 // (auto) waterline length, 0 <= x <= 1000
+  double beam_m = 0;                   // (auto) waterline beam, 0 <= x <= 200
+  double draught_m = 0;                // (auto) of a ship; of a float, 0 = too shallow to matter; 0 <= x <= 50
+  double heave_period_s = 0;           // (auto) of a float, 0 or 0.2 <= x <= 60
+  double heave_damping = 0;            // (auto) of a float, ratio to critical, 0 <= x <= 2
   double metacentric_height_m = 1.95;  // 0.01 <= x <= 20
-  double roll_radius_m = 0;           // of gyration of the mass about the centre of gravity; 0: the one of roll_period_s, 0 <= x <= 100
-  double pitch_radius_m = 0;          // (auto) 0 <= x <= 500
-  double yaw_radius_m = 0;            // (auto) 0 <= x <= 500
-  double speed_mps = 0;               // of model ship, rao or series, forward, 0 <= x <= 40
-  std::string file;                   // of model series (attitude over time) or rao (response operators)
-  double series_start_s = 0;          // time in the series that is t = 0, -1e6 <= x <= 1e6
-  double rao_length_m = 1;            // ULEN of a WAMIT table, 0 < x <= 1000
-  std::string sections;               // file of a ship's sections below the waterline; default: the mesh's, else a form
-  double diameter_m = 0;              // (auto) of a float's waterplane, 0 <= x <= 50
+  // of gyration of the mass about the centre of gravity; 0: the one of roll_period_s, 0 <= x <= 100
+  double roll_radius_m = 0;
+  double pitch_radius_m = 0;  // (auto) 0 <= x <= 500
+  double yaw_radius_m = 0;    // (auto) 0 <= x <= 500
+  double speed_mps = 0;       // of model ship, rao or series, forward, 0 <= x <= 40
+  std::string file;           // of model series (attitude over time) or rao (response operators)
+  double series_start_s = 0;  // time in the series that is t = 0, -1e6 <= x <= 1e6
+  double rao_length_m = 1;    // ULEN of a WAMIT table, 0 < x <= 1000
+  std::string sections;       // file of a ship's sections below the waterline; default: the mesh's, else a form
+  double diameter_m = 0;      // (auto) of a float's waterplane, 0 <= x <= 50
   double centre_above_water_m = 0.75;  // height of a float's mesh origin above its centre of flotation, -10 <= x <= 50
   WaveSharing waves = WaveSharing::kSameField;
-  double step_s = 0.02;               // between samples and of integration, 0.001 <= x <= 0.1, at most an eighth of the shortest natural period
-  double preroll_s = 120;             // simulated before t = 0, 0 <= x <= 3600
+  // between samples and of integration, 0.001 <= x <= 0.1, at most an eighth of the shortest natural period
+  double step_s = 0.02;
+  double preroll_s = 120;  // simulated before t = 0, 0 <= x <= 3600
 };
 
 struct LineLayout {
-  int count = 1;         // 1 <= x <= 1000
+  int count = 1;          // 1 <= x <= 1000
   double spacing_m = 40;  // 0 < x <= 10000
   double centre_x_m = 0;  // of the line, target frame, |x| <= 1e5
   double centre_y_m = 0;
@@ -62,8 +65,8 @@ struct CompanionSpec {
 };
 
 struct PointSpec {
-  std::array<double, 3> position_m{0, 0, 0};   // target frame
-  double amplitude_m = 1;                      // |S|, > 0
+  std::array<double, 3> position_m{0, 0, 0};    // target frame
+  double amplitude_m = 1;                       // |S|, > 0
   std::array<double, 3> velocity_mps{0, 0, 0};  // target frame
 };
 
@@ -73,9 +76,9 @@ inline constexpr int kDefaultBounces = 40, kMostBounces = 200;
 
 // Zero in a field marked (auto) means: derived from the mesh's size by the formula in sim/scattering/README.md.
 struct SolverSpec {
-  double ray_spacing_m = 0;  // (auto) of rays that would find the detail followed, 0 or 0.001 <= x <= 10
+  double ray_spacing_m = 0;           // (auto) of rays that would find the detail followed, 0 or 0.001 <= x <= 10
   int max_bounces = kDefaultBounces;  // 1 <= x <= kMostBounces
-  double max_turn_deg = 0;   // (auto) turn of the body served by one trace, 0 or 0.001 <= x <= 5
+  double max_turn_deg = 0;            // (auto) turn of the body served by one trace, 0 or 0.001 <= x <= 5
   double crease_deg = 20;    // facets that turn by less belong to one smooth surface, 0 <= x <= 60; 0 = all facets flat
   bool edges = true;         // fringe currents at sharp edges
   double radar_range_m = 0;  // for the curvature of the wavefront, 0 or 100 <= x <= 1e7; 0 = far field at any range
@@ -89,13 +92,13 @@ struct PartMaterialSpec {
 
 struct TargetSpec {
   std::string name;
-  int label = 0;                    // 1 = ship, 0 = corner-reflector array
-  std::string mesh;                 // path relative to the scenario's folder or the working directory; empty for points
-  std::string unit = "m";           // of the mesh file: m, cm, mm, km, in, ft
-  std::string material = "pec";     // pec, a name of assets/materials, or a file
+  int label = 0;                 // 1 = ship, 0 = corner-reflector array
+  std::string mesh;              // path relative to the scenario's folder or the working directory; empty for points
+  std::string unit = "m";        // of the mesh file: m, cm, mm, km, in, ft
+  std::string material = "pec";  // pec, a name of assets/materials, or a file
   std::vector<PartMaterialSpec> part_materials;  // later ones win
-  double sheet_thickness_mm = 0;    // of open surfaces, 0 <= x <= 1000
-  std::optional<LineLayout> line;   // along x of the target frame, centred
+  double sheet_thickness_mm = 0;                 // of open surfaces, 0 <= x <= 1000
+  std::optional<LineLayout> line;                // along x of the target frame, centred
   MotionSpec motion;
   SolverSpec solver;
   std::vector<PointSpec> points;

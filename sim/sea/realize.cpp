@@ -151,7 +151,8 @@ WaveField realize_sea(const SeaState& state, std::uint64_t seed, std::uint64_t i
 
 StratumWidths stratum_widths(const SeaState& state) {
   StratumWidths widths;
-  for (const WaveSystem& system : systems_of(state)) widths.*system.width = stratum_width(system) / system.spectrum->peak_omega();
+  for (const WaveSystem& system : systems_of(state))
+    widths.*system.width = stratum_width(system) / system.spectrum->peak_omega();
   return widths;
 }
 

@@ -85,8 +85,8 @@ Complex map_by_definition(const Echo& echo, const PulseTrain& train, const MapSp
   for (std::size_t n = 0; n < train.pulses(); ++n) {
     for (std::size_t b = 0; b < train.frequencies(); ++b) {
       const double f = train.carrier_hz[n] + train.baseband_hz[b];
-      const double phase = 4 * kPi / kSpeedOfLight *
-                           (f * velocity_mps * train.time_s[n] + (f - train.band_centre_hz()) * range_m);
+      const double phase =
+          4 * kPi / kSpeedOfLight * (f * velocity_mps * train.time_s[n] + (f - train.band_centre_hz()) * range_m);
       const std::size_t k = static_cast<std::size_t>(train.code[n]) * train.bins_per_hop + b;
       sum += weights.pulse[n] * weights.bin[k] * filter[b] * echo.target[n * train.frequencies() + b] *
              std::polar(1.0, phase);
@@ -129,14 +129,13 @@ Reference reference_map(const Echo& echo, const PulseTrain& train, const MapSpec
   std::size_t cells = 0;
   const double spent = seconds([&] {
     for (std::size_t i = 0; i < map.values.size(); i += kStep, ++cells) {
-      const Complex exact = map_by_definition(echo, train, spec, map.range_m[i % map.columns()],
-                                              map.velocity_mps[i / map.columns()]);
+      const Complex exact =
+          map_by_definition(echo, train, spec, map.range_m[i % map.columns()], map.velocity_mps[i / map.columns()]);
       error += std::norm(map.values[i] - exact);
       power += std::norm(exact);
     }
   });
-  return {spent * static_cast<double>(map.values.size()) / static_cast<double>(cells),
-          10 * std::log10(error / power)};
+  return {spent * static_cast<double>(map.values.size()) / static_cast<double>(cells), 10 * std::log10(error / power)};
 }
 
 void report(benchmark::State& state, double solver_s, const Reference& reference) {

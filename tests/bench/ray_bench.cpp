@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// What would rays cost? The usual solver of shooting and bouncing rays, with Embree, beside beams: error and time of both on the 144 m ship.
+// SPDX-License-Identifier: BSD-3-Clause What would rays cost? The usual solver of shooting and bouncing rays, with
+// Embree, beside beams: error and time of both on the 144 m ship.
 #include <benchmark/benchmark.h>
 
 #include "sim/scattering/beam_leg.h"
@@ -35,8 +35,9 @@ double relative_error_db(const Matrices& S, const Matrices& exact) {
   return 10 * std::log10(error / power);
 }
 
-// One ray for each square of the aperture, a tube with the square's side: physical optics at every bounce that the radar sees, with the closed-form phase
-// integral over the tube's whole footprint. Everything in double but what Embree answers, facet numbers.
+// One ray for each square of the aperture, a tube with the square's side: physical optics at every bounce that the
+// radar sees, with the closed-form phase integral over the tube's whole footprint. Everything in double but what Embree
+// answers, facet numbers.
 class RaySolver {
  public:
   RaySolver(const Scatterer& scatterer, const RadarBasis& basis, double side)
@@ -117,8 +118,7 @@ class RaySolver {
         lit.push_back(tube);
       }
       // What is hit first is seen.
-      const std::vector<int> hidden =
-          bounce == 1 ? std::vector<int>(to_radar.size(), kNoFacet) : first_hits(to_radar);
+      const std::vector<int> hidden = bounce == 1 ? std::vector<int>(to_radar.size(), kNoFacet) : first_hits(to_radar);
       for (std::size_t i = 0; i < footprints.size(); ++i) {
         if (hidden[i] != kNoFacet) continue;
         for (std::size_t q = 0; q < k.size(); ++q) {
@@ -152,9 +152,10 @@ class RaySolver {
   std::size_t rays_ = 0;
 };
 
-// Azimuth in degrees, side of a tube in mm; 18 is that of the smallest beam that goes on to further mirrors. embree_s is the time of Embree's queries alone,
-// for every bounce and from each hit behind the first one towards the radar. Beside it the solver's own, one thread each: a matrix without edges, which is
-// what the rays compute, and the default, edges and all of an interval's 256 pulses and 320 frequencies. Errors against beams with pieces of 1 mm.
+// Azimuth in degrees, side of a tube in mm; 18 is that of the smallest beam that goes on to further mirrors. embree_s
+// is the time of Embree's queries alone, for every bounce and from each hit behind the first one towards the radar.
+// Beside it the solver's own, one thread each: a matrix without edges, which is what the rays compute, and the default,
+// edges and all of an interval's 256 pulses and 320 frequencies. Errors against beams with pieces of 1 mm.
 void ShipByRays(benchmark::State& state) {
   const Vec3 r = direction(static_cast<double>(state.range(0)));
   const RadarBasis basis = radar_basis(r);
@@ -165,8 +166,9 @@ void ShipByRays(benchmark::State& state) {
   for (auto _ : state) {
     RaySolver rays(flat_ship(), basis, 1e-3 * static_cast<double>(state.range(1)));
     const Matrices by_rays = rays.solve(k);
-    const double matrix = processor_seconds(
-        [&] { benchmark::DoNotOptimize(scattering_matrices(flat_ship(), monostatic(basis), one, {0, kDefaultBounces}, 1)); });
+    const double matrix = processor_seconds([&] {
+      benchmark::DoNotOptimize(scattering_matrices(flat_ship(), monostatic(basis), one, {0, kDefaultBounces}, 1));
+    });
     const double interval = processor_seconds(
         [&] { benchmark::DoNotOptimize(respond(ship(), trajectory, r, Polarisation::kVv, paper_interval(), {}, 1)); });
     state.counters["rays_dB"] = relative_error_db(by_rays, exact);

@@ -20,7 +20,8 @@ std::vector<Ray> primary_rays(const RadarBasis& basis) {
   std::vector<Ray> rays;
   const auto [lower, upper] = window_of(ship(), basis);
   for (double y = lower.y(); y < upper.y(); y += 0.1) {
-    for (double x = lower.x(); x < upper.x(); x += 0.1) rays.push_back({x * basis.h + y * basis.v + 75 * basis.r, -basis.r});
+    for (double x = lower.x(); x < upper.x(); x += 0.1)
+      rays.push_back({x * basis.h + y * basis.v + 75 * basis.r, -basis.r});
   }
   return rays;
 }
@@ -30,7 +31,8 @@ void EmbreeAloneOnTheShip(benchmark::State& state) {
   const std::vector<Ray> rays = primary_rays(radar_basis(direction(static_cast<double>(state.range(0)))));
   std::vector<int> hits(rays.size());
   for (auto _ : state) ship_rays().first_hits(rays, hits);
-  state.counters["rays/s"] = benchmark::Counter(static_cast<double>(rays.size() * state.iterations()), benchmark::Counter::kIsRate);
+  state.counters["rays/s"] =
+      benchmark::Counter(static_cast<double>(rays.size() * state.iterations()), benchmark::Counter::kIsRate);
 }
 BENCHMARK(EmbreeAloneOnTheShip)->Arg(10)->Arg(50)->Arg(90)->Unit(benchmark::kMillisecond);
 
@@ -69,7 +71,8 @@ void ReflectorInterval(benchmark::State& state) {
   const Scatterer reflector(make_icosahedral_reflector());
   const Trajectory trajectory = rolling(0.6, {0, 0, -0.75});
   int traces = 0;
-  for (auto _ : state) traces = respond(reflector, trajectory, direction(80), Polarisation::kVv, paper_interval(), {}).traces;
+  for (auto _ : state)
+    traces = respond(reflector, trajectory, direction(80), Polarisation::kVv, paper_interval(), {}).traces;
   state.counters["traces"] = traces;
 }
 BENCHMARK(ReflectorInterval)->Unit(benchmark::kMillisecond)->UseRealTime();
@@ -84,8 +87,8 @@ void ShipAspect(benchmark::State& state) {
 }
 BENCHMARK(ShipAspect)->Args({50, 1})->Args({50, 16})->Unit(benchmark::kMillisecond)->UseRealTime();
 
-// The whole solver beside Embree alone on its primary rays 0.1 m apart, turn by turn in one run and one thread each. The solver traces no rays; its beams
-// see every bounce, these rays the first alone.
+// The whole solver beside Embree alone on its primary rays 0.1 m apart, turn by turn in one run and one thread each.
+// The solver traces no rays; its beams see every bounce, these rays the first alone.
 void WholeSolverOverEmbreeAlone(benchmark::State& state) {
   const RadarBasis basis = radar_basis(direction(static_cast<double>(state.range(0))));
   const std::vector<Ray> rays = primary_rays(basis);
@@ -102,7 +105,8 @@ void WholeSolverOverEmbreeAlone(benchmark::State& state) {
     embree += std::clock() - middle;
   }
   state.counters["ratio"] = static_cast<double>(solver) / static_cast<double>(embree);
-  state.counters["ns/ray"] = 1e9 * static_cast<double>(solver) / CLOCKS_PER_SEC / static_cast<double>(rays.size() * state.iterations());
+  state.counters["ns/ray"] =
+      1e9 * static_cast<double>(solver) / CLOCKS_PER_SEC / static_cast<double>(rays.size() * state.iterations());
 }
 BENCHMARK(WholeSolverOverEmbreeAlone)->Arg(10)->Arg(50)->Arg(90)->Unit(benchmark::kMillisecond);
 
@@ -126,11 +130,16 @@ void ShipBand(benchmark::State& state) {
   sampling.pulse_first.push_back(0);
   sampling.pulse_time_s.push_back(0);
   const Trajectory rest = Trajectory::at_rest(Vec3::Zero());
-  for (auto _ : state) benchmark::DoNotOptimize(respond(ship(), rest, direction(50), Polarisation::kVv, sampling, {}, 1));
+  for (auto _ : state)
+    benchmark::DoNotOptimize(respond(ship(), rest, direction(50), Polarisation::kVv, sampling, {}, 1));
 }
-BENCHMARK(ShipBand)->ArgsProduct({{1, 2, 4, 8, 16, 32}, {320}})->ArgsProduct({{16}, {1, 16, 160, 640}})->Unit(benchmark::kMillisecond);
+BENCHMARK(ShipBand)
+    ->ArgsProduct({{1, 2, 4, 8, 16, 32}, {320}})
+    ->ArgsProduct({{16}, {1, 16, 160, 640}})
+    ->Unit(benchmark::kMillisecond);
 
-// Relative L2 error of the default against pieces of a five-thousandth of the area, over 24 frequencies of 200 MHz, hh and vv.
+// Relative L2 error of the default against pieces of a five-thousandth of the area, over 24 frequencies of 200 MHz, hh
+// and vv.
 void ShipErrorOfTheDefault(benchmark::State& state) {
   const RadarBasis basis = radar_basis(direction(static_cast<double>(state.range(0))));
   std::vector<double> k;
@@ -148,13 +157,22 @@ void ShipErrorOfTheDefault(benchmark::State& state) {
   }
   state.counters["error_dB"] = 10 * std::log10(error / power);
 }
-BENCHMARK(ShipErrorOfTheDefault)->Arg(10)->Arg(50)->Arg(80)->Arg(130)->Arg(20)->Unit(benchmark::kMillisecond)->UseRealTime()->Iterations(1);
+BENCHMARK(ShipErrorOfTheDefault)
+    ->Arg(10)
+    ->Arg(50)
+    ->Arg(80)
+    ->Arg(130)
+    ->Arg(20)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime()
+    ->Iterations(1);
 
 // A sphere of 1.3 million facets with the largest resident memory of the process so far.
 void MillionFacets(benchmark::State& state) {
   const Scatterer sphere(make_sphere(10, 8));
   const std::vector<double> k(1, 2 * kPi * 1e9 * static_cast<double>(state.range(0)) / kSpeedOfLight);
-  for (auto _ : state) benchmark::DoNotOptimize(scattering_matrices(sphere, monostatic(radar_basis(direction(50))), k, {}, 2));
+  for (auto _ : state)
+    benchmark::DoNotOptimize(scattering_matrices(sphere, monostatic(radar_basis(direction(50))), k, {}, 2));
   rusage usage;
   getrusage(RUSAGE_SELF, &usage);
   state.counters["facets"] = static_cast<double>(sphere.facets().size());

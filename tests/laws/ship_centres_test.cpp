@@ -25,7 +25,8 @@ int local_maxima(const RvMap& map) {
     for (std::size_t r = 1; r + 1 < map.range_m.size(); ++r) {
       bool highest = level(v, r) > peak * std::pow(10, -30.0 / 20);
       for (int dv = -1; highest && dv <= 1; ++dv) {
-        for (int dr = -1; highest && dr <= 1; ++dr) highest = (dv == 0 && dr == 0) || level(v, r) > level(v + dv, r + dr);
+        for (int dr = -1; highest && dr <= 1; ++dr)
+          highest = (dv == 0 && dr == 0) || level(v, r) > level(v + dv, r + dr);
       }
       count += highest;
     }

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// The corridor holds: a file includes its own stage or stages to its left, and third-party libraries stay behind one file per stage.
+// SPDX-License-Identifier: BSD-3-Clause The corridor holds: a file includes its own stage or stages to its left, and
+// third-party libraries stay behind one file per stage.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -62,8 +62,10 @@ TEST(StageOrder, AFileIncludesItsOwnStageOrStagesToItsLeft) {
     for (const Include& include : includes_below(stages[i])) {
       if (include.system || include.header.starts_with("seaglint_")) continue;
       const int stage = stage_of(stages, include.header);
-      EXPECT_GE(stage, 0) << include.file << " includes \"" << include.header << "\", which is not written from the root";
-      EXPECT_LE(stage, static_cast<int>(i)) << include.file << " includes \"" << include.header << "\", which is downstream";
+      EXPECT_GE(stage, 0) << include.file << " includes \"" << include.header
+                          << "\", which is not written from the root";
+      EXPECT_LE(stage, static_cast<int>(i))
+          << include.file << " includes \"" << include.header << "\", which is downstream";
       ++project_includes;
     }
   }
@@ -79,7 +81,8 @@ TEST(StageOrder, ThirdPartyHeadersStayBehindOneSourceFilePerStage) {
       if (include.system && std::regex_search(include.header, match, wrapped)) users[match[1]].insert(include.file);
     }
     for (const auto& [library, files] : users) {
-      EXPECT_EQ(files.size(), 1u) << library << " appears in several files of " << stage << ", first " << *files.begin();
+      EXPECT_EQ(files.size(), 1u) << library << " appears in several files of " << stage << ", first "
+                                  << *files.begin();
       for (const std::string& file : files) EXPECT_TRUE(file.ends_with(".cpp")) << file << " exposes " << library;
     }
   }

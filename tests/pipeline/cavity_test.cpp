@@ -24,7 +24,8 @@ class CavityCommand : public testing::Test {
   }
   // Numbers of every row of a sweep at 3 GHz towards the mouth.
   std::vector<std::vector<double>> sweep(std::vector<std::string> more) const {
-    more.insert(more.begin(), {"--frequency-ghz", "3", "--azimuth-deg", "120:240:30", "--elevation-deg", "5", "--max-bounces", "4"});
+    more.insert(more.begin(),
+                {"--frequency-ghz", "3", "--azimuth-deg", "120:240:30", "--elevation-deg", "5", "--max-bounces", "4"});
     const ProgramResult done = rcs(more);
     EXPECT_EQ(done.code, 0) << done.err;
     std::vector<std::vector<double>> rows;
@@ -44,7 +45,8 @@ class CavityCommand : public testing::Test {
 TEST_F(CavityCommand, TakesThePlaceOfTheRaysThatLeaveThePart) {
   const auto rays = sweep({}), whole = sweep({"--cavity", "duct"});
   EXPECT_THAT(read_file(table()), HasSubstr("# cavities duct: from the currents on their walls"));
-  const auto inside = sweep({"--cavity", "duct", "--only", "part=duct"}), outside = sweep({"--cavity", "duct", "--without", "part=duct"});
+  const auto inside = sweep({"--cavity", "duct", "--only", "part=duct"}),
+             outside = sweep({"--cavity", "duct", "--without", "part=duct"});
   ASSERT_EQ(whole.size(), 5u);
   double changed = 0;
   for (std::size_t i = 0; i < whole.size(); ++i) {
@@ -77,10 +79,13 @@ TEST_F(CavityCommand, RefusesWhatIsNoCavity) {
   refused({"--frequency-ghz", "3", "--cavity", "dukt"}, "--cavity dukt: the mesh has no such part");
   refused({"--frequency-ghz", "3", "--cavity", "box"}, "face away from its inside");
   refused({"--frequency-ghz", "94", "--cavity", "duct"}, "patches of 0.000532 m at this wavelength: at most 20000");
-  refused({"--frequency-ghz", "3", "--cavity", "duct", "--sea-reflection", "--height-m", "2"}, "leave out --sea-reflection");
+  refused({"--frequency-ghz", "3", "--cavity", "duct", "--sea-reflection", "--height-m", "2"},
+          "leave out --sea-reflection");
   refused({"--frequency-ghz", "3", "--cavity", "duct", "--range-m", "100"}, "leave out --sea-reflection, --range-m");
   refused({"--frequency-ghz", "3", "--cavity", "duct", "--only", "mechanism=edge"}, "select by part=NAME");
-  refused({"--frequency-ghz", "16", "--cavity", "duct", "--material", SEAGLINT_SOURCE_DIR "/assets/materials/ram_loaded_epoxy.yaml"}, "its walls must be pec, not");
+  refused({"--frequency-ghz", "16", "--cavity", "duct", "--material",
+           SEAGLINT_SOURCE_DIR "/assets/materials/ram_loaded_epoxy.yaml"},
+          "its walls must be pec, not");
   refused({"--frequency-ghz", "3", "--cavity-patches", "8"}, "--cavity-patches requires --cavity");
   refused({"--frequency-ghz", "3", "--cavity", "duct", "--cavity-patches", "2"}, "--cavity-patches");
 }

@@ -56,8 +56,10 @@ TEST(Check, SaysWhatIsDoubtfulAboutMeshes) {
              "  b: {label: 0, mesh: holed.obj, motion: {model: fixed}}\n");
   const std::string said =
       "seaglint: warning: targets.a.mesh: 1 closed surface is inside out (60 triangles): turned outwards\n"
-      "seaglint: warning: targets.b.mesh: 3 open edges; 1 of 1 surfaces are open: holes, or sheets, seen from both sides and through their holes\n"
-      "seaglint: warning: targets.b.mesh: the target is 0.0346 m across, 1.85 wavelengths at 15.9875 GHz; physical optics needs 3 and more\n";
+      "seaglint: warning: targets.b.mesh: 3 open edges; 1 of 1 surfaces are open: holes, or sheets, seen from both "
+      "sides and through their holes\n"
+      "seaglint: warning: targets.b.mesh: the target is 0.0346 m across, 1.85 wavelengths at 15.9875 GHz; physical "
+      "optics needs 3 and more\n";
   const ProgramResult check = run_program({"check", file});
   EXPECT_EQ(check.code, 0);
   EXPECT_THAT(check.err, HasSubstr(said));
@@ -67,11 +69,15 @@ TEST(Check, SaysWhatIsDoubtfulAboutMeshes) {
 // Eight components are another sea in every realisation; the default 512 are not.
 TEST(Check, SaysWhereComponentsAreTooFew) {
   const std::string said =
-      "seaglint: warning: sea.components: 8 for waves of Tp 8 s make strata 1.2 of the peak frequency wide, and the mean period is another "
+      "seaglint: warning: sea.components: 8 for waves of Tp 8 s make strata 1.2 of the peak frequency wide, and the "
+      "mean period is another "
       "one in every realisation: 98 and more hold it within about 1 %\n";
   EXPECT_THAT(run_program({"check", kPoints, "--set", "sea.components=8"}).err, HasSubstr(said));
   const TemporaryFolder folder;
-  EXPECT_THAT(run_program({"sea", kPoints, "--duration-s", "1", "-o", folder.path() / "sea.csv", "--set", "sea.components=8"}).err, HasSubstr(said));
+  EXPECT_THAT(
+      run_program({"sea", kPoints, "--duration-s", "1", "-o", folder.path() / "sea.csv", "--set", "sea.components=8"})
+          .err,
+      HasSubstr(said));
   EXPECT_THAT(run_program({"check", kPoints, "--set", "sea.components=98"}).err, Not(HasSubstr("sea.components")));
   EXPECT_THAT(run_program({"check", kPoints, "--set", "sea.swell={significant_wave_height_m: 1, components: 9}"}).err,
               HasSubstr("sea.swell.components: 9 for waves of Tp 12 s make strata 0.4 of the peak frequency wide"));
@@ -108,7 +114,8 @@ TEST(Check, RefusesATargetWhoseEchoOutlastsThePulse) {
   const TemporaryFolder folder;
   const std::string file = folder.path() / "far.yaml";
   write_file(file, "seaglint: 1\ntargets:\n  far: {label: 1, points: [{position_m: [20000, 0, 0], amplitude_m: 1}]}\n");
-  expect_refused({"check", file}, "far.yaml:3:3: targets: a target reaches 20000 m from the reference point: its echo lasts");
+  expect_refused({"check", file},
+                 "far.yaml:3:3: targets: a target reaches 20000 m from the reference point: its echo lasts");
 }
 
 TEST(Check, RefusesATypoInAKey) {
@@ -128,9 +135,8 @@ TEST(Check, RefusesAMeshThatIsNotThere) {
   const TemporaryFolder folder;
   const std::string file = folder.path() / "missing.yaml";
   write_file(file, "seaglint: 1\ntargets: {a: {label: 1, mesh: none.glb}}\n");
-  expect_refused({"check", file},
-                 "missing.yaml:2:31: targets.a.mesh: value 'none.glb': no such file, neither " +
-                     (folder.path() / "none.glb").string());
+  expect_refused({"check", file}, "missing.yaml:2:31: targets.a.mesh: value 'none.glb': no such file, neither " +
+                                      (folder.path() / "none.glb").string());
   expect_refused({"check", file, "--set", "targets.a.mesh=other.glb"},
                  "--set targets.a.mesh: value 'other.glb': no such file");
 }
@@ -180,8 +186,11 @@ TEST(CommandLine, SaysWhenItsOutputCannotBeWritten) {
 TEST(CommandLine, ClosedOrFullStandardErrorChangesNoExitCode) {
   const TemporaryFolder folder;
   const std::string csv = folder.path() / "cut.csv",
-                    rcs = "rcs --target assets/icosahedral_reflector.glb --frequency-ghz 10 --azimuth-deg 0 -o '" + csv + "'";
-  const auto code = [](const std::string& arguments) { return run_words({"/bin/bash", "-c", "exec \"$0\" " + arguments, kProgram}).code; };
+                    rcs = "rcs --target assets/icosahedral_reflector.glb --frequency-ghz 10 --azimuth-deg 0 -o '" +
+                          csv + "'";
+  const auto code = [](const std::string& arguments) {
+    return run_words({"/bin/bash", "-c", "exec \"$0\" " + arguments, kProgram}).code;
+  };
   for (const std::string quiet : {" 2>&-", " 2>/dev/full", " <&- 2>&-"}) {
     EXPECT_EQ(code("check scenarios/points.yaml" + quiet), 0) << quiet;
     EXPECT_EQ(code("check none.yaml" + quiet), 2) << quiet;

@@ -147,7 +147,8 @@ TEST_F(UsedData, IsExportedInTheSameBytesAtAnotherTime) {
 // Two data sets in one directory would be read as one.
 TEST_F(UsedData, IsNotExportedAmongFilesOfAnother) {
   const fs::path other = folder_->path() / "other", out = folder_->path() / "shards";
-  ASSERT_EQ(run_program({"generate", "scenarios/points.yaml", "-o", other, "--set", "dataset.maps_per_case=10"}).code, 0);
+  ASSERT_EQ(run_program({"generate", "scenarios/points.yaml", "-o", other, "--set", "dataset.maps_per_case=10"}).code,
+            0);
   ASSERT_EQ(run_program({"export", other, "-o", out}).code, 0);
   const auto refused = [](const fs::path& data, const fs::path& place, const std::string& message) {
     const ProgramResult result = run_program({"export", data, "-o", place});
@@ -155,7 +156,9 @@ TEST_F(UsedData, IsNotExportedAmongFilesOfAnother) {
     EXPECT_THAT(result.err, HasSubstr(message));
   };
   const std::string before = read_file(out / "shard_00000.npz");
-  refused(data_, out, "shards: the directory holds shard_00000.npz, which is not of this data set's export; choose a new directory\n");
+  refused(
+      data_, out,
+      "shards: the directory holds shard_00000.npz, which is not of this data set's export; choose a new directory\n");
   EXPECT_EQ(read_file(out / "shard_00000.npz"), before);
   // Its own export goes on after it was cut short.
   fs::remove(out / "shard_00000.npz");

@@ -91,13 +91,16 @@ void expect_kept(const Finished& before, const Finished& after) {
   }
 }
 
-// Starts the program and kills it a time after `begun` first holds, at once if not. True when it was still running then.
+// Starts the program and kills it a time after `begun` first holds, at once if not. True when it was still running
+// then.
 bool run_and_kill(Words words, Seconds after, const std::function<bool()>& begun) {
   const pid_t process = start_words(std::move(words), "/dev/null", "/dev/null");
   if (process < 0) return false;
   siginfo_t ended{};
   while (!begun()) {
-    if (::waitid(P_PID, static_cast<id_t>(process), &ended, WEXITED | WNOHANG | WNOWAIT) == 0 && ended.si_pid == process) break;
+    if (::waitid(P_PID, static_cast<id_t>(process), &ended, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+        ended.si_pid == process)
+      break;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   std::this_thread::sleep_for(after);
@@ -230,7 +233,8 @@ TEST_F(SmallDisk, ThatIsFullEndsWithAMessageAndADataSetThatResumes) {
 TEST_F(SmallDisk, ThatBecameReadOnlyEndsWithAMessage) {
   fs::create_directories(data_);
   ASSERT_EQ(::mount("tmpfs", folder_.path().c_str(), "tmpfs", MS_REMOUNT | MS_RDONLY, "size=16m"), 0);
-  expect_one_line(run_words(generate(data_, {"--resume"})), data_.string() + ": the directory is not writable: Read-only");
+  expect_one_line(run_words(generate(data_, {"--resume"})),
+                  data_.string() + ": the directory is not writable: Read-only");
   ASSERT_EQ(::mount("tmpfs", folder_.path().c_str(), "tmpfs", MS_REMOUNT, "size=16m"), 0);
   ASSERT_EQ(run_words(generate(data_, {"--resume"})).code, 0);
   EXPECT_THAT(differences(data_), IsEmpty());

@@ -13,7 +13,13 @@ using ::testing::HasSubstr;
 // One point of 2 m, 30 m nearer than the reference point, drawing near at 1.5 m/s.
 std::vector<std::string> echo_of(const std::string& output, std::vector<std::string> more = {}) {
   std::vector<std::string> words{
-      "echo", "scenarios/points.yaml", "-o", output, "--set", "view={azimuth_deg: 0, elevation_deg: 0}", "--set",
+      "echo",
+      "scenarios/points.yaml",
+      "-o",
+      output,
+      "--set",
+      "view={azimuth_deg: 0, elevation_deg: 0}",
+      "--set",
       "targets={line: {label: 1, points: [{position_m: [30, 0, 0], amplitude_m: 2, velocity_mps: [1.5, 0, 0]}]}}"};
   words.insert(words.end(), more.begin(), more.end());
   return words;
@@ -44,7 +50,8 @@ for n in (0, 100, 255):
     assert abs(z - 2) < 0.04, z   # the ideal chirp has a few percent of its energy beyond the band
 assert a['clutter'].shape == a['noise'].shape == a['target'].shape
 print('point found')
-)", file});
+)",
+                                        file});
   EXPECT_EQ(read.code, 0) << read.err;
   EXPECT_EQ(read.out, "point found\n");
 }

@@ -17,7 +17,8 @@ using Words = std::vector<std::string>;
 
 class InterruptedFigure : public testing::Test {
  protected:
-  // A gnuplot that says that it has begun, and takes so long that a program that waits for it runs into the test's time limit.
+  // A gnuplot that says that it has begun, and takes so long that a program that waits for it runs into the test's time
+  // limit.
   void SetUp() override {
     fs::create_directories(bin());
     fs::create_directories(out());
@@ -70,10 +71,13 @@ TEST_F(InterruptedFigure, OfACommandThatEndsAtOnceLeavesNothing) {
 
 TEST_F(InterruptedFigure, OfOtherCommandsIsTheirFailure) {
   write_file(out() / "cut.csv", "# frequency_hz theta_deg phi_deg dBsm\n1e10 90 0 -3\n1e10 90 1 -3\n");
-  for (const Words& words : {Words{"sea", "scenarios/points.yaml", "--duration-s", "20", "--figure", out() / "sea.png", "-o", out() / "sea.csv"},
-                             Words{"motion", "scenarios/quick.yaml", "--duration-s", "20", "--figure", out() / "m.png", "-o", out() / "m.csv"},
-                             Words{"rcs", "--target", "assets/icosahedral_reflector.glb", "--frequency-ghz", "10", "--azimuth-deg", "0:1:1", "-o", out() / "rcs.csv",
-                                   "--reference", out() / "cut.csv", "--reference-polarisation", "vv"}}) {
+  for (const Words& words :
+       {Words{"sea", "scenarios/points.yaml", "--duration-s", "20", "--figure", out() / "sea.png", "-o",
+              out() / "sea.csv"},
+        Words{"motion", "scenarios/quick.yaml", "--duration-s", "20", "--figure", out() / "m.png", "-o",
+              out() / "m.csv"},
+        Words{"rcs", "--target", "assets/icosahedral_reflector.glb", "--frequency-ghz", "10", "--azimuth-deg", "0:1:1",
+              "-o", out() / "rcs.csv", "--reference", out() / "cut.csv", "--reference-polarisation", "vv"}}) {
     std::string said;
     EXPECT_EQ(signalled(words, SIGINT, &said), 1) << words[0];
     EXPECT_THAT(said, testing::HasSubstr("seaglint: interrupted\n"));

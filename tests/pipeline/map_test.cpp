@@ -45,9 +45,12 @@ TEST(MapCommand, DrawsTheMapAndListsTheCentre) {
 // A chirp narrower than the step leaves the band in pieces, and centres are listed where nothing is.
 TEST(MapCommand, EchoAndGenerateWarnOfGapsInTheBand) {
   const TemporaryFolder folder;
-  const std::string warning = "seaglint: warning: radar.bandwidth_mhz: 24 MHz between the bands of neighbouring carriers: range sidelobes every 5.996 m\n";
+  const std::string warning =
+      "seaglint: warning: radar.bandwidth_mhz: 24 MHz between the bands of neighbouring carriers: range sidelobes "
+      "every 5.996 m\n";
   const std::vector<std::string> gaps{"--set", "radar.bandwidth_mhz=1"};
-  std::vector<std::string> echo{"echo", kPoints, "-o", folder.path() / "echo.npz"}, generate{"generate", kPoints, "-o", folder.path() / "data"};
+  std::vector<std::string> echo{"echo", kPoints, "-o", folder.path() / "echo.npz"},
+      generate{"generate", kPoints, "-o", folder.path() / "data"};
   echo.insert(echo.end(), gaps.begin(), gaps.end());
   generate.insert(generate.end(), gaps.begin(), gaps.end());
   generate.insert(generate.end(), {"--set", "dataset={maps_per_case: 1, realisations_per_case: 1}"});
@@ -63,8 +66,9 @@ TEST(MapCommand, APointOnAConductingSeaIsSeenFourTimesAsStrong) {
   // On the plane itself all four paths are equal, and rho_v = +1.
   const TemporaryFolder folder;
   const auto amplitude = [&](std::vector<std::string> more) {
-    const std::vector<std::string> scene = {"--set", "view={azimuth_deg: 0, elevation_deg: 2}", "--set",
-                                            "targets={line: {label: 1, points: [{position_m: [30, 0, 0], amplitude_m: 2}]}}"};
+    const std::vector<std::string> scene = {
+        "--set", "view={azimuth_deg: 0, elevation_deg: 2}", "--set",
+        "targets={line: {label: 1, points: [{position_m: [30, 0, 0], amplitude_m: 2}]}}"};
     more.insert(more.begin(), scene.begin(), scene.end());
     const ProgramResult result = run_program(map_of(folder.path() / "map.png", more));
     EXPECT_EQ(result.code, 0) << result.err;
@@ -77,7 +81,9 @@ TEST(MapCommand, APointOnAConductingSeaIsSeenFourTimesAsStrong) {
   };
   EXPECT_NEAR(amplitude({}), 2, 0.04);
   EXPECT_NEAR(amplitude({"--set", "sea_reflection={enabled: true, surface: conductor, roughness: none}"}), 8, 0.16);
-  EXPECT_NEAR(amplitude({"--set", "sea_reflection={enabled: true, surface: conductor, roughness: none, paths: multipath}"}), 6, 0.12);
+  EXPECT_NEAR(
+      amplitude({"--set", "sea_reflection={enabled: true, surface: conductor, roughness: none, paths: multipath}"}), 6,
+      0.12);
 }
 
 TEST(MapCommand, RefusesASeaReflectionWithoutAnImage) {

@@ -27,7 +27,8 @@ class Options : public testing::Test {
     EXPECT_TRUE(fs::is_empty(folder_.path()));
   }
   Words rcs() const {
-    return {"rcs", "--target", "assets/icosahedral_reflector.glb", "--frequency-ghz", "10", "--azimuth-deg", "0", "-o", folder_.path() / "rcs.csv"};
+    return {"rcs", "--target", "assets/icosahedral_reflector.glb", "--frequency-ghz", "10", "--azimuth-deg",
+            "0",   "-o",       folder_.path() / "rcs.csv"};
   }
   Words plate() const { return {"mesh", "make", "plate", "-o", folder_.path() / "plate.obj"}; }
 
@@ -39,7 +40,8 @@ TEST_F(Options, NumbersAreDecimal) {
   Words words = rcs();
   words.insert(words.end(), {"--max-bounces", "010", "--range-m", "0100"});
   ASSERT_EQ(run_program(words).code, 0);
-  EXPECT_THAT(read_file(folder_.path() / "rcs.csv"), testing::AllOf(HasSubstr("max_bounces 10,"), HasSubstr("range_m 100 ")));
+  EXPECT_THAT(read_file(folder_.path() / "rcs.csv"),
+              testing::AllOf(HasSubstr("max_bounces 10,"), HasSubstr("range_m 100 ")));
   words = {"mesh", "make", "cylinder", "--segments", "+012", "-o", folder_.path() / "c.stl"};
   ASSERT_EQ(run_program(words).code, 0);
   EXPECT_EQ(fs::file_size(folder_.path() / "c.stl"), 84u + 50u * 4 * 12);  // two of each side, one of each end
@@ -48,14 +50,18 @@ TEST_F(Options, NumbersAreDecimal) {
 TEST_F(Options, OfNumbersTakeNothingElse) {
   for (const std::string value : {"0x10", "2.0", "1e3", "abc", ""}) {
     const std::string shown = value.empty() ? "''" : value;
-    expect_refused(rcs(), {"--max-bounces", value}, "--max-bounces: value " + shown + ": must be a whole number (see seaglint rcs --help)\n");
+    expect_refused(rcs(), {"--max-bounces", value},
+                   "--max-bounces: value " + shown + ": must be a whole number (see seaglint rcs --help)\n");
   }
   expect_refused(rcs(), {"--threads", "0x1"}, "--threads: value 0x1: must be a whole number (");
-  expect_refused({"mesh", "make", "sphere", "-o", folder_.path() / "s.stl"}, {"--subdivisions", ""}, "--subdivisions: value '': must be a whole number (");
-  expect_refused({"map", "scenarios/points.yaml", "-o", folder_.path() / "m.png"}, {"--sample", "0x1"}, "--sample: value 0x1: must be a whole number, 0 or more (");
+  expect_refused({"mesh", "make", "sphere", "-o", folder_.path() / "s.stl"}, {"--subdivisions", ""},
+                 "--subdivisions: value '': must be a whole number (");
+  expect_refused({"map", "scenarios/points.yaml", "-o", folder_.path() / "m.png"}, {"--sample", "0x1"},
+                 "--sample: value 0x1: must be a whole number, 0 or more (");
   for (const std::string value : {"0x10", "abc", "", "inf", "nan"}) {
     const std::string shown = value.empty() ? "''" : value;
-    expect_refused(plate(), {"--length-m", value}, "--length-m: value " + shown + ": must be a number (see seaglint mesh make plate --help)\n");
+    expect_refused(plate(), {"--length-m", value},
+                   "--length-m: value " + shown + ": must be a number (see seaglint mesh make plate --help)\n");
   }
   expect_refused(rcs(), {"--range-m", ""}, "--range-m: value '': must be within 0 and");
   expect_refused(rcs(), {"--transmit-azimuth-deg", "0x10"}, "--transmit-azimuth-deg: value 0x10: must be within");
@@ -67,12 +73,17 @@ TEST_F(Options, OfNumbersTakeNothingElse) {
 
 // Before anything that is missing.
 TEST_F(Options, AndCommandsThatAreMisspeltAreNamed) {
-  expect_refused({"rcs", "--targt", "x"}, {}, "seaglint: unknown option '--targt': did you mean '--target'? (see seaglint rcs --help)\n");
-  expect_refused({"rcs", "--targt=x", "--max-bounces", "abc"}, {}, "unknown option '--targt': did you mean '--target'?");
-  expect_refused({"check", "scenarios/points.yaml", "--sets", "x=1"}, {}, "unknown option '--sets': did you mean '--set'? (see seaglint check --help)\n");
-  expect_refused({"check", "--nothing-like-it"}, {}, "unknown option '--nothing-like-it' (see seaglint check --help)\n");
+  expect_refused({"rcs", "--targt", "x"}, {},
+                 "seaglint: unknown option '--targt': did you mean '--target'? (see seaglint rcs --help)\n");
+  expect_refused({"rcs", "--targt=x", "--max-bounces", "abc"}, {},
+                 "unknown option '--targt': did you mean '--target'?");
+  expect_refused({"check", "scenarios/points.yaml", "--sets", "x=1"}, {},
+                 "unknown option '--sets': did you mean '--set'? (see seaglint check --help)\n");
+  expect_refused({"check", "--nothing-like-it"}, {},
+                 "unknown option '--nothing-like-it' (see seaglint check --help)\n");
   expect_refused({"mesh", "make", "foo"}, {}, "unknown command 'foo': must be one of ship, ");
-  expect_refused({"mesh", "make", "plte", "--length-m", "2"}, {}, "unknown command 'plte': did you mean 'plate'? (see seaglint mesh make --help)\n");
+  expect_refused({"mesh", "make", "plte", "--length-m", "2"}, {},
+                 "unknown command 'plte': did you mean 'plate'? (see seaglint mesh make --help)\n");
   expect_refused({"mesh", "mkae"}, {}, "unknown command 'mkae': did you mean 'make'? (see seaglint mesh --help)\n");
   expect_refused({"mesh", "make"}, {}, "A subcommand is required (see seaglint mesh make --help)\n");
   expect_refused({"check", "scenarios/points.yaml", "other.yaml"}, {}, "other.yaml");
@@ -80,8 +91,10 @@ TEST_F(Options, AndCommandsThatAreMisspeltAreNamed) {
 
 TEST_F(Options, ThatBelongToOthersAskForThem) {
   const Words sea{"sea", "scenarios/points.yaml", "-o", folder_.path() / "sea.csv"};
-  expect_refused(sea, {"--realisations", "2"}, "--realisations requires --spectrum or --figure (see seaglint sea --help)\n");
-  expect_refused(rcs(), {"--transmit-elevation-deg", "2"}, "--transmit-elevation-deg requires --transmit-azimuth-deg (see seaglint rcs --help)\n");
+  expect_refused(sea, {"--realisations", "2"},
+                 "--realisations requires --spectrum or --figure (see seaglint sea --help)\n");
+  expect_refused(rcs(), {"--transmit-elevation-deg", "2"},
+                 "--transmit-elevation-deg requires --transmit-azimuth-deg (see seaglint rcs --help)\n");
 }
 
 }  // namespace

@@ -127,19 +127,24 @@ TEST_F(RcsCommand, ComparedWithItsOwnTableDiffersByNothingAndDrawsIt) {
   ASSERT_EQ(result.code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("both clipped at 40 dB"));
   // 61 directions, no difference, full correlation without a turn of phase.
-  EXPECT_THAT(result.out, testing::ContainsRegex("reference.csv +vv +10 +edges +61 +0.000 +-?0.000 +-?0.000 +-?0.000 .* 1.0000 at -?0.0 deg"));
+  EXPECT_THAT(result.out,
+              testing::ContainsRegex(
+                  "reference.csv +vv +10 +edges +61 +0.000 +-?0.000 +-?0.000 +-?0.000 .* 1.0000 at -?0.0 deg"));
   const std::string figure = folder_.path() / "rcs.png";
   EXPECT_THAT(result.out, HasSubstr("Figure: " + figure));
   EXPECT_TRUE(std::filesystem::exists(figure));
 }
 
-// Plate of problem set IIB: around its normal physical optics is the answer. Left are the rims' currents, 1/(k L) = 2 % of the peak at 0.15 m and
-// 10.24 GHz or 0.2 dB, and what the measured and the computed reference differ by there (0.4 dB).
+// Plate of problem set IIB: around its normal physical optics is the answer. Left are the rims' currents, 1/(k L) = 2 %
+// of the peak at 0.15 m and 10.24 GHz or 0.2 dB, and what the measured and the computed reference differ by there (0.4
+// dB).
 TEST_F(RcsCommand, MeetsTheMeasuredPlateAroundItsNormal) {
-  ASSERT_EQ(run_program({"mesh", "make", "plate", "--length-m", "0.2667", "--width-m", "0.1524", "-o", plate()}).code, 0);
+  ASSERT_EQ(run_program({"mesh", "make", "plate", "--length-m", "0.2667", "--width-m", "0.1524", "-o", plate()}).code,
+            0);
   const std::string folder = "tests/reference/rcs/austin/";
-  const ProgramResult result = rcs({"--frequency-ghz", "10.24", "--azimuth-deg", "0:2:0.5", "--reference", folder + "meas.m1_rcs.II.B.sx1.f11.H.txt",
-                                    "--reference", folder + "ref_rcs.II.B.sx1.f11.V.txt"});
+  const ProgramResult result =
+      rcs({"--frequency-ghz", "10.24", "--azimuth-deg", "0:2:0.5", "--reference",
+           folder + "meas.m1_rcs.II.B.sx1.f11.H.txt", "--reference", folder + "ref_rcs.II.B.sx1.f11.V.txt"});
   ASSERT_EQ(result.code, 0) << result.err;
   std::istringstream lines(result.out);
   int found = 0;
@@ -158,7 +163,8 @@ TEST_F(RcsCommand, MeetsTheMeasuredPlateAroundItsNormal) {
 
 TEST_F(RcsCommand, RefusesAReferenceThatDoesNotFitBeforeAnyWork) {
   const auto refused = [&](std::vector<std::string> more, const std::string& message) {
-    more.insert(more.begin(), {"--frequency-ghz", "10", "--azimuth-deg", "0:2:0.5", "--reference", "tests/reference/rcs/austin/ref_rcs.II.B.sx1.f11.H.txt"});
+    more.insert(more.begin(), {"--frequency-ghz", "10", "--azimuth-deg", "0:2:0.5", "--reference",
+                               "tests/reference/rcs/austin/ref_rcs.II.B.sx1.f11.H.txt"});
     const ProgramResult result = rcs(more);
     EXPECT_EQ(result.code, 2) << result.err;
     EXPECT_THAT(result.err, HasSubstr(message));
@@ -176,15 +182,18 @@ TEST_F(RcsCommand, RefusesAReferenceThatDoesNotFitBeforeAnyWork) {
 TEST_F(RcsCommand, ExportsCentresAndHotSpotsOfOneViewAndSelects) {
   const std::string centres = folder_.path() / "centres.csv", spots = folder_.path() / "spots.glb";
   const auto reflector = [&](std::vector<std::string> more) {
-    more.insert(more.begin(), {"rcs", "--target", "assets/icosahedral_reflector.glb", "-o", table(), "--frequency-ghz", "16", "--azimuth-deg", "0"});
+    more.insert(more.begin(), {"rcs", "--target", "assets/icosahedral_reflector.glb", "-o", table(), "--frequency-ghz",
+                               "16", "--azimuth-deg", "0"});
     return run_program(more);
   };
-  const ProgramResult result = reflector({"--export-centres", centres, "--export-hot-spots", spots, "--export-range-db", "40"});
+  const ProgramResult result =
+      reflector({"--export-centres", centres, "--export-hot-spots", spots, "--export-range-db", "40"});
   ASSERT_EQ(result.code, 0) << result.err;
   std::istringstream lines(read_file(centres));
   std::string line;
   while (std::getline(lines, line) && line.starts_with("#")) continue;
-  EXPECT_EQ(line, "x_m,y_m,z_m,psi_m,hh_re,hh_im,hv_re,hv_im,vh_re,vh_im,vv_re,vv_im,strongest_dbsm,part,bounces,mechanism");
+  EXPECT_EQ(line,
+            "x_m,y_m,z_m,psi_m,hh_re,hh_im,hv_re,hv_im,vh_re,vh_im,vv_re,vv_im,strongest_dbsm,part,bounces,mechanism");
   // Face on, the cell that looks at the radar is the strongest: its three-bounce echo comes from the apex.
   ASSERT_TRUE(std::getline(lines, line));
   EXPECT_THAT(line, testing::EndsWith("cell_01,3,po"));
@@ -221,15 +230,18 @@ TEST_F(RcsCommand, ExportsCentresAndHotSpotsOfOneViewAndSelects) {
   refused({"--only", "colour=red"}, "must be part=NAME");
   refused({"--only", "bounces=41"}, "--only bounces=41 requires --max-bounces 41 or more; 40 are followed");
   refused({"--only", "mechanism=edge", "--edges", "off"}, "--only mechanism=edge requires --edges on");
-  refused({"--only", "mechanism=po", "--without", "mechanism=po"}, "--only mechanism=po and --without mechanism=po leave nothing of it");
+  refused({"--only", "mechanism=po", "--without", "mechanism=po"},
+          "--only mechanism=po and --without mechanism=po leave nothing of it");
   refused({"--centre-cell-m", "0.2"}, "--centre-cell-m requires --export-centres (see seaglint rcs --help)");
   refused({"--centre-cell-m", "0.2", "--export-hot-spots", spots}, "--centre-cell-m requires --export-centres");
   refused({"--export-range-db", "40"}, "--export-range-db requires --export-centres or --export-hot-spots");
-  refused({"--export-centres", centres, "--elevation-deg", "0:1:1"}, "one frequency, azimuth and elevation; there are 2 rows");
+  refused({"--export-centres", centres, "--elevation-deg", "0:1:1"},
+          "one frequency, azimuth and elevation; there are 2 rows");
   refused({"--export-hot-spots", folder_.path() / "spots.stl"}, "colours need the ending .glb or .gltf");
 }
 
-// A reflector inside out with a hole beside it: one echoes as it should, the other's interior is seen; both are said, in one line each.
+// A reflector inside out with a hole beside it: one echoes as it should, the other's interior is seen; both are said,
+// in one line each.
 TEST_F(RcsCommand, WarnsOfWhatIsWrongWithAMeshAndGoesOn) {
   TriangleMesh mesh = make_icosahedral_reflector();
   for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
@@ -239,9 +251,10 @@ TEST_F(RcsCommand, WarnsOfWhatIsWrongWithAMeshAndGoesOn) {
   write_mesh(plate(), mesh);
   const ProgramResult result = rcs({"--frequency-ghz", "0.1:10:9.9", "--azimuth-deg", "0"});
   EXPECT_EQ(result.code, 0) << result.err;
-  EXPECT_THAT(result.err, testing::StartsWith("seaglint: warning: 1 triangle repeats another: left out\n"
-                                              "seaglint: warning: 1 closed surface is inside out (60 triangles): turned outwards\n"
-                                              "seaglint: warning: 3 open edges; 1 of 2 surfaces are open"));
+  EXPECT_THAT(result.err,
+              testing::StartsWith("seaglint: warning: 1 triangle repeats another: left out\n"
+                                  "seaglint: warning: 1 closed surface is inside out (60 triangles): turned outwards\n"
+                                  "seaglint: warning: 3 open edges; 1 of 2 surfaces are open"));
   EXPECT_THAT(result.err, HasSubstr("wavelengths at 0.1 GHz; physical optics needs 3 and more"));
 }
 
@@ -249,7 +262,8 @@ TEST_F(RcsCommand, RefusesMeshesWithoutAnythingThatScatters) {
   const std::string file = folder_.path() / "bad.obj";
   const auto refused = [&](const std::string& text, const std::string& message) {
     write_file(file, text);
-    const ProgramResult result = run_program({"rcs", "--target", file, "-o", table(), "--frequency-ghz", "10", "--azimuth-deg", "0"});
+    const ProgramResult result =
+        run_program({"rcs", "--target", file, "-o", table(), "--frequency-ghz", "10", "--azimuth-deg", "0"});
     EXPECT_EQ(result.code, 2) << result.err;
     EXPECT_THAT(result.err, HasSubstr(message));
     EXPECT_FALSE(std::filesystem::exists(table()));
@@ -262,7 +276,10 @@ TEST_F(RcsCommand, RefusesMeshesWithoutAnythingThatScatters) {
 
 TEST_F(RcsCommand, SweepsAReceiverRoundATransmitterThatStandsStill) {
   ASSERT_EQ(run_program({"mesh", "make", "plate", "--length-m", "0.3", "--width-m", "0.2", "-o", plate()}).code, 0);
-  ASSERT_EQ(rcs({"--frequency-ghz", "10", "--azimuth-deg", "-40:40:20", "--transmit-azimuth-deg", "20", "--edges", "off"}).code, 0);
+  ASSERT_EQ(
+      rcs({"--frequency-ghz", "10", "--azimuth-deg", "-40:40:20", "--transmit-azimuth-deg", "20", "--edges", "off"})
+          .code,
+      0);
   const auto rows = read_table(table()).rows;
   ASSERT_EQ(rows.size(), 5u);
   // All of the plate in phase in the mirror direction: 4 pi (A cos(20 deg) / lambda)^2.
@@ -270,26 +287,34 @@ TEST_F(RcsCommand, SweepsAReceiverRoundATransmitterThatStandsStill) {
   EXPECT_NEAR(rows[1].back(), 10 * std::log10(4 * kPi * area * area / (lambda * lambda)), 1e-3);
   for (const std::size_t other : {0u, 2u, 4u}) EXPECT_LT(rows[other].back(), rows[1].back() - 10);
   // The trip back from there is the same.
-  ASSERT_EQ(rcs({"--frequency-ghz", "10", "--azimuth-deg", "20", "--transmit-azimuth-deg", "20", "--edges", "off"}).code, 0);
+  ASSERT_EQ(
+      rcs({"--frequency-ghz", "10", "--azimuth-deg", "20", "--transmit-azimuth-deg", "20", "--edges", "off"}).code, 0);
   const double there = read_table(table()).rows.at(0).back();
   ASSERT_EQ(rcs({"--frequency-ghz", "10", "--azimuth-deg", "20", "--edges", "off"}).code, 0);
   EXPECT_NEAR(read_table(table()).rows.at(0).back(), there, 1e-3);
   // A table says where its transmitter stood, and is compared with no other.
   const std::string own = folder_.path() / "own.csv";
   const auto against = [&](std::vector<std::string> more) {
-    more.insert(more.begin(), {"rcs", "--target", plate(), "-o", table(), "--frequency-ghz", "10", "--azimuth-deg", "-40:40:20", "--reference", own, "--reference-polarisation", "vv"});
+    more.insert(more.begin(), {"rcs", "--target", plate(), "-o", table(), "--frequency-ghz", "10", "--azimuth-deg",
+                               "-40:40:20", "--reference", own, "--reference-polarisation", "vv"});
     return run_program(more);
   };
   std::filesystem::remove(table());
-  ASSERT_EQ(run_program({"rcs", "--target", plate(), "-o", own, "--frequency-ghz", "10", "--azimuth-deg", "-40:40:20", "--transmit-azimuth-deg", "20"}).code, 0);
+  ASSERT_EQ(run_program({"rcs", "--target", plate(), "-o", own, "--frequency-ghz", "10", "--azimuth-deg", "-40:40:20",
+                         "--transmit-azimuth-deg", "20"})
+                .code,
+            0);
   for (const auto& other : {std::vector<std::string>{}, {"--transmit-azimuth-deg", "21"}}) {
     const ProgramResult compared = against(other);
     EXPECT_EQ(compared.code, 2);
-    EXPECT_THAT(compared.err, HasSubstr("own.csv: its transmitter stands at azimuth 20 deg, elevation 0 deg, the sweep"));
+    EXPECT_THAT(compared.err,
+                HasSubstr("own.csv: its transmitter stands at azimuth 20 deg, elevation 0 deg, the sweep"));
     EXPECT_FALSE(std::filesystem::exists(table()));
   }
   EXPECT_EQ(against({"--transmit-azimuth-deg", "20"}).code, 0);
-  const auto warned = [&](const char* azimuth) { return rcs({"--frequency-ghz", "10", "--azimuth-deg", azimuth, "--transmit-azimuth-deg", "20"}).err; };
+  const auto warned = [&](const char* azimuth) {
+    return rcs({"--frequency-ghz", "10", "--azimuth-deg", azimuth, "--transmit-azimuth-deg", "20"}).err;
+  };
   EXPECT_THAT(warned("-90:130:20"), Not(HasSubstr("behind the target")));
   EXPECT_THAT(warned("-90:160:10"), HasSubstr("receivers up to 140 deg from the transmitter: behind the target"));
 }
@@ -297,7 +322,8 @@ TEST_F(RcsCommand, SweepsAReceiverRoundATransmitterThatStandsStill) {
 TEST_F(RcsCommand, AddsTheThicknessOfSheets) {
   ASSERT_EQ(run_program({"mesh", "make", "plate", "--length-m", "0.3", "--width-m", "0.2", "-o", plate()}).code, 0);
   const auto level = [&](const char* thickness_mm, const char* edges, const char* warning) {
-    const ProgramResult run = rcs({"--frequency-ghz", "10", "--azimuth-deg", "50", "--sheet-thickness-mm", thickness_mm, "--edges", edges});
+    const ProgramResult run =
+        rcs({"--frequency-ghz", "10", "--azimuth-deg", "50", "--sheet-thickness-mm", thickness_mm, "--edges", edges});
     EXPECT_EQ(run.code, 0);
     EXPECT_THAT(run.err, HasSubstr(warning));
     return read_table(table()).rows.at(0).back();
@@ -305,7 +331,8 @@ TEST_F(RcsCommand, AddsTheThicknessOfSheets) {
   const double thin = level("0", "on", ""), thick = level("1.6", "on", "");
   EXPECT_GT(std::abs(thick - thin), 0.3);
   EXPECT_THAT(read_file(table()), HasSubstr("sheet_thickness_mm 1.6"));
-  EXPECT_DOUBLE_EQ(level("1.6", "off", "a sheet thickness of 1.6 mm changes nothing: edges are off"), level("0", "off", ""));
+  EXPECT_DOUBLE_EQ(level("1.6", "off", "a sheet thickness of 1.6 mm changes nothing: edges are off"),
+                   level("0", "off", ""));
   level("4", "on", "sheets of 4 mm are 0.13 wavelengths thick at 10 GHz");
   EXPECT_EQ(rcs({"--frequency-ghz", "10", "--azimuth-deg", "50", "--sheet-thickness-mm", "-1"}).code, 2);
 }
@@ -326,17 +353,21 @@ TEST_F(RcsCommand, BendsTheWavefrontOfARadarNearby) {
 
 // A strip that leans is no disc: at the zenith its matrix turns with the azimuth as it does just below.
 TEST_F(RcsCommand, KeepsItsBasisThroughTheZenith) {
-  const Mat3 leaning = (Eigen::AngleAxisd(0.15, Vec3::UnitX()) * Eigen::AngleAxisd(kPi / 2 - 0.02, Vec3::UnitY())).toRotationMatrix();
+  const Mat3 leaning =
+      (Eigen::AngleAxisd(0.15, Vec3::UnitX()) * Eigen::AngleAxisd(kPi / 2 - 0.02, Vec3::UnitY())).toRotationMatrix();
   write_mesh(plate(), transformed(make_plate(0.04, 0.3), leaning, Vec3::Zero()));
   for (const char* azimuth : {"0", "60", "-110"}) {
-    const ProgramResult result = rcs({"--frequency-ghz", "10", "--azimuth-deg", azimuth, "--elevation-deg", "89.999:90:0.001"});
+    const ProgramResult result =
+        rcs({"--frequency-ghz", "10", "--azimuth-deg", azimuth, "--elevation-deg", "89.999:90:0.001"});
     ASSERT_EQ(result.code, 0) << result.err;
     const auto rows = read_table(table()).rows;
     ASSERT_EQ(rows.size(), 2u);
     // 1e-3 deg turn the phase at the strip's ends by 2 k 0.15 m 1.7e-5 rad.
     const double tolerance = 1.1e-3 * std::hypot(rows[1][3], rows[1][4]);
-    for (std::size_t column = 3; column <= 10; ++column) EXPECT_NEAR(rows[0][column], rows[1][column], tolerance) << azimuth << ' ' << column;
-    EXPECT_GT(std::hypot(rows[1][9] - rows[1][3], rows[1][10] - rows[1][4]) + std::hypot(rows[1][5], rows[1][6]), 10 * tolerance);
+    for (std::size_t column = 3; column <= 10; ++column)
+      EXPECT_NEAR(rows[0][column], rows[1][column], tolerance) << azimuth << ' ' << column;
+    EXPECT_GT(std::hypot(rows[1][9] - rows[1][3], rows[1][10] - rows[1][4]) + std::hypot(rows[1][5], rows[1][6]),
+              10 * tolerance);
   }
 }
 
@@ -356,13 +387,17 @@ TEST_F(RcsCommand, RefusesEdgesAndRangesThatCannotBe) {
   refused({"--frequency-ghz", "10", "--azimuth-deg", "0", "--elevation-deg", "91"},
           "--elevation-deg: value 91: must be");
   refused({"--frequency-ghz", "10"}, "--azimuth-deg is required");
-  refused({"--frequency-ghz", "10", "--azimuth-deg", "0", "--transmit-elevation-deg", "3"}, "--transmit-elevation-deg requires --transmit-azimuth-deg");
-  refused({"--frequency-ghz", "10", "--azimuth-deg", "0", "--elevation-deg", "2", "--transmit-azimuth-deg", "3", "--sea-reflection", "--height-m", "5"}, "are monostatic");
+  refused({"--frequency-ghz", "10", "--azimuth-deg", "0", "--transmit-elevation-deg", "3"},
+          "--transmit-elevation-deg requires --transmit-azimuth-deg");
+  refused({"--frequency-ghz", "10", "--azimuth-deg", "0", "--elevation-deg", "2", "--transmit-azimuth-deg", "3",
+           "--sea-reflection", "--height-m", "5"},
+          "are monostatic");
   refused({"--frequency-ghz", "10", "--azimuth-deg", "0", "--range-m", "-1"}, "--range-m");
 }
 
 TEST_F(RcsCommand, ACoatedPlateDropsByItsMaterial) {
-  // Aluminium's surface resistance is 1e-4 of free space's: nothing is lost. The coating's |Gamma| is that of its quarter-wave layer, about -11 dB at 16 GHz.
+  // Aluminium's surface resistance is 1e-4 of free space's: nothing is lost. The coating's |Gamma| is that of its
+  // quarter-wave layer, about -11 dB at 16 GHz.
   const std::string library = SEAGLINT_SOURCE_DIR "/assets/materials/";
   const auto square = [&](const std::string& material) {
     const ProgramResult done = rcs({"--frequency-ghz", "16", "--azimuth-deg", "0", "--material", material});
@@ -388,10 +423,10 @@ TEST_F(RcsCommand, RefusesMaterialsThatAreNotKnownThere) {
 }
 
 TEST_F(RcsCommand, APlateStandingOnAConductingSeaIsADihedral) {
-  // kWidthM high, its centre half of that above the water: image theory makes it 2 A cos(el) / lambda, less or more the direct lobe of the doubled
-  // plate, which is a sine over k kWidthM sin(el) = 50 at 30 deg, two ways.
-  const ProgramResult done = rcs({"--frequency-ghz", "16", "--azimuth-deg", "0", "--elevation-deg", "30", "--sea-reflection", "--sea-surface", "conductor",
-                                  "--height-m", "0.15"});
+  // kWidthM high, its centre half of that above the water: image theory makes it 2 A cos(el) / lambda, less or more the
+  // direct lobe of the doubled plate, which is a sine over k kWidthM sin(el) = 50 at 30 deg, two ways.
+  const ProgramResult done = rcs({"--frequency-ghz", "16", "--azimuth-deg", "0", "--elevation-deg", "30",
+                                  "--sea-reflection", "--sea-surface", "conductor", "--height-m", "0.15"});
   ASSERT_EQ(done.code, 0) << done.err;
   const auto row = read_table(table()).rows.at(0);
   const double lambda = kSpeedOfLight / 16e9, dihedral = 2 * kLengthM * kWidthM * std::cos(radians(30)) / lambda;
@@ -402,14 +437,20 @@ TEST_F(RcsCommand, APlateStandingOnAConductingSeaIsADihedral) {
 
 // kWidthM high about its middle: a table of zeros would say that it does not scatter.
 TEST_F(RcsCommand, RefusesATargetThatIsWhollyUnderWater) {
-  const ProgramResult done = rcs({"--frequency-ghz", "16", "--azimuth-deg", "0", "--elevation-deg", "30", "--sea-reflection", "--height-m", "-5"});
+  const ProgramResult done = rcs(
+      {"--frequency-ghz", "16", "--azimuth-deg", "0", "--elevation-deg", "30", "--sea-reflection", "--height-m", "-5"});
   EXPECT_EQ(done.code, 2);
-  EXPECT_THAT(done.err, HasSubstr("--height-m: value -5: must be greater than -0.15, else the whole target is under water\n"));
-  EXPECT_EQ(rcs({"--frequency-ghz", "16", "--azimuth-deg", "0", "--elevation-deg", "30", "--sea-reflection", "--height-m", "-0.14"}).code, 0);
+  EXPECT_THAT(done.err,
+              HasSubstr("--height-m: value -5: must be greater than -0.15, else the whole target is under water\n"));
+  EXPECT_EQ(rcs({"--frequency-ghz", "16", "--azimuth-deg", "0", "--elevation-deg", "30", "--sea-reflection",
+                 "--height-m", "-0.14"})
+                .code,
+            0);
 }
 
 TEST_F(RcsCommand, RefusesASeaReflectionWithoutAnImage) {
-  const ProgramResult done = rcs({"--frequency-ghz", "16", "--azimuth-deg", "0", "--elevation-deg", "0", "--sea-reflection"});
+  const ProgramResult done =
+      rcs({"--frequency-ghz", "16", "--azimuth-deg", "0", "--elevation-deg", "0", "--sea-reflection"});
   EXPECT_EQ(done.code, 2);
   EXPECT_THAT(done.err, HasSubstr("--elevation-deg: value 0: must be greater than 0 with --sea-reflection"));
   EXPECT_EQ(rcs({"--frequency-ghz", "16", "--azimuth-deg", "0", "--height-m", "3"}).code, 2);

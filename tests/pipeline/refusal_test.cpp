@@ -107,23 +107,30 @@ TEST_F(Refusal, OfARadarTooNearForItsWavefront) {
   }
 }
 
-// Four reflectors 40 m apart reach 60.5 m, wherever each has its own origin; a companion reaches as far as it stands away.
+// Four reflectors 40 m apart reach 60.5 m, wherever each has its own origin; a companion reaches as far as it stands
+// away.
 TEST_F(Refusal, OfARadarTooNearForALayoutOrACompanion) {
-  write_file(folder() / "near.yaml",
-             "seaglint: 1\ntargets:\n"
-             "  ship: {label: 1, mesh: assets/icosahedral_reflector.glb, with: [{target: decoy, x_m: 0, y_m: 60}], solver: {radar_range_m: 400}}\n"
-             "  decoy: {label: 0, mesh: assets/icosahedral_reflector.glb, solver: {radar_range_m: 400}}\n"
-             "  array: {label: 0, mesh: assets/icosahedral_reflector.glb, layout: {line: {count: 4, spacing_m: 40}}}\n");
+  write_file(
+      folder() / "near.yaml",
+      "seaglint: 1\ntargets:\n"
+      "  ship: {label: 1, mesh: assets/icosahedral_reflector.glb, with: [{target: decoy, x_m: 0, y_m: 60}], solver: "
+      "{radar_range_m: 400}}\n"
+      "  decoy: {label: 0, mesh: assets/icosahedral_reflector.glb, solver: {radar_range_m: 400}}\n"
+      "  array: {label: 0, mesh: assets/icosahedral_reflector.glb, layout: {line: {count: 4, spacing_m: 40}}}\n");
   const std::string file = folder() / "near.yaml";
   for (const Words& more : {Words{}, Words{"--set", "targets.array.solver.radar_range_m=600"}}) {
-    for (Words words : {Words{"check", file}, Words{"map", file, "-o", folder() / "map.png"}, Words{"generate", file, "-o", folder() / "data"}}) {
+    for (Words words : {Words{"check", file}, Words{"map", file, "-o", folder() / "map.png"},
+                        Words{"generate", file, "-o", folder() / "data"}}) {
       words.insert(words.end(), more.begin(), more.end());
-      expect_failure(folder(), words, 2, more.empty() ? "near.yaml:3:66: targets.ship.with.0: radar range 400 m: the target reaches 60.5 m from where it is counted"
-                                                      : "targets.array.solver: radar range 600 m: the target reaches 60.5 m");
+      expect_failure(folder(), words, 2,
+                     more.empty() ? "near.yaml:3:66: targets.ship.with.0: radar range 400 m: the target reaches 60.5 m "
+                                    "from where it is counted"
+                                  : "targets.array.solver: radar range 600 m: the target reaches 60.5 m");
     }
   }
-  const ProgramResult far = run_program({"check", file, "--set", "targets.ship.solver.radar_range_m=610", "--set", "targets.decoy.solver.radar_range_m=610",
-                                         "--set", "targets.array.solver.radar_range_m=610"});
+  const ProgramResult far =
+      run_program({"check", file, "--set", "targets.ship.solver.radar_range_m=610", "--set",
+                   "targets.decoy.solver.radar_range_m=610", "--set", "targets.array.solver.radar_range_m=610"});
   EXPECT_EQ(far.code, 0) << far.err;
 }
 
@@ -137,7 +144,8 @@ TEST_F(Refusal, OfASeriesThatDoesNotCoverTheIntervals) {
              "seaglint: 1\ntargets:\n  ship: {label: 1, mesh: whole.glb, motion: {model: series, file: series.csv}}\n"
              "dataset: {maps_per_case: 4, realisations_per_case: 2}\n");
   for (const char* start : {"35", "-5", "1e6"}) {
-    for (Words words : {Words{"check", file}, Words{"map", file, "-o", folder() / "map.png"}, Words{"generate", file, "-o", folder() / "data"}}) {
+    for (Words words : {Words{"check", file}, Words{"map", file, "-o", folder() / "map.png"},
+                        Words{"generate", file, "-o", folder() / "data"}}) {
       words.insert(words.end(), {"--set", std::string("targets.ship.motion.series_start_s=") + start});
       expect_failure(folder(), words, 2, "targets.ship.motion.series_start_s: value ");
     }
@@ -147,10 +155,14 @@ TEST_F(Refusal, OfASeriesThatDoesNotCoverTheIntervals) {
 
 TEST_F(Refusal, OfATargetUnderWater) {
   const std::string file = folder() / "water.yaml";
-  write_file(file, "seaglint: 1\nsea_reflection: {enabled: true}\ntargets:\n"
-                   "  array: {label: 0, mesh: assets/icosahedral_reflector.glb, motion: {model: float, centre_above_water_m: -10}}\n");
-  for (const Words& words : {Words{"check", file}, Words{"map", file, "-o", folder() / "map.png"}, Words{"generate", file, "-o", folder() / "data"}})
-    expect_failure(folder(), words, 2, "water.yaml:4:106: targets.array.motion.centre_above_water_m: value -10: must be greater than ");
+  write_file(file,
+             "seaglint: 1\nsea_reflection: {enabled: true}\ntargets:\n"
+             "  array: {label: 0, mesh: assets/icosahedral_reflector.glb, motion: {model: float, centre_above_water_m: "
+             "-10}}\n");
+  for (const Words& words : {Words{"check", file}, Words{"map", file, "-o", folder() / "map.png"},
+                             Words{"generate", file, "-o", folder() / "data"}})
+    expect_failure(folder(), words, 2,
+                   "water.yaml:4:106: targets.array.motion.centre_above_water_m: value -10: must be greater than ");
   EXPECT_EQ(run_program({"check", file, "--set", "sea_reflection.enabled=false"}).code, 0);
 }
 
@@ -158,18 +170,22 @@ TEST_F(Refusal, OfATargetUnderWater) {
 TEST_F(Refusal, OfATargetWithoutAnEcho) {
   const std::string plate = folder() / "plate.obj", file = folder() / "plate.yaml";
   write_file(plate, "v 0 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n");
-  write_file(file, "seaglint: 1\nradar: {polarisation: hv}\nview: {azimuth_deg: 0, elevation_deg: 0}\ntargets:\n  plate: {label: 1, mesh: plate.obj, solver: {edges: false}}\n");
+  write_file(file,
+             "seaglint: 1\nradar: {polarisation: hv}\nview: {azimuth_deg: 0, elevation_deg: 0}\ntargets:\n  plate: "
+             "{label: 1, mesh: plate.obj, solver: {edges: false}}\n");
   const auto before = files_below(folder());
   const ProgramResult result = run_program({"generate", file, "-o", folder() / "data"});
   EXPECT_EQ(result.code, 2);
-  EXPECT_THAT(result.err, HasSubstr("\nseaglint: " + file + ":5:10: targets.plate: sample "));  // after a warning of its open edges
+  // after a warning of its open edges
+  EXPECT_THAT(result.err, HasSubstr("\nseaglint: " + file + ":5:10: targets.plate: sample "));
   EXPECT_THAT(result.err, HasSubstr("has no power"));
   EXPECT_TRUE(files_below(folder()) == before);
 }
 
 TEST_F(Refusal, OfANumberThatIsNone) {
   const std::string mesh = folder() / "whole.glb";
-  for (const char* option : {"--range-m", "--crease-deg", "--ray-spacing-m", "--transmit-azimuth-deg", "--centre-cell-m"}) {
+  for (const char* option :
+       {"--range-m", "--crease-deg", "--ray-spacing-m", "--transmit-azimuth-deg", "--centre-cell-m"}) {
     expect_failure(folder(),
                    {"rcs", "--target", mesh, "--frequency-ghz", "10", "--azimuth-deg", "0", "-o", folder() / "rcs.csv",
                     option, "nan"},
@@ -182,21 +198,26 @@ TEST_F(Refusal, OfANumberThatIsNone) {
 // Bounds and places to look are those of the very command.
 TEST_F(Refusal, OfAnOptionInWordsThatHelp) {
   for (const char* value : {"-1", "2.5", "1e3", "99999999999999999999"}) {
-    for (const Words& words : {Words{"map", "scenarios/points.yaml", "-o", folder() / "map.png"}, Words{"echo", "scenarios/points.yaml", "-o", folder() / "e.npz"},
-                               Words{"remake", folder()}}) {
+    for (const Words& words :
+         {Words{"map", "scenarios/points.yaml", "-o", folder() / "map.png"},
+          Words{"echo", "scenarios/points.yaml", "-o", folder() / "e.npz"}, Words{"remake", folder()}}) {
       Words all = words;
       all.insert(all.end(), {"--sample", value});
-      expect_failure(folder(), all, 2, std::string("--sample: value ") + value + ": must be a whole number, 0 or more (see seaglint " + words[0] + " --help)\n");
+      expect_failure(folder(), all, 2,
+                     std::string("--sample: value ") + value + ": must be a whole number, 0 or more (see seaglint " +
+                         words[0] + " --help)\n");
     }
   }
-  expect_failure(folder(), {"mesh", "make", "sphere", "--diameter-m", "1"}, 2, "(see seaglint mesh make sphere --help)\n");
+  expect_failure(folder(), {"mesh", "make", "sphere", "--diameter-m", "1"}, 2,
+                 "(see seaglint mesh make sphere --help)\n");
   expect_failure(folder(), {"mesh", "info"}, 2, "(see seaglint mesh info --help)\n");
   expect_failure(folder(), {"verify", std::string(300, 'x')}, 1, "xxx/manifest.json: File name too long\n");
 }
 
 TEST_F(Refusal, OfAFullStandardOutput) {
   for (const char* words : {"--help", "--version", "rcs --help"}) {
-    const ProgramResult result = run_words({"/bin/bash", "-c", std::string("exec \"$0\" ") + words + " >/dev/full", kProgram});
+    const ProgramResult result =
+        run_words({"/bin/bash", "-c", std::string("exec \"$0\" ") + words + " >/dev/full", kProgram});
     EXPECT_EQ(result.code, 1) << words;
     EXPECT_EQ(result.err, "seaglint: standard output: cannot write: No space left on device\n") << words;
   }
@@ -207,12 +228,14 @@ TEST_F(Refusal, OfGoingOnAmongOtherFiles) {
   make_directory(folder() / "other");
   write_file(folder() / "other" / "notes.txt", "mine");
   for (const char* command : {"generate", "run"})
-    expect_failure(folder(), {command, "scenarios/points.yaml", "-o", folder() / "other", "--resume"}, 2, "other: the directory holds");
+    expect_failure(folder(), {command, "scenarios/points.yaml", "-o", folder() / "other", "--resume"}, 2,
+                   "other: the directory holds");
 }
 
 // By whatever name a command's input is called, and whichever key of a scenario names it.
 TEST_F(Refusal, OfWritingOverWhatIsRead) {
-  const std::string mesh = folder() / "whole.glb", file = scenario(""), rao = folder() / "rao.csv", link = folder() / "link.glb";
+  const std::string mesh = folder() / "whole.glb", file = scenario(""), rao = folder() / "rao.csv",
+                    link = folder() / "link.glb";
   write_file(rao, "none");
   fs::create_symlink(mesh, link);
   const Words rcs{"rcs", "--target", mesh, "--frequency-ghz", "10", "--azimuth-deg", "0"};
@@ -220,36 +243,40 @@ TEST_F(Refusal, OfWritingOverWhatIsRead) {
     words.insert(words.end(), more.begin(), more.end());
     return words;
   };
-  for (const Words& words : {with(rcs, {"-o", mesh}), with(rcs, {"-o", link}), with(rcs, {"-o", rao, "--reference", rao}),
-                             with(rcs, {"-o", folder() / "rcs.csv", "--export-centres", folder() / "." / "whole.glb"}),
-                             Words{"mesh", "info", mesh, "--picture", mesh},
-                             Words{"sea", file, "-o", file},
-                             Words{"motion", file, "-o", file},
-                             Words{"motion", file, "-o", mesh},
-                             Words{"motion", file, "-o", rao, "--rao", folder() / "rao.png", "--rao-reference", rao}}) {
+  for (const Words& words :
+       {with(rcs, {"-o", mesh}), with(rcs, {"-o", link}), with(rcs, {"-o", rao, "--reference", rao}),
+        with(rcs, {"-o", folder() / "rcs.csv", "--export-centres", folder() / "." / "whole.glb"}),
+        Words{"mesh", "info", mesh, "--picture", mesh}, Words{"sea", file, "-o", file},
+        Words{"motion", file, "-o", file}, Words{"motion", file, "-o", mesh},
+        Words{"motion", file, "-o", rao, "--rao", folder() / "rao.png", "--rao-reference", rao}}) {
     expect_failure(folder(), words, 2, "is read here, and would be written over");
   }
 }
 
 TEST_F(Refusal, OfTwoOutputsInOneFile) {
-  const std::string mesh = folder() / "whole.glb", file = scenario(""), csv = folder() / "out.csv", png = folder() / "out.png";
-  for (const Words& words :
-       {Words{"sea", file, "-o", csv, "--spectrum", csv, "--realisations", "2"}, Words{"motion", file, "-o", csv, "--spectrum", folder() / "." / "out.csv"},
-        Words{"motion", file, "-o", csv, "--figure", png, "--frames", png},
-        Words{"rcs", "--target", mesh, "--frequency-ghz", "10", "--azimuth-deg", "0", "-o", csv, "--export-centres", csv}}) {
+  const std::string mesh = folder() / "whole.glb", file = scenario(""), csv = folder() / "out.csv",
+                    png = folder() / "out.png";
+  for (const Words& words : {Words{"sea", file, "-o", csv, "--spectrum", csv, "--realisations", "2"},
+                             Words{"motion", file, "-o", csv, "--spectrum", folder() / "." / "out.csv"},
+                             Words{"motion", file, "-o", csv, "--figure", png, "--frames", png},
+                             Words{"rcs", "--target", mesh, "--frequency-ghz", "10", "--azimuth-deg", "0", "-o", csv,
+                                   "--export-centres", csv}}) {
     expect_failure(folder(), words, 2, "would be written twice");
   }
 }
 
 TEST_F(Refusal, OfAnEndingThatSaysAnotherFormat) {
   const std::string mesh = folder() / "whole.glb";
-  expect_failure(folder(), {"echo", "scenarios/points.yaml", "-o", folder() / "echo.csv"}, 2, "echo.csv: NumPy's archives end in .npz");
+  expect_failure(folder(), {"echo", "scenarios/points.yaml", "-o", folder() / "echo.csv"}, 2,
+                 "echo.csv: NumPy's archives end in .npz");
   for (const char* name : {"ship.jpg", "ship.svg", "ship"})
-    expect_failure(folder(), {"mesh", "info", mesh, "--picture", folder() / name}, 2, std::string(name) + ": the name of a mesh's picture ends in .png");
-  expect_failure(folder(), {"remake", folder(), "--sample", "0", "-o", folder() / "sample"}, 2, "sample: NumPy's archives end in .npz");
+    expect_failure(folder(), {"mesh", "info", mesh, "--picture", folder() / name}, 2,
+                   std::string(name) + ": the name of a mesh's picture ends in .png");
+  expect_failure(folder(), {"remake", folder(), "--sample", "0", "-o", folder() / "sample"}, 2,
+                 "sample: NumPy's archives end in .npz");
   expect_failure(folder(),
-                 {"rcs", "--target", mesh, "--frequency-ghz", "10", "--azimuth-deg", "0", "-o", folder() / "rcs.csv", "--export-hot-spots",
-                  folder() / "spots.obj"},
+                 {"rcs", "--target", mesh, "--frequency-ghz", "10", "--azimuth-deg", "0", "-o", folder() / "rcs.csv",
+                  "--export-hot-spots", folder() / "spots.obj"},
                  2, "spots.obj: colours need the ending .glb or .gltf");
 }
 

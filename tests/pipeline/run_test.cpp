@@ -95,9 +95,10 @@ TEST_F(FinishedRun, GoesOnAfterAKillThatLeftHalfAModel) {
 
 TEST_F(FinishedRun, IsADataSetForTheCommandsOfOne) {
   const TemporaryFolder folder;
-  for (const std::vector<std::string>& words :
-       {std::vector<std::string>{"verify", directory_}, {"merge", directory_, "-o", folder.path() / "all.h5"},
-        {"export", directory_, "-o", folder.path() / "all.npz"}, {"remake", directory_, "--sample", "3"}}) {
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"verify", directory_},
+                                                {"merge", directory_, "-o", folder.path() / "all.h5"},
+                                                {"export", directory_, "-o", folder.path() / "all.npz"},
+                                                {"remake", directory_, "--sample", "3"}}) {
     const ProgramResult result = run_program(words);
     EXPECT_EQ(result.code, 0) << words[0] << ": " << result.err;
   }
@@ -117,7 +118,8 @@ TEST_F(FinishedRun, CanBeTrainedOnAndReportedAgain) {
   for (const std::string& data : {directory_.string() + "/data", directory_.string() + "/data/"}) {
     const ProgramResult of_data = run_program({"report", data});
     EXPECT_EQ(of_data.code, 2);
-    EXPECT_EQ(of_data.err, "seaglint: " + data + ": not the directory of a run: it is the data set of " + directory_.string() + "\n");
+    EXPECT_EQ(of_data.err, "seaglint: " + data + ": not the directory of a run: it is the data set of " +
+                               directory_.string() + "\n");
   }
 }
 
@@ -150,15 +152,20 @@ TEST_F(FinishedRun, IsReadWithItsOwnScenarioOnly) {
   write_file(run / "scenario.yaml", edited);
   const ProgramResult reported = run_program({"report", run});
   EXPECT_EQ(reported.code, 2);
-  EXPECT_THAT(reported.err, HasSubstr((run / "scenario.yaml").string() + ": is not the scenario of " + (run / "data" / "scenario.yaml").string()));
+  EXPECT_THAT(reported.err, HasSubstr((run / "scenario.yaml").string() + ": is not the scenario of " +
+                                      (run / "data" / "scenario.yaml").string()));
   EXPECT_THAT(reported.err, HasSubstr("scr_db: 20` there, `"));
   write_file(run / "data" / "scenario.yaml", edited);
-  for (const std::vector<std::string>& words :
-       {std::vector<std::string>{"report", run}, {"train", run, "-o", folder.path() / "model"}, {"export", run, "-o", folder.path() / "all.npz"},
-        {"remake", run, "--sample", "3"}, {"merge", run, "-o", folder.path() / "all.h5"}}) {
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"report", run},
+                                                {"train", run, "-o", folder.path() / "model"},
+                                                {"export", run, "-o", folder.path() / "all.npz"},
+                                                {"remake", run, "--sample", "3"},
+                                                {"merge", run, "-o", folder.path() / "all.h5"}}) {
     const ProgramResult result = run_program(words);
     EXPECT_EQ(result.code, 2) << words[0];
-    EXPECT_THAT(result.err, HasSubstr((run / "data" / "scenario.yaml").string() + ": is not the one that the manifest was written for")) << words[0];
+    EXPECT_THAT(result.err, HasSubstr((run / "data" / "scenario.yaml").string() +
+                                      ": is not the one that the manifest was written for"))
+        << words[0];
   }
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 1);
 }
@@ -212,14 +219,16 @@ TEST_F(FinishedRun, ReportShowsEveryPictureInABrowser) {
 TEST(Report, IsMadeWithoutTheMeshesWhereTheyAreNotFound) {
   const TemporaryFolder folder;
   const fs::path run = folder.path() / "run", scenario = folder.path() / "scenario.yaml";
-  write_file(scenario,
-             "seaglint: 1\ntargets:\n  one: {label: 1, mesh: assets/icosahedral_reflector.glb, motion: {model: float}}\n"
-             "  two: {label: 0, mesh: assets/icosahedral_reflector.glb, layout: {line: {count: 2, spacing_m: 20}}}\n"
-             "radar: {pulses: 32}\ndataset: {maps_per_case: 10, realisations_per_case: 5}\nlearning: {epochs: 1}\n");
+  write_file(
+      scenario,
+      "seaglint: 1\ntargets:\n  one: {label: 1, mesh: assets/icosahedral_reflector.glb, motion: {model: float}}\n"
+      "  two: {label: 0, mesh: assets/icosahedral_reflector.glb, layout: {line: {count: 2, spacing_m: 20}}}\n"
+      "radar: {pulses: 32}\ndataset: {maps_per_case: 10, realisations_per_case: 5}\nlearning: {epochs: 1}\n");
   const ProgramResult made = run_program({"run", scenario, "-o", run});
   ASSERT_EQ(made.code, 0) << made.err;
   EXPECT_THAT(read_file(run / "report.html"), HasSubstr("Picture of one"));
-  const ProgramResult elsewhere = run_words({"/bin/bash", "-c", "cd / && exec \"$@\"", "elsewhere", kProgram, "report", run});
+  const ProgramResult elsewhere =
+      run_words({"/bin/bash", "-c", "cd / && exec \"$@\"", "elsewhere", kProgram, "report", run});
   ASSERT_EQ(elsewhere.code, 0) << elsewhere.err;
   EXPECT_THAT(elsewhere.err, HasSubstr("seaglint: warning: "));
   EXPECT_THAT(elsewhere.err, HasSubstr("targets.one.mesh: value 'assets/icosahedral_reflector.glb': no such file"));
@@ -244,8 +253,8 @@ TEST(Run, SaysBeforeAnyWorkWhatLearningWouldRefuse) {
 
 TEST(Run, SaysBeforeAnyWorkThatGnuplotIsMissing) {
   const TemporaryFolder folder;
-  const ProgramResult result =
-      run_words({"/usr/bin/env", "PATH=" + folder.path().string(), kProgram, "run", "scenarios/points.yaml", "-o", folder.path() / "run"});
+  const ProgramResult result = run_words({"/usr/bin/env", "PATH=" + folder.path().string(), kProgram, "run",
+                                          "scenarios/points.yaml", "-o", folder.path() / "run"});
   EXPECT_EQ(result.code, 1);
   EXPECT_THAT(result.err, HasSubstr("install the package gnuplot-nox"));
   EXPECT_FALSE(fs::exists(folder.path() / "run"));

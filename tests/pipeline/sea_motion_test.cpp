@@ -167,20 +167,25 @@ TEST(Sea, FailsWhereItCannotWrite) {
 // Before the work, and so before the scenario or mesh, which is not there either.
 TEST(Commands, AskForThePlacesOfTheirFilesFirst) {
   const TemporaryFolder folder;
-  const std::string table = folder.path() / "table.csv", nowhere = "/nonexistent/file.png", no_archive = "/nonexistent/file.npz";
+  const std::string table = folder.path() / "table.csv", nowhere = "/nonexistent/file.png",
+                    no_archive = "/nonexistent/file.npz";
   const std::vector<std::string> rcs{"rcs", "--target", "no.glb", "--frequency-ghz", "16", "--azimuth-deg", "0"};
   const auto with = [](std::vector<std::string> words, std::initializer_list<std::string> more) {
     words.insert(words.end(), more);
     return words;
   };
-  for (const auto& words :
-       {std::vector<std::string>{"sea", "no.yaml", "-o", nowhere}, {"sea", "no.yaml", "-o", table, "--figure", nowhere},
-        {"motion", "no.yaml", "-o", nowhere}, {"motion", "no.yaml", "-o", table, "--rao", nowhere},
-        {"map", "no.yaml", "-o", nowhere}, {"echo", "no.yaml", "-o", no_archive}, with(rcs, {"-o", nowhere}),
-        with(rcs, {"-o", table, "--export-centres", nowhere})}) {
+  for (const auto& words : {std::vector<std::string>{"sea", "no.yaml", "-o", nowhere},
+                            {"sea", "no.yaml", "-o", table, "--figure", nowhere},
+                            {"motion", "no.yaml", "-o", nowhere},
+                            {"motion", "no.yaml", "-o", table, "--rao", nowhere},
+                            {"map", "no.yaml", "-o", nowhere},
+                            {"echo", "no.yaml", "-o", no_archive},
+                            with(rcs, {"-o", nowhere}),
+                            with(rcs, {"-o", table, "--export-centres", nowhere})}) {
     const ProgramResult result = run_program(words);
     EXPECT_EQ(result.code, 1) << words.front();
-    EXPECT_THAT(result.err, HasSubstr((words.front() == "echo" ? no_archive : nowhere) + ": cannot write: No such file or directory"));
+    EXPECT_THAT(result.err, HasSubstr((words.front() == "echo" ? no_archive : nowhere) +
+                                      ": cannot write: No such file or directory"));
   }
   for (const auto& words : {std::vector<std::string>{"sea", "no.yaml", "-o", table, "--figure", "figure.bmp"},
                             {"motion", "no.yaml", "-o", table, "--frames", "figure.bmp"},

@@ -32,7 +32,8 @@ TEST_F(VerifiedData, IsFoundSoundAndTheSameWhenMadeAgain) {
 }
 
 TEST_F(VerifiedData, IsNeitherMergedOverItselfNorTakenForARun) {
-  const std::string shard = read_file(directory_ / "shard_00000.h5"), scenario = read_file(directory_ / "scenario.yaml");
+  const std::string shard = read_file(directory_ / "shard_00000.h5"),
+                    scenario = read_file(directory_ / "scenario.yaml");
   for (const char* name : {"shard_00000.h5", "scenario.yaml", "manifest.json", "merged.txt"}) {
     const ProgramResult merged = run_program({"merge", directory_, "-o", directory_ / name});
     EXPECT_EQ(merged.code, 2) << name;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gmock/gmock.h>
-#include <unistd.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -22,7 +22,9 @@ namespace fs = std::filesystem;
 
 class MeshCommand : public testing::Test {
  protected:
-  MeshCommand() : folder(fs::path(testing::TempDir()) / ("seaglint_mesh_command_" + std::to_string(::getpid()))) { fs::create_directories(folder); }
+  MeshCommand() : folder(fs::path(testing::TempDir()) / ("seaglint_mesh_command_" + std::to_string(::getpid()))) {
+    fs::create_directories(folder);
+  }
   ~MeshCommand() override { fs::remove_all(folder); }
 
   // What the command prints.

@@ -30,8 +30,8 @@ TEST(MotionFrames, DrawTheWaterThatAShipComesTo) {
   EXPECT_NE(picture(0, period), picture(0, 0));
 }
 
-// A heading of 300 deg that swings by 10 deg (7.07 deg rms) about it every 8 s: the mean takes no part in the rms and the
-// period. The samples, 0.1 s apart, are those of ten whole periods, the last without its end.
+// A heading of 300 deg that swings by 10 deg (7.07 deg rms) about it every 8 s: the mean takes no part in the rms and
+// the period. The samples, 0.1 s apart, are those of ten whole periods, the last without its end.
 TEST(MotionStatistics, AreThoseAboutTheMean) {
   constexpr double kStep = 0.1, kPeriod = 8, kDuration = 79.9;
   const double omega = 2 * kPi / kPeriod, swing = radians(10);

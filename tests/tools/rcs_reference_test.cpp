@@ -24,7 +24,8 @@ constexpr double kPrinted_db = 1e-9;  // rounding of logarithm and power
 class RcsReferenceFile : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) / ("rcs reference " + std::to_string(::getpid()) + testing::UnitTest::GetInstance()->current_test_info()->name());
+    folder_ = fs::path(testing::TempDir()) / ("rcs reference " + std::to_string(::getpid()) +
+                                              testing::UnitTest::GetInstance()->current_test_info()->name());
     fs::create_directories(folder_);
   }
   void TearDown() override { fs::remove_all(folder_); }
@@ -55,13 +56,16 @@ ReferenceSettings as(Element element, double frequency_ghz = 10) {
 
 // What `seaglint rcs` writes above its columns.
 std::string own_table(const std::string& transmitter) {
-  return "# seaglint 0.1.0 rcs\n# physical optics at every visible bounce, max_bounces 40, edges on, crease_deg 20, sheet_thickness_mm 0, range_m 0 (0 = far field), " +
+  return "# seaglint 0.1.0 rcs\n# physical optics at every visible bounce, max_bounces 40, edges on, crease_deg 20, "
+         "sheet_thickness_mm 0, range_m 0 (0 = far field), " +
          transmitter + ", ray_spacing_m 0.001\nfrequency_hz,azimuth_deg,elevation_deg,vv_dbsm\n1e+10,3,4,-5\n";
 }
 
-// A table as CST 2020 writes it: names padded inside parentheses, units inside brackets, CRLF, theta fastest and through 0.
+// A table as CST 2020 writes it: names padded inside parentheses, units inside brackets, CRLF, theta fastest and
+// through 0.
 std::string cst_table(const std::string& unit, const std::string& rows) {
-  return "Theta [deg.]  Phi   [deg.]  Abs(RCS )[" + unit + "]   Abs(Theta)[" + unit + "]  Phase(Theta)[deg.]  Abs(Phi  )[" + unit +
+  return "Theta [deg.]  Phi   [deg.]  Abs(RCS )[" + unit + "]   Abs(Theta)[" + unit +
+         "]  Phase(Theta)[deg.]  Abs(Phi  )[" + unit +
          "]  Phase(Phi  )[deg.]  Ax.Ratio[dB    ]    \r\n"
          "------------------------------------------------------------------------------------------\r\n" +
          rows;
@@ -85,8 +89,8 @@ TEST_F(RcsReferenceFile, OfCstHasItsColumnsByNameAndItsUnitsByHeader) {
   // A received theta component of 4 m^2 at 30 deg, a phi component of 0.01 m^2 at 350 deg.
   const double level = 10 * std::log10(4.0);
   const auto row = [](double theta, double phi) {
-    return "     90.000          180.000            6.02060e+00          " + std::to_string(theta) + "              30.000          " + std::to_string(phi) +
-           "             350.000           2.684e+01     \r\n";
+    return "     90.000          180.000            6.02060e+00          " + std::to_string(theta) +
+           "              30.000          " + std::to_string(phi) + "             350.000           2.684e+01     \r\n";
   };
   const std::string area = cst_table("m^2", row(4, 0.01));
   const RcsReference vv = read("farfield (f=10) [pw].txt", area, as(Element::kVv));
@@ -105,17 +109,22 @@ TEST_F(RcsReferenceFile, OfCstHasItsColumnsByNameAndItsUnitsByHeader) {
   EXPECT_NEAR(degrees(std::arg(*read("a.txt", area, as(Element::kHv)).samples[0].amplitude_m)), 170, 1e-9);
   EXPECT_NEAR(degrees(std::arg(*read("a.txt", area, as(Element::kVh)).samples[0].amplitude_m)), -150, 1e-9);
 
-  EXPECT_NEAR(read("a.txt", cst_table("dB(m^2)", row(-3.5, 0)), as(Element::kVv)).samples[0].level_dbsm, -3.5, kPrinted_db);
-  EXPECT_NEAR(read("a.txt", cst_table("dBm^2 ", row(-3.5, 0)), as(Element::kVv)).samples[0].level_dbsm, -3.5, kPrinted_db);
-  EXPECT_NEAR(read("a.txt", cst_table("mm^2", row(4e6, 0)), as(Element::kVv)).samples[0].level_dbsm, level, kPrinted_db);
+  EXPECT_NEAR(read("a.txt", cst_table("dB(m^2)", row(-3.5, 0)), as(Element::kVv)).samples[0].level_dbsm, -3.5,
+              kPrinted_db);
+  EXPECT_NEAR(read("a.txt", cst_table("dBm^2 ", row(-3.5, 0)), as(Element::kVv)).samples[0].level_dbsm, -3.5,
+              kPrinted_db);
+  EXPECT_NEAR(read("a.txt", cst_table("mm^2", row(4e6, 0)), as(Element::kVv)).samples[0].level_dbsm, level,
+              kPrinted_db);
   EXPECT_NEAR(read("a.txt", cst_table("dB(mm^2)", row(60, 0)), as(Element::kVv)).samples[0].level_dbsm, 0, kPrinted_db);
   const double wavelength_db = 20 * std::log10(kSpeedOfLight / 10e9);
-  EXPECT_NEAR(read("a.txt", cst_table("dB(lambda^2)", row(60, 0)), as(Element::kVv)).samples[0].level_dbsm, 60 + wavelength_db, kPrinted_db);
+  EXPECT_NEAR(read("a.txt", cst_table("dB(lambda^2)", row(60, 0)), as(Element::kVv)).samples[0].level_dbsm,
+              60 + wavelength_db, kPrinted_db);
   EXPECT_NEAR(read("a.txt", cst_table("m^2", row(0, 0)), as(Element::kVv)).samples[0].level_dbsm, -1000, kPrinted_db);
 }
 
 TEST_F(RcsReferenceFile, OfCstWithNegativeThetaIsFoldedAndChangesSign) {
-  const std::string row = " -30,000  90,000  0,000e+00  0,000e+00  10,000  0,000e+00  20,000  0,000e+00\r\n";  // a localised machine's decimals
+  // a localised machine's decimals
+  const std::string row = " -30,000  90,000  0,000e+00  0,000e+00  10,000  0,000e+00  20,000  0,000e+00\r\n";
   const RcsReference vv = read("a.txt", cst_table("dB(m^2)", row), as(Element::kVv));
   EXPECT_EQ(vv.samples[0].theta_deg, 30);
   EXPECT_EQ(vv.samples[0].phi_deg, 270);
@@ -130,12 +139,14 @@ TEST_F(RcsReferenceFile, OfAFullCircleIsFoldedAtBothPoles) {
   }
   EXPECT_EQ(circle.samples[2].theta_deg, 10);
   EXPECT_EQ(circle.samples[2].phi_deg, 20);
-  const RcsReference cst = read("a.txt", cst_table("dB(m^2)", "190 20 0 0 30 0 0 0\r\n170 200 0 0 30 0 0 0\r\n"), as(Element::kVv));
+  const RcsReference cst =
+      read("a.txt", cst_table("dB(m^2)", "190 20 0 0 30 0 0 0\r\n170 200 0 0 30 0 0 0\r\n"), as(Element::kVv));
   EXPECT_LT(std::abs(*cst.samples[0].amplitude_m + *cst.samples[1].amplitude_m), kPrinted_db);
 }
 
 TEST_F(RcsReferenceFile, MayHaveAHeadAndExactZeros) {
-  const RcsReference reference = read("a.V.txt", "# frequency_hz theta_deg phi_deg dBsm\n1e10 90 0 -inf\n1e10 90 1 -3\n");
+  const RcsReference reference =
+      read("a.V.txt", "# frequency_hz theta_deg phi_deg dBsm\n1e10 90 0 -inf\n1e10 90 1 -3\n");
   ASSERT_EQ(reference.samples.size(), 2u);
   EXPECT_LT(reference.samples[0].level_dbsm, -300);
   EXPECT_THAT(refusal("b.V.txt", "1e10 90 0 low\n"), HasSubstr("b.V.txt:1: 'low': must be a number"));
@@ -169,16 +180,19 @@ TEST_F(RcsReferenceFile, ThatCannotBeUsedIsRefusedWithItsPlace) {
   EXPECT_THAT(refusal("a.txt", cst_table("m^2", row), no_frequency), HasSubstr("--reference-frequency-ghz"));
   EXPECT_THAT(refusal("a.txt", cst_table("dB    ", row), as(Element::kVv)), HasSubstr("relative to its own maximum"));
   EXPECT_THAT(refusal("a.txt", cst_table("V/m", row), as(Element::kVv)), HasSubstr("[V/m]: the unit must be"));
-  EXPECT_THAT(refusal("a.txt", cst_table("m^2", "90 0 1\r\n"), as(Element::kVv)), HasSubstr("a.txt:3: 3 columns: the header has 8"));
+  EXPECT_THAT(refusal("a.txt", cst_table("m^2", "90 0 1\r\n"), as(Element::kVv)),
+              HasSubstr("a.txt:3: 3 columns: the header has 8"));
   EXPECT_THAT(refusal("a.txt", cst_table("m^2", ""), as(Element::kVv)), HasSubstr("holds no values"));
-  EXPECT_THAT(refusal("own.csv", "frequency_hz,azimuth_deg,elevation_deg,vv_re\n", as(Element::kHh)), HasSubstr("hh_dbsm"));
+  EXPECT_THAT(refusal("own.csv", "frequency_hz,azimuth_deg,elevation_deg,vv_re\n", as(Element::kHh)),
+              HasSubstr("hh_dbsm"));
 }
 
 TEST_F(RcsReferenceFile, SaysWhereItsTransmitterStands) {
   const RcsReference monostatic = read("m.csv", own_table("monostatic"), as(Element::kVv));
   ASSERT_TRUE(monostatic.transmitter);
   EXPECT_TRUE(monostatic.transmitter->moves_along);
-  const RcsReference bistatic = read("b.csv", own_table("transmitter at azimuth -20 deg, elevation 30.5 deg"), as(Element::kVv));
+  const RcsReference bistatic =
+      read("b.csv", own_table("transmitter at azimuth -20 deg, elevation 30.5 deg"), as(Element::kVv));
   ASSERT_TRUE(bistatic.transmitter);
   EXPECT_FALSE(bistatic.transmitter->moves_along);
   EXPECT_EQ(bistatic.transmitter->phi_deg, 340);
@@ -187,8 +201,10 @@ TEST_F(RcsReferenceFile, SaysWhereItsTransmitterStands) {
 }
 
 TEST_F(RcsReferenceFile, IsRefusedWithAFrequencyThatIsNotItsOwn) {
-  EXPECT_THAT(refusal("a.V.txt", "10e9 90 0 -3\n", as(Element::kVv, 11)), HasSubstr("a.V.txt: holds 10 GHz by its own words: leave out --reference-frequency-ghz 11"));
-  EXPECT_THAT(refusal("own.csv", own_table("monostatic"), as(Element::kVv, 11)), HasSubstr("own.csv: holds 10 GHz by its own words"));
+  EXPECT_THAT(refusal("a.V.txt", "10e9 90 0 -3\n", as(Element::kVv, 11)),
+              HasSubstr("a.V.txt: holds 10 GHz by its own words: leave out --reference-frequency-ghz 11"));
+  EXPECT_THAT(refusal("own.csv", own_table("monostatic"), as(Element::kVv, 11)),
+              HasSubstr("own.csv: holds 10 GHz by its own words"));
   EXPECT_EQ(read("b.V.txt", "10e9 90 0 -3\n", as(Element::kVv, 10)).samples.size(), 1u);
 }
 
@@ -202,9 +218,11 @@ RcsSweep sweep_of(std::vector<double> azimuth_deg, std::vector<Complex> vv) {
   return sweep;
 }
 
-RcsReference cut_of(std::vector<std::pair<double, Complex>> values, const ReferenceSettings& settings = as(Element::kVv)) {
+RcsReference cut_of(std::vector<std::pair<double, Complex>> values,
+                    const ReferenceSettings& settings = as(Element::kVv)) {
   RcsReference reference{"other", Element::kVv, settings, {}, {}};
-  for (const auto& [phi, s] : values) reference.samples.push_back({10e9, 90, phi, 10 * std::log10(4 * kPi * std::norm(s)), s});
+  for (const auto& [phi, s] : values)
+    reference.samples.push_back({10e9, 90, phi, 10 * std::log10(4 * kPi * std::norm(s)), s});
   return reference;
 }
 
@@ -213,18 +231,21 @@ TEST(RcsComparison, FindsTheSameDirectionsThroughTheAnglesMap) {
   settings.phi_scale = -1;
   settings.phi_offset_deg = 180;
   // Azimuth 0, 90, 200 deg are phi 180, 90, 340 of the reference; 0.0004 deg are the printed digits' rounding.
-  const auto cuts = pair_with(sweep_of({0, 45, 90, 200}, {1, 2, 3, 4}), cut_of({{180.0004, 10}, {89.9996, 30}, {340, 40}, {7, 70}}, settings));
+  const auto cuts = pair_with(sweep_of({0, 45, 90, 200}, {1, 2, 3, 4}),
+                              cut_of({{180.0004, 10}, {89.9996, 30}, {340, 40}, {7, 70}}, settings));
   ASSERT_EQ(cuts.size(), 1u);
   EXPECT_EQ(cuts[0].x, (std::vector<double>{0, 90, 200}));
   EXPECT_EQ(cuts[0].models[0].amplitude_m, (std::vector<Complex>{1, 3, 4}));
   EXPECT_EQ(*cuts[0].frequency_hz, 10e9);
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(difference_of(cuts[0], cuts[0].models[0], 80).bias_db, -20, kPrinted_db);
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_NEAR(difference_of(cuts[0], cuts[0].models[0], 80).bias_db, -20, kPrinted_db);
 }
 
 TEST(RcsComparison, TakesLevelsBelowTheFloorAsTheFloor) {
   // 0, -10 and -300 dB against 0, -13 and -90 dB below the maximum.
   const auto db = [](double x) { return std::pow(10.0, x / 20); };
-  const auto cuts = pair_with(sweep_of({0, 1, 2}, {1, db(-10), db(-300)}), cut_of({{0, 1}, {1, db(-13)}, {2, db(-90)}}));
+  const auto cuts =
+      pair_with(sweep_of({0, 1, 2}, {1, db(-10), db(-300)}), cut_of({{0, 1}, {1, db(-13)}, {2, db(-90)}}));
   const Difference wide = difference_of(cuts[0], cuts[0].models[0], 80);
   EXPECT_NEAR(wide.mean_db, 1, kPrinted_db);  // 0, 3, 0
   EXPECT_NEAR(wide.rms_db, std::sqrt(3.0), kPrinted_db);
@@ -236,7 +257,8 @@ TEST(RcsComparison, TakesLevelsBelowTheFloorAsTheFloor) {
 }
 
 TEST(RcsComparison, CorrelatesComplexValuesAboutTheBodysOrigin) {
-  // The same point scatterer at x0, told about the body's origin here and about x0 there: S = e^{2jk r.x0} (CONVENTIONS.md).
+  // The same point scatterer at x0, told about the body's origin here and about x0 there: S = e^{2jk r.x0}
+  // (CONVENTIONS.md).
   const Vec3 x0(0.3, -0.2, 0.1);
   const double k = 2 * kPi * 10e9 / kSpeedOfLight;
   std::vector<double> azimuths;
@@ -284,13 +306,21 @@ TEST(RcsComparison, RefusesAReferenceOfAnotherTransmitter) {
   bistatic.transmitter = StatedTransmitter{false, 80, 20};
   EXPECT_EQ(refusal(sweep, silent), "");
   EXPECT_EQ(refusal(sweep, monostatic), "");
-  EXPECT_THAT(refusal(sweep, bistatic), HasSubstr("its transmitter stands at azimuth 20 deg, elevation 10 deg, the sweep is monostatic: give --transmit"));
-  sweep.transmitter = Vec3(std::cos(radians(10)) * std::cos(radians(20)), std::cos(radians(10)) * std::sin(radians(20)), std::sin(radians(10)));
+  EXPECT_THAT(
+      refusal(sweep, bistatic),
+      HasSubstr(
+          "its transmitter stands at azimuth 20 deg, elevation 10 deg, the sweep is monostatic: give --transmit"));
+  sweep.transmitter = Vec3(std::cos(radians(10)) * std::cos(radians(20)), std::cos(radians(10)) * std::sin(radians(20)),
+                           std::sin(radians(10)));
   EXPECT_EQ(refusal(sweep, silent), "");
   EXPECT_EQ(refusal(sweep, bistatic), "");
-  EXPECT_THAT(refusal(sweep, monostatic), HasSubstr("is monostatic by its own words, the sweep's transmitter stands at azimuth 20 deg"));
+  EXPECT_THAT(refusal(sweep, monostatic),
+              HasSubstr("is monostatic by its own words, the sweep's transmitter stands at azimuth 20 deg"));
   bistatic.transmitter->phi_deg = 21;
-  EXPECT_THAT(refusal(sweep, bistatic), HasSubstr("azimuth 21 deg, elevation 10 deg, the sweep's transmitter stands at azimuth 20 deg, elevation 10 deg"));
+  EXPECT_THAT(
+      refusal(sweep, bistatic),
+      HasSubstr(
+          "azimuth 21 deg, elevation 10 deg, the sweep's transmitter stands at azimuth 20 deg, elevation 10 deg"));
   bistatic.settings.phi_offset_deg = 1;
   EXPECT_EQ(refusal(sweep, bistatic), "");
 }

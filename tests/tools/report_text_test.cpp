@@ -28,9 +28,11 @@ ordered_json scores(double ships, double ships_right, double arrays_right) {
 }
 
 std::string table_of(const ordered_json& scores) {
-  return probes_table({{"split_repeats", 1},
-                       {"probes", {{{"name", "hop code"}, {"kind", "blind"}, {"meaning", "-"}, {"random", scores}, {"group", scores}}}}},
-                      {});
+  return probes_table(
+      {{"split_repeats", 1},
+       {"probes",
+        {{{"name", "hop code"}, {"kind", "blind"}, {"meaning", "-"}, {"random", scores}, {"group", scores}}}}},
+      {});
 }
 
 TEST(ProbesTable, CallsTheSharesOfTheClassesChance) {
@@ -49,8 +51,10 @@ TEST(ProbesTable, CallsTheSharesOfTheClassesChance) {
 ordered_json telling_probes() {
   ordered_json metrics{{"split_repeats", 1}, {"probes", ordered_json::array()}};
   const ordered_json right = scores(150, 145, 145);
-  for (const auto& [name, kind] : {std::pair{"total power", "scale"}, {"signal to clutter and noise", "ratio"}, {"sigma_v alone", "feature"}})
-    metrics["probes"].push_back({{"name", name}, {"kind", kind}, {"meaning", "-"}, {"random", right}, {"group", right}});
+  for (const auto& [name, kind] :
+       {std::pair{"total power", "scale"}, {"signal to clutter and noise", "ratio"}, {"sigma_v alone", "feature"}})
+    metrics["probes"].push_back(
+        {{"name", name}, {"kind", kind}, {"meaning", "-"}, {"random", right}, {"group", right}});
   return metrics;
 }
 
@@ -65,9 +69,11 @@ Scenario with_clutter(ClutterLevel level, NoiseLevel noise, bool enabled = true)
 // Where clutter or noise keep their own level, the ratio of the target to them decides which centres are found.
 TEST(Level, IsSeenByFeaturesWhereClutterOrNoiseDoNotFollowTheTarget) {
   const ordered_json metrics = telling_probes();
-  for (const Scenario& unseen : {with_clutter(ClutterLevel::kScr, NoiseLevel::kToClutter), with_clutter(ClutterLevel::kScr, NoiseLevel::kSnr),
-                                 with_clutter(ClutterLevel::kNrl, NoiseLevel::kSnr, false)}) {
-    EXPECT_THAT(note_of_level(metrics, unseen), HasSubstr("Total power alone reaches 96.7 % on unseen seas. No feature group sees it"));
+  for (const Scenario& unseen :
+       {with_clutter(ClutterLevel::kScr, NoiseLevel::kToClutter), with_clutter(ClutterLevel::kScr, NoiseLevel::kSnr),
+        with_clutter(ClutterLevel::kNrl, NoiseLevel::kSnr, false)}) {
+    EXPECT_THAT(note_of_level(metrics, unseen),
+                HasSubstr("Total power alone reaches 96.7 % on unseen seas. No feature group sees it"));
     EXPECT_THAT(probes_table(metrics, unseen), HasSubstr("no feature uses it"));
     EXPECT_THAT(probes_table(metrics, unseen), Not(HasSubstr("level has a part")));
   }
@@ -91,7 +97,12 @@ TEST(Level, IsSeenByFeaturesWhereClutterOrNoiseDoNotFollowTheTarget) {
 // 36 predictions of three splits are not 36 of a data set's 40 maps, 28 of which each split learns from.
 TEST(AccuracyTables, CallPredictionsOfPooledSplitsSo) {
   ordered_json evaluation = scores(150, 140, 140);
-  evaluation.update({{"rows", 36}, {"groups", 8}, {"auc", 0.9}, {"log_loss", 0.2}, {"train_rows", 28}, {"by_wave_height", ordered_json::array()}});
+  evaluation.update({{"rows", 36},
+                     {"groups", 8},
+                     {"auc", 0.9},
+                     {"log_loss", 0.2},
+                     {"train_rows", 28},
+                     {"by_wave_height", ordered_json::array()}});
   const ordered_json both{{"random", evaluation}, {"group", evaluation}};
   ordered_json metrics{{"split_repeats", 3}};
   for (const char* group : {"handmade", "cnn", "fused"}) {
@@ -102,8 +113,11 @@ TEST(AccuracyTables, CallPredictionsOfPooledSplitsSo) {
   EXPECT_THAT(pooled, Not(HasSubstr("test maps")));
   EXPECT_THAT(pooled, HasSubstr("test predictions"));
   EXPECT_THAT(pooled, HasSubstr("predictions: array as ship"));
-  EXPECT_THAT(pooled, HasSubstr("3 splits under each protocol, pooled: a map that several of them test has a prediction of each"));
-  EXPECT_THAT(note_of_seas(metrics), HasSubstr("3 splits by sea, pooled, test on 8 sea realisations in all, each on a part of them."));
+  EXPECT_THAT(
+      pooled,
+      HasSubstr("3 splits under each protocol, pooled: a map that several of them test has a prediction of each"));
+  EXPECT_THAT(note_of_seas(metrics),
+              HasSubstr("3 splits by sea, pooled, test on 8 sea realisations in all, each on a part of them."));
   metrics["split_repeats"] = 1;
   EXPECT_THAT(accuracy_tables(metrics), HasSubstr("a test prediction is a map"));
   EXPECT_THAT(note_of_seas(metrics), HasSubstr("The split by sea tests on 8 sea realisations."));

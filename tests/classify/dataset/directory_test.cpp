@@ -156,7 +156,8 @@ TEST_F(DataDirectory, ToGoOnInMayHoldNothingButADataSet) {
   EXPECT_THAT(refusal(), testing::EndsWith("the directory holds metrics.json, which is no file of a data set"));
   fs::create_directories(directory_ / "data");
   write_file(directory_ / "data" / kScenarioFile, effective_yaml(scenario_));
-  EXPECT_THAT(refusal(), testing::EndsWith("which is no file of a data set; the run's data set is " + (directory_ / "data").string()));
+  EXPECT_THAT(refusal(), testing::EndsWith("which is no file of a data set; the run's data set is " +
+                                           (directory_ / "data").string()));
 }
 
 TEST_F(DataDirectory, TakesAShardThatAnotherProcessWroteMeanwhileForItsOwn) {
@@ -261,7 +262,8 @@ TEST_F(DataDirectory, WithADamagedManifestGoesOnWithoutIt) {
   const std::string good = read_file(file);
   write_file(file, good.substr(0, good.size() / 2));
   EXPECT_THAT(error_of([&] { DatasetWriter(directory_, scenario_, true, kTestVersion); }),
-              testing::EndsWith("; the shards are kept: remove this file and go on by `seaglint generate SCENARIO -o DIR --resume`"));
+              testing::EndsWith(
+                  "; the shards are kept: remove this file and go on by `seaglint generate SCENARIO -o DIR --resume`"));
   fs::remove(file);
   DatasetWriter writer(directory_, scenario_, true, kTestVersion);
   for (std::size_t i = 0; i < plan_.shards(); ++i) EXPECT_TRUE(writer.complete(i));

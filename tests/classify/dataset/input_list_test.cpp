@@ -51,8 +51,9 @@ TEST_F(InputList, IsWrittenOnceAndHoldsTheFilesToIt) {
   EXPECT_EQ(read_file(folder_ / "data" / kInputsFile), sha256("ship") + "  targets.ship.mesh\n");
   EXPECT_EQ(complaint(), "");
   write("ship.obj", "another");
-  EXPECT_THAT(complaint(), HasSubstr(fmt::format("inputs.sha256: targets.ship.mesh: {} is not the file that the data set was begun with",
-                                                 (folder_ / "ship.obj").string())));
+  EXPECT_THAT(complaint(), HasSubstr(fmt::format(
+                               "inputs.sha256: targets.ship.mesh: {} is not the file that the data set was begun with",
+                               (folder_ / "ship.obj").string())));
   EXPECT_EQ(read_file(folder_ / "data" / kInputsFile), sha256("ship") + "  targets.ship.mesh\n");
   write("ship.obj", "ship");
   EXPECT_EQ(complaint(), "");

@@ -103,7 +103,8 @@ TEST(SamplePlan, SamplesOfOneSeaLieTogether) {
   }
 }
 
-// A turn of 30 deg to radians and back is 29.999999999999996: a selection by the scenario's own angle would find nothing.
+// A turn of 30 deg to radians and back is 29.999999999999996: a selection by the scenario's own angle would find
+// nothing.
 TEST(PlannedRecord, HasTheAnglesThatTheScenarioGives) {
   Scenario scenario = small_scenario();
   scenario.sea.propagation_deg = {120, -33.3};

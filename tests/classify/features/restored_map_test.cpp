@@ -21,7 +21,8 @@ std::vector<Complex> echo_of(const PulseTrain& train) {
   return synthesize_echo(train, point_response(kPoints, Vec3(1, 0, 0), interval_sampling(train, 0)), none, 1, 1).target;
 }
 
-// Largest difference of magnitudes against the largest of `b`, and the same without looking at the lobes' neighbourhood.
+// Largest difference of magnitudes against the largest of `b`, and the same without looking at the lobes'
+// neighbourhood.
 double largest_difference_db(const RvMap& a, const RvMap& b) {
   double difference = 0, peak = 0;
   for (std::size_t i = 0; i < a.values.size(); ++i) {
@@ -43,12 +44,14 @@ TEST(RestoredMap, IsTheMapOfARadarThatDoesNotHop) {
   FeatureSpec spec;
   spec.dynamic_range_db = 60;
   const CleanedMap cleaned = clean_map(echo_of(train), train, {}, false, spec);
-  const RvMap raw = form_rv_map(echo_of(train), train, {}, false), reference = form_rv_map(echo_of(plain), plain, {}, false);
+  const RvMap raw = form_rv_map(echo_of(train), train, {}, false),
+              reference = form_rv_map(echo_of(plain), plain, {}, false);
   ASSERT_EQ(raw.values.size(), reference.values.size());
   const double before = largest_difference_db(raw, reference),
                after = largest_difference_db(restored_map(cleaned, train, {}), reference);
   std::printf("against a radar that does not hop: map %.1f dB, restored %.1f dB of the peak\n", before, after);
-  // Left: range migration within a point's velocity sidelobes, 0.06 m of 0.75 m for 1 m/s off the peak; the map sees it.
+  // Left: range migration within a point's velocity sidelobes, 0.06 m of 0.75 m for 1 m/s off the peak; the map sees
+  // it.
   EXPECT_GT(before, -25);
   EXPECT_LT(after, -45);
 }

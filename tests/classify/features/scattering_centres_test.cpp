@@ -198,7 +198,8 @@ TEST(Centres, ClearOfAStrongRidgeAreFoundWhateverItsCrestDoes) {
   for (std::uint64_t trial = 0; trial < 20; ++trial) {
     const PulseTrain train = make_pulse_train(radar, kShipWindow, 1, trial);
     std::vector<PointSpec> points;
-    for (const ScatteringCentre& p : truth) points.push_back({{-p.range_m, 0, 0}, p.amplitude_m, {-p.velocity_mps, 0, 0}});
+    for (const ScatteringCentre& p : truth)
+      points.push_back({{-p.range_m, 0, 0}, p.amplitude_m, {-p.velocity_mps, 0, 0}});
     const Echo echo =
         synthesize_echo(train, point_response(points, Vec3(1, 0, 0), interval_sampling(train, 0)), clutter, 11, trial);
     const auto centres = extract_centres(receive(echo, train, clutter, map, false).echo, train, map, false, {});

@@ -34,8 +34,8 @@ ClutterScene scene_of(const WaveField& waves) {
 TEST(SeaVelocity, IsTheSumOfRipplesDriftAndWind) {
   const WaveField waves = realize_sea(waves_towards(180), 1, 1);  // away from a radar ahead
   const ClutterScene scene = scene_of(waves);
-  // Bragg ripples of 4 pi / 18.64 mm: sqrt(9.81 / 674.2 + 0.074 / 1025 x 674.2) = 0.2514 m/s. Wind of Hs 1 m:
-  // sqrt(9.81 / 0.22) = 6.678 m/s, 3 % of it 0.2003 m/s. Stokes drift (2 / g) integral w^3 S dw, here of the components.
+  // Bragg ripples of 4 pi / 18.64 mm: sqrt(9.81 / 674.2 + 0.074 / 1025 x 674.2) = 0.2514 m/s. Wind of Hs 1 m: sqrt(9.81
+  // / 0.22) = 6.678 m/s, 3 % of it 0.2003 m/s. Stokes drift (2 / g) integral w^3 S dw, here of the components.
   double stokes = 0;
   for (const WaveComponent& wave : waves.components())
     stokes += wave.amplitude * wave.amplitude * std::pow(wave.omega, 3) / kGravity;
@@ -82,8 +82,8 @@ TEST(SeaVelocity, HoldsTheDriftOfAParticleInAnyDepth) {
     const double drift = -sea_velocity({}, scene, kWavelength).mean_mps - bragg;
     std::printf("depth %.4g m: drift %.6g mm/s, of a particle %.6g, a^2 w k %.6g\n", depth, 1e3 * drift, 1e3 * x / t,
                 1e3 * amplitude * amplitude * omega * k);
-    // The next order is smaller by (3/8 Ur)^2 = (3/8 a / (k^2 h^3))^2 and (k a)^2, 4e-6 at most; the midpoint rule errs by
-    // (w step)^2 / 24 = 1e-7 of orbital speeds that are up to 800 times the drift.
+    // The next order is smaller by (3/8 Ur)^2 = (3/8 a / (k^2 h^3))^2 and (k a)^2, 4e-6 at most; the midpoint rule errs
+    // by (w step)^2 / 24 = 1e-7 of orbital speeds that are up to 800 times the drift.
     EXPECT_NEAR(drift / (x / t), 1, 1e-4) << depth << " m";
   }
 }
@@ -109,7 +109,8 @@ TEST(SeaVelocity, SpreadIsTheOneOfTheWaterAndOfFloatingScatterers) {
 }
 
 TEST(FloatingScatterers, GoAlongWithTheWaves) {
-  // One wave of 1 m amplitude and 8 s towards the radar: u = a w cos(w t - k x) along it; radial velocity is minus that.
+  // One wave of 1 m amplitude and 8 s towards the radar: u = a w cos(w t - k x) along it; radial velocity is minus
+  // that.
   const double omega = 2 * kPi / 8, k = omega * omega / kGravity;
   const WaveField wave({WaveComponent{omega, 1, 0, k, {1, 0}}}, Vec2(1, 0), 1, 10);
   ClutterScene scene = scene_of(wave);
@@ -119,7 +120,8 @@ TEST(FloatingScatterers, GoAlongWithTheWaves) {
   for (const int i : {0, 1}) {
     const double phase = omega * 3 + k * 25 * i;  // x = -range
     EXPECT_NEAR(floating.velocity_mps[i], -omega * std::cos(phase), 1e-9);
-    EXPECT_NEAR(floating.acceleration_mps2[i], omega * omega * std::sin(phase), 0.5 * 0.064 * std::pow(omega, 3) + 1e-9);
+    EXPECT_NEAR(floating.acceleration_mps2[i], omega * omega * std::sin(phase),
+                0.5 * 0.064 * std::pow(omega, 3) + 1e-9);
   }
 }
 
@@ -172,7 +174,8 @@ TEST(ClutterOfAShipOnItsWay, IsThePassingWaters) {
   sailing.way_mps = {10, 0, 0};
   // Seen from ahead the water falls behind, away from the radar.
   const double past = 10 * scene.r_hat.x();
-  EXPECT_NEAR(sea_velocity({}, sailing, kWavelength).mean_mps, sea_velocity({}, scene, kWavelength).mean_mps + past, 1e-12);
+  EXPECT_NEAR(sea_velocity({}, sailing, kWavelength).mean_mps, sea_velocity({}, scene, kWavelength).mean_mps + past,
+              1e-12);
   sailing.waves = &calm;
   EXPECT_NEAR(sea_velocity({}, sailing, kWavelength).mean_mps, past, 1e-12);
   sailing.waves = &waves;
@@ -181,7 +184,8 @@ TEST(ClutterOfAShipOnItsWay, IsThePassingWaters) {
   scene.radar.budget.beamwidth_deg = sailing.radar.budget.beamwidth_deg = 1e-9;
   const FloatingScatterers floating = floating_scatterers(sailing, {0, 70}, 0.064, 1, 1);
   for (const int i : {0, 1}) {
-    const double x = 200 - 70 * i / std::cos(grazing) * std::cos(azimuth), y = -70 * i / std::cos(grazing) * std::sin(azimuth);
+    const double x = 200 - 70 * i / std::cos(grazing) * std::cos(azimuth),
+                 y = -70 * i / std::cos(grazing) * std::sin(azimuth);
     EXPECT_NEAR(floating.velocity_mps[i], -scene.r_hat.dot(waves.surface(x, y, 20).velocity), 1e-6);
   }
   // Across the line of sight the whole beam passes by.

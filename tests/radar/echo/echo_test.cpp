@@ -129,7 +129,8 @@ TEST(Clutter, IsKDistributedInTheCellsItIsMeantFor) {
     for (int batch = 0; batch < 20; ++batch) {
       double first = 0, second = 0, count = 0;
       for (int i = 0; i < 20; ++i) {
-        for (const Complex& value : range_profile(train, clutter_response(train, spec, interval(20 * batch + i), 3, 20 * batch + i))) {
+        for (const Complex& value :
+             range_profile(train, clutter_response(train, spec, interval(20 * batch + i), 3, 20 * batch + i))) {
           const double intensity = std::norm(value);
           first += intensity;
           second += intensity * intensity;

@@ -22,8 +22,10 @@ TEST(SeaReflectivity, HasTheModelsValuesAtSixteenGigahertz) {
     double grazing_deg, sea_state, hh_db, vv_db;
   } rows[] = {{1, 1, -52.43, -49.02}, {1, 3, -39.62, -38.25}, {1, 5, -31.13, -31.11}, {3, 3, -37.85, -35.84}};
   for (const auto& row : rows) {
-    EXPECT_NEAR(nrl_reflectivity_db(Polarisation::kHh, radians(row.grazing_deg), 16e9, row.sea_state), row.hh_db, 0.0051);
-    EXPECT_NEAR(nrl_reflectivity_db(Polarisation::kVv, radians(row.grazing_deg), 16e9, row.sea_state), row.vv_db, 0.0051);
+    EXPECT_NEAR(nrl_reflectivity_db(Polarisation::kHh, radians(row.grazing_deg), 16e9, row.sea_state), row.hh_db,
+                0.0051);
+    EXPECT_NEAR(nrl_reflectivity_db(Polarisation::kVv, radians(row.grazing_deg), 16e9, row.sea_state), row.vv_db,
+                0.0051);
   }
 }
 
@@ -45,7 +47,8 @@ TEST(SeaReflectivity, AreaIsThatOfTheTwoWayBeam) {
   const double width = radians(2);
   double sum = 0;
   const double step = width / 1000;
-  for (double phi = -5 * width; phi < 5 * width; phi += step) sum += std::exp(-8 * std::log(2.0) * phi * phi / (width * width)) * step;
+  for (double phi = -5 * width; phi < 5 * width; phi += step)
+    sum += std::exp(-8 * std::log(2.0) * phi * phi / (width * width)) * step;
   EXPECT_NEAR(clutter_area_m2(radar, radians(60), 3) / (10e3 * sum * 3 / 0.5), 1, 1e-9);
 }
 
@@ -116,7 +119,8 @@ TEST(Texture, ChangesOverTimeAsStated) {
     double first = 0, second = 0, both = 0;
     const int keys = 200, cells = 64;
     for (int key = 0; key < keys; ++key) {
-      const std::vector<double> a = sea_texture(cells, 2, spec, 100, 3, key), b = sea_texture(cells, 2, spec, 100 + lag_s, 3, key);
+      const std::vector<double> a = sea_texture(cells, 2, spec, 100, 3, key),
+                                b = sea_texture(cells, 2, spec, 100 + lag_s, 3, key);
       for (int k = 0; k < cells; ++k) {
         first += (a[k] - 1) * (a[k] - 1);
         second += (b[k] - 1) * (b[k] - 1);

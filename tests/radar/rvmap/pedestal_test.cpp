@@ -73,8 +73,8 @@ TEST(Pedestal, OfOneFrequencyPerPulseIsTheClosedForm) {
   }
 }
 
-// 1,000 codes leave 0.14 dB of chance in a cell's mean, 40,000 leave 0.02 dB: the map's estimator, mean over each carrier's
-// pulses, then over the carriers that were used, written out.
+// 1,000 codes leave 0.14 dB of chance in a cell's mean, 40,000 leave 0.02 dB: the map's estimator, mean over each
+// carrier's pulses, then over the carriers that were used, written out.
 TEST(Pedestal, OfFortyThousandCodesIsTheClosedFormToATenthOfADecibel) {
   constexpr int kManyCodes = 40000;
   for (const HopCode code : {HopCode::kBalanced, HopCode::kRandom}) {
@@ -102,7 +102,8 @@ TEST(Pedestal, OfFortyThousandCodesIsTheClosedFormToATenthOfADecibel) {
         Complex mean;
         for (int i = 0; i < 8; ++i) mean += sum[i] / static_cast<double>(count[i]);  // 256 pulses leave none empty
         measured += std::norm(mean / 8.0) / kManyCodes;
-        if (repeat % 100 == 0) expected += expected_response_power(train, offset.range_m, offset.velocity_mps) * 100 / kManyCodes;
+        if (repeat % 100 == 0)
+          expected += expected_response_power(train, offset.range_m, offset.velocity_mps) * 100 / kManyCodes;
       }
       std::printf("%s dR %.1f m dv %.3f m/s: %d codes %.3f, closed form %.3f dB\n",
                   code == HopCode::kBalanced ? "balanced" : "random  ", offset.range_m, offset.velocity_mps, kManyCodes,

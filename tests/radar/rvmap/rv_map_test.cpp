@@ -53,8 +53,8 @@ Peak peak_of(const RvMap& map) {
   return peak;
 }
 
-// One cell of the map straight from the definition (radar/rvmap/README.md): compress, compensate, mean over each carrier's
-// pulses, inverse transform over the synthesised band; the band's centre is the phase reference.
+// One cell of the map straight from the definition (radar/rvmap/README.md): compress, compensate, mean over each
+// carrier's pulses, inverse transform over the synthesised band; the band's centre is the phase reference.
 Complex by_definition(const std::vector<Complex>& echo, const PulseTrain& train, const MapSpec& spec, bool intra_pulse,
                       double range_m, double velocity_mps) {
   const std::size_t frequencies = train.frequencies();

@@ -18,7 +18,7 @@
 namespace seaglint {
 namespace {
 
-const std::vector<PointSpec> kPoints{{{-31.5, 0, 0}, 1, {3, 0, 0}},   // farther, approaching
+const std::vector<PointSpec> kPoints{{{-31.5, 0, 0}, 1, {3, 0, 0}},  // farther, approaching
                                      {{4.2, 0, 0}, 0.6, {-1.5, 0, 0}},
                                      {{44, 0, 0}, 0.8, {0, 0, 0}}};
 
@@ -119,8 +119,8 @@ TEST(SampledEcho, GivesTheSameMapAsTheFrequencyDomain) {
   }
 }
 
-// The sampled rectangular chirp has power beyond |f| = fs/2 that folds into the band, about 1.5 % of the amplitude for a
-// time-bandwidth product of 900; the delayed chirp folds differently than P(f) for delays that are no whole samples.
+// The sampled rectangular chirp has power beyond |f| = fs/2 that folds into the band, about 1.5 % of the amplitude for
+// a time-bandwidth product of 900; the delayed chirp folds differently than P(f) for delays that are no whole samples.
 TEST(SampledEcho, DiffersFromAChirpDelayedInTimeByItsAliasingOnly) {
   for (const bool intra_pulse_motion : {false, true}) {
     const RadarSpec radar = radar_with(intra_pulse_motion);
@@ -145,13 +145,14 @@ TEST(SampledEcho, DiffersFromAChirpDelayedInTimeByItsAliasingOnly) {
 TEST(SampledEcho, SeesTheSameClutter) {
   const RadarSpec radar = radar_with(false);
   const PulseTrain train = make_pulse_train(radar, 100, 1, 2), fine = train_for_samples(train, radar);
-  const std::vector<Complex> coarse = clutter_response(train, {}, {}, 3, 4), finer = clutter_response(fine, {}, {}, 3, 4);
+  const std::vector<Complex> coarse = clutter_response(train, {}, {}, 3, 4),
+                             finer = clutter_response(fine, {}, {}, 3, 4);
   const std::size_t m = static_cast<std::size_t>(fine.refinement);
   double largest = 0;
   for (std::size_t n = 0; n < train.pulses(); ++n) {
     for (std::size_t b = 0; b < train.frequencies(); ++b) {
-      largest = std::max(largest, std::abs(coarse[n * train.frequencies() + b] -
-                                           finer[n * fine.frequencies() + m * b + (m - 1) / 2]));
+      largest = std::max(
+          largest, std::abs(coarse[n * train.frequencies() + b] - finer[n * fine.frequencies() + m * b + (m - 1) / 2]));
     }
   }
   EXPECT_LT(largest, 1e-12);

@@ -26,7 +26,8 @@ TEST(HopCodeFile, IsUsedBlockByBlock) {
 }
 
 TEST(HopCodeFile, RefusesWhatIsNoCode) {
-  for (const char* text : {"", "# nothing\n", "0 1 2", "0 1 2 3", "0 1 x 2", "0 1 -1 2", "0 1 1.5 2", "0 1 2 99999999999"}) {
+  for (const char* text :
+       {"", "# nothing\n", "0 1 2", "0 1 2 3", "0 1 x 2", "0 1 -1 2", "0 1 1.5 2", "0 1 2 99999999999"}) {
     EXPECT_THROW(parse_hop_code(text, "codes.txt", 4, 3), InputError) << text;
   }
   try {

@@ -27,16 +27,22 @@ Vec3 direction(double azimuth_deg, double elevation_deg) {
 
 std::vector<AntennaPair> cut(double from_deg, double to_deg, double step_deg, double elevation_deg) {
   std::vector<AntennaPair> views;
-  for (double az = from_deg; az <= to_deg + 1e-9; az += step_deg) views.push_back(monostatic(radar_basis(direction(az, elevation_deg))));
+  for (double az = from_deg; az <= to_deg + 1e-9; az += step_deg)
+    views.push_back(monostatic(radar_basis(direction(az, elevation_deg))));
   return views;
 }
 
-double norm(const Matrix& s) { return std::sqrt(std::norm(s[0]) + std::norm(s[1]) + std::norm(s[2]) + std::norm(s[3])); }
+double norm(const Matrix& s) {
+  return std::sqrt(std::norm(s[0]) + std::norm(s[1]) + std::norm(s[2]) + std::norm(s[3]));
+}
 
-double difference(const Matrix& a, const Matrix& b) { return norm({a[0] - b[0], a[1] - b[1], a[2] - b[2], a[3] - b[3]}); }
+double difference(const Matrix& a, const Matrix& b) {
+  return norm({a[0] - b[0], a[1] - b[1], a[2] - b[2], a[3] - b[3]});
+}
 
-// The modes of a rectangular guide between its mouth and a short (Harrington, Time-Harmonic Electromagnetic Fields, sec.
-// 4-3), fed and tapped by Kirchhoff's fields in the mouth as a cavity is: with a mode's fields e and eta h = y x^ x e,
+// The modes of a rectangular guide between its mouth and a short (Harrington, Time-Harmonic Electromagnetic Fields,
+// sec. 4-3), fed and tapped by Kirchhoff's fields in the mouth as a cavity is: with a mode's fields e and eta h = y x^
+// x e,
 //   a_n(E, H) = 1/(2 P_n) integral of (y_n E + eta H x x^) . e_n,   P_n = y_n integral of e_n^2,
 //   S_pq = -jk/(2 pi) sum of P_n a_n(p) a_n(q) e^{-2j beta_n depth}
 // Modes beyond cut-off by more than e^{-12} at the short are left out.
@@ -60,7 +66,8 @@ Matrix guide_by_modes(double a, double b, double depth, double k, const RadarBas
       // Of cos(ky y) sin(kz z) and sin(ky y) cos(kz z), the patterns of e_y and e_z.
       const Complex in_y = integral(a, m, true, radar.r.y()) * integral(b, n, false, radar.r.z());
       const Complex in_z = integral(a, m, false, radar.r.y()) * integral(b, n, true, radar.r.z());
-      const double share_y = (m == 0 ? 1.0 : 0.5) * (n == 0 ? 0.0 : 0.5) * a * b, share_z = (m == 0 ? 0.0 : 0.5) * (n == 0 ? 1.0 : 0.5) * a * b;
+      const double share_y = (m == 0 ? 1.0 : 0.5) * (n == 0 ? 0.0 : 0.5) * a * b,
+                   share_z = (m == 0 ? 0.0 : 0.5) * (n == 0 ? 1.0 : 0.5) * a * b;
       for (const bool te : {true, false}) {
         if (!te && (m == 0 || n == 0)) continue;
         const double e_y = te ? kz : ky, e_z = te ? -ky : kz;
@@ -123,7 +130,8 @@ TriangleMesh crooked_guide() {
   return mesh;
 }
 
-std::vector<Matrix> echoes(const TriangleMesh& mesh, const std::vector<AntennaPair>& views, double k = kWavenumber, int threads = 2) {
+std::vector<Matrix> echoes(const TriangleMesh& mesh, const std::vector<AntennaPair>& views, double k = kWavenumber,
+                           int threads = 2) {
   const Scatterer whole(mesh);
   return Cavity(mesh, 0, whole).scattering_matrices(k, views, threads);
 }
@@ -144,7 +152,8 @@ TEST(CavityEcho, MovesItsPhaseWithItsPlaceAndGrowsWithItsSize) {
   const std::vector<Matrix> here = echoes(mesh, views);
   const Vec3 moved(3, -2, 1);
   const std::vector<Matrix> there = echoes(transformed(mesh, Mat3::Identity(), moved), views);
-  const std::vector<Matrix> twice = echoes(transformed(mesh, 2 * Mat3::Identity(), Vec3::Zero()), views, kWavenumber / 2);
+  const std::vector<Matrix> twice =
+      echoes(transformed(mesh, 2 * Mat3::Identity(), Vec3::Zero()), views, kWavenumber / 2);
   for (std::size_t i = 0; i < views.size(); ++i) {
     const Complex phase = std::polar(1.0, 2 * kWavenumber * views[i].transmit.r.dot(moved));
     Matrix expected = here[i], doubled = here[i];
@@ -217,7 +226,8 @@ std::map<double, double> reference_cut(const std::string& name) {
 }
 
 TEST(CavityEcho, AndTheRestOfABoxWithADuctComeWithinADecibelOfTheMethodOfMoments) {
-  const TriangleMesh mesh = read_mesh(std::string(SEAGLINT_SOURCE_DIR) + "/tests/reference/rcs/austin/duct_box.glb", "m");
+  const TriangleMesh mesh =
+      read_mesh(std::string(SEAGLINT_SOURCE_DIR) + "/tests/reference/rcs/austin/duct_box.glb", "m");
   const auto duct = std::find(mesh.part_names.begin(), mesh.part_names.end(), "duct") - mesh.part_names.begin();
   const Scatterer box(mesh);
   IlluminationSettings settings;
@@ -232,7 +242,9 @@ TEST(CavityEcho, AndTheRestOfABoxWithADuctComeWithinADecibelOfTheMethodOfMoments
     double floor = -1000, sum = 0;
     for (const auto& [azimuth, level] : reference) floor = std::max(floor, level - 40);
     for (std::size_t i = 0; i < views.size(); ++i) {
-      const Complex S = scattering_matrices(box, views[i], std::array{k}, settings, 2)[0][static_cast<std::size_t>(element)] + inside[i][static_cast<std::size_t>(element)];
+      const Complex S =
+          scattering_matrices(box, views[i], std::array{k}, settings, 2)[0][static_cast<std::size_t>(element)] +
+          inside[i][static_cast<std::size_t>(element)];
       const double level = 10 * std::log10(4 * kPi * std::norm(S) + 1e-30);
       sum += std::abs(std::max(level, floor) - std::max(reference.at(2.5 * static_cast<double>(i)), floor));
     }

@@ -50,8 +50,8 @@ TEST(WallPatches, AreAboutOneSizeAndLieOnTheWall) {
   const TriangleMesh mesh = tube(kRadius, 0.5, 300);
   const auto patches = wall_patches(mesh, kSize);
   EXPECT_NEAR(static_cast<double>(patches.size()) * kSize * kSize / surface_area(mesh), 1, 0.25);
-  // Seeds lie 0.94 of a size apart at least: a hexagon of 0.77 squares, of which the tube's end may take half; no point is
-  // farther than that from a seed, which a hexagon of 2.3 squares would need everywhere.
+  // Seeds lie 0.94 of a size apart at least: a hexagon of 0.77 squares, of which the tube's end may take half; no point
+  // is farther than that from a seed, which a hexagon of 2.3 squares would need everywhere.
   for (const WallPatch& p : patches) {
     EXPECT_GT(p.area, 0.3 * kSize * kSize);
     EXPECT_LT(p.area, 2 * kSize * kSize);
@@ -64,7 +64,8 @@ TEST(WallPatches, AreAboutOneSizeAndLieOnTheWall) {
 }
 
 TEST(WallPatches, EndAtCorners) {
-  for (const WallPatch& p : wall_patches(guide(0.3, 0.2, 0.5), 0.013)) EXPECT_GT(p.normal.cwiseAbs().maxCoeff(), 1 - 1e-9);
+  for (const WallPatch& p : wall_patches(guide(0.3, 0.2, 0.5), 0.013))
+    EXPECT_GT(p.normal.cwiseAbs().maxCoeff(), 1 - 1e-9);
 }
 
 TEST(WallPatches, RefuseWallsTooLargeForTheWavelength) {

@@ -116,7 +116,8 @@ TEST_F(Files, MakesADirectoryWithItsParents) {
   fs::permissions(folder_, fs::perms::group_exec | fs::perms::others_exec, fs::perm_options::add);
   const fs::path locked = folder_ / "locked";
   fs::create_directory(locked);
-  fs::permissions(locked, fs::perms::owner_read | fs::perms::owner_exec | fs::perms::others_read | fs::perms::others_exec);
+  fs::permissions(locked,
+                  fs::perms::owner_read | fs::perms::owner_exec | fs::perms::others_read | fs::perms::others_exec);
   EXPECT_EXIT(
       {
         if (::geteuid() == 0 && ::setuid(65534) != 0) std::abort();

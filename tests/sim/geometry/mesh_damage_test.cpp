@@ -2,8 +2,8 @@
 // Damaged files of all formats: each is read as some mesh or refused with an InputError that names it; nothing else may
 // happen.
 #include <gmock/gmock.h>
-#include <unistd.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -21,7 +21,9 @@ namespace fs = std::filesystem;
 
 class DamagedMesh : public testing::TestWithParam<const char*> {
  protected:
-  DamagedMesh() : folder(fs::path(testing::TempDir()) / ("seaglint_damage_" + std::to_string(::getpid()) + std::string(GetParam()))) {
+  DamagedMesh()
+      : folder(fs::path(testing::TempDir()) /
+               ("seaglint_damage_" + std::to_string(::getpid()) + std::string(GetParam()))) {
     fs::create_directories(folder);
     const fs::path sound = folder / ("sound" + std::string(GetParam()));
     write_mesh(sound, make_icosahedral_reflector());

@@ -17,7 +17,9 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-void flip(TriangleMesh& mesh, std::size_t triangle) { std::swap(mesh.triangles[triangle][1], mesh.triangles[triangle][2]); }
+void flip(TriangleMesh& mesh, std::size_t triangle) {
+  std::swap(mesh.triangles[triangle][1], mesh.triangles[triangle][2]);
+}
 
 void add(TriangleMesh& mesh, std::array<std::uint32_t, 3> triangle) {
   mesh.triangles.push_back(triangle);
@@ -72,7 +74,8 @@ TEST(MeshHealth, LeavesOutRepeatedAndDegenerateTriangles) {
   EXPECT_EQ(health.repeated, 1u);
   EXPECT_EQ(health.degenerate, 1u);
   EXPECT_EQ(health.open_surfaces, 0u);
-  EXPECT_THAT(findings(health), ElementsAre(HasSubstr("1 triangle has no area"), HasSubstr("1 triangle repeats another")));
+  EXPECT_THAT(findings(health),
+              ElementsAre(HasSubstr("1 triangle has no area"), HasSubstr("1 triangle repeats another")));
   EXPECT_EQ(repaired(dirty).triangles, sphere.triangles);
 }
 
@@ -83,7 +86,8 @@ TEST(MeshHealth, LeavesOneSideOfSheetsOfTwo) {
   const MeshHealth health = examine(two_sided);
   EXPECT_EQ(health.two_sided, 2u);
   EXPECT_EQ(health.open_edges, 4u);
-  EXPECT_THAT(findings(health), ElementsAre(HasSubstr("4 open edges"), HasSubstr("2 triangles are the back of another")));
+  EXPECT_THAT(findings(health),
+              ElementsAre(HasSubstr("4 open edges"), HasSubstr("2 triangles are the back of another")));
   EXPECT_EQ(repaired(two_sided).triangles, sheet.triangles);
 }
 
@@ -119,16 +123,20 @@ TEST(MeshHealth, KeepsBothSidesOfASheetOfTwoMaterials) {
 TEST(MeshHealth, NamesTheSideThatAnOpenSurfaceLoses) {
   TriangleMesh mesh = plate_of_two_materials(true);
   mesh.vertices.push_back({1, 0, 0});
-  add(mesh, {mesh.triangles[0][0], mesh.triangles[0][1], static_cast<std::uint32_t>(mesh.vertices.size() - 1)});  // a fin of one side
+  // a fin of one side
+  add(mesh, {mesh.triangles[0][0], mesh.triangles[0][1], static_cast<std::uint32_t>(mesh.vertices.size() - 1)});
   EXPECT_EQ(examine(mesh).lost_sides, 2u);
-  EXPECT_THAT(findings(examine(mesh)), testing::Contains(HasSubstr("2 triangles are the back of another in another material, the first of them of part 'back' behind part 'front'")));
+  EXPECT_THAT(findings(examine(mesh)),
+              testing::Contains(HasSubstr("2 triangles are the back of another in another material, the first of them "
+                                          "of part 'back' behind part 'front'")));
   EXPECT_EQ(repaired(mesh).triangles.size(), 3u);
 }
 
 TEST(MeshHealth, CountsEdgesOfThreeTriangles) {
   TriangleMesh fin = make_plate(1, 1);
   fin.vertices.push_back({1, 0, 0});
-  add(fin, {fin.triangles[0][0], fin.triangles[0][2], static_cast<std::uint32_t>(fin.vertices.size() - 1)});  // on the diagonal
+  // on the diagonal
+  add(fin, {fin.triangles[0][0], fin.triangles[0][2], static_cast<std::uint32_t>(fin.vertices.size() - 1)});
   EXPECT_EQ(examine(fin).non_manifold_edges, 1u);
 }
 
@@ -159,14 +167,16 @@ TEST(MeshHealth, JudgesBodiesThatTouchAlongAnEdgeEachByItself) {
   }
 }
 
-// Two caps and two discs between them on one ring of edges: none is closed alone, all together are the skin of a hollow body.
+// Two caps and two discs between them on one ring of edges: none is closed alone, all together are the skin of a hollow
+// body.
 TEST(MeshHealth, JudgesPiecesThatOnlyCloseTogetherAsOne) {
   MeshBuilder builder;
   for (int i = 0; i < 4; ++i) builder.vertex({std::cos(i * kPi / 2), std::sin(i * kPi / 2), 0});
   for (const double z : {1.0, -1.0, 0.2, -0.2}) builder.vertex({0, 0, z});
   for (std::uint32_t i = 0; i < 4; ++i) {
     const std::uint32_t next = (i + 1) % 4;
-    builder.triangle(i, next, 4), builder.triangle(next, i, 5), builder.triangle(next, i, 6), builder.triangle(i, next, 7);
+    builder.triangle(i, next, 4), builder.triangle(next, i, 5), builder.triangle(next, i, 6),
+        builder.triangle(i, next, 7);
   }
   TriangleMesh mesh = builder.take();
   const double volume = enclosed_volume(mesh);
@@ -179,11 +189,13 @@ TEST(MeshHealth, JudgesPiecesThatOnlyCloseTogetherAsOne) {
 
 TEST(MeshHealth, SaysWhereAPartitionLeavesNoInside) {
   TriangleMesh divided = cube_at(Vec3::Zero());
-  for (const auto& t : {std::array<std::uint32_t, 3>{0, 1, 7}, {0, 7, 6}}) add(divided, t);  // a slanting wall from edge to edge
+  // a slanting wall from edge to edge
+  for (const auto& t : {std::array<std::uint32_t, 3>{0, 1, 7}, {0, 7, 6}}) add(divided, t);
   const MeshHealth health = examine(divided);
   EXPECT_EQ(health.open_edges, 0u);
   EXPECT_EQ(health.branching_surfaces, 1u);
-  EXPECT_THAT(findings(health), ElementsAre(HasSubstr("1 surface that branches there: no telling which side is inside")));
+  EXPECT_THAT(findings(health),
+              ElementsAre(HasSubstr("1 surface that branches there: no telling which side is inside")));
 }
 
 }  // namespace

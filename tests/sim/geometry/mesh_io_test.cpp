@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <unistd.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -25,8 +25,9 @@ namespace fs = std::filesystem;
 class MeshFile : public testing::Test {
  protected:
   void SetUp() override {
-    folder = fs::path(testing::TempDir()) /
-             ("seaglint_mesh_" + std::to_string(::getpid()) + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    folder =
+        fs::path(testing::TempDir()) / ("seaglint_mesh_" + std::to_string(::getpid()) +
+                                        std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
     fs::remove_all(folder);
     fs::create_directories(folder);
   }
@@ -194,10 +195,16 @@ TEST_F(MeshFile, GltfThatPromisesWhatItDoesNotHoldIsRefused) {
 // What would move or bend vertices is not read, and must not be left out in silence.
 TEST_F(MeshFile, GltfThatPlacesItsMeshOtherwiseIsRefused) {
   expect_error(put("a.gltf", gltf_with(R"([{"mesh":0,"skin":0}])")), "nodes[0] has a skin");
-  expect_error(put("a.gltf", gltf_with(R"([{"mesh":0,"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":0}}}}])")), "EXT_mesh_gpu_instancing");
+  expect_error(
+      put("a.gltf",
+          gltf_with(R"([{"mesh":0,"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":0}}}}])")),
+      "EXT_mesh_gpu_instancing");
   std::string json = gltf_with(R"([{"mesh":0}])");
-  expect_error(put("a.gltf", json.insert(json.find("\"attributes\""), R"("targets":[{"POSITION":0}],)")), "meshes[0].primitives[0] has morph targets");
-  EXPECT_EQ(read_mesh(put("a.gltf", gltf_with(R"([{"mesh":0,"extensions":{"KHR_lights_punctual":{"light":0}}}])"))).triangles.size(), 1u);
+  expect_error(put("a.gltf", json.insert(json.find("\"attributes\""), R"("targets":[{"POSITION":0}],)")),
+               "meshes[0].primitives[0] has morph targets");
+  EXPECT_EQ(read_mesh(put("a.gltf", gltf_with(R"([{"mesh":0,"extensions":{"KHR_lights_punctual":{"light":0}}}])")))
+                .triangles.size(),
+            1u);
 }
 
 TEST_F(MeshFile, GltfIndicesBeyondTheirVerticesAreRefused) {
@@ -245,7 +252,9 @@ TEST_F(MeshFile, ConcavePolygonsAreCoveredOnce) {
   EXPECT_NEAR(surface_area(read_mesh(put("a.obj", obj))), 3.0, 1e-12);
   const std::string header = "property float x\nproperty float y\nproperty float z\n";
   const auto ply = [&](const std::string& face) {
-    return put("a.ply", "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_indices\nelement vertex 7\n" + header + "end_header\n" + face + corners);
+    return put("a.ply",
+               "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_indices\nelement vertex 7\n" +
+                   header + "end_header\n" + face + corners);
   };
   EXPECT_NEAR(surface_area(read_mesh(ply("7 1 2 3 4 5 6 0\n"))), 3.0, 1e-12);
   expect_error(ply("4 0 2 1 5\n"), "face 0: a polygon of 4 corners that crosses itself");
@@ -287,8 +296,14 @@ TEST_F(MeshFile, GltfOfTooManyPartsIsRefused) {
 
 TEST_F(MeshFile, NamesThatAreNotUtf8AreLatin1) {
   const std::string corners = "v 0 0 0\nv 2 0 0\nv 0 1 0\n";
-  for (const auto& [written, read] : {std::pair<std::string, std::string>{"Br\xFC" "cke", "Br\xC3\xBC" "cke"},
-                                      {"Br\xC3\xBC" "cke", "Br\xC3\xBC" "cke"},
+  for (const auto& [written, read] : {std::pair<std::string, std::string>{"Br\xFC"
+                                                                          "cke",
+                                                                          "Br\xC3\xBC"
+                                                                          "cke"},
+                                      {"Br\xC3\xBC"
+                                       "cke",
+                                       "Br\xC3\xBC"
+                                       "cke"},
                                       {"\xE6\xA9\x8B \xF0\x9F\x9A\xA2", "\xE6\xA9\x8B \xF0\x9F\x9A\xA2"},
                                       {"cut \xC3", "cut \xC3\x83"},
                                       {"\xED\xA0\x80", "\xC3\xAD\xC2\xA0\xC2\x80"},

@@ -96,7 +96,8 @@ TEST(SplitPolygon, CoversConcaveShapesWhereverTheyBegin) {
 TEST(SplitPolygon, KeepsTheFanOfConvexOnes) {
   Corners round;
   for (int i = 0; i < 9; ++i) round.push_back({7 + std::cos(i * kPi / 4.5), 3 * std::sin(i * kPi / 4.5), 1});
-  for (const Corners& corner : {flat({{0, 0}, {1, 0}, {1, 1}, {0, 1}}), flat({{0, 0}, {1, 0}, {2, 0}, {2, 1}, {0, 1}, {0, 0.5}}), round}) {
+  for (const Corners& corner :
+       {flat({{0, 0}, {1, 0}, {1, 1}, {0, 1}}), flat({{0, 0}, {1, 0}, {2, 0}, {2, 1}, {0, 1}, {0, 0.5}}), round}) {
     Triangles fan;
     for (std::uint32_t i = 1; i + 1 < corner.size(); ++i) fan.push_back({0, i, i + 1});
     EXPECT_EQ(split_polygon(corner), fan);
@@ -129,7 +130,8 @@ TEST(SplitPolygon, FansWhatEnclosesNothing) {
 }
 
 TEST(SplitPolygon, SplitsThousandsOfCornersAndNoMore) {
-  const Corners most = spiral(static_cast<int>(kMostConcaveCorners) / 2 - 1), more = spiral(static_cast<int>(kMostConcaveCorners) / 2);
+  const Corners most = spiral(static_cast<int>(kMostConcaveCorners) / 2 - 1),
+                more = spiral(static_cast<int>(kMostConcaveCorners) / 2);
   ASSERT_EQ(most.size(), kMostConcaveCorners);
   expect_covers(most, area_of(most).norm());
   EXPECT_FALSE(split_polygon(more));

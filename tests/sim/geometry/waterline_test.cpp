@@ -44,12 +44,14 @@ TEST(Waterline, LeavesAMeshThatStandsOnTheWaterAsItIs) {
 TEST(Waterline, WetsABottomOnTheWaterWhateverItsRounding) {
   for (const double height : {-1.25, -1.3, -1.7, 2.3, 0.1}) {
     for (const double offset : {-2e-7, 0.0, 2e-7}) {
-      TriangleMesh cylinder = transformed(make_cylinder(0.5, 1, 12), Mat3::Identity(), Vec3(0, 0, height + 0.5 + offset * std::abs(height)));
+      TriangleMesh cylinder = transformed(make_cylinder(0.5, 1, 12), Mat3::Identity(),
+                                          Vec3(0, 0, height + 0.5 + offset * std::abs(height)));
       for (Vec3& p : cylinder.vertices) p = p.cast<float>().cast<double>();
       const WaterlineCut cut = cut_at_waterline(cylinder, height);
       EXPECT_EQ(cut.mesh.triangles.size(), cylinder.triangles.size()) << "nothing is cut";
       for (std::size_t t = 0; t < cut.below.size(); ++t) {
-        EXPECT_EQ(cut.below[t], area_vector(cut.mesh, t).normalized().z() < -0.5) << "the bottom alone, height " << height;
+        EXPECT_EQ(cut.below[t], area_vector(cut.mesh, t).normalized().z() < -0.5)
+            << "the bottom alone, height " << height;
       }
     }
   }

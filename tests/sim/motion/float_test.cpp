@@ -200,14 +200,17 @@ TEST(MakeBody, RefusesStepsThatABodysSwingWouldFallBetween) {
     }
     return std::string("none");
   };
-  EXPECT_EQ(refused(0.1), "motion.step_s: value 0.1: must be at most 0.025, an eighth of the shortest natural period, 0.2 s");
-  EXPECT_EQ(refused(0.0251), "motion.step_s: value 0.0251: must be at most 0.025, an eighth of the shortest natural period, 0.2 s");
+  EXPECT_EQ(refused(0.1),
+            "motion.step_s: value 0.1: must be at most 0.025, an eighth of the shortest natural period, 0.2 s");
+  EXPECT_EQ(refused(0.0251),
+            "motion.step_s: value 0.0251: must be at most 0.025, an eighth of the shortest natural period, 0.2 s");
   EXPECT_EQ(refused(0.025), "none");
   spec.roll_period_s = spec.pitch_period_s = 0;
   spec.heave_period_s = 0.4;
   EXPECT_EQ(refused(0.06), "none");  // it does not heave
   spec.translations = true;
-  EXPECT_EQ(refused(0.06), "motion.step_s: value 0.06: must be at most 0.05, an eighth of the shortest natural period, 0.4 s");
+  EXPECT_EQ(refused(0.06),
+            "motion.step_s: value 0.06: must be at most 0.05, an eighth of the shortest natural period, 0.4 s");
 }
 
 TEST(RandomYaw, HasTheGivenRateAndTheCorrelationOfItsProcess) {

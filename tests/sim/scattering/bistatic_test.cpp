@@ -20,11 +20,12 @@ TriangleMesh plate(double a, double b) {
 }
 
 std::array<Complex, 4> bistatic_echo(const Scatterer& scatterer, const Vec3& r_t, const Vec3& r_s, int bounces = 8) {
-  return scattering_matrices(scatterer, bistatic(radar_basis(r_t), radar_basis(r_s)), std::array{wavenumber(kF)}, {0.01, bounces})[0];
+  return scattering_matrices(scatterer, bistatic(radar_basis(r_t), radar_basis(r_s)), std::array{wavenumber(kF)},
+                             {0.01, bounces})[0];
 }
 
-// In the specular direction all of the plate radiates in phase: |S| = A cos(theta) / lambda. Geometrical optics turns v into v and h into minus
-// itself, which is h of the other side.
+// In the specular direction all of the plate radiates in phase: |S| = A cos(theta) / lambda. Geometrical optics turns v
+// into v and h into minus itself, which is h of the other side.
 TEST(Bistatic, PlateMirrorsTheWaveIntoTheSpecularDirection) {
   const Scatterer target(plate(0.3, 0.2));
   const double lambda = kSpeedOfLight / kF;
@@ -78,17 +79,20 @@ TEST(Bistatic, MovingTheTargetTurnsThePhaseByBothPaths) {
   for (int i = 0; i < 4; ++i) EXPECT_NEAR(std::abs(after[i] - before[i] * phase), 0, 1e-3 * size);
 }
 
-// A right-angled dihedral answers a wave from any side in its cross section back to where it came from, and mirrors it along its seam.
+// A right-angled dihedral answers a wave from any side in its cross section back to where it came from, and mirrors it
+// along its seam.
 TEST(Bistatic, DihedralMirrorsAlongItsSeam) {
   const double side = 0.3, k = wavenumber(kF);
   TriangleMesh mesh;  // faces in x = 0 and y = 0, seam along z
-  mesh.vertices = {{0, 0, -side / 2}, {side, 0, -side / 2}, {side, 0, side / 2}, {0, 0, side / 2}, {0, side, -side / 2}, {0, side, side / 2}};
+  mesh.vertices = {{0, 0, -side / 2}, {side, 0, -side / 2}, {side, 0, side / 2},
+                   {0, 0, side / 2},  {0, side, -side / 2}, {0, side, side / 2}};
   mesh.triangles = {{0, 2, 1}, {0, 3, 2}, {0, 4, 5}, {0, 5, 3}};
   const Scatterer dihedral(mesh);
   const double el = 20;
-  const auto s = scattering_matrices(dihedral, bistatic(radar_basis(direction(45, el)), radar_basis(direction(45, -el))), std::array{k}, {0.01, 2})[0];
-  // Two bounces: aperture 2 side sin 45 x side cos(el) in phase, less what leaves past the end while it travels from face to face (sqrt2 x tan(el)
-  // along the seam at x from it), on top of single bounces without a specular direction.
+  const auto s = scattering_matrices(
+      dihedral, bistatic(radar_basis(direction(45, el)), radar_basis(direction(45, -el))), std::array{k}, {0.01, 2})[0];
+  // Two bounces: aperture 2 side sin 45 x side cos(el) in phase, less what leaves past the end while it travels from
+  // face to face (sqrt2 x tan(el) along the seam at x from it), on top of single bounces without a specular direction.
   const double kept = 1 - std::tan(radians(el)) / std::sqrt(2.0);
   const double aperture = kept * std::sqrt(2.0) * side * side * std::cos(radians(el)) * k / (2 * kPi);
   EXPECT_NEAR(std::abs(s[kVvChannel]), aperture, 0.03 * aperture);

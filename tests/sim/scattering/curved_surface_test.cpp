@@ -59,12 +59,13 @@ Deviation sphere_against_mie(int subdivisions, double crease_deg, const Vec3& r_
     mie.emplace_back(row[1], row[2]);
   }
   const Scatterer sphere(make_sphere(1, subdivisions), {}, radians(crease_deg));
-  for (const auto& s : scattering_matrices(sphere, monostatic(radar_basis(r_hat)), k, {0, 1})) ours.push_back(s[kVvChannel]);
+  for (const auto& s : scattering_matrices(sphere, monostatic(radar_basis(r_hat)), k, {0, 1}))
+    ours.push_back(s[kVvChannel]);
   return deviation(ours, mie);
 }
 
-// What remains at 20,480 facets: contour terms beside the specular point (1 / kContourRatio of the ring's share), quadratic facets (edge^3), the
-// creeping wave (0.017 dB at ka 64).
+// What remains at 20,480 facets: contour terms beside the specular point (1 / kContourRatio of the ring's share),
+// quadratic facets (edge^3), the creeping wave (0.017 dB at ka 64).
 TEST(CurvedSurface, SphereFollowsTheMieSeriesFromKa60To200) {
   double sum = 0;
   for (const Vec3& r_hat : {direction(23, 11), direction(80, -35), direction(200, 60)}) {
@@ -82,15 +83,17 @@ TEST(CurvedSurface, SphereNeedsFewFacets) {
   for (const int subdivisions : {3, 4, 5}) {
     const Deviation flat = sphere_against_mie(subdivisions, 0, direction(23, 11), 3);
     const Deviation smooth = sphere_against_mie(subdivisions, kDefaultCreaseDeg, direction(23, 11), 3);
-    std::printf("%d facets: flat mean %.3f, largest %.3f dB, %.1f deg; smooth mean %.3f, largest %.3f dB, %.2f deg\n", 20 << (2 * subdivisions),
-                flat.mean_db, flat.largest_db, flat.largest_deg, smooth.mean_db, smooth.largest_db, smooth.largest_deg);
+    std::printf("%d facets: flat mean %.3f, largest %.3f dB, %.1f deg; smooth mean %.3f, largest %.3f dB, %.2f deg\n",
+                20 << (2 * subdivisions), flat.mean_db, flat.largest_db, flat.largest_deg, smooth.mean_db,
+                smooth.largest_db, smooth.largest_deg);
     EXPECT_LT(smooth.mean_db, 0.05);
     EXPECT_LT(smooth.largest_db, 0.1);
     EXPECT_LT(smooth.largest_deg, 1);
   }
 }
 
-// sigma_3D = sigma_2D 2 L^2 / lambda: S = j L F / pi, with H_z of the incident and the scattered wave of opposite sign for h.
+// sigma_3D = sigma_2D 2 L^2 / lambda: S = j L F / pi, with H_z of the incident and the scattered wave of opposite sign
+// for h.
 TEST(CurvedSurface, CylinderAtBroadsideFollowsTheExactSeries) {
   const double radius = 0.5, height = 1.2;
   std::vector<double> k;
@@ -109,10 +112,12 @@ TEST(CurvedSurface, CylinderAtBroadsideFollowsTheExactSeries) {
         v.push_back(s[kVvChannel]);
       }
       const Deviation dv = deviation(v, tm), dh = deviation(h, te);
-      std::printf("%d sides, crease %g deg: vv mean %.3f, largest %.3f dB, %.2f deg; hh %.3f, %.3f dB, %.2f deg\n", segments, crease_deg, dv.mean_db,
-                  dv.largest_db, dv.largest_deg, dh.mean_db, dh.largest_db, dh.largest_deg);
+      std::printf("%d sides, crease %g deg: vv mean %.3f, largest %.3f dB, %.2f deg; hh %.3f, %.3f dB, %.2f deg\n",
+                  segments, crease_deg, dv.mean_db, dv.largest_db, dv.largest_deg, dh.mean_db, dh.largest_db,
+                  dh.largest_deg);
       if (crease_deg == 0) continue;
-      // Physical optics is off by 5/16 and 11/16 of 1/ka in phase: 0.3 and 0.7 deg at ka 60; the contour beside the flash by 1 / (kContourRatio^1.5).
+      // Physical optics is off by 5/16 and 11/16 of 1/ka in phase: 0.3 and 0.7 deg at ka 60; the contour beside the
+      // flash by 1 / (kContourRatio^1.5).
       EXPECT_LT(dv.mean_db, 0.05) << segments;
       EXPECT_LT(dv.largest_db, 0.1) << segments;
       EXPECT_LT(dh.largest_db, 0.1) << segments;
@@ -122,17 +127,20 @@ TEST(CurvedSurface, CylinderAtBroadsideFollowsTheExactSeries) {
   }
 }
 
-// Bistatic sphere of the Austin suite (problem set IA), D = 19.2 m, 0.32 GHz, incidence from phi 0, in the plane theta = 90.
+// Bistatic sphere of the Austin suite (problem set IA), D = 19.2 m, 0.32 GHz, incidence from phi 0, in the plane theta
+// = 90.
 TEST(CurvedSurface, BistaticSphereFollowsTheSeriesOverTheLitHalf) {
   const Scatterer sphere(make_sphere(9.6, 5));
   const RadarBasis transmit = radar_basis(direction(0, 0));
-  for (const auto& [file, channel] : {std::pair{"austin/ref_rcs.I.A.s7.f6.H.txt", kHhChannel}, {"austin/ref_rcs.I.A.s7.f6.V.txt", kVvChannel}}) {
+  for (const auto& [file, channel] :
+       {std::pair{"austin/ref_rcs.I.A.s7.f6.H.txt", kHhChannel}, {"austin/ref_rcs.I.A.s7.f6.V.txt", kVvChannel}}) {
     std::array<double, 4> sum{}, largest{};
     std::array<int, 4> count{};
     for (const auto& row : read_numbers(file)) {
       const double phi = row[2];
       if (std::fmod(phi, 5) != 0 || phi >= 120) continue;
-      const auto s = scattering_matrices(sphere, bistatic(transmit, radar_basis(direction(phi, 0))), std::array{wavenumber(0.32e9)}, {0, 1})[0];
+      const auto s = scattering_matrices(sphere, bistatic(transmit, radar_basis(direction(phi, 0))),
+                                         std::array{wavenumber(0.32e9)}, {0, 1})[0];
       const double difference = std::abs(dbsm(s[channel]) - row[3]);
       const auto sector = static_cast<std::size_t>(phi / 30);
       sum[sector] += difference;
@@ -140,7 +148,8 @@ TEST(CurvedSurface, BistaticSphereFollowsTheSeriesOverTheLitHalf) {
       ++count[sector];
     }
     for (int i = 0; i < 4; ++i) {
-      std::printf("%s phi %d-%d: mean %.3f, largest %.3f dB\n", file, 30 * i, 30 * i + 30, sum[i] / count[i], largest[i]);
+      std::printf("%s phi %d-%d: mean %.3f, largest %.3f dB\n", file, 30 * i, 30 * i + 30, sum[i] / count[i],
+                  largest[i]);
     }
     // The shadow boundary of incidence is 90 deg from backscatter, that of reception moves in with phi.
     EXPECT_LT((sum[0] + sum[1] + sum[2]) / (count[0] + count[1] + count[2]), 0.5) << file;
@@ -154,7 +163,8 @@ TEST(CurvedSurface, EdgesOfFacetsDoNotRadiate) {
   const auto ripple = [&](const Scatterer& sphere) {
     double lowest = 1e9, highest = -1e9;
     for (int i = 0; i < 40; ++i) {
-      const double level = dbsm(echo(sphere, radar_basis(direction(20 + 0.25 * i, 10 + 0.1 * i)), ka, 0, 1)[kVvChannel]);
+      const double level =
+          dbsm(echo(sphere, radar_basis(direction(20 + 0.25 * i, 10 + 0.1 * i)), ka, 0, 1)[kVvChannel]);
       lowest = std::min(lowest, level);
       highest = std::max(highest, level);
     }
@@ -166,8 +176,8 @@ TEST(CurvedSurface, EdgesOfFacetsDoNotRadiate) {
   EXPECT_LT(without, 0.25 * with_edges);
 }
 
-// A hard shadow edge of a sphere adds a false end point, -jk integral of z e^{2jkz} dz at z = 0: +j/(4k). Its phase stands still while the specular one
-// runs with 2ka, so that a mean over whole cycles singles it out.
+// A hard shadow edge of a sphere adds a false end point, -jk integral of z e^{2jkz} dz at z = 0: +j/(4k). Its phase
+// stands still while the specular one runs with 2ka, so that a mean over whole cycles singles it out.
 TEST(CurvedSurface, TheShadowBoundaryDoesNotRadiate) {
   constexpr int kSteps = 60;
   std::vector<double> ka;
@@ -188,14 +198,18 @@ TEST(CurvedSurface, TheShadowBoundaryDoesNotRadiate) {
   EXPECT_LT(faded, 0.1);
 }
 
-// A cylinder standing on a plate returns what falls on either of them first and the other next. Unfolded in the plate, either way is the cylinder's
-// specular flash at its full height: together |S| = (k / pi) L cos(el) R sqrt(pi / (k R cos(el))), whatever the distance between them.
+// A cylinder standing on a plate returns what falls on either of them first and the other next. Unfolded in the plate,
+// either way is the cylinder's specular flash at its full height: together |S| = (k / pi) L cos(el) R sqrt(pi / (k R
+// cos(el))), whatever the distance between them.
 TEST(CurvedSurface, CylinderOnAPlateReturnsTheTopHatsEcho) {
   const double radius = 0.5, height = 0.4, k = wavenumber(8e9), elevation = radians(40);
-  const double expected = k / kPi * height * std::cos(elevation) * radius * std::sqrt(kPi / (k * radius * std::cos(elevation)));
+  const double expected =
+      k / kPi * height * std::cos(elevation) * radius * std::sqrt(kPi / (k * radius * std::cos(elevation)));
   for (const int segments : {72, 144, 288}) {
-    TriangleMesh hat = transformed(make_cylinder(radius, height, segments), Mat3::Identity(), {0, 0, 0.5 * height + 1e-4});
-    TriangleMesh floor = transformed(make_plate(4, 4), Eigen::AngleAxisd(-kPi / 2, Vec3::UnitY()).toRotationMatrix(), Vec3::Zero());
+    TriangleMesh hat =
+        transformed(make_cylinder(radius, height, segments), Mat3::Identity(), {0, 0, 0.5 * height + 1e-4});
+    TriangleMesh floor =
+        transformed(make_plate(4, 4), Eigen::AngleAxisd(-kPi / 2, Vec3::UnitY()).toRotationMatrix(), Vec3::Zero());
     hat.append(floor);
     std::array<double, 2> mean{};
     for (int mode = 0; mode < 2; ++mode) {
@@ -209,7 +223,8 @@ TEST(CurvedSurface, CylinderOnAPlateReturnsTheTopHatsEcho) {
         mean[mode] += db / kViews;
         largest = std::max(largest, std::abs(db));
       }
-      std::printf("top hat, %d sides, %s: mean %.2f, largest %.2f dB\n", segments, mode == 0 ? "flat" : "smooth", mean[mode], largest);
+      std::printf("top hat, %d sides, %s: mean %.2f, largest %.2f dB\n", segments, mode == 0 ? "flat" : "smooth",
+                  mean[mode], largest);
       if (mode == 1) {
         EXPECT_LT(largest, 0.5) << segments;
       }
@@ -251,7 +266,8 @@ TEST(SmoothSurface, KeepsALargeFaceFlatBesideAFillet) {
     mesh.vertices.push_back({x, y, 1});
   };
   column(-half, 0);
-  for (int i = 0; i <= 9; ++i) column(half + radius * std::sin(radians(10.0 * i)), -radius * (1 - std::cos(radians(10.0 * i))));
+  for (int i = 0; i <= 9; ++i)
+    column(half + radius * std::sin(radians(10.0 * i)), -radius * (1 - std::cos(radians(10.0 * i))));
   for (std::uint32_t i = 0; i + 3 < mesh.vertices.size(); i += 2) {
     mesh.triangles.push_back({i, i + 2, i + 3});
     mesh.triangles.push_back({i, i + 3, i + 1});

@@ -46,14 +46,16 @@ TEST(DirectionPath, OfOneAntennaIsAlongTheChordAndBesideIt) {
 }
 
 TEST(DirectionPath, OfTwoAntennasKeepsWhatBothDoTogether) {
-  const RadarBasis to = radar_basis(Vec3(0.9, 0.1, 0.3).normalized()), from = radar_basis(Vec3(0.8, -0.4, -0.3).normalized());
+  const RadarBasis to = radar_basis(Vec3(0.9, 0.1, 0.3).normalized()),
+                   from = radar_basis(Vec3(0.8, -0.4, -0.3).normalized());
   const double reach = 1e-3;
   const DirectionPath path = direction_path(bent_way(to, reach, 10), bent_way(from, 0.5 * reach, 40), to.r, from.r);
   const PathGradient gradient{Vec3(20, 4, 9), Vec3(-3, 11, 2)};
   const std::vector<Vec3> there = bent_way(to, reach, 10), back = bent_way(from, 0.5 * reach, 40);
   for (std::size_t n = 0; n < there.size(); ++n) {
     const Vec3 t = there[n] - to.r, r = back[n] - from.r;
-    const double across = gradient.transmit.dot(t - to.r * to.r.dot(t)) + gradient.receive.dot(r - from.r * from.r.dot(r));
+    const double across =
+        gradient.transmit.dot(t - to.r * to.r.dot(t)) + gradient.receive.dot(r - from.r * from.r.dot(r));
     // Both bend in proportion, so that one axis has all of it; unit vectors bring terms of third order.
     EXPECT_NEAR(path.s[n] * path.track.speed(gradient) + path.q[n] * path.bend.speed(gradient), across, 30 * 2e-9);
   }

@@ -17,7 +17,9 @@ using testing::HasSubstr;
 constexpr double kRounding = 1e-9;  // relative; the same facets in another order
 const double k10 = wavenumber(10e9);
 
-void flip(TriangleMesh& mesh, std::size_t triangle) { std::swap(mesh.triangles[triangle][1], mesh.triangles[triangle][2]); }
+void flip(TriangleMesh& mesh, std::size_t triangle) {
+  std::swap(mesh.triangles[triangle][1], mesh.triangles[triangle][2]);
+}
 
 void add(TriangleMesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
   mesh.triangles.push_back(triangle);
@@ -50,7 +52,8 @@ TEST(DirtyMesh, OfMixedNormalsEchoesAsTheSoundOne) {
   const TriangleMesh sound = make_icosahedral_reflector();
   TriangleMesh mixed = sound;
   for (std::size_t t = 0; t < mixed.triangles.size(); t += 3) flip(mixed, t);
-  EXPECT_LT(difference(sound, repaired(mixed)), 1e-6);  // both sides are looked at: what is hidden is hidden by polygons, to their smallest area
+  // both sides are looked at: what is hidden is hidden by polygons, to their smallest area
+  EXPECT_LT(difference(sound, repaired(mixed)), 1e-6);
 }
 
 TEST(DirtyMesh, WithRepeatedAndDegenerateTrianglesEchoesAsTheSoundOne) {
@@ -70,7 +73,8 @@ TEST(DirtyMesh, OfTwoSidedSheetsEchoesAsTheSheets) {
   EXPECT_LT(difference(sheet, repaired(two_sided)), kRounding);
 }
 
-// Front and back of a corner are parts of their own, of conductor and of an impedance: from either side what stands there answers, whichever part comes first.
+// Front and back of a corner are parts of their own, of conductor and of an impedance: from either side what stands
+// there answers, whichever part comes first.
 TEST(DirtyMesh, SheetsOfTwoMaterialsShowEachSideItsOwn) {
   MaterialSpec dull;
   dull.name = "dull";
@@ -95,7 +99,8 @@ TEST(DirtyMesh, SheetsOfTwoMaterialsShowEachSideItsOwn) {
     both = welded(both);
     const Vec3 into = direction(40, 30), behind = direction(220, -30);
     const auto front = seen(both, into, {{"back", dull}}), front_alone = seen(side("front", false), into, {});
-    const auto back = seen(both, behind, {{"back", dull}}), back_alone = seen(side("back", true), behind, {{"back", dull}});
+    const auto back = seen(both, behind, {{"back", dull}}),
+               back_alone = seen(side("back", true), behind, {{"back", dull}});
     for (int i = 0; i < 4; ++i) {
       EXPECT_LT(std::abs(front[i] - front_alone[i]), 1e-6 * largest(front_alone)) << first << " comes first";
       EXPECT_LT(std::abs(back[i] - back_alone[i]), 1e-6 * largest(back_alone)) << first << " comes first";

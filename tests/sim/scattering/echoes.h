@@ -53,7 +53,8 @@ inline TriangleMesh cut_plate(double length, double width, std::uint32_t cells) 
   cut.vertices.clear();
   cut.triangles.clear();
   for (std::uint32_t j = 0; j <= cells; ++j) {
-    for (std::uint32_t i = 0; i <= cells; ++i) cut.vertices.push_back({0, length * i / cells - length / 2, width * j / cells - width / 2});
+    for (std::uint32_t i = 0; i <= cells; ++i)
+      cut.vertices.push_back({0, length * i / cells - length / 2, width * j / cells - width / 2});
   }
   for (std::uint32_t j = 0; j < cells; ++j) {
     for (std::uint32_t i = 0; i < cells; ++i) {

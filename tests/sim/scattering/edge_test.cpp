@@ -84,19 +84,24 @@ TEST(Trihedral, IsNearerToTheFullWaveSolutionWithItsEdges) {
   EXPECT_GT(correlation, 0.995);
 }
 
-// Where a trihedral's direction passes the plane halfway between two of its faces, these change places on the ways by both. Nothing steps there: over 0.002 deg the echo of 6.5 m moves by less than
-// its lobes, k times the leg per radian of turn, and 0.01 m of edge waves that run along the rims from a vertex, on one side of the plane or the other. Reflected waves that met the seams as if
-// from behind stepped by 0.7 m.
+// Where a trihedral's direction passes the plane halfway between two of its faces, these change places on the ways by
+// both. Nothing steps there: over 0.002 deg the echo of 6.5 m moves by less than its lobes, k times the leg per radian
+// of turn, and 0.01 m of edge waves that run along the rims from a vertex, on one side of the plane or the other.
+// Reflected waves that met the seams as if from behind stepped by 0.7 m.
 TEST(Trihedral, HasNoStepWhereTwoFacesChangePlaces) {
   constexpr double leg = 4, aside_deg = 0.001;
   const Scatterer trihedral(make_triangular_trihedral(leg));
   const double k = wavenumber(0.3e9);
   for (const double elevation_deg : {10.0, 25.0, 35.0}) {
     const double middle_deg = degrees(std::asin(std::tan(radians(elevation_deg))));  // y = z
-    const auto at = [&](double azimuth_deg) { return echo(trihedral, radar_basis(direction(azimuth_deg, elevation_deg)), k, 0, 8, true); };
+    const auto at = [&](double azimuth_deg) {
+      return echo(trihedral, radar_basis(direction(azimuth_deg, elevation_deg)), k, 0, 8, true);
+    };
     const auto before = at(middle_deg - aside_deg), after = at(middle_deg + aside_deg);
     for (const int channel : {kHhChannel, kVvChannel}) {
-      EXPECT_LT(std::abs(after[channel] - before[channel]), 0.01 + std::abs(before[channel]) * k * leg * 2 * radians(aside_deg)) << elevation_deg << ' ' << channel;
+      EXPECT_LT(std::abs(after[channel] - before[channel]),
+                0.01 + std::abs(before[channel]) * k * leg * 2 * radians(aside_deg))
+          << elevation_deg << ' ' << channel;
     }
   }
 }
@@ -132,7 +137,8 @@ TEST(Plate, EdgeOnIsSeenHoweverItIsTurned) {
   const double k = wavenumber(10e9);
   for (const double turned_deg : {0.0, 20.0, 45.0, 90.0, 135.0, 160.0}) {
     const Mat3 turn = Eigen::AngleAxisd(radians(turned_deg), Vec3::UnitX()).toRotationMatrix();
-    const Scatterer sheet(transformed(make_plate(0.3, 0.2), turn * Eigen::AngleAxisd(kPi / 2, Vec3::UnitY()).toRotationMatrix(), Vec3::Zero()));
+    const Scatterer sheet(transformed(
+        make_plate(0.3, 0.2), turn * Eigen::AngleAxisd(kPi / 2, Vec3::UnitY()).toRotationMatrix(), Vec3::Zero()));
     const double exactly = largest(echo(sheet, radar_basis(direction(0, 0)), k, 0, 8, true));
     const double beside = largest(echo(sheet, radar_basis(direction(1e-3, 1.3e-3)), k, 0, 8, true));
     EXPECT_GT(exactly, 0.5 * beside) << turned_deg;
@@ -140,19 +146,23 @@ TEST(Plate, EdgeOnIsSeenHoweverItIsTurned) {
   }
 }
 
-// A sheet in the line of sight answers however small it is beside the body's radius: far from the origin as at it, but for the phase.
+// A sheet in the line of sight answers however small it is beside the body's radius: far from the origin as at it, but
+// for the phase.
 TEST(Plate, EdgeOnAnswersWhereverItIs) {
   const double k = wavenumber(10e9);
   const Mat3 flat = Eigen::AngleAxisd(kPi / 2, Vec3::UnitY()).toRotationMatrix();
   for (const double elevation_deg : {0.0, 5e-4}) {
     const Vec3 r = direction(0, elevation_deg);
-    const Complex here = echo(Scatterer(transformed(make_plate(0.2, 0.2), flat, Vec3::Zero())), radar_basis(r), k, 0, 8, true)[kHhChannel];
+    const Complex here = echo(Scatterer(transformed(make_plate(0.2, 0.2), flat, Vec3::Zero())), radar_basis(r), k, 0, 8,
+                              true)[kHhChannel];
     EXPECT_GT(std::abs(here), 0.01);  // m
     for (const Vec3& place : {Vec3(3, 0, 0), Vec3(5, 20, 1)}) {
-      const Complex there = echo(Scatterer(transformed(make_plate(0.2, 0.2), flat, place)), radar_basis(r), k, 0, 8, true)[kHhChannel];
+      const Complex there =
+          echo(Scatterer(transformed(make_plate(0.2, 0.2), flat, place)), radar_basis(r), k, 0, 8, true)[kHhChannel];
       // Exactly in its plane it is looked at 1e-6 rad aside, and corners lie within 1e-7 m of it.
       const double tolerance = 2 * k * (1e-6 * place.norm() + 1e-7);
-      EXPECT_LT(std::abs(there / here * std::polar(1.0, -2 * k * r.dot(place)) - 1.0), tolerance) << elevation_deg << ' ' << place.transpose();
+      EXPECT_LT(std::abs(there / here * std::polar(1.0, -2 * k * r.dot(place)) - 1.0), tolerance)
+          << elevation_deg << ' ' << place.transpose();
     }
   }
 }
@@ -217,24 +227,28 @@ TEST(Edges, OfTheShipAreFiniteInThePlanesOfItsFaces) {
   }
 }
 
-// Physical optics of a face is not reciprocal, Keller's coefficients are: fringe currents make up for it. What is left is corners, and in any direction
-// that lies on no edge's cone the choice of the ray along which currents are summed.
+// Physical optics of a face is not reciprocal, Keller's coefficients are: fringe currents make up for it. What is left
+// is corners, and in any direction that lies on no edge's cone the choice of the ray along which currents are summed.
 TEST(Edges, MakeAPlateAnswerAlikeWhenTransmitterAndReceiverChangePlaces) {
   const Scatterer plate(make_plate(0.25, 0.15));
   const std::array k{wavenumber(10e9)};
   Random random({5, Stream::kTest, 43});
-  const auto any_view = [&] { return radar_basis(direction(160 * random.uniform() - 80, 100 * random.uniform() - 50)); };
+  const auto any_view = [&] {
+    return radar_basis(direction(160 * random.uniform() - 80, 100 * random.uniform() - 50));
+  };
   double optics = 0, with_edges = 0;
   for (int i = 0; i < 200; ++i) {
     const RadarBasis t = any_view(), r = any_view();
     for (const bool edges : {false, true}) {
-      const auto there = scattering_matrices(plate, bistatic(t, r), k, {0, 1, edges})[0], back = scattering_matrices(plate, bistatic(r, t), k, {0, 1, edges})[0];
+      const auto there = scattering_matrices(plate, bistatic(t, r), k, {0, 1, edges})[0],
+                 back = scattering_matrices(plate, bistatic(r, t), k, {0, 1, edges})[0];
       double& sum = edges ? with_edges : optics;
       sum += std::norm(there[kHhChannel] - back[kHhChannel]) + std::norm(there[kVvChannel] - back[kVvChannel]) +
              std::norm(there[kHvChannel] - back[kVhChannel]) + std::norm(there[kVhChannel] - back[kHvChannel]);
     }
   }
-  std::printf("rms |S(a, b) - S(b, a)^T|: %.4f, without edges %.4f m\n", std::sqrt(with_edges / 200), std::sqrt(optics / 200));
+  std::printf("rms |S(a, b) - S(b, a)^T|: %.4f, without edges %.4f m\n", std::sqrt(with_edges / 200),
+              std::sqrt(optics / 200));
   EXPECT_LT(with_edges, 0.05 * optics);
 }
 

@@ -68,12 +68,20 @@ TEST(Transition, BetweenTwoEdgesIsTheIntegralOverBothApertures) {
   EXPECT_NEAR(std::abs(transition(0.7, 1e8) - transition(0.7)), 0, 1e-6);
 }
 
-// The integral over the length of an edge wave, with its boundaries and a phase that runs along the edge, is what stands at its ends.
+// The integral over the length of an edge wave, with its boundaries and a phase that runs along the edge, is what
+// stands at its ends.
 TEST(Transition, WithAThirdBoundaryIsTheEndOfAnIntegralAlongTheEdge) {
   struct Case {
     double a, b, p;  // per metre
   };
-  for (const auto& [a, b, p] : {Case{7, 3, 5}, {7, 3, -5}, {7, 7.001, 5}, {7, 3, -7}, {7, 7, -7}, {0.02, 30, 11}, {40, 1e-9, -3}, {2, 5, 300}}) {
+  for (const auto& [a, b, p] : {Case{7, 3, 5},
+                                {7, 3, -5},
+                                {7, 7.001, 5},
+                                {7, 3, -7},
+                                {7, 7, -7},
+                                {0.02, 30, 11},
+                                {40, 1e-9, -3},
+                                {2, 5, 300}}) {
     for (const double shortest : {1e-12, 0.2}) {  // from a corner on, and from afar
       constexpr double kLongest = 1.7;
       constexpr int n = 20000;  // Simpson's rule over sqrt(l), where all is smooth
@@ -81,11 +89,18 @@ TEST(Transition, WithAThirdBoundaryIsTheEndOfAnIntegralAlongTheEdge) {
       Complex integral = 0;
       for (int i = 0; i <= n; ++i) {
         const double root = from + i * step, l = root * root;
-        integral += step / 3 * (i == 0 || i == n ? 1 : i % 2 == 1 ? 4 : 2) * 2.0 * transition(a * l, b * l) * std::polar(1.0, p * l);
+        integral += step / 3 *
+                    (i == 0 || i == n ? 1
+                     : i % 2 == 1     ? 4
+                                      : 2) *
+                    2.0 * transition(a * l, b * l) * std::polar(1.0, p * l);
       }
-      const auto end = [&](double l) { return transition(a * l, b * l, -p * l) * std::polar(1.0, p * l) / (j * p * std::sqrt(l)); };
+      const auto end = [&](double l) {
+        return transition(a * l, b * l, -p * l) * std::polar(1.0, p * l) / (j * p * std::sqrt(l));
+      };
       // Equal arguments are moved apart by 1e-3, which errs by its square, and magnifies F's 1e-7 by as much.
-      EXPECT_NEAR(std::abs(end(kLongest) - end(shortest) - integral), 0, 1e-4 * std::abs(integral)) << a << ' ' << b << ' ' << p << ' ' << shortest;
+      EXPECT_NEAR(std::abs(end(kLongest) - end(shortest) - integral), 0, 1e-4 * std::abs(integral))
+          << a << ' ' << b << ' ' << p << ' ' << shortest;
     }
   }
 }
@@ -109,8 +124,8 @@ TriangleMesh extruded(const std::vector<Vec2>& profile, double width) {
   return mesh;
 }
 
-// Kouyoumjian and Pathak (1974): on the cone that both rays lie on, at angle b to the edge, L = l sin^2 b and the sine squared of half the angle about the
-// edge.
+// Kouyoumjian and Pathak (1974): on the cone that both rays lie on, at angle b to the edge, L = l sin^2 b and the sine
+// squared of half the angle about the edge.
 TEST(Transition, CountsTheAngleAboutTheEdgeOnKellersCone) {
   for (const double b : {1.5, 0.6, 0.05}) {
     for (const double about : {3.0, 0.4, 1e-4}) {
@@ -148,7 +163,8 @@ EdgeWaveSum edge_wave_sum(const TriangleMesh& mesh, const AntennaPair& antennas,
     return off_floor(a) || std::min(edge(a).a.x(), edge(a).b.x()) < last_above;
   });
   std::vector<EdgeFootprint> footprints;
-  edge_wave_footprints(scatterer.edges(), scatterer.facets(), scatterer.panels(), antennas, incoming, outgoing, {}, footprints);
+  edge_wave_footprints(scatterer.edges(), scatterer.facets(), scatterer.panels(), antennas, incoming, outgoing, {},
+                       footprints);
   EdgeWaveSum sum;
   for (const EdgeFootprint& footprint : footprints) {
     if (footprint.edge_wave->waves != 1 || footprint.bounces != 2 + walls) continue;
@@ -214,13 +230,16 @@ struct WithLast {
 WithLast with_last(const Scatterer& sheet, const AntennaPair& antennas, double k) {
   IlluminationSettings all{0, 8, true}, fourth = all;
   fourth.filter.only.push_back({EchoSelector::Kind::kBounces, 4});
-  const auto echo = [&](const IlluminationSettings& settings) { return scattering_matrices(sheet, antennas, std::array{k}, settings)[0]; };
+  const auto echo = [&](const IlluminationSettings& settings) {
+    return scattering_matrices(sheet, antennas, std::array{k}, settings)[0];
+  };
   return {echo(all), echo(fourth)};
 }
 
-// A thin plate edge-on does nothing to a field that stands across it: what the first three diffractions leave of each other, 1 - 2 + 1, is nothing, and the
-// fourth stands for itself and those that would take half of it away. What its rims send nearly along the rims beside them goes on there and leaves them
-// by no other ray: with such rays -47 dBsm were left in its plane.
+// A thin plate edge-on does nothing to a field that stands across it: what the first three diffractions leave of each
+// other, 1 - 2 + 1, is nothing, and the fourth stands for itself and those that would take half of it away. What its
+// rims send nearly along the rims beside them goes on there and leaves them by no other ray: with such rays -47 dBsm
+// were left in its plane.
 TEST(EdgeWave, LeaveNothingOfAPlateEdgeOnAcrossTheField) {
   const double k = wavenumber(10e9);
   const Scatterer plate(make_plate(0.25, 0.15)), cut(cut_plate(0.25, 0.15, 16));
@@ -232,25 +251,31 @@ TEST(EdgeWave, LeaveNothingOfAPlateEdgeOnAcrossTheField) {
   }
   for (const double azimuth : {75.0, 85.0, 89.0}) {
     // The rims beside, which the waves run along 1e-6 rad off.
-    const Complex whole = echo(plate, basis(azimuth), k, 0, 8, true)[kHhChannel], many = echo(cut, basis(azimuth), k, 0, 8, true)[kHhChannel];
+    const Complex whole = echo(plate, basis(azimuth), k, 0, 8, true)[kHhChannel],
+                  many = echo(cut, basis(azimuth), k, 0, 8, true)[kHhChannel];
     EXPECT_LT(std::abs(whole - many), 1e-3 * std::abs(many)) << azimuth;
   }
 }
 
-// Currents lie in a sheet, so a receiver in its plane hears nothing of the field across it, whatever lights it; and nothing crossed where both antennas lie in a
-// plane of symmetry. A vertical rim alone answers 0.05 m there.
+// Currents lie in a sheet, so a receiver in its plane hears nothing of the field across it, whatever lights it; and
+// nothing crossed where both antennas lie in a plane of symmetry. A vertical rim alone answers 0.05 m there.
 TEST(EdgeWave, SendNothingAcrossASheetIntoItsPlane) {
   const double k = wavenumber(10e9);
   const Scatterer sheet(make_plate(0.2, 0.3));
-  for (const auto& [azimuth, elevation] : {std::pair{10.0, 0.0}, {40.0, 0.0}, {80.0, 0.0}, {0.0, 20.0}, {10.0, 20.0}, {60.0, -30.0}}) {
+  for (const auto& [azimuth, elevation] :
+       {std::pair{10.0, 0.0}, {40.0, 0.0}, {80.0, 0.0}, {0.0, 20.0}, {10.0, 20.0}, {60.0, -30.0}}) {
     for (const auto& [side, height] : {std::pair{90.0, 0.0}, {-90.0, 0.0}, {90.0, 15.0}, {90.0, 60.0}}) {
-      const AntennaPair antennas = bistatic(radar_basis(direction(azimuth, elevation)), radar_basis(direction(side, height)));
+      const AntennaPair antennas =
+          bistatic(radar_basis(direction(azimuth, elevation)), radar_basis(direction(side, height)));
       const auto& [all, fourth] = with_last(sheet, antennas, k);
-      // The last diffraction followed has none after it, and the receiver stands 1e-6 rad aside, over which phases turn by as much of k radius.
+      // The last diffraction followed has none after it, and the receiver stands 1e-6 rad aside, over which phases turn
+      // by as much of k radius.
       const double aside = 1e-6 * k * sheet.radius() * largest(all);
       const auto left = [&](int channel) { return std::abs(fourth[channel]) + aside; };
-      EXPECT_LT(std::abs(all[kHhChannel]), left(kHhChannel)) << azimuth << ' ' << elevation << ' ' << side << ' ' << height;
-      EXPECT_LT(std::abs(all[kHvChannel]), left(kHvChannel)) << azimuth << ' ' << elevation << ' ' << side << ' ' << height;
+      EXPECT_LT(std::abs(all[kHhChannel]), left(kHhChannel))
+          << azimuth << ' ' << elevation << ' ' << side << ' ' << height;
+      EXPECT_LT(std::abs(all[kHvChannel]), left(kHvChannel))
+          << azimuth << ' ' << elevation << ' ' << side << ' ' << height;
       if (elevation == 0 && height == 0) {
         EXPECT_LT(std::abs(all[kVhChannel]), left(kVhChannel)) << azimuth << ' ' << side;
         EXPECT_LT(std::abs(fourth[kVhChannel]), 0.01 * std::abs(all[kVvChannel])) << azimuth << ' ' << side;
@@ -269,10 +294,12 @@ TEST(EdgeWave, LeaveOutOnlyWhatIsFaint) {
     const auto arrivals = Illumination(corner, antennas, {0, 4, true}).light_all(1, [](std::size_t, auto) {}).arrivals;
     const auto loud = [&](double limit, std::size_t& count) {
       std::vector<EdgeFootprint> footprints;
-      edge_wave_footprints(corner.edges(), corner.facets(), corner.panels(), antennas, arrivals, arrivals, {0, limit, k}, footprints);
+      edge_wave_footprints(corner.edges(), corner.facets(), corner.panels(), antennas, arrivals, arrivals,
+                           {0, limit, k}, footprints);
       count += footprints.size();
-      return std::count_if(footprints.begin(), footprints.end(),
-                           [&](const EdgeFootprint& f) { return f.edge_wave && f.edge_wave->waves == 1 && largest(scattered(f, k)) >= faintest; });
+      return std::count_if(footprints.begin(), footprints.end(), [&](const EdgeFootprint& f) {
+        return f.edge_wave && f.edge_wave->waves == 1 && largest(scattered(f, k)) >= faintest;
+      });
     };
     const auto of_all = loud(0, all), of_kept = loud(faintest, kept);
     EXPECT_GT(of_all, 0) << azimuth;
@@ -289,9 +316,11 @@ TEST(EdgeWave, DoNotDependOnHowTheirFaceIsCut) {
   for (double azimuth = 20; azimuth <= 85; azimuth += 2.5) {
     const RadarBasis basis = radar_basis(direction(azimuth, 13));
     const auto of_edges = [&](const Scatterer& plate, bool once) {
-      const auto arrivals = Illumination(plate, monostatic(basis), {0, 1, true}).light_all(1, [](std::size_t, auto) {}).arrivals;
+      const auto arrivals =
+          Illumination(plate, monostatic(basis), {0, 1, true}).light_all(1, [](std::size_t, auto) {}).arrivals;
       std::vector<EdgeFootprint> footprints;
-      edge_wave_footprints(plate.edges(), plate.facets(), plate.panels(), monostatic(basis), arrivals, arrivals, {}, footprints);
+      edge_wave_footprints(plate.edges(), plate.facets(), plate.panels(), monostatic(basis), arrivals, arrivals, {},
+                           footprints);
       std::array<Complex, 4> sum{};
       for (const EdgeFootprint& footprint : footprints) {
         if (once && footprint.edge_wave->waves > 1) continue;
@@ -309,8 +338,8 @@ TEST(EdgeWave, DoNotDependOnHowTheirFaceIsCut) {
       power += std::norm(all_of_many[i]);
     }
   }
-  // Three times and four, nine tenths of this field: 1/sqrt(l) leaves its mean over a fourfold growth by a fifth in the root
-  // mean square, a sixth of which the phases along the stretches let through (0.033 was found).
+  // Three times and four, nine tenths of this field: 1/sqrt(l) leaves its mean over a fourfold growth by a fifth in the
+  // root mean square, a sixth of which the phases along the stretches let through (0.033 was found).
   EXPECT_LT(std::sqrt(difference / power), 0.05);
   RecordProperty("difference", std::to_string(std::sqrt(difference / power)));
 }

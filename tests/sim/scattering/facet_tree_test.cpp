@@ -20,7 +20,8 @@ using namespace testing_echoes;
 std::vector<int> walked(const Scatterer& scatterer, const Ray& ray, double width) {
   const RadarBasis across = radar_basis(ray.direction);
   const double x = across.h.dot(ray.origin), y = across.v.dot(ray.origin);
-  const Prism prism{{across.h, across.v}, {x - width / 2, y - width / 2}, {x + width / 2, y + width / 2}, ray.direction, ray.direction.dot(ray.origin), ray.direction,
+  const Prism prism{{across.h, across.v}, {x - width / 2, y - width / 2}, {x + width / 2, y + width / 2},
+                    ray.direction,        ray.direction.dot(ray.origin),  ray.direction,
                     Vec3::Zero()};
   std::vector<int> found;
   scatterer.tree().walk(prism, [&](const TreePanel& panel) {
@@ -77,7 +78,8 @@ TEST(FacetTree, PartsManyFacetsAtOnePlace) {
   TriangleMesh mesh = make_plate(0.3, 0.2);
   for (int i = 0; i < 99; ++i) mesh.append(make_plate(0.3, 0.2));
   const Scatterer plates(mesh);
-  EXPECT_EQ(walked(plates, {Vec3::UnitX(), -Vec3::UnitX()}, 0.01).size(), 200u);  // many facets share each edge: none are joined
+  // many facets share each edge: none are joined
+  EXPECT_EQ(walked(plates, {Vec3::UnitX(), -Vec3::UnitX()}, 0.01).size(), 200u);
 }
 
 }  // namespace

@@ -94,7 +94,8 @@ TEST(Fringe, IsTheCotangentsOfAComplexAngle) {
   Random random({3, Stream::kTest, 19});
   int imaginary = 0;
   for (int i = 0; i < 2000; ++i) {
-    const double N = 1.05 + 0.95 * random.uniform(), phi = N * kPi * random.uniform(), beta = 0.2 + 1.2 * random.uniform();
+    const double N = 1.05 + 0.95 * random.uniform(), phi = N * kPi * random.uniform(),
+                 beta = 0.2 + 1.2 * random.uniform();
     const Vec3 k_hat(-std::sin(beta) * std::cos(phi), -std::sin(beta) * std::sin(phi), std::cos(beta));
     const Vec3 E = k_hat.cross(Vec3(0.3, -0.5, 0.8)).normalized();
     const double z = 2 * random.uniform() - 1, turn = 2 * kPi * random.uniform();
@@ -125,7 +126,8 @@ TEST(Fringe, IsTheCotangentsOfAComplexAngle) {
       }
       const Complex across = 2.0 * j * H_t / sin_b * sum;
       expected += -j / (4 * kPi) *
-                  (x * across + t * (2.0 * j * E_t / (sin_b * sin_b) * difference + cos_b / sin_b * mu * across + optics_along));
+                  (x * across +
+                   t * (2.0 * j * E_t / (sin_b * sin_b) * difference + cos_b / sin_b * mu * across + optics_along));
     }
     if (near_a_pole) continue;
     const Vec3 K = fringe_current(frame, k_hat, E, s);
@@ -134,8 +136,8 @@ TEST(Fringe, IsTheCotangentsOfAComplexAngle) {
   EXPECT_GT(imaginary, 200);
 }
 
-// In a corner, too, where physical optics is that of all images: each face is lit by the wave and by what the faces send to one another, and where images solve the corner
-// nothing is left.
+// In a corner, too, where physical optics is that of all images: each face is lit by the wave and by what the faces
+// send to one another, and where images solve the corner nothing is left.
 TEST(Fringe, OfACornerIsKellersCoefficientLessThatOfItsReflections) {
   Random random({3, Stream::kTest, 21});
   int reflected = 0;
@@ -159,7 +161,8 @@ TEST(Fringe, OfACornerIsKellersCoefficientLessThatOfItsReflections) {
       }
     }
     if (near_a_boundary) continue;
-    const double K_soft = fringe_current(wedge(N), k_hat, z, s).z(), K_hard = z.cross(s).dot(fringe_current(wedge(N), k_hat, z.cross(k_hat), s));
+    const double K_soft = fringe_current(wedge(N), k_hat, z, s).z(),
+                 K_hard = z.cross(s).dot(fringe_current(wedge(N), k_hat, z.cross(k_hat), s));
     EXPECT_NEAR(K_soft, soft / (2 * kPi), 1e-9 * (1 + std::abs(soft))) << N << ' ' << phi_in << ' ' << phi;
     EXPECT_NEAR(K_hard, hard / (2 * kPi), 1e-9 * (1 + std::abs(hard))) << N << ' ' << phi_in << ' ' << phi;
     if (i % 3 != 0) continue;
@@ -169,7 +172,8 @@ TEST(Fringe, OfACornerIsKellersCoefficientLessThatOfItsReflections) {
   EXPECT_GT(reflected, 500);
 }
 
-// A face radiates to where it is seen and nowhere else: there the edge has all of Keller's field, but near the boundary of shadow.
+// A face radiates to where it is seen and nowhere else: there the edge has all of Keller's field, but near the boundary
+// of shadow.
 TEST(EdgeCurrents, LeaveOutPhysicalOpticsOnlyOfFacesThatAreSeen) {
   Random random({3, Stream::kTest, 20});
   int unseen = 0;
@@ -177,7 +181,9 @@ TEST(EdgeCurrents, LeaveOutPhysicalOpticsOnlyOfFacesThatAreSeen) {
     const double N = 1.05 + 0.95 * random.uniform();
     const double phi_in = N * kPi * random.uniform(), phi = N * kPi * random.uniform();
     const double from_shadow = std::abs(std::abs(phi - phi_in) - kPi);
-    if (std::abs(from_shadow - kShadow) < 1e-3 || std::abs(phi + phi_in - kPi) < 0.05 || std::abs(2 * N * kPi - phi - phi_in - kPi) < 0.05) continue;
+    if (std::abs(from_shadow - kShadow) < 1e-3 || std::abs(phi + phi_in - kPi) < 0.05 ||
+        std::abs(2 * N * kPi - phi - phi_in - kPi) < 0.05)
+      continue;
     if (from_shadow < 0.05) continue;
     const Vec3 k_hat(-std::cos(phi_in), -std::sin(phi_in), 0), s(std::cos(phi), std::sin(phi), 0), z = Vec3::UnitZ();
     auto [soft, hard] = keller(N, phi, phi_in);
@@ -191,7 +197,8 @@ TEST(EdgeCurrents, LeaveOutPhysicalOpticsOnlyOfFacesThatAreSeen) {
     }
     const auto [K_soft, K_hard] = edge_currents(wedge(N), k_hat, {z, z.cross(k_hat)}, s);
     EXPECT_NEAR(K_soft.z(), soft / (2 * kPi), 1e-9 * (1 + std::abs(soft))) << N << ' ' << phi_in << ' ' << phi;
-    EXPECT_NEAR(z.cross(s).dot(K_hard), hard / (2 * kPi), 1e-9 * (1 + std::abs(hard))) << N << ' ' << phi_in << ' ' << phi;
+    EXPECT_NEAR(z.cross(s).dot(K_hard), hard / (2 * kPi), 1e-9 * (1 + std::abs(hard)))
+        << N << ' ' << phi_in << ' ' << phi;
   }
   EXPECT_GT(unseen, 300);
 }

@@ -110,8 +110,8 @@ double error_of_grid(double most_beside) {
       for (int i = 0; i < 40; i += 13) {
         Complex direct = 0;
         for (const ReturnPoint& point : points)
-          direct += point.amplitude *
-                    std::polar(1.0, wavenumbers.at(first + i) * (point.psi + point.u * s + point.v * q));
+          direct +=
+              point.amplitude * std::polar(1.0, wavenumbers.at(first + i) * (point.psi + point.u * s + point.v * q));
         error += std::norm(out[i] - direct);
         power += std::norm(direct);
       }
@@ -177,7 +177,8 @@ TEST(Response, OfAFloatBesideTheReferencePointAtAFiniteRangeEqualsFreshTraces) {
   solver.radar_range_m = 1000;
   const Trajectory floating = rocking({0.6, 0.4, 0.1}, 1.3, {0, 0, -0.75}, {45, -40, 0.75}).carried({-10, 0, 0}, 0.3);
   for (const double azimuth : {10.0, 48.0, 131.0}) {
-    const double error = error_against_fresh_traces(reflector, floating, direction(azimuth, 2), solver, 60, static_cast<std::uint64_t>(azimuth));
+    const double error = error_against_fresh_traces(reflector, floating, direction(azimuth, 2), solver, 60,
+                                                    static_cast<std::uint64_t>(azimuth));
     RecordProperty(fmt::format("error_db_{}", azimuth), fmt::format("{:.1f}", error));
     fmt::print("float at {} deg: {:.1f} dB\n", azimuth, error);
     EXPECT_LT(error, -30) << azimuth;  // as at its reference point

@@ -54,10 +54,11 @@ TEST(Material, PerfectConductorHasMinusOneAcrossAndPlusOneInThePlaneOfIncidence)
   EXPECT_LT(std::abs(good.tm - 1.0), 6e-5);
 }
 
-// Fresnel's formulas with angles (Born and Wolf, Principles of Optics, 1.5.2, eqs. 21 and 21a): r_perp = -sin(i - t)/sin(i + t),
-// r_par = tan(i - t)/tan(i + t).
+// Fresnel's formulas with angles (Born and Wolf, Principles of Optics, 1.5.2, eqs. 21 and 21a): r_perp = -sin(i -
+// t)/sin(i + t), r_par = tan(i - t)/tan(i + t).
 TEST(Material, ThickDielectricFollowsFresnelsFormulasInAngles) {
-  // A layer of many skin depths hides its conductor: e^{-2 * 0.01 * 300 * 1} of field would be left of 1 m with eps'' 0.04 n.
+  // A layer of many skin depths hides its conductor: e^{-2 * 0.01 * 300 * 1} of field would be left of 1 m with eps''
+  // 0.04 n.
   const double n = 1.7;
   const Surface glass(stack({layer(1000, Complex(n * n, -0.3))}, Backing::kPec), 300);
   const Complex index = std::sqrt(Complex(n * n, -0.3));
@@ -91,8 +92,8 @@ TEST(Material, SalisburyScreenAbsorbsEverythingAtItsQuarterWave) {
   EXPECT_NEAR(std::abs(Surface(screen, wavenumber(2 * f)).at(1).te), 1, 5e-4);  // half a wave: a short circuit
 }
 
-// Dallenbach layer: Z = sqrt(mu/eps) tanh(j k d sqrt(mu eps)) (Knott, Shaeffer and Tuley, Radar Cross Section, 2nd ed., eq. 8.2 of the chapter on
-// absorbers), Gamma = (Z - 1)/(Z + 1) at normal incidence.
+// Dallenbach layer: Z = sqrt(mu/eps) tanh(j k d sqrt(mu eps)) (Knott, Shaeffer and Tuley, Radar Cross Section, 2nd ed.,
+// eq. 8.2 of the chapter on absorbers), Gamma = (Z - 1)/(Z + 1) at normal incidence.
 TEST(Material, DallenbachLayerFollowsItsClosedFormAndHasItsNull) {
   const Complex eps(9.0, -3.0), mu(1.4, -0.9);
   const double k = wavenumber(16e9);
@@ -102,7 +103,8 @@ TEST(Material, DallenbachLayerFollowsItsClosedFormAndHasItsNull) {
     EXPECT_LT(std::abs(fields.te - (z - 1.0) / (z + 1.0)), kRounding) << thickness_mm;
     EXPECT_LT(std::abs(fields.te + fields.tm), kRounding) << thickness_mm;
   }
-  // Thin magnetic absorber: Z = j k d mu, matched when k d mu'' = 1 and mu' = 0 as far as it can be: with mu = mu'(small) - j / (k d).
+  // Thin magnetic absorber: Z = j k d mu, matched when k d mu'' = 1 and mu' = 0 as far as it can be: with mu =
+  // mu'(small) - j / (k d).
   const double d_mm = 0.1;
   const SurfaceFields matched =
       Surface(stack({layer(d_mm, 1.0, Complex(1e-6, -1 / (1e-3 * d_mm * k)))}, Backing::kPec), k).at(1);
@@ -120,8 +122,7 @@ TEST(Material, SheetOfHalfAWaveIsTransparent) {
 
 TEST(Material, SheetOfVacuumIsNotThere) {
   for (const double cosine : {1.0, 0.6, 0.05}) {
-    const SurfaceFields fields =
-        Surface(stack({layer(3, 1.0), layer(0.7, 1.0)}, Backing::kAir), 335).at(cosine);
+    const SurfaceFields fields = Surface(stack({layer(3, 1.0), layer(0.7, 1.0)}, Backing::kAir), 335).at(cosine);
     EXPECT_LT(std::abs(fields.te), kRounding);
     EXPECT_LT(std::abs(fields.tm), kRounding);
     EXPECT_LT(std::abs(fields.te_through - 1.0), kRounding);
@@ -129,8 +130,8 @@ TEST(Material, SheetOfVacuumIsNotThere) {
   }
 }
 
-// Product of characteristic matrices (Born and Wolf, Principles of Optics, 1.6.2) instead of the recursion: tangential fields (E, H) in front =
-// product of [[cos d, j Z sin d], [j sin d / Z, cos d]] times those behind.
+// Product of characteristic matrices (Born and Wolf, Principles of Optics, 1.6.2) instead of the recursion: tangential
+// fields (E, H) in front = product of [[cos d, j Z sin d], [j sin d / Z, cos d]] times those behind.
 TEST(Material, StacksFollowTheProductOfTheirCharacteristicMatrices) {
   Random random({3, Stream::kTest, 0});
   for (int trial = 0; trial < 200; ++trial) {
@@ -177,7 +178,8 @@ TEST(Material, PassiveStacksGiveBackNoMoreThanTheyGet) {
                              Complex(0.1 + 3 * random.uniform(), -3 * random.uniform())));
     }
     const Backing backing = random.below(2) == 0 ? Backing::kAir : Backing::kPec;
-    const SurfaceFields fields = Surface(stack(layers, backing), 50 + 500 * random.uniform()).at(0.001 + 0.999 * random.uniform());
+    const SurfaceFields fields =
+        Surface(stack(layers, backing), 50 + 500 * random.uniform()).at(0.001 + 0.999 * random.uniform());
     EXPECT_LE(std::norm(fields.te) + std::norm(fields.te_through), 1 + kRounding);
     EXPECT_LE(std::norm(fields.tm) + std::norm(fields.tm_through), 1 + kRounding);
   }
@@ -237,14 +239,15 @@ TEST(Material, DispersionIsADebyeSumOrATable) {
   EXPECT_LT(std::abs(value_at(spec, 80e9) - Complex(3, -4)), kRounding);
 }
 
-// L. A. Klein and C. T. Swift, IEEE Trans. Antennas Propag. AP-25 (1977) 104-111, single Debye: another fit to other measurements.
+// L. A. Klein and C. T. Swift, IEEE Trans. Antennas Propag. AP-25 (1977) 104-111, single Debye: another fit to other
+// measurements.
 Complex klein_swift(double f, double T, double S) {
   const double eps_s = (87.134 - 1.949e-1 * T - 1.276e-2 * T * T + 2.491e-4 * T * T * T) *
                        (1 + 1.613e-5 * S * T - 3.656e-3 * S + 3.210e-5 * S * S - 4.232e-7 * S * S * S);
   const double tau = (1.768e-11 - 6.086e-13 * T + 1.104e-14 * T * T - 8.111e-17 * T * T * T) *
                      (1 + 2.282e-5 * S * T - 7.638e-4 * S - 7.760e-6 * S * S + 1.105e-8 * S * S * S);
-  const double D = 25 - T, beta = 2.033e-2 + 1.266e-4 * D + 2.464e-6 * D * D -
-                                  S * (1.849e-5 - 2.551e-7 * D + 2.551e-8 * D * D);
+  const double D = 25 - T,
+               beta = 2.033e-2 + 1.266e-4 * D + 2.464e-6 * D * D - S * (1.849e-5 - 2.551e-7 * D + 2.551e-8 * D * D);
   const double sigma =
       S * (0.182521 - 1.46192e-3 * S + 2.09324e-5 * S * S - 1.28205e-7 * S * S * S) * std::exp(-D * beta);
   const double w = 2 * kPi * f;
@@ -252,8 +255,8 @@ Complex klein_swift(double f, double T, double S) {
 }
 
 TEST(SeaWater, TwoPublishedModelsAgreeWithinTheirMeasurements) {
-  // Klein and Swift state tenths of a percent at L and S band; the measurements both rest on scatter by 1 %. At higher bands they leave their accuracy
-  // open, and their relaxation time is of warm water: compared there at 20 deg C only.
+  // Klein and Swift state tenths of a percent at L and S band; the measurements both rest on scatter by 1 %. At higher
+  // bands they leave their accuracy open, and their relaxation time is of warm water: compared there at 20 deg C only.
   double worst = 0;
   const auto compare = [&](double ghz, double celsius) {
     const Complex ours = sea_water_permittivity(1e9 * ghz, celsius, 35), theirs = klein_swift(1e9 * ghz, celsius, 35);
@@ -267,9 +270,10 @@ TEST(SeaWater, TwoPublishedModelsAgreeWithinTheirMeasurements) {
   EXPECT_LT(worst, 0.015);
 }
 
-// Values of third parties' models, each other than this one: Ulaby and Long, Microwave Radar and Radiometric Remote Sensing (2014), sec. 4-2, at
-// 10 GHz, 9.85 deg C, 10 psu, as printed in the documentation of the package CanopyOptics: 51.79 - j 38.32; Boutin et al., IEEE Trans. Geosci. Remote
-// Sens. 59 (2021), at 1.4 GHz, 5 deg C, 33 psu, as in the tests of the package SMRT: 76.408 - j 50.057.
+// Values of third parties' models, each other than this one: Ulaby and Long, Microwave Radar and Radiometric Remote
+// Sensing (2014), sec. 4-2, at 10 GHz, 9.85 deg C, 10 psu, as printed in the documentation of the package CanopyOptics:
+// 51.79 - j 38.32; Boutin et al., IEEE Trans. Geosci. Remote Sens. 59 (2021), at 1.4 GHz, 5 deg C, 33 psu, as in the
+// tests of the package SMRT: 76.408 - j 50.057.
 TEST(SeaWater, MeetsPrintedValuesOfOtherModels) {
   const Complex ulaby_long(51.7925, -38.3230), boutin(76.4080, -50.0570);
   EXPECT_LT(std::abs(sea_water_permittivity(10e9, 9.85, 10) - ulaby_long), 0.015 * std::abs(ulaby_long));
@@ -284,8 +288,9 @@ TEST(SeaWater, ConductsAsTheStandardSeaWaterOfOceanographyDoes) {
 }
 
 TEST(SeaRoughness, BesselFormIsTheMeanOfAmentsOverASinesPhase) {
-  // Mean of e^{j 2 k zeta sin psi} over a Gaussian amplitude and a uniform phase, by its definition: zeta = a sin(phase), a Gaussian with variance
-  // 2 sigma^2 (so that zeta has variance sigma^2); over a Gaussian a the mean is e^{-(2 k sin psi)^2 sigma^2 sin^2(phase)}.
+  // Mean of e^{j 2 k zeta sin psi} over a Gaussian amplitude and a uniform phase, by its definition: zeta = a
+  // sin(phase), a Gaussian with variance 2 sigma^2 (so that zeta has variance sigma^2); over a Gaussian a the mean is
+  // e^{-(2 k sin psi)^2 sigma^2 sin^2(phase)}.
   const double k = 335, sin_psi = 0.035;
   for (const double sigma : {0.01, 0.1, 0.25, 2.0}) {
     double sum = 0;
@@ -324,7 +329,8 @@ TEST(Library, CoatingAbsorbsAtItsFrequencyAndMetalsDoNot) {
   const double k = wavenumber(16e9);
   const double ram_db = 20 * std::log10(std::abs(Surface(library("ram_loaded_epoxy"), k).at(1).te));
   RecordProperty("ram_loaded_epoxy_db", std::to_string(ram_db));
-  // Quarter-wave layer with n'' / n' = tan(delta) / 2: |Gamma| = (coth(pi tan(delta) / 4) / n - 1) / (coth(..) / n + 1) = 0.28 at 16 GHz.
+  // Quarter-wave layer with n'' / n' = tan(delta) / 2: |Gamma| = (coth(pi tan(delta) / 4) / n - 1) / (coth(..) / n + 1)
+  // = 0.28 at 16 GHz.
   EXPECT_NEAR(ram_db, -11.2, 0.5);
   EXPECT_NEAR(std::abs(Surface(library("aluminium"), k).at(1).te), 1, 5e-4);
   EXPECT_NEAR(std::abs(Surface(library("stainless_steel"), k).at(1).te), 1, 3e-3);

@@ -12,7 +12,8 @@
 namespace seaglint {
 namespace {
 
-// The rim of a right-angled dihedral's arm y = 0, x <= 0, of which the other arm stands at a place x < 0; the wave comes from before the rim and leaves the arm at an angle `above` towards the other one.
+// The rim of a right-angled dihedral's arm y = 0, x <= 0, of which the other arm stands at a place x < 0; the wave
+// comes from before the rim and leaves the arm at an angle `above` towards the other one.
 struct DihedralRim {
   WedgeFrame wedge;
   EdgeArrival in, out;
@@ -41,9 +42,11 @@ std::array<double, 2> answer(const DihedralRim& rim) {
   return {rim.out.E_h.dot(currents[0]) + ends[0], rim.out.E_v.dot(currents[1]) + ends[3]};
 }
 
-// Keller's 1 / (2 sin a) less tan(a) / 2 of the other arm's end, over 2 pi; soft and hard coefficients have opposite signs, and so have a dihedral's echoes.
+// Keller's 1 / (2 sin a) less tan(a) / 2 of the other arm's end, over 2 pi; soft and hard coefficients have opposite
+// signs, and so have a dihedral's echoes.
 TEST(MirroredRim, OfADihedralIsKellersCoefficientLessTheEndOnTheOtherArm) {
-  const double sign = std::copysign(1.0, answer(dihedral_rim(radians(45)))[0]);  // that of the last mirror's own rim, below
+  // that of the last mirror's own rim, below
+  const double sign = std::copysign(1.0, answer(dihedral_rim(radians(45)))[0]);
   for (const double above_deg : {10.0, 20.0, 33.0, 45.0, 60.0}) {
     const double above = radians(above_deg), expected = (1 / std::sin(above) - std::tan(above)) / (4 * kPi);
     const auto [hard, soft] = answer(dihedral_rim(above));
@@ -56,7 +59,8 @@ TEST(MirroredRim, OfADihedralIsKellersCoefficientLessTheEndOnTheOtherArm) {
 // On a dihedral's axis both arms are alike, and so are the rims that the beam meets first and last.
 TEST(MirroredRim, OnADihedralsAxisIsWhatItIsOfTheLastMirror) {
   const DihedralRim first = dihedral_rim(radians(45));
-  const auto currents = edge_currents(first.wedge, first.out.direction, {first.out.E_h, first.out.E_v}, -first.in.direction);
+  const auto currents =
+      edge_currents(first.wedge, first.out.direction, {first.out.E_h, first.out.E_v}, -first.in.direction);
   const auto [hard, soft] = answer(first);
   EXPECT_NEAR(first.in.E_h.dot(currents[0]), hard, 1e-6);
   EXPECT_NEAR(first.in.E_v.dot(currents[1]), soft, 1e-6);
@@ -67,8 +71,8 @@ TEST(MirroredRim, HasNoOtherEndWhereItsFaceIsTheLastMirror) {
   for (const double end : ends_of_beam(rim.wedge.face[0], rim.out, rim.in)) EXPECT_EQ(end, 0);
 }
 
-// Off the direction of reflection, by an angle b about the rim: Keller's coefficients of a half-plane less the end of physical optics on the other arm, whose currents go with the cosine of incidence
-// (soft) or of the way out (hard).
+// Off the direction of reflection, by an angle b about the rim: Keller's coefficients of a half-plane less the end of
+// physical optics on the other arm, whose currents go with the cosine of incidence (soft) or of the way out (hard).
 TEST(MirroredRim, LacksTheEndOnTheOtherArmOffTheDirectionOfReflectionToo) {
   for (const double above_deg : {20.0, 45.0, 60.0}) {
     const double above = radians(above_deg), sign = std::copysign(1.0, answer(dihedral_rim(radians(45)))[0]);
@@ -77,13 +81,16 @@ TEST(MirroredRim, LacksTheEndOnTheOtherArmOffTheDirectionOfReflectionToo) {
       const double run = std::sin(above + beside) - std::sin(above);
       const auto [hard, soft] = answer(dihedral_rim(above, beside));
       // Rounding of the poles.
-      EXPECT_NEAR(soft, sign * ((direct + pole) / (4 * kPi) - std::cos(above) / (2 * kPi * run)), 1e-9) << above_deg << " " << beside;
-      EXPECT_NEAR(hard, sign * ((direct - pole) / (4 * kPi) + std::cos(above + beside) / (2 * kPi * run)), 1e-9) << above_deg << " " << beside;
+      EXPECT_NEAR(soft, sign * ((direct + pole) / (4 * kPi) - std::cos(above) / (2 * kPi * run)), 1e-9)
+          << above_deg << " " << beside;
+      EXPECT_NEAR(hard, sign * ((direct - pole) / (4 * kPi) + std::cos(above + beside) / (2 * kPi * run)), 1e-9)
+          << above_deg << " " << beside;
     }
   }
 }
 
-// A beam that leaves away from the other mirror ends nowhere: what physical optics of the rim's own face leaves out is put back, and the rim's field is Keller's.
+// A beam that leaves away from the other mirror ends nowhere: what physical optics of the rim's own face leaves out is
+// put back, and the rim's field is Keller's.
 TEST(MirroredRim, HasKellersFieldWhereNoBeamComesDown) {
   DihedralRim rim = dihedral_rim(radians(50));
   rim.in.direction = {std::cos(radians(50)), -std::sin(radians(50)), 0};  // by the other arm too, and back the same way

@@ -51,7 +51,8 @@ TEST(Panels, OfTheShipAreConvexLieInOnePlaneAndKeepItsArea) {
       EXPECT_GT((b - a).cross(c - b).dot(facets[f].normal), 0) << f;
     }
   }
-  EXPECT_EQ(std::count(met.begin(), met.end(), 1), static_cast<std::ptrdiff_t>(facets.size())) << "every facet in one panel";
+  EXPECT_EQ(std::count(met.begin(), met.end(), 1), static_cast<std::ptrdiff_t>(facets.size()))
+      << "every facet in one panel";
 }
 
 TEST(Panels, StayApartWhereMaterialOrPlaneChanges) {

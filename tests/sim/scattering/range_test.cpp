@@ -135,7 +135,8 @@ TEST(FiniteRange, PlateBesideTheReferencePointIsTheSumOfItsPointDistances) {
   };
   for (const double azimuth : {0.0, 3.0, 3.44, 3.8, 6.0}) {  // its normal points to the radar near 3.44 deg
     const Vec3 r = direction(azimuth, 0.7);
-    const Complex ours = respond(plate, Trajectory::at_rest(rest), r, Polarisation::kVv, sampling, solver).response.at(0, 0);
+    const Complex ours =
+        respond(plate, Trajectory::at_rest(rest), r, Polarisation::kVv, sampling, solver).response.at(0, 0);
     const double size = k * length * width / (2 * kPi), error = std::abs(ours - summed(r)) / size;
     fmt::print("plate 60 m beside at {} m, {} deg: {:.4f} of the broadside echo\n", range_m, azimuth, error);
     EXPECT_LT(error, 0.02) << azimuth;  // frozen amplitudes of split() as above

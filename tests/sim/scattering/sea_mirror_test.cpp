@@ -36,7 +36,8 @@ double largest(const std::array<Complex, 4>& s) {
   return size;
 }
 
-// A sphere 10 m ahead of the origin and 10 m up, the radar some km from the water below the origin: the sum over the four ways by their lengths.
+// A sphere 10 m ahead of the origin and 10 m up, the radar some km from the water below the origin: the sum over the
+// four ways by their lengths.
 TEST(SeaMirror, CountsTheRangeFromTheWaterBelow) {
   const double k = wavenumber(10e9), radius = 0.1, height = 10, el = radians(5);
   const Vec3 r = direction(0, 5);
@@ -49,7 +50,9 @@ TEST(SeaMirror, CountsTheRangeFromTheWaterBelow) {
       for (const Vec3& back : {centre, image}) {
         const Vec3 a = radar - there, b = radar - back;
         // Towards the image the wave comes from below.
-        const auto up = [&](const Vec3& way, const Vec3& point) { return Vec3(way.x(), way.y(), point == image ? -way.z() : way.z()).normalized(); };
+        const auto up = [&](const Vec3& way, const Vec3& point) {
+          return Vec3(way.x(), way.y(), point == image ? -way.z() : way.z()).normalized();
+        };
         const double front = radius * ((up(a, there) + up(b, back)).norm() - 2);
         const double sign = (there == image ? -1 : 1) * (back == image ? -1 : 1);
         sum += sign * alone * std::polar(1.0, -k * (a.norm() + b.norm() - 2 * range_m) + k * front);
@@ -58,8 +61,10 @@ TEST(SeaMirror, CountsTheRangeFromTheWaterBelow) {
     sum *= std::polar(1.0, -2 * k * r.z() * height);  // phases are about the body's origin
     IlluminationSettings settings;
     settings.range_m = range_m;
-    const Complex ours = scattering_matrices_over_sea(sphere, r, height, conductor(), std::array{k}, settings)[0][kHhChannel];
-    // Of the four ways' 4 |alone|: 2 % for what a sphere answers 10 deg off, and the third order of the way, k X H^2 / R^2 = 0.01 rad at 5 km.
+    const Complex ours =
+        scattering_matrices_over_sea(sphere, r, height, conductor(), std::array{k}, settings)[0][kHhChannel];
+    // Of the four ways' 4 |alone|: 2 % for what a sphere answers 10 deg off, and the third order of the way, k X H^2 /
+    // R^2 = 0.01 rad at 5 km.
     EXPECT_LT(std::abs(ours - sum), 0.03 * 4 * std::abs(alone)) << range_m;
   }
 }
@@ -265,9 +270,9 @@ double error_against_fresh_traces(const Scatterer& scatterer, const Trajectory& 
       const auto turned = [&](const RadarBasis& w) { return RadarBasis{R_BT * w.r, R_BT * w.h, R_BT * w.v}; };
       const RadarBasis &t = path.there ? image : radar, &s = path.back ? image : radar;
       const AntennaPair pair = path.there == path.back ? monostatic(turned(t)) : bistatic(turned(t), turned(s));
-      fresh += SeaMirror::weight(path, sea.at(k, r.z()), element) * std::polar(1.0, k * (t.r + s.r).dot(pose.p_TB)) *
-               scattering_matrices(scatterer, pair, std::array{k},
-                                   {0, kDefaultBounces, SolverSpec{}.edges}, 2)[0][element];
+      fresh +=
+          SeaMirror::weight(path, sea.at(k, r.z()), element) * std::polar(1.0, k * (t.r + s.r).dot(pose.p_TB)) *
+          scattering_matrices(scatterer, pair, std::array{k}, {0, kDefaultBounces, SolverSpec{}.edges}, 2)[0][element];
     }
     error += std::norm(body.response.at(n, b) - fresh);
     power += std::norm(fresh);

@@ -48,19 +48,23 @@ TEST(SharpEdges, OfCornersDiffractBetweenTwelveDegAndAHalfTurn) {
     return false;
   };
   for (const double opening_deg : {150.0, 100.0, 50.0, 13.0}) EXPECT_TRUE(corner_diffracts(opening_deg)) << opening_deg;
-  for (const double opening_deg : {90.0, 60.0, 45.0, 11.0, 3.0}) EXPECT_FALSE(corner_diffracts(opening_deg)) << opening_deg;
+  for (const double opening_deg : {90.0, 60.0, 45.0, 11.0, 3.0})
+    EXPECT_FALSE(corner_diffracts(opening_deg)) << opening_deg;
 }
 
-// A wave between the faces of a corner of sheets meets the corner. Reflected by one face it lights the other one up to the seam and comes as if from behind the first, where there is a wedge; it
-// meets neither, its echo being a part of the corner's answer. A wave that does come from behind meets that wedge by the face it lights.
+// A wave between the faces of a corner of sheets meets the corner. Reflected by one face it lights the other one up to
+// the seam and comes as if from behind the first, where there is a wedge; it meets neither, its echo being a part of
+// the corner's answer. A wave that does come from behind meets that wedge by the face it lights.
 TEST(SharpEdges, OfACornerAreNotMetByWhatItsOwnFacesReflect) {
   for (const double opening_deg : {90.0, 135.0, 150.0}) {
     const Scatterer scatterer(make_dihedral(0.25, 0.3, radians(opening_deg)));
     for (const SharpEdge& edge : scatterer.edges().edges) {
       if (edge.is_rim()) continue;
       const bool concave_outside = edge.outside.N < 1;
-      const WedgeFrame &corner = concave_outside ? edge.outside : edge.inside, &back = concave_outside ? edge.inside : edge.outside;
-      const double above = 0.5 * (kPi - radians(opening_deg));  // the mirror; from twice that on nothing reflected meets the other face
+      const WedgeFrame &corner = concave_outside ? edge.outside : edge.inside,
+                       &back = concave_outside ? edge.inside : edge.outside;
+      // the mirror; from twice that on nothing reflected meets the other face
+      const double above = 0.5 * (kPi - radians(opening_deg));
       for (const int mirror : {0, 1}) {
         const WedgeFace& face = corner.face[mirror];
         const Vec3 reflected = -std::cos(above) * face.x + std::sin(above) * face.n;

@@ -87,7 +87,8 @@ TriangleMesh inner_corner(double width, double bottom, double top) {
 }
 
 // At 10 GHz, on a square deck whose own echo is taken off.
-Deviation against_image_theory(const TriangleMesh& body, const TriangleMesh& doubled_body, double half_deck, double azimuth_deg, const Elevations& elevations) {
+Deviation against_image_theory(const TriangleMesh& body, const TriangleMesh& doubled_body, double half_deck,
+                               double azimuth_deg, const Elevations& elevations) {
   const double k = wavenumber(10e9);
   const TriangleMesh deck = block(half_deck, half_deck, -1, 0);
   TriangleMesh both = deck;
@@ -96,12 +97,17 @@ Deviation against_image_theory(const TriangleMesh& body, const TriangleMesh& dou
   const IlluminationSettings settings{2e-4, 8, true};
   std::array<double, 3> error{}, power{};
   for (double elevation = elevations.first_deg; elevation <= elevations.last_deg; elevation += 0.5) {
-    const RadarBasis radar = radar_basis(direction(azimuth_deg, elevation)), image = radar_basis(direction(azimuth_deg, -elevation));
-    const auto echo_of = [&](const Scatterer& target, const AntennaPair& antennas) { return scattering_matrices(target, antennas, std::array{k}, settings)[0]; };
+    const RadarBasis radar = radar_basis(direction(azimuth_deg, elevation)),
+                     image = radar_basis(direction(azimuth_deg, -elevation));
+    const auto echo_of = [&](const Scatterer& target, const AntennaPair& antennas) {
+      return scattering_matrices(target, antennas, std::array{k}, settings)[0];
+    };
     const auto with = echo_of(standing, monostatic(radar)), without = echo_of(alone, monostatic(radar));
-    const auto direct = echo_of(doubled, monostatic(radar)), mirrored = echo_of(doubled, bistatic(image, radar));  // the image's h has the other sign
-    const std::array<Complex, 4> exact{direct[kHhChannel] - mirrored[kHhChannel], direct[kHvChannel] + mirrored[kHvChannel], direct[kVhChannel] - mirrored[kVhChannel],
-                                       direct[kVvChannel] + mirrored[kVvChannel]};
+    // the image's h has the other sign
+    const auto direct = echo_of(doubled, monostatic(radar)), mirrored = echo_of(doubled, bistatic(image, radar));
+    const std::array<Complex, 4> exact{
+        direct[kHhChannel] - mirrored[kHhChannel], direct[kHvChannel] + mirrored[kHvChannel],
+        direct[kVhChannel] - mirrored[kVhChannel], direct[kVvChannel] + mirrored[kVvChannel]};
     const auto add = [&](std::size_t i, Complex difference, Complex reference) {
       error[i] += std::norm(difference);
       power[i] += std::norm(reference);
@@ -110,8 +116,10 @@ Deviation against_image_theory(const TriangleMesh& body, const TriangleMesh& dou
     add(1, with[kVvChannel] - without[kVvChannel] - exact[kVvChannel], exact[kVvChannel]);
     for (const Channel c : {kHvChannel, kVhChannel}) add(2, 0.5 * (with[c] - without[c] - exact[c]), 0);
   }
-  const Deviation deviation{std::sqrt(error[0] / power[0]), std::sqrt(error[1] / power[1]), std::sqrt(error[2] / power[0])};
-  std::printf("azimuth %g deg, elevation %g to %g deg: hh %.3f, vv %.3f, hv %.4f of hh\n", azimuth_deg, elevations.first_deg, elevations.last_deg, deviation.hh, deviation.vv, deviation.hv);
+  const Deviation deviation{std::sqrt(error[0] / power[0]), std::sqrt(error[1] / power[1]),
+                            std::sqrt(error[2] / power[0])};
+  std::printf("azimuth %g deg, elevation %g to %g deg: hh %.3f, vv %.3f, hv %.4f of hh\n", azimuth_deg,
+              elevations.first_deg, elevations.last_deg, deviation.hh, deviation.vv, deviation.hv);
   return deviation;
 }
 
@@ -119,7 +127,8 @@ Deviation against_image_theory(const TriangleMesh& body, const TriangleMesh& dou
 constexpr double kHalfWidth = 0.15, kHeight = 0.2;
 
 Deviation of_block(double half_depth, double half_deck, double azimuth_deg, const Elevations& elevations) {
-  return against_image_theory(block(half_depth, kHalfWidth, 0, kHeight, true), block(half_depth, kHalfWidth, -kHeight, kHeight), half_deck, azimuth_deg, elevations);
+  return against_image_theory(block(half_depth, kHalfWidth, 0, kHeight, true),
+                              block(half_depth, kHalfWidth, -kHeight, kHeight), half_deck, azimuth_deg, elevations);
 }
 
 Deviation of_leaning_plate(double lean_deg, double half_deck, double azimuth_deg, const Elevations& elevations) {
@@ -127,11 +136,14 @@ Deviation of_leaning_plate(double lean_deg, double half_deck, double azimuth_deg
   return against_image_theory(plate, with_image(plate), half_deck, azimuth_deg, elevations);
 }
 
-// Bounds are measured, a tenth above the largest: what physical optics of the deck, the last mirror, has of the beams' ends, taken off, and the rims' fields by the deck, put on, leave of an echo that falls from
-// 3.6 m to 0.08 m (30 to 45 deg off, where the upper rim's ends, off Keller's cone, are all that is left to err). With Gordon's ends on the rims, one face's of two, and the mean of both ways hh and vv erred by up
-// to 0.31 and 0.20, hv by 0.25; without edges by 0.5, since the deck's half of the echo is missing.
+// Bounds are measured, a tenth above the largest: what physical optics of the deck, the last mirror, has of the beams'
+// ends, taken off, and the rims' fields by the deck, put on, leave of an echo that falls from 3.6 m to 0.08 m (30 to 45
+// deg off, where the upper rim's ends, off Keller's cone, are all that is left to err). With Gordon's ends on the rims,
+// one face's of two, and the mean of both ways hh and vv erred by up to 0.31 and 0.20, hv by 0.25; without edges by
+// 0.5, since the deck's half of the echo is missing.
 TEST(StandingBody, FollowsImageTheory) {
-  for (const auto& [half_depth, hh, vv, hv] : {std::array{0.0, 0.2, 0.06, 0.015}, {0.05, 0.17, 0.07, 0.07}, {0.15, 0.11, 0.075, 0.012}}) {
+  for (const auto& [half_depth, hh, vv, hv] :
+       {std::array{0.0, 0.2, 0.06, 0.015}, {0.05, 0.17, 0.07, 0.07}, {0.15, 0.11, 0.075, 0.012}}) {
     for (const double azimuth : {0.0, 5.0, 10.0, 20.0, 30.0, 45.0}) {
       SCOPED_TRACE(testing::Message() << 2 * half_depth << " m deep, azimuth " << azimuth);
       expect_below(of_block(half_depth, 2, azimuth, {10, 40}), {hh, vv, hv});
@@ -139,8 +151,10 @@ TEST(StandingBody, FollowsImageTheory) {
   }
 }
 
-// A deck of 30 x 30 m, so that all of what the wall sends down comes down on it. Bounds are measured, a tenth above the largest: below 5 deg the ways by the deck are images (grazed_mirror.h), from 6 deg on they end on
-// the deck and its rims. With the deck as the last mirror at every elevation hh and vv erred by up to 0.57 and 0.53 from 1 to 3 deg, by 0.29 and 0.21 from 3 to 5 deg.
+// A deck of 30 x 30 m, so that all of what the wall sends down comes down on it. Bounds are measured, a tenth above the
+// largest: below 5 deg the ways by the deck are images (grazed_mirror.h), from 6 deg on they end on the deck and its
+// rims. With the deck as the last mirror at every elevation hh and vv erred by up to 0.57 and 0.53 from 1 to 3 deg, by
+// 0.29 and 0.21 from 3 to 5 deg.
 TEST(StandingBody, FollowsImageTheoryAtLowElevations) {
   for (const auto& [half_depth, hh] : {std::pair{0.0, 0.12}, {0.15, 0.135}}) {
     for (const double azimuth : {0.0, 5.0, 10.0}) {
@@ -152,21 +166,30 @@ TEST(StandingBody, FollowsImageTheoryAtLowElevations) {
   }
 }
 
-// What comes by the deck to one wall, to the other and back by the deck is the image's as well. What is left of vv is left at 20 deg of elevation too (0.1): the walls' rims behind two mirrors. With the deck as the last
-// mirror 0.33 to 0.37 and 0.37 to 0.38 from 1 to 3 deg.
+// What comes by the deck to one wall, to the other and back by the deck is the image's as well. What is left of vv is
+// left at 20 deg of elevation too (0.1): the walls' rims behind two mirrors. With the deck as the last mirror 0.33 to
+// 0.37 and 0.37 to 0.38 from 1 to 3 deg.
 TEST(StandingBody, MayBeACorner) {
   for (const double azimuth : {0.0, 5.0, 20.0}) {
     SCOPED_TRACE(testing::Message() << "azimuth " << azimuth);
-    const auto deviation = [&](const Elevations& elevations) { return against_image_theory(inner_corner(0.2, 0, kHeight), inner_corner(0.2, -kHeight, kHeight), 15, azimuth, elevations); };
+    const auto deviation = [&](const Elevations& elevations) {
+      return against_image_theory(inner_corner(0.2, 0, kHeight), inner_corner(0.2, -kHeight, kHeight), 15, azimuth,
+                                  elevations);
+    };
     expect_below(deviation({1, 3}), {0.23, 0.19, 0.03});
     expect_below(deviation({3, 5}), {0.085, 0.24, 0.015});
   }
 }
 
-// Walls that lean back, as deck houses do, and forward. Their images are lit and seen as the walls themselves, though geometrical optics knows no way from deck to wall and back to the deck, and from a wall that leans
-// back by more than half of the elevation none to the deck either. Bounds as above; with the deck as the last mirror 0.26 to 2.
+// Walls that lean back, as deck houses do, and forward. Their images are lit and seen as the walls themselves, though
+// geometrical optics knows no way from deck to wall and back to the deck, and from a wall that leans back by more than
+// half of the elevation none to the deck either. Bounds as above; with the deck as the last mirror 0.26 to 2.
 TEST(StandingBody, MayLean) {
-  for (const auto& [lean_deg, hh, vv, hv] : {std::array{-5.0, 0.26, 0.115, 0.11}, {-1.0, 0.12, 0.115, 0.005}, {1.0, 0.12, 0.09, 0.02}, {5.0, 0.065, 0.085, 0.005}, {10.0, 0.16, 0.155, 0.005}}) {
+  for (const auto& [lean_deg, hh, vv, hv] : {std::array{-5.0, 0.26, 0.115, 0.11},
+                                             {-1.0, 0.12, 0.115, 0.005},
+                                             {1.0, 0.12, 0.09, 0.02},
+                                             {5.0, 0.065, 0.085, 0.005},
+                                             {10.0, 0.16, 0.155, 0.005}}) {
     for (const double azimuth : {0.0, 5.0, 10.0}) {
       SCOPED_TRACE(testing::Message() << "leans " << lean_deg << " deg, azimuth " << azimuth);
       expect_below(of_leaning_plate(lean_deg, 15, azimuth, {1, 4}), {hh, vv, hv});

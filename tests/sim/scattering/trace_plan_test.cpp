@@ -60,7 +60,8 @@ TEST(TracePlan, OfABodyBesideANearRadarsReferencePoint) {
 }
 
 TEST(TracePlan, OfABodyAtRestIsOneTrace) {
-  const TracePlan plan(Trajectory::at_rest(Vec3(1, 2, 3)), paper_interval(0.2), direction(30, 2), 0, kDirect, {1e-3, 1e-6});
+  const TracePlan plan(Trajectory::at_rest(Vec3(1, 2, 3)), paper_interval(0.2), direction(30, 2), 0, kDirect,
+                       {1e-3, 1e-6});
   ASSERT_EQ(plan.traces().size(), 1u);
   EXPECT_EQ(plan.traces()[0].last, 255);
   EXPECT_DOUBLE_EQ(plan.gain(kDirect[0], 255), 2 * direction(30, 2).dot(Vec3(1, 2, 3)));
@@ -80,8 +81,7 @@ TEST(TracePlan, HasAsManyTracesAsTheTurnNeeds) {
   // 64 ms of 2 pi 0.01 rad/s: 4.0 mrad.
   const double turn = 2 * kPi * 0.01 * 255 * 250e-6;
   for (const int count : {1, 2, 5}) {
-    const TracePlan plan(circling(0.01, 1), paper_interval(0.2), Vec3::UnitX(), 0, kDirect,
-                         {turn / (count - 0.5), 1});
+    const TracePlan plan(circling(0.01, 1), paper_interval(0.2), Vec3::UnitX(), 0, kDirect, {turn / (count - 0.5), 1});
     EXPECT_EQ(plan.traces().size(), static_cast<std::size_t>(count));
     expect_shares_sum_to_one(plan, 256);
   }

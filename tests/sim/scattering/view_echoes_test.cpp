@@ -69,11 +69,15 @@ TEST_F(ReflectorView, CentresErrByNoMoreThanTheirCellsAllowOffTheView) {
     for (const EchoCentre& c : centres_of(all, k16, cell)) {
       for (int i = 0; i < 4; ++i) sum[i] += c.amplitude[i] * std::polar(1.0, dk * c.psi + k * c.gradient.dot(turn));
     }
-    const double error = distance(sum, exact), bound = 2 * amplitudes * 2 * cell * (dk + std::sqrt(3.0) * k * turn.norm());  // 2: four elements' norm
+    // 2: four elements' norm
+    const double error = distance(sum, exact),
+                 bound = 2 * amplitudes * 2 * cell * (dk + std::sqrt(3.0) * k * turn.norm());
     EXPECT_LT(error, bound) << cell;
-    RecordProperty("relative_error_db_cell_" + std::to_string(cell), std::to_string(20 * std::log10(error / size(exact))));
+    RecordProperty("relative_error_db_cell_" + std::to_string(cell),
+                   std::to_string(20 * std::log10(error / size(exact))));
     if (coarser > 0) {
-      EXPECT_LT(error, 0.6 * coarser) << "a quarter of the cell leaves a quarter of the error, give and take its speckle";
+      EXPECT_LT(error, 0.6 * coarser)
+          << "a quarter of the cell leaves a quarter of the error, give and take its speckle";
     }
     coarser = error;
   }
@@ -93,7 +97,8 @@ TEST_F(ReflectorView, OfOneSelectionAndTheRestSumToAll) {
   EXPECT_LT(distance(direct_sum(contributions(only), k16, Vec3::Zero()), with), kRounding * size(s));
   for (const Contribution& c : contributions(only)) EXPECT_EQ(c.bounces, 3);
   // Selectors of one kind are alternatives, of two kinds conditions.
-  several.filter.only = {{EchoSelector::Kind::kBounces, 1}, {EchoSelector::Kind::kBounces, 2}, {EchoSelector::Kind::kPart, 4}};
+  several.filter.only = {
+      {EchoSelector::Kind::kBounces, 1}, {EchoSelector::Kind::kBounces, 2}, {EchoSelector::Kind::kPart, 4}};
   std::size_t count = 0;
   for (const Contribution& c : contributions(several)) {
     EXPECT_LE(c.bounces, 2);

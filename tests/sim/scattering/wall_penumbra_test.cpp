@@ -17,7 +17,8 @@ namespace {
 
 using namespace testing_echoes;
 
-// A floor z = 0, whose rim lies along y in x = 0, and a wall in x = -20 m, as wide as long, seen along x from 15 deg above the floor to as much below.
+// A floor z = 0, whose rim lies along y in x = 0, and a wall in x = -20 m, as wide as long, seen along x from 15 deg
+// above the floor to as much below.
 constexpr double kWay = 20, kWidth = 20;
 
 struct Answer {
@@ -26,7 +27,13 @@ struct Answer {
 
 Answer closed_form(double sine, double k, double height = 1000) {
   const RadarBasis radar = radar_basis(Vec3(std::sqrt(1 - sine * sine), 0, sine));
-  const WallBehindRim wall{Vec3::Zero(), Vec3::UnitY(), Vec3::UnitZ(), Vec3::UnitX(), height, grazes(radar.r, Vec3::UnitZ()), {Vec3(-kWay, -kWidth / 2, 0), Vec3(-kWay, kWidth / 2, 0)}};
+  const WallBehindRim wall{Vec3::Zero(),
+                           Vec3::UnitY(),
+                           Vec3::UnitZ(),
+                           Vec3::UnitX(),
+                           height,
+                           grazes(radar.r, Vec3::UnitZ()),
+                           {Vec3(-kWay, -kWidth / 2, 0), Vec3(-kWay, kWidth / 2, 0)}};
   std::vector<EdgeFootprint> footprints;
   append_wall_penumbra(wall, radar, {}, k, 0, footprints);
   Answer sum{};
@@ -46,25 +53,36 @@ Complex shadowed(double u) {
   return u < 1e-9 ? 0.5 : std::polar(1.0, -u * u - kPi / 4) * transition(u * u) / (2 * std::sqrt(kPi) * u);
 }
 
-// A. Sommerfeld's half-plane (M. Born and E. Wolf, Principles of Optics, 8.7), which is the floor: the wave from a side of it, as the angle from the floor round the rim, or its image, from minus that, at (x, z).
+// A. Sommerfeld's half-plane (M. Born and E. Wolf, Principles of Optics, 8.7), which is the floor: the wave from a side
+// of it, as the angle from the floor round the rim, or its image, from minus that, at (x, z).
 Complex half_plane(double from, double x, double z, double k) {
   const double r = std::hypot(x, z), off = std::atan2(z, -x) - from;
   return std::polar(1.0, k * r * std::cos(off)) * shadowed(-std::sqrt(2 * k * r) * std::cos(0.5 * off));
 }
-// What the field on the wall and its slope, which by reciprocity is the receiver's, have over physical optics: that lights the wall, and once more by the floor up to the rim's shadow line, where the wall's image
-// radiates as well (grazed_mirror.h). They agree far above the penumbra but for waves that run ever faster up the wall, which are faded out.
+// What the field on the wall and its slope, which by reciprocity is the receiver's, have over physical optics: that
+// lights the wall, and once more by the floor up to the rim's shadow line, where the wall's image radiates as well
+// (grazed_mirror.h). They agree far above the penumbra but for waves that run ever faster up the wall, which are faded
+// out.
 Answer integral(double sine, double k) {
   const double angle = std::asin(sine), penumbra = std::sqrt(2 * kWay / k), shadow = kWay * std::tan(angle);
-  const double line = shadow != 0 ? std::abs(shadow) : 0.01 * penumbra, step = line / std::ceil(line / (0.002 * penumbra));  // no step of the midpoint rule has the line within
+  // no step of the midpoint rule has the line within
+  const double line = shadow != 0 ? std::abs(shadow) : 0.01 * penumbra,
+               step = line / std::ceil(line / (0.002 * penumbra));
   const double from = std::abs(shadow) + 12 * penumbra, to = from + 40 * penumbra, h = 1e-5;
   Complex soft = 0, hard = 0;
   for (double z = step / 2; z < to; z += step) {
     const Complex up = std::polar(1.0, -2 * k * kWay * std::cos(angle)) * std::polar(1.0, 2 * k * z * sine);
-    const Complex lit = z + shadow > 0 ? up : 0, by_floor = z < shadow ? std::polar(1.0, -2 * k * kWay * std::cos(angle)) : 0, by_image = by_floor * std::polar(1.0, -2 * k * z * sine);
+    const Complex lit = z + shadow > 0 ? up : 0,
+                  by_floor = z < shadow ? std::polar(1.0, -2 * k * kWay * std::cos(angle)) : 0,
+                  by_image = by_floor * std::polar(1.0, -2 * k * z * sine);
     for (const double sign : {-1.0, 1.0}) {
-      const auto field = [&](double x) { return half_plane(kPi - angle, x, z, k) + sign * half_plane(angle - kPi, x, z, k); };
+      const auto field = [&](double x) {
+        return half_plane(kPi - angle, x, z, k) + sign * half_plane(angle - kPi, x, z, k);
+      };
       const Complex slope = (field(-kWay + h) - field(-kWay - h)) / Complex(0, 2 * h * k);
-      (sign < 0 ? soft : hard) += fading(z, {from, to}) * (field(-kWay) * slope - std::cos(angle) * (lit + by_image + 2 * sign * (lit == 0.0 ? 0.0 : by_floor)));
+      (sign < 0 ? soft : hard) +=
+          fading(z, {from, to}) *
+          (field(-kWay) * slope - std::cos(angle) * (lit + by_image + 2 * sign * (lit == 0.0 ? 0.0 : by_floor)));
     }
   }
   // S is -jk / 2 pi times that; phase from the foot.
@@ -72,13 +90,18 @@ Answer integral(double sine, double k) {
   return {factor * soft, factor * hard};
 }
 
-// Soft up to 2 deg above the floor, whence mirrored rims take part, and to 15 below; hard to 2 either way, whence edge waves do.
+// Soft up to 2 deg above the floor, whence mirrored rims take part, and to 15 below; hard to 2 either way, whence edge
+// waves do.
 TEST(WallPenumbra, IsWhatPhysicalOpticsLacksOfTheHalfPlanesField) {
-  const double k = wavenumber(10e9), all = std::sqrt(k * kWay / kPi) / kPi;  // soft, in grazing: 2 (l / pi k)^(1/2) k / 2 pi
-  for (const double sine : {-0.25, -0.1, -0.03, -0.01, -0.003, -0.001, -0.00005, 0.0, 0.00005, 0.001, 0.003, 0.01, 0.03}) {
+  // soft, in grazing: 2 (l / pi k)^(1/2) k / 2 pi
+  const double k = wavenumber(10e9), all = std::sqrt(k * kWay / kPi) / kPi;
+  for (const double sine :
+       {-0.25, -0.1, -0.03, -0.01, -0.003, -0.001, -0.00005, 0.0, 0.00005, 0.001, 0.003, 0.01, 0.03}) {
     const Answer found = closed_form(sine, k), expected = integral(sine, k);
-    // What cosines of the angle leave; the midpoint rule; within 1e-4 of the floor's plane what goes on from there, with the change over 1e-3, lacks the second order in x.
-    const double tolerance = 1.5 * sine * sine * std::abs(expected.soft) + 1e-4 * all + (std::abs(sine) < 1e-4 ? 2 * k * kWay * 1e-4 * 1e-3 * all : 0);
+    // What cosines of the angle leave; the midpoint rule; within 1e-4 of the floor's plane what goes on from there,
+    // with the change over 1e-3, lacks the second order in x.
+    const double tolerance = 1.5 * sine * sine * std::abs(expected.soft) + 1e-4 * all +
+                             (std::abs(sine) < 1e-4 ? 2 * k * kWay * 1e-4 * 1e-3 * all : 0);
     EXPECT_LT(std::abs(found.soft - expected.soft), tolerance) << sine;
     if (std::abs(sine) > 0.03) continue;
     EXPECT_LT(std::abs(found.hard - expected.hard), tolerance + 1.5 * sine * sine * std::abs(expected.hard)) << sine;
@@ -110,7 +133,8 @@ TEST(WallPenumbra, IsTheWallsAndItsFloors) {
   const AntennaPair antennas = monostatic(radar_basis(direction(30, 2)));
   const auto arrivals = Illumination(scatterer, antennas, {0, 4, true}).light_all(1, [](std::size_t, auto) {}).arrivals;
   std::vector<EdgeFootprint> footprints;
-  edge_wave_footprints(scatterer.edges(), scatterer.facets(), scatterer.panels(), antennas, arrivals, arrivals, {}, footprints);
+  edge_wave_footprints(scatterer.edges(), scatterer.facets(), scatterer.panels(), antennas, arrivals, arrivals, {},
+                       footprints);
   int walls = 0;
   for (const EdgeFootprint& footprint : footprints) {
     if (!footprint.wall) continue;

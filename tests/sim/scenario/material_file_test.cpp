@@ -51,9 +51,11 @@ TEST(MaterialFile, HoldsWhatItSays) {
 }
 
 TEST(MaterialFile, RefusesMediaThatWouldAmplify) {
-  EXPECT_THAT(refusal(with(kCoating, "real: 5", "real: 5, loss: -0.1")),
-              StartsWith("m.yaml:8:35: layers.0.permittivity.loss: value '-0.1': must be a number within 0 and 100000"));
-  EXPECT_THAT(refusal(with(kCoating, "strength: 3", "strength: -3")), HasSubstr("layers.0.permittivity.debye.0.strength"));
+  EXPECT_THAT(
+      refusal(with(kCoating, "real: 5", "real: 5, loss: -0.1")),
+      StartsWith("m.yaml:8:35: layers.0.permittivity.loss: value '-0.1': must be a number within 0 and 100000"));
+  EXPECT_THAT(refusal(with(kCoating, "strength: 3", "strength: -3")),
+              HasSubstr("layers.0.permittivity.debye.0.strength"));
   EXPECT_THAT(refusal(with(kCoating, "loss: 0.5", "loss: -0.5")), HasSubstr("layers.0.permeability.table.0.loss"));
   EXPECT_THAT(refusal(with(kCoating, "conductivity_s_m: 0.1", "conductivity_s_m: -1")), HasSubstr("conductivity_s_m"));
   EXPECT_THAT(refusal("material: x\nsource: y\nkind: impedance\nresistance: -0.2\n"),
@@ -65,13 +67,15 @@ TEST(MaterialFile, NamesEveryOtherMistake) {
   EXPECT_THAT(refusal(with(kCoating, "backing: pec", "resistance: 1")), HasSubstr("belongs to kind: impedance"));
   EXPECT_THAT(refusal(with(kCoating, "thickness_mm", "thicknes_mm")), HasSubstr("did you mean 'thickness_mm'?"));
   EXPECT_THAT(refusal(with(kCoating, "thickness_mm: 1.2", "thickness_mm: 0")), HasSubstr("greater than 0"));
-  EXPECT_THAT(refusal(with(kCoating, "frequency_ghz: 18", "frequency_ghz: 8")), HasSubstr("must be greater than the row before"));
+  EXPECT_THAT(refusal(with(kCoating, "frequency_ghz: 18", "frequency_ghz: 8")),
+              HasSubstr("must be greater than the row before"));
   EXPECT_THAT(refusal(with(kCoating, "permeability: {table", "permeability: {conductivity_s_m: 1, table")),
               HasSubstr("must stand with a permittivity"));
   EXPECT_THAT(refusal("material: x\nsource: y\nkind: layers\n"), HasSubstr("layers: this key is missing"));
   EXPECT_THAT(refusal("material: x\nkind: pec\n"), HasSubstr("source: this key is missing"));
   EXPECT_THAT(refusal("material: x\nsource: y\nkind: sea_water\ntemperature_c: 40\n"), HasSubstr("temperature_c"));
-  EXPECT_THAT(refusal("material: x\nsource: y\nkind: pec\nlowest_ghz: 5\nhighest_ghz: 4\n"), HasSubstr("at least lowest_ghz"));
+  EXPECT_THAT(refusal("material: x\nsource: y\nkind: pec\nlowest_ghz: 5\nhighest_ghz: 4\n"),
+              HasSubstr("at least lowest_ghz"));
   EXPECT_THAT(refusal(""), HasSubstr("the file is empty"));
 }
 
@@ -84,8 +88,9 @@ TEST(MaterialFile, IsFoundByNameOrPath) {
     find_material("aluminum", root, "targets.ship.material");
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_EQ(error.what(), "targets.ship.material: value 'aluminum': no such material, neither in " + root +
-                                "/assets/materials nor in assets/materials below the working directory: did you mean 'aluminium'?");
+    EXPECT_EQ(error.what(),
+              "targets.ship.material: value 'aluminum': no such material, neither in " + root +
+                  "/assets/materials nor in assets/materials below the working directory: did you mean 'aluminium'?");
   }
   const auto refusal = [](const std::string& name, const std::string& folder) {
     try {
@@ -95,8 +100,10 @@ TEST(MaterialFile, IsFoundByNameOrPath) {
     }
     return std::string("none");
   };
-  EXPECT_THAT(refusal("unobtainium", ""), HasSubstr("no such material in assets/materials below the working directory: "));
-  EXPECT_EQ(refusal("none.yaml", "/there"), "x: value 'none.yaml': no such material file, neither /there/none.yaml nor below the working directory");
+  EXPECT_THAT(refusal("unobtainium", ""),
+              HasSubstr("no such material in assets/materials below the working directory: "));
+  EXPECT_EQ(refusal("none.yaml", "/there"),
+            "x: value 'none.yaml': no such material file, neither /there/none.yaml nor below the working directory");
   EXPECT_EQ(refusal("none.yaml", ""), "x: value 'none.yaml': no such material file below the working directory");
 }
 

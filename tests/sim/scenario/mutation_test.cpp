@@ -45,18 +45,10 @@ std::string mutated(std::uint64_t index) {
     const std::size_t at = position();
     const std::size_t length = std::min<std::size_t>(random.below(20), text.size() - at);
     switch (random.below(5)) {
-      case 0:
-        text.insert(at, kPieces[random.below(std::size(kPieces))]);
-        break;
-      case 1:
-        text.erase(at, length);
-        break;
-      case 2:
-        text.insert(position(), text.substr(at, length));
-        break;
-      case 3:
-        text.replace(at, length, kPieces[random.below(std::size(kPieces))]);
-        break;
+      case 0: text.insert(at, kPieces[random.below(std::size(kPieces))]); break;
+      case 1: text.erase(at, length); break;
+      case 2: text.insert(position(), text.substr(at, length)); break;
+      case 3: text.replace(at, length, kPieces[random.below(std::size(kPieces))]); break;
       default:
         if (at < text.size()) text[at] = static_cast<char>(random.below(256));
     }

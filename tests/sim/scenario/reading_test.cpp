@@ -65,8 +65,10 @@ TEST(Reading, OneDirectionStandsOnceInASweep) {
   EXPECT_EQ(complaint_about(kShort + "view: {azimuth_deg: [30, -330]}\n"),
             "folder/file.yaml:4:21: view.azimuth_deg: -330 and 30 are one direction: must not stand twice");
   EXPECT_THAT(complaint_about(kShort + "view: {azimuth_deg: 0:360:10}\n"), HasSubstr("0 and 360 are one direction"));
-  EXPECT_THAT(complaint_about(kShort + "view: {azimuth_deg: [-180, 90, 180]}\n"), HasSubstr("-180 and 180 are one direction"));
-  EXPECT_THAT(complaint_about(kShort + "sea: {propagation_deg: [270, -90]}\n"), HasSubstr("sea.propagation_deg: -90 and 270 are one direction"));
+  EXPECT_THAT(complaint_about(kShort + "view: {azimuth_deg: [-180, 90, 180]}\n"),
+              HasSubstr("-180 and 180 are one direction"));
+  EXPECT_THAT(complaint_about(kShort + "sea: {propagation_deg: [270, -90]}\n"),
+              HasSubstr("sea.propagation_deg: -90 and 270 are one direction"));
   EXPECT_EQ(complaint_about(kShort + "view: {azimuth_deg: -180:179.9:0.1}\n"), "none");
   EXPECT_EQ(complaint_about(kShort + "view: {azimuth_deg: -360}\n"), "none");
 }
@@ -88,16 +90,26 @@ TEST(Reading, TheRadarChainsContradictionsAreNamed) {
       {{{"radar.pri_jitter_us", "108"}}, "radar.pri_jitter_us: value '108': pulses would overlap: must be at most"},
       {{{"radar.hop_code", "file"}}, "radar.hop_code_file: this key is missing"},
       {{{"radar.hop_code_file", "codes.txt"}}, "radar.hop_code_file: value 'codes.txt': must not stand here"},
-      {{{"radar.hop_code", "file"}, {"radar.hop_code_file", "none.txt"}}, "radar.hop_code_file: value 'none.txt': no such file"},
+      {{{"radar.hop_code", "file"}, {"radar.hop_code_file", "none.txt"}},
+       "radar.hop_code_file: value 'none.txt': no such file"},
       {{{"map.range_span_m", "40000"}}, "map.range_span_m: value '40000': its echo lasts 302.8"},
       {{{"clutter.level", "nrl"}, {"radar.polarisation", "hv"}}, "radar.polarisation: value 'hv': must be hh or vv"},
-      {{{"clutter.level", "nrl"}, {"radar.carrier_ghz", "94"}}, "radar.carrier_ghz: value '94': all carriers with their band, 93.9875 to 94.1875 GHz, must be within 0.5 and 35"},
-      {{{"clutter.level", "nrl"}, {"radar.carrier_ghz", "34.9"}}, "radar.carrier_ghz: value '34.9': all carriers with their band, 34.8875 to 35.0875 GHz, must be within 0.5 and 35"},
-      {{{"radar.carrier_ghz", "0.1"}, {"radar.bandwidth_mhz", "200"}, {"radar.sampling_mhz", "400"}}, "radar.bandwidth_mhz: value '200': must be below twice radar.carrier_ghz, 200"},
-      {{{"radar.pulse_width_us", "0.1"}}, "radar.pulse_width_us: value '0.1': must be at least 0.16 us, 8 samples of radar.sampling_mhz"},
-      {{{"clutter.level", "nrl"}, {"view", "{elevation_deg: 0}"}}, "view.elevation_deg: value '0': must be within 0.1 and 60"},
-      {{{"clutter.doppler", "wave_field"}, {"view", "{elevation_deg: [2, 90]}"}}, "must be within 0.1 and 60 with clutter.doppler: wave_field"},
-      {{{"clutter.doppler", "sea"}, {"view", "{elevation_deg: -1}"}}, "view.elevation_deg: value '-1': must be within 0.1 and 60 with clutter.doppler: sea"},
+      {{{"clutter.level", "nrl"}, {"radar.carrier_ghz", "94"}},
+       "radar.carrier_ghz: value '94': all carriers with their band, 93.9875 to 94.1875 GHz, must be within 0.5 and "
+       "35"},
+      {{{"clutter.level", "nrl"}, {"radar.carrier_ghz", "34.9"}},
+       "radar.carrier_ghz: value '34.9': all carriers with their band, 34.8875 to 35.0875 GHz, must be within 0.5 and "
+       "35"},
+      {{{"radar.carrier_ghz", "0.1"}, {"radar.bandwidth_mhz", "200"}, {"radar.sampling_mhz", "400"}},
+       "radar.bandwidth_mhz: value '200': must be below twice radar.carrier_ghz, 200"},
+      {{{"radar.pulse_width_us", "0.1"}},
+       "radar.pulse_width_us: value '0.1': must be at least 0.16 us, 8 samples of radar.sampling_mhz"},
+      {{{"clutter.level", "nrl"}, {"view", "{elevation_deg: 0}"}},
+       "view.elevation_deg: value '0': must be within 0.1 and 60"},
+      {{{"clutter.doppler", "wave_field"}, {"view", "{elevation_deg: [2, 90]}"}},
+       "must be within 0.1 and 60 with clutter.doppler: wave_field"},
+      {{{"clutter.doppler", "sea"}, {"view", "{elevation_deg: -1}"}},
+       "view.elevation_deg: value '-1': must be within 0.1 and 60 with clutter.doppler: sea"},
       {{{"clutter.level", "nrl"}, {"sea", "{significant_wave_height_m: 7, peak_period_s: 14}"}},
        "sea.significant_wave_height_m: value '7': must be at most 6"},
       {{{"targets.a.with", "[{target: b}]"}}, "must be the name of another target"},
@@ -106,11 +118,15 @@ TEST(Reading, TheRadarChainsContradictionsAreNamed) {
     EXPECT_THAT(complaint_about(kShort, overrides), HasSubstr(message)) << message;
   }
   EXPECT_EQ(complaint_about(kShort, {{"clutter.level", "nrl"}}), "none");
-  EXPECT_EQ(complaint_about("seaglint: 1\nview:\n  elevation_deg: 90\nclutter: {doppler: wave_field}\ntargets:\n  a: {label: 1, mesh: a.glb}\n"),
-            "folder/file.yaml:3:18: view.elevation_deg: value '90': must be within 0.1 and 60 with clutter.doppler: wave_field");
+  EXPECT_EQ(complaint_about("seaglint: 1\nview:\n  elevation_deg: 90\nclutter: {doppler: wave_field}\ntargets:\n  a: "
+                            "{label: 1, mesh: a.glb}\n"),
+            "folder/file.yaml:3:18: view.elevation_deg: value '90': must be within 0.1 and 60 with clutter.doppler: "
+            "wave_field");
   // Clutter at a ratio and of a given Doppler spectrum is seen from anywhere, and none at all has no sea to be seen.
   EXPECT_EQ(complaint_about(kShort, {{"view.elevation_deg", "90"}}), "none");
-  EXPECT_EQ(complaint_about(kShort, {{"view.elevation_deg", "90"}, {"clutter", "{enabled: false, doppler: wave_field}"}}), "none");
+  EXPECT_EQ(
+      complaint_about(kShort, {{"view.elevation_deg", "90"}, {"clutter", "{enabled: false, doppler: wave_field}"}}),
+      "none");
 }
 
 // A float and a body at rest stay in the water that a speed would have fall behind.
@@ -205,7 +221,8 @@ TEST(Reading, EveryMistakeIsNamedWithItsPlaceValueAndBound) {
       {"name: [a]", "7: name: a list: must be a text of 1 to 4096 printable characters"},
       {"name: \"a\\nb\"", "7: name: value 'a b': must be a text of 1 to 4096 printable characters"},
       {"seed: -1", "7: seed: value '-1': must be a whole number within 0 and 9223372036854775807"},
-      {"seed: 9223372036854775808", "7: seed: value '9223372036854775808': must be a whole number within 0 and 9223372036854775807"},
+      {"seed: 9223372036854775808",
+       "7: seed: value '9223372036854775808': must be a whole number within 0 and 9223372036854775807"},
       {"dataset: {split: 0.7}", "18: dataset.split: value '0.7': must be a ratio a:b of two positive numbers"},
       {"dataset: {split: 0:1}", "18: dataset.split: value '0:1': must be a ratio a:b of two positive numbers"},
       {"radar: {pulses: !!int 5}", "17: tag 'tag:yaml.org,2002:int': tags are not used here"},
@@ -347,24 +364,33 @@ TEST(Reading, MaterialsOfATargetAndItsPartsComeBackFromTheEffectiveForm) {
 
 TEST(Reading, OneMapHasOneRadarRange) {
   const auto with = [](const std::string& ship, const std::string& decoy) {
-    return "seaglint: 1\ntargets:\n  ship: {label: 1, " + ship + ", with: [{target: decoy}]}\n  decoy: {label: 0, " + decoy + "}\n";
+    return "seaglint: 1\ntargets:\n  ship: {label: 1, " + ship + ", with: [{target: decoy}]}\n  decoy: {label: 0, " +
+           decoy + "}\n";
   };
-  const std::string mesh = "mesh: a.glb", far = "mesh: a.glb, solver: {radar_range_m: 20000}", near = "mesh: a.glb, solver: {radar_range_m: 5000.5}",
-                    points = "points: [{position_m: [0, 0, 0]}]";
-  EXPECT_EQ(complaint_about(with(far, near)), "folder/file.yaml:4:58: targets.decoy.solver.radar_range_m: value '5000.5': must be 20000, as targets.ship has it in the same "
-                                              "maps (folder/file.yaml:3:57: targets.ship.solver.radar_range_m)");
+  const std::string mesh = "mesh: a.glb", far = "mesh: a.glb, solver: {radar_range_m: 20000}",
+                    near = "mesh: a.glb, solver: {radar_range_m: 5000.5}", points = "points: [{position_m: [0, 0, 0]}]";
+  EXPECT_EQ(complaint_about(with(far, near)),
+            "folder/file.yaml:4:58: targets.decoy.solver.radar_range_m: value '5000.5': must be 20000, as targets.ship "
+            "has it in the same "
+            "maps (folder/file.yaml:3:57: targets.ship.solver.radar_range_m)");
   EXPECT_THAT(complaint_about(with(far, mesh)), HasSubstr("4:10: targets.decoy.solver.radar_range_m: must be 20000"));
-  EXPECT_THAT(complaint_about(with(mesh, far)), HasSubstr("targets.decoy.solver.radar_range_m: value '20000': must be 0"));
-  EXPECT_THAT(complaint_about(with(far, points)), HasSubstr("3:57: targets.ship.solver.radar_range_m: value '20000': must be 0, as targets.decoy has it"));
-  EXPECT_THAT(complaint_about(with(points, far)), HasSubstr("4:58: targets.decoy.solver.radar_range_m: value '20000': must be 0"));
+  EXPECT_THAT(complaint_about(with(mesh, far)),
+              HasSubstr("targets.decoy.solver.radar_range_m: value '20000': must be 0"));
+  EXPECT_THAT(complaint_about(with(far, points)),
+              HasSubstr("3:57: targets.ship.solver.radar_range_m: value '20000': must be 0, as targets.decoy has it"));
+  EXPECT_THAT(complaint_about(with(points, far)),
+              HasSubstr("4:58: targets.decoy.solver.radar_range_m: value '20000': must be 0"));
   EXPECT_EQ(complaint_about(with(far, far)), "none");
   EXPECT_EQ(complaint_about(with(points, points)), "none");
 }
 
 TEST(Reading, ThicknessOfSheetsBelongsToAMesh) {
-  const auto with = [](const std::string& keys) { return "seaglint: 1\ntargets:\n  a: {label: 1, " + keys + ", sheet_thickness_mm: 1.5}\n"; };
+  const auto with = [](const std::string& keys) {
+    return "seaglint: 1\ntargets:\n  a: {label: 1, " + keys + ", sheet_thickness_mm: 1.5}\n";
+  };
   EXPECT_DOUBLE_EQ(parse(effective_yaml(parse(with("mesh: a.glb")))).targets[0].sheet_thickness_mm, 1.5);
-  EXPECT_THAT(complaint_about(with("points: [{position_m: [0, 0, 0]}]")), HasSubstr("sheet_thickness_mm: value '1.5': must not stand beside points"));
+  EXPECT_THAT(complaint_about(with("points: [{position_m: [0, 0, 0]}]")),
+              HasSubstr("sheet_thickness_mm: value '1.5': must not stand beside points"));
 }
 
 }  // namespace

@@ -163,7 +163,8 @@ void make_consistent(Scenario& scenario) {
     for (TargetSpec& array : scenario.targets) {
       if (!target.with.empty() && array.name == "array") array.solver.radar_range_m = target.solver.radar_range_m;
     }
-    if (target.motion.model == MotionModel::kFixed || target.motion.model == MotionModel::kFloat) target.motion.speed_mps = 0;
+    if (target.motion.model == MotionModel::kFixed || target.motion.model == MotionModel::kFloat)
+      target.motion.speed_mps = 0;
   }
 }
 

@@ -285,7 +285,8 @@ TEST(StratumWidths, TellHowMuchTheMeanPeriodScatters) {
   state.swell = {1, 12, 5, 0, {}, 36};
   EXPECT_NEAR(stratum_widths(state).swell, 0.1, 1e-12);  // 0.4 to 4 times the peak
   state.swell = {};
-  const double fine = scatter_of_mean_period(state, 512), bound = scatter_of_mean_period(state, 98), coarse = scatter_of_mean_period(state, 8);
+  const double fine = scatter_of_mean_period(state, 512), bound = scatter_of_mean_period(state, 98),
+               coarse = scatter_of_mean_period(state, 8);
   std::printf("scatter of T1: %.2f, %.2f, %.1f %%\n", 100 * fine, 100 * bound, 100 * coarse);
   // 400 seas know a standard deviation to 1 / sqrt(800), 3.5 %; three of these.
   EXPECT_LT(fine, 0.001 * 1.1);
