@@ -9,24 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "sim/core/linear.h"
 #include "tools/rcs_reference.h"
+#include "tools/rcs_sweep.h"
 
 namespace seaglint {
-
-// What was computed: scattering matrices hh, hv, vh, vv in metres over frequency and aspect, by one or several models.
-struct RcsSweep {
-  std::vector<double> frequency_hz, azimuth_deg, elevation_deg;
-  struct Model {
-    std::string name;  // in legends and tables
-    // [view][frequency], view = elevation * azimuths + azimuth
-    std::vector<std::vector<std::array<Complex, 4>>> matrices;
-  };
-  std::vector<Model> models;
-  std::optional<Vec3> transmitter;  // its direction where it stands still while the sweep is the receiver's
-
-  std::size_t views() const { return azimuth_deg.size() * elevation_deg.size(); }
-};
 
 // What a cut runs along.
 enum class CutAxis { kAzimuth, kElevation, kFrequency, kSeveral };
