@@ -35,6 +35,11 @@ struct Candidate {
   Pieces lit;
 };
 
+// The leg's field at wavenumber number q.
+inline BeamField field_at(const Leg& leg, std::size_t q) {
+  return leg.fields.empty() ? BeamField{leg.E_h.cast<Complex>(), leg.E_v.cast<Complex>()} : leg.fields[q];
+}
+
 // The facet's unit normal on the side the leg comes from.
 inline Vec3 facing(const Leg& leg, const Facet& facet) {
   return facet.normal.dot(leg.direction) < 0 ? facet.normal : Vec3(-facet.normal);
