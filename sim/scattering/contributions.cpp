@@ -81,7 +81,7 @@ class Splitter {
       MovingLine line;  // through the centroid, across the longest extent; a cut of our own is at rest
       line.gradient = along.normalized();
       line.value = -line.gradient.dot(c);
-      const MovingPolygon near = clip(polygon, line, -1), far = clip(polygon, line, +1);
+      const auto [far, near] = halves(polygon, line);
       if (!near.empty() && !far.empty() && near.size() + far.size() > polygon.size()) {
         area(near);
         area(far);

@@ -122,8 +122,8 @@ class CurvedSplitter {
     line.value_d2 = line.gradient.y() * plane.z0;
     line.gradient_d1 = line.gradient.x() * plane.slope;
     line.gradient_d2 = line.gradient.y() * plane.slope;
-    const int side = line.at(a) > line.at(b) ? +1 : -1;
-    const MovingPolygon near_a = clip(polygon, line, side), near_b = clip(polygon, line, -side);
+    auto [near_a, near_b] = halves(polygon, line);
+    if (line.at(a) <= line.at(b)) std::swap(near_a, near_b);
     if (!near_a.empty()) part(near_a, {a, middle, far});
     if (!near_b.empty()) part(near_b, {middle, b, far});
   }

@@ -216,7 +216,9 @@ void VisibleSurface::show(const Window& window, const Vec3& normal, const ImageP
                        moved(corner.d2 + Vec2(0, z)) - Vec2(0, x.z())});
     }
     if (signed_area(image) < 0) std::reverse(image.begin(), image.end());
+    const Box around = box_of(image);
     for (const MovingPolygon& part : lit) {
+      if (!overlap(box_of(part), around)) continue;
       MovingPolygon both = intersect(part, image);
       if (signed_area(both) > least) seen.push_back(std::move(both));
     }

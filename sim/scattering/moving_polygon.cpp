@@ -133,6 +133,21 @@ MovingPolygon clip(const MovingPolygon& polygon, const MovingLine& line, int kee
   return kept;
 }
 
+std::array<MovingPolygon, 2> halves(const MovingPolygon& polygon, const MovingLine& line) {
+  MovingPolygon above, below;
+  const auto at = [&](const Vec2& p) { return line.at(p); };
+  const Side side = clip_by(
+      polygon, at, kOnLine, [&] { return line; }, above, &below);
+  if (side == Side::kInside) return {polygon, {}};
+  if (above.empty() && below.empty()) {  // on one side, or all on the line
+    if (std::ranges::any_of(polygon, [&](const Corner& c) { return line.at(c.p) <= -kOnLine; })) below = polygon;
+  }
+  for (MovingPolygon* half : {&above, &below}) {
+    if (half->size() < 3) half->clear();
+  }
+  return {above, below};
+}
+
 bool apart(const MovingPolygon& a, const MovingPolygon& b) {
   const auto outside_an_edge = [](const MovingPolygon& edges, const MovingPolygon& corners) {
     const Vec2* from = &edges.back().p;

@@ -8,6 +8,7 @@
 // intersection does. So the end points of a lit region keep their first-order phase over a whole interval, shadow edges
 // included.
 
+#include <array>
 #include <memory>
 #include <new>
 #include <type_traits>
@@ -135,6 +136,9 @@ MovingPolygon counter_clockwise(MovingPolygon polygon);
 // it.
 inline constexpr double kOnLine = 1e-10;
 MovingPolygon clip(const MovingPolygon& polygon, const MovingLine& line, int keep = +1);
+
+// Both parts at once, as clip() has them: where line >= 0, and where line <= 0.
+std::array<MovingPolygon, 2> halves(const MovingPolygon& polygon, const MovingLine& line);
 
 // True when an edge of one of the polygons has the other wholly outside it or on it: then they have no area in common.
 bool apart(const MovingPolygon& a, const MovingPolygon& b);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "sim/core/constants.h"
 #include "sim/core/random.h"
 #include "sim/scattering/hidden_surface.h"
 
@@ -70,6 +71,40 @@ TEST(MovingPolygon, CornersMadeByClippingMoveAsTheIntersectionOfTheirEdges) {
     const Vec2 difference = (after[i].p - before[i].p) / (2 * kStep);
     EXPECT_NEAR((difference - common[i].d1).norm(), 0, 1e-6) << i;  // central differences: kStep^2 and rounding / kStep
   }
+}
+
+TEST(MovingPolygon, HalvesAreWhatClippingLeavesOnEitherSide) {
+  Random random({3, Stream::kTest, 1});
+  const MovingPolygon whole = square(0, 0, 1);
+  for (int trial = 0; trial < 300; ++trial) {
+    const double angle = 2 * kPi * random.uniform();
+    MovingLine line;
+    line.gradient = {std::cos(angle), std::sin(angle)};
+    line.value = 3 * random.uniform() - 1.5;  // some pass the square by
+    if (trial < 8) {                          // along a side, through corners, and along the diagonal
+      line.gradient = std::array<Vec2, 4>{Vec2(1, 0), Vec2(0, -1), Vec2(1, 1), Vec2(1, -1)}[trial % 4];
+      line.value = trial < 4 ? 0 : -1;
+    }
+    const std::array<MovingPolygon, 2> half = halves(whole, line);
+    double area = 0;
+    for (int i = 0; i < 2; ++i) {
+      const MovingPolygon alone = clip(whole, line, i == 0 ? +1 : -1);
+      ASSERT_EQ(half[i].size(), alone.size()) << trial;
+      for (std::size_t c = 0; c < alone.size(); ++c) {
+        EXPECT_EQ(half[i][c].p, alone[c].p);
+        EXPECT_EQ(half[i][c].d1, alone[c].d1);
+        EXPECT_GE((i == 0 ? 1 : -1) * line.at(half[i][c].p), -1e-15);
+      }
+      area += half[i].empty() ? 0 : signed_area(half[i]);
+    }
+    EXPECT_NEAR(area, 1, 1e-14);
+  }
+  MovingLine on_it;  // a polygon without area along the line belongs to neither side
+  on_it.gradient = {0, 1};
+  MovingPolygon flat(3);
+  flat[1].p = {1, 0};
+  flat[2].p = {2, 0};
+  for (const MovingPolygon& half : halves(flat, on_it)) EXPECT_TRUE(half.empty());
 }
 
 TEST(MovingPolygon, TheLineWhereTwoPlanesMeetMovesWithTheDirection) {
