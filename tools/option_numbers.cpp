@@ -1,5 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause Numbers on the command line are decimal. CLI11 takes them as C does: 010 would
-// be eight, 0x10 sixteen, an empty word zero.
+// SPDX-License-Identifier: BSD-3-Clause
+// Numbers on the command line are decimal. CLI11 takes them as C does: 010 would be eight, 0x10 sixteen, an empty word
+// zero.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

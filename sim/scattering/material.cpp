@@ -102,8 +102,9 @@ SurfaceFields Surface::stack(double cos_incidence) const {
   }
   if (air_behind_) media.push_back(media.front());
 
-  // Gamma at the front of the last interface, then interface by interface towards the wave: Gamma_i = (rho_i +
-  // Gamma_{i+1} e^{-2j delta}) / (1 + rho_i Gamma_{i+1} e^{-2j delta}), delta = k0 kappa d of the medium between them.
+  // Gamma at the front of the last interface, then interface by interface towards the wave:
+  //     Gamma_i = (rho_i + Gamma_{i+1} e^{-2j delta}) / (1 + rho_i Gamma_{i+1} e^{-2j delta}),
+  // delta = k0 kappa d of the medium between them.
   Complex te = -1, tm = -1;  // tangential E at a perfect conductor
   Complex te_through = 1, tm_through = 1;
   const bool has_conductor = !half_space_ && !air_behind_;

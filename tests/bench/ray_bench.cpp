@@ -1,5 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause What would rays cost? The usual solver of shooting and bouncing rays, with
-// Embree, beside beams: error and time of both on the 144 m ship.
+// SPDX-License-Identifier: BSD-3-Clause
+// What would rays cost? The usual solver of shooting and bouncing rays, with Embree, beside beams: error and time of
+// both on the 144 m ship.
 #include <benchmark/benchmark.h>
 
 #include "sim/scattering/beam_leg.h"

@@ -1,5 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause The corridor holds: a file includes its own stage or stages to its left, and
-// third-party libraries stay behind one file per stage.
+// SPDX-License-Identifier: BSD-3-Clause
+// The corridor holds: a file includes its own stage or stages to its left, and third-party libraries stay behind one
+// file per stage.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -89,8 +90,10 @@ TEST(StageOrder, ThirdPartyHeadersStayBehindOneSourceFilePerStage) {
 }
 
 TEST(StageOrder, EveryFileCarriesItsLicence) {
-  for (const std::string& stage : stage_list()) {
-    for (const auto& entry : fs::recursive_directory_iterator(fs::path(SEAGLINT_SOURCE_DIR) / stage)) {
+  std::vector<std::string> folders = stage_list();
+  folders.emplace_back("tests");
+  for (const std::string& folder : folders) {
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(SEAGLINT_SOURCE_DIR) / folder)) {
       const std::string extension = entry.path().extension();
       if (extension != ".h" && extension != ".cpp") continue;
       std::ifstream file(entry.path());

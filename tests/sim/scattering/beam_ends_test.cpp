@@ -1,5 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause Where beams end: the width of what two rims share against Fresnel's integral,
-// its points against fresh traces. The echo is held to integral equations in section_test.cpp.
+// SPDX-License-Identifier: BSD-3-Clause
+// Where beams end: the width of what two rims share against Fresnel's integral, its points against fresh traces. The
+// echo is held to integral equations in section_test.cpp.
 #include <gtest/gtest.h>
 
 #include <cmath>

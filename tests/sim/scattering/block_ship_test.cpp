@@ -1,5 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause A hull with a house on its deck, six wavelengths long, against integral
-// equations: walls on decks, corners, rims and the waves between them together, in three dimensions.
+// SPDX-License-Identifier: BSD-3-Clause
+// A hull with a house on its deck, six wavelengths long, against integral equations: walls on decks, corners, rims and
+// the waves between them together, in three dimensions.
 #include <gtest/gtest.h>
 
 #include <array>

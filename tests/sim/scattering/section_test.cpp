@@ -1,5 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause Prisms of several cross-sections against integral equations of the infinitely
-// long ones: wedges of any angle, back and towards any receiver.
+// SPDX-License-Identifier: BSD-3-Clause
+// Prisms of several cross-sections against integral equations of the infinitely long ones: wedges of any angle, back
+// and towards any receiver.
 #include <gtest/gtest.h>
 
 #include <cmath>
