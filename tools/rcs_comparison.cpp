@@ -179,8 +179,7 @@ std::vector<PairedCut> pair_with(const RcsSweep& sweep, const RcsReference& refe
       if (sample->amplitude_m) {
         // A phase origin at x0 lies (r^_t + r^_s).x0 nearer to the radar, both ways, than the body's (CONVENTIONS.md,
         // "Scattering").
-        const Vec3 r(std::cos(radians(el)) * std::cos(radians(az)), std::cos(radians(el)) * std::sin(radians(az)),
-                     std::sin(radians(el)));
+        const Vec3 r = direction_at(az, el);
         cut.amplitude_m.push_back(
             *sample->amplitude_m *
             std::polar(1.0, k * (sweep.transmitter.value_or(r) + r).dot(reference.settings.origin_m)));

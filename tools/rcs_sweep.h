@@ -2,10 +2,12 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "sim/core/constants.h"
 #include "sim/core/linear.h"
 
 namespace seaglint {
@@ -23,5 +25,11 @@ struct RcsSweep {
 
   std::size_t views() const { return azimuth_deg.size() * elevation_deg.size(); }
 };
+
+// The unit vector from the body to a radar there.
+inline Vec3 direction_at(double azimuth_deg, double elevation_deg) {
+  const double az = radians(azimuth_deg), el = radians(elevation_deg);
+  return {std::cos(el) * std::cos(az), std::cos(el) * std::sin(az), std::sin(el)};
+}
 
 }  // namespace seaglint

@@ -31,11 +31,6 @@ AntennaPair antennas_of(const RcsArguments& arguments, const RadarBasis& swept) 
 
 }  // namespace
 
-Vec3 direction_at(double azimuth_deg, double elevation_deg) {
-  const double az = radians(azimuth_deg), el = radians(elevation_deg);
-  return {std::cos(el) * std::cos(az), std::cos(el) * std::sin(az), std::sin(el)};
-}
-
 RadarBasis basis_of(const RcsSweep& sweep, std::size_t view) {
   return basis_at(sweep.azimuth_deg[view % sweep.azimuth_deg.size()],
                   sweep.elevation_deg[view / sweep.azimuth_deg.size()]);

@@ -31,9 +31,6 @@ struct RcsArguments {
   CavityArguments cavities;
 };
 
-// The unit vector from the body to a radar there.
-Vec3 direction_at(double azimuth_deg, double elevation_deg);
-
 // Of the view the sweep's own antenna: the receiver's where the transmitter stands still.
 RadarBasis basis_of(const RcsSweep& sweep, std::size_t view);
 

@@ -26,9 +26,6 @@ class BeamTracer {
         antennas_(scene.antennas),
         basis_(scene.antennas.transmit),
         echo_(scene, out),
-        max_bounces_(scene.settings.max_bounces),
-        min_area_(scene.min_area),
-        min_beam_area_(scene.min_beam_area),
         scratch_(static_cast<std::size_t>(scene.settings.max_bounces) + 1) {}
 
   std::size_t legs() const { return legs_; }
@@ -64,7 +61,7 @@ class BeamTracer {
   // A facet as the leg meets it; false when it misses the window.
   bool meet(const Leg& leg, const Pieces& window, int facet, Candidate& candidate) const {
     FacetImage& image = candidate.image;
-    if (!set_image(image, facets_, panels_, facet, leg.mirrors, basis_, min_area_)) return false;
+    if (!set_image(image, facets_, panels_, facet, leg.mirrors, basis_, scene_.min_area)) return false;
     double farthest = 0, nearest = 0;  // beyond the mirror
     for (const Corner& corner : image.polygon) {
       const double beyond = leg.from_plane.at(corner.p) - image.plane.at(corner.p);
@@ -74,14 +71,14 @@ class BeamTracer {
     if (farthest < kCoincident) return false;  // it lies in the mirror or behind it
     if (nearest < 0) {
       image.polygon = clip(image.polygon, depth_between(image.plane, leg.from_plane), +1);
-      if (image.polygon.empty() || signed_area(image.polygon) < min_area_) return false;
+      if (image.polygon.empty() || signed_area(image.polygon) < scene_.min_area) return false;
     }
     const Box box = box_of(image.polygon);
     candidate.lit.clear();
     for (std::size_t i = 0; i < window.size(); ++i) {
       if (!overlap(window.boxes()[i], box)) continue;
       MovingPolygon common = intersect(window.polygons()[i], image.polygon);
-      if (!common.empty() && signed_area(common) > min_area_) candidate.lit.push_back(std::move(common));
+      if (!common.empty() && signed_area(common) > scene_.min_area) candidate.lit.push_back(std::move(common));
     }
     return !candidate.lit.empty();
   }
@@ -104,7 +101,7 @@ class BeamTracer {
       return covered = std::min(covered, met.covered);
     });
     // Of the last leg only what the radar sees, or an edge, can answer.
-    if (leg.bounce == max_bounces_ && !any_seen && !echo_.reaches_edges(leg)) return;
+    if (leg.bounce == scene_.settings.max_bounces && !any_seen && !echo_.reaches_edges(leg)) return;
 
     std::vector<Candidate>& met = scratch.met;
     std::vector<Extent>& extent = scratch.extent;
@@ -126,7 +123,7 @@ class BeamTracer {
     // its own hiders do not.
     const auto hides = [&](std::uint32_t front, std::uint32_t behind) {
       if (!may_hide(extent[behind], extent[front])) return;
-      hide(met[behind].image, extent[behind], met[front].image, extent[front], min_area_, met[behind].lit);
+      hide(met[behind].image, extent[behind], met[front].image, extent[front], scene_.min_area, met[behind].lit);
       if (met[behind].lit.empty()) extent[behind] = nowhere();
     };
     for (std::size_t i = 0; i < order.size(); ++i) {
@@ -186,9 +183,10 @@ class BeamTracer {
 
   // Whether what the candidate reflects is worth following.
   bool goes_on(const Leg& leg, const Candidate& candidate) const {
-    if (leg.bounce >= max_bounces_ || scene_.settings.filter.is_cavity(facets_[candidate.image.facet].part))
+    if (leg.bounce >= scene_.settings.max_bounces ||
+        scene_.settings.filter.is_cavity(facets_[candidate.image.facet].part))
       return false;
-    return candidate.lit.area() >= min_beam_area_;
+    return candidate.lit.area() >= scene_.min_beam_area;
   }
 
   const BeamScene& scene_;
@@ -199,8 +197,6 @@ class BeamTracer {
   const AntennaPair& antennas_;
   const RadarBasis& basis_;  // of the aperture: the transmitter's
   BeamEcho echo_;
-  int max_bounces_;
-  double min_area_, min_beam_area_;
   std::vector<Scratch> scratch_;  // by the bounce a leg ends in
   std::size_t legs_ = 0;
 };

@@ -145,7 +145,7 @@ std::array<MovingPolygon, 2> halves(const MovingPolygon& polygon, const MovingLi
   for (MovingPolygon* half : {&above, &below}) {
     if (half->size() < 3) half->clear();
   }
-  return {above, below};
+  return {std::move(above), std::move(below)};
 }
 
 bool apart(const MovingPolygon& a, const MovingPolygon& b) {

@@ -19,7 +19,7 @@
 // j x)^(1/2), physical optics, that follows no wave which comes and goes by the face as rays do, lacks per metre of
 // wall and -jk / 2 pi
 //
-//     by the rim and the wall's image of it   -1 / (2jks)         a > 0, at the phase of the foot
+//     by the rim and the wall's image of it    -1 / (2jks)         a > 0, at the phase of the foot
 //     at the rim's shadow line                 e^{-2jx} / (2jks)   a < 0: that end is none
 //     from the rim to the wall and back to it  (l / pi k)^(1/2) e^{-j pi/4} e^{-jx} [F(x) / (2jx) -+ (1 - F(x))]
 //

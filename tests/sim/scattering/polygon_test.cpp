@@ -93,11 +93,11 @@ TEST(MovingPolygon, HalvesAreWhatClippingLeavesOnEitherSide) {
       for (std::size_t c = 0; c < alone.size(); ++c) {
         EXPECT_EQ(half[i][c].p, alone[c].p);
         EXPECT_EQ(half[i][c].d1, alone[c].d1);
-        EXPECT_GE((i == 0 ? 1 : -1) * line.at(half[i][c].p), -1e-15);
+        EXPECT_GE((i == 0 ? 1 : -1) * line.at(half[i][c].p), -1e-15);  // rounding
       }
       area += half[i].empty() ? 0 : signed_area(half[i]);
     }
-    EXPECT_NEAR(area, 1, 1e-14);
+    EXPECT_NEAR(area, 1, 1e-14);  // as above, rounding of some numbers of order one
   }
   MovingLine on_it;  // a polygon without area along the line belongs to neither side
   on_it.gradient = {0, 1};
