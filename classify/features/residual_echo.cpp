@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/core/complex_product.h"
 #include "sim/core/constants.h"
 
 namespace seaglint {
@@ -40,8 +39,8 @@ struct PulsePhasor {
   }
 
   void next() {
-    value = times(value, ratio);
-    if (bent) ratio = times(ratio, bend);
+    value *= ratio;
+    if (bent) ratio *= bend;
   }
 };
 
@@ -86,7 +85,7 @@ std::vector<ResidualEcho::PulseMoments> ResidualEcho::moments(double range_m, do
     for (std::size_t b = 0; b < frequencies; ++b, phasor.next()) {
       const std::size_t i = n * frequencies + b;
       const double wavenumber = 4 * kPi / kSpeedOfLight * train_.baseband_hz[b];
-      const Complex x = times(times(weight_[i], echo_[i]), phasor.value);
+      const Complex x = weight_[i] * echo_[i] * phasor.value;
       const Complex kx = wavenumber * x, kkx = wavenumber * kx;
       m.m0 += x;
       m.m1 += kx;
@@ -110,10 +109,10 @@ PointComponent ResidualEcho::fit(double range_m, double velocity_mps, double rea
         const double kr = 4 * kPi / kSpeedOfLight * (f - train_.band_centre_hz()), kv = 4 * kPi / kSpeedOfLight * f * t;
         const Complex turn = std::polar(1.0, kr * dr + kv * dv);
         const double y = dr + dv * t;
-        const Complex z2 = times(turn, all[n].m2 + Complex(0, y) * all[n].m3);
-        const Complex z1 = times(turn, all[n].m1 + Complex(0, y) * all[n].m2 - 0.5 * y * y * all[n].m3);
-        const Complex z0 = times(turn, all[n].m0 + Complex(0, y) * all[n].m1 - 0.5 * y * y * all[n].m2 -
-                                           Complex(0, y * y * y / 6) * all[n].m3);
+        const Complex z2 = turn * (all[n].m2 + Complex(0, y) * all[n].m3);
+        const Complex z1 = turn * (all[n].m1 + Complex(0, y) * all[n].m2 - 0.5 * y * y * all[n].m3);
+        const Complex z0 = turn * (all[n].m0 + Complex(0, y) * all[n].m1 - 0.5 * y * y * all[n].m2 -
+                                   Complex(0, y * y * y / 6) * all[n].m3);
         // d/dr brings j (kr + k_b), d/dv brings j (kv + k_b t), k_b the baseband wavenumber of the moments.
         s.rv += z0;
         s.r += kr * z0 + z1;
@@ -178,7 +177,7 @@ void ResidualEcho::subtract(const PointComponent& point) {
   for (std::size_t n = 0; n < train_.pulses(); ++n) {
     PulsePhasor phasor(train_, n, point.range_m, point.velocity_mps, intra_pulse_motion_);
     for (std::size_t b = 0; b < frequencies; ++b, phasor.next()) {
-      echo_[n * frequencies + b] -= times(scaled[b], std::conj(phasor.value));
+      echo_[n * frequencies + b] -= scaled[b] * std::conj(phasor.value);
     }
   }
 }

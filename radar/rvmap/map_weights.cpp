@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/core/complex_product.h"
 #include "sim/core/constants.h"
 #include "sim/core/error.h"
 
@@ -112,7 +111,7 @@ std::vector<Complex> compress_pulses(std::span<const Complex> echo, const PulseT
   std::vector<Complex> compressed(echo.size());
   for (std::size_t n = 0; n < train.pulses(); ++n) {
     for (std::size_t b = 0; b < frequencies; ++b) {
-      compressed[n * frequencies + b] = times(filter[b], echo[n * frequencies + b]);
+      compressed[n * frequencies + b] = filter[b] * echo[n * frequencies + b];
     }
   }
   return compressed;

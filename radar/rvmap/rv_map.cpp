@@ -9,7 +9,6 @@
 
 #include "radar/rvmap/map_weights.h"
 #include "radar/waveform/fourier.h"
-#include "sim/core/complex_product.h"
 #include "sim/core/constants.h"
 #include "sim/core/error.h"
 
@@ -44,7 +43,7 @@ Block phase_ramp(double phase, double step) {
   for (std::size_t l = 0; l < kBlock; ++l) {
     block.re[l] = value.real();
     block.im[l] = value.imag();
-    value = times(value, ratio);
+    value *= ratio;
   }
   return block;
 }
@@ -166,7 +165,7 @@ RvMap form_rv_map(std::span<const Complex> echo, const PulseTrain& train, const 
     profile.execute();
     for (std::size_t l = 0; l < rows; ++l) {
       Complex* row = &map.values[(first + l) * grid.range_m.size()];
-      for (std::size_t r = 0; r < grid.range_m.size(); ++r) row[r] = times(profile.row(l)[cell[r]], centre_phase[r]);
+      for (std::size_t r = 0; r < grid.range_m.size(); ++r) row[r] = profile.row(l)[cell[r]] * centre_phase[r];
     }
   }
   return map;

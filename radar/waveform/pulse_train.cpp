@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/core/complex_product.h"
 #include "sim/core/constants.h"
 #include "sim/core/error.h"
 #include "sim/core/random.h"
@@ -80,8 +79,8 @@ std::vector<Complex> chirp_spectrum(double bandwidth_hz, double pulse_width_s, d
     const Complex step = std::polar(1.0, -2 * kPi * f / sampling_hz);
     Complex factor;
     for (std::size_t k = 0; k < samples; ++k) {
-      factor = k % 64 == 0 ? std::polar(1.0, -2 * kPi * f * time(k)) : times(factor, step);
-      sum += times(chirp[k], factor);
+      factor = k % 64 == 0 ? std::polar(1.0, -2 * kPi * f * time(k)) : factor * step;
+      sum += chirp[k] * factor;
     }
     spectrum.push_back(sum * (std::sqrt(chirp_rate) / sampling_hz));
   }

@@ -95,31 +95,36 @@ class Splitter {
          phase_gradient(footprint_, c, basis_));
   }
 
-  // Gordon's contour: each edge carries cross(w, edge)/(jk |w|^2) times the mean of e^{jk psi} along it.
-  void edges() {
-    const MovingPolygon& polygon = footprint_.polygon;
+  // An edge of Gordon's contour, which carries cross(w, edge)/(jk |w|^2) times the mean of e^{jk psi} along it.
+  struct Edge {
+    double run = 0;     // psi from its start to its end, m
+    double length = 0;  // m
+    Complex flux;       // cross / (jk |w|^2), m^2
+    // flux / (jk run) where its ends stand for it: what the end has, and the start less; else 0
+    double end = 0;
+  };
+  Edge edge_of(const Corner& a, const Corner& b) const {
+    const Vec2 along = b.p - a.p;
     const double k = settings_.kc;
-    const std::size_t n = polygon.size();
-    std::vector<Complex> end(n, 0.0);
-    std::vector<char> has_end(n, 0);
-    for (std::size_t i = 0; i < n; ++i) {
-      const Corner &a = polygon[i], &b = polygon[(i + 1) % n];
-      const Vec2 along = b.p - a.p;
-      const double length = footprint_.surface_length(along);
-      if (length < 1e-12) continue;
-      const Complex edge(0, -cross(footprint_.w, along) / (k * footprint_.w.squaredNorm()));  // cross / (jk w^2)
-      const double run = footprint_.w.dot(along);                                             // psi from a to b
-      if (std::abs(run) > threshold_ * length && std::abs(k * run) / 2 > kPieceHalfPhase) {
-        const double ends = edge.imag() / (k * run);  // edge / (jk run)
-        end[(i + 1) % n] += ends;
-        end[i] -= ends;
-        has_end[i] = has_end[(i + 1) % n] = 1;
-      } else {
-        edge_pieces(a, b, edge, run, length);
-      }
-    }
-    for (std::size_t i = 0; i < n; ++i) {
-      if (has_end[i]) emit(end[i], footprint_.psi(polygon[i].p), phase_gradient(footprint_, polygon[i], basis_));
+    Edge edge{footprint_.w.dot(along), footprint_.surface_length(along),
+              Complex(0, -cross(footprint_.w, along) / (k * footprint_.w.squaredNorm()))};
+    if (std::abs(edge.run) > threshold_ * edge.length && std::abs(k * edge.run) / 2 > kPieceHalfPhase)
+      edge.end = edge.flux.imag() / (k * edge.run);
+    return edge;
+  }
+
+  void edges() {
+    constexpr double kShortest = 1e-12;  // m
+    const MovingPolygon& polygon = footprint_.polygon;
+    double before = edge_of(polygon.size() > 1 ? polygon[polygon.size() - 2] : polygon.back(), polygon.back()).end;
+    const Corner* a = &polygon.back();
+    for (const Corner& b : polygon) {
+      const Edge edge = edge_of(*a, b);
+      if (edge.end == 0 && edge.length >= kShortest) edge_pieces(*a, b, edge.flux, edge.run, edge.length);
+      if (before != 0 || edge.end != 0)
+        emit(before - edge.end, footprint_.psi(a->p), phase_gradient(footprint_, *a, basis_));
+      before = edge.end;
+      a = &b;
     }
   }
 

@@ -54,40 +54,47 @@ class CurvedSplitter {
   }
 
  private:
+  // What each corner of the facet has of a point; together 1.
+  using Shares = std::array<double, 3>;
+  Shares shares(const Vec2& p) const { return {c_.lambda.at(0, p), c_.lambda.at(1, p), c_.lambda.at(2, p)}; }
+
   // The quadratic, and along each edge the cubic x (1 - x) (1 - 2 x) that gives it the smooth surface's slopes at both
   // ends.
-  double psi(const Vec2& p) const {
+  double psi(const Vec2& p, const Shares& of_p) const {
     double sum = footprint_.psi(p) + c_.phase.at(p);
     for (int i = 0; i < 3; ++i) {
-      const double a = c_.lambda.at(i, p), b = c_.lambda.at((i + 1) % 3, p);
+      const double a = of_p[i], b = of_p[(i + 1) % 3];
       sum += skew_[i] * a * b * (a - b);
     }
     return sum;
   }
+  double psi(const Vec2& p) const { return psi(p, shares(p)); }
   Vec2 psi_slope(const Vec2& p) const {
+    const Shares of_p = shares(p);
     Vec2 sum = footprint_.w + c_.phase.slope(p);
     for (int i = 0; i < 3; ++i) {
       const int j = (i + 1) % 3;
-      const double a = c_.lambda.at(i, p), b = c_.lambda.at(j, p);
+      const double a = of_p[i], b = of_p[j];
       sum += skew_[i] * ((2 * a * b - b * b) * c_.lambda.gradient[i] + (a * a - 2 * a * b) * c_.lambda.gradient[j]);
     }
     return sum;
   }
 
   template <typename T>
-  T between(const std::array<T, 3>& corner, const Vec2& p) const {
-    return c_.lambda.at(0, p) * corner[0] + c_.lambda.at(1, p) * corner[1] + c_.lambda.at(2, p) * corner[2];
+  static T between(const std::array<T, 3>& corner, const Shares& of_p) {
+    return of_p[0] * corner[0] + of_p[1] * corner[1] + of_p[2] * corner[2];
   }
 
   // Treats the lit polygon inside a triangle of the facet; the triangle decides how.
   void part(const MovingPolygon& polygon, const Triangle& triangle) {
     double size = 0, largest = 0;
     int longest = 0;
+    const std::array<Vec2, 3> w{psi_slope(triangle[0]), psi_slope(triangle[1]), psi_slope(triangle[2])};
     for (int i = 0; i < 3; ++i) {
       const int j = (i + 1) % 3;
       const Vec2 along = triangle[j] - triangle[i];
       const double length = footprint_.surface_length(along);
-      const double run_i = psi_slope(triangle[i]).dot(along), run_j = psi_slope(triangle[j]).dot(along);
+      const double run_i = w[i].dot(along), run_j = w[j].dot(along);
       const double run = std::max({std::abs(run_i), std::abs(run_j), kAmplitudeError * least_slope_ * length});
       size = std::max(size, length);
       if (run > largest) {
@@ -97,7 +104,7 @@ class CurvedSplitter {
     }
     // The slope is linear over the triangle: no less than in the middle minus its farthest departure from there.
     std::array<Vec2, 3> slope;
-    for (int i = 0; i < 3; ++i) slope[i] = between(slope_, triangle[i]);
+    for (int i = 0; i < 3; ++i) slope[i] = between(slope_, shares(triangle[i]));
     const Vec2 mean = (slope[0] + slope[1] + slope[2]) / 3;
     const double least =
         mean.norm() - std::max({(slope[0] - mean).norm(), (slope[1] - mean).norm(), (slope[2] - mean).norm()});
@@ -135,7 +142,10 @@ class CurvedSplitter {
     const double psi_c = psi(c);
     constexpr double kNear = 0.10128650732345634, kFar = 0.47014206410511509;
     constexpr double kWeightNear = 0.12593918054482715, kWeightFar = 0.13239415278850618, kWeightMiddle = 0.225;
-    const auto value = [&](const Vec2& p) { return between(fade_, p) * std::polar(1.0, k_ * (psi(p) - psi_c)); };
+    const auto value = [&](const Vec2& p) {
+      const Shares of_p = shares(p);
+      return between(fade_, of_p) * std::polar(1.0, k_ * (psi(p, of_p) - psi_c));
+    };
     Complex integral = 0;
     for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
       const Vec2 &a = polygon[0].p, &b = polygon[i].p, &d = polygon[i + 1].p;
@@ -157,8 +167,9 @@ class CurvedSplitter {
     std::vector<Complex> end(n, 0.0);
     std::vector<char> has_end(n, 0);
     const auto flux = [&](const Vec2& p, const Vec2& along) -> Complex {
-      const Vec2 w = between(c_.w, p);
-      return between(fade_, p) * cross(w, along) / (Complex(0, k_) * w.squaredNorm());
+      const Shares of_p = shares(p);
+      const Vec2 w = between(c_.w, of_p);
+      return between(fade_, of_p) * cross(w, along) / (Complex(0, k_) * w.squaredNorm());
     };
     for (std::size_t i = 0; i < n; ++i) {
       const std::size_t j = (i + 1) % n;
@@ -208,9 +219,11 @@ class CurvedSplitter {
 
   // A term at a point that moves as the corner does.
   void slide(const Complex& integral, const Corner& corner) {
-    const Vec2 w = between(c_.w, corner.p);
+    const Shares of_p = shares(corner.p);
+    const Vec2 w = between(c_.w, of_p);
     const double z = footprint_.plane.at(corner.p);
-    out_.push_back({integral, psi(corner.p), corner.p, w.dot(corner.d1 + Vec2(z, 0)), w.dot(corner.d2 + Vec2(0, z))});
+    out_.push_back(
+        {integral, psi(corner.p, of_p), corner.p, w.dot(corner.d1 + Vec2(z, 0)), w.dot(corner.d2 + Vec2(0, z))});
   }
 
   const Footprint& footprint_;

@@ -3,15 +3,11 @@
 
 #include <algorithm>
 
-#include "sim/scattering/beam_ends.h"
-#include "sim/scattering/edge_waves.h"
-
 namespace seaglint {
 namespace {
 
-// Edges from this length on, in radii, have a fourth diffraction: 1.5 m on the 144 m ship. Those of its fittings would
-// make a trace a tenth longer.
-constexpr double kLongEdge = 2e-2;
+// In ray spacings.
+constexpr double kEdgeWavesFrom = 3, kLongEdge = 20;
 
 // The arrivals cut into chunks of about the same size; one edge's stay together.
 std::vector<std::span<const EdgeArrival>> chunks_of(std::span<const EdgeArrival> arrivals) {
@@ -51,6 +47,11 @@ void append_edge_waves(const Scatterer& scatterer, const AntennaPair& antennas, 
 
 }  // namespace
 
+EdgeWaveLimits edge_wave_limits(const Scatterer& scatterer, const IlluminationSettings& settings, double lowest) {
+  const double spacing = ray_spacing(scatterer, settings);
+  return {kEdgeWavesFrom * spacing, kLongEdge * spacing, faintest_echo(scatterer, settings, lowest), lowest};
+}
+
 void edge_echoes(const Scatterer& scatterer, const AntennaPair& antennas, const IlluminationSettings& settings,
                  std::span<const double> wavenumbers, const Reached& reached, int threads,
                  const std::function<void(std::size_t, std::span<const EdgeFootprint>)>& visit) {
@@ -62,18 +63,15 @@ void edge_echoes(const Scatterer& scatterer, const AntennaPair& antennas, const 
   }
   const std::span<const EdgeArrival> incoming = reached.arrivals,
                                      outgoing = antennas.monostatic ? incoming : backwards.arrivals;
-  const auto [lowest, highest] = std::ranges::minmax(wavenumbers);
-  const EdgeWaveLimits limits{kLongEdge * scatterer.radius(), faintest_echo(scatterer, settings, lowest), lowest};
+  const EdgeWaveLimits limits = edge_wave_limits(scatterer, settings, std::ranges::min(wavenumbers));
   const auto chunks = chunks_of(incoming), chunks_out = chunks_of(outgoing);
   const std::span<const EdgeFootprint> beam_ends = reached.beam_ends;
   parallel_for(chunks.size(), threads, [&](std::size_t chunk) {
     std::vector<EdgeFootprint> answer =
         edge_footprints(scatterer.edges(), scatterer.facets(), antennas, chunks[chunk], outgoing, settings.max_bounces);
     append_edge_waves(scatterer, antennas, {incoming, chunks[chunk]}, {outgoing, chunks_out[chunk]}, limits, answer);
-    for (std::size_t i = beam_ends.size() * chunk / chunks.size(); i < beam_ends.size() * (chunk + 1) / chunks.size();
-         ++i) {
-      if (bound_of_beam_end(beam_ends[i], lowest, highest) >= limits.faintest_m) answer.push_back(beam_ends[i]);
-    }
+    const auto share = [&](std::size_t c) { return beam_ends.begin() + beam_ends.size() * c / chunks.size(); };
+    answer.insert(answer.end(), share(chunk), share(chunk + 1));
     std::erase_if(
         answer, [&](const EdgeFootprint& f) { return !settings.filter.keeps_edge(f.part, f.part_beyond, f.bounces); });
     visit(chunk, answer);

@@ -8,12 +8,18 @@
 #include <span>
 #include <vector>
 
+#include "sim/scattering/edge_waves.h"
 #include "sim/scattering/illuminate.h"
 
 namespace seaglint {
 
+// Which edge waves are followed: those of straight runs of edges of three ray spacings and more, 0.2 m on the 144 m
+// ship by default, to a third and fourth diffraction where a run is twenty long, 1.4 m; none fainter than
+// faintest_echo() at the lowest wavenumber.
+EdgeWaveLimits edge_wave_limits(const Scatterer& scatterer, const IlluminationSettings& settings, double lowest);
+
 // Calls visit(chunk, footprints) for chunk = 0..kEdgeChunks-1, each once, from any of the threads. `reached`: by the
-// transmitter's illumination. A receiver elsewhere needs the waves it would send, which are
+// transmitter's illumination at the same wavenumbers. A receiver elsewhere needs the waves it would send, which are
 // followed here. Echoes that the settings' filter leaves out are not among them. Chunks do not depend on `threads`;
 // without edges in the settings there are none.
 inline constexpr std::size_t kEdgeChunks = 16;

@@ -2,6 +2,7 @@
 #include "sim/scattering/edge_waves.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "sim/core/constants.h"
@@ -35,7 +36,7 @@ constexpr double kNoField = 1e-9;  // relative to the incident one
 
 // Edge waves in a row: on a face that two edges bound the third edge is the first one again, and the fourth the second;
 // near grazing each one's answer is as large as the one's before.
-constexpr int kMostWaves = 2, kMostWavesOfLong = 3;
+constexpr int kMostWaves = 3;
 // Upright walls between two edges: those of a right-angled corner. A wave by walls is the only one of its row: near
 // grazing, where a third diffraction counts, echoes by walls have faded.
 constexpr int kMostWalls = 2;
@@ -64,6 +65,8 @@ class EdgeWaves {
         backwards_(backwards),
         out_(out),
         first_(edges.edges.size() + 1, 0) {
+    for (std::size_t waves = 1; waves < spread_.size(); ++waves)
+      spread_[waves] = spread_[waves - 1] / std::sqrt(limits.k);
     for (const EdgeArrival& arrival : outgoing) ++first_[arrival.edge + 1];
     for (std::size_t e = 1; e < first_.size(); ++e) first_[e] += first_[e - 1];
   }
@@ -82,8 +85,7 @@ class EdgeWaves {
   void send_on(const Incident& in) {
     const auto [shortest, longest] = std::minmax(in.l[0], in.l[1]);
     const double first = std::max(shortest, kShortestShare * longest), growth = longest / first;
-    const bool is_long = edges_.edges[in.edge].length() >= limits_.long_from_m;
-    const int parts = is_long ? std::max(1, static_cast<int>(std::ceil(std::log(growth) / std::log(kMostGrowth)))) : 1;
+    const int parts = std::max(1, static_cast<int>(std::ceil(std::log(growth) / std::log(kMostGrowth))));
     double before = 0;  // share of the way from the end where it is shortest
     for (int n = 1; n <= parts; ++n) {
       const double here =
@@ -96,6 +98,7 @@ class EdgeWaves {
 
   void send(const Incident& in) {
     const SharpEdge& edge = edges_.edges[in.edge];
+    if (edge.run_m < limits_.from_m) return;
     const WedgeFrame* wedge = wedge_towards(edge, in.direction);
     if (!wedge) return;
     const RowOfRims rims = with_rim(in.rims, *wedge, -in.direction);
@@ -231,7 +234,7 @@ class EdgeWaves {
     const SharpEdge& edge = edges_.edges[number];
     const Vec3& along = edge.along();
     const double across = strip.u.dot(along);
-    if (std::abs(across) < kAlong) return;
+    if (edge.run_m < limits_.from_m || std::abs(across) < kAlong) return;
     const WedgeFrame* wedge = wedge_towards(edge, grazing(source.face, strip.w));
     if (!wedge) return;
     // The stretch of this edge that the strip meets, and the wave there: its rays come from the first edge without
@@ -257,13 +260,12 @@ class EdgeWaves {
     }
     if (mean_decay(next.l) > 2e4) return;
     if (in.waves == 0) next.departure = source.departure;
-    if (in.waves == 1) next.first_m = std::pow(mean_decay(in.l), -2);
+    if (in.waves == 1) next.first_m = 1 / (mean_decay(in.l) * mean_decay(in.l));
     for (int q = 0; q < 2; ++q) next.factor[q] = 0.5 * source.amplitude[q];  // half of the wave is incident
     // What leaves by a corner is found on its way back (corner_wave_footprints).
     for (std::size_t o = first_[number]; wedge->N > 1 && o < first_[number + 1]; ++o)
       leave(next, *wedge, source.face, strip.w, outgoing_[o]);
-    const bool is_long = edge.length() >= limits_.long_from_m;
-    if (next.waves < (is_long ? kMostWavesOfLong : kMostWaves) && next.walls == 0) send_on(next);
+    if (next.waves < kMostWaves && edge.run_m >= limits_.long_from_m && next.walls == 0) send_on(next);
   }
 
   // Whether what an edge sends along a face may count: the echo of the next edge, its stretch in phase and its
@@ -272,7 +274,7 @@ class EdgeWaves {
     const Incident& in = source.in;
     const double fields = std::abs(source.amplitude[0]) + std::abs(source.amplitude[1]);
     if (in.waves == 0) return fields > kNoField;
-    return fields * std::pow(limits_.k, -0.5 * (in.waves + 1)) * std::sqrt(in.s[1] - in.s[0]) > limits_.faintest_m;
+    return fields * spread_[in.waves + 1] * std::sqrt(in.s[1] - in.s[0]) > limits_.faintest_m;
   }
 
   // Whether an echo may, whose phase runs at `rate` along a stretch of that length: transition functions are at most 1
@@ -282,8 +284,7 @@ class EdgeWaves {
     const double shadow = in.waves == 1 ? std::min(in.departure, arrival) : arrival;
     const double decay = std::min(1 / std::sqrt(std::min(in.l[0], in.l[1])), std::sqrt(2 * kPi * limits_.k * shadow));
     const double extent = length / std::max(limits_.k * std::abs(rate) * length, 1.0);
-    return fields * kMostCurrent / opening(w, s) * std::pow(limits_.k, -0.5 * in.waves) * decay * extent >=
-           limits_.faintest_m;
+    return fields * kMostCurrent / opening(w, s) * spread_[in.waves] * decay * extent >= limits_.faintest_m;
   }
 
   // What of a wave that came along a face goes out by a departure of the same edge.
@@ -343,7 +344,8 @@ class EdgeWaves {
   EdgeWaveLimits limits_;
   bool backwards_;  // from corners, for ways that end there
   std::vector<EdgeFootprint>& out_;
-  std::vector<std::size_t> first_;  // departure of each edge
+  std::vector<std::size_t> first_;                  // departure of each edge
+  std::array<double, kMostWaves + 1> spread_{1.0};  // k^(-waves / 2), m^(waves / 2)
 };
 
 }  // namespace

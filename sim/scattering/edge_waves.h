@@ -16,9 +16,11 @@
 namespace seaglint {
 
 struct EdgeWaveLimits {
-  double long_from_m = 0;  // length of edges from which on a fourth diffraction is followed
-  double faintest_m = 0;   // echoes that cannot reach this are left out, judged at
-  double k = 1;            // this wavenumber, 1/m
+  // Straight runs of edges from this length on take part in edge waves; from the longer one on a wave that such a run
+  // diffracts is followed further, up to the fourth diffraction.
+  double from_m = 0, long_from_m = 0;
+  double faintest_m = 0;  // echoes that cannot reach this are left out, judged at
+  double k = 1;           // this wavenumber, 1/m
 };
 
 // Appends the echoes along transmitter - first edge - face - second edge (- face - third edge) - receiver, for every

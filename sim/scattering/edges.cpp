@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/scattering/edges.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "sim/core/constants.h"
 
@@ -43,6 +45,44 @@ bool diffracts(const WedgeFrame& wedge) {
   return wedge.N > 1 || (wedge.N > kSharpestCorner && std::abs(std::sin(kPi / wedge.N)) > 1e-3);
 }
 
+// Edges that go on by less than this from where they meet are one run: rounding to single precision turns those of a
+// tenth of a metre, seventy metres out, by a tenth of it.
+constexpr double kStraightOn = 1e-3;  // rad
+
+// Fills run_m.
+void measure_runs(std::vector<SharpEdge>& edges) {
+  struct End {
+    Vec3 place, outwards;  // from here along the edge
+    std::size_t edge;
+  };
+  std::vector<End> ends;
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    ends.push_back({edges[e].a, edges[e].along(), e});
+    ends.push_back({edges[e].b, -edges[e].along(), e});
+  }
+  const auto before = [](const Vec3& p, const Vec3& q) { return std::ranges::lexicographical_compare(p, q); };
+  std::ranges::sort(ends, [&](const End& p, const End& q) { return before(p.place, q.place); });
+
+  std::vector<std::size_t> run(edges.size());  // an edge of the same run; of one edge of every run, itself
+  std::iota(run.begin(), run.end(), std::size_t{0});
+  const auto head = [&](std::size_t e) {
+    while (run[e] != e) e = run[e] = run[run[e]];
+    return e;
+  };
+  for (auto first = ends.begin(); first != ends.end();) {
+    const auto last = std::find_if(first, ends.end(), [&](const End& end) { return end.place != first->place; });
+    for (auto p = first; p != last; ++p) {
+      for (auto q = std::next(p); q != last; ++q) {
+        if ((p->outwards + q->outwards).norm() < kStraightOn) run[head(p->edge)] = head(q->edge);
+      }
+    }
+    first = last;
+  }
+  for (const SharpEdge& edge : edges)
+    edges[head(static_cast<std::size_t>(&edge - edges.data()))].run_m += edge.length();
+  for (std::size_t e = 0; e < edges.size(); ++e) edges[e].run_m = edges[head(e)].run_m;
+}
+
 }  // namespace
 
 SharpEdges sharp_edges(std::span<const Facet> facets, double least_turn, double sheet_thickness_m) {
@@ -80,6 +120,7 @@ SharpEdges sharp_edges(std::span<const Facet> facets, double least_turn, double 
       if (std::abs(edge.outside.N - 1) * kPi >= least_turn) add(edge, f, i, g, k);
     }
   }
+  measure_runs(result.edges);
   return result;
 }
 

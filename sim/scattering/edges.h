@@ -22,6 +22,7 @@ struct SharpEdge {
   WedgeFrame outside;          // on the side of the normals
   WedgeFrame inside;           // the other one, of an open sheet
   bool open = false;           // the wave may come from either side
+  double run_m = 0;            // length of the straight run of edges that it is a part of, however it was cut
 
   bool is_rim() const { return facet[0] == facet[1]; }
   double length() const { return (b - a).norm(); }
@@ -55,8 +56,8 @@ struct SharpEdges {
   }
 };
 
-// Edges whose faces turn by at least `least_turn` (rad); the rims of sheets get their thickness. Edges of three and
-// more facets are left out: nobody can tell their wedge.
+// Edges whose faces turn by at least `least_turn` (rad), with their runs; the rims of sheets get their thickness. Edges
+// of three and more facets are left out: nobody can tell their wedge.
 SharpEdges sharp_edges(std::span<const Facet> facets, double least_turn, double sheet_thickness_m = 0);
 
 // Fills by_panel from of_facet, before which of_panel() must not be asked. Edges that no wave is diffracted by are left

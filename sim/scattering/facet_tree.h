@@ -5,7 +5,6 @@
 // missed, however small.
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -60,6 +59,30 @@ class FacetTree {
     std::array<OfChildren<float>, 3> normal;
     OfChildren<std::int32_t> child;
   };
+  // A prism in single precision, as boxes are tested against it. Along each of these axes it covers middle +- width,
+  // and a box its centre +- the sum of reach times half. Where they lie apart along one the two do not meet (separating
+  // axes: S. Gottschalk, M. C. Lin and D. Manocha, Proc. SIGGRAPH 1996, 171-180): two sides of the prism and, seen
+  // along it, the edges of the box, edge[e] having no part along axis e.
+  struct Axes {
+    template <std::size_t kParts>
+    struct Axis {
+      std::array<float, kParts> part{}, reach{};  // |part|
+      float middle = 0, width = 0;
+    };
+    std::array<Axis<3>, 2> side;
+    std::array<Axis<2>, 3> edge;  // parts along the axes after e
+    Axis<3> normal, along;        // middle: where the prism begins; width: none
+    std::array<float, 3> wave{};
+  };
+  Axes axes_of(const Prism& prism) const;
+
+  // How prism and boxes stand to each other, for all children at once.
+  struct Gaps {
+    OfChildren<float> gap;    // largest distance along an axis, or of a panel its facing away; above 0 they do not meet
+    OfChildren<float> begin;  // where along the prism the box begins, m
+  };
+  static void find_gaps(const Node& node, const Axes& axes, Gaps& gaps);
+
   // A subtree or leaf still to be looked at, and where along the prism it begins.
   struct Waiting {
     std::int32_t child;
@@ -67,9 +90,6 @@ class FacetTree {
   };
   // All children but one of each level wait at most, and all of the last.
   static constexpr std::size_t kMostWaiting = (kMostChildren - 1) * kMostLevels + kMostChildren;
-  // Cosine above which a panel faces away for certain, single precision allowed for.
-  static constexpr float kFacesAway = 1e-5F;
-
   std::vector<Node> nodes_;        // the first is the root
   std::vector<TreePanel> panels_;  // in the order of the nodes that hold them
   double slack_ = 0;               // m, of single-precision boxes
@@ -78,23 +98,8 @@ class FacetTree {
 template <typename Visit>
 void FacetTree::walk(const Prism& prism, const Visit& visit) const {
   if (nodes_.empty()) return;
-  // |across . centre - middle| <= width + |across| . half, normal . centre + |normal| . half >= offset, and wave .
-  // normal of a panel not above zero, for all children at once.
-  std::array<std::array<float, 3>, 4> axis, reach;
-  std::array<float, 3> wave;
-  std::array<float, 2> middle, width;
-  for (int i = 0; i < 4; ++i) {
-    for (int a = 0; a < 3; ++a) {
-      axis[i][a] = static_cast<float>(i < 2 ? prism.across[i][a] : i == 2 ? prism.normal[a] : prism.along[a]);
-      reach[i][a] = std::abs(axis[i][a]);
-    }
-  }
-  for (int a = 0; a < 3; ++a) wave[a] = static_cast<float>(prism.wave[a]);
-  for (int i = 0; i < 2; ++i) {
-    middle[i] = static_cast<float>((prism.lower[i] + prism.upper[i]) / 2);
-    width[i] = static_cast<float>((prism.upper[i] - prism.lower[i]) / 2 + slack_);
-  }
-  const auto offset = static_cast<float>(prism.offset - slack_);
+  const Axes axes = axes_of(prism);
+  Gaps gaps;
   float far = std::numeric_limits<float>::infinity();
   std::array<Waiting, kMostWaiting> stack;
   std::size_t waiting = 0;
@@ -107,31 +112,12 @@ void FacetTree::walk(const Prism& prism, const Visit& visit) const {
       continue;
     }
     const Node& node = nodes_[next.child];
-    // largest distance between prism and box along an axis, or a panel's facing away; above zero they do not meet
-    OfChildren<float> gap;
-    OfChildren<float> begin;
-    for (int lane = 0; lane < kMostChildren; ++lane) {
-      const auto at = [&](int i) {
-        return axis[i][0] * node.centre[0][lane] + axis[i][1] * node.centre[1][lane] +
-               axis[i][2] * node.centre[2][lane];
-      };
-      const auto half = [&](int i) {
-        return reach[i][0] * node.half[0][lane] + reach[i][1] * node.half[1][lane] + reach[i][2] * node.half[2][lane];
-      };
-      const float first = std::abs(at(0) - middle[0]) - half(0) - width[0];
-      const float second = std::abs(at(1) - middle[1]) - half(1) - width[1];
-      const float third = offset - at(2) - half(2);
-      const float away =
-          wave[0] * node.normal[0][lane] + wave[1] * node.normal[1][lane] + wave[2] * node.normal[2][lane] - kFacesAway;
-      const float across = first > second ? first : second, beyond = third > away ? third : away;
-      gap[lane] = across > beyond ? across : beyond;
-      begin[lane] = at(3) - half(3);
-    }
+    find_gaps(node, axes, gaps);
     // Every child is put on top, and stays there if it meets the prism: no branch that nobody can foresee. To bring the
     // nearest on top costs more than it saves.
     for (int lane = 0; lane < kMostChildren; ++lane) {
-      stack[waiting] = {node.child[lane], begin[lane]};
-      waiting += gap[lane] <= 0;
+      stack[waiting] = {node.child[lane], gaps.begin[lane]};
+      waiting += gaps.gap[lane] <= 0;
     }
   }
 }

@@ -6,6 +6,7 @@
 
 #include "sim/core/constants.h"
 #include "sim/core/error.h"
+#include "sim/scattering/beam_ends.h"
 #include "sim/scattering/beam_tracer.h"
 
 namespace seaglint {
@@ -24,9 +25,8 @@ constexpr std::size_t kMostChunks = 2048;
 constexpr double kSpacingPerSide = 14;
 
 double smallest_area(const Scatterer& scatterer, const IlluminationSettings& settings) {
-  const double side = kSmallestSide * scatterer.radius();
-  const double finer = settings.ray_spacing_m > 0 ? std::min(side, settings.ray_spacing_m / kSpacingPerSide) : side;
-  return finer * finer;
+  const double side = ray_spacing(scatterer, settings) / kSpacingPerSide;
+  return side * side;
 }
 
 // In a direction that lies in a sheet's plane nothing of it would be found, not even its rims, whose echo has a limit
@@ -80,6 +80,11 @@ std::vector<EdgeArrival> by_edge(std::span<const std::vector<EdgeArrival>> chunk
 
 double default_ray_spacing(const Scatterer& scatterer) { return kSpacingPerSide * kSmallestSide * scatterer.radius(); }
 
+double ray_spacing(const Scatterer& scatterer, const IlluminationSettings& settings) {
+  const double coarsest = default_ray_spacing(scatterer);
+  return settings.ray_spacing_m > 0 ? std::min(coarsest, settings.ray_spacing_m) : coarsest;
+}
+
 double faintest_echo(const Scatterer& scatterer, const IlluminationSettings& settings, double k) {
   return 0.1 * k * smallest_area(scatterer, settings) / (2 * kPi);
 }
@@ -102,6 +107,10 @@ Illumination::Illumination(const Scatterer& scatterer, const AntennaPair& antenn
     if (material.kind == SurfaceKind::kPec && material.roughness_mm == 0) continue;
     SEAGLINT_CHECK(!wavenumbers.empty(), "the material " + material.name + " needs a wavenumber");
     for (const double k : wavenumbers) surface.emplace_back(material, k);
+  }
+  if (!wavenumbers.empty()) {
+    lowest_ = std::ranges::min(wavenumbers);
+    highest_ = std::ranges::max(wavenumbers);
   }
 }
 
@@ -126,6 +135,11 @@ Reached Illumination::light_all(int threads, const std::function<void(std::size_
           visit(chunk, lit.footprints);
           lit.footprints.clear();
         });
+        if (lowest_ > 0) {
+          const double faint = faintest_echo(scatterer_, settings_, lowest_);
+          std::erase_if(lit.beam_ends,
+                        [&](const EdgeFootprint& end) { return bound_of_beam_end(end, lowest_, highest_) < faint; });
+        }
         arrivals[chunk] = std::move(lit.arrivals);
         beam_ends[chunk] = std::move(lit.beam_ends);
       },

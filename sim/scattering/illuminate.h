@@ -37,6 +37,9 @@ struct IlluminationSettings {
 // 1e-3 of the radius: 0.07 m on the 144 m ship, pieces of 5 mm (README.md).
 double default_ray_spacing(const Scatterer& scatterer);
 
+// The spacing whose detail counts: that of the settings, or the default one where that is finer.
+double ray_spacing(const Scatterer& scatterer, const IlluminationSettings& settings);
+
 // A tenth of what the smallest lit piece that counts returns, k area / 2 pi, m: ends of currents and edge waves below
 // may be left out. Together they are -65 dB of the ship's echo.
 double faintest_echo(const Scatterer& scatterer, const IlluminationSettings& settings, double k);
@@ -54,7 +57,9 @@ struct BeamScene;
 // from one mirror to the next.
 struct Reached {
   std::vector<EdgeArrival> arrivals;
-  std::vector<EdgeFootprint> beam_ends;  // what physical optics lacks where beams end, in the order of the beams
+  // What physical optics lacks where beams end, as far as it counts at the illumination's wavenumbers, in the order of
+  // the beams.
+  std::vector<EdgeFootprint> beam_ends;
   std::size_t legs = 0;
 };
 
@@ -62,7 +67,8 @@ struct Reached {
 // light() follows the beams that leave one facet. Facets are independent and may be lit in any order by any thread.
 class Illumination {
  public:
-  // wavenumbers: those at which materials are evaluated; a perfect conductor needs none.
+  // wavenumbers: those at which materials are evaluated and what is faint is left out. A perfect conductor needs none,
+  // and all of it counts then.
   Illumination(const Scatterer& scatterer, const AntennaPair& antennas, const IlluminationSettings& settings,
                int threads = 1, std::span<const double> wavenumbers = {});
 
@@ -93,6 +99,7 @@ class Illumination {
   std::optional<VisibleSurface> seen_from_receiver_;  // where that is another direction
   std::vector<int> seen_;
   std::vector<std::vector<Surface>> surfaces_;  // [material][wavenumber]; none for a perfect conductor
+  double lowest_ = 0, highest_ = 0;             // of the wavenumbers; 0: there are none
 };
 
 }  // namespace seaglint

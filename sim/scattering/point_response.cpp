@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/core/complex_product.h"
 #include "sim/core/constants.h"
 #include "sim/scattering/passing_radar.h"
 
@@ -35,8 +34,8 @@ void add_point_to_pulse(Complex* pulse, const IntervalSampling& sampling, int fi
     Complex ratio = std::polar(1.0, phase(start + 1) - phase(start));
     for (int b = start; b < stop; ++b) {
       pulse[b] += value;
-      value = times(value, ratio);
-      if (slope != 0) ratio = times(ratio, bend);
+      value *= ratio;
+      if (slope != 0) ratio *= bend;
     }
   }
 }

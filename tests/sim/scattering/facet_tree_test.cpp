@@ -73,6 +73,27 @@ TEST(FacetTree, MissesNoFacetWithACornerInThePrism) {
   }
 }
 
+// Seen along the diagonal a cube is a hexagon: in the corners that a rectangle around it has besides there is nothing.
+TEST(FacetTree, LeavesOutAPrismBesideABoxSeenAskew) {
+  TriangleMesh mesh = make_plate(1, 1);
+  mesh.vertices = {{0, 0, 0}, {1, 1, 0}, {0, 1, 1}};  // their box is the unit cube
+  mesh.triangles = {{0, 1, 2}};
+  mesh.triangle_part = mesh.triangle_material = {0};
+  const Scatterer triangle(mesh);
+  const Vec3 along = Vec3::Ones().normalized();
+  const RadarBasis across = radar_basis(along);
+  const auto walked_at = [&](double h, double v) {
+    const Vec3 centre = 0.5 * Vec3::Ones();
+    return !walked(triangle, {centre + h * across.h + v * across.v - 5 * along, along}, 0.02).empty();
+  };
+  // Corners at 0.816 from its middle, sides at 0.707, two of them square to h.
+  for (const double h : {-0.6, 0.6}) {
+    for (const double v : {-0.7, 0.7}) EXPECT_FALSE(walked_at(h, v)) << h << ' ' << v;
+  }
+  for (const auto& [h, v] : {std::pair{0.0, 0.8}, {0.0, -0.8}, {0.68, 0.4}, {-0.68, -0.4}, {0.68, 0.0}})
+    EXPECT_TRUE(walked_at(h, v)) << h << ' ' << v;
+}
+
 TEST(FacetTree, PartsManyFacetsAtOnePlace) {
   // A hundred copies of one plate: no cut parts their centres, and the tree must still end.
   TriangleMesh mesh = make_plate(0.3, 0.2);

@@ -11,9 +11,12 @@
 #include "sim/geometry/generators.h"
 #include "sim/geometry/mesh_io.h"
 #include "sim/scattering/scatterer.h"
+#include "tests/sim/scattering/echoes.h"
 
 namespace seaglint {
 namespace {
+
+using testing_echoes::cut_plate;
 
 TEST(SharpEdges, AreThoseOfAPlateABoxAndADihedral) {
   const auto edges_of = [](const TriangleMesh& mesh) { return Scatterer(mesh).edges().edges; };
@@ -30,6 +33,20 @@ TEST(SharpEdges, AreThoseOfAPlateABoxAndADihedral) {
   }
   EXPECT_EQ(seams, 1);
   EXPECT_TRUE(edges_of(make_sphere(1, 3)).empty());
+}
+
+// However a face is cut and wherever it stands, its edges know how long they are as a whole; round a corner a run ends.
+TEST(SharpEdges, KnowTheStraightRunTheyArePartOf) {
+  const Mat3 askew = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+  for (const std::uint32_t pieces : {1u, 16u}) {
+    const Scatterer plate(transformed(cut_plate(0.3, 0.2, pieces), askew, Vec3(40, -7, 3)));
+    EXPECT_EQ(plate.edges().edges.size(), 4 * pieces);
+    const Vec3 wide = askew * Vec3::UnitY();
+    for (const SharpEdge& edge : plate.edges().edges) {
+      const double expected = std::abs(edge.along().dot(wide)) > 0.5 ? 0.3 : 0.2;
+      EXPECT_NEAR(edge.run_m, expected, 1e-13 * pieces);  // of places 40 m out
+    }
+  }
 }
 
 // Corners: those that images solve send nothing, nor are those asked that have more images than a sum of them holds.
