@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "sim/core/constants.h"
 #include "sim/scattering/curvature.h"
@@ -97,11 +98,10 @@ class Splitter {
 
   // An edge of Gordon's contour, which carries cross(w, edge)/(jk |w|^2) times the mean of e^{jk psi} along it.
   struct Edge {
-    double run = 0;     // psi from its start to its end, m
-    double length = 0;  // m
-    Complex flux;       // cross / (jk |w|^2), m^2
-    // flux / (jk run) where its ends stand for it: what the end has, and the start less; else 0
-    double end = 0;
+    double run = 0;             // psi from its start to its end, m
+    double length = 0;          // m
+    Complex flux;               // cross / (jk |w|^2), m^2
+    std::optional<double> end;  // flux / (jk run) where its ends stand for it: what the end has, and the start less
   };
   Edge edge_of(const Corner& a, const Corner& b) const {
     const Vec2 along = b.p - a.p;
@@ -116,13 +116,14 @@ class Splitter {
   void edges() {
     constexpr double kShortest = 1e-12;  // m
     const MovingPolygon& polygon = footprint_.polygon;
-    double before = edge_of(polygon.size() > 1 ? polygon[polygon.size() - 2] : polygon.back(), polygon.back()).end;
+    std::optional<double> before =
+        edge_of(polygon.size() > 1 ? polygon[polygon.size() - 2] : polygon.back(), polygon.back()).end;
     const Corner* a = &polygon.back();
     for (const Corner& b : polygon) {
       const Edge edge = edge_of(*a, b);
-      if (edge.end == 0 && edge.length >= kShortest) edge_pieces(*a, b, edge.flux, edge.run, edge.length);
-      if (before != 0 || edge.end != 0)
-        emit(before - edge.end, footprint_.psi(a->p), phase_gradient(footprint_, *a, basis_));
+      if (!edge.end && edge.length >= kShortest) edge_pieces(*a, b, edge.flux, edge.run, edge.length);
+      if (before || edge.end)
+        emit(before.value_or(0) - edge.end.value_or(0), footprint_.psi(a->p), phase_gradient(footprint_, *a, basis_));
       before = edge.end;
       a = &b;
     }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numeric>
 
 #include "sim/core/constants.h"
@@ -48,6 +49,8 @@ bool diffracts(const WedgeFrame& wedge) {
 // Edges that go on by less than this from where they meet are one run: rounding to single precision turns those of a
 // tenth of a metre, seventy metres out, by a tenth of it.
 constexpr double kStraightOn = 1e-3;  // rad
+// Where more edges meet, as in a fan of loose triangles, each is a run that ends there.
+constexpr std::ptrdiff_t kMostMeeting = 64;
 
 // Fills run_m.
 void measure_runs(std::vector<SharpEdge>& edges) {
@@ -71,15 +74,14 @@ void measure_runs(std::vector<SharpEdge>& edges) {
   };
   for (auto first = ends.begin(); first != ends.end();) {
     const auto last = std::find_if(first, ends.end(), [&](const End& end) { return end.place != first->place; });
-    for (auto p = first; p != last; ++p) {
+    for (auto p = first; last - first <= kMostMeeting && p != last; ++p) {
       for (auto q = std::next(p); q != last; ++q) {
         if ((p->outwards + q->outwards).norm() < kStraightOn) run[head(p->edge)] = head(q->edge);
       }
     }
     first = last;
   }
-  for (const SharpEdge& edge : edges)
-    edges[head(static_cast<std::size_t>(&edge - edges.data()))].run_m += edge.length();
+  for (std::size_t e = 0; e < edges.size(); ++e) edges[head(e)].run_m += edges[e].length();
   for (std::size_t e = 0; e < edges.size(); ++e) edges[e].run_m = edges[head(e)].run_m;
 }
 

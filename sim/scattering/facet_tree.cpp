@@ -6,6 +6,14 @@
 
 #include "sim/scattering/embree_scene.h"
 
+// The function once for eight floats to a register and once for any processor; which of them runs is settled when the
+// program starts.
+#ifdef __x86_64__
+#define SEAGLINT_WIDE __attribute__((target_clones("avx2", "default")))
+#else
+#define SEAGLINT_WIDE
+#endif
+
 namespace seaglint {
 namespace {
 
@@ -81,8 +89,7 @@ FacetTree::Axes FacetTree::axes_of(const Prism& prism) const {
 }
 
 // Every walk spends most of its time here. Wider registers give the same bits (no contraction).
-__attribute__((target_clones("avx2", "default"))) void FacetTree::find_gaps(const Node& node, const Axes& axes,
-                                                                            Gaps& gaps) {
+SEAGLINT_WIDE void FacetTree::find_gaps(const Node& node, const Axes& axes, Gaps& gaps) {
   Gaps own;  // nothing else is stored in it, which the compiler has to know to take all lanes at once
   for (int lane = 0; lane < kMostChildren; ++lane) {
     const auto larger = [](float a, float b) { return a > b ? a : b; };

@@ -311,7 +311,7 @@ TEST(EdgeWave, LeaveOutOnlyWhatIsFaint) {
 }
 
 // Short runs of edges send none, and a third and fourth diffraction needs a long one. Of the ship's echo what is left
-// out so is less than a tenth of the -30 dB that an interval may err by, the whole of edge waves more.
+// out so is less than a tenth of the -30 dB that an interval may err by, though it is most of the waves.
 TEST(EdgeWave, OfShortRunsAreFaintOnTheShip) {
   const Scatterer ship(read_mesh(SEAGLINT_SOURCE_DIR "/assets/combatant_144m.glb"));
   const double k = wavenumber(16e9);

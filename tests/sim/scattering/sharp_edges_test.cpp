@@ -49,6 +49,25 @@ TEST(SharpEdges, KnowTheStraightRunTheyArePartOf) {
   }
 }
 
+// Where a hundred loose triangles meet in a point none of their rims goes on in the one across.
+TEST(SharpEdges, EndTheirRunsInAFanOfLooseTriangles) {
+  constexpr std::uint32_t kTriangles = 100;
+  TriangleMesh fan = make_plate(1, 1);
+  fan.vertices = {Vec3::Zero()};
+  fan.triangles.clear();
+  for (std::uint32_t i = 0; i < kTriangles; ++i) {
+    const double start = 2 * kPi * i / kTriangles, end = 2 * kPi * (i + 0.5) / kTriangles;
+    fan.vertices.push_back({std::cos(start), std::sin(start), 0});
+    fan.vertices.push_back({std::cos(end), std::sin(end), 0});
+    fan.triangles.push_back({0, 2 * i + 1, 2 * i + 2});
+  }
+  fan.triangle_part.assign(kTriangles, 0);
+  fan.triangle_material.assign(kTriangles, 0);
+  const Scatterer scatterer(fan);
+  EXPECT_EQ(scatterer.edges().edges.size(), 3 * kTriangles);
+  for (const SharpEdge& edge : scatterer.edges().edges) EXPECT_EQ(edge.run_m, edge.length());
+}
+
 // Corners: those that images solve send nothing, nor are those asked that have more images than a sum of them holds.
 TEST(SharpEdges, OfCornersDiffractBetweenTwelveDegAndAHalfTurn) {
   const auto corner_diffracts = [](double opening_deg) {
