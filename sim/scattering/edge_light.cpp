@@ -191,17 +191,15 @@ void find_arrivals(const SharpEdges& edges, int facet, const WaveOnFacet& wave, 
   }
 }
 
-std::vector<EdgeFootprint> edge_footprints(const SharpEdges& edges, std::span<const Facet> facets,
-                                           const AntennaPair& antennas, std::span<const EdgeArrival> incoming,
-                                           std::span<const EdgeArrival> outgoing, int max_bounces) {
-  std::vector<EdgeFootprint> result;
+void edge_footprints(const SharpEdge& edge, std::span<const Facet> facets, const AntennaPair& antennas,
+                     EdgeArrivals incoming, EdgeArrivals outgoing, int max_bounces,
+                     std::vector<EdgeFootprint>& footprints) {
   const int most_mirrors = std::min(kMostEdgeMirrors, max_bounces - 1);
   // Of one antenna's two ways by the same arrivals only one is followed: run backwards it has the same path.
   const auto echo = [&](const EdgeArrival& in, const EdgeArrival& out) {
     const bool both_ways = antennas.monostatic && &in != &out;
     const double first = std::max(in.s[0], out.s[0]), last = std::min(in.s[1], out.s[1]);
     if (last - first <= kOnEdge || in.mirrors + out.mirrors > most_mirrors) return;
-    const SharpEdge& edge = edges.edges[in.edge];
     const WedgeFrame* wedge = wedge_towards(edge, in.direction);
     if (!wedge || wedge_towards(edge, out.direction) != wedge) return;
 
@@ -240,25 +238,12 @@ std::vector<EdgeFootprint> edge_footprints(const SharpEdges& edges, std::span<co
       gradient.transmit = X + gradient.transmit_slip;
       gradient.receive = Y + gradient.receive_slip;
     }
-    result.push_back(footprint);
+    footprints.push_back(footprint);
   };
 
-  // Both lists edge by edge.
-  std::size_t i = 0, o = 0;
-  while (i < incoming.size() && o < outgoing.size()) {
-    const int edge = std::max(incoming[i].edge, outgoing[o].edge);
-    while (i < incoming.size() && incoming[i].edge < edge) ++i;
-    while (o < outgoing.size() && outgoing[o].edge < edge) ++o;
-    std::size_t i_end = i, o_end = o;
-    while (i_end < incoming.size() && incoming[i_end].edge == edge) ++i_end;
-    while (o_end < outgoing.size() && outgoing[o_end].edge == edge) ++o_end;
-    for (std::size_t a = i; a < i_end; ++a) {
-      for (std::size_t b = antennas.monostatic ? o + (a - i) : o; b < o_end; ++b) echo(incoming[a], outgoing[b]);
-    }
-    i = i_end;
-    o = o_end;
+  for (std::size_t a = 0; a < incoming.size(); ++a) {
+    for (std::size_t b = antennas.monostatic ? a : 0; b < outgoing.size(); ++b) echo(*incoming[a], *outgoing[b]);
   }
-  return result;
 }
 
 }  // namespace seaglint

@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "sim/scattering/edge_arrival.h"
 #include "sim/scattering/edge_footprint.h"
 #include "sim/scattering/edges.h"
 
@@ -20,19 +21,6 @@ namespace seaglint {
 // Mirrors on both ways together. Three suffice for what a corner reflector's rims return; what is left out has left the
 // target's straight ways.
 inline constexpr int kMostEdgeMirrors = 3;
-
-// A wave on a stretch of an edge.
-struct EdgeArrival {
-  int edge = kNoEdge;
-  std::array<double, 2> s{};         // the stretch, m from the edge's start
-  std::array<Vec2, 2> slip{};        // d s / d (d1, d2) of its ends as the antenna's direction turns, m/rad
-  Vec3 image;                        // of the edge's start, through the mirrors
-  Vec3 image_along;                  // unit, of the edge's direction
-  Vec3 direction;                    // of the wave at the edge, unit
-  Vec3 E_h, E_v;                     // field for each polarisation of the antenna
-  std::uint8_t mirrors = 0;          // passed before
-  Vec3 first_mirror = Vec3::Zero();  // normal of the first of them, unit, as the others show it to the edge
-};
 
 // A wave that falls on a facet through mirrors, as a beam's leg carries it.
 struct WaveOnFacet {
@@ -59,11 +47,11 @@ double beside_the_beam(const Vec3& k_hat, const Vec3& s);
 double before_the_beam(const Vec3& k_hat, const Vec3& s);
 double before_the_beam(double cosine);
 
-// Echoes of all stretches that a wave from the transmitter (`incoming`) shares with one from the receiver (`outgoing`),
-// with at most `max_bounces` in all. Arrivals must be in ascending order of their edges. When both are one antenna
-// `incoming` is a part of `outgoing` that holds all or none of an edge's. Edge waves are apart (edge_waves.h).
-std::vector<EdgeFootprint> edge_footprints(const SharpEdges& edges, std::span<const Facet> facets,
-                                           const AntennaPair& antennas, std::span<const EdgeArrival> incoming,
-                                           std::span<const EdgeArrival> outgoing, int max_bounces);
+// Appends the echoes of all stretches of an edge that a wave from the transmitter (`incoming`) shares with one from the
+// receiver (`outgoing`), with at most `max_bounces` in all. When both are one antenna the lists are the same. Edge
+// waves are apart (edge_waves.h).
+void edge_footprints(const SharpEdge& edge, std::span<const Facet> facets, const AntennaPair& antennas,
+                     EdgeArrivals incoming, EdgeArrivals outgoing, int max_bounces,
+                     std::vector<EdgeFootprint>& footprints);
 
 }  // namespace seaglint

@@ -54,7 +54,7 @@ double opening(const Vec3& w, const Vec3& s) { return std::max(0.5 * (s - w).squ
 class EdgeWaves {
  public:
   EdgeWaves(const SharpEdges& edges, std::span<const Facet> facets, const Panels& panels, const AntennaPair& antennas,
-            std::span<const EdgeArrival> outgoing, const EdgeWaveLimits& limits, bool backwards,
+            const ArrivalsByEdge& outgoing, const EdgeWaveLimits& limits, bool backwards,
             std::vector<EdgeFootprint>& out)
       : edges_(edges),
         facets_(facets),
@@ -63,12 +63,9 @@ class EdgeWaves {
         outgoing_(outgoing),
         limits_(limits),
         backwards_(backwards),
-        out_(out),
-        first_(edges.edges.size() + 1, 0) {
+        out_(out) {
     for (std::size_t waves = 1; waves < spread_.size(); ++waves)
       spread_[waves] = spread_[waves - 1] / std::sqrt(limits.k);
-    for (const EdgeArrival& arrival : outgoing) ++first_[arrival.edge + 1];
-    for (std::size_t e = 1; e < first_.size(); ++e) first_[e] += first_[e - 1];
   }
 
   void send(const EdgeArrival& arrival) {
@@ -263,8 +260,9 @@ class EdgeWaves {
     if (in.waves == 1) next.first_m = 1 / (mean_decay(in.l) * mean_decay(in.l));
     for (int q = 0; q < 2; ++q) next.factor[q] = 0.5 * source.amplitude[q];  // half of the wave is incident
     // What leaves by a corner is found on its way back (corner_wave_footprints).
-    for (std::size_t o = first_[number]; wedge->N > 1 && o < first_[number + 1]; ++o)
-      leave(next, *wedge, source.face, strip.w, outgoing_[o]);
+    if (wedge->N > 1) {
+      for (const EdgeArrival* departure : outgoing_.of(number)) leave(next, *wedge, source.face, strip.w, *departure);
+    }
     if (next.waves < kMostWaves && edge.run_m >= limits_.long_from_m && next.walls == 0) send_on(next);
   }
 
@@ -340,36 +338,33 @@ class EdgeWaves {
   std::span<const Facet> facets_;
   const Panels& panels_;
   const AntennaPair& antennas_;
-  std::span<const EdgeArrival> outgoing_;
+  const ArrivalsByEdge& outgoing_;
   EdgeWaveLimits limits_;
   bool backwards_;  // from corners, for ways that end there
   std::vector<EdgeFootprint>& out_;
-  std::vector<std::size_t> first_;                  // departure of each edge
   std::array<double, kMostWaves + 1> spread_{1.0};  // k^(-waves / 2), m^(waves / 2)
 };
 
 }  // namespace
 
 void edge_wave_footprints(const SharpEdges& edges, std::span<const Facet> facets, const Panels& panels,
-                          const AntennaPair& antennas, std::span<const EdgeArrival> incoming,
-                          std::span<const EdgeArrival> outgoing, const EdgeWaveLimits& limits,
-                          std::vector<EdgeFootprint>& footprints) {
+                          const AntennaPair& antennas, EdgeArrivals incoming, const ArrivalsByEdge& outgoing,
+                          const EdgeWaveLimits& limits, std::vector<EdgeFootprint>& footprints) {
   EdgeWaves waves(edges, facets, panels, antennas, outgoing, limits, false, footprints);
-  for (const EdgeArrival& in : incoming) {
-    if (!by_mirrors(in)) waves.send(in);
+  for (const EdgeArrival* in : incoming) {
+    if (!by_mirrors(*in)) waves.send(*in);
   }
 }
 
 void corner_wave_footprints(const SharpEdges& edges, std::span<const Facet> facets, const Panels& panels,
-                            const AntennaPair& antennas, std::span<const EdgeArrival> incoming,
-                            std::span<const EdgeArrival> outgoing, const EdgeWaveLimits& limits,
-                            std::vector<EdgeFootprint>& footprints) {
+                            const AntennaPair& antennas, const ArrivalsByEdge& incoming, EdgeArrivals outgoing,
+                            const EdgeWaveLimits& limits, std::vector<EdgeFootprint>& footprints) {
   const AntennaPair exchanged{antennas.receive, antennas.transmit, antennas.monostatic};
   std::vector<EdgeFootprint> back;
   EdgeWaves waves(edges, facets, panels, exchanged, incoming, limits, true, back);
-  for (const EdgeArrival& out : outgoing) {
-    const WedgeFrame* wedge = wedge_towards(edges.edges[out.edge], out.direction);
-    if (!by_mirrors(out) && wedge && wedge->N < 1) waves.send(out);
+  for (const EdgeArrival* out : outgoing) {
+    const WedgeFrame* wedge = wedge_towards(edges.edges[out->edge], out->direction);
+    if (!by_mirrors(*out) && wedge && wedge->N < 1) waves.send(*out);
   }
   for (EdgeFootprint& footprint : back) {
     for (PathGradient& gradient : footprint.gradient) std::swap(gradient.transmit, gradient.receive);

@@ -24,22 +24,19 @@ struct EdgeWaveLimits {
 };
 
 // Appends the echoes along transmitter - first edge - face - second edge (- face - third edge) - receiver, for every
-// stretch of first edges in `incoming` and of last edges in `outgoing` (the same list when both are one antenna), each
-// sorted by edge. The strip of grazing rays is followed across coplanar facets and by up to two upright walls from one
-// edge to the next; it ends at edges that are not sharp. A corner sends waves, and sends them on, as an edge does,
-// since where what its walls send to one another grazes one of them physical optics knows no penumbra; ways that end in
-// one are those of corner_wave_footprints. Fields fall as 1/sqrt(k l) with the distance l between two edges; at the
-// later one half of the wave is incident.
+// stretch of first edges in `incoming` and of last edges in `outgoing`. The strip of grazing rays is followed across
+// coplanar facets and by up to two upright walls from one edge to the next; it ends at edges that are not sharp. A
+// corner sends waves, and sends them on, as an edge does, since where what its walls send to one another grazes one of
+// them physical optics knows no penumbra; ways that end in one are those of corner_wave_footprints. Fields fall as
+// 1/sqrt(k l) with the distance l between two edges; at the later one half of the wave is incident.
 void edge_wave_footprints(const SharpEdges& edges, std::span<const Facet> facets, const Panels& panels,
-                          const AntennaPair& antennas, std::span<const EdgeArrival> incoming,
-                          std::span<const EdgeArrival> outgoing, const EdgeWaveLimits& limits,
-                          std::vector<EdgeFootprint>& footprints);
+                          const AntennaPair& antennas, EdgeArrivals incoming, const ArrivalsByEdge& outgoing,
+                          const EdgeWaveLimits& limits, std::vector<EdgeFootprint>& footprints);
 
 // The same of ways that end in a corner: transmitter - first edge - face - corner - receiver, for corners in
 // `outgoing`, found from there on (reciprocity). Ways from corner to corner are in neither.
 void corner_wave_footprints(const SharpEdges& edges, std::span<const Facet> facets, const Panels& panels,
-                            const AntennaPair& antennas, std::span<const EdgeArrival> incoming,
-                            std::span<const EdgeArrival> outgoing, const EdgeWaveLimits& limits,
-                            std::vector<EdgeFootprint>& footprints);
+                            const AntennaPair& antennas, const ArrivalsByEdge& incoming, EdgeArrivals outgoing,
+                            const EdgeWaveLimits& limits, std::vector<EdgeFootprint>& footprints);
 
 }  // namespace seaglint

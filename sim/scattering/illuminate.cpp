@@ -62,20 +62,6 @@ AntennaPair looking_aside(const Scatterer& scatterer, const AntennaPair& antenna
           antennas.monostatic};
 }
 
-// All chunks' arrivals in the order of their edges, those of one edge in the order of the chunks.
-std::vector<EdgeArrival> by_edge(std::span<const std::vector<EdgeArrival>> chunks, std::size_t edge_count) {
-  std::vector<std::size_t> place(edge_count + 1, 0);  // where the next arrival of each edge goes
-  for (const auto& arrivals : chunks) {
-    for (const EdgeArrival& arrival : arrivals) ++place[static_cast<std::size_t>(arrival.edge) + 1];
-  }
-  std::partial_sum(place.begin(), place.end(), place.begin());
-  std::vector<EdgeArrival> all(place.back());
-  for (const auto& arrivals : chunks) {
-    for (const EdgeArrival& arrival : arrivals) all[place[arrival.edge]++] = arrival;
-  }
-  return all;
-}
-
 }  // namespace
 
 double default_ray_spacing(const Scatterer& scatterer) { return kSpacingPerSide * kSmallestSide * scatterer.radius(); }
@@ -120,11 +106,12 @@ std::size_t Illumination::panels_per_chunk() const {
 
 std::size_t Illumination::chunk_count() const { return (seen_.size() + panels_per_chunk() - 1) / panels_per_chunk(); }
 
-Reached Illumination::light_all(int threads, const std::function<void(std::size_t, std::span<const Footprint>)>& visit,
+Reached Illumination::light_all(int threads, const std::function<void(std::size_t, const PanelEchoes&)>& visit,
                                 const StopFlag* stop) const {
   const std::size_t size = panels_per_chunk();
+  const EchoFilter& filter = settings_.filter;
+  const double faint = lowest_ > 0 ? faintest_echo(scatterer_, settings_, lowest_) : 0.0;
   std::vector<std::vector<EdgeArrival>> arrivals(chunk_count());
-  std::vector<std::vector<EdgeFootprint>> beam_ends(chunk_count());
   std::vector<std::size_t> legs(chunk_count(), 0);
   parallel_for(
       chunk_count(), threads,
@@ -132,21 +119,21 @@ Reached Illumination::light_all(int threads, const std::function<void(std::size_
         Lit lit;
         const auto panels = seen().subspan(chunk * size, std::min(size, seen_.size() - chunk * size));
         legs[chunk] = trace_beams(scene(), panels, lit, [&] {
-          visit(chunk, lit.footprints);
+          std::erase_if(lit.footprints, [&](const Footprint& f) {
+            return !filter.keeps(f.part, f.bounces, Mechanism::kPhysicalOptics);
+          });
+          std::erase_if(lit.beam_ends, [&](const EdgeFootprint& end) {
+            return !filter.keeps_edge(end.part, end.part_beyond, end.bounces) ||
+                   (faint > 0 && bound_of_beam_end(end, lowest_, highest_) < faint);
+          });
+          visit(chunk, {lit.footprints, lit.beam_ends});
           lit.footprints.clear();
+          lit.beam_ends.clear();
         });
-        if (lowest_ > 0) {
-          const double faint = faintest_echo(scatterer_, settings_, lowest_);
-          std::erase_if(lit.beam_ends,
-                        [&](const EdgeFootprint& end) { return bound_of_beam_end(end, lowest_, highest_) < faint; });
-        }
         arrivals[chunk] = std::move(lit.arrivals);
-        beam_ends[chunk] = std::move(lit.beam_ends);
       },
       stop);
-  std::vector<EdgeFootprint> all_beam_ends;
-  for (const auto& chunk : beam_ends) all_beam_ends.insert(all_beam_ends.end(), chunk.begin(), chunk.end());
-  return {by_edge(arrivals, scatterer_.edges().edges.size()), std::move(all_beam_ends),
+  return {ArrivalsByEdge(std::move(arrivals), scatterer_.edges().edges.size()),
           std::accumulate(legs.begin(), legs.end(), std::size_t{0})};
 }
 

@@ -51,15 +51,17 @@ struct Lit {
   std::vector<EdgeFootprint> beam_ends;  // what physical optics lacks where beams end
 };
 
+// The same of one panel, as far as it is told at once: edges answer when all has reached them.
+struct PanelEchoes {
+  std::span<const Footprint> footprints;
+  std::span<const EdgeFootprint> beam_ends;
+};
+
 struct BeamScene;
 
-// The waves that reached sharp edges, in ascending order of the edges, and the number of legs followed, a beam's way
-// from one mirror to the next.
+// The waves that reached sharp edges, and the number of legs followed, a beam's way from one mirror to the next.
 struct Reached {
-  std::vector<EdgeArrival> arrivals;
-  // What physical optics lacks where beams end, as far as it counts at the illumination's wavenumbers, in the order of
-  // the beams.
-  std::vector<EdgeFootprint> beam_ends;
+  ArrivalsByEdge arrivals;
   std::size_t legs = 0;
 };
 
@@ -75,11 +77,12 @@ class Illumination {
   // Panels the transmitter sees, by the facets they go by, ascending.
   std::span<const int> seen() const { return seen_; }
 
-  // Lights everything chunk by chunk of panels, on `threads` threads: visit(chunk, footprints) gets what each chunk
-  // lights, panel by panel in order, from one thread or another. Chunks do not depend on the number of threads. Throws
+  // Lights everything chunk by chunk of panels, on `threads` threads: visit(chunk, echoes) gets what each chunk lights,
+  // panel by panel in order, from one thread or another, without what the settings' filter leaves out and the ends of
+  // beams that are faint at the illumination's wavenumbers. Chunks do not depend on the number of threads. Throws
   // Interrupted when *stop becomes true.
   std::size_t chunk_count() const;
-  Reached light_all(int threads, const std::function<void(std::size_t, std::span<const Footprint>)>& visit,
+  Reached light_all(int threads, const std::function<void(std::size_t, const PanelEchoes&)>& visit,
                     const StopFlag* stop = nullptr) const;
 
   // Appends what all beams light whose first mirror is the panel of one of these facets, their own first bounce

@@ -69,24 +69,26 @@ ReturnGrid trace_returns(const Scatterer& scatterer, const PlannedWay& way, cons
       points[chunk].fastest = std::max(points[chunk].fastest, std::abs(u));
     }
   };
-  const Reached reached =
-      illumination.light_all(threads, [&](std::size_t chunk, std::span<const Footprint> footprints) {
-        std::vector<Contribution> contributions;
-        for (const Footprint& footprint : footprints) {
-          contributions.clear();
-          split_over_band(footprint, antennas.transmit, split_settings, half_band, contributions);
-          keep(chunk, contributions);
-        }
-      });
-  edge_echoes(scatterer, antennas, settings, band, reached, threads,
-              [&](std::size_t chunk, std::span<const EdgeFootprint> footprints) {
-                std::vector<Contribution> contributions;
-                for (const EdgeFootprint& footprint : footprints) {
-                  contributions.clear();
-                  split(footprint, split_settings, contributions);
-                  keep(chunks + chunk, contributions);
-                }
-              });
+  const auto keep_edges = [&](std::size_t chunk, std::span<const EdgeFootprint> footprints) {
+    std::vector<Contribution> contributions;
+    for (const EdgeFootprint& footprint : footprints) {
+      contributions.clear();
+      split(footprint, split_settings, contributions);
+      keep(chunk, contributions);
+    }
+  };
+  const Reached reached = illumination.light_all(threads, [&](std::size_t chunk, const PanelEchoes& echoes) {
+    std::vector<Contribution> contributions;
+    for (const Footprint& footprint : echoes.footprints) {
+      contributions.clear();
+      split_over_band(footprint, antennas.transmit, split_settings, half_band, contributions);
+      keep(chunk, contributions);
+    }
+    keep_edges(chunk, echoes.beam_ends);
+  });
+  edge_echoes(
+      scatterer, antennas, settings, band, reached.arrivals, threads,
+      [&](std::size_t chunk, std::span<const EdgeFootprint> footprints) { keep_edges(chunks + chunk, footprints); });
   double fastest = 0;
   for (const ChunkPoints& chunk : points) fastest = std::max(fastest, chunk.fastest);
   const GridLimits limits{fastest, path.s_limit, beside_limit(scatterer), path.q_limit};
@@ -224,25 +226,26 @@ std::vector<std::array<Complex, 4>> scattering_matrices(const Scatterer& scatter
   };
 
   const Illumination illumination(scatterer, antennas, settings, threads, wavenumbers);
-  std::vector<Matrices> parts(illumination.chunk_count(), Matrices(wavenumbers.size()));
+  const std::size_t facet_parts = illumination.chunk_count();
+  std::vector<Matrices> parts(facet_parts + kEdgeChunks, Matrices(wavenumbers.size()));
+  const auto add_edges = [&](std::span<const EdgeFootprint> footprints, Matrices& sum) {
+    for (const EdgeFootprint& footprint : footprints) {
+      for (std::size_t q = 0; q < wavenumbers.size(); ++q) add(of_edge(footprint, wavenumbers[q]), sum[q]);
+    }
+  };
   const Reached reached = illumination.light_all(
       threads,
-      [&](std::size_t chunk, std::span<const Footprint> footprints) {
-        for (const Footprint& footprint : footprints) {
-          if (!settings.filter.keeps(footprint.part, footprint.bounces, Mechanism::kPhysicalOptics)) continue;
+      [&](std::size_t chunk, const PanelEchoes& echoes) {
+        for (const Footprint& footprint : echoes.footprints) {
           for (std::size_t q = 0; q < wavenumbers.size(); ++q) add(of_facet(footprint, q), parts[chunk][q]);
         }
+        add_edges(echoes.beam_ends, parts[chunk]);
       },
       stop);
   if (legs) *legs += reached.legs;
-  const std::size_t facet_parts = parts.size();
-  parts.resize(facet_parts + kEdgeChunks, Matrices(wavenumbers.size()));
-  edge_echoes(scatterer, antennas, settings, wavenumbers, reached, threads,
+  edge_echoes(scatterer, antennas, settings, wavenumbers, reached.arrivals, threads,
               [&](std::size_t chunk, std::span<const EdgeFootprint> footprints) {
-                for (const EdgeFootprint& footprint : footprints) {
-                  for (std::size_t q = 0; q < wavenumbers.size(); ++q)
-                    add(of_edge(footprint, wavenumbers[q]), parts[facet_parts + chunk][q]);
-                }
+                add_edges(footprints, parts[facet_parts + chunk]);
               });
   Matrices sum(wavenumbers.size());
   for (const Matrices& part : parts) {
@@ -257,19 +260,16 @@ std::vector<Contribution> view_contributions(const Scatterer& scatterer, const A
   SplitSettings bent = split_settings;
   bent.turn_rad += spread_of_directions(scatterer, settings.range_m, settings.origin);
   const Illumination illumination(scatterer, antennas, settings, threads, std::array{split_settings.kc});
-  std::vector<std::vector<Contribution>> chunks(illumination.chunk_count());
+  const std::size_t facet_chunks = illumination.chunk_count();
+  std::vector<std::vector<Contribution>> chunks(facet_chunks + kEdgeChunks);
   const Reached reached = illumination.light_all(
       threads,
-      [&](std::size_t chunk, std::span<const Footprint> footprints) {
-        for (const Footprint& footprint : footprints) {
-          if (!settings.filter.keeps(footprint.part, footprint.bounces, Mechanism::kPhysicalOptics)) continue;
-          split(footprint, antennas.transmit, bent, chunks[chunk]);
-        }
+      [&](std::size_t chunk, const PanelEchoes& echoes) {
+        for (const Footprint& footprint : echoes.footprints) split(footprint, antennas.transmit, bent, chunks[chunk]);
+        for (const EdgeFootprint& end : echoes.beam_ends) split(end, bent, chunks[chunk]);
       },
       stop);
-  const std::size_t facet_chunks = chunks.size();
-  chunks.resize(facet_chunks + kEdgeChunks);
-  edge_echoes(scatterer, antennas, settings, std::array{split_settings.kc}, reached, threads,
+  edge_echoes(scatterer, antennas, settings, std::array{split_settings.kc}, reached.arrivals, threads,
               [&](std::size_t chunk, std::span<const EdgeFootprint> footprints) {
                 for (const EdgeFootprint& footprint : footprints) split(footprint, bent, chunks[facet_chunks + chunk]);
               });

@@ -18,6 +18,15 @@ using namespace testing_echoes;
 
 constexpr Complex j(0, 1);
 
+std::vector<EdgeFootprint> beam_ends(const Scatterer& scatterer, const Vec3& r) {
+  std::vector<EdgeFootprint> all;
+  Illumination(scatterer, monostatic(radar_basis(r)), {0, 8, true})
+      .light_all(1, [&](std::size_t, const PanelEchoes& echoes) {
+        all.insert(all.end(), echoes.beam_ends.begin(), echoes.beam_ends.end());
+      });
+  return all;
+}
+
 // Behind a half-plane the field at u beyond the shadow line is erfc(e^{j pi/4} u) / 2; the beam lacks its integral from
 // the second rim on. With both integrals turned by e^{-j pi/4} and their order changed it is that of t e^{-(a + t)^2} /
 // sqrt(pi) over t > 0, a = e^{j pi/4} u.
@@ -93,10 +102,7 @@ TEST(KnifeEdges, ShareNothingWhereRimsMeet) {
   const Scatterer reflector(read_mesh(SEAGLINT_SOURCE_DIR "/assets/icosahedral_reflector.glb"));
   int corners = 0;
   for (double azimuth = 40; azimuth < 60; azimuth += 0.25) {
-    for (const EdgeFootprint& footprint :
-         Illumination(reflector, monostatic(radar_basis(direction(azimuth, 20))), {0, 8, true})
-             .light_all(1, [](std::size_t, auto) {})
-             .beam_ends) {
+    for (const EdgeFootprint& footprint : beam_ends(reflector, direction(azimuth, 20))) {
       if (!footprint.knife_edges) continue;
       const EdgeFootprint::KnifeEdges& knives = *footprint.knife_edges;
       for (std::size_t end = 0; end < 2; ++end) {
@@ -115,21 +121,16 @@ TEST(KnifeEdges, ShareNothingWhereRimsMeet) {
 TEST(KnifeEdges, FollowATurnAsFreshTracesDo) {
   const Scatterer reflector(read_mesh(SEAGLINT_SOURCE_DIR "/assets/icosahedral_reflector.glb"));
   const double k = wavenumber(16e9);
-  const auto beam_ends = [&](const Vec3& r) {
-    return Illumination(reflector, monostatic(radar_basis(r)), {0, 8, true})
-        .light_all(1, [](std::size_t, auto) {})
-        .beam_ends;
-  };
   for (const auto& [azimuth, elevation] : {std::pair{48.0, 20.0}, {70.0, 2.0}, {33.0, 20.0}}) {
     const Vec3 r = direction(azimuth, elevation);
     std::vector<Contribution> points;
-    for (const EdgeFootprint& footprint : beam_ends(r)) split(footprint, {k, radians(0.15)}, points);
+    for (const EdgeFootprint& footprint : beam_ends(reflector, r)) split(footprint, {k, radians(0.15)}, points);
     double error = 0, power = 0;
     for (const double turn : {-0.07, 0.07}) {
       const Vec3 turned = direction(azimuth + turn, elevation + 0.7 * turn);
       const auto frozen = direct_sum(points, k, turned - r);
       std::array<Complex, 4> fresh{};
-      for (const EdgeFootprint& footprint : beam_ends(turned)) {
+      for (const EdgeFootprint& footprint : beam_ends(reflector, turned)) {
         const auto s = scattered(footprint, k);
         for (int i = 0; i < 4; ++i) fresh[i] += s[i];
       }

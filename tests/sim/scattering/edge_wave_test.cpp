@@ -151,22 +151,22 @@ struct EdgeWaveSum {
 EdgeWaveSum edge_wave_sum(const TriangleMesh& mesh, const AntennaPair& antennas, double k, double first_below,
                           double last_above, int walls) {
   const Scatterer scatterer(mesh);
-  const auto reached = [&](const AntennaPair& pair) {
-    return Illumination(scatterer, pair, {0, 1, true}).light_all(1, [](std::size_t, auto) {}).arrivals;
-  };
-  std::vector<EdgeArrival> incoming = reached(monostatic(antennas.transmit)),
-                           outgoing = antennas.monostatic ? incoming : reached(monostatic(antennas.receive));
   const auto edge = [&](const EdgeArrival& arrival) { return scatterer.edges().edges[arrival.edge]; };
-  const auto off_floor = [&](const EdgeArrival& a) { return edge(a).a.z() != 0 || edge(a).b.z() != 0; };
-  std::erase_if(incoming, [&](const EdgeArrival& a) {
-    return off_floor(a) || std::max(edge(a).a.x(), edge(a).b.x()) > first_below;
-  });
-  std::erase_if(outgoing, [&](const EdgeArrival& a) {
-    return off_floor(a) || std::min(edge(a).a.x(), edge(a).b.x()) < last_above;
-  });
+  // Of edges on the floor, where `wanted` holds.
+  const auto reached = [&](const RadarBasis& basis, const auto& wanted) {
+    std::vector<EdgeArrival> kept;
+    const Reached all = Illumination(scatterer, monostatic(basis), {0, 1, true}).light_all(1, [](std::size_t, auto) {});
+    for (const EdgeArrival* arrival : all.arrivals.all()) {
+      if (edge(*arrival).a.z() == 0 && edge(*arrival).b.z() == 0 && wanted(edge(*arrival))) kept.push_back(*arrival);
+    }
+    return ArrivalsByEdge({std::move(kept)}, scatterer.edges().edges.size());
+  };
+  const auto first = [&](const SharpEdge& e) { return std::max(e.a.x(), e.b.x()) <= first_below; };
+  const auto last = [&](const SharpEdge& e) { return std::min(e.a.x(), e.b.x()) >= last_above; };
+  const ArrivalsByEdge incoming = reached(antennas.transmit, first), outgoing = reached(antennas.receive, last);
   std::vector<EdgeFootprint> footprints;
-  edge_wave_footprints(scatterer.edges(), scatterer.facets(), scatterer.panels(), antennas, incoming, outgoing, {},
-                       footprints);
+  edge_wave_footprints(scatterer.edges(), scatterer.facets(), scatterer.panels(), antennas, incoming.all(), outgoing,
+                       {}, footprints);
   EdgeWaveSum sum;
   for (const EdgeFootprint& footprint : footprints) {
     if (footprint.edge_wave->waves != 1 || footprint.bounces != 2 + walls) continue;
@@ -296,7 +296,7 @@ TEST(EdgeWave, LeaveOutOnlyWhatIsFaint) {
     const auto arrivals = Illumination(corner, antennas, {0, 4, true}).light_all(1, [](std::size_t, auto) {}).arrivals;
     const auto loud = [&](double limit, std::size_t& count) {
       std::vector<EdgeFootprint> footprints;
-      edge_wave_footprints(corner.edges(), corner.facets(), corner.panels(), antennas, arrivals, arrivals,
+      edge_wave_footprints(corner.edges(), corner.facets(), corner.panels(), antennas, arrivals.all(), arrivals,
                            {0, 0, limit, k}, footprints);
       count += footprints.size();
       return std::count_if(footprints.begin(), footprints.end(), [&](const EdgeFootprint& f) {
@@ -322,7 +322,7 @@ TEST(EdgeWave, OfShortRunsAreFaintOnTheShip) {
     const auto arrivals = Illumination(ship, antennas, settings).light_all(2, [](std::size_t, auto) {}).arrivals;
     const auto waves = [&](const EdgeWaveLimits& limits) {
       std::vector<EdgeFootprint> footprints;
-      edge_wave_footprints(ship.edges(), ship.facets(), ship.panels(), antennas, arrivals, arrivals, limits,
+      edge_wave_footprints(ship.edges(), ship.facets(), ship.panels(), antennas, arrivals.all(), arrivals, limits,
                            footprints);
       std::array<Complex, 4> sum{};
       for (const EdgeFootprint& footprint : footprints) {
@@ -355,8 +355,8 @@ TEST(EdgeWave, DoNotDependOnHowTheirFaceIsCut) {
       const auto arrivals =
           Illumination(plate, monostatic(basis), {0, 1, true}).light_all(1, [](std::size_t, auto) {}).arrivals;
       std::vector<EdgeFootprint> footprints;
-      edge_wave_footprints(plate.edges(), plate.facets(), plate.panels(), monostatic(basis), arrivals, arrivals, {},
-                           footprints);
+      edge_wave_footprints(plate.edges(), plate.facets(), plate.panels(), monostatic(basis), arrivals.all(), arrivals,
+                           {}, footprints);
       std::array<Complex, 4> sum{};
       for (const EdgeFootprint& footprint : footprints) {
         if (once && footprint.edge_wave->waves > 1) continue;

@@ -133,8 +133,8 @@ TEST(WallPenumbra, IsTheWallsAndItsFloors) {
   const AntennaPair antennas = monostatic(radar_basis(direction(30, 2)));
   const auto arrivals = Illumination(scatterer, antennas, {0, 4, true}).light_all(1, [](std::size_t, auto) {}).arrivals;
   std::vector<EdgeFootprint> footprints;
-  edge_wave_footprints(scatterer.edges(), scatterer.facets(), scatterer.panels(), antennas, arrivals, arrivals, {},
-                       footprints);
+  edge_wave_footprints(scatterer.edges(), scatterer.facets(), scatterer.panels(), antennas, arrivals.all(), arrivals,
+                       {}, footprints);
   int walls = 0;
   for (const EdgeFootprint& footprint : footprints) {
     if (!footprint.wall) continue;
