@@ -21,7 +21,6 @@ class BeamTracer {
       : scene_(scene),
         facets_(scene.scatterer.facets()),
         curving_{facets_, scene.scatterer.surface(), scene.antennas},
-        panels_(scene.scatterer.panels()),
         tree_(scene.scatterer.tree()),
         antennas_(scene.antennas),
         basis_(scene.antennas.transmit),
@@ -51,17 +50,17 @@ class BeamTracer {
  private:
   // Memory of one leg, kept for the next of its bounce.
   struct Scratch {
-    std::vector<int> found;
+    std::vector<const TreePanel*> found;
     std::vector<Candidate> met;  // as many as any leg needed so far
     std::vector<Extent> extent;  // of what the window shows of each that was met
     std::vector<std::uint32_t> order;
     std::vector<MovingPolygon> seen;
   };
 
-  // A facet as the leg meets it; false when it misses the window.
-  bool meet(const Leg& leg, const Pieces& window, int facet, Candidate& candidate) const {
+  // A panel as the leg meets it; false when it misses the window.
+  bool meet(const Leg& leg, const Pieces& window, const TreePanel& panel, Candidate& candidate) const {
     FacetImage& image = candidate.image;
-    if (!set_image(image, facets_, panels_, facet, leg.mirrors, basis_, scene_.min_area)) return false;
+    if (!set_image(image, panel, leg.mirrors, basis_, scene_.min_area)) return false;
     double farthest = 0, nearest = 0;  // beyond the mirror
     for (const Corner& corner : image.polygon) {
       const double beyond = leg.from_plane.at(corner.p) - image.plane.at(corner.p);
@@ -77,7 +76,7 @@ class BeamTracer {
     candidate.lit.clear();
     for (std::size_t i = 0; i < window.size(); ++i) {
       if (!overlap(window.boxes()[i], box)) continue;
-      MovingPolygon common = intersect(window.polygons()[i], image.polygon);
+      MovingPolygon common = intersect(window.polygons()[i], window.boxes()[i], image.polygon);
       if (!common.empty() && signed_area(common) > scene_.min_area) candidate.lit.push_back(std::move(common));
     }
     return !candidate.lit.empty();
@@ -90,26 +89,25 @@ class BeamTracer {
     const Prism prism = prism_around(window.polygons(), leg, basis_, facets_);
     scratch.found.clear();
     double covered = std::numeric_limits<double>::infinity();
-    bool any_seen = false;
     tree_.walk(prism, [&](const TreePanel& panel) {
       if (panel.facet == leg.from_facet) return covered;
       const Meeting met = meeting(leg, prism, panel);
-      if (met.may) {
-        scratch.found.push_back(panel.facet);
-        any_seen = any_seen || !scene_.visible.pieces(panel.facet).empty();
-      }
+      if (met.may) scratch.found.push_back(&panel);
       return covered = std::min(covered, met.covered);
     });
     // Of the last leg only what the radar sees, or an edge, can answer.
-    if (leg.bounce == scene_.settings.max_bounces && !any_seen && !echo_.reaches_edges(leg)) return;
+    const auto seen = [&](const TreePanel* panel) { return !scene_.visible.pieces(panel->facet).empty(); };
+    if (leg.bounce == scene_.settings.max_bounces && !echo_.reaches_edges(leg) &&
+        std::ranges::none_of(scratch.found, seen))
+      return;
 
     std::vector<Candidate>& met = scratch.met;
     std::vector<Extent>& extent = scratch.extent;
     extent.clear();
-    for (const int facet : scratch.found) {
+    for (const TreePanel* panel : scratch.found) {
       if (met.size() == extent.size()) met.emplace_back();
       Candidate& next = met[extent.size()];
-      if (meet(leg, window, facet, next)) extent.push_back(extent_of(next.lit.polygons(), next.image.plane));
+      if (meet(leg, window, *panel, next)) extent.push_back(extent_of(next.lit.polygons(), next.image.plane));
     }
     std::vector<std::uint32_t>& order = scratch.order;
     order.resize(extent.size());
@@ -192,7 +190,6 @@ class BeamTracer {
   const BeamScene& scene_;
   std::span<const Facet> facets_;
   Curving curving_;
-  const Panels& panels_;
   const FacetTree& tree_;
   const AntennaPair& antennas_;
   const RadarBasis& basis_;  // of the aperture: the transmitter's

@@ -98,10 +98,11 @@ class Splitter {
 
   // An edge of Gordon's contour, which carries cross(w, edge)/(jk |w|^2) times the mean of e^{jk psi} along it.
   struct Edge {
-    double run = 0;             // psi from its start to its end, m
-    double length = 0;          // m
-    Complex flux;               // cross / (jk |w|^2), m^2
-    std::optional<double> end;  // flux / (jk run) where its ends stand for it: what the end has, and the start less
+    double run = 0;     // psi from its start to its end, m
+    double length = 0;  // m
+    Complex flux;       // cross / (jk |w|^2), m^2
+    // flux / (jk run) where its ends stand for it: what the end has, and the start less
+    std::optional<double> end = {};
   };
   Edge edge_of(const Corner& a, const Corner& b) const {
     const Vec2 along = b.p - a.p;

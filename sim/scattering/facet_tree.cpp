@@ -22,6 +22,12 @@ constexpr float kFacesAway = 1e-5F;
 
 }  // namespace
 
+TreePanel tree_panel(std::span<const Facet> facets, const Panels& panels, int facet) {
+  const Facet& first = facets[facet];
+  const std::span<const Vec3> outline = panels.outline(facet);
+  return {first.normal, first.offset, outline.data(), facet, static_cast<std::uint16_t>(outline.size()), first.open};
+}
+
 FacetTree::FacetTree(std::span<const Facet> facets, const Panels& panels) {
   std::vector<Box3> boxes;
   std::vector<TreePanel> by_box;
@@ -33,8 +39,7 @@ FacetTree::FacetTree(std::span<const Facet> facets, const Panels& panels) {
       box.add(corner);
       all.add(corner);
     }
-    const std::span<const Vec3> outline = panels.outline(f);
-    by_box.push_back({facets[f].normal, outline.data(), f, static_cast<std::uint16_t>(outline.size()), facets[f].open});
+    by_box.push_back(tree_panel(facets, panels, f));
   }
   for (const BoxNode& built : box_tree(boxes)) {
     Node node{};

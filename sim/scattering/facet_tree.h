@@ -27,9 +27,10 @@ struct Prism {
   Vec3 wave = Vec3::UnitX();
 };
 
-// A panel as a walk comes upon it: what decides whether a beam meets it, side by side in memory.
+// A panel as a walk comes upon it: what decides whether a beam meets it, and where, side by side in memory.
 struct TreePanel {
   Vec3 normal;                   // unit
+  double offset = 0;             // of its plane, normal . x = offset, m
   const Vec3* corner = nullptr;  // its outline, counter-clockwise seen against the normal
   std::int32_t facet = -1;       // the one it goes by
   std::uint16_t corners = 0;
@@ -37,6 +38,9 @@ struct TreePanel {
 
   std::span<const Vec3> outline() const { return {corner, corners}; }
 };
+
+// The panel that goes by this facet. Its outline stays that of facets and panels.
+TreePanel tree_panel(std::span<const Facet> facets, const Panels& panels, int facet);
 
 // Immutable after construction; any number of threads may ask at once. Facets and panels must outlive it.
 class FacetTree {

@@ -22,15 +22,14 @@ double least_area(const Vec3& normal, const RadarBasis& basis, double min_area) 
 
 }  // namespace
 
-bool set_image(FacetImage& result, std::span<const Facet> facets, const Panels& panels, int facet,
-               const Mirror& mirrors, const RadarBasis& basis, double min_area) {
-  const Facet& f = facets[facet];
-  const Vec3 n_image = mirrors.L * f.normal;
+bool set_image(FacetImage& result, const TreePanel& panel, const Mirror& mirrors, const RadarBasis& basis,
+               double min_area) {
+  const Vec3 n_image = mirrors.L * panel.normal;
   if (std::abs(n_image.dot(basis.r)) < kEdgeOnPanel) return false;
-  result.facet = facet;
-  result.plane = image_plane(n_image, n_image.dot(mirrors.image(f.corner[0])), basis);
+  result.facet = panel.facet;
+  result.plane = image_plane(n_image, panel.offset + n_image.dot(mirrors.t), basis);
   result.polygon.clear();
-  for (const Vec3& corner : panels.outline(facet)) {
+  for (const Vec3& corner : panel.outline()) {
     // A point fixed to the body at height z moves by -z d_i in the aperture when the direction turns by d_i.
     const Vec3 image = mirrors.image(corner);
     const double z = image.dot(basis.r);
@@ -107,8 +106,8 @@ VisibleSurface::VisibleSurface(std::span<const Facet> facets, const Panels& pane
   extents_.reserve(most);
   FacetImage fresh;
   for (int f = 0; f < static_cast<int>(facets.size()); ++f) {
-    if (!may_be_seen(f) ||
-        !set_image(fresh, facets, panels, f, Mirror{}, basis, least_area(facets[f].normal, basis, min_area)))
+    if (!may_be_seen(f) || !set_image(fresh, tree_panel(facets, panels, f), Mirror{}, basis,
+                                      least_area(facets[f].normal, basis, min_area)))
       continue;
     image_of_[f] = static_cast<std::int32_t>(images_.size());
     images_.push_back(fresh);

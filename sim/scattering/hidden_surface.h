@@ -30,8 +30,8 @@ struct FacetImage {
 };
 
 // False when the panel is edge-on to the ray or its image is smaller than min_area.
-bool set_image(FacetImage& image, std::span<const Facet> facets, const Panels& panels, int facet, const Mirror& mirrors,
-               const RadarBasis& basis, double min_area);
+bool set_image(FacetImage& image, const TreePanel& panel, const Mirror& mirrors, const RadarBasis& basis,
+               double min_area);
 
 // Where polygons of one plane lie: their box in the aperture, and the heights of their corners towards the radar, m.
 struct Extent {

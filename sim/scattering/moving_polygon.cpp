@@ -91,13 +91,23 @@ Side clip_by(const MovingPolygon& polygon, const Distance& distance, double on_l
   return kept.size() < 3 ? Side::kOutside : Side::kBoth;
 }
 
+// Where all corners in a box lie with respect to an edge: to its left kInside, as also where it has no length; kBoth:
+// they have to be looked at. Of two polygons that meet a box tells most edges.
+Side side_of_edge(const Box& box, const Corner& from, const Corner& to) {
+  const Vec2 left = left_of(to.p - from.p), steep = left.cwiseAbs();
+  const double centre = left.dot(0.5 * (box.lower + box.upper) - from.p);
+  const double reach = steep.dot(0.5 * (box.upper - box.lower)) + kOnLine * steep.sum();
+  if (centre > reach || left.squaredNorm() < kOnLine * kOnLine) return Side::kInside;
+  return centre < -reach ? Side::kOutside : Side::kBoth;
+}
+
 // Clips by one edge of another polygon: keeps its left side. The line is as steep as the edge is long, which saves a
 // division for each.
-Side clip_by_edge(const MovingPolygon& polygon, const Corner& from, const Corner& to, double length,
-                  MovingPolygon& kept, MovingPolygon* cut_off = nullptr) {
+Side clip_by_edge(const MovingPolygon& polygon, const Corner& from, const Corner& to, MovingPolygon& kept,
+                  MovingPolygon* cut_off = nullptr) {
   const Vec2 left = left_of(to.p - from.p);
   return clip_by(
-      polygon, [&](const Vec2& p) { return left.dot(p - from.p); }, kOnLine * length,
+      polygon, [&](const Vec2& p) { return left.dot(p - from.p); }, kOnLine * left.norm(),
       [&] { return line_of_edge(from, to); }, kept, cut_off);
 }
 
@@ -164,17 +174,16 @@ bool apart(const MovingPolygon& a, const MovingPolygon& b) {
   return outside_an_edge(a, b) || outside_an_edge(b, a);
 }
 
-bool subtract(const MovingPolygon& polygon, const MovingPolygon& hole, double min_area,
+bool subtract(const MovingPolygon& polygon, const Box& around, const MovingPolygon& hole, double min_area,
               std::vector<MovingPolygon>& pieces) {
   const std::size_t before = pieces.size();
   MovingPolygon rests[2], outside;  // what is inside all edges so far, and where the next clip goes
   const MovingPolygon* rest = &polygon;
   for (std::size_t i = 0; i < hole.size(); ++i) {
     const Corner &from = hole[i], &to = hole[i + 1 == hole.size() ? 0 : i + 1];
-    const double length = (to.p - from.p).norm();
-    if (length < kOnLine) continue;
     MovingPolygon& next = rests[rest == &rests[0] ? 1 : 0];
-    const Side side = clip_by_edge(*rest, from, to, length, next, &outside);
+    Side side = side_of_edge(around, from, to);
+    if (side == Side::kBoth) side = clip_by_edge(*rest, from, to, next, &outside);
     if (side == Side::kInside) continue;
     if (side == Side::kOutside) {
       pieces.resize(before);
@@ -188,15 +197,14 @@ bool subtract(const MovingPolygon& polygon, const MovingPolygon& hole, double mi
   return false;
 }
 
-MovingPolygon intersect(const MovingPolygon& a, const MovingPolygon& b) {
+MovingPolygon intersect(const MovingPolygon& a, const Box& around, const MovingPolygon& b) {
   MovingPolygon rests[2];
   const MovingPolygon* rest = &a;
   for (std::size_t i = 0; i < b.size(); ++i) {
     const Corner &from = b[i], &to = b[i + 1 == b.size() ? 0 : i + 1];
-    const double length = (to.p - from.p).norm();
-    if (length < kOnLine) continue;
     MovingPolygon& next = rests[rest == &rests[0] ? 1 : 0];
-    const Side side = clip_by_edge(*rest, from, to, length, next);
+    Side side = side_of_edge(around, from, to);
+    if (side == Side::kBoth) side = clip_by_edge(*rest, from, to, next);
     if (side == Side::kOutside) return {};
     if (side == Side::kBoth) rest = &next;
   }

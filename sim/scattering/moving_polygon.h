@@ -140,17 +140,6 @@ MovingPolygon clip(const MovingPolygon& polygon, const MovingLine& line, int kee
 // Both parts at once, as clip() has them: where line >= 0, and where line <= 0.
 std::array<MovingPolygon, 2> halves(const MovingPolygon& polygon, const MovingLine& line);
 
-// True when an edge of one of the polygons has the other wholly outside it or on it: then they have no area in common.
-bool apart(const MovingPolygon& a, const MovingPolygon& b);
-
-// polygon minus hole where they have more than min_area in common: appends convex pieces with an area above min_area to
-// pieces. Else false, and nothing is appended.
-bool subtract(const MovingPolygon& polygon, const MovingPolygon& hole, double min_area,
-              std::vector<MovingPolygon>& pieces);
-
-// The common part; empty when there is none.
-MovingPolygon intersect(const MovingPolygon& a, const MovingPolygon& b);
-
 struct Box {
   Vec2 lower = Vec2::Zero();
   Vec2 upper = Vec2::Zero();
@@ -167,5 +156,17 @@ inline bool overlap(const Box& a, const Box& b) {
   return a.lower.x() < b.upper.x() && b.lower.x() < a.upper.x() && a.lower.y() < b.upper.y() &&
          b.lower.y() < a.upper.y();
 }
+
+// True when an edge of one of the polygons has the other wholly outside it or on it: then they have no area in common.
+bool apart(const MovingPolygon& a, const MovingPolygon& b);
+
+// polygon, which lies in the box, minus hole where they have more than min_area in common: appends convex pieces with
+// an area above min_area to pieces. Else false, and nothing is appended.
+bool subtract(const MovingPolygon& polygon, const Box& around, const MovingPolygon& hole, double min_area,
+              std::vector<MovingPolygon>& pieces);
+
+// The common part of a, which lies in the box, and b; empty when there is none.
+MovingPolygon intersect(const MovingPolygon& a, const Box& around, const MovingPolygon& b);
+inline MovingPolygon intersect(const MovingPolygon& a, const MovingPolygon& b) { return intersect(a, box_of(a), b); }
 
 }  // namespace seaglint

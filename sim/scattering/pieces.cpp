@@ -18,7 +18,7 @@ bool Pieces::cut(const MovingPolygon& hole, const Box& box, double min_area) {
   left_.clear();
   std::size_t whole = 0;
   for (std::size_t i = 0; i < polygons_.size(); ++i) {
-    if (overlap(boxes_[i], box) && subtract(polygons_[i], hole, min_area, left_)) continue;
+    if (overlap(boxes_[i], box) && subtract(polygons_[i], boxes_[i], hole, min_area, left_)) continue;
     if (whole < i) {
       polygons_[whole] = std::move(polygons_[i]);
       boxes_[whole] = boxes_[i];
