@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "sim/scattering/contributions.h"
 #include "sim/scattering/footprint.h"
@@ -164,8 +165,7 @@ class CurvedSplitter {
   // slope w, by the divergence theorem with F = w e^{jk psi} / (jk |w|^2).
   void contour(const MovingPolygon& polygon) {
     const std::size_t n = polygon.size();
-    std::vector<Complex> end(n, 0.0);
-    std::vector<char> has_end(n, 0);
+    std::vector<std::optional<Complex>> end(n);
     const auto flux = [&](const Vec2& p, const Vec2& along) -> Complex {
       const Shares of_p = shares(p);
       const Vec2 w = between(c_.w, of_p);
@@ -190,11 +190,11 @@ class CurvedSplitter {
           const Complex first = -flux(a.p + from * along, along) / Complex(0, k_ * run_from);
           const Complex last = flux(a.p + to * along, along) / Complex(0, k_ * run_to);
           if (from == 0)
-            end[i] += first, has_end[i] = 1;
+            end[i] = end[i].value_or(0.0) + first;
           else
             slide(first, at(from));
           if (to == 1)
-            end[j] += last, has_end[j] = 1;
+            end[j] = end[j].value_or(0.0) + last;
           else
             slide(last, at(to));
           return;
@@ -213,7 +213,7 @@ class CurvedSplitter {
       part_of_edge(part_of_edge, 0, 1, run(0), run(1));
     }
     for (std::size_t i = 0; i < n; ++i) {
-      if (has_end[i]) slide(end[i], polygon[i]);
+      if (end[i]) slide(*end[i], polygon[i]);
     }
   }
 
@@ -240,6 +240,8 @@ class CurvedSplitter {
 }  // namespace
 
 void curved_terms(const Footprint& footprint, double k, double least_slope, std::vector<CurvedTerm>& terms) {
+  constexpr std::size_t kAsUsual = 16;
+  terms.reserve(kAsUsual);
   CurvedSplitter(footprint, k, least_slope, terms).run();
 }
 

@@ -78,7 +78,7 @@ void set_phase(Footprint& footprint, const Vec3& n_image, const AntennaPair& ant
   const auto tangential = [&](const Vec3& x) -> Vec3 { return x - n_image * n_image.dot(x); };
   footprint.surface_slope = tangential(both).norm();
   footprint.surface_slope_turn =
-      std::hypot(tangential(basis.h + L * basis.h).norm(), tangential(basis.v + L * basis.v).norm());
+      std::sqrt(tangential(basis.h + L * basis.h).squaredNorm() + tangential(basis.v + L * basis.v).squaredNorm());
 }
 
 PathGradient phase_gradient(const Footprint& footprint, const Vec2& p, const RadarBasis& transmit) {

@@ -32,14 +32,16 @@ struct IntoAperture {
 
 std::vector<Vec2> outline_of(const Panels& panels, const RadarBasis& transmit, const Screen& screen) {
   const IntoAperture into(transmit, *screen.mirrors);
-  std::vector<Vec2> outline;
-  for (const Vec3& x : panels.outline(screen.facet)) outline.push_back(into(x));
+  const std::span<const Vec3> real = panels.outline(screen.facet);
+  std::vector<Vec2> outline(real.size());
+  std::ranges::transform(real, outline.begin(), into);
   return outline;
 }
 
 std::vector<Rim> rims_of(const SharpEdges& edges, const Panels& panels, const RadarBasis& transmit,
                          std::span<const Screen> screens) {
   std::vector<Rim> rims;
+  rims.reserve(4 * screens.size());
   for (std::size_t i = 0; i < screens.size(); ++i) {
     const Screen& screen = screens[i];
     const IntoAperture into(transmit, *screen.mirrors);
