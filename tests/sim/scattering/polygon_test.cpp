@@ -2,8 +2,10 @@
 // Moving polygons against finite differences, and the phase integral against quadrature.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "sim/core/constants.h"
 #include "sim/core/random.h"
@@ -71,6 +73,43 @@ TEST(MovingPolygon, CornersMadeByClippingMoveAsTheIntersectionOfTheirEdges) {
     const Vec2 difference = (after[i].p - before[i].p) / (2 * kStep);
     EXPECT_NEAR((difference - common[i].d1).norm(), 0, 1e-6) << i;  // central differences: kStep^2 and rounding / kStep
   }
+}
+
+// A box that tells nothing leaves every edge to the corners: what one that fits tells is the same, bit for bit. Corners
+// on a lattice lie on each other's edges, and edges without length among them.
+TEST(MovingPolygon, BoxesTellOfEdgesWhatTheirCornersWould) {
+  constexpr double kFar = 1e6;
+  const Box everywhere{{-kFar, -kFar}, {kFar, kFar}};
+  Random random({3, Stream::kTest, 2});
+  std::size_t common_parts = 0, cuts = 0;
+  for (int trial = 0; trial < 3000; ++trial) {
+    const auto corner = [&]() -> Vec2 {
+      const Vec2 p(random.uniform(), random.uniform());
+      return trial % 2 == 0 ? p : Vec2(std::round(4 * p.x()), std::round(4 * p.y()));
+    };
+    const auto triangle = [&] {
+      MovingPolygon polygon(3);
+      for (Corner& c : polygon) c = {corner(), corner(), corner()};
+      polygon = counter_clockwise(polygon);
+      if (trial % 3 == 0) polygon.push_back(polygon.back());  // an edge without length
+      return polygon;
+    };
+    const MovingPolygon a = triangle(), b = triangle();
+    const auto same = [](const MovingPolygon& one, const MovingPolygon& other) {
+      return std::ranges::equal(
+          one, other, [](const Corner& p, const Corner& q) { return p.p == q.p && p.d1 == q.d1 && p.d2 == q.d2; });
+    };
+    const MovingPolygon common = intersect(a, b);
+    EXPECT_TRUE(same(common, intersect(a, everywhere, b))) << trial;
+    std::vector<MovingPolygon> left, left_by_corners;
+    const bool cut = subtract(a, box_of(a), b, 1e-6, left);
+    EXPECT_EQ(cut, subtract(a, everywhere, b, 1e-6, left_by_corners)) << trial;
+    EXPECT_TRUE(std::ranges::equal(left, left_by_corners, same)) << trial;
+    common_parts += !common.empty();
+    cuts += cut;
+  }
+  EXPECT_GT(common_parts, 1000u);
+  EXPECT_GT(cuts, 500u);
 }
 
 TEST(MovingPolygon, HalvesAreWhatClippingLeavesOnEitherSide) {
