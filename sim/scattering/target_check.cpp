@@ -18,7 +18,7 @@ constexpr double kFarOrigin = 10;         // half-sizes from the origin
 constexpr double kTooFarOrigin = 300;     // details of a thirtieth of the half-size would be left out
 constexpr double kLeastDetail = 7e-5;     // of the radius about the origin (default_ray_spacing / 14)
 constexpr std::size_t kManyTriangles = 1'000'000;
-constexpr double kGigabytesPerMillion = 1.4, kSecondsPerMillion = 5;  // a sheet of 10 million on two cores
+constexpr double kGigabytesPerMillion = 0.9, kSecondsPerMillion = 6;  // a sheet of 10 million on two cores: 8.6 GB
 
 constexpr double kNarrow = 1.0 / 3;  // wavelengths
 // wavelengths: 0.2 dB of a strip's soft, 0.8 of its hard echo (README.md, "Thick sheets")

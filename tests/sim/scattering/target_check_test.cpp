@@ -26,6 +26,16 @@ TEST(TargetCheck, WarnsOfTargetsTooSmallTooLargeAndTooFar) {
   EXPECT_THROW(check_target(transformed(make_sphere(1, 2), Mat3::Identity(), Vec3(5e3, 0, 0)), 10e9), InputError);
 }
 
+TEST(TargetCheck, TellsWhatMillionsOfTrianglesCost) {
+  TriangleMesh mesh = make_plate(1, 1);
+  mesh.triangles.resize(1'000'000, mesh.triangles[0]);
+  EXPECT_THAT(check_target(mesh, 10e9), ElementsAre());
+  mesh.triangles.resize(1'500'000, mesh.triangles[0]);
+  EXPECT_THAT(
+      check_target(mesh, 10e9),
+      ElementsAre(HasSubstr("1.5 million triangles: expect about 2 GB of memory and 9 s before the first view")));
+}
+
 // A bar of 1 m with sides of 9 mm: a wavelength is 10 mm at 30 GHz, 30 mm at 10 GHz.
 TEST(TargetCheck, WarnsOfBarsThinnerThanAThirdOfAWavelength) {
   TriangleMesh mesh;
