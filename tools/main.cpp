@@ -14,10 +14,10 @@
 #include <string>
 
 #include "seaglint_version.h"
-#include "sim/core/error.h"
-#include "sim/core/standard_error.h"
-#include "tools/command.h"
-#include "tools/unknown_word.h"
+#include "sim/core/numbers/standard_error.h"
+#include "sim/core/process/error.h"
+#include "tools/cli/command.h"
+#include "tools/cli/unknown_word.h"
 
 namespace {
 

@@ -11,9 +11,9 @@
 #include <string>
 
 #include "classify/cnn/network_input.h"
-#include "sim/core/error.h"
-#include "sim/core/file.h"
-#include "sim/core/random.h"
+#include "sim/core/numbers/random.h"
+#include "sim/core/process/error.h"
+#include "sim/core/process/file.h"
 
 namespace seaglint {
 

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "sim/core/parallel.h"
+#include "sim/core/process/parallel.h"
 #include "sim/scenario/learning_spec.h"
 
 namespace seaglint {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/core/constants.h"
+#include "sim/core/numbers/constants.h"
 
 namespace seaglint {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "classify/features/features.h"
 #include "radar/rvmap/map_weights.h"
-#include "sim/core/constants.h"
+#include "sim/core/numbers/constants.h"
 
 namespace seaglint {
 namespace {

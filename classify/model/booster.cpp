@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "sim/core/error.h"
-#include "sim/core/file.h"
+#include "sim/core/process/error.h"
+#include "sim/core/process/file.h"
 
 namespace seaglint {
 

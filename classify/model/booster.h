@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/core/parallel.h"
+#include "sim/core/process/parallel.h"
 #include "sim/scenario/learning_spec.h"
 
 namespace seaglint {

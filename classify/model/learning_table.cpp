@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "classify/cnn/network_input.h"
-#include "sim/core/error.h"
+#include "sim/core/process/error.h"
 
 namespace seaglint {
 

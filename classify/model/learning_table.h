@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "classify/dataset/dataset_reader.h"
+#include "classify/dataset/directory/dataset_reader.h"
 #include "classify/model/booster.h"
 #include "classify/model/split.h"
-#include "sim/core/parallel.h"
+#include "sim/core/process/parallel.h"
 
 namespace seaglint {
 

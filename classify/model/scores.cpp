@@ -8,7 +8,7 @@
 #include <numeric>
 #include <utility>
 
-#include "sim/core/random.h"
+#include "sim/core/numbers/random.h"
 
 namespace seaglint {
 

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <set>
 
-#include "sim/core/random.h"
+#include "sim/core/numbers/random.h"
 
 namespace seaglint {
 

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
-#include "sim/core/error.h"
-#include "sim/core/file.h"
-#include "sim/core/progress.h"
+#include "sim/core/process/error.h"
+#include "sim/core/process/file.h"
+#include "sim/core/process/progress.h"
 
 namespace seaglint {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "sim/core/random.h"
+#include "sim/core/numbers/random.h"
 
 namespace seaglint {
 

@@ -8,9 +8,9 @@
 #include "radar/echo/receiver_noise.h"
 #include "radar/echo/sea_clutter.h"
 #include "radar/echo/sea_reflectivity.h"
-#include "sim/core/constants.h"
-#include "sim/core/error.h"
-#include "sim/core/random.h"
+#include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/random.h"
+#include "sim/core/process/error.h"
 
 namespace seaglint {
 

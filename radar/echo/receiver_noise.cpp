@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "sim/core/constants.h"
+#include "sim/core/numbers/constants.h"
 
 namespace seaglint {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "radar/waveform/pulse_train.h"
-#include "sim/core/linear.h"
+#include "sim/core/numbers/linear.h"
 #include "sim/scenario/radar_spec.h"
 
 namespace seaglint {

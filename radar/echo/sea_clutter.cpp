@@ -7,8 +7,8 @@
 
 #include "radar/echo/gamma_texture.h"
 #include "radar/waveform/fourier.h"
-#include "sim/core/constants.h"
-#include "sim/core/random.h"
+#include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/random.h"
 
 namespace seaglint {
 namespace {

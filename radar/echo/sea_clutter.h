@@ -8,7 +8,7 @@
 
 #include "radar/echo/clutter_motion.h"
 #include "radar/waveform/pulse_train.h"
-#include "sim/core/random.h"
+#include "sim/core/numbers/random.h"
 #include "sim/scenario/radar_spec.h"
 
 namespace seaglint {

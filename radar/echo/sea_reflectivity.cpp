@@ -6,8 +6,8 @@
 #include <array>
 #include <cmath>
 
-#include "sim/core/constants.h"
-#include "sim/core/error.h"
+#include "sim/core/numbers/constants.h"
+#include "sim/core/process/error.h"
 
 namespace seaglint {
 

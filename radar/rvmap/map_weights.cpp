@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/core/constants.h"
-#include "sim/core/error.h"
+#include "sim/core/numbers/constants.h"
+#include "sim/core/process/error.h"
 
 namespace seaglint {
 namespace {

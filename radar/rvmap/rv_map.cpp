@@ -9,8 +9,8 @@
 
 #include "radar/rvmap/map_weights.h"
 #include "radar/waveform/fourier.h"
-#include "sim/core/constants.h"
-#include "sim/core/error.h"
+#include "sim/core/numbers/constants.h"
+#include "sim/core/process/error.h"
 
 namespace seaglint {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "sim/core/error.h"
+#include "sim/core/process/error.h"
 
 namespace seaglint {
 namespace {

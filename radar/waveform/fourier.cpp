@@ -8,8 +8,8 @@
 #include <mutex>
 #include <new>
 
-#include "sim/core/error.h"
-#include "sim/core/parallel.h"
+#include "sim/core/process/error.h"
+#include "sim/core/process/parallel.h"
 
 namespace seaglint {
 

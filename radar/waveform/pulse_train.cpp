@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/core/constants.h"
-#include "sim/core/error.h"
-#include "sim/core/random.h"
+#include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/random.h"
+#include "sim/core/process/error.h"
 
 namespace seaglint {
 namespace {

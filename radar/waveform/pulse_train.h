@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "sim/core/linear.h"
-#include "sim/scattering/frequency_response.h"
+#include "sim/core/numbers/linear.h"
+#include "sim/scattering/response/frequency_response.h"
 #include "sim/scenario/radar_spec.h"
 
 namespace seaglint {

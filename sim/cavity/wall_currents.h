@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "sim/cavity/wall_patches.h"
-#include "sim/core/parallel.h"
+#include "sim/core/process/parallel.h"
 
 namespace seaglint {
 

@@ -10,7 +10,7 @@
 #include <limits>
 #include <unordered_map>
 
-#include "sim/core/error.h"
+#include "sim/core/process/error.h"
 
 namespace seaglint {
 namespace {

@@ -6,7 +6,7 @@
 #include <array>
 #include <vector>
 
-#include "sim/geometry/triangle_mesh.h"
+#include "sim/geometry/mesh/triangle_mesh.h"
 
 namespace seaglint {
 

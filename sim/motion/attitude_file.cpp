@@ -8,10 +8,10 @@
 #include <optional>
 #include <string_view>
 
-#include "sim/core/constants.h"
-#include "sim/core/error.h"
-#include "sim/core/file.h"
-#include "sim/geometry/text_number.h"
+#include "sim/core/numbers/constants.h"
+#include "sim/core/process/error.h"
+#include "sim/core/process/file.h"
+#include "sim/geometry/files/text_number.h"
 #include "sim/motion/table.h"
 
 namespace seaglint {

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <limits>
 
-#include "sim/core/constants.h"
-#include "sim/core/error.h"
-#include "sim/core/file.h"
+#include "sim/core/numbers/constants.h"
+#include "sim/core/process/error.h"
+#include "sim/core/process/file.h"
 
 namespace seaglint {
 

@@ -6,12 +6,12 @@
 #include <filesystem>
 #include <variant>
 
-#include "sim/geometry/triangle_mesh.h"
+#include "sim/geometry/mesh/triangle_mesh.h"
 #include "sim/motion/attitude_series.h"
 #include "sim/motion/float.h"
-#include "sim/motion/hull_sections.h"
 #include "sim/motion/rao_table.h"
 #include "sim/motion/ship.h"
+#include "sim/motion/strip_theory/hull_sections.h"
 #include "sim/scenario/target_spec.h"
 
 namespace seaglint {

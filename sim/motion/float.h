@@ -6,8 +6,8 @@
 #include <array>
 #include <vector>
 
-#include "sim/core/random.h"
-#include "sim/geometry/triangle_mesh.h"
+#include "sim/core/numbers/random.h"
+#include "sim/geometry/mesh/triangle_mesh.h"
 #include "sim/motion/oscillator.h"
 #include "sim/motion/trajectory.h"
 #include "sim/scenario/target_spec.h"

@@ -3,7 +3,7 @@
 
 // One degree of freedom: x'' + 2 z w0 x' + b |x'| x' + w0^2 x = f(t), f an acceleration.
 
-#include "sim/core/linear.h"
+#include "sim/core/numbers/linear.h"
 
 namespace seaglint {
 

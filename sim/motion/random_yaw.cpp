@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 
-#include "sim/core/constants.h"
+#include "sim/core/numbers/constants.h"
 #include "sim/motion/float.h"
 #include "sim/sea/unit_phasors.h"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/core/linear.h"
+#include "sim/core/numbers/linear.h"
 #include "sim/motion/ship.h"
 #include "sim/sea/wave_field.h"
 

@@ -7,7 +7,7 @@
 #include <functional>
 #include <vector>
 
-#include "sim/motion/strip_theory.h"
+#include "sim/motion/strip_theory/strip_theory.h"
 #include "sim/motion/trajectory.h"
 #include "sim/sea/unit_phasors.h"
 #include "sim/sea/wave_field.h"

@@ -7,9 +7,9 @@
 #include <memory>
 #include <vector>
 
-#include "sim/motion/hull_sections.h"
 #include "sim/motion/oscillator.h"
-#include "sim/motion/strip_theory.h"
+#include "sim/motion/strip_theory/hull_sections.h"
+#include "sim/motion/strip_theory/strip_theory.h"
 #include "sim/motion/trajectory.h"
 #include "sim/scenario/target_spec.h"
 #include "sim/sea/wave_field.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/core/constants.h"
+#include "sim/core/numbers/constants.h"
 #include "sim/motion/response_series.h"
 #include "sim/motion/ship.h"
 

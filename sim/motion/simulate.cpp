@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "sim/core/error.h"
+#include "sim/core/process/error.h"
 
 namespace seaglint {
 

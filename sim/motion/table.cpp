@@ -10,9 +10,9 @@
 #include <string_view>
 #include <utility>
 
-#include "sim/core/error.h"
-#include "sim/core/file.h"
-#include "sim/geometry/text_number.h"
+#include "sim/core/process/error.h"
+#include "sim/core/process/file.h"
+#include "sim/geometry/files/text_number.h"
 
 namespace seaglint {
 

@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "sim/core/error.h"
-#include "sim/core/parallel.h"
+#include "sim/core/process/error.h"
+#include "sim/core/process/parallel.h"
 #include "sim/motion/simulate.h"
 
 namespace seaglint {

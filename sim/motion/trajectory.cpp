@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "sim/core/error.h"
+#include "sim/core/process/error.h"
 
 namespace seaglint {
 

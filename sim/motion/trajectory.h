@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "sim/core/linear.h"
+#include "sim/core/numbers/linear.h"
 
 namespace seaglint {
 

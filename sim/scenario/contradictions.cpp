@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "sim/core/constants.h"
-#include "sim/core/dispersion.h"
+#include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/dispersion.h"
 #include "sim/scenario/scenario.h"
 
 namespace seaglint {

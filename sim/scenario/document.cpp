@@ -10,8 +10,8 @@
 #include <sstream>
 #include <utility>
 
-#include "sim/core/error.h"
-#include "sim/core/utf8.h"
+#include "sim/core/process/error.h"
+#include "sim/core/text/utf8.h"
 
 namespace seaglint {
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <string_view>
 
-#include "sim/core/error.h"
+#include "sim/core/process/error.h"
 
 namespace seaglint {
 

@@ -6,8 +6,8 @@
 #include <charconv>
 #include <sstream>
 
-#include "sim/core/error.h"
-#include "sim/core/file.h"
+#include "sim/core/process/error.h"
+#include "sim/core/process/file.h"
 
 namespace seaglint {
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <system_error>
 
-#include "sim/core/error.h"
-#include "sim/core/file.h"
-#include "sim/core/suggestion.h"
+#include "sim/core/process/error.h"
+#include "sim/core/process/file.h"
+#include "sim/core/text/suggestion.h"
 #include "sim/scenario/fields.h"
 #include "sim/scenario/material_spec.h"
 #include "sim/scenario/reader.h"

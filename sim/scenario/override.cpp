@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include "sim/core/error.h"
-#include "sim/core/number.h"
-#include "sim/core/utf8.h"
+#include "sim/core/process/error.h"
+#include "sim/core/text/number.h"
+#include "sim/core/text/utf8.h"
 #include "sim/scenario/reader.h"
 
 namespace seaglint {

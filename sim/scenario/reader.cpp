@@ -7,9 +7,9 @@
 #include <charconv>
 #include <optional>
 
-#include "sim/core/error.h"
-#include "sim/core/number.h"
-#include "sim/core/suggestion.h"
+#include "sim/core/process/error.h"
+#include "sim/core/text/number.h"
+#include "sim/core/text/suggestion.h"
 #include "sim/scenario/fields.h"
 
 namespace seaglint {

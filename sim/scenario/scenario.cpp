@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/core/constants.h"
-#include "sim/core/exact_functions.h"
-#include "sim/core/file.h"
-#include "sim/core/utf8.h"
+#include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/reproducible_functions.h"
+#include "sim/core/process/file.h"
+#include "sim/core/text/utf8.h"
 #include "sim/scenario/contradictions.h"
 #include "sim/scenario/document.h"
 #include "sim/scenario/hop_code_file.h"

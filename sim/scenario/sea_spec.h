@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "sim/core/dispersion.h"
+#include "sim/core/numbers/dispersion.h"
 #include "sim/scenario/radar_spec.h"
 #include "sim/scenario/spectrum_table.h"
 

@@ -9,10 +9,10 @@
 #include <string_view>
 #include <tuple>
 
-#include "sim/core/constants.h"
-#include "sim/core/error.h"
-#include "sim/core/file.h"
-#include "sim/core/number.h"
+#include "sim/core/numbers/constants.h"
+#include "sim/core/process/error.h"
+#include "sim/core/process/file.h"
+#include "sim/core/text/number.h"
 
 namespace seaglint {
 

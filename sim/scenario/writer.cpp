@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string>
 
-#include "sim/core/error.h"
+#include "sim/core/process/error.h"
 #include "sim/scenario/fields.h"
 #include "sim/scenario/scenario.h"
 

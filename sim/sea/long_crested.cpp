@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/sea/long_crested.h"
 
-#include "sim/core/constants.h"
+#include "sim/core/numbers/constants.h"
 
 namespace seaglint {
 

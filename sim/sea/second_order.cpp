@@ -6,9 +6,9 @@
 #include <cmath>
 #include <utility>
 
-#include "sim/core/constants.h"
-#include "sim/core/error.h"
-#include "sim/core/exact_functions.h"
+#include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/reproducible_functions.h"
+#include "sim/core/process/error.h"
 
 namespace seaglint {
 

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/core/constants.h"
-#include "sim/core/error.h"
-#include "sim/core/exact_functions.h"
-#include "sim/core/random.h"
+#include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/random.h"
+#include "sim/core/numbers/reproducible_functions.h"
+#include "sim/core/process/error.h"
 #include "sim/sea/quadrature.h"
 #include "sim/sea/unit_phasors.h"
 

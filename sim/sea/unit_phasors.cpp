@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
-#include "sim/core/constants.h"
-#include "sim/core/error.h"
+#include "sim/core/numbers/constants.h"
+#include "sim/core/process/error.h"
 
 namespace seaglint {
 

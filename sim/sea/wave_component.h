@@ -3,8 +3,8 @@
 
 // One plane wave of the sea.
 
-#include "sim/core/dispersion.h"
-#include "sim/core/linear.h"
+#include "sim/core/numbers/dispersion.h"
+#include "sim/core/numbers/linear.h"
 
 namespace seaglint {
 

@@ -8,9 +8,9 @@
 #include <limits>
 #include <utility>
 
-#include "sim/core/constants.h"
-#include "sim/core/error.h"
-#include "sim/core/exact_functions.h"
+#include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/reproducible_functions.h"
+#include "sim/core/process/error.h"
 #include "sim/sea/long_crested.h"
 
 namespace seaglint {

@@ -10,8 +10,8 @@
 #include <span>
 #include <vector>
 
-#include "sim/core/linear.h"
-#include "sim/core/random.h"
+#include "sim/core/numbers/linear.h"
+#include "sim/core/numbers/random.h"
 #include "sim/scenario/sea_spec.h"
 #include "sim/sea/second_order.h"
 #include "sim/sea/unit_phasors.h"

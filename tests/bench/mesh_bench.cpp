@@ -3,8 +3,8 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
-#include "sim/core/file.h"
-#include "sim/geometry/mesh_io.h"
+#include "sim/core/process/file.h"
+#include "sim/geometry/files/mesh_io.h"
 #include "tests/temporary_folder.h"
 
 namespace seaglint {

@@ -9,9 +9,9 @@
 #include "classify/features/features.h"
 #include "radar/rvmap/map_weights.h"
 #include "radar/rvmap/scr.h"
-#include "sim/core/constants.h"
-#include "sim/core/random.h"
-#include "sim/scattering/point_response.h"
+#include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/random.h"
+#include "sim/scattering/response/point_response.h"
 
 namespace seaglint {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "sim/scattering/beam_leg.h"
-#include "sim/scattering/embree_scene.h"
+#include "sim/scattering/beams/beam_segment.h"
+#include "sim/scattering/target/embree_scene.h"
 #include "tests/bench/ship.h"
 
 namespace seaglint {

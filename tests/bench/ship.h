@@ -7,9 +7,9 @@
 #include <ctime>
 #include <vector>
 
-#include "sim/core/constants.h"
-#include "sim/geometry/mesh_io.h"
-#include "sim/scattering/respond.h"
+#include "sim/core/numbers/constants.h"
+#include "sim/geometry/files/mesh_io.h"
+#include "sim/scattering/response/body_response.h"
 
 namespace seaglint {
 

@@ -3,8 +3,8 @@
 #include <benchmark/benchmark.h>
 #include <sys/resource.h>
 
-#include "sim/geometry/generators.h"
-#include "sim/scattering/embree_scene.h"
+#include "sim/geometry/shapes/generators.h"
+#include "sim/scattering/target/embree_scene.h"
 #include "tests/bench/ship.h"
 
 namespace seaglint {

@@ -7,10 +7,10 @@
 #include <cstdio>
 
 #include "radar/rvmap/rv_map.h"
-#include "sim/core/constants.h"
-#include "sim/geometry/mesh_io.h"
-#include "sim/scattering/point_response.h"
-#include "sim/scattering/respond.h"
+#include "sim/core/numbers/constants.h"
+#include "sim/geometry/files/mesh_io.h"
+#include "sim/scattering/response/body_response.h"
+#include "sim/scattering/response/point_response.h"
 
 namespace seaglint {
 namespace {

@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "sim/geometry/generators.h"
-#include "sim/geometry/mesh_io.h"
+#include "sim/geometry/files/mesh_io.h"
+#include "sim/geometry/shapes/generators.h"
 #include "sim/scenario/scenario.h"
 #include "tests/pipeline/program.h"
 

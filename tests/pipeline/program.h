@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/core/file.h"
+#include "sim/core/process/file.h"
 #include "tests/temporary_folder.h"
 
 namespace seaglint {

@@ -8,9 +8,9 @@
 #include <complex>
 #include <sstream>
 
-#include "sim/core/constants.h"
-#include "sim/geometry/generators.h"
-#include "sim/geometry/mesh_io.h"
+#include "sim/core/numbers/constants.h"
+#include "sim/geometry/files/mesh_io.h"
+#include "sim/geometry/shapes/generators.h"
 #include "tests/pipeline/rcs_command.h"
 
 namespace seaglint {

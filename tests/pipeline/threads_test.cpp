@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "radar/waveform/fourier.h"
-#include "sim/core/parallel.h"
-#include "sim/geometry/generators.h"
-#include "sim/scattering/respond.h"
-#include "tools/pipeline.h"
+#include "sim/core/process/parallel.h"
+#include "sim/geometry/shapes/generators.h"
+#include "sim/scattering/response/body_response.h"
+#include "tools/pipeline/pipeline.h"
 
 namespace seaglint {
 namespace {

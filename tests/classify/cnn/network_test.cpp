@@ -8,9 +8,9 @@
 #include <thread>
 
 #include "classify/cnn/network_input.h"
-#include "sim/core/error.h"
-#include "sim/core/file.h"
-#include "sim/core/random.h"
+#include "sim/core/numbers/random.h"
+#include "sim/core/process/error.h"
+#include "sim/core/process/file.h"
 
 namespace seaglint {
 namespace {

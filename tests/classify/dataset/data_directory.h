@@ -12,8 +12,8 @@
 #include <filesystem>
 #include <string>
 
-#include "classify/dataset/dataset_writer.h"
-#include "classify/dataset/planned_record.h"
+#include "classify/dataset/directory/dataset_writer.h"
+#include "classify/dataset/directory/planned_record.h"
 
 namespace seaglint {
 

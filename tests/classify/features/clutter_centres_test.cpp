@@ -8,9 +8,9 @@
 #include "classify/features/features.h"
 #include "classify/features/local_level.h"
 #include "radar/echo/echo.h"
-#include "sim/core/constants.h"
-#include "sim/core/random.h"
-#include "sim/scattering/point_response.h"
+#include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/random.h"
+#include "sim/scattering/response/point_response.h"
 #include "sim/scenario/scenario.h"
 #include "sim/sea/wave_field.h"
 

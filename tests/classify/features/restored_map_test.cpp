@@ -7,7 +7,7 @@
 
 #include "classify/features/features.h"
 #include "radar/echo/echo.h"
-#include "sim/scattering/point_response.h"
+#include "sim/scattering/response/point_response.h"
 
 namespace seaglint {
 namespace {

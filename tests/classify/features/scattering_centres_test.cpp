@@ -11,8 +11,8 @@
 #include "classify/features/residual_floor.h"
 #include "radar/echo/echo.h"
 #include "radar/rvmap/scr.h"
-#include "sim/core/random.h"
-#include "sim/scattering/point_response.h"
+#include "sim/core/numbers/random.h"
+#include "sim/scattering/response/point_response.h"
 
 namespace seaglint {
 namespace {

@@ -12,9 +12,9 @@
 #include "classify/model/scores.h"
 #include "classify/model/split.h"
 #include "classify/model/tsne.h"
-#include "sim/core/error.h"
-#include "sim/core/file.h"
-#include "sim/core/random.h"
+#include "sim/core/numbers/random.h"
+#include "sim/core/process/error.h"
+#include "sim/core/process/file.h"
 
 namespace seaglint {
 namespace {

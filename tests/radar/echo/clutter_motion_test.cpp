@@ -7,8 +7,8 @@
 #include <cstdio>
 
 #include "radar/echo/sea_clutter.h"
-#include "sim/core/constants.h"
-#include "sim/core/dispersion.h"
+#include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/dispersion.h"
 #include "sim/scenario/scenario.h"
 
 namespace seaglint {

@@ -10,8 +10,8 @@
 #include "radar/echo/echo.h"
 #include "radar/echo/receiver_noise.h"
 #include "radar/echo/sea_clutter.h"
-#include "sim/core/constants.h"
-#include "sim/scattering/point_response.h"
+#include "sim/core/numbers/constants.h"
+#include "sim/scattering/response/point_response.h"
 
 namespace seaglint {
 namespace {

@@ -9,8 +9,8 @@
 #include "radar/echo/echo.h"
 #include "radar/rvmap/map_weights.h"
 #include "radar/rvmap/rv_map.h"
-#include "sim/core/constants.h"
-#include "sim/scattering/point_response.h"
+#include "sim/core/numbers/constants.h"
+#include "sim/scattering/response/point_response.h"
 
 namespace seaglint {
 namespace {

@@ -9,9 +9,9 @@
 
 #include "radar/echo/echo.h"
 #include "radar/rvmap/map_weights.h"
-#include "sim/core/constants.h"
-#include "sim/core/random.h"
-#include "sim/scattering/point_response.h"
+#include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/random.h"
+#include "sim/scattering/response/point_response.h"
 
 namespace seaglint {
 namespace {

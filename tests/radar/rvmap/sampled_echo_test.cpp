@@ -11,9 +11,9 @@
 #include "radar/echo/echo.h"
 #include "radar/echo/sea_clutter.h"
 #include "radar/rvmap/rv_map.h"
-#include "sim/core/constants.h"
-#include "sim/core/error.h"
-#include "sim/scattering/point_response.h"
+#include "sim/core/numbers/constants.h"
+#include "sim/core/process/error.h"
+#include "sim/scattering/response/point_response.h"
 
 namespace seaglint {
 namespace {

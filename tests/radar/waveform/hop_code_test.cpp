@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "radar/waveform/pulse_train.h"
-#include "sim/core/error.h"
+#include "sim/core/process/error.h"
 #include "sim/scenario/hop_code_file.h"
 
 namespace seaglint {

@@ -3,7 +3,7 @@
 
 // A rectangular guide, shorted at its end, as a cavity: 0 <= y <= a, 0 <= z <= b, open at x = 0, closed at x = depth.
 
-#include "sim/geometry/mesh_builder.h"
+#include "sim/geometry/mesh/mesh_builder.h"
 
 namespace seaglint {
 

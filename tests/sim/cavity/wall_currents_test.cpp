@@ -6,9 +6,9 @@
 
 #include <cmath>
 
-#include "sim/core/constants.h"
-#include "sim/geometry/generators.h"
-#include "sim/scattering/footprint.h"
+#include "sim/core/numbers/constants.h"
+#include "sim/geometry/shapes/generators.h"
+#include "sim/scattering/surfaces/footprint.h"
 
 namespace seaglint {
 namespace {

@@ -12,8 +12,8 @@
 #include <sstream>
 #include <string>
 
-#include "sim/core/error.h"
-#include "sim/geometry/mesh_io.h"
+#include "sim/core/process/error.h"
+#include "sim/geometry/files/mesh_io.h"
 
 namespace seaglint {
 

@@ -11,8 +11,8 @@
 #include <functional>
 #include <stdexcept>
 
-#include "sim/core/constants.h"
-#include "sim/core/error.h"
+#include "sim/core/numbers/constants.h"
+#include "sim/core/process/error.h"
 #include "sim/motion/simulate.h"
 
 namespace seaglint {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "sim/core/constants.h"
+#include "sim/core/numbers/constants.h"
 #include "sim/motion/float.h"
 #include "sim/motion/ship.h"
 #include "sim/motion/table.h"

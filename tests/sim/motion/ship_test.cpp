@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "sim/core/constants.h"
-#include "sim/core/error.h"
+#include "sim/core/numbers/constants.h"
+#include "sim/core/process/error.h"
 #include "sim/motion/rao_table.h"
 #include "sim/motion/response_series.h"
 #include "sim/motion/simulate.h"

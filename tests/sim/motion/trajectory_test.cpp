@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "sim/core/constants.h"
+#include "sim/core/numbers/constants.h"
 
 namespace seaglint {
 namespace {

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "sim/core/constants.h"
-#include "sim/core/error.h"
+#include "sim/core/numbers/constants.h"
+#include "sim/core/process/error.h"
 #include "sim/scenario/scenario.h"
 #include "tests/temporary_folder.h"
 

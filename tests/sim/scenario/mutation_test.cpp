@@ -5,8 +5,8 @@
 
 #include <string>
 
-#include "sim/core/error.h"
-#include "sim/core/random.h"
+#include "sim/core/numbers/random.h"
+#include "sim/core/process/error.h"
 #include "sim/scenario/scenario.h"
 
 namespace seaglint {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/core/error.h"
+#include "sim/core/process/error.h"
 #include "sim/scenario/scenario.h"
 
 namespace seaglint::testing_scenarios {

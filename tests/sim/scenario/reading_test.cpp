@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "sim/core/error.h"
+#include "sim/core/process/error.h"
 #include "sim/scenario/document.h"
 #include "sim/scenario/scenario.h"
 #include "tests/sim/scenario/parsing.h"

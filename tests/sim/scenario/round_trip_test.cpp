@@ -7,8 +7,8 @@
 #include <map>
 #include <string>
 
-#include "sim/core/error.h"
-#include "sim/core/random.h"
+#include "sim/core/numbers/random.h"
+#include "sim/core/process/error.h"
 #include "sim/scenario/fields.h"
 #include "sim/scenario/scenario.h"
 

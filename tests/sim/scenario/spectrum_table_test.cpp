@@ -9,9 +9,9 @@
 #include <filesystem>
 #include <string>
 
-#include "sim/core/constants.h"
-#include "sim/core/error.h"
-#include "sim/core/file.h"
+#include "sim/core/numbers/constants.h"
+#include "sim/core/process/error.h"
+#include "sim/core/process/file.h"
 #include "sim/scenario/scenario.h"
 
 namespace seaglint {

@@ -8,7 +8,7 @@
 #include <complex>
 #include <vector>
 
-#include "sim/core/constants.h"
+#include "sim/core/numbers/constants.h"
 #include "sim/sea/wave_field.h"
 
 namespace seaglint {

@@ -8,8 +8,8 @@
 #include <limits>
 #include <numeric>
 
-#include "sim/core/constants.h"
-#include "sim/core/random.h"
+#include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/random.h"
 #include "tests/sim/sea/double_sum.h"
 #include "tests/sim/sea/reference_table.h"
 

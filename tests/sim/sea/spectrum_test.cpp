@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "sim/core/constants.h"
+#include "sim/core/numbers/constants.h"
 #include "tests/sim/sea/reference_table.h"
 
 namespace seaglint {

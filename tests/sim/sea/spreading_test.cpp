@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "sim/core/constants.h"
+#include "sim/core/numbers/constants.h"
 #include "sim/sea/wave_field.h"
 
 namespace seaglint {

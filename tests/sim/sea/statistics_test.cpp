@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "sim/core/constants.h"
+#include "sim/core/numbers/constants.h"
 #include "sim/sea/spectrum.h"
 #include "tests/sim/sea/reference_table.h"
 #include "tests/sim/sea/sea_state.h"

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "sim/core/constants.h"
+#include "sim/core/numbers/constants.h"
 #include "tests/sim/sea/reference_table.h"
 
 namespace seaglint {

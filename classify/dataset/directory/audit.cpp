@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "classify/dataset/directory/audit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <set>
+#include <string_view>
+
+#include "classify/dataset/directory/dataset_reader.h"
+#include "classify/dataset/directory/dataset_writer.h"
+#include "classify/dataset/directory/merged.h"
+#include "classify/dataset/directory/planned_record.h"
+#include "classify/dataset/directory/temporary.h"
+#include "classify/dataset/format/checksum.h"
+#include "sim/core/process/error.h"
+#include "sim/core/process/file.h"
+#include "sim/core/process/progress.h"
+
+namespace seaglint {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Maps are stored in single precision: peak and energy of a row were taken before, and agree to its rounding.
+constexpr double kSinglePrecision = 1e-6;
+constexpr double kSmallest = std::numeric_limits<float>::min();  // m; the rounding of what is below is not relative
+
+class Auditor {
+ public:
+  Auditor(const DatasetReader& reader, Audit& result) : reader_(reader), plan_(result.scenario), result_(result) {
+    result.per_target.assign(result.scenario.targets.size(), 0);
+  }
+
+  // What the directory holds and the manifest lists, against the scenario's plan.
+  void files() {
+    const Manifest& manifest = reader_.manifest();
+    if (const std::string yaml = read_file(reader_.directory() / kScenarioFile);
+        sha256(yaml) != manifest.scenario_sha256) {
+      fault(kScenarioFile, "is not the one that the manifest was written for");
+    }
+    if (manifest.samples != plan_.size())
+      fault(kManifestFile, fmt::format("{} samples, the scenario has {}", manifest.samples, plan_.size()));
+    std::set<std::string> listed;
+    for (std::size_t i = 0; i < manifest.shards.size(); ++i) {
+      const ManifestShard& shard = manifest.shards[i];
+      if (!listed.insert(shard.file).second) fault(kManifestFile, fmt::format("lists {} twice", shard.file));
+      if (i >= plan_.shards()) {
+        fault(shard.file, "beyond the scenario's last shard");
+      } else if (const ShardRange range = plan_.shard(i);
+                 shard.first_sample != range.first || shard.samples != range.count) {
+        fault(shard.file,
+              fmt::format("samples {} to {} by the manifest, {} to {} by the scenario", shard.first_sample,
+                          shard.first_sample + shard.samples - 1, range.first, range.first + range.count - 1));
+      }
+    }
+    for (std::size_t i = manifest.shards.size(); i < plan_.shards(); ++i) fault(shard_name(i), "not in the manifest");
+    for (const auto& entry : fs::directory_iterator(reader_.directory())) {
+      const std::string name = entry.path().filename();
+      if (is_left_behind(entry.path())) fault(name, "half-written; a resumed `generate` removes it");
+      if (!may_lie_in_data_set(name)) fault(name, "is no file of a data set");
+      if (!name.ends_with(".h5") || listed.contains(name)) continue;
+      if (is_merged(entry.path())) {
+        merged_.emplace_back(entry.path(), reader_);
+      } else {
+        fault(name, "not in the manifest");
+      }
+    }
+  }
+
+  void shard(std::size_t index) {
+    const std::string& name = reader_.manifest().shards[index].file;
+    try {
+      const Shard content = reader_.shard(index);
+      ++result_.shards;
+      if (!axes_) axes_ = content.axes;
+      if (*axes_ != content.axes) fault(name, "other axes than the first shard");
+      for (const Sample& sample : content.samples) check(name, sample);
+      for (MergedCheck& merged : merged_) merged.compare(index, content);
+    } catch (const InputError& error) {
+      result_.faults.push_back(error.what());
+    }
+  }
+
+  // One sea per group and one group per sea, and every sample once.
+  void whole() {
+    for (const auto& [group, seas] : seas_of_group_) {
+      if (seas.size() > 1) fault(fmt::format("group {}", group), fmt::format("holds {} sea realisations", seas.size()));
+    }
+    std::map<std::int64_t, std::set<std::int64_t>> groups_of_sea;
+    for (const auto& [group, seas] : seas_of_group_) {
+      for (const std::int64_t sea : seas) groups_of_sea[sea].insert(group);
+    }
+    for (const auto& [sea, groups] : groups_of_sea) {
+      if (groups.size() > 1)
+        fault(fmt::format("sea {}", sea), fmt::format("lies in {} groups: a split by group would leak", groups.size()));
+    }
+    result_.groups = seas_of_group_.size();
+    for (const MergedCheck& merged : merged_)
+      result_.faults.insert(result_.faults.end(), merged.faults().begin(), merged.faults().end());
+    if (planned_ < plan_.size())
+      fault("data set", fmt::format("{} of {} samples are missing", plan_.size() - planned_, plan_.size()));
+  }
+
+ private:
+  void fault(const std::string& where, const std::string& what) {
+    result_.faults.push_back(fmt::format("{}: {}", where, what));
+  }
+
+  void check(const std::string& file, const Sample& sample) {
+    const SampleRecord& record = sample.record;
+    const std::string where = fmt::format("{}, sample {}", file, record.sample);
+    ++result_.samples;
+    if (record.sample < 0 || static_cast<std::size_t>(record.sample) >= plan_.size()) {
+      fault(where, fmt::format("the scenario has {} samples", plan_.size()));
+      return;
+    }
+    ++planned_;
+    const SampleRecord planned = planned_record(result_.scenario, plan_, static_cast<std::size_t>(record.sample));
+    for (const std::string& what : contradictions(record, planned)) fault(where, what);
+    ++result_.per_target[static_cast<std::size_t>(planned.target)];
+    seas_of_group_[record.group].insert(record.sea_key);
+    check_map(where, sample);
+    for (const std::uint16_t carrier : sample.hop_code) {
+      if (carrier >= result_.scenario.radar.hop_count) {
+        fault(where, fmt::format("hop code {}, the radar has carriers 0 to {}", carrier,
+                                 result_.scenario.radar.hop_count - 1));
+        break;
+      }
+    }
+  }
+
+  void check_map(const std::string& where, const Sample& sample) {
+    double peak = 0, energy = 0;
+    for (const float value : sample.magnitude) {
+      if (!std::isfinite(value) || value < 0) {
+        fault(where, fmt::format("{} in the map is no magnitude", value));
+        return;
+      }
+      peak = std::max<double>(peak, value);
+      energy += static_cast<double>(value) * value;
+    }
+    const auto differs = [](double a, double b, double smallest) {
+      return !(std::abs(a - b) <= std::max(smallest, kSinglePrecision * std::max(std::abs(a), std::abs(b))));
+    };
+    if (differs(peak, sample.record.peak_m, kSmallest))
+      fault(where, fmt::format("peak_m {:.9g}, the map's {:.9g}", sample.record.peak_m, peak));
+    if (differs(energy, sample.record.energy_m2, kSmallest * kSmallest))
+      fault(where, fmt::format("energy_m2 {:.9g}, the map's {:.9g}", sample.record.energy_m2, energy));
+    const auto* bytes = reinterpret_cast<const char*>(sample.magnitude.data());
+    const auto [other, fresh] =
+        maps_.emplace(sha256(std::string_view(bytes, sample.magnitude.size() * sizeof(float))), sample.record.sample);
+    if (!fresh) fault(where, fmt::format("the same map as sample {}", other->second));
+  }
+
+  const DatasetReader& reader_;
+  SamplePlan plan_;
+  Audit& result_;
+  std::vector<MergedCheck> merged_;  // files over all shards that lie beside them
+  std::optional<StoredAxes> axes_;   // of the first sound shard
+  std::size_t planned_ = 0;          // samples of the plan that were read; the reader sees to it that none comes twice
+  std::map<std::string, std::int64_t> maps_;  // sample of each map's checksum
+  std::map<std::int64_t, std::set<std::int64_t>> seas_of_group_;
+};
+
+}  // namespace
+
+Audit audit(const fs::path& directory, const StopFlag* stop) {
+  const DatasetReader reader(directory, OtherScenario::kRead);
+  Audit result;
+  result.scenario = read_scenario(directory / kScenarioFile);
+  Auditor auditor(reader, result);
+  auditor.files();
+  Progress progress("reading shards", reader.shards());
+  for (std::size_t i = 0; i < reader.shards(); ++i) {
+    if (stop && *stop) throw Interrupted();
+    auditor.shard(i);
+    progress.advance();
+  }
+  auditor.whole();
+  return result;
+}
+
+}  // namespace seaglint

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// The README.md of a data set: what it shows, how it was made, how to read it, what it is not.
+
+#include <string>
+
+#include "classify/dataset/format/manifest.h"
+#include "classify/dataset/format/sample.h"
+#include "sim/scenario/scenario.h"
+
+namespace seaglint {
+
+std::string data_card(const Scenario& scenario, const Manifest& manifest, const StoredAxes& axes);
+
+}  // namespace seaglint

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// A whole data set, read shard by shard.
+
+#include <filesystem>
+
+#include "classify/dataset/format/manifest.h"
+#include "classify/dataset/format/shard.h"
+
+namespace seaglint {
+
+// What becomes of a directory whose scenario.yaml is not the one that the manifest was written for: an audit reads it.
+enum class OtherScenario { kRefused, kRead };
+
+class DatasetReader {
+ public:
+  // Reads the manifest and sees that every shard is there, and the scenario that they were made by. Throws InputError
+  // naming the file that is missing or wrong.
+  explicit DatasetReader(std::filesystem::path directory, OtherScenario other = OtherScenario::kRefused);
+
+  const Manifest& manifest() const { return manifest_; }
+  const std::filesystem::path& directory() const { return directory_; }
+  std::size_t size() const { return static_cast<std::size_t>(manifest_.samples); }
+  std::size_t shards() const { return manifest_.shards.size(); }
+
+  // Reads one shard after comparing its checksum with the manifest's; its samples are those of the manifest, in order.
+  // Throws InputError naming the file and what is wrong.
+  Shard shard(std::size_t index) const;
+
+ private:
+  std::filesystem::path directory_;
+  Manifest manifest_;
+};
+
+}  // namespace seaglint

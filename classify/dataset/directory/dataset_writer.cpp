@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "classify/dataset/directory/dataset_writer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "classify/dataset/directory/data_card.h"
+#include "classify/dataset/directory/input_list.h"
+#include "classify/dataset/directory/planned_record.h"
+#include "classify/dataset/directory/temporary.h"
+#include "classify/dataset/format/checksum.h"
+#include "sim/core/process/error.h"
+#include "sim/core/process/file.h"
+#include "sim/core/process/progress.h"
+#include "sim/core/text/text_difference.h"
+
+namespace seaglint {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// The scenario as far as it decides the maps: learning may be changed over the same maps.
+std::string maps_yaml(Scenario scenario) {
+  scenario.learning = {};
+  scenario.dataset.train_share = DatasetSpec{}.train_share;
+  return effective_yaml(scenario);
+}
+
+bool is_empty_or_absent(const fs::path& directory) {
+  std::error_code error;
+  if (!fs::exists(directory, error)) return true;
+  if (!fs::is_directory(directory, error)) {
+    throw InputError(fmt::format("{}: is a file, not a directory", directory.string()));
+  }
+  const bool empty = fs::is_empty(directory, error);
+  if (error) throw WorkError(fmt::format("{}: {}", directory.string(), error.message()));
+  return empty;
+}
+
+std::set<std::string> file_names(const fs::path& directory) {
+  std::set<std::string> names;
+  std::error_code error;
+  for (fs::directory_iterator it(directory, error), end; !error && it != end; it.increment(error))
+    names.insert(it->path().filename());
+  if (error) throw WorkError(fmt::format("{}: {}", directory.string(), error.message()));
+  return names;
+}
+
+// A directory to go on in holds nothing else than a data set. That of a run has a scenario too; its data set lies
+// below.
+void require_own_directory(const fs::path& directory) {
+  if (is_empty_or_absent(directory)) return;
+  for (const std::string& name : file_names(directory)) {
+    if (may_lie_in_data_set(name)) continue;
+    const fs::path of_run = directory / "data";
+    std::error_code error;
+    const bool is_run = fs::exists(of_run / kScenarioFile, error);
+    throw InputError(fmt::format("{}: the directory holds {}, which is no file of a data set{}", directory.string(),
+                                 name, is_run ? "; the run's data set is " + of_run.string() : ""));
+  }
+}
+
+// Another process that finishes the same data set writes the same bytes, and may have removed our temporary file.
+void write_in_company(const fs::path& file, const std::string& content) {
+  try {
+    write_file(file, content);
+  } catch (const WorkError&) {
+    std::error_code error;
+    if (!fs::is_regular_file(file, error) || read_file(file) != content) throw;
+  }
+}
+
+// What runs that were killed left half-written.
+void remove_temporaries(const fs::path& directory) {
+  for (const std::string& name : file_names(directory)) {
+    std::error_code ignored;  // what cannot be removed is shown by `verify`
+    if (is_left_behind(directory / name)) fs::remove(directory / name, ignored);
+  }
+}
+
+bool same_row(const SampleRecord& a, const SampleRecord& b) {
+  const auto same = [&](const SampleColumn& column) {
+    return std::visit(
+        [&](auto member) {
+          // Rows without clutter hold NaN, which is never equal to itself.
+          return a.*member == b.*member || (a.*member != a.*member && b.*member != b.*member);
+        },
+        column.member);
+  };
+  return std::all_of(sample_columns().begin(), sample_columns().end(), same);
+}
+
+// A shard's bytes depend on its content alone, so equal content is equal bytes.
+bool holds(const fs::path& file, const Shard& content) {
+  Shard there;
+  try {
+    there = read_shard(file);
+  } catch (const InputError&) {
+    return false;
+  }
+  const auto same = [](const Sample& a, const Sample& b) {
+    return same_row(a.record, b.record) && a.magnitude == b.magnitude && a.complex_values == b.complex_values &&
+           a.hop_code == b.hop_code && a.centre_list == b.centre_list;
+  };
+  return there.origin == content.origin && there.axes == content.axes &&
+         std::equal(there.samples.begin(), there.samples.end(), content.samples.begin(), content.samples.end(), same);
+}
+
+}  // namespace
+
+bool may_lie_in_data_set(const std::string& name) {
+  for (const char* own : {kScenarioFile, kInputsFile, kManifestFile, kDataCardFile}) {
+    if (name == own) return true;
+  }
+  return name.ends_with(".h5") || name.ends_with(".npz") || name.starts_with('.') || is_temporary(name);
+}
+
+DatasetWriter::DatasetWriter(fs::path directory, const Scenario& scenario, bool resume, std::string program_version)
+    : directory_(std::move(directory)),
+      scenario_(scenario),
+      plan_(scenario),
+      origin_{std::move(program_version), processor_kind()},
+      scenario_yaml_(effective_yaml(scenario)),
+      known_(plan_.shards()) {
+  if (!resume && !is_empty_or_absent(directory_)) {
+    throw InputError(
+        fmt::format("{}: the directory is not empty; go on with what is there by --resume", directory_.string()));
+  }
+  require_own_directory(directory_);
+  made_here_ = !fs::exists(directory_);
+  begun_here_ = is_empty_or_absent(directory_);
+  make_directory(directory_);
+  const fs::path scenario_file = directory_ / kScenarioFile;
+  bool same_text = false;
+  if (fs::exists(scenario_file)) {
+    same_text = read_file(scenario_file) == scenario_yaml_;
+    const std::string there = maps_yaml(read_scenario(scenario_file)), here = maps_yaml(scenario_);
+    if (there != here) {
+      throw InputError(fmt::format("{}: the directory holds another scenario ({}); choose another directory",
+                                   scenario_file.string(), first_difference(there, here)));
+    }
+  }
+  earlier_ = manifest_there();
+  require_same_inputs(directory_, scenario_);
+  if (!same_text) write_file(scenario_file, scenario_yaml_);
+  keep_inputs(directory_, scenario_);
+}
+
+void DatasetWriter::withdraw() {
+  if (!begun_here_) return;
+  for (const std::string& name : file_names(directory_)) {
+    if (name != kScenarioFile && name != kInputsFile) return;
+  }
+  std::error_code ignored;  // what cannot be removed was whole, and names the scenario that it is of
+  for (const char* own : {kInputsFile, kScenarioFile}) fs::remove(directory_ / own, ignored);
+  if (made_here_) fs::remove(directory_, ignored);
+}
+
+fs::path DatasetWriter::shard_file(std::size_t shard) const { return directory_ / shard_name(shard); }
+
+void DatasetWriter::require_version(const fs::path& file, const std::string& version) const {
+  if (version == origin_.program_version) return;
+  throw InputError(fmt::format(
+      "{}: made by seaglint {}, this is seaglint {}, whose maps may differ; go on with that version or choose another "
+      "directory",
+      file.string(), version, origin_.program_version));
+}
+
+Manifest DatasetWriter::manifest_there() const {
+  const fs::path file = directory_ / kManifestFile;
+  if (!fs::exists(file)) return {};
+  try {
+    Manifest manifest = read_manifest(file);
+    require_version(file, manifest.program_version);
+    return manifest;
+  } catch (const InputError&) {
+    if (fs::exists(file)) throw;
+    return {};  // another part retired it meanwhile
+  }
+}
+
+void DatasetWriter::retire_manifest() {
+  if (earlier_.shards.empty()) return;
+  const fs::path file = directory_ / kManifestFile;
+  std::error_code error;
+  fs::remove(file, error);
+  if (error) throw WorkError(fmt::format("{}: cannot remove: {}", file.string(), error.message()));
+  earlier_ = {};
+}
+
+bool DatasetWriter::complete(std::size_t shard) {
+  known_[shard].sound = false;
+  const fs::path file = shard_file(shard);
+  if (!fs::is_regular_file(file)) return false;
+  Shard content;
+  try {
+    content = read_shard(file);
+  } catch (const OtherFormat&) {
+    throw;
+  } catch (const InputError&) {
+    return false;
+  }
+  require_version(file, content.origin.program_version);
+  const ShardRange range = plan_.shard(shard);
+  if (content.samples.size() != range.count) return false;
+  for (std::size_t i = 0; i < range.count; ++i) {
+    const SampleRecord planned = planned_record(scenario_, plan_, range.first + i);
+    if (!contradictions(content.samples[i].record, planned).empty()) return false;
+  }
+  if (axes_ && *axes_ != content.axes) return false;
+  const std::string sha256 = sha256_file(file);
+  if (shard < earlier_.shards.size() && earlier_.shards[shard].sha256 != sha256) return false;
+  axes_ = content.axes;
+  known_[shard] = {true, content.origin.processor, sha256};
+  return true;
+}
+
+void DatasetWriter::put(std::size_t shard, Shard content) {
+  const fs::path file = shard_file(shard);
+  content.origin = origin_;
+  {
+    const std::lock_guard lock(mutex_);
+    retire_manifest();
+    try {
+      write_shard(file, content, scenario_.features.max_centres);
+    } catch (const WorkError&) {
+      // Another process that makes the same shard may have been in the way.
+      if (!holds(file, content)) throw;
+    }
+    axes_ = content.axes;
+  }
+  known_[shard] = {true, origin_.processor, sha256_file(file)};
+}
+
+Manifest DatasetWriter::manifest() const {
+  Manifest manifest;
+  manifest.scenario = scenario_.name;
+  manifest.scenario_sha256 = sha256(scenario_yaml_);
+  manifest.program_version = origin_.program_version;
+  manifest.seed = scenario_.seed;
+  manifest.samples = plan_.size();
+  manifest.rows = axes_->velocity_mps.size();
+  manifest.columns = axes_->range_m.size();
+  std::set<std::string> processors;
+  for (std::size_t i = 0; i < plan_.shards(); ++i) {
+    const ShardRange range = plan_.shard(i);
+    manifest.shards.push_back({shard_name(i), range.first, range.count, known_[i].sha256});
+    processors.insert(known_[i].processor);
+  }
+  manifest.processors.assign(processors.begin(), processors.end());
+  return manifest;
+}
+
+std::vector<std::size_t> DatasetWriter::finish() {
+  // One look at the directory: a thousand parts asking for every file would be what a file server does all day.
+  const std::set<std::string> there = file_names(directory_);
+  std::vector<std::size_t> missing;
+  for (std::size_t i = 0; i < plan_.shards(); ++i) {
+    if (!there.contains(shard_name(i))) missing.push_back(i);
+  }
+  if (!missing.empty()) return missing;
+  // Another part may have retired it, or written it anew.
+  if (!earlier_.shards.empty()) earlier_ = manifest_there();
+  Progress progress("checking shards", plan_.shards());
+  for (std::size_t i = 0; i < plan_.shards(); ++i) {
+    if (!known_[i].sound && !complete(i)) missing.push_back(i);
+    progress.advance();
+  }
+  if (!missing.empty()) return missing;
+
+  const Manifest whole = manifest();
+  write_in_company(directory_ / kDataCardFile, data_card(scenario_, whole, *axes_));
+  write_in_company(directory_ / kManifestFile, to_json(whole));
+  remove_temporaries(directory_);
+  return {};
+}
+
+}  // namespace seaglint

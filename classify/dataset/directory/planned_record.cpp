@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "classify/dataset/directory/planned_record.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+
+#include "sim/motion/target_motion.h"
+
+namespace seaglint {
+
+SampleRecord planned_record(const Scenario& scenario, const SamplePlan& plan, std::size_t sample) {
+  const SampleAddress at = plan.address(sample);
+  const TargetSpec& target = scenario.targets[static_cast<std::size_t>(at.target)];
+  const SeaState state = sea_states(scenario.sea)[static_cast<std::size_t>(at.sea_state)];
+  const View view = views(scenario.view)[static_cast<std::size_t>(at.view)];
+  std::size_t first_body = 0;  // bodies are counted over all targets, in order
+  for (int t = 0; t < at.target; ++t) {
+    const TargetSpec& before = scenario.targets[static_cast<std::size_t>(t)];
+    if (before.points.empty()) first_body += layout_places(before).size();
+  }
+
+  SampleRecord record;
+  record.sample = static_cast<std::int64_t>(sample);
+  record.label = target.label;
+  record.target = at.target;
+  record.target_name = target.name;
+  record.group = plan.group(at);
+  record.sea_state = at.sea_state;
+  record.significant_wave_height_m = state.significant_wave_height_m;
+  record.peak_period_s = state.peak_period_s;
+  record.gamma = state.gamma;
+  record.propagation_deg = state.propagation_deg;
+  record.view = at.view;
+  record.azimuth_deg = view.azimuth_deg;
+  record.elevation_deg = view.elevation_deg;
+  record.realisation = at.realisation;
+  record.interval = at.interval;
+  record.start_s = plan.start_s(at);
+  record.seed = static_cast<std::int64_t>(scenario.seed);
+  const std::uint64_t sea_key = plan.sea_key(at.sea_state, at.realisation);
+  record.sea_key = static_cast<std::int64_t>(sea_key);
+  record.first_motion_key = static_cast<std::int64_t>(body_index(sea_key, first_body));
+  record.radar_key = static_cast<std::int64_t>(sample);
+  return record;
+}
+
+std::vector<std::string> contradictions(const SampleRecord& record, const SampleRecord& planned) {
+  std::vector<std::string> found;
+  for (const SampleColumn& column : planned_columns()) {
+    std::visit(
+        [&](auto member) {
+          if (record.*member != planned.*member)
+            found.push_back(fmt::format("{} {}, by the scenario {}", column.name, record.*member, planned.*member));
+        },
+        column.member);
+  }
+  return found;
+}
+
+std::span<const SampleColumn> planned_columns() {
+  const std::span<const SampleColumn> all = sample_columns();
+  const auto last = std::find_if(
+      all.begin(), all.end(), [](const SampleColumn& column) { return std::string_view(column.name) == "radar_key"; });
+  return all.first(static_cast<std::size_t>(last - all.begin()) + 1);
+}
+
+}  // namespace seaglint

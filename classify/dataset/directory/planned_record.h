@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// What a sample's row says before anything is measured: which sea, view, target and interval it shows, and its label.
+
+#include "classify/dataset/format/sample.h"
+#include "sim/scenario/sample_plan.h"
+
+namespace seaglint {
+
+// The columns `sample` to `radar_key`; all measured ones are zero. sample < plan.size(), plan of the same scenario.
+SampleRecord planned_record(const Scenario& scenario, const SamplePlan& plan, std::size_t sample);
+
+// "label 0, by the scenario 1" for every column of `record` that is not as planned.
+std::vector<std::string> contradictions(const SampleRecord& record, const SampleRecord& planned);
+
+// The columns that planned_record() fills.
+std::span<const SampleColumn> planned_columns();
+
+}  // namespace seaglint

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "classify/dataset/format/checksum.h"
+
+#include <fmt/format.h>
+#include <openssl/evp.h>
+
+#include <fstream>
+#include <memory>
+#include <vector>
+
+#include "sim/core/process/error.h"
+
+namespace seaglint {
+
+namespace {
+
+class Digest {
+ public:
+  Digest() : context_(EVP_MD_CTX_new(), &EVP_MD_CTX_free) {
+    SEAGLINT_CHECK(context_ && EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) == 1,
+                   "SHA-256 is not available");
+  }
+
+  void add(const char* bytes, std::size_t count) {
+    SEAGLINT_CHECK(EVP_DigestUpdate(context_.get(), bytes, count) == 1, "SHA-256 update");
+  }
+
+  std::string hexadecimal() {
+    unsigned char value[EVP_MAX_MD_SIZE];
+    unsigned int length = 0;
+    SEAGLINT_CHECK(EVP_DigestFinal_ex(context_.get(), value, &length) == 1, "SHA-256 end");
+    std::string text;
+    for (unsigned int i = 0; i < length; ++i) text += fmt::format("{:02x}", value[i]);
+    return text;
+  }
+
+ private:
+  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;
+};
+
+}  // namespace
+
+std::string sha256(std::string_view bytes) {
+  Digest digest;
+  digest.add(bytes.data(), bytes.size());
+  return digest.hexadecimal();
+}
+
+std::string sha256_file(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw InputError(fmt::format("{}: cannot be read", file.string()));
+  Digest digest;
+  std::vector<char> buffer(std::size_t{1} << 20);
+  while (stream.read(buffer.data(), static_cast<std::streamsize>(buffer.size())) || stream.gcount() > 0) {
+    digest.add(buffer.data(), static_cast<std::size_t>(stream.gcount()));
+  }
+  if (stream.bad()) throw InputError(fmt::format("{}: reading failed", file.string()));
+  return digest.hexadecimal();
+}
+
+}  // namespace seaglint

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "classify/dataset/format/manifest.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "classify/dataset/format/sample.h"
+#include "sim/core/process/error.h"
+#include "sim/core/process/file.h"
+#include "sim/core/text/json_problem.h"
+
+namespace seaglint {
+
+namespace {
+
+constexpr const char* kFormat = "seaglint data set 2";
+
+// The most that a scenario can ask for: dataset.maps_per_shard, and all maps of its sweeps.
+constexpr std::uint64_t kMaxShardSamples = 10000;
+constexpr std::uint64_t kMaxSamples = 1000000000;
+
+}  // namespace
+
+std::string to_json(const Manifest& manifest) {
+  using nlohmann::ordered_json;
+  ordered_json json;
+  json["format"] = kFormat;
+  json["scenario"] = manifest.scenario;
+  json["scenario_sha256"] = manifest.scenario_sha256;
+  json["program_version"] = manifest.program_version;
+  json["processors"] = manifest.processors;
+  json["seed"] = manifest.seed;
+  json["samples"] = manifest.samples;
+  json["map"] = {{"rows", manifest.rows}, {"columns", manifest.columns}, {"units", "m"}};
+  json["shards"] = ordered_json::array();
+  for (const ManifestShard& shard : manifest.shards) {
+    json["shards"].push_back({{"file", shard.file},
+                              {"first_sample", shard.first_sample},
+                              {"samples", shard.samples},
+                              {"sha256", shard.sha256}});
+  }
+  json["columns"] = ordered_json::array();
+  for (const SampleColumn& column : sample_columns()) {
+    json["columns"].push_back({{"name", column.name}, {"units", column.unit}, {"description", column.description}});
+  }
+  return json.dump(2) + "\n";
+}
+
+Manifest read_manifest(const std::filesystem::path& file) {
+  const std::string text = read_file(file, std::size_t{256} << 20);
+  try {
+    const nlohmann::json json = nlohmann::json::parse(text);
+    if (json.at("format") != kFormat) {
+      throw InputError(
+          fmt::format("{}: format {}; this program reads \"{}\"", file.string(), json.at("format").dump(), kFormat));
+    }
+    Manifest manifest;
+    manifest.scenario = json.at("scenario").get<std::string>();
+    manifest.scenario_sha256 = json.at("scenario_sha256").get<std::string>();
+    manifest.program_version = json.at("program_version").get<std::string>();
+    manifest.processors = json.at("processors").get<std::vector<std::string>>();
+    manifest.seed = json.at("seed").get<std::uint64_t>();
+    manifest.samples = json.at("samples").get<std::uint64_t>();
+    manifest.rows = json.at("map").at("rows").get<std::uint64_t>();
+    manifest.columns = json.at("map").at("columns").get<std::uint64_t>();
+    std::uint64_t next = 0;
+    for (const nlohmann::json& entry : json.at("shards")) {
+      ManifestShard shard{entry.at("file").get<std::string>(), entry.at("first_sample").get<std::uint64_t>(),
+                          entry.at("samples").get<std::uint64_t>(), entry.at("sha256").get<std::string>()};
+      // A name with a folder in it could point anywhere.
+      if (shard.file.empty() || std::filesystem::path(shard.file).filename() != shard.file) {
+        throw InputError(
+            fmt::format("{}: shards: \"{}\" is not the name of a file beside it", file.string(), shard.file));
+      }
+      if (shard.first_sample != next) {
+        throw InputError(fmt::format("{}: shards: {} does not follow on sample {}", file.string(), shard.file, next));
+      }
+      if (shard.samples < 1 || shard.samples > kMaxShardSamples) {
+        throw InputError(fmt::format("{}: shards: {}: samples: {}, must be within 1 and {}", file.string(), shard.file,
+                                     shard.samples, kMaxShardSamples));
+      }
+      next += shard.samples;
+      manifest.shards.push_back(std::move(shard));
+    }
+    if (next != manifest.samples) {
+      throw InputError(fmt::format("{}: samples: {}, but the shards hold {}", file.string(), manifest.samples, next));
+    }
+    if (next < 1 || next > kMaxSamples) {
+      throw InputError(
+          fmt::format("{}: samples: {}, must be within 1 and {}", file.string(), manifest.samples, kMaxSamples));
+    }
+    return manifest;
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(fmt::format(
+        "{}: {}; the shards are kept: remove this file and go on by `seaglint generate SCENARIO -o DIR --resume`",
+        file.string(), json_problem(error)));
+  }
+}
+
+std::string processor_kind() {
+  std::ifstream information("/proc/cpuinfo");
+  for (std::string line; std::getline(information, line);) {
+    if (!line.starts_with("model name")) continue;
+    const std::size_t colon = line.find(": ");
+    if (colon != std::string::npos) return line.substr(colon + 2);
+  }
+  return "unknown";
+}
+
+}  // namespace seaglint

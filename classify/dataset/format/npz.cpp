@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "classify/dataset/format/npz.h"
+
+#include <fmt/format.h>
+#include <zip.h>
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <cstring>
+#include <exception>
+#include <memory>
+#include <numeric>
+#include <utility>
+
+#include "sim/core/process/error.h"
+#include "sim/core/process/file.h"
+
+namespace seaglint {
+
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "values are written as they lie in memory");
+
+// MS-DOS time and date of 1980-01-01 00:00.
+constexpr zip_uint16_t kFirstTime = 0, kFirstDate = (1 << 5) | 1;
+
+// The header of a .npy file, version 1.0: magic, length, a Python dictionary, padded to a multiple of 64 bytes
+// (numpy/lib/format.py).
+std::string npy_header(const NpzArray& array) {
+  std::string shape;
+  for (const std::uint64_t length : array.shape) shape += fmt::format("{}, ", length);
+  if (array.shape.size() > 1) shape.resize(shape.size() - 2);
+  if (array.shape.size() == 1) shape.pop_back();
+  std::string text = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}), }}", array.type, shape);
+  constexpr std::size_t kAlignment = 64, kBefore = 10;  // magic, version and length
+  const std::size_t padded = (kBefore + text.size() + 1 + kAlignment - 1) / kAlignment * kAlignment - kBefore;
+  text.resize(padded - 1, ' ');
+  text += '\n';
+  std::string header("\x93NUMPY\x01\x00", 8);
+  header += static_cast<char>(padded & 0xff);
+  header += static_cast<char>(padded >> 8);
+  return header + text;
+}
+
+std::uint64_t item_bytes(const std::string& type) {
+  std::uint64_t bytes = 0;
+  const auto [end, error] = std::from_chars(type.data() + 2, type.data() + type.size(), bytes);
+  SEAGLINT_CHECK(error == std::errc() && end == type.data() + type.size() && bytes > 0, type);
+  return bytes;
+}
+
+// A member of the archive that libzip reads when it writes the archive.
+struct Member {
+  std::string name;
+  std::string head;  // before the blocks
+  NextBlock next;
+  std::uint64_t bytes = 0;  // head and blocks
+
+  std::string block;
+  std::size_t place = 0;       // in block
+  std::uint64_t given = 0;     // bytes that libzip has
+  std::exception_ptr* failed;  // what next() threw, of any member
+
+  zip_int64_t read(char* to, zip_uint64_t most) {
+    zip_uint64_t count = 0;
+    while (count < most) {
+      if (place == block.size()) {
+        block = given + count < head.size() ? head : next();
+        place = 0;
+        if (block.empty()) break;
+      }
+      const std::size_t some = std::min<std::size_t>(most - count, block.size() - place);
+      std::memcpy(to + count, block.data() + place, some);
+      count += some;
+      place += some;
+    }
+    given += count;
+    if (count == 0) SEAGLINT_CHECK(given == bytes, fmt::format("{}: {} bytes, {} announced", name, given, bytes));
+    return static_cast<zip_int64_t>(count);
+  }
+};
+
+zip_int64_t serve(void* user, void* data, zip_uint64_t length, zip_source_cmd_t command) {
+  auto* member = static_cast<Member*>(user);
+  switch (command) {
+    case ZIP_SOURCE_OPEN:
+    case ZIP_SOURCE_CLOSE:
+    case ZIP_SOURCE_FREE: return 0;
+    case ZIP_SOURCE_READ: try { return member->read(static_cast<char*>(data), length);
+      } catch (...) {  // no exception may pass through a library in C
+        *member->failed = std::current_exception();
+        return -1;
+      }
+    case ZIP_SOURCE_STAT: {
+      auto* stat = static_cast<zip_stat_t*>(data);
+      zip_stat_init(stat);
+      stat->valid = ZIP_STAT_SIZE;
+      stat->size = member->bytes;
+      return sizeof(zip_stat_t);
+    }
+    case ZIP_SOURCE_ERROR: {
+      const int error[2] = {ZIP_ER_READ, 0};
+      std::memcpy(data, error, sizeof error);
+      return sizeof error;
+    }
+    case ZIP_SOURCE_SUPPORTS: return ZIP_SOURCE_SUPPORTS_READABLE;
+    default: return -1;
+  }
+}
+
+void write_archive(const std::filesystem::path& file, std::vector<Member>& members) {
+  std::exception_ptr failed;
+  int code = 0;
+  std::unique_ptr<zip_t, decltype(&zip_discard)> archive(zip_open(file.c_str(), ZIP_CREATE | ZIP_TRUNCATE, &code),
+                                                         &zip_discard);
+  const auto fail = [&](zip_error_t* error) {
+    if (failed) std::rethrow_exception(failed);
+    throw WorkError(zip_error_strerror(error));
+  };
+  if (!archive) {
+    zip_error_t error;
+    zip_error_init_with_code(&error, code);
+    const std::string reason = zip_error_strerror(&error);
+    zip_error_fini(&error);
+    throw WorkError(reason);
+  }
+  for (Member& member : members) {
+    member.failed = &failed;
+    zip_source_t* source = zip_source_function(archive.get(), &serve, &member);
+    if (source == nullptr) fail(zip_get_error(archive.get()));
+    const zip_int64_t index = zip_file_add(archive.get(), member.name.c_str(), source, ZIP_FL_ENC_UTF_8);
+    if (index < 0) {
+      zip_source_free(source);
+      fail(zip_get_error(archive.get()));
+    }
+    const auto number = static_cast<zip_uint64_t>(index);
+    if (zip_set_file_compression(archive.get(), number, ZIP_CM_STORE, 0) != 0 ||
+        zip_file_set_dostime(archive.get(), number, kFirstTime, kFirstDate, 0) != 0) {
+      fail(zip_get_error(archive.get()));
+    }
+  }
+  if (zip_close(archive.get()) != 0) fail(zip_get_error(archive.get()));
+  archive.release();
+}
+
+}  // namespace
+
+NpzArray npz_array(std::string name, std::string type, std::vector<std::uint64_t> shape, std::string bytes) {
+  return {std::move(name), std::move(type), std::move(shape),
+          [bytes = std::move(bytes)]() mutable { return std::exchange(bytes, std::string()); }};
+}
+
+std::string read_npz_text(const std::filesystem::path& file, const std::string& name) {
+  constexpr zip_uint64_t kMostBytes = 16 << 20;
+  const auto fail = [&] { throw InputError(fmt::format("{}: no archive with a {} inside", file.string(), name)); };
+  int code = 0;
+  const std::unique_ptr<zip_t, decltype(&zip_discard)> archive(zip_open(file.c_str(), ZIP_RDONLY, &code), &zip_discard);
+  if (!archive) fail();
+  zip_stat_t stat;
+  if (zip_stat(archive.get(), name.c_str(), 0, &stat) != 0 || !(stat.valid & ZIP_STAT_SIZE) || stat.size > kMostBytes)
+    fail();
+  const std::unique_ptr<zip_file_t, decltype(&zip_fclose)> member(zip_fopen(archive.get(), name.c_str(), 0),
+                                                                  &zip_fclose);
+  std::string text(stat.size, '\0');
+  if (!member || zip_fread(member.get(), text.data(), stat.size) != static_cast<zip_int64_t>(stat.size)) fail();
+  return text;
+}
+
+void require_npz(const std::filesystem::path& file) {
+  if (!file.empty() && file.extension() != ".npz")
+    throw InputError(fmt::format("{}: NumPy's archives end in .npz", file.string()));
+  require_writable(file);
+}
+
+void write_npz(const std::filesystem::path& file, const std::vector<NpzArray>& arrays,
+               const std::vector<NpzText>& texts) {
+  std::vector<Member> members;
+  for (const NpzArray& array : arrays) {
+    Member member;
+    member.name = array.name + ".npy";
+    member.head = npy_header(array);
+    member.next = array.next;
+    member.bytes = member.head.size() +
+                   std::accumulate(array.shape.begin(), array.shape.end(), item_bytes(array.type), std::multiplies<>());
+    members.push_back(std::move(member));
+  }
+  for (const NpzText& text : texts) {
+    Member member;
+    member.name = text.name;
+    member.head = text.text;
+    member.next = [] { return std::string(); };
+    member.bytes = text.text.size();
+    members.push_back(std::move(member));
+  }
+  write_file_with(file, [&](const std::filesystem::path& temporary) {
+    try {
+      write_archive(temporary, members);
+    } catch (const Interrupted&) {
+      throw;
+    } catch (const WorkError& error) {
+      throw WorkError(fmt::format("{}: cannot write: {}", file.string(), error.what()));
+    }
+  });
+}
+
+}  // namespace seaglint

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "classify/dataset/format/sample.h"
+
+namespace seaglint {
+
+std::span<const SampleColumn> sample_columns() {
+  using R = SampleRecord;
+  static const SampleColumn columns[] = {
+      {"sample", "1", "number of the sample in the scenario's enumeration", &R::sample},
+      {"label", "1", "1 = ship, 0 = corner-reflector array", &R::label},
+      {"target", "1", "index of the target in the scenario file", &R::target},
+      {"target_name", "1", "name of the target in the scenario file", &R::target_name},
+      {"group", "1", "sea realisation; maps of one group belong on one side of a split", &R::group},
+      {"sea_state", "1", "index of the sea state in the scenario's sweeps", &R::sea_state},
+      {"significant_wave_height_m", "m", "significant wave height Hs", &R::significant_wave_height_m},
+      {"peak_period_s", "s", "peak period Tp of the wave spectrum", &R::peak_period_s},
+      {"gamma", "1", "JONSWAP peak enhancement", &R::gamma},
+      {"propagation_deg", "deg", "direction the waves travel towards, target frame", &R::propagation_deg},
+      {"view", "1", "index of the view in the scenario's sweeps", &R::view},
+      {"azimuth_deg", "deg", "direction to the radar, target frame, 0 = ahead of the bow", &R::azimuth_deg},
+      {"elevation_deg", "deg", "elevation of the radar seen from the target", &R::elevation_deg},
+      {"realisation", "1", "sea realisation within the sea state", &R::realisation},
+      {"interval", "1", "coherent interval within the realisation", &R::interval},
+      {"start_s", "s", "time of the interval's first pulse within the realisation", &R::start_s},
+      {"seed", "1", "seed of the scenario", &R::seed},
+      {"sea_key", "1", "random key of the sea", &R::sea_key},
+      {"first_motion_key", "1", "random key of the target's first body; further bodies follow", &R::first_motion_key},
+      {"radar_key", "1", "random key of hop code, clutter and noise", &R::radar_key},
+      {"empty_carriers", "1", "carriers that no pulse of the interval used (zero band)", &R::empty_carriers},
+      {"scr_per_pulse_db", "dB", "target to clutter, mean over pulses and frequencies", &R::scr_per_pulse_db},
+      {"scr_peak_cell_db", "dB", "target's largest cell to mean clutter cell", &R::scr_peak_cell_db},
+      {"scr_extent_db", "dB", "target to clutter inside the target's own box", &R::scr_extent_db},
+      {"snr_per_pulse_db", "dB", "target to receiver noise, mean over pulses and frequencies", &R::snr_per_pulse_db},
+      {"peak_m", "m", "largest |RV| of the map", &R::peak_m},
+      {"energy_m2", "m2", "sum of |RV|^2 over the map", &R::energy_m2},
+      {"mwr", "(m/s)^2", "mean weighted residual of the range-velocity line", &R::mwr},
+      {"ccf", "1", "complementary contrast factor of the spreads", &R::ccf},
+      {"sigma_r_m", "m", "standard deviation of the centres' ranges", &R::sigma_r_m},
+      {"sigma_v_mps", "m/s", "standard deviation of the centres' velocities", &R::sigma_v_mps},
+      {"centres", "1", "number of scattering centres", &R::centres},
+      {"degenerate", "1", "1 when fewer than 3 centres were found", &R::degenerate},
+      {"traces", "1", "traces made: directions that were lit, all bodies and ways over the sea", &R::traces},
+  };
+  return columns;
+}
+
+}  // namespace seaglint

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "classify/dataset/format/shard.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "classify/dataset/format/hdf5_file.h"
+#include "classify/dataset/format/layout.h"
+#include "sim/core/process/error.h"
+#include "sim/core/process/file.h"
+
+namespace seaglint {
+
+namespace {
+
+constexpr const char* kFormat = "seaglint shard 2";
+
+// The values of a column, one per sample.
+template <class T>
+std::vector<T> column_values(const std::vector<Sample>& samples, T SampleRecord::*member) {
+  std::vector<T> values;
+  for (const Sample& sample : samples) values.push_back(sample.record.*member);
+  return values;
+}
+
+void check_shapes(const Shard& shard, int max_centres) {
+  SEAGLINT_CHECK(!shard.samples.empty() && max_centres >= 1, "a shard holds at least one sample and one centre");
+  const Sample& first = shard.samples.front();
+  for (const Sample& sample : shard.samples) {
+    SEAGLINT_CHECK(sample.magnitude.size() == shard.axes.cells(),
+                   fmt::format("{} cells, axes say {}", sample.magnitude.size(), shard.axes.cells()));
+    SEAGLINT_CHECK(sample.complex_values.size() == first.complex_values.size() &&
+                       (sample.complex_values.empty() || sample.complex_values.size() == 2 * shard.axes.cells()),
+                   "complex maps for all samples or none");
+    SEAGLINT_CHECK(!sample.hop_code.empty() && sample.hop_code.size() == first.hop_code.size(), "equal pulses");
+  }
+}
+
+// An array written whole.
+template <class T>
+void write_values(Hdf5Writer& file, const StoredArray& array, const Dimensions& size, const Dimensions& chunk,
+                  const std::vector<T>& values) {
+  file.array(array.path, element_of<T>(), size, chunk, array.text());
+  file.write<T>(array.path, 0, values);
+}
+
+void write_columns(Hdf5Writer& file, const std::vector<Sample>& samples) {
+  const Dimensions size{samples.size()};
+  for (const SampleColumn& column : sample_columns()) {
+    std::visit(
+        [&](auto member) {
+          using T = typename MemberType<decltype(member)>::Type;
+          const std::string path = column_path(column);
+          file.array(path, element_of<T>(), size, size, column_text(column));
+          const std::vector<T> values = column_values(samples, member);
+          if constexpr (std::is_same_v<T, std::string>) {
+            file.write_names(path, 0, values);
+          } else {
+            file.write<T>(path, 0, values);
+          }
+        },
+        column.member);
+  }
+}
+
+void write_content(const std::filesystem::path& path, const Shard& shard, int max_centres) {
+  Hdf5Writer file(path, Hdf5Version::k18);
+  file.attribute("format", kFormat);
+  file.attribute("program_version", shard.origin.program_version);
+  file.attribute("processor", shard.origin.processor);
+
+  const StoredAxes& axes = shard.axes;
+  const std::uint64_t n = shard.samples.size(), rows = axes.velocity_mps.size(), columns = axes.range_m.size();
+  file.group("/axes");
+  write_values(file, kRangeAxis, {columns}, {columns}, axes.range_m);
+  write_values(file, kVelocityAxis, {rows}, {rows}, axes.velocity_mps);
+
+  std::vector<float> maps, complex_maps;
+  std::vector<std::uint16_t> codes;
+  const std::uint64_t pulses = shard.samples.front().hop_code.size();
+  const auto centres = static_cast<std::uint64_t>(max_centres);
+  std::vector<float> centre_table(n * centres * 3, 0.0f);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Sample& sample = shard.samples[i];
+    maps.insert(maps.end(), sample.magnitude.begin(), sample.magnitude.end());
+    complex_maps.insert(complex_maps.end(), sample.complex_values.begin(), sample.complex_values.end());
+    codes.insert(codes.end(), sample.hop_code.begin(), sample.hop_code.end());
+    for (std::size_t k = 0; k < std::min<std::size_t>(sample.centre_list.size(), centres); ++k) {
+      std::copy(sample.centre_list[k].begin(), sample.centre_list[k].end(),
+                centre_table.begin() + (i * centres + k) * 3);
+    }
+  }
+  write_values(file, kMaps, {n, rows, columns}, {1, rows, columns}, maps);
+  if (!complex_maps.empty())
+    write_values(file, kComplexMaps, {n, rows, columns, 2}, {1, rows, columns, 2}, complex_maps);
+  write_values(file, kHopCodes, {n, pulses}, {1, pulses}, codes);
+  write_values(file, kCentres, {n, centres, 3}, {1, centres, 3}, centre_table);
+  file.group("/samples");
+  write_columns(file, shard.samples);
+  file.close();
+}
+
+void expect(bool condition, const std::string& what) {
+  if (!condition) throw WorkError(what);
+}
+
+void read_columns(const Hdf5Reader& file, std::vector<Sample>& samples) {
+  for (const SampleColumn& column : sample_columns()) {
+    std::visit(
+        [&](auto member) {
+          using T = typename MemberType<decltype(member)>::Type;
+          std::vector<T> values;
+          if constexpr (std::is_same_v<T, std::string>) {
+            values = file.names(column_path(column));
+          } else {
+            values = file.read<T>(column_path(column), 1).values;
+          }
+          expect(values.size() == samples.size(), fmt::format("{} does not fit /maps", column_path(column)));
+          for (std::size_t i = 0; i < samples.size(); ++i) samples[i].record.*member = values[i];
+        },
+        column.member);
+  }
+}
+
+Shard read_content(const std::filesystem::path& path) {
+  const Hdf5Reader file(path);
+  if (const std::string format = file.attribute("format"); format != kFormat) {
+    throw OtherFormat(fmt::format("{}: format \"{}\"; this program reads \"{}\"", path.string(), format, kFormat));
+  }
+  Shard shard;
+  shard.origin = {file.attribute("program_version"), file.attribute("processor")};
+  shard.axes.range_m = file.read<double>(kRangeAxis.path, 1).values;
+  shard.axes.velocity_mps = file.read<double>(kVelocityAxis.path, 1).values;
+  const std::size_t cells = shard.axes.cells();
+  const ReadArray<float> maps = file.read<float>(kMaps.path, 3);
+  const std::size_t n = maps.size[0];
+  expect(n > 0 && maps.size[1] == shard.axes.velocity_mps.size() && maps.size[2] == shard.axes.range_m.size(),
+         "/maps does not fit the axes");
+  shard.samples.resize(n);
+  for (std::size_t i = 0; i < n; ++i)
+    shard.samples[i].magnitude.assign(maps.values.begin() + i * cells, maps.values.begin() + (i + 1) * cells);
+  if (file.has(kComplexMaps.path)) {
+    const std::vector<float> values = file.read<float>(kComplexMaps.path, 4).values;
+    expect(values.size() == 2 * n * cells, "/maps_complex does not fit /maps");
+    for (std::size_t i = 0; i < n; ++i)
+      shard.samples[i].complex_values.assign(values.begin() + 2 * i * cells, values.begin() + 2 * (i + 1) * cells);
+  }
+  const ReadArray<std::uint16_t> codes = file.read<std::uint16_t>(kHopCodes.path, 2);
+  expect(codes.size[0] == n, "/hop_code does not fit /maps");
+  const std::size_t pulses = codes.size[1];
+  for (std::size_t i = 0; i < n; ++i)
+    shard.samples[i].hop_code.assign(codes.values.begin() + i * pulses, codes.values.begin() + (i + 1) * pulses);
+  const ReadArray<float> centres = file.read<float>(kCentres.path, 3);
+  expect(centres.size[0] == n && centres.size[2] == 3, "/centres does not fit /maps");
+  const std::size_t most = centres.size[1];
+
+  read_columns(file, shard.samples);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::int64_t count = shard.samples[i].record.centres;
+    expect(count >= 0, "/samples/centres is negative");
+    for (std::size_t k = 0; k < std::min<std::size_t>(static_cast<std::size_t>(count), most); ++k) {
+      const float* row = centres.values.data() + (i * most + k) * 3;
+      shard.samples[i].centre_list.push_back({row[0], row[1], row[2]});
+    }
+  }
+  return shard;
+}
+
+}  // namespace
+
+std::string shard_name(std::size_t index) { return fmt::format("shard_{:05}.h5", index); }
+
+void write_shard(const std::filesystem::path& file, const Shard& shard, int max_centres) {
+  check_shapes(shard, max_centres);
+  for (const Sample& sample : shard.samples) {
+    if (sample.record.target_name.size() > kNameBytes) {
+      throw InputError(
+          fmt::format("targets.{}: the name has more than {} bytes", sample.record.target_name, kNameBytes));
+    }
+  }
+  write_file_with(file, [&](const std::filesystem::path& temporary) {
+    try {
+      write_content(temporary, shard, max_centres);
+    } catch (const WorkError& error) {
+      throw WorkError(fmt::format("{}: {}", file.string(), error.what()));
+    }
+  });
+}
+
+Shard read_shard(const std::filesystem::path& file) {
+  if (!std::filesystem::is_regular_file(file)) throw InputError(fmt::format("{}: no such shard", file.string()));
+  try {
+    return read_content(file);
+  } catch (const WorkError& error) {
+    throw InputError(fmt::format("{}: {}", file.string(), error.what()));
+  }
+}
+
+}  // namespace seaglint

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/cavity/cavity_aperture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "sim/core/process/error.h"
+#include "sim/geometry/mesh/topology.h"
+
+namespace seaglint {
+namespace {
+
+std::string place(const Vec3& x) { return fmt::format("({:.4g}, {:.4g}, {:.4g}) m", x.x(), x.y(), x.z()); }
+
+// The rims as rings of points, each running so that the opening lies to its left seen from within the cavity: against
+// the sense of the walls' own triangles.
+std::vector<std::vector<Vec3>> rims_of(const TriangleMesh& walls) {
+  const Topology topology = topology_of(walls);
+  std::map<std::uint32_t, std::uint32_t> next;  // vertex after each vertex of a rim
+  for (const MeshEdge& edge : topology.edges) {
+    const Vec3& at = walls.vertices[edge.vertices[0]];
+    if (edge.kind == EdgeKind::kInconsistent)
+      throw InputError(fmt::format("two triangles of the cavity's walls face opposite ways at {}", place(at)));
+    if (edge.kind == EdgeKind::kNonManifold)
+      throw InputError(fmt::format("more than two triangles of the cavity's walls meet at {}", place(at)));
+    if (edge.kind != EdgeKind::kBoundary) continue;
+    auto [to, from] = edge.vertices;
+    if (!topology.uses[edge.first_use].forward) std::swap(to, from);
+    if (!next.emplace(from, to).second)
+      throw InputError(fmt::format("a rim of the cavity touches itself at {}", place(walls.vertices[from])));
+  }
+  std::vector<std::vector<Vec3>> rims;
+  while (!next.empty()) {
+    std::vector<Vec3> rim;
+    const std::uint32_t start = next.begin()->first;
+    std::uint32_t end = start;
+    for (auto at = next.begin(); at != next.end();) {
+      rim.push_back(walls.vertices[at->first]);
+      end = at->second;
+      next.erase(at);
+      at = next.find(end);
+    }
+    if (end != start)
+      throw InputError(fmt::format("a rim of the cavity does not close at {}", place(walls.vertices[end])));
+    rims.push_back(std::move(rim));
+  }
+  return rims;
+}
+
+// Newell's area vector: right for any ring of points, flat or not, convex or not.
+Vec3 area_of(const std::vector<Vec3>& ring) {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t i = 0; i < ring.size(); ++i)
+    sum += 0.5 * (ring[i] - ring[0]).cross(ring[(i + 1) % ring.size()] - ring[0]);
+  return sum;
+}
+
+using Outline = std::vector<Vec2>;
+
+// What of the outline lies where side . p >= offset. A part that is not convex may come out joined by edges that run to
+// and fro along the cut, whose areas cancel.
+Outline clipped(const Outline& outline, const Vec2& side, double offset) {
+  Outline kept;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vec2 &a = outline[i], &b = outline[(i + 1) % outline.size()];
+    const double ha = side.dot(a) - offset, hb = side.dot(b) - offset;
+    if (ha >= 0) kept.push_back(a);
+    if ((ha >= 0) != (hb >= 0)) kept.push_back(a + ha / (ha - hb) * (b - a));
+  }
+  return kept;
+}
+
+struct Patch2 {
+  double area = 0;
+  Vec2 moment = Vec2::Zero();  // of the area about the origin
+};
+
+Patch2 measure(const Outline& outline) {
+  Patch2 sum;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vec2 &a = outline[i], &b = outline[(i + 1) % outline.size()];
+    const double twice = a.x() * b.y() - a.y() * b.x();
+    sum.area += 0.5 * twice;
+    sum.moment += twice / 6 * (a + b);
+  }
+  return sum;
+}
+
+// Rims that share a plane and run opposite ways bound one opening, the largest first: islands within it.
+std::vector<std::vector<std::vector<Vec3>>> openings_of(std::vector<std::vector<Vec3>> rims, double pitch) {
+  std::stable_sort(rims.begin(), rims.end(),
+                   [](const auto& a, const auto& b) { return area_of(a).norm() > area_of(b).norm(); });
+  std::vector<std::vector<std::vector<Vec3>>> openings;
+  for (const std::vector<Vec3>& rim : rims) {
+    const Vec3 area = area_of(rim);
+    if (!(area.norm() > 0)) continue;
+    const auto around = std::find_if(openings.begin(), openings.end(), [&](const auto& opening) {
+      const Vec3 n = area_of(opening.front()).normalized();
+      return n.dot(area.normalized()) < -0.999 && std::abs(n.dot(rim.front() - opening.front().front())) < pitch / 4;
+    });
+    if (around == openings.end()) {
+      openings.push_back({rim});
+    } else {
+      around->push_back(rim);
+    }
+  }
+  return openings;
+}
+
+void add_cells(const std::vector<std::vector<Vec3>>& rims, double pitch, std::vector<MouthCell>& cells) {
+  MouthCell cell;
+  cell.inward = area_of(rims.front()).normalized();
+  cell.across = cell.inward.unitOrthogonal();
+  cell.up = cell.inward.cross(cell.across);
+
+  Vec3 origin = Vec3::Zero();
+  for (const Vec3& x : rims.front()) origin += x / static_cast<double>(rims.front().size());
+  std::vector<Outline> outlines;  // islands run clockwise: their areas are negative
+  Vec2 lower = Vec2::Zero(), upper = Vec2::Zero();
+  for (const std::vector<Vec3>& rim : rims) {
+    outlines.emplace_back();
+    for (const Vec3& x : rim) {
+      const double uneven = std::abs(cell.inward.dot(x - origin));
+      if (uneven > pitch / 4)
+        throw InputError(fmt::format(
+            "a rim of the cavity is not flat: {} lies {:.3g} m off its plane, at most {:.3g} m at this wavelength",
+            place(x), uneven, pitch / 4));
+      outlines.back().emplace_back(cell.across.dot(x - origin), cell.up.dot(x - origin));
+      lower = lower.cwiseMin(outlines.back().back());
+      upper = upper.cwiseMax(outlines.back().back());
+    }
+  }
+  const Vec2 size = upper - lower;
+  const int columns = static_cast<int>(std::ceil(size.x() / pitch)),
+            rows = static_cast<int>(std::ceil(size.y() / pitch));
+  for (int i = 0; i < columns; ++i) {
+    const double left = lower.x() + size.x() * i / columns, right = lower.x() + size.x() * (i + 1) / columns;
+    std::vector<Outline> column;
+    for (const Outline& outline : outlines)
+      column.push_back(clipped(clipped(outline, Vec2::UnitX(), left), -Vec2::UnitX(), -right));
+    for (int j = 0; j < rows; ++j) {
+      const double below = lower.y() + size.y() * j / rows, above = lower.y() + size.y() * (j + 1) / rows;
+      Patch2 piece;
+      for (const Outline& outline : column) {
+        const Patch2 part = measure(clipped(clipped(outline, Vec2::UnitY(), below), -Vec2::UnitY(), -above));
+        piece.area += part.area;
+        piece.moment += part.moment;
+      }
+      if (piece.area < 1e-6 * pitch * pitch) continue;
+      const Vec2 centre = piece.moment / piece.area;
+      cell.area = piece.area;
+      cell.centre = origin + centre.x() * cell.across + centre.y() * cell.up;
+      cells.push_back(cell);
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<MouthCell> mouth_cells(const TriangleMesh& walls, double pitch) {
+  std::vector<MouthCell> cells;
+  for (const auto& rims : openings_of(rims_of(walls), pitch)) add_cells(rims, pitch, cells);
+  if (cells.empty()) throw InputError("the cavity's walls are closed, or open by nothing at this wavelength");
+  // Walls and openings together enclose the cavity; their normals point into it.
+  const Vec3 origin = walls.vertices[walls.triangles.front()[0]];
+  double volume = enclosed_volume(transformed(walls, Mat3::Identity(), -origin));
+  for (const MouthCell& cell : cells) volume += cell.area * cell.inward.dot(cell.centre - origin) / 3;
+  const double area = surface_area(walls);
+  if (std::abs(volume) < 1e-6 * area * std::sqrt(area))
+    throw InputError(
+        "the cavity's walls and openings enclose nothing: a sheet, or triangles whose corners do not meet");
+  if (volume > 0) throw InputError("the cavity's walls face away from its inside: turn their triangles");
+  return cells;
+}
+
+}  // namespace seaglint

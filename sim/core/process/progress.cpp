@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/core/process/progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace seaglint {
+
+namespace {
+
+constexpr std::chrono::seconds kQuiet{2};          // short work shows nothing
+constexpr std::chrono::milliseconds kRedraw{200};  // pleasant to read, and cheap
+
+std::string duration(double seconds) {
+  const auto s = static_cast<long>(std::ceil(std::min(seconds, 1e9)));
+  if (s < 60) return fmt::format("{} s", s);
+  if (s < 3600) return fmt::format("{} min {} s", s / 60, s % 60);
+  return fmt::format("{} h {} min", s / 3600, s % 3600 / 60);
+}
+
+}  // namespace
+
+std::string progress_line(const std::string& what, std::size_t done, std::size_t total, double elapsed_s,
+                          const std::string& steps) {
+  constexpr std::size_t kWidth = 20;
+  const double share = total == 0 ? 1 : std::min(1.0, static_cast<double>(done) / static_cast<double>(total));
+  const auto filled = static_cast<std::size_t>(share * kWidth);
+  const std::string left = share > 0 ? duration(elapsed_s * (1 - share) / share) + " left" : "no estimate yet";
+  const std::string rate = steps.empty() || done == 0
+                               ? std::string()
+                               : fmt::format(", {:.3g} {}/s", static_cast<double>(done) / elapsed_s, steps);
+  return fmt::format("{}  [{}{}] {:3.0f} %, {}{}", what, std::string(filled, '#'), std::string(kWidth - filled, '.'),
+                     std::floor(100 * share), left, rate);
+}
+
+Progress::Progress(std::string what, std::size_t total, std::string steps)
+    : what_(std::move(what)),
+      steps_(std::move(steps)),
+      total_(total),
+      start_(std::chrono::steady_clock::now()),
+      next_draw_(start_ + kQuiet),
+      terminal_(::isatty(STDERR_FILENO) == 1) {}
+
+Progress::~Progress() {
+  if (shown_) {
+    std::fputs("\r\033[K", stderr);
+    std::fflush(stderr);
+  }
+}
+
+void Progress::advance(std::size_t steps) {
+  const std::size_t done = done_ += steps;
+  if (!terminal_) return;
+  // Whoever finds another thread drawing goes on with its work.
+  const std::unique_lock lock(mutex_, std::try_to_lock);
+  const auto now = std::chrono::steady_clock::now();
+  if (!lock || now < next_draw_) return;
+  next_draw_ = now + kRedraw;
+  shown_ = true;
+  const double elapsed_s = std::chrono::duration<double>(now - start_).count();
+  std::fputs(fmt::format("\r{}\033[K", progress_line(what_, done, total_, elapsed_s, steps_)).c_str(), stderr);
+  std::fflush(stderr);
+}
+
+}  // namespace seaglint

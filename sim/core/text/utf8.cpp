@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/core/text/utf8.h"
+
+namespace seaglint {
+
+namespace {
+
+// Bytes of the character that begins with `lead`, 0 where none does, and what its second byte may be: RFC 3629, section
+// 4, which leaves out what could be written shorter, surrogates, and what lies beyond U+10FFFF.
+struct Character {
+  std::size_t bytes = 0;
+  unsigned lowest = 0x80, highest = 0xbf;
+};
+
+Character character_of(unsigned lead) {
+  if (lead < 0x80) return {1};
+  if (lead < 0xc2) return {};
+  if (lead < 0xe0) return {2};
+  if (lead < 0xf0) return {3, lead == 0xe0 ? 0xa0u : 0x80u, lead == 0xed ? 0x9fu : 0xbfu};
+  if (lead < 0xf5) return {4, lead == 0xf0 ? 0x90u : 0x80u, lead == 0xf4 ? 0x8fu : 0xbfu};
+  return {};
+}
+
+}  // namespace
+
+std::size_t utf8_prefix(std::string_view text) {
+  std::size_t begin = 0;
+  while (begin < text.size()) {
+    const Character character = character_of(static_cast<unsigned char>(text[begin]));
+    if (character.bytes == 0 || begin + character.bytes > text.size()) return begin;
+    for (std::size_t i = 1; i < character.bytes; ++i) {
+      const unsigned byte = static_cast<unsigned char>(text[begin + i]);
+      if (byte < (i == 1 ? character.lowest : 0x80u) || byte > (i == 1 ? character.highest : 0xbfu)) return begin;
+    }
+    begin += character.bytes;
+  }
+  return begin;
+}
+
+}  // namespace seaglint

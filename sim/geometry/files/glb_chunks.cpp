@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/geometry/files/glb_chunks.h"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <cstring>
+
+#include "sim/core/process/error.h"
+
+namespace seaglint {
+namespace {
+
+constexpr std::uint32_t kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
+
+std::uint32_t word(std::string_view bytes, std::size_t at) {
+  std::uint32_t value = 0;
+  std::memcpy(&value, bytes.data() + at, 4);
+  return value;
+}
+
+void put_word(std::string& bytes, std::uint32_t value) {
+  char raw[4];
+  std::memcpy(raw, &value, 4);
+  bytes.append(raw, 4);
+}
+
+}  // namespace
+
+bool is_glb(std::string_view bytes) { return bytes.substr(0, 4) == "glTF"; }
+
+// glTF 2.0, section 4.4: 12 bytes of header, then chunks of length, type, data.
+GlbChunks glb_chunks(std::string_view bytes, const std::string& file) {
+  if (!is_glb(bytes)) return {bytes, {}};
+  const auto fail = [&](const std::string& what) { throw InputError(fmt::format("{}: {}", file, what)); };
+  if (bytes.size() < 20) fail(fmt::format("is cut short: {} bytes are no .glb", bytes.size()));
+  if (word(bytes, 4) != 2) fail(fmt::format("is .glb version {}, not 2", word(bytes, 4)));
+  if (word(bytes, 8) > bytes.size())
+    fail(fmt::format("is cut short: its header promises {} bytes, it has {}", word(bytes, 8), bytes.size()));
+  GlbChunks chunks;
+  std::size_t at = 12;
+  const std::size_t end = word(bytes, 8);
+  for (int n = 0; at + 8 <= end; ++n) {
+    const std::uint32_t size = word(bytes, at), type = word(bytes, at + 4);
+    if (size > end - at - 8) fail(fmt::format("chunk {} promises {} bytes, {} are left", n, size, end - at - 8));
+    if (n == 0 && type != kJsonChunk) fail("the first chunk is not JSON");
+    if (n == 0) chunks.json = bytes.substr(at + 8, size);
+    if (n == 1 && type == kBinaryChunk) chunks.binary = bytes.substr(at + 8, size);
+    at += 8 + std::size_t{size};
+  }
+  return chunks;
+}
+
+std::string glb_of(std::string json, std::string_view binary_data) {
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  std::string binary(binary_data);
+  binary.resize((binary.size() + 3) / 4 * 4, '\0');
+  std::string file = "glTF";
+  put_word(file, 2);
+  put_word(file, static_cast<std::uint32_t>(12 + 8 + json.size() + (binary.empty() ? 0 : 8 + binary.size())));
+  put_word(file, static_cast<std::uint32_t>(json.size()));
+  put_word(file, kJsonChunk);
+  file += json;
+  if (!binary.empty()) {
+    put_word(file, static_cast<std::uint32_t>(binary.size()));
+    put_word(file, kBinaryChunk);
+    file += binary;
+  }
+  return file;
+}
+
+}  // namespace seaglint

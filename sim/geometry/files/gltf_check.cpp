@@ -1,0 +1,381 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/geometry/files/gltf_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "sim/core/process/error.h"
+#include "sim/core/text/json_problem.h"
+#include "sim/geometry/files/glb_chunks.h"
+
+namespace seaglint {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr int kDeepest = 64;                                  // levels of JSON; real files use about ten
+constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30;  // of one buffer
+
+// glTF 2.0, section 3.6.2.2: bytes of a component.
+std::uint64_t component_size(std::uint64_t type) {
+  switch (type) {
+    case 5120:
+    case 5121: return 1;
+    case 5122:
+    case 5123: return 2;
+    case 5125:
+    case 5126: return 4;
+    default: return 0;
+  }
+}
+
+class Checker {
+ public:
+  Checker(const Json& root, const std::string& file, std::uint64_t binary_size)
+      : root_(root), file_(file), binary_size_(binary_size) {}
+
+  Json reduced() const {
+    if (!root_.is_object()) fail("is not a JSON object");
+    const auto asset = root_.find("asset");
+    if (asset == root_.end() || !asset->is_object() || text(*asset, "version").substr(0, 2) != "2.") {
+      fail("is not glTF 2 (asset.version)");
+    }
+    if (asset->contains("minVersion") && text(*asset, "minVersion").substr(0, 2) != "2.")
+      fail("needs more than glTF 2 (asset.minVersion)");
+    refuse_required_extensions();
+    Json plain = {{"asset", {{"version", "2.0"}}}};
+    plain["buffers"] = each("buffers", [&](const Json& b, const std::string& at) { return buffer(b, at); });
+    plain["bufferViews"] = each("bufferViews", [&](const Json& v, const std::string& at) { return view(v, at); });
+    plain["accessors"] = each("accessors", [&](const Json& a, const std::string& at) { return accessor(a, at); });
+    plain["materials"] = each("materials", [&](const Json& m, const std::string&) {
+      return Json{{"name", text(m, "name")}};
+    });
+    plain["meshes"] = each("meshes", [&](const Json& m, const std::string& at) { return mesh(m, at); });
+    plain["nodes"] = each("nodes", [&](const Json& n, const std::string& at) { return node(n, at); });
+    plain["scenes"] = each("scenes", [&](const Json& s, const std::string& at) {
+      return Json{{"nodes", index_list(s, "nodes", "nodes", at)}};
+    });
+    if (root_.contains("scene")) plain["scene"] = index(root_, "scene", "scenes", "the file");
+    // tinygltf takes an empty list for a mistake.
+    for (const char* name : {"buffers", "bufferViews", "accessors", "materials", "meshes", "nodes", "scenes"}) {
+      if (plain[name].empty()) plain.erase(name);
+    }
+    return plain;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const { throw InputError(fmt::format("{}: {}", file_, what)); }
+
+  void refuse_required_extensions() const {
+    const auto required = root_.find("extensionsRequired");
+    if (required == root_.end()) return;
+    if (!required->is_array()) fail("extensionsRequired is not a list");
+    for (const Json& name : *required) {
+      const std::string extension = name.is_string() ? name.get<std::string>() : "?";
+      // These change how a surface looks, not where it is.
+      if (extension.starts_with("KHR_materials_") || extension.starts_with("KHR_texture_")) continue;
+      fail(fmt::format("needs the extension {}, which is not supported", extension));
+    }
+  }
+
+  template <typename Reduce>
+  Json each(const char* name, Reduce reduce) const {
+    Json list = Json::array();
+    const auto found = root_.find(name);
+    if (found == root_.end()) return list;
+    if (!found->is_array()) fail(fmt::format("{} is not a list", name));
+    for (std::size_t i = 0; i < found->size(); ++i) {
+      const std::string at = fmt::format("{}[{}]", name, i);
+      if (!(*found)[i].is_object()) fail(at + " is not an object");
+      list.push_back(reduce((*found)[i], at));
+    }
+    return list;
+  }
+
+  std::size_t length(const char* name) const {
+    const auto found = root_.find(name);
+    return found == root_.end() || !found->is_array() ? 0 : found->size();
+  }
+
+  std::string text(const Json& object, const char* key) const {
+    const auto found = object.find(key);
+    return found == object.end() || !found->is_string() ? std::string() : found->get<std::string>();
+  }
+
+  std::uint64_t whole(const Json& value, const std::string& what) const {
+    if (value.is_number_unsigned()) return value.get<std::uint64_t>();
+    // Some exporters write 3.0 for 3.
+    if (value.is_number_float()) {
+      const double number = value.get<double>();
+      if (number >= 0 && number < 9e15 && number == std::floor(number)) return static_cast<std::uint64_t>(number);
+    }
+    fail(fmt::format("{} is not a whole number of at least 0", what));
+  }
+
+  std::uint64_t whole(const Json& object, const char* key, const std::string& at, std::uint64_t fallback) const {
+    const auto found = object.find(key);
+    return found == object.end() ? fallback : whole(*found, fmt::format("{}.{}", at, key));
+  }
+
+  std::uint64_t index_value(const Json& value, const char* list, const std::string& what) const {
+    const std::uint64_t i = whole(value, what);
+    if (i >= length(list)) fail(fmt::format("{} = {} is outside {}, which has {}", what, i, list, length(list)));
+    return i;
+  }
+
+  std::uint64_t index(const Json& object, const char* key, const char* list, const std::string& at) const {
+    const auto found = object.find(key);
+    if (found == object.end()) fail(fmt::format("{} has no {}", at, key));
+    return index_value(*found, list, fmt::format("{}.{}", at, key));
+  }
+
+  Json index_list(const Json& object, const char* key, const char* list, const std::string& at) const {
+    Json indices = Json::array();
+    const auto found = object.find(key);
+    if (found == object.end()) return indices;
+    if (!found->is_array()) fail(fmt::format("{}.{} is not a list", at, key));
+    for (const Json& value : *found) indices.push_back(index_value(value, list, fmt::format("{}.{}", at, key)));
+    return indices;
+  }
+
+  std::uint64_t buffer_size(std::uint64_t i) const {
+    return whole(root_["buffers"][i], "byteLength", fmt::format("buffers[{}]", i), 0);
+  }
+
+  Json buffer(const Json& b, const std::string& at) const {
+    const std::uint64_t size = whole(b, "byteLength", at, 0);
+    if (size == 0) fail(at + " is empty");
+    if (size > kMostBytes) fail(fmt::format("{}.byteLength = {} is above {}", at, size, kMostBytes));
+    Json plain{{"byteLength", size}};
+    const std::string uri = text(b, "uri");
+    if (!uri.empty()) {
+      // Base64 gives three bytes for four letters; a promise beyond that is not worth a library's allocation.
+      if (uri.starts_with("data:") && size > uri.size()) {
+        fail(fmt::format("{}.byteLength = {} but its data URI has {} letters", at, size, uri.size()));
+      }
+      plain["uri"] = uri;
+    } else if (at != "buffers[0]" || size > binary_size_) {
+      fail(fmt::format("{}.byteLength = {} but the file's binary chunk holds {} bytes", at, size,
+                       at == "buffers[0]" ? binary_size_ : 0));
+    }
+    return plain;
+  }
+
+  Json view(const Json& v, const std::string& at) const {
+    const std::uint64_t buffer = index(v, "buffer", "buffers", at);
+    const std::uint64_t offset = whole(v, "byteOffset", at, 0), size = whole(v, "byteLength", at, 0);
+    const std::uint64_t stride = whole(v, "byteStride", at, 0), held = buffer_size(buffer);
+    if (size == 0) fail(at + " is empty");
+    if (offset > held || size > held - offset) {
+      fail(
+          fmt::format("{} wants bytes {} to {} of buffers[{}], which has {}", at, offset, offset + size, buffer, held));
+    }
+    if (stride != 0 && (stride < 4 || stride > 252 || stride % 4 != 0)) {
+      fail(fmt::format("{}.byteStride = {} is not a multiple of 4 in 4..252", at, stride));
+    }
+    Json plain{{"buffer", buffer}, {"byteOffset", offset}, {"byteLength", size}};
+    if (stride != 0) plain["byteStride"] = stride;
+    return plain;
+  }
+
+  Json accessor(const Json& a, const std::string& at) const {
+    const std::uint64_t type = whole(a, "componentType", at, 0), size = component_size(type);
+    const std::uint64_t count = whole(a, "count", at, 0), offset = whole(a, "byteOffset", at, 0);
+    const std::string shape = text(a, "type");
+    std::uint64_t components = 0;
+    for (const auto& [name, n] : {std::pair<const char*, int>{"SCALAR", 1},
+                                  {"VEC2", 2},
+                                  {"VEC3", 3},
+                                  {"VEC4", 4},
+                                  {"MAT2", 4},
+                                  {"MAT3", 9},
+                                  {"MAT4", 16}}) {
+      if (shape == name) components = static_cast<std::uint64_t>(n);
+    }
+    if (size == 0) fail(fmt::format("{}.componentType = {} is unknown", at, type));
+    if (components == 0) fail(fmt::format("{}.type = \"{}\" is unknown", at, shape));
+    if (count == 0) fail(at + " is empty");
+    Json plain{{"componentType", type}, {"count", count}, {"type", shape}, {"byteOffset", offset}};
+    // An accessor without a view is all zeros, a sparse one is patched; either is refused where a mesh uses it.
+    if (!a.contains("bufferView") || a.contains("sparse")) {
+      plain["byteOffset"] = 0;
+      return plain;
+    }
+    const std::uint64_t i = index(a, "bufferView", "bufferViews", at);
+    const std::string view_name = fmt::format("bufferViews[{}]", i);
+    const Json& v = root_["bufferViews"][i];
+    const std::uint64_t element = size * components;
+    const std::uint64_t stride = std::max(element, whole(v, "byteStride", view_name, 0));
+    const std::uint64_t held = whole(v, "byteLength", view_name, 0);
+    if (count > kMostBytes || offset > held || (count - 1) * stride + element > held - offset) {
+      fail(fmt::format("{} wants {} elements of {} bytes from byte {} of {}, which has {}", at, count, stride, offset,
+                       view_name, held));
+    }
+    plain["bufferView"] = i;
+    return plain;
+  }
+
+  void check_use(std::uint64_t i, const std::string& at, const char* use) const {
+    const Json& a = root_["accessors"][i];
+    if (a.contains("sparse")) fail(fmt::format("{}: accessors[{}] ({}) is sparse, which is not supported", at, i, use));
+    if (!a.contains("bufferView")) fail(fmt::format("{}: accessors[{}] ({}) has no data", at, i, use));
+  }
+
+  // glTF 2.0, section 3.7.2.1: triangles have three corners each, strips and fans one for each after the second.
+  void check_corners(const Json& plain, std::uint64_t mode, const std::string& at) const {
+    const bool indexed = plain.contains("indices");
+    const auto accessor = (indexed ? plain["indices"] : plain["attributes"]["POSITION"]).get<std::uint64_t>();
+    const std::uint64_t count = whole(root_["accessors"][accessor], "count", at, 0);
+    const char* what = indexed ? "indices" : "vertices without indices";
+    if (mode == 4 && count % 3 != 0) fail(fmt::format("{}: {} {} are no whole number of triangles", at, count, what));
+    if (count < 3) fail(fmt::format("{}: {} {} make no triangle", at, count, what));
+  }
+
+  Json primitive(const Json& p, const std::string& at) const {
+    const std::uint64_t mode = whole(p, "mode", at, 4);
+    if (mode > 6) fail(fmt::format("{}.mode = {} is unknown", at, mode));
+    const auto attributes = p.find("attributes");
+    if (attributes == p.end() || !attributes->is_object()) fail(at + " has no attributes");
+    const std::uint64_t position = index(*attributes, "POSITION", "accessors", at + ".attributes");
+    Json plain{{"mode", mode}, {"attributes", {{"POSITION", position}}}};
+    const bool is_surface = mode >= 4;
+    if (is_surface) {
+      check_use(position, at, "POSITION");
+      const Json& a = root_["accessors"][position];
+      if (text(a, "type") != "VEC3" || whole(a, "componentType", at, 0) != 5126) {
+        fail(fmt::format("{}: accessors[{}] (POSITION) is not VEC3 of float", at, position));
+      }
+    }
+    if (p.contains("indices")) {
+      const std::uint64_t indices = index(p, "indices", "accessors", at);
+      if (is_surface) {
+        check_use(indices, at, "indices");
+        const Json& a = root_["accessors"][indices];
+        const std::uint64_t type = whole(a, "componentType", at, 0);
+        if (text(a, "type") != "SCALAR" || (type != 5121 && type != 5123 && type != 5125)) {
+          fail(fmt::format("{}: accessors[{}] (indices) is not an unsigned SCALAR", at, indices));
+        }
+      }
+      plain["indices"] = indices;
+    }
+    if (is_surface) check_corners(plain, mode, at);
+    if (p.contains("targets"))
+      fail(at + " has morph targets, which are not supported: bake the shape into the positions");
+    if (p.contains("material")) plain["material"] = index(p, "material", "materials", at);
+    return plain;
+  }
+
+  Json mesh(const Json& m, const std::string& at) const {
+    const auto primitives = m.find("primitives");
+    if (primitives == m.end() || !primitives->is_array() || primitives->empty()) fail(at + " has no primitives");
+    Json list = Json::array();
+    for (std::size_t i = 0; i < primitives->size(); ++i) {
+      const std::string here = fmt::format("{}.primitives[{}]", at, i);
+      if (!(*primitives)[i].is_object()) fail(here + " is not an object");
+      list.push_back(primitive((*primitives)[i], here));
+    }
+    return Json{{"name", text(m, "name")}, {"primitives", list}};
+  }
+
+  void copy_numbers(const Json& from, Json& to, const char* key, std::size_t count, const std::string& at) const {
+    const auto found = from.find(key);
+    if (found == from.end()) return;
+    bool good = found->is_array() && found->size() == count;
+    for (std::size_t i = 0; good && i < count; ++i)
+      good = (*found)[i].is_number() && std::isfinite((*found)[i].get<double>());
+    if (!good) fail(fmt::format("{}.{} is not a list of {} numbers", at, key, count));
+    to[key] = *found;
+  }
+
+  // glTF 2.0, section 3.5.3: one affine matrix, or translation, rotation and scale.
+  void check_transform(const Json& plain, const std::string& at) const {
+    constexpr double kRounding = 1e-6;  // of a matrix that was kept in float32
+    if (plain.contains("matrix")) {
+      for (const char* key : {"translation", "rotation", "scale"}) {
+        if (plain.contains(key)) fail(fmt::format("{} has a matrix and a {}: only one of them may place it", at, key));
+      }
+      for (std::size_t column = 0; column < 4; ++column) {
+        const double last = plain["matrix"][4 * column + 3].get<double>();
+        if (std::abs(last - (column == 3 ? 1 : 0)) > kRounding)
+          fail(fmt::format("{}.matrix has {} in its last row, which must be 0 0 0 1", at, last));
+      }
+    }
+    double norm = 1;
+    if (plain.contains("rotation")) {
+      norm = 0;
+      for (const Json& q : plain["rotation"]) norm = std::hypot(norm, q.get<double>());
+    }
+    if (norm < kRounding) fail(fmt::format("{}.rotation is zero, no quaternion of a rotation", at));
+  }
+
+  Json node(const Json& n, const std::string& at) const {
+    Json plain{{"name", text(n, "name")}};
+    // These would place or bend its mesh.
+    if (n.contains("skin")) fail(at + " has a skin, which is not supported: bake the pose into the positions");
+    const auto extensions = n.find("extensions");
+    if (extensions != n.end() && extensions->contains("EXT_mesh_gpu_instancing"))
+      fail(at + " has instances (EXT_mesh_gpu_instancing), which are not supported: make them nodes");
+    if (n.contains("children")) {
+      Json children = index_list(n, "children", "nodes", at);
+      if (!children.empty()) plain["children"] = children;
+    }
+    if (n.contains("mesh")) plain["mesh"] = index(n, "mesh", "meshes", at);
+    copy_numbers(n, plain, "matrix", 16, at);
+    copy_numbers(n, plain, "translation", 3, at);
+    copy_numbers(n, plain, "rotation", 4, at);
+    copy_numbers(n, plain, "scale", 3, at);
+    check_transform(plain, at);
+    return plain;
+  }
+
+  const Json& root_;
+  const std::string& file_;
+  std::uint64_t binary_size_;
+};
+
+// Levels of lists and objects within each other. The library's own callback looks through all of a list at every object
+// that ends in it.
+int depth_of(std::string_view text) {
+  int depth = 0, deepest = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '"') in_string = !in_string;
+    if (in_string && c == '\\') ++i;
+    if (in_string) continue;
+    if (c == '[' || c == '{') deepest = std::max(deepest, ++depth);
+    if (c == ']' || c == '}') --depth;
+  }
+  return deepest;
+}
+
+Json parsed(std::string_view text, const std::string& file) {
+  if (depth_of(text) > kDeepest)
+    throw InputError(fmt::format("{}: the JSON is nested more than {} levels deep", file, kDeepest));
+  try {
+    return Json::parse(text.begin(), text.end());
+  } catch (const Json::exception& error) {
+    throw InputError(fmt::format("{}: {}", file, json_problem(error)));
+  }
+}
+
+}  // namespace
+
+std::string plain_gltf(std::string_view bytes, const std::string& file) {
+  const GlbChunks chunks = glb_chunks(bytes, file);
+  const Json root = parsed(chunks.json, file);
+  std::string json;
+  try {
+    json = Checker(root, file, chunks.binary.size()).reduced().dump();
+  } catch (const Json::exception& error) {
+    throw InputError(fmt::format("{}: {}", file, json_problem(error)));
+  }
+  return is_glb(bytes) ? glb_of(std::move(json), chunks.binary) : json;
+}
+
+}  // namespace seaglint

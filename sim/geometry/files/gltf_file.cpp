@@ -1,0 +1,381 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/geometry/files/gltf_file.h"
+
+#include <fmt/format.h>
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <cstring>
+#include <span>
+#include <sstream>
+#include <system_error>
+#include <vector>
+
+#include "sim/core/process/error.h"
+#include "sim/core/process/file.h"
+#include "sim/geometry/files/glb_chunks.h"
+#include "sim/geometry/files/gltf_check.h"
+#include "sim/geometry/files/gltf_pieces.h"
+#include "sim/geometry/mesh/mesh_builder.h"
+
+namespace seaglint {
+namespace {
+
+namespace fs = std::filesystem;
+using Mat4 = Eigen::Matrix4d;
+
+constexpr std::size_t kMostParts = 65000, kMostMaterials = 65000;
+constexpr std::size_t kMostPlacedTriangles = 50'000'000;  // a mesh may be placed by many nodes
+
+// The only files tinygltf may open are those below the glTF's own folder.
+struct Folder {
+  fs::path root;
+  std::vector<fs::path> opened;
+
+  bool holds(const std::string& name) const {
+    std::error_code error;
+    const fs::path file = fs::weakly_canonical(name, error);
+    if (error) return false;
+    const auto [rest, unused] = std::mismatch(root.begin(), root.end(), file.begin(), file.end());
+    return rest == root.end();
+  }
+};
+
+bool exists_in_folder(const std::string& name, void* folder) {
+  std::error_code error;
+  return static_cast<const Folder*>(folder)->holds(name) && fs::is_regular_file(name, error);
+}
+
+std::string same_path(const std::string& name, void*) { return name; }
+
+bool read_in_folder(std::vector<unsigned char>* content, std::string* problem, const std::string& name, void* user) {
+  Folder& folder = *static_cast<Folder*>(user);
+  if (!folder.holds(name)) {
+    *problem += name + " is outside the file's folder";
+    return false;
+  }
+  try {
+    const std::string bytes = read_file(name);
+    content->assign(bytes.begin(), bytes.end());
+    folder.opened.emplace_back(name);
+    return true;
+  } catch (const InputError& error) {
+    *problem += error.what();
+    return false;
+  }
+}
+
+bool write_nothing(std::string*, const std::string&, const std::vector<unsigned char>&, void*) { return false; }
+
+std::string one_line(std::string text) {
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+struct Loaded {
+  tinygltf::Model model;
+  std::vector<fs::path> buffer_files;  // in the order of the buffers
+};
+
+Loaded load(const std::string& bytes, const fs::path& path) {
+  const std::string plain = plain_gltf(bytes, path.string());
+  std::error_code error;
+  Folder folder{fs::canonical(path, error).parent_path(), {}};
+  if (error) throw InputError(fmt::format("{}: {}", path.string(), error.message()));
+
+  tinygltf::TinyGLTF loader;
+  loader.SetFsCallbacks({exists_in_folder, same_path, read_in_folder, write_nothing, &folder});
+  tinygltf::Model model;
+  std::string problem, warning;
+  const auto size = static_cast<unsigned int>(plain.size());
+  const std::string base = folder.root.string();
+  bool good = false;
+  try {
+    good = is_glb(plain) ? loader.LoadBinaryFromMemory(&model, &problem, &warning,
+                                                       reinterpret_cast<const unsigned char*>(plain.data()), size, base)
+                         : loader.LoadASCIIFromString(&model, &problem, &warning, plain.data(), size, base);
+  } catch (const std::exception& thrown) {
+    problem = thrown.what();
+  }
+  if (!good || !problem.empty()) throw InputError(fmt::format("{}: {}", path.string(), one_line(problem)));
+  return {std::move(model), std::move(folder.opened)};
+}
+
+// glTF 2.0, section 3.5.3: a matrix in column-major order, or translation * rotation * scale with the quaternion as (x,
+// y, z, w).
+Mat4 local_transform(const tinygltf::Node& node) {
+  if (node.matrix.size() == 16) return Eigen::Map<const Mat4>(node.matrix.data());
+  Mat4 T = Mat4::Identity();
+  if (node.rotation.size() == 4) {
+    Eigen::Quaterniond q(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
+    if (q.norm() > 0) T.topLeftCorner<3, 3>() = q.normalized().toRotationMatrix();
+  }
+  if (node.scale.size() == 3) {
+    T.topLeftCorner<3, 3>() *= Eigen::Map<const Vec3>(node.scale.data()).asDiagonal();
+  }
+  if (node.translation.size() == 3) T.topRightCorner<3, 1>() = Eigen::Map<const Vec3>(node.translation.data());
+  return T;
+}
+
+class Reader {
+ public:
+  Reader(const tinygltf::Model& model, std::string file) : model_(model), file_(std::move(file)) {}
+
+  TriangleMesh read() {
+    if (model_.materials.size() > kMostMaterials)
+      throw InputError(
+          fmt::format("{}: {} materials are more than {}", file_, model_.materials.size(), kMostMaterials));
+    struct Visit {
+      int node;
+      Mat4 parent;
+    };
+    std::vector<Visit> pending;
+    std::vector<bool> seen(model_.nodes.size(), false);
+    for (int root : roots()) pending.push_back({root, Mat4::Identity()});
+    std::reverse(pending.begin(), pending.end());
+    while (!pending.empty()) {
+      const Visit visit = pending.back();
+      pending.pop_back();
+      if (seen[visit.node]) throw InputError(fmt::format("{}: nodes[{}] has two parents", file_, visit.node));
+      seen[visit.node] = true;
+      const tinygltf::Node& node = model_.nodes[visit.node];
+      const Mat4 world = visit.parent * local_transform(node);
+      if (node.mesh >= 0) add_mesh(node, world);
+      for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
+        pending.push_back({*child, world});
+    }
+    return builder_.take();
+  }
+
+ private:
+  // The default scene, else the first, else every node that is nobody's child.
+  std::vector<int> roots() const {
+    if (!model_.scenes.empty()) return model_.scenes[std::max(0, model_.defaultScene)].nodes;
+    std::vector<bool> is_child(model_.nodes.size(), false);
+    for (const auto& node : model_.nodes) {
+      for (int child : node.children) is_child[child] = true;
+    }
+    std::vector<int> found;
+    for (std::size_t i = 0; i < is_child.size(); ++i) {
+      if (!is_child[i]) found.push_back(static_cast<int>(i));
+    }
+    return found;
+  }
+
+  struct Data {
+    const unsigned char* first;
+    std::size_t stride;
+    std::size_t count;
+    int component;
+  };
+
+  // Ranges were checked in plain_gltf; tinygltf has seen to it that a buffer is as long as it says.
+  Data data_of(int accessor_index) const {
+    const auto& accessor = model_.accessors[accessor_index];
+    const auto& view = model_.bufferViews[accessor.bufferView];
+    const auto& bytes = model_.buffers[view.buffer].data;
+    const int stride = accessor.ByteStride(view);
+    const std::size_t begin = view.byteOffset + accessor.byteOffset;
+    const std::size_t element = static_cast<std::size_t>(tinygltf::GetComponentSizeInBytes(accessor.componentType)) *
+                                static_cast<std::size_t>(tinygltf::GetNumComponentsInType(accessor.type));
+    if (stride <= 0 || begin + (accessor.count - 1) * static_cast<std::size_t>(stride) + element > bytes.size()) {
+      throw InputError(fmt::format("{}: accessors[{}] reaches beyond its buffer", file_, accessor_index));
+    }
+    return {bytes.data() + begin, static_cast<std::size_t>(stride), accessor.count, accessor.componentType};
+  }
+
+  std::vector<std::uint32_t> corners(const tinygltf::Primitive& primitive, std::size_t vertex_count) const {
+    std::vector<std::uint32_t> list;
+    if (primitive.indices < 0) {
+      for (std::size_t i = 0; i < vertex_count; ++i) list.push_back(static_cast<std::uint32_t>(i));
+      return list;
+    }
+    const Data data = data_of(primitive.indices);
+    list.reserve(data.count);
+    for (std::size_t i = 0; i < data.count; ++i) {
+      const unsigned char* at = data.first + i * data.stride;
+      std::uint32_t index = 0;
+      std::memcpy(&index, at, tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(data.component)));
+      if (index >= vertex_count) {
+        throw InputError(fmt::format("{}: accessors[{}] names vertex {}, there are {}", file_, primitive.indices, index,
+                                     vertex_count));
+      }
+      list.push_back(index);
+    }
+    return list;
+  }
+
+  void add_mesh(const tinygltf::Node& node, const Mat4& world) {
+    const tinygltf::Mesh& mesh = model_.meshes[node.mesh];
+    builder_.begin_part(!node.name.empty()   ? node.name
+                        : !mesh.name.empty() ? mesh.name
+                                             : fmt::format("mesh_{}", node.mesh));
+    if (builder_.part_count() > kMostParts)
+      throw InputError(fmt::format("{}: its nodes make more than {} parts", file_, kMostParts));
+    const bool is_mirrored = world.topLeftCorner<3, 3>().determinant() < 0;
+    for (const tinygltf::Primitive& primitive : mesh.primitives) {
+      if (primitive.mode >= TINYGLTF_MODE_TRIANGLES) add_primitive(primitive, world, is_mirrored);
+    }
+  }
+
+  void add_primitive(const tinygltf::Primitive& primitive, const Mat4& world, bool is_mirrored) {
+    const std::string material = primitive.material >= 0 ? model_.materials[primitive.material].name : std::string();
+    builder_.begin_material(material.empty() ? Material{}.name : material);
+
+    const Data positions = data_of(primitive.attributes.at("POSITION"));
+    const auto base = static_cast<std::uint32_t>(builder_.vertices().size());
+    if (builder_.vertices().size() + positions.count > 3 * kMostPlacedTriangles) fail_size();
+    for (std::size_t i = 0; i < positions.count; ++i) {
+      float p[3];
+      std::memcpy(p, positions.first + i * positions.stride, sizeof p);
+      const Vec3 placed = (world * Eigen::Vector4d(p[0], p[1], p[2], 1)).head<3>();
+      builder_.vertex(body_from_gltf() * placed);
+    }
+
+    const auto list = corners(primitive, positions.count);
+    const auto add = [&](std::size_t i, std::size_t j, std::size_t k) {
+      if (is_mirrored) std::swap(j, k);
+      builder_.triangle(base + list[i], base + list[j], base + list[k]);
+    };
+    if (builder_.triangle_count() + list.size() > kMostPlacedTriangles) fail_size();
+    if (primitive.mode == TINYGLTF_MODE_TRIANGLES) {
+      for (std::size_t i = 0; i + 2 < list.size(); i += 3) add(i, i + 1, i + 2);
+    } else if (primitive.mode == TINYGLTF_MODE_TRIANGLE_STRIP) {
+      for (std::size_t i = 0; i + 2 < list.size(); ++i) add(i, i + 1 + i % 2, i + 2 - i % 2);
+    } else {
+      for (std::size_t i = 1; i + 1 < list.size(); ++i) add(i, i + 1, 0);
+    }
+  }
+
+  [[noreturn]] void fail_size() const {
+    throw InputError(fmt::format("{}: its nodes place more than {} triangles", file_, kMostPlacedTriangles));
+  }
+
+  const tinygltf::Model& model_;
+  std::string file_;
+  MeshBuilder builder_;
+};
+
+class Writer {
+ public:
+  explicit Writer(const TriangleMesh& mesh, std::span<const std::array<double, 3>> colours) {
+    model_.asset.version = "2.0";
+    model_.asset.generator = "seaglint";
+    model_.defaultScene = 0;
+    model_.scenes.emplace_back();
+    model_.buffers.emplace_back();
+    for (const Material& material : mesh.materials) {
+      model_.materials.emplace_back();
+      model_.materials.back().name = material.name;
+      // The reader of a two-sided sheet must not hide its back.
+      model_.materials.back().doubleSided = true;
+      model_.materials.back().pbrMetallicRoughness.baseColorFactor = {0.56, 0.60, 0.63, 1.0};
+      model_.materials.back().pbrMetallicRoughness.metallicFactor = 0.2;
+      model_.materials.back().pbrMetallicRoughness.roughnessFactor = 0.8;
+      if (model_.materials.size() > colours.size()) continue;
+      const auto& [red, green, blue] = colours[model_.materials.size() - 1];
+      model_.materials.back().pbrMetallicRoughness.baseColorFactor = {red, green, blue, 1.0};
+      model_.materials.back().pbrMetallicRoughness.metallicFactor = 0;
+    }
+    const std::vector<GltfPiece> pieces = pieces_of(mesh);
+    for (std::size_t first = 0; first < pieces.size();) {
+      std::size_t end = first;
+      while (end < pieces.size() && pieces[end].part == pieces[first].part) ++end;
+      add_part(mesh.part_names[pieces[first].part], {pieces.data() + first, end - first});
+      first = end;
+    }
+  }
+
+  std::string bytes(bool binary) {
+    tinygltf::TinyGLTF writer;
+    std::ostringstream stream;
+    if (!writer.WriteGltfSceneToStream(&model_, stream, false, binary))
+      throw WorkError("tinygltf could not write the mesh");
+    return stream.str();
+  }
+
+ private:
+  void add_part(const std::string& name, std::span<const GltfPiece> pieces) {
+    tinygltf::Mesh shape;
+    shape.name = name;
+    for (const GltfPiece& piece : pieces) shape.primitives.push_back(primitive(piece, piece.material));
+    tinygltf::Node node;
+    node.name = shape.name;
+    node.mesh = static_cast<int>(model_.meshes.size());
+    model_.meshes.push_back(std::move(shape));
+    model_.scenes[0].nodes.push_back(static_cast<int>(model_.nodes.size()));
+    model_.nodes.push_back(std::move(node));
+  }
+
+  tinygltf::Primitive primitive(const GltfPiece& piece, int material) {
+    const std::size_t vertex_count = piece.positions.size() / 3;
+    std::vector<std::uint16_t> narrow;
+    if (vertex_count <= 65535) narrow.assign(piece.indices.begin(), piece.indices.end());
+
+    tinygltf::Primitive p;
+    p.mode = TINYGLTF_MODE_TRIANGLES;
+    p.material = material;
+    const int positions = add_accessor(piece.positions.data(), piece.positions.size() * sizeof(float), vertex_count,
+                                       TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3, TINYGLTF_TARGET_ARRAY_BUFFER);
+    set_bounds(model_.accessors[positions], piece.positions);
+    p.attributes["POSITION"] = positions;
+    p.indices = narrow.empty() ? add_accessor(piece.indices.data(), piece.indices.size() * 4, piece.indices.size(),
+                                              TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR,
+                                              TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER)
+                               : add_accessor(narrow.data(), narrow.size() * 2, narrow.size(),
+                                              TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, TINYGLTF_TYPE_SCALAR,
+                                              TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
+    return p;
+  }
+
+  // glTF 2.0, section 3.6.2.5: the bounds of positions are required.
+  static void set_bounds(tinygltf::Accessor& accessor, const std::vector<float>& positions) {
+    accessor.minValues.assign(positions.begin(), positions.begin() + 3);
+    accessor.maxValues = accessor.minValues;
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      accessor.minValues[i % 3] = std::min(accessor.minValues[i % 3], double{positions[i]});
+      accessor.maxValues[i % 3] = std::max(accessor.maxValues[i % 3], double{positions[i]});
+    }
+  }
+
+  int add_accessor(const void* data, std::size_t size, std::size_t count, int component, int type, int target) {
+    auto& buffer = model_.buffers[0].data;
+    buffer.resize((buffer.size() + 3) / 4 * 4, 0);
+    tinygltf::BufferView view;
+    view.buffer = 0;
+    view.byteOffset = buffer.size();
+    view.byteLength = size;
+    view.target = target;
+    const auto* bytes = static_cast<const unsigned char*>(data);
+    buffer.insert(buffer.end(), bytes, bytes + size);
+
+    tinygltf::Accessor accessor;
+    accessor.bufferView = static_cast<int>(model_.bufferViews.size());
+    accessor.componentType = component;
+    accessor.count = count;
+    accessor.type = type;
+    model_.bufferViews.push_back(std::move(view));
+    model_.accessors.push_back(std::move(accessor));
+    return static_cast<int>(model_.accessors.size() - 1);
+  }
+
+  tinygltf::Model model_;
+};
+
+}  // namespace
+
+TriangleMesh read_gltf(const std::string& bytes, const fs::path& path) {
+  const Loaded loaded = load(bytes, path);
+  return Reader(loaded.model, path.string()).read();
+}
+
+std::vector<fs::path> gltf_buffer_files(const std::string& bytes, const fs::path& path) {
+  return load(bytes, path).buffer_files;
+}
+
+std::string gltf_bytes(const TriangleMesh& mesh, bool binary, std::span<const std::array<double, 3>> material_colours) {
+  return Writer(mesh, material_colours).bytes(binary);
+}
+
+}  // namespace seaglint

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/geometry/files/mesh_io.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <utility>
+
+#include "sim/core/process/error.h"
+#include "sim/core/process/file.h"
+#include "sim/geometry/files/gltf_file.h"
+#include "sim/geometry/files/polygon_file.h"
+
+namespace seaglint {
+namespace {
+
+constexpr std::size_t kMostBytes = std::size_t{1} << 30;
+constexpr double kFarthest = 1e7;  // metres; beyond it the unit is wrong
+
+std::string ending_of(const std::filesystem::path& path) {
+  std::string ending = path.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
+}
+
+bool is_gltf(const std::string& ending) { return ending == ".glb" || ending == ".gltf"; }
+
+void require_known(const std::string& ending, const std::filesystem::path& path) {
+  if (is_gltf(ending) || ending == ".obj" || ending == ".stl" || ending == ".ply") return;
+  throw InputError(fmt::format("{}: the ending \"{}\" is not a mesh format; known are .glb .gltf .obj .stl .ply",
+                               path.string(), ending));
+}
+
+PlainPolygons plain_polygons(const std::string& ending, std::string bytes, const std::string& file) {
+  if (ending == ".obj") return plain_obj(bytes, file);
+  if (ending == ".stl") return plain_stl(std::move(bytes), file);
+  return plain_ply(bytes, file);
+}
+
+void check_mesh(const TriangleMesh& mesh, const std::string& file) {
+  if (mesh.triangles.empty()) throw InputError(fmt::format("{}: holds no triangles", file));
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const Vec3& p = mesh.vertices[v];
+    if (!p.allFinite()) throw InputError(fmt::format("{}: vertex {} is not finite", file, v));
+    if (p.cwiseAbs().maxCoeff() > kFarthest) {
+      throw InputError(fmt::format("{}: vertex {} lies at ({:g}, {:g}, {:g}) m, beyond {:g} m; is the unit right?",
+                                   file, v, p.x(), p.y(), p.z(), kFarthest));
+    }
+  }
+}
+
+}  // namespace
+
+double metres_per(const std::string& unit) {
+  constexpr std::array<std::pair<const char*, double>, 6> kUnits{
+      {{"m", 1.0}, {"cm", 0.01}, {"mm", 0.001}, {"km", 1000.0}, {"in", 0.0254}, {"ft", 0.3048}}};
+  for (const auto& [name, metres] : kUnits) {
+    if (unit == name) return metres;
+  }
+  throw InputError(fmt::format("\"{}\" is not a unit of length; known are m cm mm km in ft", unit));
+}
+
+TriangleMesh read_mesh(const std::filesystem::path& path, const std::string& unit) {
+  const double scale = metres_per(unit);
+  const std::string file = path.string();
+  const std::string ending = ending_of(path);
+  require_known(ending, path);
+  std::string bytes = read_file(path, kMostBytes);
+  if (bytes.empty()) throw InputError(fmt::format("{}: the file is empty", file));
+
+  TriangleMesh mesh = is_gltf(ending) ? read_gltf(bytes, path)
+                                      : read_polygons(plain_polygons(ending, std::move(bytes), file), ending, file);
+  if (scale != 1.0) {
+    for (Vec3& p : mesh.vertices) p *= scale;
+  }
+  check_mesh(mesh, file);
+  return welded(mesh);
+}
+
+std::vector<std::filesystem::path> files_beside_mesh(const std::filesystem::path& path) {
+  if (!is_gltf(ending_of(path))) return {};
+  return gltf_buffer_files(read_file(path, kMostBytes), path);
+}
+
+void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh) {
+  const std::string ending = ending_of(path);
+  require_known(ending, path);
+  if (mesh.triangles.empty())
+    throw InputError(fmt::format("{}: a mesh without triangles is not written", path.string()));
+  check_mesh(mesh, path.string());
+  const std::string bytes = is_gltf(ending) ? gltf_bytes(mesh, ending == ".glb") : polygon_bytes(mesh, ending);
+  write_file(path, bytes);
+}
+
+void require_coloured_mesh(const std::filesystem::path& path) {
+  if (!is_gltf(ending_of(path)))
+    throw InputError(fmt::format("{}: colours need the ending .glb or .gltf", path.string()));
+}
+
+void write_coloured_mesh(const std::filesystem::path& path, const TriangleMesh& mesh,
+                         std::span<const std::array<double, 3>> material_colours) {
+  require_coloured_mesh(path);
+  if (mesh.triangles.empty())
+    throw InputError(fmt::format("{}: a mesh without triangles is not written", path.string()));
+  write_file(path, gltf_bytes(mesh, ending_of(path) == ".glb", material_colours));
+}
+
+}  // namespace seaglint

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <limits>
+#include <span>
+#include <unordered_map>
+
+#include "sim/core/process/error.h"
+#include "sim/geometry/files/polygon_file.h"
+#include "sim/geometry/files/text_number.h"
+#include "sim/geometry/files/triangulate_polygon.h"
+
+namespace seaglint {
+namespace {
+
+class ObjCheck {
+ public:
+  ObjCheck(std::string_view bytes, const std::string& file) : rest_(bytes), file_(file) {}
+
+  PlainPolygons check() {
+    // The mark that some editors put before the first line (UTF-8's byte order mark).
+    constexpr std::string_view kMark = "\xEF\xBB\xBF";
+    if (rest_.starts_with(kMark)) rest_.remove_prefix(kMark.size());
+    // Faces may name vertices of later lines, so the vertices are counted first.
+    std::string_view all = rest_;
+    while (!all.empty()) {
+      std::string_view line = next_line(all);
+      if (next_word(line) == "v") ++vertex_count_;
+    }
+    if (vertex_count_ > std::numeric_limits<std::int32_t>::max())
+      fail(fmt::format("{} vertices are too many", vertex_count_));
+
+    std::string joined;
+    while (!rest_.empty()) {
+      ++line_;
+      std::string_view line = next_line(rest_);
+      // A line that ends in a backslash goes on in the next, a comment does not.
+      if (line.ends_with('\\') && !has_comment(line)) {
+        joined += line.substr(0, line.size() - 1);
+        joined += ' ';
+        continue;
+      }
+      if (joined.empty()) {
+        statement(line);
+      } else {
+        joined += line;
+        statement(joined);
+        joined.clear();
+      }
+    }
+    if (!joined.empty()) statement(joined);
+    if (vertices_so_far_ != vertex_count_) {
+      fail(fmt::format("{} lines begin with v, {} of them are vertices: a backslash joins one to the line before it",
+                       vertex_count_, vertices_so_far_));
+    }
+    for (const Face& face : faces_) write(face);
+    return std::move(plain_);
+  }
+
+ private:
+  struct Face {
+    std::size_t first, count;  // corners
+    std::size_t line;
+    std::uint16_t part;
+  };
+
+  [[noreturn]] void fail(const std::string& what) const {
+    throw InputError(fmt::format("{}:{}: {}", file_, line_, what));
+  }
+
+  static bool has_comment(std::string_view line) {
+    for (std::string_view word = next_word(line); !word.empty(); word = next_word(line)) {
+      if (word.starts_with('#')) return true;
+    }
+    return false;
+  }
+
+  void statement(std::string_view line) {
+    const std::string_view keyword = next_word(line);
+    if (keyword == "v") vertex(line);
+    if (keyword == "f") face(line);
+    if (keyword == "g" || keyword == "o") group(line);
+    // Normals, texture coordinates, materials' files and curves do not make a mesh.
+  }
+
+  void vertex(std::string_view line) {
+    plain_.bytes += 'v';
+    for (int i = 0; i < 3; ++i) {
+      const std::string_view word = next_word(line);
+      const auto number = number_of(word);
+      const auto coordinate = number ? coordinate_of(*number) : std::nullopt;
+      if (!coordinate) fail(fmt::format("\"{}\" is not a coordinate", word));
+      positions_.push_back(*coordinate);
+      fmt::format_to(std::back_inserter(plain_.bytes), " {}", *coordinate);
+    }
+    plain_.bytes += '\n';
+    ++vertices_so_far_;
+  }
+
+  void face(std::string_view line) {
+    const std::size_t first = corners_.size();
+    for (std::string_view word = next_word(line); !word.empty() && word[0] != '#'; word = next_word(line)) {
+      const auto value = integer_of(word.substr(0, word.find('/')));
+      if (!value || *value == 0) fail(fmt::format("\"{}\" is not a corner of a face", word));
+      // Negative indices count back from the vertex before this line.
+      const std::int64_t index = *value > 0 ? *value : vertices_so_far_ + *value + 1;
+      if (index < 1 || index > vertex_count_)
+        fail(fmt::format("the face names vertex {}, there are {}", *value, vertex_count_));
+      corners_.push_back(static_cast<std::uint32_t>(index - 1));
+    }
+    const std::size_t count = corners_.size() - first;
+    if (count < 3) fail(fmt::format("a face of {} corners", count));
+    if (plain_.part_names.empty()) begin_part("body");
+    faces_.push_back({first, count, line_, part_});
+  }
+
+  // Once all vertices are known.
+  void write(const Face& face) {
+    line_ = face.line;
+    const std::span<const std::uint32_t> corners(corners_.data() + face.first, face.count);
+    polygon_.clear();
+    for (const std::uint32_t v : corners)
+      polygon_.push_back({positions_[3 * v], positions_[3 * v + 1], positions_[3 * v + 2]});
+    const auto triangles = split_polygon(polygon_);
+    if (!triangles) fail(unsplit_polygon(face.count));
+    for (const auto& [i, j, k] : *triangles) {
+      const std::uint32_t a = corners[i], b = corners[j], c = corners[k];
+      if (a == b || b == c || c == a) continue;
+      fmt::format_to(std::back_inserter(plain_.bytes), "f {} {} {}\n", a + 1, b + 1, c + 1);
+      ++plain_.triangle_count;
+      plain_.triangle_part.push_back(face.part);
+    }
+  }
+
+  void group(std::string_view line) {
+    std::string name;
+    for (std::string_view word = next_word(line); !word.empty(); word = next_word(line)) {
+      if (!name.empty()) name += ' ';
+      name += word;
+    }
+    begin_part(name.empty() ? "default" : utf8_of(name));
+  }
+
+  void begin_part(const std::string& name) {
+    auto& names = plain_.part_names;
+    const auto [place, is_new] = part_of_name_.try_emplace(name, names.size());
+    if (is_new && names.size() > 65000) fail("more than 65000 groups");
+    if (is_new) names.push_back(name);
+    part_ = static_cast<std::uint16_t>(place->second);
+  }
+
+  std::string_view rest_;
+  const std::string& file_;
+  PlainPolygons plain_;
+  std::vector<float> positions_;
+  std::vector<std::uint32_t> corners_;  // of all faces
+  std::vector<Face> faces_;
+  std::vector<Vec3> polygon_;
+  std::int64_t vertex_count_ = 0;
+  std::int64_t vertices_so_far_ = 0;
+  std::size_t line_ = 0;
+  std::unordered_map<std::string, std::size_t> part_of_name_;
+  std::uint16_t part_ = 0;
+};
+
+}  // namespace
+
+PlainPolygons plain_obj(std::string_view bytes, const std::string& file) { return ObjCheck(bytes, file).check(); }
+
+}  // namespace seaglint

@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+#include <span>
+
+#include "sim/core/process/error.h"
+#include "sim/geometry/files/polygon_file.h"
+#include "sim/geometry/files/text_number.h"
+#include "sim/geometry/files/triangulate_polygon.h"
+
+namespace seaglint {
+namespace {
+
+enum class Number { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat, kDouble };
+
+struct Property {
+  std::string name;
+  Number value = Number::kFloat;
+  bool is_list = false;
+  Number count = Number::kUint8;
+};
+
+struct Element {
+  std::string name;
+  std::uint64_t count = 0;
+  std::vector<Property> properties;
+};
+
+std::size_t size_of(Number type) {
+  switch (type) {
+    case Number::kInt8:
+    case Number::kUint8: return 1;
+    case Number::kInt16:
+    case Number::kUint16: return 2;
+    case Number::kInt32:
+    case Number::kUint32:
+    case Number::kFloat: return 4;
+    case Number::kDouble: return 8;
+  }
+  return 0;
+}
+
+template <typename T>
+double value_at(const char* bytes, bool swap) {
+  std::array<char, sizeof(T)> raw{};
+  for (std::size_t i = 0; i < raw.size(); ++i) raw[i] = bytes[swap ? raw.size() - 1 - i : i];
+  return static_cast<double>(std::bit_cast<T>(raw));
+}
+
+double value_at(Number type, const char* bytes, bool swap) {
+  switch (type) {
+    case Number::kInt8: return value_at<std::int8_t>(bytes, swap);
+    case Number::kUint8: return value_at<std::uint8_t>(bytes, swap);
+    case Number::kInt16: return value_at<std::int16_t>(bytes, swap);
+    case Number::kUint16: return value_at<std::uint16_t>(bytes, swap);
+    case Number::kInt32: return value_at<std::int32_t>(bytes, swap);
+    case Number::kUint32: return value_at<std::uint32_t>(bytes, swap);
+    case Number::kFloat: return value_at<float>(bytes, swap);
+    case Number::kDouble: return value_at<double>(bytes, swap);
+  }
+  return 0;
+}
+
+// OpenMesh's reader waits for ever for a missing end_header, trusts every count, and reads only float coordinates and
+// uchar list counts of binary files. So the file is read here, and handed on as a binary PLY of float x y z and
+// triangles.
+class PlyCheck {
+ public:
+  PlyCheck(std::string_view bytes, const std::string& file) : rest_(bytes), file_(file) {}
+
+  PlainPolygons check() {
+    header();
+    for (const Element& element : elements_) {
+      least_size(element);
+      if (element.name == "vertex") {
+        vertices(element);
+      } else if (element.name == "face") {
+        faces(element);
+      } else {
+        for (std::uint64_t i = 0; i < element.count && !element.properties.empty(); ++i) {
+          for (const Property& property : element.properties) skip(property);
+        }
+      }
+    }
+    for (std::uint32_t index : corners_) {
+      if (index >= vertex_count_) fail(fmt::format("a face names vertex {}, there are {}", index, vertex_count_));
+    }
+    std::size_t first = 0;
+    for (std::size_t face = 0; face < corner_count_.size(); first += corner_count_[face++])
+      split(face, {corners_.data() + first, corner_count_[face]});
+    return written();
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const { throw InputError(fmt::format("{}: {}", file_, what)); }
+
+  Number type_of(std::string_view name) const {
+    constexpr std::array<std::pair<std::string_view, Number>, 16> kNames{{{"char", Number::kInt8},
+                                                                          {"int8", Number::kInt8},
+                                                                          {"uchar", Number::kUint8},
+                                                                          {"uint8", Number::kUint8},
+                                                                          {"short", Number::kInt16},
+                                                                          {"int16", Number::kInt16},
+                                                                          {"ushort", Number::kUint16},
+                                                                          {"uint16", Number::kUint16},
+                                                                          {"int", Number::kInt32},
+                                                                          {"int32", Number::kInt32},
+                                                                          {"uint", Number::kUint32},
+                                                                          {"uint32", Number::kUint32},
+                                                                          {"float", Number::kFloat},
+                                                                          {"float32", Number::kFloat},
+                                                                          {"double", Number::kDouble},
+                                                                          {"float64", Number::kDouble}}};
+    for (const auto& [known, type] : kNames) {
+      if (name == known) return type;
+    }
+    fail(fmt::format("the PLY header has the unknown type \"{}\"", name.substr(0, 40)));
+  }
+
+  void header() {
+    if (next_line(rest_) != "ply") fail("is not a PLY file");
+    bool has_format = false;
+    while (true) {
+      if (rest_.empty()) fail("the PLY header has no end_header");
+      std::string_view line = next_line(rest_);
+      const std::string_view keyword = next_word(line);
+      if (keyword == "end_header") break;
+      if (keyword.empty() || keyword == "comment" || keyword == "obj_info") continue;
+      if (keyword == "format") {
+        const std::string_view format = next_word(line);
+        has_format = true;
+        is_ascii_ = format == "ascii";
+        swap_ = format == "binary_big_endian";
+        if (!is_ascii_ && !swap_ && format != "binary_little_endian")
+          fail(fmt::format("the PLY format \"{}\" is unknown", format));
+      } else if (keyword == "element") {
+        const std::string_view name = next_word(line), count = next_word(line);
+        const auto number = integer_of(count);
+        if (!number || *number < 0) fail(fmt::format("the PLY header promises \"{}\" of \"{}\"", count, name));
+        for (const Element& element : elements_) {
+          if (element.name == name) fail(fmt::format("the PLY header has \"{}\" twice", name));
+        }
+        elements_.push_back({std::string(name), static_cast<std::uint64_t>(*number), {}});
+      } else if (keyword == "property") {
+        if (elements_.empty()) fail("the PLY header has a property before any element");
+        Property property;
+        std::string_view word = next_word(line);
+        property.is_list = word == "list";
+        if (property.is_list) {
+          property.count = type_of(next_word(line));
+          word = next_word(line);
+        }
+        property.value = type_of(word);
+        property.name = next_word(line);
+        elements_.back().properties.push_back(property);
+      } else {
+        fail(fmt::format("the PLY header has the unknown line \"{}\"", keyword.substr(0, 40)));
+      }
+    }
+    if (!has_format) fail("the PLY header has no format");
+  }
+
+  // The promised count against what the file can hold at least, before anything is reserved.
+  void least_size(const Element& element) const {
+    std::uint64_t least = 0;
+    for (const Property& property : element.properties) {
+      least += is_ascii_ ? 2 : size_of(property.is_list ? property.count : property.value);
+    }
+    const std::uint64_t held = least == 0 ? 0 : (rest_.size() + 1) / least;
+    if (element.count > held && !element.properties.empty()) {
+      fail(fmt::format("promises {} of \"{}\", has room for {} at most", element.count, element.name, held));
+    }
+  }
+
+  double read(Number type) {
+    if (is_ascii_) {
+      const std::string_view word = next_word(rest_);
+      const auto number = number_of(word);
+      if (!number)
+        fail(word.empty() ? std::string("ends before its last number")
+                          : fmt::format("\"{}\" is not a number", word.substr(0, 40)));
+      return *number;
+    }
+    if (rest_.size() < size_of(type)) fail("ends before its last number");
+    const double value = value_at(type, rest_.data(), swap_);
+    rest_.remove_prefix(size_of(type));
+    return value;
+  }
+
+  std::uint64_t read_count(const Property& property) {
+    const double count = read(property.count);
+    if (!(count >= 0 && count <= static_cast<double>(rest_.size()) &&
+          count == static_cast<double>(static_cast<std::uint64_t>(count)))) {
+      fail(fmt::format("a list of {} entries with {} bytes left", count, rest_.size()));
+    }
+    return static_cast<std::uint64_t>(count);
+  }
+
+  void skip(const Property& property) {
+    const std::uint64_t count = property.is_list ? read_count(property) : 1;
+    for (std::uint64_t i = 0; i < count; ++i) read(property.value);
+  }
+
+  void vertices(const Element& element) {
+    for (const char* axis : {"x", "y", "z"}) {
+      const auto count =
+          std::count_if(element.properties.begin(), element.properties.end(),
+                        [&](const Property& property) { return !property.is_list && property.name == axis; });
+      if (count != 1)
+        fail(fmt::format("its vertices have {} properties {}: must have x, y and z once each", count, axis));
+    }
+    vertex_count_ = element.count;
+    if (vertex_count_ > 0x7fffffff) fail(fmt::format("{} vertices are too many", vertex_count_));
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      std::array<float, 3> p{};
+      for (const Property& property : element.properties) {
+        const int axis = property.is_list || property.name.size() != 1 ? -1 : property.name[0] - 'x';
+        if (axis < 0 || axis > 2) {
+          skip(property);
+          continue;
+        }
+        const double value = read(property.value);
+        const auto coordinate = coordinate_of(value);
+        if (!coordinate) fail(fmt::format("vertex {} has the coordinate {}", i, value));
+        p[axis] = *coordinate;
+      }
+      positions_.append(reinterpret_cast<const char*>(p.data()), sizeof p);
+    }
+  }
+
+  static bool has_corners(const Property& property) {
+    return property.is_list && (property.name == "vertex_indices" || property.name == "vertex_index");
+  }
+
+  void faces(const Element& element) {
+    // Before the loop, whose count nothing bounds where the faces have no properties.
+    if (element.count > 0 && std::none_of(element.properties.begin(), element.properties.end(), has_corners))
+      fail("its faces have no vertex_indices");
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      for (const Property& property : element.properties) {
+        if (!has_corners(property)) {
+          skip(property);
+          continue;
+        }
+        const std::uint64_t count = read_count(property);
+        for (std::uint64_t k = 0; k < count; ++k) {
+          const double index = read(property.value);
+          if (!(index >= 0 && index < 2147483648.0)) fail(fmt::format("face {} names vertex {}", i, index));
+          corners_.push_back(static_cast<std::uint32_t>(index));
+        }
+        if (count < 3) fail(fmt::format("face {} has {} corners", i, count));
+        corner_count_.push_back(static_cast<std::uint32_t>(count));
+      }
+    }
+  }
+
+  // Once all vertices are known.
+  void split(std::size_t face, std::span<const std::uint32_t> corners) {
+    polygon_.clear();
+    for (const std::uint32_t v : corners) {
+      std::array<float, 3> p;
+      std::memcpy(p.data(), positions_.data() + v * sizeof p, sizeof p);
+      polygon_.push_back({p[0], p[1], p[2]});
+    }
+    const auto triangles = split_polygon(polygon_);
+    if (!triangles) fail(fmt::format("face {}: {}", face, unsplit_polygon(corners.size())));
+    for (const auto& [i, j, k] : *triangles) {
+      const std::uint32_t a = corners[i], b = corners[j], c = corners[k];
+      if (a != b && b != c && c != a) triangles_.insert(triangles_.end(), {a, b, c});
+    }
+  }
+
+  PlainPolygons written() const {
+    PlainPolygons plain;
+    plain.triangle_count = triangles_.size() / 3;
+    plain.bytes = fmt::format(
+        "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float "
+        "z\n"
+        "element face {}\nproperty list uchar uint vertex_indices\nend_header\n",
+        vertex_count_, plain.triangle_count);
+    plain.bytes += positions_;
+    for (std::size_t i = 0; i < triangles_.size(); i += 3) {
+      plain.bytes += '\3';
+      plain.bytes.append(reinterpret_cast<const char*>(&triangles_[i]), 12);
+    }
+    return plain;
+  }
+
+  std::string_view rest_;
+  const std::string& file_;
+  bool is_ascii_ = false;
+  bool swap_ = false;
+  std::vector<Element> elements_;
+  std::uint64_t vertex_count_ = 0;
+  std::string positions_;
+  std::vector<std::uint32_t> corners_;       // of all faces
+  std::vector<std::uint32_t> corner_count_;  // of each
+  std::vector<Vec3> polygon_;
+  std::vector<std::uint32_t> triangles_;
+};
+
+}  // namespace
+
+PlainPolygons plain_ply(std::string_view bytes, const std::string& file) { return PlyCheck(bytes, file).check(); }
+
+}  // namespace seaglint

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/geometry/files/polygon_file.h"
+
+#include <fmt/format.h>
+
+#include <OpenMesh/Core/IO/MeshIO.hh>
+#include <sstream>
+
+#include "sim/core/process/error.h"
+#include "sim/geometry/mesh/mesh_builder.h"
+
+namespace seaglint {
+namespace {
+
+using OpenMesh::EdgeHandle;
+using OpenMesh::FaceHandle;
+using OpenMesh::HalfedgeHandle;
+using OpenMesh::VertexHandle;
+using Status = OpenMesh::Attributes::StatusInfo;
+
+// OpenMesh's own mesh refuses faces at non-manifold edges, so its reader is given this soup instead: vertices and faces
+// as they come.
+class SoupImporter : public OpenMesh::IO::BaseImporter {
+ public:
+  SoupImporter(const PlainPolygons& plain, const std::string& file) : plain_(plain), file_(file) {
+    if (plain.part_names.empty()) builder_.begin_part("body");
+  }
+
+  TriangleMesh take() { return builder_.take(); }
+
+  VertexHandle add_vertex(const OpenMesh::Vec3f& p) override {
+    builder_.vertex({p[0], p[1], p[2]});
+    return VertexHandle(static_cast<int>(builder_.vertices().size() - 1));
+  }
+  // The PLY reader makes a vertex first and places it later.
+  VertexHandle add_vertex() override {
+    later_.emplace_back(Vec3::Zero());
+    return VertexHandle(static_cast<int>(later_.size() - 1));
+  }
+  void set_point(VertexHandle v, const OpenMesh::Vec3f& p) override { later_.at(v.idx()) = {p[0], p[1], p[2]}; }
+
+  FaceHandle add_face(const VHandles& corners) override {
+    for (; placed_ < later_.size(); ++placed_) builder_.vertex(later_[placed_]);
+    const std::size_t face = builder_.triangle_count();
+    if (corners.size() != 3 || face >= plain_.triangle_count) {
+      throw InputError(fmt::format("{}: face {} has {} corners", file_, face, corners.size()));
+    }
+    for (VertexHandle v : corners) {
+      if (v.idx() < 0 || static_cast<std::size_t>(v.idx()) >= builder_.vertices().size()) {
+        throw InputError(fmt::format("{}: face {} names vertex {}", file_, face, v.idx()));
+      }
+    }
+    if (!plain_.part_names.empty()) builder_.begin_part(plain_.part_names[plain_.triangle_part[face]]);
+    builder_.triangle(static_cast<std::uint32_t>(corners[0].idx()), static_cast<std::uint32_t>(corners[1].idx()),
+                      static_cast<std::uint32_t>(corners[2].idx()));
+    return FaceHandle(static_cast<int>(face));
+  }
+
+  std::size_t n_vertices() const override { return builder_.vertices().size(); }
+  std::size_t n_faces() const override { return builder_.triangle_count(); }
+  std::size_t n_edges() const override { return 0; }
+
+  // Half-edges, normals, colours and textures are not read.
+  HalfedgeHandle add_edge(VertexHandle, VertexHandle) override { return HalfedgeHandle(); }
+  FaceHandle add_face(HalfedgeHandle) override { return FaceHandle(); }
+  void add_face_texcoords(FaceHandle, VertexHandle, const std::vector<OpenMesh::Vec2f>&) override {}
+  void add_face_texcoords(FaceHandle, VertexHandle, const std::vector<OpenMesh::Vec3f>&) override {}
+  void set_face_texindex(FaceHandle, int) override {}
+  void set_halfedge(VertexHandle, HalfedgeHandle) override {}
+  void set_normal(VertexHandle, const OpenMesh::Vec3f&) override {}
+  void set_normal(VertexHandle, const OpenMesh::Vec3d&) override {}
+  void set_color(VertexHandle, const OpenMesh::Vec3uc&) override {}
+  void set_color(VertexHandle, const OpenMesh::Vec4uc&) override {}
+  void set_color(VertexHandle, const OpenMesh::Vec3f&) override {}
+  void set_color(VertexHandle, const OpenMesh::Vec4f&) override {}
+  void set_texcoord(VertexHandle, const OpenMesh::Vec2f&) override {}
+  void set_status(VertexHandle, const Status&) override {}
+  void set_next(HalfedgeHandle, HalfedgeHandle) override {}
+  void set_face(HalfedgeHandle, FaceHandle) override {}
+  void request_face_texcoords2D() override {}
+  void set_texcoord(HalfedgeHandle, const OpenMesh::Vec2f&) override {}
+  void set_texcoord(VertexHandle, const OpenMesh::Vec3f&) override {}
+  void set_texcoord(HalfedgeHandle, const OpenMesh::Vec3f&) override {}
+  void set_status(HalfedgeHandle, const Status&) override {}
+  void set_color(EdgeHandle, const OpenMesh::Vec3uc&) override {}
+  void set_color(EdgeHandle, const OpenMesh::Vec4uc&) override {}
+  void set_color(EdgeHandle, const OpenMesh::Vec3f&) override {}
+  void set_color(EdgeHandle, const OpenMesh::Vec4f&) override {}
+  void set_status(EdgeHandle, const Status&) override {}
+  void set_normal(FaceHandle, const OpenMesh::Vec3f&) override {}
+  void set_normal(FaceHandle, const OpenMesh::Vec3d&) override {}
+  void set_color(FaceHandle, const OpenMesh::Vec3uc&) override {}
+  void set_color(FaceHandle, const OpenMesh::Vec4uc&) override {}
+  void set_color(FaceHandle, const OpenMesh::Vec3f&) override {}
+  void set_color(FaceHandle, const OpenMesh::Vec4f&) override {}
+  void set_status(FaceHandle, const Status&) override {}
+  void add_texture_information(int, std::string) override {}
+
+ private:
+  const PlainPolygons& plain_;
+  const std::string& file_;
+  MeshBuilder builder_;
+  std::vector<Vec3> later_;
+  std::size_t placed_ = 0;
+};
+
+// The same way out: a soup has vertices and triangles, and nothing else that a writer may ask for.
+class SoupExporter : public OpenMesh::IO::BaseExporter {
+ public:
+  explicit SoupExporter(const TriangleMesh& mesh) : mesh_(mesh) {}
+
+  OpenMesh::Vec3f point(VertexHandle v) const override {
+    const Vec3& p = mesh_.vertices[v.idx()];
+    // Adding zero turns -0 into +0.
+    return {static_cast<float>(p.x()) + 0.0f, static_cast<float>(p.y()) + 0.0f, static_cast<float>(p.z()) + 0.0f};
+  }
+  unsigned int get_vhandles(FaceHandle f, std::vector<VertexHandle>& corners) const override {
+    corners.clear();
+    for (std::uint32_t v : mesh_.triangles[f.idx()]) corners.emplace_back(static_cast<int>(v));
+    return 3;
+  }
+  OpenMesh::Vec3f normal(FaceHandle f) const override {
+    const Vec3 area = area_vector(mesh_, f.idx());
+    const Vec3 n = area.norm() > 0 ? Vec3(area.normalized()) : Vec3::Zero();
+    return {static_cast<float>(n.x()) + 0.0f, static_cast<float>(n.y()) + 0.0f, static_cast<float>(n.z()) + 0.0f};
+  }
+  bool is_triangle_mesh() const override { return true; }
+  bool has_face_normals() const override { return true; }
+  std::size_t n_vertices() const override { return mesh_.vertices.size(); }
+  std::size_t n_faces() const override { return mesh_.triangles.size(); }
+  std::size_t n_edges() const override { return 0; }
+
+  bool is_point_double() const override { return false; }
+  bool is_normal_double() const override { return false; }
+  OpenMesh::Vec3d pointd(VertexHandle v) const override { return OpenMesh::Vec3d(point(v)); }
+  OpenMesh::Vec3d normald(FaceHandle f) const override { return OpenMesh::Vec3d(normal(f)); }
+
+  OpenMesh::Vec3f normal(VertexHandle) const override { return OpenMesh::Vec3f(0); }
+  OpenMesh::Vec3d normald(VertexHandle) const override { return OpenMesh::Vec3d(0); }
+  OpenMesh::Vec3uc color(VertexHandle) const override { return OpenMesh::Vec3uc(0); }
+  OpenMesh::Vec4uc colorA(VertexHandle) const override { return OpenMesh::Vec4uc(0); }
+  OpenMesh::Vec3ui colori(VertexHandle) const override { return OpenMesh::Vec3ui(0); }
+  OpenMesh::Vec4ui colorAi(VertexHandle) const override { return OpenMesh::Vec4ui(0); }
+  OpenMesh::Vec3f colorf(VertexHandle) const override { return OpenMesh::Vec3f(0); }
+  OpenMesh::Vec4f colorAf(VertexHandle) const override { return OpenMesh::Vec4f(0); }
+  OpenMesh::Vec2f texcoord(VertexHandle) const override { return OpenMesh::Vec2f(0); }
+  OpenMesh::Vec2f texcoord(HalfedgeHandle) const override { return OpenMesh::Vec2f(0); }
+  Status status(VertexHandle) const override { return {}; }
+  HalfedgeHandle getHeh(FaceHandle, VertexHandle) const override { return HalfedgeHandle(); }
+  unsigned int get_face_texcoords(std::vector<OpenMesh::Vec2f>&) const override { return 0; }
+  OpenMesh::Vec3uc color(FaceHandle) const override { return OpenMesh::Vec3uc(0); }
+  OpenMesh::Vec4uc colorA(FaceHandle) const override { return OpenMesh::Vec4uc(0); }
+  OpenMesh::Vec3ui colori(FaceHandle) const override { return OpenMesh::Vec3ui(0); }
+  OpenMesh::Vec4ui colorAi(FaceHandle) const override { return OpenMesh::Vec4ui(0); }
+  OpenMesh::Vec3f colorf(FaceHandle) const override { return OpenMesh::Vec3f(0); }
+  OpenMesh::Vec4f colorAf(FaceHandle) const override { return OpenMesh::Vec4f(0); }
+  Status status(FaceHandle) const override { return {}; }
+  OpenMesh::Vec3uc color(EdgeHandle) const override { return OpenMesh::Vec3uc(0); }
+  OpenMesh::Vec4uc colorA(EdgeHandle) const override { return OpenMesh::Vec4uc(0); }
+  OpenMesh::Vec3ui colori(EdgeHandle) const override { return OpenMesh::Vec3ui(0); }
+  OpenMesh::Vec4ui colorAi(EdgeHandle) const override { return OpenMesh::Vec4ui(0); }
+  OpenMesh::Vec3f colorf(EdgeHandle) const override { return OpenMesh::Vec3f(0); }
+  OpenMesh::Vec4f colorAf(EdgeHandle) const override { return OpenMesh::Vec4f(0); }
+  Status status(EdgeHandle) const override { return {}; }
+  int get_halfedge_id(VertexHandle) override { return -1; }
+  int get_halfedge_id(FaceHandle) override { return -1; }
+  int get_next_halfedge_id(HalfedgeHandle) override { return -1; }
+  int get_to_vertex_id(HalfedgeHandle) override { return -1; }
+  int get_face_id(HalfedgeHandle) override { return -1; }
+  Status status(HalfedgeHandle) const override { return {}; }
+  // The PLY writer looks for further properties here and finds none.
+  const OpenMesh::BaseKernel* kernel() override { return &no_properties_; }
+
+ private:
+  const TriangleMesh& mesh_;
+  const OpenMesh::BaseKernel no_properties_;
+};
+
+// OpenMesh reports on standard output and error; what matters is thrown here.
+class Silence {
+ public:
+  Silence() : log_(omlog().is_enabled()), err_(omerr().is_enabled()) {
+    omlog().disable();
+    omerr().disable();
+  }
+  ~Silence() {
+    if (log_) omlog().enable();
+    if (err_) omerr().enable();
+  }
+  Silence(const Silence&) = delete;
+  Silence& operator=(const Silence&) = delete;
+
+ private:
+  bool log_;
+  bool err_;
+};
+
+// OpenMesh knows no groups: a line "g part" goes in where the part changes.
+std::string with_groups(const std::string& obj, const TriangleMesh& mesh) {
+  std::istringstream lines(obj);
+  std::string grouped;
+  std::size_t face = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("f ")) {
+      const std::uint16_t part = mesh.triangle_part[face];
+      if (face == 0 || part != mesh.triangle_part[face - 1]) grouped += "g " + mesh.part_names[part] + "\n";
+      ++face;
+    }
+    grouped += line + "\n";
+  }
+  return grouped;
+}
+
+}  // namespace
+
+TriangleMesh read_polygons(const PlainPolygons& plain, const std::string& ending, const std::string& file) {
+  const Silence silence;
+  SoupImporter importer(plain, file);
+  OpenMesh::IO::Options options;
+  if (plain.binary) options += OpenMesh::IO::Options::Binary;
+  std::istringstream stream(plain.bytes);
+  if (!OpenMesh::IO::IOManager().read(stream, ending, importer, options)) {
+    throw InputError(fmt::format("{}: OpenMesh could not read it", file));
+  }
+  return importer.take();
+}
+
+std::string polygon_bytes(const TriangleMesh& mesh, const std::string& ending) {
+  constexpr int kDigits = 9;  // enough to give a float32 back
+  const Silence silence;
+  SoupExporter exporter(mesh);
+  OpenMesh::IO::Options options;
+  if (ending != ".obj") options += OpenMesh::IO::Options::Binary;
+  if (ending == ".ply") options += OpenMesh::IO::Options::LSB;
+  std::ostringstream stream;
+  if (!OpenMesh::IO::IOManager().write(stream, ending, exporter, options, kDigits)) {
+    throw WorkError("OpenMesh could not write the mesh");
+  }
+  return ending == ".obj" ? with_groups(stream.str(), mesh) : stream.str();
+}
+
+}  // namespace seaglint

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/geometry/files/triangulate_polygon.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/core/numbers/constants.h"
+
+namespace seaglint {
+namespace {
+
+using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+
+constexpr double kRounding = 2.5e-7;  // of a coordinate: four roundings to float32
+constexpr double kOverlap = 1e-6;     // of a polygon's area, that a triangle of its fan may turn the wrong way by
+
+// Newell's method (Sutherland, Sproull and Schumacker, ACM Computing Surveys 6, 1974, 1-55): twice the area vector.
+Vec3 newell(std::span<const Vec3> corner) {
+  Vec3 normal = Vec3::Zero();
+  for (std::size_t i = 1; i + 1 < corner.size(); ++i)
+    normal += (corner[i] - corner[0]).cross(corner[i + 1] - corner[0]);
+  return normal;
+}
+
+// How far the corners may lie from where they were before rounding, m.
+double rounding_of(std::span<const Vec3> corner) {
+  double farthest = 0;
+  for (const Vec3& p : corner) farthest = std::max(farthest, p.cwiseAbs().maxCoeff());
+  return kRounding * farthest;
+}
+
+// A line, but for rounding.
+bool is_flat(std::span<const Vec3> corner, double rounding) {
+  double extent = 0, height = 0;
+  for (std::size_t i = 1; i < corner.size(); ++i) extent = std::max(extent, (corner[i] - corner[0]).norm());
+  for (std::size_t i = 1; i + 1 < corner.size(); ++i)
+    height = std::max(height, (corner[i] - corner[0]).cross(corner[i + 1] - corner[0]).norm());
+  return height <= rounding * extent;
+}
+
+Triangles fan(std::size_t corners) {
+  Triangles triangles;
+  for (std::uint32_t i = 1; i + 1 < corners; ++i) triangles.push_back({0, i, i + 1});
+  return triangles;
+}
+
+// Triangles that all turn with the polygon cover each point as often as the polygon winds about it, so a fan of such is
+// right unless it goes round more than once.
+bool fan_covers(std::span<const Vec3> corner, const Vec3& area_vector, double rounding) {
+  const Vec3 normal = area_vector.normalized();
+  double sweep = 0;
+  for (std::size_t i = 1; i + 1 < corner.size(); ++i) {
+    const Vec3 a = corner[i] - corner[0], b = corner[i + 1] - corner[0];
+    const double area = normal.dot(a.cross(b));
+    if (area < -rounding * std::max(a.norm(), b.norm()) - kOverlap * area_vector.norm()) return false;
+    sweep += std::atan2(std::max(area, 0.0), a.dot(b));
+  }
+  // Two triangles cannot go round.
+  return corner.size() == 4 || sweep < 2 * kPi;
+}
+
+// Twice the signed area of a triangle in the plane, positive counter-clockwise.
+double turn(const Vec2& a, const Vec2& b, const Vec2& c) {
+  return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+}
+
+// How often the polygon goes counter-clockwise round the point: its crossings of the ray towards +x.
+int winding(const std::vector<Vec2>& corner, const Vec2& p) {
+  int rounds = 0;
+  for (std::size_t i = 0; i < corner.size(); ++i) {
+    const Vec2 &a = corner[i], &b = corner[(i + 1) % corner.size()];
+    if (a.y() <= p.y() && b.y() > p.y() && turn(a, b, p) > 0) ++rounds;
+    if (a.y() > p.y() && b.y() <= p.y() && turn(a, b, p) < 0) --rounds;
+  }
+  return rounds;
+}
+
+// What may be clipped, the better first; the last two only where nothing better is left.
+enum class Ear { kClear, kTouched, kFlat };
+
+// Clips ears, of which every simple polygon has two (Meisters, American Mathematical Monthly 82, 1975, 648-651; Eberly,
+// Triangulation by Ear Clipping, 1998).
+class EarClipper {
+ public:
+  EarClipper(std::vector<Vec2> corner, double rounding)
+      : corner_(std::move(corner)), rounding_(rounding), left_(corner_.size()) {
+    for (std::uint32_t i = 0; i < left_.size(); ++i) left_[i] = i;
+  }
+
+  // Empty where no ear is left or what was clipped is no part of the polygon, as happens to those that cross
+  // themselves.
+  Triangles clip() {
+    Triangles triangles;
+    // Each round tries every corner once; polygons rarely need more than a few rounds per kind.
+    std::size_t tries = 64 * left_.size(), fruitless = 0, at = 0;
+    Ear kind = Ear::kClear;
+    while (left_.size() > 3) {
+      if (tries-- == 0) return {};
+      if (fruitless++ == left_.size()) {
+        if (kind == Ear::kFlat) return {};
+        kind = kind == Ear::kClear ? Ear::kTouched : Ear::kFlat;
+        fruitless = 1;
+      }
+      at %= left_.size();
+      if (!is_ear(at, kind)) {
+        ++at;
+        continue;
+      }
+      triangles.push_back(triangle(at));
+      left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(at));
+      // The corners beside it may be ears now.
+      at = (at + left_.size() - 1) % left_.size();
+      fruitless = 0;
+      kind = Ear::kClear;
+    }
+    triangles.push_back(triangle(1));
+    for (const auto& [a, b, c] : triangles) {
+      const double area = turn(corner_[a], corner_[b], corner_[c]),
+                   least = least_area(corner_[a], corner_[b], corner_[c]);
+      if (area < -least) return {};
+      if (area > least && winding(corner_, (corner_[a] + corner_[b] + corner_[c]) / 3) != 1) return {};
+    }
+    return triangles;
+  }
+
+ private:
+  std::array<std::uint32_t, 3> triangle(std::size_t at) const {
+    const std::size_t n = left_.size();
+    return {left_[(at + n - 1) % n], left_[at], left_[(at + 1) % n]};
+  }
+
+  // Twice the area that rounding may feign, m^2.
+  double least_area(const Vec2& a, const Vec2& b, const Vec2& c) const {
+    return rounding_ * std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+  }
+
+  bool is_ear(std::size_t at, Ear kind) const {
+    const auto [i, j, k] = triangle(at);
+    const Vec2 &a = corner_[i], &b = corner_[j], &c = corner_[k];
+    const double area = turn(a, b, c), least = least_area(a, b, c);
+    if (kind == Ear::kFlat) return std::abs(area) <= least;
+    if (area <= least) return false;
+    // A corner on the ear's rim would be left on a side that ends elsewhere.
+    const double margin = kind == Ear::kClear ? -rounding_ : rounding_;
+    const auto inside = [&](const Vec2& from, const Vec2& to, const Vec2& p) {
+      return turn(from, to, p) > margin * (to - from).norm();
+    };
+    return std::none_of(left_.begin(), left_.end(), [&](std::uint32_t other) {
+      const Vec2& p = corner_[other];
+      if (p == a || p == b || p == c) return false;
+      return inside(a, b, p) && inside(b, c, p) && inside(c, a, p);
+    });
+  }
+
+  std::vector<Vec2> corner_;
+  double rounding_;  // m
+  std::vector<std::uint32_t> left_;
+};
+
+}  // namespace
+
+std::optional<Triangles> split_polygon(std::span<const Vec3> corner) {
+  const Vec3 area = newell(corner);
+  const double rounding = rounding_of(corner);
+  if (corner.size() == 3 || is_flat(corner, rounding)) return fan(corner.size());
+  if (!(area.norm() > 0)) return std::nullopt;
+  if (fan_covers(corner, area, rounding)) return fan(corner.size());
+  if (corner.size() > kMostConcaveCorners) return std::nullopt;
+
+  // Into the plane, with the normal towards the viewer.
+  const Vec3 normal = area.normalized(), right = normal.unitOrthogonal(), up = normal.cross(right);
+  std::vector<Vec2> flat;
+  for (const Vec3& p : corner) flat.emplace_back((p - corner[0]).dot(right), (p - corner[0]).dot(up));
+  Triangles triangles = EarClipper(std::move(flat), rounding).clip();
+  if (triangles.empty()) return std::nullopt;
+  return triangles;
+}
+
+std::string unsplit_polygon(std::size_t corners) {
+  if (corners > kMostConcaveCorners)
+    return fmt::format("a polygon of {} corners that is no fan: {} at most, cut it into triangles", corners,
+                       kMostConcaveCorners);
+  return fmt::format("a polygon of {} corners that crosses itself: cut it into triangles", corners);
+}
+
+}  // namespace seaglint

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// Collects triangles part by part into a mesh; what every generator and reader writes into.
+
+#include <string>
+#include <unordered_map>
+
+#include "sim/geometry/mesh/triangle_mesh.h"
+
+namespace seaglint {
+
+class MeshBuilder {
+ public:
+  // Triangles that follow belong to this part or material; a name that was used before is continued.
+  void begin_part(const std::string& name);
+  void begin_material(const std::string& name);
+
+  std::uint32_t vertex(const Vec3& position);
+
+  // Corners counter-clockwise seen from outside.
+  void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
+  // Two triangles a b c, a c d.
+  void quad(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d);
+
+  std::size_t part_count() const { return mesh_.part_names.size(); }
+  std::size_t triangle_count() const { return mesh_.triangles.size(); }
+  const std::vector<Vec3>& vertices() const { return mesh_.vertices; }
+
+  TriangleMesh take();
+
+ private:
+  TriangleMesh mesh_;
+  std::unordered_map<std::string, std::size_t> part_of_name_, material_of_name_;
+  std::uint16_t part_ = 0;
+  std::uint16_t material_ = 0;
+};
+
+}  // namespace seaglint

@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/geometry/mesh/mesh_diagnostics.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include "sim/geometry/mesh/disjoint_sets.h"
+
+namespace seaglint {
+namespace {
+
+// The corners in ascending order, and whether the triangle runs through them in an even permutation.
+struct Corners {
+  std::array<std::uint32_t, 3> sorted;
+  bool even;
+  std::uint32_t triangle;
+};
+
+Corners corners_of(const TriangleMesh& mesh, std::uint32_t triangle) {
+  Corners c{mesh.triangles[triangle], true, triangle};
+  for (const auto& [i, j] : {std::pair{0, 1}, {1, 2}, {0, 1}}) {
+    if (c.sorted[i] > c.sorted[j]) {
+      std::swap(c.sorted[i], c.sorted[j]);
+      c.even = !c.even;
+    }
+  }
+  return c;
+}
+
+std::span<const EdgeUse> uses_of(const Topology& topology, const MeshEdge& edge) {
+  return {topology.uses.data() + edge.first_use, edge.use_count};
+}
+
+struct Diagnosis {
+  MeshHealth health;
+  std::vector<char> drop;  // degenerate or a copy
+  std::vector<char> turn;  // of an inverted surface
+};
+
+// Marks what is there more than once. Returned are the backs of another material than their fronts, front and back.
+std::vector<std::array<std::uint32_t, 2>> find_copies(const TriangleMesh& mesh, Diagnosis& d) {
+  std::vector<Corners> all;
+  all.reserve(mesh.triangles.size());
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (!d.drop[t]) all.push_back(corners_of(mesh, t));
+  }
+  std::sort(all.begin(), all.end(), [](const Corners& a, const Corners& b) {
+    return a.sorted != b.sorted ? a.sorted < b.sorted : a.triangle < b.triangle;
+  });
+  std::vector<std::array<std::uint32_t, 2>> backs;
+  for (std::size_t i = 0; i < all.size();) {
+    // The first stays; what faces the same way repeats it, what faces the other way is its back.
+    const Corners& front = all[i];
+    bool has_back = false;
+    std::size_t next = i + 1;
+    for (; next < all.size() && all[next].sorted == front.sorted; ++next) {
+      const Corners& copy = all[next];
+      const bool differs =
+          copy.even != front.even && mesh.triangle_material[copy.triangle] != mesh.triangle_material[front.triangle];
+      if (differs && !has_back) {
+        backs.push_back({front.triangle, copy.triangle});
+        has_back = true;
+      } else {
+        d.drop[copy.triangle] = 1;
+        ++(copy.even == front.even ? d.health.repeated : d.health.two_sided);
+      }
+    }
+    i = next;
+  }
+  return backs;
+}
+
+// The edges as they are once dropped triangles are gone.
+Topology remaining(Topology topology, const std::vector<char>& drop) {
+  std::vector<EdgeUse> uses;
+  for (MeshEdge& edge : topology.edges) {
+    const auto first = static_cast<std::uint32_t>(uses.size());
+    for (const EdgeUse& use : uses_of(topology, edge)) {
+      if (!drop[use.triangle]) uses.push_back(use);
+    }
+    edge.first_use = first;
+    edge.use_count = static_cast<std::uint32_t>(uses.size()) - first;
+  }
+  topology.uses = std::move(uses);
+  std::erase_if(topology.edges, [](const MeshEdge& edge) { return edge.use_count == 0; });
+  return topology;
+}
+
+bool is_mixed(std::span<const EdgeUse> uses) { return uses.size() == 2 && uses[0].forward == uses[1].forward; }
+
+// At the root of each set of triangles: does any edge remain that its own triangles do not run through as often in
+// either direction?
+std::vector<char> unclosed(const Topology& topology, std::size_t triangles, DisjointSets& sets) {
+  std::vector<char> open(triangles, 0);
+  std::vector<EdgeUse> uses;
+  for (const MeshEdge& edge : topology.edges) {
+    const auto all = uses_of(topology, edge);
+    uses.assign(all.begin(), all.end());
+    std::sort(uses.begin(), uses.end(),
+              [&](const EdgeUse& a, const EdgeUse& b) { return sets.root(a.triangle) < sets.root(b.triangle); });
+    for (std::size_t i = 0; i < uses.size();) {
+      const std::uint32_t root = sets.root(uses[i].triangle);
+      int balance = 0;
+      for (; i < uses.size() && sets.root(uses[i].triangle) == root; ++i) balance += uses[i].forward ? 1 : -1;
+      if (balance != 0) open[root] = 1;
+    }
+  }
+  return open;
+}
+
+// A sheet of two materials needs both its sides. The solver tells them apart where what hangs together with them is
+// closed; elsewhere it looks at either side of every triangle, and the first of two that coincide hides the other from
+// both.
+void choose_backs(const TriangleMesh& mesh, const Topology& topology,
+                  std::span<const std::array<std::uint32_t, 2>> backs, Diagnosis& d) {
+  if (backs.empty()) return;
+  const Topology left = remaining(topology, d.drop);
+  DisjointSets sets(mesh.triangles.size());
+  for (const MeshEdge& edge : left.edges) {
+    for (const EdgeUse& use : uses_of(left, edge)) sets.join(left.uses[edge.first_use].triangle, use.triangle);
+  }
+  const std::vector<char> open = unclosed(left, mesh.triangles.size(), sets);
+  for (const auto& [front, back] : backs) {
+    if (!open[sets.root(front)]) {
+      ++d.health.other_sides;
+      continue;
+    }
+    d.drop[back] = 1;
+    if (d.health.lost_sides++ == 0) {
+      d.health.lost_part = mesh.part_names[mesh.triangle_part[back]];
+      d.health.lost_behind = mesh.part_names[mesh.triangle_part[front]];
+    }
+  }
+}
+
+Diagnosis diagnose(const TriangleMesh& mesh) {
+  const std::size_t count = mesh.triangles.size();
+  Diagnosis d;
+  d.drop.assign(count, 0);
+  d.turn.assign(count, 0);
+  d.health.triangles = count;
+  Topology topology = topology_of(mesh);
+  for (const std::uint32_t t : topology.degenerate) d.drop[t] = 1;
+  d.health.degenerate = topology.degenerate.size();
+  const auto backs = find_copies(mesh, d);
+  choose_backs(mesh, topology, backs, d);
+  topology = remaining(std::move(topology), d.drop);
+
+  // Only an edge of two says which triangles go on in each other.
+  DisjointSets sets(count);
+  for (const MeshEdge& edge : topology.edges) {
+    const auto uses = uses_of(topology, edge);
+    if (uses.size() == 2) sets.join(uses[0].triangle, uses[1].triangle);
+    if (uses.size() == 1) ++d.health.open_edges;
+    if (is_mixed(uses)) ++d.health.mixed_edges;
+    if (uses.size() > 2) ++d.health.non_manifold_edges;
+  }
+  // What is closed by that is a body of its own and may touch others along edges. What is not hangs together there, and
+  // may be closed as a whole.
+  const std::vector<char> ends = unclosed(topology, count, sets);
+  DisjointSets joined = sets;
+  for (const MeshEdge& edge : topology.edges) {
+    std::uint32_t first = kNoIndex;
+    for (const EdgeUse& use : uses_of(topology, edge)) {
+      if (!ends[sets.root(use.triangle)]) continue;
+      if (first == kNoIndex) first = use.triangle;
+      joined.join(first, use.triangle);
+    }
+  }
+  const std::vector<char> open = unclosed(topology, count, joined);
+  std::vector<char> has_rim(count, 0);
+  for (const MeshEdge& edge : topology.edges) {
+    const auto uses = uses_of(topology, edge);
+    if (uses.size() == 1 || is_mixed(uses)) has_rim[joined.root(uses[0].triangle)] = 1;
+  }
+
+  struct Surface {
+    bool open = false;
+    double volume = 0, area = 0;
+    std::size_t triangles = 0;
+  };
+  std::vector<Surface> surfaces(count);  // at their root
+  // Volumes about a point of the mesh: far from the origin the divergence theorem's terms would cancel badly.
+  const Bounds box = bounds(mesh);
+  const Vec3 centre = (box.lower + box.upper) / 2;
+  for (std::uint32_t t = 0; t < count; ++t) {
+    if (d.drop[t]) continue;
+    Surface& surface = surfaces[joined.root(t)];
+    surface.open = open[joined.root(t)];
+    const Vec3 area = area_vector(mesh, t);
+    surface.volume += (mesh.vertices[mesh.triangles[t][0]] - centre).dot(area) / 3;
+    surface.area += area.norm();
+    ++surface.triangles;
+  }
+  // Rounding of what encloses nothing.
+  constexpr double kLeastVolume = 1e-9;  // of size times area
+  const double size = (box.upper - box.lower).norm();
+  const auto inverted = [&](const Surface& s) { return !s.open && s.volume < -kLeastVolume * size * s.area; };
+  for (std::uint32_t root = 0; root < count; ++root) {
+    const Surface& surface = surfaces[root];
+    if (surface.triangles == 0) continue;
+    ++d.health.surfaces;
+    d.health.open_surfaces += surface.open;
+    d.health.branching_surfaces += surface.open && !has_rim[root];
+    if (!inverted(surface)) continue;
+    ++d.health.inverted_surfaces;
+    d.health.inverted_triangles += surface.triangles;
+  }
+  for (std::uint32_t t = 0; t < count; ++t) d.turn[t] = !d.drop[t] && inverted(surfaces[joined.root(t)]);
+  return d;
+}
+
+std::string counted(std::size_t n, const char* one, const char* many) {
+  return fmt::format("{} {}", n, n == 1 ? one : many);
+}
+
+}  // namespace
+
+MeshHealth examine(const TriangleMesh& mesh) { return diagnose(mesh).health; }
+
+std::vector<std::string> findings(const MeshHealth& h) {
+  std::vector<std::string> found;
+  if (h.degenerate > 0) found.push_back(counted(h.degenerate, "triangle has", "triangles have") + " no area: left out");
+  if (h.repeated > 0)
+    found.push_back(counted(h.repeated, "triangle repeats", "triangles repeat") + " another: left out");
+  if (h.inverted_surfaces > 0) {
+    found.push_back(fmt::format("{} inside out ({}): turned outwards",
+                                counted(h.inverted_surfaces, "closed surface is", "closed surfaces are"),
+                                counted(h.inverted_triangles, "triangle", "triangles")));
+  }
+  if (h.open_edges > 0) {
+    found.push_back(
+        fmt::format("{}; {} of {} surfaces are open: holes, or sheets, seen from both sides and through their holes",
+                    counted(h.open_edges, "open edge", "open edges"), h.open_surfaces, h.surfaces));
+  }
+  if (h.mixed_edges > 0) {
+    found.push_back(counted(h.mixed_edges, "edge has", "edges have") +
+                    " neighbours that face opposite ways: their surfaces are taken as sheets, seen from both sides");
+  }
+  if (h.non_manifold_edges > 0) {
+    found.push_back(
+        counted(h.non_manifold_edges, "edge has", "edges have") + " three triangles or more" +
+        (h.branching_surfaces == 0
+             ? std::string()
+             : fmt::format("; {} there: no telling which side is inside, taken as sheets, seen from both sides",
+                           counted(h.branching_surfaces, "surface that branches", "surfaces that branch"))));
+  }
+  if (h.two_sided > 0)
+    found.push_back(counted(h.two_sided, "triangle is", "triangles are") +
+                    " the back of another: left out, a sheet of one material is seen from both sides");
+  if (h.lost_sides > 0) {
+    found.push_back(
+        fmt::format("{} the back of another in another material, the first of them of part '{}' behind part '{}': left "
+                    "out, their surfaces are open; "
+                    "both sides answer as the front does",
+                    counted(h.lost_sides, "triangle is", "triangles are"), h.lost_part, h.lost_behind));
+  }
+  return found;
+}
+
+TriangleMesh repaired(const TriangleMesh& mesh) {
+  const Diagnosis d = diagnose(mesh);
+  TriangleMesh result = mesh;
+  result.triangles.clear();
+  result.triangle_part.clear();
+  result.triangle_material.clear();
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (d.drop[t]) continue;
+    auto triangle = mesh.triangles[t];
+    if (d.turn[t]) std::swap(triangle[1], triangle[2]);
+    result.triangles.push_back(triangle);
+    result.triangle_part.push_back(mesh.triangle_part[t]);
+    result.triangle_material.push_back(mesh.triangle_material[t]);
+  }
+  return result;
+}
+
+}  // namespace seaglint

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/geometry/mesh/topology.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/core/numbers/constants.h"
+#include "sim/core/process/error.h"
+
+namespace seaglint {
+namespace {
+
+constexpr double kLeastHeightRatio =
+    1e-9;  // height over longest side; float32 positions of a 100 m target resolve 1e-7
+
+struct Side {
+  std::array<std::uint32_t, 2> vertices;
+  EdgeUse use;
+};
+
+bool is_degenerate(const TriangleMesh& mesh, std::size_t triangle) {
+  const auto& [a, b, c] = mesh.triangles[triangle];
+  if (a == b || b == c || c == a) return true;
+  const Vec3 &p = mesh.vertices[a], &q = mesh.vertices[b], &r = mesh.vertices[c];
+  const double longest2 = std::max({(q - p).squaredNorm(), (r - q).squaredNorm(), (p - r).squaredNorm()});
+  return !(2.0 * area_vector(mesh, triangle).norm() > kLeastHeightRatio * longest2);
+}
+
+std::vector<Side> sides_in_edge_order(const TriangleMesh& mesh) {
+  std::vector<Side> sides;
+  sides.reserve(3 * mesh.triangles.size());
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (std::uint8_t i = 0; i < 3; ++i) {
+      const std::uint32_t from = mesh.triangles[t][i], to = mesh.triangles[t][(i + 1) % 3];
+      SEAGLINT_CHECK(from < mesh.vertices.size(), fmt::format("triangle {} names vertex {}", t, from));
+      if (from == to) continue;
+      sides.push_back({{std::min(from, to), std::max(from, to)}, {t, i, from < to}});
+    }
+  }
+  std::stable_sort(sides.begin(), sides.end(), [](const Side& l, const Side& r) { return l.vertices < r.vertices; });
+  return sides;
+}
+
+EdgeKind kind_of(const std::vector<EdgeUse>& uses, const MeshEdge& edge) {
+  if (edge.use_count == 1) return EdgeKind::kBoundary;
+  if (edge.use_count > 2) return EdgeKind::kNonManifold;
+  return uses[edge.first_use].forward == uses[edge.first_use + 1].forward ? EdgeKind::kInconsistent
+                                                                          : EdgeKind::kManifold;
+}
+
+// A part without boundary as a chain: along each of its edges the forward and backward runs of its own triangles
+// cancel.
+std::vector<bool> closed_parts(const TriangleMesh& mesh, const Topology& topology) {
+  std::vector<bool> closed(mesh.part_names.size(), false);
+  for (std::uint16_t part : mesh.triangle_part) closed[part] = true;
+  std::vector<std::pair<std::uint16_t, int>> balance;
+  for (const MeshEdge& edge : topology.edges) {
+    balance.clear();
+    for (std::uint32_t u = edge.first_use; u < edge.first_use + edge.use_count; ++u) {
+      const EdgeUse& use = topology.uses[u];
+      const std::uint16_t part = mesh.triangle_part[use.triangle];
+      auto place = std::find_if(balance.begin(), balance.end(), [&](const auto& entry) { return entry.first == part; });
+      if (place == balance.end()) place = balance.insert(place, {part, 0});
+      place->second += use.forward ? 1 : -1;
+    }
+    for (const auto& [part, sum] : balance) {
+      if (sum != 0) closed[part] = false;
+    }
+  }
+  return closed;
+}
+
+}  // namespace
+
+std::size_t Topology::count(EdgeKind kind) const {
+  return static_cast<std::size_t>(
+      std::count_if(edges.begin(), edges.end(), [&](const MeshEdge& edge) { return edge.kind == kind; }));
+}
+
+Topology topology_of(const TriangleMesh& mesh) {
+  Topology topology;
+  topology.triangle_edges.assign(mesh.triangles.size(), {kNoIndex, kNoIndex, kNoIndex});
+  topology.neighbours.assign(mesh.triangles.size(), {kNoIndex, kNoIndex, kNoIndex});
+
+  // Sides with the same two vertices are one edge.
+  for (const Side& side : sides_in_edge_order(mesh)) {
+    if (topology.edges.empty() || topology.edges.back().vertices != side.vertices) {
+      topology.edges.push_back(
+          {side.vertices, EdgeKind::kManifold, static_cast<std::uint32_t>(topology.uses.size()), 0});
+    }
+    ++topology.edges.back().use_count;
+    topology.uses.push_back(side.use);
+    topology.triangle_edges[side.use.triangle][side.use.side] = static_cast<std::uint32_t>(topology.edges.size() - 1);
+  }
+
+  for (MeshEdge& edge : topology.edges) {
+    edge.kind = kind_of(topology.uses, edge);
+    if (edge.kind != EdgeKind::kManifold) continue;
+    const EdgeUse &first = topology.uses[edge.first_use], &second = topology.uses[edge.first_use + 1];
+    topology.neighbours[first.triangle][first.side] = second.triangle;
+    topology.neighbours[second.triangle][second.side] = first.triangle;
+  }
+
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (is_degenerate(mesh, t)) topology.degenerate.push_back(t);
+  }
+  topology.part_closed = closed_parts(mesh, topology);
+  return topology;
+}
+
+double turning_angle(const TriangleMesh& mesh, const Topology& topology, std::uint32_t edge_index) {
+  const MeshEdge& edge = topology.edges[edge_index];
+  SEAGLINT_CHECK(edge.kind == EdgeKind::kManifold, fmt::format("edge {} has {} triangles", edge_index, edge.use_count));
+  const EdgeUse& use = topology.uses[edge.first_use];
+  const EdgeUse& other = topology.uses[edge.first_use + 1];
+
+  // With t along the edge as the first triangle runs, its face lies to the left; a convex edge turns its normal about t
+  // by a positive angle into the second one's.
+  const auto& corners = mesh.triangles[use.triangle];
+  const Vec3 t = (mesh.vertices[corners[(use.side + 1) % 3]] - mesh.vertices[corners[use.side]]).normalized();
+  const Vec3 n1 = area_vector(mesh, use.triangle).normalized();
+  const Vec3 n2 = area_vector(mesh, other.triangle).normalized();
+  return std::atan2(n1.cross(n2).dot(t), n1.dot(n2));
+}
+
+std::vector<Wedge> wedges(const TriangleMesh& mesh, const Topology& topology, double least_turn) {
+  const auto usable = [&](std::uint32_t triangle) {
+    return !std::binary_search(topology.degenerate.begin(), topology.degenerate.end(), triangle);
+  };
+  std::vector<Wedge> found;
+  for (std::uint32_t e = 0; e < topology.edges.size(); ++e) {
+    const MeshEdge& edge = topology.edges[e];
+    const std::uint32_t first = topology.uses[edge.first_use].triangle;
+    if (edge.kind == EdgeKind::kBoundary && usable(first)) {
+      found.push_back({e, {first, kNoIndex}, 2.0 * kPi});
+    } else if (edge.kind == EdgeKind::kManifold) {
+      const std::uint32_t second = topology.uses[edge.first_use + 1].triangle;
+      if (!usable(first) || !usable(second)) continue;
+      const double turn = turning_angle(mesh, topology, e);
+      if (std::abs(turn) > least_turn) found.push_back({e, {first, second}, kPi + turn});
+    }
+  }
+  return found;
+}
+
+}  // namespace seaglint

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/geometry/mesh/triangle_mesh.h"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <limits>
+#include <unordered_map>
+
+#include "sim/core/process/error.h"
+
+namespace seaglint {
+namespace {
+
+constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
+
+// Index of `name` in `names`, added at the end when it is new.
+template <typename Item, typename NameOf>
+std::uint16_t matched(std::vector<Item>& items, const Item& item, NameOf name_of) {
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (name_of(items[i]) == name_of(item)) return static_cast<std::uint16_t>(i);
+  }
+  SEAGLINT_CHECK(items.size() < std::numeric_limits<std::uint16_t>::max(), fmt::format("{} names", items.size()));
+  items.push_back(item);
+  return static_cast<std::uint16_t>(items.size() - 1);
+}
+
+struct PositionHash {
+  std::size_t operator()(const std::array<std::uint64_t, 3>& bits) const {
+    std::uint64_t hash = 0x9e3779b97f4a7c15u;
+    for (std::uint64_t word : bits) {
+      hash = (hash ^ word) * 0xff51afd7ed558ccdu;
+      hash ^= hash >> 32;
+    }
+    return static_cast<std::size_t>(hash);
+  }
+};
+
+// Adding zero turns -0 into +0, so that both are one position.
+std::array<std::uint64_t, 3> position_bits(const Vec3& p) {
+  return {std::bit_cast<std::uint64_t>(p.x() + 0.0), std::bit_cast<std::uint64_t>(p.y() + 0.0),
+          std::bit_cast<std::uint64_t>(p.z() + 0.0)};
+}
+
+}  // namespace
+
+void TriangleMesh::append(const TriangleMesh& other) {
+  std::vector<std::uint16_t> part;
+  for (const std::string& name : other.part_names) {
+    part.push_back(matched(part_names, name, [](const std::string& n) -> const std::string& { return n; }));
+  }
+  std::vector<std::uint16_t> material;
+  for (const Material& m : other.materials) {
+    material.push_back(matched(materials, m, [](const Material& n) -> const std::string& { return n.name; }));
+  }
+
+  SEAGLINT_CHECK(vertices.size() + other.vertices.size() < kUnused, fmt::format("{} vertices", vertices.size()));
+  const auto base = static_cast<std::uint32_t>(vertices.size());
+  vertices.insert(vertices.end(), other.vertices.begin(), other.vertices.end());
+  for (std::size_t t = 0; t < other.triangles.size(); ++t) {
+    const auto& [a, b, c] = other.triangles[t];
+    triangles.push_back({base + a, base + b, base + c});
+    triangle_part.push_back(part[other.triangle_part[t]]);
+    triangle_material.push_back(material[other.triangle_material[t]]);
+  }
+}
+
+Bounds bounds(const TriangleMesh& mesh) {
+  if (mesh.triangles.empty()) return {};
+  Bounds box{mesh.vertices[mesh.triangles[0][0]], mesh.vertices[mesh.triangles[0][0]]};
+  for (const auto& triangle : mesh.triangles) {
+    for (std::uint32_t v : triangle) {
+      box.lower = box.lower.cwiseMin(mesh.vertices[v]);
+      box.upper = box.upper.cwiseMax(mesh.vertices[v]);
+    }
+  }
+  return box;
+}
+
+Vec3 area_vector(const TriangleMesh& mesh, std::size_t triangle) {
+  const auto& [a, b, c] = mesh.triangles[triangle];
+  const Vec3& p = mesh.vertices[a];
+  return 0.5 * (mesh.vertices[b] - p).cross(mesh.vertices[c] - p);
+}
+
+double surface_area(const TriangleMesh& mesh) {
+  double sum = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) sum += area_vector(mesh, t).norm();
+  return sum;
+}
+
+double enclosed_volume(const TriangleMesh& mesh) {
+  double sum = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    sum += mesh.vertices[mesh.triangles[t][0]].dot(area_vector(mesh, t)) / 3.0;
+  }
+  return sum;
+}
+
+TriangleMesh transformed(const TriangleMesh& mesh, const Mat3& rotation, const Vec3& translation) {
+  TriangleMesh moved = mesh;
+  for (Vec3& p : moved.vertices) p = rotation * p + translation;
+  return moved;
+}
+
+TriangleMesh welded(const TriangleMesh& mesh) {
+  TriangleMesh result = mesh;
+  result.vertices.clear();
+  std::unordered_map<std::array<std::uint64_t, 3>, std::uint32_t, PositionHash> index;
+  index.reserve(mesh.vertices.size());
+  for (auto& triangle : result.triangles) {
+    for (std::uint32_t& v : triangle) {
+      const Vec3& p = mesh.vertices[v];
+      const auto [place, is_new] =
+          index.try_emplace(position_bits(p), static_cast<std::uint32_t>(result.vertices.size()));
+      if (is_new) result.vertices.push_back(p);
+      v = place->second;
+    }
+  }
+  return result;
+}
+
+TriangleMesh part_of(const TriangleMesh& mesh, std::size_t part) {
+  TriangleMesh result;
+  result.part_names = {mesh.part_names.at(part)};
+  result.materials = mesh.materials;
+  std::vector<std::uint32_t> index(mesh.vertices.size(), kUnused);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (mesh.triangle_part[t] != part) continue;
+    std::array<std::uint32_t, 3> triangle{};
+    for (int i = 0; i < 3; ++i) {
+      const std::uint32_t v = mesh.triangles[t][i];
+      if (index[v] == kUnused) {
+        index[v] = static_cast<std::uint32_t>(result.vertices.size());
+        result.vertices.push_back(mesh.vertices[v]);
+      }
+      triangle[i] = index[v];
+    }
+    result.triangles.push_back(triangle);
+    result.triangle_part.push_back(0);
+    result.triangle_material.push_back(mesh.triangle_material[t]);
+  }
+  return result;
+}
+
+}  // namespace seaglint

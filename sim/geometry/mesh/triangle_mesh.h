@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// The project's own indexed triangle mesh. It holds any triangle soup, non-manifold ones too; topology is asked of it,
+// never demanded.
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "sim/core/numbers/linear.h"
+
+namespace seaglint {
+
+struct Material {
+  std::string name = "pec";  // perfect electric conductor; what other names mean is said by material files
+};
+
+// Lengths in metres, body frame (CONVENTIONS.md): x forward, y to port, z up. Triangles are counter-clockwise seen from
+// outside.
+struct TriangleMesh {
+  std::vector<Vec3> vertices;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<std::uint16_t> triangle_part;      // index into part_names, one per triangle
+  std::vector<std::uint16_t> triangle_material;  // index into materials, one per triangle
+  std::vector<std::string> part_names;
+  std::vector<Material> materials;
+
+  // Appends a mesh as it is (its parts and materials are matched by name).
+  void append(const TriangleMesh& other);
+};
+
+struct Bounds {
+  Vec3 lower = Vec3::Zero();
+  Vec3 upper = Vec3::Zero();
+};
+// Of the vertices that triangles use; zero for a mesh without triangles.
+Bounds bounds(const TriangleMesh& mesh);
+
+// Half the cross product of two sides: the direction is the outward normal, the length the area in m^2.
+Vec3 area_vector(const TriangleMesh& mesh, std::size_t triangle);
+
+// Sum of the triangles' areas, m^2.
+double surface_area(const TriangleMesh& mesh);
+
+// Divergence theorem, V = 1/3 sum x.A: the volume of a closed mesh in m^3, positive when its triangles face outwards.
+double enclosed_volume(const TriangleMesh& mesh);
+
+// The mesh moved by p -> R p + t.
+TriangleMesh transformed(const TriangleMesh& mesh, const Mat3& rotation, const Vec3& translation);
+
+// The same triangles with vertices at identical positions merged (and unused ones dropped), vertices in order of first
+// use. Files repeat a vertex for every triangle (STL) or normal (glTF); topology needs it once.
+TriangleMesh welded(const TriangleMesh& mesh);
+
+// The triangles of one part alone, its vertices renumbered; `part` indexes part_names.
+TriangleMesh part_of(const TriangleMesh& mesh, std::size_t part);
+
+}  // namespace seaglint

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/geometry/mesh/waterline.h"
+
+#include <algorithm>
+#include <array>
+
+namespace seaglint {
+namespace {
+
+// Of the mesh's largest coordinate, within which a corner lies in the surface: sixteen roundings to float32, which
+// files keep.
+constexpr double kInSurface = 1e-6;
+
+}  // namespace
+
+WaterlineCut cut_at_waterline(const TriangleMesh& mesh, double height) {
+  WaterlineCut cut;
+  cut.mesh = mesh;
+  cut.mesh.triangles.clear();
+  cut.mesh.triangle_part.clear();
+  cut.mesh.triangle_material.clear();
+  const Bounds box = bounds(mesh);
+  const double margin = kInSurface * std::max(box.lower.cwiseAbs().maxCoeff(), box.upper.cwiseAbs().maxCoeff());
+  const auto above = [&](std::uint32_t v) { return cut.mesh.vertices[v].z() > height + margin; };
+  // Always from the lower end, so that both triangles of an edge get the same point; that end itself where it touches
+  // the surface.
+  const auto crossing = [&](std::uint32_t a, std::uint32_t b) {
+    const std::uint32_t lower = above(a) ? b : a;
+    const Vec3 low = cut.mesh.vertices[lower], high = cut.mesh.vertices[above(a) ? a : b];
+    if (low.z() >= height - margin) return lower;
+    Vec3 point = low + (height - low.z()) / (high.z() - low.z()) * (high - low);
+    point.z() = height;
+    cut.mesh.vertices.push_back(point);
+    return static_cast<std::uint32_t>(cut.mesh.vertices.size() - 1);
+  };
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto add = [&](const std::array<std::uint32_t, 3>& triangle, bool below) {
+      if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0]) return;
+      cut.mesh.triangles.push_back(triangle);
+      if (!mesh.triangle_part.empty()) cut.mesh.triangle_part.push_back(mesh.triangle_part[t]);
+      if (!mesh.triangle_material.empty()) cut.mesh.triangle_material.push_back(mesh.triangle_material[t]);
+      cut.below.push_back(below);
+    };
+    const auto& corner = mesh.triangles[t];
+    const int dry = above(corner[0]) + above(corner[1]) + above(corner[2]);
+    if (dry == 0 || dry == 3) {
+      add(corner, dry == 0);
+      continue;
+    }
+    // The corner that lies alone on its side comes first.
+    int first = 0;
+    while (above(corner[first]) != (dry == 1)) ++first;
+    const std::uint32_t a = corner[first], b = corner[(first + 1) % 3], c = corner[(first + 2) % 3];
+    const std::uint32_t ab = crossing(a, b), ac = crossing(a, c);
+    add({a, ab, ac}, dry == 2);
+    add({ab, b, c}, dry == 1);
+    add({ab, c, ac}, dry == 1);
+  }
+  return cut;
+}
+
+}  // namespace seaglint

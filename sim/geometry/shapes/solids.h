@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// Closed solids with outward faces, added to a mesh under construction; what ships are built from. Lengths in metres.
+
+#include <vector>
+
+#include "sim/geometry/mesh/mesh_builder.h"
+
+namespace seaglint {
+
+// Where a solid stands: its local axes are the columns of R, its local origin is p.
+struct Pose {
+  Vec3 p = Vec3::Zero();
+  Mat3 R = Mat3::Identity();
+
+  Vec3 operator*(const Vec3& local) const { return p + R * local; }
+  Pose operator*(const Pose& inner) const { return {p + R * inner.p, R * inner.R}; }
+};
+
+// Upright at p, turned by yaw (radians, about z).
+Pose upright(const Vec3& p, double yaw = 0);
+
+// Box with its base centred on the pose's origin: |x| <= size.x/2, |y| <= size.y/2, 0 <= z <= size.z.
+void add_box(MeshBuilder& builder, const Pose& pose, const Vec3& size);
+
+// Frustum between two convex rings of equally many corners, counter-clockwise seen from above, the upper above the
+// lower.
+void add_frustum(MeshBuilder& builder, const std::vector<Vec3>& lower, const std::vector<Vec3>& upper);
+
+// Capped cone or cylinder of `sides` faces from one point to another.
+void add_cone(MeshBuilder& builder, const Vec3& from, const Vec3& to, double radius_from, double radius_to, int sides);
+
+// Prism of square section whose axis runs from one point to another; a side face looks up where the axis allows.
+void add_bar(MeshBuilder& builder, const Vec3& from, const Vec3& to, double width);
+
+// Plate of the given convex outline (counter-clockwise about the normal), `thickness` deep, its outline on the front.
+void add_plate(MeshBuilder& builder, const std::vector<Vec3>& outline, double thickness);
+
+// Box of `size` as in add_box whose face at +x is open: walls of `wall` around a hollow with eight inner right-angled
+// corners.
+void add_open_box(MeshBuilder& builder, const Pose& pose, const Vec3& size, double wall);
+
+// Three plates that meet at right angles in the pose's origin and reach `legs` along its axes +x, +y, +z.
+void add_corner_plates(MeshBuilder& builder, const Pose& pose, const Vec3& legs, double thickness);
+
+// Sphere of 80 triangles (or 320) about a point.
+void add_ball(MeshBuilder& builder, const Vec3& centre, double radius, int subdivisions);
+
+}  // namespace seaglint

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/geometry/ship/make_ship.h"
+
+#include <fmt/format.h>
+
+#include "sim/core/process/error.h"
+#include "sim/geometry/ship/ship_parts.h"
+
+namespace seaglint {
+namespace {
+
+void require(double value, double least, double most, const char* name) {
+  // Written so that a NaN fails.
+  if (!(value >= least && value <= most))
+    throw InputError(fmt::format("ship {}: {} is outside {}..{} m", name, value, least, most));
+}
+
+// Positions on a grid of 2^-16 m (15 um, a thousandth of a wavelength at 16 GHz), which float32 holds exactly up to 256
+// m: the last bit of a sine, which may differ between processors, does not show.
+TriangleMesh on_grid(TriangleMesh mesh) {
+  for (Vec3& p : mesh.vertices) p = (p * 65536.0).array().round() / 65536.0;
+  return mesh;
+}
+
+}  // namespace
+
+TriangleMesh make_ship(const ShipForm& form) {
+  require(form.length_m, 90, 200, "length");
+  require(form.beam_m, 12, 25, "beam");
+  require(form.freeboard_m, 4, 9, "freeboard");
+  require(form.bow_height_m, form.freeboard_m, 14, "bow height");
+  require(form.stern_height_m, 3, 9, "stern height");
+  require(form.panel_m, 0.5, 6, "panel");
+  require(form.plating_m, 0, 0.05, "plating");
+  require(form.rail_width_m, 0.02, 0.1, "rail width");
+
+  const HullForm hull(form);
+  const ShipHouses houses = ship_houses(hull);
+  MeshBuilder builder;
+  add_hull(builder, hull);
+  add_superstructure(builder, hull, houses);
+  if (form.detail >= ShipDetail::kFittings) {
+    add_bulwark(builder, hull);
+    add_masts(builder, hull, houses);
+    add_weapons(builder, hull, houses);
+    add_deck_fittings(builder, hull, houses);
+    add_wall_fittings(builder, hull, houses);
+  }
+  if (form.detail >= ShipDetail::kRails) add_rails(builder, hull, houses);
+  return on_grid(builder.take());
+}
+
+}  // namespace seaglint

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// The hull as a surface and as a part.
+
+#include "sim/geometry/mesh/mesh_builder.h"
+#include "sim/geometry/ship/make_ship.h"
+
+namespace seaglint {
+
+// The moulded form: u = 0 at the transom to 1 at the stem, v = 0 at the waterline to 1 at the deck.
+class HullForm {
+ public:
+  explicit HullForm(const ShipForm& form) : form_(form) {}
+
+  Vec3 side(double u, double v) const;  // port side, y >= 0
+  // Of the deck at a body x in metres.
+  double deck_height(double x) const;
+  double deck_half_breadth(double x) const;
+
+  // From positions on the 144 m by 17.5 m design to this form's.
+  double x_of(double design_x) const { return design_x * form_.length_m / 144.0; }
+  double y_of(double design_y) const { return design_y * form_.beam_m / 17.5; }
+
+  const ShipForm& form() const { return form_; }
+
+ private:
+  double waterline_half_breadth(double u) const;
+  double deck_half_breadth_at(double u) const;
+
+  ShipForm form_;
+};
+
+// Plated sides, transom, deck and a lid at z = 0: one closed part.
+void add_hull(MeshBuilder& builder, const HullForm& hull);
+
+// Bulwark along the forecastle's edge with its stays.
+void add_bulwark(MeshBuilder& builder, const HullForm& hull);
+
+}  // namespace seaglint

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/motion/strip_theory/hull_sections.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "sim/core/process/error.h"
+#include "sim/motion/table.h"
+
+namespace seaglint {
+
+double HullSections::beam() const {
+  double largest = 0;
+  for (const HullSection& section : sections) largest = std::max(largest, section.breadth);
+  return largest;
+}
+
+double HullSections::draught() const {
+  double largest = 0;
+  for (const HullSection& section : sections) largest = std::max(largest, section.draught);
+  return largest;
+}
+
+namespace {
+
+// Exponents n of 1 - |u|^n, u from -1 to 1, aft and forward of amidships. A half holds C = n/(n + 1) of its length and
+// has its moment int u (1 - u^n) du = C / (2 (2 - C)): aft is fuller by d on a side, C -+ d.
+struct Fullness {
+  double aft, forward;  // coefficients of the halves
+
+  // `centre` per length, forward positive.
+  static Fullness meeting(double coefficient, double centre, const char* what) {
+    const auto moment = [](double c) { return 0.5 * c / (2 - c); };
+    // Centroid in u is (moment(forward) - moment(aft)) / (2 coefficient), u = 2 x / L.
+    const auto centre_of = [&](double d) {
+      return 0.5 * (moment(coefficient + d) - moment(coefficient - d)) / (2 * coefficient);
+    };
+    const double most = std::min(coefficient, 1 - coefficient) * 0.999;
+    if (!(coefficient > 0 && coefficient < 1) || std::abs(centre) > centre_of(most)) {
+      throw InputError(fmt::format("hull form: {} coefficient {} with its centre at {} of the length: no hull has it",
+                                   what, coefficient, centre));
+    }
+    double low = -most, high = most;
+    for (int i = 0; i < 60; ++i) {
+      const double middle = 0.5 * (low + high);
+      (centre_of(middle) < centre ? low : high) = middle;
+    }
+    return {coefficient - low, coefficient + low};
+  }
+
+  double at(double u) const {
+    const double c = u < 0 ? aft : forward;
+    return 1 - std::pow(std::abs(u), c / (1 - c));
+  }
+};
+
+double strip_x(double length, int i, int count) { return length * ((i + 0.5) / count - 0.5); }
+
+}  // namespace
+
+HullSections sections_of_form(double length, double beam, double draught, const HullForm& form, int count) {
+  const Fullness breadth = Fullness::meeting(form.waterplane, form.flotation, "waterplane");
+  const Fullness area = Fullness::meeting(form.block / form.midship, form.buoyancy, "prismatic");
+  HullSections hull{length, {}};
+  for (int i = 0; i < count; ++i) {
+    const double x = strip_x(length, i, count);
+    const double u = 2 * x / length;
+    hull.sections.push_back({x, beam * breadth.at(u), draught, form.midship * beam * draught * area.at(u)});
+  }
+  return hull;
+}
+
+namespace {
+
+// The lines in which a plane x = const cuts the mesh, each from (y, z) to (y, z).
+std::vector<std::array<Vec2, 2>> cut_across(const TriangleMesh& mesh, double x) {
+  std::vector<std::array<Vec2, 2>> lines;
+  for (const auto& triangle : mesh.triangles) {
+    std::array<Vec2, 3> ends;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3& a = mesh.vertices[triangle[i]];
+      const Vec3& b = mesh.vertices[triangle[(i + 1) % 3]];
+      if ((a.x() < x) == (b.x() < x)) continue;
+      const Vec3 p = a + (x - a.x()) / (b.x() - a.x()) * (b - a);
+      ends[count++] = {p.y(), p.z()};
+    }
+    if (count == 2) lines.push_back({ends[0], ends[1]});
+  }
+  return lines;
+}
+
+// Distance between the outermost walls at depth z; 0 where fewer than two are.
+double breadth_at(const std::vector<std::array<Vec2, 2>>& lines, double z) {
+  double low = 0, high = 0;
+  int walls = 0;
+  for (const auto& [a, b] : lines) {
+    if ((a.y() < z) == (b.y() < z)) continue;
+    const double y = a.x() + (z - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
+    low = walls == 0 ? y : std::min(low, y);
+    high = walls == 0 ? y : std::max(high, y);
+    ++walls;
+  }
+  return walls < 2 ? 0 : high - low;
+}
+
+HullSection section_at(const TriangleMesh& mesh, double x) {
+  constexpr int kLevels = 64;
+  const std::vector<std::array<Vec2, 2>> lines = cut_across(mesh, x);
+  HullSection section{x, 0, 0, 0};
+  double keel = 0;
+  for (const auto& [a, b] : lines) keel = std::min({keel, a.y(), b.y()});
+  section.draught = -keel;
+  if (!(section.draught > 0)) return section;
+  // Just below the waterline, so that a lid at z = 0 does not count as a wall.
+  section.breadth = breadth_at(lines, 1e-6 * keel);
+  for (int i = 0; i < kLevels; ++i) section.area += breadth_at(lines, keel * (i + 0.5) / kLevels) * -keel / kLevels;
+  return section;
+}
+
+}  // namespace
+
+HullSections sections_of_mesh(const TriangleMesh& mesh, int count) {
+  constexpr double kLeastDraught = 0.02;  // per breadth: a mesh cut at the waterline dips by rounding only
+  double aft = 0, forward = 0;
+  const Bounds box = bounds(mesh);
+  if (box.lower.z() > -kLeastDraught * (box.upper.y() - box.lower.y())) return {};
+  // The waterline's ends: where triangles cross z = 0.
+  bool crosses = false;
+  for (const auto& triangle : mesh.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3& a = mesh.vertices[triangle[i]];
+      const Vec3& b = mesh.vertices[triangle[(i + 1) % 3]];
+      if ((a.z() < 0) == (b.z() < 0)) continue;
+      const double x = a.x() + a.z() / (a.z() - b.z()) * (b.x() - a.x());
+      aft = crosses ? std::min(aft, x) : x;
+      forward = crosses ? std::max(forward, x) : x;
+      crosses = true;
+    }
+  }
+  if (!crosses || !(forward > aft)) return {};
+  HullSections hull{forward - aft, {}};
+  for (int i = 0; i < count; ++i) {
+    hull.sections.push_back(section_at(mesh, 0.5 * (aft + forward) + strip_x(hull.length, i, count)));
+  }
+  return hull;
+}
+
+HullSections read_sections(const std::filesystem::path& file, int count) {
+  const Table table = read_table(file, {"x_m", "breadth_m", "draught_m", "area_m2"});
+  table.check_ascending("x_m");
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    for (std::size_t column = 1; column < 4; ++column) table.check_within(row, column, 0, 1e5);
+    const double box = table.at(row, 1) * table.at(row, 2);
+    if (table.at(row, 3) > box) {
+      throw InputError(fmt::format("{}: area_m2: value {}: must be at most breadth times draught, {:.6g}",
+                                   table.place(row), table.at(row, 3), box));
+    }
+  }
+  HullSections hull{table.at(table.rows() - 1, 0) - table.at(0, 0), {}};
+  const double middle = 0.5 * (table.at(table.rows() - 1, 0) + table.at(0, 0));
+  std::size_t row = 0;
+  for (int i = 0; i < count; ++i) {
+    const double x = middle + strip_x(hull.length, i, count);
+    while (row + 2 < table.rows() && table.at(row + 1, 0) < x) ++row;
+    const double u = (x - table.at(row, 0)) / (table.at(row + 1, 0) - table.at(row, 0));
+    const auto between = [&](std::size_t column) {
+      return (1 - u) * table.at(row, column) + u * table.at(row + 1, column);
+    };
+    hull.sections.push_back({x, between(1), between(2), between(3)});
+  }
+  return hull;
+}
+
+HullSections stretched(HullSections hull, double length, double beam, double draught) {
+  const auto factor = [](double wanted, double is) { return wanted > 0 ? wanted / is : 1.0; };
+  const double along = factor(length, hull.length);
+  const double across = factor(beam, hull.beam());
+  const double down = factor(draught, hull.draught());
+  hull.length *= along;
+  for (HullSection& section : hull.sections) {
+    section.x *= along;
+    section.breadth *= across;
+    section.draught *= down;
+    section.area *= across * down;
+  }
+  return hull;
+}
+
+}  // namespace seaglint

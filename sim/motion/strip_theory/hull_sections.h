@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// A hull below its waterline as breadth, draught and area of sections along its length.
+
+#include <filesystem>
+#include <vector>
+
+#include "sim/geometry/mesh/triangle_mesh.h"
+
+namespace seaglint {
+
+// At x (forward of the origin, m): breadth on the waterline (m), draught (m), area below the waterline (m^2).
+struct HullSection {
+  double x = 0;
+  double breadth = 0;
+  double draught = 0;
+  double area = 0;
+};
+
+// Shape of the hull below the waterline; by default that of model DTMB 5415, a fast displacement hull.
+struct HullForm {
+  double block = 0.507;       // volume / (L B T)
+  double waterplane = 0.778;  // waterplane area / (L B)
+  double midship = 0.821;     // area of the midship section / (B T)
+  double buoyancy = 0;        // centre of the volume, forward of amidships, per L
+  double flotation = 0;       // centre of the waterplane, likewise
+};
+
+// Sections in the middle of `count` strips of equal length, length/count each.
+struct HullSections {
+  double length = 0;  // m
+  std::vector<HullSection> sections;
+
+  double beam() const;     // largest breadth
+  double draught() const;  // largest
+};
+
+// Half-breadth B/2 (1 - |u|^n) with an exponent for each half of the length that meets coefficient and centre; areas
+// likewise. Throws InputError when no exponents do.
+HullSections sections_of_form(double length, double beam, double draught, const HullForm& form, int count);
+
+// Where a mesh's hull lies below z = 0: cut across at each strip; empty when it ends at the waterline (reaches less
+// than 2 % of its breadth below). Holes and inner walls do not matter: at each depth the outermost walls count.
+HullSections sections_of_mesh(const TriangleMesh& mesh, int count);
+
+// A table `x_m,breadth_m,draught_m,area_m2` with ascending x from stern to bow, joined linearly. Throws InputError with
+// file and line.
+HullSections read_sections(const std::filesystem::path& file, int count);
+
+// The hull stretched to these dimensions (0 = as it is), m.
+HullSections stretched(HullSections hull, double length, double beam, double draught);
+
+}  // namespace seaglint

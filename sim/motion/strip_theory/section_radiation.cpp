@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/motion/strip_theory/section_radiation.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "sim/core/numbers/constants.h"
+#include "sim/motion/strip_theory/exponential_integral.h"
+
+namespace seaglint {
+
+namespace {
+
+constexpr Complex kI{0, 1};      // of the plane y + i z
+constexpr int kMultipoles = 12;  // wave-free potentials per symmetry; twice as many change added mass by below 1e-3
+
+// Gauss-Legendre points on [0, 1].
+struct GaussRule {
+  std::array<double, kContourPoints> place, weight;
+  GaussRule() {
+    constexpr int n = kContourPoints;
+    for (int i = 0; i < n; ++i) {
+      double x = std::cos(kPi * (i + 0.75) / (n + 0.5)), slope = 1;
+      for (int iteration = 0; iteration < 100; ++iteration) {
+        double p0 = 1, p1 = x;
+        for (int m = 2; m <= n; ++m) {
+          const double p2 = ((2 * m - 1) * x * p1 - (m - 1) * p0) / m;
+          p0 = p1;
+          p1 = p2;
+        }
+        slope = n * (x * p1 - p0) / (x * x - 1);
+        const double step = p1 / slope;
+        x -= step;
+        if (std::abs(step) < 1e-15) break;
+      }
+      place[static_cast<std::size_t>(i)] = 0.5 * (1 - x);
+      weight[static_cast<std::size_t>(i)] = 1 / ((1 - x * x) * slope * slope);
+    }
+  }
+};
+
+// Potential and stream function, n.grad(phi) = d psi/dl from keel to waterline, of which both are real functions of
+// place times a complex amplitude of time.
+struct Flow {
+  Complex potential, stream;
+};
+
+// Of the analytic function f(y + i z), real in time.
+Flow flow_of(Complex f) { return {f.real(), f.imag()}; }
+
+// Waves of one frequency from the origin, at a place y + i z with y >= 0. The source is
+// int_0^inf e^{kz} cos(ky)/(k - K) dk with outgoing waves: principal value - j pi e^{Kz} cos(Ky). With Z = z + i y the
+// principal value is the real part of e^{KZ} (E1(KZ) + i pi) (turn the path of k into the upper half plane); its
+// conjugate is analytic in y + i z.
+class OriginWaves {
+ public:
+  OriginWaves(Complex place, double wavenumber)
+      : z_(place.imag(), place.real()),
+        wavenumber_(wavenumber),
+        wave_(std::exp(wavenumber * z_)),
+        principal_(scaled_exponential_integral(wavenumber * z_) + kI * kPi * wave_) {}
+
+  Flow source() const { return with_wave(principal_, wave_); }
+  // The source's derivative along y, times a length.
+  Flow dipole(double length) const {
+    const Complex slope = length * kI * (wavenumber_ * principal_ - 1.0 / z_);
+    return with_wave(slope, length * kI * wavenumber_ * wave_);
+  }
+
+ private:
+  static Flow with_wave(Complex principal, Complex wave) {
+    return {Complex(principal.real(), -kPi * wave.real()), Complex(-principal.imag(), kPi * wave.imag())};
+  }
+
+  Complex z_;
+  double wavenumber_;
+  Complex wave_, principal_;
+};
+
+// zeta^{-n} on the contour, n = 0, 1, ...
+constexpr int kPowers = 2 * kMultipoles + 5;
+using Powers = std::array<Complex, kPowers>;
+Powers powers_of(double alpha) {
+  Powers powers;
+  powers[0] = 1;
+  const Complex inverse = std::polar(1.0, -alpha);
+  for (std::size_t n = 1; n < kPowers; ++n) powers[n] = powers[n - 1] * inverse;
+  return powers;
+}
+
+// Wave-free potential f = zeta^{-n} + i K M (zeta^{-(n-1)}/(n-1) - a1 zeta^{-(n+1)}/(n+1) - 3 a3 zeta^{-(n+3)}/(n+3)):
+// on the free surface, where zeta is real, Re(K f dw/dzeta - i df/dzeta) = 0 term by term, which is K phi = d phi/dz.
+// Even n is even in y, odd n odd (Ursell 1949 for the circle; Tasai 1959 for Lewis forms).
+Flow multipole(const LewisForm& form, const Powers& power, double wavenumber, std::size_t n) {
+  const auto m = static_cast<double>(n);
+  const Complex tail = power[n - 1] / (m - 1) - form.a1 * power[n + 1] / (m + 1) - 3 * form.a3 * power[n + 3] / (m + 3);
+  return flow_of(power[n] + kI * wavenumber * form.scale * tail);
+}
+
+const GaussRule& gauss() {
+  static const GaussRule rule;
+  return rule;
+}
+
+double alpha_at(std::size_t i) { return -0.5 * kPi * (1 - gauss().place[i]); }
+
+}  // namespace
+
+Contour contour_of(const LewisForm& form) {
+  Contour contour;
+  for (std::size_t i = 0; i < kContourPoints; ++i) {
+    const Complex p = form.point(alpha_at(i));
+    const Complex d = form.derivative(alpha_at(i)) * (0.5 * kPi * gauss().weight[i]);
+    contour.y[i] = p.real();
+    contour.z[i] = p.imag();
+    contour.dy[i] = d.real();
+    contour.dz[i] = d.imag();
+  }
+  return contour;
+}
+
+// Amplitudes of the potentials by least squares of the stream function on the contour (de Jong 1973): a velocity V of
+// the wall needs d psi = V.n dl, so psi = z in sway, -y in heave, -(y^2 + z^2)/2 in roll; in the odd modes, whose
+// stream function does not vanish below the keel, up to a constant.
+SectionRadiation radiate(const LewisForm& form, const Contour& contour, double wavenumber) {
+  using Matrix = Eigen::Matrix<Complex, kContourPoints, Eigen::Dynamic, 0, kContourPoints, kMultipoles + 2>;
+  constexpr int kUnknowns = kMultipoles + 1;
+  Matrix even(kContourPoints, kUnknowns), odd(kContourPoints, kUnknowns + 1);
+  Matrix even_potential(kContourPoints, kUnknowns), odd_potential(kContourPoints, kUnknowns);
+  Eigen::Matrix<Complex, kContourPoints, 1> heave;
+  Eigen::Matrix<Complex, kContourPoints, 2> sway_roll;
+  for (std::size_t i = 0; i < kContourPoints; ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    const Powers powers = powers_of(alpha_at(i));
+    const Complex place(contour.y[i], contour.z[i]);
+    const OriginWaves waves(place, wavenumber);
+    const auto put = [row](Matrix& stream, Matrix& potential, Eigen::Index column, const Flow& flow) {
+      stream(row, column) = flow.stream;
+      potential(row, column) = flow.potential;
+    };
+    put(even, even_potential, 0, waves.source());
+    put(odd, odd_potential, 0, waves.dipole(form.scale));
+    for (int m = 1; m <= kMultipoles; ++m) {
+      const auto n = static_cast<std::size_t>(2 * m);
+      put(even, even_potential, m, multipole(form, powers, wavenumber, n));
+      put(odd, odd_potential, m, multipole(form, powers, wavenumber, n + 1));
+    }
+    odd(row, kUnknowns) = 1;
+    heave(row) = -contour.y[i];
+    sway_roll(row, 0) = contour.z[i];
+    sway_roll(row, 1) = -0.5 * std::norm(place);
+  }
+  const Eigen::VectorXcd up = even.colPivHouseholderQr().solve(heave);
+  const Eigen::MatrixXcd across = odd.colPivHouseholderQr().solve(sway_roll);
+
+  SectionRadiation result;
+  const Eigen::VectorXcd heave_potential = even_potential * up;
+  const Eigen::MatrixXcd across_potential = odd_potential * across.topRows(kUnknowns);
+  for (std::size_t i = 0; i < kContourPoints; ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    result.potential[kSway][i] = across_potential(row, 0);
+    result.potential[kHeave][i] = heave_potential(row);
+    result.potential[kRoll][i] = across_potential(row, 1);
+  }
+  // Far away the source is -j pi e^{-jK|y|}, the dipole -pi K length; eta = -(1/g) d phi/dt of a velocity jw.
+  const double dipole_wave = kPi * wavenumber * wavenumber * form.scale;
+  result.far_wave = {dipole_wave * std::abs(across(0, 0)), kPi * wavenumber * std::abs(up(0)),
+                     dipole_wave * std::abs(across(0, 1))};
+  const auto largest = [](const auto& v) { return v.cwiseAbs().maxCoeff(); };
+  const Eigen::MatrixXcd across_error = odd * across - sway_roll;
+  result.residual = {largest(across_error.col(0)) / largest(sway_roll.col(0)),
+                     largest(even * up - heave) / largest(heave),
+                     largest(across_error.col(1)) / largest(sway_roll.col(1))};
+  return result;
+}
+
+Complex SectionRadiation::integral(const Contour& c, SectionMode force, SectionMode motion) const {
+  Complex sum = 0;
+  for (std::size_t i = 0; i < kContourPoints; ++i) {
+    const double normal = force == kSway    ? c.dz[i]
+                          : force == kHeave ? -c.dy[i]
+                                            : -(c.y[i] * c.dy[i] + c.z[i] * c.dz[i]);
+    sum += 2 * normal * potential[motion][i];
+  }
+  return sum;
+}
+
+}  // namespace seaglint

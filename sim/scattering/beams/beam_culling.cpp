@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/scattering/beams/beam_culling.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace seaglint {
+
+Prism prism_around(std::span<const MovingPolygon> window, const Leg& leg, const RadarBasis& basis,
+                   std::span<const Facet> facets) {
+  // The prism runs along the window's longest side: a long window lies askew as often as not.
+  Vec2 longest = Vec2::UnitX();
+  double most = 0;
+  for (const MovingPolygon& piece : window) {
+    const Vec2* from = &piece.back().p;
+    for (const Corner& to : piece) {
+      const double squared = (to.p - *from).squaredNorm();
+      if (squared > most) {
+        most = squared;
+        longest = to.p - *from;
+      }
+      from = &to.p;
+    }
+  }
+  longest.normalize();
+  const std::array<Vec2, 2> axis{longest, Vec2(-longest.y(), longest.x())};
+  const Vec2 t(leg.mirrors.t.dot(basis.h), leg.mirrors.t.dot(basis.v));
+  Prism prism;
+  for (int i = 0; i < 2; ++i) {
+    prism.across[i] = leg.mirrors.L.transpose() * (axis[i].x() * basis.h + axis[i].y() * basis.v);
+    prism.lower[i] = std::numeric_limits<double>::infinity();
+    prism.upper[i] = -prism.lower[i];
+    for (const MovingPolygon& piece : window) {
+      for (const Corner& corner : piece) {
+        const double at = axis[i].dot(corner.p - t);
+        prism.lower[i] = std::min(prism.lower[i], at);
+        prism.upper[i] = std::max(prism.upper[i], at);
+      }
+    }
+  }
+  prism.normal = leg.from_normal;
+  prism.offset = leg.from_normal.dot(facets[leg.from_facet].corner[0]) + kCoincident;
+  prism.along = prism.wave = leg.direction;
+  return prism;
+}
+
+Meeting meeting(const Leg& leg, const Prism& prism, const TreePanel& panel) {
+  // The lit side of a closed part faces the beam.
+  const double facing = panel.normal.dot(leg.direction);
+  if (!panel.open && facing >= 0) return {};
+  const std::span<const Vec3> outline = panel.outline();
+  std::size_t beyond = 0;
+  for (const Vec3& x : outline) beyond += prism.normal.dot(x) > prism.offset;
+  if (beyond == 0) return {};
+  // The window's box may lie outside an edge of the panel, or inside all of them. Seen along the beam, the panel
+  // turns left or right.
+  const Vec2 middle(0.5 * (prism.lower[0] + prism.upper[0]), 0.5 * (prism.lower[1] + prism.upper[1]));
+  const Vec2 half(0.5 * (prism.upper[0] - prism.lower[0]), 0.5 * (prism.upper[1] - prism.lower[1]));
+  const double turn = prism.across[0].cross(prism.across[1]).dot(panel.normal) > 0 ? 1 : -1;
+  const auto across = [&](const Vec3& x) { return Vec2(prism.across[0].dot(x), prism.across[1].dot(x)); };
+  bool covers = beyond == outline.size();
+  Vec2 p = across(outline.back()), lower = p, upper = p;
+  for (const Vec3& x : outline) {
+    const Vec2 q = across(x);
+    const Vec2 along = q - p, to = middle - p;
+    const double centre = turn * (along.x() * to.y() - along.y() * to.x());
+    const double reach = std::abs(along.x()) * half.y() + std::abs(along.y()) * half.x();
+    if (centre + reach <= 0) return {};
+    covers &= centre - reach > 0;
+    p = q;
+    lower = lower.cwiseMin(q);
+    upper = upper.cwiseMax(q);
+  }
+  for (int i = 0; i < 2; ++i) {
+    if (upper[i] <= prism.lower[i] || lower[i] >= prism.upper[i]) return {};
+  }
+  Meeting result{true};
+  if (covers && std::abs(facing) > kEdgeOn) {
+    // The farthest point of the facet's plane in the prism: along . x = (offset - across part of normal . x) /
+    // (normal . along).
+    const double a = panel.normal.dot(prism.across[0]), b = panel.normal.dot(prism.across[1]);
+    const double centre = (panel.normal.dot(outline.front()) - a * middle.x() - b * middle.y()) / facing;
+    result.covered = centre + (std::abs(a) * half.x() + std::abs(b) * half.y()) / std::abs(facing);
+  }
+  return result;
+}
+
+}  // namespace seaglint

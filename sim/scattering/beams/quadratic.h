@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// Second-order functions of a point in the aperture, and rays that a curved mirror has turned a little.
+
+#include <array>
+
+#include "sim/core/numbers/linear.h"
+
+namespace seaglint {
+
+using Mat2 = Eigen::Matrix2d;
+
+// value + gradient . p + p . hessian p / 2
+struct Quadratic {
+  double value = 0;
+  Vec2 gradient = Vec2::Zero();
+  Mat2 hessian = Mat2::Zero();
+
+  double at(const Vec2& p) const { return value + gradient.dot(p) + 0.5 * p.dot(hessian * p); }
+  Vec2 slope(const Vec2& p) const { return gradient + hessian * p; }
+  Quadratic& operator+=(const Quadratic& other);
+};
+
+// offset + matrix p
+struct Affine {
+  Vec2 offset = Vec2::Zero();
+  Mat2 matrix = Mat2::Zero();
+
+  Vec2 at(const Vec2& p) const { return offset + matrix * p; }
+};
+
+// q(f(p)) as a function of p.
+Quadratic compose(const Quadratic& q, const Affine& f);
+// |f(p)|^2
+Quadratic squared(const Affine& f);
+
+// The linear functions that are 1 at one corner of a triangle and 0 at the two others.
+struct Barycentric {
+  std::array<double, 3> value{};
+  std::array<Vec2, 3> gradient{};
+
+  explicit Barycentric(const std::array<Vec2, 3>& corner);
+  double at(int i, const Vec2& p) const { return value[i] + gradient[i].dot(p); }
+};
+
+// The quadratic that vanishes at the corners and takes the given values in the middles of the edges i -> i + 1.
+Quadratic bump(const Barycentric& lambda, const std::array<double, 3>& middle);
+
+// A bundle of rays behind curved mirrors, to second order about the parallel bundle that flat ones would leave. Rays
+// are known by the point p where they cross the aperture; `landing` is where they now are across the unfolded ray,
+// `tilt` how much they are turned (both in the aperture's axes), `phase` what their path has lost against the flat one
+// that would reach the landing point (the sign of psi). Hamilton's characteristic function to second order: a curved
+// mirror adds its height to the phase and turns the ray by the gradient; over a way s the ray moves by s tilt and its
+// path is longer by s |tilt|^2 / 2.
+struct BentRays {
+  Affine landing{Vec2::Zero(), Mat2::Identity()};
+  Affine tilt;
+  Quadratic phase;
+
+  // `added`: psi that the mirror's curvature adds at a point of the aperture.
+  void reflect(const Quadratic& added);
+  void travel(double s);
+};
+
+}  // namespace seaglint

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/scattering/diffraction/wedge_diffraction.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+#include "sim/core/numbers/constants.h"
+#include "sim/scattering/target/facets.h"
+
+namespace seaglint {
+namespace {
+
+constexpr Complex j(0, 1);
+
+// A wave that travels in a face's plane from its edge on sends an infinite edge wave along it, whose transition
+// function is zero; their product has a limit. Both keep this angle from there, rad.
+constexpr double kFromBoundary = 1e-7;
+
+// Half the sum of (1/N) cot((a - phi) / 2N) and (1/N) cot((a + phi) / 2N), over sin a, and half their difference.
+struct Cotangents {
+  double sum, difference;
+};
+
+// The angles at which the waves of physical optics meet a face: the wave itself at phi and, in a corner (N < 1), what
+// the faces send to one another. The sources' images stand at phi + 2 N pi m, an odd number of times mirrored where
+// that is negative, and light the face from before it.
+class WavesOnFace {
+ public:
+  WavesOnFace(double phi, double N) {
+    const double round = 2 * N * kPi;
+    for (double angle = phi - round * std::floor((phi + kPi) / round); angle < kPi && count_ < kMost; angle += round) {
+      if (angle > -kPi) angle_[count_++] = angle;
+    }
+  }
+  WavesOnFace() = default;  // none
+
+  const double* begin() const { return angle_.data(); }
+  const double* end() const { return angle_.data() + count_; }
+  int size() const { return count_; }
+
+ private:
+  static constexpr int kMost = 16;  // 1 / N + 1 at kSharpestCorner
+  std::array<double, kMost> angle_{};
+  int count_ = 0;
+};
+
+// (1/N) cot(x / 2N) at x = a - sign phi, less (1/2) cot of half of a - sign angle for each wave of physical optics:
+// regular where one of these is 0.
+double half_cotangent(double a, double phi, double N, const WavesOnFace& optics, double sign) {
+  const double x = a - sign * phi;
+  double sum = 0;
+  bool wedge = true;
+  for (const double angle : optics) {
+    const double y = a - sign * angle;
+    const bool at_pole = std::abs(y) < 1e-3;
+    sum += at_pole ? y / 6 * (1 - 1 / (N * N)) : -1 / std::tan(y / 2);
+    wedge = wedge && !at_pole;
+  }
+  return wedge ? sum + 1 / (N * std::tan(x / (2 * N))) : sum;
+}
+
+Cotangents cotangents(double a, double phi, double N, const WavesOnFace& optics) {
+  const double minus = half_cotangent(a, phi, N, optics, 1), plus = half_cotangent(a, phi, N, optics, -1);
+  return {0.5 * (minus + plus) / std::sin(a), 0.5 * (minus - plus)};
+}
+
+// The same for imaginary a = j alpha, alpha > 0: the sum is sin(a / N) / sin a, the difference sin(phi / N), over
+// N (cos(phi / N) - cos(a / N)).
+Cotangents cotangents_of_imaginary(double alpha, double phi, double N, const WavesOnFace& optics) {
+  const auto of_wedge = [&](double n, double angle) {
+    const double pole = n * (std::cos(angle / n) - std::cosh(alpha / n));
+    return Cotangents{std::sinh(alpha / n) / (std::sinh(alpha) * pole), std::sin(angle / n) / pole};
+  };
+  Cotangents sum{0, 0};
+  bool wedge = true;
+  const auto add = [&](double factor, const Cotangents& c) {
+    sum = {sum.sum + factor * c.sum, sum.difference + factor * c.difference};
+  };
+  for (const double angle : optics) {
+    // Near the common pole at 0 the first term of their difference errs by 1e-6, and so does the difference.
+    const bool at_pole = angle * angle + alpha * alpha < 4e-5;
+    const double rest = (1 - 1 / (N * N)) / 6;
+    if (at_pole)
+      add(1, {rest, -angle * rest});
+    else
+      add(-1, of_wedge(1, angle));
+    wedge = wedge && !at_pole;
+  }
+  if (wedge) add(1, of_wedge(N, phi));
+  return sum;
+}
+
+// Angle of the direction against the face, in the plane across the edge, 0..2 pi.
+double angle_from_face(const WedgeFace& face, const Vec3& towards_source) {
+  const double angle = std::atan2(towards_source.dot(face.n), towards_source.dot(face.x));
+  return angle < 0 ? angle + 2 * kPi : angle;
+}
+
+// Integrals of eta k J / 2j over one face along the grazing diffracted ray (Michaeli 1984 and 1986; his alpha is pi - a
+// here). At a distance x from the edge Sommerfeld's wedge currents are contour integrals of e^{jkx cos xi} with the
+// cotangents of (xi +- phi') / 2N; weighted with e^{jkx mu} and summed over the half-line, x leaves 1 / (cos xi + mu),
+// whose pole at cos a = -mu leaves the cotangents at a +- phi' over sin a. Physical optics has N = 1. The tests hold
+// the sum of both faces to Keller's coefficients.
+// Physical optics is left out, unless `only_seen` and s does not see the face.
+void add_face_current(const WedgeFace& face, double N, double phi, bool only_seen, double shadow, const Vec3& k_hat,
+                      std::span<const Vec3> fields, const Vec3& s, std::span<Vec3> sums) {
+  const double cos_b = k_hat.dot(face.t);
+  const double sin_b = std::sqrt(std::max(1 - cos_b * cos_b, 1e-12));
+  const double mu = (sin_b * s.dot(face.x) + cos_b * (s.dot(face.t) - cos_b)) / (sin_b * sin_b);
+  // cos a = -mu; mu <= 1 for real directions, and a is imaginary where mu < -1. Both ends are removable, the one at pi
+  // only in the sum over the current's components across s: keep away from 0/0.
+  constexpr double kAside = 1e-7;
+  const bool real = mu >= -1;
+  const double a = real ? std::clamp(std::acos(std::clamp(-mu, -1.0, 1.0)), kAside, kPi - kAside)
+                        : std::max(std::acosh(-mu), kAside);
+  const bool in_shadow_boundary = (real ? std::abs(a - phi) : std::hypot(a, phi)) < shadow;
+  const WavesOnFace optics =
+      !only_seen || in_shadow_boundary || s.dot(face.n) > kEdgeOn ? WavesOnFace(phi, N) : WavesOnFace();
+  const Cotangents cot = real ? cotangents(a, phi, N, optics) : cotangents_of_imaginary(a, phi, N, optics);
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    const double H_t = k_hat.cross(fields[i]).dot(face.t), E_t = fields[i].dot(face.t);
+    const double across = H_t / sin_b * cot.sum;
+    double along = E_t / (sin_b * sin_b) * cot.difference + cos_b / sin_b * mu * across;
+    // What physical optics has of the current along the edge, written without its pole.
+    along += optics.size() * cos_b / sin_b * H_t / sin_b;
+    sums[i] += across * face.x + along * face.t;
+  }
+}
+
+void add_currents(const WedgeFrame& wedge, const Vec3& k_hat, std::span<const Vec3> fields, const Vec3& s,
+                  bool only_seen, double shadow, std::span<Vec3> sums) {
+  const double phi = angle_from_face(wedge.face[0], -k_hat);
+  if (phi > wedge.N * kPi) return;
+  for (int i = 0; i < 2; ++i)
+    add_face_current(wedge.face[i], wedge.N, i == 0 ? phi : wedge.N * kPi - phi, only_seen, shadow, k_hat, fields, s,
+                     sums);
+  // E_s = -(jk eta / 4 pi) (e^{-jkr}/r) integral J e^{jk s.x}; the integrals above are of eta k J / 2j.
+  for (Vec3& sum : sums) sum /= 2 * kPi;
+}
+
+// Of the angles +-phi + 2 N pi m, at which the sources' images stand, the one next to pi.
+double grazing_image(double phi, double N) {
+  const double round = 2 * N * kPi;
+  const double plus = phi + round * std::round((kPi - phi) / round),
+               minus = -phi + round * std::round((kPi + phi) / round);
+  return std::abs(kPi - plus) < std::abs(kPi - minus) ? plus : minus;
+}
+
+}  // namespace
+
+Vec3 fringe_current(const WedgeFrame& wedge, const Vec3& k_hat, const Vec3& E, const Vec3& s) {
+  Vec3 sum = Vec3::Zero();
+  add_currents(wedge, k_hat, {&E, 1}, s, false, kShadow, {&sum, 1});
+  return sum;
+}
+
+std::array<Vec3, 2> edge_currents(const WedgeFrame& wedge, const Vec3& k_hat, const std::array<Vec3, 2>& fields,
+                                  const Vec3& s, double shadow) {
+  std::array<Vec3, 2> sums{Vec3::Zero(), Vec3::Zero()};
+  add_currents(wedge, k_hat, fields, s, true, shadow, sums);
+  return sums;
+}
+
+EdgeWave edge_wave(const WedgeFrame& wedge, int face, const Vec3& k_hat, const std::array<Vec3, 2>& fields) {
+  const WedgeFace& f = wedge.face[face];
+  const double N = wedge.N;
+  const double cos_b = k_hat.dot(f.t);
+  const double sin_b = std::sqrt(std::max(1 - cos_b * cos_b, 1e-12));
+  double phi = angle_from_face(f, -k_hat);
+  EdgeWave wave{sin_b * f.x + cos_b * f.t, {}};
+  if (phi > N * kPi) return wave;
+  // Of the waves that meet the face, in a corner by way of both, the one that is next to grazing it has the pole.
+  const double image = N < 1 ? grazing_image(phi, N) : phi;
+  const double off = std::copysign(std::max(std::abs(kPi - image), kFromBoundary), kPi - image);
+  phi = kPi - off;
+  wave.departure = std::pow(sin_b * std::sin(off / 2), 2);
+  const Complex D = std::polar(1.0, -kPi / 4) * std::sin(kPi / N) / (N * std::sqrt(2 * kPi) * sin_b) * 2.0 /
+                    (std::cos(kPi / N) - std::cos(phi / N));
+  // H along t on the cone is sin_b of the whole, and E = H x direction lies along n.
+  for (int i = 0; i < 2; ++i) wave.amplitude[i] = k_hat.cross(fields[i]).dot(f.t) * D / sin_b;
+  return wave;
+}
+
+double shadow_distance(const Vec3& along_face, const Vec3& other) {
+  return 0.25 * std::max((along_face - other).squaredNorm(), kFromBoundary * kFromBoundary);
+}
+
+Complex transition(double x) {
+  if (x < 0) return std::conj(transition(-x));
+  // Far away the asymptotic series, sum of (2n - 1)!! (j / 2x)^n, to its smallest term, which bounds the error: e^{-x}.
+  if (x > 17) {
+    double term = 1;
+    std::array<double, 2> part{term, 0};
+    for (int n = 1; n < x && term > 1e-16; ++n) {
+      term *= (2.0 * n - 1) / (2 * x);
+      part[n % 2] += n % 4 >= 2 ? -term : term;
+    }
+    return {part[0], part[1]};
+  }
+  // Near, the power series of the integral from 0 to sqrt(x), sum of (-j)^n x^(n + 1/2) / (n! (2n + 1)), to rounding of
+  // its largest term, e^x. Terms of both are real and imaginary by turns; these fall from n = x on.
+  double term = std::sqrt(x);
+  std::array<double, 2> part{term, 0};
+  for (int n = 1; n < 80 && term > 1e-18; ++n) {
+    term *= x / n;
+    part[n % 2] += (n % 4 == 1 || n % 4 == 2 ? -term : term) / (2.0 * n + 1);
+  }
+  const Complex sum(part[0], part[1]);
+  return 2.0 * j * std::sqrt(x) * std::polar(1.0, x) * (std::polar(std::sqrt(kPi) / 2, -kPi / 4) - sum);
+}
+
+namespace {
+
+// Arguments nearer to each other than this, of their sum, count as equal.
+constexpr double kEqual = 1e-3;
+
+bool nearly_equal(double x, double y) { return std::abs(x - y) < kEqual * std::abs(x + y); }
+
+// transition(x, y), of which F(x) and F(y) are known.
+Complex between_two(double x, const Complex& F_x, double y, const Complex& F_y) {
+  // Between equals F - x F', with F' = F / 2x + j F - j; farther apart errors of F grow five-hundredfold at most.
+  if (nearly_equal(x, y)) {
+    const double mean = 0.5 * (x + y);
+    const Complex F = transition(mean);
+    return 0.5 * F - j * mean * (F - 1.0);
+  }
+  return (y * F_x - x * F_y) / (y - x);
+}
+
+}  // namespace
+
+Complex transition(double x, double y) { return between_two(x, transition(x), y, transition(y)); }
+
+Complex transition(double x, double y, double z) {
+  if (nearly_equal(x, y)) {  // moved apart, which errs by its square
+    const double mean = 0.5 * (x + y);
+    x = (1 - kEqual) * mean;
+    y = (1 + kEqual) * mean;
+  }
+  const Complex F_x = transition(x), F_y = transition(y), F_z = transition(z);
+  return (y * between_two(x, F_x, z, F_z) - x * between_two(y, F_y, z, F_z)) / (y - x);
+}
+
+}  // namespace seaglint

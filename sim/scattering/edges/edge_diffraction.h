@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// Everything that sharp edges answer: single diffraction by all ways, and edge waves that meet a second edge.
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "sim/scattering/edges/multiple_diffraction.h"
+#include "sim/scattering/response/illumination.h"
+
+namespace seaglint {
+
+// Which edge waves are followed: those of straight runs of edges of three ray spacings and more, 0.2 m on the 144 m
+// ship by default, to a third and fourth diffraction where a run is twenty long, 1.4 m; none fainter than
+// faintest_echo() at the lowest wavenumber.
+EdgeWaveLimits edge_wave_limits(const Scatterer& scatterer, const IlluminationSettings& settings, double lowest);
+
+// Calls visit(chunk, footprints), chunk = 0..kEdgeChunks-1, for what each edge answers, those of a chunk in order from
+// one thread. `incoming`: what the transmitter's illumination at the same wavenumbers reached. A receiver elsewhere
+// needs the waves it would send, which are followed here. Echoes that the settings' filter leaves out are not among
+// them. Chunks do not depend on `threads`; without edges in the settings there are none.
+inline constexpr std::size_t kEdgeChunks = 16;
+void edge_echoes(const Scatterer& scatterer, const AntennaPair& antennas, const IlluminationSettings& settings,
+                 std::span<const double> wavenumbers, const ArrivalsByEdge& incoming, int threads,
+                 const std::function<void(std::size_t, std::span<const EdgeFootprint>)>& visit);
+
+}  // namespace seaglint

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// Which stretches of sharp edges does the wave reach, by which mirrors, and what do they send back?
+//
+// A wave reaches a stretch of an edge directly or by mirrors; what the edge sends back leaves by any of the ways on
+// which the receiver's wave, sent backwards, would reach it (reciprocity). Every pair of an arrival and a departure
+// that share a stretch is one echo.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "sim/scattering/edges/edge_contribution.h"
+#include "sim/scattering/edges/edge_illumination.h"
+#include "sim/scattering/target/sharp_edges.h"
+
+namespace seaglint {
+
+// Mirrors on both ways together. Three suffice for what a corner reflector's rims return; what is left out has left the
+// target's straight ways.
+inline constexpr int kMostEdgeMirrors = 3;
+
+// A wave that falls on a facet through mirrors, as a beam's leg carries it.
+struct WaveOnFacet {
+  const RadarBasis& antenna;
+  const Mirror& mirrors;
+  const ImagePlane& plane;  // of the facet's image
+  Vec3 direction, E_h, E_v;
+  int bounce = 1;                    // of the hit on the facet
+  Vec3 first_mirror = Vec3::Zero();  // as in EdgeArrival
+};
+
+// Appends the stretches of the sharp edges of a panel (by the facet it goes by) that bound what the wave lights of it
+// (convex pieces of the aperture).
+void find_arrivals(const SharpEdges& edges, int facet, const WaveOnFacet& wave, std::span<const MovingPolygon> lit,
+                   std::vector<EdgeArrival>& arrivals);
+
+// Ahead of an edge, near the shadow boundary of the beam along k_hat that it cuts, the diffracted field towards a
+// mirror at a finite distance is no ray of its own: the beam's end on that mirror carries it. An echo by mirrors in
+// direction s (before the first of them) fades out from right angles to the wave's way on, 1, to 30 deg off it, 0.
+double beside_the_beam(const Vec3& k_hat, const Vec3& s);
+
+// The same of the edge's own field, where that is told apart from the beam: from 18 deg off the wave's way on, 1, to
+// 2.6 deg, 0.
+double before_the_beam(const Vec3& k_hat, const Vec3& s);
+double before_the_beam(double cosine);
+
+// Appends the echoes of all stretches of an edge that a wave from the transmitter (`incoming`) shares with one from the
+// receiver (`outgoing`), with at most `max_bounces` in all. When both are one antenna the lists are the same. Edge
+// waves are apart (multiple_diffraction.h).
+void edge_footprints(const SharpEdge& edge, std::span<const Facet> facets, const AntennaPair& antennas,
+                     EdgeArrivals incoming, EdgeArrivals outgoing, int max_bounces,
+                     std::vector<EdgeFootprint>& footprints);
+
+}  // namespace seaglint

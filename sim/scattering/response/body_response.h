@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// The response of one rigid body over one coherent interval, and its echo at rest.
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "sim/core/process/parallel.h"
+#include "sim/motion/trajectory.h"
+#include "sim/scattering/response/frequency_response.h"
+#include "sim/scattering/response/illumination.h"
+#include "sim/scattering/response/sea_reflection.h"
+#include "sim/scattering/surfaces/point_contributions.h"
+#include "sim/scenario/radar_spec.h"
+#include "sim/scenario/target_spec.h"
+
+namespace seaglint {
+
+struct BodyResponse {
+  FrequencyResponse response;
+  int traces = 0;  // directions that were lit
+};
+
+// The turn of a body that one trace serves when the scenario leaves it open, rad: the target's ends may move by 6
+// wavelengths, two ways together, and never more than 0.15 deg. Ship at 16 GHz: 0.044 deg.
+double default_turn(const Scatterer& scatterer, double wavelength);
+
+// H(f, attitude at t_n) of a body on its trajectory, seen along r_hat (target frame). One trace serves pulses while the
+// body turns by at most solver.max_turn_deg; a faster body is traced at the middles of spans that short, and
+// neighbouring traces are blended linearly in time; spans get shorter still where the direction's path bends by more
+// than a grid takes. Error against a fresh trace per pulse and frequency: sim/scattering/README.md. Polarisation basis:
+// that of the world, turned into the body at each trace. A radar at
+// solver.radar_range_m from the target frame's origin is seen by the body from where it stands. The trajectory must
+// cover the interval. With `sea` the echo comes four ways over the surface z = 0 of the target frame
+// (sea_reflection.h), each traced by itself; r_hat.z() > 0.
+BodyResponse respond(const Scatterer& scatterer, const Trajectory& trajectory, const Vec3& r_hat,
+                     Polarisation polarisation, const IntervalSampling& sampling, const SolverSpec& solver,
+                     int threads = 1, const SeaMirror* sea = nullptr);
+
+// The scattering matrix hh, hv, vh, vv (received, transmitted) in metres at each wavenumber, body at rest: one trace,
+// and the exact phase integral of every footprint at every frequency. Each direction has its own basis. Raises *legs by
+// the legs of beams followed.
+std::vector<std::array<Complex, 4>> scattering_matrices(const Scatterer& scatterer, const AntennaPair& antennas,
+                                                        std::span<const double> wavenumbers,
+                                                        const IlluminationSettings& settings, int threads = 1,
+                                                        std::size_t* legs = nullptr, const StopFlag* stop = nullptr);
+
+// What one view consists of, point by point, in an order that does not depend on the number of threads. Their direct
+// sum at split.kc is the scattering matrix.
+std::vector<Contribution> view_contributions(const Scatterer& scatterer, const AntennaPair& antennas,
+                                             const SplitSettings& split, const IlluminationSettings& settings,
+                                             int threads = 1, const StopFlag* stop = nullptr);
+
+}  // namespace seaglint

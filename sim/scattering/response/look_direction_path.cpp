@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/scattering/response/look_direction_path.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace seaglint {
+namespace {
+
+// Below this, rad, nothing moves: 1e-8 rad of phase at the ends of a 144 m ship at 16 GHz.
+constexpr double kAtRest = 1e-12;
+
+// What both directions together differ by, without what is along them, which is of second order.
+struct Difference {
+  Vec3 transmit, receive;
+
+  double dot(const Track& track) const { return transmit.dot(track.transmit) + receive.dot(track.receive); }
+  double norm() const { return std::sqrt(transmit.squaredNorm() + receive.squaredNorm()); }
+  Difference without(const Track& track) const {
+    const double along = dot(track);
+    return {transmit - along * track.transmit, receive - along * track.receive};
+  }
+  Track unit() const { return {transmit / norm(), receive / norm()}; }
+};
+
+Vec3 across(const Vec3& r, const Vec3& d) { return d - r * r.dot(d); }
+
+// Any unit vector across r, for a body at rest.
+Vec3 any_across(const Vec3& r) {
+  return (std::abs(r.z()) < 0.9 ? Vec3(Vec3::UnitZ().cross(r)) : Vec3(Vec3::UnitX().cross(r))).normalized();
+}
+
+}  // namespace
+
+DirectionPath direction_path(std::span<const Vec3> transmit, std::span<const Vec3> receive, const Vec3& transmit_at,
+                             const Vec3& receive_at) {
+  const auto difference = [&](const Vec3& t, const Vec3& r) {
+    return Difference{across(transmit_at, t), across(receive_at, r)};
+  };
+  DirectionPath path;
+  const Difference chord = difference(transmit.back() - transmit.front(), receive.back() - receive.front());
+  path.track = chord.norm() > kAtRest ? chord.unit() : Track{any_across(transmit_at), Vec3::Zero()};
+  Difference farthest{Vec3::Zero(), Vec3::Zero()};
+  for (std::size_t n = 0; n < transmit.size(); ++n) {
+    const Difference beside = difference(transmit[n] - transmit_at, receive[n] - receive_at).without(path.track);
+    if (beside.norm() > farthest.norm()) farthest = beside;
+  }
+  path.bend = farthest.norm() > kAtRest ? farthest.unit() : Track{Vec3::Zero(), Vec3::Zero()};
+  for (std::size_t n = 0; n < transmit.size(); ++n) {
+    const Difference here = difference(transmit[n] - transmit_at, receive[n] - receive_at);
+    path.s.push_back(here.dot(path.track));
+    path.q.push_back(here.dot(path.bend));
+    path.s_limit = std::max(path.s_limit, std::abs(path.s.back()));
+    path.q_limit = std::max(path.q_limit, std::abs(path.q.back()));
+    path.turn = std::max({path.turn, here.transmit.norm(), here.receive.norm()});
+  }
+  return path;
+}
+
+}  // namespace seaglint

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// The mean sea surface z = 0 as a mirror between radar and target: every echo comes four ways.
+//
+// With r' = (r_x, r_y, -r_z), the direction to the radar's image, and S(a, b) the echo received along a of a wave sent
+// along b, about an origin in the mirror,
+//     S = S(r, r) + R S(r', r) + S(r, r') R + R S(r', r') R,    R = diag(rho_h, rho_v).
+// rho_h = te and rho_v = tm of the sea (material.h): s = h is common to r and r', and p = s x d is v on the way down
+// and v' = r' x h on the way up (both change sign on the way back), so that a perfectly conducting sea, rho_h = -1 and
+// rho_v = +1, gives what image theory gives.
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "sim/core/process/parallel.h"
+#include "sim/scattering/response/illumination.h"
+#include "sim/scenario/radar_spec.h"
+#include "sim/scenario/sea_spec.h"
+
+namespace seaglint {
+
+// Direction to the radar's image in the mean sea surface.
+inline Vec3 image_direction(const Vec3& r_hat) { return {r_hat.x(), r_hat.y(), -r_hat.z()}; }
+
+// The image's basis: h mirrored, which a level h does not notice, and v' = r' x h'.
+RadarBasis image_basis(const RadarBasis& radar);
+
+// By way of the sea on the way to the target, back, or neither.
+struct SeaPath {
+  bool there = false;
+  bool back = false;
+
+  bool multipath() const { return there || back; }
+};
+inline constexpr std::array<SeaPath, 4> kSeaPaths{{{false, false}, {false, true}, {true, false}, {true, true}}};
+
+struct SeaCoefficients {
+  Complex h = -1, v = 1;
+};
+
+class SeaMirror {
+ public:
+  // RMS elevation = significant_wave_height / 4.
+  SeaMirror(const SeaReflectionSpec& spec, double significant_wave_height_m);
+
+  // Coherent reflection at k, sin_grazing = r^_z, 0 < x <= 1.
+  SeaCoefficients at(double k, double sin_grazing) const;
+  // Whether the scenario asks for this path's echo.
+  bool wanted(const SeaPath& path) const;
+  // The path's factor on S_pq of the element 0..3 for hh, hv, vh, vv (received, transmitted).
+  static Complex weight(const SeaPath& path, const SeaCoefficients& rho, int element);
+
+ private:
+  SeaReflectionSpec spec_;
+  double rms_m_;
+};
+
+// The scattering matrix hh, hv, vh, vv in metres of a body at rest over the sea, at each wavenumber, about the body's
+// origin, which is `height_m` above the mean surface. r_hat in the body frame, whose z is up; r_hat.z() > 0. Raises
+// *legs by the legs followed.
+std::vector<std::array<Complex, 4>> scattering_matrices_over_sea(const Scatterer& scatterer, const Vec3& r_hat,
+                                                                 double height_m, const SeaMirror& sea,
+                                                                 std::span<const double> wavenumbers,
+                                                                 const IlluminationSettings& settings, int threads = 1,
+                                                                 std::size_t* legs = nullptr,
+                                                                 const StopFlag* stop = nullptr);
+
+}  // namespace seaglint

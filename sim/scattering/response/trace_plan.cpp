@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/scattering/response/trace_plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace seaglint {
+namespace {
+
+// The world's polarisation basis as the turned body sees it.
+RadarBasis body_basis(const RadarBasis& world, const Pose& pose) {
+  const Mat3 R_BT = pose.R_TB.transpose();
+  return {R_BT * world.r, R_BT * world.h, R_BT * world.v};
+}
+
+double length_of(std::span<const Vec3> way) {
+  double length = 0;
+  for (std::size_t n = 1; n < way.size(); ++n) length += (way[n] - way[n - 1]).norm();
+  return length;
+}
+
+}  // namespace
+
+// Where the radar and its image in the sea stand at every pulse, body frame.
+struct TracePlan::Directions {
+  std::vector<Vec3> to_radar, to_image;
+
+  std::span<const Vec3> of(bool by_sea) const { return by_sea ? to_image : to_radar; }
+};
+
+TracePlan::TracePlan(const Trajectory& trajectory, const IntervalSampling& sampling, const Vec3& r_hat, double range_m,
+                     std::span<const SeaPath> paths, const TraceLimits& limits)
+    : range_m_(range_m) {
+  const double start = sampling.pulse_time_s.front(), length = sampling.pulse_time_s.back() - start;
+  Directions seen;
+  for (const double time_s : sampling.pulse_time_s) {
+    time_.push_back(length > 0 ? (time_s - start) / length : 0);
+    const Pose& pose = poses_.emplace_back(trajectory.pose(time_s));
+    const Sight sight = sight_from(sights_.emplace_back(sight_at(sampling, r_hat, time_s)), pose.p_TB, range_m);
+    seen.to_radar.push_back(pose.R_TB.transpose() * sight.radar.r);
+    seen.to_image.push_back(pose.R_TB.transpose() * sight.image.r);
+  }
+  double turn = 0;
+  for (const SeaPath& path : paths) {
+    for (const bool by_sea : {path.there, path.back}) turn = std::max(turn, length_of(seen.of(by_sea)));
+  }
+  // Spans get shorter until no path bends by more than its limit, or holds one pulse.
+  spans_ = std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(turn / limits.turn)));
+  for (;; spans_ += (spans_ + 1) / 2) {
+    traces_.clear();
+    double beside = 0;
+    for (std::size_t i = 0; i < spans_; ++i) {
+      const double middle_s = start + length * (static_cast<double>(i) + 0.5) / static_cast<double>(spans_);
+      const Pose pose = trajectory.pose(middle_s);
+      traces_.push_back(
+          planned(i, pose, sight_from(sight_at(sampling, r_hat, middle_s), pose.p_TB, range_m), seen, paths));
+      for (const PlannedWay& way : traces_.back().ways) beside = std::max(beside, way.moves.q_limit);
+    }
+    if (beside <= limits.beside || spans_ >= time_.size()) break;
+  }
+}
+
+double TracePlan::share(std::size_t trace, int pulse) const {
+  const auto spans = static_cast<double>(spans_), own = static_cast<double>(trace);
+  const double place = std::clamp(time_[static_cast<std::size_t>(pulse)] * spans - 0.5, 0.0, spans - 1);
+  return std::max(0.0, 1 - std::abs(place - own));
+}
+
+PlannedTrace TracePlan::planned(std::size_t trace, const Pose& pose, const Sight& sight, const Directions& seen,
+                                std::span<const SeaPath> paths) const {
+  const int pulses = static_cast<int>(time_.size());
+  PlannedTrace plan;
+  plan.first = pulses;
+  for (int n = 0; n < pulses; ++n) {
+    if (share(trace, n) <= 0) continue;
+    plan.first = std::min(plan.first, n);
+    plan.last = n;
+  }
+  if (plan.first > plan.last) return plan;
+  const RadarBasis radar = body_basis(sight.radar, pose), image = body_basis(sight.image, pose);
+  for (const SeaPath& path : paths) {
+    const RadarBasis &transmit = path.there ? image : radar, &receive = path.back ? image : radar;
+    const auto own = [&](bool by_sea) {
+      return seen.of(by_sea).subspan(static_cast<std::size_t>(plan.first),
+                                     static_cast<std::size_t>(plan.last - plan.first + 1));
+    };
+    plan.ways.push_back({path, path.there == path.back ? monostatic(transmit) : bistatic(transmit, receive),
+                         direction_path(own(path.there), own(path.back), transmit.r, receive.r)});
+  }
+  return plan;
+}
+
+}  // namespace seaglint

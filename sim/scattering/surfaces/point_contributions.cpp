@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/scattering/surfaces/point_contributions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "sim/core/numbers/constants.h"
+#include "sim/scattering/surfaces/curved_footprint.h"
+
+namespace seaglint {
+namespace {
+
+double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+class Splitter {
+ public:
+  Splitter(const Footprint& footprint, const RadarBasis& basis, const SplitSettings& settings,
+           std::vector<Contribution>& out)
+      : footprint_(footprint), basis_(basis), settings_(settings), out_(out) {
+    prototype_.facet = footprint.facet;
+    prototype_.part = footprint.part;
+    prototype_.bounces = footprint.bounces;
+    for (int i = 0; i < 4; ++i) prototype_.pattern[i] = std::complex<float>(footprint.pattern[i]);
+    threshold_ = std::max(settings.turn_rad * footprint.surface_slope_turn / kAmplitudeError, 1e-9);
+  }
+
+  void run() {
+    if (footprint_.curvature) {
+      curved();
+      return;
+    }
+    // Only a phase that runs through a good part of a cycle has end points. The whole facet decides, not this piece of
+    // it: pieces that share a moving boundary must be treated alike, or its two sides do not cancel.
+    const double half_phase = settings_.kc * footprint_.surface_slope * footprint_.facet_size / 2;
+    if (footprint_.surface_slope > threshold_ && half_phase > kPieceHalfPhase) {
+      edges();
+    } else {
+      area(footprint_.polygon);
+    }
+  }
+
+ private:
+  void emit(const Complex& integral, double psi, const PathGradient& gradient) {
+    Contribution c = prototype_;
+    c.amplitude = Complex(0, -settings_.kc / (2 * kPi)) * integral;
+    c.psi = psi;
+    c.gradient = gradient;
+    out_.push_back(c);
+  }
+
+  void curved() {
+    std::vector<CurvedTerm> terms;
+    curved_terms(footprint_, settings_.kc, threshold_, terms);
+    for (const CurvedTerm& term : terms) {
+      const auto pattern = pattern_at(footprint_, term.p, footprint_.pattern);
+      for (int i = 0; i < 4; ++i) prototype_.pattern[i] = std::complex<float>(pattern[i]);
+      PathGradient gradient = phase_gradient(footprint_, term.p, basis_);
+      gradient.transmit_slip = term.slide1 * basis_.h + term.slide2 * basis_.v;
+      gradient.transmit += gradient.transmit_slip;
+      emit(term.integral, term.psi, gradient);
+    }
+  }
+
+  // Pieces small enough for their own integral to be slow, each a point at its centroid.
+  void area(const MovingPolygon& polygon) {
+    const Vec2 c = centroid(polygon);
+    // The longest extent is cut first; the phase that counts is that of w and of what w may become.
+    double longest = 0;
+    Vec2 along = Vec2::Zero();
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      for (std::size_t j = i + 1; j < polygon.size(); ++j) {
+        const Vec2 d = polygon[j].p - polygon[i].p;
+        if (footprint_.surface_length(d) > longest) {
+          longest = footprint_.surface_length(d);
+          along = d;
+        }
+      }
+    }
+    const double slope = std::max(footprint_.surface_slope, kAmplitudeError * threshold_);
+    if (settings_.kc * slope * longest / 2 > kPieceHalfPhase && longest > 1e-6) {
+      MovingLine line;  // through the centroid, across the longest extent; a cut of our own is at rest
+      line.gradient = along.normalized();
+      line.value = -line.gradient.dot(c);
+      const auto [far, near] = halves(polygon, line);
+      if (!near.empty() && !far.empty() && near.size() + far.size() > polygon.size()) {
+        area(near);
+        area(far);
+        return;
+      }
+    }
+    Footprint piece = footprint_;
+    piece.polygon = polygon;
+    const double psi = footprint_.psi(c);
+    emit(phase_integral(piece, settings_.kc) * std::polar(1.0, -settings_.kc * psi), psi,
+         phase_gradient(footprint_, c, basis_));
+  }
+
+  // An edge of Gordon's contour, which carries cross(w, edge)/(jk |w|^2) times the mean of e^{jk psi} along it.
+  struct Edge {
+    double run = 0;     // psi from its start to its end, m
+    double length = 0;  // m
+    Complex flux;       // cross / (jk |w|^2), m^2
+    // flux / (jk run) where its ends stand for it: what the end has, and the start less
+    std::optional<double> end = {};
+  };
+  Edge edge_of(const Corner& a, const Corner& b) const {
+    const Vec2 along = b.p - a.p;
+    const double k = settings_.kc;
+    Edge edge{footprint_.w.dot(along), footprint_.surface_length(along),
+              Complex(0, -cross(footprint_.w, along) / (k * footprint_.w.squaredNorm()))};
+    if (std::abs(edge.run) > threshold_ * edge.length && std::abs(k * edge.run) / 2 > kPieceHalfPhase)
+      edge.end = edge.flux.imag() / (k * edge.run);
+    return edge;
+  }
+
+  void edges() {
+    constexpr double kShortest = 1e-12;  // m
+    const MovingPolygon& polygon = footprint_.polygon;
+    std::optional<double> before =
+        edge_of(polygon.size() > 1 ? polygon[polygon.size() - 2] : polygon.back(), polygon.back()).end;
+    const Corner* a = &polygon.back();
+    for (const Corner& b : polygon) {
+      const Edge edge = edge_of(*a, b);
+      if (!edge.end && edge.length >= kShortest) edge_pieces(*a, b, edge.flux, edge.run, edge.length);
+      if (before || edge.end)
+        emit(before.value_or(0) - edge.end.value_or(0), footprint_.psi(a->p), phase_gradient(footprint_, *a, basis_));
+      before = edge.end;
+      a = &b;
+    }
+  }
+
+  void edge_pieces(const Corner& a, const Corner& b, const Complex& edge, double run, double length) {
+    const double k = settings_.kc;
+    const double slope = std::max(std::abs(run), kAmplitudeError * threshold_ * length);
+    const int pieces = std::max(1, static_cast<int>(std::ceil(k * slope / 2 / kPieceHalfPhase)));
+    const PathGradient ga = phase_gradient(footprint_, a, basis_), gb = phase_gradient(footprint_, b, basis_);
+    const double psi_a = footprint_.psi(a.p);
+    for (int i = 0; i < pieces; ++i) {
+      const double s = (i + 0.5) / pieces;
+      emit(edge * (sinc(k * run / pieces) / pieces), psi_a + s * run, between(ga, gb, s));
+    }
+  }
+
+  const Footprint& footprint_;
+  const RadarBasis& basis_;
+  const SplitSettings& settings_;
+  std::vector<Contribution>& out_;
+  Contribution prototype_;
+  double threshold_ = 0;  // slope of psi along the surface above which end points may stand for an extent
+};
+
+}  // namespace
+
+void split(const Footprint& footprint, const RadarBasis& transmit, const SplitSettings& settings,
+           std::vector<Contribution>& out) {
+  Splitter(footprint, transmit, settings, out).run();
+}
+
+void split_over_band(const Footprint& footprint, const RadarBasis& transmit, const SplitSettings& settings,
+                     double half_band, std::vector<Contribution>& out) {
+  split(footprint, transmit, settings, out);
+  if (footprint.patterns.size() != 3 || half_band <= 0) return;
+  std::array<Complex, 4> slope;
+  double largest = 0, change = 0;
+  for (int i = 0; i < 4; ++i) {
+    slope[i] = (footprint.patterns[2][i] - footprint.patterns[0][i]) / (2 * half_band);
+    largest = std::max(largest, std::abs(footprint.pattern[i]));
+    change = std::max(change, std::abs(slope[i]) * half_band);
+  }
+  if (change < 1e-4 * largest) return;  // -80 dB
+  const double delta = kSlopePhase / half_band;
+  for (const double side : {1.0, -1.0}) {
+    Footprint shifted = footprint;
+    shifted.psi0 += side * delta;
+    const Complex factor = side / Complex(0, 2 * delta) * std::polar(1.0, -side * settings.kc * delta);
+    for (int i = 0; i < 4; ++i) shifted.pattern[i] = factor * slope[i];
+    split(shifted, transmit, settings, out);
+  }
+}
+
+void split(const EdgeFootprint& footprint, const SplitSettings& settings, std::vector<Contribution>& out) {
+  Contribution c;
+  c.facet = footprint.facet;
+  c.part = footprint.part;
+  c.bounces = footprint.bounces;
+  c.mechanism = Mechanism::kEdge;
+  const std::array<Complex, 4> pattern = footprint.pattern.at(settings.kc);
+  for (int i = 0; i < 4; ++i) c.pattern[i] = std::complex<float>(pattern[i]);
+  const double k = settings.kc, run = footprint.psi[1] - footprint.psi[0];
+  // Turning by u changes psi's slope along the edge by at most 2 u.
+  const double threshold = 2 * settings.turn_rad / kAmplitudeError * footprint.length;
+  if (std::abs(run) > threshold && std::abs(k * run) / 2 > kPieceHalfPhase && ends_answer_alone(footprint, k)) {
+    for (int i = 0; i < 2; ++i) {
+      const Complex end = end_term(footprint, k, i);
+      c.amplitude = i == 0 ? -end : end;
+      c.psi = footprint.psi[i];
+      c.gradient = footprint.gradient[i];
+      out.push_back(c);
+    }
+    return;
+  }
+  const double slope = std::max(std::abs(run), kAmplitudeError * threshold);
+  const int pieces = std::max(1, static_cast<int>(std::ceil(k * slope / 2 / kPieceHalfPhase)));
+  const PathGradient &a = footprint.gradient[0], &b = footprint.gradient[1];
+  for (int i = 0; i < pieces; ++i) {
+    const double s = (i + 0.5) / pieces, half = 0.5 / pieces;
+    c.amplitude = part_integral(footprint, k, s - half, s + half);
+    c.psi = footprint.psi[0] + s * run;
+    c.gradient = between(a, b, s);
+    out.push_back(c);
+  }
+}
+
+void bend_wavefront(std::span<Contribution> contributions, const AntennaPair& antennas, const Vec3& origin,
+                    double range_m) {
+  for (Contribution& c : contributions) {
+    for (const bool out : {false, true}) {
+      const Vec3& r = out ? antennas.receive.r : antennas.transmit.r;
+      Vec3& gradient = out ? c.gradient.receive : c.gradient.transmit;
+      const Vec3 x = origin + gradient - (out ? c.gradient.receive_slip : c.gradient.transmit_slip);
+      const double along = r.dot(x);
+      c.psi -= (x - along * r).squaredNorm() / (2 * range_m);
+      gradient += along / range_m * x;  // of -|x_perp|^2 / (2 R) with r
+    }
+  }
+}
+
+std::array<Complex, 4> direct_sum(std::span<const Contribution> contributions, double k, const Vec3& turn) {
+  std::array<Complex, 4> sum{};
+  for (const Contribution& c : contributions) {
+    const Complex term = c.amplitude * std::polar(1.0, k * (c.psi + c.gradient.sum().dot(turn)));
+    for (int i = 0; i < 4; ++i) sum[i] += term * Complex(c.pattern[i]);
+  }
+  return sum;
+}
+
+}  // namespace seaglint

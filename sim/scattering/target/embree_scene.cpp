@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/scattering/target/embree_scene.h"
+
+#include <embree3/rtcore.h>
+#include <pmmintrin.h>
+#include <xmmintrin.h>
+
+#include <cmath>
+#include <limits>
+#include <new>
+#include <stdexcept>
+#include <string>
+
+namespace seaglint {
+
+struct RayScene::Impl {
+  RTCDevice device = nullptr;
+  RTCScene scene = nullptr;
+
+  ~Impl() {
+    if (scene) rtcReleaseScene(scene);
+    if (device) rtcReleaseDevice(device);
+  }
+};
+
+namespace {
+
+// Embree wants denormal numbers as zero; the caller's arithmetic is its own again afterwards.
+class DenormalsAreZero {
+ public:
+  DenormalsAreZero() : before_(_mm_getcsr()) {
+    _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
+    _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
+  }
+  ~DenormalsAreZero() { _mm_setcsr(before_); }
+  DenormalsAreZero(const DenormalsAreZero&) = delete;
+  DenormalsAreZero& operator=(const DenormalsAreZero&) = delete;
+
+ private:
+  unsigned before_;
+};
+
+}  // namespace
+
+namespace {
+
+// What the builder makes, in its own arena, before it is laid out as BoxNodes: a leaf, or a node where it has no box.
+struct Built {
+  int box = -1;
+};
+struct BuiltNode : Built {
+  unsigned children = 0;
+  std::array<Built*, kMostChildren> child{};
+  std::array<RTCBounds, kMostChildren> bounds{};
+};
+
+float rounded_down(double x) {
+  const auto f = static_cast<float>(x);
+  return f > x ? std::nextafter(f, -std::numeric_limits<float>::infinity()) : f;
+}
+float rounded_up(double x) { return -rounded_down(-x); }
+
+RTCBuildPrimitive primitive(const Box3& box, unsigned number) {
+  RTCBuildPrimitive p;
+  p.lower_x = rounded_down(box.lower.x());
+  p.lower_y = rounded_down(box.lower.y());
+  p.lower_z = rounded_down(box.lower.z());
+  p.upper_x = rounded_up(box.upper.x());
+  p.upper_y = rounded_up(box.upper.y());
+  p.upper_z = rounded_up(box.upper.z());
+  p.geomID = 0;
+  p.primID = number;
+  return p;
+}
+
+template <typename T>
+T* create(RTCThreadLocalAllocator allocator) {
+  return new (rtcThreadLocalAlloc(allocator, sizeof(T), alignof(T))) T;
+}
+
+BuiltNode& node_at(void* built) { return static_cast<BuiltNode&>(*static_cast<Built*>(built)); }
+
+std::int32_t lay_out(const BuiltNode& built, std::vector<BoxNode>& nodes) {
+  const auto index = static_cast<std::int32_t>(nodes.size());
+  nodes.emplace_back();
+  BoxNode node;
+  node.children = static_cast<int>(built.children);
+  for (unsigned i = 0; i < built.children; ++i) {
+    const RTCBounds& b = built.bounds[i];
+    const Built& child = *built.child[i];
+    node.child[i] = {child.box >= 0 ? -1 - child.box : lay_out(static_cast<const BuiltNode&>(child), nodes),
+                     {b.lower_x, b.lower_y, b.lower_z},
+                     {b.upper_x, b.upper_y, b.upper_z}};
+  }
+  nodes[index] = node;
+  return index;
+}
+
+}  // namespace
+
+std::vector<BoxNode> box_tree(std::span<const Box3> boxes) {
+  std::vector<BoxNode> nodes;
+  if (boxes.empty()) return nodes;
+  std::vector<RTCBuildPrimitive> primitives;
+  primitives.reserve(boxes.size());
+  for (const Box3& box : boxes) primitives.push_back(primitive(box, static_cast<unsigned>(primitives.size())));
+
+  // One building thread, as for the scene: the tree never depends on the machine's load.
+  const RTCDevice device = rtcNewDevice("threads=1,set_affinity=0");
+  if (!device) throw std::runtime_error("Embree: no device");
+  const RTCBVH bvh = rtcNewBVH(device);
+  RTCBuildArguments arguments = rtcDefaultBuildArguments();
+  arguments.byteSize = sizeof(arguments);
+  arguments.maxBranchingFactor = kMostChildren;
+  arguments.maxDepth = kMostLevels;
+  arguments.sahBlockSize = 1;
+  arguments.minLeafSize = 1;
+  arguments.maxLeafSize = 1;
+  arguments.bvh = bvh;
+  arguments.primitives = primitives.data();
+  arguments.primitiveCount = primitives.size();
+  arguments.primitiveArrayCapacity = primitives.size();
+  arguments.createNode = [](RTCThreadLocalAllocator allocator, unsigned, void*) -> void* {
+    return static_cast<Built*>(create<BuiltNode>(allocator));
+  };
+  arguments.setNodeChildren = [](void* node, void** children, unsigned count, void*) {
+    BuiltNode& built = node_at(node);
+    built.children = count;
+    for (unsigned i = 0; i < count; ++i) built.child[i] = static_cast<Built*>(children[i]);
+  };
+  arguments.setNodeBounds = [](void* node, const RTCBounds** bounds, unsigned count, void*) {
+    for (unsigned i = 0; i < count; ++i) node_at(node).bounds[i] = *bounds[i];
+  };
+  arguments.createLeaf = [](RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* leaf, std::size_t,
+                            void*) -> void* {
+    Built* const built = create<Built>(allocator);
+    built->box = static_cast<int>(leaf->primID);
+    return built;
+  };
+  const auto* root = static_cast<const Built*>(rtcBuildBVH(&arguments));
+  if (root && root->box >= 0) {
+    // A single box is a leaf without a node above it.
+    const RTCBuildPrimitive p = primitive(boxes[0], 0);
+    BoxNode node;
+    node.children = 1;
+    node.child[0] = {-1, {p.lower_x, p.lower_y, p.lower_z}, {p.upper_x, p.upper_y, p.upper_z}};
+    nodes.push_back(node);
+  } else if (root) {
+    lay_out(static_cast<const BuiltNode&>(*root), nodes);
+  }
+  const RTCError error = rtcGetDeviceError(device);
+  rtcReleaseBVH(bvh);
+  rtcReleaseDevice(device);
+  if (nodes.empty()) throw std::runtime_error("Embree: no tree, error " + std::to_string(static_cast<int>(error)));
+  return nodes;
+}
+
+RayScene::RayScene(std::span<const Facet> facets) : impl_(std::make_unique<Impl>()) {
+  // One building thread: the tree, and so the order of ties, never depends on the machine's load.
+  impl_->device = rtcNewDevice("threads=1,set_affinity=0");
+  if (!impl_->device) throw std::runtime_error("Embree: no device");
+  impl_->scene = rtcNewScene(impl_->device);
+  // Robust: rays aimed at shared edges do not slip through closed surfaces (7 % do otherwise, 0.1 % with it).
+  rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneBuildQuality(impl_->scene, RTC_BUILD_QUALITY_HIGH);
+
+  RTCGeometry geometry = rtcNewGeometry(impl_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                               3 * sizeof(float), 3 * facets.size()));
+  auto* triangles = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                                                   3 * sizeof(unsigned), facets.size()));
+  if (!vertices || !triangles) {
+    rtcReleaseGeometry(geometry);
+    throw std::bad_alloc();
+  }
+  for (std::size_t f = 0; f < facets.size(); ++f) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (int axis = 0; axis < 3; ++axis) *vertices++ = static_cast<float>(facets[f].corner[i][axis]);
+      *triangles++ = static_cast<unsigned>(3 * f + i);
+    }
+  }
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(impl_->scene, geometry);
+  rtcReleaseGeometry(geometry);
+  rtcCommitScene(impl_->scene);
+}
+
+RayScene::~RayScene() = default;
+RayScene::RayScene(RayScene&&) noexcept = default;
+RayScene& RayScene::operator=(RayScene&&) noexcept = default;
+
+void RayScene::first_hits(std::span<const Ray> rays, std::span<int> facets) const {
+  const DenormalsAreZero mode;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  for (std::size_t first = 0; first < rays.size(); first += 16) {
+    alignas(64) int valid[16];
+    RTCRayHit16 packet;
+    for (std::size_t lane = 0; lane < 16; ++lane) {
+      const bool used = first + lane < rays.size();
+      const Ray& ray = rays[used ? first + lane : first];
+      valid[lane] = used ? -1 : 0;
+      packet.ray.org_x[lane] = static_cast<float>(ray.origin.x());
+      packet.ray.org_y[lane] = static_cast<float>(ray.origin.y());
+      packet.ray.org_z[lane] = static_cast<float>(ray.origin.z());
+      packet.ray.dir_x[lane] = static_cast<float>(ray.direction.x());
+      packet.ray.dir_y[lane] = static_cast<float>(ray.direction.y());
+      packet.ray.dir_z[lane] = static_cast<float>(ray.direction.z());
+      packet.ray.tnear[lane] = 0;
+      packet.ray.tfar[lane] = std::numeric_limits<float>::infinity();
+      packet.ray.time[lane] = 0;
+      packet.ray.mask[lane] = ~0u;
+      packet.ray.id[lane] = 0;
+      packet.ray.flags[lane] = 0;
+      packet.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
+      packet.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
+    }
+    rtcIntersect16(valid, impl_->scene, &context, &packet);
+    for (std::size_t lane = 0; lane < 16 && first + lane < rays.size(); ++lane) {
+      facets[first + lane] =
+          packet.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID ? kNoFacet : static_cast<int>(packet.hit.primID[lane]);
+    }
+  }
+}
+
+int RayScene::first_hit(const Ray& ray) const {
+  const DenormalsAreZero mode;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  RTCRayHit query;
+  query.ray.org_x = static_cast<float>(ray.origin.x());
+  query.ray.org_y = static_cast<float>(ray.origin.y());
+  query.ray.org_z = static_cast<float>(ray.origin.z());
+  query.ray.dir_x = static_cast<float>(ray.direction.x());
+  query.ray.dir_y = static_cast<float>(ray.direction.y());
+  query.ray.dir_z = static_cast<float>(ray.direction.z());
+  query.ray.tnear = 0;
+  query.ray.tfar = std::numeric_limits<float>::infinity();
+  query.ray.time = 0;
+  query.ray.mask = ~0u;
+  query.ray.id = 0;
+  query.ray.flags = 0;
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(impl_->scene, &context, &query);
+  return query.hit.geomID == RTC_INVALID_GEOMETRY_ID ? kNoFacet : static_cast<int>(query.hit.primID);
+}
+
+}  // namespace seaglint

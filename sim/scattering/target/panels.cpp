@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/scattering/target/panels.h"
+
+#include <algorithm>
+#include <array>
+
+namespace seaglint {
+namespace {
+
+// Corners nearer to a panel's plane than this lie in it: 1e-5 of a 10 mm wavelength, as for facets that coincide.
+constexpr double kInPlane = 1e-7;  // m
+// Cosine between normals of one plane: keeps out slivers that are smaller than kInPlane.
+constexpr double kSameWay = 0.999;
+// While it grows, corners on straight sides included.
+constexpr std::size_t kMostCorners = 32;
+
+struct Outline {
+  Vec3 normal;
+  std::vector<Vec3> corner;
+  std::vector<std::array<int, 2>> side;  // facet and its edge from corner[i] to corner[i + 1]
+};
+
+// Positive where the way a, b, c turns left about the normal, m^2; within kStraight of its length squared it goes
+// straight on.
+double turn(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& normal) {
+  return normal.dot((b - a).cross(c - b));
+}
+constexpr double kStraight = 1e-12;
+
+// Puts the far corner of the facet across side i, which it shares as `edge`, into the outline. False where that would
+// not be convex.
+bool grow(Outline& outline, std::size_t i, int facet, int edge, const Vec3& apex) {
+  const std::size_t n = outline.corner.size();
+  const auto at = [&](std::size_t j) -> const Vec3& { return outline.corner[j % n]; };
+  const double straight = kStraight * (apex - at(i)).squaredNorm();
+  // A facet folded back upon this one has its far corner on the wrong side.
+  if (!(turn(at(i), apex, at(i + 1), outline.normal) > straight)) return false;
+  if (turn(at(i + n - 1), at(i), apex, outline.normal) < -straight ||
+      turn(apex, at(i + 1), at(i + 2), outline.normal) < -straight)
+    return false;
+  const auto place = static_cast<std::ptrdiff_t>(i) + 1;
+  outline.corner.insert(outline.corner.begin() + place, apex);
+  outline.side[i] = {facet, (edge + 1) % 3};
+  outline.side.insert(outline.side.begin() + place, {facet, (edge + 2) % 3});
+  return true;
+}
+
+}  // namespace
+
+Panels::Panels(std::span<const Facet> facets, const SmoothSurface& surface)
+    : facets_(facets), of_(facets.size(), -1), size_(facets.size(), 0) {
+  first_corner_.reserve(facets.size() + 1);
+  first_member_.reserve(facets.size() + 1);
+  members_.reserve(facets.size());
+  Outline outline;
+  for (int f = 0; f < static_cast<int>(facets.size()); ++f) {
+    first_corner_.push_back(static_cast<std::uint32_t>(corners_.size()));
+    first_member_.push_back(static_cast<std::uint32_t>(members_.size()));
+    if (of_[f] >= 0) continue;
+    const Facet& first = facets[f];
+    of_[f] = f;
+    members_.push_back(f);
+    outline = {first.normal, {first.corner.begin(), first.corner.end()}, {{f, 0}, {f, 1}, {f, 2}}};
+    for (std::size_t i = 0; i < outline.side.size() && outline.side.size() < kMostCorners;) {
+      const auto [from, edge] = outline.side[i];
+      const int g = facets[from].neighbour[edge];
+      const auto joins = [&] {
+        if (g < 0 || of_[g] >= 0 || surface.curved(f) || surface.curved(g)) return false;
+        const Facet& other = facets[g];
+        // Two facets and no third share the edge.
+        const auto back = std::find(other.neighbour.begin(), other.neighbour.end(), from);
+        if (back == other.neighbour.end() || other.part != first.part || other.material != first.material ||
+            other.open != first.open)
+          return false;
+        if (other.normal.dot(first.normal) < kSameWay) return false;
+        for (const Vec3& x : other.corner) {
+          if (std::abs(first.normal.dot(x) - first.offset) > kInPlane) return false;
+        }
+        const int shared = static_cast<int>(back - other.neighbour.begin());
+        return grow(outline, i, g, shared, other.corner[(shared + 2) % 3]);
+      };
+      if (joins()) {
+        of_[g] = f;
+        members_.push_back(g);
+        i = 0;  // what did not fit before may fit now
+      } else {
+        ++i;
+      }
+    }
+    const std::size_t n = outline.corner.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      const Vec3 &before = outline.corner[(i + n - 1) % n], &here = outline.corner[i],
+                 &after = outline.corner[(i + 1) % n];
+      if (n > 3 && turn(before, here, after, outline.normal) > kStraight * (after - before).squaredNorm())
+        corners_.push_back(here);
+      for (const Vec3& other : outline.corner) size_[f] = std::max(size_[f], (other - here).norm());
+    }
+  }
+  first_corner_.push_back(static_cast<std::uint32_t>(corners_.size()));
+  first_member_.push_back(static_cast<std::uint32_t>(members_.size()));
+}
+
+}  // namespace seaglint

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/scattering/target/scatterer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "sim/core/process/error.h"
+
+namespace seaglint {
+namespace {
+
+double radius_of(std::span<const Facet> facets) {
+  double radius = 0;
+  for (const Facet& facet : facets) {
+    for (const Vec3& corner : facet.corner) radius = std::max(radius, corner.norm());
+  }
+  return radius;
+}
+
+}  // namespace
+
+// Rounding of single-precision coordinates bends a surface by less than 1e-7 of its radius: 7 um on the ship, 0.3 deg
+// of phase at 16 GHz.
+Scatterer::Scatterer(const TriangleMesh& mesh, std::vector<MaterialSpec> materials, double crease_rad,
+                     double sheet_thickness_m)
+    : facets_(make_facets(mesh)),
+      radius_(radius_of(facets_)),
+      sheet_thickness_(sheet_thickness_m),
+      surface_(facets_, crease_rad, 1e-7 * radius_),
+      panels_(facets_, surface_),
+      edges_(sharp_edges(facets_, crease_rad > 0 ? crease_rad : radians(kDefaultCreaseDeg), sheet_thickness_)),
+      tree_(facets_, panels_),
+      materials_(std::move(materials)) {
+  for (const Facet& facet : facets_) {
+    SEAGLINT_CHECK(materials_.empty() || facet.material < materials_.size(),
+                   fmt::format("material {} of {}", facet.material, materials_.size()));
+  }
+  if (facets_.empty()) throw InputError("the mesh has no triangle with an area: nothing scatters");
+  // Only wedges of perfect conductors on both sides diffract; where a hull enters the water there is none.
+  for (auto& sides : edges_.of_facet) {
+    for (int& edge : sides) {
+      if (edge == kNoEdge || materials_.empty()) continue;
+      const auto conducts = [&](int facet) { return materials_[facets_[facet].material].kind == SurfaceKind::kPec; };
+      if (const SharpEdge& wedge = edges_.edges[edge]; !conducts(wedge.facet[0]) || !conducts(wedge.facet[1]))
+        edge = kNoEdge;
+    }
+  }
+  list_by_panel(edges_, facets_, panels_);
+}
+
+}  // namespace seaglint

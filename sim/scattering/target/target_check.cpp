@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/scattering/target/target_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/core/numbers/constants.h"
+#include "sim/core/process/error.h"
+
+namespace seaglint {
+namespace {
+
+constexpr double kFewestWavelengths = 3;  // physical optics of a plate this wide is off by a dB at its normal
+constexpr double kLongestTarget_m = 5e3;  // no ship is longer than a tenth of it
+constexpr double kFarOrigin = 10;         // half-sizes from the origin
+constexpr double kTooFarOrigin = 300;     // details of a thirtieth of the half-size would be left out
+constexpr double kLeastDetail = 7e-5;     // of the radius about the origin (default_ray_spacing / 14)
+constexpr std::size_t kManyTriangles = 1'000'000;
+// What a million triangles take on two cores: a wavy sheet of 10 million, and one of 2 million whose edges are all
+// sharp.
+constexpr double kGigabytesOfSmooth = 0.9, kGigabytesOfSharp = 2;
+constexpr double kSecondsToBuild = 8, kSecondsOfSmooth = 5, kSecondsOfSharp = 22;
+
+constexpr double kNarrow = 1.0 / 3;  // wavelengths
+// wavelengths: 0.2 dB of a strip's soft, 0.8 of its hard echo (README.md, "Thick sheets")
+constexpr double kThickSheet = 0.1;
+
+// Of the panel that the facet belongs to, m^2.
+double panel_area(const Scatterer& scatterer, int facet) {
+  double area = 0;
+  for (const int member : scatterer.panels().members(scatterer.panels().of(facet))) {
+    const auto& corner = scatterer.facets()[member].corner;
+    area += 0.5 * (corner[1] - corner[0]).cross(corner[2] - corner[0]).norm();
+  }
+  return area;
+}
+
+}  // namespace
+
+std::vector<std::string> check_target(const TriangleMesh& mesh, double lowest_hz) {
+  std::vector<std::string> found;
+  const Bounds box = bounds(mesh);
+  const Vec3 size = box.upper - box.lower, centre = (box.upper + box.lower) / 2;
+  const double longest = size.norm(), wavelength = kSpeedOfLight / lowest_hz;
+  if (longest > kLongestTarget_m)
+    found.push_back(fmt::format("the target is {:.4g} m across; is its unit right?", longest));
+  if (longest < kFewestWavelengths * wavelength) {
+    found.push_back(fmt::format(
+        "the target is {:.3g} m across, {:.3g} wavelengths at {:g} GHz; physical optics needs {:g} and more{}", longest,
+        longest / wavelength, lowest_hz * 1e-9, kFewestWavelengths, longest < 0.01 ? "; is its unit right?" : ""));
+  }
+
+  const double distance = centre.norm() / std::max(longest / 2, 1e-300);
+  if (distance > kTooFarOrigin) {
+    throw InputError(fmt::format(
+        "the target of {:.4g} m lies {:.4g} m from its origin, about which it turns and has its phase: move it there",
+        longest, centre.norm()));
+  }
+  if (distance > kFarOrigin)
+    found.push_back(
+        fmt::format("the target of {:.4g} m lies {:.4g} m from its origin; details below {:.2g} m are left out",
+                    longest, centre.norm(), kLeastDetail * (centre.norm() + longest / 2)));
+
+  if (mesh.triangles.size() > kManyTriangles) {
+    const double millions = 1e-6 * static_cast<double>(mesh.triangles.size());
+    const auto of_all = [&](double per_million) { return std::ceil(per_million * millions); };
+    found.push_back(fmt::format(
+        "{:.1f} million triangles: expect {:.0f} to {:.0f} GB of memory, the more the more of its edges are "
+        "sharp, about {:.0f} s before the first view and {:.0f} to {:.0f} s for every view",
+        millions, of_all(kGigabytesOfSmooth), of_all(kGigabytesOfSharp), of_all(kSecondsToBuild),
+        of_all(kSecondsOfSmooth), of_all(kSecondsOfSharp)));
+  }
+  return found;
+}
+
+std::vector<std::string> check_edges(const Scatterer& scatterer, bool followed, double lowest_hz, double highest_hz) {
+  const double longest = kSpeedOfLight / lowest_hz, shortest = kSpeedOfLight / highest_hz,
+               thickness = scatterer.sheet_thickness();
+  const auto changes_nothing = [&](const char* why) {
+    return fmt::format("a sheet thickness of {:g} mm changes nothing: {}", 1e3 * thickness, why);
+  };
+  if (!followed) return thickness > 0 ? std::vector{changes_nothing("edges are off")} : std::vector<std::string>{};
+  double all = 0, narrow = 0;
+  for (const SharpEdge& edge : scatterer.edges().edges) {
+    const double length = edge.length();
+    all += length;
+    const auto is_narrow = [&](int facet) { return panel_area(scatterer, facet) < kNarrow * longest * length; };
+    if (length > longest && is_narrow(edge.facet[0]) && is_narrow(edge.facet[1])) narrow += length;
+  }
+  // As panels list them, only edges of perfect conductors.
+  const SharpEdges& edges = scatterer.edges();
+  const bool any_rim = std::ranges::any_of(
+      edges.by_panel, [&](const PanelEdge& side) { return edges.edges[side.edge].outside.thickness_m > 0; });
+  std::vector<std::string> found;
+  if (narrow > 0) {
+    found.push_back(
+        fmt::format("{:.3g} m of {:.3g} m of sharp edges bound bars or strips narrower than a third of the wavelength "
+                    "at {:g} GHz, which return too "
+                    "much with edges on",
+                    narrow, all, lowest_hz * 1e-9));
+  }
+  if (thickness > 0 && !any_rim) {
+    found.push_back(changes_nothing("no surface is open and a perfect conductor"));
+  } else if (thickness > kThickSheet * shortest) {
+    found.push_back(
+        fmt::format("sheets of {:g} mm are {:.2g} wavelengths thick at {:g} GHz; their rims are followed to first "
+                    "order, good up to a tenth",
+                    1e3 * thickness, thickness / shortest, highest_hz * 1e-9));
+  }
+  return found;
+}
+
+void check_range(double radius_m, double range_m) {
+  constexpr double kNearestRadii = 10;
+  if (range_m > 0 && range_m < kNearestRadii * radius_m) {
+    throw InputError(
+        fmt::format("radar range {} m: the target reaches {:.3g} m from where it is counted, and the range must be ten "
+                    "times that or more",
+                    range_m, radius_m));
+  }
+}
+
+}  // namespace seaglint

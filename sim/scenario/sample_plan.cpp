@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/scenario/sample_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+#include "sim/core/numbers/random.h"
+#include "sim/core/process/error.h"
+
+namespace seaglint {
+
+SamplePlan::SamplePlan(const Scenario& scenario)
+    : seed_(scenario.seed),
+      sea_states_(sea_states(scenario.sea).size()),
+      realisations_(static_cast<std::size_t>(scenario.dataset.realisations_per_case)),
+      views_(views(scenario.view).size()),
+      intervals_(scenario.dataset.maps_per_case / std::max(1, scenario.dataset.realisations_per_case)),
+      targets_(scenario.targets.size()),
+      per_realisation_(views_ * static_cast<std::size_t>(intervals_) * targets_),
+      per_shard_(static_cast<std::size_t>(scenario.dataset.maps_per_shard)),
+      spacing_s_(scenario.dataset.interval_spacing_s) {
+  SEAGLINT_CHECK(realisations_ >= 1 && intervals_ >= 1 && per_shard_ >= 1 &&
+                     scenario.dataset.maps_per_case % scenario.dataset.realisations_per_case == 0,
+                 fmt::format("maps_per_case {}, realisations_per_case {}, maps_per_shard {}",
+                             scenario.dataset.maps_per_case, realisations_, per_shard_));
+}
+
+std::size_t SamplePlan::size() const { return sea_states_ * realisations_ * per_realisation_; }
+
+// A Fisher-Yates shuffle of its own key.
+std::vector<std::uint32_t> SamplePlan::order(std::size_t realisation_number) const {
+  std::vector<std::uint32_t> order(per_realisation_);
+  std::iota(order.begin(), order.end(), 0u);
+  Random random({seed_, Stream::kTargetOrder, realisation_number});
+  for (std::size_t i = order.size(); i > 1; --i) {
+    std::swap(order[i - 1], order[random.below(static_cast<std::uint32_t>(i))]);
+  }
+  return order;
+}
+
+SampleAddress SamplePlan::sea_address(std::size_t sample) const {
+  SEAGLINT_CHECK(sample < size(), fmt::format("sample {} of {}", sample, size()));
+  const std::size_t realisation_number = sample / per_realisation_;
+  SampleAddress address;
+  address.realisation = static_cast<int>(realisation_number % realisations_);
+  address.sea_state = static_cast<int>(realisation_number / realisations_);
+  return address;
+}
+
+SampleAddress SamplePlan::address(std::size_t sample) const {
+  SampleAddress address = sea_address(sample);
+  const std::size_t place = order(sample / per_realisation_)[sample % per_realisation_];
+  const std::size_t intervals = static_cast<std::size_t>(intervals_);
+  address.target = static_cast<int>(place % targets_);
+  address.interval = static_cast<int>(place / targets_ % intervals);
+  address.view = static_cast<int>(place / targets_ / intervals);
+  return address;
+}
+
+std::size_t SamplePlan::sample(const SampleAddress& address) const {
+  const std::size_t realisation_number =
+      static_cast<std::size_t>(address.sea_state) * realisations_ + static_cast<std::size_t>(address.realisation);
+  const std::size_t view_interval = static_cast<std::size_t>(address.view) * static_cast<std::size_t>(intervals_) +
+                                    static_cast<std::size_t>(address.interval);
+  const std::size_t place = view_interval * targets_ + static_cast<std::size_t>(address.target);
+  const std::vector<std::uint32_t> order = this->order(realisation_number);
+  const auto found = std::find(order.begin(), order.end(), place);
+  SEAGLINT_CHECK(found != order.end(), fmt::format("place {} of {}", place, per_realisation_));
+  return realisation_number * per_realisation_ + static_cast<std::size_t>(found - order.begin());
+}
+
+std::size_t SamplePlan::shards() const { return (size() + per_shard_ - 1) / per_shard_; }
+
+ShardRange SamplePlan::shard(std::size_t index) const {
+  SEAGLINT_CHECK(index < shards(), fmt::format("shard {} of {}", index, shards()));
+  const std::size_t first = index * per_shard_;
+  return {first, std::min(per_shard_, size() - first)};
+}
+
+std::uint64_t SamplePlan::sea_key(int sea_state, int realisation) const {
+  return static_cast<std::uint64_t>(sea_state) * 1000000u + static_cast<std::uint64_t>(realisation);
+}
+
+std::int64_t SamplePlan::group(const SampleAddress& address) const {
+  return static_cast<std::int64_t>(address.sea_state) * static_cast<std::int64_t>(realisations_) + address.realisation;
+}
+
+double SamplePlan::start_s(const SampleAddress& address) const { return address.interval * spacing_s_; }
+
+double SamplePlan::last_start_s() const { return (intervals_ - 1) * spacing_s_; }
+
+}  // namespace seaglint

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// An audit must find each fault that was put into a sound data set, and no other.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "classify/dataset/directory/audit.h"
+#include "classify/dataset/directory/dataset_reader.h"
+#include "classify/dataset/format/checksum.h"
+#include "sim/core/process/file.h"
+#include "tests/classify/dataset/data_directory.h"
+
+namespace seaglint {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+class AuditedDirectory : public DataDirectory {
+ protected:
+  void SetUp() override {
+    DataDirectory::SetUp();
+    make_whole();
+  }
+
+  // Changes a shard and its checksum, as a faulty program would write it.
+  void falsify(std::size_t index, const std::function<void(Shard&)>& change) {
+    Shard shard = shard_of(index);
+    change(shard);
+    const fs::path file = directory_ / shard_name(index);
+    fs::remove(file);
+    write_shard(file, shard, scenario_.features.max_centres);
+    Manifest manifest = read_manifest(directory_ / kManifestFile);
+    manifest.shards[index].sha256 = sha256_file(file);
+    write_file(directory_ / kManifestFile, to_json(manifest));
+  }
+
+  std::vector<std::string> faults() const { return audit(directory_).faults; }
+};
+
+TEST_F(AuditedDirectory, WithoutFaultIsCounted) {
+  const Audit result = audit(directory_);
+  EXPECT_THAT(result.faults, IsEmpty());
+  EXPECT_EQ(result.shards, plan_.shards());
+  EXPECT_EQ(result.samples, plan_.size());
+  EXPECT_EQ(result.groups, 2u);
+  EXPECT_THAT(result.per_target, ElementsAre(plan_.size() / 2, plan_.size() / 2));
+}
+
+TEST_F(AuditedDirectory, ShowsAWrongLabel) {
+  falsify(1, [](Shard& shard) { shard.samples[0].record.label = 1 - shard.samples[0].record.label; });
+  EXPECT_THAT(faults(), ElementsAre(HasSubstr("sample 3: label")));
+}
+
+TEST_F(AuditedDirectory, ShowsASampleThatIsThereTwiceAndTheOneThatIsMissing) {
+  falsify(0, [](Shard& shard) { shard.samples[1] = shard.samples[0]; });
+  EXPECT_THAT(faults(), ElementsAre(HasSubstr("shard_00000.h5: row 1 holds sample 0, by the manifest 1"),
+                                    HasSubstr("3 of 8 samples are missing")));
+}
+
+TEST_F(AuditedDirectory, ShowsSamplesOutOfOrder) {
+  falsify(0, [](Shard& shard) { std::swap(shard.samples[1], shard.samples[2]); });
+  EXPECT_THAT(faults(), ElementsAre(HasSubstr("shard_00000.h5: row 1 holds sample 2, by the manifest 1"),
+                                    HasSubstr("3 of 8 samples are missing")));
+}
+
+// A map near the smallest float loses digits when it is stored; peak and energy were taken before.
+TEST_F(AuditedDirectory, AllowsForTheRoundingOfTheSmallestNumbers) {
+  const auto with_factor = [&](double stored, double recorded) {
+    falsify(0, [&](Shard& shard) {
+      for (Sample& sample : shard.samples) {
+        for (float& value : sample.magnitude) value = static_cast<float>(value * stored);
+        sample.record.peak_m *= recorded;
+        sample.record.energy_m2 *= recorded * recorded;
+      }
+    });
+    return faults();
+  };
+  EXPECT_THAT(with_factor(1.2e-41, 1.2e-41), IsEmpty());
+  EXPECT_THAT(with_factor(1e-30, 1.001e-30), Contains(HasSubstr("peak_m")));
+  EXPECT_THAT(with_factor(1e-30, 1.001e-30), Contains(HasSubstr("energy_m2")));
+}
+
+TEST_F(AuditedDirectory, ShowsAMapThatAppearsUnderTwoNumbers) {
+  falsify(0, [](Shard& shard) {
+    shard.samples[1].magnitude = shard.samples[0].magnitude;
+    shard.samples[1].record.peak_m = shard.samples[0].record.peak_m;
+    shard.samples[1].record.energy_m2 = shard.samples[0].record.energy_m2;
+  });
+  EXPECT_THAT(faults(), ElementsAre(HasSubstr("the same map as sample 0")));
+}
+
+TEST_F(AuditedDirectory, ShowsMapsThatAreNotThoseOfTheirRows) {
+  falsify(2, [](Shard& shard) { shard.samples[0].magnitude[1] = 2.5F; });
+  EXPECT_THAT(faults(), ElementsAre(HasSubstr("energy_m2")));
+  falsify(2, [](Shard& shard) { shard.samples[0].magnitude[1] = std::numeric_limits<float>::quiet_NaN(); });
+  EXPECT_THAT(faults(), ElementsAre(HasSubstr("no magnitude")));
+}
+
+TEST_F(AuditedDirectory, ShowsASeaInTwoGroups) {
+  falsify(0, [](Shard& shard) { shard.samples[0].record.group = 1; });
+  EXPECT_THAT(faults(),
+              ElementsAre(HasSubstr("sample 0: group 1, by the scenario 0"),
+                          HasSubstr("group 1: holds 2 sea realisations"), HasSubstr("a split by group would leak")));
+}
+
+TEST_F(AuditedDirectory, ShowsFilesThatAreDamagedHalfWrittenOrForeign) {
+  write_file(directory_ / temporary_name("shard_00007.h5", dead_process()), "half");
+  write_file(directory_ / temporary_name("dataset.h5", ::getpid()), "being written");
+  write_file(directory_ / "notes.tmp", "no file of a data set");
+  write_file(directory_ / "other.h5", "foreign");
+  std::string bytes = read_file(directory_ / shard_name(1));
+  bytes[bytes.size() / 2] ^= 1;
+  write_file(directory_ / shard_name(1), bytes);
+  const std::vector<std::string> found = faults();
+  EXPECT_EQ(found.size(), 5u);  // and three samples are missing
+  EXPECT_THAT(found, Contains(HasSubstr("half-written")));
+  EXPECT_THAT(found, Contains(HasSubstr("other.h5: not in the manifest")));
+  EXPECT_THAT(found, Contains("notes.tmp: is no file of a data set"));
+  EXPECT_THAT(found, Contains(HasSubstr("truncated or changed")));
+  EXPECT_THAT(found, Contains(HasSubstr("3 of 8 samples are missing")));
+}
+
+TEST_F(AuditedDirectory, ShowsAnotherScenario) {
+  std::string yaml = read_file(directory_ / kScenarioFile);
+  const std::string seed = "seed: ";
+  yaml.insert(yaml.find(seed) + seed.size(), "9");
+  write_file(directory_ / kScenarioFile, yaml);
+  const std::vector<std::string> found = faults();
+  EXPECT_THAT(found.front(), HasSubstr("is not the one that the manifest was written for"));
+  EXPECT_THAT(found, Contains(HasSubstr("sample 0: seed")));
+}
+
+}  // namespace
+}  // namespace seaglint

@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The life of a data set directory: made, resumed, damaged, read.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <fstream>
+#include <limits>
+
+#include "classify/dataset/directory/dataset_reader.h"
+#include "classify/dataset/format/checksum.h"
+#include "classify/dataset/format/hdf5_file.h"
+#include "sim/core/process/error.h"
+#include "sim/core/process/file.h"
+#include "tests/classify/dataset/data_directory.h"
+
+namespace seaglint {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+template <class Action>
+std::string error_of(Action action) {
+  try {
+    action();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST_F(DataDirectory, IsReadBackWhole) {
+  make_whole();
+  const DatasetReader reader(directory_);
+  EXPECT_EQ(reader.size(), plan_.size());
+  std::int64_t next = 0;
+  for (std::size_t i = 0; i < reader.shards(); ++i) {
+    for (const Sample& sample : reader.shard(i).samples) EXPECT_EQ(sample.record.sample, next++);
+  }
+  EXPECT_EQ(static_cast<std::size_t>(next), plan_.size());
+  EXPECT_EQ(read_scenario(directory_ / kScenarioFile).dataset.maps_per_case, 4);
+  EXPECT_THAT(read_file(directory_ / kDataCardFile), HasSubstr("| ship | 1 |"));
+}
+
+TEST_F(DataDirectory, IsNotWholeUntilTheLastShardIsThere) {
+  DatasetWriter writer(directory_, scenario_, false, kTestVersion);
+  writer.put(0, shard_of(0));
+  EXPECT_THAT(writer.finish(), ElementsAre(1, 2));
+  EXPECT_THAT(error_of([&] { DatasetReader reader(directory_); }), HasSubstr("no manifest.json"));
+}
+
+TEST_F(DataDirectory, ThatIsNotEmptyNeedsResume) {
+  make_whole();
+  EXPECT_THAT(error_of([&] { DatasetWriter(directory_, scenario_, false, kTestVersion); }), HasSubstr("--resume"));
+  EXPECT_NO_THROW(DatasetWriter(directory_, scenario_, true, kTestVersion));
+}
+
+TEST_F(DataDirectory, OfAnotherScenarioIsRefusedWithTheFirstDifference) {
+  make_whole();
+  Scenario other = scenario_;
+  other.seed = 43;
+  EXPECT_THAT(error_of([&] { DatasetWriter(directory_, other, true, kTestVersion); }),
+              HasSubstr("`seed: 42` there, `seed: 43` here"));
+}
+
+TEST_F(DataDirectory, KeepsItsMapsWhenOnlyLearningChanges) {
+  make_whole();
+  Scenario other = scenario_;
+  other.learning.epochs = 7;
+  other.dataset.train_share = 0.5;
+  EXPECT_TRUE(DatasetWriter(directory_, other, true, kTestVersion).complete(0));
+  EXPECT_EQ(read_scenario(directory_ / kScenarioFile).learning.epochs, 7);
+}
+
+TEST_F(DataDirectory, ResumesOnlyWhatIsUnsound) {
+  make_whole();
+  fs::remove(directory_ / kManifestFile);
+  fs::resize_file(directory_ / shard_name(1), fs::file_size(directory_ / shard_name(1)) - 10);
+  fs::remove(directory_ / shard_name(2));
+  DatasetWriter writer(directory_, scenario_, true, kTestVersion);
+  EXPECT_TRUE(writer.complete(0));
+  EXPECT_FALSE(writer.complete(1));
+  EXPECT_FALSE(writer.complete(2));
+}
+
+TEST_F(DataDirectory, WithAChangedShardIsRefusedWithTheFilesName) {
+  make_whole();
+  const fs::path file = directory_ / shard_name(1);
+  std::string bytes = read_file(file);
+  bytes.back() = static_cast<char>(bytes.back() ^ 1);
+  write_file(file, bytes);
+  EXPECT_THAT(error_of([&] { DatasetReader(directory_).shard(1); }), HasSubstr("shard_00001.h5: truncated or changed"));
+  EXPECT_FALSE(DatasetWriter(directory_, scenario_, true, kTestVersion).complete(1));
+  fs::remove(file);
+  EXPECT_THAT(error_of([&] { DatasetReader reader(directory_); }), HasSubstr("shard_00001.h5: missing"));
+}
+
+// Before there is a manifest nothing but the file itself says what it should be.
+TEST_F(DataDirectory, IsNotWholeWithAShardThatIsDamagedOrOfAnotherScenario) {
+  DatasetWriter writer(directory_, scenario_, false, kTestVersion);
+  for (std::size_t i = 0; i < plan_.shards(); ++i) writer.put(i, shard_of(i));
+  fs::resize_file(directory_ / shard_name(0), fs::file_size(directory_ / shard_name(0)) - 10);
+  Shard other = shard_of(2);
+  for (Sample& sample : other.samples) sample.record.seed = 43;
+  other.origin.program_version = kTestVersion;
+  fs::remove(directory_ / shard_name(2));
+  write_shard(directory_ / shard_name(2), other, scenario_.features.max_centres);
+  EXPECT_THAT(DatasetWriter(directory_, scenario_, true, kTestVersion).finish(), ElementsAre(0, 2));
+  EXPECT_FALSE(fs::exists(directory_ / kManifestFile));
+}
+
+TEST_F(DataDirectory, LosesWhatKilledRunsLeftHalfWrittenWhenItIsWhole) {
+  DatasetWriter writer(directory_, scenario_, false, kTestVersion);
+  const pid_t dead = dead_process();
+  const std::vector<std::string> left{temporary_name("shard_00001.h5", dead), temporary_name("manifest.json", dead),
+                                      temporary_name("README.md", dead),      temporary_name("scenario.yaml", dead),
+                                      temporary_name("all.h5", dead),         "shard_00001.h5.old-node.sea-77.tmp"};
+  const std::vector<std::string> others{temporary_name("dataset.h5", ::getpid()),
+                                        "shard_00001.h5.other-node.sea-77.tmp",
+                                        temporary_name("notes", dead),
+                                        "notes.tmp",
+                                        "shard_00001.h5.tmp",
+                                        "shard_00001.h5.node-x.tmp"};
+  for (const auto* names : {&left, &others}) {
+    for (const std::string& name : *names) write_file(directory_ / name, "half");
+  }
+  fs::last_write_time(directory_ / left.back(), fs::file_time_type::clock::now() - std::chrono::hours(25));
+  writer.put(0, shard_of(0));
+  EXPECT_THAT(writer.finish(), ElementsAre(1, 2));
+  for (const std::string& name : left) EXPECT_TRUE(fs::exists(directory_ / name)) << name;
+  for (const std::size_t i : {1u, 2u}) writer.put(i, shard_of(i));
+  EXPECT_THAT(writer.finish(), testing::IsEmpty());
+  for (const std::string& name : left) EXPECT_FALSE(fs::exists(directory_ / name)) << name;
+  for (const std::string& name : others) EXPECT_TRUE(fs::exists(directory_ / name)) << name;
+}
+
+TEST_F(DataDirectory, BeforeItsScenarioMayHoldItsOwnTemporaryFilesOnly) {
+  fs::create_directories(directory_);
+  write_file(directory_ / temporary_name("scenario.yaml", dead_process()), "half");
+  EXPECT_NO_THROW(DatasetWriter(directory_, scenario_, true, kTestVersion));
+  fs::remove(directory_ / kScenarioFile);
+  write_file(directory_ / "notes.tmp", "mine");
+  EXPECT_THAT(error_of([&] { DatasetWriter(directory_, scenario_, true, kTestVersion); }),
+              HasSubstr("the directory holds notes.tmp, which is no file of a data set"));
+}
+
+// Its scenario alone makes a directory no data set's: a run has one too.
+TEST_F(DataDirectory, ToGoOnInMayHoldNothingButADataSet) {
+  make_whole();
+  for (const char* name : {"all.h5", "all.npz", ".nfs0001"}) write_file(directory_ / name, "ours, or the system's");
+  EXPECT_NO_THROW(DatasetWriter(directory_, scenario_, true, kTestVersion));
+  write_file(directory_ / "metrics.json", "{}");
+  const auto refusal = [&] { return error_of([&] { DatasetWriter(directory_, scenario_, true, kTestVersion); }); };
+  EXPECT_THAT(refusal(), testing::EndsWith("the directory holds metrics.json, which is no file of a data set"));
+  fs::create_directories(directory_ / "data");
+  write_file(directory_ / "data" / kScenarioFile, effective_yaml(scenario_));
+  EXPECT_THAT(refusal(), testing::EndsWith("which is no file of a data set; the run's data set is " +
+                                           (directory_ / "data").string()));
+}
+
+TEST_F(DataDirectory, TakesAShardThatAnotherProcessWroteMeanwhileForItsOwn) {
+  make_whole();
+  DatasetWriter writer(directory_, scenario_, true, kTestVersion);
+  // A folder in the place of the temporary file: nothing can be written.
+  fs::create_directories(directory_ / temporary_name(shard_name(0), ::getpid()) / "in the way");
+  EXPECT_NO_THROW(writer.put(0, shard_of(0)));
+  Shard other = shard_of(0);
+  other.samples[0].record.mwr = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(writer.put(0, other), WorkError);
+  other = shard_of(0);
+  other.samples[2].magnitude[0] = 2;
+  EXPECT_THROW(writer.put(0, other), WorkError);
+}
+
+// A manifest whose checksums of two shards are wrong, as after another processor made these with other last bits.
+class DirectoryOfTwoWrongChecksums : public DataDirectory {
+ protected:
+  void SetUp() override {
+    DataDirectory::SetUp();
+    make_whole();
+    Manifest manifest = read_manifest(directory_ / kManifestFile);
+    for (const std::size_t i : {0u, 2u}) manifest.shards[i].sha256 = std::string(64, '0');
+    write_file(directory_ / kManifestFile, to_json(manifest));
+  }
+
+  // The shards from `first` to `last`, as one part makes them.
+  void make_part(DatasetWriter& writer, std::size_t first, std::size_t last) const {
+    for (std::size_t i = first; i < last; ++i) {
+      if (!writer.complete(i)) writer.put(i, shard_of(i));
+    }
+  }
+
+  void expect_whole() const {
+    const DatasetReader reader(directory_);
+    for (std::size_t i = 0; i < reader.shards(); ++i) EXPECT_EQ(reader.shard(i).samples.size(), plan_.shard(i).count);
+  }
+};
+
+TEST_F(DirectoryOfTwoWrongChecksums, IsWholeAfterOneRoundOfParts) {
+  for (const auto& [first, last] : {std::pair<std::size_t, std::size_t>{0, 1}, {1, 3}}) {
+    DatasetWriter writer(directory_, scenario_, true, kTestVersion);
+    make_part(writer, first, last);
+    EXPECT_THAT(writer.finish(), testing::IsEmpty());
+  }
+  expect_whole();
+}
+
+TEST_F(DirectoryOfTwoWrongChecksums, IsWholeWhenPartsMakeItAtTheSameTime) {
+  DatasetWriter one(directory_, scenario_, true, kTestVersion), two(directory_, scenario_, true, kTestVersion),
+      looks_only(directory_, scenario_, true, kTestVersion);
+  make_part(one, 0, 1);
+  make_part(two, 2, 3);
+  for (DatasetWriter* writer : {&one, &two, &looks_only}) {
+    EXPECT_THAT(writer->finish(), testing::IsEmpty());
+    expect_whole();
+  }
+}
+
+TEST_F(DataDirectory, OfAnotherVersionIsReadButNotContinued) {
+  make_whole();
+  const auto resume = [&] { DatasetWriter(directory_, scenario_, true, "0.0.1").finish(); };
+  EXPECT_THAT(error_of(resume), HasSubstr("manifest.json: made by seaglint 0.0.0, this is seaglint 0.0.1"));
+  fs::remove(directory_ / kManifestFile);
+  EXPECT_THAT(error_of(resume), HasSubstr("shard_00000.h5: made by seaglint 0.0.0, this is seaglint 0.0.1"));
+  make_manifest_again();
+  EXPECT_EQ(DatasetReader(directory_).shard(0).origin.program_version, kTestVersion);
+}
+
+TEST_F(DataDirectory, WhoseScenarioWasChangedIsReadForAnAuditOnly) {
+  make_whole();
+  write_file(directory_ / kScenarioFile, read_file(directory_ / kScenarioFile) + "# mine\n");
+  EXPECT_THAT(error_of([&] { DatasetReader reader(directory_); }),
+              HasSubstr("scenario.yaml: is not the one that the manifest was written for"));
+  EXPECT_NO_THROW(DatasetReader(directory_, OtherScenario::kRead).shard(0));
+}
+
+TEST_F(DataDirectory, OfAnotherFormatIsRefused) {
+  make_whole();
+  const auto replace = [&](const fs::path& file, const std::string& from, const std::string& to) {
+    std::string bytes = read_file(file);
+    bytes.replace(bytes.find(from), from.size(), to);
+    write_file(file, bytes);
+  };
+  replace(directory_ / kManifestFile, "seaglint data set 2", "seaglint data set 9");
+  EXPECT_THAT(error_of([&] { DatasetReader reader(directory_); }),
+              HasSubstr("manifest.json: format \"seaglint data set 9\"; this program reads \"seaglint data set 2\""));
+  fs::remove(directory_ / kManifestFile);
+  // A whole file of another format must not be taken for a damaged one and made anew.
+  Hdf5Writer other(directory_ / shard_name(1), Hdf5Version::k18);
+  other.attribute("format", "seaglint shard 9");
+  other.close();
+  EXPECT_THAT(error_of([&] { DatasetWriter(directory_, scenario_, true, kTestVersion).complete(1); }),
+              HasSubstr("shard_00001.h5: format \"seaglint shard 9\"; this program reads \"seaglint shard 2\""));
+}
+
+// What the message advises, it keeps.
+TEST_F(DataDirectory, WithADamagedManifestGoesOnWithoutIt) {
+  make_whole();
+  const fs::path file = directory_ / kManifestFile;
+  const std::string good = read_file(file);
+  write_file(file, good.substr(0, good.size() / 2));
+  EXPECT_THAT(error_of([&] { DatasetWriter(directory_, scenario_, true, kTestVersion); }),
+              testing::EndsWith(
+                  "; the shards are kept: remove this file and go on by `seaglint generate SCENARIO -o DIR --resume`"));
+  fs::remove(file);
+  DatasetWriter writer(directory_, scenario_, true, kTestVersion);
+  for (std::size_t i = 0; i < plan_.shards(); ++i) EXPECT_TRUE(writer.complete(i));
+  EXPECT_THAT(writer.finish(), testing::IsEmpty());
+  EXPECT_EQ(read_file(file), good);
+}
+
+TEST_F(DataDirectory, WithABrokenManifestIsRefused) {
+  make_whole();
+  const std::string good = read_file(directory_ / kManifestFile);
+  Manifest manifest = read_manifest(directory_ / kManifestFile);
+  const auto refused = [&](const std::string& text) {
+    write_file(directory_ / kManifestFile, text);
+    return error_of([&] { DatasetReader reader(directory_); });
+  };
+  EXPECT_THAT(refused(good.substr(0, good.size() / 2)), HasSubstr("manifest.json"));
+  EXPECT_THAT(refused("[]"), HasSubstr("manifest.json"));
+  EXPECT_THAT(refused("{\"format\": \"other\"}"), HasSubstr("format"));
+  std::string outside = good;
+  outside.replace(outside.find("shard_00000.h5"), 14, "../secret.h5");
+  EXPECT_THAT(refused(outside), HasSubstr("is not the name of a file beside it"));
+  manifest.shards.back().samples = 100000000000000;
+  manifest.samples = manifest.shards.back().first_sample + manifest.shards.back().samples;
+  EXPECT_THAT(refused(to_json(manifest)),
+              HasSubstr("manifest.json: shards: shard_00002.h5: samples: 100000000000000, must be within 1 and 10000"));
+  manifest.shards.clear();
+  manifest.samples = 0;
+  EXPECT_THAT(refused(to_json(manifest)), HasSubstr("manifest.json: samples: 0, must be within 1 and 1000000000"));
+}
+
+}  // namespace
+}  // namespace seaglint

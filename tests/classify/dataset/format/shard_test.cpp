@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "classify/dataset/format/shard.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <ctime>
+#include <fstream>
+
+#include "classify/dataset/format/checksum.h"
+#include "sim/core/numbers/random.h"
+#include "sim/core/process/error.h"
+#include "sim/core/process/file.h"
+
+namespace seaglint {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+// A directory of its own for every test, removed afterwards.
+class ShardFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    directory_ = fs::temp_directory_path() / ("seaglint_shard_" + std::to_string(::getpid()) + "_" +
+                                              testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::remove_all(directory_);
+    fs::create_directories(directory_);
+    file_ = directory_ / "shard_00000.h5";
+  }
+  void TearDown() override { fs::remove_all(directory_); }
+
+  fs::path directory_, file_;
+};
+
+Shard some_shard(bool complex_values = false) {
+  Shard shard;
+  shard.axes.range_m = {-2, -1, 0, 1, 2};
+  shard.axes.velocity_mps = {-1, 0, 1};
+  Random random({1, Stream::kTest, 7});
+  for (int i = 0; i < 4; ++i) {
+    Sample sample;
+    sample.record.sample = 40 + i;
+    sample.record.label = i % 2;
+    sample.record.target_name = i % 2 == 1 ? "ship" : "array";
+    sample.record.significant_wave_height_m = 0.1 * i;
+    sample.record.centres = i;
+    for (std::size_t k = 0; k < shard.axes.cells(); ++k)
+      sample.magnitude.push_back(static_cast<float>(random.uniform()));
+    for (std::size_t k = 0; complex_values && k < 2 * shard.axes.cells(); ++k) {
+      sample.complex_values.push_back(static_cast<float>(random.normal()));
+    }
+    for (int k = 0; k < 16; ++k) sample.hop_code.push_back(static_cast<std::uint16_t>(random.below(8)));
+    for (int k = 0; k < i; ++k) sample.centre_list.push_back({1.0f * static_cast<float>(k), 0.5f, 2.0f});
+    shard.samples.push_back(std::move(sample));
+  }
+  return shard;
+}
+
+void expect_equal(const Shard& a, const Shard& b) {
+  EXPECT_EQ(a.axes, b.axes);
+  ASSERT_EQ(a.samples.size(), b.samples.size());
+  for (std::size_t i = 0; i < a.samples.size(); ++i) {
+    EXPECT_EQ(a.samples[i].magnitude, b.samples[i].magnitude);
+    EXPECT_EQ(a.samples[i].complex_values, b.samples[i].complex_values);
+    EXPECT_EQ(a.samples[i].hop_code, b.samples[i].hop_code);
+    EXPECT_EQ(a.samples[i].centre_list, b.samples[i].centre_list);
+    for (const SampleColumn& column : sample_columns()) {
+      std::visit(
+          [&](auto member) { EXPECT_EQ(a.samples[i].record.*member, b.samples[i].record.*member) << column.name; },
+          column.member);
+    }
+  }
+}
+
+std::string message_of(const fs::path& file) {
+  try {
+    read_shard(file);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST_F(ShardFile, ComesBackAsItWas) {
+  for (const bool complex_values : {false, true}) {
+    write_shard(file_, some_shard(complex_values), 8);
+    expect_equal(read_shard(file_), some_shard(complex_values));
+  }
+  EXPECT_FALSE(fs::exists(directory_ / "shard_00000.h5.tmp"));
+}
+
+TEST_F(ShardFile, HasTheSameBytesWheneverAndWhereverItIsWritten) {
+  write_shard(file_, some_shard(), 8);
+  const std::string first = sha256_file(file_);
+  fs::create_directories(directory_ / "elsewhere");
+  write_shard(directory_ / "elsewhere" / "another_name.h5", some_shard(), 8);
+  EXPECT_EQ(sha256_file(directory_ / "elsewhere" / "another_name.h5"), first);
+  // A time stamp of whole seconds would show after one second.
+  timespec pause{1, 100000000};
+  nanosleep(&pause, nullptr);
+  write_shard(file_, some_shard(), 8);
+  EXPECT_EQ(sha256_file(file_), first);
+}
+
+TEST_F(ShardFile, IsRefusedWithItsNameWhenTruncated) {
+  write_shard(file_, some_shard(), 8);
+  const std::uintmax_t size = fs::file_size(file_);
+  for (const std::uintmax_t kept : {std::uintmax_t{0}, std::uintmax_t{7}, size / 4, size / 2, size - 1}) {
+    fs::resize_file(file_, kept);
+    EXPECT_THAT(message_of(file_), HasSubstr("shard_00000.h5: ")) << kept << " of " << size << " bytes";
+  }
+}
+
+TEST_F(ShardFile, IsRefusedWhenAnyByteOfAMapIsChanged) {
+  write_shard(file_, some_shard(), 8);
+  std::string bytes = read_file(file_);
+  // The second sample's map as it lies in the file.
+  const Shard shard = some_shard();
+  const std::string map(reinterpret_cast<const char*>(shard.samples[1].magnitude.data()),
+                        shard.axes.cells() * sizeof(float));
+  const std::size_t place = bytes.find(map);
+  ASSERT_NE(place, std::string::npos);
+  bytes[place + 13] = static_cast<char>(bytes[place + 13] ^ 1);
+  write_file(file_, bytes);
+  EXPECT_THAT(message_of(file_), HasSubstr("/maps is damaged"));
+}
+
+TEST_F(ShardFile, NeverCrashesTheReaderWhateverByteIsChanged) {
+  write_shard(file_, some_shard(), 8);
+  const std::string bytes = read_file(file_);
+  int refused = 0;
+  constexpr int kTrials = 300;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    Random random({2, Stream::kTest, static_cast<std::uint64_t>(trial)});
+    std::string changed = bytes;
+    const std::size_t place = random.bits() % bytes.size();
+    changed[place] = static_cast<char>(changed[place] ^ (1 << random.below(8)));
+    std::ofstream(file_, std::ios::binary) << changed;
+    if (message_of(file_) != "no error") ++refused;
+  }
+  // Padding between the objects of the file carries no checksum; the manifest's SHA-256 covers it.
+  EXPECT_GT(refused, kTrials / 10);
+}
+
+TEST_F(ShardFile, SaysWhatIsMissing) {
+  EXPECT_THAT(message_of(directory_ / "none.h5"), HasSubstr("none.h5: no such shard"));
+  write_file(file_, "this is text");
+  EXPECT_THAT(message_of(file_), HasSubstr("not a whole HDF5 file"));
+}
+
+TEST_F(ShardFile, LeavesNothingBehindWhenTheDiskRefuses) {
+  EXPECT_THROW(write_shard(directory_ / "absent" / "shard_00000.h5", some_shard(), 8), WorkError);
+  EXPECT_TRUE(fs::is_empty(directory_));
+}
+
+TEST(Checksum, AgreesWithThePublishedDigest) {
+  // FIPS 180-4 example "abc".
+  EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+}
+
+}  // namespace
+}  // namespace seaglint

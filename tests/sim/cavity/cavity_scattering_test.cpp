@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/cavity/cavity_scattering.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <map>
+
+#include "sim/core/numbers/constants.h"
+#include "sim/core/process/error.h"
+#include "sim/geometry/files/mesh_io.h"
+#include "sim/scattering/response/body_response.h"
+#include "tests/sim/cavity/guide.h"
+
+namespace seaglint {
+namespace {
+
+using Matrix = std::array<Complex, 4>;
+
+Vec3 direction(double azimuth_deg, double elevation_deg) {
+  const double az = radians(azimuth_deg), el = radians(elevation_deg);
+  return {std::cos(el) * std::cos(az), std::cos(el) * std::sin(az), std::sin(el)};
+}
+
+std::vector<AntennaPair> cut(double from_deg, double to_deg, double step_deg, double elevation_deg) {
+  std::vector<AntennaPair> views;
+  for (double az = from_deg; az <= to_deg + 1e-9; az += step_deg)
+    views.push_back(monostatic(radar_basis(direction(az, elevation_deg))));
+  return views;
+}
+
+double norm(const Matrix& s) {
+  return std::sqrt(std::norm(s[0]) + std::norm(s[1]) + std::norm(s[2]) + std::norm(s[3]));
+}
+
+double difference(const Matrix& a, const Matrix& b) {
+  return norm({a[0] - b[0], a[1] - b[1], a[2] - b[2], a[3] - b[3]});
+}
+
+// The modes of a rectangular guide between its mouth and a short (Harrington, Time-Harmonic Electromagnetic Fields,
+// sec. 4-3), fed and tapped by Kirchhoff's fields in the mouth as a cavity is: with a mode's fields e and eta h = y x^
+// x e,
+//   a_n(E, H) = 1/(2 P_n) integral of (y_n E + eta H x x^) . e_n,   P_n = y_n integral of e_n^2,
+//   S_pq = -jk/(2 pi) sum of P_n a_n(p) a_n(q) e^{-2j beta_n depth}
+// Modes beyond cut-off by more than e^{-12} at the short are left out.
+Matrix guide_by_modes(double a, double b, double depth, double k, const RadarBasis& radar) {
+  constexpr int kPoints = 400;  // of the midpoint rule
+  const auto integral = [&](double length, int order, bool cosine, double along) {
+    Complex sum = 0;
+    for (int i = 0; i < kPoints; ++i) {
+      const double x = length * (i + 0.5) / kPoints, at = order * kPi * x / length;
+      sum += (cosine ? std::cos(at) : std::sin(at)) * std::polar(1.0, k * along * x);
+    }
+    return sum * length / static_cast<double>(kPoints);
+  };
+  Matrix S{};
+  for (int m = 0; m < 40; ++m) {
+    for (int n = 0; n < 40; ++n) {
+      const double ky = m * kPi / a, kz = n * kPi / b, kc2 = ky * ky + kz * kz;
+      if (m + n == 0) continue;
+      const Complex beta = k * k > kc2 ? Complex(std::sqrt(k * k - kc2)) : Complex(0, -std::sqrt(kc2 - k * k));
+      if (2 * -beta.imag() * depth > 12) continue;
+      // Of cos(ky y) sin(kz z) and sin(ky y) cos(kz z), the patterns of e_y and e_z.
+      const Complex in_y = integral(a, m, true, radar.r.y()) * integral(b, n, false, radar.r.z());
+      const Complex in_z = integral(a, m, false, radar.r.y()) * integral(b, n, true, radar.r.z());
+      const double share_y = (m == 0 ? 1.0 : 0.5) * (n == 0 ? 0.0 : 0.5) * a * b,
+                   share_z = (m == 0 ? 0.0 : 0.5) * (n == 0 ? 1.0 : 0.5) * a * b;
+      for (const bool te : {true, false}) {
+        if (!te && (m == 0 || n == 0)) continue;
+        const double e_y = te ? kz : ky, e_z = te ? -ky : kz;
+        const Complex y = te ? beta / k : k / beta;
+        const Complex P = y * (e_y * e_y * share_y + e_z * e_z * share_z);
+        std::array<Complex, 2> amplitude;
+        for (int p = 0; p < 2; ++p) {
+          const Vec3 E = p == 0 ? radar.h : radar.v, H = (-radar.r.cross(E)).cross(Vec3::UnitX());  // eta H x x^
+          amplitude[p] = ((y * E.y() + H.y()) * e_y * in_y + (y * E.z() + H.z()) * e_z * in_z) / (2.0 * P);
+        }
+        const Complex factor = Complex(0, -k / (2 * kPi)) * P * std::exp(Complex(0, -2) * beta * depth);
+        for (int p = 0; p < 2; ++p) {
+          for (int q = 0; q < 2; ++q) S[static_cast<std::size_t>(2 * p + q)] += factor * amplitude[p] * amplitude[q];
+        }
+      }
+    }
+  }
+  return S;
+}
+
+// Relative L2 error of a guide's echoes against its modes, +-50 deg about its axis.
+double error_of_guide(double wavelength) {
+  constexpr double kA = 0.29, kB = 0.19, kDepth = 0.25;
+  const TriangleMesh mesh = guide(kA, kB, kDepth);
+  const Scatterer whole(mesh);
+  std::vector<AntennaPair> views;
+  for (const double el : {0.0, 20.0, -35.0}) {
+    for (const AntennaPair& view : cut(130, 230, 5, el)) views.push_back(view);
+  }
+  const double k = 2 * kPi / wavelength;
+  const auto s = Cavity(mesh, 0, whole).scattering_matrices(k, views, 2);
+  double error = 0, sum = 0;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const Matrix modes = guide_by_modes(kA, kB, kDepth, k, views[i].transmit);
+    error += std::pow(difference(s[i], modes), 2);
+    sum += std::pow(norm(modes), 2);
+  }
+  return std::sqrt(error / sum);
+}
+
+TEST(CavityEcho, OfAShortedGuideIsThatOfItsModes) {
+  // In the modes' solution the guide goes on before its mouth, in ours it ends there: what its last fraction of a
+  // wavelength does differs, the less the wider the mouth. Measured 0.204, 0.113, and further 0.076 and 0.060 at
+  // wavelengths of 0.07 and 0.05 m.
+  const double coarse = error_of_guide(0.2), fine = error_of_guide(0.1);
+  RecordProperty("relative_errors", fmt::format("{:.3f} {:.3f}", coarse, fine));
+  EXPECT_LT(coarse, 1.1 * 0.2);
+  EXPECT_LT(fine, 1.2 * 0.1);
+  EXPECT_LT(fine, 0.6 * coarse);
+}
+
+// A guide of 2.9 x 1.9 wavelengths whose end is not square to it, so that nothing is symmetric.
+constexpr double kWavenumber = 2 * kPi / 0.1;
+
+TriangleMesh crooked_guide() {
+  TriangleMesh mesh = guide(0.29, 0.19, 0.25);
+  for (Vec3& x : mesh.vertices) {
+    if (x.x() > 0.1) x += Vec3(0.2 * x.y() + 0.3 * x.z(), 0.04, 0.03);
+  }
+  return mesh;
+}
+
+std::vector<Matrix> echoes(const TriangleMesh& mesh, const std::vector<AntennaPair>& views, double k = kWavenumber,
+                           int threads = 2) {
+  const Scatterer whole(mesh);
+  return Cavity(mesh, 0, whole).scattering_matrices(k, views, threads);
+}
+
+TEST(CavityEcho, IsReciprocal) {
+  const RadarBasis a = radar_basis(direction(150, 10)), b = radar_basis(direction(200, -25));
+  const std::vector<Matrix> s = echoes(crooked_guide(), {bistatic(a, b), bistatic(b, a), monostatic(a)});
+  const Matrix back{s[1][0], s[1][2], s[1][1], s[1][3]};
+  // The same fields are kept of both directions to 1e-4 of their mean.
+  EXPECT_LT(difference(s[0], back), 1e-3 * norm(s[0]));
+  EXPECT_LT(std::abs(s[2][1] - s[2][2]), 1e-6 * norm(s[2]));
+  EXPECT_GT(std::abs(s[2][1]), 0.1 * norm(s[2]));
+}
+
+TEST(CavityEcho, MovesItsPhaseWithItsPlaceAndGrowsWithItsSize) {
+  const std::vector<AntennaPair> views = cut(140, 220, 20, 10);
+  const TriangleMesh mesh = crooked_guide();
+  const std::vector<Matrix> here = echoes(mesh, views);
+  const Vec3 moved(3, -2, 1);
+  const std::vector<Matrix> there = echoes(transformed(mesh, Mat3::Identity(), moved), views);
+  const std::vector<Matrix> twice =
+      echoes(transformed(mesh, 2 * Mat3::Identity(), Vec3::Zero()), views, kWavenumber / 2);
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const Complex phase = std::polar(1.0, 2 * kWavenumber * views[i].transmit.r.dot(moved));
+    Matrix expected = here[i], doubled = here[i];
+    for (Complex& x : expected) x *= phase;
+    for (Complex& x : doubled) x *= 2;
+    // Single precision of the coupling, and the residual, which another order of sums shares out otherwise.
+    EXPECT_LT(difference(there[i], expected), 2e-3 * norm(here[i])) << i;
+    EXPECT_LT(difference(twice[i], doubled), 4e-3 * norm(here[i])) << i;
+  }
+}
+
+TEST(CavityEcho, DoesNotDependOnOtherViewsOrThreads) {
+  const std::vector<AntennaPair> views = cut(100, 260, 2, 5);
+  const TriangleMesh mesh = crooked_guide();
+  const std::vector<Matrix> together = echoes(mesh, views, kWavenumber, 2);
+  EXPECT_EQ(echoes(mesh, views, kWavenumber, 1), together);
+  const std::vector<Matrix> alone = echoes(mesh, {views[30]});
+  EXPECT_LT(difference(alone[0], together[30]), 2e-3 * norm(alone[0]));  // the residual, and fields taken as one
+}
+
+TEST(CavityEcho, NeedsAViewOfTheMouth) {
+  TriangleMesh mesh = guide(0.29, 0.19, 0.25);
+  for (const Matrix& s : echoes(mesh, cut(-80, 80, 40, 0))) EXPECT_EQ(norm(s), 0);
+  // A lid half a metre before it.
+  MeshBuilder lid;
+  lid.begin_part("lid");
+  const auto v = [&](double y, double z) { return lid.vertex({-0.5, y, z}); };
+  lid.quad(v(-1, -1), v(-1, 1), v(1, 1), v(1, -1));
+  mesh.append(lid.take());
+  for (const Matrix& s : echoes(mesh, cut(170, 190, 10, 0))) EXPECT_EQ(norm(s), 0);
+}
+
+TEST(CavityEcho, RefusesWhatPointCurrentsDoNotDescribe) {
+  const auto refused = [](const TriangleMesh& mesh, double k, const std::string& why) {
+    const Scatterer whole(mesh);
+    try {
+      Cavity(mesh, 0, whole).size(k);
+      FAIL() << "not refused: " << why;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(why), std::string::npos) << error.what();
+    }
+  };
+  EXPECT_GT(Cavity(crooked_guide(), 0, Scatterer(crooked_guide())).size(kWavenumber).patches, 500u);
+  refused(guide(0.29, 0.19, 0.25), kWavenumber / 30, "less than half a wavelength");
+  refused(guide(0.29, 0.19, 0.001), kWavenumber, "walls and mouth come nearer");
+  // A shutter of 2 mm of metal within the guide.
+  TriangleMesh shut = guide(0.29, 0.19, 0.25);
+  MeshBuilder shutter;
+  shutter.begin_part("guide");
+  const auto v = [&](double x, double y, double z) { return shutter.vertex({x, y, z}); };
+  const double y0 = 0.02, y1 = 0.27, z0 = 0.02, z1 = 0.17, x0 = 0.1, x1 = 0.102;
+  const auto a = v(x0, y0, z0), b = v(x0, y1, z0), c = v(x0, y1, z1), d = v(x0, y0, z1);
+  const auto e = v(x1, y0, z0), f = v(x1, y1, z0), g = v(x1, y1, z1), h = v(x1, y0, z1);
+  shutter.quad(a, d, c, b);
+  shutter.quad(e, f, g, h);
+  shutter.quad(a, b, f, e);
+  shutter.quad(d, h, g, c);
+  shutter.quad(a, e, h, d);
+  shutter.quad(b, c, g, f);
+  shut.append(shutter.take());
+  refused(shut, kWavenumber, "both faces of one");
+}
+
+// Levels of one cut of the Austin suite by azimuth in degrees, dBsm; phi = 180 deg - azimuth.
+std::map<double, double> reference_cut(const std::string& name) {
+  std::map<double, double> levels;
+  std::ifstream file(std::string(SEAGLINT_SOURCE_DIR) + "/tests/reference/rcs/austin/" + name);
+  for (double hz, theta, phi, level; file >> hz >> theta >> phi >> level;) levels[180 - phi] = level;
+  return levels;
+}
+
+TEST(CavityEcho, AndTheRestOfABoxWithADuctComeWithinADecibelOfTheMethodOfMoments) {
+  const TriangleMesh mesh =
+      read_mesh(std::string(SEAGLINT_SOURCE_DIR) + "/tests/reference/rcs/austin/duct_box.glb", "m");
+  const auto duct = std::find(mesh.part_names.begin(), mesh.part_names.end(), "duct") - mesh.part_names.begin();
+  const Scatterer box(mesh);
+  IlluminationSettings settings;
+  settings.edges = true;
+  settings.filter.cavities = {static_cast<int>(duct)};
+  const double k = 2 * kPi * 5.12e9 / kSpeedOfLight;
+  const std::vector<AntennaPair> views = cut(0, 180, 2.5, 0);
+  const std::vector<Matrix> inside = Cavity(mesh, static_cast<std::size_t>(duct), box).scattering_matrices(k, views, 2);
+  for (const auto& [name, element] : {std::pair{"H", 0}, std::pair{"V", 3}}) {
+    const std::map<double, double> reference = reference_cut(fmt::format("ref_rcs.IIIS.B.s1.f10.{}.txt", name));
+    ASSERT_EQ(reference.size(), 361u);
+    double floor = -1000, sum = 0;
+    for (const auto& [azimuth, level] : reference) floor = std::max(floor, level - 40);
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      const Complex S =
+          scattering_matrices(box, views[i], std::array{k}, settings, 2)[0][static_cast<std::size_t>(element)] +
+          inside[i][static_cast<std::size_t>(element)];
+      const double level = 10 * std::log10(4 * kPi * std::norm(S) + 1e-30);
+      sum += std::abs(std::max(level, floor) - std::max(reference.at(2.5 * static_cast<double>(i)), floor));
+    }
+    const double mean = sum / static_cast<double>(views.size());
+    RecordProperty(fmt::format("mean_db_{}", name), fmt::format("{:.2f}", mean));
+    EXPECT_LT(mean, 1) << name;  // the project's aim; rays alone leave 2.0 and 2.5, the measurement 0.3 and 0.4
+  }
+}
+
+}  // namespace
+}  // namespace seaglint

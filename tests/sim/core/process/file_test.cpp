@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/core/process/file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+
+#include "sim/core/process/error.h"
+#include "tests/temporary_folder.h"
+
+namespace seaglint {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+// An empty folder of its own for each test.
+class Files : public ::testing::Test {
+ protected:
+  std::size_t entries() const {
+    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+  }
+
+  template <typename Error, typename Function>
+  static std::string message_of(const Function& function) {
+    try {
+      function();
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "no error of this type";
+  }
+
+  TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_.path();
+};
+
+TEST_F(Files, WhatIsWrittenIsRead) {
+  const std::string content("a\0b\n", 4);
+  write_file(folder_ / "x", content);
+  EXPECT_EQ(read_file(folder_ / "x"), content);
+  write_file(folder_ / "x", "");
+  EXPECT_EQ(read_file(folder_ / "x"), "");
+  const std::string large(3000000, 'y');
+  write_file(folder_ / "x", large);
+  EXPECT_EQ(read_file(folder_ / "x"), large);
+  EXPECT_EQ(entries(), 1u);
+}
+
+TEST_F(Files, ReadingSaysWhatIsWrong) {
+  const auto reading = [&](const fs::path& path, std::size_t limit = 100) {
+    return message_of<InputError>([&] { read_file(path, limit); });
+  };
+  EXPECT_EQ(reading(folder_ / "none"), (folder_ / "none").string() + ": cannot read: No such file or directory");
+  EXPECT_EQ(reading(folder_), folder_.string() + ": cannot read: is a directory");
+  EXPECT_EQ(reading("/dev/zero"), "/dev/zero: cannot read: is not a regular file");
+  ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  EXPECT_THAT(reading(folder_ / "pipe"), HasSubstr("is not a regular file"));
+  write_file(folder_ / "large", std::string(101, ' '));
+  EXPECT_THAT(reading(folder_ / "large"), HasSubstr("is larger than the limit of 100 bytes"));
+  EXPECT_EQ(read_file(folder_ / "large", 101).size(), 101u);
+}
+
+TEST_F(Files, AFailedWriteLeavesTheOldFileAndNothingElse) {
+  write_file(folder_ / "x", "old");
+  EXPECT_THROW(write_file_with(folder_ / "x",
+                               [](const fs::path& temporary) {
+                                 std::ofstream(temporary) << "half";
+                                 throw WorkError("disk full");
+                               }),
+               WorkError);
+  EXPECT_EQ(read_file(folder_ / "x"), "old");
+  EXPECT_EQ(entries(), 1u);
+}
+
+TEST_F(Files, WritingNamesTheFileAndTheReason) {
+  const auto writing = [](const fs::path& path) { return message_of<WorkError>([&] { write_file(path, "content"); }); };
+  EXPECT_THAT(writing(folder_ / "none" / "x"), HasSubstr("none/x: cannot write: No such file or directory"));
+  EXPECT_THAT(writing(folder_), HasSubstr("cannot write: Is a directory"));
+  EXPECT_EQ(writing("/dev/full"), "/dev/full: cannot write: No space left on device");
+  EXPECT_EQ(entries(), 0u);
+}
+
+TEST_F(Files, AWriterThatMakesNoFileIsAnError) {
+  EXPECT_THAT(message_of<WorkError>([&] { write_file_with(folder_ / "x", [](const fs::path&) {}); }),
+              HasSubstr("x: cannot write: No such file or directory"));
+}
+
+TEST_F(Files, ADeviceIsWrittenThroughNotReplaced) {
+  write_file("/dev/null", "content");
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+  EXPECT_THAT(message_of<WorkError>([] { write_file_with("/dev/null", [](const fs::path&) {}); }),
+              HasSubstr("is not a regular file"));
+}
+
+TEST_F(Files, ASymbolicLinkKeepsPointingWhereItDid) {
+  write_file(folder_ / "target", "old");
+  fs::create_symlink("target", folder_ / "link");
+  write_file(folder_ / "link", "new");
+  EXPECT_TRUE(fs::is_symlink(folder_ / "link"));
+  EXPECT_EQ(read_file(folder_ / "target"), "new");
+}
+
+TEST_F(Files, MakesADirectoryWithItsParents) {
+  make_directory(folder_ / "a" / "b");
+  EXPECT_TRUE(fs::is_directory(folder_ / "a" / "b"));
+  make_directory(folder_ / "a");
+  write_file(folder_ / "x", "");
+  EXPECT_THAT(message_of<WorkError>([&] { make_directory(folder_ / "x"); }), HasSubstr("x: cannot make the directory"));
+  // Root may write anywhere: a child process that is not root asks.
+  fs::permissions(folder_, fs::perms::group_exec | fs::perms::others_exec, fs::perm_options::add);
+  const fs::path locked = folder_ / "locked";
+  fs::create_directory(locked);
+  fs::permissions(locked,
+                  fs::perms::owner_read | fs::perms::owner_exec | fs::perms::others_read | fs::perms::others_exec);
+  EXPECT_EXIT(
+      {
+        if (::geteuid() == 0 && ::setuid(65534) != 0) std::abort();
+        std::cerr << message_of<WorkError>([&] { make_directory(locked); });
+        std::_Exit(0);
+      },
+      testing::ExitedWithCode(0), "locked: the directory is not writable: Permission denied");
+  EXPECT_THAT(message_of<WorkError>([&] { make_directory(folder_ / "x" / "y"); }), HasSubstr("Not a directory"));
+  EXPECT_THROW(make_directory(""), WorkError);
+}
+
+}  // namespace
+}  // namespace seaglint

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/core/process/progress.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fcntl.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include <string>
+#include <thread>
+
+namespace seaglint {
+namespace {
+
+TEST(ProgressLine, ShowsShareAndTimeLeft) {
+  EXPECT_EQ(progress_line("maps", 0, 10, 3), "maps  [....................]   0 %, no estimate yet");
+  EXPECT_EQ(progress_line("maps", 1, 4, 10), "maps  [#####...............]  25 %, 30 s left");
+  EXPECT_EQ(progress_line("maps", 1, 2, 130), "maps  [##########..........]  50 %, 2 min 10 s left");
+  EXPECT_EQ(progress_line("maps", 1, 2, 3700), "maps  [##########..........]  50 %, 1 h 1 min left");
+  EXPECT_EQ(progress_line("maps", 999, 1000, 1), "maps  [###################.]  99 %, 1 s left");
+  EXPECT_EQ(progress_line("maps", 4, 4, 10), "maps  [####################] 100 %, 0 s left");
+  EXPECT_EQ(progress_line("maps", 0, 0, 1), "maps  [####################] 100 %, 0 s left");
+}
+
+TEST(ProgressLine, ShowsARateWhereTheStepsHaveAName) {
+  EXPECT_EQ(progress_line("rcs", 1, 4, 10, "views"), "rcs  [#####...............]  25 %, 30 s left, 0.1 views/s");
+  EXPECT_EQ(progress_line("rcs", 0, 4, 10, "views"), "rcs  [....................]   0 %, no estimate yet");
+}
+
+TEST(Progress, IsSilentWhereThereIsNoTerminal) {
+  ::testing::internal::CaptureStderr();
+  {
+    Progress progress("maps", 2);
+    progress.advance();
+    std::this_thread::sleep_for(std::chrono::milliseconds(2100));
+    progress.advance();
+  }
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
+
+// What a terminal in place of stderr is sent while `work` runs.
+template <typename Function>
+std::string sent_to_terminal(const Function& work) {
+  const int terminal = ::posix_openpt(O_RDWR | O_NOCTTY);
+  EXPECT_TRUE(terminal >= 0 && ::grantpt(terminal) == 0 && ::unlockpt(terminal) == 0);
+  const int inside = ::open(::ptsname(terminal), O_RDWR | O_NOCTTY);
+  const int before = ::dup(STDERR_FILENO);
+  ::dup2(inside, STDERR_FILENO);
+  work();
+  ::dup2(before, STDERR_FILENO);
+  ::close(before);
+  ::fcntl(terminal, F_SETFL, O_NONBLOCK);
+  char buffer[4096];
+  const ssize_t count = ::read(terminal, buffer, sizeof buffer);
+  ::close(inside);
+  ::close(terminal);
+  return std::string(buffer, count > 0 ? static_cast<std::size_t>(count) : 0);
+}
+
+TEST(Progress, ShowsABarOnATerminalAfterTwoSecondsAndWipesItAtTheEnd) {
+  const std::string sent = sent_to_terminal([] {
+    Progress progress("maps", 4);
+    progress.advance();
+    std::this_thread::sleep_for(std::chrono::milliseconds(2100));
+    progress.advance();
+    progress.advance();  // too soon to be drawn
+  });
+  EXPECT_THAT(sent, ::testing::StartsWith("\rmaps  [##########..........]  50 %, "));
+  EXPECT_THAT(sent, ::testing::EndsWith(" s left\033[K\r\033[K"));
+}
+
+TEST(Progress, IsSilentForShortWork) {
+  EXPECT_EQ(sent_to_terminal([] {
+              Progress progress("maps", 2);
+              progress.advance();
+              progress.advance();
+            }),
+            "");
+}
+
+}  // namespace
+}  // namespace seaglint

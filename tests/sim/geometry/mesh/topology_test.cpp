@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/geometry/mesh/topology.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/core/numbers/constants.h"
+#include "sim/geometry/mesh/mesh_builder.h"
+#include "sim/geometry/shapes/generators.h"
+
+namespace seaglint {
+namespace {
+
+TriangleMesh unit_cube() {
+  MeshBuilder builder;
+  builder.begin_part("cube");
+  for (int i = 0; i < 8; ++i) builder.vertex({double(i & 1), double((i >> 1) & 1), double(i >> 2)});
+  builder.quad(0, 2, 3, 1);
+  builder.quad(4, 5, 7, 6);
+  builder.quad(0, 1, 5, 4);
+  builder.quad(2, 6, 7, 3);
+  builder.quad(0, 4, 6, 2);
+  builder.quad(1, 3, 7, 5);
+  return builder.take();
+}
+
+TEST(Topology, OfACubeHasTwelveConvexRightWedges) {
+  const TriangleMesh cube = unit_cube();
+  EXPECT_NEAR(enclosed_volume(cube), 1.0, 1e-15);
+  const Topology topology = topology_of(cube);
+  EXPECT_EQ(topology.edges.size(), 18u);  // Euler: 8 - E + 12 = 2
+  EXPECT_EQ(topology.count(EdgeKind::kManifold), 18u);
+  EXPECT_TRUE(topology.part_closed[0]);
+  const auto found = wedges(cube, topology, radians(5));
+  ASSERT_EQ(found.size(), 12u);
+  for (const Wedge& wedge : found) EXPECT_NEAR(wedge.exterior_angle, 1.5 * kPi, 1e-15);
+}
+
+TEST(Topology, OfACubeTurnedInsideOutHasConcaveWedges) {
+  TriangleMesh cube = unit_cube();
+  for (auto& triangle : cube.triangles) std::swap(triangle[1], triangle[2]);
+  const Topology topology = topology_of(cube);
+  EXPECT_TRUE(topology.part_closed[0]);
+  for (const Wedge& wedge : wedges(cube, topology, radians(5))) EXPECT_NEAR(wedge.exterior_angle, 0.5 * kPi, 1e-15);
+}
+
+TEST(Topology, NeighboursNameEachOther) {
+  const TriangleMesh sphere = make_sphere(1, 2);
+  const Topology topology = topology_of(sphere);
+  for (std::uint32_t t = 0; t < sphere.triangles.size(); ++t) {
+    for (std::uint32_t n : topology.neighbours[t]) {
+      ASSERT_NE(n, kNoIndex);
+      EXPECT_EQ(std::count(topology.neighbours[n].begin(), topology.neighbours[n].end(), t), 1);
+    }
+  }
+}
+
+TEST(Topology, CountsAHoleAndAFlippedTriangle) {
+  TriangleMesh cube = unit_cube();
+  std::swap(cube.triangles[0][1], cube.triangles[0][2]);
+  EXPECT_EQ(topology_of(cube).count(EdgeKind::kInconsistent), 3u);
+  EXPECT_FALSE(topology_of(cube).part_closed[0]);
+  cube.triangles.erase(cube.triangles.begin());
+  cube.triangle_part.pop_back();
+  cube.triangle_material.pop_back();
+  EXPECT_EQ(topology_of(cube).count(EdgeKind::kBoundary), 3u);
+  EXPECT_FALSE(topology_of(cube).part_closed[0]);
+}
+
+TEST(Topology, SurvivesEdgesOfManyTrianglesAndTrianglesWithoutArea) {
+  MeshBuilder builder;
+  builder.begin_part("fan");
+  const auto a = builder.vertex({0, 0, 0}), b = builder.vertex({0, 0, 1});
+  for (int i = 0; i < 5; ++i) builder.triangle(a, b, builder.vertex({std::cos(i), std::sin(i), 0.5}));
+  const auto middle = builder.vertex({0, 0, 0.5});
+  builder.triangle(a, b, middle);  // collinear
+  builder.triangle(a, a, b);       // two corners are one
+  const TriangleMesh fan = builder.take();
+  const Topology topology = topology_of(fan);
+  EXPECT_EQ(topology.count(EdgeKind::kNonManifold), 1u);
+  EXPECT_EQ(topology.degenerate, (std::vector<std::uint32_t>{5, 6}));
+  EXPECT_FALSE(topology.part_closed[0]);
+  for (const Wedge& wedge : wedges(fan, topology, radians(5))) {
+    EXPECT_LT(wedge.triangles[0], 5u);
+    EXPECT_EQ(wedge.triangles[1], kNoIndex);
+  }
+}
+
+TEST(Topology, TwoClosedPartsThatShareAnEdgeAreEachClosed) {
+  TriangleMesh first = unit_cube(), second = unit_cube();
+  second.part_names = {"other"};
+  const Mat3 half_turn = Eigen::AngleAxisd(kPi, Vec3::UnitZ()).toRotationMatrix().array().round();
+  first.append(transformed(second, half_turn, Vec3::Zero()));
+  const TriangleMesh both = welded(first);
+  EXPECT_EQ(both.vertices.size(), 14u);
+  const Topology topology = topology_of(both);
+  EXPECT_EQ(topology.count(EdgeKind::kNonManifold), 1u);
+  EXPECT_TRUE(topology.part_closed[0]);
+  EXPECT_TRUE(topology.part_closed[1]);
+}
+
+TEST(TriangleMesh, AppendMatchesPartsAndMaterialsByName) {
+  TriangleMesh mesh = unit_cube();
+  TriangleMesh other = unit_cube();
+  other.part_names = {"mast"};
+  other.materials = {Material{"paint"}};
+  mesh.append(other);
+  mesh.append(unit_cube());
+  EXPECT_EQ(mesh.part_names, (std::vector<std::string>{"cube", "mast"}));
+  ASSERT_EQ(mesh.materials.size(), 2u);
+  EXPECT_EQ(mesh.triangle_part[12], 1);
+  EXPECT_EQ(mesh.triangle_material[12], 1);
+  EXPECT_EQ(mesh.triangle_part[24], 0);
+  EXPECT_EQ(mesh.triangle_material[24], 0);
+  EXPECT_NEAR(enclosed_volume(mesh), 3.0, 1e-12);
+  EXPECT_EQ(part_of(mesh, 1).triangles.size(), 12u);
+}
+
+TEST(TriangleMesh, RotationAndTranslationKeepAreaAndVolume) {
+  const TriangleMesh mesh = make_icosahedral_reflector();
+  const Mat3 R = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+  const TriangleMesh moved = transformed(mesh, R, Vec3(10, -5, 2));
+  EXPECT_NEAR(enclosed_volume(moved), enclosed_volume(mesh), 1e-12);
+  EXPECT_NEAR(surface_area(moved), surface_area(mesh), 1e-12);
+}
+
+TEST(TriangleMesh, WeldingMakesASoupOfTrianglesClosedAgain) {
+  const TriangleMesh sphere = make_sphere(1, 1);
+  MeshBuilder soup;
+  soup.begin_part("sphere");
+  for (const auto& [a, b, c] : sphere.triangles) {
+    const auto i = soup.vertex(sphere.vertices[a]), j = soup.vertex(sphere.vertices[b]),
+               k = soup.vertex(sphere.vertices[c]);
+    soup.triangle(i, j, k);
+  }
+  const TriangleMesh loose = soup.take();
+  EXPECT_FALSE(topology_of(loose).part_closed[0]);
+  const TriangleMesh mesh = welded(loose);
+  EXPECT_EQ(mesh.vertices.size(), sphere.vertices.size());
+  EXPECT_TRUE(topology_of(mesh).part_closed[0]);
+}
+
+TEST(TriangleMesh, BoundsIgnoreVerticesWithoutTriangles) {
+  TriangleMesh mesh = unit_cube();
+  mesh.vertices.push_back({100, 0, 0});
+  EXPECT_EQ(bounds(mesh).upper.x(), 1.0);
+  EXPECT_EQ(bounds(TriangleMesh{}).upper.x(), 0.0);
+}
+
+}  // namespace
+}  // namespace seaglint

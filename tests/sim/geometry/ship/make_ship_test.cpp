@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/geometry/ship/make_ship.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "sim/core/numbers/constants.h"
+#include "sim/core/process/error.h"
+#include "sim/geometry/mesh/topology.h"
+
+namespace seaglint {
+namespace {
+
+class Ship : public testing::Test {
+ protected:
+  static void SetUpTestSuite() { mesh = make_ship(); }
+  static void TearDownTestSuite() { mesh = {}; }
+  static inline TriangleMesh mesh;
+};
+
+TEST_F(Ship, HasItsLengthAndStandsOnTheWaterline) {
+  const Bounds box = bounds(mesh);
+  EXPECT_NEAR(box.lower.x(), -72, 0.01);
+  EXPECT_NEAR(box.upper.x(), 72, 0.01);
+  EXPECT_EQ(box.lower.z(), 0.0);
+  EXPECT_GT(box.upper.z(), 25);
+  // Fittings do not come in mirrored pairs only, but the beam does.
+  EXPECT_NEAR(box.lower.y(), -box.upper.y(), 1e-4);
+}
+
+TEST_F(Ship, HasItsBeamAtTheWaterline) {
+  double widest = 0;
+  for (const Vec3& p : mesh.vertices) {
+    if (p.z() == 0) widest = std::max(widest, p.y());
+  }
+  EXPECT_NEAR(2 * widest, 17.5, 0.01);
+}
+
+TEST_F(Ship, ConsistsOfClosedPartsThatFaceOutwards) {
+  ASSERT_GT(mesh.part_names.size(), 20u);
+  for (std::size_t p = 0; p < mesh.part_names.size(); ++p) {
+    const TriangleMesh part = part_of(mesh, p);
+    const Topology topology = topology_of(part);
+    EXPECT_TRUE(topology.part_closed[0]) << mesh.part_names[p];
+    EXPECT_TRUE(topology.degenerate.empty()) << mesh.part_names[p];
+    EXPECT_GT(enclosed_volume(part), 0) << mesh.part_names[p];
+  }
+}
+
+// Follows neighbours from triangle to triangle: each solid within a part is turned outwards by itself.
+TEST_F(Ship, EverySolidWithinAPartFacesOutwards) {
+  const Topology topology = topology_of(mesh);
+  std::vector<bool> seen(mesh.triangles.size(), false);
+  int solids = 0;
+  for (std::uint32_t start = 0; start < mesh.triangles.size(); ++start) {
+    if (seen[start]) continue;
+    double volume = 0;
+    const Vec3 origin = mesh.vertices[mesh.triangles[start][0]];
+    std::vector<std::uint32_t> pending{start};
+    seen[start] = true;
+    while (!pending.empty()) {
+      const std::uint32_t t = pending.back();
+      pending.pop_back();
+      volume += (mesh.vertices[mesh.triangles[t][0]] - origin).dot(area_vector(mesh, t)) / 3.0;
+      for (std::uint32_t n : topology.neighbours[t]) {
+        ASSERT_NE(n, kNoIndex);
+        if (!seen[n]) pending.push_back(n);
+        seen[n] = true;
+      }
+    }
+    EXPECT_GT(volume, 0) << mesh.part_names[mesh.triangle_part[start]];
+    ++solids;
+  }
+  EXPECT_GT(solids, 500);
+}
+
+TEST_F(Ship, HullHasTheVolumeOfItsSections) {
+  // Freeboard times mean breadth: 144 m x 17.5 m x about 6.3 m, of which a fine hull fills 0.7 to 0.85.
+  const double box = 144 * 17.5 * 6.3;
+  const double volume = enclosed_volume(part_of(mesh, 0));
+  EXPECT_EQ(mesh.part_names[0], "hull");
+  EXPECT_GT(volume, 0.70 * box);
+  EXPECT_LT(volume, 0.85 * box);
+}
+
+// A plate of the hull is small, and the flare turns along the ship and with height, so that no aspect sees one mirror.
+TEST_F(Ship, HullPlatesAreSmallAndTurnAwayFromOneAnother) {
+  const TriangleMesh hull = part_of(mesh, 0);
+  std::vector<double> flare;
+  for (std::size_t t = 0; t < hull.triangles.size(); ++t) {
+    const Vec3 area = area_vector(hull, t), n = area.normalized();
+    if (std::abs(n.z()) > 0.9 || std::abs(n.x()) > 0.8) continue;  // deck and lid, transom
+    double longest = 0;
+    for (int i = 0; i < 3; ++i) {
+      longest = std::max(longest,
+                         (hull.vertices[hull.triangles[t][(i + 1) % 3]] - hull.vertices[hull.triangles[t][i]]).norm());
+    }
+    EXPECT_LT(longest, 3.5) << hull.vertices[hull.triangles[t][0]].transpose();
+    flare.push_back(degrees(std::asin(n.z())));
+  }
+  std::sort(flare.begin(), flare.end());
+  EXPECT_LT(flare[flare.size() / 20], flare[flare.size() * 19 / 20] - 5.0);
+  // The sides lean outwards by several degrees, so that at 2 deg of elevation none looks at the radar.
+  EXPECT_LT(flare[flare.size() * 3 / 4], -3.0);
+}
+
+// Vertices where three faces meet at inner right angles: what answers in many directions.
+TEST_F(Ship, HasInnerRightAngledCornersAllAlong) {
+  const Topology topology = topology_of(mesh);
+  std::vector<int> right_seams(mesh.vertices.size(), 0);
+  for (const Wedge& wedge : wedges(mesh, topology, radians(45))) {
+    if (std::abs(wedge.exterior_angle - 0.5 * kPi) > radians(0.1)) continue;
+    for (std::uint32_t v : topology.edges[wedge.edge].vertices) ++right_seams[v];
+  }
+  int corners = 0;
+  std::set<int> slices;
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    if (right_seams[v] < 3) continue;
+    ++corners;
+    slices.insert(static_cast<int>(std::floor(mesh.vertices[v].x() / 6.0)));
+  }
+  EXPECT_GE(corners, 240);
+  EXPECT_GE(slices.size(), 15u) << "of 24 slices of 6 m";
+}
+
+TEST_F(Ship, KeepsItsBudget) {
+  EXPECT_GE(mesh.triangles.size(), 15000u);
+  EXPECT_LE(mesh.triangles.size(), 40000u);
+}
+
+TEST(ShipForm, ScalesWithLengthAndBeamAndStaysClosed) {
+  for (const auto& [length, beam] : {std::pair{100.0, 13.0}, {120.0, 15.0}, {180.0, 21.0}}) {
+    const TriangleMesh mesh = make_ship({.length_m = length, .beam_m = beam});
+    // The flagstaffs keep their rake and may reach beyond a short ship's ends.
+    EXPECT_NEAR(bounds(mesh).upper.x() - bounds(mesh).lower.x(), length, 0.3);
+    const Topology topology = topology_of(mesh);
+    for (std::size_t p = 0; p < mesh.part_names.size(); ++p) EXPECT_TRUE(topology.part_closed[p]) << mesh.part_names[p];
+    EXPECT_TRUE(topology.degenerate.empty());
+  }
+}
+
+TEST(ShipForm, DetailAddsParts) {
+  const std::size_t hull = make_ship({.detail = ShipDetail::kHull}).triangles.size();
+  const std::size_t fittings = make_ship({.detail = ShipDetail::kFittings}).triangles.size();
+  EXPECT_LT(hull, fittings);
+  EXPECT_LT(fittings, make_ship().triangles.size());
+}
+
+TEST(ShipForm, OutOfRangeIsRefused) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(make_ship({.length_m = 20}), InputError);
+  EXPECT_THROW(make_ship({.length_m = nan}), InputError);
+  EXPECT_THROW(make_ship({.beam_m = 40}), InputError);
+  EXPECT_THROW(make_ship({.freeboard_m = 1}), InputError);
+  EXPECT_THROW(make_ship({.bow_height_m = 5}), InputError);
+  EXPECT_THROW(make_ship({.stern_height_m = nan}), InputError);
+  EXPECT_THROW(make_ship({.panel_m = 0.01}), InputError);
+  EXPECT_THROW(make_ship({.plating_m = -1}), InputError);
+  EXPECT_THROW(make_ship({.rail_width_m = 1}), InputError);
+}
+
+}  // namespace
+}  // namespace seaglint

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A radar that passes by: the direction to it, and to its image in the sea, turns as the geometry of its way demands.
+#include "sim/scattering/response/line_of_sight.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "sim/core/numbers/constants.h"
+#include "sim/geometry/shapes/generators.h"
+#include "sim/scattering/response/body_response.h"
+#include "sim/scattering/response/point_response.h"
+
+namespace seaglint {
+namespace {
+
+constexpr double kRange = 20e3;
+const Vec3 kVelocity(40, 220, -15);  // an aircraft that passes
+
+IntervalSampling interval() {
+  IntervalSampling sampling;
+  sampling.first_hz = 16e9;
+  sampling.step_hz = 5e6;
+  sampling.count = 40;
+  sampling.per_pulse = 40;
+  for (int n = 0; n < 16; ++n) {
+    sampling.pulse_first.push_back(0);
+    sampling.pulse_time_s.push_back(3 + 4e-3 * n);
+  }
+  sampling.sight_rate = kVelocity / kRange;
+  return sampling;
+}
+
+// That pulse alone, from where the radar then stands.
+IntervalSampling only_pulse(const IntervalSampling& sampling, int pulse) {
+  IntervalSampling one = sampling;
+  one.pulse_first = {0};
+  one.pulse_time_s = {sampling.pulse_time_s[pulse]};
+  one.sight_rate = Vec3::Zero();
+  return one;
+}
+
+TEST(PassingRadar, PointsChangeTheirRangeAsTheWayDemands) {
+  const IntervalSampling sampling = interval();
+  const Vec3 r_hat = direction_to_radar({radians(30), radians(3)});
+  const Vec3 x(25, -40, 12);
+  const PointSpec point{{x.x(), x.y(), x.z()}, 1, {0, 0, 0}};
+  const FrequencyResponse response = point_response({&point, 1}, r_hat, sampling);
+  const auto range_beyond_reference = [&](double t) {
+    const Vec3 radar = kRange * r_hat + kVelocity * t;
+    return (radar - x).norm() - radar.norm();
+  };
+  for (std::size_t n = 0; n < sampling.pulse_time_s.size(); ++n) {
+    const double t = sampling.pulse_time_s[n] - sampling.pulse_time_s.front();
+    const double k = 2 * kPi * (sampling.first_hz + 7 * sampling.step_hz) / kSpeedOfLight;
+    const double moved_m = range_beyond_reference(t) - range_beyond_reference(0);
+    const double phase = std::arg(response.at(static_cast<int>(n), 7) / response.at(0, 7));
+    // Neglected: how the wavefront's curvature x^2 / (2 R) changes with the direction, below x^2 u t / R^2.
+    const double curvature_m = x.squaredNorm() * kVelocity.norm() * t / (kRange * kRange);
+    EXPECT_NEAR(std::remainder(phase + 2 * k * moved_m, 2 * kPi), 0, 2 * k * curvature_m + 1e-9);
+    if (n > 8) {
+      EXPECT_GT(std::abs(2 * k * moved_m), 0.5);
+    }
+  }
+}
+
+TEST(PassingRadar, BodiesAnswerAsFromTheDirectionsOfItsWay) {
+  const Scatterer scatterer(make_icosahedral_reflector(1.0));
+  const Trajectory still = Trajectory::at_rest(Vec3(15, 30, 0.75));
+  IntervalSampling sampling = interval();
+  sampling.sight_rate *= 5;  // 4 km away
+  const Vec3 r_hat = direction_to_radar({radians(70), radians(2)});
+  const FrequencyResponse passing = respond(scatterer, still, r_hat, Polarisation::kVv, sampling, {}).response;
+  double difference = 0, power = 0;
+  for (const int n : {0, 7, 15}) {
+    const IntervalSampling one = only_pulse(sampling, n);
+    const double t = sampling.pulse_time_s[n] - sampling.pulse_time_s.front();
+    const Vec3 direction = (r_hat + t * sampling.sight_rate).normalized();
+    const FrequencyResponse fresh = respond(scatterer, still, direction, Polarisation::kVv, one, {}).response;
+    for (int b = 0; b < sampling.per_pulse; ++b) {
+      difference += std::norm(passing.at(n, b) - fresh.at(0, b));
+      power += std::norm(fresh.at(0, b));
+    }
+  }
+  // -40 dB of the interval, as for a body that turns itself; without the turn it is another echo.
+  EXPECT_LT(std::sqrt(difference / power), 0.01);
+}
+
+// Over the sea each way is r^.x or r'.x at the direction of the radar's true place, r' with r_z turned over: a radar
+// that comes nearer in level flight, climbs or passes by sees the image move the other way.
+constexpr double kNearRange = 4e3;
+const std::array<Vec3, 4> kVelocities{Vec3(-300, 0, 0), Vec3(0, 0, 100), Vec3(0, 100, 0), Vec3(-200, 80, -30)};
+
+IntervalSampling over_the_sea(const Vec3& velocity) {
+  IntervalSampling sampling = interval();
+  sampling.sight_rate = velocity / kNearRange;
+  return sampling;
+}
+
+Vec3 direction_at(const IntervalSampling& sampling, const Vec3& r_hat, std::size_t pulse) {
+  const double t = sampling.pulse_time_s[pulse] - sampling.pulse_time_s.front();
+  return (r_hat + t * sampling.sight_rate).normalized();
+}
+
+// Of waves that leave half of the mirror.
+SeaMirror rough_water() { return SeaMirror(SeaReflectionSpec{}, 0.1); }
+
+TEST(PassingRadar, PointsOverTheSeaAnswerFourWaysFromWhereItIs) {
+  const Vec3 r_hat = direction_to_radar({radians(10), radians(5)}), x(25, -40, 12), v(3, -2, 1);
+  const PointSpec point{{x.x(), x.y(), x.z()}, 1, {v.x(), v.y(), v.z()}};
+  const SeaMirror sea = rough_water();
+  for (const Vec3& velocity : kVelocities) {
+    const IntervalSampling sampling = over_the_sea(velocity);
+    const FrequencyResponse response = point_response_over_sea({&point, 1}, r_hat, sampling, Polarisation::kHv, sea);
+    double difference = 0, power = 0;
+    for (std::size_t n = 0; n < sampling.pulse_time_s.size(); ++n) {
+      const Vec3 r = direction_at(sampling, r_hat, n), image(r.x(), r.y(), -r.z());
+      const Vec3 now = x + (sampling.pulse_time_s[n] - sampling.pulse_time_s.front()) * v;
+      for (int b = 0; b < sampling.per_pulse; ++b) {
+        const double k = 2 * kPi * (sampling.first_hz + b * sampling.step_hz) / kSpeedOfLight;
+        const SeaCoefficients rho = sea.at(k, r.z());
+        const auto way = [&](const Complex& c) {
+          return std::polar(1.0, k * r.dot(now)) + c * std::polar(1.0, k * image.dot(now));
+        };
+        const Complex four = way(rho.h) * way(rho.v);
+        difference += std::norm(response.at(static_cast<int>(n), b) - four);
+        power += std::norm(four);
+      }
+    }
+    // Rounding of directions (1e-16) times phases of 2 k |x|, 3e4 rad.
+    EXPECT_LT(std::sqrt(difference / power), 1e-10) << velocity.transpose();
+  }
+}
+
+TEST(PassingRadar, BodiesOverTheSeaAnswerAsFromTheDirectionsOfItsWay) {
+  const Scatterer scatterer(make_icosahedral_reflector(1.0));
+  // Turning and heaving a little, off the reference point.
+  MotionSample first, last;
+  first.angle_rates = last.angle_rates = {0.1, -0.05, 0.02};
+  first.shift_rates = last.shift_rates = {0, 0, 0.4};
+  last.angles = first.angle_rates;
+  last.shift = first.shift_rates;
+  const Trajectory body(3, 1, {first, last}, Vec3(15, 30, 4), Vec3::Zero());
+  const Vec3 r_hat = direction_to_radar({radians(70), radians(5)});
+  const SeaMirror sea = rough_water();
+  for (const Vec3& velocity : kVelocities) {
+    const IntervalSampling sampling = over_the_sea(velocity);
+    const FrequencyResponse passing =
+        respond(scatterer, body, r_hat, Polarisation::kHh, sampling, {}, 2, &sea).response;
+    double difference = 0, power = 0;
+    for (const int n : {0, 7, 15}) {
+      const IntervalSampling one = only_pulse(sampling, n);
+      const Vec3 direction = direction_at(sampling, r_hat, static_cast<std::size_t>(n));
+      const FrequencyResponse fresh = respond(scatterer, body, direction, Polarisation::kHh, one, {}, 2, &sea).response;
+      for (int b = 0; b < sampling.per_pulse; ++b) {
+        difference += std::norm(passing.at(n, b) - fresh.at(0, b));
+        power += std::norm(fresh.at(0, b));
+      }
+    }
+    fmt::print("radar at {}, {}, {} m/s over the sea: {:.1f} dB\n", velocity.x(), velocity.y(), velocity.z(),
+               10 * std::log10(difference / power));
+    EXPECT_LT(std::sqrt(difference / power), 0.01) << velocity.transpose();
+  }
+}
+
+}  // namespace
+}  // namespace seaglint

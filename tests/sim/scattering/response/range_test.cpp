@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A radar at a finite range: the wavefront's second order against sums over its definition.
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "sim/core/process/error.h"
+#include "sim/geometry/shapes/generators.h"
+#include "tests/sim/scattering/solver_fixtures.h"
+
+namespace seaglint {
+namespace {
+
+using namespace testing_echoes;
+
+Complex at_range(const TriangleMesh& mesh, const Vec3& r, double k, double range_m) {
+  IlluminationSettings settings;
+  settings.range_m = range_m;
+  return scattering_matrices(Scatterer(mesh), monostatic(radar_basis(r)), std::array{k}, settings)[0][kVvChannel];
+}
+
+// Physical optics of a plate in x = 0, its phase summed over small cells: e^{2jk (r.x - |x_perp|^2 / 2R)}.
+Complex summed_plate(double length, double width, const Vec3& r, double k, double range_m) {
+  const int cells = 1500;
+  Complex sum = 0;
+  for (int i = 0; i < cells; ++i) {
+    for (int j = 0; j < cells; ++j) {
+      const Vec3 x(0, length * ((i + 0.5) / cells - 0.5), width * ((j + 0.5) / cells - 0.5));
+      const double along = r.dot(x);
+      sum += std::polar(1.0, 2 * k * (along - (x - along * r).squaredNorm() / (2 * range_m)));
+    }
+  }
+  return Complex(0, -k / (2 * kPi)) * r.x() * sum * (length * width / (cells * cells));
+}
+
+TEST(FiniteRange, PlateIsTheSumOverItsCurvedWavefront) {
+  const double length = 2, width = 0.8, k = wavenumber(10e9);
+  for (const double range_m : {30.0, 100.0, 2000.0}) {
+    for (const double azimuth : {0.0, 0.5, 3.0, 20.0}) {
+      const Vec3 r = direction(azimuth, 0.7);
+      const Complex expected = summed_plate(length, width, r, k, range_m),
+                    ours = at_range(make_plate(length, width), r, k, range_m);
+      // Frozen amplitudes of split() over radius / R: kAmplitudeError of the strongest end; the cells' own error is
+      // 1e-5.
+      const double size = std::abs(summed_plate(length, width, direction(0, 0.7), k, range_m));
+      fmt::print("plate at {} m, {} deg: {:.4f} of the broadside echo\n", range_m, azimuth,
+                 std::abs(ours - expected) / size);
+      EXPECT_LT(std::abs(ours - expected), 0.02 * size) << range_m << ' ' << azimuth;
+    }
+  }
+}
+
+// Nothing changes for a body on the line of sight but what its own size does.
+TEST(FiniteRange, CurvedBodyOnTheLineOfSightKeepsItsEcho) {
+  const double k = wavenumber(10e9);
+  const TriangleMesh sphere = transformed(make_sphere(1, 4), Mat3::Identity(), {20, 0, 0});
+  const Vec3 r = direction(0, 0);
+  const Complex far = echo(sphere, r, k)[kVvChannel];
+  for (const double range_m : {100e3, 20e3, 5e3}) {
+    // Amplitudes are frozen over radius / R, 21 / R.
+    EXPECT_LT(std::abs(at_range(sphere, r, k, range_m) - far), (1e-3 + 21 / range_m) * std::abs(far)) << range_m;
+  }
+}
+
+// A shadow edge on the axis has no second order, however fast it slips in the plate that it falls on.
+TEST(FiniteRange, SlipOfAShadowEdgeIsNoPlace) {
+  const double k = wavenumber(3e9);
+  const Mat3 tilt = Eigen::AngleAxisd(radians(50), Vec3::UnitY()).toRotationMatrix();
+  TriangleMesh mesh = transformed(make_plate(2, 2), tilt, Vec3::Zero());
+  TriangleMesh screen = transformed(make_plate(4, 4), Mat3::Identity(), {8, 0, 2});
+  screen.part_names = {"screen"};
+  mesh.append(screen);
+  IlluminationSettings settings;
+  settings.max_bounces = 1;
+  settings.filter.only = {{EchoSelector::Kind::kPart, 0}};
+  const Vec3 r = direction(0, 0);
+  const auto seen_from = [&](double range_m) {
+    settings.range_m = range_m;
+    return scattering_matrices(Scatterer(mesh), monostatic(radar_basis(r)), std::array{k}, settings)[0][kVvChannel];
+  };
+  const Complex far = seen_from(0), near = seen_from(10e3);
+  // Half the plate reaches 1 m off the axis: k 1 / R = 6e-3 rad; amplitudes are frozen over 10 / R.
+  EXPECT_LT(std::abs(near - far), 0.02 * std::abs(far));
+}
+
+TEST(FiniteRange, FarAwayIsTheFarField) {
+  const double k = wavenumber(16e9);
+  const Vec3 r = direction(20, 10);
+  const Complex far = echo(make_icosahedral_reflector(), r, k)[kVvChannel];
+  // k radius^2 / R = 8e-6 rad at 1e7 m, and the points' single-precision patterns.
+  EXPECT_LT(std::abs(at_range(make_icosahedral_reflector(), r, k, 1e7) - far), 1e-4 * std::abs(far));
+}
+
+// Three bounces end where they began: a trihedral's echo comes from its apex, wherever its faces are, and keeps the
+// apex's path at any range. Its aperture is seen as a point, so that only what the wavefront bends over the aperture is
+// lost.
+TEST(FiniteRange, TrihedralKeepsThePathOfItsApex) {
+  const double leg = 0.3, k = wavenumber(16e9), range_m = 500;
+  const Vec3 r = Vec3(1, 1, 1).normalized(), aside = 20 * Vec3(1, -1, 0).normalized();
+  TriangleMesh mesh = make_triangular_trihedral(leg);
+  const Complex at_origin = at_range(mesh, r, k, range_m);
+  const Complex moved = at_range(transformed(mesh, Mat3::Identity(), aside), r, k, range_m);
+  // The path grows by |x_perp|^2 / R. At 20 m aside the radar stands d = 2.3 deg off the axis, which costs a triangular
+  // aperture d^2 and its first bounces' interference some 2 / (k leg); its middle lies up to leg / 2 aside of the apex,
+  // which turns the wavefront's second order by k (leg / 2)^2 / R.
+  const Complex turned = moved / at_origin * std::polar(1.0, k * aside.squaredNorm() / range_m);
+  const double off_axis = aside.norm() / range_m;
+  EXPECT_NEAR(std::abs(turned), 1, off_axis * off_axis + 2 / (k * leg));
+  EXPECT_NEAR(std::arg(turned), 0, 2 / (k * leg) + k * leg * leg / 4 / range_m);
+}
+
+// A float of a layout has its own origin, the radar's range is counted from the layout's.
+TEST(FiniteRange, PlateBesideTheReferencePointIsTheSumOfItsPointDistances) {
+  const double length = 2, width = 0.8, range_m = 1000;
+  const Vec3 rest(5, 60, 0.75);
+  const Scatterer plate(make_plate(length, width));
+  const IntervalSampling sampling{10e9, 1e6, 1, 1, {0}, {0.0}};
+  SolverSpec solver;
+  solver.edges = false;
+  solver.radar_range_m = range_m;
+  const double k = wavenumber(10e9);
+  const auto summed = [&](const Vec3& r) {
+    const int cells = 600;
+    Complex sum = 0;
+    for (int i = 0; i < cells; ++i) {
+      for (int j = 0; j < cells; ++j) {
+        const Vec3 x = rest + Vec3(0, length * ((i + 0.5) / cells - 0.5), width * ((j + 0.5) / cells - 0.5));
+        sum += std::polar(1.0, -2 * k * ((range_m * r - x).norm() - range_m));
+      }
+    }
+    const double facing = (range_m * r - rest).normalized().x();
+    return Complex(0, -k / (2 * kPi)) * facing * sum * (length * width / (cells * cells));
+  };
+  for (const double azimuth : {0.0, 3.0, 3.44, 3.8, 6.0}) {  // its normal points to the radar near 3.44 deg
+    const Vec3 r = direction(azimuth, 0.7);
+    const Complex ours =
+        respond(plate, Trajectory::at_rest(rest), r, Polarisation::kVv, sampling, solver).response.at(0, 0);
+    const double size = k * length * width / (2 * kPi), error = std::abs(ours - summed(r)) / size;
+    fmt::print("plate 60 m beside at {} m, {} deg: {:.4f} of the broadside echo\n", range_m, azimuth, error);
+    EXPECT_LT(error, 0.02) << azimuth;  // frozen amplitudes of split() as above
+  }
+}
+
+TEST(FiniteRange, RefusesARadarInsideTheTargetOrBesideIt) {
+  EXPECT_THROW(at_range(make_plate(2, 1), Vec3::UnitX(), 200, 0.5), InputError);
+  EXPECT_THROW(at_range(make_plate(2, 1), Vec3::UnitX(), 200, 10), InputError);
+}
+
+}  // namespace
+}  // namespace seaglint

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/scattering/target/embree_scene.h"
+
+#include <gtest/gtest.h>
+#include <xmmintrin.h>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "sim/core/numbers/random.h"
+#include "sim/geometry/shapes/generators.h"
+#include "sim/scattering/target/facets.h"
+
+namespace seaglint {
+namespace {
+
+TEST(RayScene, LeavesTheCallersFloatingPointModeAsItWas) {
+  const RayScene plate(make_facets(make_plate(1, 1)));
+  const std::vector<Ray> rays(20, Ray{Vec3(1, 0.1, 0.2), Vec3(-1, 0, 0)});
+  std::vector<int> hits(rays.size(), kNoFacet);
+  for (const unsigned flush : {unsigned{_MM_FLUSH_ZERO_OFF}, unsigned{_MM_FLUSH_ZERO_ON}}) {
+    const unsigned before = _mm_getcsr();
+    _MM_SET_FLUSH_ZERO_MODE(flush);
+    const unsigned set = _mm_getcsr();
+    plate.first_hits(rays, hits);
+    const unsigned after_many = _mm_getcsr();
+    const int hit = plate.first_hit(rays.front());
+    const unsigned after_one = _mm_getcsr();
+    _mm_setcsr(before);
+    constexpr unsigned kModes = ~unsigned{_MM_EXCEPT_MASK};  // the exceptions that occurred are no mode
+    EXPECT_EQ(after_many & kModes, set & kModes);
+    EXPECT_EQ(after_one & kModes, set & kModes);
+    EXPECT_NE(hit, kNoFacet);
+    for (const int many : hits) EXPECT_EQ(many, hit);
+  }
+}
+
+// Every box is a leaf once, and lies in the boxes above it.
+TEST(BoxTree, HoldsEveryBoxOnceWithinItsParents) {
+  Random random({29, Stream::kTest, 0});
+  for (const int count : {1, 2, 5, 1000}) {
+    std::vector<Box3> boxes(count);
+    for (Box3& box : boxes) {
+      const Vec3 x(random.normal(), random.normal(), random.normal());
+      box.add(x);
+      // Some without extent, and many alike.
+      box.add(random.uniform() < 0.5 ? x : Vec3(x + Vec3(random.uniform(), 0, random.uniform())));
+      if (random.uniform() < 0.3) box = boxes[0];
+    }
+    const std::vector<BoxNode> nodes = box_tree(boxes);
+    std::vector<int> met(count, 0);
+    int deepest = 0;
+    const auto visit = [&](const auto& self, const BoxNode& node, int level) -> void {
+      deepest = std::max(deepest, level);
+      for (int i = 0; i < node.children; ++i) {
+        const BoxNode::Child& child = node.child[i];
+        if (child.index >= 0) {
+          for (int k = 0; k < nodes[child.index].children; ++k) {
+            for (int a = 0; a < 3; ++a) {
+              EXPECT_LE(child.lower[a], nodes[child.index].child[k].lower[a]);
+              EXPECT_GE(child.upper[a], nodes[child.index].child[k].upper[a]);
+            }
+          }
+          self(self, nodes[child.index], level + 1);
+        } else {
+          ++met[-1 - child.index];
+          for (int a = 0; a < 3; ++a) {
+            EXPECT_LE(child.lower[a], boxes[-1 - child.index].lower[a]);
+            EXPECT_GE(child.upper[a], boxes[-1 - child.index].upper[a]);
+          }
+        }
+      }
+    };
+    visit(visit, nodes.at(0), 1);
+    for (const int times : met) EXPECT_EQ(times, 1);
+    EXPECT_LE(deepest, kMostLevels);
+  }
+  EXPECT_TRUE(box_tree({}).empty());
+}
+
+}  // namespace
+}  // namespace seaglint

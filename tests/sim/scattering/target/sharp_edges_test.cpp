@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which edges are sharp, and which of their faces speaks for them.
+#include "sim/scattering/target/sharp_edges.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/core/numbers/random.h"
+#include "sim/geometry/files/mesh_io.h"
+#include "sim/geometry/shapes/generators.h"
+#include "sim/scattering/target/scatterer.h"
+#include "tests/sim/scattering/solver_fixtures.h"
+
+namespace seaglint {
+namespace {
+
+using testing_echoes::cut_plate;
+
+TEST(SharpEdges, AreThoseOfAPlateABoxAndADihedral) {
+  const auto edges_of = [](const TriangleMesh& mesh) { return Scatterer(mesh).edges().edges; };
+  const auto rims = edges_of(make_plate(0.3, 0.2));
+  EXPECT_EQ(rims.size(), 4u);
+  for (const SharpEdge& edge : rims) EXPECT_DOUBLE_EQ(edge.outside.N, 2);
+  // Seen from within the corner the seam is concave; from behind it is a wedge of three right angles.
+  int seams = 0;
+  for (const SharpEdge& edge : edges_of(make_dihedral(0.25, 0.3, kPi / 2))) {
+    if (edge.is_rim()) continue;
+    ++seams;
+    EXPECT_NEAR(std::min(edge.outside.N, edge.inside.N), 0.5, 1e-12);
+    EXPECT_NEAR(std::max(edge.outside.N, edge.inside.N), 1.5, 1e-12);
+  }
+  EXPECT_EQ(seams, 1);
+  EXPECT_TRUE(edges_of(make_sphere(1, 3)).empty());
+}
+
+// However a face is cut and wherever it stands, its edges know how long they are as a whole; round a corner a run ends.
+TEST(SharpEdges, KnowTheStraightRunTheyArePartOf) {
+  const Mat3 askew = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+  for (const std::uint32_t pieces : {1u, 16u}) {
+    const Scatterer plate(transformed(cut_plate(0.3, 0.2, pieces), askew, Vec3(40, -7, 3)));
+    EXPECT_EQ(plate.edges().edges.size(), 4 * pieces);
+    const Vec3 wide = askew * Vec3::UnitY();
+    for (const SharpEdge& edge : plate.edges().edges) {
+      const double expected = std::abs(edge.along().dot(wide)) > 0.5 ? 0.3 : 0.2;
+      EXPECT_NEAR(edge.run_m, expected, 1e-13 * pieces);  // of places 40 m out
+    }
+  }
+}
+
+// Where a hundred loose triangles meet in a point none of their rims goes on in the one across.
+TEST(SharpEdges, EndTheirRunsInAFanOfLooseTriangles) {
+  constexpr std::uint32_t kTriangles = 100;
+  TriangleMesh fan = make_plate(1, 1);
+  fan.vertices = {Vec3::Zero()};
+  fan.triangles.clear();
+  for (std::uint32_t i = 0; i < kTriangles; ++i) {
+    const double start = 2 * kPi * i / kTriangles, end = 2 * kPi * (i + 0.5) / kTriangles;
+    fan.vertices.push_back({std::cos(start), std::sin(start), 0});
+    fan.vertices.push_back({std::cos(end), std::sin(end), 0});
+    fan.triangles.push_back({0, 2 * i + 1, 2 * i + 2});
+  }
+  fan.triangle_part.assign(kTriangles, 0);
+  fan.triangle_material.assign(kTriangles, 0);
+  const Scatterer scatterer(fan);
+  EXPECT_EQ(scatterer.edges().edges.size(), 3 * kTriangles);
+  for (const SharpEdge& edge : scatterer.edges().edges) EXPECT_EQ(edge.run_m, edge.length());
+}
+
+// Corners: those that images solve send nothing, nor are those asked that have more images than a sum of them holds.
+TEST(SharpEdges, OfCornersDiffractBetweenTwelveDegAndAHalfTurn) {
+  const auto corner_diffracts = [](double opening_deg) {
+    const Scatterer scatterer(make_dihedral(0.25, 0.3, radians(opening_deg)));
+    for (const SharpEdge& edge : scatterer.edges().edges) {
+      if (edge.is_rim()) continue;
+      const WedgeFrame& corner = edge.outside.N < 1 ? edge.outside : edge.inside;
+      const Vec3 between = (corner.face[0].x + corner.face[1].x).normalized();
+      const WedgeFrame* met = wedge_towards(edge, -between);
+      EXPECT_TRUE(met == nullptr || met == &corner) << opening_deg;
+      return met != nullptr;
+    }
+    ADD_FAILURE() << "no seam";
+    return false;
+  };
+  for (const double opening_deg : {150.0, 100.0, 50.0, 13.0}) EXPECT_TRUE(corner_diffracts(opening_deg)) << opening_deg;
+  for (const double opening_deg : {90.0, 60.0, 45.0, 11.0, 3.0})
+    EXPECT_FALSE(corner_diffracts(opening_deg)) << opening_deg;
+}
+
+// A wave between the faces of a corner of sheets meets the corner. Reflected by one face it lights the other one up to
+// the seam and comes as if from behind the first, where there is a wedge; it meets neither, its echo being a part of
+// the corner's answer. A wave that does come from behind meets that wedge by the face it lights.
+TEST(SharpEdges, OfACornerAreNotMetByWhatItsOwnFacesReflect) {
+  for (const double opening_deg : {90.0, 135.0, 150.0}) {
+    const Scatterer scatterer(make_dihedral(0.25, 0.3, radians(opening_deg)));
+    for (const SharpEdge& edge : scatterer.edges().edges) {
+      if (edge.is_rim()) continue;
+      const bool concave_outside = edge.outside.N < 1;
+      const WedgeFrame &corner = concave_outside ? edge.outside : edge.inside,
+                       &back = concave_outside ? edge.inside : edge.outside;
+      // the mirror; from twice that on nothing reflected meets the other face
+      const double above = 0.5 * (kPi - radians(opening_deg));
+      for (const int mirror : {0, 1}) {
+        const WedgeFace& face = corner.face[mirror];
+        const Vec3 reflected = -std::cos(above) * face.x + std::sin(above) * face.n;
+        EXPECT_EQ(wedge_towards(edge, reflected), &back) << opening_deg;
+        EXPECT_EQ(wedge_lit(edge, mirror == 1, reflected), nullptr) << opening_deg;
+        EXPECT_EQ(wedge_lit(edge, mirror == 0, reflected), &back) << opening_deg;
+        EXPECT_FALSE(speaks(edge, back, mirror == 1, reflected)) << opening_deg;
+      }
+    }
+  }
+}
+
+TEST(SharpEdges, OfEveryWedgeThatDiffractsOneSideSpeaks) {
+  const TriangleMesh ship = read_mesh(SEAGLINT_SOURCE_DIR "/assets/combatant_144m.glb");
+  for (const TriangleMesh& mesh : {ship, make_square_trihedral(0.4)}) {
+    const Scatterer scatterer(mesh);
+    const SharpEdges& edges = scatterer.edges();
+    Random random({3, Stream::kTest, 18});
+    for (int i = 0; i < 20; ++i) {
+      const Vec3 k_hat = Vec3(random.normal(), random.normal(), random.normal()).normalized();
+      std::vector<int> speaking(edges.edges.size(), 0);
+      for (int panel = 0; panel < static_cast<int>(scatterer.facets().size()); ++panel) {
+        for (const PanelEdge& side : edges.of_panel(panel)) {
+          const SharpEdge& edge = edges.edges[side.edge];
+          const WedgeFrame* wedge = side.may_speak(k_hat) ? wedge_towards(edge, k_hat) : nullptr;
+          const bool speaking_here = wedge && speaks(edge, *wedge, side.first, k_hat);
+          speaking[side.edge] += speaking_here;
+          if (speaking_here) {
+            EXPECT_EQ(wedge_lit(edge, side.first, k_hat), wedge) << side.edge;
+          }
+        }
+      }
+      for (std::size_t number = 0; number < edges.edges.size(); ++number) {
+        const SharpEdge& edge = edges.edges[number];
+        // The rim of a sheet has one facet, which keeps it once.
+        if (wedge_towards(edge, k_hat)) {
+          EXPECT_EQ(speaking[number], 1) << number;
+        }
+        if (!edge.open && edge.outside.N < 1 && std::abs(std::sin(kPi / edge.outside.N)) < 1e-3) {
+          EXPECT_EQ(speaking[number], 0) << number;
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace seaglint

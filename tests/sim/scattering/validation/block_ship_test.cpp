@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A hull with a house on its deck, six wavelengths long, against integral equations: walls on decks, corners, rims and
+// the waves between them together, in three dimensions.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "tests/sim/scattering/solver_fixtures.h"
+
+namespace seaglint {
+namespace {
+
+using namespace testing_echoes;
+
+// block_ship.py's hull of 6 x 1.6 x 1.2 with a house of 1.8 x 1 x 1.2 on the middle of its deck.
+TriangleMesh block_ship() {
+  TriangleMesh mesh;
+  const auto rectangle = [&mesh](double half_length, double half_width, double z) {
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (const auto& [x, y] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})
+      mesh.vertices.push_back({x * half_length, y * half_width, z});
+    return first;
+  };
+  const auto quad = [&mesh](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+    mesh.triangles.push_back({a, b, c});
+    mesh.triangles.push_back({a, c, d});
+  };
+  const std::uint32_t keel = rectangle(3, 0.8, 0), deck = rectangle(3, 0.8, 1.2), foot = rectangle(0.9, 0.5, 1.2),
+                      roof = rectangle(0.9, 0.5, 2.4);
+  quad(keel, keel + 3, keel + 2, keel + 1);
+  quad(roof, roof + 1, roof + 2, roof + 3);
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    const std::uint32_t next = (i + 1) % 4;
+    quad(keel + i, keel + next, deck + next, deck + i);
+    quad(deck + i, deck + next, foot + next, foot + i);
+    quad(foot + i, foot + next, roof + next, roof + i);
+  }
+  mesh.triangle_part.assign(mesh.triangles.size(), 0);
+  mesh.triangle_material.assign(mesh.triangles.size(), 0);
+  return mesh;
+}
+
+struct Deviation {
+  double hh = 0, vv = 0, hv = 0;  // in L2 over azimuth 0 to 90 deg: of hh and vv relative, of hv beside hh
+};
+
+Deviation against_integral_equations(const Scatterer& ship, double elevation_deg) {
+  std::array<double, 3> error{}, power{};
+  for (const auto& row : read_csv("block_ship.csv")) {
+    if (std::stod(row[1]) != elevation_deg) continue;
+    const auto s = echo(ship, radar_basis(direction(std::stod(row[0]), elevation_deg)), 2 * kPi, 1e-3, 8, true);
+    const std::array<Complex, 3> ours{s[kHhChannel], 0.5 * (s[kHvChannel] + s[kVhChannel]), s[kVvChannel]};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Complex exact(std::stod(row[2 + 2 * i]), std::stod(row[3 + 2 * i]));
+      error[i] += std::norm(ours[i] - exact);
+      power[i] += std::norm(exact);
+    }
+  }
+  const Deviation deviation{std::sqrt(error[0] / power[0]), std::sqrt(error[2] / power[2]),
+                            std::sqrt(error[1] / power[0])};
+  std::printf("block ship, elevation %g deg: hh %.3f, vv %.3f, hv %.3f of hh (hv itself %.3f)\n", elevation_deg,
+              deviation.hh, deviation.vv, deviation.hv, std::sqrt(power[1] / power[0]));
+  return deviation;
+}
+
+// Measured with a margin of a tenth or so: no sum of causes is known for a body whose deck beside the house is 0.3
+// wavelengths wide and whose house is 1 wide, where waves go to and fro that nothing here follows. Without edges hh and
+// vv err by 0.27 and 0.16 at 2 deg, 0.20 and 0.19 at 10, 0.48 and 0.61 at 25, 0.38 and 0.52 at 50. hv of such a body is
+// not told at all: it errs by its own size.
+TEST(BlockShip, AnswersAsIntegralEquationsSay) {
+  const Scatterer ship(block_ship());
+  for (const auto& [elevation, hh, vv] :
+       {std::array{2.0, 0.13, 0.08}, {10.0, 0.18, 0.14}, {25.0, 0.225, 0.245}, {50.0, 0.14, 0.43}}) {
+    const Deviation deviation = against_integral_equations(ship, elevation);
+    EXPECT_LT(deviation.hh, hh) << elevation;
+    EXPECT_LT(deviation.vv, vv) << elevation;
+    EXPECT_LT(deviation.hv, 0.25) << elevation;
+  }
+}
+
+}  // namespace
+}  // namespace seaglint

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/scenario/sample_plan.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include "classify/dataset/directory/planned_record.h"
+
+namespace seaglint {
+namespace {
+
+Scenario small_scenario() {
+  Scenario scenario;
+  scenario.sea.significant_wave_height_m = {0.1, 1, 2};
+  scenario.view.azimuth_deg = {10, 80, 170};
+  scenario.targets.resize(2);
+  scenario.targets[0].label = 1;
+  scenario.dataset.maps_per_case = 6;
+  scenario.dataset.realisations_per_case = 3;
+  scenario.dataset.interval_spacing_s = 10;
+  scenario.dataset.maps_per_shard = 7;
+  return scenario;
+}
+
+TEST(SamplePlan, CountsMapsPerCaseAndClass) {
+  const SamplePlan plan(small_scenario());
+  EXPECT_EQ(plan.size(), 3u * 3u * 2u * 6u);
+  std::map<std::tuple<int, int, int>, int> maps_of_case_and_class;
+  for (std::size_t i = 0; i < plan.size(); ++i) {
+    const SampleAddress at = plan.address(i);
+    ++maps_of_case_and_class[{at.sea_state, at.view, at.target}];
+  }
+  EXPECT_EQ(maps_of_case_and_class.size(), 18u);
+  for (const auto& [key, count] : maps_of_case_and_class) EXPECT_EQ(count, 6);
+}
+
+TEST(SamplePlan, NumbersEveryAddressOnce) {
+  const SamplePlan plan(small_scenario());
+  std::set<std::tuple<int, int, int, int, int>> seen;
+  for (std::size_t i = 0; i < plan.size(); ++i) {
+    const SampleAddress at = plan.address(i);
+    seen.insert({at.sea_state, at.realisation, at.view, at.interval, at.target});
+    EXPECT_EQ(plan.sample(at), i);
+    const SampleAddress sea = plan.sea_address(i);
+    EXPECT_EQ(sea.sea_state, at.sea_state);
+    EXPECT_EQ(sea.realisation, at.realisation);
+    EXPECT_EQ(plan.group(sea), plan.group(at));
+  }
+  EXPECT_EQ(seen.size(), plan.size());
+}
+
+TEST(SamplePlan, ShardsCoverAllSamplesInOrder) {
+  const SamplePlan plan(small_scenario());
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < plan.shards(); ++i) {
+    EXPECT_EQ(plan.shard(i).first, next);
+    EXPECT_LE(plan.shard(i).count, 7u);
+    next += plan.shard(i).count;
+  }
+  EXPECT_EQ(next, plan.size());
+}
+
+TEST(SamplePlan, BothClassesAndAllViewsShareTheSeaOfAGroup) {
+  const SamplePlan plan(small_scenario());
+  std::map<std::int64_t, std::set<std::uint64_t>> seas_of_group;
+  std::map<std::int64_t, std::set<std::pair<int, int>>> uses_of_group;
+  for (std::size_t i = 0; i < plan.size(); ++i) {
+    const SampleAddress at = plan.address(i);
+    seas_of_group[plan.group(at)].insert(plan.sea_key(at.sea_state, at.realisation));
+    uses_of_group[plan.group(at)].insert({at.view, at.target});
+  }
+  EXPECT_EQ(seas_of_group.size(), 9u);
+  for (const auto& [group, seas] : seas_of_group) EXPECT_EQ(seas.size(), 1u);
+  for (const auto& [group, uses] : uses_of_group) EXPECT_EQ(uses.size(), 6u);
+}
+
+TEST(SamplePlan, NeitherParityNorTheNeighbourTellsTheTarget) {
+  Scenario scenario = small_scenario();
+  scenario.dataset.maps_per_case = 300;
+  const SamplePlan plan(scenario);
+  const int samples = static_cast<int>(plan.size());
+  int even_ships = 0, changes = 0;
+  for (std::size_t i = 0; i < plan.size(); ++i) {
+    if (i % 2 == 0) even_ships += plan.address(i).target == 0 ? 1 : 0;
+    if (i % 2 == 1) changes += plan.address(i).target != plan.address(i - 1).target ? 1 : 0;
+  }
+  // Binomial with n = 2700, p = 1/2: four standard deviations are 2 sqrt(n). Half of each block of 600 being ships
+  // moves the chance of a change from 1/2 to 300/599, 2.3 of 2700.
+  EXPECT_NEAR(even_ships, samples / 4, 2 * std::sqrt(samples / 2));
+  EXPECT_NEAR(changes, samples / 4, 2 * std::sqrt(samples / 2) + 3);
+}
+
+TEST(SamplePlan, SamplesOfOneSeaLieTogether) {
+  const SamplePlan plan(small_scenario());
+  std::int64_t last = 0;
+  for (std::size_t i = 0; i < plan.size(); ++i) {
+    EXPECT_GE(plan.group(plan.address(i)), last);
+    last = plan.group(plan.address(i));
+  }
+}
+
+// A turn of 30 deg to radians and back is 29.999999999999996: a selection by the scenario's own angle would find
+// nothing.
+TEST(PlannedRecord, HasTheAnglesThatTheScenarioGives) {
+  Scenario scenario = small_scenario();
+  scenario.sea.propagation_deg = {120, -33.3};
+  scenario.view = {{30, 80.1, -7}, {2, 0.7}};
+  const SamplePlan plan(scenario);
+  std::set<std::tuple<double, double, double>> angles;
+  for (std::size_t i = 0; i < plan.size(); ++i) {
+    const SampleRecord record = planned_record(scenario, plan, i);
+    angles.insert({record.propagation_deg, record.azimuth_deg, record.elevation_deg});
+  }
+  std::set<std::tuple<double, double, double>> given;
+  for (const double propagation : scenario.sea.propagation_deg) {
+    for (const double azimuth : scenario.view.azimuth_deg) {
+      for (const double elevation : scenario.view.elevation_deg) given.insert({propagation, azimuth, elevation});
+    }
+  }
+  EXPECT_EQ(angles, given);
+}
+
+}  // namespace
+}  // namespace seaglint

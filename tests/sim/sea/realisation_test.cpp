@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+#include "sim/core/numbers/constants.h"
+#include "sim/core/process/error.h"
+#include "sim/sea/spectrum.h"
+#include "sim/sea/statistics.h"
+#include "sim/sea/wave_field.h"
+#include "tests/sim/sea/sea_state.h"
+
+namespace seaglint {
+namespace {
+
+TEST(RealizeSea, MeetsTheSignificantWaveHeightExactly) {
+  for (const double height : {0.1, 1.0, 2.0, 8.0}) {
+    for (const std::uint64_t seed : {1u, 2u, 3u}) {
+      const SeaState state = state_of(height, 10);
+      EXPECT_NEAR(summarize(state, realize_sea(state, seed, 0)).significant_wave_height_m, height, 1e-13 * height);
+    }
+  }
+}
+
+TEST(RealizeSea, GivesEachStratumTheEnergyOfItsDensity) {
+  const SeaState state = state_of(2, 8);
+  const JonswapSpectrum spectrum(2, 8, 3.3);
+  const WaveField field = realize_sea(state, 42, 0);
+  const double lowest = 0.4 * 2 * kPi / 8;
+  const double width = (8 - lowest) / 512;
+  const double scale = spectrum.energy_above(0) / spectrum.energy(lowest, 8);
+  ASSERT_EQ(field.components().size(), 512u);
+  for (std::size_t i = 0; i < 512; ++i) {
+    const WaveComponent& component = field.components()[i];
+    const double lower = lowest + width * static_cast<double>(i);
+    EXPECT_GE(component.omega, lower);
+    EXPECT_LE(component.omega, lower + width);
+    EXPECT_NEAR(component.wavenumber, component.omega * component.omega / kGravity, 1e-15);
+    // The density at five points of the stratum, by the midpoint rule: 2 % where it is steepest, at the foot of the
+    // peak.
+    double expected = 0;
+    for (int part = 0; part < 5; ++part) expected += spectrum.density(lower + (part + 0.5) * width / 5) * width / 5;
+    EXPECT_NEAR(0.5 * component.amplitude * component.amplitude, scale * expected, 0.02 * expected + 1e-12);
+  }
+}
+
+TEST(RealizeSea, IsTheSameForTheSameKeyAndAnotherForAnother) {
+  const SeaState state = state_of(1, 8);
+  const SurfaceState a = realize_sea(state, 42, 3).surface(1, 2, 3);
+  const SurfaceState b = realize_sea(state, 42, 3).surface(1, 2, 3);
+  EXPECT_EQ(a.elevation, b.elevation);
+  EXPECT_EQ(a.slope_x, b.slope_x);
+  EXPECT_NE(a.elevation, realize_sea(state, 42, 4).surface(1, 2, 3).elevation);
+  EXPECT_NE(a.elevation, realize_sea(state, 43, 3).surface(1, 2, 3).elevation);
+}
+
+TEST(RealizeSea, DoesNotRepeatAsEquidistantFrequenciesWould) {
+  SeaState state = state_of(1, 8);
+  const WaveField field = realize_sea(state, 42, 0);
+  const double period = 2 * kPi * 512 / (8 - 0.4 * 2 * kPi / 8);  // of equidistant components
+  double difference = 0;
+  for (int i = 0; i < 200; ++i) {
+    difference += std::pow(field.surface(0, 0, i).elevation - field.surface(0, 0, i + period).elevation, 2) / 200;
+  }
+  EXPECT_GT(difference, 0.5 * 2 * 0.0625);  // twice the variance when the two are independent
+}
+
+// Ensemble of 400 independent seas: mean of eta^2 and eta^3 against m0 and the third cumulant, four standard errors.
+TEST(RealizeSea, HasTheVarianceAndSkewnessOfItsSpectrum) {
+  const SeaState state = state_of(1, 6);
+  constexpr int kSeeds = 400, kTimes = 60;
+  double variance = 0, variance2 = 0, third = 0, third2 = 0;
+  double skewness = 0;
+  for (int seed = 0; seed < kSeeds; ++seed) {
+    const WaveField field = realize_sea(state, 11, static_cast<std::uint64_t>(seed));
+    skewness += summarize(state, field).skewness / kSeeds;
+    double m2 = 0, m3 = 0;
+    for (int i = 0; i < kTimes; ++i) {
+      const SurfaceState surface = field.surface(0, 0, 5.7 * i);
+      m2 += surface.elevation_linear * surface.elevation_linear / kTimes;
+      // 3 eta1^2 eta2 has the mean of eta^3 to second order, without the scatter of eta1^3.
+      m3 += 3 * surface.elevation_linear * surface.elevation_linear * (surface.elevation - surface.elevation_linear) /
+            kTimes;
+    }
+    variance += m2 / kSeeds;
+    variance2 += m2 * m2 / kSeeds;
+    third += m3 / kSeeds;
+    third2 += m3 * m3 / kSeeds;
+  }
+  EXPECT_NEAR(variance, 1.0 / 16, 4 * std::sqrt((variance2 - variance * variance) / kSeeds));
+  const double expected = skewness * std::pow(1.0 / 16, 1.5);
+  EXPECT_NEAR(third, expected, 4 * std::sqrt((third2 - third * third) / kSeeds));
+  // The cut-off of the quadratic sums and of the spectrum takes a little from c(3.3) kp Hs.
+  const double kp = 4 * kPi * kPi / 36 / kGravity;
+  EXPECT_NEAR(skewness, 0.783 * kp, 0.05 * 0.783 * kp);
+}
+
+// The correlation of two points is int S cos(k dx) dw / m0; one sea's sum over components is its time average.
+TEST(RealizeSea, CorrelatesTwoPointsAsItsSpectrumSays) {
+  SeaState state = state_of(1, 8);
+  state.order = 1;
+  const JonswapSpectrum spectrum(1, 8, 3.3);
+  for (const double distance : {5.0, 20.0, 40.0}) {
+    double expected = 0;
+    constexpr int kSteps = 40000;
+    for (int i = 0; i < kSteps; ++i) {
+      const double omega = (i + 0.5) * 8.0 / kSteps;
+      expected += spectrum.density(omega) * std::cos(omega * omega / kGravity * distance) * 8.0 / kSteps * 16;
+    }
+    double sum = 0;
+    const WaveField field = realize_sea(state, 1, 0);
+    for (const WaveComponent& c : field.components())
+      sum += 8 * c.amplitude * c.amplitude * std::cos(c.wavenumber * distance);
+    // A component sits anywhere in its stratum of 0.0149 rad/s: k dx is uncertain by 2 w dx 0.0043/g, averaged over
+    // some 20 strata of the peak.
+    EXPECT_NEAR(sum, expected, 0.01 + 0.001 * distance) << distance << " m";
+  }
+}
+
+double energy_of(const WaveField& field) {
+  double energy = 0;
+  for (const WaveComponent& c : field.components()) energy += 0.5 * c.amplitude * c.amplitude;
+  return energy;
+}
+
+// Fixed amplitudes carry the spectrum's energy in every sea; random ones on the average, with the scatter of a sum of
+// exponential deviates: variance sum e^2.
+TEST(RealizeSea, ScattersItsEnergyWithRandomAmplitudes) {
+  SeaState state = state_of(1, 8);
+  const WaveField fixed = realize_sea(state, 42, 0);
+  double expected_variance = 0;
+  for (const WaveComponent& c : fixed.components()) expected_variance += std::pow(0.5 * c.amplitude * c.amplitude, 2);
+  state.amplitude = WaveAmplitude::kRandom;
+  constexpr int kSeeds = 400;
+  double mean = 0, square = 0;
+  for (int seed = 0; seed < kSeeds; ++seed) {
+    const WaveField field = realize_sea(state, 42, static_cast<std::uint64_t>(seed));
+    // Places and phases are those of the fixed amplitudes.
+    if (seed == 0) {
+      EXPECT_EQ(field.components()[100].omega, fixed.components()[100].omega);
+    }
+    mean += energy_of(field) / kSeeds;
+    square += std::pow(energy_of(field), 2) / kSeeds;
+  }
+  EXPECT_NEAR(mean, 1.0 / 16, 4 * std::sqrt(expected_variance / kSeeds));
+  // The variance of 400 draws is known to 1/sqrt(200), more with the exponential's tail: 7 %; three times that.
+  EXPECT_NEAR(square - mean * mean, expected_variance, 0.25 * expected_variance);
+}
+
+TEST(RealizeSea, AddsSwellOfItsOwnDirectionAndEnergy) {
+  SeaState state = state_of(1, 5);
+  const WaveField wind = realize_sea(state, 42, 0);
+  state.propagation_rad = radians(120);
+  state.swell = {0.8, 12, 5, radians(40), {}, 128};
+  const WaveField both = realize_sea(state, 42, 0);
+  ASSERT_EQ(both.components().size(), 512u + 128u);
+  EXPECT_FALSE(both.long_crested());
+  double swell = 0;
+  for (const WaveComponent& c : both.components()) {
+    if (c.direction.x() < 0) continue;
+    swell += 0.5 * c.amplitude * c.amplitude;
+    EXPECT_NEAR(std::atan2(c.direction.y(), c.direction.x()), radians(40), 1e-15);
+    EXPECT_LE(c.omega, 4 * 2 * kPi / 12);
+  }
+  EXPECT_NEAR(swell, 0.04, 1e-15);
+  EXPECT_NEAR(energy_of(both) - swell, energy_of(wind), 1e-15);
+  EXPECT_NEAR(summarize(state, both).significant_wave_height_m, std::sqrt(1.64), 1e-13);
+  // Swell alone, and swell along the wind sea, whose waves then share one direction.
+  state.significant_wave_height_m = 0;
+  EXPECT_EQ(realize_sea(state, 42, 0).components().size(), 128u);
+  state.significant_wave_height_m = 1;
+  state.swell.propagation_rad = state.propagation_rad;
+  EXPECT_TRUE(realize_sea(state, 42, 0).long_crested());
+}
+
+TEST(RealizeSea, KeepsTheEnergyOfItsNormalisation) {
+  SeaState state = state_of(2, 8);
+  state.normalisation = SpectrumNormalisation::kDnv;
+  const double dnv = JonswapSpectrum(2, 8, 3.3, SpectrumNormalisation::kDnv).energy_above(0);
+  EXPECT_NEAR(energy_of(realize_sea(state, 42, 0)), dnv, 1e-13);
+  EXPECT_NEAR(16 * dnv / 4, 1.0024, 0.0001);
+}
+
+TEST(RealizeSea, FollowsATable) {
+  SeaState state = state_of(1.5, 2 * kPi / 0.8);
+  auto table = std::make_shared<SpectrumTable>();
+  table->omega = {0.4, 0.8, 1.0, 1.6};
+  table->density = {0, 0.5, 0.1, 0};
+  state.table = table;
+  const WaveField field = realize_sea(state, 42, 0);
+  EXPECT_NEAR(energy_of(field), 1.5 * 1.5 / 16, 1e-14);
+  EXPECT_GE(field.components().front().omega, 0.4);
+  EXPECT_LE(field.components().back().omega, 1.6);
+  // Share of the energy below 0.8: the first triangle.
+  double below = 0;
+  for (const WaveComponent& c : field.components()) below += c.omega < 0.8 ? 0.5 * c.amplitude * c.amplitude : 0;
+  // The stratum at 0.8 holds 1/160 of the energy and lies on either side.
+  EXPECT_NEAR(below / energy_of(field), 0.1 / (0.1 + 0.06 + 0.03), 1.0 / 160);
+  const TableSpectrum spectrum(table, 1.5);
+  EXPECT_NEAR(spectrum.energy(0, 10), 1.5 * 1.5 / 16, 1e-15);
+  EXPECT_NEAR(spectrum.energy(0.5, 1.2) + spectrum.energy_above(1.2), spectrum.energy_above(0.5), 1e-15);
+  EXPECT_NEAR(spectrum.density(0.6) / spectrum.density(0.8), 0.5, 1e-14);
+  EXPECT_EQ(spectrum.density(1.7), 0);
+}
+
+TEST(RealizeSea, HasTheWavenumbersOfItsDepth) {
+  SeaState state = state_of(1, 8);
+  state.depth_m = 10;
+  const WaveField field = realize_sea(state, 42, 0);
+  EXPECT_EQ(field.depth(), 10);
+  for (const WaveComponent& c : field.components()) {
+    EXPECT_NEAR(kGravity * c.wavenumber * std::tanh(10 * c.wavenumber), c.omega * c.omega, 4e-15 * c.omega * c.omega);
+  }
+}
+
+TEST(RealizeSea, IsFlatWithoutWaves) {
+  const WaveField field = realize_sea(state_of(0, 8), 1, 1);
+  const SurfaceState surface = field.surface(3, 4, 5);
+  EXPECT_EQ(surface.elevation, 0);
+  EXPECT_EQ(surface.slope_x, 0);
+  EXPECT_EQ(surface.velocity.norm(), 0);
+  EXPECT_EQ(summarize(state_of(0, 8), field).significant_wave_height_m, 0);
+}
+
+TEST(RealizeSea, ReportsWhatIsAboveTheCutoff) {
+  SeaState state = state_of(1, 1.25);
+  state.significant_wave_height_m = 0.1;
+  state.cutoff_rad_s = 8;
+  EXPECT_NEAR(summarize(state, realize_sea(state, 1, 0)).energy_share_above_cutoff, 0.12, 0.015);
+  state.cutoff_rad_s = 0;
+  EXPECT_LT(summarize(state, realize_sea(state, 1, 0)).energy_share_above_cutoff, 0.005);
+}
+
+TEST(RealizeSea, RefusesStatesThatNoSeaCanHave) {
+  EXPECT_THROW(realize_sea(state_of(2, 1.5), 1, 0), InputError);
+  EXPECT_THROW(realize_sea(state_of(-1, 8), 1, 0), InputError);
+  EXPECT_THROW(realize_sea(state_of(1, 0), 1, 0), InputError);
+  EXPECT_THROW(realize_sea(state_of(NAN, 8), 1, 0), InputError);
+  SeaState state = state_of(1, 8);
+  state.cutoff_rad_s = 0.5;
+  EXPECT_THROW(realize_sea(state, 1, 0), InputError);
+  state = state_of(1, 8);
+  state.depth_m = 0;
+  EXPECT_THROW(realize_sea(state, 1, 0), InputError);
+  state.depth_m = 1;  // waves of 8 s are at most 0.87 m high here
+  EXPECT_THROW(realize_sea(state, 1, 0), InputError);
+  state = state_of(1, 8);
+  state.swell.significant_wave_height_m = 3;
+  state.swell.peak_period_s = 3;
+  EXPECT_THROW(realize_sea(state, 1, 0), InputError);
+}
+
+// Standard deviation of the mean period T1 = 2 pi m0 / m1 of 400 realisations, over that of the finest strata.
+double scatter_of_mean_period(SeaState state, int components) {
+  constexpr int kSeas = 400;
+  state.components = components;
+  double sum = 0, square = 0;
+  for (int i = 0; i < kSeas; ++i) {
+    const WaveField field = realize_sea(state, 7, static_cast<std::uint64_t>(i));
+    double m0 = 0, m1 = 0;
+    for (const WaveComponent& wave : field.components()) {
+      m0 += 0.5 * wave.amplitude * wave.amplitude;
+      m1 += 0.5 * wave.amplitude * wave.amplitude * wave.omega;
+    }
+    const double period = 2 * kPi * m0 / m1;
+    sum += period / kSeas;
+    square += period * period / kSeas;
+  }
+  return std::sqrt(std::max(0.0, square - sum * sum)) / sum;
+}
+
+// Components enough that strata are a tenth of the peak frequency wide hold T1 within 1 %; eight do not hold it at all.
+TEST(StratumWidths, TellHowMuchTheMeanPeriodScatters) {
+  SeaState state;  // Hs 1 m, Tp 8 s, up to 8 rad/s
+  state.order = 1;
+  const double peak = 2 * kPi / 8, span = (8 - 0.4 * peak) / peak;
+  for (const int components : {512, 98, 8, 1}) {
+    state.components = components;
+    EXPECT_NEAR(stratum_widths(state).wind_sea, span / components, 1e-12);
+  }
+  EXPECT_EQ(stratum_widths(state).swell, 0);
+  state.swell = {1, 12, 5, 0, {}, 36};
+  EXPECT_NEAR(stratum_widths(state).swell, 0.1, 1e-12);  // 0.4 to 4 times the peak
+  state.swell = {};
+  const double fine = scatter_of_mean_period(state, 512), bound = scatter_of_mean_period(state, 98),
+               coarse = scatter_of_mean_period(state, 8);
+  std::printf("scatter of T1: %.2f, %.2f, %.1f %%\n", 100 * fine, 100 * bound, 100 * coarse);
+  // 400 seas know a standard deviation to 1 / sqrt(800), 3.5 %; three of these.
+  EXPECT_LT(fine, 0.001 * 1.1);
+  EXPECT_LT(bound, 0.009 * 1.1);
+  EXPECT_GT(coarse, 0.2);
+}
+
+}  // namespace
+}  // namespace seaglint

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/figure/figure.h"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+#include "sim/core/process/error.h"
+#include "sim/core/process/file.h"
+
+namespace seaglint {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Figure : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(testing::TempDir()) / ("seaglint figure's " + std::to_string(::getpid()) +
+                                              testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::size_t files() const {
+    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+  }
+
+  fs::path folder_;
+};
+
+Heatmap ripple(int columns, int rows) {
+  Heatmap map;
+  map.title = "it's a_test %d {x}";
+  map.x.label = "range (m)";
+  map.y.label = "velocity (m/s)";
+  map.colour = {"level (dB)", AxisRange{-40, 0}, false};
+  for (int i = 0; i < columns; ++i) map.x_cells.push_back(i * 0.75);
+  for (int j = 0; j < rows; ++j) map.y_cells.push_back(j * 0.146 - 1);
+  for (int j = 0; j < rows; ++j) {
+    for (int i = 0; i < columns; ++i) map.values.push_back(-20 + 20 * std::sin(0.3 * i) * std::cos(0.5 * j));
+  }
+  map.values[0] = std::numeric_limits<double>::quiet_NaN();
+  map.markers = {{3, 0}, {6, -0.5}};
+  map.marker_name = "centres";
+  return map;
+}
+
+TEST_F(Figure, HeatmapsOfAnyShapeBecomePicturesAndLeaveNothingElse) {
+  std::size_t count = 0;
+  for (const auto& [columns, rows] : {std::pair{40, 20}, {40, 1}, {1, 20}, {1, 1}}) {
+    for (const char* extension : {"png", "svg"}) {
+      const fs::path file = folder_ / (std::to_string(columns) + "x" + std::to_string(rows) + "." + extension);
+      write_figure(ripple(columns, rows), file);
+      EXPECT_GT(read_file(file).size(), 1000u) << file;
+      EXPECT_EQ(files(), ++count);
+    }
+  }
+}
+
+TEST_F(Figure, LinesPointsBarsAndIntervalsBecomePictures) {
+  LinePlot plot;
+  plot.title = "accuracy";
+  plot.x.label = "significant wave height (m)";
+  plot.y = {"accuracy (%)", AxisRange{50, 100}, false};
+  plot.series = {{"hand-made", {0.1, 1, 2}, {70, 80, 90}, {{65, 75}, {78, 83}, {85, 94}}, SeriesStyle::kLinesPoints},
+                 {"network", {0.1, 1, 2}, {75, std::nan(""), 95}, {}, SeriesStyle::kLines},
+                 {"", {0.5, 1.5}, {60, 65}, {}, SeriesStyle::kPoints},
+                 {"bars", {0.1, 1, 2}, {55, 56, 57}, {}, SeriesStyle::kBars},
+                 {"empty", {}, {}, {}, SeriesStyle::kLines}};
+  write_figure(plot, folder_ / "lines.svg");
+  EXPECT_NE(read_file(folder_ / "lines.svg").find("hand-made"), std::string::npos);
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(Figure, RefusesOtherFormatsAndFoldersThatAreNotThere) {
+  EXPECT_THROW(write_figure(ripple(4, 4), folder_ / "map.jpg"), InputError);
+  EXPECT_THROW(write_figure(ripple(4, 4), folder_ / "missing" / "map.png"), WorkError);
+  EXPECT_EQ(files(), 0u);
+}
+
+// While it lives no file grows beyond `bytes`; writes fail as on a full disk.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) : handler_(::signal(SIGXFSZ, SIG_IGN)) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() {
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+    ::signal(SIGXFSZ, handler_);
+  }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int);
+};
+
+// Script and data fit, the picture does not.
+TEST_F(Figure, CutShortByAFullDiskIsAnErrorAndNoFile) {
+  for (const char* name : {"map.png", "map.svg"}) {
+    const FileSizeLimit limit(4096);
+    EXPECT_THROW(write_figure(ripple(4, 4), folder_ / name), WorkError) << name;
+    EXPECT_EQ(files(), 0u) << name;
+  }
+  write_figure(ripple(4, 4), folder_ / "map.png");
+  EXPECT_GT(read_file(folder_ / "map.png").size(), 4096u);
+}
+
+TEST_F(Figure, SaysSoWhenGnuplotIsMissing) {
+  const std::string path = std::getenv("PATH");
+  ::setenv("PATH", folder_.c_str(), 1);
+  try {
+    write_figure(ripple(4, 4), folder_ / "map.png");
+    ADD_FAILURE() << "no error";
+  } catch (const WorkError& error) {
+    EXPECT_NE(std::string(error.what()).find("gnuplot-nox"), std::string::npos) << error.what();
+  }
+  EXPECT_THROW(require_figure(folder_ / "map.png"), WorkError);
+  EXPECT_NO_THROW(require_figure(""));
+  ::setenv("PATH", path.c_str(), 1);
+  EXPECT_NO_THROW(require_figure(folder_ / "map.png"));
+  EXPECT_EQ(files(), 0u);
+}
+
+}  // namespace
+}  // namespace seaglint

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a radar sees that sends the whole band with every pulse: no pedestal, and the target's own motion.
+#include "tools/pipeline/map_products.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace seaglint {
+namespace {
+
+// One point of 2 m, 30 m nearer than the reference point, drawing near at 1.5 m/s, seen from ahead.
+const char* const kOnePoint = R"(
+seaglint: 1
+radar: {pulses: 64}
+view: {azimuth_deg: 0, elevation_deg: 0}
+targets: {point: {label: 1, points: [{position_m: [30, 0, 0], amplitude_m: 2, velocity_mps: [1.5, 0, 0]}]}}
+map: {range_oversampling: 4, velocity_oversampling: 4}
+dataset: {maps_per_case: 1, realisations_per_case: 1}
+)";
+
+struct Peak {
+  double range_m = 0, velocity_mps = 0, magnitude_m = 0;
+};
+
+Peak peak_of(const RvMap& map) {
+  Peak peak;
+  for (std::size_t v = 0; v < map.velocity_mps.size(); ++v) {
+    for (std::size_t r = 0; r < map.columns(); ++r) {
+      if (std::abs(map.at(v, r)) > peak.magnitude_m)
+        peak = {map.range_m[r], map.velocity_mps[v], std::abs(map.at(v, r))};
+    }
+  }
+  return peak;
+}
+
+TEST(WholeBand, ImageHasThePointAndNoPedestal) {
+  const Pipeline pipeline(parse_scenario(kOnePoint, "point.yaml"));
+  const WholeBand band = whole_band(pipeline, 0);
+  const PulseTrain hopping = make_pulse_train(pipeline.scenario().radar, pipeline.window_m(), 42, 0);
+  EXPECT_NEAR(band.train.band_centre_hz(), hopping.band_centre_hz(), 1);
+  EXPECT_NEAR(band.train.synthetic_bandwidth_hz(), hopping.synthetic_bandwidth_hz(), 1);
+  const Peak peak = peak_of(band.image);
+  const double cell_m = band.train.range_resolution_m() / 4, cell_mps = band.train.velocity_resolution_mps() / 4;
+  EXPECT_NEAR(peak.range_m, -30, cell_m / 2 + 1e-9);
+  EXPECT_NEAR(peak.velocity_mps, -1.5, cell_mps / 2 + 1e-9);
+  EXPECT_NEAR(peak.magnitude_m, 2, 0.1);  // an eighth of a lobe beside its top, in range and velocity
+  // Two lobes of the Hann taper and more from the point nothing is left but the velocity's own lobes, -13 dB and below
+  // along its range.
+  for (std::size_t v = 0; v < band.image.velocity_mps.size(); ++v) {
+    for (std::size_t r = 0; r < band.image.columns(); ++r) {
+      if (std::abs(band.image.range_m[r] + 30) > 6) {
+        EXPECT_LT(std::abs(band.image.at(v, r)), 2e-2 * peak.magnitude_m);
+      }
+    }
+  }
+}
+
+TEST(WholeBand, MovesWithARadarWhoseOwnWayIsNotCompensated) {
+  const char* const moving = "platform: {velocity_mps: [0.8, 0, 0], compensated: ";
+  double step_mps = 0;
+  const auto velocity = [&](const char* compensated) {
+    std::string text = kOnePoint;
+    text.replace(text.find("pulses: 64"), 10, std::string("pulses: 64, ") + moving + compensated + "}");
+    const WholeBand band = whole_band(Pipeline(parse_scenario(text, "point.yaml")), 0);
+    step_mps = band.image.velocity_mps[1] - band.image.velocity_mps[0];
+    return peak_of(band.image).velocity_mps;
+  };
+  // A radar ahead that goes on away from the target; each peak lies on the map's cells.
+  const double difference = velocity("false") - velocity("true");
+  EXPECT_NEAR(difference, 0.8, step_mps);
+}
+
+TEST(RangeProfiles, FollowThePoint) {
+  const Pipeline pipeline(parse_scenario(kOnePoint, "point.yaml"));
+  const RangeProfiles profiles = range_profiles(whole_band(pipeline, 0), pipeline.scenario().map);
+  ASSERT_EQ(profiles.time_s.size(), 64u);
+  const std::size_t cells = profiles.range_m.size();
+  ASSERT_EQ(profiles.magnitude_m.size(), 64 * cells);
+  for (const std::size_t n : {0u, 63u}) {
+    const auto begin = profiles.magnitude_m.begin() + static_cast<std::ptrdiff_t>(n * cells);
+    const auto top = std::max_element(begin, begin + static_cast<std::ptrdiff_t>(cells));
+    EXPECT_NEAR(profiles.range_m[static_cast<std::size_t>(top - begin)], -30 - 1.5 * profiles.time_s[n],
+                0.5 * 0.7495 / 4 + 1e-9);
+    EXPECT_NEAR(*top, 2, 0.1);
+  }
+}
+
+}  // namespace
+}  // namespace seaglint

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A model directory is that of one whole training, whatever ends another one.
+#include "tools/pipeline/train.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "classify/model/learning_table.h"
+#include "sim/core/process/error.h"
+#include "sim/core/process/file.h"
+#include "tools/pipeline/generate.h"
+
+namespace seaglint {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Training : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = fs::path(testing::TempDir()) / ("seaglint_train_" + std::to_string(::getpid()));
+    fs::remove_all(folder_);
+    const Scenario scenario = read_scenario(
+        SEAGLINT_SOURCE_DIR "/scenarios/points.yaml",
+        {{"dataset.maps_per_case", "24"}, {"dataset.realisations_per_case", "4"}, {"radar.pulses", "64"}});
+    generate_dataset(scenario, folder_ / "data", {1, 1, false, 1});
+    train({});
+  }
+  static void TearDownTestSuite() { fs::remove_all(folder_); }
+
+  static void train(std::vector<Override> overrides, const StopFlag* stop = nullptr) {
+    overrides.push_back({"learning.epochs", "1"});
+    train_model(folder_ / "data", folder_ / "model", overrides, 1, stop);
+  }
+
+  static std::map<std::string, std::string> files() {
+    std::map<std::string, std::string> bytes;
+    for (const auto& entry : fs::directory_iterator(folder_ / "model")) {
+      if (entry.is_regular_file()) bytes[entry.path().filename()] = read_file(entry.path());
+    }
+    return bytes;
+  }
+
+  static inline fs::path folder_;
+};
+
+TEST_F(Training, ThatIsStoppedEndsSoonAndLeavesTheEarlierModel) {
+  const auto before = files();
+  ASSERT_TRUE(before.contains(kMetricsFile));
+  StopFlag stop = false;
+  std::chrono::steady_clock::time_point stopped;
+  {
+    std::jthread user([&] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(500));
+      stopped = std::chrono::steady_clock::now();
+      stop = true;
+    });
+    EXPECT_THROW(train({{"learning.trees", "100000"}}, &stop), Interrupted);
+  }
+  // One tree of these rows takes far below a millisecond, the three forests of the first job some seconds.
+  EXPECT_LT(std::chrono::steady_clock::now() - stopped, std::chrono::seconds(2));
+  EXPECT_EQ(files(), before);
+}
+
+TEST_F(Training, IsWrittenDownWithWhatItWasTrainedBy) {
+  const std::vector<Override> overrides{{"learning.epochs", "1"},
+                                        {"learning.fusion", "in_sample"},
+                                        {"learning.map_floor_db", "-50"},
+                                        {"learning.learning_rate", "0.002"},
+                                        {"dataset.split", "5:3"}};
+  train_model(folder_ / "data", folder_ / "other", overrides, 1);
+  const nlohmann::json metrics = nlohmann::json::parse(read_file(folder_ / "other" / kMetricsFile));
+  EXPECT_EQ(metrics.at("dataset").at("split"), "5:3");
+  const nlohmann::json& learning = metrics.at("learning");
+  EXPECT_EQ(learning.at("fusion"), "in_sample");
+  EXPECT_EQ(learning.at("map_floor_db"), -50);
+  EXPECT_EQ(learning.at("learning_rate"), 0.002);
+
+  // What is written is enough to set every key again.
+  std::vector<Override> again{{"dataset.split", metrics.at("dataset").at("split")}};
+  for (const auto& [key, value] : learning.items())
+    again.push_back({"learning." + key, value.is_string() ? value.get<std::string>() : value.dump()});
+  EXPECT_EQ(effective_yaml(read_scenario(folder_ / "data" / "scenario.yaml", again)),
+            effective_yaml(read_scenario(folder_ / "data" / "scenario.yaml", overrides)));
+}
+
+TEST_F(Training, WithoutItsLastFileHasNoMetrics) {
+  train({});
+  fs::remove(folder_ / "model" / kEmbeddingsFile);
+  fs::create_directory(folder_ / "model" / kEmbeddingsFile);
+  EXPECT_THROW(train({{"learning.trees", "3"}}), WorkError);
+  EXPECT_FALSE(fs::exists(folder_ / "model" / kMetricsFile));
+
+  fs::remove(folder_ / "model" / kEmbeddingsFile);
+  train({});
+  EXPECT_TRUE(fs::exists(folder_ / "model" / kMetricsFile));
+}
+
+// Clutter 20 dB below the target in every map and noise 30 dB below the clutter: 1/R = 10^-2 + 10^-5, 19.9957 dB. Noise
+// is measured: 64 pulses of its power scatter by less than a tenth, which is 4e-4 dB here.
+TEST_F(Training, ProbesTheRatioOfTargetToClutterAndNoise) {
+  const LearningTable table = load_learning_table(DatasetReader(folder_ / "data"), LearningSpec{});
+  const auto probe = std::find_if(table.probes.begin(), table.probes.end(),
+                                  [](const Probe& p) { return p.name == "signal to clutter and noise"; });
+  ASSERT_NE(probe, table.probes.end());
+  EXPECT_STREQ(name(probe->kind), "ratio");
+  ASSERT_EQ(probe->features.values.size(), table.rows());
+  for (const float ratio_db : probe->features.values) EXPECT_NEAR(ratio_db, 19.9957, 5e-4);
+}
+
+}  // namespace
+}  // namespace seaglint

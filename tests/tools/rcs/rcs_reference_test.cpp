@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// References of the radar cross section: formats as other programs write them, and the pairing with a sweep.
+#include "tools/rcs/rcs_reference.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "sim/core/numbers/constants.h"
+#include "sim/core/process/error.h"
+#include "tools/rcs/rcs_comparison.h"
+
+namespace seaglint {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+constexpr double kPrinted_db = 1e-9;  // rounding of logarithm and power
+
+class RcsReferenceFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(testing::TempDir()) / ("rcs reference " + std::to_string(::getpid()) +
+                                              testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  RcsReference read(const std::string& name, const std::string& text, const ReferenceSettings& settings = {}) const {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+    return read_reference(folder_ / name, settings);
+  }
+  std::string refusal(const std::string& name, const std::string& text, const ReferenceSettings& settings = {}) const {
+    try {
+      read(name, text, settings);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    ADD_FAILURE() << "no error for " << name;
+    return "";
+  }
+
+  fs::path folder_;
+};
+
+ReferenceSettings as(Element element, double frequency_ghz = 10) {
+  ReferenceSettings settings;
+  settings.element = element;
+  settings.frequency_hz = frequency_ghz * 1e9;
+  return settings;
+}
+
+// What `seaglint rcs` writes above its columns.
+std::string own_table(const std::string& transmitter) {
+  return "# seaglint 0.1.0 rcs\n# physical optics at every visible bounce, max_bounces 40, edges on, crease_deg 20, "
+         "sheet_thickness_mm 0, range_m 0 (0 = far field), " +
+         transmitter + ", ray_spacing_m 0.001\nfrequency_hz,azimuth_deg,elevation_deg,vv_dbsm\n1e+10,3,4,-5\n";
+}
+
+// A table as CST 2020 writes it: names padded inside parentheses, units inside brackets, CRLF, theta fastest and
+// through 0.
+std::string cst_table(const std::string& unit, const std::string& rows) {
+  return "Theta [deg.]  Phi   [deg.]  Abs(RCS )[" + unit + "]   Abs(Theta)[" + unit +
+         "]  Phase(Theta)[deg.]  Abs(Phi  )[" + unit +
+         "]  Phase(Phi  )[deg.]  Ax.Ratio[dB    ]    \r\n"
+         "------------------------------------------------------------------------------------------\r\n" +
+         rows;
+}
+
+TEST_F(RcsReferenceFile, OfFourColumnsTakesItsPolarisationFromTheName) {
+  const std::string text = "5120000000.000000 90.000000 0.000000 8.073421 \n5120000000 90 -10.5 -667.1\n\n";
+  const RcsReference h = read("ref_rcs.II.B.sx1.f10.H.txt", text);
+  EXPECT_EQ(h.element, Element::kHh);
+  ASSERT_EQ(h.samples.size(), 2u);
+  EXPECT_EQ(h.samples[0].level_dbsm, 8.073421);
+  EXPECT_EQ(h.samples[1].frequency_hz, 5.12e9);
+  EXPECT_EQ(h.samples[1].phi_deg, 349.5);
+  EXPECT_EQ(h.samples[1].level_dbsm, -667.1);
+  EXPECT_FALSE(h.has_phase());
+  EXPECT_EQ(read("ref.V.txt", text).element, Element::kVv);
+  EXPECT_EQ(read("ref.txt", text, as(Element::kVv, 5.12)).element, Element::kVv);
+}
+
+TEST_F(RcsReferenceFile, OfCstHasItsColumnsByNameAndItsUnitsByHeader) {
+  // A received theta component of 4 m^2 at 30 deg, a phi component of 0.01 m^2 at 350 deg.
+  const double level = 10 * std::log10(4.0);
+  const auto row = [](double theta, double phi) {
+    return "     90.000          180.000            6.02060e+00          " + std::to_string(theta) +
+           "              30.000          " + std::to_string(phi) + "             350.000           2.684e+01     \r\n";
+  };
+  const std::string area = cst_table("m^2", row(4, 0.01));
+  const RcsReference vv = read("farfield (f=10) [pw].txt", area, as(Element::kVv));
+  ASSERT_EQ(vv.samples.size(), 1u);
+  EXPECT_EQ(vv.samples[0].frequency_hz, 10e9);
+  EXPECT_EQ(vv.samples[0].theta_deg, 90);
+  EXPECT_EQ(vv.samples[0].phi_deg, 180);
+  EXPECT_NEAR(vv.samples[0].level_dbsm, level, kPrinted_db);
+  ASSERT_TRUE(vv.has_phase());
+  // sigma = 4 pi |S|^2; theta^ = -v at both ends leaves the co-polar term as it is.
+  EXPECT_LT(std::abs(*vv.samples[0].amplitude_m - std::polar(std::sqrt(4 / (4 * kPi)), radians(30))), 1e-12);
+  const RcsReference hh = read("a.txt", area, as(Element::kHh));
+  EXPECT_NEAR(hh.samples[0].level_dbsm, -20, kPrinted_db);
+  EXPECT_NEAR(degrees(std::arg(*hh.samples[0].amplitude_m)), -10, 1e-9);
+  // v transmitted as -theta^, h received as phi^: the cross-polar term changes sign.
+  EXPECT_NEAR(degrees(std::arg(*read("a.txt", area, as(Element::kHv)).samples[0].amplitude_m)), 170, 1e-9);
+  EXPECT_NEAR(degrees(std::arg(*read("a.txt", area, as(Element::kVh)).samples[0].amplitude_m)), -150, 1e-9);
+
+  EXPECT_NEAR(read("a.txt", cst_table("dB(m^2)", row(-3.5, 0)), as(Element::kVv)).samples[0].level_dbsm, -3.5,
+              kPrinted_db);
+  EXPECT_NEAR(read("a.txt", cst_table("dBm^2 ", row(-3.5, 0)), as(Element::kVv)).samples[0].level_dbsm, -3.5,
+              kPrinted_db);
+  EXPECT_NEAR(read("a.txt", cst_table("mm^2", row(4e6, 0)), as(Element::kVv)).samples[0].level_dbsm, level,
+              kPrinted_db);
+  EXPECT_NEAR(read("a.txt", cst_table("dB(mm^2)", row(60, 0)), as(Element::kVv)).samples[0].level_dbsm, 0, kPrinted_db);
+  const double wavelength_db = 20 * std::log10(kSpeedOfLight / 10e9);
+  EXPECT_NEAR(read("a.txt", cst_table("dB(lambda^2)", row(60, 0)), as(Element::kVv)).samples[0].level_dbsm,
+              60 + wavelength_db, kPrinted_db);
+  EXPECT_NEAR(read("a.txt", cst_table("m^2", row(0, 0)), as(Element::kVv)).samples[0].level_dbsm, -1000, kPrinted_db);
+}
+
+TEST_F(RcsReferenceFile, OfCstWithNegativeThetaIsFoldedAndChangesSign) {
+  // a localised machine's decimals
+  const std::string row = " -30,000  90,000  0,000e+00  0,000e+00  10,000  0,000e+00  20,000  0,000e+00\r\n";
+  const RcsReference vv = read("a.txt", cst_table("dB(m^2)", row), as(Element::kVv));
+  EXPECT_EQ(vv.samples[0].theta_deg, 30);
+  EXPECT_EQ(vv.samples[0].phi_deg, 270);
+  EXPECT_NEAR(degrees(std::arg(*vv.samples[0].amplitude_m)), 10 - 180, 1e-9);
+}
+
+TEST_F(RcsReferenceFile, OfAFullCircleIsFoldedAtBothPoles) {
+  const RcsReference circle = read("a.H.txt", "1e10 190 20 -3\n1e10 -170 20 -3\n1e10 370 20 -4\n");
+  for (const std::size_t i : {0u, 1u}) {
+    EXPECT_EQ(circle.samples[i].theta_deg, 170);
+    EXPECT_EQ(circle.samples[i].phi_deg, 200);
+  }
+  EXPECT_EQ(circle.samples[2].theta_deg, 10);
+  EXPECT_EQ(circle.samples[2].phi_deg, 20);
+  const RcsReference cst =
+      read("a.txt", cst_table("dB(m^2)", "190 20 0 0 30 0 0 0\r\n170 200 0 0 30 0 0 0\r\n"), as(Element::kVv));
+  EXPECT_LT(std::abs(*cst.samples[0].amplitude_m + *cst.samples[1].amplitude_m), kPrinted_db);
+}
+
+TEST_F(RcsReferenceFile, MayHaveAHeadAndExactZeros) {
+  const RcsReference reference =
+      read("a.V.txt", "# frequency_hz theta_deg phi_deg dBsm\n1e10 90 0 -inf\n1e10 90 1 -3\n");
+  ASSERT_EQ(reference.samples.size(), 2u);
+  EXPECT_LT(reference.samples[0].level_dbsm, -300);
+  EXPECT_THAT(refusal("b.V.txt", "1e10 90 0 low\n"), HasSubstr("b.V.txt:1: 'low': must be a number"));
+}
+
+TEST_F(RcsReferenceFile, OfThisProgramIsReadByItsColumnsNames) {
+  const std::string text =
+      "# seaglint\nfrequency_hz,azimuth_deg,elevation_deg,vv_re,vv_im,hh_dbsm\n1e10,-20,2,0.3,-0.4,-7\n";
+  const RcsReference vv = read("own.csv", text, as(Element::kVv));
+  ASSERT_EQ(vv.samples.size(), 1u);
+  EXPECT_EQ(vv.samples[0].theta_deg, 88);
+  EXPECT_EQ(vv.samples[0].phi_deg, 340);
+  EXPECT_EQ(*vv.samples[0].amplitude_m, Complex(0.3, -0.4));
+  EXPECT_NEAR(vv.samples[0].level_dbsm, 10 * std::log10(kPi), kPrinted_db);  // 4 pi 0.25
+  const RcsReference hh = read("own.csv", text, as(Element::kHh));
+  EXPECT_EQ(hh.samples[0].level_dbsm, -7);
+  EXPECT_FALSE(hh.has_phase());
+}
+
+TEST_F(RcsReferenceFile, ThatCannotBeUsedIsRefusedWithItsPlace) {
+  EXPECT_THAT(refusal("a.txt", "1e9 90 0 1\n"), HasSubstr("--reference-polarisation"));
+  EXPECT_THAT(refusal("a.H.txt", "1e9 90 0 1\n1e9 90 0.5\n"), HasSubstr("a.H.txt:2: 3 columns"));
+  EXPECT_THAT(refusal("a.H.txt", "1e9 90 0 1\n1e9 90 0.5 nan\n"), HasSubstr("a.H.txt:2: 'nan'"));
+  EXPECT_THAT(refusal("a.H.txt", "0 90 0 1\n"), HasSubstr("must be > 0"));
+  EXPECT_THAT(refusal("a.H.txt", "a report\n"), HasSubstr("not a cut of the radar cross section"));
+  EXPECT_THAT(refusal("a.H.txt", ""), HasSubstr("not a cut of the radar cross section"));
+  EXPECT_THAT(refusal("a.H.ffs", "// CST Farfield Source File\n"), HasSubstr(".ffs"));
+  const std::string row = "90 0 1 1 0 1 0 1\r\n";
+  ReferenceSettings no_frequency;
+  no_frequency.element = Element::kVv;
+  EXPECT_THAT(refusal("a.txt", cst_table("m^2", row), no_frequency), HasSubstr("--reference-frequency-ghz"));
+  EXPECT_THAT(refusal("a.txt", cst_table("dB    ", row), as(Element::kVv)), HasSubstr("relative to its own maximum"));
+  EXPECT_THAT(refusal("a.txt", cst_table("V/m", row), as(Element::kVv)), HasSubstr("[V/m]: the unit must be"));
+  EXPECT_THAT(refusal("a.txt", cst_table("m^2", "90 0 1\r\n"), as(Element::kVv)),
+              HasSubstr("a.txt:3: 3 columns: the header has 8"));
+  EXPECT_THAT(refusal("a.txt", cst_table("m^2", ""), as(Element::kVv)), HasSubstr("holds no values"));
+  EXPECT_THAT(refusal("own.csv", "frequency_hz,azimuth_deg,elevation_deg,vv_re\n", as(Element::kHh)),
+              HasSubstr("hh_dbsm"));
+}
+
+TEST_F(RcsReferenceFile, SaysWhereItsTransmitterStands) {
+  const RcsReference monostatic = read("m.csv", own_table("monostatic"), as(Element::kVv));
+  ASSERT_TRUE(monostatic.transmitter);
+  EXPECT_TRUE(monostatic.transmitter->moves_along);
+  const RcsReference bistatic =
+      read("b.csv", own_table("transmitter at azimuth -20 deg, elevation 30.5 deg"), as(Element::kVv));
+  ASSERT_TRUE(bistatic.transmitter);
+  EXPECT_FALSE(bistatic.transmitter->moves_along);
+  EXPECT_EQ(bistatic.transmitter->phi_deg, 340);
+  EXPECT_EQ(bistatic.transmitter->theta_deg, 59.5);
+  EXPECT_FALSE(read("a.V.txt", "10e9 90 0 -3\n").transmitter);
+}
+
+TEST_F(RcsReferenceFile, IsRefusedWithAFrequencyThatIsNotItsOwn) {
+  EXPECT_THAT(refusal("a.V.txt", "10e9 90 0 -3\n", as(Element::kVv, 11)),
+              HasSubstr("a.V.txt: holds 10 GHz by its own words: leave out --reference-frequency-ghz 11"));
+  EXPECT_THAT(refusal("own.csv", own_table("monostatic"), as(Element::kVv, 11)),
+              HasSubstr("own.csv: holds 10 GHz by its own words"));
+  EXPECT_EQ(read("b.V.txt", "10e9 90 0 -3\n", as(Element::kVv, 10)).samples.size(), 1u);
+}
+
+RcsSweep sweep_of(std::vector<double> azimuth_deg, std::vector<Complex> vv) {
+  RcsSweep sweep;
+  sweep.frequency_hz = {10e9};
+  sweep.azimuth_deg = std::move(azimuth_deg);
+  sweep.elevation_deg = {0};
+  sweep.models = {{"po", {}}};
+  for (const Complex& s : vv) sweep.models[0].matrices.push_back({std::array<Complex, 4>{0, 0, 0, s}});
+  return sweep;
+}
+
+RcsReference cut_of(std::vector<std::pair<double, Complex>> values,
+                    const ReferenceSettings& settings = as(Element::kVv)) {
+  RcsReference reference{"other", Element::kVv, settings, {}, {}};
+  for (const auto& [phi, s] : values)
+    reference.samples.push_back({10e9, 90, phi, 10 * std::log10(4 * kPi * std::norm(s)), s});
+  return reference;
+}
+
+TEST(RcsComparison, FindsTheSameDirectionsThroughTheAnglesMap) {
+  ReferenceSettings settings = as(Element::kVv);
+  settings.phi_scale = -1;
+  settings.phi_offset_deg = 180;
+  // Azimuth 0, 90, 200 deg are phi 180, 90, 340 of the reference; 0.0004 deg are the printed digits' rounding.
+  const auto cuts = pair_with(sweep_of({0, 45, 90, 200}, {1, 2, 3, 4}),
+                              cut_of({{180.0004, 10}, {89.9996, 30}, {340, 40}, {7, 70}}, settings));
+  ASSERT_EQ(cuts.size(), 1u);
+  EXPECT_EQ(cuts[0].x, (std::vector<double>{0, 90, 200}));
+  EXPECT_EQ(cuts[0].models[0].amplitude_m, (std::vector<Complex>{1, 3, 4}));
+  EXPECT_EQ(*cuts[0].frequency_hz, 10e9);
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_NEAR(difference_of(cuts[0], cuts[0].models[0], 80).bias_db, -20, kPrinted_db);
+}
+
+TEST(RcsComparison, TakesLevelsBelowTheFloorAsTheFloor) {
+  // 0, -10 and -300 dB against 0, -13 and -90 dB below the maximum.
+  const auto db = [](double x) { return std::pow(10.0, x / 20); };
+  const auto cuts =
+      pair_with(sweep_of({0, 1, 2}, {1, db(-10), db(-300)}), cut_of({{0, 1}, {1, db(-13)}, {2, db(-90)}}));
+  const Difference wide = difference_of(cuts[0], cuts[0].models[0], 80);
+  EXPECT_NEAR(wide.mean_db, 1, kPrinted_db);  // 0, 3, 0
+  EXPECT_NEAR(wide.rms_db, std::sqrt(3.0), kPrinted_db);
+  EXPECT_NEAR(wide.largest_db, 3, kPrinted_db);
+  EXPECT_EQ(wide.largest_at, 1);
+  const Difference deep = difference_of(cuts[0], cuts[0].models[0], 100);
+  EXPECT_NEAR(deep.largest_db, -10, kPrinted_db);
+  EXPECT_NEAR(deep.bias_db, (3.0 - 10) / 3, kPrinted_db);
+}
+
+TEST(RcsComparison, CorrelatesComplexValuesAboutTheBodysOrigin) {
+  // The same point scatterer at x0, told about the body's origin here and about x0 there: S = e^{2jk r.x0}
+  // (CONVENTIONS.md).
+  const Vec3 x0(0.3, -0.2, 0.1);
+  const double k = 2 * kPi * 10e9 / kSpeedOfLight;
+  std::vector<double> azimuths;
+  std::vector<Complex> ours;
+  std::vector<std::pair<double, Complex>> theirs;
+  for (double az = 0; az < 90; az += 5) {
+    azimuths.push_back(az);
+    ours.push_back(std::polar(1.0, 2 * k * Vec3(std::cos(radians(az)), std::sin(radians(az)), 0).dot(x0)));
+    theirs.push_back({az, std::polar(1.0, radians(-25))});
+  }
+  ReferenceSettings settings = as(Element::kVv);
+  settings.origin_m = x0;
+  const auto moved = pair_with(sweep_of(azimuths, ours), cut_of(theirs, settings));
+  const Complex correlation = *difference_of(moved[0], moved[0].models[0], 80).correlation;
+  EXPECT_NEAR(std::abs(correlation), 1, 1e-9);
+  EXPECT_NEAR(degrees(std::arg(correlation)), 25, 1e-6);
+  const auto unmoved = pair_with(sweep_of(azimuths, ours), cut_of(theirs));
+  EXPECT_LT(std::abs(*difference_of(unmoved[0], unmoved[0].models[0], 80).correlation), 0.5);
+}
+
+TEST(RcsComparison, RefusesAReferenceThatHasNothingInCommonAndSaysWhatBothHold) {
+  try {
+    pair_with(sweep_of({0, 1}, {1, 1}), cut_of({{30, 1}, {60, 1}}));
+    ADD_FAILURE() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("phi 30 to 60 (2 values)"));
+    EXPECT_THAT(error.what(), HasSubstr("phi 0 to 1 (2 values)"));
+  }
+  EXPECT_THROW(pair_with(sweep_of({0}, {1}), cut_of({{0, 1}, {0, 2}})), InputError) << "one direction with two levels";
+}
+
+// At azimuth 20, elevation 10 deg by both, whatever the file counts phi from; a file that says nothing may be either.
+TEST(RcsComparison, RefusesAReferenceOfAnotherTransmitter) {
+  const auto refusal = [](const RcsSweep& sweep, const RcsReference& reference) -> std::string {
+    try {
+      pair_with(sweep, reference);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  RcsSweep sweep = sweep_of({0, 1}, {1, 1});
+  RcsReference monostatic = cut_of({{0, 1}, {1, 1}}), bistatic = monostatic, silent = monostatic;
+  monostatic.transmitter.emplace();
+  bistatic.transmitter = StatedTransmitter{false, 80, 20};
+  EXPECT_EQ(refusal(sweep, silent), "");
+  EXPECT_EQ(refusal(sweep, monostatic), "");
+  EXPECT_THAT(
+      refusal(sweep, bistatic),
+      HasSubstr(
+          "its transmitter stands at azimuth 20 deg, elevation 10 deg, the sweep is monostatic: give --transmit"));
+  sweep.transmitter = Vec3(std::cos(radians(10)) * std::cos(radians(20)), std::cos(radians(10)) * std::sin(radians(20)),
+                           std::sin(radians(10)));
+  EXPECT_EQ(refusal(sweep, silent), "");
+  EXPECT_EQ(refusal(sweep, bistatic), "");
+  EXPECT_THAT(refusal(sweep, monostatic),
+              HasSubstr("is monostatic by its own words, the sweep's transmitter stands at azimuth 20 deg"));
+  bistatic.transmitter->phi_deg = 21;
+  EXPECT_THAT(
+      refusal(sweep, bistatic),
+      HasSubstr(
+          "azimuth 21 deg, elevation 10 deg, the sweep's transmitter stands at azimuth 20 deg, elevation 10 deg"));
+  bistatic.settings.phi_offset_deg = 1;
+  EXPECT_EQ(refusal(sweep, bistatic), "");
+}
+
+}  // namespace
+}  // namespace seaglint

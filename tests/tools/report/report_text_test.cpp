@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the report says of probes, of the level among them, and of how many predictions and seas its figures are.
+#include "tools/report/report_text.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tools/report/probe_text.h"
+
+namespace seaglint {
+namespace {
+
+using nlohmann::ordered_json;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+// Scores of 300 rows: right about so many of the ships and of the arrays.
+ordered_json scores(double ships, double ships_right, double arrays_right) {
+  const double arrays = 300 - ships;
+  return {{"rows", 300},
+          {"accuracy", (ships_right + arrays_right) / 300},
+          {"accuracy_95", {nullptr, nullptr}},
+          {"confusion",
+           {{"array_as_array", arrays_right},
+            {"array_as_ship", arrays - arrays_right},
+            {"ship_as_array", ships - ships_right},
+            {"ship_as_ship", ships_right}}}};
+}
+
+std::string table_of(const ordered_json& scores) {
+  return probes_table(
+      {{"split_repeats", 1},
+       {"probes",
+        {{{"name", "hop code"}, {"kind", "blind"}, {"meaning", "-"}, {"random", scores}, {"group", scores}}}}},
+      {});
+}
+
+TEST(ProbesTable, CallsTheSharesOfTheClassesChance) {
+  // As many ships as arrays: half is chance, give or take 2.576 standard deviations, 7.4 points.
+  EXPECT_THAT(table_of(scores(150, 80, 75)), HasSubstr("as chance"));
+  EXPECT_THAT(table_of(scores(150, 90, 90)), HasSubstr("look for a leak"));
+  EXPECT_THAT(table_of(scores(150, 60, 60)), HasSubstr("look for a leak"));
+  // Two ships to an array: naming ships always is right in 66.7 %, guessing at the shares in 55.6 %.
+  EXPECT_THAT(table_of(scores(200, 200, 0)), Not(HasSubstr("leak")));
+  EXPECT_THAT(table_of(scores(200, 133, 33)), Not(HasSubstr("leak")));
+  EXPECT_THAT(table_of(scores(200, 180, 50)), HasSubstr("look for a leak"));
+  EXPECT_THAT(table_of(scores(200, 100, 20)), HasSubstr("look for a leak"));
+}
+
+// A probe of each kind that tells the classes.
+ordered_json telling_probes() {
+  ordered_json metrics{{"split_repeats", 1}, {"probes", ordered_json::array()}};
+  const ordered_json right = scores(150, 145, 145);
+  for (const auto& [name, kind] :
+       {std::pair{"total power", "scale"}, {"signal to clutter and noise", "ratio"}, {"sigma_v alone", "feature"}})
+    metrics["probes"].push_back(
+        {{"name", name}, {"kind", kind}, {"meaning", "-"}, {"random", right}, {"group", right}});
+  return metrics;
+}
+
+Scenario with_clutter(ClutterLevel level, NoiseLevel noise, bool enabled = true) {
+  Scenario scenario;
+  scenario.clutter.level = level;
+  scenario.clutter.noise_level = noise;
+  scenario.clutter.enabled = enabled;
+  return scenario;
+}
+
+// Where clutter or noise keep their own level, the ratio of the target to them decides which centres are found.
+TEST(Level, IsSeenByFeaturesWhereClutterOrNoiseDoNotFollowTheTarget) {
+  const ordered_json metrics = telling_probes();
+  for (const Scenario& unseen :
+       {with_clutter(ClutterLevel::kScr, NoiseLevel::kToClutter), with_clutter(ClutterLevel::kScr, NoiseLevel::kSnr),
+        with_clutter(ClutterLevel::kNrl, NoiseLevel::kSnr, false)}) {
+    EXPECT_THAT(note_of_level(metrics, unseen),
+                HasSubstr("Total power alone reaches 96.7 % on unseen seas. No feature group sees it"));
+    EXPECT_THAT(probes_table(metrics, unseen), HasSubstr("no feature uses it"));
+    EXPECT_THAT(probes_table(metrics, unseen), Not(HasSubstr("level has a part")));
+  }
+  const std::pair<Scenario, const char*> cases[] = {
+      {with_clutter(ClutterLevel::kNrl, NoiseLevel::kToClutter), "The clutter is not scaled"},
+      {with_clutter(ClutterLevel::kNrl, NoiseLevel::kThermal), "Clutter and receiver noise are not scaled"},
+      {with_clutter(ClutterLevel::kScr, NoiseLevel::kThermal), "The receiver’s noise is not scaled"},
+      {with_clutter(ClutterLevel::kNrl, NoiseLevel::kThermal, false), "The receiver’s noise is not scaled"}};
+  for (const auto& [seen, words] : cases) {
+    const std::string note = note_of_level(metrics, seen), table = probes_table(metrics, seen);
+    EXPECT_THAT(note, HasSubstr("Features see the level.</b> " + std::string(words)));
+    EXPECT_THAT(note, HasSubstr("the ratio of the target to clutter and noise 96.7 %"));
+    EXPECT_THAT(note, Not(HasSubstr("No feature group sees it")));
+    EXPECT_THAT(table, HasSubstr("features see it by what is found"));
+    EXPECT_THAT(table, HasSubstr("it decides what is found"));
+    EXPECT_THAT(table, HasSubstr("level has a part in what is found"));
+    EXPECT_THAT(table, Not(HasSubstr("no feature uses it")));
+  }
+}
+
+// 36 predictions of three splits are not 36 of a data set's 40 maps, 28 of which each split learns from.
+TEST(AccuracyTables, CallPredictionsOfPooledSplitsSo) {
+  ordered_json evaluation = scores(150, 140, 140);
+  evaluation.update({{"rows", 36},
+                     {"groups", 8},
+                     {"auc", 0.9},
+                     {"log_loss", 0.2},
+                     {"train_rows", 28},
+                     {"by_wave_height", ordered_json::array()}});
+  const ordered_json both{{"random", evaluation}, {"group", evaluation}};
+  ordered_json metrics{{"split_repeats", 3}};
+  for (const char* group : {"handmade", "cnn", "fused"}) {
+    metrics[group] = both;
+    metrics[group].update({{"fusion", "split"}, {"fewer_rows", both}, {"in_sample", both}});
+  }
+  const std::string pooled = accuracy_tables(metrics);
+  EXPECT_THAT(pooled, Not(HasSubstr("test maps")));
+  EXPECT_THAT(pooled, HasSubstr("test predictions"));
+  EXPECT_THAT(pooled, HasSubstr("predictions: array as ship"));
+  EXPECT_THAT(
+      pooled,
+      HasSubstr("3 splits under each protocol, pooled: a map that several of them test has a prediction of each"));
+  EXPECT_THAT(note_of_seas(metrics),
+              HasSubstr("3 splits by sea, pooled, test on 8 sea realisations in all, each on a part of them."));
+  metrics["split_repeats"] = 1;
+  EXPECT_THAT(accuracy_tables(metrics), HasSubstr("a test prediction is a map"));
+  EXPECT_THAT(note_of_seas(metrics), HasSubstr("The split by sea tests on 8 sea realisations."));
+}
+
+}  // namespace
+}  // namespace seaglint

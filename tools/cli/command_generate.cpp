@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <chrono>
+#include <memory>
+
+#include "sim/core/process/error.h"
+#include "tools/cli/command.h"
+#include "tools/pipeline/generate.h"
+
+namespace seaglint {
+
+namespace {
+
+struct Arguments {
+  ScenarioArguments scenario;
+  std::string directory;
+  std::string part;
+  bool resume = false;
+};
+
+// "2/5": the second of five parts.
+void read_part(const std::string& text, GenerateOptions& options) {
+  const std::size_t slash = text.find('/');
+  const auto number = [&](std::size_t begin, std::size_t end) {
+    int value = 0;
+    const auto [rest, error] = std::from_chars(text.data() + begin, text.data() + end, value);
+    return error == std::errc() && rest == text.data() + end ? value : 0;
+  };
+  if (slash != std::string::npos) {
+    options.part = number(0, slash);
+    options.parts = number(slash + 1, text.size());
+  }
+  if (slash == std::string::npos || options.part < 1 || options.parts < options.part || options.parts > 1000000) {
+    throw InputError(fmt::format("--part: {}: must be I/N with 1 <= I <= N, for example 1/4", text));
+  }
+}
+
+void generate(const Arguments& arguments, const Shell& shell) {
+  GenerateOptions options;
+  options.resume = arguments.resume;
+  options.threads = shell.threads;
+  if (!arguments.part.empty()) read_part(arguments.part, options);
+  const Scenario scenario = arguments.scenario.read();
+  const auto begin = std::chrono::steady_clock::now();
+  GenerateResult result;
+  try {
+    result = generate_dataset(scenario, arguments.directory, options, &shell.stop);
+  } catch (const Interrupted&) {
+    throw WorkError(fmt::format("interrupted; whole shards are kept, go on by the same command with --resume ({})",
+                                arguments.directory));
+  }
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  fmt::print("{}: {} maps made in {:.1f} s, {} kept\n", arguments.directory, result.made, seconds, result.kept);
+  if (result.missing > 0)
+    fmt::print("{} shards of other parts are still missing or damaged; the last part writes the manifest\n",
+               result.missing);
+}
+
+}  // namespace
+
+void add_generate(CLI::App& app, Shell& shell) {
+  CLI::App* command =
+      app.add_subcommand("generate", "Make the data set of a scenario: range-velocity maps with labels in HDF5 shards");
+  auto arguments = std::make_shared<Arguments>();
+  add_scenario_arguments(*command, arguments->scenario);
+  command->add_option("-o,--output", arguments->directory, "Directory of the data set, new or empty")->required();
+  command->add_option("--part", arguments->part, "Make the I-th of N parts (whole shards), as I/N");
+  command->add_flag("--resume", arguments->resume, "Keep the sound shards that are there; also starts a new directory");
+  add_threads_option(*command, shell);
+  command->footer(
+      "Example:\n  seaglint generate scenarios/points.yaml -o build/points\n"
+      "  seaglint generate scenarios/paper.yaml -o build/paper --part 3/16 --resume");
+  command->callback([arguments, &shell] { shell.work = [arguments, &shell] { generate(*arguments, shell); }; });
+}
+
+}  // namespace seaglint

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "tools/cli/command.h"
+
+namespace seaglint {
+
+void add_keys(CLI::App& app, Shell& shell) {
+  CLI::App* command =
+      app.add_subcommand("keys", "List every key of a scenario file with its default and what it allows");
+  command->footer("Example:\n  seaglint keys");
+  command->callback([&shell] { shell.work = [] { fmt::print("{}", list_keys()); }; });
+}
+
+}  // namespace seaglint

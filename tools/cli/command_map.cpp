@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One range-velocity map of a scenario: its picture, its scattering centres and its features.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "sim/core/numbers/constants.h"
+#include "sim/core/process/error.h"
+#include "sim/scenario/sample_plan.h"
+#include "tools/cli/command.h"
+#include "tools/figure/figure.h"
+#include "tools/figure/rv_figure.h"
+#include "tools/pipeline/map_coverage.h"
+#include "tools/pipeline/map_products.h"
+#include "tools/pipeline/pipeline.h"
+#include "tools/pipeline/warnings.h"
+
+namespace seaglint {
+namespace {
+
+void print_result(const ReceivedInterval& received, const std::vector<ScatteringCentre>& centres,
+                  const FeatureVector& features) {
+  fmt::print("  range_m  velocity_mps  amplitude_m\n");
+  for (const ScatteringCentre& c : centres)
+    fmt::print("{:9.3f} {:13.4f} {:12.4g}\n", c.range_m, c.velocity_mps, c.amplitude_m);
+  fmt::print("centres {}{}, MWR {:.4g} (m/s)^2, CCF {:.4g}, sigma_r {:.4g} m, sigma_v {:.4g} m/s\n", features.centres,
+             features.degenerate ? " (too few to say much)" : "", features.mwr, features.ccf, features.sigma_r,
+             features.sigma_v);
+  if (!std::isnan(received.scr.per_pulse_db)) {
+    fmt::print("SCR per pulse {:.2f} dB, peak cell {:.2f} dB, extent {:.2f} dB\n", received.scr.per_pulse_db,
+               received.scr.peak_cell_db, received.scr.extent_db);
+  }
+  if (!std::isnan(received.scr.snr_per_pulse_db))
+    fmt::print("SNR per pulse {:.2f} dB\n", received.scr.snr_per_pulse_db);
+  if (received.map.empty_carriers > 0) fmt::print("carriers without a pulse: {}\n", received.map.empty_carriers);
+}
+
+struct Arguments : ScenarioArguments {
+  std::size_t sample = 0;
+  std::string output;
+  std::string product = "rv";
+};
+
+// Profiles of single pulses as a heat map over time, dB against the largest value.
+Heatmap profile_figure(const RangeProfiles& profiles, const std::string& title) {
+  const double peak = *std::max_element(profiles.magnitude_m.begin(), profiles.magnitude_m.end());
+  Heatmap figure;
+  figure.title = title;
+  figure.x.label = "range against the reference point (m), positive = farther";
+  figure.y.label = "time in the interval (ms)";
+  figure.colour = {"|HRRP| against the peak (dB)", AxisRange{-40, 0}, false};
+  figure.x_cells = profiles.range_m;
+  for (const double t : profiles.time_s) figure.y_cells.push_back(1e3 * t);
+  for (const double m : profiles.magnitude_m) figure.values.push_back(std::max(-40.0, 20 * std::log10(m / peak)));
+  return figure;
+}
+
+void show_map(const Arguments& arguments) {
+  require_figure(arguments.output);
+  const Scenario scenario = arguments.read();
+  const std::size_t sample = arguments.sample, samples = SamplePlan(scenario).size();
+  if (sample >= samples)
+    throw InputError(fmt::format("--sample {}: the scenario has samples 0 to {}", sample, samples - 1));
+  const Pipeline pipeline(scenario);
+  warn(mesh_doubts(pipeline));
+  warn(sea_doubts(scenario));
+  const SampleAddress address = pipeline.plan().address(sample);
+  const TargetSpec& target = scenario.targets[static_cast<std::size_t>(address.target)];
+  const View view = views(scenario.view)[static_cast<std::size_t>(address.view)];
+  const std::string title = fmt::format(
+      "{}: sample {}, {}, Hs {:g} m, azimuth {:g} deg, elevation {:g} deg", scenario.name, sample, target.name,
+      sea_states(scenario.sea)[static_cast<std::size_t>(address.sea_state)].significant_wave_height_m, view.azimuth_deg,
+      view.elevation_deg);
+  if (arguments.product == "isar" || arguments.product == "hrrp") {
+    const WholeBand band = whole_band(pipeline, sample);
+    if (arguments.product == "isar") {
+      write_figure(rv_figure(band.image, {}, title + ", whole band every pulse"), arguments.output);
+    } else {
+      write_figure(profile_figure(range_profiles(band, scenario.map), title), arguments.output);
+    }
+    return;
+  }
+  warn(band_doubts(pipeline));
+  warn(outside_of_map(scenario, pipeline.targets()));  // a map of too many cells ends here
+  const MadeSample made = pipeline.make(sample);
+  write_figure(rv_figure(made.received.map, made.centres, title), arguments.output);
+  print_result(made.received, made.centres, made.features);
+}
+
+}  // namespace
+
+void add_map(CLI::App& app, Shell& shell) {
+  CLI::App* command =
+      app.add_subcommand("map", "Draw one range-velocity map, list its scattering centres and features");
+  auto arguments = std::make_shared<Arguments>();
+  add_scenario_arguments(*command, *arguments);
+  command->add_option("--sample", arguments->sample, "Number of the sample in the scenario's plan")
+      ->capture_default_str();
+  command->add_option("-o,--output", arguments->output, "Picture, .png or .svg")->required();
+  command
+      ->add_option(
+          "--product", arguments->product,
+          "rv: the map; isar: the target's image, and hrrp: its range profiles, as a radar has them that sends "
+          "the whole band with every pulse, without clutter and noise")
+      ->check(CLI::IsMember({"rv", "isar", "hrrp"}))
+      ->capture_default_str();
+  add_threads_option(*command, shell);
+  command->footer(
+      "Example:\n  seaglint map scenarios/points.yaml --sample 0 -o map.png\n"
+      "  seaglint map scenarios/points.yaml --sample 0 --set map.clean=true -o clean.png");
+  command->callback([arguments, &shell] {
+    shell.one_piece = true;
+    shell.work = [arguments] { show_map(*arguments); };
+  });
+}
+
+}  // namespace seaglint

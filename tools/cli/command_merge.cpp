@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "classify/dataset/directory/merged.h"
+#include "seaglint_version.h"
+#include "tools/cli/command.h"
+
+namespace seaglint {
+
+void add_merge(CLI::App& app, Shell& shell) {
+  struct Arguments {
+    std::string directory;
+    std::string file;
+  };
+  CLI::App* command =
+      app.add_subcommand("merge", "One HDF5 file over all shards of a data set, which stay where they are");
+  auto arguments = std::make_shared<Arguments>();
+  command->add_option("directory", arguments->directory, "Directory of the data set")->required();
+  command->add_option("-o,--output", arguments->file, "The merged file; DIRECTORY/dataset.h5 unless told");
+  command->footer("Example:\n  seaglint merge build/points/data");
+  command->callback([arguments, &shell] {
+    shell.work = [arguments, &shell] {
+      const std::filesystem::path directory = find_data_set(arguments->directory);
+      std::filesystem::path file = arguments->file;
+      if (file.empty()) file = directory / kMergedFile;
+      const Merged merged = merge_dataset(directory, file, kVersion, &shell.stop);
+      if (merged.wrote_manifest) fmt::print("{}: all shards were there; manifest.json written\n", directory.string());
+      fmt::print("{}: {} samples of {} shards\n", file.string(), merged.samples, merged.shards);
+    };
+  });
+}
+
+}  // namespace seaglint

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "sim/core/numbers/constants.h"
+#include "sim/core/process/error.h"
+#include "sim/core/process/file.h"
+#include "sim/geometry/files/mesh_io.h"
+#include "sim/geometry/mesh/mesh_diagnostics.h"
+#include "sim/geometry/mesh/topology.h"
+#include "sim/geometry/shapes/generators.h"
+#include "sim/geometry/ship/make_ship.h"
+#include "tools/cli/command.h"
+#include "tools/figure/mesh_picture.h"
+
+namespace seaglint {
+namespace {
+
+using Maker = std::function<TriangleMesh()>;
+
+std::string size_line(const TriangleMesh& mesh) {
+  const Bounds box = bounds(mesh);
+  const Vec3 size = box.upper - box.lower;
+  return fmt::format(
+      "size       {:.6g} x {:.6g} x {:.6g} m, from ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})\n", size.x(),
+      size.y(), size.z(), box.lower.x(), box.lower.y(), box.lower.z(), box.upper.x(), box.upper.y(), box.upper.z());
+}
+
+std::string counts_line(const TriangleMesh& mesh) {
+  return fmt::format("triangles  {}, vertices {}, area {:.6g} m^2\n", mesh.triangles.size(), mesh.vertices.size(),
+                     surface_area(mesh));
+}
+
+// One line for each part: triangles, volume where it is closed, material.
+std::string part_lines(const TriangleMesh& mesh, const Topology& topology) {
+  std::vector<std::size_t> count(mesh.part_names.size(), 0);
+  std::vector<double> volume(mesh.part_names.size(), 0);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    ++count[mesh.triangle_part[t]];
+    volume[mesh.triangle_part[t]] += mesh.vertices[mesh.triangles[t][0]].dot(area_vector(mesh, t)) / 3;
+  }
+  std::string text = fmt::format("parts      {}\n", mesh.part_names.size());
+  for (std::size_t p = 0; p < mesh.part_names.size(); ++p) {
+    const std::string state = topology.part_closed[p] ? fmt::format("closed, {:.6g} m^3", volume[p]) : "open";
+    text += fmt::format("  {:<24} {:>7} triangles, {}\n", mesh.part_names[p], count[p], state);
+  }
+  return text;
+}
+
+std::string material_lines(const TriangleMesh& mesh) {
+  std::vector<std::size_t> count(mesh.materials.size(), 0);
+  for (std::uint16_t m : mesh.triangle_material) ++count[m];
+  std::string text = fmt::format("materials  {}\n", mesh.materials.size());
+  for (std::size_t m = 0; m < count.size(); ++m) {
+    text += fmt::format("  {:<24} {:>7} triangles\n", mesh.materials[m].name, count[m]);
+  }
+  return text;
+}
+
+std::string topology_lines(const TriangleMesh& mesh, const Topology& topology, double wedge_deg) {
+  std::size_t convex = 0, concave = 0, rims = 0;
+  for (const Wedge& wedge : wedges(mesh, topology, radians(wedge_deg))) {
+    if (wedge.triangles[1] == kNoIndex) {
+      ++rims;
+    } else if (wedge.exterior_angle > kPi) {
+      ++convex;
+    } else {
+      ++concave;
+    }
+  }
+  return fmt::format(
+      "edges      {} in all; {} boundary (holes and rims), {} non-manifold, {} with a flipped neighbour\n"
+      "degenerate {} triangles without area\n"
+      "wedges     {} convex, {} concave that turn by more than {:g} deg, {} rims\n",
+      topology.edges.size(), topology.count(EdgeKind::kBoundary), topology.count(EdgeKind::kNonManifold),
+      topology.count(EdgeKind::kInconsistent), topology.degenerate.size(), convex, concave, wedge_deg, rims);
+}
+
+// A kind of mesh that `mesh make` knows; the options it declares are captured by the maker.
+CLI::App* add_kind(CLI::App& make, Shell& shell, const char* name, const char* what, const char* example,
+                   const Maker& maker) {
+  CLI::App* kind = make.add_subcommand(name, what);
+  auto output = std::make_shared<std::string>();
+  kind->add_option("-o,--output", *output, "Mesh file to write: .glb .gltf .obj .stl or .ply")->required();
+  add_threads_option(*kind, shell);
+  kind->footer(fmt::format("Example:\n  seaglint mesh make {} {}", name, example));
+  kind->callback([output, maker, &shell] {
+    shell.work = [output, maker] {
+      const TriangleMesh mesh = maker();
+      write_mesh(*output, mesh);
+      fmt::print("{}\n{}{}", *output, size_line(mesh), counts_line(mesh));
+    };
+  });
+  return kind;
+}
+
+void add_ship_kind(CLI::App& make, Shell& shell) {
+  auto form = std::make_shared<ShipForm>();
+  auto detail = std::make_shared<std::string>("rails");
+  CLI::App* kind =
+      add_kind(make, shell, "ship", "Naval combatant, cut at the waterline z = 0", "-o ship.glb", [form, detail] {
+        ShipForm f = *form;
+        f.detail = *detail == "hull"       ? ShipDetail::kHull
+                   : *detail == "fittings" ? ShipDetail::kFittings
+                                           : ShipDetail::kRails;
+        return make_ship(f);
+      });
+  kind->add_option("--length-m", form->length_m, "Length overall")->capture_default_str();
+  kind->add_option("--beam-m", form->beam_m, "Beam at the waterline")->capture_default_str();
+  kind->add_option("--freeboard-m", form->freeboard_m, "Height of the deck amidships")->capture_default_str();
+  kind->add_option("--bow-height-m", form->bow_height_m, "Height of the deck at the bow")->capture_default_str();
+  kind->add_option("--stern-height-m", form->stern_height_m, "Height of the deck at the stern")->capture_default_str();
+  kind->add_option("--panel-m", form->panel_m, "Length of a hull plate")->capture_default_str();
+  kind->add_option("--plating-m", form->plating_m, "Largest dent of a hull plate's corner")->capture_default_str();
+  kind->add_option("--rail-width-m", form->rail_width_m, "Width of rail posts")->capture_default_str();
+  kind->add_option("--detail", *detail, "How much is built: hull (with houses), fittings, rails (all)")
+      ->check(CLI::IsMember({"hull", "fittings", "rails"}))
+      ->capture_default_str();
+}
+
+void add_reflector_kinds(CLI::App& make, Shell& shell) {
+  auto edge = std::make_shared<double>(kReflectorEdge);
+  add_kind(make, shell, "reflector", "Icosahedral corner reflector of 20 trihedra", "-o reflector.glb",
+           [edge] { return make_icosahedral_reflector(*edge); })
+      ->add_option("--edge-m", *edge, "Edge of the icosahedron")
+      ->capture_default_str();
+
+  auto leg = std::make_shared<double>(0.372);
+  auto is_square = std::make_shared<bool>(false);
+  CLI::App* trihedral = add_kind(
+      make, shell, "trihedral", "Right-angled corner with its legs along +x, +y, +z", "--leg-m 0.372 -o corner.glb",
+      [leg, is_square] { return *is_square ? make_square_trihedral(*leg) : make_triangular_trihedral(*leg); });
+  trihedral->add_option("--leg-m", *leg, "Length of a leg")->capture_default_str();
+  trihedral->add_flag("--square", *is_square, "Square plates instead of triangles");
+
+  auto length = std::make_shared<double>(1.0), width = std::make_shared<double>(1.0),
+       opening = std::make_shared<double>(90.0);
+  CLI::App* dihedral = add_kind(make, shell, "dihedral", "Two plates with a seam along z, open towards +x",
+                                "--length-m 0.4 --width-m 0.3 -o dihedral.glb",
+                                [=] { return make_dihedral(*length, *width, radians(*opening)); });
+  dihedral->add_option("--length-m", *length, "Length of the seam")->capture_default_str();
+  dihedral->add_option("--width-m", *width, "Width of a plate")->capture_default_str();
+  dihedral->add_option("--opening-deg", *opening, "Angle between the plates")->capture_default_str();
+}
+
+void add_simple_kinds(CLI::App& make, Shell& shell) {
+  auto length = std::make_shared<double>(1.0), width = std::make_shared<double>(1.0);
+  CLI::App* plate = add_kind(make, shell, "plate", "Flat sheet in the plane x = 0, seen square from ahead",
+                             "--length-m 0.5 --width-m 0.3 -o plate.stl", [=] { return make_plate(*length, *width); });
+  plate->add_option("--length-m", *length, "Size along y")->capture_default_str();
+  plate->add_option("--width-m", *width, "Size along z")->capture_default_str();
+
+  auto radius = std::make_shared<double>(0.5), height = std::make_shared<double>(1.0);
+  auto subdivisions = std::make_shared<int>(4), segments = std::make_shared<int>(64);
+  CLI::App* sphere =
+      add_kind(make, shell, "sphere", "Subdivided icosahedron", "--radius-m 0.3 --subdivisions 5 -o sphere.ply",
+               [=] { return make_sphere(*radius, *subdivisions); });
+  sphere->add_option("--radius-m", *radius, "Radius of its vertices")->capture_default_str();
+  sphere->add_option("--subdivisions", *subdivisions, "0..8; 20 * 4^n triangles")->capture_default_str();
+  CLI::App* cylinder =
+      add_kind(make, shell, "cylinder", "Capped prism about the z axis", "--radius-m 0.2 --height-m 1 -o cylinder.obj",
+               [=] { return make_cylinder(*radius, *height, *segments); });
+  cylinder->add_option("--radius-m", *radius, "Radius of its vertices")->capture_default_str();
+  cylinder->add_option("--height-m", *height, "Height")->capture_default_str();
+  cylinder->add_option("--segments", *segments, "3..100000 sides")->capture_default_str();
+}
+
+struct InfoArguments {
+  std::string file;
+  std::string unit = "m";
+  double wedge_deg = 20;
+  std::string picture;
+  PictureView view;
+};
+
+void print_info(const InfoArguments& arguments) {
+  require_outputs({arguments.picture}, {arguments.file});
+  if (!arguments.picture.empty() && std::filesystem::path(arguments.picture).extension() != ".png")
+    throw InputError(fmt::format("{}: the name of a mesh's picture ends in .png", arguments.picture));
+  const TriangleMesh mesh = read_mesh(arguments.file, arguments.unit);
+  const Topology topology = topology_of(mesh);
+  if (!arguments.picture.empty()) write_file(arguments.picture, png_bytes(picture_of(mesh, arguments.view)));
+  fmt::print("{}\n{}{}{}{}{}", arguments.file, size_line(mesh), counts_line(mesh), part_lines(mesh, topology),
+             material_lines(mesh), topology_lines(mesh, topology, arguments.wedge_deg));
+  for (const std::string& finding : findings(examine(mesh))) fmt::print("finding    {}\n", finding);
+}
+
+void add_info(CLI::App& mesh, Shell& shell) {
+  CLI::App* info =
+      mesh.add_subcommand("info", "Size, parts, materials, holes, degenerate and non-manifold elements, wedges");
+  auto arguments = std::make_shared<InfoArguments>();
+  info->add_option("FILE", arguments->file, "Mesh file: .glb .gltf .obj .stl or .ply")->required();
+  info->add_option("--unit", arguments->unit, "Unit of the file's lengths: m cm mm km in ft")->capture_default_str();
+  info->add_option("--wedge-deg", arguments->wedge_deg, "Least turn of an edge that counts as a wedge")
+      ->check(number_within(0.0, 180.0))
+      ->capture_default_str();
+  CLI::Option* picture = info->add_option("--picture", arguments->picture, "Write a picture, .png");
+  info->add_option("--azimuth-deg", arguments->view.azimuth_deg, "The picture's viewpoint, as the radar's")
+      ->check(number_within(-720, 720))
+      ->capture_default_str()
+      ->needs(picture);
+  info->add_option("--elevation-deg", arguments->view.elevation_deg, "The picture's viewpoint, as the radar's")
+      ->check(number_within(-90.0, 90.0))
+      ->capture_default_str()
+      ->needs(picture);
+  info->add_option("--width", arguments->view.width, "The picture's width in pixels")
+      ->check(CLI::Range(16, 8192))
+      ->capture_default_str()
+      ->needs(picture);
+  add_threads_option(*info, shell);
+  info->footer("Example:\n  seaglint mesh info assets/combatant_144m.glb --picture ship.png --azimuth-deg 50");
+  info->callback([arguments, &shell] { shell.work = [arguments] { print_info(*arguments); }; });
+}
+
+}  // namespace
+
+void add_mesh(CLI::App& app, Shell& shell) {
+  CLI::App* mesh = app.add_subcommand("mesh", "Make a mesh, or tell what is in one");
+  mesh->require_subcommand(1);
+  mesh->footer("Example:\n  seaglint mesh make ship -o ship.glb\n  seaglint mesh info ship.glb");
+  CLI::App* make = mesh->add_subcommand("make", "Make a mesh: a ship, a reflector or a canonical target");
+  make->require_subcommand(1);
+  make->footer("Example:\n  seaglint mesh make reflector -o reflector.glb");
+  add_ship_kind(*make, shell);
+  add_reflector_kinds(*make, shell);
+  add_simple_kinds(*make, shell);
+  add_info(*mesh, shell);
+}
+
+}  // namespace seaglint

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <memory>
+
+#include "seaglint_version.h"
+#include "sim/core/numbers/constants.h"
+#include "sim/core/process/error.h"
+#include "sim/core/process/file.h"
+#include "sim/geometry/files/mesh_io.h"
+#include "sim/motion/target_motion.h"
+#include "tools/cli/command.h"
+#include "tools/cli/series_times.h"
+#include "tools/figure/figure.h"
+#include "tools/figure/motion_figures.h"
+#include "tools/pipeline/scene.h"
+#include "tools/pipeline/warnings.h"
+
+namespace seaglint {
+
+namespace {
+
+struct MotionArguments {
+  ScenarioArguments scenario;
+  std::string output;
+  std::string spectrum, figure, frames, rao, rao_reference;
+  double duration_s = 100;
+  double step_s = 0.1;
+};
+
+// Everything that moves in the first sea state: the bodies of every mesh target in the order of the file, `ship`,
+// `array_1`, `array_2`, ..., and how each target moves.
+struct MovingScene {
+  SeaState state;
+  WaveField sea;
+  std::vector<Body> targets;
+  std::vector<NamedTrajectory> bodies;
+};
+
+// How fast a body goes along x beside its motion in the waves, m/s.
+double mean_speed(const Body& body) {
+  if (const auto* ship = std::get_if<ShipParticulars>(&body.model)) return ship->speed;
+  if (const auto* table = std::get_if<RaoTable>(&body.model)) return table->speed();
+  return 0;
+}
+
+MovingScene simulate_all(const Scenario& scenario, double duration_s, int threads, const StopFlag& stop) {
+  MovingScene scene;
+  scene.state = sea_states(scenario.sea).front();
+  const std::uint64_t index = realisation_index(0, 0);
+  scene.sea = realize_sea(scene.state, scenario.seed, index);
+  for (const TargetSpec& target : scenario.targets) {
+    if (target.mesh.empty()) continue;
+    if (stop) throw Interrupted();
+    const TriangleMesh mesh = read_mesh(find_mesh(scenario, target), target.unit);
+    scene.targets.push_back(load_body(scenario, target, mesh));
+    const std::vector<Trajectory> all = simulate_target(target, scene.targets.back(), scene.state, scene.sea,
+                                                        duration_s, scenario.seed, index, scene.bodies.size(), threads);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      scene.bodies.push_back({target.line ? fmt::format("{}_{}", target.name, i + 1) : target.name, all[i], mesh,
+                              mean_speed(scene.targets.back())});
+    }
+  }
+  if (scene.bodies.empty()) throw InputError("targets: none of them is a mesh, so nothing moves in the waves");
+  return scene;
+}
+
+// What a table of response operators leaves out of this sea.
+std::string coverage(const MovingScene& scene) {
+  std::string text;
+  for (const Body& body : scene.targets) {
+    if (const auto* table = std::get_if<RaoTable>(&body.model)) {
+      text += fmt::format("# {}: {:.3g} % of the waves' variance lies outside of its frequencies\n", table->source(),
+                          100 * table->uncovered_share(scene.sea));
+    }
+  }
+  return text;
+}
+
+void write_pictures(const MotionArguments& arguments, const Scenario& scenario, const MovingScene& scene) {
+  const std::string title = fmt::format("{}: Hs {:.3g} m, Tp {:.3g} s towards {:.4g} deg", scenario.name,
+                                        scene.state.significant_wave_height_m, scene.state.peak_period_s,
+                                        degrees(scene.state.propagation_rad));
+  if (!arguments.figure.empty()) write_motion_figure(scene.bodies, arguments.duration_s, title, arguments.figure);
+  if (!arguments.frames.empty()) {
+    const double period = std::min(scene.state.peak_period_s, arguments.duration_s);
+    write_motion_frames(scene.bodies, scene.sea, period, title, arguments.frames);
+  }
+  if (arguments.rao.empty()) return;
+  for (const Body& body : scene.targets) {
+    if (const auto* ship = std::get_if<ShipParticulars>(&body.model)) {
+      write_rao_figure(*ship, scene.state.propagation_rad, scene.state.depth_m,
+                       {arguments.rao_reference, body.spec.rao_length_m},
+                       fmt::format("{}: waves towards {:.4g} deg, speed {:.3g} m/s", scenario.name,
+                                   degrees(scene.state.propagation_rad), ship->speed),
+                       arguments.rao);
+      return;
+    }
+  }
+  throw InputError("--rao: no target of the scenario has motion.model: ship");
+}
+
+void write_motion(const MotionArguments& arguments, const Shell& shell) {
+  for (const std::string& file : {arguments.figure, arguments.frames, arguments.rao}) require_figure(file);
+  const std::vector<std::string> outputs{arguments.output, arguments.spectrum, arguments.figure, arguments.frames,
+                                         arguments.rao};
+  require_outputs(outputs, {arguments.scenario.file, arguments.rao_reference});
+  const Scenario scenario = arguments.scenario.read();
+  require_outputs(outputs, files_of(scenario));
+  warn(sea_doubts(scenario));
+  const std::size_t count = uniform_time_count(arguments.duration_s, arguments.step_s);
+  const MovingScene scene = simulate_all(scenario, arguments.duration_s, shell.threads, shell.stop);
+  const std::vector<NamedTrajectory>& bodies = scene.bodies;
+  const SeaState& state = scene.state;
+  std::string text;
+  auto out = std::back_inserter(text);
+  fmt::format_to(out, "# seaglint {} motion, scenario {}, seed {}, sea state 0, realisation 0\n", kVersion,
+                 scenario.name, scenario.seed);
+  fmt::format_to(out, "# significant_wave_height_m {}, peak_period_s {}, gamma {}, propagation_deg {:.10g}, order {}\n",
+                 state.significant_wave_height_m, state.peak_period_s, state.gamma, degrees(state.propagation_rad),
+                 state.order);
+  text += coverage(scene);
+  text += "time_s,body,roll_deg,pitch_deg,yaw_deg,surge_m,sway_m,heave_m\n";
+  for (std::size_t n = 0; n < count; ++n) {
+    if (shell.stop) throw Interrupted();
+    const double t = arguments.step_s * static_cast<double>(n);
+    for (const NamedTrajectory& body : bodies) {
+      // A body at rest has no samples of its own; the last time may pass the last sample by its rounding.
+      const MotionSample motion = body.trajectory.sample(std::min(t, body.trajectory.end_s()));
+      fmt::format_to(out, "{:.9g},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n", t, body.body,
+                     degrees(motion.angles.x()), degrees(motion.angles.y()), degrees(motion.angles.z()),
+                     motion.shift.x(), motion.shift.y(), motion.shift.z());
+    }
+  }
+  write_pictures(arguments, scenario, scene);
+  if (!arguments.spectrum.empty()) write_file(arguments.spectrum, spectrum_csv(bodies, arguments.duration_s));
+  write_file(arguments.output, text);
+  fmt::print("{}", motion_statistics(bodies, arguments.duration_s));
+}
+
+}  // namespace
+
+void add_motion(CLI::App& app, Shell& shell) {
+  CLI::App* command = app.add_subcommand(
+      "motion",
+      "Write the angles and translations of every body in the scenario's first sea state, their spectra and "
+      "statistics");
+  auto arguments = std::make_shared<MotionArguments>();
+  add_scenario_arguments(*command, arguments->scenario);
+  command->add_option("-o,--output", arguments->output, "CSV file to write")->required();
+  command->add_option("--spectrum", arguments->spectrum, "CSV file for the spectra of the series' angles");
+  command->add_option("--figure", arguments->figure, "Picture (.png or .svg) of the first 100 s of all angles");
+  command->add_option(
+      "--frames", arguments->frames,
+      "Picture of five moments of a wave period: first and last body in the water, seen from starboard");
+  CLI::Option* rao = command->add_option(
+      "--rao", arguments->rao, "Picture of the first ship's response operators in waves of the sea's direction");
+  command->add_option("--rao-reference", arguments->rao_reference, "VERES .re1 or WAMIT .4 to draw beside them")
+      ->needs(rao);
+  add_threads_option(*command, shell);
+  add_time_options(*command, arguments->duration_s, arguments->step_s);
+  command->footer(
+      "Example:\n  seaglint motion scenarios/quick.yaml --duration-s 60 -o motion.csv\n"
+      "  seaglint motion scenarios/quick.yaml --figure motion.png --frames frames.png -o motion.csv");
+  command->callback([arguments, &shell] { shell.work = [arguments, &shell] { write_motion(*arguments, shell); }; });
+}
+
+}  // namespace seaglint

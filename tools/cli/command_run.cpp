@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "sim/core/process/error.h"
+#include "tools/cli/command.h"
+#include "tools/report/run.h"
+
+namespace seaglint {
+
+namespace {
+
+struct Arguments {
+  ScenarioArguments scenario;
+  std::string directory;
+  bool resume = false;
+};
+
+}  // namespace
+
+void add_run(CLI::App& app, Shell& shell) {
+  CLI::App* command =
+      app.add_subcommand("run", "The main job: make the maps of a scenario, train, evaluate, write the report");
+  auto arguments = std::make_shared<Arguments>();
+  add_scenario_arguments(*command, arguments->scenario);
+  command->add_option("-o,--output", arguments->directory, "Directory of the results, new or empty")->required();
+  command->add_flag("--resume", arguments->resume, "Go on with what an earlier run left in the directory");
+  add_threads_option(*command, shell);
+  command->footer("Example:\n  seaglint run scenarios/points.yaml -o build/points-run");
+  command->callback([arguments, &shell] {
+    shell.work = [arguments, &shell] {
+      const Scenario scenario = arguments->scenario.read();
+      try {
+        fmt::print("{}", run_scenario(scenario, arguments->directory, {arguments->resume, shell.threads}, &shell.stop));
+      } catch (const Interrupted&) {
+        throw WorkError(fmt::format("interrupted; whole shards are kept, go on by the same command with --resume ({})",
+                                    arguments->directory));
+      }
+    };
+  });
+}
+
+}  // namespace seaglint

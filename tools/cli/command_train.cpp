@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "sim/core/process/error.h"
+#include "tools/cli/command.h"
+#include "tools/pipeline/train.h"
+
+namespace seaglint {
+
+namespace {
+
+struct Arguments {
+  std::string data;
+  std::string model;
+  std::vector<std::string> set;
+};
+
+// The maps are made: what they were made by can no longer be changed.
+std::vector<Override> learning_overrides(const std::vector<std::string>& set) {
+  const std::vector<Override> overrides = read_overrides(set);
+  for (const Override& entry : overrides) {
+    if (!entry.key_path.starts_with("learning.") && entry.key_path != "dataset.split") {
+      throw InputError(
+          fmt::format("--set {}: train takes learning.* and dataset.split only; the data set is made", entry.key_path));
+    }
+  }
+  return overrides;
+}
+
+}  // namespace
+
+void add_train(CLI::App& app, Shell& shell) {
+  CLI::App* command =
+      app.add_subcommand("train", "Train network and trees on a data set and evaluate them on unseen maps and seas");
+  auto arguments = std::make_shared<Arguments>();
+  command->add_option("DIR", arguments->data, "Data set made by `seaglint generate` or `seaglint run`")->required();
+  command->add_option("-o,--output", arguments->model, "Directory of the model")->required();
+  command->add_option("--set", arguments->set, "Replace a value of the data set's scenario (repeatable)")
+      ->type_name("learning.KEY=VALUE")
+      ->allow_extra_args(false);
+  add_threads_option(*command, shell);
+  command->footer("Example:\n  seaglint train build/points -o build/points-model --set learning.epochs=40");
+  command->callback([arguments, &shell] {
+    shell.work = [arguments, &shell] {
+      const Study study = train_model(find_data_set(arguments->data), arguments->model,
+                                      learning_overrides(arguments->set), shell.threads, &shell.stop);
+      fmt::print("{}\n{}: network, trees and {}\n", accuracy_table(study), arguments->model, kMetricsFile);
+    };
+  });
+}
+
+}  // namespace seaglint

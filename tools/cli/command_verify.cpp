@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+#include <mutex>
+
+#include "classify/dataset/directory/audit.h"
+#include "classify/dataset/directory/input_list.h"
+#include "sim/core/process/error.h"
+#include "sim/core/process/progress.h"
+#include "tools/cli/command.h"
+#include "tools/pipeline/regenerate.h"
+
+namespace seaglint {
+
+namespace {
+
+struct Arguments {
+  std::string directory;
+  int remake = 2;
+};
+
+// Makes `count` samples again, spread evenly over the data set; returns what is not as stored.
+std::vector<std::string> remake(const std::string& directory, std::size_t count, const Scenario& scenario,
+                                const Shell& shell) {
+  const DatasetReader reader(directory);
+  require_same_inputs(directory, scenario);
+  const Pipeline pipeline(scenario);
+  std::vector<std::vector<std::string>> faults(count);
+  std::mutex reading;  // HDF5 serves one thread at a time
+  Progress progress("making samples again", count);
+  parallel_for(
+      count, thread_count(shell.threads),
+      [&](std::size_t n) {
+        const std::size_t number = (2 * n + 1) * reader.size() / (2 * count);
+        const SampleAddress address = pipeline.plan().address(number);
+        StoredSample stored;
+        {
+          const std::lock_guard lock(reading);
+          stored = stored_sample(reader, number);
+        }
+        const Sample again = pipeline.make(number).stored;
+        for (const std::string& what : differences(stored.sample, again, remake_tolerance(stored.origin))) {
+          faults[n].push_back(fmt::format("sample {} ({}) made again: {}", number,
+                                          scenario.targets[static_cast<std::size_t>(address.target)].name, what));
+        }
+        progress.advance();
+      },
+      &shell.stop);
+  std::vector<std::string> all;
+  for (const auto& some : faults) all.insert(all.end(), some.begin(), some.end());
+  return all;
+}
+
+void verify(const Arguments& given, const Shell& shell) {
+  const Arguments arguments{find_data_set(given.directory), given.remake};
+  Audit result = audit(arguments.directory, &shell.stop);
+  fmt::print("{}: {} sound shards, {} samples in {} groups\n", arguments.directory, result.shards, result.samples,
+             result.groups);
+  for (std::size_t t = 0; t < result.per_target.size(); ++t) {
+    const TargetSpec& target = result.scenario.targets[t];
+    fmt::print("  {:<12} label {}  {} samples\n", target.name, target.label, result.per_target[t]);
+  }
+  const std::size_t count = std::min(static_cast<std::size_t>(arguments.remake), result.samples);
+  if (result.faults.empty() && count > 0) {
+    result.faults = remake(arguments.directory, count, result.scenario, shell);
+    if (result.faults.empty()) fmt::print("{} samples made again are as stored, SCR and features included\n", count);
+  }
+  if (result.faults.empty()) {
+    fmt::print("no fault found\n");
+    return;
+  }
+  constexpr std::size_t kMostShown = 20;
+  for (std::size_t i = 0; i < std::min(kMostShown, result.faults.size()); ++i)
+    fmt::print("fault: {}\n", result.faults[i]);
+  if (result.faults.size() > kMostShown) fmt::print("... and {} more\n", result.faults.size() - kMostShown);
+  throw InputError(
+      fmt::format("{}: {} faults, the first: {}", arguments.directory, result.faults.size(), result.faults.front()));
+}
+
+}  // namespace
+
+void add_verify(CLI::App& app, Shell& shell) {
+  CLI::App* command = app.add_subcommand(
+      "verify", "Audit a data set: missing, repeated, damaged and mislabelled samples; makes some of them again");
+  auto arguments = std::make_shared<Arguments>();
+  command->add_option("directory", arguments->directory, "Directory of the data set")->required();
+  command->add_option("--remake", arguments->remake, "Samples to make again from their rows, spread over the data set")
+      ->check(CLI::Range(0, 1000000))
+      ->capture_default_str();
+  add_threads_option(*command, shell);
+  command->footer("Example:\n  seaglint verify build/demo/data --remake 5");
+  command->callback([arguments, &shell] { shell.work = [arguments, &shell] { verify(*arguments, shell); }; });
+}
+
+}  // namespace seaglint

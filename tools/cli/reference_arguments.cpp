@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/cli/reference_arguments.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <sstream>
+
+#include "sim/core/process/error.h"
+#include "sim/core/text/number.h"
+#include "tools/cli/command.h"
+
+namespace seaglint {
+namespace {
+
+std::vector<double> numbers(const std::string& option, const std::string& text, std::size_t count) {
+  std::vector<double> values;
+  std::istringstream stream(text);
+  for (std::string cell; std::getline(stream, cell, ',');) {
+    const std::optional<double> value = parse_number(cell);
+    if (!value) throw InputError(fmt::format("{} {}: '{}' is not a number", option, text, cell));
+    values.push_back(*value);
+  }
+  if (values.size() != count)
+    throw InputError(fmt::format("{} {}: must be {} numbers, separated by commas", option, text, count));
+  return values;
+}
+
+// The value meant for file i: none, the only one, or the i-th.
+const std::string* value_for(const std::string& option, const std::vector<std::string>& values, std::size_t i,
+                             std::size_t files) {
+  if (values.empty()) return nullptr;
+  if (values.size() == 1) return &values[0];
+  if (values.size() != files)
+    throw InputError(fmt::format("{} is given {} times for {} references: once for all, or once for each", option,
+                                 values.size(), files));
+  return &values[i];
+}
+
+Element element_named(const std::string& name) {
+  for (int i = 0; i < 4; ++i) {
+    if (name == kElementNames[i]) return static_cast<Element>(i);
+  }
+  throw InputError(fmt::format("--reference-polarisation {}: must be hh, hv, vh or vv (received, transmitted)", name));
+}
+
+}  // namespace
+
+void ReferenceArguments::add_to(CLI::App& command) {
+  const auto repeatable = [&](const char* name, std::vector<std::string>& values, const char* what, const char* type) {
+    return command.add_option(name, values, what)->type_name(type)->allow_extra_args(false)->group("Reference");
+  };
+  CLI::Option* reference = repeatable("--reference", files,
+                                      "Compare with a cut that was measured or computed elsewhere (repeatable): four "
+                                      "columns frequency_hz theta_deg phi_deg dBsm, a table "
+                                      "of this command, or a monostatic CST farfield table of the RCS",
+                                      "FILE");
+  repeatable(
+      "--reference-polarisation", polarisation,
+      "hh, hv, vh or vv (received, transmitted); default from the name, .H. or .V.; once, or once for each reference",
+      "PP")
+      ->needs(reference);
+  repeatable("--reference-phi", phi,
+             "A,B: the reference's phi is A * azimuth + B degrees; default 1,0. Its theta is 90 - elevation", "A,B")
+      ->needs(reference);
+  repeatable("--reference-frequency-ghz", frequency_ghz, "Frequency of a reference that does not say it (CST)", "GHZ")
+      ->needs(reference);
+  repeatable("--reference-origin-m", origin_m, "The reference's phase origin in the body's frame; default 0,0,0",
+             "X,Y,Z")
+      ->needs(reference);
+  command.add_option("--floor-db", floor_db, "Levels further below the reference's maximum than this count as this")
+      ->check(number_within(1.0, 300.0))
+      ->capture_default_str()
+      ->needs(reference)
+      ->group("Reference");
+  command
+      .add_option("--figure", figure, "Picture of the comparison, .png or .svg; default: the output's name with .png")
+      ->needs(reference)
+      ->group("Reference");
+}
+
+std::vector<RcsReference> ReferenceArguments::read() const {
+  std::vector<RcsReference> references;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    ReferenceSettings settings;
+    if (const std::string* text = value_for("--reference-polarisation", polarisation, i, files.size()))
+      settings.element = element_named(*text);
+    if (const std::string* text = value_for("--reference-phi", phi, i, files.size())) {
+      const std::vector<double> map = numbers("--reference-phi", *text, 2);
+      if (map[0] == 0) throw InputError(fmt::format("--reference-phi {}: the factor must not be 0", *text));
+      settings.phi_scale = map[0];
+      settings.phi_offset_deg = map[1];
+    }
+    if (const std::string* text = value_for("--reference-frequency-ghz", frequency_ghz, i, files.size())) {
+      settings.frequency_hz = numbers("--reference-frequency-ghz", *text, 1)[0] * 1e9;
+      if (*settings.frequency_hz <= 0)
+        throw InputError(fmt::format("--reference-frequency-ghz {}: must be > 0", *text));
+    }
+    if (const std::string* text = value_for("--reference-origin-m", origin_m, i, files.size())) {
+      const std::vector<double> x = numbers("--reference-origin-m", *text, 3);
+      settings.origin_m = Vec3(x[0], x[1], x[2]);
+    }
+    references.push_back(read_reference(files[i], settings));
+  }
+  return references;
+}
+
+}  // namespace seaglint

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "sim/core/numbers/constants.h"
+#include "tools/figure/figure.h"
+#include "tools/pipeline/sea_ensemble.h"
+
+namespace seaglint {
+
+namespace {
+
+LinePlot elevation_plot(const SeaState& state, const WaveField& field) {
+  LinePlot plot{.title = "Elevation of realisation 0",
+                .x = {"time (s)", {}},
+                .y = {"elevation (m)", {}},
+                .series = {},
+                .legend_above = true};
+  const double step = state.peak_period_s / 80;
+  SurfaceSeries surface(field, 0, 0, 0, step, SurfaceDetail::kShape);
+  Series second{.name = "second order", .x = {}, .y = {}, .interval = {}};
+  Series linear{.name = "linear part", .x = {}, .y = {}, .interval = {}};
+  constexpr int kWaves = 12;
+  for (int n = 0; n <= 80 * kWaves; ++n, surface.advance()) {
+    const SurfaceState s = surface.state();
+    second.x.push_back(step * n);
+    second.y.push_back(s.elevation);
+    linear.x.push_back(step * n);
+    linear.y.push_back(s.elevation_linear);
+  }
+  plot.series = {second, linear};
+  return plot;
+}
+
+LinePlot spectrum_plot(const SeaSummary& summary, const SeaEnsemble& ensemble) {
+  const double highest = *std::max_element(ensemble.target.begin(), ensemble.target.end());
+  const double end = std::min(1.2 * summary.cutoff_rad_s, ensemble.omega.back());
+  LinePlot plot{.title = fmt::format("Spectrum, mean of {} realisations", ensemble.realisations),
+                .x = {"angular frequency (rad/s)", AxisRange{0, end}},
+                .y = {"density (m^2 s/rad)", AxisRange{1e-6 * highest, 3 * highest}, true},
+                .series = {},
+                .legend_above = true};
+  plot.series.push_back({.name = "second order", .x = ensemble.omega, .y = ensemble.realised, .interval = {}});
+  plot.series.push_back({.name = "linear part", .x = ensemble.omega, .y = ensemble.realised_linear, .interval = {}});
+  plot.series.push_back({.name = "target", .x = ensemble.omega, .y = ensemble.target, .interval = {}});
+  return plot;
+}
+
+LinePlot crest_plot(const SeaSummary& summary, const SeaEnsemble& ensemble) {
+  const double height = summary.significant_wave_height_m;
+  const ForristallCrests forristall =
+      forristall_crests(height, summary.steepness, summary.ursell, summary.long_crested);
+  Series simulated{.name = "simulated", .x = {}, .y = {}, .interval = {}, .style = SeriesStyle::kPoints};
+  // Every crest among the highest, the others thinned.
+  const auto count = static_cast<double>(ensemble.crests.size());
+  for (double rank = 1; rank <= count; rank = std::max(rank + 1, std::floor(rank * 1.15))) {
+    simulated.x.push_back(ensemble.crests[ensemble.crests.size() - static_cast<std::size_t>(rank)] / height);
+    simulated.y.push_back(rank / (count + 1));
+  }
+  Series fit{.name = fmt::format("Forristall (2000), {}-crested", summary.long_crested ? "long" : "short"),
+             .x = {},
+             .y = {},
+             .interval = {}};
+  Series rayleigh{.name = "Rayleigh", .x = {}, .y = {}, .interval = {}};
+  for (int i = 0; i <= 150; ++i) {
+    const double x = 0.01 * i;
+    fit.x.push_back(x);
+    fit.y.push_back(forristall.exceedance(x * height));
+    rayleigh.x.push_back(x);
+    rayleigh.y.push_back(rayleigh_exceedance(x * height, height));
+  }
+  LinePlot plot{.title = fmt::format("Exceedance of {} crests", ensemble.crests.size()),
+                .x = {"crest height / Hs", AxisRange{0, 1.5}},
+                .y = {"probability per crest", AxisRange{0.3 / std::max(count, 10.0), 1}, true},
+                .series = {},
+                .legend_above = true};
+  plot.series = {simulated, fit, rayleigh};
+  return plot;
+}
+
+LinePlot slope_plot(const SeaState& state, const WaveField& field, const SeaSummary& summary) {
+  Series target{.name = "spectrum", .x = {}, .y = {}, .interval = {}};
+  const double end = 2 * summary.cutoff_rad_s;
+  constexpr int kSteps = 400;
+  double variance = 0;
+  for (int i = 0; i < kSteps; ++i) {
+    const double omega = end * (i + 0.5) / kSteps;
+    const double k = wavenumber_at(omega, field.depth());
+    variance += target_density(state, omega) * k * k * end / kSteps;
+    target.x.push_back(end * (i + 1) / kSteps);
+    target.y.push_back(std::sqrt(variance));
+  }
+  Series realised{.name = "components", .x = {}, .y = {}, .interval = {}};
+  double sum = 0;
+  for (const WaveComponent& c : field.components()) {
+    sum += 0.5 * c.amplitude * c.amplitude * c.wavenumber * c.wavenumber;
+    realised.x.push_back(c.omega);
+    realised.y.push_back(std::sqrt(sum));
+  }
+  LinePlot plot{.title = fmt::format("Slope up to a cut-off, here {:.3g} rad/s", summary.cutoff_rad_s),
+                .x = {"cut-off (rad/s)", AxisRange{0, end}},
+                .y = {"RMS slope of the linear waves", {}},
+                .series = {},
+                .legend_above = true};
+  plot.series = {target, realised};
+  return plot;
+}
+
+}  // namespace
+
+void write_sea_figure(const SeaState& state, const WaveField& field, const SeaSummary& summary,
+                      const SeaEnsemble& ensemble, const std::string& title, const std::filesystem::path& file) {
+  const std::array plots{elevation_plot(state, field), spectrum_plot(summary, ensemble), crest_plot(summary, ensemble),
+                         slope_plot(state, field, summary)};
+  write_figure(title, plots, 2, file, {1300, 940});
+}
+
+}  // namespace seaglint

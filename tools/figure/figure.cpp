@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/figure/figure.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <sstream>
+#include <string_view>
+#include <thread>
+#include <utility>
+
+#include "sim/core/process/error.h"
+#include "sim/core/process/file.h"
+#include "tools/figure/deferred_signals.h"
+
+extern char** environ;
+
+namespace seaglint {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Nine samples of matplotlib's viridis (Smith and van der Walt, CC0).
+constexpr const char* kViridis =
+    "set palette defined (0 '#440154', 1 '#472c7a', 2 '#3b518b', 3 '#2c718e', 4 '#21908d', 5 '#27ad81', 6 '#5cc863', 7 "
+    "'#aadc32', "
+    "8 '#fde725')\n";
+// Okabe and Ito's palette, told apart by colour-blind readers.
+constexpr const char* kLineColours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"};
+
+// A string in gnuplot's single quotes; line breaks would end the command.
+std::string quoted(const std::string& text) {
+  std::string out = "'";
+  for (const char c : text) {
+    if (c == '\'') out += '\'';
+    out += c == '\n' || c == '\r' ? ' ' : c;
+  }
+  return out + "'";
+}
+
+std::string number(double value) { return std::isfinite(value) ? fmt::format("{:.9g}", value) : "NaN"; }
+
+// Files beside the figure, removed at the end whatever happens.
+class Scratch {
+ public:
+  explicit Scratch(const fs::path& figure) {
+    static std::atomic<unsigned> count{0};
+    const std::string stem = fmt::format("{}.{}.{}", figure.filename().string(), ::getpid(), count++);
+    const fs::path folder = figure.has_parent_path() ? figure.parent_path() : fs::path(".");
+    script = folder / (stem + ".gp");
+    data = folder / (stem + ".dat");
+    messages = folder / (stem + ".log");
+  }
+  ~Scratch() {
+    std::error_code ignored;
+    for (const fs::path& file : {script, data, messages}) fs::remove(file, ignored);
+  }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+
+  fs::path script, data, messages;
+};
+
+WorkError cannot_start(int error) {
+  return WorkError(
+      fmt::format("gnuplot cannot be started ({}): install the package gnuplot-nox", std::strerror(error)));
+}
+
+// A child's status when it has ended; Ctrl-C ends it. Throws WorkError.
+int wait_for(pid_t child) {
+  constexpr std::chrono::milliseconds kLook{5};  // gnuplot takes a hundred times that
+  for (;;) {
+    int status = 0;
+    const pid_t ended = ::waitpid(child, &status, WNOHANG);
+    if (ended == child) return status;
+    if (ended < 0 && errno != EINTR) throw WorkError(fmt::format("gnuplot was lost ({})", std::strerror(errno)));
+    if (HeldSignals::noted()) ::kill(child, SIGKILL);
+    std::this_thread::sleep_for(kLook);
+  }
+}
+
+// Runs gnuplot on a script, its messages into a file. Throws WorkError, Interrupted after Ctrl-C.
+void run_gnuplot(const Scratch& scratch) {
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, scratch.messages.c_str(), O_WRONLY | O_CREAT | O_TRUNC,
+                                   0600);
+  posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
+  std::string program = "gnuplot", option = "-d",
+              script = scratch.script.string();  // -d: no start-up files of the user
+  char* const arguments[] = {program.data(), option.data(), script.data(), nullptr};
+  pid_t child = 0;
+  const int refused = ::posix_spawnp(&child, "gnuplot", &actions, nullptr, arguments, environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (refused != 0) throw cannot_start(refused);
+  const int status = wait_for(child);
+  if (HeldSignals::noted()) throw Interrupted();
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
+  std::string messages = fs::exists(scratch.messages) ? read_file(scratch.messages) : std::string();
+  messages.erase(0, messages.find_first_not_of(" \n"));
+  std::replace(messages.begin(), messages.end(), '\n', ' ');
+  throw WorkError(fmt::format("gnuplot failed: {}", messages.substr(0, 500)));
+}
+
+// gnuplot does not look whether its writes succeed: a figure cut off by a full disk lacks the end of its format. Throws
+// WorkError.
+void require_whole(const fs::path& drawn, const fs::path& file) {
+  const std::string bytes = read_file(drawn);
+  const std::string_view end = file.extension() == ".png" ? "IEND\xae\x42\x60\x82" : "</svg>";
+  const std::size_t last = bytes.find_last_not_of(" \r\n");
+  if (last == std::string::npos || !std::string_view(bytes).substr(0, last + 1).ends_with(end))
+    throw WorkError(fmt::format("{}: gnuplot did not write it to its end: is the disk full?", file.string()));
+}
+
+std::string axis_commands(const char* name, const FigureAxis& axis) {
+  std::string text = fmt::format("set {}label {}\n", name, quoted(axis.label));
+  if (axis.logarithmic) text += fmt::format("set logscale {0}\nset format {0} '%.0e'\n", name);
+  if (axis.range)
+    text += fmt::format("set {}range [{}:{}]\n", name, number(axis.range->first), number(axis.range->second));
+  return text;
+}
+
+// Writes data and script, runs gnuplot into a temporary file, and gives it the figure's name.
+void draw(const fs::path& file, FigureSize size, const std::string& title, const std::string& data,
+          const std::string& commands) {
+  require_figure(file);
+  const std::string extension = file.extension();
+  const HeldSignals held;  // let go when all files are removed
+  const Scratch scratch(file);
+  write_file(scratch.data, data);
+  write_file_with(file, [&](const fs::path& temporary) {
+    std::string script =
+        fmt::format("set terminal {} size {},{} font 'DejaVu Sans,11' noenhanced background '#ffffff'\n",
+                    extension == ".png" ? "pngcairo" : "svg", size.width, size.height);
+    script += fmt::format("set output {}\n", quoted(temporary.string()));
+    script +=
+        "set encoding utf8\nset datafile missing '?'\nset pointintervalbox 0\nset tics out nomirror\nset border lw "
+        "0.8\n";
+    script += fmt::format("data = {}\n", quoted(scratch.data.string()));
+    if (!title.empty()) script += fmt::format("set title {}\n", quoted(title));
+    script += commands + "set output\n";
+    write_file(scratch.script, script);
+    run_gnuplot(scratch);
+    require_whole(temporary, file);
+  });
+}
+
+}  // namespace
+
+void require_gnuplot() {
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path ? path : "/bin:/usr/bin");
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    if (::access((fs::path(folder) / "gnuplot").c_str(), X_OK) == 0) return;
+  }
+  throw cannot_start(ENOENT);
+}
+
+void require_figure(const fs::path& file) {
+  if (file.empty()) return;
+  if (file.extension() != ".png" && file.extension() != ".svg")
+    throw InputError(fmt::format("{}: a figure's name ends in .png or .svg", file.string()));
+  require_writable(file);
+  require_gnuplot();
+}
+
+void write_figure(const Heatmap& figure, const fs::path& file, FigureSize size) {
+  const std::size_t columns = figure.x_cells.size(), rows = figure.y_cells.size();
+  SEAGLINT_CHECK(columns >= 1 && rows >= 1 && figure.values.size() == columns * rows,
+                 fmt::format("{} values for {} x {} cells", figure.values.size(), rows, columns));
+  // Corners of the cells, so that also a single row or column is drawn: pm3d colours the cell by its first corner.
+  const auto corners = [](const std::vector<double>& cells) {
+    const double step = cells.size() > 1 ? (cells.back() - cells.front()) / static_cast<double>(cells.size() - 1) : 1;
+    std::vector<double> out;
+    for (std::size_t i = 0; i <= cells.size(); ++i) out.push_back(cells[0] + (static_cast<double>(i) - 0.5) * step);
+    return out;
+  };
+  const std::vector<double> x = corners(figure.x_cells), y = corners(figure.y_cells);
+  const bool image = columns > 1 && rows > 1;
+  std::string data;
+  if (image) {
+    for (std::size_t j = 0; j < rows; ++j) {
+      for (std::size_t i = 0; i < columns; ++i) {
+        data += fmt::format("{:.9g} {:.9g} {}\n", figure.x_cells[i], figure.y_cells[j],
+                            number(figure.values[j * columns + i]));
+      }
+      data += "\n";
+    }
+  } else {
+    for (std::size_t j = 0; j <= rows; ++j) {
+      for (std::size_t i = 0; i <= columns; ++i) {
+        data += fmt::format("{:.9g} {:.9g} {}\n", x[i], y[j],
+                            number(figure.values[std::min(j, rows - 1) * columns + std::min(i, columns - 1)]));
+      }
+      data += "\n";
+    }
+  }
+  data += "\n\n";
+  for (const auto& marker : figure.markers) data += fmt::format("{} {}\n", number(marker[0]), number(marker[1]));
+
+  FigureAxis x_axis = figure.x, y_axis = figure.y;
+  if (!x_axis.range) x_axis.range = AxisRange{x.front(), x.back()};
+  if (!y_axis.range) y_axis.range = AxisRange{y.front(), y.back()};
+  std::string commands =
+      axis_commands("x", x_axis) + axis_commands("y", y_axis) + axis_commands("cb", figure.colour) + kViridis;
+  commands += image ? "" : "set pm3d map corners2color c1\n";
+  commands += "set bmargin 5\nset key at screen 0.99, screen 0.02 right bottom horizontal reverse Left samplen 1\n";
+  for (const auto& box : figure.boxes) {
+    commands += fmt::format("set object rectangle from {},{} to {},{} front fs empty border lc rgb '#ff3b30' lw 1.6\n",
+                            number(box[0]), number(box[2]), number(box[1]), number(box[3]));
+  }
+  commands += "set key outside bottom right horizontal reverse Left samplen 1\n";
+  commands +=
+      image ? "plot data index 0 using 1:2:3 with image notitle" : "splot data index 0 using 1:2:3 with pm3d notitle";
+  if (!figure.markers.empty()) {
+    commands += fmt::format(", data index 1 using 1:2{} with points pt 6 ps 1.6 lw 1.3 lc rgb '#ff3b30' {}",
+                            image ? "" : ":(0)",
+                            figure.marker_name.empty() ? "notitle" : "title " + quoted(figure.marker_name));
+  }
+  draw(file, size, figure.title, data, commands + "\n");
+}
+
+namespace {
+
+// The commands that draw a plot whose series begin at `first_index` of the data, and those series' data.
+struct PlotText {
+  std::string commands, data;
+};
+
+PlotText plot_text(const LinePlot& figure, std::size_t first_index) {
+  std::string data, plots;
+  bool named = false;
+  for (std::size_t s = 0; s < figure.series.size(); ++s) {
+    const Series& series = figure.series[s];
+    SEAGLINT_CHECK(
+        series.x.size() == series.y.size() && (series.interval.empty() || series.interval.size() == series.x.size()),
+        fmt::format("series {}: {} x, {} y, {} intervals", s, series.x.size(), series.y.size(),
+                    series.interval.size()));
+    for (std::size_t i = 0; i < series.x.size(); ++i) {
+      const auto interval =
+          series.interval.empty() ? std::array<double, 2>{series.y[i], series.y[i]} : series.interval[i];
+      data += fmt::format("{} {} {} {}\n", number(series.x[i]), number(series.y[i]), number(interval[0]),
+                          number(interval[1]));
+    }
+    if (series.x.empty()) data += "NaN NaN NaN NaN\n";
+    data += "\n\n";
+    const char* colour = kLineColours[s % std::size(kLineColours)];
+    const std::string title = series.name.empty() ? "notitle" : "title " + quoted(series.name);
+    named = named || !series.name.empty();
+    const std::string index = fmt::format("data index {} using ", first_index + s);
+    if (!series.interval.empty()) {
+      plots += fmt::format("{}1:2:3:4 with yerrorbars lc rgb '{}' lw 1.2 ps 0 notitle, ", index, colour);
+    }
+    if (series.style == SeriesStyle::kBars) {
+      plots += fmt::format("{}1:2 with boxes fs solid 0.7 lc rgb '{}' {}, ", index, colour, title);
+    } else {
+      const bool line = series.style == SeriesStyle::kLines;
+      const char* style = line ? "lines" : series.style == SeriesStyle::kPoints ? "points" : "linespoints";
+      const std::string marks = line ? "" : fmt::format("pt {} ps 0.8", s % 2 == 0 ? 7 : 5);
+      plots += fmt::format("{}1:2 with {} lc rgb '{}' lw 1.6 {} {}, ", index, style, colour, marks, title);
+    }
+  }
+  SEAGLINT_CHECK(!plots.empty(), "a plot without series");
+  std::string commands = axis_commands("x", figure.x) + axis_commands("y", figure.y);
+  commands += "set grid lc rgb '#d8d8d8' lw 0.6\nset boxwidth 0.8 relative\n";
+  const char* place = figure.legend_above ? "outside center top horizontal" : "outside right top";
+  commands += named ? fmt::format("set key {} reverse Left samplen 2\n", place) : "unset key\n";
+  if (!figure.x.range && !figure.x.logarithmic)
+    commands += "set autoscale xfix\nset offsets graph 0.03, graph 0.03, 0, 0\n";
+  if (figure.equal_axes) commands += "set size ratio -1\n";
+  return {commands + "plot " + plots.substr(0, plots.size() - 2) + "\n", data};
+}
+
+}  // namespace
+
+void write_figure(const LinePlot& figure, const fs::path& file, FigureSize size) {
+  const PlotText text = plot_text(figure, 0);
+  draw(file, size, figure.title, text.data, text.commands);
+}
+
+void write_figure(const std::string& title, std::span<const LinePlot> plots, int columns, const fs::path& file,
+                  FigureSize size) {
+  SEAGLINT_CHECK(!plots.empty() && columns >= 1, fmt::format("{} plots in {} columns", plots.size(), columns));
+  const std::size_t rows = (plots.size() + static_cast<std::size_t>(columns) - 1) / static_cast<std::size_t>(columns);
+  std::string data,
+      commands = fmt::format("set multiplot layout {},{} rowsfirst title {}\nset lmargin 11\nset rmargin 3\n", rows,
+                             columns, quoted(title));
+  std::size_t index = 0;
+  for (const LinePlot& plot : plots) {
+    const PlotText text = plot_text(plot, index);
+    // Each plot begins with the axes that gnuplot has of itself.
+    commands += fmt::format(
+                    "unset logscale\nset format\nset xlabel offset 0,0.3\nset xrange [*:*]\nset yrange [*:*]\nset "
+                    "offsets\nset title {}\n",
+                    quoted(plot.title)) +
+                text.commands;
+    data += text.data;
+    index += plot.series.size();
+  }
+  draw(file, size, "", data, commands + "unset multiplot\n");
+}
+
+}  // namespace seaglint

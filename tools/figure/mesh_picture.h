@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// A picture of a mesh: orthographic, flat Lambert shading, dark lines where depth or direction jumps.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "sim/geometry/mesh/triangle_mesh.h"
+
+namespace seaglint {
+
+// The eye stands in the direction r^ of CONVENTIONS.md, "Frames", far away.
+struct PictureView {
+  double azimuth_deg = 60;
+  double elevation_deg = 15;
+  int width = 1600;  // pixels, 16 <= x <= 8192
+  int height = 0;    // pixels; 0 = what the mesh needs at this width, at most the width
+};
+
+struct Picture {
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> rgb;  // row by row from the top
+};
+
+// The mesh fills the picture but for a margin of 3 %. Throws InputError for a size out of range or an empty mesh.
+Picture picture_of(const TriangleMesh& mesh, const PictureView& view);
+
+// One above the other on white.
+Picture stacked(const std::vector<Picture>& pictures);
+
+std::string png_bytes(const Picture& picture);
+
+}  // namespace seaglint

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/figure/motion_figures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+
+#include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/dispersion.h"
+#include "sim/motion/rao_table.h"
+#include "tools/figure/figure.h"
+
+namespace seaglint {
+
+namespace {
+
+constexpr double kSampling = 0.1;  // s, of statistics, spectra and pictures
+constexpr std::array<const char*, 3> kAngles{"roll", "pitch", "yaw"};
+
+// Angles in deg at uniform times; a body at rest has no end of its own.
+std::vector<MotionSample> sampled(const Trajectory& trajectory, double duration_s) {
+  std::vector<MotionSample> samples;
+  const double end = std::min(duration_s, trajectory.end_s());
+  for (int n = 0; n * kSampling <= end + 1e-9; ++n) samples.push_back(trajectory.sample(std::min(n * kSampling, end)));
+  return samples;
+}
+
+std::vector<double> angle_deg(const std::vector<MotionSample>& samples, int axis) {
+  std::vector<double> values;
+  for (const MotionSample& sample : samples) values.push_back(degrees(sample.angles[axis]));
+  return values;
+}
+
+// Power at w of one window of values from `begin` on, its mean taken out, per rad/s.
+double window_power(const std::vector<double>& values, std::size_t begin, std::size_t length, double omega) {
+  double mean = 0;
+  for (std::size_t n = 0; n < length; ++n) mean += values[begin + n] / static_cast<double>(length);
+  Complex sum = 0, phasor = 1;
+  const Complex turn = std::polar(1.0, -omega * kSampling);
+  double weight = 0;
+  for (std::size_t n = 0; n < length; ++n, phasor *= turn) {
+    const double hann = 0.5 - 0.5 * std::cos(2 * kPi * (static_cast<double>(n) + 0.5) / static_cast<double>(length));
+    sum += hann * (values[begin + n] - mean) * phasor;
+    weight += hann * hann;
+  }
+  return std::norm(sum) * kSampling / weight / kPi;
+}
+
+}  // namespace
+
+std::string motion_statistics(const std::vector<NamedTrajectory>& bodies, double duration_s) {
+  std::string text;
+  for (const NamedTrajectory& body : bodies) {
+    const std::vector<MotionSample> samples = sampled(body.trajectory, duration_s);
+    text += body.body + ":";
+    for (int axis = 0; axis < 3; ++axis) {
+      const double count = static_cast<double>(samples.size());
+      double mean = 0, largest = 0;
+      for (const MotionSample& s : samples) {
+        mean += s.angles[axis] / count;
+        largest = std::max(largest, std::abs(s.angles[axis]));
+      }
+      // Mean period 2 pi sqrt(m0 / m2), m0 the variance about the mean and m2 that of the rate.
+      double m0 = 0, m2 = 0;
+      for (const MotionSample& s : samples) {
+        m0 += (s.angles[axis] - mean) * (s.angles[axis] - mean) / count;
+        m2 += s.angle_rates[axis] * s.angle_rates[axis] / count;
+      }
+      fmt::format_to(std::back_inserter(text), " {} mean {:.3g} deg, rms about it {:.3g} deg, largest {:.3g} deg",
+                     kAngles[static_cast<std::size_t>(axis)], degrees(mean), degrees(std::sqrt(m0)), degrees(largest));
+      if (m2 > 0) fmt::format_to(std::back_inserter(text), ", mean period {:.3g} s", 2 * kPi * std::sqrt(m0 / m2));
+      text += axis < 2 ? ";" : "\n";
+    }
+  }
+  return text;
+}
+
+std::string spectrum_csv(const std::vector<NamedTrajectory>& bodies, double duration_s) {
+  constexpr double kWindow = 120, kHighest = 8;
+  std::string text = "omega_rad_s,body,roll_deg2s,pitch_deg2s,yaw_deg2s\n";
+  for (const NamedTrajectory& body : bodies) {
+    const std::vector<MotionSample> samples = sampled(body.trajectory, duration_s);
+    const std::size_t length = std::min(samples.size(), static_cast<std::size_t>(kWindow / kSampling));
+    const std::size_t hop = std::max<std::size_t>(1, length / 2);
+    std::array<std::vector<double>, 3> angles;
+    for (int axis = 0; axis < 3; ++axis) angles[static_cast<std::size_t>(axis)] = angle_deg(samples, axis);
+    const double step = kPi / (static_cast<double>(length) * kSampling);
+    for (double omega = step; omega <= kHighest; omega += step) {
+      fmt::format_to(std::back_inserter(text), "{:.6g},{}", omega, body.body);
+      for (const std::vector<double>& values : angles) {
+        double power = 0, windows = 0;
+        for (std::size_t begin = 0; begin + length <= values.size(); begin += hop, windows += 1) {
+          power += window_power(values, begin, length, omega);
+        }
+        fmt::format_to(std::back_inserter(text), ",{:.6g}", power / windows);
+      }
+      text += '\n';
+    }
+  }
+  return text;
+}
+
+void write_motion_figure(const std::vector<NamedTrajectory>& bodies, double duration_s, const std::string& title,
+                         const std::filesystem::path& file) {
+  constexpr double kLongest = 100;
+  constexpr std::size_t kMostBodies = 6;
+  std::vector<LinePlot> plots(3);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    plots[axis].x.label = "time (s)";
+    plots[axis].y.label = fmt::format("{} (deg)", kAngles[axis]);
+    plots[axis].legend_above = axis == 0;
+    for (std::size_t i = 0; i < std::min(bodies.size(), kMostBodies); ++i) {
+      const std::vector<MotionSample> samples = sampled(bodies[i].trajectory, std::min(duration_s, kLongest));
+      Series series;
+      if (axis == 0) series.name = bodies[i].body;
+      for (std::size_t n = 0; n < samples.size(); ++n) series.x.push_back(kSampling * static_cast<double>(n));
+      series.y = angle_deg(samples, static_cast<int>(axis));
+      plots[axis].series.push_back(series);
+    }
+  }
+  write_figure(title, plots, 1, file, {1000, 900});
+}
+
+namespace {
+
+// The mesh's silhouette seen along y, turned and moved by a pose: highest and lowest vertex over bins of the body's x.
+Series silhouette(const TriangleMesh& mesh, const Pose& pose) {
+  constexpr int kBins = 80;
+  const Bounds box = bounds(mesh);
+  const double width = (box.upper.x() - box.lower.x()) / kBins;
+  std::vector<double> high(kBins, box.lower.z()), low(kBins, box.upper.z());
+  for (const auto& triangle : mesh.triangles) {
+    for (std::size_t e = 0; e < 3; ++e) {
+      const Vec3& a = mesh.vertices[triangle[e]];
+      const Vec3& b = mesh.vertices[triangle[(e + 1) % 3]];
+      const auto bin = [&](double x) {
+        return std::clamp(static_cast<int>((x - box.lower.x()) / width), 0, kBins - 1);
+      };
+      const int first = bin(std::min(a.x(), b.x())), last = bin(std::max(a.x(), b.x()));
+      for (int i = first; i <= last; ++i) {
+        const double x = std::clamp(box.lower.x() + width * (i + 0.5), std::min(a.x(), b.x()), std::max(a.x(), b.x()));
+        const double u = a.x() == b.x() ? 0 : (x - a.x()) / (b.x() - a.x());
+        for (const double z : {a.z() + u * (b.z() - a.z()), a.x() == b.x() ? b.z() : a.z() + u * (b.z() - a.z())}) {
+          high[static_cast<std::size_t>(i)] = std::max(high[static_cast<std::size_t>(i)], z);
+          low[static_cast<std::size_t>(i)] = std::min(low[static_cast<std::size_t>(i)], z);
+        }
+      }
+    }
+  }
+  Series outline;
+  const auto add = [&](int i, double z) {
+    const Vec3 p = pose.R_TB * Vec3(box.lower.x() + width * (i + 0.5), 0, z) + pose.p_TB;
+    outline.x.push_back(p.x());
+    outline.y.push_back(p.z());
+  };
+  for (int i = 0; i < kBins; ++i) add(i, high[static_cast<std::size_t>(i)]);
+  for (int i = kBins - 1; i >= 0; --i) add(i, low[static_cast<std::size_t>(i)]);
+  outline.x.push_back(outline.x.front());
+  outline.y.push_back(outline.y.front());
+  return outline;
+}
+
+// A window of the water's surface about a body, as wide as it takes, that goes on with the body's mean way.
+LinePlot frame(const NamedTrajectory& body, const WaveField& sea, double t) {
+  const Pose pose = body.trajectory.pose(std::min(t, body.trajectory.end_s()));
+  const Bounds box = bounds(body.mesh);
+  const double reach = std::max(2.0, 0.65 * (box.upper.x() - box.lower.x()));
+  const auto elevation = [&](double x) {
+    return sea.surface(x + body.speed * t, pose.p_TB.y(), t, SurfaceDetail::kShape).elevation;
+  };
+  const double level = elevation(pose.p_TB.x());
+  const double lowest = std::min(level, pose.p_TB.z() + box.lower.z());
+  LinePlot plot;
+  plot.title = fmt::format("{}, {:.1f} s", body.body, t);
+  plot.x = {"x (m)", AxisRange{pose.p_TB.x() - reach, pose.p_TB.x() + reach}};
+  plot.y = {"z (m)", AxisRange{lowest - 0.2 * reach, pose.p_TB.z() + box.upper.z() + 0.2 * reach}};
+  plot.equal_axes = true;
+  Series water;
+  constexpr int kPoints = 200;
+  for (int i = 0; i <= kPoints; ++i) {
+    water.x.push_back(pose.p_TB.x() + reach * (2.0 * i / kPoints - 1));
+    water.y.push_back(elevation(water.x.back()));
+  }
+  plot.series = {water, silhouette(body.mesh, pose)};
+  return plot;
+}
+
+}  // namespace
+
+void write_motion_frames(const std::vector<NamedTrajectory>& bodies, const WaveField& sea, double period_s,
+                         const std::string& title, const std::filesystem::path& file) {
+  constexpr int kMoments = 5;
+  std::vector<LinePlot> plots;
+  const std::size_t rows = bodies.size() > 1 ? 2 : 1;
+  for (std::size_t row = 0; row < rows; ++row) {
+    for (int n = 0; n < kMoments; ++n) {
+      plots.push_back(frame(row == 0 ? bodies.front() : bodies.back(), sea, period_s * n / kMoments));
+    }
+  }
+  write_figure(title, plots, kMoments, file, {2000, rows == 2 ? 800 : 420});
+}
+
+void write_rao_figure(const ShipParticulars& ship, double mu, double depth, const RaoReference& reference,
+                      const std::string& title, const std::filesystem::path& file) {
+  constexpr int kPoints = 150;
+  constexpr double kHighest = 2;
+  std::vector<LinePlot> plots(3);
+  std::array<Series, 3> ours;
+  for (int i = 1; i <= kPoints; ++i) {
+    const double omega = kHighest * i / kPoints;
+    const ShipResponse r = ship_rao(ship, {omega, wavenumber_at(omega, depth), mu});
+    const std::array<Complex, 3> angles{r.roll, r.pitch, r.yaw};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      ours[axis].x.push_back(omega);
+      ours[axis].y.push_back(degrees(std::abs(angles[axis])));
+    }
+  }
+  std::array<Series, 3> theirs;
+  if (!reference.file.empty()) {
+    const RaoTable table = reference.file.extension() == ".4" ? read_wamit_rao(reference.file, reference.unit_length)
+                                                              : read_veres_rao(reference.file, ship.speed);
+    for (const double omega : table.omegas()) {
+      if (omega > kHighest) break;
+      const ShipResponse r = table.at(omega, wavenumber_at(omega, depth), mu);
+      const std::array<Complex, 3> angles{r.roll, r.pitch, r.yaw};
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        theirs[axis].x.push_back(omega);
+        theirs[axis].y.push_back(degrees(std::abs(angles[axis])));
+      }
+    }
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    plots[axis].x.label = "wave frequency (rad/s)";
+    plots[axis].y.label = fmt::format("{} (deg/m)", kAngles[axis]);
+    plots[axis].legend_above = axis == 0;
+    if (axis == 0) ours[axis].name = "seaglint";
+    plots[axis].series.push_back(ours[axis]);
+    if (reference.file.empty()) continue;
+    if (axis == 0) theirs[axis].name = reference.file.filename().string();
+    theirs[axis].style = SeriesStyle::kPoints;
+    plots[axis].series.push_back(theirs[axis]);
+    // A resonance whose damping is not known would hide all else.
+    double largest = 0;
+    for (const double y : theirs[axis].y) largest = std::max(largest, y);
+    plots[axis].y.range = AxisRange{0, 1.3 * largest};
+  }
+  write_figure(title, plots, 1, file, {900, 1000});
+}
+
+}  // namespace seaglint

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// What a scenario's bodies do in the waves, as statistics, spectra and pictures.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "sim/geometry/mesh/triangle_mesh.h"
+#include "sim/motion/ship.h"
+#include "sim/motion/trajectory.h"
+#include "sim/sea/wave_field.h"
+
+namespace seaglint {
+
+struct NamedTrajectory {
+  std::string body;
+  Trajectory trajectory;
+  TriangleMesh mesh;  // in the body's frame
+  double speed = 0;   // of the mean way along x that the trajectory is told from, m/s
+};
+
+// One line per body: root mean square, largest modulus and mean period between zero crossings (2 pi rms/rms of the
+// rate) of roll, pitch and yaw over [0, duration_s].
+std::string motion_statistics(const std::vector<NamedTrajectory>& bodies, double duration_s);
+
+// `omega_rad_s,body,roll_deg2s,pitch_deg2s,yaw_deg2s`: one-sided spectra by the mean over half-overlapping Hann windows
+// of 120 s (or the whole duration, when shorter), every half of their resolution up to 8 rad/s.
+std::string spectrum_csv(const std::vector<NamedTrajectory>& bodies, double duration_s);
+
+// Roll, pitch and yaw of up to six bodies over the first 100 s.
+void write_motion_figure(const std::vector<NamedTrajectory>& bodies, double duration_s, const std::string& title,
+                         const std::filesystem::path& file);
+
+// Five moments, a wave period apart in all, of the first and the last body seen from starboard, with the water where
+// they are; x is counted from their mean way.
+void write_motion_frames(const std::vector<NamedTrajectory>& bodies, const WaveField& sea, double period_s,
+                         const std::string& title, const std::filesystem::path& file);
+
+// A table of VERES or WAMIT to draw beside a ship's responses.
+struct RaoReference {
+  std::filesystem::path file;  // empty: none
+  double unit_length = 1;      // of WAMIT's (ULEN), m
+};
+
+// Moduli of a ship's responses over frequency, in waves towards mu (rad) on water of a depth (m).
+void write_rao_figure(const ShipParticulars& ship, double mu, double depth, const RaoReference& reference,
+                      const std::string& title, const std::filesystem::path& file);
+
+}  // namespace seaglint

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// The picture of a range-velocity map.
+
+#include <span>
+#include <string>
+
+#include "classify/features/features.h"
+#include "radar/rvmap/rv_map.h"
+#include "tools/figure/figure.h"
+
+namespace seaglint {
+
+// |RV| in dB against its peak, down to floor_db (< 0), centres as circles.
+Heatmap rv_figure(const RvMap& map, std::span<const ScatteringCentre> centres, const std::string& title,
+                  double floor_db = -40);
+
+}  // namespace seaglint

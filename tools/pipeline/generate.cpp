@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/pipeline/generate.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <mutex>
+#include <vector>
+
+#include "classify/dataset/directory/dataset_writer.h"
+#include "seaglint_version.h"
+#include "sim/core/process/error.h"
+#include "sim/core/process/progress.h"
+#include "tools/pipeline/map_coverage.h"
+#include "tools/pipeline/pipeline.h"
+#include "tools/pipeline/warnings.h"
+
+namespace seaglint {
+
+namespace {
+
+// A shard whose samples arrive in any order.
+struct OpenShard {
+  Shard content;
+  std::size_t waiting = 0;  // samples that are still to come
+};
+
+}  // namespace
+
+GenerateResult generate_dataset(const Scenario& scenario, const std::filesystem::path& directory,
+                                const GenerateOptions& options, const StopFlag* stop) {
+  const Pipeline pipeline(scenario);
+  const SamplePlan& plan = pipeline.plan();
+  warn(mesh_doubts(pipeline));
+  warn(sea_doubts(scenario));
+  warn(band_doubts(pipeline));
+  warn(outside_of_map(scenario, pipeline.targets()));
+  DatasetWriter writer(directory, scenario, options.resume, kVersion);
+
+  // The part's shards that are to be made, and their samples in order.
+  GenerateResult result;
+  struct Work {
+    std::size_t shard = 0;
+    std::size_t sample = 0;
+  };
+  std::vector<Work> work;
+  std::map<std::size_t, OpenShard> open;
+  const std::size_t shards = plan.shards(), parts = static_cast<std::size_t>(options.parts),
+                    part = static_cast<std::size_t>(options.part);
+  for (std::size_t shard = (part - 1) * shards / parts; shard < part * shards / parts; ++shard) {
+    const ShardRange range = plan.shard(shard);
+    if (writer.complete(shard)) {
+      result.kept += range.count;
+      continue;
+    }
+    open[shard].waiting = range.count;
+    for (std::size_t i = 0; i < range.count; ++i) work.push_back({shard, range.first + i});
+  }
+
+  Progress progress("making maps", work.size());
+  std::mutex mutex;
+  try {
+    parallel_for(
+        work.size(), thread_count(options.threads),
+        [&](std::size_t i) {
+          MadeSample made = pipeline.make(work[i].sample);
+          const ShardRange range = plan.shard(work[i].shard);
+          Shard whole;
+          {
+            const std::lock_guard lock(mutex);
+            OpenShard& shard = open[work[i].shard];
+            shard.content.samples.resize(range.count);
+            shard.content.axes = stored_axes(made.received.map);
+            shard.content.samples[work[i].sample - range.first] = std::move(made.stored);
+            if (--shard.waiting == 0) {
+              whole = std::move(shard.content);
+              open.erase(work[i].shard);
+            }
+          }
+          if (!whole.samples.empty()) writer.put(work[i].shard, std::move(whole));
+          progress.advance();
+        },
+        stop);
+  } catch (const InputError&) {
+    // The scenario put right must find the directory as it was; other parts may be at work in it.
+    if (parts == 1) writer.withdraw();
+    throw;
+  }
+  result.made = work.size();
+  result.missing = writer.finish().size();
+  return result;
+}
+
+}  // namespace seaglint

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/pipeline/map_coverage.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "radar/rvmap/rv_map.h"
+#include "sim/core/numbers/constants.h"
+#include "sim/scattering/response/point_response.h"
+
+namespace seaglint {
+namespace {
+
+constexpr std::size_t kMostLines = 10;
+
+struct Span {
+  double low = 0, high = 0;
+
+  void include(double value) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  // In the cells of the axis; one cell alone holds everything.
+  bool within(const std::vector<double>& axis) const {
+    const double half = axis.size() > 1 ? (axis[1] - axis[0]) / 2 : std::numeric_limits<double>::infinity();
+    return low >= axis.front() - half && high <= axis.back() + half;
+  }
+};
+
+// Of a target with its companions, as the radar sees it.
+struct Reach {
+  Span range_m, velocity_mps;
+};
+
+void extend(Reach& reach, const Target& target, const Vec3& r_hat, double interval_s) {
+  for (const PointSpec& point : target.spec.points) {
+    const double range = -r_hat.dot(Vec3(point.position_m.data())),
+                 velocity = -r_hat.dot(Vec3(point.velocity_mps.data()));
+    reach.range_m.include(range);
+    reach.range_m.include(range + velocity * interval_s);
+    reach.velocity_mps.include(velocity);
+  }
+  Span body;
+  for (const Vec3& vertex : target.mesh.vertices) body.include(-r_hat.dot(vertex));
+  const double passing_mps = -r_hat.dot(target.passing_mps);
+  for (const Vec3& rest : target.rest_positions) {
+    for (const double passed_m : {0.0, passing_mps * interval_s}) {
+      reach.range_m.include(-r_hat.dot(rest) + passed_m + body.low);
+      reach.range_m.include(-r_hat.dot(rest) + passed_m + body.high);
+    }
+    if (passing_mps != 0) reach.velocity_mps.include(passing_mps);
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> outside_of_map(const Scenario& scenario, const std::vector<Target>& targets) {
+  const PulseTrain train = make_pulse_train(scenario.radar, range_window_m(scenario, targets), scenario.seed, 0);
+  const MapGrid grid = map_grid(train, scenario.map);
+  const PlatformSpec& platform = scenario.radar.platform;
+  std::vector<std::string> lines;
+  std::size_t more = 0;
+  const auto tell = [&](const std::string& line) {
+    if (lines.size() < kMostLines) {
+      lines.push_back(line);
+    } else {
+      ++more;
+    }
+  };
+  for (std::size_t t = 0; t < scenario.targets.size(); ++t) {
+    for (const View& view : views(scenario.view)) {
+      const Vec3 r_hat = direction_to_radar(view);
+      Reach reach;
+      extend(reach, targets[t], r_hat, train.time_s.back());
+      for (const std::size_t companion : targets[t].with) extend(reach, targets[companion], r_hat, train.time_s.back());
+      if (!platform.compensated) {
+        const double own_mps = r_hat.dot(Vec3(platform.velocity_mps.data()));
+        reach.velocity_mps = {reach.velocity_mps.low + own_mps, reach.velocity_mps.high + own_mps};
+      }
+      const std::string who = fmt::format("targets.{} at azimuth {:g} deg", scenario.targets[t].name, view.azimuth_deg);
+      if (!reach.range_m.within(grid.range_m)) {
+        tell(fmt::format("{} reaches from {:.1f} to {:.1f} m, the map from {:.1f} to {:.1f} m: raise map.range_span_m",
+                         who, reach.range_m.low, reach.range_m.high, grid.range_m.front(), grid.range_m.back()));
+      }
+      if (!reach.velocity_mps.within(grid.velocity_mps)) {
+        const double unambiguous = train.unambiguous_velocity_mps();
+        const bool folds = std::max(-reach.velocity_mps.low, reach.velocity_mps.high) > unambiguous;
+        tell(fmt::format(
+            "{} moves at {:.2f} to {:.2f} m/s, the map shows {:.2f} to {:.2f} m/s (unambiguous within +-{:.2f}): {}",
+            who, reach.velocity_mps.low, reach.velocity_mps.high, grid.velocity_mps.front(), grid.velocity_mps.back(),
+            unambiguous, folds ? "shorten radar.pri_us" : "raise map.velocity_span_mps"));
+      }
+    }
+  }
+  if (more > 0) lines.push_back(fmt::format("and {} more like these", more));
+  return lines;
+}
+
+}  // namespace seaglint

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/pipeline/metrics.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace seaglint {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+bool scores_as_chance(const ordered_json& scores, bool independent, int repeats) {
+  constexpr double kDeviations = 2.576;  // 99 % of a normal distribution, two-sided
+  const Guessing guess = guessing(scores);
+  const double low = value_or_nan(scores.at("accuracy_95")[0]), high = value_or_nan(scores.at("accuracy_95")[1]);
+  if (!independent && std::isfinite(low)) return low <= guess.most && guess.least <= high;
+  const double rows = scores.at("rows").get<double>() / repeats, accuracy = value_or_nan(scores.at("accuracy"));
+  const double off = std::max({accuracy - guess.most, guess.least - accuracy, 0.0});
+  return off <= kDeviations * std::sqrt(guess.most * (1 - guess.most) / rows);
+}
+
+}  // namespace
+
+double value_or_nan(const ordered_json& json) { return json.is_number() ? json.get<double>() : std::nan(""); }
+
+std::string percent(double share) { return std::isfinite(share) ? fmt::format("{:.1f} %", 100 * share) : "–"; }
+
+std::string accuracy_cell(const ordered_json& scores) {
+  const double low = value_or_nan(scores.at("accuracy_95")[0]), high = value_or_nan(scores.at("accuracy_95")[1]);
+  std::string cell = percent(value_or_nan(scores.at("accuracy")));
+  if (std::isfinite(low)) cell += fmt::format(" <small>({:.0f}–{:.0f})</small>", 100 * low, 100 * high);
+  return cell;
+}
+
+double probe_accuracy(const ordered_json& metrics, const std::string& name) {
+  for (const auto& probe : metrics.at("probes")) {
+    if (probe.at("name") == name) return value_or_nan(probe.at("group").at("accuracy"));
+  }
+  return std::nan("");
+}
+
+std::string Guessing::text() const {
+  const std::string high = fmt::format("{:.1f} %", 100 * most);
+  return most - least < 5e-4 ? high : fmt::format("{:.1f} to {}", 100 * least, high);
+}
+
+Guessing guessing(const ordered_json& scores) {
+  const auto count = [&](const char* entry) { return scores.at("confusion").at(entry).get<double>(); };
+  const double arrays = count("array_as_array") + count("array_as_ship"),
+               ships = count("ship_as_array") + count("ship_as_ship");
+  if (!(arrays + ships > 0)) return {};
+  const double larger = std::max(arrays, ships) / (arrays + ships);
+  return {larger * larger + (1 - larger) * (1 - larger), larger};
+}
+
+bool as_chance(const ordered_json& metrics, const ordered_json& probe) {
+  const bool blind = probe.at("kind") == "blind";
+  const int repeats = metrics.at("split_repeats");
+  return scores_as_chance(probe.at("random"), blind, repeats) && scores_as_chance(probe.at("group"), blind, repeats);
+}
+
+}  // namespace seaglint

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/pipeline/pipeline.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "classify/dataset/directory/planned_record.h"
+#include "sim/core/numbers/constants.h"
+#include "sim/core/process/error.h"
+#include "sim/scattering/response/point_response.h"
+#include "sim/scattering/target/target_check.h"
+
+namespace seaglint {
+
+namespace {
+
+constexpr std::size_t kScenesKept = 8;
+
+// Map, hop code and centres as the data set stores them.
+void store_signal(const MadeSample& made, bool complex_maps, Sample& stored) {
+  const std::vector<Complex>& values = made.received.map.values;
+  stored.magnitude.reserve(values.size());
+  double peak = 0, energy = 0;
+  for (const Complex& value : values) {
+    const double magnitude = std::abs(value);
+    peak = std::max(peak, magnitude);
+    energy += magnitude * magnitude;
+    stored.magnitude.push_back(static_cast<float>(magnitude));
+    if (complex_maps) {
+      stored.complex_values.push_back(static_cast<float>(value.real()));
+      stored.complex_values.push_back(static_cast<float>(value.imag()));
+    }
+  }
+  stored.record.peak_m = peak;
+  stored.record.energy_m2 = energy;
+  for (const int carrier : made.train.code) stored.hop_code.push_back(static_cast<std::uint16_t>(carrier));
+  for (const ScatteringCentre& centre : made.centres) {
+    stored.centre_list.push_back({static_cast<float>(centre.range_m), static_cast<float>(centre.velocity_mps),
+                                  static_cast<float>(centre.amplitude_m)});
+  }
+}
+
+}  // namespace
+
+// A scene that one thread makes while others wait for it.
+struct Pipeline::SceneSlot {
+  int sea_state = 0;
+  int realisation = 0;
+  std::once_flag made;
+  std::shared_ptr<const Scene> scene;
+};
+
+Pipeline::Pipeline(Scenario scenario)
+    : scenario_(std::move(scenario)),
+      plan_(scenario_),
+      sea_states_(sea_states(scenario_.sea)),
+      views_(views(scenario_.view)),
+      targets_(load_targets(scenario_)),
+      range_window_m_(range_window_m(scenario_, targets_)) {
+  for (std::size_t t = 0; t < targets_.size(); ++t) {
+    Target& target = targets_[t];
+    if (target.shape != t || target.rest_positions.empty()) {
+      scatterers_.push_back(target.rest_positions.empty() ? nullptr : scatterers_[target.shape]);
+      continue;
+    }
+    const double crease = radians(target.spec.solver.crease_deg);
+    scatterers_.push_back(std::make_shared<const Scatterer>(target.mesh, target.materials, crease,
+                                                            1e-3 * target.spec.sheet_thickness_mm));
+    const std::vector<std::string> of_edges =
+        check_edges(*scatterers_.back(), target.spec.solver.edges, 1e9 * lowest_ghz(scenario_.radar),
+                    1e9 * highest_ghz(scenario_.radar));
+    target.doubts.insert(target.doubts.end(), of_edges.begin(), of_edges.end());
+  }
+}
+
+std::shared_ptr<const Scene> Pipeline::scene(int sea_state, int realisation) const {
+  std::shared_ptr<SceneSlot> slot;
+  {
+    const std::lock_guard lock(scenes_mutex_);
+    for (const auto& known : scenes_) {
+      if (known->sea_state == sea_state && known->realisation == realisation) slot = known;
+    }
+    if (!slot) {
+      slot = std::make_shared<SceneSlot>();
+      slot->sea_state = sea_state;
+      slot->realisation = realisation;
+      if (scenes_.size() == kScenesKept) scenes_.erase(scenes_.begin());
+      scenes_.push_back(slot);
+    }
+  }
+  std::call_once(slot->made, [&] {
+    slot->scene = std::make_shared<const Scene>(make_scene(scenario_, targets_, sea_state, realisation));
+  });
+  return slot->scene;
+}
+
+BodyResponse Pipeline::scene_response(std::size_t target, const Scene& scene, const View& view, const SeaState& state,
+                                      const IntervalSampling& sampling) const {
+  BodyResponse sum = target_response(target, scene, view, state, sampling);
+  for (const std::size_t companion : targets_[target].with) {
+    const BodyResponse term = target_response(companion, scene, view, state, sampling);
+    sum.response += term.response;
+    sum.traces += term.traces;
+  }
+  return sum;
+}
+
+BodyResponse Pipeline::target_response(std::size_t target, const Scene& scene, const View& view, const SeaState& state,
+                                       const IntervalSampling& sampling) const {
+  const Vec3 r_hat = direction_to_radar(view);
+  const SeaMirror mirror(scenario_.sea_reflection, total_wave_height(state));
+  const SeaMirror* sea = scenario_.sea_reflection.enabled ? &mirror : nullptr;
+  const TargetSpec& spec = targets_[target].spec;
+  const Vec3& passing_mps = targets_[target].passing_mps;
+  if (!scatterers_[target]) {
+    if (sea != nullptr)
+      return {point_response_over_sea(spec.points, r_hat, sampling, scenario_.radar.polarisation, *sea), 0};
+    return {point_response(spec.points, r_hat, sampling), 0};
+  }
+  BodyResponse sum;
+  for (const Trajectory& body : scene.bodies[target]) {
+    // A companion is at its place when the interval begins.
+    const Trajectory carried = passing_mps.isZero(0) ? body : body.carried(passing_mps, sampling.pulse_time_s.front());
+    const BodyResponse term =
+        respond(*scatterers_[target], carried, r_hat, scenario_.radar.polarisation, sampling, spec.solver, 1, sea);
+    sum.traces += term.traces;
+    if (sum.response.values.empty()) {
+      sum.response = term.response;
+    } else {
+      sum.response += term.response;
+    }
+  }
+  return sum;
+}
+
+IntervalSampling Pipeline::sampling(const PulseTrain& train, double start_s) const {
+  IntervalSampling sampling = interval_sampling(train, start_s);
+  sampling.sight_rate = Vec3(scenario_.radar.platform.velocity_mps.data()) / (scenario_.radar.range_km * 1e3);
+  return sampling;
+}
+
+ClutterScene Pipeline::clutter_scene(const SampleAddress& at, const Scene& scene) const {
+  // Maps of one sea, view and target see one texture; those of another target do not, as a texture that two labels
+  // shared would tell one from the other.
+  const std::uint64_t seen =
+      static_cast<std::uint64_t>(plan_.group(at)) * views_.size() + static_cast<std::uint64_t>(at.view);
+  return {scenario_.radar,
+          direction_to_radar(views_[static_cast<std::size_t>(at.view)]),
+          total_wave_height(sea_states_[static_cast<std::size_t>(at.sea_state)]),
+          &scene.sea,
+          plan_.start_s(at),
+          Vec3(scenario_.targets[static_cast<std::size_t>(at.target)].motion.speed_mps, 0, 0),
+          seen * scenario_.targets.size() + static_cast<std::uint64_t>(at.target)};
+}
+
+BodyResponse Pipeline::response(std::size_t sample, const PulseTrain& train) const {
+  const SampleAddress at = plan_.address(sample);
+  return scene_response(static_cast<std::size_t>(at.target), *scene(at.sea_state, at.realisation),
+                        views_[static_cast<std::size_t>(at.view)], sea_states_[static_cast<std::size_t>(at.sea_state)],
+                        sampling(train, plan_.start_s(at)));
+}
+
+Echo Pipeline::echo_of(const MadeSample& made, const BodyResponse& response, const Scene& scene) const {
+  const SampleAddress& at = made.address;
+  const std::size_t sample = plan_.sample(at);
+  try {
+    return synthesize_echo(made.train, response.response, scenario_.clutter, scenario_.seed, sample,
+                           clutter_scene(at, scene));
+  } catch (const InputError& error) {
+    const TargetSpec& target = scenario_.targets[static_cast<std::size_t>(at.target)];
+    const View& view = views_[static_cast<std::size_t>(at.view)];
+    throw InputError(fmt::format("{}: sample {}, azimuth {:g} deg, elevation {:g} deg: {}",
+                                 place_of(scenario_, "targets." + target.name), sample, view.azimuth_deg,
+                                 view.elevation_deg, error.what()));
+  }
+}
+
+MadeSample Pipeline::make(std::size_t sample) const {
+  MadeSample made;
+  made.address = plan_.address(sample);
+  const SampleAddress& at = made.address;
+
+  // Sea and motion are shared by both classes and all views; hop code, clutter and noise are the sample's own.
+  const std::shared_ptr<const Scene> moving = scene(at.sea_state, at.realisation);
+  made.train = make_pulse_train(scenario_.radar, range_window_m_, scenario_.seed, sample);
+  const BodyResponse response = this->response(sample, made.train);
+  const Echo echo = echo_of(made, response, *moving);
+  made.received = receive(echo, made.train, scenario_.clutter, scenario_.map, scenario_.radar.intra_pulse_motion);
+  CleanedMap cleaned =
+      clean_map(made.received.echo, made.train, scenario_.map, scenario_.radar.intra_pulse_motion, scenario_.features);
+  if (scenario_.map.clean) made.received.map.values = restored_map(cleaned, made.train, scenario_.map).values;
+  made.centres = std::move(cleaned.centres);
+  made.features = compute_features(made.centres, scenario_.features);
+
+  SampleRecord& record = made.stored.record;
+  record = planned_record(scenario_, plan_, sample);
+  record.empty_carriers = made.received.map.empty_carriers;
+  record.scr_per_pulse_db = made.received.scr.per_pulse_db;
+  record.scr_peak_cell_db = made.received.scr.peak_cell_db;
+  record.scr_extent_db = made.received.scr.extent_db;
+  record.snr_per_pulse_db = made.received.scr.snr_per_pulse_db;
+  record.mwr = made.features.mwr;
+  record.ccf = made.features.ccf;
+  record.sigma_r_m = made.features.sigma_r;
+  record.sigma_v_mps = made.features.sigma_v;
+  record.centres = made.features.centres;
+  record.degenerate = made.features.degenerate ? 1 : 0;
+  record.traces = response.traces;
+  store_signal(made, scenario_.dataset.complex_maps, made.stored);
+  return made;
+}
+
+StoredAxes stored_axes(const RvMap& map) { return {map.range_m, map.velocity_mps}; }
+
+}  // namespace seaglint

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// One sample from a scenario: sea and motion, response, echo, map, features. Every step is one call of one stage.
+
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "classify/dataset/format/sample.h"
+#include "classify/features/features.h"
+#include "radar/echo/echo.h"
+#include "radar/rvmap/scr.h"
+#include "radar/waveform/pulse_train.h"
+#include "sim/scattering/response/body_response.h"
+#include "sim/scenario/sample_plan.h"
+#include "tools/pipeline/scene.h"
+
+namespace seaglint {
+
+// Everything that is known of one sample.
+struct MadeSample {
+  SampleAddress address;
+  PulseTrain train;
+  ReceivedInterval received;  // echo, map, measured SCR
+  std::vector<ScatteringCentre> centres;
+  FeatureVector features;
+  Sample stored;  // what the data set keeps
+};
+
+// Makes any sample of a scenario, alone and in any order; from any thread.
+class Pipeline {
+ public:
+  explicit Pipeline(Scenario scenario);  // loads the meshes; throws InputError
+
+  const Scenario& scenario() const { return scenario_; }
+  const SamplePlan& plan() const { return plan_; }
+  const std::vector<Target>& targets() const { return targets_; }
+
+  MadeSample make(std::size_t sample) const;  // sample < plan().size(); throws InputError when the target has no power
+
+  double window_m() const { return range_window_m_; }  // the range window of all its maps
+
+  // H of a sample's target with its companions, where `train` asks for it.
+  BodyResponse response(std::size_t sample, const PulseTrain& train) const;
+
+  // What the clutter of a sample follows; refers to the scene.
+  ClutterScene clutter_scene(const SampleAddress& at, const Scene& scene) const;
+
+  // The scene of a realisation; the last few are kept.
+  std::shared_ptr<const Scene> scene(int sea_state, int realisation) const;
+
+ private:
+  // H of a target with its companions.
+  BodyResponse scene_response(std::size_t target, const Scene& scene, const View& view, const SeaState& state,
+                              const IntervalSampling& sampling) const;
+  // Where the interval that starts at start_s samples the response, with the radar's own motion.
+  IntervalSampling sampling(const PulseTrain& train, double start_s) const;
+  // H of a target seen from `view` over an interval: the sum over its bodies, or its ideal points.
+  BodyResponse target_response(std::size_t target, const Scene& scene, const View& view, const SeaState& state,
+                               const IntervalSampling& sampling) const;
+
+  // The echo of a sample. Throws InputError, naming target and sample, when it has no power.
+  Echo echo_of(const MadeSample& made, const BodyResponse& response, const Scene& scene) const;
+
+  Scenario scenario_;
+  SamplePlan plan_;
+  std::vector<SeaState> sea_states_;
+  std::vector<View> views_;
+  std::vector<Target> targets_;
+  std::vector<std::shared_ptr<const Scatterer>> scatterers_;  // one per target, null for points
+  double range_window_m_ = 0;
+
+  struct SceneSlot;
+  mutable std::mutex scenes_mutex_;
+  mutable std::vector<std::shared_ptr<SceneSlot>> scenes_;  // most recently made last
+};
+
+// The axes of a map.
+StoredAxes stored_axes(const RvMap& map);
+
+}  // namespace seaglint

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/pipeline/scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "sim/core/process/error.h"
+#include "sim/geometry/files/mesh_io.h"
+#include "sim/motion/simulate.h"
+#include "sim/motion/target_motion.h"
+#include "sim/scattering/target/part_materials.h"
+#include "sim/scattering/target/target_check.h"
+#include "tools/pipeline/solver_mesh.h"
+
+namespace seaglint {
+
+namespace {
+
+// How far a mesh reaches from its origin.
+double radius_m(const TriangleMesh& mesh) {
+  double radius = 0;
+  for (const Vec3& vertex : mesh.vertices) radius = std::max(radius, vertex.norm());
+  return radius;
+}
+
+double interval_length_s(const RadarSpec& radar) { return radar.pulses * radar.pri_us * 1e-6; }
+
+// From t = 0 to the end of a realisation's last interval.
+double scene_duration_s(const Scenario& scenario) {
+  return SamplePlan(scenario).last_start_s() + interval_length_s(scenario.radar);
+}
+
+// Radius about the target's reference point that the target never leaves.
+double reach_m(const Target& target, double interval_s) {
+  double reach = 0;
+  for (const PointSpec& point : target.spec.points) {
+    const Vec3 position(point.position_m[0], point.position_m[1], point.position_m[2]);
+    const Vec3 velocity(point.velocity_mps[0], point.velocity_mps[1], point.velocity_mps[2]);
+    reach = std::max({reach, position.norm(), (position + velocity * interval_s).norm()});
+  }
+  const double radius = radius_m(target.mesh);
+  for (const Vec3& rest : target.rest_positions)
+    reach = std::max({reach, rest.norm() + radius, (rest + target.passing_mps * interval_s).norm() + radius});
+  return reach;
+}
+
+// What the target is made of, known at all frequencies of the radar.
+std::vector<MaterialSpec> load_materials(const Scenario& scenario, const TargetSpec& spec, TriangleMesh& mesh) {
+  const std::string path = "targets." + spec.name;
+  std::vector<PartMaterial> parts;
+  for (std::size_t i = 0; i < spec.part_materials.size(); ++i) {
+    const std::string where = place_of(scenario, fmt::format("{}.part_materials.{}.material", path, i));
+    parts.push_back(
+        {spec.part_materials[i].part, find_material(spec.part_materials[i].material, scenario.folder, where)});
+  }
+  const MaterialSpec all = find_material(spec.material, scenario.folder, place_of(scenario, path + ".material"));
+  std::vector<MaterialSpec> materials;
+  try {
+    materials = assign_materials(mesh, all, parts);
+    check_frequencies(materials, 1e9 * lowest_ghz(scenario.radar), 1e9 * highest_ghz(scenario.radar));
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", place_of(scenario, path), error.what()));
+  }
+  return materials;
+}
+
+// The mesh as the solver takes it, and what is doubtful about it.
+void check_mesh(const Scenario& scenario, Target& target) {
+  try {
+    SoundMesh sound = sound_mesh(target.mesh, 1e9 * lowest_ghz(scenario.radar));
+    target.mesh = std::move(sound.mesh);
+    target.doubts = std::move(sound.doubts);
+  } catch (const InputError& error) {
+    throw InputError(
+        fmt::format("{}: {}", place_of(scenario, fmt::format("targets.{}.mesh", target.spec.name)), error.what()));
+  }
+}
+
+// The radar must be far from all that stands in one map, however far from the reference point its bodies are.
+// `companion`: which one of the target's, if any.
+void check_scene_range(const Scenario& scenario, const TargetSpec& spec, const Target& body,
+                       std::optional<std::size_t> companion) {
+  try {
+    check_range(reach_m(body, interval_length_s(scenario.radar)), spec.solver.radar_range_m);
+  } catch (const InputError& error) {
+    const std::string key =
+        fmt::format("targets.{}.{}", spec.name, companion ? fmt::format("with.{}", *companion) : "solver");
+    throw InputError(fmt::format("{}: {}", place_of(scenario, key), error.what()));
+  }
+}
+
+// The intervals of a realisation must lie within a series that is played to them.
+void check_series(const Scenario& scenario, const TargetSpec& spec, const Body& body) {
+  const auto* series = std::get_if<AttitudeSeries>(&body.model);
+  if (series == nullptr) return;
+  try {
+    trajectory_of(*series, spec.motion.series_start_s, scene_duration_s(scenario), spec.motion.translations,
+                  Vec3::Zero(), Vec3::Zero());
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: value {}: {}",
+                                 place_of(scenario, fmt::format("targets.{}.motion.series_start_s", spec.name)),
+                                 spec.motion.series_start_s, error.what()));
+  }
+}
+
+// The sea's mirror shows nothing of what lies below it.
+void check_above_water(const Scenario& scenario, const TargetSpec& spec, const TriangleMesh& mesh) {
+  const double top_m = bounds(mesh).upper.z(), height_m = rest_position(spec.motion, 0, 0).z();
+  if (!scenario.sea_reflection.enabled || top_m + height_m > 0) return;
+  if (spec.motion.model == MotionModel::kFloat) {
+    throw InputError(fmt::format(
+        "{}: value {}: must be greater than {:.6g} with sea_reflection, else the whole target is under water",
+        place_of(scenario, fmt::format("targets.{}.motion.centre_above_water_m", spec.name)), height_m, -top_m));
+  }
+  throw InputError(
+      fmt::format("{}: its highest point is at z = {:.6g} m: must be above 0, the water, with sea_reflection, else the "
+                  "whole target is under water",
+                  place_of(scenario, fmt::format("targets.{}.mesh", spec.name)), top_m));
+}
+
+}  // namespace
+
+Body load_body(const Scenario& scenario, const TargetSpec& spec, const TriangleMesh& mesh) {
+  try {
+    return make_body(spec.motion, shape_of(mesh), scenario.folder);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", place_of(scenario, "targets." + spec.name), error.what()));
+  }
+}
+
+namespace {
+
+Target load_target(const Scenario& scenario, const TargetSpec& spec) {
+  Target target;
+  target.spec = spec;
+  if (spec.mesh.empty()) return target;
+  target.mesh = read_mesh(find_mesh(scenario, spec), spec.unit);
+  target.materials = load_materials(scenario, spec, target.mesh);
+  check_mesh(scenario, target);
+  target.body = load_body(scenario, spec, target.mesh);
+  check_series(scenario, spec, target.body);
+  check_above_water(scenario, spec, target.mesh);
+  // The radar's image looks at the hull from below.
+  if (scenario.sea_reflection.enabled)
+    put_in_water(target.mesh, target.materials, -rest_position(spec.motion, 0, 0).z());
+  return target;
+}
+
+// Its bodies at rest, the first of them numbered `bodies`, which is raised by their number.
+void place_bodies(Target& target, std::size_t& bodies) {
+  target.first_body = bodies;
+  if (target.spec.mesh.empty()) return;
+  for (const Vec2& place : layout_places(target.spec))
+    target.rest_positions.push_back(rest_position(target.spec.motion, place.x(), place.y()));
+  bodies += target.rest_positions.size();
+}
+
+// Another target where a companion of it stands. Each makes its own way through the water: a decoy stays in it and
+// falls behind a ship whose frame goes along with the ship.
+Target moved(const Target& original, const TargetSpec& host, const CompanionSpec& companion) {
+  Target target = original;
+  target.spec.name += " (companion)";
+  target.rest_positions.clear();
+  target.passing_mps = Vec3(original.spec.motion.speed_mps - host.motion.speed_mps, 0, 0);
+  for (PointSpec& point : target.spec.points) {
+    point.position_m[0] += companion.x_m;
+    point.position_m[1] += companion.y_m;
+    point.velocity_mps[0] += target.passing_mps.x();
+  }
+  LineLayout line = target.spec.line.value_or(LineLayout{});
+  line.centre_x_m += companion.x_m;
+  line.centre_y_m += companion.y_m;
+  target.spec.line = line;
+  return target;
+}
+
+}  // namespace
+
+std::vector<Target> load_targets(const Scenario& scenario) {
+  std::vector<Target> targets;
+  std::size_t bodies = 0;
+  for (const TargetSpec& spec : scenario.targets) {
+    targets.push_back(load_target(scenario, spec));
+    targets.back().shape = targets.size() - 1;
+    place_bodies(targets.back(), bodies);
+    check_scene_range(scenario, spec, targets.back(), std::nullopt);
+  }
+  for (std::size_t t = 0; t < scenario.targets.size(); ++t) {
+    for (const CompanionSpec& companion : scenario.targets[t].with) {
+      const auto named = std::find_if(scenario.targets.begin(), scenario.targets.end(),
+                                      [&](const TargetSpec& spec) { return spec.name == companion.target; });
+      Target target =
+          moved(targets[static_cast<std::size_t>(named - scenario.targets.begin())], scenario.targets[t], companion);
+      place_bodies(target, bodies);
+      check_scene_range(scenario, scenario.targets[t], target, targets[t].with.size());
+      targets[t].with.push_back(targets.size());
+      targets.push_back(std::move(target));
+    }
+  }
+  return targets;
+}
+
+double range_window_m(const Scenario& scenario, const std::vector<Target>& targets) {
+  double reach = 0;
+  for (const Target& target : targets) reach = std::max(reach, reach_m(target, interval_length_s(scenario.radar)));
+  // A tenth more than the target, since bodies drift and shadowed paths are longer than straight ones.
+  const double window_m = std::max(scenario.map.range_span_m, 2.2 * reach);
+  const RadarSpec& radar = scenario.radar;
+  const double echo_us = echo_duration_us(radar, window_m);
+  if (echo_us > radar.pri_us) {
+    throw InputError(fmt::format(
+        "{}: a target reaches {:.6g} m from the reference point: its echo lasts {:.6g} us with the pulse and "
+        "must end within radar.pri_us, {}",
+        place_of(scenario, "targets"), reach, echo_us, radar.pri_us));
+  }
+  return window_m;
+}
+
+Scene make_scene(const Scenario& scenario, const std::vector<Target>& targets, int sea_state, int realisation,
+                 double at_least_s) {
+  const SamplePlan plan(scenario);
+  const SeaState state = sea_states(scenario.sea)[static_cast<std::size_t>(sea_state)];
+  const std::uint64_t sea_key = plan.sea_key(sea_state, realisation);
+  const double duration_s = std::max(at_least_s, scene_duration_s(scenario));
+
+  Scene scene{realize_sea(state, scenario.seed, sea_key), {}};
+  for (const Target& target : targets) {
+    scene.bodies.push_back(target.rest_positions.empty()
+                               ? std::vector<Trajectory>{}
+                               : simulate_target(target.spec, target.body, state, scene.sea, duration_s, scenario.seed,
+                                                 sea_key, target.first_body));
+  }
+  return scene;
+}
+
+}  // namespace seaglint

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// Many realisations of a sea state, and what they have in common: spectrum, moments, crests.
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "sim/core/process/parallel.h"
+#include "sim/scenario/sea_spec.h"
+#include "sim/sea/statistics.h"
+
+namespace seaglint {
+
+struct SeaEnsemble {
+  int realisations = 0;
+  double significant_wave_height_m = 0;  // 4 standard deviations of the elevation
+  double skewness = 0;
+  double kurtosis = 0;  // 3 for a normal sea
+  double zero_crossing_period_s = 0;
+  std::vector<double> crests;           // m, ascending
+  std::vector<double> omega;            // rad/s
+  std::vector<double> target;           // density of the state's spectrum, m^2 s/rad
+  std::vector<double> realised;         // of the series' elevation, averaged over bands and realisations
+  std::vector<double> realised_linear;  // of the linear part alone
+};
+
+// Realisations 0 to count - 1 of a scenario's sea state `state_index`, each `duration_s` long at one place. The same
+// for any number of threads.
+SeaEnsemble make_ensemble(const SeaState& state, std::size_t state_index, std::uint64_t seed, int count,
+                          double duration_s, double step_s, int threads, const StopFlag& stop);
+
+// omega_rad_s, density_m2_s (the state's), realised_m2_s, realised_linear_m2_s; spectrum: table reads it.
+std::string spectrum_csv(const SeaEnsemble& ensemble);
+
+// Elevation over time, spectrum against target, exceedance of crests against Rayleigh and Forristall, and the slope
+// that each cut-off would leave.
+void write_sea_figure(const SeaState& state, const WaveField& field, const SeaSummary& summary,
+                      const SeaEnsemble& ensemble, const std::string& title, const std::filesystem::path& file);
+
+// The ensemble's numbers beside what theory says, one line each.
+std::string ensemble_text(const SeaEnsemble& ensemble, const SeaSummary& summary);
+
+}  // namespace seaglint

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/pipeline/warnings.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "radar/waveform/pulse_train.h"
+#include "sim/core/numbers/standard_error.h"
+#include "tools/pipeline/pipeline.h"
+
+namespace seaglint {
+
+namespace {
+
+// Of the sea states the one with the widest strata speaks for all.
+struct CoarsestSea {
+  double width = 0;  // over the peak frequency
+  double peak_period_s = 0;
+};
+
+void add_doubt(std::vector<std::string>& lines, const char* key, int components, const CoarsestSea& sea) {
+  if (sea.width <= kWidestStratum) return;
+  lines.push_back(fmt::format(
+      "{}: {} for waves of Tp {:.3g} s make strata {:.2g} of the peak frequency wide, and the mean period is "
+      "another one in every realisation: {:.0f} and more hold it within about 1 %",
+      key, components, sea.peak_period_s, sea.width, std::ceil(components * sea.width / kWidestStratum)));
+}
+
+}  // namespace
+
+std::vector<std::string> mesh_doubts(const Pipeline& pipeline) {
+  std::vector<std::string> lines;
+  // no companions
+  for (const Target& target : std::span(pipeline.targets()).first(pipeline.scenario().targets.size())) {
+    for (const std::string& doubt : target.doubts)
+      lines.push_back(fmt::format("targets.{}.mesh: {}", target.spec.name, doubt));
+  }
+  return lines;
+}
+
+std::vector<std::string> sea_doubts(const Scenario& scenario) {
+  CoarsestSea wind_sea, swell;
+  for (const SeaState& state : sea_states(scenario.sea)) {
+    const StratumWidths widths = stratum_widths(state);
+    if (widths.wind_sea > wind_sea.width) wind_sea = {widths.wind_sea, state.peak_period_s};
+    if (widths.swell > swell.width) swell = {widths.swell, state.swell.peak_period_s};
+  }
+  std::vector<std::string> lines;
+  add_doubt(lines, "sea.components", scenario.sea.components, wind_sea);
+  add_doubt(lines, "sea.swell.components", scenario.sea.swell.components, swell);
+  return lines;
+}
+
+std::vector<std::string> band_doubts(const Pipeline& pipeline) {
+  const Scenario& scenario = pipeline.scenario();
+  const std::string gaps = band_gaps(make_pulse_train(scenario.radar, pipeline.window_m(), scenario.seed, 0));
+  if (gaps.empty()) return {};
+  return {fmt::format("radar.bandwidth_mhz: {}", gaps)};
+}
+
+void warn(std::span<const std::string> sentences) {
+  for (const std::string& sentence : sentences)
+    print_error(fmt::format("seaglint: warning: {}\n", on_one_line(sentence)));
+}
+
+}  // namespace seaglint

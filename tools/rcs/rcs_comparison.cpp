@@ -1,0 +1,369 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/rcs/rcs_comparison.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "sim/core/numbers/constants.h"
+#include "sim/core/process/error.h"
+#include "tools/figure/figure.h"
+
+namespace seaglint {
+namespace {
+
+constexpr double kAngleStep_deg = 1e-3;  // CST prints three digits after the point
+constexpr long kCircle = 360'000;        // steps in a turn
+constexpr double kFrequencyTolerance = 1e-6;
+constexpr double kSameLevel_db = 0.1;  // of a direction that a file gives twice
+
+double level_of(const Complex& s) { return 10 * std::log10(std::max(4 * kPi * std::norm(s), 1e-100)); }
+
+using DirectionKey = std::pair<long, long>;
+
+DirectionKey key_of(double theta_deg, double phi_deg) {
+  const long phi = std::lround(phi_deg / kAngleStep_deg) % kCircle;
+  return {std::lround(theta_deg / kAngleStep_deg), phi < 0 ? phi + kCircle : phi};
+}
+
+// A reference's samples of one frequency by their direction.
+class Samples {
+ public:
+  Samples(const RcsReference& reference, double frequency_hz) {
+    for (const ReferenceSample& sample : reference.samples) {
+      if (std::abs(sample.frequency_hz - frequency_hz) > kFrequencyTolerance * frequency_hz) continue;
+      const auto [place, is_new] = by_direction_.try_emplace(key_of(sample.theta_deg, sample.phi_deg), &sample);
+      if (!is_new && std::abs(place->second->level_dbsm - sample.level_dbsm) > kSameLevel_db) {
+        throw InputError(fmt::format("{}: theta {} phi {} at {} GHz stands twice, with {} and {} dBsm", reference.name,
+                                     sample.theta_deg, sample.phi_deg, sample.frequency_hz * 1e-9,
+                                     place->second->level_dbsm, sample.level_dbsm));
+      }
+    }
+  }
+  // Rounding may put equal angles into neighbouring keys.
+  const ReferenceSample* at(double theta_deg, double phi_deg) const {
+    const DirectionKey key = key_of(theta_deg, phi_deg);
+    for (const long theta : {0L, -1L, 1L}) {
+      for (const long phi : {0L, -1L, 1L}) {
+        const auto place = by_direction_.find({key.first + theta, (key.second + phi + kCircle) % kCircle});
+        if (place != by_direction_.end()) return place->second;
+      }
+    }
+    return nullptr;
+  }
+
+ private:
+  std::map<DirectionKey, const ReferenceSample*> by_direction_;
+};
+
+std::string span_text(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  return values.size() == 1 ? fmt::format("{:g}", values[0])
+                            : fmt::format("{:g} to {:g} ({} values)", values.front(), values.back(), values.size());
+}
+
+[[noreturn]] void fail_pairing(const RcsSweep& sweep, const RcsReference& reference) {
+  std::vector<double> f, theta, phi;
+  for (const ReferenceSample& s : reference.samples) {
+    f.push_back(s.frequency_hz * 1e-9);
+    theta.push_back(s.theta_deg);
+    phi.push_back(s.phi_deg);
+  }
+  std::vector<double> our_f, our_theta, our_phi;
+  for (const double hz : sweep.frequency_hz) our_f.push_back(hz * 1e-9);
+  for (const double el : sweep.elevation_deg) our_theta.push_back(90 - el);
+  for (const double az : sweep.azimuth_deg)
+    our_phi.push_back(reference.settings.phi_scale * az + reference.settings.phi_offset_deg);
+  throw InputError(fmt::format(
+      "{}: no direction in common with the sweep; the file has {} GHz, theta {}, phi {} deg, the sweep {} GHz, theta "
+      "{}, phi {} deg "
+      "(theta = 90 - elevation, phi by --reference-phi {:g},{:g})",
+      reference.name, span_text(f), span_text(theta), span_text(phi), span_text(our_f), span_text(our_theta),
+      span_text(our_phi), reference.settings.phi_scale, reference.settings.phi_offset_deg));
+}
+
+Vec3 unit_vector(double theta_deg, double phi_deg) {
+  const double theta = radians(theta_deg), phi = radians(phi_deg);
+  return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
+}
+
+// A monostatic echo and one from another transmitter are different quantities, however well their angles fit.
+void require_same_transmitter(const RcsSweep& sweep, const RcsReference& reference) {
+  if (!reference.transmitter) return;
+  const StatedTransmitter& theirs = *reference.transmitter;
+  const auto fail = [&](const std::string& ours) {
+    throw InputError(fmt::format("{}: {}, {}", reference.name,
+                                 theirs.moves_along
+                                     ? std::string("is monostatic by its own words")
+                                     : fmt::format("its transmitter stands at azimuth {:g} deg, elevation {:g} deg",
+                                                   theirs.phi_deg, 90 - theirs.theta_deg),
+                                 ours));
+  };
+  if (!sweep.transmitter) {
+    if (!theirs.moves_along) fail("the sweep is monostatic: give --transmit-azimuth-deg and --transmit-elevation-deg");
+    return;
+  }
+  const Vec3& t = *sweep.transmitter;
+  const double theta_deg = degrees(std::acos(std::clamp(t.z(), -1.0, 1.0)));
+  const double phi_deg =
+      reference.settings.phi_scale * degrees(std::atan2(t.y(), t.x())) + reference.settings.phi_offset_deg;
+  const std::string ours =
+      fmt::format("the sweep's transmitter stands at azimuth {:g} deg, elevation {:g} deg of the same angles", phi_deg,
+                  90 - theta_deg);
+  if (theirs.moves_along || (unit_vector(theta_deg, phi_deg) - unit_vector(theirs.theta_deg, theirs.phi_deg)).norm() >
+                                radians(kAngleStep_deg))
+    fail(ours);
+}
+
+CutAxis axis_of(const RcsSweep& sweep) {
+  if (sweep.views() == 1) return CutAxis::kFrequency;
+  if (sweep.elevation_deg.size() == 1) return CutAxis::kAzimuth;
+  return sweep.azimuth_deg.size() == 1 ? CutAxis::kElevation : CutAxis::kSeveral;
+}
+
+const char* axis_label(CutAxis axis) {
+  switch (axis) {
+    case CutAxis::kAzimuth: return "azimuth (deg)";
+    case CutAxis::kElevation: return "elevation (deg)";
+    case CutAxis::kFrequency: return "frequency (GHz)";
+    default: return "";
+  }
+}
+
+const char* axis_unit(CutAxis axis) {
+  switch (axis) {
+    case CutAxis::kFrequency: return "GHz";
+    case CutAxis::kSeveral: return "th";
+    default: return "deg";
+  }
+}
+
+std::string upper(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return text;
+}
+
+}  // namespace
+
+std::vector<PairedCut> pair_with(const RcsSweep& sweep, const RcsReference& reference) {
+  require_same_transmitter(sweep, reference);
+  const CutAxis axis = axis_of(sweep);
+  const int element = static_cast<int>(reference.element);
+  std::vector<PairedCut> cuts;
+  for (std::size_t q = 0; q < sweep.frequency_hz.size(); ++q) {
+    const double f = sweep.frequency_hz[q], k = 2 * kPi * f / kSpeedOfLight;
+    const Samples samples(reference, f);
+    if (cuts.empty() || axis != CutAxis::kFrequency) {
+      cuts.emplace_back();
+      cuts.back().reference = reference.name;
+      cuts.back().element = reference.element;
+      cuts.back().axis = axis;
+      if (axis != CutAxis::kFrequency) cuts.back().frequency_hz = f;
+      for (const RcsSweep::Model& model : sweep.models) cuts.back().models.push_back({model.name, {}, {}});
+    }
+    PairedCut& cut = cuts.back();
+    for (std::size_t view = 0; view < sweep.views(); ++view) {
+      const double az = sweep.azimuth_deg[view % sweep.azimuth_deg.size()],
+                   el = sweep.elevation_deg[view / sweep.azimuth_deg.size()];
+      const ReferenceSample* sample =
+          samples.at(90 - el, reference.settings.phi_scale * az + reference.settings.phi_offset_deg);
+      if (!sample) continue;
+      cut.x.push_back(axis == CutAxis::kAzimuth     ? az
+                      : axis == CutAxis::kElevation ? el
+                      : axis == CutAxis::kFrequency ? f * 1e-9
+                                                    : static_cast<double>(cut.x.size() + 1));
+      cut.level_dbsm.push_back(sample->level_dbsm);
+      if (sample->amplitude_m) {
+        // A phase origin at x0 lies (r^_t + r^_s).x0 nearer to the radar, both ways, than the body's (CONVENTIONS.md,
+        // "Scattering").
+        const Vec3 r = direction_at(az, el);
+        cut.amplitude_m.push_back(
+            *sample->amplitude_m *
+            std::polar(1.0, k * (sweep.transmitter.value_or(r) + r).dot(reference.settings.origin_m)));
+      }
+      for (std::size_t m = 0; m < sweep.models.size(); ++m) {
+        const Complex s = sweep.models[m].matrices[view][q][static_cast<std::size_t>(element)];
+        cut.models[m].level_dbsm.push_back(level_of(s));
+        cut.models[m].amplitude_m.push_back(s);
+      }
+    }
+  }
+  std::erase_if(cuts, [](const PairedCut& cut) { return cut.x.empty(); });
+  if (cuts.empty()) fail_pairing(sweep, reference);
+  return cuts;
+}
+
+Difference difference_of(const PairedCut& cut, const PairedCut::Model& model, double floor_db) {
+  Difference d;
+  d.points = cut.x.size();
+  const double floor = *std::max_element(cut.level_dbsm.begin(), cut.level_dbsm.end()) - floor_db;
+  double squares = 0;
+  for (std::size_t i = 0; i < cut.x.size(); ++i) {
+    const double difference = std::max(model.level_dbsm[i], floor) - std::max(cut.level_dbsm[i], floor);
+    d.mean_db += std::abs(difference);
+    d.bias_db += difference;
+    squares += difference * difference;
+    if (std::abs(difference) > std::abs(d.largest_db)) {
+      d.largest_db = difference;
+      d.largest_at = cut.x[i];
+    }
+  }
+  const double n = static_cast<double>(d.points);
+  d.mean_db /= n;
+  d.bias_db /= n;
+  d.rms_db = std::sqrt(squares / n);
+  if (!cut.amplitude_m.empty()) {
+    Complex product = 0;
+    double ours = 0, theirs = 0;
+    for (std::size_t i = 0; i < cut.x.size(); ++i) {
+      product += std::conj(cut.amplitude_m[i]) * model.amplitude_m[i];
+      ours += std::norm(model.amplitude_m[i]);
+      theirs += std::norm(cut.amplitude_m[i]);
+    }
+    if (ours > 0 && theirs > 0) d.correlation = product / std::sqrt(ours * theirs);
+  }
+  return d;
+}
+
+namespace {
+
+// Another reference of the same values, as if it had been computed.
+std::optional<PairedCut::Model> as_model(const PairedCut& other, const PairedCut& cut) {
+  if (other.element != cut.element || other.frequency_hz != cut.frequency_hz || other.x != cut.x) return std::nullopt;
+  PairedCut::Model model{other.reference, other.level_dbsm, other.amplitude_m};
+  if (model.amplitude_m.empty()) model.amplitude_m.assign(other.x.size(), 0.0);
+  return model;
+}
+
+}  // namespace
+
+std::string difference_table(const std::vector<PairedCut>& cuts, double floor_db) {
+  struct Row {
+    const PairedCut* cut;
+    std::string model;
+    Difference difference;
+  };
+  std::vector<Row> rows;
+  for (const PairedCut& cut : cuts) {
+    for (const PairedCut::Model& model : cut.models)
+      rows.push_back({&cut, model.name, difference_of(cut, model, floor_db)});
+  }
+  // How far references are apart from each other.
+  for (std::size_t i = 0; i < cuts.size(); ++i) {
+    for (std::size_t j = i + 1; j < cuts.size(); ++j) {
+      if (const auto model = as_model(cuts[i], cuts[j]))
+        rows.push_back({&cuts[j], model->name, difference_of(cuts[j], *model, floor_db)});
+    }
+  }
+  std::size_t width = 9, model_width = 5;
+  for (const Row& row : rows) {
+    width = std::max(width, row.cut->reference.size());
+    model_width = std::max(model_width, row.model.size());
+  }
+  std::string text = fmt::format(
+      "Differences, compared - reference, both clipped at {:g} dB below the reference's maximum:\n{:<{}}  pol  {:>9}  "
+      "{:<{}} {:>6} {:>8} {:>7} {:>7} {:>8}  {:<13} {}\n",
+      floor_db, "reference", width, "f_ghz", "compared", std::max(model_width, std::size_t{8}), "points", "mean_db",
+      "rms_db", "bias_db", "largest", "at", "correlation");
+  for (const Row& row : rows) {
+    const Difference& d = row.difference;
+    const std::string f = row.cut->frequency_hz ? fmt::format("{:g}", *row.cut->frequency_hz * 1e-9) : "sweep";
+    text += fmt::format(
+        "{:<{}}  {:<3}  {:>9}  {:<{}} {:>6} {:>8.3f} {:>7.3f} {:>7.3f} {:>8.3f}  {:<13} {}\n", row.cut->reference,
+        width, kElementNames[static_cast<int>(row.cut->element)], f, row.model, std::max(model_width, std::size_t{8}),
+        d.points, d.mean_db, d.rms_db, d.bias_db, d.largest_db,
+        fmt::format("{:.6g} {}", d.largest_at, axis_unit(row.cut->axis)),
+        d.correlation ? fmt::format("{:.4f} at {:.1f} deg", std::abs(*d.correlation), degrees(std::arg(*d.correlation)))
+                      : "-");
+  }
+  return text;
+}
+
+bool draw_comparison(const std::vector<PairedCut>& cuts, double floor_db, const std::string& title,
+                     const std::filesystem::path& file) {
+  if (cuts.empty() || cuts.front().axis == CutAxis::kSeveral || cuts.front().x.size() < 2) return false;
+  // Cuts of one frequency and polarisation share a column.
+  constexpr std::size_t kMostColumns = 4;
+  std::vector<std::vector<const PairedCut*>> columns;
+  for (const PairedCut& cut : cuts) {
+    const auto place = std::find_if(columns.begin(), columns.end(), [&](const auto& column) {
+      return column.front()->element == cut.element && column.front()->frequency_hz == cut.frequency_hz;
+    });
+    if (place != columns.end()) {
+      place->push_back(&cut);
+    } else if (columns.size() < kMostColumns) {
+      columns.push_back({&cut});
+    }
+  }
+
+  std::vector<LinePlot> levels, differences;
+  for (const auto& column : columns) {
+    const PairedCut& first = *column.front();
+    double highest = -1e300;
+    for (const PairedCut* cut : column)
+      highest = std::max(highest, *std::max_element(cut->level_dbsm.begin(), cut->level_dbsm.end()));
+    const double floor = highest - floor_db;
+    const auto clipped = [&](std::vector<double> values) {
+      for (double& v : values) v = std::max(v, floor);
+      return values;
+    };
+    LinePlot level, difference;
+    level.legend_above = difference.legend_above = true;
+    level.title = upper(kElementNames[static_cast<int>(first.element)]) +
+                  (first.frequency_hz ? fmt::format(", {:g} GHz", *first.frequency_hz * 1e-9) : std::string());
+    level.x.label = difference.x.label = axis_label(first.axis);
+    level.x.range = difference.x.range =
+        AxisRange{*std::min_element(first.x.begin(), first.x.end()), *std::max_element(first.x.begin(), first.x.end())};
+    difference.y.label = "computed - reference (dB)";
+    double widest = 0.2, lowest = highest;
+    for (const PairedCut* cut : column) {
+      const std::string& name = cut->reference;
+      lowest = std::min(lowest, *std::min_element(cut->level_dbsm.begin(), cut->level_dbsm.end()));
+      level.series.push_back({name, cut->x, clipped(cut->level_dbsm), {}, SeriesStyle::kLines});
+      for (const PairedCut::Model& model : cut->models) {
+        Series series{model.name + " - " + name, cut->x, {}, {}, SeriesStyle::kLines};
+        const std::vector<double> ours = clipped(model.level_dbsm), theirs = clipped(cut->level_dbsm);
+        for (std::size_t i = 0; i < cut->x.size(); ++i) {
+          series.y.push_back(ours[i] - theirs[i]);
+          widest = std::max(widest, std::abs(series.y.back()));
+        }
+        difference.series.push_back(std::move(series));
+      }
+    }
+    for (const PairedCut::Model& model : first.models)
+      level.series.push_back({model.name, first.x, clipped(model.level_dbsm), {}, SeriesStyle::kLines});
+    for (std::size_t i = 0; i + 1 < column.size(); ++i) {
+      const auto other = as_model(*column[i], *column[i + 1]);
+      if (!other) continue;
+      Series series{other->name + " - " + column[i + 1]->reference, column[i]->x, {}, {}, SeriesStyle::kLines};
+      const std::vector<double> upper = clipped(other->level_dbsm), lower = clipped(column[i + 1]->level_dbsm);
+      for (std::size_t n = 0; n < upper.size(); ++n) series.y.push_back(upper[n] - lower[n]);
+      difference.series.push_back(std::move(series));
+    }
+    // Nulls that only one side has would squeeze everything else.
+    constexpr double kMargin_db = 3, kBelowReference_db = 12, kWidest_db = 20;
+    level.y = {"radar cross section (dBsm)",
+               AxisRange{std::max(floor, lowest - kBelowReference_db), highest + kMargin_db}, false};
+    widest = std::min(1.05 * widest, kWidest_db);
+    difference.y.range = AxisRange{-widest, widest};
+    levels.push_back(std::move(level));
+    differences.push_back(std::move(difference));
+  }
+  // Two columns abreast (all of an odd number): levels over differences, then the next two.
+  const std::size_t count = columns.size(), abreast = count % 2 == 0 ? 2 : count;
+  std::vector<LinePlot> plots;
+  for (std::size_t first = 0; first < count; first += abreast) {
+    for (auto* row : {&levels, &differences}) {
+      for (std::size_t c = first; c < std::min(first + abreast, count); ++c) plots.push_back(std::move((*row)[c]));
+    }
+  }
+  const int blocks = static_cast<int>((count + abreast - 1) / abreast);
+  write_figure(title, plots, static_cast<int>(abreast), file,
+               {abreast == 1 ? 900 : static_cast<int>(750 * abreast), 860 * blocks});
+  return true;
+}
+
+}  // namespace seaglint

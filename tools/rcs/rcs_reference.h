@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// Cuts of somebody else's radar cross section: measured, or exported by another solver. Read as they are written,
+// brought to this program's conventions.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/core/numbers/linear.h"
+
+namespace seaglint {
+
+// One element of the scattering matrix: q transmitted, p received (CONVENTIONS.md).
+enum class Element { kHh, kHv, kVh, kVv };
+inline constexpr const char* kElementNames[] = {"hh", "hv", "vh", "vv"};
+
+// What a file does not say of itself, and how its angles lie to the body's.
+struct ReferenceSettings {
+  std::optional<Element> element;      // absent: from the name, `.H.` is hh and `.V.` is vv (Austin suite)
+  std::optional<double> frequency_hz;  // of a file without frequencies
+  double phi_scale = 1;                // phi of the file = phi_scale * azimuth + phi_offset_deg
+  double phi_offset_deg = 0;
+  Vec3 origin_m = Vec3::Zero();  // the file's phase origin, body frame
+};
+
+struct ReferenceSample {
+  double frequency_hz = 0;
+  double theta_deg = 0;  // 0..180
+  double phi_deg = 0;    // 0 <= x < 360, the file's own
+  double level_dbsm = 0;
+  std::optional<Complex> amplitude_m;  // about the file's phase origin; absent without a phase
+};
+
+// Where a file says that its transmitter stands, in its own angles.
+struct StatedTransmitter {
+  bool moves_along = true;  // with the receiver: monostatic, and no angles
+  double theta_deg = 0, phi_deg = 0;
+};
+
+struct RcsReference {
+  std::string name;  // the file's, without its folder
+  Element element = Element::kHh;
+  ReferenceSettings settings;
+  std::vector<ReferenceSample> samples;
+  std::optional<StatedTransmitter> transmitter;  // absent where the file does not say
+  bool has_phase() const { return !samples.empty() && samples.front().amplitude_m.has_value(); }
+};
+
+// Reads, by what is in the file,
+//   four columns without header: frequency in Hz, theta, phi in degrees, dBsm (Austin RCS Benchmark Suite); the table
+//   of `seaglint rcs` (columns by name; xx_re and xx_im, or xx_dbsm alone; its head says where the transmitter stands);
+//   a CST farfield table of the RCS: columns by their squeezed names, `Theta[deg.] Phi[deg.] Abs(Theta)[unit]
+//   Phase(Theta)[deg.] ...`, v received = Theta, h received = Phi, units m^2, mm^2, lambda^2 or dB() of them; no
+//   frequency inside. Theta below 0 is folded (|theta|, phi + 180, sign of both unit vectors changed). e^{+jwt}; theta^
+//   = -v, phi^ = h, so cross-polar terms change sign.
+// Throws InputError with the file, the line and what is missing, and where settings.frequency_hz is another than the
+// file's own.
+RcsReference read_reference(const std::filesystem::path& file, const ReferenceSettings& settings);
+
+}  // namespace seaglint

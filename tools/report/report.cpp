@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/report/report.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <chrono>
+
+#include "sim/core/process/error.h"
+#include "sim/core/process/file.h"
+#include "sim/core/text/json_problem.h"
+#include "tools/pipeline/scene.h"
+#include "tools/pipeline/train.h"
+#include "tools/pipeline/warnings.h"
+#include "tools/report/html.h"
+#include "tools/report/probe_text.h"
+#include "tools/report/report_figures.h"
+#include "tools/report/report_text.h"
+#include "tools/report/summary.h"
+
+namespace seaglint {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using nlohmann::ordered_json;
+
+// Throws InputError naming the file where it is no JSON object.
+ordered_json read_object(const fs::path& file) {
+  try {
+    ordered_json object = ordered_json::parse(read_file(file));
+    if (!object.is_object()) throw InputError(fmt::format("{}: must be a JSON object", file.string()));
+    return object;
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(fmt::format("{}: {}", file.string(), json_problem(error)));
+  }
+}
+
+// The run's numbers, which must be those of the model beside them: tables and figures would be of two trainings.
+ordered_json read_metrics(const fs::path& directory) {
+  const fs::path file = directory / kMetricsFile;
+  if (!fs::exists(file))
+    throw InputError(fmt::format("{}: not the directory of a finished run: no {}", directory.string(), kMetricsFile));
+  ordered_json metrics = read_object(file);
+  // What every part of the page leans on; an older or foreign file is told apart here.
+  for (const char* member : {"handmade", "cnn", "fused", "probes", "network", "data", "run"}) {
+    if (!metrics.contains(member)) throw InputError(fmt::format("{}: no member `{}`", file.string(), member));
+  }
+  const fs::path of_model = directory / "model" / kMetricsFile;
+  if (!fs::exists(of_model)) {
+    throw InputError(
+        fmt::format("{}: missing: the last training did not end; go on by `seaglint run --resume`", of_model.string()));
+  }
+  const ordered_json model = read_object(of_model);
+  for (const auto& [member, value] : model.items()) {
+    if (metrics.contains(member) && metrics[member] == value) continue;
+    throw InputError(fmt::format("{}: `{}` is of another training than {}; go on by `seaglint run --resume`",
+                                 file.string(), member, of_model.string()));
+  }
+  return metrics;
+}
+
+// Why neither the targets' pictures nor their motion can be drawn: a file that the scenario names and that is not to be
+// found from here. Empty where all are.
+std::string missing_input(const Scenario& scenario) {
+  try {
+    input_files(scenario);
+    return "";
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+// The figures of a section, two abreast.
+std::string figures(const std::vector<ReportFigure>& all, const std::string& section) {
+  std::string html;
+  for (const ReportFigure& figure : all) {
+    if (figure.section == section)
+      html += html_figure(figure.svg.empty() ? figure.png : figure.svg, figure.caption, figure.alternative);
+  }
+  return html.empty() ? html : "<div class=\"pair\">\n" + html + "</div>\n";
+}
+
+std::string section(const char* id, const char* title, const std::string& content) {
+  return fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n{}</section>\n", id, title, content);
+}
+
+std::string targets_section(const std::vector<ReportFigure>& all, const std::string& missing) {
+  if (!missing.empty()) {
+    return fmt::format(
+        "<p>Neither the targets nor their motion are drawn: {}. Report the run again where its files are found.</p>\n",
+        escape_html(missing));
+  }
+  const std::string pictures = figures(all, "targets");
+  return pictures.empty() ? "<p>Ideal point scatterers; there is nothing to draw.</p>\n" : pictures;
+}
+
+std::string page(const ordered_json& metrics, const Scenario& scenario, const std::vector<ReportFigure>& all,
+                 const std::string& missing) {
+  const std::string name = escape_html(scenario.name);
+  std::string body = fmt::format(
+      "<header>\n<h1>Ship or corner-reflector array?</h1>\n<p class=\"lead\">Simulated frequency-agile radar maps, "
+      "their features and how well they tell the two "
+      "apart. Scenario <b>{}</b>, seed {}, seaglint {}.</p>\n</header>\n",
+      name, scenario.seed, escape_html(metrics.at("version").get<std::string>()));
+  body +=
+      "<nav><a href=\"#maps\">Maps</a><a href=\"#accuracy\">Accuracy</a><a href=\"#paper\">The paper’s claims</a><a "
+      "href=\"#features\">Features</a>"
+      "<a href=\"#aspects\">Aspects</a><a href=\"#probes\">Probes</a><a href=\"#notes\">What to notice</a><a "
+      "href=\"#sea\">Sea and motion</a>"
+      "<a href=\"#targets\">Targets</a><a href=\"#run\">Run</a><a href=\"#scenario\">Scenario</a></nav>\n";
+  body += summary_tiles(metrics);
+  body += section("maps", "Range-velocity maps",
+                  "<p>Levels in dB below each map’s strongest cell. Circles are the scattering centres that CLEAN "
+                  "finds, the frame holds them all. Range grows away from the "
+                  "radar, velocity is positive when receding.</p>\n" +
+                      figures(all, "maps"));
+  body += section("accuracy", "Accuracy",
+                  "<p>XGBoost (200 trees, depth 6 unless the scenario says otherwise) on three groups of features. In "
+                  "brackets the 95 % interval of a bootstrap over sea "
+                  "realisations.</p>\n" +
+                      figures(all, "accuracy") + accuracy_tables(metrics));
+  body += section("paper", "The paper’s claims beside ours",
+                  claims_table(metrics) +
+                      "<p>Whatever comes out is printed; nothing was tuned towards the paper. It used CST for the "
+                      "echoes and DualSPHysics for the motion, "
+                      "gives neither peak period nor wave direction, and tests on random rows.</p>\n");
+  body += section("features", "Hand-made and learned features", figures(all, "features") + feature_table(metrics));
+  body += section("aspects", "Dependence on aspect", figures(all, "aspects"));
+  body += section("probes", "Probes: what else could tell the class",
+                  "<p>Each quantity is given to the same trees by itself. Quantities that know nothing of the target "
+                  "must stay near 50 %.</p>\n" +
+                      probes_table(metrics, scenario));
+  body += section("notes", "What an expert should notice", expert_notes(metrics, scenario));
+  body += section("sea", "Sea and motion", figures(all, "sea"));
+  body += section("targets", "Targets", targets_section(all, missing));
+  body += section("run", "Run time, versions, seeds", provenance_table(metrics));
+  body += section("scenario", "Effective scenario",
+                  "<details><summary>Every key with its value</summary>\n<pre>" +
+                      escape_html(effective_yaml(scenario)) + "</pre></details>\n");
+  body +=
+      "<footer>Made by seaglint. Every number of this page is in metrics.json, every figure a PNG (plots also SVG) "
+      "beside it. Simulated data; nothing here was measured.</footer>\n";
+  return html_page("seaglint: " + scenario.name, body);
+}
+
+}  // namespace
+
+void write_report(const fs::path& directory, const Scenario& scenario, int threads, const StopFlag* stop) {
+  const auto begin = std::chrono::steady_clock::now();
+  ordered_json metrics = read_metrics(directory);
+  const ReportData data = load_report_data(directory, scenario, stop);
+  metrics["report"] = report_numbers(data);
+  const std::string missing = missing_input(scenario);
+  if (!missing.empty()) warn(std::array{missing + "; neither the targets nor their motion are drawn"});
+  const std::vector<Target> targets = missing.empty() ? load_targets(scenario) : std::vector<Target>();
+  const std::vector<ReportFigure> all =
+      draw_report_figures(directory, scenario, targets, data, metrics, thread_count(threads), stop);
+  metrics["run"]["seconds"]["report"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  std::string html;
+  try {
+    html = page(metrics, scenario, all, missing);
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(fmt::format("{}: {}", (directory / kMetricsFile).string(), json_problem(error)));
+  }
+  write_file(directory / kMetricsFile, metrics.dump(2) + "\n");
+  write_file(directory / kReportFile, html);
+}
+
+}  // namespace seaglint

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// What the report draws from: the samples of a run without their maps, and the few maps it shows.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "classify/dataset/directory/dataset_reader.h"
+#include "classify/model/booster.h"
+#include "sim/core/process/parallel.h"
+#include "sim/scenario/scenario.h"
+
+namespace seaglint {
+
+// The straight line v = a r + b through the stored centres of a map.
+struct LineFit {
+  double slope = 0;      // 1/s
+  double intercept = 0;  // m/s
+  double explained = 0;  // adjusted R^2: 1 = all on the line, 0 on average for loose points, NaN below 3 centres
+};
+LineFit fit_line(const std::vector<StoredCentre>& centres);
+
+struct ReportRow {
+  SampleRecord record;
+  LineFit line;
+};
+
+// One map that the report shows.
+struct ShownMap {
+  Sample sample;
+  StoredAxes axes;
+};
+
+struct ReportData {
+  std::vector<ReportRow> rows;
+  std::vector<ShownMap> shown;  // ship and array at the first aspect, then at the second
+  double shown_wave_height_m = 0;
+  FeatureMatrix handmade;  // of all rows
+  FeatureMatrix fused;     // the same and the network's embeddings
+};
+
+// Aspects nearest 80 and 170 deg azimuth, the sea nearest 1 m (method: the paper's figures); the first such map of each
+// class. Throws InputError when data set or embeddings are unsound.
+ReportData load_report_data(const std::filesystem::path& directory, const Scenario& scenario, const StopFlag* stop);
+
+}  // namespace seaglint

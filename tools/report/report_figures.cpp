@@ -1,0 +1,370 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/report/report_figures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "classify/model/tsne.h"
+#include "sim/core/numbers/constants.h"
+#include "sim/core/process/error.h"
+#include "sim/core/process/file.h"
+#include "sim/scenario/sample_plan.h"
+#include "tools/figure/figure.h"
+#include "tools/figure/mesh_picture.h"
+#include "tools/pipeline/metrics.h"
+#include "tools/pipeline/scene.h"
+#include "tools/report/html.h"
+#include "tools/report/summary.h"
+
+namespace seaglint {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double kMapFloorDb = -45;           // of the colour scale, below the map's strongest cell
+constexpr std::size_t kMostNeighbours = 700;  // rows of a t-SNE plane
+constexpr const char* kClassNames[2] = {"array", "ship"};
+
+struct Drawing {
+  ReportFigure figure;
+  std::function<void(const fs::path&)> draw;  // of one file
+};
+
+class FigureList {
+ public:
+  explicit FigureList(fs::path directory) : directory_(std::move(directory)) {}
+
+  template <class Plot>
+  void add(const std::string& section, const std::string& name, Plot plot, FigureSize size, std::string caption,
+           std::string alternative, bool vector_too = true) {
+    ReportFigure figure{section, directory_ / (name + ".png"), vector_too ? directory_ / (name + ".svg") : fs::path(),
+                        std::move(caption), std::move(alternative)};
+    drawings_.push_back(
+        {std::move(figure), [plot = std::move(plot), size](const fs::path& file) { write_figure(plot, file, size); }});
+  }
+
+  void add_picture(const std::string& section, const std::string& name, std::function<void(const fs::path&)> draw,
+                   std::string caption, std::string alternative) {
+    drawings_.push_back(
+        {{section, directory_ / (name + ".png"), {}, std::move(caption), std::move(alternative)}, std::move(draw)});
+  }
+
+  std::vector<ReportFigure> draw(int threads, const StopFlag* stop) const {
+    struct Task {
+      const Drawing* drawing;
+      fs::path file;
+    };
+    std::vector<Task> tasks;
+    for (const Drawing& drawing : drawings_) {
+      tasks.push_back({&drawing, drawing.figure.png});
+      if (!drawing.figure.svg.empty()) tasks.push_back({&drawing, drawing.figure.svg});
+    }
+    parallel_for(
+        tasks.size(), threads, [&](std::size_t i) { tasks[i].drawing->draw(tasks[i].file); }, stop);
+    std::vector<ReportFigure> figures;
+    for (const Drawing& drawing : drawings_) figures.push_back(drawing.figure);
+    return figures;
+  }
+
+ private:
+  fs::path directory_;
+  std::vector<Drawing> drawings_;
+};
+
+std::string file_word(const std::string& name) {
+  std::string word;
+  for (const char c : name) word += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+  return word;
+}
+
+// The frame round all scattering centres of a map, half a cell and a little wider than they are.
+std::array<double, 4> centre_box(const ShownMap& shown) {
+  const auto& range = shown.axes.range_m;
+  const auto& velocity = shown.axes.velocity_mps;
+  const double range_margin = range.size() > 1 ? 3 * (range[1] - range[0]) : 1;
+  const double velocity_margin = velocity.size() > 1 ? 1.5 * (velocity[1] - velocity[0]) : 1;
+  std::array<double, 4> box{1e300, -1e300, 1e300, -1e300};
+  for (const StoredCentre& centre : shown.sample.centre_list) {
+    box = {std::min(box[0], centre[0] - range_margin), std::max(box[1], centre[0] + range_margin),
+           std::min(box[2], centre[1] - velocity_margin), std::max(box[3], centre[1] + velocity_margin)};
+  }
+  return {std::max(box[0], range.front()), std::min(box[1], range.back()), std::max(box[2], velocity.front()),
+          std::min(box[3], velocity.back())};
+}
+
+void add_maps(FigureList& list, const ReportData& data) {
+  for (const ShownMap& shown : data.shown) {
+    const SampleRecord& record = shown.sample.record;
+    Heatmap map;
+    map.title = fmt::format("{}, azimuth {:g} deg, Hs {:g} m", record.target_name, record.azimuth_deg,
+                            record.significant_wave_height_m);
+    map.x.label = "range relative to the target's reference (m)";
+    map.y.label = "velocity, positive = receding (m/s)";
+    map.colour = {"|RV| below the strongest cell (dB)", AxisRange{kMapFloorDb, 0}, false};
+    map.x_cells = shown.axes.range_m;
+    map.y_cells = shown.axes.velocity_mps;
+    for (const float value : shown.sample.magnitude) {
+      map.values.push_back(20 * std::log10(std::max<double>(value, 1e-12) / std::max(record.peak_m, 1e-12)));
+    }
+    for (const StoredCentre& centre : shown.sample.centre_list) map.markers.push_back({centre[0], centre[1]});
+    map.marker_name = "scattering centres";
+    if (!shown.sample.centre_list.empty()) map.boxes.push_back(centre_box(shown));
+    const LineFit line = fit_line(shown.sample.centre_list);
+    list.add(
+        "maps", fmt::format("map_{}_{:g}deg", file_word(record.target_name), record.azimuth_deg), std::move(map),
+        {720, 450},
+        fmt::format("<b>{}</b>, azimuth {:g}°, H<sub>s</sub> {:g} m (sample {}). Strongest cell {:.3g} m ({:.1f} "
+                    "dBsm), {} centres, "
+                    "MWR {:.3g} (m/s)², CCF {:.2f}, σ<sub>r</sub> {:.1f} m, σ<sub>v</sub> {:.2f} m/s; the straight "
+                    "line explains {} "
+                    "of the centres' velocity variance.",
+                    escape_html(record.target_name), record.azimuth_deg, record.significant_wave_height_m,
+                    record.sample, record.peak_m, 10 * std::log10(4 * kPi * record.peak_m * record.peak_m),
+                    record.centres, record.mwr, record.ccf, record.sigma_r_m, record.sigma_v_mps,
+                    std::isfinite(line.explained) ? fmt::format("{:.0f} %", 100 * line.explained) : "an unknown share"),
+        fmt::format("Range-velocity map of {} at azimuth {:g} degrees", record.target_name, record.azimuth_deg), false);
+  }
+}
+
+void add_accuracy(FigureList& list, const nlohmann::ordered_json& metrics) {
+  for (const char* protocol : {"random", "group"}) {
+    LinePlot plot;
+    plot.title = protocol == std::string("random") ? "Random split of the maps" : "Split by sea realisation";
+    plot.x.label = "significant wave height (m)";
+    double span = 0, lowest = 50;
+    for (const auto& row : metrics.at("handmade").at(protocol).at("by_wave_height")) {
+      span = std::max(span, row.at("significant_wave_height_m").get<double>());
+    }
+    double shift = -0.012 * span;  // side by side, so that the intervals do not hide each other
+    for (const auto& [group, label] : {std::pair{"handmade", "hand-made"}, {"cnn", "CNN"}, {"fused", "fused"}}) {
+      Series series;
+      series.name = label;
+      series.style = SeriesStyle::kLinesPoints;
+      for (const auto& row : metrics.at(group).at(protocol).at("by_wave_height")) {
+        const double accuracy = 100 * value_or_nan(row.at("accuracy"));
+        const double low = 100 * value_or_nan(row.at("accuracy_95")[0]),
+                     high = 100 * value_or_nan(row.at("accuracy_95")[1]);
+        series.x.push_back(row.at("significant_wave_height_m").get<double>() + shift);
+        series.y.push_back(accuracy);
+        series.interval.push_back({std::isfinite(low) ? low : accuracy, std::isfinite(high) ? high : accuracy});
+        lowest = std::min(lowest, series.interval.back()[0]);
+      }
+      plot.series.push_back(std::move(series));
+      shift += 0.012 * span;
+    }
+    plot.y = {"accuracy on test maps (%)", AxisRange{std::floor(lowest / 10) * 10, 102}, false};
+    list.add("accuracy", fmt::format("accuracy_{}", protocol), std::move(plot), {640, 400},
+             protocol == std::string("random") ? "Random split: the paper's protocol. Maps of the same sea lie on both "
+                                                 "sides. Bars: 95 % bootstrap over seas."
+                                               : "Split by sea: no test map shares its sea with a training map. No bar "
+                                                 "where a height has one test sea only.",
+             fmt::format("Accuracy against wave height, {} split", protocol));
+  }
+}
+
+// One scatter with a series per class.
+LinePlot class_scatter(const ReportData& data, const std::function<std::array<double, 2>(std::size_t)>& point,
+                       const std::vector<std::size_t>& rows) {
+  LinePlot plot;
+  for (const int label : {0, 1}) {
+    Series series;
+    series.name = kClassNames[label];
+    series.style = SeriesStyle::kPoints;
+    for (const std::size_t row : rows) {
+      if (data.rows[row].record.label != label) continue;
+      const auto xy = point(row);
+      series.x.push_back(xy[0]);
+      series.y.push_back(xy[1]);
+    }
+    plot.series.push_back(std::move(series));
+  }
+  return plot;
+}
+
+// At most `most` rows, evenly spread.
+std::vector<std::size_t> thinned(std::size_t rows, std::size_t most) {
+  std::vector<std::size_t> chosen;
+  const std::size_t count = std::min(rows, most);
+  for (std::size_t i = 0; i < count; ++i) chosen.push_back(i * rows / count);
+  return chosen;
+}
+
+void add_features(FigureList& list, const ReportData& data, std::uint64_t seed) {
+  const std::vector<std::size_t> all = thinned(data.rows.size(), 4000);
+  LinePlot residual = class_scatter(
+      data,
+      [&](std::size_t i) {
+        return std::array{std::max(data.rows[i].record.mwr, 1e-6), data.rows[i].record.ccf};
+      },
+      all);
+  residual.title = "Line residual and contrast of the spreads";
+  residual.x = {"MWR ((m/s)^2)", {}, true};
+  residual.y = {"CCF", AxisRange{0, 1.02}, false};
+  list.add("features", "features_mwr_ccf", std::move(residual), {640, 400},
+           "The paper's two new features, every map a point; a residual of zero stands at 1e-6.",
+           "Scatter of MWR and CCF by class");
+  LinePlot spreads = class_scatter(
+      data,
+      [&](std::size_t i) {
+        return std::array{data.rows[i].record.sigma_r_m, data.rows[i].record.sigma_v_mps};
+      },
+      all);
+  spreads.title = "Spreads of the scattering centres";
+  spreads.x.label = "sigma_r (m)";
+  spreads.y.label = "sigma_v (m/s)";
+  list.add("features", "features_spreads", std::move(spreads), {640, 400},
+           "Standard deviations of the centres' ranges and velocities.",
+           "Scatter of range and velocity spread by class");
+
+  const std::vector<std::size_t> few = thinned(data.rows.size(), kMostNeighbours);
+  for (const auto& [name, matrix, title] :
+       {std::tuple{"tsne_handmade", &data.handmade, "t-SNE of the hand-made features"},
+        {"tsne_fused", &data.fused, "t-SNE of the fused features"}}) {
+    const auto points = tsne(select_rows(*matrix, few), 30, 500, seed);
+    std::vector<std::array<double, 2>> place(data.rows.size());
+    for (std::size_t i = 0; i < few.size(); ++i) place[few[i]] = points[i];
+    LinePlot plot = class_scatter(
+        data, [&](std::size_t i) { return place[i]; }, few);
+    plot.title = title;
+    plot.x.label = "t-SNE 1";
+    plot.y.label = "t-SNE 2";
+    list.add("features", name, std::move(plot), {640, 400},
+             fmt::format("{}: neighbours stay neighbours, distances between clusters mean nothing. {} maps, training "
+                         "and test together.",
+                         title, few.size()),
+             title);
+  }
+}
+
+void add_aspects(FigureList& list, const ReportData& data) {
+  const std::vector<double> azimuths = azimuths_deg(data);
+  struct Quantity {
+    const char* file;
+    const char* title;
+    FigureAxis axis;
+    std::function<double(const ReportRow&)> value;
+    const char* caption;
+  };
+  const Quantity quantities[] = {
+      {"line_by_azimuth",
+       "How much of a line a map shows",
+       {"velocity variance explained by the line (%)", AxisRange{-55, 102}, false},
+       [](const ReportRow& row) { return 100 * row.line.explained; },
+       "Share of the centres' velocity variance that a straight line in range explains, adjusted for the number of "
+       "centres (0 = loose points): median and quartiles over all maps of the aspect."},
+      {"mwr_by_azimuth",
+       "Line residual by aspect",
+       {"MWR ((m/s)^2)", {}, true},
+       [](const ReportRow& row) { return std::max(row.record.mwr, 1e-6); },
+       "MWR by aspect: median and quartiles."}};
+  for (const Quantity& quantity : quantities) {
+    LinePlot plot;
+    plot.title = fmt::format("{}, Hs {:g} m", quantity.title, data.shown_wave_height_m);
+    plot.x.label = "azimuth of the radar, 0 = ahead of the bow (deg)";
+    plot.y = quantity.axis;
+    for (const int label : {0, 1}) {
+      Series series;
+      series.name = kClassNames[label];
+      series.style = SeriesStyle::kLinesPoints;
+      for (const double azimuth : azimuths) {
+        const Quartiles q = quartiles_of(data, {label, data.shown_wave_height_m, azimuth}, quantity.value);
+        series.x.push_back(azimuth + (label == 1 ? 1 : -1));
+        series.y.push_back(q.median);
+        series.interval.push_back({q.lower, q.upper});
+      }
+      plot.series.push_back(std::move(series));
+    }
+    list.add("aspects", quantity.file, std::move(plot), {640, 400}, quantity.caption, quantity.title);
+  }
+}
+
+LinePlot angle_plot(const std::string& title, const Trajectory& body, const std::vector<double>& times) {
+  LinePlot plot;
+  plot.title = title;
+  plot.x.label = "time (s)";
+  plot.y.label = "angle (deg)";
+  constexpr const char* kNames[3] = {"roll", "pitch", "yaw"};
+  for (int axis = 0; axis < 3; ++axis) {
+    Series series;
+    series.name = kNames[axis];
+    for (const double t : times) {
+      series.x.push_back(t);
+      series.y.push_back(degrees(body.sample(t).angles[axis]));
+    }
+    plot.series.push_back(std::move(series));
+  }
+  return plot;
+}
+
+void add_sea(FigureList& list, const Scenario& scenario, const std::vector<Target>& targets, double wave_height_m) {
+  constexpr double kExcerptS = 60;
+  const std::vector<SeaState> states = sea_states(scenario.sea);
+  int state = 0;
+  while (states[static_cast<std::size_t>(state)].significant_wave_height_m != wave_height_m) ++state;
+  const Scene scene = make_scene(scenario, targets, state, 0, kExcerptS);
+  std::vector<double> times;
+  for (int i = 0; i <= 600; ++i) times.push_back(0.1 * i);
+
+  LinePlot waves;
+  waves.title = fmt::format("Sea surface at the reference point, Hs {:g} m, Tp {:g} s", wave_height_m,
+                            states[static_cast<std::size_t>(state)].peak_period_s);
+  waves.x.label = "time (s)";
+  waves.y.label = "elevation (m)";
+  Series full{scenario.sea.order == 2 ? "second order" : "linear", times, {}, {}, SeriesStyle::kLines};
+  for (const double t : times) full.y.push_back(scene.sea.surface(0, 0, t).elevation);
+  waves.series.push_back(std::move(full));
+  list.add("sea", "sea_surface", std::move(waves), {640, 330},
+           "One minute of the first sea realisation; all targets and aspects see this sea.",
+           "Elevation of the sea against time");
+  for (std::size_t t = 0; t < targets.size(); ++t) {
+    if (scene.bodies[t].empty()) continue;
+    const std::string who = scene.bodies[t].size() > 1 ? targets[t].spec.name + ", first body" : targets[t].spec.name;
+    list.add("sea", fmt::format("motion_{}", file_word(targets[t].spec.name)),
+             angle_plot(fmt::format("Motion of {}", who), scene.bodies[t].front(), times), {640, 330},
+             fmt::format("Angles of <b>{}</b> in that sea (right-handed: pitch &gt; 0 puts the bow down).",
+                         escape_html(who)),
+             fmt::format("Angles of {} against time", who));
+  }
+}
+
+void add_targets(FigureList& list, const std::vector<Target>& targets) {
+  for (const Target& target : targets) {
+    if (target.mesh.triangles.empty()) continue;
+    const Bounds box = bounds(target.mesh);
+    const Vec3 size = box.upper - box.lower;
+    list.add_picture(
+        "targets", fmt::format("target_{}", file_word(target.spec.name)),
+        [&target](const fs::path& file) {
+          write_file(file, png_bytes(picture_of(target.mesh, PictureView{.width = 1000})));
+        },
+        fmt::format("<b>{}</b> (label {}): {:.1f} × {:.1f} × {:.1f} m, {} triangles{}.", escape_html(target.spec.name),
+                    target.spec.label, size.x(), size.y(), size.z(), target.mesh.triangles.size(),
+                    target.rest_positions.size() > 1
+                        ? fmt::format("; one of {} bodies in line, {:g} m apart", target.rest_positions.size(),
+                                      target.spec.line->spacing_m)
+                        : std::string()),
+        fmt::format("Picture of {}", target.spec.name));
+  }
+}
+
+}  // namespace
+
+std::vector<ReportFigure> draw_report_figures(const fs::path& directory, const Scenario& scenario,
+                                              const std::vector<Target>& targets, const ReportData& data,
+                                              const nlohmann::ordered_json& metrics, int threads,
+                                              const StopFlag* stop) {
+  FigureList list(directory);
+  add_maps(list, data);
+  add_accuracy(list, metrics);
+  add_features(list, data, scenario.seed);
+  add_aspects(list, data);
+  add_sea(list, scenario, targets, data.shown_wave_height_m);
+  add_targets(list, targets);
+  return list.draw(threads, stop);
+}
+
+}  // namespace seaglint

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// The figures of a report, as files beside it.
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "sim/core/process/parallel.h"
+#include "sim/scenario/scenario.h"
+#include "tools/pipeline/scene.h"
+#include "tools/report/report_data.h"
+
+namespace seaglint {
+
+// A figure of the report; both files hold the same picture, `svg` is empty for photographs and maps.
+struct ReportFigure {
+  std::string section;  // maps, accuracy, features, aspects, sea, targets
+  std::filesystem::path png;
+  std::filesystem::path svg;
+  std::string caption;      // HTML
+  std::string alternative;  // plain text
+};
+
+// Draws all figures into the run's directory, on `threads` threads; the order of the list is that of the page.
+// `targets` are the scenario's, or none: then neither they nor their motion are drawn.
+std::vector<ReportFigure> draw_report_figures(const std::filesystem::path& directory, const Scenario& scenario,
+                                              const std::vector<Target>& targets, const ReportData& data,
+                                              const nlohmann::ordered_json& metrics, int threads, const StopFlag* stop);
+
+}  // namespace seaglint

@@ -1,0 +1,353 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/report/report_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "radar/waveform/pulse_train.h"
+#include "tools/pipeline/metrics.h"
+#include "tools/report/html.h"
+#include "tools/report/probe_text.h"
+
+namespace seaglint {
+
+namespace {
+
+using nlohmann::ordered_json;
+using Rows = std::vector<std::vector<std::string>>;
+
+constexpr const char* kGroups[3] = {"handmade", "cnn", "fused"};
+constexpr const char* kGroupNames[3] = {"hand-made", "CNN", "fused"};
+constexpr const char* kProtocols[2] = {"random", "group"};
+
+double accuracy(const ordered_json& metrics, const char* group, const char* protocol) {
+  return value_or_nan(metrics.at(group).at(protocol).at("accuracy"));
+}
+
+// "62.0, 81.3, 90.0 %" by ascending wave height
+std::string by_height(const ordered_json& scores) {
+  std::string text;
+  for (const auto& row : scores.at("by_wave_height"))
+    text += fmt::format("{}{:.1f}", text.empty() ? "" : ", ", 100 * value_or_nan(row.at("accuracy")));
+  return text + " %";
+}
+
+// Whether the accuracy rises from each height to the next.
+bool rises(const ordered_json& scores) {
+  double last = -1;
+  for (const auto& row : scores.at("by_wave_height")) {
+    if (!(value_or_nan(row.at("accuracy")) > last)) return false;
+    last = value_or_nan(row.at("accuracy"));
+  }
+  return scores.at("by_wave_height").size() > 1;
+}
+
+// The median of a feature over both wave heights given, of one class.
+double median_at(const ordered_json& metrics, const char* list, const char* key, double at, int label,
+                 const char* feature) {
+  for (const auto& entry : metrics.at("report").at(list)) {
+    if (entry.at(key) == at && entry.at("label") == label) return value_or_nan(entry.at(feature).at("median"));
+  }
+  return std::nan("");
+}
+
+// How the accuracy on random rows compares with that on unseen seas: two figures whose 95 % intervals reach each other
+// are not told apart.
+std::string compared_protocols(const ordered_json& random, const ordered_json& group) {
+  const double gap = 100 * (value_or_nan(random.at("accuracy")) - value_or_nan(group.at("accuracy")));
+  const auto low = [](const ordered_json& scores) { return value_or_nan(scores.at("accuracy_95")[0]); };
+  const auto high = [](const ordered_json& scores) { return value_or_nan(scores.at("accuracy_95")[1]); };
+  const std::string by = fmt::format("by {:.1f} points", std::abs(gap));
+  if (!std::isfinite(gap)) return "";
+  if (std::abs(gap) < 0.05) return "; here they agree";
+  if (low(random) > high(group)) return ", so that random rows flatter " + by;
+  if (high(random) < low(group)) return "; here random rows are the harder test, " + by;
+  const std::string direction = gap > 0 ? "higher" : "lower";
+  const bool known = std::isfinite(low(random)) && std::isfinite(low(group));
+  return fmt::format("; random rows come out {} {}, {}", direction, by,
+                     known ? "which is within the intervals" : "without intervals to judge it by");
+}
+
+// Of what the rows of a table are counted.
+std::string pooled_splits(int repeats) {
+  if (repeats == 1) return "<p>One split under each protocol: a test prediction is a map.</p>\n";
+  return fmt::format(
+      "<p>{} splits under each protocol, pooled: a map that several of them test has a prediction of each, so that "
+      "there "
+      "may be more predictions than maps. A test sea counts once.</p>\n",
+      repeats);
+}
+
+std::string item(const std::string& text) { return "<li>" + text + "</li>\n"; }
+
+}  // namespace
+
+std::string summary_tiles(const ordered_json& metrics) {
+  const auto tile = [](const std::string& number, const std::string& words) {
+    return fmt::format("<div class=\"tile\"><b>{}</b><span>{}</span></div>\n", number, words);
+  };
+  double seconds = 0;
+  for (const auto& entry : metrics.at("run").at("seconds")) seconds += value_or_nan(entry);
+  std::string html = "<div class=\"tiles\">\n";
+  html += tile(fmt::format("{}", metrics.at("data").at("maps").get<std::size_t>()), "range-velocity maps");
+  html += tile(percent(accuracy(metrics, "handmade", "group")), "hand-made features, unseen seas");
+  html += tile(percent(accuracy(metrics, "cnn", "group")), "CNN features, unseen seas");
+  html += tile(percent(accuracy(metrics, "fused", "group")), "fused features, unseen seas");
+  html += tile(percent(accuracy(metrics, "fused", "random")), "fused, the paper's random split");
+  html += tile(fmt::format("{:.0f} s", seconds), "run time");
+  return html + "</div>\n";
+}
+
+std::string accuracy_tables(const ordered_json& metrics) {
+  std::string html;
+  for (const char* protocol : kProtocols) {
+    const bool random = protocol == kProtocols[0];
+    html += random ? "<h3>Random split of the maps (the paper’s protocol)</h3>\n"
+                   : "<h3>Split by sea realisation (no test sea was seen in training)</h3>\n";
+    Rows rows{{"H<sub>s</sub> (m)", "hand-made", "CNN", "fused", "test predictions", "test seas"}};
+    const auto& heights = metrics.at("handmade").at(protocol).at("by_wave_height");
+    for (std::size_t i = 0; i <= heights.size(); ++i) {
+      const bool total = i == heights.size();
+      std::vector<std::string> row{
+          total ? "all" : fmt::format("{:g}", heights[i].at("significant_wave_height_m").get<double>())};
+      for (const char* group : kGroups) {
+        const auto& evaluation = metrics.at(group).at(protocol);
+        row.push_back(accuracy_cell(total ? evaluation : evaluation.at("by_wave_height")[i]));
+      }
+      const auto& counts = total ? metrics.at("handmade").at(protocol) : heights[i];
+      row.push_back(fmt::format("{}", counts.at("rows").get<std::size_t>()));
+      row.push_back(fmt::format("{}", counts.at("groups").get<std::size_t>()));
+      rows.push_back(std::move(row));
+    }
+    html += html_table(rows);
+  }
+
+  html += "<h3>Further figures of merit, all wave heights</h3>\n";
+  Rows rows{{"features, split", "fusion", "accuracy", "AUC", "log loss", "predictions: array as ship", "ship as array",
+             "maps the trees learned from, each split"}};
+  const auto add = [&rows](const std::string& name, const std::string& fusion, const ordered_json& e) {
+    const auto number = [](double x, const char* format) {
+      return std::isfinite(x) ? fmt::format(fmt::runtime(format), x) : "–";
+    };
+    rows.push_back({name, fusion, accuracy_cell(e), number(value_or_nan(e.at("auc")), "{:.3f}"),
+                    number(value_or_nan(e.at("log_loss")), "{:.3f}"),
+                    fmt::format("{}", e.at("confusion").at("array_as_ship").get<std::size_t>()),
+                    fmt::format("{}", e.at("confusion").at("ship_as_array").get<std::size_t>()),
+                    fmt::format("{}", e.at("train_rows").get<std::size_t>())});
+  };
+  for (const char* protocol : kProtocols) {
+    for (int k = 0; k < 3; ++k) {
+      const auto& group = metrics.at(kGroups[k]);
+      const std::string name = fmt::format("{}, {}", kGroupNames[k], protocol == kProtocols[0] ? "random" : "by sea");
+      if (k == 0) {
+        add(name, "–", group.at(protocol));
+        add(name, "rows of split", group.at("fewer_rows").at(protocol));
+      } else {
+        const std::string main = group.at("fusion"), other = main == "split" ? "in_sample" : "split";
+        add(name, main, group.at(protocol));
+        add(name, other, group.at(other).at(protocol));
+      }
+    }
+  }
+  html += html_table(rows);
+  html += pooled_splits(metrics.at("split_repeats"));
+  html +=
+      "<p>Fusion <code>split</code>: the network learns from one part of the training maps, the trees from the other, "
+      "so that the trees never see "
+      "features of maps the network was fitted to. <code>in_sample</code>, the paper’s way, gives both the same maps: "
+      "the trees then trust the "
+      "network more than unseen maps justify. Hand-made features need no network; “rows of split” shows them with as "
+      "few maps as the fused ones "
+      "have.</p>\n";
+  return html;
+}
+
+std::string claims_table(const ordered_json& metrics) {
+  const auto verdict = [](bool holds) { return holds ? std::string("yes") : std::string("no"); };
+  const double handmade_random = accuracy(metrics, "handmade", "random"),
+               handmade_group = accuracy(metrics, "handmade", "group");
+  Rows rows{{"The paper’s claim", "Random split (the paper’s)", "Split by sea", "Holds here"}};
+  for (int k = 0; k < 3; ++k) {
+    const auto& group = metrics.at(kGroups[k]);
+    rows.push_back({fmt::format("Accuracy rises with wave height: {} features", kGroupNames[k]),
+                    by_height(group.at("random")), by_height(group.at("group")),
+                    fmt::format("{} / {}", verdict(rises(group.at("random"))), verdict(rises(group.at("group"))))});
+  }
+  std::string best[2];
+  bool fused_best[2];
+  for (int p = 0; p < 2; ++p) {
+    const double a = accuracy(metrics, "handmade", kProtocols[p]), b = accuracy(metrics, "cnn", kProtocols[p]),
+                 c = accuracy(metrics, "fused", kProtocols[p]);
+    fused_best[p] = c >= a && c >= b;
+    best[p] = fmt::format("{} / {} / {}", percent(a), percent(b), percent(c));
+  }
+  rows.push_back({"Fused features are best (hand-made / CNN / fused)", best[0], best[1],
+                  fmt::format("{} / {}", verdict(fused_best[0]), verdict(fused_best[1]))});
+  rows.push_back({"Hand-made features alone exceed 86 %", percent(handmade_random), percent(handmade_group),
+                  fmt::format("{} / {}", verdict(handmade_random > 0.86), verdict(handmade_group > 0.86))});
+  std::string residuals;
+  bool array_scatters = true;
+  for (const auto& row : metrics.at("handmade").at("random").at("by_wave_height")) {
+    const double height = row.at("significant_wave_height_m");
+    const auto mwr = [&](int label) {
+      return median_at(metrics, "features_by_wave_height", "significant_wave_height_m", height, label, "mwr");
+    };
+    residuals += fmt::format("{}{:g} m: {:.2g} / {:.2g}", residuals.empty() ? "" : "; ", height, mwr(1), mwr(0));
+    array_scatters = array_scatters && mwr(0) > 2 * mwr(1);
+  }
+  rows.push_back(
+      {"A ship’s centres lie on a line, an array’s do not (median MWR of ship / array in (m/s)², all aspects)",
+       residuals, "the same maps", array_scatters ? "yes" : "not at every height"});
+  return html_table(rows, false);
+}
+
+std::string feature_table(const ordered_json& metrics) {
+  Rows rows{{"class, H<sub>s</sub>", "MWR ((m/s)²)", "CCF", "σ<sub>r</sub> (m)", "σ<sub>v</sub> (m/s)", "centres",
+             "line explains"}};
+  const auto cell = [](const ordered_json& q, const char* format, double scale) {
+    const auto number = [&](const char* key) {
+      return fmt::format(fmt::runtime(format), scale * value_or_nan(q.at(key)));
+    };
+    return fmt::format("{} <small>({}–{})</small>", number("median"), number("lower"), number("upper"));
+  };
+  for (const auto& e : metrics.at("report").at("features_by_wave_height")) {
+    rows.push_back({fmt::format("{}, {:g} m", e.at("label") == 1 ? "ship" : "array",
+                                e.at("significant_wave_height_m").get<double>()),
+                    cell(e.at("mwr"), "{:.3g}", 1), cell(e.at("ccf"), "{:.2f}", 1),
+                    cell(e.at("sigma_r_m"), "{:.1f}", 1), cell(e.at("sigma_v_mps"), "{:.3f}", 1),
+                    cell(e.at("centres"), "{:.0f}", 1), cell(e.at("line_explained"), "{:.0f} %", 100)});
+  }
+  return html_table(rows) + "<p>Median and quartiles over all aspects.</p>\n";
+}
+
+std::string note_of_seas(const ordered_json& metrics) {
+  const std::size_t seas = metrics.at("handmade").at("group").at("groups");
+  const int repeats = metrics.at("split_repeats");
+  return fmt::format(
+      "<b>Few seas, wide intervals.</b> {} {} sea realisations{}. The bootstrap draws seas, not maps; with so few it "
+      "is rough, and a "
+      "height with one test sea has no interval at all. Differences smaller than the intervals are not findings.",
+      repeats == 1 ? "The split by sea tests on" : fmt::format("{} splits by sea, pooled, test on", repeats), seas,
+      repeats == 1 ? "" : " in all, each on a part of them");
+}
+
+std::string expert_notes(const ordered_json& metrics, const Scenario& scenario) {
+  std::string html = "<ul>\n";
+  const ordered_json &random = metrics.at("fused").at("random"), &group = metrics.at("fused").at("group");
+  html += item(fmt::format(
+      "<b>Two protocols.</b> Fused features reach {} on random maps and {} on unseen seas{}. Maps of one sea, {:g} s "
+      "apart and seen "
+      "from several aspects, are not independent: the second figure is the one that would carry over to another day.",
+      percent(value_or_nan(random.at("accuracy"))), percent(value_or_nan(group.at("accuracy"))),
+      compared_protocols(random, group), scenario.dataset.interval_spacing_s));
+  html += item(note_of_seas(metrics));
+  html += item(note_of_level(metrics, scenario));
+  const auto alone = [&metrics](const char* name) { return percent(probe_accuracy(metrics, name)); };
+  html +=
+      item(fmt::format("<b>Geometry or motion?</b> By itself, on unseen seas, the range spread σ<sub>r</sub> reaches "
+                       "{}, the velocity spread σ<sub>v</sub> {}, MWR {}, CCF {}; the mere "
+                       "number of centres {}. Range spread and number of centres follow from length, layout and "
+                       "richness of the target, not from its micro-motion: one ship and one "
+                       "array, always with the same layout, can be told apart by them in any sea. The network is free "
+                       "to use them too. Only arrays matched to the ship in extent, "
+                       "strength and number of scatterers would show what micro-motion alone is worth.",
+                       alone("sigma_r alone"), alone("sigma_v alone"), alone("MWR alone"), alone("CCF alone"),
+                       alone("number of centres")));
+  if (!rises(metrics.at("handmade").at("group"))) {
+    html += item(
+        "<b>Why accuracy need not rise with the waves.</b> The flatter the sea, the more exactly length and layout "
+        "repeat from map to map, and "
+        "the trees learn them. Waves blur this before micro-motion has grown enough to replace it.");
+  }
+  bool clean = true;
+  for (const auto& entry : metrics.at("probes")) {
+    if (entry.at("kind") == "blind") clean = clean && as_chance(metrics, entry);
+  }
+  const std::string chance = guessing(group).text();
+  html +=
+      item(clean ? fmt::format(
+                       "<b>No leak by construction.</b> Hop code and sample order, which know nothing of the target, "
+                       "stay at chance ({} on unseen seas, from the shares of the classes).",
+                       chance)
+                 : fmt::format(
+                       "<b>Look for a leak.</b> A quantity that knows nothing of the target (hop code or sample order) "
+                       "is away from chance ({} on unseen seas, from the shares of the classes) by more than its "
+                       "interval. With several probes and few seas this happens by chance now and then; repeat with "
+                       "another seed before believing it.",
+                       chance));
+  // The random code's pedestal and the velocity cell set what the features can resolve.
+  const PulseTrain train = make_pulse_train(scenario.radar, scenario.map.range_span_m, scenario.seed, 0);
+  const double cell = train.velocity_resolution_mps();
+  const double shown = metrics.at("report").at("features_by_azimuth")[0].at("significant_wave_height_m");
+  const double ship = median_at(metrics, "features_by_wave_height", "significant_wave_height_m", shown, 1, "mwr");
+  const double array = median_at(metrics, "features_by_wave_height", "significant_wave_height_m", shown, 0, "mwr");
+  html +=
+      item(fmt::format("<b>Scale of the residual.</b> One velocity cell is {:.3f} m/s; a spread over one cell alone "
+                       "gives an MWR of {:.2g} (m/s)². At H<sub>s</sub> {:g} m "
+                       "the medians are {:.2g} (ship) and {:.2g} (array) (m/s)².",
+                       cell, cell * cell / 12, shown, ship, array));
+  std::string aspects;
+  for (const auto& e : metrics.at("report").at("features_by_azimuth")) {
+    if (e.at("label") != 1) continue;
+    const double azimuth = e.at("azimuth_deg");
+    const double line = value_or_nan(e.at("line_explained").at("median"));
+    const double other = median_at(metrics, "features_by_azimuth", "azimuth_deg", azimuth, 0, "line_explained");
+    aspects += fmt::format("{}{:g}°: {:.0f} / {:.0f} %", aspects.empty() ? "" : ", ", azimuth, 100 * line, 100 * other);
+  }
+  html += item(
+      fmt::format("<b>When a ship is a line.</b> v = r̂·(ω × x) depends on cross-range coordinates alone: it is "
+                  "linear in range only for a line-like hull seen obliquely, mast "
+                  "height breaks it, and it fades near bow and stern. A flat line (nothing moves) explains no variance "
+                  "and is a line all the same: there MWR is what is small. Velocity variance explained by the line "
+                  "(adjusted for the number of centres, 0 for loose points), "
+                  "medians of ship / array at H<sub>s</sub> {:g} m: {}.",
+                  shown, aspects));
+  if (scenario.radar.hop_code != HopCode::kStepped) {
+    html += item(
+        "<b>The pedestal is not noise.</b> Random hopping leaves a pedestal at all velocities within ±6 m of every "
+        "strong centre, 15 to 24 dB below it. It shows as vertical "
+        "stripes in the maps and grows with the number of centres that share 6 m, so a ship’s is higher: the probe "
+        "“pedestal” says how far that alone would go.");
+  }
+  const std::size_t degenerate = metrics.at("data").at("maps_with_fewer_than_3_centres");
+  if (degenerate > 0) {
+    html +=
+        item(fmt::format("<b>Thin maps.</b> {} of {} maps hold fewer than three centres; their line features are "
+                         "defined but say little.",
+                         degenerate, metrics.at("data").at("maps").get<std::size_t>()));
+  }
+  return html + "</ul>\n";
+}
+
+std::string provenance_table(const ordered_json& metrics) {
+  Rows rows{{"item", "value"}};
+  const auto& run = metrics.at("run");
+  for (const auto& [stage, seconds] : run.at("seconds").items())
+    rows.push_back({fmt::format("time for {}", stage), fmt::format("{:.1f} s", value_or_nan(seconds))});
+  rows.push_back({"threads", fmt::format("{}", run.at("threads").get<int>())});
+  rows.push_back(
+      {"maps made in this run / kept from an earlier one",
+       fmt::format("{} / {}", run.at("maps_made").get<std::size_t>(), run.at("maps_kept").get<std::size_t>())});
+  rows.push_back({"program", "seaglint " + escape_html(metrics.at("version").get<std::string>())});
+  rows.push_back({"scenario, seed", fmt::format("{}, {}", escape_html(metrics.at("scenario").get<std::string>()),
+                                                metrics.at("seed").get<std::uint64_t>())});
+  rows.push_back({"scenario SHA-256",
+                  "<code>" + escape_html(metrics.at("data").at("scenario_sha256").get<std::string>()) + "</code>"});
+  const auto processors = metrics.at("data").at("processors").get<std::vector<std::string>>();
+  rows.push_back({"processor", escape_html(fmt::format("{}", fmt::join(processors, "; ")))});
+  const auto& network = metrics.at("network");
+  rows.push_back(
+      {"network", fmt::format("{} parameters, {} epochs, {} thread{}", network.at("parameters").get<std::size_t>(),
+                              network.at("epochs").get<int>(), network.at("threads").get<int>(),
+                              network.at("threads").get<int>() == 1 ? "" : "s")});
+  const auto& losses = network.at("training_loss");
+  if (!losses.empty())
+    rows.push_back({"network’s training loss, first and last epoch",
+                    fmt::format("{:.3f}, {:.3f}", value_or_nan(losses.front()), value_or_nan(losses.back()))});
+  return html_table(rows, false);
+}
+
+}  // namespace seaglint

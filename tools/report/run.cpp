@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/report/run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
+
+#include "sim/core/process/error.h"
+#include "sim/core/process/file.h"
+#include "sim/scenario/sample_plan.h"
+#include "tools/figure/figure.h"
+#include "tools/pipeline/generate.h"
+#include "tools/pipeline/train.h"
+#include "tools/report/report.h"
+
+namespace seaglint {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Wall-clock seconds of the stages, in order.
+class StageClock {
+ public:
+  template <class Work>
+  auto time(const std::string& stage, Work work) {
+    const auto begin = std::chrono::steady_clock::now();
+    struct Stop {
+      StageClock& clock;
+      std::string stage;
+      std::chrono::steady_clock::time_point begin;
+      ~Stop() {
+        clock.seconds_.emplace_back(stage,
+                                    std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+      }
+    } stop{*this, stage, begin};
+    return work();
+  }
+
+  const std::vector<std::pair<std::string, double>>& seconds() const { return seconds_; }
+
+ private:
+  std::vector<std::pair<std::string, double>> seconds_;
+};
+
+// To go on in a directory it must be one of a run, to begin it must be empty.
+void require_directory(const fs::path& directory, bool resume) {
+  std::error_code error;
+  if (fs::exists(directory, error) && !fs::is_directory(directory, error)) {
+    throw InputError(fmt::format("{}: is a file, not a directory", directory.string()));
+  }
+  if (!fs::exists(directory, error) || fs::is_empty(directory, error)) return;
+  if (!resume) {
+    throw InputError(
+        fmt::format("{}: the directory is not empty; go on with what is there by --resume", directory.string()));
+  }
+  if (!fs::is_directory(directory / "data", error))
+    throw InputError(fmt::format("{}: the directory holds something else than a run", directory.string()));
+}
+
+// What learning would refuse after all maps were made.
+void check_learnable(const Scenario& scenario) {
+  const auto has = [&](int label) {
+    return std::any_of(scenario.targets.begin(), scenario.targets.end(),
+                       [label](const TargetSpec& target) { return target.label == label; });
+  };
+  if (!has(0) || !has(1)) throw InputError("targets: learning needs a target of label 0 and one of label 1");
+  const SamplePlan plan(scenario);
+  std::vector<RowGroup> rows;
+  for (std::size_t sample = 0; sample < plan.size(); ++sample) {
+    const SampleAddress address = plan.sea_address(sample);
+    rows.push_back({plan.group(address), address.sea_state});
+  }
+  check_splits(rows, scenario.learning, scenario.dataset.train_share, scenario.seed);
+}
+
+}  // namespace
+
+std::string run_scenario(const Scenario& scenario, const fs::path& directory, const RunOptions& options,
+                         const StopFlag* stop) {
+  check_learnable(scenario);
+  require_directory(directory, options.resume);
+  require_gnuplot();
+
+  StageClock clock;
+  const GenerateResult made = clock.time("maps", [&] {
+    return generate_dataset(scenario, directory / "data", {1, 1, true, options.threads}, stop);
+  });
+  const Study study = clock.time(
+      "learning", [&] { return train_model(directory / "data", directory / "model", {}, options.threads, stop); });
+
+  // metrics.json of the run holds the model's numbers and the times of this run.
+  nlohmann::ordered_json metrics = nlohmann::ordered_json::parse(read_file(directory / "model" / kMetricsFile));
+  metrics["run"]["threads"] = thread_count(options.threads);
+  metrics["run"]["maps_made"] = made.made;
+  metrics["run"]["maps_kept"] = made.kept;
+  for (const auto& [stage, seconds] : clock.seconds()) metrics["run"]["seconds"][stage] = seconds;
+  write_file(directory / kMetricsFile, metrics.dump(2) + "\n");
+  write_file(directory / "scenario.yaml", effective_yaml(scenario));
+  clock.time("report", [&] { write_report(directory, scenario, options.threads, stop); });
+
+  std::string text = accuracy_table(study) + "\n";
+  for (const auto& [stage, seconds] : clock.seconds()) text += fmt::format("{:<10}{:8.1f} s\n", stage, seconds);
+  if (made.kept > 0) text += fmt::format("{} of {} maps were there already\n", made.kept, made.kept + made.made);
+  text += fmt::format("\nReport: {}\n", (directory / kReportFile).string());
+  return text;
+}
+
+}  // namespace seaglint
