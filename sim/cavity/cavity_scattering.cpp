@@ -11,6 +11,7 @@
 #include "sim/cavity/wall_currents.h"
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
+#include "sim/scattering/response/scattering_matrix.h"
 
 namespace seaglint {
 namespace {

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "sim/scattering/response/scattering_matrix.h"
 #include "sim/cavity/cavity_aperture.h"
 #include "sim/cavity/wall_patches.h"
 #include "sim/core/process/parallel.h"

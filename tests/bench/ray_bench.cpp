@@ -6,6 +6,8 @@
 #include <algorithm>
 
 #include "sim/scattering/beams/beam_segment.h"
+#include "sim/scattering/response/scattering_matrix.h"
+#include "sim/scattering/surfaces/phase_integral.h"
 #include "sim/scattering/target/embree_scene.h"
 #include "tests/bench/ship.h"
 

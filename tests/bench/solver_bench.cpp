@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 
 #include "sim/geometry/shapes/generators.h"
+#include "sim/scattering/response/scattering_matrix.h"
 #include "sim/scattering/target/embree_scene.h"
 #include "tests/bench/ship.h"
 

@@ -10,6 +10,7 @@
 #include "sim/core/process/error.h"
 #include "sim/core/process/progress.h"
 #include "sim/scattering/response/body_response.h"
+#include "sim/scattering/response/scattering_matrix.h"
 #include "sim/scattering/response/sea_reflection.h"
 #include "tools/pipeline/warnings.h"
 

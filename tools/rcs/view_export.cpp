@@ -15,6 +15,7 @@
 #include "sim/core/text/suggestion.h"
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/scattering/response/scattering_centres_3d.h"
+#include "sim/scattering/response/scattering_matrix.h"
 #include "tools/cli/command.h"
 
 namespace seaglint {

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "sim/scattering/diffraction/wedge.h"
+
 namespace seaglint {
 
 Prism prism_around(std::span<const MovingPolygon> window, const Leg& leg, const RadarBasis& basis,

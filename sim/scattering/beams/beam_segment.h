@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "sim/scattering/beams/quadratic.h"
+#include "sim/scattering/beams/ray_bundle.h"
 #include "sim/scattering/beams/visible_surface.h"
 #include "sim/scattering/material/reflection.h"
 #include "sim/scattering/target/facets.h"

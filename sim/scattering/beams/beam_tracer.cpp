@@ -7,24 +7,22 @@
 #include <numeric>
 
 #include "sim/scattering/beams/beam_culling.h"
-#include "sim/scattering/beams/beam_segment.h"
+#include "sim/scattering/beams/curved_reflection.h"
+#include "sim/scattering/diffraction/wedge.h"
 #include "sim/scattering/material/reflection.h"
-#include "sim/scattering/surfaces/beam_contributions.h"
-#include "sim/scattering/surfaces/curved_reflection.h"
 
 namespace seaglint {
 namespace {
 
 class BeamTracer {
  public:
-  BeamTracer(const BeamScene& scene, Lit& out)
+  BeamTracer(const BeamScene& scene, BeamVisitor& visitor)
       : scene_(scene),
         facets_(scene.scatterer.facets()),
-        curving_{facets_, scene.scatterer.surface(), scene.antennas},
+        curving_{facets_, scene.scatterer.surface(), scene.transmit},
         tree_(scene.scatterer.tree()),
-        antennas_(scene.antennas),
-        basis_(scene.antennas.transmit),
-        echo_(scene, out),
+        basis_(scene.transmit),
+        visitor_(visitor),
         scratch_(static_cast<std::size_t>(scene.settings.max_bounces) + 1) {}
 
   std::size_t legs() const { return legs_; }
@@ -39,11 +37,7 @@ class BeamTracer {
     candidate.image.facet = facet;
     candidate.image.plane = image_plane(facets_[facet].normal, facets_[facet].offset, basis_);
     candidate.lit.assign(scene_.lit.pieces(facet));
-    // What the transmitter lights at first, a receiver at the same place sees.
-    std::vector<MovingPolygon> seen;
-    if (!antennas_.monostatic) echo_.seen_part(first, candidate, seen);
-    echo_.radiate(first, candidate, antennas_.monostatic ? candidate.lit.polygons() : seen);
-    if (echo_.reaches_edges(first)) echo_.reach_edges(first, candidate);
+    hand_on(first, candidate, scratch_[0].seen);
     if (goes_on(first, candidate)) follow(reflected(first, candidate), candidate.lit);
   }
 
@@ -56,6 +50,24 @@ class BeamTracer {
     std::vector<std::uint32_t> order;
     std::vector<MovingPolygon> seen;
   };
+
+  // What of the candidate is lit, and what every receiver sees of it; `seen` is memory for that.
+  void hand_on(const Leg& leg, const Candidate& candidate, std::vector<MovingPolygon>& seen) {
+    visitor_.lit(leg, candidate);
+    const Vec3 lit_side = facing(leg, facets_[candidate.image.facet]);
+    for (std::size_t i = 0; i < scene_.receivers.size(); ++i) {
+      const auto& [antennas, visible] = scene_.receivers[i];
+      // What the transmitter lights at first, a receiver at the same place sees.
+      if (leg.bounce == 1 && antennas.monostatic) {
+        visitor_.seen(leg, candidate, i, candidate.lit.polygons());
+        continue;
+      }
+      seen.clear();
+      if (lit_side.dot(antennas.receive.r) > kEdgeOn)
+        visible->seen_through(candidate.image.facet, leg.mirrors, candidate.lit.polygons(), basis_, seen);
+      visitor_.seen(leg, candidate, i, seen);
+    }
+  }
 
   // A panel as the leg meets it; false when it misses the window.
   bool meet(const Leg& leg, const Pieces& window, const TreePanel& panel, Candidate& candidate) const {
@@ -95,10 +107,12 @@ class BeamTracer {
       if (met.may) scratch.found.push_back(&panel);
       return covered = std::min(covered, met.covered);
     });
-    // Of the last leg only what the radar sees, or an edge, can answer.
-    const auto seen = [&](const TreePanel* panel) { return !scene_.visible.pieces(panel->facet).empty(); };
-    if (leg.bounce == scene_.settings.max_bounces && !echo_.reaches_edges(leg) &&
-        std::ranges::none_of(scratch.found, seen))
+    // Of the last leg only what a receiver sees, or an edge, can answer.
+    const auto seen = [&](const TreePanel* panel) {
+      return std::ranges::any_of(
+          scene_.receivers, [&](const Receiver& receiver) { return !receiver.visible->pieces(panel->facet).empty(); });
+    };
+    if (leg.bounce == scene_.settings.max_bounces && !visitor_.wants(leg) && std::ranges::none_of(scratch.found, seen))
       return;
 
     std::vector<Candidate>& met = scratch.met;
@@ -132,11 +146,7 @@ class BeamTracer {
     for (const std::uint32_t i : order) {
       const Candidate& candidate = met[i];
       if (candidate.lit.empty() || scene_.is_under_water(candidate.image.facet)) continue;
-      scratch.seen.clear();
-      echo_.seen_part(leg, candidate, scratch.seen);
-      echo_.radiate(leg, candidate, scratch.seen);
-      echo_.radiate_back(leg, candidate, scratch.seen);
-      if (echo_.reaches_edges(leg)) echo_.reach_edges(leg, candidate);
+      hand_on(leg, candidate, scratch.seen);
       if (goes_on(leg, candidate)) follow(reflected(leg, candidate), candidate.lit);
     }
   }
@@ -191,18 +201,17 @@ class BeamTracer {
   std::span<const Facet> facets_;
   Curving curving_;
   const FacetTree& tree_;
-  const AntennaPair& antennas_;
   const RadarBasis& basis_;  // of the aperture: the transmitter's
-  BeamEcho echo_;
+  BeamVisitor& visitor_;
   std::vector<Scratch> scratch_;  // by the bounce a leg ends in
   std::size_t legs_ = 0;
 };
 
 }  // namespace
 
-std::size_t trace_beams(const BeamScene& scene, std::span<const int> facets, Lit& out,
+std::size_t trace_beams(const BeamScene& scene, std::span<const int> facets, BeamVisitor& visitor,
                         const std::function<void()>& after_each) {
-  BeamTracer tracer(scene, out);
+  BeamTracer tracer(scene, visitor);
   for (const int facet : facets) {
     tracer.light(facet);
     after_each();

@@ -1,18 +1,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Follows beams from mirror to mirror and writes down what they light. Illumination is the way in.
+// Follows beams from mirror to mirror and hands what they light to a visitor.
 
 #include <functional>
 #include <span>
 
+#include "sim/scattering/beams/beam_segment.h"
 #include "sim/scattering/beams/tracing_context.h"
 
 namespace seaglint {
 
-// Appends what all beams light whose first mirror is the panel of one of these facets; returns the legs followed. Calls
+// Receives what the legs of all beams light.
+class BeamVisitor {
+ public:
+  virtual ~BeamVisitor() = default;
+  // Whether the leg matters although no receiver sees anything of what it lights.
+  virtual bool wants(const Leg& leg) const = 0;
+  // The candidate's lit pieces.
+  virtual void lit(const Leg& leg, const Candidate& candidate) = 0;
+  // What a receiver of the scene sees of them directly.
+  virtual void seen(const Leg& leg, const Candidate& candidate, std::size_t receiver,
+                    std::span<const MovingPolygon> pieces) = 0;
+};
+
+// Follows all beams whose first mirror is the panel of one of these facets; returns the legs followed. Calls
 // after_each() when the beams of one are followed.
 std::size_t trace_beams(
-    const BeamScene& scene, std::span<const int> facets, Lit& out, const std::function<void()>& after_each = [] {});
+    const BeamScene& scene, std::span<const int> facets, BeamVisitor& visitor,
+    const std::function<void()>& after_each = [] {});
 
 }  // namespace seaglint

@@ -6,9 +6,13 @@
 #include <cstdint>
 #include <vector>
 
-#include "sim/scattering/surfaces/footprint.h"
-
 namespace seaglint {
+
+// By which current an echo arises.
+enum class Mechanism : std::uint8_t {
+  kPhysicalOptics,  // surface currents of geometrical optics
+  kEdge,            // fringe currents at sharp edges
+};
 
 struct EchoSelector {
   enum class Kind : std::uint8_t { kPart, kBounces, kMechanism } kind = Kind::kPart;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Second-order functions of a point in the aperture, and rays that a curved mirror has turned a little.
+// Second-order functions of a point in the aperture.
 
 #include <array>
 
@@ -46,21 +46,5 @@ struct Barycentric {
 
 // The quadratic that vanishes at the corners and takes the given values in the middles of the edges i -> i + 1.
 Quadratic bump(const Barycentric& lambda, const std::array<double, 3>& middle);
-
-// A bundle of rays behind curved mirrors, to second order about the parallel bundle that flat ones would leave. Rays
-// are known by the point p where they cross the aperture; `landing` is where they now are across the unfolded ray,
-// `tilt` how much they are turned (both in the aperture's axes), `phase` what their path has lost against the flat one
-// that would reach the landing point (the sign of psi). Hamilton's characteristic function to second order: a curved
-// mirror adds its height to the phase and turns the ray by the gradient; over a way s the ray moves by s tilt and its
-// path is longer by s |tilt|^2 / 2.
-struct BentRays {
-  Affine landing{Vec2::Zero(), Mat2::Identity()};
-  Affine tilt;
-  Quadratic phase;
-
-  // `added`: psi that the mirror's curvature adds at a point of the aperture.
-  void reflect(const Quadratic& added);
-  void travel(double s);
-};
 
 }  // namespace seaglint

@@ -4,17 +4,27 @@
 #include <span>
 #include <vector>
 
-#include "sim/scattering/response/illumination.h"
+#include "sim/scattering/beams/bistatic_geometry.h"
+#include "sim/scattering/beams/illumination_settings.h"
+#include "sim/scattering/beams/visible_surface.h"
+#include "sim/scattering/material/material.h"
+#include "sim/scattering/target/scatterer.h"
 
 namespace seaglint {
+
+// An antenna that receives what the beams light. Pair and surface are those of one transmitter and this receiver.
+struct Receiver {
+  AntennaPair antennas;
+  const VisibleSurface* visible;  // to the receiver
+};
 
 // What all beams of an illumination share.
 struct BeamScene {
   const Scatterer& scatterer;
-  const AntennaPair& antennas;
+  const RadarBasis& transmit;
+  std::span<const Receiver> receivers;  // none: what the beams light is followed alone
   const IlluminationSettings& settings;
   const VisibleSurface& lit;                       // from the transmitter
-  const VisibleSurface& visible;                   // to the receiver
   std::span<const std::vector<Surface>> surfaces;  // [material][wavenumber]; none for a perfect conductor
   double min_area = 0;                             // of lit pieces that count, m^2
   double min_beam_area = 0;                        // of beams that are followed to further mirrors, m^2

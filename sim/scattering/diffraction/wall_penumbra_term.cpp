@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sim/core/numbers/constants.h"
+#include "sim/scattering/diffraction/transition.h"
 #include "sim/scattering/diffraction/wedge_diffraction.h"
 
 namespace seaglint {

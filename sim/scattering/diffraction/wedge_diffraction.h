@@ -13,25 +13,9 @@
 #include <array>
 
 #include "sim/core/numbers/linear.h"
+#include "sim/scattering/diffraction/wedge.h"
 
 namespace seaglint {
-
-// One face of a wedge in its own frame: x into the face, across the edge; n out of the conductor; t = x x n along the
-// edge.
-struct WedgeFace {
-  Vec3 x, n, t;
-};
-
-// Of corners sharper than this, 12 deg, as N: their reflections are followed by beams, their edges are not asked.
-inline constexpr double kSharpestCorner = 1.0 / 15;
-
-// An infinite wedge with perfectly conducting faces. The second face's t is minus the first one's.
-struct WedgeFrame {
-  WedgeFace face[2];
-  // the exterior angle is N pi, 0 < N <= 2; 2 is a half-plane, below 1 a corner, not below kSharpestCorner
-  double N = 2;
-  double thickness_m = 0;  // of a half-plane (thick_edge.h)
-};
 
 // The fringe current: the wedge's answer in direction s to a plane wave of unit amplitude along `k_hat` with electric
 // field E (across it) without that of physical optics on the faces that the wave lights, per metre of edge: p .
@@ -66,21 +50,5 @@ EdgeWave edge_wave(const WedgeFrame& wedge, int face, const Vec3& k_hat, const s
 // wedge: L = l sin^2 b); off it the current that ends at an edge has this phase along the face, and the fringe current
 // the same pole.
 double shadow_distance(const Vec3& along_face, const Vec3& other);
-
-// F(x) = 2j sqrt(x) e^{jx} integral from sqrt(x) to infinity of e^{-j t^2} dt: 0 on a shadow boundary, 1 far from it
-// (R. G. Kouyoumjian and P. H. Pathak, Proc. IEEE 62 (1974) 1448-1461, eq. 26). F(-x) is its conjugate. Error below
-// 1e-7.
-Complex transition(double x);
-
-// The same for a wave that runs along a face from one edge to another, where x and y belong to the two: F(x) when y is
-// large. Not their product: with both boundaries near it is (y F(x) - x F(y)) / (y - x), what a plane wave past the
-// first edge leaves at the second one of the integral over both apertures on a hard floor (the far-field limit of the
-// generalised Fresnel integrals of F. Capolino, M. Albani, S. Maci and R. Tiberio, IEEE Trans. AP-45 (1997) 1240-1248).
-Complex transition(double x, double y);
-
-// The same with the end of the second edge for a third boundary. All are divided differences of F(x) / x, and the
-// integral of F(al) e^{jpl} / sqrt(l) over the length l is the difference of transition(al, -pl) e^{jpl} / (jp sqrt(l))
-// at its ends (by parts), that of transition(al, bl) likewise with transition(al, bl, -pl). x, y > 0, z of either sign.
-Complex transition(double x, double y, double z);
 
 }  // namespace seaglint

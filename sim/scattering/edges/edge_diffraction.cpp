@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "sim/core/process/parallel.h"
+
 namespace seaglint {
 namespace {
 
@@ -36,16 +38,9 @@ EdgeWaveLimits edge_wave_limits(const Scatterer& scatterer, const IlluminationSe
 }
 
 void edge_echoes(const Scatterer& scatterer, const AntennaPair& antennas, const IlluminationSettings& settings,
-                 std::span<const double> wavenumbers, const ArrivalsByEdge& incoming, int threads,
-                 const std::function<void(std::size_t, std::span<const EdgeFootprint>)>& visit) {
+                 std::span<const double> wavenumbers, const ArrivalsByEdge& incoming, const ArrivalsByEdge& outgoing,
+                 int threads, const std::function<void(std::size_t, std::span<const EdgeFootprint>)>& visit) {
   if (!settings.edges) return;
-  ArrivalsByEdge backwards;
-  if (!antennas.monostatic) {
-    backwards = Illumination(scatterer, monostatic(antennas.receive), settings, threads, wavenumbers)
-                    .light_all(threads, [](std::size_t, auto) {})
-                    .arrivals;
-  }
-  const ArrivalsByEdge& outgoing = antennas.monostatic ? incoming : backwards;
   const EdgeWaveLimits limits = edge_wave_limits(scatterer, settings, std::ranges::min(wavenumbers));
   const std::vector<SharpEdge>& edges = scatterer.edges().edges;
   // Chunks of about as many arrivals.

@@ -7,8 +7,10 @@
 #include <span>
 #include <vector>
 
+#include "sim/scattering/beams/illumination_settings.h"
+#include "sim/scattering/edges/edge_contribution.h"
+#include "sim/scattering/edges/edge_illumination.h"
 #include "sim/scattering/edges/multiple_diffraction.h"
-#include "sim/scattering/response/illumination.h"
 
 namespace seaglint {
 
@@ -18,12 +20,12 @@ namespace seaglint {
 EdgeWaveLimits edge_wave_limits(const Scatterer& scatterer, const IlluminationSettings& settings, double lowest);
 
 // Calls visit(chunk, footprints), chunk = 0..kEdgeChunks-1, for what each edge answers, those of a chunk in order from
-// one thread. `incoming`: what the transmitter's illumination at the same wavenumbers reached. A receiver elsewhere
-// needs the waves it would send, which are followed here. Echoes that the settings' filter leaves out are not among
-// them. Chunks do not depend on `threads`; without edges in the settings there are none.
+// one thread. `incoming`: what the transmitter's illumination at the same wavenumbers reached; `outgoing`: what the
+// waves reach that the receiver would send, the same object for one antenna. Echoes that the settings' filter leaves
+// out are not among them. Chunks do not depend on `threads`; without edges in the settings there are none.
 inline constexpr std::size_t kEdgeChunks = 16;
 void edge_echoes(const Scatterer& scatterer, const AntennaPair& antennas, const IlluminationSettings& settings,
-                 std::span<const double> wavenumbers, const ArrivalsByEdge& incoming, int threads,
-                 const std::function<void(std::size_t, std::span<const EdgeFootprint>)>& visit);
+                 std::span<const double> wavenumbers, const ArrivalsByEdge& incoming, const ArrivalsByEdge& outgoing,
+                 int threads, const std::function<void(std::size_t, std::span<const EdgeFootprint>)>& visit);
 
 }  // namespace seaglint

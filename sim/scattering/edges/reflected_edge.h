@@ -22,7 +22,8 @@
 
 #include <array>
 
-#include "sim/scattering/edges/single_diffraction.h"
+#include "sim/scattering/diffraction/wedge.h"
+#include "sim/scattering/edges/edge_illumination.h"
 
 namespace seaglint {
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "sim/core/numbers/constants.h"
+#include "sim/scattering/diffraction/fade_windows.h"
 #include "sim/scattering/diffraction/thick_edge.h"
 #include "sim/scattering/edges/reflected_edge.h"
 
@@ -168,11 +169,6 @@ std::optional<EdgePattern> by_mirrors(const WedgeFrame& wedge, const EdgeArrival
 }
 
 }  // namespace
-
-double beside_the_beam(const Vec3& k_hat, const Vec3& s) { return fading(k_hat.dot(s), {0, std::cos(kPi / 6)}); }
-
-double before_the_beam(const Vec3& k_hat, const Vec3& s) { return before_the_beam(k_hat.dot(s)); }
-double before_the_beam(double cosine) { return fading(cosine, {0.95, 0.999}); }
 
 void find_arrivals(const SharpEdges& edges, int facet, const WaveOnFacet& wave, std::span<const MovingPolygon> lit,
                    std::vector<EdgeArrival>& arrivals) {

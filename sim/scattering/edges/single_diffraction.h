@@ -37,16 +37,6 @@ struct WaveOnFacet {
 void find_arrivals(const SharpEdges& edges, int facet, const WaveOnFacet& wave, std::span<const MovingPolygon> lit,
                    std::vector<EdgeArrival>& arrivals);
 
-// Ahead of an edge, near the shadow boundary of the beam along k_hat that it cuts, the diffracted field towards a
-// mirror at a finite distance is no ray of its own: the beam's end on that mirror carries it. An echo by mirrors in
-// direction s (before the first of them) fades out from right angles to the wave's way on, 1, to 30 deg off it, 0.
-double beside_the_beam(const Vec3& k_hat, const Vec3& s);
-
-// The same of the edge's own field, where that is told apart from the beam: from 18 deg off the wave's way on, 1, to
-// 2.6 deg, 0.
-double before_the_beam(const Vec3& k_hat, const Vec3& s);
-double before_the_beam(double cosine);
-
 // Appends the echoes of all stretches of an edge that a wave from the transmitter (`incoming`) shares with one from the
 // receiver (`outgoing`), with at most `max_bounces` in all. When both are one antenna the lists are the same. Edge
 // waves are apart (multiple_diffraction.h).

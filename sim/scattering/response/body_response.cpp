@@ -4,28 +4,23 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
-#include "sim/scattering/edges/edge_diffraction.h"
+#include "sim/core/process/parallel.h"
+#include "sim/scattering/edges/edge_decomposition.h"
+#include "sim/scattering/response/aspect_trace.h"
 #include "sim/scattering/response/response_grid.h"
+#include "sim/scattering/response/scattering_matrix.h"
 #include "sim/scattering/response/trace_plan.h"
 #include "sim/scattering/surfaces/point_contributions.h"
-#include "sim/scattering/target/target_check.h"
 
 namespace seaglint {
 namespace {
-
-// The radar stands in directions that differ by this much over the target, rad; 0 in the far field. Throws InputError
-// when it is too near.
-double spread_of_directions(const Scatterer& scatterer, double range_m, const Vec3& origin = Vec3::Zero()) {
-  const double reach = scatterer.radius() + origin.norm();
-  check_range(reach, range_m);
-  return range_m > 0 ? reach / range_m : 0;
-}
 
 // Body-fixed points go no faster than this beside a track, m, its two parts having unit length together. Shadow edges
 // that do are faint.
@@ -37,71 +32,107 @@ struct alignas(64) ChunkPoints {
   double fastest = 0;  // largest |u|, m
 };
 
-// One trace: what the body answers by one way. At a finite range the wavefront is bent about the body's own origin,
-// from which the way sees the radar.
-ReturnGrid trace_returns(const Scatterer& scatterer, const PlannedWay& way, const WavenumberGrid& wavenumbers,
-                         int channel, const SolverSpec& solver, int threads) {
-  const AntennaPair& antennas = way.antennas;
-  const DirectionPath& path = way.moves;
+// The points of one way's contributions, moved along the way's directions.
+class WayPoints {
+ public:
+  WayPoints(const Scatterer& scatterer, const PlannedWay& way, double kc, double half_band, double faint, int channel,
+            double range_m, std::size_t chunks)
+      : antennas_(way.antennas),
+        path_(way.moves),
+        split_{kc, path_.turn + spread_of_directions(scatterer, range_m, Vec3::Zero())},
+        half_band_(half_band),
+        faint_(faint),
+        channel_(channel),
+        range_m_(range_m),
+        limit_(8 * scatterer.radius()),
+        points_(chunks) {}
+
+  void add(std::size_t chunk, std::span<const Footprint> footprints) {
+    std::vector<Contribution> contributions;
+    for (const Footprint& footprint : footprints) {
+      contributions.clear();
+      split_over_band(footprint, antennas_.transmit, split_, half_band_, contributions);
+      keep(chunk, contributions);
+    }
+  }
+  void add(std::size_t chunk, std::span<const EdgeFootprint> footprints) {
+    std::vector<Contribution> contributions;
+    for (const EdgeFootprint& footprint : footprints) {
+      contributions.clear();
+      split(footprint, split_, contributions);
+      keep(chunk, contributions);
+    }
+  }
+
+  // Their sum over the band and the directions of the way.
+  ReturnGrid grid(const WavenumberGrid& wavenumbers, double beside, int threads) const {
+    double fastest = 0;
+    for (const ChunkPoints& chunk : points_) fastest = std::max(fastest, chunk.fastest);
+    const GridLimits limits{fastest, path_.s_limit, beside, path_.q_limit};
+    // Four grids, whatever the number of threads, each for every fourth chunk; their sum is taken in order.
+    constexpr std::size_t kGrids = 4;
+    std::vector<ReturnGrid> grids(kGrids, ReturnGrid(wavenumbers, limits));
+    parallel_for(kGrids, threads, [&](std::size_t g) {
+      for (std::size_t chunk = g; chunk < points_.size(); chunk += kGrids) grids[g].spread(points_[chunk].points);
+    });
+    ReturnGrid sum = std::move(grids[0]);
+    for (std::size_t g = 1; g < kGrids; ++g) sum.add(grids[g]);
+    sum.transform();
+    return sum;
+  }
+
+ private:
+  // At a finite range the wavefront is bent about the body's own origin, from which the way sees the radar.
+  void keep(std::size_t chunk, std::span<Contribution> contributions) {
+    if (range_m_ > 0) bend_wavefront(contributions, antennas_, Vec3::Zero(), range_m_);
+    for (const Contribution& c : contributions) {
+      const Complex amplitude = c.amplitude * Complex(c.pattern[channel_]);
+      if (std::norm(amplitude) < faint_ * faint_) continue;
+      const double cut = std::min(1.0, limit_ / c.gradient.sum().norm());
+      const double u = cut * path_.track.speed(c.gradient), v = cut * path_.bend.speed(c.gradient);
+      points_[chunk].points.push_back({amplitude, c.psi, u, v});
+      points_[chunk].fastest = std::max(points_[chunk].fastest, std::abs(u));
+    }
+  }
+
+  const AntennaPair& antennas_;
+  const DirectionPath& path_;
+  SplitSettings split_;
+  double half_band_;
+  double faint_;  // half of all points, ends of currents that fade or run out of phase, are fainter
+  int channel_;
+  double range_m_;
   // A shadow edge at grazing runs along its facet much faster than any point of the body moves. Beyond four times the
   // body's size its speed is cut: such ends are faint and run through many velocity cells.
-  const double limit = 8 * scatterer.radius();
+  double limit_;
+  std::vector<ChunkPoints> points_;
+};
+
+// What the body answers by the ways of one trace.
+std::vector<ReturnGrid> trace_returns(const Scatterer& scatterer, std::span<const PlannedWay> ways,
+                                      const WavenumberGrid& wavenumbers, int channel, const SolverSpec& solver,
+                                      int threads) {
   const double kc = wavenumbers.at(wavenumbers.centre_index());
   // Materials are met at the band's middle and at as far to either side as its lower end lies.
   const double half_band = kc - wavenumbers.first;
   const std::array band{kc - half_band, kc, kc + half_band};
   const IlluminationSettings settings{solver.ray_spacing_m, solver.max_bounces, solver.edges};
-  const Illumination illumination(scatterer, antennas, settings, threads, band);
-  const SplitSettings split_settings{kc, path.turn + spread_of_directions(scatterer, solver.radar_range_m)};
-  const std::size_t chunks = illumination.chunk_count();
-  const std::size_t all_chunks = chunks + kEdgeChunks;  // the last ones are those of the edges
-  // Half of all points, ends of currents that fade or run out of phase, are fainter.
+  std::vector<AntennaPair> pairs;
+  for (const PlannedWay& way : ways) pairs.push_back(way.antennas);
+  const AspectTrace trace(scatterer, pairs, settings, band, threads);
   const double faint = faintest_echo(scatterer, settings, kc);
-  std::vector<ChunkPoints> points(all_chunks);
-  const auto keep = [&](std::size_t chunk, std::span<Contribution> contributions) {
-    if (solver.radar_range_m > 0) bend_wavefront(contributions, antennas, Vec3::Zero(), solver.radar_range_m);
-    for (const Contribution& c : contributions) {
-      const Complex amplitude = c.amplitude * Complex(c.pattern[channel]);
-      if (std::norm(amplitude) < faint * faint) continue;
-      const double cut = std::min(1.0, limit / c.gradient.sum().norm());
-      const double u = cut * path.track.speed(c.gradient), v = cut * path.bend.speed(c.gradient);
-      points[chunk].points.push_back({amplitude, c.psi, u, v});
-      points[chunk].fastest = std::max(points[chunk].fastest, std::abs(u));
-    }
+  std::vector<WayPoints> points;
+  for (std::size_t way = 0; way < ways.size(); ++way) {
+    points.emplace_back(scatterer, ways[way], kc, half_band, faint, channel, solver.radar_range_m,
+                        trace.chunk_count(way));
+  }
+  const auto add = [&](std::size_t way, std::size_t chunk, const auto& footprints) {
+    points[way].add(chunk, footprints);
   };
-  const auto keep_edges = [&](std::size_t chunk, std::span<const EdgeFootprint> footprints) {
-    std::vector<Contribution> contributions;
-    for (const EdgeFootprint& footprint : footprints) {
-      contributions.clear();
-      split(footprint, split_settings, contributions);
-      keep(chunk, contributions);
-    }
-  };
-  const Reached reached = illumination.light_all(threads, [&](std::size_t chunk, const PanelEchoes& echoes) {
-    std::vector<Contribution> contributions;
-    for (const Footprint& footprint : echoes.footprints) {
-      contributions.clear();
-      split_over_band(footprint, antennas.transmit, split_settings, half_band, contributions);
-      keep(chunk, contributions);
-    }
-    keep_edges(chunk, echoes.beam_ends);
-  });
-  edge_echoes(
-      scatterer, antennas, settings, band, reached.arrivals, threads,
-      [&](std::size_t chunk, std::span<const EdgeFootprint> footprints) { keep_edges(chunks + chunk, footprints); });
-  double fastest = 0;
-  for (const ChunkPoints& chunk : points) fastest = std::max(fastest, chunk.fastest);
-  const GridLimits limits{fastest, path.s_limit, beside_limit(scatterer), path.q_limit};
-  // Four grids, whatever the number of threads, each for every fourth chunk; their sum is taken in order.
-  constexpr std::size_t kGrids = 4;
-  std::vector<ReturnGrid> grids(kGrids, ReturnGrid(wavenumbers, limits));
-  parallel_for(kGrids, threads, [&](std::size_t g) {
-    for (std::size_t chunk = g; chunk < all_chunks; chunk += kGrids) grids[g].spread(points[chunk].points);
-  });
-  ReturnGrid grid = std::move(grids[0]);
-  for (std::size_t g = 1; g < kGrids; ++g) grid.add(grids[g]);
-  grid.transform();
-  return grid;
+  trace.run({add, add});
+  std::vector<ReturnGrid> grids;
+  for (const WayPoints& of_way : points) grids.push_back(of_way.grid(wavenumbers, beside_limit(scatterer), threads));
+  return grids;
 }
 
 // The sea's coefficients at every pulse's frequencies: they follow the elevation of a radar that moves; of one that
@@ -162,10 +193,8 @@ BodyResponse respond(const Scatterer& scatterer, const Trajectory& trajectory, c
   const int side_by_side = std::min(threads, static_cast<int>(traces.size()));
   std::vector<std::vector<ReturnGrid>> returns(traces.size());  // by trace and way
   parallel_for(traces.size(), side_by_side, [&](std::size_t i) {
-    for (const PlannedWay& way : traces[i].ways) {
-      returns[i].push_back(
-          trace_returns(scatterer, way, wavenumbers, channel, solver, std::max(1, threads / side_by_side)));
-    }
+    returns[i] =
+        trace_returns(scatterer, traces[i].ways, wavenumbers, channel, solver, std::max(1, threads / side_by_side));
   });
 
   BodyResponse result;
@@ -195,88 +224,6 @@ BodyResponse respond(const Scatterer& scatterer, const Trajectory& trajectory, c
     }
   }
   return result;
-}
-
-std::vector<std::array<Complex, 4>> scattering_matrices(const Scatterer& scatterer, const AntennaPair& antennas,
-                                                        std::span<const double> wavenumbers,
-                                                        const IlluminationSettings& settings, int threads,
-                                                        std::size_t* legs, const StopFlag* stop) {
-  using Matrices = std::vector<std::array<Complex, 4>>;
-  const double spread = spread_of_directions(scatterer, settings.range_m, settings.origin);
-  // At a finite range closed forms give way to points, which the wavefront moves one by one.
-  const auto bent = [&](std::vector<Contribution>& points, double k) {
-    bend_wavefront(points, antennas, settings.origin, settings.range_m);
-    return direct_sum(points, k, Vec3::Zero());
-  };
-  const auto of_facet = [&](Footprint footprint, std::size_t q) {
-    if (settings.range_m <= 0) return scattered(footprint, wavenumbers[q], q);
-    if (!footprint.patterns.empty()) footprint.pattern = footprint.patterns[q];
-    std::vector<Contribution> points;
-    split(footprint, antennas.transmit, {wavenumbers[q], spread}, points);
-    return bent(points, wavenumbers[q]);
-  };
-  const auto of_edge = [&](const EdgeFootprint& footprint, double k) {
-    if (settings.range_m <= 0) return scattered(footprint, k);
-    std::vector<Contribution> points;
-    split(footprint, {k, spread}, points);
-    return bent(points, k);
-  };
-  const auto add = [](const std::array<Complex, 4>& s, std::array<Complex, 4>& sum) {
-    for (int i = 0; i < 4; ++i) sum[i] += s[i];
-  };
-
-  const Illumination illumination(scatterer, antennas, settings, threads, wavenumbers);
-  const std::size_t facet_parts = illumination.chunk_count();
-  std::vector<Matrices> parts(facet_parts + kEdgeChunks, Matrices(wavenumbers.size()));
-  const auto add_edges = [&](std::span<const EdgeFootprint> footprints, Matrices& sum) {
-    for (const EdgeFootprint& footprint : footprints) {
-      for (std::size_t q = 0; q < wavenumbers.size(); ++q) add(of_edge(footprint, wavenumbers[q]), sum[q]);
-    }
-  };
-  const Reached reached = illumination.light_all(
-      threads,
-      [&](std::size_t chunk, const PanelEchoes& echoes) {
-        for (const Footprint& footprint : echoes.footprints) {
-          for (std::size_t q = 0; q < wavenumbers.size(); ++q) add(of_facet(footprint, q), parts[chunk][q]);
-        }
-        add_edges(echoes.beam_ends, parts[chunk]);
-      },
-      stop);
-  if (legs) *legs += reached.legs;
-  edge_echoes(scatterer, antennas, settings, wavenumbers, reached.arrivals, threads,
-              [&](std::size_t chunk, std::span<const EdgeFootprint> footprints) {
-                add_edges(footprints, parts[facet_parts + chunk]);
-              });
-  Matrices sum(wavenumbers.size());
-  for (const Matrices& part : parts) {
-    for (std::size_t q = 0; q < wavenumbers.size(); ++q) add(part[q], sum[q]);
-  }
-  return sum;
-}
-
-std::vector<Contribution> view_contributions(const Scatterer& scatterer, const AntennaPair& antennas,
-                                             const SplitSettings& split_settings, const IlluminationSettings& settings,
-                                             int threads, const StopFlag* stop) {
-  SplitSettings bent = split_settings;
-  bent.turn_rad += spread_of_directions(scatterer, settings.range_m, settings.origin);
-  const Illumination illumination(scatterer, antennas, settings, threads, std::array{split_settings.kc});
-  const std::size_t facet_chunks = illumination.chunk_count();
-  std::vector<std::vector<Contribution>> chunks(facet_chunks + kEdgeChunks);
-  const Reached reached = illumination.light_all(
-      threads,
-      [&](std::size_t chunk, const PanelEchoes& echoes) {
-        for (const Footprint& footprint : echoes.footprints) split(footprint, antennas.transmit, bent, chunks[chunk]);
-        for (const EdgeFootprint& end : echoes.beam_ends) split(end, bent, chunks[chunk]);
-      },
-      stop);
-  edge_echoes(scatterer, antennas, settings, std::array{split_settings.kc}, reached.arrivals, threads,
-              [&](std::size_t chunk, std::span<const EdgeFootprint> footprints) {
-                for (const EdgeFootprint& footprint : footprints) split(footprint, bent, chunks[facet_chunks + chunk]);
-              });
-  std::vector<Contribution> all;
-  for (const auto& chunk : chunks) all.insert(all.end(), chunk.begin(), chunk.end());
-  if (settings.range_m > 0) bend_wavefront(all, antennas, settings.origin, settings.range_m);
-  return all;
 }
 
 }  // namespace seaglint

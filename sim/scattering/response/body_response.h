@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The response of one rigid body over one coherent interval, and its echo at rest.
+// The response of one rigid body over one coherent interval.
 
-#include <array>
-#include <span>
 #include <vector>
 
-#include "sim/core/process/parallel.h"
 #include "sim/motion/trajectory.h"
 #include "sim/scattering/response/frequency_response.h"
-#include "sim/scattering/response/illumination.h"
 #include "sim/scattering/response/sea_reflection.h"
-#include "sim/scattering/surfaces/point_contributions.h"
+#include "sim/scattering/target/scatterer.h"
 #include "sim/scenario/radar_spec.h"
 #include "sim/scenario/target_spec.h"
 
@@ -38,19 +34,5 @@ double default_turn(const Scatterer& scatterer, double wavelength);
 BodyResponse respond(const Scatterer& scatterer, const Trajectory& trajectory, const Vec3& r_hat,
                      Polarisation polarisation, const IntervalSampling& sampling, const SolverSpec& solver,
                      int threads = 1, const SeaMirror* sea = nullptr);
-
-// The scattering matrix hh, hv, vh, vv (received, transmitted) in metres at each wavenumber, body at rest: one trace,
-// and the exact phase integral of every footprint at every frequency. Each direction has its own basis. Raises *legs by
-// the legs of beams followed.
-std::vector<std::array<Complex, 4>> scattering_matrices(const Scatterer& scatterer, const AntennaPair& antennas,
-                                                        std::span<const double> wavenumbers,
-                                                        const IlluminationSettings& settings, int threads = 1,
-                                                        std::size_t* legs = nullptr, const StopFlag* stop = nullptr);
-
-// What one view consists of, point by point, in an order that does not depend on the number of threads. Their direct
-// sum at split.kc is the scattering matrix.
-std::vector<Contribution> view_contributions(const Scatterer& scatterer, const AntennaPair& antennas,
-                                             const SplitSettings& split, const IlluminationSettings& settings,
-                                             int threads = 1, const StopFlag* stop = nullptr);
 
 }  // namespace seaglint

@@ -3,17 +3,18 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
 #include "sim/scattering/beams/beam_tracer.h"
 #include "sim/scattering/edges/beam_boundary.h"
+#include "sim/scattering/edges/beam_edges.h"
+#include "sim/scattering/surfaces/beam_contributions.h"
 
 namespace seaglint {
 namespace {
 
-// Side of the smallest lit piece that counts, in radii: 5 mm on the 144 m ship.
-constexpr double kSmallestSide = 0.7e-4;
 // Side of the smallest beam that goes on to further mirrors, in those of pieces: 18 mm on the ship. Pieces half as
 // large and beams twice as large as one size for both err less and cost the same (README.md).
 constexpr double kBeamPerPiece = 3.6;
@@ -21,13 +22,6 @@ constexpr double kBeamPerPiece = 3.6;
 // frequencies.
 constexpr std::size_t kPanelsPerChunk = 64;
 constexpr std::size_t kMostChunks = 2048;
-// A lattice of rays finds most pieces whose side is a fourteenth of its spacing, with one more ray inside every corner.
-constexpr double kSpacingPerSide = 14;
-
-double smallest_area(const Scatterer& scatterer, const IlluminationSettings& settings) {
-  const double side = ray_spacing(scatterer, settings) / kSpacingPerSide;
-  return side * side;
-}
 
 // In a direction that lies in a sheet's plane nothing of it would be found, not even its rims, whose echo has a limit
 // there; so have edge waves along any face, and those of an edge square to the direction, which run along the rims
@@ -57,36 +51,65 @@ RadarBasis looking_aside(const Scatterer& scatterer, const RadarBasis& basis, bo
   return aside;
 }
 
-AntennaPair looking_aside(const Scatterer& scatterer, const AntennaPair& antennas, bool edges) {
-  return {looking_aside(scatterer, antennas.transmit, edges), looking_aside(scatterer, antennas.receive, edges),
-          antennas.monostatic};
+// Writes down what the legs of one illumination light and what its receivers see.
+class LitRecorder : public BeamVisitor {
+ public:
+  LitRecorder(const BeamScene& scene, Lit& out) : scene_(scene), out_(out) {
+    out.seen.resize(scene.receivers.size());
+    ends_.reserve(out.seen.size());  // echoes refer to them
+    for (std::size_t i = 0; i < out.seen.size(); ++i) {
+      const Receiver& receiver = scene.receivers[i];
+      echoes_.emplace_back(scene, receiver, out.seen[i].footprints,
+                           &ends_.emplace_back(scene, receiver, out.seen[i].beam_ends));
+    }
+  }
+
+  bool wants(const Leg& leg) const override { return reaches_edges(scene_, leg); }
+  void lit(const Leg& leg, const Candidate& candidate) override {
+    if (reaches_edges(scene_, leg)) reach_edges(scene_, leg, candidate, out_.arrivals);
+  }
+  void seen(const Leg& leg, const Candidate& candidate, std::size_t receiver,
+            std::span<const MovingPolygon> pieces) override {
+    echoes_[receiver].radiate(leg, candidate, pieces);
+    echoes_[receiver].radiate_back(leg, candidate, pieces);
+  }
+
+ private:
+  const BeamScene& scene_;
+  Lit& out_;
+  std::vector<FootprintEnds> ends_;
+  std::vector<BeamEcho> echoes_;
+};
+
+Aspects aspects_of(const Scatterer& scatterer, const AntennaPair& antennas, const IlluminationSettings& settings,
+                   int threads) {
+  const auto seen_along = [&](const RadarBasis& direction) {
+    return std::make_shared<const Aspect>(scatterer, direction, settings, threads);
+  };
+  return {seen_along(antennas.transmit), {antennas.monostatic ? nullptr : seen_along(antennas.receive)}};
 }
 
 }  // namespace
 
-double default_ray_spacing(const Scatterer& scatterer) { return kSpacingPerSide * kSmallestSide * scatterer.radius(); }
+Aspect::Aspect(const Scatterer& scatterer, const RadarBasis& direction, const IlluminationSettings& settings,
+               int threads)
+    : basis(looking_aside(scatterer, direction, settings.edges)),
+      visible(scatterer.facets(), scatterer.panels(), scatterer.tree(), basis, smallest_area(scatterer, settings),
+              threads) {}
 
-double ray_spacing(const Scatterer& scatterer, const IlluminationSettings& settings) {
-  const double coarsest = default_ray_spacing(scatterer);
-  return settings.ray_spacing_m > 0 ? std::min(coarsest, settings.ray_spacing_m) : coarsest;
-}
-
-double faintest_echo(const Scatterer& scatterer, const IlluminationSettings& settings, double k) {
-  return 0.1 * k * smallest_area(scatterer, settings) / (2 * kPi);
-}
-
-Illumination::Illumination(const Scatterer& scatterer, const AntennaPair& antennas,
-                           const IlluminationSettings& settings, int threads, std::span<const double> wavenumbers)
-    : scatterer_(scatterer),
-      antennas_(looking_aside(scatterer, antennas, settings.edges)),
-      settings_(settings),
-      min_area_(smallest_area(scatterer, settings)),
-      lit_(scatterer.facets(), scatterer.panels(), scatterer.tree(), antennas_.transmit, min_area_, threads) {
-  if (!antennas.monostatic)
-    seen_from_receiver_.emplace(scatterer.facets(), scatterer.panels(), scatterer.tree(), antennas_.receive, min_area_,
-                                threads);
+Illumination::Illumination(const Scatterer& scatterer, Aspects aspects, const IlluminationSettings& settings,
+                           std::span<const double> wavenumbers)
+    : scatterer_(scatterer), settings_(settings), aspects_(std::move(aspects)) {
+  const Aspect& transmitter = *aspects_.transmitter;
+  for (const auto& receiver : aspects_.receivers) {
+    if (receiver) {
+      receivers_.push_back({bistatic(transmitter.basis, receiver->basis), &receiver->visible});
+    } else {
+      receivers_.push_back({monostatic(transmitter.basis), &transmitter.visible});
+    }
+  }
   for (int facet = 0; facet < static_cast<int>(scatterer.facets().size()); ++facet) {
-    if (!lit_.pieces(facet).empty()) seen_.push_back(facet);
+    if (!transmitter.visible.pieces(facet).empty()) seen_.push_back(facet);
   }
   for (const MaterialSpec& material : scatterer.materials()) {
     std::vector<Surface>& surface = surfaces_.emplace_back();
@@ -100,14 +123,17 @@ Illumination::Illumination(const Scatterer& scatterer, const AntennaPair& antenn
   }
 }
 
+Illumination::Illumination(const Scatterer& scatterer, const AntennaPair& antennas,
+                           const IlluminationSettings& settings, int threads, std::span<const double> wavenumbers)
+    : Illumination(scatterer, aspects_of(scatterer, antennas, settings, threads), settings, wavenumbers) {}
+
 std::size_t Illumination::panels_per_chunk() const {
   return std::max(kPanelsPerChunk, (seen_.size() + kMostChunks - 1) / kMostChunks);
 }
 
 std::size_t Illumination::chunk_count() const { return (seen_.size() + panels_per_chunk() - 1) / panels_per_chunk(); }
 
-Reached Illumination::light_all(int threads, const std::function<void(std::size_t, const PanelEchoes&)>& visit,
-                                const StopFlag* stop) const {
+Reached Illumination::light_all(int threads, const Visit& visit, const StopFlag* stop) const {
   const std::size_t size = panels_per_chunk();
   const EchoFilter& filter = settings_.filter;
   const double faint = lowest_ > 0 ? faintest_echo(scatterer_, settings_, lowest_) : 0.0;
@@ -118,17 +144,22 @@ Reached Illumination::light_all(int threads, const std::function<void(std::size_
       [&](std::size_t chunk) {
         Lit lit;
         const auto panels = seen().subspan(chunk * size, std::min(size, seen_.size() - chunk * size));
-        legs[chunk] = trace_beams(scene(), panels, lit, [&] {
-          std::erase_if(lit.footprints, [&](const Footprint& f) {
-            return !filter.keeps(f.part, f.bounces, Mechanism::kPhysicalOptics);
-          });
-          std::erase_if(lit.beam_ends, [&](const EdgeFootprint& end) {
-            return !filter.keeps_edge(end.part, end.part_beyond, end.bounces) ||
-                   (faint > 0 && bound_of_beam_end(end, lowest_, highest_) < faint);
-          });
-          visit(chunk, {lit.footprints, lit.beam_ends});
-          lit.footprints.clear();
-          lit.beam_ends.clear();
+        const BeamScene of_chunk = scene();
+        LitRecorder recorder(of_chunk, lit);
+        legs[chunk] = trace_beams(of_chunk, panels, recorder, [&] {
+          for (std::size_t receiver = 0; receiver < lit.seen.size(); ++receiver) {
+            auto& [footprints, beam_ends] = lit.seen[receiver];
+            std::erase_if(footprints, [&](const Footprint& f) {
+              return !filter.keeps(f.part, f.bounces, Mechanism::kPhysicalOptics);
+            });
+            std::erase_if(beam_ends, [&](const EdgeFootprint& end) {
+              return !filter.keeps_edge(end.part, end.part_beyond, end.bounces) ||
+                     (faint > 0 && bound_of_beam_end(end, lowest_, highest_) < faint);
+            });
+            visit(chunk, receiver, {footprints, beam_ends});
+            footprints.clear();
+            beam_ends.clear();
+          }
         });
         arrivals[chunk] = std::move(lit.arrivals);
       },
@@ -138,13 +169,16 @@ Reached Illumination::light_all(int threads, const std::function<void(std::size_
 }
 
 BeamScene Illumination::scene() const {
-  const VisibleSurface& visible = seen_from_receiver_ ? *seen_from_receiver_ : lit_;
-  return {scatterer_, antennas_, settings_, lit_,
-          visible,    surfaces_, min_area_, kBeamPerPiece * kBeamPerPiece * min_area_};
+  const double min_area = smallest_area(scatterer_, settings_);
+  const auto& [basis, visible] = *aspects_.transmitter;
+  return {scatterer_, basis,     receivers_, settings_,
+          visible,    surfaces_, min_area,   kBeamPerPiece * kBeamPerPiece * min_area};
 }
 
 std::size_t Illumination::light(std::span<const int> facets, Lit& lit) const {
-  return trace_beams(scene(), facets, lit);
+  const BeamScene of_facets = scene();
+  LitRecorder recorder(of_facets, lit);
+  return trace_beams(of_facets, facets, recorder);
 }
 
 }  // namespace seaglint

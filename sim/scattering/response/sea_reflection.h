@@ -11,11 +11,9 @@
 // rho_v = +1, gives what image theory gives.
 
 #include <array>
-#include <span>
-#include <vector>
 
-#include "sim/core/process/parallel.h"
-#include "sim/scattering/response/illumination.h"
+#include "sim/core/numbers/linear.h"
+#include "sim/scattering/beams/bistatic_geometry.h"
 #include "sim/scenario/radar_spec.h"
 #include "sim/scenario/sea_spec.h"
 
@@ -56,15 +54,5 @@ class SeaMirror {
   SeaReflectionSpec spec_;
   double rms_m_;
 };
-
-// The scattering matrix hh, hv, vh, vv in metres of a body at rest over the sea, at each wavenumber, about the body's
-// origin, which is `height_m` above the mean surface. r_hat in the body frame, whose z is up; r_hat.z() > 0. Raises
-// *legs by the legs followed.
-std::vector<std::array<Complex, 4>> scattering_matrices_over_sea(const Scatterer& scatterer, const Vec3& r_hat,
-                                                                 double height_m, const SeaMirror& sea,
-                                                                 std::span<const double> wavenumbers,
-                                                                 const IlluminationSettings& settings, int threads = 1,
-                                                                 std::size_t* legs = nullptr,
-                                                                 const StopFlag* stop = nullptr);
 
 }  // namespace seaglint

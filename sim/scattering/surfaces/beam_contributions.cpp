@@ -2,44 +2,23 @@
 #include "sim/scattering/surfaces/beam_contributions.h"
 
 #include <cmath>
-#include <optional>
 
-#include "sim/scattering/edges/beam_boundary.h"
-#include "sim/scattering/edges/reflected_edge.h"
+#include "sim/scattering/diffraction/wedge.h"
 #include "sim/scattering/material/reflection.h"
 
 namespace seaglint {
-namespace {
-
-// The leg's mirrors and the candidate, as the beam meets them.
-using Screens = std::array<Screen, kMostMoved + 1>;
-Screens screens_of(const Leg& leg, const Candidate& candidate) {
-  Screens screens;
-  auto place = static_cast<std::size_t>(leg.bounce) - 1;
-  screens[place] = {candidate.image.facet, &leg.mirrors, &candidate.image.plane, leg.direction};
-  for (const Leg* after = &leg; place > 0; after = after->before)
-    screens[--place] = {after->from_facet, &after->mirrors, &after->from_plane, after->before->direction};
-  return screens;
-}
-
-}  // namespace
-
-BeamEcho::BeamEcho(const BeamScene& scene, Lit& out)
+BeamEcho::BeamEcho(const BeamScene& scene, const Receiver& receiver, std::vector<Footprint>& out,
+                   FootprintVisitor* visitor)
     : scene_(scene),
       facets_(scene.scatterer.facets()),
-      curving_{facets_, scene.scatterer.surface(), scene.antennas},
+      curving_{facets_, scene.scatterer.surface(), scene.transmit},
       panels_(scene.scatterer.panels()),
-      edges_(scene.settings.edges ? &scene.scatterer.edges() : nullptr),
-      antennas_(scene.antennas),
-      basis_(scene.antennas.transmit),
+      antennas_(receiver.antennas),
+      visible_(*receiver.visible),
+      basis_(scene.transmit),
       longest_slip_(2 * scene.scatterer.radius()),
-      out_(out) {}
-
-void BeamEcho::seen_part(const Leg& leg, const Candidate& candidate, std::vector<MovingPolygon>& seen) const {
-  if (facing(leg, facets_[candidate.image.facet]).dot(antennas_.receive.r) <= kEdgeOn)
-    return;  // its lit side faces away
-  scene_.visible.seen_through(candidate.image.facet, leg.mirrors, candidate.lit.polygons(), basis_, seen);
-}
+      out_(out),
+      visitor_(visitor) {}
 
 void BeamEcho::radiate(const Leg& leg, const Candidate& candidate, std::span<const MovingPolygon> pieces) {
   const Facet& facet = facets_[candidate.image.facet];
@@ -59,24 +38,18 @@ void BeamEcho::radiate(const Leg& leg, const Candidate& candidate, std::span<con
     footprint.patterns = patterns(leg, footprint.facet, n);
     footprint.pattern = footprint.patterns[footprint.patterns.size() / 2];
   }
-  footprint.curvature = curvature_of(curving_, leg, candidate, footprint);
-  Screens screens;
-  std::optional<BeamEnds> ends;
-  if (has_beam_ends(leg, footprint)) {
-    screens = screens_of(leg, candidate);
-    ends.emplace(*edges_, panels_, antennas_,
-                 std::span<const Screen>(screens.data(), static_cast<std::size_t>(leg.bounce)));
-  }
+  footprint.curvature = curvature_of(curving_, antennas_, leg, candidate, footprint);
+  if (visitor_) visitor_->start(leg, candidate, footprint);
   const double share = leaves_grazing(leg, footprint.facet) ? share_of_way(leg, footprint.facet) : 1.0;
   // More is given with the ends of its beams; where less is left they have faded out as much (rim_share).
   if (share > 1) give_share(share, footprint);
   for (const MovingPolygon& piece : pieces) {
     footprint.polygon = piece;
     limit_slip(footprint, longest_slip_);
-    if (ends) ends->find(footprint, out_.beam_ends);
+    if (visitor_) visitor_->add(footprint);
     if (share <= 0) continue;
-    out_.footprints.push_back(footprint);
-    if (share < 1) give_share(share, out_.footprints.back());
+    out_.push_back(footprint);
+    if (share < 1) give_share(share, out_.back());
   }
 }
 
@@ -106,22 +79,13 @@ void BeamEcho::radiate_back(const Leg& leg, const Candidate& candidate, std::spa
   give_share(share, footprint);
   // What the mirror lights at first, a receiver at the same place sees by it.
   std::vector<MovingPolygon> by_mirror;
-  if (leg.bounce > 2) scene_.visible.seen_by(leg.first_facet, facet, footprint.mirrors, seen, basis_, by_mirror);
+  if (leg.bounce > 2) visible_.seen_by(leg.first_facet, facet, footprint.mirrors, seen, basis_, by_mirror);
   for (const MovingPolygon& piece :
        leg.bounce > 2 ? std::span<const MovingPolygon>(by_mirror) : candidate.lit.polygons()) {
     footprint.polygon = piece;
     limit_slip(footprint, longest_slip_);
-    out_.footprints.push_back(footprint);
+    out_.push_back(footprint);
   }
-}
-
-bool BeamEcho::reaches_edges(const Leg& leg) const { return edges_ && leg.bounce <= kMostEdgeMirrors + 1; }
-
-void BeamEcho::reach_edges(const Leg& leg, const Candidate& candidate) {
-  if (!leg.fields.empty() || !scene_.surface_of(candidate.image.facet).empty()) return;
-  const WaveOnFacet wave{basis_,  leg.mirrors, candidate.image.plane, leg.direction, leg.E_h,
-                         leg.E_v, leg.bounce,  leg.first_mirror};
-  find_arrivals(*edges_, candidate.image.facet, wave, candidate.lit.polygons(), out_.arrivals);
 }
 
 std::vector<std::array<Complex, 4>> BeamEcho::patterns(const Leg& leg, int facet, const Vec3& n) const {
@@ -140,14 +104,10 @@ std::vector<std::array<Complex, 4>> BeamEcho::patterns(const Leg& leg, int facet
   return patterns;
 }
 
-bool BeamEcho::has_beam_ends(const Leg& leg, const Footprint& footprint) const {
-  return edges_ && leg.bounce > 1 && leg.bounce <= kMostMoved + 1 && !leg.bent && !footprint.curvature &&
-         footprint.patterns.empty();
-}
-
 bool BeamEcho::leaves_grazing(const Leg& leg, int facet) const {
-  return edges_ && antennas_.monostatic && !leg.bent && !curving_.surface.curved(facet) && leg.fields.empty() &&
-         scene_.surface_of(facet).empty() && !scene_.settings.filter.is_cavity(facets_[facet].part);
+  return scene_.settings.edges && antennas_.monostatic && !leg.bent && !curving_.surface.curved(facet) &&
+         leg.fields.empty() && scene_.surface_of(facet).empty() &&
+         !scene_.settings.filter.is_cavity(facets_[facet].part);
 }
 
 GrazedMirror BeamEcho::mirror_of(int facet) const { return {facets_[facet].normal, panels_.outline(facet)}; }

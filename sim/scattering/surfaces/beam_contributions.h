@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// What a beam answers from a facet that it lights: footprints of physical optics, what these lack where the beam ends,
-// and the waves that it brings to sharp edges.
+// The footprints of physical optics that a beam leaves on a panel.
 
 #include <array>
 #include <span>
@@ -10,18 +9,28 @@
 
 #include "sim/scattering/beams/beam_segment.h"
 #include "sim/scattering/beams/tracing_context.h"
-#include "sim/scattering/surfaces/curved_reflection.h"
+#include "sim/scattering/surfaces/curved_footprint.h"
+#include "sim/scattering/surfaces/footprint.h"
 #include "sim/scattering/surfaces/grazing_reflection.h"
 
 namespace seaglint {
 
-// Appends to `out`; it and the scene must outlive this.
+// Receives the footprints of every beam on every panel, those whose echo grazing lowers still with their whole pattern.
+class FootprintVisitor {
+ public:
+  virtual ~FootprintVisitor() = default;
+  // Of one beam on one panel, but for the polygon.
+  virtual void start(const Leg& leg, const Candidate& candidate, const Footprint& footprint) = 0;
+  // One of its footprints.
+  virtual void add(const Footprint& footprint) = 0;
+};
+
+// Of one receiver. Appends to `out`; it, the scene with the receiver, and the visitor, which may be null, must outlive
+// this.
 class BeamEcho {
  public:
-  BeamEcho(const BeamScene& scene, Lit& out);
-
-  // Appends what the radar sees directly of the candidate's lit pieces to `seen`.
-  void seen_part(const Leg& leg, const Candidate& candidate, std::vector<MovingPolygon>& seen) const;
+  BeamEcho(const BeamScene& scene, const Receiver& receiver, std::vector<Footprint>& out,
+           FootprintVisitor* visitor = nullptr);
 
   // Footprints of the pieces that are lit and seen.
   void radiate(const Leg& leg, const Candidate& candidate, std::span<const MovingPolygon> pieces);
@@ -30,17 +39,9 @@ class BeamEcho {
   // lit and seen directly. `seen`: pieces of the facet that the radar sees.
   void radiate_back(const Leg& leg, const Candidate& candidate, std::span<const MovingPolygon> seen);
 
-  // Whether the leg's waves are followed to edges: with more mirrors before it an edge is not.
-  bool reaches_edges(const Leg& leg) const;
-
-  // Arrivals at the candidate's edges. Wedges are perfect conductors, and so is what the wave met before.
-  void reach_edges(const Leg& leg, const Candidate& candidate);
-
  private:
   // The footprint's pattern per wavenumber, where the facet or a mirror before it is no perfect conductor.
   std::vector<std::array<Complex, 4>> patterns(const Leg& leg, int facet, const Vec3& n) const;
-  // Perfect conductors, as wedges are, and flat.
-  bool has_beam_ends(const Leg& leg, const Footprint& footprint) const;
   // Whether mirrors that are grazed leave their echo to other ways; without edges the last one has all of it, as usual.
   // Flat perfect conductors, and none that are followed by other means.
   bool leaves_grazing(const Leg& leg, int facet) const;
@@ -51,11 +52,12 @@ class BeamEcho {
   std::span<const Facet> facets_;
   Curving curving_;
   const Panels& panels_;
-  const SharpEdges* edges_;  // null when nobody asks for edges
   const AntennaPair& antennas_;
+  const VisibleSurface& visible_;
   const RadarBasis& basis_;  // of the aperture: the transmitter's
   double longest_slip_;      // m
-  Lit& out_;
+  std::vector<Footprint>& out_;
+  FootprintVisitor* visitor_;
 };
 
 }  // namespace seaglint

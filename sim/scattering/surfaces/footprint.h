@@ -10,68 +10,11 @@
 #include <memory>
 #include <vector>
 
+#include "sim/scattering/beams/bistatic_geometry.h"
+#include "sim/scattering/beams/image_transform.h"
 #include "sim/scattering/beams/moving_polygon.h"
 
 namespace seaglint {
-
-// The radar's direction and polarisation basis in the body frame: r^ x h = v (CONVENTIONS.md, "Scattering").
-struct RadarBasis {
-  Vec3 r = Vec3::UnitX();
-  Vec3 h = Vec3::UnitY();
-  Vec3 v = Vec3::UnitZ();
-};
-
-// Where the wave comes from and where its echo is received, each with the polarisation basis of its own direction.
-struct AntennaPair {
-  RadarBasis transmit;
-  RadarBasis receive;
-  bool monostatic = true;  // receive is transmit
-};
-AntennaPair monostatic(const RadarBasis& basis);
-AntennaPair bistatic(const RadarBasis& transmit, const RadarBasis& receive);
-
-// By which current an echo arises.
-enum class Mechanism : std::uint8_t {
-  kPhysicalOptics,  // surface currents of geometrical optics
-  kEdge,            // fringe currents at sharp edges
-};
-
-// h = z^ x r^ / |z^ x r^| (y^ when r^ is vertical), v = r^ x h.
-RadarBasis radar_basis(const Vec3& r_hat);
-
-// Reflections in planes, composed: image = L real + t, with L orthogonal.
-struct Mirror {
-  Mat3 L = Mat3::Identity();
-  Vec3 t = Vec3::Zero();
-
-  Vec3 image(const Vec3& real) const { return L * real + t; }
-  Vec3 real(const Vec3& image) const { return L.transpose() * (image - t); }
-};
-
-// One after the other: first b.
-inline Mirror operator*(const Mirror& a, const Mirror& b) { return {a.L * b.L, a.L * b.t + a.t}; }
-
-// By the plane n . x = offset, n unit.
-inline Mirror plane_mirror(const Vec3& n, double offset) {
-  return {Mat3::Identity() - 2 * n * n.transpose(), 2 * offset * n};
-}
-
-// A direction as the plane with unit normal n mirrors it.
-inline Vec3 mirrored(const Vec3& x, const Vec3& n) { return x - 2 * n.dot(x) * n; }
-
-// A facet's plane seen along the unfolded ray: height above the aperture plane z(p) = z0 + slope . p, positive towards
-// the radar.
-struct ImagePlane {
-  double z0 = 0;
-  Vec2 slope = Vec2::Zero();
-
-  double at(const Vec2& p) const { return z0 + slope.dot(p); }
-  // z as a moving line. Turning r^ moves it by dz/dd_i = p_i + z slope_i at fixed p.
-  MovingLine moving() const;
-};
-
-// The plane n . x = offset (image space, n need not point to the radar); n . r^ must not vanish.
-ImagePlane image_plane(const Vec3& n, double offset, const RadarBasis& basis);
 
 struct Curvature;
 
@@ -130,19 +73,5 @@ PathGradient phase_gradient(const Footprint& footprint, const Corner& corner, co
 // faster, and soon off the end of one of them, so that its way cannot be told from its speed. The speed is the corner's
 // own: pieces that share it still do.
 void limit_slip(Footprint& footprint, double most);
-
-// I(k) = integral over the footprint of e^{jk psi(p)} d^2p, m^2. Gordon's contour form (W. B. Gordon, IEEE Trans.
-// AP-23, 1975, 590-592), by the divergence theorem with F = w e^{jk w.p} / (jk |w|^2); a series where |w| is small.
-// With curvature the sum of curved_terms, fading included.
-Complex phase_integral(const Footprint& footprint, double k);
-
-// (e^{jx} - 1)/(jx) e^{-jx/2} = sin(x/2)/(x/2)
-double sinc(double x);
-
-// S = -jk/(2 pi) pattern I(k): physical optics, E_s = -(jk eta / 4 pi) (e^{-jkr}/r) integral (J - r^ r^.J) e^{jk r^.x}
-// dS with J = 2 n x H (Balanis, Advanced Engineering Electromagnetics, eqs. 6-95, 7-54), dS = d^2p / |n . k^|. Elements
-// hh, hv, vh, vv in metres. k is the illumination's wavenumber number `index` where materials make the pattern depend
-// on it.
-std::array<Complex, 4> scattered(const Footprint& footprint, double k, std::size_t index = 0);
 
 }  // namespace seaglint

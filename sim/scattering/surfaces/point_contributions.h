@@ -10,7 +10,8 @@
 #include <span>
 #include <vector>
 
-#include "sim/scattering/edges/edge_contribution.h"
+#include "sim/scattering/beams/contribution_filter.h"
+#include "sim/scattering/surfaces/decomposition.h"
 #include "sim/scattering/surfaces/footprint.h"
 
 namespace seaglint {
@@ -26,19 +27,11 @@ struct Contribution {
   Mechanism mechanism = Mechanism::kPhysicalOptics;
 };
 
-struct SplitSettings {
-  double kc = 0;        // wavenumber of the band's centre, rad/m
-  double turn_rad = 0;  // largest turn from the lit direction, 0 <= x < 0.1
-};
-
 // The footprint's contributions at kc, appended. Summing amplitude e^{jk psi} at kc and the lit direction gives
 // scattered(footprint, kc) to rounding. Away from there amplitudes are frozen: with u = turn_rad times the change of
 // psi's slope along the facet, an area becomes its edges where that slope exceeds u / kAmplitudeError, an edge its ends
 // where its own slope does; else they are cut into pieces whose own phase stays below kPieceHalfPhase. What is left is
 // at most kAmplitudeError per end point, and |k/kc - 1|.
-inline constexpr double kAmplitudeError =
-    0.04;  // -28 dB of a single end point; the sum over many is far better (tests, README)
-inline constexpr double kPieceHalfPhase = 0.5;  // rad
 void split(const Footprint& footprint, const RadarBasis& transmit, const SplitSettings& settings,
            std::vector<Contribution>& out);
 
@@ -46,12 +39,8 @@ void split(const Footprint& footprint, const RadarBasis& transmit, const SplitSe
 // end: their first-order change with k becomes two more sets of points. With P1 = dP/dk and a small delta,
 //     (k - kc) P1 e^{jk psi}  is  sin((k - kc) delta) / delta P1 e^{jk psi},
 // points at psi +- delta; kSlopePhase = half_band delta bounds the error by kSlopePhase^2 / 6 of that change.
-inline constexpr double kSlopePhase = 0.2;  // rad
 void split_over_band(const Footprint& footprint, const RadarBasis& transmit, const SplitSettings& settings,
                      double half_band, std::vector<Contribution>& out);
-
-// The same for a stretch of sharp edge: its ends, or pieces short enough for one point.
-void split(const EdgeFootprint& footprint, const SplitSettings& settings, std::vector<Contribution>& out);
 
 // The wavefront at a finite range, to second order (CONVENTIONS.md, "Plane waves"): each way is longer by |x_perp|^2 /
 // (2 R), x counted from the point that the range refers to; `origin` is where the contributions' frame stands from

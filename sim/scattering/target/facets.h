@@ -11,9 +11,6 @@
 
 namespace seaglint {
 
-// Cosine below which a facet is edge-on to a beam or to the receiver.
-inline constexpr double kEdgeOn = 1e-9;
-
 struct Facet {
   std::array<Vec3, 3> corner;
   Vec3 normal = Vec3::UnitZ();                        // unit, right-handed with the corners

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "sim/scattering/response/scattering_matrix.h"
 #include "sim/cavity/cavity_scattering.h"
 
 #include <fmt/format.h>

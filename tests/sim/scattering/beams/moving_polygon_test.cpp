@@ -10,6 +10,7 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/random.h"
 #include "sim/scattering/beams/visible_surface.h"
+#include "sim/scattering/surfaces/phase_integral.h"
 
 namespace seaglint {
 namespace {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Rims of sheets that are not infinitely thin: against integral equations, and laws.
 #include "sim/scattering/diffraction/thick_edge.h"
+#include "sim/scattering/response/scattering_matrix.h"
 
 #include <gtest/gtest.h>
 

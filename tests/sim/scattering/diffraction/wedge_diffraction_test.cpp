@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Fringe currents of wedges and corners: against Keller's coefficients.
 #include "sim/scattering/diffraction/wedge_diffraction.h"
+#include "sim/scattering/surfaces/phase_integral.h"
 
 #include <gtest/gtest.h>
 

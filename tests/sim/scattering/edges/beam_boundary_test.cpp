@@ -7,7 +7,10 @@
 #include <cstdio>
 
 #include "sim/geometry/files/mesh_io.h"
+#include "sim/scattering/diffraction/transition.h"
+#include "sim/scattering/edges/edge_decomposition.h"
 #include "sim/scattering/response/illumination.h"
+#include "sim/scattering/surfaces/phase_integral.h"
 #include "sim/scattering/surfaces/point_contributions.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
@@ -21,7 +24,7 @@ constexpr Complex j(0, 1);
 std::vector<EdgeFootprint> beam_ends(const Scatterer& scatterer, const Vec3& r) {
   std::vector<EdgeFootprint> all;
   Illumination(scatterer, monostatic(radar_basis(r)), {0, 8, true})
-      .light_all(1, [&](std::size_t, const PanelEchoes& echoes) {
+      .light_all(1, [&](std::size_t, std::size_t, const PanelEchoes& echoes) {
         all.insert(all.end(), echoes.beam_ends.begin(), echoes.beam_ends.end());
       });
   return all;

@@ -9,8 +9,11 @@
 #include <sstream>
 
 #include "sim/core/numbers/random.h"
+#include "sim/core/numbers/sinc.h"
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/shapes/generators.h"
+#include "sim/scattering/diffraction/transition.h"
+#include "sim/scattering/response/scattering_matrix.h"
 #include "sim/scattering/target/sharp_edges.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 

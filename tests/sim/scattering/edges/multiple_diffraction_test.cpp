@@ -8,9 +8,13 @@
 #include <vector>
 
 #include "sim/geometry/files/mesh_io.h"
+#include "sim/scattering/diffraction/fade_windows.h"
+#include "sim/scattering/diffraction/transition.h"
 #include "sim/scattering/diffraction/wedge_diffraction.h"
 #include "sim/scattering/edges/edge_diffraction.h"
 #include "sim/scattering/response/illumination.h"
+#include "sim/scattering/response/scattering_matrix.h"
+#include "sim/scattering/surfaces/phase_integral.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
 namespace seaglint {
@@ -155,7 +159,8 @@ EdgeWaveSum edge_wave_sum(const TriangleMesh& mesh, const AntennaPair& antennas,
   // Of edges on the floor, where `wanted` holds.
   const auto reached = [&](const RadarBasis& basis, const auto& wanted) {
     std::vector<EdgeArrival> kept;
-    const Reached all = Illumination(scatterer, monostatic(basis), {0, 1, true}).light_all(1, [](std::size_t, auto) {});
+    const Reached all =
+        Illumination(scatterer, monostatic(basis), {0, 1, true}).light_all(1, [](std::size_t, std::size_t, auto) {});
     for (const EdgeArrival* arrival : all.arrivals.all()) {
       if (edge(*arrival).a.z() == 0 && edge(*arrival).b.z() == 0 && wanted(edge(*arrival))) kept.push_back(*arrival);
     }
@@ -293,7 +298,8 @@ TEST(EdgeWave, LeaveOutOnlyWhatIsFaint) {
   std::size_t all = 0, kept = 0;
   for (const auto& [azimuth, elevation] : {std::pair{45.0, 35.0}, {20.0, 3.0}, {70.0, 60.0}, {1.0, 1.0}}) {
     const AntennaPair antennas = monostatic(radar_basis(direction(azimuth, elevation)));
-    const auto arrivals = Illumination(corner, antennas, {0, 4, true}).light_all(1, [](std::size_t, auto) {}).arrivals;
+    const auto arrivals =
+        Illumination(corner, antennas, {0, 4, true}).light_all(1, [](std::size_t, std::size_t, auto) {}).arrivals;
     const auto loud = [&](double limit, std::size_t& count) {
       std::vector<EdgeFootprint> footprints;
       edge_wave_footprints(corner.edges(), corner.facets(), corner.panels(), antennas, arrivals.all(), arrivals,
@@ -319,7 +325,8 @@ TEST(EdgeWave, OfShortRunsAreFaintOnTheShip) {
   const EdgeWaveLimits own = edge_wave_limits(ship, settings, k);
   for (const double azimuth : {10.0, 90.0, 130.0}) {
     const AntennaPair antennas = monostatic(radar_basis(direction(azimuth, 2)));
-    const auto arrivals = Illumination(ship, antennas, settings).light_all(2, [](std::size_t, auto) {}).arrivals;
+    const auto arrivals =
+        Illumination(ship, antennas, settings).light_all(2, [](std::size_t, std::size_t, auto) {}).arrivals;
     const auto waves = [&](const EdgeWaveLimits& limits) {
       std::vector<EdgeFootprint> footprints;
       edge_wave_footprints(ship.edges(), ship.facets(), ship.panels(), antennas, arrivals.all(), arrivals, limits,
@@ -352,8 +359,9 @@ TEST(EdgeWave, DoNotDependOnHowTheirFaceIsCut) {
   for (double azimuth = 20; azimuth <= 85; azimuth += 2.5) {
     const RadarBasis basis = radar_basis(direction(azimuth, 13));
     const auto of_edges = [&](const Scatterer& plate, bool once) {
-      const auto arrivals =
-          Illumination(plate, monostatic(basis), {0, 1, true}).light_all(1, [](std::size_t, auto) {}).arrivals;
+      const auto arrivals = Illumination(plate, monostatic(basis), {0, 1, true})
+                                .light_all(1, [](std::size_t, std::size_t, auto) {})
+                                .arrivals;
       std::vector<EdgeFootprint> footprints;
       edge_wave_footprints(plate.edges(), plate.facets(), plate.panels(), monostatic(basis), arrivals.all(), arrivals,
                            {}, footprints);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Walls behind rims of faces that the wave grazes, against integrals over the half-plane's field.
 #include "sim/scattering/edges/wall_penumbra.h"
+#include "sim/scattering/diffraction/transition.h"
+#include "sim/scattering/surfaces/phase_integral.h"
 
 #include <gtest/gtest.h>
 
@@ -131,7 +133,8 @@ TEST(WallPenumbra, IsTheWallsAndItsFloors) {
   corner.part_names = {"one", "two", "three"};
   const Scatterer scatterer(corner);
   const AntennaPair antennas = monostatic(radar_basis(direction(30, 2)));
-  const auto arrivals = Illumination(scatterer, antennas, {0, 4, true}).light_all(1, [](std::size_t, auto) {}).arrivals;
+  const auto arrivals =
+      Illumination(scatterer, antennas, {0, 4, true}).light_all(1, [](std::size_t, std::size_t, auto) {}).arrivals;
   std::vector<EdgeFootprint> footprints;
   edge_wave_footprints(scatterer.edges(), scatterer.facets(), scatterer.panels(), antennas, arrivals.all(), arrivals,
                        {}, footprints);

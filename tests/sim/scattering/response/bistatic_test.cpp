@@ -2,7 +2,9 @@
 // Separate directions to transmit and to receive.
 #include <gtest/gtest.h>
 
+#include "sim/core/numbers/sinc.h"
 #include "sim/geometry/shapes/generators.h"
+#include "sim/scattering/response/scattering_matrix.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
 namespace seaglint {

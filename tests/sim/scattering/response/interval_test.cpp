@@ -12,6 +12,8 @@
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/shapes/generators.h"
 #include "sim/scattering/response/response_grid.h"
+#include "sim/scattering/response/scattering_matrix.h"
+#include "sim/scattering/surfaces/phase_integral.h"
 #include "sim/scattering/surfaces/point_contributions.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
@@ -75,7 +77,7 @@ TEST(Contributions, SumToTheClosedFormWhereTheyWereMade) {
     std::array<Complex, 4> exact{};
     Lit lit;
     for (const int facet : illumination.seen()) illumination.light(facet, lit);
-    for (const Footprint& footprint : lit.footprints) {
+    for (const Footprint& footprint : lit.seen[0].footprints) {
       split(footprint, basis, {kc, turn}, contributions);
       const auto s = scattered(footprint, kc);
       for (int i = 0; i < 4; ++i) exact[i] += s[i];

@@ -8,6 +8,7 @@
 
 #include "sim/core/process/error.h"
 #include "sim/geometry/shapes/generators.h"
+#include "sim/scattering/response/scattering_matrix.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
 namespace seaglint {

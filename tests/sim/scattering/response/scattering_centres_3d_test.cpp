@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What one view consists of: selected, binned into centres, summed by facet.
 #include "sim/scattering/response/scattering_centres_3d.h"
+#include "sim/scattering/response/scattering_matrix.h"
 
 #include <gtest/gtest.h>
 

@@ -8,6 +8,7 @@
 #include "sim/geometry/shapes/generators.h"
 #include "sim/scattering/material/sea_water.h"
 #include "sim/scattering/response/point_response.h"
+#include "sim/scattering/response/scattering_matrix.h"
 #include "sim/scattering/response/sea_reflection.h"
 #include "sim/scattering/target/part_materials.h"
 #include "tests/sim/scattering/solver_fixtures.h"

@@ -7,6 +7,7 @@
 #include "sim/core/process/error.h"
 #include "sim/geometry/shapes/generators.h"
 #include "sim/scattering/material/reflection.h"
+#include "sim/scattering/response/scattering_matrix.h"
 #include "sim/scattering/target/part_materials.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 

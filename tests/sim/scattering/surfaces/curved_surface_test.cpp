@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "sim/geometry/shapes/generators.h"
+#include "sim/scattering/response/scattering_matrix.h"
 #include "sim/scattering/surfaces/curved_footprint.h"
+#include "sim/scattering/surfaces/phase_integral.h"
 #include "sim/scattering/surfaces/point_contributions.h"
 #include "sim/scattering/target/smooth_surface.h"
 #include "tests/sim/scattering/solver_fixtures.h"

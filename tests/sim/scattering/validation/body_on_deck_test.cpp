@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "sim/scattering/response/scattering_matrix.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
 namespace seaglint {

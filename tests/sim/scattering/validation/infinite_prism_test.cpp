@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <map>
 
+#include "sim/scattering/response/scattering_matrix.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
 namespace seaglint {

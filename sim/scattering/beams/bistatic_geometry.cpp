@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/scattering/beams/bistatic_geometry.h"
+
+namespace seaglint {
+
+RadarBasis radar_basis(const Vec3& r_hat) {
+  RadarBasis basis;
+  basis.r = r_hat;
+  const Vec3 across = Vec3::UnitZ().cross(r_hat);
+  basis.h = across.norm() < 1e-12 ? Vec3(Vec3::UnitY()) : Vec3(across.normalized());
+  basis.v = r_hat.cross(basis.h);
+  return basis;
+}
+
+AntennaPair monostatic(const RadarBasis& basis) { return {basis, basis, true}; }
+
+AntennaPair bistatic(const RadarBasis& transmit, const RadarBasis& receive) { return {transmit, receive, false}; }
+
+}  // namespace seaglint

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/scattering/diffraction/transition.h"
+
+#include <array>
+#include <cmath>
+
+#include "sim/core/numbers/constants.h"
+
+namespace seaglint {
+namespace {
+
+constexpr Complex j(0, 1);
+
+// Arguments nearer to each other than this, of their sum, count as equal.
+constexpr double kEqual = 1e-3;
+
+bool nearly_equal(double x, double y) { return std::abs(x - y) < kEqual * std::abs(x + y); }
+
+// transition(x, y), of which F(x) and F(y) are known.
+Complex between_two(double x, const Complex& F_x, double y, const Complex& F_y) {
+  // Between equals F - x F', with F' = F / 2x + j F - j; farther apart errors of F grow five-hundredfold at most.
+  if (nearly_equal(x, y)) {
+    const double mean = 0.5 * (x + y);
+    const Complex F = transition(mean);
+    return 0.5 * F - j * mean * (F - 1.0);
+  }
+  return (y * F_x - x * F_y) / (y - x);
+}
+
+}  // namespace
+
+Complex transition(double x) {
+  if (x < 0) return std::conj(transition(-x));
+  // Far away the asymptotic series, sum of (2n - 1)!! (j / 2x)^n, to its smallest term, which bounds the error: e^{-x}.
+  if (x > 17) {
+    double term = 1;
+    std::array<double, 2> part{term, 0};
+    for (int n = 1; n < x && term > 1e-16; ++n) {
+      term *= (2.0 * n - 1) / (2 * x);
+      part[n % 2] += n % 4 >= 2 ? -term : term;
+    }
+    return {part[0], part[1]};
+  }
+  // Near, the power series of the integral from 0 to sqrt(x), sum of (-j)^n x^(n + 1/2) / (n! (2n + 1)), to rounding of
+  // its largest term, e^x. Terms of both are real and imaginary by turns; these fall from n = x on.
+  double term = std::sqrt(x);
+  std::array<double, 2> part{term, 0};
+  for (int n = 1; n < 80 && term > 1e-18; ++n) {
+    term *= x / n;
+    part[n % 2] += (n % 4 == 1 || n % 4 == 2 ? -term : term) / (2.0 * n + 1);
+  }
+  const Complex sum(part[0], part[1]);
+  return 2.0 * j * std::sqrt(x) * std::polar(1.0, x) * (std::polar(std::sqrt(kPi) / 2, -kPi / 4) - sum);
+}
+
+Complex transition(double x, double y) { return between_two(x, transition(x), y, transition(y)); }
+
+Complex transition(double x, double y, double z) {
+  if (nearly_equal(x, y)) {  // moved apart, which errs by its square
+    const double mean = 0.5 * (x + y);
+    x = (1 - kEqual) * mean;
+    y = (1 + kEqual) * mean;
+  }
+  const Complex F_x = transition(x), F_y = transition(y), F_z = transition(z);
+  return (y * between_two(x, F_x, z, F_z) - x * between_two(y, F_y, z, F_z)) / (y - x);
+}
+
+}  // namespace seaglint

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/scattering/response/aspect_trace.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "sim/scattering/edges/edge_diffraction.h"
+#include "sim/scattering/edges/single_diffraction.h"
+
+namespace seaglint {
+namespace {
+
+bool same(const RadarBasis& a, const RadarBasis& b) { return a.r == b.r && a.h == b.h && a.v == b.v; }
+
+// The waves from a direction that reach edges, where no receiver needs footprints of them.
+ArrivalsByEdge arrivals_of(const Scatterer& scatterer, const std::shared_ptr<const Aspect>& direction,
+                           IlluminationSettings settings, std::span<const double> wavenumbers, int threads,
+                           const StopFlag* stop) {
+  settings.max_bounces = std::min(settings.max_bounces, kMostEdgeMirrors + 1);
+  return Illumination(scatterer, {direction, {}}, settings, wavenumbers)
+      .light_all(
+          threads, [](std::size_t, std::size_t, const PanelEchoes&) {}, stop)
+      .arrivals;
+}
+
+}  // namespace
+
+AspectTrace::AspectTrace(const Scatterer& scatterer, std::span<const AntennaPair> pairs,
+                         const IlluminationSettings& settings, std::span<const double> wavenumbers, int threads)
+    : scatterer_(scatterer), pairs_(pairs), settings_(settings), wavenumbers_(wavenumbers), threads_(threads) {
+  std::vector<const RadarBasis*> known;
+  const auto number_of = [&](const RadarBasis& basis) {
+    const auto at = std::ranges::find_if(known, [&](const RadarBasis* other) { return same(*other, basis); });
+    if (at == known.end()) {
+      known.push_back(&basis);
+      directions_.push_back(std::make_shared<const Aspect>(scatterer, basis, settings, threads));
+      return directions_.size() - 1;
+    }
+    return static_cast<std::size_t>(at - known.begin());
+  };
+  for (const AntennaPair& pair : pairs) {
+    transmit_.push_back(number_of(pair.transmit));
+    receive_.push_back(number_of(pair.receive));
+  }
+  for (std::size_t direction = 0; direction < directions_.size(); ++direction) {
+    std::vector<std::size_t> own;
+    Aspects aspects{directions_[direction], {}};
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      if (transmit_[i] != direction) continue;
+      own.push_back(i);
+      aspects.receivers.push_back(pairs[i].monostatic ? nullptr : directions_[receive_[i]]);
+    }
+    if (own.empty()) continue;
+    transmitters_.push_back(
+        {direction, std::move(own), Illumination(scatterer, std::move(aspects), settings, wavenumbers)});
+  }
+}
+
+std::size_t AspectTrace::chunk_count(std::size_t pair) const {
+  const auto of_pair = [&](const Transmitter& t) { return t.direction == transmit_[pair]; };
+  return std::ranges::find_if(transmitters_, of_pair)->illumination.chunk_count() + kEdgeChunks;
+}
+
+std::size_t AspectTrace::run(const AspectVisitor& visit, const StopFlag* stop) const {
+  std::size_t legs = 0;
+  std::vector<std::optional<ArrivalsByEdge>> arrivals(directions_.size());
+  for (const Transmitter& transmitter : transmitters_) {
+    Reached reached = transmitter.illumination.light_all(
+        threads_,
+        [&](std::size_t chunk, std::size_t receiver, const PanelEchoes& echoes) {
+          const std::size_t pair = transmitter.pairs[receiver];
+          visit.surfaces(pair, chunk, echoes.footprints);
+          visit.edges(pair, chunk, echoes.beam_ends);
+        },
+        stop);
+    arrivals[transmitter.direction] = std::move(reached.arrivals);
+    legs += reached.legs;
+  }
+  if (!settings_.edges) return legs;
+  for (std::size_t pair = 0; pair < pairs_.size(); ++pair) {
+    std::optional<ArrivalsByEdge>& outgoing = arrivals[receive_[pair]];
+    if (!outgoing) {
+      outgoing = arrivals_of(scatterer_, directions_[receive_[pair]], settings_, wavenumbers_, threads_, stop);
+    }
+    const std::size_t first = chunk_count(pair) - kEdgeChunks;
+    edge_echoes(scatterer_, pairs_[pair], settings_, wavenumbers_, *arrivals[transmit_[pair]], *outgoing, threads_,
+                [&](std::size_t chunk, std::span<const EdgeFootprint> footprints) {
+                  visit.edges(pair, first + chunk, footprints);
+                });
+  }
+  return legs;
+}
+
+}  // namespace seaglint
