@@ -9,6 +9,7 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
+#include "sim/motion/random_yaw.h"
 
 namespace seaglint {
 

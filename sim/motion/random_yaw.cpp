@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "sim/motion/random_yaw.h"
+
+#include <array>
 #include <cmath>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/motion/float.h"
+#include "sim/core/numbers/random.h"
 #include "sim/sea/unit_phasors.h"
 
 namespace seaglint {

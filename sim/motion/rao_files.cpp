@@ -1,20 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tables of other programs: what their numbers mean, and where they stand.
+#include "sim/motion/rao_files.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/geometry/files/text_number.h"
-#include "sim/motion/rao_table.h"
+#include "sim/motion/ship_response.h"
 
 namespace seaglint {
 

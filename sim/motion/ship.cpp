@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "sim/motion/response_series.h"
+#include "sim/motion/ship_response.h"
 
 namespace seaglint {
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "sim/motion/ship_particulars.h"
+
 #include <fmt/format.h>
 
 #include <Eigen/LU>
@@ -7,7 +9,6 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
-#include "sim/motion/ship.h"
 
 namespace seaglint {
 

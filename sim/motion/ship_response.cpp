@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "sim/motion/ship_response.h"
+
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "sim/core/numbers/constants.h"
 #include "sim/motion/response_series.h"
-#include "sim/motion/ship.h"
 
 namespace seaglint {
 

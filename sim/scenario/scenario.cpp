@@ -13,8 +13,9 @@
 #include "sim/scenario/contradictions.h"
 #include "sim/scenario/document.h"
 #include "sim/scenario/hop_code_file.h"
-#include "sim/scenario/material_spec.h"
+#include "sim/scenario/material_file.h"
 #include "sim/scenario/reader.h"
+#include "sim/scenario/scenario_document.h"
 
 namespace seaglint {
 

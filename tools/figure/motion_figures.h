@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "sim/geometry/mesh/triangle_mesh.h"
-#include "sim/motion/ship.h"
+#include "sim/motion/ship_particulars.h"
 #include "sim/motion/trajectory.h"
 #include "sim/sea/wave_field.h"
 

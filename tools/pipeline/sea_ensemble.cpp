@@ -13,6 +13,7 @@
 #include "sim/core/process/error.h"
 #include "sim/core/process/progress.h"
 #include "sim/scenario/scenario.h"
+#include "sim/sea/realisation.h"
 
 namespace seaglint {
 

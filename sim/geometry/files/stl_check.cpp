@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "sim/geometry/files/stl_check.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cstring>
 #include <unordered_map>
 
 #include "sim/core/process/error.h"
-#include "sim/geometry/files/polygon_file.h"
 #include "sim/geometry/files/text_number.h"
 
 namespace seaglint {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "radar/waveform/figures_of_merit.h"
 #include "radar/waveform/pulse_train.h"
 #include "sim/core/process/error.h"
 #include "sim/scenario/hop_code_file.h"

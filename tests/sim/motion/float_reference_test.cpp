@@ -7,7 +7,8 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/motion/float.h"
-#include "sim/motion/ship.h"
+#include "sim/motion/ship_particulars.h"
+#include "sim/motion/ship_response.h"
 #include "sim/motion/table.h"
 
 namespace seaglint {

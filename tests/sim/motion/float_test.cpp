@@ -8,7 +8,9 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
+#include "sim/motion/random_yaw.h"
 #include "sim/motion/simulate.h"
+#include "sim/sea/realisation.h"
 
 namespace seaglint {
 namespace {

@@ -10,7 +10,10 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
+#include "sim/motion/rao_files.h"
+#include "sim/motion/ship_response.h"
 #include "sim/motion/simulate.h"
+#include "sim/sea/realisation.h"
 #include "sim/sea/spectrum.h"
 
 namespace seaglint {

@@ -9,6 +9,7 @@
 #include "sim/core/process/error.h"
 #include "sim/scenario/document.h"
 #include "sim/scenario/scenario.h"
+#include "sim/scenario/writer.h"
 #include "tests/sim/scenario/parsing.h"
 
 namespace seaglint {

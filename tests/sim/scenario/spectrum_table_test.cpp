@@ -13,6 +13,7 @@
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/scenario/scenario.h"
+#include "sim/scenario/writer.h"
 
 namespace seaglint {
 namespace {

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "sim/core/numbers/constants.h"
+#include "sim/sea/realisation.h"
 #include "tests/sim/sea/reference_table.h"
 
 namespace seaglint {

@@ -8,6 +8,7 @@
 #include "sim/geometry/shapes/generators.h"
 #include "sim/scattering/material/reflection.h"
 #include "sim/scattering/target/part_materials.h"
+#include "sim/scenario/material_file.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
 namespace seaglint {

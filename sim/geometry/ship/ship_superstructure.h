@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The groups a ship is made of, each in its own .cpp. Positions are given on the 144 m design and scaled by HullForm.
+// Deckhouses, bridge with wings, funnel, hangar.
+// Positions are given on the 144 m design and scaled by HullForm.
 
 #include <string>
 
+#include "sim/geometry/mesh/mesh_builder.h"
 #include "sim/geometry/shapes/solids.h"
 #include "sim/geometry/ship/ship_hull.h"
 
@@ -35,10 +37,5 @@ struct ShipHouses {
 ShipHouses ship_houses(const HullForm& hull);
 
 void add_superstructure(MeshBuilder& builder, const HullForm& hull, const ShipHouses& houses);
-void add_masts(MeshBuilder& builder, const HullForm& hull, const ShipHouses& houses);
-void add_weapons(MeshBuilder& builder, const HullForm& hull, const ShipHouses& houses);
-void add_deck_fittings(MeshBuilder& builder, const HullForm& hull, const ShipHouses& houses);
-void add_wall_fittings(MeshBuilder& builder, const HullForm& hull, const ShipHouses& houses);
-void add_rails(MeshBuilder& builder, const HullForm& hull, const ShipHouses& houses);
 
 }  // namespace seaglint
