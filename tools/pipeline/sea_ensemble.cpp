@@ -8,8 +8,8 @@
 #include <cmath>
 #include <iterator>
 
-#include "radar/waveform/fourier.h"
 #include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/fourier.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/progress.h"
 #include "sim/scenario/scenario.h"

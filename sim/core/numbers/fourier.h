@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Batches of discrete Fourier transforms for the radar stages (FFTW behind it).
+// Discrete Fourier transforms in place (FFTW behind it), planned by FFTW_ESTIMATE, so that bits do not depend on
+// timing. Building a plan is serialised over threads; executing different ones is not.
 
 #include <cstddef>
 
@@ -11,8 +12,11 @@ namespace seaglint {
 
 enum class Fourier { kForward, kInverse };  // e^{-j 2 pi k i / L} and e^{+j 2 pi k i / L}, both without a factor
 
-// `count` transforms of `length` numbers each, in place, one row after the other. Plans by FFTW_ESTIMATE, so that bits
-// do not depend on timing; building is serialised over threads, executing different batches is not.
+// Transforms `count` rows of `length` numbers each in the caller's memory, row i from data + i stride on; what lies
+// between the rows stays. Throws WorkError when FFTW has no plan.
+void transform_rows(Complex* data, std::size_t length, std::size_t count, std::size_t stride, Fourier direction);
+
+// `count` transforms of `length` numbers each, one row after the other in memory of its own, to be executed often.
 class FourierBatch {
  public:
   FourierBatch(std::size_t length, std::size_t count, Fourier direction);  // rows start at zero
