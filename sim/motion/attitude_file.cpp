@@ -11,8 +11,8 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
-#include "sim/geometry/files/text_number.h"
-#include "sim/motion/table.h"
+#include "sim/core/text/table.h"
+#include "sim/core/text/words.h"
 
 namespace seaglint {
 

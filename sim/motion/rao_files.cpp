@@ -17,7 +17,7 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
-#include "sim/geometry/files/text_number.h"
+#include "sim/core/text/words.h"
 #include "sim/motion/ship_response.h"
 
 namespace seaglint {

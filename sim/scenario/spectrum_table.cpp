@@ -13,18 +13,13 @@
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/core/text/number.h"
+#include "sim/core/text/words.h"
 
 namespace seaglint {
 
 namespace {
 
 constexpr std::size_t kMaxBytes = 10'000'000;
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(" \t\r");
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
-}
 
 std::vector<std::string_view> cells_of(std::string_view line) {
   std::vector<std::string_view> cells;
@@ -75,9 +70,7 @@ SpectrumTable parse_spectrum_table(const std::string& text, const std::string& f
   std::size_t number = 0;
   double previous = -1;
   for (std::string_view rest = text; !rest.empty();) {
-    const std::size_t end = rest.find('\n');
-    const std::string_view line = trimmed(rest.substr(0, end));
-    rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
+    const std::string_view line = trimmed(next_line(rest));
     ++number;
     if (line.empty() || line.front() == '#') continue;
     const std::vector<std::string_view> cells = cells_of(line);

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,5 +20,9 @@ struct PlainPolygons {
   std::vector<std::string> part_names;       // empty: the format or the file names none
   std::vector<std::uint16_t> triangle_part;  // as many as triangles, or none
 };
+
+// A coordinate as float32. Not finite and beyond 1e30 is nothing; below 1e-30 is zero, which keeps float text
+// conversions exact.
+std::optional<float> coordinate_of(double value);
 
 }  // namespace seaglint

@@ -10,7 +10,7 @@
 #include <span>
 
 #include "sim/core/process/error.h"
-#include "sim/geometry/files/text_number.h"
+#include "sim/core/text/words.h"
 #include "sim/geometry/files/triangulate_polygon.h"
 
 namespace seaglint {

@@ -10,7 +10,8 @@
 #include <unordered_map>
 
 #include "sim/core/process/error.h"
-#include "sim/geometry/files/text_number.h"
+#include "sim/core/text/utf8.h"
+#include "sim/core/text/words.h"
 
 namespace seaglint {
 namespace {

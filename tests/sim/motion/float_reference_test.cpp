@@ -6,10 +6,10 @@
 #include <cstdio>
 
 #include "sim/core/numbers/constants.h"
+#include "sim/core/text/table.h"
 #include "sim/motion/float.h"
 #include "sim/motion/ship_particulars.h"
 #include "sim/motion/ship_response.h"
-#include "sim/motion/table.h"
 
 namespace seaglint {
 namespace {

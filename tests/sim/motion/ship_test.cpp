@@ -11,13 +11,13 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
+#include "sim/core/text/table.h"
 #include "sim/motion/rao_files.h"
 #include "sim/motion/rao_table.h"
 #include "sim/motion/response_series.h"
 #include "sim/motion/ship_particulars.h"
 #include "sim/motion/ship_response.h"
 #include "sim/motion/simulate.h"
-#include "sim/motion/table.h"
 #include "sim/sea/realisation.h"
 #include "sim/sea/spectrum.h"
 

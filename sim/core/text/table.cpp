@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/motion/table.h"
+#include "sim/core/text/table.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,7 +12,7 @@
 
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
-#include "sim/geometry/files/text_number.h"
+#include "sim/core/text/words.h"
 
 namespace seaglint {
 
@@ -39,12 +39,6 @@ void Table::check_within(std::size_t row, std::size_t column, double lowest, dou
 }
 
 namespace {
-
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
 
 std::vector<std::string_view> split(std::string_view line, char separator) {
   std::vector<std::string_view> cells;

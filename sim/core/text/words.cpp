@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/geometry/files/text_number.h"
+#include "sim/core/text/words.h"
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
-
-#include "sim/core/text/utf8.h"
+#include <system_error>
 
 namespace seaglint {
 namespace {
@@ -23,21 +21,6 @@ std::optional<Number> whole_word(std::string_view word) {
 
 }  // namespace
 
-std::string utf8_of(std::string_view name) {
-  if (utf8_prefix(name) == name.size()) return std::string(name);
-  std::string text;
-  for (const char c : name) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x80) {
-      text += c;
-    } else {
-      text += static_cast<char>(0xC0 | (byte >> 6));
-      text += static_cast<char>(0x80 | (byte & 0x3F));
-    }
-  }
-  return text;
-}
-
 std::string_view next_word(std::string_view& text) {
   const std::size_t begin = std::min(text.find_first_not_of(kBlanks), text.size());
   const std::size_t end = std::min(text.find_first_of(kBlanks, begin), text.size());
@@ -54,12 +37,14 @@ std::string_view next_line(std::string_view& text) {
   return line;
 }
 
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view kAround = " \t\r";
+  const std::size_t begin = text.find_first_not_of(kAround);
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(kAround) - begin + 1);
+}
+
 std::optional<double> number_of(std::string_view word) { return whole_word<double>(word); }
 std::optional<std::int64_t> integer_of(std::string_view word) { return whole_word<std::int64_t>(word); }
-
-std::optional<float> coordinate_of(double value) {
-  if (!(std::abs(value) <= 1e30)) return std::nullopt;
-  return std::abs(value) < 1e-30 ? 0.0f : static_cast<float>(value) + 0.0f;
-}
 
 }  // namespace seaglint
