@@ -6,7 +6,7 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/random.h"
-#include "sim/sea/unit_phasors.h"
+#include "sim/core/numbers/unit_phasors.h"
 
 namespace seaglint {
 

@@ -7,9 +7,9 @@
 #include <functional>
 #include <vector>
 
+#include "sim/core/numbers/unit_phasors.h"
 #include "sim/motion/strip_theory/strip_theory.h"
 #include "sim/motion/trajectory.h"
-#include "sim/sea/unit_phasors.h"
 #include "sim/sea/wave_field.h"
 
 namespace seaglint {

@@ -7,6 +7,7 @@
 #include <ranges>
 
 #include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/smooth_step.h"
 
 namespace seaglint {
 namespace {

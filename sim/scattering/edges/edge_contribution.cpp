@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/smooth_step.h"
 #include "sim/scattering/diffraction/wedge_diffraction.h"
 
 namespace seaglint {
@@ -37,11 +38,6 @@ EdgePattern& EdgePattern::operator*=(double factor) {
 EdgePattern transposed(EdgePattern pattern) {
   for (auto* part : {&pattern.sharp, &pattern.thick, &pattern.thick_log}) std::swap((*part)[1], (*part)[2]);
   return pattern;
-}
-
-double fading(double x, const std::array<double, 2>& from_to) {
-  const double beyond = std::clamp((x - from_to[0]) / (from_to[1] - from_to[0]), 0.0, 1.0);
-  return 1 - beyond * beyond * (3 - 2 * beyond);
 }
 
 namespace {

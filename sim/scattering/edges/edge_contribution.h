@@ -15,15 +15,6 @@
 
 namespace seaglint {
 
-// 1 up to the one value of x, 0 from the other on, smooth between.
-double fading(double x, const std::array<double, 2>& from_to);
-
-// What is linear along a stretch, at a share of the way from its first end.
-template <typename T>
-T at_share(const std::array<T, 2>& ends, double share) {
-  return ends[0] + share * (ends[1] - ends[0]);
-}
-
 // hh, hv, vh, vv per metre of edge, dimensionless; where sheets end k t (thick + thick_log ln(k t)) more, t their
 // thickness.
 struct EdgePattern {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "sim/core/numbers/smooth_step.h"
 #include "sim/scattering/diffraction/thick_edge.h"
 #include "sim/scattering/edges/edge_contribution.h"
 #include "sim/scattering/target/sharp_edges.h"

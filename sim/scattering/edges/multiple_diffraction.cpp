@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/smooth_step.h"
 #include "sim/scattering/edges/grazing_strip.h"
 #include "sim/scattering/edges/wall_penumbra.h"
 #include "sim/scattering/surfaces/grazing_reflection.h"

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/smooth_step.h"
 #include "sim/scattering/diffraction/thick_edge.h"
 #include "sim/scattering/edges/reflected_edge.h"
 

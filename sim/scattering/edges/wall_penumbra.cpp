@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/smooth_step.h"
 #include "sim/scattering/edges/reflected_edge.h"
 
 namespace seaglint {

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "sim/scattering/edges/edge_contribution.h"
+#include "sim/core/numbers/smooth_step.h"
 
 namespace seaglint {
 namespace {

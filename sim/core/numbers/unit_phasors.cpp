@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/sea/unit_phasors.h"
+#include "sim/core/numbers/unit_phasors.h"
 
 #include <fmt/format.h>
 
