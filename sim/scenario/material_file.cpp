@@ -10,8 +10,8 @@
 #include "sim/core/process/file.h"
 #include "sim/core/text/suggestion.h"
 #include "sim/scenario/fields.h"
+#include "sim/scenario/files/scenario_document.h"
 #include "sim/scenario/reader.h"
-#include "sim/scenario/scenario_document.h"
 
 namespace seaglint {
 

@@ -5,8 +5,8 @@
 
 #include <functional>
 
+#include "sim/scenario/files/scenario_document.h"
 #include "sim/scenario/scenario.h"
-#include "sim/scenario/scenario_document.h"
 
 namespace seaglint {
 

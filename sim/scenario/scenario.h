@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "sim/scenario/files/override.h"
 #include "sim/scenario/learning_spec.h"
-#include "sim/scenario/override.h"
 #include "sim/scenario/radar_spec.h"
 #include "sim/scenario/sea_spec.h"
 #include "sim/scenario/target_spec.h"

@@ -12,7 +12,7 @@
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/geometry/files/mesh_io.h"
-#include "sim/motion/ship_particulars.h"
+#include "sim/motion/ship/ship_particulars.h"
 #include "sim/motion/target_motion.h"
 #include "sim/sea/realisation.h"
 #include "tools/cli/command.h"

@@ -12,7 +12,7 @@
 #include "seaglint_version.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
-#include "sim/scenario/document.h"
+#include "sim/scenario/files/document.h"
 #include "sim/scenario/writer.h"
 
 namespace seaglint {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "sim/core/process/parallel.h"
-#include "sim/motion/trajectory.h"
+#include "sim/motion/kinematics/trajectory.h"
 #include "sim/scattering/response/frequency_response.h"
 #include "sim/scattering/response/illumination.h"
 #include "sim/scattering/response/sea_reflection.h"
