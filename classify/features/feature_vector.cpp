@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cmath>
+#include "classify/features/feature_vector.h"
 
-#include "classify/features/features.h"
+#include <cmath>
+#include <vector>
 
 namespace seaglint {
 namespace {

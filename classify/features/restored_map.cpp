@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// CLEAN's last step: the points taken out come back without what the hop code smeared (Hogbom 1974, section 2).
-#include <cmath>
+#include "classify/features/restored_map.h"
 
-#include "classify/features/features.h"
+#include <cmath>
+#include <vector>
+
 #include "radar/rvmap/map_weights.h"
 #include "sim/core/numbers/constants.h"
 

@@ -2,11 +2,12 @@
 // CLEAN (Hogbom, "Aperture synthesis with a non-regular distribution of interferometer baselines", Astron. Astrophys.
 // Suppl. 15 (1974) 417), with the map formed anew from the residual echo after each round, so that no point response is
 // approximated.
+#include "classify/features/scattering_centres.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "classify/features/features.h"
 #include "classify/features/local_level.h"
 #include "classify/features/residual_echo.h"
 #include "classify/features/residual_floor.h"

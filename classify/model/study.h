@@ -71,10 +71,4 @@ std::vector<std::string> model_files();
 // the disk refuses.
 void save_models(const Study& study, const LearningTable& table, const std::filesystem::path& model_directory);
 
-// The table of accuracies against wave height as plain text.
-std::string accuracy_table(const Study& study);
-
-// The study as a JSON object with the members handmade, cnn, fused, probes, network.
-std::string to_json(const Study& study, const LearningSpec& spec);
-
 }  // namespace seaglint

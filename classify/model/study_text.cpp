@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The study in words: the accuracy table of the terminal and the numbers of metrics.json.
+#include "classify/model/study_text.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
-
-#include "classify/model/study.h"
 
 namespace seaglint {
 

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "radar/waveform/pulse_train.h"
 #include "sim/core/numbers/linear.h"
 #include "sim/scenario/radar_spec.h"
 #include "sim/sea/wave_field.h"

@@ -6,8 +6,8 @@
 #include <deque>
 
 #include "radar/echo/gamma_texture.h"
-#include "radar/waveform/fourier.h"
 #include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/fourier.h"
 #include "sim/core/numbers/random.h"
 
 namespace seaglint {

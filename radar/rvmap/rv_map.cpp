@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "radar/rvmap/map_weights.h"
-#include "radar/waveform/fourier.h"
 #include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/fourier.h"
 #include "sim/core/process/error.h"
 
 namespace seaglint {

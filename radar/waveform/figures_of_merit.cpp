@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a pulse train can resolve, and how much its hop code smears.
+#include "radar/waveform/figures_of_merit.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
-#include "radar/waveform/pulse_train.h"
 #include "sim/core/numbers/constants.h"
 
 namespace seaglint {
@@ -61,18 +62,6 @@ std::string pedestal_line(const PulseTrain& train, const RadarSpec& spec) {
 }
 
 }  // namespace
-
-int PulseTrain::band_bins() const { return (carriers - 1) * bins_per_hop + static_cast<int>(frequencies()); }
-double PulseTrain::band_centre_hz() const {
-  return first_carrier_hz + baseband_hz.front() + 0.5 * (band_bins() - 1) * baseband_step_hz;
-}
-double PulseTrain::synthetic_bandwidth_hz() const { return band_bins() * baseband_step_hz; }
-double PulseTrain::unambiguous_range_m() const { return kSpeedOfLight / (2 * baseband_step_hz); }
-double PulseTrain::range_resolution_m() const { return kSpeedOfLight / (2 * synthetic_bandwidth_hz()); }
-double PulseTrain::velocity_resolution_mps() const {
-  return kSpeedOfLight / band_centre_hz() / (2 * static_cast<double>(pulses()) * pri_s);
-}
-double PulseTrain::unambiguous_velocity_mps() const { return kSpeedOfLight / band_centre_hz() / (4 * pri_s); }
 
 double expected_response_power(const PulseTrain& train, double range_offset_m, double velocity_offset_mps) {
   const auto pulses = static_cast<double>(train.pulses());

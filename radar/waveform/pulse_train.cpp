@@ -22,6 +22,18 @@ constexpr double kRatioSlack = 1e-9;
 
 }  // namespace
 
+int PulseTrain::band_bins() const { return (carriers - 1) * bins_per_hop + static_cast<int>(frequencies()); }
+double PulseTrain::band_centre_hz() const {
+  return first_carrier_hz + baseband_hz.front() + 0.5 * (band_bins() - 1) * baseband_step_hz;
+}
+double PulseTrain::synthetic_bandwidth_hz() const { return band_bins() * baseband_step_hz; }
+double PulseTrain::unambiguous_range_m() const { return kSpeedOfLight / (2 * baseband_step_hz); }
+double PulseTrain::range_resolution_m() const { return kSpeedOfLight / (2 * synthetic_bandwidth_hz()); }
+double PulseTrain::velocity_resolution_mps() const {
+  return kSpeedOfLight / band_centre_hz() / (2 * static_cast<double>(pulses()) * pri_s);
+}
+double PulseTrain::unambiguous_velocity_mps() const { return kSpeedOfLight / band_centre_hz() / (4 * pri_s); }
+
 std::vector<int> hop_code(HopCode kind, int pulses, int carriers, std::uint64_t seed, std::uint64_t index) {
   Random random({seed, Stream::kHopCode, index});
   std::vector<int> code(pulses);

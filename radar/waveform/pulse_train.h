@@ -4,7 +4,6 @@
 // The frequency-agile LFM pulse train of one coherent interval.
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "sim/core/numbers/linear.h"
@@ -67,16 +66,5 @@ std::vector<Complex> chirp_spectrum(double bandwidth_hz, double pulse_width_s, d
 
 // Where the pulse train asks for the target's response in an interval that starts at start_s.
 IntervalSampling interval_sampling(const PulseTrain& train, double start_s);
-
-// Mean power of the point response at (range_offset_m, velocity_offset_mps) from its peak of 1, over all codes with
-// this train's times and counts of pulses per carrier: coherent sidelobe plus random-hop pedestal, of the carriers
-// alone (one frequency per pulse, no taper). Closed form of radar/waveform/README.md.
-double expected_response_power(const PulseTrain& train, double range_offset_m, double velocity_offset_mps);
-
-// What the carriers leave out of the band between them, and the sidelobes that follow; empty where nothing.
-std::string band_gaps(const PulseTrain& train);
-
-// Resolutions, ambiguities, blind range and expected pedestal, one line each, for `seaglint check`.
-std::string describe(const PulseTrain& train, const RadarSpec& spec);
 
 }  // namespace seaglint

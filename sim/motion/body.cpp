@@ -9,6 +9,7 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
+#include "sim/motion/ship/rao_files.h"
 
 namespace seaglint {
 

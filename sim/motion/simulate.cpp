@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "sim/core/process/error.h"
+#include "sim/motion/ship/ship.h"
+#include "sim/motion/ship/ship_particulars.h"
 
 namespace seaglint {
 

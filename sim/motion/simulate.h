@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "sim/motion/body.h"
-#include "sim/motion/trajectory.h"
+#include "sim/motion/kinematics/trajectory.h"
 #include "sim/sea/wave_field.h"
 
 namespace seaglint {

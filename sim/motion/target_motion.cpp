@@ -6,6 +6,7 @@
 #include "sim/core/process/error.h"
 #include "sim/core/process/parallel.h"
 #include "sim/motion/simulate.h"
+#include "sim/sea/realisation.h"
 
 namespace seaglint {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "sim/motion/body.h"
-#include "sim/motion/trajectory.h"
+#include "sim/motion/kinematics/trajectory.h"
 #include "sim/scenario/target_spec.h"
 #include "sim/sea/wave_field.h"
 

@@ -10,7 +10,6 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/dispersion.h"
-#include "sim/scenario/scenario.h"
 
 namespace seaglint {
 

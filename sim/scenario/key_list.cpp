@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every key a scenario may have, with its default and what it allows, from the one list of fields.
+#include "sim/scenario/key_list.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Material files: their fields, and what is wrong although each field is right.
+#include "sim/scenario/material_file.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 #include "sim/core/process/file.h"
 #include "sim/core/text/suggestion.h"
 #include "sim/scenario/fields.h"
-#include "sim/scenario/material_spec.h"
+#include "sim/scenario/files/scenario_document.h"
 #include "sim/scenario/reader.h"
 
 namespace seaglint {

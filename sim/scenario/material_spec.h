@@ -4,8 +4,6 @@
 // What a surface is made of, as a file of assets/materials says it. Time factor e^{+jwt}: permittivity and permeability
 // are real - j loss, and a passive medium has loss >= 0.
 
-#include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -64,17 +62,5 @@ struct MaterialSpec {
   double temperature_c = 20;  // of sea water, -2 <= x <= 29
   double salinity_psu = 35;   // of sea water, 0 <= x <= 40
 };
-
-// Reads and checks a material file. Throws InputError "file:line:col: key.path: value ...: bound".
-MaterialSpec read_material(const std::filesystem::path& file);
-MaterialSpec parse_material(const std::string& yaml, const std::string& file_name);
-
-// The file of a material, a file itself or NAME for assets/materials/NAME.yaml: beside `folder` or below the working
-// directory; none of `pec`. Throws InputError that begins with `where` when there is none.
-std::optional<std::filesystem::path> find_material_file(const std::string& name, const std::filesystem::path& folder,
-                                                        const std::string& where);
-
-// What that file says, a perfect conductor for `pec`; likewise.
-MaterialSpec find_material(const std::string& name, const std::filesystem::path& folder, const std::string& where);
 
 }  // namespace seaglint

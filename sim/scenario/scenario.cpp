@@ -11,9 +11,10 @@
 #include "sim/core/process/file.h"
 #include "sim/core/text/utf8.h"
 #include "sim/scenario/contradictions.h"
-#include "sim/scenario/document.h"
-#include "sim/scenario/hop_code_file.h"
-#include "sim/scenario/material_spec.h"
+#include "sim/scenario/files/document.h"
+#include "sim/scenario/files/hop_code_file.h"
+#include "sim/scenario/files/scenario_document.h"
+#include "sim/scenario/material_file.h"
 #include "sim/scenario/reader.h"
 
 namespace seaglint {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/scenario/files/override.h"
 #include "sim/scenario/learning_spec.h"
 #include "sim/scenario/radar_spec.h"
 #include "sim/scenario/sea_spec.h"
@@ -36,26 +37,14 @@ struct Scenario {
   std::shared_ptr<const ScenarioDocument> document;  // where its keys stand; null when it was not read
 };
 
-// `key.path=value` of --set; the value is YAML and is checked like the file.
-struct Override {
-  std::string key_path;
-  std::string value;
-};
-
 // Reads and checks a scenario. Throws InputError "file:line:col: key.path: value ...: bound" for the first thing that
 // is wrong: unknown or duplicate keys, wrong types, values out of range, contradictions.
 Scenario read_scenario(const std::filesystem::path& file, const std::vector<Override>& overrides = {});
 Scenario parse_scenario(const std::string& yaml, const std::string& file_name,
                         const std::vector<Override>& overrides = {});
 
-// The scenario with every default written out, as YAML that read_scenario takes back to the same value.
-std::string effective_yaml(const Scenario& scenario);
-
 // "file:line:col: key.path" of a key or of its closest parent in the file; the key path alone when nothing was read.
 std::string place_of(const Scenario& scenario, const std::string& key_path);
-
-// Every key with its default and what it allows, one line each.
-std::string list_keys();
 
 // The file a target's mesh path names: beside the scenario or below the working directory. Throws InputError when
 // neither exists.

@@ -8,8 +8,8 @@
 #include <string>
 
 #include "sim/core/numbers/dispersion.h"
+#include "sim/scenario/files/spectrum_table.h"
 #include "sim/scenario/radar_spec.h"
-#include "sim/scenario/spectrum_table.h"
 
 namespace seaglint {
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The effective scenario: every field with its value, defaults included.
+#include "sim/scenario/writer.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,7 +8,6 @@
 
 #include "sim/core/process/error.h"
 #include "sim/scenario/fields.h"
-#include "sim/scenario/scenario.h"
 
 namespace seaglint {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/sea/wave_field.h"
+#include "sim/sea/realisation.h"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,10 @@
 #include <limits>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/random.h"
 #include "sim/core/numbers/reproducible_functions.h"
 #include "sim/core/process/error.h"
 #include "sim/scenario/scenario.h"

@@ -9,9 +9,9 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/random.h"
 #include "sim/core/numbers/reproducible_functions.h"
+#include "sim/core/numbers/unit_phasors.h"
 #include "sim/core/process/error.h"
 #include "sim/sea/quadrature.h"
-#include "sim/sea/unit_phasors.h"
 
 namespace seaglint {
 

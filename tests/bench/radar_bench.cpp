@@ -6,7 +6,7 @@
 #include <ctime>
 #include <functional>
 
-#include "classify/features/features.h"
+#include "classify/features/scattering_centres.h"
 #include "radar/rvmap/map_weights.h"
 #include "radar/rvmap/scr.h"
 #include "sim/core/numbers/constants.h"

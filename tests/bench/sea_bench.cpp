@@ -3,6 +3,7 @@
 // where they do not.
 #include <benchmark/benchmark.h>
 
+#include "sim/sea/realisation.h"
 #include "sim/sea/wave_field.h"
 
 namespace seaglint {

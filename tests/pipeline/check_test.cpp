@@ -10,6 +10,7 @@
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/shapes/generators.h"
 #include "sim/scenario/scenario.h"
+#include "sim/scenario/writer.h"
 #include "tests/pipeline/program.h"
 
 namespace seaglint {

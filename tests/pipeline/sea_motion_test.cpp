@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "sim/scenario/scenario.h"
+#include "sim/sea/realisation.h"
 #include "sim/sea/wave_field.h"
 #include "tests/pipeline/program.h"
 

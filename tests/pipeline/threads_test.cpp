@@ -2,7 +2,7 @@
 // Stages that run beside each other in one process share what their libraries share.
 #include <gtest/gtest.h>
 
-#include "radar/waveform/fourier.h"
+#include "sim/core/numbers/fourier.h"
 #include "sim/core/process/parallel.h"
 #include "sim/geometry/shapes/generators.h"
 #include "sim/scattering/response/body_response.h"

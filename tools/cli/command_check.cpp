@@ -5,8 +5,10 @@
 #include <cstdio>
 #include <memory>
 
+#include "radar/waveform/figures_of_merit.h"
 #include "radar/waveform/pulse_train.h"
 #include "sim/core/numbers/standard_error.h"
+#include "sim/scenario/writer.h"
 #include "tools/cli/command.h"
 #include "tools/pipeline/map_coverage.h"
 #include "tools/pipeline/pipeline.h"

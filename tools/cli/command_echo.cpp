@@ -10,6 +10,7 @@
 #include "seaglint_version.h"
 #include "sim/core/process/error.h"
 #include "sim/scenario/sample_plan.h"
+#include "sim/scenario/writer.h"
 #include "tools/cli/command.h"
 #include "tools/pipeline/sampled_interval.h"
 #include "tools/pipeline/warnings.h"

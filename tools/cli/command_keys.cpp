@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "sim/scenario/key_list.h"
 #include "tools/cli/command.h"
 
 namespace seaglint {

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <memory>
 
+#include "classify/features/feature_vector.h"
+#include "classify/features/scattering_centres.h"
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
 #include "sim/scenario/sample_plan.h"

@@ -20,6 +20,7 @@
 #include "sim/scattering/response/body_response.h"
 #include "sim/scattering/target/part_materials.h"
 #include "sim/scattering/target/target_check.h"
+#include "sim/scenario/material_file.h"
 #include "tools/cli/command.h"
 #include "tools/figure/figure.h"
 #include "tools/pipeline/solver_mesh.h"

@@ -8,6 +8,7 @@
 #include "classify/dataset/directory/dataset_writer.h"
 #include "sim/core/process/error.h"
 #include "sim/core/text/text_difference.h"
+#include "sim/scenario/writer.h"
 #include "tools/cli/command.h"
 #include "tools/report/report.h"
 

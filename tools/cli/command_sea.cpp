@@ -11,6 +11,7 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
+#include "sim/sea/realisation.h"
 #include "sim/sea/statistics.h"
 #include "sim/sea/wave_field.h"
 #include "tools/cli/command.h"

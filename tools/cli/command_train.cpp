@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "classify/model/study_text.h"
 #include "sim/core/process/error.h"
 #include "tools/cli/command.h"
 #include "tools/pipeline/train.h"

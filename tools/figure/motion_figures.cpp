@@ -10,7 +10,9 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/dispersion.h"
-#include "sim/motion/rao_table.h"
+#include "sim/motion/ship/rao_files.h"
+#include "sim/motion/ship/rao_table.h"
+#include "sim/motion/ship/ship_response.h"
 #include "tools/figure/figure.h"
 
 namespace seaglint {

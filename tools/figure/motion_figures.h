@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "sim/geometry/mesh/triangle_mesh.h"
-#include "sim/motion/ship.h"
-#include "sim/motion/trajectory.h"
+#include "sim/motion/kinematics/trajectory.h"
+#include "sim/motion/ship/ship_particulars.h"
 #include "sim/sea/wave_field.h"
 
 namespace seaglint {

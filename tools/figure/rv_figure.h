@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "classify/features/features.h"
+#include "classify/features/scattering_centres.h"
 #include "radar/rvmap/rv_map.h"
 #include "tools/figure/figure.h"
 

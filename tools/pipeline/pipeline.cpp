@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "classify/dataset/directory/planned_record.h"
+#include "classify/features/restored_map.h"
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
 #include "sim/scattering/response/point_response.h"

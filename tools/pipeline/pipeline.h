@@ -10,7 +10,8 @@
 #include <vector>
 
 #include "classify/dataset/format/sample.h"
-#include "classify/features/features.h"
+#include "classify/features/feature_vector.h"
+#include "classify/features/scattering_centres.h"
 #include "radar/echo/echo.h"
 #include "radar/rvmap/scr.h"
 #include "radar/waveform/pulse_train.h"

@@ -14,6 +14,8 @@
 #include "sim/motion/target_motion.h"
 #include "sim/scattering/target/part_materials.h"
 #include "sim/scattering/target/target_check.h"
+#include "sim/scenario/material_file.h"
+#include "sim/sea/realisation.h"
 #include "tools/pipeline/solver_mesh.h"
 
 namespace seaglint {

@@ -11,7 +11,7 @@
 
 #include "sim/geometry/mesh/triangle_mesh.h"
 #include "sim/motion/body.h"
-#include "sim/motion/trajectory.h"
+#include "sim/motion/kinematics/trajectory.h"
 #include "sim/scenario/material_spec.h"
 #include "sim/scenario/sample_plan.h"
 #include "sim/scenario/scenario.h"

@@ -8,11 +8,12 @@
 #include <cmath>
 #include <iterator>
 
-#include "radar/waveform/fourier.h"
 #include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/fourier.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/progress.h"
 #include "sim/scenario/scenario.h"
+#include "sim/sea/realisation.h"
 
 namespace seaglint {
 

@@ -8,10 +8,12 @@
 #include <system_error>
 
 #include "classify/dataset/directory/dataset_writer.h"
+#include "classify/model/study_text.h"
 #include "seaglint_version.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
-#include "sim/scenario/document.h"
+#include "sim/scenario/files/document.h"
+#include "sim/scenario/writer.h"
 
 namespace seaglint {
 

@@ -9,6 +9,7 @@
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/core/text/json_problem.h"
+#include "sim/scenario/writer.h"
 #include "tools/pipeline/scene.h"
 #include "tools/pipeline/train.h"
 #include "tools/pipeline/warnings.h"

@@ -9,9 +9,11 @@
 #include <utility>
 #include <vector>
 
+#include "classify/model/study_text.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/scenario/sample_plan.h"
+#include "sim/scenario/writer.h"
 #include "tools/figure/figure.h"
 #include "tools/pipeline/generate.h"
 #include "tools/pipeline/train.h"

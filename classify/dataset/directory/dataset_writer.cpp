@@ -16,6 +16,7 @@
 #include "sim/core/process/file.h"
 #include "sim/core/process/progress.h"
 #include "sim/core/text/text_difference.h"
+#include "sim/scenario/writer.h"
 
 namespace seaglint {
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+// Smooth and linear transitions between two values.
+
 #include <array>
 
 namespace seaglint {
@@ -8,7 +10,7 @@ namespace seaglint {
 // 1 up to the one value of x, 0 from the other on, smooth between.
 double fading(double x, const std::array<double, 2>& from_to);
 
-// What is linear along a stretch, at a share of the way from its first end.
+// What is linear between two ends, at a share of the way from the first.
 template <typename T>
 T at_share(const std::array<T, 2>& ends, double share) {
   return ends[0] + share * (ends[1] - ends[0]);

@@ -7,7 +7,6 @@
 #include <atomic>
 #include <cstddef>
 #include <functional>
-#include <mutex>
 
 namespace seaglint {
 
@@ -22,9 +21,5 @@ int thread_count(int requested);
 // becomes true.
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& body,
                   const StopFlag* stop = nullptr);
-
-// Held by every caller of FFTW's planner, in whichever stage: it keeps state that all of the library shares. Only the
-// execution of a plan may run in several threads.
-std::mutex& fftw_planner_mutex();
 
 }  // namespace seaglint

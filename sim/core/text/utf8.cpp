@@ -37,4 +37,19 @@ std::size_t utf8_prefix(std::string_view text) {
   return begin;
 }
 
+std::string utf8_of(std::string_view text) {
+  if (utf8_prefix(text) == text.size()) return std::string(text);
+  std::string utf8;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x80) {
+      utf8 += c;
+    } else {
+      utf8 += static_cast<char>(0xC0 | (byte >> 6));
+      utf8 += static_cast<char>(0x80 | (byte & 0x3F));
+    }
+  }
+  return utf8;
+}
+
 }  // namespace seaglint

@@ -11,7 +11,10 @@
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/geometry/files/gltf_file.h"
+#include "sim/geometry/files/obj_check.h"
+#include "sim/geometry/files/ply_check.h"
 #include "sim/geometry/files/polygon_file.h"
+#include "sim/geometry/files/stl_check.h"
 
 namespace seaglint {
 namespace {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "sim/geometry/files/obj_check.h"
+
 #include <fmt/format.h>
 
 #include <limits>
@@ -6,8 +8,8 @@
 #include <unordered_map>
 
 #include "sim/core/process/error.h"
-#include "sim/geometry/files/polygon_file.h"
-#include "sim/geometry/files/text_number.h"
+#include "sim/core/text/utf8.h"
+#include "sim/core/text/words.h"
 #include "sim/geometry/files/triangulate_polygon.h"
 
 namespace seaglint {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "sim/geometry/files/ply_check.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,8 +10,7 @@
 #include <span>
 
 #include "sim/core/process/error.h"
-#include "sim/geometry/files/polygon_file.h"
-#include "sim/geometry/files/text_number.h"
+#include "sim/core/text/words.h"
 #include "sim/geometry/files/triangulate_polygon.h"
 
 namespace seaglint {

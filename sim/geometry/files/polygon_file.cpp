@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <OpenMesh/Core/IO/MeshIO.hh>
+#include <cstdint>
 #include <sstream>
 
 #include "sim/core/process/error.h"

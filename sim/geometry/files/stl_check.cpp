@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "sim/geometry/files/stl_check.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cstring>
 #include <unordered_map>
 
 #include "sim/core/process/error.h"
-#include "sim/geometry/files/polygon_file.h"
-#include "sim/geometry/files/text_number.h"
+#include "sim/core/text/utf8.h"
+#include "sim/core/text/words.h"
 
 namespace seaglint {
 namespace {

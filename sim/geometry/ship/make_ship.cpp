@@ -4,7 +4,13 @@
 #include <fmt/format.h>
 
 #include "sim/core/process/error.h"
-#include "sim/geometry/ship/ship_parts.h"
+#include "sim/geometry/ship/ship_deck_fittings.h"
+#include "sim/geometry/ship/ship_hull.h"
+#include "sim/geometry/ship/ship_mast.h"
+#include "sim/geometry/ship/ship_rails.h"
+#include "sim/geometry/ship/ship_superstructure.h"
+#include "sim/geometry/ship/ship_wall_fittings.h"
+#include "sim/geometry/ship/ship_weapons.h"
 
 namespace seaglint {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What stands on the decks: bitts, fairleads, windlasses, lockers, ventilators, splinter shields, boats and their bays.
-#include <algorithm>
-#include <array>
+#include "sim/geometry/ship/ship_deck_fittings.h"
+
 #include <cmath>
+#include <vector>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/geometry/ship/ship_parts.h"
+#include "sim/geometry/shapes/solids.h"
 
 namespace seaglint {
 namespace {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The enclosed forward mast with its pole, the lattice mast amidships, radars and aerials.
-#include <algorithm>
+#include "sim/geometry/ship/ship_mast.h"
+
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/geometry/ship/ship_parts.h"
+#include "sim/geometry/shapes/solids.h"
 
 namespace seaglint {
 namespace {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rails of posts and bars, ladders, and the nets round the flight deck.
-#include <algorithm>
-#include <array>
-#include <cmath>
+#include "sim/geometry/ship/ship_rails.h"
 
-#include "sim/geometry/ship/ship_parts.h"
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "sim/geometry/shapes/solids.h"
 
 namespace seaglint {
 namespace {

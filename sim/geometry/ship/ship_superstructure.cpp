@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Deckhouses, bridge with wings, funnel, hangar.
+#include "sim/geometry/ship/ship_superstructure.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/geometry/ship/ship_parts.h"
 
 namespace seaglint {
 namespace {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What hangs on the walls: cabinets, doors, liferafts, fire stations, lamps.
-#include <algorithm>
-#include <array>
-#include <cmath>
+#include "sim/geometry/ship/ship_wall_fittings.h"
+
+#include <initializer_list>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/geometry/ship/ship_parts.h"
+#include "sim/geometry/shapes/solids.h"
 
 namespace seaglint {
 namespace {

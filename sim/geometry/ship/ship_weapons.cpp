@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Gun, vertical launchers, close-in weapon, canisters, decoy launchers.
-#include <algorithm>
-#include <array>
+#include "sim/geometry/ship/ship_weapons.h"
+
 #include <cmath>
+#include <vector>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/geometry/ship/ship_parts.h"
+#include "sim/geometry/shapes/solids.h"
 
 namespace seaglint {
 namespace {

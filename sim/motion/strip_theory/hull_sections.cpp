@@ -9,7 +9,7 @@
 #include <string>
 
 #include "sim/core/process/error.h"
-#include "sim/motion/table.h"
+#include "sim/core/text/table.h"
 
 namespace seaglint {
 

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "sim/motion/trajectory.h"
+#include "sim/motion/kinematics/trajectory.h"
 #include "sim/scattering/response/frequency_response.h"
 #include "sim/scattering/response/sea_reflection.h"
 #include "sim/scattering/target/scatterer.h"

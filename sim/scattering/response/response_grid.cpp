@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/scattering/response/response_grid.h"
 
-#include <fftw3.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 
 #include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/fourier.h"
 #include "sim/core/process/error.h"
-#include "sim/core/process/parallel.h"
 
 namespace seaglint {
 namespace {
@@ -187,18 +185,7 @@ void ReturnGrid::transform() {
   for (int row = 0; row < rows; ++row) {
     for (int i = 0; i < kWidth; ++i) cells_[cell(row, i)] += cells_[cell(row, psi_cells_ + i)];
   }
-  auto* data = reinterpret_cast<fftw_complex*>(cells_.data());
-  fftw_plan plan;
-  {
-    const std::lock_guard lock(fftw_planner_mutex());
-    const int length = psi_cells_;
-    plan = fftw_plan_many_dft(1, &length, rows, data, nullptr, 1, row_length_, data, nullptr, 1, row_length_,
-                              FFTW_BACKWARD, FFTW_ESTIMATE);
-  }
-  SEAGLINT_CHECK(plan != nullptr, "FFTW has no plan");
-  fftw_execute(plan);
-  const std::lock_guard lock(fftw_planner_mutex());
-  fftw_destroy_plan(plan);
+  transform_rows(cells_.data(), psi_cells_, rows, row_length_, Fourier::kInverse);
 }
 
 void ReturnGrid::response(int first, double s, double beside, std::span<Complex> out) const {

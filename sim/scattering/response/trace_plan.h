@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "sim/motion/trajectory.h"
+#include "sim/motion/kinematics/trajectory.h"
 #include "sim/scattering/response/frequency_response.h"
 #include "sim/scattering/response/illumination.h"
 #include "sim/scattering/response/line_of_sight.h"

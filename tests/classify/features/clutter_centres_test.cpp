@@ -5,13 +5,14 @@
 #include <cmath>
 #include <cstdio>
 
-#include "classify/features/features.h"
 #include "classify/features/local_level.h"
+#include "classify/features/scattering_centres.h"
 #include "radar/echo/echo.h"
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/random.h"
 #include "sim/scattering/response/point_response.h"
 #include "sim/scenario/scenario.h"
+#include "sim/sea/realisation.h"
 #include "sim/sea/wave_field.h"
 
 namespace seaglint {

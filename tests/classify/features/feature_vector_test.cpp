@@ -3,7 +3,8 @@
 
 #include <cmath>
 
-#include "classify/features/features.h"
+#include "classify/features/feature_vector.h"
+#include "classify/features/scattering_centres.h"
 
 namespace seaglint {
 namespace {

@@ -5,7 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "classify/features/features.h"
+#include "classify/features/restored_map.h"
+#include "classify/features/scattering_centres.h"
 #include "radar/echo/echo.h"
 #include "sim/scattering/response/point_response.h"
 

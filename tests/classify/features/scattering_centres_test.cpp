@@ -6,9 +6,9 @@
 #include <cstdio>
 #include <ctime>
 
-#include "classify/features/features.h"
 #include "classify/features/residual_echo.h"
 #include "classify/features/residual_floor.h"
+#include "classify/features/scattering_centres.h"
 #include "radar/echo/echo.h"
 #include "radar/rvmap/scr.h"
 #include "sim/core/numbers/random.h"

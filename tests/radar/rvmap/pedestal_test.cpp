@@ -9,6 +9,7 @@
 #include "radar/echo/echo.h"
 #include "radar/rvmap/map_weights.h"
 #include "radar/rvmap/rv_map.h"
+#include "radar/waveform/figures_of_merit.h"
 #include "sim/core/numbers/constants.h"
 #include "sim/scattering/response/point_response.h"
 

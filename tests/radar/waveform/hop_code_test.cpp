@@ -4,9 +4,10 @@
 
 #include <cmath>
 
+#include "radar/waveform/figures_of_merit.h"
 #include "radar/waveform/pulse_train.h"
 #include "sim/core/process/error.h"
-#include "sim/scenario/hop_code_file.h"
+#include "sim/scenario/files/hop_code_file.h"
 
 namespace seaglint {
 namespace {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "sim/sea/realisation.h"
+
 namespace seaglint {
 namespace {
 

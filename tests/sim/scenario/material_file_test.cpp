@@ -5,6 +5,7 @@
 
 #include "sim/core/numbers/random.h"
 #include "sim/core/process/error.h"
+#include "sim/scenario/material_file.h"
 #include "sim/scenario/material_spec.h"
 
 namespace seaglint {

@@ -11,6 +11,7 @@
 #include "sim/core/process/error.h"
 #include "sim/scenario/fields.h"
 #include "sim/scenario/scenario.h"
+#include "sim/scenario/writer.h"
 
 namespace seaglint {
 namespace {

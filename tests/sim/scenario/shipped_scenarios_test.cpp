@@ -7,6 +7,7 @@
 #include <string>
 
 #include "sim/scenario/scenario.h"
+#include "sim/scenario/writer.h"
 
 namespace seaglint {
 namespace {

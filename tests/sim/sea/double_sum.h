@@ -9,7 +9,8 @@
 #include <vector>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/sea/wave_field.h"
+#include "sim/core/numbers/linear.h"
+#include "sim/sea/wave_component.h"
 
 namespace seaglint {
 

@@ -8,6 +8,7 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
+#include "sim/sea/realisation.h"
 #include "sim/sea/spectrum.h"
 #include "sim/sea/statistics.h"
 #include "sim/sea/wave_field.h"

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "sim/core/numbers/constants.h"
+#include "sim/sea/realisation.h"
 #include "sim/sea/wave_field.h"
 
 namespace seaglint {

@@ -9,6 +9,7 @@
 #include <cstdio>
 
 #include "sim/core/numbers/constants.h"
+#include "sim/sea/realisation.h"
 #include "sim/sea/spectrum.h"
 #include "tests/sim/sea/reference_table.h"
 #include "tests/sim/sea/sea_state.h"

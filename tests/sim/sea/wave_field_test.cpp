@@ -10,6 +10,7 @@
 #include <string>
 
 #include "sim/core/numbers/constants.h"
+#include "sim/sea/realisation.h"
 #include "tests/sim/sea/reference_table.h"
 
 namespace seaglint {
@@ -188,18 +189,6 @@ TEST(SurfaceSeries, EqualsTheSurfaceAtItsPoint) {
     ASSERT_NEAR(state.slope_x, expected.slope_x, 1e-12);
     ASSERT_NEAR(state.slope_y, expected.slope_y, 1e-12);
     ASSERT_NEAR((state.velocity - expected.velocity).norm(), 0, 1e-11);
-  }
-}
-
-TEST(UnitPhasors, AreCosinesAndSines) {
-  std::vector<double> angle;
-  for (int i = -2000; i <= 2000; ++i) angle.push_back(0.7853981633974483 * i + 1e-3 * (i % 7));
-  for (double a = 1e-300; a < kLargestAngle; a *= 1.9) angle.insert(angle.end(), {a, -a});
-  std::vector<double> cosine(angle.size()), sine(angle.size());
-  unit_phasors(angle, cosine, sine);
-  for (std::size_t i = 0; i < angle.size(); ++i) {
-    EXPECT_NEAR(cosine[i], std::cos(angle[i]), 4e-16) << angle[i];
-    EXPECT_NEAR(sine[i], std::sin(angle[i]), 4e-16) << angle[i];
   }
 }
 

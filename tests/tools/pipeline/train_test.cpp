@@ -14,6 +14,7 @@
 #include "classify/model/learning_table.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
+#include "sim/scenario/writer.h"
 #include "tools/pipeline/generate.h"
 
 namespace seaglint {

@@ -12,6 +12,7 @@
 #include "classify/dataset/format/hdf5_file.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
+#include "sim/scenario/writer.h"
 #include "tests/classify/dataset/data_directory.h"
 
 namespace seaglint {

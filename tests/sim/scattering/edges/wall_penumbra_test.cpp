@@ -8,6 +8,7 @@
 
 #include <cmath>
 
+#include "sim/core/numbers/smooth_step.h"
 #include "sim/scattering/diffraction/wedge_diffraction.h"
 #include "sim/scattering/edges/multiple_diffraction.h"
 #include "sim/scattering/response/illumination.h"

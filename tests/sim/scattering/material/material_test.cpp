@@ -9,6 +9,7 @@
 #include "sim/core/numbers/random.h"
 #include "sim/scattering/material/material.h"
 #include "sim/scattering/material/sea_water.h"
+#include "sim/scenario/material_file.h"
 
 namespace seaglint {
 namespace {

@@ -9,6 +9,7 @@
 #include "sim/scattering/material/reflection.h"
 #include "sim/scattering/response/scattering_matrix.h"
 #include "sim/scattering/target/part_materials.h"
+#include "sim/scenario/material_file.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
 namespace seaglint {

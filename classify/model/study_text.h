@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// The study in words: the accuracy table of the terminal and the numbers of metrics.json.
+
+#include <string>
+
+#include "classify/model/study.h"
+#include "sim/scenario/learning_spec.h"
+
+namespace seaglint {
+
+// The table of accuracies against wave height as plain text.
+std::string accuracy_table(const Study& study);
+
+// The study as a JSON object with the members handmade, cnn, fused, probes, network.
+std::string to_json(const Study& study, const LearningSpec& spec);
+
+}  // namespace seaglint

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/core/numbers/fourier.h"
+
+#include <fftw3.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <mutex>
+#include <new>
+
+#include "sim/core/process/error.h"
+
+namespace seaglint {
+namespace {
+
+// FFTW's planner keeps state that all threads share.
+std::mutex planner_mutex;
+
+void check(std::size_t length, std::size_t count, std::size_t stride) {
+  constexpr std::size_t kMost = std::size_t{1} << 30;
+  SEAGLINT_CHECK(length >= 1 && count >= 1 && stride >= length && count < kMost && stride < kMost,
+                 fmt::format("{} rows of {}, {} apart", count, length, stride));
+}
+
+// ESTIMATE reads nothing of the data but its alignment.
+fftw_plan plan_rows(Complex* data, std::size_t length, std::size_t count, std::size_t stride, Fourier direction) {
+  auto* rows = reinterpret_cast<fftw_complex*>(data);
+  const int n = static_cast<int>(length), distance = static_cast<int>(stride);
+  const std::lock_guard lock(planner_mutex);
+  return fftw_plan_many_dft(1, &n, static_cast<int>(count), rows, nullptr, 1, distance, rows, nullptr, 1, distance,
+                            direction == Fourier::kForward ? FFTW_FORWARD : FFTW_BACKWARD, FFTW_ESTIMATE);
+}
+
+void destroy(fftw_plan plan) {
+  const std::lock_guard lock(planner_mutex);
+  fftw_destroy_plan(plan);
+}
+
+[[noreturn]] void refuse(std::size_t length, std::size_t count) {
+  throw WorkError(fmt::format("no plan for {} Fourier transforms of length {}", count, length));
+}
+
+}  // namespace
+
+void transform_rows(Complex* data, std::size_t length, std::size_t count, std::size_t stride, Fourier direction) {
+  check(length, count, stride);
+  const fftw_plan plan = plan_rows(data, length, count, stride, direction);
+  if (plan == nullptr) refuse(length, count);
+  fftw_execute(plan);
+  destroy(plan);
+}
+
+FourierBatch::FourierBatch(std::size_t length, std::size_t count, Fourier direction)
+    : length_(length), count_(count), data_(nullptr), plan_(nullptr) {
+  check(length, count, length);
+  data_ = reinterpret_cast<Complex*>(fftw_alloc_complex(length * count));
+  if (data_ == nullptr) throw std::bad_alloc();
+  plan_ = plan_rows(data_, length, count, length, direction);
+  if (plan_ == nullptr) {
+    fftw_free(data_);
+    refuse(length, count);
+  }
+  std::fill(data_, data_ + length * count, Complex{});
+}
+
+FourierBatch::~FourierBatch() {
+  destroy(static_cast<fftw_plan>(plan_));
+  fftw_free(data_);
+}
+
+void FourierBatch::execute() { fftw_execute(static_cast<fftw_plan>(plan_)); }
+
+}  // namespace seaglint

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// Lines, words and numbers of untrusted text, without locale.
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace seaglint {
+
+// The next word separated by spaces, tabs or line ends, removed from the front of `text`; empty at the end.
+std::string_view next_word(std::string_view& text);
+
+// The next line without its line end (\n or \r\n), removed from the front of `text`.
+std::string_view next_line(std::string_view& text);
+
+// The text without spaces, tabs and \r at its ends.
+std::string_view trimmed(std::string_view text);
+
+// The whole word as a number, infinity and NaN included, or nothing.
+std::optional<double> number_of(std::string_view word);
+std::optional<std::int64_t> integer_of(std::string_view word);
+
+}  // namespace seaglint

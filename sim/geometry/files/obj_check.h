@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// The check of an OBJ file.
+
+#include <string>
+#include <string_view>
+
+#include "sim/geometry/files/plain_polygons.h"
+
+namespace seaglint {
+
+// InputError names the file, the line or byte, and what is wrong. Polygons are split (split_polygon); triangles with
+// two equal corners are left out.
+PlainPolygons plain_obj(std::string_view bytes, const std::string& file);
+
+}  // namespace seaglint

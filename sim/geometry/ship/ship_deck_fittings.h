@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// What stands on the decks: bitts, fairleads, windlasses, lockers, ventilators, splinter shields, boats and their bays.
+
+#include "sim/geometry/mesh/mesh_builder.h"
+#include "sim/geometry/ship/ship_hull.h"
+#include "sim/geometry/ship/ship_superstructure.h"
+
+namespace seaglint {
+
+void add_deck_fittings(MeshBuilder& builder, const HullForm& hull, const ShipHouses& houses);
+
+}  // namespace seaglint

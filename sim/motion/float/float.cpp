@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/motion/float/float.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "sim/core/numbers/constants.h"
+#include "sim/core/process/error.h"
+#include "sim/motion/float/random_yaw.h"
+
+namespace seaglint {
+
+namespace {
+
+// A disc-like float of 1 m: roll and pitch 1.3 s, heave 1.2 s (a section 0.4 m wide has 1.26 s and 1.17 s, NTNU);
+// periods of similar bodies grow with the root of their size (Froude).
+constexpr double kTiltPeriod = 1.3;   // s at a diameter of 1 m
+constexpr double kHeavePeriod = 1.2;  // s at a diameter of 1 m
+constexpr double kTiltDamping = 0.25;
+constexpr double kHeaveDamping = 0.3;
+
+// A mooring takes a float back to its place with this time constant, against the waves' own drift.
+constexpr double kMooringTime = 10;  // s
+
+double given_or(double value, double derived) { return value > 0 ? value : derived; }
+
+Vec2 turned(const Vec2& v, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
+}
+
+}  // namespace
+
+FloatParticulars float_particulars(const MotionSpec& spec, const Bounds& bounds) {
+  const Vec3 size = bounds.upper - bounds.lower;
+  FloatParticulars body;
+  body.diameter = given_or(spec.diameter_m, std::max(size.x(), size.y()));
+  if (!(body.diameter > 0)) {
+    throw InputError("motion.diameter_m: the mesh has no width to derive a float's diameter from; write it down");
+  }
+  body.draught = spec.draught_m;
+  const double scale = std::sqrt(body.diameter);
+  const auto tilt = [&](double period, double damping) {
+    return Oscillator{2 * kPi / given_or(period, kTiltPeriod * scale), given_or(damping, kTiltDamping), 0};
+  };
+  body.roll = tilt(spec.roll_period_s, spec.roll_damping);
+  body.roll.quadratic = spec.roll_quadratic_damping;
+  body.pitch = tilt(spec.pitch_period_s, spec.pitch_damping);
+  body.heave = {2 * kPi / given_or(spec.heave_period_s, kHeavePeriod * scale),
+                given_or(spec.heave_damping, kHeaveDamping), 0};
+  return body;
+}
+
+double disc_slope_filter(double wavenumber, double radius) {
+  // 8 J2(x)/x^2 = sum (-1)^m 2 (x/2)^2m / (m! (m+2)!), for small x; elsewhere the library's Bessel function.
+  const double x = std::abs(wavenumber * radius);
+  if (x < 1) {
+    const double q = -0.25 * x * x;
+    double term = 1, sum = 1;
+    for (int m = 1; m < 12; ++m) {
+      term *= q / (m * (m + 2));
+      sum += term;
+    }
+    return sum;
+  }
+  return 8 * std::cyl_bessel_j(2.0, x) / (x * x);
+}
+
+double float_filter(const FloatParticulars& body, double wavenumber) {
+  return disc_slope_filter(wavenumber, 0.5 * body.diameter) * std::exp(-wavenumber * body.draught);
+}
+
+Vec2 limited_slope(const Vec2& slope) {
+  const double share = slope.squaredNorm() / (kBreakingSlope * kBreakingSlope);
+  return slope / std::sqrt(std::sqrt(1 + share * share));
+}
+
+namespace {
+
+// What the water does at the float, at uniform half steps; at its resting place, or where it has moved to.
+class Water {
+ public:
+  Water(const WaveField& sea, const FloatParticulars& body, double x, double y, bool moving, double start, double step)
+      : field_(sea.filtered([&](double k) { return float_filter(body, k); })),
+        x_(x),
+        y_(y),
+        start_(start),
+        step_(step) {
+    if (!moving) series_.emplace(field_, x, y, start, step, SurfaceDetail::kShape);
+  }
+  Water(const Water&) = delete;
+  Water& operator=(const Water&) = delete;
+
+  // The n-th half step; a moving float is at `shift`.
+  SurfaceState next(const Vec2& shift) {
+    if (!series_) return field_.surface(x_ + shift.x(), y_ + shift.y(), start_ + step_ * static_cast<double>(count_++));
+    if (count_++ > 0) series_->advance();
+    return series_->state();
+  }
+
+ private:
+  WaveField field_;
+  double x_, y_, start_, step_;
+  long long count_ = 0;
+  std::optional<SurfaceSeries> series_;
+};
+
+// Tilt about the axes x and y of T (not turning with the float), and the shift of the centre of flotation.
+struct FloatState {
+  Vec2 tilt = Vec2::Zero();
+  Vec2 tilt_rate = Vec2::Zero();
+  Vec3 shift = Vec3::Zero();
+  double heave_rate = 0;
+};
+
+FloatState operator+(const FloatState& a, const FloatState& b) {
+  return {a.tilt + b.tilt, a.tilt_rate + b.tilt_rate, a.shift + b.shift, a.heave_rate + b.heave_rate};
+}
+FloatState operator*(double h, const FloatState& a) {
+  return {h * a.tilt, h * a.tilt_rate, h * a.shift, h * a.heave_rate};
+}
+
+class Equations {
+ public:
+  Equations(const FloatParticulars& body, bool moving) : body_(body), moving_(moving) {}
+
+  // Tilt: two oscillators about the float's own axes, which its yaw has turned, forced by the slope there (roll = +d
+  // eta/dy, pitch = -d eta/dx). Heave: stiffness and damping act on the motion relative to the water, z'' + 2 z w0 (z'
+  // - w) + w0^2 (z - eta) = 0. Surge and sway: the float goes with the water at its place, held by its mooring.
+  FloatState derivative(const FloatState& s, const SurfaceState& water, double yaw) const {
+    const Vec2 slope = turned(limited_slope({water.slope_x, water.slope_y}), -yaw);
+    const Vec2 target(slope.y(), -slope.x());
+    const Vec2 tilt = turned(s.tilt, -yaw);
+    const Vec2 rate = turned(s.tilt_rate, -yaw);
+    const auto acceleration = [](const Oscillator& o, double to, double x, double v) {
+      return o.omega0 * o.omega0 * (to - x) - 2 * o.damping * o.omega0 * v - o.quadratic * std::abs(v) * v;
+    };
+    FloatState d;
+    d.tilt = s.tilt_rate;
+    d.tilt_rate = turned({acceleration(body_.roll, target.x(), tilt.x(), rate.x()),
+                          acceleration(body_.pitch, target.y(), tilt.y(), rate.y())},
+                         yaw);
+    if (moving_) {
+      const Vec2 horizontal = horizontal_rate(s, water);
+      d.shift = {horizontal.x(), horizontal.y(), s.heave_rate};
+      const double w0 = body_.heave.omega0;
+      d.heave_rate = w0 * w0 * (water.elevation - s.shift.z()) +
+                     2 * body_.heave.damping * w0 * (water.velocity.z() - s.heave_rate);
+    }
+    return d;
+  }
+
+  Vec2 horizontal_rate(const FloatState& s, const SurfaceState& water) const {
+    return water.velocity.head<2>() - s.shift.head<2>() / kMooringTime;
+  }
+
+ private:
+  const FloatParticulars& body_;
+  bool moving_;
+};
+
+// The angles of R = Rz(yaw) Ry(pitch) Rx(roll): roll and pitch are the tilt about the axes that yaw has turned.
+MotionSample sample_of(const FloatState& s, const Vec2& horizontal_rate, const OscillatorState& yaw, bool moving) {
+  const Vec2 tilt = turned(s.tilt, -yaw.x);
+  const Vec2 rate = turned(s.tilt_rate, -yaw.x) + yaw.rate * Vec2(tilt.y(), -tilt.x());
+  MotionSample sample;
+  sample.angles = {tilt.x(), tilt.y(), yaw.x};
+  sample.angle_rates = {rate.x(), rate.y(), yaw.rate};
+  if (moving) {
+    sample.shift = s.shift;
+    sample.shift_rates = {horizontal_rate.x(), horizontal_rate.y(), s.heave_rate};
+  }
+  return sample;
+}
+
+}  // namespace
+
+std::vector<MotionSample> simulate_float(const FloatParticulars& body, const MotionSpec& spec, const WaveField& sea,
+                                         double x, double y, double duration_s, std::uint64_t seed,
+                                         std::uint64_t index) {
+  const double step = spec.step_s;
+  const auto before = static_cast<long>(std::ceil(spec.preroll_s / step));
+  const auto after = std::max(1L, static_cast<long>(std::ceil(duration_s / step)));
+  const double fastest = std::max({body.roll.omega0, body.pitch.omega0, body.heave.omega0});
+  const auto parts = std::max(1L, static_cast<long>(std::ceil(fastest * step / kLongestTurn)));
+  const double part = step / static_cast<double>(parts);
+  const double start = -step * static_cast<double>(before);
+
+  const bool moving = spec.translations;
+  const RandomYaw random_yaw(radians(spec.yaw_rate_deg_s), spec.yaw_period_s, spec.yaw_damping, seed, index);
+  const Equations equations(body, moving);
+  Water water(sea, body, x, y, moving, start, 0.5 * part);
+
+  FloatState state;
+  SurfaceState water0 = water.next(Vec2::Zero());
+  state.shift.z() = moving ? water0.elevation : 0;
+  OscillatorState yaw0 = random_yaw.at(start);
+  std::vector<MotionSample> samples;
+  samples.reserve(static_cast<std::size_t>(after) + 1);
+  for (long n = -before;; ++n) {
+    if (n >= 0) samples.push_back(sample_of(state, equations.horizontal_rate(state, water0), yaw0, moving));
+    if (n == after) break;
+    for (long p = 0; p < parts; ++p) {
+      const double t = start + part * (static_cast<double>((n + before) * parts + p));
+      // The water is asked where the float will be to first order in the step: within a millimetre.
+      const Vec2 velocity = equations.horizontal_rate(state, water0);
+      const SurfaceState water_middle = water.next(state.shift.head<2>() + 0.5 * part * velocity);
+      const SurfaceState water1 = water.next(state.shift.head<2>() + part * velocity);
+      const double yaw_middle = random_yaw.at(t + 0.5 * part).x;
+      const OscillatorState yaw1 = random_yaw.at(t + part);
+
+      const FloatState k1 = equations.derivative(state, water0, yaw0.x);
+      const FloatState k2 = equations.derivative(state + 0.5 * part * k1, water_middle, yaw_middle);
+      const FloatState k3 = equations.derivative(state + 0.5 * part * k2, water_middle, yaw_middle);
+      const FloatState k4 = equations.derivative(state + part * k3, water1, yaw1.x);
+      state = state + part / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
+      water0 = water1;
+      yaw0 = yaw1;
+    }
+  }
+  return samples;
+}
+
+}  // namespace seaglint

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// A float a metre across: it tilts with the water at its own place.
+
+#include <cstdint>
+#include <vector>
+
+#include "sim/core/numbers/linear.h"
+#include "sim/geometry/mesh/triangle_mesh.h"
+#include "sim/motion/kinematics/oscillator.h"
+#include "sim/motion/kinematics/trajectory.h"
+#include "sim/scenario/target_spec.h"
+#include "sim/sea/wave_field.h"
+
+namespace seaglint {
+
+// The zero fields of the spec filled in (README.md, "Floats").
+struct FloatParticulars {
+  double diameter = 1;  // of the waterplane, m
+  double draught = 0;   // m, 0 = shallow
+  Oscillator roll, pitch, heave;
+};
+
+// Throws InputError when the mesh has no size to derive from.
+FloatParticulars float_particulars(const MotionSpec& spec, const Bounds& bounds);
+
+// Mean slope of a wave over a disc of radius R, weighted as its moment is: 8 J2(kR) / (kR)^2, 1 for long waves.
+double disc_slope_filter(double wavenumber, double radius);
+
+// What reaches a float of the waves on the surface: the disc's mean and the pressure's decay to its draught, e^{-kT}
+// (Smith's correction, as for a ship of effective slope: Jensen, Mansour and Olsen 2004, Ocean Engineering 31, 61).
+double float_filter(const FloatParticulars& body, double wavenumber);
+
+// The slope a float follows: the water's up to breaking, s / (1 + (s/0.4)^4)^(1/4), in the slope's own direction.
+inline constexpr double kBreakingSlope = 0.4;
+Vec2 limited_slope(const Vec2& slope);
+
+// Samples at t = 0, step, ..., at least up to duration_s, of a float whose centre of flotation rests at (x, y).
+std::vector<MotionSample> simulate_float(const FloatParticulars& body, const MotionSpec& spec, const WaveField& sea,
+                                         double x, double y, double duration_s, std::uint64_t seed,
+                                         std::uint64_t index);
+
+}  // namespace seaglint

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/motion/kinematics/trajectory.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "sim/core/process/error.h"
+
+namespace seaglint {
+
+Mat3 rotation_from_angles(double roll, double pitch, double yaw) {
+  return (Eigen::AngleAxisd(yaw, Vec3::UnitZ()) * Eigen::AngleAxisd(pitch, Vec3::UnitY()) *
+          Eigen::AngleAxisd(roll, Vec3::UnitX()))
+      .toRotationMatrix();
+}
+
+Trajectory::Trajectory(double start_s, double step_s, std::vector<MotionSample> samples, Vec3 rest_position,
+                       Vec3 rotation_centre)
+    : start_s_(start_s),
+      step_s_(step_s),
+      samples_(std::move(samples)),
+      rest_position_(std::move(rest_position)),
+      rotation_centre_(std::move(rotation_centre)) {
+  SEAGLINT_CHECK(samples_.size() >= 2 && step_s_ > 0, fmt::format("{} samples, step {} s", samples_.size(), step_s_));
+}
+
+Trajectory Trajectory::at_rest(const Vec3& rest_position) {
+  Trajectory still;
+  still.rest_position_ = rest_position;
+  return still;
+}
+
+Trajectory Trajectory::carried(const Vec3& velocity, double from_s) const {
+  Trajectory moving = *this;
+  moving.carrying_mps_ = velocity;
+  moving.carried_from_s_ = from_s;
+  return moving;
+}
+
+double Trajectory::start_s() const { return samples_.empty() ? -std::numeric_limits<double>::infinity() : start_s_; }
+
+double Trajectory::end_s() const {
+  return samples_.empty() ? std::numeric_limits<double>::infinity()
+                          : start_s_ + step_s_ * static_cast<double>(samples_.size() - 1);
+}
+
+namespace {
+
+struct Hermite {
+  Vec3 value;
+  Vec3 rate;
+};
+
+// Cubic that takes values a, b and rates da, db at the ends of an interval of length h, at the share u of it.
+Hermite hermite(const Vec3& a, const Vec3& da, const Vec3& b, const Vec3& db, double h, double u) {
+  const double v = 1 - u;
+  return {(1 + 2 * u) * v * v * a + u * u * (3 - 2 * u) * b + h * u * v * (v * da - u * db),
+          6 * u * v / h * (b - a) + v * (1 - 3 * u) * da + u * (3 * u - 2) * db};
+}
+
+}  // namespace
+
+MotionSample Trajectory::sample(double t) const {
+  if (samples_.empty() && !std::isnan(t)) return {};
+  const double slack = kEndSlack * (end_s() - start_s());
+  if (!(t >= start_s() - slack && t <= end_s() + slack)) {
+    throw std::out_of_range(fmt::format("time {} s outside the trajectory's {} to {} s", t, start_s(), end_s()));
+  }
+  const double place = (std::clamp(t, start_s(), end_s()) - start_s_) / step_s_;
+  const auto last = static_cast<double>(samples_.size() - 2);
+  const double index = std::min(std::floor(place), last);
+  const double u = place - index;
+  const MotionSample& a = samples_[static_cast<std::size_t>(index)];
+  const MotionSample& b = samples_[static_cast<std::size_t>(index) + 1];
+  const Hermite angles = hermite(a.angles, a.angle_rates, b.angles, b.angle_rates, step_s_, u);
+  const Hermite shift = hermite(a.shift, a.shift_rates, b.shift, b.shift_rates, step_s_, u);
+  return {angles.value, angles.rate, shift.value, shift.rate};
+}
+
+Pose Trajectory::pose(double t) const {
+  const MotionSample motion = sample(t);
+  Pose pose;
+  pose.R_TB = rotation_from_angles(motion.angles.x(), motion.angles.y(), motion.angles.z());
+  pose.p_TB = rest_position_ + motion.shift + rotation_centre_ - pose.R_TB * rotation_centre_;
+  pose.p_TB += (t - carried_from_s_) * carrying_mps_;
+  return pose;
+}
+
+}  // namespace seaglint

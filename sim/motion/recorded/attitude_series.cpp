@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/motion/recorded/attitude_series.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "sim/core/numbers/constants.h"
+#include "sim/core/process/error.h"
+#include "sim/motion/recorded/attitude_file.h"
+
+namespace seaglint {
+
+namespace {
+
+// Slopes at the knots of the natural cubic spline through values y at ascending times t: continuous second derivative
+// gives a tridiagonal system, zero curvature at both ends.
+std::vector<double> spline_slopes(const std::vector<double>& t, const std::vector<double>& y) {
+  const std::size_t n = t.size();
+  std::vector<double> diagonal(n), upper(n), slope(n);
+  const auto chord = [&](std::size_t i) { return (y[i + 1] - y[i]) / (t[i + 1] - t[i]); };
+  diagonal[0] = 2;
+  upper[0] = 1;
+  slope[0] = 3 * chord(0);
+  for (std::size_t i = 1; i < n; ++i) {
+    const bool last = i + 1 == n;
+    const double before = 1 / (t[i] - t[i - 1]);
+    const double after = last ? 0 : 1 / (t[i + 1] - t[i]);
+    const double lower = last ? 1 : before;
+    const double share = lower / diagonal[i - 1];
+    diagonal[i] = (last ? 2 : 2 * (before + after)) - share * upper[i - 1];
+    upper[i] = after;
+    const double right = last ? 3 * chord(i - 1) : 3 * (before * chord(i - 1) + after * chord(i));
+    slope[i] = right - share * slope[i - 1];
+  }
+  slope[n - 1] /= diagonal[n - 1];
+  for (std::size_t i = n - 1; i-- > 0;) slope[i] = (slope[i] - upper[i] * slope[i + 1]) / diagonal[i];
+  return slope;
+}
+
+template <typename Value, typename Rate>
+void set_rates(AttitudeSeries& series, Value MotionSample::*value, Rate MotionSample::*rate) {
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> y;
+    for (const MotionSample& sample : series.samples) y.push_back((sample.*value)[axis]);
+    const std::vector<double> slope = spline_slopes(series.time, y);
+    for (std::size_t i = 0; i < slope.size(); ++i) (series.samples[i].*rate)[axis] = slope[i];
+  }
+}
+
+// The factor by which numbers grow when an angle goes from radians to degrees.
+constexpr double kDegreesPerRadian = 180 / kPi;
+constexpr std::size_t kWindow = 20;  // samples before and after a jump
+
+double rms(const std::vector<double>& values, std::size_t begin, std::size_t end) {
+  double sum = 0;
+  for (std::size_t i = begin; i < end; ++i) sum += values[i] * values[i];
+  return std::sqrt(sum / static_cast<double>(end - begin));
+}
+
+bool is_57_fold(double factor, double slack) {
+  const double up = std::abs(factor) / kDegreesPerRadian;
+  const double down = std::abs(factor) * kDegreesPerRadian;
+  return (up > 1 / slack && up < slack) || (down > 1 / slack && down < slack);
+}
+
+// Numbers that from one line on are 57 times what the line before leads to, and stay as much larger or smaller.
+void check_unit_change(const AttitudeTable& table, const std::vector<double>& angle, const char* name) {
+  for (std::size_t n = kWindow; n + kWindow <= angle.size(); ++n) {
+    const double slope = angle[n - 1] - angle[n - 2];
+    const double expected = angle[n - 1] + slope;
+    if (expected == 0 || !is_57_fold(angle[n] / expected, 1.3)) continue;
+    if (!is_57_fold(angle[n + 1] / (expected + slope), 1.6)) continue;
+    // Over a window the swing itself may grow or fade by some factor.
+    if (!is_57_fold(rms(angle, n, n + kWindow) / rms(angle, n - kWindow, n), 8)) continue;
+    throw InputError(fmt::format(
+        "{}: {}: value {:.6g} after {:.6g}: a 57-fold jump, as between radians and degrees: the unit changes within "
+        "the file",
+        table.place(n), name, angle[n], angle[n - 1]));
+  }
+}
+
+// No ship and no float lies beyond a right angle; a heading may be anything within two turns.
+void check_radians(const AttitudeTable& table) {
+  constexpr std::array<double, 3> kLargest{0.5 * kPi, 0.5 * kPi, 4 * kPi};
+  constexpr std::array<const char*, 3> kNames{"roll", "pitch", "yaw"};
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> angle;
+    for (const MotionSample& sample : table.samples) angle.push_back(sample.angles[axis]);
+    const auto name = kNames[static_cast<std::size_t>(axis)];
+    check_unit_change(table, angle, name);
+    for (std::size_t n = 0; n < angle.size(); ++n) {
+      if (std::abs(angle[n]) <= kLargest[static_cast<std::size_t>(axis)]) continue;
+      throw InputError(fmt::format(
+          "{}: {}: value {:.6g} {}: must be within {:.4g} rad{}", table.place(n), name,
+          table.in_degrees ? degrees(angle[n]) : angle[n], table.in_degrees ? "deg" : "rad",
+          kLargest[static_cast<std::size_t>(axis)],
+          table.in_degrees ? "" : ": these look like degrees where radians are declared, 57 times too large"));
+    }
+  }
+}
+
+void check_times(const AttitudeTable& table) {
+  std::vector<double> steps;
+  for (std::size_t n = 1; n < table.time.size(); ++n) {
+    if (!(table.time[n] > table.time[n - 1])) {
+      throw InputError(fmt::format("{}: time: value {}: must be greater than {} of the row before", table.place(n),
+                                   table.time[n], table.time[n - 1]));
+    }
+    steps.push_back(table.time[n] - table.time[n - 1]);
+  }
+  std::vector<double> sorted = steps;
+  std::nth_element(sorted.begin(), sorted.begin() + static_cast<long>(sorted.size() / 2), sorted.end());
+  const double usual = sorted[sorted.size() / 2];
+  constexpr double kWidestGap = 10;
+  for (std::size_t n = 0; n < steps.size(); ++n) {
+    if (steps[n] <= kWidestGap * usual * (1 + 1e-9)) continue;
+    throw InputError(fmt::format("{}: time: value {}: a gap of {:.4g} s after {}, where the usual step is {:.4g} s",
+                                 table.place(n + 1), table.time[n + 1], steps[n], table.time[n], usual));
+  }
+}
+
+void unwrap_yaw(std::vector<MotionSample>& samples) {
+  for (std::size_t n = 1; n < samples.size(); ++n) {
+    double& yaw = samples[n].angles.z();
+    yaw -= 2 * kPi * std::round((yaw - samples[n - 1].angles.z()) / (2 * kPi));
+  }
+}
+
+// Where the sample before time t stands.
+std::size_t interval_of(const std::vector<double>& time, double t) {
+  const auto above = std::upper_bound(time.begin(), time.end() - 1, t);
+  return static_cast<std::size_t>(std::max<long>(above - time.begin() - 1, 0));
+}
+
+}  // namespace
+
+AttitudeSeries read_attitude_series(const std::filesystem::path& file) {
+  AttitudeTable table = read_attitude_table(file);
+  check_times(table);
+  check_radians(table);
+  unwrap_yaw(table.samples);
+  AttitudeSeries series{file.string(), std::move(table.time), std::move(table.samples)};
+  set_rates(series, &MotionSample::angles, &MotionSample::angle_rates);
+  set_rates(series, &MotionSample::shift, &MotionSample::shift_rates);
+  return series;
+}
+
+Trajectory trajectory_of(const AttitudeSeries& series, double start_s, double duration_s, bool translations,
+                         const Vec3& rest_position, const Vec3& rotation_centre) {
+  const std::vector<double>& time = series.time;
+  // Half of what the trajectory takes for its ends.
+  const double slack = 0.5 * Trajectory::kEndSlack * (time.back() - time.front());
+  if (start_s < time.front() - slack || start_s + duration_s > time.back() + slack) {
+    throw InputError(fmt::format("{}: lasts from {:.6g} to {:.6g} s, {:.6g} to {:.6g} s are needed", series.source,
+                                 time.front(), time.back(), start_s, start_s + duration_s));
+  }
+  double smallest = time[1] - time[0], largest = smallest;
+  for (std::size_t n = 1; n < time.size(); ++n) {
+    smallest = std::min(smallest, time[n] - time[n - 1]);
+    largest = std::max(largest, time[n] - time[n - 1]);
+  }
+  // Times written with few digits count as uniform.
+  constexpr double kUniform = 1e-3;
+  const double span = time.back() - time.front();
+  std::vector<MotionSample> samples;
+  double step = span / static_cast<double>(time.size() - 1);
+  if (largest - smallest <= kUniform * step) {
+    samples = series.samples;
+  } else {
+    constexpr double kMostSamples = 1e7;
+    const double count = std::ceil(span / smallest - 1e-9);
+    if (count > kMostSamples) {
+      throw InputError(fmt::format("{}: a smallest step of {:.3g} s in {:.6g} s: must make at most {:.0e} steps",
+                                   series.source, smallest, span, kMostSamples));
+    }
+    step = span / count;
+    for (std::size_t n = 0; n <= static_cast<std::size_t>(count); ++n) {
+      const double t = std::min(time.front() + step * static_cast<double>(n), time.back());
+      const std::size_t i = interval_of(time, t);
+      const Trajectory piece(time[i], time[i + 1] - time[i], {series.samples[i], series.samples[i + 1]}, Vec3::Zero(),
+                             Vec3::Zero());
+      samples.push_back(piece.sample(std::clamp(t, piece.start_s(), piece.end_s())));
+    }
+  }
+  if (!translations) {
+    for (MotionSample& sample : samples) sample.shift = sample.shift_rates = Vec3::Zero();
+  }
+  return Trajectory(time.front() - start_s, step, std::move(samples), rest_position, rotation_centre);
+}
+
+}  // namespace seaglint

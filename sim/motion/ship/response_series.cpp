@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/motion/ship/response_series.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/core/process/error.h"
+
+namespace seaglint {
+
+ShipWave ship_wave(const WaveComponent& component) {
+  return {component.omega, component.wavenumber, std::atan2(component.direction.y(), component.direction.x())};
+}
+
+double encounter_frequency(const ShipWave& wave, double speed) {
+  return wave.omega - speed * wave.wavenumber * std::cos(wave.mu);
+}
+
+ResponseSeries::ResponseSeries(const WaveField& sea, const std::function<ResponseChannels(const ShipWave&)>& response,
+                               double speed, double x, double y, double start, double step)
+    : phasors_(make(sea, response, speed, x, y, start, step)) {}
+
+UniformPhasors ResponseSeries::make(const WaveField& sea,
+                                    const std::function<ResponseChannels(const ShipWave&)>& response, double speed,
+                                    double x, double y, double start, double step) {
+  std::vector<ResponseChannels> responses;
+  std::array<double, kResponseChannels> largest{};
+  for (const WaveComponent& component : sea.components()) {
+    ResponseChannels& all = responses.emplace_back(response(ship_wave(component)));
+    for (std::size_t d = 0; d < kResponseChannels; ++d) {
+      all[d] *= component.amplitude;
+      // No comparison below would find it.
+      SEAGLINT_CHECK(std::isfinite(all[d].real()) && std::isfinite(all[d].imag()),
+                     fmt::format("channel {} at {} rad/s: {} + {}j", d, component.omega, all[d].real(), all[d].imag()));
+      largest[d] = std::max(largest[d], std::abs(all[d]));
+    }
+  }
+  constexpr double kNegligible = 1e-9;
+  std::vector<double> phase;
+  for (std::size_t i = 0; i < responses.size(); ++i) {
+    bool counts = false;
+    for (std::size_t d = 0; d < kResponseChannels; ++d) {
+      counts |= std::abs(responses[i][d]) > kNegligible * largest[d];
+    }
+    if (!counts) continue;
+    const WaveComponent& component = sea.components()[i];
+    omega_.push_back(encounter_frequency(ship_wave(component), speed));
+    phase.push_back(component.phase - component.wavenumber * component.direction.dot(Vec2(x, y)));
+    for (std::size_t d = 0; d < kResponseChannels; ++d) {
+      parts_[d].real.push_back(responses[i][d].real());
+      parts_[d].imaginary.push_back(responses[i][d].imag());
+    }
+  }
+  for (std::size_t d = 0; d < kResponseChannels; ++d) moves_[d] = largest[d] > 0;
+  return UniformPhasors(omega_, phase, start, step);
+}
+
+double ResponseSeries::value(ResponseChannel channel) const {
+  const Parts& a = parts_[channel];
+  const double* c = phasors_.cosine().data();
+  const double* s = phasors_.sine().data();
+  double sum = 0;
+  for (std::size_t i = 0; i < a.real.size(); ++i) sum += a.real[i] * c[i] - a.imaginary[i] * s[i];
+  return sum;
+}
+
+// Re{j w x}.
+double ResponseSeries::rate(ResponseChannel channel) const {
+  const Parts& a = parts_[channel];
+  const double* c = phasors_.cosine().data();
+  const double* s = phasors_.sine().data();
+  double sum = 0;
+  for (std::size_t i = 0; i < a.real.size(); ++i) sum -= omega_[i] * (a.imaginary[i] * c[i] + a.real[i] * s[i]);
+  return sum;
+}
+
+MotionSample ResponseSeries::sample() const {
+  MotionSample sample;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto angle = static_cast<ResponseChannel>(kRollAngle + axis);
+    const auto shift = static_cast<ResponseChannel>(kSurgeShift + axis);
+    if (moves_[angle]) sample.angles[axis] = value(angle);
+    if (moves_[angle]) sample.angle_rates[axis] = rate(angle);
+    if (moves_[shift]) sample.shift[axis] = value(shift);
+    if (moves_[shift]) sample.shift_rates[axis] = rate(shift);
+  }
+  return sample;
+}
+
+}  // namespace seaglint

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/scenario/files/override.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <utility>
+
+#include "sim/core/process/error.h"
+#include "sim/core/text/number.h"
+#include "sim/core/text/utf8.h"
+#include "sim/scenario/files/scenario_document.h"
+
+namespace seaglint {
+
+namespace {
+
+void require_utf8(const Override& override_value) {
+  const std::string text = override_value.key_path + "=" + override_value.value;
+  const std::size_t utf8 = utf8_prefix(text);
+  if (utf8 < text.size()) {
+    throw InputError(fmt::format("--set {}: byte 0x{:02x}: must be UTF-8", text.substr(0, utf8),
+                                 static_cast<unsigned char>(text[utf8])));
+  }
+}
+
+void mark_as_override(YamlNode& node, int index) {
+  node.location.override_index = index;
+  for (YamlNode& item : node.items) mark_as_override(item, index);
+  for (YamlEntry& entry : node.entries) {
+    entry.location.override_index = index;
+    mark_as_override(entry.value, index);
+  }
+}
+
+}  // namespace
+
+void apply_override(ScenarioDocument& document, const Override& override_value) {
+  require_utf8(override_value);
+  const std::string name = "--set " + override_value.key_path;
+  const int index = static_cast<int>(document.override_paths.size());
+  document.override_paths.push_back(override_value.key_path);
+  YamlNode value;
+  try {
+    value = parse_yaml(override_value.value, name);
+  } catch (const InputError&) {
+    throw InputError(fmt::format("{}: value '{}': not valid YAML", name, override_value.value));
+  }
+  mark_as_override(value, index);
+
+  YamlNode* node = &document.root;
+  for (const std::string& key : split_path(override_value.key_path)) {
+    if (key.empty()) throw InputError(fmt::format("{}: must be key.path=value", name));
+    if (node->kind == YamlNode::Kind::kList) {
+      const std::optional<double> position = parse_number(key);
+      const auto count = static_cast<double>(node->items.size());
+      if (!position || *position < 0 || *position >= count ||
+          *position != static_cast<double>(static_cast<int>(*position))) {
+        throw InputError(fmt::format("{}: '{}' must be the number of an item, from 0 to {}", name, key, count - 1));
+      }
+      node = &node->items[static_cast<std::size_t>(*position)];
+      continue;
+    }
+    if (node->kind == YamlNode::Kind::kScalar)
+      throw InputError(fmt::format("{}: there is nothing below the value '{}'", name, node->text));
+    YamlNode* child = node->find(key);
+    if (child == nullptr) {
+      Location location;
+      location.override_index = index;
+      node->kind = YamlNode::Kind::kMap;
+      node->entries.push_back({key, location, {}});
+      node->entries.back().value.location = location;
+      child = &node->entries.back().value;
+    }
+    node = child;
+  }
+  *node = std::move(value);
+}
+
+}  // namespace seaglint

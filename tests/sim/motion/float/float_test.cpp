@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/motion/float/float.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "sim/core/numbers/constants.h"
+#include "sim/core/process/error.h"
+#include "sim/motion/float/random_yaw.h"
+#include "sim/motion/simulate.h"
+#include "sim/sea/realisation.h"
+
+namespace seaglint {
+namespace {
+
+const Bounds kReflector{{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}};
+
+MotionSpec float_spec() {
+  MotionSpec spec;
+  spec.model = MotionModel::kFloat;
+  return spec;
+}
+
+SeaState state_of(double height, double period) {
+  SeaState state;
+  state.significant_wave_height_m = height;
+  state.peak_period_s = period;
+  state.propagation_rad = radians(120);
+  state.cutoff_rad_s = 0;
+  state.second_order_cutoff_rad_s = 0;
+  return state;
+}
+
+WaveField regular_wave(double amplitude, double omega, Vec2 direction) {
+  return WaveField({{omega, amplitude, 0.4, omega * omega / kGravity}}, direction, 1, 0);
+}
+
+TEST(FloatParticulars, ScaleWithTheRootOfTheSize) {
+  const FloatParticulars one = float_particulars(float_spec(), kReflector);
+  EXPECT_EQ(one.diameter, 1);
+  EXPECT_NEAR(one.roll.omega0, 2 * kPi / 1.3, 1e-12);
+  MotionSpec spec = float_spec();
+  spec.diameter_m = 4;
+  EXPECT_NEAR(float_particulars(spec, kReflector).pitch.omega0, kPi / 1.3, 1e-12);
+  EXPECT_THROW(float_particulars(float_spec(), Bounds{}), InputError);
+}
+
+TEST(DiscSlopeFilter, IsTheMeanSlopeOfADisc) {
+  // Integral over the disc of y eta over that of y^2, by polar midpoints, for eta = sin(k y) / k.
+  for (const double x : {1e-6, 0.3, 0.999, 1.001, 2.5, 6.0}) {
+    constexpr int kRings = 400, kAngles = 400;
+    double moment = 0, norm = 0;
+    for (int i = 0; i < kRings; ++i) {
+      const double r = (i + 0.5) / kRings;
+      for (int j = 0; j < kAngles; ++j) {
+        const double y = r * std::sin(2 * kPi * (j + 0.5) / kAngles);
+        moment += r * y * std::sin(x * y) / x;
+        norm += r * y * y;
+      }
+    }
+    EXPECT_NEAR(disc_slope_filter(x, 1), moment / norm, 2e-5) << "kR = " << x;
+  }
+}
+
+TEST(LimitedSlope, KeepsSmallSlopesAndStaysBelowBreaking) {
+  EXPECT_NEAR(limited_slope({0.1, 0}).x(), 0.1, 0.1 * 0.001);
+  EXPECT_NEAR(limited_slope({0.16, 0.12}).norm(), 0.2, 0.2 * 0.016);
+  EXPECT_NEAR(limited_slope({3, 4}).x() / limited_slope({3, 4}).y(), 0.75, 1e-12);
+  EXPECT_LE(limited_slope({30, 40}).norm(), kBreakingSlope);
+  EXPECT_EQ(limited_slope({0, 0}).norm(), 0);
+}
+
+TEST(SimulateFloat, FollowsTheSlopeOfLongWaves) {
+  const double omega = 0.4, amplitude = 0.5;
+  const Vec2 direction(std::cos(radians(120)), std::sin(radians(120)));
+  const WaveField sea = regular_wave(amplitude, omega, direction);
+  const FloatParticulars body = float_particulars(float_spec(), kReflector);
+  const double k = omega * omega / kGravity;
+  const std::vector<MotionSample> samples = simulate_float(body, float_spec(), sea, 20, 5, 30, 1, 0);
+  for (std::size_t n = 0; n < samples.size(); n += 37) {
+    const SurfaceState water = sea.surface(20, 5, 0.02 * static_cast<double>(n));
+    // Lag 2 z w/w0 = 4 % and resonance (w/w0)^2 = 0.7 % of the slope's amplitude.
+    EXPECT_NEAR(samples[n].angles.x(), water.slope_y, 0.05 * k * amplitude);
+    EXPECT_NEAR(samples[n].angles.y(), -water.slope_x, 0.05 * k * amplitude);
+    EXPECT_EQ(samples[n].angles.z(), 0);
+    EXPECT_EQ(samples[n].shift.norm(), 0);
+  }
+}
+
+TEST(SimulateFloat, RespondsToARegularWaveAsItsOscillatorDoes) {
+  const double omega = 4, amplitude = 0.01;
+  const WaveField sea = regular_wave(amplitude, omega, {0, 1});
+  const FloatParticulars body = float_particulars(float_spec(), kReflector);
+  const double k = omega * omega / kGravity;
+  const std::vector<MotionSample> samples = simulate_float(body, float_spec(), sea, 0, 0, 20, 1, 0);
+  const Complex rao = body.roll.omega0 * body.roll.omega0 * linear_response(body.roll, omega) * Complex(0, -k) *
+                      disc_slope_filter(k, 0.5);
+  for (std::size_t n = 0; n < samples.size(); n += 11) {
+    const Complex expected = rao * std::polar(amplitude, omega * 0.02 * static_cast<double>(n) + 0.4);
+    // The limiter takes (0.0163/0.4)^4/4 = 7e-7 of the slope; Runge-Kutta at w h = 0.1 leaves 1e-6.
+    EXPECT_NEAR(samples[n].angles.x(), expected.real(), 5e-6 * std::abs(rao) * amplitude + 1e-9);
+    EXPECT_NEAR(samples[n].angle_rates.x(), -omega * expected.imag(), 5e-6 * omega * std::abs(rao) * amplitude + 1e-9);
+    EXPECT_NEAR(samples[n].angles.y(), 0, 1e-15);
+  }
+}
+
+// Apex velocity u (1 - k h): tilt and orbital motion come from one field and oppose each other.
+TEST(SimulateFloat, ItsMastMovesLessThanTheWaterBelowResonance) {
+  MotionSpec spec = float_spec();
+  spec.translations = true;
+  const double omega = 0.8, amplitude = 0.05;
+  const double k = omega * omega / kGravity;
+  const WaveField sea = regular_wave(amplitude, omega, {1, 0});
+  const Trajectory trajectory =
+      simulate_motion(make_body(spec, {kReflector, {}}), rest_position(spec, 0, 0), sea, 60, 1, 0);
+  const double height = 5;  // of a point above the centre of flotation
+  const Vec3 point(0, 0, height - spec.centre_above_water_m);
+  double largest = 0;
+  for (double t = 10; t < 50; t += 0.05) {
+    const Pose a = trajectory.pose(t - 0.001), b = trajectory.pose(t + 0.001);
+    const Vec3 velocity = (b.R_TB * point + b.p_TB - a.R_TB * point - a.p_TB) / 0.002;
+    largest = std::max(largest, std::abs(velocity.x()));
+  }
+  // Mooring: w tau / sqrt(1 + (w tau)^2) = 0.992; resonance (w/w0)^2 = 2.7 % of the tilt's part k h.
+  const double expected = amplitude * omega * (0.992 - k * height);
+  EXPECT_NEAR(largest, expected, 0.03 * amplitude * omega);
+}
+
+TEST(SimulateFloat, RidesOnTheSurfaceWithTranslations) {
+  MotionSpec spec = float_spec();
+  spec.translations = true;
+  const WaveField sea = regular_wave(0.5, 0.6, {1, 0});
+  const FloatParticulars body = float_particulars(spec, kReflector);
+  const std::vector<MotionSample> samples = simulate_float(body, spec, sea, 0, 0, 60, 1, 0);
+  for (std::size_t n = 0; n < samples.size(); n += 41) {
+    const Vec3& shift = samples[n].shift;
+    const SurfaceState water = sea.surface(shift.x(), shift.y(), 0.02 * static_cast<double>(n));
+    // (w/w0)^2 = 1.3 % of the amplitude, and the advection of the slope that the linear vertical velocity leaves out.
+    EXPECT_NEAR(shift.z(), water.elevation, 0.04 * 0.5);
+  }
+}
+
+TEST(SimulateFloat, RatesAreTheDerivativesOfItsMotion) {
+  MotionSpec spec = float_spec();
+  spec.translations = true;
+  spec.yaw_rate_deg_s = 10;
+  const WaveField sea = realize_sea(state_of(1, 5), 42, 0);
+  const std::vector<MotionSample> samples =
+      simulate_float(float_particulars(spec, kReflector), spec, sea, 0, 0, 20, 42, 3);
+  for (std::size_t n = 1; n + 1 < samples.size(); n += 7) {
+    // Simpson's rule over two steps: h^4/90 times the fifth derivative of the motion, and the kinks of breaking.
+    const Vec3 turn = 0.02 / 3 * (samples[n - 1].angle_rates + 4 * samples[n].angle_rates + samples[n + 1].angle_rates);
+    EXPECT_NEAR((samples[n + 1].angles - samples[n - 1].angles - turn).norm(), 0, 1e-5);
+    const Vec3 way = 0.02 / 3 * (samples[n - 1].shift_rates + 4 * samples[n].shift_rates + samples[n + 1].shift_rates);
+    EXPECT_NEAR((samples[n + 1].shift - samples[n - 1].shift - way).norm(), 0, 1e-5);
+  }
+}
+
+TEST(SimulateFloat, IsInSteadyStateAtTimeZero) {
+  for (const bool translations : {false, true}) {
+    MotionSpec spec = float_spec();
+    spec.translations = translations;
+    spec.yaw_rate_deg_s = 5;
+    const WaveField sea = realize_sea(state_of(1, 5), 42, 0);
+    const FloatParticulars body = float_particulars(spec, kReflector);
+    const std::vector<MotionSample> once = simulate_float(body, spec, sea, 40, 0, 10, 42, 1);
+    spec.preroll_s *= 2;
+    const std::vector<MotionSample> twice = simulate_float(body, spec, sea, 40, 0, 10, 42, 1);
+    // Tilt forgets within seconds; the mooring leaves e^{-12} of an excursion of a metre.
+    for (std::size_t n = 0; n < once.size(); n += 50) {
+      EXPECT_NEAR((once[n].angles - twice[n].angles).norm(), 0, translations ? 1e-4 : 1e-9);
+      EXPECT_NEAR((once[n].shift - twice[n].shift).norm(), 0, 1e-4);
+    }
+  }
+}
+
+TEST(SimulateFloat, TurnsAboutItsCentreOfFlotation) {
+  const MotionSpec spec = float_spec();
+  const Vec3 rest = rest_position(spec, 40, 0);
+  EXPECT_EQ((rest - Vec3(40, 0, 0.75)).norm(), 0);
+  const Trajectory trajectory =
+      simulate_motion(make_body(spec, {kReflector, {}}), rest, realize_sea(state_of(1, 5), 1, 0), 5, 42, 0);
+  for (const double t : {0.0, 1.234, 5.0}) {
+    const Pose pose = trajectory.pose(t);
+    EXPECT_NEAR((pose.R_TB * Vec3(0, 0, -0.75) + pose.p_TB - Vec3(40, 0, 0)).norm(), 0, 1e-12);
+  }
+}
+
+// Eight samples to the shortest natural period: what the cubics between them miss of a float that rolls at 0.2 s in
+// waves of 0.5 s is 14 % at 0.1 s, 1.1 % at 0.05 s and 0.07 % at the bound.
+TEST(MakeBody, RefusesStepsThatABodysSwingWouldFallBetween) {
+  MotionSpec spec = float_spec();
+  spec.roll_period_s = spec.pitch_period_s = 0.2;
+  const auto refused = [&](double step_s) {
+    spec.step_s = step_s;
+    try {
+      make_body(spec, {kReflector, {}});
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("none");
+  };
+  EXPECT_EQ(refused(0.1),
+            "motion.step_s: value 0.1: must be at most 0.025, an eighth of the shortest natural period, 0.2 s");
+  EXPECT_EQ(refused(0.0251),
+            "motion.step_s: value 0.0251: must be at most 0.025, an eighth of the shortest natural period, 0.2 s");
+  EXPECT_EQ(refused(0.025), "none");
+  spec.roll_period_s = spec.pitch_period_s = 0;
+  spec.heave_period_s = 0.4;
+  EXPECT_EQ(refused(0.06), "none");  // it does not heave
+  spec.translations = true;
+  EXPECT_EQ(refused(0.06),
+            "motion.step_s: value 0.06: must be at most 0.05, an eighth of the shortest natural period, 0.4 s");
+}
+
+TEST(RandomYaw, HasTheGivenRateAndTheCorrelationOfItsProcess) {
+  const double rate = radians(6);
+  double variance = 0, product = 0;
+  constexpr int kBodies = 3000;
+  for (int body = 0; body < kBodies; ++body) {
+    const RandomYaw yaw(rate, 0, 0.1, 42, static_cast<std::uint64_t>(body));
+    variance += yaw.at(100).rate * yaw.at(100).rate / kBodies;
+    product += yaw.at(100).rate * yaw.at(100 + kYawCorrelationTime).rate / kBodies;
+  }
+  // Four standard errors of 3000 normal products.
+  EXPECT_NEAR(variance / (rate * rate), 1, 4 * std::sqrt(2.0 / kBodies));
+  EXPECT_NEAR(product / (rate * rate), std::exp(-1.0), 4 * std::sqrt((1 + std::exp(-2.0)) / kBodies));
+}
+
+TEST(RandomYaw, WithASpringKeepsItsMeanHeadingAndWithoutOneHasNone) {
+  double free = 0, moored = 0;
+  constexpr int kBodies = 2000;
+  for (int body = 0; body < kBodies; ++body) {
+    free += std::cos(RandomYaw(radians(5), 0, 0.1, 1, static_cast<std::uint64_t>(body)).at(0).x) / kBodies;
+    moored += std::pow(RandomYaw(radians(2), 20, 0.3, 1, static_cast<std::uint64_t>(body)).at(0).x, 2) / kBodies;
+  }
+  EXPECT_NEAR(free, 0, 4 * std::sqrt(0.5 / kBodies));
+  EXPECT_LT(std::sqrt(moored), radians(2) * 20 / (2 * kPi) * 3);
+  EXPECT_EQ(RandomYaw(0, 0, 0.1, 1, 1).at(50).x, 0);
+}
+
+TEST(SimulateMotion, IsTheSameForTheSameKey) {
+  MotionSpec spec = float_spec();
+  spec.yaw_rate_deg_s = 3;
+  const WaveField sea = realize_sea(state_of(1, 5), 1, 0);
+  const auto angles = [&](std::uint64_t index) {
+    return simulate_motion(make_body(spec, {kReflector, {}}), rest_position(spec, 0, 0), sea, 5, 42, index)
+        .sample(4.321)
+        .angles;
+  };
+  EXPECT_EQ((angles(1) - angles(1)).norm(), 0);
+  EXPECT_GT((angles(1) - angles(2)).norm(), 0);
+}
+
+TEST(SimulateMotion, AFixedBodyStays) {
+  const Trajectory still = simulate_motion(make_body(MotionSpec{}, {kReflector, {}}), {1, 2, 3},
+                                           realize_sea(state_of(1, 5), 1, 0), 5, 42, 0);
+  EXPECT_EQ((still.pose(3).p_TB - Vec3(1, 2, 3)).norm(), 0);
+}
+
+}  // namespace
+}  // namespace seaglint

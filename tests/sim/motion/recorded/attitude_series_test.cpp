@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/motion/recorded/attitude_series.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <stdexcept>
+
+#include "sim/core/numbers/constants.h"
+#include "sim/core/process/error.h"
+#include "sim/motion/simulate.h"
+
+namespace seaglint {
+namespace {
+
+std::filesystem::path write(const std::string& text, const char* name = "series.csv") {
+  const std::filesystem::path file = std::filesystem::path(SEAGLINT_BINARY_DIR) / name;
+  std::ofstream(file) << text;
+  return file;
+}
+
+std::string message_of(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+// A ship's roll and pitch as two programs would tell them, 100 s at 0.1 s.
+struct Wave {
+  double roll(double t) const { return 3 * std::sin(0.6 * t); }
+  double pitch(double t) const { return 0.8 * std::cos(0.9 * t + 1); }
+  double pitch_rate(double t) const { return -0.72 * std::sin(0.9 * t + 1); }
+  double heave(double t) const { return 0.5 * std::sin(0.7 * t); }
+};
+constexpr int kRows = 1001;
+
+void expect_wave(const AttitudeSeries& series, bool shifts) {
+  const Wave wave;
+  ASSERT_EQ(series.time.size(), static_cast<std::size_t>(kRows));
+  for (std::size_t n = 20; n + 20 < series.time.size(); n += 50) {
+    const double t = series.time[n];
+    EXPECT_NEAR(degrees(series.samples[n].angles.x()), wave.roll(t), 1e-5);
+    EXPECT_NEAR(degrees(series.samples[n].angles.y()), wave.pitch(t), 1e-5);
+    EXPECT_NEAR(degrees(series.samples[n].angle_rates.y()), wave.pitch_rate(t), 2e-4);
+    EXPECT_NEAR(series.samples[n].shift.z(), shifts ? wave.heave(t) : 0, 1e-5);
+  }
+}
+
+TEST(AttitudeSeries, AreReadFromThisProgramsTables) {
+  const Wave wave;
+  std::string in_degrees = "# a comment\ntime_s,roll_deg,pitch_deg,yaw_deg\n";
+  std::string in_radians = "time_s,body,roll_rad,pitch_rad,yaw_rad,surge_m,sway_m,heave_m\n";
+  for (int n = 0; n < kRows; ++n) {
+    const double t = 0.1 * n;
+    in_degrees += fmt::format("{:.9g},{:.9g},{:.9g},0\n", t, wave.roll(t), wave.pitch(t));
+    in_radians += fmt::format("{:.9g},ship,{:.9g},{:.9g},0,0,0,{:.9g}\n", t, radians(wave.roll(t)),
+                              radians(wave.pitch(t)), wave.heave(t));
+  }
+  expect_wave(read_attitude_series(write(in_degrees)), false);
+  expect_wave(read_attitude_series(write(in_radians)), true);
+}
+
+// Comments may hold any words, those that tell the kinds of tables apart among them.
+TEST(AttitudeSeries, AreToldApartByTheirNamesAlone) {
+  for (const char* comment : {"night_time_sea", "roll [deg]", "PtfmRoll"}) {
+    const AttitudeSeries series = read_attitude_series(write(
+        std::string("\n# scenario ") + comment +
+        "\n  # time_s\ntime_s,roll_deg,pitch_deg,yaw_deg,surge_m,sway_m,heave_m\n0,1,2,3,4,5,6\n1,1,2,3,4,5,6\n"));
+    EXPECT_EQ(series.samples.front().shift, Vec3(4, 5, 6)) << comment;
+  }
+}
+
+// The header as DualSPHysics' FloatingInfo writes it; pitch with either sign beside the same angular velocity.
+TEST(AttitudeSeries, AreReadFromFloatingInfoWithEitherSignOfPitch) {
+  const Wave wave;
+  for (const double sign : {1.0, -1.0}) {
+    std::string text =
+        "time [s];fvel.x [m/s];fvel.y [m/s];fvel.z [m/s];fomega.x [rad/s];fomega.y [rad/s];fomega.z [rad/s];"
+        "center.x [m];center.y [m];center.z [m];surge [m];sway [m];heave [m];roll [deg];pitch [deg];yaw [deg]\n";
+    for (int n = 0; n < kRows; ++n) {
+      const double t = 0.1 * n;
+      text += fmt::format("{:.6f};0;0;0;0;{:.8f};0;0;0;0;0;0;{:.8f};{:.8f};{:.8f};0\n", t, radians(wave.pitch_rate(t)),
+                          wave.heave(t), wave.roll(t), sign * wave.pitch(t));
+    }
+    expect_wave(read_attitude_series(write(text)), true);
+  }
+}
+
+TEST(AttitudeSeries, AreReadFromOpenFast) {
+  const Wave wave;
+  for (const char* unit : {"(deg)", "(rad)"}) {
+    const double scale = std::string(unit) == "(deg)" ? 1 : radians(1);
+    std::string text =
+        "\nPredictions were generated on 01-Jan-2024 using OpenFAST\n linked with ElastoDyn\n\nDescription line\n\n";
+    text += "Time\tWave1Elev\tPtfmSurge\tPtfmSway\tPtfmHeave\tPtfmRoll\tPtfmPitch\tPtfmYaw\n";
+    text += fmt::format("(s)\t(m)\t(m)\t(m)\t(m)\t{0}\t{0}\t{0}\n", unit);
+    for (int n = 0; n < kRows; ++n) {
+      const double t = 0.1 * n;
+      text += fmt::format("{:10.4f}\t0\t0\t0\t{:13.8e}\t{:13.8e}\t{:13.8e}\t0\n", t, wave.heave(t),
+                          scale * wave.roll(t), scale * wave.pitch(t));
+    }
+    expect_wave(read_attitude_series(write(text, "openfast.out")), true);
+  }
+  EXPECT_THAT(
+      message_of([] {
+        read_attitude_series(write("Time PtfmRoll PtfmPitch PtfmYaw\n(s) (grad) (deg) (deg)\n0 0 0 0\n1 0 0 0\n"));
+      }),
+      testing::HasSubstr("unit '(grad)' of PtfmRoll"));
+}
+
+// A third of the series' Nyquist frequency, told at uniform and at uneven times: read at ten times as many it has the
+// same variance, and nothing of note above the Nyquist frequency.
+TEST(TrajectoryOf, AddsNoEnergy) {
+  for (const double jitter : {0.0, 0.3}) {
+    AttitudeSeries series{"test", {}, {}};
+    std::string text = "time_s,roll_deg,pitch_deg,yaw_deg\n";
+    const double step = 0.5, omega = kPi / step / 3;
+    for (int n = 0; n <= 2000; ++n) {
+      const double t = step * (n + jitter * std::sin(12.9898 * n));
+      text += fmt::format("{:.10g},{:.10g},{:.10g},0\n", t, std::sin(omega * t), std::sin(0.2 * omega * t));
+    }
+    const Trajectory trajectory =
+        trajectory_of(read_attitude_series(write(text)), 0, 990, false, Vec3::Zero(), Vec3::Zero());
+    double fast = 0, slow = 0, above = 0;
+    Complex image = 0;
+    const int count = 19800;
+    for (int n = 0; n < count; ++n) {
+      const double t = 5 + 0.05 * n * 975 / 990;
+      const Vec3 angles = trajectory.sample(t).angles * degrees(1);
+      fast += angles.x() * angles.x() / count;
+      slow += angles.y() * angles.y() / count;
+      // The image of omega on the other side of the sampling frequency.
+      image += 2.0 * angles.x() * std::polar(1.0, (2 * kPi / step - omega) * t) / double(count);
+    }
+    above = 0.5 * std::norm(image);
+    EXPECT_LE(fast, 0.5 * 1.002) << jitter;
+    // A cubic spline passes 0.994 of an amplitude a third up its band; uneven times cost a little more.
+    EXPECT_NEAR(fast, 0.5, 0.5 * (jitter > 0 ? 0.03 : 0.015)) << jitter;
+    EXPECT_NEAR(slow, 0.5, 0.5 * 2e-3) << jitter;
+    EXPECT_LT(above, 0.5 * 1e-3) << jitter;
+  }
+}
+
+TEST(AttitudeSeries, NameWhatIsWrongWithTheirTimes) {
+  const char* head = "time_s,roll_deg,pitch_deg,yaw_deg\n";
+  const auto read = [&](const std::string& rows) {
+    return message_of([&] { read_attitude_series(write(head + rows)); });
+  };
+  EXPECT_THAT(read("0,0,0,0\n0.1,0,0,0\n0.1,0,0,0\n"),
+              testing::HasSubstr("series.csv:4: time: value 0.1: must be greater"));
+  EXPECT_THAT(read("0,0,0,0\n0.2,0,0,0\n0.1,0,0,0\n"),
+              testing::HasSubstr("series.csv:4: time: value 0.1: must be greater"));
+  EXPECT_THAT(read("0,0,0,0\n1,0,0,0\n2,0,0,0\n3,0,0,0\n60,0,0,0\n"), testing::HasSubstr("a gap of 57 s"));
+  EXPECT_THAT(read("0,0,0,0\n"), testing::HasSubstr("1 rows of numbers"));
+  EXPECT_THAT(read("0,0,0,0\n1,nan,0,0\n"), testing::HasSubstr("series.csv:3:3: roll_deg: value 'nan'"));
+  EXPECT_THAT(read("0,0,0,0\n1,,0,0\n"), testing::HasSubstr("must be a finite number"));
+  EXPECT_THAT(read("0,0,0,0\n1,0,0\n"), testing::HasSubstr("3 cells where the names are 4"));
+  EXPECT_THAT(message_of([] { read_attitude_series(write("time_s,roll_deg,yaw_deg\n0,0,0\n1,0,0\n")); }),
+              testing::HasSubstr("no column pitch_deg; the columns are time_s, roll_deg, yaw_deg"));
+  EXPECT_THAT(message_of([] { read_attitude_series(write("")); }), testing::HasSubstr("0 rows"));
+}
+
+TEST(AttitudeSeries, NameDegreesWhereRadiansAreDeclared) {
+  std::string all = "time_s,roll_rad,pitch_rad,yaw_rad\n", half = all;
+  for (int n = 0; n < 400; ++n) {
+    const double roll = 0.1 * std::sin(0.06 * n);
+    all += fmt::format("{:.3f},{:.6f},0,0\n", 0.1 * n, degrees(roll));
+    half += fmt::format("{:.3f},{:.6f},0,0\n", 0.1 * n, n < 226 ? roll : degrees(roll));
+  }
+  EXPECT_THAT(message_of([&] { read_attitude_series(write(all)); }),
+              testing::HasSubstr("degrees where radians are declared, 57 times too large"));
+  const std::string message = message_of([&] { read_attitude_series(write(half)); });
+  EXPECT_THAT(message, testing::HasSubstr("series.csv:228: roll"));
+  EXPECT_THAT(message, testing::HasSubstr("a 57-fold jump, as between radians and degrees"));
+}
+
+// Times with rounding in them are those of the series' ends.
+TEST(TrajectoryOf, CoversTheTimesItWasAskedForToTheirRounding) {
+  const AttitudeSeries series =
+      read_attitude_series(write("time_s,roll_deg,pitch_deg,yaw_deg\n0,0,0,0\n1,1,0,0\n2,2,0,0\n3,3,0,0\n"));
+  for (const double start : {-2.9e-9, -1e-9, 0.0, 1e-9, 2.9e-9}) {
+    const Trajectory trajectory = trajectory_of(series, start, 3, false, Vec3::Zero(), Vec3::Zero());
+    EXPECT_NEAR(degrees(trajectory.sample(0).angles.x()), 0, 1e-8) << start;
+    EXPECT_NEAR(degrees(trajectory.sample(3).angles.x()), 3, 1e-8) << start;
+    EXPECT_THROW(trajectory.sample(-1e-6), std::out_of_range);
+    EXPECT_THROW(trajectory.sample(3 + 1e-6), std::out_of_range);
+  }
+  EXPECT_NE(message_of([&] { trajectory_of(series, -4e-9, 3, false, Vec3::Zero(), Vec3::Zero()); }), "");
+}
+
+TEST(SimulateMotion, FollowsASeries) {
+  std::string text = "time_s,roll_deg,pitch_deg,yaw_deg,surge_m,sway_m,heave_m\n";
+  for (int n = 0; n <= 100; ++n)
+    text += fmt::format("{},{},0,{},0,0,{}\n", n, 0.1 * n, n % 2 == 0 ? 179 : -179, 0.01 * n);
+  MotionSpec spec;
+  spec.model = MotionModel::kSeries;
+  spec.file = write(text).string();
+  spec.series_start_s = 20;
+  const Body body = make_body(spec, {});
+  const Trajectory trajectory = simulate_motion(body, {1, 2, 3}, WaveField(), 30, 1, 0);
+  EXPECT_NEAR(degrees(trajectory.sample(10).angles.x()), 3, 1e-9);
+  EXPECT_EQ(trajectory.sample(10).shift.z(), 0);  // no translations asked for
+  // A heading about 180 deg does not turn once around from row to row.
+  EXPECT_NEAR(degrees(trajectory.sample(10).angles.z()), 179, 1.5);
+  EXPECT_NEAR(trajectory.pose(0).p_TB.x(), 1, 1e-12);
+  EXPECT_THAT(message_of([&] {
+                simulate_motion(body, {0, 0, 0}, WaveField(), 90, 1, 0);
+              }),
+              testing::HasSubstr("lasts from 0 to 100 s, 20 to 110 s are needed"));
+}
+
+}  // namespace
+}  // namespace seaglint

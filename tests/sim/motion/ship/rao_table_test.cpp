@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/motion/ship/rao_table.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "sim/core/numbers/constants.h"
+#include "sim/core/process/error.h"
+#include "sim/motion/ship/rao_files.h"
+#include "sim/motion/ship/ship_response.h"
+#include "sim/motion/simulate.h"
+#include "sim/sea/realisation.h"
+#include "sim/sea/spectrum.h"
+
+namespace seaglint {
+namespace {
+
+constexpr Complex kJ{0, 1};
+const char* const kVeres = SEAGLINT_SOURCE_DIR "/tests/reference/ship_motion/s175_veres.re1";
+const char* const kWamit = SEAGLINT_SOURCE_DIR "/tests/reference/ship_motion/fpso.4";
+
+double wavenumber(double omega) { return omega * omega / kGravity; }
+
+// Long waves pin every sign: surge and sway -j along the waves, heave 1, roll -jk sin mu, pitch +jk cos mu, yaw in
+// antiphase.
+void expect_long_wave_limits(const RaoTable& table, double omega, double roll_factor) {
+  const double k = wavenumber(omega);
+  for (const double mu_deg : {0.0, 30.0, 60.0, 120.0, 150.0, 180.0, -30.0, -60.0, -120.0, -150.0}) {
+    const double mu = radians(mu_deg);
+    const ShipResponse r = table.at(omega, k, mu);
+    EXPECT_NEAR(std::abs(r.surge + kJ * std::cos(mu)), 0, 0.05) << mu_deg;
+    EXPECT_NEAR(std::abs(r.sway + kJ * std::sin(mu)), 0, 0.05) << mu_deg;
+    EXPECT_NEAR(std::abs(r.heave - 1.0), 0, 0.05) << mu_deg;
+    EXPECT_NEAR(std::abs(r.roll / k + roll_factor * kJ * std::sin(mu)), 0, 0.05) << mu_deg;
+    EXPECT_NEAR(std::abs(r.pitch / k - kJ * std::cos(mu)), 0, 0.05) << mu_deg;
+    EXPECT_LE((r.yaw / k).real() * std::sin(mu) * std::cos(mu), 1e-6) << mu_deg;
+    EXPECT_NEAR(std::abs(r.yaw / k), std::abs(std::sin(mu) * std::cos(mu)), 0.15) << mu_deg;
+  }
+}
+
+// VERES' own roll tends to 1.20 of the slope, with w^2/w0^2 = 0.12 at its lowest frequency.
+TEST(VeresTable, TendsToTheSlopeOfLongWaves) { expect_long_wave_limits(read_veres_rao(kVeres, 0), 0.1047198, 1.36); }
+
+TEST(WamitTable, TendsToTheSlopeOfLongWaves) {
+  const RaoTable table = read_wamit_rao(kWamit, 1);
+  expect_long_wave_limits(table, table.omegas().front(), 1.0);
+  EXPECT_EQ(table.headings().size(), 12u);  // 7, and 5 of them mirrored
+}
+
+// The file's own numbers: heading 30 is towards 180 + 30 deg, where surge, sway, roll and pitch have the other sign.
+TEST(VeresTable, HoldsTheFilesNumbers) {
+  const RaoTable table = read_veres_rao(kVeres, 0);
+  EXPECT_NEAR(table.reference().x(), -2.54748, 1e-9);
+  EXPECT_NEAR(table.reference().z(), 0.05, 1e-9);
+  const ShipResponse r = table.at(0.5026549, wavenumber(0.5026549), radians(180));
+  const Complex heave(0.91279399, -0.0030);  // modulus checked below against the file's first heading
+  const double phase = -wavenumber(0.5026549) * -1 * table.reference().x();
+  std::ifstream file(kVeres);
+  std::string line;
+  bool found = false;
+  while (!found && std::getline(file, line)) found = line.find("0.5026549") != std::string::npos;
+  ASSERT_TRUE(found);
+  for (int d = 1; d <= 6; ++d) {
+    int number;
+    double re, im;
+    file >> number >> re >> im;
+    const Complex value = Complex(re, im) * std::polar(1.0, phase);
+    const Complex ours = d == 1 ? -r.surge : d == 3 ? r.heave : d == 5 ? -r.pitch : value;
+    EXPECT_NEAR(std::abs(ours - value), 0, 1e-12) << d;
+  }
+}
+
+TEST(RaoTable, IsReadBetweenItsRowsAndMirrored) {
+  const RaoTable table = read_veres_rao(kVeres, 0);
+  const double w = 0.75, k = wavenumber(w);
+  const ShipResponse port = table.at(w, k, radians(65));
+  const ShipResponse starboard = table.at(w, k, radians(-65));
+  EXPECT_NEAR(std::abs(port.roll + starboard.roll), 0, 1e-12);
+  EXPECT_NEAR(std::abs(port.pitch - starboard.pitch), 0, 1e-12);
+  EXPECT_NEAR(std::abs(port.yaw + starboard.yaw), 0, 1e-12);
+  EXPECT_NEAR(std::abs(table.at(w, k, radians(65 + 360)).roll - port.roll), 0, 1e-12);
+  const double between = std::abs(port.pitch);
+  EXPECT_GT(between,
+            0.9 * std::min(std::abs(table.at(w, k, radians(60)).pitch), std::abs(table.at(w, k, radians(70)).pitch)));
+  EXPECT_LT(between,
+            std::max(std::abs(table.at(w, k, radians(60)).pitch), std::abs(table.at(w, k, radians(70)).pitch)));
+  EXPECT_EQ(table.at(5, wavenumber(5), 1).heave, Complex(0));
+}
+
+// A heading that stands in the table needs no neighbour, whichever side of it rounding falls.
+TEST(RaoTable, KnowsItsOwnHeadingsToTheirRounding) {
+  std::vector<ShipResponse> responses(3);
+  for (std::size_t m = 0; m < 3; ++m) responses[m].heave = static_cast<double>(m + 1);
+  const RaoTable table("test", {radians(-55), radians(55), kPi}, {1}, responses, Vec3::Zero(), 0);
+  for (const double slip : {-1e-15, 0.0, 1e-15}) {
+    EXPECT_NEAR(std::abs(table.at(1, 0.1, radians(-55) + slip).heave - 1.0), 0, 1e-12) << slip;
+    EXPECT_NEAR(std::abs(table.at(1, 0.1, radians(55) + slip).heave - 2.0), 0, 1e-12) << slip;
+    EXPECT_NEAR(std::abs(table.at(1, 0.1, kPi + slip).heave - 3.0), 0, 1e-12) << slip;
+  }
+  EXPECT_THROW(table.at(1, 0.1, radians(55) + 1e-6), InputError);
+  EXPECT_THROW(table.at(1, 0.1, radians(55) - 1e-6), InputError);
+}
+
+MotionSpec rao_spec(const char* file) {
+  MotionSpec spec;
+  spec.model = MotionModel::kRao;
+  spec.file = file;
+  spec.step_s = 0.1;
+  return spec;
+}
+
+// The whole way: file, body, series in an irregular sea; its RMS is the root of int |H|^2 S.
+TEST(SimulateRao, HasTheVarianceOfSpectrumAndTable) {
+  SeaState state;
+  state.significant_wave_height_m = 2;
+  state.peak_period_s = 9;
+  state.propagation_rad = radians(60);
+  state.cutoff_rad_s = 3;
+  state.second_order_cutoff_rad_s = 0;
+  const Body body = make_body(rao_spec(kVeres), {});
+  const WaveField sea = realize_sea(state, 42, 0);
+  const double duration = 20000;
+  const Trajectory trajectory = simulate_motion(body, Vec3::Zero(), sea, duration, 1, 0);
+  Vec3 variance = Vec3::Zero();
+  const int count = 200000;
+  for (int n = 0; n < count; ++n) variance += trajectory.sample(n * 0.1).angles.cwiseAbs2() / count;
+
+  const RaoTable& table = std::get<RaoTable>(body.model);
+  const JonswapSpectrum spectrum(2, 9, 3.3);
+  Vec3 expected = Vec3::Zero();
+  for (std::size_t i = 1; i < table.omegas().size(); ++i) {
+    const auto moduli = [&](std::size_t n) {
+      const ShipResponse r = table.at(table.omegas()[n], wavenumber(table.omegas()[n]), state.propagation_rad);
+      return Vec3(std::abs(r.roll), std::abs(r.pitch), std::abs(r.yaw));
+    };
+    const Vec3 a = moduli(i - 1), b = moduli(i);
+    const double width = table.omegas()[i] - table.omegas()[i - 1];
+    for (int n = 0; n < 100; ++n) {
+      const double u = (n + 0.5) / 100;
+      const Vec3 h = (1 - u) * a + u * b;
+      expected += h.cwiseAbs2() * spectrum.density(table.omegas()[i - 1] + u * width) * width / 100;
+    }
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    const double ratio = std::sqrt(variance[axis] / expected[axis]);
+    std::printf("axis %d: rms %.4f deg, ratio %.4f\n", axis, degrees(std::sqrt(variance[axis])), ratio);
+    EXPECT_NEAR(ratio, 1, 0.01) << axis;
+  }
+}
+
+std::string message_of(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(SimulateRao, RefusesASeaThatTheTableDoesNotCover) {
+  SeaState state;
+  state.significant_wave_height_m = 0.1;
+  state.peak_period_s = 1.5;
+  state.cutoff_rad_s = 0;
+  state.second_order_cutoff_rad_s = 0;
+  const Body body = make_body(rao_spec(kVeres), {});
+  const std::string message =
+      message_of([&] { simulate_motion(body, Vec3::Zero(), realize_sea(state, 1, 0), 10, 1, 0); });
+  EXPECT_THAT(message, testing::HasSubstr("s175_veres.re1: covers 0.1047 to 3.142 rad/s"));
+  EXPECT_THAT(message, testing::HasSubstr("% of the waves' variance lies"));
+}
+
+TEST(ReadRao, RefusesWhatIsNoTable) {
+  const std::filesystem::path file = std::filesystem::path(SEAGLINT_BINARY_DIR) / "wrong.re1";
+  const auto write = [&](const std::string& text) { std::ofstream(file) << text; };
+  write("time,roll\n");
+  EXPECT_THAT(message_of([&] { read_veres_rao(file, 0); }), testing::HasSubstr("no motion transfer functions"));
+  std::ifstream source(kVeres);
+  std::string text((std::istreambuf_iterator<char>(source)), {});
+  write(text.substr(0, 3000));
+  EXPECT_THAT(message_of([&] { read_veres_rao(file, 0); }), testing::HasSubstr("wrong.re1:"));
+  const std::size_t number = text.find("0.20961041E-07");
+  write(text.substr(0, number) + "NaN" + text.substr(number + 14));
+  EXPECT_THAT(message_of([&] { read_veres_rao(file, 0); }), testing::HasSubstr("must be a finite number"));
+  EXPECT_THAT(message_of([&] { read_veres_rao(kVeres, 5); }), testing::HasSubstr("it holds 0, 10.29 m/s"));
+  write("1 0 1 2 90 1 1\n");
+  EXPECT_THAT(message_of([&] { read_wamit_rao(file, 1); }), testing::HasSubstr("wrong.re1:1: modulus 2"));
+  write("1 0 7 1 90 0 1\n");
+  EXPECT_THAT(message_of([&] { read_wamit_rao(file, 1); }), testing::HasSubstr("mode 7: must be 1 to 6"));
+  write("1 0 1 1 90 0 1\n");
+  EXPECT_THAT(message_of([&] { read_wamit_rao(file, 1); }), testing::HasSubstr("mode 2 is missing"));
+  MotionSpec spec = rao_spec("nowhere.re1");
+  EXPECT_THAT(message_of([&] { make_body(spec, {}); }), testing::HasSubstr("no such file"));
+}
+
+}  // namespace
+}  // namespace seaglint
