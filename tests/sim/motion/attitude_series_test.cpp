@@ -210,7 +210,7 @@ TEST(SimulateMotion, FollowsASeries) {
   EXPECT_EQ(trajectory.sample(10).shift.z(), 0);  // no translations asked for
   // A heading about 180 deg does not turn once around from row to row.
   EXPECT_NEAR(degrees(trajectory.sample(10).angles.z()), 179, 1.5);
-  EXPECT_NEAR(trajectory.pose(0).p_TB.x(), 1, 1e-12);
+  EXPECT_NEAR(trajectory.pose(0).p.x(), 1, 1e-12);
   EXPECT_THAT(message_of([&] {
                 simulate_motion(body, {0, 0, 0}, WaveField(), 90, 1, 0);
               }),

@@ -379,7 +379,7 @@ TEST(SimulateMotion, TurnsAShipAboutItsCentreOfGravity) {
   const Trajectory trajectory = simulate_motion(body, rest, sea, 10, 42, 0);
   const Vec3 centre = ship_of(combatant()).centre_of_gravity;
   const Pose pose = trajectory.pose(7.77);
-  EXPECT_NEAR((pose.R_TB * centre + pose.p_TB - centre).norm(), 0, 1e-12);
+  EXPECT_NEAR((pose.R * centre + pose.p - centre).norm(), 0, 1e-12);
   EXPECT_GE(trajectory.end_s(), 10);
 }
 
