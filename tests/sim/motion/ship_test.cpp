@@ -247,7 +247,7 @@ TEST(ShipRao, HasTheSizeThatStripTheoryGives) {
 }
 
 // S175 as its main particulars say (tests/reference/ship_motion/SOURCE.md); its centre of flotation is where the
-// reference's forces of long waves put it, its sections are Lewis forms of HullForm's lines.
+// reference's forces of long waves put it, its sections are Lewis forms of HullCoefficients's lines.
 ShipParticulars s175(double speed) {
   MotionSpec spec = ship_spec();
   spec.metacentric_height_m = 0.996;
