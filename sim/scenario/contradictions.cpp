@@ -10,7 +10,7 @@
 
 #include "sim/core/constants.h"
 #include "sim/core/dispersion.h"
-#include "sim/scenario/scenario.h"
+#include "sim/scenario/cases.h"
 
 namespace seaglint {
 

@@ -3,7 +3,8 @@
 
 // What is wrong with a scenario whose fields are right one by one.
 
-#include "sim/scenario/reader.h"
+#include "sim/scenario/scenario_document.h"
+#include "sim/scenario/scenario_spec.h"
 
 namespace seaglint {
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "sim/scenario/scenario_document.h"
+
 #include <fmt/format.h>
 
 #include "sim/core/error.h"
 #include "sim/core/number.h"
 #include "sim/core/utf8.h"
-#include "sim/scenario/reader.h"
 
 namespace seaglint {
 
