@@ -3,8 +3,8 @@
 
 // The hull as a surface and as a part.
 
-#include "sim/geometry/make_ship.h"
 #include "sim/geometry/mesh_builder.h"
+#include "sim/geometry/ship_form.h"
 
 namespace seaglint {
 
