@@ -11,15 +11,12 @@
 #include <string>
 #include <vector>
 
+#include "classify/dataset/file_names.h"
 #include "classify/dataset/manifest.h"
 #include "classify/dataset/plan.h"
 #include "classify/dataset/shard.h"
 
 namespace seaglint {
-
-inline constexpr const char* kScenarioFile = "scenario.yaml";
-inline constexpr const char* kManifestFile = "manifest.json";
-inline constexpr const char* kDataCardFile = "README.md";
 
 // The data set's own files, those that `merge` and `export` make of it, what a kill left half-written, and hidden ones:
 // a file server keeps so what was removed while another process had it open.

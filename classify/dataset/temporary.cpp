@@ -12,8 +12,7 @@
 #include <optional>
 #include <string_view>
 
-#include "classify/dataset/dataset_writer.h"
-#include "classify/dataset/input_list.h"
+#include "classify/dataset/file_names.h"
 
 namespace seaglint {
 
