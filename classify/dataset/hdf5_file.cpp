@@ -174,8 +174,6 @@ std::vector<std::string> unpacked(const std::vector<char>& text) {
   return names;
 }
 
-}  // namespace
-
 std::size_t bytes_of(ArrayType element) {
   switch (element) {
     case ArrayType::kFloat: return sizeof(float);
@@ -184,6 +182,8 @@ std::size_t bytes_of(ArrayType element) {
     default: return sizeof(double);
   }
 }
+
+}  // namespace
 
 std::string packed_names(std::span<const std::string> names) {
   std::string text(names.size() * kNameBytes, '\0');

@@ -30,8 +30,6 @@ constexpr ArrayType array_type_of() {
   if constexpr (std::is_same_v<T, std::string>) return ArrayType::kName;
 }
 
-std::size_t bytes_of(ArrayType element);
-
 using Dimensions = std::vector<std::uint64_t>;
 
 // What an array says of itself.

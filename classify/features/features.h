@@ -41,11 +41,6 @@ struct CleanedMap {
 CleanedMap clean_map(std::span<const Complex> echo, const PulseTrain& train, const MapSpec& map_spec,
                      bool intra_pulse_motion, const FeatureSpec& spec);
 
-// Its centres alone.
-std::vector<ScatteringCentre> extract_centres(std::span<const Complex> echo, const PulseTrain& train,
-                                              const MapSpec& map_spec, bool intra_pulse_motion,
-                                              const FeatureSpec& spec);
-
 // The map as a radar would see it that sends the whole band with every pulse: what was removed comes back with the
 // lobes of the tapers alone, without the hop code's pedestal and without holes.
 RvMap restored_map(const CleanedMap& cleaned, const PulseTrain& train, const MapSpec& map_spec);
