@@ -196,7 +196,7 @@ TEST(TrajectoryOf, CoversTheTimesItWasAskedForToTheirRounding) {
   EXPECT_NE(message_of([&] { trajectory_of(series, -4e-9, 3, false, Vec3::Zero(), Vec3::Zero()); }), "");
 }
 
-TEST(SimulateMotion, FollowsASeries) {
+TEST(SimulateAttitudeSeries, FollowsASeries) {
   std::string text = "time_s,roll_deg,pitch_deg,yaw_deg,surge_m,sway_m,heave_m\n";
   for (int n = 0; n <= 100; ++n)
     text += fmt::format("{},{},0,{},0,0,{}\n", n, 0.1 * n, n % 2 == 0 ? 179 : -179, 0.01 * n);

@@ -371,7 +371,7 @@ TEST(SimulateShip, HardlyMovesInSmallWaves) {
   }
 }
 
-TEST(SimulateMotion, TurnsAShipAboutItsCentreOfGravity) {
+TEST(SimulateShip, TurnsAShipAboutItsCentreOfGravity) {
   const WaveField sea = realize_sea(state_of(2, 8, 120), 1, 0);
   const Vec3 rest = rest_position(combatant(), 0, 0);
   EXPECT_EQ(rest.norm(), 0);
@@ -383,7 +383,7 @@ TEST(SimulateMotion, TurnsAShipAboutItsCentreOfGravity) {
   EXPECT_GE(trajectory.end_s(), 10);
 }
 
-TEST(SimulateMotion, ShortPeriodsStayStableAtLongSteps) {
+TEST(SimulateShip, ShortPeriodsStayStableAtLongSteps) {
   MotionSpec spec = ship_spec();
   spec.length_m = 3;
   spec.beam_m = 1;
