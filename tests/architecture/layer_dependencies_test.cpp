@@ -1,85 +1,90 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The corridor holds: a file includes its own stage or stages to its left, and third-party libraries stay behind one
-// file per stage.
+// The corridor holds: a file includes its own stage or room or those to its left, and third-party libraries stay behind
+// one file per stage.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <map>
 #include <regex>
 #include <set>
-#include <sstream>
 #include <string>
 #include <vector>
 
+#include "tests/architecture/includes.h"
+
+namespace seaglint {
 namespace {
 
-namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
 
-struct Include {
-  std::string file;    // relative to the root
-  std::string header;  // as written
-  bool system = false;
-};
-
-std::vector<std::string> stage_list() {
-  std::vector<std::string> stages;
-  std::istringstream list(SEAGLINT_STAGES);
-  for (std::string stage; std::getline(list, stage, ',');) stages.push_back(stage);
-  return stages;
-}
-
-std::vector<Include> includes_below(const std::string& stage) {
-  static const std::regex pattern(R"re(^\s*#\s*include\s*([<"])([^">]+)[">])re");
-  std::vector<Include> found;
-  for (const auto& entry : fs::recursive_directory_iterator(fs::path(SEAGLINT_SOURCE_DIR) / stage)) {
-    const std::string extension = entry.path().extension();
-    if (extension != ".h" && extension != ".cpp") continue;
-    std::ifstream file(entry.path());
-    for (std::string line; std::getline(file, line);) {
-      std::smatch match;
-      if (std::regex_search(line, match, pattern)) {
-        found.push_back({fs::relative(entry.path(), SEAGLINT_SOURCE_DIR).string(), match[2], match[1] == "<"});
-      }
-    }
-  }
-  return found;
-}
-
-// The index of the stage a root-relative header belongs to, -1 when it belongs to none.
-int stage_of(const std::vector<std::string>& stages, const std::string& header) {
-  for (std::size_t i = 0; i < stages.size(); ++i) {
-    if (header.starts_with(stages[i] + "/")) return static_cast<int>(i);
+// The place of a file's folder in the order, -1 when it belongs to none. Rooms come before the stage they are in.
+int place_of(const std::vector<std::string>& folders, const std::string& file) {
+  for (std::size_t i = 0; i < folders.size(); ++i) {
+    if (file.starts_with(folders[i] + "/")) return static_cast<int>(i);
   }
   return -1;
 }
 
-TEST(StageOrder, AFileIncludesItsOwnStageOrStagesToItsLeft) {
-  const auto stages = stage_list();
-  ASSERT_GE(stages.size(), 10u);
-  int project_includes = 0;
-  for (std::size_t i = 0; i < stages.size(); ++i) {
-    for (const Include& include : includes_below(stages[i])) {
-      if (include.system || include.header.starts_with("seaglint_")) continue;
-      const int stage = stage_of(stages, include.header);
-      EXPECT_GE(stage, 0) << include.file << " includes \"" << include.header
-                          << "\", which is not written from the root";
-      EXPECT_LE(stage, static_cast<int>(i))
-          << include.file << " includes \"" << include.header << "\", which is downstream";
-      ++project_includes;
-    }
+std::vector<std::string> backward_includes(const std::vector<Include>& includes,
+                                           const std::vector<std::string>& folders) {
+  std::vector<std::string> found;
+  for (const Include& include : includes) {
+    const int from = place_of(folders, include.file);
+    if (from < 0 || include.system || include.is_generated()) continue;
+    const int to = place_of(folders, include.header);
+    if (to < 0)
+      found.push_back(include.file + " includes \"" + include.header + "\", which is not written from the root");
+    if (to > from) found.push_back(include.file + " includes \"" + include.header + "\", which is downstream");
   }
-  EXPECT_GT(project_includes, 20) << "the test reads no includes";
+  return found;
 }
 
-TEST(StageOrder, ThirdPartyHeadersStayBehindOneSourceFilePerStage) {
+TEST(LayerDependencies, FileIncludesItsOwnStageAndRoomOrThoseToItsLeft) {
+  ASSERT_GE(stage_list().size(), 10u);
+  const std::vector<Include> includes = includes_of(code_files());
+  EXPECT_GT(includes.size(), 1000u) << "the test reads no includes";
+  EXPECT_THAT(backward_includes(includes, ordered_folders(stage_list(), room_list())), IsEmpty());
+}
+
+TEST(LayerDependencies, BackwardIncludesOfStagesAndRoomsAreFound) {
+  const std::vector<std::string> folders = ordered_folders({"sim/a", "sim/b"}, {"sim/b/left", "sim/b/right"});
+  EXPECT_THAT(folders, ElementsAre("sim/a", "sim/b/left", "sim/b/right", "sim/b"));
+  const auto of = [&](const std::string& file, const std::string& header) {
+    return backward_includes({{file, header}}, folders);
+  };
+  EXPECT_THAT(of("sim/b/right/x.cpp", "sim/b/left/y.h"), IsEmpty());
+  EXPECT_THAT(of("sim/b/left/x.cpp", "sim/a/y.h"), IsEmpty());
+  EXPECT_THAT(of("sim/b/x.cpp", "sim/b/right/y.h"), IsEmpty());
+  EXPECT_THAT(of("sim/b/left/x.cpp", "sim/b/right/y.h"), ElementsAre(HasSubstr("downstream")));
+  EXPECT_THAT(of("sim/b/right/x.cpp", "sim/b/y.h"), ElementsAre(HasSubstr("downstream")));
+  EXPECT_THAT(of("sim/a/x.cpp", "sim/b/left/y.h"), ElementsAre(HasSubstr("downstream")));
+  EXPECT_THAT(of("sim/a/x.cpp", "y.h"), ElementsAre(HasSubstr("not written from the root")));
+}
+
+// Of a stage's sub-folders only rooms are compiled.
+TEST(LayerDependencies, EveryFileOfAStageIsInItsFolderOrARoom) {
+  const std::vector<std::string> folders = ordered_folders(stage_list(), room_list());
+  std::set<std::string> filled;
+  for (const SourceFile& file : code_files()) {
+    if (file.is_below("tests")) continue;
+    const std::string folder = file.path.substr(0, file.path.rfind('/'));
+    filled.insert(folder);
+    EXPECT_THAT(folders, testing::Contains(folder)) << file.path << " is in no stage and no room of one";
+  }
+  for (const std::string& room : room_list()) EXPECT_TRUE(filled.contains(room)) << room << " has no files";
+}
+
+TEST(LayerDependencies, ThirdPartyHeadersStayBehindOneSourceFilePerStage) {
   const std::regex wrapped("^(embree3|OpenMesh|tiny_gltf|yaml-cpp|fftw3|xgboost|torch|hdf5|H5|openssl|zip\\.h)");
+  const std::vector<Include> includes = includes_of(code_files());
   for (const std::string& stage : stage_list()) {
     std::map<std::string, std::set<std::string>> users;
-    for (const Include& include : includes_below(stage)) {
+    for (const Include& include : includes) {
       std::smatch match;
-      if (include.system && std::regex_search(include.header, match, wrapped)) users[match[1]].insert(include.file);
+      if (include.file.starts_with(stage + "/") && include.system && std::regex_search(include.header, match, wrapped))
+        users[match[1]].insert(include.file);
     }
     for (const auto& [library, files] : users) {
       EXPECT_EQ(files.size(), 1u) << library << " appears in several files of " << stage << ", first "
@@ -89,19 +94,10 @@ TEST(StageOrder, ThirdPartyHeadersStayBehindOneSourceFilePerStage) {
   }
 }
 
-TEST(StageOrder, EveryFileCarriesItsLicence) {
-  std::vector<std::string> folders = stage_list();
-  folders.emplace_back("tests");
-  for (const std::string& folder : folders) {
-    for (const auto& entry : fs::recursive_directory_iterator(fs::path(SEAGLINT_SOURCE_DIR) / folder)) {
-      const std::string extension = entry.path().extension();
-      if (extension != ".h" && extension != ".cpp") continue;
-      std::ifstream file(entry.path());
-      std::string first;
-      std::getline(file, first);
-      EXPECT_EQ(first, "// SPDX-License-Identifier: BSD-3-Clause") << entry.path();
-    }
-  }
+TEST(LayerDependencies, EveryFileHasItsLicence) {
+  for (const SourceFile& file : code_files())
+    EXPECT_TRUE(file.text.starts_with("// SPDX-License-Identifier: BSD-3-Clause\n")) << file.path;
 }
 
 }  // namespace
+}  // namespace seaglint
