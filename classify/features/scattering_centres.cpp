@@ -193,10 +193,4 @@ CleanedMap clean_map(std::span<const Complex> echo, const PulseTrain& train, con
   return {std::move(centres), std::move(components), std::move(map)};
 }
 
-std::vector<ScatteringCentre> extract_centres(std::span<const Complex> echo, const PulseTrain& train,
-                                              const MapSpec& map_spec, bool intra_pulse_motion,
-                                              const FeatureSpec& spec) {
-  return clean_map(echo, train, map_spec, intra_pulse_motion, spec).centres;
-}
-
 }  // namespace seaglint

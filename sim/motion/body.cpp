@@ -70,7 +70,7 @@ void check_step(const Body& body) {
 BodyShape shape_of(const TriangleMesh& mesh) { return {bounds(mesh), sections_of_mesh(mesh, kStrips)}; }
 
 HullSections ship_sections(const MotionSpec& spec, const BodyShape& shape, const std::filesystem::path& folder,
-                           const HullForm& form) {
+                           const HullCoefficients& form) {
   if (!spec.sections.empty()) {
     const HullSections given = read_sections(find_file(spec.sections, folder, "motion.sections"), kStrips);
     return stretched(given, spec.length_m, spec.beam_m, spec.draught_m);

@@ -36,8 +36,8 @@ struct Body {
 Body make_body(const MotionSpec& spec, const BodyShape& shape, const std::filesystem::path& folder = {});
 
 // The sections a ship moves by: those of spec.sections, else of the mesh, both stretched to the dimensions that the
-// spec gives, else those of HullForm with the mesh's size.
+// spec gives, else those of HullCoefficients with the mesh's size.
 HullSections ship_sections(const MotionSpec& spec, const BodyShape& shape, const std::filesystem::path& folder = {},
-                           const HullForm& form = {});
+                           const HullCoefficients& form = {});
 
 }  // namespace seaglint

@@ -10,6 +10,7 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/dispersion.h"
+#include "sim/scenario/cases.h"
 
 namespace seaglint {
 

@@ -4,7 +4,7 @@
 // What is wrong with a scenario whose fields are right one by one.
 
 #include "sim/scenario/files/scenario_document.h"
-#include "sim/scenario/scenario.h"
+#include "sim/scenario/scenario_spec.h"
 
 namespace seaglint {
 

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/scenario/scenario.h"
+#include "sim/scenario/scenario_spec.h"
 
 namespace seaglint {
 

@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "sim/scenario/files/scenario_document.h"
-#include "sim/scenario/scenario.h"
+#include "sim/scenario/scenario_spec.h"
 
 namespace seaglint {
 

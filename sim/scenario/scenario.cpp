@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <memory>
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/reproducible_functions.h"
@@ -15,11 +15,16 @@
 #include "sim/scenario/files/hop_code_file.h"
 #include "sim/scenario/files/scenario_document.h"
 #include "sim/scenario/material_file.h"
+#include "sim/scenario/material_spec.h"
 #include "sim/scenario/reader.h"
 
 namespace seaglint {
 
 namespace fs = std::filesystem;
+
+std::string place_of(const Scenario& scenario, const std::string& key_path) {
+  return scenario.document ? scenario.document->place_of(key_path) : key_path;
+}
 
 namespace {
 
@@ -30,6 +35,25 @@ std::string name_of_file(const fs::path& file) {
       name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, '_');
   for (std::size_t i = utf8_prefix(name); i < name.size(); i = utf8_prefix(name)) name[i] = '_';
   return name.empty() ? "scenario" : name;
+}
+
+// A file that a key names.
+fs::path file_of(const Scenario& scenario, const std::string& name, const std::string& key) {
+  return find_file(name, scenario.folder, place_of(scenario, key));
+}
+
+// Reads the file that `sea.table` names; nothing where no table is asked for.
+std::shared_ptr<const SpectrumTable> find_spectrum_table(const Scenario& scenario) {
+  if (scenario.sea.spectrum != SpectrumKind::kTable || scenario.sea.table.empty()) return nullptr;
+  return std::make_shared<SpectrumTable>(read_spectrum_table(file_of(scenario, scenario.sea.table, "sea.table")));
+}
+
+// Reads the file that `radar.hop_code_file` names, likewise.
+std::shared_ptr<const std::vector<int>> find_hop_codes(const Scenario& scenario) {
+  const RadarSpec& radar = scenario.radar;
+  if (radar.hop_code != HopCode::kFile || radar.hop_code_file.empty()) return nullptr;
+  const fs::path file = file_of(scenario, radar.hop_code_file, "radar.hop_code_file");
+  return std::make_shared<std::vector<int>>(read_hop_code(file, radar.pulses, radar.hop_count));
 }
 
 }  // namespace
@@ -53,25 +77,8 @@ Scenario parse_scenario(const std::string& yaml, const std::string& file_name, c
   return scenario;
 }
 
-std::string place_of(const Scenario& scenario, const std::string& key_path) {
-  return scenario.document ? scenario.document->place_of(key_path) : key_path;
-}
-
-namespace {
-
-// A file that a key names.
-fs::path file_of(const Scenario& scenario, const std::string& name, const std::string& key) {
-  return find_file(name, scenario.folder, place_of(scenario, key));
-}
-
-}  // namespace
-
 fs::path find_mesh(const Scenario& scenario, const TargetSpec& target) {
   return file_of(scenario, target.mesh, fmt::format("targets.{}.mesh", target.name));
-}
-
-double echo_duration_us(const RadarSpec& radar, double window_m) {
-  return radar.pulse_width_us + 2e6 * window_m / kSpeedOfLight;
 }
 
 std::vector<InputFile> input_files(const Scenario& scenario) {
@@ -96,116 +103,6 @@ std::vector<InputFile> input_files(const Scenario& scenario) {
     }
   }
   return files;
-}
-
-std::shared_ptr<const SpectrumTable> find_spectrum_table(const Scenario& scenario) {
-  if (scenario.sea.spectrum != SpectrumKind::kTable || scenario.sea.table.empty()) return nullptr;
-  return std::make_shared<SpectrumTable>(read_spectrum_table(file_of(scenario, scenario.sea.table, "sea.table")));
-}
-
-std::shared_ptr<const std::vector<int>> find_hop_codes(const Scenario& scenario) {
-  const RadarSpec& radar = scenario.radar;
-  if (radar.hop_code != HopCode::kFile || radar.hop_code_file.empty()) return nullptr;
-  const fs::path file = file_of(scenario, radar.hop_code_file, "radar.hop_code_file");
-  return std::make_shared<std::vector<int>>(read_hop_code(file, radar.pulses, radar.hop_count));
-}
-
-namespace {
-
-// Tp of a wind sea, where the scenario leaves it to a rule. DNV: 3.96 sqrt(Hs), between the 3.6 and 5 sqrt(Hs) where
-// DNV-RP-C205, 3.5.5.5, finds JONSWAP to hold. Fetch: f U/g = 3.5 (g F/U^2)^-0.33 (Hasselmann et al. 1973), no limit of
-// a fully developed sea.
-Sweep peak_periods(const SeaSpec& spec, double height) {
-  if (spec.table_values) return {2 * kPi / spec.table_values->peak_omega()};
-  switch (spec.period_rule) {
-    case PeakPeriod::kDnvWindSea: return {3.96 * std::sqrt(height)};
-    case PeakPeriod::kWindAndFetch: {
-      const double speed = spec.wind.speed_mps;
-      const double fetch = kGravity * 1000 * spec.wind.fetch_km / (speed * speed);
-      return {speed / kGravity / (3.5 * exact_exp(-0.33 * exact_log(fetch)))};
-    }
-    case PeakPeriod::kGiven: break;
-  }
-  return spec.peak_period_s;
-}
-
-// DNV-RP-C205, 3.5.5.5.
-double dnv_gamma(double height, double period) {
-  const double ratio = height > 0 ? period / std::sqrt(height) : 5;
-  if (ratio <= 3.6) return 5;
-  return ratio < 5 ? exact_exp(5.75 - 1.15 * ratio) : 1;
-}
-
-Sweep gammas(const SeaSpec& spec, double height, double period) {
-  if (spec.spectrum != SpectrumKind::kJonswap) return {1};
-  return spec.gamma_rule == PeakEnhancement::kDnvRule ? Sweep{dnv_gamma(height, period)} : spec.gamma;
-}
-
-WaveSystemState swell_of(const SwellSpec& spec) {
-  return {spec.significant_wave_height_m, spec.peak_period_s, spec.gamma,
-          radians(spec.propagation_deg),  spec.spreading,     spec.components};
-}
-
-double default_cutoff(const SeaSpec& spec, double period) {
-  if (spec.table_values) return spec.table_values->omega.back();
-  const double peak_rad_s = period > 0 ? 2 * kPi / period : 0;
-  return std::max(8.0, 4 * peak_rad_s);
-}
-
-}  // namespace
-
-double convergent_cutoff(const SeaState& state) {
-  const double height = total_wave_height(state);
-  if (height == 0) return state.cutoff_rad_s;  // on flat water no component is too short for the expansion
-  return std::sqrt(2 * kGravity / height * exact_tanh(2 * state.depth_m / height));
-}
-
-double total_wave_height(const SeaState& state) {
-  const double wind = state.significant_wave_height_m, swell = state.swell.significant_wave_height_m;
-  return std::sqrt(wind * wind + swell * swell);
-}
-
-std::vector<SeaState> sea_states(const SeaSpec& spec) {
-  std::vector<SeaState> states;
-  const Sweep heights = spec.height_rule == WaveHeight::kOfTable && spec.table_values
-                            ? Sweep{4 * std::sqrt(spec.table_values->energy())}
-                            : spec.significant_wave_height_m;
-  for (const double height : heights) {
-    for (const double period : peak_periods(spec, height)) {
-      for (const double gamma : gammas(spec, height, period)) {
-        for (const double propagation : spec.propagation_deg) {
-          SeaState state;
-          state.significant_wave_height_m = height;
-          state.peak_period_s = period;
-          state.gamma = gamma;
-          state.propagation_rad = radians(propagation);
-          state.propagation_deg = propagation;
-          state.order = spec.order;
-          state.components = spec.components;
-          state.spreading = spec.spreading;
-          state.normalisation = spec.normalisation;
-          state.table = spec.table_values;
-          state.swell = swell_of(spec.swell);
-          state.depth_m = spec.depth_m.value_or(kDeepWater);
-          state.amplitude = spec.amplitude;
-          state.cutoff_rad_s = spec.cutoff_rad_s > 0 ? spec.cutoff_rad_s : default_cutoff(spec, period);
-          state.second_order_cutoff_rad_s =
-              spec.second_order_cutoff_rad_s > 0 ? spec.second_order_cutoff_rad_s : convergent_cutoff(state);
-          states.push_back(state);
-        }
-      }
-    }
-  }
-  return states;
-}
-
-std::vector<View> views(const ViewSpec& spec) {
-  std::vector<View> all;
-  for (const double azimuth : spec.azimuth_deg) {
-    for (const double elevation : spec.elevation_deg)
-      all.push_back({radians(azimuth), radians(elevation), azimuth, elevation});
-  }
-  return all;
 }
 
 }  // namespace seaglint

@@ -24,10 +24,6 @@ double cosine_power(double x, double s) {
   return cosine > 0 ? exact_exp(2 * s * exact_log(cosine)) : 0;
 }
 
-// Integral of cos^2s(x/2) over a full turn, 2 sqrt(pi) Gamma(s + 1/2) / Gamma(s + 1) (Longuet-Higgins, Cartwright and
-// Smith 1963).
-double cos2s_norm(double s) { return 2 * std::sqrt(kPi) * std::exp(std::lgamma(s + 0.5) - std::lgamma(s + 1)); }
-
 // Integral of cos^2s over [0, pi/2], bit for bit the same everywhere. With x = pi/2 - y^4 the integrand has no steep
 // end where s is small.
 double quarter_norm(double s, double piece) {
@@ -43,23 +39,6 @@ double quarter_norm(double s, double piece) {
 double spreading_exponent(const SpreadingSpec& spec, double omega_over_peak) {
   if (spec.kind != Spreading::kMitsuyasu) return spec.s;
   return spec.s * exact_exp((omega_over_peak <= 1 ? 5 : -2.5) * exact_log(omega_over_peak));
-}
-
-double spreading_density(const SpreadingSpec& spec, double angle, double omega_over_peak) {
-  SEAGLINT_CHECK(spec.kind != Spreading::kNone, "no density of a single direction");
-  const double theta = std::remainder(angle, 2 * kPi);
-  if (spec.kind == Spreading::kWrappedNormal) {
-    const double sigma = radians(spec.width_deg);
-    double sum = 0;
-    constexpr int kTurns = 6;  // of images: beyond lies less than 1e-20 of the energy up to a width of 180 deg
-    for (int turn = -kTurns; turn <= kTurns; ++turn) {
-      const double z = (theta + 2 * kPi * turn) / sigma;
-      sum += std::exp(-0.5 * z * z);
-    }
-    return sum / (sigma * std::sqrt(2 * kPi));
-  }
-  const double s = spreading_exponent(spec, omega_over_peak);
-  return cosine_power(0.5 * theta, s) / cos2s_norm(s);
 }
 
 double spreading_r1(const SpreadingSpec& spec, double omega_over_peak) {

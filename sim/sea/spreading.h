@@ -11,12 +11,8 @@ namespace seaglint {
 // and s (f/fp)^-2.5 above (Mitsuyasu et al. 1975, in Goda's form).
 double spreading_exponent(const SpreadingSpec& spec, double omega_over_peak);
 
-// D at an angle from the mean direction, 1/rad; integrates to 1 over a full turn. Not for kNone, whose energy goes one
-// way.
-double spreading_density(const SpreadingSpec& spec, double angle, double omega_over_peak);
-
-// First moment of D, the mean of the angle's cosine: 1 for kNone, s/(s+1) for cos^2s, exp(-width^2/2) for the wrapped
-// normal.
+// First moment of the density D of energy over the angle from the mean direction, the mean of the angle's cosine: 1 for
+// kNone, s/(s+1) for cos^2s, exp(-width^2/2) for the wrapped normal.
 double spreading_r1(const SpreadingSpec& spec, double omega_over_peak);
 
 // The angle from the mean direction below which the share `probability`, in (0, 1), of the energy travels, counted from

@@ -193,7 +193,7 @@ BENCHMARK(SixtyPointsBesideTheirDefinition)->Unit(benchmark::kMillisecond);
 void CentresOfSixtyPoints(benchmark::State& state) {
   const Interval interval;
   const std::vector<Complex> echo = interval.echo.total();
-  for (auto _ : state) benchmark::DoNotOptimize(extract_centres(echo, interval.train, {}, false, {}));
+  for (auto _ : state) benchmark::DoNotOptimize(clean_map(echo, interval.train, {}, false, {}).centres);
 }
 BENCHMARK(CentresOfSixtyPoints)->Unit(benchmark::kMillisecond);
 

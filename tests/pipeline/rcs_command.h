@@ -33,13 +33,13 @@ class RcsCommand : public testing::Test {
   TemporaryFolder folder_;
 };
 
-struct Table {
+struct CsvTable {
   std::string header;
   std::vector<std::vector<double>> rows;
 };
 
-inline Table read_table(const std::string& file) {
-  Table table;
+inline CsvTable read_table(const std::string& file) {
+  CsvTable table;
   std::istringstream lines(read_file(file));
   for (std::string line; std::getline(lines, line);) {
     if (line.starts_with("#")) continue;

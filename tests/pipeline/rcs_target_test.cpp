@@ -14,10 +14,11 @@ namespace seaglint {
 namespace {
 
 using testing::HasSubstr;
+using RcsTarget = RcsCommand;
 
 // A reflector inside out with a hole beside it: one echoes as it should, the other's interior is seen; both are said,
 // in one line each.
-TEST_F(RcsCommand, WarnsOfWhatIsWrongWithAMeshAndGoesOn) {
+TEST_F(RcsTarget, WarnsOfWhatIsWrongWithAMeshAndGoesOn) {
   TriangleMesh mesh = make_icosahedral_reflector();
   for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
   TriangleMesh holed = transformed(make_sphere(0.3, 2), Mat3::Identity(), Vec3(0, 3, 0));
@@ -33,7 +34,7 @@ TEST_F(RcsCommand, WarnsOfWhatIsWrongWithAMeshAndGoesOn) {
   EXPECT_THAT(result.err, HasSubstr("wavelengths at 0.1 GHz; physical optics needs 3 and more"));
 }
 
-TEST_F(RcsCommand, RefusesMeshesWithoutAnythingThatScatters) {
+TEST_F(RcsTarget, RefusesMeshesWithoutAnythingThatScatters) {
   const std::string file = folder_.path() / "bad.obj";
   const auto refused = [&](const std::string& text, const std::string& message) {
     write_file(file, text);
@@ -49,7 +50,7 @@ TEST_F(RcsCommand, RefusesMeshesWithoutAnythingThatScatters) {
   refused("v 9000 0 0\nv 9000 1 0\nv 9000 0 1\nf 1 2 3\n", "from its origin");
 }
 
-TEST_F(RcsCommand, AddsTheThicknessOfSheets) {
+TEST_F(RcsTarget, AddsTheThicknessOfSheets) {
   ASSERT_EQ(run_program({"mesh", "make", "plate", "--length-m", "0.3", "--width-m", "0.2", "-o", plate()}).code, 0);
   const auto level = [&](const char* thickness_mm, const char* edges, const char* warning) {
     const ProgramResult run =
@@ -67,7 +68,7 @@ TEST_F(RcsCommand, AddsTheThicknessOfSheets) {
   EXPECT_EQ(rcs({"--frequency-ghz", "10", "--azimuth-deg", "50", "--sheet-thickness-mm", "-1"}).code, 2);
 }
 
-TEST_F(RcsCommand, ACoatedPlateDropsByItsMaterial) {
+TEST_F(RcsTarget, ACoatedPlateDropsByItsMaterial) {
   // Aluminium's surface resistance is 1e-4 of free space's: nothing is lost. The coating's |Gamma| is that of its
   // quarter-wave layer, about -11 dB at 16 GHz.
   const std::string library = SEAGLINT_SOURCE_DIR "/assets/materials/";
@@ -82,7 +83,7 @@ TEST_F(RcsCommand, ACoatedPlateDropsByItsMaterial) {
   EXPECT_NEAR(square("*=" + library + "ram_loaded_epoxy.yaml"), metal - 11.1, 0.5);
 }
 
-TEST_F(RcsCommand, RefusesMaterialsThatAreNotKnownThere) {
+TEST_F(RcsTarget, RefusesMaterialsThatAreNotKnownThere) {
   const std::string library = SEAGLINT_SOURCE_DIR "/assets/materials/";
   const auto refused = [&](const std::string& ghz, const std::string& material) {
     const ProgramResult done = rcs({"--frequency-ghz", ghz, "--azimuth-deg", "0", "--material", material});
@@ -94,7 +95,7 @@ TEST_F(RcsCommand, RefusesMaterialsThatAreNotKnownThere) {
   EXPECT_THAT(refused("36", library + "grp_sheet.yaml"), HasSubstr("its source covers 1 to 20 GHz"));
 }
 
-TEST_F(RcsCommand, APlateStandingOnAConductingSeaIsADihedral) {
+TEST_F(RcsTarget, APlateStandingOnAConductingSeaIsADihedral) {
   // kWidthM high, its centre half of that above the water: image theory makes it 2 A cos(el) / lambda, less or more the
   // direct lobe of the doubled plate, which is a sine over k kWidthM sin(el) = 50 at 30 deg, two ways.
   const ProgramResult done = rcs({"--frequency-ghz", "16", "--azimuth-deg", "0", "--elevation-deg", "30",
@@ -108,7 +109,7 @@ TEST_F(RcsCommand, APlateStandingOnAConductingSeaIsADihedral) {
 }
 
 // kWidthM high about its middle: a table of zeros would say that it does not scatter.
-TEST_F(RcsCommand, RefusesATargetThatIsWhollyUnderWater) {
+TEST_F(RcsTarget, RefusesATargetThatIsWhollyUnderWater) {
   const ProgramResult done = rcs(
       {"--frequency-ghz", "16", "--azimuth-deg", "0", "--elevation-deg", "30", "--sea-reflection", "--height-m", "-5"});
   EXPECT_EQ(done.code, 2);
@@ -120,7 +121,7 @@ TEST_F(RcsCommand, RefusesATargetThatIsWhollyUnderWater) {
             0);
 }
 
-TEST_F(RcsCommand, RefusesASeaReflectionWithoutAnImage) {
+TEST_F(RcsTarget, RefusesASeaReflectionWithoutAnImage) {
   const ProgramResult done =
       rcs({"--frequency-ghz", "16", "--azimuth-deg", "0", "--elevation-deg", "0", "--sea-reflection"});
   EXPECT_EQ(done.code, 2);

@@ -23,7 +23,7 @@ TEST_F(RcsCommand, WritesTheHeaderAndFrequencySlowestThenElevationThenAzimuth) {
   const ProgramResult result =
       rcs({"--frequency-ghz", "9:10:0.5", "--azimuth-deg", "-1:1:1", "--elevation-deg", "0:2:2"});
   ASSERT_EQ(result.code, 0) << result.err;
-  const Table read = read_table(table());
+  const CsvTable read = read_table(table());
   EXPECT_EQ(read.header,
             "frequency_hz,azimuth_deg,elevation_deg,hh_re,hh_im,hv_re,hv_im,vh_re,vh_im,vv_re,vv_im,hh_dbsm,vv_dbsm");
   ASSERT_EQ(read.rows.size(), 3u * 2u * 3u);
@@ -53,7 +53,7 @@ TEST_F(RcsCommand, DecibelsBelongToTheAmplitudesBesideThem) {
 // Physical optics of a flat plate of area A seen square: S = -j A / lambda in e^{+jwt}, so sigma = 4 pi A^2 / lambda^2.
 TEST_F(RcsCommand, APlateSeenSquareHasItsClosedForm) {
   ASSERT_EQ(rcs({"--frequency-ghz", "8:16:4", "--azimuth-deg", "0", "--elevation-deg", "0"}).code, 0);
-  const Table read = read_table(table());
+  const CsvTable read = read_table(table());
   ASSERT_EQ(read.rows.size(), 3u);
   for (const auto& cells : read.rows) {
     const double area = kLengthM * kWidthM, wavelength = kSpeedOfLight / cells[0];

@@ -38,9 +38,9 @@ const std::string* value_for(const std::string& option, const std::vector<std::s
   return &values[i];
 }
 
-Element element_named(const std::string& name) {
+Polarisation polarisation_named(const std::string& name) {
   for (int i = 0; i < 4; ++i) {
-    if (name == kElementNames[i]) return static_cast<Element>(i);
+    if (name == kPolarisationNames[i]) return static_cast<Polarisation>(i);
   }
   throw InputError(fmt::format("--reference-polarisation {}: must be hh, hv, vh or vv (received, transmitted)", name));
 }
@@ -85,7 +85,7 @@ std::vector<RcsReference> ReferenceArguments::read() const {
   for (std::size_t i = 0; i < files.size(); ++i) {
     ReferenceSettings settings;
     if (const std::string* text = value_for("--reference-polarisation", polarisation, i, files.size()))
-      settings.element = element_named(*text);
+      settings.element = polarisation_named(*text);
     if (const std::string* text = value_for("--reference-phi", phi, i, files.size())) {
       const std::vector<double> map = numbers("--reference-phi", *text, 2);
       if (map[0] == 0) throw InputError(fmt::format("--reference-phi {}: the factor must not be 0", *text));

@@ -1,25 +1,27 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # add_stage(FOLDER [ROOMS ...] [LIBRARIES ...])
 # A folder is a stage is a static library `seaglint_<folder>`. It links every stage declared before it and keeps its third-party
-# libraries to itself. ROOMS are its sub-folders from left to right: a file includes its own room or rooms to its left; a file
-# beside the rooms comes after all of them. Its tests are tests/FOLDER/*_test.cpp and tests/FOLDER/*/*_test.cpp, one program
-# per stage.
+# libraries to itself. ROOMS are its sub-folders with sources, from the first that may be included to the last. Its tests are
+# tests/FOLDER/*_test.cpp and tests/FOLDER/ROOM/*_test.cpp, one program per stage.
 function(add_stage folder)
   cmake_parse_arguments(STAGE "" "" "ROOMS;LIBRARIES" ${ARGN})
   string(REPLACE "/" "_" name "${folder}")
   string(REGEX REPLACE "^(sim|radar|classify)_" "" name "${name}")
   set(target seaglint_${name})
 
-  set(source_globs ${CMAKE_SOURCE_DIR}/${folder}/*.cpp)
-  set(header_globs ${CMAKE_SOURCE_DIR}/${folder}/*.h)
+  set(patterns ${CMAKE_SOURCE_DIR}/${folder})
   foreach(room IN LISTS STAGE_ROOMS)
-    list(APPEND source_globs ${CMAKE_SOURCE_DIR}/${folder}/${room}/*.cpp)
-    list(APPEND header_globs ${CMAKE_SOURCE_DIR}/${folder}/${room}/*.h)
+    if(NOT IS_DIRECTORY ${CMAKE_SOURCE_DIR}/${folder}/${room})
+      message(FATAL_ERROR "${folder} has no room ${room}")
+    endif()
+    list(APPEND patterns ${CMAKE_SOURCE_DIR}/${folder}/${room})
     set_property(GLOBAL APPEND PROPERTY SEAGLINT_ROOMS ${folder}/${room})
   endforeach()
-  file(GLOB sources CONFIGURE_DEPENDS ${source_globs})
+  list(TRANSFORM patterns APPEND "/*.h" OUTPUT_VARIABLE header_patterns)
+  list(TRANSFORM patterns APPEND "/*.cpp")
+  file(GLOB sources CONFIGURE_DEPENDS ${patterns})
   list(FILTER sources EXCLUDE REGEX "/tools/main\\.cpp$")
-  file(GLOB headers CONFIGURE_DEPENDS ${header_globs})
+  file(GLOB headers CONFIGURE_DEPENDS ${header_patterns})
   get_property(upstream GLOBAL PROPERTY SEAGLINT_STAGE_TARGETS)
 
   if(sources)

@@ -154,7 +154,7 @@ Series silhouette(const TriangleMesh& mesh, const Pose& pose) {
   }
   Series outline;
   const auto add = [&](int i, double z) {
-    const Vec3 p = pose.R_TB * Vec3(box.lower.x() + width * (i + 0.5), 0, z) + pose.p_TB;
+    const Vec3 p = pose.R * Vec3(box.lower.x() + width * (i + 0.5), 0, z) + pose.p;
     outline.x.push_back(p.x());
     outline.y.push_back(p.z());
   };
@@ -171,19 +171,19 @@ LinePlot frame(const NamedTrajectory& body, const WaveField& sea, double t) {
   const Bounds box = bounds(body.mesh);
   const double reach = std::max(2.0, 0.65 * (box.upper.x() - box.lower.x()));
   const auto elevation = [&](double x) {
-    return sea.surface(x + body.speed * t, pose.p_TB.y(), t, SurfaceDetail::kShape).elevation;
+    return sea.surface(x + body.speed * t, pose.p.y(), t, SurfaceDetail::kShape).elevation;
   };
-  const double level = elevation(pose.p_TB.x());
-  const double lowest = std::min(level, pose.p_TB.z() + box.lower.z());
+  const double level = elevation(pose.p.x());
+  const double lowest = std::min(level, pose.p.z() + box.lower.z());
   LinePlot plot;
   plot.title = fmt::format("{}, {:.1f} s", body.body, t);
-  plot.x = {"x (m)", AxisRange{pose.p_TB.x() - reach, pose.p_TB.x() + reach}};
-  plot.y = {"z (m)", AxisRange{lowest - 0.2 * reach, pose.p_TB.z() + box.upper.z() + 0.2 * reach}};
+  plot.x = {"x (m)", AxisRange{pose.p.x() - reach, pose.p.x() + reach}};
+  plot.y = {"z (m)", AxisRange{lowest - 0.2 * reach, pose.p.z() + box.upper.z() + 0.2 * reach}};
   plot.equal_axes = true;
   Series water;
   constexpr int kPoints = 200;
   for (int i = 0; i <= kPoints; ++i) {
-    water.x.push_back(pose.p_TB.x() + reach * (2.0 * i / kPoints - 1));
+    water.x.push_back(pose.p.x() + reach * (2.0 * i / kPoints - 1));
     water.y.push_back(elevation(water.x.back()));
   }
   plot.series = {water, silhouette(body.mesh, pose)};

@@ -273,8 +273,8 @@ std::string difference_table(const std::vector<PairedCut>& cuts, double floor_db
     const std::string f = row.cut->frequency_hz ? fmt::format("{:g}", *row.cut->frequency_hz * 1e-9) : "sweep";
     text += fmt::format(
         "{:<{}}  {:<3}  {:>9}  {:<{}} {:>6} {:>8.3f} {:>7.3f} {:>7.3f} {:>8.3f}  {:<13} {}\n", row.cut->reference,
-        width, kElementNames[static_cast<int>(row.cut->element)], f, row.model, std::max(model_width, std::size_t{8}),
-        d.points, d.mean_db, d.rms_db, d.bias_db, d.largest_db,
+        width, kPolarisationNames[static_cast<int>(row.cut->element)], f, row.model,
+        std::max(model_width, std::size_t{8}), d.points, d.mean_db, d.rms_db, d.bias_db, d.largest_db,
         fmt::format("{:.6g} {}", d.largest_at, axis_unit(row.cut->axis)),
         d.correlation ? fmt::format("{:.4f} at {:.1f} deg", std::abs(*d.correlation), degrees(std::arg(*d.correlation)))
                       : "-");
@@ -312,7 +312,7 @@ bool draw_comparison(const std::vector<PairedCut>& cuts, double floor_db, const 
     };
     LinePlot level, difference;
     level.legend_above = difference.legend_above = true;
-    level.title = upper(kElementNames[static_cast<int>(first.element)]) +
+    level.title = upper(kPolarisationNames[static_cast<int>(first.element)]) +
                   (first.frequency_hz ? fmt::format(", {:g} GHz", *first.frequency_hz * 1e-9) : std::string());
     level.x.label = difference.x.label = axis_label(first.axis);
     level.x.range = difference.x.range =

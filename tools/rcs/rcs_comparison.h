@@ -20,7 +20,7 @@ enum class CutAxis { kAzimuth, kElevation, kFrequency, kSeveral };
 // The values of one reference that the sweep has too, in the sweep's order.
 struct PairedCut {
   std::string reference;
-  Element element = Element::kHh;
+  Polarisation element = Polarisation::kHh;
   CutAxis axis = CutAxis::kAzimuth;
   std::optional<double> frequency_hz;  // absent when the cut runs along it
   std::vector<double> x;               // deg or GHz; the running number when several axes vary

@@ -96,8 +96,8 @@ double level_in(const Lines& lines, const std::string& cell) {
 
 bool is_blank(const std::string& line) { return line.find_first_not_of(" \t") == std::string::npos; }
 
-bool transmits_v(Element element) { return element == Element::kHv || element == Element::kVv; }
-bool receives_v(Element element) { return element == Element::kVh || element == Element::kVv; }
+bool transmits_v(Polarisation element) { return element == Polarisation::kHv || element == Polarisation::kVv; }
+bool receives_v(Polarisation element) { return element == Polarisation::kVh || element == Polarisation::kVv; }
 
 // Frequency in Hz, theta, phi, dBsm.
 void read_four_columns(Lines& lines, RcsReference& reference) {
@@ -134,7 +134,7 @@ std::optional<StatedTransmitter> stated_transmitter(const Lines& lines, const st
 
 // The table of `seaglint rcs`.
 void read_own_table(Lines& lines, RcsReference& reference) {
-  const std::string element = kElementNames[static_cast<int>(reference.element)];
+  const std::string element = kPolarisationNames[static_cast<int>(reference.element)];
   std::vector<std::string> names;
   int frequency = -1, azimuth = -1, elevation = -1, re = -1, im = -1, level = -1;
   for (std::string line; lines.next(line);) {
@@ -247,7 +247,7 @@ void read_cst_table(Lines& lines, RcsReference& reference) {
   }
   if (magnitude < 0)
     lines.fail(fmt::format("no column Abs({}), which {} needs", component,
-                           kElementNames[static_cast<int>(reference.element)]));
+                           kPolarisationNames[static_cast<int>(reference.element)]));
   const CstUnit unit(lines, columns[static_cast<std::size_t>(magnitude)], kSpeedOfLight / frequency_hz);
   if (phase >= 0 && !columns[static_cast<std::size_t>(phase)].unit.starts_with("deg"))
     lines.fail("phases must be in degrees");
@@ -298,10 +298,10 @@ Format format_of(const std::string& text, const std::string& file) {
                   file));
 }
 
-Element element_of(const std::string& name, const ReferenceSettings& settings) {
+Polarisation polarisation_of(const std::string& name, const ReferenceSettings& settings) {
   if (settings.element) return *settings.element;
-  if (name.find(".H.") != std::string::npos) return Element::kHh;
-  if (name.find(".V.") != std::string::npos) return Element::kVv;
+  if (name.find(".H.") != std::string::npos) return Polarisation::kHh;
+  if (name.find(".V.") != std::string::npos) return Polarisation::kVv;
   throw InputError(fmt::format("{}: its name does not say the polarisation: give --reference-polarisation", name));
 }
 
@@ -324,7 +324,7 @@ RcsReference read_reference(const std::filesystem::path& file, const ReferenceSe
   const Format format = format_of(text, file.string());
   reference.name = file.filename().string();
   reference.settings = settings;
-  reference.element = element_of(reference.name, settings);
+  reference.element = polarisation_of(reference.name, settings);
   Lines lines(text, file.string());
   switch (format) {
     case Format::kFourColumns: read_four_columns(lines, reference); break;

@@ -10,18 +10,17 @@
 #include <vector>
 
 #include "sim/core/numbers/linear.h"
+#include "sim/scenario/radar_spec.h"
 
 namespace seaglint {
 
-// One element of the scattering matrix: q transmitted, p received (CONVENTIONS.md).
-enum class Element { kHh, kHv, kVh, kVv };
-inline constexpr const char* kElementNames[] = {"hh", "hv", "vh", "vv"};
+inline constexpr const char* kPolarisationNames[] = {"hh", "hv", "vh", "vv"};
 
 // What a file does not say of itself, and how its angles lie to the body's.
 struct ReferenceSettings {
-  std::optional<Element> element;      // absent: from the name, `.H.` is hh and `.V.` is vv (Austin suite)
-  std::optional<double> frequency_hz;  // of a file without frequencies
-  double phi_scale = 1;                // phi of the file = phi_scale * azimuth + phi_offset_deg
+  std::optional<Polarisation> element;  // absent: from the name, `.H.` is hh and `.V.` is vv (Austin suite)
+  std::optional<double> frequency_hz;   // of a file without frequencies
+  double phi_scale = 1;                 // phi of the file = phi_scale * azimuth + phi_offset_deg
   double phi_offset_deg = 0;
   Vec3 origin_m = Vec3::Zero();  // the file's phase origin, body frame
 };
@@ -42,7 +41,7 @@ struct StatedTransmitter {
 
 struct RcsReference {
   std::string name;  // the file's, without its folder
-  Element element = Element::kHh;
+  Polarisation element = Polarisation::kHh;
   ReferenceSettings settings;
   std::vector<ReferenceSample> samples;
   std::optional<StatedTransmitter> transmitter;  // absent where the file does not say

@@ -11,15 +11,12 @@
 #include <string>
 #include <vector>
 
+#include "classify/dataset/directory/file_names.h"
 #include "classify/dataset/format/manifest.h"
 #include "classify/dataset/format/shard.h"
 #include "sim/scenario/sample_plan.h"
 
 namespace seaglint {
-
-inline constexpr const char* kScenarioFile = "scenario.yaml";
-inline constexpr const char* kManifestFile = "manifest.json";
-inline constexpr const char* kDataCardFile = "README.md";
 
 // The data set's own files, those that `merge` and `export` make of it, what a kill left half-written, and hidden ones:
 // a file server keeps so what was removed while another process had it open.

@@ -25,12 +25,12 @@ constexpr const char* kDescription = "description.json";
 
 std::string name_of(const std::string& path) { return path.substr(1); }
 
-const char* numpy_type(Element element) {
+const char* numpy_type(ArrayType element) {
   switch (element) {
-    case Element::kFloat: return "<f4";
-    case Element::kInt64: return "<i8";
-    case Element::kUint16: return "<u2";
-    case Element::kName: return "|S64";
+    case ArrayType::kFloat: return "<f4";
+    case ArrayType::kInt64: return "<i8";
+    case ArrayType::kUint16: return "<u2";
+    case ArrayType::kName: return "|S64";
     default: return "<f8";
   }
 }
@@ -131,7 +131,7 @@ void export_shards(const DatasetReader& reader, std::size_t first, std::size_t c
         [&](auto member) {
           using T = typename MemberType<decltype(member)>::Type;
           arrays.push_back(
-              npz_array(name_of(column_path(column)), numpy_type(element_of<T>()), {n}, column_bytes(rows, member)));
+              npz_array(name_of(column_path(column)), numpy_type(array_type_of<T>()), {n}, column_bytes(rows, member)));
         },
         column.member);
   }

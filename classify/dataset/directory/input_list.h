@@ -6,11 +6,10 @@
 
 #include <filesystem>
 
+#include "classify/dataset/directory/file_names.h"
 #include "sim/scenario/scenario.h"
 
 namespace seaglint {
-
-inline constexpr const char* kInputsFile = "inputs.sha256";
 
 // Throws InputError naming the key and its file where one is not what the directory's list says, or missing. A
 // directory without a list agrees with everything.

@@ -26,12 +26,12 @@ constexpr std::uint64_t kColumnChunk = 8192;  // rows; half a megabyte of names
 // The arrays whose rows stay in the shards.
 struct Virtual {
   StoredArray array;
-  Element element;
+  ArrayType element;
 };
-constexpr Virtual kVirtual[] = {{kMaps, Element::kFloat},
-                                {kComplexMaps, Element::kFloat},
-                                {kHopCodes, Element::kUint16},
-                                {kCentres, Element::kFloat}};
+constexpr Virtual kVirtual[] = {{kMaps, ArrayType::kFloat},
+                                {kComplexMaps, ArrayType::kFloat},
+                                {kHopCodes, ArrayType::kUint16},
+                                {kCentres, ArrayType::kFloat}};
 
 // The folder that a file lies in, or will lie in, without symbolic links.
 fs::path folder_of(const fs::path& file) {
@@ -113,7 +113,7 @@ void write_merged(const DatasetReader& reader, const fs::path& temporary, const 
   for (const SampleColumn& column : sample_columns()) {
     std::visit(
         [&](auto member) {
-          merged.array(column_path(column), element_of<typename MemberType<decltype(member)>::Type>(), size, chunk,
+          merged.array(column_path(column), array_type_of<typename MemberType<decltype(member)>::Type>(), size, chunk,
                        column_text(column));
         },
         column.member);
@@ -135,7 +135,7 @@ void write_merged(const DatasetReader& reader, const fs::path& temporary, const 
 
   merged.group("/axes");
   const auto write_axis = [&](const StoredArray& axis, const std::vector<double>& values) {
-    merged.array(axis.path, Element::kDouble, {values.size()}, {values.size()}, axis.text());
+    merged.array(axis.path, ArrayType::kDouble, {values.size()}, {values.size()}, axis.text());
     merged.write<double>(axis.path, 0, values);
   };
   write_axis(kRangeAxis, axes.range_m);

@@ -14,7 +14,4 @@ SampleRecord planned_record(const Scenario& scenario, const SamplePlan& plan, st
 // "label 0, by the scenario 1" for every column of `record` that is not as planned.
 std::vector<std::string> contradictions(const SampleRecord& record, const SampleRecord& planned);
 
-// The columns that planned_record() fills.
-std::span<const SampleColumn> planned_columns();
-
 }  // namespace seaglint

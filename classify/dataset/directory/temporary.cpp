@@ -12,7 +12,7 @@
 #include <optional>
 #include <string_view>
 
-#include "classify/dataset/directory/dataset_writer.h"
+#include "classify/dataset/directory/file_names.h"
 #include "classify/dataset/directory/input_list.h"
 
 namespace seaglint {

@@ -75,12 +75,12 @@ Handle text_type(std::size_t bytes, H5T_str_t padding) {
   return type;
 }
 
-Handle type_of(Element element, bool on_disk) {
-  if (element == Element::kName) return text_type(kNameBytes, H5T_STR_NULLPAD);
+Handle type_of(ArrayType element, bool on_disk) {
+  if (element == ArrayType::kName) return text_type(kNameBytes, H5T_STR_NULLPAD);
   const auto type = [&] {
-    if (element == Element::kFloat) return on_disk ? H5T_IEEE_F32LE : H5T_NATIVE_FLOAT;
-    if (element == Element::kDouble) return on_disk ? H5T_IEEE_F64LE : H5T_NATIVE_DOUBLE;
-    if (element == Element::kInt64) return on_disk ? H5T_STD_I64LE : H5T_NATIVE_INT64;
+    if (element == ArrayType::kFloat) return on_disk ? H5T_IEEE_F32LE : H5T_NATIVE_FLOAT;
+    if (element == ArrayType::kDouble) return on_disk ? H5T_IEEE_F64LE : H5T_NATIVE_DOUBLE;
+    if (element == ArrayType::kInt64) return on_disk ? H5T_STD_I64LE : H5T_NATIVE_INT64;
     return on_disk ? H5T_STD_U16LE : H5T_NATIVE_UINT16;
   }();
   return Handle(H5Tcopy(type), H5Tclose, "type");
@@ -146,14 +146,14 @@ Handle open_file(const std::filesystem::path& file) {
 }
 
 // What readers see where the file behind a virtual array is missing: nothing that could be taken for data.
-void set_missing_value(hid_t properties, Element element, const std::string& what) {
+void set_missing_value(hid_t properties, ArrayType element, const std::string& what) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   constexpr std::int64_t kLargest = std::numeric_limits<std::int64_t>::max();
   constexpr std::uint16_t kLargest16 = std::numeric_limits<std::uint16_t>::max();
-  if (element == Element::kFloat || element == Element::kDouble)
+  if (element == ArrayType::kFloat || element == ArrayType::kDouble)
     require(H5Pset_fill_value(properties, H5T_NATIVE_DOUBLE, &kNaN), what);
-  if (element == Element::kInt64) require(H5Pset_fill_value(properties, H5T_NATIVE_INT64, &kLargest), what);
-  if (element == Element::kUint16) require(H5Pset_fill_value(properties, H5T_NATIVE_UINT16, &kLargest16), what);
+  if (element == ArrayType::kInt64) require(H5Pset_fill_value(properties, H5T_NATIVE_INT64, &kLargest), what);
+  if (element == ArrayType::kUint16) require(H5Pset_fill_value(properties, H5T_NATIVE_UINT16, &kLargest16), what);
 }
 
 // A name with every `from` as `to`: HDF5 reads %b in a name as the number of a block, %% as a percent sign.
@@ -174,16 +174,16 @@ std::vector<std::string> unpacked(const std::vector<char>& text) {
   return names;
 }
 
-}  // namespace
-
-std::size_t bytes_of(Element element) {
+std::size_t bytes_of(ArrayType element) {
   switch (element) {
-    case Element::kFloat: return sizeof(float);
-    case Element::kUint16: return sizeof(std::uint16_t);
-    case Element::kName: return kNameBytes;
+    case ArrayType::kFloat: return sizeof(float);
+    case ArrayType::kUint16: return sizeof(std::uint16_t);
+    case ArrayType::kName: return kNameBytes;
     default: return sizeof(double);
   }
 }
+
+}  // namespace
 
 std::string packed_names(std::span<const std::string> names) {
   std::string text(names.size() * kNameBytes, '\0');
@@ -213,7 +213,7 @@ void Hdf5Writer::group(const std::string& path) {
   const Handle made(H5Gcreate2(open_->file, path.c_str(), H5P_DEFAULT, properties, H5P_DEFAULT), H5Gclose, what);
 }
 
-void Hdf5Writer::array(const std::string& path, Element element, const Dimensions& size, const Dimensions& chunk,
+void Hdf5Writer::array(const std::string& path, ArrayType element, const Dimensions& size, const Dimensions& chunk,
                        const ArrayText& text) {
   const std::string what = fmt::format("cannot write {}", path);
   const Handle space = space_of(size, what), type = type_of(element, true);
@@ -228,7 +228,7 @@ void Hdf5Writer::array(const std::string& path, Element element, const Dimension
   open_->arrays.emplace(path, std::move(set));
 }
 
-void Hdf5Writer::virtual_array(const std::string& path, Element element, const Dimensions& size,
+void Hdf5Writer::virtual_array(const std::string& path, ArrayType element, const Dimensions& size,
                                std::span<const VirtualSource> sources, const ArrayText& text) {
   const std::string what = fmt::format("cannot write {}", path);
   const Handle space = space_of(size, what), type = type_of(element, true);
@@ -250,7 +250,7 @@ void Hdf5Writer::virtual_array(const std::string& path, Element element, const D
   write_attribute(set, "description", text.description);
 }
 
-void Hdf5Writer::write_bytes(const std::string& path, Element element, std::uint64_t first, const void* values,
+void Hdf5Writer::write_bytes(const std::string& path, ArrayType element, std::uint64_t first, const void* values,
                              std::size_t count) {
   const std::string what = fmt::format("cannot write {}", path);
   const Handle& set = open_->arrays.at(path);
@@ -267,7 +267,7 @@ void Hdf5Writer::write_bytes(const std::string& path, Element element, std::uint
 
 void Hdf5Writer::write_names(const std::string& path, std::uint64_t first, std::span<const std::string> names) {
   const std::string text = packed_names(names);
-  write_bytes(path, Element::kName, first, text.data(), names.size());
+  write_bytes(path, ArrayType::kName, first, text.data(), names.size());
 }
 
 void Hdf5Writer::close() {
@@ -341,7 +341,7 @@ std::vector<VirtualSource> Hdf5Reader::sources(const std::string& path) const {
   return sources;
 }
 
-std::size_t Hdf5Reader::checked_count(const std::string& path, Element element, std::size_t rank) const {
+std::size_t Hdf5Reader::checked_count(const std::string& path, ArrayType element, std::size_t rank) const {
   const Dimensions extent = size(path);
   if (extent.size() != rank) throw WorkError(fmt::format("{} has not {} dimensions", path, rank));
   const double bytes = std::accumulate(extent.begin(), extent.end(), static_cast<double>(bytes_of(element)),
@@ -359,7 +359,7 @@ void Hdf5Reader::checked_rows(const std::string& path, std::uint64_t first, std:
     throw WorkError(fmt::format("{} has no rows {} to {}", path, first, first + count));
 }
 
-void Hdf5Reader::read_bytes(const std::string& path, Element element, std::uint64_t first, std::uint64_t count,
+void Hdf5Reader::read_bytes(const std::string& path, ArrayType element, std::uint64_t first, std::uint64_t count,
                             void* values) const {
   const std::string what = fmt::format("{} is damaged", path);
   const Handle& set = open_->array(path);
@@ -376,16 +376,16 @@ void Hdf5Reader::read_bytes(const std::string& path, Element element, std::uint6
 }
 
 std::vector<std::string> Hdf5Reader::names(const std::string& path) const {
-  const std::size_t count = checked_count(path, Element::kName, 1);
+  const std::size_t count = checked_count(path, ArrayType::kName, 1);
   std::vector<char> text(count * kNameBytes);
-  read_bytes(path, Element::kName, 0, count, text.data());
+  read_bytes(path, ArrayType::kName, 0, count, text.data());
   return unpacked(text);
 }
 
 std::vector<std::string> Hdf5Reader::names(const std::string& path, std::uint64_t first, std::uint64_t count) const {
   checked_rows(path, first, count);
   std::vector<char> text(count * kNameBytes);
-  read_bytes(path, Element::kName, first, count, text.data());
+  read_bytes(path, ArrayType::kName, first, count, text.data());
   return unpacked(text);
 }
 

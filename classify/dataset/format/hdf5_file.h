@@ -19,18 +19,16 @@ namespace seaglint {
 inline constexpr std::size_t kNameBytes = 64;  // of a string in an array, UTF-8, zero-padded
 
 // What an array holds; kName is kNameBytes characters.
-enum class Element { kFloat, kDouble, kInt64, kUint16, kName };
+enum class ArrayType { kFloat, kDouble, kInt64, kUint16, kName };
 
 template <class T>
-constexpr Element element_of() {
-  if constexpr (std::is_same_v<T, float>) return Element::kFloat;
-  if constexpr (std::is_same_v<T, double>) return Element::kDouble;
-  if constexpr (std::is_same_v<T, std::int64_t>) return Element::kInt64;
-  if constexpr (std::is_same_v<T, std::uint16_t>) return Element::kUint16;
-  if constexpr (std::is_same_v<T, std::string>) return Element::kName;
+constexpr ArrayType array_type_of() {
+  if constexpr (std::is_same_v<T, float>) return ArrayType::kFloat;
+  if constexpr (std::is_same_v<T, double>) return ArrayType::kDouble;
+  if constexpr (std::is_same_v<T, std::int64_t>) return ArrayType::kInt64;
+  if constexpr (std::is_same_v<T, std::uint16_t>) return ArrayType::kUint16;
+  if constexpr (std::is_same_v<T, std::string>) return ArrayType::kName;
 }
-
-std::size_t bytes_of(Element element);
 
 using Dimensions = std::vector<std::uint64_t>;
 
@@ -67,23 +65,23 @@ class Hdf5Writer {
   void group(const std::string& path);
 
   // An array in chunks of `chunk`, each with a Fletcher-32 checksum; filled by write().
-  void array(const std::string& path, Element element, const Dimensions& size, const Dimensions& chunk,
+  void array(const std::string& path, ArrayType element, const Dimensions& size, const Dimensions& chunk,
              const ArrayText& text);
   // An array whose rows lie in other files; where one is missing, readers see NaN or the largest integer.
-  void virtual_array(const std::string& path, Element element, const Dimensions& size,
+  void virtual_array(const std::string& path, ArrayType element, const Dimensions& size,
                      std::span<const VirtualSource> sources, const ArrayText& text);
 
   // Rows `first` and following of an array; `values` hold whole rows.
   template <class T>
   void write(const std::string& path, std::uint64_t first, std::span<const T> values) {
-    write_bytes(path, element_of<T>(), first, values.data(), values.size());
+    write_bytes(path, array_type_of<T>(), first, values.data(), values.size());
   }
   void write_names(const std::string& path, std::uint64_t first, std::span<const std::string> names);
 
   void close();  // must be called: a late failure of the disk shows here
 
  private:
-  void write_bytes(const std::string& path, Element element, std::uint64_t first, const void* values,
+  void write_bytes(const std::string& path, ArrayType element, std::uint64_t first, const void* values,
                    std::size_t count);
   struct Open;
   std::unique_ptr<Open> open_;
@@ -114,8 +112,8 @@ class Hdf5Reader {
   ReadArray<T> read(const std::string& path, std::size_t rank) const {
     ReadArray<T> array;
     array.size = size(path);
-    array.values.resize(checked_count(path, element_of<T>(), rank));
-    read_bytes(path, element_of<T>(), 0, array.size.empty() ? 0 : array.size[0], array.values.data());
+    array.values.resize(checked_count(path, array_type_of<T>(), rank));
+    read_bytes(path, array_type_of<T>(), 0, array.size.empty() ? 0 : array.size[0], array.values.data());
     return array;
   }
   // Rows of an array of one dimension.
@@ -123,16 +121,16 @@ class Hdf5Reader {
   std::vector<T> rows(const std::string& path, std::uint64_t first, std::uint64_t count) const {
     checked_rows(path, first, count);
     std::vector<T> values(count);
-    read_bytes(path, element_of<T>(), first, count, values.data());
+    read_bytes(path, array_type_of<T>(), first, count, values.data());
     return values;
   }
   std::vector<std::string> names(const std::string& path) const;
   std::vector<std::string> names(const std::string& path, std::uint64_t first, std::uint64_t count) const;
 
  private:
-  std::size_t checked_count(const std::string& path, Element element, std::size_t rank) const;
+  std::size_t checked_count(const std::string& path, ArrayType element, std::size_t rank) const;
   void checked_rows(const std::string& path, std::uint64_t first, std::uint64_t count) const;
-  void read_bytes(const std::string& path, Element element, std::uint64_t first, std::uint64_t count,
+  void read_bytes(const std::string& path, ArrayType element, std::uint64_t first, std::uint64_t count,
                   void* values) const;
   struct Open;
   std::unique_ptr<Open> open_;

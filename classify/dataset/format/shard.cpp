@@ -41,7 +41,7 @@ void check_shapes(const Shard& shard, int max_centres) {
 template <class T>
 void write_values(Hdf5Writer& file, const StoredArray& array, const Dimensions& size, const Dimensions& chunk,
                   const std::vector<T>& values) {
-  file.array(array.path, element_of<T>(), size, chunk, array.text());
+  file.array(array.path, array_type_of<T>(), size, chunk, array.text());
   file.write<T>(array.path, 0, values);
 }
 
@@ -52,7 +52,7 @@ void write_columns(Hdf5Writer& file, const std::vector<Sample>& samples) {
         [&](auto member) {
           using T = typename MemberType<decltype(member)>::Type;
           const std::string path = column_path(column);
-          file.array(path, element_of<T>(), size, size, column_text(column));
+          file.array(path, array_type_of<T>(), size, size, column_text(column));
           const std::vector<T> values = column_values(samples, member);
           if constexpr (std::is_same_v<T, std::string>) {
             file.write_names(path, 0, values);

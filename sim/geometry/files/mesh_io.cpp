@@ -55,8 +55,7 @@ void check_mesh(const TriangleMesh& mesh, const std::string& file) {
   }
 }
 
-}  // namespace
-
+// Metres in one m, cm, mm, km, in or ft; InputError for any other name.
 double metres_per(const std::string& unit) {
   constexpr std::array<std::pair<const char*, double>, 6> kUnits{
       {{"m", 1.0}, {"cm", 0.01}, {"mm", 0.001}, {"km", 1000.0}, {"in", 0.0254}, {"ft", 0.3048}}};
@@ -65,6 +64,8 @@ double metres_per(const std::string& unit) {
   }
   throw InputError(fmt::format("\"{}\" is not a unit of length; known are m cm mm km in ft", unit));
 }
+
+}  // namespace
 
 TriangleMesh read_mesh(const std::filesystem::path& path, const std::string& unit) {
   const double scale = metres_per(unit);

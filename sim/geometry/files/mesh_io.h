@@ -13,14 +13,11 @@
 
 namespace seaglint {
 
-// Metres in one m, cm, mm, km, in or ft; InputError for any other name.
-double metres_per(const std::string& unit);
-
 // The triangles of a file in metres and the body frame, vertices at identical positions merged (also across parts),
 // polygons split into fans. Positions have passed through float32. Files are not trusted: every count, size and index
 // is checked against the file before a library allocates; anything wrong is an InputError that names the file and what
-// is wrong with it. A mesh without triangles and coordinates that are not finite or beyond 1e7 m are wrong. One thread
-// at a time: OpenMesh's readers keep their state to themselves.
+// is wrong with it, so is a unit other than m, cm, mm, km, in, ft. A mesh without triangles and coordinates that are
+// not finite or beyond 1e7 m are wrong. One thread at a time: OpenMesh's readers keep their state to themselves.
 //   glTF is +Y up, +Z forward (glTF 2.0, section 3.4): x = Z, y = X, z = Y. Nodes are parts, named by node or mesh.
 //   OBJ, STL and PLY have no convention: their axes are taken as the body frame's. Groups, objects and solids are
 //   parts.

@@ -110,6 +110,9 @@ Topology topology_of(const TriangleMesh& mesh) {
   return topology;
 }
 
+namespace {
+
+// Angle between the normals of the two triangles of a manifold edge, positive convex, negative concave, in (-pi, pi].
 double turning_angle(const TriangleMesh& mesh, const Topology& topology, std::uint32_t edge_index) {
   const MeshEdge& edge = topology.edges[edge_index];
   SEAGLINT_CHECK(edge.kind == EdgeKind::kManifold, fmt::format("edge {} has {} triangles", edge_index, edge.use_count));
@@ -124,6 +127,8 @@ double turning_angle(const TriangleMesh& mesh, const Topology& topology, std::ui
   const Vec3 n2 = area_vector(mesh, other.triangle).normalized();
   return std::atan2(n1.cross(n2).dot(t), n1.dot(n2));
 }
+
+}  // namespace
 
 std::vector<Wedge> wedges(const TriangleMesh& mesh, const Topology& topology, double least_turn) {
   const auto usable = [&](std::uint32_t triangle) {

@@ -61,9 +61,6 @@ struct Wedge {
   double exterior_angle = 0;
 };
 
-// Angle between the normals of the two triangles of a manifold edge, positive convex, negative concave, in (-pi, pi].
-double turning_angle(const TriangleMesh& mesh, const Topology& topology, std::uint32_t edge);
-
 // Manifold edges that turn by more than `least_turn` (radians) and rims of sheets. Edges of degenerate triangles are
 // left out, so are inconsistent and non-manifold ones, whose faces do not say where the free space is.
 std::vector<Wedge> wedges(const TriangleMesh& mesh, const Topology& topology, double least_turn);

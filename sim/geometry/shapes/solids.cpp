@@ -23,8 +23,6 @@ std::pair<Vec3, Vec3> across(const Vec3& axis) {
 
 }  // namespace
 
-Pose upright(const Vec3& p, double yaw) { return {p, Eigen::AngleAxisd(yaw, Vec3::UnitZ()).toRotationMatrix()}; }
-
 void add_frustum(MeshBuilder& builder, const std::vector<Vec3>& lower, const std::vector<Vec3>& upper) {
   const auto low = add_ring(builder, lower), high = add_ring(builder, upper);
   const std::size_t n = low.size();

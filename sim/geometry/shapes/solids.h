@@ -5,21 +5,10 @@
 
 #include <vector>
 
+#include "sim/core/numbers/pose.h"
 #include "sim/geometry/mesh/mesh_builder.h"
 
 namespace seaglint {
-
-// Where a solid stands: its local axes are the columns of R, its local origin is p.
-struct Pose {
-  Vec3 p = Vec3::Zero();
-  Mat3 R = Mat3::Identity();
-
-  Vec3 operator*(const Vec3& local) const { return p + R * local; }
-  Pose operator*(const Pose& inner) const { return {p + R * inner.p, R * inner.R}; }
-};
-
-// Upright at p, turned by yaw (radians, about z).
-Pose upright(const Vec3& p, double yaw = 0);
 
 // Box with its base centred on the pose's origin: |x| <= size.x/2, |y| <= size.y/2, 0 <= z <= size.z.
 void add_box(MeshBuilder& builder, const Pose& pose, const Vec3& size);

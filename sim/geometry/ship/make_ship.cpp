@@ -40,7 +40,7 @@ TriangleMesh make_ship(const ShipForm& form) {
   require(form.plating_m, 0, 0.05, "plating");
   require(form.rail_width_m, 0.02, 0.1, "rail width");
 
-  const HullForm hull(form);
+  const HullSurface hull(form);
   const ShipHouses houses = ship_houses(hull);
   MeshBuilder builder;
   add_hull(builder, hull);

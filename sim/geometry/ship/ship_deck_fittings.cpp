@@ -26,7 +26,7 @@ void add_fairlead(MeshBuilder& builder, const Pose& pose) {
   for (double y : {-0.25, 0.25}) add_cone(builder, pose * Vec3(0, y, 0.05), pose * Vec3(0, y, 0.48), 0.1, 0.1, 8);
 }
 
-void add_mooring_gear(MeshBuilder& builder, const HullForm& hull) {
+void add_mooring_gear(MeshBuilder& builder, const HullSurface& hull) {
   builder.begin_part("mooring_gear");
   for (double side : {1.0, -1.0}) {
     for (double design_x : {67.0, 60.5, 50.0, 41.5, 31.5, -49.5, -58.0, -66.0}) {
@@ -72,7 +72,7 @@ void add_shield(MeshBuilder& builder, const Pose& pose, double leg, double heigh
   add_corner_plates(builder, pose * upright({-0.4 * leg, -0.4 * leg, 0.04}), {leg, leg, height}, 0.06);
 }
 
-void add_foredeck(MeshBuilder& builder, const HullForm& hull) {
+void add_foredeck(MeshBuilder& builder, const HullSurface& hull) {
   const auto on_deck = [&](const Spot& s) {
     const double x = hull.x_of(s.x);
     return upright({x, hull.y_of(s.y), hull.deck_height(x)}, radians(s.yaw));
@@ -109,7 +109,7 @@ void add_foredeck(MeshBuilder& builder, const HullForm& hull) {
   }
 }
 
-void add_flight_deck(MeshBuilder& builder, const HullForm& hull) {
+void add_flight_deck(MeshBuilder& builder, const HullSurface& hull) {
   const auto on_deck = [&](const Spot& s) {
     const double x = hull.x_of(s.x);
     return upright({x, hull.y_of(s.y), hull.deck_height(x)}, radians(s.yaw));
@@ -133,7 +133,7 @@ void add_flight_deck(MeshBuilder& builder, const HullForm& hull) {
 }
 
 // Lockers, shields and ventilators on the roofs, turned in all directions.
-void add_roof_fittings(MeshBuilder& builder, const HullForm& hull, const ShipHouses& houses) {
+void add_roof_fittings(MeshBuilder& builder, const HullSurface& hull, const ShipHouses& houses) {
   const auto on = [&](const Spot& s, double z) { return upright({hull.x_of(s.x), hull.y_of(s.y), z}, radians(s.yaw)); };
   const double forward = houses.forward.roof, bridge = houses.bridge.roof, aft = houses.aft.roof,
                core = houses.core.roof;
@@ -190,7 +190,7 @@ void add_roof_fittings(MeshBuilder& builder, const HullForm& hull, const ShipHou
 }
 
 // Rigid inflatable in the bay between the houses, under its davit.
-void add_boat(MeshBuilder& builder, const HullForm& hull, double side) {
+void add_boat(MeshBuilder& builder, const HullSurface& hull, double side) {
   builder.begin_part(side > 0 ? "boat_port" : "boat_starboard");
   const double x = hull.x_of(-13.4), z = hull.deck_height(x), y = side * hull.y_of(6.9);
   const Pose base = upright({x, y, z + 1.0});
@@ -218,7 +218,7 @@ void add_boat(MeshBuilder& builder, const HullForm& hull, double side) {
 
 }  // namespace
 
-void add_deck_fittings(MeshBuilder& builder, const HullForm& hull, const ShipHouses& houses) {
+void add_deck_fittings(MeshBuilder& builder, const HullSurface& hull, const ShipHouses& houses) {
   add_mooring_gear(builder, hull);
   add_foredeck(builder, hull);
   add_flight_deck(builder, hull);

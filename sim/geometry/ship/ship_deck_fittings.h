@@ -9,6 +9,6 @@
 
 namespace seaglint {
 
-void add_deck_fittings(MeshBuilder& builder, const HullForm& hull, const ShipHouses& houses);
+void add_deck_fittings(MeshBuilder& builder, const HullSurface& hull, const ShipHouses& houses);
 
 }  // namespace seaglint

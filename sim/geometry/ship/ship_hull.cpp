@@ -35,32 +35,32 @@ constexpr std::array<double, 5> kAcross{-1.0, -0.5, 0.0, 0.5, 1.0};
 
 }  // namespace
 
-double HullForm::waterline_half_breadth(double u) const {
+double HullSurface::waterline_half_breadth(double u) const {
   const double middle = 0.48;
   const double shape = u > middle ? 1.0 - std::pow((u - middle) / (1.0 - middle), 2.0)
                                   : 1.0 - 0.20 * std::pow((middle - u) / middle, 2.2);
   return 0.5 * form_.beam_m * std::max(0.0, shape);
 }
 
-double HullForm::deck_half_breadth_at(double u) const {
+double HullSurface::deck_half_breadth_at(double u) const {
   const double middle = 0.52;
   const double shape = u > middle ? 1.0 - std::pow((u - middle) / (1.0 - middle), 2.9)
                                   : 1.0 - 0.16 * std::pow((middle - u) / middle, 2.4);
   return 0.5 * form_.beam_m * kDeckToWaterBeam * std::max(0.0, shape);
 }
 
-double HullForm::deck_height(double x) const {
+double HullSurface::deck_height(double x) const {
   const double s = 2.0 * x / form_.length_m;
   const double rise =
       s > 0 ? (form_.bow_height_m - form_.freeboard_m) * s * s : (form_.stern_height_m - form_.freeboard_m) * s * s;
   return form_.freeboard_m + rise;
 }
 
-double HullForm::deck_half_breadth(double x) const {
+double HullSurface::deck_half_breadth(double x) const {
   return deck_half_breadth_at((x - x_of(kSternAtDeck)) / x_of(kStemAtDeck - kSternAtDeck));
 }
 
-Vec3 HullForm::side(double u, double v) const {
+Vec3 HullSurface::side(double u, double v) const {
   const double stern = x_of(kSternAtWater + (kSternAtDeck - kSternAtWater) * v);
   // The stem is raked and slightly hollow.
   const double stem = x_of(kStemAtWater + (kStemAtDeck - kStemAtWater) * std::pow(v, 1.25));
@@ -69,7 +69,7 @@ Vec3 HullForm::side(double u, double v) const {
   return {stern + (stem - stern) * u, b0 + (b1 - b0) * section(u, v), v * deck_height(deck_x)};
 }
 
-void add_hull(MeshBuilder& builder, const HullForm& hull) {
+void add_hull(MeshBuilder& builder, const HullSurface& hull) {
   const ShipForm& form = hull.form();
   const int stations = std::max(24, static_cast<int>(std::lround(form.length_m / form.panel_m)));
   const int levels = std::max(3, static_cast<int>(std::lround(form.bow_height_m / form.panel_m)));
@@ -148,7 +148,7 @@ void add_hull(MeshBuilder& builder, const HullForm& hull) {
   }
 }
 
-void add_bulwark(MeshBuilder& builder, const HullForm& hull) {
+void add_bulwark(MeshBuilder& builder, const HullSurface& hull) {
   constexpr double kHeight = 1.1, kThickness = 0.08, kSunk = 0.06, kFrom = 46.0, kTo = 71.2;
   constexpr int kBays = 17;
   for (double side : {1.0, -1.0}) {

@@ -4,14 +4,14 @@
 // The hull as a surface and as a part.
 
 #include "sim/geometry/mesh/mesh_builder.h"
-#include "sim/geometry/ship/make_ship.h"
+#include "sim/geometry/ship/ship_form.h"
 
 namespace seaglint {
 
 // The moulded form: u = 0 at the transom to 1 at the stem, v = 0 at the waterline to 1 at the deck.
-class HullForm {
+class HullSurface {
  public:
-  explicit HullForm(const ShipForm& form) : form_(form) {}
+  explicit HullSurface(const ShipForm& form) : form_(form) {}
 
   Vec3 side(double u, double v) const;  // port side, y >= 0
   // Of the deck at a body x in metres.
@@ -32,9 +32,9 @@ class HullForm {
 };
 
 // Plated sides, transom, deck and a lid at z = 0: one closed part.
-void add_hull(MeshBuilder& builder, const HullForm& hull);
+void add_hull(MeshBuilder& builder, const HullSurface& hull);
 
 // Bulwark along the forecastle's edge with its stays.
-void add_bulwark(MeshBuilder& builder, const HullForm& hull);
+void add_bulwark(MeshBuilder& builder, const HullSurface& hull);
 
 }  // namespace seaglint

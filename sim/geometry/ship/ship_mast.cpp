@@ -41,7 +41,7 @@ void add_yard(MeshBuilder& builder, const Vec3& centre, double half_span, double
   }
 }
 
-void add_enclosed_mast(MeshBuilder& builder, const HullForm& hull, double foot) {
+void add_enclosed_mast(MeshBuilder& builder, const HullSurface& hull, double foot) {
   const double x = hull.x_of(8.2), top = foot + 12.5;
   builder.begin_part("mast_1");
   const auto ring = [&](double half, double chamfer, double z) {
@@ -97,7 +97,7 @@ void add_enclosed_mast(MeshBuilder& builder, const HullForm& hull, double foot) 
   }
 }
 
-void add_lattice_mast(MeshBuilder& builder, const HullForm& hull, double foot) {
+void add_lattice_mast(MeshBuilder& builder, const HullSurface& hull, double foot) {
   const double x = hull.x_of(-13.6);
   constexpr double kHeight = 11.0, kFootHalf = 1.35, kTopHalf = 0.5;
   constexpr int kBays = 6;
@@ -132,7 +132,7 @@ void add_lattice_mast(MeshBuilder& builder, const HullForm& hull, double foot) {
   add_bar(builder, head * Vec3(-0.5, 0, 0.1), head * Vec3(0.1, 0, 0.6), 0.2);
 }
 
-void add_volume_radar(MeshBuilder& builder, const HullForm& hull, double roof) {
+void add_volume_radar(MeshBuilder& builder, const HullSurface& hull, double roof) {
   const double x = hull.x_of(-33.2);
   builder.begin_part("volume_radar");
   add_cone(builder, {x, 0, roof - 0.2}, {x, 0, roof + 1.0}, 1.15, 0.85, 16);
@@ -143,7 +143,7 @@ void add_volume_radar(MeshBuilder& builder, const HullForm& hull, double roof) {
   for (int k = -3; k <= 3; ++k) add_box(builder, tilted * upright({-0.38, 0.9 * k, 0.15}), {0.3, 0.08, 2.7});
 }
 
-void add_domes_and_whips(MeshBuilder& builder, const HullForm& hull, const ShipHouses& houses) {
+void add_domes_and_whips(MeshBuilder& builder, const HullSurface& hull, const ShipHouses& houses) {
   builder.begin_part("satellite_domes");
   for (double side : {1.0, -1.0}) {
     const Vec3 foot(hull.x_of(2.6), side * hull.y_of(4.3), houses.flag_deck.roof);
@@ -177,7 +177,7 @@ void add_domes_and_whips(MeshBuilder& builder, const HullForm& hull, const ShipH
 
 }  // namespace
 
-void add_masts(MeshBuilder& builder, const HullForm& hull, const ShipHouses& houses) {
+void add_masts(MeshBuilder& builder, const HullSurface& hull, const ShipHouses& houses) {
   add_enclosed_mast(builder, hull, houses.flag_deck.roof);
   add_lattice_mast(builder, hull, houses.core.roof);
   add_volume_radar(builder, hull, houses.radar_house.roof);

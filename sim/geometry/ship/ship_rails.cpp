@@ -28,7 +28,7 @@ void add_rail(MeshBuilder& builder, const std::vector<Vec3>& line, double width)
   }
 }
 
-void add_deck_rails(MeshBuilder& builder, const HullForm& hull, double width) {
+void add_deck_rails(MeshBuilder& builder, const HullSurface& hull, double width) {
   // The stretch beside the flight deck has nets instead.
   for (double side : {1.0, -1.0}) {
     builder.begin_part(side > 0 ? "rails_port" : "rails_starboard");
@@ -41,7 +41,7 @@ void add_deck_rails(MeshBuilder& builder, const HullForm& hull, double width) {
   }
 }
 
-void add_roof_rails(MeshBuilder& builder, const HullForm& hull, const ShipHouses& houses, double width) {
+void add_roof_rails(MeshBuilder& builder, const HullSurface& hull, const ShipHouses& houses, double width) {
   builder.begin_part("roof_rails");
   const auto along = [&](const House& house, double from, double to) {
     for (double side : {1.0, -1.0}) {
@@ -75,7 +75,7 @@ void add_ladder(MeshBuilder& builder, const Vec3& foot, const Vec3& head, const 
   }
 }
 
-void add_ladders(MeshBuilder& builder, const HullForm& hull, const ShipHouses& houses, double width) {
+void add_ladders(MeshBuilder& builder, const HullSurface& hull, const ShipHouses& houses, double width) {
   builder.begin_part("ladders");
   const auto on_side = [&](const House& house, double x, double from) {
     for (double side : {1.0, -1.0}) {
@@ -101,7 +101,7 @@ void add_ladders(MeshBuilder& builder, const HullForm& hull, const ShipHouses& h
 }
 
 // Frames hinged down to just below the deck, with bars for the net.
-void add_nets(MeshBuilder& builder, const HullForm& hull, double width) {
+void add_nets(MeshBuilder& builder, const HullSurface& hull, double width) {
   builder.begin_part("flight_deck_nets");
   for (double side : {1.0, -1.0}) {
     for (double x = -70.6; x < -47.5; x += 2.4) {
@@ -119,7 +119,7 @@ void add_nets(MeshBuilder& builder, const HullForm& hull, double width) {
 
 }  // namespace
 
-void add_rails(MeshBuilder& builder, const HullForm& hull, const ShipHouses& houses) {
+void add_rails(MeshBuilder& builder, const HullSurface& hull, const ShipHouses& houses) {
   const double width = hull.form().rail_width_m;
   add_deck_rails(builder, hull, width);
   add_roof_rails(builder, hull, houses, width);

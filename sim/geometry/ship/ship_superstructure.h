@@ -2,7 +2,7 @@
 #pragma once
 
 // Deckhouses, bridge with wings, funnel, hangar.
-// Positions are given on the 144 m design and scaled by HullForm.
+// Positions are given on the 144 m design and scaled by HullSurface.
 
 #include <string>
 
@@ -22,20 +22,20 @@ struct House {
   double side_slope = 8, fore_slope = 12, aft_slope = 6;
   double fore_chamfer = 2.5, aft_chamfer = 0.8;  // cut off the corners, m
 
-  double half_width_at(const HullForm& hull, double z) const;
-  double fore_at(const HullForm& hull, double z) const;
-  double aft_at(const HullForm& hull, double z) const;
+  double half_width_at(const HullSurface& hull, double z) const;
+  double fore_at(const HullSurface& hull, double z) const;
+  double aft_at(const HullSurface& hull, double z) const;
 
   // On the side wall at design x and height z: local +x out of the wall, +z up along it. side = +1 port, -1 starboard.
-  Pose on_side(const HullForm& hull, double side, double design_x, double z) const;
+  Pose on_side(const HullSurface& hull, double side, double design_x, double z) const;
 };
 
 // Everything stands on one of these.
 struct ShipHouses {
   House forward, bridge, flag_deck, core, aft, radar_house;
 };
-ShipHouses ship_houses(const HullForm& hull);
+ShipHouses ship_houses(const HullSurface& hull);
 
-void add_superstructure(MeshBuilder& builder, const HullForm& hull, const ShipHouses& houses);
+void add_superstructure(MeshBuilder& builder, const HullSurface& hull, const ShipHouses& houses);
 
 }  // namespace seaglint

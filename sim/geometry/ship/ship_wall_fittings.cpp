@@ -14,7 +14,7 @@ Pose moved(const Pose& wall, double out, double along, double up) {
 }
 
 // Open-fronted cabinets (fire hoses, breathing sets, telephones) of slightly different sizes at irregular spacing.
-void add_cabinets(MeshBuilder& builder, const HullForm& hull, const House& house, double from, double to,
+void add_cabinets(MeshBuilder& builder, const HullSurface& hull, const House& house, double from, double to,
                   double spacing, double height) {
   int n = 0;
   for (double side : {1.0, -1.0}) {
@@ -26,7 +26,7 @@ void add_cabinets(MeshBuilder& builder, const HullForm& hull, const House& house
   }
 }
 
-void add_doors(MeshBuilder& builder, const HullForm& hull, const House& house, double height,
+void add_doors(MeshBuilder& builder, const HullSurface& hull, const House& house, double height,
                std::initializer_list<double> places) {
   for (double side : {1.0, -1.0}) {
     for (double x : places) {
@@ -39,7 +39,7 @@ void add_doors(MeshBuilder& builder, const HullForm& hull, const House& house, d
 }
 
 // Canisters in cradles, three to a rack.
-void add_liferafts(MeshBuilder& builder, const HullForm& hull, const House& house, double z,
+void add_liferafts(MeshBuilder& builder, const HullSurface& hull, const House& house, double z,
                    std::initializer_list<double> places) {
   for (double side : {1.0, -1.0}) {
     for (double x : places) {
@@ -53,7 +53,7 @@ void add_liferafts(MeshBuilder& builder, const HullForm& hull, const House& hous
 }
 
 // Brackets with lamps, loudspeakers and signal boxes: an upright plate, a shelf and a cheek at right angles.
-void add_brackets(MeshBuilder& builder, const HullForm& hull, const House& house, double z,
+void add_brackets(MeshBuilder& builder, const HullSurface& hull, const House& house, double z,
                   std::initializer_list<double> places) {
   int n = 0;
   for (double side : {1.0, -1.0}) {
@@ -71,7 +71,7 @@ void add_brackets(MeshBuilder& builder, const HullForm& hull, const House& house
 }
 
 // Bay openings in the forward house's flanks for torpedo tubes: deep open boxes that stand a little proud.
-void add_bays(MeshBuilder& builder, const HullForm& hull, const House& house) {
+void add_bays(MeshBuilder& builder, const HullSurface& hull, const House& house) {
   for (double side : {1.0, -1.0}) {
     const Pose wall = house.on_side(hull, side, -5.0, hull.form().freeboard_m + 0.9);
     add_open_box(builder, moved(wall, 0.1, 0, 0), {0.7, 4.2, 2.2}, 0.06);
@@ -83,7 +83,7 @@ void add_bays(MeshBuilder& builder, const HullForm& hull, const House& house) {
 }
 
 // Anchors in their pockets on the bow.
-void add_anchors(MeshBuilder& builder, const HullForm& hull) {
+void add_anchors(MeshBuilder& builder, const HullSurface& hull) {
   for (double side : {1.0, -1.0}) {
     const Vec3 on_hull = hull.side(0.935, 0.72), below = hull.side(0.935, 0.5), ahead = hull.side(0.955, 0.72);
     Vec3 up = on_hull - below, along = ahead - on_hull;
@@ -104,7 +104,7 @@ void add_anchors(MeshBuilder& builder, const HullForm& hull) {
 
 }  // namespace
 
-void add_wall_fittings(MeshBuilder& builder, const HullForm& hull, const ShipHouses& houses) {
+void add_wall_fittings(MeshBuilder& builder, const HullSurface& hull, const ShipHouses& houses) {
   const double deck = hull.form().freeboard_m;
   builder.begin_part("cabinets");
   add_cabinets(builder, hull, houses.forward, 1.5, 25, 4.1, deck + 1.1);

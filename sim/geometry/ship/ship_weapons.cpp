@@ -10,7 +10,7 @@
 namespace seaglint {
 namespace {
 
-void add_gun(MeshBuilder& builder, const HullForm& hull) {
+void add_gun(MeshBuilder& builder, const HullSurface& hull) {
   const double x = hull.x_of(46.5), z = hull.deck_height(x - 2.5);
   builder.begin_part("gun");
   add_cone(builder, {x, 0, z - 0.4}, {x, 0, z + 0.75}, 2.0, 1.9, 20);
@@ -29,7 +29,7 @@ void add_gun(MeshBuilder& builder, const HullForm& hull) {
   add_cone(builder, trunnion + 6.3 * aim, trunnion + 6.9 * aim, 0.18, 0.18, 12);
 }
 
-void add_vertical_launchers(MeshBuilder& builder, const HullForm& hull) {
+void add_vertical_launchers(MeshBuilder& builder, const HullSurface& hull) {
   const double x = hull.x_of(36.0), z = hull.deck_height(x);
   builder.begin_part("vertical_launchers");
   add_box(builder, upright({x, 0, z - 0.5}), {7.6, 7.4, 1.15});
@@ -69,7 +69,7 @@ void add_close_in_weapon(MeshBuilder& builder, const Vec3& foot, double yaw) {
 }
 
 // Two pairs of canisters on an inclined frame, pointing athwartships.
-void add_canisters(MeshBuilder& builder, const HullForm& hull, const House& forward) {
+void add_canisters(MeshBuilder& builder, const HullSurface& hull, const House& forward) {
   builder.begin_part("missile_canisters");
   for (double side : {1.0, -1.0}) {
     const Pose base = upright({hull.x_of(side > 0 ? -4.0 : -7.0), -side * 0.8, forward.roof}, side * radians(90));
@@ -84,7 +84,7 @@ void add_canisters(MeshBuilder& builder, const HullForm& hull, const House& forw
   }
 }
 
-void add_decoy_launchers(MeshBuilder& builder, const HullForm& hull, const ShipHouses& houses) {
+void add_decoy_launchers(MeshBuilder& builder, const HullSurface& hull, const ShipHouses& houses) {
   builder.begin_part("decoy_launchers");
   struct Place {
     double x, y, z, yaw;
@@ -105,7 +105,7 @@ void add_decoy_launchers(MeshBuilder& builder, const HullForm& hull, const ShipH
 
 }  // namespace
 
-void add_weapons(MeshBuilder& builder, const HullForm& hull, const ShipHouses& houses) {
+void add_weapons(MeshBuilder& builder, const HullSurface& hull, const ShipHouses& houses) {
   add_gun(builder, hull);
   add_vertical_launchers(builder, hull);
   builder.begin_part("close_in_weapon");

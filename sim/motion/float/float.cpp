@@ -69,16 +69,18 @@ double disc_slope_filter(double wavenumber, double radius) {
   return 8 * std::cyl_bessel_j(2.0, x) / (x * x);
 }
 
-double float_filter(const FloatParticulars& body, double wavenumber) {
-  return disc_slope_filter(wavenumber, 0.5 * body.diameter) * std::exp(-wavenumber * body.draught);
-}
-
 Vec2 limited_slope(const Vec2& slope) {
   const double share = slope.squaredNorm() / (kBreakingSlope * kBreakingSlope);
   return slope / std::sqrt(std::sqrt(1 + share * share));
 }
 
 namespace {
+
+// What reaches a float of the waves on the surface: the disc's mean and the pressure's decay to its draught, e^{-kT}
+// (Smith's correction, as for a ship of effective slope: Jensen, Mansour and Olsen 2004, Ocean Engineering 31, 61).
+double float_filter(const FloatParticulars& body, double wavenumber) {
+  return disc_slope_filter(wavenumber, 0.5 * body.diameter) * std::exp(-wavenumber * body.draught);
+}
 
 // What the water does at the float, at uniform half steps; at its resting place, or where it has moved to.
 class Water {

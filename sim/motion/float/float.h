@@ -28,10 +28,6 @@ FloatParticulars float_particulars(const MotionSpec& spec, const Bounds& bounds)
 // Mean slope of a wave over a disc of radius R, weighted as its moment is: 8 J2(kR) / (kR)^2, 1 for long waves.
 double disc_slope_filter(double wavenumber, double radius);
 
-// What reaches a float of the waves on the surface: the disc's mean and the pressure's decay to its draught, e^{-kT}
-// (Smith's correction, as for a ship of effective slope: Jensen, Mansour and Olsen 2004, Ocean Engineering 31, 61).
-double float_filter(const FloatParticulars& body, double wavenumber);
-
 // The slope a float follows: the water's up to breaking, s / (1 + (s/0.4)^4)^(1/4), in the slope's own direction.
 inline constexpr double kBreakingSlope = 0.4;
 Vec2 limited_slope(const Vec2& slope);

@@ -13,12 +13,6 @@
 
 namespace seaglint {
 
-Mat3 rotation_from_angles(double roll, double pitch, double yaw) {
-  return (Eigen::AngleAxisd(yaw, Vec3::UnitZ()) * Eigen::AngleAxisd(pitch, Vec3::UnitY()) *
-          Eigen::AngleAxisd(roll, Vec3::UnitX()))
-      .toRotationMatrix();
-}
-
 Trajectory::Trajectory(double start_s, double step_s, std::vector<MotionSample> samples, Vec3 rest_position,
                        Vec3 rotation_centre)
     : start_s_(start_s),
@@ -85,9 +79,9 @@ MotionSample Trajectory::sample(double t) const {
 Pose Trajectory::pose(double t) const {
   const MotionSample motion = sample(t);
   Pose pose;
-  pose.R_TB = rotation_from_angles(motion.angles.x(), motion.angles.y(), motion.angles.z());
-  pose.p_TB = rest_position_ + motion.shift + rotation_centre_ - pose.R_TB * rotation_centre_;
-  pose.p_TB += (t - carried_from_s_) * carrying_mps_;
+  pose.R = rotation_from_angles(motion.angles.x(), motion.angles.y(), motion.angles.z());
+  pose.p = rest_position_ + motion.shift + rotation_centre_ - pose.R * rotation_centre_;
+  pose.p += (t - carried_from_s_) * carrying_mps_;
   return pose;
 }
 

@@ -5,18 +5,9 @@
 
 #include <vector>
 
-#include "sim/core/numbers/linear.h"
+#include "sim/core/numbers/pose.h"
 
 namespace seaglint {
-
-// R_WB = Rz(yaw) Ry(pitch) Rx(roll) (CONVENTIONS.md, "Frames").
-Mat3 rotation_from_angles(double roll, double pitch, double yaw);
-
-// Body to target frame at rest (T): x_T = R_TB x_B + p_TB.
-struct Pose {
-  Mat3 R_TB = Mat3::Identity();
-  Vec3 p_TB = Vec3::Zero();  // where the body's origin is
-};
 
 struct MotionSample {
   Vec3 angles = Vec3::Zero();       // roll, pitch, yaw, rad
@@ -44,7 +35,8 @@ class Trajectory {
   // and taken for the end.
   MotionSample sample(double t) const;
   static constexpr double kEndSlack = 2e-9;
-  // p_TB = rest + shift + c - R c with c the rotation centre, and where it has been carried.
+  // Of the body frame in the target frame at rest (T): p = rest + shift + c - R c with c the rotation centre, and where
+  // it has been carried.
   Pose pose(double t) const;
 
   // A body at rest is at rest for ever: its start and end are infinite.

@@ -10,9 +10,13 @@
 
 namespace seaglint {
 
+namespace {
+
 ShipWave ship_wave(const WaveComponent& component) {
   return {component.omega, component.wavenumber, std::atan2(component.direction.y(), component.direction.x())};
 }
+
+}  // namespace
 
 double encounter_frequency(const ShipWave& wave, double speed) {
   return wave.omega - speed * wave.wavenumber * std::cos(wave.mu);

@@ -19,8 +19,6 @@ enum ResponseChannel { kRollAngle, kPitchAngle, kYawAngle, kSurgeShift, kSwayShi
 inline constexpr std::size_t kResponseChannels = 7;
 using ResponseChannels = std::array<Complex, kResponseChannels>;
 
-ShipWave ship_wave(const WaveComponent& component);
-
 // w_e = w - U k cos(mu): how often a ship of speed U (m/s) meets a wave; negative when it overtakes it.
 double encounter_frequency(const ShipWave& wave, double speed);
 

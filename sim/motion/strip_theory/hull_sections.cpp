@@ -62,7 +62,7 @@ double strip_x(double length, int i, int count) { return length * ((i + 0.5) / c
 
 }  // namespace
 
-HullSections sections_of_form(double length, double beam, double draught, const HullForm& form, int count) {
+HullSections sections_of_form(double length, double beam, double draught, const HullCoefficients& form, int count) {
   const Fullness breadth = Fullness::meeting(form.waterplane, form.flotation, "waterplane");
   const Fullness area = Fullness::meeting(form.block / form.midship, form.buoyancy, "prismatic");
   HullSections hull{length, {}};

@@ -19,7 +19,7 @@ struct HullSection {
 };
 
 // Shape of the hull below the waterline; by default that of model DTMB 5415, a fast displacement hull.
-struct HullForm {
+struct HullCoefficients {
   double block = 0.507;       // volume / (L B T)
   double waterplane = 0.778;  // waterplane area / (L B)
   double midship = 0.821;     // area of the midship section / (B T)
@@ -38,7 +38,7 @@ struct HullSections {
 
 // Half-breadth B/2 (1 - |u|^n) with an exponent for each half of the length that meets coefficient and centre; areas
 // likewise. Throws InputError when no exponents do.
-HullSections sections_of_form(double length, double beam, double draught, const HullForm& form, int count);
+HullSections sections_of_form(double length, double beam, double draught, const HullCoefficients& form, int count);
 
 // Where a mesh's hull lies below z = 0: cut across at each strip; empty when it ends at the waterline (reaches less
 // than 2 % of its breadth below). Holes and inner walls do not matter: at each depth the outermost walls count.

@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
+#include "sim/scattering/beams/image_transform.h"
 #include "sim/scattering/beams/polygon_set.h"
-#include "sim/scattering/surfaces/footprint.h"
 #include "sim/scattering/target/facets.h"
 #include "sim/scattering/target/panel_bvh.h"
 

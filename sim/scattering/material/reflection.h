@@ -9,8 +9,6 @@
 
 namespace seaglint {
 
-using CVec3 = Eigen::Vector3cd;
-
 // Of one beam at one wavenumber, for each transmitted polarisation.
 struct BeamField {
   CVec3 h = CVec3::Zero();

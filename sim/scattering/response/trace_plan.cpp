@@ -9,7 +9,7 @@ namespace {
 
 // The world's polarisation basis as the turned body sees it.
 RadarBasis body_basis(const RadarBasis& world, const Pose& pose) {
-  const Mat3 R_BT = pose.R_TB.transpose();
+  const Mat3 R_BT = pose.R.transpose();
   return {R_BT * world.r, R_BT * world.h, R_BT * world.v};
 }
 
@@ -36,9 +36,9 @@ TracePlan::TracePlan(const Trajectory& trajectory, const IntervalSampling& sampl
   for (const double time_s : sampling.pulse_time_s) {
     time_.push_back(length > 0 ? (time_s - start) / length : 0);
     const Pose& pose = poses_.emplace_back(trajectory.pose(time_s));
-    const Sight sight = sight_from(sights_.emplace_back(sight_at(sampling, r_hat, time_s)), pose.p_TB, range_m);
-    seen.to_radar.push_back(pose.R_TB.transpose() * sight.radar.r);
-    seen.to_image.push_back(pose.R_TB.transpose() * sight.image.r);
+    const Sight sight = sight_from(sights_.emplace_back(sight_at(sampling, r_hat, time_s)), pose.p, range_m);
+    seen.to_radar.push_back(pose.R.transpose() * sight.radar.r);
+    seen.to_image.push_back(pose.R.transpose() * sight.image.r);
   }
   double turn = 0;
   for (const SeaPath& path : paths) {
@@ -53,7 +53,7 @@ TracePlan::TracePlan(const Trajectory& trajectory, const IntervalSampling& sampl
       const double middle_s = start + length * (static_cast<double>(i) + 0.5) / static_cast<double>(spans_);
       const Pose pose = trajectory.pose(middle_s);
       traces_.push_back(
-          planned(i, pose, sight_from(sight_at(sampling, r_hat, middle_s), pose.p_TB, range_m), seen, paths));
+          planned(i, pose, sight_from(sight_at(sampling, r_hat, middle_s), pose.p, range_m), seen, paths));
       for (const PlannedWay& way : traces_.back().ways) beside = std::max(beside, way.moves.q_limit);
     }
     if (beside <= limits.beside || spans_ >= time_.size()) break;

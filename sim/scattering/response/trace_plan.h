@@ -48,7 +48,7 @@ class TracePlan {
   const Pose& pose(int pulse) const { return poses_[static_cast<std::size_t>(pulse)]; }
   const Sight& sight(int pulse) const { return sights_[static_cast<std::size_t>(pulse)]; }
   // Both ways of a path to the body's origin, m: shorter by this than to that of the target frame.
-  double gain(const SeaPath& path, int pulse) const { return sight(pulse).gain(path, pose(pulse).p_TB, range_m_); }
+  double gain(const SeaPath& path, int pulse) const { return sight(pulse).gain(path, pose(pulse).p, range_m_); }
 
  private:
   struct Directions;

@@ -54,7 +54,7 @@ struct SeaOf {
       specs.push_back({{-p.range_m, 0, 0}, p.amplitude_m, {-p.velocity_mps, 0, 0}});
     const Echo echo = synthesize_echo(train, point_response(specs, Vec3(1, 0, 0), interval_sampling(train, 0)), clutter,
                                       3, index, scene);
-    return extract_centres(echo.total(), train, {}, false, {});
+    return clean_map(echo.total(), train, {}, false, {}).centres;
   }
 };
 
@@ -124,7 +124,7 @@ TEST(ClutterCentres, DoNotCountPointsThatStandSideBySide) {
   none.enabled = false;
   const FrequencyResponse response = point_response(points, Vec3(1, 0, 0), interval_sampling(train, 0));
   const Echo echo = synthesize_echo(train, response, none, 1, 1);
-  const auto centres = extract_centres(echo.total(), train, {}, false, {});
+  const auto centres = clean_map(echo.total(), train, {}, false, {}).centres;
   EXPECT_EQ(centres.size(), 40U);
 }
 

@@ -97,7 +97,7 @@ TEST(Centres, OfKnownPointsAreRecoveredToATenthOfACell) {
       // A stepped code repeats every 8 pulses: beyond 4.66 m/s every point comes again one range cell further.
       MapSpec spec;
       if (code == HopCode::kStepped) spec.velocity_span_mps = 4;
-      const auto centres = extract_centres(echo_of(train, truth, no_clutter()), train, spec, false, {});
+      const auto centres = clean_map(echo_of(train, truth, no_clutter()), train, spec, false, {}).centres;
       EXPECT_EQ(centres.size(), truth.size());
       for (const ScatteringCentre& t : truth) {
         const Match found = match(centres, t, train);
@@ -119,7 +119,7 @@ TEST(Centres, AnIsolatedPointIsFoundToACentimetreAndAMillimetrePerSecond) {
   for (int i = 0; i < 20; ++i) {
     const PulseTrain train = make_pulse_train({}, kShipWindow, 5, i);
     const ScatteringCentre truth{80 * (2 * random.uniform() - 1), 4 * (2 * random.uniform() - 1), 1};
-    const auto centres = extract_centres(echo_of(train, {truth}, no_clutter()), train, {}, false, {});
+    const auto centres = clean_map(echo_of(train, {truth}, no_clutter()), train, {}, false, {}).centres;
     ASSERT_EQ(centres.size(), 1u);
     worst_m = std::max(worst_m, std::abs(centres[0].range_m - truth.range_m));
     worst_mps = std::max(worst_mps, std::abs(centres[0].velocity_mps - truth.velocity_mps));
@@ -136,7 +136,7 @@ TEST(Centres, AWeakPointHiddenInTheStrongOnesPedestalIsFound) {
   for (int trial = 0; trial < trials; ++trial) {
     const PulseTrain train = make_pulse_train({}, kShipWindow, 1, trial);
     const ScatteringCentre strong{0.2, 0.05, 1}, weak{2.6, 1.7 - 0.1 * trial, 0.1};
-    const auto centres = extract_centres(echo_of(train, {strong, weak}, no_clutter()), train, {}, false, {});
+    const auto centres = clean_map(echo_of(train, {strong, weak}, no_clutter()), train, {}, false, {}).centres;
     const Match match_weak = match(centres, weak, train), match_strong = match(centres, strong, train);
     EXPECT_LT(match_strong.cells, 0.1);
     if (match_weak.cells < 0.3 && match_weak.amplitude_error < 0.3) ++found;
@@ -157,7 +157,7 @@ TEST(Centres, OfPureNoiseAreAlmostAlwaysNone) {
       const double re = random.normal();
       value = {re, random.normal()};
     }
-    if (!extract_centres(noise, train, {}, false, {}).empty()) ++false_maps;
+    if (!clean_map(noise, train, {}, false, {}).centres.empty()) ++false_maps;
   }
   std::printf("maps of noise with a centre: %d of 40\n", false_maps);
   EXPECT_LE(false_maps, 3);
@@ -170,7 +170,7 @@ TEST(Centres, InClutterAreThePointsAndHardlyAnythingElse) {
     Random random({9, Stream::kTest, static_cast<std::uint64_t>(trial)});
     std::vector<ScatteringCentre> truth;
     for (int i = 0; i < 4; ++i) truth.push_back({-60 + 40.0 * i, 0.6 * random.normal(), 0.7 + 0.6 * random.uniform()});
-    const auto centres = extract_centres(echo_of(train, truth, {}, trial), train, {}, false, {});
+    const auto centres = clean_map(echo_of(train, truth, {}, trial), train, {}, false, {}).centres;
     for (const ScatteringCentre& t : truth) missed += match(centres, t, train).cells > 0.3;
     extra += static_cast<int>(centres.size()) - 4;
   }
@@ -202,7 +202,7 @@ TEST(Centres, ClearOfAStrongRidgeAreFoundWhateverItsCrestDoes) {
       points.push_back({{-p.range_m, 0, 0}, p.amplitude_m, {-p.velocity_mps, 0, 0}});
     const Echo echo =
         synthesize_echo(train, point_response(points, Vec3(1, 0, 0), interval_sampling(train, 0)), clutter, 11, trial);
-    const auto centres = extract_centres(receive(echo, train, clutter, map, false).echo, train, map, false, {});
+    const auto centres = clean_map(receive(echo, train, clutter, map, false).echo, train, map, false, {}).centres;
     EXPECT_EQ(centres.size(), 3U) << trial;
     for (const ScatteringCentre& t : truth) EXPECT_LT(match(centres, t, train).cells, 0.3) << trial;
   }
@@ -221,7 +221,7 @@ TEST(Centres, OfMapsThatAreShortAlongOneAxisAreFound) {
     const std::vector<ScatteringCentre> truth{{-40.3, 0, 1}, {0.2, 0, 2}, {30.1, 0, 1}};
     MapSpec map;
     map.range_taper = Taper::kHann;
-    const auto centres = extract_centres(echo_of(train, truth, no_clutter()), train, map, false, {});
+    const auto centres = clean_map(echo_of(train, truth, no_clutter()), train, map, false, {}).centres;
     ASSERT_GE(centres.size(), 3U);
     for (const ScatteringCentre& t : truth) {
       const Match found = match(centres, t, train);
@@ -234,7 +234,7 @@ TEST(Centres, OfMapsThatAreShortAlongOneAxisAreFound) {
   map.range_span_m = train.range_resolution_m();
   map.velocity_taper = Taper::kHann;
   const ScatteringCentre truth{0, 1.03, 1};
-  const auto centres = extract_centres(echo_of(train, {truth}, no_clutter()), train, map, false, {});
+  const auto centres = clean_map(echo_of(train, {truth}, no_clutter()), train, map, false, {}).centres;
   ASSERT_GE(centres.size(), 1U);
   EXPECT_LT(match(centres, truth, train).cells, 0.05);
 }
@@ -246,10 +246,10 @@ TEST(Centres, AreNoMoreThanAskedForAndWithinTheDynamicRange) {
   const auto echo = echo_of(train, truth, no_clutter());
   FeatureSpec spec;
   spec.max_centres = 3;
-  EXPECT_EQ(extract_centres(echo, train, {}, false, spec).size(), 3u);
+  EXPECT_EQ(clean_map(echo, train, {}, false, spec).centres.size(), 3u);
   spec.max_centres = 64;
   spec.dynamic_range_db = 18;
-  EXPECT_EQ(extract_centres(echo, train, {}, false, spec).size(), 5u);  // 0, 4, 8, 12, 16 dB
+  EXPECT_EQ(clean_map(echo, train, {}, false, spec).centres.size(), 5u);  // 0, 4, 8, 12, 16 dB
 }
 
 TEST(Centres, ALoopGainBelowOneFindsTheSamePoints) {
@@ -258,7 +258,7 @@ TEST(Centres, ALoopGainBelowOneFindsTheSamePoints) {
   FeatureSpec spec;
   spec.clean_gain = 0.5;
   spec.dynamic_range_db = 20;
-  const auto centres = extract_centres(echo_of(train, truth, no_clutter()), train, {}, false, spec);
+  const auto centres = clean_map(echo_of(train, truth, no_clutter()), train, {}, false, spec).centres;
   EXPECT_EQ(centres.size(), 3u);
   for (const ScatteringCentre& t : truth) {
     EXPECT_LT(match(centres, t, train).cells, 0.1);
@@ -269,7 +269,7 @@ TEST(Centres, ALoopGainBelowOneFindsTheSamePoints) {
 TEST(Centres, OfASilentEchoAreNone) {
   const PulseTrain train = make_pulse_train({}, kShipWindow, 1, 1);
   const std::vector<Complex> silence(train.pulses() * train.frequencies());
-  EXPECT_TRUE(extract_centres(silence, train, {}, false, {}).empty());
+  EXPECT_TRUE(clean_map(silence, train, {}, false, {}).centres.empty());
 }
 
 TEST(Centres, OfADenseTargetAreExtractedInTime) {
@@ -285,7 +285,7 @@ TEST(Centres, OfADenseTargetAreExtractedInTime) {
   std::size_t count = 0;
   for (int i = 0; i < 3; ++i) {
     const std::clock_t start = std::clock();
-    count = extract_centres(echo, train, {}, false, {}).size();
+    count = clean_map(echo, train, {}, false, {}).centres.size();
     best_ms = std::min(best_ms, 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
   }
   std::printf("200 points along a ship: %zu centres in %.1f ms of processor time\n", count, best_ms);

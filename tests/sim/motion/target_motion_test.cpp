@@ -43,7 +43,7 @@ TEST(SimulateTarget, MovesEachBodyAtItsOwnPlaceInTheSameSea) {
   for (std::size_t i = 0; i < 4; ++i) {
     const Pose pose = bodies[i].pose(2.5);
     // The centre of flotation stays.
-    EXPECT_NEAR((pose.R_TB * Vec3(0, 0, -0.75) + pose.p_TB - Vec3(-60 + 40.0 * static_cast<double>(i), 0, 0)).norm(), 0,
+    EXPECT_NEAR((pose.R * Vec3(0, 0, -0.75) + pose.p - Vec3(-60 + 40.0 * static_cast<double>(i), 0, 0)).norm(), 0,
                 1e-12);
   }
   EXPECT_GT((bodies[0].sample(2).angles - bodies[1].sample(2).angles).norm(), 1e-3);

@@ -25,6 +25,26 @@ double over_a_turn(const Function& f) {
   return sum;
 }
 
+// The density of energy that the sampler must have, at an angle from the mean direction, 1/rad; integrates to 1 over a
+// full turn: the wrapped normal, or cos^2s(angle/2) over 2 sqrt(pi) Gamma(s + 1/2) / Gamma(s + 1) (Longuet-Higgins,
+// Cartwright and Smith 1963).
+double spreading_density(const SpreadingSpec& spec, double angle, double omega_over_peak) {
+  const double theta = std::remainder(angle, 2 * kPi);
+  if (spec.kind == Spreading::kWrappedNormal) {
+    const double sigma = radians(spec.width_deg);
+    double sum = 0;
+    constexpr int kTurns = 6;  // of images: beyond lies less than 1e-20 of the energy up to a width of 180 deg
+    for (int turn = -kTurns; turn <= kTurns; ++turn) {
+      const double z = (theta + 2 * kPi * turn) / sigma;
+      sum += std::exp(-0.5 * z * z);
+    }
+    return sum / (sigma * std::sqrt(2 * kPi));
+  }
+  const double s = spreading_exponent(spec, omega_over_peak);
+  const double norm = 2 * std::sqrt(kPi) * std::exp(std::lgamma(s + 0.5) - std::lgamma(s + 1));
+  return std::pow(std::cos(0.5 * theta), 2 * s) / norm;
+}
+
 SpreadingSpec spec_of(Spreading kind, double s, double width_deg = 30) { return {kind, s, width_deg}; }
 
 struct Case {

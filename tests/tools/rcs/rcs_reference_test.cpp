@@ -47,7 +47,7 @@ class RcsReferenceFile : public testing::Test {
   fs::path folder_;
 };
 
-ReferenceSettings as(Element element, double frequency_ghz = 10) {
+ReferenceSettings as(Polarisation element, double frequency_ghz = 10) {
   ReferenceSettings settings;
   settings.element = element;
   settings.frequency_hz = frequency_ghz * 1e9;
@@ -74,15 +74,15 @@ std::string cst_table(const std::string& unit, const std::string& rows) {
 TEST_F(RcsReferenceFile, OfFourColumnsTakesItsPolarisationFromTheName) {
   const std::string text = "5120000000.000000 90.000000 0.000000 8.073421 \n5120000000 90 -10.5 -667.1\n\n";
   const RcsReference h = read("ref_rcs.II.B.sx1.f10.H.txt", text);
-  EXPECT_EQ(h.element, Element::kHh);
+  EXPECT_EQ(h.element, Polarisation::kHh);
   ASSERT_EQ(h.samples.size(), 2u);
   EXPECT_EQ(h.samples[0].level_dbsm, 8.073421);
   EXPECT_EQ(h.samples[1].frequency_hz, 5.12e9);
   EXPECT_EQ(h.samples[1].phi_deg, 349.5);
   EXPECT_EQ(h.samples[1].level_dbsm, -667.1);
   EXPECT_FALSE(h.has_phase());
-  EXPECT_EQ(read("ref.V.txt", text).element, Element::kVv);
-  EXPECT_EQ(read("ref.txt", text, as(Element::kVv, 5.12)).element, Element::kVv);
+  EXPECT_EQ(read("ref.V.txt", text).element, Polarisation::kVv);
+  EXPECT_EQ(read("ref.txt", text, as(Polarisation::kVv, 5.12)).element, Polarisation::kVv);
 }
 
 TEST_F(RcsReferenceFile, OfCstHasItsColumnsByNameAndItsUnitsByHeader) {
@@ -93,7 +93,7 @@ TEST_F(RcsReferenceFile, OfCstHasItsColumnsByNameAndItsUnitsByHeader) {
            "              30.000          " + std::to_string(phi) + "             350.000           2.684e+01     \r\n";
   };
   const std::string area = cst_table("m^2", row(4, 0.01));
-  const RcsReference vv = read("farfield (f=10) [pw].txt", area, as(Element::kVv));
+  const RcsReference vv = read("farfield (f=10) [pw].txt", area, as(Polarisation::kVv));
   ASSERT_EQ(vv.samples.size(), 1u);
   EXPECT_EQ(vv.samples[0].frequency_hz, 10e9);
   EXPECT_EQ(vv.samples[0].theta_deg, 90);
@@ -102,30 +102,32 @@ TEST_F(RcsReferenceFile, OfCstHasItsColumnsByNameAndItsUnitsByHeader) {
   ASSERT_TRUE(vv.has_phase());
   // sigma = 4 pi |S|^2; theta^ = -v at both ends leaves the co-polar term as it is.
   EXPECT_LT(std::abs(*vv.samples[0].amplitude_m - std::polar(std::sqrt(4 / (4 * kPi)), radians(30))), 1e-12);
-  const RcsReference hh = read("a.txt", area, as(Element::kHh));
+  const RcsReference hh = read("a.txt", area, as(Polarisation::kHh));
   EXPECT_NEAR(hh.samples[0].level_dbsm, -20, kPrinted_db);
   EXPECT_NEAR(degrees(std::arg(*hh.samples[0].amplitude_m)), -10, 1e-9);
   // v transmitted as -theta^, h received as phi^: the cross-polar term changes sign.
-  EXPECT_NEAR(degrees(std::arg(*read("a.txt", area, as(Element::kHv)).samples[0].amplitude_m)), 170, 1e-9);
-  EXPECT_NEAR(degrees(std::arg(*read("a.txt", area, as(Element::kVh)).samples[0].amplitude_m)), -150, 1e-9);
+  EXPECT_NEAR(degrees(std::arg(*read("a.txt", area, as(Polarisation::kHv)).samples[0].amplitude_m)), 170, 1e-9);
+  EXPECT_NEAR(degrees(std::arg(*read("a.txt", area, as(Polarisation::kVh)).samples[0].amplitude_m)), -150, 1e-9);
 
-  EXPECT_NEAR(read("a.txt", cst_table("dB(m^2)", row(-3.5, 0)), as(Element::kVv)).samples[0].level_dbsm, -3.5,
+  EXPECT_NEAR(read("a.txt", cst_table("dB(m^2)", row(-3.5, 0)), as(Polarisation::kVv)).samples[0].level_dbsm, -3.5,
               kPrinted_db);
-  EXPECT_NEAR(read("a.txt", cst_table("dBm^2 ", row(-3.5, 0)), as(Element::kVv)).samples[0].level_dbsm, -3.5,
+  EXPECT_NEAR(read("a.txt", cst_table("dBm^2 ", row(-3.5, 0)), as(Polarisation::kVv)).samples[0].level_dbsm, -3.5,
               kPrinted_db);
-  EXPECT_NEAR(read("a.txt", cst_table("mm^2", row(4e6, 0)), as(Element::kVv)).samples[0].level_dbsm, level,
+  EXPECT_NEAR(read("a.txt", cst_table("mm^2", row(4e6, 0)), as(Polarisation::kVv)).samples[0].level_dbsm, level,
               kPrinted_db);
-  EXPECT_NEAR(read("a.txt", cst_table("dB(mm^2)", row(60, 0)), as(Element::kVv)).samples[0].level_dbsm, 0, kPrinted_db);
+  EXPECT_NEAR(read("a.txt", cst_table("dB(mm^2)", row(60, 0)), as(Polarisation::kVv)).samples[0].level_dbsm, 0,
+              kPrinted_db);
   const double wavelength_db = 20 * std::log10(kSpeedOfLight / 10e9);
-  EXPECT_NEAR(read("a.txt", cst_table("dB(lambda^2)", row(60, 0)), as(Element::kVv)).samples[0].level_dbsm,
+  EXPECT_NEAR(read("a.txt", cst_table("dB(lambda^2)", row(60, 0)), as(Polarisation::kVv)).samples[0].level_dbsm,
               60 + wavelength_db, kPrinted_db);
-  EXPECT_NEAR(read("a.txt", cst_table("m^2", row(0, 0)), as(Element::kVv)).samples[0].level_dbsm, -1000, kPrinted_db);
+  EXPECT_NEAR(read("a.txt", cst_table("m^2", row(0, 0)), as(Polarisation::kVv)).samples[0].level_dbsm, -1000,
+              kPrinted_db);
 }
 
 TEST_F(RcsReferenceFile, OfCstWithNegativeThetaIsFoldedAndChangesSign) {
   // a localised machine's decimals
   const std::string row = " -30,000  90,000  0,000e+00  0,000e+00  10,000  0,000e+00  20,000  0,000e+00\r\n";
-  const RcsReference vv = read("a.txt", cst_table("dB(m^2)", row), as(Element::kVv));
+  const RcsReference vv = read("a.txt", cst_table("dB(m^2)", row), as(Polarisation::kVv));
   EXPECT_EQ(vv.samples[0].theta_deg, 30);
   EXPECT_EQ(vv.samples[0].phi_deg, 270);
   EXPECT_NEAR(degrees(std::arg(*vv.samples[0].amplitude_m)), 10 - 180, 1e-9);
@@ -140,7 +142,7 @@ TEST_F(RcsReferenceFile, OfAFullCircleIsFoldedAtBothPoles) {
   EXPECT_EQ(circle.samples[2].theta_deg, 10);
   EXPECT_EQ(circle.samples[2].phi_deg, 20);
   const RcsReference cst =
-      read("a.txt", cst_table("dB(m^2)", "190 20 0 0 30 0 0 0\r\n170 200 0 0 30 0 0 0\r\n"), as(Element::kVv));
+      read("a.txt", cst_table("dB(m^2)", "190 20 0 0 30 0 0 0\r\n170 200 0 0 30 0 0 0\r\n"), as(Polarisation::kVv));
   EXPECT_LT(std::abs(*cst.samples[0].amplitude_m + *cst.samples[1].amplitude_m), kPrinted_db);
 }
 
@@ -155,13 +157,13 @@ TEST_F(RcsReferenceFile, MayHaveAHeadAndExactZeros) {
 TEST_F(RcsReferenceFile, OfThisProgramIsReadByItsColumnsNames) {
   const std::string text =
       "# seaglint\nfrequency_hz,azimuth_deg,elevation_deg,vv_re,vv_im,hh_dbsm\n1e10,-20,2,0.3,-0.4,-7\n";
-  const RcsReference vv = read("own.csv", text, as(Element::kVv));
+  const RcsReference vv = read("own.csv", text, as(Polarisation::kVv));
   ASSERT_EQ(vv.samples.size(), 1u);
   EXPECT_EQ(vv.samples[0].theta_deg, 88);
   EXPECT_EQ(vv.samples[0].phi_deg, 340);
   EXPECT_EQ(*vv.samples[0].amplitude_m, Complex(0.3, -0.4));
   EXPECT_NEAR(vv.samples[0].level_dbsm, 10 * std::log10(kPi), kPrinted_db);  // 4 pi 0.25
-  const RcsReference hh = read("own.csv", text, as(Element::kHh));
+  const RcsReference hh = read("own.csv", text, as(Polarisation::kHh));
   EXPECT_EQ(hh.samples[0].level_dbsm, -7);
   EXPECT_FALSE(hh.has_phase());
 }
@@ -176,23 +178,24 @@ TEST_F(RcsReferenceFile, ThatCannotBeUsedIsRefusedWithItsPlace) {
   EXPECT_THAT(refusal("a.H.ffs", "// CST Farfield Source File\n"), HasSubstr(".ffs"));
   const std::string row = "90 0 1 1 0 1 0 1\r\n";
   ReferenceSettings no_frequency;
-  no_frequency.element = Element::kVv;
+  no_frequency.element = Polarisation::kVv;
   EXPECT_THAT(refusal("a.txt", cst_table("m^2", row), no_frequency), HasSubstr("--reference-frequency-ghz"));
-  EXPECT_THAT(refusal("a.txt", cst_table("dB    ", row), as(Element::kVv)), HasSubstr("relative to its own maximum"));
-  EXPECT_THAT(refusal("a.txt", cst_table("V/m", row), as(Element::kVv)), HasSubstr("[V/m]: the unit must be"));
-  EXPECT_THAT(refusal("a.txt", cst_table("m^2", "90 0 1\r\n"), as(Element::kVv)),
+  EXPECT_THAT(refusal("a.txt", cst_table("dB    ", row), as(Polarisation::kVv)),
+              HasSubstr("relative to its own maximum"));
+  EXPECT_THAT(refusal("a.txt", cst_table("V/m", row), as(Polarisation::kVv)), HasSubstr("[V/m]: the unit must be"));
+  EXPECT_THAT(refusal("a.txt", cst_table("m^2", "90 0 1\r\n"), as(Polarisation::kVv)),
               HasSubstr("a.txt:3: 3 columns: the header has 8"));
-  EXPECT_THAT(refusal("a.txt", cst_table("m^2", ""), as(Element::kVv)), HasSubstr("holds no values"));
-  EXPECT_THAT(refusal("own.csv", "frequency_hz,azimuth_deg,elevation_deg,vv_re\n", as(Element::kHh)),
+  EXPECT_THAT(refusal("a.txt", cst_table("m^2", ""), as(Polarisation::kVv)), HasSubstr("holds no values"));
+  EXPECT_THAT(refusal("own.csv", "frequency_hz,azimuth_deg,elevation_deg,vv_re\n", as(Polarisation::kHh)),
               HasSubstr("hh_dbsm"));
 }
 
 TEST_F(RcsReferenceFile, SaysWhereItsTransmitterStands) {
-  const RcsReference monostatic = read("m.csv", own_table("monostatic"), as(Element::kVv));
+  const RcsReference monostatic = read("m.csv", own_table("monostatic"), as(Polarisation::kVv));
   ASSERT_TRUE(monostatic.transmitter);
   EXPECT_TRUE(monostatic.transmitter->moves_along);
   const RcsReference bistatic =
-      read("b.csv", own_table("transmitter at azimuth -20 deg, elevation 30.5 deg"), as(Element::kVv));
+      read("b.csv", own_table("transmitter at azimuth -20 deg, elevation 30.5 deg"), as(Polarisation::kVv));
   ASSERT_TRUE(bistatic.transmitter);
   EXPECT_FALSE(bistatic.transmitter->moves_along);
   EXPECT_EQ(bistatic.transmitter->phi_deg, 340);
@@ -201,11 +204,11 @@ TEST_F(RcsReferenceFile, SaysWhereItsTransmitterStands) {
 }
 
 TEST_F(RcsReferenceFile, IsRefusedWithAFrequencyThatIsNotItsOwn) {
-  EXPECT_THAT(refusal("a.V.txt", "10e9 90 0 -3\n", as(Element::kVv, 11)),
+  EXPECT_THAT(refusal("a.V.txt", "10e9 90 0 -3\n", as(Polarisation::kVv, 11)),
               HasSubstr("a.V.txt: holds 10 GHz by its own words: leave out --reference-frequency-ghz 11"));
-  EXPECT_THAT(refusal("own.csv", own_table("monostatic"), as(Element::kVv, 11)),
+  EXPECT_THAT(refusal("own.csv", own_table("monostatic"), as(Polarisation::kVv, 11)),
               HasSubstr("own.csv: holds 10 GHz by its own words"));
-  EXPECT_EQ(read("b.V.txt", "10e9 90 0 -3\n", as(Element::kVv, 10)).samples.size(), 1u);
+  EXPECT_EQ(read("b.V.txt", "10e9 90 0 -3\n", as(Polarisation::kVv, 10)).samples.size(), 1u);
 }
 
 RcsSweep sweep_of(std::vector<double> azimuth_deg, std::vector<Complex> vv) {
@@ -219,15 +222,15 @@ RcsSweep sweep_of(std::vector<double> azimuth_deg, std::vector<Complex> vv) {
 }
 
 RcsReference cut_of(std::vector<std::pair<double, Complex>> values,
-                    const ReferenceSettings& settings = as(Element::kVv)) {
-  RcsReference reference{"other", Element::kVv, settings, {}, {}};
+                    const ReferenceSettings& settings = as(Polarisation::kVv)) {
+  RcsReference reference{"other", Polarisation::kVv, settings, {}, {}};
   for (const auto& [phi, s] : values)
     reference.samples.push_back({10e9, 90, phi, 10 * std::log10(4 * kPi * std::norm(s)), s});
   return reference;
 }
 
 TEST(RcsComparison, FindsTheSameDirectionsThroughTheAnglesMap) {
-  ReferenceSettings settings = as(Element::kVv);
+  ReferenceSettings settings = as(Polarisation::kVv);
   settings.phi_scale = -1;
   settings.phi_offset_deg = 180;
   // Azimuth 0, 90, 200 deg are phi 180, 90, 340 of the reference; 0.0004 deg are the printed digits' rounding.
@@ -269,7 +272,7 @@ TEST(RcsComparison, CorrelatesComplexValuesAboutTheBodysOrigin) {
     ours.push_back(std::polar(1.0, 2 * k * Vec3(std::cos(radians(az)), std::sin(radians(az)), 0).dot(x0)));
     theirs.push_back({az, std::polar(1.0, radians(-25))});
   }
-  ReferenceSettings settings = as(Element::kVv);
+  ReferenceSettings settings = as(Polarisation::kVv);
   settings.origin_m = x0;
   const auto moved = pair_with(sweep_of(azimuths, ours), cut_of(theirs, settings));
   const Complex correlation = *difference_of(moved[0], moved[0].models[0], 80).correlation;

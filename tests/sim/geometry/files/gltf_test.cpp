@@ -10,6 +10,8 @@
 namespace seaglint {
 namespace {
 
+using GltfFile = MeshFile;
+
 // A triangle (0,0,0) (1,0,0) (0,1,0) in glTF's axes, with a JSON around it.
 std::string gltf_with(const std::string& nodes, const std::string& more = "") {
   return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":)" + nodes +
@@ -20,7 +22,7 @@ std::string gltf_with(const std::string& nodes, const std::string& more = "") {
          more + "}";
 }
 
-TEST_F(MeshFile, GltfForwardIsTheBowAndUpIsUp) {
+TEST_F(GltfFile, ForwardIsTheBowAndUpIsUp) {
   // glTF's +Z is forward, +X to port, +Y up.
   const TriangleMesh mesh = read_mesh(put("a.gltf", gltf_with(R"([{"mesh":0,"translation":[0,0,5]}])")));
   ASSERT_EQ(mesh.vertices.size(), 3u);
@@ -31,7 +33,7 @@ TEST_F(MeshFile, GltfForwardIsTheBowAndUpIsUp) {
   EXPECT_EQ(mesh.part_names, std::vector<std::string>{"sheet"});
 }
 
-TEST_F(MeshFile, GltfNodesPlaceMeshesByTheProductOfTheirTransforms) {
+TEST_F(GltfFile, NodesPlaceMeshesByTheProductOfTheirTransforms) {
   // The parent turns by 90 deg about glTF's y and doubles, the child shifts first; the second child is mirrored, so its
   // corners swap.
   const TriangleMesh mesh = read_mesh(
@@ -47,7 +49,7 @@ TEST_F(MeshFile, GltfNodesPlaceMeshesByTheProductOfTheirTransforms) {
   EXPECT_LT((area_vector(mesh, 0) + area_vector(mesh, 1)).norm(), 1e-12);
 }
 
-TEST_F(MeshFile, GltfMayKeepItsBufferInAFileBesideIt) {
+TEST_F(GltfFile, MayKeepItsBufferInAFileBesideIt) {
   std::string json = gltf_with(R"([{"mesh":0}])");
   const std::string data("\0\0\0\0\0\0\0\0\0\0\0\0\0\0\x80\x3f\0\0\0\0\0\0\0\0\0\0\0\0\0\0\x80\x3f\0\0\0\0", 36);
   put("triangle.bin", data);
@@ -63,7 +65,7 @@ TEST_F(MeshFile, GltfMayKeepItsBufferInAFileBesideIt) {
   expect_error(put("inner/a.gltf", std::string(json).replace(from, to - from, "link.bin")), "link.bin");
 }
 
-TEST_F(MeshFile, GltfThatPromisesWhatItDoesNotHoldIsRefused) {
+TEST_F(GltfFile, ThatPromisesWhatItDoesNotHoldIsRefused) {
   const auto changed = [&](const std::string& from, const std::string& to) {
     std::string json = gltf_with(R"([{"mesh":0}])");
     const std::size_t at = json.find(from);
@@ -93,7 +95,7 @@ TEST_F(MeshFile, GltfThatPromisesWhatItDoesNotHoldIsRefused) {
 }
 
 // What would move or bend vertices is not read, and must not be left out in silence.
-TEST_F(MeshFile, GltfThatPlacesItsMeshOtherwiseIsRefused) {
+TEST_F(GltfFile, ThatPlacesItsMeshOtherwiseIsRefused) {
   expect_error(put("a.gltf", gltf_with(R"([{"mesh":0,"skin":0}])")), "nodes[0] has a skin");
   expect_error(
       put("a.gltf",
@@ -107,7 +109,7 @@ TEST_F(MeshFile, GltfThatPlacesItsMeshOtherwiseIsRefused) {
             1u);
 }
 
-TEST_F(MeshFile, GltfIndicesBeyondTheirVerticesAreRefused) {
+TEST_F(GltfFile, IndicesBeyondTheirVerticesAreRefused) {
   const TriangleMesh mesh = make_plate(1, 1);
   write_mesh(folder / "a.glb", mesh);
   std::string bytes = bytes_of(folder / "a.glb");
@@ -116,7 +118,7 @@ TEST_F(MeshFile, GltfIndicesBeyondTheirVerticesAreRefused) {
   expect_error(put("b.glb", bytes), "vertex 9, there are 4");
 }
 
-TEST_F(MeshFile, GltfOfTooManyPartsIsRefused) {
+TEST_F(GltfFile, OfTooManyPartsIsRefused) {
   std::string nodes = R"([{"children":[1)", rest;
   for (int i = 2; i <= 65001; ++i) nodes += fmt::format(",{}", i);
   for (int i = 1; i <= 65001; ++i) rest += fmt::format(R"(,{{"mesh":0,"name":"n{}"}})", i);

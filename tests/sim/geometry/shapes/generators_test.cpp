@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kRounding = 1e-12;  // of doubles, for sums of a few hundred terms of order one
 
-TEST(Plate, HasItsAreaAndFacesForward) {
+TEST(PlateMesh, HasItsAreaAndFacesForward) {
   const TriangleMesh plate = make_plate(0.3, 0.2);
   ASSERT_EQ(plate.triangles.size(), 2u);
   EXPECT_NEAR(surface_area(plate), 0.06, kRounding);
@@ -25,7 +25,7 @@ TEST(Plate, HasItsAreaAndFacesForward) {
   EXPECT_NEAR(bounds(plate).upper.z(), 0.10, kRounding);
 }
 
-TEST(Dihedral, OpensForwardWithItsAngleAtAVerticalSeam) {
+TEST(DihedralMesh, OpensForwardWithItsAngleAtAVerticalSeam) {
   const TriangleMesh dihedral = make_dihedral(0.4, 0.3, radians(90));
   EXPECT_NEAR(surface_area(dihedral), 2 * 0.4 * 0.3, kRounding);
   const Topology topology = topology_of(dihedral);
@@ -43,7 +43,7 @@ TEST(Dihedral, OpensForwardWithItsAngleAtAVerticalSeam) {
   for (std::size_t t = 0; t < dihedral.triangles.size(); ++t) EXPECT_GT(area_vector(dihedral, t).x(), 0);
 }
 
-TEST(Trihedral, HasThreeFacesThatLookIntoTheFirstOctant) {
+TEST(TrihedralMesh, HasThreeFacesThatLookIntoTheFirstOctant) {
   const double leg = 0.372;
   const TriangleMesh triangular = make_triangular_trihedral(leg), square = make_square_trihedral(leg);
   EXPECT_NEAR(surface_area(triangular), 1.5 * leg * leg, kRounding);
@@ -60,7 +60,7 @@ TEST(Trihedral, HasThreeFacesThatLookIntoTheFirstOctant) {
   }
 }
 
-TEST(Sphere, ConvergesToAreaAndVolumeInSecondOrder) {
+TEST(SphereMesh, ConvergesToAreaAndVolumeInSecondOrder) {
   const double a = 0.7;
   double last_area = 0, last_volume = 0;
   for (int n = 2; n <= 5; ++n) {
@@ -85,7 +85,7 @@ TEST(Sphere, ConvergesToAreaAndVolumeInSecondOrder) {
   }
 }
 
-TEST(Cylinder, IsAClosedPrism) {
+TEST(CylinderMesh, IsAClosedPrism) {
   const double a = 0.4, h = 1.5;
   const int n = 48;
   const TriangleMesh cylinder = make_cylinder(a, h, n);

@@ -15,14 +15,14 @@
 namespace seaglint {
 namespace {
 
-class Ship : public testing::Test {
+class ShipMesh : public testing::Test {
  protected:
   static void SetUpTestSuite() { mesh = make_ship(); }
   static void TearDownTestSuite() { mesh = {}; }
   static inline TriangleMesh mesh;
 };
 
-TEST_F(Ship, HasItsLengthAndStandsOnTheWaterline) {
+TEST_F(ShipMesh, HasItsLengthAndStandsOnTheWaterline) {
   const Bounds box = bounds(mesh);
   EXPECT_NEAR(box.lower.x(), -72, 0.01);
   EXPECT_NEAR(box.upper.x(), 72, 0.01);
@@ -32,7 +32,7 @@ TEST_F(Ship, HasItsLengthAndStandsOnTheWaterline) {
   EXPECT_NEAR(box.lower.y(), -box.upper.y(), 1e-4);
 }
 
-TEST_F(Ship, HasItsBeamAtTheWaterline) {
+TEST_F(ShipMesh, HasItsBeamAtTheWaterline) {
   double widest = 0;
   for (const Vec3& p : mesh.vertices) {
     if (p.z() == 0) widest = std::max(widest, p.y());
@@ -40,7 +40,7 @@ TEST_F(Ship, HasItsBeamAtTheWaterline) {
   EXPECT_NEAR(2 * widest, 17.5, 0.01);
 }
 
-TEST_F(Ship, ConsistsOfClosedPartsThatFaceOutwards) {
+TEST_F(ShipMesh, ConsistsOfClosedPartsThatFaceOutwards) {
   ASSERT_GT(mesh.part_names.size(), 20u);
   for (std::size_t p = 0; p < mesh.part_names.size(); ++p) {
     const TriangleMesh part = part_of(mesh, p);
@@ -52,7 +52,7 @@ TEST_F(Ship, ConsistsOfClosedPartsThatFaceOutwards) {
 }
 
 // Follows neighbours from triangle to triangle: each solid within a part is turned outwards by itself.
-TEST_F(Ship, EverySolidWithinAPartFacesOutwards) {
+TEST_F(ShipMesh, EverySolidWithinAPartFacesOutwards) {
   const Topology topology = topology_of(mesh);
   std::vector<bool> seen(mesh.triangles.size(), false);
   int solids = 0;
@@ -78,7 +78,7 @@ TEST_F(Ship, EverySolidWithinAPartFacesOutwards) {
   EXPECT_GT(solids, 500);
 }
 
-TEST_F(Ship, HullHasTheVolumeOfItsSections) {
+TEST_F(ShipMesh, HullHasTheVolumeOfItsSections) {
   // Freeboard times mean breadth: 144 m x 17.5 m x about 6.3 m, of which a fine hull fills 0.7 to 0.85.
   const double box = 144 * 17.5 * 6.3;
   const double volume = enclosed_volume(part_of(mesh, 0));
@@ -88,7 +88,7 @@ TEST_F(Ship, HullHasTheVolumeOfItsSections) {
 }
 
 // A plate of the hull is small, and the flare turns along the ship and with height, so that no aspect sees one mirror.
-TEST_F(Ship, HullPlatesAreSmallAndTurnAwayFromOneAnother) {
+TEST_F(ShipMesh, HullPlatesAreSmallAndTurnAwayFromOneAnother) {
   const TriangleMesh hull = part_of(mesh, 0);
   std::vector<double> flare;
   for (std::size_t t = 0; t < hull.triangles.size(); ++t) {
@@ -109,7 +109,7 @@ TEST_F(Ship, HullPlatesAreSmallAndTurnAwayFromOneAnother) {
 }
 
 // Vertices where three faces meet at inner right angles: what answers in many directions.
-TEST_F(Ship, HasInnerRightAngledCornersAllAlong) {
+TEST_F(ShipMesh, HasInnerRightAngledCornersAllAlong) {
   const Topology topology = topology_of(mesh);
   std::vector<int> right_seams(mesh.vertices.size(), 0);
   for (const Wedge& wedge : wedges(mesh, topology, radians(45))) {
@@ -127,7 +127,7 @@ TEST_F(Ship, HasInnerRightAngledCornersAllAlong) {
   EXPECT_GE(slices.size(), 15u) << "of 24 slices of 6 m";
 }
 
-TEST_F(Ship, KeepsItsBudget) {
+TEST_F(ShipMesh, KeepsItsBudget) {
   EXPECT_GE(mesh.triangles.size(), 15000u);
   EXPECT_LE(mesh.triangles.size(), 40000u);
 }

@@ -120,7 +120,7 @@ TEST(SimulateFloat, ItsMastMovesLessThanTheWaterBelowResonance) {
   double largest = 0;
   for (double t = 10; t < 50; t += 0.05) {
     const Pose a = trajectory.pose(t - 0.001), b = trajectory.pose(t + 0.001);
-    const Vec3 velocity = (b.R_TB * point + b.p_TB - a.R_TB * point - a.p_TB) / 0.002;
+    const Vec3 velocity = (b.R * point + b.p - a.R * point - a.p) / 0.002;
     largest = std::max(largest, std::abs(velocity.x()));
   }
   // Mooring: w tau / sqrt(1 + (w tau)^2) = 0.992; resonance (w/w0)^2 = 2.7 % of the tilt's part k h.
@@ -184,7 +184,7 @@ TEST(SimulateFloat, TurnsAboutItsCentreOfFlotation) {
       simulate_motion(make_body(spec, {kReflector, {}}), rest, realize_sea(state_of(1, 5), 1, 0), 5, 42, 0);
   for (const double t : {0.0, 1.234, 5.0}) {
     const Pose pose = trajectory.pose(t);
-    EXPECT_NEAR((pose.R_TB * Vec3(0, 0, -0.75) + pose.p_TB - Vec3(40, 0, 0)).norm(), 0, 1e-12);
+    EXPECT_NEAR((pose.R * Vec3(0, 0, -0.75) + pose.p - Vec3(40, 0, 0)).norm(), 0, 1e-12);
   }
 }
 
@@ -257,7 +257,7 @@ TEST(SimulateMotion, IsTheSameForTheSameKey) {
 TEST(SimulateMotion, AFixedBodyStays) {
   const Trajectory still = simulate_motion(make_body(MotionSpec{}, {kReflector, {}}), {1, 2, 3},
                                            realize_sea(state_of(1, 5), 1, 0), 5, 42, 0);
-  EXPECT_EQ((still.pose(3).p_TB - Vec3(1, 2, 3)).norm(), 0);
+  EXPECT_EQ((still.pose(3).p - Vec3(1, 2, 3)).norm(), 0);
 }
 
 }  // namespace

@@ -196,7 +196,7 @@ TEST(TrajectoryOf, CoversTheTimesItWasAskedForToTheirRounding) {
   EXPECT_NE(message_of([&] { trajectory_of(series, -4e-9, 3, false, Vec3::Zero(), Vec3::Zero()); }), "");
 }
 
-TEST(SimulateMotion, FollowsASeries) {
+TEST(SimulateAttitudeSeries, FollowsASeries) {
   std::string text = "time_s,roll_deg,pitch_deg,yaw_deg,surge_m,sway_m,heave_m\n";
   for (int n = 0; n <= 100; ++n)
     text += fmt::format("{},{},0,{},0,0,{}\n", n, 0.1 * n, n % 2 == 0 ? 179 : -179, 0.01 * n);
@@ -210,7 +210,7 @@ TEST(SimulateMotion, FollowsASeries) {
   EXPECT_EQ(trajectory.sample(10).shift.z(), 0);  // no translations asked for
   // A heading about 180 deg does not turn once around from row to row.
   EXPECT_NEAR(degrees(trajectory.sample(10).angles.z()), 179, 1.5);
-  EXPECT_NEAR(trajectory.pose(0).p_TB.x(), 1, 1e-12);
+  EXPECT_NEAR(trajectory.pose(0).p.x(), 1, 1e-12);
   EXPECT_THAT(message_of([&] {
                 simulate_motion(body, {0, 0, 0}, WaveField(), 90, 1, 0);
               }),

@@ -251,7 +251,7 @@ TEST(ShipRao, HasTheSizeThatStripTheoryGives) {
 }
 
 // S175 as its main particulars say (tests/reference/ship_motion/SOURCE.md); its centre of flotation is where the
-// reference's forces of long waves put it, its sections are Lewis forms of HullForm's lines.
+// reference's forces of long waves put it, its sections are Lewis forms of HullCoefficients's lines.
 ShipParticulars s175(double speed) {
   MotionSpec spec = ship_spec();
   spec.metacentric_height_m = 0.996;
@@ -375,7 +375,7 @@ TEST(SimulateShip, HardlyMovesInSmallWaves) {
   }
 }
 
-TEST(SimulateMotion, TurnsAShipAboutItsCentreOfGravity) {
+TEST(SimulateShip, TurnsAShipAboutItsCentreOfGravity) {
   const WaveField sea = realize_sea(state_of(2, 8, 120), 1, 0);
   const Vec3 rest = rest_position(combatant(), 0, 0);
   EXPECT_EQ(rest.norm(), 0);
@@ -383,11 +383,11 @@ TEST(SimulateMotion, TurnsAShipAboutItsCentreOfGravity) {
   const Trajectory trajectory = simulate_motion(body, rest, sea, 10, 42, 0);
   const Vec3 centre = ship_of(combatant()).centre_of_gravity;
   const Pose pose = trajectory.pose(7.77);
-  EXPECT_NEAR((pose.R_TB * centre + pose.p_TB - centre).norm(), 0, 1e-12);
+  EXPECT_NEAR((pose.R * centre + pose.p - centre).norm(), 0, 1e-12);
   EXPECT_GE(trajectory.end_s(), 10);
 }
 
-TEST(SimulateMotion, ShortPeriodsStayStableAtLongSteps) {
+TEST(SimulateShip, ShortPeriodsStayStableAtLongSteps) {
   MotionSpec spec = ship_spec();
   spec.length_m = 3;
   spec.beam_m = 1;

@@ -34,7 +34,7 @@ std::map<double, double> austin(const std::string& file) {
 // Physical optics alone has 4.3-5.4 dB; measurement and method of moments differ by 0.3-0.5 dB. As a sheet without
 // thickness the plate is off by that (k t = 0.17 and 0.35): a strip of this width by 0.3 and 0.7, 0.6 and 1.2 dB.
 // With it there are left corners, the next order in k t and fifth-order diffraction, at 4.6 wavelengths half a decibel.
-TEST(Plate, FollowsTheMethodOfMomentsWithItsEdges) {
+TEST(PlateEdges, FollowsTheMethodOfMomentsWithItsEdges) {
   const TriangleMesh mesh = make_plate(10.5 * 0.0254, 6 * 0.0254);
   const Scatterer sheet(mesh), plate(mesh, {}, radians(kDefaultCreaseDeg), 0.064 * 0.0254);
   for (const auto& [name, hz] : {std::pair{"f10", 5.12e9}, std::pair{"f11", 10.24e9}}) {
@@ -59,7 +59,7 @@ TEST(Plate, FollowsTheMethodOfMomentsWithItsEdges) {
   }
 }
 
-TEST(Trihedral, IsNearerToTheFullWaveSolutionWithItsEdges) {
+TEST(TrihedralEdges, IsNearerToTheFullWaveSolutionWithItsEdges) {
   const Scatterer trihedral(make_triangular_trihedral(4));
   double squares[2] = {}, powers[2] = {}, power = 0;
   Complex product[2] = {};
@@ -91,7 +91,7 @@ TEST(Trihedral, IsNearerToTheFullWaveSolutionWithItsEdges) {
 // both. Nothing steps there: over 0.002 deg the echo of 6.5 m moves by less than its lobes, k times the leg per radian
 // of turn, and 0.01 m of edge waves that run along the rims from a vertex, on one side of the plane or the other.
 // Reflected waves that met the seams as if from behind stepped by 0.7 m.
-TEST(Trihedral, HasNoStepWhereTwoFacesChangePlaces) {
+TEST(TrihedralEdges, HasNoStepWhereTwoFacesChangePlaces) {
   constexpr double leg = 4, aside_deg = 0.001;
   const Scatterer trihedral(make_triangular_trihedral(leg));
   const double k = wavenumber(0.3e9);
@@ -112,7 +112,7 @@ TEST(Trihedral, HasNoStepWhereTwoFacesChangePlaces) {
 // A sweep in small steps has no spikes: nothing in it changes faster than the plate's own lobes, k times its length per
 // radian and as large as their envelope: the sinc's 1 or 1 / X, X = k length u, and an edge's, which does not grow
 // towards the normal.
-TEST(Plate, HasNoSpikesInASweepAllTheWayRound) {
+TEST(PlateEdges, HasNoSpikesInASweepAllTheWayRound) {
   const Scatterer plate(make_plate(0.25, 0.15));
   const double k = wavenumber(10e9), step = 0.05, length = 0.25, width = 0.15;
   for (const double elevation : {0.0, 2.0, 35.0}) {
@@ -136,7 +136,7 @@ TEST(Plate, HasNoSpikesInASweepAllTheWayRound) {
 // while VV is what a half-plane's rim of this length returns, width / 2 pi, and the rear rim's share. Each order of
 // diffraction alone is as large.
 // Exactly edge-on a sheet is looked at a little aside, whichever way it stands about the line of sight.
-TEST(Plate, EdgeOnIsSeenHoweverItIsTurned) {
+TEST(PlateEdges, EdgeOnIsSeenHoweverItIsTurned) {
   const double k = wavenumber(10e9);
   for (const double turned_deg : {0.0, 20.0, 45.0, 90.0, 135.0, 160.0}) {
     const Mat3 turn = Eigen::AngleAxisd(radians(turned_deg), Vec3::UnitX()).toRotationMatrix();
@@ -151,7 +151,7 @@ TEST(Plate, EdgeOnIsSeenHoweverItIsTurned) {
 
 // A sheet in the line of sight answers however small it is beside the body's radius: far from the origin as at it, but
 // for the phase.
-TEST(Plate, EdgeOnAnswersWhereverItIs) {
+TEST(PlateEdges, EdgeOnAnswersWhereverItIs) {
   const double k = wavenumber(10e9);
   const Mat3 flat = Eigen::AngleAxisd(kPi / 2, Vec3::UnitY()).toRotationMatrix();
   for (const double elevation_deg : {0.0, 5e-4}) {
@@ -170,7 +170,7 @@ TEST(Plate, EdgeOnAnswersWhereverItIs) {
   }
 }
 
-TEST(Plate, EdgeOnAnswersOnlyTheFieldAlongItsRim) {
+TEST(PlateEdges, EdgeOnAnswersOnlyTheFieldAlongItsRim) {
   const double width = 0.15, rim = width / (2 * kPi);
   const Scatterer plate(make_plate(0.25, width));
   for (const double off_deg : {1.0, 0.1, 0.01, 0.001, 0.0, -0.1}) {

@@ -52,10 +52,10 @@ double error_against_fresh_traces(const Scatterer& scatterer, const Trajectory& 
   for (int i = 0; i < spots; ++i) {
     const int n = static_cast<int>(random.below(256)), b = static_cast<int>(random.below(40));
     const Pose pose = trajectory.pose(sampling.pulse_time_s[n]);
-    const Mat3 R_BT = pose.R_TB.transpose();
+    const Mat3 R_BT = pose.R.transpose();
     const double k = wavenumber(sampling.first_hz + (sampling.pulse_first[n] + b) * sampling.step_hz);
-    const RadarBasis seen = range_m > 0 ? radar_basis((range_m * r_hat - pose.p_TB).normalized()) : world;
-    const double nearer_m = range_m > 0 ? range_m - (range_m * r_hat - pose.p_TB).norm() : r_hat.dot(pose.p_TB);
+    const RadarBasis seen = range_m > 0 ? radar_basis((range_m * r_hat - pose.p).normalized()) : world;
+    const double nearer_m = range_m > 0 ? range_m - (range_m * r_hat - pose.p).norm() : r_hat.dot(pose.p);
     const AntennaPair antennas = monostatic({R_BT * seen.r, R_BT * seen.h, R_BT * seen.v});
     const IlluminationSettings settings{solver.ray_spacing_m, solver.max_bounces, solver.edges, {}, range_m};
     const Complex s = scattering_matrices(scatterer, antennas, std::array{k}, settings, 2)[0][kVvChannel];

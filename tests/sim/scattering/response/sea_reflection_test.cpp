@@ -264,7 +264,7 @@ double error_against_fresh_traces(const Scatterer& scatterer, const Trajectory& 
   for (int spot = 0; spot < spots; ++spot) {
     const int n = static_cast<int>(random.below(256)), b = static_cast<int>(random.below(40));
     const Pose pose = trajectory.pose(sampling.pulse_time_s[n]);
-    const Mat3 R_BT = pose.R_TB.transpose();
+    const Mat3 R_BT = pose.R.transpose();
     const double k = wavenumber(sampling.first_hz + (sampling.pulse_first[n] + b) * sampling.step_hz);
     Complex fresh = 0;
     for (const SeaPath& path : kSeaPaths) {
@@ -272,7 +272,7 @@ double error_against_fresh_traces(const Scatterer& scatterer, const Trajectory& 
       const RadarBasis &t = path.there ? image : radar, &s = path.back ? image : radar;
       const AntennaPair pair = path.there == path.back ? monostatic(turned(t)) : bistatic(turned(t), turned(s));
       fresh +=
-          SeaMirror::weight(path, sea.at(k, r.z()), element) * std::polar(1.0, k * (t.r + s.r).dot(pose.p_TB)) *
+          SeaMirror::weight(path, sea.at(k, r.z()), element) * std::polar(1.0, k * (t.r + s.r).dot(pose.p)) *
           scattering_matrices(scatterer, pair, std::array{k}, {0, kDefaultBounces, SolverSpec{}.edges}, 2)[0][element];
     }
     error += std::norm(body.response.at(n, b) - fresh);

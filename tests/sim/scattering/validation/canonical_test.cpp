@@ -79,7 +79,7 @@ TEST(Dihedral, TurnedBy45DegreesIsPureCrossPolarised) {
 
 // Peak of the triangular trihedral on its axis, 4 pi leg^4 / (3 lambda^2) (Knott, Shaeffer and Tuley, Radar Cross
 // Section, table 6.1).
-TEST(Trihedral, ReachesItsPeakOnItsAxis) {
+TEST(TrihedralFacets, ReachesItsPeakOnItsAxis) {
   const double leg = 0.372;
   const auto s = echo(make_triangular_trihedral(leg), Vec3(1, 1, 1).normalized(), k16);
   const double peak = 10 * std::log10(4 * kPi * std::pow(leg, 4) / 3 * std::pow(k16 / (2 * kPi), 2));
@@ -89,7 +89,7 @@ TEST(Trihedral, ReachesItsPeakOnItsAxis) {
   EXPECT_NEAR(dbsm(s[kHhChannel]), peak, 0.17);
 }
 
-TEST(Trihedral, IsWithinPhysicalOpticsReachOfTheFullWaveSolution) {
+TEST(TrihedralFacets, IsWithinPhysicalOpticsReachOfTheFullWaveSolution) {
   const Scatterer trihedral(make_triangular_trihedral(4));
   double squares = 0;
   int count = 0;

@@ -36,7 +36,7 @@ int local_maxima(const RvMap& map) {
 
 // Stepped code (every carrier's pulses as regular as can be), no clutter, Hann taper both ways; the ship rolls, pitches
 // and yaws as at Hs 2 m, Tp 8 s.
-TEST(Ship, HoldsAtLeastTwentyScatteringCentresWithin30DbAtObliqueAspects) {
+TEST(ShipCentres, HoldsAtLeastTwentyScatteringCentresWithin30DbAtObliqueAspects) {
   const Scatterer ship(read_mesh(SEAGLINT_SOURCE_DIR "/assets/combatant_144m.glb"));
   RadarSpec radar;
   radar.hop_code = HopCode::kStepped;

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/scenario/cases.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/reproducible_functions.h"
+
+namespace seaglint {
+
+double echo_duration_us(const RadarSpec& radar, double window_m) {
+  return radar.pulse_width_us + 2e6 * window_m / kSpeedOfLight;
+}
+
+namespace {
+
+// Tp of a wind sea, where the scenario leaves it to a rule. DNV: 3.96 sqrt(Hs), between the 3.6 and 5 sqrt(Hs) where
+// DNV-RP-C205, 3.5.5.5, finds JONSWAP to hold. Fetch: f U/g = 3.5 (g F/U^2)^-0.33 (Hasselmann et al. 1973), no limit of
+// a fully developed sea.
+Sweep peak_periods(const SeaSpec& spec, double height) {
+  if (spec.table_values) return {2 * kPi / spec.table_values->peak_omega()};
+  switch (spec.period_rule) {
+    case PeakPeriod::kDnvWindSea: return {3.96 * std::sqrt(height)};
+    case PeakPeriod::kWindAndFetch: {
+      const double speed = spec.wind.speed_mps;
+      const double fetch = kGravity * 1000 * spec.wind.fetch_km / (speed * speed);
+      return {speed / kGravity / (3.5 * exact_exp(-0.33 * exact_log(fetch)))};
+    }
+    case PeakPeriod::kGiven: break;
+  }
+  return spec.peak_period_s;
+}
+
+// DNV-RP-C205, 3.5.5.5.
+double dnv_gamma(double height, double period) {
+  const double ratio = height > 0 ? period / std::sqrt(height) : 5;
+  if (ratio <= 3.6) return 5;
+  return ratio < 5 ? exact_exp(5.75 - 1.15 * ratio) : 1;
+}
+
+Sweep gammas(const SeaSpec& spec, double height, double period) {
+  if (spec.spectrum != SpectrumKind::kJonswap) return {1};
+  return spec.gamma_rule == PeakEnhancement::kDnvRule ? Sweep{dnv_gamma(height, period)} : spec.gamma;
+}
+
+WaveSystemState swell_of(const SwellSpec& spec) {
+  return {spec.significant_wave_height_m, spec.peak_period_s, spec.gamma,
+          radians(spec.propagation_deg),  spec.spreading,     spec.components};
+}
+
+double default_cutoff(const SeaSpec& spec, double period) {
+  if (spec.table_values) return spec.table_values->omega.back();
+  const double peak_rad_s = period > 0 ? 2 * kPi / period : 0;
+  return std::max(8.0, 4 * peak_rad_s);
+}
+
+}  // namespace
+
+double convergent_cutoff(const SeaState& state) {
+  const double height = total_wave_height(state);
+  if (height == 0) return state.cutoff_rad_s;  // on flat water no component is too short for the expansion
+  return std::sqrt(2 * kGravity / height * exact_tanh(2 * state.depth_m / height));
+}
+
+double total_wave_height(const SeaState& state) {
+  const double wind = state.significant_wave_height_m, swell = state.swell.significant_wave_height_m;
+  return std::sqrt(wind * wind + swell * swell);
+}
+
+std::vector<SeaState> sea_states(const SeaSpec& spec) {
+  std::vector<SeaState> states;
+  const Sweep heights = spec.height_rule == WaveHeight::kOfTable && spec.table_values
+                            ? Sweep{4 * std::sqrt(spec.table_values->energy())}
+                            : spec.significant_wave_height_m;
+  for (const double height : heights) {
+    for (const double period : peak_periods(spec, height)) {
+      for (const double gamma : gammas(spec, height, period)) {
+        for (const double propagation : spec.propagation_deg) {
+          SeaState state;
+          state.significant_wave_height_m = height;
+          state.peak_period_s = period;
+          state.gamma = gamma;
+          state.propagation_rad = radians(propagation);
+          state.propagation_deg = propagation;
+          state.order = spec.order;
+          state.components = spec.components;
+          state.spreading = spec.spreading;
+          state.normalisation = spec.normalisation;
+          state.table = spec.table_values;
+          state.swell = swell_of(spec.swell);
+          state.depth_m = spec.depth_m.value_or(kDeepWater);
+          state.amplitude = spec.amplitude;
+          state.cutoff_rad_s = spec.cutoff_rad_s > 0 ? spec.cutoff_rad_s : default_cutoff(spec, period);
+          state.second_order_cutoff_rad_s =
+              spec.second_order_cutoff_rad_s > 0 ? spec.second_order_cutoff_rad_s : convergent_cutoff(state);
+          states.push_back(state);
+        }
+      }
+    }
+  }
+  return states;
+}
+
+std::vector<View> views(const ViewSpec& spec) {
+  std::vector<View> all;
+  for (const double azimuth : spec.azimuth_deg) {
+    for (const double elevation : spec.elevation_deg)
+      all.push_back({radians(azimuth), radians(elevation), azimuth, elevation});
+  }
+  return all;
+}
+
+}  // namespace seaglint

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// A scenario file as plain structs, in the units of its keys.
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sim/scenario/learning_spec.h"
+#include "sim/scenario/radar_spec.h"
+#include "sim/scenario/sea_spec.h"
+#include "sim/scenario/target_spec.h"
+
+namespace seaglint {
+
+struct ScenarioDocument;
+
+struct Scenario {
+  int version = 1;   // `seaglint: 1`
+  std::string name;  // the file's name without extension when not given
+  std::uint64_t seed = 42;
+  RadarSpec radar;
+  ViewSpec view;
+  SeaSpec sea;
+  SeaReflectionSpec sea_reflection;
+  std::vector<TargetSpec> targets;  // in the order of the file
+  ClutterSpec clutter;
+  MapSpec map;
+  DatasetSpec dataset;
+  FeatureSpec features;
+  LearningSpec learning;
+  std::filesystem::path folder;  // of the file: relative mesh paths start here, then at the working directory
+  std::shared_ptr<const ScenarioDocument> document;  // where its keys stand; null when it was not read
+};
+
+}  // namespace seaglint

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What documents name exists: filters of tests and benchmarks wherever they stand, in READMEs programs, commands and
+// scripts too.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "tests/architecture/test_names.h"
+
+namespace seaglint {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+// Everything that is run by name.
+struct Runnable {
+  std::vector<NamedTest> tests;
+  std::map<std::string, std::string> test_programs;  // their folders
+  std::set<std::string> benchmarks;
+  std::set<std::string> commands;  // of `seaglint`
+};
+
+const Runnable& runnable() {
+  static const Runnable all = [] {
+    Runnable found{all_tests(), {}, benchmarks_in(code_files()), {}};
+    for (const std::string& program : split(SEAGLINT_TEST_PROGRAMS, ',')) {
+      const std::size_t equals = program.find('=');
+      found.test_programs[program.substr(0, equals)] = program.substr(equals + 1);
+    }
+    static const std::regex command(R"re(\badd_subcommand\(\s*"([a-z-]+)")re");
+    for (const SourceFile& file : code_files()) {
+      if (!file.is_below("tools")) continue;
+      for (std::sregex_iterator match(file.text.begin(), file.text.end(), command), end; match != end; ++match)
+        found.commands.insert((*match)[1]);
+    }
+    return found;
+  }();
+  return all;
+}
+
+// As GoogleTest: `*` any text, `?` any character.
+bool matches(std::string_view pattern, std::string_view name) {
+  if (pattern.empty()) return name.empty();
+  if (pattern[0] == '*') return matches(pattern.substr(1), name) || (!name.empty() && matches(pattern, name.substr(1)));
+  return !name.empty() && (pattern[0] == '?' || pattern[0] == name[0]) && matches(pattern.substr(1), name.substr(1));
+}
+
+using Faults = std::vector<std::string>;
+
+// `--gtest_filter='A*:B*'`, behind its program or alone, or `... 'A*'` for the program of the line above.
+void check_test_filters(const std::string& line, Faults& faults) {
+  static const std::regex filter(
+      R"re((?:(test_[a-z_]+)\s+)?(?:--gtest_filter=|\.\.\. (?='))('[^']*'|"[^"]*"|[^\s`'"]+))re");
+  for (std::sregex_iterator match(line.begin(), line.end(), filter), end; match != end; ++match) {
+    const std::string program = (*match)[1];
+    std::string value = (*match)[2];
+    std::erase_if(value, [](char c) { return c == '\'' || c == '"'; });
+    for (const std::string& pattern : split(value.substr(0, value.find('-')), ':')) {
+      const bool found = std::any_of(runnable().tests.begin(), runnable().tests.end(), [&](const NamedTest& test) {
+        const auto folder = runnable().test_programs.find(program);
+        const bool there = program.empty() ||
+                           (folder != runnable().test_programs.end() && test.file.starts_with(folder->second + "/"));
+        return there && matches(pattern, test.name);
+      });
+      if (!found) faults.push_back("no test " + pattern + (program.empty() ? "" : " of " + program));
+    }
+  }
+}
+
+// Each alternative of `--benchmark_filter='A|B'`, a regular expression.
+void check_benchmark_filters(const std::string& line, Faults& faults) {
+  static const std::regex filter(R"re(--benchmark_filter=('[^']*'|"[^"]*"|[^\s`'")]+))re");
+  for (std::sregex_iterator match(line.begin(), line.end(), filter), end; match != end; ++match) {
+    std::string value = (*match)[1];
+    std::erase_if(value, [](char c) { return c == '\'' || c == '"'; });
+    for (const std::string& alternative : split(value, '|')) {
+      const std::regex expression(alternative);
+      const bool found = std::any_of(runnable().benchmarks.begin(), runnable().benchmarks.end(),
+                                     [&](const std::string& name) { return std::regex_search(name, expression); });
+      if (!found) faults.push_back("no benchmark " + alternative);
+    }
+  }
+}
+
+// Test programs; `seaglint WORD` in code, behind a back quote, a path or the indent of a block.
+void check_commands(const std::string& line, Faults& faults) {
+  static const std::regex program(R"re((?:build/[a-z]+/|`)(test_[a-z_]+)(?![a-z_.<]))re");
+  static const std::regex command(R"re((?:^    .*\b|`|/)seaglint ([a-z][a-z-]*))re");
+  for (std::sregex_iterator match(line.begin(), line.end(), program), end; match != end; ++match) {
+    const std::string name = (*match)[1];
+    if (!runnable().test_programs.contains(name)) faults.push_back("no program " + name);
+  }
+  for (std::sregex_iterator match(line.begin(), line.end(), command), end; match != end; ++match) {
+    if (!runnable().commands.contains((*match)[1])) faults.push_back("no command " + (*match)[1].str());
+  }
+}
+
+// A file or folder of tools/, by its path from the root.
+void check_scripts(const std::string& line, Faults& faults) {
+  static const std::regex script(
+      R"re((?:^|[^A-Za-z0-9_./-])(?:\./)?(tools/[A-Za-z0-9_./-]*[A-Za-z0-9_])(?![A-Za-z0-9_*]))re");
+  for (std::sregex_iterator match(line.begin(), line.end(), script), end; match != end; ++match) {
+    const std::string path = (*match)[1];
+    if (!std::filesystem::exists(std::filesystem::path(SEAGLINT_SOURCE_DIR) / path)) faults.push_back("no " + path);
+  }
+}
+
+Faults faults_in(const SourceFile& file) {
+  Faults all;
+  int number = 0;
+  for (const std::string& line : lines_of(file.text)) {
+    ++number;
+    Faults faults;
+    if (line.find("_filter=") != std::string::npos || line.find("... '") != std::string::npos) {
+      check_test_filters(line, faults);
+      check_benchmark_filters(line, faults);
+    }
+    if (file.path.ends_with(".md")) {
+      check_commands(line, faults);
+      check_scripts(line, faults);
+    }
+    for (const std::string& fault : faults) all.push_back(file.path + ":" + std::to_string(number) + ": " + fault);
+  }
+  return all;
+}
+
+TEST(DocumentedNames, FiltersCommandsAndScriptsExist) {
+  EXPECT_GT(runnable().benchmarks.size(), 15u);
+  EXPECT_GT(runnable().commands.size(), 10u);
+  EXPECT_GT(runnable().test_programs.size(), 10u);
+  Faults faults;
+  for (const SourceFile& file : source_files()) {
+    // The changelog names what was; sources hold filters of programs that they start.
+    if (file.path == "CHANGELOG.md" || file.path.ends_with(".cpp") || file.is_below("tests/architecture")) continue;
+    for (const std::string& fault : faults_in(file)) faults.push_back(fault);
+  }
+  EXPECT_THAT(faults, IsEmpty());
+}
+
+TEST(DocumentedNames, ThatDoNotExistAreFound) {
+  const auto of = [](const std::string& text) { return faults_in({"x.md", text}); };
+  EXPECT_THAT(of("`test_architecture --gtest_filter='DocumentedNames.That*:TestSuites*'`, `./tools/check`,\n"
+                 "`build/release/seaglint check scenarios/quick.yaml`, (`... 'TestSuites*'`), tools/"),
+              IsEmpty());
+  EXPECT_THAT(of("(`--gtest_filter='TestSuites.Nothing*'`)"), ElementsAre(HasSubstr("x.md:1: no test TestSuites.No")));
+  EXPECT_THAT(of("`test_core --gtest_filter=TestSuites*`"), ElementsAre(HasSubstr("of test_core")));
+  EXPECT_THAT(of("test_attic --gtest_filter=TestSuites*"), ElementsAre(HasSubstr("of test_attic")));
+  EXPECT_THAT(of("(`... 'Nothing*'`)"), ElementsAre(HasSubstr("no test Nothing*")));
+  EXPECT_THAT(of("`seaglint_bench --benchmark_filter='Map|Nothing'`"), ElementsAre(HasSubstr("no benchmark Nothing")));
+  EXPECT_THAT(of("`seaglint simulate`"), ElementsAre(HasSubstr("no command simulate")));
+  EXPECT_THAT(of("    srun build/release/seaglint simulate"), ElementsAre(HasSubstr("no command simulate")));
+  EXPECT_THAT(of("`build/release/test_attic`"), ElementsAre(HasSubstr("no program test_attic")));
+  EXPECT_THAT(of("run ./tools/attic, once"), ElementsAre(HasSubstr("no tools/attic")));
+}
+
+}  // namespace
+}  // namespace seaglint

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One idea in a file, and a folder that one sees at once.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+
+#include "tests/architecture/source_files.h"
+
+namespace seaglint {
+namespace {
+
+constexpr int kLongestHeader = 250, kLongestSource = 400;  // lines
+constexpr int kMostFiles = 30;                             // in a folder, its sub-folders' not counted
+
+// Files and folders that are beyond a limit. None may be added, and what no longer is must be taken out.
+const std::set<std::string> kLongFiles = {};
+const std::set<std::string> kFullFolders = {"classify/dataset", "sim/geometry", "sim/motion",
+                                            "sim/scattering",   "tools",        "tests/sim/scattering"};
+
+TEST(FileSizes, HeadersHaveAtMost250LinesAndSources400) {
+  std::set<std::string> found;
+  for (const SourceFile& file : code_files()) {
+    const auto lines = std::count(file.text.begin(), file.text.end(), '\n');
+    if (lines > (file.path.ends_with(".h") ? kLongestHeader : kLongestSource)) found.insert(file.path);
+  }
+  EXPECT_EQ(found, kLongFiles);
+}
+
+TEST(FileSizes, FoldersHaveAtMost30Files) {
+  namespace fs = std::filesystem;
+  const fs::path root = SEAGLINT_SOURCE_DIR;
+  std::map<std::string, int> files;
+  for (const char* top : {"assets", "scenarios", "sim", "radar", "classify", "tools", "tests"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(root / top)) {
+      if (entry.is_regular_file()) ++files[fs::relative(entry.path().parent_path(), root).string()];
+    }
+  }
+  EXPECT_GT(files["tests/architecture"], 5) << "the test counts no files";
+  std::set<std::string> found;
+  for (const auto& [folder, count] : files) {
+    if (count > kMostFiles && !folder.starts_with("tests/reference")) found.insert(folder);
+  }
+  EXPECT_EQ(found, kFullFolders);
+}
+
+}  // namespace
+}  // namespace seaglint

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// The text files of the repository as the tests of its architecture read them, and the order of its folders.
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace seaglint {
+
+struct SourceFile {
+  std::string path;  // relative to the root
+  std::string text;
+
+  bool is_code() const { return path.ends_with(".h") || path.ends_with(".cpp"); }
+  bool is_below(std::string_view folder) const { return path.starts_with(std::string(folder) + "/"); }
+};
+
+inline std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+inline std::vector<std::string> split(const std::string& list, char separator) {
+  std::vector<std::string> items;
+  std::istringstream stream(list);
+  for (std::string item; std::getline(stream, item, separator);) {
+    if (!item.empty()) items.push_back(item);
+  }
+  return items;
+}
+
+// Whether a file is text that names or defines something: code, documents and scripts. Data are not read.
+inline bool is_read(const std::filesystem::path& file) {
+  const std::string extension = file.extension().string();
+  return extension.empty() || extension == ".h" || extension == ".cpp" || extension == ".md" || extension == ".py" ||
+         extension == ".sh";
+}
+
+// All text files of the project's folders and of its root, by path.
+inline const std::vector<SourceFile>& source_files() {
+  static const std::vector<SourceFile> files = [] {
+    namespace fs = std::filesystem;
+    const fs::path root = SEAGLINT_SOURCE_DIR;
+    std::vector<SourceFile> found;
+    const auto add = [&](const fs::directory_entry& entry) {
+      if (!entry.is_regular_file() || !is_read(entry.path())) return;
+      std::ifstream file(entry.path(), std::ios::binary);
+      std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+      found.push_back({fs::relative(entry.path(), root).string(), std::move(text)});
+    };
+    for (const auto& entry : fs::directory_iterator(root)) add(entry);
+    for (const char* folder : {"assets", "scenarios", "sim", "radar", "classify", "tools", "tests"}) {
+      for (const auto& entry : fs::recursive_directory_iterator(root / folder)) add(entry);
+    }
+    std::sort(found.begin(), found.end(), [](const SourceFile& a, const SourceFile& b) { return a.path < b.path; });
+    return found;
+  }();
+  return files;
+}
+
+// The C++ files among them.
+inline std::vector<SourceFile> code_files() {
+  std::vector<SourceFile> code;
+  for (const SourceFile& file : source_files()) {
+    if (file.is_code()) code.push_back(file);
+  }
+  return code;
+}
+
+// The folders of stages and rooms from the first that may be included to the last: the rooms of a stage, then the stage
+// itself for the files beside its rooms.
+inline std::vector<std::string> ordered_folders(const std::vector<std::string>& stages,
+                                                const std::vector<std::string>& rooms) {
+  std::vector<std::string> folders;
+  for (const std::string& stage : stages) {
+    for (const std::string& room : rooms) {
+      if (room.starts_with(stage + "/")) folders.push_back(room);
+    }
+    folders.push_back(stage);
+  }
+  return folders;
+}
+
+inline std::vector<std::string> stage_list() { return split(SEAGLINT_STAGES, ','); }
+inline std::vector<std::string> room_list() { return split(SEAGLINT_ROOMS, ','); }
+
+}  // namespace seaglint
