@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "sim/scenario/cases.h"
-#include "sim/scenario/files/scenario_document.h"
+#include "sim/scenario/files/override.h"
 #include "sim/scenario/scenario_spec.h"
 
 namespace seaglint {

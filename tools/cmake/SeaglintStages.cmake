@@ -1,4 +1,22 @@
 # SPDX-License-Identifier: BSD-3-Clause
+# precompile_headers(TARGET OWNER HEADER...)
+# Headers that most sources of a target read are compiled once: by OWNER, from which targets with the same list take them.
+# Sources still include what they use; the presets dev and tidy build without.
+function(precompile_headers target owner)
+  if(NOT SEAGLINT_PRECOMPILED_HEADERS)
+    return()
+  endif()
+  if(target STREQUAL owner)
+    target_precompile_headers(${target} PRIVATE ${ARGN})
+  else()
+    target_precompile_headers(${target} REUSE_FROM ${owner})
+  endif()
+endfunction()
+
+set(SEAGLINT_COMMON_HEADERS
+  <Eigen/Core> <Eigen/Geometry> <fmt/format.h> <algorithm> <array> <cmath> <complex> <cstdint> <filesystem> <functional> <map>
+  <memory> <optional> <set> <span> <string> <string_view> <utility> <vector>)
+
 # add_stage(FOLDER [ROOMS ...] [LIBRARIES ...])
 # A folder is a stage is a static library `seaglint_<folder>`. It links every stage declared before it and keeps its third-party
 # libraries to itself. ROOMS are its sub-folders with sources, from the first that may be included to the last. Its tests are
@@ -30,6 +48,11 @@ function(add_stage folder)
     target_link_libraries(${target} PUBLIC ${upstream} PRIVATE seaglint_flags ${STAGE_LIBRARIES})
     # Eigen and fmt are the two libraries whose types the public headers use.
     target_link_libraries(${target} PUBLIC Eigen3::Eigen fmt::fmt)
+    if(folder STREQUAL "tools")
+      precompile_headers(${target} ${target} ${SEAGLINT_COMMON_HEADERS} <CLI/CLI.hpp> <nlohmann/json.hpp>)
+    elseif(NOT folder STREQUAL "classify/cnn")  # libtorch has macros and flags of its own
+      precompile_headers(${target} seaglint_core ${SEAGLINT_COMMON_HEADERS})
+    endif()
   else()
     add_library(${target} INTERFACE)
     target_include_directories(${target} INTERFACE ${CMAKE_SOURCE_DIR} ${CMAKE_BINARY_DIR}/generated)
