@@ -59,7 +59,7 @@ void BeamEcho::radiate(const Leg& leg, const Candidate& candidate, std::span<con
     footprint.patterns = patterns(leg, footprint.facet, n);
     footprint.pattern = footprint.patterns[footprint.patterns.size() / 2];
   }
-  footprint.curvature = curvature_of(curving_, leg, candidate, footprint);
+  footprint.curvature = curvature_of(curving_, panels_, leg, candidate, footprint);
   Screens screens;
   std::optional<BeamEnds> ends;
   if (has_beam_ends(leg, footprint)) {

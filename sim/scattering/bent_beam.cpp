@@ -21,12 +21,33 @@ BentRays travelled(const Leg& leg, const Candidate& candidate) {
   return rays;
 }
 
-std::array<Vec2, 3> projected(const Curving& on, const Leg& leg, int facet) {
+Vec2 projected(const Curving& on, const Leg& leg, const Vec3& x) {
   const RadarBasis& basis = on.antennas.transmit;
+  const Vec3 image = leg.mirrors.image(x);
+  return {image.dot(basis.h), image.dot(basis.v)};
+}
+
+std::array<Vec2, 3> projected(const Curving& on, const Leg& leg, int facet) {
+  const auto& [a, b, c] = on.facets[facet].corner;
+  return {projected(on, leg, a), projected(on, leg, b), projected(on, leg, c)};
+}
+
+// The triangle of a flat panel's first facet, enlarged about a point of its own until it holds the whole panel. It
+// belongs to the panel, not to a footprint: pieces that meet on the panel are then cut alike, and their contours
+// cancel.
+std::array<Vec2, 3> around_panel(const Curving& on, const Leg& leg, std::span<const Vec3> outline,
+                                 const std::array<Vec2, 3>& first) {
+  if (outline.size() == 3) return first;
+  const Barycentric lambda(first);
+  std::array<double, 3> least{};
+  for (const Vec3& x : outline) {
+    const Vec2 p = projected(on, leg, x);
+    for (int i = 0; i < 3; ++i) least[i] = std::min(least[i], lambda.at(i, p));
+  }
   std::array<Vec2, 3> corner;
   for (int i = 0; i < 3; ++i) {
-    const Vec3 image = leg.mirrors.image(on.facets[facet].corner[i]);
-    corner[i] = Vec2(image.dot(basis.h), image.dot(basis.v));
+    const int j = (i + 1) % 3, l = (i + 2) % 3;
+    corner[i] = (1 - least[j] - least[l]) * first[i] + least[j] * first[j] + least[l] * first[l];
   }
   return corner;
 }
@@ -69,8 +90,8 @@ BentRays reflected_rays(const Curving& on, const Leg& leg, const Candidate& cand
   return rays;
 }
 
-std::shared_ptr<const Curvature> curvature_of(const Curving& on, const Leg& leg, const Candidate& candidate,
-                                              const Footprint& footprint) {
+std::shared_ptr<const Curvature> curvature_of(const Curving& on, const Panels& panels, const Leg& leg,
+                                              const Candidate& candidate, const Footprint& footprint) {
   const auto& [transmit, receive, is_monostatic] = on.antennas;
   const int facet = candidate.image.facet;
   const CurvedFacet* curved = on.surface.curved(facet);
@@ -79,7 +100,8 @@ std::shared_ptr<const Curvature> curvature_of(const Curving& on, const Leg& leg,
   const bool bent = leg.bent && rays.landing.matrix.norm() < kMostSpread;
   if (!bent) rays = {};
   if (!curved && !bent) return nullptr;
-  const auto corner = projected(on, leg, facet);
+  auto corner = projected(on, leg, facet);
+  if (!curved) corner = around_panel(on, leg, panels.outline(facet), corner);
   const Barycentric lambda(corner);
 
   // The surface stands higher by z / cos(incidence) along the ray, both ways.

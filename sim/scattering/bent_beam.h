@@ -9,6 +9,7 @@
 
 #include "sim/scattering/beam_leg.h"
 #include "sim/scattering/curvature.h"
+#include "sim/scattering/panels.h"
 #include "sim/scattering/smooth_surface.h"
 
 namespace seaglint {
@@ -24,8 +25,8 @@ struct Curving {
 BentRays reflected_rays(const Curving& on, const Leg& leg, const Candidate& candidate);
 
 // What the curvature of a facet and of the mirrors before it adds to a footprint whose flat phase and pattern are set;
-// null where all are flat.
-std::shared_ptr<const Curvature> curvature_of(const Curving& on, const Leg& leg, const Candidate& candidate,
-                                              const Footprint& footprint);
+// null where all are flat. Its triangle is the curved facet, or holds the whole flat panel.
+std::shared_ptr<const Curvature> curvature_of(const Curving& on, const Panels& panels, const Leg& leg,
+                                              const Candidate& candidate, const Footprint& footprint);
 
 }  // namespace seaglint
