@@ -2,6 +2,7 @@
 #include "sim/scattering/beams/curved_reflection.h"
 
 namespace seaglint {
+
 BentRays travelled(const Leg& leg, const Candidate& candidate) {
   const Vec2 c = centroid(candidate.lit.polygons().front());
   BentRays rays = leg.rays;
@@ -9,14 +10,14 @@ BentRays travelled(const Leg& leg, const Candidate& candidate) {
   return rays;
 }
 
+Vec2 projected(const Curving& on, const Leg& leg, const Vec3& x) {
+  const Vec3 image = leg.mirrors.image(x);
+  return {image.dot(on.transmit.h), image.dot(on.transmit.v)};
+}
+
 std::array<Vec2, 3> projected(const Curving& on, const Leg& leg, int facet) {
-  const RadarBasis& basis = on.transmit;
-  std::array<Vec2, 3> corner;
-  for (int i = 0; i < 3; ++i) {
-    const Vec3 image = leg.mirrors.image(on.facets[facet].corner[i]);
-    corner[i] = Vec2(image.dot(basis.h), image.dot(basis.v));
-  }
-  return corner;
+  const auto& [a, b, c] = on.facets[facet].corner;
+  return {projected(on, leg, a), projected(on, leg, b), projected(on, leg, c)};
 }
 
 BentRays reflected_rays(const Curving& on, const Leg& leg, const Candidate& candidate) {

@@ -24,7 +24,8 @@ struct Curving {
 // The rays where they meet the candidate's plane.
 BentRays travelled(const Leg& leg, const Candidate& candidate);
 
-// The facet's corners in the aperture, through the leg's mirrors.
+// A point, and a facet's corners, in the aperture, through the leg's mirrors.
+Vec2 projected(const Curving& on, const Leg& leg, const Vec3& x);
 std::array<Vec2, 3> projected(const Curving& on, const Leg& leg, int facet);
 
 // The sagittas of a curved facet's edges on the leg's side, each times a factor of the cosine of the incidence there.

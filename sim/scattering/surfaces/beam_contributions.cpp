@@ -38,7 +38,7 @@ void BeamEcho::radiate(const Leg& leg, const Candidate& candidate, std::span<con
     footprint.patterns = patterns(leg, footprint.facet, n);
     footprint.pattern = footprint.patterns[footprint.patterns.size() / 2];
   }
-  footprint.curvature = curvature_of(curving_, antennas_, leg, candidate, footprint);
+  footprint.curvature = curvature_of(curving_, panels_, antennas_, leg, candidate, footprint);
   if (visitor_) visitor_->start(leg, candidate, footprint);
   const double share = leaves_grazing(leg, footprint.facet) ? share_of_way(leg, footprint.facet) : 1.0;
   // More is given with the ends of its beams; where less is left they have faded out as much (rim_share).

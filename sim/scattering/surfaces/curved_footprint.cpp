@@ -13,6 +13,26 @@ namespace {
 // of their facets' bundles is then all that spreads them.
 constexpr double kMostSpread = 4;
 
+// The triangle of a flat panel's first facet, enlarged about a point of its own until it holds the whole panel. It
+// belongs to the panel, not to a footprint: pieces that meet on the panel are then cut alike, and their contours
+// cancel.
+std::array<Vec2, 3> around_panel(const Curving& on, const Leg& leg, std::span<const Vec3> outline,
+                                 const std::array<Vec2, 3>& first) {
+  if (outline.size() == 3) return first;
+  const Barycentric lambda(first);
+  std::array<double, 3> least{};
+  for (const Vec3& x : outline) {
+    const Vec2 p = projected(on, leg, x);
+    for (int i = 0; i < 3; ++i) least[i] = std::min(least[i], lambda.at(i, p));
+  }
+  std::array<Vec2, 3> corner;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, l = (i + 2) % 3;
+    corner[i] = (1 - least[j] - least[l]) * first[i] + least[j] * first[j] + least[l] * first[l];
+  }
+  return corner;
+}
+
 // Cosine of the incidence at a normal of the smooth surface. Beyond the shadow boundary, where currents have faded, it
 // stays positive.
 double smooth_cosine(const Leg& leg, const Facet& flat, const Vec3& normal) {
@@ -21,8 +41,8 @@ double smooth_cosine(const Leg& leg, const Facet& flat, const Vec3& normal) {
 
 }  // namespace
 
-std::shared_ptr<const Curvature> curvature_of(const Curving& on, const AntennaPair& antennas, const Leg& leg,
-                                              const Candidate& candidate, const Footprint& footprint) {
+std::shared_ptr<const Curvature> curvature_of(const Curving& on, const Panels& panels, const AntennaPair& antennas,
+                                              const Leg& leg, const Candidate& candidate, const Footprint& footprint) {
   const auto& [transmit, receive, is_monostatic] = antennas;
   const int facet = candidate.image.facet;
   const CurvedFacet* curved = on.surface.curved(facet);
@@ -31,7 +51,8 @@ std::shared_ptr<const Curvature> curvature_of(const Curving& on, const AntennaPa
   const bool bent = leg.bent && rays.landing.matrix.norm() < kMostSpread;
   if (!bent) rays = {};
   if (!curved && !bent) return nullptr;
-  const auto corner = projected(on, leg, facet);
+  auto corner = projected(on, leg, facet);
+  if (!curved) corner = around_panel(on, leg, panels.outline(facet), corner);
   const Barycentric lambda(corner);
 
   // The surface stands higher by z / cos(incidence) along the ray, both ways.

@@ -10,6 +10,7 @@
 
 #include "sim/scattering/beams/curved_reflection.h"
 #include "sim/scattering/surfaces/footprint.h"
+#include "sim/scattering/target/panels.h"
 
 namespace seaglint {
 
@@ -29,8 +30,8 @@ struct Curvature {
 };
 
 // What the curvature of a facet and of the mirrors before it adds to a footprint whose flat phase and pattern are set;
-// null where all are flat.
-std::shared_ptr<const Curvature> curvature_of(const Curving& on, const AntennaPair& antennas, const Leg& leg,
-                                              const Candidate& candidate, const Footprint& footprint);
+// null where all are flat. Its triangle is the curved facet, or holds the whole flat panel.
+std::shared_ptr<const Curvature> curvature_of(const Curving& on, const Panels& panels, const AntennaPair& antennas,
+                                              const Leg& leg, const Candidate& candidate, const Footprint& footprint);
 
 }  // namespace seaglint

@@ -11,6 +11,7 @@
 #include "sim/core/numbers/random.h"
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/shapes/generators.h"
+#include "sim/scattering/response/illumination.h"
 #include "sim/scattering/response/response_grid.h"
 #include "sim/scattering/response/scattering_matrix.h"
 #include "sim/scattering/surfaces/phase_integral.h"
