@@ -125,7 +125,8 @@ const char* name(ProbeKind kind) {
   return "";
 }
 
-LearningTable load_learning_table(const DatasetReader& data, const LearningSpec& spec, const StopFlag* stop) {
+LearningTable load_learning_table(const DatasetReader& data, const LearningSpec& spec, const StopFlag* stop,
+                                  const std::function<void(const Shard&)>& use) {
   LearningTable table;
   table.handmade.names = {"mwr", "ccf", "sigma_r_m", "sigma_v_mps"};
   table.inputs.reserve(data.size() * kInputCells);
@@ -136,6 +137,7 @@ LearningTable load_learning_table(const DatasetReader& data, const LearningSpec&
   for (std::size_t i = 0; i < data.shards(); ++i) {
     if (stop && *stop) throw Interrupted();
     const Shard shard = data.shard(i);
+    if (use) use(shard);
     for (const Sample& sample : shard.samples) {
       const SampleRecord& record = sample.record;
       const std::array<double, 6> numbers{record.mwr,         record.ccf,    record.sigma_r_m,

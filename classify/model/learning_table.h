@@ -3,6 +3,7 @@
 
 // A data set as learning sees it: one row per map.
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -45,7 +46,9 @@ struct LearningTable {
   std::size_t rows() const { return labels.size(); }
 };
 
-// Reads every shard. Throws InputError when a shard is unsound, a feature is not finite, or there are not two classes.
-LearningTable load_learning_table(const DatasetReader& data, const LearningSpec& spec, const StopFlag* stop = nullptr);
+// Reads every shard, once, and hands each on to `use` where there is one. Throws InputError when a shard is unsound, a
+// feature is not finite, or there are not two classes.
+LearningTable load_learning_table(const DatasetReader& data, const LearningSpec& spec, const StopFlag* stop = nullptr,
+                                  const std::function<void(const Shard&)>& use = {});
 
 }  // namespace seaglint

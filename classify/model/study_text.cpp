@@ -54,7 +54,7 @@ std::string percent(const Scores& scores) {
 
 }  // namespace
 
-std::string to_json(const Study& study, const LearningSpec& spec) {
+ordered_json to_json(const Study& study, const LearningSpec& spec) {
   ordered_json json;
   const Fusion other = spec.fusion == Fusion::kSplit ? Fusion::kInSample : Fusion::kSplit;
   for (const FeatureGroupResult& group : study.groups) {
@@ -83,7 +83,7 @@ std::string to_json(const Study& study, const LearningSpec& spec) {
                      {"epochs", spec.epochs},
                      {"threads", spec.threads},
                      {"training_loss", study.network->losses()}};
-  return json.dump(2);
+  return json;
 }
 
 std::string accuracy_table(const Study& study) {

@@ -3,6 +3,7 @@
 
 // The study in words: the accuracy table of the terminal and the numbers of metrics.json.
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "classify/model/study.h"
@@ -14,6 +15,6 @@ namespace seaglint {
 std::string accuracy_table(const Study& study);
 
 // The study as a JSON object with the members handmade, cnn, fused, probes, network.
-std::string to_json(const Study& study, const LearningSpec& spec);
+nlohmann::ordered_json to_json(const Study& study, const LearningSpec& spec);
 
 }  // namespace seaglint

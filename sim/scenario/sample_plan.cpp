@@ -12,14 +12,20 @@
 
 namespace seaglint {
 
+std::uint64_t sea_key(std::size_t sea_state, std::size_t realisation) {
+  constexpr std::uint64_t kMaxRealisations = 1000000;
+  SEAGLINT_CHECK(realisation < kMaxRealisations, fmt::format("realisation {}", realisation));
+  return sea_state * kMaxRealisations + realisation;
+}
+
 SamplePlan::SamplePlan(const Scenario& scenario)
     : seed_(scenario.seed),
-      sea_states_(sea_states(scenario.sea).size()),
+      sea_states_(seaglint::sea_states(scenario.sea)),
       realisations_(static_cast<std::size_t>(scenario.dataset.realisations_per_case)),
-      views_(views(scenario.view).size()),
+      views_(seaglint::views(scenario.view)),
       intervals_(scenario.dataset.maps_per_case / std::max(1, scenario.dataset.realisations_per_case)),
       targets_(scenario.targets.size()),
-      per_realisation_(views_ * static_cast<std::size_t>(intervals_) * targets_),
+      per_realisation_(views_.size() * static_cast<std::size_t>(intervals_) * targets_),
       per_shard_(static_cast<std::size_t>(scenario.dataset.maps_per_shard)),
       spacing_s_(scenario.dataset.interval_spacing_s) {
   SEAGLINT_CHECK(realisations_ >= 1 && intervals_ >= 1 && per_shard_ >= 1 &&
@@ -28,7 +34,7 @@ SamplePlan::SamplePlan(const Scenario& scenario)
                              scenario.dataset.maps_per_case, realisations_, per_shard_));
 }
 
-std::size_t SamplePlan::size() const { return sea_states_ * realisations_ * per_realisation_; }
+std::size_t SamplePlan::size() const { return sea_states_.size() * realisations_ * per_realisation_; }
 
 // A Fisher-Yates shuffle of its own key.
 std::vector<std::uint32_t> SamplePlan::order(std::size_t realisation_number) const {
@@ -78,10 +84,6 @@ ShardRange SamplePlan::shard(std::size_t index) const {
   SEAGLINT_CHECK(index < shards(), fmt::format("shard {} of {}", index, shards()));
   const std::size_t first = index * per_shard_;
   return {first, std::min(per_shard_, size() - first)};
-}
-
-std::uint64_t SamplePlan::sea_key(int sea_state, int realisation) const {
-  return static_cast<std::uint64_t>(sea_state) * 1000000u + static_cast<std::uint64_t>(realisation);
 }
 
 std::int64_t SamplePlan::group(const SampleAddress& address) const {

@@ -15,14 +15,18 @@ namespace seaglint {
 
 // Where a sample lies in the scenario's sweeps, all zero-based.
 struct SampleAddress {
-  int sea_state = 0;    // index into sea_states(scenario.sea)
+  int sea_state = 0;    // index into the plan's sea_states()
   int realisation = 0;  // 0..realisations_per_case-1, of the sea state
-  int view = 0;         // index into views(scenario.view)
+  int view = 0;         // index into the plan's views()
   int interval = 0;     // 0..maps_per_case/realisations_per_case-1, of the realisation
   int target = 0;       // index into scenario.targets
 
   bool operator==(const SampleAddress&) const = default;
 };
+
+// The key of the random sea of a realisation of one of a scenario's sea states, both counted from 0: sea_state 1000000
+// + realisation, realisation below 1000000. Both classes and all views share it.
+std::uint64_t sea_key(std::size_t sea_state, std::size_t realisation);
 
 struct ShardRange {
   std::size_t first = 0;  // sample index
@@ -37,6 +41,12 @@ class SamplePlan {
   explicit SamplePlan(const Scenario& scenario);
 
   std::size_t size() const;
+  const std::vector<SeaState>& sea_states() const { return sea_states_; }
+  const std::vector<View>& views() const { return views_; }
+  const SeaState& sea_state(const SampleAddress& at) const {
+    return sea_states_[static_cast<std::size_t>(at.sea_state)];
+  }
+  const View& view(const SampleAddress& at) const { return views_[static_cast<std::size_t>(at.view)]; }
   SampleAddress address(std::size_t sample) const;         // sample < size()
   std::size_t sample(const SampleAddress& address) const;  // inverse of address()
   // Sea state and realisation of a sample, zero elsewhere: what group() needs. address() shuffles the realisation.
@@ -46,8 +56,6 @@ class SamplePlan {
   ShardRange shard(std::size_t index) const;  // the last shard may hold fewer samples
 
   int intervals() const { return intervals_; }
-  // The key of a realisation's random sea: sea_state 1000000 + realisation; both classes and all views share it.
-  std::uint64_t sea_key(int sea_state, int realisation) const;
   // One group = one sea realisation, numbered from 0 without gaps.
   std::int64_t group(const SampleAddress& address) const;
   double start_s(const SampleAddress& address) const;  // of the interval within the realisation
@@ -59,9 +67,9 @@ class SamplePlan {
   std::vector<std::uint32_t> order(std::size_t realisation_number) const;
 
   std::uint64_t seed_ = 0;
-  std::size_t sea_states_ = 0;
+  std::vector<SeaState> sea_states_;
   std::size_t realisations_ = 0;
-  std::size_t views_ = 0;
+  std::vector<View> views_;
   int intervals_ = 0;
   std::size_t targets_ = 0;
   std::size_t per_realisation_ = 0;  // samples

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "sim/core/process/error.h"
 #include "sim/scenario/fields.h"
@@ -40,11 +42,9 @@ std::string ratio_as_yaml(double share) {
   return fmt::format("{}:{}", share, 1 - share);
 }
 
-// Doubles are written by fmt in the fewest digits that read back to the same bits.
-class Writer : public FieldVisitor {
+// Every value as YAML has it. Doubles are written by fmt in the fewest digits that read back to the same bits.
+class ValueVisitor : public FieldVisitor {
  public:
-  explicit Writer(std::string& out, int depth = 0) : out_(out), depth_(depth) {}
-
   void number(const char* key, double& value, const Bound&) override { line(key, fmt::format("{}", value)); }
   void integer(const char* key, int& value, const Bound&) override { line(key, fmt::format("{}", value)); }
   void natural(const char* key, std::uint64_t& value) override { line(key, fmt::format("{}", value)); }
@@ -67,6 +67,17 @@ class Writer : public FieldVisitor {
       line(key, fmt::format("[{}]", fmt::join(values, ", ")));
     }
   }
+  void require(const char*) override {}
+  bool optional(const char*, bool present) override { return present; }
+
+ protected:
+  virtual void line(const char* key, const std::string& value) = 0;
+};
+
+class Writer : public ValueVisitor {
+ public:
+  explicit Writer(std::string& out, int depth = 0) : out_(out), depth_(depth) {}
+
   void section(const char* key, const Fields& fields) override {
     line(key, "");
     Writer nested(out_, depth_ + 1);
@@ -91,17 +102,43 @@ class Writer : public FieldVisitor {
       item(i, nested);
     }
   }
-  void require(const char*) override {}
-  bool optional(const char*, bool present) override { return present; }
 
  private:
   static std::string indent(int depth) { return std::string(2 * static_cast<std::size_t>(depth), ' '); }
-  void line(const char* key, const std::string& value) {
+  void line(const char* key, const std::string& value) override {
     out_ += indent(depth_) + key + (value.empty() ? ":" : ": ") + value + "\n";
   }
 
   std::string& out_;
   int depth_;
+};
+
+// The values of one section by their keys.
+class SectionValues : public ValueVisitor {
+ public:
+  explicit SectionValues(std::string section) : section_(std::move(section)) {}
+
+  void section(const char* key, const Fields& fields) override {
+    if (key != section_) return;
+    inside_ = true;
+    fields(*this);
+    inside_ = false;
+  }
+  void list(const char*, std::size_t, std::size_t, const std::function<void(std::size_t)>&,
+            const std::function<void(std::size_t, FieldVisitor&)>&) override {}
+  void dictionary(const char*, const std::vector<std::string>&, std::size_t,
+                  const std::function<void(const std::vector<std::string>&)>&,
+                  const std::function<void(std::size_t, FieldVisitor&)>&) override {}
+
+  std::vector<std::pair<std::string, std::string>> values;
+
+ private:
+  void line(const char* key, const std::string& value) override {
+    if (inside_) values.emplace_back(key, value);
+  }
+
+  std::string section_;
+  bool inside_ = false;
 };
 
 }  // namespace
@@ -112,6 +149,13 @@ std::string effective_yaml(const Scenario& scenario) {
   Writer writer(out);
   visit_fields(copy, writer);
   return out;
+}
+
+std::vector<std::pair<std::string, std::string>> section_values(const Scenario& scenario, const std::string& section) {
+  Scenario copy = scenario;
+  SectionValues values(section);
+  visit_fields(copy, values);
+  return std::move(values.values);
 }
 
 }  // namespace seaglint

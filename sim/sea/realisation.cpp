@@ -158,10 +158,4 @@ StratumWidths stratum_widths(const SeaState& state) {
   return widths;
 }
 
-std::uint64_t realisation_index(std::size_t sea_state, std::size_t realisation) {
-  constexpr std::uint64_t kMaxRealisations = 1000000;
-  SEAGLINT_CHECK(realisation < kMaxRealisations, fmt::format("realisation {}", realisation));
-  return sea_state * kMaxRealisations + realisation;
-}
-
 }  // namespace seaglint

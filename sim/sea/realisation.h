@@ -3,7 +3,6 @@
 
 // One realisation of a sea state: its wave components drawn at random.
 
-#include <cstddef>
 #include <cstdint>
 
 #include "sim/scenario/sea_spec.h"
@@ -30,9 +29,5 @@ struct StratumWidths {
 };
 StratumWidths stratum_widths(const SeaState& state);
 inline constexpr double kWidestStratum = 0.1;
-
-// The index of a realisation of one of a scenario's sea states, both counted from 0, as data sets and commands use it;
-// realisation below 1000000.
-std::uint64_t realisation_index(std::size_t sea_state, std::size_t realisation);
 
 }  // namespace seaglint

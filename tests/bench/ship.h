@@ -3,25 +3,26 @@
 
 // The ship, the directions it is seen from and the interval that the benchmarks of the solver share.
 
-#include <cmath>
 #include <ctime>
 #include <vector>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/geometry/files/mesh_io.h"
+#include "sim/scattering/beams/bistatic_geometry.h"
 #include "sim/scattering/response/body_response.h"
+#include "sim/scattering/target/prepare_target.h"
 
 namespace seaglint {
 
 // Where the radar stands, elevation 2 deg.
-inline Vec3 direction(double azimuth_deg) {
-  const double az = radians(azimuth_deg), el = radians(2);
-  return {std::cos(el) * std::cos(az), std::cos(el) * std::sin(az), std::sin(el)};
-}
+inline Vec3 direction(double azimuth_deg) { return direction_to_radar(radians(azimuth_deg), radians(2)); }
 
 inline const Scatterer& ship() {
-  static const Scatterer scatterer(read_mesh(SEAGLINT_SOURCE_DIR "/assets/combatant_144m.glb"));
-  return scatterer;
+  static const PreparedTarget target = [] {
+    TargetSource source;
+    source.mesh = SEAGLINT_SOURCE_DIR "/assets/combatant_144m.glb";
+    return prepare_target(load_solver_mesh(source), {});
+  }();
+  return *target.scatterer;
 }
 
 // What the target covers of the aperture.

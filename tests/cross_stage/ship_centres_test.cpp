@@ -9,6 +9,7 @@
 #include "radar/rvmap/rv_map.h"
 #include "sim/core/numbers/constants.h"
 #include "sim/geometry/files/mesh_io.h"
+#include "sim/scattering/beams/bistatic_geometry.h"
 #include "sim/scattering/response/body_response.h"
 #include "sim/scattering/response/point_response.h"
 
@@ -53,7 +54,7 @@ TEST(ShipCentres, HoldsAtLeastTwentyScatteringCentresWithin30DbAtObliqueAspects)
   const Trajectory trajectory(0, 0.01, samples, Vec3::Zero(), Vec3(0, 0, 1.7));
   std::vector<int> counts;
   for (const double azimuth : {20.0, 40.0, 60.0, 120.0, 140.0, 160.0}) {
-    const Vec3 r = direction_to_radar({radians(azimuth), radians(2)});
+    const Vec3 r = direction_to_radar(radians(azimuth), radians(2));
     const FrequencyResponse response =
         respond(ship, trajectory, r, Polarisation::kVv, interval_sampling(train, 0.5), {}, 2).response;
     std::vector<Complex> echo(response.values.size());

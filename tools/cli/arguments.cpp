@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "tools/cli/arguments.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <set>
-#include <system_error>
 
 #include "classify/dataset/directory/dataset_writer.h"
 #include "sim/core/process/error.h"
-#include "sim/core/process/file.h"
-#include "tools/cli/command.h"
 
 namespace seaglint {
 
@@ -23,28 +21,6 @@ void require_any_of(const CLI::App& command, const std::string& option, const st
 std::filesystem::path find_data_set(const std::filesystem::path& directory) {
   const bool below = !exists(directory / kManifestFile) && exists(directory / "data" / kScenarioFile);
   return below ? directory / "data" : directory;
-}
-
-void require_outputs(const std::vector<std::string>& outputs, const std::vector<std::filesystem::path>& inputs) {
-  const auto place = [](const std::filesystem::path& file) {
-    std::error_code error;
-    const std::filesystem::path found = std::filesystem::weakly_canonical(file, error);
-    return error ? file : found;
-  };
-  std::set<std::filesystem::path> read, written;
-  for (const std::filesystem::path& file : inputs) read.insert(place(file));
-  for (const std::string& file : outputs) {
-    if (file.empty()) continue;
-    if (read.contains(place(file))) throw InputError(fmt::format("{}: is read here, and would be written over", file));
-    if (!written.insert(place(file)).second) throw InputError(fmt::format("{}: would be written twice", file));
-    require_writable(file);
-  }
-}
-
-std::vector<std::filesystem::path> files_of(const Scenario& scenario) {
-  std::vector<std::filesystem::path> files;
-  for (const InputFile& named : input_files(scenario)) files.push_back(named.path);
-  return files;
 }
 
 void add_threads_option(CLI::App& command, Shell& shell) {

@@ -9,6 +9,7 @@
 #include "radar/waveform/pulse_train.h"
 #include "sim/core/numbers/standard_error.h"
 #include "sim/scenario/writer.h"
+#include "tools/cli/arguments.h"
 #include "tools/cli/command.h"
 #include "tools/pipeline/map_coverage.h"
 #include "tools/pipeline/pipeline.h"
@@ -18,13 +19,10 @@ namespace seaglint {
 
 namespace {
 
-std::string summary(const Scenario& scenario) {
-  const std::size_t seas = sea_states(scenario.sea).size();
-  const std::size_t aspects = views(scenario.view).size();
-  const std::size_t cases = seas * aspects;
-  const std::size_t maps = cases * scenario.targets.size() * static_cast<std::size_t>(scenario.dataset.maps_per_case);
+std::string summary(const Scenario& scenario, const SamplePlan& plan) {
+  const std::size_t seas = plan.sea_states().size(), aspects = plan.views().size();
   return fmt::format("{}: {} targets, {} sea states x {} views = {} cases, {} maps\n", scenario.name,
-                     scenario.targets.size(), seas, aspects, cases, maps);
+                     scenario.targets.size(), seas, aspects, seas * aspects, plan.size());
 }
 
 }  // namespace
@@ -42,10 +40,10 @@ void add_check(CLI::App& app, Shell& shell) {
       const PulseTrain train = make_pulse_train(scenario.radar, pipeline.window_m(), scenario.seed, 0);
       fmt::print("{}", effective_yaml(scenario));
       std::fflush(stdout);
-      print_error(summary(scenario) + describe(train, scenario.radar));
+      print_error(summary(scenario, pipeline.plan()) + describe(train, scenario.radar));
       warn(mesh_doubts(pipeline));
-      warn(sea_doubts(scenario));
-      warn(outside_of_map(scenario, pipeline.targets()));
+      warn(sea_doubts(scenario, pipeline.plan().sea_states()));
+      warn(outside_of_map(pipeline));
     };
   });
 }

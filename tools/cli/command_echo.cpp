@@ -11,6 +11,7 @@
 #include "sim/core/process/error.h"
 #include "sim/scenario/sample_plan.h"
 #include "sim/scenario/writer.h"
+#include "tools/cli/arguments.h"
 #include "tools/cli/command.h"
 #include "tools/pipeline/sampled_interval.h"
 #include "tools/pipeline/warnings.h"
@@ -36,12 +37,12 @@ NpzArray samples_over_time(const char* name, const SampledEcho& sampled) {
 void write_echo(const Arguments& arguments) {
   require_npz(arguments.output);
   const Scenario scenario = arguments.read();
-  const std::size_t samples = SamplePlan(scenario).size();
-  if (arguments.sample >= samples)
-    throw InputError(fmt::format("--sample {}: the scenario has samples 0 to {}", arguments.sample, samples - 1));
-  const Pipeline pipeline(scenario);
+  const SamplePlan plan(scenario);
+  if (arguments.sample >= plan.size())
+    throw InputError(fmt::format("--sample {}: the scenario has samples 0 to {}", arguments.sample, plan.size() - 1));
+  const Pipeline pipeline(scenario, plan);
   warn(mesh_doubts(pipeline));
-  warn(sea_doubts(scenario));
+  warn(sea_doubts(scenario, plan.sea_states()));
   warn(band_doubts(pipeline));
   const SampledInterval interval = sampled_interval(pipeline, arguments.sample);
   const std::vector<std::int64_t> code(interval.train.code.begin(), interval.train.code.end());

@@ -7,6 +7,7 @@
 #include "classify/dataset/directory/export.h"
 #include "sim/core/process/file.h"
 #include "sim/core/process/progress.h"
+#include "tools/cli/arguments.h"
 #include "tools/cli/command.h"
 
 namespace seaglint {

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "sim/core/process/error.h"
+#include "tools/cli/arguments.h"
 #include "tools/cli/command.h"
 #include "tools/pipeline/generate.h"
 

@@ -12,6 +12,7 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
 #include "sim/scenario/sample_plan.h"
+#include "tools/cli/arguments.h"
 #include "tools/cli/command.h"
 #include "tools/figure/figure.h"
 #include "tools/figure/rv_figure.h"
@@ -63,19 +64,19 @@ Heatmap profile_figure(const RangeProfiles& profiles, const std::string& title) 
 void show_map(const Arguments& arguments) {
   require_figure(arguments.output);
   const Scenario scenario = arguments.read();
-  const std::size_t sample = arguments.sample, samples = SamplePlan(scenario).size();
-  if (sample >= samples)
-    throw InputError(fmt::format("--sample {}: the scenario has samples 0 to {}", sample, samples - 1));
-  const Pipeline pipeline(scenario);
+  const SamplePlan plan(scenario);
+  const std::size_t sample = arguments.sample;
+  if (sample >= plan.size())
+    throw InputError(fmt::format("--sample {}: the scenario has samples 0 to {}", sample, plan.size() - 1));
+  const Pipeline pipeline(scenario, plan);
   warn(mesh_doubts(pipeline));
-  warn(sea_doubts(scenario));
-  const SampleAddress address = pipeline.plan().address(sample);
+  warn(sea_doubts(scenario, plan.sea_states()));
+  const SampleAddress address = plan.address(sample);
   const TargetSpec& target = scenario.targets[static_cast<std::size_t>(address.target)];
-  const View view = views(scenario.view)[static_cast<std::size_t>(address.view)];
-  const std::string title = fmt::format(
-      "{}: sample {}, {}, Hs {:g} m, azimuth {:g} deg, elevation {:g} deg", scenario.name, sample, target.name,
-      sea_states(scenario.sea)[static_cast<std::size_t>(address.sea_state)].significant_wave_height_m, view.azimuth_deg,
-      view.elevation_deg);
+  const View& view = plan.view(address);
+  const std::string title =
+      fmt::format("{}: sample {}, {}, Hs {:g} m, azimuth {:g} deg, elevation {:g} deg", scenario.name, sample,
+                  target.name, plan.sea_state(address).significant_wave_height_m, view.azimuth_deg, view.elevation_deg);
   if (arguments.product == "isar" || arguments.product == "hrrp") {
     const WholeBand band = whole_band(pipeline, sample);
     if (arguments.product == "isar") {
@@ -86,7 +87,7 @@ void show_map(const Arguments& arguments) {
     return;
   }
   warn(band_doubts(pipeline));
-  warn(outside_of_map(scenario, pipeline.targets()));  // a map of too many cells ends here
+  warn(outside_of_map(pipeline));  // a map of too many cells ends here
   const MadeSample made = pipeline.make(sample);
   write_figure(rv_figure(made.received.map, made.centres, title), arguments.output);
   print_result(made.received, made.centres, made.features);

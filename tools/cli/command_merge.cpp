@@ -6,6 +6,7 @@
 
 #include "classify/dataset/directory/merged.h"
 #include "seaglint_version.h"
+#include "tools/cli/arguments.h"
 #include "tools/cli/command.h"
 
 namespace seaglint {

@@ -12,8 +12,11 @@
 #include "sim/geometry/mesh/topology.h"
 #include "sim/geometry/shapes/generators.h"
 #include "sim/geometry/ship/make_ship.h"
+#include "tools/cli/arguments.h"
 #include "tools/cli/command.h"
+#include "tools/cli/option_numbers.h"
 #include "tools/figure/mesh_picture.h"
+#include "tools/pipeline/output_files.h"
 
 namespace seaglint {
 namespace {

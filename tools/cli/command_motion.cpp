@@ -14,11 +14,14 @@
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/motion/ship/ship_particulars.h"
 #include "sim/motion/target_motion.h"
+#include "sim/scenario/sample_plan.h"
 #include "sim/sea/realisation.h"
+#include "tools/cli/arguments.h"
 #include "tools/cli/command.h"
 #include "tools/cli/series_times.h"
 #include "tools/figure/figure.h"
 #include "tools/figure/motion_figures.h"
+#include "tools/pipeline/output_files.h"
 #include "tools/pipeline/scene.h"
 #include "tools/pipeline/warnings.h"
 
@@ -50,10 +53,11 @@ double mean_speed(const Body& body) {
   return 0;
 }
 
-MovingScene simulate_all(const Scenario& scenario, double duration_s, int threads, const StopFlag& stop) {
+MovingScene simulate_all(const Scenario& scenario, const SeaState& state, double duration_s, int threads,
+                         const StopFlag& stop) {
   MovingScene scene;
-  scene.state = sea_states(scenario.sea).front();
-  const std::uint64_t index = realisation_index(0, 0);
+  scene.state = state;
+  const std::uint64_t index = sea_key(0, 0);
   scene.sea = realize_sea(scene.state, scenario.seed, index);
   for (const TargetSpec& target : scenario.targets) {
     if (target.mesh.empty()) continue;
@@ -113,9 +117,10 @@ void write_motion(const MotionArguments& arguments, const Shell& shell) {
   require_outputs(outputs, {arguments.scenario.file, arguments.rao_reference});
   const Scenario scenario = arguments.scenario.read();
   require_outputs(outputs, files_of(scenario));
-  warn(sea_doubts(scenario));
+  const std::vector<SeaState> states = sea_states(scenario.sea);
+  warn(sea_doubts(scenario, states));
   const std::size_t count = uniform_time_count(arguments.duration_s, arguments.step_s);
-  const MovingScene scene = simulate_all(scenario, arguments.duration_s, shell.threads, shell.stop);
+  const MovingScene scene = simulate_all(scenario, states.front(), arguments.duration_s, shell.threads, shell.stop);
   const std::vector<NamedTrajectory>& bodies = scene.bodies;
   const SeaState& state = scene.state;
   std::string text;

@@ -10,6 +10,7 @@
 #include "classify/dataset/format/hdf5_file.h"
 #include "classify/dataset/format/npz.h"
 #include "sim/core/process/error.h"
+#include "tools/cli/arguments.h"
 #include "tools/cli/command.h"
 #include "tools/pipeline/regenerate.h"
 

@@ -9,6 +9,7 @@
 #include "sim/core/process/error.h"
 #include "sim/core/text/text_difference.h"
 #include "sim/scenario/writer.h"
+#include "tools/cli/arguments.h"
 #include "tools/cli/command.h"
 #include "tools/report/report.h"
 

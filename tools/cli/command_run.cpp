@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "sim/core/process/error.h"
+#include "tools/cli/arguments.h"
 #include "tools/cli/command.h"
 #include "tools/report/run.h"
 

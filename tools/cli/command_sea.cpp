@@ -11,13 +11,17 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
+#include "sim/scenario/sample_plan.h"
 #include "sim/sea/realisation.h"
 #include "sim/sea/statistics.h"
 #include "sim/sea/wave_field.h"
+#include "tools/cli/arguments.h"
 #include "tools/cli/command.h"
+#include "tools/cli/option_numbers.h"
 #include "tools/cli/series_times.h"
 #include "tools/figure/figure.h"
-#include "tools/pipeline/sea_ensemble.h"
+#include "tools/figure/sea_figures.h"
+#include "tools/pipeline/output_files.h"
 #include "tools/pipeline/warnings.h"
 
 namespace seaglint {
@@ -121,9 +125,10 @@ void write_sea(const SeaArguments& arguments, const Shell& shell) {
   require_outputs(outputs, {arguments.scenario.file});
   const Scenario scenario = arguments.scenario.read();
   require_outputs(outputs, files_of(scenario));
-  warn(sea_doubts(scenario));
-  const SeaState state = sea_states(scenario.sea).front();
-  const WaveField field = realize_sea(state, scenario.seed, realisation_index(0, 0));
+  const std::vector<SeaState> states = sea_states(scenario.sea);
+  warn(sea_doubts(scenario, states));
+  const SeaState& state = states.front();
+  const WaveField field = realize_sea(state, scenario.seed, sea_key(0, 0));
   const SeaSummary summary = summarize(state, field);
   const std::string lines = description(scenario, state, field, summary);
   const std::string series = as_comment(lines) + series_csv(field, arguments, shell.stop);

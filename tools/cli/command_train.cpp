@@ -6,6 +6,7 @@
 
 #include "classify/model/study_text.h"
 #include "sim/core/process/error.h"
+#include "tools/cli/arguments.h"
 #include "tools/cli/command.h"
 #include "tools/pipeline/train.h"
 
@@ -46,9 +47,9 @@ void add_train(CLI::App& app, Shell& shell) {
   command->footer("Example:\n  seaglint train build/points -o build/points-model --set learning.epochs=40");
   command->callback([arguments, &shell] {
     shell.work = [arguments, &shell] {
-      const Study study = train_model(find_data_set(arguments->data), arguments->model,
-                                      learning_overrides(arguments->set), shell.threads, &shell.stop);
-      fmt::print("{}\n{}: network, trees and {}\n", accuracy_table(study), arguments->model, kMetricsFile);
+      const TrainedModel model = train_model(find_data_set(arguments->data), arguments->model,
+                                             learning_overrides(arguments->set), shell.threads, &shell.stop);
+      fmt::print("{}\n{}: network, trees and {}\n", accuracy_table(model.study), arguments->model, kMetricsFile);
     };
   });
 }

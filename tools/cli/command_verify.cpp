@@ -10,6 +10,7 @@
 #include "classify/dataset/directory/input_list.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/progress.h"
+#include "tools/cli/arguments.h"
 #include "tools/cli/command.h"
 #include "tools/pipeline/regenerate.h"
 

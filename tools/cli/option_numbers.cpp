@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers on the command line are decimal. CLI11 takes them as C does: 010 would be eight, 0x10 sixteen, an empty word
-// zero.
+#include "tools/cli/option_numbers.h"
+
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -10,7 +10,6 @@
 #include <system_error>
 
 #include "sim/core/text/number.h"
-#include "tools/cli/command.h"
 
 namespace seaglint {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "sim/core/process/error.h"
 #include "sim/core/text/number.h"
-#include "tools/cli/command.h"
+#include "tools/cli/option_numbers.h"
 
 namespace seaglint {
 namespace {

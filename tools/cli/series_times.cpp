@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "sim/core/process/error.h"
-#include "tools/cli/command.h"
+#include "tools/cli/option_numbers.h"
 
 namespace seaglint {
 

@@ -13,22 +13,14 @@
 #include "sim/motion/ship/rao_files.h"
 #include "sim/motion/ship/rao_table.h"
 #include "sim/motion/ship/ship_response.h"
+#include "sim/motion/statistics.h"
 #include "tools/figure/figure.h"
 
 namespace seaglint {
 
 namespace {
 
-constexpr double kSampling = 0.1;  // s, of statistics, spectra and pictures
 constexpr std::array<const char*, 3> kAngles{"roll", "pitch", "yaw"};
-
-// Angles in deg at uniform times; a body at rest has no end of its own.
-std::vector<MotionSample> sampled(const Trajectory& trajectory, double duration_s) {
-  std::vector<MotionSample> samples;
-  const double end = std::min(duration_s, trajectory.end_s());
-  for (int n = 0; n * kSampling <= end + 1e-9; ++n) samples.push_back(trajectory.sample(std::min(n * kSampling, end)));
-  return samples;
-}
 
 std::vector<double> angle_deg(const std::vector<MotionSample>& samples, int axis) {
   std::vector<double> values;
@@ -36,44 +28,19 @@ std::vector<double> angle_deg(const std::vector<MotionSample>& samples, int axis
   return values;
 }
 
-// Power at w of one window of values from `begin` on, its mean taken out, per rad/s.
-double window_power(const std::vector<double>& values, std::size_t begin, std::size_t length, double omega) {
-  double mean = 0;
-  for (std::size_t n = 0; n < length; ++n) mean += values[begin + n] / static_cast<double>(length);
-  Complex sum = 0, phasor = 1;
-  const Complex turn = std::polar(1.0, -omega * kSampling);
-  double weight = 0;
-  for (std::size_t n = 0; n < length; ++n, phasor *= turn) {
-    const double hann = 0.5 - 0.5 * std::cos(2 * kPi * (static_cast<double>(n) + 0.5) / static_cast<double>(length));
-    sum += hann * (values[begin + n] - mean) * phasor;
-    weight += hann * hann;
-  }
-  return std::norm(sum) * kSampling / weight / kPi;
-}
-
 }  // namespace
 
 std::string motion_statistics(const std::vector<NamedTrajectory>& bodies, double duration_s) {
   std::string text;
   for (const NamedTrajectory& body : bodies) {
-    const std::vector<MotionSample> samples = sampled(body.trajectory, duration_s);
+    const std::array<AngleStatistics, 3> statistics = angle_statistics(body.trajectory, duration_s);
     text += body.body + ":";
-    for (int axis = 0; axis < 3; ++axis) {
-      const double count = static_cast<double>(samples.size());
-      double mean = 0, largest = 0;
-      for (const MotionSample& s : samples) {
-        mean += s.angles[axis] / count;
-        largest = std::max(largest, std::abs(s.angles[axis]));
-      }
-      // Mean period 2 pi sqrt(m0 / m2), m0 the variance about the mean and m2 that of the rate.
-      double m0 = 0, m2 = 0;
-      for (const MotionSample& s : samples) {
-        m0 += (s.angles[axis] - mean) * (s.angles[axis] - mean) / count;
-        m2 += s.angle_rates[axis] * s.angle_rates[axis] / count;
-      }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const AngleStatistics& angle = statistics[axis];
       fmt::format_to(std::back_inserter(text), " {} mean {:.3g} deg, rms about it {:.3g} deg, largest {:.3g} deg",
-                     kAngles[static_cast<std::size_t>(axis)], degrees(mean), degrees(std::sqrt(m0)), degrees(largest));
-      if (m2 > 0) fmt::format_to(std::back_inserter(text), ", mean period {:.3g} s", 2 * kPi * std::sqrt(m0 / m2));
+                     kAngles[axis], degrees(angle.mean), degrees(angle.rms), degrees(angle.largest));
+      if (angle.mean_period_s > 0)
+        fmt::format_to(std::back_inserter(text), ", mean period {:.3g} s", angle.mean_period_s);
       text += axis < 2 ? ";" : "\n";
     }
   }
@@ -81,24 +48,13 @@ std::string motion_statistics(const std::vector<NamedTrajectory>& bodies, double
 }
 
 std::string spectrum_csv(const std::vector<NamedTrajectory>& bodies, double duration_s) {
-  constexpr double kWindow = 120, kHighest = 8;
   std::string text = "omega_rad_s,body,roll_deg2s,pitch_deg2s,yaw_deg2s\n";
   for (const NamedTrajectory& body : bodies) {
-    const std::vector<MotionSample> samples = sampled(body.trajectory, duration_s);
-    const std::size_t length = std::min(samples.size(), static_cast<std::size_t>(kWindow / kSampling));
-    const std::size_t hop = std::max<std::size_t>(1, length / 2);
-    std::array<std::vector<double>, 3> angles;
-    for (int axis = 0; axis < 3; ++axis) angles[static_cast<std::size_t>(axis)] = angle_deg(samples, axis);
-    const double step = kPi / (static_cast<double>(length) * kSampling);
-    for (double omega = step; omega <= kHighest; omega += step) {
-      fmt::format_to(std::back_inserter(text), "{:.6g},{}", omega, body.body);
-      for (const std::vector<double>& values : angles) {
-        double power = 0, windows = 0;
-        for (std::size_t begin = 0; begin + length <= values.size(); begin += hop, windows += 1) {
-          power += window_power(values, begin, length, omega);
-        }
-        fmt::format_to(std::back_inserter(text), ",{:.6g}", power / windows);
-      }
+    const AngleSpectra spectra = angle_spectra(body.trajectory, duration_s);
+    for (std::size_t n = 0; n < spectra.omega.size(); ++n) {
+      fmt::format_to(std::back_inserter(text), "{:.6g},{}", spectra.omega[n], body.body);
+      for (const std::vector<double>& density : spectra.density)
+        fmt::format_to(std::back_inserter(text), ",{:.6g}", degrees(degrees(density[n])));
       text += '\n';
     }
   }
@@ -115,10 +71,10 @@ void write_motion_figure(const std::vector<NamedTrajectory>& bodies, double dura
     plots[axis].y.label = fmt::format("{} (deg)", kAngles[axis]);
     plots[axis].legend_above = axis == 0;
     for (std::size_t i = 0; i < std::min(bodies.size(), kMostBodies); ++i) {
-      const std::vector<MotionSample> samples = sampled(bodies[i].trajectory, std::min(duration_s, kLongest));
+      const std::vector<MotionSample> samples = uniform_samples(bodies[i].trajectory, std::min(duration_s, kLongest));
       Series series;
       if (axis == 0) series.name = bodies[i].body;
-      for (std::size_t n = 0; n < samples.size(); ++n) series.x.push_back(kSampling * static_cast<double>(n));
+      for (std::size_t n = 0; n < samples.size(); ++n) series.x.push_back(kStatisticsStep_s * static_cast<double>(n));
       series.y = angle_deg(samples, static_cast<int>(axis));
       plots[axis].series.push_back(series);
     }

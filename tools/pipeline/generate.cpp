@@ -12,7 +12,6 @@
 #include "sim/core/process/error.h"
 #include "sim/core/process/progress.h"
 #include "tools/pipeline/map_coverage.h"
-#include "tools/pipeline/pipeline.h"
 #include "tools/pipeline/warnings.h"
 
 namespace seaglint {
@@ -29,13 +28,18 @@ struct OpenShard {
 
 GenerateResult generate_dataset(const Scenario& scenario, const std::filesystem::path& directory,
                                 const GenerateOptions& options, const StopFlag* stop) {
-  const Pipeline pipeline(scenario);
+  return generate_dataset(Pipeline(scenario), directory, options, stop);
+}
+
+GenerateResult generate_dataset(const Pipeline& pipeline, const std::filesystem::path& directory,
+                                const GenerateOptions& options, const StopFlag* stop) {
+  const Scenario& scenario = pipeline.scenario();
   const SamplePlan& plan = pipeline.plan();
   warn(mesh_doubts(pipeline));
-  warn(sea_doubts(scenario));
+  warn(sea_doubts(scenario, plan.sea_states()));
   warn(band_doubts(pipeline));
-  warn(outside_of_map(scenario, pipeline.targets()));
-  DatasetWriter writer(directory, scenario, options.resume, kVersion);
+  warn(outside_of_map(pipeline));
+  DatasetWriter writer(directory, scenario, plan, options.resume, kVersion);
 
   // The part's shards that are to be made, and their samples in order.
   GenerateResult result;

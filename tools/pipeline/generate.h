@@ -7,6 +7,7 @@
 
 #include "sim/core/process/parallel.h"
 #include "sim/scenario/scenario.h"
+#include "tools/pipeline/pipeline.h"
 
 namespace seaglint {
 
@@ -24,6 +25,8 @@ struct GenerateResult {
 };
 
 // The bytes of every shard depend on scenario and program alone. Throws Interrupted after whole shards only.
+GenerateResult generate_dataset(const Pipeline& pipeline, const std::filesystem::path& directory,
+                                const GenerateOptions& options, const StopFlag* stop = nullptr);
 GenerateResult generate_dataset(const Scenario& scenario, const std::filesystem::path& directory,
                                 const GenerateOptions& options, const StopFlag* stop = nullptr);
 

@@ -8,7 +8,7 @@
 
 #include "radar/rvmap/rv_map.h"
 #include "sim/core/numbers/constants.h"
-#include "sim/scattering/response/point_response.h"
+#include "sim/scattering/beams/bistatic_geometry.h"
 
 namespace seaglint {
 namespace {
@@ -56,8 +56,10 @@ void extend(Reach& reach, const Target& target, const Vec3& r_hat, double interv
 
 }  // namespace
 
-std::vector<std::string> outside_of_map(const Scenario& scenario, const std::vector<Target>& targets) {
-  const PulseTrain train = make_pulse_train(scenario.radar, range_window_m(scenario, targets), scenario.seed, 0);
+std::vector<std::string> outside_of_map(const Pipeline& pipeline) {
+  const Scenario& scenario = pipeline.scenario();
+  const std::vector<Target>& targets = pipeline.targets();
+  const PulseTrain train = make_pulse_train(scenario.radar, pipeline.window_m(), scenario.seed, 0);
   const MapGrid grid = map_grid(train, scenario.map);
   const PlatformSpec& platform = scenario.radar.platform;
   std::vector<std::string> lines;
@@ -70,8 +72,8 @@ std::vector<std::string> outside_of_map(const Scenario& scenario, const std::vec
     }
   };
   for (std::size_t t = 0; t < scenario.targets.size(); ++t) {
-    for (const View& view : views(scenario.view)) {
-      const Vec3 r_hat = direction_to_radar(view);
+    for (const View& view : pipeline.plan().views()) {
+      const Vec3 r_hat = direction_to_radar(view.azimuth_rad, view.elevation_rad);
       Reach reach;
       extend(reach, targets[t], r_hat, train.time_s.back());
       for (const std::size_t companion : targets[t].with) extend(reach, targets[companion], r_hat, train.time_s.back());

@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "tools/pipeline/scene.h"
+#include "tools/pipeline/pipeline.h"
 
 namespace seaglint {
 
 // One line for every target and view whose bodies at rest, points or their velocities reach beyond the map's range or
 // velocity span, with the numbers; at most ten lines, then how many more. What lies outside is cut off or, beyond the
 // unambiguous span, folded in.
-std::vector<std::string> outside_of_map(const Scenario& scenario, const std::vector<Target>& targets);
+std::vector<std::string> outside_of_map(const Pipeline& pipeline);
 
 }  // namespace seaglint

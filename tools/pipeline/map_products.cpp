@@ -25,7 +25,7 @@ WholeBand whole_band(const Pipeline& pipeline, std::size_t sample) {
   none.enabled = false;
   const SampleAddress at = pipeline.plan().address(sample);
   const auto scene = pipeline.scene(at.sea_state, at.realisation);
-  band.echo = synthesize_echo(band.train, pipeline.response(sample, band.train).response, none, scenario.seed, sample,
+  band.echo = synthesize_echo(band.train, pipeline.response(at, band.train).response, none, scenario.seed, sample,
                               pipeline.clutter_scene(at, *scene))
                   .target;
   band.image = form_rv_map(band.echo, band.train, scenario.map, radar.intra_pulse_motion);

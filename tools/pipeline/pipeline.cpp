@@ -8,10 +8,9 @@
 
 #include "classify/dataset/directory/planned_record.h"
 #include "classify/features/restored_map.h"
-#include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
+#include "sim/scattering/beams/bistatic_geometry.h"
 #include "sim/scattering/response/point_response.h"
-#include "sim/scattering/target/target_check.h"
 
 namespace seaglint {
 
@@ -53,28 +52,11 @@ struct Pipeline::SceneSlot {
   std::shared_ptr<const Scene> scene;
 };
 
-Pipeline::Pipeline(Scenario scenario)
+Pipeline::Pipeline(Scenario scenario, SamplePlan plan)
     : scenario_(std::move(scenario)),
-      plan_(scenario_),
-      sea_states_(sea_states(scenario_.sea)),
-      views_(views(scenario_.view)),
-      targets_(load_targets(scenario_)),
-      range_window_m_(range_window_m(scenario_, targets_)) {
-  for (std::size_t t = 0; t < targets_.size(); ++t) {
-    Target& target = targets_[t];
-    if (target.shape != t || target.rest_positions.empty()) {
-      scatterers_.push_back(target.rest_positions.empty() ? nullptr : scatterers_[target.shape]);
-      continue;
-    }
-    const double crease = radians(target.spec.solver.crease_deg);
-    scatterers_.push_back(std::make_shared<const Scatterer>(target.mesh, target.materials, crease,
-                                                            1e-3 * target.spec.sheet_thickness_mm));
-    const std::vector<std::string> of_edges =
-        check_edges(*scatterers_.back(), target.spec.solver.edges, 1e9 * lowest_ghz(scenario_.radar),
-                    1e9 * highest_ghz(scenario_.radar));
-    target.doubts.insert(target.doubts.end(), of_edges.begin(), of_edges.end());
-  }
-}
+      plan_(std::move(plan)),
+      targets_(load_targets(scenario_, plan_)),
+      range_window_m_(range_window_m(scenario_, targets_)) {}
 
 std::shared_ptr<const Scene> Pipeline::scene(int sea_state, int realisation) const {
   std::shared_ptr<SceneSlot> slot;
@@ -92,7 +74,7 @@ std::shared_ptr<const Scene> Pipeline::scene(int sea_state, int realisation) con
     }
   }
   std::call_once(slot->made, [&] {
-    slot->scene = std::make_shared<const Scene>(make_scene(scenario_, targets_, sea_state, realisation));
+    slot->scene = std::make_shared<const Scene>(make_scene(scenario_, plan_, targets_, sea_state, realisation));
   });
   return slot->scene;
 }
@@ -110,12 +92,12 @@ BodyResponse Pipeline::scene_response(std::size_t target, const Scene& scene, co
 
 BodyResponse Pipeline::target_response(std::size_t target, const Scene& scene, const View& view, const SeaState& state,
                                        const IntervalSampling& sampling) const {
-  const Vec3 r_hat = direction_to_radar(view);
+  const Vec3 r_hat = direction_to_radar(view.azimuth_rad, view.elevation_rad);
   const SeaMirror mirror(scenario_.sea_reflection, total_wave_height(state));
   const SeaMirror* sea = scenario_.sea_reflection.enabled ? &mirror : nullptr;
   const TargetSpec& spec = targets_[target].spec;
   const Vec3& passing_mps = targets_[target].passing_mps;
-  if (!scatterers_[target]) {
+  if (!targets_[target].scatterer) {
     if (sea != nullptr)
       return {point_response_over_sea(spec.points, r_hat, sampling, scenario_.radar.polarisation, *sea), 0};
     return {point_response(spec.points, r_hat, sampling), 0};
@@ -124,8 +106,8 @@ BodyResponse Pipeline::target_response(std::size_t target, const Scene& scene, c
   for (const Trajectory& body : scene.bodies[target]) {
     // A companion is at its place when the interval begins.
     const Trajectory carried = passing_mps.isZero(0) ? body : body.carried(passing_mps, sampling.pulse_time_s.front());
-    const BodyResponse term =
-        respond(*scatterers_[target], carried, r_hat, scenario_.radar.polarisation, sampling, spec.solver, 1, sea);
+    const BodyResponse term = respond(*targets_[target].scatterer, carried, r_hat, scenario_.radar.polarisation,
+                                      sampling, spec.solver, 1, sea);
     sum.traces += term.traces;
     if (sum.response.values.empty()) {
       sum.response = term.response;
@@ -146,32 +128,31 @@ ClutterScene Pipeline::clutter_scene(const SampleAddress& at, const Scene& scene
   // Maps of one sea, view and target see one texture; those of another target do not, as a texture that two labels
   // shared would tell one from the other.
   const std::uint64_t seen =
-      static_cast<std::uint64_t>(plan_.group(at)) * views_.size() + static_cast<std::uint64_t>(at.view);
+      static_cast<std::uint64_t>(plan_.group(at)) * plan_.views().size() + static_cast<std::uint64_t>(at.view);
+  const View& view = plan_.view(at);
   return {scenario_.radar,
-          direction_to_radar(views_[static_cast<std::size_t>(at.view)]),
-          total_wave_height(sea_states_[static_cast<std::size_t>(at.sea_state)]),
+          direction_to_radar(view.azimuth_rad, view.elevation_rad),
+          total_wave_height(plan_.sea_state(at)),
           &scene.sea,
           plan_.start_s(at),
           Vec3(scenario_.targets[static_cast<std::size_t>(at.target)].motion.speed_mps, 0, 0),
           seen * scenario_.targets.size() + static_cast<std::uint64_t>(at.target)};
 }
 
-BodyResponse Pipeline::response(std::size_t sample, const PulseTrain& train) const {
-  const SampleAddress at = plan_.address(sample);
-  return scene_response(static_cast<std::size_t>(at.target), *scene(at.sea_state, at.realisation),
-                        views_[static_cast<std::size_t>(at.view)], sea_states_[static_cast<std::size_t>(at.sea_state)],
-                        sampling(train, plan_.start_s(at)));
+BodyResponse Pipeline::response(const SampleAddress& at, const PulseTrain& train) const {
+  return scene_response(static_cast<std::size_t>(at.target), *scene(at.sea_state, at.realisation), plan_.view(at),
+                        plan_.sea_state(at), sampling(train, plan_.start_s(at)));
 }
 
-Echo Pipeline::echo_of(const MadeSample& made, const BodyResponse& response, const Scene& scene) const {
+Echo Pipeline::echo_of(std::size_t sample, const MadeSample& made, const BodyResponse& response,
+                       const Scene& scene) const {
   const SampleAddress& at = made.address;
-  const std::size_t sample = plan_.sample(at);
   try {
     return synthesize_echo(made.train, response.response, scenario_.clutter, scenario_.seed, sample,
                            clutter_scene(at, scene));
   } catch (const InputError& error) {
     const TargetSpec& target = scenario_.targets[static_cast<std::size_t>(at.target)];
-    const View& view = views_[static_cast<std::size_t>(at.view)];
+    const View& view = plan_.view(at);
     throw InputError(fmt::format("{}: sample {}, azimuth {:g} deg, elevation {:g} deg: {}",
                                  place_of(scenario_, "targets." + target.name), sample, view.azimuth_deg,
                                  view.elevation_deg, error.what()));
@@ -186,8 +167,8 @@ MadeSample Pipeline::make(std::size_t sample) const {
   // Sea and motion are shared by both classes and all views; hop code, clutter and noise are the sample's own.
   const std::shared_ptr<const Scene> moving = scene(at.sea_state, at.realisation);
   made.train = make_pulse_train(scenario_.radar, range_window_m_, scenario_.seed, sample);
-  const BodyResponse response = this->response(sample, made.train);
-  const Echo echo = echo_of(made, response, *moving);
+  const BodyResponse response = this->response(at, made.train);
+  const Echo echo = echo_of(sample, made, response, *moving);
   made.received = receive(echo, made.train, scenario_.clutter, scenario_.map, scenario_.radar.intra_pulse_motion);
   CleanedMap cleaned =
       clean_map(made.received.echo, made.train, scenario_.map, scenario_.radar.intra_pulse_motion, scenario_.features);
@@ -196,7 +177,7 @@ MadeSample Pipeline::make(std::size_t sample) const {
   made.features = compute_features(made.centres, scenario_.features);
 
   SampleRecord& record = made.stored.record;
-  record = planned_record(scenario_, plan_, sample);
+  record = planned_record(scenario_, plan_, sample, at);
   record.empty_carriers = made.received.map.empty_carriers;
   record.scr_per_pulse_db = made.received.scr.per_pulse_db;
   record.scr_peak_cell_db = made.received.scr.peak_cell_db;

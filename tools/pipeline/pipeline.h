@@ -34,7 +34,8 @@ struct MadeSample {
 // Makes any sample of a scenario, alone and in any order; from any thread.
 class Pipeline {
  public:
-  explicit Pipeline(Scenario scenario);  // loads the meshes; throws InputError
+  explicit Pipeline(const Scenario& scenario) : Pipeline(scenario, SamplePlan(scenario)) {}
+  Pipeline(Scenario scenario, SamplePlan plan);  // loads the meshes; throws InputError
 
   const Scenario& scenario() const { return scenario_; }
   const SamplePlan& plan() const { return plan_; }
@@ -45,7 +46,7 @@ class Pipeline {
   double window_m() const { return range_window_m_; }  // the range window of all its maps
 
   // H of a sample's target with its companions, where `train` asks for it.
-  BodyResponse response(std::size_t sample, const PulseTrain& train) const;
+  BodyResponse response(const SampleAddress& at, const PulseTrain& train) const;
 
   // What the clutter of a sample follows; refers to the scene.
   ClutterScene clutter_scene(const SampleAddress& at, const Scene& scene) const;
@@ -64,14 +65,11 @@ class Pipeline {
                                const IntervalSampling& sampling) const;
 
   // The echo of a sample. Throws InputError, naming target and sample, when it has no power.
-  Echo echo_of(const MadeSample& made, const BodyResponse& response, const Scene& scene) const;
+  Echo echo_of(std::size_t sample, const MadeSample& made, const BodyResponse& response, const Scene& scene) const;
 
   Scenario scenario_;
   SamplePlan plan_;
-  std::vector<SeaState> sea_states_;
-  std::vector<View> views_;
   std::vector<Target> targets_;
-  std::vector<std::shared_ptr<const Scatterer>> scatterers_;  // one per target, null for points
   double range_window_m_ = 0;
 
   struct SceneSlot;

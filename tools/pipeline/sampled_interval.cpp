@@ -43,8 +43,8 @@ SampledInterval sampled_interval(const Pipeline& pipeline, std::size_t sample) {
   check_size(scenario, fine, sampling_hz);
   const MadeSample made = pipeline.make(sample);
   const auto moving = pipeline.scene(made.address.sea_state, made.address.realisation);
-  const Echo echo = synthesize_echo(fine, pipeline.response(sample, fine).response, scenario.clutter, scenario.seed,
-                                    sample, pipeline.clutter_scene(made.address, *moving));
+  const Echo echo = synthesize_echo(fine, pipeline.response(made.address, fine).response, scenario.clutter,
+                                    scenario.seed, sample, pipeline.clutter_scene(made.address, *moving));
 
   SampledInterval interval;
   interval.train = train;

@@ -8,15 +8,13 @@
 #include <optional>
 #include <utility>
 
+#include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
-#include "sim/geometry/files/mesh_io.h"
 #include "sim/motion/simulate.h"
 #include "sim/motion/target_motion.h"
-#include "sim/scattering/target/part_materials.h"
+#include "sim/scattering/target/prepare_target.h"
 #include "sim/scattering/target/target_check.h"
-#include "sim/scenario/material_file.h"
 #include "sim/sea/realisation.h"
-#include "tools/pipeline/solver_mesh.h"
 
 namespace seaglint {
 
@@ -32,8 +30,8 @@ double radius_m(const TriangleMesh& mesh) {
 double interval_length_s(const RadarSpec& radar) { return radar.pulses * radar.pri_us * 1e-6; }
 
 // From t = 0 to the end of a realisation's last interval.
-double scene_duration_s(const Scenario& scenario) {
-  return SamplePlan(scenario).last_start_s() + interval_length_s(scenario.radar);
+double scene_duration_s(const Scenario& scenario, const SamplePlan& plan) {
+  return plan.last_start_s() + interval_length_s(scenario.radar);
 }
 
 // Radius about the target's reference point that the target never leaves.
@@ -50,36 +48,37 @@ double reach_m(const Target& target, double interval_s) {
   return reach;
 }
 
-// What the target is made of, known at all frequencies of the radar.
-std::vector<MaterialSpec> load_materials(const Scenario& scenario, const TargetSpec& spec, TriangleMesh& mesh) {
+// Mesh and materials of a target, with the keys that an error is about.
+TargetSource source_of(const Scenario& scenario, const TargetSpec& spec) {
   const std::string path = "targets." + spec.name;
-  std::vector<PartMaterial> parts;
+  TargetSource source{.mesh = find_mesh(scenario, spec),
+                      .unit = spec.unit,
+                      .materials = {},
+                      .material_folder = scenario.folder,
+                      .lowest_hz = 1e9 * lowest_ghz(scenario.radar),
+                      .highest_hz = 1e9 * highest_ghz(scenario.radar),
+                      .materials_place = place_of(scenario, path),
+                      .frequencies_place = place_of(scenario, path),
+                      .mesh_place = place_of(scenario, path + ".mesh")};
   for (std::size_t i = 0; i < spec.part_materials.size(); ++i) {
-    const std::string where = place_of(scenario, fmt::format("{}.part_materials.{}.material", path, i));
-    parts.push_back(
-        {spec.part_materials[i].part, find_material(spec.part_materials[i].material, scenario.folder, where)});
+    const PartMaterialSpec& part = spec.part_materials[i];
+    source.materials.push_back(
+        {part.part, part.material, place_of(scenario, fmt::format("{}.part_materials.{}.material", path, i))});
   }
-  const MaterialSpec all = find_material(spec.material, scenario.folder, place_of(scenario, path + ".material"));
-  std::vector<MaterialSpec> materials;
-  try {
-    materials = assign_materials(mesh, all, parts);
-    check_frequencies(materials, 1e9 * lowest_ghz(scenario.radar), 1e9 * highest_ghz(scenario.radar));
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}", place_of(scenario, path), error.what()));
-  }
-  return materials;
+  source.materials.push_back({std::nullopt, spec.material, place_of(scenario, path + ".material")});
+  return source;
 }
 
-// The mesh as the solver takes it, and what is doubtful about it.
-void check_mesh(const Scenario& scenario, Target& target) {
-  try {
-    SoundMesh sound = sound_mesh(target.mesh, 1e9 * lowest_ghz(scenario.radar));
-    target.mesh = std::move(sound.mesh);
-    target.doubts = std::move(sound.doubts);
-  } catch (const InputError& error) {
-    throw InputError(
-        fmt::format("{}: {}", place_of(scenario, fmt::format("targets.{}.mesh", target.spec.name)), error.what()));
-  }
+ScattererSettings scatterer_settings(const Scenario& scenario, const TargetSpec& spec) {
+  ScattererSettings settings{.waterline_m = std::nullopt,
+                             .crease_rad = radians(spec.solver.crease_deg),
+                             .sheet_thickness_m = 1e-3 * spec.sheet_thickness_mm,
+                             .edges = spec.solver.edges,
+                             .lowest_hz = 1e9 * lowest_ghz(scenario.radar),
+                             .highest_hz = 1e9 * highest_ghz(scenario.radar)};
+  // The radar's image looks at the hull from below.
+  if (scenario.sea_reflection.enabled) settings.waterline_m = -rest_position(spec.motion, 0, 0).z();
+  return settings;
 }
 
 // The radar must be far from all that stands in one map, however far from the reference point its bodies are.
@@ -96,11 +95,11 @@ void check_scene_range(const Scenario& scenario, const TargetSpec& spec, const T
 }
 
 // The intervals of a realisation must lie within a series that is played to them.
-void check_series(const Scenario& scenario, const TargetSpec& spec, const Body& body) {
+void check_series(const Scenario& scenario, const SamplePlan& plan, const TargetSpec& spec, const Body& body) {
   const auto* series = std::get_if<AttitudeSeries>(&body.model);
   if (series == nullptr) return;
   try {
-    trajectory_of(*series, spec.motion.series_start_s, scene_duration_s(scenario), spec.motion.translations,
+    trajectory_of(*series, spec.motion.series_start_s, scene_duration_s(scenario, plan), spec.motion.translations,
                   Vec3::Zero(), Vec3::Zero());
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: value {}: {}",
@@ -136,19 +135,18 @@ Body load_body(const Scenario& scenario, const TargetSpec& spec, const TriangleM
 
 namespace {
 
-Target load_target(const Scenario& scenario, const TargetSpec& spec) {
+Target load_target(const Scenario& scenario, const SamplePlan& plan, const TargetSpec& spec) {
   Target target;
   target.spec = spec;
   if (spec.mesh.empty()) return target;
-  target.mesh = read_mesh(find_mesh(scenario, spec), spec.unit);
-  target.materials = load_materials(scenario, spec, target.mesh);
-  check_mesh(scenario, target);
-  target.body = load_body(scenario, spec, target.mesh);
-  check_series(scenario, spec, target.body);
-  check_above_water(scenario, spec, target.mesh);
-  // The radar's image looks at the hull from below.
-  if (scenario.sea_reflection.enabled)
-    put_in_water(target.mesh, target.materials, -rest_position(spec.motion, 0, 0).z());
+  SolverMesh whole = load_solver_mesh(source_of(scenario, spec));
+  target.body = load_body(scenario, spec, whole.mesh);
+  check_series(scenario, plan, spec, target.body);
+  check_above_water(scenario, spec, whole.mesh);
+  PreparedTarget prepared = prepare_target(std::move(whole), scatterer_settings(scenario, spec));
+  target.mesh = std::move(prepared.mesh);
+  target.doubts = std::move(prepared.doubts);
+  target.scatterer = std::move(prepared.scatterer);
   return target;
 }
 
@@ -182,12 +180,11 @@ Target moved(const Target& original, const TargetSpec& host, const CompanionSpec
 
 }  // namespace
 
-std::vector<Target> load_targets(const Scenario& scenario) {
+std::vector<Target> load_targets(const Scenario& scenario, const SamplePlan& plan) {
   std::vector<Target> targets;
   std::size_t bodies = 0;
   for (const TargetSpec& spec : scenario.targets) {
-    targets.push_back(load_target(scenario, spec));
-    targets.back().shape = targets.size() - 1;
+    targets.push_back(load_target(scenario, plan, spec));
     place_bodies(targets.back(), bodies);
     check_scene_range(scenario, spec, targets.back(), std::nullopt);
   }
@@ -222,19 +219,18 @@ double range_window_m(const Scenario& scenario, const std::vector<Target>& targe
   return window_m;
 }
 
-Scene make_scene(const Scenario& scenario, const std::vector<Target>& targets, int sea_state, int realisation,
-                 double at_least_s) {
-  const SamplePlan plan(scenario);
-  const SeaState state = sea_states(scenario.sea)[static_cast<std::size_t>(sea_state)];
-  const std::uint64_t sea_key = plan.sea_key(sea_state, realisation);
-  const double duration_s = std::max(at_least_s, scene_duration_s(scenario));
+Scene make_scene(const Scenario& scenario, const SamplePlan& plan, const std::vector<Target>& targets, int sea_state,
+                 int realisation, double at_least_s) {
+  const SeaState& state = plan.sea_states()[static_cast<std::size_t>(sea_state)];
+  const std::uint64_t key = sea_key(static_cast<std::size_t>(sea_state), static_cast<std::size_t>(realisation));
+  const double duration_s = std::max(at_least_s, scene_duration_s(scenario, plan));
 
-  Scene scene{realize_sea(state, scenario.seed, sea_key), {}};
+  Scene scene{realize_sea(state, scenario.seed, key), {}};
   for (const Target& target : targets) {
     scene.bodies.push_back(target.rest_positions.empty()
                                ? std::vector<Trajectory>{}
                                : simulate_target(target.spec, target.body, state, scene.sea, duration_s, scenario.seed,
-                                                 sea_key, target.first_body));
+                                                 key, target.first_body));
   }
   return scene;
 }

@@ -3,16 +3,14 @@
 
 // The bodies of a scenario and how they move in one sea realisation.
 
-#include <map>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
 #include "sim/geometry/mesh/triangle_mesh.h"
 #include "sim/motion/body.h"
 #include "sim/motion/kinematics/trajectory.h"
-#include "sim/scenario/material_spec.h"
+#include "sim/scattering/target/scatterer.h"
 #include "sim/scenario/sample_plan.h"
 #include "sim/scenario/scenario.h"
 #include "sim/sea/wave_field.h"
@@ -22,15 +20,13 @@ namespace seaglint {
 // A target as loaded: one mesh shared by its bodies, or ideal points.
 struct Target {
   TargetSpec spec;
-  TriangleMesh mesh;                    // empty for points
-  std::vector<MaterialSpec> materials;  // of mesh.materials
-  std::vector<std::string> doubts;      // about the mesh, a sentence each
-  Body body;                            // how it moves; unused for points
-  std::vector<Vec3> rest_positions;     // of the bodies' origins, target frame; empty for points
-  std::size_t first_body = 0;           // bodies are counted over all targets, in order
-  // the target whose mesh, materials and points these are: itself, or the one a companion stands for
-  std::size_t shape = 0;
-  std::vector<std::size_t> with;  // its companions, as further targets behind those of the scenario
+  TriangleMesh mesh;                           // empty for points
+  std::vector<std::string> doubts;             // about the mesh, a sentence each
+  std::shared_ptr<const Scatterer> scatterer;  // of the mesh; null for points
+  Body body;                                   // how it moves; unused for points
+  std::vector<Vec3> rest_positions;            // of the bodies' origins, target frame; empty for points
+  std::size_t first_body = 0;                  // bodies are counted over all targets, in order
+  std::vector<std::size_t> with;               // its companions, as further targets behind those of the scenario
   // of a companion, in the frame of the target that it stands with, which makes way of its own
   Vec3 passing_mps = Vec3::Zero();
 };
@@ -41,7 +37,7 @@ Body load_body(const Scenario& scenario, const TargetSpec& spec, const TriangleM
 // Throws InputError for a mesh that is missing or unsound, and for a material that is missing, unsound or not known at
 // the radar's frequencies. The targets of the scenario, in its order, then one more for each companion, moved to where
 // it stands.
-std::vector<Target> load_targets(const Scenario& scenario);
+std::vector<Target> load_targets(const Scenario& scenario, const SamplePlan& plan);
 
 // Full width of the range window that holds the response of every target of the scenario, wherever it is seen from. It
 // is one number for all samples: a window that followed the target would tell its size. Throws InputError when its echo
@@ -55,7 +51,7 @@ struct Scene {
 };
 
 // Longer than its intervals need where at_least_s says so; the beginning is the same.
-Scene make_scene(const Scenario& scenario, const std::vector<Target>& targets, int sea_state, int realisation,
-                 double at_least_s = 0);
+Scene make_scene(const Scenario& scenario, const SamplePlan& plan, const std::vector<Target>& targets, int sea_state,
+                 int realisation, double at_least_s = 0);
 
 }  // namespace seaglint

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
+#include <charconv>
+#include <cmath>
+#include <sstream>
 #include <system_error>
 
 #include "classify/dataset/directory/dataset_writer.h"
@@ -12,7 +14,6 @@
 #include "seaglint_version.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
-#include "sim/scenario/files/document.h"
 #include "sim/scenario/writer.h"
 
 namespace seaglint {
@@ -41,17 +42,16 @@ std::string embeddings_csv(const LearningTable& table, const FeatureMatrix& embe
 // The keys of a section of the effective scenario with their values as YAML has them: numbers, flags, words.
 nlohmann::ordered_json section_of(const Scenario& scenario, const std::string& section) {
   nlohmann::ordered_json json;
-  const YamlNode effective = parse_yaml(effective_yaml(scenario), scenario.name);
-  for (const YamlEntry& entry : effective.find(section)->entries) {
-    const auto value = nlohmann::ordered_json::parse(entry.value.text, nullptr, false);
-    json[entry.key] = value.is_discarded() ? nlohmann::ordered_json(entry.value.text) : value;
+  for (const auto& [key, text] : section_values(scenario, section)) {
+    const auto value = nlohmann::ordered_json::parse(text, nullptr, false);
+    json[key] = value.is_discarded() ? nlohmann::ordered_json(text) : value;
   }
   return json;
 }
 
-std::string metrics_json(const Study& study, const LearningTable& table, const Scenario& scenario,
-                         const Manifest& manifest) {
-  nlohmann::ordered_json json = nlohmann::ordered_json::parse(to_json(study, scenario.learning));
+nlohmann::ordered_json metrics_json(const Study& study, const LearningTable& table, const Scenario& scenario,
+                                    const Manifest& manifest) {
+  nlohmann::ordered_json json = to_json(study, scenario.learning);
   json["scenario"] = scenario.name;
   json["version"] = kVersion;
   json["seed"] = scenario.seed;
@@ -61,7 +61,7 @@ std::string metrics_json(const Study& study, const LearningTable& table, const S
                   {"maps_with_fewer_than_3_centres", table.degenerate},
                   {"processors", manifest.processors},
                   {"scenario_sha256", manifest.scenario_sha256}};
-  return json.dump(2) + "\n";
+  return json;
 }
 
 // Empty, absent, or with a model in it, be it one that a killed training left half-written.
@@ -79,26 +79,66 @@ void require_own_directory(const fs::path& directory) {
 
 }  // namespace
 
-Study train_model(const fs::path& data_set, const fs::path& model_directory, const std::vector<Override>& overrides,
-                  int threads, const StopFlag* stop) {
-  const DatasetReader data(data_set);
-  const Scenario scenario = read_scenario(data_set / kScenarioFile, overrides);
+TrainedModel train_model(const DatasetReader& data, const Scenario& scenario, const fs::path& model_directory,
+                         int threads, const StopFlag* stop, const std::function<void(const Shard&)>& use) {
   require_own_directory(model_directory);
-  const LearningTable table = load_learning_table(data, scenario.learning, stop);
+  const LearningTable table = load_learning_table(data, scenario.learning, stop, use);
   make_directory(model_directory);
-  Study study =
+  TrainedModel model;
+  model.study =
       run_study(table, scenario.learning, scenario.dataset.train_share, scenario.seed, thread_count(threads), stop);
-  const std::string metrics = metrics_json(study, table, scenario, data.manifest());
+  model.metrics = metrics_json(model.study, table, scenario, data.manifest());
 
   // metrics.json is the mark of a whole model: the earlier one goes before any other file is replaced.
   const fs::path mark = model_directory / kMetricsFile;
   std::error_code error;
   fs::remove(mark, error);
   if (error) throw WorkError(fmt::format("{}: cannot remove: {}", mark.string(), error.message()));
-  save_models(study, table, model_directory);
-  write_file(model_directory / kEmbeddingsFile, embeddings_csv(table, study.embeddings));
-  write_file(mark, metrics);
-  return study;
+  save_models(model.study, table, model_directory);
+  write_file(model_directory / kEmbeddingsFile, embeddings_csv(table, model.study.embeddings));
+  write_file(mark, model.metrics.dump(2) + "\n");
+  return model;
+}
+
+TrainedModel train_model(const fs::path& data_set, const fs::path& model_directory,
+                         const std::vector<Override>& overrides, int threads, const StopFlag* stop) {
+  const DatasetReader data(data_set);
+  return train_model(data, read_scenario(data_set / kScenarioFile, overrides), model_directory, threads, stop);
+}
+
+FeatureMatrix read_embeddings(const fs::path& file, std::span<const std::int64_t> samples) {
+  std::istringstream text(read_file(file));
+  const auto fail = [&](std::size_t line, const std::string& why) {
+    throw InputError(fmt::format("{}:{}: {}", file.string(), line, why));
+  };
+  const auto fields = [](const std::string& line) {
+    std::vector<std::string> values;
+    std::istringstream stream(line);
+    for (std::string value; std::getline(stream, value, ',');) values.push_back(value);
+    return values;
+  };
+  constexpr std::size_t kAbout = 5;
+  std::string line;
+  std::getline(text, line);
+  const std::vector<std::string> names = fields(line);
+  if (names.size() < kAbout + 5 || names[0] != "sample") fail(1, "not a table of embeddings");
+  FeatureMatrix matrix{{names.begin() + kAbout, names.end()}, {}};
+  for (std::size_t row = 0; row < samples.size(); ++row) {
+    std::getline(text, line);
+    const std::vector<std::string> values = fields(line);
+    if (values.size() != names.size() || values[0] != std::to_string(samples[row])) {
+      fail(row + 2, fmt::format("expected {} values of sample {}", names.size(), samples[row]));
+    }
+    for (std::size_t k = kAbout; k < values.size(); ++k) {
+      float value = 0;
+      const char* end = values[k].data() + values[k].size();
+      const auto [stop, error] = std::from_chars(values[k].data(), end, value);
+      if (error != std::errc() || stop != end || !std::isfinite(value))
+        fail(row + 2, fmt::format("\"{}\" is not a number", values[k]));
+      matrix.values.push_back(value);
+    }
+  }
+  return matrix;
 }
 
 }  // namespace seaglint

@@ -41,9 +41,9 @@ std::vector<std::string> mesh_doubts(const Pipeline& pipeline) {
   return lines;
 }
 
-std::vector<std::string> sea_doubts(const Scenario& scenario) {
+std::vector<std::string> sea_doubts(const Scenario& scenario, std::span<const SeaState> states) {
   CoarsestSea wind_sea, swell;
-  for (const SeaState& state : sea_states(scenario.sea)) {
+  for (const SeaState& state : states) {
     const StratumWidths widths = stratum_widths(state);
     if (widths.wind_sea > wind_sea.width) wind_sea = {widths.wind_sea, state.peak_period_s};
     if (widths.swell > swell.width) swell = {widths.swell, state.swell.peak_period_s};

@@ -8,7 +8,9 @@
 #include <map>
 
 #include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/dbsm.h"
 #include "sim/core/process/error.h"
+#include "sim/scattering/beams/bistatic_geometry.h"
 #include "tools/figure/figure.h"
 
 namespace seaglint {
@@ -18,8 +20,6 @@ constexpr double kAngleStep_deg = 1e-3;  // CST prints three digits after the po
 constexpr long kCircle = 360'000;        // steps in a turn
 constexpr double kFrequencyTolerance = 1e-6;
 constexpr double kSameLevel_db = 0.1;  // of a direction that a file gives twice
-
-double level_of(const Complex& s) { return 10 * std::log10(std::max(4 * kPi * std::norm(s), 1e-100)); }
 
 using DirectionKey = std::pair<long, long>;
 
@@ -151,7 +151,6 @@ std::string upper(std::string text) {
 std::vector<PairedCut> pair_with(const RcsSweep& sweep, const RcsReference& reference) {
   require_same_transmitter(sweep, reference);
   const CutAxis axis = axis_of(sweep);
-  const int element = static_cast<int>(reference.element);
   std::vector<PairedCut> cuts;
   for (std::size_t q = 0; q < sweep.frequency_hz.size(); ++q) {
     const double f = sweep.frequency_hz[q], k = 2 * kPi * f / kSpeedOfLight;
@@ -162,12 +161,10 @@ std::vector<PairedCut> pair_with(const RcsSweep& sweep, const RcsReference& refe
       cuts.back().element = reference.element;
       cuts.back().axis = axis;
       if (axis != CutAxis::kFrequency) cuts.back().frequency_hz = f;
-      for (const RcsSweep::Model& model : sweep.models) cuts.back().models.push_back({model.name, {}, {}});
     }
     PairedCut& cut = cuts.back();
     for (std::size_t view = 0; view < sweep.views(); ++view) {
-      const double az = sweep.azimuth_deg[view % sweep.azimuth_deg.size()],
-                   el = sweep.elevation_deg[view / sweep.azimuth_deg.size()];
+      const double az = sweep.azimuth_of(view), el = sweep.elevation_of(view);
       const ReferenceSample* sample =
           samples.at(90 - el, reference.settings.phi_scale * az + reference.settings.phi_offset_deg);
       if (!sample) continue;
@@ -179,21 +176,31 @@ std::vector<PairedCut> pair_with(const RcsSweep& sweep, const RcsReference& refe
       if (sample->amplitude_m) {
         // A phase origin at x0 lies (r^_t + r^_s).x0 nearer to the radar, both ways, than the body's (CONVENTIONS.md,
         // "Scattering").
-        const Vec3 r = direction_at(az, el);
+        const Vec3 r = direction_to_radar(radians(az), radians(el));
         cut.amplitude_m.push_back(
             *sample->amplitude_m *
             std::polar(1.0, k * (sweep.transmitter.value_or(r) + r).dot(reference.settings.origin_m)));
       }
-      for (std::size_t m = 0; m < sweep.models.size(); ++m) {
-        const Complex s = sweep.models[m].matrices[view][q][static_cast<std::size_t>(element)];
-        cut.models[m].level_dbsm.push_back(level_of(s));
-        cut.models[m].amplitude_m.push_back(s);
-      }
+      cut.places.push_back({view, q});
     }
   }
   std::erase_if(cuts, [](const PairedCut& cut) { return cut.x.empty(); });
   if (cuts.empty()) fail_pairing(sweep, reference);
+  for (PairedCut& cut : cuts) set_models(cut, sweep);
   return cuts;
+}
+
+void set_models(PairedCut& cut, const RcsSweep& sweep) {
+  const auto element = static_cast<std::size_t>(cut.element);
+  cut.models.clear();
+  for (const RcsSweep::Model& model : sweep.models) {
+    cut.models.push_back({model.name, {}, {}});
+    for (const PairedCut::Place& place : cut.places) {
+      const Complex s = model.matrices[place.view][place.frequency][element];
+      cut.models.back().level_dbsm.push_back(dbsm(s));
+      cut.models.back().amplitude_m.push_back(s);
+    }
+  }
 }
 
 Difference difference_of(const PairedCut& cut, const PairedCut::Model& model, double floor_db) {

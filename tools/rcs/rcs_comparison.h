@@ -26,6 +26,10 @@ struct PairedCut {
   std::vector<double> x;               // deg or GHz; the running number when several axes vary
   std::vector<double> level_dbsm;
   std::vector<Complex> amplitude_m;  // of the reference about the body's origin; empty without phases
+  struct Place {
+    std::size_t view = 0, frequency = 0;
+  };
+  std::vector<Place> places;  // in the sweep
   struct Model {
     std::string name;
     std::vector<double> level_dbsm;
@@ -39,6 +43,9 @@ struct PairedCut {
 // fits, with what either side holds, and when the reference says that its transmitter stands elsewhere than the
 // sweep's.
 std::vector<PairedCut> pair_with(const RcsSweep& sweep, const RcsReference& reference);
+
+// Takes the cut's models from the sweep that it was paired with, once its models are computed.
+void set_models(PairedCut& cut, const RcsSweep& sweep);
 
 struct Difference {
   std::size_t points = 0;

@@ -8,18 +8,16 @@
 #include <sstream>
 
 #include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/dbsm.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/core/text/number.h"
+#include "tools/rcs/transmitter_note.h"
 
 namespace seaglint {
 namespace {
 
 constexpr double kLeastLevel_dbsm = -1000;  // of an exact zero
-
-double level_of(const Complex& s) {
-  return 10 * std::log10(std::max(4 * kPi * std::norm(s), std::pow(10.0, kLeastLevel_dbsm / 10)));
-}
 
 Complex amplitude_of(double level_dbsm, double phase_rad) {
   return std::polar(std::sqrt(std::pow(10.0, level_dbsm / 10) / (4 * kPi)), phase_rad);
@@ -117,19 +115,19 @@ void read_four_columns(Lines& lines, RcsReference& reference) {
   }
 }
 
-// What the head of a table of `seaglint rcs` says of the transmitter; nothing where the line is another.
+// Where a line of the head of a table of `seaglint rcs` says that its transmitter stands; nothing where it says
+// nothing.
 std::optional<StatedTransmitter> stated_transmitter(const Lines& lines, const std::string& line) {
-  if (!line.starts_with("# physical optics")) return std::nullopt;
-  if (line.find(", monostatic,") != std::string::npos) return StatedTransmitter{};
-  const std::string azimuth = ", transmitter at azimuth ", elevation = " deg, elevation ", end = " deg,";
-  const std::size_t at = line.find(azimuth), middle = line.find(elevation, at),
-                    last = line.find(end, middle + elevation.size());
-  if (at == std::string::npos || middle == std::string::npos || last == std::string::npos) return std::nullopt;
-  const std::size_t begin = at + azimuth.size(), second = middle + elevation.size();
-  StatedTransmitter there{false, 90 - number_in(lines, line.substr(second, last - second)),
-                          number_in(lines, line.substr(begin, middle - begin))};
-  fold(there.theta_deg, there.phi_deg);
-  return there;
+  try {
+    const std::optional<NotedTransmitter> noted = read_transmitter_note(line);
+    if (!noted) return std::nullopt;
+    if (!noted->fixed) return StatedTransmitter{};
+    StatedTransmitter there{false, 90 - noted->fixed->elevation_deg, noted->fixed->azimuth_deg};
+    fold(there.theta_deg, there.phi_deg);
+    return there;
+  } catch (const InputError& error) {
+    lines.fail(error.what());
+  }
 }
 
 // The table of `seaglint rcs`.
@@ -165,7 +163,7 @@ void read_own_table(Lines& lines, RcsReference& reference) {
     fold(sample.theta_deg, sample.phi_deg);
     if (re >= 0 && im >= 0) {
       sample.amplitude_m = Complex(at(re), at(im));
-      sample.level_dbsm = level_of(*sample.amplitude_m);
+      sample.level_dbsm = dbsm(*sample.amplitude_m);
     } else {
       sample.level_dbsm = level_in(lines, cells[static_cast<std::size_t>(level)]);
     }

@@ -2,12 +2,10 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/linear.h"
 
 namespace seaglint {
@@ -17,6 +15,7 @@ struct RcsSweep {
   std::vector<double> frequency_hz, azimuth_deg, elevation_deg;
   struct Model {
     std::string name;  // in legends and tables
+    bool edge_diffraction = true;
     // [view][frequency], view = elevation * azimuths + azimuth
     std::vector<std::vector<std::array<Complex, 4>>> matrices;
   };
@@ -24,12 +23,9 @@ struct RcsSweep {
   std::optional<Vec3> transmitter;  // its direction where it stands still while the sweep is the receiver's
 
   std::size_t views() const { return azimuth_deg.size() * elevation_deg.size(); }
+  std::size_t rows() const { return views() * frequency_hz.size(); }
+  double azimuth_of(std::size_t view) const { return azimuth_deg[view % azimuth_deg.size()]; }
+  double elevation_of(std::size_t view) const { return elevation_deg[view / azimuth_deg.size()]; }
 };
-
-// The unit vector from the body to a radar there.
-inline Vec3 direction_at(double azimuth_deg, double elevation_deg) {
-  const double az = radians(azimuth_deg), el = radians(elevation_deg);
-  return {std::cos(el) * std::cos(az), std::cos(el) * std::sin(az), std::sin(el)};
-}
 
 }  // namespace seaglint

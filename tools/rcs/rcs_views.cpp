@@ -3,95 +3,76 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/progress.h"
-#include "sim/scattering/response/body_response.h"
+#include "sim/scattering/beams/bistatic_geometry.h"
 #include "sim/scattering/response/scattering_matrix.h"
 #include "sim/scattering/response/sea_reflection.h"
-#include "tools/pipeline/warnings.h"
 
 namespace seaglint {
 namespace {
 
-// At the zenith and below the keel h is that of the azimuth's lower elevations, phi^ of a spherical table.
-RadarBasis basis_at(double azimuth_deg, double elevation_deg) {
-  const Vec3 r = direction_at(azimuth_deg, elevation_deg);
-  if (std::abs(elevation_deg) != 90) return radar_basis(r);
-  const Vec3 h = direction_at(azimuth_deg + 90, 0);
-  return {r, h, r.cross(h)};
+AntennaPair antennas_of(const RcsRequest& request, const RadarBasis& swept) {
+  if (!request.transmitter) return monostatic(swept);
+  return bistatic(basis_at(request.transmitter->azimuth_deg, request.transmitter->elevation_deg), swept);
 }
 
-AntennaPair antennas_of(const RcsArguments& arguments, const RadarBasis& swept) {
-  if (!arguments.transmit_azimuth_deg) return monostatic(swept);
-  return bistatic(basis_at(*arguments.transmit_azimuth_deg, arguments.transmit_elevation_deg.value_or(0)), swept);
+SeaMirror mirror_of(const SeaUnderTarget& sea) {
+  SeaReflectionSpec spec;
+  spec.surface = sea.surface;
+  spec.paths = sea.paths;
+  return SeaMirror(spec, sea.wave_height_m);
 }
 
-}  // namespace
-
-RadarBasis basis_of(const RcsSweep& sweep, std::size_t view) {
-  return basis_at(sweep.azimuth_deg[view % sweep.azimuth_deg.size()],
-                  sweep.elevation_deg[view / sweep.azimuth_deg.size()]);
-}
-
-std::size_t trace_views(const RcsArguments& arguments, const Scatterer& scatterer, const EchoFilter& filter,
-                        const Shell& shell, RcsSweep& sweep) {
+std::size_t trace_views(const RcsRequest& request, const RcsTarget& target, int threads, const StopFlag* stop,
+                        RcsSweep& sweep) {
+  const Scatterer& scatterer = *target.prepared.scatterer;
   std::vector<double> wavenumbers;
   for (const double hz : sweep.frequency_hz) wavenumbers.push_back(2 * kPi * hz / kSpeedOfLight);
-  // What is written comes last; a reference is shown beside physical optics alone too.
-  const std::vector<std::vector<std::array<Complex, 4>>> empty(sweep.views());
-  const bool edges = arguments.edges == "on";
-  if (!edges || !arguments.reference.files.empty()) sweep.models.push_back({"po", empty});
-  if (edges) sweep.models.push_back({"edges", empty});
   std::size_t legs = 0;
   Progress progress("rcs", sweep.views(), "views");
   for (std::size_t view = 0; view < sweep.views(); ++view) {
-    const RadarBasis basis = basis_of(sweep, view);
+    const RadarBasis basis = basis_at(sweep.azimuth_of(view), sweep.elevation_of(view));
     try {
-      for (auto& model : sweep.models) {
-        const IlluminationSettings settings{arguments.ray_spacing_m, arguments.max_bounces, model.name == "edges",
-                                            filter, arguments.range_m};
-        const int threads = thread_count(shell.threads);
+      for (RcsSweep::Model& model : sweep.models) {
+        const IlluminationSettings settings = settings_of(request, target, model.edge_diffraction);
         model.matrices[view] =
-            arguments.sea.reflection
-                ? scattering_matrices_over_sea(scatterer, basis.r, arguments.sea.height_m, arguments.sea.mirror(),
-                                               wavenumbers, settings, threads, &legs, &shell.stop)
-                : scattering_matrices(scatterer, antennas_of(arguments, basis), wavenumbers, settings, threads, &legs,
-                                      &shell.stop);
+            request.sea.reflection
+                ? scattering_matrices_over_sea(scatterer, basis.r, request.sea.height_m, mirror_of(request.sea),
+                                               wavenumbers, settings, threads, &legs, stop)
+                : scattering_matrices(scatterer, antennas_of(request, basis), wavenumbers, settings, threads, &legs,
+                                      stop);
       }
     } catch (const Interrupted&) {
-      throw WorkError(
-          fmt::format("interrupted after {} of {} views; {} is not written", view, sweep.views(), arguments.output));
+      throw WorkError(fmt::format("interrupted after {} of {} views", view, sweep.views()));
     }
     progress.advance();
   }
   return legs;
 }
 
-void add_cavities(const RcsArguments& arguments, const std::vector<NamedCavity>& cavities, const EchoFilter& filter,
-                  const Shell& shell, RcsSweep& sweep) {
+// Adds the echoes of cavities to every model of the sweep.
+void add_cavities(const RcsRequest& request, const RcsTarget& target, int threads, const StopFlag* stop,
+                  RcsSweep& sweep) {
   std::vector<AntennaPair> views;
   for (std::size_t view = 0; view < sweep.views(); ++view)
-    views.push_back(antennas_of(arguments, basis_of(sweep, view)));
-  Progress progress("cavity", cavities.size() * sweep.frequency_hz.size(), "frequencies");
-  for (const NamedCavity& named : cavities) {
+    views.push_back(antennas_of(request, basis_at(sweep.azimuth_of(view), sweep.elevation_of(view))));
+  Progress progress("cavity", target.cavities.size() * sweep.frequency_hz.size(), "frequencies");
+  for (const NamedCavity& named : target.cavities) {
     for (std::size_t q = 0; q < sweep.frequency_hz.size(); ++q) {
-      const auto failed = [&](const char* why) {
-        return WorkError(fmt::format("cavity {} at {:.6g} GHz: {}; {} is not written", named.name,
-                                     1e-9 * sweep.frequency_hz[q], why, arguments.output));
-      };
       std::vector<std::array<Complex, 4>> echo(sweep.views());
       try {
-        if (filter.keeps_cavity(named.part))
-          echo = named.cavity.scattering_matrices(2 * kPi * sweep.frequency_hz[q] / kSpeedOfLight, views,
-                                                  thread_count(shell.threads), &shell.stop);
+        if (target.filter.keeps_cavity(named.part))
+          echo =
+              named.cavity.scattering_matrices(2 * kPi * sweep.frequency_hz[q] / kSpeedOfLight, views, threads, stop);
       } catch (const WorkError& error) {
-        throw failed(error.what());
+        throw WorkError(
+            fmt::format("cavity {} at {:.6g} GHz: {}", named.name, 1e-9 * sweep.frequency_hz[q], error.what()));
       }
-      for (auto& model : sweep.models) {
+      for (RcsSweep::Model& model : sweep.models) {
         for (std::size_t view = 0; view < sweep.views(); ++view) {
           for (int i = 0; i < 4; ++i) model.matrices[view][q][i] += echo[view][i];
         }
@@ -101,20 +82,29 @@ void add_cavities(const RcsArguments& arguments, const std::vector<NamedCavity>&
   }
 }
 
-// Behind a target only its sharp edges scatter: a sphere's echo errs by 0.65 dB in the mean between 90 and 120 deg from
-// the transmitter.
-void warn_of_receivers_behind(const RcsSweep& sweep) {
-  constexpr double kFarthestDeg = 120;
-  double farthest = 0;
-  for (std::size_t view = 0; sweep.transmitter && view < sweep.views(); ++view)
-    farthest =
-        std::max(farthest, degrees(std::acos(std::clamp(sweep.transmitter->dot(basis_of(sweep, view).r), -1.0, 1.0))));
-  if (farthest <= kFarthestDeg) return;
-  warn(
-      std::vector{fmt::format("receivers up to {:.0f} deg from the transmitter: behind the target, beyond {:g} deg, "
-                              "only sharp edges scatter, and the shadow's own field, within 15 deg of "
-                              "the wave's way on, is not modelled",
-                              farthest, kFarthestDeg)});
+}  // namespace
+
+RadarBasis basis_at(double azimuth_deg, double elevation_deg) {
+  const Vec3 r = direction_to_radar(radians(azimuth_deg), radians(elevation_deg));
+  if (std::abs(elevation_deg) != 90) return radar_basis(r);
+  const Vec3 h = direction_to_radar(radians(azimuth_deg + 90), 0);
+  return {r, h, r.cross(h)};
+}
+
+IlluminationSettings settings_of(const RcsRequest& request, const RcsTarget& target, bool edge_diffraction) {
+  return {request.ray_spacing_m, request.max_bounces, edge_diffraction, target.filter, request.range_m};
+}
+
+RcsResult compute_rcs(const RcsRequest& request, const RcsTarget& target, int threads, const StopFlag* stop) {
+  RcsResult result{requested_sweep(request), 0};
+  RcsSweep& sweep = result.sweep;
+  const std::vector<std::vector<std::array<Complex, 4>>> empty(sweep.views());
+  if (!request.edges || request.physical_optics_too) sweep.models.push_back({"po", false, empty});
+  if (request.edges) sweep.models.push_back({"edges", true, empty});
+  const int count = thread_count(threads);
+  result.legs = trace_views(request, target, count, stop, sweep);
+  if (!target.cavities.empty()) add_cavities(request, target, count, stop, sweep);
+  return result;
 }
 
 }  // namespace seaglint

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <chrono>
+#include <utility>
 
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
@@ -146,19 +147,18 @@ std::string page(const ordered_json& metrics, const Scenario& scenario, const st
   return html_page("seaglint: " + scenario.name, body);
 }
 
-}  // namespace
+using Clock = std::chrono::steady_clock;
 
-void write_report(const fs::path& directory, const Scenario& scenario, int threads, const StopFlag* stop) {
-  const auto begin = std::chrono::steady_clock::now();
-  ordered_json metrics = read_metrics(directory);
-  const ReportData data = load_report_data(directory, scenario, stop);
-  metrics["report"] = report_numbers(data);
-  const std::string missing = missing_input(scenario);
-  if (!missing.empty()) warn(std::array{missing + "; neither the targets nor their motion are drawn"});
-  const std::vector<Target> targets = missing.empty() ? load_targets(scenario) : std::vector<Target>();
+// `missing`: why there are no targets to draw; `begin`: when the report began.
+double draw_and_write(const fs::path& directory, const Scenario& scenario, const SamplePlan& plan,
+                      const std::vector<Target>& targets, const std::string& missing, RunResults results, int threads,
+                      const StopFlag* stop, Clock::time_point begin) {
+  ordered_json& metrics = results.metrics;
+  metrics["report"] = report_numbers(results.data);
   const std::vector<ReportFigure> all =
-      draw_report_figures(directory, scenario, targets, data, metrics, thread_count(threads), stop);
-  metrics["run"]["seconds"]["report"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+      draw_report_figures(directory, scenario, plan, targets, results.data, metrics, thread_count(threads), stop);
+  const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+  metrics["run"]["seconds"]["report"] = seconds;
   std::string html;
   try {
     html = page(metrics, scenario, all, missing);
@@ -167,6 +167,26 @@ void write_report(const fs::path& directory, const Scenario& scenario, int threa
   }
   write_file(directory / kMetricsFile, metrics.dump(2) + "\n");
   write_file(directory / kReportFile, html);
+  return seconds;
+}
+
+}  // namespace
+
+double write_report(const fs::path& directory, const Scenario& scenario, const SamplePlan& plan,
+                    const std::vector<Target>& targets, RunResults results, int threads, const StopFlag* stop) {
+  return draw_and_write(directory, scenario, plan, targets, "", std::move(results), threads, stop, Clock::now());
+}
+
+void write_report(const fs::path& directory, const Scenario& scenario, int threads, const StopFlag* stop) {
+  const auto begin = Clock::now();
+  RunResults results;
+  results.metrics = read_metrics(directory);
+  const SamplePlan plan(scenario);
+  results.data = load_report_data(directory, scenario, plan, stop);
+  const std::string missing = missing_input(scenario);
+  if (!missing.empty()) warn(std::array{missing + "; neither the targets nor their motion are drawn"});
+  const std::vector<Target> targets = missing.empty() ? load_targets(scenario, plan) : std::vector<Target>();
+  draw_and_write(directory, scenario, plan, targets, missing, std::move(results), threads, stop, begin);
 }
 
 }  // namespace seaglint

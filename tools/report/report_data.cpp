@@ -6,12 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
+#include <utility>
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
-#include "sim/core/process/file.h"
-#include "sim/scenario/sample_plan.h"
 #include "tools/pipeline/train.h"
 
 namespace seaglint {
@@ -31,8 +29,8 @@ int nearest(std::size_t count, Distance distance) {
 
 // The samples the report shows, by their numbers: both classes at two aspects.
 std::vector<std::size_t> shown_samples(const Scenario& scenario, const SamplePlan& plan) {
-  const std::vector<SeaState> states = sea_states(scenario.sea);
-  const std::vector<View> aspects = views(scenario.view);
+  const std::vector<SeaState>& states = plan.sea_states();
+  const std::vector<View>& aspects = plan.views();
   SampleAddress address;
   address.sea_state =
       nearest(states.size(), [&](std::size_t i) { return std::abs(states[i].significant_wave_height_m - 1); });
@@ -55,40 +53,6 @@ std::vector<std::size_t> shown_samples(const Scenario& scenario, const SamplePla
     }
   }
   return samples;
-}
-
-// embeddings.csv: five columns about the sample, four hand-made features, then the network's.
-FeatureMatrix read_embeddings(const fs::path& file, const std::vector<ReportRow>& rows) {
-  std::istringstream text(read_file(file));
-  const auto fail = [&](std::size_t line, const std::string& why) {
-    throw InputError(fmt::format("{}:{}: {}", file.string(), line, why));
-  };
-  const auto fields = [](const std::string& line) {
-    std::vector<std::string> values;
-    std::istringstream stream(line);
-    for (std::string value; std::getline(stream, value, ',');) values.push_back(value);
-    return values;
-  };
-  constexpr std::size_t kAbout = 5;
-  std::string line;
-  std::getline(text, line);
-  const std::vector<std::string> names = fields(line);
-  if (names.size() < kAbout + 5 || names[0] != "sample") fail(1, "not a table of embeddings");
-  FeatureMatrix matrix{{names.begin() + kAbout, names.end()}, {}};
-  for (std::size_t row = 0; row < rows.size(); ++row) {
-    std::getline(text, line);
-    const std::vector<std::string> values = fields(line);
-    if (values.size() != names.size() || values[0] != std::to_string(rows[row].record.sample)) {
-      fail(row + 2, fmt::format("expected {} values of sample {}", names.size(), rows[row].record.sample));
-    }
-    for (std::size_t k = kAbout; k < values.size(); ++k) {
-      char* end = nullptr;
-      matrix.values.push_back(std::strtof(values[k].c_str(), &end));
-      if (end == values[k].c_str() || !std::isfinite(matrix.values.back()))
-        fail(row + 2, fmt::format("\"{}\" is not a number", values[k]));
-    }
-  }
-  return matrix;
 }
 
 }  // namespace
@@ -116,35 +80,56 @@ LineFit fit_line(const std::vector<StoredCentre>& centres) {
   return fit;
 }
 
-ReportData load_report_data(const fs::path& directory, const Scenario& scenario, const StopFlag* stop) {
+ReportCollector::ReportCollector(const Scenario& scenario, const SamplePlan& plan)
+    : wanted_(shown_samples(scenario, plan)) {
+  data_.shown.resize(wanted_.size());
+  data_.handmade.names = {"mwr", "ccf", "sigma_r_m", "sigma_v_mps"};
+}
+
+void ReportCollector::add(const Shard& shard) {
+  for (const Sample& sample : shard.samples) {
+    const SampleRecord& record = sample.record;
+    data_.rows.push_back({record, fit_line(sample.centre_list)});
+    for (const double value : {record.mwr, record.ccf, record.sigma_r_m, record.sigma_v_mps}) {
+      data_.handmade.values.push_back(static_cast<float>(value));
+    }
+    const auto place = std::find(wanted_.begin(), wanted_.end(), static_cast<std::size_t>(record.sample));
+    if (place != wanted_.end()) {
+      data_.shown_wave_height_m = record.significant_wave_height_m;
+      data_.shown[static_cast<std::size_t>(place - wanted_.begin())] = {sample, shard.axes};
+    }
+  }
+}
+
+ReportData ReportCollector::with_embeddings(const FeatureMatrix& embeddings) const {
+  return with_fused(join_columns(data_.handmade, embeddings));
+}
+
+ReportData ReportCollector::with_fused(FeatureMatrix fused) const {
+  ReportData data = data_;
+  data.fused = std::move(fused);
+  return data;
+}
+
+std::vector<std::int64_t> ReportCollector::samples() const {
+  std::vector<std::int64_t> samples;
+  for (const ReportRow& row : data_.rows) samples.push_back(row.record.sample);
+  return samples;
+}
+
+ReportData load_report_data(const fs::path& directory, const Scenario& scenario, const SamplePlan& plan,
+                            const StopFlag* stop) {
   const DatasetReader reader(directory / "data");
-  const SamplePlan plan(scenario);
   if (reader.size() != plan.size()) {
     throw InputError(fmt::format("{}: {} maps, but scenario.yaml makes {}", (directory / "data").string(),
                                  reader.size(), plan.size()));
   }
-  const std::vector<std::size_t> wanted = shown_samples(scenario, plan);
-  ReportData data;
-  data.shown.resize(wanted.size());
-  data.handmade.names = {"mwr", "ccf", "sigma_r_m", "sigma_v_mps"};
+  ReportCollector collector(scenario, plan);
   for (std::size_t i = 0; i < reader.shards(); ++i) {
     if (stop && *stop) throw Interrupted();
-    Shard shard = reader.shard(i);
-    for (Sample& sample : shard.samples) {
-      const SampleRecord& record = sample.record;
-      data.rows.push_back({record, fit_line(sample.centre_list)});
-      for (const double value : {record.mwr, record.ccf, record.sigma_r_m, record.sigma_v_mps}) {
-        data.handmade.values.push_back(static_cast<float>(value));
-      }
-      const auto place = std::find(wanted.begin(), wanted.end(), static_cast<std::size_t>(record.sample));
-      if (place != wanted.end()) {
-        data.shown_wave_height_m = record.significant_wave_height_m;
-        data.shown[static_cast<std::size_t>(place - wanted.begin())] = {std::move(sample), shard.axes};
-      }
-    }
+    collector.add(reader.shard(i));
   }
-  data.fused = read_embeddings(directory / "model" / kEmbeddingsFile, data.rows);
-  return data;
+  return collector.with_fused(read_embeddings(directory / "model" / kEmbeddingsFile, collector.samples()));
 }
 
 }  // namespace seaglint

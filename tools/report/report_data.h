@@ -3,6 +3,7 @@
 
 // What the report draws from: the samples of a run without their maps, and the few maps it shows.
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -10,7 +11,7 @@
 #include "classify/dataset/directory/dataset_reader.h"
 #include "classify/model/booster.h"
 #include "sim/core/process/parallel.h"
-#include "sim/scenario/scenario.h"
+#include "sim/scenario/sample_plan.h"
 
 namespace seaglint {
 
@@ -41,8 +42,26 @@ struct ReportData {
   FeatureMatrix fused;     // the same and the network's embeddings
 };
 
-// Aspects nearest 80 and 170 deg azimuth, the sea nearest 1 m (method: the paper's figures); the first such map of each
-// class. Throws InputError when data set or embeddings are unsound.
-ReportData load_report_data(const std::filesystem::path& directory, const Scenario& scenario, const StopFlag* stop);
+// Takes what the report draws from shards, in their order. Maps shown: aspects nearest 80 and 170 deg azimuth, the sea
+// nearest 1 m (method: the paper's figures); the first such map of each class.
+class ReportCollector {
+ public:
+  ReportCollector(const Scenario& scenario, const SamplePlan& plan);
+
+  void add(const Shard& shard);
+  // embeddings: of all rows, the network's.
+  ReportData with_embeddings(const FeatureMatrix& embeddings) const;
+  // fused: of all rows, hand-made features and embeddings.
+  ReportData with_fused(FeatureMatrix fused) const;
+  std::vector<std::int64_t> samples() const;
+
+ private:
+  std::vector<std::size_t> wanted_;  // samples of the maps shown
+  ReportData data_;
+};
+
+// Reads the data set and the embeddings of a run. Throws InputError when either is unsound.
+ReportData load_report_data(const std::filesystem::path& directory, const Scenario& scenario, const SamplePlan& plan,
+                            const StopFlag* stop);
 
 }  // namespace seaglint

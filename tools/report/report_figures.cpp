@@ -300,12 +300,13 @@ LinePlot angle_plot(const std::string& title, const Trajectory& body, const std:
   return plot;
 }
 
-void add_sea(FigureList& list, const Scenario& scenario, const std::vector<Target>& targets, double wave_height_m) {
+void add_sea(FigureList& list, const Scenario& scenario, const SamplePlan& plan, const std::vector<Target>& targets,
+             double wave_height_m) {
   constexpr double kExcerptS = 60;
-  const std::vector<SeaState> states = sea_states(scenario.sea);
+  const std::vector<SeaState>& states = plan.sea_states();
   int state = 0;
   while (states[static_cast<std::size_t>(state)].significant_wave_height_m != wave_height_m) ++state;
-  const Scene scene = make_scene(scenario, targets, state, 0, kExcerptS);
+  const Scene scene = make_scene(scenario, plan, targets, state, 0, kExcerptS);
   std::vector<double> times;
   for (int i = 0; i <= 600; ++i) times.push_back(0.1 * i);
 
@@ -354,15 +355,15 @@ void add_targets(FigureList& list, const std::vector<Target>& targets) {
 }  // namespace
 
 std::vector<ReportFigure> draw_report_figures(const fs::path& directory, const Scenario& scenario,
-                                              const std::vector<Target>& targets, const ReportData& data,
-                                              const nlohmann::ordered_json& metrics, int threads,
-                                              const StopFlag* stop) {
+                                              const SamplePlan& plan, const std::vector<Target>& targets,
+                                              const ReportData& data, const nlohmann::ordered_json& metrics,
+                                              int threads, const StopFlag* stop) {
   FigureList list(directory);
   add_maps(list, data);
   add_accuracy(list, metrics);
   add_features(list, data, scenario.seed);
   add_aspects(list, data);
-  add_sea(list, scenario, targets, data.shown_wave_height_m);
+  add_sea(list, scenario, plan, targets, data.shown_wave_height_m);
   add_targets(list, targets);
   return list.draw(threads, stop);
 }

@@ -27,7 +27,8 @@ struct ReportFigure {
 // Draws all figures into the run's directory, on `threads` threads; the order of the list is that of the page.
 // `targets` are the scenario's, or none: then neither they nor their motion are drawn.
 std::vector<ReportFigure> draw_report_figures(const std::filesystem::path& directory, const Scenario& scenario,
-                                              const std::vector<Target>& targets, const ReportData& data,
-                                              const nlohmann::ordered_json& metrics, int threads, const StopFlag* stop);
+                                              const SamplePlan& plan, const std::vector<Target>& targets,
+                                              const ReportData& data, const nlohmann::ordered_json& metrics,
+                                              int threads, const StopFlag* stop);
 
 }  // namespace seaglint

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -35,13 +36,12 @@ class StageClock {
       StageClock& clock;
       std::string stage;
       std::chrono::steady_clock::time_point begin;
-      ~Stop() {
-        clock.seconds_.emplace_back(stage,
-                                    std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
-      }
+      ~Stop() { clock.add(stage, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count()); }
     } stop{*this, stage, begin};
     return work();
   }
+
+  void add(const std::string& stage, double seconds) { seconds_.emplace_back(stage, seconds); }
 
   const std::vector<std::pair<std::string, double>>& seconds() const { return seconds_; }
 
@@ -65,13 +65,12 @@ void require_directory(const fs::path& directory, bool resume) {
 }
 
 // What learning would refuse after all maps were made.
-void check_learnable(const Scenario& scenario) {
+void check_learnable(const Scenario& scenario, const SamplePlan& plan) {
   const auto has = [&](int label) {
     return std::any_of(scenario.targets.begin(), scenario.targets.end(),
                        [label](const TargetSpec& target) { return target.label == label; });
   };
   if (!has(0) || !has(1)) throw InputError("targets: learning needs a target of label 0 and one of label 1");
-  const SamplePlan plan(scenario);
   std::vector<RowGroup> rows;
   for (std::size_t sample = 0; sample < plan.size(); ++sample) {
     const SampleAddress address = plan.sea_address(sample);
@@ -84,28 +83,36 @@ void check_learnable(const Scenario& scenario) {
 
 std::string run_scenario(const Scenario& scenario, const fs::path& directory, const RunOptions& options,
                          const StopFlag* stop) {
-  check_learnable(scenario);
+  const SamplePlan plan(scenario);
+  check_learnable(scenario, plan);
   require_directory(directory, options.resume);
   require_gnuplot();
 
   StageClock clock;
+  std::optional<Pipeline> pipeline;
   const GenerateResult made = clock.time("maps", [&] {
-    return generate_dataset(scenario, directory / "data", {1, 1, true, options.threads}, stop);
+    pipeline.emplace(scenario, plan);
+    return generate_dataset(*pipeline, directory / "data", {1, 1, true, options.threads}, stop);
   });
-  const Study study = clock.time(
-      "learning", [&] { return train_model(directory / "data", directory / "model", {}, options.threads, stop); });
+  ReportCollector collector(scenario, plan);
+  TrainedModel model = clock.time("learning", [&] {
+    return train_model(DatasetReader(directory / "data"), scenario, directory / "model", options.threads, stop,
+                       [&](const Shard& shard) { collector.add(shard); });
+  });
 
-  // metrics.json of the run holds the model's numbers and the times of this run.
-  nlohmann::ordered_json metrics = nlohmann::ordered_json::parse(read_file(directory / "model" / kMetricsFile));
+  // metrics.json of the run holds the model's numbers and the times of this run; `report` starts from it.
+  nlohmann::ordered_json& metrics = model.metrics;
   metrics["run"]["threads"] = thread_count(options.threads);
   metrics["run"]["maps_made"] = made.made;
   metrics["run"]["maps_kept"] = made.kept;
   for (const auto& [stage, seconds] : clock.seconds()) metrics["run"]["seconds"][stage] = seconds;
   write_file(directory / kMetricsFile, metrics.dump(2) + "\n");
   write_file(directory / "scenario.yaml", effective_yaml(scenario));
-  clock.time("report", [&] { write_report(directory, scenario, options.threads, stop); });
+  clock.add("report", write_report(directory, scenario, plan, pipeline->targets(),
+                                   {collector.with_embeddings(model.study.embeddings), std::move(metrics)},
+                                   options.threads, stop));
 
-  std::string text = accuracy_table(study) + "\n";
+  std::string text = accuracy_table(model.study) + "\n";
   for (const auto& [stage, seconds] : clock.seconds()) text += fmt::format("{:<10}{:8.1f} s\n", stage, seconds);
   if (made.kept > 0) text += fmt::format("{} of {} maps were there already\n", made.kept, made.kept + made.made);
   text += fmt::format("\nReport: {}\n", (directory / kReportFile).string());

@@ -120,10 +120,11 @@ bool may_lie_in_data_set(const std::string& name) {
   return name.ends_with(".h5") || name.ends_with(".npz") || name.starts_with('.') || is_temporary(name);
 }
 
-DatasetWriter::DatasetWriter(fs::path directory, const Scenario& scenario, bool resume, std::string program_version)
+DatasetWriter::DatasetWriter(fs::path directory, const Scenario& scenario, const SamplePlan& plan, bool resume,
+                             std::string program_version)
     : directory_(std::move(directory)),
       scenario_(scenario),
-      plan_(scenario),
+      plan_(plan),
       origin_{std::move(program_version), processor_kind()},
       scenario_yaml_(effective_yaml(scenario)),
       known_(plan_.shards()) {

@@ -9,6 +9,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "classify/dataset/directory/file_names.h"
@@ -29,7 +30,10 @@ class DatasetWriter {
   // and split may differ), the files that it names be those that the directory was begun with, and the manifest, if
   // any, be of `program_version`. Throws InputError naming the directory and the difference, WorkError when the disk
   // refuses.
-  DatasetWriter(std::filesystem::path directory, const Scenario& scenario, bool resume, std::string program_version);
+  DatasetWriter(std::filesystem::path directory, const Scenario& scenario, bool resume, std::string program_version)
+      : DatasetWriter(std::move(directory), scenario, SamplePlan(scenario), resume, std::move(program_version)) {}
+  DatasetWriter(std::filesystem::path directory, const Scenario& scenario, const SamplePlan& plan, bool resume,
+                std::string program_version);
 
   // True when the shard is on the disk and sound: it is read, its rows are compared with the scenario, and its checksum
   // with the manifest's where there is one. Throws InputError when it is sound but another version of the program

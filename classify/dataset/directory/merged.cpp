@@ -68,14 +68,15 @@ void require_own_place(const fs::path& file) {
     throw InputError(fmt::format("{}: exists and is no merged file; choose another name", file.string()));
 }
 
-void write_missing_manifest(const fs::path& directory, const Scenario& scenario, const std::string& program_version) {
-  DatasetWriter writer(directory, scenario, true, program_version);
+void write_missing_manifest(const fs::path& directory, const Scenario& scenario, const SamplePlan& plan,
+                            const std::string& program_version) {
+  DatasetWriter writer(directory, scenario, plan, true, program_version);
   const std::vector<std::size_t> missing = writer.finish();
   if (missing.empty()) return;
   const fs::path file = directory / shard_name(missing.front());
   throw InputError(fmt::format("{}: {} ({} of {} shards); make it by `seaglint generate {} -o {} --resume`",
                                file.string(), fs::exists(file) ? "damaged or of another scenario" : "missing",
-                               missing.size(), SamplePlan(scenario).shards(), (directory / kScenarioFile).string(),
+                               missing.size(), plan.shards(), (directory / kScenarioFile).string(),
                                directory.string()));
 }
 
@@ -158,15 +159,16 @@ Merged merge_dataset(const fs::path& directory, const fs::path& file, const std:
   if (!fs::is_directory(directory)) throw InputError(fmt::format("{}: no such directory", directory.string()));
   require_own_place(file);
   const Scenario scenario = read_scenario(directory / kScenarioFile);
-  refuse_foreign_files(directory, SamplePlan(scenario).shards());
+  const SamplePlan plan(scenario);
+  refuse_foreign_files(directory, plan.shards());
   Merged result;
   result.wrote_manifest = !fs::exists(directory / kManifestFile);
-  if (result.wrote_manifest) write_missing_manifest(directory, scenario, program_version);
+  if (result.wrote_manifest) write_missing_manifest(directory, scenario, plan, program_version);
 
   const DatasetReader reader(directory);
-  if (reader.shards() != SamplePlan(scenario).shards()) {
+  if (reader.shards() != plan.shards()) {
     throw InputError(fmt::format("{}: {} shards, the scenario has {}", (directory / kManifestFile).string(),
-                                 reader.shards(), SamplePlan(scenario).shards()));
+                                 reader.shards(), plan.shards()));
   }
   write_file_with(file, [&](const fs::path& temporary) {
     try {

@@ -11,10 +11,14 @@
 namespace seaglint {
 
 SampleRecord planned_record(const Scenario& scenario, const SamplePlan& plan, std::size_t sample) {
-  const SampleAddress at = plan.address(sample);
+  return planned_record(scenario, plan, sample, plan.address(sample));
+}
+
+SampleRecord planned_record(const Scenario& scenario, const SamplePlan& plan, std::size_t sample,
+                            const SampleAddress& at) {
   const TargetSpec& target = scenario.targets[static_cast<std::size_t>(at.target)];
-  const SeaState state = sea_states(scenario.sea)[static_cast<std::size_t>(at.sea_state)];
-  const View view = views(scenario.view)[static_cast<std::size_t>(at.view)];
+  const SeaState& state = plan.sea_state(at);
+  const View& view = plan.view(at);
   std::size_t first_body = 0;  // bodies are counted over all targets, in order
   for (int t = 0; t < at.target; ++t) {
     const TargetSpec& before = scenario.targets[static_cast<std::size_t>(t)];
@@ -39,9 +43,9 @@ SampleRecord planned_record(const Scenario& scenario, const SamplePlan& plan, st
   record.interval = at.interval;
   record.start_s = plan.start_s(at);
   record.seed = static_cast<std::int64_t>(scenario.seed);
-  const std::uint64_t sea_key = plan.sea_key(at.sea_state, at.realisation);
-  record.sea_key = static_cast<std::int64_t>(sea_key);
-  record.first_motion_key = static_cast<std::int64_t>(body_index(sea_key, first_body));
+  const std::uint64_t sea = sea_key(static_cast<std::size_t>(at.sea_state), static_cast<std::size_t>(at.realisation));
+  record.sea_key = static_cast<std::int64_t>(sea);
+  record.first_motion_key = static_cast<std::int64_t>(body_index(sea, first_body));
   record.radar_key = static_cast<std::int64_t>(sample);
   return record;
 }

@@ -1,7 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/scattering/beams/bistatic_geometry.h"
 
+#include <cmath>
+
 namespace seaglint {
+
+Vec3 direction_to_radar(double azimuth_rad, double elevation_rad) {
+  return {std::cos(elevation_rad) * std::cos(azimuth_rad), std::cos(elevation_rad) * std::sin(azimuth_rad),
+          std::sin(elevation_rad)};
+}
 
 RadarBasis radar_basis(const Vec3& r_hat) {
   RadarBasis basis;

@@ -23,6 +23,9 @@ struct AntennaPair {
 AntennaPair monostatic(const RadarBasis& basis);
 AntennaPair bistatic(const RadarBasis& transmit, const RadarBasis& receive);
 
+// The unit vector from the target to the radar at these angles, rad, in the target frame (CONVENTIONS.md, "Frames").
+Vec3 direction_to_radar(double azimuth_rad, double elevation_rad);
+
 // h = z^ x r^ / |z^ x r^| (y^ when r^ is vertical), v = r^ x h.
 RadarBasis radar_basis(const Vec3& r_hat);
 

@@ -70,11 +70,6 @@ FrequencyResponse point_response_over_sea(std::span<const PointSpec> points, con
   return response;
 }
 
-Vec3 direction_to_radar(const View& view) {
-  return {std::cos(view.elevation_rad) * std::cos(view.azimuth_rad),
-          std::cos(view.elevation_rad) * std::sin(view.azimuth_rad), std::sin(view.elevation_rad)};
-}
-
 FrequencyResponse point_response(std::span<const PointSpec> points, const Vec3& r_hat,
                                  const IntervalSampling& sampling) {
   FrequencyResponse response;

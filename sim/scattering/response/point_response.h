@@ -11,9 +11,6 @@
 
 namespace seaglint {
 
-// Unit vector from the target to the radar in the target frame (CONVENTIONS.md, "Frames").
-Vec3 direction_to_radar(const View& view);
-
 // H = sum of amplitude e^{+j 2 k r^.x(t)}, x(t) = position + velocity (t - t_0), t_0 the first pulse's time; all
 // polarisations alike.
 FrequencyResponse point_response(std::span<const PointSpec> points, const Vec3& r_hat,

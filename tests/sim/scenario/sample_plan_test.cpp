@@ -70,7 +70,8 @@ TEST(SamplePlan, BothClassesAndAllViewsShareTheSeaOfAGroup) {
   std::map<std::int64_t, std::set<std::pair<int, int>>> uses_of_group;
   for (std::size_t i = 0; i < plan.size(); ++i) {
     const SampleAddress at = plan.address(i);
-    seas_of_group[plan.group(at)].insert(plan.sea_key(at.sea_state, at.realisation));
+    seas_of_group[plan.group(at)].insert(
+        sea_key(static_cast<std::size_t>(at.sea_state), static_cast<std::size_t>(at.realisation)));
     uses_of_group[plan.group(at)].insert({at.view, at.target});
   }
   EXPECT_EQ(seas_of_group.size(), 9u);

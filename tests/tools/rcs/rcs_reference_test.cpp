@@ -216,7 +216,7 @@ RcsSweep sweep_of(std::vector<double> azimuth_deg, std::vector<Complex> vv) {
   sweep.frequency_hz = {10e9};
   sweep.azimuth_deg = std::move(azimuth_deg);
   sweep.elevation_deg = {0};
-  sweep.models = {{"po", {}}};
+  sweep.models = {{"po", false, {}}};
   for (const Complex& s : vv) sweep.models[0].matrices.push_back({std::array<Complex, 4>{0, 0, 0, s}});
   return sweep;
 }

@@ -10,6 +10,7 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/geometry/shapes/generators.h"
+#include "sim/scattering/beams/bistatic_geometry.h"
 #include "sim/scattering/response/body_response.h"
 #include "sim/scattering/response/point_response.h"
 
@@ -44,7 +45,7 @@ IntervalSampling only_pulse(const IntervalSampling& sampling, int pulse) {
 
 TEST(PassingRadar, PointsChangeTheirRangeAsTheWayDemands) {
   const IntervalSampling sampling = interval();
-  const Vec3 r_hat = direction_to_radar({radians(30), radians(3)});
+  const Vec3 r_hat = direction_to_radar(radians(30), radians(3));
   const Vec3 x(25, -40, 12);
   const PointSpec point{{x.x(), x.y(), x.z()}, 1, {0, 0, 0}};
   const FrequencyResponse response = point_response({&point, 1}, r_hat, sampling);
@@ -71,7 +72,7 @@ TEST(PassingRadar, BodiesAnswerAsFromTheDirectionsOfItsWay) {
   const Trajectory still = Trajectory::at_rest(Vec3(15, 30, 0.75));
   IntervalSampling sampling = interval();
   sampling.sight_rate *= 5;  // 4 km away
-  const Vec3 r_hat = direction_to_radar({radians(70), radians(2)});
+  const Vec3 r_hat = direction_to_radar(radians(70), radians(2));
   const FrequencyResponse passing = respond(scatterer, still, r_hat, Polarisation::kVv, sampling, {}).response;
   double difference = 0, power = 0;
   for (const int n : {0, 7, 15}) {
@@ -108,7 +109,7 @@ Vec3 direction_at(const IntervalSampling& sampling, const Vec3& r_hat, std::size
 SeaMirror rough_water() { return SeaMirror(SeaReflectionSpec{}, 0.1); }
 
 TEST(PassingRadar, PointsOverTheSeaAnswerFourWaysFromWhereItIs) {
-  const Vec3 r_hat = direction_to_radar({radians(10), radians(5)}), x(25, -40, 12), v(3, -2, 1);
+  const Vec3 r_hat = direction_to_radar(radians(10), radians(5)), x(25, -40, 12), v(3, -2, 1);
   const PointSpec point{{x.x(), x.y(), x.z()}, 1, {v.x(), v.y(), v.z()}};
   const SeaMirror sea = rough_water();
   for (const Vec3& velocity : kVelocities) {
@@ -143,7 +144,7 @@ TEST(PassingRadar, BodiesOverTheSeaAnswerAsFromTheDirectionsOfItsWay) {
   last.angles = first.angle_rates;
   last.shift = first.shift_rates;
   const Trajectory body(3, 1, {first, last}, Vec3(15, 30, 4), Vec3::Zero());
-  const Vec3 r_hat = direction_to_radar({radians(70), radians(5)});
+  const Vec3 r_hat = direction_to_radar(radians(70), radians(5));
   const SeaMirror sea = rough_water();
   for (const Vec3& velocity : kVelocities) {
     const IntervalSampling sampling = over_the_sea(velocity);

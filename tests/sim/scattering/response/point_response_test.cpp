@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "sim/core/numbers/constants.h"
+#include "sim/scattering/beams/bistatic_geometry.h"
 
 namespace seaglint {
 namespace {
@@ -27,7 +28,7 @@ constexpr double kPhaseRounding = 2e-11;
 
 TEST(PointResponse, APointNearerToTheRadarIsAdvancedInPhase) {
   const IntervalSampling sampling = two_pulses();
-  const Vec3 r_hat = direction_to_radar({radians(0), radians(0)});
+  const Vec3 r_hat = direction_to_radar(radians(0), radians(0));
   const PointSpec nearer{{3, 0, 0}, 2.5, {0, 0, 0}};
   const FrequencyResponse response = point_response({&nearer, 1}, r_hat, sampling);
   ASSERT_EQ(response.values.size(), 200u);
@@ -39,7 +40,7 @@ TEST(PointResponse, APointNearerToTheRadarIsAdvancedInPhase) {
 
 TEST(PointResponse, AVelocityAwayFromTheRadarDelaysLaterPulses) {
   const IntervalSampling sampling = two_pulses();
-  const Vec3 r_hat = direction_to_radar({radians(90), radians(0)});
+  const Vec3 r_hat = direction_to_radar(radians(90), radians(0));
   const PointSpec receding{{10, 0, 0}, 1, {0, -4, 0}};
   const FrequencyResponse response = point_response({&receding, 1}, r_hat, sampling);
   const double range_m = 4 * (7.05 - 7.0);
@@ -54,7 +55,7 @@ TEST(PointResponse, AVelocityAwayFromTheRadarDelaysLaterPulses) {
 TEST(PointResponse, ASweepingPulseMeetsThePointAtTheTimeOfEachFrequency) {
   IntervalSampling sampling = two_pulses();
   sampling.chirp_rate_hz_s = 70e6 / 36e-6;
-  const Vec3 r_hat = direction_to_radar({radians(180), radians(0)});
+  const Vec3 r_hat = direction_to_radar(radians(180), radians(0));
   const PointSpec receding{{5, 0, 0}, 1, {12, 0, 0}};
   const FrequencyResponse response = point_response({&receding, 1}, r_hat, sampling);
   for (int n = 0; n < 2; ++n) {
@@ -69,9 +70,9 @@ TEST(PointResponse, ASweepingPulseMeetsThePointAtTheTimeOfEachFrequency) {
 }
 
 TEST(PointResponse, DirectionsTurnCounterClockwiseFromTheBowAndRise) {
-  EXPECT_NEAR((direction_to_radar({radians(0), radians(0)}) - Vec3(1, 0, 0)).norm(), 0, 1e-15);
-  EXPECT_NEAR((direction_to_radar({radians(90), radians(0)}) - Vec3(0, 1, 0)).norm(), 0, 1e-15);
-  EXPECT_NEAR((direction_to_radar({radians(30), radians(90)}) - Vec3(0, 0, 1)).norm(), 0, 1e-15);
+  EXPECT_NEAR((direction_to_radar(radians(0), radians(0)) - Vec3(1, 0, 0)).norm(), 0, 1e-15);
+  EXPECT_NEAR((direction_to_radar(radians(90), radians(0)) - Vec3(0, 1, 0)).norm(), 0, 1e-15);
+  EXPECT_NEAR((direction_to_radar(radians(30), radians(90)) - Vec3(0, 0, 1)).norm(), 0, 1e-15);
 }
 
 TEST(FrequencyResponse, AddsTermByTermAndRefusesOtherShapes) {

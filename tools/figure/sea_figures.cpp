@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "tools/figure/sea_figures.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 #include "sim/core/numbers/constants.h"
 #include "tools/figure/figure.h"
-#include "tools/pipeline/sea_ensemble.h"
 
 namespace seaglint {
 
@@ -109,7 +111,46 @@ LinePlot slope_plot(const SeaState& state, const WaveField& field, const SeaSumm
   return plot;
 }
 
+// The height that a share of the crests passes.
+double exceeded_by(const std::vector<double>& ascending, double share) {
+  const auto rank = static_cast<std::size_t>((1 - share) * static_cast<double>(ascending.size()));
+  return ascending[std::min(rank, ascending.size() - 1)];
+}
+
 }  // namespace
+
+std::string spectrum_csv(const SeaEnsemble& ensemble) {
+  std::string text = "omega_rad_s,density_m2_s,realised_m2_s,realised_linear_m2_s\n";
+  for (std::size_t i = 0; i < ensemble.omega.size(); ++i) {
+    fmt::format_to(std::back_inserter(text), "{:.9g},{:.9g},{:.9g},{:.9g}\n", ensemble.omega[i], ensemble.target[i],
+                   ensemble.realised[i], ensemble.realised_linear[i]);
+  }
+  return text;
+}
+
+std::string ensemble_text(const SeaEnsemble& ensemble, const SeaSummary& summary) {
+  std::string text;
+  auto out = std::back_inserter(text);
+  fmt::format_to(out,
+                 "{} realisations: 4 sigma {:.4g} m, skewness {:.3f} (expected {:.3f}), kurtosis {:.3f}, Tz {:.3g} s\n",
+                 ensemble.realisations, ensemble.significant_wave_height_m, ensemble.skewness, summary.skewness,
+                 ensemble.kurtosis, ensemble.zero_crossing_period_s);
+  const ForristallCrests forristall =
+      forristall_crests(summary.significant_wave_height_m, summary.steepness, summary.ursell, summary.long_crested);
+  fmt::format_to(out, "{} crests; height passed by 10 / 1 / 0.1 %:", ensemble.crests.size());
+  for (const double share : {0.1, 0.01, 0.001}) {
+    // Ten crests at least, or a height is chance.
+    if (share * static_cast<double>(ensemble.crests.size()) < 10) {
+      text += " too few crests,";
+      continue;
+    }
+    const double rayleigh = summary.significant_wave_height_m * std::sqrt(-std::log(share) / 8);
+    fmt::format_to(out, " {:.3g} m (Forristall {:.3g}, Rayleigh {:.3g}),", exceeded_by(ensemble.crests, share),
+                   forristall.height(share), rayleigh);
+  }
+  text.back() = '\n';
+  return text;
+}
 
 void write_sea_figure(const SeaState& state, const WaveField& field, const SeaSummary& summary,
                       const SeaEnsemble& ensemble, const std::string& title, const std::filesystem::path& file) {

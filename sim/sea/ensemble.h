@@ -3,13 +3,11 @@
 
 // Many realisations of a sea state, and what they have in common: spectrum, moments, crests.
 
+#include <cstddef>
 #include <cstdint>
-#include <filesystem>
-#include <string>
 #include <vector>
 
 #include "sim/core/process/parallel.h"
-#include "sim/scenario/sea_spec.h"
 #include "sim/sea/statistics.h"
 
 namespace seaglint {
@@ -31,16 +29,5 @@ struct SeaEnsemble {
 // for any number of threads.
 SeaEnsemble make_ensemble(const SeaState& state, std::size_t state_index, std::uint64_t seed, int count,
                           double duration_s, double step_s, int threads, const StopFlag& stop);
-
-// omega_rad_s, density_m2_s (the state's), realised_m2_s, realised_linear_m2_s; spectrum: table reads it.
-std::string spectrum_csv(const SeaEnsemble& ensemble);
-
-// Elevation over time, spectrum against target, exceedance of crests against Rayleigh and Forristall, and the slope
-// that each cut-off would leave.
-void write_sea_figure(const SeaState& state, const WaveField& field, const SeaSummary& summary,
-                      const SeaEnsemble& ensemble, const std::string& title, const std::filesystem::path& file);
-
-// The ensemble's numbers beside what theory says, one line each.
-std::string ensemble_text(const SeaEnsemble& ensemble, const SeaSummary& summary);
 
 }  // namespace seaglint

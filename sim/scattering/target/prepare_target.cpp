@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/scattering/target/prepare_target.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "sim/core/process/error.h"
+#include "sim/geometry/files/mesh_io.h"
+#include "sim/geometry/mesh/mesh_diagnostics.h"
+#include "sim/scattering/target/part_materials.h"
+#include "sim/scattering/target/target_check.h"
+#include "sim/scenario/material_file.h"
+
+namespace seaglint {
+namespace {
+
+void append(std::vector<std::string>& sentences, const std::vector<std::string>& more) {
+  sentences.insert(sentences.end(), more.begin(), more.end());
+}
+
+// What `work` returns; its error messages begin with the place.
+template <class Work>
+auto at_place(const std::string& place, const Work& work) {
+  try {
+    return work();
+  } catch (const InputError& error) {
+    if (place.empty()) throw;
+    throw InputError(fmt::format("{}: {}", place, error.what()));
+  }
+}
+
+std::vector<MaterialSpec> choose_materials(const TargetSource& source, TriangleMesh& mesh) {
+  MaterialSpec all;
+  std::vector<PartMaterial> parts;
+  for (const MaterialChoice& choice : source.materials) {
+    const MaterialSpec material = find_material(choice.material, source.material_folder, choice.place);
+    if (choice.part) {
+      parts.push_back({*choice.part, material});
+    } else {
+      all = material;
+    }
+  }
+  std::vector<MaterialSpec> materials =
+      at_place(source.materials_place, [&] { return assign_materials(mesh, all, parts); });
+  at_place(source.frequencies_place, [&] { check_frequencies(materials, source.lowest_hz, source.highest_hz); });
+  return materials;
+}
+
+}  // namespace
+
+SolverMesh load_solver_mesh(const TargetSource& source) {
+  SolverMesh target{read_mesh(source.mesh, source.unit), {}, {}};
+  target.materials = choose_materials(source, target.mesh);
+  at_place(source.mesh_place, [&] {
+    target.doubts = findings(examine(target.mesh));
+    target.mesh = repaired(target.mesh);
+    if (target.mesh.triangles.empty()) throw InputError("no triangle has an area: nothing scatters");
+    append(target.doubts, check_target(target.mesh, source.lowest_hz));
+  });
+  return target;
+}
+
+PreparedTarget prepare_target(SolverMesh mesh, const ScattererSettings& settings) {
+  PreparedTarget target{std::move(mesh.mesh), std::move(mesh.materials), std::move(mesh.doubts), nullptr};
+  if (settings.waterline_m) put_in_water(target.mesh, target.materials, *settings.waterline_m);
+  target.scatterer =
+      std::make_shared<const Scatterer>(target.mesh, target.materials, settings.crease_rad, settings.sheet_thickness_m);
+  append(target.doubts, check_edges(*target.scatterer, settings.edges, settings.lowest_hz, settings.highest_hz));
+  return target;
+}
+
+}  // namespace seaglint

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Scattering matrices from a plain request, as a program that has no command line asks for them.
+#include "tools/rcs/rcs_request.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+
+#include "sim/core/numbers/dbsm.h"
+#include "sim/core/process/error.h"
+#include "sim/core/process/file.h"
+#include "sim/geometry/files/mesh_io.h"
+#include "sim/geometry/shapes/generators.h"
+#include "tools/rcs/rcs_reference.h"
+#include "tools/rcs/rcs_table.h"
+#include "tools/rcs/rcs_views.h"
+
+namespace seaglint {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+constexpr double kLengthM = 0.5, kWidthM = 0.3, kFrequencyHz = 10e9;
+
+class PlateRequest : public testing::Test {
+ protected:
+  PlateRequest() : folder_(fs::path(testing::TempDir()) / ("rcs_request_" + std::to_string(::getpid()))) {
+    fs::create_directories(folder_);
+    request_.target = folder_ / "plate.glb";
+    write_mesh(request_.target, make_plate(kLengthM, kWidthM));
+    request_.frequency_hz = {kFrequencyHz};
+    request_.azimuth_deg = {0};
+  }
+  ~PlateRequest() override { fs::remove_all(folder_); }
+
+  std::string refusal() const {
+    try {
+      requested_sweep(request_);
+      prepare_rcs_target(request_);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+  RcsReference read_again(const RcsSweep& sweep, const Scatterer& scatterer) const {
+    const fs::path file = folder_ / "table.V.csv";
+    write_file(file, rcs_table(request_, scatterer, sweep));
+    return read_reference(file, {});
+  }
+
+  fs::path folder_;
+  RcsRequest request_;
+};
+
+// Normal incidence on a plate of area A: 4 pi (A / lambda)^2.
+TEST_F(PlateRequest, GivesThePlatesEchoAtNormalIncidence) {
+  const double expected = dbsm(kLengthM * kWidthM * kFrequencyHz / kSpeedOfLight);
+  request_.physical_optics_too = true;
+  const RcsTarget target = prepare_rcs_target(request_);
+  const RcsResult result = compute_rcs(request_, target, 1);
+  ASSERT_EQ(result.sweep.models.size(), 2u);
+  EXPECT_FALSE(result.sweep.models[0].edge_diffraction);
+  EXPECT_TRUE(result.sweep.models[1].edge_diffraction);
+  EXPECT_NEAR(dbsm(result.sweep.models[0].matrices[0][0][0]), expected, 1e-6);
+  EXPECT_NEAR(dbsm(result.sweep.models[1].matrices[0][0][3]), expected, 0.1);
+}
+
+TEST_F(PlateRequest, WritesATableWhoseTransmitterIsReadAgain) {
+  const RcsTarget target = prepare_rcs_target(request_);
+  const RcsReference monostatic = read_again(compute_rcs(request_, target, 1).sweep, *target.prepared.scatterer);
+  ASSERT_TRUE(monostatic.transmitter);
+  EXPECT_TRUE(monostatic.transmitter->moves_along);
+  ASSERT_EQ(monostatic.samples.size(), 1u);
+
+  request_.transmitter = FixedTransmitter{-20, 30.5};
+  const RcsReference bistatic = read_again(compute_rcs(request_, target, 1).sweep, *target.prepared.scatterer);
+  ASSERT_TRUE(bistatic.transmitter);
+  EXPECT_FALSE(bistatic.transmitter->moves_along);
+  EXPECT_EQ(bistatic.transmitter->theta_deg, 59.5);
+  EXPECT_EQ(bistatic.transmitter->phi_deg, 340);
+}
+
+TEST_F(PlateRequest, IsRefusedWhereItContradictsItself) {
+  EXPECT_EQ(refusal(), "");
+  request_.exports.centres = folder_ / "centres.csv";
+  request_.azimuth_deg = {0, 1};
+  EXPECT_THAT(refusal(), HasSubstr("one frequency, azimuth and elevation; there are 2 rows"));
+  request_.exports.centres.clear();
+  request_.selection.only = {"part=mast"};
+  EXPECT_THAT(refusal(), HasSubstr("no part 'mast'"));
+  request_.azimuth_deg.clear();
+  EXPECT_THAT(refusal(), HasSubstr("no frequency, azimuth or elevation"));
+}
+
+TEST_F(PlateRequest, WarnsOfReceiversBehindTheTarget) {
+  EXPECT_TRUE(doubts_of(request_).empty());
+  request_.transmitter = FixedTransmitter{150, 0};
+  ASSERT_EQ(doubts_of(request_).size(), 1u);
+  EXPECT_THAT(doubts_of(request_).front(), HasSubstr("receivers up to 150 deg from the transmitter"));
+}
+
+}  // namespace
+}  // namespace seaglint

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// Arguments that several commands share.
+
+#include <CLI/App.hpp>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "sim/scenario/scenario.h"
+#include "tools/cli/command.h"
+
+namespace seaglint {
+
+// Throws CLI11's error for an option that is given with none of those that it belongs to.
+void require_any_of(const CLI::App& command, const std::string& option, const std::vector<std::string>& others);
+
+// The data set in a directory: there, or in the `data` below it that `run` makes.
+std::filesystem::path find_data_set(const std::filesystem::path& directory);
+
+// Adds --threads to a command.
+void add_threads_option(CLI::App& command, Shell& shell);
+
+// The values of --set, `key.path=value` each. Throws InputError for one without `=`.
+std::vector<Override> read_overrides(const std::vector<std::string>& set);
+
+// Adds the positional SCENARIO and the repeatable --set key.path=value to a command, and reads them.
+struct ScenarioArguments {
+  std::string file;
+  std::vector<std::string> set;
+  Scenario read() const;  // throws InputError
+};
+void add_scenario_arguments(CLI::App& command, ScenarioArguments& arguments);
+
+}  // namespace seaglint

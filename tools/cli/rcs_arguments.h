@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// The options of `rcs`, and the plain request that they make.
+
+#include <CLI/App.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/cli/reference_arguments.h"
+#include "tools/rcs/rcs_request.h"
+
+namespace seaglint {
+
+struct RcsArguments {
+  RcsRequest request;  // what the options set as it is; the rest by make_request()
+  std::string target, frequency_ghz, azimuth_deg, elevation_deg = "0", edges = "on", output;
+  std::optional<double> transmit_azimuth_deg, transmit_elevation_deg;
+  std::vector<std::string> materials;  // NAME or PART=NAME
+  std::string sea_surface = "sea_water", sea_paths = "all";
+  ReferenceArguments reference;
+
+  void add_to(CLI::App& command);
+  RcsRequest make_request() const;  // throws InputError
+};
+
+}  // namespace seaglint

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// Parts of a mesh whose echo is found from the field inside them.
+
+#include <string>
+#include <vector>
+
+#include "sim/cavity/cavity_scattering.h"
+#include "sim/geometry/mesh/triangle_mesh.h"
+#include "sim/scattering/beams/contribution_filter.h"
+#include "sim/scattering/material/material.h"
+#include "tools/rcs/rcs_request.h"
+
+namespace seaglint {
+
+struct NamedCavity {
+  std::string name;
+  int part = 0;
+  Cavity cavity;
+  CavitySize size;  // at the highest frequency
+};
+
+// Indices of the parts asked for. Throws InputError for a part that is not there or no perfect conductor, and for a
+// selection by anything but parts.
+std::vector<int> cavity_parts(const CavityRequest& request, const TriangleMesh& mesh,
+                              const std::vector<MaterialSpec>& materials, const EchoFilter& selection);
+
+// Those parts of the mesh as cavities. Throws InputError for what is none at the lowest or the highest frequency.
+std::vector<NamedCavity> make_cavities(const CavityRequest& request, const TriangleMesh& mesh,
+                                       const std::vector<int>& parts, const Scatterer& whole, double lowest_hz,
+                                       double highest_hz);
+
+}  // namespace seaglint

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/rcs/rcs_request.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/core/process/error.h"
+#include "sim/scattering/beams/bistatic_geometry.h"
+
+namespace seaglint {
+namespace {
+
+Vec3 direction_to(const FixedTransmitter& transmitter) {
+  return direction_to_radar(radians(transmitter.azimuth_deg), radians(transmitter.elevation_deg));
+}
+
+// Every direction of the sea needs an image, every frequency a model of sea water.
+void check_sea(const RcsRequest& request) {
+  if (!request.sea.reflection) return;
+  for (const double elevation : request.elevation_deg) {
+    if (elevation <= 0)
+      throw InputError(
+          fmt::format("--elevation-deg: value {}: must be greater than 0 with --sea-reflection", elevation));
+  }
+  for (const double frequency : request.frequency_hz) {
+    if (request.sea.surface == SeaSurface::kSeaWater && frequency > 90e9) {
+      throw InputError(fmt::format("--frequency-ghz: value {}: must be at most 90 with --sea-reflection over sea_water",
+                                   1e-9 * frequency));
+    }
+  }
+}
+
+}  // namespace
+
+RcsSweep requested_sweep(const RcsRequest& request) {
+  RcsSweep sweep{request.frequency_hz, request.azimuth_deg, request.elevation_deg, {}, {}};
+  if (request.transmitter) sweep.transmitter = direction_to(*request.transmitter);
+  check_sea(request);
+  if (!request.cavities.parts.empty() && (request.sea.reflection || request.range_m > 0 || request.exports.wanted()))
+    throw InputError(
+        "--cavity is of the far field and the target alone: leave out --sea-reflection, --range-m and exports of a "
+        "view");
+  constexpr std::size_t kMostRows = 4'000'000;  // 256 MB of matrices
+  if (sweep.rows() > kMostRows) throw InputError(fmt::format("{} rows of output: at most {}", sweep.rows(), kMostRows));
+  if (sweep.rows() == 0) throw InputError("no frequency, azimuth or elevation");
+  if (request.exports.wanted() && sweep.rows() != 1)
+    throw InputError(
+        fmt::format("exports of a view need one frequency, azimuth and elevation; there are {} rows", sweep.rows()));
+  if (request.exports.wanted() && request.sea.reflection)
+    throw InputError("exports of a view are of the target alone: leave out --sea-reflection");
+  if (request.transmitter && (request.exports.wanted() || request.sea.reflection)) {
+    throw InputError("--transmit-azimuth-deg: exports of a view and --sea-reflection are monostatic");
+  }
+  return sweep;
+}
+
+// Behind a target only its sharp edges scatter: a sphere's echo errs by 0.65 dB in the mean between 90 and 120 deg from
+// the transmitter.
+std::vector<std::string> doubts_of(const RcsRequest& request) {
+  if (!request.transmitter) return {};
+  constexpr double kFarthestDeg = 120;
+  const Vec3 transmitter = direction_to(*request.transmitter);
+  double farthest = 0;
+  for (const double elevation : request.elevation_deg) {
+    for (const double azimuth : request.azimuth_deg) {
+      const Vec3 receiver = direction_to_radar(radians(azimuth), radians(elevation));
+      farthest = std::max(farthest, degrees(std::acos(std::clamp(transmitter.dot(receiver), -1.0, 1.0))));
+    }
+  }
+  if (farthest <= kFarthestDeg) return {};
+  return {
+      fmt::format("receivers up to {:.0f} deg from the transmitter: behind the target, beyond {:g} deg, "
+                  "only sharp edges scatter, and the shadow's own field, within 15 deg of "
+                  "the wave's way on, is not modelled",
+                  farthest, kFarthestDeg)};
+}
+
+}  // namespace seaglint

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/rcs/rcs_table.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "seaglint_version.h"
+#include "sim/core/numbers/dbsm.h"
+#include "sim/scattering/beams/illumination_settings.h"
+#include "tools/rcs/echo_selection.h"
+#include "tools/rcs/transmitter_note.h"
+
+namespace seaglint {
+namespace {
+
+constexpr double kLeastPrinted_m2 = 1e-30;  // -300 dBsm
+
+std::string materials_text(const std::vector<MaterialChoice>& materials) {
+  if (materials.empty()) return "pec";
+  std::vector<std::string> choices;
+  for (const MaterialChoice& choice : materials)
+    choices.push_back(choice.part ? *choice.part + "=" + choice.material : choice.material);
+  return fmt::format("{}", fmt::join(choices, " "));
+}
+
+// A line for the sea under the target; empty without it.
+std::string sea_line(const SeaUnderTarget& sea) {
+  if (!sea.reflection) return "";
+  const char* surface = sea.surface == SeaSurface::kConductor ? "conductor" : "sea_water";
+  const char* paths = sea.paths == SeaPaths::kMultipath ? "multipath"
+                      : sea.paths == SeaPaths::kDirect  ? "direct"
+                                                        : "all";
+  return fmt::format("# over {}, origin {:.6g} m above the mean surface, significant wave height {:.6g} m, paths {}\n",
+                     surface, sea.height_m, sea.wave_height_m, paths);
+}
+
+// A line for the cavities; empty without one.
+std::string cavity_line(const CavityRequest& cavities) {
+  if (cavities.parts.empty()) return "";
+  return fmt::format(
+      "# cavities {}: from the currents on their walls (magnetic-field integral equation, {:.6g} patches per "
+      "wavelength), fed through their mouths\n",
+      fmt::join(cavities.parts, " "), cavities.patches_per_wavelength);
+}
+
+}  // namespace
+
+std::string rcs_table(const RcsRequest& request, const Scatterer& scatterer, const RcsSweep& sweep) {
+  std::string csv = fmt::format(
+      "# seaglint {} rcs\n# target {} unit {}: {} facets, radius {:.6g} m\n# material {}, echoes of {}\n{}{} at every "
+      "visible bounce, "
+      "max_bounces {}, edges {}, crease_deg {:.6g}, sheet_thickness_mm {:.6g}, range_m {:.9g} (0 = far field), {}, "
+      "ray_spacing_m {:.6g}\n{}# amplitudes in metres, e^{{+jwt}}, phase origin at the body's origin, S_pq: q "
+      "transmitted, p received; basis of CONVENTIONS.md\n"
+      "frequency_hz,azimuth_deg,elevation_deg,hh_re,hh_im,hv_re,hv_im,vh_re,vh_im,vv_re,vv_im,hh_dbsm,vv_dbsm\n",
+      kVersion, request.target.string(), request.unit, scatterer.facets().size(), scatterer.radius(),
+      materials_text(request.materials), text_of(request.selection), sea_line(request.sea), kMethodNote,
+      request.max_bounces, request.edges ? "on" : "off", request.crease_deg, request.sheet_thickness_mm,
+      request.range_m, transmitter_note(request.transmitter),
+      request.ray_spacing_m > 0 ? request.ray_spacing_m : default_ray_spacing(scatterer),
+      cavity_line(request.cavities));
+  for (std::size_t q = 0; q < sweep.frequency_hz.size(); ++q) {
+    for (std::size_t view = 0; view < sweep.views(); ++view) {
+      const auto& s = sweep.models.back().matrices[view][q];
+      csv +=
+          fmt::format("{:.9g},{:.9g},{:.9g}", sweep.frequency_hz[q], sweep.azimuth_of(view), sweep.elevation_of(view));
+      for (const Complex& x : s) csv += fmt::format(",{:.9g},{:.9g}", x.real(), x.imag());
+      csv += fmt::format(",{:.4f},{:.4f}\n", dbsm(s[0], kLeastPrinted_m2), dbsm(s[3], kLeastPrinted_m2));
+    }
+  }
+  return csv;
+}
+
+}  // namespace seaglint

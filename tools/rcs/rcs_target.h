@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "sim/scattering/beams/contribution_filter.h"
+#include "sim/scattering/target/prepare_target.h"
+#include "tools/rcs/rcs_cavities.h"
+#include "tools/rcs/rcs_request.h"
+
+namespace seaglint {
+
+// The target of a request, ready to be computed.
+struct RcsTarget {
+  PreparedTarget prepared;
+  EchoFilter filter;  // which echoes are summed
+  std::vector<NamedCavity> cavities;
+};
+
+// Reads and prepares the request's target; prepared.doubts says what a user should know of it. Throws InputError for
+// mesh, material, selection or cavity that is missing or unsound, and where the whole mesh lies under water.
+RcsTarget prepare_rcs_target(const RcsRequest& request);
+
+}  // namespace seaglint
