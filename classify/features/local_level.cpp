@@ -26,7 +26,7 @@ struct Cell {
   long v, r;
 };
 
-Cell cell_of(const PointComponent& point, const RvMap& map, const CellSizes& cells) {
+Cell cell_of(const CleanComponent& point, const RvMap& map, const CellSizes& cells) {
   const auto index = [](const std::vector<double>& axis, double value, double step) {
     return std::clamp(std::lround((value - axis.front()) / step), 0L, static_cast<long>(axis.size()) - 1);
   };
@@ -53,7 +53,7 @@ Surroundings surroundings(const RvMap& map, Cell at, const CellSizes& cells) {
   return sum;
 }
 
-bool near(const PointComponent& a, const PointComponent& b, const CellSizes& cells) {
+bool near(const CleanComponent& a, const CleanComponent& b, const CellSizes& cells) {
   return std::abs(a.velocity_mps - b.velocity_mps) < (kHalfVelocities + 0.5) * cells.velocity_mps &&
          std::abs(a.range_m - b.range_m) < (kHalfRanges + 0.5) * cells.range_m;
 }
@@ -71,7 +71,7 @@ double log_exceedance(double x, double shape) {
 
 }  // namespace
 
-double texture_margin(double shape, double factor) {
+double texture_threshold_margin(double shape, double factor) {
   double below = factor, above = 30 * factor;
   for (int i = 0; i < 40; ++i) {
     const double middle = 0.5 * (below + above);
@@ -83,15 +83,15 @@ double texture_margin(double shape, double factor) {
 // Censored cell averaging: what is found to be a target leaves the cells that the others are held against, what is not
 // stays in (Barkat, Himonas and Varshney, "CFAR detection for multiple target situations", IEE Proc. F 136 (1989) 193,
 // who censor cells in the order of their power; here points in the order of theirs).
-std::vector<bool> stands_out(std::span<const PointComponent> points, const RvMap& residual,
-                             const std::vector<double>& floor, double factor, double least_power,
-                             const CellSizes& cells) {
-  const double margin = texture_margin(kTextureShape, factor);
+std::vector<bool> exceeds_local_level(std::span<const CleanComponent> points, const RvMap& residual,
+                                      const std::vector<double>& floor, double factor, double min_power,
+                                      const CellSizes& cells) {
+  const double margin = texture_threshold_margin(kTextureShape, factor);
   const double lobe = cells.lobe_cells * cells.range_oversampling * cells.velocity_oversampling;
-  const bool has_surroundings = residual.velocity_mps.size() >= kLeastCells && residual.columns() >= kLeastCells;
+  const bool has_surroundings = residual.velocity_mps.size() >= kMinCells && residual.columns() >= kMinCells;
   std::vector<Cell> at;
   std::vector<Surroundings> rest;
-  for (const PointComponent& point : points) {
+  for (const CleanComponent& point : points) {
     at.push_back(cell_of(point, residual, cells));
     rest.push_back(surroundings(residual, at.back(), cells));
   }
@@ -122,7 +122,7 @@ std::vector<bool> stands_out(std::span<const PointComponent> points, const RvMap
     changed = false;
     for (const std::size_t i : order) {
       const double power = std::norm(points[i].amplitude_m);
-      if (!stays[i] || (power >= least_power && power >= factor * level(i))) continue;
+      if (!stays[i] || (power >= min_power && power >= factor * level(i))) continue;
       stays[i] = false;
       changed = true;
     }

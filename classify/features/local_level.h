@@ -24,12 +24,12 @@ struct CellSizes {
 // against: residual_floor at its cell, or, where that is more, the mean of its surroundings (5 velocities x 13
 // ranges) times a margin for textured clutter. A point that fails is part of what it stood in, and its power returns to
 // the level of the others. Surroundings that hold little but points keep to residual_floor (README.md).
-std::vector<bool> stands_out(std::span<const PointComponent> points, const RvMap& residual,
-                             const std::vector<double>& floor, double factor, double least_power,
-                             const CellSizes& cells);
+std::vector<bool> exceeds_local_level(std::span<const CleanComponent> points, const RvMap& residual,
+                                      const std::vector<double>& floor, double factor, double min_power,
+                                      const CellSizes& cells);
 
 // What K-distributed clutter of this shape exceeds as often as exponential clutter of the same mean exceeds `factor`
 // times the mean, again in units of `factor`; 0.5 <= shape <= 100, 5 <= factor <= 30 to 1e-6.
-double texture_margin(double shape, double factor);
+double texture_threshold_margin(double shape, double factor);
 
 }  // namespace seaglint

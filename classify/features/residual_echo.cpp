@@ -97,8 +97,8 @@ std::vector<ResidualEcho::PulseMoments> ResidualEcho::moments(double range_m, do
   return all;
 }
 
-PointComponent ResidualEcho::fit(double range_m, double velocity_mps, double reach_r, double reach_v) const {
-  PointComponent point{range_m, velocity_mps, {}};
+CleanComponent ResidualEcho::fit(double range_m, double velocity_mps, double reach_r, double reach_v) const {
+  CleanComponent point{range_m, velocity_mps, {}};
   const double edge = 4 * kPi / kSpeedOfLight * std::abs(train_.baseband_hz.front());
   for (int pass = 0; pass < kMaxPasses; ++pass) {
     const std::vector<PulseMoments> all = moments(point.range_m, point.velocity_mps);
@@ -170,7 +170,7 @@ PointComponent ResidualEcho::fit(double range_m, double velocity_mps, double rea
   return point;
 }
 
-void ResidualEcho::subtract(const PointComponent& point) {
+void ResidualEcho::subtract(const CleanComponent& point) {
   const std::size_t frequencies = train_.frequencies();
   std::vector<Complex> scaled(frequencies);
   for (std::size_t b = 0; b < frequencies; ++b) scaled[b] = point.amplitude_m * train_.chirp_spectrum[b];

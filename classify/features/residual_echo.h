@@ -14,7 +14,7 @@
 namespace seaglint {
 
 // A point of complex amplitude a, phase reference the band's centre at the first pulse (as in RvMap).
-struct PointComponent {
+struct CleanComponent {
   double range_m = 0;
   double velocity_mps = 0;
   Complex amplitude_m;
@@ -29,9 +29,9 @@ class ResidualEcho {
 
   // Climbs from (range_m, velocity_mps) to the nearest maximum of the residual's |RV|, at most reach_r and reach_v
   // away; the amplitude is the map's value there.
-  PointComponent fit(double range_m, double velocity_mps, double reach_r, double reach_v) const;
+  CleanComponent fit(double range_m, double velocity_mps, double reach_r, double reach_v) const;
 
-  void subtract(const PointComponent& point);
+  void subtract(const CleanComponent& point);
 
  private:
   // What one pulse adds to RV near a point, as moments of its baseband frequency: M_p = sum_b F Y e^{j phase} (4 pi f_b

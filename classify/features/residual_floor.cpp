@@ -31,11 +31,11 @@ std::vector<double> residual_floor(const RvMap& residual) {
 
   const double all = mean_from_quantile(powers, kMapQuantile);
   std::vector<double> row(rows, 0), column(columns, 0), line;
-  for (std::size_t v = 0; v < rows && columns >= kLeastCells; ++v) {
+  for (std::size_t v = 0; v < rows && columns >= kMinCells; ++v) {
     line.assign(&powers[v * columns], &powers[v * columns] + columns);
     row[v] = mean_from_quantile(line, kRowQuantile);
   }
-  for (std::size_t r = 0; r < columns && rows >= kLeastCells; ++r) {
+  for (std::size_t r = 0; r < columns && rows >= kMinCells; ++r) {
     line.clear();
     for (std::size_t v = 0; v < rows; ++v) line.push_back(powers[v * columns + r]);
     column[r] = mean_from_quantile(line, kColumnQuantile);
@@ -50,6 +50,6 @@ std::vector<double> residual_floor(const RvMap& residual) {
   return floor;
 }
 
-double detection_factor(double cells) { return std::log(std::max(1.0, cells) * kPositionsPerCell / kFalseMaps); }
+double threshold_factor(double cells) { return std::log(std::max(1.0, cells) * kPositionsPerCell / kFalseMaps); }
 
 }  // namespace seaglint

@@ -11,7 +11,7 @@
 namespace seaglint {
 
 // A line of fewer cells tells no level: its quantile may be a target's own cell.
-inline constexpr std::size_t kLeastCells = 8;
+inline constexpr std::size_t kMinCells = 8;
 
 // Mean power of the residual at every cell, [velocity][range], estimated so that a few centres do not raise it. The
 // three causes differ in shape: noise is flat, clutter a ridge along range at its Doppler, pedestals lie along velocity
@@ -22,6 +22,6 @@ std::vector<double> residual_floor(const RvMap& residual);
 
 // Factor on the floor's power that noise passes in one map out of a hundred: exponential |RV|^2 in `cells` independent
 // cells.
-double detection_factor(double cells);
+double threshold_factor(double cells);
 
 }  // namespace seaglint

@@ -37,7 +37,7 @@ RvMap restored_map(const CleanedMap& cleaned, const PulseTrain& train, const Map
 
   RvMap map = cleaned.residual;
   const double centre_hz = train.band_centre_hz(), per_hz = 4 * kPi / kSpeedOfLight;
-  for (const PointComponent& point : cleaned.removed) {
+  for (const CleanComponent& point : cleaned.components) {
     std::vector<Complex> along_range, along_velocity;
     for (const double r : map.range_m)
       along_range.push_back(lobe(range_weight, frequency_hz, per_hz * (r - point.range_m), centre_hz));

@@ -99,15 +99,15 @@ double step_of(const std::vector<double>& axis, double otherwise) {
 
 // Components of one lobe become one centre: those within half a lobe add up (what a loop gain below 1 takes in several
 // steps), those between half and one lobe are remains of a stronger one.
-std::vector<PointComponent> merge(std::vector<PointComponent> components, double lobe_r, double lobe_v) {
-  const auto stronger = [](const PointComponent& a, const PointComponent& b) {
+std::vector<CleanComponent> merge(std::vector<CleanComponent> components, double lobe_r, double lobe_v) {
+  const auto stronger = [](const CleanComponent& a, const CleanComponent& b) {
     return std::norm(a.amplitude_m) > std::norm(b.amplitude_m);
   };
   std::stable_sort(components.begin(), components.end(), stronger);
-  std::vector<PointComponent> merged;
-  for (const PointComponent& part : components) {
+  std::vector<CleanComponent> merged;
+  for (const CleanComponent& part : components) {
     bool taken = false;
-    for (PointComponent& whole : merged) {
+    for (CleanComponent& whole : merged) {
       const double distance =
           std::hypot((part.range_m - whole.range_m) / lobe_r, (part.velocity_mps - whole.velocity_mps) / lobe_v);
       if (distance >= 1) continue;
@@ -134,9 +134,9 @@ CleanedMap clean_map(std::span<const Complex> echo, const PulseTrain& train, con
   ResidualEcho residual(echo, train, map_spec, intra_pulse_motion);
   RvMap map = residual.map();
   const double step_r = step_of(map.range_m, cell_r), step_v = step_of(map.velocity_mps, cell_v);
-  const double factor = detection_factor(static_cast<double>(map.values.size()) /
+  const double factor = threshold_factor(static_cast<double>(map.values.size()) /
                                          (map_spec.range_oversampling * map_spec.velocity_oversampling));
-  std::vector<PointComponent> components;
+  std::vector<CleanComponent> components;
   std::vector<double> floor = residual_floor(map);
   double strongest = 0;  // power
   bool found = true;
@@ -152,7 +152,7 @@ CleanedMap clean_map(std::span<const Complex> echo, const PulseTrain& train, con
     for (const Maximum& cell : maxima) {
       if (cell.power < round_floor) break;
       if (++fits > kMaxFitsPerRound || components.size() >= max_components) break;
-      PointComponent point = residual.fit(map.range_m[cell.r], map.velocity_mps[cell.v], step_r, step_v);
+      CleanComponent point = residual.fit(map.range_m[cell.r], map.velocity_mps[cell.v], step_r, step_v);
       const double power = std::norm(point.amplitude_m);
       if (power < depth * strongest || power < factor * floor[cell.v * map.columns() + cell.r]) continue;
       if (power < round_floor) continue;
@@ -175,15 +175,15 @@ CleanedMap clean_map(std::span<const Complex> echo, const PulseTrain& train, con
     map = residual.map();
     floor = residual_floor(map);
   }
-  std::vector<PointComponent> points = merge(components, lobe_r, lobe_v);
+  std::vector<CleanComponent> points = merge(components, lobe_r, lobe_v);
   // A loop gain below 1 leaves a part of every centre behind.
-  for (PointComponent& point : points) {
+  for (CleanComponent& point : points) {
     if (spec.clean_gain < 1) point.amplitude_m += residual.value(point.range_m, point.velocity_mps);
   }
   const CellSizes cells{cell_r, cell_v, map_spec.range_oversampling, map_spec.velocity_oversampling,
                         lobe_power(map_spec.range_taper, static_cast<std::size_t>(train.band_bins())) *
                             lobe_power(map_spec.velocity_taper, train.pulses())};
-  const std::vector<bool> stays = stands_out(points, map, floor, factor, depth * strongest, cells);
+  const std::vector<bool> stays = exceeds_local_level(points, map, floor, factor, depth * strongest, cells);
   std::vector<ScatteringCentre> centres;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!stays[i]) continue;

@@ -26,9 +26,9 @@ struct ScatteringCentre {
 // final residual and the mean of its surroundings in it by what noise and textured clutter pass in one map out of a
 // hundred, and more than a lobe's width away from every stronger one.
 struct CleanedMap {
-  std::vector<ScatteringCentre> centres;  // strongest first
-  std::vector<PointComponent> removed;    // what was taken out of the echo, in that order
-  RvMap residual;                         // exact map of what is left
+  std::vector<ScatteringCentre> centres;   // strongest first
+  std::vector<CleanComponent> components;  // what was taken out of the echo, in that order
+  RvMap residual;                          // exact map of what is left
 };
 CleanedMap clean_map(std::span<const Complex> echo, const PulseTrain& train, const MapSpec& map_spec,
                      bool intra_pulse_motion, const FeatureSpec& spec);

@@ -41,7 +41,7 @@ double area_under_roc(std::span<const Prediction> predictions) {
 }
 
 // 2.5 and 97.5 % points of the accuracy when groups are drawn with replacement.
-Interval bootstrap_accuracy(std::span<const Prediction> predictions, int samples, const RandomKey& key) {
+ConfidenceInterval bootstrap_accuracy(std::span<const Prediction> predictions, int samples, const RandomKey& key) {
   struct Tally {
     double right = 0;
     double rows = 0;

@@ -20,7 +20,7 @@ struct Prediction {
   double probability = 0;  // of label 1
 };
 
-struct Interval {
+struct ConfidenceInterval {
   double low = 0;
   double high = 0;
 };
@@ -29,7 +29,7 @@ struct Scores {
   std::size_t rows = 0;
   std::size_t groups = 0;
   double accuracy = 0;  // at probability 0.5; NaN without rows
-  Interval
+  ConfidenceInterval
       accuracy_95;  // percentile bootstrap over groups (Davison and Hinkley 1997, section 5.3); NaN below two groups
   double auc = 0;   // area under the ROC = P(ship scores above array), ties count half; NaN when a class is missing
   double log_loss = 0;  // mean -log of the probability given to the truth, clipped at 1e-7

@@ -68,16 +68,16 @@ Split cut(std::span<const RowGroup> rows, const std::vector<std::size_t>& candid
 
 const char* name(Protocol protocol) { return protocol == Protocol::kRandom ? "random" : "group"; }
 
-Split split_rows(std::span<const RowGroup> rows, Protocol protocol, double train_share, std::uint64_t seed,
+Split split_rows(std::span<const RowGroup> rows, Protocol protocol, double train_fraction, std::uint64_t seed,
                  std::uint64_t repeat) {
   std::vector<std::size_t> all(rows.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  return cut(rows, all, protocol, train_share, seed, repeat, false);
+  return cut(rows, all, protocol, train_fraction, seed, repeat, false);
 }
 
-Split split_for_fusion(std::span<const RowGroup> rows, const Split& split, Protocol protocol, double network_share,
+Split split_for_fusion(std::span<const RowGroup> rows, const Split& split, Protocol protocol, double network_fraction,
                        std::uint64_t seed, std::uint64_t repeat) {
-  return cut(rows, split.train, protocol, network_share, seed, repeat, true);
+  return cut(rows, split.train, protocol, network_fraction, seed, repeat, true);
 }
 
 }  // namespace seaglint

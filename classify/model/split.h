@@ -28,14 +28,14 @@ struct Split {
 };
 
 // kRandom: rows are shuffled and cut at the share (the paper's way: maps of one sea lie on both sides). kGroup: whole
-// groups are shuffled and cut, state by state, so that no test map shares its sea with a training map. `train_share` of
-// the rows or groups go to `train`; rounding is carried from state to state, in an order of the states that is shuffled
-// for every repeat, and both sides get one group at least where there are two.
-Split split_rows(std::span<const RowGroup> rows, Protocol protocol, double train_share, std::uint64_t seed,
+// groups are shuffled and cut, state by state, so that no test map shares its sea with a training map. `train_fraction`
+// of the rows or groups go to `train`; rounding is carried from state to state, in an order of the states that is
+// shuffled for every repeat, and both sides get one group at least where there are two.
+Split split_rows(std::span<const RowGroup> rows, Protocol protocol, double train_fraction, std::uint64_t seed,
                  std::uint64_t repeat);
 
 // Cuts the training rows of a split once more in the same manner: `train` is for the network, `test` for the trees.
-Split split_for_fusion(std::span<const RowGroup> rows, const Split& split, Protocol protocol, double network_share,
+Split split_for_fusion(std::span<const RowGroup> rows, const Split& split, Protocol protocol, double network_fraction,
                        std::uint64_t seed, std::uint64_t repeat);
 
 }  // namespace seaglint

@@ -83,13 +83,13 @@ struct JobRows {
   std::vector<std::size_t> trees;
 };
 
-JobRows rows_of(const Job& job, std::span<const RowGroup> groups, const LearningSpec& spec, double train_share,
+JobRows rows_of(const Job& job, std::span<const RowGroup> groups, const LearningSpec& spec, double train_fraction,
                 std::uint64_t seed) {
-  JobRows rows{split_rows(groups, job.protocol, train_share, seed, job.repeat), {}, {}};
+  JobRows rows{split_rows(groups, job.protocol, train_fraction, seed, job.repeat), {}, {}};
   if (job.fusion == Fusion::kInSample) {
     rows.network = rows.trees = rows.split.train;
   } else {
-    const Split fusion = split_for_fusion(groups, rows.split, job.protocol, spec.network_share, seed, job.repeat);
+    const Split fusion = split_for_fusion(groups, rows.split, job.protocol, spec.network_fraction, seed, job.repeat);
     rows.network = fusion.train;
     rows.trees = fusion.test;
   }
@@ -102,10 +102,10 @@ JobRows rows_of(const Job& job, std::span<const RowGroup> groups, const Learning
   return rows;
 }
 
-JobResult run_job(const Job& job, const LearningTable& table, const LearningSpec& spec, double train_share,
+JobResult run_job(const Job& job, const LearningTable& table, const LearningSpec& spec, double train_fraction,
                   std::uint64_t seed, const StopFlag* stop) {
   JobResult result;
-  const JobRows rows = rows_of(job, table.groups, spec, train_share, seed);
+  const JobRows rows = rows_of(job, table.groups, spec, train_fraction, seed);
   result.split = rows.split;
 
   const std::uint64_t index =
@@ -142,7 +142,7 @@ class Evaluator {
   std::uint64_t next_ = 0;
 };
 
-std::vector<ProbeResult> run_probes(const LearningTable& table, const LearningSpec& spec, double train_share,
+std::vector<ProbeResult> run_probes(const LearningTable& table, const LearningSpec& spec, double train_fraction,
                                     std::uint64_t seed, Evaluator& evaluate, Progress& progress, const StopFlag* stop) {
   std::vector<ProbeResult> results;
   for (const Probe& probe : table.probes) {
@@ -151,7 +151,8 @@ std::vector<ProbeResult> run_probes(const LearningTable& table, const LearningSp
       std::vector<Prediction> predictions;
       std::size_t train_rows = 0;
       for (int repeat = 0; repeat < spec.split_repeats; ++repeat) {
-        const Split split = split_rows(table.groups, protocol, train_share, seed, static_cast<std::uint64_t>(repeat));
+        const Split split =
+            split_rows(table.groups, protocol, train_fraction, seed, static_cast<std::uint64_t>(repeat));
         const Booster booster =
             Booster::train(select_rows(probe.features, split.train), select(table.labels, split.train), spec, stop);
         const std::vector<Prediction> more = predict_rows(booster, probe.features, table, split.test);
@@ -180,11 +181,11 @@ std::string splits_csv(const LearningTable& table, const std::vector<Split>& spl
 
 }  // namespace
 
-void check_splits(std::span<const RowGroup> rows, const LearningSpec& spec, double train_share, std::uint64_t seed) {
-  for (const Job& job : all_jobs(spec)) rows_of(job, rows, spec, train_share, seed);
+void check_splits(std::span<const RowGroup> rows, const LearningSpec& spec, double train_fraction, std::uint64_t seed) {
+  for (const Job& job : all_jobs(spec)) rows_of(job, rows, spec, train_fraction, seed);
 }
 
-Study run_study(const LearningTable& table, const LearningSpec& spec, double train_share, std::uint64_t seed,
+Study run_study(const LearningTable& table, const LearningSpec& spec, double train_fraction, std::uint64_t seed,
                 int threads, const StopFlag* stop) {
   const std::vector<Job> jobs = all_jobs(spec);
   const std::size_t repeats = static_cast<std::size_t>(spec.split_repeats);
@@ -193,7 +194,7 @@ Study run_study(const LearningTable& table, const LearningSpec& spec, double tra
   parallel_for(
       jobs.size(), threads,
       [&](std::size_t i) {
-        done[i] = run_job(jobs[i], table, spec, train_share, seed, stop);
+        done[i] = run_job(jobs[i], table, spec, train_fraction, seed, stop);
         progress.advance();
       },
       stop);
@@ -221,7 +222,7 @@ Study run_study(const LearningTable& table, const LearningSpec& spec, double tra
       const bool swap = group == 0 && spec.fusion == Fusion::kSplit;
       for (std::size_t place = 0; place < 2; ++place) {
         const std::size_t fusion = swap ? 1 - place : place;
-        (place == 0 ? outcome.main : outcome.other) =
+        (place == 0 ? outcome.primary : outcome.alternative) =
             evaluate(pooled(protocol, fusion, group), done[(protocol * 2 + fusion) * repeats].train_rows[group]);
         if (place == 0 && kProtocols[protocol] == Protocol::kGroup) {
           const JobResult& first = done[(protocol * 2 + fusion) * repeats];
@@ -236,7 +237,7 @@ Study run_study(const LearningTable& table, const LearningSpec& spec, double tra
     }
     study.groups.push_back(std::move(result));
   }
-  study.probes = run_probes(table, spec, train_share, seed, evaluate, progress, stop);
+  study.probes = run_probes(table, spec, train_fraction, seed, evaluate, progress, stop);
 
   const JobResult& random = done[0];
   JobResult& group = done[2 * repeats];

@@ -25,8 +25,8 @@ struct Evaluation {
 // How one group of features did under one protocol.
 struct Outcome {
   Protocol protocol = Protocol::kGroup;
-  Evaluation main;   // hand-made: trees on all training rows; others: the scenario's fusion
-  Evaluation other;  // hand-made: trees on the rows that fusion `split` leaves them; others: the other fusion
+  Evaluation primary;      // hand-made: trees on all training rows; others: the scenario's fusion
+  Evaluation alternative;  // hand-made: trees on the rows that fusion `split` leaves them; others: the other fusion
 };
 
 struct FeatureGroupResult {
@@ -54,14 +54,14 @@ struct Study {
 };
 
 // Throws InputError when rows in these groups leave a side of a split without rows; known before any map is made.
-void check_splits(std::span<const RowGroup> rows, const LearningSpec& spec, double train_share, std::uint64_t seed);
+void check_splits(std::span<const RowGroup> rows, const LearningSpec& spec, double train_fraction, std::uint64_t seed);
 
 inline constexpr const char* kNetworkFile = "network.bin";
 inline constexpr const char* kSplitsFile = "splits.csv";
 
 // Trains and evaluates; writes nothing. The result depends on data, spec and seed alone, not on `threads`. Throws
 // InputError as check_splits() does, Interrupted when *stop becomes true.
-Study run_study(const LearningTable& table, const LearningSpec& spec, double train_share, std::uint64_t seed,
+Study run_study(const LearningTable& table, const LearningSpec& spec, double train_fraction, std::uint64_t seed,
                 int threads, const StopFlag* stop = nullptr);
 
 // Names of the files that save_models() writes.

@@ -65,8 +65,8 @@ ordered_json to_json(const Study& study, const LearningSpec& spec) {
     if (!handmade) entry["fusion"] = fusion_name(spec.fusion);
     ordered_json others;
     for (const Outcome& outcome : group.outcomes) {
-      entry[name(outcome.protocol)] = to_object(outcome.main);
-      others[name(outcome.protocol)] = to_object(outcome.other);
+      entry[name(outcome.protocol)] = to_object(outcome.primary);
+      others[name(outcome.protocol)] = to_object(outcome.alternative);
     }
     entry[handmade ? "fewer_rows" : fusion_name(other)] = others;
     json[group.name] = entry;
@@ -92,11 +92,11 @@ std::string accuracy_table(const Study& study) {
     text += protocol == 0 ? "random split of the maps (the paper's protocol)\n"
                           : "\nsplit by sea realisation (no test sea was seen in training)\n";
     text += fmt::format("  {:<10}{:>18}{:>18}{:>18}\n", "Hs [m]", "hand-made", "CNN", "fused");
-    const auto& heights = study.groups.front().outcomes[protocol].main.by_wave_height;
+    const auto& heights = study.groups.front().outcomes[protocol].primary.by_wave_height;
     for (std::size_t i = 0; i <= heights.size(); ++i) {
       text += fmt::format("  {:<10}", i < heights.size() ? fmt::format("{:g}", heights[i].wave_height_m) : "all");
       for (const FeatureGroupResult& group : study.groups) {
-        const Evaluation& evaluation = group.outcomes[protocol].main;
+        const Evaluation& evaluation = group.outcomes[protocol].primary;
         text += fmt::format("{:>18}",
                             percent(i < heights.size() ? evaluation.by_wave_height[i].scores : evaluation.scores));
       }

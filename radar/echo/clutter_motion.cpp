@@ -52,7 +52,7 @@ Vec2 mean_at_the_surface(const WaveField& waves) {
 
 }  // namespace
 
-VelocityMoments sea_velocity(const ClutterSpec& spec, const ClutterScene& scene, double wavelength_m) {
+VelocityMoments clutter_velocity_moments(const ClutterSpec& spec, const ClutterScene& scene, double wavelength_m) {
   SEAGLINT_CHECK(scene.waves != nullptr, "clutter that follows the sea needs its waves");
   const double cos_grazing = std::hypot(scene.r_hat.x(), scene.r_hat.y()), sin_grazing = scene.r_hat.z();
   const Vec2 look = Vec2(scene.r_hat.x(), scene.r_hat.y());  // of length cos_grazing
@@ -66,7 +66,8 @@ VelocityMoments sea_velocity(const ClutterSpec& spec, const ClutterScene& scene,
     const double horizontal = look.dot(wave.direction) * orbit_ratio(wave, scene.waves->depth());
     variance += 0.5 * speed * speed * (horizontal * horizontal + sin_grazing * sin_grazing);
   }
-  const double past_mps = scene.r_hat.dot(scene.way_mps);  // water that stands still falls behind the target
+  const double past_mps =
+      scene.r_hat.dot(scene.target_velocity_mps);  // water that stands still falls behind the target
   if (!(stokes.norm() > 0)) return {past_mps, 0};
   const double wind = std::sqrt(kGravity * scene.significant_wave_height_m / kFullyDeveloped);
   const double along_waves = bragg_speed_mps(wavelength_m, cos_grazing) + kWindDrift * wind + stokes.norm();
@@ -74,8 +75,8 @@ VelocityMoments sea_velocity(const ClutterSpec& spec, const ClutterScene& scene,
   return {past_mps - factor * along_waves * look.dot(stokes.normalized()), std::sqrt(variance)};
 }
 
-double platform_spread_mps(const ClutterScene& scene) {
-  const Vec3 velocity = Vec3(scene.radar.platform.velocity_mps.data()) + scene.way_mps;
+double platform_doppler_spread_mps(const ClutterScene& scene) {
+  const Vec3 velocity = Vec3(scene.radar.platform.velocity_mps.data()) + scene.target_velocity_mps;
   const Vec3 sideways = Vec3::UnitZ().cross(scene.r_hat);
   const double level = sideways.norm();
   return level > 0 ? std::abs(velocity.dot(sideways)) / level * beam_deviation_rad(scene.radar) : 0;
@@ -88,7 +89,7 @@ FloatingScatterers floating_scatterers(const ClutterScene& scene, const std::vec
   const double cos_grazing = std::hypot(scene.r_hat.x(), scene.r_hat.y());
   const Vec2 away = -Vec2(scene.r_hat.x(), scene.r_hat.y()) / cos_grazing, across(-away.y(), away.x());
   const double deviation_m = scene.radar.range_km * 1e3 * beam_deviation_rad(scene.radar);
-  const Vec2 sailed_m = scene.start_s * scene.way_mps.head<2>();  // where the target is in the waves by now
+  const Vec2 sailed_m = scene.start_s * scene.target_velocity_mps.head<2>();  // where the target is in the waves by now
   const Vec2 mean = mean_at_the_surface(*scene.waves);
   FloatingScatterers floating;
   for (const double range : range_m) {

@@ -19,8 +19,9 @@ struct ClutterScene {
   double significant_wave_height_m = 0;
   const WaveField* waves = nullptr;  // needed unless clutter.doppler is given
   double start_s = 0;                // of the interval, in the waves' time
-  Vec3 way_mps = Vec3::Zero();       // of the target through the water, which its frame and the radar go along with
-  std::uint64_t texture_key = 0;     // intervals of one key see one texture that changes over time
+  Vec3 target_velocity_mps =
+      Vec3::Zero();               // of the target through the water, which its frame and the radar go along with
+  std::uint64_t texture_key = 0;  // intervals of one key see one texture that changes over time
 };
 
 struct VelocityMoments {
@@ -34,12 +35,12 @@ struct VelocityMoments {
 // a model. Spread: the radial part of the waves' orbital velocity. The wind is that of a fully developed sea of this
 // height (Pierson and Moskowitz, J. Geophys. Res. 69 (1964) 5181), and drifts the surface by 3 % of its speed (Wu, J.
 // Fluid Mech. 68 (1975) 49). No waves: no motion but that of the water past a target on its way.
-VelocityMoments sea_velocity(const ClutterSpec& spec, const ClutterScene& scene, double wavelength_m);
+VelocityMoments clutter_velocity_moments(const ClutterSpec& spec, const ClutterScene& scene, double wavelength_m);
 
 // What a radar that passes by adds to the spread, on its own way and the target's: scatterers off the middle of the
 // beam come nearer or go away, by the speed across the line of sight times the deviation of the two-way Gaussian beam,
 // width / (4 sqrt(ln 2)).
-double platform_spread_mps(const ClutterScene& scene);
+double platform_doppler_spread_mps(const ClutterScene& scene);
 
 // Radial motion of scatterers that float on the waves: displacement at the time t after the interval's start is v t + a
 // t^2/2.
@@ -50,8 +51,8 @@ struct FloatingScatterers {
 
 // The water's motion in scene.waves at scatterers of the given slant ranges from the reference point (positive =
 // farther), each at a random place across the beam (Gaussian, two ways), stream kClutterPlace of (seed, index), less
-// the mean that it has at the moving surface: sea_velocity holds the whole Stokes drift. Velocity is taken at both ends
-// of the interval.
+// the mean that it has at the moving surface: clutter_velocity_moments holds the whole Stokes drift. Velocity is taken
+// at both ends of the interval.
 FloatingScatterers floating_scatterers(const ClutterScene& scene, const std::vector<double>& range_m, double duration_s,
                                        std::uint64_t seed, std::uint64_t index);
 

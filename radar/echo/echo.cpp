@@ -38,8 +38,8 @@ std::vector<Complex> clutter_echo(const PulseTrain& train, const ClutterSpec& cl
     const double state = clutter.sea_state.value_or(douglas_sea_state(scene.significant_wave_height_m));
     const double sigma0 =
         std::pow(10, nrl_reflectivity_db(scene.radar.polarisation, grazing, train.band_centre_hz(), state) / 10);
-    const double window_m = train.unambiguous_range_m() / train.refinement;
-    power = sigma0 * clutter_area_m2(scene.radar, grazing, window_m) / (4 * kPi);
+    const double window_m = train.unambiguous_range_m() / train.grid_refinement;
+    power = sigma0 * clutter_patch_area_m2(scene.radar, grazing, window_m) / (4 * kPi);
   }
   std::vector<Complex> echo = clutter_response(train, clutter, scene, seed, index);
   for (std::size_t i = 0; i < echo.size(); ++i)
@@ -64,7 +64,7 @@ std::vector<Complex> white_noise(std::size_t size, std::uint64_t seed, std::uint
 void add_own_motion(std::vector<Complex>& echo, const PulseTrain& train, const ClutterScene& scene) {
   const PlatformSpec& platform = scene.radar.platform;
   const Vec3 velocity(platform.velocity_mps.data());
-  if (platform.compensated || velocity.isZero(0)) return;
+  if (platform.motion_compensated || velocity.isZero(0)) return;
   const double start_m = scene.radar.range_km * 1e3;
   for (std::size_t n = 0; n < train.pulses(); ++n) {
     for (std::size_t b = 0; b < train.frequencies(); ++b) {
@@ -86,7 +86,7 @@ double ratio(double db) { return std::pow(10, db / 10); }
 
 }  // namespace
 
-Echo synthesize_echo(const PulseTrain& train, const FrequencyResponse& response, const ClutterSpec& clutter,
+Echo synthesise_echo(const PulseTrain& train, const FrequencyResponse& response, const ClutterSpec& clutter,
                      std::uint64_t seed, std::uint64_t index, const ClutterScene& scene) {
   const std::size_t frequencies = train.frequencies();
   SEAGLINT_CHECK(response.values.size() == train.pulses() * frequencies,
@@ -112,10 +112,10 @@ Echo synthesize_echo(const PulseTrain& train, const FrequencyResponse& response,
     if (clutter.level == ClutterLevel::kScr)
       scale(echo.clutter, target_power / mean_power(echo.clutter) / ratio(clutter.scr_db));
   }
-  if (clutter.noise_level == NoiseLevel::kToClutter && echo.clutter.empty()) return echo;
+  if (clutter.noise_level == NoiseLevel::kCnr && echo.clutter.empty()) return echo;
   echo.noise = white_noise(echo.target.size(), seed, index);
   switch (clutter.noise_level) {
-    case NoiseLevel::kToClutter:
+    case NoiseLevel::kCnr:
       scale(echo.noise, mean_power(echo.clutter) / mean_power(echo.noise) * ratio(clutter.noise_to_clutter_db));
       break;
     case NoiseLevel::kSnr: scale(echo.noise, target_power / mean_power(echo.noise) / ratio(clutter.snr_db)); break;

@@ -26,10 +26,10 @@ struct Echo {
 
 // Levels relative to the target, all measured after generation (radar/echo/README.md); NaN when there is no clutter, or
 // no noise.
-struct ScrMeasured {
+struct MeasuredRatios {
   double per_pulse_db = 0;
   double peak_cell_db = 0;
-  double extent_db = 0;
+  double scr_extent_db = 0;
   double snr_per_pulse_db = 0;
 };
 
@@ -42,7 +42,7 @@ double mean_power(std::span<const Complex> values);
 // of the range window. The response is the one asked for by interval_sampling(train, ...). Streams kClutter,
 // kClutterPlace and kNoise of (seed, index), kTexture of (seed, scene.texture_key). Throws InputError when the target
 // has no power.
-Echo synthesize_echo(const PulseTrain& train, const FrequencyResponse& response, const ClutterSpec& clutter,
+Echo synthesise_echo(const PulseTrain& train, const FrequencyResponse& response, const ClutterSpec& clutter,
                      std::uint64_t seed, std::uint64_t index, const ClutterScene& scene = {});
 
 }  // namespace seaglint

@@ -10,7 +10,7 @@ namespace seaglint {
 double thermal_noise_m2(const PulseTrain& train, const RadarSpec& radar) {
   constexpr double kBoltzmann = 1.380649e-23;  // J/K, exact in the SI
   const auto ratio = [](double db) { return std::pow(10, db / 10); };
-  const BudgetSpec& budget = radar.budget;
+  const LinkBudgetSpec& budget = radar.budget;
   const double wavelength = kSpeedOfLight / train.band_centre_hz();
   const double gain_wavelength = ratio(budget.antenna_gain_db) * wavelength;
   const double range_4 = std::pow(radar.range_km * 1e3, 4);

@@ -50,7 +50,7 @@ PulseTrain train_for_samples(const PulseTrain& train, const RadarSpec& radar) {
     }
   }
   PulseTrain fine = train;
-  fine.refinement = refinement;
+  fine.grid_refinement = refinement;
   fine.bins_per_hop *= refinement;
   fine.baseband_step_hz /= refinement;
   const std::size_t frequencies = train.frequencies() * static_cast<std::size_t>(refinement);

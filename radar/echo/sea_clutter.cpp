@@ -89,7 +89,7 @@ std::vector<double> sea_texture(int cells, double correlation_cells, const Clutt
   // White on the ring, correlated in time: nodes of their own keys, so that any time can be asked for alone. Numbers of
   // nodes before t = 0 are negative.
   const std::uint64_t own_seed = Random({seed, Stream::kTexture, key}).bits();
-  const Kernel in_time = kernel_at(time_s / spec.texture_time_s);
+  const Kernel in_time = kernel_at(time_s / spec.texture_correlation_time_s);
   std::vector<double> white(cells);
   for (std::size_t i = 0; i < in_time.weight.size(); ++i) {
     const auto node = static_cast<std::int64_t>(in_time.first) + static_cast<std::int64_t>(i);
@@ -130,8 +130,8 @@ std::vector<double> scatterer_ranges(double window_m, int scatterers) {
 std::vector<Complex> clutter_response(const PulseTrain& train, const ClutterSpec& spec, const ClutterScene& scene,
                                       std::uint64_t seed, std::uint64_t index) {
   Random random({seed, Stream::kClutter, index});
-  const int scatterers = kScatterersPerCell * train.band_bins() / train.refinement;
-  const double window_m = train.unambiguous_range_m() / train.refinement;
+  const int scatterers = kScatterersPerCell * train.band_bins() / train.grid_refinement;
+  const double window_m = train.unambiguous_range_m() / train.grid_refinement;
   const std::vector<double> texture =
       sea_texture(scatterers, kScatterersPerCell * kTextureCells, spec, scene.start_s, seed, scene.texture_key);
 
@@ -139,13 +139,13 @@ std::vector<Complex> clutter_response(const PulseTrain& train, const ClutterSpec
   const double wavelength = kSpeedOfLight / train.band_centre_hz();
   const double duration = std::max(train.time_s.back(), train.pri_s);
   double mean_mps = spec.doppler_mean_mps, spread_mps = spec.doppler_spread_mps;
-  spread_mps = std::hypot(spread_mps, platform_spread_mps(scene));
+  spread_mps = std::hypot(spread_mps, platform_doppler_spread_mps(scene));
   FloatingScatterers floating;
-  if (spec.doppler != ClutterDoppler::kGiven) {
-    const VelocityMoments sea = sea_velocity(spec, scene, wavelength);
+  if (spec.doppler != ClutterDoppler::kPrescribed) {
+    const VelocityMoments sea = clutter_velocity_moments(spec, scene, wavelength);
     mean_mps += sea.mean_mps;
     if (spec.doppler == ClutterDoppler::kSea) spread_mps = std::hypot(spread_mps, sea.spread_mps);
-    if (spec.doppler == ClutterDoppler::kWaveField)
+    if (spec.doppler == ClutterDoppler::kWaveResolved)
       floating = floating_scatterers(scene, scatterer_ranges(window_m, scatterers), duration, seed, index);
   }
 
@@ -156,11 +156,11 @@ std::vector<Complex> clutter_response(const PulseTrain& train, const ClutterSpec
   // Scatterer k of K lies at range k W / K of the window W = c/(2 step): at frequency i step its phase -4 pi f R / c is
   // -2 pi i k / K, and a forward transform sums all of them. The first frequency's phase is part of the speckle. On a
   // grid m times finer the transform is m times longer, and (m - 1)/2 steps come before the first coarse frequency.
-  const int length = scatterers * train.refinement;
+  const int length = scatterers * train.grid_refinement;
   std::vector<Complex> first(scatterers);
   for (int k = 0; k < scatterers; ++k)
     first[k] = std::sqrt(texture[k] / scatterers) *
-               std::polar(1.0, kPi * place_of(k, scatterers) * (train.refinement - 1) / length);
+               std::polar(1.0, kPi * place_of(k, scatterers) * (train.grid_refinement - 1) / length);
   FourierBatch transform(length, 1, Fourier::kForward);
   std::vector<Complex> values(scatterers);
   std::vector<Complex> response;

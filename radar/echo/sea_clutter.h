@@ -14,8 +14,8 @@
 namespace seaglint {
 
 // Texture of mean 1 on `cells` points of a ring at one time, gamma distributed with spec.texture_shape. Its Gaussian
-// generator is correlated as e^{-d^2 / (2 l^2)} along the ring, d and l in cells, and as e^{-(t / texture_time_s)^2 /
-// 2} between times of one key (stream kTexture).
+// generator is correlated as e^{-d^2 / (2 l^2)} along the ring, d and l in cells, and as e^{-(t /
+// texture_correlation_time_s)^2 / 2} between times of one key (stream kTexture).
 std::vector<double> sea_texture(int cells, double correlation_cells, const ClutterSpec& spec, double time_s,
                                 std::uint64_t seed, std::uint64_t key);
 

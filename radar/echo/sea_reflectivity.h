@@ -18,6 +18,6 @@ double douglas_sea_state(double significant_wave_height_m);
 
 // Area of sea that answers within range_extent_m of slant range: r theta_e / cos(grazing) on the water, theta_e the
 // width of a Gaussian beam over two ways, sqrt(pi / (8 ln 2)) of its one-way width at half power.
-double clutter_area_m2(const RadarSpec& radar, double grazing_rad, double range_extent_m);
+double clutter_patch_area_m2(const RadarSpec& radar, double grazing_rad, double range_extent_m);
 
 }  // namespace seaglint

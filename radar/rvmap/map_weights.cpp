@@ -67,7 +67,7 @@ MapWeights map_weights(const PulseTrain& train, const MapSpec& spec) {
   std::vector<int> covering(train.band_bins());
   for (int i = 0; i < train.carriers; ++i) {
     if (sum[i] == 0) {
-      ++weights.empty_carriers;
+      ++weights.unused_carriers;
       continue;
     }
     for (std::size_t b = 0; b < train.frequencies(); ++b) ++covering[i * train.bins_per_hop + b];

@@ -21,7 +21,7 @@ struct MapWeights {
   std::vector<double> pulse;  // w_n: velocity taper / its sum over the pulses of the same carrier
   std::vector<double> bin;    // u_k: range taper / carriers that cover bin k, 0 in holes; scaled so that a point of
                               // amplitude 1 peaks at 1
-  int empty_carriers = 0;     // carriers that no pulse used
+  int unused_carriers = 0;    // carriers that no pulse used
 };
 
 MapWeights map_weights(const PulseTrain& train, const MapSpec& spec);

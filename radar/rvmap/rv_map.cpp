@@ -105,7 +105,7 @@ RvMap form_rv_map(std::span<const Complex> echo, const PulseTrain& train, const 
   RvMap map;
   map.range_m = grid.range_m;
   map.velocity_mps = grid.velocity_mps;
-  map.empty_carriers = weights.empty_carriers;
+  map.unused_carriers = weights.unused_carriers;
   map.values.resize(grid.range_m.size() * grid.velocity_mps.size());
 
   const std::size_t frequencies = train.frequencies();
@@ -128,12 +128,12 @@ RvMap form_rv_map(std::span<const Complex> echo, const PulseTrain& train, const 
 
   std::vector<Block> sums(frequencies);
   std::vector<Complex> weighted(frequencies);
-  const std::size_t most_rows = std::min(kBlock, grid.velocity_mps.size());
-  FourierBatch profile(length, most_rows, Fourier::kInverse);
+  const std::size_t max_rows = std::min(kBlock, grid.velocity_mps.size());
+  FourierBatch profile(length, max_rows, Fourier::kInverse);
   for (std::size_t first = 0; first < grid.velocity_mps.size(); first += kBlock) {
     const std::size_t rows = std::min(kBlock, grid.velocity_mps.size() - first);
     const double velocity = grid.velocity_mps[first];
-    std::fill(profile.row(0), profile.row(0) + most_rows * length, Complex{});
+    std::fill(profile.row(0), profile.row(0) + max_rows * length, Complex{});
     for (int i = 0; i < train.carriers; ++i) {
       const double lowest_hz = train.first_carrier_hz + i * train.hop_step_hz + train.baseband_hz.front();
       std::fill(sums.begin(), sums.end(), Block{});

@@ -19,7 +19,7 @@ struct RvMap {
       range_m;  // relative to the target's reference point, positive = farther; range at the first pulse
   std::vector<double> velocity_mps;  // positive = receding
   std::vector<Complex> values;       // metres, [velocity][range]; RV = |values|
-  int empty_carriers = 0;            // carriers that no pulse used: their band is zero
+  int unused_carriers = 0;           // carriers that no pulse used: their band is zero
 
   std::size_t columns() const { return range_m.size(); }
   Complex at(std::size_t v, std::size_t r) const { return values[v * range_m.size() + r]; }

@@ -21,7 +21,7 @@ double largest_power(const RvMap& map) {
   return largest;
 }
 
-double box_power(const RvMap& map, const MapBox& box) {
+double box_power(const RvMap& map, const MapExtent& box) {
   double sum = 0;
   for (std::size_t v = box.velocity_first; v <= box.velocity_last; ++v) {
     for (std::size_t r = box.range_first; r <= box.range_last; ++r) sum += std::norm(map.at(v, r));
@@ -34,9 +34,9 @@ double decibel(double ratio) { return 10 * std::log10(ratio); }
 
 }  // namespace
 
-MapBox target_box(const RvMap& target) {
+MapExtent target_extent(const RvMap& target) {
   const double threshold = largest_power(target) * std::pow(10, -kBoxDepthDb / 10);
-  MapBox box{target.columns(), 0, target.velocity_mps.size(), 0};
+  MapExtent box{target.columns(), 0, target.velocity_mps.size(), 0};
   for (std::size_t v = 0; v < target.velocity_mps.size(); ++v) {
     for (std::size_t r = 0; r < target.columns(); ++r) {
       if (std::norm(target.at(v, r)) < threshold) continue;
@@ -49,8 +49,8 @@ MapBox target_box(const RvMap& target) {
   return box;
 }
 
-ReceivedInterval receive(const Echo& echo, const PulseTrain& train, const ClutterSpec& clutter, const MapSpec& spec,
-                         bool intra_pulse_motion) {
+ReceivedInterval form_received_interval(const Echo& echo, const PulseTrain& train, const ClutterSpec& clutter,
+                                        const MapSpec& spec, bool intra_pulse_motion) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   ReceivedInterval received;
   received.echo = echo.target;
@@ -70,19 +70,19 @@ ReceivedInterval receive(const Echo& echo, const PulseTrain& train, const Clutte
       throw InputError(
           fmt::format("map: no power in the map's window (target {} m^2, clutter {} m^2)", target_peak, clutter_cell));
     }
-    ScrMeasured& scr = received.scr;
+    MeasuredRatios& scr = received.scr;
     scr.per_pulse_db = decibel(mean_power(echo.target) / mean_power(echo.clutter));
     scr.peak_cell_db = decibel(target_peak / clutter_cell);
-    scr.extent_db = decibel(box_power(received.map, target_box(received.map)) / clutter_cell);
+    scr.scr_extent_db = decibel(box_power(received.map, target_extent(received.map)) / clutter_cell);
     const double measured = clutter.scr_definition == ScrDefinition::kPerPulse   ? scr.per_pulse_db
                             : clutter.scr_definition == ScrDefinition::kPeakCell ? scr.peak_cell_db
-                                                                                 : scr.extent_db;
+                                                                                 : scr.scr_extent_db;
     if (clutter.level == ClutterLevel::kScr) gain_db = measured - clutter.scr_db;
-    for (double* ratio : {&scr.per_pulse_db, &scr.peak_cell_db, &scr.extent_db}) *ratio -= gain_db;
+    for (double* ratio : {&scr.per_pulse_db, &scr.peak_cell_db, &scr.scr_extent_db}) *ratio -= gain_db;
     add(echo.clutter, clutter_map, std::pow(10, gain_db / 20));
   }
   if (!echo.noise.empty()) {
-    const double noise_db = clutter.noise_level == NoiseLevel::kToClutter ? gain_db : 0;
+    const double noise_db = clutter.noise_level == NoiseLevel::kCnr ? gain_db : 0;
     received.scr.snr_per_pulse_db = decibel(mean_power(echo.target) / mean_power(echo.noise)) - noise_db;
     add(echo.noise, form_rv_map(echo.noise, train, spec, intra_pulse_motion), std::pow(10, noise_db / 20));
   }

@@ -103,13 +103,13 @@ double expected_response_power(const PulseTrain& train, double range_offset_m, d
   return (std::norm(coherent) + std::max(0.0, scatter)) / (used * used);
 }
 
-std::string band_gaps(const PulseTrain& train) {
+std::string band_gap_warning(const PulseTrain& train) {
   if (train.carriers < 2 || train.bandwidth_hz >= train.hop_step_hz * (1 - 1e-9)) return "";
   return fmt::format("{:.6g} MHz between the bands of neighbouring carriers: range sidelobes every {:.4g} m",
                      (train.hop_step_hz - train.bandwidth_hz) * 1e-6, kSpeedOfLight / (2 * train.hop_step_hz));
 }
 
-std::string describe(const PulseTrain& train, const RadarSpec& spec) {
+std::string figures_of_merit_text(const PulseTrain& train, const RadarSpec& spec) {
   std::vector<int> count(train.carriers);
   for (const int c : train.code) ++count[c];
   const auto [fewest, most] = std::minmax_element(count.begin(), count.end());
@@ -124,7 +124,8 @@ std::string describe(const PulseTrain& train, const RadarSpec& spec) {
   for (std::size_t i = 0; i < count.size(); ++i) {
     if (count[i] == 0) text += fmt::format("hole                no pulse of the first interval uses carrier {}\n", i);
   }
-  if (const std::string gaps = band_gaps(train); !gaps.empty()) text += fmt::format("gaps                {}\n", gaps);
+  if (const std::string gaps = band_gap_warning(train); !gaps.empty())
+    text += fmt::format("gaps                {}\n", gaps);
   text += fmt::format("range resolution    {:.4g} m, window without wrap {:.4g} m\n", train.range_resolution_m(),
                       train.unambiguous_range_m());
   text += fmt::format("velocity resolution {:.4g} m/s, unambiguous within +-{:.4g} m/s\n",

@@ -16,9 +16,9 @@ namespace seaglint {
 double expected_response_power(const PulseTrain& train, double range_offset_m, double velocity_offset_mps);
 
 // What the carriers leave out of the band between them, and the sidelobes that follow; empty where nothing.
-std::string band_gaps(const PulseTrain& train);
+std::string band_gap_warning(const PulseTrain& train);
 
 // Resolutions, ambiguities, blind range and expected pedestal, one line each, for `seaglint check`.
-std::string describe(const PulseTrain& train, const RadarSpec& spec);
+std::string figures_of_merit_text(const PulseTrain& train, const RadarSpec& spec);
 
 }  // namespace seaglint

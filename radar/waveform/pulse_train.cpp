@@ -58,7 +58,7 @@ std::vector<int> hop_code(HopCode kind, int pulses, int carriers, std::uint64_t 
 }
 
 std::vector<int> hop_code(const RadarSpec& spec, std::uint64_t seed, std::uint64_t index) {
-  if (spec.hop_code != HopCode::kFile) return hop_code(spec.hop_code, spec.pulses, spec.hop_count, seed, index);
+  if (spec.hop_code != HopCode::kFile) return hop_code(spec.hop_code, spec.pulses, spec.carrier_count, seed, index);
   SEAGLINT_CHECK(spec.hop_codes && spec.hop_codes->size() >= static_cast<std::size_t>(spec.pulses),
                  "a hop code from a file has been read");
   const auto pulses = static_cast<std::size_t>(spec.pulses);
@@ -101,7 +101,7 @@ std::vector<Complex> chirp_spectrum(double bandwidth_hz, double pulse_width_s, d
 
 PulseTrain make_pulse_train(const RadarSpec& spec, double range_window_m, std::uint64_t seed, std::uint64_t index) {
   PulseTrain train;
-  train.carriers = spec.hop_count;
+  train.carriers = spec.carrier_count;
   train.first_carrier_hz = spec.carrier_ghz * 1e9;
   train.hop_step_hz = spec.hop_step_mhz * 1e6;
   train.bandwidth_hz = spec.bandwidth_mhz * 1e6;
@@ -115,7 +115,7 @@ PulseTrain make_pulse_train(const RadarSpec& spec, double range_window_m, std::u
   const double for_chirp = std::ceil(train.hop_step_hz / train.bandwidth_hz - kRatioSlack);
   const double per_hop = std::max({1.0, for_window, for_chirp});
   const double per_pulse = std::max(1.0, std::floor(train.bandwidth_hz * per_hop / train.hop_step_hz + kRatioSlack));
-  const double samples = std::max(per_pulse * spec.pulses, per_hop * spec.hop_count + per_pulse);
+  const double samples = std::max(per_pulse * spec.pulses, per_hop * spec.carrier_count + per_pulse);
   if (!(samples <= kMaxSamples)) {
     throw InputError(
         fmt::format("radar: a range window of {:.6g} m needs {:.3g} frequency samples per interval; at most {:.0f}: "
@@ -149,7 +149,7 @@ IntervalSampling interval_sampling(const PulseTrain& train, double start_s) {
   sampling.first_hz = train.first_carrier_hz + train.baseband_hz.front();
   sampling.step_hz = train.baseband_step_hz;
   sampling.count = train.band_bins();
-  sampling.per_pulse = static_cast<int>(train.frequencies());
+  sampling.frequencies_per_pulse = static_cast<int>(train.frequencies());
   sampling.chirp_rate_hz_s = train.intra_pulse_motion ? train.chirp_rate_hz_s : 0;
   for (std::size_t n = 0; n < train.pulses(); ++n) {
     sampling.pulse_first.push_back(train.code[n] * train.bins_per_hop);

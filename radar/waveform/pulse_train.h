@@ -28,7 +28,7 @@ struct PulseTrain {
   double baseband_step_hz = 0;
   int bins_per_hop = 1;  // df / step, exact
   // odd: so many steps of this grid make one of the map's (radar/echo/sampled_echo.h)
-  int refinement = 1;
+  int grid_refinement = 1;
   std::vector<Complex> chirp_spectrum;  // P(f) on baseband_hz: THE transmit waveform, |P| about 1
 
   std::size_t pulses() const { return code.size(); }

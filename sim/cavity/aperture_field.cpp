@@ -13,32 +13,34 @@ namespace {
 constexpr std::size_t kTile = 32;  // patches that one thread takes at a time
 
 // Cells of the mouth from which nothing hides the antenna.
-std::vector<bool> seen_from(std::span<const MouthCell> mouth, const Vec3& r_hat, const RayScene& scene, double radius) {
+std::vector<bool> seen_from(std::span<const ApertureCell> aperture, const Vec3& r_hat, const RayScene& scene,
+                            double radius) {
   std::vector<Ray> rays;
   // Rays leave off the mouth's plane, so that its own rim is not met; Embree's numbers are single.
-  for (const MouthCell& cell : mouth) {
+  for (const ApertureCell& cell : aperture) {
     const double off = 1e-2 * std::sqrt(cell.area) + 1e-6 * radius;
     rays.push_back({cell.centre + off * (r_hat - cell.inward), r_hat});
   }
   std::vector<int> hit(rays.size());
   scene.first_hits(rays, hit);
-  std::vector<bool> seen(mouth.size());
-  for (std::size_t i = 0; i < mouth.size(); ++i) seen[i] = mouth[i].inward.dot(r_hat) < 0 && hit[i] == kNoFacet;
+  std::vector<bool> seen(aperture.size());
+  for (std::size_t i = 0; i < aperture.size(); ++i) seen[i] = aperture[i].inward.dot(r_hat) < 0 && hit[i] == kNoFacet;
   return seen;
 }
 
 }  // namespace
 
-MouthFields incident_fields(std::span<const MouthCell> mouth, double k, std::span<const AntennaPair> views,
-                            RadarBasis AntennaPair::*antenna, const RayScene& scene, double radius) {
-  MouthFields fields =
-      MouthFields::Zero(4 * static_cast<Eigen::Index>(mouth.size()), 2 * static_cast<Eigen::Index>(views.size()));
+ApertureFields incident_aperture_fields(std::span<const ApertureCell> aperture, double k,
+                                        std::span<const BistaticGeometry> views, RadarBasis BistaticGeometry::*antenna,
+                                        const RayScene& scene, double radius) {
+  ApertureFields fields =
+      ApertureFields::Zero(4 * static_cast<Eigen::Index>(aperture.size()), 2 * static_cast<Eigen::Index>(views.size()));
   for (std::size_t view = 0; view < views.size(); ++view) {
     const RadarBasis& from = views[view].*antenna;
-    const std::vector<bool> seen = seen_from(mouth, from.r, scene, radius);
-    for (std::size_t i = 0; i < mouth.size(); ++i) {
+    const std::vector<bool> seen = seen_from(aperture, from.r, scene, radius);
+    for (std::size_t i = 0; i < aperture.size(); ++i) {
       if (!seen[i]) continue;
-      const MouthCell& cell = mouth[i];
+      const ApertureCell& cell = aperture[i];
       const Complex wave = std::polar(std::sqrt(cell.area), k * from.r.dot(cell.centre));
       for (int p = 0; p < 2; ++p) {
         const Vec3 E = p == 0 ? from.h : from.v, H = -from.r.cross(E);  // of a wave that goes along -r^
@@ -56,20 +58,20 @@ MouthFields incident_fields(std::span<const MouthCell> mouth, double k, std::spa
 // a magnetic one, with G = e^{-jkR}/(4 pi R):
 //   eta H = grad G x eta J - jk G [a M - b R^ (R^ . M)],   E = -grad G x M - jk G [a eta J - b R^ (R^ . eta J)]
 //   grad G = -(1 + jkR) G R^ / R,   a = 1 - j/kR - 1/(kR)^2,   b = 1 - 3j/kR - 3/(kR)^2
-FieldsOnWalls fields_on_walls(std::span<const MouthCell> mouth, std::span<const WallPatch> walls, double k,
-                              const MouthFields& fields, int threads, const StopFlag* stop) {
-  const WallColumns sources = fields.cast<std::complex<float>>();
+WallFields wall_fields(std::span<const ApertureCell> aperture, std::span<const WallPatch> walls, double k,
+                       const ApertureFields& fields, int threads, const StopFlag* stop) {
+  const WallMatrix sources = fields.cast<std::complex<float>>();
   const auto rows = 2 * static_cast<Eigen::Index>(walls.size());
-  FieldsOnWalls result{WallColumns(rows, fields.cols()), WallColumns(rows, fields.cols())};
+  WallFields result{WallMatrix(rows, fields.cols()), WallMatrix(rows, fields.cols())};
   const auto fill = [&](std::size_t tile) {
     const std::size_t first = tile * kTile, last = std::min(walls.size(), first + kTile);
     const auto count = 2 * static_cast<Eigen::Index>(last - first);
     // Transposed: a column is what one tangent of one patch receives from every source.
-    WallColumns to_E(sources.rows(), count), to_J(sources.rows(), count);
+    WallMatrix to_E(sources.rows(), count), to_J(sources.rows(), count);
     for (std::size_t i = first; i < last; ++i) {
       const WallPatch& patch = walls[i];
-      for (std::size_t j = 0; j < mouth.size(); ++j) {
-        const MouthCell& cell = mouth[j];
+      for (std::size_t j = 0; j < aperture.size(); ++j) {
+        const ApertureCell& cell = aperture[j];
         const Vec3 R = patch.centre - cell.centre;
         const double r = R.norm(), kr = k * r;
         const Vec3 towards = R / r;
@@ -97,8 +99,8 @@ FieldsOnWalls fields_on_walls(std::span<const MouthCell> mouth, std::span<const 
       }
     }
     const auto start = 2 * static_cast<Eigen::Index>(first);
-    result.electric.middleRows(start, count).noalias() = to_E.transpose() * sources;
-    result.driven.middleRows(start, count).noalias() = to_J.transpose() * sources;
+    result.incident_electric.middleRows(start, count).noalias() = to_E.transpose() * sources;
+    result.mfie_excitation.middleRows(start, count).noalias() = to_J.transpose() * sources;
   };
   parallel_for((walls.size() + kTile - 1) / kTile, threads, fill, stop);
   return result;

@@ -17,7 +17,7 @@ std::string place(const Vec3& x) { return fmt::format("({:.4g}, {:.4g}, {:.4g}) 
 
 // The rims as rings of points, each running so that the opening lies to its left seen from within the cavity: against
 // the sense of the walls' own triangles.
-std::vector<std::vector<Vec3>> rims_of(const TriangleMesh& walls) {
+std::vector<std::vector<Vec3>> aperture_rims(const TriangleMesh& walls) {
   const Topology topology = topology_of(walls);
   std::map<std::uint32_t, std::uint32_t> next;  // vertex after each vertex of a rim
   for (const MeshEdge& edge : topology.edges) {
@@ -90,7 +90,7 @@ Patch2 measure(const Outline& outline) {
 }
 
 // Rims that share a plane and run opposite ways bound one opening, the largest first: islands within it.
-std::vector<std::vector<std::vector<Vec3>>> openings_of(std::vector<std::vector<Vec3>> rims, double pitch) {
+std::vector<std::vector<std::vector<Vec3>>> apertures_of(std::vector<std::vector<Vec3>> rims, double pitch) {
   std::stable_sort(rims.begin(), rims.end(),
                    [](const auto& a, const auto& b) { return area_of(a).norm() > area_of(b).norm(); });
   std::vector<std::vector<std::vector<Vec3>>> openings;
@@ -110,8 +110,8 @@ std::vector<std::vector<std::vector<Vec3>>> openings_of(std::vector<std::vector<
   return openings;
 }
 
-void add_cells(const std::vector<std::vector<Vec3>>& rims, double pitch, std::vector<MouthCell>& cells) {
-  MouthCell cell;
+void add_cells(const std::vector<std::vector<Vec3>>& rims, double pitch, std::vector<ApertureCell>& cells) {
+  ApertureCell cell;
   cell.inward = area_of(rims.front()).normalized();
   cell.across = cell.inward.unitOrthogonal();
   cell.up = cell.inward.cross(cell.across);
@@ -160,14 +160,14 @@ void add_cells(const std::vector<std::vector<Vec3>>& rims, double pitch, std::ve
 
 }  // namespace
 
-std::vector<MouthCell> mouth_cells(const TriangleMesh& walls, double pitch) {
-  std::vector<MouthCell> cells;
-  for (const auto& rims : openings_of(rims_of(walls), pitch)) add_cells(rims, pitch, cells);
+std::vector<ApertureCell> aperture_cells(const TriangleMesh& walls, double pitch) {
+  std::vector<ApertureCell> cells;
+  for (const auto& rims : apertures_of(aperture_rims(walls), pitch)) add_cells(rims, pitch, cells);
   if (cells.empty()) throw InputError("the cavity's walls are closed, or open by nothing at this wavelength");
   // Walls and openings together enclose the cavity; their normals point into it.
   const Vec3 origin = walls.vertices[walls.triangles.front()[0]];
   double volume = enclosed_volume(transformed(walls, Mat3::Identity(), -origin));
-  for (const MouthCell& cell : cells) volume += cell.area * cell.inward.dot(cell.centre - origin) / 3;
+  for (const ApertureCell& cell : cells) volume += cell.area * cell.inward.dot(cell.centre - origin) / 3;
   const double area = surface_area(walls);
   if (std::abs(volume) < 1e-6 * area * std::sqrt(area))
     throw InputError(

@@ -10,7 +10,7 @@
 namespace seaglint {
 
 // A piece of an opening, without the islands that lie in it.
-struct MouthCell {
+struct ApertureCell {
   Vec3 centre;      // m, body frame
   Vec3 inward;      // unit, into the cavity
   Vec3 across, up;  // unit, in the opening's plane; across x up = inward
@@ -21,6 +21,6 @@ struct MouthCell {
 // opening's own. Throws InputError when the walls are closed, face out of the cavity, enclose nothing or have edges of
 // more than two or of opposite triangles, and when a rim is not flat to within a quarter of the pitch or touches
 // itself.
-std::vector<MouthCell> mouth_cells(const TriangleMesh& walls, double pitch);
+std::vector<ApertureCell> aperture_cells(const TriangleMesh& walls, double pitch);
 
 }  // namespace seaglint

@@ -20,19 +20,19 @@ namespace {
 constexpr double kCellsPerPatch = 2;
 // Directions whose fields in the mouth are taken together: at most so many, and so many numbers of theirs (some hundred
 // MB).
-constexpr std::size_t kViewsTogether = 128, kViewsTimesCells = 400'000;
+constexpr std::size_t kMaxViewsPerBatch = 128, kViewsTimesCells = 400'000;
 // Nearer than this times a patch's size point currents do not stand for walls; the mouth comes no nearer than the
 // other.
-constexpr double kLeastGap = 0.5, kLeastFromMouth = 0.2;
+constexpr double kMinWallGap = 0.5, kMinApertureGap = 0.2;
 // Fields in the mouth are kept to this, root mean square over directions; no new ones are solved where those known
 // leave less than ten times as much.
-constexpr double kFieldError = 1e-4;
+constexpr double kMaxFieldError = 1e-4;
 
 // Neighbours follow each other, from the mouth inwards.
-void sort_inwards(const std::vector<MouthCell>& mouth, std::vector<WallPatch>& walls) {
+void sort_by_depth(const std::vector<ApertureCell>& aperture, std::vector<WallPatch>& walls) {
   Vec3 middle = Vec3::Zero();
   double area = 0;
-  for (const MouthCell& cell : mouth) {
+  for (const ApertureCell& cell : aperture) {
     middle += cell.area * cell.centre;
     area += cell.area;
   }
@@ -42,17 +42,17 @@ void sort_inwards(const std::vector<MouthCell>& mouth, std::vector<WallPatch>& w
                    [&](const WallPatch& a, const WallPatch& b) { return depth2(a) < depth2(b); });
 }
 
-struct Modes {
-  MouthFields fields;        // orthonormal
+struct FieldBasis {
+  ApertureFields fields;     // orthonormal
   Eigen::VectorXd strength;  // root of the sum of their squares in all directions
 };
 
 // What, with the columns of `basis`, holds every column of `fields`.
-Modes new_modes(const MouthFields& basis, const MouthFields& fields) {
-  MouthFields rest = fields;
+FieldBasis extend_basis(const ApertureFields& basis, const ApertureFields& fields) {
+  ApertureFields rest = fields;
   for (int pass = 0; pass < 2; ++pass) rest -= basis * (basis.adjoint() * rest);
-  const double negligible = kFieldError * kFieldError * fields.squaredNorm();
-  if (basis.cols() > 0 && rest.squaredNorm() < 100 * negligible) return {MouthFields(fields.rows(), 0), {}};
+  const double negligible = kMaxFieldError * kMaxFieldError * fields.squaredNorm();
+  if (basis.cols() > 0 && rest.squaredNorm() < 100 * negligible) return {ApertureFields(fields.rows(), 0), {}};
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> modes(rest.adjoint() * rest);
   double dropped = 0;
   Eigen::Index first = 0;
@@ -64,8 +64,8 @@ Modes new_modes(const MouthFields& basis, const MouthFields& fields) {
 }
 
 // Each spread over all views: what the first one finds serves the others.
-std::vector<std::vector<std::size_t>> batches(std::size_t views, std::size_t cells) {
-  const std::size_t together = std::clamp<std::size_t>(kViewsTimesCells / cells, 1, kViewsTogether);
+std::vector<std::vector<std::size_t>> view_batches(std::size_t views, std::size_t cells) {
+  const std::size_t together = std::clamp<std::size_t>(kViewsTimesCells / cells, 1, kMaxViewsPerBatch);
   std::vector<std::vector<std::size_t>> result((views + together - 1) / together);
   for (std::size_t view = 0; view < views; ++view) result[view % result.size()].push_back(view);
   return result;
@@ -87,11 +87,11 @@ Cavity::Cavity(const TriangleMesh& mesh, std::size_t part, const Scatterer& whol
       radius_(whole.radius()),
       patches_per_wavelength_(patches_per_wavelength) {}
 
-Cavity::Shape Cavity::shape(double k) const {
+Cavity::Discretisation Cavity::shape(double k) const {
   const double wavelength = 2 * kPi / k, patch = wavelength / patches_per_wavelength_;
-  Shape shape{mouth_cells(walls_, patch / kCellsPerPatch), wall_patches(walls_, patch)};
+  Discretisation shape{aperture_cells(walls_, patch / kCellsPerPatch), wall_patches(walls_, patch)};
   double mouth = 0;
-  for (const MouthCell& cell : shape.mouth) mouth += cell.area;
+  for (const ApertureCell& cell : shape.aperture) mouth += cell.area;
   if (std::sqrt(mouth) < wavelength / 2)
     throw InputError(
         fmt::format("a mouth of {:.3g} m^2 is less than half a wavelength wide: nothing propagates", mouth));
@@ -102,11 +102,11 @@ Cavity::Shape Cavity::shape(double k) const {
   };
   for (std::size_t i = 0; i < shape.walls.size(); ++i) {
     const WallPatch& wall = shape.walls[i];
-    for (const MouthCell& cell : shape.mouth)
-      refuse_nearer(wall.centre, cell.centre, kLeastFromMouth, "the cavity's walls and mouth come");
+    for (const ApertureCell& cell : shape.aperture)
+      refuse_nearer(wall.centre, cell.centre, kMinApertureGap, "the cavity's walls and mouth come");
     for (std::size_t j = 0; j < i; ++j) {
       if (wall.normal.dot(shape.walls[j].normal) < -0.5)
-        refuse_nearer(wall.centre, shape.walls[j].centre, kLeastGap,
+        refuse_nearer(wall.centre, shape.walls[j].centre, kMinWallGap,
                       "two walls of the cavity, or both faces of one, come");
     }
   }
@@ -114,49 +114,51 @@ Cavity::Shape Cavity::shape(double k) const {
 }
 
 CavitySize Cavity::size(double k) const {
-  const Shape shape = this->shape(k);
+  const Discretisation shape = this->shape(k);
   CavitySize result{0, surface_area(walls_), shape.walls.size()};
-  for (const MouthCell& cell : shape.mouth) result.mouth_m2 += cell.area;
+  for (const ApertureCell& cell : shape.aperture) result.aperture_m2 += cell.area;
   return result;
 }
 
-std::vector<std::array<Complex, 4>> Cavity::scattering_matrices(double k, std::span<const AntennaPair> views,
+std::vector<std::array<Complex, 4>> Cavity::scattering_matrices(double k, std::span<const BistaticGeometry> views,
                                                                 int threads, const StopFlag* stop) const {
-  auto [mouth, walls] = shape(k);
-  sort_inwards(mouth, walls);
+  auto [aperture, walls] = shape(k);
+  sort_by_depth(aperture, walls);
   const WallCurrents currents(walls, k, threads, stop);
 
   // The mouth's answer to its own fields: reaction(m, n) = -jk/(4 pi) integral over the walls of E_m . eta J_n.
-  MouthFields basis(4 * static_cast<Eigen::Index>(mouth.size()), 0);
-  WallColumns electric(2 * static_cast<Eigen::Index>(walls.size()), 0), answer = electric;
+  ApertureFields basis(4 * static_cast<Eigen::Index>(aperture.size()), 0);
+  WallMatrix electric(2 * static_cast<Eigen::Index>(walls.size()), 0), answer = electric;
   Eigen::MatrixXcd reaction;
   Eigen::VectorXd area(electric.rows());
   for (std::size_t i = 0; i < walls.size(); ++i)
     area.segment(2 * static_cast<Eigen::Index>(i), 2).setConstant(walls[i].area);
 
   std::vector<std::array<Complex, 4>> result(views.size(), std::array<Complex, 4>{});
-  for (const std::vector<std::size_t>& batch : batches(views.size(), mouth.size())) {
+  for (const std::vector<std::size_t>& batch : view_batches(views.size(), aperture.size())) {
     if (stop != nullptr && *stop) throw Interrupted();
-    std::vector<AntennaPair> together;
+    std::vector<BistaticGeometry> together;
     for (const std::size_t view : batch) together.push_back(views[view]);
-    const MouthFields sent = incident_fields(mouth, k, together, &AntennaPair::transmit, scene_, radius_);
+    const ApertureFields sent =
+        incident_aperture_fields(aperture, k, together, &BistaticGeometry::transmit, scene_, radius_);
     const bool one_antenna =
-        std::all_of(together.begin(), together.end(), [](const AntennaPair& a) { return a.monostatic; });
-    MouthFields back, both;
+        std::all_of(together.begin(), together.end(), [](const BistaticGeometry& a) { return a.monostatic; });
+    ApertureFields back, both;
     if (!one_antenna) {
-      back = incident_fields(mouth, k, together, &AntennaPair::receive, scene_, radius_);
+      back = incident_aperture_fields(aperture, k, together, &BistaticGeometry::receive, scene_, radius_);
       both = sent;
       append(both, back);
     }
-    const MouthFields& received = one_antenna ? sent : back;
+    const ApertureFields& received = one_antenna ? sent : back;
     if (sent.squaredNorm() == 0 || received.squaredNorm() == 0) continue;
-    const Modes fresh = new_modes(basis, one_antenna ? sent : both);
+    const FieldBasis fresh = extend_basis(basis, one_antenna ? sent : both);
     if (fresh.fields.cols() > 0) {
-      const FieldsOnWalls lit = fields_on_walls(mouth, walls, k, fresh.fields, threads, stop);
-      SEAGLINT_CHECK(lit.electric.allFinite() && lit.driven.allFinite(), "a wall of a cavity meets its mouth");
+      const WallFields lit = wall_fields(aperture, walls, k, fresh.fields, threads, stop);
+      SEAGLINT_CHECK(lit.incident_electric.allFinite() && lit.mfie_excitation.allFinite(),
+                     "a wall of a cavity meets its mouth");
       append(basis, fresh.fields);
-      append(electric, lit.electric);
-      append(answer, currents.solve(lit.driven, fresh.strength, threads, stop));
+      append(electric, lit.incident_electric);
+      append(answer, currents.solve(lit.mfie_excitation, fresh.strength, threads, stop));
       reaction = Complex(0, -k / (4 * kPi)) *
                  (electric.cast<Complex>().transpose() * area.asDiagonal() * answer.cast<Complex>());
       // The true one is symmetric (reciprocity); walls that end at the mouth leave some percent (README.md).

@@ -7,11 +7,11 @@
 #include <span>
 #include <vector>
 
-#include "sim/scattering/response/scattering_matrix.h"
 #include "sim/cavity/cavity_aperture.h"
 #include "sim/cavity/wall_patches.h"
 #include "sim/core/process/parallel.h"
 #include "sim/geometry/mesh/triangle_mesh.h"
+#include "sim/scattering/response/scattering_matrix.h"
 #include "sim/scattering/surfaces/footprint.h"
 #include "sim/scattering/target/embree_scene.h"
 #include "sim/scattering/target/scatterer.h"
@@ -19,7 +19,7 @@
 namespace seaglint {
 
 struct CavitySize {
-  double mouth_m2 = 0, walls_m2 = 0;
+  double aperture_m2 = 0, walls_m2 = 0;
   std::size_t patches = 0;  // of the walls
 };
 
@@ -40,15 +40,15 @@ class Cavity {
   // hh, hv, vh, vv (received, transmitted) in metres for each pair of antennas, phase origin at the body's origin; to
   // be added to what the rest of the target returns, without what leaves the walls. Throws as size() does, WorkError
   // when the currents do not settle, and Interrupted when *stop becomes true.
-  std::vector<std::array<Complex, 4>> scattering_matrices(double k, std::span<const AntennaPair> views, int threads,
-                                                          const StopFlag* stop = nullptr) const;
+  std::vector<std::array<Complex, 4>> scattering_matrices(double k, std::span<const BistaticGeometry> views,
+                                                          int threads, const StopFlag* stop = nullptr) const;
 
  private:
-  struct Shape {
-    std::vector<MouthCell> mouth;
+  struct Discretisation {
+    std::vector<ApertureCell> aperture;
     std::vector<WallPatch> walls;
   };
-  Shape shape(double k) const;
+  Discretisation shape(double k) const;
 
   TriangleMesh walls_;
   RayScene scene_;

@@ -19,8 +19,8 @@ constexpr int kBlock = 512;
 constexpr std::size_t kTile = 32;  // patches of a block whose rows one thread takes at a time
 // patches whose coupling to a tile is formed at once: 64 x 256 numbers stay in the cache
 constexpr std::size_t kColumns = 128;
-constexpr Eigen::Index kTogether = 32;  // fields solved side by side, which share the coupling's making
-constexpr std::size_t kMostSweeps = 150;
+constexpr Eigen::Index kColumnsPerSolve = 32;  // fields solved side by side, which share the coupling's making
+constexpr std::size_t kMaxIterations = 150;
 
 // One number for each patch of a block at most; SSE takes four at a time.
 using Line = Eigen::Array<float, Eigen::Dynamic, 1, 0, kBlock, 1>;
@@ -44,7 +44,7 @@ Phasors phasors(const Line& turns) {
 
 // One field's share of the minimal residuals: its column of every direction, and what they make of it (Saad and Schultz
 // 1986, algorithm 3).
-struct Projection {
+struct KrylovColumn {
   Eigen::Index column = 0;
   double length = 0;  // of the driving field
   Eigen::MatrixXcd hessenberg;
@@ -53,7 +53,7 @@ struct Projection {
   bool exact = false;  // the directions hold the solution
 
   // Makes the column of `next`, the image of the last direction, one more direction.
-  void add(const std::vector<WallColumns>& directions, WallColumns& next) {
+  void add(const std::vector<WallMatrix>& directions, WallMatrix& next) {
     if (length == 0 || exact) return;
     const auto known = static_cast<Eigen::Index>(directions.size());
     hessenberg.conservativeResizeLike(Eigen::MatrixXcd::Zero(known + 1, known));
@@ -73,7 +73,7 @@ struct Projection {
   }
 
   // The weights' sum of the directions.
-  void sum(const std::vector<WallColumns>& directions, WallColumns& into) const {
+  void sum(const std::vector<WallMatrix>& directions, WallMatrix& into) const {
     for (Eigen::Index m = 0; m < weights.size(); ++m)
       into.col(column) += std::complex<float>(weights(m)) * directions[static_cast<std::size_t>(m)].col(column);
   }
@@ -97,8 +97,8 @@ WallCurrents::Rows WallCurrents::block(std::size_t i) const {
 // 2 n x (grad G x t') A' on either tangent t of the patches `to`, transposed, from a unit current along t' on `from`:
 //   t . [n x (grad G x t')] = (t . grad G)(n . t') - (t . t')(n . grad G),  grad G = -(1 + jkR) e^{-jkR} / (4 pi R^3) R
 // with R from the source to the patch. A patch does not act on itself: it is flat.
-WallColumns WallCurrents::coupling(const Rows& to, const Rows& from) const {
-  WallColumns transposed(from.count(), to.count());
+WallMatrix WallCurrents::coupling(const Rows& to, const Rows& from) const {
+  WallMatrix transposed(from.count(), to.count());
   const auto first = static_cast<Eigen::Index>(from.first), count = static_cast<Eigen::Index>(from.last - from.first);
   const auto dot = [&](const Eigen::Vector3f& a, const Eigen::ArrayX3f& b) -> Line {
     return a.x() * b.col(0).segment(first, count) + a.y() * b.col(1).segment(first, count) +
@@ -154,14 +154,14 @@ WallCurrents::WallCurrents(std::span<const WallPatch> walls, double k, int threa
       blocks(), threads,
       [&](std::size_t i) {
         const Rows rows = block(i);
-        own_[i].compute(WallColumns::Identity(rows.count(), rows.count()) - coupling(rows, rows).transpose());
+        own_[i].compute(WallMatrix::Identity(rows.count(), rows.count()) - coupling(rows, rows).transpose());
       },
       stop);
 }
 
 // D x.
-WallColumns WallCurrents::own(const WallColumns& x, int threads) const {
-  WallColumns result = x;
+WallMatrix WallCurrents::apply_diagonal_blocks(const WallMatrix& x, int threads) const {
+  WallMatrix result = x;
   parallel_for(blocks(), threads, [&](std::size_t i) {
     const Rows rows = block(i);
     result.middleRows(rows.start(), rows.count()).noalias() -=
@@ -171,12 +171,12 @@ WallColumns WallCurrents::own(const WallColumns& x, int threads) const {
 }
 
 // y of (D - K_L) y = x (or with K_U, upwards), D the blocks' own parts and K_L what the blocks before each one send it.
-WallColumns WallCurrents::solve_one_way(const WallColumns& x, bool upwards, int threads, const StopFlag* stop) const {
-  WallColumns y(x.rows(), x.cols());
+WallMatrix WallCurrents::half_sweep(const WallMatrix& x, bool upwards, int threads, const StopFlag* stop) const {
+  WallMatrix y(x.rows(), x.cols());
   for (std::size_t n = 0; n < blocks(); ++n) {
     const std::size_t at = upwards ? blocks() - 1 - n : n;
     const Rows rows = block(at);
-    WallColumns known = x.middleRows(rows.start(), rows.count());
+    WallMatrix known = x.middleRows(rows.start(), rows.count());
     const Rows done = upwards ? Rows{rows.last, patches_} : Rows{0, rows.first};
     const std::size_t tiles = (rows.last - rows.first + kTile - 1) / kTile;
     parallel_for(
@@ -200,14 +200,14 @@ WallColumns WallCurrents::solve_one_way(const WallColumns& x, bool upwards, int 
 // IEEE Trans. AP-53, 2005, 793-799). With 1 - K = D - K_L - K_U and T = (D - K_U)^-1 D,
 //   (D - K_L)^-1 (1 - K) T = T + (D - K_L)^-1 D (1 - T)
 // so that each application costs one product with K (Eisenstat, SIAM J. Sci. Stat. Comput. 2, 1981, 1-4).
-WallColumns WallCurrents::solve(const WallColumns& driven, const Eigen::VectorXd& strength, int threads,
-                                const StopFlag* stop) const {
-  WallColumns currents(driven.rows(), driven.cols());
+WallMatrix WallCurrents::solve(const WallMatrix& driven, const Eigen::VectorXd& strength, int threads,
+                               const StopFlag* stop) const {
+  WallMatrix currents(driven.rows(), driven.cols());
   const double strongest = (driven.colwise().norm().transpose().cast<double>().array() * strength.array()).maxCoeff();
-  for (Eigen::Index first = 0; first < driven.cols(); first += kTogether) {
-    const Eigen::Index count = std::min(kTogether, driven.cols() - first);
-    std::vector<WallColumns> directions{solve_one_way(driven.middleCols(first, count), false, threads, stop)};
-    std::vector<Projection> fields(static_cast<std::size_t>(count));
+  for (Eigen::Index first = 0; first < driven.cols(); first += kColumnsPerSolve) {
+    const Eigen::Index count = std::min(kColumnsPerSolve, driven.cols() - first);
+    std::vector<WallMatrix> directions{half_sweep(driven.middleCols(first, count), false, threads, stop)};
+    std::vector<KrylovColumn> fields(static_cast<std::size_t>(count));
     for (Eigen::Index c = 0; c < count; ++c) {
       auto direction = directions.front().col(c);
       fields[static_cast<std::size_t>(c)].column = c;
@@ -215,13 +215,14 @@ WallColumns WallCurrents::solve(const WallColumns& driven, const Eigen::VectorXd
       direction.normalize();
     }
     for (double worst = strongest; worst > kResidual * strongest;) {
-      if (directions.size() > kMostSweeps)
-        throw WorkError(fmt::format("the cavity's currents did not settle in {} sweeps: residual {:.1e}", kMostSweeps,
-                                    worst / strongest));
-      const WallColumns outward = solve_one_way(own(directions.back(), threads), true, threads, stop);
-      WallColumns next = outward + solve_one_way(own(directions.back() - outward, threads), false, threads, stop);
+      if (directions.size() > kMaxIterations)
+        throw WorkError(fmt::format("the cavity's currents did not settle in {} sweeps: residual {:.1e}",
+                                    kMaxIterations, worst / strongest));
+      const WallMatrix outward = half_sweep(apply_diagonal_blocks(directions.back(), threads), true, threads, stop);
+      WallMatrix next =
+          outward + half_sweep(apply_diagonal_blocks(directions.back() - outward, threads), false, threads, stop);
       worst = 0;
-      for (Projection& field : fields) {
+      for (KrylovColumn& field : fields) {
         field.add(directions, next);
         const double left = field.residual * strength(first + field.column);
         if (!std::isfinite(left))
@@ -230,9 +231,9 @@ WallColumns WallCurrents::solve(const WallColumns& driven, const Eigen::VectorXd
       }
       directions.push_back(std::move(next));
     }
-    WallColumns sum = WallColumns::Zero(driven.rows(), count);
-    for (const Projection& field : fields) field.sum(directions, sum);
-    currents.middleCols(first, count) = solve_one_way(own(sum, threads), true, threads, stop);
+    WallMatrix sum = WallMatrix::Zero(driven.rows(), count);
+    for (const KrylovColumn& field : fields) field.sum(directions, sum);
+    currents.middleCols(first, count) = half_sweep(apply_diagonal_blocks(sum, threads), true, threads, stop);
   }
   return currents;
 }

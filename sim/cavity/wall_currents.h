@@ -14,7 +14,7 @@
 namespace seaglint {
 
 // One row for each tangent of each patch, 2 i + t; one column for each field that falls on the walls.
-using WallColumns = Eigen::MatrixXcf;
+using WallMatrix = Eigen::MatrixXcf;
 
 class WallCurrents {
  public:
@@ -22,11 +22,10 @@ class WallCurrents {
   // sweep through them leaves to the next is then little.
   WallCurrents(std::span<const WallPatch> walls, double k, int threads, const StopFlag* stop);
 
-  // The eta J of J = 2 n x H + 2 n x PV integral of grad G x J' dS', in the unit of `driven` = 2 n x eta H. A column's
-  // residual times its strength (> 0) is at most kResidual of the strongest one's. Throws WorkError when that takes too
-  // many sweeps, Interrupted when *stop becomes true.
-  WallColumns solve(const WallColumns& driven, const Eigen::VectorXd& strength, int threads,
-                    const StopFlag* stop) const;
+  // The eta J of J = 2 n x H + 2 n x PV integral of grad G x J' dS', in the unit of `mfie_excitation` = 2 n x eta H. A
+  // column's residual times its strength (> 0) is at most kResidual of the strongest one's. Throws WorkError when that
+  // takes too many sweeps, Interrupted when *stop becomes true.
+  WallMatrix solve(const WallMatrix& driven, const Eigen::VectorXd& strength, int threads, const StopFlag* stop) const;
 
   static constexpr double kResidual = 1e-3;
 
@@ -35,16 +34,16 @@ class WallCurrents {
 
   std::size_t blocks() const;
   Rows block(std::size_t i) const;
-  WallColumns coupling(const Rows& to, const Rows& from) const;
-  WallColumns own(const WallColumns& x, int threads) const;
-  WallColumns solve_one_way(const WallColumns& x, bool upwards, int threads, const StopFlag* stop) const;
+  WallMatrix coupling(const Rows& to, const Rows& from) const;
+  WallMatrix apply_diagonal_blocks(const WallMatrix& x, int threads) const;
+  WallMatrix half_sweep(const WallMatrix& x, bool upwards, int threads, const StopFlag* stop) const;
 
   std::size_t patches_;
   double k_;
   Eigen::ArrayXf area_;  // of the patches, m^2
   Eigen::ArrayX3f centre_, normal_;
   std::array<Eigen::ArrayX3f, 2> tangent_;
-  std::vector<Eigen::PartialPivLU<WallColumns>> own_;  // of each block alone
+  std::vector<Eigen::PartialPivLU<WallMatrix>> own_;  // of each block alone
 };
 
 }  // namespace seaglint

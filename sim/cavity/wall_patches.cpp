@@ -23,7 +23,7 @@ struct Piece {
 
 // Halved triangles lie regularly: distances that differ by less than this are equal, so that rounding does not decide.
 constexpr double kTie = 1e-9;
-constexpr std::size_t kMostPieces = 5'000'000;
+constexpr std::size_t kMaxPieces = 5'000'000;
 
 // Halves the longest side until none is longer than `longest`.
 void cut(const Vec3& a, const Vec3& b, const Vec3& c, double longest, std::vector<Piece>& pieces) {
@@ -39,7 +39,7 @@ void cut(const Vec3& a, const Vec3& b, const Vec3& c, double longest, std::vecto
   }
   const Vec3 area = 0.5 * (b - a).cross(c - a);
   if (!(area.norm() > 0)) return;
-  if (pieces.size() == kMostPieces)
+  if (pieces.size() == kMaxPieces)
     throw InputError("the cavity's walls are made of too many or too thin triangles: mesh them anew");
   pieces.push_back({(a + b + c) / 3, area.normalized(), area.norm()});
 }
@@ -91,10 +91,10 @@ class SeedLattice {
 std::vector<WallPatch> wall_patches(const TriangleMesh& walls, double size) {
   const double area = surface_area(walls);
   const auto refuse_more = [&](double patches) {
-    if (patches > kMostPatches)
+    if (patches > kMaxPatches)
       throw InputError(fmt::format(
           "the cavity's {:.3g} m^2 of walls need about {:.0f} patches of {:.3g} m at this wavelength: at most {}", area,
-          patches, size, kMostPatches));
+          patches, size, kMaxPatches));
   };
   refuse_more(area / (size * size));
   std::vector<Piece> pieces;

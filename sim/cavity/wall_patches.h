@@ -20,10 +20,10 @@ struct WallPatch {
 // Patches of about `size` squared. Triangles are cut into pieces of a third of that and gathered about seeds that lie
 // apart by about `size`, then moved to the middle of what they gathered (Lloyd, IEEE Trans. IT-28, 1982, 129-137).
 // Pieces that face elsewhere count as farther away, so that a patch ends at a corner of the walls. Throws InputError
-// when that makes more than kMostPatches.
+// when that makes more than kMaxPatches.
 std::vector<WallPatch> wall_patches(const TriangleMesh& walls, double size);
 
 // Their currents take a quarter of an hour per frequency on two cores, and some GB.
-inline constexpr std::size_t kMostPatches = 20'000;
+inline constexpr std::size_t kMaxPatches = 20'000;
 
 }  // namespace seaglint

@@ -32,7 +32,7 @@ RaoTable read_table_of(const MotionSpec& spec, const std::filesystem::path& file
       throw InputError(fmt::format("motion.speed_mps: value {}: must be 0 with {}: its responses are without speed",
                                    spec.speed_mps, file.string()));
     }
-    return read_wamit_rao(file, spec.rao_length_m, reference);
+    return read_wamit_rao(file, spec.wamit_ulen_m, reference);
   }
   if (spec.rotation_centre_m) {
     throw InputError(
@@ -56,8 +56,8 @@ double shortest_period(const Body& body) {
 // Samples are joined by cubics of Hermite, which err by (w h)^4 / 384 of a motion at w: 1e-3 with eight to a period, a
 // quarter with two.
 void check_step(const Body& body) {
-  constexpr double kLeastSamples = 8, kPrinted = 1e-5;  // the bound is printed with six digits
-  const double period = shortest_period(body), longest = period / kLeastSamples;
+  constexpr double kMinSamples = 8, kPrinted = 1e-5;  // the bound is printed with six digits
+  const double period = shortest_period(body), longest = period / kMinSamples;
   if (body.spec.step_s > longest * (1 + kPrinted)) {
     throw InputError(fmt::format(
         "motion.step_s: value {}: must be at most {:.6g}, an eighth of the shortest natural period, {:.6g} s",
@@ -73,9 +73,9 @@ HullSections ship_sections(const MotionSpec& spec, const BodyShape& shape, const
                            const HullCoefficients& form) {
   if (!spec.sections.empty()) {
     const HullSections given = read_sections(find_file(spec.sections, folder, "motion.sections"), kStrips);
-    return stretched(given, spec.length_m, spec.beam_m, spec.draught_m);
+    return scaled_to(given, spec.length_m, spec.beam_m, spec.draught_m);
   }
-  if (!shape.hull.sections.empty()) return stretched(shape.hull, spec.length_m, spec.beam_m, spec.draught_m);
+  if (!shape.hull.sections.empty()) return scaled_to(shape.hull, spec.length_m, spec.beam_m, spec.draught_m);
   const Vec3 size = shape.box.upper - shape.box.lower;
   const double length = given_or(spec.length_m, kWaterlineToOverallLength * size.x());
   const double beam = given_or(spec.beam_m, kWaterlineToOverallBeam * size.y());
@@ -90,7 +90,7 @@ HullSections ship_sections(const MotionSpec& spec, const BodyShape& shape, const
 
 Body make_body(const MotionSpec& spec, const BodyShape& shape, const std::filesystem::path& folder) {
   if (!(spec.step_s > 0)) throw InputError(fmt::format("motion.step_s: value {}: must be > 0", spec.step_s));
-  if (!(spec.preroll_s >= 0)) throw InputError(fmt::format("motion.preroll_s: value {}: must be >= 0", spec.preroll_s));
+  if (!(spec.spin_up_s >= 0)) throw InputError(fmt::format("motion.preroll_s: value {}: must be >= 0", spec.spin_up_s));
   const bool from_file = spec.model == MotionModel::kSeries || spec.model == MotionModel::kRao;
   if (from_file == spec.file.empty()) {
     throw InputError(fmt::format("motion.file: {}", from_file
@@ -104,7 +104,7 @@ Body make_body(const MotionSpec& spec, const BodyShape& shape, const std::filesy
     body.model = ship;
   } else if (spec.model == MotionModel::kFloat) {
     body.model = float_particulars(spec, shape.box);
-    body.rotation_centre = {0, 0, -spec.centre_above_water_m};
+    body.rotation_centre = {0, 0, -spec.origin_above_waterline_m};
   }
   if (spec.rotation_centre_m) body.rotation_centre = Eigen::Map<const Vec3>(spec.rotation_centre_m->data());
   if (spec.model == MotionModel::kSeries) {

@@ -12,7 +12,7 @@
 namespace seaglint {
 
 Vec3 rest_position(const MotionSpec& spec, double x, double y) {
-  return {x, y, spec.model == MotionModel::kFloat ? spec.centre_above_water_m : 0.0};
+  return {x, y, spec.model == MotionModel::kFloat ? spec.origin_above_waterline_m : 0.0};
 }
 
 Trajectory simulate_motion(const Body& body, const Vec3& rest_position, const WaveField& sea, double duration_s,

@@ -12,7 +12,7 @@
 namespace seaglint {
 
 // Where the origin of a body's mesh rests when its place on the water is (x, y): at the waterline for a ship and a
-// fixed body, spec.centre_above_water_m higher for a float, whose mesh has its origin in the middle.
+// fixed body, spec.origin_above_waterline_m higher for a float, whose mesh has its origin in the middle.
 Vec3 rest_position(const MotionSpec& spec, double x, double y);
 
 // The motion of one body resting with its origin at rest_position (target frame), from t = 0 to duration_s or the end

@@ -17,7 +17,7 @@ constexpr std::uint64_t kIndependentSeas = std::uint64_t{1} << 48;
 
 }  // namespace
 
-std::vector<Vec2> layout_places(const TargetSpec& target) {
+std::vector<Vec2> layout_positions(const TargetSpec& target) {
   std::vector<Vec2> places;
   const LineLayout line = target.line.value_or(LineLayout{});
   for (int i = 0; i < line.count; ++i)
@@ -33,13 +33,13 @@ std::uint64_t body_index(std::uint64_t sea_index, std::size_t body) {
 std::vector<Trajectory> simulate_target(const TargetSpec& target, const Body& body, const SeaState& state,
                                         const WaveField& sea, double duration_s, std::uint64_t seed,
                                         std::uint64_t sea_index, std::size_t first_body, int threads) {
-  const std::vector<Vec2> places = layout_places(target);
+  const std::vector<Vec2> places = layout_positions(target);
   std::vector<Trajectory> trajectories(places.size());
   parallel_for(places.size(), thread_count(threads), [&](std::size_t i) {
     const std::uint64_t index = body_index(sea_index, first_body + i);
     const Vec3 rest = rest_position(target.motion, places[i].x(), places[i].y());
     if (target.motion.waves == WaveSharing::kIndependent) {
-      const WaveField own = realize_sea(state, seed, kIndependentSeas + index);
+      const WaveField own = realise_sea(state, seed, kIndependentSeas + index);
       trajectories[i] = simulate_motion(body, rest, own, duration_s, seed, index);
     } else {
       trajectories[i] = simulate_motion(body, rest, sea, duration_s, seed, index);

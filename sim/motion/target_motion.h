@@ -15,14 +15,14 @@ namespace seaglint {
 
 // Where the bodies of a target's layout rest on the water, in T: a line along x about its centre; one body at the
 // origin without one.
-std::vector<Vec2> layout_places(const TargetSpec& target);
+std::vector<Vec2> layout_positions(const TargetSpec& target);
 
 // Which realisation a body's own random numbers belong to; body counts from 0 over all targets of the scenario, in
 // order (below 65536).
 std::uint64_t body_index(std::uint64_t sea_index, std::size_t body);
 
 // One trajectory per body of the layout, from t = 0 to duration_s, all moving as `body` does; `sea` is
-// realize_sea(state, seed, sea_index), which every body sees unless the spec says `waves: independent`: then each body
+// realise_sea(state, seed, sea_index), which every body sees unless the spec says `waves: independent`: then each body
 // has a realisation of its own (index body_index + 2^48). The result does not depend on
 // `threads` (0 = all). first_body: how many bodies the targets before this one have.
 std::vector<Trajectory> simulate_target(const TargetSpec& target, const Body& body, const SeaState& state,

@@ -25,7 +25,7 @@ Sweep peak_periods(const SeaSpec& spec, double height) {
     case PeakPeriod::kWindAndFetch: {
       const double speed = spec.wind.speed_mps;
       const double fetch = kGravity * 1000 * spec.wind.fetch_km / (speed * speed);
-      return {speed / kGravity / (3.5 * exact_exp(-0.33 * exact_log(fetch)))};
+      return {speed / kGravity / (3.5 * reproducible_exp(-0.33 * reproducible_log(fetch)))};
     }
     case PeakPeriod::kGiven: break;
   }
@@ -36,7 +36,7 @@ Sweep peak_periods(const SeaSpec& spec, double height) {
 double dnv_gamma(double height, double period) {
   const double ratio = height > 0 ? period / std::sqrt(height) : 5;
   if (ratio <= 3.6) return 5;
-  return ratio < 5 ? exact_exp(5.75 - 1.15 * ratio) : 1;
+  return ratio < 5 ? reproducible_exp(5.75 - 1.15 * ratio) : 1;
 }
 
 Sweep gammas(const SeaSpec& spec, double height, double period) {
@@ -60,7 +60,7 @@ double default_cutoff(const SeaSpec& spec, double period) {
 double convergent_cutoff(const SeaState& state) {
   const double height = total_wave_height(state);
   if (height == 0) return state.cutoff_rad_s;  // on flat water no component is too short for the expansion
-  return std::sqrt(2 * kGravity / height * exact_tanh(2 * state.depth_m / height));
+  return std::sqrt(2 * kGravity / height * reproducible_tanh(2 * state.depth_m / height));
 }
 
 double total_wave_height(const SeaState& state) {
@@ -70,7 +70,7 @@ double total_wave_height(const SeaState& state) {
 
 std::vector<SeaState> sea_states(const SeaSpec& spec) {
   std::vector<SeaState> states;
-  const Sweep heights = spec.height_rule == WaveHeight::kOfTable && spec.table_values
+  const Sweep heights = spec.height_rule == WaveHeight::kFromTable && spec.table_values
                             ? Sweep{4 * std::sqrt(spec.table_values->energy())}
                             : spec.significant_wave_height_m;
   for (const double height : heights) {

@@ -16,7 +16,7 @@ namespace seaglint {
 
 namespace {
 
-constexpr int kLeastSamples = 8;  // of a pulse
+constexpr int kMinSamples = 8;  // of a pulse
 
 void check_radar(const RadarSpec& radar, const ScenarioDocument& document) {
   if (radar.pulse_width_us >= radar.pri_us) {
@@ -30,9 +30,9 @@ void check_radar(const RadarSpec& radar, const ScenarioDocument& document) {
                      fmt::format("must be below twice radar.carrier_ghz, {:g}", 2e3 * radar.carrier_ghz));
   }
   // Fewer samples are no chirp: one sample of a shorter pulse would have the energy of one as long as a sample.
-  if (radar.pulse_width_us * radar.sampling_mhz < kLeastSamples) {
+  if (radar.pulse_width_us * radar.sampling_mhz < kMinSamples) {
     document.fail_at("radar.pulse_width_us", fmt::format("must be at least {:g} us, {} samples of radar.sampling_mhz",
-                                                         kLeastSamples / radar.sampling_mhz, kLeastSamples));
+                                                         kMinSamples / radar.sampling_mhz, kMinSamples));
   }
 }
 
@@ -65,7 +65,8 @@ void check_window(const Scenario& scenario, const ScenarioDocument& document) {
 // within the elevations that the reflectivity was fitted to.
 void check_grazing(const Scenario& scenario, const ScenarioDocument& document) {
   const ClutterSpec& clutter = scenario.clutter;
-  const bool own_level = clutter.level == ClutterLevel::kNrl, own_motion = clutter.doppler != ClutterDoppler::kGiven;
+  const bool own_level = clutter.level == ClutterLevel::kNrl,
+             own_motion = clutter.doppler != ClutterDoppler::kPrescribed;
   if (!clutter.enabled || !(own_level || own_motion)) return;
   const char* where = own_level                                 ? "level: nrl"
                       : clutter.doppler == ClutterDoppler::kSea ? "doppler: sea"
@@ -112,7 +113,7 @@ void check_spectrum(const SeaSpec& sea, const ScenarioDocument& document) {
   only("normalisation", is_jonswap, "spectrum: jonswap");
   only("wind", sea.period_rule == PeakPeriod::kWindAndFetch, "peak_period_s: wind_and_fetch");
   if (is_table && sea.table.empty()) document.fail_at("sea.table", "this key is missing");
-  if (sea.height_rule == WaveHeight::kOfTable && !is_table) {
+  if (sea.height_rule == WaveHeight::kFromTable && !is_table) {
     document.fail_at("sea.significant_wave_height_m", "must be a number without spectrum: table");
   }
 }
@@ -154,13 +155,13 @@ void check_sea(const SeaSpec& sea, const ScenarioDocument& document) {
     }
     const bool pairs =
         state.depth_m != kDeepWater || state.spreading.kind != Spreading::kNone || swell.significant_wave_height_m > 0;
-    constexpr int kMostPaired = 2048;
-    if (pairs && state.order == 2 && state.components + swell.components > kMostPaired) {
+    constexpr int kMaxPaired = 2048;
+    if (pairs && state.order == 2 && state.components + swell.components > kMaxPaired) {
       document.fail_at(
           "sea.components",
           fmt::format("with those of the swell must be at most {} at order 2 in a sea of finite depth or of "
                       "several directions, whose cost grows with their square",
-                      kMostPaired));
+                      kMaxPaired));
     }
   }
 }
@@ -189,13 +190,13 @@ void check_sea_reflection(const Scenario& scenario, const ScenarioDocument& docu
 
 // One map is seen by one radar; from points, which have no such key, it is far away.
 void check_one_range(const TargetSpec& target, const TargetSpec& companion, const ScenarioDocument& document) {
-  const double range_m = target.solver.radar_range_m, other_m = companion.solver.radar_range_m;
+  const double range_m = target.solver.wavefront_range_m, other_m = companion.solver.wavefront_range_m;
   if (range_m == other_m) return;
   const auto key = [](const TargetSpec& of) { return fmt::format("targets.{}.solver.radar_range_m", of.name); };
   const TargetSpec &wrong = companion.points.empty() ? companion : target,
                    &right = companion.points.empty() ? target : companion;
   document.fail_at(key(wrong), fmt::format("must be {}, as targets.{} has it in the same maps ({})",
-                                           right.solver.radar_range_m, right.name, document.place_of(key(right))));
+                                           right.solver.wavefront_range_m, right.name, document.place_of(key(right))));
 }
 
 // A companion is another target of the file, and brings no companions of its own.

@@ -49,7 +49,7 @@ void visit_word(FieldVisitor& v, const char* key, std::string& value, const char
   value = names[index];
 }
 
-void visit(BudgetSpec& spec, FieldVisitor& v) {
+void visit(LinkBudgetSpec& spec, FieldVisitor& v) {
   v.number("beamwidth_deg", spec.beamwidth_deg, within(0.01, 60));
   v.number("peak_power_kw", spec.peak_power_kw, within(1e-6, 1e5));
   v.number("antenna_gain_db", spec.antenna_gain_db, within(0, 70));
@@ -60,12 +60,12 @@ void visit(BudgetSpec& spec, FieldVisitor& v) {
 
 void visit(PlatformSpec& spec, FieldVisitor& v) {
   v.triple("velocity_mps", spec.velocity_mps, within(-1000, 1000));
-  v.flag("compensated", spec.compensated);
+  v.flag("compensated", spec.motion_compensated);
 }
 
 void visit(RadarSpec& spec, FieldVisitor& v) {
   v.number("carrier_ghz", spec.carrier_ghz, within(0.1, 300));
-  v.integer("hop_count", spec.hop_count, within(1, 1024));
+  v.integer("hop_count", spec.carrier_count, within(1, 1024));
   v.number("hop_step_mhz", spec.hop_step_mhz, above(0));
   visit_choice(v, "hop_code", spec.hop_code, {"random", "balanced", "stepped", "file"});
   if (v.optional("hop_code_file", !spec.hop_code_file.empty())) v.text("hop_code_file", spec.hop_code_file);
@@ -182,35 +182,35 @@ void visit(MotionSpec& spec, FieldVisitor& v) {
   v.number("roll_quadratic_damping", spec.roll_quadratic_damping, within(0, 100));
   v.number("pitch_damping", spec.pitch_damping, within(0, 2));
   v.number("yaw_damping", spec.yaw_damping, within(0, 2));
-  v.number("yaw_rate_deg_s", spec.yaw_rate_deg_s, within(0, 180));
+  v.number("yaw_rate_deg_s", spec.yaw_rate_std_deg_s, within(0, 180));
   v.number("length_m", spec.length_m, within(0, 1000));
   v.number("beam_m", spec.beam_m, within(0, 200));
   v.number("draught_m", spec.draught_m, within(0, 50));
   v.number("heave_period_s", spec.heave_period_s, zero_or_within(0.2, 60));
   v.number("heave_damping", spec.heave_damping, within(0, 2));
   v.number("metacentric_height_m", spec.metacentric_height_m, within(0.01, 20));
-  v.number("roll_radius_m", spec.roll_radius_m, within(0, 100));
+  v.number("roll_radius_m", spec.roll_gyradius_m, within(0, 100));
   v.number("pitch_radius_m", spec.pitch_radius_m, within(0, 500));
   v.number("yaw_radius_m", spec.yaw_radius_m, within(0, 500));
   v.number("speed_mps", spec.speed_mps, within(0, 40));
   if (v.optional("file", !spec.file.empty())) v.text("file", spec.file);
   v.number("series_start_s", spec.series_start_s, within(-1e6, 1e6));
-  v.number("rao_length_m", spec.rao_length_m, above_up_to(0, 1000));
+  v.number("rao_length_m", spec.wamit_ulen_m, above_up_to(0, 1000));
   if (v.optional("sections", !spec.sections.empty())) v.text("sections", spec.sections);
   v.number("diameter_m", spec.diameter_m, within(0, 50));
-  v.number("centre_above_water_m", spec.centre_above_water_m, within(-10, 50));
+  v.number("centre_above_water_m", spec.origin_above_waterline_m, within(-10, 50));
   visit_choice(v, "waves", spec.waves, {"same_field", "independent"});
   v.number("step_s", spec.step_s, within(0.001, 0.1));
-  v.number("preroll_s", spec.preroll_s, within(0, 3600));
+  v.number("preroll_s", spec.spin_up_s, within(0, 3600));
 }
 
 void visit(SolverSpec& spec, FieldVisitor& v) {
   v.number("ray_spacing_m", spec.ray_spacing_m, zero_or_within(0.001, 10));
-  v.integer("max_bounces", spec.max_bounces, within(1, kMostBounces));
-  v.number("max_turn_deg", spec.max_turn_deg, zero_or_within(0.001, 5));
+  v.integer("max_bounces", spec.max_bounces, within(1, kMaxBounces));
+  v.number("max_turn_deg", spec.max_aspect_change_deg, zero_or_within(0.001, 5));
   v.number("crease_deg", spec.crease_deg, within(0, 60));
   v.flag("edges", spec.edges);
-  v.number("radar_range_m", spec.radar_range_m, zero_or_within(100, 1e7));
+  v.number("radar_range_m", spec.wavefront_range_m, zero_or_within(100, 1e7));
 }
 
 void visit(PointSpec& spec, FieldVisitor& v) {
@@ -284,7 +284,7 @@ void visit(ClutterSpec& spec, FieldVisitor& v) {
   v.number("noise_to_clutter_db", spec.noise_to_clutter_db, within(-200, 60));
   v.number("snr_db", spec.snr_db, within(-100, 200));
   v.number("texture_shape", spec.texture_shape, within(0.1, 1000));
-  v.number("texture_time_s", spec.texture_time_s, within(0.1, 1000));
+  v.number("texture_time_s", spec.texture_correlation_time_s, within(0.1, 1000));
   visit_choice(v, "doppler", spec.doppler, {"given", "sea", "wave_field"});
   v.number("doppler_mean_mps", spec.doppler_mean_mps, within(-20, 20));
   v.number("doppler_spread_mps", spec.doppler_spread_mps, within(0, 20));
@@ -312,7 +312,7 @@ void visit(DatasetSpec& spec, FieldVisitor& v) {
   v.integer("realisations_per_case", spec.realisations_per_case, within(1, 100000));
   v.number("interval_spacing_s", spec.interval_spacing_s, within(0.001, 10000));
   v.integer("maps_per_shard", spec.maps_per_shard, within(1, 10000));
-  v.ratio("split", spec.train_share);
+  v.ratio("split", spec.train_fraction);
   v.flag("complex_maps", spec.complex_maps);
 }
 
@@ -327,7 +327,7 @@ void visit(FeatureSpec& spec, FieldVisitor& v) {
 
 void visit(LearningSpec& spec, FieldVisitor& v) {
   visit_choice(v, "fusion", spec.fusion, {"split", "in_sample"});
-  v.number("network_share", spec.network_share, within(0.1, 0.9));
+  v.number("network_share", spec.network_fraction, within(0.1, 0.9));
   v.integer("epochs", spec.epochs, within(1, 10000));
   v.integer("batch_size", spec.batch_size, within(1, 4096));
   v.number("learning_rate", spec.learning_rate, within(1e-6, 1));

@@ -12,7 +12,7 @@ struct DatasetSpec {
   int realisations_per_case = 10;  // independent seas; divides maps_per_case; 1 <= x <= 100000
   double interval_spacing_s = 10;  // between the intervals of one realisation, 0.001 <= x <= 10000
   int maps_per_shard = 20;         // 1 <= x <= 10000
-  double train_share = 0.7;        // `split: 7:3`, 0 < x < 1
+  double train_fraction = 0.7;     // `split: 7:3`, 0 < x < 1
   bool complex_maps = false;       // store real and imaginary parts beside the magnitude
 };
 
@@ -29,14 +29,14 @@ enum class Fusion { kSplit, kInSample };
 
 struct LearningSpec {
   Fusion fusion = Fusion::kSplit;
-  double network_share = 0.6;    // of the training groups, for the network, when fusion is split; 0.1 <= x <= 0.9
-  int epochs = 20;               // 1 <= x <= 10000
-  int batch_size = 32;           // 1 <= x <= 4096
-  double learning_rate = 0.001;  // of the network, 1e-6 <= x <= 1
-  int embedding_size = 8;        // 1 <= x <= 512
-  int threads = 1;               // of the network, fixed and recorded: another number gives other bits; 1 <= x <= 256
-  double map_floor_db = -40;     // floor of the network's input, below the map's total energy, -120 <= x < 0
-  int trees = 200;               // XGBoost, the paper's table II from here on
+  double network_fraction = 0.6;  // of the training groups, for the network, when fusion is split; 0.1 <= x <= 0.9
+  int epochs = 20;                // 1 <= x <= 10000
+  int batch_size = 32;            // 1 <= x <= 4096
+  double learning_rate = 0.001;   // of the network, 1e-6 <= x <= 1
+  int embedding_size = 8;         // 1 <= x <= 512
+  int threads = 1;                // of the network, fixed and recorded: another number gives other bits; 1 <= x <= 256
+  double map_floor_db = -40;      // floor of the network's input, below the map's total energy, -120 <= x < 0
+  int trees = 200;                // XGBoost, the paper's table II from here on
   int max_depth = 6;
   double tree_learning_rate = 0.05;
   double subsample = 0.8;

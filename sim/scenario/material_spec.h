@@ -43,7 +43,7 @@ enum class SurfaceKind {
   kImpedance,  // surface impedance relative to that of free space, the same at every angle (Leontovich)
   kLayers,     // stack of flat layers, first the one the wave meets, on a perfect conductor or with air behind
   kSeaWater,   // half-space of sea water
-  kUnderWater  // hides what lies behind, neither reflects nor radiates; no file has it
+  kSubmerged   // hides what lies behind, neither reflects nor radiates; no file has it
 };
 enum class Backing { kPec, kAir };
 

@@ -16,7 +16,7 @@ enum class HopCode { kRandom, kBalanced, kStepped, kFile };
 enum class Polarisation { kHh, kHv, kVh, kVv };  // first letter received, second transmitted
 
 // What the radar equation needs, for clutter and noise whose level is not given as a ratio.
-struct BudgetSpec {
+struct LinkBudgetSpec {
   double beamwidth_deg = 1.5;   // of the antenna in azimuth, one way at half power, 0.01 <= x <= 60
   double peak_power_kw = 10;    // 1e-6 <= x <= 1e5
   double antenna_gain_db = 40;  // 0 <= x <= 70
@@ -29,12 +29,12 @@ struct BudgetSpec {
 // passes by.
 struct PlatformSpec {
   std::array<double, 3> velocity_mps{0, 0, 0};  // target frame, |x| <= 1000
-  bool compensated = true;  // the radar takes its own radial motion towards the reference point out of the echo
+  bool motion_compensated = true;  // the radar takes its own radial motion towards the reference point out of the echo
 };
 
 struct RadarSpec {
   double carrier_ghz = 16;              // lowest carrier, 0.1 <= x <= 300
-  int hop_count = 8;                    // number of carriers M, 1 <= x <= 1024
+  int carrier_count = 8;                // number of carriers M, 1 <= x <= 1024
   double hop_step_mhz = 25;             // carrier spacing, > 0
   HopCode hop_code = HopCode::kRandom;  // random (independent, as in the paper), balanced, stepped, file
   std::string hop_code_file;            // of hop_code: file, beside the scenario or below the working directory
@@ -50,14 +50,14 @@ struct RadarSpec {
   // the f/mu term of Doppler inside the pulse, in echo and map alike; only with points as targets
   bool intra_pulse_motion = false;
   double range_km = 20;  // to the target's reference point, for budget and platform, 0.1 <= x <= 1000
-  BudgetSpec budget;
+  LinkBudgetSpec budget;
   PlatformSpec platform;
 };
 
 // Edges of the whole band.
 inline double lowest_ghz(const RadarSpec& radar) { return radar.carrier_ghz - 0.5e-3 * radar.bandwidth_mhz; }
 inline double highest_ghz(const RadarSpec& radar) {
-  return radar.carrier_ghz + 1e-3 * ((radar.hop_count - 1) * radar.hop_step_mhz + 0.5 * radar.bandwidth_mhz);
+  return radar.carrier_ghz + 1e-3 * ((radar.carrier_count - 1) * radar.hop_step_mhz + 0.5 * radar.bandwidth_mhz);
 }
 
 using Sweep = std::vector<double>;  // a number, a list, or from:to:step in the file
@@ -71,23 +71,23 @@ enum class ScrDefinition { kPerPulse, kPeakCell, kExtent };
 
 // kScr: by the ratio to the target. kNrl: by the sea's mean reflectivity, the radar's range and beam.
 enum class ClutterLevel { kScr, kNrl };
-// kToClutter: by the ratio to the clutter. kSnr: by the ratio to the target. kThermal: by the radar equation.
-enum class NoiseLevel { kToClutter, kSnr, kThermal };
+// kCnr: by the ratio to the clutter. kSnr: by the ratio to the target. kThermal: by the radar equation.
+enum class NoiseLevel { kCnr, kSnr, kThermal };
 // What the waves add to the given mean and spread. kGiven: nothing. kSea: mean and spread of a sea of these waves.
-// kWaveField: the sea's mean, and to every scatterer the velocity of the water where it floats in this very sea.
-enum class ClutterDoppler { kGiven, kSea, kWaveField };
+// kWaveResolved: the sea's mean, and to every scatterer the velocity of the water where it floats in this very sea.
+enum class ClutterDoppler { kPrescribed, kSea, kWaveResolved };
 
 struct ClutterSpec {
   ClutterLevel level = ClutterLevel::kScr;
   double scr_db = 20;  // signal-to-clutter ratio, -60 <= x <= 200; where the level is scr
   ScrDefinition scr_definition = ScrDefinition::kPerPulse;
   bool enabled = true;
-  NoiseLevel noise_level = NoiseLevel::kToClutter;
-  double noise_to_clutter_db = -30;  // receiver noise relative to clutter, -200 <= x <= 60
-  double snr_db = 20;                // target to noise, per pulse, -100 <= x <= 200; where noise_level is snr
-  double texture_shape = 2;          // shape of the K distribution's gamma texture, 0.1 <= x <= 1000
-  double texture_time_s = 3;         // the texture's correlation falls to e^{-1/2} in this time, 0.1 <= x <= 1000
-  ClutterDoppler doppler = ClutterDoppler::kGiven;
+  NoiseLevel noise_level = NoiseLevel::kCnr;
+  double noise_to_clutter_db = -30;       // receiver noise relative to clutter, -200 <= x <= 60
+  double snr_db = 20;                     // target to noise, per pulse, -100 <= x <= 200; where noise_level is snr
+  double texture_shape = 2;               // shape of the K distribution's gamma texture, 0.1 <= x <= 1000
+  double texture_correlation_time_s = 3;  // the texture's correlation falls to e^{-1/2} in this time, 0.1 <= x <= 1000
+  ClutterDoppler doppler = ClutterDoppler::kPrescribed;
   double doppler_mean_mps = 0;      // mean velocity of the clutter, positive = receding, |x| <= 20
   double doppler_spread_mps = 0.5;  // standard deviation of its velocity, 0 <= x <= 20
   double hh_velocity_factor = 1.5;  // mean velocity by waves and wind of hh, hv, vh against vv's, 0 <= x <= 5

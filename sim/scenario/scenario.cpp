@@ -53,7 +53,7 @@ std::shared_ptr<const std::vector<int>> find_hop_codes(const Scenario& scenario)
   const RadarSpec& radar = scenario.radar;
   if (radar.hop_code != HopCode::kFile || radar.hop_code_file.empty()) return nullptr;
   const fs::path file = file_of(scenario, radar.hop_code_file, "radar.hop_code_file");
-  return std::make_shared<std::vector<int>>(read_hop_code(file, radar.pulses, radar.hop_count));
+  return std::make_shared<std::vector<int>>(read_hop_code(file, radar.pulses, radar.carrier_count));
 }
 
 }  // namespace

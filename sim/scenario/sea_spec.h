@@ -22,7 +22,7 @@ enum class SpectrumNormalisation { kExact, kDnv };
 // `peak_period_s: dnv_wind_sea` is Tp = 3.96 sqrt(Hs); wind_and_fetch follows from the section `wind`.
 enum class PeakPeriod { kGiven, kDnvWindSea, kWindAndFetch };
 enum class PeakEnhancement { kGiven, kDnvRule };  // `gamma: dnv_rule`: from Tp / sqrt(Hs)
-enum class WaveHeight { kGiven, kOfTable };       // `significant_wave_height_m: of_table`: the table's own energy
+enum class WaveHeight { kGiven, kFromTable };     // `significant_wave_height_m: of_table`: the table's own energy
 enum class WaveAmplitude { kFixed, kRandom };
 enum class Spreading { kNone, kCos2s, kMitsuyasu, kWrappedNormal };
 

@@ -26,7 +26,7 @@ struct MotionSpec {
   double roll_quadratic_damping = 0;   // b of b |x'| x', 1/rad, 0 <= x <= 100
   double pitch_damping = 0;            // (auto) ratio to critical, 0 <= x <= 2
   double yaw_damping = 0.1;            // ratio to critical at yaw_period_s, 0 <= x <= 2
-  double yaw_rate_deg_s = 0;           // standard deviation of a float's slow random rotation, 0 <= x <= 180
+  double yaw_rate_std_deg_s = 0;       // standard deviation of a float's slow random rotation, 0 <= x <= 180
   double length_m = 0;                 // (auto) waterline length, 0 <= x <= 1000
   double beam_m = 0;                   // (auto) waterline beam, 0 <= x <= 200
   double draught_m = 0;                // (auto) of a ship; of a float, 0 = too shallow to matter; 0 <= x <= 50
@@ -34,20 +34,21 @@ struct MotionSpec {
   double heave_damping = 0;            // (auto) of a float, ratio to critical, 0 <= x <= 2
   double metacentric_height_m = 1.95;  // 0.01 <= x <= 20
   // of gyration of the mass about the centre of gravity; 0: the one of roll_period_s, 0 <= x <= 100
-  double roll_radius_m = 0;
+  double roll_gyradius_m = 0;
   double pitch_radius_m = 0;  // (auto) 0 <= x <= 500
   double yaw_radius_m = 0;    // (auto) 0 <= x <= 500
   double speed_mps = 0;       // of model ship, rao or series, forward, 0 <= x <= 40
   std::string file;           // of model series (attitude over time) or rao (response operators)
   double series_start_s = 0;  // time in the series that is t = 0, -1e6 <= x <= 1e6
-  double rao_length_m = 1;    // ULEN of a WAMIT table, 0 < x <= 1000
+  double wamit_ulen_m = 1;    // ULEN of a WAMIT table, 0 < x <= 1000
   std::string sections;       // file of a ship's sections below the waterline; default: the mesh's, else a form
   double diameter_m = 0;      // (auto) of a float's waterplane, 0 <= x <= 50
-  double centre_above_water_m = 0.75;  // height of a float's mesh origin above its centre of flotation, -10 <= x <= 50
+  double origin_above_waterline_m =
+      0.75;  // height of a float's mesh origin above its centre of flotation, -10 <= x <= 50
   WaveSharing waves = WaveSharing::kSameField;
   // between samples and of integration, 0.001 <= x <= 0.1, at most an eighth of the shortest natural period
   double step_s = 0.02;
-  double preroll_s = 120;  // simulated before t = 0, 0 <= x <= 3600
+  double spin_up_s = 120;  // simulated before t = 0, 0 <= x <= 3600
 };
 
 struct LineLayout {
@@ -72,16 +73,16 @@ struct PointSpec {
 
 // How many bounces count, and how many may be asked for. On the ship 8 leave out up to -11 dB, 40 less than -39 dB
 // (sim/scattering/README.md, "Deep legs").
-inline constexpr int kDefaultBounces = 40, kMostBounces = 200;
+inline constexpr int kDefaultBounces = 40, kMaxBounces = 200;
 
 // Zero in a field marked (auto) means: derived from the mesh's size by the formula in sim/scattering/README.md.
 struct SolverSpec {
   double ray_spacing_m = 0;           // (auto) of rays that would find the detail followed, 0 or 0.001 <= x <= 10
-  int max_bounces = kDefaultBounces;  // 1 <= x <= kMostBounces
-  double max_turn_deg = 0;            // (auto) turn of the body served by one trace, 0 or 0.001 <= x <= 5
-  double crease_deg = 20;    // facets that turn by less belong to one smooth surface, 0 <= x <= 60; 0 = all facets flat
-  bool edges = true;         // fringe currents at sharp edges
-  double radar_range_m = 0;  // for the curvature of the wavefront, 0 or 100 <= x <= 1e7; 0 = far field at any range
+  int max_bounces = kDefaultBounces;  // 1 <= x <= kMaxBounces
+  double max_aspect_change_deg = 0;   // (auto) turn of the body served by one trace, 0 or 0.001 <= x <= 5
+  double crease_deg = 20;  // facets that turn by less belong to one smooth surface, 0 <= x <= 60; 0 = all facets flat
+  bool edges = true;       // fringe currents at sharp edges
+  double wavefront_range_m = 0;  // for the curvature of the wavefront, 0 or 100 <= x <= 1e7; 0 = far field at any range
 };
 
 // A part of the mesh that is made of something else than the rest.

@@ -35,9 +35,9 @@ SeaEnsemble make_ensemble(const SeaState& state, std::size_t state_index, std::u
   parallel_for(
       parts.size(), threads,
       [&](std::size_t i) {
-        const WaveField field = realize_sea(state, seed, sea_key(state_index, i));
+        const WaveField field = realise_sea(state, seed, sea_key(state_index, i));
         std::array<std::vector<double>, 2> elevation;
-        SurfaceSeries series(field, 0, 0, 0, step, SurfaceDetail::kShape);
+        SurfaceSeries series(field, 0, 0, 0, step, SurfaceQuantities::kElevationAndSlope);
         for (std::size_t n = 0; n < samples; ++n, series.advance()) {
           const SurfaceState surface = series.state();
           elevation[0].push_back(surface.elevation);
@@ -82,7 +82,7 @@ SeaEnsemble make_ensemble(const SeaState& state, std::size_t state_index, std::u
     }
     const double omega = resolution * (static_cast<double>(first) + 0.5 * static_cast<double>(band + 1));
     ensemble.omega.push_back(omega);
-    ensemble.target.push_back(target_density(state, omega));
+    ensemble.prescribed.push_back(prescribed_density(state, omega));
     ensemble.realised.push_back(density);
     ensemble.realised_linear.push_back(linear);
   }

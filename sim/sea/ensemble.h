@@ -20,7 +20,7 @@ struct SeaEnsemble {
   double zero_crossing_period_s = 0;
   std::vector<double> crests;           // m, ascending
   std::vector<double> omega;            // rad/s
-  std::vector<double> target;           // density of the state's spectrum, m^2 s/rad
+  std::vector<double> prescribed;       // density of the state's spectrum, m^2 s/rad
   std::vector<double> realised;         // of the series' elevation, averaged over bands and realisations
   std::vector<double> realised_linear;  // of the linear part alone
 };

@@ -29,7 +29,7 @@ LongCrestedSurface surface(const WaveComponent* component, const double* cosine,
   Pair sum0, sum1, sum2;                         // sum v, sum k v, sum k^2 v over the components so far
   Pair difference, difference_slope;             //
   Pair omega0, omega1;                           // sum w v, sum k w v
-  double drift = 0, rate = 0, rate_of_rate = 0;  // of the difference waves: -u2, and 2 d/dt, 2 d^2/dt^2 of eta2-
+  double drift = 0, rate = 0, elevation_tt = 0;  // of the difference waves: -u2, and 2 d/dt, 2 d^2/dt^2 of eta2-
   for (std::size_t i = 0; i < quadratic; ++i) {
     const double k = component[i].wavenumber;
     const Pair v{component[i].amplitude * cosine[i], component[i].amplitude * sine[i]};
@@ -50,7 +50,7 @@ LongCrestedSurface surface(const WaveComponent* component, const double* cosine,
                        w * (turned.s - w_first.s) + kGravity * (k * sum1.s - sum2.s)};
       drift += w * (v.c * first.c + v.s * first.s);
       rate += v.s * turned.c - v.c * turned.s;
-      rate_of_rate += v.c * twice.c + v.s * twice.s;
+      elevation_tt += v.c * twice.c + v.s * twice.s;
       omega0 = {omega0.c + w * v.c, omega0.s + w * v.s};
       omega1 = {omega1.c + w * kv.c, omega1.s + w * kv.s};
     }
@@ -88,11 +88,11 @@ LongCrestedSurface surface(const WaveComponent* component, const double* cosine,
     const double rate_of_rate2 =
         -0.5 * (kGravity * (sum2.c * sum0.c - sum2.s * sum0.s) + 2 * (omega1.c * omega0.c - omega1.s * omega0.s) +
                 kGravity * (sum1.c * sum1.c - sum1.s * sum1.s)) +
-        0.5 * rate_of_rate;
+        0.5 * elevation_tt;
     state.velocity = high.c + omega0.c + eta * omega1.c - drift;
-    state.velocity_up = -high.s - omega0.s + rate2 + omega0.c * eta_slope;
+    state.vertical_velocity = -high.s - omega0.s + rate2 + omega0.c * eta_slope;
     state.acceleration = -kGravity * state.slope - lift * eta_slope;
-    state.acceleration_up =
+    state.vertical_acceleration =
         -high_lift + lift + rate_of_rate2 + 2 * omega0.c * omega1.c - kGravity * eta_slope * eta_slope;
   }
   return state;
@@ -100,13 +100,13 @@ LongCrestedSurface surface(const WaveComponent* component, const double* cosine,
 
 }  // namespace
 
-LongCrestedSurface long_crested_motion(const WaveComponent* component, const double* cosine, const double* sine,
-                                       std::size_t count, std::size_t quadratic) {
+LongCrestedSurface long_crested_kinematics(const WaveComponent* component, const double* cosine, const double* sine,
+                                           std::size_t count, std::size_t quadratic) {
   return surface<true>(component, cosine, sine, count, quadratic);
 }
 
-LongCrestedSurface long_crested_shape(const WaveComponent* component, const double* cosine, const double* sine,
-                                      std::size_t count, std::size_t quadratic) {
+LongCrestedSurface long_crested_elevation(const WaveComponent* component, const double* cosine, const double* sine,
+                                          std::size_t count, std::size_t quadratic) {
   return surface<false>(component, cosine, sine, count, quadratic);
 }
 

@@ -15,16 +15,16 @@ struct LongCrestedSurface {
   double elevation = 0;         // m
   double slope = 0;             // d/d xi
   double velocity = 0;          // m/s, along the waves
-  double velocity_up = 0;
+  double vertical_velocity = 0;
   double acceleration = 0;  // m/s^2, along the waves
-  double acceleration_up = 0;
+  double vertical_acceleration = 0;
 };
 
 // cosine, sine: of each component's angle; the first `quadratic` components, ascending in omega, enter the quadratic
 // sums. The second leaves velocity and acceleration at 0.
-LongCrestedSurface long_crested_motion(const WaveComponent* component, const double* cosine, const double* sine,
-                                       std::size_t count, std::size_t quadratic);
-LongCrestedSurface long_crested_shape(const WaveComponent* component, const double* cosine, const double* sine,
-                                      std::size_t count, std::size_t quadratic);
+LongCrestedSurface long_crested_kinematics(const WaveComponent* component, const double* cosine, const double* sine,
+                                           std::size_t count, std::size_t quadratic);
+LongCrestedSurface long_crested_elevation(const WaveComponent* component, const double* cosine, const double* sine,
+                                          std::size_t count, std::size_t quadratic);
 
 }  // namespace seaglint

@@ -96,7 +96,7 @@ struct WaveRandom {
   Random place, phase, direction, amplitude;
 };
 
-std::vector<WaveComponent> realize_system(const WaveSystem& system, const SeaState& state, WaveRandom& random) {
+std::vector<WaveComponent> realise_system(const WaveSystem& system, const SeaState& state, WaveRandom& random) {
   const Spectrum& spectrum = *system.spectrum;
   const double lowest = spectrum.lowest_omega();
   const double width = stratum_width(system);
@@ -129,7 +129,7 @@ std::vector<WaveComponent> realize_system(const WaveSystem& system, const SeaSta
   if (state.amplitude == WaveAmplitude::kRandom) {
     // Two normal quadratures of equal variance: a^2 is exponential.
     for (WaveComponent& component : components) {
-      component.amplitude *= std::sqrt(-exact_log(random.amplitude.uniform()));
+      component.amplitude *= std::sqrt(-reproducible_log(random.amplitude.uniform()));
     }
   }
   return components;
@@ -137,13 +137,13 @@ std::vector<WaveComponent> realize_system(const WaveSystem& system, const SeaSta
 
 }  // namespace
 
-WaveField realize_sea(const SeaState& state, std::uint64_t seed, std::uint64_t index) {
+WaveField realise_sea(const SeaState& state, std::uint64_t seed, std::uint64_t index) {
   check_state(state);
   WaveRandom random{Random({seed, Stream::kWaveFrequency, index}), Random({seed, Stream::kWavePhase, index}),
                     Random({seed, Stream::kWaveDirection, index}), Random({seed, Stream::kWaveAmplitude, index})};
   std::vector<WaveComponent> components;
   for (const WaveSystem& system : systems_of(state)) {
-    const std::vector<WaveComponent> part = realize_system(system, state, random);
+    const std::vector<WaveComponent> part = realise_system(system, state, random);
     components.insert(components.end(), part.begin(), part.end());
   }
   std::stable_sort(components.begin(), components.end(),

@@ -24,11 +24,11 @@ struct Wave {
   Vec2 k = Vec2::Zero();
 };
 
-double k_tanh(double k, double depth) { return std::isinf(depth) ? k : k * exact_tanh(k * depth); }
+double k_tanh(double k, double depth) { return std::isinf(depth) ? k : k * reproducible_tanh(k * depth); }
 
 Wave wave_of(const WaveComponent& component, double depth) {
   const double k = component.wavenumber;
-  const double e = std::isinf(depth) ? 0 : exact_exp(-k * depth);
+  const double e = std::isinf(depth) ? 0 : reproducible_exp(-k * depth);
   const double per_cosh = 2 * k * e / (1 + e * e);  // k / cosh(k h)
   return {component.omega, k_tanh(k, depth), per_cosh * per_cosh, k * component.direction};
 }
@@ -84,7 +84,7 @@ std::vector<double> multiply(const std::vector<double>& kernel, const std::vecto
 
 PairInteractions::PairInteractions(std::span<const WaveComponent> components, double depth)
     : size_(components.size()), stride_((size_ + kLanes - 1) / kLanes * kLanes) {
-  SEAGLINT_CHECK(size_ <= kMostComponents, fmt::format("{} components", size_));
+  SEAGLINT_CHECK(size_ <= kMaxComponents, fmt::format("{} components", size_));
   std::vector<Wave> waves;
   for (const WaveComponent& component : components) waves.push_back(wave_of(component, depth));
   const std::size_t entries = stride_ * stride_;
@@ -136,11 +136,11 @@ SecondOrder PairInteractions::evaluate(std::span<const WaveComponent> components
   const std::vector<double> potential_im = multiply(potential_odd_, im);
   for (std::size_t i = 0; i < size_; ++i) {
     const double w = components[i].omega;
-    second.rate -= 2 * w * (re[i] * bracket_im[i] + im[i] * bracket_re[i]);
+    second.elevation_t -= 2 * w * (re[i] * bracket_im[i] + im[i] * bracket_re[i]);
     // (w_i +- w_j)^2 = w_i^2 + w_j^2 +- 2 w_i w_j
     const double equal = re[i] * bracket_re[i] - im[i] * bracket_im[i];
     const double mixed = re[i] * mixed_re[i] - im[i] * mixed_im[i];
-    second.rate_of_rate -= 2 * w * (w * equal + mixed);
+    second.elevation_tt -= 2 * w * (w * equal + mixed);
     const double flow = re[i] * potential_re[i] - im[i] * potential_im[i];
     second.velocity += 2 * components[i].wavenumber * flow * components[i].direction;
   }

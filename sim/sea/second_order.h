@@ -15,8 +15,8 @@ namespace seaglint {
 struct SecondOrder {
   double elevation = 0;  // m
   Vec2 slope = Vec2::Zero();
-  double rate = 0;               // d elevation / dt, m/s
-  double rate_of_rate = 0;       // m/s^2
+  double elevation_t = 0;        // d elevation / dt, m/s
+  double elevation_tt = 0;       // m/s^2
   Vec2 velocity = Vec2::Zero();  // gradient of the second-order potential at the mean level, m/s
 };
 
@@ -24,9 +24,9 @@ struct SecondOrder {
 // and time of one evaluation grow with the square of the count.
 class PairInteractions {
  public:
-  static constexpr std::size_t kMostComponents = 2048;  // 134 MB of kernels
+  static constexpr std::size_t kMaxComponents = 2048;  // 134 MB of kernels
 
-  // Components of one depth, at most kMostComponents.
+  // Components of one depth, at most kMaxComponents.
   PairInteractions(std::span<const WaveComponent> components, double depth);
 
   // cosine, sine: a cos and a sin of each component's angle w t - k.x + phase. The components are those of the

@@ -23,7 +23,7 @@ namespace {
 double enhancement(double u, double gamma) {
   const double s = u <= 1 ? 0.07 : 0.09;
   const double z = (u - 1) / s;
-  return exact_exp(exact_log(gamma) * exact_exp(-0.5 * z * z)) - 1;
+  return reproducible_exp(reproducible_log(gamma) * reproducible_exp(-0.5 * z * z)) - 1;
 }
 
 }  // namespace
@@ -41,7 +41,7 @@ JonswapSpectrum::JonswapSpectrum(double significant_wave_height_m, double peak_p
   if (normalisation == SpectrumNormalisation::kExact) {
     scale_ /= enhanced;
   } else {
-    const double normalising = 1 - 0.287 * exact_log(gamma);  // DNV-RP-C205 (2010), section 3.5.5.2
+    const double normalising = 1 - 0.287 * reproducible_log(gamma);  // DNV-RP-C205 (2010), section 3.5.5.2
     scale_ *= normalising;
     total_ *= normalising * enhanced;
   }
@@ -50,7 +50,7 @@ JonswapSpectrum::JonswapSpectrum(double significant_wave_height_m, double peak_p
 double JonswapSpectrum::shape(double u) const {
   if (!(u > 0)) return 0;
   const double u4 = u * u * u * u;
-  return exact_exp(-1.25 / u4) / (u4 * u) * (1 + enhancement(u, gamma_));
+  return reproducible_exp(-1.25 / u4) / (u4 * u) * (1 + enhancement(u, gamma_));
 }
 
 double JonswapSpectrum::density(double omega) const { return scale_ / peak_omega_ * shape(omega / peak_omega_); }
@@ -60,7 +60,7 @@ double JonswapSpectrum::density(double omega) const { return scale_ / peak_omega
 double JonswapSpectrum::enhancement_integral(double lower, double upper) const {
   const auto added = [this](double u) {
     const double u4 = u * u * u * u;
-    return exact_exp(-1.25 / u4) / (u4 * u) * enhancement(u, gamma_);
+    return reproducible_exp(-1.25 / u4) / (u4 * u) * enhancement(u, gamma_);
   };
   constexpr double kPiece = 0.02;
   const auto part = [&](double a, double b) {
@@ -72,7 +72,7 @@ double JonswapSpectrum::enhancement_integral(double lower, double upper) const {
 }
 
 double JonswapSpectrum::energy(double lower, double upper) const {
-  const auto cumulative = [](double u) { return u > 0 ? 0.2 * exact_exp(-1.25 / (u * u * u * u)) : 0.0; };
+  const auto cumulative = [](double u) { return u > 0 ? 0.2 * reproducible_exp(-1.25 / (u * u * u * u)) : 0.0; };
   const double a = std::max(0.0, lower / peak_omega_);
   const double b = std::max(a, upper / peak_omega_);
   return scale_ * (cumulative(b) - cumulative(a) + enhancement_integral(a, b));

@@ -21,7 +21,7 @@ namespace {
 double cosine_power(double x, double s) {
   double cosine = 1, sine = 0;
   unit_phasors({&x, 1}, {&cosine, 1}, {&sine, 1});
-  return cosine > 0 ? exact_exp(2 * s * exact_log(cosine)) : 0;
+  return cosine > 0 ? reproducible_exp(2 * s * reproducible_log(cosine)) : 0;
 }
 
 // Integral of cos^2s over [0, pi/2], bit for bit the same everywhere. With x = pi/2 - y^4 the integrand has no steep
@@ -38,7 +38,7 @@ double quarter_norm(double s, double piece) {
 
 double spreading_exponent(const SpreadingSpec& spec, double omega_over_peak) {
   if (spec.kind != Spreading::kMitsuyasu) return spec.s;
-  return spec.s * exact_exp((omega_over_peak <= 1 ? 5 : -2.5) * exact_log(omega_over_peak));
+  return spec.s * reproducible_exp((omega_over_peak <= 1 ? 5 : -2.5) * reproducible_log(omega_over_peak));
 }
 
 double spreading_r1(const SpreadingSpec& spec, double omega_over_peak) {
@@ -63,8 +63,8 @@ double spreading_quantile(const SpreadingSpec& spec, double probability, double 
   const double piece = std::min(0.1, 0.5 / std::sqrt(s));  // a fraction of the width of cos^2s
   const double wanted = std::abs(2 * probability - 1) * quarter_norm(s, piece);
   double x = 0, reached = 0;
-  constexpr int kMostSteps = 200;
-  for (int i = 0; i < kMostSteps; ++i) {
+  constexpr int kMaxSteps = 200;
+  for (int i = 0; i < kMaxSteps; ++i) {
     const double next = std::min(x + (wanted - reached) / power(x), kPi / 2);
     if (!(next - x > 1e-11)) break;
     reached += integrate(x, next, piece, power);

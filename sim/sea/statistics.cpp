@@ -21,7 +21,7 @@ double slope_variance_between(const Spectrum& spectrum, double lower, double upp
 
 }  // namespace
 
-SeaSummary summarize(const SeaState& state, const WaveField& field) {
+SeaSummary summarise(const SeaState& state, const WaveField& field) {
   SeaSummary summary;
   summary.cutoff_rad_s = linear_cutoff(state);
   summary.second_order_cutoff_rad_s = second_order_cutoff(state);
@@ -40,8 +40,8 @@ SeaSummary summarize(const SeaState& state, const WaveField& field) {
 
   if (const auto wind_sea = wind_sea_spectrum(state)) {
     const double cutoff = summary.cutoff_rad_s;
-    summary.energy_share_above_cutoff = wind_sea->energy_above(cutoff) / wind_sea->total_energy();
-    summary.slope_variance_beyond = slope_variance_between(*wind_sea, cutoff, 2 * cutoff, field.depth());
+    summary.energy_fraction_above_cutoff = wind_sea->energy_above(cutoff) / wind_sea->total_energy();
+    summary.slope_variance_next_octave = slope_variance_between(*wind_sea, cutoff, 2 * cutoff, field.depth());
   }
   summary.mean_period_s = 2 * kPi * m0 / m1;
   summary.direction_r1 = direction.norm() / m0;
@@ -55,7 +55,7 @@ SeaSummary summarize(const SeaState& state, const WaveField& field) {
   return summary;
 }
 
-double target_density(const SeaState& state, double omega) {
+double prescribed_density(const SeaState& state, double omega) {
   const auto wind_sea = wind_sea_spectrum(state);
   const auto swell = swell_spectrum(state);
   return (wind_sea ? wind_sea->density(omega) : 0) + (swell ? swell->density(omega) : 0);

@@ -16,20 +16,20 @@ struct SeaSummary {
   double significant_wave_height_m = 0;  // 4 sqrt(sum a^2/2)
   double mean_period_s = 0;              // T1 = 2 pi m0/m1 of the components
   double cutoff_rad_s = 0;
-  double second_order_cutoff_rad_s = 0;  // infinite in flat water
-  double energy_share_above_cutoff = 0;  // of the wind sea's spectrum, added to the components below
-  double slope_variance = 0;             // of the linear part; grows with the logarithm of the cut-off
-  double slope_variance_beyond = 0;      // what the spectrum would add between the cut-off and twice that
-  bool long_crested = true;              // all components travel one way
-  double direction_r1 = 0;               // length of the components' mean direction weighted with energy
-  double skewness = 0;                   // of the elevation to leading order; 0 at order 1
-  double steepness = 0;                  // S1 = 2 pi Hs / (g T1^2)
-  double ursell = 0;                     // Ur = Hs / (k1^2 h^3), k1 the wavenumber of T1; 0 in deep water
+  double second_order_cutoff_rad_s = 0;     // infinite in flat water
+  double energy_fraction_above_cutoff = 0;  // of the wind sea's spectrum, added to the components below
+  double slope_variance = 0;                // of the linear part; grows with the logarithm of the cut-off
+  double slope_variance_next_octave = 0;    // what the spectrum would add between the cut-off and twice that
+  bool long_crested = true;                 // all components travel one way
+  double direction_r1 = 0;                  // length of the components' mean direction weighted with energy
+  double skewness = 0;                      // of the elevation to leading order; 0 at order 1
+  double steepness = 0;                     // S1 = 2 pi Hs / (g T1^2)
+  double ursell = 0;                        // Ur = Hs / (k1^2 h^3), k1 the wavenumber of T1; 0 in deep water
 };
-SeaSummary summarize(const SeaState& state, const WaveField& field);
+SeaSummary summarise(const SeaState& state, const WaveField& field);
 
 // Density of the state's wind sea and swell together, m^2 s/rad.
-double target_density(const SeaState& state, double omega);
+double prescribed_density(const SeaState& state, double omega);
 
 // Heights of the crests in a series of elevations at uniform times: the highest point between each zero up-crossing and
 // the next down-crossing, on the parabola through the highest sample and its neighbours (0.15 % low at worst for twelve

@@ -28,7 +28,7 @@ bool disperse(const std::vector<WaveComponent>& components, double depth) {
   constexpr double kDigits = 1e-6;
   return std::all_of(components.begin(), components.end(), [&](const WaveComponent& c) {
     const double of_length =
-        kGravity * c.wavenumber * (std::isinf(depth) ? 1.0 : exact_tanh(c.wavenumber * depth));  // g k tanh(k h)
+        kGravity * c.wavenumber * (std::isinf(depth) ? 1.0 : reproducible_tanh(c.wavenumber * depth));  // g k tanh(k h)
     return std::abs(of_length - c.omega * c.omega) <= kDigits * c.omega * c.omega;
   });
 }
@@ -68,9 +68,9 @@ struct LinearSums {
   double elevation = 0;
   Vec2 slope = Vec2::Zero();
   Vec2 velocity = Vec2::Zero();  // g k/w along each wave
-  double velocity_up = 0;
+  double vertical_velocity = 0;
   double lift = 0;            // vertical acceleration
-  Vec2 shear = Vec2::Zero();  // d velocity / dz, and the gradient of velocity_up
+  Vec2 shear = Vec2::Zero();  // d velocity / dz, and the gradient of vertical_velocity
 
   void add(const WaveComponent& component, double cosine, double sine) {
     const double v_c = component.amplitude * cosine, v_s = component.amplitude * sine;
@@ -78,7 +78,7 @@ struct LinearSums {
     elevation += v_c;
     slope += k * v_s * component.direction;
     velocity += kGravity * k / w * v_c * component.direction;
-    velocity_up -= w * v_s;
+    vertical_velocity -= w * v_s;
     lift -= w * w * v_c;
     shear += k * w * v_c * component.direction;
   }
@@ -86,7 +86,7 @@ struct LinearSums {
     elevation += other.elevation;
     slope += other.slope;
     velocity += other.velocity;
-    velocity_up += other.velocity_up;
+    vertical_velocity += other.vertical_velocity;
     lift += other.lift;
     shear += other.shear;
     return *this;
@@ -109,32 +109,32 @@ SurfaceState assemble(const LinearSums& low, const LinearSums& all, const Second
     return state;
   }
   state.velocity.head<2>() = all.velocity + low.elevation * low.shear + second.velocity;
-  state.velocity.z() = all.velocity_up + second.rate + low.velocity.dot(low.slope);
+  state.velocity.z() = all.vertical_velocity + second.elevation_t + low.velocity.dot(low.slope);
   state.acceleration.head<2>() = -kGravity * slope - low.lift * low.slope;
   state.acceleration.z() =
-      all.lift + second.rate_of_rate + 2 * low.velocity.dot(low.shear) - kGravity * low.slope.squaredNorm();
+      all.lift + second.elevation_tt + 2 * low.velocity.dot(low.shear) - kGravity * low.slope.squaredNorm();
   return state;
 }
 
 }  // namespace
 
 SurfaceState WaveField::state(std::span<const double> cosine, std::span<const double> sine,
-                              SurfaceDetail detail) const {
-  const bool motion = detail == SurfaceDetail::kMotion;
+                              SurfaceQuantities detail) const {
+  const bool motion = detail == SurfaceQuantities::kKinematics;
   const std::size_t count = components_.size();
   if (count == 0) return {};
   if (!pairs_ && long_crested_ && std::isinf(depth_)) {
     const Vec2& direction = components_.front().direction;
-    const auto sums = motion ? long_crested_motion : long_crested_shape;
+    const auto sums = motion ? long_crested_kinematics : long_crested_elevation;
     const LongCrestedSurface along = sums(components_.data(), cosine.data(), sine.data(), count, second_order_count_);
     SurfaceState state;
     state.elevation_linear = along.elevation_linear;
     state.elevation = along.elevation;
     state.slope_x = along.slope * direction.x();
     state.slope_y = along.slope * direction.y();
-    state.velocity = {along.velocity * direction.x(), along.velocity * direction.y(), along.velocity_up};
+    state.velocity = {along.velocity * direction.x(), along.velocity * direction.y(), along.vertical_velocity};
     state.acceleration = {along.acceleration * direction.x(), along.acceleration * direction.y(),
-                          along.acceleration_up};
+                          along.vertical_acceleration};
     if (!motion) {
       state.velocity.setConstant(kNotAskedFor);
       state.acceleration.setConstant(kNotAskedFor);
@@ -159,7 +159,7 @@ SurfaceState WaveField::state(std::span<const double> cosine, std::span<const do
   return assemble(low, all, second, motion);
 }
 
-SurfaceState WaveField::surface(double x, double y, double t, SurfaceDetail detail) const {
+SurfaceState WaveField::surface(double x, double y, double t, SurfaceQuantities detail) const {
   const std::size_t count = components_.size();
   std::vector<double> angle(count), cosine(count), sine(count);
   for (std::size_t i = 0; i < count; ++i) {
@@ -167,7 +167,7 @@ SurfaceState WaveField::surface(double x, double y, double t, SurfaceDetail deta
     angle[i] = c.omega * t - c.wavenumber * (c.direction.x() * x + c.direction.y() * y) + c.phase;
   }
   // The highest component turns fastest, but a far point can make any of them large.
-  for (double& phase : angle) phase = turned_back(phase);
+  for (double& phase : angle) phase = wrapped_angle(phase);
   unit_phasors(angle, cosine, sine);
   return state(cosine, sine, detail);
 }
@@ -201,7 +201,7 @@ UniformPhasors phasors_at(const WaveField& field, double x, double y, double sta
 }  // namespace
 
 SurfaceSeries::SurfaceSeries(const WaveField& field, double x, double y, double start, double step,
-                             SurfaceDetail detail)
+                             SurfaceQuantities detail)
     : field_(&field), detail_(detail), phasors_(phasors_at(field, x, y, start, step)) {}
 
 }  // namespace seaglint

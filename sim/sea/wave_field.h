@@ -19,7 +19,7 @@
 namespace seaglint {
 
 // What is asked of a surface: elevation and slopes, or the motion of the water too.
-enum class SurfaceDetail { kShape, kMotion };
+enum class SurfaceQuantities { kElevationAndSlope, kKinematics };
 
 // To the field's order. Order 1 takes velocity and acceleration at the mean level, order 2 at the moving surface:
 // velocity = u1 + eta1 du1/dz + u2, acceleration that of the water particle there (du/dt + u.grad u).
@@ -38,7 +38,7 @@ class WaveField {
  public:
   WaveField() = default;  // flat water
   // Components ascending in omega, each of the depth's wavenumber; order 1 or 2. Components up to the cut-off enter the
-  // quadratic sums of order 2: at most PairInteractions::kMostComponents unless all travel one way in deep water.
+  // quadratic sums of order 2: at most PairInteractions::kMaxComponents unless all travel one way in deep water.
   WaveField(std::vector<WaveComponent> components, int order, double second_order_cutoff_rad_s,
             double depth = kDeepWater);
   // The same with all components travelling towards `direction`, of any length but zero.
@@ -46,7 +46,7 @@ class WaveField {
             double depth = kDeepWater);
 
   // |w t| and |k.x| up to 2e8 rad; 512 components of one direction in deep water about 10 us.
-  SurfaceState surface(double x, double y, double t, SurfaceDetail detail = SurfaceDetail::kMotion) const;
+  SurfaceState surface(double x, double y, double t, SurfaceQuantities detail = SurfaceQuantities::kKinematics) const;
 
   // The field whose every amplitude is multiplied by gain(wavenumber), as a body's waterplane filters it.
   template <typename Gain>
@@ -71,7 +71,7 @@ class WaveField {
   friend class SurfaceSeries;
 
   // From the cosines and sines of all components' angles.
-  SurfaceState state(std::span<const double> cosine, std::span<const double> sine, SurfaceDetail detail) const;
+  SurfaceState state(std::span<const double> cosine, std::span<const double> sine, SurfaceQuantities detail) const;
 
   std::vector<WaveComponent> components_;
   double depth_ = kDeepWater;
@@ -86,14 +86,14 @@ class WaveField {
 class SurfaceSeries {
  public:
   SurfaceSeries(const WaveField& field, double x, double y, double start, double step,
-                SurfaceDetail detail = SurfaceDetail::kMotion);
+                SurfaceQuantities detail = SurfaceQuantities::kKinematics);
 
   SurfaceState state() const { return field_->state(phasors_.cosine(), phasors_.sine(), detail_); }
   void advance() { phasors_.advance(); }
 
  private:
   const WaveField* field_;
-  SurfaceDetail detail_;
+  SurfaceQuantities detail_;
   UniformPhasors phasors_;
 };
 

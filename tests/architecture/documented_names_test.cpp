@@ -56,7 +56,8 @@ bool matches(std::string_view pattern, std::string_view name) {
 
 using Faults = std::vector<std::string>;
 
-// `--gtest_filter='A*:B*'`, behind its program or alone, or `... 'A*'` for the program of the line above.
+// `--gtest_filter='AccuracyTables.*:Assets.*:AttitudeSeries.*:DataSetAudit.*:IlluminationByEdge.*:B*'`, behind its
+// program or alone, or `... 'A*'` for the program of the line above.
 void check_test_filters(const std::string& line, Faults& faults) {
   static const std::regex filter(
       R"re((?:(test_[a-z_]+)\s+)?(?:--gtest_filter=|\.\.\. (?='))('[^']*'|"[^"]*"|[^\s`'"]+))re");

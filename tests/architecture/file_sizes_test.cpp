@@ -15,7 +15,7 @@ namespace seaglint {
 namespace {
 
 constexpr int kLongestHeader = 250, kLongestSource = 400;  // lines
-constexpr int kMostFiles = 30;                             // in a folder, its sub-folders' not counted
+constexpr int kMaxFiles = 30;                              // in a folder, its sub-folders' not counted
 
 TEST(FileSizes, HeadersHaveAtMost250LinesAndSources400) {
   std::set<std::string> found;
@@ -38,7 +38,7 @@ TEST(FileSizes, FoldersHaveAtMost30Files) {
   EXPECT_GT(files["tests/architecture"], 5) << "the test counts no files";
   std::set<std::string> found;
   for (const auto& [folder, count] : files) {
-    if (count > kMostFiles && !folder.starts_with("tests/reference")) found.insert(folder);
+    if (count > kMaxFiles && !folder.starts_with("tests/reference")) found.insert(folder);
   }
   EXPECT_THAT(found, testing::IsEmpty());
 }

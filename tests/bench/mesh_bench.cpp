@@ -10,7 +10,7 @@
 namespace seaglint {
 namespace {
 
-void MeshOfManyParts(benchmark::State& state) {
+void MeshWithManyParts(benchmark::State& state) {
   const TemporaryFolder folder;
   std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
   for (const char* face : {"f 1 2 3\n", "f 1 2 4\n"}) {
@@ -19,7 +19,7 @@ void MeshOfManyParts(benchmark::State& state) {
   write_file(folder.path() / "parts.obj", obj);
   for (auto _ : state) write_mesh(folder.path() / "parts.glb", read_mesh(folder.path() / "parts.obj"));
 }
-BENCHMARK(MeshOfManyParts)->Arg(1)->Arg(60000)->Unit(benchmark::kMillisecond);
+BENCHMARK(MeshWithManyParts)->Arg(1)->Arg(60000)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace seaglint

@@ -29,7 +29,7 @@ struct Interval {
       points.push_back({{x, 0, 0}, std::pow(10, -1.5 * random.uniform()), {0.01 * x + 0.1 * random.normal(), 0, 0}});
     }
     response = point_response(points, Vec3(1, 0, 0), interval_sampling(train, 0));
-    echo = synthesize_echo(train, response, {}, 1, 1);
+    echo = synthesise_echo(train, response, {}, 1, 1);
   }
 };
 
@@ -54,7 +54,7 @@ BENCHMARK(ResponseOfSixtyPoints)->Unit(benchmark::kMillisecond);
 
 void EchoWithClutter(benchmark::State& state) {
   const Interval interval;
-  for (auto _ : state) benchmark::DoNotOptimize(synthesize_echo(interval.train, interval.response, {}, 1, 1));
+  for (auto _ : state) benchmark::DoNotOptimize(synthesise_echo(interval.train, interval.response, {}, 1, 1));
 }
 BENCHMARK(EchoWithClutter)->Unit(benchmark::kMillisecond);
 
@@ -69,8 +69,8 @@ void EchoAndReceivedMap(benchmark::State& state) {
   const Interval interval;
   const MapSpec spec = map_with(state);
   for (auto _ : state) {
-    const Echo echo = synthesize_echo(interval.train, interval.response, {}, 1, 1);
-    benchmark::DoNotOptimize(receive(echo, interval.train, {}, spec, false));
+    const Echo echo = synthesise_echo(interval.train, interval.response, {}, 1, 1);
+    benchmark::DoNotOptimize(form_received_interval(echo, interval.train, {}, spec, false));
   }
 }
 BENCHMARK(EchoAndReceivedMap)->Arg(64)->Arg(256)->Unit(benchmark::kMillisecond);
@@ -152,7 +152,7 @@ MapSpec map_of_320_by_128() {
 }
 
 // 256 pulses on 8 carriers, 320 range x 128 velocity cells, beside the definition.
-void MapBesideItsDefinition(benchmark::State& state) {
+void MapVersusDirectSum(benchmark::State& state) {
   const Interval interval;
   const MapSpec spec = map_of_320_by_128();
   RvMap map;
@@ -163,10 +163,10 @@ void MapBesideItsDefinition(benchmark::State& state) {
   state.counters["cells"] = static_cast<double>(map.values.size());
   report(state, spent, reference_map(interval.echo, interval.train, spec, map));
 }
-BENCHMARK(MapBesideItsDefinition)->Unit(benchmark::kMillisecond);
+BENCHMARK(MapVersusDirectSum)->Unit(benchmark::kMillisecond);
 
 // 60 points over one interval: response, echo and map without clutter, beside the definitions of echo and map.
-void SixtyPointsBesideTheirDefinition(benchmark::State& state) {
+void SixtyPointsVersusDirectSum(benchmark::State& state) {
   const Interval interval;
   const MapSpec spec = map_of_320_by_128();
   ClutterSpec none;
@@ -178,8 +178,8 @@ void SixtyPointsBesideTheirDefinition(benchmark::State& state) {
     spent += seconds([&] {
       const FrequencyResponse response =
           point_response(interval.points, Vec3(1, 0, 0), interval_sampling(interval.train, 0));
-      echo = synthesize_echo(interval.train, response, none, 1, 1);
-      map = receive(echo, interval.train, none, spec, false).map;
+      echo = synthesise_echo(interval.train, response, none, 1, 1);
+      map = form_received_interval(echo, interval.train, none, spec, false).map;
     });
   }
   Echo exact = echo;
@@ -188,7 +188,7 @@ void SixtyPointsBesideTheirDefinition(benchmark::State& state) {
   reference.seconds += echo_s;
   report(state, spent, reference);
 }
-BENCHMARK(SixtyPointsBesideTheirDefinition)->Unit(benchmark::kMillisecond);
+BENCHMARK(SixtyPointsVersusDirectSum)->Unit(benchmark::kMillisecond);
 
 void CentresOfSixtyPoints(benchmark::State& state) {
   const Interval interval;

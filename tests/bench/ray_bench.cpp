@@ -46,10 +46,10 @@ double relative_error_db(const Matrices& S, const Matrices& exact) {
 class RaySolver {
  public:
   RaySolver(const Scatterer& scatterer, const RadarBasis& basis, double side)
-      : scatterer_(scatterer), scene_(scatterer.facets()), antennas_(monostatic(basis)), side_(side) {}
+      : scatterer_(scatterer), scene_(scatterer.facets()), geometry_(monostatic(basis)), side_(side) {}
 
   Matrices solve(std::span<const double> k) {
-    const RadarBasis& basis = antennas_.transmit;
+    const RadarBasis& basis = geometry_.transmit;
     const auto [lower, upper] = window_of(scatterer_, basis);
     Matrices sum(k.size());
     // Tiles of rays: packets of neighbours.
@@ -63,9 +63,9 @@ class RaySolver {
           Tube& tube = tubes.emplace_back();
           tube.p = p;
           tube.ray = {p.x() * basis.h + p.y() * basis.v + 2 * scatterer_.radius() * basis.r, -basis.r};
-          tube.leg.direction = -basis.r;
-          tube.leg.E_h = basis.h;
-          tube.leg.E_v = basis.v;
+          tube.segment.direction = -basis.r;
+          tube.segment.E_h = basis.h;
+          tube.segment.E_v = basis.v;
         }
         follow(tubes, k, sum);
       }
@@ -80,7 +80,7 @@ class RaySolver {
   struct Tube {
     Vec2 p;  // in the aperture
     Ray ray;
-    Leg leg;
+    BeamSegment segment;
   };
 
   std::vector<int> first_hits(const std::vector<Ray>& rays) {
@@ -105,21 +105,22 @@ class RaySolver {
         if (hits[i] == kNoFacet) continue;
         Tube tube = tubes[i];
         const Facet& facet = scatterer_.facets()[hits[i]];
-        const Vec3 n = facing(tube.leg, facet);
-        const double cosine = -n.dot(tube.leg.direction);
-        if (cosine < 1e-6 || (!facet.open && facet.normal.dot(tube.leg.direction) > 0)) continue;
-        const double way = n.dot(facet.corner[0] - tube.ray.origin) / n.dot(tube.leg.direction);
-        const Vec3 hit = tube.ray.origin + way * tube.leg.direction + kOffSurface * n;
-        if (n.dot(antennas_.receive.r) > 1e-6) {
+        const Vec3 n = illuminated_normal(tube.segment, facet);
+        const double cosine = -n.dot(tube.segment.direction);
+        if (cosine < 1e-6 || (!facet.two_sided && facet.normal.dot(tube.segment.direction) > 0)) continue;
+        const double way = n.dot(facet.corner[0] - tube.ray.origin) / n.dot(tube.segment.direction);
+        const Vec3 hit = tube.ray.origin + way * tube.segment.direction + kOffSurface * n;
+        if (n.dot(geometry_.receive.r) > 1e-6) {
           footprints.push_back(footprint(tube, facet, n, cosine, bounce));
-          to_radar.push_back({hit, antennas_.receive.r});
+          to_radar.push_back({hit, geometry_.receive.r});
         }
-        tube.leg.mirrors = {tube.leg.mirrors.L * (Mat3::Identity() - 2 * n * n.transpose()),
-                            tube.leg.mirrors.L * (2 * n.dot(facet.corner[0]) * n) + tube.leg.mirrors.t};
-        tube.leg.direction += 2 * cosine * n;
-        tube.leg.E_h = 2 * n.dot(tube.leg.E_h) * n - tube.leg.E_h;
-        tube.leg.E_v = 2 * n.dot(tube.leg.E_v) * n - tube.leg.E_v;
-        tube.ray = {hit, tube.leg.direction};
+        tube.segment.image_transform = {
+            tube.segment.image_transform.L * (Mat3::Identity() - 2 * n * n.transpose()),
+            tube.segment.image_transform.L * (2 * n.dot(facet.corner[0]) * n) + tube.segment.image_transform.t};
+        tube.segment.direction += 2 * cosine * n;
+        tube.segment.E_h = 2 * n.dot(tube.segment.E_h) * n - tube.segment.E_h;
+        tube.segment.E_v = 2 * n.dot(tube.segment.E_v) * n - tube.segment.E_v;
+        tube.ray = {hit, tube.segment.direction};
         lit.push_back(tube);
       }
       // What is hit first is seen.
@@ -137,12 +138,13 @@ class RaySolver {
 
   Footprint footprint(const Tube& tube, const Facet& facet, const Vec3& n, double cosine, int bounce) const {
     Footprint footprint;
-    footprint.mirrors = tube.leg.mirrors;
-    const Vec3 n_image = tube.leg.mirrors.L * facet.normal;
-    footprint.plane = image_plane(n_image, n_image.dot(tube.leg.mirrors.image(facet.corner[0])), antennas_.transmit);
+    footprint.image_transform = tube.segment.image_transform;
+    const Vec3 n_image = tube.segment.image_transform.L * facet.normal;
+    footprint.plane =
+        depth_plane(n_image, n_image.dot(tube.segment.image_transform.image(facet.corner[0])), geometry_.transmit);
     footprint.bounces = static_cast<std::uint8_t>(bounce);
-    set_phase(footprint, n_image, antennas_);
-    footprint.pattern = conductor_pattern(tube.leg, n, cosine, antennas_.receive);
+    set_phase(footprint, n_image, geometry_);
+    footprint.pattern = pec_pattern(tube.segment, n, cosine, geometry_.receive);
     const double half = side_ / 2;
     for (const Vec2& corner : {Vec2(-half, -half), Vec2(half, -half), Vec2(half, half), Vec2(-half, half)})
       footprint.polygon.push_back({tube.p + corner, Vec2::Zero(), Vec2::Zero()});
@@ -151,7 +153,7 @@ class RaySolver {
 
   const Scatterer& scatterer_;
   RayScene scene_;
-  AntennaPair antennas_;
+  BistaticGeometry geometry_;
   double side_;  // m
   std::clock_t embree_ = 0;
   std::size_t rays_ = 0;
@@ -167,7 +169,7 @@ double least_of_three(const Seconds& seconds) {
 // Beside it the solver's own, one thread each: a matrix without edges, which is what the rays compute, and the default,
 // edges and all of an interval's 256 pulses and 320 frequencies. Every time is the least of three: the first run of
 // each also fills memory. Errors against beams with pieces of 1 mm.
-void ShipByRays(benchmark::State& state) {
+void ShipSbrReference(benchmark::State& state) {
   const Vec3 r = direction(static_cast<double>(state.range(0)));
   const RadarBasis basis = radar_basis(r);
   const std::vector<double> k = band(), one(1, k.front());
@@ -190,7 +192,7 @@ void ShipByRays(benchmark::State& state) {
     });
     const double interval = least_of_three([&] {
       return processor_seconds([&] {
-        benchmark::DoNotOptimize(respond(ship(), trajectory, r, Polarisation::kVv, paper_interval(), {}, 1));
+        benchmark::DoNotOptimize(body_response(ship(), trajectory, r, Polarisation::kVv, paper_interval(), {}, 1));
       });
     });
     state.counters["rays_dB"] = relative_error_db(by_rays, exact);
@@ -201,7 +203,10 @@ void ShipByRays(benchmark::State& state) {
     state.counters["interval/embree"] = interval / embree;
   }
 }
-BENCHMARK(ShipByRays)->ArgsProduct({{10, 50, 90}, {100, 50, 18, 10}})->Unit(benchmark::kMillisecond)->Iterations(1);
+BENCHMARK(ShipSbrReference)
+    ->ArgsProduct({{10, 50, 90}, {100, 50, 18, 10}})
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(1);
 
 }  // namespace
 }  // namespace seaglint

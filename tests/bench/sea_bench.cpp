@@ -19,15 +19,15 @@ WaveField field_of(int components, Spreading spreading, double depth) {
   state.second_order_cutoff_rad_s = 4;
   state.spreading.kind = spreading;
   state.depth_m = depth;
-  return realize_sea(state, 42, 0);
+  return realise_sea(state, 42, 0);
 }
 
-void time_surface(benchmark::State& state, const WaveField& field, SurfaceDetail detail) {
+void time_surface(benchmark::State& state, const WaveField& field, SurfaceQuantities detail) {
   double t = 0;
   for (auto _ : state) benchmark::DoNotOptimize(field.surface(3, 4, t += 0.01, detail).elevation);
 }
 
-void time_series(benchmark::State& state, const WaveField& field, SurfaceDetail detail) {
+void time_series(benchmark::State& state, const WaveField& field, SurfaceQuantities detail) {
   SurfaceSeries series(field, 3, 4, 0, 0.01, detail);
   for (auto _ : state) {
     benchmark::DoNotOptimize(series.state().elevation);
@@ -37,39 +37,39 @@ void time_series(benchmark::State& state, const WaveField& field, SurfaceDetail 
 
 void LongCrestedAnywhere(benchmark::State& state) {
   const WaveField field = field_of(static_cast<int>(state.range(0)), Spreading::kNone, kDeepWater);
-  time_surface(state, field, SurfaceDetail::kMotion);
+  time_surface(state, field, SurfaceQuantities::kKinematics);
 }
 BENCHMARK(LongCrestedAnywhere)->RangeMultiplier(2)->Range(64, 4096);
 
 void LongCrestedSeries(benchmark::State& state) {
   const WaveField field = field_of(static_cast<int>(state.range(0)), Spreading::kNone, kDeepWater);
-  time_series(state, field, SurfaceDetail::kShape);
+  time_series(state, field, SurfaceQuantities::kElevationAndSlope);
 }
 BENCHMARK(LongCrestedSeries)->RangeMultiplier(2)->Range(64, 4096);
 
 void LongCrestedMotion(benchmark::State& state) {
   const WaveField field = field_of(static_cast<int>(state.range(0)), Spreading::kNone, kDeepWater);
-  time_series(state, field, SurfaceDetail::kMotion);
+  time_series(state, field, SurfaceQuantities::kKinematics);
 }
 BENCHMARK(LongCrestedMotion)->RangeMultiplier(2)->Range(64, 4096);
 
 void DirectionalSeries(benchmark::State& state) {
   const WaveField field = field_of(static_cast<int>(state.range(0)), Spreading::kCos2s, kDeepWater);
-  time_series(state, field, SurfaceDetail::kShape);
+  time_series(state, field, SurfaceQuantities::kElevationAndSlope);
 }
 BENCHMARK(DirectionalSeries)->RangeMultiplier(2)->Range(64, 1024);
 
 void DirectionalMotion(benchmark::State& state) {
   const WaveField field = field_of(static_cast<int>(state.range(0)), Spreading::kCos2s, 20);
-  time_series(state, field, SurfaceDetail::kMotion);
+  time_series(state, field, SurfaceQuantities::kKinematics);
 }
 BENCHMARK(DirectionalMotion)->RangeMultiplier(2)->Range(64, 1024);
 
-void Realise(benchmark::State& state) {
+void RealiseSea(benchmark::State& state) {
   const auto spreading = static_cast<Spreading>(state.range(0));
   for (auto _ : state) benchmark::DoNotOptimize(field_of(512, spreading, kDeepWater).order());
 }
-BENCHMARK(Realise)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
+BENCHMARK(RealiseSea)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace seaglint

@@ -43,7 +43,7 @@ inline IntervalSampling paper_interval() {
   sampling.step_hz = 0.625e6;
   sampling.first_hz = 16e9 - 12.5e6 + 0.5 * sampling.step_hz;
   sampling.count = 320;
-  sampling.per_pulse = 40;
+  sampling.frequencies_per_pulse = 40;
   for (int n = 0; n < 256; ++n) {
     sampling.pulse_first.push_back(40 * (n * 5 % 8));
     sampling.pulse_time_s.push_back(0.5 + 250e-6 * n);

@@ -28,14 +28,14 @@ std::vector<Ray> primary_rays(const RadarBasis& basis) {
 }
 
 // Embree alone, packets of 16.
-void EmbreeAloneOnTheShip(benchmark::State& state) {
+void EmbreeFirstHitsOnShip(benchmark::State& state) {
   const std::vector<Ray> rays = primary_rays(radar_basis(direction(static_cast<double>(state.range(0)))));
   std::vector<int> hits(rays.size());
   for (auto _ : state) ship_rays().first_hits(rays, hits);
   state.counters["rays/s"] =
       benchmark::Counter(static_cast<double>(rays.size() * state.iterations()), benchmark::Counter::kIsRate);
 }
-BENCHMARK(EmbreeAloneOnTheShip)->Arg(10)->Arg(50)->Arg(90)->Unit(benchmark::kMillisecond);
+BENCHMARK(EmbreeFirstHitsOnShip)->Arg(10)->Arg(50)->Arg(90)->Unit(benchmark::kMillisecond);
 
 // One trace and the whole band and interval from it, two threads; beside it Embree alone, first hits of primary rays
 // 0.1 m apart, in processor time of the same run.
@@ -48,8 +48,9 @@ void ShipInterval(benchmark::State& state) {
   const double embree = processor_seconds([&] { ship_rays().first_hits(rays, hits); });
   double solver = 0;
   for (auto _ : state) {
-    solver += processor_seconds(
-        [&] { benchmark::DoNotOptimize(respond(ship(), trajectory, r, Polarisation::kVv, paper_interval(), {}, 2)); });
+    solver += processor_seconds([&] {
+      benchmark::DoNotOptimize(body_response(ship(), trajectory, r, Polarisation::kVv, paper_interval(), {}, 2));
+    });
   }
   solver /= static_cast<double>(state.iterations());
   state.counters["processor_s"] = solver;
@@ -62,7 +63,7 @@ void ShipIntervalRollingAtOneRms(benchmark::State& state) {
   const Trajectory trajectory = rolling(0.014, {0, 0, 1.7});
   const Vec3 r = direction(static_cast<double>(state.range(0)));
   int traces = 0;
-  for (auto _ : state) traces = respond(ship(), trajectory, r, Polarisation::kVv, paper_interval(), {}, 2).traces;
+  for (auto _ : state) traces = body_response(ship(), trajectory, r, Polarisation::kVv, paper_interval(), {}, 2).traces;
   state.counters["traces"] = traces;
 }
 BENCHMARK(ShipIntervalRollingAtOneRms)->Arg(50)->Arg(90)->Unit(benchmark::kMillisecond)->UseRealTime();
@@ -73,7 +74,7 @@ void ReflectorInterval(benchmark::State& state) {
   const Trajectory trajectory = rolling(0.6, {0, 0, -0.75});
   int traces = 0;
   for (auto _ : state)
-    traces = respond(reflector, trajectory, direction(80), Polarisation::kVv, paper_interval(), {}).traces;
+    traces = body_response(reflector, trajectory, direction(80), Polarisation::kVv, paper_interval(), {}).traces;
   state.counters["traces"] = traces;
 }
 BENCHMARK(ReflectorInterval)->Unit(benchmark::kMillisecond)->UseRealTime();
@@ -82,15 +83,15 @@ BENCHMARK(ReflectorInterval)->Unit(benchmark::kMillisecond)->UseRealTime();
 void ShipAspect(benchmark::State& state) {
   const RadarBasis basis = radar_basis(direction(static_cast<double>(state.range(0))));
   const std::vector<double> k(static_cast<std::size_t>(state.range(1)), 2 * kPi * 16e9 / kSpeedOfLight);
-  std::size_t legs = 0;
-  for (auto _ : state) benchmark::DoNotOptimize(scattering_matrices(ship(), monostatic(basis), k, {}, 2, &legs));
-  state.counters["legs/s"] = benchmark::Counter(static_cast<double>(legs), benchmark::Counter::kIsRate);
+  std::size_t segments = 0;
+  for (auto _ : state) benchmark::DoNotOptimize(scattering_matrices(ship(), monostatic(basis), k, {}, 2, &segments));
+  state.counters["legs/s"] = benchmark::Counter(static_cast<double>(segments), benchmark::Counter::kIsRate);
 }
 BENCHMARK(ShipAspect)->Args({50, 1})->Args({50, 16})->Unit(benchmark::kMillisecond)->UseRealTime();
 
 // The whole solver beside Embree alone on its primary rays 0.1 m apart, turn by turn in one run and one thread each.
 // The solver traces no rays; its beams see every bounce, these rays the first alone.
-void WholeSolverOverEmbreeAlone(benchmark::State& state) {
+void SolverTimeOverEmbreeFirstHits(benchmark::State& state) {
   const RadarBasis basis = radar_basis(direction(static_cast<double>(state.range(0))));
   const std::vector<Ray> rays = primary_rays(basis);
   std::vector<int> hits(rays.size());
@@ -109,7 +110,7 @@ void WholeSolverOverEmbreeAlone(benchmark::State& state) {
   state.counters["ns/ray"] =
       1e9 * static_cast<double>(solver) / CLOCKS_PER_SEC / static_cast<double>(rays.size() * state.iterations());
 }
-BENCHMARK(WholeSolverOverEmbreeAlone)->Arg(10)->Arg(50)->Arg(90)->Unit(benchmark::kMillisecond);
+BENCHMARK(SolverTimeOverEmbreeFirstHits)->Arg(10)->Arg(50)->Arg(90)->Unit(benchmark::kMillisecond);
 
 // Cost against the ship's length in metres.
 void ShipLength(benchmark::State& state) {
@@ -127,12 +128,12 @@ void ShipBand(benchmark::State& state) {
   IntervalSampling sampling;
   sampling.step_hz = 0.3125e6;
   sampling.first_hz = 1e9 * static_cast<double>(state.range(0));
-  sampling.count = sampling.per_pulse = static_cast<int>(state.range(1));
+  sampling.count = sampling.frequencies_per_pulse = static_cast<int>(state.range(1));
   sampling.pulse_first.push_back(0);
   sampling.pulse_time_s.push_back(0);
   const Trajectory rest = Trajectory::at_rest(Vec3::Zero());
   for (auto _ : state)
-    benchmark::DoNotOptimize(respond(ship(), rest, direction(50), Polarisation::kVv, sampling, {}, 1));
+    benchmark::DoNotOptimize(body_response(ship(), rest, direction(50), Polarisation::kVv, sampling, {}, 1));
 }
 BENCHMARK(ShipBand)
     ->ArgsProduct({{1, 2, 4, 8, 16, 32}, {320}})
@@ -141,7 +142,7 @@ BENCHMARK(ShipBand)
 
 // Relative L2 error of the default against pieces of a five-thousandth of the area, over 24 frequencies of 200 MHz, hh
 // and vv.
-void ShipErrorOfTheDefault(benchmark::State& state) {
+void ShipDefaultSettingsError(benchmark::State& state) {
   const RadarBasis basis = radar_basis(direction(static_cast<double>(state.range(0))));
   std::vector<double> k;
   for (int q = 0; q < 24; ++q) k.push_back(2 * kPi * (16e9 + 200e6 * q / 24) / kSpeedOfLight);
@@ -158,7 +159,7 @@ void ShipErrorOfTheDefault(benchmark::State& state) {
   }
   state.counters["error_dB"] = 10 * std::log10(error / power);
 }
-BENCHMARK(ShipErrorOfTheDefault)
+BENCHMARK(ShipDefaultSettingsError)
     ->Arg(10)
     ->Arg(50)
     ->Arg(80)

@@ -20,7 +20,7 @@ bool has_python() { return fs::exists(kPython) && run_words({kPython, "-c", "imp
   if (!has_python()) GTEST_SKIP() << "needs the packages python3-h5py and python3-numpy"
 
 // One data set with complex maps for all tests of this file; tests that change it copy it.
-class UsedData : public testing::Test {
+class DataSetUse : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = new TemporaryFolder;
@@ -54,13 +54,13 @@ class UsedData : public testing::Test {
   static inline fs::path data_;
 };
 
-TEST_F(UsedData, VerifiesWithItsMergedFile) {
+TEST_F(DataSetUse, VerifiesWithItsMergedFile) {
   const ProgramResult result = run_program({"verify", data_});
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("no fault found"));
 }
 
-TEST_F(UsedData, IsNotMergedWithAShardMissing) {
+TEST_F(DataSetUse, IsNotMergedWithAShardMissing) {
   const fs::path data = copy();
   fs::remove(data / "shard_00001.h5");
   const ProgramResult result = run_program({"merge", data, "-o", data / "new.h5"});
@@ -69,7 +69,7 @@ TEST_F(UsedData, IsNotMergedWithAShardMissing) {
   EXPECT_FALSE(fs::exists(data / "new.h5"));
 }
 
-TEST_F(UsedData, GivesASampleAgainBitForBit) {
+TEST_F(DataSetUse, GivesASampleAgainBitForBit) {
   const fs::path out = folder_->path() / "sample.npz";
   const ProgramResult result = run_program({"remake", data_, "--sample", "17", "-o", out});
   ASSERT_EQ(result.code, 0) << result.err;
@@ -88,7 +88,7 @@ TEST_F(UsedData, GivesASampleAgainBitForBit) {
       out);
 }
 
-TEST_F(UsedData, SaysWhatIsOtherInASampleMadeAgain) {
+TEST_F(DataSetUse, SaysWhatIsOtherInASampleMadeAgain) {
   const fs::path data = copy();
   std::string yaml = read_file(data / "scenario.yaml");
   yaml.replace(yaml.find("scr_db: 20"), 10, "scr_db: 15");
@@ -108,7 +108,7 @@ TEST_F(UsedData, SaysWhatIsOtherInASampleMadeAgain) {
   EXPECT_THAT(beyond.err, HasSubstr("--sample 40: the data set has samples 0 to 39"));
 }
 
-TEST_F(UsedData, IsTheSameInNumpy) {
+TEST_F(DataSetUse, IsTheSameInNumpy) {
   const fs::path one = folder_->path() / "all.npz", many = folder_->path() / "npz";
   ASSERT_EQ(run_program({"export", data_, "-o", one}).code, 0);
   const ProgramResult result = run_program({"export", data_, "-o", many});
@@ -134,7 +134,7 @@ TEST_F(UsedData, IsTheSameInNumpy) {
                          many);
 }
 
-TEST_F(UsedData, IsExportedInTheSameBytesAtAnotherTime) {
+TEST_F(DataSetUse, IsExportedInTheSameBytesAtAnotherTime) {
   const fs::path out = folder_->path() / "twice.npz";
   ASSERT_EQ(run_program({"export", data_, "-o", out}).code, 0);
   const std::string first = read_file(out);
@@ -145,7 +145,7 @@ TEST_F(UsedData, IsExportedInTheSameBytesAtAnotherTime) {
 }
 
 // Two data sets in one directory would be read as one.
-TEST_F(UsedData, IsNotExportedAmongFilesOfAnother) {
+TEST_F(DataSetUse, IsNotExportedAmongFilesOfAnother) {
   const fs::path other = folder_->path() / "other", out = folder_->path() / "shards";
   ASSERT_EQ(run_program({"generate", "scenarios/points.yaml", "-o", other, "--set", "dataset.maps_per_case=10"}).code,
             0);
@@ -172,7 +172,7 @@ TEST_F(UsedData, IsNotExportedAmongFilesOfAnother) {
   EXPECT_FALSE(fs::exists(other / "shard_00000.npz"));
 }
 
-TEST_F(UsedData, IsNotExportedWithAShardDamagedNorOntoAFullDisk) {
+TEST_F(DataSetUse, IsNotExportedWithAShardDamagedNorOntoAFullDisk) {
   const fs::path data = copy();
   fs::resize_file(data / "shard_00002.h5", fs::file_size(data / "shard_00002.h5") / 2);
   const ProgramResult damaged = run_program({"export", data, "-o", data / "x.npz"});
@@ -188,7 +188,7 @@ TEST_F(UsedData, IsNotExportedWithAShardDamagedNorOntoAFullDisk) {
 }
 
 // In /proc nobody may write, not even root.
-TEST_F(UsedData, SaysWhereItCannotBeWritten) {
+TEST_F(DataSetUse, SaysWhereItCannotBeWritten) {
   for (const std::vector<std::string>& words :
        std::vector<std::vector<std::string>>{{"merge", data_, "-o", "/proc/x.h5"},
                                              {"export", data_, "-o", "/proc/x.npz"},
@@ -201,7 +201,7 @@ TEST_F(UsedData, SaysWhereItCannotBeWritten) {
   }
 }
 
-TEST_F(UsedData, IsReadByThePythonExample) {
+TEST_F(DataSetUse, IsReadByThePythonExample) {
   SKIP_WITHOUT_PYTHON();
   const std::string example = SEAGLINT_SOURCE_DIR "/tools/python/read_dataset.py";
   const ProgramResult merged = run_words({kPython, example, data_ / "dataset.h5"});

@@ -112,7 +112,7 @@ bool run_and_kill(Words words, Seconds after, const std::function<bool()>& begun
   return false;
 }
 
-TEST(DisturbedGenerate, LosesNoFinishedShardInTwentyKills) {
+TEST(InterruptedGenerate, LosesNoFinishedShardInTwentyKills) {
   constexpr int kKills = 20;
   int kills = 0, runs = 0;
   std::size_t kept = 0, killed_between_shards = 0;
@@ -146,7 +146,7 @@ TEST(DisturbedGenerate, LosesNoFinishedShardInTwentyKills) {
 }
 
 // They race for the directory, scenario.yaml, the manifest and the data card.
-TEST(DisturbedGenerate, GivesTheSameBytesInSevenPartsAtTheSameTime) {
+TEST(InterruptedGenerate, GivesTheSameBytesInSevenPartsAtTheSameTime) {
   const TemporaryFolder folder;
   const fs::path data = folder.path() / "data";
   std::vector<ProgramResult> results(7);
@@ -166,7 +166,7 @@ TEST(DisturbedGenerate, GivesTheSameBytesInSevenPartsAtTheSameTime) {
 }
 
 // The first to end clears up while the other still writes.
-TEST(DisturbedGenerate, GivesTheSameBytesWhenTwoProcessesMakeAllOfIt) {
+TEST(InterruptedGenerate, GivesTheSameBytesWhenTwoProcessesMakeAllOfIt) {
   for (int round = 0; round < 4; ++round) {
     const TemporaryFolder folder;
     const fs::path data = folder.path() / "data";
@@ -189,7 +189,7 @@ void expect_one_line(const ProgramResult& result, const std::string& message) {
   EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
 }
 
-TEST(DisturbedGenerate, SaysThatAFileMayNotGrowAndResumes) {
+TEST(InterruptedGenerate, SaysThatAFileMayNotGrowAndResumes) {
   const TemporaryFolder folder;
   const fs::path data = folder.path() / "data";
   // 50 KiB hold scenario.yaml, no shard; without the signal a write beyond it fails.
@@ -205,7 +205,7 @@ TEST(DisturbedGenerate, SaysThatAFileMayNotGrowAndResumes) {
 }
 
 // A disk of its own, in memory; only root may mount one.
-class SmallDisk : public testing::Test {
+class DiskErrors : public testing::Test {
  protected:
   void SetUp() override {
     if (::mount("tmpfs", folder_.path().c_str(), "tmpfs", 0, "size=1m") != 0)
@@ -217,7 +217,7 @@ class SmallDisk : public testing::Test {
   fs::path data_ = folder_.path() / "data";
 };
 
-TEST_F(SmallDisk, ThatIsFullEndsWithAMessageAndADataSetThatResumes) {
+TEST_F(DiskErrors, ThatIsFullEndsWithAMessageAndADataSetThatResumes) {
   const ProgramResult full = run_words(generate(data_, {"--resume"}));
   expect_one_line(full, ": No space left on device");
   const Finished before = finished_shards(data_);
@@ -230,7 +230,7 @@ TEST_F(SmallDisk, ThatIsFullEndsWithAMessageAndADataSetThatResumes) {
   EXPECT_THAT(differences(data_), IsEmpty());
 }
 
-TEST_F(SmallDisk, ThatBecameReadOnlyEndsWithAMessage) {
+TEST_F(DiskErrors, ThatBecameReadOnlyEndsWithAMessage) {
   fs::create_directories(data_);
   ASSERT_EQ(::mount("tmpfs", folder_.path().c_str(), "tmpfs", MS_REMOUNT | MS_RDONLY, "size=16m"), 0);
   expect_one_line(run_words(generate(data_, {"--resume"})),

@@ -126,7 +126,7 @@ TEST(MapCommand, RefusesSamplesAndFilesThatCannotBe) {
 }
 
 // Range, velocity and amplitude of the listed centres.
-std::vector<std::array<double, 3>> centres_of(const std::vector<std::string>& more) {
+std::vector<std::array<double, 3>> cluster_centres(const std::vector<std::string>& more) {
   const TemporaryFolder folder;
   const ProgramResult result = run_program(map_of(folder.path() / "map.png", more));
   EXPECT_EQ(result.code, 0) << result.err;
@@ -140,7 +140,7 @@ std::vector<std::array<double, 3>> centres_of(const std::vector<std::string>& mo
 
 TEST(MapCommand, ACompanionIsSeenInTheSameMap) {
   const auto centres_in = [](const std::string& sample) {
-    return centres_of(
+    return cluster_centres(
         {"--set", "view={azimuth_deg: 0, elevation_deg: 0}", "--set",
          "targets={one: {label: 1, points: [{position_m: [30, 0, 0], amplitude_m: 2, velocity_mps: [1, 0, 0]}], with: "
          "[{target: other, x_m: -50, y_m: 8}]}, other: {label: 0, points: [{position_m: [5, 0, 0]}]}}",
@@ -167,7 +167,7 @@ TEST(MapCommand, CompanionsOfAShipUnderWayStayInTheWater) {
   const auto centres = [&](const std::string& with) {
     std::vector<std::array<double, 3>> most;
     for (const char* sample : {"0", "1", "2", "3"}) {
-      const auto found = centres_of(
+      const auto found = cluster_centres(
           {"--set", "view={azimuth_deg: 60, elevation_deg: 0}", "--set", "sea={significant_wave_height_m: 0}", "--set",
            "targets={flagship: {label: 1, " + corner + ", motion: {model: ship, speed_mps: 2, " + hull + "}, with: [" +
                with + "]}, consort: {label: 1, " + corner + ", motion: {model: ship, speed_mps: 2, " + hull +
@@ -197,12 +197,12 @@ TEST(MapCommand, TheRadarsOwnWayShowsUnlessItIsTakenOut) {
   std::vector<std::string> moving = kOnePoint;
   moving.insert(moving.end(), {"--set", "radar.platform={velocity_mps: [2.5, 0, 0], compensated: false}", "--set",
                                "clutter.scr_db=60"});
-  const auto seen = centres_of(moving);
+  const auto seen = cluster_centres(moving);
   ASSERT_GE(seen.size(), 1u);
   EXPECT_NEAR(seen[0][1], -1.5 + 2.5, 0.005);  // the radar ahead draws away
   EXPECT_NEAR(seen[0][0], -30, 0.02);
   moving.insert(moving.end(), {"--set", "radar.platform.compensated=true"});
-  EXPECT_NEAR(centres_of(moving)[0][1], -1.5, 0.005);
+  EXPECT_NEAR(cluster_centres(moving)[0][1], -1.5, 0.005);
 }
 
 }  // namespace

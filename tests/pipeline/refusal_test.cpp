@@ -50,9 +50,9 @@ std::vector<Words> scenario_commands(const std::string& scenario, const fs::path
 }
 
 // A folder with a scenario of two meshes, one of which is a shipped asset cut in half.
-class Refusal : public testing::Test {
+class InputErrors : public testing::Test {
  protected:
-  Refusal() {
+  InputErrors() {
     const std::string whole = read_file(SEAGLINT_SOURCE_DIR "/assets/icosahedral_reflector.glb");
     write_file(folder() / "whole.glb", whole);
     write_file(folder() / "truncated.glb", whole.substr(0, whole.size() / 2));
@@ -69,14 +69,14 @@ class Refusal : public testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(Refusal, OfATypoInAKey) {
+TEST_F(InputErrors, OfATypoInAKey) {
   const std::string file = scenario("sea: {peek_period_s: 8}\n");
   for (const Words& words : scenario_commands(file, folder()))
     expect_failure(folder(), words, 2,
                    "scenario.yaml:2:7: sea.peek_period_s: unknown key: did you mean 'peak_period_s'?\n");
 }
 
-TEST_F(Refusal, OfANegativeWaveHeight) {
+TEST_F(InputErrors, OfANegativeWaveHeight) {
   const std::string file = scenario("sea: {significant_wave_height_m: -1}\n");
   for (const Words& words : scenario_commands(file, folder()))
     expect_failure(folder(), words, 2,
@@ -84,7 +84,7 @@ TEST_F(Refusal, OfANegativeWaveHeight) {
 }
 
 // The sea has no targets in it: `sea` reads no mesh.
-TEST_F(Refusal, OfAMeshThatIsMissingOrCutShort) {
+TEST_F(InputErrors, OfAMeshThatIsMissingOrCutShort) {
   for (const std::string mesh : {"none.glb", "truncated.glb"}) {
     const std::string file = scenario("", mesh);
     for (const Words& words : scenario_commands(file, folder())) {
@@ -99,7 +99,7 @@ TEST_F(Refusal, OfAMeshThatIsMissingOrCutShort) {
 }
 
 // The 144 m ship reaches 72 m from its origin; the second order of the wavefront needs ten times that.
-TEST_F(Refusal, OfARadarTooNearForItsWavefront) {
+TEST_F(InputErrors, OfARadarTooNearForItsWavefront) {
   for (const char* command : {"check", "generate"}) {
     Words words{command, "scenarios/quick.yaml", "--set", "targets.ship.solver.radar_range_m=500"};
     if (words.front() != "check") words.insert(words.end(), {"-o", folder() / "data"});
@@ -109,7 +109,7 @@ TEST_F(Refusal, OfARadarTooNearForItsWavefront) {
 
 // Four reflectors 40 m apart reach 60.5 m, wherever each has its own origin; a companion reaches as far as it stands
 // away.
-TEST_F(Refusal, OfARadarTooNearForALayoutOrACompanion) {
+TEST_F(InputErrors, OfARadarTooNearForALayoutOrACompanion) {
   write_file(
       folder() / "near.yaml",
       "seaglint: 1\ntargets:\n"
@@ -135,7 +135,7 @@ TEST_F(Refusal, OfARadarTooNearForALayoutOrACompanion) {
 }
 
 // Of a scenario of which no sample can be made `generate` leaves nothing, so that the one put right can follow.
-TEST_F(Refusal, OfASeriesThatDoesNotCoverTheIntervals) {
+TEST_F(InputErrors, OfASeriesThatDoesNotCoverTheIntervals) {
   std::string series = "time_s,roll_deg,pitch_deg,yaw_deg\n";
   for (int t = 0; t <= 40; ++t) series += std::to_string(t) + ",0,0,0\n";
   write_file(folder() / "series.csv", series);
@@ -153,7 +153,7 @@ TEST_F(Refusal, OfASeriesThatDoesNotCoverTheIntervals) {
   EXPECT_EQ(run_program({"check", file}).code, 0);
 }
 
-TEST_F(Refusal, OfATargetUnderWater) {
+TEST_F(InputErrors, OfATargetUnderWater) {
   const std::string file = folder() / "water.yaml";
   write_file(file,
              "seaglint: 1\nsea_reflection: {enabled: true}\ntargets:\n"
@@ -167,7 +167,7 @@ TEST_F(Refusal, OfATargetUnderWater) {
 }
 
 // That a plate does not return this polarisation is known when it has been traced.
-TEST_F(Refusal, OfATargetWithoutAnEcho) {
+TEST_F(InputErrors, OfATargetWithoutAnEcho) {
   const std::string plate = folder() / "plate.obj", file = folder() / "plate.yaml";
   write_file(plate, "v 0 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n");
   write_file(file,
@@ -182,7 +182,7 @@ TEST_F(Refusal, OfATargetWithoutAnEcho) {
   EXPECT_TRUE(files_below(folder()) == before);
 }
 
-TEST_F(Refusal, OfANumberThatIsNone) {
+TEST_F(InputErrors, OfANumberThatIsNone) {
   const std::string mesh = folder() / "whole.glb";
   for (const char* option :
        {"--range-m", "--crease-deg", "--ray-spacing-m", "--transmit-azimuth-deg", "--centre-cell-m"}) {
@@ -196,7 +196,7 @@ TEST_F(Refusal, OfANumberThatIsNone) {
 }
 
 // Bounds and places to look are those of the very command.
-TEST_F(Refusal, OfAnOptionInWordsThatHelp) {
+TEST_F(InputErrors, OfAnOptionInWordsThatHelp) {
   for (const char* value : {"-1", "2.5", "1e3", "99999999999999999999"}) {
     for (const Words& words :
          {Words{"map", "scenarios/points.yaml", "-o", folder() / "map.png"},
@@ -214,7 +214,7 @@ TEST_F(Refusal, OfAnOptionInWordsThatHelp) {
   expect_failure(folder(), {"verify", std::string(300, 'x')}, 1, "xxx/manifest.json: File name too long\n");
 }
 
-TEST_F(Refusal, OfAFullStandardOutput) {
+TEST_F(InputErrors, OfAFullStandardOutput) {
   for (const char* words : {"--help", "--version", "rcs --help"}) {
     const ProgramResult result =
         run_words({"/bin/bash", "-c", std::string("exec \"$0\" ") + words + " >/dev/full", kProgram});
@@ -224,7 +224,7 @@ TEST_F(Refusal, OfAFullStandardOutput) {
 }
 
 // A directory of something else is none to go on in.
-TEST_F(Refusal, OfGoingOnAmongOtherFiles) {
+TEST_F(InputErrors, OfGoingOnAmongOtherFiles) {
   make_directory(folder() / "other");
   write_file(folder() / "other" / "notes.txt", "mine");
   for (const char* command : {"generate", "run"})
@@ -233,7 +233,7 @@ TEST_F(Refusal, OfGoingOnAmongOtherFiles) {
 }
 
 // By whatever name a command's input is called, and whichever key of a scenario names it.
-TEST_F(Refusal, OfWritingOverWhatIsRead) {
+TEST_F(InputErrors, OfWritingOverWhatIsRead) {
   const std::string mesh = folder() / "whole.glb", file = scenario(""), rao = folder() / "rao.csv",
                     link = folder() / "link.glb";
   write_file(rao, "none");
@@ -253,7 +253,7 @@ TEST_F(Refusal, OfWritingOverWhatIsRead) {
   }
 }
 
-TEST_F(Refusal, OfTwoOutputsInOneFile) {
+TEST_F(InputErrors, OfTwoOutputsInOneFile) {
   const std::string mesh = folder() / "whole.glb", file = scenario(""), csv = folder() / "out.csv",
                     png = folder() / "out.png";
   for (const Words& words : {Words{"sea", file, "-o", csv, "--spectrum", csv, "--realisations", "2"},
@@ -265,7 +265,7 @@ TEST_F(Refusal, OfTwoOutputsInOneFile) {
   }
 }
 
-TEST_F(Refusal, OfAnEndingThatSaysAnotherFormat) {
+TEST_F(InputErrors, OfAnEndingThatSaysAnotherFormat) {
   const std::string mesh = folder() / "whole.glb";
   expect_failure(folder(), {"echo", "scenarios/points.yaml", "-o", folder() / "echo.csv"}, 2,
                  "echo.csv: NumPy's archives end in .npz");
@@ -281,7 +281,7 @@ TEST_F(Refusal, OfAnEndingThatSaysAnotherFormat) {
 }
 
 // The shell's limit is in units of 1024 bytes; without care the system kills what goes beyond it.
-TEST_F(Refusal, OfALimitOnFileSizes) {
+TEST_F(InputErrors, OfALimitOnFileSizes) {
   const auto limited = [&](const Words& words) {
     SCOPED_TRACE(words.front());
     Words all{"/bin/bash", "-c", "ulimit -f 20; exec \"$@\"", "limited", kProgram};
@@ -301,7 +301,7 @@ TEST_F(Refusal, OfALimitOnFileSizes) {
 }
 
 // Below a file and in /proc nobody may write, not even root; a folder without write permission stops everybody else.
-TEST_F(Refusal, OfAPlaceWhereNothingCanBeWritten) {
+TEST_F(InputErrors, OfAPlaceWhereNothingCanBeWritten) {
   const fs::path locked = folder() / "locked";
   fs::create_directory(locked);
   fs::permissions(locked, fs::perms::owner_read | fs::perms::owner_exec);

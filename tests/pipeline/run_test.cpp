@@ -18,7 +18,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 // One finished run for all tests of this file.
-class FinishedRun : public testing::Test {
+class RunOutput : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = new TemporaryFolder;
@@ -36,14 +36,14 @@ nlohmann::json metrics_of(const fs::path& directory) {
   return nlohmann::json::parse(read_file(directory / "metrics.json"));
 }
 
-TEST_F(FinishedRun, PrintsTheAccuracyTableAndWhereTheReportIs) {
+TEST_F(RunOutput, PrintsTheAccuracyTableAndWhereTheReportIs) {
   ASSERT_EQ(result_.code, 0) << result_.err;
   EXPECT_THAT(result_.out, HasSubstr("hand-made"));
   EXPECT_THAT(result_.out, HasSubstr("fused"));
   EXPECT_THAT(result_.out, HasSubstr("Report: " + (directory_ / "report.html").string()));
 }
 
-TEST_F(FinishedRun, HasMetricsOfThreeGroupsByWaveHeightUnderBothProtocols) {
+TEST_F(RunOutput, HasMetricsOfThreeGroupsByWaveHeightUnderBothProtocols) {
   const nlohmann::json metrics = metrics_of(directory_);
   for (const char* group : {"handmade", "cnn", "fused"}) {
     for (const char* protocol : {"random", "group"}) {
@@ -58,7 +58,7 @@ TEST_F(FinishedRun, HasMetricsOfThreeGroupsByWaveHeightUnderBothProtocols) {
   EXPECT_EQ(metrics.at("data").at("maps"), 40);
 }
 
-TEST_F(FinishedRun, RepeatsItsNumbersBitForBit) {
+TEST_F(RunOutput, RepeatsItsNumbersBitForBit) {
   const TemporaryFolder folder;
   const ProgramResult result = run_program(
       {"run", "scenarios/points.yaml", "-o", folder.path() / "run", "--threads", "1", "--set", "learning.epochs=3"});
@@ -71,7 +71,7 @@ TEST_F(FinishedRun, RepeatsItsNumbersBitForBit) {
             read_file(folder.path() / "run" / "model" / "network.bin"));
 }
 
-TEST_F(FinishedRun, IsRefusedAsATargetWithoutResumeAndContinuedWithIt) {
+TEST_F(RunOutput, IsRefusedAsATargetWithoutResumeAndContinuedWithIt) {
   const ProgramResult again =
       run_program({"run", "scenarios/points.yaml", "-o", directory_, "--set", "learning.epochs=3"});
   EXPECT_EQ(again.code, 2);
@@ -84,7 +84,7 @@ TEST_F(FinishedRun, IsRefusedAsATargetWithoutResumeAndContinuedWithIt) {
   EXPECT_EQ(read_file(directory_ / "model" / "fused.json"), before);
 }
 
-TEST_F(FinishedRun, GoesOnAfterAKillThatLeftHalfAModel) {
+TEST_F(RunOutput, GoesOnAfterAKillThatLeftHalfAModel) {
   for (const char* name : {"network.bin", "splits.csv", "embeddings.csv", "metrics.json"})
     fs::remove(directory_ / "model" / name);
   const ProgramResult resumed =
@@ -93,7 +93,7 @@ TEST_F(FinishedRun, GoesOnAfterAKillThatLeftHalfAModel) {
   EXPECT_TRUE(fs::exists(directory_ / "model" / "network.bin"));
 }
 
-TEST_F(FinishedRun, IsADataSetForTheCommandsOfOne) {
+TEST_F(RunOutput, IsADataSetForTheCommandsOfOne) {
   const TemporaryFolder folder;
   for (const std::vector<std::string>& words : {std::vector<std::string>{"verify", directory_},
                                                 {"merge", directory_, "-o", folder.path() / "all.h5"},
@@ -104,7 +104,7 @@ TEST_F(FinishedRun, IsADataSetForTheCommandsOfOne) {
   }
 }
 
-TEST_F(FinishedRun, CanBeTrainedOnAndReportedAgain) {
+TEST_F(RunOutput, CanBeTrainedOnAndReportedAgain) {
   const TemporaryFolder folder;
   const ProgramResult trained =
       run_program({"train", directory_, "-o", folder.path() / "model", "--set", "learning.epochs=2"});
@@ -123,7 +123,7 @@ TEST_F(FinishedRun, CanBeTrainedOnAndReportedAgain) {
   }
 }
 
-TEST_F(FinishedRun, IsNotReportedWithTheModelOfAnotherTrainingOrHalfOfOne) {
+TEST_F(RunOutput, IsNotReportedWithTheModelOfAnotherTrainingOrHalfOfOne) {
   const TemporaryFolder folder;
   fs::copy(directory_, folder.path() / "run", fs::copy_options::recursive);
   const fs::path model = folder.path() / "run" / "model";
@@ -142,7 +142,7 @@ TEST_F(FinishedRun, IsNotReportedWithTheModelOfAnotherTrainingOrHalfOfOne) {
 }
 
 // The stored scenario says what the maps are of.
-TEST_F(FinishedRun, IsReadWithItsOwnScenarioOnly) {
+TEST_F(RunOutput, IsReadWithItsOwnScenarioOnly) {
   const TemporaryFolder folder;
   const fs::path run = folder.path() / "run";
   fs::copy(directory_, run, fs::copy_options::recursive);
@@ -170,7 +170,7 @@ TEST_F(FinishedRun, IsReadWithItsOwnScenarioOnly) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 1);
 }
 
-TEST_F(FinishedRun, ReportHoldsEverythingInItself) {
+TEST_F(RunOutput, ReportHoldsEverythingInItself) {
   const std::string page = read_file(directory_ / "report.html");
   EXPECT_THAT(page, HasSubstr("<h2>Range-velocity maps</h2>"));
   for (const char* outside : {"http://", "https://", "src=\"/", "<script", "@import", "url("})
@@ -185,7 +185,7 @@ TEST_F(FinishedRun, ReportHoldsEverythingInItself) {
 
 // Asks headless Chromium. The page's own script is none; this one is put beside it in a copy and writes what it finds
 // into the title.
-TEST_F(FinishedRun, ReportShowsEveryPictureInABrowser) {
+TEST_F(RunOutput, ReportShowsEveryPictureInABrowser) {
   if (std::system("command -v chromium >/dev/null 2>&1") != 0) GTEST_SKIP() << "the package chromium is not installed";
   const TemporaryFolder folder;
   std::string page = read_file(directory_ / "report.html");

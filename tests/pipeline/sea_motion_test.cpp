@@ -58,7 +58,7 @@ TEST(Sea, WritesTheSurfaceOfTheFirstSeaState) {
   ASSERT_EQ(lines.size(), 42u);
   EXPECT_EQ(lines[0], "time_s,elevation_m,elevation_linear_m,slope_x,slope_y");
   const Scenario scenario = read_scenario(SEAGLINT_SOURCE_DIR "/" + kPoints, {{"sea.propagation_deg", "30"}});
-  const WaveField field = realize_sea(sea_states(scenario.sea).front(), scenario.seed, sea_key(0, 0));
+  const WaveField field = realise_sea(sea_states(scenario.sea).front(), scenario.seed, sea_key(0, 0));
   for (std::size_t i = 1; i < lines.size(); ++i) {
     const std::vector<double> row = numbers(lines[i]);
     ASSERT_EQ(row.size(), 5u);
@@ -85,7 +85,7 @@ TEST(Sea, AddsTheMotionOfTheWaterWhenAsked) {
   EXPECT_THAT(lines[0], HasSubstr("slope_y,velocity_x_mps,velocity_y_mps,velocity_z_mps,acceleration_x_mps2"));
   const Scenario scenario =
       read_scenario(SEAGLINT_SOURCE_DIR "/" + kPoints, {{"sea.spreading.kind", "cos2s"}, {"sea.depth_m", "15"}});
-  const WaveField field = realize_sea(sea_states(scenario.sea).front(), scenario.seed, sea_key(0, 0));
+  const WaveField field = realise_sea(sea_states(scenario.sea).front(), scenario.seed, sea_key(0, 0));
   for (std::size_t i = 1; i < lines.size(); ++i) {
     const std::vector<double> row = numbers(lines[i]);
     ASSERT_EQ(row.size(), 11u);
@@ -198,7 +198,7 @@ TEST(Commands, AskForThePlacesOfTheirFilesFirst) {
   }
 }
 
-// Rotations of WAMIT are per rao_length_m, and waves of finite depth are shorter.
+// Rotations of WAMIT are per wamit_ulen_m, and waves of finite depth are shorter.
 TEST(Motion, DrawsResponsesInTheScenariosUnitsAndDepth) {
   const TemporaryFolder folder;
   const auto picture = [&](const std::string& scale, const std::vector<std::string>& settings) {

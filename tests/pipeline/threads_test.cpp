@@ -17,7 +17,7 @@ TEST(Threads, SolverAndRadarPlanTheirTransformsAtTheSameTime) {
   sampling.first_hz = 16e9;
   sampling.step_hz = 1e6;
   sampling.count = 20;
-  sampling.per_pulse = 10;
+  sampling.frequencies_per_pulse = 10;
   for (int pulse = 0; pulse < 8; ++pulse) {
     sampling.pulse_first.push_back(pulse % 2 * 10);
     sampling.pulse_time_s.push_back(250e-6 * pulse);
@@ -25,7 +25,7 @@ TEST(Threads, SolverAndRadarPlanTheirTransformsAtTheSameTime) {
   const Trajectory rest = Trajectory::at_rest(Vec3::Zero());
   const auto plan_both = [&](std::size_t i) {
     if (i % 2 == 0) {
-      respond(plate, rest, Vec3::UnitX(), Polarisation::kVv, sampling, SolverSpec{.ray_spacing_m = 0.05});
+      body_response(plate, rest, Vec3::UnitX(), Polarisation::kVv, sampling, SolverSpec{.ray_spacing_m = 0.05});
     } else {
       for (std::size_t length = 8; length < 300; ++length) FourierBatch(length + i % 7, 1, Fourier::kForward).execute();
     }

@@ -11,7 +11,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-class VerifiedData : public testing::Test {
+class DataSetVerification : public testing::Test {
  protected:
   void SetUp() override {
     directory_ = folder_.path() / "data";
@@ -24,14 +24,14 @@ class VerifiedData : public testing::Test {
   fs::path directory_;
 };
 
-TEST_F(VerifiedData, IsFoundSoundAndTheSameWhenMadeAgain) {
+TEST_F(DataSetVerification, IsFoundSoundAndTheSameWhenMadeAgain) {
   const ProgramResult result = run_program({"verify", directory_, "--remake", "4"});
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("4 samples made again are as stored"));
   EXPECT_THAT(result.out, HasSubstr("no fault found"));
 }
 
-TEST_F(VerifiedData, IsNeitherMergedOverItselfNorTakenForARun) {
+TEST_F(DataSetVerification, IsNeitherMergedOverItselfNorTakenForARun) {
   const std::string shard = read_file(directory_ / "shard_00000.h5"),
                     scenario = read_file(directory_ / "scenario.yaml");
   for (const char* name : {"shard_00000.h5", "scenario.yaml", "manifest.json", "merged.txt"}) {
@@ -48,7 +48,7 @@ TEST_F(VerifiedData, IsNeitherMergedOverItselfNorTakenForARun) {
   EXPECT_EQ(run_program({"verify", directory_, "--remake", "0"}).code, 0);
 }
 
-TEST_F(VerifiedData, IsRefusedWhenAShardIsCutOff) {
+TEST_F(DataSetVerification, IsRefusedWhenAShardIsCutOff) {
   fs::path shard;
   for (const auto& entry : fs::directory_iterator(directory_)) {
     if (entry.path().extension() == ".h5") shard = entry.path();
@@ -59,7 +59,7 @@ TEST_F(VerifiedData, IsRefusedWhenAShardIsCutOff) {
   EXPECT_THAT(result.err, HasSubstr("faults, the first: " + shard.string()));
 }
 
-TEST_F(VerifiedData, IsRefusedWithAFileThatDoesNotBelongThere) {
+TEST_F(DataSetVerification, IsRefusedWithAFileThatDoesNotBelongThere) {
   write_file(directory_ / "foo", "");
   const ProgramResult result = run_program({"verify", directory_});
   EXPECT_EQ(result.code, 2);
@@ -69,7 +69,7 @@ TEST_F(VerifiedData, IsRefusedWithAFileThatDoesNotBelongThere) {
   EXPECT_EQ(run_program({"verify", directory_, "--remake", "0"}).code, 0);
 }
 
-TEST_F(VerifiedData, IsRefusedWithoutItsManifest) {
+TEST_F(DataSetVerification, IsRefusedWithoutItsManifest) {
   fs::remove(directory_ / "manifest.json");
   const ProgramResult result = run_program({"verify", directory_});
   EXPECT_EQ(result.code, 2);

@@ -23,7 +23,7 @@ std::filesystem::path find_data_set(const std::filesystem::path& directory) {
   return below ? directory / "data" : directory;
 }
 
-void add_threads_option(CLI::App& command, Shell& shell) {
+void add_threads_option(CLI::App& command, CommandContext& shell) {
   command.add_option("--threads", shell.threads, "Number of threads; 0 = all processors")->check(CLI::Range(0, 1024));
 }
 

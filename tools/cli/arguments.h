@@ -20,7 +20,7 @@ void require_any_of(const CLI::App& command, const std::string& option, const st
 std::filesystem::path find_data_set(const std::filesystem::path& directory);
 
 // Adds --threads to a command.
-void add_threads_option(CLI::App& command, Shell& shell);
+void add_threads_option(CLI::App& command, CommandContext& shell);
 
 // The values of --set, `key.path=value` each. Throws InputError for one without `=`.
 std::vector<Override> read_overrides(const std::vector<std::string>& set);

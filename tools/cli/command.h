@@ -11,29 +11,29 @@
 namespace seaglint {
 
 // What every command is given: the stop flag of Ctrl-C, and the place where the chosen command leaves its work.
-struct Shell {
+struct CommandContext {
   StopFlag stop{false};
-  int threads = 0;             // --threads, 0 = all processors
-  std::function<void()> work;  // set by the chosen command's callback, run by run_command_line
-  bool one_piece = false;      // the work never looks at `stop`: Ctrl-C ends it at once
+  int threads = 0;               // --threads, 0 = all processors
+  std::function<void()> work;    // set by the chosen command's callback, run by run_command_line
+  bool uninterruptible = false;  // the work never looks at `stop`: Ctrl-C ends it at once
 };
 
 // Each adds its command to the program, with a footer that shows an example; listed in command_line.cpp too.
-void add_check(CLI::App& app, Shell& shell);
-void add_keys(CLI::App& app, Shell& shell);
-void add_mesh(CLI::App& app, Shell& shell);
-void add_sea(CLI::App& app, Shell& shell);
-void add_motion(CLI::App& app, Shell& shell);
-void add_rcs(CLI::App& app, Shell& shell);
-void add_echo(CLI::App& app, Shell& shell);
-void add_map(CLI::App& app, Shell& shell);
-void add_generate(CLI::App& app, Shell& shell);
-void add_merge(CLI::App& app, Shell& shell);
-void add_verify(CLI::App& app, Shell& shell);
-void add_remake(CLI::App& app, Shell& shell);
-void add_export(CLI::App& app, Shell& shell);
-void add_train(CLI::App& app, Shell& shell);
-void add_run(CLI::App& app, Shell& shell);
-void add_report(CLI::App& app, Shell& shell);
+void add_check(CLI::App& app, CommandContext& shell);
+void add_keys(CLI::App& app, CommandContext& shell);
+void add_mesh(CLI::App& app, CommandContext& shell);
+void add_sea(CLI::App& app, CommandContext& shell);
+void add_motion(CLI::App& app, CommandContext& shell);
+void add_rcs(CLI::App& app, CommandContext& shell);
+void add_echo(CLI::App& app, CommandContext& shell);
+void add_map(CLI::App& app, CommandContext& shell);
+void add_generate(CLI::App& app, CommandContext& shell);
+void add_merge(CLI::App& app, CommandContext& shell);
+void add_verify(CLI::App& app, CommandContext& shell);
+void add_regenerate(CLI::App& app, CommandContext& shell);
+void add_export(CLI::App& app, CommandContext& shell);
+void add_train(CLI::App& app, CommandContext& shell);
+void add_run(CLI::App& app, CommandContext& shell);
+void add_report(CLI::App& app, CommandContext& shell);
 
 }  // namespace seaglint

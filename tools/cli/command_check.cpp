@@ -27,7 +27,7 @@ std::string summary(const Scenario& scenario, const SamplePlan& plan) {
 
 }  // namespace
 
-void add_check(CLI::App& app, Shell& shell) {
+void add_check(CLI::App& app, CommandContext& shell) {
   CLI::App* command =
       app.add_subcommand("check", "Read and validate a scenario, print it with every default written out");
   auto arguments = std::make_shared<ScenarioArguments>();
@@ -40,10 +40,10 @@ void add_check(CLI::App& app, Shell& shell) {
       const PulseTrain train = make_pulse_train(scenario.radar, pipeline.window_m(), scenario.seed, 0);
       fmt::print("{}", effective_yaml(scenario));
       std::fflush(stdout);
-      print_error(summary(scenario, pipeline.plan()) + describe(train, scenario.radar));
-      warn(mesh_doubts(pipeline));
-      warn(sea_doubts(scenario, pipeline.plan().sea_states()));
-      warn(outside_of_map(pipeline));
+      print_error(summary(scenario, pipeline.plan()) + figures_of_merit_text(train, scenario.radar));
+      warn(mesh_warnings(pipeline));
+      warn(sea_warnings(scenario, pipeline.plan().sea_states()));
+      warn(map_coverage_warnings(pipeline));
     };
   });
 }

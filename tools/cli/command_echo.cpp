@@ -41,9 +41,9 @@ void write_echo(const Arguments& arguments) {
   if (arguments.sample >= plan.size())
     throw InputError(fmt::format("--sample {}: the scenario has samples 0 to {}", arguments.sample, plan.size() - 1));
   const Pipeline pipeline(scenario, plan);
-  warn(mesh_doubts(pipeline));
-  warn(sea_doubts(scenario, plan.sea_states()));
-  warn(band_doubts(pipeline));
+  warn(mesh_warnings(pipeline));
+  warn(sea_warnings(scenario, plan.sea_states()));
+  warn(band_warnings(pipeline));
   const SampledInterval interval = sampled_interval(pipeline, arguments.sample);
   const std::vector<std::int64_t> code(interval.train.code.begin(), interval.train.code.end());
 
@@ -75,7 +75,7 @@ void write_echo(const Arguments& arguments) {
 
 }  // namespace
 
-void add_echo(CLI::App& app, Shell& shell) {
+void add_echo(CLI::App& app, CommandContext& shell) {
   CLI::App* command = app.add_subcommand("echo", "Write the echo of one sample as I/Q samples over time (NumPy .npz)");
   auto arguments = std::make_shared<Arguments>();
   add_scenario_arguments(*command, *arguments);
@@ -85,7 +85,7 @@ void add_echo(CLI::App& app, Shell& shell) {
   add_threads_option(*command, shell);
   command->footer("Example:\n  seaglint echo scenarios/points.yaml --sample 0 -o echo.npz");
   command->callback([arguments, &shell] {
-    shell.one_piece = true;
+    shell.uninterruptible = true;
     shell.work = [arguments] { write_echo(*arguments); };
   });
 }

@@ -36,7 +36,7 @@ void export_dataset(const std::string& directory, const fs::path& output, const 
 
 }  // namespace
 
-void add_export(CLI::App& app, Shell& shell) {
+void add_export(CLI::App& app, CommandContext& shell) {
   struct Arguments {
     std::string directory;
     std::string output;

@@ -39,7 +39,7 @@ void read_part(const std::string& text, GenerateOptions& options) {
   }
 }
 
-void generate(const Arguments& arguments, const Shell& shell) {
+void generate(const Arguments& arguments, const CommandContext& shell) {
   GenerateOptions options;
   options.resume = arguments.resume;
   options.threads = shell.threads;
@@ -62,7 +62,7 @@ void generate(const Arguments& arguments, const Shell& shell) {
 
 }  // namespace
 
-void add_generate(CLI::App& app, Shell& shell) {
+void add_generate(CLI::App& app, CommandContext& shell) {
   CLI::App* command =
       app.add_subcommand("generate", "Make the data set of a scenario: range-velocity maps with labels in HDF5 shards");
   auto arguments = std::make_shared<Arguments>();

@@ -8,7 +8,7 @@
 
 namespace seaglint {
 
-void add_keys(CLI::App& app, Shell& shell) {
+void add_keys(CLI::App& app, CommandContext& shell) {
   CLI::App* command =
       app.add_subcommand("keys", "List every key of a scenario file with its default and what it allows");
   command->footer("Example:\n  seaglint keys");

@@ -34,7 +34,7 @@ void request_stop(int) { *stop_flag = true; }
 void survive_file_size_limit() { signal(SIGXFSZ, SIG_IGN); }
 
 // The first Ctrl-C asks the work to stop; the handler is then gone, so that the second one kills.
-void handle_signals(Shell& shell) {
+void handle_signals(CommandContext& shell) {
   stop_flag = &shell.stop;
   struct sigaction action {};
   action.sa_handler = request_stop;
@@ -44,7 +44,7 @@ void handle_signals(Shell& shell) {
 }
 
 // In the order of the data flow.
-void add_commands(CLI::App& app, Shell& shell) {
+void add_commands(CLI::App& app, CommandContext& shell) {
   add_check(app, shell);
   add_keys(app, shell);
   add_mesh(app, shell);
@@ -56,7 +56,7 @@ void add_commands(CLI::App& app, Shell& shell) {
   add_generate(app, shell);
   add_merge(app, shell);
   add_verify(app, shell);
-  add_remake(app, shell);
+  add_regenerate(app, shell);
   add_export(app, shell);
   add_train(app, shell);
   add_run(app, shell);
@@ -92,7 +92,7 @@ int end_parsing(const CLI::App& app, const CLI::ParseError& error) {
   return fail(2, fmt::format("{} (see seaglint{} --help)", message, chosen_words(app)));
 }
 
-int run(Shell& shell) {
+int run(CommandContext& shell) {
   try {
     shell.work();
     return end_output();
@@ -110,8 +110,8 @@ int run(Shell& shell) {
 }  // namespace
 
 int run_command_line(int argc, char** argv) {
-  hold_standard_streams();
-  Shell shell;
+  reserve_standard_streams();
+  CommandContext shell;
   CLI::App app(
       "Ships and corner-reflector decoys at sea as a frequency-agile radar sees them: from a scenario to classified "
       "maps",
@@ -127,7 +127,7 @@ int run_command_line(int argc, char** argv) {
     return end_parsing(app, error);
   }
   survive_file_size_limit();
-  if (!shell.one_piece) handle_signals(shell);
+  if (!shell.uninterruptible) handle_signals(shell);
   return run(shell);
 }
 

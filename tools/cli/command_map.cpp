@@ -34,11 +34,11 @@ void print_result(const ReceivedInterval& received, const std::vector<Scattering
              features.sigma_v);
   if (!std::isnan(received.scr.per_pulse_db)) {
     fmt::print("SCR per pulse {:.2f} dB, peak cell {:.2f} dB, extent {:.2f} dB\n", received.scr.per_pulse_db,
-               received.scr.peak_cell_db, received.scr.extent_db);
+               received.scr.peak_cell_db, received.scr.scr_extent_db);
   }
   if (!std::isnan(received.scr.snr_per_pulse_db))
     fmt::print("SNR per pulse {:.2f} dB\n", received.scr.snr_per_pulse_db);
-  if (received.map.empty_carriers > 0) fmt::print("carriers without a pulse: {}\n", received.map.empty_carriers);
+  if (received.map.unused_carriers > 0) fmt::print("carriers without a pulse: {}\n", received.map.unused_carriers);
 }
 
 struct Arguments : ScenarioArguments {
@@ -69,8 +69,8 @@ void show_map(const Arguments& arguments) {
   if (sample >= plan.size())
     throw InputError(fmt::format("--sample {}: the scenario has samples 0 to {}", sample, plan.size() - 1));
   const Pipeline pipeline(scenario, plan);
-  warn(mesh_doubts(pipeline));
-  warn(sea_doubts(scenario, plan.sea_states()));
+  warn(mesh_warnings(pipeline));
+  warn(sea_warnings(scenario, plan.sea_states()));
   const SampleAddress address = plan.address(sample);
   const TargetSpec& target = scenario.targets[static_cast<std::size_t>(address.target)];
   const View& view = plan.view(address);
@@ -78,7 +78,7 @@ void show_map(const Arguments& arguments) {
       fmt::format("{}: sample {}, {}, Hs {:g} m, azimuth {:g} deg, elevation {:g} deg", scenario.name, sample,
                   target.name, plan.sea_state(address).significant_wave_height_m, view.azimuth_deg, view.elevation_deg);
   if (arguments.product == "isar" || arguments.product == "hrrp") {
-    const WholeBand band = whole_band(pipeline, sample);
+    const FullBandInterval band = full_band_interval(pipeline, sample);
     if (arguments.product == "isar") {
       write_figure(rv_figure(band.image, {}, title + ", whole band every pulse"), arguments.output);
     } else {
@@ -86,16 +86,16 @@ void show_map(const Arguments& arguments) {
     }
     return;
   }
-  warn(band_doubts(pipeline));
-  warn(outside_of_map(pipeline));  // a map of too many cells ends here
-  const MadeSample made = pipeline.make(sample);
+  warn(band_warnings(pipeline));
+  warn(map_coverage_warnings(pipeline));  // a map of too many cells ends here
+  const GeneratedSample made = pipeline.generate_sample(sample);
   write_figure(rv_figure(made.received.map, made.centres, title), arguments.output);
   print_result(made.received, made.centres, made.features);
 }
 
 }  // namespace
 
-void add_map(CLI::App& app, Shell& shell) {
+void add_map(CLI::App& app, CommandContext& shell) {
   CLI::App* command =
       app.add_subcommand("map", "Draw one range-velocity map, list its scattering centres and features");
   auto arguments = std::make_shared<Arguments>();
@@ -115,7 +115,7 @@ void add_map(CLI::App& app, Shell& shell) {
       "Example:\n  seaglint map scenarios/points.yaml --sample 0 -o map.png\n"
       "  seaglint map scenarios/points.yaml --sample 0 --set map.clean=true -o clean.png");
   command->callback([arguments, &shell] {
-    shell.one_piece = true;
+    shell.uninterruptible = true;
     shell.work = [arguments] { show_map(*arguments); };
   });
 }

@@ -11,7 +11,7 @@
 
 namespace seaglint {
 
-void add_merge(CLI::App& app, Shell& shell) {
+void add_merge(CLI::App& app, CommandContext& shell) {
   struct Arguments {
     std::string directory;
     std::string file;

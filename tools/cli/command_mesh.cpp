@@ -82,7 +82,7 @@ std::string topology_lines(const TriangleMesh& mesh, const Topology& topology, d
 }
 
 // A kind of mesh that `mesh make` knows; the options it declares are captured by the maker.
-CLI::App* add_kind(CLI::App& make, Shell& shell, const char* name, const char* what, const char* example,
+CLI::App* add_kind(CLI::App& make, CommandContext& shell, const char* name, const char* what, const char* example,
                    const Maker& maker) {
   CLI::App* kind = make.add_subcommand(name, what);
   auto output = std::make_shared<std::string>();
@@ -99,7 +99,7 @@ CLI::App* add_kind(CLI::App& make, Shell& shell, const char* name, const char* w
   return kind;
 }
 
-void add_ship_kind(CLI::App& make, Shell& shell) {
+void add_ship_kind(CLI::App& make, CommandContext& shell) {
   auto form = std::make_shared<ShipForm>();
   auto detail = std::make_shared<std::string>("rails");
   CLI::App* kind =
@@ -123,7 +123,7 @@ void add_ship_kind(CLI::App& make, Shell& shell) {
       ->capture_default_str();
 }
 
-void add_reflector_kinds(CLI::App& make, Shell& shell) {
+void add_reflector_kinds(CLI::App& make, CommandContext& shell) {
   auto edge = std::make_shared<double>(kReflectorEdge);
   add_kind(make, shell, "reflector", "Icosahedral corner reflector of 20 trihedra", "-o reflector.glb",
            [edge] { return make_icosahedral_reflector(*edge); })
@@ -148,7 +148,7 @@ void add_reflector_kinds(CLI::App& make, Shell& shell) {
   dihedral->add_option("--opening-deg", *opening, "Angle between the plates")->capture_default_str();
 }
 
-void add_simple_kinds(CLI::App& make, Shell& shell) {
+void add_simple_kinds(CLI::App& make, CommandContext& shell) {
   auto length = std::make_shared<double>(1.0), width = std::make_shared<double>(1.0);
   CLI::App* plate = add_kind(make, shell, "plate", "Flat sheet in the plane x = 0, seen square from ahead",
                              "--length-m 0.5 --width-m 0.3 -o plate.stl", [=] { return make_plate(*length, *width); });
@@ -187,10 +187,10 @@ void print_info(const InfoArguments& arguments) {
   if (!arguments.picture.empty()) write_file(arguments.picture, png_bytes(picture_of(mesh, arguments.view)));
   fmt::print("{}\n{}{}{}{}{}", arguments.file, size_line(mesh), counts_line(mesh), part_lines(mesh, topology),
              material_lines(mesh), topology_lines(mesh, topology, arguments.wedge_deg));
-  for (const std::string& finding : findings(examine(mesh))) fmt::print("finding    {}\n", finding);
+  for (const std::string& finding : diagnostic_messages(diagnose(mesh))) fmt::print("finding    {}\n", finding);
 }
 
-void add_info(CLI::App& mesh, Shell& shell) {
+void add_info(CLI::App& mesh, CommandContext& shell) {
   CLI::App* info =
       mesh.add_subcommand("info", "Size, parts, materials, holes, degenerate and non-manifold elements, wedges");
   auto arguments = std::make_shared<InfoArguments>();
@@ -219,7 +219,7 @@ void add_info(CLI::App& mesh, Shell& shell) {
 
 }  // namespace
 
-void add_mesh(CLI::App& app, Shell& shell) {
+void add_mesh(CLI::App& app, CommandContext& shell) {
   CLI::App* mesh = app.add_subcommand("mesh", "Make a mesh, or tell what is in one");
   mesh->require_subcommand(1);
   mesh->footer("Example:\n  seaglint mesh make ship -o ship.glb\n  seaglint mesh info ship.glb");

@@ -58,7 +58,7 @@ MovingScene simulate_all(const Scenario& scenario, const SeaState& state, double
   MovingScene scene;
   scene.state = state;
   const std::uint64_t index = sea_key(0, 0);
-  scene.sea = realize_sea(scene.state, scenario.seed, index);
+  scene.sea = realise_sea(scene.state, scenario.seed, index);
   for (const TargetSpec& target : scenario.targets) {
     if (target.mesh.empty()) continue;
     if (stop) throw Interrupted();
@@ -81,7 +81,7 @@ std::string coverage(const MovingScene& scene) {
   for (const Body& body : scene.targets) {
     if (const auto* table = std::get_if<RaoTable>(&body.model)) {
       text += fmt::format("# {}: {:.3g} % of the waves' variance lies outside of its frequencies\n", table->source(),
-                          100 * table->uncovered_share(scene.sea));
+                          100 * table->uncovered_variance_fraction(scene.sea));
     }
   }
   return text;
@@ -100,7 +100,7 @@ void write_pictures(const MotionArguments& arguments, const Scenario& scenario, 
   for (const Body& body : scene.targets) {
     if (const auto* ship = std::get_if<ShipParticulars>(&body.model)) {
       write_rao_figure(*ship, scene.state.propagation_rad, scene.state.depth_m,
-                       {arguments.rao_reference, body.spec.rao_length_m},
+                       {arguments.rao_reference, body.spec.wamit_ulen_m},
                        fmt::format("{}: waves towards {:.4g} deg, speed {:.3g} m/s", scenario.name,
                                    degrees(scene.state.propagation_rad), ship->speed),
                        arguments.rao);
@@ -110,7 +110,7 @@ void write_pictures(const MotionArguments& arguments, const Scenario& scenario, 
   throw InputError("--rao: no target of the scenario has motion.model: ship");
 }
 
-void write_motion(const MotionArguments& arguments, const Shell& shell) {
+void write_motion(const MotionArguments& arguments, const CommandContext& shell) {
   for (const std::string& file : {arguments.figure, arguments.frames, arguments.rao}) require_figure(file);
   const std::vector<std::string> outputs{arguments.output, arguments.spectrum, arguments.figure, arguments.frames,
                                          arguments.rao};
@@ -118,7 +118,7 @@ void write_motion(const MotionArguments& arguments, const Shell& shell) {
   const Scenario scenario = arguments.scenario.read();
   require_outputs(outputs, files_of(scenario));
   const std::vector<SeaState> states = sea_states(scenario.sea);
-  warn(sea_doubts(scenario, states));
+  warn(sea_warnings(scenario, states));
   const std::size_t count = uniform_time_count(arguments.duration_s, arguments.step_s);
   const MovingScene scene = simulate_all(scenario, states.front(), arguments.duration_s, shell.threads, shell.stop);
   const std::vector<NamedTrajectory>& bodies = scene.bodies;
@@ -140,7 +140,7 @@ void write_motion(const MotionArguments& arguments, const Shell& shell) {
       const MotionSample motion = body.trajectory.sample(std::min(t, body.trajectory.end_s()));
       fmt::format_to(out, "{:.9g},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n", t, body.body,
                      degrees(motion.angles.x()), degrees(motion.angles.y()), degrees(motion.angles.z()),
-                     motion.shift.x(), motion.shift.y(), motion.shift.z());
+                     motion.translation.x(), motion.translation.y(), motion.translation.z());
     }
   }
   write_pictures(arguments, scenario, scene);
@@ -151,7 +151,7 @@ void write_motion(const MotionArguments& arguments, const Shell& shell) {
 
 }  // namespace
 
-void add_motion(CLI::App& app, Shell& shell) {
+void add_motion(CLI::App& app, CommandContext& shell) {
   CLI::App* command = app.add_subcommand(
       "motion",
       "Write the angles and translations of every body in the scenario's first sea state, their spectra and "

@@ -45,7 +45,7 @@ void require_files(const RcsArguments& arguments) {
 }
 
 void show_comparison(const RcsArguments& arguments, const std::vector<PairedCut>& cuts) {
-  fmt::print("{}", difference_table(cuts, arguments.reference.floor_db));
+  fmt::print("{}", error_table(cuts, arguments.reference.floor_db));
   const std::filesystem::path figure = comparison_figure(arguments);
   const std::string title =
       fmt::format("{}, seaglint {}", std::filesystem::path(arguments.target).filename().string(), kVersion);
@@ -60,13 +60,13 @@ void show_comparison(const RcsArguments& arguments, const std::vector<PairedCut>
 std::vector<PairedCut> pair_with_all(const RcsSweep& sweep, const std::vector<RcsReference>& references) {
   std::vector<PairedCut> cuts;
   for (const RcsReference& reference : references) {
-    for (PairedCut& cut : pair_with(sweep, reference)) cuts.push_back(std::move(cut));
+    for (PairedCut& cut : match_reference(sweep, reference)) cuts.push_back(std::move(cut));
   }
   return cuts;
 }
 
 RcsResult compute(const RcsArguments& arguments, const RcsRequest& request, const RcsTarget& target,
-                  const Shell& shell) {
+                  const CommandContext& shell) {
   try {
     return compute_rcs(request, target, shell.threads, &shell.stop);
   } catch (const WorkError& error) {
@@ -74,7 +74,7 @@ RcsResult compute(const RcsArguments& arguments, const RcsRequest& request, cons
   }
 }
 
-void run_rcs(const RcsArguments& arguments, const Shell& shell) {
+void run_rcs(const RcsArguments& arguments, const CommandContext& shell) {
   require_files(arguments);
   const RcsRequest request = arguments.make_request();
   warn(doubts_of(request));
@@ -84,7 +84,7 @@ void run_rcs(const RcsArguments& arguments, const Shell& shell) {
   warn(target.prepared.doubts);
   for (const NamedCavity& cavity : target.cavities) {
     print_error(fmt::format("cavity {}: mouth of {:.4g} m^2, walls of {:.4g} m^2, {} patches at {:.6g} GHz\n",
-                            cavity.name, cavity.size.mouth_m2, cavity.size.walls_m2, cavity.size.patches,
+                            cavity.name, cavity.size.aperture_m2, cavity.size.walls_m2, cavity.size.patches,
                             1e-9 * *std::max_element(request.frequency_hz.begin(), request.frequency_hz.end())));
   }
   const auto start = std::chrono::steady_clock::now();
@@ -94,10 +94,11 @@ void run_rcs(const RcsArguments& arguments, const Shell& shell) {
 
   const RcsSweep& sweep = result.sweep;
   write_file(arguments.output, rcs_table(request, *target.prepared.scatterer, sweep));
-  const double million_legs = 1e-6 * static_cast<double>(result.legs), views = static_cast<double>(sweep.views());
+  const double million_segments = 1e-6 * static_cast<double>(result.segments),
+               views = static_cast<double>(sweep.views());
   print_error(fmt::format("{}: {} rows, {} views in {:.2f} s ({:.3g} views/s, {:.2f} M beam legs, {:.2f} M/s)\n",
-                          arguments.output, sweep.rows(), sweep.views(), seconds, views / seconds, million_legs,
-                          million_legs / seconds));
+                          arguments.output, sweep.rows(), sweep.views(), seconds, views / seconds, million_segments,
+                          million_segments / seconds));
   if (request.exports.wanted()) fmt::print("{}", export_view(request, target, shell.threads, &shell.stop));
   if (cuts.empty()) return;
   for (PairedCut& cut : cuts) set_models(cut, sweep);
@@ -106,7 +107,7 @@ void run_rcs(const RcsArguments& arguments, const Shell& shell) {
 
 }  // namespace
 
-void add_rcs(CLI::App& app, Shell& shell) {
+void add_rcs(CLI::App& app, CommandContext& shell) {
   CLI::App* command = app.add_subcommand("rcs", "Scattering matrix of a mesh at rest over frequency and aspect");
   auto arguments = std::make_shared<RcsArguments>();
   arguments->add_to(*command);

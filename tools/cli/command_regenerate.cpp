@@ -53,7 +53,7 @@ std::vector<NpzArray> arrays_of(const Sample& sample, const StoredAxes& axes) {
   return arrays;
 }
 
-void remake_sample(const Arguments& arguments) {
+void regenerate_sample(const Arguments& arguments) {
   require_npz(arguments.output);
   const DatasetReader reader(find_data_set(arguments.directory));
   if (arguments.sample >= reader.size())
@@ -67,7 +67,7 @@ void remake_sample(const Arguments& arguments) {
     throw InputError(
         fmt::format("{}: has no sample {}", (reader.directory() / kScenarioFile).string(), arguments.sample));
   }
-  const MadeSample made = pipeline.make(arguments.sample);
+  const GeneratedSample made = pipeline.generate_sample(arguments.sample);
   const SampleRecord& row = made.stored.record;
   fmt::print("sample {}: {}, label {}, Hs {:g} m, azimuth {:g} deg, elevation {:g} deg, group {}, at {:g} s\n",
              row.sample, row.target_name, row.label, row.significant_wave_height_m, row.azimuth_deg, row.elevation_deg,
@@ -77,7 +77,7 @@ void remake_sample(const Arguments& arguments) {
     fmt::print("{}: written\n", arguments.output);
   }
 
-  const double tolerance = remake_tolerance(stored.origin);
+  const double tolerance = reproduction_tolerance(stored.origin);
   std::vector<std::string> found = differences(stored.sample, made.stored, tolerance);
   if (stored_axes(made.received.map) != stored.axes) found.push_back("its axes differ");
   if (!found.empty()) {
@@ -96,7 +96,7 @@ void remake_sample(const Arguments& arguments) {
 
 }  // namespace
 
-void add_remake(CLI::App& app, Shell& shell) {
+void add_regenerate(CLI::App& app, CommandContext& shell) {
   CLI::App* command =
       app.add_subcommand("remake", "Make one sample of a data set again and hold it against what is stored");
   auto arguments = std::make_shared<Arguments>();
@@ -106,8 +106,8 @@ void add_remake(CLI::App& app, Shell& shell) {
                       "Map (also complex), axes, hop code, centres and row as NumPy's .npz");
   command->footer("Example:\n  seaglint remake build/points/data --sample 7 -o build/sample_7.npz");
   command->callback([arguments, &shell] {
-    shell.one_piece = true;
-    shell.work = [arguments] { remake_sample(*arguments); };
+    shell.uninterruptible = true;
+    shell.work = [arguments] { regenerate_sample(*arguments); };
   });
 }
 

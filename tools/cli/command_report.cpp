@@ -43,7 +43,7 @@ Scenario read_own_scenario(const std::filesystem::path& run) {
 
 }  // namespace
 
-void add_report(CLI::App& app, Shell& shell) {
+void add_report(CLI::App& app, CommandContext& shell) {
   CLI::App* command = app.add_subcommand("report", "Draw the figures of a run again and write its report.html");
   auto directory = std::make_shared<std::string>();
   command->add_option("DIR", *directory, "Directory made by `seaglint run`")->required();

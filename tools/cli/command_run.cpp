@@ -21,7 +21,7 @@ struct Arguments {
 
 }  // namespace
 
-void add_run(CLI::App& app, Shell& shell) {
+void add_run(CLI::App& app, CommandContext& shell) {
   CLI::App* command =
       app.add_subcommand("run", "The main job: make the maps of a scenario, train, evaluate, write the report");
   auto arguments = std::make_shared<Arguments>();

@@ -28,7 +28,7 @@ namespace seaglint {
 
 namespace {
 
-struct SeaArguments {
+struct SeaReflectionArguments {
   ScenarioArguments scenario;
   std::string output;
   std::string spectrum;
@@ -79,8 +79,9 @@ std::string description(const Scenario& scenario, const SeaState& state, const W
   fmt::format_to(out,
                  "cut-off {:.4g} rad/s, above it {:.3g} % of the spectrum's energy; up to twice that the RMS slope "
                  "would be {:.4g}; second order up to {:.4g} rad/s\n",
-                 summary.cutoff_rad_s, 100 * summary.energy_share_above_cutoff,
-                 std::sqrt(summary.slope_variance + summary.slope_variance_beyond), summary.second_order_cutoff_rad_s);
+                 summary.cutoff_rad_s, 100 * summary.energy_fraction_above_cutoff,
+                 std::sqrt(summary.slope_variance + summary.slope_variance_next_octave),
+                 summary.second_order_cutoff_rad_s);
   return text;
 }
 
@@ -93,7 +94,7 @@ std::string as_comment(const std::string& lines) {
   return text;
 }
 
-std::string series_csv(const WaveField& field, const SeaArguments& arguments, const StopFlag& stop) {
+std::string series_csv(const WaveField& field, const SeaReflectionArguments& arguments, const StopFlag& stop) {
   std::string text = fmt::format("# at x {} m, y {} m of the target frame\n", arguments.at[0], arguments.at[1]);
   text += "time_s,elevation_m,elevation_linear_m,slope_x,slope_y";
   if (arguments.kinematics) {
@@ -102,7 +103,7 @@ std::string series_csv(const WaveField& field, const SeaArguments& arguments, co
   text += "\n";
   const std::size_t count = uniform_time_count(arguments.duration_s, arguments.step_s);
   SurfaceSeries series(field, arguments.at[0], arguments.at[1], 0, arguments.step_s,
-                       arguments.kinematics ? SurfaceDetail::kMotion : SurfaceDetail::kShape);
+                       arguments.kinematics ? SurfaceQuantities::kKinematics : SurfaceQuantities::kElevationAndSlope);
   auto out = std::back_inserter(text);
   for (std::size_t n = 0; n < count; ++n, series.advance()) {
     if (stop) throw Interrupted();
@@ -119,17 +120,17 @@ std::string series_csv(const WaveField& field, const SeaArguments& arguments, co
   return text;
 }
 
-void write_sea(const SeaArguments& arguments, const Shell& shell) {
+void write_sea(const SeaReflectionArguments& arguments, const CommandContext& shell) {
   require_figure(arguments.figure);
   const std::vector<std::string> outputs{arguments.output, arguments.spectrum, arguments.figure};
   require_outputs(outputs, {arguments.scenario.file});
   const Scenario scenario = arguments.scenario.read();
   require_outputs(outputs, files_of(scenario));
   const std::vector<SeaState> states = sea_states(scenario.sea);
-  warn(sea_doubts(scenario, states));
+  warn(sea_warnings(scenario, states));
   const SeaState& state = states.front();
-  const WaveField field = realize_sea(state, scenario.seed, sea_key(0, 0));
-  const SeaSummary summary = summarize(state, field);
+  const WaveField field = realise_sea(state, scenario.seed, sea_key(0, 0));
+  const SeaSummary summary = summarise(state, field);
   const std::string lines = description(scenario, state, field, summary);
   const std::string series = as_comment(lines) + series_csv(field, arguments, shell.stop);
 
@@ -152,10 +153,10 @@ void write_sea(const SeaArguments& arguments, const Shell& shell) {
 
 }  // namespace
 
-void add_sea(CLI::App& app, Shell& shell) {
+void add_sea(CLI::App& app, CommandContext& shell) {
   CLI::App* command = app.add_subcommand(
       "sea", "Write elevation and slope of the scenario's first sea state over time, its spectrum and its statistics");
-  auto arguments = std::make_shared<SeaArguments>();
+  auto arguments = std::make_shared<SeaReflectionArguments>();
   add_scenario_arguments(*command, arguments->scenario);
   command->add_option("-o,--output", arguments->output, "CSV file to write")->required();
   command->add_option("--at", arguments->at, "Place X,Y in the target frame, m")

@@ -34,7 +34,7 @@ std::vector<Override> learning_overrides(const std::vector<std::string>& set) {
 
 }  // namespace
 
-void add_train(CLI::App& app, Shell& shell) {
+void add_train(CLI::App& app, CommandContext& shell) {
   CLI::App* command =
       app.add_subcommand("train", "Train network and trees on a data set and evaluate them on unseen maps and seas");
   auto arguments = std::make_shared<Arguments>();

@@ -25,7 +25,7 @@ struct Arguments {
 
 // Makes `count` samples again, spread evenly over the data set; returns what is not as stored.
 std::vector<std::string> remake(const std::string& directory, std::size_t count, const Scenario& scenario,
-                                const Shell& shell) {
+                                const CommandContext& shell) {
   const DatasetReader reader(directory);
   require_same_inputs(directory, scenario);
   const Pipeline pipeline(scenario);
@@ -42,8 +42,8 @@ std::vector<std::string> remake(const std::string& directory, std::size_t count,
           const std::lock_guard lock(reading);
           stored = stored_sample(reader, number);
         }
-        const Sample again = pipeline.make(number).stored;
-        for (const std::string& what : differences(stored.sample, again, remake_tolerance(stored.origin))) {
+        const Sample again = pipeline.generate_sample(number).stored;
+        for (const std::string& what : differences(stored.sample, again, reproduction_tolerance(stored.origin))) {
           faults[n].push_back(fmt::format("sample {} ({}) made again: {}", number,
                                           scenario.targets[static_cast<std::size_t>(address.target)].name, what));
         }
@@ -55,7 +55,7 @@ std::vector<std::string> remake(const std::string& directory, std::size_t count,
   return all;
 }
 
-void verify(const Arguments& given, const Shell& shell) {
+void verify(const Arguments& given, const CommandContext& shell) {
   const Arguments arguments{find_data_set(given.directory), given.remake};
   Audit result = audit(arguments.directory, &shell.stop);
   fmt::print("{}: {} sound shards, {} samples in {} groups\n", arguments.directory, result.shards, result.samples,
@@ -73,17 +73,17 @@ void verify(const Arguments& given, const Shell& shell) {
     fmt::print("no fault found\n");
     return;
   }
-  constexpr std::size_t kMostShown = 20;
-  for (std::size_t i = 0; i < std::min(kMostShown, result.faults.size()); ++i)
+  constexpr std::size_t kMaxShown = 20;
+  for (std::size_t i = 0; i < std::min(kMaxShown, result.faults.size()); ++i)
     fmt::print("fault: {}\n", result.faults[i]);
-  if (result.faults.size() > kMostShown) fmt::print("... and {} more\n", result.faults.size() - kMostShown);
+  if (result.faults.size() > kMaxShown) fmt::print("... and {} more\n", result.faults.size() - kMaxShown);
   throw InputError(
       fmt::format("{}: {} faults, the first: {}", arguments.directory, result.faults.size(), result.faults.front()));
 }
 
 }  // namespace
 
-void add_verify(CLI::App& app, Shell& shell) {
+void add_verify(CLI::App& app, CommandContext& shell) {
   CLI::App* command = app.add_subcommand(
       "verify", "Audit a data set: missing, repeated, damaged and mislabelled samples; makes some of them again");
   auto arguments = std::make_shared<Arguments>();

@@ -148,7 +148,7 @@ void RcsArguments::add_to(CLI::App& command) {
                   "curvature of the wavefront; 0 = far field")
       ->check(number_within(0.0, 1e9));
   command.add_option("--max-bounces", request.max_bounces, "Reflections followed")
-      ->check(CLI::Range(1, kMostBounces))
+      ->check(CLI::Range(1, kMaxBounces))
       ->capture_default_str();
   command
       .add_option("--ray-spacing-m", request.ray_spacing_m,

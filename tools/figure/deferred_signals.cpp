@@ -33,7 +33,7 @@ Holding& holding() {
 
 }  // namespace
 
-HeldSignals::HeldSignals() {
+DeferredSignals::DeferredSignals() {
   Holding& all = holding();
   const std::lock_guard lock(all.mutex);
   if (all.holders++ > 0) return;
@@ -47,7 +47,7 @@ HeldSignals::HeldSignals() {
   }
 }
 
-HeldSignals::~HeldSignals() {
+DeferredSignals::~DeferredSignals() {
   Holding& all = holding();
   const std::lock_guard lock(all.mutex);
   if (--all.holders > 0) return;
@@ -55,6 +55,6 @@ HeldSignals::~HeldSignals() {
   if (noted_signal != 0) raise(noted_signal);
 }
 
-bool HeldSignals::noted() { return noted_signal != 0; }
+bool DeferredSignals::pending() { return noted_signal != 0; }
 
 }  // namespace seaglint

@@ -8,15 +8,15 @@ namespace seaglint {
 // While one of these lives, on any thread, SIGINT and SIGTERM are noted and do nothing else. When the last one goes,
 // what was in force before is in force again, and a signal that was noted is sent anew. A signal that is ignored stays
 // so.
-class HeldSignals {
+class DeferredSignals {
  public:
-  HeldSignals();
-  ~HeldSignals();
-  HeldSignals(const HeldSignals&) = delete;
-  HeldSignals& operator=(const HeldSignals&) = delete;
+  DeferredSignals();
+  ~DeferredSignals();
+  DeferredSignals(const DeferredSignals&) = delete;
+  DeferredSignals& operator=(const DeferredSignals&) = delete;
 
   // One has come since the first of those that live now began: stop, clean up, throw Interrupted.
-  static bool noted();
+  static bool pending();
 };
 
 }  // namespace seaglint

@@ -85,7 +85,7 @@ int wait_for(pid_t child) {
     const pid_t ended = ::waitpid(child, &status, WNOHANG);
     if (ended == child) return status;
     if (ended < 0 && errno != EINTR) throw WorkError(fmt::format("gnuplot was lost ({})", std::strerror(errno)));
-    if (HeldSignals::noted()) ::kill(child, SIGKILL);
+    if (DeferredSignals::pending()) ::kill(child, SIGKILL);
     std::this_thread::sleep_for(kLook);
   }
 }
@@ -106,7 +106,7 @@ void run_gnuplot(const Scratch& scratch) {
   posix_spawn_file_actions_destroy(&actions);
   if (refused != 0) throw cannot_start(refused);
   const int status = wait_for(child);
-  if (HeldSignals::noted()) throw Interrupted();
+  if (DeferredSignals::pending()) throw Interrupted();
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
   std::string messages = fs::exists(scratch.messages) ? read_file(scratch.messages) : std::string();
   messages.erase(0, messages.find_first_not_of(" \n"));
@@ -137,7 +137,7 @@ void draw(const fs::path& file, FigureSize size, const std::string& title, const
           const std::string& commands) {
   require_figure(file);
   const std::string extension = file.extension();
-  const HeldSignals held;  // let go when all files are removed
+  const DeferredSignals held;  // let go when all files are removed
   const Scratch scratch(file);
   write_file(scratch.data, data);
   write_file_with(file, [&](const fs::path& temporary) {

@@ -64,13 +64,13 @@ std::string spectrum_csv(const std::vector<NamedTrajectory>& bodies, double dura
 void write_motion_figure(const std::vector<NamedTrajectory>& bodies, double duration_s, const std::string& title,
                          const std::filesystem::path& file) {
   constexpr double kLongest = 100;
-  constexpr std::size_t kMostBodies = 6;
+  constexpr std::size_t kMaxBodies = 6;
   std::vector<LinePlot> plots(3);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     plots[axis].x.label = "time (s)";
     plots[axis].y.label = fmt::format("{} (deg)", kAngles[axis]);
     plots[axis].legend_above = axis == 0;
-    for (std::size_t i = 0; i < std::min(bodies.size(), kMostBodies); ++i) {
+    for (std::size_t i = 0; i < std::min(bodies.size(), kMaxBodies); ++i) {
       const std::vector<MotionSample> samples = uniform_samples(bodies[i].trajectory, std::min(duration_s, kLongest));
       Series series;
       if (axis == 0) series.name = bodies[i].body;
@@ -127,7 +127,7 @@ LinePlot frame(const NamedTrajectory& body, const WaveField& sea, double t) {
   const Bounds box = bounds(body.mesh);
   const double reach = std::max(2.0, 0.65 * (box.upper.x() - box.lower.x()));
   const auto elevation = [&](double x) {
-    return sea.surface(x + body.speed * t, pose.p.y(), t, SurfaceDetail::kShape).elevation;
+    return sea.surface(x + body.speed * t, pose.p.y(), t, SurfaceQuantities::kElevationAndSlope).elevation;
   };
   const double level = elevation(pose.p.x());
   const double lowest = std::min(level, pose.p.z() + box.lower.z());
@@ -169,7 +169,7 @@ void write_rao_figure(const ShipParticulars& ship, double mu, double depth, cons
   std::array<Series, 3> ours;
   for (int i = 1; i <= kPoints; ++i) {
     const double omega = kHighest * i / kPoints;
-    const ShipResponse r = ship_rao(ship, {omega, wavenumber_at(omega, depth), mu});
+    const MotionRao r = ship_rao(ship, {omega, wavenumber_at(omega, depth), mu});
     const std::array<Complex, 3> angles{r.roll, r.pitch, r.yaw};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       ours[axis].x.push_back(omega);
@@ -182,7 +182,7 @@ void write_rao_figure(const ShipParticulars& ship, double mu, double depth, cons
                                                               : read_veres_rao(reference.file, ship.speed);
     for (const double omega : table.omegas()) {
       if (omega > kHighest) break;
-      const ShipResponse r = table.at(omega, wavenumber_at(omega, depth), mu);
+      const MotionRao r = table.at(omega, wavenumber_at(omega, depth), mu);
       const std::array<Complex, 3> angles{r.roll, r.pitch, r.yaw};
       for (std::size_t axis = 0; axis < 3; ++axis) {
         theirs[axis].x.push_back(omega);

@@ -22,7 +22,7 @@ LinePlot elevation_plot(const SeaState& state, const WaveField& field) {
                 .series = {},
                 .legend_above = true};
   const double step = state.peak_period_s / 80;
-  SurfaceSeries surface(field, 0, 0, 0, step, SurfaceDetail::kShape);
+  SurfaceSeries surface(field, 0, 0, 0, step, SurfaceQuantities::kElevationAndSlope);
   Series second{.name = "second order", .x = {}, .y = {}, .interval = {}};
   Series linear{.name = "linear part", .x = {}, .y = {}, .interval = {}};
   constexpr int kWaves = 12;
@@ -38,7 +38,7 @@ LinePlot elevation_plot(const SeaState& state, const WaveField& field) {
 }
 
 LinePlot spectrum_plot(const SeaSummary& summary, const SeaEnsemble& ensemble) {
-  const double highest = *std::max_element(ensemble.target.begin(), ensemble.target.end());
+  const double highest = *std::max_element(ensemble.prescribed.begin(), ensemble.prescribed.end());
   const double end = std::min(1.2 * summary.cutoff_rad_s, ensemble.omega.back());
   LinePlot plot{.title = fmt::format("Spectrum, mean of {} realisations", ensemble.realisations),
                 .x = {"angular frequency (rad/s)", AxisRange{0, end}},
@@ -47,7 +47,7 @@ LinePlot spectrum_plot(const SeaSummary& summary, const SeaEnsemble& ensemble) {
                 .legend_above = true};
   plot.series.push_back({.name = "second order", .x = ensemble.omega, .y = ensemble.realised, .interval = {}});
   plot.series.push_back({.name = "linear part", .x = ensemble.omega, .y = ensemble.realised_linear, .interval = {}});
-  plot.series.push_back({.name = "target", .x = ensemble.omega, .y = ensemble.target, .interval = {}});
+  plot.series.push_back({.name = "target", .x = ensemble.omega, .y = ensemble.prescribed, .interval = {}});
   return plot;
 }
 
@@ -91,7 +91,7 @@ LinePlot slope_plot(const SeaState& state, const WaveField& field, const SeaSumm
   for (int i = 0; i < kSteps; ++i) {
     const double omega = end * (i + 0.5) / kSteps;
     const double k = wavenumber_at(omega, field.depth());
-    variance += target_density(state, omega) * k * k * end / kSteps;
+    variance += prescribed_density(state, omega) * k * k * end / kSteps;
     target.x.push_back(end * (i + 1) / kSteps);
     target.y.push_back(std::sqrt(variance));
   }
@@ -122,7 +122,7 @@ double exceeded_by(const std::vector<double>& ascending, double share) {
 std::string spectrum_csv(const SeaEnsemble& ensemble) {
   std::string text = "omega_rad_s,density_m2_s,realised_m2_s,realised_linear_m2_s\n";
   for (std::size_t i = 0; i < ensemble.omega.size(); ++i) {
-    fmt::format_to(std::back_inserter(text), "{:.9g},{:.9g},{:.9g},{:.9g}\n", ensemble.omega[i], ensemble.target[i],
+    fmt::format_to(std::back_inserter(text), "{:.9g},{:.9g},{:.9g},{:.9g}\n", ensemble.omega[i], ensemble.prescribed[i],
                    ensemble.realised[i], ensemble.realised_linear[i]);
   }
   return text;

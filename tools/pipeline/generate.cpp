@@ -35,10 +35,10 @@ GenerateResult generate_dataset(const Pipeline& pipeline, const std::filesystem:
                                 const GenerateOptions& options, const StopFlag* stop) {
   const Scenario& scenario = pipeline.scenario();
   const SamplePlan& plan = pipeline.plan();
-  warn(mesh_doubts(pipeline));
-  warn(sea_doubts(scenario, plan.sea_states()));
-  warn(band_doubts(pipeline));
-  warn(outside_of_map(pipeline));
+  warn(mesh_warnings(pipeline));
+  warn(sea_warnings(scenario, plan.sea_states()));
+  warn(band_warnings(pipeline));
+  warn(map_coverage_warnings(pipeline));
   DatasetWriter writer(directory, scenario, plan, options.resume, kVersion);
 
   // The part's shards that are to be made, and their samples in order.
@@ -67,7 +67,7 @@ GenerateResult generate_dataset(const Pipeline& pipeline, const std::filesystem:
     parallel_for(
         work.size(), thread_count(options.threads),
         [&](std::size_t i) {
-          MadeSample made = pipeline.make(work[i].sample);
+          GeneratedSample made = pipeline.generate_sample(work[i].sample);
           const ShardRange range = plan.shard(work[i].shard);
           Shard whole;
           {
@@ -87,7 +87,7 @@ GenerateResult generate_dataset(const Pipeline& pipeline, const std::filesystem:
         stop);
   } catch (const InputError&) {
     // The scenario put right must find the directory as it was; other parts may be at work in it.
-    if (parts == 1) writer.withdraw();
+    if (parts == 1) writer.roll_back();
     throw;
   }
   result.made = work.size();

@@ -13,7 +13,7 @@
 namespace seaglint {
 namespace {
 
-constexpr std::size_t kMostLines = 10;
+constexpr std::size_t kMaxLines = 10;
 
 struct Span {
   double low = 0, high = 0;
@@ -44,19 +44,19 @@ void extend(Reach& reach, const Target& target, const Vec3& r_hat, double interv
   }
   Span body;
   for (const Vec3& vertex : target.mesh.vertices) body.include(-r_hat.dot(vertex));
-  const double passing_mps = -r_hat.dot(target.passing_mps);
+  const double relative_velocity_mps = -r_hat.dot(target.relative_velocity_mps);
   for (const Vec3& rest : target.rest_positions) {
-    for (const double passed_m : {0.0, passing_mps * interval_s}) {
+    for (const double passed_m : {0.0, relative_velocity_mps * interval_s}) {
       reach.range_m.include(-r_hat.dot(rest) + passed_m + body.low);
       reach.range_m.include(-r_hat.dot(rest) + passed_m + body.high);
     }
-    if (passing_mps != 0) reach.velocity_mps.include(passing_mps);
+    if (relative_velocity_mps != 0) reach.velocity_mps.include(relative_velocity_mps);
   }
 }
 
 }  // namespace
 
-std::vector<std::string> outside_of_map(const Pipeline& pipeline) {
+std::vector<std::string> map_coverage_warnings(const Pipeline& pipeline) {
   const Scenario& scenario = pipeline.scenario();
   const std::vector<Target>& targets = pipeline.targets();
   const PulseTrain train = make_pulse_train(scenario.radar, pipeline.window_m(), scenario.seed, 0);
@@ -65,7 +65,7 @@ std::vector<std::string> outside_of_map(const Pipeline& pipeline) {
   std::vector<std::string> lines;
   std::size_t more = 0;
   const auto tell = [&](const std::string& line) {
-    if (lines.size() < kMostLines) {
+    if (lines.size() < kMaxLines) {
       lines.push_back(line);
     } else {
       ++more;
@@ -76,8 +76,9 @@ std::vector<std::string> outside_of_map(const Pipeline& pipeline) {
       const Vec3 r_hat = direction_to_radar(view.azimuth_rad, view.elevation_rad);
       Reach reach;
       extend(reach, targets[t], r_hat, train.time_s.back());
-      for (const std::size_t companion : targets[t].with) extend(reach, targets[companion], r_hat, train.time_s.back());
-      if (!platform.compensated) {
+      for (const std::size_t companion : targets[t].companions)
+        extend(reach, targets[companion], r_hat, train.time_s.back());
+      if (!platform.motion_compensated) {
         const double own_mps = r_hat.dot(Vec3(platform.velocity_mps.data()));
         reach.velocity_mps = {reach.velocity_mps.low + own_mps, reach.velocity_mps.high + own_mps};
       }

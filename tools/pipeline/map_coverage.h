@@ -13,6 +13,6 @@ namespace seaglint {
 // One line for every target and view whose bodies at rest, points or their velocities reach beyond the map's range or
 // velocity span, with the numbers; at most ten lines, then how many more. What lies outside is cut off or, beyond the
 // unambiguous span, folded in.
-std::vector<std::string> outside_of_map(const Pipeline& pipeline);
+std::vector<std::string> map_coverage_warnings(const Pipeline& pipeline);
 
 }  // namespace seaglint

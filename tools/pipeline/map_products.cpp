@@ -7,32 +7,32 @@
 
 namespace seaglint {
 
-WholeBand whole_band(const Pipeline& pipeline, std::size_t sample) {
+FullBandInterval full_band_interval(const Pipeline& pipeline, std::size_t sample) {
   const Scenario& scenario = pipeline.scenario();
   // One carrier as wide as all of them: steps of the whole band, so that the window without wrap stays.
   RadarSpec radar = scenario.radar;
   const double lowest_mhz = 1e3 * radar.carrier_ghz - 0.5 * radar.bandwidth_mhz;
-  radar.bandwidth_mhz += (radar.hop_count - 1) * radar.hop_step_mhz;
+  radar.bandwidth_mhz += (radar.carrier_count - 1) * radar.hop_step_mhz;
   radar.hop_step_mhz = radar.bandwidth_mhz;
-  radar.hop_count = 1;
+  radar.carrier_count = 1;
   radar.hop_code = HopCode::kStepped;
   radar.carrier_ghz = 1e-3 * (lowest_mhz + 0.5 * radar.bandwidth_mhz);
   radar.sampling_mhz = std::max(radar.sampling_mhz, 2 * radar.bandwidth_mhz);
 
-  WholeBand band;
+  FullBandInterval band;
   band.train = make_pulse_train(radar, pipeline.window_m(), scenario.seed, sample);
   ClutterSpec none;
   none.enabled = false;
   const SampleAddress at = pipeline.plan().address(sample);
   const auto scene = pipeline.scene(at.sea_state, at.realisation);
-  band.echo = synthesize_echo(band.train, pipeline.response(at, band.train).response, none, scenario.seed, sample,
+  band.echo = synthesise_echo(band.train, pipeline.response(at, band.train).response, none, scenario.seed, sample,
                               pipeline.clutter_scene(at, *scene))
                   .target;
   band.image = form_rv_map(band.echo, band.train, scenario.map, radar.intra_pulse_motion);
   return band;
 }
 
-RangeProfiles range_profiles(const WholeBand& band, const MapSpec& spec) {
+RangeProfiles range_profiles(const FullBandInterval& band, const MapSpec& spec) {
   RangeProfiles profiles;
   const std::size_t frequencies = band.train.frequencies();
   MapSpec row = spec;

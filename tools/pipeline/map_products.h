@@ -10,18 +10,18 @@ namespace seaglint {
 // Target's echo and map as a radar would have them that sends the whole synthesised band with every pulse, without
 // clutter and noise: an ISAR image, range against the velocity across it. Same carriers' band, times and motion, the
 // radar's own included.
-struct WholeBand {
+struct FullBandInterval {
   PulseTrain train;           // of one carrier, in the middle of the band
   std::vector<Complex> echo;  // [pulse][frequency]
   RvMap image;
 };
-WholeBand whole_band(const Pipeline& pipeline, std::size_t sample);
+FullBandInterval full_band_interval(const Pipeline& pipeline, std::size_t sample);
 
 // High-resolution range profiles |HRRP| of single pulses of it, metres, [pulse][range].
 struct RangeProfiles {
   std::vector<double> time_s, range_m;
   std::vector<double> magnitude_m;
 };
-RangeProfiles range_profiles(const WholeBand& band, const MapSpec& spec);
+RangeProfiles range_profiles(const FullBandInterval& band, const MapSpec& spec);
 
 }  // namespace seaglint

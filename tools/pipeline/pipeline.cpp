@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t kScenesKept = 8;
 
 // Map, hop code and centres as the data set stores them.
-void store_signal(const MadeSample& made, bool complex_maps, Sample& stored) {
+void store_signal(const GeneratedSample& made, bool complex_maps, Sample& stored) {
   const std::vector<Complex>& values = made.received.map.values;
   stored.magnitude.reserve(values.size());
   double peak = 0, energy = 0;
@@ -82,7 +82,7 @@ std::shared_ptr<const Scene> Pipeline::scene(int sea_state, int realisation) con
 BodyResponse Pipeline::scene_response(std::size_t target, const Scene& scene, const View& view, const SeaState& state,
                                       const IntervalSampling& sampling) const {
   BodyResponse sum = target_response(target, scene, view, state, sampling);
-  for (const std::size_t companion : targets_[target].with) {
+  for (const std::size_t companion : targets_[target].companions) {
     const BodyResponse term = target_response(companion, scene, view, state, sampling);
     sum.response += term.response;
     sum.traces += term.traces;
@@ -93,10 +93,10 @@ BodyResponse Pipeline::scene_response(std::size_t target, const Scene& scene, co
 BodyResponse Pipeline::target_response(std::size_t target, const Scene& scene, const View& view, const SeaState& state,
                                        const IntervalSampling& sampling) const {
   const Vec3 r_hat = direction_to_radar(view.azimuth_rad, view.elevation_rad);
-  const SeaMirror mirror(scenario_.sea_reflection, total_wave_height(state));
-  const SeaMirror* sea = scenario_.sea_reflection.enabled ? &mirror : nullptr;
+  const SeaReflection mirror(scenario_.sea_reflection, total_wave_height(state));
+  const SeaReflection* sea = scenario_.sea_reflection.enabled ? &mirror : nullptr;
   const TargetSpec& spec = targets_[target].spec;
-  const Vec3& passing_mps = targets_[target].passing_mps;
+  const Vec3& relative_velocity_mps = targets_[target].relative_velocity_mps;
   if (!targets_[target].scatterer) {
     if (sea != nullptr)
       return {point_response_over_sea(spec.points, r_hat, sampling, scenario_.radar.polarisation, *sea), 0};
@@ -105,9 +105,10 @@ BodyResponse Pipeline::target_response(std::size_t target, const Scene& scene, c
   BodyResponse sum;
   for (const Trajectory& body : scene.bodies[target]) {
     // A companion is at its place when the interval begins.
-    const Trajectory carried = passing_mps.isZero(0) ? body : body.carried(passing_mps, sampling.pulse_time_s.front());
-    const BodyResponse term = respond(*targets_[target].scatterer, carried, r_hat, scenario_.radar.polarisation,
-                                      sampling, spec.solver, 1, sea);
+    const Trajectory carried =
+        relative_velocity_mps.isZero(0) ? body : body.with_drift(relative_velocity_mps, sampling.pulse_time_s.front());
+    const BodyResponse term = body_response(*targets_[target].scatterer, carried, r_hat, scenario_.radar.polarisation,
+                                            sampling, spec.solver, 1, sea);
     sum.traces += term.traces;
     if (sum.response.values.empty()) {
       sum.response = term.response;
@@ -120,7 +121,7 @@ BodyResponse Pipeline::target_response(std::size_t target, const Scene& scene, c
 
 IntervalSampling Pipeline::sampling(const PulseTrain& train, double start_s) const {
   IntervalSampling sampling = interval_sampling(train, start_s);
-  sampling.sight_rate = Vec3(scenario_.radar.platform.velocity_mps.data()) / (scenario_.radar.range_km * 1e3);
+  sampling.line_of_sight_rate = Vec3(scenario_.radar.platform.velocity_mps.data()) / (scenario_.radar.range_km * 1e3);
   return sampling;
 }
 
@@ -144,11 +145,11 @@ BodyResponse Pipeline::response(const SampleAddress& at, const PulseTrain& train
                         plan_.sea_state(at), sampling(train, plan_.start_s(at)));
 }
 
-Echo Pipeline::echo_of(std::size_t sample, const MadeSample& made, const BodyResponse& response,
+Echo Pipeline::echo_of(std::size_t sample, const GeneratedSample& made, const BodyResponse& response,
                        const Scene& scene) const {
   const SampleAddress& at = made.address;
   try {
-    return synthesize_echo(made.train, response.response, scenario_.clutter, scenario_.seed, sample,
+    return synthesise_echo(made.train, response.response, scenario_.clutter, scenario_.seed, sample,
                            clutter_scene(at, scene));
   } catch (const InputError& error) {
     const TargetSpec& target = scenario_.targets[static_cast<std::size_t>(at.target)];
@@ -159,8 +160,8 @@ Echo Pipeline::echo_of(std::size_t sample, const MadeSample& made, const BodyRes
   }
 }
 
-MadeSample Pipeline::make(std::size_t sample) const {
-  MadeSample made;
+GeneratedSample Pipeline::generate_sample(std::size_t sample) const {
+  GeneratedSample made;
   made.address = plan_.address(sample);
   const SampleAddress& at = made.address;
 
@@ -169,7 +170,8 @@ MadeSample Pipeline::make(std::size_t sample) const {
   made.train = make_pulse_train(scenario_.radar, range_window_m_, scenario_.seed, sample);
   const BodyResponse response = this->response(at, made.train);
   const Echo echo = echo_of(sample, made, response, *moving);
-  made.received = receive(echo, made.train, scenario_.clutter, scenario_.map, scenario_.radar.intra_pulse_motion);
+  made.received =
+      form_received_interval(echo, made.train, scenario_.clutter, scenario_.map, scenario_.radar.intra_pulse_motion);
   CleanedMap cleaned =
       clean_map(made.received.echo, made.train, scenario_.map, scenario_.radar.intra_pulse_motion, scenario_.features);
   if (scenario_.map.clean) made.received.map.values = restored_map(cleaned, made.train, scenario_.map).values;
@@ -178,10 +180,10 @@ MadeSample Pipeline::make(std::size_t sample) const {
 
   SampleRecord& record = made.stored.record;
   record = planned_record(scenario_, plan_, sample, at);
-  record.empty_carriers = made.received.map.empty_carriers;
+  record.unused_carriers = made.received.map.unused_carriers;
   record.scr_per_pulse_db = made.received.scr.per_pulse_db;
   record.scr_peak_cell_db = made.received.scr.peak_cell_db;
-  record.scr_extent_db = made.received.scr.extent_db;
+  record.scr_extent_db = made.received.scr.scr_extent_db;
   record.snr_per_pulse_db = made.received.scr.snr_per_pulse_db;
   record.mwr = made.features.mwr;
   record.ccf = made.features.ccf;
@@ -189,7 +191,7 @@ MadeSample Pipeline::make(std::size_t sample) const {
   record.sigma_v_mps = made.features.sigma_v;
   record.centres = made.features.centres;
   record.degenerate = made.features.degenerate ? 1 : 0;
-  record.traces = response.traces;
+  record.aspect_traces = response.traces;
   store_signal(made, scenario_.dataset.complex_maps, made.stored);
   return made;
 }

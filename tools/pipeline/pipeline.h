@@ -22,7 +22,7 @@
 namespace seaglint {
 
 // Everything that is known of one sample.
-struct MadeSample {
+struct GeneratedSample {
   SampleAddress address;
   PulseTrain train;
   ReceivedInterval received;  // echo, map, measured SCR
@@ -41,7 +41,8 @@ class Pipeline {
   const SamplePlan& plan() const { return plan_; }
   const std::vector<Target>& targets() const { return targets_; }
 
-  MadeSample make(std::size_t sample) const;  // sample < plan().size(); throws InputError when the target has no power
+  GeneratedSample generate_sample(
+      std::size_t sample) const;  // sample < plan().size(); throws InputError when the target has no power
 
   double window_m() const { return range_window_m_; }  // the range window of all its maps
 
@@ -65,7 +66,7 @@ class Pipeline {
                                const IntervalSampling& sampling) const;
 
   // The echo of a sample. Throws InputError, naming target and sample, when it has no power.
-  Echo echo_of(std::size_t sample, const MadeSample& made, const BodyResponse& response, const Scene& scene) const;
+  Echo echo_of(std::size_t sample, const GeneratedSample& made, const BodyResponse& response, const Scene& scene) const;
 
   Scenario scenario_;
   SamplePlan plan_;

@@ -64,8 +64,8 @@ StoredSample stored_sample(const DatasetReader& reader, std::size_t number) {
   return {std::move(shard.samples[number - after->first_sample]), std::move(shard.axes), std::move(shard.origin)};
 }
 
-double remake_tolerance(const Origin& origin) {
-  return origin == Origin{kVersion, processor_kind()} ? 0 : kOtherProcessor;
+double reproduction_tolerance(const Provenance& origin) {
+  return origin == Provenance{kVersion, processor_kind()} ? 0 : kOtherProcessor;
 }
 
 std::vector<std::string> differences(const Sample& stored, const Sample& again, double tolerance) {

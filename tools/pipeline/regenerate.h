@@ -14,7 +14,7 @@ namespace seaglint {
 struct StoredSample {
   Sample sample;
   StoredAxes axes;
-  Origin origin;  // who made it
+  Provenance origin;  // who made it
 };
 
 // Sample `number` < reader.size() of the data set. Throws InputError naming the shard that is damaged.
@@ -22,7 +22,7 @@ StoredSample stored_sample(const DatasetReader& reader, std::size_t number);
 
 // What may differ when a sample of this origin is made again here, as a share of the map's peak and of a measured
 // column: nothing for this program on this kind of processor, else kOtherProcessor.
-double remake_tolerance(const Origin& origin);
+double reproduction_tolerance(const Provenance& origin);
 
 // What is not as stored in one sample made again, one entry each: map, complex map where both have one, hop code,
 // columns of the row with SCR and features. Empty when all agree within the tolerance; with tolerance 0, bit for bit.

@@ -17,15 +17,15 @@ double power_of_map(const SampledEcho& sampled, const PulseTrain& train) {
 }
 
 // Samples of all pulses: 2 GB for each of target, clutter and noise.
-constexpr double kMostSamples = 134217728;
+constexpr double kMaxSamples = 134217728;
 
 void check_size(const Scenario& scenario, const PulseTrain& fine, double sampling_hz) {
   const double per_pulse = samples_per_pulse(fine, sampling_hz);
   const auto pulses = static_cast<double>(fine.pulses());
-  if (pulses * per_pulse <= kMostSamples) return;
+  if (pulses * per_pulse <= kMaxSamples) return;
   throw InputError(fmt::format("{}: value {}: with {:.0f} samples of each pulse at most {:.0f} pulses make an echo",
                                place_of(scenario, "radar.pulses"), pulses, per_pulse,
-                               std::floor(kMostSamples / per_pulse)));
+                               std::floor(kMaxSamples / per_pulse)));
 }
 
 void scale(SampledEcho& sampled, double power_gain) {
@@ -41,9 +41,9 @@ SampledInterval sampled_interval(const Pipeline& pipeline, std::size_t sample) {
   const PulseTrain train = make_pulse_train(scenario.radar, pipeline.window_m(), scenario.seed, sample);
   const PulseTrain fine = train_for_samples(train, scenario.radar);
   check_size(scenario, fine, sampling_hz);
-  const MadeSample made = pipeline.make(sample);
+  const GeneratedSample made = pipeline.generate_sample(sample);
   const auto moving = pipeline.scene(made.address.sea_state, made.address.realisation);
-  const Echo echo = synthesize_echo(fine, pipeline.response(made.address, fine).response, scenario.clutter,
+  const Echo echo = synthesise_echo(fine, pipeline.response(made.address, fine).response, scenario.clutter,
                                     scenario.seed, sample, pipeline.clutter_scene(made.address, *moving));
 
   SampledInterval interval;
@@ -56,7 +56,8 @@ SampledInterval sampled_interval(const Pipeline& pipeline, std::size_t sample) {
     return sampled;
   };
   if (!echo.clutter.empty()) interval.clutter = with_level(echo.clutter, made.received.scr.per_pulse_db, 1);
-  if (!echo.noise.empty()) interval.noise = with_level(echo.noise, made.received.scr.snr_per_pulse_db, fine.refinement);
+  if (!echo.noise.empty())
+    interval.noise = with_level(echo.noise, made.received.scr.snr_per_pulse_db, fine.grid_refinement);
   return interval;
 }
 

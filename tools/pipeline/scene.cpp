@@ -44,7 +44,7 @@ double reach_m(const Target& target, double interval_s) {
   }
   const double radius = radius_m(target.mesh);
   for (const Vec3& rest : target.rest_positions)
-    reach = std::max({reach, rest.norm() + radius, (rest + target.passing_mps * interval_s).norm() + radius});
+    reach = std::max({reach, rest.norm() + radius, (rest + target.relative_velocity_mps * interval_s).norm() + radius});
   return reach;
 }
 
@@ -86,7 +86,7 @@ ScattererSettings scatterer_settings(const Scenario& scenario, const TargetSpec&
 void check_scene_range(const Scenario& scenario, const TargetSpec& spec, const Target& body,
                        std::optional<std::size_t> companion) {
   try {
-    check_range(reach_m(body, interval_length_s(scenario.radar)), spec.solver.radar_range_m);
+    check_wavefront_range(reach_m(body, interval_length_s(scenario.radar)), spec.solver.wavefront_range_m);
   } catch (const InputError& error) {
     const std::string key =
         fmt::format("targets.{}.{}", spec.name, companion ? fmt::format("with.{}", *companion) : "solver");
@@ -154,7 +154,7 @@ Target load_target(const Scenario& scenario, const SamplePlan& plan, const Targe
 void place_bodies(Target& target, std::size_t& bodies) {
   target.first_body = bodies;
   if (target.spec.mesh.empty()) return;
-  for (const Vec2& place : layout_places(target.spec))
+  for (const Vec2& place : layout_positions(target.spec))
     target.rest_positions.push_back(rest_position(target.spec.motion, place.x(), place.y()));
   bodies += target.rest_positions.size();
 }
@@ -165,11 +165,11 @@ Target moved(const Target& original, const TargetSpec& host, const CompanionSpec
   Target target = original;
   target.spec.name += " (companion)";
   target.rest_positions.clear();
-  target.passing_mps = Vec3(original.spec.motion.speed_mps - host.motion.speed_mps, 0, 0);
+  target.relative_velocity_mps = Vec3(original.spec.motion.speed_mps - host.motion.speed_mps, 0, 0);
   for (PointSpec& point : target.spec.points) {
     point.position_m[0] += companion.x_m;
     point.position_m[1] += companion.y_m;
-    point.velocity_mps[0] += target.passing_mps.x();
+    point.velocity_mps[0] += target.relative_velocity_mps.x();
   }
   LineLayout line = target.spec.line.value_or(LineLayout{});
   line.centre_x_m += companion.x_m;
@@ -195,8 +195,8 @@ std::vector<Target> load_targets(const Scenario& scenario, const SamplePlan& pla
       Target target =
           moved(targets[static_cast<std::size_t>(named - scenario.targets.begin())], scenario.targets[t], companion);
       place_bodies(target, bodies);
-      check_scene_range(scenario, scenario.targets[t], target, targets[t].with.size());
-      targets[t].with.push_back(targets.size());
+      check_scene_range(scenario, scenario.targets[t], target, targets[t].companions.size());
+      targets[t].companions.push_back(targets.size());
       targets.push_back(std::move(target));
     }
   }
@@ -225,7 +225,7 @@ Scene make_scene(const Scenario& scenario, const SamplePlan& plan, const std::ve
   const std::uint64_t key = sea_key(static_cast<std::size_t>(sea_state), static_cast<std::size_t>(realisation));
   const double duration_s = std::max(at_least_s, scene_duration_s(scenario, plan));
 
-  Scene scene{realize_sea(state, scenario.seed, key), {}};
+  Scene scene{realise_sea(state, scenario.seed, key), {}};
   for (const Target& target : targets) {
     scene.bodies.push_back(target.rest_positions.empty()
                                ? std::vector<Trajectory>{}

@@ -26,9 +26,9 @@ struct Target {
   Body body;                                   // how it moves; unused for points
   std::vector<Vec3> rest_positions;            // of the bodies' origins, target frame; empty for points
   std::size_t first_body = 0;                  // bodies are counted over all targets, in order
-  std::vector<std::size_t> with;               // its companions, as further targets behind those of the scenario
+  std::vector<std::size_t> companions;         // its companions, as further targets behind those of the scenario
   // of a companion, in the frame of the target that it stands with, which makes way of its own
-  Vec3 passing_mps = Vec3::Zero();
+  Vec3 relative_velocity_mps = Vec3::Zero();
 };
 
 // How a target moves, from its mesh and the files its motion names. Throws InputError naming the target.

@@ -86,7 +86,7 @@ TrainedModel train_model(const DatasetReader& data, const Scenario& scenario, co
   make_directory(model_directory);
   TrainedModel model;
   model.study =
-      run_study(table, scenario.learning, scenario.dataset.train_share, scenario.seed, thread_count(threads), stop);
+      run_study(table, scenario.learning, scenario.dataset.train_fraction, scenario.seed, thread_count(threads), stop);
   model.metrics = metrics_json(model.study, table, scenario, data.manifest());
 
   // metrics.json is the mark of a whole model: the earlier one goes before any other file is replaced.

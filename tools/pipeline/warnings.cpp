@@ -22,16 +22,16 @@ struct CoarsestSea {
 };
 
 void add_doubt(std::vector<std::string>& lines, const char* key, int components, const CoarsestSea& sea) {
-  if (sea.width <= kWidestStratum) return;
+  if (sea.width <= kMaxStratumWidth) return;
   lines.push_back(fmt::format(
       "{}: {} for waves of Tp {:.3g} s make strata {:.2g} of the peak frequency wide, and the mean period is "
       "another one in every realisation: {:.0f} and more hold it within about 1 %",
-      key, components, sea.peak_period_s, sea.width, std::ceil(components * sea.width / kWidestStratum)));
+      key, components, sea.peak_period_s, sea.width, std::ceil(components * sea.width / kMaxStratumWidth)));
 }
 
 }  // namespace
 
-std::vector<std::string> mesh_doubts(const Pipeline& pipeline) {
+std::vector<std::string> mesh_warnings(const Pipeline& pipeline) {
   std::vector<std::string> lines;
   // no companions
   for (const Target& target : std::span(pipeline.targets()).first(pipeline.scenario().targets.size())) {
@@ -41,7 +41,7 @@ std::vector<std::string> mesh_doubts(const Pipeline& pipeline) {
   return lines;
 }
 
-std::vector<std::string> sea_doubts(const Scenario& scenario, std::span<const SeaState> states) {
+std::vector<std::string> sea_warnings(const Scenario& scenario, std::span<const SeaState> states) {
   CoarsestSea wind_sea, swell;
   for (const SeaState& state : states) {
     const StratumWidths widths = stratum_widths(state);
@@ -54,9 +54,9 @@ std::vector<std::string> sea_doubts(const Scenario& scenario, std::span<const Se
   return lines;
 }
 
-std::vector<std::string> band_doubts(const Pipeline& pipeline) {
+std::vector<std::string> band_warnings(const Pipeline& pipeline) {
   const Scenario& scenario = pipeline.scenario();
-  const std::string gaps = band_gaps(make_pulse_train(scenario.radar, pipeline.window_m(), scenario.seed, 0));
+  const std::string gaps = band_gap_warning(make_pulse_train(scenario.radar, pipeline.window_m(), scenario.seed, 0));
   if (gaps.empty()) return {};
   return {fmt::format("radar.bandwidth_mhz: {}", gaps)};
 }

@@ -14,7 +14,7 @@ namespace seaglint {
 inline constexpr const char* kMechanismNames[] = {"po", "edge"};
 
 // Throws InputError, also for a selection that nothing can meet: with so many bounces followed, with edges or without.
-EchoFilter filter_of(const EchoSelection& selection, const TriangleMesh& mesh, int max_bounces, bool edges);
+ContributionFilter filter_of(const EchoSelection& selection, const TriangleMesh& mesh, int max_bounces, bool edges);
 
 // The selection as it was given, for the head of a table; "everything" without one.
 std::string text_of(const EchoSelection& selection);

@@ -12,7 +12,7 @@
 namespace seaglint {
 
 std::vector<int> cavity_parts(const CavityRequest& request, const TriangleMesh& mesh,
-                              const std::vector<MaterialSpec>& materials, const EchoFilter& selection) {
+                              const std::vector<MaterialSpec>& materials, const ContributionFilter& selection) {
   std::vector<int> indices;
   for (const std::string& name : request.parts) {
     const auto place = std::find(mesh.part_names.begin(), mesh.part_names.end(), name);
@@ -27,9 +27,9 @@ std::vector<int> cavity_parts(const CavityRequest& request, const TriangleMesh& 
     }
     if (std::find(indices.begin(), indices.end(), part) == indices.end()) indices.push_back(part);
   }
-  for (const auto* selectors : {&selection.only, &selection.without}) {
-    for (const EchoSelector& s : *selectors) {
-      if (!request.parts.empty() && s.kind != EchoSelector::Kind::kPart)
+  for (const auto* selectors : {&selection.included, &selection.excluded}) {
+    for (const ContributionSelector& s : *selectors) {
+      if (!request.parts.empty() && s.kind != ContributionSelector::Kind::kPart)
         throw InputError(
             "--cavity: what comes out of a cavity has neither bounces nor a mechanism; select by part=NAME");
     }

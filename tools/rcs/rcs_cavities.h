@@ -24,7 +24,7 @@ struct NamedCavity {
 // Indices of the parts asked for. Throws InputError for a part that is not there or no perfect conductor, and for a
 // selection by anything but parts.
 std::vector<int> cavity_parts(const CavityRequest& request, const TriangleMesh& mesh,
-                              const std::vector<MaterialSpec>& materials, const EchoFilter& selection);
+                              const std::vector<MaterialSpec>& materials, const ContributionFilter& selection);
 
 // Those parts of the mesh as cavities. Throws InputError for what is none at the lowest or the highest frequency.
 std::vector<NamedCavity> make_cavities(const CavityRequest& request, const TriangleMesh& mesh,

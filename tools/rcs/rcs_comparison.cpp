@@ -93,17 +93,18 @@ Vec3 unit_vector(double theta_deg, double phi_deg) {
 // A monostatic echo and one from another transmitter are different quantities, however well their angles fit.
 void require_same_transmitter(const RcsSweep& sweep, const RcsReference& reference) {
   if (!reference.transmitter) return;
-  const StatedTransmitter& theirs = *reference.transmitter;
+  const DeclaredTransmitter& theirs = *reference.transmitter;
   const auto fail = [&](const std::string& ours) {
     throw InputError(fmt::format("{}: {}, {}", reference.name,
-                                 theirs.moves_along
+                                 theirs.is_monostatic
                                      ? std::string("is monostatic by its own words")
                                      : fmt::format("its transmitter stands at azimuth {:g} deg, elevation {:g} deg",
                                                    theirs.phi_deg, 90 - theirs.theta_deg),
                                  ours));
   };
   if (!sweep.transmitter) {
-    if (!theirs.moves_along) fail("the sweep is monostatic: give --transmit-azimuth-deg and --transmit-elevation-deg");
+    if (!theirs.is_monostatic)
+      fail("the sweep is monostatic: give --transmit-azimuth-deg and --transmit-elevation-deg");
     return;
   }
   const Vec3& t = *sweep.transmitter;
@@ -113,8 +114,8 @@ void require_same_transmitter(const RcsSweep& sweep, const RcsReference& referen
   const std::string ours =
       fmt::format("the sweep's transmitter stands at azimuth {:g} deg, elevation {:g} deg of the same angles", phi_deg,
                   90 - theta_deg);
-  if (theirs.moves_along || (unit_vector(theta_deg, phi_deg) - unit_vector(theirs.theta_deg, theirs.phi_deg)).norm() >
-                                radians(kAngleStep_deg))
+  if (theirs.is_monostatic || (unit_vector(theta_deg, phi_deg) - unit_vector(theirs.theta_deg, theirs.phi_deg)).norm() >
+                                  radians(kAngleStep_deg))
     fail(ours);
 }
 
@@ -148,7 +149,7 @@ std::string upper(std::string text) {
 
 }  // namespace
 
-std::vector<PairedCut> pair_with(const RcsSweep& sweep, const RcsReference& reference) {
+std::vector<PairedCut> match_reference(const RcsSweep& sweep, const RcsReference& reference) {
   require_same_transmitter(sweep, reference);
   const CutAxis axis = axis_of(sweep);
   std::vector<PairedCut> cuts;
@@ -203,7 +204,7 @@ void set_models(PairedCut& cut, const RcsSweep& sweep) {
   }
 }
 
-Difference difference_of(const PairedCut& cut, const PairedCut::Model& model, double floor_db) {
+Difference error_statistics(const PairedCut& cut, const PairedCut::Model& model, double floor_db) {
   Difference d;
   d.points = cut.x.size();
   const double floor = *std::max_element(cut.level_dbsm.begin(), cut.level_dbsm.end()) - floor_db;
@@ -247,7 +248,7 @@ std::optional<PairedCut::Model> as_model(const PairedCut& other, const PairedCut
 
 }  // namespace
 
-std::string difference_table(const std::vector<PairedCut>& cuts, double floor_db) {
+std::string error_table(const std::vector<PairedCut>& cuts, double floor_db) {
   struct Row {
     const PairedCut* cut;
     std::string model;
@@ -256,13 +257,13 @@ std::string difference_table(const std::vector<PairedCut>& cuts, double floor_db
   std::vector<Row> rows;
   for (const PairedCut& cut : cuts) {
     for (const PairedCut::Model& model : cut.models)
-      rows.push_back({&cut, model.name, difference_of(cut, model, floor_db)});
+      rows.push_back({&cut, model.name, error_statistics(cut, model, floor_db)});
   }
   // How far references are apart from each other.
   for (std::size_t i = 0; i < cuts.size(); ++i) {
     for (std::size_t j = i + 1; j < cuts.size(); ++j) {
       if (const auto model = as_model(cuts[i], cuts[j]))
-        rows.push_back({&cuts[j], model->name, difference_of(cuts[j], *model, floor_db)});
+        rows.push_back({&cuts[j], model->name, error_statistics(cuts[j], *model, floor_db)});
     }
   }
   std::size_t width = 9, model_width = 5;
@@ -293,7 +294,7 @@ bool draw_comparison(const std::vector<PairedCut>& cuts, double floor_db, const 
                      const std::filesystem::path& file) {
   if (cuts.empty() || cuts.front().axis == CutAxis::kSeveral || cuts.front().x.size() < 2) return false;
   // Cuts of one frequency and polarisation share a column.
-  constexpr std::size_t kMostColumns = 4;
+  constexpr std::size_t kMaxColumns = 4;
   std::vector<std::vector<const PairedCut*>> columns;
   for (const PairedCut& cut : cuts) {
     const auto place = std::find_if(columns.begin(), columns.end(), [&](const auto& column) {
@@ -301,7 +302,7 @@ bool draw_comparison(const std::vector<PairedCut>& cuts, double floor_db, const 
     });
     if (place != columns.end()) {
       place->push_back(&cut);
-    } else if (columns.size() < kMostColumns) {
+    } else if (columns.size() < kMaxColumns) {
       columns.push_back({&cut});
     }
   }

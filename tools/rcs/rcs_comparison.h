@@ -42,7 +42,7 @@ struct PairedCut {
 // interpolated. One cut for each frequency, or one in all when there is one direction. Throws InputError when nothing
 // fits, with what either side holds, and when the reference says that its transmitter stands elsewhere than the
 // sweep's.
-std::vector<PairedCut> pair_with(const RcsSweep& sweep, const RcsReference& reference);
+std::vector<PairedCut> match_reference(const RcsSweep& sweep, const RcsReference& reference);
 
 // Takes the cut's models from the sweep that it was paired with, once its models are computed.
 void set_models(PairedCut& cut, const RcsSweep& sweep);
@@ -59,10 +59,10 @@ struct Difference {
 
 // Levels of both sides are lifted to floor_db below the reference's maximum first (the Austin suite's error measure
 // with 80 dB).
-Difference difference_of(const PairedCut& cut, const PairedCut::Model& model, double floor_db);
+Difference error_statistics(const PairedCut& cut, const PairedCut::Model& model, double floor_db);
 
 // One line for every cut and model.
-std::string difference_table(const std::vector<PairedCut>& cuts, double floor_db);
+std::string error_table(const std::vector<PairedCut>& cuts, double floor_db);
 
 // Levels above, differences below; a column for each frequency and polarisation, at most four. False when there is
 // nothing to draw a line along.

@@ -17,7 +17,7 @@
 namespace seaglint {
 namespace {
 
-constexpr double kLeastLevel_dbsm = -1000;  // of an exact zero
+constexpr double kMinLevel_dbsm = -1000;  // of an exact zero
 
 Complex amplitude_of(double level_dbsm, double phase_rad) {
   return std::polar(std::sqrt(std::pow(10.0, level_dbsm / 10) / (4 * kPi)), phase_rad);
@@ -89,7 +89,7 @@ double number_in(const Lines& lines, const std::string& cell) {
 
 // A level in dB; the logarithm of an exact zero is the floor.
 double level_in(const Lines& lines, const std::string& cell) {
-  return cell == "-inf" || cell == "-Inf" || cell == "-INF" ? kLeastLevel_dbsm : number_in(lines, cell);
+  return cell == "-inf" || cell == "-Inf" || cell == "-INF" ? kMinLevel_dbsm : number_in(lines, cell);
 }
 
 bool is_blank(const std::string& line) { return line.find_first_not_of(" \t") == std::string::npos; }
@@ -117,12 +117,12 @@ void read_four_columns(Lines& lines, RcsReference& reference) {
 
 // Where a line of the head of a table of `seaglint rcs` says that its transmitter stands; nothing where it says
 // nothing.
-std::optional<StatedTransmitter> stated_transmitter(const Lines& lines, const std::string& line) {
+std::optional<DeclaredTransmitter> stated_transmitter(const Lines& lines, const std::string& line) {
   try {
     const std::optional<NotedTransmitter> noted = read_transmitter_note(line);
     if (!noted) return std::nullopt;
-    if (!noted->fixed) return StatedTransmitter{};
-    StatedTransmitter there{false, 90 - noted->fixed->elevation_deg, noted->fixed->azimuth_deg};
+    if (!noted->fixed) return DeclaredTransmitter{};
+    DeclaredTransmitter there{false, 90 - noted->fixed->elevation_deg, noted->fixed->azimuth_deg};
     fold(there.theta_deg, there.phi_deg);
     return there;
   } catch (const InputError& error) {
@@ -216,7 +216,7 @@ class CstUnit {
   double level(const Lines& lines, double value) const {
     if (decibel_) return value + offset_db_;
     if (value < 0) lines.fail(fmt::format("{}: an area must be >= 0", value));
-    return std::max(10 * std::log10(std::max(value, 1e-300)) + offset_db_, kLeastLevel_dbsm);
+    return std::max(10 * std::log10(std::max(value, 1e-300)) + offset_db_, kMinLevel_dbsm);
   }
 
  private:

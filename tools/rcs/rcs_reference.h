@@ -34,8 +34,8 @@ struct ReferenceSample {
 };
 
 // Where a file says that its transmitter stands, in its own angles.
-struct StatedTransmitter {
-  bool moves_along = true;  // with the receiver: monostatic, and no angles
+struct DeclaredTransmitter {
+  bool is_monostatic = true;  // with the receiver: monostatic, and no angles
   double theta_deg = 0, phi_deg = 0;
 };
 
@@ -44,7 +44,7 @@ struct RcsReference {
   Polarisation element = Polarisation::kHh;
   ReferenceSettings settings;
   std::vector<ReferenceSample> samples;
-  std::optional<StatedTransmitter> transmitter;  // absent where the file does not say
+  std::optional<DeclaredTransmitter> transmitter;  // absent where the file does not say
   bool has_phase() const { return !samples.empty() && samples.front().amplitude_m.has_value(); }
 };
 

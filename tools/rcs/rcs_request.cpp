@@ -42,8 +42,8 @@ RcsSweep requested_sweep(const RcsRequest& request) {
     throw InputError(
         "--cavity is of the far field and the target alone: leave out --sea-reflection, --range-m and exports of a "
         "view");
-  constexpr std::size_t kMostRows = 4'000'000;  // 256 MB of matrices
-  if (sweep.rows() > kMostRows) throw InputError(fmt::format("{} rows of output: at most {}", sweep.rows(), kMostRows));
+  constexpr std::size_t kMaxRows = 4'000'000;  // 256 MB of matrices
+  if (sweep.rows() > kMaxRows) throw InputError(fmt::format("{} rows of output: at most {}", sweep.rows(), kMaxRows));
   if (sweep.rows() == 0) throw InputError("no frequency, azimuth or elevation");
   if (request.exports.wanted() && sweep.rows() != 1)
     throw InputError(

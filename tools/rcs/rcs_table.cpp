@@ -13,7 +13,7 @@
 namespace seaglint {
 namespace {
 
-constexpr double kLeastPrinted_m2 = 1e-30;  // -300 dBsm
+constexpr double kMinPrinted_m2 = 1e-30;  // -300 dBsm
 
 std::string materials_text(const std::vector<MaterialChoice>& materials) {
   if (materials.empty()) return "pec";
@@ -65,7 +65,7 @@ std::string rcs_table(const RcsRequest& request, const Scatterer& scatterer, con
       csv +=
           fmt::format("{:.9g},{:.9g},{:.9g}", sweep.frequency_hz[q], sweep.azimuth_of(view), sweep.elevation_of(view));
       for (const Complex& x : s) csv += fmt::format(",{:.9g},{:.9g}", x.real(), x.imag());
-      csv += fmt::format(",{:.4f},{:.4f}\n", dbsm(s[0], kLeastPrinted_m2), dbsm(s[3], kLeastPrinted_m2));
+      csv += fmt::format(",{:.4f},{:.4f}\n", dbsm(s[0], kMinPrinted_m2), dbsm(s[3], kMinPrinted_m2));
     }
   }
   return csv;

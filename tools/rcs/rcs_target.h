@@ -13,7 +13,7 @@ namespace seaglint {
 // The target of a request, ready to be computed.
 struct RcsTarget {
   PreparedTarget prepared;
-  EchoFilter filter;  // which echoes are summed
+  ContributionFilter filter;  // which echoes are summed
   std::vector<NamedCavity> cavities;
 };
 

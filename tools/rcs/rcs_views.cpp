@@ -15,35 +15,35 @@
 namespace seaglint {
 namespace {
 
-AntennaPair antennas_of(const RcsRequest& request, const RadarBasis& swept) {
+BistaticGeometry antennas_of(const RcsRequest& request, const RadarBasis& swept) {
   if (!request.transmitter) return monostatic(swept);
   return bistatic(basis_at(request.transmitter->azimuth_deg, request.transmitter->elevation_deg), swept);
 }
 
-SeaMirror mirror_of(const SeaUnderTarget& sea) {
+SeaReflection mirror_of(const SeaUnderTarget& sea) {
   SeaReflectionSpec spec;
   spec.surface = sea.surface;
   spec.paths = sea.paths;
-  return SeaMirror(spec, sea.wave_height_m);
+  return SeaReflection(spec, sea.wave_height_m);
 }
 
-std::size_t trace_views(const RcsRequest& request, const RcsTarget& target, int threads, const StopFlag* stop,
-                        RcsSweep& sweep) {
+std::size_t compute_sweep(const RcsRequest& request, const RcsTarget& target, int threads, const StopFlag* stop,
+                          RcsSweep& sweep) {
   const Scatterer& scatterer = *target.prepared.scatterer;
   std::vector<double> wavenumbers;
   for (const double hz : sweep.frequency_hz) wavenumbers.push_back(2 * kPi * hz / kSpeedOfLight);
-  std::size_t legs = 0;
+  std::size_t segments = 0;
   Progress progress("rcs", sweep.views(), "views");
   for (std::size_t view = 0; view < sweep.views(); ++view) {
     const RadarBasis basis = basis_at(sweep.azimuth_of(view), sweep.elevation_of(view));
     try {
       for (RcsSweep::Model& model : sweep.models) {
-        const IlluminationSettings settings = settings_of(request, target, model.edge_diffraction);
+        const TracingSettings settings = settings_of(request, target, model.edge_diffraction);
         model.matrices[view] =
             request.sea.reflection
                 ? scattering_matrices_over_sea(scatterer, basis.r, request.sea.height_m, mirror_of(request.sea),
-                                               wavenumbers, settings, threads, &legs, stop)
-                : scattering_matrices(scatterer, antennas_of(request, basis), wavenumbers, settings, threads, &legs,
+                                               wavenumbers, settings, threads, &segments, stop)
+                : scattering_matrices(scatterer, antennas_of(request, basis), wavenumbers, settings, threads, &segments,
                                       stop);
       }
     } catch (const Interrupted&) {
@@ -51,13 +51,13 @@ std::size_t trace_views(const RcsRequest& request, const RcsTarget& target, int 
     }
     progress.advance();
   }
-  return legs;
+  return segments;
 }
 
 // Adds the echoes of cavities to every model of the sweep.
 void add_cavities(const RcsRequest& request, const RcsTarget& target, int threads, const StopFlag* stop,
                   RcsSweep& sweep) {
-  std::vector<AntennaPair> views;
+  std::vector<BistaticGeometry> views;
   for (std::size_t view = 0; view < sweep.views(); ++view)
     views.push_back(antennas_of(request, basis_at(sweep.azimuth_of(view), sweep.elevation_of(view))));
   Progress progress("cavity", target.cavities.size() * sweep.frequency_hz.size(), "frequencies");
@@ -65,7 +65,7 @@ void add_cavities(const RcsRequest& request, const RcsTarget& target, int thread
     for (std::size_t q = 0; q < sweep.frequency_hz.size(); ++q) {
       std::vector<std::array<Complex, 4>> echo(sweep.views());
       try {
-        if (target.filter.keeps_cavity(named.part))
+        if (target.filter.accepts_cavity(named.part))
           echo =
               named.cavity.scattering_matrices(2 * kPi * sweep.frequency_hz[q] / kSpeedOfLight, views, threads, stop);
       } catch (const WorkError& error) {
@@ -91,7 +91,7 @@ RadarBasis basis_at(double azimuth_deg, double elevation_deg) {
   return {r, h, r.cross(h)};
 }
 
-IlluminationSettings settings_of(const RcsRequest& request, const RcsTarget& target, bool edge_diffraction) {
+TracingSettings settings_of(const RcsRequest& request, const RcsTarget& target, bool edge_diffraction) {
   return {request.ray_spacing_m, request.max_bounces, edge_diffraction, target.filter, request.range_m};
 }
 
@@ -102,7 +102,7 @@ RcsResult compute_rcs(const RcsRequest& request, const RcsTarget& target, int th
   if (!request.edges || request.physical_optics_too) sweep.models.push_back({"po", false, empty});
   if (request.edges) sweep.models.push_back({"edges", true, empty});
   const int count = thread_count(threads);
-  result.legs = trace_views(request, target, count, stop, sweep);
+  result.segments = compute_sweep(request, target, count, stop, sweep);
   if (!target.cavities.empty()) add_cavities(request, target, count, stop, sweep);
   return result;
 }

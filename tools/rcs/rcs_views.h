@@ -18,11 +18,11 @@ namespace seaglint {
 RadarBasis basis_at(double azimuth_deg, double elevation_deg);
 
 // How the request's target is illuminated, with edge diffraction or without.
-IlluminationSettings settings_of(const RcsRequest& request, const RcsTarget& target, bool edge_diffraction);
+TracingSettings settings_of(const RcsRequest& request, const RcsTarget& target, bool edge_diffraction);
 
 struct RcsResult {
-  RcsSweep sweep;        // the request's own model last
-  std::size_t legs = 0;  // of beams followed
+  RcsSweep sweep;            // the request's own model last
+  std::size_t segments = 0;  // of beams followed
 };
 
 // Computes all models of the request, on `threads` threads (0 = all processors). Throws WorkError when a cavity has no

@@ -37,21 +37,21 @@ std::array<double, 3> viridis(double at) {
   return linear;
 }
 
-std::string write_centres(const ViewExport& arguments, const TriangleMesh& mesh, const std::vector<EchoCentre>& centres,
-                          const std::string& heading) {
+std::string write_centres(const ViewExport& arguments, const TriangleMesh& mesh,
+                          const std::vector<ScatteringCentre3d>& centres, const std::string& heading) {
   std::array<Complex, 4> all{}, kept{};
-  const double floor = centres.empty() ? 0 : centres.front().strength() * std::pow(10.0, -arguments.range_db / 10);
+  const double floor = centres.empty() ? 0 : centres.front().peak_rcs() * std::pow(10.0, -arguments.range_db / 10);
   std::string rows;
   std::size_t count = 0;
-  for (const EchoCentre& c : centres) {
+  for (const ScatteringCentre3d& c : centres) {
     for (std::size_t i = 0; i < 4; ++i) all[i] += c.amplitude[i];
-    if (c.strength() < floor || c.strength() == 0) continue;
+    if (c.peak_rcs() < floor || c.peak_rcs() == 0) continue;
     ++count;
     for (std::size_t i = 0; i < 4; ++i) kept[i] += c.amplitude[i];
     const Vec3 x = c.position();
     rows += fmt::format("{:.9g},{:.9g},{:.9g},{:.9g}", x.x(), x.y(), x.z(), c.psi);
     for (const Complex& s : c.amplitude) rows += fmt::format(",{:.9g},{:.9g}", s.real(), s.imag());
-    rows += fmt::format(",{:.4f},{},{},{}\n", dbsm_of_area(c.strength()), mesh.part_names[c.part], c.bounces,
+    rows += fmt::format(",{:.4f},{},{},{}\n", dbsm_of_area(c.peak_rcs()), mesh.part_names[c.part], c.bounces,
                         kMechanismNames[static_cast<int>(c.mechanism)]);
   }
   double missing = 0, size = 0;
@@ -82,13 +82,13 @@ std::string write_hot_spots(const ViewExport& arguments, const TriangleMesh& mes
   std::vector<std::array<Complex, 4>> panel(facets);
   for (std::size_t f = 0; f < facets; ++f) {
     for (std::size_t i = 0; i < 4; ++i)
-      panel[static_cast<std::size_t>(scatterer.panels().of(static_cast<int>(f)))][i] += echoes[f][i];
+      panel[static_cast<std::size_t>(scatterer.panels().representative(static_cast<int>(f)))][i] += echoes[f][i];
   }
   std::vector<double> level(facets, dbsm_of_area(0));
   double highest = dbsm_of_area(0);
   for (std::size_t f = 0; f < facets; ++f) {
     double most = 0;
-    for (const Complex& s : panel[static_cast<std::size_t>(scatterer.panels().of(static_cast<int>(f)))])
+    for (const Complex& s : panel[static_cast<std::size_t>(scatterer.panels().representative(static_cast<int>(f)))])
       most = std::max(most, std::norm(s));
     level[f] = dbsm_of_area(4 * kPi * most);
     highest = std::max(highest, level[f]);
@@ -134,17 +134,17 @@ std::string heading(const RcsRequest& request) {
 std::string export_view(const RcsRequest& request, const RcsTarget& target, int threads, const StopFlag* stop) {
   const Scatterer& scatterer = *target.prepared.scatterer;
   const double k = 2 * kPi * request.frequency_hz[0] / kSpeedOfLight;
-  const SplitSettings split{k, default_turn(scatterer, 2 * kPi / k)};
-  const std::vector<Contribution> contributions =
-      view_contributions(scatterer, monostatic(basis_at(request.azimuth_deg[0], request.elevation_deg[0])), split,
-                         settings_of(request, target, request.edges), thread_count(threads), stop);
+  const DecompositionSettings split{k, default_aspect_change(scatterer, 2 * kPi / k)};
+  const std::vector<PointContribution> contributions =
+      aspect_contributions(scatterer, monostatic(basis_at(request.azimuth_deg[0], request.elevation_deg[0])), split,
+                           settings_of(request, target, request.edges), thread_count(threads), stop);
   std::string lines;
   if (!request.exports.centres.empty())
-    lines += write_centres(request.exports, target.prepared.mesh, centres_of(contributions, k, request.exports.cell_m),
-                           heading(request));
+    lines += write_centres(request.exports, target.prepared.mesh,
+                           cluster_centres(contributions, k, request.exports.cell_m), heading(request));
   if (!request.exports.hot_spots.empty())
     lines += write_hot_spots(request.exports, target.prepared.mesh, scatterer,
-                             facet_echoes(contributions, k, scatterer.facets().size()));
+                             facet_contributions(contributions, k, scatterer.facets().size()));
   return lines;
 }
 

@@ -25,8 +25,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kMapFloorDb = -45;           // of the colour scale, below the map's strongest cell
-constexpr std::size_t kMostNeighbours = 700;  // rows of a t-SNE plane
+constexpr double kMapFloorDb = -45;          // of the colour scale, below the map's strongest cell
+constexpr std::size_t kMaxNeighbours = 700;  // rows of a t-SNE plane
 constexpr const char* kClassNames[2] = {"array", "ship"};
 
 struct Drawing {
@@ -220,7 +220,7 @@ void add_features(FigureList& list, const ReportData& data, std::uint64_t seed) 
            "Standard deviations of the centres' ranges and velocities.",
            "Scatter of range and velocity spread by class");
 
-  const std::vector<std::size_t> few = thinned(data.rows.size(), kMostNeighbours);
+  const std::vector<std::size_t> few = thinned(data.rows.size(), kMaxNeighbours);
   for (const auto& [name, matrix, title] :
        {std::tuple{"tsne_handmade", &data.handmade, "t-SNE of the hand-made features"},
         {"tsne_fused", &data.fused, "t-SNE of the fused features"}}) {

@@ -76,7 +76,7 @@ void check_learnable(const Scenario& scenario, const SamplePlan& plan) {
     const SampleAddress address = plan.sea_address(sample);
     rows.push_back({plan.group(address), address.sea_state});
   }
-  check_splits(rows, scenario.learning, scenario.dataset.train_share, scenario.seed);
+  check_splits(rows, scenario.learning, scenario.dataset.train_fraction, scenario.seed);
 }
 
 }  // namespace

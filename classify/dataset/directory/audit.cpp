@@ -62,8 +62,8 @@ class Auditor {
     for (std::size_t i = manifest.shards.size(); i < plan_.shards(); ++i) fault(shard_name(i), "not in the manifest");
     for (const auto& entry : fs::directory_iterator(reader_.directory())) {
       const std::string name = entry.path().filename();
-      if (is_left_behind(entry.path())) fault(name, "half-written; a resumed `generate` removes it");
-      if (!may_lie_in_data_set(name)) fault(name, "is no file of a data set");
+      if (is_stale(entry.path())) fault(name, "half-written; a resumed `generate` removes it");
+      if (!is_dataset_file(name)) fault(name, "is no file of a data set");
       if (!name.ends_with(".h5") || listed.contains(name)) continue;
       if (is_merged(entry.path())) {
         merged_.emplace_back(entry.path(), reader_);
@@ -81,7 +81,7 @@ class Auditor {
       if (!axes_) axes_ = content.axes;
       if (*axes_ != content.axes) fault(name, "other axes than the first shard");
       for (const Sample& sample : content.samples) check(name, sample);
-      for (MergedCheck& merged : merged_) merged.compare(index, content);
+      for (MergedFileVerifier& merged : merged_) merged.compare(index, content);
     } catch (const InputError& error) {
       result_.faults.push_back(error.what());
     }
@@ -101,7 +101,7 @@ class Auditor {
         fault(fmt::format("sea {}", sea), fmt::format("lies in {} groups: a split by group would leak", groups.size()));
     }
     result_.groups = seas_of_group_.size();
-    for (const MergedCheck& merged : merged_)
+    for (const MergedFileVerifier& merged : merged_)
       result_.faults.insert(result_.faults.end(), merged.faults().begin(), merged.faults().end());
     if (planned_ < plan_.size())
       fault("data set", fmt::format("{} of {} samples are missing", plan_.size() - planned_, plan_.size()));
@@ -122,14 +122,14 @@ class Auditor {
     }
     ++planned_;
     const SampleRecord planned = planned_record(result_.scenario, plan_, static_cast<std::size_t>(record.sample));
-    for (const std::string& what : contradictions(record, planned)) fault(where, what);
+    for (const std::string& what : record_mismatches(record, planned)) fault(where, what);
     ++result_.per_target[static_cast<std::size_t>(planned.target)];
     seas_of_group_[record.group].insert(record.sea_key);
     check_map(where, sample);
     for (const std::uint16_t carrier : sample.hop_code) {
-      if (carrier >= result_.scenario.radar.hop_count) {
+      if (carrier >= result_.scenario.radar.carrier_count) {
         fault(where, fmt::format("hop code {}, the radar has carriers 0 to {}", carrier,
-                                 result_.scenario.radar.hop_count - 1));
+                                 result_.scenario.radar.carrier_count - 1));
         break;
       }
     }
@@ -161,9 +161,9 @@ class Auditor {
   const DatasetReader& reader_;
   SamplePlan plan_;
   Audit& result_;
-  std::vector<MergedCheck> merged_;  // files over all shards that lie beside them
-  std::optional<StoredAxes> axes_;   // of the first sound shard
-  std::size_t planned_ = 0;          // samples of the plan that were read; the reader sees to it that none comes twice
+  std::vector<MergedFileVerifier> merged_;  // files over all shards that lie beside them
+  std::optional<StoredAxes> axes_;          // of the first sound shard
+  std::size_t planned_ = 0;  // samples of the plan that were read; the reader sees to it that none comes twice
   std::map<std::string, std::int64_t> maps_;  // sample of each map's checksum
   std::map<std::int64_t, std::set<std::int64_t>> seas_of_group_;
 };
@@ -171,7 +171,7 @@ class Auditor {
 }  // namespace
 
 Audit audit(const fs::path& directory, const StopFlag* stop) {
-  const DatasetReader reader(directory, OtherScenario::kRead);
+  const DatasetReader reader(directory, ScenarioMismatch::kAccept);
   Audit result;
   result.scenario = read_scenario(directory / kScenarioFile);
   Auditor auditor(reader, result);

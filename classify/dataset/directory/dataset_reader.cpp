@@ -19,7 +19,7 @@ constexpr const char* kRemedy = "make it again by `seaglint generate SCENARIO -o
 
 }  // namespace
 
-DatasetReader::DatasetReader(fs::path directory, OtherScenario other) : directory_(std::move(directory)) {
+DatasetReader::DatasetReader(fs::path directory, ScenarioMismatch other) : directory_(std::move(directory)) {
   if (!fs::is_directory(directory_)) throw InputError(fmt::format("{}: no such directory", directory_.string()));
   const fs::path manifest_file = directory_ / kManifestFile;
   if (!fs::exists(manifest_file)) {
@@ -34,7 +34,7 @@ DatasetReader::DatasetReader(fs::path directory, OtherScenario other) : director
     }
   }
   const fs::path scenario = directory_ / kScenarioFile;
-  if (other == OtherScenario::kRefused && sha256_file(scenario) != manifest_.scenario_sha256) {
+  if (other == ScenarioMismatch::kReject && sha256_file(scenario) != manifest_.scenario_sha256) {
     throw InputError(fmt::format(
         "{}: is not the one that the manifest was written for; bring that one back, or go on with another `learning` "
         "by `seaglint generate SCENARIO -o DIR --resume`",

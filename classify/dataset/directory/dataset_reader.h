@@ -11,13 +11,13 @@
 namespace seaglint {
 
 // What becomes of a directory whose scenario.yaml is not the one that the manifest was written for: an audit reads it.
-enum class OtherScenario { kRefused, kRead };
+enum class ScenarioMismatch { kReject, kAccept };
 
 class DatasetReader {
  public:
   // Reads the manifest and sees that every shard is there, and the scenario that they were made by. Throws InputError
   // naming the file that is missing or wrong.
-  explicit DatasetReader(std::filesystem::path directory, OtherScenario other = OtherScenario::kRefused);
+  explicit DatasetReader(std::filesystem::path directory, ScenarioMismatch other = ScenarioMismatch::kReject);
 
   const Manifest& manifest() const { return manifest_; }
   const std::filesystem::path& directory() const { return directory_; }

@@ -27,7 +27,7 @@ namespace {
 // The scenario as far as it decides the maps: learning may be changed over the same maps.
 std::string maps_yaml(Scenario scenario) {
   scenario.learning = {};
-  scenario.dataset.train_share = DatasetSpec{}.train_share;
+  scenario.dataset.train_fraction = DatasetSpec{}.train_fraction;
   return effective_yaml(scenario);
 }
 
@@ -56,7 +56,7 @@ std::set<std::string> file_names(const fs::path& directory) {
 void require_own_directory(const fs::path& directory) {
   if (is_empty_or_absent(directory)) return;
   for (const std::string& name : file_names(directory)) {
-    if (may_lie_in_data_set(name)) continue;
+    if (is_dataset_file(name)) continue;
     const fs::path of_run = directory / "data";
     std::error_code error;
     const bool is_run = fs::exists(of_run / kScenarioFile, error);
@@ -79,7 +79,7 @@ void write_in_company(const fs::path& file, const std::string& content) {
 void remove_temporaries(const fs::path& directory) {
   for (const std::string& name : file_names(directory)) {
     std::error_code ignored;  // what cannot be removed is shown by `verify`
-    if (is_left_behind(directory / name)) fs::remove(directory / name, ignored);
+    if (is_stale(directory / name)) fs::remove(directory / name, ignored);
   }
 }
 
@@ -113,7 +113,7 @@ bool holds(const fs::path& file, const Shard& content) {
 
 }  // namespace
 
-bool may_lie_in_data_set(const std::string& name) {
+bool is_dataset_file(const std::string& name) {
   for (const char* own : {kScenarioFile, kInputsFile, kManifestFile, kDataCardFile}) {
     if (name == own) return true;
   }
@@ -149,10 +149,10 @@ DatasetWriter::DatasetWriter(fs::path directory, const Scenario& scenario, const
   earlier_ = manifest_there();
   require_same_inputs(directory_, scenario_);
   if (!same_text) write_file(scenario_file, scenario_yaml_);
-  keep_inputs(directory_, scenario_);
+  write_input_list(directory_, scenario_);
 }
 
-void DatasetWriter::withdraw() {
+void DatasetWriter::roll_back() {
   if (!begun_here_) return;
   for (const std::string& name : file_names(directory_)) {
     if (name != kScenarioFile && name != kInputsFile) return;
@@ -185,7 +185,7 @@ Manifest DatasetWriter::manifest_there() const {
   }
 }
 
-void DatasetWriter::retire_manifest() {
+void DatasetWriter::invalidate_manifest() {
   if (earlier_.shards.empty()) return;
   const fs::path file = directory_ / kManifestFile;
   std::error_code error;
@@ -201,7 +201,7 @@ bool DatasetWriter::complete(std::size_t shard) {
   Shard content;
   try {
     content = read_shard(file);
-  } catch (const OtherFormat&) {
+  } catch (const UnsupportedFormat&) {
     throw;
   } catch (const InputError&) {
     return false;
@@ -211,7 +211,7 @@ bool DatasetWriter::complete(std::size_t shard) {
   if (content.samples.size() != range.count) return false;
   for (std::size_t i = 0; i < range.count; ++i) {
     const SampleRecord planned = planned_record(scenario_, plan_, range.first + i);
-    if (!contradictions(content.samples[i].record, planned).empty()) return false;
+    if (!record_mismatches(content.samples[i].record, planned).empty()) return false;
   }
   if (axes_ && *axes_ != content.axes) return false;
   const std::string sha256 = sha256_file(file);
@@ -226,7 +226,7 @@ void DatasetWriter::put(std::size_t shard, Shard content) {
   content.origin = origin_;
   {
     const std::lock_guard lock(mutex_);
-    retire_manifest();
+    invalidate_manifest();
     try {
       write_shard(file, content, scenario_.features.max_centres);
     } catch (const WorkError&) {

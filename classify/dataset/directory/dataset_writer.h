@@ -21,7 +21,7 @@ namespace seaglint {
 
 // The data set's own files, those that `merge` and `export` make of it, what a kill left half-written, and hidden ones:
 // a file server keeps so what was removed while another process had it open.
-bool may_lie_in_data_set(const std::string& name);
+bool is_dataset_file(const std::string& name);
 
 class DatasetWriter {
  public:
@@ -51,7 +51,7 @@ class DatasetWriter {
 
   // Takes back what the constructor put into a new or empty directory, where nothing else is yet; for a scenario of
   // which no sample can be made, by a process that nobody shares the directory with.
-  void withdraw();
+  void roll_back();
 
   const std::filesystem::path& directory() const { return directory_; }
 
@@ -66,14 +66,14 @@ class DatasetWriter {
   std::filesystem::path shard_file(std::size_t shard) const;
   void require_version(const std::filesystem::path& file, const std::string& version) const;
   Manifest manifest_there() const;  // without shards where there is none
-  void retire_manifest();
+  void invalidate_manifest();
   Manifest manifest() const;  // of a whole data set
 
   std::filesystem::path directory_;
   bool begun_here_ = false, made_here_ = false;  // the directory was empty; it was not there
   Scenario scenario_;
   SamplePlan plan_;
-  Origin origin_;
+  Provenance origin_;
   std::string scenario_yaml_;
   Manifest earlier_;                // the manifest that was there already; without shards where none is, or retired
   std::vector<Known> known_;        // by shard

@@ -38,7 +38,7 @@ std::vector<InputFile> all_files(const Scenario& scenario) {
   for (const InputFile& named : input_files(scenario)) {
     files.push_back(named);
     if (!named.key.ends_with(".mesh")) continue;
-    for (const fs::path& beside : files_beside_mesh(named.path)) {
+    for (const fs::path& beside : sidecar_files(named.path)) {
       const fs::path name = beside.lexically_relative(fs::canonical(named.path).parent_path());
       files.push_back({fmt::format("{}/{}", named.key, name.string()), beside});
     }
@@ -61,7 +61,7 @@ void require_same_inputs(const fs::path& directory, const Scenario& scenario) {
   }
 }
 
-void keep_inputs(const fs::path& directory, const Scenario& scenario) {
+void write_input_list(const fs::path& directory, const Scenario& scenario) {
   const fs::path list = directory / kInputsFile;
   if (fs::exists(list)) return;
   std::string text;

@@ -16,6 +16,6 @@ namespace seaglint {
 void require_same_inputs(const std::filesystem::path& directory, const Scenario& scenario);
 
 // Writes the list where there is none and the scenario names files.
-void keep_inputs(const std::filesystem::path& directory, const Scenario& scenario);
+void write_input_list(const std::filesystem::path& directory, const Scenario& scenario);
 
 }  // namespace seaglint

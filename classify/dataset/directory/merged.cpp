@@ -192,7 +192,8 @@ bool is_merged(const fs::path& file) {
   }
 }
 
-MergedCheck::MergedCheck(fs::path file, const DatasetReader& reader) : file_(std::move(file)), reader_(&reader) {
+MergedFileVerifier::MergedFileVerifier(fs::path file, const DatasetReader& reader)
+    : file_(std::move(file)), reader_(&reader) {
   try {
     content_ = std::make_unique<Hdf5Reader>(file_);
     if (content_->attribute("format") != kFormat)
@@ -217,10 +218,10 @@ MergedCheck::MergedCheck(fs::path file, const DatasetReader& reader) : file_(std
   }
 }
 
-MergedCheck::~MergedCheck() = default;
-MergedCheck::MergedCheck(MergedCheck&&) noexcept = default;
+MergedFileVerifier::~MergedFileVerifier() = default;
+MergedFileVerifier::MergedFileVerifier(MergedFileVerifier&&) noexcept = default;
 
-void MergedCheck::compare(std::size_t index, const Shard& shard) {
+void MergedFileVerifier::compare(std::size_t index, const Shard& shard) {
   if (!content_) return;
   try {
     const std::uint64_t first_row = reader_->manifest().shards[index].first_sample, count = shard.samples.size();
@@ -251,7 +252,7 @@ void MergedCheck::compare(std::size_t index, const Shard& shard) {
   }
 }
 
-void MergedCheck::fault(const std::string& what) {
+void MergedFileVerifier::fault(const std::string& what) {
   faults_.push_back(fmt::format("{}: {}", file_.filename().string(), what));
   content_.reset();
 }

@@ -36,11 +36,11 @@ bool is_merged(const std::filesystem::path& file);
 
 // A merged file held against its data set, shard by shard. Faults are a file that is damaged, of another manifest, with
 // other sources than the shards, or with rows that are not theirs.
-class MergedCheck {
+class MergedFileVerifier {
  public:
-  MergedCheck(std::filesystem::path file, const DatasetReader& reader);
-  ~MergedCheck();
-  MergedCheck(MergedCheck&&) noexcept;
+  MergedFileVerifier(std::filesystem::path file, const DatasetReader& reader);
+  ~MergedFileVerifier();
+  MergedFileVerifier(MergedFileVerifier&&) noexcept;
 
   void compare(std::size_t index, const Shard& shard);  // the shard as it is on the disk
   const std::vector<std::string>& faults() const { return faults_; }

@@ -22,7 +22,7 @@ SampleRecord planned_record(const Scenario& scenario, const SamplePlan& plan, st
   std::size_t first_body = 0;  // bodies are counted over all targets, in order
   for (int t = 0; t < at.target; ++t) {
     const TargetSpec& before = scenario.targets[static_cast<std::size_t>(t)];
-    if (before.points.empty()) first_body += layout_places(before).size();
+    if (before.points.empty()) first_body += layout_positions(before).size();
   }
 
   SampleRecord record;
@@ -62,7 +62,7 @@ std::span<const SampleColumn> planned_columns() {
 
 }  // namespace
 
-std::vector<std::string> contradictions(const SampleRecord& record, const SampleRecord& planned) {
+std::vector<std::string> record_mismatches(const SampleRecord& record, const SampleRecord& planned) {
   std::vector<std::string> found;
   for (const SampleColumn& column : planned_columns()) {
     std::visit(

@@ -15,6 +15,6 @@ SampleRecord planned_record(const Scenario& scenario, const SamplePlan& plan, st
                             const SampleAddress& address);
 
 // "label 0, by the scenario 1" for every column of `record` that is not as planned.
-std::vector<std::string> contradictions(const SampleRecord& record, const SampleRecord& planned);
+std::vector<std::string> record_mismatches(const SampleRecord& record, const SampleRecord& planned);
 
 }  // namespace seaglint

@@ -58,7 +58,7 @@ std::optional<Author> author_of(std::string_view name) {
 
 bool is_temporary(const std::string& name) { return author_of(name).has_value(); }
 
-bool is_left_behind(const fs::path& file) {
+bool is_stale(const fs::path& file) {
   const std::string name = file.filename();
   const std::optional<Author> author = author_of(name);
   if (!author) return false;

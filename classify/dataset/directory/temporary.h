@@ -14,6 +14,6 @@ bool is_temporary(const std::string& name);
 
 // True for a temporary file that nobody writes any more: its process is dead on this host, or it is of another host and
 // nothing was written to it for a day.
-bool is_left_behind(const std::filesystem::path& file);
+bool is_stale(const std::filesystem::path& file);
 
 }  // namespace seaglint

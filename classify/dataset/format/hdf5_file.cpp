@@ -300,8 +300,8 @@ std::string Hdf5Reader::attribute(const std::string& name) const {
   const Handle attribute(H5Aopen(open_->file, name.c_str(), H5P_DEFAULT), H5Aclose, what);
   const Handle type(H5Aget_type(attribute), H5Tclose, what);
   const hsize_t bytes = H5Aget_storage_size(attribute);
-  constexpr hsize_t kMost = 65536;  // of an attribute in an object's header
-  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0 || bytes > kMost || bytes != H5Tget_size(type))
+  constexpr hsize_t kMax = 65536;  // of an attribute in an object's header
+  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0 || bytes > kMax || bytes != H5Tget_size(type))
     throw WorkError(what);
   std::vector<char> text(bytes + 1, '\0');
   require(H5Aread(attribute, type, text.data()), what);

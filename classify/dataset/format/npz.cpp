@@ -152,13 +152,13 @@ NpzArray npz_array(std::string name, std::string type, std::vector<std::uint64_t
 }
 
 std::string read_npz_text(const std::filesystem::path& file, const std::string& name) {
-  constexpr zip_uint64_t kMostBytes = 16 << 20;
+  constexpr zip_uint64_t kMaxBytes = 16 << 20;
   const auto fail = [&] { throw InputError(fmt::format("{}: no archive with a {} inside", file.string(), name)); };
   int code = 0;
   const std::unique_ptr<zip_t, decltype(&zip_discard)> archive(zip_open(file.c_str(), ZIP_RDONLY, &code), &zip_discard);
   if (!archive) fail();
   zip_stat_t stat;
-  if (zip_stat(archive.get(), name.c_str(), 0, &stat) != 0 || !(stat.valid & ZIP_STAT_SIZE) || stat.size > kMostBytes)
+  if (zip_stat(archive.get(), name.c_str(), 0, &stat) != 0 || !(stat.valid & ZIP_STAT_SIZE) || stat.size > kMaxBytes)
     fail();
   const std::unique_ptr<zip_file_t, decltype(&zip_fclose)> member(zip_fopen(archive.get(), name.c_str(), 0),
                                                                   &zip_fclose);

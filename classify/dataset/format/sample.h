@@ -34,7 +34,7 @@ struct SampleRecord {
   std::int64_t sea_key = 0;
   std::int64_t first_motion_key = 0;
   std::int64_t radar_key = 0;
-  std::int64_t empty_carriers = 0;
+  std::int64_t unused_carriers = 0;
   double scr_per_pulse_db = 0;
   double scr_peak_cell_db = 0;
   double scr_extent_db = 0;
@@ -47,7 +47,7 @@ struct SampleRecord {
   double sigma_v_mps = 0;
   std::int64_t centres = 0;
   std::int64_t degenerate = 0;
-  std::int64_t traces = 0;
+  std::int64_t aspect_traces = 0;
 };
 
 struct SampleColumn {

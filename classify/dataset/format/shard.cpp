@@ -126,7 +126,8 @@ void read_columns(const Hdf5Reader& file, std::vector<Sample>& samples) {
 Shard read_content(const std::filesystem::path& path) {
   const Hdf5Reader file(path);
   if (const std::string format = file.attribute("format"); format != kFormat) {
-    throw OtherFormat(fmt::format("{}: format \"{}\"; this program reads \"{}\"", path.string(), format, kFormat));
+    throw UnsupportedFormat(
+        fmt::format("{}: format \"{}\"; this program reads \"{}\"", path.string(), format, kFormat));
   }
   Shard shard;
   shard.origin = {file.attribute("program_version"), file.attribute("processor")};

@@ -25,21 +25,21 @@
 namespace seaglint {
 
 // A whole file, but not of the format that this program reads.
-class OtherFormat : public InputError {
+class UnsupportedFormat : public InputError {
  public:
   using InputError::InputError;
 };
 
 // Who made the bytes: another version may make other maps, another kind of processor may round the last bit otherwise.
-struct Origin {
+struct Provenance {
   std::string program_version;
   std::string processor;
 
-  bool operator==(const Origin&) const = default;
+  bool operator==(const Provenance&) const = default;
 };
 
 struct Shard {
-  Origin origin;
+  Provenance origin;
   StoredAxes axes;
   std::vector<Sample> samples;
 };
@@ -52,8 +52,8 @@ std::string shard_name(std::size_t index);
 // refuses.
 void write_shard(const std::filesystem::path& file, const Shard& shard, int max_centres);
 
-// Reads and checks a shard. Throws InputError naming the file and what is wrong with it, OtherFormat for one of another
-// format.
+// Reads and checks a shard. Throws InputError naming the file and what is wrong with it, UnsupportedFormat for one of
+// another format.
 Shard read_shard(const std::filesystem::path& file);
 
 }  // namespace seaglint

@@ -18,10 +18,10 @@ double wavenumber_at(double omega, double depth) {
   const double deep = omega * omega / kGravity;
   if (std::isinf(depth) || deep == 0) return deep;
   const double a = deep * depth;
-  double x = a / std::sqrt(exact_tanh(a));
-  constexpr int kMostSteps = 20;
-  for (int i = 0; i < kMostSteps; ++i) {
-    const double t = exact_tanh(x);
+  double x = a / std::sqrt(reproducible_tanh(a));
+  constexpr int kMaxSteps = 20;
+  for (int i = 0; i < kMaxSteps; ++i) {
+    const double t = reproducible_tanh(x);
     const double step = (x * t - a) / (t + x * (1 - t * t));
     x -= step;
     if (std::abs(step) <= 1e-16 * x) break;
@@ -31,7 +31,7 @@ double wavenumber_at(double omega, double depth) {
 
 double breaking_height(double omega, double depth) {
   const double k = wavenumber_at(omega, depth);
-  return 2 * kPi / k / 7 * (std::isinf(depth) ? 1 : exact_tanh(k * depth));
+  return 2 * kPi / k / 7 * (std::isinf(depth) ? 1 : reproducible_tanh(k * depth));
 }
 
 }  // namespace seaglint

@@ -17,8 +17,8 @@ namespace {
 std::mutex planner_mutex;
 
 void check(std::size_t length, std::size_t count, std::size_t stride) {
-  constexpr std::size_t kMost = std::size_t{1} << 30;
-  SEAGLINT_CHECK(length >= 1 && count >= 1 && stride >= length && count < kMost && stride < kMost,
+  constexpr std::size_t kMax = std::size_t{1} << 30;
+  SEAGLINT_CHECK(length >= 1 && count >= 1 && stride >= length && count < kMax && stride < kMax,
                  fmt::format("{} rows of {}, {} apart", count, length, stride));
 }
 

@@ -114,7 +114,7 @@ double normal_quantile(double p) {
     const double r = 0.180625 - q * q;
     return q * polynomial(a, r) / polynomial(b, r);
   }
-  const double r = std::sqrt(-exact_log(q < 0 ? p : 1 - p));
+  const double r = std::sqrt(-reproducible_log(q < 0 ? p : 1 - p));
   const double x =
       r <= 5 ? polynomial(c, r - 1.6) / polynomial(d, r - 1.6) : polynomial(e, r - 5) / polynomial(f, r - 5);
   return q < 0 ? -x : x;

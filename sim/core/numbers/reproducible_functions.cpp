@@ -18,7 +18,7 @@ constexpr double kLn2Low = 0x1.ef35793c76730p-45;
 }  // namespace
 
 // x = m 2^e with m in [sqrt(1/2), sqrt(2)); ln m = 2 atanh s, s = (m-1)/(m+1), |s| < 0.172: thirteen terms leave 1e-21.
-double exact_log(double x) {
+double reproducible_log(double x) {
   int exponent = 0;
   double m = std::frexp(x, &exponent);
   if (m < 0.70710678118654752440) {
@@ -33,7 +33,7 @@ double exact_log(double x) {
 }
 
 // x = n ln 2 + r, |r| <= ln(2)/2: the first term left out of e^r is 1e-19.
-double exact_exp(double x) {
+double reproducible_exp(double x) {
   SEAGLINT_CHECK(x < 700, fmt::format("x = {}", x));
   if (x < -700) return 0;
   const double n = std::nearbyint(x / (kLn2High + kLn2Low));
@@ -59,13 +59,13 @@ double exact_exp(double x) {
 }
 
 // Lambert's continued fraction x/(1 + x^2/(3 + x^2/(5 + ...))) where e^-2x would cancel.
-double exact_tanh(double x) {
+double reproducible_tanh(double x) {
   if (std::abs(x) < 1) {
     double fraction = 21;
     for (int k = 19; k >= 1; k -= 2) fraction = k + x * x / fraction;
     return x / fraction;
   }
-  const double e = std::abs(x) > 350 ? 0 : exact_exp(-2 * std::abs(x));
+  const double e = std::abs(x) > 350 ? 0 : reproducible_exp(-2 * std::abs(x));
   return std::copysign((1 - e) / (1 + e), x);
 }
 

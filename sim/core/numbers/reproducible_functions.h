@@ -6,8 +6,8 @@
 
 namespace seaglint {
 
-double exact_log(double x);   // x > 0 and normal; relative error below 4e-16, absolute near 1
-double exact_exp(double x);   // relative error below 4e-16; 0 below -700
-double exact_tanh(double x);  // relative error below 1e-15
+double reproducible_log(double x);   // x > 0 and normal; relative error below 4e-16, absolute near 1
+double reproducible_exp(double x);   // relative error below 4e-16; 0 below -700
+double reproducible_tanh(double x);  // relative error below 1e-15
 
 }  // namespace seaglint

@@ -5,7 +5,7 @@
 
 namespace seaglint {
 
-double fading(double x, const std::array<double, 2>& from_to) {
+double smooth_taper(double x, const std::array<double, 2>& from_to) {
   const double beyond = std::clamp((x - from_to[0]) / (from_to[1] - from_to[0]), 0.0, 1.0);
   return 1 - beyond * beyond * (3 - 2 * beyond);
 }

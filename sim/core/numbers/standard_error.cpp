@@ -15,7 +15,7 @@ void print_error(const std::string& text) {
   std::fflush(stderr);
 }
 
-void hold_standard_streams() {
+void reserve_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(stream, F_GETFD) >= 0 || errno != EBADF) continue;
     // The lowest number that is free, which is this one.

@@ -13,7 +13,7 @@ void print_error(const std::string& text);
 // A number of standard streams, 0 to 2, may be closed when the program starts, and the first file that it opens would
 // take their place. Afterwards none is: what is written to standard output then still fails, standard error goes
 // nowhere.
-void hold_standard_streams();
+void reserve_standard_streams();
 
 // A sentence on one line: control characters in it are written as escapes.
 std::string on_one_line(const std::string& text);

@@ -64,7 +64,7 @@ void unit_phasors(std::span<const double> angle, std::span<double> cosine, std::
   }
 }
 
-double turned_back(double angle) {
+double wrapped_angle(double angle) {
   if (std::abs(angle) <= kLargestAngle) return angle;
   SEAGLINT_CHECK(std::abs(angle) <= 1e12, fmt::format("phase of a wave {} rad", angle));
   return std::remainder(angle, 2 * kPi);
@@ -86,7 +86,7 @@ UniformPhasors::UniformPhasors(std::vector<double> omega, std::vector<double> ph
 
 void UniformPhasors::synchronise() {
   const double t = time();
-  for (std::size_t i = 0; i < omega_.size(); ++i) angle_[i] = turned_back(omega_[i] * t + phase_[i]);
+  for (std::size_t i = 0; i < omega_.size(); ++i) angle_[i] = wrapped_angle(omega_[i] * t + phase_[i]);
   unit_phasors(angle_, cosine_, sine_);
 }
 

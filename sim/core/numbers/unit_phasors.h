@@ -15,7 +15,7 @@ inline constexpr double kLargestAngle = 4e8;
 
 // The angle itself, to the bit, within kLargestAngle, else less whole turns of it; |angle| <= 1e12, whose own rounding
 // is 1e-4 rad.
-double turned_back(double angle);
+double wrapped_angle(double angle);
 
 // Phasors e^{j(omega_i t + phase_i)} at t = start + n step for n = 0, 1, 2, ...: each step turns them by a constant
 // phasor, and every kResynchronise steps they are formed anew from their angles. Error below 1e-13.

@@ -18,8 +18,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int kDeepest = 64;                                  // levels of JSON; real files use about ten
-constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30;  // of one buffer
+constexpr int kDeepest = 64;                                 // levels of JSON; real files use about ten
+constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 30;  // of one buffer
 
 // glTF 2.0, section 3.6.2.2: bytes of a component.
 std::uint64_t component_size(std::uint64_t type) {
@@ -150,7 +150,7 @@ class Checker {
   Json buffer(const Json& b, const std::string& at) const {
     const std::uint64_t size = whole(b, "byteLength", at, 0);
     if (size == 0) fail(at + " is empty");
-    if (size > kMostBytes) fail(fmt::format("{}.byteLength = {} is above {}", at, size, kMostBytes));
+    if (size > kMaxBytes) fail(fmt::format("{}.byteLength = {} is above {}", at, size, kMaxBytes));
     Json plain{{"byteLength", size}};
     const std::string uri = text(b, "uri");
     if (!uri.empty()) {
@@ -212,7 +212,7 @@ class Checker {
     const std::uint64_t element = size * components;
     const std::uint64_t stride = std::max(element, whole(v, "byteStride", view_name, 0));
     const std::uint64_t held = whole(v, "byteLength", view_name, 0);
-    if (count > kMostBytes || offset > held || (count - 1) * stride + element > held - offset) {
+    if (count > kMaxBytes || offset > held || (count - 1) * stride + element > held - offset) {
       fail(fmt::format("{} wants {} elements of {} bytes from byte {} of {}, which has {}", at, count, stride, offset,
                        view_name, held));
     }
@@ -366,7 +366,7 @@ Json parsed(std::string_view text, const std::string& file) {
 
 }  // namespace
 
-std::string plain_gltf(std::string_view bytes, const std::string& file) {
+std::string sanitised_gltf(std::string_view bytes, const std::string& file) {
   const GlbChunks chunks = glb_chunks(bytes, file);
   const Json root = parsed(chunks.json, file);
   std::string json;

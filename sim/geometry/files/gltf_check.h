@@ -11,6 +11,6 @@ namespace seaglint {
 // The file reduced to what a mesh needs: scenes, nodes, meshes with positions and indices, materials' names, accessors,
 // views, buffers. Types, indices, ranges and nesting are checked; images, animations, extras and extensions are gone. A
 // .glb gives a .glb. InputError says what is wrong.
-std::string plain_gltf(std::string_view bytes, const std::string& file);
+std::string sanitised_gltf(std::string_view bytes, const std::string& file);
 
 }  // namespace seaglint

@@ -24,8 +24,8 @@ namespace {
 namespace fs = std::filesystem;
 using Mat4 = Eigen::Matrix4d;
 
-constexpr std::size_t kMostParts = 65000, kMostMaterials = 65000;
-constexpr std::size_t kMostPlacedTriangles = 50'000'000;  // a mesh may be placed by many nodes
+constexpr std::size_t kMaxParts = 65000, kMaxMaterials = 65000;
+constexpr std::size_t kMaxPlacedTriangles = 50'000'000;  // a mesh may be placed by many nodes
 
 // The only files tinygltf may open are those below the glTF's own folder.
 struct Folder {
@@ -79,7 +79,7 @@ struct Loaded {
 };
 
 Loaded load(const std::string& bytes, const fs::path& path) {
-  const std::string plain = plain_gltf(bytes, path.string());
+  const std::string plain = sanitised_gltf(bytes, path.string());
   std::error_code error;
   Folder folder{fs::canonical(path, error).parent_path(), {}};
   if (error) throw InputError(fmt::format("{}: {}", path.string(), error.message()));
@@ -123,9 +123,8 @@ class Reader {
   Reader(const tinygltf::Model& model, std::string file) : model_(model), file_(std::move(file)) {}
 
   TriangleMesh read() {
-    if (model_.materials.size() > kMostMaterials)
-      throw InputError(
-          fmt::format("{}: {} materials are more than {}", file_, model_.materials.size(), kMostMaterials));
+    if (model_.materials.size() > kMaxMaterials)
+      throw InputError(fmt::format("{}: {} materials are more than {}", file_, model_.materials.size(), kMaxMaterials));
     struct Visit {
       int node;
       Mat4 parent;
@@ -170,7 +169,7 @@ class Reader {
     int component;
   };
 
-  // Ranges were checked in plain_gltf; tinygltf has seen to it that a buffer is as long as it says.
+  // Ranges were checked in sanitised_gltf; tinygltf has seen to it that a buffer is as long as it says.
   Data data_of(int accessor_index) const {
     const auto& accessor = model_.accessors[accessor_index];
     const auto& view = model_.bufferViews[accessor.bufferView];
@@ -211,8 +210,8 @@ class Reader {
     builder_.begin_part(!node.name.empty()   ? node.name
                         : !mesh.name.empty() ? mesh.name
                                              : fmt::format("mesh_{}", node.mesh));
-    if (builder_.part_count() > kMostParts)
-      throw InputError(fmt::format("{}: its nodes make more than {} parts", file_, kMostParts));
+    if (builder_.part_count() > kMaxParts)
+      throw InputError(fmt::format("{}: its nodes make more than {} parts", file_, kMaxParts));
     const bool is_mirrored = world.topLeftCorner<3, 3>().determinant() < 0;
     for (const tinygltf::Primitive& primitive : mesh.primitives) {
       if (primitive.mode >= TINYGLTF_MODE_TRIANGLES) add_primitive(primitive, world, is_mirrored);
@@ -225,7 +224,7 @@ class Reader {
 
     const Data positions = data_of(primitive.attributes.at("POSITION"));
     const auto base = static_cast<std::uint32_t>(builder_.vertices().size());
-    if (builder_.vertices().size() + positions.count > 3 * kMostPlacedTriangles) fail_size();
+    if (builder_.vertices().size() + positions.count > 3 * kMaxPlacedTriangles) fail_size();
     for (std::size_t i = 0; i < positions.count; ++i) {
       float p[3];
       std::memcpy(p, positions.first + i * positions.stride, sizeof p);
@@ -238,7 +237,7 @@ class Reader {
       if (is_mirrored) std::swap(j, k);
       builder_.triangle(base + list[i], base + list[j], base + list[k]);
     };
-    if (builder_.triangle_count() + list.size() > kMostPlacedTriangles) fail_size();
+    if (builder_.triangle_count() + list.size() > kMaxPlacedTriangles) fail_size();
     if (primitive.mode == TINYGLTF_MODE_TRIANGLES) {
       for (std::size_t i = 0; i + 2 < list.size(); i += 3) add(i, i + 1, i + 2);
     } else if (primitive.mode == TINYGLTF_MODE_TRIANGLE_STRIP) {
@@ -249,7 +248,7 @@ class Reader {
   }
 
   [[noreturn]] void fail_size() const {
-    throw InputError(fmt::format("{}: its nodes place more than {} triangles", file_, kMostPlacedTriangles));
+    throw InputError(fmt::format("{}: its nodes place more than {} triangles", file_, kMaxPlacedTriangles));
   }
 
   const tinygltf::Model& model_;

@@ -19,7 +19,7 @@
 namespace seaglint {
 namespace {
 
-constexpr std::size_t kMostBytes = std::size_t{1} << 30;
+constexpr std::size_t kMaxBytes = std::size_t{1} << 30;
 constexpr double kFarthest = 1e7;  // metres; beyond it the unit is wrong
 
 std::string ending_of(const std::filesystem::path& path) {
@@ -37,10 +37,10 @@ void require_known(const std::string& ending, const std::filesystem::path& path)
                                path.string(), ending));
 }
 
-PlainPolygons plain_polygons(const std::string& ending, std::string bytes, const std::string& file) {
-  if (ending == ".obj") return plain_obj(bytes, file);
-  if (ending == ".stl") return plain_stl(std::move(bytes), file);
-  return plain_ply(bytes, file);
+SanitisedPolygons plain_polygons(const std::string& ending, std::string bytes, const std::string& file) {
+  if (ending == ".obj") return sanitised_obj(bytes, file);
+  if (ending == ".stl") return sanitised_stl(std::move(bytes), file);
+  return sanitised_ply(bytes, file);
 }
 
 void check_mesh(const TriangleMesh& mesh, const std::string& file) {
@@ -72,7 +72,7 @@ TriangleMesh read_mesh(const std::filesystem::path& path, const std::string& uni
   const std::string file = path.string();
   const std::string ending = ending_of(path);
   require_known(ending, path);
-  std::string bytes = read_file(path, kMostBytes);
+  std::string bytes = read_file(path, kMaxBytes);
   if (bytes.empty()) throw InputError(fmt::format("{}: the file is empty", file));
 
   TriangleMesh mesh = is_gltf(ending) ? read_gltf(bytes, path)
@@ -84,9 +84,9 @@ TriangleMesh read_mesh(const std::filesystem::path& path, const std::string& uni
   return welded(mesh);
 }
 
-std::vector<std::filesystem::path> files_beside_mesh(const std::filesystem::path& path) {
+std::vector<std::filesystem::path> sidecar_files(const std::filesystem::path& path) {
   if (!is_gltf(ending_of(path))) return {};
-  return gltf_buffer_files(read_file(path, kMostBytes), path);
+  return gltf_buffer_files(read_file(path, kMaxBytes), path);
 }
 
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh) {

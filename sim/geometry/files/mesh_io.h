@@ -25,7 +25,7 @@ TriangleMesh read_mesh(const std::filesystem::path& path, const std::string& uni
 
 // The files beside a mesh's own that it is read from: buffers of a glTF, in their order; else none. InputError where
 // read_mesh() finds the glTF wrong.
-std::vector<std::filesystem::path> files_beside_mesh(const std::filesystem::path& path);
+std::vector<std::filesystem::path> sidecar_files(const std::filesystem::path& path);
 
 // Positions are rounded to float32, lengths are metres. glTF keeps parts and materials, OBJ parts, STL and PLY neither.
 // The file is whole or absent (sim/core/process/file.h) and equal meshes give equal bytes. InputError for an unknown

@@ -19,7 +19,7 @@ class ObjCheck {
  public:
   ObjCheck(std::string_view bytes, const std::string& file) : rest_(bytes), file_(file) {}
 
-  PlainPolygons check() {
+  SanitisedPolygons check() {
     // The mark that some editors put before the first line (UTF-8's byte order mark).
     constexpr std::string_view kMark = "\xEF\xBB\xBF";
     if (rest_.starts_with(kMark)) rest_.remove_prefix(kMark.size());
@@ -123,8 +123,8 @@ class ObjCheck {
     polygon_.clear();
     for (const std::uint32_t v : corners)
       polygon_.push_back({positions_[3 * v], positions_[3 * v + 1], positions_[3 * v + 2]});
-    const auto triangles = split_polygon(polygon_);
-    if (!triangles) fail(unsplit_polygon(face.count));
+    const auto triangles = triangulate_polygon(polygon_);
+    if (!triangles) fail(untriangulated_message(face.count));
     for (const auto& [i, j, k] : *triangles) {
       const std::uint32_t a = corners[i], b = corners[j], c = corners[k];
       if (a == b || b == c || c == a) continue;
@@ -153,7 +153,7 @@ class ObjCheck {
 
   std::string_view rest_;
   const std::string& file_;
-  PlainPolygons plain_;
+  SanitisedPolygons plain_;
   std::vector<float> positions_;
   std::vector<std::uint32_t> corners_;  // of all faces
   std::vector<Face> faces_;
@@ -167,6 +167,8 @@ class ObjCheck {
 
 }  // namespace
 
-PlainPolygons plain_obj(std::string_view bytes, const std::string& file) { return ObjCheck(bytes, file).check(); }
+SanitisedPolygons sanitised_obj(std::string_view bytes, const std::string& file) {
+  return ObjCheck(bytes, file).check();
+}
 
 }  // namespace seaglint

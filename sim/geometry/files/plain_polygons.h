@@ -13,7 +13,7 @@ namespace seaglint {
 
 // A checked file in the plain dialect of its format that OpenMesh reads right: triangles only, absolute indices, finite
 // float positions.
-struct PlainPolygons {
+struct SanitisedPolygons {
   std::string bytes;
   bool binary = false;                       // for STL; a PLY says so itself
   std::size_t triangle_count = 0;            // at most so many will come

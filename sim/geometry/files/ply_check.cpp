@@ -25,7 +25,7 @@ struct Property {
   Number count = Number::kUint8;
 };
 
-struct Element {
+struct ArrayType {
   std::string name;
   std::uint64_t count = 0;
   std::vector<Property> properties;
@@ -73,10 +73,10 @@ class PlyCheck {
  public:
   PlyCheck(std::string_view bytes, const std::string& file) : rest_(bytes), file_(file) {}
 
-  PlainPolygons check() {
+  SanitisedPolygons check() {
     header();
-    for (const Element& element : elements_) {
-      least_size(element);
+    for (const ArrayType& element : elements_) {
+      min_size(element);
       if (element.name == "vertex") {
         vertices(element);
       } else if (element.name == "face") {
@@ -142,7 +142,7 @@ class PlyCheck {
         const std::string_view name = next_word(line), count = next_word(line);
         const auto number = integer_of(count);
         if (!number || *number < 0) fail(fmt::format("the PLY header promises \"{}\" of \"{}\"", count, name));
-        for (const Element& element : elements_) {
+        for (const ArrayType& element : elements_) {
           if (element.name == name) fail(fmt::format("the PLY header has \"{}\" twice", name));
         }
         elements_.push_back({std::string(name), static_cast<std::uint64_t>(*number), {}});
@@ -166,7 +166,7 @@ class PlyCheck {
   }
 
   // The promised count against what the file can hold at least, before anything is reserved.
-  void least_size(const Element& element) const {
+  void min_size(const ArrayType& element) const {
     std::uint64_t least = 0;
     for (const Property& property : element.properties) {
       least += is_ascii_ ? 2 : size_of(property.is_list ? property.count : property.value);
@@ -206,7 +206,7 @@ class PlyCheck {
     for (std::uint64_t i = 0; i < count; ++i) read(property.value);
   }
 
-  void vertices(const Element& element) {
+  void vertices(const ArrayType& element) {
     for (const char* axis : {"x", "y", "z"}) {
       const auto count =
           std::count_if(element.properties.begin(), element.properties.end(),
@@ -237,7 +237,7 @@ class PlyCheck {
     return property.is_list && (property.name == "vertex_indices" || property.name == "vertex_index");
   }
 
-  void faces(const Element& element) {
+  void faces(const ArrayType& element) {
     // Before the loop, whose count nothing bounds where the faces have no properties.
     if (element.count > 0 && std::none_of(element.properties.begin(), element.properties.end(), has_corners))
       fail("its faces have no vertex_indices");
@@ -267,16 +267,16 @@ class PlyCheck {
       std::memcpy(p.data(), positions_.data() + v * sizeof p, sizeof p);
       polygon_.push_back({p[0], p[1], p[2]});
     }
-    const auto triangles = split_polygon(polygon_);
-    if (!triangles) fail(fmt::format("face {}: {}", face, unsplit_polygon(corners.size())));
+    const auto triangles = triangulate_polygon(polygon_);
+    if (!triangles) fail(fmt::format("face {}: {}", face, untriangulated_message(corners.size())));
     for (const auto& [i, j, k] : *triangles) {
       const std::uint32_t a = corners[i], b = corners[j], c = corners[k];
       if (a != b && b != c && c != a) triangles_.insert(triangles_.end(), {a, b, c});
     }
   }
 
-  PlainPolygons written() const {
-    PlainPolygons plain;
+  SanitisedPolygons written() const {
+    SanitisedPolygons plain;
     plain.triangle_count = triangles_.size() / 3;
     plain.bytes = fmt::format(
         "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float "
@@ -295,7 +295,7 @@ class PlyCheck {
   const std::string& file_;
   bool is_ascii_ = false;
   bool swap_ = false;
-  std::vector<Element> elements_;
+  std::vector<ArrayType> elements_;
   std::uint64_t vertex_count_ = 0;
   std::string positions_;
   std::vector<std::uint32_t> corners_;       // of all faces
@@ -306,6 +306,8 @@ class PlyCheck {
 
 }  // namespace
 
-PlainPolygons plain_ply(std::string_view bytes, const std::string& file) { return PlyCheck(bytes, file).check(); }
+SanitisedPolygons sanitised_ply(std::string_view bytes, const std::string& file) {
+  return PlyCheck(bytes, file).check();
+}
 
 }  // namespace seaglint

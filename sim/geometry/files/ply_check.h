@@ -10,8 +10,8 @@
 
 namespace seaglint {
 
-// InputError names the file, the line or byte, and what is wrong. Polygons are split (split_polygon); triangles with
-// two equal corners are left out.
-PlainPolygons plain_ply(std::string_view bytes, const std::string& file);
+// InputError names the file, the line or byte, and what is wrong. Polygons are split (triangulate_polygon); triangles
+// with two equal corners are left out.
+SanitisedPolygons sanitised_ply(std::string_view bytes, const std::string& file);
 
 }  // namespace seaglint

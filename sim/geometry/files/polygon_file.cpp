@@ -23,7 +23,7 @@ using Status = OpenMesh::Attributes::StatusInfo;
 // as they come.
 class SoupImporter : public OpenMesh::IO::BaseImporter {
  public:
-  SoupImporter(const PlainPolygons& plain, const std::string& file) : plain_(plain), file_(file) {
+  SoupImporter(const SanitisedPolygons& plain, const std::string& file) : plain_(plain), file_(file) {
     if (plain.part_names.empty()) builder_.begin_part("body");
   }
 
@@ -98,7 +98,7 @@ class SoupImporter : public OpenMesh::IO::BaseImporter {
   void add_texture_information(int, std::string) override {}
 
  private:
-  const PlainPolygons& plain_;
+  const SanitisedPolygons& plain_;
   const std::string& file_;
   MeshBuilder builder_;
   std::vector<Vec3> later_;
@@ -214,7 +214,7 @@ std::string with_groups(const std::string& obj, const TriangleMesh& mesh) {
 
 }  // namespace
 
-TriangleMesh read_polygons(const PlainPolygons& plain, const std::string& ending, const std::string& file) {
+TriangleMesh read_polygons(const SanitisedPolygons& plain, const std::string& ending, const std::string& file) {
   const Silence silence;
   SoupImporter importer(plain, file);
   OpenMesh::IO::Options options;

@@ -11,7 +11,7 @@
 namespace seaglint {
 
 // `ending` is .obj, .stl or .ply.
-TriangleMesh read_polygons(const PlainPolygons& plain, const std::string& ending, const std::string& file);
+TriangleMesh read_polygons(const SanitisedPolygons& plain, const std::string& ending, const std::string& file);
 std::string polygon_bytes(const TriangleMesh& mesh, const std::string& ending);
 
 }  // namespace seaglint

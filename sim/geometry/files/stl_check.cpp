@@ -20,7 +20,7 @@ constexpr std::size_t kHeader = 84,
                       kFacet = 50;  // bytes: 80 of comment and the count; normal, three corners, attribute
 
 // Header, count, then facets of a normal and three corners as little-endian float32, and nothing behind them.
-PlainPolygons check_binary(std::string bytes, const std::string& file) {
+SanitisedPolygons check_binary(std::string bytes, const std::string& file) {
   if (bytes.size() < kHeader)
     throw InputError(fmt::format("{}: {} bytes are no binary STL, which begins with 84", file, bytes.size()));
   std::uint32_t count = 0;
@@ -41,7 +41,7 @@ PlainPolygons check_binary(std::string bytes, const std::string& file) {
       std::memcpy(at, &*coordinate, 4);
     }
   }
-  PlainPolygons plain;
+  SanitisedPolygons plain;
   plain.bytes = std::move(bytes);
   plain.binary = true;
   plain.triangle_count = count;
@@ -52,7 +52,7 @@ class AsciiStl {
  public:
   AsciiStl(std::string_view bytes, const std::string& file) : bytes_(bytes), rest_(bytes), file_(file) {}
 
-  PlainPolygons check() {
+  SanitisedPolygons check() {
     for (std::string word = lower_word(); !word.empty(); word = lower_word()) {
       if (word == "solid") {
         begin_solid();
@@ -132,14 +132,14 @@ class AsciiStl {
   std::string_view bytes_;
   std::string_view rest_;
   const std::string& file_;
-  PlainPolygons plain_;
+  SanitisedPolygons plain_;
   std::unordered_map<std::string, std::size_t> part_of_name_;
   std::uint16_t part_ = 0;
 };
 
 }  // namespace
 
-PlainPolygons plain_stl(std::string bytes, const std::string& file) {
+SanitisedPolygons sanitised_stl(std::string bytes, const std::string& file) {
   // Binary files may begin with "solid" too; then their size tells.
   std::uint32_t count = 0;
   if (bytes.size() >= kHeader) std::memcpy(&count, bytes.data() + 80, 4);

@@ -11,6 +11,6 @@
 namespace seaglint {
 
 // InputError names the file, the line or byte, and what is wrong. Triangles with two equal corners are left out.
-PlainPolygons plain_stl(std::string bytes, const std::string& file);
+SanitisedPolygons sanitised_stl(std::string bytes, const std::string& file);
 
 }  // namespace seaglint

@@ -118,7 +118,7 @@ class EarClipper {
     triangles.push_back(triangle(1));
     for (const auto& [a, b, c] : triangles) {
       const double area = turn(corner_[a], corner_[b], corner_[c]),
-                   least = least_area(corner_[a], corner_[b], corner_[c]);
+                   least = min_area(corner_[a], corner_[b], corner_[c]);
       if (area < -least) return {};
       if (area > least && winding(corner_, (corner_[a] + corner_[b] + corner_[c]) / 3) != 1) return {};
     }
@@ -132,14 +132,14 @@ class EarClipper {
   }
 
   // Twice the area that rounding may feign, m^2.
-  double least_area(const Vec2& a, const Vec2& b, const Vec2& c) const {
+  double min_area(const Vec2& a, const Vec2& b, const Vec2& c) const {
     return rounding_ * std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
   }
 
   bool is_ear(std::size_t at, Ear kind) const {
     const auto [i, j, k] = triangle(at);
     const Vec2 &a = corner_[i], &b = corner_[j], &c = corner_[k];
-    const double area = turn(a, b, c), least = least_area(a, b, c);
+    const double area = turn(a, b, c), least = min_area(a, b, c);
     if (kind == Ear::kFlat) return std::abs(area) <= least;
     if (area <= least) return false;
     // A corner on the ear's rim would be left on a side that ends elsewhere.
@@ -161,13 +161,13 @@ class EarClipper {
 
 }  // namespace
 
-std::optional<Triangles> split_polygon(std::span<const Vec3> corner) {
+std::optional<Triangles> triangulate_polygon(std::span<const Vec3> corner) {
   const Vec3 area = newell(corner);
   const double rounding = rounding_of(corner);
   if (corner.size() == 3 || is_flat(corner, rounding)) return fan(corner.size());
   if (!(area.norm() > 0)) return std::nullopt;
   if (fan_covers(corner, area, rounding)) return fan(corner.size());
-  if (corner.size() > kMostConcaveCorners) return std::nullopt;
+  if (corner.size() > kMaxConcaveVertices) return std::nullopt;
 
   // Into the plane, with the normal towards the viewer.
   const Vec3 normal = area.normalized(), right = normal.unitOrthogonal(), up = normal.cross(right);
@@ -178,10 +178,10 @@ std::optional<Triangles> split_polygon(std::span<const Vec3> corner) {
   return triangles;
 }
 
-std::string unsplit_polygon(std::size_t corners) {
-  if (corners > kMostConcaveCorners)
+std::string untriangulated_message(std::size_t corners) {
+  if (corners > kMaxConcaveVertices)
     return fmt::format("a polygon of {} corners that is no fan: {} at most, cut it into triangles", corners,
-                       kMostConcaveCorners);
+                       kMaxConcaveVertices);
   return fmt::format("a polygon of {} corners that crosses itself: cut it into triangles", corners);
 }
 

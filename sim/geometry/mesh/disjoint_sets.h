@@ -14,11 +14,11 @@ class DisjointSets {
   explicit DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
 
   // The same number for all that hang together.
-  std::uint32_t root(std::uint32_t i) {
+  std::uint32_t find(std::uint32_t i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   }
-  void join(std::uint32_t a, std::uint32_t b) { parent_[root(a)] = root(b); }
+  void unite(std::uint32_t a, std::uint32_t b) { parent_[find(a)] = find(b); }
 
  private:
   std::vector<std::uint32_t> parent_;

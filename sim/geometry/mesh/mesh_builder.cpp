@@ -10,21 +10,21 @@
 namespace seaglint {
 namespace {
 
-constexpr std::size_t kMostNames = 65536;  // of parts or materials: triangles hold 16 bits of each
+constexpr std::size_t kMaxNames = 65536;  // of parts or materials: triangles hold 16 bits of each
 
 }  // namespace
 
 void MeshBuilder::begin_part(const std::string& name) {
   const auto [place, is_new] = part_of_name_.try_emplace(name, mesh_.part_names.size());
   if (is_new) mesh_.part_names.push_back(name);
-  SEAGLINT_CHECK(place->second < kMostNames, fmt::format("{} parts", mesh_.part_names.size()));
+  SEAGLINT_CHECK(place->second < kMaxNames, fmt::format("{} parts", mesh_.part_names.size()));
   part_ = static_cast<std::uint16_t>(place->second);
 }
 
 void MeshBuilder::begin_material(const std::string& name) {
   const auto [place, is_new] = material_of_name_.try_emplace(name, mesh_.materials.size());
   if (is_new) mesh_.materials.push_back(Material{name});
-  SEAGLINT_CHECK(place->second < kMostNames, fmt::format("{} materials", mesh_.materials.size()));
+  SEAGLINT_CHECK(place->second < kMaxNames, fmt::format("{} materials", mesh_.materials.size()));
   material_ = static_cast<std::uint16_t>(place->second);
 }
 

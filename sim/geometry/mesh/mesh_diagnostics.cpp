@@ -31,12 +31,12 @@ Corners corners_of(const TriangleMesh& mesh, std::uint32_t triangle) {
   return c;
 }
 
-std::span<const EdgeUse> uses_of(const Topology& topology, const MeshEdge& edge) {
+std::span<const HalfEdge> uses_of(const Topology& topology, const MeshEdge& edge) {
   return {topology.uses.data() + edge.first_use, edge.use_count};
 }
 
 struct Diagnosis {
-  MeshHealth health;
+  MeshDiagnostics health;
   std::vector<char> drop;  // degenerate or a copy
   std::vector<char> turn;  // of an inverted surface
 };
@@ -76,10 +76,10 @@ std::vector<std::array<std::uint32_t, 2>> find_copies(const TriangleMesh& mesh, 
 
 // The edges as they are once dropped triangles are gone.
 Topology remaining(Topology topology, const std::vector<char>& drop) {
-  std::vector<EdgeUse> uses;
+  std::vector<HalfEdge> uses;
   for (MeshEdge& edge : topology.edges) {
     const auto first = static_cast<std::uint32_t>(uses.size());
-    for (const EdgeUse& use : uses_of(topology, edge)) {
+    for (const HalfEdge& use : uses_of(topology, edge)) {
       if (!drop[use.triangle]) uses.push_back(use);
     }
     edge.first_use = first;
@@ -90,22 +90,22 @@ Topology remaining(Topology topology, const std::vector<char>& drop) {
   return topology;
 }
 
-bool is_mixed(std::span<const EdgeUse> uses) { return uses.size() == 2 && uses[0].forward == uses[1].forward; }
+bool is_mixed(std::span<const HalfEdge> uses) { return uses.size() == 2 && uses[0].forward == uses[1].forward; }
 
 // At the root of each set of triangles: does any edge remain that its own triangles do not run through as often in
 // either direction?
 std::vector<char> unclosed(const Topology& topology, std::size_t triangles, DisjointSets& sets) {
   std::vector<char> open(triangles, 0);
-  std::vector<EdgeUse> uses;
+  std::vector<HalfEdge> uses;
   for (const MeshEdge& edge : topology.edges) {
     const auto all = uses_of(topology, edge);
     uses.assign(all.begin(), all.end());
     std::sort(uses.begin(), uses.end(),
-              [&](const EdgeUse& a, const EdgeUse& b) { return sets.root(a.triangle) < sets.root(b.triangle); });
+              [&](const HalfEdge& a, const HalfEdge& b) { return sets.find(a.triangle) < sets.find(b.triangle); });
     for (std::size_t i = 0; i < uses.size();) {
-      const std::uint32_t root = sets.root(uses[i].triangle);
+      const std::uint32_t root = sets.find(uses[i].triangle);
       int balance = 0;
-      for (; i < uses.size() && sets.root(uses[i].triangle) == root; ++i) balance += uses[i].forward ? 1 : -1;
+      for (; i < uses.size() && sets.find(uses[i].triangle) == root; ++i) balance += uses[i].forward ? 1 : -1;
       if (balance != 0) open[root] = 1;
     }
   }
@@ -121,23 +121,23 @@ void choose_backs(const TriangleMesh& mesh, const Topology& topology,
   const Topology left = remaining(topology, d.drop);
   DisjointSets sets(mesh.triangles.size());
   for (const MeshEdge& edge : left.edges) {
-    for (const EdgeUse& use : uses_of(left, edge)) sets.join(left.uses[edge.first_use].triangle, use.triangle);
+    for (const HalfEdge& use : uses_of(left, edge)) sets.unite(left.uses[edge.first_use].triangle, use.triangle);
   }
   const std::vector<char> open = unclosed(left, mesh.triangles.size(), sets);
   for (const auto& [front, back] : backs) {
-    if (!open[sets.root(front)]) {
-      ++d.health.other_sides;
+    if (!open[sets.find(front)]) {
+      ++d.health.kept_backs;
       continue;
     }
     d.drop[back] = 1;
-    if (d.health.lost_sides++ == 0) {
+    if (d.health.dropped_backs++ == 0) {
       d.health.lost_part = mesh.part_names[mesh.triangle_part[back]];
       d.health.lost_behind = mesh.part_names[mesh.triangle_part[front]];
     }
   }
 }
 
-Diagnosis diagnose(const TriangleMesh& mesh) {
+Diagnosis find_defects(const TriangleMesh& mesh) {
   const std::size_t count = mesh.triangles.size();
   Diagnosis d;
   d.drop.assign(count, 0);
@@ -154,9 +154,9 @@ Diagnosis diagnose(const TriangleMesh& mesh) {
   DisjointSets sets(count);
   for (const MeshEdge& edge : topology.edges) {
     const auto uses = uses_of(topology, edge);
-    if (uses.size() == 2) sets.join(uses[0].triangle, uses[1].triangle);
+    if (uses.size() == 2) sets.unite(uses[0].triangle, uses[1].triangle);
     if (uses.size() == 1) ++d.health.open_edges;
-    if (is_mixed(uses)) ++d.health.mixed_edges;
+    if (is_mixed(uses)) ++d.health.inconsistent_edges;
     if (uses.size() > 2) ++d.health.non_manifold_edges;
   }
   // What is closed by that is a body of its own and may touch others along edges. What is not hangs together there, and
@@ -165,17 +165,17 @@ Diagnosis diagnose(const TriangleMesh& mesh) {
   DisjointSets joined = sets;
   for (const MeshEdge& edge : topology.edges) {
     std::uint32_t first = kNoIndex;
-    for (const EdgeUse& use : uses_of(topology, edge)) {
-      if (!ends[sets.root(use.triangle)]) continue;
+    for (const HalfEdge& use : uses_of(topology, edge)) {
+      if (!ends[sets.find(use.triangle)]) continue;
       if (first == kNoIndex) first = use.triangle;
-      joined.join(first, use.triangle);
+      joined.unite(first, use.triangle);
     }
   }
   const std::vector<char> open = unclosed(topology, count, joined);
-  std::vector<char> has_rim(count, 0);
+  std::vector<char> has_free_edge(count, 0);
   for (const MeshEdge& edge : topology.edges) {
     const auto uses = uses_of(topology, edge);
-    if (uses.size() == 1 || is_mixed(uses)) has_rim[joined.root(uses[0].triangle)] = 1;
+    if (uses.size() == 1 || is_mixed(uses)) has_free_edge[joined.find(uses[0].triangle)] = 1;
   }
 
   struct Surface {
@@ -189,28 +189,28 @@ Diagnosis diagnose(const TriangleMesh& mesh) {
   const Vec3 centre = (box.lower + box.upper) / 2;
   for (std::uint32_t t = 0; t < count; ++t) {
     if (d.drop[t]) continue;
-    Surface& surface = surfaces[joined.root(t)];
-    surface.open = open[joined.root(t)];
+    Surface& surface = surfaces[joined.find(t)];
+    surface.open = open[joined.find(t)];
     const Vec3 area = area_vector(mesh, t);
     surface.volume += (mesh.vertices[mesh.triangles[t][0]] - centre).dot(area) / 3;
     surface.area += area.norm();
     ++surface.triangles;
   }
   // Rounding of what encloses nothing.
-  constexpr double kLeastVolume = 1e-9;  // of size times area
+  constexpr double kMinVolume = 1e-9;  // of size times area
   const double size = (box.upper - box.lower).norm();
-  const auto inverted = [&](const Surface& s) { return !s.open && s.volume < -kLeastVolume * size * s.area; };
+  const auto inverted = [&](const Surface& s) { return !s.open && s.volume < -kMinVolume * size * s.area; };
   for (std::uint32_t root = 0; root < count; ++root) {
     const Surface& surface = surfaces[root];
     if (surface.triangles == 0) continue;
     ++d.health.surfaces;
     d.health.open_surfaces += surface.open;
-    d.health.branching_surfaces += surface.open && !has_rim[root];
+    d.health.non_manifold_surfaces += surface.open && !has_free_edge[root];
     if (!inverted(surface)) continue;
     ++d.health.inverted_surfaces;
     d.health.inverted_triangles += surface.triangles;
   }
-  for (std::uint32_t t = 0; t < count; ++t) d.turn[t] = !d.drop[t] && inverted(surfaces[joined.root(t)]);
+  for (std::uint32_t t = 0; t < count; ++t) d.turn[t] = !d.drop[t] && inverted(surfaces[joined.find(t)]);
   return d;
 }
 
@@ -220,9 +220,9 @@ std::string counted(std::size_t n, const char* one, const char* many) {
 
 }  // namespace
 
-MeshHealth examine(const TriangleMesh& mesh) { return diagnose(mesh).health; }
+MeshDiagnostics diagnose(const TriangleMesh& mesh) { return find_defects(mesh).health; }
 
-std::vector<std::string> findings(const MeshHealth& h) {
+std::vector<std::string> diagnostic_messages(const MeshDiagnostics& h) {
   std::vector<std::string> found;
   if (h.degenerate > 0) found.push_back(counted(h.degenerate, "triangle has", "triangles have") + " no area: left out");
   if (h.repeated > 0)
@@ -237,33 +237,33 @@ std::vector<std::string> findings(const MeshHealth& h) {
         fmt::format("{}; {} of {} surfaces are open: holes, or sheets, seen from both sides and through their holes",
                     counted(h.open_edges, "open edge", "open edges"), h.open_surfaces, h.surfaces));
   }
-  if (h.mixed_edges > 0) {
-    found.push_back(counted(h.mixed_edges, "edge has", "edges have") +
+  if (h.inconsistent_edges > 0) {
+    found.push_back(counted(h.inconsistent_edges, "edge has", "edges have") +
                     " neighbours that face opposite ways: their surfaces are taken as sheets, seen from both sides");
   }
   if (h.non_manifold_edges > 0) {
     found.push_back(
         counted(h.non_manifold_edges, "edge has", "edges have") + " three triangles or more" +
-        (h.branching_surfaces == 0
+        (h.non_manifold_surfaces == 0
              ? std::string()
              : fmt::format("; {} there: no telling which side is inside, taken as sheets, seen from both sides",
-                           counted(h.branching_surfaces, "surface that branches", "surfaces that branch"))));
+                           counted(h.non_manifold_surfaces, "surface that branches", "surfaces that branch"))));
   }
   if (h.two_sided > 0)
     found.push_back(counted(h.two_sided, "triangle is", "triangles are") +
                     " the back of another: left out, a sheet of one material is seen from both sides");
-  if (h.lost_sides > 0) {
+  if (h.dropped_backs > 0) {
     found.push_back(
         fmt::format("{} the back of another in another material, the first of them of part '{}' behind part '{}': left "
                     "out, their surfaces are open; "
                     "both sides answer as the front does",
-                    counted(h.lost_sides, "triangle is", "triangles are"), h.lost_part, h.lost_behind));
+                    counted(h.dropped_backs, "triangle is", "triangles are"), h.lost_part, h.lost_behind));
   }
   return found;
 }
 
-TriangleMesh repaired(const TriangleMesh& mesh) {
-  const Diagnosis d = diagnose(mesh);
+TriangleMesh repair(const TriangleMesh& mesh) {
+  const Diagnosis d = find_defects(mesh);
   TriangleMesh result = mesh;
   result.triangles.clear();
   result.triangle_part.clear();

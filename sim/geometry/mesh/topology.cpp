@@ -12,12 +12,11 @@
 namespace seaglint {
 namespace {
 
-constexpr double kLeastHeightRatio =
-    1e-9;  // height over longest side; float32 positions of a 100 m target resolve 1e-7
+constexpr double kMinHeightRatio = 1e-9;  // height over longest side; float32 positions of a 100 m target resolve 1e-7
 
 struct Side {
   std::array<std::uint32_t, 2> vertices;
-  EdgeUse use;
+  HalfEdge use;
 };
 
 bool is_degenerate(const TriangleMesh& mesh, std::size_t triangle) {
@@ -25,7 +24,7 @@ bool is_degenerate(const TriangleMesh& mesh, std::size_t triangle) {
   if (a == b || b == c || c == a) return true;
   const Vec3 &p = mesh.vertices[a], &q = mesh.vertices[b], &r = mesh.vertices[c];
   const double longest2 = std::max({(q - p).squaredNorm(), (r - q).squaredNorm(), (p - r).squaredNorm()});
-  return !(2.0 * area_vector(mesh, triangle).norm() > kLeastHeightRatio * longest2);
+  return !(2.0 * area_vector(mesh, triangle).norm() > kMinHeightRatio * longest2);
 }
 
 std::vector<Side> sides_in_edge_order(const TriangleMesh& mesh) {
@@ -43,7 +42,7 @@ std::vector<Side> sides_in_edge_order(const TriangleMesh& mesh) {
   return sides;
 }
 
-EdgeKind kind_of(const std::vector<EdgeUse>& uses, const MeshEdge& edge) {
+EdgeKind kind_of(const std::vector<HalfEdge>& uses, const MeshEdge& edge) {
   if (edge.use_count == 1) return EdgeKind::kBoundary;
   if (edge.use_count > 2) return EdgeKind::kNonManifold;
   return uses[edge.first_use].forward == uses[edge.first_use + 1].forward ? EdgeKind::kInconsistent
@@ -59,7 +58,7 @@ std::vector<bool> closed_parts(const TriangleMesh& mesh, const Topology& topolog
   for (const MeshEdge& edge : topology.edges) {
     balance.clear();
     for (std::uint32_t u = edge.first_use; u < edge.first_use + edge.use_count; ++u) {
-      const EdgeUse& use = topology.uses[u];
+      const HalfEdge& use = topology.uses[u];
       const std::uint16_t part = mesh.triangle_part[use.triangle];
       auto place = std::find_if(balance.begin(), balance.end(), [&](const auto& entry) { return entry.first == part; });
       if (place == balance.end()) place = balance.insert(place, {part, 0});
@@ -98,7 +97,7 @@ Topology topology_of(const TriangleMesh& mesh) {
   for (MeshEdge& edge : topology.edges) {
     edge.kind = kind_of(topology.uses, edge);
     if (edge.kind != EdgeKind::kManifold) continue;
-    const EdgeUse &first = topology.uses[edge.first_use], &second = topology.uses[edge.first_use + 1];
+    const HalfEdge &first = topology.uses[edge.first_use], &second = topology.uses[edge.first_use + 1];
     topology.neighbours[first.triangle][first.side] = second.triangle;
     topology.neighbours[second.triangle][second.side] = first.triangle;
   }
@@ -113,11 +112,11 @@ Topology topology_of(const TriangleMesh& mesh) {
 namespace {
 
 // Angle between the normals of the two triangles of a manifold edge, positive convex, negative concave, in (-pi, pi].
-double turning_angle(const TriangleMesh& mesh, const Topology& topology, std::uint32_t edge_index) {
+double fold_angle(const TriangleMesh& mesh, const Topology& topology, std::uint32_t edge_index) {
   const MeshEdge& edge = topology.edges[edge_index];
   SEAGLINT_CHECK(edge.kind == EdgeKind::kManifold, fmt::format("edge {} has {} triangles", edge_index, edge.use_count));
-  const EdgeUse& use = topology.uses[edge.first_use];
-  const EdgeUse& other = topology.uses[edge.first_use + 1];
+  const HalfEdge& use = topology.uses[edge.first_use];
+  const HalfEdge& other = topology.uses[edge.first_use + 1];
 
   // With t along the edge as the first triangle runs, its face lies to the left; a convex edge turns its normal about t
   // by a positive angle into the second one's.
@@ -143,7 +142,7 @@ std::vector<Wedge> wedges(const TriangleMesh& mesh, const Topology& topology, do
     } else if (edge.kind == EdgeKind::kManifold) {
       const std::uint32_t second = topology.uses[edge.first_use + 1].triangle;
       if (!usable(first) || !usable(second)) continue;
-      const double turn = turning_angle(mesh, topology, e);
+      const double turn = fold_angle(mesh, topology, e);
       if (std::abs(turn) > least_turn) found.push_back({e, {first, second}, kPi + turn});
     }
   }

@@ -22,7 +22,7 @@ enum class EdgeKind : std::uint8_t {
 };
 
 // One triangle's side: the edge from its corner `side` to corner (side + 1) % 3.
-struct EdgeUse {
+struct HalfEdge {
   std::uint32_t triangle = 0;
   std::uint8_t side = 0;
   bool forward = true;  // runs from MeshEdge::vertices[0] to vertices[1]
@@ -37,7 +37,7 @@ struct MeshEdge {
 
 struct Topology {
   std::vector<MeshEdge> edges;  // ascending in their vertices
-  std::vector<EdgeUse> uses;
+  std::vector<HalfEdge> uses;
   std::vector<std::array<std::uint32_t, 3>>
       triangle_edges;  // edge of each side; kNoIndex when two corners are one vertex
   std::vector<std::array<std::uint32_t, 3>>

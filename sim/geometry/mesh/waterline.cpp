@@ -39,7 +39,7 @@ WaterlineCut cut_at_waterline(const TriangleMesh& mesh, double height) {
       cut.mesh.triangles.push_back(triangle);
       if (!mesh.triangle_part.empty()) cut.mesh.triangle_part.push_back(mesh.triangle_part[t]);
       if (!mesh.triangle_material.empty()) cut.mesh.triangle_material.push_back(mesh.triangle_material[t]);
-      cut.below.push_back(below);
+      cut.submerged.push_back(below);
     };
     const auto& corner = mesh.triangles[t];
     const int dry = above(corner[0]) + above(corner[1]) + above(corner[2]);

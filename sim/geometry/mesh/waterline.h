@@ -10,8 +10,8 @@
 namespace seaglint {
 
 struct WaterlineCut {
-  TriangleMesh mesh;        // the same surface, no triangle on both sides of the water
-  std::vector<bool> below;  // one per triangle: below the water or in its surface
+  TriangleMesh mesh;            // the same surface, no triangle on both sides of the water
+  std::vector<bool> submerged;  // one per triangle: below the water or in its surface
 };
 
 // Cuts the mesh along the plane z = height, m. Triangles that share an edge are cut at the same points; corners within

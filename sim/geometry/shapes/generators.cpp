@@ -16,8 +16,8 @@ namespace {
 
 // Written so that a NaN fails.
 void require_size(double value, const char* name) {
-  if (!(value >= kLeastSize && value <= kLargestSize))
-    throw InputError(fmt::format("{}: {} m is outside {:g}..{:g} m", name, value, kLeastSize, kLargestSize));
+  if (!(value >= kMinSize && value <= kLargestSize))
+    throw InputError(fmt::format("{}: {} m is outside {:g}..{:g} m", name, value, kMinSize, kLargestSize));
 }
 
 void require_count(int value, int least, int most, const char* name) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Canonical targets with known echoes. Every size is in metres, kLeastSize <= x <= kLargestSize, else InputError.
+// Canonical targets with known echoes. Every size is in metres, kMinSize <= x <= kLargestSize, else InputError.
 
 #include "sim/geometry/mesh/triangle_mesh.h"
 
@@ -9,7 +9,7 @@ namespace seaglint {
 
 // What every format of mesh_io.h gives back: beyond 1e7 m it refuses a mesh, and below 1e-30 m it takes coordinates for
 // zero, those of a finely divided target too.
-inline constexpr double kLeastSize = 1e-20, kLargestSize = 1e7;
+inline constexpr double kMinSize = 1e-20, kLargestSize = 1e7;
 
 // A flat sheet of two triangles in the plane x = 0, centred on the origin, `length` along y and `width` along z, normal
 // +x: azimuth 0, elevation 0 is normal incidence. There is one sheet, whose two sides both scatter.

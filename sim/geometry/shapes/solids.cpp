@@ -101,7 +101,7 @@ void add_corner_plates(MeshBuilder& builder, const Pose& pose, const Vec3& legs,
   slab({-0.5 * t, -0.8 * t, -0.4 * t}, {0.99 * x, 0, 0.99 * z});
 }
 
-void add_ball(MeshBuilder& builder, const Vec3& centre, double radius, int subdivisions) {
+void add_sphere(MeshBuilder& builder, const Vec3& centre, double radius, int subdivisions) {
   const TriangleMesh sphere = make_sphere(radius, subdivisions);
   const auto base = static_cast<std::uint32_t>(builder.vertices().size());
   for (const Vec3& p : sphere.vertices) builder.vertex(centre + p);

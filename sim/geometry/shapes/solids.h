@@ -34,6 +34,6 @@ void add_open_box(MeshBuilder& builder, const Pose& pose, const Vec3& size, doub
 void add_corner_plates(MeshBuilder& builder, const Pose& pose, const Vec3& legs, double thickness);
 
 // Sphere of 80 triangles (or 320) about a point.
-void add_ball(MeshBuilder& builder, const Vec3& centre, double radius, int subdivisions);
+void add_sphere(MeshBuilder& builder, const Vec3& centre, double radius, int subdivisions);
 
 }  // namespace seaglint

@@ -148,7 +148,7 @@ void add_domes_and_whips(MeshBuilder& builder, const HullSurface& hull, const Sh
   for (double side : {1.0, -1.0}) {
     const Vec3 foot(hull.x_of(2.6), side * hull.y_of(4.3), houses.flag_deck.roof);
     add_cone(builder, foot - Vec3(0, 0, 0.2), foot + Vec3(0, 0, 1.0), 0.55, 0.45, 12);
-    add_ball(builder, foot + Vec3(0, 0, 1.75), 0.95, 2);
+    add_sphere(builder, foot + Vec3(0, 0, 1.75), 0.95, 2);
   }
   builder.begin_part("fire_control");
   const Vec3 director(hull.x_of(19.5), 0, houses.bridge.roof);

@@ -43,13 +43,13 @@ void add_deck_rails(MeshBuilder& builder, const HullSurface& hull, double width)
 
 void add_roof_rails(MeshBuilder& builder, const HullSurface& hull, const ShipHouses& houses, double width) {
   builder.begin_part("roof_rails");
-  const auto along = [&](const House& house, double from, double to) {
+  const auto along = [&](const Deckhouse& house, double from, double to) {
     for (double side : {1.0, -1.0}) {
       const double y = side * (house.half_width_at(hull, house.roof) - 0.12);
       add_rail(builder, {{hull.x_of(from), y, house.roof}, {hull.x_of(to), y, house.roof}}, width);
     }
   };
-  const auto athwart = [&](const House& house, double x, double half) {
+  const auto athwart = [&](const Deckhouse& house, double x, double half) {
     add_rail(builder, {{x, -half, house.roof}, {x, half, house.roof}}, width);
   };
   along(houses.forward, -7.8, 17.5);
@@ -77,7 +77,7 @@ void add_ladder(MeshBuilder& builder, const Vec3& foot, const Vec3& head, const 
 
 void add_ladders(MeshBuilder& builder, const HullSurface& hull, const ShipHouses& houses, double width) {
   builder.begin_part("ladders");
-  const auto on_side = [&](const House& house, double x, double from) {
+  const auto on_side = [&](const Deckhouse& house, double x, double from) {
     for (double side : {1.0, -1.0}) {
       const Pose low = house.on_side(hull, side, x, from), high = house.on_side(hull, side, x, house.roof);
       add_ladder(builder, low * Vec3(0.2, 0, 0), high * Vec3(0.2, 0, 0.4), Vec3::UnitX(), width);

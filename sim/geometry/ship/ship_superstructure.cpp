@@ -14,20 +14,20 @@ namespace {
 double lean(double slope_deg, double height) { return height * std::tan(radians(slope_deg)); }
 
 // The eight corners of a house at a height, counter-clockwise from the starboard quarter.
-std::vector<Vec3> ring(const House& house, const HullSurface& hull, double z) {
+std::vector<Vec3> ring(const Deckhouse& house, const HullSurface& hull, double z) {
   const double a = house.aft_at(hull, z), f = house.fore_at(hull, z), w = house.half_width_at(hull, z);
   const double ca = house.aft_chamfer, cf = house.fore_chamfer;
   return {{a, -w + ca, z}, {a + ca, -w, z}, {f - cf, -w, z}, {f, -w + cf, z},
           {f, w - cf, z},  {f - cf, w, z},  {a + ca, w, z},  {a, w - ca, z}};
 }
 
-void add_house(MeshBuilder& builder, const House& house, const HullSurface& hull) {
+void add_house(MeshBuilder& builder, const Deckhouse& house, const HullSurface& hull) {
   builder.begin_part(house.name);
   add_frustum(builder, ring(house, hull, house.foot), ring(house, hull, house.roof));
 }
 
 // A row of panes that stand 3 cm proud of the bridge's front and front corners.
-void add_windows(MeshBuilder& builder, const House& bridge, const HullSurface& hull) {
+void add_windows(MeshBuilder& builder, const Deckhouse& bridge, const HullSurface& hull) {
   builder.begin_part("bridge_windows");
   const double low = bridge.roof - 1.7, high = bridge.roof - 0.7;
   const auto bottom = ring(bridge, hull, low), top = ring(bridge, hull, high);
@@ -54,7 +54,7 @@ void add_windows(MeshBuilder& builder, const House& bridge, const HullSurface& h
 }
 
 // Open platforms to both sides of the bridge with a solid bulwark: floor and walls are upright to one another.
-void add_bridge_wings(MeshBuilder& builder, const House& bridge, const HullSurface& hull) {
+void add_bridge_wings(MeshBuilder& builder, const Deckhouse& bridge, const HullSurface& hull) {
   builder.begin_part("bridge_wings");
   const double x = hull.x_of(21.4), z = bridge.foot + 0.35, root = bridge.half_width_at(hull, z) - 0.5;
   for (double side : {1.0, -1.0}) {
@@ -78,8 +78,8 @@ void add_bridge_wings(MeshBuilder& builder, const House& bridge, const HullSurfa
   }
 }
 
-void add_funnel(MeshBuilder& builder, const HullSurface& hull, const House& aft) {
-  House funnel{"funnel", -27.0, -18.6, 3.3, aft.roof - 0.25, aft.roof + 6.6, 9, 14, 5, 1.4, 0.9};
+void add_funnel(MeshBuilder& builder, const HullSurface& hull, const Deckhouse& aft) {
+  Deckhouse funnel{"funnel", -27.0, -18.6, 3.3, aft.roof - 0.25, aft.roof + 6.6, 9, 14, 5, 1.4, 0.9};
   add_house(builder, funnel, hull);
   // Uptakes, and intake boxes with louvres on either side.
   for (double x : {-25.2, -23.4, -21.9}) {
@@ -97,7 +97,7 @@ void add_funnel(MeshBuilder& builder, const HullSurface& hull, const House& aft)
   }
 }
 
-void add_hangar(MeshBuilder& builder, const HullSurface& hull, const House& aft) {
+void add_hangar(MeshBuilder& builder, const HullSurface& hull, const Deckhouse& aft) {
   builder.begin_part("hangar_door");
   const double low = hull.deck_height(hull.x_of(aft.aft)) + 0.15, high = low + 4.6;
   const auto at = [&](double y, double z) { return Vec3(aft.aft_at(hull, z) - 0.06, y, z); };
@@ -119,13 +119,15 @@ void add_hangar(MeshBuilder& builder, const HullSurface& hull, const House& aft)
 
 }  // namespace
 
-double House::half_width_at(const HullSurface& hull, double z) const {
+double Deckhouse::half_width_at(const HullSurface& hull, double z) const {
   return hull.y_of(half_width) - lean(side_slope, z - foot);
 }
-double House::fore_at(const HullSurface& hull, double z) const { return hull.x_of(fore) - lean(fore_slope, z - foot); }
-double House::aft_at(const HullSurface& hull, double z) const { return hull.x_of(aft) + lean(aft_slope, z - foot); }
+double Deckhouse::fore_at(const HullSurface& hull, double z) const {
+  return hull.x_of(fore) - lean(fore_slope, z - foot);
+}
+double Deckhouse::aft_at(const HullSurface& hull, double z) const { return hull.x_of(aft) + lean(aft_slope, z - foot); }
 
-Pose House::on_side(const HullSurface& hull, double side, double design_x, double z) const {
+Pose Deckhouse::on_side(const HullSurface& hull, double side, double design_x, double z) const {
   const double s = radians(side_slope);
   Pose pose;
   pose.p = {hull.x_of(design_x), side * half_width_at(hull, z), z};
@@ -148,7 +150,7 @@ ShipHouses ship_houses(const HullSurface& hull) {
 }
 
 void add_superstructure(MeshBuilder& builder, const HullSurface& hull, const ShipHouses& houses) {
-  for (const House* house :
+  for (const Deckhouse* house :
        {&houses.forward, &houses.bridge, &houses.flag_deck, &houses.core, &houses.aft, &houses.radar_house}) {
     add_house(builder, *house, hull);
   }

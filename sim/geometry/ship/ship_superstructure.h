@@ -14,7 +14,7 @@ namespace seaglint {
 
 // A deckhouse: an eight-cornered frustum whose walls lean inwards. Heights above the waterline; slopes from the
 // vertical in degrees.
-struct House {
+struct Deckhouse {
   std::string name;
   double aft = 0, fore = 0;   // at the foot, design metres
   double half_width = 0;      // at the foot, design metres
@@ -32,7 +32,7 @@ struct House {
 
 // Everything stands on one of these.
 struct ShipHouses {
-  House forward, bridge, flag_deck, core, aft, radar_house;
+  Deckhouse forward, bridge, flag_deck, core, aft, radar_house;
 };
 ShipHouses ship_houses(const HullSurface& hull);
 

@@ -14,7 +14,7 @@ Pose moved(const Pose& wall, double out, double along, double up) {
 }
 
 // Open-fronted cabinets (fire hoses, breathing sets, telephones) of slightly different sizes at irregular spacing.
-void add_cabinets(MeshBuilder& builder, const HullSurface& hull, const House& house, double from, double to,
+void add_cabinets(MeshBuilder& builder, const HullSurface& hull, const Deckhouse& house, double from, double to,
                   double spacing, double height) {
   int n = 0;
   for (double side : {1.0, -1.0}) {
@@ -26,7 +26,7 @@ void add_cabinets(MeshBuilder& builder, const HullSurface& hull, const House& ho
   }
 }
 
-void add_doors(MeshBuilder& builder, const HullSurface& hull, const House& house, double height,
+void add_doors(MeshBuilder& builder, const HullSurface& hull, const Deckhouse& house, double height,
                std::initializer_list<double> places) {
   for (double side : {1.0, -1.0}) {
     for (double x : places) {
@@ -39,7 +39,7 @@ void add_doors(MeshBuilder& builder, const HullSurface& hull, const House& house
 }
 
 // Canisters in cradles, three to a rack.
-void add_liferafts(MeshBuilder& builder, const HullSurface& hull, const House& house, double z,
+void add_liferafts(MeshBuilder& builder, const HullSurface& hull, const Deckhouse& house, double z,
                    std::initializer_list<double> places) {
   for (double side : {1.0, -1.0}) {
     for (double x : places) {
@@ -53,7 +53,7 @@ void add_liferafts(MeshBuilder& builder, const HullSurface& hull, const House& h
 }
 
 // Brackets with lamps, loudspeakers and signal boxes: an upright plate, a shelf and a cheek at right angles.
-void add_brackets(MeshBuilder& builder, const HullSurface& hull, const House& house, double z,
+void add_brackets(MeshBuilder& builder, const HullSurface& hull, const Deckhouse& house, double z,
                   std::initializer_list<double> places) {
   int n = 0;
   for (double side : {1.0, -1.0}) {
@@ -71,7 +71,7 @@ void add_brackets(MeshBuilder& builder, const HullSurface& hull, const House& ho
 }
 
 // Bay openings in the forward house's flanks for torpedo tubes: deep open boxes that stand a little proud.
-void add_bays(MeshBuilder& builder, const HullSurface& hull, const House& house) {
+void add_bays(MeshBuilder& builder, const HullSurface& hull, const Deckhouse& house) {
   for (double side : {1.0, -1.0}) {
     const Pose wall = house.on_side(hull, side, -5.0, hull.form().freeboard_m + 0.9);
     add_open_box(builder, moved(wall, 0.1, 0, 0), {0.7, 4.2, 2.2}, 0.06);

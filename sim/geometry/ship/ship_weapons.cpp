@@ -64,12 +64,12 @@ void add_close_in_weapon(MeshBuilder& builder, const Vec3& foot, double yaw) {
   add_box(builder, base * upright({-0.1, -0.62, 1.1}), {0.9, 0.18, 1.3});
   add_box(builder, base * upright({-0.15, 0, 1.35}), {1.2, 0.95, 0.8});
   add_cone(builder, base * Vec3(-0.1, 0, 2.1), base * Vec3(-0.1, 0, 3.1), 0.48, 0.48, 14);
-  add_ball(builder, base * Vec3(-0.1, 0, 3.1), 0.48, 1);
+  add_sphere(builder, base * Vec3(-0.1, 0, 3.1), 0.48, 1);
   add_cone(builder, base * Vec3(0.4, 0, 1.75), base * Vec3(2.1, 0, 1.85), 0.16, 0.14, 10);
 }
 
 // Two pairs of canisters on an inclined frame, pointing athwartships.
-void add_canisters(MeshBuilder& builder, const HullSurface& hull, const House& forward) {
+void add_canisters(MeshBuilder& builder, const HullSurface& hull, const Deckhouse& forward) {
   builder.begin_part("missile_canisters");
   for (double side : {1.0, -1.0}) {
     const Pose base = upright({hull.x_of(side > 0 ? -4.0 : -7.0), -side * 0.8, forward.roof}, side * radians(90));

@@ -69,7 +69,7 @@ double disc_slope_filter(double wavenumber, double radius) {
   return 8 * std::cyl_bessel_j(2.0, x) / (x * x);
 }
 
-Vec2 limited_slope(const Vec2& slope) {
+Vec2 soft_limited_slope(const Vec2& slope) {
   const double share = slope.squaredNorm() / (kBreakingSlope * kBreakingSlope);
   return slope / std::sqrt(std::sqrt(1 + share * share));
 }
@@ -78,7 +78,7 @@ namespace {
 
 // What reaches a float of the waves on the surface: the disc's mean and the pressure's decay to its draught, e^{-kT}
 // (Smith's correction, as for a ship of effective slope: Jensen, Mansour and Olsen 2004, Ocean Engineering 31, 61).
-double float_filter(const FloatParticulars& body, double wavenumber) {
+double float_wave_filter(const FloatParticulars& body, double wavenumber) {
   return disc_slope_filter(wavenumber, 0.5 * body.diameter) * std::exp(-wavenumber * body.draught);
 }
 
@@ -86,12 +86,12 @@ double float_filter(const FloatParticulars& body, double wavenumber) {
 class Water {
  public:
   Water(const WaveField& sea, const FloatParticulars& body, double x, double y, bool moving, double start, double step)
-      : field_(sea.filtered([&](double k) { return float_filter(body, k); })),
+      : field_(sea.filtered([&](double k) { return float_wave_filter(body, k); })),
         x_(x),
         y_(y),
         start_(start),
         step_(step) {
-    if (!moving) series_.emplace(field_, x, y, start, step, SurfaceDetail::kShape);
+    if (!moving) series_.emplace(field_, x, y, start, step, SurfaceQuantities::kElevationAndSlope);
   }
   Water(const Water&) = delete;
   Water& operator=(const Water&) = delete;
@@ -133,7 +133,7 @@ class Equations {
   // eta/dy, pitch = -d eta/dx). Heave: stiffness and damping act on the motion relative to the water, z'' + 2 z w0 (z'
   // - w) + w0^2 (z - eta) = 0. Surge and sway: the float goes with the water at its place, held by its mooring.
   FloatState derivative(const FloatState& s, const SurfaceState& water, double yaw) const {
-    const Vec2 slope = turned(limited_slope({water.slope_x, water.slope_y}), -yaw);
+    const Vec2 slope = turned(soft_limited_slope({water.slope_x, water.slope_y}), -yaw);
     const Vec2 target(slope.y(), -slope.x());
     const Vec2 tilt = turned(s.tilt, -yaw);
     const Vec2 rate = turned(s.tilt_rate, -yaw);
@@ -172,8 +172,8 @@ MotionSample sample_of(const FloatState& s, const Vec2& horizontal_rate, const O
   sample.angles = {tilt.x(), tilt.y(), yaw.x};
   sample.angle_rates = {rate.x(), rate.y(), yaw.rate};
   if (moving) {
-    sample.shift = s.shift;
-    sample.shift_rates = {horizontal_rate.x(), horizontal_rate.y(), s.heave_rate};
+    sample.translation = s.shift;
+    sample.translation_rates = {horizontal_rate.x(), horizontal_rate.y(), s.heave_rate};
   }
   return sample;
 }
@@ -184,7 +184,7 @@ std::vector<MotionSample> simulate_float(const FloatParticulars& body, const Mot
                                          double x, double y, double duration_s, std::uint64_t seed,
                                          std::uint64_t index) {
   const double step = spec.step_s;
-  const auto before = static_cast<long>(std::ceil(spec.preroll_s / step));
+  const auto before = static_cast<long>(std::ceil(spec.spin_up_s / step));
   const auto after = std::max(1L, static_cast<long>(std::ceil(duration_s / step)));
   const double fastest = std::max({body.roll.omega0, body.pitch.omega0, body.heave.omega0});
   const auto parts = std::max(1L, static_cast<long>(std::ceil(fastest * step / kLongestTurn)));
@@ -192,7 +192,7 @@ std::vector<MotionSample> simulate_float(const FloatParticulars& body, const Mot
   const double start = -step * static_cast<double>(before);
 
   const bool moving = spec.translations;
-  const RandomYaw random_yaw(radians(spec.yaw_rate_deg_s), spec.yaw_period_s, spec.yaw_damping, seed, index);
+  const RandomYaw random_yaw(radians(spec.yaw_rate_std_deg_s), spec.yaw_period_s, spec.yaw_damping, seed, index);
   const Equations equations(body, moving);
   Water water(sea, body, x, y, moving, start, 0.5 * part);
 

@@ -30,7 +30,7 @@ double disc_slope_filter(double wavenumber, double radius);
 
 // The slope a float follows: the water's up to breaking, s / (1 + (s/0.4)^4)^(1/4), in the slope's own direction.
 inline constexpr double kBreakingSlope = 0.4;
-Vec2 limited_slope(const Vec2& slope);
+Vec2 soft_limited_slope(const Vec2& slope);
 
 // Samples at t = 0, step, ..., at least up to duration_s, of a float whose centre of flotation rests at (x, y).
 std::vector<MotionSample> simulate_float(const FloatParticulars& body, const MotionSpec& spec, const WaveField& sea,

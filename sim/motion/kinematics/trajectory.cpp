@@ -29,7 +29,7 @@ Trajectory Trajectory::at_rest(const Vec3& rest_position) {
   return still;
 }
 
-Trajectory Trajectory::carried(const Vec3& velocity, double from_s) const {
+Trajectory Trajectory::with_drift(const Vec3& velocity, double from_s) const {
   Trajectory moving = *this;
   moving.carrying_mps_ = velocity;
   moving.carried_from_s_ = from_s;
@@ -72,7 +72,7 @@ MotionSample Trajectory::sample(double t) const {
   const MotionSample& a = samples_[static_cast<std::size_t>(index)];
   const MotionSample& b = samples_[static_cast<std::size_t>(index) + 1];
   const Hermite angles = hermite(a.angles, a.angle_rates, b.angles, b.angle_rates, step_s_, u);
-  const Hermite shift = hermite(a.shift, a.shift_rates, b.shift, b.shift_rates, step_s_, u);
+  const Hermite shift = hermite(a.translation, a.translation_rates, b.translation, b.translation_rates, step_s_, u);
   return {angles.value, angles.rate, shift.value, shift.rate};
 }
 
@@ -80,7 +80,7 @@ Pose Trajectory::pose(double t) const {
   const MotionSample motion = sample(t);
   Pose pose;
   pose.R = rotation_from_angles(motion.angles.x(), motion.angles.y(), motion.angles.z());
-  pose.p = rest_position_ + motion.shift + rotation_centre_ - pose.R * rotation_centre_;
+  pose.p = rest_position_ + motion.translation + rotation_centre_ - pose.R * rotation_centre_;
   pose.p += (t - carried_from_s_) * carrying_mps_;
   return pose;
 }

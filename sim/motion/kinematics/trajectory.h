@@ -10,10 +10,10 @@
 namespace seaglint {
 
 struct MotionSample {
-  Vec3 angles = Vec3::Zero();       // roll, pitch, yaw, rad
-  Vec3 angle_rates = Vec3::Zero();  // their time derivatives, rad/s
-  Vec3 shift = Vec3::Zero();        // surge, sway, heave of the rotation centre, m
-  Vec3 shift_rates = Vec3::Zero();  // m/s
+  Vec3 angles = Vec3::Zero();             // roll, pitch, yaw, rad
+  Vec3 angle_rates = Vec3::Zero();        // their time derivatives, rad/s
+  Vec3 translation = Vec3::Zero();        // surge, sway, heave of the rotation centre, m
+  Vec3 translation_rates = Vec3::Zero();  // m/s
 };
 
 // Uniform samples, interpolated by cubic Hermite polynomials (continuous rate).
@@ -29,7 +29,7 @@ class Trajectory {
 
   // The same body carried along: its pose is displaced by velocity (t - from_s) besides, of which sample() knows
   // nothing.
-  Trajectory carried(const Vec3& velocity, double from_s) const;
+  Trajectory with_drift(const Vec3& velocity, double from_s) const;
 
   // t within [start, end], else throws std::out_of_range; beyond them by kEndSlack of their distance it is rounding,
   // and taken for the end.

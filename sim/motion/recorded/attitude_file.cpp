@@ -50,7 +50,7 @@ AttitudeTable from_columns(const std::string& text, const std::string& file, std
     result.time.push_back(table.at(row, 0));
     MotionSample& sample = result.samples.emplace_back();
     sample.angles = unit * Vec3(table.at(row, 1), table.at(row, 2), table.at(row, 3));
-    if (shifts) sample.shift = Vec3(table.at(row, 4), table.at(row, 5), table.at(row, 6));
+    if (shifts) sample.translation = Vec3(table.at(row, 4), table.at(row, 5), table.at(row, 6));
   }
   return result;
 }

@@ -145,7 +145,7 @@ AttitudeSeries read_attitude_series(const std::filesystem::path& file) {
   unwrap_yaw(table.samples);
   AttitudeSeries series{file.string(), std::move(table.time), std::move(table.samples)};
   set_rates(series, &MotionSample::angles, &MotionSample::angle_rates);
-  set_rates(series, &MotionSample::shift, &MotionSample::shift_rates);
+  set_rates(series, &MotionSample::translation, &MotionSample::translation_rates);
   return series;
 }
 
@@ -171,11 +171,11 @@ Trajectory trajectory_of(const AttitudeSeries& series, double start_s, double du
   if (largest - smallest <= kUniform * step) {
     samples = series.samples;
   } else {
-    constexpr double kMostSamples = 1e7;
+    constexpr double kMaxSamples = 1e7;
     const double count = std::ceil(span / smallest - 1e-9);
-    if (count > kMostSamples) {
+    if (count > kMaxSamples) {
       throw InputError(fmt::format("{}: a smallest step of {:.3g} s in {:.6g} s: must make at most {:.0e} steps",
-                                   series.source, smallest, span, kMostSamples));
+                                   series.source, smallest, span, kMaxSamples));
     }
     step = span / count;
     for (std::size_t n = 0; n <= static_cast<std::size_t>(count); ++n) {
@@ -187,7 +187,7 @@ Trajectory trajectory_of(const AttitudeSeries& series, double start_s, double du
     }
   }
   if (!translations) {
-    for (MotionSample& sample : samples) sample.shift = sample.shift_rates = Vec3::Zero();
+    for (MotionSample& sample : samples) sample.translation = sample.translation_rates = Vec3::Zero();
   }
   return Trajectory(time.front() - start_s, step, std::move(samples), rest_position, rotation_centre);
 }

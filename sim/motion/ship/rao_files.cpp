@@ -66,10 +66,10 @@ class Words {
   int line_ = 0;
 };
 
-using Heading = std::vector<ShipResponse>;  // by frequency
+using Heading = std::vector<MotionRao>;  // by frequency
 
 // A ship that is alike on both sides answers waves from the other side in mirror image.
-ShipResponse mirrored(const ShipResponse& r) { return {r.surge, -r.sway, r.heave, -r.roll, r.pitch, -r.yaw}; }
+MotionRao mirrored(const MotionRao& r) { return {r.surge, -r.sway, r.heave, -r.roll, r.pitch, -r.yaw}; }
 
 double wrapped(double angle) {
   const double turned = angle - 2 * kPi * std::ceil(angle / (2 * kPi) - 0.5);
@@ -79,7 +79,7 @@ double wrapped(double angle) {
 RaoTable table_of(std::string source, const std::map<double, Heading>& headings, std::vector<double> omega,
                   const Vec3& reference, double speed) {
   std::vector<double> mu;
-  std::vector<ShipResponse> responses;
+  std::vector<MotionRao> responses;
   for (const auto& [direction, values] : headings) {
     mu.push_back(direction);
     responses.insert(responses.end(), values.begin(), values.end());
@@ -105,7 +105,7 @@ void mirror(std::map<double, Heading>& headings) {
     const double across = wrapped(-mu);
     if (headings.contains(across) || std::abs(std::abs(mu) - kPi) < 1e-6 || std::abs(mu) < 1e-6) continue;
     Heading& image = other[across];
-    for (const ShipResponse& value : values) image.push_back(mirrored(value));
+    for (const MotionRao& value : values) image.push_back(mirrored(value));
   }
   headings.merge(other);
 }

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kWidestGap = radians(45);
 
-ShipResponse mixed(const ShipResponse& a, double share_a, const ShipResponse& b, double share_b) {
+MotionRao mixed(const MotionRao& a, double share_a, const MotionRao& b, double share_b) {
   const auto mix = [&](Complex p, Complex q) { return share_a * p + share_b * q; };
   return {mix(a.surge, b.surge), mix(a.sway, b.sway),   mix(a.heave, b.heave),
           mix(a.roll, b.roll),   mix(a.pitch, b.pitch), mix(a.yaw, b.yaw)};
@@ -29,7 +29,7 @@ double wrapped(double angle) { return angle - 2 * kPi * std::ceil(angle / (2 * k
 }  // namespace
 
 RaoTable::RaoTable(std::string source, std::vector<double> mu, std::vector<double> omega,
-                   std::vector<ShipResponse> responses, Vec3 reference, double speed)
+                   std::vector<MotionRao> responses, Vec3 reference, double speed)
     : source_(std::move(source)),
       mu_(std::move(mu)),
       omega_(std::move(omega)),
@@ -44,7 +44,7 @@ RaoTable::RaoTable(std::string source, std::vector<double> mu, std::vector<doubl
 
 // Responses are kept with the phase of the wave at the reference point, where they turn slowly with frequency and
 // heading; e^{-jk.x} brings them to the origin.
-ShipResponse RaoTable::at(double omega, double wavenumber, double mu) const {
+MotionRao RaoTable::at(double omega, double wavenumber, double mu) const {
   if (omega < omega_.front() || omega > omega_.back()) return {};
   const double heading = wrapped(mu);
   const std::size_t count = mu_.size();
@@ -75,13 +75,13 @@ ShipResponse RaoTable::at(double omega, double wavenumber, double mu) const {
   const auto along = [&](std::size_t m) {
     return mixed(responses_[m * omega_.size() + low], 1 - u, responses_[m * omega_.size() + next], u);
   };
-  const ShipResponse there = mixed(along(left), 1 - v, along(right), v);
+  const MotionRao there = mixed(along(left), 1 - v, along(right), v);
   const Complex phase = std::polar(1.0, -wavenumber * (std::cos(mu) * reference_.x() + std::sin(mu) * reference_.y()));
   return {phase * there.surge, phase * there.sway,  phase * there.heave,
           phase * there.roll,  phase * there.pitch, phase * there.yaw};
 }
 
-double RaoTable::uncovered_share(const WaveField& sea) const {
+double RaoTable::uncovered_variance_fraction(const WaveField& sea) const {
   double all = 0, outside = 0;
   for (const WaveComponent& c : sea.components()) {
     const double variance = 0.5 * c.amplitude * c.amplitude;
@@ -93,19 +93,19 @@ double RaoTable::uncovered_share(const WaveField& sea) const {
 
 std::vector<MotionSample> simulate_rao(const RaoTable& table, const MotionSpec& spec, const WaveField& sea, double x,
                                        double y, double duration_s) {
-  const double share = table.uncovered_share(sea);
-  if (share > kMostUncovered) {
-    throw InputError(
-        fmt::format("{}: covers {:.4g} to {:.4g} rad/s, outside of which {:.3g} % of the waves' variance lies: must be "
-                    "at most {:g} %",
-                    table.source(), table.omegas().front(), table.omegas().back(), 100 * share, 100 * kMostUncovered));
+  const double share = table.uncovered_variance_fraction(sea);
+  if (share > kMaxUncoveredVariance) {
+    throw InputError(fmt::format(
+        "{}: covers {:.4g} to {:.4g} rad/s, outside of which {:.3g} % of the waves' variance lies: must be "
+        "at most {:g} %",
+        table.source(), table.omegas().front(), table.omegas().back(), 100 * share, 100 * kMaxUncoveredVariance));
   }
   const double told = spec.translations ? 1 : 0;
   const auto response = [&](const ShipWave& wave) -> ResponseChannels {
-    const ShipResponse r = table.at(wave.omega, wave.wavenumber, wave.mu);
+    const MotionRao r = table.at(wave.omega, wave.wavenumber, wave.mu);
     return {r.roll, r.pitch, r.yaw, told * r.surge, told * r.sway, told * r.heave, 0};
   };
-  ResponseSeries series(sea, response, table.speed(), x, y, 0, spec.step_s);
+  ResponseSynthesis series(sea, response, table.speed(), x, y, 0, spec.step_s);
   const long count = std::max(1L, static_cast<long>(std::ceil(duration_s / spec.step_s))) + 1;
   std::vector<MotionSample> samples;
   samples.reserve(static_cast<std::size_t>(count));

@@ -20,15 +20,15 @@ class RaoTable {
  public:
   // mu in rad, ascending within (-pi, pi]; omega (of the wave, not of the encounter) in rad/s, ascending, > 0. Both
   // with at least one value; `reference` is the point whose translations are told, in the body's frame.
-  RaoTable(std::string source, std::vector<double> mu, std::vector<double> omega, std::vector<ShipResponse> responses,
+  RaoTable(std::string source, std::vector<double> mu, std::vector<double> omega, std::vector<MotionRao> responses,
            Vec3 reference, double speed);
 
   // Linear in frequency and heading, about the reference point. Zero at frequencies outside of the table's.
   // Throws InputError for a heading in a gap of more than 45 deg.
-  ShipResponse at(double omega, double wavenumber, double mu) const;
+  MotionRao at(double omega, double wavenumber, double mu) const;
 
   // Share of the variance of the sea's elevation that the table's frequencies do not cover.
-  double uncovered_share(const WaveField& sea) const;
+  double uncovered_variance_fraction(const WaveField& sea) const;
 
   const std::vector<double>& headings() const { return mu_; }
   const std::vector<double>& omegas() const { return omega_; }
@@ -39,13 +39,13 @@ class RaoTable {
  private:
   std::string source_;
   std::vector<double> mu_, omega_;
-  std::vector<ShipResponse> responses_;
+  std::vector<MotionRao> responses_;
   Vec3 reference_;
   double speed_;
 };
 
 // The largest share of the waves' variance that may lie outside of a table's frequencies.
-inline constexpr double kMostUncovered = 0.01;
+inline constexpr double kMaxUncoveredVariance = 0.01;
 
 // Samples at t = 0, step, ... of a body that moves as the table says; its translations are those of the reference
 // point. Throws InputError for a sea that the table does not cover.

@@ -22,13 +22,14 @@ double encounter_frequency(const ShipWave& wave, double speed) {
   return wave.omega - speed * wave.wavenumber * std::cos(wave.mu);
 }
 
-ResponseSeries::ResponseSeries(const WaveField& sea, const std::function<ResponseChannels(const ShipWave&)>& response,
-                               double speed, double x, double y, double start, double step)
+ResponseSynthesis::ResponseSynthesis(const WaveField& sea,
+                                     const std::function<ResponseChannels(const ShipWave&)>& response, double speed,
+                                     double x, double y, double start, double step)
     : phasors_(make(sea, response, speed, x, y, start, step)) {}
 
-UniformPhasors ResponseSeries::make(const WaveField& sea,
-                                    const std::function<ResponseChannels(const ShipWave&)>& response, double speed,
-                                    double x, double y, double start, double step) {
+UniformPhasors ResponseSynthesis::make(const WaveField& sea,
+                                       const std::function<ResponseChannels(const ShipWave&)>& response, double speed,
+                                       double x, double y, double start, double step) {
   std::vector<ResponseChannels> responses;
   std::array<double, kResponseChannels> largest{};
   for (const WaveComponent& component : sea.components()) {
@@ -61,7 +62,7 @@ UniformPhasors ResponseSeries::make(const WaveField& sea,
   return UniformPhasors(omega_, phase, start, step);
 }
 
-double ResponseSeries::value(ResponseChannel channel) const {
+double ResponseSynthesis::value(ResponseChannel channel) const {
   const Parts& a = parts_[channel];
   const double* c = phasors_.cosine().data();
   const double* s = phasors_.sine().data();
@@ -71,7 +72,7 @@ double ResponseSeries::value(ResponseChannel channel) const {
 }
 
 // Re{j w x}.
-double ResponseSeries::rate(ResponseChannel channel) const {
+double ResponseSynthesis::rate(ResponseChannel channel) const {
   const Parts& a = parts_[channel];
   const double* c = phasors_.cosine().data();
   const double* s = phasors_.sine().data();
@@ -80,15 +81,15 @@ double ResponseSeries::rate(ResponseChannel channel) const {
   return sum;
 }
 
-MotionSample ResponseSeries::sample() const {
+MotionSample ResponseSynthesis::sample() const {
   MotionSample sample;
   for (int axis = 0; axis < 3; ++axis) {
     const auto angle = static_cast<ResponseChannel>(kRollAngle + axis);
     const auto shift = static_cast<ResponseChannel>(kSurgeShift + axis);
     if (moves_[angle]) sample.angles[axis] = value(angle);
     if (moves_[angle]) sample.angle_rates[axis] = rate(angle);
-    if (moves_[shift]) sample.shift[axis] = value(shift);
-    if (moves_[shift]) sample.shift_rates[axis] = rate(shift);
+    if (moves_[shift]) sample.translation[axis] = value(shift);
+    if (moves_[shift]) sample.translation_rates[axis] = rate(shift);
   }
   return sample;
 }

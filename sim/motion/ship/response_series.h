@@ -24,10 +24,10 @@ double encounter_frequency(const ShipWave& wave, double speed);
 
 // At t = start + n step, of a body that starts at (x, y) at t = 0 and goes on along x with `speed`. Waves with less
 // than 1e-9 of the largest contribution to each channel are left out.
-class ResponseSeries {
+class ResponseSynthesis {
  public:
-  ResponseSeries(const WaveField& sea, const std::function<ResponseChannels(const ShipWave&)>& response, double speed,
-                 double x, double y, double start, double step);
+  ResponseSynthesis(const WaveField& sea, const std::function<ResponseChannels(const ShipWave&)>& response,
+                    double speed, double x, double y, double start, double step);
 
   double value(ResponseChannel channel) const;
   double rate(ResponseChannel channel) const;  // its time derivative

@@ -14,22 +14,22 @@ namespace {
 
 // Responses to one wave; with the forcing under which roll's oscillator answers as the coupled hull does.
 ResponseChannels channels(const ShipParticulars& ship, const ShipWave& wave, bool translations) {
-  const ShipResponse rao = ship_rao(ship, wave);
+  const MotionRao rao = ship_rao(ship, wave);
   const double share = translations ? 1 : 0;
   const Complex forcing = rao.roll / linear_response(ship.roll, encounter_frequency(wave, ship.speed));
   return {rao.roll, rao.pitch, rao.yaw, share * rao.surge, share * rao.sway, share * rao.heave, forcing};
 }
 
-// Roll with quadratic damping, from the linear steady state preroll_s before t = 0.
+// Roll with quadratic damping, from the linear steady state spin_up_s before t = 0.
 std::vector<OscillatorState> nonlinear_roll(const ShipParticulars& ship, const MotionSpec& spec, const WaveField& sea,
                                             double x, double y, long samples) {
   const double step = spec.step_s;
-  const auto before = static_cast<long>(std::ceil(spec.preroll_s / step));
+  const auto before = static_cast<long>(std::ceil(spec.spin_up_s / step));
   // A step is divided when a short period asks for it.
   const auto parts = std::max(1L, static_cast<long>(std::ceil(ship.roll.omega0 * step / kLongestTurn)));
   const double part = step / static_cast<double>(parts);
   const auto response = [&](const ShipWave& wave) { return channels(ship, wave, false); };
-  ResponseSeries series(sea, response, ship.speed, x, y, -step * static_cast<double>(before), 0.5 * part);
+  ResponseSynthesis series(sea, response, ship.speed, x, y, -step * static_cast<double>(before), 0.5 * part);
   OscillatorState state{series.value(kRollAngle), series.rate(kRollAngle)};
   std::vector<OscillatorState> roll;
   double begin = series.value(kExtra);
@@ -53,7 +53,7 @@ std::vector<MotionSample> simulate_ship(const ShipParticulars& ship, const Motio
                                         double x, double y, double duration_s) {
   const long count = std::max(1L, static_cast<long>(std::ceil(duration_s / spec.step_s))) + 1;
   const auto response = [&](const ShipWave& wave) { return channels(ship, wave, spec.translations); };
-  ResponseSeries series(sea, response, ship.speed, x, y, 0, spec.step_s);
+  ResponseSynthesis series(sea, response, ship.speed, x, y, 0, spec.step_s);
   std::vector<MotionSample> samples;
   samples.reserve(static_cast<std::size_t>(count));
   for (long n = 0; n < count; ++n, series.advance()) samples.push_back(series.sample());

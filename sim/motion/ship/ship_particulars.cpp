@@ -62,8 +62,8 @@ double inertia_of_period(double omega, const Impedance& impedance, const char* k
 void set_roll(ShipParticulars& ship, const MotionSpec& spec, double mass) {
   const double stiffness = ship.lateral_stiffness(1, 1);
   const auto impedance = [&](double omega) { return roll_impedance(ship, omega); };
-  double inertia = mass * spec.roll_radius_m * spec.roll_radius_m;
-  if (spec.roll_radius_m > 0) {
+  double inertia = mass * spec.roll_gyradius_m * spec.roll_gyradius_m;
+  if (spec.roll_gyradius_m > 0) {
     ship.roll.omega0 = natural_frequency(inertia, stiffness, impedance);
   } else {
     ship.roll.omega0 =
@@ -80,7 +80,7 @@ void set_roll(ShipParticulars& ship, const MotionSpec& spec, double mass) {
   ship.roll.quadratic = spec.roll_quadratic_damping;
   ship.lateral_damping(1, 1) += viscous;
   ship.lateral_mass(1, 1) += inertia;
-  ship.gyration.x() = std::sqrt(inertia / mass);
+  ship.radii_of_gyration.x() = std::sqrt(inertia / mass);
 }
 
 void set_pitch_and_heave(ShipParticulars& ship, const MotionSpec& spec, double mass) {
@@ -99,7 +99,7 @@ void set_pitch_and_heave(ShipParticulars& ship, const MotionSpec& spec, double m
   ship.pitch.damping = given_or(spec.pitch_damping, radiated / critical);
   ship.pitch_damping = ship.pitch.damping * critical - radiated;
   ship.vertical_mass(1, 1) += inertia;
-  ship.gyration.y() = std::sqrt(inertia / mass);
+  ship.radii_of_gyration.y() = std::sqrt(inertia / mass);
 
   const auto heave = [&](double omega) -> Complex {
     return ship.vertical_stiffness(0, 0) - ship.strips->radiation(omega, 0).vertical(0, 0);
@@ -133,7 +133,7 @@ ShipParticulars ship_particulars(const MotionSpec& spec, const HullSections& hul
   const double z = ship.centre_of_gravity.z();
   const double weight = kSeaWaterDensity * kGravity;
   const double yaw_radius = given_or(spec.yaw_radius_m, kPitchRadius * ship.length);
-  ship.gyration.z() = yaw_radius;
+  ship.radii_of_gyration.z() = yaw_radius;
   // A body's momentum with G beside the origin; roll's and pitch's own inertia follow below.
   ship.lateral_mass << 1, -z, x,  //
       -z, z * z, -x * z,          //

@@ -23,8 +23,8 @@ struct ShipParticulars {
   double metacentric_height = 0;  // GM, m
   double speed = 0;               // along +x, m/s
   Vec3 centre_of_gravity = Vec3::Zero();
-  Vec3 rotation_centre = Vec3::Zero();  // whose translations are told
-  Vec3 gyration = Vec3::Zero();         // radii of the mass about the centre of gravity in roll, pitch, yaw, m
+  Vec3 rotation_centre = Vec3::Zero();    // whose translations are told
+  Vec3 radii_of_gyration = Vec3::Zero();  // radii of the mass about the centre of gravity in roll, pitch, yaw, m
 
   // Roll as it is near its resonance, sway and yaw following freely: natural frequency and damping with added mass and
   // radiation. Pitch and heave likewise, each alone.

@@ -20,7 +20,7 @@ constexpr double kSlowestEncounter = 0.1;
 
 }  // namespace
 
-ShipResponse ship_rao(const ShipParticulars& ship, const ShipWave& wave) {
+MotionRao ship_rao(const ShipParticulars& ship, const ShipWave& wave) {
   double omega = encounter_frequency(wave, ship.speed);
   // A wave that is as slow by itself is none of these.
   const double slowest = std::min(kSlowestEncounter, 0.5 * wave.omega);

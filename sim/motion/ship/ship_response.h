@@ -11,9 +11,9 @@ namespace seaglint {
 
 // Response amplitude operators, rad/m and m/m, in the time factor e^{j w_e t} of the encounter frequency; translations
 // of the rotation centre. The phase reference is the elevation at the ship's origin.
-struct ShipResponse {
+struct MotionRao {
   Complex surge, sway, heave, roll, pitch, yaw;
 };
-ShipResponse ship_rao(const ShipParticulars& ship, const ShipWave& wave);
+MotionRao ship_rao(const ShipParticulars& ship, const ShipWave& wave);
 
 }  // namespace seaglint

@@ -63,13 +63,13 @@ double strip_x(double length, int i, int count) { return length * ((i + 0.5) / c
 }  // namespace
 
 HullSections sections_of_form(double length, double beam, double draught, const HullCoefficients& form, int count) {
-  const Fullness breadth = Fullness::meeting(form.waterplane, form.flotation, "waterplane");
-  const Fullness area = Fullness::meeting(form.block / form.midship, form.buoyancy, "prismatic");
+  const Fullness breadth = Fullness::meeting(form.waterplane_coefficient, form.lcf, "waterplane");
+  const Fullness area = Fullness::meeting(form.block_coefficient / form.midship_coefficient, form.lcb, "prismatic");
   HullSections hull{length, {}};
   for (int i = 0; i < count; ++i) {
     const double x = strip_x(length, i, count);
     const double u = 2 * x / length;
-    hull.sections.push_back({x, beam * breadth.at(u), draught, form.midship * beam * draught * area.at(u)});
+    hull.sections.push_back({x, beam * breadth.at(u), draught, form.midship_coefficient * beam * draught * area.at(u)});
   }
   return hull;
 }
@@ -125,10 +125,10 @@ HullSection section_at(const TriangleMesh& mesh, double x) {
 }  // namespace
 
 HullSections sections_of_mesh(const TriangleMesh& mesh, int count) {
-  constexpr double kLeastDraught = 0.02;  // per breadth: a mesh cut at the waterline dips by rounding only
+  constexpr double kMinDraught = 0.02;  // per breadth: a mesh cut at the waterline dips by rounding only
   double aft = 0, forward = 0;
   const Bounds box = bounds(mesh);
-  if (box.lower.z() > -kLeastDraught * (box.upper.y() - box.lower.y())) return {};
+  if (box.lower.z() > -kMinDraught * (box.upper.y() - box.lower.y())) return {};
   // The waterline's ends: where triangles cross z = 0.
   bool crosses = false;
   for (const auto& triangle : mesh.triangles) {
@@ -176,7 +176,7 @@ HullSections read_sections(const std::filesystem::path& file, int count) {
   return hull;
 }
 
-HullSections stretched(HullSections hull, double length, double beam, double draught) {
+HullSections scaled_to(HullSections hull, double length, double beam, double draught) {
   const auto factor = [](double wanted, double is) { return wanted > 0 ? wanted / is : 1.0; };
   const double along = factor(length, hull.length);
   const double across = factor(beam, hull.beam());

@@ -20,11 +20,11 @@ struct HullSection {
 
 // Shape of the hull below the waterline; by default that of model DTMB 5415, a fast displacement hull.
 struct HullCoefficients {
-  double block = 0.507;       // volume / (L B T)
-  double waterplane = 0.778;  // waterplane area / (L B)
-  double midship = 0.821;     // area of the midship section / (B T)
-  double buoyancy = 0;        // centre of the volume, forward of amidships, per L
-  double flotation = 0;       // centre of the waterplane, likewise
+  double block_coefficient = 0.507;       // volume / (L B T)
+  double waterplane_coefficient = 0.778;  // waterplane area / (L B)
+  double midship_coefficient = 0.821;     // area of the midship section / (B T)
+  double lcb = 0;                         // centre of the volume, forward of amidships, per L
+  double lcf = 0;                         // centre of the waterplane, likewise
 };
 
 // Sections in the middle of `count` strips of equal length, length/count each.
@@ -49,6 +49,6 @@ HullSections sections_of_mesh(const TriangleMesh& mesh, int count);
 HullSections read_sections(const std::filesystem::path& file, int count);
 
 // The hull stretched to these dimensions (0 = as it is), m.
-HullSections stretched(HullSections hull, double length, double beam, double draught);
+HullSections scaled_to(HullSections hull, double length, double beam, double draught);
 
 }  // namespace seaglint

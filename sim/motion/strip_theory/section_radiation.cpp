@@ -123,7 +123,7 @@ Contour contour_of(const LewisForm& form) {
 // Amplitudes of the potentials by least squares of the stream function on the contour (de Jong 1973): a velocity V of
 // the wall needs d psi = V.n dl, so psi = z in sway, -y in heave, -(y^2 + z^2)/2 in roll; in the odd modes, whose
 // stream function does not vanish below the keel, up to a constant.
-SectionRadiation radiate(const LewisForm& form, const Contour& contour, double wavenumber) {
+SectionRadiation solve_radiation(const LewisForm& form, const Contour& contour, double wavenumber) {
   using Matrix = Eigen::Matrix<Complex, kContourPoints, Eigen::Dynamic, 0, kContourPoints, kMultipoles + 2>;
   constexpr int kUnknowns = kMultipoles + 1;
   Matrix even(kContourPoints, kUnknowns), odd(kContourPoints, kUnknowns + 1);
@@ -165,8 +165,8 @@ SectionRadiation radiate(const LewisForm& form, const Contour& contour, double w
   }
   // Far away the source is -j pi e^{-jK|y|}, the dipole -pi K length; eta = -(1/g) d phi/dt of a velocity jw.
   const double dipole_wave = kPi * wavenumber * wavenumber * form.scale;
-  result.far_wave = {dipole_wave * std::abs(across(0, 0)), kPi * wavenumber * std::abs(up(0)),
-                     dipole_wave * std::abs(across(0, 1))};
+  result.radiated_wave_ratio = {dipole_wave * std::abs(across(0, 0)), kPi * wavenumber * std::abs(up(0)),
+                                dipole_wave * std::abs(across(0, 1))};
   const auto largest = [](const auto& v) { return v.cwiseAbs().maxCoeff(); };
   const Eigen::MatrixXcd across_error = odd * across - sway_roll;
   result.residual = {largest(across_error.col(0)) / largest(sway_roll.col(0)),

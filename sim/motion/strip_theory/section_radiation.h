@@ -28,13 +28,13 @@ struct SectionRadiation {
   // Potential at the contour's points; even in y for heave, odd for sway and roll.
   std::array<std::array<Complex, kContourPoints>, kSectionModes> potential;
   // Amplitude of the waves sent out to y > 0, per unit amplitude of the motion: |eta| = value |x|.
-  std::array<double, kSectionModes> far_wave;
+  std::array<double, kSectionModes> radiated_wave_ratio;
 
   // int phi_k n_j dl over both sides (m^2 to m^4): added mass -rho Re, damping rho w Im.
   Complex integral(const Contour& contour, SectionMode force, SectionMode motion) const;
   // The largest error of the boundary condition's stream function over its largest value, by mode.
   std::array<double, kSectionModes> residual;
 };
-SectionRadiation radiate(const LewisForm& form, const Contour& contour, double wavenumber);
+SectionRadiation solve_radiation(const LewisForm& form, const Contour& contour, double wavenumber);
 
 }  // namespace seaglint

@@ -44,20 +44,20 @@ StripTheory::Strip StripTheory::solve(const HullSection& section, const LewisFor
   const LewisForm lateral = lewis_form(breadth, draught, coefficient * breadth * draught);
   Strip strip;
   strip.x = section.x;
-  strip.wall = contour_of(form);
-  strip.upright = contour_of(upright);
-  strip.lateral = contour_of(lateral);
+  strip.contour = contour_of(form);
+  strip.heave_contour = contour_of(upright);
+  strip.lateral_contour = contour_of(lateral);
   for (int n = 1; n <= kFrequencies; ++n) {
     const double wavenumber = step * n * step * n / kGravity;
-    SectionRadiation flow = radiate(lateral, strip.lateral, wavenumber);
+    SectionRadiation flow = solve_radiation(lateral, strip.lateral_contour, wavenumber);
     if (breadth > section.breadth) {
-      flow.potential[kHeave] = radiate(upright, strip.upright, wavenumber).potential[kHeave];
+      flow.potential[kHeave] = solve_radiation(upright, strip.heave_contour, wavenumber).potential[kHeave];
     }
-    const Contour& c = strip.lateral;
+    const Contour& c = strip.lateral_contour;
     strip.integrals.push_back({flow.integral(c, kSway, kSway),
                                // Equal by Green's theorem; their mean halves the error of the truncated series.
                                0.5 * (flow.integral(c, kSway, kRoll) + flow.integral(c, kRoll, kSway)),
-                               flow.integral(c, kRoll, kRoll), flow.integral(strip.upright, kHeave, kHeave)});
+                               flow.integral(c, kRoll, kRoll), flow.integral(strip.heave_contour, kHeave, kHeave)});
     strip.radiation.push_back(flow);
   }
   return strip;
@@ -70,7 +70,7 @@ StripTheory::StripTheory(const HullSections& hull) {
     throw InputError(fmt::format("hull sections: length {:.4g} m, breadth {:.4g} m, draught {:.4g} m: all must be > 0",
                                  hull.length, beam, draught));
   }
-  step_ = std::sqrt(kGravity * kHighestBreadth / (0.5 * beam)) / kFrequencies;
+  step_ = std::sqrt(kGravity * kMaxHalfBeamNumber / (0.5 * beam)) / kFrequencies;
   const double width = hull.length / static_cast<double>(hull.sections.size());
   Hydrostatics& h = hydrostatics_;
   double volume_x = 0, volume_z = 0;
@@ -153,7 +153,7 @@ ShipForces StripTheory::excitation(const ShipWave& wave, double speed) const {
     Complex sway_d = 0, heave_d = 0, roll_d = 0;  // diffraction over rho w0 w
     double water = 0;                             // int e^{kz - jky sin mu} dA
     for (std::size_t p = 0; p < kContourPoints; ++p) {
-      const Contour& c = strip.wall;
+      const Contour& c = strip.contour;
       const WaveOnWall here(c, p, k, beta);
       water -= here.n_z * (1 - std::exp(k * c.z[p])) / k * std::cos(k * beta * c.y[p]);
       heave += here.cosine * here.n_z;
@@ -169,9 +169,9 @@ ShipForces StripTheory::excitation(const ShipWave& wave, double speed) const {
       if (encounter < 0) {
         for (Complex& value : potential) value = std::conj(value);
       }
-      const WaveOnWall up(strip.upright, p, k, beta);
+      const WaveOnWall up(strip.heave_contour, p, k, beta);
       heave_d += potential[kHeave] * (up.n_z * up.cosine - beta * up.n_y * up.sine);
-      const WaveOnWall side(strip.lateral, p, k, beta);
+      const WaveOnWall side(strip.lateral_contour, p, k, beta);
       const Complex odd = -kJ * (side.n_z * side.sine + beta * side.n_y * side.cosine);
       sway_d += potential[kSway] * odd;
       roll_d += potential[kRoll] * odd;

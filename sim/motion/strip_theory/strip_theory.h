@@ -40,7 +40,7 @@ struct ShipForces {
 
 class StripTheory {
  public:
-  // Solves the radiation problem of every strip at kFrequencies up to K B/2 = kHighestBreadth; about 0.2 s. Throws
+  // Solves the radiation problem of every strip at kFrequencies up to K B/2 = kMaxHalfBeamNumber; about 0.2 s. Throws
   // InputError for a hull without breadth or draught.
   explicit StripTheory(const HullSections& hull);
 
@@ -60,14 +60,14 @@ class StripTheory {
   double highest_omega() const { return step_ * kFrequencies; }
 
   static constexpr int kFrequencies = 48;
-  static constexpr double kHighestBreadth = 12;
+  static constexpr double kMaxHalfBeamNumber = 12;
 
  private:
   struct Strip {
     double x = 0;
     double width = 0;
-    Contour wall;              // as it is
-    Contour upright, lateral;  // for the flow in heave, and in sway and roll
+    Contour contour;                         // as it is
+    Contour heave_contour, lateral_contour;  // for the flow in heave, and in sway and roll
     // At each frequency: potentials of both flows, and int phi_k n_j dl for 22, 24, 44, 33.
     std::vector<SectionRadiation> radiation;
     std::vector<std::array<Complex, 4>> integrals;

@@ -9,17 +9,17 @@
 
 namespace seaglint {
 
-Prism prism_around(std::span<const MovingPolygon> window, const Leg& leg, const RadarBasis& basis,
-                   std::span<const Facet> facets) {
+Prism bounding_prism(std::span<const MovingPolygon> window, const BeamSegment& segment, const RadarBasis& basis,
+                     std::span<const Facet> facets) {
   // The prism runs along the window's longest side: a long window lies askew as often as not.
   Vec2 longest = Vec2::UnitX();
-  double most = 0;
+  double max = 0;
   for (const MovingPolygon& piece : window) {
     const Vec2* from = &piece.back().p;
-    for (const Corner& to : piece) {
+    for (const MovingVertex& to : piece) {
       const double squared = (to.p - *from).squaredNorm();
-      if (squared > most) {
-        most = squared;
+      if (squared > max) {
+        max = squared;
         longest = to.p - *from;
       }
       from = &to.p;
@@ -27,29 +27,29 @@ Prism prism_around(std::span<const MovingPolygon> window, const Leg& leg, const 
   }
   longest.normalize();
   const std::array<Vec2, 2> axis{longest, Vec2(-longest.y(), longest.x())};
-  const Vec2 t(leg.mirrors.t.dot(basis.h), leg.mirrors.t.dot(basis.v));
+  const Vec2 t(segment.image_transform.t.dot(basis.h), segment.image_transform.t.dot(basis.v));
   Prism prism;
   for (int i = 0; i < 2; ++i) {
-    prism.across[i] = leg.mirrors.L.transpose() * (axis[i].x() * basis.h + axis[i].y() * basis.v);
+    prism.across[i] = segment.image_transform.L.transpose() * (axis[i].x() * basis.h + axis[i].y() * basis.v);
     prism.lower[i] = std::numeric_limits<double>::infinity();
     prism.upper[i] = -prism.lower[i];
     for (const MovingPolygon& piece : window) {
-      for (const Corner& corner : piece) {
-        const double at = axis[i].dot(corner.p - t);
+      for (const MovingVertex& vertex : piece) {
+        const double at = axis[i].dot(vertex.p - t);
         prism.lower[i] = std::min(prism.lower[i], at);
         prism.upper[i] = std::max(prism.upper[i], at);
       }
     }
   }
-  prism.normal = leg.from_normal;
-  prism.offset = leg.from_normal.dot(facets[leg.from_facet].corner[0]) + kCoincident;
-  prism.along = prism.wave = leg.direction;
+  prism.normal = segment.source_normal;
+  prism.offset = segment.source_normal.dot(facets[segment.source_facet].corner[0]) + kCoincident;
+  prism.along = prism.wave = segment.direction;
   return prism;
 }
 
-Meeting meeting(const Leg& leg, const Prism& prism, const TreePanel& panel) {
+PrismOverlap test_overlap(const BeamSegment& segment, const Prism& prism, const BvhPanel& panel) {
   // The lit side of a closed part faces the beam.
-  const double facing = panel.normal.dot(leg.direction);
+  const double facing = panel.normal.dot(segment.direction);
   if (!panel.open && facing >= 0) return {};
   const std::span<const Vec3> outline = panel.outline();
   std::size_t beyond = 0;
@@ -77,13 +77,13 @@ Meeting meeting(const Leg& leg, const Prism& prism, const TreePanel& panel) {
   for (int i = 0; i < 2; ++i) {
     if (upper[i] <= prism.lower[i] || lower[i] >= prism.upper[i]) return {};
   }
-  Meeting result{true};
+  PrismOverlap result{true};
   if (covers && std::abs(facing) > kEdgeOn) {
     // The farthest point of the facet's plane in the prism: along . x = (offset - across part of normal . x) /
     // (normal . along).
     const double a = panel.normal.dot(prism.across[0]), b = panel.normal.dot(prism.across[1]);
     const double centre = (panel.normal.dot(outline.front()) - a * middle.x() - b * middle.y()) / facing;
-    result.covered = centre + (std::abs(a) * half.x() + std::abs(b) * half.y()) / std::abs(facing);
+    result.full_cover_distance = centre + (std::abs(a) * half.x() + std::abs(b) * half.y()) / std::abs(facing);
   }
   return result;
 }

@@ -13,15 +13,15 @@ namespace seaglint {
 
 // Around the convex pieces of the aperture that a leg comes through, one or more, on the side of the mirror that the
 // leg leaves; `basis` is that of the aperture.
-Prism prism_around(std::span<const MovingPolygon> window, const Leg& leg, const RadarBasis& basis,
-                   std::span<const Facet> facets);
+Prism bounding_prism(std::span<const MovingPolygon> window, const BeamSegment& segment, const RadarBasis& basis,
+                     std::span<const Facet> facets);
 
 // How a panel whose box meets a leg's prism stands to the prism itself.
-struct Meeting {
-  bool may = false;  // they may meet; false for most: they face away, lie behind the mirror or beside the window
+struct PrismOverlap {
+  bool possible = false;  // they may meet; false for most: they face away, lie behind the mirror or beside the window
   // Where along the prism nothing more can be lit, m, since the panel covers all of it.
-  double covered = std::numeric_limits<double>::infinity();
+  double full_cover_distance = std::numeric_limits<double>::infinity();
 };
-Meeting meeting(const Leg& leg, const Prism& prism, const TreePanel& panel);
+PrismOverlap test_overlap(const BeamSegment& segment, const Prism& prism, const BvhPanel& panel);
 
 }  // namespace seaglint

@@ -16,18 +16,18 @@ class BeamVisitor {
  public:
   virtual ~BeamVisitor() = default;
   // Whether the leg matters although no receiver sees anything of what it lights.
-  virtual bool wants(const Leg& leg) const = 0;
+  virtual bool wants(const BeamSegment& segment) const = 0;
   // The candidate's lit pieces.
-  virtual void lit(const Leg& leg, const Candidate& candidate) = 0;
+  virtual void lit(const BeamSegment& segment, const CandidatePanel& candidate) = 0;
   // What a receiver of the scene sees of them directly.
-  virtual void seen(const Leg& leg, const Candidate& candidate, std::size_t receiver,
+  virtual void seen(const BeamSegment& segment, const CandidatePanel& candidate, std::size_t receiver,
                     std::span<const MovingPolygon> pieces) = 0;
 };
 
 // Follows all beams whose first mirror is the panel of one of these facets; returns the legs followed. Calls
 // after_each() when the beams of one are followed.
 std::size_t trace_beams(
-    const BeamScene& scene, std::span<const int> facets, BeamVisitor& visitor,
+    const TracingContext& scene, std::span<const int> facets, BeamVisitor& visitor,
     const std::function<void()>& after_each = [] {});
 
 }  // namespace seaglint

@@ -19,8 +19,8 @@ RadarBasis radar_basis(const Vec3& r_hat) {
   return basis;
 }
 
-AntennaPair monostatic(const RadarBasis& basis) { return {basis, basis, true}; }
+BistaticGeometry monostatic(const RadarBasis& basis) { return {basis, basis, true}; }
 
-AntennaPair bistatic(const RadarBasis& transmit, const RadarBasis& receive) { return {transmit, receive, false}; }
+BistaticGeometry bistatic(const RadarBasis& transmit, const RadarBasis& receive) { return {transmit, receive, false}; }
 
 }  // namespace seaglint

@@ -15,13 +15,13 @@ struct RadarBasis {
 };
 
 // Where the wave comes from and where its echo is received, each with the polarisation basis of its own direction.
-struct AntennaPair {
+struct BistaticGeometry {
   RadarBasis transmit;
   RadarBasis receive;
   bool monostatic = true;  // receive is transmit
 };
-AntennaPair monostatic(const RadarBasis& basis);
-AntennaPair bistatic(const RadarBasis& transmit, const RadarBasis& receive);
+BistaticGeometry monostatic(const RadarBasis& basis);
+BistaticGeometry bistatic(const RadarBasis& transmit, const RadarBasis& receive);
 
 // The unit vector from the target to the radar at these angles, rad, in the target frame (CONVENTIONS.md, "Frames").
 Vec3 direction_to_radar(double azimuth_rad, double elevation_rad);

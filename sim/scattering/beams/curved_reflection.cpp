@@ -3,32 +3,33 @@
 
 namespace seaglint {
 
-BentRays travelled(const Leg& leg, const Candidate& candidate) {
-  const Vec2 c = centroid(candidate.lit.polygons().front());
-  BentRays rays = leg.rays;
-  rays.travel(leg.from_plane.at(c) - candidate.image.plane.at(c));
-  return rays;
+ParaxialBundle propagated_to(const BeamSegment& segment, const CandidatePanel& candidate) {
+  const Vec2 c = centroid(candidate.illuminated.polygons().front());
+  ParaxialBundle bundle = segment.ray_bundle;
+  bundle.propagate(segment.source_plane.at(c) - candidate.projection.plane.at(c));
+  return bundle;
 }
 
-Vec2 projected(const Curving& on, const Leg& leg, const Vec3& x) {
-  const Vec3 image = leg.mirrors.image(x);
+Vec2 projected(const CurvatureContext& on, const BeamSegment& segment, const Vec3& x) {
+  const Vec3 image = segment.image_transform.image(x);
   return {image.dot(on.transmit.h), image.dot(on.transmit.v)};
 }
 
-std::array<Vec2, 3> projected(const Curving& on, const Leg& leg, int facet) {
+std::array<Vec2, 3> projected(const CurvatureContext& on, const BeamSegment& leg, int facet) {
   const auto& [a, b, c] = on.facets[facet].corner;
   return {projected(on, leg, a), projected(on, leg, b), projected(on, leg, c)};
 }
 
-BentRays reflected_rays(const Curving& on, const Leg& leg, const Candidate& candidate) {
-  BentRays rays;
-  if (leg.bent) rays = travelled(leg, candidate);
-  const int facet = candidate.image.facet;
-  if (!on.surface.curved(facet)) return rays;
+ParaxialBundle reflected_bundle(const CurvatureContext& on, const BeamSegment& segment,
+                                const CandidatePanel& candidate) {
+  ParaxialBundle bundle;
+  if (segment.has_curved_reflection) bundle = propagated_to(segment, candidate);
+  const int facet = candidate.projection.facet;
+  if (!on.surface.curved(facet)) return bundle;
   // Fermat: a mirror that stands higher by s shortens the path by 2 s cos(incidence).
-  rays.reflect(bump(Barycentric(projected(on, leg, facet)),
-                    over_edges(on, leg, facet, [](double cosine) { return 2 * cosine; })));
-  return rays;
+  bundle.reflect(edge_midpoint_quadratic(Barycentric(projected(on, segment, facet)),
+                                         edge_sagittas(on, segment, facet, [](double cosine) { return 2 * cosine; })));
+  return bundle;
 }
 
 }  // namespace seaglint

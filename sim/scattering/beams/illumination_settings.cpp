@@ -9,25 +9,25 @@ namespace seaglint {
 namespace {
 
 // Side of the smallest lit piece that counts, in radii: 5 mm on the 144 m ship.
-constexpr double kSmallestSide = 0.7e-4;
+constexpr double kMinPatchSide = 0.7e-4;
 // A lattice of rays finds most pieces whose side is a fourteenth of its spacing, with one more ray inside every corner.
 constexpr double kSpacingPerSide = 14;
 
 }  // namespace
 
-double smallest_area(const Scatterer& scatterer, const IlluminationSettings& settings) {
+double smallest_area(const Scatterer& scatterer, const TracingSettings& settings) {
   const double side = ray_spacing(scatterer, settings) / kSpacingPerSide;
   return side * side;
 }
 
-double default_ray_spacing(const Scatterer& scatterer) { return kSpacingPerSide * kSmallestSide * scatterer.radius(); }
+double default_ray_spacing(const Scatterer& scatterer) { return kSpacingPerSide * kMinPatchSide * scatterer.radius(); }
 
-double ray_spacing(const Scatterer& scatterer, const IlluminationSettings& settings) {
+double ray_spacing(const Scatterer& scatterer, const TracingSettings& settings) {
   const double coarsest = default_ray_spacing(scatterer);
   return settings.ray_spacing_m > 0 ? std::min(coarsest, settings.ray_spacing_m) : coarsest;
 }
 
-double faintest_echo(const Scatterer& scatterer, const IlluminationSettings& settings, double k) {
+double min_amplitude(const Scatterer& scatterer, const TracingSettings& settings, double k) {
   return 0.1 * k * smallest_area(scatterer, settings) / (2 * kPi);
 }
 

@@ -3,7 +3,7 @@
 
 namespace seaglint {
 
-MovingLine ImagePlane::moving() const {
+MovingLine DepthPlane::moving() const {
   MovingLine line;
   line.value = z0;
   line.gradient = slope;
@@ -14,7 +14,7 @@ MovingLine ImagePlane::moving() const {
   return line;
 }
 
-ImagePlane image_plane(const Vec3& n, double offset, const RadarBasis& basis) {
+DepthPlane depth_plane(const Vec3& n, double offset, const RadarBasis& basis) {
   const double nr = n.dot(basis.r);
   return {offset / nr, Vec2(-n.dot(basis.h) / nr, -n.dot(basis.v) / nr)};
 }

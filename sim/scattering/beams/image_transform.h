@@ -9,7 +9,7 @@
 namespace seaglint {
 
 // Reflections in planes, composed: image = L real + t, with L orthogonal.
-struct Mirror {
+struct ImageTransform {
   Mat3 L = Mat3::Identity();
   Vec3 t = Vec3::Zero();
 
@@ -18,19 +18,21 @@ struct Mirror {
 };
 
 // One after the other: first b.
-inline Mirror operator*(const Mirror& a, const Mirror& b) { return {a.L * b.L, a.L * b.t + a.t}; }
+inline ImageTransform operator*(const ImageTransform& a, const ImageTransform& b) {
+  return {a.L * b.L, a.L * b.t + a.t};
+}
 
 // By the plane n . x = offset, n unit.
-inline Mirror plane_mirror(const Vec3& n, double offset) {
+inline ImageTransform plane_reflection(const Vec3& n, double offset) {
   return {Mat3::Identity() - 2 * n * n.transpose(), 2 * offset * n};
 }
 
 // A direction as the plane with unit normal n mirrors it.
-inline Vec3 mirrored(const Vec3& x, const Vec3& n) { return x - 2 * n.dot(x) * n; }
+inline Vec3 reflect_direction(const Vec3& x, const Vec3& n) { return x - 2 * n.dot(x) * n; }
 
 // A facet's plane seen along the unfolded ray: height above the aperture plane z(p) = z0 + slope . p, positive towards
 // the radar.
-struct ImagePlane {
+struct DepthPlane {
   double z0 = 0;
   Vec2 slope = Vec2::Zero();
 
@@ -40,6 +42,6 @@ struct ImagePlane {
 };
 
 // The plane n . x = offset (image space, n need not point to the radar); n . r^ must not vanish.
-ImagePlane image_plane(const Vec3& n, double offset, const RadarBasis& basis);
+DepthPlane depth_plane(const Vec3& n, double offset, const RadarBasis& basis);
 
 }  // namespace seaglint

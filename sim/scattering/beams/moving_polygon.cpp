@@ -14,7 +14,7 @@ Vec2 left_of(const Vec2& along) { return {-along.y(), along.x()}; }
 
 // The line through two corners, positive on the left and as steep as they are apart. The scale may stay fixed as they
 // move: only the zero of the function matters.
-MovingLine line_of_edge(const Corner& from, const Corner& to) {
+MovingLine line_of_edge(const MovingVertex& from, const MovingVertex& to) {
   MovingLine line;
   line.gradient = left_of(to.p - from.p);
   line.value = -line.gradient.dot(from.p);
@@ -30,11 +30,11 @@ MovingLine opposite(const MovingLine& line) {
 }
 
 // Where the edge a -> b meets the line, whose values fa and fb at its ends have opposite signs.
-Corner meet(const Corner& a, const Corner& b, double fa, double fb, const MovingLine& line) {
+MovingVertex meet(const MovingVertex& a, const MovingVertex& b, double fa, double fb, const MovingLine& line) {
   const double tau = fa / (fa - fb);
-  Corner corner;
+  MovingVertex vertex;
   const Vec2 along = b.p - a.p;
-  corner.p = a.p + tau * along;
+  vertex.p = a.p + tau * along;
   // The derivative of tau from the total derivatives of the line's value at the two moving ends.
   const auto turned = [&](const Vec2& da, const Vec2& db, double value_d, const Vec2& gradient_d) -> Vec2 {
     const double dfa = value_d + gradient_d.dot(a.p) + line.gradient.dot(da);
@@ -42,9 +42,9 @@ Corner meet(const Corner& a, const Corner& b, double fa, double fb, const Moving
     const double dtau = (fa * dfb - fb * dfa) / ((fa - fb) * (fa - fb));
     return da + tau * (db - da) + dtau * along;
   };
-  corner.d1 = turned(a.d1, b.d1, line.value_d1, line.gradient_d1);
-  corner.d2 = turned(a.d2, b.d2, line.value_d2, line.gradient_d2);
-  return corner;
+  vertex.d1 = turned(a.d1, b.d1, line.value_d1, line.gradient_d1);
+  vertex.d2 = turned(a.d2, b.d2, line.value_d2, line.gradient_d2);
+  return vertex;
 }
 
 // Where the corners of a polygon lie with respect to a line.
@@ -74,10 +74,10 @@ Side clip_by(const MovingPolygon& polygon, const Distance& distance, double on_l
     const double f = i < kRemembered ? remembered[i] : distance(polygon[i].p);
     return std::abs(f) < on_line ? 0.0 : f;
   };
-  const Corner* a = &polygon.back();
+  const MovingVertex* a = &polygon.back();
   double fa = value(polygon.size() - 1);
   for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Corner& b = polygon[i];
+    const MovingVertex& b = polygon[i];
     const double fb = value(i);
     if ((fa > 0 && fb < 0) || (fa < 0 && fb > 0)) {
       kept.push_back(meet(*a, b, fa, fb, line));
@@ -93,21 +93,21 @@ Side clip_by(const MovingPolygon& polygon, const Distance& distance, double on_l
 
 // Where all corners in a box lie with respect to an edge: to its left kInside, as also where it has no length; kBoth:
 // they have to be looked at. Of two polygons that meet a box tells most edges.
-Side side_of_edge(const Box& box, const Corner& from, const Corner& to) {
+Side side_of_edge(const Box& box, const MovingVertex& from, const MovingVertex& to) {
   const Vec2 left = left_of(to.p - from.p), steep = left.cwiseAbs();
   const double centre = left.dot(0.5 * (box.lower + box.upper) - from.p);
-  const double reach = steep.dot(0.5 * (box.upper - box.lower)) + kOnLine * steep.sum();
-  if (centre > reach || left.squaredNorm() < kOnLine * kOnLine) return Side::kInside;
+  const double reach = steep.dot(0.5 * (box.upper - box.lower)) + kLineTolerance * steep.sum();
+  if (centre > reach || left.squaredNorm() < kLineTolerance * kLineTolerance) return Side::kInside;
   return centre < -reach ? Side::kOutside : Side::kBoth;
 }
 
 // Clips by one edge of another polygon: keeps its left side. The line is as steep as the edge is long, which saves a
 // division for each.
-Side clip_by_edge(const MovingPolygon& polygon, const Corner& from, const Corner& to, MovingPolygon& kept,
+Side clip_by_edge(const MovingPolygon& polygon, const MovingVertex& from, const MovingVertex& to, MovingPolygon& kept,
                   MovingPolygon* cut_off = nullptr) {
   const Vec2 left = left_of(to.p - from.p);
   return clip_by(
-      polygon, [&](const Vec2& p) { return left.dot(p - from.p); }, kOnLine * left.norm(),
+      polygon, [&](const Vec2& p) { return left.dot(p - from.p); }, kLineTolerance * left.norm(),
       [&] { return line_of_edge(from, to); }, kept, cut_off);
 }
 
@@ -135,7 +135,7 @@ MovingPolygon clip(const MovingPolygon& polygon, const MovingLine& line, int kee
   const MovingLine inside = keep > 0 ? line : opposite(line);
   MovingPolygon kept;
   switch (clip_by(
-      polygon, [&](const Vec2& p) { return inside.at(p); }, kOnLine, [&] { return inside; }, kept)) {
+      polygon, [&](const Vec2& p) { return inside.at(p); }, kLineTolerance, [&] { return inside; }, kept)) {
     case Side::kInside: return polygon;
     case Side::kOutside: return {};
     case Side::kBoth: return kept;
@@ -143,14 +143,15 @@ MovingPolygon clip(const MovingPolygon& polygon, const MovingLine& line, int kee
   return kept;
 }
 
-std::array<MovingPolygon, 2> halves(const MovingPolygon& polygon, const MovingLine& line) {
+std::array<MovingPolygon, 2> split_by_line(const MovingPolygon& polygon, const MovingLine& line) {
   MovingPolygon above, below;
   const auto at = [&](const Vec2& p) { return line.at(p); };
   const Side side = clip_by(
-      polygon, at, kOnLine, [&] { return line; }, above, &below);
+      polygon, at, kLineTolerance, [&] { return line; }, above, &below);
   if (side == Side::kInside) return {polygon, {}};
   if (above.empty() && below.empty()) {  // on one side, or all on the line
-    if (std::ranges::any_of(polygon, [&](const Corner& c) { return line.at(c.p) <= -kOnLine; })) below = polygon;
+    if (std::ranges::any_of(polygon, [&](const MovingVertex& c) { return line.at(c.p) <= -kLineTolerance; }))
+      below = polygon;
   }
   for (MovingPolygon* half : {&above, &below}) {
     if (half->size() < 3) half->clear();
@@ -158,14 +159,14 @@ std::array<MovingPolygon, 2> halves(const MovingPolygon& polygon, const MovingLi
   return {std::move(above), std::move(below)};
 }
 
-bool apart(const MovingPolygon& a, const MovingPolygon& b) {
+bool disjoint(const MovingPolygon& a, const MovingPolygon& b) {
   const auto outside_an_edge = [](const MovingPolygon& edges, const MovingPolygon& corners) {
     const Vec2* from = &edges.back().p;
-    for (const Corner& to : edges) {
+    for (const MovingVertex& to : edges) {
       const Vec2 along = to.p - *from;
-      const double on_line = kOnLine * along.norm();
+      const double on_line = kLineTolerance * along.norm();
       if (std::all_of(corners.begin(), corners.end(),
-                      [&](const Corner& c) { return cross(along, c.p - *from) <= on_line; }))
+                      [&](const MovingVertex& c) { return cross(along, c.p - *from) <= on_line; }))
         return true;
       from = &to.p;
     }
@@ -180,7 +181,7 @@ bool subtract(const MovingPolygon& polygon, const Box& around, const MovingPolyg
   MovingPolygon rests[2], outside;  // what is inside all edges so far, and where the next clip goes
   const MovingPolygon* rest = &polygon;
   for (std::size_t i = 0; i < hole.size(); ++i) {
-    const Corner &from = hole[i], &to = hole[i + 1 == hole.size() ? 0 : i + 1];
+    const MovingVertex &from = hole[i], &to = hole[i + 1 == hole.size() ? 0 : i + 1];
     MovingPolygon& next = rests[rest == &rests[0] ? 1 : 0];
     Side side = side_of_edge(around, from, to);
     if (side == Side::kBoth) side = clip_by_edge(*rest, from, to, next, &outside);
@@ -201,7 +202,7 @@ MovingPolygon intersect(const MovingPolygon& a, const Box& around, const MovingP
   MovingPolygon rests[2];
   const MovingPolygon* rest = &a;
   for (std::size_t i = 0; i < b.size(); ++i) {
-    const Corner &from = b[i], &to = b[i + 1 == b.size() ? 0 : i + 1];
+    const MovingVertex &from = b[i], &to = b[i + 1 == b.size() ? 0 : i + 1];
     MovingPolygon& next = rests[rest == &rests[0] ? 1 : 0];
     Side side = side_of_edge(around, from, to);
     if (side == Side::kBoth) side = clip_by_edge(*rest, from, to, next);

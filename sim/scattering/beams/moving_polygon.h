@@ -19,17 +19,17 @@
 
 namespace seaglint {
 
-struct Corner {
+struct MovingVertex {
   Vec2 p = Vec2::Zero();   // m
   Vec2 d1 = Vec2::Zero();  // dp / d d1, m/rad
   Vec2 d2 = Vec2::Zero();  // dp / d d2
 };
 
-// Corners in order: convex, counter-clockwise. Up to kInPlace of them need no memory of their own, which is nearly
-// always enough and makes polygons cheap to come and go.
+// Corners in order: convex, counter-clockwise. Up to kInlineVertices of them need no memory of their own, which is
+// nearly always enough and makes polygons cheap to come and go.
 class MovingPolygon {
  public:
-  static constexpr std::size_t kInPlace = 6;
+  static constexpr std::size_t kInlineVertices = 6;
 
   MovingPolygon() = default;
   explicit MovingPolygon(std::size_t count) { resize(count); }
@@ -47,32 +47,32 @@ class MovingPolygon {
 
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
-  Corner* begin() { return corners_; }
-  Corner* end() { return corners_ + size_; }
-  const Corner* begin() const { return corners_; }
-  const Corner* end() const { return corners_ + size_; }
-  Corner& operator[](std::size_t i) { return corners_[i]; }
-  const Corner& operator[](std::size_t i) const { return corners_[i]; }
-  const Corner& back() const { return corners_[size_ - 1]; }
+  MovingVertex* begin() { return corners_; }
+  MovingVertex* end() { return corners_ + size_; }
+  const MovingVertex* begin() const { return corners_; }
+  const MovingVertex* end() const { return corners_ + size_; }
+  MovingVertex& operator[](std::size_t i) { return corners_[i]; }
+  const MovingVertex& operator[](std::size_t i) const { return corners_[i]; }
+  const MovingVertex& back() const { return corners_[size_ - 1]; }
 
   void clear() { size_ = 0; }
   void resize(std::size_t count) {
     reserve(count);
-    for (; size_ < count; ++size_) new (corners_ + size_) Corner();
+    for (; size_ < count; ++size_) new (corners_ + size_) MovingVertex();
     size_ = count;
   }
-  void push_back(const Corner& corner) {
+  void push_back(const MovingVertex& vertex) {
     if (size_ == capacity_) {
-      const Corner copy = corner;  // it may be one of ours
+      const MovingVertex copy = vertex;  // it may be one of ours
       reserve(2 * capacity_);
-      new (corners_ + size_++) Corner(copy);
+      new (corners_ + size_++) MovingVertex(copy);
     } else {
-      new (corners_ + size_++) Corner(corner);
+      new (corners_ + size_++) MovingVertex(vertex);
     }
   }
   void reserve(std::size_t count) {
     if (count <= capacity_) return;
-    Corner* larger = std::allocator<Corner>().allocate(count);
+    MovingVertex* larger = std::allocator<MovingVertex>().allocate(count);
     std::uninitialized_copy_n(corners_, size_, larger);
     release();
     corners_ = larger;
@@ -80,13 +80,13 @@ class MovingPolygon {
   }
 
  private:
-  static_assert(std::is_trivially_destructible_v<Corner>);
+  static_assert(std::is_trivially_destructible_v<MovingVertex>);
 
-  Corner* in_place() { return reinterpret_cast<Corner*>(place_); }
+  MovingVertex* in_place() { return reinterpret_cast<MovingVertex*>(place_); }
   void release() {
-    if (corners_ != in_place()) std::allocator<Corner>().deallocate(corners_, capacity_);
+    if (corners_ != in_place()) std::allocator<MovingVertex>().deallocate(corners_, capacity_);
     corners_ = in_place();
-    capacity_ = kInPlace;
+    capacity_ = kInlineVertices;
   }
   void assign(const MovingPolygon& other) {
     size_ = 0;
@@ -96,19 +96,19 @@ class MovingPolygon {
   }
   void take(MovingPolygon& other) {
     if (other.corners_ == other.in_place()) {
-      // other holds at most kInPlace, and so do we at least
+      // other holds at most kInlineVertices, and so do we at least
       std::uninitialized_copy_n(other.corners_, other.size_, corners_);
     } else {
       release();
       corners_ = std::exchange(other.corners_, other.in_place());
-      capacity_ = std::exchange(other.capacity_, kInPlace);
+      capacity_ = std::exchange(other.capacity_, kInlineVertices);
     }
     size_ = std::exchange(other.size_, 0);
   }
 
-  alignas(Corner) std::byte place_[kInPlace * sizeof(Corner)];
-  Corner* corners_ = in_place();
-  std::size_t size_ = 0, capacity_ = kInPlace;
+  alignas(MovingVertex) std::byte place_[kInlineVertices * sizeof(MovingVertex)];
+  MovingVertex* corners_ = in_place();
+  std::size_t size_ = 0, capacity_ = kInlineVertices;
 };
 
 // A function that is linear on the plane, f = value + gradient . p, with its derivatives by d1 and d2 at fixed p.
@@ -132,13 +132,13 @@ inline double signed_area(const MovingPolygon& polygon) {
 Vec2 centroid(const MovingPolygon& polygon);  // of the area; of the corners when there is no area
 MovingPolygon counter_clockwise(MovingPolygon polygon);
 
-// The part of the polygon where line >= 0 (or <= 0 with keep = -1). Corners nearer to the line than kOnLine count as on
-// it.
-inline constexpr double kOnLine = 1e-10;
+// The part of the polygon where line >= 0 (or <= 0 with keep = -1). Corners nearer to the line than kLineTolerance
+// count as on it.
+inline constexpr double kLineTolerance = 1e-10;
 MovingPolygon clip(const MovingPolygon& polygon, const MovingLine& line, int keep = +1);
 
 // Both parts at once, as clip() has them: where line >= 0, and where line <= 0.
-std::array<MovingPolygon, 2> halves(const MovingPolygon& polygon, const MovingLine& line);
+std::array<MovingPolygon, 2> split_by_line(const MovingPolygon& polygon, const MovingLine& line);
 
 struct Box {
   Vec2 lower = Vec2::Zero();
@@ -146,7 +146,7 @@ struct Box {
 };
 inline Box box_of(const MovingPolygon& polygon) {
   Box box{polygon[0].p, polygon[0].p};
-  for (const Corner& c : polygon) {
+  for (const MovingVertex& c : polygon) {
     box.lower = box.lower.cwiseMin(c.p);
     box.upper = box.upper.cwiseMax(c.p);
   }
@@ -158,7 +158,7 @@ inline bool overlap(const Box& a, const Box& b) {
 }
 
 // True when an edge of one of the polygons has the other wholly outside it or on it: then they have no area in common.
-bool apart(const MovingPolygon& a, const MovingPolygon& b);
+bool disjoint(const MovingPolygon& a, const MovingPolygon& b);
 
 // polygon, which lies in the box, minus hole where they have more than min_area in common: appends convex pieces with
 // an area above min_area to pieces. Else false, and nothing is appended.

@@ -3,18 +3,18 @@
 
 namespace seaglint {
 
-void Pieces::assign(std::span<const MovingPolygon> polygons) {
+void PolygonSet::assign(std::span<const MovingPolygon> polygons) {
   clear();
   for (const MovingPolygon& polygon : polygons) push_back(polygon);
 }
 
-double Pieces::area() const {
+double PolygonSet::area() const {
   double area = 0;
   for (const MovingPolygon& polygon : polygons_) area += signed_area(polygon);
   return area;
 }
 
-bool Pieces::cut(const MovingPolygon& hole, const Box& box, double min_area) {
+bool PolygonSet::subtract_hole(const MovingPolygon& hole, const Box& box, double min_area) {
   left_.clear();
   std::size_t whole = 0;
   for (std::size_t i = 0; i < polygons_.size(); ++i) {

@@ -12,7 +12,7 @@
 namespace seaglint {
 
 // Keeps its memory when it is cleared.
-class Pieces {
+class PolygonSet {
  public:
   void clear() {
     polygons_.clear();
@@ -32,7 +32,7 @@ class Pieces {
 
   // Takes the hole, whose box is given, out of every piece; pieces with no more than min_area in common with it stay as
   // they are, and what is left of the others in pieces of no more is dropped. True when any piece was cut.
-  bool cut(const MovingPolygon& hole, const Box& box, double min_area);
+  bool subtract_hole(const MovingPolygon& hole, const Box& box, double min_area);
 
  private:
   std::vector<MovingPolygon> polygons_;

@@ -27,7 +27,7 @@ Barycentric::Barycentric(const std::array<Vec2, 3>& corner) {
   for (int i = 0; i < 3; ++i) value[i] = (i == 0 ? 1.0 : 0.0) - gradient[i].dot(corner[0]);
 }
 
-Quadratic bump(const Barycentric& lambda, const std::array<double, 3>& middle) {
+Quadratic edge_midpoint_quadratic(const Barycentric& lambda, const std::array<double, 3>& middle) {
   Quadratic sum;
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3;

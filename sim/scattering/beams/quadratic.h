@@ -45,6 +45,6 @@ struct Barycentric {
 };
 
 // The quadratic that vanishes at the corners and takes the given values in the middles of the edges i -> i + 1.
-Quadratic bump(const Barycentric& lambda, const std::array<double, 3>& middle);
+Quadratic edge_midpoint_quadratic(const Barycentric& lambda, const std::array<double, 3>& middle);
 
 }  // namespace seaglint

@@ -14,29 +14,29 @@ namespace seaglint {
 
 // An antenna that receives what the beams light. Pair and surface are those of one transmitter and this receiver.
 struct Receiver {
-  AntennaPair antennas;
-  const VisibleSurface* visible;  // to the receiver
+  BistaticGeometry geometry;
+  const VisibleSurface* visible_to_receiver;  // to the receiver
 };
 
 // What all beams of an illumination share.
-struct BeamScene {
+struct TracingContext {
   const Scatterer& scatterer;
   const RadarBasis& transmit;
   std::span<const Receiver> receivers;  // none: what the beams light is followed alone
-  const IlluminationSettings& settings;
-  const VisibleSurface& lit;                       // from the transmitter
-  std::span<const std::vector<Surface>> surfaces;  // [material][wavenumber]; none for a perfect conductor
-  double min_area = 0;                             // of lit pieces that count, m^2
-  double min_beam_area = 0;                        // of beams that are followed to further mirrors, m^2
+  const TracingSettings& settings;
+  const VisibleSurface& visible_to_transmitter;            // from the transmitter
+  std::span<const std::vector<MaterialSurface>> surfaces;  // [material][wavenumber]; none for a perfect conductor
+  double min_area = 0;                                     // of lit pieces that count, m^2
+  double min_beam_area = 0;                                // of beams that are followed to further mirrors, m^2
 
   // What the facet is made of at each wavenumber; none when it is a perfect conductor.
-  std::span<const Surface> surface_of(int facet) const {
+  std::span<const MaterialSurface> surface_of(int facet) const {
     if (surfaces.empty()) return {};
     return surfaces[scatterer.facets()[facet].material];
   }
-  bool is_under_water(int facet) const {
-    const std::span<const Surface> surface = surface_of(facet);
-    return !surface.empty() && surface.front().is_under_water();
+  bool is_submerged(int facet) const {
+    const std::span<const MaterialSurface> surface = surface_of(facet);
+    return !surface.empty() && surface.front().is_submerged();
   }
 };
 

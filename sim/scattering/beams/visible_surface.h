@@ -23,50 +23,50 @@ inline constexpr double kCoincident = 1e-7;  // m
 inline constexpr double kEdgeOnPanel = 1e-7;
 
 // A panel's image through the mirrors of a beam, projected along the unfolded ray.
-struct FacetImage {
+struct ProjectedPanel {
   int facet = -1;
-  ImagePlane plane;
+  DepthPlane plane;
   MovingPolygon polygon;  // of the projected panel
 };
 
 // False when the panel is edge-on to the ray or its image is smaller than min_area.
-bool set_image(FacetImage& image, const TreePanel& panel, const Mirror& mirrors, const RadarBasis& basis,
-               double min_area);
+bool project_panel(ProjectedPanel& projection, const BvhPanel& panel, const ImageTransform& image_transform,
+                   const RadarBasis& basis, double min_area);
 
 // Where polygons of one plane lie: their box in the aperture, and the heights of their corners towards the radar, m.
 struct Extent {
   Box box;
   double nearest = 0, farthest = 0;
 };
-Extent extent_of(std::span<const MovingPolygon> polygons, const ImagePlane& plane);  // of one polygon or more
+Extent extent_of(std::span<const MovingPolygon> polygons, const DepthPlane& plane);  // of one polygon or more
 
 // An extent that hides nothing and is hidden by nothing.
-inline Extent nowhere() {
+inline Extent empty_extent() {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   return {{}, -kInfinity, kInfinity};
 }
 
 // False when nothing within one extent hides anything within the other, as for nearly all pairs.
-inline bool may_hide(const Extent& behind, const Extent& front) {
+inline bool may_occlude(const Extent& behind, const Extent& front) {
   return front.nearest >= behind.farthest - kCoincident && overlap(front.box, behind.box);
 }
 
 // Height of plane b above plane a as a moving line: positive where b is nearer to the radar along the unfolded ray.
-MovingLine depth_between(const ImagePlane& a, const ImagePlane& b);
+MovingLine depth_difference(const DepthPlane& a, const DepthPlane& b);
 
 // The part of b that lies nearer to the radar than plane a. Facets that coincide are ordered by number, the lower one
 // in front.
-MovingPolygon nearer_part(const FacetImage& b, const FacetImage& a);
+MovingPolygon nearer_part(const ProjectedPanel& b, const ProjectedPanel& a);
 
 // Takes every part of the image `front` out of the pieces of `behind` that lies nearer to the radar. The extents are
 // those of the pieces and of all of the front that may lie before them. True when any was cut.
-bool hide(const FacetImage& behind, const Extent& behind_extent, const FacetImage& front, const Extent& front_extent,
-          double min_area, Pieces& pieces);
+bool occlude(const ProjectedPanel& behind, const Extent& behind_extent, const ProjectedPanel& front,
+             const Extent& front_extent, double min_area, PolygonSet& pieces);
 
 // What the radar sees of every facet: convex pieces without overlap, exact for the flat facets given.
 class VisibleSurface {
  public:
-  VisibleSurface(std::span<const Facet> facets, const Panels& panels, const FacetTree& tree, const RadarBasis& basis,
+  VisibleSurface(std::span<const Facet> facets, const Panels& panels, const PanelBvh& tree, const RadarBasis& basis,
                  double min_area, int threads);
 
   // Pieces of the panel that goes by this facet in the radar's aperture; empty when it is hidden or faces away (an open
@@ -75,38 +75,41 @@ class VisibleSurface {
 
   // What the radar sees directly of the parts of a panel that a beam lights: `lit` are the parts' images through the
   // beam's mirrors, in the aperture of `transmit`. Appends convex pieces there.
-  void seen_through(int facet, const Mirror& mirrors, std::span<const MovingPolygon> lit, const RadarBasis& transmit,
-                    std::vector<MovingPolygon>& seen) const;
+  void visible_after_reflections(int facet, const ImageTransform& image_transform,
+                                 std::span<const MovingPolygon> illuminated, const RadarBasis& transmit,
+                                 std::vector<MovingPolygon>& visible) const;
 
   // The same of what it sees by a mirror, the panel that goes by facet `mirror`, in the plane of that one: `mirrors`
   // are then the beam's and, before them, this one. What stands between the two panels is not looked at.
-  void seen_by(int mirror, int facet, const Mirror& mirrors, std::span<const MovingPolygon> lit,
-               const RadarBasis& transmit, std::vector<MovingPolygon>& seen) const;
+  void visible_via_reflector(int mirror, int facet, const ImageTransform& image_transform,
+                             std::span<const MovingPolygon> illuminated, const RadarBasis& transmit,
+                             std::vector<MovingPolygon>& visible) const;
 
  private:
   // Pieces of the radar's aperture with their boxes.
-  struct Window {
+  struct VisiblePieces {
     std::span<const MovingPolygon> pieces;
     const Box* boxes = nullptr;
   };
-  Window window(int facet) const;
+  VisiblePieces window(int facet) const;
   // What of `lit`, parts of a plane that the radar sees as `own`, shows in the window.
-  void show(const Window& window, const Vec3& normal, const ImagePlane& own, const Mirror& mirrors,
-            std::span<const MovingPolygon> lit, const RadarBasis& transmit, std::vector<MovingPolygon>& seen) const;
+  void clip_to_visible(const VisiblePieces& window, const Vec3& normal, const DepthPlane& own,
+                       const ImageTransform& image_transform, std::span<const MovingPolygon> illuminated,
+                       const RadarBasis& transmit, std::vector<MovingPolygon>& visible) const;
 
   std::span<const Facet> facets_;
   RadarBasis basis_;
   double min_area_;
   // Panels that face the radar, and the pieces of those that something hides a part of, chunk by chunk of images. Most
   // are whole.
-  std::vector<FacetImage> images_;
+  std::vector<ProjectedPanel> images_;
   std::vector<Extent> extents_;         // of the images
   std::vector<std::int32_t> image_of_;  // of each facet; -1: it faces away or its panel goes by another
-  struct Seen {
+  struct Visibility {
     bool whole = true;
     std::uint32_t first = 0, count = 0;  // of its pieces in those of its chunk
   };
-  std::vector<Seen> seen_;  // of each image
+  std::vector<Visibility> seen_;  // of each image
   std::vector<std::vector<MovingPolygon>> pieces_;
   std::vector<std::vector<Box>> boxes_;  // of the pieces
 };

@@ -8,9 +8,11 @@
 
 namespace seaglint {
 
-double beside_the_beam(const Vec3& k_hat, const Vec3& s) { return fading(k_hat.dot(s), {0, std::cos(kPi / 6)}); }
+double fringe_forward_taper(const Vec3& k_hat, const Vec3& s) {
+  return smooth_taper(k_hat.dot(s), {0, std::cos(kPi / 6)});
+}
 
-double before_the_beam(const Vec3& k_hat, const Vec3& s) { return before_the_beam(k_hat.dot(s)); }
-double before_the_beam(double cosine) { return fading(cosine, {0.95, 0.999}); }
+double diffraction_forward_taper(const Vec3& k_hat, const Vec3& s) { return diffraction_forward_taper(k_hat.dot(s)); }
+double diffraction_forward_taper(double cosine) { return smooth_taper(cosine, {0.95, 0.999}); }
 
 }  // namespace seaglint

@@ -10,11 +10,11 @@ namespace seaglint {
 // Ahead of an edge, near the shadow boundary of the beam along k_hat that it cuts, the diffracted field towards a
 // mirror at a finite distance is no ray of its own: the beam's end on that mirror carries it. An echo by mirrors in
 // direction s (before the first of them) fades out from right angles to the wave's way on, 1, to 30 deg off it, 0.
-double beside_the_beam(const Vec3& k_hat, const Vec3& s);
+double fringe_forward_taper(const Vec3& k_hat, const Vec3& s);
 
 // The same of the edge's own field, where that is told apart from the beam: from 18 deg off the wave's way on, 1, to
 // 2.6 deg, 0.
-double before_the_beam(const Vec3& k_hat, const Vec3& s);
-double before_the_beam(double cosine);
+double diffraction_forward_taper(const Vec3& k_hat, const Vec3& s);
+double diffraction_forward_taper(double cosine);
 
 }  // namespace seaglint

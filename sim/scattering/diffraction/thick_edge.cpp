@@ -14,31 +14,31 @@ constexpr Complex j(0, 1);
 
 // A direction about the rim: its angle from the sheet's extension, positive before the first face, and the sine of that
 // from the rim itself.
-struct AboutRim {
+struct EdgeAngle {
   double phi = 0;    // -pi..pi
   double sin_b = 1;  // > 0
 };
 
-AboutRim about(const WedgeFrame& rim, const Vec3& towards) {
+EdgeAngle about(const WedgeFrame& rim, const Vec3& towards) {
   const WedgeFace& face = rim.face[0];
   const double out = -towards.dot(face.x), up = towards.dot(face.n);
-  constexpr double kLeastSine = 1e-6;
-  return {std::atan2(up, out), std::max(std::hypot(out, up), kLeastSine)};
+  constexpr double kMinSine = 1e-6;
+  return {std::atan2(up, out), std::max(std::hypot(out, up), kMinSine)};
 }
 
 // (1 - gamma - ln(kappa t / 2 pi) - j pi / 2) / pi with kappa = k sin b: the logarithm that the square end leaves.
-OfThickness<Complex> end_logarithm(double sin_b) {
+FirstOrderThickness<Complex> end_logarithm(double sin_b) {
   return {(1 - std::numbers::egamma - std::log(sin_b / (2 * kPi)) - 0.5 * j * kPi) / kPi, -1 / kPi};
 }
 
 // 2 delta P / kappa t without the logarithm's part, whose factors stand beside it.
-struct RimTerms {
+struct ThicknessTerms {
   double soft = 0, hard = 0;
   double soft_log = 0, hard_log = 0;  // cos(phi/2) cos(phi0/2) and sin(phi/2) sin(phi0/2)
 };
 
 // About the two directions, of which the phase is counted from the face that both are before, else from the middle.
-RimTerms rim_terms(double phi, double phi0) {
+ThicknessTerms thickness_terms(double phi, double phi0) {
   const double side = phi * phi0 < 0 ? -1 : 1;
   // Where the face reflects one direction into the other, or the light passes the rim, the fractions below are 0/0, in
   // the sheet's plane twice.
@@ -59,17 +59,17 @@ RimTerms rim_terms(double phi, double phi0) {
 
 }  // namespace
 
-std::array<OfThickness<CVec3>, 2> thick_rim_currents(const WedgeFrame& rim, const Vec3& k_hat,
-                                                     const std::array<Vec3, 2>& fields, const Vec3& s) {
-  const AboutRim in = about(rim, -k_hat), out = about(rim, s);
-  const RimTerms terms = rim_terms(out.phi, in.phi);
+std::array<FirstOrderThickness<CVec3>, 2> thick_edge_currents(const WedgeFrame& rim, const Vec3& k_hat,
+                                                              const std::array<Vec3, 2>& fields, const Vec3& s) {
+  const EdgeAngle in = about(rim, -k_hat), out = about(rim, s);
+  const ThicknessTerms terms = thickness_terms(out.phi, in.phi);
   // Off Keller's cone both waves' angles with the rim count alike.
   const double sin_b = std::sqrt(in.sin_b * out.sin_b);
-  const OfThickness<Complex> end = end_logarithm(sin_b);
+  const FirstOrderThickness<Complex> end = end_logarithm(sin_b);
   const Complex soft = terms.soft + terms.soft_log * end.constant, hard = terms.hard + terms.hard_log * end.constant;
   const Vec3& t = rim.face[0].t;
   const Vec3 e_hard = t.cross(s);
-  std::array<OfThickness<CVec3>, 2> currents;
+  std::array<FirstOrderThickness<CVec3>, 2> currents;
   for (int i = 0; i < 2; ++i) {
     // S per metre is j / pi of the amplitude P of fields along t across the rim, E_t along t and H_t along t x s, over
     // sin^2 b; delta P has kappa t / 2.
@@ -82,10 +82,10 @@ std::array<OfThickness<CVec3>, 2> thick_rim_currents(const WedgeFrame& rim, cons
   return currents;
 }
 
-OfThickness<Complex> thick_rim_wave(const WedgeFrame& rim, const Vec3& towards) {
+FirstOrderThickness<Complex> thick_edge_wave_change(const WedgeFrame& rim, const Vec3& towards) {
   const auto [phi, sin_b] = about(rim, towards);
   const double C = std::cos(phi / 2), S = std::sin(std::abs(phi) / 2);
-  const OfThickness<Complex> end = end_logarithm(sin_b);
+  const FirstOrderThickness<Complex> end = end_logarithm(sin_b);
   const Complex all = -j * sin_b * S;
   return {all * (S * end.constant + C * (1 - std::abs(phi) / kPi)), all * S * end.logarithm};
 }

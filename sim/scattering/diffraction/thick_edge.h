@@ -23,18 +23,18 @@ namespace seaglint {
 
 // A quantity of first order in k t: k t (constant + logarithm ln(k t)).
 template <typename T>
-struct OfThickness {
+struct FirstOrderThickness {
   T constant{}, logarithm{};
 };
 
-// Of the rim's edge_currents(), in the same units: p . current is what the thickness adds to S per metre of rim, for
-// received polarisation p in direction s. Unchanged when transmitter and receiver change places. Finite everywhere. The
-// rim is a WedgeFrame with N = 2.
-std::array<OfThickness<CVec3>, 2> thick_rim_currents(const WedgeFrame& rim, const Vec3& k_hat,
-                                                     const std::array<Vec3, 2>& fields, const Vec3& s);
+// Of the rim's equivalent_edge_currents(), in the same units: p . current is what the thickness adds to S per metre of
+// rim, for received polarisation p in direction s. Unchanged when transmitter and receiver change places. Finite
+// everywhere. The rim is a WedgeFrame with N = 2.
+std::array<FirstOrderThickness<CVec3>, 2> thick_edge_currents(const WedgeFrame& rim, const Vec3& k_hat,
+                                                              const std::array<Vec3, 2>& fields, const Vec3& s);
 
 // By how much of itself the thickness changes a hard wave from one direction that the rim sends along the sheet, or one
 // along the sheet that it sends there: `towards` the source or receiver, unit. The mean of both faces.
-OfThickness<Complex> thick_rim_wave(const WedgeFrame& rim, const Vec3& towards);
+FirstOrderThickness<Complex> thick_edge_wave_change(const WedgeFrame& rim, const Vec3& towards);
 
 }  // namespace seaglint

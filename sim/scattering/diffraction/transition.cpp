@@ -17,11 +17,11 @@ constexpr double kEqual = 1e-3;
 bool nearly_equal(double x, double y) { return std::abs(x - y) < kEqual * std::abs(x + y); }
 
 // transition(x, y), of which F(x) and F(y) are known.
-Complex between_two(double x, const Complex& F_x, double y, const Complex& F_y) {
+Complex divided_difference(double x, const Complex& F_x, double y, const Complex& F_y) {
   // Between equals F - x F', with F' = F / 2x + j F - j; farther apart errors of F grow five-hundredfold at most.
   if (nearly_equal(x, y)) {
     const double mean = 0.5 * (x + y);
-    const Complex F = transition(mean);
+    const Complex F = transition_function(mean);
     return 0.5 * F - j * mean * (F - 1.0);
   }
   return (y * F_x - x * F_y) / (y - x);
@@ -29,8 +29,8 @@ Complex between_two(double x, const Complex& F_x, double y, const Complex& F_y) 
 
 }  // namespace
 
-Complex transition(double x) {
-  if (x < 0) return std::conj(transition(-x));
+Complex transition_function(double x) {
+  if (x < 0) return std::conj(transition_function(-x));
   // Far away the asymptotic series, sum of (2n - 1)!! (j / 2x)^n, to its smallest term, which bounds the error: e^{-x}.
   if (x > 17) {
     double term = 1;
@@ -53,16 +53,18 @@ Complex transition(double x) {
   return 2.0 * j * std::sqrt(x) * std::polar(1.0, x) * (std::polar(std::sqrt(kPi) / 2, -kPi / 4) - sum);
 }
 
-Complex transition(double x, double y) { return between_two(x, transition(x), y, transition(y)); }
+Complex double_transition_function(double x, double y) {
+  return divided_difference(x, transition_function(x), y, transition_function(y));
+}
 
-Complex transition(double x, double y, double z) {
+Complex triple_transition_function(double x, double y, double z) {
   if (nearly_equal(x, y)) {  // moved apart, which errs by its square
     const double mean = 0.5 * (x + y);
     x = (1 - kEqual) * mean;
     y = (1 + kEqual) * mean;
   }
-  const Complex F_x = transition(x), F_y = transition(y), F_z = transition(z);
-  return (y * between_two(x, F_x, z, F_z) - x * between_two(y, F_y, z, F_z)) / (y - x);
+  const Complex F_x = transition_function(x), F_y = transition_function(y), F_z = transition_function(z);
+  return (y * divided_difference(x, F_x, z, F_z) - x * divided_difference(y, F_y, z, F_z)) / (y - x);
 }
 
 }  // namespace seaglint

@@ -11,48 +11,48 @@
 namespace seaglint {
 namespace {
 
-constexpr double kLeastLength = 1e-12;  // m: rim and foot may meet
-constexpr double kLeastRun = 1e-3;      // rad, as of any stretch
-constexpr double kFar = 1e15;           // rim and foot are parallel
+constexpr double kMinLength = 1e-12;  // m: rim and foot may meet
+constexpr double kMinRun = 1e-3;      // rad, as of any stretch
+constexpr double kFar = 1e15;         // rim and foot are parallel
 // Nearer to grazing than this both ways are not told apart by rounding; the change goes on from there.
-constexpr double kLeastSine = 1e-4;
+constexpr double kMinSine = 1e-4;
 // Between angles as far apart the change is taken: what an interval's trace turns by.
 constexpr double kTurn = 1e-3;
 
 }  // namespace
 
-Complex WallRange::at_sine(double s, double k, double share, double run) const {
-  const double way = std::max(l[0] + share * (l[1] - l[0]), kLeastLength), more = l[1] - l[0], c = std::sqrt(1 - s * s);
+Complex WallPenumbraTerm::at_sine(double s, double k, double share, double run) const {
+  const double way = std::max(l[0] + share * (l[1] - l[0]), kMinLength), more = l[1] - l[0], c = std::sqrt(1 - s * s);
   // What has its own phase, less than the foot's by k falls l, and so its own run.
   const auto with_phase = [&](double falls, const auto& amplitude) {
-    const double lower = k * (falls - fall), own = run - lower * more;
-    const double kept = std::abs(own) < kLeastRun ? std::copysign(kLeastRun, own) : own;
+    const double lower = k * (falls - psi_decrement), own = run - lower * more;
+    const double kept = std::abs(own) < kMinRun ? std::copysign(kMinRun, own) : own;
     return run / kept * amplitude(kept) * std::polar(1.0, -lower * way);
   };
   Complex sum = 0;
   const double at_end = 1 / (4 * kPi * std::abs(s));
-  if (foot != 0) sum += with_phase(0, [&](double) { return foot * at_end; });
-  if (line != 0) sum += with_phase(2 * s * s / c, [&](double) { return line * at_end; });
-  if (from_rim > 0) {
+  if (foot_weight != 0) sum += with_phase(0, [&](double) { return foot_weight * at_end; });
+  if (shadow_line_weight != 0) sum += with_phase(2 * s * s / c, [&](double) { return shadow_line_weight * at_end; });
+  if (edge_path_weight > 0) {
     sum -= with_phase(2 * (1 - c), [&](double own) {
       const double x = k * way * s * s, z = -std::clamp(own * way / more, -kFar, kFar);
-      const Complex hard = transition(x, x, z);
-      return from_rim / (2 * kPi * s * s * std::sqrt(kPi * k * way)) * std::polar(1.0, -kPi / 4) *
-             (soft ? transition(x, z) - hard : hard);
+      const Complex hard = triple_transition_function(x, x, z);
+      return edge_path_weight / (2 * kPi * s * s * std::sqrt(kPi * k * way)) * std::polar(1.0, -kPi / 4) *
+             (soft ? double_transition_function(x, z) - hard : hard);
     });
   }
   return sum;
 }
 
-Complex WallRange::at(double k, double share, double run) const {
-  if (part == Part::kAll) return at_sine(sine, k, share, run);
+Complex WallPenumbraTerm::at(double k, double share, double run) const {
+  if (part == Part::kComplete) return at_sine(sine, k, share, run);
   const double side = std::copysign(1.0, sine), near = std::abs(sine);
-  const double least = std::max(near - kTurn, kLeastSine), most = near + kTurn;
+  const double min = std::max(near - kTurn, kMinSine), max = near + kTurn;
   const Complex change =
-      (at_sine(side * most, k, share, run) - at_sine(side * least, k, share, run)) / (side * (most - least));
-  const Complex of_change = change / Complex(0, k * change_m);
-  if (part == Part::kChange) return of_change;
-  const double here = std::max(near, kLeastSine);
+      (at_sine(side * max, k, share, run) - at_sine(side * min, k, share, run)) / (side * (max - min));
+  const Complex of_change = change / Complex(0, k * derivative_scale_m);
+  if (part == Part::kDerivative) return of_change;
+  const double here = std::max(near, kMinSine);
   return at_sine(side * here, k, share, run) + side * (near - here) * change - of_change;
 }
 

@@ -17,12 +17,12 @@ struct WedgeFace {
 };
 
 // Of corners sharper than this, 12 deg, as N: their reflections are followed by beams, their edges are not asked.
-inline constexpr double kSharpestCorner = 1.0 / 15;
+inline constexpr double kMinWedgeIndex = 1.0 / 15;
 
 // An infinite wedge with perfectly conducting faces. The second face's t is minus the first one's.
 struct WedgeFrame {
   WedgeFace face[2];
-  // the exterior angle is N pi, 0 < N <= 2; 2 is a half-plane, below 1 a corner, not below kSharpestCorner
+  // the exterior angle is N pi, 0 < N <= 2; 2 is a half-plane, below 1 a corner, not below kMinWedgeIndex
   double N = 2;
   double thickness_m = 0;  // of a half-plane (thick_edge.h)
 };

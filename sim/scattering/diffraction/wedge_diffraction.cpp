@@ -15,7 +15,7 @@ constexpr Complex j(0, 1);
 
 // A wave that travels in a face's plane from its edge on sends an infinite edge wave along it, whose transition
 // function is zero; their product has a limit. Both keep this angle from there, rad.
-constexpr double kFromBoundary = 1e-7;
+constexpr double kMinBoundaryAngle = 1e-7;
 
 // Half the sum of (1/N) cot((a - phi) / 2N) and (1/N) cot((a + phi) / 2N), over sin a, and half their difference.
 struct Cotangents {
@@ -25,29 +25,29 @@ struct Cotangents {
 // The angles at which the waves of physical optics meet a face: the wave itself at phi and, in a corner (N < 1), what
 // the faces send to one another. The sources' images stand at phi + 2 N pi m, an odd number of times mirrored where
 // that is negative, and light the face from before it.
-class WavesOnFace {
+class FaceIncidenceAngles {
  public:
-  WavesOnFace(double phi, double N) {
+  FaceIncidenceAngles(double phi, double N) {
     const double round = 2 * N * kPi;
-    for (double angle = phi - round * std::floor((phi + kPi) / round); angle < kPi && count_ < kMost; angle += round) {
+    for (double angle = phi - round * std::floor((phi + kPi) / round); angle < kPi && count_ < kMax; angle += round) {
       if (angle > -kPi) angle_[count_++] = angle;
     }
   }
-  WavesOnFace() = default;  // none
+  FaceIncidenceAngles() = default;  // none
 
   const double* begin() const { return angle_.data(); }
   const double* end() const { return angle_.data() + count_; }
   int size() const { return count_; }
 
  private:
-  static constexpr int kMost = 16;  // 1 / N + 1 at kSharpestCorner
-  std::array<double, kMost> angle_{};
+  static constexpr int kMax = 16;  // 1 / N + 1 at kMinWedgeIndex
+  std::array<double, kMax> angle_{};
   int count_ = 0;
 };
 
 // (1/N) cot(x / 2N) at x = a - sign phi, less (1/2) cot of half of a - sign angle for each wave of physical optics:
 // regular where one of these is 0.
-double half_cotangent(double a, double phi, double N, const WavesOnFace& optics, double sign) {
+double half_cotangent(double a, double phi, double N, const FaceIncidenceAngles& optics, double sign) {
   const double x = a - sign * phi;
   double sum = 0;
   bool wedge = true;
@@ -60,14 +60,14 @@ double half_cotangent(double a, double phi, double N, const WavesOnFace& optics,
   return wedge ? sum + 1 / (N * std::tan(x / (2 * N))) : sum;
 }
 
-Cotangents cotangents(double a, double phi, double N, const WavesOnFace& optics) {
+Cotangents cotangents(double a, double phi, double N, const FaceIncidenceAngles& optics) {
   const double minus = half_cotangent(a, phi, N, optics, 1), plus = half_cotangent(a, phi, N, optics, -1);
   return {0.5 * (minus + plus) / std::sin(a), 0.5 * (minus - plus)};
 }
 
 // The same for imaginary a = j alpha, alpha > 0: the sum is sin(a / N) / sin a, the difference sin(phi / N), over
 // N (cos(phi / N) - cos(a / N)).
-Cotangents cotangents_of_imaginary(double alpha, double phi, double N, const WavesOnFace& optics) {
+Cotangents cotangents_of_imaginary(double alpha, double phi, double N, const FaceIncidenceAngles& optics) {
   const auto of_wedge = [&](double n, double angle) {
     const double pole = n * (std::cos(angle / n) - std::cosh(alpha / n));
     return Cotangents{std::sinh(alpha / n) / (std::sinh(alpha) * pole), std::sin(angle / n) / pole};
@@ -103,7 +103,7 @@ double angle_from_face(const WedgeFace& face, const Vec3& towards_source) {
 // whose pole at cos a = -mu leaves the cotangents at a +- phi' over sin a. Physical optics has N = 1. The tests hold
 // the sum of both faces to Keller's coefficients.
 // Physical optics is left out, unless `only_seen` and s does not see the face.
-void add_face_current(const WedgeFace& face, double N, double phi, bool only_seen, double shadow, const Vec3& k_hat,
+void add_face_current(const WedgeFace& face, double N, double phi, bool only_visible, double shadow, const Vec3& k_hat,
                       std::span<const Vec3> fields, const Vec3& s, std::span<Vec3> sums) {
   const double cos_b = k_hat.dot(face.t);
   const double sin_b = std::sqrt(std::max(1 - cos_b * cos_b, 1e-12));
@@ -115,8 +115,9 @@ void add_face_current(const WedgeFace& face, double N, double phi, bool only_see
   const double a = real ? std::clamp(std::acos(std::clamp(-mu, -1.0, 1.0)), kAside, kPi - kAside)
                         : std::max(std::acosh(-mu), kAside);
   const bool in_shadow_boundary = (real ? std::abs(a - phi) : std::hypot(a, phi)) < shadow;
-  const WavesOnFace optics =
-      !only_seen || in_shadow_boundary || s.dot(face.n) > kEdgeOn ? WavesOnFace(phi, N) : WavesOnFace();
+  const FaceIncidenceAngles optics = !only_visible || in_shadow_boundary || s.dot(face.n) > kEdgeOn
+                                         ? FaceIncidenceAngles(phi, N)
+                                         : FaceIncidenceAngles();
   const Cotangents cot = real ? cotangents(a, phi, N, optics) : cotangents_of_imaginary(a, phi, N, optics);
   for (std::size_t i = 0; i < fields.size(); ++i) {
     const double H_t = k_hat.cross(fields[i]).dot(face.t), E_t = fields[i].dot(face.t);
@@ -129,18 +130,18 @@ void add_face_current(const WedgeFace& face, double N, double phi, bool only_see
 }
 
 void add_currents(const WedgeFrame& wedge, const Vec3& k_hat, std::span<const Vec3> fields, const Vec3& s,
-                  bool only_seen, double shadow, std::span<Vec3> sums) {
+                  bool only_visible, double shadow, std::span<Vec3> sums) {
   const double phi = angle_from_face(wedge.face[0], -k_hat);
   if (phi > wedge.N * kPi) return;
   for (int i = 0; i < 2; ++i)
-    add_face_current(wedge.face[i], wedge.N, i == 0 ? phi : wedge.N * kPi - phi, only_seen, shadow, k_hat, fields, s,
+    add_face_current(wedge.face[i], wedge.N, i == 0 ? phi : wedge.N * kPi - phi, only_visible, shadow, k_hat, fields, s,
                      sums);
   // E_s = -(jk eta / 4 pi) (e^{-jkr}/r) integral J e^{jk s.x}; the integrals above are of eta k J / 2j.
   for (Vec3& sum : sums) sum /= 2 * kPi;
 }
 
 // Of the angles +-phi + 2 N pi m, at which the sources' images stand, the one next to pi.
-double grazing_image(double phi, double N) {
+double image_angle_nearest_grazing(double phi, double N) {
   const double round = 2 * N * kPi;
   const double plus = phi + round * std::round((kPi - phi) / round),
                minus = -phi + round * std::round((kPi + phi) / round);
@@ -151,30 +152,31 @@ double grazing_image(double phi, double N) {
 
 Vec3 fringe_current(const WedgeFrame& wedge, const Vec3& k_hat, const Vec3& E, const Vec3& s) {
   Vec3 sum = Vec3::Zero();
-  add_currents(wedge, k_hat, {&E, 1}, s, false, kShadow, {&sum, 1});
+  add_currents(wedge, k_hat, {&E, 1}, s, false, kShadowBoundaryGuard, {&sum, 1});
   return sum;
 }
 
-std::array<Vec3, 2> edge_currents(const WedgeFrame& wedge, const Vec3& k_hat, const std::array<Vec3, 2>& fields,
-                                  const Vec3& s, double shadow) {
+std::array<Vec3, 2> equivalent_edge_currents(const WedgeFrame& wedge, const Vec3& k_hat,
+                                             const std::array<Vec3, 2>& fields, const Vec3& s, double shadow) {
   std::array<Vec3, 2> sums{Vec3::Zero(), Vec3::Zero()};
   add_currents(wedge, k_hat, fields, s, true, shadow, sums);
   return sums;
 }
 
-EdgeWave edge_wave(const WedgeFrame& wedge, int face, const Vec3& k_hat, const std::array<Vec3, 2>& fields) {
+GrazingDiffractedWave grazing_diffracted_wave(const WedgeFrame& wedge, int face, const Vec3& k_hat,
+                                              const std::array<Vec3, 2>& fields) {
   const WedgeFace& f = wedge.face[face];
   const double N = wedge.N;
   const double cos_b = k_hat.dot(f.t);
   const double sin_b = std::sqrt(std::max(1 - cos_b * cos_b, 1e-12));
   double phi = angle_from_face(f, -k_hat);
-  EdgeWave wave{sin_b * f.x + cos_b * f.t, {}};
+  GrazingDiffractedWave wave{sin_b * f.x + cos_b * f.t, {}};
   if (phi > N * kPi) return wave;
   // Of the waves that meet the face, in a corner by way of both, the one that is next to grazing it has the pole.
-  const double image = N < 1 ? grazing_image(phi, N) : phi;
-  const double off = std::copysign(std::max(std::abs(kPi - image), kFromBoundary), kPi - image);
+  const double image = N < 1 ? image_angle_nearest_grazing(phi, N) : phi;
+  const double off = std::copysign(std::max(std::abs(kPi - image), kMinBoundaryAngle), kPi - image);
   phi = kPi - off;
-  wave.departure = std::pow(sin_b * std::sin(off / 2), 2);
+  wave.launch_parameter = std::pow(sin_b * std::sin(off / 2), 2);
   const Complex D = std::polar(1.0, -kPi / 4) * std::sin(kPi / N) / (N * std::sqrt(2 * kPi) * sin_b) * 2.0 /
                     (std::cos(kPi / N) - std::cos(phi / N));
   // H along t on the cone is sin_b of the whole, and E = H x direction lies along n.
@@ -182,8 +184,8 @@ EdgeWave edge_wave(const WedgeFrame& wedge, int face, const Vec3& k_hat, const s
   return wave;
 }
 
-double shadow_distance(const Vec3& along_face, const Vec3& other) {
-  return 0.25 * std::max((along_face - other).squaredNorm(), kFromBoundary * kFromBoundary);
+double transition_parameter(const Vec3& along_face, const Vec3& other) {
+  return 0.25 * std::max((along_face - other).squaredNorm(), kMinBoundaryAngle * kMinBoundaryAngle);
 }
 
 }  // namespace seaglint

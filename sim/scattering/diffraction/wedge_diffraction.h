@@ -28,20 +28,22 @@ Vec3 fringe_current(const WedgeFrame& wedge, const Vec3& k_hat, const Vec3& E, c
 // What facets leave to the edge, for two fields at once, which share everything that costs time: the same without
 // physical optics only on lit faces that s sees too, since facets radiate to nowhere else. With theirs it is Keller's
 // field on either side of a face. Within `shadow` of a boundary of shadow, where his is infinite, the fringe current.
-inline constexpr double kShadow = 0.26;  // rad, 15 deg: of the grazing ray's angle against the wave's
-std::array<Vec3, 2> edge_currents(const WedgeFrame& wedge, const Vec3& k_hat, const std::array<Vec3, 2>& fields,
-                                  const Vec3& s, double shadow = kShadow);
+inline constexpr double kShadowBoundaryGuard = 0.26;  // rad, 15 deg: of the grazing ray's angle against the wave's
+std::array<Vec3, 2> equivalent_edge_currents(const WedgeFrame& wedge, const Vec3& k_hat,
+                                             const std::array<Vec3, 2>& fields, const Vec3& s,
+                                             double shadow = kShadowBoundaryGuard);
 
 // Fields of the edge waves that hard-polarised plane waves send along a face: unit amplitude along k_hat, electric
 // fields `fields`. The wave travels along `direction` (in the face, on Keller's cone) and its electric field across the
 // face at distance l > 0 from the edge is amplitude e^{-jkl} / sqrt(k l), half of it the incident wave for an edge it
 // meets (J. B. Keller, J. Opt. Soc. Am. 52 (1962) 116-130: his hard coefficient towards the face). The field along n.
-struct EdgeWave {
+struct GrazingDiffractedWave {
   Vec3 direction;
   std::array<Complex, 2> amplitude;
-  double departure = 1;  // shadow_distance() on the cone, of the wave next to grazing the face
+  double launch_parameter = 1;  // transition_parameter() on the cone, of the wave next to grazing the face
 };
-EdgeWave edge_wave(const WedgeFrame& wedge, int face, const Vec3& k_hat, const std::array<Vec3, 2>& fields);
+GrazingDiffractedWave grazing_diffracted_wave(const WedgeFrame& wedge, int face, const Vec3& k_hat,
+                                              const std::array<Vec3, 2>& fields);
 
 // How far a wave along a face is from another direction's shadow boundary: half of what their paths differ by per metre
 // of face, (1 - w.s) / 2, least and never zero where they agree. `other` is the incident wave's direction at the edge
@@ -49,6 +51,6 @@ EdgeWave edge_wave(const WedgeFrame& wedge, int face, const Vec3& k_hat, const s
 // sin^2 b times the sine squared of half the angle about the edge (Kouyoumjian and Pathak 1974, a plane wave on a
 // wedge: L = l sin^2 b); off it the current that ends at an edge has this phase along the face, and the fringe current
 // the same pole.
-double shadow_distance(const Vec3& along_face, const Vec3& other);
+double transition_parameter(const Vec3& along_face, const Vec3& other);
 
 }  // namespace seaglint

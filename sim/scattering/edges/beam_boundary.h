@@ -37,28 +37,29 @@
 
 namespace seaglint {
 
-// Of the footprints of one lit facet. `screens`: its mirrors and, last, itself; they must outlive it, as all arguments
-// must.
-class BeamEnds {
+// Of the footprints of one lit facet. `panels_on_path`: its mirrors and, last, itself; they must outlive it, as all
+// arguments must.
+class BeamBoundary {
  public:
-  BeamEnds(const SharpEdges& edges, const Panels& panels, const AntennaPair& antennas, std::span<const Screen> screens)
-      : edges_(edges), panels_(panels), antennas_(antennas), screens_(screens) {}
+  BeamBoundary(const SharpEdges& edges, const Panels& panels, const BistaticGeometry& geometry,
+               std::span<const PathPanel> panels_on_path)
+      : edges_(edges), panels_(panels), geometry_(geometry), panels_on_path_(panels_on_path) {}
 
   // Appends what the footprint lacks of the above. It fades out where half-planes end (README.md, "Where beams end"):
   // where the way from rim to rim leaves the beam, where rims cross, at panels narrower than the light's spread, and
-  // where rim_share() does.
-  void find(const Footprint& footprint, std::vector<EdgeFootprint>& out);
+  // where reflected_edge_weight() does.
+  void append_boundary_terms(const Footprint& footprint, std::vector<EdgeContribution>& out);
 
  private:
   const SharpEdges& edges_;
   const Panels& panels_;
-  const AntennaPair& antennas_;
-  std::span<const Screen> screens_;
-  std::optional<std::vector<Rim>> rims_;  // once a footprint asks for them
-  std::vector<Vec2> outline_;             // of the facet's panel, in the aperture
+  const BistaticGeometry& geometry_;
+  std::span<const PathPanel> panels_on_path_;
+  std::optional<std::vector<BeamEdge>> edges_on_path_;  // once a footprint asks for them
+  std::vector<Vec2> outline_;                           // of the facet's panel, in the aperture
 };
 
 // What one returns at most at any of some wavenumbers, m; 0 where it has faded out at all of them.
-double bound_of_beam_end(const EdgeFootprint& footprint, double lowest, double highest);
+double boundary_term_bound(const EdgeContribution& contribution, double lowest, double highest);
 
 }  // namespace seaglint

@@ -7,39 +7,43 @@
 
 namespace seaglint {
 
-bool reaches_edges(const BeamScene& scene, const Leg& leg) {
-  return scene.settings.edges && leg.bounce <= kMostEdgeMirrors + 1;
+bool records_edges(const TracingContext& scene, const BeamSegment& segment) {
+  return scene.settings.edges && segment.bounce <= kMaxEdgeReflections + 1;
 }
 
-void reach_edges(const BeamScene& scene, const Leg& leg, const Candidate& candidate,
-                 std::vector<EdgeArrival>& arrivals) {
-  if (!leg.fields.empty() || !scene.surface_of(candidate.image.facet).empty()) return;
-  const WaveOnFacet wave{scene.transmit, leg.mirrors, candidate.image.plane, leg.direction, leg.E_h,
-                         leg.E_v,        leg.bounce,  leg.first_mirror};
-  find_arrivals(scene.scatterer.edges(), candidate.image.facet, wave, candidate.lit.polygons(), arrivals);
+void record_edges(const TracingContext& scene, const BeamSegment& segment, const CandidatePanel& candidate,
+                  std::vector<EdgeIllumination>& illuminations) {
+  if (!segment.fields.empty() || !scene.surface_of(candidate.projection.facet).empty()) return;
+  const FacetWave wave{
+      scene.transmit, segment.image_transform, candidate.projection.plane,    segment.direction, segment.E_h,
+      segment.E_v,    segment.bounce,          segment.first_reflector_normal};
+  find_edge_illumination(scene.scatterer.edges(), candidate.projection.facet, wave, candidate.illuminated.polygons(),
+                         illuminations);
 }
 
-FootprintEnds::FootprintEnds(const BeamScene& scene, const Receiver& receiver, std::vector<EdgeFootprint>& out)
-    : scene_(scene), antennas_(receiver.antennas), out_(out) {}
+FootprintEnds::FootprintEnds(const TracingContext& scene, const Receiver& receiver, std::vector<EdgeContribution>& out)
+    : scene_(scene), geometry_(receiver.geometry), out_(out) {}
 
-void FootprintEnds::start(const Leg& leg, const Candidate& candidate, const Footprint& footprint) {
+void FootprintEnds::start(const BeamSegment& segment, const CandidatePanel& candidate, const Footprint& footprint) {
   ends_.reset();
-  if (!has_beam_ends(leg, footprint)) return;
-  auto place = static_cast<std::size_t>(leg.bounce) - 1;
-  screens_[place] = {candidate.image.facet, &leg.mirrors, &candidate.image.plane, leg.direction};
-  for (const Leg* after = &leg; place > 0; after = after->before)
-    screens_[--place] = {after->from_facet, &after->mirrors, &after->from_plane, after->before->direction};
-  ends_.emplace(scene_.scatterer.edges(), scene_.scatterer.panels(), antennas_,
-                std::span<const Screen>(screens_.data(), static_cast<std::size_t>(leg.bounce)));
+  if (!has_boundary_terms(segment, footprint)) return;
+  auto place = static_cast<std::size_t>(segment.bounce) - 1;
+  panels_on_path_[place] = {candidate.projection.facet, &segment.image_transform, &candidate.projection.plane,
+                            segment.direction};
+  for (const BeamSegment* after = &segment; place > 0; after = after->previous)
+    panels_on_path_[--place] = {after->source_facet, &after->image_transform, &after->source_plane,
+                                after->previous->direction};
+  ends_.emplace(scene_.scatterer.edges(), scene_.scatterer.panels(), geometry_,
+                std::span<const PathPanel>(panels_on_path_.data(), static_cast<std::size_t>(segment.bounce)));
 }
 
 void FootprintEnds::add(const Footprint& footprint) {
-  if (ends_) ends_->find(footprint, out_);
+  if (ends_) ends_->append_boundary_terms(footprint, out_);
 }
 
-bool FootprintEnds::has_beam_ends(const Leg& leg, const Footprint& footprint) const {
-  return scene_.settings.edges && leg.bounce > 1 && leg.bounce <= kMostMoved + 1 && !leg.bent && !footprint.curvature &&
-         footprint.patterns.empty();
+bool FootprintEnds::has_boundary_terms(const BeamSegment& segment, const Footprint& footprint) const {
+  return scene_.settings.edges && segment.bounce > 1 && segment.bounce <= kMaxCorrectedReflections + 1 &&
+         !segment.has_curved_reflection && !footprint.curvature && footprint.patterns.empty();
 }
 
 }  // namespace seaglint

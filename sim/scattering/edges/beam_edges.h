@@ -18,30 +18,31 @@
 namespace seaglint {
 
 // Whether the leg's waves are followed to edges: with more mirrors before it an edge is not.
-bool reaches_edges(const BeamScene& scene, const Leg& leg);
+bool records_edges(const TracingContext& scene, const BeamSegment& segment);
 
 // Appends the arrivals at the candidate's edges. Wedges are perfect conductors, and so is what the wave met before.
-void reach_edges(const BeamScene& scene, const Leg& leg, const Candidate& candidate,
-                 std::vector<EdgeArrival>& arrivals);
+void record_edges(const TracingContext& scene, const BeamSegment& segment, const CandidatePanel& candidate,
+                  std::vector<EdgeIllumination>& illuminations);
 
 // What one receiver's footprints lack where their beams end; nothing without edges in the scene's settings. Appends to
 // `out`; it and the scene with the receiver must outlive this.
 class FootprintEnds : public FootprintVisitor {
  public:
-  FootprintEnds(const BeamScene& scene, const Receiver& receiver, std::vector<EdgeFootprint>& out);
+  FootprintEnds(const TracingContext& scene, const Receiver& receiver, std::vector<EdgeContribution>& out);
 
-  void start(const Leg& leg, const Candidate& candidate, const Footprint& footprint) override;
+  void start(const BeamSegment& segment, const CandidatePanel& candidate, const Footprint& footprint) override;
   void add(const Footprint& footprint) override;
 
  private:
   // Perfect conductors, as wedges are, and flat.
-  bool has_beam_ends(const Leg& leg, const Footprint& footprint) const;
+  bool has_boundary_terms(const BeamSegment& segment, const Footprint& footprint) const;
 
-  const BeamScene& scene_;
-  const AntennaPair& antennas_;
-  std::vector<EdgeFootprint>& out_;
-  std::array<Screen, kMostMoved + 1> screens_;  // the mirrors and the panel of the footprints that are added
-  std::optional<BeamEnds> ends_;
+  const TracingContext& scene_;
+  const BistaticGeometry& geometry_;
+  std::vector<EdgeContribution>& out_;
+  std::array<PathPanel, kMaxCorrectedReflections + 1>
+      panels_on_path_;  // the mirrors and the panel of the footprints that are added
+  std::optional<BeamBoundary> ends_;
 };
 
 }  // namespace seaglint

@@ -13,46 +13,46 @@ namespace {
 
 constexpr double kShallow = 1e-4;  // m, of a panel seen edge-on
 
-Vec3 normal_of(const ImagePlane& plane, const RadarBasis& basis) {
+Vec3 normal_of(const DepthPlane& plane, const RadarBasis& basis) {
   return (basis.r - plane.slope.x() * basis.h - plane.slope.y() * basis.v).normalized();
 }
 
 // From real points to the aperture.
-struct IntoAperture {
+struct ProjectionMap {
   Vec3 h, v;
   Vec2 shift;
 
-  IntoAperture(const RadarBasis& transmit, const Mirror& mirrors)
-      : h(mirrors.L.transpose() * transmit.h),
-        v(mirrors.L.transpose() * transmit.v),
-        shift(mirrors.t.dot(transmit.h), mirrors.t.dot(transmit.v)) {}
+  ProjectionMap(const RadarBasis& transmit, const ImageTransform& image_transform)
+      : h(image_transform.L.transpose() * transmit.h),
+        v(image_transform.L.transpose() * transmit.v),
+        shift(image_transform.t.dot(transmit.h), image_transform.t.dot(transmit.v)) {}
   Vec2 operator()(const Vec3& x) const { return Vec2(h.dot(x), v.dot(x)) + shift; }
 };
 
 }  // namespace
 
-std::vector<Vec2> outline_of(const Panels& panels, const RadarBasis& transmit, const Screen& screen) {
-  const IntoAperture into(transmit, *screen.mirrors);
-  const std::span<const Vec3> real = panels.outline(screen.facet);
+std::vector<Vec2> projected_outline(const Panels& panels, const RadarBasis& transmit, const PathPanel& panel) {
+  const ProjectionMap into(transmit, *panel.image_transform);
+  const std::span<const Vec3> real = panels.outline(panel.facet);
   std::vector<Vec2> outline(real.size());
   std::ranges::transform(real, outline.begin(), into);
   return outline;
 }
 
-std::vector<Rim> rims_of(const SharpEdges& edges, const Panels& panels, const RadarBasis& transmit,
-                         std::span<const Screen> screens) {
-  std::vector<Rim> rims;
-  rims.reserve(4 * screens.size());
-  for (std::size_t i = 0; i < screens.size(); ++i) {
-    const Screen& screen = screens[i];
-    const IntoAperture into(transmit, *screen.mirrors);
-    const Vec3 n = screen.mirrors->L.transpose() * normal_of(*screen.plane, transmit);
+std::vector<BeamEdge> beam_edges(const SharpEdges& edges, const Panels& panels, const RadarBasis& transmit,
+                                 std::span<const PathPanel> panels_on_path) {
+  std::vector<BeamEdge> rims;
+  rims.reserve(4 * panels_on_path.size());
+  for (std::size_t i = 0; i < panels_on_path.size(); ++i) {
+    const PathPanel& panel = panels_on_path[i];
+    const ProjectionMap into(transmit, *panel.image_transform);
+    const Vec3 n = panel.image_transform->L.transpose() * normal_of(*panel.plane, transmit);
     std::vector<Vec2> outline;
-    for (const PanelEdge& side : edges.of_panel(screen.facet)) {
+    for (const PanelEdge& side : edges.edges_of_panel(panel.facet)) {
       const SharpEdge& edge = edges.edges[side.edge];
-      const WedgeFrame* wedge = wedge_lit(edge, side.first, screen.direction);
+      const WedgeFrame* wedge = wedge_on_illuminated_face(edge, side.is_first_face, panel.direction);
       if (!wedge || wedge->N <= 1) continue;
-      if (outline.empty()) outline = outline_of(panels, transmit, screen);
+      if (outline.empty()) outline = projected_outline(panels, transmit, panel);
       const Vec2 a = into(edge.a), b = into(edge.b), along = (b - a).normalized();
       Vec2 middle = Vec2::Zero();
       double depth = 0;
@@ -66,53 +66,56 @@ std::vector<Rim> rims_of(const SharpEdges& edges, const Panels& panels, const Ra
   return rims;
 }
 
-SideFrame::SideFrame(const Corner& start, const Corner& end)
+SideFrame::SideFrame(const MovingVertex& start, const MovingVertex& end)
     : from(start),
       to(end),
       length((end.p - start.p).norm()),
       along((end.p - start.p) / length),
       across(-along.y(), along.x()) {}
 
-bool SideFrame::holds(const Rim& rim) const {
-  return std::abs(x(rim.a)) <= kOnRim && std::abs(x(rim.b)) <= kOnRim && x(rim.inside) > 0;
+bool SideFrame::lies_on(const BeamEdge& edge) const {
+  return std::abs(x(edge.a)) <= kOnEdgeTolerance && std::abs(x(edge.b)) <= kOnEdgeTolerance &&
+         x(edge.interior_point) > 0;
 }
 
-RimWays::RimWays(const AntennaPair& antennas, std::span<const Screen> screens, const Footprint& footprint)
-    : antennas_(antennas),
-      basis_(antennas.transmit),
-      screens_(screens),
+DiffractedPaths::DiffractedPaths(const BistaticGeometry& geometry, std::span<const PathPanel> panels_on_path,
+                                 const Footprint& footprint)
+    : geometry_(geometry),
+      basis_(geometry.transmit),
+      panels_on_path_(panels_on_path),
       footprint_(footprint),
       normal_(normal_of(footprint.plane, basis_)),
-      before_(mirrored(footprint.mirrors.L * antennas.receive.r, normal_)) {}
+      before_(reflect_direction(footprint.image_transform.L * geometry.receive.r, normal_)) {}
 
-RimWays::Way RimWays::over(std::size_t screen, const Vec2& p) const {
-  const Vec3 X = at(screen, p), beyond = X - 2 * normal_.dot(X - footprint_.plane.z0 * basis_.r) * normal_;
-  const Vec3 Y = footprint_.mirrors.real(beyond);
-  return {X, Y, basis_.r.dot(X) + antennas_.receive.r.dot(Y)};
+DiffractedPaths::DiffractedPath DiffractedPaths::diffracted_path(std::size_t panel_index, const Vec2& p) const {
+  const Vec3 X = at(panel_index, p), beyond = X - 2 * normal_.dot(X - footprint_.plane.z0 * basis_.r) * normal_;
+  const Vec3 Y = footprint_.image_transform.real(beyond);
+  return {X, Y, basis_.r.dot(X) + geometry_.receive.r.dot(Y)};
 }
 
-Vec2 RimWays::landing(std::size_t screen, const Vec2& p) const {
-  const Vec3 X = at(screen, p),
+Vec2 DiffractedPaths::landing_point(std::size_t panel_index, const Vec2& p) const {
+  const Vec3 X = at(panel_index, p),
              landed = X - normal_.dot(X - footprint_.plane.z0 * basis_.r) / normal_.dot(before_) * before_;
   return {landed.dot(basis_.h), landed.dot(basis_.v)};
 }
 
-Vec2 RimWays::across(const Vec2& direction) const {
+Vec2 DiffractedPaths::exit_in_plane(const Vec2& direction) const {
   return Vec2(-before_.dot(basis_.r), before_.dot(direction.x() * basis_.h + direction.y() * basis_.v)).normalized();
 }
 
-RimWays::Share RimWays::share(const Rim& rim, double slope) const {
-  const Screen& mirror = screens_[rim.screen];
+DiffractedPaths::EdgeWeight DiffractedPaths::edge_weight(const BeamEdge& edge, double slope) const {
+  const PathPanel& mirror = panels_on_path_[edge.panel_index];
   // As they are at the rim: the way out, the normals of its face and of the last facet, and its own direction.
-  const Mat3 real = mirror.mirrors->L.transpose();
+  const Mat3 real = mirror.image_transform->L.transpose();
   const Vec3 s = real * before_, last = real * normal_;
   Vec3 n = real * normal_of(*mirror.plane, basis_);
   if (n.dot(mirror.direction) > 0) n = -n;
-  const Vec2 run = (rim.b - rim.a).normalized();
+  const Vec2 run = (edge.b - edge.a).normalized();
   const Vec3 along =
       real * (run.x() * basis_.h + run.y() * basis_.v + mirror.plane->slope.dot(run) * basis_.r).normalized();
-  const double moved = rim_share(n, along, mirror.direction, s, last) *
-                       lands_on(mirrored(mirror.direction, n), s, last) * (1 - fading(std::abs(slope), kFlat));
+  const double moved = reflected_edge_weight(n, along, mirror.direction, s, last) *
+                       beam_incidence_taper(reflect_direction(mirror.direction, n), s, last) *
+                       (1 - smooth_taper(std::abs(slope), kSlopeTaper));
   return {moved, n.dot(s) > 0};
 }
 

@@ -12,6 +12,7 @@ namespace seaglint {
 
 // The contributions of a stretch of edge at kc, appended: its ends, or pieces short enough for one point, as for a
 // footprint.
-void split(const EdgeFootprint& footprint, const SplitSettings& settings, std::vector<Contribution>& out);
+void split(const EdgeContribution& contribution, const DecompositionSettings& settings,
+           std::vector<PointContribution>& out);
 
 }  // namespace seaglint

@@ -9,22 +9,22 @@ namespace seaglint {
 namespace {
 
 // In ray spacings.
-constexpr double kEdgeWavesFrom = 3, kLongEdge = 20;
+constexpr double kMinRunForMultiple = 3, kMinRunForHighOrder = 20;
 
 // Edge waves that start at an edge, and ways that end in it where it is a corner. With one antenna each is the mean of
 // its way and of the same way run backwards, as in single diffraction: off Keller's cone the wave that leaves an edge
 // is not the one that would come back by it. With two antennas they are the transmitter's, as physical optics and
 // single diffraction are: near grazing all three are large, and only what one wave lights cancels.
-void append_edge_waves(const Scatterer& scatterer, const AntennaPair& antennas, int edge,
-                       const ArrivalsByEdge& incoming, const ArrivalsByEdge& outgoing, const EdgeWaveLimits& limits,
-                       std::vector<EdgeFootprint>& answer) {
+void append_multiple_diffraction(const Scatterer& scatterer, const BistaticGeometry& geometry, int edge,
+                                 const IlluminationByEdge& incoming, const IlluminationByEdge& outgoing,
+                                 const MultipleDiffractionLimits& limits, std::vector<EdgeContribution>& answer) {
   const std::size_t first = answer.size();
-  edge_wave_footprints(scatterer.edges(), scatterer.facets(), scatterer.panels(), antennas, incoming.of(edge), outgoing,
-                       limits, answer);
-  corner_wave_footprints(scatterer.edges(), scatterer.facets(), scatterer.panels(), antennas, incoming,
-                         outgoing.of(edge), limits, answer);
-  if (!antennas.monostatic) return;
-  for (EdgeFootprint& f : std::span(answer).subspan(first)) {
+  trace_multiple_diffraction(scatterer.edges(), scatterer.facets(), scatterer.panels(), geometry, incoming.of(edge),
+                             outgoing, limits, answer);
+  trace_diffraction_to_concave_edges(scatterer.edges(), scatterer.facets(), scatterer.panels(), geometry, incoming,
+                                     outgoing.of(edge), limits, answer);
+  if (!geometry.monostatic) return;
+  for (EdgeContribution& f : std::span(answer).subspan(first)) {
     f.pattern += transposed(f.pattern);
     f.pattern *= 0.5;
   }
@@ -32,16 +32,20 @@ void append_edge_waves(const Scatterer& scatterer, const AntennaPair& antennas, 
 
 }  // namespace
 
-EdgeWaveLimits edge_wave_limits(const Scatterer& scatterer, const IlluminationSettings& settings, double lowest) {
+MultipleDiffractionLimits multiple_diffraction_limits(const Scatterer& scatterer, const TracingSettings& settings,
+                                                      double lowest) {
   const double spacing = ray_spacing(scatterer, settings);
-  return {kEdgeWavesFrom * spacing, kLongEdge * spacing, faintest_echo(scatterer, settings, lowest), lowest};
+  return {kMinRunForMultiple * spacing, kMinRunForHighOrder * spacing, min_amplitude(scatterer, settings, lowest),
+          lowest};
 }
 
-void edge_echoes(const Scatterer& scatterer, const AntennaPair& antennas, const IlluminationSettings& settings,
-                 std::span<const double> wavenumbers, const ArrivalsByEdge& incoming, const ArrivalsByEdge& outgoing,
-                 int threads, const std::function<void(std::size_t, std::span<const EdgeFootprint>)>& visit) {
+void edge_diffraction(const Scatterer& scatterer, const BistaticGeometry& geometry, const TracingSettings& settings,
+                      std::span<const double> wavenumbers, const IlluminationByEdge& incoming,
+                      const IlluminationByEdge& outgoing, int threads,
+                      const std::function<void(std::size_t, std::span<const EdgeContribution>)>& visit) {
   if (!settings.edges) return;
-  const EdgeWaveLimits limits = edge_wave_limits(scatterer, settings, std::ranges::min(wavenumbers));
+  const MultipleDiffractionLimits limits =
+      multiple_diffraction_limits(scatterer, settings, std::ranges::min(wavenumbers));
   const std::vector<SharpEdge>& edges = scatterer.edges().edges;
   // Chunks of about as many arrivals.
   const auto chunk_start = [&](std::size_t chunk) {
@@ -49,14 +53,14 @@ void edge_echoes(const Scatterer& scatterer, const AntennaPair& antennas, const 
                                : static_cast<int>(edges.size());
   };
   parallel_for(kEdgeChunks, threads, [&](std::size_t chunk) {
-    std::vector<EdgeFootprint> answer;
+    std::vector<EdgeContribution> answer;
     for (int edge = chunk_start(chunk); edge < chunk_start(chunk + 1); ++edge) {
       answer.clear();
-      edge_footprints(edges[edge], scatterer.facets(), antennas, incoming.of(edge), outgoing.of(edge),
-                      settings.max_bounces, answer);
-      append_edge_waves(scatterer, antennas, edge, incoming, outgoing, limits, answer);
-      std::erase_if(answer, [&](const EdgeFootprint& f) {
-        return !settings.filter.keeps_edge(f.part, f.part_beyond, f.bounces);
+      append_single_diffraction(edges[edge], scatterer.facets(), geometry, incoming.of(edge), outgoing.of(edge),
+                                settings.max_bounces, answer);
+      append_multiple_diffraction(scatterer, geometry, edge, incoming, outgoing, limits, answer);
+      std::erase_if(answer, [&](const EdgeContribution& f) {
+        return !settings.filter.accepts_edge(f.part, f.other_part, f.bounces);
       });
       if (!answer.empty()) visit(chunk, answer);
     }

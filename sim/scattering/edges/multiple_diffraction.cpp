@@ -17,129 +17,132 @@ namespace {
 
 // Facets that turn by less than this are one flat face: an edge wave leaves a curved one.
 constexpr double kFlat = 1e-6;
-constexpr double kShortest = 1e-7;   // m
+constexpr double kMinLength = 1e-7;  // m
 constexpr double kNarrowest = 1e-9;  // m
 constexpr double kOnEnd = 1e-7;      // m, from the end of a stretch
 // Sine of the angle between a wave and a rim that it does not meet. Directions that would run along one are turned
 // aside by more (illumination.cpp).
-constexpr double kAlong = 1e-9;
+constexpr double kParallelSine = 1e-9;
 // Sine of the angle between an edge and what it sends along a face: for a wave from outside and for an edge wave.
-constexpr double kAlongItself = 1e-6, kBeside = 1e-5;
+constexpr double kMinLaunchSine = 1e-6, kMinRelaunchSine = 1e-5;
 // A grazing wave is sent down on its face by this angle, so that rounding does not put it on the other side.
-constexpr double kLift = 1e-7;
+constexpr double kGrazingLift = 1e-7;
 
 // What an edge wave does to the one after it enters by its mean, over stretches along which its length grows no more
 // than this; on long edges. What is shorter than a hundredth of the longest counts as one.
-constexpr double kMostGrowth = 4, kShortestShare = 0.01;
+constexpr double kMaxGrowth = 4, kShortestShare = 0.01;
 
 // No current of a grazing wave along w answers louder in direction s, times 1 - s.w; 0.37 was the most met on the ship.
-constexpr double kMostCurrent = 0.5;
+constexpr double kMaxCurrent = 0.5;
 constexpr double kNoField = 1e-9;  // relative to the incident one
 
 // Edge waves in a row: on a face that two edges bound the third edge is the first one again, and the fourth the second;
 // near grazing each one's answer is as large as the one's before.
-constexpr int kMostWaves = 3;
+constexpr int kMaxGrazingWaves = 3;
 // Upright walls between two edges: those of a right-angled corner. A wave by walls is the only one of its row: near
 // grazing, where a third diffraction counts, echoes by walls have faded.
-constexpr int kMostWalls = 2;
+constexpr int kMaxWallReflections = 2;
 
 // Edge waves are weak; with mirrors on the way in or out they are weaker than what physical optics itself is uncertain
 // by there, and left out.
-bool by_mirrors(const EdgeArrival& way) { return way.mirrors > 0; }
+bool is_reflected(const EdgeIllumination& way) { return way.reflections > 0; }
 
 // A grazing wave along w, a little down on the face.
-Vec3 grazing(const WedgeFace& face, const Vec3& w) { return (w - kLift * face.n).normalized(); }
+Vec3 grazing(const WedgeFace& face, const Vec3& w) { return (w - kGrazingLift * face.n).normalized(); }
 
 // 1 - s.w, never zero.
-double opening(const Vec3& w, const Vec3& s) { return std::max(0.5 * (s - w).squaredNorm(), 1e-15); }
+double one_minus_cosine(const Vec3& w, const Vec3& s) { return std::max(0.5 * (s - w).squaredNorm(), 1e-15); }
 
-class EdgeWaves {
+class MultipleDiffractionTracer {
  public:
-  EdgeWaves(const SharpEdges& edges, std::span<const Facet> facets, const Panels& panels, const AntennaPair& antennas,
-            const ArrivalsByEdge& outgoing, const EdgeWaveLimits& limits, bool backwards,
-            std::vector<EdgeFootprint>& out)
+  MultipleDiffractionTracer(const SharpEdges& edges, std::span<const Facet> facets, const Panels& panels,
+                            const BistaticGeometry& geometry, const IlluminationByEdge& outgoing,
+                            const MultipleDiffractionLimits& limits, bool backwards, std::vector<EdgeContribution>& out)
       : edges_(edges),
         facets_(facets),
         panels_(panels),
-        antennas_(antennas),
+        geometry_(geometry),
         outgoing_(outgoing),
         limits_(limits),
-        backwards_(backwards),
+        reciprocal_(backwards),
         out_(out) {
     for (std::size_t waves = 1; waves < spread_.size(); ++waves)
       spread_[waves] = spread_[waves - 1] / std::sqrt(limits.k);
   }
 
-  void send(const EdgeArrival& arrival) {
-    Incident in{arrival.edge, arrival.s, {}, {}, arrival.direction, {arrival.E_h, arrival.E_v}};
+  void launch(const EdgeIllumination& illumination) {
+    EdgeIncidentWave in{
+        illumination.edge, illumination.s, {}, {}, illumination.direction, {illumination.E_h, illumination.E_v}};
     for (int end = 0; end < 2; ++end) {
-      in.X[end] = arrival.image + arrival.s[end] * arrival.image_along;
-      in.psi[end] = antennas_.transmit.r.dot(in.X[end]);
+      in.X[end] = illumination.image_start + illumination.s[end] * illumination.image_edge_direction;
+      in.psi[end] = geometry_.transmit.r.dot(in.X[end]);
     }
-    send(in);
+    launch(in);
   }
 
  private:
   // Sends an edge wave on, part by part of its stretch.
-  void send_on(const Incident& in) {
+  void relaunch(const EdgeIncidentWave& in) {
     const auto [shortest, longest] = std::minmax(in.l[0], in.l[1]);
     const double first = std::max(shortest, kShortestShare * longest), growth = longest / first;
-    const int parts = std::max(1, static_cast<int>(std::ceil(std::log(growth) / std::log(kMostGrowth))));
+    const int parts = std::max(1, static_cast<int>(std::ceil(std::log(growth) / std::log(kMaxGrowth))));
     double before = 0;  // share of the way from the end where it is shortest
     for (int n = 1; n <= parts; ++n) {
       const double here =
           n < parts ? (first * std::pow(growth, static_cast<double>(n) / parts) - shortest) / (longest - shortest)
                     : 1.0;
-      send(in.l[0] < in.l[1] ? part_of(in, before, here) : part_of(in, 1 - here, 1 - before));
+      launch(in.l[0] < in.l[1] ? sub_interval(in, before, here) : sub_interval(in, 1 - here, 1 - before));
       before = here;
     }
   }
 
-  void send(const Incident& in) {
+  void launch(const EdgeIncidentWave& in) {
     const SharpEdge& edge = edges_.edges[in.edge];
-    if (edge.run_m < limits_.from_m) return;
-    const WedgeFrame* wedge = wedge_towards(edge, in.direction);
+    if (edge.collinear_length_m < limits_.min_run_m) return;
+    const WedgeFrame* wedge = illuminated_wedge(edge, in.direction);
     if (!wedge) return;
-    const RowOfRims rims = with_rim(in.rims, *wedge, -in.direction);
-    const double decay = in.waves > 0 ? mean_decay(in.l) : 1.0;
+    const ThicknessChange thickness = with_edge(in.thickness, *wedge, -in.direction);
+    const double decay = in.grazing_waves > 0 ? mean_inverse_sqrt_length(in.l) : 1.0;
     for (int i = 0; i < 2; ++i) {
-      const EdgeWave wave = edge_wave(*wedge, i, in.direction, in.E);
-      const Source source{in,
-                          wedge->face[i],
-                          edge.a,
-                          edge.along(),
-                          {wave.amplitude[0] * decay * in.factor[0], wave.amplitude[1] * decay * in.factor[1]},
-                          wave.departure,
-                          rims,
-                          0,
-                          wedge->N < 1 && in.waves == 0 ? mirror_of(wedge->face[1 - i].n) : in.unfolded};
-      if (!counts(source)) continue;
+      const GrazingDiffractedWave wave = grazing_diffracted_wave(*wedge, i, in.direction, in.E);
+      const GrazingSource source{
+          in,
+          wedge->face[i],
+          edge.a,
+          edge.along(),
+          {wave.amplitude[0] * decay * in.factor[0], wave.amplitude[1] * decay * in.factor[1]},
+          wave.launch_parameter,
+          thickness,
+          0,
+          wedge->N < 1 && in.grazing_waves == 0 ? householder(wedge->face[1 - i].n) : in.unfolding};
+      if (!is_significant(source)) continue;
       // A corner below a right angle also sends the edge's field back along the face it came by, whose normal E is, as
       // a ray, without which this is not the whole.
-      if (wedge->N < 0.5 && in.waves > 0 && source.face.n.dot(in.E[0]) > 1 - kFlat) continue;
-      Strip strip{wave.direction.cross(source.face.n), wave.direction, 0, 0};
+      if (wedge->N < 0.5 && in.grazing_waves > 0 && source.face.n.dot(in.E[0]) > 1 - kFlat) continue;
+      RayStrip strip{wave.direction.cross(source.face.n), wave.direction, 0, 0};
       // It runs along the edge itself. An edge wave that met it nearly so is the one that goes on beside it; as a ray
       // off it, it would have the pole without the zero.
-      if (std::abs(strip.u.dot(source.along)) < (in.waves > 0 ? kBeside : kAlongItself)) continue;
+      if (std::abs(strip.u.dot(source.along)) < (in.grazing_waves > 0 ? kMinRelaunchSine : kMinLaunchSine)) continue;
       const double a = strip.u.dot(edge.a + in.s[0] * source.along), b = strip.u.dot(edge.a + in.s[1] * source.along);
       strip.from = std::min(a, b);
       strip.to = std::max(a, b);
       const int facet = edge.facet[i];
       int side = 0;
-      while (side < 2 && edges_.of_facet[facet][side] != in.edge) ++side;
-      cross(source, facet, side, strip, 0);
+      while (side < 2 && edges_.edges_of_facet[facet][side] != in.edge) ++side;
+      traverse_facet(source, facet, side, strip, 0);
     }
   }
 
   // What an edge makes of a grazing wave of unit incident field along w: its fringe current, and the end of the current
   // that the first edge alone would send on along w beyond it: J = 2 n x H = 2 w / eta there, integrated along w.
-  static Vec3 diffracted(const WedgeFrame& wedge, const WedgeFace& face, const Vec3& along, const Vec3& w,
-                         const Vec3& s) {
-    return fringe_current(wedge, grazing(face, w), face.n, s) + w.cross(along).norm() / (2 * kPi * opening(w, s)) * w;
+  static Vec3 second_edge_current(const WedgeFrame& wedge, const WedgeFace& face, const Vec3& along, const Vec3& w,
+                                  const Vec3& s) {
+    return fringe_current(wedge, grazing(face, w), face.n, s) +
+           w.cross(along).norm() / (2 * kPi * one_minus_cosine(w, s)) * w;
   }
 
   // Follows the strip that enters a facet by one of its sides.
-  void cross(const Source& source, int number, int entered, const Strip& strip, int depth) {
+  void traverse_facet(const GrazingSource& source, int number, int entered, const RayStrip& strip, int depth) {
     constexpr int kDeepest = 1000;  // facets of one face in a row
     if (strip.to - strip.from < kNarrowest || depth > kDeepest) return;
     const Facet& facet = facets_[number];
@@ -147,12 +150,12 @@ class EdgeWaves {
     for (const int side : {(entered + 1) % 3, (entered + 2) % 3}) {
       // What of the strip leaves by this side, which runs between the third corner and one of the side it came in by.
       const double other = strip.u.dot(facet.corner[side == (entered + 1) % 3 ? side : entered]);
-      Strip part = strip;
+      RayStrip part = strip;
       part.from = std::max(strip.from, std::min(split, other));
       part.to = std::min(strip.to, std::max(split, other));
       if (part.to - part.from < kNarrowest) continue;
-      const int edge = edges_.of_facet[number][side];
-      if (edge != kNoEdge && stands_upright(edges_.edges[edge], source.face.n)) {
+      const int edge = edges_.edges_of_facet[number][side];
+      if (edge != kNoEdge && is_perpendicular_wall(edges_.edges[edge], source.face.n)) {
         reflect(source, number, side, edges_.edges[edge], part, depth);
       } else if (edge != kNoEdge) {
         diffract(source, edge, part);
@@ -166,212 +169,226 @@ class EdgeWaves {
         // The common side runs from p or to p in the neighbour.
         const Vec3& q = facet.corner[(side + 1) % 3];
         const int common = neighbour.corner[(k + 1) % 3] == q ? k : (k + 2) % 3;
-        cross(source, next, common, part, depth + 1);
+        traverse_facet(source, next, common, part, depth + 1);
       }
     }
   }
 
   // Whether the edge is the foot of a wall at right angles to a face, on the side of the face's normal.
-  static bool stands_upright(const SharpEdge& edge, const Vec3& n) {
+  static bool is_perpendicular_wall(const SharpEdge& edge, const Vec3& n) {
     const auto faces = [&](const WedgeFrame& wedge) {
       return wedge.face[0].n.dot(n) > 0.5 || wedge.face[1].n.dot(n) > 0.5;
     };
     const auto right = [](const WedgeFrame& wedge) { return std::abs(wedge.N - 0.5) < kFlat; };
-    return faces(edge.outside) ? right(edge.outside) : edge.open && faces(edge.inside) && right(edge.inside);
+    return faces(edge.front_wedge) ? right(edge.front_wedge)
+                                   : edge.two_sided && faces(edge.back_wedge) && right(edge.back_wedge);
   }
 
   // An upright wall sends the strip back over the facet that it stands on. The electric field, across the face and so
   // along the wall, turns round.
-  void reflect(const Source& source, int facet, int side, const SharpEdge& foot, const Strip& strip, int depth) {
-    if (source.walls >= kMostWalls || source.in.waves > 0) return;
+  void reflect(const GrazingSource& source, int facet, int side, const SharpEdge& foot, const RayStrip& strip,
+               int depth) {
+    if (source.wall_reflections >= kMaxWallReflections || source.in.grazing_waves > 0) return;
     const Vec3 n = source.face.n.cross(foot.along());  // of the wall
-    if (source.walls == 0 && antennas_.monostatic && !backwards_) stand_in_penumbra(source, facet, foot, n, strip);
-    const Mat3 mirror = mirror_of(n);
+    if (source.wall_reflections == 0 && geometry_.monostatic && !reciprocal_)
+      add_wall_penumbra(source, facet, foot, n, strip);
+    const Mat3 mirror = householder(n);
     const Vec3 shift = 2 * n.dot(foot.a) * n;
-    const Source image{source.in,
-                       source.face,
-                       mirror * source.start + shift,
-                       mirror * source.along,
-                       {-source.amplitude[0], -source.amplitude[1]},
-                       source.departure,
-                       source.rims,
-                       source.walls + 1,
-                       source.unfolded * mirror};
+    const GrazingSource image{source.in,
+                              source.face,
+                              mirror * source.start + shift,
+                              mirror * source.along,
+                              {-source.amplitude[0], -source.amplitude[1]},
+                              source.departure,
+                              source.thickness,
+                              source.wall_reflections + 1,
+                              source.unfolding * mirror};
     const Vec3 u = mirror * strip.u;
-    cross(image, facet, side, {u, mirror * strip.w, strip.from + u.dot(shift), strip.to + u.dot(shift)}, depth + 1);
+    traverse_facet(image, facet, side, {u, mirror * strip.w, strip.from + u.dot(shift), strip.to + u.dot(shift)},
+                   depth + 1);
   }
 
   // What the wall returns otherwise where the rim's face is grazed, of which the facet at its foot is one.
-  void stand_in_penumbra(const Source& source, int floor, const SharpEdge& foot, const Vec3& n, const Strip& strip) {
-    WallBehindRim wall{source.start, source.along, source.face.n, n.dot(strip.w) < 0 ? n : Vec3(-n), 0, 0, {}};
+  void add_wall_penumbra(const GrazingSource& source, int floor, const SharpEdge& foot, const Vec3& n,
+                         const RayStrip& strip) {
+    WallBehindEdge wall{source.start, source.along, source.face.n, n.dot(strip.w) < 0 ? n : Vec3(-n), 0, 0, {}};
     for (int end = 0; end < 2; ++end) {
       const double u = end == 0 ? strip.from : strip.to;
       wall.foot[end] = foot.a + (u - strip.u.dot(foot.a)) / strip.u.dot(foot.along()) * foot.along();
       const double s = (u - strip.u.dot(source.start)) / strip.u.dot(source.along);
-      wall.shown[end] = s - source.in.s[0] < kOnEnd || source.in.s[1] - s < kOnEnd;
+      wall.ends_follow_edge[end] = s - source.in.s[0] < kOnEnd || source.in.s[1] - s < kOnEnd;
     }
     const auto panel_of = [&](int facet) {
-      return GrazedMirror{facets_[facet].normal, panels_.outline(panels_.of(facet))};
+      return ReflectorPanel{facets_[facet].normal, panels_.outline(panels_.representative(facet))};
     };
     for (const int facet : foot.facet) {
       if (std::abs(facets_[facet].normal.dot(n)) < 1 - kFlat) continue;
-      wall.by_image = share_by_image(antennas_.transmit.r, panel_of(floor), panel_of(facet));
-      for (const Vec3& x : panels_.outline(panels_.of(facet)))
+      wall.image_weight = image_weight(geometry_.transmit.r, panel_of(floor), panel_of(facet));
+      for (const Vec3& x : panels_.outline(panels_.representative(facet)))
         wall.height = std::max(wall.height, source.face.n.dot(x - foot.a));
     }
-    if (wall.height < kShortest) return;
-    EdgeFootprint echo;  // of the wall, at its foot
+    if (wall.height < kMinLength) return;
+    EdgeContribution echo;  // of the wall, at its foot
     echo.facet = foot.facet[0];
     echo.part = facets_[foot.facet[0]].part;
-    echo.part_beyond = facets_[foot.facet[1]].part;
+    echo.other_part = facets_[foot.facet[1]].part;
     echo.bounces = 2;
-    append_wall_penumbra(wall, antennas_.transmit, echo, limits_.k, limits_.faintest_m, out_);
+    append_wall_penumbra(wall, geometry_.transmit, echo, limits_.k, limits_.min_amplitude_m, out_);
   }
 
-  void diffract(const Source& source, int number, const Strip& strip) {
-    const Incident& in = source.in;
+  void diffract(const GrazingSource& source, int number, const RayStrip& strip) {
+    const EdgeIncidentWave& in = source.in;
     const SharpEdge& edge = edges_.edges[number];
     const Vec3& along = edge.along();
     const double across = strip.u.dot(along);
-    if (edge.run_m < limits_.from_m || std::abs(across) < kAlong) return;
-    const WedgeFrame* wedge = wedge_towards(edge, grazing(source.face, strip.w));
+    if (edge.collinear_length_m < limits_.min_run_m || std::abs(across) < kParallelSine) return;
+    const WedgeFrame* wedge = illuminated_wedge(edge, grazing(source.face, strip.w));
     if (!wedge) return;
     // The stretch of this edge that the strip meets, and the wave there: its rays come from the first edge without
     // crossing.
     const auto place = [&](double u) { return (u - strip.u.dot(edge.a)) / across; };
-    Incident next = in;
+    EdgeIncidentWave next = in;
     next.edge = number;
     next.s = {std::min(place(strip.from), place(strip.to)), std::max(place(strip.from), place(strip.to))};
     next.direction = grazing(source.face, strip.w);
     next.E = {source.face.n, source.face.n};
-    ++next.waves;
-    next.walls = source.walls;
-    next.unfolded = source.unfolded;
-    next.before = in.direction;
-    next.rims = source.rims;
+    ++next.grazing_waves;
+    next.wall_reflections = source.wall_reflections;
+    next.unfolding = source.unfolding;
+    next.previous_direction = in.direction;
+    next.thickness = source.thickness;
     for (int end = 0; end < 2; ++end) {
       const Vec3 Q2 = edge.a + next.s[end] * along;
       const double s1 = strip.u.dot(Q2 - source.start) / strip.u.dot(source.along);
       const double share = (s1 - in.s[0]) / (in.s[1] - in.s[0]);
       next.l[end] = std::max(0.0, strip.w.dot(Q2 - source.start - s1 * source.along));
-      next.psi[end] = at_share(in.psi, share) - next.l[end];
-      next.X[end] = at_share(in.X, share);
+      next.psi[end] = interpolate(in.psi, share) - next.l[end];
+      next.X[end] = interpolate(in.X, share);
     }
-    if (mean_decay(next.l) > 2e4) return;
-    if (in.waves == 0) next.departure = source.departure;
-    if (in.waves == 1) next.first_m = 1 / (mean_decay(in.l) * mean_decay(in.l));
+    if (mean_inverse_sqrt_length(next.l) > 2e4) return;
+    if (in.grazing_waves == 0) next.departure = source.departure;
+    if (in.grazing_waves == 1)
+      next.first_length_m = 1 / (mean_inverse_sqrt_length(in.l) * mean_inverse_sqrt_length(in.l));
     for (int q = 0; q < 2; ++q) next.factor[q] = 0.5 * source.amplitude[q];  // half of the wave is incident
-    // What leaves by a corner is found on its way back (corner_wave_footprints).
+    // What leaves by a corner is found on its way back (trace_diffraction_to_concave_edges).
     if (wedge->N > 1) {
-      for (const EdgeArrival* departure : outgoing_.of(number)) leave(next, *wedge, source.face, strip.w, *departure);
+      for (const EdgeIllumination* departure : outgoing_.of(number))
+        radiate_towards(next, *wedge, source.face, strip.w, *departure);
     }
-    if (next.waves < kMostWaves && edge.run_m >= limits_.long_from_m && next.walls == 0) send_on(next);
+    if (next.grazing_waves < kMaxGrazingWaves && edge.collinear_length_m >= limits_.min_run_high_order_m &&
+        next.wall_reflections == 0)
+      relaunch(next);
   }
 
   // Whether what an edge sends along a face may count: the echo of the next edge, its stretch in phase and its
   // diffraction coefficient one. On the ship what is left out by that is -89 dB.
-  bool counts(const Source& source) const {
-    const Incident& in = source.in;
+  bool is_significant(const GrazingSource& source) const {
+    const EdgeIncidentWave& in = source.in;
     const double fields = std::abs(source.amplitude[0]) + std::abs(source.amplitude[1]);
-    if (in.waves == 0) return fields > kNoField;
-    return fields * spread_[in.waves + 1] * std::sqrt(in.s[1] - in.s[0]) > limits_.faintest_m;
+    if (in.grazing_waves == 0) return fields > kNoField;
+    return fields * spread_[in.grazing_waves + 1] * std::sqrt(in.s[1] - in.s[0]) > limits_.min_amplitude_m;
   }
 
   // Whether an echo may, whose phase runs at `rate` along a stretch of that length: transition functions are at most 1
   // and at most sqrt(pi x).
-  bool counts(const Incident& in, const Vec3& w, const Vec3& s, double arrival, double rate, double length) const {
+  bool is_significant(const EdgeIncidentWave& in, const Vec3& w, const Vec3& s, double arrival, double rate,
+                      double length) const {
     const double fields = std::abs(in.factor[0]) + std::abs(in.factor[1]);
-    const double shadow = in.waves == 1 ? std::min(in.departure, arrival) : arrival;
+    const double shadow = in.grazing_waves == 1 ? std::min(in.departure, arrival) : arrival;
     const double decay = std::min(1 / std::sqrt(std::min(in.l[0], in.l[1])), std::sqrt(2 * kPi * limits_.k * shadow));
     const double extent = length / std::max(limits_.k * std::abs(rate) * length, 1.0);
-    return fields * kMostCurrent / opening(w, s) * spread_[in.waves] * decay * extent >= limits_.faintest_m;
+    return fields * kMaxCurrent / one_minus_cosine(w, s) * spread_[in.grazing_waves] * decay * extent >=
+           limits_.min_amplitude_m;
   }
 
   // What of a wave that came along a face goes out by a departure of the same edge.
-  void leave(const Incident& in, const WedgeFrame& wedge, const WedgeFace& face, const Vec3& w,
-             const EdgeArrival& departure) {
+  void radiate_towards(const EdgeIncidentWave& in, const WedgeFrame& wedge, const WedgeFace& face, const Vec3& w,
+                       const EdgeIllumination& departure) {
     const SharpEdge& edge = edges_.edges[in.edge];
-    if (by_mirrors(departure) || wedge_towards(edge, departure.direction) != &wedge) return;
+    if (is_reflected(departure) || illuminated_wedge(edge, departure.direction) != &wedge) return;
     const std::array<double, 2> s{std::max(in.s[0], departure.s[0]), std::min(in.s[1], departure.s[1])};
-    if (s[1] - s[0] < kShortest) return;
-    const double weight = in.walls > 0 || (backwards_ && in.waves == 1)
-                              ? before_the_beam(in.before, in.unfolded * -departure.direction)
+    if (s[1] - s[0] < kMinLength) return;
+    const double weight = in.wall_reflections > 0 || (reciprocal_ && in.grazing_waves == 1)
+                              ? diffraction_forward_taper(in.previous_direction, in.unfolding * -departure.direction)
                               : 1.0;
     if (weight <= 0) return;
     const Vec3& along = edge.along();
     const Vec3 out = -departure.direction;
-    const double arrival = shadow_distance(w, out);
-    const double rate = (in.psi[1] - in.psi[0]) / (in.s[1] - in.s[0]) + antennas_.receive.r.dot(departure.image_along);
-    if (!counts(in, w, out, arrival, rate, s[1] - s[0])) return;
-    EdgeFootprint footprint;
-    footprint.length = s[1] - s[0];
-    footprint.facet = edge.facet[0];
-    footprint.part = facets_[edge.facet[0]].part;
-    footprint.part_beyond = facets_[edge.facet[1]].part;
-    footprint.bounces = static_cast<std::uint8_t>(in.walls + in.waves + 1);
-    EdgeFootprint::EdgeWaveRange range;
+    const double arrival = transition_parameter(w, out);
+    const double rate =
+        (in.psi[1] - in.psi[0]) / (in.s[1] - in.s[0]) + geometry_.receive.r.dot(departure.image_edge_direction);
+    if (!is_significant(in, w, out, arrival, rate, s[1] - s[0])) return;
+    EdgeContribution contribution;
+    contribution.length = s[1] - s[0];
+    contribution.facet = edge.facet[0];
+    contribution.part = facets_[edge.facet[0]].part;
+    contribution.other_part = facets_[edge.facet[1]].part;
+    contribution.bounces = static_cast<std::uint8_t>(in.wall_reflections + in.grazing_waves + 1);
+    EdgeContribution::MultipleDiffraction range;
     for (int end = 0; end < 2; ++end) {
       const double share = (s[end] - in.s[0]) / (in.s[1] - in.s[0]);
-      const Vec3 Y = departure.image + s[end] * departure.image_along;
-      footprint.psi[end] = at_share(in.psi, share) + antennas_.receive.r.dot(Y);
-      footprint.gradient[end].transmit = at_share(in.X, share);
-      footprint.gradient[end].receive = Y;
-      range.l[end] = at_share(in.l, share);
+      const Vec3 Y = departure.image_start + s[end] * departure.image_edge_direction;
+      contribution.psi[end] = interpolate(in.psi, share) + geometry_.receive.r.dot(Y);
+      contribution.gradient[end].transmit = interpolate(in.X, share);
+      contribution.gradient[end].receive = Y;
+      range.l[end] = interpolate(in.l, share);
     }
-    range.departure = in.departure;
-    range.arrival = arrival;
-    range.first_m = in.first_m;
-    range.waves = in.waves;
-    footprint.edge_wave = range;
-    const Vec3 J = weight * diffracted(wedge, face, along, w, out);
+    range.launch_parameter = in.departure;
+    range.exit_parameter = arrival;
+    range.first_length_m = in.first_length_m;
+    range.grazing_waves = in.grazing_waves;
+    contribution.multiple_diffraction = range;
+    const Vec3 J = weight * second_edge_current(wedge, face, along, w, out);
     const double h = departure.E_h.dot(J), v = departure.E_v.dot(J);
-    EdgePattern& pattern = footprint.pattern;
-    pattern.sharp = {h * in.factor[0], h * in.factor[1], v * in.factor[0], v * in.factor[1]};
-    const RowOfRims rims = with_rim(in.rims, wedge, out);
-    pattern.thickness_m = rims.thickness_m;
+    EdgePattern& pattern = contribution.pattern;
+    pattern.thin = {h * in.factor[0], h * in.factor[1], v * in.factor[0], v * in.factor[1]};
+    const ThicknessChange thickness = with_edge(in.thickness, wedge, out);
+    pattern.thickness_m = thickness.thickness_m;
     for (int i = 0; i < 4; ++i) {
-      pattern.thick[i] = pattern.sharp[i] * rims.change.constant;
-      pattern.thick_log[i] = pattern.sharp[i] * rims.change.logarithm;
+      pattern.thickness_linear[i] = pattern.thin[i] * thickness.change.constant;
+      pattern.thickness_log[i] = pattern.thin[i] * thickness.change.logarithm;
     }
-    out_.push_back(footprint);
+    out_.push_back(contribution);
   }
 
   const SharpEdges& edges_;
   std::span<const Facet> facets_;
   const Panels& panels_;
-  const AntennaPair& antennas_;
-  const ArrivalsByEdge& outgoing_;
-  EdgeWaveLimits limits_;
-  bool backwards_;  // from corners, for ways that end there
-  std::vector<EdgeFootprint>& out_;
-  std::array<double, kMostWaves + 1> spread_{1.0};  // k^(-waves / 2), m^(waves / 2)
+  const BistaticGeometry& geometry_;
+  const IlluminationByEdge& outgoing_;
+  MultipleDiffractionLimits limits_;
+  bool reciprocal_;  // from corners, for ways that end there
+  std::vector<EdgeContribution>& out_;
+  std::array<double, kMaxGrazingWaves + 1> spread_{1.0};  // k^(-waves / 2), m^(waves / 2)
 };
 
 }  // namespace
 
-void edge_wave_footprints(const SharpEdges& edges, std::span<const Facet> facets, const Panels& panels,
-                          const AntennaPair& antennas, EdgeArrivals incoming, const ArrivalsByEdge& outgoing,
-                          const EdgeWaveLimits& limits, std::vector<EdgeFootprint>& footprints) {
-  EdgeWaves waves(edges, facets, panels, antennas, outgoing, limits, false, footprints);
-  for (const EdgeArrival* in : incoming) {
-    if (!by_mirrors(*in)) waves.send(*in);
+void trace_multiple_diffraction(const SharpEdges& edges, std::span<const Facet> facets, const Panels& panels,
+                                const BistaticGeometry& geometry, EdgeIlluminations incoming,
+                                const IlluminationByEdge& outgoing, const MultipleDiffractionLimits& limits,
+                                std::vector<EdgeContribution>& contributions) {
+  MultipleDiffractionTracer waves(edges, facets, panels, geometry, outgoing, limits, false, contributions);
+  for (const EdgeIllumination* in : incoming) {
+    if (!is_reflected(*in)) waves.launch(*in);
   }
 }
 
-void corner_wave_footprints(const SharpEdges& edges, std::span<const Facet> facets, const Panels& panels,
-                            const AntennaPair& antennas, const ArrivalsByEdge& incoming, EdgeArrivals outgoing,
-                            const EdgeWaveLimits& limits, std::vector<EdgeFootprint>& footprints) {
-  const AntennaPair exchanged{antennas.receive, antennas.transmit, antennas.monostatic};
-  std::vector<EdgeFootprint> back;
-  EdgeWaves waves(edges, facets, panels, exchanged, incoming, limits, true, back);
-  for (const EdgeArrival* out : outgoing) {
-    const WedgeFrame* wedge = wedge_towards(edges.edges[out->edge], out->direction);
-    if (!by_mirrors(*out) && wedge && wedge->N < 1) waves.send(*out);
+void trace_diffraction_to_concave_edges(const SharpEdges& edges, std::span<const Facet> facets, const Panels& panels,
+                                        const BistaticGeometry& geometry, const IlluminationByEdge& incoming,
+                                        EdgeIlluminations outgoing, const MultipleDiffractionLimits& limits,
+                                        std::vector<EdgeContribution>& contributions) {
+  const BistaticGeometry exchanged{geometry.receive, geometry.transmit, geometry.monostatic};
+  std::vector<EdgeContribution> back;
+  MultipleDiffractionTracer waves(edges, facets, panels, exchanged, incoming, limits, true, back);
+  for (const EdgeIllumination* out : outgoing) {
+    const WedgeFrame* wedge = illuminated_wedge(edges.edges[out->edge], out->direction);
+    if (!is_reflected(*out) && wedge && wedge->N < 1) waves.launch(*out);
   }
-  for (EdgeFootprint& footprint : back) {
-    for (PathGradient& gradient : footprint.gradient) std::swap(gradient.transmit, gradient.receive);
-    footprint.pattern = transposed(footprint.pattern);
-    footprints.push_back(footprint);
+  for (EdgeContribution& contribution : back) {
+    for (PathGradient& gradient : contribution.gradient) std::swap(gradient.transmit, gradient.receive);
+    contribution.pattern = transposed(contribution.pattern);
+    contributions.push_back(contribution);
   }
 }
 

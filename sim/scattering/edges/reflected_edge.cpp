@@ -14,66 +14,73 @@ namespace {
 
 // Angle off the direction of reflection within which the poles of both ends must cancel and from where on either stands
 // alone, rad.
-constexpr std::array<double, 2> kOffReflection{0.1, 0.2};
+constexpr std::array<double, 2> kOffSpecularTaper{0.1, 0.2};
 // The same as a part of the way from there to the wave's way on, where what another face that is grazed leaves has its
 // pole.
-constexpr std::array<double, 2> kOffGrazing{0.25, 0.5};
+constexpr std::array<double, 2> kOffGrazingTaper{0.25, 0.5};
 // Component along the rim by which a way out leaves Keller's cone.
-constexpr std::array<double, 2> kOffCone{0.1, 0.2};
+constexpr std::array<double, 2> kOffConeTaper{0.1, 0.2};
 // Nearer to the direction of reflection than this, rad, the ends are taken at this far to either side of it, and their
 // poles cancel: the constant errs by its square times the ends' second derivative, 1e-6 at 10 deg.
-constexpr double kAtReflection = 1e-3, kAside = 1e-4;
+constexpr double kAtSpecular = 1e-3, kAside = 1e-4;
 
 // n x (k^ x E): half of physical optics' current times eta, the wave being in the vacuum before the conductor.
-Vec3 current(const Vec3& n, const Vec3& k_hat, const Vec3& E) { return n.cross(k_hat.cross(E)); }
+Vec3 half_po_current(const Vec3& n, const Vec3& k_hat, const Vec3& E) { return n.cross(k_hat.cross(E)); }
 
 }  // namespace
 
-double lands_on(const Vec3& beam, const Vec3& s, const Vec3& last) {
-  const double lands = last.dot(s) * last.dot(beam) > 0 ? 1 - grazes(beam, last) : 0, leaves = 1 - grazes(s, last);
+double beam_incidence_taper(const Vec3& beam, const Vec3& s, const Vec3& last) {
+  const double lands = last.dot(s) * last.dot(beam) > 0 ? 1 - grazing_taper(beam, last) : 0,
+               leaves = 1 - grazing_taper(s, last);
   return lands < leaves ? lands / leaves : 1;
 }
 
-double rim_share(const Vec3& n, const Vec3& t, const Vec3& k_hat, const Vec3& s, const Vec3& last) {
+double reflected_edge_weight(const Vec3& n, const Vec3& t, const Vec3& k_hat, const Vec3& s, const Vec3& last) {
   const double cosine = -n.dot(k_hat);
   if (cosine <= 0) return 0;
-  return before_the_beam(k_hat, s) * (1 - grazes(cosine)) * (1 - grazes(s, last)) *
-         fading(std::abs(t.dot(s - k_hat)), kOffCone);
+  return diffraction_forward_taper(k_hat, s) * (1 - grazing_taper(cosine)) * (1 - grazing_taper(s, last)) *
+         smooth_taper(std::abs(t.dot(s - k_hat)), kOffConeTaper);
 }
 
-double grazing_share(double sine) { return before_the_beam(1 - 2 * sine * sine) * (1 - grazes(sine)); }
+double specular_grazing_weight(double sine) {
+  return diffraction_forward_taper(1 - 2 * sine * sine) * (1 - grazing_taper(sine));
+}
 
-std::array<double, 2> reflecting_shares(const WedgeFrame& wedge, const EdgeArrival& in, const EdgeArrival& out) {
+std::array<double, 2> reflected_face_weights(const WedgeFrame& wedge, const EdgeIllumination& in,
+                                             const EdgeIllumination& out) {
   std::array<double, 2> shares{};
   const Vec3 &k_hat = in.direction, s = -out.direction;
   for (int i = 0; i < 2; ++i) {
     const auto& [x, n, t] = wedge.face[i];
     if (n.dot(k_hat) >= 0 || n.dot(s) <= 0) continue;
     shares[i] = 1;
-    if (out.mirrors > 0) shares[i] = rim_share(n, t, k_hat, s, out.first_mirror);
-    if (in.mirrors > 0) shares[i] = std::min(shares[i], rim_share(n, t, -s, -k_hat, in.first_mirror));
-    if (in.mirrors + out.mirrors > kMostMoved) {
-      const double off = (s - mirrored(k_hat, n)).norm(), cosine = -n.dot(k_hat);
-      shares[i] *= fading(off, kOffReflection) * fading(off / (2 * cosine), kOffGrazing);
+    if (out.reflections > 0) shares[i] = reflected_edge_weight(n, t, k_hat, s, out.first_reflector_normal);
+    if (in.reflections > 0)
+      shares[i] = std::min(shares[i], reflected_edge_weight(n, t, -s, -k_hat, in.first_reflector_normal));
+    if (in.reflections + out.reflections > kMaxCorrectedReflections) {
+      const double off = (s - reflect_direction(k_hat, n)).norm(), cosine = -n.dot(k_hat);
+      shares[i] *= smooth_taper(off, kOffSpecularTaper) * smooth_taper(off / (2 * cosine), kOffGrazingTaper);
     }
   }
   return shares;
 }
 
-std::array<double, 4> ends_of_beam(const WedgeFace& face, const EdgeArrival& in, const EdgeArrival& out) {
+std::array<double, 4> endpoint_correction(const WedgeFace& face, const EdgeIllumination& in,
+                                          const EdgeIllumination& out) {
   std::array<double, 4> ends{};
-  if (out.mirrors == 0) return ends;
+  if (out.reflections == 0) return ends;
   const Vec3 &k_hat = in.direction, s = -out.direction;
-  const Vec3 beam = mirrored(k_hat, face.n),
-             n = out.first_mirror.dot(beam) < 0 ? out.first_mirror : Vec3(-out.first_mirror);
+  const Vec3 beam = reflect_direction(k_hat, face.n), n = out.first_reflector_normal.dot(beam) < 0
+                                                              ? out.first_reflector_normal
+                                                              : Vec3(-out.first_reflector_normal);
   // On the last mirror the rim's shadow, and into the light from there, as long as on the rim.
-  const double cosine = n.dot(beam), lands = lands_on(beam, s, n);
+  const double cosine = n.dot(beam), lands = beam_incidence_taper(beam, s, n);
   const Vec3 shadow = face.t - face.t.dot(n) / cosine * beam, into = face.x - face.x.dot(n) / cosine * beam;
   const double area = shadow.cross(into).norm();
-  const auto about_rim = [&](const Vec3& x) { return std::atan2(face.n.dot(x), face.x.dot(x)); };
-  const double off = std::remainder(about_rim(s) - about_rim(beam), 2 * kPi);
+  const auto about_edge = [&](const Vec3& x) { return std::atan2(face.n.dot(x), face.x.dot(x)); };
+  const double off = std::remainder(about_edge(s) - about_edge(beam), 2 * kPi);
   // Where there is no end on the last mirror that of the rim's face stands alone, away from its pole.
-  const double alone = 1 - (1 - lands) * fading(std::abs(off), kOffReflection);
+  const double alone = 1 - (1 - lands) * smooth_taper(std::abs(off), kOffSpecularTaper);
   const auto add = [&](double angle, double weight) {
     const Vec3 on_cone = Eigen::AngleAxisd(angle, face.t) * beam, away = on_cone - beam;
     const auto turned = Eigen::Quaterniond::FromTwoVectors(s, on_cone);
@@ -81,13 +88,14 @@ std::array<double, 4> ends_of_beam(const WedgeFace& face, const EdgeArrival& in,
     for (int t = 0; t < 2; ++t) {
       const Vec3& E = t == 0 ? in.E_h : in.E_v;
       // The integral of e^{jk away.x u} du from 0 on, times -jk / 2 pi.
-      Vec3 of_face = alone / (2 * kPi * away.dot(face.x)) * current(face.n, k_hat, E), of_last = Vec3::Zero();
-      if (lands > 0) of_last = lands * area / (2 * kPi * away.dot(into)) * current(n, beam, -mirrored(E, face.n));
+      Vec3 of_face = alone / (2 * kPi * away.dot(face.x)) * half_po_current(face.n, k_hat, E), of_last = Vec3::Zero();
+      if (lands > 0)
+        of_last = lands * area / (2 * kPi * away.dot(into)) * half_po_current(n, beam, -reflect_direction(E, face.n));
       for (int r = 0; r < 2; ++r)
-        ends[2 * r + t] += weight * (received[r].dot(of_face) + mirrored(received[r], n).dot(of_last));
+        ends[2 * r + t] += weight * (received[r].dot(of_face) + reflect_direction(received[r], n).dot(of_last));
     }
   };
-  if (std::abs(off) < kAtReflection) {
+  if (std::abs(off) < kAtSpecular) {
     add(-kAside, 0.5);
     add(kAside, 0.5);
   } else {

@@ -29,25 +29,28 @@ namespace seaglint {
 
 // By how much the beam along `beam` comes down on a mirror (normal `last`, of either sign) on the side that a way out
 // along s comes from, 1, or grazes it, more than that way does, and ends far away or nowhere, 0.
-double lands_on(const Vec3& beam, const Vec3& s, const Vec3& last);
+double beam_incidence_taper(const Vec3& beam, const Vec3& s, const Vec3& last);
 
 // What share of a rim's answer is as above, for a wave along k_hat on its face with normal n and a way out along s to a
 // mirror with normal `last`: none near the wave's way on, where wave or way graze a mirror, and off Keller's cone about
 // the rim (direction t), where its ends alone answer.
-double rim_share(const Vec3& n, const Vec3& t, const Vec3& k_hat, const Vec3& s, const Vec3& last);
+double reflected_edge_weight(const Vec3& n, const Vec3& t, const Vec3& k_hat, const Vec3& s, const Vec3& last);
 
 // Of that what the wave's sine over the face leaves of it on the way out near the direction of reflection; the rest is
 // wall_penumbra.h's.
-double grazing_share(double sine);
+double specular_grazing_weight(double sine);
 
-// By what shares the faces of the wedge send a wave on by mirrors; with more mirrors on both ways than kMostMoved,
-// whose shadow lines keep their ends, near the direction of reflection alone: 0 from 0.2 rad off it on.
-inline constexpr int kMostMoved = 2;
-std::array<double, 2> reflecting_shares(const WedgeFrame& wedge, const EdgeArrival& in, const EdgeArrival& out);
+// By what shares the faces of the wedge send a wave on by mirrors; with more mirrors on both ways than
+// kMaxCorrectedReflections, whose shadow lines keep their ends, near the direction of reflection alone: 0 from 0.2 rad
+// off it on.
+inline constexpr int kMaxCorrectedReflections = 2;
+std::array<double, 2> reflected_face_weights(const WedgeFrame& wedge, const EdgeIllumination& in,
+                                             const EdgeIllumination& out);
 
-// hh, hv, vh, vv per metre of rim, to be added to what edge_currents() returns: the end of physical optics on the rim's
-// own face less that on the last mirror of the way out; zeros where the way out is direct, the rim's face being the
-// last mirror itself. On Keller's cone: off it the way out is turned onto it.
-std::array<double, 4> ends_of_beam(const WedgeFace& face, const EdgeArrival& in, const EdgeArrival& out);
+// hh, hv, vh, vv per metre of rim, to be added to what equivalent_edge_currents() returns: the end of physical optics
+// on the rim's own face less that on the last mirror of the way out; zeros where the way out is direct, the rim's face
+// being the last mirror itself. On Keller's cone: off it the way out is turned onto it.
+std::array<double, 4> endpoint_correction(const WedgeFace& face, const EdgeIllumination& in,
+                                          const EdgeIllumination& out);
 
 }  // namespace seaglint

@@ -20,28 +20,28 @@ namespace seaglint {
 
 // Mirrors on both ways together. Three suffice for what a corner reflector's rims return; what is left out has left the
 // target's straight ways.
-inline constexpr int kMostEdgeMirrors = 3;
+inline constexpr int kMaxEdgeReflections = 3;
 
 // A wave that falls on a facet through mirrors, as a beam's leg carries it.
-struct WaveOnFacet {
+struct FacetWave {
   const RadarBasis& antenna;
-  const Mirror& mirrors;
-  const ImagePlane& plane;  // of the facet's image
+  const ImageTransform& image_transform;
+  const DepthPlane& plane;  // of the facet's image
   Vec3 direction, E_h, E_v;
-  int bounce = 1;                    // of the hit on the facet
-  Vec3 first_mirror = Vec3::Zero();  // as in EdgeArrival
+  int bounce = 1;                              // of the hit on the facet
+  Vec3 first_reflector_normal = Vec3::Zero();  // as in EdgeIllumination
 };
 
 // Appends the stretches of the sharp edges of a panel (by the facet it goes by) that bound what the wave lights of it
 // (convex pieces of the aperture).
-void find_arrivals(const SharpEdges& edges, int facet, const WaveOnFacet& wave, std::span<const MovingPolygon> lit,
-                   std::vector<EdgeArrival>& arrivals);
+void find_edge_illumination(const SharpEdges& edges, int facet, const FacetWave& wave,
+                            std::span<const MovingPolygon> illuminated, std::vector<EdgeIllumination>& illuminations);
 
 // Appends the echoes of all stretches of an edge that a wave from the transmitter (`incoming`) shares with one from the
 // receiver (`outgoing`), with at most `max_bounces` in all. When both are one antenna the lists are the same. Edge
 // waves are apart (multiple_diffraction.h).
-void edge_footprints(const SharpEdge& edge, std::span<const Facet> facets, const AntennaPair& antennas,
-                     EdgeArrivals incoming, EdgeArrivals outgoing, int max_bounces,
-                     std::vector<EdgeFootprint>& footprints);
+void append_single_diffraction(const SharpEdge& edge, std::span<const Facet> facets, const BistaticGeometry& geometry,
+                               EdgeIlluminations incoming, EdgeIlluminations outgoing, int max_bounces,
+                               std::vector<EdgeContribution>& contributions);
 
 }  // namespace seaglint

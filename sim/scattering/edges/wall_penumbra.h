@@ -38,21 +38,21 @@
 namespace seaglint {
 
 // A face that ends at a rim and on which a wall stands upright; all normals unit.
-struct WallBehindRim {
-  Vec3 rim, along;           // a point of it and its direction, unit
-  Vec3 face_normal;          // on the lit side
-  Vec3 wall_normal;          // towards the rim
-  double height = 0;         // of the wall, m; where it is no higher than the penumbra all fades out
-  double by_image = 0;       // what share of its echo by the face its image in it has (grazing_reflection.h)
-  std::array<Vec3, 2> foot;  // ends of the stretch of the wall that stands behind the rim
+struct WallBehindEdge {
+  Vec3 edge_point, edge_direction;  // a point of it and its direction, unit
+  Vec3 face_normal;                 // on the lit side
+  Vec3 wall_normal;                 // towards the rim
+  double height = 0;                // of the wall, m; where it is no higher than the penumbra all fades out
+  double image_weight = 0;          // what share of its echo by the face its image in it has (grazing_reflection.h)
+  std::array<Vec3, 2> foot;         // ends of the stretch of the wall that stands behind the rim
   // whether an end is where the end of the rim shows on the wall, and moves along it as the direction turns; else it
   // stays
-  std::array<bool, 2> shown{};
+  std::array<bool, 2> ends_follow_edge{};
 };
 
 // Appends that for one antenna, as footprints that are like `foot_echo` but for phase, gradient, length and pattern.
-// Echoes below faintest_m at wavenumber k are left out.
-void append_wall_penumbra(const WallBehindRim& wall, const RadarBasis& antenna, const EdgeFootprint& foot_echo,
-                          double k, double faintest_m, std::vector<EdgeFootprint>& footprints);
+// Echoes below min_amplitude_m at wavenumber k are left out.
+void append_wall_penumbra(const WallBehindEdge& wall, const RadarBasis& antenna, const EdgeContribution& foot_echo,
+                          double k, double min_amplitude_m, std::vector<EdgeContribution>& contributions);
 
 }  // namespace seaglint

@@ -47,7 +47,8 @@ Complex value_at(const DispersionSpec& spec, double frequency_hz) {
   return value - kJ * spec.conductivity_s_m / (2 * kPi * frequency_hz * kVacuumPermittivity);
 }
 
-Surface::Surface(const MaterialSpec& spec, double k) : kind_(spec.kind), k_(k), roughness_(1e-3 * spec.roughness_mm) {
+MaterialSurface::MaterialSurface(const MaterialSpec& spec, double k)
+    : kind_(spec.kind), k_(k), roughness_(1e-3 * spec.roughness_mm) {
   const double frequency_hz = k * kSpeedOfLight / (2 * kPi);
   switch (spec.kind) {
     case SurfaceKind::kPec: break;
@@ -67,18 +68,18 @@ Surface::Surface(const MaterialSpec& spec, double k) : kind_(spec.kind), k_(k), 
       slabs_.push_back({sea_water_permittivity(frequency_hz, spec.temperature_c, spec.salinity_psu), 1.0, 0});
       half_space_ = true;
       break;
-    case SurfaceKind::kUnderWater: break;
+    case SurfaceKind::kSubmerged: break;
   }
 }
 
-SurfaceFields Surface::at(double cos_incidence) const {
-  SurfaceFields fields;
+InterfaceCoefficients MaterialSurface::at(double cos_incidence) const {
+  InterfaceCoefficients fields;
   if (kind_ == SurfaceKind::kImpedance) {
     // Z_s against the wave impedances 1 / cos and cos; the sign of tm turns tangential E into the ray-fixed basis.
     const Complex z = impedance_;
     fields.te = (z * cos_incidence - 1.0) / (z * cos_incidence + 1.0);
     fields.tm = (cos_incidence - z) / (cos_incidence + z);
-  } else if (kind_ == SurfaceKind::kUnderWater) {
+  } else if (kind_ == SurfaceKind::kSubmerged) {
     fields.te = fields.tm = 0;
   } else if (kind_ != SurfaceKind::kPec) {
     fields = stack(cos_incidence);
@@ -86,11 +87,11 @@ SurfaceFields Surface::at(double cos_incidence) const {
   return fields;
 }
 
-double Surface::coherence(double cos_in, double cos_out) const {
-  return roughness_ > 0 ? ament_loss(k_, roughness_, 0.5 * (cos_in + cos_out)) : 1.0;
+double MaterialSurface::roughness_factor(double cos_in, double cos_out) const {
+  return roughness_ > 0 ? ament_factor(k_, roughness_, 0.5 * (cos_in + cos_out)) : 1.0;
 }
 
-SurfaceFields Surface::stack(double cos_incidence) const {
+InterfaceCoefficients MaterialSurface::stack(double cos_incidence) const {
   const double sin_squared = 1 - cos_incidence * cos_incidence;
   // From the free space in front (0) to what lies behind the last interface.
   struct Medium {
@@ -106,7 +107,7 @@ SurfaceFields Surface::stack(double cos_incidence) const {
   //     Gamma_i = (rho_i + Gamma_{i+1} e^{-2j delta}) / (1 + rho_i Gamma_{i+1} e^{-2j delta}),
   // delta = k0 kappa d of the medium between them.
   Complex te = -1, tm = -1;  // tangential E at a perfect conductor
-  Complex te_through = 1, tm_through = 1;
+  Complex te_transmission = 1, tm_transmission = 1;
   const bool has_conductor = !half_space_ && !air_behind_;
   double depth = 0;
   for (std::size_t i = media.size() - 1; i-- > 0;) {
@@ -119,17 +120,17 @@ SurfaceFields Surface::stack(double cos_incidence) const {
     const Complex back_te = ends ? 0 : te * once * once, back_tm = ends ? 0 : tm * once * once;
     te = (rho_te + back_te) / (1.0 + rho_te * back_te);
     tm = (rho_tm + back_tm) / (1.0 + rho_tm * back_tm);
-    te_through *= (1.0 + rho_te) * once / (1.0 + rho_te * back_te);
-    tm_through *= (1.0 + rho_tm) * once / (1.0 + rho_tm * back_tm);
+    te_transmission *= (1.0 + rho_te) * once / (1.0 + rho_te * back_te);
+    tm_transmission *= (1.0 + rho_tm) * once / (1.0 + rho_tm * back_tm);
     depth += thickness;
   }
-  SurfaceFields fields;
+  InterfaceCoefficients fields;
   fields.te = te;
   fields.tm = -tm;
   if (air_behind_) {
     const Complex without = std::exp(kJ * k_ * cos_incidence * depth);
-    fields.te_through = te_through * without;
-    fields.tm_through = tm_through * without;
+    fields.te_transmission = te_transmission * without;
+    fields.tm_transmission = tm_transmission * without;
   }
   return fields;
 }

@@ -19,36 +19,36 @@ namespace seaglint {
 // At one frequency, in Hz.
 Complex value_at(const DispersionSpec& spec, double frequency_hz);
 
-struct SurfaceFields {
+struct InterfaceCoefficients {
   Complex te = -1, tm = 1;  // reflected field
   // Field behind an air-backed sheet relative to the one that would be there without it (referred to the front face); 0
   // for all others.
-  Complex te_through = 0, tm_through = 0;
+  Complex te_transmission = 0, tm_transmission = 0;
 };
 
 // A material at one frequency.
-class Surface {
+class MaterialSurface {
  public:
   // k: wavenumber in free space, rad/m. The material's stated frequency range is not enforced here.
-  Surface(const MaterialSpec& spec, double k);
+  MaterialSurface(const MaterialSpec& spec, double k);
 
-  bool is_under_water() const { return kind_ == SurfaceKind::kUnderWater; }
+  bool is_submerged() const { return kind_ == SurfaceKind::kSubmerged; }
 
   // cos_incidence = |n.d|, 0 < x <= 1, for the smooth surface. Layers by the recursion of generalised reflection
   // coefficients (W. C. Chew, Waves and Fields in Inhomogeneous Media, eq. 2.1.24, with j for -i).
-  SurfaceFields at(double cos_incidence) const;
+  InterfaceCoefficients at(double cos_incidence) const;
 
   // What roughness leaves of the coherent field scattered from cos_in = |n.d| to cos_out = n.r^: e^{-(k sigma (cos_in +
   // cos_out))^2 / 2}, the mean of e^{jk zeta (cos_in + cos_out)} over Gaussian heights zeta; Ament's factor for a
   // mirror.
-  double coherence(double cos_in, double cos_out) const;
+  double roughness_factor(double cos_in, double cos_out) const;
 
  private:
   struct Slab {
     Complex eps, mu;
     double thickness = 0;  // m
   };
-  SurfaceFields stack(double cos_incidence) const;
+  InterfaceCoefficients stack(double cos_incidence) const;
 
   SurfaceKind kind_;
   double k_;

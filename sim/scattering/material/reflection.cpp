@@ -23,22 +23,23 @@ IncidenceBasis incidence_basis(const Vec3& d, const Vec3& n) {
 
 }  // namespace
 
-CVec3 reflected_field(const SurfaceFields& surface, const Vec3& d, const Vec3& n, const CVec3& E) {
+CVec3 reflected_field(const InterfaceCoefficients& surface, const Vec3& d, const Vec3& n, const CVec3& E) {
   const IncidenceBasis basis = incidence_basis(d, n);
-  return surface.te * along(basis.s, E) * basis.s.cast<Complex>() +
-         surface.tm * along(basis.p, E) * basis.p_leaving.cast<Complex>();
+  return surface.te * component_along(basis.s, E) * basis.s.cast<Complex>() +
+         surface.tm * component_along(basis.p, E) * basis.p_leaving.cast<Complex>();
 }
 
-CVec3 radiated_field(const SurfaceFields& surface, const Vec3& d, const Vec3& n, const Vec3& r_hat, const CVec3& E) {
+CVec3 radiated_field(const InterfaceCoefficients& surface, const Vec3& d, const Vec3& n, const Vec3& r_hat,
+                     const CVec3& E) {
   const IncidenceBasis b = incidence_basis(d, n);
   // Each of the four plane waves is an amplitude times a real vector, so its currents are real vectors too.
   const auto currents = [&](const Vec3& direction, const Vec3& field) -> Vec3 {
     return n.cross(direction.cross(field)) + r_hat.cross(n.cross(field));
   };
-  const Complex s = along(b.s, E), p = along(b.p, E);
-  const CVec3 sum = s * ((1.0 - surface.te_through) * currents(d, b.s).cast<Complex>() +
+  const Complex s = component_along(b.s, E), p = component_along(b.p, E);
+  const CVec3 sum = s * ((1.0 - surface.te_transmission) * currents(d, b.s).cast<Complex>() +
                          surface.te * currents(b.leaving, b.s).cast<Complex>()) +
-                    p * ((1.0 - surface.tm_through) * currents(d, b.p).cast<Complex>() +
+                    p * ((1.0 - surface.tm_transmission) * currents(d, b.p).cast<Complex>() +
                          surface.tm * currents(b.leaving, b.p_leaving).cast<Complex>());
   return sum * (0.5 / std::abs(n.dot(d)));
 }

@@ -35,12 +35,12 @@ Complex sea_water_permittivity(double frequency_hz, double T, double S) {
          Complex(0, sea_water_conductivity(T, S) * 17.97510 / nu);
 }
 
-double ament_loss(double k, double rms_height, double sin_grazing) {
+double ament_factor(double k, double rms_height, double sin_grazing) {
   const double g = k * rms_height * sin_grazing;
   return std::exp(-2 * g * g);
 }
 
-double miller_brown_vegh_loss(double k, double rms_height, double sin_grazing) {
+double miller_brown_vegh_factor(double k, double rms_height, double sin_grazing) {
   const double g = k * rms_height * sin_grazing, z = 2 * g * g;
   if (z < 500) return std::exp(-z) * std::cyl_bessel_i(0, z);
   // e^{-z} I0(z) = (1 + 1/(8z) + ...) / sqrt(2 pi z) (Abramowitz and Stegun, 9.7.1).

@@ -17,10 +17,10 @@ double sea_water_conductivity(double temperature_c, double salinity_psu);
 
 // Coherent field reflected by a surface of Gaussian heights, relative to the smooth one: e^{-2 (k sigma sin psi)^2},
 // psi the grazing angle, sigma the RMS height (W. S. Ament, Proc. IRE 41, 1953, 142-146).
-double ament_loss(double k, double rms_height, double sin_grazing);
+double ament_factor(double k, double rms_height, double sin_grazing);
 
 // The same for a surface whose height is a sine of random phase and Gaussian amplitude, as the sea's nearly is: e^{-z}
 // I0(z), z = 2 (k sigma sin psi)^2 (A. R. Miller, R. M. Brown and E. Vegh, IEE Proc. H 131, 1984, 114-116).
-double miller_brown_vegh_loss(double k, double rms_height, double sin_grazing);
+double miller_brown_vegh_factor(double k, double rms_height, double sin_grazing);
 
 }  // namespace seaglint

@@ -13,20 +13,20 @@ namespace {
 bool same(const RadarBasis& a, const RadarBasis& b) { return a.r == b.r && a.h == b.h && a.v == b.v; }
 
 // The waves from a direction that reach edges, where no receiver needs footprints of them.
-ArrivalsByEdge arrivals_of(const Scatterer& scatterer, const std::shared_ptr<const Aspect>& direction,
-                           IlluminationSettings settings, std::span<const double> wavenumbers, int threads,
-                           const StopFlag* stop) {
-  settings.max_bounces = std::min(settings.max_bounces, kMostEdgeMirrors + 1);
+IlluminationByEdge arrivals_of(const Scatterer& scatterer, const std::shared_ptr<const Aspect>& direction,
+                               TracingSettings settings, std::span<const double> wavenumbers, int threads,
+                               const StopFlag* stop) {
+  settings.max_bounces = std::min(settings.max_bounces, kMaxEdgeReflections + 1);
   return Illumination(scatterer, {direction, {}}, settings, wavenumbers)
-      .light_all(
-          threads, [](std::size_t, std::size_t, const PanelEchoes&) {}, stop)
-      .arrivals;
+      .trace_all(
+          threads, [](std::size_t, std::size_t, const PanelContributions&) {}, stop)
+      .edge_illuminations;
 }
 
 }  // namespace
 
-AspectTrace::AspectTrace(const Scatterer& scatterer, std::span<const AntennaPair> pairs,
-                         const IlluminationSettings& settings, std::span<const double> wavenumbers, int threads)
+AspectTrace::AspectTrace(const Scatterer& scatterer, std::span<const BistaticGeometry> pairs,
+                         const TracingSettings& settings, std::span<const double> wavenumbers, int threads)
     : scatterer_(scatterer), pairs_(pairs), settings_(settings), wavenumbers_(wavenumbers), threads_(threads) {
   std::vector<const RadarBasis*> known;
   const auto number_of = [&](const RadarBasis& basis) {
@@ -38,7 +38,7 @@ AspectTrace::AspectTrace(const Scatterer& scatterer, std::span<const AntennaPair
     }
     return static_cast<std::size_t>(at - known.begin());
   };
-  for (const AntennaPair& pair : pairs) {
+  for (const BistaticGeometry& pair : pairs) {
     transmit_.push_back(number_of(pair.transmit));
     receive_.push_back(number_of(pair.receive));
   }
@@ -62,33 +62,33 @@ std::size_t AspectTrace::chunk_count(std::size_t pair) const {
 }
 
 std::size_t AspectTrace::run(const AspectVisitor& visit, const StopFlag* stop) const {
-  std::size_t legs = 0;
-  std::vector<std::optional<ArrivalsByEdge>> arrivals(directions_.size());
+  std::size_t segments = 0;
+  std::vector<std::optional<IlluminationByEdge>> arrivals(directions_.size());
   for (const Transmitter& transmitter : transmitters_) {
-    Reached reached = transmitter.illumination.light_all(
+    TraceSummary reached = transmitter.illumination.trace_all(
         threads_,
-        [&](std::size_t chunk, std::size_t receiver, const PanelEchoes& echoes) {
+        [&](std::size_t chunk, std::size_t receiver, const PanelContributions& contributions) {
           const std::size_t pair = transmitter.pairs[receiver];
-          visit.surfaces(pair, chunk, echoes.footprints);
-          visit.edges(pair, chunk, echoes.beam_ends);
+          visit.surfaces(pair, chunk, contributions.footprints);
+          visit.edges(pair, chunk, contributions.boundary_terms);
         },
         stop);
-    arrivals[transmitter.direction] = std::move(reached.arrivals);
-    legs += reached.legs;
+    arrivals[transmitter.direction] = std::move(reached.edge_illuminations);
+    segments += reached.segments;
   }
-  if (!settings_.edges) return legs;
+  if (!settings_.edges) return segments;
   for (std::size_t pair = 0; pair < pairs_.size(); ++pair) {
-    std::optional<ArrivalsByEdge>& outgoing = arrivals[receive_[pair]];
+    std::optional<IlluminationByEdge>& outgoing = arrivals[receive_[pair]];
     if (!outgoing) {
       outgoing = arrivals_of(scatterer_, directions_[receive_[pair]], settings_, wavenumbers_, threads_, stop);
     }
     const std::size_t first = chunk_count(pair) - kEdgeChunks;
-    edge_echoes(scatterer_, pairs_[pair], settings_, wavenumbers_, *arrivals[transmit_[pair]], *outgoing, threads_,
-                [&](std::size_t chunk, std::span<const EdgeFootprint> footprints) {
-                  visit.edges(pair, first + chunk, footprints);
-                });
+    edge_diffraction(scatterer_, pairs_[pair], settings_, wavenumbers_, *arrivals[transmit_[pair]], *outgoing, threads_,
+                     [&](std::size_t chunk, std::span<const EdgeContribution> footprints) {
+                       visit.edges(pair, first + chunk, footprints);
+                     });
   }
-  return legs;
+  return segments;
 }
 
 }  // namespace seaglint

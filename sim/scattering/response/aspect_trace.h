@@ -20,14 +20,14 @@ namespace seaglint {
 // Receives the contributions of a pair chunk by chunk, those of a chunk in order from one thread.
 struct AspectVisitor {
   std::function<void(std::size_t pair, std::size_t chunk, std::span<const Footprint>)> surfaces;
-  std::function<void(std::size_t pair, std::size_t chunk, std::span<const EdgeFootprint>)> edges;
+  std::function<void(std::size_t pair, std::size_t chunk, std::span<const EdgeContribution>)> edges;
 };
 
 class AspectTrace {
  public:
   // `wavenumbers`: those at which materials are evaluated and what is faint is left out, at least one. All arguments
   // must outlive it.
-  AspectTrace(const Scatterer& scatterer, std::span<const AntennaPair> pairs, const IlluminationSettings& settings,
+  AspectTrace(const Scatterer& scatterer, std::span<const BistaticGeometry> pairs, const TracingSettings& settings,
               std::span<const double> wavenumbers, int threads);
 
   // Chunks of a pair; they do not depend on the number of threads.
@@ -45,8 +45,8 @@ class AspectTrace {
   };
 
   const Scatterer& scatterer_;
-  std::span<const AntennaPair> pairs_;
-  const IlluminationSettings& settings_;
+  std::span<const BistaticGeometry> pairs_;
+  const TracingSettings& settings_;
   std::span<const double> wavenumbers_;
   int threads_;
   std::vector<std::shared_ptr<const Aspect>> directions_;  // without repetition

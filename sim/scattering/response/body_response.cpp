@@ -24,22 +24,22 @@ namespace {
 
 // Body-fixed points go no faster than this beside a track, m, its two parts having unit length together. Shadow edges
 // that do are faint.
-double beside_limit(const Scatterer& scatterer) { return std::numbers::sqrt2 * scatterer.radius(); }
+double cross_track_limit(const Scatterer& scatterer) { return std::numbers::sqrt2 * scatterer.radius(); }
 
 // What one chunk of panels or edges adds, in cache lines of its own: threads fill neighbouring chunks side by side.
 struct alignas(64) ChunkPoints {
-  std::vector<ReturnPoint> points;
+  std::vector<GridPoint> points;
   double fastest = 0;  // largest |u|, m
 };
 
 // The points of one way's contributions, moved along the way's directions.
 class WayPoints {
  public:
-  WayPoints(const Scatterer& scatterer, const PlannedWay& way, double kc, double half_band, double faint, int channel,
+  WayPoints(const Scatterer& scatterer, const PlannedPath& path, double kc, double half_band, double faint, int channel,
             double range_m, std::size_t chunks)
-      : antennas_(way.antennas),
-        path_(way.moves),
-        split_{kc, path_.turn + spread_of_directions(scatterer, range_m, Vec3::Zero())},
+      : geometry_(path.geometry),
+        path_(path.look_path),
+        split_{kc, path_.max_change + direction_spread(scatterer, range_m, Vec3::Zero())},
         half_band_(half_band),
         faint_(faint),
         channel_(channel),
@@ -48,34 +48,34 @@ class WayPoints {
         points_(chunks) {}
 
   void add(std::size_t chunk, std::span<const Footprint> footprints) {
-    std::vector<Contribution> contributions;
+    std::vector<PointContribution> contributions;
     for (const Footprint& footprint : footprints) {
       contributions.clear();
-      split_over_band(footprint, antennas_.transmit, split_, half_band_, contributions);
+      decompose_over_band(footprint, geometry_.transmit, split_, half_band_, contributions);
       keep(chunk, contributions);
     }
   }
-  void add(std::size_t chunk, std::span<const EdgeFootprint> footprints) {
-    std::vector<Contribution> contributions;
-    for (const EdgeFootprint& footprint : footprints) {
+  void add(std::size_t chunk, std::span<const EdgeContribution> footprints) {
+    std::vector<PointContribution> contributions;
+    for (const EdgeContribution& contribution : footprints) {
       contributions.clear();
-      split(footprint, split_, contributions);
+      split(contribution, split_, contributions);
       keep(chunk, contributions);
     }
   }
 
   // Their sum over the band and the directions of the way.
-  ReturnGrid grid(const WavenumberGrid& wavenumbers, double beside, int threads) const {
+  ResponseGrid grid(const WavenumberGrid& wavenumbers, double beside, int threads) const {
     double fastest = 0;
     for (const ChunkPoints& chunk : points_) fastest = std::max(fastest, chunk.fastest);
     const GridLimits limits{fastest, path_.s_limit, beside, path_.q_limit};
     // Four grids, whatever the number of threads, each for every fourth chunk; their sum is taken in order.
     constexpr std::size_t kGrids = 4;
-    std::vector<ReturnGrid> grids(kGrids, ReturnGrid(wavenumbers, limits));
+    std::vector<ResponseGrid> grids(kGrids, ResponseGrid(wavenumbers, limits));
     parallel_for(kGrids, threads, [&](std::size_t g) {
       for (std::size_t chunk = g; chunk < points_.size(); chunk += kGrids) grids[g].spread(points_[chunk].points);
     });
-    ReturnGrid sum = std::move(grids[0]);
+    ResponseGrid sum = std::move(grids[0]);
     for (std::size_t g = 1; g < kGrids; ++g) sum.add(grids[g]);
     sum.transform();
     return sum;
@@ -83,21 +83,21 @@ class WayPoints {
 
  private:
   // At a finite range the wavefront is bent about the body's own origin, from which the way sees the radar.
-  void keep(std::size_t chunk, std::span<Contribution> contributions) {
-    if (range_m_ > 0) bend_wavefront(contributions, antennas_, Vec3::Zero(), range_m_);
-    for (const Contribution& c : contributions) {
+  void keep(std::size_t chunk, std::span<PointContribution> contributions) {
+    if (range_m_ > 0) apply_wavefront_curvature(contributions, geometry_, Vec3::Zero(), range_m_);
+    for (const PointContribution& c : contributions) {
       const Complex amplitude = c.amplitude * Complex(c.pattern[channel_]);
       if (std::norm(amplitude) < faint_ * faint_) continue;
       const double cut = std::min(1.0, limit_ / c.gradient.sum().norm());
-      const double u = cut * path_.track.speed(c.gradient), v = cut * path_.bend.speed(c.gradient);
+      const double u = cut * path_.along_track.path_rate(c.gradient), v = cut * path_.cross_track.path_rate(c.gradient);
       points_[chunk].points.push_back({amplitude, c.psi, u, v});
       points_[chunk].fastest = std::max(points_[chunk].fastest, std::abs(u));
     }
   }
 
-  const AntennaPair& antennas_;
-  const DirectionPath& path_;
-  SplitSettings split_;
+  const BistaticGeometry& geometry_;
+  const LookDirectionPath& path_;
+  DecompositionSettings split_;
   double half_band_;
   double faint_;  // half of all points, ends of currents that fade or run out of phase, are fainter
   int channel_;
@@ -109,68 +109,69 @@ class WayPoints {
 };
 
 // What the body answers by the ways of one trace.
-std::vector<ReturnGrid> trace_returns(const Scatterer& scatterer, std::span<const PlannedWay> ways,
-                                      const WavenumberGrid& wavenumbers, int channel, const SolverSpec& solver,
-                                      int threads) {
+std::vector<ResponseGrid> trace_to_grid(const Scatterer& scatterer, std::span<const PlannedPath> ways,
+                                        const WavenumberGrid& wavenumbers, int channel, const SolverSpec& solver,
+                                        int threads) {
   const double kc = wavenumbers.at(wavenumbers.centre_index());
   // Materials are met at the band's middle and at as far to either side as its lower end lies.
   const double half_band = kc - wavenumbers.first;
   const std::array band{kc - half_band, kc, kc + half_band};
-  const IlluminationSettings settings{solver.ray_spacing_m, solver.max_bounces, solver.edges};
-  std::vector<AntennaPair> pairs;
-  for (const PlannedWay& way : ways) pairs.push_back(way.antennas);
+  const TracingSettings settings{solver.ray_spacing_m, solver.max_bounces, solver.edges};
+  std::vector<BistaticGeometry> pairs;
+  for (const PlannedPath& path : ways) pairs.push_back(path.geometry);
   const AspectTrace trace(scatterer, pairs, settings, band, threads);
-  const double faint = faintest_echo(scatterer, settings, kc);
+  const double faint = min_amplitude(scatterer, settings, kc);
   std::vector<WayPoints> points;
   for (std::size_t way = 0; way < ways.size(); ++way) {
-    points.emplace_back(scatterer, ways[way], kc, half_band, faint, channel, solver.radar_range_m,
+    points.emplace_back(scatterer, ways[way], kc, half_band, faint, channel, solver.wavefront_range_m,
                         trace.chunk_count(way));
   }
   const auto add = [&](std::size_t way, std::size_t chunk, const auto& footprints) {
     points[way].add(chunk, footprints);
   };
   trace.run({add, add});
-  std::vector<ReturnGrid> grids;
-  for (const WayPoints& of_way : points) grids.push_back(of_way.grid(wavenumbers, beside_limit(scatterer), threads));
+  std::vector<ResponseGrid> grids;
+  for (const WayPoints& of_way : points)
+    grids.push_back(of_way.grid(wavenumbers, cross_track_limit(scatterer), threads));
   return grids;
 }
 
 // The sea's coefficients at every pulse's frequencies: they follow the elevation of a radar that moves; of one that
 // stands they are formed once per frequency.
-class MirrorOverPulses {
+class SeaReflectionOverPulses {
  public:
-  MirrorOverPulses(const SeaMirror& sea, const TracePlan& plan, const IntervalSampling& sampling,
-                   const WavenumberGrid& wavenumbers)
-      : sampling_(sampling), moves_(!sampling.sight_rate.isZero(0)) {
+  SeaReflectionOverPulses(const SeaReflection& sea, const TracePlan& plan, const IntervalSampling& sampling,
+                          const WavenumberGrid& wavenumbers)
+      : sampling_(sampling), moves_(!sampling.line_of_sight_rate.isZero(0)) {
     const int rows = moves_ ? static_cast<int>(sampling.pulse_first.size()) : 1;
     for (int n = 0; n < rows; ++n) {
-      for (int b = 0; b < (moves_ ? sampling.per_pulse : wavenumbers.count); ++b) {
+      for (int b = 0; b < (moves_ ? sampling.frequencies_per_pulse : wavenumbers.count); ++b) {
         const double k = wavenumbers.at(moves_ ? sampling.pulse_first[n] + b : b);
         coefficients_.push_back(sea.at(k, plan.sight(n).radar.r.z()));
       }
     }
   }
 
-  const SeaCoefficients& at(int pulse, int b) const {
-    return coefficients_[static_cast<std::size_t>(moves_ ? pulse * sampling_.per_pulse + b
+  const SeaReflectionCoefficients& at(int pulse, int b) const {
+    return coefficients_[static_cast<std::size_t>(moves_ ? pulse * sampling_.frequencies_per_pulse + b
                                                          : sampling_.pulse_first[pulse] + b)];
   }
 
  private:
   const IntervalSampling& sampling_;
   bool moves_;
-  std::vector<SeaCoefficients> coefficients_;
+  std::vector<SeaReflectionCoefficients> coefficients_;
 };
 
 }  // namespace
 
-double default_turn(const Scatterer& scatterer, double wavelength) {
+double default_aspect_change(const Scatterer& scatterer, double wavelength) {
   return std::min(radians(0.15), 3 * wavelength / scatterer.radius());
 }
 
-BodyResponse respond(const Scatterer& scatterer, const Trajectory& trajectory, const Vec3& r_hat,
-                     Polarisation polarisation, const IntervalSampling& sampling, const SolverSpec& solver, int threads,
-                     const SeaMirror* sea) {
+BodyResponse body_response(const Scatterer& scatterer, const Trajectory& trajectory, const Vec3& r_hat,
+                           Polarisation polarisation, const IntervalSampling& sampling, const SolverSpec& solver,
+                           int threads, const SeaReflection* sea) {
   const int pulses = static_cast<int>(sampling.pulse_time_s.size());
   SEAGLINT_CHECK(pulses > 0 && sampling.pulse_first.size() == sampling.pulse_time_s.size(),
                  fmt::format("{} pulse times, {} bands", pulses, sampling.pulse_first.size()));
@@ -179,46 +180,48 @@ BodyResponse respond(const Scatterer& scatterer, const Trajectory& trajectory, c
   const WavenumberGrid wavenumbers{kToWavenumber * sampling.first_hz, kToWavenumber * sampling.step_hz, sampling.count};
   const double k_last = wavenumbers.at(wavenumbers.count - 1), kc = wavenumbers.at(wavenumbers.centre_index());
 
-  std::vector<SeaPath> paths;
-  for (const SeaPath& path : kSeaPaths) {
-    if (sea == nullptr ? !path.multipath() : sea->wanted(path)) paths.push_back(path);
+  std::vector<PropagationPath> paths;
+  for (const PropagationPath& path : kFourPaths) {
+    if (sea == nullptr ? !path.is_multipath() : sea->is_enabled(path)) paths.push_back(path);
   }
-  const double served = solver.max_turn_deg > 0 ? radians(solver.max_turn_deg) : default_turn(scatterer, 2 * kPi / kc);
-  const TracePlan plan(trajectory, sampling, r_hat, solver.radar_range_m, paths,
-                       {served, kMostBesidePhase / (k_last * beside_limit(scatterer))});
+  const double served = solver.max_aspect_change_deg > 0 ? radians(solver.max_aspect_change_deg)
+                                                         : default_aspect_change(scatterer, 2 * kPi / kc);
+  const TracePlan plan(trajectory, sampling, r_hat, solver.wavefront_range_m, paths,
+                       {served, kMaxCrossTrackPhase / (k_last * cross_track_limit(scatterer))});
 
   // Traces side by side before facets side by side: the threads then meet less often.
   threads = std::max(1, threads);
   const auto traces = plan.traces();
   const int side_by_side = std::min(threads, static_cast<int>(traces.size()));
-  std::vector<std::vector<ReturnGrid>> returns(traces.size());  // by trace and way
+  std::vector<std::vector<ResponseGrid>> returns(traces.size());  // by trace and way
   parallel_for(traces.size(), side_by_side, [&](std::size_t i) {
     returns[i] =
-        trace_returns(scatterer, traces[i].ways, wavenumbers, channel, solver, std::max(1, threads / side_by_side));
+        trace_to_grid(scatterer, traces[i].paths, wavenumbers, channel, solver, std::max(1, threads / side_by_side));
   });
 
   BodyResponse result;
   result.response.pulses = pulses;
-  result.response.per_pulse = sampling.per_pulse;
-  result.response.values.assign(static_cast<std::size_t>(pulses) * sampling.per_pulse, 0.0);
-  std::optional<MirrorOverPulses> mirror;
+  result.response.frequencies_per_pulse = sampling.frequencies_per_pulse;
+  result.response.values.assign(static_cast<std::size_t>(pulses) * sampling.frequencies_per_pulse, 0.0);
+  std::optional<SeaReflectionOverPulses> mirror;
   if (sea != nullptr) mirror.emplace(*sea, plan, sampling, wavenumbers);
-  std::vector<Complex> answer(static_cast<std::size_t>(sampling.per_pulse));
+  std::vector<Complex> answer(static_cast<std::size_t>(sampling.frequencies_per_pulse));
   for (std::size_t i = 0; i < traces.size(); ++i) {
-    for (std::size_t w = 0; w < traces[i].ways.size(); ++w) {
-      const auto& [path, antennas, moves] = traces[i].ways[w];
+    for (std::size_t w = 0; w < traces[i].paths.size(); ++w) {
+      const auto& [path, geometry, moves] = traces[i].paths[w];
       ++result.traces;
       for (int n = traces[i].first; n <= traces[i].last; ++n) {
         const auto at = static_cast<std::size_t>(n - traces[i].first);
         returns[i][w].response(sampling.pulse_first[n], moves.s[at], moves.q[at], answer);
         // The body's origin moves too: e^{jk (a + b).p} with the directions a and b of either way, of a radar at a
         // finite range by its distances, exact for every pulse and frequency.
-        const double origin_path = plan.gain(path, n);
-        for (int b = 0; b < sampling.per_pulse; ++b) {
+        const double origin_path = plan.path_advance(path, n);
+        for (int b = 0; b < sampling.frequencies_per_pulse; ++b) {
           const int q = sampling.pulse_first[n] + b;
-          const Complex by_sea = path.multipath() ? SeaMirror::weight(path, mirror->at(n, b), channel) : 1.0;
+          const Complex by_sea =
+              path.is_multipath() ? SeaReflection::path_factor(path, mirror->at(n, b), channel) : 1.0;
           result.response.at(n, b) +=
-              plan.share(i, n) * by_sea * std::polar(1.0, wavenumbers.at(q) * origin_path) * answer[b];
+              plan.interpolation_weight(i, n) * by_sea * std::polar(1.0, wavenumbers.at(q) * origin_path) * answer[b];
         }
       }
     }

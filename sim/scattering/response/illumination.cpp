@@ -17,22 +17,22 @@ namespace {
 
 // Side of the smallest beam that goes on to further mirrors, in those of pieces: 18 mm on the ship. Pieces half as
 // large and beams twice as large as one size for both err less and cost the same (README.md).
-constexpr double kBeamPerPiece = 3.6;
+constexpr double kMinBeamPerPatch = 3.6;
 // A large mesh has larger chunks of panels: what is kept per chunk and frequency stays below 100 MB for 640
 // frequencies.
 constexpr std::size_t kPanelsPerChunk = 64;
-constexpr std::size_t kMostChunks = 2048;
+constexpr std::size_t kMaxChunks = 2048;
 
 // In a direction that lies in a sheet's plane nothing of it would be found, not even its rims, whose echo has a limit
 // there; so have edge waves along any face, and those of an edge square to the direction, which run along the rims
 // beside it. Such a direction is turned aside by this much, rad, which moves phases by 0.05 rad at the ends of a 144 m
 // ship at 16 GHz.
-constexpr double kAside = 1e-6;
+constexpr double kLookPerturbation = 1e-6;
 
-RadarBasis looking_aside(const Scatterer& scatterer, const RadarBasis& basis, bool edges) {
+RadarBasis perturbed_look_direction(const Scatterer& scatterer, const RadarBasis& basis, bool edges) {
   const auto has_a_limit = [&](const Vec3& r) {
     const auto in_its_plane = [&](const Facet& facet) {
-      return (facet.open || edges) && std::abs(facet.normal.dot(r)) < kEdgeOnPanel;
+      return (facet.two_sided || edges) && std::abs(facet.normal.dot(r)) < kEdgeOnPanel;
     };
     const auto square_to = [&](const SharpEdge& edge) { return edges && std::abs(edge.along().dot(r)) < kEdgeOnPanel; };
     return std::ranges::any_of(scatterer.facets(), in_its_plane) ||
@@ -44,7 +44,7 @@ RadarBasis looking_aside(const Scatterer& scatterer, const RadarBasis& basis, bo
   RadarBasis aside = basis;
   for (const Vec2& axis : {Vec2(1, -1), Vec2(1, 0.6), Vec2(0.3, 1), Vec2(1, 0.1), Vec2(-0.2, 1)}) {
     const Mat3 turn =
-        Eigen::AngleAxisd(kAside, (axis.x() * basis.h + axis.y() * basis.v).normalized()).toRotationMatrix();
+        Eigen::AngleAxisd(kLookPerturbation, (axis.x() * basis.h + axis.y() * basis.v).normalized()).toRotationMatrix();
     aside = {turn * basis.r, turn * basis.h, turn * basis.v};
     if (!has_a_limit(aside.r)) break;
   }
@@ -54,7 +54,7 @@ RadarBasis looking_aside(const Scatterer& scatterer, const RadarBasis& basis, bo
 // Writes down what the legs of one illumination light and what its receivers see.
 class LitRecorder : public BeamVisitor {
  public:
-  LitRecorder(const BeamScene& scene, Lit& out) : scene_(scene), out_(out) {
+  LitRecorder(const TracingContext& scene, TracedContributions& out) : scene_(scene), out_(out) {
     out.seen.resize(scene.receivers.size());
     ends_.reserve(out.seen.size());  // echoes refer to them
     for (std::size_t i = 0; i < out.seen.size(); ++i) {
@@ -64,40 +64,39 @@ class LitRecorder : public BeamVisitor {
     }
   }
 
-  bool wants(const Leg& leg) const override { return reaches_edges(scene_, leg); }
-  void lit(const Leg& leg, const Candidate& candidate) override {
-    if (reaches_edges(scene_, leg)) reach_edges(scene_, leg, candidate, out_.arrivals);
+  bool wants(const BeamSegment& segment) const override { return records_edges(scene_, segment); }
+  void lit(const BeamSegment& segment, const CandidatePanel& candidate) override {
+    if (records_edges(scene_, segment)) record_edges(scene_, segment, candidate, out_.edge_illuminations);
   }
-  void seen(const Leg& leg, const Candidate& candidate, std::size_t receiver,
+  void seen(const BeamSegment& segment, const CandidatePanel& candidate, std::size_t receiver,
             std::span<const MovingPolygon> pieces) override {
-    echoes_[receiver].radiate(leg, candidate, pieces);
-    echoes_[receiver].radiate_back(leg, candidate, pieces);
+    echoes_[receiver].radiate(segment, candidate, pieces);
+    echoes_[receiver].radiate_image(segment, candidate, pieces);
   }
 
  private:
-  const BeamScene& scene_;
-  Lit& out_;
+  const TracingContext& scene_;
+  TracedContributions& out_;
   std::vector<FootprintEnds> ends_;
-  std::vector<BeamEcho> echoes_;
+  std::vector<BeamContributions> echoes_;
 };
 
-Aspects aspects_of(const Scatterer& scatterer, const AntennaPair& antennas, const IlluminationSettings& settings,
+Aspects aspects_of(const Scatterer& scatterer, const BistaticGeometry& geometry, const TracingSettings& settings,
                    int threads) {
   const auto seen_along = [&](const RadarBasis& direction) {
     return std::make_shared<const Aspect>(scatterer, direction, settings, threads);
   };
-  return {seen_along(antennas.transmit), {antennas.monostatic ? nullptr : seen_along(antennas.receive)}};
+  return {seen_along(geometry.transmit), {geometry.monostatic ? nullptr : seen_along(geometry.receive)}};
 }
 
 }  // namespace
 
-Aspect::Aspect(const Scatterer& scatterer, const RadarBasis& direction, const IlluminationSettings& settings,
-               int threads)
-    : basis(looking_aside(scatterer, direction, settings.edges)),
+Aspect::Aspect(const Scatterer& scatterer, const RadarBasis& direction, const TracingSettings& settings, int threads)
+    : basis(perturbed_look_direction(scatterer, direction, settings.edges)),
       visible(scatterer.facets(), scatterer.panels(), scatterer.tree(), basis, smallest_area(scatterer, settings),
               threads) {}
 
-Illumination::Illumination(const Scatterer& scatterer, Aspects aspects, const IlluminationSettings& settings,
+Illumination::Illumination(const Scatterer& scatterer, Aspects aspects, const TracingSettings& settings,
                            std::span<const double> wavenumbers)
     : scatterer_(scatterer), settings_(settings), aspects_(std::move(aspects)) {
   const Aspect& transmitter = *aspects_.transmitter;
@@ -112,7 +111,7 @@ Illumination::Illumination(const Scatterer& scatterer, Aspects aspects, const Il
     if (!transmitter.visible.pieces(facet).empty()) seen_.push_back(facet);
   }
   for (const MaterialSpec& material : scatterer.materials()) {
-    std::vector<Surface>& surface = surfaces_.emplace_back();
+    std::vector<MaterialSurface>& surface = surfaces_.emplace_back();
     if (material.kind == SurfaceKind::kPec && material.roughness_mm == 0) continue;
     SEAGLINT_CHECK(!wavenumbers.empty(), "the material " + material.name + " needs a wavenumber");
     for (const double k : wavenumbers) surface.emplace_back(material, k);
@@ -123,61 +122,61 @@ Illumination::Illumination(const Scatterer& scatterer, Aspects aspects, const Il
   }
 }
 
-Illumination::Illumination(const Scatterer& scatterer, const AntennaPair& antennas,
-                           const IlluminationSettings& settings, int threads, std::span<const double> wavenumbers)
-    : Illumination(scatterer, aspects_of(scatterer, antennas, settings, threads), settings, wavenumbers) {}
+Illumination::Illumination(const Scatterer& scatterer, const BistaticGeometry& geometry,
+                           const TracingSettings& settings, int threads, std::span<const double> wavenumbers)
+    : Illumination(scatterer, aspects_of(scatterer, geometry, settings, threads), settings, wavenumbers) {}
 
 std::size_t Illumination::panels_per_chunk() const {
-  return std::max(kPanelsPerChunk, (seen_.size() + kMostChunks - 1) / kMostChunks);
+  return std::max(kPanelsPerChunk, (seen_.size() + kMaxChunks - 1) / kMaxChunks);
 }
 
 std::size_t Illumination::chunk_count() const { return (seen_.size() + panels_per_chunk() - 1) / panels_per_chunk(); }
 
-Reached Illumination::light_all(int threads, const Visit& visit, const StopFlag* stop) const {
+TraceSummary Illumination::trace_all(int threads, const Visit& visit, const StopFlag* stop) const {
   const std::size_t size = panels_per_chunk();
-  const EchoFilter& filter = settings_.filter;
-  const double faint = lowest_ > 0 ? faintest_echo(scatterer_, settings_, lowest_) : 0.0;
-  std::vector<std::vector<EdgeArrival>> arrivals(chunk_count());
-  std::vector<std::size_t> legs(chunk_count(), 0);
+  const ContributionFilter& filter = settings_.filter;
+  const double faint = lowest_ > 0 ? min_amplitude(scatterer_, settings_, lowest_) : 0.0;
+  std::vector<std::vector<EdgeIllumination>> illuminations(chunk_count());
+  std::vector<std::size_t> segments(chunk_count(), 0);
   parallel_for(
       chunk_count(), threads,
       [&](std::size_t chunk) {
-        Lit lit;
-        const auto panels = seen().subspan(chunk * size, std::min(size, seen_.size() - chunk * size));
-        const BeamScene of_chunk = scene();
-        LitRecorder recorder(of_chunk, lit);
-        legs[chunk] = trace_beams(of_chunk, panels, recorder, [&] {
-          for (std::size_t receiver = 0; receiver < lit.seen.size(); ++receiver) {
-            auto& [footprints, beam_ends] = lit.seen[receiver];
+        TracedContributions traced;
+        const auto panels = visible_panels().subspan(chunk * size, std::min(size, seen_.size() - chunk * size));
+        const TracingContext of_chunk = scene();
+        LitRecorder recorder(of_chunk, traced);
+        segments[chunk] = trace_beams(of_chunk, panels, recorder, [&] {
+          for (std::size_t receiver = 0; receiver < traced.seen.size(); ++receiver) {
+            auto& [footprints, beam_ends] = traced.seen[receiver];
             std::erase_if(footprints, [&](const Footprint& f) {
-              return !filter.keeps(f.part, f.bounces, Mechanism::kPhysicalOptics);
+              return !filter.accepts(f.part, f.bounces, Mechanism::kPhysicalOptics);
             });
-            std::erase_if(beam_ends, [&](const EdgeFootprint& end) {
-              return !filter.keeps_edge(end.part, end.part_beyond, end.bounces) ||
-                     (faint > 0 && bound_of_beam_end(end, lowest_, highest_) < faint);
+            std::erase_if(beam_ends, [&](const EdgeContribution& end) {
+              return !filter.accepts_edge(end.part, end.other_part, end.bounces) ||
+                     (faint > 0 && boundary_term_bound(end, lowest_, highest_) < faint);
             });
             visit(chunk, receiver, {footprints, beam_ends});
             footprints.clear();
             beam_ends.clear();
           }
         });
-        arrivals[chunk] = std::move(lit.arrivals);
+        illuminations[chunk] = std::move(traced.edge_illuminations);
       },
       stop);
-  return {ArrivalsByEdge(std::move(arrivals), scatterer_.edges().edges.size()),
-          std::accumulate(legs.begin(), legs.end(), std::size_t{0})};
+  return {IlluminationByEdge(std::move(illuminations), scatterer_.edges().edges.size()),
+          std::accumulate(segments.begin(), segments.end(), std::size_t{0})};
 }
 
-BeamScene Illumination::scene() const {
+TracingContext Illumination::scene() const {
   const double min_area = smallest_area(scatterer_, settings_);
   const auto& [basis, visible] = *aspects_.transmitter;
   return {scatterer_, basis,     receivers_, settings_,
-          visible,    surfaces_, min_area,   kBeamPerPiece * kBeamPerPiece * min_area};
+          visible,    surfaces_, min_area,   kMinBeamPerPatch * kMinBeamPerPatch * min_area};
 }
 
-std::size_t Illumination::light(std::span<const int> facets, Lit& lit) const {
-  const BeamScene of_facets = scene();
-  LitRecorder recorder(of_facets, lit);
+std::size_t Illumination::trace_from(std::span<const int> facets, TracedContributions& traced) const {
+  const TracingContext of_facets = scene();
+  LitRecorder recorder(of_facets, traced);
   return trace_beams(of_facets, facets, recorder);
 }
 

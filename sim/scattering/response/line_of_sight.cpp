@@ -13,8 +13,8 @@ RadarBasis turned_to(const RadarBasis& basis, const Vec3& r) {
 
 }  // namespace
 
-double Sight::gain(const SeaPath& path, const Vec3& x, double range_m) const {
-  const Vec3 &there = of(path.there).r, &back = of(path.back).r;
+double LineOfSight::path_advance(const PropagationPath& path, const Vec3& x, double range_m) const {
+  const Vec3 &there = of(path.outbound_via_sea).r, &back = of(path.return_via_sea).r;
   if (range_m <= 0) return (there + back).dot(x);
   double sum = 0;
   // R - |R r - x|, free of cancellation.
@@ -23,16 +23,16 @@ double Sight::gain(const SeaPath& path, const Vec3& x, double range_m) const {
   return sum;
 }
 
-Sight sight_at(const IntervalSampling& sampling, const Vec3& r_hat, double time_s) {
+LineOfSight line_of_sight_at(const IntervalSampling& sampling, const Vec3& r_hat, double time_s) {
   RadarBasis radar = radar_basis(r_hat);
-  if (!sampling.sight_rate.isZero(0)) {
-    const Vec3 now = (r_hat + (time_s - sampling.pulse_time_s.front()) * sampling.sight_rate).normalized();
+  if (!sampling.line_of_sight_rate.isZero(0)) {
+    const Vec3 now = (r_hat + (time_s - sampling.pulse_time_s.front()) * sampling.line_of_sight_rate).normalized();
     radar = turned_to(radar, now);
   }
   return {radar, image_basis(radar)};
 }
 
-Sight sight_from(const Sight& origin, const Vec3& x, double range_m) {
+LineOfSight line_of_sight_from(const LineOfSight& origin, const Vec3& x, double range_m) {
   if (range_m <= 0) return origin;
   const auto seen = [&](const RadarBasis& basis) { return turned_to(basis, (basis.r - x / range_m).normalized()); };
   return {seen(origin.radar), seen(origin.image)};

@@ -12,20 +12,20 @@
 namespace seaglint {
 
 // Where the radar and its image in the sea stand at one instant, target frame.
-struct Sight {
+struct LineOfSight {
   RadarBasis radar, image;
 
   const RadarBasis& of(bool by_sea) const { return by_sea ? image : radar; }
   // Both ways of a path to x, m: its length is shorter by this than to the origin, from which the radar stands at
   // range_m; 0: in the far field.
-  double gain(const SeaPath& path, const Vec3& x, double range_m = 0) const;
+  double path_advance(const PropagationPath& path, const Vec3& x, double range_m = 0) const;
 };
 
 // The first pulse's basis, that of r_hat, is carried along without any turn about the line of sight; the image's is its
 // mirror image.
-Sight sight_at(const IntervalSampling& sampling, const Vec3& r_hat, double time_s);
+LineOfSight line_of_sight_at(const IntervalSampling& sampling, const Vec3& r_hat, double time_s);
 
 // Both as they are seen from x, likewise without any turn about the line of sight.
-Sight sight_from(const Sight& origin, const Vec3& x, double range_m);
+LineOfSight line_of_sight_from(const LineOfSight& origin, const Vec3& x, double range_m);
 
 }  // namespace seaglint

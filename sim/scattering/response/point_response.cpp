@@ -24,12 +24,12 @@ void add_point_to_pulse(Complex* pulse, const IntervalSampling& sampling, int fi
   const double slope = sampling.chirp_rate_hz_s == 0 ? 0 : velocity_mps / sampling.chirp_rate_hz_s;  // metres per hertz
   const auto phase = [&](int b) {
     const double frequency = sampling.first_hz + (first + b) * sampling.step_hz;
-    const double baseband = (b - 0.5 * (sampling.per_pulse - 1)) * sampling.step_hz;
+    const double baseband = (b - 0.5 * (sampling.frequencies_per_pulse - 1)) * sampling.step_hz;
     return -4 * kPi / kSpeedOfLight * frequency * (range_m + slope * baseband);
   };
   const Complex bend = std::polar(1.0, -8 * kPi / kSpeedOfLight * slope * sampling.step_hz * sampling.step_hz);
-  for (int start = 0; start < sampling.per_pulse; start += kRenewal) {
-    const int stop = std::min(start + kRenewal, sampling.per_pulse);
+  for (int start = 0; start < sampling.frequencies_per_pulse; start += kRenewal) {
+    const int stop = std::min(start + kRenewal, sampling.frequencies_per_pulse);
     Complex value = std::polar(amplitude, phase(start));
     Complex ratio = std::polar(1.0, phase(start + 1) - phase(start));
     for (int b = start; b < stop; ++b) {
@@ -44,25 +44,26 @@ void add_point_to_pulse(Complex* pulse, const IntervalSampling& sampling, int fi
 
 FrequencyResponse point_response_over_sea(std::span<const PointSpec> points, const Vec3& r_hat,
                                           const IntervalSampling& sampling, Polarisation polarisation,
-                                          const SeaMirror& sea) {
+                                          const SeaReflection& sea) {
   FrequencyResponse response;
   response.pulses = static_cast<int>(sampling.pulse_first.size());
-  response.per_pulse = sampling.per_pulse;
-  response.values.assign(static_cast<std::size_t>(response.pulses) * sampling.per_pulse, Complex{});
+  response.frequencies_per_pulse = sampling.frequencies_per_pulse;
+  response.values.assign(static_cast<std::size_t>(response.pulses) * sampling.frequencies_per_pulse, Complex{});
   for (int n = 0; n < response.pulses; ++n) {
-    const Sight sight = sight_at(sampling, r_hat, sampling.pulse_time_s[n]);
-    for (int b = 0; b < response.per_pulse; ++b) {
+    const LineOfSight line_of_sight = line_of_sight_at(sampling, r_hat, sampling.pulse_time_s[n]);
+    for (int b = 0; b < response.frequencies_per_pulse; ++b) {
       const double k = 2 * kPi / kSpeedOfLight * (sampling.first_hz + (sampling.pulse_first[n] + b) * sampling.step_hz);
-      const double baseband_hz = (b - 0.5 * (sampling.per_pulse - 1)) * sampling.step_hz;
+      const double baseband_hz = (b - 0.5 * (sampling.frequencies_per_pulse - 1)) * sampling.step_hz;
       const double elapsed_s = sampling.pulse_time_s[n] - sampling.pulse_time_s.front() +
                                (sampling.chirp_rate_hz_s == 0 ? 0 : baseband_hz / sampling.chirp_rate_hz_s);
-      const SeaCoefficients rho = sea.at(k, sight.radar.r.z());
+      const SeaReflectionCoefficients rho = sea.at(k, line_of_sight.radar.r.z());
       for (const PointSpec& point : points) {
         const Vec3 x = as_vector(point.position_m) + elapsed_s * as_vector(point.velocity_mps);
-        for (const SeaPath& path : kSeaPaths) {
-          if (!sea.wanted(path)) continue;
-          response.at(n, b) += point.amplitude_m * SeaMirror::weight(path, rho, static_cast<int>(polarisation)) *
-                               std::polar(1.0, k * sight.gain(path, x));
+        for (const PropagationPath& path : kFourPaths) {
+          if (!sea.is_enabled(path)) continue;
+          response.at(n, b) += point.amplitude_m *
+                               SeaReflection::path_factor(path, rho, static_cast<int>(polarisation)) *
+                               std::polar(1.0, k * line_of_sight.path_advance(path, x));
         }
       }
     }
@@ -74,11 +75,11 @@ FrequencyResponse point_response(std::span<const PointSpec> points, const Vec3& 
                                  const IntervalSampling& sampling) {
   FrequencyResponse response;
   response.pulses = static_cast<int>(sampling.pulse_first.size());
-  response.per_pulse = sampling.per_pulse;
-  response.values.assign(static_cast<std::size_t>(response.pulses) * sampling.per_pulse, Complex{});
+  response.frequencies_per_pulse = sampling.frequencies_per_pulse;
+  response.values.assign(static_cast<std::size_t>(response.pulses) * sampling.frequencies_per_pulse, Complex{});
   // The direction to the radar at each pulse.
   std::vector<Vec3> sight;
-  for (const double time_s : sampling.pulse_time_s) sight.push_back(sight_at(sampling, r_hat, time_s).radar.r);
+  for (const double time_s : sampling.pulse_time_s) sight.push_back(line_of_sight_at(sampling, r_hat, time_s).radar.r);
   for (const PointSpec& point : points) {
     const Vec3 position = as_vector(point.position_m), velocity = as_vector(point.velocity_mps);
     for (int n = 0; n < response.pulses; ++n) {

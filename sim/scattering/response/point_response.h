@@ -20,6 +20,6 @@ FrequencyResponse point_response(std::span<const PointSpec> points, const Vec3& 
 // e^{jk r'.x}) (e^{jk r^.x} + rho_q e^{jk r'.x}) for p received and q transmitted, less the paths not wanted.
 FrequencyResponse point_response_over_sea(std::span<const PointSpec> points, const Vec3& r_hat,
                                           const IntervalSampling& sampling, Polarisation polarisation,
-                                          const SeaMirror& sea);
+                                          const SeaReflection& sea);
 
 }  // namespace seaglint

@@ -22,7 +22,7 @@ constexpr int terms_of_series(double x) {
   for (double next = x; next > 0.03; ++terms) next *= x / (terms + 1);
   return terms;
 }
-static_assert(terms_of_series(kMostBesidePhase) == 5);
+static_assert(terms_of_series(kMaxCrossTrackPhase) == 5);
 
 // phi(x), x in cells, |x| <= W/2.
 double kernel(double x) {
@@ -51,14 +51,14 @@ class KernelTransform {
     for (int i = 0; i < kTerms; ++i) {
       for (int n = 0; n < kTerms; ++n) {
         const double angle = kPi * (n + 0.5) / kTerms;
-        coefficient_[i] += 2.0 / kTerms * std::cos(i * angle) *
-                           kernel_transform(std::sqrt(0.5 * kMostSquared * (1 + std::cos(angle))));
+        coefficient_[i] +=
+            2.0 / kTerms * std::cos(i * angle) * kernel_transform(std::sqrt(0.5 * kMaxSquared * (1 + std::cos(angle))));
       }
     }
   }
 
   double operator()(double theta) const {
-    const double x = 2 * theta * theta / kMostSquared - 1;
+    const double x = 2 * theta * theta / kMaxSquared - 1;
     if (x > 1) return kernel_transform(theta);
     double next = 0, after = 0;  // Clenshaw's recurrence
     for (int i = kTerms - 1; i > 0; --i) {
@@ -71,7 +71,7 @@ class KernelTransform {
 
  private:
   static constexpr int kTerms = 20;
-  static constexpr double kMostSquared = 0.26 * kPi * kPi;  // a little beyond a quarter of a turn
+  static constexpr double kMaxSquared = 0.26 * kPi * kPi;  // a little beyond a quarter of a turn
   std::array<double, kTerms> coefficient_{};
 };
 
@@ -117,7 +117,7 @@ Complex times_j(const Complex& z, int n) {
 
 }  // namespace
 
-ReturnGrid::ReturnGrid(const WavenumberGrid& wavenumbers, const GridLimits& limits)
+ResponseGrid::ResponseGrid(const WavenumberGrid& wavenumbers, const GridLimits& limits)
     : wavenumbers_(wavenumbers), kc_(wavenumbers.at(wavenumbers.centre_index())), v_limit_(limits.v) {
   SEAGLINT_CHECK(wavenumbers.count >= 1 && wavenumbers.step > 0 && kc_ > 0,
                  fmt::format("count {}, step {}, centre {}", wavenumbers.count, wavenumbers.step, kc_));
@@ -132,7 +132,7 @@ ReturnGrid::ReturnGrid(const WavenumberGrid& wavenumbers, const GridLimits& limi
   u_cells_ = 2 * half + 1;
   u_first_ = -half * u_cell_;
   row_length_ = psi_cells_ + kWidth;
-  terms_ = terms_of_series(std::min(k_last * limits.v * limits.q, kMostBesidePhase));
+  terms_ = terms_of_series(std::min(k_last * limits.v * limits.q, kMaxCrossTrackPhase));
   cells_.assign(terms_ * cells_per_term(), 0.0);
 
   psi_correction_.resize(wavenumbers.count);
@@ -142,8 +142,8 @@ ReturnGrid::ReturnGrid(const WavenumberGrid& wavenumbers, const GridLimits& limi
   }
 }
 
-void ReturnGrid::spread(std::span<const ReturnPoint> points) {
-  for (const ReturnPoint& point : points) {
+void ResponseGrid::spread(std::span<const GridPoint> points) {
+  for (const GridPoint& point : points) {
     const Complex value = point.amplitude * std::polar(1.0, kc_ * point.psi);
     const double beside = terms_ > 1 ? std::clamp(point.v / v_limit_, -1.0, 1.0) : 0;
 
@@ -174,13 +174,13 @@ void ReturnGrid::spread(std::span<const ReturnPoint> points) {
   }
 }
 
-void ReturnGrid::add(const ReturnGrid& other) {
+void ResponseGrid::add(const ResponseGrid& other) {
   SEAGLINT_CHECK(cells_.size() == other.cells_.size(),
                  fmt::format("{} and {} cells", cells_.size(), other.cells_.size()));
   for (std::size_t i = 0; i < cells_.size(); ++i) cells_[i] += other.cells_[i];
 }
 
-void ReturnGrid::transform() {
+void ResponseGrid::transform() {
   const int rows = terms_ * u_cells_;
   for (int row = 0; row < rows; ++row) {
     for (int i = 0; i < kWidth; ++i) cells_[cell(row, i)] += cells_[cell(row, psi_cells_ + i)];
@@ -188,7 +188,7 @@ void ReturnGrid::transform() {
   transform_rows(cells_.data(), psi_cells_, rows, row_length_, Fourier::kInverse);
 }
 
-void ReturnGrid::response(int first, double s, double beside, std::span<Complex> out) const {
+void ResponseGrid::response(int first, double s, double cross_track, std::span<Complex> out) const {
   // A few frequencies side by side, real and imaginary parts apart: the compiler makes vectors of them.
   constexpr std::size_t kLanes = 8;
   for (std::size_t begin = 0; begin < out.size(); begin += kLanes) {
@@ -207,7 +207,7 @@ void ReturnGrid::response(int first, double s, double beside, std::span<Complex>
       turn_im[l] = turn.imag();
       step_re[l] = step.real();
       step_im[l] = step.imag();
-      phase[l] = k * v_limit_ * beside;
+      phase[l] = k * v_limit_ * cross_track;
     }
     for (int u = 0; u < u_cells_; ++u) {
       std::array<double, kLanes> re, im;

@@ -34,7 +34,7 @@ struct WavenumberGrid {
 };
 
 // What one polarisation channel and one track need of a contribution.
-struct ReturnPoint {
+struct GridPoint {
   Complex amplitude;  // pattern included, without the phase e^{jk psi}, m
   double psi = 0;     // m
   double u = 0;       // d psi / ds, m
@@ -48,23 +48,23 @@ struct GridLimits {
 };
 
 // Phase k v q beside the track that a grid takes: its series then has five terms.
-inline constexpr double kMostBesidePhase = 1.2;  // rad
+inline constexpr double kMaxCrossTrackPhase = 1.2;  // rad
 
-class ReturnGrid {
+class ResponseGrid {
  public:
   // Bounds of |u| and |s|; for |q| <= limits.q and points with |v| <= limits.v, whose product times k is at most
-  // kMostBesidePhase, the terms left out are below 3 % of such a point. A larger |v| counts as limits.v.
-  ReturnGrid(const WavenumberGrid& wavenumbers, const GridLimits& limits);
+  // kMaxCrossTrackPhase, the terms left out are below 3 % of such a point. A larger |v| counts as limits.v.
+  ResponseGrid(const WavenumberGrid& wavenumbers, const GridLimits& limits);
 
-  void spread(std::span<const ReturnPoint> points);
+  void spread(std::span<const GridPoint> points);
   // Adds another grid made with the same arguments.
-  void add(const ReturnGrid& other);
+  void add(const ResponseGrid& other);
 
   // Transforms along psi; afterwards the response can be asked for.
   void transform();
   // H at wavenumbers first..first + out.size() - 1 for the displacements |s| <= limits.s along the track and
   // |beside| <= limits.q beside it.
-  void response(int first, double s, double beside, std::span<Complex> out) const;
+  void response(int first, double s, double cross_track, std::span<Complex> out) const;
 
  private:
   std::size_t cell(int u, int psi) const { return static_cast<std::size_t>(u) * row_length_ + psi; }

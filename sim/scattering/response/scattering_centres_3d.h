@@ -13,7 +13,7 @@ namespace seaglint {
 
 // One cell's contributions as one point: S(k', r^ + d) = amplitude e^{j(k' - k) psi + jk' gradient . d} about the
 // traced k and r^.
-struct EchoCentre {
+struct ScatteringCentre3d {
   Vec3 gradient = Vec3::Zero();        // of psi with the direction, m; half of it is the phase centre in the body frame
   double psi = 0;                      // minus the two-way path, m
   std::array<Complex, 4> amplitude{};  // hh, hv, vh, vv at k and r^, its phase included, m
@@ -22,18 +22,19 @@ struct EchoCentre {
   Mechanism mechanism = Mechanism::kPhysicalOptics;
 
   Vec3 position() const { return gradient / 2; }
-  double strength() const;  // 4 pi times the largest |element|^2, m^2
+  double peak_rcs() const;  // 4 pi times the largest |element|^2, m^2
 };
 
 // Contributions of one part, bounce count and mechanism whose psi and gradient share a cell of 2 cell_m (cell_m in
 // range and position) become one centre at their mean, weighted by |amplitude|; strongest first. Their sum at k and r^
 // is that of the contributions to rounding; off it by dk and d the error is at most sum |amplitude| (|dk| 2 cell_m + (k
 // + |dk|) |d| sqrt(3) 2 cell_m).
-std::vector<EchoCentre> centres_of(std::span<const Contribution> contributions, double k, double cell_m);
+std::vector<ScatteringCentre3d> cluster_centres(std::span<const PointContribution> contributions, double k,
+                                                double cell_m);
 
 // hh, hv, vh, vv in metres of everything that leaves each facet, its phases included; sums to the scattering matrix at
 // k.
-std::vector<std::array<Complex, 4>> facet_echoes(std::span<const Contribution> contributions, double k,
-                                                 std::size_t facets);
+std::vector<std::array<Complex, 4>> facet_contributions(std::span<const PointContribution> contributions, double k,
+                                                        std::size_t facets);
 
 }  // namespace seaglint

@@ -18,35 +18,36 @@ namespace seaglint {
 
 // The radar stands in directions that differ by this much over the target, rad; 0 in the far field. Throws InputError
 // when it is too near.
-double spread_of_directions(const Scatterer& scatterer, double range_m, const Vec3& origin);
+double direction_spread(const Scatterer& scatterer, double range_m, const Vec3& origin);
 
 // hh, hv, vh, vv (received, transmitted) in metres at each wavenumber, body at rest: one trace, and the exact phase
 // integral of every footprint at every frequency. Each direction has its own basis. Raises *legs by the legs of beams
 // followed.
-std::vector<std::array<Complex, 4>> scattering_matrices(const Scatterer& scatterer, const AntennaPair& antennas,
+std::vector<std::array<Complex, 4>> scattering_matrices(const Scatterer& scatterer, const BistaticGeometry& geometry,
                                                         std::span<const double> wavenumbers,
-                                                        const IlluminationSettings& settings, int threads = 1,
-                                                        std::size_t* legs = nullptr, const StopFlag* stop = nullptr);
+                                                        const TracingSettings& settings, int threads = 1,
+                                                        std::size_t* segments = nullptr,
+                                                        const StopFlag* stop = nullptr);
 
 // The same for each pair of directions. Every transmit direction is traced once.
 std::vector<std::vector<std::array<Complex, 4>>> scattering_matrices(
-    const Scatterer& scatterer, std::span<const AntennaPair> pairs, std::span<const double> wavenumbers,
-    const IlluminationSettings& settings, int threads = 1, std::size_t* legs = nullptr, const StopFlag* stop = nullptr);
+    const Scatterer& scatterer, std::span<const BistaticGeometry> pairs, std::span<const double> wavenumbers,
+    const TracingSettings& settings, int threads = 1, std::size_t* segments = nullptr, const StopFlag* stop = nullptr);
 
 // The scattering matrix hh, hv, vh, vv in metres of a body at rest over the sea, at each wavenumber, about the body's
 // origin, which is `height_m` above the mean surface. r_hat in the body frame, whose z is up; r_hat.z() > 0. Raises
 // *legs by the legs followed.
 std::vector<std::array<Complex, 4>> scattering_matrices_over_sea(const Scatterer& scatterer, const Vec3& r_hat,
-                                                                 double height_m, const SeaMirror& sea,
+                                                                 double height_m, const SeaReflection& sea,
                                                                  std::span<const double> wavenumbers,
-                                                                 const IlluminationSettings& settings, int threads = 1,
-                                                                 std::size_t* legs = nullptr,
+                                                                 const TracingSettings& settings, int threads = 1,
+                                                                 std::size_t* segments = nullptr,
                                                                  const StopFlag* stop = nullptr);
 
 // What one view consists of, point by point, in an order that does not depend on the number of threads. Their direct
 // sum at split.kc is the scattering matrix.
-std::vector<Contribution> view_contributions(const Scatterer& scatterer, const AntennaPair& antennas,
-                                             const SplitSettings& split, const IlluminationSettings& settings,
-                                             int threads = 1, const StopFlag* stop = nullptr);
+std::vector<PointContribution> aspect_contributions(const Scatterer& scatterer, const BistaticGeometry& geometry,
+                                                    const DecompositionSettings& split, const TracingSettings& settings,
+                                                    int threads = 1, const StopFlag* stop = nullptr);
 
 }  // namespace seaglint

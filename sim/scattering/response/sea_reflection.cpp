@@ -16,29 +16,29 @@ RadarBasis image_basis(const RadarBasis& radar) {
   return {r, h, r.cross(h)};
 }
 
-SeaMirror::SeaMirror(const SeaReflectionSpec& spec, double significant_wave_height_m)
+SeaReflection::SeaReflection(const SeaReflectionSpec& spec, double significant_wave_height_m)
     : spec_(spec), rms_m_(significant_wave_height_m / 4) {}
 
-SeaCoefficients SeaMirror::at(double k, double sin_grazing) const {
+SeaReflectionCoefficients SeaReflection::at(double k, double sin_grazing) const {
   SEAGLINT_CHECK(sin_grazing > 0 && sin_grazing <= 1 + 1e-12, fmt::format("sine of grazing angle {}", sin_grazing));
   MaterialSpec water;
   water.kind = spec_.surface == SeaSurface::kConductor ? SurfaceKind::kPec : SurfaceKind::kSeaWater;
   water.temperature_c = spec_.temperature_c;
   water.salinity_psu = spec_.salinity_psu;
-  const SurfaceFields fields = Surface(water, k).at(sin_grazing);
+  const InterfaceCoefficients fields = MaterialSurface(water, k).at(sin_grazing);
   double loss = 1;
-  if (spec_.roughness == SeaRoughness::kAment) loss = ament_loss(k, rms_m_, sin_grazing);
-  if (spec_.roughness == SeaRoughness::kMillerBrownVegh) loss = miller_brown_vegh_loss(k, rms_m_, sin_grazing);
+  if (spec_.roughness == SeaRoughness::kAment) loss = ament_factor(k, rms_m_, sin_grazing);
+  if (spec_.roughness == SeaRoughness::kMillerBrownVegh) loss = miller_brown_vegh_factor(k, rms_m_, sin_grazing);
   return {loss * fields.te, loss * fields.tm};
 }
 
-bool SeaMirror::wanted(const SeaPath& path) const {
-  return spec_.paths == SeaPaths::kAll || (spec_.paths == SeaPaths::kMultipath) == path.multipath();
+bool SeaReflection::is_enabled(const PropagationPath& path) const {
+  return spec_.paths == SeaPaths::kAll || (spec_.paths == SeaPaths::kMultipath) == path.is_multipath();
 }
 
-Complex SeaMirror::weight(const SeaPath& path, const SeaCoefficients& rho, int element) {
+Complex SeaReflection::path_factor(const PropagationPath& path, const SeaReflectionCoefficients& rho, int element) {
   const Complex received = element < 2 ? rho.h : rho.v, transmitted = element % 2 == 0 ? rho.h : rho.v;
-  return (path.back ? received : 1.0) * (path.there ? transmitted : 1.0);
+  return (path.return_via_sea ? received : 1.0) * (path.outbound_via_sea ? transmitted : 1.0);
 }
 
 }  // namespace seaglint

@@ -26,29 +26,30 @@ inline Vec3 image_direction(const Vec3& r_hat) { return {r_hat.x(), r_hat.y(), -
 RadarBasis image_basis(const RadarBasis& radar);
 
 // By way of the sea on the way to the target, back, or neither.
-struct SeaPath {
-  bool there = false;
-  bool back = false;
+struct PropagationPath {
+  bool outbound_via_sea = false;
+  bool return_via_sea = false;
 
-  bool multipath() const { return there || back; }
+  bool is_multipath() const { return outbound_via_sea || return_via_sea; }
 };
-inline constexpr std::array<SeaPath, 4> kSeaPaths{{{false, false}, {false, true}, {true, false}, {true, true}}};
+inline constexpr std::array<PropagationPath, 4> kFourPaths{
+    {{false, false}, {false, true}, {true, false}, {true, true}}};
 
-struct SeaCoefficients {
+struct SeaReflectionCoefficients {
   Complex h = -1, v = 1;
 };
 
-class SeaMirror {
+class SeaReflection {
  public:
   // RMS elevation = significant_wave_height / 4.
-  SeaMirror(const SeaReflectionSpec& spec, double significant_wave_height_m);
+  SeaReflection(const SeaReflectionSpec& spec, double significant_wave_height_m);
 
   // Coherent reflection at k, sin_grazing = r^_z, 0 < x <= 1.
-  SeaCoefficients at(double k, double sin_grazing) const;
+  SeaReflectionCoefficients at(double k, double sin_grazing) const;
   // Whether the scenario asks for this path's echo.
-  bool wanted(const SeaPath& path) const;
+  bool is_enabled(const PropagationPath& path) const;
   // The path's factor on S_pq of the element 0..3 for hh, hv, vh, vv (received, transmitted).
-  static Complex weight(const SeaPath& path, const SeaCoefficients& rho, int element);
+  static Complex path_factor(const PropagationPath& path, const SeaReflectionCoefficients& rho, int element);
 
  private:
   SeaReflectionSpec spec_;

@@ -7,116 +7,126 @@
 #include "sim/scattering/material/reflection.h"
 
 namespace seaglint {
-BeamEcho::BeamEcho(const BeamScene& scene, const Receiver& receiver, std::vector<Footprint>& out,
-                   FootprintVisitor* visitor)
+BeamContributions::BeamContributions(const TracingContext& scene, const Receiver& receiver, std::vector<Footprint>& out,
+                                     FootprintVisitor* visitor)
     : scene_(scene),
       facets_(scene.scatterer.facets()),
-      curving_{facets_, scene.scatterer.surface(), scene.transmit},
+      curvature_{facets_, scene.scatterer.surface(), scene.transmit},
       panels_(scene.scatterer.panels()),
-      antennas_(receiver.antennas),
-      visible_(*receiver.visible),
+      geometry_(receiver.geometry),
+      visible_(*receiver.visible_to_receiver),
       basis_(scene.transmit),
-      longest_slip_(2 * scene.scatterer.radius()),
+      max_slide_rate_(2 * scene.scatterer.radius()),
       out_(out),
       visitor_(visitor) {}
 
-void BeamEcho::radiate(const Leg& leg, const Candidate& candidate, std::span<const MovingPolygon> pieces) {
-  const Facet& facet = facets_[candidate.image.facet];
-  const Vec3 n = facing(leg, facets_[candidate.image.facet]);
-  if (pieces.empty() || n.dot(antennas_.receive.r) <= kEdgeOn) return;
+void BeamContributions::radiate(const BeamSegment& segment, const CandidatePanel& candidate,
+                                std::span<const MovingPolygon> pieces) {
+  const Facet& facet = facets_[candidate.projection.facet];
+  const Vec3 n = illuminated_normal(segment, facets_[candidate.projection.facet]);
+  if (pieces.empty() || n.dot(geometry_.receive.r) <= kEdgeOn) return;
 
   Footprint footprint;
-  footprint.plane = candidate.image.plane;
-  footprint.mirrors = leg.mirrors;
-  footprint.facet = candidate.image.facet;
+  footprint.plane = candidate.projection.plane;
+  footprint.image_transform = segment.image_transform;
+  footprint.facet = candidate.projection.facet;
   footprint.part = facet.part;
-  footprint.facet_size = panels_.size(candidate.image.facet);
-  footprint.bounces = static_cast<std::uint8_t>(leg.bounce);
-  set_phase(footprint, leg.mirrors.L * facet.normal, antennas_);
-  footprint.pattern = conductor_pattern(leg, n, std::abs(n.dot(leg.direction)), antennas_.receive);
-  if (!leg.fields.empty() || !scene_.surface_of(footprint.facet).empty()) {
-    footprint.patterns = patterns(leg, footprint.facet, n);
+  footprint.panel_size = panels_.size(candidate.projection.facet);
+  footprint.bounces = static_cast<std::uint8_t>(segment.bounce);
+  set_phase(footprint, segment.image_transform.L * facet.normal, geometry_);
+  footprint.pattern = pec_pattern(segment, n, std::abs(n.dot(segment.direction)), geometry_.receive);
+  if (!segment.fields.empty() || !scene_.surface_of(footprint.facet).empty()) {
+    footprint.patterns = patterns(segment, footprint.facet, n);
     footprint.pattern = footprint.patterns[footprint.patterns.size() / 2];
   }
-  footprint.curvature = curvature_of(curving_, panels_, antennas_, leg, candidate, footprint);
-  if (visitor_) visitor_->start(leg, candidate, footprint);
-  const double share = leaves_grazing(leg, footprint.facet) ? share_of_way(leg, footprint.facet) : 1.0;
-  // More is given with the ends of its beams; where less is left they have faded out as much (rim_share).
-  if (share > 1) give_share(share, footprint);
+  footprint.curvature = make_curved_footprint(curvature_, panels_, geometry_, segment, candidate, footprint);
+  if (visitor_) visitor_->start(segment, candidate, footprint);
+  const double share = uses_grazing_treatment(segment, footprint.facet) ? path_weight(segment, footprint.facet) : 1.0;
+  // More is given with the ends of its beams; where less is left they have faded out as much (reflected_edge_weight).
+  if (share > 1) weight_with_reciprocal(share, footprint);
   for (const MovingPolygon& piece : pieces) {
     footprint.polygon = piece;
-    limit_slip(footprint, longest_slip_);
+    limit_slide_rate(footprint, max_slide_rate_);
     if (visitor_) visitor_->add(footprint);
     if (share <= 0) continue;
     out_.push_back(footprint);
-    if (share < 1) give_share(share, out_.back());
+    if (share < 1) weight_with_reciprocal(share, out_.back());
   }
 }
 
-void BeamEcho::radiate_back(const Leg& leg, const Candidate& candidate, std::span<const MovingPolygon> seen) {
-  const int facet = candidate.image.facet;
-  if (leg.bounce < 2 || leg.bounce >= scene_.settings.max_bounces || !leaves_grazing(leg, facet)) return;
-  const double share = share_by_image(basis_.r, mirror_of(leg.first_facet), mirror_of(facet));
+void BeamContributions::radiate_image(const BeamSegment& segment, const CandidatePanel& candidate,
+                                      std::span<const MovingPolygon> visible) {
+  const int facet = candidate.projection.facet;
+  if (segment.bounce < 2 || segment.bounce >= scene_.settings.max_bounces || !uses_grazing_treatment(segment, facet))
+    return;
+  const double share = image_weight(basis_.r, reflector_panel(segment.first_reflector), reflector_panel(facet));
   if (share <= 0) return;
-  const Facet& mirror = facets_[leg.first_facet];
-  const Mirror by = plane_mirror(mirror.normal, mirror.offset);
-  const Vec3 lit_side = facing(leg, facets_[facet]), n = by.L * lit_side;
+  const Facet& mirror = facets_[segment.first_reflector];
+  const ImageTransform by = plane_reflection(mirror.normal, mirror.offset);
+  const Vec3 illuminated_side = illuminated_normal(segment, facets_[facet]), n = by.L * illuminated_side;
   if (n.dot(basis_.r) <= kEdgeOn) return;
   // A perfect conductor's image has the field along it turned round.
-  Leg image;
-  image.direction = by.L * leg.direction;
-  image.E_h = -by.L * leg.E_h;
-  image.E_v = -by.L * leg.E_v;
+  BeamSegment image;
+  image.direction = by.L * segment.direction;
+  image.E_h = -by.L * segment.E_h;
+  image.E_v = -by.L * segment.E_v;
   Footprint footprint;
-  footprint.plane = candidate.image.plane;
-  footprint.mirrors = leg.mirrors * by;
+  footprint.plane = candidate.projection.plane;
+  footprint.image_transform = segment.image_transform * by;
   footprint.facet = facet;
   footprint.part = facets_[facet].part;
-  footprint.facet_size = panels_.size(facet);
-  footprint.bounces = static_cast<std::uint8_t>(leg.bounce + 1);
-  set_phase(footprint, leg.mirrors.L * lit_side, antennas_);
-  footprint.pattern = conductor_pattern(image, n, std::abs(n.dot(image.direction)), basis_);
-  give_share(share, footprint);
+  footprint.panel_size = panels_.size(facet);
+  footprint.bounces = static_cast<std::uint8_t>(segment.bounce + 1);
+  set_phase(footprint, segment.image_transform.L * illuminated_side, geometry_);
+  footprint.pattern = pec_pattern(image, n, std::abs(n.dot(image.direction)), basis_);
+  weight_with_reciprocal(share, footprint);
   // What the mirror lights at first, a receiver at the same place sees by it.
-  std::vector<MovingPolygon> by_mirror;
-  if (leg.bounce > 2) visible_.seen_by(leg.first_facet, facet, footprint.mirrors, seen, basis_, by_mirror);
+  std::vector<MovingPolygon> by_reflector;
+  if (segment.bounce > 2)
+    visible_.visible_via_reflector(segment.first_reflector, facet, footprint.image_transform, visible, basis_,
+                                   by_reflector);
   for (const MovingPolygon& piece :
-       leg.bounce > 2 ? std::span<const MovingPolygon>(by_mirror) : candidate.lit.polygons()) {
+       segment.bounce > 2 ? std::span<const MovingPolygon>(by_reflector) : candidate.illuminated.polygons()) {
     footprint.polygon = piece;
-    limit_slip(footprint, longest_slip_);
+    limit_slide_rate(footprint, max_slide_rate_);
     out_.push_back(footprint);
   }
 }
 
-std::vector<std::array<Complex, 4>> BeamEcho::patterns(const Leg& leg, int facet, const Vec3& n) const {
-  const std::span<const Surface> surface = scene_.surface_of(facet);
-  const auto& [r, h, v] = antennas_.receive;
-  const double cosine = std::abs(n.dot(leg.direction));
-  std::vector<std::array<Complex, 4>> patterns(surface.empty() ? leg.fields.size() : surface.size());
+std::vector<std::array<Complex, 4>> BeamContributions::patterns(const BeamSegment& segment, int facet,
+                                                                const Vec3& n) const {
+  const std::span<const MaterialSurface> surface = scene_.surface_of(facet);
+  const auto& [r, h, v] = geometry_.receive;
+  const double cosine = std::abs(n.dot(segment.direction));
+  std::vector<std::array<Complex, 4>> patterns(surface.empty() ? segment.fields.size() : surface.size());
   for (std::size_t q = 0; q < patterns.size(); ++q) {
-    const SurfaceFields at = surface.empty() ? SurfaceFields{} : surface[q].at(cosine);
-    const double coherence = surface.empty() ? 1.0 : surface[q].coherence(cosine, n.dot(r));
-    const BeamField field = field_at(leg, q);
-    const CVec3 by_h = coherence * radiated_field(at, leg.direction, n, r, field.h),
-                by_v = coherence * radiated_field(at, leg.direction, n, r, field.v);
-    patterns[q] = {along(h, by_h), along(h, by_v), along(v, by_h), along(v, by_v)};
+    const InterfaceCoefficients at = surface.empty() ? InterfaceCoefficients{} : surface[q].at(cosine);
+    const double coherence = surface.empty() ? 1.0 : surface[q].roughness_factor(cosine, n.dot(r));
+    const BeamField field = field_at(segment, q);
+    const CVec3 by_h = coherence * radiated_field(at, segment.direction, n, r, field.h),
+                by_v = coherence * radiated_field(at, segment.direction, n, r, field.v);
+    patterns[q] = {component_along(h, by_h), component_along(h, by_v), component_along(v, by_h),
+                   component_along(v, by_v)};
   }
   return patterns;
 }
 
-bool BeamEcho::leaves_grazing(const Leg& leg, int facet) const {
-  return scene_.settings.edges && antennas_.monostatic && !leg.bent && !curving_.surface.curved(facet) &&
-         leg.fields.empty() && scene_.surface_of(facet).empty() &&
+bool BeamContributions::uses_grazing_treatment(const BeamSegment& segment, int facet) const {
+  return scene_.settings.edges && geometry_.monostatic && !segment.has_curved_reflection &&
+         !curvature_.surface.curved(facet) && segment.fields.empty() && scene_.surface_of(facet).empty() &&
          !scene_.settings.filter.is_cavity(facets_[facet].part);
 }
 
-GrazedMirror BeamEcho::mirror_of(int facet) const { return {facets_[facet].normal, panels_.outline(facet)}; }
+ReflectorPanel BeamContributions::reflector_panel(int facet) const {
+  return {facets_[facet].normal, panels_.outline(facet)};
+}
 
-double BeamEcho::share_of_way(const Leg& leg, int last) const {
-  if (leg.bounce == 1) return 1;
-  const GrazedMirror first = mirror_of(leg.first_facet);
-  return leg.bounce > 2 ? share_of_more(basis_.r, first, mirror_of(leg.from_facet), mirror_of(last))
-                        : share_of_two(basis_.r, first, mirror_of(last));
+double BeamContributions::path_weight(const BeamSegment& segment, int last) const {
+  if (segment.bounce == 1) return 1;
+  const ReflectorPanel first = reflector_panel(segment.first_reflector);
+  return segment.bounce > 2
+             ? multiple_bounce_weight(basis_.r, first, reflector_panel(segment.source_facet), reflector_panel(last))
+             : double_bounce_weight(basis_.r, first, reflector_panel(last));
 }
 
 }  // namespace seaglint

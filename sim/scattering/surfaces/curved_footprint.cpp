@@ -11,87 +11,94 @@ namespace {
 // Behind curved mirrors rays are followed to second order while a bundle's width grows to less than this. Farther away
 // it lands beside the window it was measured in by more than its own width, and the mirrors count as flat: the parting
 // of their facets' bundles is then all that spreads them.
-constexpr double kMostSpread = 4;
+constexpr double kMaxDivergence = 4;
 
 // The triangle of a flat panel's first facet, enlarged about a point of its own until it holds the whole panel. It
 // belongs to the panel, not to a footprint: pieces that meet on the panel are then cut alike, and their contours
 // cancel.
-std::array<Vec2, 3> around_panel(const Curving& on, const Leg& leg, std::span<const Vec3> outline,
+std::array<Vec2, 3> around_panel(const CurvatureContext& on, const BeamSegment& segment, std::span<const Vec3> outline,
                                  const std::array<Vec2, 3>& first) {
   if (outline.size() == 3) return first;
   const Barycentric lambda(first);
-  std::array<double, 3> least{};
+  std::array<double, 3> min{};
   for (const Vec3& x : outline) {
-    const Vec2 p = projected(on, leg, x);
-    for (int i = 0; i < 3; ++i) least[i] = std::min(least[i], lambda.at(i, p));
+    const Vec2 p = projected(on, segment, x);
+    for (int i = 0; i < 3; ++i) min[i] = std::min(min[i], lambda.at(i, p));
   }
   std::array<Vec2, 3> corner;
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3, l = (i + 2) % 3;
-    corner[i] = (1 - least[j] - least[l]) * first[i] + least[j] * first[j] + least[l] * first[l];
+    corner[i] = (1 - min[j] - min[l]) * first[i] + min[j] * first[j] + min[l] * first[l];
   }
   return corner;
 }
 
 // Cosine of the incidence at a normal of the smooth surface. Beyond the shadow boundary, where currents have faded, it
 // stays positive.
-double smooth_cosine(const Leg& leg, const Facet& flat, const Vec3& normal) {
-  return std::max(-normal.dot(leg.direction), 0.25 * std::abs(flat.normal.dot(leg.direction)));
+double smooth_cosine(const BeamSegment& segment, const Facet& flat, const Vec3& normal) {
+  return std::max(-normal.dot(segment.direction), 0.25 * std::abs(flat.normal.dot(segment.direction)));
 }
 
 }  // namespace
 
-std::shared_ptr<const Curvature> curvature_of(const Curving& on, const Panels& panels, const AntennaPair& antennas,
-                                              const Leg& leg, const Candidate& candidate, const Footprint& footprint) {
-  const auto& [transmit, receive, is_monostatic] = antennas;
-  const int facet = candidate.image.facet;
+std::shared_ptr<const CurvedFootprint> make_curved_footprint(const CurvatureContext& on, const Panels& panels,
+                                                             const BistaticGeometry& geometry,
+                                                             const BeamSegment& segment,
+                                                             const CandidatePanel& candidate,
+                                                             const Footprint& footprint) {
+  const auto& [transmit, receive, is_monostatic] = geometry;
+  const int facet = candidate.projection.facet;
   const CurvedFacet* curved = on.surface.curved(facet);
-  BentRays rays;
-  if (leg.bent) rays = travelled(leg, candidate);
-  const bool bent = leg.bent && rays.landing.matrix.norm() < kMostSpread;
-  if (!bent) rays = {};
+  ParaxialBundle bundle;
+  if (segment.has_curved_reflection) bundle = propagated_to(segment, candidate);
+  const bool bent = segment.has_curved_reflection && bundle.position_map.matrix.norm() < kMaxDivergence;
+  if (!bent) bundle = {};
   if (!curved && !bent) return nullptr;
-  auto corner = projected(on, leg, facet);
-  if (!curved) corner = around_panel(on, leg, panels.outline(facet), corner);
+  auto corner = projected(on, segment, facet);
+  if (!curved) corner = around_panel(on, segment, panels.outline(facet), corner);
   const Barycentric lambda(corner);
 
   // The surface stands higher by z / cos(incidence) along the ray, both ways.
-  const Mat3& L = leg.mirrors.L;
+  const Mat3& L = segment.image_transform.L;
   const Vec3 both = transmit.r + L * receive.r;
-  const double both_ways = both.dot(transmit.r);
+  const double both_paths = both.dot(transmit.r);
   Quadratic standing;
-  if (curved) standing = bump(lambda, over_edges(on, leg, facet, [&](double cosine) { return both_ways / cosine; }));
+  if (curved)
+    standing = edge_midpoint_quadratic(
+        lambda, edge_sagittas(on, segment, facet, [&](double cosine) { return both_paths / cosine; }));
 
-  Curvature c{corner, lambda, rays.phase, {}, {}, {}, {}, {}, {}};
-  c.phase += compose({0, footprint.w, Mat2::Zero()}, {rays.landing.offset, rays.landing.matrix - Mat2::Identity()});
-  c.phase += compose(standing, rays.landing);
+  CurvedFootprint c{corner, lambda, bundle.phase, {}, {}, {}, {}, {}, {}};
+  c.phase += compose({0, footprint.w, Mat2::Zero()},
+                     {bundle.position_map.offset, bundle.position_map.matrix - Mat2::Identity()});
+  c.phase += compose(standing, bundle.position_map);
   // A bundle that widens by det lights as much area more with a field as much weaker: the square root of it. Behind one
   // focus the phase has advanced by a quarter, behind two by a half of a cycle.
-  const double widened = rays.landing.matrix.determinant();
-  c.spread = std::sqrt(std::abs(widened)) * (widened < 0                       ? Complex(0, 1)
-                                             : rays.landing.matrix.trace() < 0 ? Complex(-1)
-                                                                               : Complex(1));
-  const double side = on.facets[facet].normal.dot(leg.direction) < 0 ? 1 : -1;
+  const double widened = bundle.position_map.matrix.determinant();
+  c.divergence_factor = std::sqrt(std::abs(widened)) * (widened < 0                              ? Complex(0, 1)
+                                                        : bundle.position_map.matrix.trace() < 0 ? Complex(-1)
+                                                                                                 : Complex(1));
+  const double side = on.facets[facet].normal.dot(segment.direction) < 0 ? 1 : -1;
   for (int i = 0; i < 3; ++i) {
-    c.lit[i] = c.seen[i] = std::numeric_limits<double>::infinity();
+    c.incident_shadow_distance[i] = c.receiver_shadow_distance[i] = std::numeric_limits<double>::infinity();
     c.w[i] = c.slope[i] = footprint.w + c.phase.slope(corner[i]);
     c.pattern[i] = footprint.pattern;
     if (curved) {
       const int vertex = curved->vertex[i];
-      c.lit[i] = on.surface.terminator_distance(vertex, -leg.direction, side);
-      if (!is_monostatic || leg.bounce > 1) c.seen[i] = on.surface.terminator_distance(vertex, receive.r, side);
+      c.incident_shadow_distance[i] = on.surface.shadow_boundary_distance(vertex, -segment.direction, side);
+      if (!is_monostatic || segment.bounce > 1)
+        c.receiver_shadow_distance[i] = on.surface.shadow_boundary_distance(vertex, receive.r, side);
       const Vec3 n = side * on.surface.vertex(vertex).normal;
-      const double cosine = smooth_cosine(leg, on.facets[facet], n);
+      const double cosine = smooth_cosine(segment, on.facets[facet], n);
       const Vec3 image = L * n;
       const Vec2 slope = -Vec2(image.dot(transmit.h), image.dot(transmit.v)) / cosine;
-      c.w[i] += both_ways * (slope - footprint.plane.slope) - standing.slope(corner[i]);
+      c.w[i] += both_paths * (slope - footprint.plane.slope) - standing.slope(corner[i]);
       const Vec3 tangential = both - image * image.dot(both);
       c.slope[i] += Vec2(tangential.dot(transmit.h), tangential.dot(transmit.v)) +
                     tangential.dot(transmit.r) * footprint.plane.slope - footprint.w - standing.slope(corner[i]);
-      if (footprint.patterns.empty()) c.pattern[i] = conductor_pattern(leg, n, cosine, receive);
+      if (footprint.patterns.empty()) c.pattern[i] = pec_pattern(segment, n, cosine, receive);
     }
   }
-  return std::make_shared<const Curvature>(c);
+  return std::make_shared<const CurvedFootprint>(c);
 }
 
 }  // namespace seaglint

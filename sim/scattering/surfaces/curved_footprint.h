@@ -15,7 +15,7 @@
 namespace seaglint {
 
 // Of a whole facet as one beam lights it; shared by all pieces of its footprint. Arrays go by the facet's corners.
-struct Curvature {
+struct CurvedFootprint {
   std::array<Vec2, 3> corner;
   Barycentric lambda;
   Quadratic phase;        // psi minus that of the flat facet
@@ -24,14 +24,17 @@ struct Curvature {
   std::array<Vec2, 3> slope;
   // as Footprint::pattern, with the smooth normals where all is perfect conductor
   std::array<std::array<Complex, 4>, 3> pattern;
-  Complex spread = 1;  // factor of the amplitude for rays that curved mirrors have spread
+  Complex divergence_factor = 1;  // factor of the amplitude for rays that curved mirrors have spread
   // distances from the shadow boundaries of the incident wave and of the receiver, m^(1/3)
-  std::array<double, 3> lit, seen;
+  std::array<double, 3> incident_shadow_distance, receiver_shadow_distance;
 };
 
 // What the curvature of a facet and of the mirrors before it adds to a footprint whose flat phase and pattern are set;
 // null where all are flat. Its triangle is the curved facet, or holds the whole flat panel.
-std::shared_ptr<const Curvature> curvature_of(const Curving& on, const Panels& panels, const AntennaPair& antennas,
-                                              const Leg& leg, const Candidate& candidate, const Footprint& footprint);
+std::shared_ptr<const CurvedFootprint> make_curved_footprint(const CurvatureContext& on, const Panels& panels,
+                                                             const BistaticGeometry& geometry,
+                                                             const BeamSegment& segment,
+                                                             const CandidatePanel& candidate,
+                                                             const Footprint& footprint);
 
 }  // namespace seaglint

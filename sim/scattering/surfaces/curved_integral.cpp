@@ -14,20 +14,21 @@ namespace {
 using Triangle = std::array<Vec2, 3>;
 
 // Facets whose currents have faded below this are left out.
-constexpr double kFaded = 2e-3;
+constexpr double kNegligibleTaper = 2e-3;
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-double fading(double distance, double k) {
-  const double t = std::clamp(distance * std::cbrt(k) / kShadowZone, 0.0, 1.0);
+double shadow_taper(double distance, double k) {
+  const double t = std::clamp(distance * std::cbrt(k) / kTransitionZoneWidth, 0.0, 1.0);
   return t * t * t * (10 - 15 * t + 6 * t * t);
 }
 
-class CurvedSplitter {
+class CurvedDecomposer {
  public:
-  CurvedSplitter(const Footprint& footprint, double k, double least_slope, std::vector<CurvedTerm>& out)
-      : footprint_(footprint), c_(*footprint.curvature), k_(k), least_slope_(least_slope), out_(out) {
-    for (int i = 0; i < 3; ++i) fade_[i] = fading(std::min(c_.lit[i], c_.seen[i]), k);
+  CurvedDecomposer(const Footprint& footprint, double k, double min_slope, std::vector<CurvedContribution>& out)
+      : footprint_(footprint), c_(*footprint.curvature), k_(k), min_slope_(min_slope), out_(out) {
+    for (int i = 0; i < 3; ++i)
+      fade_[i] = shadow_taper(std::min(c_.incident_shadow_distance[i], c_.receiver_shadow_distance[i]), k);
     // A slope along the surface from one in the aperture: divided by the stretch 1/cos along the steepest direction.
     const Vec2 steepest = footprint.plane.slope;
     const double stretch = std::sqrt(1 + steepest.squaredNorm());
@@ -38,30 +39,31 @@ class CurvedSplitter {
     for (int i = 0; i < 3; ++i) {
       const int j = (i + 1) % 3;
       const Vec2 along = c_.corner[j] - c_.corner[i];
-      const double most = 0.25 * std::abs(along.dot(c_.phase.hessian * along));
-      skew_[i] =
-          std::clamp(0.5 * (c_.w[i] + c_.w[j]).dot(along) - (psi(c_.corner[j]) - psi(c_.corner[i])), -most, most);
+      const double max = 0.25 * std::abs(along.dot(c_.phase.hessian * along));
+      skew_[i] = std::clamp(0.5 * (c_.w[i] + c_.w[j]).dot(along) - (psi(c_.corner[j]) - psi(c_.corner[i])), -max, max);
     }
     for (int i = 0; i < 3; ++i) slope_[i] = along_surface_ * c_.slope[i];
     for (int i = 0; i < 3; ++i) {
       const int j = (i + 1) % 3;
-      curving_ =
-          std::max(curving_, (slope_[j] - slope_[i]).norm() / footprint.surface_length(c_.corner[j] - c_.corner[i]));
+      curvature_ =
+          std::max(curvature_, (slope_[j] - slope_[i]).norm() / footprint.surface_length(c_.corner[j] - c_.corner[i]));
     }
   }
 
   void run() {
-    if (std::max({fade_[0], fade_[1], fade_[2]}) > kFaded) part(footprint_.polygon, c_.corner);
+    if (std::max({fade_[0], fade_[1], fade_[2]}) > kNegligibleTaper) part(footprint_.polygon, c_.corner);
   }
 
  private:
   // What each corner of the facet has of a point; together 1.
-  using Shares = std::array<double, 3>;
-  Shares shares(const Vec2& p) const { return {c_.lambda.at(0, p), c_.lambda.at(1, p), c_.lambda.at(2, p)}; }
+  using BarycentricWeights = std::array<double, 3>;
+  BarycentricWeights shares(const Vec2& p) const {
+    return {c_.lambda.at(0, p), c_.lambda.at(1, p), c_.lambda.at(2, p)};
+  }
 
   // The quadratic, and along each edge the cubic x (1 - x) (1 - 2 x) that gives it the smooth surface's slopes at both
   // ends.
-  double psi(const Vec2& p, const Shares& of_p) const {
+  double psi(const Vec2& p, const BarycentricWeights& of_p) const {
     double sum = footprint_.psi(p) + c_.phase.at(p);
     for (int i = 0; i < 3; ++i) {
       const double a = of_p[i], b = of_p[(i + 1) % 3];
@@ -71,7 +73,7 @@ class CurvedSplitter {
   }
   double psi(const Vec2& p) const { return psi(p, shares(p)); }
   Vec2 psi_slope(const Vec2& p) const {
-    const Shares of_p = shares(p);
+    const BarycentricWeights of_p = shares(p);
     Vec2 sum = footprint_.w + c_.phase.slope(p);
     for (int i = 0; i < 3; ++i) {
       const int j = (i + 1) % 3;
@@ -82,7 +84,7 @@ class CurvedSplitter {
   }
 
   template <typename T>
-  static T between(const std::array<T, 3>& corner, const Shares& of_p) {
+  static T between(const std::array<T, 3>& corner, const BarycentricWeights& of_p) {
     return of_p[0] * corner[0] + of_p[1] * corner[1] + of_p[2] * corner[2];
   }
 
@@ -96,7 +98,7 @@ class CurvedSplitter {
       const Vec2 along = triangle[j] - triangle[i];
       const double length = footprint_.surface_length(along);
       const double run_i = w[i].dot(along), run_j = w[j].dot(along);
-      const double run = std::max({std::abs(run_i), std::abs(run_j), kAmplitudeError * least_slope_ * length});
+      const double run = std::max({std::abs(run_i), std::abs(run_j), kMaxAmplitudeError * min_slope_ * length});
       size = std::max(size, length);
       if (run > largest) {
         largest = run;
@@ -107,14 +109,13 @@ class CurvedSplitter {
     std::array<Vec2, 3> slope;
     for (int i = 0; i < 3; ++i) slope[i] = between(slope_, shares(triangle[i]));
     const Vec2 mean = (slope[0] + slope[1] + slope[2]) / 3;
-    const double least =
+    const double min =
         mean.norm() - std::max({(slope[0] - mean).norm(), (slope[1] - mean).norm(), (slope[2] - mean).norm()});
-    if (least > least_slope_ && k_ * least * size / 2 > kPieceHalfPhase &&
-        k_ * least * least > kContourRatio * curving_) {
+    if (min > min_slope_ && k_ * min * size / 2 > kMaxHalfPhase && k_ * min * min > kContourRatio * curvature_) {
       contour(polygon);
       return;
     }
-    if (k_ * largest / 2 <= kPieceHalfPhase || size < 1e-6) {
+    if (k_ * largest / 2 <= kMaxHalfPhase || size < 1e-6) {
       point(polygon);
       return;
     }
@@ -125,12 +126,12 @@ class CurvedSplitter {
     MovingLine line;
     line.gradient = Vec2(-along.y(), along.x()).normalized();
     line.value = -line.gradient.dot(middle);
-    const ImagePlane& plane = footprint_.plane;
+    const DepthPlane& plane = footprint_.plane;
     line.value_d1 = line.gradient.x() * plane.z0;
     line.value_d2 = line.gradient.y() * plane.z0;
     line.gradient_d1 = line.gradient.x() * plane.slope;
     line.gradient_d2 = line.gradient.y() * plane.slope;
-    auto [near_a, near_b] = halves(polygon, line);
+    auto [near_a, near_b] = split_by_line(polygon, line);
     if (line.at(a) <= line.at(b)) std::swap(near_a, near_b);
     if (!near_a.empty()) part(near_a, {a, middle, far});
     if (!near_b.empty()) part(near_b, {middle, b, far});
@@ -144,7 +145,7 @@ class CurvedSplitter {
     constexpr double kNear = 0.10128650732345634, kFar = 0.47014206410511509;
     constexpr double kWeightNear = 0.12593918054482715, kWeightFar = 0.13239415278850618, kWeightMiddle = 0.225;
     const auto value = [&](const Vec2& p) {
-      const Shares of_p = shares(p);
+      const BarycentricWeights of_p = shares(p);
       return between(fade_, of_p) * std::polar(1.0, k_ * (psi(p, of_p) - psi_c));
     };
     Complex integral = 0;
@@ -167,26 +168,25 @@ class CurvedSplitter {
     const std::size_t n = polygon.size();
     std::vector<std::optional<Complex>> end(n);
     const auto flux = [&](const Vec2& p, const Vec2& along) -> Complex {
-      const Shares of_p = shares(p);
+      const BarycentricWeights of_p = shares(p);
       const Vec2 w = between(c_.w, of_p);
       return between(fade_, of_p) * cross(w, along) / (Complex(0, k_) * w.squaredNorm());
     };
     for (std::size_t i = 0; i < n; ++i) {
       const std::size_t j = (i + 1) % n;
-      const Corner &a = polygon[i], &b = polygon[j];
+      const MovingVertex &a = polygon[i], &b = polygon[j];
       const Vec2 along = b.p - a.p;
       const double length = footprint_.surface_length(along);
       if (length < 1e-12) continue;
       const auto at = [&](double x) {
-        return Corner{a.p + x * along, a.d1 + x * (b.d1 - a.d1), a.d2 + x * (b.d2 - a.d2)};
+        return MovingVertex{a.p + x * along, a.d1 + x * (b.d1 - a.d1), a.d2 + x * (b.d2 - a.d2)};
       };
       const auto run = [&](double x) { return psi_slope(a.p + x * along).dot(along); };  // d psi / dx
       // Where psi runs fast enough a part of the edge is its ends; the ends of parts that meet inside the edge cancel.
       const auto part_of_edge = [&](const auto& self, double from, double to, double run_from, double run_to) -> void {
-        const double least = run_from * run_to > 0 ? std::min(std::abs(run_from), std::abs(run_to)) : 0,
-                     step = to - from;
-        if (least > least_slope_ * length && k_ * least * step / 2 > kPieceHalfPhase &&
-            k_ * least * least * step > kContourRatio * std::abs(run_to - run_from)) {
+        const double min = run_from * run_to > 0 ? std::min(std::abs(run_from), std::abs(run_to)) : 0, step = to - from;
+        if (min > min_slope_ * length && k_ * min * step / 2 > kMaxHalfPhase &&
+            k_ * min * min * step > kContourRatio * std::abs(run_to - run_from)) {
           const Complex first = -flux(a.p + from * along, along) / Complex(0, k_ * run_from);
           const Complex last = flux(a.p + to * along, along) / Complex(0, k_ * run_to);
           if (from == 0)
@@ -200,10 +200,10 @@ class CurvedSplitter {
           return;
         }
         const double largest =
-            std::max({std::abs(run_from), std::abs(run_to), kAmplitudeError * least_slope_ * length});
+            std::max({std::abs(run_from), std::abs(run_to), kMaxAmplitudeError * min_slope_ * length});
         const double middle = 0.5 * (from + to);
-        if (k_ * largest * step / 2 <= kPieceHalfPhase) {
-          slide(flux(a.p + middle * along, along) * (sinc(k_ * run(middle) * step) * step), at(middle));
+        if (k_ * largest * step / 2 <= kMaxHalfPhase) {
+          slide(flux(a.p + middle * along, along) * (half_argument_sinc(k_ * run(middle) * step) * step), at(middle));
           return;
         }
         const double run_middle = run(middle);
@@ -218,42 +218,43 @@ class CurvedSplitter {
   }
 
   // A term at a point that moves as the corner does.
-  void slide(const Complex& integral, const Corner& corner) {
-    const Shares of_p = shares(corner.p);
+  void slide(const Complex& integral, const MovingVertex& vertex) {
+    const BarycentricWeights of_p = shares(vertex.p);
     const Vec2 w = between(c_.w, of_p);
-    const double z = footprint_.plane.at(corner.p);
+    const double z = footprint_.plane.at(vertex.p);
     out_.push_back(
-        {integral, psi(corner.p, of_p), corner.p, w.dot(corner.d1 + Vec2(z, 0)), w.dot(corner.d2 + Vec2(0, z))});
+        {integral, psi(vertex.p, of_p), vertex.p, w.dot(vertex.d1 + Vec2(z, 0)), w.dot(vertex.d2 + Vec2(0, z))});
   }
 
   const Footprint& footprint_;
-  const Curvature& c_;
-  double k_, least_slope_;
+  const CurvedFootprint& c_;
+  double k_, min_slope_;
   std::array<double, 3> skew_{};
-  std::vector<CurvedTerm>& out_;
+  std::vector<CurvedContribution>& out_;
   std::array<double, 3> fade_;
   Mat2 along_surface_;
   std::array<Vec2, 3> slope_;  // of psi along the surface, at the facet's corners
-  double curving_ = 0;         // change of that slope, 1/m
+  double curvature_ = 0;       // change of that slope, 1/m
 };
 
 }  // namespace
 
-void curved_terms(const Footprint& footprint, double k, double least_slope, std::vector<CurvedTerm>& terms) {
+void curved_contributions(const Footprint& footprint, double k, double min_slope,
+                          std::vector<CurvedContribution>& terms) {
   constexpr std::size_t kAsUsual = 16;
   terms.reserve(kAsUsual);
-  CurvedSplitter(footprint, k, least_slope, terms).run();
+  CurvedDecomposer(footprint, k, min_slope, terms).run();
 }
 
 std::array<Complex, 4> pattern_at(const Footprint& footprint, const Vec2& p, const std::array<Complex, 4>& flat) {
-  const Curvature& curvature = *footprint.curvature;
+  const CurvedFootprint& curvature = *footprint.curvature;
   std::array<Complex, 4> pattern{};
   if (!footprint.patterns.empty()) {
-    for (int q = 0; q < 4; ++q) pattern[q] = curvature.spread * flat[q];
+    for (int q = 0; q < 4; ++q) pattern[q] = curvature.divergence_factor * flat[q];
     return pattern;
   }
   for (int i = 0; i < 3; ++i) {
-    const Complex share = curvature.spread * curvature.lambda.at(i, p);
+    const Complex share = curvature.divergence_factor * curvature.lambda.at(i, p);
     for (int q = 0; q < 4; ++q) pattern[q] += share * curvature.pattern[i][q];
   }
   return pattern;

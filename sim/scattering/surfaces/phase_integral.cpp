@@ -37,10 +37,10 @@ Complex small_phase_integral(const MovingPolygon& polygon, const Vec2& c, const 
 
 Complex phase_integral(const Footprint& footprint, double k) {
   if (footprint.curvature) {
-    std::vector<CurvedTerm> terms;
-    curved_terms(footprint, k, 0, terms);
+    std::vector<CurvedContribution> terms;
+    curved_contributions(footprint, k, 0, terms);
     Complex sum = 0;
-    for (const CurvedTerm& term : terms) sum += term.integral * std::polar(1.0, k * term.psi);
+    for (const CurvedContribution& term : terms) sum += term.integral * std::polar(1.0, k * term.psi);
     return sum;
   }
   const MovingPolygon& polygon = footprint.polygon;
@@ -48,13 +48,13 @@ Complex phase_integral(const Footprint& footprint, double k) {
   const Complex phase_c = std::polar(1.0, k * footprint.psi(c));
   const Vec2 kw = k * footprint.w;
   double largest = 0;
-  for (const Corner& corner : polygon) largest = std::max(largest, std::abs(kw.dot(corner.p - c)));
+  for (const MovingVertex& vertex : polygon) largest = std::max(largest, std::abs(kw.dot(vertex.p - c)));
   if (largest < 0.1) return phase_c * small_phase_integral(polygon, c, kw);
 
   Complex sum = 0;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Vec2 a = polygon[i].p - c, along = polygon[(i + 1) % polygon.size()].p - polygon[i].p;
-    sum += cross(kw, along) * sinc(kw.dot(along)) * std::polar(1.0, kw.dot(a + 0.5 * along));
+    sum += cross(kw, along) * half_argument_sinc(kw.dot(along)) * std::polar(1.0, kw.dot(a + 0.5 * along));
   }
   return phase_c * sum / (Complex(0, 1) * kw.squaredNorm());
 }
@@ -63,9 +63,9 @@ std::array<Complex, 4> scattered(const Footprint& footprint, double k, std::size
   const std::array<Complex, 4>& pattern = footprint.patterns.empty() ? footprint.pattern : footprint.patterns[index];
   std::array<Complex, 4> s{};
   if (footprint.curvature) {
-    std::vector<CurvedTerm> terms;
-    curved_terms(footprint, k, 0, terms);
-    for (const CurvedTerm& term : terms) {
+    std::vector<CurvedContribution> terms;
+    curved_contributions(footprint, k, 0, terms);
+    for (const CurvedContribution& term : terms) {
       const Complex value = Complex(0, -k / (2 * kPi)) * term.integral * std::polar(1.0, k * term.psi);
       const auto local = pattern_at(footprint, term.p, pattern);
       for (int i = 0; i < 4; ++i) s[i] += value * local[i];

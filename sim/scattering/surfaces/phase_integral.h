@@ -12,7 +12,7 @@ namespace seaglint {
 
 // I(k) = integral over the footprint of e^{jk psi(p)} d^2p, m^2. Gordon's contour form (W. B. Gordon, IEEE Trans.
 // AP-23, 1975, 590-592), by the divergence theorem with F = w e^{jk w.p} / (jk |w|^2); a series where |w| is small.
-// With curvature the sum of curved_terms, fading included.
+// With curvature the sum of curved_contributions, fading included.
 Complex phase_integral(const Footprint& footprint, double k);
 
 // S = -jk/(2 pi) pattern I(k): physical optics, E_s = -(jk eta / 4 pi) (e^{-jkr}/r) integral (J - r^ r^.J) e^{jk r^.x}

@@ -15,16 +15,16 @@ namespace {
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-class Splitter {
+class Decomposer {
  public:
-  Splitter(const Footprint& footprint, const RadarBasis& basis, const SplitSettings& settings,
-           std::vector<Contribution>& out)
+  Decomposer(const Footprint& footprint, const RadarBasis& basis, const DecompositionSettings& settings,
+             std::vector<PointContribution>& out)
       : footprint_(footprint), basis_(basis), settings_(settings), out_(out) {
     prototype_.facet = footprint.facet;
     prototype_.part = footprint.part;
     prototype_.bounces = footprint.bounces;
     for (int i = 0; i < 4; ++i) prototype_.pattern[i] = std::complex<float>(footprint.pattern[i]);
-    threshold_ = std::max(settings.turn_rad * footprint.surface_slope_turn / kAmplitudeError, 1e-9);
+    threshold_ = std::max(settings.aspect_change_rad * footprint.psi_slope_rate / kMaxAmplitudeError, 1e-9);
   }
 
   void run() {
@@ -34,8 +34,8 @@ class Splitter {
     }
     // Only a phase that runs through a good part of a cycle has end points. The whole facet decides, not this piece of
     // it: pieces that share a moving boundary must be treated alike, or its two sides do not cancel.
-    const double half_phase = settings_.kc * footprint_.surface_slope * footprint_.facet_size / 2;
-    if (footprint_.surface_slope > threshold_ && half_phase > kPieceHalfPhase) {
+    const double half_phase = settings_.kc * footprint_.psi_slope * footprint_.panel_size / 2;
+    if (footprint_.psi_slope > threshold_ && half_phase > kMaxHalfPhase) {
       edges();
     } else {
       area(footprint_.polygon);
@@ -44,7 +44,7 @@ class Splitter {
 
  private:
   void emit(const Complex& integral, double psi, const PathGradient& gradient) {
-    Contribution c = prototype_;
+    PointContribution c = prototype_;
     c.amplitude = Complex(0, -settings_.kc / (2 * kPi)) * integral;
     c.psi = psi;
     c.gradient = gradient;
@@ -52,14 +52,14 @@ class Splitter {
   }
 
   void curved() {
-    std::vector<CurvedTerm> terms;
-    curved_terms(footprint_, settings_.kc, threshold_, terms);
-    for (const CurvedTerm& term : terms) {
+    std::vector<CurvedContribution> terms;
+    curved_contributions(footprint_, settings_.kc, threshold_, terms);
+    for (const CurvedContribution& term : terms) {
       const auto pattern = pattern_at(footprint_, term.p, footprint_.pattern);
       for (int i = 0; i < 4; ++i) prototype_.pattern[i] = std::complex<float>(pattern[i]);
       PathGradient gradient = phase_gradient(footprint_, term.p, basis_);
-      gradient.transmit_slip = term.slide1 * basis_.h + term.slide2 * basis_.v;
-      gradient.transmit += gradient.transmit_slip;
+      gradient.transmit_slide = term.slide1 * basis_.h + term.slide2 * basis_.v;
+      gradient.transmit += gradient.transmit_slide;
       emit(term.integral, term.psi, gradient);
     }
   }
@@ -79,12 +79,12 @@ class Splitter {
         }
       }
     }
-    const double slope = std::max(footprint_.surface_slope, kAmplitudeError * threshold_);
-    if (settings_.kc * slope * longest / 2 > kPieceHalfPhase && longest > 1e-6) {
+    const double slope = std::max(footprint_.psi_slope, kMaxAmplitudeError * threshold_);
+    if (settings_.kc * slope * longest / 2 > kMaxHalfPhase && longest > 1e-6) {
       MovingLine line;  // through the centroid, across the longest extent; a cut of our own is at rest
       line.gradient = along.normalized();
       line.value = -line.gradient.dot(c);
-      const auto [far, near] = halves(polygon, line);
+      const auto [far, near] = split_by_line(polygon, line);
       if (!near.empty() && !far.empty() && near.size() + far.size() > polygon.size()) {
         area(near);
         area(far);
@@ -106,25 +106,25 @@ class Splitter {
     // flux / (jk run) where its ends stand for it: what the end has, and the start less
     std::optional<double> end = {};
   };
-  Edge edge_of(const Corner& a, const Corner& b) const {
+  Edge edge_of(const MovingVertex& a, const MovingVertex& b) const {
     const Vec2 along = b.p - a.p;
     const double k = settings_.kc;
     Edge edge{footprint_.w.dot(along), footprint_.surface_length(along),
               Complex(0, -cross(footprint_.w, along) / (k * footprint_.w.squaredNorm()))};
-    if (std::abs(edge.run) > threshold_ * edge.length && std::abs(k * edge.run) / 2 > kPieceHalfPhase)
+    if (std::abs(edge.run) > threshold_ * edge.length && std::abs(k * edge.run) / 2 > kMaxHalfPhase)
       edge.end = edge.flux.imag() / (k * edge.run);
     return edge;
   }
 
   void edges() {
-    constexpr double kShortest = 1e-12;  // m
+    constexpr double kMinLength = 1e-12;  // m
     const MovingPolygon& polygon = footprint_.polygon;
     std::optional<double> before =
         edge_of(polygon.size() > 1 ? polygon[polygon.size() - 2] : polygon.back(), polygon.back()).end;
-    const Corner* a = &polygon.back();
-    for (const Corner& b : polygon) {
+    const MovingVertex* a = &polygon.back();
+    for (const MovingVertex& b : polygon) {
       const Edge edge = edge_of(*a, b);
-      if (!edge.end && edge.length >= kShortest) edge_pieces(*a, b, edge.flux, edge.run, edge.length);
+      if (!edge.end && edge.length >= kMinLength) edge_pieces(*a, b, edge.flux, edge.run, edge.length);
       if (before || edge.end)
         emit(before.value_or(0) - edge.end.value_or(0), footprint_.psi(a->p), phase_gradient(footprint_, *a, basis_));
       before = edge.end;
@@ -132,36 +132,36 @@ class Splitter {
     }
   }
 
-  void edge_pieces(const Corner& a, const Corner& b, const Complex& edge, double run, double length) {
+  void edge_pieces(const MovingVertex& a, const MovingVertex& b, const Complex& edge, double run, double length) {
     const double k = settings_.kc;
-    const double slope = std::max(std::abs(run), kAmplitudeError * threshold_ * length);
-    const int pieces = std::max(1, static_cast<int>(std::ceil(k * slope / 2 / kPieceHalfPhase)));
+    const double slope = std::max(std::abs(run), kMaxAmplitudeError * threshold_ * length);
+    const int pieces = std::max(1, static_cast<int>(std::ceil(k * slope / 2 / kMaxHalfPhase)));
     const PathGradient ga = phase_gradient(footprint_, a, basis_), gb = phase_gradient(footprint_, b, basis_);
     const double psi_a = footprint_.psi(a.p);
     for (int i = 0; i < pieces; ++i) {
       const double s = (i + 0.5) / pieces;
-      emit(edge * (sinc(k * run / pieces) / pieces), psi_a + s * run, between(ga, gb, s));
+      emit(edge * (half_argument_sinc(k * run / pieces) / pieces), psi_a + s * run, interpolate(ga, gb, s));
     }
   }
 
   const Footprint& footprint_;
   const RadarBasis& basis_;
-  const SplitSettings& settings_;
-  std::vector<Contribution>& out_;
-  Contribution prototype_;
+  const DecompositionSettings& settings_;
+  std::vector<PointContribution>& out_;
+  PointContribution prototype_;
   double threshold_ = 0;  // slope of psi along the surface above which end points may stand for an extent
 };
 
 }  // namespace
 
-void split(const Footprint& footprint, const RadarBasis& transmit, const SplitSettings& settings,
-           std::vector<Contribution>& out) {
-  Splitter(footprint, transmit, settings, out).run();
+void decompose(const Footprint& footprint, const RadarBasis& transmit, const DecompositionSettings& settings,
+               std::vector<PointContribution>& out) {
+  Decomposer(footprint, transmit, settings, out).run();
 }
 
-void split_over_band(const Footprint& footprint, const RadarBasis& transmit, const SplitSettings& settings,
-                     double half_band, std::vector<Contribution>& out) {
-  split(footprint, transmit, settings, out);
+void decompose_over_band(const Footprint& footprint, const RadarBasis& transmit, const DecompositionSettings& settings,
+                         double half_band, std::vector<PointContribution>& out) {
+  decompose(footprint, transmit, settings, out);
   if (footprint.patterns.size() != 3 || half_band <= 0) return;
   std::array<Complex, 4> slope;
   double largest = 0, change = 0;
@@ -171,23 +171,23 @@ void split_over_band(const Footprint& footprint, const RadarBasis& transmit, con
     change = std::max(change, std::abs(slope[i]) * half_band);
   }
   if (change < 1e-4 * largest) return;  // -80 dB
-  const double delta = kSlopePhase / half_band;
+  const double delta = kDerivativePhase / half_band;
   for (const double side : {1.0, -1.0}) {
     Footprint shifted = footprint;
     shifted.psi0 += side * delta;
     const Complex factor = side / Complex(0, 2 * delta) * std::polar(1.0, -side * settings.kc * delta);
     for (int i = 0; i < 4; ++i) shifted.pattern[i] = factor * slope[i];
-    split(shifted, transmit, settings, out);
+    decompose(shifted, transmit, settings, out);
   }
 }
 
-void bend_wavefront(std::span<Contribution> contributions, const AntennaPair& antennas, const Vec3& origin,
-                    double range_m) {
-  for (Contribution& c : contributions) {
+void apply_wavefront_curvature(std::span<PointContribution> contributions, const BistaticGeometry& geometry,
+                               const Vec3& origin, double range_m) {
+  for (PointContribution& c : contributions) {
     for (const bool out : {false, true}) {
-      const Vec3& r = out ? antennas.receive.r : antennas.transmit.r;
+      const Vec3& r = out ? geometry.receive.r : geometry.transmit.r;
       Vec3& gradient = out ? c.gradient.receive : c.gradient.transmit;
-      const Vec3 x = origin + gradient - (out ? c.gradient.receive_slip : c.gradient.transmit_slip);
+      const Vec3 x = origin + gradient - (out ? c.gradient.receive_slide : c.gradient.transmit_slide);
       const double along = r.dot(x);
       c.psi -= (x - along * r).squaredNorm() / (2 * range_m);
       gradient += along / range_m * x;  // of -|x_perp|^2 / (2 R) with r
@@ -195,9 +195,9 @@ void bend_wavefront(std::span<Contribution> contributions, const AntennaPair& an
   }
 }
 
-std::array<Complex, 4> direct_sum(std::span<const Contribution> contributions, double k, const Vec3& turn) {
+std::array<Complex, 4> direct_sum(std::span<const PointContribution> contributions, double k, const Vec3& turn) {
   std::array<Complex, 4> sum{};
-  for (const Contribution& c : contributions) {
+  for (const PointContribution& c : contributions) {
     const Complex term = c.amplitude * std::polar(1.0, k * (c.psi + c.gradient.sum().dot(turn)));
     for (int i = 0; i < 4; ++i) sum[i] += term * Complex(c.pattern[i]);
   }

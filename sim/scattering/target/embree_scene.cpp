@@ -50,8 +50,8 @@ struct Built {
 };
 struct BuiltNode : Built {
   unsigned children = 0;
-  std::array<Built*, kMostChildren> child{};
-  std::array<RTCBounds, kMostChildren> bounds{};
+  std::array<Built*, kMaxChildren> child{};
+  std::array<RTCBounds, kMaxChildren> bounds{};
 };
 
 float rounded_down(double x) {
@@ -80,10 +80,10 @@ T* create(RTCThreadLocalAllocator allocator) {
 
 BuiltNode& node_at(void* built) { return static_cast<BuiltNode&>(*static_cast<Built*>(built)); }
 
-std::int32_t lay_out(const BuiltNode& built, std::vector<BoxNode>& nodes) {
+std::int32_t lay_out(const BuiltNode& built, std::vector<BvhNode>& nodes) {
   const auto index = static_cast<std::int32_t>(nodes.size());
   nodes.emplace_back();
-  BoxNode node;
+  BvhNode node;
   node.children = static_cast<int>(built.children);
   for (unsigned i = 0; i < built.children; ++i) {
     const RTCBounds& b = built.bounds[i];
@@ -98,8 +98,8 @@ std::int32_t lay_out(const BuiltNode& built, std::vector<BoxNode>& nodes) {
 
 }  // namespace
 
-std::vector<BoxNode> box_tree(std::span<const Box3> boxes) {
-  std::vector<BoxNode> nodes;
+std::vector<BvhNode> build_bvh(std::span<const Box3> boxes) {
+  std::vector<BvhNode> nodes;
   if (boxes.empty()) return nodes;
   std::vector<RTCBuildPrimitive> primitives;
   primitives.reserve(boxes.size());
@@ -111,8 +111,8 @@ std::vector<BoxNode> box_tree(std::span<const Box3> boxes) {
   const RTCBVH bvh = rtcNewBVH(device);
   RTCBuildArguments arguments = rtcDefaultBuildArguments();
   arguments.byteSize = sizeof(arguments);
-  arguments.maxBranchingFactor = kMostChildren;
-  arguments.maxDepth = kMostLevels;
+  arguments.maxBranchingFactor = kMaxChildren;
+  arguments.maxDepth = kMaxLevels;
   arguments.sahBlockSize = 1;
   arguments.minLeafSize = 1;
   arguments.maxLeafSize = 1;
@@ -141,7 +141,7 @@ std::vector<BoxNode> box_tree(std::span<const Box3> boxes) {
   if (root && root->box >= 0) {
     // A single box is a leaf without a node above it.
     const RTCBuildPrimitive p = primitive(boxes[0], 0);
-    BoxNode node;
+    BvhNode node;
     node.children = 1;
     node.child[0] = {-1, {p.lower_x, p.lower_y, p.lower_z}, {p.upper_x, p.upper_y, p.upper_z}};
     nodes.push_back(node);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// What Embree builds: trees of boxes, which beams are walked through (FacetTree), and scenes that answer which facet a
+// What Embree builds: trees of boxes, which beams are walked through (PanelBvh), and scenes that answer which facet a
 // ray meets first, an independent check of what beams meet. Of a ray only the facet's number is used, since Embree's
 // distances are single precision.
 
@@ -35,25 +35,25 @@ struct Box3 {
 
 // Of one node. A walk through a tree of eight to a node passes fewer than one of four; sixteen save no more
 // (README.md).
-inline constexpr int kMostChildren = 8;
+inline constexpr int kMaxChildren = 8;
 
 // A node of a tree of boxes: its children, each with its box as Embree keeps it, in single precision rounded outwards.
 // A child below zero is box -1 - child of those given.
-struct BoxNode {
+struct BvhNode {
   struct Child {
     std::int32_t index = 0;
     std::array<float, 3> lower{}, upper{};  // m
   };
-  std::array<Child, kMostChildren> child;
+  std::array<Child, kMaxChildren> child;
   int children = 0;
 };
 
-// Levels of nodes that box_tree() never exceeds.
-inline constexpr int kMostLevels = 64;
+// Levels of nodes that build_bvh() never exceeds.
+inline constexpr int kMaxLevels = 64;
 
 // Embree's surface-area-heuristic tree over the boxes, one box to a leaf, the root first; the same for the same boxes.
 // Empty without boxes.
-std::vector<BoxNode> box_tree(std::span<const Box3> boxes);
+std::vector<BvhNode> build_bvh(std::span<const Box3> boxes);
 
 // Immutable after construction; any number of threads may trace at once.
 class RayScene {

@@ -40,7 +40,7 @@ std::vector<Facet> make_facets(const TriangleMesh& mesh) {
     if (!(across.norm() > 1e-9 * longest)) continue;
     facet.normal = across.normalized();
     facet.offset = facet.normal.dot(facet.corner[0]);
-    facet.size = longest;
+    facet.longest_edge = longest;
     facet.part = mesh.triangle_part.empty() ? std::uint16_t{0} : mesh.triangle_part[t];
     facet.material = mesh.triangle_material.empty() ? std::uint16_t{0} : mesh.triangle_material[t];
     facets.push_back(facet);
@@ -70,7 +70,7 @@ std::vector<Facet> make_facets(const TriangleMesh& mesh) {
     int upward = sides[i].upward ? 1 : -1;
     for (; end < sides.size() && sides[end].low == sides[i].low && sides[end].high == sides[i].high; ++end) {
       upward += sides[end].upward ? 1 : -1;
-      surfaces.join(sides[i].facet, sides[end].facet);
+      surfaces.unite(sides[i].facet, sides[end].facet);
     }
     for (std::size_t j = i; end - i > 1 && j < end; ++j) {
       facets[sides[j].facet].neighbour[sides[j].edge] = static_cast<std::int32_t>(sides[j + 1 < end ? j + 1 : i].facet);
@@ -79,8 +79,8 @@ std::vector<Facet> make_facets(const TriangleMesh& mesh) {
     i = end;
   }
   std::vector<char> open(facets.size(), 0);
-  for (const std::uint32_t f : rims) open[surfaces.root(f)] = 1;
-  for (std::uint32_t f = 0; f < facets.size(); ++f) facets[f].open = open[surfaces.root(f)] != 0;
+  for (const std::uint32_t f : rims) open[surfaces.find(f)] = 1;
+  for (std::uint32_t f = 0; f < facets.size(); ++f) facets[f].two_sided = open[surfaces.find(f)] != 0;
   return facets;
 }
 

@@ -12,7 +12,7 @@ constexpr double kInPlane = 1e-7;  // m
 // Cosine between normals of one plane: keeps out slivers that are smaller than kInPlane.
 constexpr double kSameWay = 0.999;
 // While it grows, corners on straight sides included.
-constexpr std::size_t kMostCorners = 32;
+constexpr std::size_t kMaxCorners = 32;
 
 struct Outline {
   Vec3 normal;
@@ -61,7 +61,7 @@ Panels::Panels(std::span<const Facet> facets, const SmoothSurface& surface)
     of_[f] = f;
     members_.push_back(f);
     outline = {first.normal, {first.corner.begin(), first.corner.end()}, {{f, 0}, {f, 1}, {f, 2}}};
-    for (std::size_t i = 0; i < outline.side.size() && outline.side.size() < kMostCorners;) {
+    for (std::size_t i = 0; i < outline.side.size() && outline.side.size() < kMaxCorners;) {
       const auto [from, edge] = outline.side[i];
       const int g = facets[from].neighbour[edge];
       const auto joins = [&] {
@@ -70,7 +70,7 @@ Panels::Panels(std::span<const Facet> facets, const SmoothSurface& surface)
         // Two facets and no third share the edge.
         const auto back = std::find(other.neighbour.begin(), other.neighbour.end(), from);
         if (back == other.neighbour.end() || other.part != first.part || other.material != first.material ||
-            other.open != first.open)
+            other.two_sided != first.two_sided)
           return false;
         if (other.normal.dot(first.normal) < kSameWay) return false;
         for (const Vec3& x : other.corner) {

@@ -21,8 +21,8 @@ class Panels {
   explicit Panels(std::span<const Facet> facets) : Panels(facets, SmoothSurface(facets, 0, 0)) {}
 
   // The facet that the panel of this facet goes by.
-  int of(int facet) const { return of_[facet]; }
-  bool is_first(int facet) const { return of_[facet] == facet; }
+  int representative(int facet) const { return of_[facet]; }
+  bool is_representative(int facet) const { return of_[facet] == facet; }
   // Corners of the panel that goes by this facet, counter-clockwise seen against its normal; none when it goes by
   // another.
   std::span<const Vec3> outline(int facet) const {

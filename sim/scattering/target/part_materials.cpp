@@ -39,15 +39,15 @@ std::vector<MaterialSpec> assign_materials(TriangleMesh& mesh, const MaterialSpe
   return materials;
 }
 
-void put_in_water(TriangleMesh& mesh, std::vector<MaterialSpec>& materials, double height) {
+void cut_at_sea_level(TriangleMesh& mesh, std::vector<MaterialSpec>& materials, double height) {
   WaterlineCut cut = cut_at_waterline(mesh, height);
   mesh = std::move(cut.mesh);
   MaterialSpec water;
   water.name = "under_water";
-  water.kind = SurfaceKind::kUnderWater;
+  water.kind = SurfaceKind::kSubmerged;
   mesh.triangle_material.resize(mesh.triangles.size(), 0);
-  for (std::size_t t = 0; t < cut.below.size(); ++t) {
-    if (cut.below[t]) mesh.triangle_material[t] = static_cast<std::uint16_t>(materials.size());
+  for (std::size_t t = 0; t < cut.submerged.size(); ++t) {
+    if (cut.submerged[t]) mesh.triangle_material[t] = static_cast<std::uint16_t>(materials.size());
   }
   mesh.materials.push_back({water.name});
   materials.push_back(water);

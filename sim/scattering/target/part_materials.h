@@ -25,7 +25,7 @@ std::vector<MaterialSpec> assign_materials(TriangleMesh& mesh, const MaterialSpe
 
 // Cuts the mesh at z = height; what lies below hides what is behind it but neither reflects nor radiates. `materials`
 // are those of mesh.materials and get one more.
-void put_in_water(TriangleMesh& mesh, std::vector<MaterialSpec>& materials, double height);
+void cut_at_sea_level(TriangleMesh& mesh, std::vector<MaterialSpec>& materials, double height);
 
 // Throws InputError when a frequency lies outside the range a material's source covers.
 void check_frequencies(std::span<const MaterialSpec> materials, double lowest_hz, double highest_hz);

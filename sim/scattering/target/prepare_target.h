@@ -57,7 +57,7 @@ struct ScattererSettings {
 
 // A target ready to be illuminated.
 struct PreparedTarget {
-  TriangleMesh mesh;  // what lies below the waterline is of kUnderWater
+  TriangleMesh mesh;  // what lies below the waterline is of kSubmerged
   std::vector<MaterialSpec> materials;
   std::vector<std::string> doubts;  // about mesh and edges
   std::shared_ptr<const Scatterer> scatterer;

@@ -30,7 +30,7 @@ Scatterer::Scatterer(const TriangleMesh& mesh, std::vector<MaterialSpec> materia
       sheet_thickness_(sheet_thickness_m),
       surface_(facets_, crease_rad, 1e-7 * radius_),
       panels_(facets_, surface_),
-      edges_(sharp_edges(facets_, crease_rad > 0 ? crease_rad : radians(kDefaultCreaseDeg), sheet_thickness_)),
+      edges_(find_sharp_edges(facets_, crease_rad > 0 ? crease_rad : radians(kDefaultCreaseDeg), sheet_thickness_)),
       tree_(facets_, panels_),
       materials_(std::move(materials)) {
   for (const Facet& facet : facets_) {
@@ -39,7 +39,7 @@ Scatterer::Scatterer(const TriangleMesh& mesh, std::vector<MaterialSpec> materia
   }
   if (facets_.empty()) throw InputError("the mesh has no triangle with an area: nothing scatters");
   // Only wedges of perfect conductors on both sides diffract; where a hull enters the water there is none.
-  for (auto& sides : edges_.of_facet) {
+  for (auto& sides : edges_.edges_of_facet) {
     for (int& edge : sides) {
       if (edge == kNoEdge || materials_.empty()) continue;
       const auto conducts = [&](int facet) { return materials_[facets_[facet].material].kind == SurfaceKind::kPec; };
@@ -47,7 +47,7 @@ Scatterer::Scatterer(const TriangleMesh& mesh, std::vector<MaterialSpec> materia
         edge = kNoEdge;
     }
   }
-  list_by_panel(edges_, facets_, panels_);
+  index_by_panel(edges_, facets_, panels_);
 }
 
 }  // namespace seaglint

@@ -33,7 +33,7 @@ class Scatterer {
   std::span<const Facet> facets() const { return facets_; }
   const SmoothSurface& surface() const { return surface_; }
   const Panels& panels() const { return panels_; }
-  const FacetTree& tree() const { return tree_; }
+  const PanelBvh& tree() const { return tree_; }
   const SharpEdges& edges() const { return edges_; }
   double sheet_thickness() const { return sheet_thickness_; }  // m
   double radius() const { return radius_; }                    // of the bounding sphere about the body's origin, m
@@ -45,7 +45,7 @@ class Scatterer {
   SmoothSurface surface_;
   Panels panels_;
   SharpEdges edges_;
-  FacetTree tree_;
+  PanelBvh tree_;
   std::vector<MaterialSpec> materials_;
 };
 

@@ -43,17 +43,17 @@ Vec3 into(const Facet& facet, int i) {
 // Where the exterior angle goes into pi without a rest images solve a corner, and its edge sends nothing. The limit is
 // -60 dB of an edge: Keller's coefficients have the sine for a factor.
 bool diffracts(const WedgeFrame& wedge) {
-  return wedge.N > 1 || (wedge.N > kSharpestCorner && std::abs(std::sin(kPi / wedge.N)) > 1e-3);
+  return wedge.N > 1 || (wedge.N > kMinWedgeIndex && std::abs(std::sin(kPi / wedge.N)) > 1e-3);
 }
 
 // Edges that go on by less than this from where they meet are one run: rounding to single precision turns those of a
 // tenth of a metre, seventy metres out, by a tenth of it.
-constexpr double kStraightOn = 1e-3;  // rad
+constexpr double kMaxChainBend = 1e-3;  // rad
 // Where more edges meet, as in a fan of loose triangles, each is a run that ends there.
-constexpr std::ptrdiff_t kMostMeeting = 64;
+constexpr std::ptrdiff_t kMaxMeetingEdges = 64;
 
-// Fills run_m.
-void measure_runs(std::vector<SharpEdge>& edges) {
+// Fills collinear_length_m.
+void measure_collinear_chains(std::vector<SharpEdge>& edges) {
   struct End {
     Vec3 place, outwards;  // from here along the edge
     std::size_t edge;
@@ -74,29 +74,29 @@ void measure_runs(std::vector<SharpEdge>& edges) {
   };
   for (auto first = ends.begin(); first != ends.end();) {
     const auto last = std::find_if(first, ends.end(), [&](const End& end) { return end.place != first->place; });
-    for (auto p = first; last - first <= kMostMeeting && p != last; ++p) {
+    for (auto p = first; last - first <= kMaxMeetingEdges && p != last; ++p) {
       for (auto q = std::next(p); q != last; ++q) {
-        if ((p->outwards + q->outwards).norm() < kStraightOn) run[head(p->edge)] = head(q->edge);
+        if ((p->outwards + q->outwards).norm() < kMaxChainBend) run[head(p->edge)] = head(q->edge);
       }
     }
     first = last;
   }
-  for (std::size_t e = 0; e < edges.size(); ++e) edges[head(e)].run_m += edges[e].length();
-  for (std::size_t e = 0; e < edges.size(); ++e) edges[e].run_m = edges[head(e)].run_m;
+  for (std::size_t e = 0; e < edges.size(); ++e) edges[head(e)].collinear_length_m += edges[e].length();
+  for (std::size_t e = 0; e < edges.size(); ++e) edges[e].collinear_length_m = edges[head(e)].collinear_length_m;
 }
 
 }  // namespace
 
-SharpEdges sharp_edges(std::span<const Facet> facets, double least_turn, double sheet_thickness_m) {
+SharpEdges find_sharp_edges(std::span<const Facet> facets, double least_turn, double sheet_thickness_m) {
   SharpEdges result;
-  result.of_facet.assign(facets.size(), {kNoEdge, kNoEdge, kNoEdge});
+  result.edges_of_facet.assign(facets.size(), {kNoEdge, kNoEdge, kNoEdge});
   const auto add = [&](SharpEdge edge, int f, int i, int g, int k) {
     const int number = static_cast<int>(result.edges.size());
-    for (WedgeFrame* wedge : {&edge.outside, &edge.inside})
+    for (WedgeFrame* wedge : {&edge.front_wedge, &edge.back_wedge})
       wedge->thickness_m = std::abs(wedge->N - 2) * kPi <= kBackToBack ? sheet_thickness_m : 0;
     result.edges.push_back(edge);
-    result.of_facet[f][i] = number;
-    result.of_facet[g][k] = number;
+    result.edges_of_facet[f][i] = number;
+    result.edges_of_facet[g][k] = number;
   };
   for (int f = 0; f < static_cast<int>(facets.size()); ++f) {
     for (int i = 0; i < 3; ++i) {
@@ -105,10 +105,10 @@ SharpEdges sharp_edges(std::span<const Facet> facets, double least_turn, double 
       if (g >= 0 && g <= f) continue;  // found from the other facet
       const Vec3 &a = facet.corner[i], &b = facet.corner[(i + 1) % 3];
       const Vec3 t = (b - a).normalized();
-      SharpEdge edge{a, b, {f, f}, {}, {}, facet.open};
+      SharpEdge edge{a, b, {f, f}, {}, {}, facet.two_sided};
       if (g < 0) {
-        edge.outside = {{face_along(t, into(facet, i)), face_along(-t, into(facet, i))}, 2};
-        edge.inside = {{face_along(-t, into(facet, i)), face_along(t, into(facet, i))}, 2};
+        edge.front_wedge = {{face_along(t, into(facet, i)), face_along(-t, into(facet, i))}, 2};
+        edge.back_wedge = {{face_along(-t, into(facet, i)), face_along(t, into(facet, i))}, 2};
         add(edge, f, i, f, i);
         continue;
       }
@@ -117,50 +117,50 @@ SharpEdges sharp_edges(std::span<const Facet> facets, double least_turn, double 
       if (k < 0 || facets[g].neighbour[k] != f) continue;
       const Vec3 x_second = into(facets[g], k);
       edge.facet[1] = g;
-      edge.outside = wedge_of(face_along(t, into(facet, i)), x_second);
-      edge.inside = wedge_of(face_along(-t, into(facet, i)), x_second);
-      if (std::abs(edge.outside.N - 1) * kPi >= least_turn) add(edge, f, i, g, k);
+      edge.front_wedge = wedge_of(face_along(t, into(facet, i)), x_second);
+      edge.back_wedge = wedge_of(face_along(-t, into(facet, i)), x_second);
+      if (std::abs(edge.front_wedge.N - 1) * kPi >= least_turn) add(edge, f, i, g, k);
     }
   }
-  measure_runs(result.edges);
+  measure_collinear_chains(result.edges);
   return result;
 }
 
-void list_by_panel(SharpEdges& edges, std::span<const Facet> facets, const Panels& panels) {
-  edges.by_panel.clear();
-  edges.first_of_panel.assign(1, 0);
+void index_by_panel(SharpEdges& edges, std::span<const Facet> facets, const Panels& panels) {
+  edges.panel_edges.clear();
+  edges.panel_offset.assign(1, 0);
   for (int panel = 0; panel < static_cast<int>(facets.size()); ++panel) {
     for (const int own : panels.members(panel)) {
-      for (const int number : edges.of_facet[own]) {
+      for (const int number : edges.edges_of_facet[own]) {
         if (number == kNoEdge) continue;
         const SharpEdge& edge = edges.edges[number];
-        if (!edge.open && !diffracts(edge.outside)) continue;
+        if (!edge.two_sided && !diffracts(edge.front_wedge)) continue;
         const auto [f, g] = edge.facet;
         const int other = own == f ? g : f;
-        edges.by_panel.push_back({facets[own].normal, facets[other].normal, number, edge.open, own == f});
+        edges.panel_edges.push_back({facets[own].normal, facets[other].normal, number, edge.two_sided, own == f});
       }
     }
-    edges.first_of_panel.push_back(static_cast<std::uint32_t>(edges.by_panel.size()));
+    edges.panel_offset.push_back(static_cast<std::uint32_t>(edges.panel_edges.size()));
   }
 }
 
-const WedgeFrame* wedge_towards(const SharpEdge& edge, const Vec3& k_hat) {
+const WedgeFrame* illuminated_wedge(const SharpEdge& edge, const Vec3& k_hat) {
   // Outside a convex wedge is what lies before either face, outside a concave one what lies before both.
   const auto before = [&](const WedgeFace& face) { return k_hat.dot(face.n) <= 0; };
-  const auto& [first, second] = edge.outside.face;
-  const bool outside = edge.outside.N > 1 ? before(first) || before(second) : before(first) && before(second);
-  const WedgeFrame* wedge = outside ? &edge.outside : edge.open ? &edge.inside : nullptr;
+  const auto& [first, second] = edge.front_wedge.face;
+  const bool outside = edge.front_wedge.N > 1 ? before(first) || before(second) : before(first) && before(second);
+  const WedgeFrame* wedge = outside ? &edge.front_wedge : edge.two_sided ? &edge.back_wedge : nullptr;
   return wedge && diffracts(*wedge) ? wedge : nullptr;
 }
 
-const WedgeFrame* wedge_lit(const SharpEdge& edge, bool first, const Vec3& k_hat) {
-  const WedgeFrame* wedge = wedge_towards(edge, k_hat);
-  return wedge && (edge.is_rim() || k_hat.dot(wedge->face[first ? 0 : 1].n) <= 0) ? wedge : nullptr;
+const WedgeFrame* wedge_on_illuminated_face(const SharpEdge& edge, bool first, const Vec3& k_hat) {
+  const WedgeFrame* wedge = illuminated_wedge(edge, k_hat);
+  return wedge && (edge.is_free_edge() || k_hat.dot(wedge->face[first ? 0 : 1].n) <= 0) ? wedge : nullptr;
 }
 
-bool speaks(const SharpEdge& edge, const WedgeFrame& wedge, bool first, const Vec3& k_hat) {
+bool records_edge(const SharpEdge& edge, const WedgeFrame& wedge, bool first, const Vec3& k_hat) {
   const double of_first = -k_hat.dot(wedge.face[0].n), of_second = -k_hat.dot(wedge.face[1].n);
-  return edge.is_rim() || (first ? of_first >= of_second : of_second > of_first);
+  return edge.is_free_edge() || (first ? of_first >= of_second : of_second > of_first);
 }
 
 }  // namespace seaglint

@@ -32,7 +32,7 @@ int smooth_neighbour(std::span<const Facet> facets, int f, int edge, double cos_
 }
 
 double width(const Facet& facet) {
-  return (facet.corner[1] - facet.corner[0]).cross(facet.corner[2] - facet.corner[0]).norm() / facet.size;
+  return (facet.corner[1] - facet.corner[0]).cross(facet.corner[2] - facet.corner[0]).norm() / facet.longest_edge;
 }
 
 // A facet's say in a vertex normal. Among facets of about the same width: sin(angle) / (product of the two sides),
@@ -138,7 +138,7 @@ SmoothSurface::SmoothSurface(std::span<const Facet> facets, double crease, doubl
   vertices_.shrink_to_fit();
 }
 
-double SmoothSurface::terminator_distance(int vertex, const Vec3& direction, double side) const {
+double SmoothSurface::shadow_boundary_distance(int vertex, const Vec3& direction, double side) const {
   const SmoothVertex& v = vertices_[static_cast<std::size_t>(vertex)];
   double lowest = side * v.normal.dot(direction);
   for (std::int32_t i = v.first; i < v.first + v.count; ++i)

@@ -48,7 +48,7 @@ class SmoothSurface {
   // How far a vertex lies inside the light of a source in `direction` (unit, towards it), as x = sin(elevation over the
   // surface) / kappa^(1/3), m^(1/3), with kappa the curvature along the ray; no more than 0 where a facet of its fan
   // faces away, infinite where the surface does not bend away. side: -1 to look at the back of a sheet.
-  double terminator_distance(int vertex, const Vec3& direction, double side) const;
+  double shadow_boundary_distance(int vertex, const Vec3& direction, double side) const;
 
  private:
   std::vector<std::int32_t> index_;  // into curved_, -1 = flat

@@ -12,11 +12,11 @@
 namespace seaglint {
 namespace {
 
-constexpr double kFewestWavelengths = 3;  // physical optics of a plate this wide is off by a dB at its normal
+constexpr double kMinWavelengths = 3;     // physical optics of a plate this wide is off by a dB at its normal
 constexpr double kLongestTarget_m = 5e3;  // no ship is longer than a tenth of it
 constexpr double kFarOrigin = 10;         // half-sizes from the origin
 constexpr double kTooFarOrigin = 300;     // details of a thirtieth of the half-size would be left out
-constexpr double kLeastDetail = 7e-5;     // of the radius about the origin (default_ray_spacing / 14)
+constexpr double kMinDetail = 7e-5;       // of the radius about the origin (default_ray_spacing / 14)
 constexpr std::size_t kManyTriangles = 1'000'000;
 // What a million triangles take on two cores: a wavy sheet of 10 million, and one of 2 million whose edges are all
 // sharp.
@@ -30,7 +30,7 @@ constexpr double kThickSheet = 0.1;
 // Of the panel that the facet belongs to, m^2.
 double panel_area(const Scatterer& scatterer, int facet) {
   double area = 0;
-  for (const int member : scatterer.panels().members(scatterer.panels().of(facet))) {
+  for (const int member : scatterer.panels().members(scatterer.panels().representative(facet))) {
     const auto& corner = scatterer.facets()[member].corner;
     area += 0.5 * (corner[1] - corner[0]).cross(corner[2] - corner[0]).norm();
   }
@@ -46,10 +46,10 @@ std::vector<std::string> check_target(const TriangleMesh& mesh, double lowest_hz
   const double longest = size.norm(), wavelength = kSpeedOfLight / lowest_hz;
   if (longest > kLongestTarget_m)
     found.push_back(fmt::format("the target is {:.4g} m across; is its unit right?", longest));
-  if (longest < kFewestWavelengths * wavelength) {
+  if (longest < kMinWavelengths * wavelength) {
     found.push_back(fmt::format(
         "the target is {:.3g} m across, {:.3g} wavelengths at {:g} GHz; physical optics needs {:g} and more{}", longest,
-        longest / wavelength, lowest_hz * 1e-9, kFewestWavelengths, longest < 0.01 ? "; is its unit right?" : ""));
+        longest / wavelength, lowest_hz * 1e-9, kMinWavelengths, longest < 0.01 ? "; is its unit right?" : ""));
   }
 
   const double distance = centre.norm() / std::max(longest / 2, 1e-300);
@@ -61,7 +61,7 @@ std::vector<std::string> check_target(const TriangleMesh& mesh, double lowest_hz
   if (distance > kFarOrigin)
     found.push_back(
         fmt::format("the target of {:.4g} m lies {:.4g} m from its origin; details below {:.2g} m are left out",
-                    longest, centre.norm(), kLeastDetail * (centre.norm() + longest / 2)));
+                    longest, centre.norm(), kMinDetail * (centre.norm() + longest / 2)));
 
   if (mesh.triangles.size() > kManyTriangles) {
     const double millions = 1e-6 * static_cast<double>(mesh.triangles.size());
@@ -91,8 +91,8 @@ std::vector<std::string> check_edges(const Scatterer& scatterer, bool followed, 
   }
   // As panels list them, only edges of perfect conductors.
   const SharpEdges& edges = scatterer.edges();
-  const bool any_rim = std::ranges::any_of(
-      edges.by_panel, [&](const PanelEdge& side) { return edges.edges[side.edge].outside.thickness_m > 0; });
+  const bool any_free_edge = std::ranges::any_of(
+      edges.panel_edges, [&](const PanelEdge& side) { return edges.edges[side.edge].front_wedge.thickness_m > 0; });
   std::vector<std::string> found;
   if (narrow > 0) {
     found.push_back(
@@ -101,7 +101,7 @@ std::vector<std::string> check_edges(const Scatterer& scatterer, bool followed, 
                     "much with edges on",
                     narrow, all, lowest_hz * 1e-9));
   }
-  if (thickness > 0 && !any_rim) {
+  if (thickness > 0 && !any_free_edge) {
     found.push_back(changes_nothing("no surface is open and a perfect conductor"));
   } else if (thickness > kThickSheet * shortest) {
     found.push_back(
@@ -112,7 +112,7 @@ std::vector<std::string> check_edges(const Scatterer& scatterer, bool followed, 
   return found;
 }
 
-void check_range(double radius_m, double range_m) {
+void check_wavefront_range(double radius_m, double range_m) {
   constexpr double kNearestRadii = 10;
   if (range_m > 0 && range_m < kNearestRadii * radius_m) {
     throw InputError(

@@ -24,6 +24,6 @@ std::vector<std::string> check_edges(const Scatterer& scatterer, bool followed, 
 
 // Throws InputError where a radar at this range (0: far field) stands too near for the second order of the wavefront
 // over a target that reaches `radius_m` from its origin: beyond ten radii the third order is below a tenth of it.
-void check_range(double radius_m, double range_m);
+void check_wavefront_range(double radius_m, double range_m);
 
 }  // namespace seaglint

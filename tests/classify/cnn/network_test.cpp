@@ -22,7 +22,7 @@ std::vector<float> noise_map(std::size_t rows, std::size_t columns, std::uint64_
   return map;
 }
 
-TEST(NetworkInput, IsBlindToTheLevelOfAMap) {
+TEST(NetworkInput, InvariantToMapScale) {
   const std::vector<float> map = noise_map(64, 256, 1);
   std::vector<float> louder = map;
   for (float& value : louder) value *= 1024;  // a power of two: the mantissas stay

@@ -33,7 +33,7 @@ inline pid_t dead_process() {
   return process;
 }
 
-class DataDirectory : public testing::Test {
+class DataSetDirectory : public testing::Test {
  protected:
   void SetUp() override {
     directory_ =

@@ -35,13 +35,13 @@ struct SeaOf {
     state.propagation_rad = radians(120);
     clutter.level = ClutterLevel::kNrl;
     clutter.doppler = doppler;
-    clutter.doppler_spread_mps = doppler == ClutterDoppler::kGiven ? 0.5 : 0.2;
+    clutter.doppler_spread_mps = doppler == ClutterDoppler::kPrescribed ? 0.5 : 0.2;
   }
 
   // The centres of an interval of this sea, and of `points` in it.
   std::vector<ScatteringCentre> centres(std::uint64_t index, const std::vector<ScatteringCentre>& points = {}) const {
     const PulseTrain train = make_pulse_train(radar, kWindow, 3, index);
-    const WaveField waves = realize_sea(state, 3, index);
+    const WaveField waves = realise_sea(state, 3, index);
     ClutterScene scene;
     scene.radar = radar;
     scene.r_hat = Vec3(std::cos(radians(2)) * std::cos(radians(120)), std::cos(radians(2)) * std::sin(radians(120)),
@@ -52,7 +52,7 @@ struct SeaOf {
     std::vector<PointSpec> specs{{{0, 0, 0}, 1e-6, {0, 0, 0}}};
     for (const ScatteringCentre& p : points)
       specs.push_back({{-p.range_m, 0, 0}, p.amplitude_m, {-p.velocity_mps, 0, 0}});
-    const Echo echo = synthesize_echo(train, point_response(specs, Vec3(1, 0, 0), interval_sampling(train, 0)), clutter,
+    const Echo echo = synthesise_echo(train, point_response(specs, Vec3(1, 0, 0), interval_sampling(train, 0)), clutter,
                                       3, index, scene);
     return clean_map(echo.total(), train, {}, false, {}).centres;
   }
@@ -74,9 +74,9 @@ FalseMaps false_maps(const SeaOf& sea, int intervals) {
 // A ridge that wanders with the waves: at each velocity most ranges are empty, at each range most velocities. Without a
 // level of its surroundings every one of these maps holds false centres, 53 and 17 in the mean. 3 % of 200 maps held
 // one at 2 m, none at 1 m; at 5 % and 1 % more than 9 and 4 of 60 come up once in a thousand runs.
-TEST(ClutterCentres, AreRareInSeaThatMovesWithItsWaves) {
-  const FalseMaps high = false_maps({2, ClutterDoppler::kWaveField}, 60),
-                  low = false_maps({1, ClutterDoppler::kWaveField}, 60);
+TEST(ClutterFalseAlarms, AreRareInSeaThatMovesWithItsWaves) {
+  const FalseMaps high = false_maps({2, ClutterDoppler::kWaveResolved}, 60),
+                  low = false_maps({1, ClutterDoppler::kWaveResolved}, 60);
   std::printf("wave_field: %d of 60 maps with %d centres at Hs 2 m, %d with %d at 1 m\n", high.maps, high.centres,
               low.maps, low.centres);
   EXPECT_LE(high.maps, 9);
@@ -85,8 +85,8 @@ TEST(ClutterCentres, AreRareInSeaThatMovesWithItsWaves) {
 }
 
 // K-distributed texture with one and the same Doppler spectrum everywhere: one map in a hundred, as for noise.
-TEST(ClutterCentres, AreRareInTexturedClutterOfOneSpectrum) {
-  for (const ClutterDoppler doppler : {ClutterDoppler::kGiven, ClutterDoppler::kSea}) {
+TEST(ClutterFalseAlarms, AreRareInTexturedClutterOfOneSpectrum) {
+  for (const ClutterDoppler doppler : {ClutterDoppler::kPrescribed, ClutterDoppler::kSea}) {
     const FalseMaps found = false_maps({2, doppler}, 60);
     std::printf("%s: %d of 60 maps\n", doppler == ClutterDoppler::kSea ? "sea" : "given", found.maps);
     EXPECT_LE(found.maps, 4);
@@ -94,8 +94,8 @@ TEST(ClutterCentres, AreRareInTexturedClutterOfOneSpectrum) {
 }
 
 // Four points of amplitude 4 m (23 dBsm) in waves of 2 m: points stay, and shelter no clutter around them.
-TEST(ClutterCentres, LeaveAFewPointsInWavesAsTheyAre) {
-  const SeaOf sea(2, ClutterDoppler::kWaveField);
+TEST(ClutterFalseAlarms, LeaveAFewPointsInWavesAsTheyAre) {
+  const SeaOf sea(2, ClutterDoppler::kWaveResolved);
   int missed = 0, extra = 0;
   for (std::uint64_t i = 0; i < 20; ++i) {
     Random random({12, Stream::kTest, i});
@@ -116,14 +116,14 @@ TEST(ClutterCentres, LeaveAFewPointsInWavesAsTheyAre) {
 }
 
 // Points so dense that their own mean would hide them all: 40 equal ones, 2.5 m apart, at one velocity.
-TEST(ClutterCentres, DoNotCountPointsThatStandSideBySide) {
+TEST(ClutterFalseAlarms, DoNotCountPointsThatStandSideBySide) {
   const PulseTrain train = make_pulse_train({}, kWindow, 1, 1);
   std::vector<PointSpec> points;
   for (int i = 0; i < 40; ++i) points.push_back({{-50 + 2.5 * i, 0, 0}, 1.0, {-0.01, 0, 0}});
   ClutterSpec none;
   none.enabled = false;
   const FrequencyResponse response = point_response(points, Vec3(1, 0, 0), interval_sampling(train, 0));
-  const Echo echo = synthesize_echo(train, response, none, 1, 1);
+  const Echo echo = synthesise_echo(train, response, none, 1, 1);
   const auto centres = clean_map(echo.total(), train, {}, false, {}).centres;
   EXPECT_EQ(centres.size(), 40U);
 }
@@ -131,9 +131,10 @@ TEST(ClutterCentres, DoNotCountPointsThatStandSideBySide) {
 // Shape 1/2 has the closed form P(x) = e^{-sqrt(2 x)}, so that the margin is factor / 2; shape 2 at 15.6955:
 // 48.99991 of (2 / Gamma(nu)) (nu x)^{nu/2} K_nu(2 sqrt(nu x)) = e^{-15.6955} by SciPy; no texture: none.
 TEST(TextureMargin, IsTheOneOfTheKDistribution) {
-  for (const double factor : {5.0, 15.7, 30.0}) EXPECT_NEAR(texture_margin(0.5, factor), factor / 2, 1e-6 * factor);
-  EXPECT_NEAR(texture_margin(2, 15.695525), 48.99991 / 15.695525, 1e-6);
-  EXPECT_NEAR(texture_margin(100, 15.695525), 16.72517 / 15.695525, 1e-6);
+  for (const double factor : {5.0, 15.7, 30.0})
+    EXPECT_NEAR(texture_threshold_margin(0.5, factor), factor / 2, 1e-6 * factor);
+  EXPECT_NEAR(texture_threshold_margin(2, 15.695525), 48.99991 / 15.695525, 1e-6);
+  EXPECT_NEAR(texture_threshold_margin(100, 15.695525), 16.72517 / 15.695525, 1e-6);
 }
 
 }  // namespace

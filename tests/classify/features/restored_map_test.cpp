@@ -19,7 +19,7 @@ const std::vector<PointSpec> kPoints{
 std::vector<Complex> echo_of(const PulseTrain& train) {
   ClutterSpec none;
   none.enabled = false;
-  return synthesize_echo(train, point_response(kPoints, Vec3(1, 0, 0), interval_sampling(train, 0)), none, 1, 1).target;
+  return synthesise_echo(train, point_response(kPoints, Vec3(1, 0, 0), interval_sampling(train, 0)), none, 1, 1).target;
 }
 
 // Largest difference of magnitudes against the largest of `b`, and the same without looking at the lobes'
@@ -36,7 +36,7 @@ double largest_difference_db(const RvMap& a, const RvMap& b) {
 TEST(RestoredMap, IsTheMapOfARadarThatDoesNotHop) {
   const PulseTrain train = make_pulse_train({}, 239.8, 1, 2);
   RadarSpec whole;
-  whole.hop_count = 1;
+  whole.carrier_count = 1;
   whole.carrier_ghz = 16.0875;  // the middle of eight bands
   whole.bandwidth_mhz = whole.hop_step_mhz = 200;
   whole.sampling_mhz = 400;

@@ -25,7 +25,7 @@ std::vector<Complex> echo_of(const PulseTrain& train, const std::vector<Scatteri
   for (const ScatteringCentre& p : points)
     specs.push_back({{-p.range_m, 0, 0}, p.amplitude_m, {-p.velocity_mps, 0, 0}});
   const Echo echo =
-      synthesize_echo(train, point_response(specs, Vec3(1, 0, 0), interval_sampling(train, 0)), clutter, 11, index);
+      synthesise_echo(train, point_response(specs, Vec3(1, 0, 0), interval_sampling(train, 0)), clutter, 11, index);
   return echo.total();
 }
 
@@ -56,9 +56,9 @@ TEST(ResidualEcho, FitsAnIsolatedPointAndLeavesNothing) {
       RadarSpec radar;
       radar.intra_pulse_motion = intra_pulse;
       radar.pulses = 60;
-      radar.hop_count = 16;  // uneven counts, perhaps holes
-      if (intra_pulse) {     // one carrier with the whole band: moments of the chirp are taken anew several times
-        radar.hop_count = 1;
+      radar.carrier_count = 16;  // uneven counts, perhaps holes
+      if (intra_pulse) {         // one carrier with the whole band: moments of the chirp are taken anew several times
+        radar.carrier_count = 1;
         radar.bandwidth_mhz = 200;
         radar.sampling_mhz = 400;
       }
@@ -69,7 +69,7 @@ TEST(ResidualEcho, FitsAnIsolatedPointAndLeavesNothing) {
       const double cell_r = train.range_resolution_m(), cell_v = train.velocity_resolution_mps();
       const ScatteringCentre truth{12.3 * cell_r, -3.4 * cell_v, 0.7};
       ResidualEcho residual(echo_of(train, {truth}, no_clutter()), train, spec, intra_pulse);
-      const PointComponent point = residual.fit(12 * cell_r, -3 * cell_v, cell_r, cell_v);
+      const CleanComponent point = residual.fit(12 * cell_r, -3 * cell_v, cell_r, cell_v);
       EXPECT_NEAR(point.range_m, truth.range_m, 1e-4 * cell_r);
       EXPECT_NEAR(point.velocity_mps, truth.velocity_mps, 1e-4 * cell_v);
       EXPECT_NEAR(std::abs(point.amplitude_m), 0.7, 0.7 * 7e-5);  // kMomentReach
@@ -81,7 +81,7 @@ TEST(ResidualEcho, FitsAnIsolatedPointAndLeavesNothing) {
   }
 }
 
-TEST(Centres, OfKnownPointsAreRecoveredToATenthOfACell) {
+TEST(CleanCentres, OfKnownPointsAreRecoveredToATenthOfACell) {
   for (const HopCode code : {HopCode::kRandom, HopCode::kBalanced, HopCode::kStepped}) {
     RadarSpec radar;
     radar.hop_code = code;
@@ -113,7 +113,7 @@ TEST(Centres, OfKnownPointsAreRecoveredToATenthOfACell) {
   }
 }
 
-TEST(Centres, AnIsolatedPointIsFoundToACentimetreAndAMillimetrePerSecond) {
+TEST(CleanCentres, AnIsolatedPointIsFoundToACentimetreAndAMillimetrePerSecond) {
   Random random({1, Stream::kTest, 77});
   double worst_m = 0, worst_mps = 0;
   for (int i = 0; i < 20; ++i) {
@@ -129,7 +129,7 @@ TEST(Centres, AnIsolatedPointIsFoundToACentimetreAndAMillimetrePerSecond) {
   EXPECT_LT(worst_mps, 1e-3);
 }
 
-TEST(Centres, AWeakPointHiddenInTheStrongOnesPedestalIsFound) {
+TEST(CleanCentres, AWeakPointHiddenInTheStrongOnesPedestalIsFound) {
   // 20 dB below, in the same 6 m range cell, where the pedestal alone reaches -15 to -24 dB.
   int found = 0;
   const int trials = 20;
@@ -146,7 +146,7 @@ TEST(Centres, AWeakPointHiddenInTheStrongOnesPedestalIsFound) {
   EXPECT_GE(found, trials - 1);
 }
 
-TEST(Centres, OfPureNoiseAreAlmostAlwaysNone) {
+TEST(CleanCentres, OfPureNoiseAreAlmostAlwaysNone) {
   // One false map in a hundred is promised for noise; 40 maps hold at most 3 with 99.9 % probability.
   const PulseTrain train = make_pulse_train({}, kShipWindow, 1, 1);
   int false_maps = 0;
@@ -163,7 +163,7 @@ TEST(Centres, OfPureNoiseAreAlmostAlwaysNone) {
   EXPECT_LE(false_maps, 3);
 }
 
-TEST(Centres, InClutterAreThePointsAndHardlyAnythingElse) {
+TEST(CleanCentres, InClutterAreThePointsAndHardlyAnythingElse) {
   int missed = 0, extra = 0;
   for (int trial = 0; trial < 10; ++trial) {
     const PulseTrain train = make_pulse_train({}, kShipWindow, 1, trial);
@@ -181,9 +181,9 @@ TEST(Centres, InClutterAreThePointsAndHardlyAnythingElse) {
 
 // A ridge of clutter as strong as the target in one cell, whose highest crest may miss its own floor by less than the
 // parabola's shortfall: it must not keep CLEAN from what stands clear of the ridge.
-TEST(Centres, ClearOfAStrongRidgeAreFoundWhateverItsCrestDoes) {
+TEST(CleanCentres, ClearOfAStrongRidgeAreFoundWhateverItsCrestDoes) {
   RadarSpec radar;
-  radar.hop_count = 1;
+  radar.carrier_count = 1;
   radar.bandwidth_mhz = 200;
   radar.sampling_mhz = 400;
   ClutterSpec clutter;
@@ -201,17 +201,18 @@ TEST(Centres, ClearOfAStrongRidgeAreFoundWhateverItsCrestDoes) {
     for (const ScatteringCentre& p : truth)
       points.push_back({{-p.range_m, 0, 0}, p.amplitude_m, {-p.velocity_mps, 0, 0}});
     const Echo echo =
-        synthesize_echo(train, point_response(points, Vec3(1, 0, 0), interval_sampling(train, 0)), clutter, 11, trial);
-    const auto centres = clean_map(receive(echo, train, clutter, map, false).echo, train, map, false, {}).centres;
+        synthesise_echo(train, point_response(points, Vec3(1, 0, 0), interval_sampling(train, 0)), clutter, 11, trial);
+    const auto centres =
+        clean_map(form_received_interval(echo, train, clutter, map, false).echo, train, map, false, {}).centres;
     EXPECT_EQ(centres.size(), 3U) << trial;
     for (const ScatteringCentre& t : truth) EXPECT_LT(match(centres, t, train).cells, 0.3) << trial;
   }
 }
 
 // With one pulse there is no velocity to fit, with one range cell shown no level along range.
-TEST(Centres, OfMapsThatAreShortAlongOneAxisAreFound) {
+TEST(CleanCentres, OfMapsThatAreShortAlongOneAxisAreFound) {
   RadarSpec radar;
-  radar.hop_count = 1;
+  radar.carrier_count = 1;
   radar.bandwidth_mhz = 200;
   radar.sampling_mhz = 400;
   {
@@ -239,7 +240,7 @@ TEST(Centres, OfMapsThatAreShortAlongOneAxisAreFound) {
   EXPECT_LT(match(centres, truth, train).cells, 0.05);
 }
 
-TEST(Centres, AreNoMoreThanAskedForAndWithinTheDynamicRange) {
+TEST(CleanCentres, AreNoMoreThanAskedForAndWithinTheDynamicRange) {
   const PulseTrain train = make_pulse_train({}, kShipWindow, 1, 1);
   std::vector<ScatteringCentre> truth;
   for (int i = 0; i < 10; ++i) truth.push_back({-60 + 12.0 * i, 0.1 * i, std::pow(10, -0.2 * i)});  // 4 dB steps
@@ -252,7 +253,7 @@ TEST(Centres, AreNoMoreThanAskedForAndWithinTheDynamicRange) {
   EXPECT_EQ(clean_map(echo, train, {}, false, spec).centres.size(), 5u);  // 0, 4, 8, 12, 16 dB
 }
 
-TEST(Centres, ALoopGainBelowOneFindsTheSamePoints) {
+TEST(CleanCentres, ALoopGainBelowOneFindsTheSamePoints) {
   const PulseTrain train = make_pulse_train({}, kShipWindow, 1, 1);
   const std::vector<ScatteringCentre> truth = {{-30, 0.4, 1}, {0.3, -0.7, 0.8}, {25.1, 1.1, 0.5}};
   FeatureSpec spec;
@@ -266,13 +267,13 @@ TEST(Centres, ALoopGainBelowOneFindsTheSamePoints) {
   }
 }
 
-TEST(Centres, OfASilentEchoAreNone) {
+TEST(CleanCentres, ZeroEchoHasNone) {
   const PulseTrain train = make_pulse_train({}, kShipWindow, 1, 1);
   const std::vector<Complex> silence(train.pulses() * train.frequencies());
   EXPECT_TRUE(clean_map(silence, train, {}, false, {}).centres.empty());
 }
 
-TEST(Centres, OfADenseTargetAreExtractedInTime) {
+TEST(CleanCentres, OfADenseTargetAreExtractedInTime) {
   const PulseTrain train = make_pulse_train({}, kShipWindow, 1, 1);
   Random random({10, Stream::kTest, 0});
   std::vector<ScatteringCentre> truth;

@@ -33,30 +33,30 @@ ClutterScene scene_of(const WaveField& waves) {
 }
 
 TEST(SeaVelocity, IsTheSumOfRipplesDriftAndWind) {
-  const WaveField waves = realize_sea(waves_towards(180), 1, 1);  // away from a radar ahead
+  const WaveField waves = realise_sea(waves_towards(180), 1, 1);  // away from a radar ahead
   const ClutterScene scene = scene_of(waves);
   // Bragg ripples of 4 pi / 18.64 mm: sqrt(9.81 / 674.2 + 0.074 / 1025 x 674.2) = 0.2514 m/s. Wind of Hs 1 m: sqrt(9.81
   // / 0.22) = 6.678 m/s, 3 % of it 0.2003 m/s. Stokes drift (2 / g) integral w^3 S dw, here of the components.
   double stokes = 0;
   for (const WaveComponent& wave : waves.components())
     stokes += wave.amplitude * wave.amplitude * std::pow(wave.omega, 3) / kGravity;
-  const VelocityMoments vv = sea_velocity({}, scene, kWavelength);
+  const VelocityMoments vv = clutter_velocity_moments({}, scene, kWavelength);
   std::printf("vv %.4f m/s with a Stokes drift of %.4f, spread %.4f m/s\n", vv.mean_mps, stokes, vv.spread_mps);
   EXPECT_NEAR(vv.mean_mps, 0.2514 + 0.2003 + stokes, 2e-4);
   EXPECT_GT(stokes, 0.01);
 }
 
 TEST(SeaVelocity, IsOppositeFromBehindNoneFromTheSideAndFasterInHh) {
-  const WaveField away = realize_sea(waves_towards(180), 1, 1), nearer = realize_sea(waves_towards(0), 1, 1),
-                  aside = realize_sea(waves_towards(90), 1, 1);
-  const double mean = sea_velocity({}, scene_of(away), kWavelength).mean_mps;
-  EXPECT_NEAR(sea_velocity({}, scene_of(nearer), kWavelength).mean_mps, -mean, 1e-12);
-  EXPECT_NEAR(sea_velocity({}, scene_of(aside), kWavelength).mean_mps, 0, 1e-12);
+  const WaveField away = realise_sea(waves_towards(180), 1, 1), nearer = realise_sea(waves_towards(0), 1, 1),
+                  aside = realise_sea(waves_towards(90), 1, 1);
+  const double mean = clutter_velocity_moments({}, scene_of(away), kWavelength).mean_mps;
+  EXPECT_NEAR(clutter_velocity_moments({}, scene_of(nearer), kWavelength).mean_mps, -mean, 1e-12);
+  EXPECT_NEAR(clutter_velocity_moments({}, scene_of(aside), kWavelength).mean_mps, 0, 1e-12);
   ClutterScene hh = scene_of(away);
   hh.radar.polarisation = Polarisation::kHh;
-  EXPECT_NEAR(sea_velocity({}, hh, kWavelength).mean_mps, 1.5 * mean, 1e-12);
+  EXPECT_NEAR(clutter_velocity_moments({}, hh, kWavelength).mean_mps, 1.5 * mean, 1e-12);
   // Long-crested waves seen from the side move up and down only: nothing along a level line of sight.
-  EXPECT_NEAR(sea_velocity({}, scene_of(aside), kWavelength).spread_mps, 0, 1e-9);
+  EXPECT_NEAR(clutter_velocity_moments({}, scene_of(aside), kWavelength).spread_mps, 0, 1e-9);
 }
 
 // What drifts with the waves drifts as a particle of the second-order surface does: in water of 8 m, whose orbits are
@@ -80,7 +80,7 @@ TEST(SeaVelocity, HoldsTheDriftOfAParticleInAnyDepth) {
     ClutterScene scene = scene_of(wave);
     scene.significant_wave_height_m = 0;  // no wind
     const double bragg_k = 4 * kPi / kWavelength, bragg = std::sqrt(kGravity / bragg_k + 0.074 / 1025 * bragg_k);
-    const double drift = -sea_velocity({}, scene, kWavelength).mean_mps - bragg;
+    const double drift = -clutter_velocity_moments({}, scene, kWavelength).mean_mps - bragg;
     std::printf("depth %.4g m: drift %.6g mm/s, of a particle %.6g, a^2 w k %.6g\n", depth, 1e3 * drift, 1e3 * x / t,
                 1e3 * amplitude * amplitude * omega * k);
     // The next order is smaller by (3/8 Ur)^2 = (3/8 a / (k^2 h^3))^2 and (k a)^2, 4e-6 at most; the midpoint rule errs
@@ -90,12 +90,12 @@ TEST(SeaVelocity, HoldsTheDriftOfAParticleInAnyDepth) {
 }
 
 TEST(SeaVelocity, SpreadIsTheOneOfTheWaterAndOfFloatingScatterers) {
-  const WaveField waves = realize_sea(waves_towards(150), 1, 1);
+  const WaveField waves = realise_sea(waves_towards(150), 1, 1);
   ClutterScene scene = scene_of(waves);
   const double grazing = radians(10);
   scene.r_hat = Vec3(std::cos(grazing), 0, std::sin(grazing));
   scene.radar.range_km = 2;
-  const double spread = sea_velocity({}, scene, kWavelength).spread_mps;
+  const double spread = clutter_velocity_moments({}, scene, kWavelength).spread_mps;
   // The water's own velocity at many places and times.
   std::vector<double> ranges;
   for (int i = 0; i < 400; ++i) ranges.push_back(-4000 + 20.0 * i);
@@ -127,13 +127,14 @@ TEST(FloatingScatterers, GoAlongWithTheWaves) {
 }
 
 // At order 2 the water's velocity at the moving surface has a mean, that of eta1 du1/dz: 1/2 a^2 w k of every component
-// in the quadratic sums. It is part of the Stokes drift, which sea_velocity holds, and so none of the scatterers' own.
+// in the quadratic sums. It is part of the Stokes drift, which clutter_velocity_moments holds, and so none of the
+// scatterers' own.
 TEST(FloatingScatterers, HaveNoMeanOfTheirOwnBesidesTheSeas) {
   SeaState state = waves_towards(180);
   state.significant_wave_height_m = 2;
   state.peak_period_s = 6.5;
   state.order = 2;
-  const WaveField waves = realize_sea(state, 1, 1);
+  const WaveField waves = realise_sea(state, 1, 1);
   double half_drift = 0;
   for (std::size_t i = 0; i < waves.second_order_count(); ++i) {
     const WaveComponent& wave = waves.components()[i];
@@ -165,20 +166,20 @@ TEST(FloatingScatterers, HaveNoMeanOfTheirOwnBesidesTheSeas) {
 }
 
 // The frame of a ship that makes way goes along with it, and so does the radar.
-TEST(ClutterOfAShipOnItsWay, IsThePassingWaters) {
-  const WaveField waves = realize_sea(waves_towards(150), 1, 1), calm({}, Vec2(1, 0), 1, 10);
+TEST(ClutterOfMovingShip, IsThePassingWaters) {
+  const WaveField waves = realise_sea(waves_towards(150), 1, 1), calm({}, Vec2(1, 0), 1, 10);
   ClutterScene scene = scene_of(waves);
   const double grazing = radians(2), azimuth = radians(30);
   scene.r_hat = Vec3(std::cos(grazing) * std::cos(azimuth), std::cos(grazing) * std::sin(azimuth), std::sin(grazing));
   scene.start_s = 20;
   ClutterScene sailing = scene;
-  sailing.way_mps = {10, 0, 0};
+  sailing.target_velocity_mps = {10, 0, 0};
   // Seen from ahead the water falls behind, away from the radar.
   const double past = 10 * scene.r_hat.x();
-  EXPECT_NEAR(sea_velocity({}, sailing, kWavelength).mean_mps, sea_velocity({}, scene, kWavelength).mean_mps + past,
-              1e-12);
+  EXPECT_NEAR(clutter_velocity_moments({}, sailing, kWavelength).mean_mps,
+              clutter_velocity_moments({}, scene, kWavelength).mean_mps + past, 1e-12);
   sailing.waves = &calm;
-  EXPECT_NEAR(sea_velocity({}, sailing, kWavelength).mean_mps, past, 1e-12);
+  EXPECT_NEAR(clutter_velocity_moments({}, sailing, kWavelength).mean_mps, past, 1e-12);
   sailing.waves = &waves;
 
   // The waves that it meets are those where it has got to: 200 m on along x, x = -range cos(azimuth) without beam.
@@ -190,22 +191,23 @@ TEST(ClutterOfAShipOnItsWay, IsThePassingWaters) {
     EXPECT_NEAR(floating.velocity_mps[i], -scene.r_hat.dot(waves.surface(x, y, 20).velocity), 1e-6);
   }
   // Across the line of sight the whole beam passes by.
-  EXPECT_EQ(platform_spread_mps(scene), 0);
+  EXPECT_EQ(platform_doppler_spread_mps(scene), 0);
   scene.radar.budget.beamwidth_deg = sailing.radar.budget.beamwidth_deg = 2;
-  EXPECT_NEAR(platform_spread_mps(sailing), 10 * std::sin(azimuth) * radians(2) / (4 * std::sqrt(std::log(2.0))), 1e-9);
+  EXPECT_NEAR(platform_doppler_spread_mps(sailing),
+              10 * std::sin(azimuth) * radians(2) / (4 * std::sqrt(std::log(2.0))), 1e-9);
 }
 
-TEST(ClutterOnWaves, HasTheDopplerOfTheSea) {
+TEST(ClutterDoppler, HasTheDopplerOfTheSea) {
   RadarSpec radar;
-  radar.hop_count = 1;
+  radar.carrier_count = 1;
   radar.pulses = 64;
   const PulseTrain train = make_pulse_train(radar, 100, 1, 2);
   const double wavelength = kSpeedOfLight / train.band_centre_hz();
-  const WaveField waves = realize_sea(waves_towards(180), 1, 1);
+  const WaveField waves = realise_sea(waves_towards(180), 1, 1);
   ClutterScene scene = scene_of(waves);
   scene.radar = radar;
   constexpr std::size_t kLag = 4;
-  for (const ClutterDoppler doppler : {ClutterDoppler::kSea, ClutterDoppler::kWaveField}) {
+  for (const ClutterDoppler doppler : {ClutterDoppler::kSea, ClutterDoppler::kWaveResolved}) {
     ClutterSpec spec;
     spec.doppler = doppler;
     spec.doppler_spread_mps = 0.1;
@@ -222,7 +224,7 @@ TEST(ClutterOnWaves, HasTheDopplerOfTheSea) {
       }
     }
     // A small lag: the phase is the mean velocity, the loss of magnitude the spread.
-    const VelocityMoments sea = sea_velocity(spec, scene, wavelength);
+    const VelocityMoments sea = clutter_velocity_moments(spec, scene, wavelength);
     const double per_mps = 4 * kPi * kLag * train.pri_s / wavelength;
     const double mean = -std::arg(sum) / per_mps;
     const double spread = std::sqrt(-2 * std::log(std::abs(sum) / power)) / per_mps;

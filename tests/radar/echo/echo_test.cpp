@@ -41,7 +41,7 @@ TEST(Echo, IsTheTransmitSpectrumTimesTheResponse) {
   const FrequencyResponse response = one_point(train, 3);
   ClutterSpec off;
   off.enabled = false;
-  const Echo echo = synthesize_echo(train, response, off, 1, 1);
+  const Echo echo = synthesise_echo(train, response, off, 1, 1);
   EXPECT_TRUE(echo.clutter.empty());
   EXPECT_EQ(echo.pulses, 256);
   EXPECT_EQ(echo.frequencies, 40);
@@ -56,7 +56,7 @@ TEST(Echo, MeetsThePerPulseRatioExactly) {
   for (const double scr_db : {-10.0, 20.0, 60.0}) {
     ClutterSpec clutter;
     clutter.scr_db = scr_db;
-    const Echo echo = synthesize_echo(train, one_point(train, 0.01), clutter, 1, 1);
+    const Echo echo = synthesise_echo(train, one_point(train, 0.01), clutter, 1, 1);
     EXPECT_NEAR(10 * std::log10(mean_power(echo.target) / mean_power(echo.clutter)), scr_db, 1e-9);
   }
 }
@@ -65,16 +65,16 @@ TEST(Echo, OfNothingIsRefused) {
   const PulseTrain train = make_pulse_train({}, kShipWindow, 1, 2);
   FrequencyResponse nothing = one_point(train);
   for (Complex& value : nothing.values) value = 0;
-  EXPECT_THROW(synthesize_echo(train, nothing, {}, 1, 1), InputError);
+  EXPECT_THROW(synthesise_echo(train, nothing, {}, 1, 1), InputError);
 }
 
 TEST(Echo, RepeatsForOneKeyAndDiffersForAnother) {
   const PulseTrain train = make_pulse_train(small_radar(), kShipWindow, 1, 2);
   const FrequencyResponse response = one_point(train);
-  const Echo a = synthesize_echo(train, response, {}, 1, 1);
-  EXPECT_EQ(a.clutter, synthesize_echo(train, response, {}, 1, 1).clutter);
-  EXPECT_NE(a.clutter, synthesize_echo(train, response, {}, 1, 2).clutter);
-  EXPECT_NE(a.clutter, synthesize_echo(train, response, {}, 2, 1).clutter);
+  const Echo a = synthesise_echo(train, response, {}, 1, 1);
+  EXPECT_EQ(a.clutter, synthesise_echo(train, response, {}, 1, 1).clutter);
+  EXPECT_NE(a.clutter, synthesise_echo(train, response, {}, 1, 2).clutter);
+  EXPECT_NE(a.clutter, synthesise_echo(train, response, {}, 2, 1).clutter);
 }
 
 TEST(Clutter, HasMeanPowerOneAtEveryShapeAndSpread) {
@@ -154,7 +154,7 @@ TEST(Clutter, IsTheSameSeaAtEveryCarrier) {
   // Two pulses on neighbouring carriers, the sea at rest: the overlap of two 60 MHz chirps sees identical values.
   RadarSpec radar;
   radar.pulses = 2;
-  radar.hop_count = 2;
+  radar.carrier_count = 2;
   radar.hop_code = HopCode::kStepped;
   radar.bandwidth_mhz = 50;
   radar.sampling_mhz = 100;
@@ -189,7 +189,7 @@ TEST(Clutter, DecorrelatesWithinTheChirpAsItsRangeWindowDemands) {
 
 TEST(Clutter, HasTheStatedDopplerMeanAndSpread) {
   RadarSpec radar;
-  radar.hop_count = 1;
+  radar.carrier_count = 1;
   radar.pulses = 64;
   const PulseTrain train = make_pulse_train(radar, 100, 1, 2);
   ClutterSpec spec;
@@ -224,7 +224,7 @@ TEST(Clutter, HasTheStatedDopplerMeanAndSpread) {
 TEST(Clutter, ReceiverNoiseIsWhiteAndHasItsLevel) {
   const PulseTrain train = make_pulse_train({}, kShipWindow, 1, 2);
   ClutterSpec clutter;
-  const std::vector<Complex> noise = synthesize_echo(train, one_point(train), clutter, 1, 1).noise;
+  const std::vector<Complex> noise = synthesise_echo(train, one_point(train), clutter, 1, 1).noise;
   const std::size_t bins = train.frequencies();
   Complex along_frequency, along_pulses;
   double power = 0;

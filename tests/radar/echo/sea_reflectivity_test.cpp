@@ -49,7 +49,7 @@ TEST(SeaReflectivity, AreaIsThatOfTheTwoWayBeam) {
   const double step = width / 1000;
   for (double phi = -5 * width; phi < 5 * width; phi += step)
     sum += std::exp(-8 * std::log(2.0) * phi * phi / (width * width)) * step;
-  EXPECT_NEAR(clutter_area_m2(radar, radians(60), 3) / (10e3 * sum * 3 / 0.5), 1, 1e-9);
+  EXPECT_NEAR(clutter_patch_area_m2(radar, radians(60), 3) / (10e3 * sum * 3 / 0.5), 1, 1e-9);
 }
 
 FrequencyResponse one_point(const PulseTrain& train) {
@@ -73,7 +73,7 @@ TEST(SeaReflectivity, TheEchoHasIt) {
   const int intervals = 300;
   for (int i = 0; i < intervals; ++i) {
     scene.texture_key = i;
-    const double power = mean_power(synthesize_echo(train, one_point(train), clutter, 7, i, scene).clutter);
+    const double power = mean_power(synthesise_echo(train, one_point(train), clutter, 7, i, scene).clutter);
     mean += power / intervals;
     square += power * power / intervals;
   }
@@ -103,18 +103,18 @@ TEST(ReceiverNoise, HasTheRatioThatIsAskedFor) {
   spec.enabled = false;
   spec.noise_level = NoiseLevel::kSnr;
   spec.snr_db = 7;
-  const Echo echo = synthesize_echo(train, one_point(train), spec, 1, 1);
+  const Echo echo = synthesise_echo(train, one_point(train), spec, 1, 1);
   EXPECT_TRUE(echo.clutter.empty());
   EXPECT_NEAR(10 * std::log10(mean_power(echo.target) / mean_power(echo.noise)), 7, 1e-9);
   spec.noise_level = NoiseLevel::kThermal;
-  const Echo thermal = synthesize_echo(train, one_point(train), spec, 1, 1);
+  const Echo thermal = synthesise_echo(train, one_point(train), spec, 1, 1);
   EXPECT_NEAR(mean_power(thermal.noise) / thermal_noise_m2(train, {}), 1, 4 / std::sqrt(256 * 40.0));
 }
 
 TEST(Texture, ChangesOverTimeAsStated) {
   ClutterSpec spec;
   spec.texture_shape = 1000;  // nearly Gaussian: the generator's correlation is the texture's
-  spec.texture_time_s = 2;
+  spec.texture_correlation_time_s = 2;
   for (const double lag_s : {0.0, 1.0, 2.0, 5.0}) {
     double first = 0, second = 0, both = 0;
     const int keys = 200, cells = 64;

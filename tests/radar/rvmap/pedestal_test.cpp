@@ -42,7 +42,7 @@ Means mean_response(RadarSpec radar, const Offset& offset, double window_m) {
     ClutterSpec clutter;
     clutter.enabled = false;
     const Echo echo =
-        synthesize_echo(train, point_response({&point, 1}, Vec3(1, 0, 0), interval_sampling(train, 0)), clutter, 1, 1);
+        synthesise_echo(train, point_response({&point, 1}, Vec3(1, 0, 0), interval_sampling(train, 0)), clutter, 1, 1);
     MapSpec spec;
     spec.range_taper = Taper::kNone;
     spec.range_span_m = spec.velocity_span_mps = 1e-3;
@@ -150,7 +150,7 @@ TEST(Pedestal, IsAbsentAtTheVelocityOfThePoint) {
   ClutterSpec clutter;
   clutter.enabled = false;
   const Echo echo =
-      synthesize_echo(train, point_response({&point, 1}, Vec3(1, 0, 0), interval_sampling(train, 0)), clutter, 1, 1);
+      synthesise_echo(train, point_response({&point, 1}, Vec3(1, 0, 0), interval_sampling(train, 0)), clutter, 1, 1);
   MapSpec spec;
   spec.range_taper = Taper::kNone;
   spec.velocity_span_mps = 1e-3;

@@ -33,7 +33,7 @@ std::vector<Complex> echo_of(const PulseTrain& train, const std::vector<MovingPo
   for (const MovingPoint& p : points) specs.push_back({{-p.range_m, 0, 0}, p.amplitude_m, {-p.velocity_mps, 0, 0}});
   ClutterSpec clutter;
   clutter.enabled = false;
-  return synthesize_echo(train, point_response(specs, Vec3(1, 0, 0), interval_sampling(train, 0)), clutter, 1, 1)
+  return synthesise_echo(train, point_response(specs, Vec3(1, 0, 0), interval_sampling(train, 0)), clutter, 1, 1)
       .target;
 }
 
@@ -119,7 +119,7 @@ std::vector<Case> cases() {
   std::vector<Case> list(1, {"the paper's radar", {}, {}});
   Case holes{"few pulses on many carriers: holes", {}, {}};
   holes.radar.pulses = 24;
-  holes.radar.hop_count = 16;
+  holes.radar.carrier_count = 16;
   holes.map.velocity_taper = Taper::kHamming;
   list.push_back(holes);
   Case gaps{"chirp narrower than the step", {}, {}};
@@ -169,13 +169,13 @@ TEST(RvMap, AgreesWithTheDefinitionSummedDirectly) {
 TEST(RvMap, CountsCarriersThatNoPulseUsed) {
   RadarSpec radar;
   radar.pulses = 24;
-  radar.hop_count = 16;
+  radar.carrier_count = 16;
   const PulseTrain train = make_pulse_train(radar, kShipWindow, 1, 2);
   std::vector<int> count(16);
   for (const int c : train.code) ++count[c];
   const int expected = static_cast<int>(std::count(count.begin(), count.end(), 0));
   ASSERT_GT(expected, 0);
-  EXPECT_EQ(form_rv_map(random_echo(train, 1), train, {}, false).empty_carriers, expected);
+  EXPECT_EQ(form_rv_map(random_echo(train, 1), train, {}, false).unused_carriers, expected);
 }
 
 TEST(RvMap, APointPeaksInItsCellWithItsAmplitudeWhetherItApproachesOrRecedes) {
@@ -217,7 +217,7 @@ TEST(CompressedPulses, FollowThePhaseOfAPointOverTheWholeInterval) {
     ClutterSpec off;
     off.enabled = false;
     const Echo echo =
-        synthesize_echo(train, point_response({&point, 1}, Vec3(1, 0, 0), interval_sampling(train, 0)), off, 1, 1);
+        synthesise_echo(train, point_response({&point, 1}, Vec3(1, 0, 0), interval_sampling(train, 0)), off, 1, 1);
     const std::vector<Complex> compressed = compress_pulses(echo.target, train, Compression::kInverse);
     double worst = 0;
     for (std::size_t n = 0; n < train.pulses(); ++n) {
@@ -271,7 +271,7 @@ TEST(RvMap, RangeCutIsTheDirichletKernelOfTheBand) {
 
 TEST(RvMap, VelocityCutOfOneCarrierIsTheDirichletKernelOfTheInterval) {
   RadarSpec radar;
-  radar.hop_count = 1;
+  radar.carrier_count = 1;
   const PulseTrain train = make_pulse_train(radar, kShipWindow, 1, 2);
   MapSpec spec = untapered();
   spec.velocity_oversampling = 8;

@@ -32,7 +32,7 @@ RadarSpec radar_with(bool intra_pulse_motion) {
 std::vector<Complex> echo_in_frequency(const PulseTrain& train) {
   ClutterSpec off;
   off.enabled = false;
-  return synthesize_echo(train, point_response(kPoints, Vec3(1, 0, 0), interval_sampling(train, 0)), off, 1, 1).target;
+  return synthesise_echo(train, point_response(kPoints, Vec3(1, 0, 0), interval_sampling(train, 0)), off, 1, 1).target;
 }
 
 // Every point's echo is the ideal rectangular chirp, delayed. With motion inside the pulse the delay is the one of the
@@ -80,7 +80,7 @@ TEST(SampledEcho, HoldsTheWholePulseAndTheWindow) {
   const RadarSpec radar = radar_with(false);
   const PulseTrain train = make_pulse_train(radar, 239.8, 1, 2), fine = train_for_samples(train, radar);
   const SampledEcho sampled = sample_echo(echo_in_frequency(fine), fine, 50e6);
-  EXPECT_EQ(fine.refinement, 25);
+  EXPECT_EQ(fine.grid_refinement, 25);
   EXPECT_EQ(sampled.samples(), 2000u);  // 36 us of pulse and 1.6 us of window fit into 40 us
   for (std::size_t b = 0; b < train.frequencies(); ++b)
     EXPECT_NEAR(fine.baseband_hz[25 * b + 12], train.baseband_hz[b], 1e-6);
@@ -147,7 +147,7 @@ TEST(SampledEcho, SeesTheSameClutter) {
   const PulseTrain train = make_pulse_train(radar, 100, 1, 2), fine = train_for_samples(train, radar);
   const std::vector<Complex> coarse = clutter_response(train, {}, {}, 3, 4),
                              finer = clutter_response(fine, {}, {}, 3, 4);
-  const std::size_t m = static_cast<std::size_t>(fine.refinement);
+  const std::size_t m = static_cast<std::size_t>(fine.grid_refinement);
   double largest = 0;
   for (std::size_t n = 0; n < train.pulses(); ++n) {
     for (std::size_t b = 0; b < train.frequencies(); ++b) {

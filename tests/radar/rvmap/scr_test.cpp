@@ -13,7 +13,7 @@ namespace {
 Echo echo_with_clutter(const PulseTrain& train, const ClutterSpec& clutter) {
   const double dr = train.range_resolution_m();
   const PointSpec points[] = {{{-10 * dr, 0, 0}, 1, {0, 0, 0}}, {{20 * dr, 0, 0}, 0.7, {0, 0, 0}}};
-  return synthesize_echo(train, point_response(points, Vec3(1, 0, 0), interval_sampling(train, 0)), clutter, 5, 6);
+  return synthesise_echo(train, point_response(points, Vec3(1, 0, 0), interval_sampling(train, 0)), clutter, 5, 6);
 }
 
 TEST(Scr, TheNamedDefinitionIsMetExactlyAndAllThreeAreMeasured) {
@@ -23,7 +23,7 @@ TEST(Scr, TheNamedDefinitionIsMetExactlyAndAllThreeAreMeasured) {
     clutter.scr_definition = definition;
     clutter.noise_to_clutter_db = -200;  // nothing but clutter beside the target
     const Echo echo = echo_with_clutter(train, clutter);
-    const ReceivedInterval received = receive(echo, train, clutter, {}, false);
+    const ReceivedInterval received = form_received_interval(echo, train, clutter, {}, false);
     // Measured again from what was received: the target is known, the rest is clutter.
     std::vector<Complex> rest = received.echo;
     for (std::size_t i = 0; i < rest.size(); ++i) rest[i] -= echo.target[i];
@@ -41,16 +41,16 @@ TEST(Scr, TheNamedDefinitionIsMetExactlyAndAllThreeAreMeasured) {
       EXPECT_NEAR(peak_cell, 20, 1e-6);
     }
     if (definition == ScrDefinition::kExtent) {
-      EXPECT_NEAR(received.scr.extent_db, 20, 1e-6);
+      EXPECT_NEAR(received.scr.scr_extent_db, 20, 1e-6);
     }
-    EXPECT_GT(received.scr.peak_cell_db, received.scr.extent_db);
+    EXPECT_GT(received.scr.peak_cell_db, received.scr.scr_extent_db);
     EXPECT_GT(received.scr.peak_cell_db, received.scr.per_pulse_db + 20);  // the map gathers what a pulse spreads
   }
 }
 
 TEST(Scr, TheReceivedMapIsTheMapOfTheReceivedEcho) {
   const PulseTrain train = make_pulse_train({}, 239.8, 1, 2);
-  const ReceivedInterval received = receive(echo_with_clutter(train, {}), train, {}, {}, false);
+  const ReceivedInterval received = form_received_interval(echo_with_clutter(train, {}), train, {}, {}, false);
   const RvMap again = form_rv_map(received.echo, train, {}, false);
   for (std::size_t i = 0; i < again.values.size(); ++i)
     EXPECT_NEAR(std::abs(again.values[i] - received.map.values[i]), 0, 1e-12);
@@ -60,9 +60,9 @@ TEST(Scr, TheTargetsBoxHoldsItsTwoPoints) {
   const PulseTrain train = make_pulse_train({}, 239.8, 1, 2);
   ClutterSpec off;
   off.enabled = false;
-  const ReceivedInterval received = receive(echo_with_clutter(train, off), train, off, {}, false);
+  const ReceivedInterval received = form_received_interval(echo_with_clutter(train, off), train, off, {}, false);
   EXPECT_TRUE(std::isnan(received.scr.per_pulse_db));
-  const MapBox box = target_box(received.map);
+  const MapExtent box = target_extent(received.map);
   const double dr = train.range_resolution_m();
   EXPECT_NEAR(received.map.range_m[box.range_first], -20 * dr,
               1.01 * dr);  // Hann: neighbours of the peak are 6 dB below it

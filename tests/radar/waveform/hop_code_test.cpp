@@ -15,14 +15,15 @@ namespace {
 TEST(HopCodeFile, IsUsedBlockByBlock) {
   RadarSpec spec;
   spec.pulses = 4;
-  spec.hop_count = 3;
+  spec.carrier_count = 3;
   spec.hop_code = HopCode::kFile;
   spec.hop_codes =
       std::make_shared<std::vector<int>>(parse_hop_code("# two intervals\n0, 1 2,0\n2\t2\n1,1\n", "codes.txt", 4, 3));
   EXPECT_EQ(make_pulse_train(spec, 100, 1, 0).code, (std::vector<int>{0, 1, 2, 0}));
   EXPECT_EQ(make_pulse_train(spec, 100, 1, 1).code, (std::vector<int>{2, 2, 1, 1}));
   EXPECT_EQ(make_pulse_train(spec, 100, 9, 4).code, (std::vector<int>{0, 1, 2, 0}));
-  EXPECT_NE(describe(make_pulse_train(spec, 100, 1, 1), spec).find("no pulse of the first interval uses carrier 0"),
+  EXPECT_NE(figures_of_merit_text(make_pulse_train(spec, 100, 1, 1), spec)
+                .find("no pulse of the first interval uses carrier 0"),
             std::string::npos);
 }
 

@@ -47,15 +47,15 @@ TEST(PulseTrain, SamplingNamesTheFrequenciesOfEveryPulseOnOneGrid) {
     const PulseTrain train = make_pulse_train(spec, kShipWindow, 3, 4);
     const IntervalSampling sampling = interval_sampling(train, 12.5);
     ASSERT_EQ(sampling.pulse_first.size(), 256u);
-    EXPECT_EQ(sampling.per_pulse, static_cast<int>(std::round(bandwidth / 0.625)));
+    EXPECT_EQ(sampling.frequencies_per_pulse, static_cast<int>(std::round(bandwidth / 0.625)));
     for (std::size_t n = 0; n < train.pulses(); ++n) {
       EXPECT_DOUBLE_EQ(sampling.pulse_time_s[n], 12.5 + static_cast<double>(n) * 250e-6);
-      for (int b = 0; b < sampling.per_pulse; ++b) {
+      for (int b = 0; b < sampling.frequencies_per_pulse; ++b) {
         const double f = sampling.first_hz + (sampling.pulse_first[n] + b) * sampling.step_hz;
         EXPECT_NEAR(f, train.carrier_hz[n] + train.baseband_hz[b], 1e-4);
         EXPECT_LE(std::abs(train.baseband_hz[b]), train.bandwidth_hz / 2);
       }
-      EXPECT_LE(sampling.pulse_first[n] + sampling.per_pulse, sampling.count);
+      EXPECT_LE(sampling.pulse_first[n] + sampling.frequencies_per_pulse, sampling.count);
     }
   }
 }
@@ -135,7 +135,7 @@ TEST(PulseTrain, DescribesItselfForEveryCode) {
   for (const HopCode code : {HopCode::kRandom, HopCode::kBalanced, HopCode::kStepped}) {
     RadarSpec spec = paper_radar();
     spec.hop_code = code;
-    const std::string text = describe(make_pulse_train(spec, kShipWindow, 1, 2), spec);
+    const std::string text = figures_of_merit_text(make_pulse_train(spec, kShipWindow, 1, 2), spec);
     EXPECT_NE(text.find("0.749"), std::string::npos) << text;
     EXPECT_NE(text.find("5396 m"), std::string::npos) << text;  // blind range c T_p / 2
     EXPECT_NE(text.find("37.47 km"), std::string::npos) << text;

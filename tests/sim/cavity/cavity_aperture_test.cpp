@@ -16,10 +16,10 @@ struct Sum {
   Vec3 area = Vec3::Zero(), moment = Vec3::Zero();  // of the area about the origin, signed along the sum
 };
 
-Sum sum_of(const std::vector<MouthCell>& cells) {
+Sum sum_of(const std::vector<ApertureCell>& cells) {
   Sum sum;
-  for (const MouthCell& cell : cells) sum.area += cell.area * cell.inward;
-  for (const MouthCell& cell : cells) sum.moment += cell.area * cell.inward.dot(sum.area.normalized()) * cell.centre;
+  for (const ApertureCell& cell : cells) sum.area += cell.area * cell.inward;
+  for (const ApertureCell& cell : cells) sum.moment += cell.area * cell.inward.dot(sum.area.normalized()) * cell.centre;
   return sum;
 }
 
@@ -47,44 +47,44 @@ TriangleMesh pit(const std::vector<Vec2>& outline, const Vec2& hub) {
   return builder.take();
 }
 
-TEST(Mouth, OfAGuideIsItsOpenFaceAndLooksInwards) {
-  const Sum sum = sum_of(mouth_cells(guide(0.3, 0.2, 0.5), 0.011));
+TEST(CavityAperture, OfAGuideIsItsOpenFaceAndLooksInwards) {
+  const Sum sum = sum_of(aperture_cells(guide(0.3, 0.2, 0.5), 0.011));
   EXPECT_LT((sum.area - Vec3(0.06, 0, 0)).norm(), 1e-12);
   EXPECT_LT((sum.moment / 0.06 - Vec3(0, 0.15, 0.1)).norm(), 1e-12);
 }
 
-TEST(Mouth, MayBeAnyShapeEvenOneThatTurnsInwards) {
+TEST(CavityAperture, MayBeAnyShapeEvenOneThatTurnsInwards) {
   // An L: two unit squares and one in the corner.
   const std::vector<Vec2> outline{{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
-  const auto cells = mouth_cells(pit(outline, {0.5, 0.5}), 0.07);
+  const auto cells = aperture_cells(pit(outline, {0.5, 0.5}), 0.07);
   const Sum sum = sum_of(cells);
   EXPECT_LT((sum.area - Vec3(0, 0, -3)).norm(), 1e-12);
   EXPECT_LT((sum.moment / 3 - Vec3(2.5 / 3, 2.5 / 3, 0)).norm(), 1e-12);
-  for (const MouthCell& cell : cells) {
+  for (const ApertureCell& cell : cells) {
     EXPECT_LE(cell.area, 0.07 * 0.07 * (1 + 1e-12));
     EXPECT_LT((cell.across.cross(cell.up) - cell.inward).norm(), 1e-12);
   }
 }
 
-TEST(Mouth, WithAnIslandIsTheRingBetweenTheRims) {
+TEST(CavityAperture, WithAnIslandIsTheRingBetweenTheRims) {
   // A post of 1 m square stands in a pit of 3 m square, as high as the rim, its own inside being solid: its walls face
   // the pit, so that its rim runs the other way.
   TriangleMesh mesh = pit({{0, 0}, {3, 0}, {3, 3}, {0, 3}}, {1.5, 1.5});
   const TriangleMesh post = turned(pit({{1, 1}, {2, 1}, {2, 2}, {1, 2}}, {1.5, 1.5}));
   mesh.append(post);
-  const auto cells = mouth_cells(mesh, 0.1);
+  const auto cells = aperture_cells(mesh, 0.1);
   const Sum sum = sum_of(cells);
   EXPECT_LT((sum.area - Vec3(0, 0, -8)).norm(), 1e-11);
-  for (const MouthCell& cell : cells) {
+  for (const ApertureCell& cell : cells) {
     EXPECT_LT(cell.inward.z(), -0.99);  // a wave from above falls into all of them
     EXPECT_GT((cell.centre - Vec3(1.5, 1.5, 0)).cwiseAbs().maxCoeff(), 0.5 - 1e-9);
   }
 }
 
-TEST(Mouth, RefusesWhatIsNoCavity) {
+TEST(CavityAperture, RefusesWhatIsNoCavity) {
   const auto refused = [](const TriangleMesh& mesh, const std::string& why) {
     try {
-      mouth_cells(mesh, 0.01);
+      aperture_cells(mesh, 0.01);
       FAIL() << "not refused: " << why;
     } catch (const InputError& error) {
       EXPECT_THAT(error.what(), testing::HasSubstr(why));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/scattering/response/scattering_matrix.h"
 #include "sim/cavity/cavity_scattering.h"
+#include "sim/scattering/response/scattering_matrix.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -26,8 +26,8 @@ Vec3 direction(double azimuth_deg, double elevation_deg) {
   return {std::cos(el) * std::cos(az), std::cos(el) * std::sin(az), std::sin(el)};
 }
 
-std::vector<AntennaPair> cut(double from_deg, double to_deg, double step_deg, double elevation_deg) {
-  std::vector<AntennaPair> views;
+std::vector<BistaticGeometry> cut(double from_deg, double to_deg, double step_deg, double elevation_deg) {
+  std::vector<BistaticGeometry> views;
   for (double az = from_deg; az <= to_deg + 1e-9; az += step_deg)
     views.push_back(monostatic(radar_basis(direction(az, elevation_deg))));
   return views;
@@ -94,9 +94,9 @@ double error_of_guide(double wavelength) {
   constexpr double kA = 0.29, kB = 0.19, kDepth = 0.25;
   const TriangleMesh mesh = guide(kA, kB, kDepth);
   const Scatterer whole(mesh);
-  std::vector<AntennaPair> views;
+  std::vector<BistaticGeometry> views;
   for (const double el : {0.0, 20.0, -35.0}) {
-    for (const AntennaPair& view : cut(130, 230, 5, el)) views.push_back(view);
+    for (const BistaticGeometry& view : cut(130, 230, 5, el)) views.push_back(view);
   }
   const double k = 2 * kPi / wavelength;
   const auto s = Cavity(mesh, 0, whole).scattering_matrices(k, views, 2);
@@ -131,7 +131,7 @@ TriangleMesh crooked_guide() {
   return mesh;
 }
 
-std::vector<Matrix> echoes(const TriangleMesh& mesh, const std::vector<AntennaPair>& views, double k = kWavenumber,
+std::vector<Matrix> echoes(const TriangleMesh& mesh, const std::vector<BistaticGeometry>& views, double k = kWavenumber,
                            int threads = 2) {
   const Scatterer whole(mesh);
   return Cavity(mesh, 0, whole).scattering_matrices(k, views, threads);
@@ -148,7 +148,7 @@ TEST(CavityEcho, IsReciprocal) {
 }
 
 TEST(CavityEcho, MovesItsPhaseWithItsPlaceAndGrowsWithItsSize) {
-  const std::vector<AntennaPair> views = cut(140, 220, 20, 10);
+  const std::vector<BistaticGeometry> views = cut(140, 220, 20, 10);
   const TriangleMesh mesh = crooked_guide();
   const std::vector<Matrix> here = echoes(mesh, views);
   const Vec3 moved(3, -2, 1);
@@ -167,7 +167,7 @@ TEST(CavityEcho, MovesItsPhaseWithItsPlaceAndGrowsWithItsSize) {
 }
 
 TEST(CavityEcho, DoesNotDependOnOtherViewsOrThreads) {
-  const std::vector<AntennaPair> views = cut(100, 260, 2, 5);
+  const std::vector<BistaticGeometry> views = cut(100, 260, 2, 5);
   const TriangleMesh mesh = crooked_guide();
   const std::vector<Matrix> together = echoes(mesh, views, kWavenumber, 2);
   EXPECT_EQ(echoes(mesh, views, kWavenumber, 1), together);
@@ -231,11 +231,11 @@ TEST(CavityEcho, AndTheRestOfABoxWithADuctComeWithinADecibelOfTheMethodOfMoments
       read_mesh(std::string(SEAGLINT_SOURCE_DIR) + "/tests/reference/rcs/austin/duct_box.glb", "m");
   const auto duct = std::find(mesh.part_names.begin(), mesh.part_names.end(), "duct") - mesh.part_names.begin();
   const Scatterer box(mesh);
-  IlluminationSettings settings;
+  TracingSettings settings;
   settings.edges = true;
   settings.filter.cavities = {static_cast<int>(duct)};
   const double k = 2 * kPi * 5.12e9 / kSpeedOfLight;
-  const std::vector<AntennaPair> views = cut(0, 180, 2.5, 0);
+  const std::vector<BistaticGeometry> views = cut(0, 180, 2.5, 0);
   const std::vector<Matrix> inside = Cavity(mesh, static_cast<std::size_t>(duct), box).scattering_matrices(k, views, 2);
   for (const auto& [name, element] : {std::pair{"H", 0}, std::pair{"V", 3}}) {
     const std::map<double, double> reference = reference_cut(fmt::format("ref_rcs.IIIS.B.s1.f10.{}.txt", name));

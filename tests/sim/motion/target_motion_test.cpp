@@ -27,17 +27,17 @@ SeaState state_of(double height, double period) {
   return state;
 }
 
-TEST(LayoutPlaces, AreCentredOnTheOriginAlongX) {
-  const std::vector<Vec2> places = layout_places(array_of(4));
+TEST(LayoutPositions, AreCentredOnTheOriginAlongX) {
+  const std::vector<Vec2> places = layout_positions(array_of(4));
   ASSERT_EQ(places.size(), 4u);
   EXPECT_EQ(places[0], Vec2(-60, 0));
   EXPECT_EQ(places[3], Vec2(60, 0));
-  EXPECT_EQ(layout_places(TargetSpec{}), std::vector<Vec2>{Vec2(0, 0)});
+  EXPECT_EQ(layout_positions(TargetSpec{}), std::vector<Vec2>{Vec2(0, 0)});
 }
 
 TEST(SimulateTarget, MovesEachBodyAtItsOwnPlaceInTheSameSea) {
   const SeaState state = state_of(1, 5);
-  const WaveField sea = realize_sea(state, 42, 7);
+  const WaveField sea = realise_sea(state, 42, 7);
   const std::vector<Trajectory> bodies = simulate_target(array_of(4), body_of(array_of(4)), state, sea, 3, 42, 7, 0, 2);
   ASSERT_EQ(bodies.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) {
@@ -51,7 +51,7 @@ TEST(SimulateTarget, MovesEachBodyAtItsOwnPlaceInTheSameSea) {
 
 TEST(SimulateTarget, DoesNotDependOnThreads) {
   const SeaState state = state_of(1, 5);
-  const WaveField sea = realize_sea(state, 42, 7);
+  const WaveField sea = realise_sea(state, 42, 7);
   const auto one = simulate_target(array_of(3), body_of(array_of(3)), state, sea, 2, 42, 7, 0, 1);
   const auto two = simulate_target(array_of(3), body_of(array_of(3)), state, sea, 2, 42, 7, 0, 2);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(one[i].sample(1.7).angles, two[i].sample(1.7).angles);
@@ -62,7 +62,7 @@ TEST(SimulateTarget, GivesIndependentBodiesSeasOfTheirOwn) {
   const SeaState state = state_of(1, 20);
   SeaState long_waves = state;
   long_waves.cutoff_rad_s = 0.7;
-  const WaveField sea = realize_sea(long_waves, 42, 7);
+  const WaveField sea = realise_sea(long_waves, 42, 7);
   TargetSpec target = array_of(2);
   target.line->spacing_m = 1;
   const auto difference = [&] {

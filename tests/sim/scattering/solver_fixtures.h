@@ -83,7 +83,7 @@ inline IntervalSampling paper_interval(double start_s) {
   sampling.step_hz = 0.625e6;
   sampling.first_hz = 16e9 - 12.5e6 + 0.5 * sampling.step_hz;
   sampling.count = 320;
-  sampling.per_pulse = 40;
+  sampling.frequencies_per_pulse = 40;
   Random random({7, Stream::kTest, 0});
   for (int n = 0; n < 256; ++n) {
     sampling.pulse_first.push_back(40 * static_cast<int>(random.below(8)));

@@ -56,7 +56,7 @@ std::string mutated(std::uint64_t index) {
   return text;
 }
 
-TEST(Mutation, BrokenScenariosAreReadOrRefusedWithAnInputError) {
+TEST(ScenarioFuzzing, BrokenScenariosAreReadOrRefusedWithAnInputError) {
   int read = 0;
   int refused = 0;
   for (std::uint64_t i = 0; i < 20000; ++i) {
@@ -76,7 +76,7 @@ TEST(Mutation, BrokenScenariosAreReadOrRefusedWithAnInputError) {
   EXPECT_GT(refused, 5000);
 }
 
-TEST(Mutation, PiecesOfYamlAloneAreRefusedWithAnInputError) {
+TEST(ScenarioFuzzing, PiecesOfYamlAloneAreRefusedWithAnInputError) {
   for (std::uint64_t i = 0; i < 20000; ++i) {
     Random random({3, Stream::kTest, i});
     std::string text;

@@ -20,7 +20,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-TEST(Reading, TheExampleOfTheDescriptionIsUnderstood) {
+TEST(ScenarioReading, TheExampleOfTheDescriptionIsUnderstood) {
   const Scenario scenario = parse(kPaper);
   EXPECT_EQ(scenario.name, "paper");
   EXPECT_EQ(scenario.seed, 42u);
@@ -40,11 +40,11 @@ TEST(Reading, TheExampleOfTheDescriptionIsUnderstood) {
   ASSERT_TRUE(scenario.targets[1].line.has_value());
   EXPECT_EQ(scenario.targets[1].line->count, 4);
   EXPECT_EQ(scenario.targets[1].line->spacing_m, 40);
-  EXPECT_EQ(scenario.dataset.train_share, 0.7);
+  EXPECT_EQ(scenario.dataset.train_fraction, 0.7);
   EXPECT_EQ(scenario.folder, "folder");
 }
 
-TEST(Reading, WhatIsNotGivenKeepsItsDefault) {
+TEST(ScenarioReading, WhatIsNotGivenKeepsItsDefault) {
   const Scenario scenario = parse(kShort);
   EXPECT_EQ(scenario.name, "file");
   EXPECT_EQ(scenario.seed, 42u);
@@ -54,7 +54,7 @@ TEST(Reading, WhatIsNotGivenKeepsItsDefault) {
 }
 
 // Names go into JSON, which holds nothing else.
-TEST(Reading, TextIsUtf8) {
+TEST(ScenarioReading, TextIsUtf8) {
   EXPECT_EQ(parse(kShort + "name: caf\xc3\xa9\n").name, "caf\xc3\xa9");
   EXPECT_EQ(complaint_about(kShort + "name: caf\xe9\n"), "folder/file.yaml:4:10: byte 0xe9: not a text in UTF-8");
   EXPECT_EQ(complaint_about(kShort, {{"name", "caf\xe9"}}), "--set name=caf: byte 0xe9: must be UTF-8");
@@ -62,7 +62,7 @@ TEST(Reading, TextIsUtf8) {
   EXPECT_EQ(parse_scenario(kShort, "folder/caf\xe9.yaml").name, "caf_");
 }
 
-TEST(Reading, OneDirectionStandsOnceInASweep) {
+TEST(ScenarioReading, OneDirectionStandsOnceInASweep) {
   EXPECT_EQ(complaint_about(kShort + "view: {azimuth_deg: [30, -330]}\n"),
             "folder/file.yaml:4:21: view.azimuth_deg: -330 and 30 are one direction: must not stand twice");
   EXPECT_THAT(complaint_about(kShort + "view: {azimuth_deg: 0:360:10}\n"), HasSubstr("0 and 360 are one direction"));
@@ -74,7 +74,7 @@ TEST(Reading, OneDirectionStandsOnceInASweep) {
   EXPECT_EQ(complaint_about(kShort + "view: {azimuth_deg: -360}\n"), "none");
 }
 
-TEST(Reading, PointsAreTargets) {
+TEST(ScenarioReading, PointsAreTargets) {
   const Scenario scenario = parse(
       "seaglint: 1\ntargets:\n  p:\n    label: 0\n    points:\n"
       "      - {position_m: [1, 2, 3], amplitude_m: 0.5, velocity_mps: [-1, 0, 0.25]}\n      - {position_m: [0, 0, "
@@ -86,7 +86,7 @@ TEST(Reading, PointsAreTargets) {
   EXPECT_EQ(scenario.targets[0].points[1].amplitude_m, 1);
 }
 
-TEST(Reading, TheRadarChainsContradictionsAreNamed) {
+TEST(ScenarioReading, TheRadarChainsContradictionsAreNamed) {
   const std::pair<std::vector<Override>, const char*> cases[] = {
       {{{"radar.pri_jitter_us", "108"}}, "radar.pri_jitter_us: value '108': pulses would overlap: must be at most"},
       {{{"radar.hop_code", "file"}}, "radar.hop_code_file: this key is missing"},
@@ -131,7 +131,7 @@ TEST(Reading, TheRadarChainsContradictionsAreNamed) {
 }
 
 // A float and a body at rest stay in the water that a speed would have fall behind.
-TEST(Reading, OnlyModelsThatMakeWayHaveASpeed) {
+TEST(ScenarioReading, OnlyModelsThatMakeWayHaveASpeed) {
   for (const char* model : {"fixed", "float"}) {
     EXPECT_EQ(
         complaint_about(fmt::format(
@@ -147,13 +147,13 @@ TEST(Reading, OnlyModelsThatMakeWayHaveASpeed) {
               "none");
 }
 
-TEST(Reading, IntraPulseMotionIsForPoints) {
+TEST(ScenarioReading, IntraPulseMotionIsForPoints) {
   EXPECT_TRUE(parse("seaglint: 1\nradar: {intra_pulse_motion: true}\n"
                     "targets: {p: {label: 0, points: [{position_m: [0, 0, 0]}]}}\n")
                   .radar.intra_pulse_motion);
 }
 
-TEST(Reading, SweepsAreNumbersListsOrRangesInBlocksAndBraces) {
+TEST(ScenarioReading, SweepsAreNumbersListsOrRangesInBlocksAndBraces) {
   const auto azimuths = [](const std::string& value) { return parse(kShort + value).view.azimuth_deg; };
   EXPECT_THAT(azimuths("view: {azimuth_deg: 30}"), ElementsAre(30));
   EXPECT_THAT(azimuths("view: {azimuth_deg: [3, -1.5]}"), ElementsAre(3, -1.5));
@@ -162,7 +162,7 @@ TEST(Reading, SweepsAreNumbersListsOrRangesInBlocksAndBraces) {
   EXPECT_THAT(azimuths("view:\n  azimuth_deg: 10:20:5\n"), ElementsAre(10, 15, 20));
 }
 
-TEST(Reading, TheWindSeaRuleIsAWordInPlaceOfAPeriod) {
+TEST(ScenarioReading, TheWindSeaRuleIsAWordInPlaceOfAPeriod) {
   const Scenario scenario = parse(kShort + "sea: {peak_period_s: dnv_wind_sea, significant_wave_height_m: [1, 4]}");
   EXPECT_EQ(scenario.sea.period_rule, PeakPeriod::kDnvWindSea);
   const auto states = sea_states(scenario.sea);
@@ -171,14 +171,14 @@ TEST(Reading, TheWindSeaRuleIsAWordInPlaceOfAPeriod) {
   EXPECT_DOUBLE_EQ(states[1].peak_period_s, 7.92);
 }
 
-TEST(Reading, AnyPositiveHopStepIsAccepted) {
+TEST(ScenarioReading, AnyPositiveHopStepIsAccepted) {
   EXPECT_EQ(parse(kShort + "radar: {hop_step_mhz: 1e-9}").radar.hop_step_mhz, 1e-9);
   EXPECT_EQ(parse(kShort + "radar: {hop_step_mhz: 33.3}").radar.hop_step_mhz, 33.3);
   EXPECT_EQ(complaint_about(kShort + "radar: {hop_step_mhz: 0}"),
             "folder/file.yaml:4:23: radar.hop_step_mhz: value '0': must be a number greater than 0");
 }
 
-TEST(Reading, AnAliasRepeatsAValue) {
+TEST(ScenarioReading, AnAliasRepeatsAValue) {
   const Scenario scenario = parse(
       "seaglint: 1\ntargets:\n  a: {label: 1, mesh: a.glb, motion: &m {model: ship, roll_damping: 0.25}}\n"
       "  b: {label: 0, mesh: a.glb, motion: *m}\n");
@@ -190,7 +190,7 @@ struct Mistake {
   std::string complaint;  // after "folder/file.yaml:4:"
 };
 
-TEST(Reading, EveryMistakeIsNamedWithItsPlaceValueAndBound) {
+TEST(ScenarioReading, EveryMistakeIsNamedWithItsPlaceValueAndBound) {
   const Mistake mistakes[] = {
       // Keys.
       {"radar: {carier_ghz: 16}", "9: radar.carier_ghz: unknown key: did you mean 'carrier_ghz'?"},
@@ -283,7 +283,7 @@ TEST(Reading, EveryMistakeIsNamedWithItsPlaceValueAndBound) {
   }
 }
 
-TEST(Reading, EveryMistakeInATargetIsNamed) {
+TEST(ScenarioReading, EveryMistakeInATargetIsNamed) {
   const Mistake mistakes[] = {
       {"  t: {mesh: a.glb}", "6: targets.t.label: this key is missing"},
       {"  t: {label: 2, mesh: a.glb}", "14: targets.t.label: value '2': must be 0 or 1"},
@@ -321,7 +321,7 @@ TEST(Reading, EveryMistakeInATargetIsNamed) {
   EXPECT_EQ(complaint_about("seaglint: 2\ntargets: {}\n"), "folder/file.yaml:1:11: seaglint: value '2': must be 1");
 }
 
-TEST(Reading, FilesThatAreNoScenarioAtAllGetAClearAnswer) {
+TEST(ScenarioReading, FilesThatAreNoScenarioAtAllGetAClearAnswer) {
   EXPECT_EQ(complaint_about(""), "folder/file.yaml: the file is empty: must be a map of key: value");
   EXPECT_EQ(complaint_about("# nothing\n\n"), "folder/file.yaml: the file is empty: must be a map of key: value");
   EXPECT_EQ(complaint_about("just words"), "folder/file.yaml:1:1: value 'just words': must be a map of key: value");
@@ -332,7 +332,7 @@ TEST(Reading, FilesThatAreNoScenarioAtAllGetAClearAnswer) {
   EXPECT_THAT(complaint_about("\xff\xfe\xfd\x80"), StartsWith("folder/file.yaml:1:"));
 }
 
-TEST(Reading, HostileFilesAreRefusedBeforeTheyCost) {
+TEST(ScenarioReading, HostileFilesAreRefusedBeforeTheyCost) {
   EXPECT_EQ(complaint_about(std::string(kMaxYamlBytes + 1, ' ')), "folder/file.yaml: larger than 10000000 bytes");
   EXPECT_THAT(complaint_about(std::string(100000, '[')), HasSubstr("nested deeper than 32 levels"));
   EXPECT_THAT(complaint_about(std::string(100000, '{')), StartsWith("folder/file.yaml:1:"));
@@ -351,7 +351,7 @@ TEST(Reading, HostileFilesAreRefusedBeforeTheyCost) {
   EXPECT_THAT(complaint_about(laughs), HasSubstr("more than 300000 values"));
 }
 
-TEST(Reading, MaterialsOfATargetAndItsPartsComeBackFromTheEffectiveForm) {
+TEST(ScenarioReading, MaterialsOfATargetAndItsPartsComeBackFromTheEffectiveForm) {
   const Scenario scenario = parse(
       "seaglint: 1\ntargets:\n  a: {label: 1, mesh: a.glb, material: aluminium, part_materials: [{part: mast*, "
       "material: m.yaml}]}\n");
@@ -363,7 +363,7 @@ TEST(Reading, MaterialsOfATargetAndItsPartsComeBackFromTheEffectiveForm) {
   EXPECT_EQ(parse(kShort).targets[0].material, "pec");
 }
 
-TEST(Reading, OneMapHasOneRadarRange) {
+TEST(ScenarioReading, OneMapHasOneRadarRange) {
   const auto with = [](const std::string& ship, const std::string& decoy) {
     return "seaglint: 1\ntargets:\n  ship: {label: 1, " + ship + ", with: [{target: decoy}]}\n  decoy: {label: 0, " +
            decoy + "}\n";
@@ -385,7 +385,7 @@ TEST(Reading, OneMapHasOneRadarRange) {
   EXPECT_EQ(complaint_about(with(points, points)), "none");
 }
 
-TEST(Reading, ThicknessOfSheetsBelongsToAMesh) {
+TEST(ScenarioReading, ThicknessOfSheetsBelongsToAMesh) {
   const auto with = [](const std::string& keys) {
     return "seaglint: 1\ntargets:\n  a: {label: 1, " + keys + ", sheet_thickness_mm: 1.5}\n";
   };

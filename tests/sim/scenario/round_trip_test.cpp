@@ -143,7 +143,7 @@ void make_consistent(Scenario& scenario) {
   scenario.map.range_span_m = std::min(scenario.map.range_span_m, 90 * scenario.radar.pri_us);
   if (scenario.sea_reflection.enabled) {
     scenario.radar.carrier_ghz = std::min(scenario.radar.carrier_ghz, 48.1);
-    scenario.radar.hop_step_mhz = std::min(scenario.radar.hop_step_mhz, 30e3 / scenario.radar.hop_count);
+    scenario.radar.hop_step_mhz = std::min(scenario.radar.hop_step_mhz, 30e3 / scenario.radar.carrier_count);
   }
   scenario.radar.bandwidth_mhz = std::min(scenario.radar.bandwidth_mhz, 1.3e3 * scenario.radar.carrier_ghz);
   scenario.radar.sampling_mhz = std::max(scenario.radar.bandwidth_mhz * 1.7, 8.3 / scenario.radar.pulse_width_us);
@@ -162,7 +162,8 @@ void make_consistent(Scenario& scenario) {
     if (!target.mesh.empty()) scenario.radar.intra_pulse_motion = false;
     for (CompanionSpec& companion : target.with) companion.target = "array";
     for (TargetSpec& array : scenario.targets) {
-      if (!target.with.empty() && array.name == "array") array.solver.radar_range_m = target.solver.radar_range_m;
+      if (!target.with.empty() && array.name == "array")
+        array.solver.wavefront_range_m = target.solver.wavefront_range_m;
     }
     if (target.motion.model == MotionModel::kFixed || target.motion.model == MotionModel::kFloat)
       target.motion.speed_mps = 0;

@@ -17,19 +17,19 @@
 namespace seaglint {
 namespace {
 
-TEST(RealizeSea, MeetsTheSignificantWaveHeightExactly) {
+TEST(RealiseSea, MeetsTheSignificantWaveHeightExactly) {
   for (const double height : {0.1, 1.0, 2.0, 8.0}) {
     for (const std::uint64_t seed : {1u, 2u, 3u}) {
       const SeaState state = state_of(height, 10);
-      EXPECT_NEAR(summarize(state, realize_sea(state, seed, 0)).significant_wave_height_m, height, 1e-13 * height);
+      EXPECT_NEAR(summarise(state, realise_sea(state, seed, 0)).significant_wave_height_m, height, 1e-13 * height);
     }
   }
 }
 
-TEST(RealizeSea, GivesEachStratumTheEnergyOfItsDensity) {
+TEST(RealiseSea, GivesEachStratumTheEnergyOfItsDensity) {
   const SeaState state = state_of(2, 8);
   const JonswapSpectrum spectrum(2, 8, 3.3);
-  const WaveField field = realize_sea(state, 42, 0);
+  const WaveField field = realise_sea(state, 42, 0);
   const double lowest = 0.4 * 2 * kPi / 8;
   const double width = (8 - lowest) / 512;
   const double scale = spectrum.energy_above(0) / spectrum.energy(lowest, 8);
@@ -48,19 +48,19 @@ TEST(RealizeSea, GivesEachStratumTheEnergyOfItsDensity) {
   }
 }
 
-TEST(RealizeSea, IsTheSameForTheSameKeyAndAnotherForAnother) {
+TEST(RealiseSea, IsTheSameForTheSameKeyAndAnotherForAnother) {
   const SeaState state = state_of(1, 8);
-  const SurfaceState a = realize_sea(state, 42, 3).surface(1, 2, 3);
-  const SurfaceState b = realize_sea(state, 42, 3).surface(1, 2, 3);
+  const SurfaceState a = realise_sea(state, 42, 3).surface(1, 2, 3);
+  const SurfaceState b = realise_sea(state, 42, 3).surface(1, 2, 3);
   EXPECT_EQ(a.elevation, b.elevation);
   EXPECT_EQ(a.slope_x, b.slope_x);
-  EXPECT_NE(a.elevation, realize_sea(state, 42, 4).surface(1, 2, 3).elevation);
-  EXPECT_NE(a.elevation, realize_sea(state, 43, 3).surface(1, 2, 3).elevation);
+  EXPECT_NE(a.elevation, realise_sea(state, 42, 4).surface(1, 2, 3).elevation);
+  EXPECT_NE(a.elevation, realise_sea(state, 43, 3).surface(1, 2, 3).elevation);
 }
 
-TEST(RealizeSea, DoesNotRepeatAsEquidistantFrequenciesWould) {
+TEST(RealiseSea, DoesNotRepeatAsEquidistantFrequenciesWould) {
   SeaState state = state_of(1, 8);
-  const WaveField field = realize_sea(state, 42, 0);
+  const WaveField field = realise_sea(state, 42, 0);
   const double period = 2 * kPi * 512 / (8 - 0.4 * 2 * kPi / 8);  // of equidistant components
   double difference = 0;
   for (int i = 0; i < 200; ++i) {
@@ -70,14 +70,14 @@ TEST(RealizeSea, DoesNotRepeatAsEquidistantFrequenciesWould) {
 }
 
 // Ensemble of 400 independent seas: mean of eta^2 and eta^3 against m0 and the third cumulant, four standard errors.
-TEST(RealizeSea, HasTheVarianceAndSkewnessOfItsSpectrum) {
+TEST(RealiseSea, HasTheVarianceAndSkewnessOfItsSpectrum) {
   const SeaState state = state_of(1, 6);
   constexpr int kSeeds = 400, kTimes = 60;
   double variance = 0, variance2 = 0, third = 0, third2 = 0;
   double skewness = 0;
   for (int seed = 0; seed < kSeeds; ++seed) {
-    const WaveField field = realize_sea(state, 11, static_cast<std::uint64_t>(seed));
-    skewness += summarize(state, field).skewness / kSeeds;
+    const WaveField field = realise_sea(state, 11, static_cast<std::uint64_t>(seed));
+    skewness += summarise(state, field).skewness / kSeeds;
     double m2 = 0, m3 = 0;
     for (int i = 0; i < kTimes; ++i) {
       const SurfaceState surface = field.surface(0, 0, 5.7 * i);
@@ -100,7 +100,7 @@ TEST(RealizeSea, HasTheVarianceAndSkewnessOfItsSpectrum) {
 }
 
 // The correlation of two points is int S cos(k dx) dw / m0; one sea's sum over components is its time average.
-TEST(RealizeSea, CorrelatesTwoPointsAsItsSpectrumSays) {
+TEST(RealiseSea, CorrelatesTwoPointsAsItsSpectrumSays) {
   SeaState state = state_of(1, 8);
   state.order = 1;
   const JonswapSpectrum spectrum(1, 8, 3.3);
@@ -112,7 +112,7 @@ TEST(RealizeSea, CorrelatesTwoPointsAsItsSpectrumSays) {
       expected += spectrum.density(omega) * std::cos(omega * omega / kGravity * distance) * 8.0 / kSteps * 16;
     }
     double sum = 0;
-    const WaveField field = realize_sea(state, 1, 0);
+    const WaveField field = realise_sea(state, 1, 0);
     for (const WaveComponent& c : field.components())
       sum += 8 * c.amplitude * c.amplitude * std::cos(c.wavenumber * distance);
     // A component sits anywhere in its stratum of 0.0149 rad/s: k dx is uncertain by 2 w dx 0.0043/g, averaged over
@@ -129,16 +129,16 @@ double energy_of(const WaveField& field) {
 
 // Fixed amplitudes carry the spectrum's energy in every sea; random ones on the average, with the scatter of a sum of
 // exponential deviates: variance sum e^2.
-TEST(RealizeSea, ScattersItsEnergyWithRandomAmplitudes) {
+TEST(RealiseSea, ScattersItsEnergyWithRandomAmplitudes) {
   SeaState state = state_of(1, 8);
-  const WaveField fixed = realize_sea(state, 42, 0);
+  const WaveField fixed = realise_sea(state, 42, 0);
   double expected_variance = 0;
   for (const WaveComponent& c : fixed.components()) expected_variance += std::pow(0.5 * c.amplitude * c.amplitude, 2);
   state.amplitude = WaveAmplitude::kRandom;
   constexpr int kSeeds = 400;
   double mean = 0, square = 0;
   for (int seed = 0; seed < kSeeds; ++seed) {
-    const WaveField field = realize_sea(state, 42, static_cast<std::uint64_t>(seed));
+    const WaveField field = realise_sea(state, 42, static_cast<std::uint64_t>(seed));
     // Places and phases are those of the fixed amplitudes.
     if (seed == 0) {
       EXPECT_EQ(field.components()[100].omega, fixed.components()[100].omega);
@@ -151,12 +151,12 @@ TEST(RealizeSea, ScattersItsEnergyWithRandomAmplitudes) {
   EXPECT_NEAR(square - mean * mean, expected_variance, 0.25 * expected_variance);
 }
 
-TEST(RealizeSea, AddsSwellOfItsOwnDirectionAndEnergy) {
+TEST(RealiseSea, AddsSwellOfItsOwnDirectionAndEnergy) {
   SeaState state = state_of(1, 5);
-  const WaveField wind = realize_sea(state, 42, 0);
+  const WaveField wind = realise_sea(state, 42, 0);
   state.propagation_rad = radians(120);
   state.swell = {0.8, 12, 5, radians(40), {}, 128};
-  const WaveField both = realize_sea(state, 42, 0);
+  const WaveField both = realise_sea(state, 42, 0);
   ASSERT_EQ(both.components().size(), 512u + 128u);
   EXPECT_FALSE(both.long_crested());
   double swell = 0;
@@ -168,30 +168,30 @@ TEST(RealizeSea, AddsSwellOfItsOwnDirectionAndEnergy) {
   }
   EXPECT_NEAR(swell, 0.04, 1e-15);
   EXPECT_NEAR(energy_of(both) - swell, energy_of(wind), 1e-15);
-  EXPECT_NEAR(summarize(state, both).significant_wave_height_m, std::sqrt(1.64), 1e-13);
+  EXPECT_NEAR(summarise(state, both).significant_wave_height_m, std::sqrt(1.64), 1e-13);
   // Swell alone, and swell along the wind sea, whose waves then share one direction.
   state.significant_wave_height_m = 0;
-  EXPECT_EQ(realize_sea(state, 42, 0).components().size(), 128u);
+  EXPECT_EQ(realise_sea(state, 42, 0).components().size(), 128u);
   state.significant_wave_height_m = 1;
   state.swell.propagation_rad = state.propagation_rad;
-  EXPECT_TRUE(realize_sea(state, 42, 0).long_crested());
+  EXPECT_TRUE(realise_sea(state, 42, 0).long_crested());
 }
 
-TEST(RealizeSea, KeepsTheEnergyOfItsNormalisation) {
+TEST(RealiseSea, KeepsTheEnergyOfItsNormalisation) {
   SeaState state = state_of(2, 8);
   state.normalisation = SpectrumNormalisation::kDnv;
   const double dnv = JonswapSpectrum(2, 8, 3.3, SpectrumNormalisation::kDnv).energy_above(0);
-  EXPECT_NEAR(energy_of(realize_sea(state, 42, 0)), dnv, 1e-13);
+  EXPECT_NEAR(energy_of(realise_sea(state, 42, 0)), dnv, 1e-13);
   EXPECT_NEAR(16 * dnv / 4, 1.0024, 0.0001);
 }
 
-TEST(RealizeSea, FollowsATable) {
+TEST(RealiseSea, FollowsATable) {
   SeaState state = state_of(1.5, 2 * kPi / 0.8);
   auto table = std::make_shared<SpectrumTable>();
   table->omega = {0.4, 0.8, 1.0, 1.6};
   table->density = {0, 0.5, 0.1, 0};
   state.table = table;
-  const WaveField field = realize_sea(state, 42, 0);
+  const WaveField field = realise_sea(state, 42, 0);
   EXPECT_NEAR(energy_of(field), 1.5 * 1.5 / 16, 1e-14);
   EXPECT_GE(field.components().front().omega, 0.4);
   EXPECT_LE(field.components().back().omega, 1.6);
@@ -207,51 +207,51 @@ TEST(RealizeSea, FollowsATable) {
   EXPECT_EQ(spectrum.density(1.7), 0);
 }
 
-TEST(RealizeSea, HasTheWavenumbersOfItsDepth) {
+TEST(RealiseSea, HasTheWavenumbersOfItsDepth) {
   SeaState state = state_of(1, 8);
   state.depth_m = 10;
-  const WaveField field = realize_sea(state, 42, 0);
+  const WaveField field = realise_sea(state, 42, 0);
   EXPECT_EQ(field.depth(), 10);
   for (const WaveComponent& c : field.components()) {
     EXPECT_NEAR(kGravity * c.wavenumber * std::tanh(10 * c.wavenumber), c.omega * c.omega, 4e-15 * c.omega * c.omega);
   }
 }
 
-TEST(RealizeSea, IsFlatWithoutWaves) {
-  const WaveField field = realize_sea(state_of(0, 8), 1, 1);
+TEST(RealiseSea, IsFlatWithoutWaves) {
+  const WaveField field = realise_sea(state_of(0, 8), 1, 1);
   const SurfaceState surface = field.surface(3, 4, 5);
   EXPECT_EQ(surface.elevation, 0);
   EXPECT_EQ(surface.slope_x, 0);
   EXPECT_EQ(surface.velocity.norm(), 0);
-  EXPECT_EQ(summarize(state_of(0, 8), field).significant_wave_height_m, 0);
+  EXPECT_EQ(summarise(state_of(0, 8), field).significant_wave_height_m, 0);
 }
 
-TEST(RealizeSea, ReportsWhatIsAboveTheCutoff) {
+TEST(RealiseSea, ReportsWhatIsAboveTheCutoff) {
   SeaState state = state_of(1, 1.25);
   state.significant_wave_height_m = 0.1;
   state.cutoff_rad_s = 8;
-  EXPECT_NEAR(summarize(state, realize_sea(state, 1, 0)).energy_share_above_cutoff, 0.12, 0.015);
+  EXPECT_NEAR(summarise(state, realise_sea(state, 1, 0)).energy_fraction_above_cutoff, 0.12, 0.015);
   state.cutoff_rad_s = 0;
-  EXPECT_LT(summarize(state, realize_sea(state, 1, 0)).energy_share_above_cutoff, 0.005);
+  EXPECT_LT(summarise(state, realise_sea(state, 1, 0)).energy_fraction_above_cutoff, 0.005);
 }
 
-TEST(RealizeSea, RefusesStatesThatNoSeaCanHave) {
-  EXPECT_THROW(realize_sea(state_of(2, 1.5), 1, 0), InputError);
-  EXPECT_THROW(realize_sea(state_of(-1, 8), 1, 0), InputError);
-  EXPECT_THROW(realize_sea(state_of(1, 0), 1, 0), InputError);
-  EXPECT_THROW(realize_sea(state_of(NAN, 8), 1, 0), InputError);
+TEST(RealiseSea, RefusesStatesThatNoSeaCanHave) {
+  EXPECT_THROW(realise_sea(state_of(2, 1.5), 1, 0), InputError);
+  EXPECT_THROW(realise_sea(state_of(-1, 8), 1, 0), InputError);
+  EXPECT_THROW(realise_sea(state_of(1, 0), 1, 0), InputError);
+  EXPECT_THROW(realise_sea(state_of(NAN, 8), 1, 0), InputError);
   SeaState state = state_of(1, 8);
   state.cutoff_rad_s = 0.5;
-  EXPECT_THROW(realize_sea(state, 1, 0), InputError);
+  EXPECT_THROW(realise_sea(state, 1, 0), InputError);
   state = state_of(1, 8);
   state.depth_m = 0;
-  EXPECT_THROW(realize_sea(state, 1, 0), InputError);
+  EXPECT_THROW(realise_sea(state, 1, 0), InputError);
   state.depth_m = 1;  // waves of 8 s are at most 0.87 m high here
-  EXPECT_THROW(realize_sea(state, 1, 0), InputError);
+  EXPECT_THROW(realise_sea(state, 1, 0), InputError);
   state = state_of(1, 8);
   state.swell.significant_wave_height_m = 3;
   state.swell.peak_period_s = 3;
-  EXPECT_THROW(realize_sea(state, 1, 0), InputError);
+  EXPECT_THROW(realise_sea(state, 1, 0), InputError);
 }
 
 // Standard deviation of the mean period T1 = 2 pi m0 / m1 of 400 realisations, over that of the finest strata.
@@ -260,7 +260,7 @@ double scatter_of_mean_period(SeaState state, int components) {
   state.components = components;
   double sum = 0, square = 0;
   for (int i = 0; i < kSeas; ++i) {
-    const WaveField field = realize_sea(state, 7, static_cast<std::uint64_t>(i));
+    const WaveField field = realise_sea(state, 7, static_cast<std::uint64_t>(i));
     double m0 = 0, m1 = 0;
     for (const WaveComponent& wave : field.components()) {
       m0 += 0.5 * wave.amplitude * wave.amplitude;

@@ -40,11 +40,11 @@ struct Case {
   double spread;  // rad
 };
 
-class PairsOfWaves : public testing::TestWithParam<Case> {};
+class SecondOrderKernels : public testing::TestWithParam<Case> {};
 
 // Both sides are sums of 1152 terms of at most 1e-3 m, so that rounding is 1e-16 m; the difference waves of close
 // neighbours lose four digits to cancellation in either.
-TEST_P(PairsOfWaves, EqualADoubleSumFromTheBoundaryConditions) {
+TEST_P(SecondOrderKernels, EqualADoubleSumFromTheBoundaryConditions) {
   const auto [name, depth, spread] = GetParam();
   const WaveField field(some_waves(depth, spread), 2, kNoCutoff, depth);
   double largest = 0;
@@ -64,7 +64,7 @@ TEST_P(PairsOfWaves, EqualADoubleSumFromTheBoundaryConditions) {
   }
   EXPECT_GT(largest, 1e-3);  // there is something to compare
 }
-INSTANTIATE_TEST_SUITE_P(, PairsOfWaves,
+INSTANTIATE_TEST_SUITE_P(, SecondOrderKernels,
                          testing::Values(Case{"DeepLongCrested", kDeepWater, 0},
                                          Case{"DeepDirectional", kDeepWater, 1.5}, Case{"LongCrestedIn15Metres", 15, 0},
                                          Case{"DirectionalIn15Metres", 15, 1.5}, Case{"OpposedIn8Metres", 8, 3.1}),

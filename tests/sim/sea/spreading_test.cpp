@@ -111,7 +111,7 @@ TEST(Spreading, OfARealisationHasItsR1) {
     state.order = 1;
     state.cutoff_rad_s = 8;
     state.spreading = spec_of(kind, s);
-    const WaveField field = realize_sea(state, 42, 0);
+    const WaveField field = realise_sea(state, 42, 0);
     EXPECT_FALSE(field.long_crested());
     Vec2 mean = Vec2::Zero();
     double expected = 0;
@@ -141,7 +141,7 @@ TEST(Spreading, MakesTheCorrelationAcrossTheWavesThatItsIntegralSays) {
     double sum = 0, square = 0, expected = 0;
     for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
       double one = 0;
-      const WaveField field = realize_sea(state, seed, 0);
+      const WaveField field = realise_sea(state, seed, 0);
       for (const WaveComponent& c : field.components()) {
         const double share = 8 * c.amplitude * c.amplitude;
         one += share * std::cos(c.wavenumber * distance * c.direction.y());

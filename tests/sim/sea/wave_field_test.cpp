@@ -87,7 +87,7 @@ TEST(WaveField, EqualsTheDoubleSumOfSharmaAndDean) {
   SeaState state = state_of(2, 6);
   state.components = 60;
   state.second_order_cutoff_rad_s = 1000;
-  const WaveField field = realize_sea(state, 3, 1);
+  const WaveField field = realise_sea(state, 3, 1);
   for (const double t : {0.0, 17.3, 211.0}) {
     const SurfaceState surface = field.surface(12, -7, t);
     const double xi = 12 * std::cos(radians(120)) - 7 * std::sin(radians(120));
@@ -96,7 +96,7 @@ TEST(WaveField, EqualsTheDoubleSumOfSharmaAndDean) {
 }
 
 TEST(WaveField, SlopesAreTheDerivativesOfItsElevation) {
-  const WaveField field = realize_sea(state_of(1, 5), 42, 0);
+  const WaveField field = realise_sea(state_of(1, 5), 42, 0);
   constexpr double kStep = 1e-3;  // central difference: error step^2/6 times the third derivative, about 1e-6 of k^3 a
   for (int i = 0; i < 50; ++i) {
     const double x = 7.1 * i, y = -3.7 * i, t = 1.9 * i;
@@ -132,7 +132,7 @@ TEST(WaveField, OrbitalVelocityIsThatOfLinearTheory) {
 TEST(WaveField, VerticalVelocityIsTheRateOfTheLinearElevation) {
   SeaState state = state_of(1, 6);
   state.order = 1;
-  const WaveField field = realize_sea(state, 1, 2);
+  const WaveField field = realise_sea(state, 1, 2);
   constexpr double kStep = 1e-4;
   for (const double t : {0.0, 3.3, 50.0}) {
     const double rate =
@@ -143,7 +143,7 @@ TEST(WaveField, VerticalVelocityIsTheRateOfTheLinearElevation) {
 
 TEST(WaveField, ComponentsAboveTheSecondOrderCutoffStayLinear) {
   SeaState state = state_of(2, 6.5);
-  const WaveField field = realize_sea(state, 5, 0);
+  const WaveField field = realise_sea(state, 5, 0);
   const WaveComponent& last = field.components()[field.second_order_count() - 1];
   const WaveComponent& next = field.components()[field.second_order_count()];
   EXPECT_LE(last.omega, std::sqrt(2 * kGravity / 2));
@@ -164,7 +164,7 @@ TEST(WaveField, SecondOrderSlopeStaysSmallAtTheDefaultCutoff) {
     double sum = 0;
     constexpr int kSeeds = 20, kTimes = 100;
     for (int seed = 0; seed < kSeeds; ++seed) {
-      const WaveField second = realize_sea(state, static_cast<std::uint64_t>(seed), 0);
+      const WaveField second = realise_sea(state, static_cast<std::uint64_t>(seed), 0);
       const WaveField first(second.components(), 1, 0);
       for (int i = 0; i < kTimes; ++i) {
         const SurfaceState a = second.surface(0, 0, 3.1 * i), b = first.surface(0, 0, 3.1 * i);
@@ -178,7 +178,7 @@ TEST(WaveField, SecondOrderSlopeStaysSmallAtTheDefaultCutoff) {
 }
 
 TEST(SurfaceSeries, EqualsTheSurfaceAtItsPoint) {
-  const WaveField field = realize_sea(state_of(2, 8), 42, 7);
+  const WaveField field = realise_sea(state_of(2, 8), 42, 7);
   SurfaceSeries series(field, 30, -20, -60, 0.01);
   for (int i = 0; i < 5000; ++i, series.advance()) {
     const SurfaceState expected = field.surface(30, -20, -60 + 0.01 * i);
@@ -200,8 +200,9 @@ TEST(WaveField, GoesOnFarFromTheOrigin) {
   const double angle = std::fmod(wave.omega * t - wave.wavenumber * x + wave.phase, 2 * kPi);
   // The rounding of 5e9 rad and of 8e8 times 2 pi.
   const double tolerance = 0.01 * 2e-6;
-  EXPECT_NEAR(field.surface(x, 0, t, SurfaceDetail::kShape).elevation, 0.01 * std::cos(angle), tolerance);
-  SurfaceSeries series(field, x, 0, t, 0.01, SurfaceDetail::kShape);
+  EXPECT_NEAR(field.surface(x, 0, t, SurfaceQuantities::kElevationAndSlope).elevation, 0.01 * std::cos(angle),
+              tolerance);
+  SurfaceSeries series(field, x, 0, t, 0.01, SurfaceQuantities::kElevationAndSlope);
   EXPECT_NEAR(series.state().elevation, 0.01 * std::cos(angle), tolerance);
   // Where a phase's own rounding is a share of a turn there is no wave to speak of.
   EXPECT_THROW(field.surface(1e12, 0, t), std::logic_error);

@@ -30,7 +30,7 @@ class MeshCommand : public testing::Test {
   // What the command prints.
   static std::string run(std::vector<std::string> words) {
     CLI::App app("test");
-    Shell shell;
+    CommandContext shell;
     add_mesh(app, shell);
     std::reverse(words.begin(), words.end());
     app.parse(words);

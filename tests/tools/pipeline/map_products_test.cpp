@@ -35,9 +35,9 @@ Peak peak_of(const RvMap& map) {
   return peak;
 }
 
-TEST(WholeBand, ImageHasThePointAndNoPedestal) {
+TEST(FullBand, ImageHasThePointAndNoPedestal) {
   const Pipeline pipeline(parse_scenario(kOnePoint, "point.yaml"));
-  const WholeBand band = whole_band(pipeline, 0);
+  const FullBandInterval band = full_band_interval(pipeline, 0);
   const PulseTrain hopping = make_pulse_train(pipeline.scenario().radar, pipeline.window_m(), 42, 0);
   EXPECT_NEAR(band.train.band_centre_hz(), hopping.band_centre_hz(), 1);
   EXPECT_NEAR(band.train.synthetic_bandwidth_hz(), hopping.synthetic_bandwidth_hz(), 1);
@@ -57,13 +57,13 @@ TEST(WholeBand, ImageHasThePointAndNoPedestal) {
   }
 }
 
-TEST(WholeBand, MovesWithARadarWhoseOwnWayIsNotCompensated) {
+TEST(FullBand, MovesWithARadarWhoseOwnWayIsNotCompensated) {
   const char* const moving = "platform: {velocity_mps: [0.8, 0, 0], compensated: ";
   double step_mps = 0;
   const auto velocity = [&](const char* compensated) {
     std::string text = kOnePoint;
     text.replace(text.find("pulses: 64"), 10, std::string("pulses: 64, ") + moving + compensated + "}");
-    const WholeBand band = whole_band(Pipeline(parse_scenario(text, "point.yaml")), 0);
+    const FullBandInterval band = full_band_interval(Pipeline(parse_scenario(text, "point.yaml")), 0);
     step_mps = band.image.velocity_mps[1] - band.image.velocity_mps[0];
     return peak_of(band.image).velocity_mps;
   };
@@ -74,7 +74,7 @@ TEST(WholeBand, MovesWithARadarWhoseOwnWayIsNotCompensated) {
 
 TEST(RangeProfiles, FollowThePoint) {
   const Pipeline pipeline(parse_scenario(kOnePoint, "point.yaml"));
-  const RangeProfiles profiles = range_profiles(whole_band(pipeline, 0), pipeline.scenario().map);
+  const RangeProfiles profiles = range_profiles(full_band_interval(pipeline, 0), pipeline.scenario().map);
   ASSERT_EQ(profiles.time_s.size(), 64u);
   const std::size_t cells = profiles.range_m.size();
   ASSERT_EQ(profiles.magnitude_m.size(), 64 * cells);

@@ -193,11 +193,11 @@ TEST_F(RcsReferenceFile, ThatCannotBeUsedIsRefusedWithItsPlace) {
 TEST_F(RcsReferenceFile, SaysWhereItsTransmitterStands) {
   const RcsReference monostatic = read("m.csv", own_table("monostatic"), as(Polarisation::kVv));
   ASSERT_TRUE(monostatic.transmitter);
-  EXPECT_TRUE(monostatic.transmitter->moves_along);
+  EXPECT_TRUE(monostatic.transmitter->is_monostatic);
   const RcsReference bistatic =
       read("b.csv", own_table("transmitter at azimuth -20 deg, elevation 30.5 deg"), as(Polarisation::kVv));
   ASSERT_TRUE(bistatic.transmitter);
-  EXPECT_FALSE(bistatic.transmitter->moves_along);
+  EXPECT_FALSE(bistatic.transmitter->is_monostatic);
   EXPECT_EQ(bistatic.transmitter->phi_deg, 340);
   EXPECT_EQ(bistatic.transmitter->theta_deg, 59.5);
   EXPECT_FALSE(read("a.V.txt", "10e9 90 0 -3\n").transmitter);
@@ -234,27 +234,27 @@ TEST(RcsComparison, FindsTheSameDirectionsThroughTheAnglesMap) {
   settings.phi_scale = -1;
   settings.phi_offset_deg = 180;
   // Azimuth 0, 90, 200 deg are phi 180, 90, 340 of the reference; 0.0004 deg are the printed digits' rounding.
-  const auto cuts = pair_with(sweep_of({0, 45, 90, 200}, {1, 2, 3, 4}),
-                              cut_of({{180.0004, 10}, {89.9996, 30}, {340, 40}, {7, 70}}, settings));
+  const auto cuts = match_reference(sweep_of({0, 45, 90, 200}, {1, 2, 3, 4}),
+                                    cut_of({{180.0004, 10}, {89.9996, 30}, {340, 40}, {7, 70}}, settings));
   ASSERT_EQ(cuts.size(), 1u);
   EXPECT_EQ(cuts[0].x, (std::vector<double>{0, 90, 200}));
   EXPECT_EQ(cuts[0].models[0].amplitude_m, (std::vector<Complex>{1, 3, 4}));
   EXPECT_EQ(*cuts[0].frequency_hz, 10e9);
   for (std::size_t i = 0; i < 3; ++i)
-    EXPECT_NEAR(difference_of(cuts[0], cuts[0].models[0], 80).bias_db, -20, kPrinted_db);
+    EXPECT_NEAR(error_statistics(cuts[0], cuts[0].models[0], 80).bias_db, -20, kPrinted_db);
 }
 
 TEST(RcsComparison, TakesLevelsBelowTheFloorAsTheFloor) {
   // 0, -10 and -300 dB against 0, -13 and -90 dB below the maximum.
   const auto db = [](double x) { return std::pow(10.0, x / 20); };
   const auto cuts =
-      pair_with(sweep_of({0, 1, 2}, {1, db(-10), db(-300)}), cut_of({{0, 1}, {1, db(-13)}, {2, db(-90)}}));
-  const Difference wide = difference_of(cuts[0], cuts[0].models[0], 80);
+      match_reference(sweep_of({0, 1, 2}, {1, db(-10), db(-300)}), cut_of({{0, 1}, {1, db(-13)}, {2, db(-90)}}));
+  const Difference wide = error_statistics(cuts[0], cuts[0].models[0], 80);
   EXPECT_NEAR(wide.mean_db, 1, kPrinted_db);  // 0, 3, 0
   EXPECT_NEAR(wide.rms_db, std::sqrt(3.0), kPrinted_db);
   EXPECT_NEAR(wide.largest_db, 3, kPrinted_db);
   EXPECT_EQ(wide.largest_at, 1);
-  const Difference deep = difference_of(cuts[0], cuts[0].models[0], 100);
+  const Difference deep = error_statistics(cuts[0], cuts[0].models[0], 100);
   EXPECT_NEAR(deep.largest_db, -10, kPrinted_db);
   EXPECT_NEAR(deep.bias_db, (3.0 - 10) / 3, kPrinted_db);
 }
@@ -274,30 +274,31 @@ TEST(RcsComparison, CorrelatesComplexValuesAboutTheBodysOrigin) {
   }
   ReferenceSettings settings = as(Polarisation::kVv);
   settings.origin_m = x0;
-  const auto moved = pair_with(sweep_of(azimuths, ours), cut_of(theirs, settings));
-  const Complex correlation = *difference_of(moved[0], moved[0].models[0], 80).correlation;
+  const auto moved = match_reference(sweep_of(azimuths, ours), cut_of(theirs, settings));
+  const Complex correlation = *error_statistics(moved[0], moved[0].models[0], 80).correlation;
   EXPECT_NEAR(std::abs(correlation), 1, 1e-9);
   EXPECT_NEAR(degrees(std::arg(correlation)), 25, 1e-6);
-  const auto unmoved = pair_with(sweep_of(azimuths, ours), cut_of(theirs));
-  EXPECT_LT(std::abs(*difference_of(unmoved[0], unmoved[0].models[0], 80).correlation), 0.5);
+  const auto unmoved = match_reference(sweep_of(azimuths, ours), cut_of(theirs));
+  EXPECT_LT(std::abs(*error_statistics(unmoved[0], unmoved[0].models[0], 80).correlation), 0.5);
 }
 
 TEST(RcsComparison, RefusesAReferenceThatHasNothingInCommonAndSaysWhatBothHold) {
   try {
-    pair_with(sweep_of({0, 1}, {1, 1}), cut_of({{30, 1}, {60, 1}}));
+    match_reference(sweep_of({0, 1}, {1, 1}), cut_of({{30, 1}, {60, 1}}));
     ADD_FAILURE() << "no error";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("phi 30 to 60 (2 values)"));
     EXPECT_THAT(error.what(), HasSubstr("phi 0 to 1 (2 values)"));
   }
-  EXPECT_THROW(pair_with(sweep_of({0}, {1}), cut_of({{0, 1}, {0, 2}})), InputError) << "one direction with two levels";
+  EXPECT_THROW(match_reference(sweep_of({0}, {1}), cut_of({{0, 1}, {0, 2}})), InputError)
+      << "one direction with two levels";
 }
 
 // At azimuth 20, elevation 10 deg by both, whatever the file counts phi from; a file that says nothing may be either.
 TEST(RcsComparison, RefusesAReferenceOfAnotherTransmitter) {
   const auto refusal = [](const RcsSweep& sweep, const RcsReference& reference) -> std::string {
     try {
-      pair_with(sweep, reference);
+      match_reference(sweep, reference);
     } catch (const InputError& error) {
       return error.what();
     }
@@ -306,7 +307,7 @@ TEST(RcsComparison, RefusesAReferenceOfAnotherTransmitter) {
   RcsSweep sweep = sweep_of({0, 1}, {1, 1});
   RcsReference monostatic = cut_of({{0, 1}, {1, 1}}), bistatic = monostatic, silent = monostatic;
   monostatic.transmitter.emplace();
-  bistatic.transmitter = StatedTransmitter{false, 80, 20};
+  bistatic.transmitter = DeclaredTransmitter{false, 80, 20};
   EXPECT_EQ(refusal(sweep, silent), "");
   EXPECT_EQ(refusal(sweep, monostatic), "");
   EXPECT_THAT(

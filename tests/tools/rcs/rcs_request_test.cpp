@@ -72,13 +72,13 @@ TEST_F(PlateRequest, WritesATableWhoseTransmitterIsReadAgain) {
   const RcsTarget target = prepare_rcs_target(request_);
   const RcsReference monostatic = read_again(compute_rcs(request_, target, 1).sweep, *target.prepared.scatterer);
   ASSERT_TRUE(monostatic.transmitter);
-  EXPECT_TRUE(monostatic.transmitter->moves_along);
+  EXPECT_TRUE(monostatic.transmitter->is_monostatic);
   ASSERT_EQ(monostatic.samples.size(), 1u);
 
   request_.transmitter = FixedTransmitter{-20, 30.5};
   const RcsReference bistatic = read_again(compute_rcs(request_, target, 1).sweep, *target.prepared.scatterer);
   ASSERT_TRUE(bistatic.transmitter);
-  EXPECT_FALSE(bistatic.transmitter->moves_along);
+  EXPECT_FALSE(bistatic.transmitter->is_monostatic);
   EXPECT_EQ(bistatic.transmitter->theta_deg, 59.5);
   EXPECT_EQ(bistatic.transmitter->phi_deg, 340);
 }

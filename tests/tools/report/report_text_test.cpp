@@ -67,10 +67,10 @@ Scenario with_clutter(ClutterLevel level, NoiseLevel noise, bool enabled = true)
 }
 
 // Where clutter or noise keep their own level, the ratio of the target to them decides which centres are found.
-TEST(Level, IsSeenByFeaturesWhereClutterOrNoiseDoNotFollowTheTarget) {
+TEST(AbsoluteLevel, IsSeenByFeaturesWhereClutterOrNoiseDoNotFollowTheTarget) {
   const ordered_json metrics = telling_probes();
   for (const Scenario& unseen :
-       {with_clutter(ClutterLevel::kScr, NoiseLevel::kToClutter), with_clutter(ClutterLevel::kScr, NoiseLevel::kSnr),
+       {with_clutter(ClutterLevel::kScr, NoiseLevel::kCnr), with_clutter(ClutterLevel::kScr, NoiseLevel::kSnr),
         with_clutter(ClutterLevel::kNrl, NoiseLevel::kSnr, false)}) {
     EXPECT_THAT(note_of_level(metrics, unseen),
                 HasSubstr("Total power alone reaches 96.7 % on unseen seas. No feature group sees it"));
@@ -78,7 +78,7 @@ TEST(Level, IsSeenByFeaturesWhereClutterOrNoiseDoNotFollowTheTarget) {
     EXPECT_THAT(probes_table(metrics, unseen), Not(HasSubstr("level has a part")));
   }
   const std::pair<Scenario, const char*> cases[] = {
-      {with_clutter(ClutterLevel::kNrl, NoiseLevel::kToClutter), "The clutter is not scaled"},
+      {with_clutter(ClutterLevel::kNrl, NoiseLevel::kCnr), "The clutter is not scaled"},
       {with_clutter(ClutterLevel::kNrl, NoiseLevel::kThermal), "Clutter and receiver noise are not scaled"},
       {with_clutter(ClutterLevel::kScr, NoiseLevel::kThermal), "The receiver’s noise is not scaled"},
       {with_clutter(ClutterLevel::kNrl, NoiseLevel::kThermal, false), "The receiver’s noise is not scaled"}};

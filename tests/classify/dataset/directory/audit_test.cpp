@@ -21,10 +21,10 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-class AuditedDirectory : public DataDirectory {
+class DataSetAudit : public DataSetDirectory {
  protected:
   void SetUp() override {
-    DataDirectory::SetUp();
+    DataSetDirectory::SetUp();
     make_whole();
   }
 
@@ -43,7 +43,7 @@ class AuditedDirectory : public DataDirectory {
   std::vector<std::string> faults() const { return audit(directory_).faults; }
 };
 
-TEST_F(AuditedDirectory, WithoutFaultIsCounted) {
+TEST_F(DataSetAudit, WithoutFaultIsCounted) {
   const Audit result = audit(directory_);
   EXPECT_THAT(result.faults, IsEmpty());
   EXPECT_EQ(result.shards, plan_.shards());
@@ -52,25 +52,25 @@ TEST_F(AuditedDirectory, WithoutFaultIsCounted) {
   EXPECT_THAT(result.per_target, ElementsAre(plan_.size() / 2, plan_.size() / 2));
 }
 
-TEST_F(AuditedDirectory, ShowsAWrongLabel) {
+TEST_F(DataSetAudit, ShowsAWrongLabel) {
   falsify(1, [](Shard& shard) { shard.samples[0].record.label = 1 - shard.samples[0].record.label; });
   EXPECT_THAT(faults(), ElementsAre(HasSubstr("sample 3: label")));
 }
 
-TEST_F(AuditedDirectory, ShowsASampleThatIsThereTwiceAndTheOneThatIsMissing) {
+TEST_F(DataSetAudit, ShowsASampleThatIsThereTwiceAndTheOneThatIsMissing) {
   falsify(0, [](Shard& shard) { shard.samples[1] = shard.samples[0]; });
   EXPECT_THAT(faults(), ElementsAre(HasSubstr("shard_00000.h5: row 1 holds sample 0, by the manifest 1"),
                                     HasSubstr("3 of 8 samples are missing")));
 }
 
-TEST_F(AuditedDirectory, ShowsSamplesOutOfOrder) {
+TEST_F(DataSetAudit, ShowsSamplesOutOfOrder) {
   falsify(0, [](Shard& shard) { std::swap(shard.samples[1], shard.samples[2]); });
   EXPECT_THAT(faults(), ElementsAre(HasSubstr("shard_00000.h5: row 1 holds sample 2, by the manifest 1"),
                                     HasSubstr("3 of 8 samples are missing")));
 }
 
 // A map near the smallest float loses digits when it is stored; peak and energy were taken before.
-TEST_F(AuditedDirectory, AllowsForTheRoundingOfTheSmallestNumbers) {
+TEST_F(DataSetAudit, AllowsForTheRoundingOfTheSmallestNumbers) {
   const auto with_factor = [&](double stored, double recorded) {
     falsify(0, [&](Shard& shard) {
       for (Sample& sample : shard.samples) {
@@ -86,7 +86,7 @@ TEST_F(AuditedDirectory, AllowsForTheRoundingOfTheSmallestNumbers) {
   EXPECT_THAT(with_factor(1e-30, 1.001e-30), Contains(HasSubstr("energy_m2")));
 }
 
-TEST_F(AuditedDirectory, ShowsAMapThatAppearsUnderTwoNumbers) {
+TEST_F(DataSetAudit, ShowsAMapThatAppearsUnderTwoNumbers) {
   falsify(0, [](Shard& shard) {
     shard.samples[1].magnitude = shard.samples[0].magnitude;
     shard.samples[1].record.peak_m = shard.samples[0].record.peak_m;
@@ -95,21 +95,21 @@ TEST_F(AuditedDirectory, ShowsAMapThatAppearsUnderTwoNumbers) {
   EXPECT_THAT(faults(), ElementsAre(HasSubstr("the same map as sample 0")));
 }
 
-TEST_F(AuditedDirectory, ShowsMapsThatAreNotThoseOfTheirRows) {
+TEST_F(DataSetAudit, ShowsMapsThatAreNotThoseOfTheirRows) {
   falsify(2, [](Shard& shard) { shard.samples[0].magnitude[1] = 2.5F; });
   EXPECT_THAT(faults(), ElementsAre(HasSubstr("energy_m2")));
   falsify(2, [](Shard& shard) { shard.samples[0].magnitude[1] = std::numeric_limits<float>::quiet_NaN(); });
   EXPECT_THAT(faults(), ElementsAre(HasSubstr("no magnitude")));
 }
 
-TEST_F(AuditedDirectory, ShowsASeaInTwoGroups) {
+TEST_F(DataSetAudit, ShowsASeaInTwoGroups) {
   falsify(0, [](Shard& shard) { shard.samples[0].record.group = 1; });
   EXPECT_THAT(faults(),
               ElementsAre(HasSubstr("sample 0: group 1, by the scenario 0"),
                           HasSubstr("group 1: holds 2 sea realisations"), HasSubstr("a split by group would leak")));
 }
 
-TEST_F(AuditedDirectory, ShowsFilesThatAreDamagedHalfWrittenOrForeign) {
+TEST_F(DataSetAudit, ShowsFilesThatAreDamagedHalfWrittenOrForeign) {
   write_file(directory_ / temporary_name("shard_00007.h5", dead_process()), "half");
   write_file(directory_ / temporary_name("dataset.h5", ::getpid()), "being written");
   write_file(directory_ / "notes.tmp", "no file of a data set");
@@ -126,7 +126,7 @@ TEST_F(AuditedDirectory, ShowsFilesThatAreDamagedHalfWrittenOrForeign) {
   EXPECT_THAT(found, Contains(HasSubstr("3 of 8 samples are missing")));
 }
 
-TEST_F(AuditedDirectory, ShowsAnotherScenario) {
+TEST_F(DataSetAudit, ShowsAnotherScenario) {
   std::string yaml = read_file(directory_ / kScenarioFile);
   const std::string seed = "seed: ";
   yaml.insert(yaml.find(seed) + seed.size(), "9");

@@ -32,7 +32,7 @@ std::string error_of(Action action) {
   return "no error";
 }
 
-TEST_F(DataDirectory, IsReadBackWhole) {
+TEST_F(DataSetDirectory, IsReadBackWhole) {
   make_whole();
   const DatasetReader reader(directory_);
   EXPECT_EQ(reader.size(), plan_.size());
@@ -45,20 +45,20 @@ TEST_F(DataDirectory, IsReadBackWhole) {
   EXPECT_THAT(read_file(directory_ / kDataCardFile), HasSubstr("| ship | 1 |"));
 }
 
-TEST_F(DataDirectory, IsNotWholeUntilTheLastShardIsThere) {
+TEST_F(DataSetDirectory, IsNotWholeUntilTheLastShardIsThere) {
   DatasetWriter writer(directory_, scenario_, false, kTestVersion);
   writer.put(0, shard_of(0));
   EXPECT_THAT(writer.finish(), ElementsAre(1, 2));
   EXPECT_THAT(error_of([&] { DatasetReader reader(directory_); }), HasSubstr("no manifest.json"));
 }
 
-TEST_F(DataDirectory, ThatIsNotEmptyNeedsResume) {
+TEST_F(DataSetDirectory, ThatIsNotEmptyNeedsResume) {
   make_whole();
   EXPECT_THAT(error_of([&] { DatasetWriter(directory_, scenario_, false, kTestVersion); }), HasSubstr("--resume"));
   EXPECT_NO_THROW(DatasetWriter(directory_, scenario_, true, kTestVersion));
 }
 
-TEST_F(DataDirectory, OfAnotherScenarioIsRefusedWithTheFirstDifference) {
+TEST_F(DataSetDirectory, OfAnotherScenarioIsRefusedWithTheFirstDifference) {
   make_whole();
   Scenario other = scenario_;
   other.seed = 43;
@@ -66,16 +66,16 @@ TEST_F(DataDirectory, OfAnotherScenarioIsRefusedWithTheFirstDifference) {
               HasSubstr("`seed: 42` there, `seed: 43` here"));
 }
 
-TEST_F(DataDirectory, KeepsItsMapsWhenOnlyLearningChanges) {
+TEST_F(DataSetDirectory, KeepsItsMapsWhenOnlyLearningChanges) {
   make_whole();
   Scenario other = scenario_;
   other.learning.epochs = 7;
-  other.dataset.train_share = 0.5;
+  other.dataset.train_fraction = 0.5;
   EXPECT_TRUE(DatasetWriter(directory_, other, true, kTestVersion).complete(0));
   EXPECT_EQ(read_scenario(directory_ / kScenarioFile).learning.epochs, 7);
 }
 
-TEST_F(DataDirectory, ResumesOnlyWhatIsUnsound) {
+TEST_F(DataSetDirectory, ResumesOnlyWhatIsUnsound) {
   make_whole();
   fs::remove(directory_ / kManifestFile);
   fs::resize_file(directory_ / shard_name(1), fs::file_size(directory_ / shard_name(1)) - 10);
@@ -86,7 +86,7 @@ TEST_F(DataDirectory, ResumesOnlyWhatIsUnsound) {
   EXPECT_FALSE(writer.complete(2));
 }
 
-TEST_F(DataDirectory, WithAChangedShardIsRefusedWithTheFilesName) {
+TEST_F(DataSetDirectory, WithAChangedShardIsRefusedWithTheFilesName) {
   make_whole();
   const fs::path file = directory_ / shard_name(1);
   std::string bytes = read_file(file);
@@ -99,7 +99,7 @@ TEST_F(DataDirectory, WithAChangedShardIsRefusedWithTheFilesName) {
 }
 
 // Before there is a manifest nothing but the file itself says what it should be.
-TEST_F(DataDirectory, IsNotWholeWithAShardThatIsDamagedOrOfAnotherScenario) {
+TEST_F(DataSetDirectory, IsNotWholeWithAShardThatIsDamagedOrOfAnotherScenario) {
   DatasetWriter writer(directory_, scenario_, false, kTestVersion);
   for (std::size_t i = 0; i < plan_.shards(); ++i) writer.put(i, shard_of(i));
   fs::resize_file(directory_ / shard_name(0), fs::file_size(directory_ / shard_name(0)) - 10);
@@ -112,7 +112,7 @@ TEST_F(DataDirectory, IsNotWholeWithAShardThatIsDamagedOrOfAnotherScenario) {
   EXPECT_FALSE(fs::exists(directory_ / kManifestFile));
 }
 
-TEST_F(DataDirectory, LosesWhatKilledRunsLeftHalfWrittenWhenItIsWhole) {
+TEST_F(DataSetDirectory, LosesWhatKilledRunsLeftHalfWrittenWhenItIsWhole) {
   DatasetWriter writer(directory_, scenario_, false, kTestVersion);
   const pid_t dead = dead_process();
   const std::vector<std::string> left{temporary_name("shard_00001.h5", dead), temporary_name("manifest.json", dead),
@@ -137,7 +137,7 @@ TEST_F(DataDirectory, LosesWhatKilledRunsLeftHalfWrittenWhenItIsWhole) {
   for (const std::string& name : others) EXPECT_TRUE(fs::exists(directory_ / name)) << name;
 }
 
-TEST_F(DataDirectory, BeforeItsScenarioMayHoldItsOwnTemporaryFilesOnly) {
+TEST_F(DataSetDirectory, BeforeItsScenarioMayHoldItsOwnTemporaryFilesOnly) {
   fs::create_directories(directory_);
   write_file(directory_ / temporary_name("scenario.yaml", dead_process()), "half");
   EXPECT_NO_THROW(DatasetWriter(directory_, scenario_, true, kTestVersion));
@@ -148,7 +148,7 @@ TEST_F(DataDirectory, BeforeItsScenarioMayHoldItsOwnTemporaryFilesOnly) {
 }
 
 // Its scenario alone makes a directory no data set's: a run has one too.
-TEST_F(DataDirectory, ToGoOnInMayHoldNothingButADataSet) {
+TEST_F(DataSetDirectory, ToGoOnInMayHoldNothingButADataSet) {
   make_whole();
   for (const char* name : {"all.h5", "all.npz", ".nfs0001"}) write_file(directory_ / name, "ours, or the system's");
   EXPECT_NO_THROW(DatasetWriter(directory_, scenario_, true, kTestVersion));
@@ -161,7 +161,7 @@ TEST_F(DataDirectory, ToGoOnInMayHoldNothingButADataSet) {
                                            (directory_ / "data").string()));
 }
 
-TEST_F(DataDirectory, TakesAShardThatAnotherProcessWroteMeanwhileForItsOwn) {
+TEST_F(DataSetDirectory, TakesAShardThatAnotherProcessWroteMeanwhileForItsOwn) {
   make_whole();
   DatasetWriter writer(directory_, scenario_, true, kTestVersion);
   // A folder in the place of the temporary file: nothing can be written.
@@ -176,10 +176,10 @@ TEST_F(DataDirectory, TakesAShardThatAnotherProcessWroteMeanwhileForItsOwn) {
 }
 
 // A manifest whose checksums of two shards are wrong, as after another processor made these with other last bits.
-class DirectoryOfTwoWrongChecksums : public DataDirectory {
+class ConcurrentRepair : public DataSetDirectory {
  protected:
   void SetUp() override {
-    DataDirectory::SetUp();
+    DataSetDirectory::SetUp();
     make_whole();
     Manifest manifest = read_manifest(directory_ / kManifestFile);
     for (const std::size_t i : {0u, 2u}) manifest.shards[i].sha256 = std::string(64, '0');
@@ -199,7 +199,7 @@ class DirectoryOfTwoWrongChecksums : public DataDirectory {
   }
 };
 
-TEST_F(DirectoryOfTwoWrongChecksums, IsWholeAfterOneRoundOfParts) {
+TEST_F(ConcurrentRepair, IsWholeAfterOneRoundOfParts) {
   for (const auto& [first, last] : {std::pair<std::size_t, std::size_t>{0, 1}, {1, 3}}) {
     DatasetWriter writer(directory_, scenario_, true, kTestVersion);
     make_part(writer, first, last);
@@ -208,7 +208,7 @@ TEST_F(DirectoryOfTwoWrongChecksums, IsWholeAfterOneRoundOfParts) {
   expect_whole();
 }
 
-TEST_F(DirectoryOfTwoWrongChecksums, IsWholeWhenPartsMakeItAtTheSameTime) {
+TEST_F(ConcurrentRepair, IsWholeWhenPartsMakeItAtTheSameTime) {
   DatasetWriter one(directory_, scenario_, true, kTestVersion), two(directory_, scenario_, true, kTestVersion),
       looks_only(directory_, scenario_, true, kTestVersion);
   make_part(one, 0, 1);
@@ -219,7 +219,7 @@ TEST_F(DirectoryOfTwoWrongChecksums, IsWholeWhenPartsMakeItAtTheSameTime) {
   }
 }
 
-TEST_F(DataDirectory, OfAnotherVersionIsReadButNotContinued) {
+TEST_F(DataSetDirectory, OfAnotherVersionIsReadButNotContinued) {
   make_whole();
   const auto resume = [&] { DatasetWriter(directory_, scenario_, true, "0.0.1").finish(); };
   EXPECT_THAT(error_of(resume), HasSubstr("manifest.json: made by seaglint 0.0.0, this is seaglint 0.0.1"));
@@ -229,15 +229,15 @@ TEST_F(DataDirectory, OfAnotherVersionIsReadButNotContinued) {
   EXPECT_EQ(DatasetReader(directory_).shard(0).origin.program_version, kTestVersion);
 }
 
-TEST_F(DataDirectory, WhoseScenarioWasChangedIsReadForAnAuditOnly) {
+TEST_F(DataSetDirectory, WhoseScenarioWasChangedIsReadForAnAuditOnly) {
   make_whole();
   write_file(directory_ / kScenarioFile, read_file(directory_ / kScenarioFile) + "# mine\n");
   EXPECT_THAT(error_of([&] { DatasetReader reader(directory_); }),
               HasSubstr("scenario.yaml: is not the one that the manifest was written for"));
-  EXPECT_NO_THROW(DatasetReader(directory_, OtherScenario::kRead).shard(0));
+  EXPECT_NO_THROW(DatasetReader(directory_, ScenarioMismatch::kAccept).shard(0));
 }
 
-TEST_F(DataDirectory, OfAnotherFormatIsRefused) {
+TEST_F(DataSetDirectory, OfAnotherFormatIsRefused) {
   make_whole();
   const auto replace = [&](const fs::path& file, const std::string& from, const std::string& to) {
     std::string bytes = read_file(file);
@@ -257,7 +257,7 @@ TEST_F(DataDirectory, OfAnotherFormatIsRefused) {
 }
 
 // What the message advises, it keeps.
-TEST_F(DataDirectory, WithADamagedManifestGoesOnWithoutIt) {
+TEST_F(DataSetDirectory, WithADamagedManifestGoesOnWithoutIt) {
   make_whole();
   const fs::path file = directory_ / kManifestFile;
   const std::string good = read_file(file);
@@ -272,7 +272,7 @@ TEST_F(DataDirectory, WithADamagedManifestGoesOnWithoutIt) {
   EXPECT_EQ(read_file(file), good);
 }
 
-TEST_F(DataDirectory, WithABrokenManifestIsRefused) {
+TEST_F(DataSetDirectory, WithABrokenManifestIsRefused) {
   make_whole();
   const std::string good = read_file(directory_ / kManifestFile);
   Manifest manifest = read_manifest(directory_ / kManifestFile);

@@ -34,7 +34,7 @@ class InputList : public ::testing::Test {
   std::string complaint() const {
     try {
       require_same_inputs(folder_ / "data", scenario_);
-      keep_inputs(folder_ / "data", scenario_);
+      write_input_list(folder_ / "data", scenario_);
     } catch (const InputError& error) {
       return error.what();
     }

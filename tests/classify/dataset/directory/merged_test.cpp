@@ -21,10 +21,10 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-class MergedDirectory : public DataDirectory {
+class MergedDataSet : public DataSetDirectory {
  protected:
   void SetUp() override {
-    DataDirectory::SetUp();
+    DataSetDirectory::SetUp();
     make_whole();
   }
 
@@ -42,7 +42,7 @@ class MergedDirectory : public DataDirectory {
   fs::path file() const { return directory_ / kMergedFile; }
 };
 
-TEST_F(MergedDirectory, TakesEveryRowFromItsShard) {
+TEST_F(MergedDataSet, TakesEveryRowFromItsShard) {
   merge();
   const Hdf5Reader merged(file());
   EXPECT_EQ(merged.size("/maps"), (Dimensions{plan_.size(), 2, 2}));
@@ -55,7 +55,7 @@ TEST_F(MergedDirectory, TakesEveryRowFromItsShard) {
   EXPECT_EQ(merged.read<double>("/axes/range_m", 1).values, shard_of(0).axes.range_m);
 }
 
-TEST_F(MergedDirectory, HasTheSameBytesWheneverItIsWritten) {
+TEST_F(MergedDataSet, HasTheSameBytesWheneverItIsWritten) {
   merge();
   const std::string first = read_file(file());
   timespec pause{1, 100000000};  // a time stamp of whole seconds would show
@@ -64,21 +64,21 @@ TEST_F(MergedDirectory, HasTheSameBytesWheneverItIsWritten) {
   EXPECT_EQ(read_file(file()), first);
 }
 
-TEST_F(MergedDirectory, WritesTheManifestThatTwoPartsFinishingTogetherLeftOut) {
+TEST_F(MergedDataSet, WritesTheManifestThatTwoPartsFinishingTogetherLeftOut) {
   const std::string manifest = read_file(directory_ / kManifestFile);
   fs::remove(directory_ / kManifestFile);
   EXPECT_TRUE(merge_dataset(directory_, file(), kTestVersion).wrote_manifest);
   EXPECT_EQ(read_file(directory_ / kManifestFile), manifest);
 }
 
-TEST_F(MergedDirectory, IsRefusedWhereAShardIsMissing) {
+TEST_F(MergedDataSet, IsRefusedWhereAShardIsMissing) {
   fs::remove(directory_ / shard_name(1));
   EXPECT_THAT(refusal(), HasSubstr("shard_00001.h5: missing"));
   fs::remove(directory_ / kManifestFile);
   EXPECT_THAT(refusal(), HasSubstr("shard_00001.h5: missing (1 of 3 shards)"));
 }
 
-TEST_F(MergedDirectory, IsRefusedWhereAShardIsDamaged) {
+TEST_F(MergedDataSet, IsRefusedWhereAShardIsDamaged) {
   const fs::path shard = directory_ / shard_name(1);
   std::string bytes = read_file(shard);
   bytes.back() = static_cast<char>(bytes.back() ^ 1);
@@ -89,7 +89,7 @@ TEST_F(MergedDirectory, IsRefusedWhereAShardIsDamaged) {
   EXPECT_THAT(refusal(), HasSubstr("shard_00001.h5: damaged or of another scenario"));
 }
 
-TEST_F(MergedDirectory, IsRefusedWhereAShardIsForeign) {
+TEST_F(MergedDataSet, IsRefusedWhereAShardIsForeign) {
   const fs::path more = directory_ / "shard_00003.h5";
   fs::copy_file(directory_ / shard_name(0), more);
   EXPECT_THAT(refusal(), HasSubstr("shard_00003.h5: foreign"));
@@ -102,7 +102,7 @@ TEST_F(MergedDirectory, IsRefusedWhereAShardIsForeign) {
   EXPECT_THAT(refusal(), HasSubstr("shard_00001.h5: damaged or of another scenario"));
 }
 
-TEST_F(MergedDirectory, IsRefusedWhereAShardIsOfAnotherVersion) {
+TEST_F(MergedDataSet, IsRefusedWhereAShardIsOfAnotherVersion) {
   Shard other = shard_of(1);
   other.origin.program_version = "0.0.1";
   write_shard(directory_ / shard_name(1), other, scenario_.features.max_centres);
@@ -111,14 +111,14 @@ TEST_F(MergedDirectory, IsRefusedWhereAShardIsOfAnotherVersion) {
 }
 
 // What HDF5 shows of a shard that went away later must not look like a map.
-TEST_F(MergedDirectory, ShowsNoNumberWhereAShardWentAway) {
+TEST_F(MergedDataSet, ShowsNoNumberWhereAShardWentAway) {
   merge();
   fs::remove(directory_ / shard_name(1));
   const std::vector<float> maps = Hdf5Reader(file()).read<float>("/maps", 3).values;
   for (std::size_t i = 0; i < maps.size(); ++i) EXPECT_EQ(std::isnan(maps[i]), i / 4 >= 3 && i / 4 < 6) << i;
 }
 
-TEST_F(MergedDirectory, FindsItsShardsFromAnotherFolderWithOddNames) {
+TEST_F(MergedDataSet, FindsItsShardsFromAnotherFolderWithOddNames) {
   // HDF5 reads %b in the name of a source as the number of a block.
   const fs::path beside = directory_.string() + "_beside", moved = directory_.string() + "_50 %b";
   fs::remove_all(beside);
@@ -135,12 +135,12 @@ TEST_F(MergedDirectory, FindsItsShardsFromAnotherFolderWithOddNames) {
   fs::remove_all(moved);
 }
 
-TEST_F(MergedDirectory, PassesTheAudit) {
+TEST_F(MergedDataSet, PassesTheAudit) {
   merge();
   EXPECT_THAT(audit(directory_).faults, IsEmpty());
 }
 
-TEST_F(MergedDirectory, FailsTheAuditWhenItIsOfAnotherManifestOrDamaged) {
+TEST_F(MergedDataSet, FailsTheAuditWhenItIsOfAnotherManifestOrDamaged) {
   merge();
   const std::string good = read_file(file());
   fs::resize_file(file(), good.size() / 2);
@@ -152,7 +152,7 @@ TEST_F(MergedDirectory, FailsTheAuditWhenItIsOfAnotherManifestOrDamaged) {
   EXPECT_THAT(audit(directory_).faults, ElementsAre(HasSubstr("dataset.h5: is of another manifest; merge again")));
 }
 
-TEST_F(MergedDirectory, FailsTheAuditWhenAnyByteOfARowIsChanged) {
+TEST_F(MergedDataSet, FailsTheAuditWhenAnyByteOfARowIsChanged) {
   merge();
   std::string bytes = read_file(file());
   const std::string name = "ship";

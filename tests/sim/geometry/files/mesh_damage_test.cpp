@@ -19,9 +19,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class DamagedMesh : public testing::TestWithParam<const char*> {
+class MeshFuzzing : public testing::TestWithParam<const char*> {
  protected:
-  DamagedMesh()
+  MeshFuzzing()
       : folder(fs::path(testing::TempDir()) /
                ("seaglint_damage_" + std::to_string(::getpid()) + std::string(GetParam()))) {
     fs::create_directories(folder);
@@ -31,7 +31,7 @@ class DamagedMesh : public testing::TestWithParam<const char*> {
     content << std::ifstream(sound, std::ios::binary).rdbuf();
     bytes = content.str();
   }
-  ~DamagedMesh() override { fs::remove_all(folder); }
+  ~MeshFuzzing() override { fs::remove_all(folder); }
 
   // True when the file was refused.
   bool refused(const std::string& content) const {
@@ -53,7 +53,7 @@ class DamagedMesh : public testing::TestWithParam<const char*> {
   std::string bytes;
 };
 
-TEST_P(DamagedMesh, CutShortAnywhereIsNeverACrash) {
+TEST_P(MeshFuzzing, CutShortAnywhereIsNeverACrash) {
   int refusals = 0;
   for (std::size_t i = 0; i < 50; ++i) refusals += refused(bytes.substr(0, bytes.size() * i / 50));
   // Text formats without counts may lose their tail and still be sound; the others always notice.
@@ -61,7 +61,7 @@ TEST_P(DamagedMesh, CutShortAnywhereIsNeverACrash) {
   EXPECT_GE(refusals, format == ".obj" ? 1 : 50);
 }
 
-TEST_P(DamagedMesh, ChangedBytesAreNeverACrash) {
+TEST_P(MeshFuzzing, ChangedBytesAreNeverACrash) {
   Random random({.seed = 1, .stream = Stream::kTest, .index = 0});
   int refusals = 0;
   for (int i = 0; i < 400; ++i) {
@@ -76,7 +76,7 @@ TEST_P(DamagedMesh, ChangedBytesAreNeverACrash) {
   EXPECT_GT(refusals, 0);
 }
 
-TEST_P(DamagedMesh, ChangedDigitsAreNeverACrash) {
+TEST_P(MeshFuzzing, ChangedDigitsAreNeverACrash) {
   Random random({.seed = 2, .stream = Stream::kTest, .index = 0});
   for (int i = 0; i < 200; ++i) {
     std::string changed = bytes;
@@ -91,7 +91,7 @@ TEST_P(DamagedMesh, ChangedDigitsAreNeverACrash) {
   }
 }
 
-TEST_P(DamagedMesh, NoiseIsRefused) {
+TEST_P(MeshFuzzing, NoiseIsRefused) {
   Random random({.seed = 3, .stream = Stream::kTest, .index = 0});
   for (std::uint32_t size : {1u, 10u, 84u, 200u, 5000u}) {
     std::string noise(size, '\0');
@@ -102,7 +102,7 @@ TEST_P(DamagedMesh, NoiseIsRefused) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Formats, DamagedMesh, testing::Values(".glb", ".gltf", ".obj", ".stl", ".ply"),
+INSTANTIATE_TEST_SUITE_P(Formats, MeshFuzzing, testing::Values(".glb", ".gltf", ".obj", ".stl", ".ply"),
                          [](const auto& format) { return std::string(format.param).substr(1); });
 
 }  // namespace

@@ -17,7 +17,7 @@ namespace {
 
 using testing::HasSubstr;
 
-class MeshRefusal : public testing::Test {
+class MeshErrors : public testing::Test {
  protected:
   std::string refusal(const std::string& name, const std::string& content) const {
     write_file(folder_.path() / name, content);
@@ -43,7 +43,7 @@ std::string gltf_of(int count, const std::string& mode, const std::string& node,
          R"("uri":"data:application/octet-stream;base64,AAAAvwAAAL8AAAAAAAAAPwAAAL8AAAAAAAAAPwAAAD8AAAAAAAAAvwAAAD8AAAAA"}]})";
 }
 
-TEST_F(MeshRefusal, OfCornersThatMakeNoWholeTriangles) {
+TEST_F(MeshErrors, OfCornersThatMakeNoWholeTriangles) {
   EXPECT_EQ(refusal("a.gltf", gltf_of(3, "4", "")), "");
   EXPECT_EQ(refusal("a.gltf", gltf_of(4, "5", "")), "");
   EXPECT_THAT(
@@ -58,7 +58,7 @@ TEST_F(MeshRefusal, OfCornersThatMakeNoWholeTriangles) {
               HasSubstr("5 indices are no whole number of triangles"));
 }
 
-TEST_F(MeshRefusal, OfTransformsThatPlaceNothing) {
+TEST_F(MeshErrors, OfTransformsThatPlaceNothing) {
   const auto with = [&](const std::string& node) { return refusal("a.gltf", gltf_of(3, "4", node)); };
   EXPECT_EQ(with(R"(,"matrix":[1,0,0,0, 0,1,0,0, 0,0,1,0, 5,0,0,1])"), "");
   EXPECT_THAT(with(R"(,"matrix":[1,0,0,0.5, 0,1,0,0, 0,0,1,0, 0,0,0,1])"),
@@ -71,14 +71,14 @@ TEST_F(MeshRefusal, OfTransformsThatPlaceNothing) {
   EXPECT_EQ(with(R"(,"rotation":[0,0,0,1],"scale":[2,2,2])"), "");
 }
 
-TEST_F(MeshRefusal, OfAFileForALaterGltf) {
+TEST_F(MeshErrors, OfAFileForALaterGltf) {
   EXPECT_EQ(refusal("a.gltf", gltf_of(3, "4", "", R"(,"minVersion":"2.0")")), "");
   EXPECT_THAT(refusal("a.gltf", gltf_of(3, "4", "", R"(,"minVersion":"3.0")")),
               HasSubstr("a.gltf: needs more than glTF 2 (asset.minVersion)"));
 }
 
 // One solid behind the other, or a count that was not written to the end.
-TEST_F(MeshRefusal, OfBinaryStlWithMoreThanItPromises) {
+TEST_F(MeshErrors, OfBinaryStlWithMoreThanItPromises) {
   write_mesh(folder_.path() / "plate.stl", make_plate(1, 1));
   std::string bytes = read_file(folder_.path() / "plate.stl");
   EXPECT_THAT(refusal("a.stl", bytes + bytes),
@@ -88,12 +88,12 @@ TEST_F(MeshRefusal, OfBinaryStlWithMoreThanItPromises) {
               HasSubstr("promises 1 triangles, which end at byte 134; 50 bytes are left over"));
 }
 
-TEST_F(MeshRefusal, OfSizesThatNoFormatGivesBack) {
+TEST_F(MeshErrors, OfSizesThatNoFormatGivesBack) {
   for (const double size : {1e-308, 9e-21, 1.01e7, 1e38, 1e308}) {
     EXPECT_THROW(make_plate(size, 1), InputError) << size;
     EXPECT_THROW(make_sphere(size, 1), InputError) << size;
   }
-  for (const double size : {kLeastSize, kLargestSize}) {
+  for (const double size : {kMinSize, kLargestSize}) {
     for (const char* name : {"a.obj", "a.stl", "a.ply", "a.glb"}) {
       for (const TriangleMesh& mesh : {make_plate(size, size), make_sphere(size, 2), make_cylinder(size, size, 64)}) {
         write_mesh(folder_.path() / name, mesh);

@@ -56,7 +56,7 @@ Vec3 area_of(const Corners& corner) {
 }
 
 void expect_covers(const Corners& corner, double area) {
-  const auto triangles = split_polygon(corner);
+  const auto triangles = triangulate_polygon(corner);
   ASSERT_TRUE(triangles);
   EXPECT_EQ(triangles->size(), corner.size() - 2);
   const Vec3 normal = area_of(corner).normalized();
@@ -84,7 +84,7 @@ void expect_covers_however_written(Corners corner, double area) {
   }
 }
 
-TEST(SplitPolygon, CoversConcaveShapesWhereverTheyBegin) {
+TEST(PolygonTriangulation, CoversConcaveShapesWhereverTheyBegin) {
   expect_covers_however_written(kL, 3);
   expect_covers_however_written(kU, 7);
   expect_covers_however_written(kCollinear, 3);
@@ -93,27 +93,27 @@ TEST(SplitPolygon, CoversConcaveShapesWhereverTheyBegin) {
   expect_covers_however_written(spiral(40), area_of(spiral(40)).norm());
 }
 
-TEST(SplitPolygon, KeepsTheFanOfConvexOnes) {
+TEST(PolygonTriangulation, KeepsTheFanOfConvexOnes) {
   Corners round;
   for (int i = 0; i < 9; ++i) round.push_back({7 + std::cos(i * kPi / 4.5), 3 * std::sin(i * kPi / 4.5), 1});
   for (const Corners& corner :
        {flat({{0, 0}, {1, 0}, {1, 1}, {0, 1}}), flat({{0, 0}, {1, 0}, {2, 0}, {2, 1}, {0, 1}, {0, 0.5}}), round}) {
     Triangles fan;
     for (std::uint32_t i = 1; i + 1 < corner.size(); ++i) fan.push_back({0, i, i + 1});
-    EXPECT_EQ(split_polygon(corner), fan);
+    EXPECT_EQ(triangulate_polygon(corner), fan);
   }
 }
 
-TEST(SplitPolygon, KeepsTheFanOfOneThatItCovers) {
+TEST(PolygonTriangulation, KeepsTheFanOfOneThatItCovers) {
   Corners corner = kL;  // from its inner corner
   std::rotate(corner.begin(), corner.begin() + 3, corner.end());
-  EXPECT_EQ(split_polygon(corner), (Triangles{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}}));
+  EXPECT_EQ(triangulate_polygon(corner), (Triangles{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}}));
 }
 
-TEST(SplitPolygon, TakesCornersOutOfAnyPlaneInThatOfTheArea) {
+TEST(PolygonTriangulation, TakesCornersOutOfAnyPlaneInThatOfTheArea) {
   Corners corner = kL;
   for (std::size_t i = 0; i < corner.size(); ++i) corner[i].z() = i % 2 == 0 ? 0.1 : -0.1;
-  const auto triangles = split_polygon(corner);
+  const auto triangles = triangulate_polygon(corner);
   ASSERT_TRUE(triangles);
   Vec3 sum = Vec3::Zero();
   for (const auto& [a, b, c] : *triangles) {
@@ -124,28 +124,28 @@ TEST(SplitPolygon, TakesCornersOutOfAnyPlaneInThatOfTheArea) {
   EXPECT_LT((sum - area_of(corner)).norm(), 1e-12);
 }
 
-TEST(SplitPolygon, FansWhatEnclosesNothing) {
-  EXPECT_EQ(split_polygon(flat({{0, 0}, {1, 0}, {3, 0}, {2, 0}}))->size(), 2u);
-  EXPECT_EQ(split_polygon(flat({{0, 0}, {0, 0}, {0, 0}, {0, 0}}))->size(), 2u);
+TEST(PolygonTriangulation, FansWhatEnclosesNothing) {
+  EXPECT_EQ(triangulate_polygon(flat({{0, 0}, {1, 0}, {3, 0}, {2, 0}}))->size(), 2u);
+  EXPECT_EQ(triangulate_polygon(flat({{0, 0}, {0, 0}, {0, 0}, {0, 0}}))->size(), 2u);
 }
 
-TEST(SplitPolygon, SplitsThousandsOfCornersAndNoMore) {
-  const Corners most = spiral(static_cast<int>(kMostConcaveCorners) / 2 - 1),
-                more = spiral(static_cast<int>(kMostConcaveCorners) / 2);
-  ASSERT_EQ(most.size(), kMostConcaveCorners);
+TEST(PolygonTriangulation, SplitsThousandsOfCornersAndNoMore) {
+  const Corners most = spiral(static_cast<int>(kMaxConcaveVertices) / 2 - 1),
+                more = spiral(static_cast<int>(kMaxConcaveVertices) / 2);
+  ASSERT_EQ(most.size(), kMaxConcaveVertices);
   expect_covers(most, area_of(most).norm());
-  EXPECT_FALSE(split_polygon(more));
+  EXPECT_FALSE(triangulate_polygon(more));
   Corners round;
   for (int i = 0; i < 10000; ++i) round.push_back({std::cos(i * 2e-4 * kPi), std::sin(i * 2e-4 * kPi), 0});
-  EXPECT_EQ(split_polygon(round)->size(), 9998u);
+  EXPECT_EQ(triangulate_polygon(round)->size(), 9998u);
 }
 
-TEST(SplitPolygon, HasNothingForWhatCrossesItself) {
-  EXPECT_FALSE(split_polygon(flat({{0, 0}, {1, 1}, {1, 0}, {0, 1}})));
-  EXPECT_FALSE(split_polygon(flat({{0, 0}, {1, 1}, {1, 0}, {0, 3}})));
+TEST(PolygonTriangulation, HasNothingForWhatCrossesItself) {
+  EXPECT_FALSE(triangulate_polygon(flat({{0, 0}, {1, 1}, {1, 0}, {0, 1}})));
+  EXPECT_FALSE(triangulate_polygon(flat({{0, 0}, {1, 1}, {1, 0}, {0, 3}})));
   Corners pentagram;
   for (int i = 0; i < 5; ++i) pentagram.push_back({std::cos(i * 0.8 * kPi), std::sin(i * 0.8 * kPi), 0});
-  EXPECT_FALSE(split_polygon(pentagram));
+  EXPECT_FALSE(triangulate_polygon(pentagram));
 }
 
 }  // namespace

@@ -27,68 +27,69 @@ void add(TriangleMesh& mesh, std::array<std::uint32_t, 3> triangle) {
   mesh.triangle_material.push_back(0);
 }
 
-TEST(MeshHealth, HasNothingToSayOfAClosedMesh) {
+TEST(MeshDiagnostics, HasNothingToSayOfAClosedMesh) {
   for (const TriangleMesh& mesh : {make_sphere(1, 2), make_icosahedral_reflector(), make_cylinder(1, 2, 12)}) {
-    EXPECT_THAT(findings(examine(mesh)), ElementsAre());
-    EXPECT_EQ(repaired(mesh).triangles, mesh.triangles);
+    EXPECT_THAT(diagnostic_messages(diagnose(mesh)), ElementsAre());
+    EXPECT_EQ(repair(mesh).triangles, mesh.triangles);
   }
 }
 
-TEST(MeshHealth, TurnsAClosedSurfaceThatIsInsideOut) {
+TEST(MeshDiagnostics, TurnsAClosedSurfaceThatIsInsideOut) {
   const TriangleMesh sphere = make_sphere(1, 1);
   TriangleMesh inverted = transformed(sphere, Mat3::Identity(), Vec3(0, 0, 50));
   for (std::size_t t = 0; t < inverted.triangles.size(); ++t) flip(inverted, t);
   TriangleMesh both = sphere;  // a sound one beside it stays
   both.append(inverted);
-  const MeshHealth health = examine(both);
+  const MeshDiagnostics health = diagnose(both);
   EXPECT_EQ(health.surfaces, 2u);
   EXPECT_EQ(health.inverted_surfaces, 1u);
   EXPECT_EQ(health.inverted_triangles, 80u);
-  EXPECT_THAT(findings(health), ElementsAre(HasSubstr("1 closed surface is inside out (80 triangles)")));
-  const TriangleMesh turned = repaired(both);
-  EXPECT_EQ(examine(turned).inverted_surfaces, 0u);
+  EXPECT_THAT(diagnostic_messages(health), ElementsAre(HasSubstr("1 closed surface is inside out (80 triangles)")));
+  const TriangleMesh turned = repair(both);
+  EXPECT_EQ(diagnose(turned).inverted_surfaces, 0u);
   EXPECT_NEAR(enclosed_volume(turned), 2 * enclosed_volume(sphere), 1e-9);
 }
 
-TEST(MeshHealth, CountsHolesAndTrianglesThatFaceTheOtherWay) {
+TEST(MeshDiagnostics, CountsHolesAndTrianglesThatFaceTheOtherWay) {
   TriangleMesh holed = make_sphere(1, 1);
   holed.triangles.pop_back();
   holed.triangle_part.pop_back();
   holed.triangle_material.pop_back();
-  EXPECT_EQ(examine(holed).open_edges, 3u);
-  EXPECT_THAT(findings(examine(holed)), ElementsAre(HasSubstr("3 open edges; 1 of 1 surfaces are open")));
+  EXPECT_EQ(diagnose(holed).open_edges, 3u);
+  EXPECT_THAT(diagnostic_messages(diagnose(holed)), ElementsAre(HasSubstr("3 open edges; 1 of 1 surfaces are open")));
   TriangleMesh mixed = make_sphere(1, 1);
   flip(mixed, 7);
-  EXPECT_EQ(examine(mixed).mixed_edges, 3u);
-  EXPECT_EQ(examine(mixed).inverted_surfaces, 0u);
-  EXPECT_THAT(findings(examine(mixed)), ElementsAre(HasSubstr("3 edges have neighbours that face opposite ways")));
+  EXPECT_EQ(diagnose(mixed).inconsistent_edges, 3u);
+  EXPECT_EQ(diagnose(mixed).inverted_surfaces, 0u);
+  EXPECT_THAT(diagnostic_messages(diagnose(mixed)),
+              ElementsAre(HasSubstr("3 edges have neighbours that face opposite ways")));
 }
 
-TEST(MeshHealth, LeavesOutRepeatedAndDegenerateTriangles) {
+TEST(MeshDiagnostics, LeavesOutRepeatedAndDegenerateTriangles) {
   const TriangleMesh sphere = make_sphere(1, 1);
   TriangleMesh dirty = sphere;
   const auto [a, b, c] = sphere.triangles[5];
   add(dirty, {b, c, a});  // the same triangle, begun elsewhere
   add(dirty, {a, a, b});
-  const MeshHealth health = examine(dirty);
+  const MeshDiagnostics health = diagnose(dirty);
   EXPECT_EQ(health.repeated, 1u);
   EXPECT_EQ(health.degenerate, 1u);
   EXPECT_EQ(health.open_surfaces, 0u);
-  EXPECT_THAT(findings(health),
+  EXPECT_THAT(diagnostic_messages(health),
               ElementsAre(HasSubstr("1 triangle has no area"), HasSubstr("1 triangle repeats another")));
-  EXPECT_EQ(repaired(dirty).triangles, sphere.triangles);
+  EXPECT_EQ(repair(dirty).triangles, sphere.triangles);
 }
 
-TEST(MeshHealth, LeavesOneSideOfSheetsOfTwo) {
+TEST(MeshDiagnostics, LeavesOneSideOfSheetsOfTwo) {
   const TriangleMesh sheet = make_plate(1, 1);
   TriangleMesh two_sided = sheet;
   for (const auto& t : sheet.triangles) add(two_sided, {t[0], t[2], t[1]});
-  const MeshHealth health = examine(two_sided);
+  const MeshDiagnostics health = diagnose(two_sided);
   EXPECT_EQ(health.two_sided, 2u);
   EXPECT_EQ(health.open_edges, 4u);
-  EXPECT_THAT(findings(health),
+  EXPECT_THAT(diagnostic_messages(health),
               ElementsAre(HasSubstr("4 open edges"), HasSubstr("2 triangles are the back of another")));
-  EXPECT_EQ(repaired(two_sided).triangles, sheet.triangles);
+  EXPECT_EQ(repair(two_sided).triangles, sheet.triangles);
 }
 
 // A plate whose back is a part and a material of its own, in either order.
@@ -106,38 +107,38 @@ TriangleMesh plate_of_two_materials(bool front_first) {
   return mesh;
 }
 
-TEST(MeshHealth, KeepsBothSidesOfASheetOfTwoMaterials) {
+TEST(MeshDiagnostics, KeepsBothSidesOfASheetOfTwoMaterials) {
   for (const bool front_first : {true, false}) {
     TriangleMesh mesh = plate_of_two_materials(front_first);
-    EXPECT_EQ(examine(mesh).other_sides, 2u);
-    EXPECT_EQ(examine(mesh).open_surfaces, 0u);
-    EXPECT_EQ(repaired(mesh).triangles, mesh.triangles);
-    EXPECT_EQ(repaired(mesh).triangle_material, mesh.triangle_material);
+    EXPECT_EQ(diagnose(mesh).kept_backs, 2u);
+    EXPECT_EQ(diagnose(mesh).open_surfaces, 0u);
+    EXPECT_EQ(repair(mesh).triangles, mesh.triangles);
+    EXPECT_EQ(repair(mesh).triangle_material, mesh.triangle_material);
     add(mesh, mesh.triangles[2]);  // a second copy of the later side
-    EXPECT_EQ(repaired(mesh).triangles.size(), 4u);
+    EXPECT_EQ(repair(mesh).triangles.size(), 4u);
     mesh.triangle_material.assign(5, 0);
-    EXPECT_EQ(repaired(mesh).triangles.size(), 2u) << "parts of one material are one sheet";
+    EXPECT_EQ(repair(mesh).triangles.size(), 2u) << "parts of one material are one sheet";
   }
 }
 
-TEST(MeshHealth, NamesTheSideThatAnOpenSurfaceLoses) {
+TEST(MeshDiagnostics, NamesTheSideThatAnOpenSurfaceLoses) {
   TriangleMesh mesh = plate_of_two_materials(true);
   mesh.vertices.push_back({1, 0, 0});
   // a fin of one side
   add(mesh, {mesh.triangles[0][0], mesh.triangles[0][1], static_cast<std::uint32_t>(mesh.vertices.size() - 1)});
-  EXPECT_EQ(examine(mesh).lost_sides, 2u);
-  EXPECT_THAT(findings(examine(mesh)),
+  EXPECT_EQ(diagnose(mesh).dropped_backs, 2u);
+  EXPECT_THAT(diagnostic_messages(diagnose(mesh)),
               testing::Contains(HasSubstr("2 triangles are the back of another in another material, the first of them "
                                           "of part 'back' behind part 'front'")));
-  EXPECT_EQ(repaired(mesh).triangles.size(), 3u);
+  EXPECT_EQ(repair(mesh).triangles.size(), 3u);
 }
 
-TEST(MeshHealth, CountsEdgesOfThreeTriangles) {
+TEST(MeshDiagnostics, CountsEdgesOfThreeTriangles) {
   TriangleMesh fin = make_plate(1, 1);
   fin.vertices.push_back({1, 0, 0});
   // on the diagonal
   add(fin, {fin.triangles[0][0], fin.triangles[0][2], static_cast<std::uint32_t>(fin.vertices.size() - 1)});
-  EXPECT_EQ(examine(fin).non_manifold_edges, 1u);
+  EXPECT_EQ(diagnose(fin).non_manifold_edges, 1u);
 }
 
 // A cube of edge 1 with its lower corner here.
@@ -149,7 +150,7 @@ TriangleMesh cube_at(const Vec3& lower) {
   return builder.take();
 }
 
-TEST(MeshHealth, JudgesBodiesThatTouchAlongAnEdgeEachByItself) {
+TEST(MeshDiagnostics, JudgesBodiesThatTouchAlongAnEdgeEachByItself) {
   const TriangleMesh first = cube_at(Vec3::Zero()), second = cube_at({1, 1, 0});
   ASSERT_NEAR(enclosed_volume(first), 1, 1e-12);
   for (const bool larger_first : {true, false}) {
@@ -158,18 +159,18 @@ TEST(MeshHealth, JudgesBodiesThatTouchAlongAnEdgeEachByItself) {
     TriangleMesh both = larger_first ? first : inverted;
     both.append(larger_first ? inverted : first);
     both = welded(both);
-    const MeshHealth health = examine(both);
+    const MeshDiagnostics health = diagnose(both);
     EXPECT_EQ(health.non_manifold_edges, 1u);
     EXPECT_EQ(health.surfaces, 2u);
     EXPECT_EQ(health.open_surfaces, 0u);
     EXPECT_EQ(health.inverted_triangles, 12u);
-    EXPECT_NEAR(enclosed_volume(repaired(both)), 2, 1e-12);
+    EXPECT_NEAR(enclosed_volume(repair(both)), 2, 1e-12);
   }
 }
 
 // Two caps and two discs between them on one ring of edges: none is closed alone, all together are the skin of a hollow
 // body.
-TEST(MeshHealth, JudgesPiecesThatOnlyCloseTogetherAsOne) {
+TEST(MeshDiagnostics, JudgesPiecesThatOnlyCloseTogetherAsOne) {
   MeshBuilder builder;
   for (int i = 0; i < 4; ++i) builder.vertex({std::cos(i * kPi / 2), std::sin(i * kPi / 2), 0});
   for (const double z : {1.0, -1.0, 0.2, -0.2}) builder.vertex({0, 0, z});
@@ -181,20 +182,20 @@ TEST(MeshHealth, JudgesPiecesThatOnlyCloseTogetherAsOne) {
   TriangleMesh mesh = builder.take();
   const double volume = enclosed_volume(mesh);
   ASSERT_GT(volume, 1.0);
-  EXPECT_THAT(findings(examine(mesh)), ElementsAre(HasSubstr("4 edges have three triangles or more")));
+  EXPECT_THAT(diagnostic_messages(diagnose(mesh)), ElementsAre(HasSubstr("4 edges have three triangles or more")));
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) flip(mesh, t);
-  EXPECT_EQ(examine(mesh).inverted_triangles, 16u);
-  EXPECT_NEAR(enclosed_volume(repaired(mesh)), volume, 1e-12);
+  EXPECT_EQ(diagnose(mesh).inverted_triangles, 16u);
+  EXPECT_NEAR(enclosed_volume(repair(mesh)), volume, 1e-12);
 }
 
-TEST(MeshHealth, SaysWhereAPartitionLeavesNoInside) {
+TEST(MeshDiagnostics, SaysWhereAPartitionLeavesNoInside) {
   TriangleMesh divided = cube_at(Vec3::Zero());
   // a slanting wall from edge to edge
   for (const auto& t : {std::array<std::uint32_t, 3>{0, 1, 7}, {0, 7, 6}}) add(divided, t);
-  const MeshHealth health = examine(divided);
+  const MeshDiagnostics health = diagnose(divided);
   EXPECT_EQ(health.open_edges, 0u);
-  EXPECT_EQ(health.branching_surfaces, 1u);
-  EXPECT_THAT(findings(health),
+  EXPECT_EQ(health.non_manifold_surfaces, 1u);
+  EXPECT_THAT(diagnostic_messages(health),
               ElementsAre(HasSubstr("1 surface that branches there: no telling which side is inside")));
 }
 

@@ -20,14 +20,14 @@ TEST(Waterline, KeepsAreaVolumeAndClosedSurfaceAndPutsEachTriangleOnOneSide) {
     EXPECT_NEAR(enclosed_volume(cut.mesh), enclosed_volume(sphere), 1e-12);
     const Topology topology = topology_of(welded(cut.mesh));
     EXPECT_EQ(topology.count(EdgeKind::kManifold), topology.edges.size()) << height;
-    ASSERT_EQ(cut.below.size(), cut.mesh.triangles.size());
+    ASSERT_EQ(cut.submerged.size(), cut.mesh.triangles.size());
     double wet = 0;
-    for (std::size_t t = 0; t < cut.below.size(); ++t) {
+    for (std::size_t t = 0; t < cut.submerged.size(); ++t) {
       for (const std::uint32_t v : cut.mesh.triangles[t]) {
         const double z = cut.mesh.vertices[v].z();
-        EXPECT_TRUE(cut.below[t] ? z <= height : z >= height);
+        EXPECT_TRUE(cut.submerged[t] ? z <= height : z >= height);
       }
-      if (cut.below[t]) wet += area_vector(cut.mesh, t).norm();
+      if (cut.submerged[t]) wet += area_vector(cut.mesh, t).norm();
     }
     // Archimedes: the zone below has area 2 pi (1 + height); the sphere of 1,280 facets lacks 1 % of it.
     EXPECT_NEAR(wet, 2 * 3.14159265358979 * (1 + height), 0.02 * 4 * 3.14159265358979);
@@ -37,7 +37,7 @@ TEST(Waterline, KeepsAreaVolumeAndClosedSurfaceAndPutsEachTriangleOnOneSide) {
 TEST(Waterline, LeavesAMeshThatStandsOnTheWaterAsItIs) {
   const WaterlineCut cut = cut_at_waterline(make_plate(0.5, 0.4), -0.2);
   EXPECT_EQ(cut.mesh.triangles.size(), 2u);
-  EXPECT_EQ(std::count(cut.below.begin(), cut.below.end(), true), 0);
+  EXPECT_EQ(std::count(cut.submerged.begin(), cut.submerged.end(), true), 0);
 }
 
 // Read from a file the bottom of a body lies a rounding above or below where it was drawn.
@@ -49,8 +49,8 @@ TEST(Waterline, WetsABottomOnTheWaterWhateverItsRounding) {
       for (Vec3& p : cylinder.vertices) p = p.cast<float>().cast<double>();
       const WaterlineCut cut = cut_at_waterline(cylinder, height);
       EXPECT_EQ(cut.mesh.triangles.size(), cylinder.triangles.size()) << "nothing is cut";
-      for (std::size_t t = 0; t < cut.below.size(); ++t) {
-        EXPECT_EQ(cut.below[t], area_vector(cut.mesh, t).normalized().z() < -0.5)
+      for (std::size_t t = 0; t < cut.submerged.size(); ++t) {
+        EXPECT_EQ(cut.submerged[t], area_vector(cut.mesh, t).normalized().z() < -0.5)
             << "the bottom alone, height " << height;
       }
     }

@@ -38,7 +38,7 @@ TEST(FloatReference, SectionForcesGiveTheMeasuredRollAndHeave) {
   for (int i = 0; i < 10; ++i) hull.sections.push_back({0.586 * ((i + 0.5) / 10 - 0.5), kBeam, kDraught, area});
   MotionSpec spec;
   spec.metacentric_height_m = 0.0629;
-  spec.roll_radius_m = 0.360 * kBeam;
+  spec.roll_gyradius_m = 0.360 * kBeam;
   spec.roll_damping = 0.05;
   spec.rotation_centre_m = {0, 0, 0};
   const ShipParticulars ship = ship_particulars(spec, hull);
@@ -48,7 +48,7 @@ TEST(FloatReference, SectionForcesGiveTheMeasuredRollAndHeave) {
   EXPECT_NEAR(2 * kPi / ship.heave.omega0, 1.17, 0.05);
   for (const Measured& m : measured()) {
     const double k = m.omega * m.omega / kGravity;
-    const ShipResponse r = ship_rao(ship, {m.omega, k, 0.5 * kPi});
+    const MotionRao r = ship_rao(ship, {m.omega, k, 0.5 * kPi});
     std::printf("%.3f rad/s: heave %.3f (%.2f), roll %.3f (%.2f)\n", m.omega, std::abs(r.heave), m.heave,
                 std::abs(r.roll) / k, m.roll);
     EXPECT_NEAR(std::abs(r.heave), m.heave, tolerance(m.heave)) << m.omega;
@@ -80,7 +80,7 @@ TEST(FloatReference, AFloatsOscillatorGivesTheMeasuredRoll) {
       const Complex turn =
           std::polar(2.0 / static_cast<double>(count), -m.omega * spec.step_s * static_cast<double>(n));
       roll += samples[n].angles.x() * turn;
-      heave += samples[n].shift.z() * turn;
+      heave += samples[n].translation.z() * turn;
     }
     std::printf("%.3f rad/s: heave %.3f (%.2f), roll %.3f (%.2f)\n", m.omega, std::abs(heave) / amplitude, m.heave,
                 std::abs(roll) / (k * amplitude), m.roll);

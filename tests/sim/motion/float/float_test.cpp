@@ -65,11 +65,11 @@ TEST(DiscSlopeFilter, IsTheMeanSlopeOfADisc) {
 }
 
 TEST(LimitedSlope, KeepsSmallSlopesAndStaysBelowBreaking) {
-  EXPECT_NEAR(limited_slope({0.1, 0}).x(), 0.1, 0.1 * 0.001);
-  EXPECT_NEAR(limited_slope({0.16, 0.12}).norm(), 0.2, 0.2 * 0.016);
-  EXPECT_NEAR(limited_slope({3, 4}).x() / limited_slope({3, 4}).y(), 0.75, 1e-12);
-  EXPECT_LE(limited_slope({30, 40}).norm(), kBreakingSlope);
-  EXPECT_EQ(limited_slope({0, 0}).norm(), 0);
+  EXPECT_NEAR(soft_limited_slope({0.1, 0}).x(), 0.1, 0.1 * 0.001);
+  EXPECT_NEAR(soft_limited_slope({0.16, 0.12}).norm(), 0.2, 0.2 * 0.016);
+  EXPECT_NEAR(soft_limited_slope({3, 4}).x() / soft_limited_slope({3, 4}).y(), 0.75, 1e-12);
+  EXPECT_LE(soft_limited_slope({30, 40}).norm(), kBreakingSlope);
+  EXPECT_EQ(soft_limited_slope({0, 0}).norm(), 0);
 }
 
 TEST(SimulateFloat, FollowsTheSlopeOfLongWaves) {
@@ -85,7 +85,7 @@ TEST(SimulateFloat, FollowsTheSlopeOfLongWaves) {
     EXPECT_NEAR(samples[n].angles.x(), water.slope_y, 0.05 * k * amplitude);
     EXPECT_NEAR(samples[n].angles.y(), -water.slope_x, 0.05 * k * amplitude);
     EXPECT_EQ(samples[n].angles.z(), 0);
-    EXPECT_EQ(samples[n].shift.norm(), 0);
+    EXPECT_EQ(samples[n].translation.norm(), 0);
   }
 }
 
@@ -116,7 +116,7 @@ TEST(SimulateFloat, ItsMastMovesLessThanTheWaterBelowResonance) {
   const Trajectory trajectory =
       simulate_motion(make_body(spec, {kReflector, {}}), rest_position(spec, 0, 0), sea, 60, 1, 0);
   const double height = 5;  // of a point above the centre of flotation
-  const Vec3 point(0, 0, height - spec.centre_above_water_m);
+  const Vec3 point(0, 0, height - spec.origin_above_waterline_m);
   double largest = 0;
   for (double t = 10; t < 50; t += 0.05) {
     const Pose a = trajectory.pose(t - 0.001), b = trajectory.pose(t + 0.001);
@@ -135,7 +135,7 @@ TEST(SimulateFloat, RidesOnTheSurfaceWithTranslations) {
   const FloatParticulars body = float_particulars(spec, kReflector);
   const std::vector<MotionSample> samples = simulate_float(body, spec, sea, 0, 0, 60, 1, 0);
   for (std::size_t n = 0; n < samples.size(); n += 41) {
-    const Vec3& shift = samples[n].shift;
+    const Vec3& shift = samples[n].translation;
     const SurfaceState water = sea.surface(shift.x(), shift.y(), 0.02 * static_cast<double>(n));
     // (w/w0)^2 = 1.3 % of the amplitude, and the advection of the slope that the linear vertical velocity leaves out.
     EXPECT_NEAR(shift.z(), water.elevation, 0.04 * 0.5);
@@ -145,16 +145,18 @@ TEST(SimulateFloat, RidesOnTheSurfaceWithTranslations) {
 TEST(SimulateFloat, RatesAreTheDerivativesOfItsMotion) {
   MotionSpec spec = float_spec();
   spec.translations = true;
-  spec.yaw_rate_deg_s = 10;
-  const WaveField sea = realize_sea(state_of(1, 5), 42, 0);
+  spec.yaw_rate_std_deg_s = 10;
+  const WaveField sea = realise_sea(state_of(1, 5), 42, 0);
   const std::vector<MotionSample> samples =
       simulate_float(float_particulars(spec, kReflector), spec, sea, 0, 0, 20, 42, 3);
   for (std::size_t n = 1; n + 1 < samples.size(); n += 7) {
     // Simpson's rule over two steps: h^4/90 times the fifth derivative of the motion, and the kinks of breaking.
     const Vec3 turn = 0.02 / 3 * (samples[n - 1].angle_rates + 4 * samples[n].angle_rates + samples[n + 1].angle_rates);
     EXPECT_NEAR((samples[n + 1].angles - samples[n - 1].angles - turn).norm(), 0, 1e-5);
-    const Vec3 way = 0.02 / 3 * (samples[n - 1].shift_rates + 4 * samples[n].shift_rates + samples[n + 1].shift_rates);
-    EXPECT_NEAR((samples[n + 1].shift - samples[n - 1].shift - way).norm(), 0, 1e-5);
+    const Vec3 way =
+        0.02 / 3 *
+        (samples[n - 1].translation_rates + 4 * samples[n].translation_rates + samples[n + 1].translation_rates);
+    EXPECT_NEAR((samples[n + 1].translation - samples[n - 1].translation - way).norm(), 0, 1e-5);
   }
 }
 
@@ -162,16 +164,16 @@ TEST(SimulateFloat, IsInSteadyStateAtTimeZero) {
   for (const bool translations : {false, true}) {
     MotionSpec spec = float_spec();
     spec.translations = translations;
-    spec.yaw_rate_deg_s = 5;
-    const WaveField sea = realize_sea(state_of(1, 5), 42, 0);
+    spec.yaw_rate_std_deg_s = 5;
+    const WaveField sea = realise_sea(state_of(1, 5), 42, 0);
     const FloatParticulars body = float_particulars(spec, kReflector);
     const std::vector<MotionSample> once = simulate_float(body, spec, sea, 40, 0, 10, 42, 1);
-    spec.preroll_s *= 2;
+    spec.spin_up_s *= 2;
     const std::vector<MotionSample> twice = simulate_float(body, spec, sea, 40, 0, 10, 42, 1);
     // Tilt forgets within seconds; the mooring leaves e^{-12} of an excursion of a metre.
     for (std::size_t n = 0; n < once.size(); n += 50) {
       EXPECT_NEAR((once[n].angles - twice[n].angles).norm(), 0, translations ? 1e-4 : 1e-9);
-      EXPECT_NEAR((once[n].shift - twice[n].shift).norm(), 0, 1e-4);
+      EXPECT_NEAR((once[n].translation - twice[n].translation).norm(), 0, 1e-4);
     }
   }
 }
@@ -181,7 +183,7 @@ TEST(SimulateFloat, TurnsAboutItsCentreOfFlotation) {
   const Vec3 rest = rest_position(spec, 40, 0);
   EXPECT_EQ((rest - Vec3(40, 0, 0.75)).norm(), 0);
   const Trajectory trajectory =
-      simulate_motion(make_body(spec, {kReflector, {}}), rest, realize_sea(state_of(1, 5), 1, 0), 5, 42, 0);
+      simulate_motion(make_body(spec, {kReflector, {}}), rest, realise_sea(state_of(1, 5), 1, 0), 5, 42, 0);
   for (const double t : {0.0, 1.234, 5.0}) {
     const Pose pose = trajectory.pose(t);
     EXPECT_NEAR((pose.R * Vec3(0, 0, -0.75) + pose.p - Vec3(40, 0, 0)).norm(), 0, 1e-12);
@@ -243,8 +245,8 @@ TEST(RandomYaw, WithASpringKeepsItsMeanHeadingAndWithoutOneHasNone) {
 
 TEST(SimulateMotion, IsTheSameForTheSameKey) {
   MotionSpec spec = float_spec();
-  spec.yaw_rate_deg_s = 3;
-  const WaveField sea = realize_sea(state_of(1, 5), 1, 0);
+  spec.yaw_rate_std_deg_s = 3;
+  const WaveField sea = realise_sea(state_of(1, 5), 1, 0);
   const auto angles = [&](std::uint64_t index) {
     return simulate_motion(make_body(spec, {kReflector, {}}), rest_position(spec, 0, 0), sea, 5, 42, index)
         .sample(4.321)
@@ -256,7 +258,7 @@ TEST(SimulateMotion, IsTheSameForTheSameKey) {
 
 TEST(SimulateMotion, AFixedBodyStays) {
   const Trajectory still = simulate_motion(make_body(MotionSpec{}, {kReflector, {}}), {1, 2, 3},
-                                           realize_sea(state_of(1, 5), 1, 0), 5, 42, 0);
+                                           realise_sea(state_of(1, 5), 1, 0), 5, 42, 0);
   EXPECT_EQ((still.pose(3).p - Vec3(1, 2, 3)).norm(), 0);
 }
 

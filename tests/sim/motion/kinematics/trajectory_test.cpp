@@ -13,7 +13,7 @@ namespace {
 
 TEST(Trajectory, IsCarriedAlongFromAMomentOn) {
   const Vec3 rest(1, 2, 3), velocity(-10, 0, 0);
-  const Trajectory still = Trajectory::at_rest(rest).carried(velocity, 20);
+  const Trajectory still = Trajectory::at_rest(rest).with_drift(velocity, 20);
   EXPECT_EQ(still.pose(20).p, rest);
   EXPECT_NEAR((still.pose(20.064).p - Vec3(1 - 0.64, 2, 3)).norm(), 0, 1e-12);
   EXPECT_EQ(still.pose(20.064).R, Mat3(Mat3::Identity()));
@@ -38,7 +38,7 @@ TEST(Trajectory, InterpolatesToFourthOrder) {
     const Vec3 direction(0.1, -0.2, 0.3);
     // Hermite: (omega h)^4 / 384 of the value; the rate's largest error is (omega h)^3 sqrt(3)/216 times omega.
     EXPECT_NEAR((motion.angles - std::sin(omega * t) * direction).norm(), 0, std::pow(omega * step, 4) / 384);
-    EXPECT_NEAR((motion.shift - std::cos(omega * t) * direction).norm(), 0, std::pow(omega * step, 4) / 384);
+    EXPECT_NEAR((motion.translation - std::cos(omega * t) * direction).norm(), 0, std::pow(omega * step, 4) / 384);
     EXPECT_NEAR((motion.angle_rates - omega * std::cos(omega * t) * direction).norm(), 0,
                 omega * std::pow(omega * step, 3) * std::sqrt(3.0) / 216);
   }
@@ -68,12 +68,12 @@ TEST(Trajectory, RefusesTimesOutsideItself) {
 TEST(Trajectory, TurnsTheBodyAboutItsRotationCentre) {
   MotionSample tilted;
   tilted.angles = {0.3, -0.2, 0.5};
-  tilted.shift = {1, 2, 3};
+  tilted.translation = {1, 2, 3};
   const Vec3 rest(10, 20, 0.75), centre(1, -2, -0.75);
   const Trajectory trajectory(0, 1, {tilted, tilted}, rest, centre);
   const Pose pose = trajectory.pose(0.5);
   // The rotation centre itself only shifts.
-  EXPECT_NEAR((pose.R * centre + pose.p - (rest + centre + tilted.shift)).norm(), 0, 1e-14);
+  EXPECT_NEAR((pose.R * centre + pose.p - (rest + centre + tilted.translation)).norm(), 0, 1e-14);
   EXPECT_NEAR((pose.R - rotation_from_angles(0.3, -0.2, 0.5)).norm(), 0, 1e-15);
 }
 

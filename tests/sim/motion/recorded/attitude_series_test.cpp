@@ -50,7 +50,7 @@ void expect_wave(const AttitudeSeries& series, bool shifts) {
     EXPECT_NEAR(degrees(series.samples[n].angles.x()), wave.roll(t), 1e-5);
     EXPECT_NEAR(degrees(series.samples[n].angles.y()), wave.pitch(t), 1e-5);
     EXPECT_NEAR(degrees(series.samples[n].angle_rates.y()), wave.pitch_rate(t), 2e-4);
-    EXPECT_NEAR(series.samples[n].shift.z(), shifts ? wave.heave(t) : 0, 1e-5);
+    EXPECT_NEAR(series.samples[n].translation.z(), shifts ? wave.heave(t) : 0, 1e-5);
   }
 }
 
@@ -74,7 +74,7 @@ TEST(AttitudeSeries, AreToldApartByTheirNamesAlone) {
     const AttitudeSeries series = read_attitude_series(write(
         std::string("\n# scenario ") + comment +
         "\n  # time_s\ntime_s,roll_deg,pitch_deg,yaw_deg,surge_m,sway_m,heave_m\n0,1,2,3,4,5,6\n1,1,2,3,4,5,6\n"));
-    EXPECT_EQ(series.samples.front().shift, Vec3(4, 5, 6)) << comment;
+    EXPECT_EQ(series.samples.front().translation, Vec3(4, 5, 6)) << comment;
   }
 }
 
@@ -207,7 +207,7 @@ TEST(SimulateAttitudeSeries, FollowsASeries) {
   const Body body = make_body(spec, {});
   const Trajectory trajectory = simulate_motion(body, {1, 2, 3}, WaveField(), 30, 1, 0);
   EXPECT_NEAR(degrees(trajectory.sample(10).angles.x()), 3, 1e-9);
-  EXPECT_EQ(trajectory.sample(10).shift.z(), 0);  // no translations asked for
+  EXPECT_EQ(trajectory.sample(10).translation.z(), 0);  // no translations asked for
   // A heading about 180 deg does not turn once around from row to row.
   EXPECT_NEAR(degrees(trajectory.sample(10).angles.z()), 179, 1.5);
   EXPECT_NEAR(trajectory.pose(0).p.x(), 1, 1e-12);

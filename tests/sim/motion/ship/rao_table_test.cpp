@@ -31,7 +31,7 @@ void expect_long_wave_limits(const RaoTable& table, double omega, double roll_fa
   const double k = wavenumber(omega);
   for (const double mu_deg : {0.0, 30.0, 60.0, 120.0, 150.0, 180.0, -30.0, -60.0, -120.0, -150.0}) {
     const double mu = radians(mu_deg);
-    const ShipResponse r = table.at(omega, k, mu);
+    const MotionRao r = table.at(omega, k, mu);
     EXPECT_NEAR(std::abs(r.surge + kJ * std::cos(mu)), 0, 0.05) << mu_deg;
     EXPECT_NEAR(std::abs(r.sway + kJ * std::sin(mu)), 0, 0.05) << mu_deg;
     EXPECT_NEAR(std::abs(r.heave - 1.0), 0, 0.05) << mu_deg;
@@ -56,7 +56,7 @@ TEST(VeresTable, HoldsTheFilesNumbers) {
   const RaoTable table = read_veres_rao(kVeres, 0);
   EXPECT_NEAR(table.reference().x(), -2.54748, 1e-9);
   EXPECT_NEAR(table.reference().z(), 0.05, 1e-9);
-  const ShipResponse r = table.at(0.5026549, wavenumber(0.5026549), radians(180));
+  const MotionRao r = table.at(0.5026549, wavenumber(0.5026549), radians(180));
   const Complex heave(0.91279399, -0.0030);  // modulus checked below against the file's first heading
   const double phase = -wavenumber(0.5026549) * -1 * table.reference().x();
   std::ifstream file(kVeres);
@@ -77,8 +77,8 @@ TEST(VeresTable, HoldsTheFilesNumbers) {
 TEST(RaoTable, IsReadBetweenItsRowsAndMirrored) {
   const RaoTable table = read_veres_rao(kVeres, 0);
   const double w = 0.75, k = wavenumber(w);
-  const ShipResponse port = table.at(w, k, radians(65));
-  const ShipResponse starboard = table.at(w, k, radians(-65));
+  const MotionRao port = table.at(w, k, radians(65));
+  const MotionRao starboard = table.at(w, k, radians(-65));
   EXPECT_NEAR(std::abs(port.roll + starboard.roll), 0, 1e-12);
   EXPECT_NEAR(std::abs(port.pitch - starboard.pitch), 0, 1e-12);
   EXPECT_NEAR(std::abs(port.yaw + starboard.yaw), 0, 1e-12);
@@ -93,7 +93,7 @@ TEST(RaoTable, IsReadBetweenItsRowsAndMirrored) {
 
 // A heading that stands in the table needs no neighbour, whichever side of it rounding falls.
 TEST(RaoTable, KnowsItsOwnHeadingsToTheirRounding) {
-  std::vector<ShipResponse> responses(3);
+  std::vector<MotionRao> responses(3);
   for (std::size_t m = 0; m < 3; ++m) responses[m].heave = static_cast<double>(m + 1);
   const RaoTable table("test", {radians(-55), radians(55), kPi}, {1}, responses, Vec3::Zero(), 0);
   for (const double slip : {-1e-15, 0.0, 1e-15}) {
@@ -122,7 +122,7 @@ TEST(SimulateRao, HasTheVarianceOfSpectrumAndTable) {
   state.cutoff_rad_s = 3;
   state.second_order_cutoff_rad_s = 0;
   const Body body = make_body(rao_spec(kVeres), {});
-  const WaveField sea = realize_sea(state, 42, 0);
+  const WaveField sea = realise_sea(state, 42, 0);
   const double duration = 20000;
   const Trajectory trajectory = simulate_motion(body, Vec3::Zero(), sea, duration, 1, 0);
   Vec3 variance = Vec3::Zero();
@@ -134,7 +134,7 @@ TEST(SimulateRao, HasTheVarianceOfSpectrumAndTable) {
   Vec3 expected = Vec3::Zero();
   for (std::size_t i = 1; i < table.omegas().size(); ++i) {
     const auto moduli = [&](std::size_t n) {
-      const ShipResponse r = table.at(table.omegas()[n], wavenumber(table.omegas()[n]), state.propagation_rad);
+      const MotionRao r = table.at(table.omegas()[n], wavenumber(table.omegas()[n]), state.propagation_rad);
       return Vec3(std::abs(r.roll), std::abs(r.pitch), std::abs(r.yaw));
     };
     const Vec3 a = moduli(i - 1), b = moduli(i);
@@ -169,7 +169,7 @@ TEST(SimulateRao, RefusesASeaThatTheTableDoesNotCover) {
   state.second_order_cutoff_rad_s = 0;
   const Body body = make_body(rao_spec(kVeres), {});
   const std::string message =
-      message_of([&] { simulate_motion(body, Vec3::Zero(), realize_sea(state, 1, 0), 10, 1, 0); });
+      message_of([&] { simulate_motion(body, Vec3::Zero(), realise_sea(state, 1, 0), 10, 1, 0); });
   EXPECT_THAT(message, testing::HasSubstr("s175_veres.re1: covers 0.1047 to 3.142 rad/s"));
   EXPECT_THAT(message, testing::HasSubstr("% of the waves' variance lies"));
 }

@@ -66,7 +66,7 @@ TEST(ShipParticulars, HaveThePeriodsOfTheCombatant) {
   // The centre of gravity of DTMB 5415 is 1.4 m above the waterline (KG 7.56 m).
   EXPECT_NEAR(ship.centre_of_gravity.z(), 1.4, 0.5);
   // Its dry radius of gyration in roll is 0.37 B.
-  EXPECT_NEAR(ship.gyration.x() / 19.06, 0.37, 0.02);
+  EXPECT_NEAR(ship.radii_of_gyration.x() / 19.06, 0.37, 0.02);
 }
 
 TEST(ShipParticulars, AreDerivedFromTheMeshOrTakenFromTheSpec) {
@@ -99,7 +99,7 @@ TEST(ShipParticulars, AreDerivedFromTheMeshOrTakenFromTheSpec) {
   // The radius of gyration that was derived from a period has that period.
   MotionSpec again = spec;
   again.roll_period_s = 0;
-  again.roll_radius_m = given.gyration.x();
+  again.roll_gyradius_m = given.radii_of_gyration.x();
   EXPECT_NEAR(ship_of(again).roll.omega0, given.roll.omega0, 1e-6);
 }
 
@@ -119,23 +119,23 @@ TEST(SimulateShip, MovesAHullWiderBelowTheWater) {
   hull.length = 60;
   for (int i = 0; i < 10; ++i) hull.sections.push_back({-27.0 + 6 * i, 8.5, 6, 85.5});
   MotionSpec spec = ship_spec();
-  spec.roll_radius_m = 7;
+  spec.roll_gyradius_m = 7;
   const ShipParticulars ship = ship_particulars(spec, hull);
   EXPECT_TRUE(std::isfinite(ship.roll.omega0) && std::isfinite(ship.heave.omega0));
-  const std::vector<MotionSample> samples = simulate_ship(ship, spec, realize_sea(state_of(2, 8, 60), 1, 0), 0, 0, 20);
+  const std::vector<MotionSample> samples = simulate_ship(ship, spec, realise_sea(state_of(2, 8, 60), 1, 0), 0, 0, 20);
   double largest = 0;
   for (const MotionSample& sample : samples) largest = std::max(largest, std::abs(sample.angles.y()));
   EXPECT_GT(degrees(largest), 0.1);
 }
 
-TEST(ResponseSeries, RefusesResponsesThatAreNoNumbers) {
-  const WaveField sea = realize_sea(state_of(2, 8, 60), 1, 0);
+TEST(ResponseSynthesis, RefusesResponsesThatAreNoNumbers) {
+  const WaveField sea = realise_sea(state_of(2, 8, 60), 1, 0);
   const auto response = [](const ShipWave&) {
     ResponseChannels all{};
     all[kHeaveShift] = std::nan("");
     return all;
   };
-  EXPECT_THROW(ResponseSeries(sea, response, 0, 0, 0, 0, 0.1), std::logic_error);
+  EXPECT_THROW(ResponseSynthesis(sea, response, 0, 0, 0, 0, 0.1), std::logic_error);
 }
 
 TEST(ShipRao, FollowsTheSlopeOfLongWaves) {
@@ -146,7 +146,7 @@ TEST(ShipRao, FollowsTheSlopeOfLongWaves) {
     const double mu = radians(mu_deg);
     const ShipWave wave = wave_of(0.02, mu_deg);
     const double k = wave.wavenumber;
-    const ShipResponse rao = ship_rao(ship, wave);
+    const MotionRao rao = ship_rao(ship, wave);
     // (w/w0)^2 and 2 z w/w0 at 0.02 rad/s are at most 0.006.
     EXPECT_NEAR(std::abs(rao.roll / k + kJ * std::sin(mu)), 0, 0.008) << mu_deg;
     EXPECT_NEAR(std::abs(rao.pitch / k - kJ * std::cos(mu)), 0, 0.008) << mu_deg;
@@ -170,14 +170,14 @@ TEST(SimulateShip, IsTheSumOfItsResponsesToTheComponents) {
       MotionSpec spec = combatant();
       spec.translations = true;
       spec.speed_mps = speed;
-      const WaveField sea = realize_sea(state_of(2, 8, mu_deg), 42, 1);
+      const WaveField sea = realise_sea(state_of(2, 8, mu_deg), 42, 1);
       const ShipParticulars ship = ship_of(spec);
       const std::vector<MotionSample> samples = simulate_ship(ship, spec, sea, 30, -10, 60);
       for (std::size_t n = 0; n < samples.size(); n += 500) {
         const double t = spec.step_s * static_cast<double>(n);
         Vec3 angles = Vec3::Zero(), rates = Vec3::Zero(), shift = Vec3::Zero();
         for (const WaveComponent& c : sea.components()) {
-          const ShipResponse rao = ship_rao(ship, {c.omega, c.wavenumber, radians(mu_deg)});
+          const MotionRao rao = ship_rao(ship, {c.omega, c.wavenumber, radians(mu_deg)});
           // Where the ship is by then.
           const double phase = c.omega * t - c.wavenumber * c.direction.dot(Vec2(30 + speed * t, -10)) + c.phase;
           const Complex wave = std::polar(c.amplitude, phase);
@@ -189,7 +189,7 @@ TEST(SimulateShip, IsTheSumOfItsResponsesToTheComponents) {
         // The components left out.
         EXPECT_NEAR((samples[n].angles - angles).norm(), 0, 1e-8) << t;
         EXPECT_NEAR((samples[n].angle_rates - rates).norm(), 0, 1e-8) << t;
-        EXPECT_NEAR((samples[n].shift - shift).norm(), 0, 1e-7) << t;
+        EXPECT_NEAR((samples[n].translation - shift).norm(), 0, 1e-7) << t;
       }
     }
   }
@@ -198,7 +198,7 @@ TEST(SimulateShip, IsTheSumOfItsResponsesToTheComponents) {
 // Nonlinear damping as small as none takes the way by the integrated oscillator and must give the same roll.
 TEST(SimulateShip, IntegratesRollToItsLinearResponse) {
   MotionSpec spec = combatant();
-  const WaveField sea = realize_sea(state_of(2, 8, 60), 42, 1);
+  const WaveField sea = realise_sea(state_of(2, 8, 60), 42, 1);
   const std::vector<MotionSample> linear = simulate_ship(ship_of(spec), spec, sea, 0, 0, 60);
   spec.roll_quadratic_damping = 1e-12;
   const std::vector<MotionSample> integrated = simulate_ship(ship_of(spec), spec, sea, 0, 0, 60);
@@ -212,10 +212,10 @@ TEST(SimulateShip, IntegratesRollToItsLinearResponse) {
 TEST(SimulateShip, IsInSteadyStateAtTimeZero) {
   MotionSpec spec = combatant();
   spec.roll_quadratic_damping = 0.3;
-  const WaveField sea = realize_sea(state_of(2, 9, 90), 42, 2);
+  const WaveField sea = realise_sea(state_of(2, 9, 90), 42, 2);
   const ShipParticulars ship = ship_of(spec);
   const std::vector<MotionSample> once = simulate_ship(ship, spec, sea, 0, 0, 20);
-  spec.preroll_s *= 2;
+  spec.spin_up_s *= 2;
   const std::vector<MotionSample> twice = simulate_ship(ship, spec, sea, 0, 0, 20);
   // What is left of the nonlinear transient: e^{-0.075 0.576 120} = 0.6 % of a start that is already almost right.
   for (std::size_t n = 0; n < once.size(); n += 50) {
@@ -223,7 +223,7 @@ TEST(SimulateShip, IsInSteadyStateAtTimeZero) {
   }
 }
 
-double rms_deg(const ShipParticulars& ship, const WaveField& sea, double mu_deg, Complex ShipResponse::*degree) {
+double rms_deg(const ShipParticulars& ship, const WaveField& sea, double mu_deg, Complex MotionRao::*degree) {
   double sum = 0;
   for (const WaveComponent& c : sea.components()) {
     sum += 0.5 * std::norm(c.amplitude * (ship_rao(ship, wave_of(c.omega, mu_deg)).*degree));
@@ -239,10 +239,10 @@ TEST(ShipRao, HasTheSizeThatStripTheoryGives) {
     double height, period, roll, pitch;
   };
   for (const Case& c : {Case{1, 5, 0.21, 0.03}, Case{2, 6.5, 0.70, 0.16}, Case{2, 9, 2.1, 0.41}}) {
-    const WaveField beam = realize_sea(state_of(c.height, c.period, 90), 1, 0);
-    const WaveField head = realize_sea(state_of(c.height, c.period, 180), 1, 0);
-    const double roll = rms_deg(ship, beam, 90, &ShipResponse::roll);
-    const double pitch = rms_deg(ship, head, 180, &ShipResponse::pitch);
+    const WaveField beam = realise_sea(state_of(c.height, c.period, 90), 1, 0);
+    const WaveField head = realise_sea(state_of(c.height, c.period, 180), 1, 0);
+    const double roll = rms_deg(ship, beam, 90, &MotionRao::roll);
+    const double pitch = rms_deg(ship, head, 180, &MotionRao::pitch);
     std::printf("Hs %g, Tp %g: roll %.3f, pitch %.3f deg\n", c.height, c.period, roll, pitch);
     // The form for the hull's own lines, 8 %, and the rounding of the figures, 0.005 deg (2.1: 0.05 deg).
     EXPECT_NEAR(roll, c.roll, 0.08 * c.roll + 0.005) << "Hs " << c.height << ", Tp " << c.period;
@@ -255,7 +255,7 @@ TEST(ShipRao, HasTheSizeThatStripTheoryGives) {
 ShipParticulars s175(double speed) {
   MotionSpec spec = ship_spec();
   spec.metacentric_height_m = 0.996;
-  spec.roll_radius_m = 8.331;
+  spec.roll_gyradius_m = 8.331;
   spec.pitch_radius_m = 42;
   spec.yaw_radius_m = 42;
   spec.roll_damping = 0.05;
@@ -282,8 +282,8 @@ Misfit misfit_to(const RaoTable& table, const ShipParticulars& ship) {
       for (std::size_t i = 1; i + 2 < omega.size(); ++i) {
         const double energy = spectrum.density(omega[i]) * 0.5 * (omega[i + 1] - omega[i - 1]);
         const double k = omega[i] * omega[i] / kGravity;
-        const ShipResponse a = ship_rao(ship, {omega[i], k, mu});
-        const ShipResponse b = table.at(omega[i], k, mu);
+        const MotionRao a = ship_rao(ship, {omega[i], k, mu});
+        const MotionRao b = table.at(omega[i], k, mu);
         ours += energy * Vec3(std::norm(a.roll), std::norm(a.pitch), std::norm(a.yaw));
         theirs += energy * Vec3(std::norm(b.roll), std::norm(b.pitch), std::norm(b.yaw));
       }
@@ -351,8 +351,8 @@ TEST(ShipRao, HasThePhasesOfStripTheory) {
     for (const double mu_deg : {-150.0, -120.0, -60.0, 60.0, 120.0, 150.0}) {
       for (const double omega : {0.5236, 0.5712, 0.6283}) {
         const double k = omega * omega / kGravity;
-        const ShipResponse a = ship_rao(ship, {omega, k, radians(mu_deg)});
-        const ShipResponse b = table.at(omega, k, radians(mu_deg));
+        const MotionRao a = ship_rao(ship, {omega, k, radians(mu_deg)});
+        const MotionRao b = table.at(omega, k, radians(mu_deg));
         const auto angle = [](Complex p, Complex q) { return std::abs(degrees(std::arg(p / q))); };
         EXPECT_LT(angle(a.heave, b.heave), 15) << mu_deg << " " << omega;
         EXPECT_LT(angle(a.pitch, b.pitch), 15) << mu_deg << " " << omega;
@@ -369,14 +369,14 @@ TEST(ShipRao, HasThePhasesOfStripTheory) {
 TEST(SimulateShip, HardlyMovesInSmallWaves) {
   const MotionSpec spec = combatant();
   const ShipParticulars ship = ship_of(spec);
-  const WaveField sea = realize_sea(state_of(0.1, 3.96 * std::sqrt(0.1), 120), 1, 0);
+  const WaveField sea = realise_sea(state_of(0.1, 3.96 * std::sqrt(0.1), 120), 1, 0);
   for (const MotionSample& sample : simulate_ship(ship, spec, sea, 0, 0, 30)) {
     ASSERT_LT(degrees(sample.angles.norm()), 0.01);
   }
 }
 
 TEST(SimulateShip, TurnsAShipAboutItsCentreOfGravity) {
-  const WaveField sea = realize_sea(state_of(2, 8, 120), 1, 0);
+  const WaveField sea = realise_sea(state_of(2, 8, 120), 1, 0);
   const Vec3 rest = rest_position(combatant(), 0, 0);
   EXPECT_EQ(rest.norm(), 0);
   const Body body = make_body(combatant(), kHull);
@@ -394,7 +394,7 @@ TEST(SimulateShip, ShortPeriodsStayStableAtLongSteps) {
   spec.metacentric_height_m = 0.1;
   spec.roll_quadratic_damping = 0.5;
   spec.step_s = 0.1;
-  const WaveField sea = realize_sea(state_of(0.5, 4, 120), 1, 0);
+  const WaveField sea = realise_sea(state_of(0.5, 4, 120), 1, 0);
   for (const MotionSample& sample : simulate_ship(ship_of(spec), spec, sea, 0, 0, 100)) {
     ASSERT_LT(sample.angles.norm(), 1.0);
   }

@@ -92,7 +92,7 @@ struct Section {
   Section(double breadth, double draught, double coefficient, double wavenumber)
       : form(lewis_form(breadth, draught, coefficient * breadth * draught)),
         contour(contour_of(form)),
-        flow(radiate(form, contour, wavenumber)),
+        flow(solve_radiation(form, contour, wavenumber)),
         omega(std::sqrt(kGravity * wavenumber)) {}
   double added_mass(SectionMode i, SectionMode j) const { return -flow.integral(contour, i, j).real(); }
   double damping(SectionMode i, SectionMode j) const { return omega * flow.integral(contour, i, j).imag(); }
@@ -134,7 +134,8 @@ TEST(SectionRadiation, SendsOutTheEnergyThatDampingTakes) {
       for (const double k : {0.01, 0.1, 0.5, 1.0}) {
         const Section section(2, draught, coefficient, k);
         for (const SectionMode mode : {kSway, kHeave, kRoll}) {
-          const double sent = std::pow(kGravity * section.flow.far_wave[mode], 2) / std::pow(section.omega, 3);
+          const double sent =
+              std::pow(kGravity * section.flow.radiated_wave_ratio[mode], 2) / std::pow(section.omega, 3);
           if (mode == kRoll && coefficient == kCircle && draught == 1.0) continue;
           // The truncated series: residuals of 1e-3 at the waterline.
           EXPECT_NEAR(section.damping(mode, mode) / sent, 1, 0.01)

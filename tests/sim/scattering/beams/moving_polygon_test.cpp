@@ -26,25 +26,25 @@ MovingPolygon square(double x, double y, double side) {
 
 // The polygon after a turn of d1, to first order.
 MovingPolygon moved(MovingPolygon polygon, double d1) {
-  for (Corner& c : polygon) c.p += d1 * c.d1;
+  for (MovingVertex& c : polygon) c.p += d1 * c.d1;
   return polygon;
 }
 
-TEST(Pieces, CuttingAHoleLeavesTheAreaOutsideIt) {
+TEST(PolygonSet, CuttingAHoleLeavesTheAreaOutsideIt) {
   Random random({3, Stream::kTest, 0});
   for (int trial = 0; trial < 300; ++trial) {
-    Pieces pieces;
+    PolygonSet pieces;
     pieces.assign(std::array{square(random.uniform(), random.uniform(), 0.2 + random.uniform())});
     for (int holes = 0; holes < 3; ++holes) {  // the later ones meet several pieces
       MovingPolygon hole(3);
-      for (Corner& c : hole) c.p = {2 * random.uniform(), 2 * random.uniform()};
+      for (MovingVertex& c : hole) c.p = {2 * random.uniform(), 2 * random.uniform()};
       hole = counter_clockwise(hole);
       double left = pieces.area();
       for (const MovingPolygon& piece : pieces.polygons()) {
         const MovingPolygon common = intersect(piece, hole);
         left -= common.empty() ? 0 : signed_area(common);
       }
-      pieces.cut(hole, box_of(hole), 0);
+      pieces.subtract_hole(hole, box_of(hole), 0);
       EXPECT_NEAR(pieces.area(), left, 1e-9);  // slivers beside a line within 1e-10 count as on it
     }
     ASSERT_EQ(pieces.boxes().size(), pieces.size());
@@ -90,15 +90,16 @@ TEST(MovingPolygon, BoxesTellOfEdgesWhatTheirCornersWould) {
     };
     const auto triangle = [&] {
       MovingPolygon polygon(3);
-      for (Corner& c : polygon) c = {corner(), corner(), corner()};
+      for (MovingVertex& c : polygon) c = {corner(), corner(), corner()};
       polygon = counter_clockwise(polygon);
       if (trial % 3 == 0) polygon.push_back(polygon.back());  // an edge without length
       return polygon;
     };
     const MovingPolygon a = triangle(), b = triangle();
     const auto same = [](const MovingPolygon& one, const MovingPolygon& other) {
-      return std::ranges::equal(
-          one, other, [](const Corner& p, const Corner& q) { return p.p == q.p && p.d1 == q.d1 && p.d2 == q.d2; });
+      return std::ranges::equal(one, other, [](const MovingVertex& p, const MovingVertex& q) {
+        return p.p == q.p && p.d1 == q.d1 && p.d2 == q.d2;
+      });
     };
     const MovingPolygon common = intersect(a, b);
     EXPECT_TRUE(same(common, intersect(a, everywhere, b))) << trial;
@@ -125,7 +126,7 @@ TEST(MovingPolygon, HalvesAreWhatClippingLeavesOnEitherSide) {
       line.gradient = std::array<Vec2, 4>{Vec2(1, 0), Vec2(0, -1), Vec2(1, 1), Vec2(1, -1)}[trial % 4];
       line.value = trial < 4 ? 0 : -1;
     }
-    const std::array<MovingPolygon, 2> half = halves(whole, line);
+    const std::array<MovingPolygon, 2> half = split_by_line(whole, line);
     double area = 0;
     for (int i = 0; i < 2; ++i) {
       const MovingPolygon alone = clip(whole, line, i == 0 ? +1 : -1);
@@ -144,7 +145,7 @@ TEST(MovingPolygon, HalvesAreWhatClippingLeavesOnEitherSide) {
   MovingPolygon flat(3);
   flat[1].p = {1, 0};
   flat[2].p = {2, 0};
-  for (const MovingPolygon& half : halves(flat, on_it)) EXPECT_TRUE(half.empty());
+  for (const MovingPolygon& half : split_by_line(flat, on_it)) EXPECT_TRUE(half.empty());
 }
 
 TEST(MovingPolygon, TheLineWhereTwoPlanesMeetMovesWithTheDirection) {
@@ -155,7 +156,7 @@ TEST(MovingPolygon, TheLineWhereTwoPlanesMeetMovesWithTheDirection) {
     RadarBasis basis;
     basis.r = (Vec3::UnitX() + d1 * Vec3::UnitY()).normalized();
     basis.h = (Vec3::UnitY() - d1 * Vec3::UnitX()).normalized();
-    return depth_between(image_plane(n1, 0.3, basis), image_plane(n2, 0.5, basis));
+    return depth_difference(depth_plane(n1, 0.3, basis), depth_plane(n2, 0.5, basis));
   };
   const MovingLine line = line_at(0);
   constexpr double kStep = 1e-5;

@@ -43,7 +43,7 @@ struct Deviation {
 };
 
 // What 2 m more of an upright strip 9.1 wavelengths wide add to its echo, against the strip's integral equations, over
-// all pairs of directions that `wanted` asks for.
+// all pairs of directions that `is_enabled` asks for.
 template <typename Wanted>
 Deviation against_integral_equations(double thickness_mm, bool soft, const Wanted& wanted) {
   const double k = wavenumber(10.24e9), height = 2;
@@ -54,11 +54,11 @@ Deviation against_integral_equations(double thickness_mm, bool soft, const Wante
     const double transmit = std::stod(row[1]), receive = std::stod(row[2]);
     if (std::stod(row[0]) != thickness_mm || !wanted(transmit, receive)) continue;
     const Complex reference(std::stod(row[soft ? 3 : 5]), std::stod(row[soft ? 4 : 6]));
-    const AntennaPair antennas =
+    const BistaticGeometry geometry =
         transmit == receive ? monostatic(radar_basis(direction(receive, 0)))
                             : bistatic(radar_basis(direction(transmit, 0)), radar_basis(direction(receive, 0)));
     const auto echo_of = [&](const Scatterer& target) {
-      return scattering_matrices(target, antennas, std::array{k}, {0, 8, true})[0][soft ? kVvChannel : kHhChannel];
+      return scattering_matrices(target, geometry, std::array{k}, {0, 8, true})[0][soft ? kVvChannel : kHhChannel];
     };
     // S per metre is j P / pi, of the hard wave with H against the axis; the sheet is drawn t/2 before its middle.
     const double before_middle = 0.5e-3 * thickness_mm * (std::cos(radians(transmit)) + std::cos(radians(receive)));
@@ -79,7 +79,7 @@ Deviation against_integral_equations(double thickness_mm, bool soft, const Wante
 // The limits, by thickness: without one, what fifth and higher diffractions leave; else the next order, (k t)^2 of the
 // field times 0.06 to 0.03 (soft) and 0.15 to 0.06 (hard, which meets two rims on each way along the strip), falling as
 // a logarithm of k t does. Rims without thickness are off by 0.64 and 1.2 dB at 1.6 mm.
-TEST(ThickRim, OfStripsFollowsIntegralEquations) {
+TEST(ThickEdge, OfStripsFollowsIntegralEquations) {
   struct Case {
     double t_mm, soft, hard;  // largest relative errors, 0 to 90 deg
   };
@@ -92,7 +92,7 @@ TEST(ThickRim, OfStripsFollowsIntegralEquations) {
 
 // Towards another receiver, to 75 deg from the normal: physical optics is not reciprocal there, its sum with the fringe
 // currents must be. Soft waves that graze the strip (slope diffraction) leave 0.2 % from 51 deg.
-TEST(ThickRim, OfStripsFollowsIntegralEquationsTowardsOtherReceivers) {
+TEST(ThickEdge, OfStripsFollowsIntegralEquationsTowardsOtherReceivers) {
   for (const double transmit : {21.0, 51.0}) {
     const auto from = [&](double at, double receive) { return at == transmit && receive != at; };
     for (const double t_mm : {0.0, 1.6256}) {
@@ -103,14 +103,14 @@ TEST(ThickRim, OfStripsFollowsIntegralEquationsTowardsOtherReceivers) {
   }
 }
 
-TEST(ThickRim, IsReciprocal) {
+TEST(ThickEdge, IsReciprocal) {
   const WedgeFrame rim = rim_of(1e-3);
   Random random({11, Stream::kTest, 41});
   for (int i = 0; i < 200; ++i) {
     const Vec3 in = any_direction(random), out = any_direction(random);
     const Vec3 E = any_field(random, in), p = any_field(random, out);
-    const auto there = thick_rim_currents(rim, in, {E, E}, out)[0],
-               back = thick_rim_currents(rim, -out, {p, p}, -in)[0];
+    const auto there = thick_edge_currents(rim, in, {E, E}, out)[0],
+               back = thick_edge_currents(rim, -out, {p, p}, -in)[0];
     const Complex a = p.dot(there.constant), b = E.dot(back.constant);
     EXPECT_LT(std::abs(a - b), 1e-9 * (1 + std::abs(a))) << i;
     EXPECT_LT(std::abs(Complex(p.dot(there.logarithm)) - Complex(E.dot(back.logarithm))), 1e-12 * (1 + std::abs(a)))
@@ -121,18 +121,18 @@ TEST(ThickRim, IsReciprocal) {
 // Where the sheet reflects one direction into the other, where the light passes the rim, and in the sheet's plane the
 // closed forms are 0/0: there the currents are the mean of those beside to the square of the distance, times a
 // curvature of 30 at 0.1 rad from the plane.
-TEST(ThickRim, HasNoJumps) {
+TEST(ThickEdge, HasNoJumps) {
   const WedgeFrame rim = rim_of(1e-3);
   const auto response = [&](double phi, double phi_in) {
     const Vec3 in = -about_the_rim(phi_in), s = about_the_rim(phi), z = Vec3::UnitZ();
-    const auto currents = thick_rim_currents(rim, in, {z, z.cross(in)}, s);
+    const auto currents = thick_edge_currents(rim, in, {z, z.cross(in)}, s);
     return std::array{Complex(z.dot(currents[0].constant)), Complex(z.cross(s).dot(currents[1].constant))};
   };
   for (double phi_in = 0.1; phi_in < kPi - 0.1; phi_in += 0.1) {
     for (const double phi : {kPi - phi_in, phi_in - kPi}) {
-      constexpr double kBeside = 1e-3;
-      const auto at = response(phi, phi_in), before = response(phi - kBeside, phi_in),
-                 after = response(phi + kBeside, phi_in);
+      constexpr double kMinRelaunchSine = 1e-3;
+      const auto at = response(phi, phi_in), before = response(phi - kMinRelaunchSine, phi_in),
+                 after = response(phi + kMinRelaunchSine, phi_in);
       for (int i = 0; i < 2; ++i)
         EXPECT_LT(std::abs(at[i] - 0.5 * (before[i] + after[i])), 3e-5) << phi_in << ' ' << phi << ' ' << i;
     }
@@ -143,13 +143,13 @@ TEST(ThickRim, HasNoJumps) {
     }
   }
   const Vec3 along = Vec3::UnitZ();
-  const auto end_on = thick_rim_currents(rim, along, {Vec3::UnitX(), Vec3::UnitY()}, -along);
+  const auto end_on = thick_edge_currents(rim, along, {Vec3::UnitX(), Vec3::UnitY()}, -along);
   EXPECT_TRUE(end_on[0].constant.allFinite() && end_on[1].constant.allFinite());
 }
 
 // Either side of a sheet is its lit face: turned round, it answers alike, but for edge waves' 1e-7 rad down on their
 // face (3e-7 m without thickness too).
-TEST(ThickRim, IsTheSameFromEitherSide) {
+TEST(ThickEdge, IsTheSameFromEitherSide) {
   const Scatterer plate = strip(0.1524, 1.6e-3);
   const double k = wavenumber(10.24e9);
   for (const double azimuth : {3.0, 37.0, 81.0}) {
@@ -162,12 +162,12 @@ TEST(ThickRim, IsTheSameFromEitherSide) {
 }
 
 // An interval's points carry the thickness at their carrier (patterns are kept in single precision).
-TEST(ThickRim, IsInTheContributionsOfAView) {
+TEST(ThickEdge, IsInTheContributionsOfAView) {
   const Scatterer plate = strip(0.1524, 1.6e-3), thin = strip(0.1524, 0);
   const double k = wavenumber(10.24e9);
   const RadarBasis basis = radar_basis(direction(33, 7));
-  const IlluminationSettings settings{0, 8, true};
-  const auto sum = direct_sum(view_contributions(plate, monostatic(basis), {k, 1e-3}, settings, 1), k, Vec3::Zero());
+  const TracingSettings settings{0, 8, true};
+  const auto sum = direct_sum(aspect_contributions(plate, monostatic(basis), {k, 1e-3}, settings, 1), k, Vec3::Zero());
   const auto matrix = echo(plate, basis, k, 0, 8, true), without = echo(thin, basis, k, 0, 8, true);
   for (const int channel : {kHhChannel, kVvChannel}) {
     EXPECT_LT(std::abs(sum[channel] - matrix[channel]), 1e-5 * largest(matrix));

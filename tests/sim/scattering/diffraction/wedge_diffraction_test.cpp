@@ -41,7 +41,7 @@ std::pair<double, double> optics(double phi, double phi_in) {
 // Across the edge the exact wedge is Keller's: fringe current = his coefficient less that of physical optics. A line of
 // p . K per metre radiates K sqrt(2 pi / k) e^{-j pi/4} e^{-jk rho} / sqrt(rho) in the plane across it; his
 // coefficients carry e^{-j pi/4} / sqrt(2 pi k): K = D / 2 pi.
-TEST(Fringe, IsKellersCoefficientLessThatOfPhysicalOptics) {
+TEST(FringeCurrent, IsKellersCoefficientLessThatOfPhysicalOptics) {
   Random random({3, Stream::kTest, 17});
   for (int i = 0; i < 300; ++i) {
     const double N = 1.05 + 0.95 * random.uniform();
@@ -70,7 +70,7 @@ TEST(Fringe, IsKellersCoefficientLessThatOfPhysicalOptics) {
 
 // On Keller's cone his coefficients grow by 1 / sin(beta), and so does the field of a line of currents that runs ahead
 // by cos(beta): K stays.
-TEST(Fringe, IsTheSameOnEveryOneOfKellersCones) {
+TEST(FringeCurrent, IsTheSameOnEveryOneOfKellersCones) {
   const double N = 1.5, phi_in = 0.8, phi = 2.9;
   const auto [soft, hard] = keller(N, phi, phi_in);
   const auto [soft_1, hard_1] = optics(phi, phi_in);
@@ -91,7 +91,7 @@ TEST(Fringe, IsTheSameOnEveryOneOfKellersCones) {
 }
 
 // Off the cones the grazing ray's angle a may be imaginary. Here it is complex and the cotangents are Sommerfeld's own.
-TEST(Fringe, IsTheCotangentsOfAComplexAngle) {
+TEST(FringeCurrent, IsTheCotangentsOfAComplexAngle) {
   Random random({3, Stream::kTest, 19});
   int imaginary = 0;
   for (int i = 0; i < 2000; ++i) {
@@ -139,7 +139,7 @@ TEST(Fringe, IsTheCotangentsOfAComplexAngle) {
 
 // In a corner, too, where physical optics is that of all images: each face is lit by the wave and by what the faces
 // send to one another, and where images solve the corner nothing is left.
-TEST(Fringe, OfACornerIsKellersCoefficientLessThatOfItsReflections) {
+TEST(FringeCurrent, OfACornerIsKellersCoefficientLessThatOfItsReflections) {
   Random random({3, Stream::kTest, 21});
   int reflected = 0;
   for (int i = 0; i < 600; ++i) {
@@ -175,14 +175,14 @@ TEST(Fringe, OfACornerIsKellersCoefficientLessThatOfItsReflections) {
 
 // A face radiates to where it is seen and nowhere else: there the edge has all of Keller's field, but near the boundary
 // of shadow.
-TEST(EdgeCurrents, LeaveOutPhysicalOpticsOnlyOfFacesThatAreSeen) {
+TEST(EquivalentEdgeCurrents, LeaveOutPhysicalOpticsOnlyOfFacesThatAreSeen) {
   Random random({3, Stream::kTest, 20});
   int unseen = 0;
   for (int i = 0; i < 1000; ++i) {
     const double N = 1.05 + 0.95 * random.uniform();
     const double phi_in = N * kPi * random.uniform(), phi = N * kPi * random.uniform();
     const double from_shadow = std::abs(std::abs(phi - phi_in) - kPi);
-    if (std::abs(from_shadow - kShadow) < 1e-3 || std::abs(phi + phi_in - kPi) < 0.05 ||
+    if (std::abs(from_shadow - kShadowBoundaryGuard) < 1e-3 || std::abs(phi + phi_in - kPi) < 0.05 ||
         std::abs(2 * N * kPi - phi - phi_in - kPi) < 0.05)
       continue;
     if (from_shadow < 0.05) continue;
@@ -191,12 +191,12 @@ TEST(EdgeCurrents, LeaveOutPhysicalOpticsOnlyOfFacesThatAreSeen) {
     for (const bool second : {false, true}) {
       const double out = second ? N * kPi - phi : phi, in = second ? N * kPi - phi_in : phi_in;
       if (in < kPi && out > kPi) ++unseen;
-      if (out > kPi && from_shadow > kShadow) continue;
+      if (out > kPi && from_shadow > kShadowBoundaryGuard) continue;
       const auto [soft_face, hard_face] = optics(out, in);
       soft -= soft_face;
       hard -= hard_face;
     }
-    const auto [K_soft, K_hard] = edge_currents(wedge(N), k_hat, {z, z.cross(k_hat)}, s);
+    const auto [K_soft, K_hard] = equivalent_edge_currents(wedge(N), k_hat, {z, z.cross(k_hat)}, s);
     EXPECT_NEAR(K_soft.z(), soft / (2 * kPi), 1e-9 * (1 + std::abs(soft))) << N << ' ' << phi_in << ' ' << phi;
     EXPECT_NEAR(z.cross(s).dot(K_hard), hard / (2 * kPi), 1e-9 * (1 + std::abs(hard)))
         << N << ' ' << phi_in << ' ' << phi;
@@ -204,7 +204,7 @@ TEST(EdgeCurrents, LeaveOutPhysicalOpticsOnlyOfFacesThatAreSeen) {
   EXPECT_GT(unseen, 300);
 }
 
-TEST(Fringe, IsFiniteEverywhereButAlongTheGrazingRay) {
+TEST(FringeCurrent, IsFiniteEverywhereButAlongTheGrazingRay) {
   Random random({3, Stream::kTest, 18});
   for (int i = 0; i < 20000; ++i) {
     const auto any = [&] {
@@ -217,7 +217,7 @@ TEST(Fringe, IsFiniteEverywhereButAlongTheGrazingRay) {
     for (const double N : {1.2, 1.5, 2.0}) {
       const Vec3 K = fringe_current(wedge(N), k_hat, E, -k_hat);
       EXPECT_LT((K - k_hat * k_hat.dot(K)).cwiseAbs().maxCoeff(), 1) << N << ' ' << k_hat.transpose();
-      const auto [all, again] = edge_currents(wedge(N), k_hat, {E, E}, -k_hat);
+      const auto [all, again] = equivalent_edge_currents(wedge(N), k_hat, {E, E}, -k_hat);
       EXPECT_LT((all - K).norm(), 1e-12) << N << ' ' << k_hat.transpose();
     }
   }

@@ -12,39 +12,40 @@
 namespace seaglint {
 namespace {
 
-TEST(ArrivalsByEdge, AreAllOfEachEdgeInTheOrderOfTheirLists) {
+TEST(IlluminationByEdge, AreAllOfEachEdgeInTheOrderOfTheirLists) {
   constexpr int kEdges = 50;
   Random random({3, Stream::kTest, 0});
-  std::vector<std::vector<EdgeArrival>> lists(7);
+  std::vector<std::vector<EdgeIllumination>> lists(7);
   std::vector<std::vector<double>> expected(kEdges);
   std::size_t count = 0;
   for (auto& list : lists) {
     for (int i = 0; i < 20; ++i) {
       const int edge = 2 * static_cast<int>(kEdges / 2 * random.uniform());  // every other one has none
       const Vec3 x = Vec3::Zero();
-      const EdgeArrival arrival{edge, {static_cast<double>(count++), 0}, {Vec2::Zero(), Vec2::Zero()}, x, x, x, x, x};
+      const EdgeIllumination arrival{edge, {static_cast<double>(count++), 0}, {Vec2::Zero(), Vec2::Zero()}, x, x, x, x,
+                                     x};
       expected[arrival.edge].push_back(arrival.s[0]);
       list.push_back(arrival);
     }
   }
-  const ArrivalsByEdge arrivals(std::move(lists), kEdges);
-  EXPECT_EQ(arrivals.all().size(), count);
+  const IlluminationByEdge illuminations(std::move(lists), kEdges);
+  EXPECT_EQ(illuminations.all().size(), count);
   for (int edge = 0; edge < kEdges; ++edge) {
-    const auto found_at = [](const EdgeArrival* arrival) { return arrival->s[0]; };
-    EXPECT_TRUE(std::ranges::equal(arrivals.of(edge), expected[edge], {}, found_at)) << edge;
+    const auto found_at = [](const EdgeIllumination* illumination) { return illumination->s[0]; };
+    EXPECT_TRUE(std::ranges::equal(illuminations.of(edge), expected[edge], {}, found_at)) << edge;
   }
   for (std::size_t n = 0; n <= count; ++n) {
     int edge = 0;
     for (std::size_t before = 0; before < n; ++edge) before += expected[edge].size();
-    EXPECT_EQ(arrivals.edge_after(n), edge) << n;
+    EXPECT_EQ(illuminations.edge_after(n), edge) << n;
   }
 }
 
-TEST(ArrivalsByEdge, OfNoneAreNone) {
-  const ArrivalsByEdge arrivals({}, 3);
-  EXPECT_TRUE(arrivals.all().empty());
-  EXPECT_TRUE(arrivals.of(2).empty());
-  EXPECT_EQ(arrivals.edge_after(0), 0);
+TEST(IlluminationByEdge, OfNoneAreNone) {
+  const IlluminationByEdge illuminations({}, 3);
+  EXPECT_TRUE(illuminations.all().empty());
+  EXPECT_TRUE(illuminations.of(2).empty());
+  EXPECT_EQ(illuminations.edge_after(0), 0);
 }
 
 }  // namespace

@@ -199,7 +199,7 @@ TriangleMesh box() {
 
 // In the plane of a face edge waves have a pole whose product with the transition function has a limit: what the edges
 // answer there stays within half of the longest edge's answer of that 0.01 deg beside it, where it is still settling.
-TEST(Edges, HaveALimitInThePlaneOfAFace) {
+TEST(EdgeDiffraction, HaveALimitInThePlaneOfAFace) {
   const Scatterer target(box());
   const double k = wavenumber(10e9), one_edge = 0.4 / (2 * kPi);
   const auto edge_part = [&](double azimuth, double elevation) {
@@ -219,12 +219,12 @@ TEST(Edges, HaveALimitInThePlaneOfAFace) {
   }
 }
 
-TEST(Edges, OfTheShipAreFiniteInThePlanesOfItsFaces) {
+TEST(EdgeDiffraction, OfTheShipAreFiniteInThePlanesOfItsFaces) {
   const Scatterer ship(read_mesh(SEAGLINT_SOURCE_DIR "/assets/combatant_144m.glb"));
   for (const double elevation : {0.0, 2.0}) {
     for (const double azimuth : {0.0, 45.0, 90.0, 180.0}) {
-      const AntennaPair antennas = monostatic(radar_basis(direction(azimuth, elevation)));
-      const auto s = scattering_matrices(ship, antennas, std::array{wavenumber(16e9)}, {0, 8, true}, 2)[0];
+      const BistaticGeometry geometry = monostatic(radar_basis(direction(azimuth, elevation)));
+      const auto s = scattering_matrices(ship, geometry, std::array{wavenumber(16e9)}, {0, 8, true}, 2)[0];
       for (const Complex& x : s) EXPECT_LT(std::abs(x), 1e4) << azimuth << ' ' << elevation;  // which no NaN is
     }
   }
@@ -232,7 +232,7 @@ TEST(Edges, OfTheShipAreFiniteInThePlanesOfItsFaces) {
 
 // Physical optics of a face is not reciprocal, Keller's coefficients are: fringe currents make up for it. What is left
 // is corners, and in any direction that lies on no edge's cone the choice of the ray along which currents are summed.
-TEST(Edges, MakeAPlateAnswerAlikeWhenTransmitterAndReceiverChangePlaces) {
+TEST(EdgeDiffraction, PlateIsReciprocal) {
   const Scatterer plate(make_plate(0.25, 0.15));
   const std::array k{wavenumber(10e9)};
   Random random({5, Stream::kTest, 43});

@@ -24,7 +24,7 @@ using namespace testing_echoes;
 
 constexpr Complex j(0, 1);
 
-TEST(Transition, FollowsItsIntegral) {
+TEST(TransitionFunction, FollowsItsIntegral) {
   for (const double x : {0.01, 0.3, 1.0, 5.5, 11.9, 16.9, 17.1, 40.0}) {
     // 2j sqrt(x) e^{jx} integral; t = sqrt(x) + u e^{-j pi/4} turns the oscillation into decay.
     Complex integral = 0;
@@ -34,7 +34,7 @@ TEST(Transition, FollowsItsIntegral) {
       integral += std::exp(-j * tilted * (2 * root + tilted)) * std::polar(step, -kPi / 4);
     }
     const Complex exact = 2.0 * j * root * integral;
-    EXPECT_NEAR(std::abs(transition(x) - exact), 0, 1e-7 + x * step * step / 6) << x;
+    EXPECT_NEAR(std::abs(transition_function(x) - exact), 0, 1e-7 + x * step * step / 6) << x;
   }
 }
 
@@ -42,7 +42,7 @@ TEST(Transition, FollowsItsIntegral) {
 // k = 1: G(z - z') + G(z + z'), G(z) = sqrt(j / 2 pi) e^{-j z^2 / 2}) and is received as e^{-j k2 z} above the second.
 // Both heights tilted, z = e^{-j pi/4} t, everything decays. Far from both boundaries, where a transition is 1, the
 // integral is -2 G(0) / (k1 k2); x = k1^2 / 2, y = k2^2 / 2.
-TEST(Transition, BetweenTwoEdgesIsTheIntegralOverBothApertures) {
+TEST(TransitionFunction, BetweenTwoEdgesIsTheIntegralOverBothApertures) {
   const auto two_apertures = [](double x, double y) {
     const double k1 = std::sqrt(2 * x), k2 = std::sqrt(2 * y);
     const Complex tilt = std::polar(1.0, kPi / 4);
@@ -68,15 +68,15 @@ TEST(Transition, BetweenTwoEdgesIsTheIntegralOverBothApertures) {
   for (const auto& [x, y] :
        {std::pair{8.0, 5.0}, {2.0, 2.0}, {2.0, 2.0039}, {2.0, 2.0041}, {0.5, 1.5}, {3.0, 0.05}, {1.0, 10.0}}) {
     // Simpson's 1e-8, and for neighbours within 1e-3 the square of that.
-    EXPECT_NEAR(std::abs(transition(x, y) - two_apertures(x, y)), 0, 1e-6) << x << ' ' << y;
-    EXPECT_EQ(transition(x, y), transition(y, x));
+    EXPECT_NEAR(std::abs(double_transition_function(x, y) - two_apertures(x, y)), 0, 1e-6) << x << ' ' << y;
+    EXPECT_EQ(double_transition_function(x, y), double_transition_function(y, x));
   }
-  EXPECT_NEAR(std::abs(transition(0.7, 1e8) - transition(0.7)), 0, 1e-6);
+  EXPECT_NEAR(std::abs(double_transition_function(0.7, 1e8) - transition_function(0.7)), 0, 1e-6);
 }
 
 // The integral over the length of an edge wave, with its boundaries and a phase that runs along the edge, is what
 // stands at its ends.
-TEST(Transition, WithAThirdBoundaryIsTheEndOfAnIntegralAlongTheEdge) {
+TEST(TransitionFunction, WithAThirdBoundaryIsTheEndOfAnIntegralAlongTheEdge) {
   struct Case {
     double a, b, p;  // per metre
   };
@@ -99,10 +99,10 @@ TEST(Transition, WithAThirdBoundaryIsTheEndOfAnIntegralAlongTheEdge) {
                     (i == 0 || i == n ? 1
                      : i % 2 == 1     ? 4
                                       : 2) *
-                    2.0 * transition(a * l, b * l) * std::polar(1.0, p * l);
+                    2.0 * double_transition_function(a * l, b * l) * std::polar(1.0, p * l);
       }
       const auto end = [&](double l) {
-        return transition(a * l, b * l, -p * l) * std::polar(1.0, p * l) / (j * p * std::sqrt(l));
+        return triple_transition_function(a * l, b * l, -p * l) * std::polar(1.0, p * l) / (j * p * std::sqrt(l));
       };
       // Equal arguments are moved apart by 1e-3, which errs by its square, and magnifies F's 1e-7 by as much.
       EXPECT_NEAR(std::abs(end(kLongest) - end(shortest) - integral), 0, 1e-4 * std::abs(integral))
@@ -132,7 +132,7 @@ TriangleMesh extruded(const std::vector<Vec2>& profile, double width) {
 
 // Kouyoumjian and Pathak (1974): on the cone that both rays lie on, at angle b to the edge, L = l sin^2 b and the sine
 // squared of half the angle about the edge.
-TEST(Transition, CountsTheAngleAboutTheEdgeOnKellersCone) {
+TEST(TransitionFunction, CountsTheAngleAboutTheEdgeOnKellersCone) {
   for (const double b : {1.5, 0.6, 0.05}) {
     for (const double about : {3.0, 0.4, 1e-4}) {
       const auto ray = [&](double angle) {
@@ -140,7 +140,7 @@ TEST(Transition, CountsTheAngleAboutTheEdgeOnKellersCone) {
       };
       const double between = std::pow(std::sin(b) * std::sin(about / 2), 2);
       // Rounding of differences of 5e-6.
-      EXPECT_NEAR(shadow_distance(ray(0), ray(about)), between, 1e-9 * between) << b << ' ' << about;
+      EXPECT_NEAR(transition_parameter(ray(0), ray(about)), between, 1e-9 * between) << b << ' ' << about;
     }
   }
 }
@@ -151,31 +151,31 @@ struct EdgeWaveSum {
 };
 
 // What edge waves of one span answer that start at rims of the floor z = 0 with all x up to `first_below` and end at
-// those with all x from `last_above` on; `walls` on the way.
-EdgeWaveSum edge_wave_sum(const TriangleMesh& mesh, const AntennaPair& antennas, double k, double first_below,
+// those with all x from `last_above` on; `wall_reflections` on the way.
+EdgeWaveSum edge_wave_sum(const TriangleMesh& mesh, const BistaticGeometry& geometry, double k, double first_below,
                           double last_above, int walls) {
   const Scatterer scatterer(mesh);
-  const auto edge = [&](const EdgeArrival& arrival) { return scatterer.edges().edges[arrival.edge]; };
-  // Of edges on the floor, where `wanted` holds.
+  const auto edge = [&](const EdgeIllumination& illumination) { return scatterer.edges().edges[illumination.edge]; };
+  // Of edges on the floor, where `is_enabled` holds.
   const auto reached = [&](const RadarBasis& basis, const auto& wanted) {
-    std::vector<EdgeArrival> kept;
-    const Reached all =
-        Illumination(scatterer, monostatic(basis), {0, 1, true}).light_all(1, [](std::size_t, std::size_t, auto) {});
-    for (const EdgeArrival* arrival : all.arrivals.all()) {
+    std::vector<EdgeIllumination> kept;
+    const TraceSummary all =
+        Illumination(scatterer, monostatic(basis), {0, 1, true}).trace_all(1, [](std::size_t, std::size_t, auto) {});
+    for (const EdgeIllumination* arrival : all.edge_illuminations.all()) {
       if (edge(*arrival).a.z() == 0 && edge(*arrival).b.z() == 0 && wanted(edge(*arrival))) kept.push_back(*arrival);
     }
-    return ArrivalsByEdge({std::move(kept)}, scatterer.edges().edges.size());
+    return IlluminationByEdge({std::move(kept)}, scatterer.edges().edges.size());
   };
   const auto first = [&](const SharpEdge& e) { return std::max(e.a.x(), e.b.x()) <= first_below; };
   const auto last = [&](const SharpEdge& e) { return std::min(e.a.x(), e.b.x()) >= last_above; };
-  const ArrivalsByEdge incoming = reached(antennas.transmit, first), outgoing = reached(antennas.receive, last);
-  std::vector<EdgeFootprint> footprints;
-  edge_wave_footprints(scatterer.edges(), scatterer.facets(), scatterer.panels(), antennas, incoming.all(), outgoing,
-                       {}, footprints);
+  const IlluminationByEdge incoming = reached(geometry.transmit, first), outgoing = reached(geometry.receive, last);
+  std::vector<EdgeContribution> contributions;
+  trace_multiple_diffraction(scatterer.edges(), scatterer.facets(), scatterer.panels(), geometry, incoming.all(),
+                             outgoing, {}, contributions);
   EdgeWaveSum sum;
-  for (const EdgeFootprint& footprint : footprints) {
-    if (footprint.edge_wave->waves != 1 || footprint.bounces != 2 + walls) continue;
-    const auto s = scattered(footprint, k);
+  for (const EdgeContribution& contribution : contributions) {
+    if (contribution.multiple_diffraction->grazing_waves != 1 || contribution.bounces != 2 + walls) continue;
+    const auto s = scattered(contribution, k);
     for (int i = 0; i < 4; ++i) sum.S[i] += s[i];
     ++sum.count;
   }
@@ -184,8 +184,8 @@ EdgeWaveSum edge_wave_sum(const TriangleMesh& mesh, const AntennaPair& antennas,
 
 // Image theory: a wave that an upright wall sends back ends at the edges' images, received along the image direction
 // with the image of the polarisation, which a conductor turns round: p' = -(p - 2 (n.p) n). Steep enough that nothing
-// fades (beside_the_beam).
-TEST(EdgeWave, OffAnUprightWallIsThatOfTheImage) {
+// fades (fringe_forward_taper).
+TEST(MultipleDiffraction, OffAnUprightWallIsThatOfTheImage) {
   const double length = 0.31, width = 0.22, k = wavenumber(10e9);
   const TriangleMesh twice = extruded({{length, 0}, {0, 0}, {-length, 0}, {-length, -0.1}, {length, -0.1}}, width);
   const TriangleMesh corner =
@@ -208,7 +208,7 @@ TEST(EdgeWave, OffAnUprightWallIsThatOfTheImage) {
 // A sheet in the horizontal plane, near grazing and nearly along its sides, where waves meet edges at small angles.
 // S_hv = S_vh at every elevation; in the sheet's plane the mirror image asks for none at all: what single diffraction
 // sends across, edge waves take away.
-TEST(EdgeWave, OfAGrazedSheetAreReciprocalAndKeepItsMirrorSymmetry) {
+TEST(MultipleDiffraction, OfAGrazedSheetAreReciprocalAndKeepItsMirrorSymmetry) {
   const double length = 0.3, width = 0.2, k = wavenumber(10e9), rim = length / (2 * kPi);
   const Mat3 lie_down = Eigen::AngleAxisd(kPi / 2, Vec3::UnitY()).toRotationMatrix();
   const Scatterer sheet(transformed(make_plate(width, length), lie_down, Vec3::Zero()));
@@ -216,17 +216,17 @@ TEST(EdgeWave, OfAGrazedSheetAreReciprocalAndKeepItsMirrorSymmetry) {
   // Of the edges' answer: the fourth order, 1 / (2 pi k width) of the others, is left out; the sheet is met 1e-6 rad
   // aside, where crossed terms are that much of the co-polar ones.
   const double left_out = rim / (2 * kPi * k * width), aside = 1e-6 * rim;
-  double most = 0;
+  double max = 0;
   for (const double elevation : {0.0, 0.1, 0.5, 1.0, 2.0, 5.0}) {
     for (const double azimuth : {0.1, 0.3, 1.0, 2.0, 3.0, 5.0, 7.5, 10.0, 15.0, 20.0, 45.0, 85.0, 89.9}) {
       const auto s = echo(sheet, radar_basis(direction(azimuth, elevation)), k, 0, 8, true);
       EXPECT_NEAR(std::abs(s[kHvChannel] - s[kVhChannel]), 0, rounding) << azimuth << ' ' << elevation;
       if (elevation > 0) continue;
-      most = std::max(most, std::abs(s[kHvChannel]));
+      max = std::max(max, std::abs(s[kHvChannel]));
       EXPECT_LT(std::abs(s[kHvChannel]), left_out + aside) << azimuth;
     }
   }
-  RecordProperty("crossed_dbsm", std::to_string(dbsm(most)));
+  RecordProperty("crossed_dbsm", std::to_string(dbsm(max)));
   RecordProperty("bound_dbsm", std::to_string(dbsm(left_out + aside)));
 }
 
@@ -234,11 +234,11 @@ TEST(EdgeWave, OfAGrazedSheetAreReciprocalAndKeepItsMirrorSymmetry) {
 struct WithLast {
   std::array<Complex, 4> all, fourth;
 };
-WithLast with_last(const Scatterer& sheet, const AntennaPair& antennas, double k) {
-  IlluminationSettings all{0, 8, true}, fourth = all;
-  fourth.filter.only.push_back({EchoSelector::Kind::kBounces, 4});
-  const auto echo = [&](const IlluminationSettings& settings) {
-    return scattering_matrices(sheet, antennas, std::array{k}, settings)[0];
+WithLast with_last(const Scatterer& sheet, const BistaticGeometry& geometry, double k) {
+  TracingSettings all{0, 8, true}, fourth = all;
+  fourth.filter.included.push_back({ContributionSelector::Kind::kBounces, 4});
+  const auto echo = [&](const TracingSettings& settings) {
+    return scattering_matrices(sheet, geometry, std::array{k}, settings)[0];
   };
   return {echo(all), echo(fourth)};
 }
@@ -247,7 +247,7 @@ WithLast with_last(const Scatterer& sheet, const AntennaPair& antennas, double k
 // other, 1 - 2 + 1, is nothing, and the fourth stands for itself and those that would take half of it away. What its
 // rims send nearly along the rims beside them goes on there and leaves them by no other ray: with such rays -47 dBsm
 // were left in its plane.
-TEST(EdgeWave, LeaveNothingOfAPlateEdgeOnAcrossTheField) {
+TEST(MultipleDiffraction, EdgeOnPlateVanishesForNormalE) {
   const double k = wavenumber(10e9);
   const Scatterer plate(make_plate(0.25, 0.15)), cut(cut_plate(0.25, 0.15, 16));
   const auto basis = [](double azimuth) { return radar_basis(direction(azimuth, 0)); };
@@ -266,15 +266,15 @@ TEST(EdgeWave, LeaveNothingOfAPlateEdgeOnAcrossTheField) {
 
 // Currents lie in a sheet, so a receiver in its plane hears nothing of the field across it, whatever lights it; and
 // nothing crossed where both antennas lie in a plane of symmetry. A vertical rim alone answers 0.05 m there.
-TEST(EdgeWave, SendNothingAcrossASheetIntoItsPlane) {
+TEST(MultipleDiffraction, SendNothingAcrossASheetIntoItsPlane) {
   const double k = wavenumber(10e9);
   const Scatterer sheet(make_plate(0.2, 0.3));
   for (const auto& [azimuth, elevation] :
        {std::pair{10.0, 0.0}, {40.0, 0.0}, {80.0, 0.0}, {0.0, 20.0}, {10.0, 20.0}, {60.0, -30.0}}) {
     for (const auto& [side, height] : {std::pair{90.0, 0.0}, {-90.0, 0.0}, {90.0, 15.0}, {90.0, 60.0}}) {
-      const AntennaPair antennas =
+      const BistaticGeometry geometry =
           bistatic(radar_basis(direction(azimuth, elevation)), radar_basis(direction(side, height)));
-      const auto& [all, fourth] = with_last(sheet, antennas, k);
+      const auto& [all, fourth] = with_last(sheet, geometry, k);
       // The last diffraction followed has none after it, and the receiver stands 1e-6 rad aside, over which phases turn
       // by as much of k radius.
       const double aside = 1e-6 * k * sheet.radius() * largest(all);
@@ -292,24 +292,26 @@ TEST(EdgeWave, SendNothingAcrossASheetIntoItsPlane) {
 }
 
 // What is left out before its current is known is fainter than asked for; and much is.
-TEST(EdgeWave, LeaveOutOnlyWhatIsFaint) {
-  const double k = wavenumber(10e9), faintest = 1e-4;
+TEST(MultipleDiffraction, LeaveOutOnlyWhatIsFaint) {
+  const double k = wavenumber(10e9), min_amplitude = 1e-4;
   const Scatterer corner(stepped_corner());
   std::size_t all = 0, kept = 0;
   for (const auto& [azimuth, elevation] : {std::pair{45.0, 35.0}, {20.0, 3.0}, {70.0, 60.0}, {1.0, 1.0}}) {
-    const AntennaPair antennas = monostatic(radar_basis(direction(azimuth, elevation)));
-    const auto arrivals =
-        Illumination(corner, antennas, {0, 4, true}).light_all(1, [](std::size_t, std::size_t, auto) {}).arrivals;
+    const BistaticGeometry geometry = monostatic(radar_basis(direction(azimuth, elevation)));
+    const auto illuminations = Illumination(corner, geometry, {0, 4, true})
+                                   .trace_all(1, [](std::size_t, std::size_t, auto) {})
+                                   .edge_illuminations;
     const auto loud = [&](double limit, std::size_t& count) {
-      std::vector<EdgeFootprint> footprints;
-      edge_wave_footprints(corner.edges(), corner.facets(), corner.panels(), antennas, arrivals.all(), arrivals,
-                           {0, 0, limit, k}, footprints);
-      count += footprints.size();
-      return std::count_if(footprints.begin(), footprints.end(), [&](const EdgeFootprint& f) {
-        return f.edge_wave && f.edge_wave->waves == 1 && largest(scattered(f, k)) >= faintest;
+      std::vector<EdgeContribution> contributions;
+      trace_multiple_diffraction(corner.edges(), corner.facets(), corner.panels(), geometry, illuminations.all(),
+                                 illuminations, {0, 0, limit, k}, contributions);
+      count += contributions.size();
+      return std::count_if(contributions.begin(), contributions.end(), [&](const EdgeContribution& f) {
+        return f.multiple_diffraction && f.multiple_diffraction->grazing_waves == 1 &&
+               largest(scattered(f, k)) >= min_amplitude;
       });
     };
-    const auto of_all = loud(0, all), of_kept = loud(faintest, kept);
+    const auto of_all = loud(0, all), of_kept = loud(min_amplitude, kept);
     EXPECT_GT(of_all, 0) << azimuth;
     EXPECT_EQ(of_all, of_kept) << azimuth;
   }
@@ -318,28 +320,28 @@ TEST(EdgeWave, LeaveOutOnlyWhatIsFaint) {
 
 // Short runs of edges send none, and a third and fourth diffraction needs a long one. Of the ship's echo what is left
 // out so is less than a tenth of the -30 dB that an interval may err by, though it is most of the waves.
-TEST(EdgeWave, OfShortRunsAreFaintOnTheShip) {
+TEST(MultipleDiffraction, OfShortRunsAreFaintOnTheShip) {
   const Scatterer ship(read_mesh(SEAGLINT_SOURCE_DIR "/assets/combatant_144m.glb"));
   const double k = wavenumber(16e9);
-  const IlluminationSettings settings{0, 2, true};
-  const EdgeWaveLimits own = edge_wave_limits(ship, settings, k);
+  const TracingSettings settings{0, 2, true};
+  const MultipleDiffractionLimits own = multiple_diffraction_limits(ship, settings, k);
   for (const double azimuth : {10.0, 90.0, 130.0}) {
-    const AntennaPair antennas = monostatic(radar_basis(direction(azimuth, 2)));
-    const auto arrivals =
-        Illumination(ship, antennas, settings).light_all(2, [](std::size_t, std::size_t, auto) {}).arrivals;
-    const auto waves = [&](const EdgeWaveLimits& limits) {
-      std::vector<EdgeFootprint> footprints;
-      edge_wave_footprints(ship.edges(), ship.facets(), ship.panels(), antennas, arrivals.all(), arrivals, limits,
-                           footprints);
+    const BistaticGeometry geometry = monostatic(radar_basis(direction(azimuth, 2)));
+    const auto illuminations =
+        Illumination(ship, geometry, settings).trace_all(2, [](std::size_t, std::size_t, auto) {}).edge_illuminations;
+    const auto waves = [&](const MultipleDiffractionLimits& limits) {
+      std::vector<EdgeContribution> contributions;
+      trace_multiple_diffraction(ship.edges(), ship.facets(), ship.panels(), geometry, illuminations.all(),
+                                 illuminations, limits, contributions);
       std::array<Complex, 4> sum{};
-      for (const EdgeFootprint& footprint : footprints) {
-        const auto s = scattered(footprint, k);
+      for (const EdgeContribution& contribution : contributions) {
+        const auto s = scattered(contribution, k);
         for (int i = 0; i < 4; ++i) sum[i] += s[i];
       }
-      return std::pair{sum, footprints.size()};
+      return std::pair{sum, contributions.size()};
     };
-    const auto whole = scattering_matrices(ship, antennas, std::array{k}, {0, kDefaultBounces, true}, 2)[0];
-    const auto [all, many] = waves({0, 0, own.faintest_m, k});
+    const auto whole = scattering_matrices(ship, geometry, std::array{k}, {0, kDefaultBounces, true}, 2)[0];
+    const auto [all, many] = waves({0, 0, own.min_amplitude_m, k});
     const auto [kept, fewer] = waves(own);
     EXPECT_LT(fewer, many / 2) << azimuth;
     for (const int channel : {kHhChannel, kVvChannel}) {
@@ -352,23 +354,23 @@ TEST(EdgeWave, OfShortRunsAreFaintOnTheShip) {
 }
 
 // Off its principal planes, where each edge answers from its corners alone.
-TEST(EdgeWave, DoNotDependOnHowTheirFaceIsCut) {
+TEST(MultipleDiffraction, DoNotDependOnHowTheirFaceIsCut) {
   const double k = wavenumber(10e9);
   const Scatterer whole(make_plate(0.25, 0.125)), cut(cut_plate(0.25, 0.125, 16));
   double difference = 0, power = 0;
   for (double azimuth = 20; azimuth <= 85; azimuth += 2.5) {
     const RadarBasis basis = radar_basis(direction(azimuth, 13));
     const auto of_edges = [&](const Scatterer& plate, bool once) {
-      const auto arrivals = Illumination(plate, monostatic(basis), {0, 1, true})
-                                .light_all(1, [](std::size_t, std::size_t, auto) {})
-                                .arrivals;
-      std::vector<EdgeFootprint> footprints;
-      edge_wave_footprints(plate.edges(), plate.facets(), plate.panels(), monostatic(basis), arrivals.all(), arrivals,
-                           {}, footprints);
+      const auto illuminations = Illumination(plate, monostatic(basis), {0, 1, true})
+                                     .trace_all(1, [](std::size_t, std::size_t, auto) {})
+                                     .edge_illuminations;
+      std::vector<EdgeContribution> contributions;
+      trace_multiple_diffraction(plate.edges(), plate.facets(), plate.panels(), monostatic(basis), illuminations.all(),
+                                 illuminations, {}, contributions);
       std::array<Complex, 4> sum{};
-      for (const EdgeFootprint& footprint : footprints) {
-        if (once && footprint.edge_wave->waves > 1) continue;
-        const auto s = scattered(footprint, k);
+      for (const EdgeContribution& contribution : contributions) {
+        if (once && contribution.multiple_diffraction->grazing_waves > 1) continue;
+        const auto s = scattered(contribution, k);
         for (int i = 0; i < 4; ++i) sum[i] += s[i];
       }
       return sum;

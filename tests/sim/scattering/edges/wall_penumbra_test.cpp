@@ -30,18 +30,18 @@ struct Answer {
 
 Answer closed_form(double sine, double k, double height = 1000) {
   const RadarBasis radar = radar_basis(Vec3(std::sqrt(1 - sine * sine), 0, sine));
-  const WallBehindRim wall{Vec3::Zero(),
-                           Vec3::UnitY(),
-                           Vec3::UnitZ(),
-                           Vec3::UnitX(),
-                           height,
-                           grazes(radar.r, Vec3::UnitZ()),
-                           {Vec3(-kWay, -kWidth / 2, 0), Vec3(-kWay, kWidth / 2, 0)}};
-  std::vector<EdgeFootprint> footprints;
-  append_wall_penumbra(wall, radar, {}, k, 0, footprints);
+  const WallBehindEdge wall{Vec3::Zero(),
+                            Vec3::UnitY(),
+                            Vec3::UnitZ(),
+                            Vec3::UnitX(),
+                            height,
+                            grazing_taper(radar.r, Vec3::UnitZ()),
+                            {Vec3(-kWay, -kWidth / 2, 0), Vec3(-kWay, kWidth / 2, 0)}};
+  std::vector<EdgeContribution> contributions;
+  append_wall_penumbra(wall, radar, {}, k, 0, contributions);
   Answer sum{};
-  for (const EdgeFootprint& footprint : footprints) {
-    const auto s = scattered(footprint, k);
+  for (const EdgeContribution& contribution : contributions) {
+    const auto s = scattered(contribution, k);
     // Phase from the foot.
     const Complex per_metre = std::polar(1 / kWidth, 2 * k * kWay * std::sqrt(1 - sine * sine));
     sum.soft += per_metre * s[kHhChannel];
@@ -53,7 +53,7 @@ Answer closed_form(double sine, double k, double height = 1000) {
 // erfc(e^{j pi/4} u) / 2 by the transition function, which wedge_diffraction_test.cpp holds to Fresnel's integrals.
 Complex shadowed(double u) {
   if (u < 0) return 1.0 - shadowed(-u);
-  return u < 1e-9 ? 0.5 : std::polar(1.0, -u * u - kPi / 4) * transition(u * u) / (2 * std::sqrt(kPi) * u);
+  return u < 1e-9 ? 0.5 : std::polar(1.0, -u * u - kPi / 4) * transition_function(u * u) / (2 * std::sqrt(kPi) * u);
 }
 
 // A. Sommerfeld's half-plane (M. Born and E. Wolf, Principles of Optics, 8.7), which is the floor: the wave from a side
@@ -84,7 +84,7 @@ Answer integral(double sine, double k) {
       };
       const Complex slope = (field(-kWay + h) - field(-kWay - h)) / Complex(0, 2 * h * k);
       (sign < 0 ? soft : hard) +=
-          fading(z, {from, to}) *
+          smooth_taper(z, {from, to}) *
           (field(-kWay) * slope - std::cos(angle) * (lit + by_image + 2 * sign * (lit == 0.0 ? 0.0 : by_floor)));
     }
   }
@@ -112,7 +112,7 @@ TEST(WallPenumbra, IsWhatPhysicalOpticsLacksOfTheHalfPlanesField) {
 }
 
 // In grazing the soft wave's wall is less by (l / pi k)^(1/2) of its height on either way, and the hard one's whole.
-TEST(WallPenumbra, TakesFromAWallInGrazingWhatItIsHigh) {
+TEST(WallPenumbra, LowersEffectiveWallHeightAtGrazing) {
   const double k = wavenumber(10e9), all = std::sqrt(k * kWay / kPi) / kPi;
   const Answer answer = closed_form(0, k);
   EXPECT_LT(std::abs(answer.soft - std::polar(all, kPi / 4)), 1e-3 * all);
@@ -133,17 +133,18 @@ TEST(WallPenumbra, IsTheWallsAndItsFloors) {
   for (std::size_t i = 0; i < corner.triangles.size(); ++i) corner.triangle_part[i] = static_cast<std::uint16_t>(i / 2);
   corner.part_names = {"one", "two", "three"};
   const Scatterer scatterer(corner);
-  const AntennaPair antennas = monostatic(radar_basis(direction(30, 2)));
-  const auto arrivals =
-      Illumination(scatterer, antennas, {0, 4, true}).light_all(1, [](std::size_t, std::size_t, auto) {}).arrivals;
-  std::vector<EdgeFootprint> footprints;
-  edge_wave_footprints(scatterer.edges(), scatterer.facets(), scatterer.panels(), antennas, arrivals.all(), arrivals,
-                       {}, footprints);
+  const BistaticGeometry geometry = monostatic(radar_basis(direction(30, 2)));
+  const auto illuminations = Illumination(scatterer, geometry, {0, 4, true})
+                                 .trace_all(1, [](std::size_t, std::size_t, auto) {})
+                                 .edge_illuminations;
+  std::vector<EdgeContribution> contributions;
+  trace_multiple_diffraction(scatterer.edges(), scatterer.facets(), scatterer.panels(), geometry, illuminations.all(),
+                             illuminations, {}, contributions);
   int walls = 0;
-  for (const EdgeFootprint& footprint : footprints) {
-    if (!footprint.wall) continue;
+  for (const EdgeContribution& contribution : contributions) {
+    if (!contribution.penumbra) continue;
     ++walls;
-    EXPECT_NE(footprint.part, footprint.part_beyond);
+    EXPECT_NE(contribution.part, contribution.other_part);
   }
   EXPECT_GT(walls, 0);
 }

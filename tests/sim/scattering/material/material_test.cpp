@@ -42,14 +42,14 @@ MaterialSpec library(const std::string& name) {
 }
 
 TEST(Material, PerfectConductorHasMinusOneAcrossAndPlusOneInThePlaneOfIncidence) {
-  const SurfaceFields fields = Surface(MaterialSpec{}, 300).at(0.3);
+  const InterfaceCoefficients fields = MaterialSurface(MaterialSpec{}, 300).at(0.3);
   EXPECT_EQ(fields.te, Complex(-1));
   EXPECT_EQ(fields.tm, Complex(1));
   // A conductor reaches it: 1 - |Gamma| is of the order of R_s / eta0 = 4.3e-4 at 10 GHz and 1e7 S/m ...
   MaterialSpec metal;
   metal.kind = SurfaceKind::kConductor;
   metal.conductivity_s_m = 1e9;
-  const SurfaceFields good = Surface(metal, wavenumber(10e9)).at(0.8);
+  const InterfaceCoefficients good = MaterialSurface(metal, wavenumber(10e9)).at(0.8);
   // ... here R_s = sqrt(pi f mu0 / sigma) = 6.3e-3 ohm: 2 sqrt(2) R_s / eta0 / cos = 5.9e-5.
   EXPECT_LT(std::abs(good.te + 1.0), 6e-5);
   EXPECT_LT(std::abs(good.tm - 1.0), 6e-5);
@@ -61,11 +61,11 @@ TEST(Material, ThickDielectricFollowsFresnelsFormulasInAngles) {
   // A layer of many skin depths hides its conductor: e^{-2 * 0.01 * 300 * 1} of field would be left of 1 m with eps''
   // 0.04 n.
   const double n = 1.7;
-  const Surface glass(stack({layer(1000, Complex(n * n, -0.3))}, Backing::kPec), 300);
+  const MaterialSurface glass(stack({layer(1000, Complex(n * n, -0.3))}, Backing::kPec), 300);
   const Complex index = std::sqrt(Complex(n * n, -0.3));
   for (const double degrees_in : {5.0, 30.0, 55.0, 80.0}) {
     const Complex i = radians(degrees_in), t = std::asin(std::sin(i) / index);
-    const SurfaceFields fields = glass.at(std::cos(i.real()));
+    const InterfaceCoefficients fields = glass.at(std::cos(i.real()));
     EXPECT_LT(std::abs(fields.te + std::sin(i - t) / std::sin(i + t)), kRounding) << degrees_in;
     EXPECT_LT(std::abs(fields.tm - std::tan(i - t) / std::tan(i + t)), kRounding) << degrees_in;
   }
@@ -74,8 +74,8 @@ TEST(Material, ThickDielectricFollowsFresnelsFormulasInAngles) {
 TEST(Material, ReflectsNothingInThePlaneOfIncidenceAtBrewstersAngle) {
   // tan(i) = n for a lossless medium; an air-backed sheet reflects nothing there either, whatever its thickness.
   for (const double thickness : {0.3, 1.7, 12.0}) {
-    const SurfaceFields fields =
-        Surface(stack({layer(thickness, 4.0)}, Backing::kAir), 300).at(std::cos(std::atan(2.0)));
+    const InterfaceCoefficients fields =
+        MaterialSurface(stack({layer(thickness, 4.0)}, Backing::kAir), 300).at(std::cos(std::atan(2.0)));
     EXPECT_LT(std::abs(fields.tm), kRounding);
     EXPECT_GT(std::abs(fields.te), 0.1);
   }
@@ -89,8 +89,8 @@ TEST(Material, SalisburyScreenAbsorbsEverythingAtItsQuarterWave) {
   sheet.permittivity.conductivity_s_m = 1 / (kEta0 * 1e-3 * sheet_mm);
   const MaterialSpec screen = stack({sheet, layer(quarter_mm, 1.0)}, Backing::kPec);
   // The sheet is k d = 2e-4 thick, which is the error.
-  EXPECT_LT(std::abs(Surface(screen, wavenumber(f)).at(1).te), 5e-4);
-  EXPECT_NEAR(std::abs(Surface(screen, wavenumber(2 * f)).at(1).te), 1, 5e-4);  // half a wave: a short circuit
+  EXPECT_LT(std::abs(MaterialSurface(screen, wavenumber(f)).at(1).te), 5e-4);
+  EXPECT_NEAR(std::abs(MaterialSurface(screen, wavenumber(2 * f)).at(1).te), 1, 5e-4);  // half a wave: a short circuit
 }
 
 // Dallenbach layer: Z = sqrt(mu/eps) tanh(j k d sqrt(mu eps)) (Knott, Shaeffer and Tuley, Radar Cross Section, 2nd ed.,
@@ -100,34 +100,36 @@ TEST(Material, DallenbachLayerFollowsItsClosedFormAndHasItsNull) {
   const double k = wavenumber(16e9);
   for (const double thickness_mm : {0.2, 1.1, 1.35, 4.0}) {
     const Complex z = std::sqrt(mu / eps) * std::tanh(kJ * k * 1e-3 * thickness_mm * std::sqrt(mu * eps));
-    const SurfaceFields fields = Surface(stack({layer(thickness_mm, eps, mu)}, Backing::kPec), k).at(1);
+    const InterfaceCoefficients fields = MaterialSurface(stack({layer(thickness_mm, eps, mu)}, Backing::kPec), k).at(1);
     EXPECT_LT(std::abs(fields.te - (z - 1.0) / (z + 1.0)), kRounding) << thickness_mm;
     EXPECT_LT(std::abs(fields.te + fields.tm), kRounding) << thickness_mm;
   }
   // Thin magnetic absorber: Z = j k d mu, matched when k d mu'' = 1 and mu' = 0 as far as it can be: with mu =
   // mu'(small) - j / (k d).
   const double d_mm = 0.1;
-  const SurfaceFields matched =
-      Surface(stack({layer(d_mm, 1.0, Complex(1e-6, -1 / (1e-3 * d_mm * k)))}, Backing::kPec), k).at(1);
+  const InterfaceCoefficients matched =
+      MaterialSurface(stack({layer(d_mm, 1.0, Complex(1e-6, -1 / (1e-3 * d_mm * k)))}, Backing::kPec), k).at(1);
   EXPECT_LT(std::abs(matched.te), 0.02);  // the series' next term, (k d)^2 mu eps / 3 = k d / 3 = 0.011
 }
 
 TEST(Material, SheetOfHalfAWaveIsTransparent) {
   const double f = 10e9, eps = 4.41, cosine = std::cos(radians(40)), kappa = std::sqrt(eps - 1 + cosine * cosine);
   const double half_mm = 1e3 * kSpeedOfLight / f / 2 / kappa;
-  const SurfaceFields fields = Surface(stack({layer(half_mm, eps)}, Backing::kAir), wavenumber(f)).at(cosine);
+  const InterfaceCoefficients fields =
+      MaterialSurface(stack({layer(half_mm, eps)}, Backing::kAir), wavenumber(f)).at(cosine);
   EXPECT_LT(std::abs(fields.te), kRounding);
   EXPECT_LT(std::abs(fields.tm), kRounding);
-  EXPECT_NEAR(std::abs(fields.te_through), 1, kRounding);
+  EXPECT_NEAR(std::abs(fields.te_transmission), 1, kRounding);
 }
 
 TEST(Material, SheetOfVacuumIsNotThere) {
   for (const double cosine : {1.0, 0.6, 0.05}) {
-    const SurfaceFields fields = Surface(stack({layer(3, 1.0), layer(0.7, 1.0)}, Backing::kAir), 335).at(cosine);
+    const InterfaceCoefficients fields =
+        MaterialSurface(stack({layer(3, 1.0), layer(0.7, 1.0)}, Backing::kAir), 335).at(cosine);
     EXPECT_LT(std::abs(fields.te), kRounding);
     EXPECT_LT(std::abs(fields.tm), kRounding);
-    EXPECT_LT(std::abs(fields.te_through - 1.0), kRounding);
-    EXPECT_LT(std::abs(fields.tm_through - 1.0), kRounding);
+    EXPECT_LT(std::abs(fields.te_transmission - 1.0), kRounding);
+    EXPECT_LT(std::abs(fields.tm_transmission - 1.0), kRounding);
   }
 }
 
@@ -155,7 +157,8 @@ TEST(Material, StacksFollowTheProductOfTheirCharacteristicMatrices) {
       tm *= matrix(kappa / eps);
     }
     const bool open = trial % 2 == 0;
-    const SurfaceFields fields = Surface(stack(layers, open ? Backing::kAir : Backing::kPec), k).at(cosine);
+    const InterfaceCoefficients fields =
+        MaterialSurface(stack(layers, open ? Backing::kAir : Backing::kPec), k).at(cosine);
     const auto check = [&](const Eigen::Matrix2cd& m, double z0, const Complex& reflected, const Complex& through) {
       const Eigen::Vector2cd front = m * (open ? Eigen::Vector2cd(1, 1 / z0) : Eigen::Vector2cd(0, 1));
       const Complex z = front[0] / front[1];
@@ -165,8 +168,8 @@ TEST(Material, StacksFollowTheProductOfTheirCharacteristicMatrices) {
         EXPECT_LT(std::abs(through - 1.0 / incident * std::exp(kJ * k * cosine * depth)), 1e-10) << trial;
       }
     };
-    check(te, 1 / cosine, fields.te, fields.te_through);
-    check(tm, cosine, -fields.tm, fields.tm_through);
+    check(te, 1 / cosine, fields.te, fields.te_transmission);
+    check(tm, cosine, -fields.tm, fields.tm_transmission);
   }
 }
 
@@ -179,10 +182,10 @@ TEST(Material, PassiveStacksGiveBackNoMoreThanTheyGet) {
                              Complex(0.1 + 3 * random.uniform(), -3 * random.uniform())));
     }
     const Backing backing = random.below(2) == 0 ? Backing::kAir : Backing::kPec;
-    const SurfaceFields fields =
-        Surface(stack(layers, backing), 50 + 500 * random.uniform()).at(0.001 + 0.999 * random.uniform());
-    EXPECT_LE(std::norm(fields.te) + std::norm(fields.te_through), 1 + kRounding);
-    EXPECT_LE(std::norm(fields.tm) + std::norm(fields.tm_through), 1 + kRounding);
+    const InterfaceCoefficients fields =
+        MaterialSurface(stack(layers, backing), 50 + 500 * random.uniform()).at(0.001 + 0.999 * random.uniform());
+    EXPECT_LE(std::norm(fields.te) + std::norm(fields.te_transmission), 1 + kRounding);
+    EXPECT_LE(std::norm(fields.tm) + std::norm(fields.tm_transmission), 1 + kRounding);
   }
 }
 
@@ -190,12 +193,12 @@ TEST(Material, LosslessSheetsKeepAllEnergyAndPassTheSameFromEitherSide) {
   const std::vector<LayerSpec> layers{layer(1.2, 2.2), layer(0.4, 9.0, 1.5), layer(3.1, 4.0)};
   const std::vector<LayerSpec> reversed(layers.rbegin(), layers.rend());
   for (const double cosine : {1.0, 0.7, 0.1}) {
-    const SurfaceFields one = Surface(stack(layers, Backing::kAir), 335).at(cosine),
-                        other = Surface(stack(reversed, Backing::kAir), 335).at(cosine);
-    EXPECT_NEAR(std::norm(one.te) + std::norm(one.te_through), 1, kRounding);
-    EXPECT_NEAR(std::norm(one.tm) + std::norm(one.tm_through), 1, kRounding);
-    EXPECT_LT(std::abs(one.te_through - other.te_through), kRounding);
-    EXPECT_LT(std::abs(one.tm_through - other.tm_through), kRounding);
+    const InterfaceCoefficients one = MaterialSurface(stack(layers, Backing::kAir), 335).at(cosine),
+                                other = MaterialSurface(stack(reversed, Backing::kAir), 335).at(cosine);
+    EXPECT_NEAR(std::norm(one.te) + std::norm(one.te_transmission), 1, kRounding);
+    EXPECT_NEAR(std::norm(one.tm) + std::norm(one.tm_transmission), 1, kRounding);
+    EXPECT_LT(std::abs(one.te_transmission - other.te_transmission), kRounding);
+    EXPECT_LT(std::abs(one.tm_transmission - other.tm_transmission), kRounding);
   }
 }
 
@@ -207,9 +210,9 @@ TEST(Material, DenseMediumTendsToItsLeontovichImpedance) {
   impedance.kind = SurfaceKind::kImpedance;
   impedance.resistance = z.real();
   impedance.reactance = z.imag();
-  const Surface dense(stack({layer(1000, eps)}, Backing::kPec), 335), leontovich(impedance, 335);
+  const MaterialSurface dense(stack({layer(1000, eps)}, Backing::kPec), 335), leontovich(impedance, 335);
   for (const double cosine : {1.0, 0.5, 0.05}) {
-    const SurfaceFields a = dense.at(cosine), b = leontovich.at(cosine);
+    const InterfaceCoefficients a = dense.at(cosine), b = leontovich.at(cosine);
     EXPECT_LT(std::abs(a.te - b.te), 5e-4) << cosine;
     EXPECT_LT(std::abs(a.tm - b.tm), 5e-4) << cosine;
   }
@@ -219,9 +222,9 @@ TEST(Material, RoughnessTakesItsShareOfTheCoherentField) {
   MaterialSpec rough;
   rough.roughness_mm = 1.5;
   const double k = 335, cosine = 0.4;
-  const Surface surface(rough, k);
-  EXPECT_NEAR(surface.coherence(cosine, cosine), std::exp(-2 * std::pow(k * 1.5e-3 * cosine, 2)), kRounding);
-  EXPECT_NEAR(surface.coherence(1, -1), 1, kRounding);  // straight on, heights do not matter
+  const MaterialSurface surface(rough, k);
+  EXPECT_NEAR(surface.roughness_factor(cosine, cosine), std::exp(-2 * std::pow(k * 1.5e-3 * cosine, 2)), kRounding);
+  EXPECT_NEAR(surface.roughness_factor(1, -1), 1, kRounding);  // straight on, heights do not matter
 }
 
 TEST(Material, DispersionIsADebyeSumOrATable) {
@@ -300,15 +303,15 @@ TEST(SeaRoughness, BesselFormIsTheMeanOfAmentsOverASinesPhase) {
       const double s = std::sin(2 * kPi * (i + 0.5) / kPhases);
       sum += std::exp(-std::pow(2 * k * sigma * sin_psi * s, 2));
     }
-    EXPECT_NEAR(miller_brown_vegh_loss(k, sigma, sin_psi), sum / kPhases, 1e-10 + 1e-6 * sum / kPhases) << sigma;
+    EXPECT_NEAR(miller_brown_vegh_factor(k, sigma, sin_psi), sum / kPhases, 1e-10 + 1e-6 * sum / kPhases) << sigma;
   }
   // Both forms agree for small roughness.
-  EXPECT_NEAR(miller_brown_vegh_loss(k, 0.001, sin_psi), ament_loss(k, 0.001, sin_psi), 1e-6);
-  EXPECT_LT(ament_loss(k, 0.25, sin_psi), 1e-6);
-  EXPECT_NEAR(miller_brown_vegh_loss(k, 0.25, sin_psi), 0.097, 0.001);
+  EXPECT_NEAR(miller_brown_vegh_factor(k, 0.001, sin_psi), ament_factor(k, 0.001, sin_psi), 1e-6);
+  EXPECT_LT(ament_factor(k, 0.25, sin_psi), 1e-6);
+  EXPECT_NEAR(miller_brown_vegh_factor(k, 0.25, sin_psi), 0.097, 0.001);
 }
 
-TEST(Library, EveryMaterialIsReadAndPassive) {
+TEST(MaterialLibrary, EveryMaterialIsReadAndPassive) {
   int count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(SEAGLINT_SOURCE_DIR "/assets/materials")) {
     const MaterialSpec spec = read_material(entry.path());
@@ -316,9 +319,9 @@ TEST(Library, EveryMaterialIsReadAndPassive) {
     EXPECT_FALSE(spec.source.empty());
     for (const double cosine : {1.0, 0.5, 0.03}) {
       for (const double ghz : {spec.lowest_ghz, std::sqrt(spec.lowest_ghz * spec.highest_ghz), spec.highest_ghz}) {
-        const SurfaceFields fields = Surface(spec, wavenumber(1e9 * ghz)).at(cosine);
-        EXPECT_LE(std::norm(fields.te) + std::norm(fields.te_through), 1 + kRounding) << spec.name;
-        EXPECT_LE(std::norm(fields.tm) + std::norm(fields.tm_through), 1 + kRounding) << spec.name;
+        const InterfaceCoefficients fields = MaterialSurface(spec, wavenumber(1e9 * ghz)).at(cosine);
+        EXPECT_LE(std::norm(fields.te) + std::norm(fields.te_transmission), 1 + kRounding) << spec.name;
+        EXPECT_LE(std::norm(fields.tm) + std::norm(fields.tm_transmission), 1 + kRounding) << spec.name;
       }
     }
     ++count;
@@ -326,15 +329,15 @@ TEST(Library, EveryMaterialIsReadAndPassive) {
   EXPECT_EQ(count, 7);
 }
 
-TEST(Library, CoatingAbsorbsAtItsFrequencyAndMetalsDoNot) {
+TEST(MaterialLibrary, CoatingAbsorbsAtItsFrequencyAndMetalsDoNot) {
   const double k = wavenumber(16e9);
-  const double ram_db = 20 * std::log10(std::abs(Surface(library("ram_loaded_epoxy"), k).at(1).te));
+  const double ram_db = 20 * std::log10(std::abs(MaterialSurface(library("ram_loaded_epoxy"), k).at(1).te));
   RecordProperty("ram_loaded_epoxy_db", std::to_string(ram_db));
   // Quarter-wave layer with n'' / n' = tan(delta) / 2: |Gamma| = (coth(pi tan(delta) / 4) / n - 1) / (coth(..) / n + 1)
   // = 0.28 at 16 GHz.
   EXPECT_NEAR(ram_db, -11.2, 0.5);
-  EXPECT_NEAR(std::abs(Surface(library("aluminium"), k).at(1).te), 1, 5e-4);
-  EXPECT_NEAR(std::abs(Surface(library("stainless_steel"), k).at(1).te), 1, 3e-3);
+  EXPECT_NEAR(std::abs(MaterialSurface(library("aluminium"), k).at(1).te), 1, 5e-4);
+  EXPECT_NEAR(std::abs(MaterialSurface(library("stainless_steel"), k).at(1).te), 1, 3e-3);
 }
 
 }  // namespace

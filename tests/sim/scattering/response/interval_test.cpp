@@ -45,9 +45,9 @@ Trajectory rocking(const Vec3& rates, double period_s, const Vec3& centre, const
 double error_against_fresh_traces(const Scatterer& scatterer, const Trajectory& trajectory, const Vec3& r_hat,
                                   const SolverSpec& solver, int spots, std::uint64_t index) {
   const IntervalSampling sampling = paper_interval(0.3);
-  const BodyResponse body = respond(scatterer, trajectory, r_hat, Polarisation::kVv, sampling, solver, 2);
+  const BodyResponse body = body_response(scatterer, trajectory, r_hat, Polarisation::kVv, sampling, solver, 2);
   const RadarBasis world = radar_basis(r_hat);
-  const double range_m = solver.radar_range_m;
+  const double range_m = solver.wavefront_range_m;
   Random random({11, Stream::kTest, index});
   double error = 0, power = 0;
   for (int i = 0; i < spots; ++i) {
@@ -57,9 +57,9 @@ double error_against_fresh_traces(const Scatterer& scatterer, const Trajectory& 
     const double k = wavenumber(sampling.first_hz + (sampling.pulse_first[n] + b) * sampling.step_hz);
     const RadarBasis seen = range_m > 0 ? radar_basis((range_m * r_hat - pose.p).normalized()) : world;
     const double nearer_m = range_m > 0 ? range_m - (range_m * r_hat - pose.p).norm() : r_hat.dot(pose.p);
-    const AntennaPair antennas = monostatic({R_BT * seen.r, R_BT * seen.h, R_BT * seen.v});
-    const IlluminationSettings settings{solver.ray_spacing_m, solver.max_bounces, solver.edges, {}, range_m};
-    const Complex s = scattering_matrices(scatterer, antennas, std::array{k}, settings, 2)[0][kVvChannel];
+    const BistaticGeometry geometry = monostatic({R_BT * seen.r, R_BT * seen.h, R_BT * seen.v});
+    const TracingSettings settings{solver.ray_spacing_m, solver.max_bounces, solver.edges, {}, range_m};
+    const Complex s = scattering_matrices(scatterer, geometry, std::array{k}, settings, 2)[0][kVvChannel];
     const Complex fresh = s * std::polar(1.0, 2 * k * nearer_m);
     error += std::norm(body.response.at(n, b) - fresh) / spots;
   }
@@ -74,12 +74,12 @@ TEST(Contributions, SumToTheClosedFormWhereTheyWereMade) {
   const Illumination illumination(reflector, monostatic(basis), {0.02, 8});
   const double kc = wavenumber(16.1e9);
   for (const double turn : {0.0, 1e-3, 1e-2}) {
-    std::vector<Contribution> contributions;
+    std::vector<PointContribution> contributions;
     std::array<Complex, 4> exact{};
-    Lit lit;
-    for (const int facet : illumination.seen()) illumination.light(facet, lit);
-    for (const Footprint& footprint : lit.seen[0].footprints) {
-      split(footprint, basis, {kc, turn}, contributions);
+    TracedContributions traced;
+    for (const int facet : illumination.visible_panels()) illumination.trace_from(facet, traced);
+    for (const Footprint& footprint : traced.seen[0].footprints) {
+      decompose(footprint, basis, {kc, turn}, contributions);
       const auto s = scattered(footprint, kc);
       for (int i = 0; i < 4; ++i) exact[i] += s[i];
     }
@@ -91,28 +91,28 @@ TEST(Contributions, SumToTheClosedFormWhereTheyWereMade) {
 
 // Relative L2 error of a grid's answers against the direct sum of the points it was made of, the direction up to 2 mrad
 // along its track and `most_beside` beside it.
-double error_of_grid(double most_beside) {
+double error_of_grid(double max_cross_track) {
   const WavenumberGrid wavenumbers{wavenumber(15.9878125e9), wavenumber(0.625e6), 320};
   Random random({5, Stream::kTest, 1});
-  std::vector<ReturnPoint> points(500);
-  for (ReturnPoint& point : points) {
+  std::vector<GridPoint> points(500);
+  for (GridPoint& point : points) {
     point.amplitude = Complex(random.normal(), random.normal());
     point.psi = 300 * (random.uniform() - 0.5);
     point.u = 80 * (random.uniform() - 0.5);
     point.v = 80 * (random.uniform() - 0.5);
   }
-  ReturnGrid grid(wavenumbers, {40, 2e-3, 40, most_beside});
+  ResponseGrid grid(wavenumbers, {40, 2e-3, 40, max_cross_track});
   grid.spread(points);
   grid.transform();
   double error = 0, power = 0;
   std::vector<Complex> out(40);
   for (const double s : {-2e-3, -0.7e-3, 0.0, 1.1e-3, 2e-3}) {
-    const double q = most_beside * std::cos(1e3 * s);
+    const double q = max_cross_track * std::cos(1e3 * s);
     for (const int first : {0, 120, 280}) {
       grid.response(first, s, q, out);
       for (int i = 0; i < 40; i += 13) {
         Complex direct = 0;
-        for (const ReturnPoint& point : points)
+        for (const GridPoint& point : points)
           direct +=
               point.amplitude * std::polar(1.0, wavenumbers.at(first + i) * (point.psi + point.u * s + point.v * q));
         error += std::norm(out[i] - direct);
@@ -124,13 +124,13 @@ double error_of_grid(double most_beside) {
 }
 
 // Kernel of width 6 at oversampling 2: 1e-5 per axis.
-TEST(ReturnGrid, EqualsTheDirectSumOfTheSamePoints) { EXPECT_LT(error_of_grid(0), 3e-5); }
+TEST(ResponseGrid, EqualsTheDirectSumOfTheSamePoints) { EXPECT_LT(error_of_grid(0), 3e-5); }
 
 // Beside the track a series of one to five terms: the first one left out is at most 3 % for the fastest point at the
 // farthest instant, and the mean square over speeds |v| evenly up to the fastest is 1 / (2 p + 1) of its square.
-TEST(ReturnGrid, FollowsAPathThatBends) {
+TEST(ResponseGrid, FollowsAPathThatBends) {
   const double k = wavenumber(16.1875e9);
-  for (const double phase : {0.02, 0.1, 0.24, 0.5, 0.9, kMostBesidePhase}) {
+  for (const double phase : {0.02, 0.1, 0.24, 0.5, 0.9, kMaxCrossTrackPhase}) {
     const double error = error_of_grid(phase / (k * 40));
     RecordProperty(fmt::format("error_at_{}_rad", phase), fmt::format("{:.1e}", error));
     fmt::print("{} rad beside the track: {:.1e}\n", phase, error);
@@ -138,11 +138,11 @@ TEST(ReturnGrid, FollowsAPathThatBends) {
   }
 }
 
-TEST(Response, OfABodyAtRestEqualsItsScatteringMatrix) {
+TEST(IntervalResponse, OfABodyAtRestEqualsItsScatteringMatrix) {
   const Scatterer reflector(make_icosahedral_reflector());
   const Vec3 r_hat = direction(20, 2), rest(3, -40, 0.75);
   const IntervalSampling sampling = paper_interval(0);
-  const BodyResponse body = respond(reflector, Trajectory::at_rest(rest), r_hat, Polarisation::kHh, sampling, {});
+  const BodyResponse body = body_response(reflector, Trajectory::at_rest(rest), r_hat, Polarisation::kHh, sampling, {});
   EXPECT_EQ(body.traces, 1);
   for (const int n : {0, 100, 255}) {
     for (const int b : {0, 39}) {
@@ -155,7 +155,7 @@ TEST(Response, OfABodyAtRestEqualsItsScatteringMatrix) {
   }
 }
 
-TEST(Response, OfATiltingReflectorEqualsFreshTraces) {
+TEST(IntervalResponse, OfATiltingReflectorEqualsFreshTraces) {
   const Scatterer reflector(make_icosahedral_reflector());
   double sum = 0, worst = -1000;
   int count = 0;
@@ -174,11 +174,12 @@ TEST(Response, OfATiltingReflectorEqualsFreshTraces) {
 }
 
 // Beside the point that the radar's range is counted from, and left behind.
-TEST(Response, OfAFloatBesideTheReferencePointAtAFiniteRangeEqualsFreshTraces) {
+TEST(IntervalResponse, OfAFloatBesideTheReferencePointAtAFiniteRangeEqualsFreshTraces) {
   const Scatterer reflector(make_icosahedral_reflector());
   SolverSpec solver;
-  solver.radar_range_m = 1000;
-  const Trajectory floating = rocking({0.6, 0.4, 0.1}, 1.3, {0, 0, -0.75}, {45, -40, 0.75}).carried({-10, 0, 0}, 0.3);
+  solver.wavefront_range_m = 1000;
+  const Trajectory floating =
+      rocking({0.6, 0.4, 0.1}, 1.3, {0, 0, -0.75}, {45, -40, 0.75}).with_drift({-10, 0, 0}, 0.3);
   for (const double azimuth : {10.0, 48.0, 131.0}) {
     const double error = error_against_fresh_traces(reflector, floating, direction(azimuth, 2), solver, 60,
                                                     static_cast<std::uint64_t>(azimuth));
@@ -188,7 +189,7 @@ TEST(Response, OfAFloatBesideTheReferencePointAtAFiniteRangeEqualsFreshTraces) {
   }
 }
 
-TEST(Response, OfTheRollingShipEqualsFreshTraces) {
+TEST(IntervalResponse, OfTheRollingShipEqualsFreshTraces) {
   const Scatterer ship(read_mesh(SEAGLINT_SOURCE_DIR "/assets/combatant_144m.glb"));
   // Hs 2 m, Tp 8 s: rates of 0.8, 0.6 and 0.3 deg/s, about one RMS each.
   for (const double azimuth : {10.0, 50.0, 80.0, 130.0}) {
@@ -203,13 +204,13 @@ TEST(Response, OfTheRollingShipEqualsFreshTraces) {
 // The goal: the ship turning by 0.1 deg in the interval to -30 dB and the reflector by 2 deg to -40 dB, over random
 // directions, in the median and in 95 of 100. Sixty-four milliseconds of 27 mrad/s and of 0.55 rad/s about an oblique
 // axis.
-TEST(Response, FollowsFreshTracesInRandomDirections) {
+TEST(IntervalResponse, FollowsFreshTracesInRandomDirections) {
   const auto study = [](const char* name, const Scatterer& scatterer, const Vec3& rates, const Vec3& centre,
-                        double most_elevation_deg, int directions, int spots) {
+                        double max_elevation_deg, int directions, int spots) {
     Random random({13, Stream::kTest, 0});
     std::vector<double> errors;
     for (int i = 0; i < directions; ++i) {
-      const double elevation_deg = most_elevation_deg * random.uniform(), azimuth_deg = 360 * random.uniform();
+      const double elevation_deg = max_elevation_deg * random.uniform(), azimuth_deg = 360 * random.uniform();
       const Vec3 r_hat = direction(azimuth_deg, elevation_deg);
       errors.push_back(error_against_fresh_traces(scatterer, rocking(rates, 8, centre), r_hat, {}, spots,
                                                   static_cast<std::uint64_t>(1000 + i)));
@@ -230,19 +231,20 @@ TEST(Response, FollowsFreshTracesInRandomDirections) {
   EXPECT_LT(ship_worst, -30);  // of so few directions the worst one
 }
 
-TEST(Response, OfABodyInFreeFallTurnsPhaseWithItsOrigin) {
+TEST(IntervalResponse, OfABodyInFreeFallTurnsPhaseWithItsOrigin) {
   // Translation alone: the phase of e^{j 2k r^.p(t)} and nothing else.
   std::vector<MotionSample> samples(11);
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    samples[i].shift = 0.1 * static_cast<double>(i) * Vec3(1, -0.5, 0.2);
-    samples[i].shift_rates = Vec3(1, -0.5, 0.2);
+    samples[i].translation = 0.1 * static_cast<double>(i) * Vec3(1, -0.5, 0.2);
+    samples[i].translation_rates = Vec3(1, -0.5, 0.2);
   }
   const Scatterer plate(make_plate(0.4, 0.3));
   const Vec3 r_hat = direction(5, 2);
   const IntervalSampling sampling = paper_interval(0.2);
   const Trajectory moving(0, 0.1, samples, Vec3::Zero(), Vec3::Zero());
-  const auto still = respond(plate, Trajectory::at_rest(Vec3::Zero()), r_hat, Polarisation::kVv, sampling, {}).response;
-  const auto moved = respond(plate, moving, r_hat, Polarisation::kVv, sampling, {}).response;
+  const auto still =
+      body_response(plate, Trajectory::at_rest(Vec3::Zero()), r_hat, Polarisation::kVv, sampling, {}).response;
+  const auto moved = body_response(plate, moving, r_hat, Polarisation::kVv, sampling, {}).response;
   for (const int n : {0, 77, 255}) {
     const double k = wavenumber(sampling.first_hz + sampling.pulse_first[n] * sampling.step_hz);
     const Vec3 p = Vec3(1, -0.5, 0.2) * sampling.pulse_time_s[n];

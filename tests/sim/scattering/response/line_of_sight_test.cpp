@@ -25,12 +25,12 @@ IntervalSampling interval() {
   sampling.first_hz = 16e9;
   sampling.step_hz = 5e6;
   sampling.count = 40;
-  sampling.per_pulse = 40;
+  sampling.frequencies_per_pulse = 40;
   for (int n = 0; n < 16; ++n) {
     sampling.pulse_first.push_back(0);
     sampling.pulse_time_s.push_back(3 + 4e-3 * n);
   }
-  sampling.sight_rate = kVelocity / kRange;
+  sampling.line_of_sight_rate = kVelocity / kRange;
   return sampling;
 }
 
@@ -39,11 +39,11 @@ IntervalSampling only_pulse(const IntervalSampling& sampling, int pulse) {
   IntervalSampling one = sampling;
   one.pulse_first = {0};
   one.pulse_time_s = {sampling.pulse_time_s[pulse]};
-  one.sight_rate = Vec3::Zero();
+  one.line_of_sight_rate = Vec3::Zero();
   return one;
 }
 
-TEST(PassingRadar, PointsChangeTheirRangeAsTheWayDemands) {
+TEST(MovingRadar, PointsChangeTheirRangeAsTheWayDemands) {
   const IntervalSampling sampling = interval();
   const Vec3 r_hat = direction_to_radar(radians(30), radians(3));
   const Vec3 x(25, -40, 12);
@@ -67,20 +67,20 @@ TEST(PassingRadar, PointsChangeTheirRangeAsTheWayDemands) {
   }
 }
 
-TEST(PassingRadar, BodiesAnswerAsFromTheDirectionsOfItsWay) {
+TEST(MovingRadar, BodyResponseMatchesPerPulseDirections) {
   const Scatterer scatterer(make_icosahedral_reflector(1.0));
   const Trajectory still = Trajectory::at_rest(Vec3(15, 30, 0.75));
   IntervalSampling sampling = interval();
-  sampling.sight_rate *= 5;  // 4 km away
+  sampling.line_of_sight_rate *= 5;  // 4 km away
   const Vec3 r_hat = direction_to_radar(radians(70), radians(2));
-  const FrequencyResponse passing = respond(scatterer, still, r_hat, Polarisation::kVv, sampling, {}).response;
+  const FrequencyResponse passing = body_response(scatterer, still, r_hat, Polarisation::kVv, sampling, {}).response;
   double difference = 0, power = 0;
   for (const int n : {0, 7, 15}) {
     const IntervalSampling one = only_pulse(sampling, n);
     const double t = sampling.pulse_time_s[n] - sampling.pulse_time_s.front();
-    const Vec3 direction = (r_hat + t * sampling.sight_rate).normalized();
-    const FrequencyResponse fresh = respond(scatterer, still, direction, Polarisation::kVv, one, {}).response;
-    for (int b = 0; b < sampling.per_pulse; ++b) {
+    const Vec3 direction = (r_hat + t * sampling.line_of_sight_rate).normalized();
+    const FrequencyResponse fresh = body_response(scatterer, still, direction, Polarisation::kVv, one, {}).response;
+    for (int b = 0; b < sampling.frequencies_per_pulse; ++b) {
       difference += std::norm(passing.at(n, b) - fresh.at(0, b));
       power += std::norm(fresh.at(0, b));
     }
@@ -96,22 +96,22 @@ const std::array<Vec3, 4> kVelocities{Vec3(-300, 0, 0), Vec3(0, 0, 100), Vec3(0,
 
 IntervalSampling over_the_sea(const Vec3& velocity) {
   IntervalSampling sampling = interval();
-  sampling.sight_rate = velocity / kNearRange;
+  sampling.line_of_sight_rate = velocity / kNearRange;
   return sampling;
 }
 
 Vec3 direction_at(const IntervalSampling& sampling, const Vec3& r_hat, std::size_t pulse) {
   const double t = sampling.pulse_time_s[pulse] - sampling.pulse_time_s.front();
-  return (r_hat + t * sampling.sight_rate).normalized();
+  return (r_hat + t * sampling.line_of_sight_rate).normalized();
 }
 
 // Of waves that leave half of the mirror.
-SeaMirror rough_water() { return SeaMirror(SeaReflectionSpec{}, 0.1); }
+SeaReflection rough_water() { return SeaReflection(SeaReflectionSpec{}, 0.1); }
 
-TEST(PassingRadar, PointsOverTheSeaAnswerFourWaysFromWhereItIs) {
+TEST(MovingRadar, PointsOverTheSeaAnswerFourWaysFromWhereItIs) {
   const Vec3 r_hat = direction_to_radar(radians(10), radians(5)), x(25, -40, 12), v(3, -2, 1);
   const PointSpec point{{x.x(), x.y(), x.z()}, 1, {v.x(), v.y(), v.z()}};
-  const SeaMirror sea = rough_water();
+  const SeaReflection sea = rough_water();
   for (const Vec3& velocity : kVelocities) {
     const IntervalSampling sampling = over_the_sea(velocity);
     const FrequencyResponse response = point_response_over_sea({&point, 1}, r_hat, sampling, Polarisation::kHv, sea);
@@ -119,9 +119,9 @@ TEST(PassingRadar, PointsOverTheSeaAnswerFourWaysFromWhereItIs) {
     for (std::size_t n = 0; n < sampling.pulse_time_s.size(); ++n) {
       const Vec3 r = direction_at(sampling, r_hat, n), image(r.x(), r.y(), -r.z());
       const Vec3 now = x + (sampling.pulse_time_s[n] - sampling.pulse_time_s.front()) * v;
-      for (int b = 0; b < sampling.per_pulse; ++b) {
+      for (int b = 0; b < sampling.frequencies_per_pulse; ++b) {
         const double k = 2 * kPi * (sampling.first_hz + b * sampling.step_hz) / kSpeedOfLight;
-        const SeaCoefficients rho = sea.at(k, r.z());
+        const SeaReflectionCoefficients rho = sea.at(k, r.z());
         const auto way = [&](const Complex& c) {
           return std::polar(1.0, k * r.dot(now)) + c * std::polar(1.0, k * image.dot(now));
         };
@@ -135,27 +135,28 @@ TEST(PassingRadar, PointsOverTheSeaAnswerFourWaysFromWhereItIs) {
   }
 }
 
-TEST(PassingRadar, BodiesOverTheSeaAnswerAsFromTheDirectionsOfItsWay) {
+TEST(MovingRadar, BodiesOverTheSeaAnswerAsFromTheDirectionsOfItsWay) {
   const Scatterer scatterer(make_icosahedral_reflector(1.0));
   // Turning and heaving a little, off the reference point.
   MotionSample first, last;
   first.angle_rates = last.angle_rates = {0.1, -0.05, 0.02};
-  first.shift_rates = last.shift_rates = {0, 0, 0.4};
+  first.translation_rates = last.translation_rates = {0, 0, 0.4};
   last.angles = first.angle_rates;
-  last.shift = first.shift_rates;
+  last.translation = first.translation_rates;
   const Trajectory body(3, 1, {first, last}, Vec3(15, 30, 4), Vec3::Zero());
   const Vec3 r_hat = direction_to_radar(radians(70), radians(5));
-  const SeaMirror sea = rough_water();
+  const SeaReflection sea = rough_water();
   for (const Vec3& velocity : kVelocities) {
     const IntervalSampling sampling = over_the_sea(velocity);
     const FrequencyResponse passing =
-        respond(scatterer, body, r_hat, Polarisation::kHh, sampling, {}, 2, &sea).response;
+        body_response(scatterer, body, r_hat, Polarisation::kHh, sampling, {}, 2, &sea).response;
     double difference = 0, power = 0;
     for (const int n : {0, 7, 15}) {
       const IntervalSampling one = only_pulse(sampling, n);
       const Vec3 direction = direction_at(sampling, r_hat, static_cast<std::size_t>(n));
-      const FrequencyResponse fresh = respond(scatterer, body, direction, Polarisation::kHh, one, {}, 2, &sea).response;
-      for (int b = 0; b < sampling.per_pulse; ++b) {
+      const FrequencyResponse fresh =
+          body_response(scatterer, body, direction, Polarisation::kHh, one, {}, 2, &sea).response;
+      for (int b = 0; b < sampling.frequencies_per_pulse; ++b) {
         difference += std::norm(passing.at(n, b) - fresh.at(0, b));
         power += std::norm(fresh.at(0, b));
       }

@@ -17,7 +17,7 @@ IntervalSampling two_pulses() {
   sampling.first_hz = 15.99e9;
   sampling.step_hz = 0.7e6;
   sampling.count = 300;
-  sampling.per_pulse = 100;
+  sampling.frequencies_per_pulse = 100;
   sampling.pulse_first = {0, 200};
   sampling.pulse_time_s = {7.0, 7.05};
   return sampling;

@@ -17,7 +17,7 @@ namespace {
 using namespace testing_echoes;
 
 Complex at_range(const TriangleMesh& mesh, const Vec3& r, double k, double range_m) {
-  IlluminationSettings settings;
+  TracingSettings settings;
   settings.range_m = range_m;
   return scattering_matrices(Scatterer(mesh), monostatic(radar_basis(r)), std::array{k}, settings)[0][kVvChannel];
 }
@@ -36,14 +36,14 @@ Complex summed_plate(double length, double width, const Vec3& r, double k, doubl
   return Complex(0, -k / (2 * kPi)) * r.x() * sum * (length * width / (cells * cells));
 }
 
-TEST(FiniteRange, PlateIsTheSumOverItsCurvedWavefront) {
+TEST(WavefrontCurvature, PlateIsTheSumOverItsCurvedWavefront) {
   const double length = 2, width = 0.8, k = wavenumber(10e9);
   for (const double range_m : {30.0, 100.0, 2000.0}) {
     for (const double azimuth : {0.0, 0.5, 3.0, 20.0}) {
       const Vec3 r = direction(azimuth, 0.7);
       const Complex expected = summed_plate(length, width, r, k, range_m),
                     ours = at_range(make_plate(length, width), r, k, range_m);
-      // Frozen amplitudes of split() over radius / R: kAmplitudeError of the strongest end; the cells' own error is
+      // Frozen amplitudes of split() over radius / R: kMaxAmplitudeError of the strongest end; the cells' own error is
       // 1e-5.
       const double size = std::abs(summed_plate(length, width, direction(0, 0.7), k, range_m));
       fmt::print("plate at {} m, {} deg: {:.4f} of the broadside echo\n", range_m, azimuth,
@@ -54,7 +54,7 @@ TEST(FiniteRange, PlateIsTheSumOverItsCurvedWavefront) {
 }
 
 // Nothing changes for a body on the line of sight but what its own size does.
-TEST(FiniteRange, CurvedBodyOnTheLineOfSightKeepsItsEcho) {
+TEST(WavefrontCurvature, CurvedBodyOnTheLineOfSightKeepsItsEcho) {
   const double k = wavenumber(10e9);
   const TriangleMesh sphere = transformed(make_sphere(1, 4), Mat3::Identity(), {20, 0, 0});
   const Vec3 r = direction(0, 0);
@@ -66,16 +66,16 @@ TEST(FiniteRange, CurvedBodyOnTheLineOfSightKeepsItsEcho) {
 }
 
 // A shadow edge on the axis has no second order, however fast it slips in the plate that it falls on.
-TEST(FiniteRange, SlipOfAShadowEdgeIsNoPlace) {
+TEST(WavefrontCurvature, SlipOfAShadowEdgeIsNoPlace) {
   const double k = wavenumber(3e9);
   const Mat3 tilt = Eigen::AngleAxisd(radians(50), Vec3::UnitY()).toRotationMatrix();
   TriangleMesh mesh = transformed(make_plate(2, 2), tilt, Vec3::Zero());
   TriangleMesh screen = transformed(make_plate(4, 4), Mat3::Identity(), {8, 0, 2});
   screen.part_names = {"screen"};
   mesh.append(screen);
-  IlluminationSettings settings;
+  TracingSettings settings;
   settings.max_bounces = 1;
-  settings.filter.only = {{EchoSelector::Kind::kPart, 0}};
+  settings.filter.included = {{ContributionSelector::Kind::kPart, 0}};
   const Vec3 r = direction(0, 0);
   const auto seen_from = [&](double range_m) {
     settings.range_m = range_m;
@@ -86,7 +86,7 @@ TEST(FiniteRange, SlipOfAShadowEdgeIsNoPlace) {
   EXPECT_LT(std::abs(near - far), 0.02 * std::abs(far));
 }
 
-TEST(FiniteRange, FarAwayIsTheFarField) {
+TEST(WavefrontCurvature, FarAwayIsTheFarField) {
   const double k = wavenumber(16e9);
   const Vec3 r = direction(20, 10);
   const Complex far = echo(make_icosahedral_reflector(), r, k)[kVvChannel];
@@ -97,7 +97,7 @@ TEST(FiniteRange, FarAwayIsTheFarField) {
 // Three bounces end where they began: a trihedral's echo comes from its apex, wherever its faces are, and keeps the
 // apex's path at any range. Its aperture is seen as a point, so that only what the wavefront bends over the aperture is
 // lost.
-TEST(FiniteRange, TrihedralKeepsThePathOfItsApex) {
+TEST(WavefrontCurvature, TrihedralKeepsThePathOfItsApex) {
   const double leg = 0.3, k = wavenumber(16e9), range_m = 500;
   const Vec3 r = Vec3(1, 1, 1).normalized(), aside = 20 * Vec3(1, -1, 0).normalized();
   TriangleMesh mesh = make_triangular_trihedral(leg);
@@ -113,14 +113,14 @@ TEST(FiniteRange, TrihedralKeepsThePathOfItsApex) {
 }
 
 // A float of a layout has its own origin, the radar's range is counted from the layout's.
-TEST(FiniteRange, PlateBesideTheReferencePointIsTheSumOfItsPointDistances) {
+TEST(WavefrontCurvature, PlateBesideTheReferencePointIsTheSumOfItsPointDistances) {
   const double length = 2, width = 0.8, range_m = 1000;
   const Vec3 rest(5, 60, 0.75);
   const Scatterer plate(make_plate(length, width));
   const IntervalSampling sampling{10e9, 1e6, 1, 1, {0}, {0.0}};
   SolverSpec solver;
   solver.edges = false;
-  solver.radar_range_m = range_m;
+  solver.wavefront_range_m = range_m;
   const double k = wavenumber(10e9);
   const auto summed = [&](const Vec3& r) {
     const int cells = 600;
@@ -137,14 +137,14 @@ TEST(FiniteRange, PlateBesideTheReferencePointIsTheSumOfItsPointDistances) {
   for (const double azimuth : {0.0, 3.0, 3.44, 3.8, 6.0}) {  // its normal points to the radar near 3.44 deg
     const Vec3 r = direction(azimuth, 0.7);
     const Complex ours =
-        respond(plate, Trajectory::at_rest(rest), r, Polarisation::kVv, sampling, solver).response.at(0, 0);
+        body_response(plate, Trajectory::at_rest(rest), r, Polarisation::kVv, sampling, solver).response.at(0, 0);
     const double size = k * length * width / (2 * kPi), error = std::abs(ours - summed(r)) / size;
     fmt::print("plate 60 m beside at {} m, {} deg: {:.4f} of the broadside echo\n", range_m, azimuth, error);
     EXPECT_LT(error, 0.02) << azimuth;  // frozen amplitudes of split() as above
   }
 }
 
-TEST(FiniteRange, RefusesARadarInsideTheTargetOrBesideIt) {
+TEST(WavefrontCurvature, RefusesARadarInsideTheTargetOrBesideIt) {
   EXPECT_THROW(at_range(make_plate(2, 1), Vec3::UnitX(), 200, 0.5), InputError);
   EXPECT_THROW(at_range(make_plate(2, 1), Vec3::UnitX(), 200, 10), InputError);
 }

@@ -23,14 +23,15 @@ double distance(const std::array<Complex, 4>& a, const std::array<Complex, 4>& b
 
 double size(const std::array<Complex, 4>& a) { return distance(a, {}); }
 
-class ReflectorView : public testing::Test {
+class AspectDecomposition : public testing::Test {
  protected:
   const Scatterer scatterer_{make_icosahedral_reflector()};
   const RadarBasis radar_ = radar_basis(direction(25, 8));
-  std::vector<Contribution> contributions(const IlluminationSettings& settings = {}) const {
-    return view_contributions(scatterer_, monostatic(radar_), {k16, default_turn(scatterer_, 2 * kPi / k16)}, settings);
+  std::vector<PointContribution> contributions(const TracingSettings& settings = {}) const {
+    return aspect_contributions(scatterer_, monostatic(radar_), {k16, default_aspect_change(scatterer_, 2 * kPi / k16)},
+                                settings);
   }
-  std::array<Complex, 4> matrix(double k, const IlluminationSettings& settings = {}) const {
+  std::array<Complex, 4> matrix(double k, const TracingSettings& settings = {}) const {
     return scattering_matrices(scatterer_, monostatic(radar_), std::array{k}, settings)[0];
   }
 };
@@ -38,14 +39,14 @@ class ReflectorView : public testing::Test {
 // Rounding of phases of some 1e4 rad over some 1e4 terms, whose sizes add to a few thousand times their sum.
 constexpr double kRounding = 1e-7;
 
-TEST_F(ReflectorView, ItsCentresAndItsFacetsBothSumToTheScatteringMatrix) {
+TEST_F(AspectDecomposition, ItsCentresAndItsFacetsBothSumToTheScatteringMatrix) {
   const auto all = contributions();
   const auto s = matrix(k16);
   std::array<Complex, 4> by_centre{}, by_facet{};
-  for (const EchoCentre& c : centres_of(all, k16, 0.05)) {
+  for (const ScatteringCentre3d& c : cluster_centres(all, k16, 0.05)) {
     for (int i = 0; i < 4; ++i) by_centre[i] += c.amplitude[i];
   }
-  for (const auto& f : facet_echoes(all, k16, scatterer_.facets().size())) {
+  for (const auto& f : facet_contributions(all, k16, scatterer_.facets().size())) {
     for (int i = 0; i < 4; ++i) by_facet[i] += f[i];
   }
   EXPECT_LT(distance(by_centre, s), kRounding * size(s));
@@ -53,21 +54,21 @@ TEST_F(ReflectorView, ItsCentresAndItsFacetsBothSumToTheScatteringMatrix) {
 }
 
 // The bound of the header, and how far below it the error really is.
-TEST_F(ReflectorView, CentresErrByNoMoreThanTheirCellsAllowOffTheView) {
+TEST_F(AspectDecomposition, CentresErrByNoMoreThanTheirCellsAllowOffTheView) {
   const auto all = contributions();
   const Vec3 turn = 2e-4 * radar_.h - 1e-4 * radar_.v;
   const double dk = wavenumber(100e6), k = k16 + dk;
   const auto exact = direct_sum(all, k, turn);
   double amplitudes = 0;
-  for (const Contribution& c : all) {
-    double most = 0;
-    for (const auto& p : c.pattern) most = std::max(most, static_cast<double>(std::abs(p)));
-    amplitudes += std::abs(c.amplitude) * most;
+  for (const PointContribution& c : all) {
+    double max = 0;
+    for (const auto& p : c.pattern) max = std::max(max, static_cast<double>(std::abs(p)));
+    amplitudes += std::abs(c.amplitude) * max;
   }
   double coarser = 0;
   for (const double cell : {0.04, 0.01, 0.0025}) {
     std::array<Complex, 4> sum{};
-    for (const EchoCentre& c : centres_of(all, k16, cell)) {
+    for (const ScatteringCentre3d& c : cluster_centres(all, k16, cell)) {
       for (int i = 0; i < 4; ++i) sum[i] += c.amplitude[i] * std::polar(1.0, dk * c.psi + k * c.gradient.dot(turn));
     }
     // 2: four elements' norm
@@ -85,10 +86,10 @@ TEST_F(ReflectorView, CentresErrByNoMoreThanTheirCellsAllowOffTheView) {
   EXPECT_LT(20 * std::log10(coarser / size(exact)), -40);
 }
 
-TEST_F(ReflectorView, OfOneSelectionAndTheRestSumToAll) {
-  IlluminationSettings only, rest, several;
-  only.filter.only = {{EchoSelector::Kind::kBounces, 3}};
-  rest.filter.without = {{EchoSelector::Kind::kBounces, 3}};
+TEST_F(AspectDecomposition, OfOneSelectionAndTheRestSumToAll) {
+  TracingSettings only, rest, several;
+  only.filter.included = {{ContributionSelector::Kind::kBounces, 3}};
+  rest.filter.excluded = {{ContributionSelector::Kind::kBounces, 3}};
   const auto s = matrix(k16), with = matrix(k16, only), without = matrix(k16, rest);
   std::array<Complex, 4> sum{};
   for (int i = 0; i < 4; ++i) sum[i] = with[i] + without[i];
@@ -96,12 +97,13 @@ TEST_F(ReflectorView, OfOneSelectionAndTheRestSumToAll) {
   EXPECT_GT(size(with), 0.3 * size(s));
   // The same by contributions.
   EXPECT_LT(distance(direct_sum(contributions(only), k16, Vec3::Zero()), with), kRounding * size(s));
-  for (const Contribution& c : contributions(only)) EXPECT_EQ(c.bounces, 3);
+  for (const PointContribution& c : contributions(only)) EXPECT_EQ(c.bounces, 3);
   // Selectors of one kind are alternatives, of two kinds conditions.
-  several.filter.only = {
-      {EchoSelector::Kind::kBounces, 1}, {EchoSelector::Kind::kBounces, 2}, {EchoSelector::Kind::kPart, 4}};
+  several.filter.included = {{ContributionSelector::Kind::kBounces, 1},
+                             {ContributionSelector::Kind::kBounces, 2},
+                             {ContributionSelector::Kind::kPart, 4}};
   std::size_t count = 0;
-  for (const Contribution& c : contributions(several)) {
+  for (const PointContribution& c : contributions(several)) {
     EXPECT_LE(c.bounces, 2);
     EXPECT_EQ(c.part, 4);
     ++count;
@@ -110,33 +112,34 @@ TEST_F(ReflectorView, OfOneSelectionAndTheRestSumToAll) {
 }
 
 // A corner's three-bounce echo has its phase centre at the apex, wherever the radar stands (Fermat).
-TEST(EchoCentres, OfATrihedralsThreeBouncesLieAtItsApex) {
+TEST(ScatteringCentres3d, OfATrihedralsThreeBouncesLieAtItsApex) {
   const Scatterer corner(transformed(make_triangular_trihedral(0.3), Mat3::Identity(), Vec3(1, 2, 0.5)));
-  IlluminationSettings settings;
-  settings.filter.only = {{EchoSelector::Kind::kBounces, 3}};
+  TracingSettings settings;
+  settings.filter.included = {{ContributionSelector::Kind::kBounces, 3}};
   const RadarBasis radar = radar_basis(direction(40, 30));
-  const auto centres = centres_of(view_contributions(corner, monostatic(radar), {k16, 1e-4}, settings), k16, 0.02);
+  const auto centres =
+      cluster_centres(aspect_contributions(corner, monostatic(radar), {k16, 1e-4}, settings), k16, 0.02);
   ASSERT_FALSE(centres.empty());
   EXPECT_LT((centres.front().position() - Vec3(1, 2, 0.5)).norm(), 1e-6);
   EXPECT_NEAR(centres.front().psi, 2 * radar.r.dot(Vec3(1, 2, 0.5)), 1e-6);
   EXPECT_EQ(centres.front().bounces, 3);
 }
 
-TEST(EchoFilterOfACavity, KeepsTheRimWhicheverPartComesFirst) {
-  EchoFilter filter;
+TEST(ContributionFilter, KeepsTheRimWhicheverPartComesFirst) {
+  ContributionFilter filter;
   filter.cavities = {1};
-  EXPECT_FALSE(filter.keeps(1, 1, Mechanism::kPhysicalOptics));
-  EXPECT_TRUE(filter.keeps(0, 1, Mechanism::kPhysicalOptics));
-  EXPECT_FALSE(filter.keeps_edge(1, 1, 1));
-  EXPECT_TRUE(filter.keeps_edge(0, 1, 1));
-  EXPECT_TRUE(filter.keeps_edge(1, 0, 1));
+  EXPECT_FALSE(filter.accepts(1, 1, Mechanism::kPhysicalOptics));
+  EXPECT_TRUE(filter.accepts(0, 1, Mechanism::kPhysicalOptics));
+  EXPECT_FALSE(filter.accepts_edge(1, 1, 1));
+  EXPECT_TRUE(filter.accepts_edge(0, 1, 1));
+  EXPECT_TRUE(filter.accepts_edge(1, 0, 1));
   // The rim counts as the other part's, in a selection too.
-  filter.without = {{EchoSelector::Kind::kPart, 1}};
-  EXPECT_TRUE(filter.keeps_edge(1, 0, 1));
-  EXPECT_FALSE(filter.keeps_cavity(1));
-  filter.without = {{EchoSelector::Kind::kPart, 0}};
-  EXPECT_FALSE(filter.keeps_edge(1, 0, 1));
-  EXPECT_TRUE(filter.keeps_cavity(1));
+  filter.excluded = {{ContributionSelector::Kind::kPart, 1}};
+  EXPECT_TRUE(filter.accepts_edge(1, 0, 1));
+  EXPECT_FALSE(filter.accepts_cavity(1));
+  filter.excluded = {{ContributionSelector::Kind::kPart, 0}};
+  EXPECT_FALSE(filter.accepts_edge(1, 0, 1));
+  EXPECT_TRUE(filter.accepts_cavity(1));
 }
 
 }  // namespace

@@ -20,13 +20,13 @@ using namespace testing_echoes;
 
 const double k16 = wavenumber(16e9);
 
-SeaMirror conductor() {
+SeaReflection conductor() {
   SeaReflectionSpec spec;
   spec.surface = SeaSurface::kConductor;
-  return SeaMirror(spec, 0);
+  return SeaReflection(spec, 0);
 }
 
-std::array<Complex, 4> over_sea(const Scatterer& scatterer, const Vec3& r_hat, double height, const SeaMirror& sea,
+std::array<Complex, 4> over_sea(const Scatterer& scatterer, const Vec3& r_hat, double height, const SeaReflection& sea,
                                 double k, double spacing = 0) {
   return scattering_matrices_over_sea(scatterer, r_hat, height, sea, std::array{k}, {spacing, 8})[0];
 }
@@ -39,7 +39,7 @@ double largest(const std::array<Complex, 4>& s) {
 
 // A sphere 10 m ahead of the origin and 10 m up, the radar some km from the water below the origin: the sum over the
 // four ways by their lengths.
-TEST(SeaMirror, CountsTheRangeFromTheWaterBelow) {
+TEST(SeaReflection, CountsTheRangeFromTheWaterBelow) {
   const double k = wavenumber(10e9), radius = 0.1, height = 10, el = radians(5);
   const Vec3 r = direction(0, 5);
   const Scatterer sphere(transformed(make_sphere(radius, 4), Mat3::Identity(), {10, 0, 0}));
@@ -60,7 +60,7 @@ TEST(SeaMirror, CountsTheRangeFromTheWaterBelow) {
       }
     }
     sum *= std::polar(1.0, -2 * k * r.z() * height);  // phases are about the body's origin
-    IlluminationSettings settings;
+    TracingSettings settings;
     settings.range_m = range_m;
     const Complex ours =
         scattering_matrices_over_sea(sphere, r, height, conductor(), std::array{k}, settings)[0][kHhChannel];
@@ -70,18 +70,18 @@ TEST(SeaMirror, CountsTheRangeFromTheWaterBelow) {
   }
 }
 
-TEST(SeaMirror, SeaWaterIsAFresnelMirrorWithAPseudoBrewsterAngle) {
-  const SeaMirror sea(SeaReflectionSpec{}, 0);
+TEST(SeaReflection, SeaWaterIsAFresnelMirrorWithAPseudoBrewsterAngle) {
+  const SeaReflection sea(SeaReflectionSpec{}, 0);
   // Fresnel's formulas for the permittivity itself (Born and Wolf, 1.5.2, eqs. 21 and 21a).
   const Complex index = std::sqrt(sea_water_permittivity(16e9, 20, 35));
-  double least = 1, least_at = 0;
+  double min = 1, least_at = 0;
   for (double psi = 0.1; psi < 89; psi += 0.1) {
     const Complex i = radians(90 - psi), t = std::asin(std::sin(i) / index);
-    const SeaCoefficients rho = sea.at(k16, std::sin(radians(psi)));
+    const SeaReflectionCoefficients rho = sea.at(k16, std::sin(radians(psi)));
     EXPECT_LT(std::abs(rho.h + std::sin(i - t) / std::sin(i + t)), 1e-12) << psi;
     EXPECT_LT(std::abs(rho.v - std::tan(i - t) / std::tan(i + t)), 1e-12) << psi;
-    if (std::abs(rho.v) < least) {
-      least = std::abs(rho.v);
+    if (std::abs(rho.v) < min) {
+      min = std::abs(rho.v);
       least_at = psi;
     }
   }
@@ -95,7 +95,7 @@ TEST(SeaMirror, SeaWaterIsAFresnelMirrorWithAPseudoBrewsterAngle) {
 
 // A small sphere at height H: all four echoes are S0 = -(a/2) e^{j2ka}-like, the bistatic ones (by 2 el) nearly so.
 // Then S = S0 (1 + rho e^{-j 2 k H sin el})^2 about the sphere.
-TEST(SeaMirror, SphereAboveItShowsTheFourPathInterference) {
+TEST(SeaReflection, SphereAboveItShowsTheFourPathInterference) {
   const double radius = 0.05, el = radians(1.2), k = wavenumber(10e9);
   const Scatterer sphere(make_sphere(radius, 4));
   const auto alone = echo(sphere, radar_basis(direction(15, 1.2)), k, 0.001);
@@ -124,17 +124,17 @@ TEST(SeaMirror, SphereAboveItShowsTheFourPathInterference) {
       12.04, 0.2);
 }
 
-TEST(SeaMirror, RoughnessTakesTheInterferenceAway) {
+TEST(SeaReflection, RoughnessTakesTheInterferenceAway) {
   const double k = k16, el = radians(2);
   const Scatterer sphere(make_sphere(0.05, 4));
   const double height = kPi / (2 * k * std::sin(el));  // peak of hh over a smooth sea
   const auto level = [&](double wave_height) {
-    return std::abs(
-        over_sea(sphere, direction(0, 2), height, SeaMirror(SeaReflectionSpec{}, wave_height), k, 0.001)[kHhChannel]);
+    return std::abs(over_sea(sphere, direction(0, 2), height, SeaReflection(SeaReflectionSpec{}, wave_height), k,
+                             0.001)[kHhChannel]);
   };
   const double alone = std::abs(echo(sphere, radar_basis(direction(0, 2)), k, 0.001)[kHhChannel]);
   const auto expected = [&](double wave_height) {
-    const Complex rho = SeaMirror(SeaReflectionSpec{}, wave_height).at(k, std::sin(el)).h;
+    const Complex rho = SeaReflection(SeaReflectionSpec{}, wave_height).at(k, std::sin(el)).h;
     return std::norm(1.0 - rho) * alone;
   };
   for (const double wave_height : {0.0, 0.2, 1.0, 3.0})
@@ -146,7 +146,7 @@ TEST(SeaMirror, RoughnessTakesTheInterferenceAway) {
 // A vertical plate that stands on a conducting sea is, by image theory, a plate of twice the height lit by the radar
 // and its image (odd for h, even for v): S_pp = S2(r, r) + rho_p S2(r', r) with S2 of the doubled plate; S2(r', r) is
 // its mirror reflection, 2 A cos(el) / lambda: the dihedral's echo.
-TEST(SeaMirror, PlateStandingOnAConductingSeaIsADihedral) {
+TEST(SeaReflection, PlateStandingOnAConductingSeaIsADihedral) {
   const double width = 0.3, height = 0.2;
   const auto standing = [&](double from, double to) {
     TriangleMesh mesh = make_plate(width, to - from);
@@ -171,7 +171,7 @@ TEST(SeaMirror, PlateStandingOnAConductingSeaIsADihedral) {
 
 // The same as a mesh: a large conducting floor under the plate, in the solver's own two bounces. What differs is what
 // the floor's finite size leaves.
-TEST(SeaMirror, PlateOnAFloorOfTheSolversOwnAnswersAlike) {
+TEST(SeaReflection, PlateOnAFloorOfTheSolversOwnAnswersAlike) {
   const double width = 0.3, height = 0.2, elevation = 30;
   TriangleMesh plate = make_plate(width, height);
   for (Vec3& x : plate.vertices) x.z() += 0.5 * height;
@@ -196,14 +196,14 @@ TEST(SeaMirror, PlateOnAFloorOfTheSolversOwnAnswersAlike) {
   }
 }
 
-TEST(SeaMirror, AFloatingBodyIsItsDryPartAlone) {
+TEST(SeaReflection, AFloatingBodyIsItsDryPartAlone) {
   // An upright cylinder sunk to its middle: broadside half of it answers, from above all of its top, from below
   // nothing, and the image does not see the inside.
   const TriangleMesh whole = make_cylinder(0.4, 0.6, 90);
   TriangleMesh mesh = whole, top = make_cylinder(0.4, 0.3, 90);
   for (Vec3& x : top.vertices) x.z() += 0.15;
   std::vector<MaterialSpec> materials{MaterialSpec{}};
-  put_in_water(mesh, materials, 0);
+  cut_at_sea_level(mesh, materials, 0);
   // Flat facets: a cut through them makes vertices that do not lie on the smooth surface.
   const Scatterer floating(mesh, materials, 0);
   const auto broadside = echo(floating, radar_basis(Vec3::UnitX()), k16, 0.01),
@@ -215,35 +215,35 @@ TEST(SeaMirror, AFloatingBodyIsItsDryPartAlone) {
   EXPECT_EQ(largest(echo(floating, radar_basis(-Vec3::UnitZ()), k16, 0.01)), 0);
 }
 
-TEST(SeaMirror, MatrixIsTheSumOfItsDirectAndMultipathParts) {
+TEST(SeaReflection, MatrixIsTheSumOfItsDirectAndMultipathParts) {
   const Scatterer reflector(make_icosahedral_reflector());
   SeaReflectionSpec all, direct, multipath;
   direct.paths = SeaPaths::kDirect;
   multipath.paths = SeaPaths::kMultipath;
   const Vec3 r = direction(33, 2);
-  const auto a = over_sea(reflector, r, 0.75, SeaMirror(all, 0.3), k16),
-             d = over_sea(reflector, r, 0.75, SeaMirror(direct, 0.3), k16),
-             m = over_sea(reflector, r, 0.75, SeaMirror(multipath, 0.3), k16);
+  const auto a = over_sea(reflector, r, 0.75, SeaReflection(all, 0.3), k16),
+             d = over_sea(reflector, r, 0.75, SeaReflection(direct, 0.3), k16),
+             m = over_sea(reflector, r, 0.75, SeaReflection(multipath, 0.3), k16);
   EXPECT_EQ(d, echo(reflector, radar_basis(r), k16));
   for (int i = 0; i < 4; ++i) EXPECT_LT(std::abs(a[i] - d[i] - m[i]), 1e-12);
 }
 
-TEST(SeaMirror, APointsResponseIsTheProductOfItsTwoWays) {
+TEST(SeaReflection, APointsResponseIsTheProductOfItsTwoWays) {
   PointSpec point;
   point.position_m = {3, -2, 4.5};
   point.amplitude_m = 2;
   IntervalSampling sampling;
   sampling.first_hz = 16e9;
   sampling.step_hz = 1e6;
-  sampling.count = sampling.per_pulse = 8;
+  sampling.count = sampling.frequencies_per_pulse = 8;
   sampling.pulse_first = {0};
   sampling.pulse_time_s = {0};
   const Vec3 r = direction(20, 3), x(3, -2, 4.5);
-  const SeaMirror sea(SeaReflectionSpec{}, 0.5);
+  const SeaReflection sea(SeaReflectionSpec{}, 0.5);
   const FrequencyResponse response = point_response_over_sea(std::array{point}, r, sampling, Polarisation::kHv, sea);
   for (int b = 0; b < 8; ++b) {
     const double k = wavenumber(16e9 + 1e6 * b);
-    const SeaCoefficients rho = sea.at(k, r.z());
+    const SeaReflectionCoefficients rho = sea.at(k, r.z());
     const auto way = [&](const Complex& c) {
       return std::polar(1.0, k * r.dot(x)) + c * std::polar(1.0, k * image_direction(r).dot(x));
     };
@@ -254,11 +254,11 @@ TEST(SeaMirror, APointsResponseIsTheProductOfItsTwoWays) {
 // The paper's interval: 8 carriers by 25 MHz, 40 frequencies each, 256 pulses by 250 us.
 // Relative L2 error, dB, of a body's response over the sea against fresh matrices at random pulses and frequencies.
 double error_against_fresh_traces(const Scatterer& scatterer, const Trajectory& trajectory, const Vec3& r,
-                                  const SeaMirror& sea, Polarisation polarisation, int spots) {
+                                  const SeaReflection& sea, Polarisation polarisation, int spots) {
   const IntervalSampling sampling = paper_interval(0.3);
   const RadarBasis radar = radar_basis(r), image = radar_basis(image_direction(r));
   const int element = static_cast<int>(polarisation);
-  const BodyResponse body = respond(scatterer, trajectory, r, polarisation, sampling, SolverSpec{}, 2, &sea);
+  const BodyResponse body = body_response(scatterer, trajectory, r, polarisation, sampling, SolverSpec{}, 2, &sea);
   Random random({8, Stream::kTest, 0});
   double error = 0, power = 0;
   for (int spot = 0; spot < spots; ++spot) {
@@ -267,12 +267,13 @@ double error_against_fresh_traces(const Scatterer& scatterer, const Trajectory& 
     const Mat3 R_BT = pose.R.transpose();
     const double k = wavenumber(sampling.first_hz + (sampling.pulse_first[n] + b) * sampling.step_hz);
     Complex fresh = 0;
-    for (const SeaPath& path : kSeaPaths) {
+    for (const PropagationPath& path : kFourPaths) {
       const auto turned = [&](const RadarBasis& w) { return RadarBasis{R_BT * w.r, R_BT * w.h, R_BT * w.v}; };
-      const RadarBasis &t = path.there ? image : radar, &s = path.back ? image : radar;
-      const AntennaPair pair = path.there == path.back ? monostatic(turned(t)) : bistatic(turned(t), turned(s));
+      const RadarBasis &t = path.outbound_via_sea ? image : radar, &s = path.return_via_sea ? image : radar;
+      const BistaticGeometry pair =
+          path.outbound_via_sea == path.return_via_sea ? monostatic(turned(t)) : bistatic(turned(t), turned(s));
       fresh +=
-          SeaMirror::weight(path, sea.at(k, r.z()), element) * std::polar(1.0, k * (t.r + s.r).dot(pose.p)) *
+          SeaReflection::path_factor(path, sea.at(k, r.z()), element) * std::polar(1.0, k * (t.r + s.r).dot(pose.p)) *
           scattering_matrices(scatterer, pair, std::array{k}, {0, kDefaultBounces, SolverSpec{}.edges}, 2)[0][element];
     }
     error += std::norm(body.response.at(n, b) - fresh);
@@ -290,17 +291,17 @@ Trajectory rocking(const Vec3& angle_rates, double heave_rate, const Vec3& rest)
     MotionSample sample;
     sample.angles = angle_rates / omega * std::sin(phase);
     sample.angle_rates = angle_rates * std::cos(phase);
-    sample.shift = {0, 0, heave_rate / omega * std::sin(phase)};
-    sample.shift_rates = {0, 0, heave_rate * std::cos(phase)};
+    sample.translation = {0, 0, heave_rate / omega * std::sin(phase)};
+    sample.translation_rates = {0, 0, heave_rate * std::cos(phase)};
     samples.push_back(sample);
   }
   return Trajectory(0, 0.01, samples, rest, Vec3::Zero());
 }
 
-TEST(SeaMirror, ResponseOverAnIntervalFollowsFreshTraces) {
+TEST(SeaReflection, ResponseOverAnIntervalFollowsFreshTraces) {
   const Scatterer reflector(make_icosahedral_reflector());
   const Trajectory trajectory = rocking({0.3, -0.2, 0.4}, 0.6, {12, 5, 0.75});
-  const SeaMirror sea(SeaReflectionSpec{}, 0.1);
+  const SeaReflection sea(SeaReflectionSpec{}, 0.1);
   for (const auto& [polarisation, name] : {std::pair{Polarisation::kVv, "vv"}, {Polarisation::kHh, "hh"}}) {
     const double error_db = error_against_fresh_traces(reflector, trajectory, direction(20, 2), sea, polarisation, 20);
     fmt::print("reflector over the sea, {}: {:.1f} dB\n", name, error_db);
@@ -308,30 +309,30 @@ TEST(SeaMirror, ResponseOverAnIntervalFollowsFreshTraces) {
   }
 }
 
-TEST(SeaMirror, ShipsResponseOverAnIntervalFollowsFreshTraces) {
+TEST(SeaReflection, ShipsResponseOverAnIntervalFollowsFreshTraces) {
   TriangleMesh mesh = read_mesh(SEAGLINT_SOURCE_DIR "/assets/combatant_144m.glb");
   std::vector<MaterialSpec> materials(mesh.materials.size());
-  put_in_water(mesh, materials, 0);
+  cut_at_sea_level(mesh, materials, 0);
   const Scatterer ship(mesh, materials);
   const Trajectory trajectory = rocking({radians(0.8), radians(0.6), radians(0.3)}, 0.5, Vec3::Zero());
   const double error_db = error_against_fresh_traces(ship, trajectory, direction(50, 2),
-                                                     SeaMirror(SeaReflectionSpec{}, 0.1), Polarisation::kVv, 5);
+                                                     SeaReflection(SeaReflectionSpec{}, 0.1), Polarisation::kVv, 5);
   fmt::print("ship over the sea: {:.1f} dB\n", error_db);
   EXPECT_LT(error_db, -30);
 }
 
-TEST(SeaMirror, ResponseDoesNotDependOnThreads) {
+TEST(SeaReflection, ResponseDoesNotDependOnThreads) {
   const Scatterer plate(make_plate(0.5, 0.4));
   IntervalSampling sampling;
   sampling.first_hz = 16e9;
   sampling.step_hz = 1e6;
-  sampling.count = sampling.per_pulse = 16;
+  sampling.count = sampling.frequencies_per_pulse = 16;
   sampling.pulse_first = {0, 0};
   sampling.pulse_time_s = {0, 0.001};
-  const SeaMirror sea(SeaReflectionSpec{}, 0.1);
+  const SeaReflection sea(SeaReflectionSpec{}, 0.1);
   const Trajectory rest = Trajectory::at_rest({0, 0, 2});
-  const auto one = respond(plate, rest, direction(5, 2), Polarisation::kVv, sampling, SolverSpec{}, 1, &sea),
-             two = respond(plate, rest, direction(5, 2), Polarisation::kVv, sampling, SolverSpec{}, 2, &sea);
+  const auto one = body_response(plate, rest, direction(5, 2), Polarisation::kVv, sampling, SolverSpec{}, 1, &sea),
+             two = body_response(plate, rest, direction(5, 2), Polarisation::kVv, sampling, SolverSpec{}, 2, &sea);
   EXPECT_EQ(one.response.values, two.response.values);
 }
 

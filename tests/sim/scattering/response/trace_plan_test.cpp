@@ -13,7 +13,7 @@ namespace {
 
 using namespace testing_echoes;
 
-const std::vector<SeaPath> kDirect{SeaPath{}};
+const std::vector<PropagationPath> kDirect{PropagationPath{}};
 
 // Pitch and yaw by `angle` rad about their means, round and round once in period_s: directions ahead go in a circle.
 Trajectory circling(double angle, double period_s) {
@@ -32,7 +32,7 @@ void expect_shares_sum_to_one(const TracePlan& plan, int pulses) {
     double sum = 0;
     for (std::size_t i = 0; i < plan.traces().size(); ++i) {
       const PlannedTrace& trace = plan.traces()[i];
-      const double share = plan.share(i, n);
+      const double share = plan.interpolation_weight(i, n);
       sum += share;
       EXPECT_EQ(share > 0, trace.first <= n && n <= trace.last) << "trace " << i << ", pulse " << n;
     }
@@ -45,15 +45,16 @@ TEST(TracePlan, OfABodyBesideANearRadarsReferencePoint) {
   const Vec3 r = direction(30, 2), rest(-40, 45, 3), velocity(0, 10, 0);
   const double range_m = 1000;
   const IntervalSampling sampling = paper_interval(0.2);
-  const TracePlan plan(Trajectory::at_rest(rest).carried(velocity, 0.2), sampling, r, range_m, kDirect, {1e-4, 1e-6});
+  const TracePlan plan(Trajectory::at_rest(rest).with_drift(velocity, 0.2), sampling, r, range_m, kDirect,
+                       {1e-4, 1e-6});
   EXPECT_GT(plan.traces().size(), 1u);
   for (const int pulse : {0, 100, 255}) {
     const Vec3 x = rest + (sampling.pulse_time_s[static_cast<std::size_t>(pulse)] - 0.2) * velocity;
-    EXPECT_NEAR(plan.gain(kDirect[0], pulse), 2 * (range_m - (range_m * r - x).norm()), 1e-12 * range_m);
+    EXPECT_NEAR(plan.path_advance(kDirect[0], pulse), 2 * (range_m - (range_m * r - x).norm()), 1e-12 * range_m);
   }
   const Vec3 middle = rest + 0.5 * (sampling.pulse_time_s.back() - 0.2) * velocity;
   const TracePlan still(Trajectory::at_rest(middle), sampling, r, range_m, kDirect, {1, 1});
-  const RadarBasis& seen = still.traces()[0].ways[0].antennas.transmit;
+  const RadarBasis& seen = still.traces()[0].paths[0].geometry.transmit;
   EXPECT_LT((seen.r - (range_m * r - middle).normalized()).norm(), 1e-12);
   EXPECT_NEAR(seen.h.dot(seen.r), 0, 1e-12);
   EXPECT_LT((seen.r.cross(seen.h) - seen.v).norm(), 1e-12);
@@ -64,7 +65,7 @@ TEST(TracePlan, OfABodyAtRestIsOneTrace) {
                        {1e-3, 1e-6});
   ASSERT_EQ(plan.traces().size(), 1u);
   EXPECT_EQ(plan.traces()[0].last, 255);
-  EXPECT_DOUBLE_EQ(plan.gain(kDirect[0], 255), 2 * direction(30, 2).dot(Vec3(1, 2, 3)));
+  EXPECT_DOUBLE_EQ(plan.path_advance(kDirect[0], 255), 2 * direction(30, 2).dot(Vec3(1, 2, 3)));
   expect_shares_sum_to_one(plan, 256);
 }
 
@@ -97,7 +98,7 @@ TEST(TracePlan, HasMoreTracesWhereThePathBends) {
     EXPECT_GE(plan.traces().size(), before) << beside;
     before = plan.traces().size();
     for (const PlannedTrace& trace : plan.traces()) {
-      for (const PlannedWay& way : trace.ways) EXPECT_LE(way.moves.q_limit, beside);
+      for (const PlannedPath& path : trace.paths) EXPECT_LE(path.look_path.q_limit, beside);
     }
     expect_shares_sum_to_one(plan, 256);
   }

@@ -46,7 +46,7 @@ Scatterer coated(TriangleMesh mesh, const MaterialSpec& material) {
   return Scatterer(mesh, materials);
 }
 
-TEST(Coated, PlateDropsByTheReflectionCoefficientSquaredAtEveryAngle) {
+TEST(CoatedTarget, PlateDropsByTheReflectionCoefficientSquaredAtEveryAngle) {
   // The plate turns about z: h lies in the plane of incidence, v across it. Backscatter of physical optics is the
   // conductor's times tm and -te.
   const TriangleMesh plate = make_plate(0.3, 0.2);
@@ -55,7 +55,7 @@ TEST(Coated, PlateDropsByTheReflectionCoefficientSquaredAtEveryAngle) {
     const Scatterer target = coated(plate, material), metal(plate);
     for (const double azimuth : {0.0, 7.0, 31.0, 66.0}) {
       const RadarBasis basis = radar_basis(direction(azimuth, 0));
-      const SurfaceFields fields = Surface(material, k16).at(std::cos(radians(azimuth)));
+      const InterfaceCoefficients fields = MaterialSurface(material, k16).at(std::cos(radians(azimuth)));
       const auto s = echo(target, basis, k16), pec = echo(metal, basis, k16);
       EXPECT_LT(std::abs(s[kHhChannel] - fields.tm * pec[kHhChannel]), kRounding) << material.name << " " << azimuth;
       EXPECT_LT(std::abs(s[kVvChannel] + fields.te * pec[kVvChannel]), kRounding) << material.name << " " << azimuth;
@@ -64,36 +64,36 @@ TEST(Coated, PlateDropsByTheReflectionCoefficientSquaredAtEveryAngle) {
   }
 }
 
-TEST(Coated, ImpedanceOfZeroIsThePerfectConductorOnEveryPath) {
+TEST(CoatedTarget, ImpedanceOfZeroIsThePerfectConductorOnEveryPath) {
   TriangleMesh mesh = make_square_trihedral(0.3);
   const auto coated_echo = echo(coated(mesh, impedance(0, 0)), radar_basis(direction(38, 27)), k16, 0.005);
   const auto metal_echo = echo(Scatterer(mesh), radar_basis(direction(38, 27)), k16, 0.005);
   for (int i = 0; i < 4; ++i) EXPECT_LT(std::abs(coated_echo[i] - metal_echo[i]), kRounding * largest(metal_echo));
 }
 
-TEST(Coated, MaterialsThatAreAllPerfectConductorChangeNoBit) {
+TEST(CoatedTarget, MaterialsThatAreAllPerfectConductorChangeNoBit) {
   TriangleMesh mesh = make_icosahedral_reflector();
   const auto plain = echo(Scatterer(mesh), radar_basis(direction(20, 5)), k16);
   const auto named = echo(coated(mesh, MaterialSpec{}), radar_basis(direction(20, 5)), k16);
   EXPECT_EQ(plain, named);
 }
 
-TEST(Coated, SpecularBistaticEchoFollowsTheCoefficientsOfItsAngle) {
+TEST(CoatedTarget, SpecularBistaticEchoFollowsTheCoefficientsOfItsAngle) {
   const Scatterer metal(make_plate(0.3, 0.2));  // in the plane x = 0
   for (const MaterialSpec& material : {impedance(0.4, -0.2), library("ram_loaded_epoxy"), library("grp_sheet")}) {
     const Scatterer target = coated(make_plate(0.3, 0.2), material);
     for (const double azimuth : {10.0, 45.0, 75.0}) {
-      const AntennaPair pair = bistatic(radar_basis(direction(azimuth, 0)), radar_basis(direction(-azimuth, 0)));
+      const BistaticGeometry pair = bistatic(radar_basis(direction(azimuth, 0)), radar_basis(direction(-azimuth, 0)));
       const auto s = scattering_matrices(target, pair, std::array{k16}, {0, 8})[0],
                  pec = scattering_matrices(metal, pair, std::array{k16}, {0, 8})[0];
-      const SurfaceFields fields = Surface(material, k16).at(std::cos(radians(azimuth)));
+      const InterfaceCoefficients fields = MaterialSurface(material, k16).at(std::cos(radians(azimuth)));
       EXPECT_LT(std::abs(s[kHhChannel] - fields.tm * pec[kHhChannel]), kRounding) << material.name << " " << azimuth;
       EXPECT_LT(std::abs(s[kVvChannel] + fields.te * pec[kVvChannel]), kRounding) << material.name << " " << azimuth;
     }
   }
 }
 
-TEST(Coated, DihedralMultipliesTheCoefficientsOfItsTwoFaces) {
+TEST(CoatedTarget, DihedralMultipliesTheCoefficientsOfItsTwoFaces) {
   // Along the bisector both faces are met at 45 deg; seam along z, so v is across both planes of incidence and h in
   // them.
   const double a = 0.3, b = 0.25;
@@ -107,7 +107,8 @@ TEST(Coated, DihedralMultipliesTheCoefficientsOfItsTwoFaces) {
   }
   const Scatterer target(mesh, {one, two});
   const auto s = echo(target, radar_basis(Vec3::UnitX()), k16), pec = echo(metal, radar_basis(Vec3::UnitX()), k16);
-  const SurfaceFields first = Surface(one, k16).at(std::sqrt(0.5)), second = Surface(two, k16).at(std::sqrt(0.5));
+  const InterfaceCoefficients first = MaterialSurface(one, k16).at(std::sqrt(0.5)),
+                              second = MaterialSurface(two, k16).at(std::sqrt(0.5));
   // First-bounce side lobes: each face answers at most 2 a b / (k a) / lambda, the conductor's too.
   const double side_lobe = 2 * a * b * k16 / (2 * kPi) / (k16 * a);
   EXPECT_LT(std::abs(s[kVvChannel] - first.te * second.te * pec[kVvChannel]), 2 * side_lobe);
@@ -117,7 +118,7 @@ TEST(Coated, DihedralMultipliesTheCoefficientsOfItsTwoFaces) {
              -20 * std::log10(std::abs(first.te * second.te)));
 }
 
-TEST(Coated, SheetOfVacuumScattersNothingInAnyDirection) {
+TEST(CoatedTarget, SheetOfVacuumScattersNothingInAnyDirection) {
   const Scatterer target = coated(stepped_corner(), vacuum_sheet());
   for (const Vec3& receive : {direction(33, 20), direction(-33, 10), direction(-140, 5)}) {
     const auto s = scattering_matrices(target, bistatic(radar_basis(direction(33, 20)), radar_basis(receive)),
@@ -126,13 +127,13 @@ TEST(Coated, SheetOfVacuumScattersNothingInAnyDirection) {
   }
 }
 
-TEST(Coated, SphereTendsToTheConductorsEchoTimesItsCoefficientAtNormalIncidence) {
+TEST(CoatedTarget, SphereTendsToTheConductorsEchoTimesItsCoefficientAtNormalIncidence) {
   // Only the front matters, where the wave comes in along the normal; what stays is the false echo of the shadow edge,
   // 1 / (2 ka) of the conductor's.
   const MaterialSpec material = impedance(0.4, 0.25);
   const TriangleMesh mesh = make_sphere(1, 5);
   const Scatterer target = coated(mesh, material), metal(mesh);
-  const Complex gamma = Surface(material, 1).at(1).tm;
+  const Complex gamma = MaterialSurface(material, 1).at(1).tm;
   for (const double ka : {80.0, 120.0}) {
     const RadarBasis basis = radar_basis(direction(23, 11));
     const Complex ratio = echo(target, basis, ka, 0.02)[kVvChannel] / echo(metal, basis, ka, 0.02)[kVvChannel];
@@ -142,10 +143,10 @@ TEST(Coated, SphereTendsToTheConductorsEchoTimesItsCoefficientAtNormalIncidence)
   }
 }
 
-TEST(Coated, EveryFrequencyOfASweepHasItsOwnCoefficients) {
+TEST(CoatedTarget, EveryFrequencyOfASweepHasItsOwnCoefficients) {
   const MaterialSpec material = library("ram_loaded_epoxy");
   const Scatterer target = coated(make_square_trihedral(0.3), material);
-  const AntennaPair pair = monostatic(radar_basis(direction(40, 30)));
+  const BistaticGeometry pair = monostatic(radar_basis(direction(40, 30)));
   const std::array ks{wavenumber(9e9), wavenumber(14e9), wavenumber(18e9)};
   const auto sweep = scattering_matrices(target, pair, ks, {0.01, 8});
   for (std::size_t q = 0; q < ks.size(); ++q) {
@@ -159,11 +160,11 @@ double band_error_db(const Scatterer& target, const Vec3& r) {
   IntervalSampling sampling;
   sampling.first_hz = 16.0e9;
   sampling.step_hz = 5e6;
-  sampling.count = sampling.per_pulse = 41;
+  sampling.count = sampling.frequencies_per_pulse = 41;
   sampling.pulse_first = {0};
   sampling.pulse_time_s = {0};
   const BodyResponse body =
-      respond(target, Trajectory::at_rest(Vec3::Zero()), r, Polarisation::kVv, sampling, SolverSpec{});
+      body_response(target, Trajectory::at_rest(Vec3::Zero()), r, Polarisation::kVv, sampling, SolverSpec{});
   double error = 0, power = 0;
   for (int b = 0; b < sampling.count; ++b) {
     const Complex fresh =
@@ -178,7 +179,7 @@ double band_error_db(const Scatterer& target, const Vec3& r) {
 // |k/kc - 1| = 0.6 % of the end points.
 const double kBandErrorDb = 20 * std::log10(3 * 0.05 * 0.05 / 2 + 0.006);
 
-TEST(Coated, IntervalFollowsTheCoefficientsOverItsBand) {
+TEST(CoatedTarget, IntervalFollowsTheCoefficientsOverItsBand) {
   for (const char* name : {"sea_water", "ram_loaded_epoxy", "grp_sheet", "window_glass"}) {
     const double error_db = band_error_db(coated(make_icosahedral_reflector(), library(name)), direction(3, 2));
     fmt::print("reflector of {} over 200 MHz: {:.1f} dB\n", name, error_db);
@@ -186,7 +187,7 @@ TEST(Coated, IntervalFollowsTheCoefficientsOverItsBand) {
   }
 }
 
-TEST(Coated, IntervalFollowsTheCoefficientsOfACurvedSurface) {
+TEST(CoatedTarget, IntervalFollowsTheCoefficientsOfACurvedSurface) {
   for (const char* name : {"sea_water", "ram_loaded_epoxy", "grp_sheet", "window_glass"}) {
     const double error_db = band_error_db(coated(make_sphere(0.5, 4), library(name)), direction(23, 11));
     fmt::print("sphere of {} over 200 MHz: {:.1f} dB\n", name, error_db);
@@ -194,7 +195,7 @@ TEST(Coated, IntervalFollowsTheCoefficientsOfACurvedSurface) {
   }
 }
 
-TEST(Coated, TurningTargetAndRadarTogetherChangesNothing) {
+TEST(CoatedTarget, TurningTargetAndRadarTogetherChangesNothing) {
   const Mat3 turn = Eigen::AngleAxisd(1.1, Vec3(0.3, -1, 0.6).normalized()).toRotationMatrix();
   const MaterialSpec material = library("ram_loaded_epoxy");
   const RadarBasis basis = radar_basis(direction(41, 22));
@@ -204,13 +205,13 @@ TEST(Coated, TurningTargetAndRadarTogetherChangesNothing) {
   for (int i = 0; i < 4; ++i) EXPECT_LT(std::abs(before[i] - after[i]), 1e-9 * largest(before));
 }
 
-TEST(Coated, FirstBounceIsReciprocal) {
+TEST(CoatedTarget, FirstBounceIsReciprocal) {
   const Scatterer target = coated(stepped_corner(), impedance(0.7, -0.4));
   const auto s = echo(target, radar_basis(direction(12, 24)), k16, 0.01, 1);
   EXPECT_LT(std::abs(s[kHvChannel] - s[kVhChannel]), kRounding * largest(s));
 }
 
-TEST(Coated, RoughPlateLosesItsCoherentEcho) {
+TEST(CoatedTarget, RoughPlateLosesItsCoherentEcho) {
   MaterialSpec rough;
   rough.roughness_mm = 1;
   const auto smooth = echo(Scatterer(make_plate(0.3, 0.2)), radar_basis(direction(30, 0)), k16);

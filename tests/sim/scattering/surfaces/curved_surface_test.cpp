@@ -290,8 +290,8 @@ TEST(CurvedSurface, HoldsOverATurnWhereverItStands) {
   for (const Vec3& place : {Vec3(0, 0, 0), Vec3(20, 0, 0), Vec3(0, 0, 20)}) {
     const Scatterer sphere(transformed(make_sphere(1, 4), Mat3::Identity(), place));
     const Vec3 r = direction(0, 0);
-    IlluminationSettings settings;
-    const auto points = view_contributions(sphere, monostatic(radar_basis(r)), {k, radians(0.075)}, settings);
+    TracingSettings settings;
+    const auto points = aspect_contributions(sphere, monostatic(radar_basis(r)), {k, radians(0.075)}, settings);
     for (const double turned_deg : {0.02, 0.05, 0.07}) {
       const Vec3 there = direction(turned_deg, 0);
       const Complex fresh = echo(sphere, radar_basis(there), k)[kVvChannel];

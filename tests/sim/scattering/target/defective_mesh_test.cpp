@@ -29,53 +29,53 @@ void add(TriangleMesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
 
 // The largest difference of the two scattering matrices over a few directions, relative to the largest element.
 double difference(const TriangleMesh& a, const TriangleMesh& b) {
-  double most = 0, size = 0;
+  double max = 0, size = 0;
   for (const double azimuth : {3.0, 40.0, 111.0, 200.0}) {
     const auto sa = echo(a, direction(azimuth, 20), k10), sb = echo(b, direction(azimuth, 20), k10);
     for (int i = 0; i < 4; ++i) {
-      most = std::max(most, std::abs(sa[i] - sb[i]));
+      max = std::max(max, std::abs(sa[i] - sb[i]));
       size = std::max(size, std::abs(sa[i]));
     }
   }
-  return most / size;
+  return max / size;
 }
 
-TEST(DirtyMesh, InsideOutEchoesAsTheSoundOneOnceRepaired) {
+TEST(DefectiveMesh, InsideOutEchoesAsTheSoundOneOnceRepaired) {
   const TriangleMesh sound = make_icosahedral_reflector();
   TriangleMesh inverted = sound;
   for (std::size_t t = 0; t < inverted.triangles.size(); ++t) flip(inverted, t);
   EXPECT_GT(difference(sound, inverted), 0.1) << "as it stands it shows its inside";
-  EXPECT_LT(difference(sound, repaired(inverted)), kRounding);
+  EXPECT_LT(difference(sound, repair(inverted)), kRounding);
 }
 
-TEST(DirtyMesh, OfMixedNormalsEchoesAsTheSoundOne) {
+TEST(DefectiveMesh, OfMixedNormalsEchoesAsTheSoundOne) {
   const TriangleMesh sound = make_icosahedral_reflector();
   TriangleMesh mixed = sound;
   for (std::size_t t = 0; t < mixed.triangles.size(); t += 3) flip(mixed, t);
   // both sides are looked at: what is hidden is hidden by polygons, to their smallest area
-  EXPECT_LT(difference(sound, repaired(mixed)), 1e-6);
+  EXPECT_LT(difference(sound, repair(mixed)), 1e-6);
 }
 
-TEST(DirtyMesh, WithRepeatedAndDegenerateTrianglesEchoesAsTheSoundOne) {
+TEST(DefectiveMesh, WithRepeatedAndDegenerateTrianglesEchoesAsTheSoundOne) {
   const TriangleMesh sound = make_icosahedral_reflector();
   TriangleMesh dirty = sound;
   for (std::size_t t = 0; t < 60; t += 7) {
     add(dirty, sound.triangles[t]);
     add(dirty, {sound.triangles[t][0], sound.triangles[t][1], sound.triangles[t][1]});
   }
-  EXPECT_LT(difference(sound, repaired(dirty)), kRounding);
+  EXPECT_LT(difference(sound, repair(dirty)), kRounding);
 }
 
-TEST(DirtyMesh, OfTwoSidedSheetsEchoesAsTheSheets) {
+TEST(DefectiveMesh, OfTwoSidedSheetsEchoesAsTheSheets) {
   const TriangleMesh sheet = make_triangular_trihedral(0.3);
   TriangleMesh two_sided = sheet;
   for (const auto& t : sheet.triangles) add(two_sided, {t[0], t[2], t[1]});
-  EXPECT_LT(difference(sheet, repaired(two_sided)), kRounding);
+  EXPECT_LT(difference(sheet, repair(two_sided)), kRounding);
 }
 
 // Front and back of a corner are parts of their own, of conductor and of an impedance: from either side what stands
 // there answers, whichever part comes first.
-TEST(DirtyMesh, SheetsOfTwoMaterialsShowEachSideItsOwn) {
+TEST(DefectiveMesh, SheetsOfTwoMaterialsShowEachSideItsOwn) {
   MaterialSpec dull;
   dull.name = "dull";
   dull.kind = SurfaceKind::kImpedance;
@@ -90,7 +90,7 @@ TEST(DirtyMesh, SheetsOfTwoMaterialsShowEachSideItsOwn) {
   };
   const auto seen = [&](TriangleMesh mesh, const Vec3& r_hat, const std::vector<PartMaterial>& parts) {
     const auto materials = assign_materials(mesh, {}, parts);
-    return echo(Scatterer(repaired(mesh), materials, radians(20)), radar_basis(r_hat), k10);
+    return echo(Scatterer(repair(mesh), materials, radians(20)), radar_basis(r_hat), k10);
   };
   for (const char* first : {"front", "back"}) {
     const bool back_first = first == std::string("back");

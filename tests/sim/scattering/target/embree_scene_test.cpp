@@ -37,7 +37,7 @@ TEST(RayScene, LeavesTheCallersFloatingPointModeAsItWas) {
 }
 
 // Every box is a leaf once, and lies in the boxes above it.
-TEST(BoxTree, HoldsEveryBoxOnceWithinItsParents) {
+TEST(BvhBuild, HoldsEveryBoxOnceWithinItsParents) {
   Random random({29, Stream::kTest, 0});
   for (const int count : {1, 2, 5, 1000}) {
     std::vector<Box3> boxes(count);
@@ -48,13 +48,13 @@ TEST(BoxTree, HoldsEveryBoxOnceWithinItsParents) {
       box.add(random.uniform() < 0.5 ? x : Vec3(x + Vec3(random.uniform(), 0, random.uniform())));
       if (random.uniform() < 0.3) box = boxes[0];
     }
-    const std::vector<BoxNode> nodes = box_tree(boxes);
+    const std::vector<BvhNode> nodes = build_bvh(boxes);
     std::vector<int> met(count, 0);
     int deepest = 0;
-    const auto visit = [&](const auto& self, const BoxNode& node, int level) -> void {
+    const auto visit = [&](const auto& self, const BvhNode& node, int level) -> void {
       deepest = std::max(deepest, level);
       for (int i = 0; i < node.children; ++i) {
-        const BoxNode::Child& child = node.child[i];
+        const BvhNode::Child& child = node.child[i];
         if (child.index >= 0) {
           for (int k = 0; k < nodes[child.index].children; ++k) {
             for (int a = 0; a < 3; ++a) {
@@ -74,9 +74,9 @@ TEST(BoxTree, HoldsEveryBoxOnceWithinItsParents) {
     };
     visit(visit, nodes.at(0), 1);
     for (const int times : met) EXPECT_EQ(times, 1);
-    EXPECT_LE(deepest, kMostLevels);
+    EXPECT_LE(deepest, kMaxLevels);
   }
-  EXPECT_TRUE(box_tree({}).empty());
+  EXPECT_TRUE(build_bvh({}).empty());
 }
 
 }  // namespace

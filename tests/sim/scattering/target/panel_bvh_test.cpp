@@ -24,7 +24,7 @@ std::vector<int> walked(const Scatterer& scatterer, const Ray& ray, double width
                     ray.direction,        ray.direction.dot(ray.origin),  ray.direction,
                     Vec3::Zero()};
   std::vector<int> found;
-  scatterer.tree().walk(prism, [&](const TreePanel& panel) {
+  scatterer.tree().traverse(prism, [&](const BvhPanel& panel) {
     found.push_back(panel.facet);
     return std::numeric_limits<double>::infinity();
   });
@@ -37,7 +37,7 @@ Ray random_ray(Random& random, double radius) {
   return {radius * Vec3(random.uniform() - 0.5, 0.2 * (random.uniform() - 0.5), 0.2 * random.uniform()), direction};
 }
 
-TEST(FacetTree, FindsWhatARayHits) {
+TEST(PanelBvh, FindsWhatARayHits) {
   const Scatterer ship(read_mesh(SEAGLINT_SOURCE_DIR "/assets/combatant_144m.glb"));
   const RayScene scene(ship.facets());
   Random random({23, Stream::kTest, 0});
@@ -49,12 +49,12 @@ TEST(FacetTree, FindsWhatARayHits) {
     ++hits;
     // Embree's coordinates are single precision: 6e-8 of 72 m.
     const auto found = walked(ship, ray, 1e-4);
-    EXPECT_TRUE(std::binary_search(found.begin(), found.end(), ship.panels().of(hit))) << trial;
+    EXPECT_TRUE(std::binary_search(found.begin(), found.end(), ship.panels().representative(hit))) << trial;
   }
   EXPECT_GT(hits, 5000);
 }
 
-TEST(FacetTree, MissesNoFacetWithACornerInThePrism) {
+TEST(PanelBvh, MissesNoFacetWithACornerInThePrism) {
   const Scatterer reflector(make_icosahedral_reflector());
   Random random({23, Stream::kTest, 1});
   for (int trial = 0; trial < 2000; ++trial) {
@@ -66,7 +66,7 @@ TEST(FacetTree, MissesNoFacetWithACornerInThePrism) {
       for (const Vec3& corner : reflector.facets()[f].corner) {
         const Vec3 from = corner - ray.origin;
         if (std::abs(across.h.dot(from)) < 0.1 && std::abs(across.v.dot(from)) < 0.1 && ray.direction.dot(from) > 0) {
-          EXPECT_TRUE(std::binary_search(found.begin(), found.end(), reflector.panels().of(f))) << trial;
+          EXPECT_TRUE(std::binary_search(found.begin(), found.end(), reflector.panels().representative(f))) << trial;
         }
       }
     }
@@ -74,7 +74,7 @@ TEST(FacetTree, MissesNoFacetWithACornerInThePrism) {
 }
 
 // Seen along the diagonal a cube is a hexagon: in the corners that a rectangle around it has besides there is nothing.
-TEST(FacetTree, LeavesOutAPrismBesideABoxSeenAskew) {
+TEST(PanelBvh, LeavesOutAPrismBesideABoxSeenAskew) {
   TriangleMesh mesh = make_plate(1, 1);
   mesh.vertices = {{0, 0, 0}, {1, 1, 0}, {0, 1, 1}};  // their box is the unit cube
   mesh.triangles = {{0, 1, 2}};
@@ -94,7 +94,7 @@ TEST(FacetTree, LeavesOutAPrismBesideABoxSeenAskew) {
     EXPECT_TRUE(walked_at(h, v)) << h << ' ' << v;
 }
 
-TEST(FacetTree, PartsManyFacetsAtOnePlace) {
+TEST(PanelBvh, PartsManyFacetsAtOnePlace) {
   // A hundred copies of one plate: no cut parts their centres, and the tree must still end.
   TriangleMesh mesh = make_plate(0.3, 0.2);
   for (int i = 0; i < 99; ++i) mesh.append(make_plate(0.3, 0.2));

@@ -25,7 +25,7 @@ TEST(Panels, JoinTheTwoTrianglesOfAPlate) {
   const Panels panels(facets);
   ASSERT_EQ(panels.outline(0).size(), 4u);
   EXPECT_TRUE(panels.outline(1).empty());
-  EXPECT_EQ(panels.of(1), 0);
+  EXPECT_EQ(panels.representative(1), 0);
   EXPECT_EQ(panels.members(0).size(), 2u);
   EXPECT_NEAR(panels.size(0), std::hypot(0.3, 0.2), 1e-15);
 }
@@ -35,12 +35,12 @@ TEST(Panels, OfTheShipAreConvexLieInOnePlaneAndKeepItsArea) {
   const Panels panels(facets);
   std::vector<int> met(facets.size(), 0);
   for (int f = 0; f < static_cast<int>(facets.size()); ++f) {
-    if (!panels.is_first(f)) continue;
+    if (!panels.is_representative(f)) continue;
     const auto outline = panels.outline(f);
     double area = 0;
     for (const int member : panels.members(f)) {
       ++met[member];
-      EXPECT_EQ(panels.of(member), f);
+      EXPECT_EQ(panels.representative(member), f);
       EXPECT_EQ(facets[member].part, facets[f].part);
       area += area_of(facets[member].corner, facets[f].normal);
       for (const Vec3& x : facets[member].corner) EXPECT_LT(std::abs(facets[f].normal.dot(x) - facets[f].offset), 1e-7);
@@ -59,7 +59,7 @@ TEST(Panels, StayApartWhereMaterialOrPlaneChanges) {
   TriangleMesh mesh = make_plate(0.3, 0.2);
   auto facets = make_facets(mesh);
   facets[1].material = 1;
-  EXPECT_TRUE(Panels(facets).is_first(1));
+  EXPECT_TRUE(Panels(facets).is_representative(1));
   mesh.vertices[mesh.triangles[1][1]].x() += 1e-5;
   mesh.vertices[mesh.triangles[1][2]].x() += 1e-5;
   mesh.vertices[mesh.triangles[0][0]].x() -= 1e-5;

@@ -52,7 +52,7 @@ TEST_F(PreparedCylinder, HasMaterialsAndAWaterline) {
   const PreparedTarget target = prepare_target(load_solver_mesh(source_), settings);
   ASSERT_EQ(target.materials.size(), 2u);
   EXPECT_NE(target.materials[0].kind, SurfaceKind::kPec);
-  EXPECT_EQ(target.materials[1].kind, SurfaceKind::kUnderWater);
+  EXPECT_EQ(target.materials[1].kind, SurfaceKind::kSubmerged);
   for (std::size_t t = 0; t < target.mesh.triangles.size(); ++t) {
     double top = -1e9;
     for (const std::uint32_t v : target.mesh.triangles[t]) top = std::max(top, target.mesh.vertices[v].z());

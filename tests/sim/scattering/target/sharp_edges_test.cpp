@@ -22,14 +22,14 @@ TEST(SharpEdges, AreThoseOfAPlateABoxAndADihedral) {
   const auto edges_of = [](const TriangleMesh& mesh) { return Scatterer(mesh).edges().edges; };
   const auto rims = edges_of(make_plate(0.3, 0.2));
   EXPECT_EQ(rims.size(), 4u);
-  for (const SharpEdge& edge : rims) EXPECT_DOUBLE_EQ(edge.outside.N, 2);
+  for (const SharpEdge& edge : rims) EXPECT_DOUBLE_EQ(edge.front_wedge.N, 2);
   // Seen from within the corner the seam is concave; from behind it is a wedge of three right angles.
   int seams = 0;
   for (const SharpEdge& edge : edges_of(make_dihedral(0.25, 0.3, kPi / 2))) {
-    if (edge.is_rim()) continue;
+    if (edge.is_free_edge()) continue;
     ++seams;
-    EXPECT_NEAR(std::min(edge.outside.N, edge.inside.N), 0.5, 1e-12);
-    EXPECT_NEAR(std::max(edge.outside.N, edge.inside.N), 1.5, 1e-12);
+    EXPECT_NEAR(std::min(edge.front_wedge.N, edge.back_wedge.N), 0.5, 1e-12);
+    EXPECT_NEAR(std::max(edge.front_wedge.N, edge.back_wedge.N), 1.5, 1e-12);
   }
   EXPECT_EQ(seams, 1);
   EXPECT_TRUE(edges_of(make_sphere(1, 3)).empty());
@@ -44,7 +44,7 @@ TEST(SharpEdges, KnowTheStraightRunTheyArePartOf) {
     const Vec3 wide = askew * Vec3::UnitY();
     for (const SharpEdge& edge : plate.edges().edges) {
       const double expected = std::abs(edge.along().dot(wide)) > 0.5 ? 0.3 : 0.2;
-      EXPECT_NEAR(edge.run_m, expected, 1e-13 * pieces);  // of places 40 m out
+      EXPECT_NEAR(edge.collinear_length_m, expected, 1e-13 * pieces);  // of places 40 m out
     }
   }
 }
@@ -65,7 +65,7 @@ TEST(SharpEdges, EndTheirRunsInAFanOfLooseTriangles) {
   fan.triangle_material.assign(kTriangles, 0);
   const Scatterer scatterer(fan);
   EXPECT_EQ(scatterer.edges().edges.size(), 3 * kTriangles);
-  for (const SharpEdge& edge : scatterer.edges().edges) EXPECT_EQ(edge.run_m, edge.length());
+  for (const SharpEdge& edge : scatterer.edges().edges) EXPECT_EQ(edge.collinear_length_m, edge.length());
 }
 
 // Corners: those that images solve send nothing, nor are those asked that have more images than a sum of them holds.
@@ -73,10 +73,10 @@ TEST(SharpEdges, OfCornersDiffractBetweenTwelveDegAndAHalfTurn) {
   const auto corner_diffracts = [](double opening_deg) {
     const Scatterer scatterer(make_dihedral(0.25, 0.3, radians(opening_deg)));
     for (const SharpEdge& edge : scatterer.edges().edges) {
-      if (edge.is_rim()) continue;
-      const WedgeFrame& corner = edge.outside.N < 1 ? edge.outside : edge.inside;
+      if (edge.is_free_edge()) continue;
+      const WedgeFrame& corner = edge.front_wedge.N < 1 ? edge.front_wedge : edge.back_wedge;
       const Vec3 between = (corner.face[0].x + corner.face[1].x).normalized();
-      const WedgeFrame* met = wedge_towards(edge, -between);
+      const WedgeFrame* met = illuminated_wedge(edge, -between);
       EXPECT_TRUE(met == nullptr || met == &corner) << opening_deg;
       return met != nullptr;
     }
@@ -95,25 +95,25 @@ TEST(SharpEdges, OfACornerAreNotMetByWhatItsOwnFacesReflect) {
   for (const double opening_deg : {90.0, 135.0, 150.0}) {
     const Scatterer scatterer(make_dihedral(0.25, 0.3, radians(opening_deg)));
     for (const SharpEdge& edge : scatterer.edges().edges) {
-      if (edge.is_rim()) continue;
-      const bool concave_outside = edge.outside.N < 1;
-      const WedgeFrame &corner = concave_outside ? edge.outside : edge.inside,
-                       &back = concave_outside ? edge.inside : edge.outside;
+      if (edge.is_free_edge()) continue;
+      const bool concave_outside = edge.front_wedge.N < 1;
+      const WedgeFrame &corner = concave_outside ? edge.front_wedge : edge.back_wedge,
+                       &back = concave_outside ? edge.back_wedge : edge.front_wedge;
       // the mirror; from twice that on nothing reflected meets the other face
       const double above = 0.5 * (kPi - radians(opening_deg));
       for (const int mirror : {0, 1}) {
         const WedgeFace& face = corner.face[mirror];
         const Vec3 reflected = -std::cos(above) * face.x + std::sin(above) * face.n;
-        EXPECT_EQ(wedge_towards(edge, reflected), &back) << opening_deg;
-        EXPECT_EQ(wedge_lit(edge, mirror == 1, reflected), nullptr) << opening_deg;
-        EXPECT_EQ(wedge_lit(edge, mirror == 0, reflected), &back) << opening_deg;
-        EXPECT_FALSE(speaks(edge, back, mirror == 1, reflected)) << opening_deg;
+        EXPECT_EQ(illuminated_wedge(edge, reflected), &back) << opening_deg;
+        EXPECT_EQ(wedge_on_illuminated_face(edge, mirror == 1, reflected), nullptr) << opening_deg;
+        EXPECT_EQ(wedge_on_illuminated_face(edge, mirror == 0, reflected), &back) << opening_deg;
+        EXPECT_FALSE(records_edge(edge, back, mirror == 1, reflected)) << opening_deg;
       }
     }
   }
 }
 
-TEST(SharpEdges, OfEveryWedgeThatDiffractsOneSideSpeaks) {
+TEST(SharpEdges, ExactlyOneFaceRecordsEachEdge) {
   const TriangleMesh ship = read_mesh(SEAGLINT_SOURCE_DIR "/assets/combatant_144m.glb");
   for (const TriangleMesh& mesh : {ship, make_square_trihedral(0.4)}) {
     const Scatterer scatterer(mesh);
@@ -123,23 +123,23 @@ TEST(SharpEdges, OfEveryWedgeThatDiffractsOneSideSpeaks) {
       const Vec3 k_hat = Vec3(random.normal(), random.normal(), random.normal()).normalized();
       std::vector<int> speaking(edges.edges.size(), 0);
       for (int panel = 0; panel < static_cast<int>(scatterer.facets().size()); ++panel) {
-        for (const PanelEdge& side : edges.of_panel(panel)) {
+        for (const PanelEdge& side : edges.edges_of_panel(panel)) {
           const SharpEdge& edge = edges.edges[side.edge];
-          const WedgeFrame* wedge = side.may_speak(k_hat) ? wedge_towards(edge, k_hat) : nullptr;
-          const bool speaking_here = wedge && speaks(edge, *wedge, side.first, k_hat);
+          const WedgeFrame* wedge = side.may_record_edge(k_hat) ? illuminated_wedge(edge, k_hat) : nullptr;
+          const bool speaking_here = wedge && records_edge(edge, *wedge, side.is_first_face, k_hat);
           speaking[side.edge] += speaking_here;
           if (speaking_here) {
-            EXPECT_EQ(wedge_lit(edge, side.first, k_hat), wedge) << side.edge;
+            EXPECT_EQ(wedge_on_illuminated_face(edge, side.is_first_face, k_hat), wedge) << side.edge;
           }
         }
       }
       for (std::size_t number = 0; number < edges.edges.size(); ++number) {
         const SharpEdge& edge = edges.edges[number];
         // The rim of a sheet has one facet, which keeps it once.
-        if (wedge_towards(edge, k_hat)) {
+        if (illuminated_wedge(edge, k_hat)) {
           EXPECT_EQ(speaking[number], 1) << number;
         }
-        if (!edge.open && edge.outside.N < 1 && std::abs(std::sin(kPi / edge.outside.N)) < 1e-3) {
+        if (!edge.two_sided && edge.front_wedge.N < 1 && std::abs(std::sin(kPi / edge.front_wedge.N)) < 1e-3) {
           EXPECT_EQ(speaking[number], 0) << number;
         }
       }

@@ -95,13 +95,13 @@ Deviation against_image_theory(const TriangleMesh& body, const TriangleMesh& dou
   TriangleMesh both = deck;
   both.append(body);
   const Scatterer alone(deck), standing(both), doubled(doubled_body, {}, 0);
-  const IlluminationSettings settings{2e-4, 8, true};
+  const TracingSettings settings{2e-4, 8, true};
   std::array<double, 3> error{}, power{};
   for (double elevation = elevations.first_deg; elevation <= elevations.last_deg; elevation += 0.5) {
     const RadarBasis radar = radar_basis(direction(azimuth_deg, elevation)),
                      image = radar_basis(direction(azimuth_deg, -elevation));
-    const auto echo_of = [&](const Scatterer& target, const AntennaPair& antennas) {
-      return scattering_matrices(target, antennas, std::array{k}, settings)[0];
+    const auto echo_of = [&](const Scatterer& target, const BistaticGeometry& geometry) {
+      return scattering_matrices(target, geometry, std::array{k}, settings)[0];
     };
     const auto with = echo_of(standing, monostatic(radar)), without = echo_of(alone, monostatic(radar));
     // the image's h has the other sign
@@ -142,7 +142,7 @@ Deviation of_leaning_plate(double lean_deg, double half_deck, double azimuth_deg
 // deg off, where the upper rim's ends, off Keller's cone, are all that is left to err). With Gordon's ends on the rims,
 // one face's of two, and the mean of both ways hh and vv erred by up to 0.31 and 0.20, hv by 0.25; without edges by
 // 0.5, since the deck's half of the echo is missing.
-TEST(StandingBody, FollowsImageTheory) {
+TEST(BodyOnDeck, FollowsImageTheory) {
   for (const auto& [half_depth, hh, vv, hv] :
        {std::array{0.0, 0.2, 0.06, 0.015}, {0.05, 0.17, 0.07, 0.07}, {0.15, 0.11, 0.075, 0.012}}) {
     for (const double azimuth : {0.0, 5.0, 10.0, 20.0, 30.0, 45.0}) {
@@ -156,7 +156,7 @@ TEST(StandingBody, FollowsImageTheory) {
 // largest: below 5 deg the ways by the deck are images (grazing_reflection.h), from 6 deg on they end on the deck and
 // its rims. With the deck as the last mirror at every elevation hh and vv erred by up to 0.57 and 0.53 from 1 to 3 deg,
 // by 0.29 and 0.21 from 3 to 5 deg.
-TEST(StandingBody, FollowsImageTheoryAtLowElevations) {
+TEST(BodyOnDeck, FollowsImageTheoryAtLowElevations) {
   for (const auto& [half_depth, hh] : {std::pair{0.0, 0.12}, {0.15, 0.135}}) {
     for (const double azimuth : {0.0, 5.0, 10.0}) {
       SCOPED_TRACE(testing::Message() << 2 * half_depth << " m deep, azimuth " << azimuth);
@@ -170,7 +170,7 @@ TEST(StandingBody, FollowsImageTheoryAtLowElevations) {
 // What comes by the deck to one wall, to the other and back by the deck is the image's as well. What is left of vv is
 // left at 20 deg of elevation too (0.1): the walls' rims behind two mirrors. With the deck as the last mirror 0.33 to
 // 0.37 and 0.37 to 0.38 from 1 to 3 deg.
-TEST(StandingBody, MayBeACorner) {
+TEST(BodyOnDeck, MayBeACorner) {
   for (const double azimuth : {0.0, 5.0, 20.0}) {
     SCOPED_TRACE(testing::Message() << "azimuth " << azimuth);
     const auto deviation = [&](const Elevations& elevations) {
@@ -185,7 +185,7 @@ TEST(StandingBody, MayBeACorner) {
 // Walls that lean back, as deck houses do, and forward. Their images are lit and seen as the walls themselves, though
 // geometrical optics knows no way from deck to wall and back to the deck, and from a wall that leans back by more than
 // half of the elevation none to the deck either. Bounds as above; with the deck as the last mirror 0.26 to 2.
-TEST(StandingBody, MayLean) {
+TEST(BodyOnDeck, LeaningPlatesFollowImageTheory) {
   for (const auto& [lean_deg, hh, vv, hv] : {std::array{-5.0, 0.26, 0.115, 0.11},
                                              {-1.0, 0.12, 0.115, 0.005},
                                              {1.0, 0.12, 0.09, 0.02},

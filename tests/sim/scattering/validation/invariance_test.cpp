@@ -26,7 +26,7 @@ double difference(const std::array<Complex, 4>& a, const std::array<Complex, 4>&
 constexpr double kSlivers = 2e-4;
 constexpr double kFine = 0.002;  // m
 
-TEST(Laws, MovingATargetTowardsTheRadarAdvancesThePhase) {
+TEST(Invariance, MovingATargetTowardsTheRadarAdvancesThePhase) {
   const Vec3 r = direction(38, 27), step(0.31, -0.22, 0.47);
   const auto at_origin = echo(stepped_corner(), r, k10, kFine);
   auto moved = echo(transformed(stepped_corner(), Mat3::Identity(), step), r, k10, kFine);
@@ -34,7 +34,7 @@ TEST(Laws, MovingATargetTowardsTheRadarAdvancesThePhase) {
   EXPECT_LT(difference(at_origin, moved), kSlivers * largest(at_origin));
 }
 
-TEST(Laws, TurningTargetAndRadarTogetherChangesNothing) {
+TEST(Invariance, TurningTargetAndRadarTogetherChangesNothing) {
   const Mat3 turn = Eigen::AngleAxisd(1.1, Vec3(0.3, -1, 0.6).normalized()).toRotationMatrix();
   const RadarBasis basis = radar_basis(direction(41, 22));
   const RadarBasis turned{turn * basis.r, turn * basis.h, turn * basis.v};
@@ -43,7 +43,7 @@ TEST(Laws, TurningTargetAndRadarTogetherChangesNothing) {
   EXPECT_LT(difference(before, after), kSlivers * largest(before));
 }
 
-TEST(Laws, AMirroredTargetAnswersAlikeWithTheSignOfCrossPolarisationTurned) {
+TEST(Invariance, AMirroredTargetAnswersAlikeWithTheSignOfCrossPolarisationTurned) {
   TriangleMesh mirrored = stepped_corner();
   for (Vec3& x : mirrored.vertices) x.y() = -x.y();
   const auto before = echo(stepped_corner(), direction(35, 25), k10, kFine);
@@ -53,7 +53,7 @@ TEST(Laws, AMirroredTargetAnswersAlikeWithTheSignOfCrossPolarisationTurned) {
   EXPECT_LT(difference(before, after), kSlivers * largest(before));
 }
 
-TEST(Laws, TwiceTheSizeAtHalfTheFrequencyScattersTwiceAsMuch) {
+TEST(Invariance, TwiceTheSizeAtHalfTheFrequencyScattersTwiceAsMuch) {
   TriangleMesh large = stepped_corner();
   for (Vec3& x : large.vertices) x *= 2;
   const auto small_echo = echo(stepped_corner(), direction(40, 30), k10, kFine);
@@ -62,14 +62,14 @@ TEST(Laws, TwiceTheSizeAtHalfTheFrequencyScattersTwiceAsMuch) {
   EXPECT_LT(difference(small_echo, large_echo), kSlivers * largest(small_echo));
 }
 
-TEST(Laws, TheFirstBounceIsReciprocalToRounding) {
+TEST(Invariance, TheFirstBounceIsReciprocalToRounding) {
   for (const double azimuth : {12.0, 33.0, 71.0}) {
     const auto s = echo(stepped_corner(), direction(azimuth, 24), k10, kFine, 1);
     EXPECT_LT(std::abs(s[kHvChannel] - s[kVhChannel]), 1e-9 * largest(s)) << azimuth;
   }
 }
 
-TEST(Laws, ManyBouncesAreReciprocalAsFarAsPhysicalOpticsIs) {
+TEST(Invariance, ManyBouncesAreReciprocalAsFarAsPhysicalOpticsIs) {
   // Physical optics radiates the currents of every bounce but lets only geometrical optics light the next one: the two
   // ways round a path differ by their edge waves, about 1/(k a) = 1/84 of the amplitude.
   double worst = 0;
@@ -81,7 +81,7 @@ TEST(Laws, ManyBouncesAreReciprocalAsFarAsPhysicalOpticsIs) {
   EXPECT_LT(worst, 0.03);
 }
 
-TEST(Laws, AFlatFaceAnswersAlikeHoweverItIsCutIntoTriangles) {
+TEST(Invariance, FlatFaceIndependentOfTriangulation) {
   const TriangleMesh whole = make_plate(0.5, 0.4), cut = cut_plate(0.5, 0.4, 17);
   for (const double azimuth : {0.0, 17.0, 58.0}) {
     const auto one = echo(whole, direction(azimuth, 9), k10, 0.02), many = echo(cut, direction(azimuth, 9), k10, 0.02);
@@ -89,7 +89,7 @@ TEST(Laws, AFlatFaceAnswersAlikeHoweverItIsCutIntoTriangles) {
   }
 }
 
-TEST(Laws, NoBitDependsOnTheNumberOfThreads) {
+TEST(Invariance, NoBitDependsOnTheNumberOfThreads) {
   const Scatterer corner(stepped_corner());
   const RadarBasis basis = radar_basis(direction(40, 30));
   const std::array ks{k10, 1.01 * k10};
@@ -98,7 +98,7 @@ TEST(Laws, NoBitDependsOnTheNumberOfThreads) {
   EXPECT_EQ(one, two);
 }
 
-TEST(Laws, APlateThatHidesAnotherCastsAShadowOfItsOwnShape) {
+TEST(Invariance, APlateThatHidesAnotherCastsAShadowOfItsOwnShape) {
   // A small plate 1 m in front of a large one, both facing the radar: Babinet's bookkeeping, both areas known exactly.
   TriangleMesh mesh = make_plate(0.6, 0.6);
   mesh.append(transformed(make_plate(0.2, 0.3), Mat3::Identity(), {1.0, 0.05, -0.02}));
@@ -107,14 +107,14 @@ TEST(Laws, APlateThatHidesAnotherCastsAShadowOfItsOwnShape) {
   EXPECT_LT(std::abs(s[kVvChannel] - expected), 1e-9 * std::abs(expected));
 }
 
-TEST(Laws, FacetsThatCoincideCountOnce) {
+TEST(Invariance, FacetsThatCoincideCountOnce) {
   TriangleMesh twice = make_plate(0.3, 0.2);
   twice.append(make_plate(0.3, 0.2));
   const auto once = echo(make_plate(0.3, 0.2), direction(15, 10), k10), doubled = echo(twice, direction(15, 10), k10);
   EXPECT_LT(difference(once, doubled), 1e-9 * largest(once));
 }
 
-TEST(Laws, FacetsThatPassThroughEachOtherHideWhatLiesBehindTheirCommonLine) {
+TEST(Invariance, FacetsThatPassThroughEachOtherHideWhatLiesBehindTheirCommonLine) {
   // Two crossed plates seen along the bisector: each shows the half that lies in front.
   const auto plate = [](double angle) {
     return transformed(make_plate(0.4, 0.3), Eigen::AngleAxisd(angle, Vec3::UnitZ()).toRotationMatrix(), Vec3::Zero());

@@ -66,29 +66,29 @@ class TopHatEcho : public testing::TestWithParam<TopHat> {};
 
 // Causes of the bound: stationary phase, 1 / (8 k R cos(el)) of the amplitude, 0.05 dB at most here; the facets' second
 // order, edge^3, 0.1 dB. Where a bundle widens by 1 + 2 d / R > 4 on its way d along the plate it counts as one of flat
-// mirrors (kMostSpread), as what leaves the upper part of the wall does in the last three: 1.2 dB.
+// mirrors (kMaxDivergence), as what leaves the upper part of the wall does in the last three: 1.2 dB.
 TEST_P(TopHatEcho, HasTheClosedFormInEveryView) {
   const auto& [radius, height, elevation_deg] = GetParam();
   const Scatterer scatterer(top_hat(radius, height, elevation_deg), {}, radians(kDefaultCreaseDeg));
   const double k = wavenumber(8e9);
   const double expected = dbsm(closed_form(k, radius, height, elevation_deg));
-  IlluminationSettings settings{0, 2};
-  settings.filter.only.push_back({EchoSelector::Kind::kBounces, 2});
-  double least = 1e9, most = -1e9;
+  TracingSettings settings{0, 2};
+  settings.filter.included.push_back({ContributionSelector::Kind::kBounces, 2});
+  double min = 1e9, max = -1e9;
   for (int i = 0; i <= 7; ++i) {
     const Vec3 r_hat = direction(-1.5 + 0.67 * i, elevation_deg);
     const auto s = scattering_matrices(scatterer, monostatic(radar_basis(r_hat)), std::array{k}, settings)[0];
     for (const Channel channel : {kHhChannel, kVvChannel}) {
-      least = std::min(least, dbsm(s[channel]));
-      most = std::max(most, dbsm(s[channel]));
+      min = std::min(min, dbsm(s[channel]));
+      max = std::max(max, dbsm(s[channel]));
     }
   }
   std::printf("R %.1f m, h %.1f m, elevation %.0f deg: %.2f to %.2f dBsm, closed form %.2f\n", radius, height,
-              elevation_deg, least, most, expected);
+              elevation_deg, min, max, expected);
   const double widest = 1 + 2 * height / (radius * std::tan(radians(elevation_deg)));
   const double bound_db = widest < 4 ? 0.15 : 1.2;
-  EXPECT_GT(least, expected - bound_db);
-  EXPECT_LT(most, expected + bound_db);
+  EXPECT_GT(min, expected - bound_db);
+  EXPECT_LT(max, expected + bound_db);
 }
 
 INSTANTIATE_TEST_SUITE_P(RadiiHeightsAndElevations, TopHatEcho,
