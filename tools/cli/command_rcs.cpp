@@ -80,8 +80,9 @@ void run_rcs(const RcsArguments& arguments, const CommandContext& shell) {
   warn(doubts_of(request));
   const RcsSweep asked = requested_sweep(request);
   std::vector<PairedCut> cuts = pair_with_all(asked, arguments.reference.read());
-  const RcsTarget target = prepare_rcs_target(request);
-  warn(target.prepared.doubts);
+  PreparedTarget prepared = prepare_mesh(request);
+  warn(prepared.doubts);
+  const RcsTarget target = select_echoes(request, std::move(prepared));
   for (const NamedCavity& cavity : target.cavities) {
     print_error(fmt::format("cavity {}: mouth of {:.4g} m^2, walls of {:.4g} m^2, {} patches at {:.6g} GHz\n",
                             cavity.name, cavity.size.aperture_m2, cavity.size.walls_m2, cavity.size.patches,

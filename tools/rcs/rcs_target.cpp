@@ -23,7 +23,8 @@ void require_above_water(const SeaUnderTarget& sea, const TriangleMesh& mesh) {
 
 }  // namespace
 
-RcsTarget prepare_rcs_target(const RcsRequest& request) {
+PreparedTarget prepare_mesh(const RcsRequest& request) {
+  requested_sweep(request);  // throws where the request contradicts itself
   const auto [lowest, highest] = std::minmax_element(request.frequency_hz.begin(), request.frequency_hz.end());
   SolverMesh mesh = load_solver_mesh({.mesh = request.target,
                                       .unit = request.unit,
@@ -44,13 +45,20 @@ RcsTarget prepare_rcs_target(const RcsRequest& request) {
     require_above_water(request.sea, mesh.mesh);
     settings.waterline_m = -request.sea.height_m;
   }
-  RcsTarget target{prepare_target(std::move(mesh), settings), {}, {}};
-  const PreparedTarget& prepared = target.prepared;
-  target.filter = filter_of(request.selection, prepared.mesh, request.max_bounces, request.edges);
-  target.filter.cavities = cavity_parts(request.cavities, prepared.mesh, prepared.materials, target.filter);
+  return prepare_target(std::move(mesh), settings);
+}
+
+RcsTarget select_echoes(const RcsRequest& request, PreparedTarget prepared) {
+  const auto [lowest, highest] = std::minmax_element(request.frequency_hz.begin(), request.frequency_hz.end());
+  RcsTarget target{std::move(prepared), {}, {}};
+  const PreparedTarget& whole = target.prepared;
+  target.filter = filter_of(request.selection, whole.mesh, request.max_bounces, request.edges);
+  target.filter.cavities = cavity_parts(request.cavities, whole.mesh, whole.materials, target.filter);
   target.cavities =
-      make_cavities(request.cavities, prepared.mesh, target.filter.cavities, *prepared.scatterer, *lowest, *highest);
+      make_cavities(request.cavities, whole.mesh, target.filter.cavities, *whole.scatterer, *lowest, *highest);
   return target;
 }
+
+RcsTarget prepare_rcs_target(const RcsRequest& request) { return select_echoes(request, prepare_mesh(request)); }
 
 }  // namespace seaglint

@@ -17,8 +17,15 @@ struct RcsTarget {
   std::vector<NamedCavity> cavities;
 };
 
-// Reads and prepares the request's target; prepared.doubts says what a user should know of it. Throws InputError for
-// mesh, material, selection or cavity that is missing or unsound, and where the whole mesh lies under water.
+// Reads and prepares the request's mesh; doubts says what a user should know of it. Throws InputError for a mesh or
+// material that is missing or unsound, for a request that contradicts itself, and where the whole mesh lies under
+// water.
+PreparedTarget prepare_mesh(const RcsRequest& request);
+
+// The prepared mesh with the request's selection and cavities. Throws InputError for either that does not fit it.
+RcsTarget select_echoes(const RcsRequest& request, PreparedTarget prepared);
+
+// Both.
 RcsTarget prepare_rcs_target(const RcsRequest& request);
 
 }  // namespace seaglint
