@@ -14,7 +14,8 @@
 
 namespace seaglint {
 
-// Of a whole facet as one beam lights it; shared by all pieces of its footprint. Arrays go by the facet's corners.
+// Of a triangle that holds all a beam lights on a panel: the curved facet itself, or one around the whole flat panel.
+// Shared by all pieces of the footprint. Arrays go by the triangle's corners.
 struct CurvedFootprint {
   std::array<Vec2, 3> corner;
   Barycentric lambda;

@@ -33,7 +33,7 @@ struct CurvedContribution {
 // Terms of a footprint with curvature that hold at k and, where `min_slope` > 0, while the slope of psi along the
 // surface changes by kMaxAmplitudeError min_slope. Where psi has slope enough these are the contour's ends and edges
 // with the local slope, whose terms cancel where two smooth facets meet; elsewhere pieces of half-phase below
-// kMaxHalfPhase, integrated with the quadratic phase. The facet and its halves decide, never the lit part of it.
+// kMaxHalfPhase, integrated with the quadratic phase. The triangle and its halves decide, never the lit part of it.
 void curved_contributions(const Footprint& footprint, double k, double min_slope,
                           std::vector<CurvedContribution>& terms);
 
