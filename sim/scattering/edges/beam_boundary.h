@@ -25,10 +25,10 @@
 //
 //     (j / slope) e^{-j pi/4} / (2 sqrt(pi)) (F(u^2) / u - F(v^2) / v)
 //
-//   in units of 1 / k, per metre of edge, with the phase of the path over both edges. In the forward direction, where
-//   slope -> 0 and u = v, it is sqrt(k d / 2 pi) e^{-j pi/4} (1 - F(u^2)), the loss of the beam at the second edge (G.
-//   Millington, R. Hewitt and F. S. Immirzi, Proc. IEE 109C (1962) 419-429). k d, u and v are computed from the path
-//   lengths themselves, u^2 = k (sqrt(d^2 + w^2) - d).
+//   an effective width times k (dimensionless), with the phase of the path over both edges. In the forward direction,
+//   where slope -> 0 and u = v, it is sqrt(k d / 2 pi) e^{-j pi/4} (1 - F(u^2)), the loss of the beam at the second
+//   edge (G. Millington, R. Hewitt and F. S. Immirzi, Proc. IEE 109C (1962) 419-429). k d, u and v are computed from
+//   the path lengths themselves, u^2 = k (sqrt(d^2 + w^2) - d).
 
 #include <optional>
 #include <span>

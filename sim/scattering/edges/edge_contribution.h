@@ -32,7 +32,7 @@ struct EdgeContribution {
   std::array<double, 2> psi{};           // at the ends, m
   std::array<PathGradient, 2> gradient;  // at the ends, m
   double length = 0;                     // of the interval, m
-  EdgePattern pattern;                   // multiple diffraction: of the last edge, times sqrt(1/m)
+  EdgePattern pattern;                   // after n grazing waves in m^(-(n - 1) / 2)
   // Amplitude law of a face-grazing diffracted wave of length l: 1/sqrt(k l) times transition functions near the shadow
   // boundaries of the edge that launches it and of the one that diffracts it last.
   struct MultipleDiffraction {
@@ -55,8 +55,8 @@ struct EdgeContribution {
     bool second_in_shadow = false;                 // of the first edge
     double off_axis_weight = 0, axial_weight = 1;  // weights of the forms for slope != 0 and for slope = 0
 
-    // k times the effective width at a fraction of the interval, m per m. `run`: phase change over the interval, rad,
-    // which displaces an end point; infinite: none.
+    // k times the effective width, dimensionless, at a fraction of the interval. `run`: phase change over the interval,
+    // rad, which displaces an end point; infinite: none.
     Complex effective_width(double k, double share, double run = std::numeric_limits<double>::infinity()) const;
     // Upper bound of its magnitude for all k >= lowest.
     double upper_bound(double lowest) const;
