@@ -43,9 +43,8 @@ struct WallBehindEdge {
   Vec3 edge_point, edge_direction;  // a point and the unit direction of the edge
   Vec3 face_normal;                 // on the illuminated side
   Vec3 wall_normal;                 // towards the edge
-  double height = 0;  // of the wall, m; the terms are tapered to zero for a wall no higher than the penumbra
-  double image_weight =
-      0;  // fraction of the echo via the face that the wall's image contributes (grazing_reflection.h)
+  double height = 0;         // of the wall, m; the terms are tapered to zero for a wall no higher than the penumbra
+  double image_weight = 0;   // fraction of the echo via the face that its image radiates (grazing_reflection.h)
   std::array<Vec3, 2> foot;  // ends of the interval of the wall behind the edge
   // true: the end of the interval is the projection of an end of the edge and slides with the look direction; false: it
   // is fixed

@@ -11,7 +11,7 @@
 // image of the first one,
 //
 // * a path whose first reflector is not at grazing incidence is replaced by the reciprocal path, S + S^T;
-// * a path from a reflector to a wall that stands on it, at any lean, possibly via others, and back via the same
+// * a path from a reflector to a wall on it, upright or leaning, possibly via others, and back via the same
 //   reflector or one parallel to it, is replaced by the direct radiation of the wall's image in the reflector (image
 //   theory).
 //
