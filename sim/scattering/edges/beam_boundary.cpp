@@ -13,12 +13,13 @@ namespace seaglint {
 namespace {
 
 constexpr double kMinLength = 1e-4;  // m
-// What is followed in full, and from where on not at all: slopes of psi across rims whose ends do not move, where
-// DoubleKnifeEdge::axial_taper leaves any; angles of the way from rim to rim against the beam, rad, for Fresnel's form;
-// sines of the angle between the rims, which near their crossing cut no more than lambda d.
+// Tapers, 1 below the first value and 0 above the second: slope of psi across edges whose end-point contributions do
+// not move, where DoubleKnifeEdge::axial_taper leaves any; angle between the path from edge to edge and the beam, rad,
+// for the paraxial Fresnel form; sine of the angle between the edges, which near their crossing affect no more than
+// lambda d.
 constexpr std::array<double, 2> kAxialSlopeTaper{0.1, 0.2}, kParaxialTaper{0.2, 0.5}, kSkewTaper{0.3, 0.7};
 
-// Along a side that the inner one of two rims bounds, where both are.
+// The common interval of two edges along a polygon side that the inner one bounds.
 class EdgePair {
  public:
   EdgePair(const SideFrame& side, const BeamEdge& inner, const BeamEdge& outer,
@@ -39,11 +40,12 @@ class EdgePair {
 
   double length() const { return end_[1].t - end_[0].t; }
 
-  // Places on the first and on the second rim, in the aperture, and what the way between them is, m.
+  // Points on the first and on the second edge in the projection plane, their distance across the side and along the
+  // beam, m.
   struct EdgePoints {
     Vec2 first, second;
     double apart, distance;
-    Vec2 moves;  // of their t as the direction turns by d1 and by d2
+    Vec2 moves;  // rate of their t with the look direction, per d1 and d2
   };
   EdgePoints at(std::size_t end) const {
     const auto& [t, moves] = end_[end];
@@ -61,7 +63,7 @@ class EdgePair {
   End of_vertex(const MovingVertex& vertex) const {
     return {side_.t(vertex.p), {side_.along.dot(vertex.d1), side_.along.dot(vertex.d2)}};
   }
-  // The end of a rim stays where it is in the body and moves by -z d_i in the aperture.
+  // An end of an edge is fixed in the body and moves by -z d_i in the projection plane.
   End of_edge(const BeamEdge& edge, const Vec2& p, std::span<const PathPanel> panels_on_path) const {
     return {side_.t(p), -panels_on_path[edge.panel_index].plane->at(p) * side_.along};
   }
@@ -73,7 +75,7 @@ class EdgePair {
   std::array<End, 2> end_;
 };
 
-// What one footprint lacks along one of its sides; the outline of its panel is given in the aperture.
+// Boundary terms of one footprint along one of its sides; `outline`: of its panel, in the projection plane.
 class SideBoundaryTerms {
  public:
   SideBoundaryTerms(const SideFrame& side, const DiffractedPaths& paths, std::span<const Vec2> outline,
@@ -87,8 +89,8 @@ class SideBoundaryTerms {
         slope_(-footprint_.w.dot(side.across)),
         depth_(depth_across(side, outline)) {}
 
-  // Takes the end off the shadow line that a rim casts on this side, and puts it on the rim when nothing else hides the
-  // way from there.
+  // Subtracts the end-point contribution at the shadow-boundary line of an edge on this side, and adds it at the edge
+  // unless the path from there is obstructed.
   void move_endpoint_to_edge(const BeamEdge& edge, bool hidden) {
     const auto [share, seen] = paths_.edge_weight(edge, slope_);
     if (share <= 0) return;
@@ -115,8 +117,8 @@ class SideBoundaryTerms {
     if (seen && !hidden) add_at_edge(edge, places, moves, share, on_line);
   }
 
-  // What two rims share, of which `inner` bounds this side. True when the outer one hides the way over the inner one to
-  // the receiver.
+  // Adds the coupling of two edges, of which `inner` bounds this side. True when the outer edge obstructs the path over
+  // the inner one to the receiver.
   bool couple_edges(const BeamEdge& inner, const BeamEdge& outer) {
     if (inner.panel_index == outer.panel_index ||
         side_.x(outer.interior_point) <= 0.5 * (side_.x(outer.a) + side_.x(outer.b)))
@@ -125,17 +127,17 @@ class SideBoundaryTerms {
     const double askew = smooth_taper(std::abs(side_.across.dot(run)), kSkewTaper),
                  parallel = std::abs(side_.along.dot(run));
     if (askew <= 0) return false;
-    if (side_.lies_on(outer) && outer.panel_index < inner.panel_index) return false;  // found the other way round
+    if (side_.lies_on(outer) && outer.panel_index < inner.panel_index) return false;  // found as (outer, inner)
     const EdgePair both(side_, inner, outer, panels_on_path_);
     if (both.length() < kMinLength) return false;
-    // Lengths are the first rim's, distances from its line.
+    // Lengths are those along the first edge, distances those from its line.
     const BeamEdge &first = inner.panel_index < outer.panel_index ? inner : outer,
                    &second = inner.panel_index < outer.panel_index ? outer : inner;
     const double turned = &first == &outer ? parallel : 1.0;
     const std::array<EdgePair::EdgePoints, 2> ends{both.at(0), both.at(1)};
     const double way = ends[0].distance + ends[1].distance;
     if (way < kMinLength) return false;
-    // Rims of neighbours meet.
+    // Edges of neighbouring panels meet.
     for (const EdgePair::EdgePoints& end : ends) {
       if (end.apart < -kOnEdgeTolerance || end.distance < -kOnEdgeTolerance) return false;
     }
@@ -145,14 +147,14 @@ class SideBoundaryTerms {
     knives.psi_slope = slope_;
     set_fresnel_limit(0.5 * way, first.depth, lacking);
     knives.second_in_shadow = &first == &inner;
-    // Between rims of two mirrors the last facet tells nothing of what either hides.
+    // Between edges of two reflectors the last panel does not determine which of them obstructs the path.
     const DiffractedPaths::EdgeWeight share = second.panel_index + 1 == panels_on_path_.size()
                                                   ? paths_.edge_weight(first, slope_)
                                                   : DiffractedPaths::EdgeWeight{};
     knives.off_axis_weight = share.weight;
     knives.axial_weight = (1 - share.weight) * smooth_taper(std::abs(slope_), kAxialSlopeTaper);
     const Vec2 exit_direction = paths_.exit_in_plane(side_.across);
-    std::array<double, 2> within{};  // how far within the second rim the way over the first one lands, m
+    std::array<double, 2> within{};  // distance from the second edge to the landing point of the first one's path, m
     for (std::size_t end = 0; end < 2; ++end) {
       const auto& [on_first, on_second, apart, distance, moves] = ends[end];
       knives.separation[end] = std::max(distance, 0.0);
@@ -162,15 +164,14 @@ class SideBoundaryTerms {
       within[end] = side_.x(paths_.landing_point(first.panel_index, on_first)) - side_.x(on_second);
       const Vec2 step(distance, turned * side_.across.dot(on_second - on_first));
       knives.exit_excess[end] = std::max(step.norm() - step.dot(exit_direction), 0.0);
-      // The path is stationary where the ray meets the first rim, not where it meets the facet: how far that place
-      // slips there counts.
+      // The path is stationary at the first edge, not at the panel: the slide of its point on the panel contributes.
       const Vec2 slide = footprint_.w.dot(side_.along) * slide_along_side(moves, footprint_.plane.at(on_second));
       PathGradient& gradient = lacking.gradient[end];
       gradient.transmit_slide = slide.x() * transmit_.h + slide.y() * transmit_.v;
       gradient.transmit = over_first.transmit + gradient.transmit_slide;
       gradient.receive = phase_gradient(footprint_, on_second, transmit_).receive;
     }
-    // Where both rims meet the sign is that of the rest of the stretch.
+    // Where the edges meet, the sign is that of the rest of the interval.
     const double landed = within[0] + within[1];
     for (std::size_t end = 0; end < 2; ++end)
       knives.exit_excess[end] =
@@ -201,23 +202,23 @@ class SideBoundaryTerms {
     end.fresnel_wavenumber = 2 * distance / (depth * depth);
   }
 
-  // What physical optics has of the end along this side, with the sign that takes `share` of it off: by the divergence
-  // theorem with F = e e^{jk w.p} / (jk w.e), e as the rim's face runs away from it. So every point of the rim has the
-  // end of the strip that it bounds, as in endpoint_correction(), and the phase may run along the side; Gordon's e = w
-  // (phase_integral) would leave it some of the ends of other sides.
+  // PO end-point contribution along this side, with the sign that subtracts `share` of it: by the divergence theorem
+  // with F = e e^{jk w.p} / (jk w.e), e the inward direction on the edge's face. Every point of the edge then has the
+  // end-point contribution of the strip that it bounds, as in endpoint_correction(), and the phase may vary along the
+  // side. Gordon's e = w (phase_integral) would include end-point contributions of other sides.
   void set_pattern(double share, const BeamEdge& edge, EdgeContribution& end) const {
     const Vec2& e = edge.inward;
     const double across = e.x() * side_.along.y() - e.y() * side_.along.x(), slope = footprint_.w.dot(e) / across;
-    if (!(std::abs(slope) > kSlopeTaper[0])) return;  // neither infinite nor, of a face seen along its rim, undefined
+    if (!(std::abs(slope) > kSlopeTaper[0])) return;  // infinite or, for a face observed along its edge, undefined
     const double factor = share * (1 - smooth_taper(std::abs(slope), kSlopeTaper)) / (2 * kPi * slope);
     for (int i = 0; i < 4; ++i) end.pattern.thin[i] = factor * footprint_.pattern[i];
   }
 
-  // How far a place slips along the side in the body, whose points at this height move by -z d_i in the aperture.
+  // Slide of a point along the side in the body, whose points at this height move by -z d_i in the projection plane.
   Vec2 slide_along_side(const Vec2& moves, double height) const { return moves + height * side_.along; }
 
-  // The end on the rim of a mirror, `moves` how its places move along the side as the direction turns; as long and with
-  // as much spread as another one.
+  // Adds the end-point contribution at the edge of a reflector; `moves`: rates of its points along the side. Length and
+  // fresnel_wavenumber are those of `other`.
   void add_at_edge(const BeamEdge& edge, const std::array<Vec2, 2>& places, const std::array<Vec2, 2>& moves,
                    double share, const EdgeContribution& other) {
     if (share <= 0) return;
@@ -251,8 +252,8 @@ class SideBoundaryTerms {
   const DiffractedPaths& paths_;
   const RadarBasis& transmit_;
   std::vector<EdgeContribution>& out_;
-  double slope_;  // of psi, out of the piece
-  double depth_;  // of the last panel, m
+  double slope_;  // of psi, towards the outside
+  double depth_;  // of the last panel across the side, m
 };
 
 }  // namespace
@@ -282,7 +283,7 @@ void BeamBoundary::append_boundary_terms(const Footprint& footprint, std::vector
 double boundary_term_bound(const EdgeContribution& contribution, double lowest, double highest) {
   double pattern = 0;
   for (const Complex& element : contribution.pattern.thin) pattern = std::max(pattern, std::abs(element));
-  // A stretch of running phase answers from its ends.
+  // With a varying phase an interval radiates from its ends.
   const double run = lowest * std::abs(contribution.psi[1] - contribution.psi[0]);
   return pattern * contribution.length * std::min(1.0, 2 / run) *
          (contribution.double_knife_edge ? contribution.double_knife_edge->upper_bound(lowest) : 1.0) *

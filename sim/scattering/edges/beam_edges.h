@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// What a beam brings to edges: the waves that reach sharp edges of the panels it lights, and what its footprints lack
-// where it ends.
+// Edge diffraction per beam: records the waves that illuminate sharp edges of a panel, and adds the boundary terms of
+// its footprints.
 
 #include <array>
 #include <optional>
@@ -17,15 +17,17 @@
 
 namespace seaglint {
 
-// Whether the leg's waves are followed to edges: with more mirrors before it an edge is not.
+// True when the waves of this beam segment are recorded at edges: at most kMaxEdgeReflections reflections before the
+// edge.
 bool records_edges(const TracingContext& scene, const BeamSegment& segment);
 
-// Appends the arrivals at the candidate's edges. Wedges are perfect conductors, and so is what the wave met before.
+// Appends the illumination of the candidate's edges. Only perfectly conducting wedges are included, and waves that met
+// only perfect conductors before.
 void record_edges(const TracingContext& scene, const BeamSegment& segment, const CandidatePanel& candidate,
                   std::vector<EdgeIllumination>& illuminations);
 
-// What one receiver's footprints lack where their beams end; nothing without edges in the scene's settings. Appends to
-// `out`; it and the scene with the receiver must outlive this.
+// Adds the boundary terms of the footprints that one receiver sees; none when edge diffraction is off in the settings.
+// Appends to `out`, which must outlive the object, as must the scene with the receiver.
 class FootprintEnds : public FootprintVisitor {
  public:
   FootprintEnds(const TracingContext& scene, const Receiver& receiver, std::vector<EdgeContribution>& out);
@@ -34,14 +36,14 @@ class FootprintEnds : public FootprintVisitor {
   void add(const Footprint& footprint) override;
 
  private:
-  // Perfect conductors, as wedges are, and flat.
+  // True for flat perfect conductors on the whole path, after one to kMaxCorrectedReflections reflections.
   bool has_boundary_terms(const BeamSegment& segment, const Footprint& footprint) const;
 
   const TracingContext& scene_;
   const BistaticGeometry& geometry_;
   std::vector<EdgeContribution>& out_;
   std::array<PathPanel, kMaxCorrectedReflections + 1>
-      panels_on_path_;  // the mirrors and the panel of the footprints that are added
+      panels_on_path_;  // reflectors and the panel of the current footprints
   std::optional<BeamBoundary> ends_;
 };
 

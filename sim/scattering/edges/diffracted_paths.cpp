@@ -11,13 +11,13 @@
 namespace seaglint {
 namespace {
 
-constexpr double kShallow = 1e-4;  // m, of a panel seen edge-on
+constexpr double kShallow = 1e-4;  // m, of a panel in edge-on view
 
 Vec3 normal_of(const DepthPlane& plane, const RadarBasis& basis) {
   return (basis.r - plane.slope.x() * basis.h - plane.slope.y() * basis.v).normalized();
 }
 
-// From real points to the aperture.
+// Maps real points to the projection plane.
 struct ProjectionMap {
   Vec3 h, v;
   Vec2 shift;
@@ -105,7 +105,8 @@ Vec2 DiffractedPaths::exit_in_plane(const Vec2& direction) const {
 
 DiffractedPaths::EdgeWeight DiffractedPaths::edge_weight(const BeamEdge& edge, double slope) const {
   const PathPanel& mirror = panels_on_path_[edge.panel_index];
-  // As they are at the rim: the way out, the normals of its face and of the last facet, and its own direction.
+  // In real space at the edge: exit direction, normals of its face and of the last panel, and the direction of the
+  // edge.
   const Mat3 real = mirror.image_transform->L.transpose();
   const Vec3 s = real * before_, last = real * normal_;
   Vec3 n = real * normal_of(*mirror.plane, basis_);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Rims of the mirrors that a footprint's beam has passed, and the ways over them: straight on along the beam, where a
-// rim casts its shadow line on the footprint's facet, and from the rim's point by the mirrors after it to the receiver,
-// as the field that the rim diffracts goes.
+// Bounding edges of the reflectors on a beam's path, and two paths through each: the straight continuation along the
+// beam, which gives the edge's shadow-boundary line on the footprint's panel, and the diffracted path from a point of
+// the edge via the remaining reflectors to the receiver.
 
 #include <array>
 #include <span>
@@ -15,40 +15,41 @@
 
 namespace seaglint {
 
-// What a beam passes: one of its mirrors, or the facet at its end.
+// A panel on a beam's path: one of its reflectors, or the panel at its end.
 struct PathPanel {
-  int facet = -1;  // its panel goes by
-  // that take its own points to where the beam meets them; of a mirror itself included
+  int facet = -1;  // representative facet of the panel
+  // maps real points of the panel to image space; for a reflector its own reflection is included
   const ImageTransform* image_transform = nullptr;
   const DepthPlane* plane = nullptr;
-  Vec3 direction = Vec3::Zero();  // of the wave at it
+  Vec3 direction = Vec3::Zero();  // of the incident wave, unit
 };
 
-// Points this near to a rim lie on it, as for edges that bound a lit polygon (single_diffraction.cpp).
+// Distance within which a point counts as on an edge, as for illuminated polygons in single_diffraction.cpp.
 inline constexpr double kOnEdgeTolerance = 1e-7;  // m
 
-// Slopes of psi across a shadow line below which its end stays there, and from which on it moves: the ends of both ways
-// go as 1 / slope, and an interval turns it by some thousandths; that they lie apart by k d slope^2 / 2 in phase is
-// lost.
+// Slopes of psi across a shadow-boundary line: below the first the end-point contribution stays on the line, above the
+// second it is fully moved to the edge. Both contributions grow as 1 / slope, and an interval changes the slope by some
+// thousandths. The phase difference k d slope^2 / 2 between the two is neglected below.
 inline constexpr std::array<double, 2> kSlopeTaper{0.03, 0.08};
 
-// A rim as the transmitter sees it through the mirrors before.
+// A bounding edge in image space, projected on the projection plane.
 struct BeamEdge {
   std::size_t panel_index;
   Vec2 a, b;
-  Vec2 interior_point;  // a point of its panel
-  Vec2 inward;          // a metre on its face, across the rim in the body
-  double depth;         // how far that reaches from the rim, m
+  Vec2 interior_point;  // of its panel
+  Vec2 inward;          // projection of the unit vector on its face that is normal to the edge and points inwards
+  double depth;         // of the panel, measured from the edge in the projection plane, m
 };
 
-// The outline of a screen's panel in the aperture.
+// Outline of a panel on the path, in the projection plane.
 std::vector<Vec2> projected_outline(const Panels& panels, const RadarBasis& transmit, const PathPanel& panel);
 
-// Of all screens, of which the first lies nearest to the transmitter: the wedges that the wave meets at their panels.
+// Bounding edges of all panels on the path, in the order of the path: the wedges on the illuminated side of each panel,
+// N > 1.
 std::vector<BeamEdge> beam_edges(const SharpEdges& edges, const Panels& panels, const RadarBasis& transmit,
                                  std::span<const PathPanel> panels_on_path);
 
-// Along one side of a lit piece, t from its start and x across into the piece.
+// Coordinates along one side of an illuminated polygon: t from its start along it, x normal to it and positive inside.
 struct SideFrame {
   const MovingVertex &from, &to;
   double length;
@@ -57,35 +58,37 @@ struct SideFrame {
   SideFrame(const MovingVertex& start, const MovingVertex& end);
   double t(const Vec2& p) const { return along.dot(p - from.p); }
   double x(const Vec2& p) const { return across.dot(p - from.p); }
-  bool lies_on(const BeamEdge& edge) const;  // the rim, or its shadow line, bounds the piece here
+  bool lies_on(const BeamEdge& edge) const;  // the edge, or its shadow-boundary line, bounds the polygon here
 };
 
-// The ways of one footprint, of which `panels_on_path` are the mirrors and, last, the facet. All arguments must outlive
-// it.
+// Diffracted paths of one footprint. `panels_on_path`: its reflectors and, last, its panel. All arguments must outlive
+// the object.
 class DiffractedPaths {
  public:
   DiffractedPaths(const BistaticGeometry& geometry, std::span<const PathPanel> panels_on_path,
                   const Footprint& footprint);
 
-  const RadarBasis& aperture() const { return basis_; }  // the transmitter's
+  const RadarBasis& aperture() const { return basis_; }  // projection plane
   std::span<const PathPanel> panels_on_path() const { return panels_on_path_; }
   const Footprint& footprint() const { return footprint_; }
 
-  // Over a point of a screen's plane, given by its place in the aperture, and by the mirrors after it to the receiver.
+  // Path over a point of the panel's plane (p in the projection plane) and via the remaining reflectors to the
+  // receiver.
   struct DiffractedPath {
-    Vec3 transmit, receive;  // where the antennas see the point
+    Vec3 transmit, receive;  // the point in the transmitter's image space, and in that of the receiver
     double psi;              // m
   };
   DiffractedPath diffracted_path(std::size_t panel_index, const Vec2& p) const;
 
-  // Where that way meets the footprint's plane, in the aperture.
+  // Intersection of the diffracted path with the footprint's plane, in the projection plane.
   Vec2 landing_point(std::size_t panel_index, const Vec2& p) const;
 
-  // The way out in the plane of the wave's direction and a direction across it, unit: along the wave and across.
+  // Exit direction in the plane of the incident wave and a transverse direction (unit): components along the wave and
+  // transverse, normalised.
   Vec2 exit_in_plane(const Vec2& direction) const;
 
-  // What share of the end that physical optics has at the rim's shadow line is the rim's own (reflected_edge.h), by the
-  // slope of psi across that line; whether the rim's face sees the way.
+  // Weight 0..1 with which the end-point contribution at the edge's shadow-boundary line is moved to the edge
+  // (reflected_edge.h), for the slope of psi across that line; and whether the edge's face is visible along the path.
   struct EdgeWeight {
     double weight = 0;
     bool face_visible = false;
@@ -98,11 +101,11 @@ class DiffractedPaths {
   }
 
   const BistaticGeometry& geometry_;
-  const RadarBasis& basis_;  // of the aperture
+  const RadarBasis& basis_;  // projection plane
   std::span<const PathPanel> panels_on_path_;
   const Footprint& footprint_;
   Vec3 normal_;  // of the footprint's image, unit
-  Vec3 before_;  // the way out before that facet reflects it, unfolded, unit
+  Vec3 before_;  // exit direction before the last panel reflects it, in image space, unit
 };
 
 }  // namespace seaglint

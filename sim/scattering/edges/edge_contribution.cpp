@@ -45,22 +45,22 @@ EdgePattern transposed(EdgePattern pattern) {
 
 namespace {
 
-// Phase along a stretch between knife edges from which on its ends answer alone, rad, and along each part of a slower
-// one, that is summed.
+// Phase over an interval of double knife-edge diffraction above which its end points suffice, rad; phase per part of
+// the numerical integral below.
 constexpr double kFast = 60, kPartPhase = 3;
 
-// k (psi_1 - psi_0), kept from 0, where the terms of both ends would be infinite: moves the integral by a part of this
-// at most.
+// k (psi_1 - psi_0), kept away from 0, where the end-point terms are infinite: changes the integral by at most this
+// fraction.
 double phase_difference(const EdgeContribution& contribution, double k) {
   constexpr double kMin = 1e-3;  // rad
   const double run = k * (contribution.psi[1] - contribution.psi[0]);
   return std::abs(run) < kMin ? std::copysign(kMin, run) : run;
 }
 
-// What the range makes of the pattern at one end of a part of the stretch.
+// Factor of the amplitude law at a fraction of the interval.
 Complex multiple_diffraction_factor(const EdgeContribution::MultipleDiffraction& range, double k, double run,
                                     double share) {
-  constexpr double kMinLength = 1e-12;  // m: in a corner, where both edges meet, the product with the decay is finite
+  constexpr double kMinLength = 1e-12;  // m: at a vertex, where both edges meet, the product with the decay is finite
   constexpr double kFar = 1e15;         // parallel edges
   const double l = std::max(interpolate(range.l, share), kMinLength);
   const double phase = std::clamp(run * l / (range.l[1] - range.l[0]), -kFar, kFar);
@@ -71,8 +71,8 @@ Complex multiple_diffraction_factor(const EdgeContribution::MultipleDiffraction&
   return boundaries * std::pow(k, -0.5 * range.grazing_waves) / std::sqrt(l);
 }
 
-// Mean of width e^{j phase (share - middle)} over a part of a stretch: Gauss and Legendre's four points for each three
-// radians, since the width goes with the root of the way between rims that meet.
+// Mean of width e^{j phase (fraction - middle)} over a part of an interval: Gauss-Legendre quadrature with four points
+// per three radians, since the width varies as the square root of the distance between edges that meet.
 Complex mean_width(const EdgeContribution::DoubleKnifeEdge& knives, double k, double phase, double from, double to) {
   constexpr std::array<double, 4> node{-0.861136311594053, -0.339981043584856, 0.339981043584856, 0.861136311594053},
       weight{0.347854845137454, 0.652145154862546, 0.652145154862546, 0.347854845137454};
@@ -88,7 +88,7 @@ Complex mean_width(const EdgeContribution::DoubleKnifeEdge& knives, double k, do
   return sum / static_cast<double>(parts);
 }
 
-// What a range, a wall or knife edges make of the pattern there.
+// Factor of the amplitude law, 1 for single diffraction.
 Complex amplitude_at(const EdgeContribution& contribution, double k, double run, double share) {
   if (contribution.multiple_diffraction)
     return multiple_diffraction_factor(*contribution.multiple_diffraction, k, run, share);
@@ -117,7 +117,7 @@ double bound_of_over_root(double u) { return std::min(std::sqrt(kPi), 1 / u); }
 }  // namespace
 
 Complex EdgeContribution::DoubleKnifeEdge::off_axis_width(double k, double share) const {
-  constexpr double kEqual = 0.05;  // below it the difference is that of F(u^2) / u, 2j (F - 1), to its square
+  constexpr double kEqual = 0.05;  // below it by the derivative of F(u^2) / u, 2j (F - 1)
   const double past = interpolate(exit_excess, share);
   const double u = (second_in_shadow ? 1 : -1) * std::sqrt(k * interpolate(excess_path, share)),
                v = std::copysign(std::sqrt(k * std::abs(past)), past);
@@ -130,8 +130,8 @@ Complex EdgeContribution::DoubleKnifeEdge::effective_width(double k, double shar
   const double d = interpolate(separation, share);
   Complex sum = off_axis_weight > 0 ? off_axis_weight * off_axis_width(k, share) : 0;
   if (axial_weight > 0) {
-    // An end of running phase a along a root: the integral of sqrt(t) e^{jat} from 0 on is (j / a) sqrt(pi j / 4a),
-    // that of sqrt(d + t) to first order (j / a) sqrt(d + j / a).
+    // End-point term with a phase a per fraction t: the integral of sqrt(t) e^{jat} from 0 on is (j / a) sqrt(pi j /
+    // 4a), that of sqrt(d + t) to first order (j / a) sqrt(d + j / a).
     const Complex reached = d + (separation[1] - separation[0]) * Complex(0, kPi / 4 / run);
     sum += axial_weight * axial_taper(k, d) * std::sqrt(k / (2 * kPi) * reached) *
            (1.0 - transition_function(k * interpolate(excess_path, share)));

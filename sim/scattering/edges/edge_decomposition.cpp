@@ -16,7 +16,7 @@ void split(const EdgeContribution& contribution, const DecompositionSettings& se
   const std::array<Complex, 4> pattern = contribution.pattern.at(settings.kc);
   for (int i = 0; i < 4; ++i) c.pattern[i] = std::complex<float>(pattern[i]);
   const double k = settings.kc, run = contribution.psi[1] - contribution.psi[0];
-  // Turning by u changes psi's slope along the edge by at most 2 u.
+  // An aspect change u changes the slope of psi along the edge by at most 2 u.
   const double threshold = 2 * settings.aspect_change_rad / kMaxAmplitudeError * contribution.length;
   if (std::abs(run) > threshold && std::abs(k * run) / 2 > kMaxHalfPhase && endpoints_suffice(contribution, k)) {
     for (int i = 0; i < 2; ++i) {

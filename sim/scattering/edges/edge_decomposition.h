@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The phase integral along a stretch of edge as points that hold over a band and a small turn.
+// Decomposes the phase integral along an interval of an edge into points that hold over a band and a small aspect
+// change.
 
 #include <vector>
 
@@ -10,8 +11,8 @@
 
 namespace seaglint {
 
-// The contributions of a stretch of edge at kc, appended: its ends, or pieces short enough for one point, as for a
-// footprint.
+// Appends the point contributions of an edge contribution at kc: its two end points, or pieces short enough for one
+// point each, by the criteria of decompose() for footprints.
 void split(const EdgeContribution& contribution, const DecompositionSettings& settings,
            std::vector<PointContribution>& out);
 

@@ -11,10 +11,10 @@ namespace {
 // In ray spacings.
 constexpr double kMinRunForMultiple = 3, kMinRunForHighOrder = 20;
 
-// Edge waves that start at an edge, and ways that end in it where it is a corner. With one antenna each is the mean of
-// its way and of the same way run backwards, as in single diffraction: off Keller's cone the wave that leaves an edge
-// is not the one that would come back by it. With two antennas they are the transmitter's, as physical optics and
-// single diffraction are: near grazing all three are large, and only what one wave lights cancels.
+// Multiple diffraction that starts at an edge, and paths that end at it where it is concave. For one antenna it is the
+// mean of a path and its reciprocal, as single diffraction is: off Keller's cone the two differ. For two antennas it is
+// that of the transmitter's wave, as PO and single diffraction are: near grazing all three are large, and only terms of
+// the same wave cancel.
 void append_multiple_diffraction(const Scatterer& scatterer, const BistaticGeometry& geometry, int edge,
                                  const IlluminationByEdge& incoming, const IlluminationByEdge& outgoing,
                                  const MultipleDiffractionLimits& limits, std::vector<EdgeContribution>& answer) {
@@ -47,7 +47,7 @@ void edge_diffraction(const Scatterer& scatterer, const BistaticGeometry& geomet
   const MultipleDiffractionLimits limits =
       multiple_diffraction_limits(scatterer, settings, std::ranges::min(wavenumbers));
   const std::vector<SharpEdge>& edges = scatterer.edges().edges;
-  // Chunks of about as many arrivals.
+  // Chunks with about equal numbers of edge illuminations.
   const auto chunk_start = [&](std::size_t chunk) {
     return chunk < kEdgeChunks ? incoming.edge_after(incoming.all().size() * chunk / kEdgeChunks)
                                : static_cast<int>(edges.size());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Everything that sharp edges answer: single diffraction by all ways, and edge waves that meet a second edge.
+// All contributions of sharp edges: single diffraction over all path combinations, and multiple diffraction.
 
 #include <functional>
 #include <span>
@@ -14,16 +14,17 @@
 
 namespace seaglint {
 
-// Which edge waves are followed: those of straight runs of edges of three ray spacings and more, 0.2 m on the 144 m
-// ship by default, to a third and fourth diffraction where a run is twenty long, 1.4 m; none fainter than
-// min_amplitude() at the lowest wavenumber.
+// Limits of multiple diffraction: straight runs of edges of at least 42 times the smallest patch side (0.2 m on the 144
+// m ship by default); third and fourth order for runs of at least 280 times that side (1.4 m); contributions of at
+// least min_amplitude() at the lowest wavenumber.
 MultipleDiffractionLimits multiple_diffraction_limits(const Scatterer& scatterer, const TracingSettings& settings,
                                                       double lowest);
 
-// Calls visit(chunk, footprints), chunk = 0..kEdgeChunks-1, for what each edge answers, those of a chunk in order from
-// one thread. `incoming`: what the transmitter's illumination at the same wavenumbers reached; `outgoing`: what the
-// waves reach that the receiver would send, the same object for one antenna. Echoes that the settings' filter leaves
-// out are not among them. Chunks do not depend on `threads`; without edges in the settings there are none.
+// Calls visit(chunk, contributions), chunk = 0..kEdgeChunks-1, with the contributions of each edge; those of a chunk
+// arrive in order from one thread. `incoming`: edge illumination by the transmitter at the same wavenumbers;
+// `outgoing`: edge illumination by a wave from the receiver, the same object for one antenna. Contributions rejected by
+// the filter of the settings are omitted. Chunks do not depend on `threads`; there are none when edge diffraction is
+// off.
 inline constexpr std::size_t kEdgeChunks = 16;
 void edge_diffraction(const Scatterer& scatterer, const BistaticGeometry& geometry, const TracingSettings& settings,
                       std::span<const double> wavenumbers, const IlluminationByEdge& incoming,

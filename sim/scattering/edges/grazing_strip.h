@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// A wave on a stretch of an edge, and the strip of parallel rays that it sends along a face.
+// A wave on an interval of an edge, and the strip of parallel rays that it launches along a face.
 
 #include <array>
 #include <cmath>
@@ -13,10 +13,11 @@
 
 namespace seaglint {
 
-// By how much of itself the thickness of the rims that an edge wave met changes it: to first order the sum over them.
+// Relative first-order change of a grazing wave by the thickness of the sheets whose edges it met: the sum over these
+// edges.
 struct ThicknessChange {
   FirstOrderThickness<Complex> change;
-  double thickness_m = 0;  // 0: none is a sheet's
+  double thickness_m = 0;  // 0: no sheet has a thickness
 };
 
 inline ThicknessChange with_edge(ThicknessChange thickness, const WedgeFrame& wedge, const Vec3& towards) {
@@ -25,37 +26,37 @@ inline ThicknessChange with_edge(ThicknessChange thickness, const WedgeFrame& we
   return {{thickness.change.constant + more.constant, thickness.change.logarithm + more.logarithm}, wedge.thickness_m};
 }
 
-// A wave on a stretch of an edge. Its path and where the antenna sees it are linear along the stretch.
+// A wave incident on an interval of an edge. psi and its gradient are linear along the interval.
 struct EdgeIncidentWave {
   int edge = kNoEdge;
   std::array<double, 2> s{};    // m from the edge's start
-  std::array<double, 2> psi{};  // minus the path, m
-  std::array<Vec3, 2> X;        // its gradient
+  std::array<double, 2> psi{};  // minus the path so far, m
+  std::array<Vec3, 2> X;        // gradient of psi with the transmit direction, m
   Vec3 direction;
-  std::array<Vec3, 2> E;                     // for h and v
+  std::array<Vec3, 2> E;                     // for transmitted h and v
   std::array<Complex, 2> factor{1.0, 1.0};   // of E
-  std::array<double, 2> l{};                 // of the edge wave that it is, at the stretch's ends, m
-  double departure = 0, first_length_m = 0;  // of the first edge wave, as in EdgeContribution
-  ThicknessChange thickness{};               // of sheets, passed before
-  int grazing_waves = 0;                     // passed before
-  int wall_reflections = 0;                  // that the edge wave was reflected by
-  // takes directions after those walls, or after the other wall of a corner, back to before them
+  std::array<double, 2> l{};                 // length of this grazing wave at the ends of the interval, m
+  double departure = 0, first_length_m = 0;  // transition_parameter() and mean length of the first one
+  ThicknessChange thickness{};               // of the edges met before
+  int grazing_waves = 0;                     // along the face, before
+  int wall_reflections = 0;                  // of this grazing wave at perpendicular walls
+  // maps directions behind those walls, or behind the other wall of a concave edge, to image space
   Mat3 unfolding = Mat3::Identity();
-  Vec3 previous_direction = Vec3::Zero();  // direction of the wave at the edge before
+  Vec3 previous_direction = Vec3::Zero();  // of the wave at the previous edge
 };
 
-// A strip of parallel rays on a face: u across them, w along.
+// A strip of parallel rays on a face: u transverse, w along the rays, both unit vectors in the face.
 struct RayStrip {
   Vec3 u, w;
-  double from, to;  // in u
+  double from, to;  // in u, m
 };
 
-// Mean of 1/sqrt(l) where l is linear between its ends.
+// Mean of 1/sqrt(l) for l linear between its ends.
 inline double mean_inverse_sqrt_length(const std::array<double, 2>& l) {
   return 2 / (std::sqrt(l[0]) + std::sqrt(l[1]));
 }
 
-// The part of it on a part of its stretch, from one share of the way to another.
+// The wave on a part of its interval, fractions `from` to `to`.
 inline EdgeIncidentWave sub_interval(const EdgeIncidentWave& in, double from, double to) {
   EdgeIncidentWave part = in;
   part.s = {interpolate(in.s, from), interpolate(in.s, to)};
@@ -65,19 +66,19 @@ inline EdgeIncidentWave sub_interval(const EdgeIncidentWave& in, double from, do
   return part;
 }
 
-// A wave that leaves an edge along a face; after an upright wall it comes from the edge's image.
+// A grazing wave where it leaves an edge along a face; after a perpendicular wall it leaves the edge's image.
 struct GrazingSource {
   const EdgeIncidentWave& in;
   const WedgeFace& face;
   Vec3 start, along;  // of the edge
   std::array<Complex, 2> amplitude;
   double departure = 0;            // transition_parameter() at the edge
-  ThicknessChange thickness = {};  // the edge's own with those before
+  ThicknessChange thickness = {};  // including the edge's own
   int wall_reflections = 0;
   Mat3 unfolding = Mat3::Identity();
 };
 
-// What a plane with unit normal n makes of directions.
+// Reflection of directions in a plane with unit normal n.
 inline Mat3 householder(const Vec3& n) { return Mat3::Identity() - 2 * n * n.transpose(); }
 
 }  // namespace seaglint

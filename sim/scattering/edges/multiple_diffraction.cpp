@@ -15,42 +15,43 @@
 namespace seaglint {
 namespace {
 
-// Facets that turn by less than this are one flat face: an edge wave leaves a curved one.
+// Facets whose normals differ by less belong to one flat face; grazing waves leave curved faces.
 constexpr double kFlat = 1e-6;
 constexpr double kMinLength = 1e-7;  // m
 constexpr double kNarrowest = 1e-9;  // m
-constexpr double kOnEnd = 1e-7;      // m, from the end of a stretch
-// Sine of the angle between a wave and a rim that it does not meet. Directions that would run along one are turned
-// aside by more (illumination.cpp).
+constexpr double kOnEnd = 1e-7;      // m, from the end of an interval
+// Sine of the angle between a grazing wave and an edge below which they do not meet. Look directions that would make
+// them parallel are perturbed by more (illumination.cpp).
 constexpr double kParallelSine = 1e-9;
-// Sine of the angle between an edge and what it sends along a face: for a wave from outside and for an edge wave.
+// Sine of the angle between an edge and the wave it launches along a face: for an incident wave from outside, and for a
+// grazing wave.
 constexpr double kMinLaunchSine = 1e-6, kMinRelaunchSine = 1e-5;
-// A grazing wave is sent down on its face by this angle, so that rounding does not put it on the other side.
+// A grazing wave is tilted towards its face by this angle, so that rounding does not move it to the other side.
 constexpr double kGrazingLift = 1e-7;
 
-// What an edge wave does to the one after it enters by its mean, over stretches along which its length grows no more
-// than this; on long edges. What is shorter than a hundredth of the longest counts as one.
+// A grazing wave that is relaunched enters by its mean amplitude over parts of its interval along which its length
+// grows by at most kMaxGrowth. Lengths below kShortestShare of the longest count as that.
 constexpr double kMaxGrowth = 4, kShortestShare = 0.01;
 
-// No current of a grazing wave along w answers louder in direction s, times 1 - s.w; 0.37 was the most met on the ship.
+// Bound of |second_edge_current| in direction s, times 1 - s.w; the maximum on the ship is 0.37.
 constexpr double kMaxCurrent = 0.5;
-constexpr double kNoField = 1e-9;  // relative to the incident one
+constexpr double kNoField = 1e-9;  // relative to the incident field
 
-// Edge waves in a row: on a face that two edges bound the third edge is the first one again, and the fourth the second;
-// near grazing each one's answer is as large as the one's before.
+// Successive grazing waves: on a face with two edges the third edge is the first one again, and the fourth the second;
+// near grazing all orders are equally large.
 constexpr int kMaxGrazingWaves = 3;
-// Upright walls between two edges: those of a right-angled corner. A wave by walls is the only one of its row: near
-// grazing, where a third diffraction counts, echoes by walls have faded.
+// Perpendicular walls between two edges, as in a right-angled corner reflector. A wave via walls is not relaunched:
+// near grazing, where the third order matters, contributions via walls are tapered to zero.
 constexpr int kMaxWallReflections = 2;
 
-// Edge waves are weak; with mirrors on the way in or out they are weaker than what physical optics itself is uncertain
-// by there, and left out.
+// Multiple diffraction with reflections on the incident or exit path is omitted: it is weaker than the uncertainty of
+// PO there.
 bool is_reflected(const EdgeIllumination& way) { return way.reflections > 0; }
 
-// A grazing wave along w, a little down on the face.
+// Direction of a grazing wave along w, tilted towards the face.
 Vec3 grazing(const WedgeFace& face, const Vec3& w) { return (w - kGrazingLift * face.n).normalized(); }
 
-// 1 - s.w, never zero.
+// 1 - s.w, kept positive.
 double one_minus_cosine(const Vec3& w, const Vec3& s) { return std::max(0.5 * (s - w).squaredNorm(), 1e-15); }
 
 class MultipleDiffractionTracer {
@@ -81,12 +82,12 @@ class MultipleDiffractionTracer {
   }
 
  private:
-  // Sends an edge wave on, part by part of its stretch.
+  // Relaunches a grazing wave, part by part of its interval.
   void relaunch(const EdgeIncidentWave& in) {
     const auto [shortest, longest] = std::minmax(in.l[0], in.l[1]);
     const double first = std::max(shortest, kShortestShare * longest), growth = longest / first;
     const int parts = std::max(1, static_cast<int>(std::ceil(std::log(growth) / std::log(kMaxGrowth))));
-    double before = 0;  // share of the way from the end where it is shortest
+    double before = 0;  // fraction of the interval, from the end where l is shortest
     for (int n = 1; n <= parts; ++n) {
       const double here =
           n < parts ? (first * std::pow(growth, static_cast<double>(n) / parts) - shortest) / (longest - shortest)
@@ -116,12 +117,12 @@ class MultipleDiffractionTracer {
           0,
           wedge->N < 1 && in.grazing_waves == 0 ? householder(wedge->face[1 - i].n) : in.unfolding};
       if (!is_significant(source)) continue;
-      // A corner below a right angle also sends the edge's field back along the face it came by, whose normal E is, as
-      // a ray, without which this is not the whole.
+      // Below a right angle a concave edge also radiates the field of the grazing wave (E along the normal) back along
+      // the same face as a ray, without which the diffracted field is incomplete: both are omitted.
       if (wedge->N < 0.5 && in.grazing_waves > 0 && source.face.n.dot(in.E[0]) > 1 - kFlat) continue;
       RayStrip strip{wave.direction.cross(source.face.n), wave.direction, 0, 0};
-      // It runs along the edge itself. An edge wave that met it nearly so is the one that goes on beside it; as a ray
-      // off it, it would have the pole without the zero.
+      // Parallel to the edge: a grazing wave that meets an edge nearly so is the wave that continues beside it; as a
+      // ray from that edge it would have the pole without the zero.
       if (std::abs(strip.u.dot(source.along)) < (in.grazing_waves > 0 ? kMinRelaunchSine : kMinLaunchSine)) continue;
       const double a = strip.u.dot(edge.a + in.s[0] * source.along), b = strip.u.dot(edge.a + in.s[1] * source.along);
       strip.from = std::min(a, b);
@@ -133,22 +134,22 @@ class MultipleDiffractionTracer {
     }
   }
 
-  // What an edge makes of a grazing wave of unit incident field along w: its fringe current, and the end of the current
-  // that the first edge alone would send on along w beyond it: J = 2 n x H = 2 w / eta there, integrated along w.
+  // Equivalent current of an edge for a grazing wave of unit incident field along w: its fringe current, and the end of
+  // the first edge's current beyond it, J = 2 n x H = 2 w / eta, integrated along w.
   static Vec3 second_edge_current(const WedgeFrame& wedge, const WedgeFace& face, const Vec3& along, const Vec3& w,
                                   const Vec3& s) {
     return fringe_current(wedge, grazing(face, w), face.n, s) +
            w.cross(along).norm() / (2 * kPi * one_minus_cosine(w, s)) * w;
   }
 
-  // Follows the strip that enters a facet by one of its sides.
+  // Follows a strip that enters a facet through one of its sides.
   void traverse_facet(const GrazingSource& source, int number, int entered, const RayStrip& strip, int depth) {
-    constexpr int kDeepest = 1000;  // facets of one face in a row
+    constexpr int kDeepest = 1000;  // facets of one face
     if (strip.to - strip.from < kNarrowest || depth > kDeepest) return;
     const Facet& facet = facets_[number];
     const double split = strip.u.dot(facet.corner[(entered + 2) % 3]);
     for (const int side : {(entered + 1) % 3, (entered + 2) % 3}) {
-      // What of the strip leaves by this side, which runs between the third corner and one of the side it came in by.
+      // Part of the strip that leaves through this side, between the third vertex and one of the side of entry.
       const double other = strip.u.dot(facet.corner[side == (entered + 1) % 3 ? side : entered]);
       RayStrip part = strip;
       part.from = std::max(strip.from, std::min(split, other));
@@ -166,7 +167,7 @@ class MultipleDiffractionTracer {
         int k = 0;
         while (k < 3 && neighbour.corner[k] != p) ++k;
         if (k == 3) continue;
-        // The common side runs from p or to p in the neighbour.
+        // The common side starts or ends at p in the neighbour.
         const Vec3& q = facet.corner[(side + 1) % 3];
         const int common = neighbour.corner[(k + 1) % 3] == q ? k : (k + 2) % 3;
         traverse_facet(source, next, common, part, depth + 1);
@@ -174,7 +175,7 @@ class MultipleDiffractionTracer {
     }
   }
 
-  // Whether the edge is the foot of a wall at right angles to a face, on the side of the face's normal.
+  // True for the foot of a wall perpendicular to the face with normal n, on its side.
   static bool is_perpendicular_wall(const SharpEdge& edge, const Vec3& n) {
     const auto faces = [&](const WedgeFrame& wedge) {
       return wedge.face[0].n.dot(n) > 0.5 || wedge.face[1].n.dot(n) > 0.5;
@@ -184,8 +185,8 @@ class MultipleDiffractionTracer {
                                    : edge.two_sided && faces(edge.back_wedge) && right(edge.back_wedge);
   }
 
-  // An upright wall sends the strip back over the facet that it stands on. The electric field, across the face and so
-  // along the wall, turns round.
+  // Reflects the strip at a perpendicular wall back over the facet. The electric field is normal to the face,
+  // tangential to the wall, and changes sign.
   void reflect(const GrazingSource& source, int facet, int side, const SharpEdge& foot, const RayStrip& strip,
                int depth) {
     if (source.wall_reflections >= kMaxWallReflections || source.in.grazing_waves > 0) return;
@@ -208,7 +209,7 @@ class MultipleDiffractionTracer {
                    depth + 1);
   }
 
-  // What the wall returns otherwise where the rim's face is grazed, of which the facet at its foot is one.
+  // Adds the penumbra terms of the wall; `floor`: a facet of the edge's face at the foot of the wall.
   void add_wall_penumbra(const GrazingSource& source, int floor, const SharpEdge& foot, const Vec3& n,
                          const RayStrip& strip) {
     WallBehindEdge wall{source.start, source.along, source.face.n, n.dot(strip.w) < 0 ? n : Vec3(-n), 0, 0, {}};
@@ -244,7 +245,7 @@ class MultipleDiffractionTracer {
     if (edge.collinear_length_m < limits_.min_run_m || std::abs(across) < kParallelSine) return;
     const WedgeFrame* wedge = illuminated_wedge(edge, grazing(source.face, strip.w));
     if (!wedge) return;
-    // The stretch of this edge that the strip meets, and the wave there: its rays come from the first edge without
+    // Interval of this edge that the strip meets, and the wave on it; the rays come from the first edge without
     // crossing.
     const auto place = [&](double u) { return (u - strip.u.dot(edge.a)) / across; };
     EdgeIncidentWave next = in;
@@ -269,8 +270,8 @@ class MultipleDiffractionTracer {
     if (in.grazing_waves == 0) next.departure = source.departure;
     if (in.grazing_waves == 1)
       next.first_length_m = 1 / (mean_inverse_sqrt_length(in.l) * mean_inverse_sqrt_length(in.l));
-    for (int q = 0; q < 2; ++q) next.factor[q] = 0.5 * source.amplitude[q];  // half of the wave is incident
-    // What leaves by a corner is found on its way back (trace_diffraction_to_concave_edges).
+    for (int q = 0; q < 2; ++q) next.factor[q] = 0.5 * source.amplitude[q];  // half of the total field is incident
+    // Paths that end at a concave edge are traced from there (trace_diffraction_to_concave_edges).
     if (wedge->N > 1) {
       for (const EdgeIllumination* departure : outgoing_.of(number))
         radiate_towards(next, *wedge, source.face, strip.w, *departure);
@@ -280,8 +281,8 @@ class MultipleDiffractionTracer {
       relaunch(next);
   }
 
-  // Whether what an edge sends along a face may count: the echo of the next edge, its stretch in phase and its
-  // diffraction coefficient one. On the ship what is left out by that is -89 dB.
+  // True when the wave launched along a face can reach min_amplitude_m: evaluated for a next edge with constant phase
+  // and a diffraction coefficient of one. The omitted waves of the ship sum to -89 dB.
   bool is_significant(const GrazingSource& source) const {
     const EdgeIncidentWave& in = source.in;
     const double fields = std::abs(source.amplitude[0]) + std::abs(source.amplitude[1]);
@@ -289,8 +290,8 @@ class MultipleDiffractionTracer {
     return fields * spread_[in.grazing_waves + 1] * std::sqrt(in.s[1] - in.s[0]) > limits_.min_amplitude_m;
   }
 
-  // Whether an echo may, whose phase runs at `rate` along a stretch of that length: transition functions are at most 1
-  // and at most sqrt(pi x).
+  // True when a contribution can reach min_amplitude_m, for a phase rate `rate` along an interval of that length:
+  // transition functions are at most 1 and at most sqrt(pi x).
   bool is_significant(const EdgeIncidentWave& in, const Vec3& w, const Vec3& s, double arrival, double rate,
                       double length) const {
     const double fields = std::abs(in.factor[0]) + std::abs(in.factor[1]);
@@ -301,7 +302,7 @@ class MultipleDiffractionTracer {
            limits_.min_amplitude_m;
   }
 
-  // What of a wave that came along a face goes out by a departure of the same edge.
+  // Appends the contribution of a grazing wave that leaves by an exit path of the same edge.
   void radiate_towards(const EdgeIncidentWave& in, const WedgeFrame& wedge, const WedgeFace& face, const Vec3& w,
                        const EdgeIllumination& departure) {
     const SharpEdge& edge = edges_.edges[in.edge];
@@ -357,7 +358,7 @@ class MultipleDiffractionTracer {
   const BistaticGeometry& geometry_;
   const IlluminationByEdge& outgoing_;
   MultipleDiffractionLimits limits_;
-  bool reciprocal_;  // from corners, for ways that end there
+  bool reciprocal_;  // traced from concave edges, for paths that end there
   std::vector<EdgeContribution>& out_;
   std::array<double, kMaxGrazingWaves + 1> spread_{1.0};  // k^(-waves / 2), m^(waves / 2)
 };

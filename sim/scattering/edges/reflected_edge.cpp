@@ -12,19 +12,19 @@
 namespace seaglint {
 namespace {
 
-// Angle off the direction of reflection within which the poles of both ends must cancel and from where on either stands
-// alone, rad.
+// Angle from the specular direction, rad: below the first the poles of both end-point contributions must cancel, above
+// the second each may be used alone.
 constexpr std::array<double, 2> kOffSpecularTaper{0.1, 0.2};
-// The same as a part of the way from there to the wave's way on, where what another face that is grazed leaves has its
-// pole.
+// The same as a fraction of the angle between the specular and the forward direction, at which the residual of another
+// face at grazing has its pole.
 constexpr std::array<double, 2> kOffGrazingTaper{0.25, 0.5};
-// Component along the rim by which a way out leaves Keller's cone.
+// Component along the edge by which an exit direction departs from Keller's cone.
 constexpr std::array<double, 2> kOffConeTaper{0.1, 0.2};
-// Nearer to the direction of reflection than this, rad, the ends are taken at this far to either side of it, and their
-// poles cancel: the constant errs by its square times the ends' second derivative, 1e-6 at 10 deg.
+// Within this angle of the specular direction, rad, the end-point contributions are evaluated at this offset to either
+// side, where their poles cancel: an error of the offset squared times their second derivative, 1e-6 at 10 deg.
 constexpr double kAtSpecular = 1e-3, kAside = 1e-4;
 
-// n x (k^ x E): half of physical optics' current times eta, the wave being in the vacuum before the conductor.
+// n x (k^ x E): half of the PO current times eta, for a wave incident from vacuum.
 Vec3 half_po_current(const Vec3& n, const Vec3& k_hat, const Vec3& E) { return n.cross(k_hat.cross(E)); }
 
 }  // namespace
@@ -73,13 +73,14 @@ std::array<double, 4> endpoint_correction(const WedgeFace& face, const EdgeIllum
   const Vec3 beam = reflect_direction(k_hat, face.n), n = out.first_reflector_normal.dot(beam) < 0
                                                               ? out.first_reflector_normal
                                                               : Vec3(-out.first_reflector_normal);
-  // On the last mirror the rim's shadow, and into the light from there, as long as on the rim.
+  // Directions on the last reflector, of the same lengths as at the edge: along the edge's shadow boundary, and into
+  // the lit region.
   const double cosine = n.dot(beam), lands = beam_incidence_taper(beam, s, n);
   const Vec3 shadow = face.t - face.t.dot(n) / cosine * beam, into = face.x - face.x.dot(n) / cosine * beam;
   const double area = shadow.cross(into).norm();
   const auto about_edge = [&](const Vec3& x) { return std::atan2(face.n.dot(x), face.x.dot(x)); };
   const double off = std::remainder(about_edge(s) - about_edge(beam), 2 * kPi);
-  // Where there is no end on the last mirror that of the rim's face stands alone, away from its pole.
+  // Where the last reflector has no end-point contribution, that of the edge's face is used alone, away from its pole.
   const double alone = 1 - (1 - lands) * smooth_taper(std::abs(off), kOffSpecularTaper);
   const auto add = [&](double angle, double weight) {
     const Vec3 on_cone = Eigen::AngleAxisd(angle, face.t) * beam, away = on_cone - beam;

@@ -13,9 +13,9 @@
 namespace seaglint {
 namespace {
 
-// Corners this near to an edge lie on it: cuts are exact to rounding of the target's size.
+// Distance within which a vertex counts as on an edge; clipping is exact to rounding of the target's size.
 constexpr double kOnEdge = 1e-7;  // m
-// As kShadowBoundaryGuard, where diffraction_forward_taper() fades out what grows near the boundary of shadow.
+// As kShadowBoundaryGuard, where diffraction_forward_taper() removes the growth near the shadow boundary.
 constexpr double kReflectedGuard = 0.04;  // rad
 
 struct EdgeInterval {
@@ -23,7 +23,7 @@ struct EdgeInterval {
   std::array<Vec2, 2> slip;
 };
 
-// Stretches that meet become one.
+// Joins overlapping and adjoining intervals.
 void merge_intervals(std::vector<EdgeInterval>& stretches) {
   std::sort(stretches.begin(), stretches.end(),
             [](const EdgeInterval& a, const EdgeInterval& b) { return a.s[0] < b.s[0]; });
@@ -42,17 +42,17 @@ void merge_intervals(std::vector<EdgeInterval>& stretches) {
   if (!stretches.empty()) stretches.resize(kept + 1);
 }
 
-// Where sides of the lit pieces lie on an edge, given by its image's start and direction.
+// Intervals in which sides of the illuminated polygons coincide with an edge, given by its image's start and direction.
 std::vector<EdgeInterval> illuminated_intervals(const Vec3& image, const Vec3& along, double length,
                                                 const FacetWave& wave, std::span<const MovingPolygon> illuminated) {
   const RadarBasis& a = wave.antenna;
   const Vec2 start(image.dot(a.h), image.dot(a.v)), run(along.dot(a.h), along.dot(a.v));
-  const double shortened = run.norm();  // of a metre of edge in the aperture
+  const double shortened = run.norm();  // projected length of a metre of edge
   std::vector<EdgeInterval> stretches;
-  if (shortened < 1e-6) return stretches;  // seen end-on
+  if (shortened < 1e-6) return stretches;  // parallel to the line of sight
   const Vec2 across(-run.y() / shortened, run.x() / shortened);
   const auto place = [&](const MovingVertex& vertex) { return run.dot(vertex.p - start) / (shortened * shortened); };
-  // Beyond what a body-fixed point moves in the aperture (-z d_i), a corner slips along the edge.
+  // Slide of a vertex along the edge: its motion beyond that of a body-fixed point, -z d_i.
   const auto slip = [&](const MovingVertex& corner) -> Vec2 {
     const double z = wave.plane.at(corner.p);
     return Vec2(run.dot(corner.d1 + Vec2(z, 0)), run.dot(corner.d2 + Vec2(0, z))) / (shortened * shortened);
@@ -70,7 +70,8 @@ std::vector<EdgeInterval> illuminated_intervals(const Vec3& image, const Vec3& a
         std::swap(stretch.s[0], stretch.s[1]);
         std::swap(stretch.slip[0], stretch.slip[1]);
       }
-      // A side may run on along the next edge of the same line: this one's own ends stay where they are.
+      // A polygon side may continue along the next collinear edge; the interval then ends at the fixed end of this
+      // edge.
       if (stretch.s[0] < 0) {
         stretch.s[0] = 0;
         stretch.slip[0].setZero();
@@ -86,7 +87,8 @@ std::vector<EdgeInterval> illuminated_intervals(const Vec3& image, const Vec3& a
   return stretches;
 }
 
-// hh, hv, vh, vv of what leaves by `out`. The received polarisation, sent backwards, arrives as the outgoing wave.
+// hh, hv, vh, vv of an incident and an exit path. The received polarisation is the field of the receiver's wave at the
+// edge.
 EdgePattern pattern(const WedgeFrame& wedge, const EdgeIllumination& in, const EdgeIllumination& out,
                     double shadow = kShadowBoundaryGuard) {
   const auto received = [&](const auto& J_h, const auto& J_v) -> std::array<Complex, 4> {
@@ -102,7 +104,7 @@ EdgePattern pattern(const WedgeFrame& wedge, const EdgeIllumination& in, const E
   return pattern;
 }
 
-// A way and the same one run backwards, half of each.
+// Mean of a path and its reciprocal.
 EdgePattern mean(EdgePattern there, const EdgePattern& back) {
   there += transposed(back);
   there *= 0.5;
@@ -114,15 +116,15 @@ EdgePattern reciprocal_mean(const WedgeFrame& wedge, const EdgeIllumination& in,
   return mean(there, &in == &out ? there : pattern(wedge, out, in));
 }
 
-// What equivalent_edge_currents() leaves out is what facets radiate straight to the receiver, of the transmitter's
-// wave: with one antenna single diffraction is reciprocal as the mean of both ways; with two antennas only the
-// transmitter's and theirs together are Keller's.
+// equivalent_edge_currents() subtracts the facets' direct radiation of the transmitter's wave. For one antenna single
+// diffraction is the mean of a path and its reciprocal; for two antennas only the transmitter's wave gives Keller's
+// field together with the facets.
 EdgePattern direct(const WedgeFrame& wedge, const EdgeIllumination& in, const EdgeIllumination& out, bool monostatic) {
   return monostatic ? reciprocal_mean(wedge, in, out) : pattern(wedge, in, out);
 }
 
-// By mirrors that the edge's own field reaches beside the beams that its faces reflect to them, each by its share of
-// the whole (reflected_edge.h).
+// Diffracted field of the edge via reflectors, in addition to the beams that its faces reflect to them, with the weight
+// of each face (reflected_edge.h).
 EdgePattern edge_field_pattern(const WedgeFrame& wedge, const std::array<double, 2>& shares, const EdgeIllumination& in,
                                const EdgeIllumination& out) {
   EdgePattern answer = pattern(wedge, in, out, kReflectedGuard);
@@ -134,17 +136,16 @@ EdgePattern edge_field_pattern(const WedgeFrame& wedge, const std::array<double,
   return answer;
 }
 
-// Where that is not told apart from the beam: what facets radiate straight to the receiver is what the transmitter or
-// more mirrors lit. A way with more mirrors on its end is the same way run backwards; ways with as many on either side
-// share both.
+// Where that field is not separable from the beam: fringe currents, of the wave that is reflected more often, since the
+// facets radiate that one directly to the receiver. A path with more reflections on its exit is replaced by its
+// reciprocal; with equal numbers the mean of both is used.
 EdgePattern fringe_pattern(const WedgeFrame& wedge, const EdgeIllumination& in, const EdgeIllumination& out) {
   if (in.reflections > out.reflections) return pattern(wedge, in, out);
   return in.reflections < out.reflections ? transposed(pattern(wedge, out, in)) : reciprocal_mean(wedge, in, out);
 }
 
-// By mirrors; nothing where it has faded out ahead of the edge. `both_ways`: the way back through the same arrivals as
-// well, of which physical optics has other ends where another facet is the last one, so that only with them hv and vh
-// are alike.
+// Pattern of a path via reflectors; none where its tapers are zero near the forward direction. `both_paths`: adds the
+// reciprocal path, whose last reflector and PO end-point contributions differ, so that S_hv = S_vh.
 std::optional<EdgePattern> reflected_pattern(const WedgeFrame& wedge, const EdgeIllumination& in,
                                              const EdgeIllumination& out, bool both_paths) {
   std::array<double, 2> reflecting = reflected_face_weights(wedge, in, out);
@@ -180,7 +181,7 @@ void find_edge_illumination(const SharpEdges& edges, int facet, const FacetWave&
     const SharpEdge& edge = edges.edges[side.edge];
     const WedgeFrame* wedge = illuminated_wedge(edge, wave.direction);
     if (!wedge || !records_edge(edge, *wedge, side.is_first_face, wave.direction)) continue;
-    if (wedge->N < 1 && wave.bounce > 1) continue;  // of a corner the reflections are part of its answer
+    if (wedge->N < 1 && wave.bounce > 1) continue;  // PO of a concave edge includes its reflections
     const Vec3 image = wave.image_transform.image(edge.a), along = wave.image_transform.L * edge.along();
     for (const EdgeInterval& stretch : illuminated_intervals(image, along, edge.length(), wave, illuminated)) {
       illuminations.push_back({side.edge, stretch.s, stretch.slip, image, along, wave.direction, wave.E_h, wave.E_v,
@@ -193,7 +194,7 @@ void append_single_diffraction(const SharpEdge& edge, std::span<const Facet> fac
                                EdgeIlluminations incoming, EdgeIlluminations outgoing, int max_bounces,
                                std::vector<EdgeContribution>& contributions) {
   const int max_reflections = std::min(kMaxEdgeReflections, max_bounces - 1);
-  // Of one antenna's two ways by the same arrivals only one is followed: run backwards it has the same path.
+  // For one antenna only one of two reciprocal paths is evaluated: both have the same length.
   const auto echo = [&](const EdgeIllumination& in, const EdgeIllumination& out) {
     const bool both_paths = geometry.monostatic && &in != &out;
     const double first = std::max(in.s[0], out.s[0]), last = std::min(in.s[1], out.s[1]);
@@ -224,7 +225,7 @@ void append_single_diffraction(const SharpEdge& edge, std::span<const Facet> fac
       const double s = end == 0 ? first : last;
       const Vec3 X = in.image_start + s * in.image_edge_direction, Y = out.image_start + s * out.image_edge_direction;
       contribution.psi[end] = t.r.dot(X) + r.r.dot(Y);
-      // The end belongs to whichever stretch ends there, and slips with it.
+      // An end belongs to the path whose interval ends there, and slides with it.
       const bool by_in = end == 0 ? in.s[0] >= out.s[0] : in.s[1] <= out.s[1];
       const Vec2 slide = slope * (by_in ? in.slide[end] : out.slide[end]);
       PathGradient& gradient = contribution.gradient[end];

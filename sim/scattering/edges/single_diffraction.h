@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Which stretches of sharp edges does the wave reach, by which mirrors, and what do they send back?
+// Single diffraction: finds the illuminated intervals of sharp edges and computes their contributions.
 //
-// A wave reaches a stretch of an edge directly or by mirrors; what the edge sends back leaves by any of the ways on
-// which the receiver's wave, sent backwards, would reach it (reciprocity). Every pair of an arrival and a departure
-// that share a stretch is one echo.
+// An interval of an edge is illuminated directly or after reflections; exit paths are found by tracing the receiver's
+// wave back to the edge (reciprocity). Each pair of an incident and an exit path with a common interval is one
+// contribution.
 
 #include <array>
 #include <cstdint>
@@ -18,28 +18,27 @@
 
 namespace seaglint {
 
-// Mirrors on both ways together. Three suffice for what a corner reflector's rims return; what is left out has left the
-// target's straight ways.
+// Maximum number of reflections on the incident and the exit path together: the edges of corner reflectors need three.
 inline constexpr int kMaxEdgeReflections = 3;
 
-// A wave that falls on a facet through mirrors, as a beam's leg carries it.
+// A wave on a panel after reflections, as a beam segment carries it.
 struct FacetWave {
   const RadarBasis& antenna;
   const ImageTransform& image_transform;
-  const DepthPlane& plane;  // of the facet's image
+  const DepthPlane& plane;  // of the panel's image
   Vec3 direction, E_h, E_v;
-  int bounce = 1;                              // of the hit on the facet
+  int bounce = 1;                              // 1-based number of the reflection at this panel
   Vec3 first_reflector_normal = Vec3::Zero();  // as in EdgeIllumination
 };
 
-// Appends the stretches of the sharp edges of a panel (by the facet it goes by) that bound what the wave lights of it
-// (convex pieces of the aperture).
+// Appends the intervals of the sharp edges of a panel (given by its representative facet) that bound the illuminated
+// part, `illuminated`: convex polygons in the projection plane.
 void find_edge_illumination(const SharpEdges& edges, int facet, const FacetWave& wave,
                             std::span<const MovingPolygon> illuminated, std::vector<EdgeIllumination>& illuminations);
 
-// Appends the echoes of all stretches of an edge that a wave from the transmitter (`incoming`) shares with one from the
-// receiver (`outgoing`), with at most `max_bounces` in all. When both are one antenna the lists are the same. Edge
-// waves are apart (multiple_diffraction.h).
+// Appends the contributions of all intervals of an edge common to an illumination by the transmitter (`incoming`) and
+// one by the receiver (`outgoing`), with at most `max_bounces` interactions, the diffraction included. For one antenna
+// the two lists are the same object. Multiple diffraction is in multiple_diffraction.h.
 void append_single_diffraction(const SharpEdge& edge, std::span<const Facet> facets, const BistaticGeometry& geometry,
                                EdgeIlluminations incoming, EdgeIlluminations outgoing, int max_bounces,
                                std::vector<EdgeContribution>& contributions);

@@ -12,25 +12,26 @@
 namespace seaglint {
 namespace {
 
-// Sine of the angle over the face up to which a wave is followed: 37 to 64 deg.
+// Sine of the grazing angle up to which the terms are used: 37 to 64 deg.
 constexpr std::array<double, 2> kAngleTaper{0.6, 0.9};
-// k l s^2 up to which all is one amplitude with its change; beyond, where that is small, ways with phases of their own.
+// k l s^2 below which all terms form one amplitude with its derivative; above, where they are small, each has its own
+// phase.
 constexpr double kMergedLimit = 9;
-// Phase of the change per sine: 0.1 rad where a trace serves 1e-3 rad.
+// Phase of the derivative term per unit of sine: 0.1 rad for an aspect change of 1e-3 rad.
 constexpr double kChangePhase = 100;
-// Cosine between the wave's way on the face and the wall's normal below which it runs along the wall.
+// Cosine between the propagation direction on the face and the wall's normal below which the wave runs along the wall.
 constexpr std::array<double, 2> kAlongWall{0.1, 0.3};
-// Height of the image's shadow line on the wall, in those of the wall, from which on the wall's image of the rim is not
-// seen.
+// Height of the image's shadow-boundary line on the wall, relative to the wall, above which the edge's image in the
+// wall is not visible.
 constexpr std::array<double, 2> kTopTaper{0.6, 1};
 
-// Rim and foot this near to each other meet.
+// Distance below which edge and foot meet.
 constexpr double kInCorner = 1e-7;  // m
 
 // hh, hv, vh, vv
 using Pattern = std::array<double, 4>;
 
-// What a wall returns per area and -jk / 2 pi of a wave along k_hat with fields E_h, E_v.
+// Response of a wall per area and -jk / 2 pi to a wave along k_hat with fields E_h, E_v.
 Pattern wall_pattern(const Vec3& n, const RadarBasis& antenna, const Vec3& k_hat, const Vec3& E_h, const Vec3& E_v) {
   const Vec3 J_h = n.cross(k_hat.cross(E_h)), J_v = n.cross(k_hat.cross(E_v));
   return {antenna.h.dot(J_h), antenna.h.dot(J_v), antenna.v.dot(J_h), antenna.v.dot(J_v)};
@@ -43,7 +44,7 @@ void append_wall_penumbra(const WallBehindEdge& wall, const RadarBasis& antenna,
   const auto& [rim, along, n, wall_normal, height, image_fraction, foot, shown] = wall;
   const Vec3& r = antenna.r;
   const double s = n.dot(r), c = std::sqrt(1 - s * s);
-  const Vec3 back = (r - s * n).normalized();  // on the face, from the wall to the rim
+  const Vec3 back = (r - s * n).normalized();  // on the face, from the wall to the edge
   const double grazes = smooth_taper(std::abs(s), kAngleTaper),
                faces = 1 - smooth_taper(wall_normal.dot(back), kAlongWall), length = (foot[1] - foot[0]).norm();
   const double across = back.cross(along).dot(n);
@@ -52,15 +53,15 @@ void append_wall_penumbra(const WallBehindEdge& wall, const RadarBasis& antenna,
   for (int end = 0; end < 2; ++end) {
     const double way = (rim - foot[end]).cross(along).dot(n) / across;
     if (way < -kInCorner) return;
-    l[end] = std::max(way, 0.0);  // rim and foot may meet
+    l[end] = std::max(way, 0.0);  // edge and foot may meet
   }
   const double way = 0.5 * (l[0] + l[1]);
-  // How far along the stretch an end moves as the direction turns about the face's normal, m/rad, and how the way to
-  // the rim lengthens.
+  // Slide of an end along the interval as the look direction rotates about the face's normal, m/rad, and the change of
+  // the distance to the edge.
   const Vec3 run = (foot[1] - foot[0]) / length, turn = n.cross(back) / c;
   const double slides = -1 / turn.dot(c * run), lengthens = back.dot(along) / across;
 
-  // Of the wave, and of its image in the face: soft and hard are half of their difference and of their sum.
+  // For the direct wave and its image in the face: soft and hard are half of their difference and of their sum.
   const auto image = [&](const Vec3& x) { return reflect_direction(x, n); };
   const Pattern direct = wall_pattern(wall_normal, antenna, -r, antenna.h, antenna.v),
                 by_face = wall_pattern(wall_normal, antenna, image(-r), -image(antenna.h), -image(antenna.v));
@@ -70,7 +71,7 @@ void append_wall_penumbra(const WallBehindEdge& wall, const RadarBasis& antenna,
     hard[i] = 0.5 * (direct[i] + by_face[i]);
   }
 
-  // With the sine of the angle over the face psi changes by `rise` m; a fall of the phase lengthens with the way.
+  // `rise`: d psi / d sine of the grazing angle, m; a phase delay grows with the distance l.
   const auto append = [&](const Pattern& pattern, const WallPenumbraTerm& range, double rise, double slope,
                           double max_amplitude) {
     EdgeContribution contribution = foot_echo;
@@ -95,11 +96,11 @@ void append_wall_penumbra(const WallBehindEdge& wall, const RadarBasis& antenna,
     if (max * max_amplitude * extent >= min_amplitude_m) contributions.push_back(contribution);
   };
 
-  // What reflected_edge.h and edge waves by walls leave to this.
+  // Weights complementary to those of reflected_edge.h and of multiple diffraction via walls.
   const double ahead = 1 - diffraction_forward_taper(1 - 2 * s * s), share = grazes * faces;
   const double past_top = s > 0 ? smooth_taper(way * s / c / height, kTopTaper) : 1,
                by_edge = (1 - specular_grazing_weight(s)) * past_top;
-  // What the wall's image, which ends at the line, radiates already.
+  // Already radiated by the wall's image, which ends at the line.
   const double by_image = image_fraction * past_top;
   const double at_end = 1 / (4 * kPi * std::abs(s)),
                by_way = std::min(at_end, std::sqrt(k * std::max(l[0], l[1]) / kPi) / (2 * kPi));

@@ -12,7 +12,8 @@ namespace {
 
 bool same(const RadarBasis& a, const RadarBasis& b) { return a.r == b.r && a.h == b.h && a.v == b.v; }
 
-// The waves from a direction that reach edges, where no receiver needs footprints of them.
+// Edge illuminations from a receive direction that transmits in no pair: no footprints are computed, and beams end
+// after the reflections that an edge contribution allows.
 IlluminationByEdge arrivals_of(const Scatterer& scatterer, const std::shared_ptr<const Aspect>& direction,
                                TracingSettings settings, std::span<const double> wavenumbers, int threads,
                                const StopFlag* stop) {

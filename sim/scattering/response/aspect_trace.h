@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Surface and edge contributions of a target at rest for pairs of directions. Every transmit direction is traced once,
-// whatever the number of receivers, and so is every other receive direction, whose waves find the exit paths of edges.
+// Surface and edge contributions of a target at rest for pairs of transmit and receive directions. Each transmit
+// direction is traced once for all its receivers; each receive direction that is not a transmit direction is traced
+// once for the exit paths of edges. Over the sea two traces and two visible surfaces serve all four propagation paths.
 
 #include <cstddef>
 #include <functional>
@@ -17,7 +18,7 @@
 
 namespace seaglint {
 
-// Receives the contributions of a pair chunk by chunk, those of a chunk in order from one thread.
+// Receives the contributions of a pair by chunk; those of a chunk arrive in order from one thread.
 struct AspectVisitor {
   std::function<void(std::size_t pair, std::size_t chunk, std::span<const Footprint>)> surfaces;
   std::function<void(std::size_t pair, std::size_t chunk, std::span<const EdgeContribution>)> edges;
@@ -25,21 +26,22 @@ struct AspectVisitor {
 
 class AspectTrace {
  public:
-  // `wavenumbers`: those at which materials are evaluated and what is faint is left out, at least one. All arguments
-  // must outlive it.
+  // `wavenumbers`: at which materials are evaluated and weak contributions are omitted, at least one. All arguments
+  // must outlive the object.
   AspectTrace(const Scatterer& scatterer, std::span<const BistaticGeometry> pairs, const TracingSettings& settings,
               std::span<const double> wavenumbers, int threads);
 
-  // Chunks of a pair; they do not depend on the number of threads.
+  // Number of chunks of a pair, independent of the number of threads.
   std::size_t chunk_count(std::size_t pair) const;
 
-  // Returns the legs of beams that left the transmitters. Throws Interrupted when *stop becomes true.
+  // Returns the number of beam segments traced from the transmit directions. Throws Interrupted when *stop becomes
+  // true.
   std::size_t run(const AspectVisitor& visit, const StopFlag* stop = nullptr) const;
 
  private:
-  // One transmit direction and the pairs that have it.
+  // One transmit direction and the pairs that share it.
   struct Transmitter {
-    std::size_t direction;           // of directions_
+    std::size_t direction;           // index into directions_
     std::vector<std::size_t> pairs;  // in the order of the illumination's receivers
     Illumination illumination;
   };
@@ -49,8 +51,8 @@ class AspectTrace {
   const TracingSettings& settings_;
   std::span<const double> wavenumbers_;
   int threads_;
-  std::vector<std::shared_ptr<const Aspect>> directions_;  // without repetition
-  std::vector<std::size_t> transmit_, receive_;            // directions of each pair
+  std::vector<std::shared_ptr<const Aspect>> directions_;  // distinct
+  std::vector<std::size_t> transmit_, receive_;            // indices into directions_, per pair
   std::vector<Transmitter> transmitters_;
 };
 

@@ -22,17 +22,17 @@
 namespace seaglint {
 namespace {
 
-// Body-fixed points go no faster than this beside a track, m, its two parts having unit length together. Shadow edges
-// that do are faint.
+// Cross-track path rate of body-fixed points is at most this, m, for a track tangent of unit length. Contributions of
+// shadow boundaries that exceed it are weak.
 double cross_track_limit(const Scatterer& scatterer) { return std::numbers::sqrt2 * scatterer.radius(); }
 
-// What one chunk of panels or edges adds, in cache lines of its own: threads fill neighbouring chunks side by side.
+// Points of one chunk of panels or edges, aligned to cache lines: threads fill neighbouring chunks concurrently.
 struct alignas(64) ChunkPoints {
   std::vector<GridPoint> points;
   double fastest = 0;  // largest |u|, m
 };
 
-// The points of one way's contributions, moved along the way's directions.
+// Points of the contributions of one propagation path, with their rates along its look-direction path.
 class WayPoints {
  public:
   WayPoints(const Scatterer& scatterer, const PlannedPath& path, double kc, double half_band, double faint, int channel,
@@ -64,12 +64,12 @@ class WayPoints {
     }
   }
 
-  // Their sum over the band and the directions of the way.
+  // Their sum over the band and the look directions of the path.
   ResponseGrid grid(const WavenumberGrid& wavenumbers, double beside, int threads) const {
     double fastest = 0;
     for (const ChunkPoints& chunk : points_) fastest = std::max(fastest, chunk.fastest);
     const GridLimits limits{fastest, path_.s_limit, beside, path_.q_limit};
-    // Four grids, whatever the number of threads, each for every fourth chunk; their sum is taken in order.
+    // Four grids for any number of threads, each for every fourth chunk; they are added in order.
     constexpr std::size_t kGrids = 4;
     std::vector<ResponseGrid> grids(kGrids, ResponseGrid(wavenumbers, limits));
     parallel_for(kGrids, threads, [&](std::size_t g) {
@@ -82,7 +82,7 @@ class WayPoints {
   }
 
  private:
-  // At a finite range the wavefront is bent about the body's own origin, from which the way sees the radar.
+  // At a finite range the wavefront is curved about the body's own origin, from which the look directions are measured.
   void keep(std::size_t chunk, std::span<PointContribution> contributions) {
     if (range_m_ > 0) apply_wavefront_curvature(contributions, geometry_, Vec3::Zero(), range_m_);
     for (const PointContribution& c : contributions) {
@@ -99,21 +99,21 @@ class WayPoints {
   const LookDirectionPath& path_;
   DecompositionSettings split_;
   double half_band_;
-  double faint_;  // half of all points, ends of currents that fade or run out of phase, are fainter
+  double faint_;  // half of all points, mostly tapered or cancelling end points, are weaker
   int channel_;
   double range_m_;
-  // A shadow edge at grazing runs along its facet much faster than any point of the body moves. Beyond four times the
-  // body's size its speed is cut: such ends are faint and run through many velocity cells.
+  // A shadow boundary at grazing incidence slides along its facet much faster than any point of the body. Its rate is
+  // limited to that of a point at four radii: such end points are weak and cross many velocity cells.
   double limit_;
   std::vector<ChunkPoints> points_;
 };
 
-// What the body answers by the ways of one trace.
+// Response of the body over the propagation paths of one trace.
 std::vector<ResponseGrid> trace_to_grid(const Scatterer& scatterer, std::span<const PlannedPath> ways,
                                         const WavenumberGrid& wavenumbers, int channel, const SolverSpec& solver,
                                         int threads) {
   const double kc = wavenumbers.at(wavenumbers.centre_index());
-  // Materials are met at the band's middle and at as far to either side as its lower end lies.
+  // Materials are evaluated at the centre of the band and at equal distances on either side, the lower end among them.
   const double half_band = kc - wavenumbers.first;
   const std::array band{kc - half_band, kc, kc + half_band};
   const TracingSettings settings{solver.ray_spacing_m, solver.max_bounces, solver.edges};
@@ -136,8 +136,8 @@ std::vector<ResponseGrid> trace_to_grid(const Scatterer& scatterer, std::span<co
   return grids;
 }
 
-// The sea's coefficients at every pulse's frequencies: they follow the elevation of a radar that moves; of one that
-// stands they are formed once per frequency.
+// Sea reflection coefficients per pulse and frequency of a moving radar, whose elevation changes; per frequency of a
+// fixed one.
 class SeaReflectionOverPulses {
  public:
   SeaReflectionOverPulses(const SeaReflection& sea, const TracePlan& plan, const IntervalSampling& sampling,
@@ -189,11 +189,11 @@ BodyResponse body_response(const Scatterer& scatterer, const Trajectory& traject
   const TracePlan plan(trajectory, sampling, r_hat, solver.wavefront_range_m, paths,
                        {served, kMaxCrossTrackPhase / (k_last * cross_track_limit(scatterer))});
 
-  // Traces side by side before facets side by side: the threads then meet less often.
+  // Traces in parallel before facets in parallel, which needs fewer synchronisations.
   threads = std::max(1, threads);
   const auto traces = plan.traces();
   const int side_by_side = std::min(threads, static_cast<int>(traces.size()));
-  std::vector<std::vector<ResponseGrid>> returns(traces.size());  // by trace and way
+  std::vector<std::vector<ResponseGrid>> returns(traces.size());  // [trace][propagation path]
   parallel_for(traces.size(), side_by_side, [&](std::size_t i) {
     returns[i] =
         trace_to_grid(scatterer, traces[i].paths, wavenumbers, channel, solver, std::max(1, threads / side_by_side));
@@ -213,8 +213,8 @@ BodyResponse body_response(const Scatterer& scatterer, const Trajectory& traject
       for (int n = traces[i].first; n <= traces[i].last; ++n) {
         const auto at = static_cast<std::size_t>(n - traces[i].first);
         returns[i][w].response(sampling.pulse_first[n], moves.s[at], moves.q[at], answer);
-        // The body's origin moves too: e^{jk (a + b).p} with the directions a and b of either way, of a radar at a
-        // finite range by its distances, exact for every pulse and frequency.
+        // Motion of the body's origin: e^{jk (a + b).p} with the look directions a and b of the two paths, or by the
+        // distances to a radar at a finite range; exact for every pulse and frequency.
         const double origin_path = plan.path_advance(path, n);
         for (int b = 0; b < sampling.frequencies_per_pulse; ++b) {
           const int q = sampling.pulse_first[n] + b;

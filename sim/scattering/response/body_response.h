@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The response of one rigid body over one coherent interval.
+// Frequency response of one rigid body over one coherent interval.
 
 #include <vector>
 
@@ -16,21 +16,21 @@ namespace seaglint {
 
 struct BodyResponse {
   FrequencyResponse response;
-  int traces = 0;  // directions that were lit
+  int traces = 0;  // aspect traces, over all spans and propagation paths
 };
 
-// The turn of a body that one trace serves when the scenario leaves it open, rad: the target's ends may move by 6
-// wavelengths, two ways together, and never more than 0.15 deg. Ship at 16 GHz: 0.044 deg.
+// Default aspect change that one trace serves, rad: min(0.15 deg, 3 wavelength / radius), a two-way displacement of 6
+// wavelengths at the ends of the target. 144 m ship at 16 GHz: 0.044 deg.
 double default_aspect_change(const Scatterer& scatterer, double wavelength);
 
-// H(f, attitude at t_n) of a body on its trajectory, seen along r_hat (target frame). One trace serves pulses while the
-// body turns by at most solver.max_aspect_change_deg; a faster body is traced at the middles of spans that short, and
-// neighbouring traces are blended linearly in time; spans get shorter still where the direction's path bends by more
-// than a grid takes. Error against a fresh trace per pulse and frequency: sim/scattering/README.md. Polarisation basis:
-// that of the world, turned into the body at each trace. A radar at
-// solver.wavefront_range_m from the target frame's origin is seen by the body from where it stands. The trajectory must
-// cover the interval. With `sea` the echo comes four ways over the surface z = 0 of the target frame
-// (sea_reflection.h), each traced by itself; r_hat.z() > 0.
+// H(f, attitude at t_n) of a body on its trajectory, observed along r_hat (target frame). One aspect trace serves the
+// pulses within an aspect change of solver.max_aspect_change_deg. A faster body is traced at the middles of spans of
+// that length, and the responses of neighbouring traces are interpolated linearly in time; spans are shortened further
+// where the cross-track phase exceeds kMaxCrossTrackPhase. The error relative to an independent trace per pulse and
+// frequency is in README.md. The polarisation basis is that of the world frame, rotated into the body at each trace.
+// With solver.wavefront_range_m > 0 the radar is at that distance from the origin of the target frame, and the body is
+// observed from its own position. The trajectory must cover the interval. `sea`: adds the specular sea reflection at z
+// = 0 of the target frame (sea_reflection.h) with one trace per propagation path; requires r_hat.z() > 0.
 BodyResponse body_response(const Scatterer& scatterer, const Trajectory& trajectory, const Vec3& r_hat,
                            Polarisation polarisation, const IntervalSampling& sampling, const SolverSpec& solver,
                            int threads = 1, const SeaReflection* sea = nullptr);

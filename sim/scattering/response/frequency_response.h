@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The narrow waist: left of it is physics, right of it is signal processing.
+// Interface between the electromagnetic solver and the signal processing: sampling of an interval and the response H.
 
 #include <vector>
 
@@ -9,24 +9,24 @@
 
 namespace seaglint {
 
-// Where a coherent interval samples the response. Frequencies of all pulses lie on one uniform grid first_hz + i
-// step_hz, i = 0..count-1; pulse n uses the frequencies_per_pulse frequencies that begin at i = pulse_first[n].
+// Sampling of the response over a coherent interval. All frequencies lie on one uniform grid first_hz + i step_hz, i =
+// 0..count-1; pulse n uses the frequencies_per_pulse frequencies from i = pulse_first[n] on.
 struct IntervalSampling {
   double first_hz = 0;
   double step_hz = 0;
   int count = 0;
   int frequencies_per_pulse = 0;
   std::vector<int> pulse_first;
-  std::vector<double> pulse_time_s;  // ascending, absolute time in the trajectory
-  // Not 0: the pulse sweeps, and its baseband frequency f (0 in the middle of its frequencies) meets the target at
-  // pulse_time + f / chirp_rate. 0: stop and go, the whole pulse meets the attitude at pulse_time.
+  std::vector<double> pulse_time_s;  // ascending, time of the trajectory
+  // Chirp: a baseband frequency f (0 at the middle of the pulse's frequencies) is scattered at pulse_time + f /
+  // chirp_rate. 0: stop and go, one attitude per pulse.
   double chirp_rate_hz_s = 0;
-  // The radar's velocity over its range, 1/s, target frame: the direction to it turns from r^ to that of r^ + (t -
-  // first pulse's time) line_of_sight_rate. 0: the radar stands.
+  // Velocity of the radar over its range, 1/s, target frame: the look direction at time t is that of r^ + (t - first
+  // pulse's time) line_of_sight_rate. 0: fixed radar.
   Vec3 line_of_sight_rate = Vec3::Zero();
 };
 
-// H of one polarisation in metres, CONVENTIONS.md signs; values[n * frequencies_per_pulse + b] for pulse n and its b-th
+// H of one polarisation, m, signs of CONVENTIONS.md; values[n * frequencies_per_pulse + b]: pulse n, its b-th
 // frequency.
 struct FrequencyResponse {
   int pulses = 0;
@@ -39,7 +39,7 @@ struct FrequencyResponse {
   }
 };
 
-// Sum of the responses of several bodies (equal shapes).
+// Sum of the responses of several bodies; shapes must be equal.
 FrequencyResponse& operator+=(FrequencyResponse& sum, const FrequencyResponse& term);
 
 }  // namespace seaglint

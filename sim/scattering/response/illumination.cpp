@@ -15,18 +15,17 @@
 namespace seaglint {
 namespace {
 
-// Side of the smallest beam that goes on to further mirrors, in those of pieces: 18 mm on the ship. Pieces half as
-// large and beams twice as large as one size for both err less and cost the same (README.md).
+// Side of the smallest beam that is reflected further, in sides of the smallest patch: 18 mm on the ship. For equal run
+// time two sizes in this ratio have a smaller error than one common size.
 constexpr double kMinBeamPerPatch = 3.6;
-// A large mesh has larger chunks of panels: what is kept per chunk and frequency stays below 100 MB for 640
-// frequencies.
+// Panels per chunk grow with the mesh: the memory per chunk and frequency stays below 100 MB for 640 frequencies.
 constexpr std::size_t kPanelsPerChunk = 64;
 constexpr std::size_t kMaxChunks = 2048;
 
-// In a direction that lies in a sheet's plane nothing of it would be found, not even its rims, whose echo has a limit
-// there; so have edge waves along any face, and those of an edge square to the direction, which run along the rims
-// beside it. Such a direction is turned aside by this much, rad, which moves phases by 0.05 rad at the ends of a 144 m
-// ship at 16 GHz.
+// In the plane of a sheet nothing of it is visible, although its edges scatter; multiple diffraction along any face
+// observed in its plane, and along edges adjacent to one that is normal to the look direction, has only a limit. Such a
+// look direction is perturbed by this angle, rad, which changes phases by 0.05 rad at the ends of a 144 m ship at 16
+// GHz.
 constexpr double kLookPerturbation = 1e-6;
 
 RadarBasis perturbed_look_direction(const Scatterer& scatterer, const RadarBasis& basis, bool edges) {
@@ -39,8 +38,8 @@ RadarBasis perturbed_look_direction(const Scatterer& scatterer, const RadarBasis
            std::ranges::any_of(scatterer.edges().edges, square_to);
   };
   if (!has_a_limit(basis.r)) return basis;
-  // About h - v first, since faces often lie along h or v; a face across the axis stays edge-on and asks for another
-  // one.
+  // About h - v first, since faces are often parallel to h or v; a face that contains the axis stays edge-on and
+  // requires another axis.
   RadarBasis aside = basis;
   for (const Vec2& axis : {Vec2(1, -1), Vec2(1, 0.6), Vec2(0.3, 1), Vec2(1, 0.1), Vec2(-0.2, 1)}) {
     const Mat3 turn =
@@ -51,12 +50,12 @@ RadarBasis perturbed_look_direction(const Scatterer& scatterer, const RadarBasis
   return aside;
 }
 
-// Writes down what the legs of one illumination light and what its receivers see.
+// Records the contributions and edge illuminations of the beam segments of one illumination.
 class LitRecorder : public BeamVisitor {
  public:
   LitRecorder(const TracingContext& scene, TracedContributions& out) : scene_(scene), out_(out) {
     out.seen.resize(scene.receivers.size());
-    ends_.reserve(out.seen.size());  // echoes refer to them
+    ends_.reserve(out.seen.size());  // referenced by echoes_
     for (std::size_t i = 0; i < out.seen.size(); ++i) {
       const Receiver& receiver = scene.receivers[i];
       echoes_.emplace_back(scene, receiver, out.seen[i].footprints,

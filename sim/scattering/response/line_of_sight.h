@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// A radar that moves past the target, or is near enough to be seen in another direction from each of its bodies: in the
-// far field nothing but the direction to it counts. The scene stands still, since the sea as a mirror does: the radar's
-// image goes down where the radar goes up.
+// Look directions of a moving radar, and of a radar at a finite range as observed from each body. In the far field only
+// the direction matters. The scene is fixed because the sea surface is: the radar's image descends as the radar climbs.
 
 #include "sim/core/numbers/linear.h"
 #include "sim/scattering/response/frequency_response.h"
@@ -11,21 +10,21 @@
 
 namespace seaglint {
 
-// Where the radar and its image in the sea stand at one instant, target frame.
+// Look directions of the radar and of its image in the sea at one instant, target frame.
 struct LineOfSight {
   RadarBasis radar, image;
 
   const RadarBasis& of(bool by_sea) const { return by_sea ? image : radar; }
-  // Both ways of a path to x, m: its length is shorter by this than to the origin, from which the radar stands at
-  // range_m; 0: in the far field.
+  // Two-way path to x relative to the path to the origin, m, positive when shorter. range_m: distance of the radar from
+  // the origin; 0: far field.
   double path_advance(const PropagationPath& path, const Vec3& x, double range_m = 0) const;
 };
 
-// The first pulse's basis, that of r_hat, is carried along without any turn about the line of sight; the image's is its
-// mirror image.
+// The basis of the first pulse, that of r_hat, is transported without rotation about the line of sight; the image's
+// basis is its mirror image.
 LineOfSight line_of_sight_at(const IntervalSampling& sampling, const Vec3& r_hat, double time_s);
 
-// Both as they are seen from x, likewise without any turn about the line of sight.
+// Both look directions from the point x, transported in the same way.
 LineOfSight line_of_sight_from(const LineOfSight& origin, const Vec3& x, double range_m);
 
 }  // namespace seaglint

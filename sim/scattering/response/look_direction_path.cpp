@@ -7,10 +7,10 @@
 namespace seaglint {
 namespace {
 
-// Below this, rad, nothing moves: 1e-8 rad of phase at the ends of a 144 m ship at 16 GHz.
+// Changes below this, rad, count as no motion: 1e-8 rad of phase at the ends of a 144 m ship at 16 GHz.
 constexpr double kAtRest = 1e-12;
 
-// What both directions together differ by, without what is along them, which is of second order.
+// Difference of both look directions, without the second-order component along them.
 struct Difference {
   Vec3 transmit, receive;
 
@@ -27,7 +27,7 @@ struct Difference {
 
 Vec3 across(const Vec3& r, const Vec3& d) { return d - r * r.dot(d); }
 
-// Any unit vector across r, for a body at rest.
+// A unit vector normal to r, for a body at rest.
 Vec3 any_across(const Vec3& r) {
   return (std::abs(r.z()) < 0.9 ? Vec3(Vec3::UnitZ().cross(r)) : Vec3(Vec3::UnitX().cross(r))).normalized();
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// How the directions to the antennas move past a body while one trace serves it.
+// Path of the look directions in body axes over the pulses that one aspect trace serves.
 
 #include <span>
 #include <vector>
@@ -10,8 +10,8 @@
 
 namespace seaglint {
 
-// A way that both directions move per radian, each across its own direction: r^_t + s transmit, r^_s + s receive. Both
-// together are of unit length.
+// Tangent of the motion of both look directions per radian: r^_t + s transmit, r^_s + s receive, each normal to its own
+// direction; unit length together.
 struct LookDirectionTangent {
   Vec3 transmit = Vec3::UnitX();
   Vec3 receive = Vec3::Zero();
@@ -22,18 +22,18 @@ struct LookDirectionTangent {
   }
 };
 
-// Where the directions are at some pulses, seen from where a trace was made: s along a straight track and q beside it,
-// the way the path bends. With one antenna that is the whole of it; with two the rest, which neither axis has, is
-// smaller than q, since both directions follow one motion.
+// Look directions at the pulses relative to the traced directions: s along a straight track, q across it (the curvature
+// of the path). One antenna needs no more; with two antennas the remaining components are smaller than q, since both
+// directions follow one motion.
 struct LookDirectionPath {
   LookDirectionTangent along_track, cross_track;
-  std::vector<double> s, q;         // rad, of each pulse
-  double s_limit = 0, q_limit = 0;  // largest magnitudes, rad
-  double max_change = 0;            // largest of either direction, rad
+  std::vector<double> s, q;         // per pulse, rad
+  double s_limit = 0, q_limit = 0;  // maximum magnitudes, rad
+  double max_change = 0;            // maximum aspect change of either direction, rad
 };
 
-// Of the pulses' directions, one or more, with the trace made at transmit_at and receive_at. All are unit vectors, body
-// frame.
+// transmit, receive: look directions of the pulses, at least one; the trace is made at transmit_at and receive_at. All
+// unit vectors, body frame.
 LookDirectionPath look_direction_path(std::span<const Vec3> transmit, std::span<const Vec3> receive,
                                       const Vec3& transmit_at, const Vec3& receive_at);
 

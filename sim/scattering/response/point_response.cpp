@@ -10,15 +10,15 @@
 namespace seaglint {
 namespace {
 
-// The phase factors of a pulse are multiplied up; after this many they are formed anew, so that rounding stays below
+// The phase factors of a pulse are computed by recurrence and reset after this many, so that rounding stays below
 // 1e-13.
 constexpr int kRenewal = 32;
 
 Vec3 as_vector(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
 
-// Adds amplitude e^{-j 4 pi f (R + v f_b/mu) / c} over the frequencies of one pulse; f_b is 0 in their middle, and the
-// term with the chirp rate mu is there only when the pulse sweeps. The phase is quadratic in the frequency's number:
-// its factor is multiplied by a ratio, the ratio by a constant bend.
+// Adds amplitude e^{-j 4 pi f (R + v f_b/mu) / c} over the frequencies of one pulse; f_b is 0 at their middle, and the
+// term with the chirp rate mu exists for a chirp only. The phase is quadratic in the frequency index: the factor is
+// multiplied by a ratio, the ratio by a constant.
 void add_point_to_pulse(Complex* pulse, const IntervalSampling& sampling, int first, double amplitude, double range_m,
                         double velocity_mps) {
   const double slope = sampling.chirp_rate_hz_s == 0 ? 0 : velocity_mps / sampling.chirp_rate_hz_s;  // metres per hertz
@@ -77,7 +77,7 @@ FrequencyResponse point_response(std::span<const PointSpec> points, const Vec3& 
   response.pulses = static_cast<int>(sampling.pulse_first.size());
   response.frequencies_per_pulse = sampling.frequencies_per_pulse;
   response.values.assign(static_cast<std::size_t>(response.pulses) * sampling.frequencies_per_pulse, Complex{});
-  // The direction to the radar at each pulse.
+  // Look direction at each pulse.
   std::vector<Vec3> sight;
   for (const double time_s : sampling.pulse_time_s) sight.push_back(line_of_sight_at(sampling, r_hat, time_s).radar.r);
   for (const PointSpec& point : points) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Ideal scatterers, for teaching and for testing the radar chain alone.
+// Ideal point scatterers, for teaching and for tests of the radar chain.
 
 #include <span>
 
@@ -11,13 +11,14 @@
 
 namespace seaglint {
 
-// H = sum of amplitude e^{+j 2 k r^.x(t)}, x(t) = position + velocity (t - t_0), t_0 the first pulse's time; all
-// polarisations alike.
+// H = sum of amplitude e^{+j 2 k r^.x(t)}, x(t) = position + velocity (t - t_0), t_0 the time of the first pulse; equal
+// for all polarisations.
 FrequencyResponse point_response(std::span<const PointSpec> points, const Vec3& r_hat,
                                  const IntervalSampling& sampling);
 
-// The same over the sea mirror (sea_reflection.h), z = 0 of the target frame: H = sum of amplitude (e^{jk r^.x} + rho_p
-// e^{jk r'.x}) (e^{jk r^.x} + rho_q e^{jk r'.x}) for p received and q transmitted, less the paths not wanted.
+// The same with specular sea reflection at z = 0 of the target frame (sea_reflection.h): H = sum of amplitude (e^{jk
+// r^.x} + rho_p e^{jk r'.x}) (e^{jk r^.x} + rho_q e^{jk r'.x}) for p received and q transmitted, restricted to the
+// enabled propagation paths.
 FrequencyResponse point_response_over_sea(std::span<const PointSpec> points, const Vec3& r_hat,
                                           const IntervalSampling& sampling, Polarisation polarisation,
                                           const SeaReflection& sea);

@@ -16,7 +16,7 @@ namespace {
 constexpr int kWidth = 6;                // cells
 constexpr double kBeta = 2.30 * kWidth;  // Barnett et al. 2019, section 4.2, for oversampling 2
 
-// Terms of e^{jx} that leave out less than 3 %, by the first one left out: x^p / p!.
+// Number of terms of e^{jx} with a truncation error below 3 %, estimated by the first omitted one, x^p / p!.
 constexpr int terms_of_series(double x) {
   int terms = 1;
   for (double next = x; next > 0.03; ++terms) next *= x / (terms + 1);
@@ -32,7 +32,7 @@ double kernel(double x) {
 }
 
 // phi^(theta) = integral of phi(x) cos(theta x) dx over its support, theta in rad per cell. The substitution x = W/2
-// sin a removes the square root's end points; the midpoint rule then converges exponentially.
+// sin a removes the end-point singularities of the square root; the midpoint rule then converges exponentially.
 double kernel_transform(double theta) {
   constexpr int kPoints = 64;
   double sum = 0;
@@ -43,8 +43,8 @@ double kernel_transform(double theta) {
   return sum * kPi / kPoints * 0.5 * kWidth;
 }
 
-// phi^ where it is asked for, |theta| up to a quarter of a turn per cell: a Chebyshev series in theta^2, of which phi^
-// is an entire function. Its terms fall below 1e-15 of the first before the last one.
+// phi^ for |theta| up to a quarter of a cycle per cell: a Chebyshev series in theta^2, of which phi^ is an entire
+// function. The last coefficients are below 1e-15 of the first.
 class KernelTransform {
  public:
   KernelTransform() {
@@ -71,7 +71,7 @@ class KernelTransform {
 
  private:
   static constexpr int kTerms = 20;
-  static constexpr double kMaxSquared = 0.26 * kPi * kPi;  // a little beyond a quarter of a turn
+  static constexpr double kMaxSquared = 0.26 * kPi * kPi;  // slightly above (pi / 2)^2
   std::array<double, kTerms> coefficient_{};
 };
 
@@ -80,8 +80,8 @@ double fast_kernel_transform(double theta) {
   return transform(theta);
 }
 
-// phi at the cells 0..W-1 seen from a point `offset` cells after the first, W/2 - 1 <= offset <= W/2: linear in a
-// table, which errs by phi'' / (8 n^2) = 7e-7, far less than the kernel itself.
+// phi at the cells 0..W-1 for a point `offset` cells after the first, W/2 - 1 <= offset <= W/2: linear interpolation in
+// a table, error phi'' / (8 n^2) = 7e-7, far below the error of the kernel.
 std::array<double, kWidth> weights(double offset) {
   constexpr int kSteps = 512;
   static const auto table = [] {
@@ -123,8 +123,8 @@ ResponseGrid::ResponseGrid(const WavenumberGrid& wavenumbers, const GridLimits& 
                  fmt::format("count {}, step {}, centre {}", wavenumbers.count, wavenumbers.step, kc_));
   psi_cells_ = fft_length(std::max(2 * wavenumbers.count, 2 * kWidth));
   psi_cell_ = 2 * kPi / (wavenumbers.step * psi_cells_);
-  // Displacements up to s_limit make phases e^{jk u s}: cells of half the Nyquist spacing at the band's upper end. A
-  // body at rest still has one cell.
+  // Displacements up to s_limit give phases e^{jk u s}: cells of half the Nyquist spacing at the upper end of the band.
+  // A body at rest has one cell.
   const double k_last = wavenumbers.at(wavenumbers.count - 1);
   const double s_bound = std::max(limits.s, 1e-3 / (k_last * std::max(limits.u, 1e-9)));
   u_cell_ = kPi / (2 * k_last * s_bound);
@@ -147,7 +147,7 @@ void ResponseGrid::spread(std::span<const GridPoint> points) {
     const Complex value = point.amplitude * std::polar(1.0, kc_ * point.psi);
     const double beside = terms_ > 1 ? std::clamp(point.v / v_limit_, -1.0, 1.0) : 0;
 
-    // The grid is periodic in psi: frequencies on a grid of step dk cannot tell psi from psi + 2 pi / dk.
+    // The grid is periodic in psi: frequencies on a grid of step dk do not distinguish psi from psi + 2 pi / dk.
     const double x = point.psi / psi_cell_;
     const int first_psi = static_cast<int>(std::ceil(x - 0.5 * kWidth));
     const auto along_psi = weights(x - first_psi);
@@ -157,9 +157,10 @@ void ResponseGrid::spread(std::span<const GridPoint> points) {
                    fmt::format("u = {} m lies outside the grid", point.u));
     const auto along_u = weights(y - first_u);
 
-    // A row goes on for W cells beyond its period, so that a kernel is never cut; transform() folds them back.
+    // A row extends W cells beyond its period, so that a kernel is never cut; transform() adds these cells to its
+    // start.
     const int column = ((first_psi % psi_cells_) + psi_cells_) % psi_cells_;
-    double power = 1;  // of beside
+    double power = 1;  // of the cross-track rate
     for (int term = 0; term < terms_; ++term, power *= beside) {
       Complex* of_term = &cells_[term * cells_per_term()];
       for (int j = 0; j < kWidth; ++j) {
@@ -189,7 +190,7 @@ void ResponseGrid::transform() {
 }
 
 void ResponseGrid::response(int first, double s, double cross_track, std::span<Complex> out) const {
-  // A few frequencies side by side, real and imaginary parts apart: the compiler makes vectors of them.
+  // Several frequencies in parallel, real and imaginary parts in separate arrays, for vectorisation by the compiler.
   constexpr std::size_t kLanes = 8;
   for (std::size_t begin = 0; begin < out.size(); begin += kLanes) {
     const std::size_t lanes = std::min(kLanes, out.size() - begin);
@@ -216,7 +217,7 @@ void ResponseGrid::response(int first, double s, double cross_track, std::span<C
         re[l] = row[bin[l]].real();
         im[l] = row[bin[l]].imag();
       }
-      std::array<double, kLanes> share;  // phase^term / term!, to be turned by j^term
+      std::array<double, kLanes> share;  // phase^term / term!, without the factor j^term
       share.fill(1);
       for (int term = 1; term < terms_; ++term) {
         row += cells_per_term();

@@ -51,7 +51,7 @@ std::vector<ScatteringCentre3d> cluster_centres(std::span<const PointContributio
     at.centre.part = c.part;
     at.centre.bounces = c.bounces;
     at.centre.mechanism = c.mechanism;
-    // A running mean stays inside the cell.
+    // Weighted running mean, inside the cell.
     at.weight += weight;
     at.centre.psi += (c.psi - at.centre.psi) * (weight / at.weight);
     at.centre.gradient += (g - at.centre.gradient) * (weight / at.weight);

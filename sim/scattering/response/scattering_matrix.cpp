@@ -11,10 +11,10 @@
 namespace seaglint {
 namespace {
 
-using Matrices = std::vector<std::array<Complex, 4>>;  // of each wavenumber
+using Matrices = std::vector<std::array<Complex, 4>>;  // per wavenumber
 
-// Sums contributions of one pair in closed form; at a finite range these give way to points, which the wavefront moves
-// one by one.
+// Sums the contributions of one pair in closed form, or as points at a finite range, for which the wavefront correction
+// differs from point to point.
 class MatrixSum {
  public:
   MatrixSum(const BistaticGeometry& geometry, std::span<const double> wavenumbers, const TracingSettings& settings,
@@ -73,7 +73,7 @@ std::vector<Matrices> scattering_matrices(const Scatterer& scatterer, std::span<
                                           int threads, std::size_t* segments, const StopFlag* stop) {
   const double spread = direction_spread(scatterer, settings.range_m, settings.origin);
   const AspectTrace trace(scatterer, pairs, settings, wavenumbers, threads);
-  std::vector<std::vector<Matrices>> parts(pairs.size());  // by pair and chunk
+  std::vector<std::vector<Matrices>> parts(pairs.size());  // [pair][chunk]
   for (std::size_t i = 0; i < pairs.size(); ++i) parts[i].assign(trace.chunk_count(i), Matrices(wavenumbers.size()));
   const auto add = [&](std::size_t pair, std::size_t chunk, const auto& footprints) {
     MatrixSum(pairs[pair], wavenumbers, settings, spread).add(footprints, parts[pair][chunk]);
@@ -115,7 +115,7 @@ Matrices scattering_matrices_over_sea(const Scatterer& scatterer, const Vec3& r_
   const auto matrices = scattering_matrices(scatterer, pairs, wavenumbers, raised, threads, segments, stop);
   Matrices sum(wavenumbers.size());
   for (std::size_t w = 0; w < paths.size(); ++w) {
-    // About the body's origin at (0, 0, height): e^{jk (a + b - 2 r).(0, 0, height)}.
+    // Phase relative to the body's origin at (0, 0, height): e^{jk (a + b - 2 r).(0, 0, height)}.
     const double detour =
         -2 * r_hat.z() * height_m * ((paths[w].outbound_via_sea ? 1 : 0) + (paths[w].return_via_sea ? 1 : 0));
     for (std::size_t q = 0; q < wavenumbers.size(); ++q) {

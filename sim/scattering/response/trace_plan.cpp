@@ -7,7 +7,7 @@
 namespace seaglint {
 namespace {
 
-// The world's polarisation basis as the turned body sees it.
+// Polarisation basis of the world frame in body axes.
 RadarBasis body_basis(const RadarBasis& world, const Pose& pose) {
   const Mat3 R_BT = pose.R.transpose();
   return {R_BT * world.r, R_BT * world.h, R_BT * world.v};
@@ -21,7 +21,7 @@ double length_of(std::span<const Vec3> way) {
 
 }  // namespace
 
-// Where the radar and its image in the sea stand at every pulse, body frame.
+// Look directions to the radar and to its image in the sea at every pulse, body frame.
 struct TracePlan::Directions {
   std::vector<Vec3> to_radar, to_image;
 
@@ -46,7 +46,8 @@ TracePlan::TracePlan(const Trajectory& trajectory, const IntervalSampling& sampl
     for (const bool by_sea : {path.outbound_via_sea, path.return_via_sea})
       turn = std::max(turn, length_of(seen.of(by_sea)));
   }
-  // Spans get shorter until no path bends by more than its limit, or holds one pulse.
+  // Spans are shortened until the cross-track displacement of every path is within its limit, or each span has one
+  // pulse.
   spans_ = std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(turn / limits.aspect_change)));
   for (;; spans_ += (spans_ + 1) / 2) {
     traces_.clear();

@@ -42,7 +42,8 @@ void BeamContributions::radiate(const BeamSegment& segment, const CandidatePanel
   footprint.curvature = make_curved_footprint(curvature_, panels_, geometry_, segment, candidate, footprint);
   if (visitor_) visitor_->start(segment, candidate, footprint);
   const double share = uses_grazing_treatment(segment, footprint.facet) ? path_weight(segment, footprint.facet) : 1.0;
-  // More is given with the ends of its beams; where less is left they have faded out as much (reflected_edge_weight).
+  // A weight above 1 applies to the boundary terms too; for a weight below 1 they are tapered equally
+  // (reflected_edge_weight).
   if (share > 1) weight_with_reciprocal(share, footprint);
   for (const MovingPolygon& piece : pieces) {
     footprint.polygon = piece;
@@ -65,7 +66,7 @@ void BeamContributions::radiate_image(const BeamSegment& segment, const Candidat
   const ImageTransform by = plane_reflection(mirror.normal, mirror.offset);
   const Vec3 illuminated_side = illuminated_normal(segment, facets_[facet]), n = by.L * illuminated_side;
   if (n.dot(basis_.r) <= kEdgeOn) return;
-  // A perfect conductor's image has the field along it turned round.
+  // The tangential field of the image has the opposite sign (perfect conductor).
   BeamSegment image;
   image.direction = by.L * segment.direction;
   image.E_h = -by.L * segment.E_h;
@@ -80,7 +81,7 @@ void BeamContributions::radiate_image(const BeamSegment& segment, const Candidat
   set_phase(footprint, segment.image_transform.L * illuminated_side, geometry_);
   footprint.pattern = pec_pattern(image, n, std::abs(n.dot(image.direction)), basis_);
   weight_with_reciprocal(share, footprint);
-  // What the mirror lights at first, a receiver at the same place sees by it.
+  // The part that the reflector illuminates first is the part that a receiver at the same place sees via it.
   std::vector<MovingPolygon> by_reflector;
   if (segment.bounce > 2)
     visible_.visible_via_reflector(segment.first_reflector, facet, footprint.image_transform, visible, basis_,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The footprints of physical optics that a beam leaves on a panel.
+// Physical-optics footprints of a beam on a panel, for one receiver.
 
 #include <array>
 #include <span>
@@ -15,36 +15,37 @@
 
 namespace seaglint {
 
-// Receives the footprints of every beam on every panel, those whose echo grazing lowers still with their whole pattern.
+// Receives the footprints of every beam on every panel, with their full pattern where the grazing treatment reduces
+// them.
 class FootprintVisitor {
  public:
   virtual ~FootprintVisitor() = default;
-  // Of one beam on one panel, but for the polygon.
+  // Called once per beam and panel, with the footprint but for its polygon.
   virtual void start(const BeamSegment& segment, const CandidatePanel& candidate, const Footprint& footprint) = 0;
-  // One of its footprints.
+  // Called for each footprint of that beam and panel.
   virtual void add(const Footprint& footprint) = 0;
 };
 
-// Of one receiver. Appends to `out`; it, the scene with the receiver, and the visitor, which may be null, must outlive
-// this.
+// Footprints for one receiver. Appends to `out`; `out`, the scene with the receiver, and the visitor (may be null) must
+// outlive the object.
 class BeamContributions {
  public:
   BeamContributions(const TracingContext& scene, const Receiver& receiver, std::vector<Footprint>& out,
                     FootprintVisitor* visitor = nullptr);
 
-  // Footprints of the pieces that are lit and seen.
+  // Appends the footprints of the polygons `pieces`, the illuminated and visible part of the panel.
   void radiate(const BeamSegment& segment, const CandidatePanel& candidate, std::span<const MovingPolygon> pieces);
 
-  // Footprints of what leaves by the mirror that it came by first, where that is grazed: of the facet's image in it,
-  // lit and seen directly. `seen`: pieces of the facet that the radar sees.
+  // Appends the footprints of the path that returns via its first reflector, where the grazing treatment applies: the
+  // panel's image in that reflector radiates instead (image theory). `visible`: visible part of the panel.
   void radiate_image(const BeamSegment& segment, const CandidatePanel& candidate,
                      std::span<const MovingPolygon> visible);
 
  private:
-  // The footprint's pattern per wavenumber, where the facet or a mirror before it is no perfect conductor.
+  // Pattern per wavenumber, where the panel or a reflector before it is not a perfect conductor.
   std::vector<std::array<Complex, 4>> patterns(const BeamSegment& segment, int facet, const Vec3& n) const;
-  // Whether mirrors that are grazed leave their echo to other ways; without edges the last one has all of it, as usual.
-  // Flat perfect conductors, and none that are followed by other means.
+  // True where the grazing treatment applies (grazing_reflection.h): one antenna, edge diffraction on, flat perfect
+  // conductors, no cavity walls.
   bool uses_grazing_treatment(const BeamSegment& segment, int facet) const;
   ReflectorPanel reflector_panel(int facet) const;
   double path_weight(const BeamSegment& segment, int last) const;
@@ -55,8 +56,8 @@ class BeamContributions {
   const Panels& panels_;
   const BistaticGeometry& geometry_;
   const VisibleSurface& visible_;
-  const RadarBasis& basis_;  // of the aperture: the transmitter's
-  double max_slide_rate_;    // m
+  const RadarBasis& basis_;  // projection plane: that of the transmitter
+  double max_slide_rate_;    // m/rad
   std::vector<Footprint>& out_;
   FootprintVisitor* visitor_;
 };

@@ -8,14 +8,13 @@
 namespace seaglint {
 namespace {
 
-// Behind curved mirrors rays are followed to second order while a bundle's width grows to less than this. Farther away
-// it lands beside the window it was measured in by more than its own width, and the mirrors count as flat: the parting
-// of their facets' bundles is then all that spreads them.
+// Norm of the matrix of a bundle's rays above which curved reflectors count as flat. Beyond it a bundle arrives
+// displaced from its cross-section by more than its width; the divergence of the bundles of adjacent facets then is the
+// only spreading.
 constexpr double kMaxDivergence = 4;
 
-// The triangle of a flat panel's first facet, enlarged about a point of its own until it holds the whole panel. It
-// belongs to the panel, not to a footprint: pieces that meet on the panel are then cut alike, and their contours
-// cancel.
+// Triangle of a flat panel's first facet, enlarged until it encloses the whole panel. It depends on the panel alone:
+// adjoining footprints on the panel are divided equally, and their contour terms cancel.
 std::array<Vec2, 3> around_panel(const CurvatureContext& on, const BeamSegment& segment, std::span<const Vec3> outline,
                                  const std::array<Vec2, 3>& first) {
   if (outline.size() == 3) return first;
@@ -33,8 +32,8 @@ std::array<Vec2, 3> around_panel(const CurvatureContext& on, const BeamSegment& 
   return corner;
 }
 
-// Cosine of the incidence at a normal of the smooth surface. Beyond the shadow boundary, where currents have faded, it
-// stays positive.
+// Cosine of incidence at a normal of the smooth surface; kept positive beyond the shadow boundary, where the current is
+// zero.
 double smooth_cosine(const BeamSegment& segment, const Facet& flat, const Vec3& normal) {
   return std::max(-normal.dot(segment.direction), 0.25 * std::abs(flat.normal.dot(segment.direction)));
 }
@@ -58,7 +57,7 @@ std::shared_ptr<const CurvedFootprint> make_curved_footprint(const CurvatureCont
   if (!curved) corner = around_panel(on, segment, panels.outline(facet), corner);
   const Barycentric lambda(corner);
 
-  // The surface stands higher by z / cos(incidence) along the ray, both ways.
+  // The surface is displaced by z / cos(incidence) along the ray, on both paths.
   const Mat3& L = segment.image_transform.L;
   const Vec3 both = transmit.r + L * receive.r;
   const double both_paths = both.dot(transmit.r);
@@ -71,8 +70,8 @@ std::shared_ptr<const CurvedFootprint> make_curved_footprint(const CurvatureCont
   c.phase += compose({0, footprint.w, Mat2::Zero()},
                      {bundle.position_map.offset, bundle.position_map.matrix - Mat2::Identity()});
   c.phase += compose(standing, bundle.position_map);
-  // A bundle that widens by det lights as much area more with a field as much weaker: the square root of it. Behind one
-  // focus the phase has advanced by a quarter, behind two by a half of a cycle.
+  // A bundle widened by the determinant illuminates a larger area with a weaker field: amplitude times the square root.
+  // The phase advances by 90 deg behind one caustic and by 180 deg behind two.
   const double widened = bundle.position_map.matrix.determinant();
   c.divergence_factor = std::sqrt(std::abs(widened)) * (widened < 0                              ? Complex(0, 1)
                                                         : bundle.position_map.matrix.trace() < 0 ? Complex(-1)

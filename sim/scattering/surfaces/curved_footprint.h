@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// What curvature adds to a flat footprint: the phase of a surface that stands above its facet and of rays that curved
-// mirrors have turned, the direction of its normal from corner to corner, and the fading of its currents towards the
-// shadow boundary (README.md, "Curved surfaces").
+// Curvature terms of a footprint: phase of a surface that rises above its flat facet, phase and divergence of rays
+// reflected by curved reflectors, surface normals interpolated between the facet's vertices, and the taper of the
+// current at the smooth-surface shadow boundary (README.md, "Curved surfaces").
 
 #include <array>
 #include <memory>
@@ -14,24 +14,27 @@
 
 namespace seaglint {
 
-// Of a triangle that holds all a beam lights on a panel: the curved facet itself, or one around the whole flat panel.
-// Shared by all pieces of the footprint. Arrays go by the triangle's corners.
+// Of a triangle that contains everything one beam illuminates on a panel: the curved facet itself, or an enlarged
+// triangle around the whole flat panel. Shared by all polygons of the footprint. Arrays are indexed by the vertices of
+// the triangle.
 struct CurvedFootprint {
   std::array<Vec2, 3> corner;
   Barycentric lambda;
-  Quadratic phase;        // psi minus that of the flat facet
-  std::array<Vec2, 3> w;  // gradient of the whole psi with the smooth normals: continuous from facet to facet
-  // the same along the surface, 0..2, as its components along a step in the aperture on the flat facet
+  Quadratic phase;        // psi minus that of the flat facet, m
+  std::array<Vec2, 3> w;  // gradient of psi with the smooth normals, continuous between facets
+  // gradient of psi along the surface, magnitude 0..2, as components along a step on the flat facet in the projection
+  // plane
   std::array<Vec2, 3> slope;
-  // as Footprint::pattern, with the smooth normals where all is perfect conductor
+  // as Footprint::pattern, with the smooth normals where all surfaces are perfect conductors
   std::array<std::array<Complex, 4>, 3> pattern;
-  Complex divergence_factor = 1;  // factor of the amplitude for rays that curved mirrors have spread
-  // distances from the shadow boundaries of the incident wave and of the receiver, m^(1/3)
+  Complex divergence_factor = 1;  // amplitude factor of rays reflected by curved reflectors
+  // distances from the shadow boundaries of the incident wave and of the receiver, in units of m^(1/3); see
+  // kTransitionZoneWidth
   std::array<double, 3> incident_shadow_distance, receiver_shadow_distance;
 };
 
-// What the curvature of a facet and of the mirrors before it adds to a footprint whose flat phase and pattern are set;
-// null where all are flat. Its triangle is the curved facet, or holds the whole flat panel.
+// Curvature terms of a footprint whose flat phase and pattern are set; null where the facet and all reflectors are
+// flat. The triangle is the curved facet, or encloses the whole flat panel.
 std::shared_ptr<const CurvedFootprint> make_curved_footprint(const CurvatureContext& on, const Panels& panels,
                                                              const BistaticGeometry& geometry,
                                                              const BeamSegment& segment,

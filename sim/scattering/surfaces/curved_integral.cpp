@@ -13,7 +13,7 @@ namespace {
 
 using Triangle = std::array<Vec2, 3>;
 
-// Facets whose currents have faded below this are left out.
+// Facets whose taper is below this at all vertices are omitted.
 constexpr double kNegligibleTaper = 2e-3;
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
@@ -29,7 +29,7 @@ class CurvedDecomposer {
       : footprint_(footprint), c_(*footprint.curvature), k_(k), min_slope_(min_slope), out_(out) {
     for (int i = 0; i < 3; ++i)
       fade_[i] = shadow_taper(std::min(c_.incident_shadow_distance[i], c_.receiver_shadow_distance[i]), k);
-    // A slope along the surface from one in the aperture: divided by the stretch 1/cos along the steepest direction.
+    // Maps a slope in the projection plane to one along the surface: divided by 1/cos along the steepest direction.
     const Vec2 steepest = footprint.plane.slope;
     const double stretch = std::sqrt(1 + steepest.squaredNorm());
     along_surface_ = Mat2::Identity();
@@ -55,14 +55,14 @@ class CurvedDecomposer {
   }
 
  private:
-  // What each corner of the facet has of a point; together 1.
+  // Barycentric coordinates of a point in the facet; their sum is 1.
   using BarycentricWeights = std::array<double, 3>;
   BarycentricWeights shares(const Vec2& p) const {
     return {c_.lambda.at(0, p), c_.lambda.at(1, p), c_.lambda.at(2, p)};
   }
 
-  // The quadratic, and along each edge the cubic x (1 - x) (1 - 2 x) that gives it the smooth surface's slopes at both
-  // ends.
+  // The quadratic, and along each side the cubic x (1 - x) (1 - 2 x) that gives it the slopes of the smooth surface at
+  // both ends.
   double psi(const Vec2& p, const BarycentricWeights& of_p) const {
     double sum = footprint_.psi(p) + c_.phase.at(p);
     for (int i = 0; i < 3; ++i) {
@@ -88,7 +88,7 @@ class CurvedDecomposer {
     return of_p[0] * corner[0] + of_p[1] * corner[1] + of_p[2] * corner[2];
   }
 
-  // Treats the lit polygon inside a triangle of the facet; the triangle decides how.
+  // Decomposes the illuminated polygon inside a triangle of the facet; the triangle determines the form.
   void part(const MovingPolygon& polygon, const Triangle& triangle) {
     double size = 0, largest = 0;
     int longest = 0;
@@ -105,7 +105,7 @@ class CurvedDecomposer {
         longest = i;
       }
     }
-    // The slope is linear over the triangle: no less than in the middle minus its farthest departure from there.
+    // The slope is linear over the triangle: at least that at the centre less the largest difference from it.
     std::array<Vec2, 3> slope;
     for (int i = 0; i < 3; ++i) slope[i] = between(slope_, shares(triangle[i]));
     const Vec2 mean = (slope[0] + slope[1] + slope[2]) / 3;
@@ -119,8 +119,8 @@ class CurvedDecomposer {
       point(polygon);
       return;
     }
-    // A cut of our own is fixed to the body, whose points at height z move by -z d_i when the direction turns by d_i:
-    // at rest in the aperture it would slip in the facet.
+    // The cut is fixed in the body, whose points at height z move by -z d_i when the look direction changes by d_i: at
+    // rest in the projection plane it would slide on the facet.
     const Vec2 &a = triangle[longest], &b = triangle[(longest + 1) % 3], &far = triangle[(longest + 2) % 3];
     const Vec2 middle = 0.5 * (a + b), along = far - middle;
     MovingLine line;
@@ -137,8 +137,8 @@ class CurvedDecomposer {
     if (!near_b.empty()) part(near_b, {middle, b, far});
   }
 
-  // The integral over a small polygon as one term at its centroid, by the seven-point rule of degree 5 on its triangles
-  // (A. H. Stroud, Approximate Calculation of Multiple Integrals, T2: 5-1).
+  // Integral over a small polygon as one term at its centroid, by the seven-point rule of degree 5 on its triangles (A.
+  // H. Stroud, Approximate Calculation of Multiple Integrals, T2: 5-1).
   void point(const MovingPolygon& polygon) {
     const Vec2 c = centroid(polygon);
     const double psi_c = psi(c);
@@ -162,8 +162,8 @@ class CurvedDecomposer {
     out_.push_back({integral, psi_c, c, 0, 0});
   }
 
-  // Leading contour term of the area: each edge carries fading cross(w, edge)/(jk |w|^2) e^{jk psi} with the local
-  // slope w, by the divergence theorem with F = w e^{jk psi} / (jk |w|^2).
+  // Leading contour term of the area: each side carries taper cross(w, side)/(jk |w|^2) e^{jk psi} with the local slope
+  // w, by the divergence theorem with F = w e^{jk psi} / (jk |w|^2).
   void contour(const MovingPolygon& polygon) {
     const std::size_t n = polygon.size();
     std::vector<std::optional<Complex>> end(n);
@@ -182,7 +182,7 @@ class CurvedDecomposer {
         return MovingVertex{a.p + x * along, a.d1 + x * (b.d1 - a.d1), a.d2 + x * (b.d2 - a.d2)};
       };
       const auto run = [&](double x) { return psi_slope(a.p + x * along).dot(along); };  // d psi / dx
-      // Where psi runs fast enough a part of the edge is its ends; the ends of parts that meet inside the edge cancel.
+      // Where psi varies fast enough a part of the side is replaced by its end points; those inside the side cancel.
       const auto part_of_edge = [&](const auto& self, double from, double to, double run_from, double run_to) -> void {
         const double min = run_from * run_to > 0 ? std::min(std::abs(run_from), std::abs(run_to)) : 0, step = to - from;
         if (min > min_slope_ * length && k_ * min * step / 2 > kMaxHalfPhase &&
@@ -217,7 +217,7 @@ class CurvedDecomposer {
     }
   }
 
-  // A term at a point that moves as the corner does.
+  // A term at a point that slides with a vertex.
   void slide(const Complex& integral, const MovingVertex& vertex) {
     const BarycentricWeights of_p = shares(vertex.p);
     const Vec2 w = between(c_.w, of_p);
@@ -233,7 +233,7 @@ class CurvedDecomposer {
   std::vector<CurvedContribution>& out_;
   std::array<double, 3> fade_;
   Mat2 along_surface_;
-  std::array<Vec2, 3> slope_;  // of psi along the surface, at the facet's corners
+  std::array<Vec2, 3> slope_;  // of psi along the surface, at the vertices of the facet
   double curvature_ = 0;       // change of that slope, 1/m
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The phase integral of a footprint on a curved surface as terms that hold over a band and a small turn.
+// Phase integral of a footprint on a curved surface, as terms that hold over a band and a small aspect change.
 
 #include <array>
 #include <vector>
@@ -10,35 +10,36 @@
 
 namespace seaglint {
 
-// Currents fade towards the shadow boundary as t^3 (10 - 15 t + 6 t^2), t = sin(elevation over the surface) /
-// (kTransitionZoneWidth (kappa / k)^(1/3)), 0..1. (kappa / k)^(1/3) is the width of Fock's transition region (V. A.
-// Fock, J. Phys. USSR 10, 1946, 130-136). Half of it keeps the fading out of the specular zone down to kR = 15; between
-// 0.3 and 2 nothing changes above kR = 40.
+// The current is tapered at the smooth-surface shadow boundary as t^3 (10 - 15 t + 6 t^2), t = sin(elevation over the
+// surface) / (kTransitionZoneWidth (kappa / k)^(1/3)), 0..1. (kappa / k)^(1/3) is the width of Fock's transition region
+// (V. A. Fock, J. Phys. USSR 10, 1946, 130-136). Half of that width separates the taper from the specular zone down to
+// kR = 15; values of 0.3 to 2 give equal results above kR = 40.
 inline constexpr double kTransitionZoneWidth = 0.5;
 
-// Contour terms with the local slope stand for an area where k slope^2 exceeds this many times the change of that slope
-// per metre of surface: beside a specular point they err by its inverse, and elsewhere what they leave out ends in the
-// fading.
+// Contour terms with the local slope replace an area where k slope^2 exceeds this multiple of the change of the slope
+// per metre of surface. Near a specular point their relative error is the inverse of it; elsewhere the omitted terms
+// cancel at the taper.
 inline constexpr double kContourRatio = 50;
 
-// A part of the phase integral: amplitude varies slowly with k and direction, the phase is e^{jk psi}. The point
-// belongs to the body and slides on it as the direction turns, which adds slide1 h + slide2 v to the gradient of psi.
+// A term of the phase integral: the amplitude varies slowly with k and look direction, the phase is e^{jk psi}. The
+// point slides on the body as the look direction changes, which adds slide1 h + slide2 v to the gradient of psi.
 struct CurvedContribution {
-  Complex integral;  // m^2, without the phase; fading included, pattern not
+  Complex integral;  // m^2, without the phase; with the taper, without the pattern
   double psi = 0;    // m
   Vec2 p = Vec2::Zero();
   double slide1 = 0, slide2 = 0;
 };
 
-// Terms of a footprint with curvature that hold at k and, where `min_slope` > 0, while the slope of psi along the
-// surface changes by kMaxAmplitudeError min_slope. Where psi has slope enough these are the contour's ends and edges
-// with the local slope, whose terms cancel where two smooth facets meet; elsewhere pieces of half-phase below
-// kMaxHalfPhase, integrated with the quadratic phase. The triangle and its halves decide, never the lit part of it.
+// Appends the terms of a footprint with curvature that hold at k and, for `min_slope` > 0, while the slope of psi along
+// the surface changes by kMaxAmplitudeError min_slope. Where the slope is large enough these are end points and edges
+// of the contour with the local slope, which cancel where two smooth facets meet; elsewhere pieces of half-phase below
+// kMaxHalfPhase, integrated with the full phase. The triangle and its halves determine the choice, not their
+// illuminated part.
 void curved_contributions(const Footprint& footprint, double k, double min_slope,
                           std::vector<CurvedContribution>& terms);
 
-// Pattern at a point, between those at the facet's corners. Where materials make it depend on the wavenumber only the
-// flat facet's is known: that is `flat`, whichever wavenumber it belongs to.
+// Pattern at the point p, interpolated between the vertices of the facet. With materials other than perfect conductors
+// only the pattern of the flat facet is available: `flat`, at any wavenumber.
 std::array<Complex, 4> pattern_at(const Footprint& footprint, const Vec2& p, const std::array<Complex, 4>& flat);
 
 }  // namespace seaglint

@@ -13,15 +13,15 @@ Vec3 image_point(const Footprint& footprint, const Vec2& p, const RadarBasis& ba
 }  // namespace
 
 void set_phase(Footprint& footprint, const Vec3& n_image, const BistaticGeometry& geometry) {
-  // psi = r^_t.X' + r^_s.X = (r^_t + L r^_s).X' + constant; over the aperture X' = p1 h + p2 v + r^_t z(p).
+  // psi = r^_t.X' + r^_s.X = (r^_t + L r^_s).X' + constant; in the projection plane X' = p1 h + p2 v + r^_t z(p).
   const RadarBasis& basis = geometry.transmit;
   const Mat3& L = footprint.image_transform.L;
   const Vec3 both = basis.r + L * geometry.receive.r;
   footprint.w = Vec2(both.dot(basis.h), both.dot(basis.v)) + both.dot(basis.r) * footprint.plane.slope;
   const Vec3 origin = image_point(footprint, Vec2::Zero(), basis);
   footprint.psi0 = basis.r.dot(origin) + geometry.receive.r.dot(footprint.image_transform.real(origin));
-  // Along the facet the gradient is the tangential part of r^ + L r^; turning r^ by e changes it by that of e + L e (of
-  // two directions, which turn about as one, too).
+  // Along the panel the gradient is the tangential part of r^ + L r^; a change e of r^ changes it by that of e + L e
+  // (for two directions too, whose changes are nearly equal).
   const auto tangential = [&](const Vec3& x) -> Vec3 { return x - n_image * n_image.dot(x); };
   footprint.psi_slope = tangential(both).norm();
   footprint.psi_slope_rate =
@@ -43,8 +43,7 @@ PathGradient interpolate(const PathGradient& a, const PathGradient& b, double s)
 
 namespace {
 
-// A body-fixed point at height z moves by -z d_i in the aperture; what the corner moves beyond that, it slips in the
-// facet.
+// Slide of a vertex on the panel: its motion beyond that of a body-fixed point at height z, -z d_i.
 std::array<Vec2, 2> slides(const Footprint& footprint, const MovingVertex& vertex) {
   const double z = footprint.plane.at(vertex.p);
   return {vertex.d1 + Vec2(z, 0), vertex.d2 + Vec2(0, z)};

@@ -10,17 +10,17 @@
 namespace seaglint {
 namespace {
 
-// Sine of the angle over a mirror up to which it is grazed, 2 to 6 deg. What its rim sends to the next mirror fades
-// alike, since that stands in the zone which the beam, the wave beside it and what the rim diffracts share: all go over
-// into wall_penumbra.h together.
+// Sine of the grazing angle, 2 to 6 deg, over which the treatment is tapered. The field that the reflector's edge
+// diffracts to the next reflector has the same taper: the beam, the direct wave and the diffracted wave overlap there,
+// and wall_penumbra.h replaces all three.
 constexpr std::array<double, 2> kGrazingTaper{0.035, 0.11};
-// Length of a mirror along the way, beside the height of the other over it, from which it reaches far enough to show
-// that one's image.
+// Length of a reflector along the path relative to the height of the other one over it, from which on it contains the
+// image.
 constexpr std::array<double, 2> kCoverageTaper{1, 2};
-// Cosines between normals of parallel mirrors, and of a wall, that leans by less than 49 deg, and what it stands on.
+// Cosine between the normals of parallel reflectors, and of a wall (lean below 49 deg) and the reflector it stands on.
 constexpr double kParallel = 1 - 1e-9, kMaxWallCosine = 0.75;
 
-// Whether one is a wall on the other.
+// True when the first panel is a wall on the second.
 bool is_wall_on(const ReflectorPanel& wall, const ReflectorPanel& reflector) {
   return std::abs(reflector.normal.dot(wall.normal)) < kMaxWallCosine;
 }
@@ -30,13 +30,13 @@ double extent(std::span<const Vec3> outline, const Vec3& along) {
   return along.dot(max - min);
 }
 
-// How much of the other's image a mirror that a way out along r grazes has room for, 0 to 1.
+// Fraction 0..1 of the other panel's image that a reflector at grazing incidence contains, for an exit direction r.
 double image_coverage(const Vec3& r, const ReflectorPanel& reflector, const ReflectorPanel& other) {
   const Vec3 way = (r - reflector.normal.dot(r) * reflector.normal).normalized();
   return 1 - smooth_taper(extent(reflector.outline, way) / extent(other.outline, reflector.normal), kCoverageTaper);
 }
 
-// What a way that ends by one mirror leaves to the same one run backwards, that ends by the other.
+// Weight that a path ending on reflector `by` transfers to its reciprocal, which ends on `to`.
 double reciprocal_weight(const Vec3& r, const ReflectorPanel& by, const ReflectorPanel& to) {
   const double share = is_wall_on(to, by) ? grazing_taper(r, by.normal) * (1 - grazing_taper(r, to.normal)) : 0;
   return share > 0 ? share * image_coverage(r, by, to) : 0;

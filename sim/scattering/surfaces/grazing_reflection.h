@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Last mirrors that the way out grazes: decks, seen from a radar near the horizon.
+// Grazing treatment: last reflectors observed at near-grazing angles, such as decks at low elevation.
 //
-// Of the mirrors on a beam's way physical optics lets the last one radiate. What a wall of height h sends down to a
-// deck ends there, seen under the angle a over the deck, h / tan a away, and of what the wall sends off the direction
-// of reflection the deck returns nothing but such ends, each as 1 / slope. For one antenna the same way run backwards,
-// by the deck to the wall, is the transpose of it by reciprocity, and there the wall radiates, whose ends are those of
-// the body. So where a last mirror is grazed, by the share grazing_taper(), and reaches as far as the first one, since
-// else it ends before the beam does,
+// PO lets only the last reflector of a beam's path radiate. The wave that a wall of height h reflects down to a deck
+// ends there at h / tan a (a: grazing angle), and in directions other than the specular one the deck radiates only the
+// end-point contributions of this boundary, each proportional to 1 / slope. For one antenna the reciprocal path, via
+// the deck to the wall, has the transposed matrix; there the wall radiates, whose boundary is that of the body. Where
+// the last reflector is at near-grazing incidence, with the weight grazing_taper(), and is long enough to contain the
+// image of the first one,
 //
-// * a way whose first mirror is not grazed is left to the way run backwards, S + S^T,
-// * a way from a mirror to a wall that stands on it, upright or not, by others or not, and back by the same mirror, or
-//   by one parallel to it, is what the wall radiates by the mirror: by image theory what its image radiates straight.
+// * a path whose first reflector is not at grazing incidence is replaced by the reciprocal path, S + S^T;
+// * a path from a reflector to a wall on it, upright or leaning, possibly via others, and back via the same
+//   reflector or one parallel to it, is replaced by the direct radiation of the wall's image in the reflector (image
+//   theory).
 //
-// Over a deck without end both are image theory (reciprocity and images: Balanis, Advanced Engineering
-// Electromagnetics, 7.5, 7.4); what a deck's rim does besides is wall_penumbra.h's.
+// Over an unbounded deck both are exact (reciprocity and images: Balanis, Advanced Engineering Electromagnetics, 7.5,
+// 7.4); the effect of the deck's edge is in wall_penumbra.h.
 
 #include <span>
 
@@ -25,26 +26,28 @@ namespace seaglint {
 
 struct ReflectorPanel {
   Vec3 normal;                    // unit, of either sign
-  std::span<const Vec3> outline;  // of its panel
+  std::span<const Vec3> outline;  // of the panel
 };
 
-// From 0 to 1, whether a way in or out grazes a mirror, by the sine of its angle over it; along s, unit, one with unit
-// normal n.
+// Weight 0..1 of the grazing treatment: 1 at grazing incidence, 0 away from it, for the sine of the grazing angle; or
+// for a direction s over a surface with normal n, both unit vectors.
 double grazing_taper(double sine);
 double grazing_taper(const Vec3& s, const Vec3& n);
 
-// What share of its echo, 0 to 2, a way from a first to a last of two mirrors, or of more, has for one antenna along r.
+// Weight 0..2 of a path via a first and a last reflector, or more, for one antenna along r; above 1 it includes the
+// reciprocal path.
 double double_bounce_weight(const Vec3& r, const ReflectorPanel& first, const ReflectorPanel& last);
 
-// The same of a way by three and more, where `before` is the one before the last.
+// The same for paths via three and more reflectors, `before` the one before the last.
 double multiple_bounce_weight(const Vec3& r, const ReflectorPanel& first, const ReflectorPanel& before,
                               const ReflectorPanel& last);
 
-// What share of the way from a mirror to a wall and back the wall's image in it has, 0 to 1: none where the two stand
-// at less than 41 deg to each other.
+// Weight 0..1 with which the wall's image in the reflector replaces the path from the reflector to the wall and back; 0
+// where the angle between the two is below 41 deg.
 double image_weight(const Vec3& r, const ReflectorPanel& reflector, const ReflectorPanel& wall);
 
-// Gives a footprint of a perfect conductor a share of its echo; more than the whole is the way run backwards.
+// Multiplies the pattern of a perfectly conducting footprint by a weight; the part above 1 is the transposed pattern
+// (reciprocal path).
 void weight_with_reciprocal(double share, Footprint& footprint);
 
 }  // namespace seaglint

@@ -14,11 +14,10 @@ namespace {
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-// Integral of e^{jk w.(p - c)} over the polygon about its centroid c, by the first terms of its series in k w: for k
-// |w| size below 0.1 the terms left out are below 1e-6 of the area.
+// Integral of e^{jk w.(p - c)} over the polygon about its centroid c, by a series in k w: for k |w| size below 0.1 the
+// truncation error is below 1e-6 of the area.
 Complex small_phase_integral(const MovingPolygon& polygon, const Vec2& c, const Vec2& kw) {
-  // Moments of the phase over a triangle with corner phases x, y, z: the mean of a polynomial from complete homogeneous
-  // sums.
+  // Moments of the phase over a triangle with vertex phases x, y, z from complete homogeneous sums.
   Complex sum = 0;
   for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
     const Vec2 a = polygon[0].p - c, b = polygon[i].p - c, d = polygon[i + 1].p - c;

@@ -32,8 +32,8 @@ class Decomposer {
       curved();
       return;
     }
-    // Only a phase that runs through a good part of a cycle has end points. The whole facet decides, not this piece of
-    // it: pieces that share a moving boundary must be treated alike, or its two sides do not cancel.
+    // End points require a phase of a good part of a cycle. The whole panel determines this, not the polygon: polygons
+    // with a common moving boundary must be treated equally, or its two sides do not cancel.
     const double half_phase = settings_.kc * footprint_.psi_slope * footprint_.panel_size / 2;
     if (footprint_.psi_slope > threshold_ && half_phase > kMaxHalfPhase) {
       edges();
@@ -64,10 +64,10 @@ class Decomposer {
     }
   }
 
-  // Pieces small enough for their own integral to be slow, each a point at its centroid.
+  // Divides the polygon into pieces with a slowly varying integral, each a point at its centroid.
   void area(const MovingPolygon& polygon) {
     const Vec2 c = centroid(polygon);
-    // The longest extent is cut first; the phase that counts is that of w and of what w may become.
+    // Cut across the longest extent; the phase that counts is that of w and of its change over the aspect change.
     double longest = 0;
     Vec2 along = Vec2::Zero();
     for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -81,7 +81,7 @@ class Decomposer {
     }
     const double slope = std::max(footprint_.psi_slope, kMaxAmplitudeError * threshold_);
     if (settings_.kc * slope * longest / 2 > kMaxHalfPhase && longest > 1e-6) {
-      MovingLine line;  // through the centroid, across the longest extent; a cut of our own is at rest
+      MovingLine line;  // through the centroid, normal to the longest extent; at rest
       line.gradient = along.normalized();
       line.value = -line.gradient.dot(c);
       const auto [far, near] = split_by_line(polygon, line);
@@ -98,12 +98,12 @@ class Decomposer {
          phase_gradient(footprint_, c, basis_));
   }
 
-  // An edge of Gordon's contour, which carries cross(w, edge)/(jk |w|^2) times the mean of e^{jk psi} along it.
+  // A side of Gordon's contour, which carries cross(w, side)/(jk |w|^2) times the mean of e^{jk psi} along it.
   struct Edge {
     double run = 0;     // psi from its start to its end, m
     double length = 0;  // m
     Complex flux;       // cross / (jk |w|^2), m^2
-    // flux / (jk run) where its ends stand for it: what the end has, and the start less
+    // flux / (jk run) where end points replace the side: the term of its end, and minus that of its start
     std::optional<double> end = {};
   };
   Edge edge_of(const MovingVertex& a, const MovingVertex& b) const {
@@ -149,7 +149,7 @@ class Decomposer {
   const DecompositionSettings& settings_;
   std::vector<PointContribution>& out_;
   PointContribution prototype_;
-  double threshold_ = 0;  // slope of psi along the surface above which end points may stand for an extent
+  double threshold_ = 0;  // slope of psi along the surface above which end points are used
 };
 
 }  // namespace
