@@ -12,9 +12,10 @@
 // of the current on the received polarisation. For a beam that leaves a face at the angle a, normal to the edge, to
 // first order
 //
-//     PO end point of the edge's own face  -1/delta -+ cot(a) / 2 (soft, hard; opposite sign for the edge nearer to the
-//     source) exact half-plane                     -1/delta -+ 1 / (2 sin a)
+//     PO end point of the edge's own face   -1/delta -+ cot(a) / 2
+//     exact half-plane                      -1/delta -+ 1 / (2 sin a)
 //
+// for soft and hard polarisation, with the opposite sign for the edge nearer to the source
 // (Keller's coefficients, J. Opt. Soc. Am. 52 (1962) 116-130, and the end point of PO, expanded about the specular
 // direction), all over 2 pi per metre of edge. An edge of a right-angled dihedral thus scatters -+(1 / sin a - tan a) /
 // (4 pi): on the axis, a = 45 deg, the fringe current of the last reflector's own edge, and more towards the arm.
