@@ -16,8 +16,7 @@ struct TracingSettings {
   double ray_spacing_m = 0;
   int max_bounces = kDefaultBounces;  // 1 <= x <= kMaxBounces
   bool edges = false;                 // edge diffraction
-  ContributionFilter filter =
-      {};  // contributions that are summed; beams into cavities are not followed, all others are
+  ContributionFilter filter = {};     // contributions that are summed; beams end at the walls of cavities only
   // Radar range for the wavefront curvature, m; 0 = plane wave; else at least ten times the target's radius about the
   // point from which range is counted.
   double range_m = 0;
