@@ -11,7 +11,8 @@ namespace seaglint {
 
 Prism bounding_prism(std::span<const MovingPolygon> window, const BeamSegment& segment, const RadarBasis& basis,
                      std::span<const Facet> facets) {
-  // The prism runs along the window's longest side: a long window lies askew as often as not.
+  // The prism's sides are parallel to the longest side of the cross-section, so that the prism around an elongated
+  // cross-section of any orientation is narrow.
   Vec2 longest = Vec2::UnitX();
   double max = 0;
   for (const MovingPolygon& piece : window) {
@@ -48,15 +49,16 @@ Prism bounding_prism(std::span<const MovingPolygon> window, const BeamSegment& s
 }
 
 PrismOverlap test_overlap(const BeamSegment& segment, const Prism& prism, const BvhPanel& panel) {
-  // The lit side of a closed part faces the beam.
+  // A closed surface is illuminated on the side of its normals only.
   const double facing = panel.normal.dot(segment.direction);
   if (!panel.open && facing >= 0) return {};
   const std::span<const Vec3> outline = panel.outline();
   std::size_t beyond = 0;
   for (const Vec3& x : outline) beyond += prism.normal.dot(x) > prism.offset;
   if (beyond == 0) return {};
-  // The window's box may lie outside an edge of the panel, or inside all of them. Seen along the beam, the panel
-  // turns left or right.
+  // The prism's rectangle is tested against every side of the panel, projected along the beam: outside one of them
+  // there is no overlap, inside all of them the panel covers the prism. `turn` is the sense in which the projected
+  // outline runs.
   const Vec2 middle(0.5 * (prism.lower[0] + prism.upper[0]), 0.5 * (prism.lower[1] + prism.upper[1]));
   const Vec2 half(0.5 * (prism.upper[0] - prism.lower[0]), 0.5 * (prism.upper[1] - prism.lower[1]));
   const double turn = prism.across[0].cross(prism.across[1]).dot(panel.normal) > 0 ? 1 : -1;
@@ -79,8 +81,8 @@ PrismOverlap test_overlap(const BeamSegment& segment, const Prism& prism, const 
   }
   PrismOverlap result{true};
   if (covers && std::abs(facing) > kEdgeOn) {
-    // The farthest point of the facet's plane in the prism: along . x = (offset - across part of normal . x) /
-    // (normal . along).
+    // The farthest point of the panel's plane in the prism: along . x = (offset - across part of normal . x) / (normal
+    // . along).
     const double a = panel.normal.dot(prism.across[0]), b = panel.normal.dot(prism.across[1]);
     const double centre = (panel.normal.dot(outline.front()) - a * middle.x() - b * middle.y()) / facing;
     result.full_cover_distance = centre + (std::abs(a) * half.x() + std::abs(b) * half.y()) / std::abs(facing);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// What every panel that a leg of a beam may meet is asked, before any polygon is cut.
+// Conservative test of whether a panel overlaps the prism that a beam segment sweeps, made before any polygon is
+// clipped.
 
 #include <limits>
 #include <span>
@@ -11,15 +12,16 @@
 
 namespace seaglint {
 
-// Around the convex pieces of the aperture that a leg comes through, one or more, on the side of the mirror that the
-// leg leaves; `basis` is that of the aperture.
+// Smallest prism around a beam cross-section, given as one or more convex pieces in the projection plane (`basis`), on
+// the side of the last reflector that the segment leaves.
 Prism bounding_prism(std::span<const MovingPolygon> window, const BeamSegment& segment, const RadarBasis& basis,
                      std::span<const Facet> facets);
 
-// How a panel whose box meets a leg's prism stands to the prism itself.
+// Result of the test for one panel.
 struct PrismOverlap {
-  bool possible = false;  // they may meet; false for most: they face away, lie behind the mirror or beside the window
-  // Where along the prism nothing more can be lit, m, since the panel covers all of it.
+  bool possible = false;  // false: the panel faces away, lies behind the last reflector or beside the cross-section
+  // Position along the prism, along . x in m, beyond which nothing is illuminated because the panel covers the whole
+  // prism; infinite where it does not.
   double full_cover_distance = std::numeric_limits<double>::infinity();
 };
 PrismOverlap test_overlap(const BeamSegment& segment, const Prism& prism, const BvhPanel& panel);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// A beam between two mirrors, and a facet at its end.
+// Beam segment, the part of a beam between two consecutive reflections, and a panel that it may illuminate.
 
 #include <vector>
 
@@ -12,42 +12,45 @@
 
 namespace seaglint {
 
-// One leg of a beam: what travels from the last mirror towards the next facet.
+// Parallel rays from the last reflector towards the next panels. The segments of one beam form a list through
+// `previous`; the first one comes from the transmitter.
 struct BeamSegment {
-  ImageTransform image_transform;  // of the facets passed
-  Vec3 direction;                  // real, unit
-  Vec3 E_h, E_v;                  // field for each transmitted polarisation, real space, all mirrors perfect conductors
-  std::vector<BeamField> fields;  // the field per wavenumber once a mirror was of another material
-  int source_facet = kNoFacet;
-  DepthPlane source_plane;            // of the last mirror
-  Vec3 source_normal = Vec3::Zero();  // real, on the side the beam leaves
-  int bounce = 1;                     // of the hits at this leg's end
-  Vec3 first_reflector_normal =
-      Vec3::Zero();          // normal of the first one as those after it show it to this leg, unit; none before
-  int first_reflector = -1;  // the first one itself
-  bool has_curved_reflection = false;     // a mirror on the way was curved:
-  ParaxialBundle ray_bundle;              // the rays as they left the last mirror
-  const BeamSegment* previous = nullptr;  // the leg to the last mirror
+  ImageTransform image_transform;  // real space to image space, all reflections so far
+  Vec3 direction;                  // of propagation, real space, unit
+  Vec3 E_h, E_v;  // field per unit h and v transmit polarisation, real space, all reflectors perfect conductors
+  std::vector<BeamField> fields;      // the same per wavenumber once a reflector is not a perfect conductor, else empty
+  int source_facet = kNoFacet;        // first facet of the last reflector; kNoFacet: the transmitter
+  DepthPlane source_plane;            // plane of the last reflector, image space
+  Vec3 source_normal = Vec3::Zero();  // its unit normal on the illuminated side, real space
+  int bounce = 1;                     // number of the reflection at the end of the segment, from 1
+  // Unit normal of the first reflector, mirrored in the later ones; zero before the first reflection.
+  Vec3 first_reflector_normal = Vec3::Zero();
+  int first_reflector = -1;               // its first facet; -1 before the first reflection
+  bool has_curved_reflection = false;     // one of the reflectors so far is curved
+  ParaxialBundle ray_bundle;              // rays as they leave the last reflector, where one was curved
+  const BeamSegment* previous = nullptr;  // segment that ends at the last reflector
 };
 
-// A facet that a leg may light, and what of it is lit as far as is known.
+// Panel that a segment may illuminate, with its illuminated polygons; these shrink as occluders are subtracted.
 struct CandidatePanel {
-  ProjectedPanel projection;  // its polygon clipped to what lies beyond the last mirror
+  ProjectedPanel projection;  // polygon clipped to the side of the last reflector that the segment leaves
   PolygonSet illuminated;
 };
 
-// The leg's field at wavenumber number q.
+// Field at wavenumber index q.
 inline BeamField field_at(const BeamSegment& segment, std::size_t q) {
   return segment.fields.empty() ? BeamField{segment.E_h.cast<Complex>(), segment.E_v.cast<Complex>()}
                                 : segment.fields[q];
 }
 
-// The facet's unit normal on the side the leg comes from.
+// Unit normal of the facet on its illuminated side.
 inline Vec3 illuminated_normal(const BeamSegment& segment, const Facet& facet) {
   return facet.normal.dot(segment.direction) < 0 ? facet.normal : Vec3(-facet.normal);
 }
 
-// hh, hv, vh, vv of n x (k^ x E) / cosine along the receiver's basis: what a perfect conductor with normal n radiates.
+// Pattern hh, hv, vh, vv (received, transmitted) of the physical-optics current on a perfect conductor, p . [n x (k^ x
+// E)] / cosine, per unit of projected area. n: unit normal on the illuminated side; cosine = |n . k^| > 0, k^ the
+// segment's direction. J = 2 n x H: C. A. Balanis, Advanced Engineering Electromagnetics, eqs. 6-95 and 7-54.
 inline std::array<Complex, 4> pec_pattern(const BeamSegment& segment, const Vec3& n, double cosine,
                                           const RadarBasis& receive) {
   const Vec3 J_h = n.cross(segment.direction.cross(segment.E_h)) / cosine;

@@ -42,22 +42,22 @@ class BeamTracer {
   }
 
  private:
-  // Memory of one leg, kept for the next of its bounce.
+  // Work memory of one bounce number, kept from segment to segment.
   struct Scratch {
     std::vector<const BvhPanel*> found;
-    std::vector<CandidatePanel> met;  // as many as any leg needed so far
-    std::vector<Extent> extent;       // of what the window shows of each that was met
+    std::vector<CandidatePanel> met;  // grows to the largest number of candidates so far
+    std::vector<Extent> extent;       // of the illuminated polygons of each candidate
     std::vector<std::uint32_t> order;
     std::vector<MovingPolygon> visible;
   };
 
-  // What of the candidate is lit, and what every receiver sees of it; `seen` is memory for that.
+  // Passes the illuminated polygons and, for every receiver, their visible parts to the visitor. `seen`: work memory.
   void hand_on(const BeamSegment& segment, const CandidatePanel& candidate, std::vector<MovingPolygon>& seen) {
     visitor_.lit(segment, candidate);
     const Vec3 illuminated_side = illuminated_normal(segment, facets_[candidate.projection.facet]);
     for (std::size_t i = 0; i < scene_.receivers.size(); ++i) {
       const auto& [geometry, visible] = scene_.receivers[i];
-      // What the transmitter lights at first, a receiver at the same place sees.
+      // At the first bounce a monostatic receiver sees exactly the illuminated polygons.
       if (segment.bounce == 1 && geometry.monostatic) {
         visitor_.seen(segment, candidate, i, candidate.illuminated.polygons());
         continue;
@@ -70,18 +70,19 @@ class BeamTracer {
     }
   }
 
-  // A panel as the leg meets it; false when it misses the window.
+  // Projects the panel, clips it to the half-space beyond the last reflector and intersects it with the beam
+  // cross-section `window`; false when nothing remains.
   bool intersect_panel(const BeamSegment& segment, const PolygonSet& window, const BvhPanel& panel,
                        CandidatePanel& candidate) const {
     ProjectedPanel& projection = candidate.projection;
     if (!project_panel(projection, panel, segment.image_transform, basis_, scene_.min_area)) return false;
-    double farthest = 0, nearest = 0;  // beyond the mirror
+    double farthest = 0, nearest = 0;  // distance beyond the last reflector along the ray, m
     for (const MovingVertex& vertex : projection.polygon) {
       const double beyond = segment.source_plane.at(vertex.p) - projection.plane.at(vertex.p);
       farthest = std::max(farthest, beyond);
       nearest = std::min(nearest, beyond);
     }
-    if (farthest < kCoincident) return false;  // it lies in the mirror or behind it
+    if (farthest < kCoincident) return false;  // it is coplanar with the last reflector or behind it
     if (nearest < 0) {
       projection.polygon = clip(projection.polygon, depth_difference(projection.plane, segment.source_plane), +1);
       if (projection.polygon.empty() || signed_area(projection.polygon) < scene_.min_area) return false;
@@ -96,7 +97,8 @@ class BeamTracer {
     return !candidate.illuminated.empty();
   }
 
-  // Lights what the leg reaches inside the window (convex pieces of the aperture).
+  // Illuminates the panels in the path of a segment with the given cross-section (convex pieces in the projection
+  // plane) and follows their reflections.
   void trace_segment(const BeamSegment& segment, const PolygonSet& window) {
     ++segments_;
     Scratch& scratch = scratch_[segment.bounce];
@@ -109,7 +111,7 @@ class BeamTracer {
       if (met.possible) scratch.found.push_back(&panel);
       return covered = std::min(covered, met.full_cover_distance);
     });
-    // Of the last leg only what a receiver sees, or an edge, can answer.
+    // The last segment of a beam contributes only on panels that a receiver sees, or at edges.
     const auto seen = [&](const BvhPanel* panel) {
       return std::ranges::any_of(scene_.receivers, [&](const Receiver& receiver) {
         return !receiver.visible_to_receiver->pieces(panel->facet).empty();
@@ -136,8 +138,8 @@ class BeamTracer {
                                                     : met[a].projection.facet < met[b].projection.facet;
     });
 
-    // From the nearest on, each hides from the others what lies behind it. What is hidden in whole hides nothing that
-    // its own hiders do not.
+    // Occlusion in order of nearest distance: every panel is subtracted from the parts of the others that are behind
+    // it. A fully occluded panel need not be subtracted, since its own occluders cover everything it does.
     const auto hides = [&](std::uint32_t front, std::uint32_t behind) {
       if (!may_occlude(extent[behind], extent[front])) return;
       occlude(met[behind].projection, extent[behind], met[front].projection, extent[front], scene_.min_area,
@@ -157,7 +159,7 @@ class BeamTracer {
     }
   }
 
-  // The fields after a mirror, where it or one before it is no perfect conductor.
+  // Reflected field per wavenumber, where this reflector or an earlier one is not a perfect conductor.
   std::vector<BeamField> reflected_fields(const BeamSegment& segment, int facet, const Vec3& n) const {
     const std::span<const MaterialSurface> surface = scene_.surface_of(facet);
     const double cosine = std::abs(n.dot(segment.direction));
@@ -172,7 +174,7 @@ class BeamTracer {
     return fields;
   }
 
-  // Geometrical optics at a perfect conductor: E' = 2 (n.E) n - E.
+  // The segment that the candidate reflects. Geometrical optics at a perfect conductor: E' = 2 (n.E) n - E.
   BeamSegment reflected_segment(const BeamSegment& segment, const CandidatePanel& candidate) const {
     const int facet = candidate.projection.facet;
     const Vec3 n = illuminated_normal(segment, facets_[facet]);
@@ -195,7 +197,7 @@ class BeamTracer {
     return next;
   }
 
-  // Whether what the candidate reflects is worth following.
+  // False at max_bounces, at the wall of a cavity, and for cross-sections below min_beam_area.
   bool continues(const BeamSegment& segment, const CandidatePanel& candidate) const {
     if (segment.bounce >= scene_.settings.max_bounces ||
         scene_.settings.filter.is_cavity(facets_[candidate.projection.facet].part))
@@ -207,9 +209,9 @@ class BeamTracer {
   std::span<const Facet> facets_;
   CurvatureContext curvature_;
   const PanelBvh& tree_;
-  const RadarBasis& basis_;  // of the aperture: the transmitter's
+  const RadarBasis& basis_;  // of the projection plane: the transmitter's
   BeamVisitor& visitor_;
-  std::vector<Scratch> scratch_;  // by the bounce a leg ends in
+  std::vector<Scratch> scratch_;  // indexed by bounce number
   std::size_t segments_ = 0;
 };
 

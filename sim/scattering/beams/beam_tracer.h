@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Follows beams from mirror to mirror and hands what they light to a visitor.
+// Beam tracing: beams are followed from reflector to reflector, and the illuminated and visible polygons of every panel
+// on their path are passed to a visitor (P. S. Heckbert and P. Hanrahan, Proc. SIGGRAPH 1984, 119-127).
 
 #include <functional>
 #include <span>
@@ -11,21 +12,22 @@
 
 namespace seaglint {
 
-// Receives what the legs of all beams light.
+// Receives the polygons that the segments of all beams illuminate.
 class BeamVisitor {
  public:
   virtual ~BeamVisitor() = default;
-  // Whether the leg matters although no receiver sees anything of what it lights.
+  // True when a last segment (bounce = max_bounces) must be traced although no receiver sees any panel in its path.
   virtual bool wants(const BeamSegment& segment) const = 0;
-  // The candidate's lit pieces.
+  // Called once for every segment and panel, with the illuminated polygons.
   virtual void lit(const BeamSegment& segment, const CandidatePanel& candidate) = 0;
-  // What a receiver of the scene sees of them directly.
+  // Called next for every receiver: the convex parts of those polygons with an unobstructed direct path to it, in the
+  // projection plane of the transmitter; may be empty.
   virtual void seen(const BeamSegment& segment, const CandidatePanel& candidate, std::size_t receiver,
                     std::span<const MovingPolygon> pieces) = 0;
 };
 
-// Follows all beams whose first mirror is the panel of one of these facets; returns the legs followed. Calls
-// after_each() when the beams of one are followed.
+// Traces all beams whose first reflector is the panel of one of these facets (its first facet) and returns the number
+// of segments behind it. Calls after_each() when the beams of one facet are complete.
 std::size_t trace_beams(
     const TracingContext& scene, std::span<const int> facets, BeamVisitor& visitor,
     const std::function<void()>& after_each = [] {});

@@ -1,37 +1,38 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Which echoes count: by the part they leave the target from, their number of bounces, and their mechanism.
+// Selection of contributions by the part they leave the target from, their number of bounces and their mechanism.
 
 #include <cstdint>
 #include <vector>
 
 namespace seaglint {
 
-// By which current an echo arises.
+// Mechanism of a contribution.
 enum class Mechanism : std::uint8_t {
-  kPhysicalOptics,  // surface currents of geometrical optics
-  kDiffraction,     // fringe currents at sharp edges
+  kPhysicalOptics,  // surface current of the geometrical-optics field
+  kDiffraction,     // edge currents, multiple diffraction, boundary terms of beams, wall penumbrae
 };
 
 struct ContributionSelector {
   enum class Kind : std::uint8_t { kPart, kBounces, kMechanism } kind = Kind::kPart;
-  int value = 0;  // index of the part, number of bounces, or the mechanism's number
+  int value = 0;  // part index, number of bounces, or numerical value of the mechanism
 };
 
-// Empty: everything counts. `included`: an echo must meet a selector of every kind that is named. `without`: it must
-// meet none.
+// Selects contributions; the default selects all. A contribution is selected when it matches, of every kind that occurs
+// in `included`, at least one selector, and no selector of `excluded`. A selection does not change which beams are
+// traced, except at cavities.
 struct ContributionFilter {
   std::vector<ContributionSelector> included, excluded;
-  // Parts whose echoes are found from the field inside (sim/cavity): beams end at their walls, what walls and edges of
-  // theirs return does not count.
+  // Parts solved by sim/cavity: beams end at their walls, and contributions of their walls and edges are not selected.
   std::vector<int> cavities;
 
   bool is_cavity(int part) const;
   bool accepts(int part, int bounces, Mechanism mechanism) const;
-  // An edge counts as its first facet's. Between a cavity and another part it is the rim, which stays.
+  // Of an edge between two parts the part of its first facet decides; at the rim of a cavity that of the part outside
+  // it.
   bool accepts_edge(int part, int other_part, int bounces) const;
-  // Whether the echo of a cavity as a whole counts, by selectors of parts.
+  // Whether the contribution of a cavity, as one bounce of physical optics on this part, is selected.
   bool accepts_cavity(int part) const;
 };
 

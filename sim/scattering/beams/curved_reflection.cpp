@@ -26,7 +26,7 @@ ParaxialBundle reflected_bundle(const CurvatureContext& on, const BeamSegment& s
   if (segment.has_curved_reflection) bundle = propagated_to(segment, candidate);
   const int facet = candidate.projection.facet;
   if (!on.surface.curved(facet)) return bundle;
-  // Fermat: a mirror that stands higher by s shortens the path by 2 s cos(incidence).
+  // Fermat: a reflector higher by s shortens the path by 2 s cos(incidence).
   bundle.reflect(edge_midpoint_quadratic(Barycentric(projected(on, segment, facet)),
                                          edge_sagittas(on, segment, facet, [](double cosine) { return 2 * cosine; })));
   return bundle;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// What curved facets do to the rays of a beam when they are mirrors (README.md, "Curved surfaces").
+// Paraxial ray bundles reflected by curved facets (sim/scattering/surfaces/README.md, "Curved surfaces").
 
 #include <algorithm>
 #include <array>
@@ -14,23 +14,23 @@
 
 namespace seaglint {
 
-// What all beams of an illumination share.
+// What the beams of one illumination have in common.
 struct CurvatureContext {
   std::span<const Facet> facets;
   const SmoothSurface& surface;
-  const RadarBasis& transmit;  // of the aperture
+  const RadarBasis& transmit;  // basis of the projection plane
 };
 
-// The rays where they meet the candidate's plane.
+// The segment's ray bundle propagated to the candidate's plane.
 ParaxialBundle propagated_to(const BeamSegment& segment, const CandidatePanel& candidate);
 
-// A point, and a facet's corners, in the aperture, through the leg's mirrors.
+// A point, and the corners of a facet, in the projection plane after the reflections of the segment, m.
 Vec2 projected(const CurvatureContext& on, const BeamSegment& segment, const Vec3& x);
 std::array<Vec2, 3> projected(const CurvatureContext& on, const BeamSegment& leg, int facet);
 
-// The sagittas of a curved facet's edges on the leg's side, each times a factor of the cosine of the incidence there.
-// An edge whose arc of half-angle 4 sagitta / length comes near the shadow boundary, where currents have faded, keeps
-// twice that angle from it.
+// Sagittas of a curved facet's three edges on the illuminated side, m, each times `factor` of the cosine of incidence
+// at the edge. That cosine is at least 8 sagitta / length, twice the half-angle of the edge's arc, since currents
+// vanish near the shadow boundary.
 template <typename Factor>
 std::array<double, 3> edge_sagittas(const CurvatureContext& on, const BeamSegment& segment, int facet,
                                     const Factor& factor) {
@@ -48,7 +48,7 @@ std::array<double, 3> edge_sagittas(const CurvatureContext& on, const BeamSegmen
   return middle;
 }
 
-// The rays as they leave the candidate; those of flat mirrors where neither it nor one before it is curved.
+// Ray bundle reflected by the candidate: the identity where neither it nor an earlier reflector is curved.
 ParaxialBundle reflected_bundle(const CurvatureContext& on, const BeamSegment& segment,
                                 const CandidatePanel& candidate);
 

@@ -8,9 +8,10 @@
 namespace seaglint {
 namespace {
 
-// Side of the smallest lit piece that counts, in radii: 5 mm on the 144 m ship.
+// Side of the smallest illuminated patch in target radii: 5 mm on the 144 m ship.
 constexpr double kMinPatchSide = 0.7e-4;
-// A lattice of rays finds most pieces whose side is a fourteenth of its spacing, with one more ray inside every corner.
+// A lattice of rays detects most patches whose side is a fourteenth of its spacing, given one more ray within every
+// corner.
 constexpr double kSpacingPerSide = 14;
 
 }  // namespace

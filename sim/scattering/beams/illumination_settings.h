@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Which beams, bounces and edges an illumination follows, and how small is left out.
+// Settings of one illumination: depth of the beams, edge diffraction, and the smallest patches kept.
 
 #include "sim/core/numbers/linear.h"
 #include "sim/scattering/beams/contribution_filter.h"
@@ -11,29 +11,29 @@
 namespace seaglint {
 
 struct TracingSettings {
-  // The detail that counts, as the spacing of rays that would find it: lit pieces with a side below a fourteenth are
-  // left out, and beams below a quarter of it are not followed to further mirrors. 0 or coarser than
-  // default_ray_spacing: that.
+  // 14 times the side of the smallest illuminated patch that is kept, m; the smallest beam followed is 3.6 times as
+  // wide as that patch. 0 or a value above default_ray_spacing(): default_ray_spacing().
   double ray_spacing_m = 0;
   int max_bounces = kDefaultBounces;  // 1 <= x <= kMaxBounces
-  bool edges = false;                 // follow the waves that reach sharp edges too
-  ContributionFilter filter = {};     // which echoes are summed; all are followed but those into cavities
-  // of the radar, 0 = far field; else beyond ten times the target's reach from where it is counted
+  bool edges = false;                 // edge diffraction
+  ContributionFilter filter = {};     // contributions that are summed; beams end at the walls of cavities only
+  // Radar range for the wavefront curvature, m; 0 = plane wave; else at least ten times the target's radius about the
+  // point from which range is counted.
   double range_m = 0;
-  Vec3 origin = Vec3::Zero();  // where the target's frame stands from the point that range_m is counted from, m
+  Vec3 origin = Vec3::Zero();  // position of the target frame's origin from that point, m
 };
 
-// 1e-3 of the radius: 0.07 m on the 144 m ship, pieces of 5 mm (README.md).
+// 14 * 0.7e-4 of the target's radius: 0.07 m on the 144 m ship, whose smallest patches are then 5 mm wide.
 double default_ray_spacing(const Scatterer& scatterer);
 
-// The spacing whose detail counts: that of the settings, or the default one where that is finer.
+// Spacing of the settings, at most the default one, m.
 double ray_spacing(const Scatterer& scatterer, const TracingSettings& settings);
 
-// A tenth of what the smallest lit piece that counts returns, k area / 2 pi, m: ends of currents and edge waves below
-// may be left out. Together they are -65 dB of the ship's echo.
+// A tenth of the amplitude k area / 2 pi of the smallest patch, m: end-point and edge contributions below it may be
+// left out. On the ship they are -65 dB of the echo together.
 double min_amplitude(const Scatterer& scatterer, const TracingSettings& settings, double k);
 
-// Area of the smallest lit piece that counts, m^2.
+// Area of the smallest illuminated patch kept, m^2.
 double smallest_area(const Scatterer& scatterer, const TracingSettings& settings);
 
 }  // namespace seaglint

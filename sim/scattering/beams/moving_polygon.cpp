@@ -12,8 +12,8 @@ namespace {
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 Vec2 left_of(const Vec2& along) { return {-along.y(), along.x()}; }
 
-// The line through two corners, positive on the left and as steep as they are apart. The scale may stay fixed as they
-// move: only the zero of the function matters.
+// Line through two vertices, positive on its left, with a gradient as long as their distance. Derivatives of that scale
+// are left out, because only the zero of the function matters.
 MovingLine line_of_edge(const MovingVertex& from, const MovingVertex& to) {
   MovingLine line;
   line.gradient = left_of(to.p - from.p);
@@ -29,13 +29,13 @@ MovingLine opposite(const MovingLine& line) {
   return {-line.value, -line.gradient, -line.value_d1, -line.value_d2, -line.gradient_d1, -line.gradient_d2};
 }
 
-// Where the edge a -> b meets the line, whose values fa and fb at its ends have opposite signs.
+// Intersection of the side a -> b with the line, whose values fa and fb at a and b have opposite signs.
 MovingVertex meet(const MovingVertex& a, const MovingVertex& b, double fa, double fb, const MovingLine& line) {
   const double tau = fa / (fa - fb);
   MovingVertex vertex;
   const Vec2 along = b.p - a.p;
   vertex.p = a.p + tau * along;
-  // The derivative of tau from the total derivatives of the line's value at the two moving ends.
+  // Derivative of tau from the total derivatives of the line's value at the two moving end points.
   const auto turned = [&](const Vec2& da, const Vec2& db, double value_d, const Vec2& gradient_d) -> Vec2 {
     const double dfa = value_d + gradient_d.dot(a.p) + line.gradient.dot(da);
     const double dfb = value_d + gradient_d.dot(b.p) + line.gradient.dot(db);
@@ -47,16 +47,16 @@ MovingVertex meet(const MovingVertex& a, const MovingVertex& b, double fa, doubl
   return vertex;
 }
 
-// Where the corners of a polygon lie with respect to a line.
+// Position of the vertices of a polygon with respect to a line.
 enum class Side { kInside, kOutside, kBoth };
 
-// Clips by f >= 0, where f(p) is the distance inside the line in units of which `on_line` counts as none. make_line()
-// is called only where an edge is cut, and its line is in the same units; `kept` and what is cut off, if anybody asks
-// for it, are filled only where the line passes through.
+// Clips by f >= 0, f(p) the distance inside the line; |f| < on_line, in the same unit, counts as zero. make_line() is
+// called only where a side is cut and returns the line in that unit. `kept` and, if given, `cut_off` are set only where
+// the line passes through the polygon.
 template <typename Distance, typename MakeLine>
 Side clip_by(const MovingPolygon& polygon, const Distance& distance, double on_line, const MakeLine& make_line,
              MovingPolygon& kept, MovingPolygon* cut_off = nullptr) {
-  constexpr std::size_t kRemembered = 16;  // distances of the first corners
+  constexpr std::size_t kRemembered = 16;  // vertices whose distance is stored
   std::array<double, kRemembered> remembered;
   bool any_inside = false, any_outside = false;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -65,7 +65,7 @@ Side clip_by(const MovingPolygon& polygon, const Distance& distance, double on_l
     any_outside |= f <= -on_line;
     if (i < kRemembered) remembered[i] = f;
   }
-  if (!any_outside) return any_inside ? Side::kInside : Side::kOutside;  // all on the line: no area
+  if (!any_outside) return any_inside ? Side::kInside : Side::kOutside;  // all vertices on the line: zero area
   if (!any_inside) return Side::kOutside;
   kept.clear();
   if (cut_off) cut_off->clear();
@@ -91,8 +91,8 @@ Side clip_by(const MovingPolygon& polygon, const Distance& distance, double on_l
   return kept.size() < 3 ? Side::kOutside : Side::kBoth;
 }
 
-// Where all corners in a box lie with respect to an edge: to its left kInside, as also where it has no length; kBoth:
-// they have to be looked at. Of two polygons that meet a box tells most edges.
+// Position of a box with respect to a side: kInside to its left, or where the side has no length; kBoth where the
+// vertices in the box must be tested one by one.
 Side side_of_edge(const Box& box, const MovingVertex& from, const MovingVertex& to) {
   const Vec2 left = left_of(to.p - from.p), steep = left.cwiseAbs();
   const double centre = left.dot(0.5 * (box.lower + box.upper) - from.p);
@@ -101,8 +101,7 @@ Side side_of_edge(const Box& box, const MovingVertex& from, const MovingVertex& 
   return centre < -reach ? Side::kOutside : Side::kBoth;
 }
 
-// Clips by one edge of another polygon: keeps its left side. The line is as steep as the edge is long, which saves a
-// division for each.
+// Clips by the left half-plane of a side. The line's gradient is as long as the side, which avoids a division.
 Side clip_by_edge(const MovingPolygon& polygon, const MovingVertex& from, const MovingVertex& to, MovingPolygon& kept,
                   MovingPolygon* cut_off = nullptr) {
   const Vec2 left = left_of(to.p - from.p);
@@ -178,7 +177,7 @@ bool disjoint(const MovingPolygon& a, const MovingPolygon& b) {
 bool subtract(const MovingPolygon& polygon, const Box& around, const MovingPolygon& hole, double min_area,
               std::vector<MovingPolygon>& pieces) {
   const std::size_t before = pieces.size();
-  MovingPolygon rests[2], outside;  // what is inside all edges so far, and where the next clip goes
+  MovingPolygon rests[2], outside;  // part inside all sides so far, double-buffered; part outside the current one
   const MovingPolygon* rest = &polygon;
   for (std::size_t i = 0; i < hole.size(); ++i) {
     const MovingVertex &from = hole[i], &to = hole[i + 1 == hole.size() ? 0 : i + 1];

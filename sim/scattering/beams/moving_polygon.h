@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Convex polygons in the aperture plane whose corners know how they move when the radar's direction turns.
+// Convex polygons in the projection plane whose vertices carry their derivative with respect to the look direction.
 //
-// The aperture plane is spanned by h and v; the direction turns as r^ -> r^ + d1 h + d2 v. A corner carries its
-// position and its derivatives by d1 and d2, and clipping carries them on: a corner made by two edges moves as their
-// intersection does. So the end points of a lit region keep their first-order phase over a whole interval, shadow edges
-// included.
+// The plane is spanned by h and v; the look direction changes as r^ -> r^ + d1 h + d2 v. A vertex carries its position
+// and its derivatives with respect to d1 and d2. Clipping propagates them: a vertex where two sides intersect moves as
+// that intersection does. The vertices of an illuminated region, on shadow boundaries too, therefore give the phase of
+// a whole interval to first order.
 
 #include <array>
 #include <memory>
@@ -25,8 +25,7 @@ struct MovingVertex {
   Vec2 d2 = Vec2::Zero();  // dp / d d2
 };
 
-// Corners in order: convex, counter-clockwise. Up to kInlineVertices of them need no memory of their own, which is
-// nearly always enough and makes polygons cheap to come and go.
+// Vertices of a convex polygon, counter-clockwise. Up to kInlineVertices are stored without allocation.
 class MovingPolygon {
  public:
   static constexpr std::size_t kInlineVertices = 6;
@@ -63,7 +62,7 @@ class MovingPolygon {
   }
   void push_back(const MovingVertex& vertex) {
     if (size_ == capacity_) {
-      const MovingVertex copy = vertex;  // it may be one of ours
+      const MovingVertex copy = vertex;  // `vertex` may belong to this polygon
       reserve(2 * capacity_);
       new (corners_ + size_++) MovingVertex(copy);
     } else {
@@ -96,7 +95,7 @@ class MovingPolygon {
   }
   void take(MovingPolygon& other) {
     if (other.corners_ == other.in_place()) {
-      // other holds at most kInlineVertices, and so do we at least
+      // at most kInlineVertices vertices, for which the capacity here always suffices
       std::uninitialized_copy_n(other.corners_, other.size_, corners_);
     } else {
       release();
@@ -111,7 +110,8 @@ class MovingPolygon {
   std::size_t size_ = 0, capacity_ = kInlineVertices;
 };
 
-// A function that is linear on the plane, f = value + gradient . p, with its derivatives by d1 and d2 at fixed p.
+// Linear function on the plane, f = value + gradient . p, with the derivatives of both with respect to d1 and d2 at
+// fixed p.
 struct MovingLine {
   double value = 0;
   Vec2 gradient = Vec2::Zero();
@@ -129,15 +129,15 @@ inline double signed_area(const MovingPolygon& polygon) {
   }
   return 0.5 * twice;
 }
-Vec2 centroid(const MovingPolygon& polygon);  // of the area; of the corners when there is no area
+Vec2 centroid(const MovingPolygon& polygon);  // of the area; mean of the vertices for zero area
 MovingPolygon counter_clockwise(MovingPolygon polygon);
 
-// The part of the polygon where line >= 0 (or <= 0 with keep = -1). Corners nearer to the line than kLineTolerance
-// count as on it.
+// Part of the polygon where line >= 0, or line <= 0 with keep = -1. Vertices with |line| < kLineTolerance are on the
+// line (m for a line of unit gradient).
 inline constexpr double kLineTolerance = 1e-10;
 MovingPolygon clip(const MovingPolygon& polygon, const MovingLine& line, int keep = +1);
 
-// Both parts at once, as clip() has them: where line >= 0, and where line <= 0.
+// Parts where line >= 0 and where line <= 0, as clip() returns them.
 std::array<MovingPolygon, 2> split_by_line(const MovingPolygon& polygon, const MovingLine& line);
 
 struct Box {
@@ -157,15 +157,15 @@ inline bool overlap(const Box& a, const Box& b) {
          b.lower.y() < a.upper.y();
 }
 
-// True when an edge of one of the polygons has the other wholly outside it or on it: then they have no area in common.
+// True when a side of one polygon has the other polygon entirely on or outside it, so that they have no common area.
 bool disjoint(const MovingPolygon& a, const MovingPolygon& b);
 
-// polygon, which lies in the box, minus hole where they have more than min_area in common: appends convex pieces with
-// an area above min_area to pieces. Else false, and nothing is appended.
+// Appends the convex pieces of polygon minus hole that are larger than min_area (m^2) and returns true; returns false
+// and appends nothing where the common area is at most min_area. `around`: a box that contains the polygon.
 bool subtract(const MovingPolygon& polygon, const Box& around, const MovingPolygon& hole, double min_area,
               std::vector<MovingPolygon>& pieces);
 
-// The common part of a, which lies in the box, and b; empty when there is none.
+// Intersection of a, which the box `around` contains, and b; empty when they have no common area.
 MovingPolygon intersect(const MovingPolygon& a, const Box& around, const MovingPolygon& b);
 inline MovingPolygon intersect(const MovingPolygon& a, const MovingPolygon& b) { return intersect(a, box_of(a), b); }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// A region of the aperture plane as convex pieces, each with its box.
+// Region of the projection plane as convex polygons with their bounding boxes.
 
 #include <span>
 #include <utility>
@@ -11,7 +11,7 @@
 
 namespace seaglint {
 
-// Keeps its memory when it is cleared.
+// clear() keeps the allocated memory.
 class PolygonSet {
  public:
   void clear() {
@@ -30,14 +30,14 @@ class PolygonSet {
   std::span<const Box> boxes() const { return boxes_; }
   double area() const;  // m^2
 
-  // Takes the hole, whose box is given, out of every piece; pieces with no more than min_area in common with it stay as
-  // they are, and what is left of the others in pieces of no more is dropped. True when any piece was cut.
+  // Subtracts the hole, with its bounding box, from every polygon and returns true when any changed. Polygons with at
+  // most min_area (m^2) in common with it stay unchanged; remainders of at most min_area are dropped.
   bool subtract_hole(const MovingPolygon& hole, const Box& box, double min_area);
 
  private:
   std::vector<MovingPolygon> polygons_;
   std::vector<Box> boxes_;
-  std::vector<MovingPolygon> left_;  // of the pieces that a hole cuts
+  std::vector<MovingPolygon> left_;  // remainders of the polygons that a hole cuts, work memory
 };
 
 }  // namespace seaglint

@@ -31,7 +31,7 @@ Quadratic edge_midpoint_quadratic(const Barycentric& lambda, const std::array<do
   Quadratic sum;
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3;
-    const double scale = 4 * middle[i];  // lambda_i lambda_j is 1/4 in the middle of the edge
+    const double scale = 4 * middle[i];  // lambda_i lambda_j = 1/4 at the midpoint of the side
     const Mat2 product = lambda.gradient[i] * lambda.gradient[j].transpose();
     sum += {scale * lambda.value[i] * lambda.value[j],
             scale * (lambda.value[i] * lambda.gradient[j] + lambda.value[j] * lambda.gradient[i]),

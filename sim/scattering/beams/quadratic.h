@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Second-order functions of a point in the aperture.
+// Functions of second order, and affine maps, of a point p in the projection plane.
 
 #include <array>
 
@@ -35,7 +35,7 @@ Quadratic compose(const Quadratic& q, const Affine& f);
 // |f(p)|^2
 Quadratic squared(const Affine& f);
 
-// The linear functions that are 1 at one corner of a triangle and 0 at the two others.
+// Barycentric coordinates of a triangle, lambda_i(p) = value[i] + gradient[i] . p: 1 at vertex i, 0 at the two others.
 struct Barycentric {
   std::array<double, 3> value{};
   std::array<Vec2, 3> gradient{};
@@ -44,7 +44,7 @@ struct Barycentric {
   double at(int i, const Vec2& p) const { return value[i] + gradient[i].dot(p); }
 };
 
-// The quadratic that vanishes at the corners and takes the given values in the middles of the edges i -> i + 1.
+// Quadratic that is zero at the vertices and takes the value middle[i] at the midpoint of side i -> i + 1.
 Quadratic edge_midpoint_quadratic(const Barycentric& lambda, const std::array<double, 3>& middle);
 
 }  // namespace seaglint

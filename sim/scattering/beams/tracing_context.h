@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+// Input of the beam tracer: target, look directions, settings and visible surfaces.
+
 #include <span>
 #include <vector>
 
@@ -12,24 +14,24 @@
 
 namespace seaglint {
 
-// An antenna that receives what the beams light. Pair and surface are those of one transmitter and this receiver.
+// Receiver of one illumination. geometry: the transmitter and this receiver.
 struct Receiver {
   BistaticGeometry geometry;
-  const VisibleSurface* visible_to_receiver;  // to the receiver
+  const VisibleSurface* visible_to_receiver;  // visible part of the surface as seen from it
 };
 
-// What all beams of an illumination share.
+// What the beams of one illumination have in common.
 struct TracingContext {
   const Scatterer& scatterer;
   const RadarBasis& transmit;
-  std::span<const Receiver> receivers;  // none: what the beams light is followed alone
+  std::span<const Receiver> receivers;  // none: beams are traced for their illumination only
   const TracingSettings& settings;
-  const VisibleSurface& visible_to_transmitter;            // from the transmitter
+  const VisibleSurface& visible_to_transmitter;            // directly illuminated part of the surface
   std::span<const std::vector<MaterialSurface>> surfaces;  // [material][wavenumber]; none for a perfect conductor
-  double min_area = 0;                                     // of lit pieces that count, m^2
-  double min_beam_area = 0;                                // of beams that are followed to further mirrors, m^2
+  double min_area = 0;                                     // of illuminated patches that are kept, m^2
+  double min_beam_area = 0;                                // of beam cross-sections that are reflected further, m^2
 
-  // What the facet is made of at each wavenumber; none when it is a perfect conductor.
+  // Material of the facet at each wavenumber; empty for a perfect conductor.
   std::span<const MaterialSurface> surface_of(int facet) const {
     if (surfaces.empty()) return {};
     return surfaces[scatterer.facets()[facet].material];

@@ -12,10 +12,11 @@ namespace {
 
 constexpr std::size_t kImagesPerChunk = 64;
 
-// Cosine below which a panel is measured by its own area, not by its image's: however nearly edge-on, its rims answer.
+// |normal . r^| below which the panel's own area, not its projected area, is compared with min_area: its edges scatter
+// at any angle.
 constexpr double kNearlyEdgeOn = 0.01;
 
-// The smallest image that counts of a panel with this normal, m^2.
+// Smallest projected area kept of a panel with this normal, m^2.
 double least_area(const Vec3& normal, const RadarBasis& basis, double min_area) {
   return min_area * std::min(1.0, std::abs(normal.dot(basis.r)) / kNearlyEdgeOn);
 }
@@ -30,7 +31,7 @@ bool project_panel(ProjectedPanel& projection, const BvhPanel& panel, const Imag
   projection.plane = depth_plane(n_image, panel.offset + n_image.dot(image_transform.t), basis);
   projection.polygon.clear();
   for (const Vec3& corner : panel.outline()) {
-    // A point fixed to the body at height z moves by -z d_i in the aperture when the direction turns by d_i.
+    // A body-fixed point at height z moves by -z d_i in the projection plane when the look direction changes by d_i.
     const Vec3 image = image_transform.image(corner);
     const double z = image.dot(basis.r);
     projection.polygon.push_back({Vec2(image.dot(basis.h), image.dot(basis.v)), Vec2(-z, 0), Vec2(0, -z)});
@@ -95,8 +96,8 @@ bool occlude(const ProjectedPanel& behind, const Extent& behind_extent, const Pr
 VisibleSurface::VisibleSurface(std::span<const Facet> facets, const Panels& panels, const PanelBvh& tree,
                                const RadarBasis& basis, double min_area, int threads)
     : facets_(facets), basis_(basis), min_area_(min_area), image_of_(facets.size(), -1) {
-  // The far side of a closed part is hidden by its near side: only what faces the radar, and open sheets, can be seen
-  // or hide anything.
+  // Back faces of closed surfaces are hidden by front faces, so that only front faces and open sheets are visible or
+  // occlude.
   const auto may_be_visible = [&](int f) {
     return panels.is_representative(f) && (facets[f].two_sided || facets[f].normal.dot(basis.r) > 0);
   };
@@ -186,13 +187,13 @@ void VisibleSurface::clip_to_visible(const VisiblePieces& window, const Vec3& no
                                      const ImageTransform& image_transform, std::span<const MovingPolygon> illuminated,
                                      const RadarBasis& transmit, std::vector<MovingPolygon>& visible) const {
   if (window.pieces.empty() || illuminated.empty()) return;
-  // On the panel's plane, the way from the radar's own aperture to the beam's is affine: q -> origin + q1 first + q2
-  // second, heights included.
+  // For points of the panel, the map from the radar's projection plane to the beam's is affine, q -> origin + q1 first
+  // + q2 second, with heights as third component.
   const auto in_beam = [&](const Vec3& x) { return Vec3(x.dot(transmit.h), x.dot(transmit.v), x.dot(transmit.r)); };
   const Vec3 origin = in_beam(image_transform.image(own.z0 * basis_.r));
   const Vec3 first = in_beam(image_transform.L * (basis_.h + own.slope.x() * basis_.r)),
              second = in_beam(image_transform.L * (basis_.v + own.slope.y() * basis_.r));
-  // Back from there, to tell which pieces may have to do with what is lit.
+  // Inverse map: bounding box of the illuminated polygons in the radar's projection plane.
   const double determinant = first.x() * second.y() - first.y() * second.x();
   Box direct;
   for (const MovingPolygon& part : illuminated) {
@@ -210,7 +211,7 @@ void VisibleSurface::clip_to_visible(const VisiblePieces& window, const Vec3& no
     if (!overlap(window.boxes[i], direct)) continue;
     image.clear();
     for (const MovingVertex& vertex : piece) {
-      // The corner's point on the panel, and how far it slips in the panel beyond what a body-fixed point moves.
+      // Point of the vertex on the panel, and its slide over the panel relative to a body-fixed point.
       const double z = own.at(vertex.p);
       const Vec3 x = origin + vertex.p.x() * first + vertex.p.y() * second;
       const auto moved = [&](const Vec2& slide) -> Vec2 { return (slide.x() * first + slide.y() * second).head<2>(); };

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Hidden surfaces as polygons of the aperture plane: which part of each panel does the radar, or a beam, see? Panels go
-// by their first facet.
+// Hidden-surface removal by polygons: the part of every panel that the radar, or a beam, sees, in the projection plane.
+// A panel is named by its first facet.
 
 #include <cstdint>
 #include <limits>
@@ -16,83 +16,88 @@
 
 namespace seaglint {
 
-// Facets nearer to each other than this are one surface: 1e-5 of a 10 mm wavelength.
+// Distance below which facets are coplanar: 1e-5 of a wavelength of 10 mm.
 inline constexpr double kCoincident = 1e-7;  // m
 
-// Cosine below which a panel is edge-on and has no image.
+// |normal . r^| below which a panel is edge-on and has no projection.
 inline constexpr double kEdgeOnPanel = 1e-7;
 
-// A panel's image through the mirrors of a beam, projected along the unfolded ray.
+// Panel in image space, projected along the unfolded ray.
 struct ProjectedPanel {
   int facet = -1;
   DepthPlane plane;
-  MovingPolygon polygon;  // of the projected panel
+  MovingPolygon polygon;  // outline in the projection plane, counter-clockwise, m
 };
 
-// False when the panel is edge-on to the ray or its image is smaller than min_area.
+// Projects a panel; false when it is edge-on or its projection is smaller than min_area, m^2.
 bool project_panel(ProjectedPanel& projection, const BvhPanel& panel, const ImageTransform& image_transform,
                    const RadarBasis& basis, double min_area);
 
-// Where polygons of one plane lie: their box in the aperture, and the heights of their corners towards the radar, m.
+// Bounding box of coplanar polygons in the projection plane, and the range of their heights towards the radar: nearest
+// >= farthest, m.
 struct Extent {
   Box box;
   double nearest = 0, farthest = 0;
 };
-Extent extent_of(std::span<const MovingPolygon> polygons, const DepthPlane& plane);  // of one polygon or more
+Extent extent_of(std::span<const MovingPolygon> polygons, const DepthPlane& plane);  // at least one polygon
 
-// An extent that hides nothing and is hidden by nothing.
+// Extent that occludes nothing and is occluded by nothing.
 inline Extent empty_extent() {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   return {{}, -kInfinity, kInfinity};
 }
 
-// False when nothing within one extent hides anything within the other, as for nearly all pairs.
+// Conservative test: false when nothing within `front` can occlude anything within `behind`.
 inline bool may_occlude(const Extent& behind, const Extent& front) {
   return front.nearest >= behind.farthest - kCoincident && overlap(front.box, behind.box);
 }
 
-// Height of plane b above plane a as a moving line: positive where b is nearer to the radar along the unfolded ray.
+// Height of plane b over plane a, m: positive where b is nearer to the radar.
 MovingLine depth_difference(const DepthPlane& a, const DepthPlane& b);
 
-// The part of b that lies nearer to the radar than plane a. Facets that coincide are ordered by number, the lower one
-// in front.
+// Part of b that is nearer to the radar than plane a. Of coplanar facets the one with the lower number is in front.
 MovingPolygon nearer_part(const ProjectedPanel& b, const ProjectedPanel& a);
 
-// Takes every part of the image `front` out of the pieces of `behind` that lies nearer to the radar. The extents are
-// those of the pieces and of all of the front that may lie before them. True when any was cut.
+// Subtracts from the polygons of `behind` every part of `front` that is nearer to the radar; true when any changed. The
+// extents are those of the polygons and of that part of the front panel that may occlude them; polygons below min_area
+// (m^2) are dropped.
 bool occlude(const ProjectedPanel& behind, const Extent& behind_extent, const ProjectedPanel& front,
              const Extent& front_extent, double min_area, PolygonSet& pieces);
 
-// What the radar sees of every facet: convex pieces without overlap, exact for the flat facets given.
+// Directly visible part of every panel from one look direction, as disjoint convex polygons; exact for flat facets.
 class VisibleSurface {
  public:
+  // min_area: of the smallest polygon kept, m^2; panels within 0.01 rad of edge-on keep polygons of that area on the
+  // panel itself. The facets must outlive the surface.
   VisibleSurface(std::span<const Facet> facets, const Panels& panels, const PanelBvh& tree, const RadarBasis& basis,
                  double min_area, int threads);
 
-  // Pieces of the panel that goes by this facet in the radar's aperture; empty when it is hidden or faces away (an open
-  // sheet shows either side) and for facets whose panel goes by another.
+  // Visible polygons of the panel with this first facet in the radar's projection plane. Empty for a panel that is
+  // hidden or faces away (open sheets are visible from either side), and for facets that are not the first of their
+  // panel.
   std::span<const MovingPolygon> pieces(int facet) const;
 
-  // What the radar sees directly of the parts of a panel that a beam lights: `lit` are the parts' images through the
-  // beam's mirrors, in the aperture of `transmit`. Appends convex pieces there.
+  // Directly visible parts of the illuminated polygons of a panel, given after the reflections of a beam in the
+  // projection plane of `transmit`; appended to `visible` as convex polygons in that plane.
   void visible_after_reflections(int facet, const ImageTransform& image_transform,
                                  std::span<const MovingPolygon> illuminated, const RadarBasis& transmit,
                                  std::vector<MovingPolygon>& visible) const;
 
-  // The same of what it sees by a mirror, the panel that goes by facet `mirror`, in the plane of that one: `mirrors`
-  // are then the beam's and, before them, this one. What stands between the two panels is not looked at.
+  // The same via a reflector: parts that the radar sees reflected in the panel with first facet `mirror`, in the plane
+  // of their image in it. image_transform = M R, first R, the reflection in that panel, then M, those of the beam.
+  // Occlusion between the two panels is neglected.
   void visible_via_reflector(int mirror, int facet, const ImageTransform& image_transform,
                              std::span<const MovingPolygon> illuminated, const RadarBasis& transmit,
                              std::vector<MovingPolygon>& visible) const;
 
  private:
-  // Pieces of the radar's aperture with their boxes.
+  // Polygons in the radar's projection plane with their bounding boxes.
   struct VisiblePieces {
     std::span<const MovingPolygon> pieces;
     const Box* boxes = nullptr;
   };
   VisiblePieces window(int facet) const;
-  // What of `lit`, parts of a plane that the radar sees as `own`, shows in the window.
+  // Intersects the illuminated polygons, in a plane that the radar sees as `own`, with the visible polygons `window`.
   void clip_to_visible(const VisiblePieces& window, const Vec3& normal, const DepthPlane& own,
                        const ImageTransform& image_transform, std::span<const MovingPolygon> illuminated,
                        const RadarBasis& transmit, std::vector<MovingPolygon>& visible) const;
@@ -100,18 +105,17 @@ class VisibleSurface {
   std::span<const Facet> facets_;
   RadarBasis basis_;
   double min_area_;
-  // Panels that face the radar, and the pieces of those that something hides a part of, chunk by chunk of images. Most
-  // are whole.
+  // Panels that face the radar, and the visible polygons of those that are partly hidden, stored by chunks of panels.
   std::vector<ProjectedPanel> images_;
-  std::vector<Extent> extents_;         // of the images
-  std::vector<std::int32_t> image_of_;  // of each facet; -1: it faces away or its panel goes by another
+  std::vector<Extent> extents_;         // of the projections
+  std::vector<std::int32_t> image_of_;  // index into images_ by facet; -1: faces away, or not the first of its panel
   struct Visibility {
     bool whole = true;
-    std::uint32_t first = 0, count = 0;  // of its pieces in those of its chunk
+    std::uint32_t first = 0, count = 0;  // range of its polygons in its chunk
   };
-  std::vector<Visibility> seen_;  // of each image
+  std::vector<Visibility> seen_;  // by projection
   std::vector<std::vector<MovingPolygon>> pieces_;
-  std::vector<std::vector<Box>> boxes_;  // of the pieces
+  std::vector<std::vector<Box>> boxes_;  // of those polygons
 };
 
 }  // namespace seaglint

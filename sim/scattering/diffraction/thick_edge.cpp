@@ -12,8 +12,8 @@ namespace {
 
 constexpr Complex j(0, 1);
 
-// A direction about the rim: its angle from the sheet's extension, positive before the first face, and the sine of that
-// from the rim itself.
+// Direction relative to the edge: angle from the sheet's extension, positive on the side of the first face, and sine of
+// the angle to the edge.
 struct EdgeAngle {
   double phi = 0;    // -pi..pi
   double sin_b = 1;  // > 0
@@ -26,22 +26,22 @@ EdgeAngle about(const WedgeFrame& rim, const Vec3& towards) {
   return {std::atan2(up, out), std::max(std::hypot(out, up), kMinSine)};
 }
 
-// (1 - gamma - ln(kappa t / 2 pi) - j pi / 2) / pi with kappa = k sin b: the logarithm that the square end leaves.
+// (1 - gamma - ln(kappa t / 2 pi) - j pi / 2) / pi, kappa = k sin b: the logarithm of the square end.
 FirstOrderThickness<Complex> end_logarithm(double sin_b) {
   return {(1 - std::numbers::egamma - std::log(sin_b / (2 * kPi)) - 0.5 * j * kPi) / kPi, -1 / kPi};
 }
 
-// 2 delta P / kappa t without the logarithm's part, whose factors stand beside it.
+// 2 delta P / kappa t without the logarithm, whose factors are given separately.
 struct ThicknessTerms {
   double soft = 0, hard = 0;
   double soft_log = 0, hard_log = 0;  // cos(phi/2) cos(phi0/2) and sin(phi/2) sin(phi0/2)
 };
 
-// About the two directions, of which the phase is counted from the face that both are before, else from the middle.
+// Terms for two directions; the phase refers to the face that both are in front of, else to the middle of the sheet.
 ThicknessTerms thickness_terms(double phi, double phi0) {
   const double side = phi * phi0 < 0 ? -1 : 1;
-  // Where the face reflects one direction into the other, or the light passes the rim, the fractions below are 0/0, in
-  // the sheet's plane twice.
+  // On the reflection and the shadow boundary the fractions below are 0/0, in the sheet's plane doubly: both are
+  // avoided.
   constexpr double kAside = 1e-5;
   const auto off_the_sheet = [](double angle) { return std::clamp(std::abs(angle), 10 * kAside, kPi - 10 * kAside); };
   double a = off_the_sheet(phi), a0 = off_the_sheet(phi0);
@@ -63,7 +63,7 @@ std::array<FirstOrderThickness<CVec3>, 2> thick_edge_currents(const WedgeFrame& 
                                                               const std::array<Vec3, 2>& fields, const Vec3& s) {
   const EdgeAngle in = about(rim, -k_hat), out = about(rim, s);
   const ThicknessTerms terms = thickness_terms(out.phi, in.phi);
-  // Off Keller's cone both waves' angles with the rim count alike.
+  // Off Keller's cone: geometric mean of both waves' sines, which is reciprocal.
   const double sin_b = std::sqrt(in.sin_b * out.sin_b);
   const FirstOrderThickness<Complex> end = end_logarithm(sin_b);
   const Complex soft = terms.soft + terms.soft_log * end.constant, hard = terms.hard + terms.hard_log * end.constant;
@@ -71,8 +71,8 @@ std::array<FirstOrderThickness<CVec3>, 2> thick_edge_currents(const WedgeFrame& 
   const Vec3 e_hard = t.cross(s);
   std::array<FirstOrderThickness<CVec3>, 2> currents;
   for (int i = 0; i < 2; ++i) {
-    // S per metre is j / pi of the amplitude P of fields along t across the rim, E_t along t and H_t along t x s, over
-    // sin^2 b; delta P has kappa t / 2.
+    // S per metre is j / (pi sin^2 b) times the amplitude P of the fields along t, E_t along t and H_t along t x s;
+    // delta P has the factor kappa t / 2.
     const Complex E_t = j / (2 * kPi * sin_b) * fields[i].dot(t),
                   H_t = j / (2 * kPi * sin_b) * k_hat.cross(fields[i]).dot(t);
     currents[i].constant = soft * E_t * t.cast<Complex>() + hard * H_t * e_hard.cast<Complex>();

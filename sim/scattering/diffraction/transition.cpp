@@ -11,14 +11,14 @@ namespace {
 
 constexpr Complex j(0, 1);
 
-// Arguments nearer to each other than this, of their sum, count as equal.
+// Relative difference |x - y| / |x + y| below which arguments count as equal.
 constexpr double kEqual = 1e-3;
 
 bool nearly_equal(double x, double y) { return std::abs(x - y) < kEqual * std::abs(x + y); }
 
-// transition(x, y), of which F(x) and F(y) are known.
+// Double transition function of (x, y), F(x) and F(y) given.
 Complex divided_difference(double x, const Complex& F_x, double y, const Complex& F_y) {
-  // Between equals F - x F', with F' = F / 2x + j F - j; farther apart errors of F grow five-hundredfold at most.
+  // Equal arguments: F - x F' with F' = F / 2x + j F - j. Unequal ones magnify errors of F at most five-hundredfold.
   if (nearly_equal(x, y)) {
     const double mean = 0.5 * (x + y);
     const Complex F = transition_function(mean);
@@ -31,7 +31,8 @@ Complex divided_difference(double x, const Complex& F_x, double y, const Complex
 
 Complex transition_function(double x) {
   if (x < 0) return std::conj(transition_function(-x));
-  // Far away the asymptotic series, sum of (2n - 1)!! (j / 2x)^n, to its smallest term, which bounds the error: e^{-x}.
+  // Large x: asymptotic series, sum of (2n - 1)!! (j / 2x)^n, to its smallest term, about e^{-x}, which bounds the
+  // error.
   if (x > 17) {
     double term = 1;
     std::array<double, 2> part{term, 0};
@@ -41,8 +42,9 @@ Complex transition_function(double x) {
     }
     return {part[0], part[1]};
   }
-  // Near, the power series of the integral from 0 to sqrt(x), sum of (-j)^n x^(n + 1/2) / (n! (2n + 1)), to rounding of
-  // its largest term, e^x. Terms of both are real and imaginary by turns; these fall from n = x on.
+  // Small x: power series of the integral from 0 to sqrt(x), sum of (-j)^n x^(n + 1/2) / (n! (2n + 1)); its rounding
+  // error is that of the largest term, e^x. Terms of both series are alternately real and imaginary; these decrease
+  // from n = x on.
   double term = std::sqrt(x);
   std::array<double, 2> part{term, 0};
   for (int n = 1; n < 80 && term > 1e-18; ++n) {
@@ -58,7 +60,7 @@ Complex double_transition_function(double x, double y) {
 }
 
 Complex triple_transition_function(double x, double y, double z) {
-  if (nearly_equal(x, y)) {  // moved apart, which errs by its square
+  if (nearly_equal(x, y)) {  // moved apart; the error is of second order in kEqual
     const double mean = 0.5 * (x + y);
     x = (1 - kEqual) * mean;
     y = (1 + kEqual) * mean;

@@ -11,19 +11,19 @@
 namespace seaglint {
 namespace {
 
-constexpr double kMinLength = 1e-12;  // m: rim and foot may meet
-constexpr double kMinRun = 1e-3;      // rad, as of any stretch
-constexpr double kFar = 1e15;         // rim and foot are parallel
-// Nearer to grazing than this both ways are not told apart by rounding; the change goes on from there.
+constexpr double kMinLength = 1e-12;  // m; edge and foot may intersect
+constexpr double kMinRun = 1e-3;      // smallest |run|, rad
+constexpr double kFar = 1e15;         // bound of z where edge and foot are parallel
+// Smallest sine evaluated: below it the cancelling terms lose their digits, and the value is extrapolated linearly.
 constexpr double kMinSine = 1e-4;
-// Between angles as far apart the change is taken: what an interval's trace turns by.
+// Step of s for the numerical derivative: the aspect change of one trace, rad.
 constexpr double kTurn = 1e-3;
 
 }  // namespace
 
 Complex WallPenumbraTerm::at_sine(double s, double k, double share, double run) const {
   const double way = std::max(l[0] + share * (l[1] - l[0]), kMinLength), more = l[1] - l[0], c = std::sqrt(1 - s * s);
-  // What has its own phase, less than the foot's by k falls l, and so its own run.
+  // A term whose phase is that of the foot less k falls l, and so has its own run.
   const auto with_phase = [&](double falls, const auto& amplitude) {
     const double lower = k * (falls - psi_decrement), own = run - lower * more;
     const double kept = std::abs(own) < kMinRun ? std::copysign(kMinRun, own) : own;

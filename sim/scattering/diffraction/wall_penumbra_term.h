@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// What physical optics lacks, per metre, of the echo of a wall that stands in penumbra on a face which the wave grazes
-// (wall_penumbra.h), along a stretch of the wall.
+// Correction to physical optics, per metre, for a wall in the penumbra of the edge of a face at near-grazing incidence
+// (wall_penumbra.h), along an interval of the wall's foot.
 
 #include <array>
 
@@ -10,23 +10,28 @@
 
 namespace seaglint {
 
-// With s the sine of the wave's angle over the face, l the way on it from the rim to the wall, x = k l s^2: at the
-// foot, at the rim's shadow line on the wall or on its image, and by the way from rim to wall and back.
+// Sum of three contributions with s the sine of the wave's angle over the face, l the distance on the face from edge to
+// wall and x = k l s^2: at the foot of the wall, -1 / (2jks); at the edge's shadow-boundary line on the wall (s < 0) or
+// on its image, e^{-2jx} / (2jks); and of the path edge - wall - edge, (l / pi k)^(1/2) e^{-j pi/4} e^{-jx} [F(x) /
+// (2jx) -+ (1 - F(x))] (soft, hard); each times -jk / 2 pi.
 struct WallPenumbraTerm {
-  std::array<double, 2> l{};  // at the ends of the stretch, m, linear in between
+  std::array<double, 2> l{};  // distance from edge to wall at both ends of the interval, m; linear in between
   double sine = 0;            // s, -1 < s < 1
-  // shares of the end at the foot, of that at the line, and of the way from the rim
+  // weights of the three contributions
   double foot_weight = 0, shadow_line_weight = 1, edge_path_weight = 1;
-  bool soft = false;         // the electric field along the face, or the magnetic one
-  double psi_decrement = 0;  // by how much the footprint's psi is less than the foot's, per metre of l
-  // The part that turns with the angle. Near grazing both ways are infinite as 1 / s and cancel, so their sum is one
-  // amplitude, with its first-order change: as a point's own phase changes, that is (e^{jk g ds} - 1) / (jk g) for ds.
-  // Two footprints, of the sum less this and of this, the second with g, m, in its gradient along the face's normal.
+  bool soft = false;         // true: electric field parallel to the face; false: magnetic field parallel to it
+  double psi_decrement = 0;  // decrease of psi relative to that of the foot, per metre of l
+  // Part of a first-order expansion in s. Near grazing the contributions diverge as 1 / s and cancel, so their sum is
+  // one amplitude with its derivative. The derivative is represented by a second contribution whose path gradient has
+  // an additional component g (derivative_scale_m) along the face normal: its phase gives (e^{jk g ds} - 1) / (jk g)
+  // for a change ds of s. kComplete: no expansion; kValue: the sum less the derivative's amplitude; kDerivative: the
+  // derivative's amplitude.
   enum class Part { kComplete, kValue, kDerivative } part = Part::kComplete;
-  double derivative_scale_m = 0;  // g
+  double derivative_scale_m = 0;  // g, m
 
-  // Times length / (j run) it is what one end of the stretch leaves of the integral of e^{jk psi}, psi's phase running
-  // by `run` along it (not zero), rad.
+  // Amplitude at the fraction `share` of the interval: times length / (j run) it is the end-point contribution there to
+  // the integral of e^{jk psi} over the interval, run (rad, not zero) being the change of k psi over it. k: wavenumber,
+  // rad/m.
   Complex at(double k, double share, double run) const;
 
  private:

@@ -7,24 +7,25 @@
 
 namespace seaglint {
 
-// Cosine below which a facet is edge-on to a beam or to the receiver.
+// |cosine| below which a facet is edge-on to a beam or to the receiver.
 inline constexpr double kEdgeOn = 1e-9;
 
-// One face of a wedge in its own frame: x into the face, across the edge; n out of the conductor; t = x x n along the
-// edge.
+// Frame of one face of a wedge, unit vectors: x into the face, normal to the edge; n out of the conductor; t = x x n
+// along the edge.
 struct WedgeFace {
   Vec3 x, n, t;
 };
 
-// Of corners sharper than this, 12 deg, as N: their reflections are followed by beams, their edges are not asked.
+// Smallest wedge index N: concave edges with less than 12 deg between their faces do not diffract; beams follow their
+// reflections.
 inline constexpr double kMinWedgeIndex = 1.0 / 15;
 
 // An infinite wedge with perfectly conducting faces. The second face's t is minus the first one's.
 struct WedgeFrame {
   WedgeFace face[2];
-  // the exterior angle is N pi, 0 < N <= 2; 2 is a half-plane, below 1 a corner, not below kMinWedgeIndex
+  // Wedge index, exterior angle / pi, kMinWedgeIndex <= N <= 2: 2 half-plane, 3/2 convex right angle, below 1 concave.
   double N = 2;
-  double thickness_m = 0;  // of a half-plane (thick_edge.h)
+  double thickness_m = 0;  // of a half-plane, m (thick_edge.h)
 };
 
 }  // namespace seaglint

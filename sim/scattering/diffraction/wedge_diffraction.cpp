@@ -13,18 +13,19 @@ namespace {
 
 constexpr Complex j(0, 1);
 
-// A wave that travels in a face's plane from its edge on sends an infinite edge wave along it, whose transition
-// function is zero; their product has a limit. Both keep this angle from there, rad.
+// For a wave incident in the plane of a face the grazing wave is infinite and its transition function zero; their
+// product has a limit. Both are evaluated at this angle off the plane, rad.
 constexpr double kMinBoundaryAngle = 1e-7;
 
-// Half the sum of (1/N) cot((a - phi) / 2N) and (1/N) cot((a + phi) / 2N), over sin a, and half their difference.
+// sum: half of G(a - phi) + G(a + phi), over sin a; difference: half of G(a - phi) - G(a + phi); G(y) = cot(y / 2N) / N
+// less cot(y / 2) for every wave of physical optics.
 struct Cotangents {
   double sum, difference;
 };
 
-// The angles at which the waves of physical optics meet a face: the wave itself at phi and, in a corner (N < 1), what
-// the faces send to one another. The sources' images stand at phi + 2 N pi m, an odd number of times mirrored where
-// that is negative, and light the face from before it.
+// Incidence angles on a face of the waves of physical optics: phi and, for N < 1, those of the reflections between the
+// faces. Images of the source are at phi + 2 N pi m; those within pi of the face illuminate it, a negative angle
+// standing for an odd number of reflections.
 class FaceIncidenceAngles {
  public:
   FaceIncidenceAngles(double phi, double N) {
@@ -33,20 +34,20 @@ class FaceIncidenceAngles {
       if (angle > -kPi) angle_[count_++] = angle;
     }
   }
-  FaceIncidenceAngles() = default;  // none
+  FaceIncidenceAngles() = default;  // empty
 
   const double* begin() const { return angle_.data(); }
   const double* end() const { return angle_.data() + count_; }
   int size() const { return count_; }
 
  private:
-  static constexpr int kMax = 16;  // 1 / N + 1 at kMinWedgeIndex
+  static constexpr int kMax = 16;  // 1 / N + 1 for N = kMinWedgeIndex
   std::array<double, kMax> angle_{};
   int count_ = 0;
 };
 
-// (1/N) cot(x / 2N) at x = a - sign phi, less (1/2) cot of half of a - sign angle for each wave of physical optics:
-// regular where one of these is 0.
+// cot(x / 2N) / N at x = a - sign phi, less cot((a - sign angle) / 2) for each wave of physical optics; regular where
+// one of these arguments is 0.
 double half_cotangent(double a, double phi, double N, const FaceIncidenceAngles& optics, double sign) {
   const double x = a - sign * phi;
   double sum = 0;
@@ -65,7 +66,7 @@ Cotangents cotangents(double a, double phi, double N, const FaceIncidenceAngles&
   return {0.5 * (minus + plus) / std::sin(a), 0.5 * (minus - plus)};
 }
 
-// The same for imaginary a = j alpha, alpha > 0: the sum is sin(a / N) / sin a, the difference sin(phi / N), over
+// The same for imaginary a = j alpha, alpha > 0: the sum is sin(a / N) / sin a, the difference sin(phi / N), each over
 // N (cos(phi / N) - cos(a / N)).
 Cotangents cotangents_of_imaginary(double alpha, double phi, double N, const FaceIncidenceAngles& optics) {
   const auto of_wedge = [&](double n, double angle) {
@@ -78,7 +79,7 @@ Cotangents cotangents_of_imaginary(double alpha, double phi, double N, const Fac
     sum = {sum.sum + factor * c.sum, sum.difference + factor * c.difference};
   };
   for (const double angle : optics) {
-    // Near the common pole at 0 the first term of their difference errs by 1e-6, and so does the difference.
+    // Near the common pole at 0 the first term of the difference is used, with an error of 1e-6.
     const bool at_pole = angle * angle + alpha * alpha < 4e-5;
     const double rest = (1 - 1 / (N * N)) / 6;
     if (at_pole)
@@ -91,25 +92,24 @@ Cotangents cotangents_of_imaginary(double alpha, double phi, double N, const Fac
   return sum;
 }
 
-// Angle of the direction against the face, in the plane across the edge, 0..2 pi.
+// Angle of the direction from the face, in the plane normal to the edge, 0..2 pi.
 double angle_from_face(const WedgeFace& face, const Vec3& towards_source) {
   const double angle = std::atan2(towards_source.dot(face.n), towards_source.dot(face.x));
   return angle < 0 ? angle + 2 * kPi : angle;
 }
 
-// Integrals of eta k J / 2j over one face along the grazing diffracted ray (Michaeli 1984 and 1986; his alpha is pi - a
-// here). At a distance x from the edge Sommerfeld's wedge currents are contour integrals of e^{jkx cos xi} with the
-// cotangents of (xi +- phi') / 2N; weighted with e^{jkx mu} and summed over the half-line, x leaves 1 / (cos xi + mu),
-// whose pole at cos a = -mu leaves the cotangents at a +- phi' over sin a. Physical optics has N = 1. The tests hold
-// the sum of both faces to Keller's coefficients.
-// Physical optics is left out, unless `only_seen` and s does not see the face.
+// Adds the integrals of eta k J / 2j over one face along the grazing diffracted ray (Michaeli 1984 and 1986; his alpha
+// is pi - a here). At a distance x from the edge Sommerfeld's wedge currents are contour integrals of e^{jkx cos xi}
+// with the cotangents of (xi +- phi') / 2N. Weighted with e^{jkx mu} and integrated over the half-line in x they become
+// 1 / (cos xi + mu), whose pole at cos a = -mu leaves the cotangents at a +- phi' over sin a. The current of physical
+// optics, N = 1, is subtracted, with `only_visible` on faces that s sees only.
 void add_face_current(const WedgeFace& face, double N, double phi, bool only_visible, double shadow, const Vec3& k_hat,
                       std::span<const Vec3> fields, const Vec3& s, std::span<Vec3> sums) {
   const double cos_b = k_hat.dot(face.t);
   const double sin_b = std::sqrt(std::max(1 - cos_b * cos_b, 1e-12));
   const double mu = (sin_b * s.dot(face.x) + cos_b * (s.dot(face.t) - cos_b)) / (sin_b * sin_b);
-  // cos a = -mu; mu <= 1 for real directions, and a is imaginary where mu < -1. Both ends are removable, the one at pi
-  // only in the sum over the current's components across s: keep away from 0/0.
+  // cos a = -mu; mu <= 1 for real directions, and a is imaginary for mu < -1. The singularities at a = 0 and pi are
+  // removable, at pi only in the component of the current normal to s: a is kept off both.
   constexpr double kAside = 1e-7;
   const bool real = mu >= -1;
   const double a = real ? std::clamp(std::acos(std::clamp(-mu, -1.0, 1.0)), kAside, kPi - kAside)
@@ -123,7 +123,7 @@ void add_face_current(const WedgeFace& face, double N, double phi, bool only_vis
     const double H_t = k_hat.cross(fields[i]).dot(face.t), E_t = fields[i].dot(face.t);
     const double across = H_t / sin_b * cot.sum;
     double along = E_t / (sin_b * sin_b) * cot.difference + cos_b / sin_b * mu * across;
-    // What physical optics has of the current along the edge, written without its pole.
+    // Part of physical optics in the current along the edge, written without its pole.
     along += optics.size() * cos_b / sin_b * H_t / sin_b;
     sums[i] += across * face.x + along * face.t;
   }
@@ -136,11 +136,11 @@ void add_currents(const WedgeFrame& wedge, const Vec3& k_hat, std::span<const Ve
   for (int i = 0; i < 2; ++i)
     add_face_current(wedge.face[i], wedge.N, i == 0 ? phi : wedge.N * kPi - phi, only_visible, shadow, k_hat, fields, s,
                      sums);
-  // E_s = -(jk eta / 4 pi) (e^{-jkr}/r) integral J e^{jk s.x}; the integrals above are of eta k J / 2j.
+  // E_s = -(jk eta / 4 pi) (e^{-jkr}/r) integral J e^{jk s.x}; the integrals above are those of eta k J / 2j.
   for (Vec3& sum : sums) sum /= 2 * kPi;
 }
 
-// Of the angles +-phi + 2 N pi m, at which the sources' images stand, the one next to pi.
+// Of the image angles +-phi + 2 N pi m the one nearest to pi.
 double image_angle_nearest_grazing(double phi, double N) {
   const double round = 2 * N * kPi;
   const double plus = phi + round * std::round((kPi - phi) / round),
@@ -172,14 +172,14 @@ GrazingDiffractedWave grazing_diffracted_wave(const WedgeFrame& wedge, int face,
   double phi = angle_from_face(f, -k_hat);
   GrazingDiffractedWave wave{sin_b * f.x + cos_b * f.t, {}};
   if (phi > N * kPi) return wave;
-  // Of the waves that meet the face, in a corner by way of both, the one that is next to grazing it has the pole.
+  // Of the waves incident on the face, for N < 1 via both faces, the one nearest to grazing has the pole.
   const double image = N < 1 ? image_angle_nearest_grazing(phi, N) : phi;
   const double off = std::copysign(std::max(std::abs(kPi - image), kMinBoundaryAngle), kPi - image);
   phi = kPi - off;
   wave.launch_parameter = std::pow(sin_b * std::sin(off / 2), 2);
   const Complex D = std::polar(1.0, -kPi / 4) * std::sin(kPi / N) / (N * std::sqrt(2 * kPi) * sin_b) * 2.0 /
                     (std::cos(kPi / N) - std::cos(phi / N));
-  // H along t on the cone is sin_b of the whole, and E = H x direction lies along n.
+  // H along t on the cone is sin_b of its magnitude, and E = H x direction is along n.
   for (int i = 0; i < 2; ++i) wave.amplitude[i] = k_hat.cross(fields[i]).dot(f.t) * D / sin_b;
   return wave;
 }

@@ -13,16 +13,15 @@ namespace {
 constexpr Complex kJ(0, 1);
 constexpr double kVacuumPermittivity = 8.8541878128e-12;  // F/m, CODATA 2018
 
-// Of the two roots the one that decays along the wave, e^{-j kappa z} with Im kappa <= 0; propagating when it does not
-// decay.
+// Normal wavenumber over k0: the root that decays along e^{-j kappa z}, Im kappa <= 0; the propagating one where
+// neither decays.
 Complex decaying_root(const Complex& square) {
   const Complex root = std::sqrt(square);
   return root.imag() > 0 ? -root : root;
 }
 
-// Reflection of tangential E at an interface from medium a to b, kappa = k_z / k0: (Z_b - Z_a) / (Z_b + Z_a) with Z =
-// mu / kappa across the plane of incidence and kappa / eps in it. Written without divisions that a vanishing kappa
-// would spoil.
+// Reflection of tangential E at an interface from medium a to b, kappa = k_z / k0: (Z_b - Z_a) / (Z_b + Z_a), with Z =
+// mu / kappa for te and kappa / eps for tm; written without division by kappa, which may vanish.
 Complex interface_te(const Complex& mu_a, const Complex& kappa_a, const Complex& mu_b, const Complex& kappa_b) {
   return (mu_b * kappa_a - mu_a * kappa_b) / (mu_b * kappa_a + mu_a * kappa_b);
 }
@@ -75,7 +74,7 @@ MaterialSurface::MaterialSurface(const MaterialSpec& spec, double k)
 InterfaceCoefficients MaterialSurface::at(double cos_incidence) const {
   InterfaceCoefficients fields;
   if (kind_ == SurfaceKind::kImpedance) {
-    // Z_s against the wave impedances 1 / cos and cos; the sign of tm turns tangential E into the ray-fixed basis.
+    // Z_s against the wave impedances 1 / cos and cos; the sign of tm converts tangential E to the ray-fixed basis.
     const Complex z = impedance_;
     fields.te = (z * cos_incidence - 1.0) / (z * cos_incidence + 1.0);
     fields.tm = (cos_incidence - z) / (cos_incidence + z);
@@ -93,7 +92,7 @@ double MaterialSurface::roughness_factor(double cos_in, double cos_out) const {
 
 InterfaceCoefficients MaterialSurface::stack(double cos_incidence) const {
   const double sin_squared = 1 - cos_incidence * cos_incidence;
-  // From the free space in front (0) to what lies behind the last interface.
+  // Media from the free space in front (index 0) to the medium behind the last interface.
   struct Medium {
     Complex eps, mu, kappa;
   };
@@ -106,7 +105,7 @@ InterfaceCoefficients MaterialSurface::stack(double cos_incidence) const {
   // Gamma at the front of the last interface, then interface by interface towards the wave:
   //     Gamma_i = (rho_i + Gamma_{i+1} e^{-2j delta}) / (1 + rho_i Gamma_{i+1} e^{-2j delta}),
   // delta = k0 kappa d of the medium between them.
-  Complex te = -1, tm = -1;  // tangential E at a perfect conductor
+  Complex te = -1, tm = -1;  // perfect conductor, tangential E
   Complex te_transmission = 1, tm_transmission = 1;
   const bool has_conductor = !half_space_ && !air_behind_;
   double depth = 0;
@@ -114,7 +113,7 @@ InterfaceCoefficients MaterialSurface::stack(double cos_incidence) const {
     const Medium &a = media[i], &b = media[i + 1];
     const Complex rho_te = interface_te(a.mu, a.kappa, b.mu, b.kappa),
                   rho_tm = interface_tm(a.eps, a.kappa, b.eps, b.kappa);
-    const bool ends = i + 2 == media.size() && !has_conductor;  // nothing comes back from b
+    const bool ends = i + 2 == media.size() && !has_conductor;  // b is a half-space without reflection
     const double thickness = ends ? 0 : slabs_[i].thickness;
     const Complex once = std::exp(-kJ * k_ * b.kappa * thickness);
     const Complex back_te = ends ? 0 : te * once * once, back_tm = ends ? 0 : tm * once * once;

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// What a flat surface of some material does to a plane wave of one frequency.
+// Reflection and transmission of a plane wave at a flat surface of a material, at one frequency.
 //
-// Time factor e^{+jwt}, eps = eps' - j eps''. The wave travels along d and meets the surface at normal n (towards the
-// wave); s is a unit vector across the plane of incidence, p = s x d, and d' = d - 2 (n.d) n leaves along p' = s x d'.
-// In this ray-fixed basis
+// Time factor e^{+jwt}, eps = eps' - j eps''. The wave propagates along d and is incident on a surface with normal n
+// (towards the wave). s: unit vector normal to the plane of incidence; p = s x d; d' = d - 2 (n.d) n the direction of
+// the reflected wave, p' = s x d'. In this ray-fixed basis
+//
 //     E' = te (s.E) s + tm (p.E) p'
+//
 // so that a perfect conductor, E' = 2 (n.E) n - E, has te = -1, tm = +1, and tm = -te at normal incidence.
 
 #include <vector>
@@ -16,31 +18,31 @@
 
 namespace seaglint {
 
-// At one frequency, in Hz.
+// Value of a dispersive quantity at a frequency in Hz: constant, Debye terms or table.
 Complex value_at(const DispersionSpec& spec, double frequency_hz);
 
 struct InterfaceCoefficients {
-  Complex te = -1, tm = 1;  // reflected field
-  // Field behind an air-backed sheet relative to the one that would be there without it (referred to the front face); 0
-  // for all others.
+  Complex te = -1, tm = 1;  // reflection
+  // Field behind an air-backed sheet relative to the incident field there, phase referred to the front face; 0 for all
+  // other surfaces.
   Complex te_transmission = 0, tm_transmission = 0;
 };
 
-// A material at one frequency.
+// Material at one frequency.
 class MaterialSurface {
  public:
-  // k: wavenumber in free space, rad/m. The material's stated frequency range is not enforced here.
+  // k: free-space wavenumber, rad/m. The frequency range of the material's source is not checked here.
   MaterialSurface(const MaterialSpec& spec, double k);
 
   bool is_submerged() const { return kind_ == SurfaceKind::kSubmerged; }
 
-  // cos_incidence = |n.d|, 0 < x <= 1, for the smooth surface. Layers by the recursion of generalised reflection
-  // coefficients (W. C. Chew, Waves and Fields in Inhomogeneous Media, eq. 2.1.24, with j for -i).
+  // Coefficients of the smooth surface at cos_incidence = |n.d|, 0 < x <= 1. Layers: recursion of generalised
+  // reflection coefficients (W. C. Chew, Waves and Fields in Inhomogeneous Media, eq. 2.1.24, with j for -i).
   InterfaceCoefficients at(double cos_incidence) const;
 
-  // What roughness leaves of the coherent field scattered from cos_in = |n.d| to cos_out = n.r^: e^{-(k sigma (cos_in +
-  // cos_out))^2 / 2}, the mean of e^{jk zeta (cos_in + cos_out)} over Gaussian heights zeta; Ament's factor for a
-  // mirror.
+  // Factor of the coherent field scattered from cos_in = |n.d| to cos_out = n.r^ by roughness, e^{-(k sigma (cos_in +
+  // cos_out))^2 / 2}: the mean of e^{jk zeta (cos_in + cos_out)} over Gaussian heights zeta of RMS sigma; in the
+  // specular direction Ament's factor.
   double roughness_factor(double cos_in, double cos_out) const;
 
  private:
@@ -52,11 +54,11 @@ class MaterialSurface {
 
   SurfaceKind kind_;
   double k_;
-  double roughness_;       // m
+  double roughness_;       // RMS height, m
   Complex impedance_ = 0;  // relative to free space
   bool air_behind_ = false;
-  std::vector<Slab> slabs_;  // layers, then the half-space behind when it is a medium
-  bool half_space_ = false;  // the last slab has no end
+  std::vector<Slab> slabs_;  // layers, then the half-space behind them if it is a medium
+  bool half_space_ = false;  // the last slab is a half-space
 };
 
 }  // namespace seaglint

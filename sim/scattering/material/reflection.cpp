@@ -4,7 +4,7 @@
 namespace seaglint {
 namespace {
 
-// Across and in the plane of incidence, for the arriving and the leaving wave.
+// Basis vectors normal to and in the plane of incidence, for the incident and the reflected wave.
 struct IncidenceBasis {
   Vec3 s, p, leaving, p_leaving;
 };
@@ -12,7 +12,7 @@ struct IncidenceBasis {
 IncidenceBasis incidence_basis(const Vec3& d, const Vec3& n) {
   IncidenceBasis basis;
   const Vec3 across = d.cross(n);
-  // At normal incidence any s across d will do: te = -tm there.
+  // At normal incidence any s normal to d is valid, since te = -tm.
   const Vec3 any = std::abs(d.x()) < 0.7 ? Vec3(d.cross(Vec3::UnitX())) : Vec3(d.cross(Vec3::UnitY()));
   basis.s = (across.norm() > 1e-9 ? across : any).normalized();
   basis.p = basis.s.cross(d);
@@ -32,7 +32,7 @@ CVec3 reflected_field(const InterfaceCoefficients& surface, const Vec3& d, const
 CVec3 radiated_field(const InterfaceCoefficients& surface, const Vec3& d, const Vec3& n, const Vec3& r_hat,
                      const CVec3& E) {
   const IncidenceBasis b = incidence_basis(d, n);
-  // Each of the four plane waves is an amplitude times a real vector, so its currents are real vectors too.
+  // Each of the plane waves is a complex amplitude times a real vector, so that the cross products are real.
   const auto currents = [&](const Vec3& direction, const Vec3& field) -> Vec3 {
     return n.cross(direction.cross(field)) + r_hat.cross(n.cross(field));
   };

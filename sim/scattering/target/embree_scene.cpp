@@ -25,7 +25,8 @@ struct RayScene::Impl {
 
 namespace {
 
-// Embree wants denormal numbers as zero; the caller's arithmetic is its own again afterwards.
+// Sets denormal numbers to zero, as Embree requires, and restores the caller's floating-point mode at the end of the
+// scope.
 class DenormalsAreZero {
  public:
   DenormalsAreZero() : before_(_mm_getcsr()) {
@@ -44,7 +45,7 @@ class DenormalsAreZero {
 
 namespace {
 
-// What the builder makes, in its own arena, before it is laid out as BoxNodes: a leaf, or a node where it has no box.
+// Nodes of the builder, in its own memory: a leaf, or an inner node where box < 0.
 struct Built {
   int box = -1;
 };
@@ -105,7 +106,7 @@ std::vector<BvhNode> build_bvh(std::span<const Box3> boxes) {
   primitives.reserve(boxes.size());
   for (const Box3& box : boxes) primitives.push_back(primitive(box, static_cast<unsigned>(primitives.size())));
 
-  // One building thread, as for the scene: the tree never depends on the machine's load.
+  // One building thread, so that the tree does not depend on the machine's load.
   const RTCDevice device = rtcNewDevice("threads=1,set_affinity=0");
   if (!device) throw std::runtime_error("Embree: no device");
   const RTCBVH bvh = rtcNewBVH(device);
@@ -139,7 +140,7 @@ std::vector<BvhNode> build_bvh(std::span<const Box3> boxes) {
   };
   const auto* root = static_cast<const Built*>(rtcBuildBVH(&arguments));
   if (root && root->box >= 0) {
-    // A single box is a leaf without a node above it.
+    // A single box is a leaf without a parent node.
     const RTCBuildPrimitive p = primitive(boxes[0], 0);
     BvhNode node;
     node.children = 1;
@@ -156,11 +157,11 @@ std::vector<BvhNode> build_bvh(std::span<const Box3> boxes) {
 }
 
 RayScene::RayScene(std::span<const Facet> facets) : impl_(std::make_unique<Impl>()) {
-  // One building thread: the tree, and so the order of ties, never depends on the machine's load.
+  // One building thread, so that the tree and the order of ties do not depend on the machine's load.
   impl_->device = rtcNewDevice("threads=1,set_affinity=0");
   if (!impl_->device) throw std::runtime_error("Embree: no device");
   impl_->scene = rtcNewScene(impl_->device);
-  // Robust: rays aimed at shared edges do not slip through closed surfaces (7 % do otherwise, 0.1 % with it).
+  // Robust mode: of rays aimed at shared edges of closed surfaces 0.1 % pass through, without it 7 %.
   rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
   rtcSetSceneBuildQuality(impl_->scene, RTC_BUILD_QUALITY_HIGH);
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// What Embree builds: trees of boxes, which beams are walked through (PanelBvh), and scenes that answer which facet a
-// ray meets first, an independent check of what beams meet. Of a ray only the facet's number is used, since Embree's
-// distances are single precision.
+// Wrapper of Embree: the bounding-volume hierarchy that PanelBvh traverses, and ray queries for the first facet hit, an
+// independent check of the beam tracer. Ray queries return facet numbers only, since Embree's distances are single
+// precision.
 
 #include <array>
 #include <cstdint>
@@ -33,12 +33,11 @@ struct Box3 {
   }
 };
 
-// Of one node. A walk through a tree of eight to a node passes fewer than one of four; sixteen save no more
-// (README.md).
+// Branching factor of the hierarchy.
 inline constexpr int kMaxChildren = 8;
 
-// A node of a tree of boxes: its children, each with its box as Embree keeps it, in single precision rounded outwards.
-// A child below zero is box -1 - child of those given.
+// Node of a bounding-volume hierarchy: its children with their boxes, single precision rounded outwards. A child below
+// zero is the leaf of input box -1 - child.
 struct BvhNode {
   struct Child {
     std::int32_t index = 0;
@@ -48,14 +47,14 @@ struct BvhNode {
   int children = 0;
 };
 
-// Levels of nodes that build_bvh() never exceeds.
+// Largest depth of the hierarchy.
 inline constexpr int kMaxLevels = 64;
 
-// Embree's surface-area-heuristic tree over the boxes, one box to a leaf, the root first; the same for the same boxes.
-// Empty without boxes.
+// Bounding-volume hierarchy by Embree's surface-area heuristic, one box per leaf, root first; empty without boxes.
+// Equal boxes give equal trees. Throws std::runtime_error when Embree fails.
 std::vector<BvhNode> build_bvh(std::span<const Box3> boxes);
 
-// Immutable after construction; any number of threads may trace at once.
+// Facets as an Embree scene. Immutable after construction; queries are safe from any number of threads.
 class RayScene {
  public:
   explicit RayScene(std::span<const Facet> facets);
@@ -63,9 +62,9 @@ class RayScene {
   RayScene(RayScene&&) noexcept;
   RayScene& operator=(RayScene&&) noexcept;
 
-  // First facet along each ray, or kNoFacet. Neighbouring rays should be coherent: they are traced in packets of 16.
+  // First facet along each ray, or kNoFacet. Rays are traced in packets of 16; neighbouring rays should be coherent.
   void first_hits(std::span<const Ray> rays, std::span<int> facets) const;
-  // The same for rays that have nothing in common.
+  // The same for a single ray.
   int first_hit(const Ray& ray) const;
 
  private:

@@ -10,7 +10,7 @@
 namespace seaglint {
 namespace {
 
-// Vertices at the same position get one number.
+// Index of the first vertex at the same position, for every vertex.
 std::vector<std::uint32_t> weld(const std::vector<Vec3>& vertices) {
   std::map<std::tuple<double, double, double>, std::uint32_t> first;
   std::vector<std::uint32_t> number(vertices.size());
@@ -36,7 +36,7 @@ std::vector<Facet> make_facets(const TriangleMesh& mesh) {
     const double longest =
         std::max({(facet.corner[1] - facet.corner[0]).norm(), (facet.corner[2] - facet.corner[1]).norm(),
                   (facet.corner[0] - facet.corner[2]).norm()});
-    // A triangle whose height is below a thousandth of a micrometre scatters nothing and has no normal to speak of.
+    // Degenerate triangle: height below 1e-9 m.
     if (!(across.norm() > 1e-9 * longest)) continue;
     facet.normal = across.normalized();
     facet.offset = facet.normal.dot(facet.corner[0]);
@@ -47,10 +47,10 @@ std::vector<Facet> make_facets(const TriangleMesh& mesh) {
     indices.push_back({welded[triangle[0]], welded[triangle[1]], welded[triangle[2]]});
   }
 
-  // Every undirected edge with the facet sides that use it, linked in a ring.
+  // Facet sides sorted by undirected edge; sides of one edge are linked in a ring.
   struct Side {
     std::uint32_t low, high, facet, edge;
-    bool upward;  // from low to high
+    bool upward;  // runs from low to high
   };
   std::vector<Side> sides;
   sides.reserve(3 * facets.size());
@@ -64,7 +64,7 @@ std::vector<Facet> make_facets(const TriangleMesh& mesh) {
     return std::tie(a.low, a.high, a.facet, a.edge) < std::tie(b.low, b.high, b.facet, b.edge);
   });
   DisjointSets surfaces(facets.size());
-  std::vector<std::uint32_t> rims;  // facets at edges where the surface ends or turns inside out
+  std::vector<std::uint32_t> rims;  // facets at free edges or edges where the orientation reverses
   for (std::size_t i = 0; i < sides.size();) {
     std::size_t end = i + 1;
     int upward = sides[i].upward ? 1 : -1;

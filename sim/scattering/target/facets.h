@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The flat facets of a target as the solver sees them: planes and neighbours in double precision.
+// Flat facets of a target with planes and neighbours, double precision.
 
 #include <array>
 #include <cstdint>
@@ -13,18 +13,19 @@ namespace seaglint {
 
 struct Facet {
   std::array<Vec3, 3> corner;
-  Vec3 normal = Vec3::UnitZ();                        // unit, right-handed with the corners
-  double offset = 0;                                  // plane: normal . x = offset
-  double longest_edge = 0;                            // longest edge, m
-  std::array<std::int32_t, 3> neighbour{-1, -1, -1};  // across the edge corner[i] -> corner[i+1]; -1 at a rim; the
-                                                      // next of the ring where more than two facets share it
-  bool two_sided = false;                             // its connected surface has a rim: either side may be seen
-  std::uint16_t part = 0;
-  std::uint16_t material = 0;  // of the mesh
+  Vec3 normal = Vec3::UnitZ();  // unit, right-handed with the corners
+  double offset = 0;            // plane: normal . x = offset
+  double longest_edge = 0;      // m
+  // Facet across the side corner[i] -> corner[i+1]; -1 at a free edge; the next one of the ring where more than two
+  // facets share the side.
+  std::array<std::int32_t, 3> neighbour{-1, -1, -1};
+  bool two_sided = false;      // part of a surface with a free edge: visible from either side
+  std::uint16_t part = 0;      // index of mesh.part_names
+  std::uint16_t material = 0;  // index of mesh.materials
 };
 
-// Triangles without area are left out. Neighbours are found by position, so that seams of duplicated vertices do not
-// matter.
+// Facets of the mesh without its degenerate triangles (height below 1e-9 m). Neighbours are found by vertex position,
+// so that duplicated vertices do not separate facets.
 std::vector<Facet> make_facets(const TriangleMesh& mesh);
 
 }  // namespace seaglint

@@ -6,8 +6,7 @@
 
 #include "sim/scattering/target/embree_scene.h"
 
-// The function once for eight floats to a register and once for any processor; which of them runs is settled when the
-// program starts.
+// Compiles a function for AVX2 and for any x86-64 processor; the version is chosen at program start.
 #ifdef __x86_64__
 #define SEAGLINT_WIDE __attribute__((target_clones("avx2", "default")))
 #else
@@ -17,7 +16,7 @@
 namespace seaglint {
 namespace {
 
-// Cosine above which a panel faces away for certain, single precision allowed for.
+// normal . wave above which a panel faces away, with a margin for single precision.
 constexpr float kFacesAway = 1e-5F;
 
 }  // namespace
@@ -60,8 +59,8 @@ PanelBvh::PanelBvh(std::span<const Facet> facets, const Panels& panels) {
     }
     nodes_.push_back(node);
   }
-  // Centres, halves and the sums made of them are off by a few units in the last place of the largest coordinate, 6e-8
-  // of it each.
+  // Rounding error of centres, half-widths and their sums: a few units in the last place, 6e-8 each, of the largest
+  // coordinate.
   if (!boxes.empty()) slack_ = 1e-6 * (all.lower.norm() + all.upper.norm());
 }
 
@@ -94,9 +93,9 @@ PanelBvh::SeparatingAxes PanelBvh::axes_of(const Prism& prism) const {
   return axes;
 }
 
-// Every walk spends most of its time here. Wider registers give the same bits (no contraction).
+// Innermost loop of every traversal. All vector widths give the same bits (no contraction).
 SEAGLINT_WIDE void PanelBvh::find_separations(const Node& node, const SeparatingAxes& axes, Separations& gaps) {
-  Separations own;  // nothing else is stored in it, which the compiler has to know to take all lanes at once
+  Separations own;  // local, so that the compiler can vectorise over the lanes
   for (int lane = 0; lane < kMaxChildren; ++lane) {
     const auto larger = [](float a, float b) { return a > b ? a : b; };
     const auto at = [&](const SeparatingAxes::Axis<3>& axis) {

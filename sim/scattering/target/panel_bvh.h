@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Which panels may a beam meet? Embree's tree of boxes over the panels, asked with a prism instead of a ray: nothing is
-// missed, however small.
+// Bounding-volume hierarchy over the panels of a target, queried with the prism that a beam sweeps. The query is
+// conservative: no panel in the prism is missed, of any size.
 
 #include <array>
 #include <cstdint>
@@ -15,58 +15,60 @@
 
 namespace seaglint {
 
-// A bundle of parallel rays from one side of a plane: the points with lower[i] <= across[i] . x <= upper[i] and normal
-// . x >= offset, all axes unit vectors. It is walked along `along`.
+// Prism of parallel rays beyond a plane: points with lower[i] <= across[i] . x <= upper[i] and normal . x >= offset;
+// all axes are unit vectors, m. `along` is the direction in which distances are counted.
 struct Prism {
   std::array<Vec3, 2> across;
   std::array<double, 2> lower{}, upper{};  // m
   Vec3 normal = Vec3::UnitX();
   double offset = 0;  // m
   Vec3 along = Vec3::UnitX();
-  // what it lights faces this way: panels of closed surfaces with normal . wave > 0 are left out
+  // direction of propagation: panels of closed surfaces with normal . wave > 0 face away and are left out
   Vec3 wave = Vec3::UnitX();
 };
 
-// A panel as a walk comes upon it: what decides whether a beam meets it, and where, side by side in memory.
+// Panel with the data that decide whether a beam overlaps it, contiguous in memory.
 struct BvhPanel {
   Vec3 normal;                   // unit
-  double offset = 0;             // of its plane, normal . x = offset, m
-  const Vec3* corner = nullptr;  // its outline, counter-clockwise seen against the normal
-  std::int32_t facet = -1;       // the one it goes by
+  double offset = 0;             // plane normal . x = offset, m
+  const Vec3* corner = nullptr;  // outline, counter-clockwise about the normal
+  std::int32_t facet = -1;       // first facet of the panel
   std::uint16_t corners = 0;
-  bool open = false;  // either side may be seen
+  bool open = false;  // part of an open sheet: visible from either side
 
   std::span<const Vec3> outline() const { return {corner, corners}; }
 };
 
-// The panel that goes by this facet. Its outline stays that of facets and panels.
+// Panel with this first facet. Its outline refers to memory of facets and panels.
 BvhPanel bvh_panel(std::span<const Facet> facets, const Panels& panels, int facet);
 
-// Immutable after construction; any number of threads may ask at once. Facets and panels must outlive it.
+// Immutable after construction; queries are safe from any number of threads. Facets and panels must outlive it.
 class PanelBvh {
  public:
   PanelBvh(std::span<const Facet> facets, const Panels& panels);
 
-  // Calls visit(panel) for every panel that has a point in the prism and does not face away, and for some whose box
-  // only comes near or that lie edge-on, in an order that depends on tree and prism alone. visit returns how far along
-  // the prism panels still matter, m; those that begin beyond may be left out.
+  // Calls visit(panel) for every panel that overlaps the prism and does not face away, and for some further ones (boxes
+  // within rounding error of the prism, panels near edge-on), in an order that depends on tree and prism only. visit
+  // returns the position along the prism, m, beyond which panels are no longer needed; panels that begin beyond it may
+  // be left out.
   template <typename Visit>
   void traverse(const Prism& prism, const Visit& visit) const;
 
  private:
-  // Boxes side by side, so that the compiler compares them at once. A child below zero is panel -1 - child.
+  // Boxes of all children by component, so that one vector instruction tests them together. A child below zero is panel
+  // -1 - child.
   template <typename T>
   using PerChild = std::array<T, kMaxChildren>;
   struct alignas(64) Node {
-    std::array<PerChild<float>, 3> centre, half;  // m; half < 0: no box
-    // of a panel seen from one side; 0 of all else, which no direction rules out
+    std::array<PerChild<float>, 3> centre, half;  // m; half < 0: unused child
+    // normal of a one-sided panel; 0 for sheets and inner nodes
     std::array<PerChild<float>, 3> normal;
     PerChild<std::int32_t> child;
   };
-  // A prism in single precision, as boxes are tested against it. Along each of these axes it covers middle +- width,
-  // and a box its centre +- the sum of reach times half. Where they lie apart along one the two do not meet (separating
-  // axes: S. Gottschalk, M. C. Lin and D. Manocha, Proc. SIGGRAPH 1996, 171-180): two sides of the prism and, seen
-  // along it, the edges of the box, edge[e] having no part along axis e.
+  // Prism in single precision as separating axes (S. Gottschalk, M. C. Lin and D. Manocha, Proc. SIGGRAPH 1996,
+  // 171-180): on each axis the prism covers middle +- width, a box its centre +- the sum of extent times half; disjoint
+  // on one axis, they do not overlap. Axes: two sides of the prism and, projected along it, the edges of the box;
+  // edge[e] is normal to coordinate axis e.
   struct SeparatingAxes {
     template <std::size_t kParts>
     struct Axis {
@@ -74,30 +76,30 @@ class PanelBvh {
       float middle = 0, width = 0;
     };
     std::array<Axis<3>, 2> side;
-    std::array<Axis<2>, 3> edge;  // parts along the axes after e
-    Axis<3> normal, along;        // middle: where the prism begins; width: none
+    std::array<Axis<2>, 3> edge;  // components along the coordinate axes after e
+    Axis<3> normal, along;        // middle: position of the bounding plane; width unused
     std::array<float, 3> wave{};
   };
   SeparatingAxes axes_of(const Prism& prism) const;
 
-  // How prism and boxes stand to each other, for all children at once.
+  // Result of the overlap test for all children of a node.
   struct Separations {
-    PerChild<float>
-        separation;  // largest distance along an axis, or of a panel its facing away; above 0 they do not meet
-    PerChild<float> entry_distance;  // where along the prism the box begins, m
+    // Largest separation on an axis, or for a one-sided panel how far it faces away; above 0: no overlap.
+    PerChild<float> separation;
+    PerChild<float> entry_distance;  // nearest position of the box along the prism, m
   };
   static void find_separations(const Node& node, const SeparatingAxes& axes, Separations& gaps);
 
-  // A subtree or leaf still to be looked at, and where along the prism it begins.
+  // Subtree or leaf to be visited, and its nearest position along the prism.
   struct StackEntry {
     std::int32_t child;
     float entry_distance;
   };
-  // All children but one of each level wait at most, and all of the last.
+  // Largest stack: all children but one of every level, and all of the deepest.
   static constexpr std::size_t kMaxStack = (kMaxChildren - 1) * kMaxLevels + kMaxChildren;
-  std::vector<Node> nodes_;       // the first is the root
-  std::vector<BvhPanel> panels_;  // in the order of the nodes that hold them
-  double slack_ = 0;              // m, of single-precision boxes
+  std::vector<Node> nodes_;       // root first
+  std::vector<BvhPanel> panels_;  // in the order of the leaves
+  double slack_ = 0;              // rounding error of single-precision boxes, m
 };
 
 template <typename Visit>
@@ -118,8 +120,8 @@ void PanelBvh::traverse(const Prism& prism, const Visit& visit) const {
     }
     const Node& node = nodes_[next.child];
     find_separations(node, axes, gaps);
-    // Every child is put on top, and stays there if it meets the prism: no branch that nobody can foresee. To bring the
-    // nearest on top costs more than it saves.
+    // Every child is written to the top of the stack, which advances only where it overlaps the prism: no unpredictable
+    // branch.
     for (int lane = 0; lane < kMaxChildren; ++lane) {
       stack[waiting] = {node.child[lane], gaps.entry_distance[lane]};
       waiting += gaps.separation[lane] <= 0;

@@ -7,33 +7,33 @@
 namespace seaglint {
 namespace {
 
-// Corners nearer to a panel's plane than this lie in it: 1e-5 of a 10 mm wavelength, as for facets that coincide.
+// Largest distance of a facet's vertices from the panel's plane: 1e-5 of a wavelength of 10 mm, as for coplanar facets.
 constexpr double kInPlane = 1e-7;  // m
-// Cosine between normals of one plane: keeps out slivers that are smaller than kInPlane.
+// Smallest cosine between normals in one panel: excludes folded facets thinner than kInPlane.
 constexpr double kSameWay = 0.999;
-// While it grows, corners on straight sides included.
+// Limit while a panel grows, vertices on straight sides included.
 constexpr std::size_t kMaxCorners = 32;
 
 struct Outline {
   Vec3 normal;
   std::vector<Vec3> corner;
-  std::vector<std::array<int, 2>> side;  // facet and its edge from corner[i] to corner[i + 1]
+  std::vector<std::array<int, 2>> side;  // facet and its side along corner[i] -> corner[i + 1]
 };
 
-// Positive where the way a, b, c turns left about the normal, m^2; within kStraight of its length squared it goes
-// straight on.
+// Twice the signed area of the triangle a, b, c about the normal, m^2: positive for a left turn at b. Relative to the
+// squared length, values within kStraight count as collinear.
 double turn(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& normal) {
   return normal.dot((b - a).cross(c - b));
 }
 constexpr double kStraight = 1e-12;
 
-// Puts the far corner of the facet across side i, which it shares as `edge`, into the outline. False where that would
+// Adds the vertex `apex` of the facet across side i, its own side `edge`, to the outline; false where the result would
 // not be convex.
 bool grow(Outline& outline, std::size_t i, int facet, int edge, const Vec3& apex) {
   const std::size_t n = outline.corner.size();
   const auto at = [&](std::size_t j) -> const Vec3& { return outline.corner[j % n]; };
   const double straight = kStraight * (apex - at(i)).squaredNorm();
-  // A facet folded back upon this one has its far corner on the wrong side.
+  // A facet that is folded back has its apex on the wrong side.
   if (!(turn(at(i), apex, at(i + 1), outline.normal) > straight)) return false;
   if (turn(at(i + n - 1), at(i), apex, outline.normal) < -straight ||
       turn(apex, at(i + 1), at(i + 2), outline.normal) < -straight)
@@ -67,7 +67,7 @@ Panels::Panels(std::span<const Facet> facets, const SmoothSurface& surface)
       const auto joins = [&] {
         if (g < 0 || of_[g] >= 0 || surface.curved(f) || surface.curved(g)) return false;
         const Facet& other = facets[g];
-        // Two facets and no third share the edge.
+        // Exactly two facets share the side.
         const auto back = std::find(other.neighbour.begin(), other.neighbour.end(), from);
         if (back == other.neighbour.end() || other.part != first.part || other.material != first.material ||
             other.two_sided != first.two_sided)
@@ -82,7 +82,7 @@ Panels::Panels(std::span<const Facet> facets, const SmoothSurface& surface)
       if (joins()) {
         of_[g] = f;
         members_.push_back(g);
-        i = 0;  // what did not fit before may fit now
+        i = 0;  // a facet rejected before may fit the larger outline
       } else {
         ++i;
       }

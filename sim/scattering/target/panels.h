@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Panels: neighbouring facets of one plane, part and material that together are one convex polygon. A beam that meets a
-// flat wall meets one mirror, however the wall was cut into triangles. A panel goes by the number of its first facet;
-// its other facets stand back behind that one.
+// Panels: convex polygons of coplanar neighbouring facets of one part and material. A flat wall is one reflector,
+// independent of its triangulation. A panel is named by its first facet, the representative of its other facets.
 
 #include <cstdint>
 #include <span>
@@ -16,24 +15,23 @@ namespace seaglint {
 
 class Panels {
  public:
-  // A facet of a curved surface is a panel by itself.
+  // Every facet of a curved surface is a panel of its own. The facets must outlive the panels.
   Panels(std::span<const Facet> facets, const SmoothSurface& surface);
   explicit Panels(std::span<const Facet> facets) : Panels(facets, SmoothSurface(facets, 0, 0)) {}
 
-  // The facet that the panel of this facet goes by.
+  // Representative of the facet's panel.
   int representative(int facet) const { return of_[facet]; }
   bool is_representative(int facet) const { return of_[facet] == facet; }
-  // Corners of the panel that goes by this facet, counter-clockwise seen against its normal; none when it goes by
-  // another.
+  // Vertices of the panel with this representative, counter-clockwise about its normal; empty for any other facet.
   std::span<const Vec3> outline(int facet) const {
     if (is_single(facet)) return facets_[facet].corner;
     return {corners_.data() + first_corner_[facet], first_corner_[facet + 1] - first_corner_[facet]};
   }
-  // Its facets, itself the first; none when it goes by another.
+  // Facets of the panel, the representative first; empty for any other facet.
   std::span<const int> members(int facet) const {
     return {members_.data() + first_member_[facet], first_member_[facet + 1] - first_member_[facet]};
   }
-  // Longest distance of two corners of its panel, m; 0 when it goes by another.
+  // Largest distance between two vertices of the panel, m; 0 for a facet that is not a representative.
   double size(int facet) const { return size_[facet]; }
 
  private:
@@ -41,9 +39,9 @@ class Panels {
 
   std::span<const Facet> facets_;
   std::vector<int> of_;
-  std::vector<Vec3> corners_;  // panel by panel, of those with several facets
+  std::vector<Vec3> corners_;  // vertices by panel, of panels with several facets
   std::vector<int> members_;
-  std::vector<std::uint32_t> first_corner_, first_member_;  // of each facet, and one more
+  std::vector<std::uint32_t> first_corner_, first_member_;  // by facet, with one entry past the end
   std::vector<double> size_;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Which part of a target is made of what.
+// Materials of the parts of a target, and the cut at the sea level.
 
 #include <span>
 #include <string>
@@ -13,21 +13,21 @@
 namespace seaglint {
 
 struct PartMaterial {
-  std::string part;  // name of a part; with a * at the end, all parts whose names begin so
+  std::string part;  // name of a part; with a trailing *, every part whose name has that prefix
   MaterialSpec material;
 };
 
-// Gives every triangle a material: `all`, or the last of `parts` that names its part. Sets mesh.materials and
-// triangle_material, whatever the file said, and returns the specifications in the order of mesh.materials. Throws
-// InputError for a part that the mesh does not have.
+// Assigns a material to every triangle: `all`, or the last entry of `parts` that matches its part. Overwrites
+// mesh.materials and triangle_material and returns the specifications in the order of mesh.materials. Throws InputError
+// for a part that the mesh does not have.
 std::vector<MaterialSpec> assign_materials(TriangleMesh& mesh, const MaterialSpec& all,
                                            std::span<const PartMaterial> parts);
 
-// Cuts the mesh at z = height; what lies below hides what is behind it but neither reflects nor radiates. `materials`
-// are those of mesh.materials and get one more.
+// Cuts the mesh at z = height, m. Triangles below become a submerged material, appended to mesh.materials and
+// `materials`: they occlude but neither reflect nor radiate.
 void cut_at_sea_level(TriangleMesh& mesh, std::vector<MaterialSpec>& materials, double height);
 
-// Throws InputError when a frequency lies outside the range a material's source covers.
+// Throws InputError when a material's source does not cover lowest_hz to highest_hz.
 void check_frequencies(std::span<const MaterialSpec> materials, double lowest_hz, double highest_hz);
 
 }  // namespace seaglint

@@ -19,7 +19,7 @@ void append(std::vector<std::string>& sentences, const std::vector<std::string>&
   sentences.insert(sentences.end(), more.begin(), more.end());
 }
 
-// What `work` returns; its error messages begin with the place.
+// Result of `work`; prefixes its error messages with the place.
 template <class Work>
 auto at_place(const std::string& place, const Work& work) {
   try {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// A target between its mesh file and the solver: read, given its materials, repaired, checked, cut at the water.
+// Preparation of a target from its mesh file: read, assign materials, repair, check, cut at the waterline.
 
 #include <filesystem>
 #include <memory>
@@ -16,54 +16,55 @@
 
 namespace seaglint {
 
-// The material of the whole target (no part), of the part of this name, or with a * at its end of all parts whose names
-// begin so. The last choice that names a part holds.
+// Material of the whole target (no part), of one part, or with a trailing * of every part whose name has that prefix.
+// The last choice that matches a part applies.
 struct MaterialChoice {
   std::optional<std::string> part;
-  std::string material = "pec";  // a name of assets/materials or a file
-  std::string place;             // where it was chosen, as error messages begin
+  std::string material = "pec";  // name in assets/materials, or a file
+  std::string place;             // source of the choice, prefix of error messages
 };
 
-// A mesh file and what its surfaces are made of.
+// Mesh file with the materials of its surfaces.
 struct TargetSource {
   std::filesystem::path mesh;
   std::string unit = "m";
-  std::vector<MaterialChoice> materials;  // none: all is perfect conductor
-  std::filesystem::path material_folder;  // where files of materials are looked for first
+  std::vector<MaterialChoice> materials;  // empty: perfect conductor
+  std::filesystem::path material_folder;  // folder searched first for material files
   double lowest_hz = 1e9, highest_hz = 1e9;
-  // How error messages about the choice of materials, their frequencies and the mesh begin; empty: as they are.
+  // Prefixes of error messages about materials, their frequencies and the mesh; empty: none.
   std::string materials_place, frequencies_place, mesh_place;
 };
 
-// A mesh as the solver takes it.
+// Mesh in the form the solver requires, with its materials.
 struct SolverMesh {
   TriangleMesh mesh;
-  std::vector<MaterialSpec> materials;  // of mesh.materials
-  std::vector<std::string> doubts;      // a sentence for everything that was wrong with the file's mesh or may be
+  std::vector<MaterialSpec> materials;  // in the order of mesh.materials
+  std::vector<std::string> doubts;      // one sentence per defect or possible mistake of the mesh
 };
 
-// Reads the mesh, assigns its materials and repairs it. Throws InputError for a mesh that is missing, unsound or
-// without a triangle that has an area, for what check_target() refuses, and for a material that is missing, unsound or
-// not known at the frequencies.
+// Reads the mesh, assigns its materials and repairs it. Throws InputError for a mesh that is missing, invalid or
+// entirely degenerate, for what check_target() refuses, and for a material that is missing, invalid or not defined at
+// the frequencies.
 SolverMesh load_solver_mesh(const TargetSource& source);
 
 struct ScattererSettings {
-  std::optional<double> waterline_m;               // z of the mean water surface in the mesh's frame; absent: no sea
-  double crease_rad = radians(kDefaultCreaseDeg);  // facets that turn by less belong to one smooth surface
-  double sheet_thickness_m = 0;                    // of open surfaces
-  bool edges = true;                               // sharp edges are to scatter
+  std::optional<double> waterline_m;  // z of the mean sea surface in the mesh frame, m; absent: no sea
+  // Crease angle: adjacent facets whose normals differ by less form one smooth surface.
+  double crease_rad = radians(kDefaultCreaseDeg);
+  double sheet_thickness_m = 0;  // thickness of open surfaces
+  bool edges = true;             // edge diffraction is used
   double lowest_hz = 1e9, highest_hz = 1e9;
 };
 
-// A target ready to be illuminated.
+// Target ready for illumination.
 struct PreparedTarget {
-  TriangleMesh mesh;  // what lies below the waterline is of kSubmerged
+  TriangleMesh mesh;  // triangles below the waterline are submerged
   std::vector<MaterialSpec> materials;
-  std::vector<std::string> doubts;  // about mesh and edges
+  std::vector<std::string> doubts;  // warnings about mesh and edges
   std::shared_ptr<const Scatterer> scatterer;
 };
 
-// Cuts the mesh at the waterline, builds the scatterer and checks its edges.
+// Cuts the mesh at the waterline, builds the scatterer and checks its edges (check_edges()).
 PreparedTarget prepare_target(SolverMesh mesh, const ScattererSettings& settings);
 
 }  // namespace seaglint

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// A target as the solver keeps it, whatever the direction it is seen from.
+// Target geometry and materials of the solver, independent of the look direction.
 
 #include <span>
 #include <vector>
@@ -16,17 +16,17 @@
 
 namespace seaglint {
 
-// A target ready to be lit from any direction: its facets, the smooth surface behind them, panels, sharp edges and the
-// tree that beams are walked through. Built once per mesh; safe to share between threads.
+// Facets, smooth surface, panels, sharp edges and the panel hierarchy of a target. Built once per mesh; safe to share
+// between threads.
 class Scatterer {
  public:
-  // materials[i] is what mesh.materials[i] is made of; none: all is perfect conductor. Facets that turn by less than
-  // crease_rad (0..pi; 0 = all flat) belong to one smooth surface. Rims of open surfaces are those of sheets of
-  // sheet_thickness_m. Throws InputError when no triangle of the mesh has an area.
+  // materials[i]: material of mesh.materials[i]; empty: perfect conductor. crease_rad: adjacent facets whose normals
+  // differ by less form one smooth surface, 0..pi; 0: all facets flat. sheet_thickness_m: thickness of open surfaces at
+  // their free edges, m. Throws InputError when every triangle is degenerate.
   explicit Scatterer(const TriangleMesh& mesh, std::vector<MaterialSpec> materials = {},
                      double crease_rad = radians(kDefaultCreaseDeg), double sheet_thickness_m = 0);
 
-  // Surface and panels look at the facets: they may move, not be copied.
+  // Movable only: surface and panels refer to the facets.
   Scatterer(Scatterer&&) = default;
   Scatterer& operator=(Scatterer&&) = default;
 
@@ -37,7 +37,7 @@ class Scatterer {
   const SharpEdges& edges() const { return edges_; }
   double sheet_thickness() const { return sheet_thickness_; }  // m
   double radius() const { return radius_; }                    // of the bounding sphere about the body's origin, m
-  std::span<const MaterialSpec> materials() const { return materials_; }  // empty: all is perfect conductor
+  std::span<const MaterialSpec> materials() const { return materials_; }  // empty: perfect conductor
 
  private:
   std::vector<Facet> facets_;

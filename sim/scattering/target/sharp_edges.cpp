@@ -13,10 +13,10 @@ namespace {
 
 Vec3 side(const Facet& facet, int i) { return facet.corner[(i + 1) % 3] - facet.corner[i]; }
 
-// The face's frame for an edge direction t: n = t x x points out of the conductor.
+// Frame of a face for the edge direction t: n = t x x points out of the conductor.
 WedgeFace face_along(const Vec3& t, const Vec3& x) { return {x, t.cross(x), t}; }
 
-// Two faces that turn back by less than this, a sheet drawn with both its sides, are a half-plane.
+// Exterior angle below which two faces, the sides of a sheet meshed on both, form a half-plane.
 constexpr double kBackToBack = 1e-6;  // rad
 
 WedgeFrame wedge_of(const WedgeFace& first, const Vec3& x_second) {
@@ -25,7 +25,7 @@ WedgeFrame wedge_of(const WedgeFace& first, const Vec3& x_second) {
   return {{first, face_along(-first.t, x_second)}, exterior / kPi};
 }
 
-// Which side of `facet` is the edge between these two points, and in which direction? -1 when none.
+// Index of the side of `facet` between two points, in either sense; -1 when there is none.
 int side_between(const Facet& facet, const Vec3& a, const Vec3& b) {
   for (int i = 0; i < 3; ++i) {
     const Vec3 &p = facet.corner[i], &q = facet.corner[(i + 1) % 3];
@@ -34,28 +34,28 @@ int side_between(const Facet& facet, const Vec3& a, const Vec3& b) {
   return -1;
 }
 
-// Across the edge into the facet.
+// Unit vector in the facet, normal to its side i, pointing into the facet.
 Vec3 into(const Facet& facet, int i) {
   const Vec3 t = side(facet, i).normalized();
   return facet.normal.cross(t);
 }
 
-// Where the exterior angle goes into pi without a rest images solve a corner, and its edge sends nothing. The limit is
-// -60 dB of an edge: Keller's coefficients have the sine for a factor.
+// Images solve a wedge whose exterior angle divides pi, and its edge does not diffract: Keller's coefficients have the
+// factor sin(pi / N), of which 1e-3 is -60 dB.
 bool diffracts(const WedgeFrame& wedge) {
   return wedge.N > 1 || (wedge.N > kMinWedgeIndex && std::abs(std::sin(kPi / wedge.N)) > 1e-3);
 }
 
-// Edges that go on by less than this from where they meet are one run: rounding to single precision turns those of a
-// tenth of a metre, seventy metres out, by a tenth of it.
+// Angle below which adjacent edges count as collinear. Rounding to single precision turns edges of a tenth of a metre,
+// seventy metres from the origin, by a tenth of it.
 constexpr double kMaxChainBend = 1e-3;  // rad
-// Where more edges meet, as in a fan of loose triangles, each is a run that ends there.
+// Points where more edges meet, as in a fan of disconnected triangles, end every chain.
 constexpr std::ptrdiff_t kMaxMeetingEdges = 64;
 
-// Fills collinear_length_m.
+// Sets collinear_length_m.
 void measure_collinear_chains(std::vector<SharpEdge>& edges) {
   struct End {
-    Vec3 place, outwards;  // from here along the edge
+    Vec3 place, outwards;  // end point and direction from it along the edge
     std::size_t edge;
   };
   std::vector<End> ends;
@@ -66,7 +66,7 @@ void measure_collinear_chains(std::vector<SharpEdge>& edges) {
   const auto before = [](const Vec3& p, const Vec3& q) { return std::ranges::lexicographical_compare(p, q); };
   std::ranges::sort(ends, [&](const End& p, const End& q) { return before(p.place, q.place); });
 
-  std::vector<std::size_t> run(edges.size());  // an edge of the same run; of one edge of every run, itself
+  std::vector<std::size_t> run(edges.size());  // disjoint sets: parent edge in the same chain
   std::iota(run.begin(), run.end(), std::size_t{0});
   const auto head = [&](std::size_t e) {
     while (run[e] != e) e = run[e] = run[run[e]];
@@ -102,7 +102,7 @@ SharpEdges find_sharp_edges(std::span<const Facet> facets, double least_turn, do
     for (int i = 0; i < 3; ++i) {
       const Facet& facet = facets[f];
       const int g = facet.neighbour[i];
-      if (g >= 0 && g <= f) continue;  // found from the other facet
+      if (g >= 0 && g <= f) continue;  // already added from the other facet
       const Vec3 &a = facet.corner[i], &b = facet.corner[(i + 1) % 3];
       const Vec3 t = (b - a).normalized();
       SharpEdge edge{a, b, {f, f}, {}, {}, facet.two_sided};
@@ -112,7 +112,7 @@ SharpEdges find_sharp_edges(std::span<const Facet> facets, double least_turn, do
         add(edge, f, i, f, i);
         continue;
       }
-      // Two facets and no third: each is the other's neighbour here.
+      // Exactly two facets share the edge: each is the other's neighbour.
       const int k = side_between(facets[g], a, b);
       if (k < 0 || facets[g].neighbour[k] != f) continue;
       const Vec3 x_second = into(facets[g], k);
@@ -145,7 +145,7 @@ void index_by_panel(SharpEdges& edges, std::span<const Facet> facets, const Pane
 }
 
 const WedgeFrame* illuminated_wedge(const SharpEdge& edge, const Vec3& k_hat) {
-  // Outside a convex wedge is what lies before either face, outside a concave one what lies before both.
+  // The exterior of a convex wedge is in front of either face, that of a concave one in front of both.
   const auto before = [&](const WedgeFace& face) { return k_hat.dot(face.n) <= 0; };
   const auto& [first, second] = edge.front_wedge.face;
   const bool outside = edge.front_wedge.N > 1 ? before(first) || before(second) : before(first) && before(second);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The sharp edges of a target: where two facets meet at an angle, and the rims of sheets.
+// Sharp (diffracting) edges of a target: dihedral edges between two facets, and free edges of open sheets.
 
 #include <array>
 #include <cstdint>
@@ -17,27 +17,28 @@ namespace seaglint {
 inline constexpr int kNoEdge = -1;
 
 struct SharpEdge {
-  Vec3 a, b;                      // runs along facet[0]'s side, that is with t of its face
-  std::array<int, 2> facet{};     // equal at the rim of a sheet
-  WedgeFrame front_wedge;         // on the side of the normals
-  WedgeFrame back_wedge;          // the other one, of an open sheet
-  bool two_sided = false;         // the wave may come from either side
-  double collinear_length_m = 0;  // length of the straight run of edges that it is a part of, however it was cut
+  Vec3 a, b;                      // end points, m, in the sense of facet[0]'s side, that of t of its face
+  std::array<int, 2> facet{};     // adjacent facets; equal at a free edge
+  WedgeFrame front_wedge;         // wedge on the side of the facet normals
+  WedgeFrame back_wedge;          // wedge on the other side, of an open sheet
+  bool two_sided = false;         // the wave may be incident from either side
+  double collinear_length_m = 0;  // of the chain of collinear edges it belongs to, independent of the triangulation
 
   bool is_free_edge() const { return facet[0] == facet[1]; }
   double length() const { return (b - a).norm(); }
   const Vec3& along() const { return front_wedge.face[0].t; }  // unit, from a to b
 };
 
-// An edge that may diffract as the panel on one of its sides keeps it: what tells whether a wave on the panel has to do
-// with the edge, side by side in memory.
+// Edge that may diffract, seen from the panel on one of its sides: the data that decide whether a wave on that panel
+// illuminates the edge, contiguous in memory.
 struct PanelEdge {
-  Vec3 normal, other_normal;  // of the facet on this side and of the one on the other
+  Vec3 normal, other_normal;  // normals of the facet on this side and on the other side
   std::int32_t edge = kNoEdge;
-  bool two_sided = false;      // the wave may come from either side
-  bool is_first_face = false;  // the facet is the edge's first
+  bool two_sided = false;      // the wave may be incident from either side
+  bool is_first_face = false;  // the facet on this side is the edge's facet[0]
 
-  // False where records_edge() is, of closed surfaces; of sheets it depends on the side that the wave comes from.
+  // Conservative form of records_edge() for a wave along `direction`: exact on closed surfaces, always true on sheets,
+  // where the side of incidence decides.
   bool may_record_edge(const Vec3& direction) const {
     const double here = -normal.dot(direction), there = -other_normal.dot(direction);
     return two_sided || (is_first_face ? here >= there : here > there);
@@ -46,35 +47,37 @@ struct PanelEdge {
 
 struct SharpEdges {
   std::vector<SharpEdge> edges;
-  std::vector<std::array<int, 3>> edges_of_facet;  // edge along corner[i] -> corner[i + 1], or kNoEdge
-  std::vector<PanelEdge> panel_edges;              // panel after panel, by the facets they go by
-  std::vector<std::uint32_t> panel_offset;         // of each facet, and one more
+  std::vector<std::array<int, 3>> edges_of_facet;  // edge along the side corner[i] -> corner[i + 1], or kNoEdge
+  std::vector<PanelEdge> panel_edges;              // by panel, in the order of first facets
+  std::vector<std::uint32_t> panel_offset;         // by facet, with one entry past the end
 
-  // None when the facet's panel goes by another.
+  // Edges of the panel with this first facet; empty for any other facet. Valid after index_by_panel().
   std::span<const PanelEdge> edges_of_panel(int facet) const {
     return {panel_edges.data() + panel_offset[facet], panel_offset[facet + 1] - panel_offset[facet]};
   }
 };
 
-// Edges whose faces turn by at least `least_turn` (rad), with their runs; the rims of sheets get their thickness. Edges
-// of three and more facets are left out: nobody can tell their wedge.
+// Edges whose face normals differ by at least `least_turn` (rad), with their collinear lengths. Free edges of sheets,
+// and edges of sheets meshed on both sides, have the thickness sheet_thickness_m. Edges shared by three or more facets
+// have no defined wedge and are left out.
 SharpEdges find_sharp_edges(std::span<const Facet> facets, double least_turn, double sheet_thickness_m = 0);
 
-// Fills panel_edges from of_facet, before which edges_of_panel() must not be asked. Edges that no wave is diffracted by
-// are left out: corners of closed surfaces with a right angle, or any other that goes into pi.
+// Fills panel_edges and panel_offset from edges_of_facet. Edges that never diffract are left out: concave edges of
+// closed surfaces whose exterior angle divides pi, such as a right angle.
 void index_by_panel(SharpEdges& edges, std::span<const Facet> facets, const Panels& panels);
 
-// The wedge or corner (N < 1) a wave along k_hat meets, or nothing when it comes from within or images solve the
-// corner.
+// Wedge that a wave along k_hat illuminates: front or back of the edge; null when the wave arrives from inside the
+// conductor, or where images solve the wedge exactly (N = 1/2, 1/3, ...).
 const WedgeFrame* illuminated_wedge(const SharpEdge& edge, const Vec3& k_hat);
 
-// The same of a wave that lights the panel on one side of the edge (`first`: that of its first facet). Nothing where
-// the sheet's lit side is not the wedge's face there: the wave was reflected by the panel beyond the edge, comes as if
-// from behind it, and is a part of the corner's answer.
+// The same for a wave that illuminates the panel on one side of the edge (`first`: that of facet[0]). Null where the
+// illuminated side of a sheet is not a face of that wedge: the wave was then reflected by the other panel of a concave
+// edge between two sheets and belongs to the field of that concave edge.
 const WedgeFrame* wedge_on_illuminated_face(const SharpEdge& edge, bool first, const Vec3& k_hat);
 
-// Whether that panel speaks for the edge, whose wedge the wave meets: of its two faces the one that faces the wave more
-// squarely does, which wedge_on_illuminated_face() has lit; a rim has one panel.
+// True for the one of the two adjacent panels that records the illumination of the edge, so that it is counted once:
+// the panel closer to normal incidence, which wedge_on_illuminated_face() guarantees to be illuminated. A free edge has
+// one panel.
 bool records_edge(const SharpEdge& edge, const WedgeFrame& wedge, bool first, const Vec3& k_hat);
 
 }  // namespace seaglint

@@ -13,7 +13,7 @@ struct FacetCorner {
   std::int8_t corner = 0;
 };
 
-// The corner of a facet at this position, or -1.
+// Index of the facet's corner at this position, or -1.
 int corner_at(const Facet& facet, const Vec3& position) {
   for (int i = 0; i < 3; ++i) {
     if (facet.corner[i] == position) return i;
@@ -21,8 +21,8 @@ int corner_at(const Facet& facet, const Vec3& position) {
   return -1;
 }
 
-// The facet that continues f smoothly across its edge: the only other one there, run through in the opposite direction,
-// turning by less than the crease.
+// Facet that continues f smoothly across its side: the only neighbour there, of the same orientation, whose normal
+// differs by less than the crease angle; else -1.
 int smooth_neighbour(std::span<const Facet> facets, int f, int edge, double cos_crease) {
   const int g = facets[f].neighbour[edge];
   if (g < 0 || facets[f].normal.dot(facets[g].normal) < cos_crease) return -1;
@@ -35,10 +35,10 @@ double width(const Facet& facet) {
   return (facet.corner[1] - facet.corner[0]).cross(facet.corner[2] - facet.corner[0]).norm() / facet.longest_edge;
 }
 
-// A facet's say in a vertex normal. Among facets of about the same width: sin(angle) / (product of the two sides),
-// exact on a sphere however the facets lie (N. Max, Journal of Graphics Tools 4, 1999, 1-6). Else its angle times its
-// width, which keeps a large flat face flat beside the narrow strips of a fillet: it takes no more than their sagitta.
-// Neither depends on how a flat face is cut into triangles.
+// Weight of a facet in a vertex normal. Facets of similar width: sin(angle) / (product of the two sides), exact on a
+// sphere for any triangulation (N. Max, Journal of Graphics Tools 4 (1999) 1-6). Otherwise angle times width, which
+// keeps a large flat face next to the narrow strips of a fillet flat to within their sagitta. Neither depends on the
+// triangulation of a flat face.
 double weight(const Facet& facet, int corner, bool alike) {
   const Vec3 a = facet.corner[(corner + 1) % 3] - facet.corner[corner],
              b = facet.corner[(corner + 2) % 3] - facet.corner[corner];
@@ -46,14 +46,14 @@ double weight(const Facet& facet, int corner, bool alike) {
   return alike ? twice_area / (a.squaredNorm() * b.squaredNorm()) : std::atan2(twice_area, a.dot(b)) * width(facet);
 }
 
-// Facets whose widths differ by less than this are steps of one tessellation.
+// Ratio of widths below which facets are of similar width.
 constexpr double kAlike = 2;
 
-// dn = B dx over one facet, from the normals at its corners.
+// B of dn = B dx on one facet, from the normals at its corners, 1/m.
 Mat3 normal_derivative(const Facet& facet, const std::array<Vec3, 3>& normal) {
   const Vec3 e1 = facet.corner[1] - facet.corner[0], e2 = facet.corner[2] - facet.corner[0];
   const Vec3 across = e1.cross(e2);
-  // The dual basis of e1, e2 in the facet.
+  // Dual basis of e1, e2 in the facet's plane.
   const Vec3 d1 = e2.cross(across) / across.squaredNorm(), d2 = across.cross(e1) / across.squaredNorm();
   return (normal[1] - normal[0]) * d1.transpose() + (normal[2] - normal[0]) * d2.transpose();
 }
@@ -69,7 +69,7 @@ SmoothSurface::SmoothSurface(std::span<const Facet> facets, double crease, doubl
     for (int e = 0; e < 3; ++e) smooth[f][e] = crease > 0 ? smooth_neighbour(facets, f, e, cos_crease) : -1;
   }
 
-  // Fans: the facets reached from one corner by turning about it across smooth edges.
+  // Fan of a corner: facets connected to it through smooth sides at its vertex.
   std::vector<std::array<std::int32_t, 3>> vertex_of(facets.size(), {-1, -1, -1});
   std::vector<FacetCorner> members;
   for (int f = 0; f < count; ++f) {
@@ -117,7 +117,7 @@ SmoothSurface::SmoothSurface(std::span<const Facet> facets, double crease, doubl
     for (int i = 0; i < 3; ++i) normal[i] = vertices_[vertex_of[f][i]].normal;
     double highest = 0;
     for (int i = 0; i < 3; ++i) {
-      // An arc of chord e whose end normals differ by dn stands dn . e / 8 above its chord.
+      // Sagitta of an arc with chord e whose end normals differ by dn: dn . e / 8.
       const int j = (i + 1) % 3;
       curved.sagitta[i] = (normal[j] - normal[i]).dot(facet.corner[j] - facet.corner[i]) / 8;
       highest = std::max(highest, std::abs(curved.sagitta[i]));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The smooth surface behind a tessellation: vertex normals inside creases, how far the surface stands above its facets,
-// and how it curves.
+// Smooth surface approximated by a mesh: vertex normals between creases, height of the surface above its facets, and
+// curvature.
 
 #include <array>
 #include <cstdint>
@@ -13,48 +13,49 @@
 
 namespace seaglint {
 
-// Facets whose normals differ by less than this hang together smoothly. Fairings and hulls are cut into steps below 15
-// deg, the sides of a modelled pipe or mast turn by 22 deg (16 sides) and more, knuckles and box edges by more still.
+// Default crease angle. On fairings and hulls adjacent facets turn by less than 15 deg, on the sides of modelled pipes
+// and masts (16 sides and fewer), knuckles and box edges by 22 deg and more.
 inline constexpr double kDefaultCreaseDeg = 20;
 
-// One vertex as the facets of one smooth fan share it; a vertex on a sharp edge has one for each side.
+// Vertex of one smooth fan of facets; a vertex on a sharp edge occurs once for each side.
 struct SmoothVertex {
   Vec3 normal = Vec3::UnitZ();
-  Mat3 curvature = Mat3::Zero();      // second fundamental form: t . curvature t is the normal curvature along the unit
-                                      // tangent t, convex > 0, 1/m
-  std::int32_t first = 0, count = 0;  // its facets in fan()
+  Mat3 curvature = Mat3::Zero();      // second fundamental form, 1/m: t . curvature t is the normal curvature along the
+                                      // unit tangent t, convex > 0
+  std::int32_t first = 0, count = 0;  // its facets in fan_
 };
 
-// A facet with what the surface does above it.
+// Facet of a curved surface.
 struct CurvedFacet {
   std::array<std::int32_t, 3> vertex{};
-  std::array<double, 3>
-      sagitta{};  // of the edge corner[i] -> corner[i+1] in its middle, along the mean of the two vertex normals, m
+  std::array<double, 3> sagitta{};  // height of the surface over the midpoint of side corner[i] -> corner[i+1], along
+                                    // the mean of its two vertex normals, m
 };
 
 class SmoothSurface {
  public:
-  // crease: 0 <= x <= pi, rad; 0 leaves every facet flat. A facet above which the surface stands by less than
-  // `negligible` metres stays flat.
+  // crease: crease angle, 0 <= x <= pi rad; 0 makes every facet flat. Facets over which the surface rises by less than
+  // `negligible` (m) stay flat. The facets must outlive the surface.
   SmoothSurface(std::span<const Facet> facets, double crease, double negligible);
 
-  // Null where the facet is flat.
+  // Null for a flat facet.
   const CurvedFacet* curved(int facet) const {
     return index_[facet] < 0 ? nullptr : &curved_[static_cast<std::size_t>(index_[facet])];
   }
   const SmoothVertex& vertex(int i) const { return vertices_[static_cast<std::size_t>(i)]; }
   std::size_t curved_count() const { return curved_.size(); }
 
-  // How far a vertex lies inside the light of a source in `direction` (unit, towards it), as x = sin(elevation over the
-  // surface) / kappa^(1/3), m^(1/3), with kappa the curvature along the ray; no more than 0 where a facet of its fan
-  // faces away, infinite where the surface does not bend away. side: -1 to look at the back of a sheet.
+  // Distance of a vertex from the shadow boundary of a wave from `direction` (unit, towards its source) on the
+  // illuminated side: sin(elevation over the surface) / kappa^(1/3), m^(1/3), kappa the normal curvature along the ray.
+  // Zero where a facet of the vertex's fan faces away, infinite where the surface does not curve away. side: +1, or -1
+  // for the back of a sheet.
   double shadow_boundary_distance(int vertex, const Vec3& direction, double side) const;
 
  private:
-  std::vector<std::int32_t> index_;  // into curved_, -1 = flat
+  std::vector<std::int32_t> index_;  // index into curved_; -1: flat
   std::vector<CurvedFacet> curved_;
   std::vector<SmoothVertex> vertices_;
-  std::vector<std::int32_t> fan_;  // the facets of each vertex
+  std::vector<std::int32_t> fan_;  // facets by vertex
   std::span<const Facet> facets_;
 };
 

@@ -12,22 +12,25 @@
 namespace seaglint {
 namespace {
 
-constexpr double kMinWavelengths = 3;     // physical optics of a plate this wide is off by a dB at its normal
-constexpr double kLongestTarget_m = 5e3;  // no ship is longer than a tenth of it
-constexpr double kFarOrigin = 10;         // half-sizes from the origin
-constexpr double kTooFarOrigin = 300;     // details of a thirtieth of the half-size would be left out
-constexpr double kMinDetail = 7e-5;       // of the radius about the origin (default_ray_spacing / 14)
+// Smallest size in wavelengths: physical optics of a plate this wide has an error of 1 dB at normal incidence.
+constexpr double kMinWavelengths = 3;
+constexpr double kLongestTarget_m = 5e3;  // ten times the longest ships
+constexpr double kFarOrigin = 10;         // half-sizes from the origin: warning
+// Half-sizes from the origin, error: details of a thirtieth of the half-size are below the smallest patch.
+constexpr double kTooFarOrigin = 300;
+constexpr double kMinDetail = 7e-5;  // smallest patch in radii about the origin (default_ray_spacing / 14)
 constexpr std::size_t kManyTriangles = 1'000'000;
-// What a million triangles take on two cores: a wavy sheet of 10 million, and one of 2 million whose edges are all
-// sharp.
+// Memory and time per million triangles on two cores, measured on a wavy sheet of 10 million and on a mesh of 2 million
+// with all edges sharp.
 constexpr double kGigabytesOfSmooth = 0.9, kGigabytesOfSharp = 2;
 constexpr double kSecondsToBuild = 8, kSecondsOfSmooth = 5, kSecondsOfSharp = 22;
 
 constexpr double kNarrow = 1.0 / 3;  // wavelengths
-// wavelengths: 0.2 dB of a strip's soft, 0.8 of its hard echo (README.md, "Thick sheets")
+// wavelengths: error 0.2 dB (soft) and 0.8 dB (hard) of a strip's echo (sim/scattering/diffraction/README.md, "Thick
+// sheets").
 constexpr double kThickSheet = 0.1;
 
-// Of the panel that the facet belongs to, m^2.
+// Area of the panel of a facet, m^2.
 double panel_area(const Scatterer& scatterer, int facet) {
   double area = 0;
   for (const int member : scatterer.panels().members(scatterer.panels().representative(facet))) {
@@ -89,7 +92,7 @@ std::vector<std::string> check_edges(const Scatterer& scatterer, bool followed, 
     const auto is_narrow = [&](int facet) { return panel_area(scatterer, facet) < kNarrow * longest * length; };
     if (length > longest && is_narrow(edge.facet[0]) && is_narrow(edge.facet[1])) narrow += length;
   }
-  // As panels list them, only edges of perfect conductors.
+  // panel_edges holds edges of perfect conductors only.
   const SharpEdges& edges = scatterer.edges();
   const bool any_free_edge = std::ranges::any_of(
       edges.panel_edges, [&](const PanelEdge& side) { return edges.edges[side.edge].front_wedge.thickness_m > 0; });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Whether a target is one that this solver can answer for: its size in wavelengths, its place, and how much work it is.
+// Checks of a target against the validity of the solver: electrical size, position and number of triangles.
 
 #include <string>
 #include <vector>
@@ -11,19 +11,17 @@
 
 namespace seaglint {
 
-// What a user should know before the first trace, one sentence each; empty for most targets. lowest_hz: of the sweep.
-// Throws InputError when the target lies so far from its origin that its details fall below the smallest that are
-// followed.
+// One sentence per warning; empty for most targets. lowest_hz: lowest frequency of the sweep. Throws InputError when
+// the target is more than 300 half-sizes from its origin, so that its details are smaller than the smallest patch kept.
 std::vector<std::string> check_target(const TriangleMesh& mesh, double lowest_hz);
 
-// A sentence where sharp edges longer than a wavelength bound bars and strips narrower than a third of it on every
-// side: the edges' currents are those of half-planes that do not know of each other, and return too much. Another where
-// sheets are thicker than a tenth of the shortest wavelength, or have a thickness that changes nothing: there are none,
-// or edges are not followed.
+// One sentence where sharp edges longer than a wavelength bound bars or strips narrower than a third of it on both
+// sides: their half-plane currents neglect each other and return too much. One sentence where sheets are thicker than a
+// tenth of the shortest wavelength, or where a thickness has no effect: no sheets, or edges not used (`followed`).
 std::vector<std::string> check_edges(const Scatterer& scatterer, bool followed, double lowest_hz, double highest_hz);
 
-// Throws InputError where a radar at this range (0: far field) stands too near for the second order of the wavefront
-// over a target that reaches `radius_m` from its origin: beyond ten radii the third order is below a tenth of it.
+// Throws InputError where the wavefront range (m; 0: plane wave) is less than ten times the target's radius about its
+// origin: beyond that the third-order term of the wavefront is below a tenth of the second-order one.
 void check_wavefront_range(double radius_m, double range_m);
 
 }  // namespace seaglint
