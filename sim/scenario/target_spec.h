@@ -72,7 +72,7 @@ struct PointSpec {
 };
 
 // How many bounces count, and how many may be asked for. On the ship 8 leave out up to -11 dB, 40 less than -39 dB
-// (sim/scattering/README.md, "Deep legs").
+// (sim/scattering/README.md, "High-order bounces" of tests/README.md).
 inline constexpr int kDefaultBounces = 40, kMaxBounces = 200;
 
 // Zero in a field marked (auto) means: derived from the mesh's size by the formula in sim/scattering/README.md.

@@ -28,7 +28,7 @@ namespace seaglint {
 
 namespace {
 
-struct SeaReflectionArguments {
+struct SeaArguments {
   ScenarioArguments scenario;
   std::string output;
   std::string spectrum;
@@ -94,7 +94,7 @@ std::string as_comment(const std::string& lines) {
   return text;
 }
 
-std::string series_csv(const WaveField& field, const SeaReflectionArguments& arguments, const StopFlag& stop) {
+std::string series_csv(const WaveField& field, const SeaArguments& arguments, const StopFlag& stop) {
   std::string text = fmt::format("# at x {} m, y {} m of the target frame\n", arguments.at[0], arguments.at[1]);
   text += "time_s,elevation_m,elevation_linear_m,slope_x,slope_y";
   if (arguments.kinematics) {
@@ -120,7 +120,7 @@ std::string series_csv(const WaveField& field, const SeaReflectionArguments& arg
   return text;
 }
 
-void write_sea(const SeaReflectionArguments& arguments, const CommandContext& shell) {
+void write_sea(const SeaArguments& arguments, const CommandContext& shell) {
   require_figure(arguments.figure);
   const std::vector<std::string> outputs{arguments.output, arguments.spectrum, arguments.figure};
   require_outputs(outputs, {arguments.scenario.file});
@@ -156,7 +156,7 @@ void write_sea(const SeaReflectionArguments& arguments, const CommandContext& sh
 void add_sea(CLI::App& app, CommandContext& shell) {
   CLI::App* command = app.add_subcommand(
       "sea", "Write elevation and slope of the scenario's first sea state over time, its spectrum and its statistics");
-  auto arguments = std::make_shared<SeaReflectionArguments>();
+  auto arguments = std::make_shared<SeaArguments>();
   add_scenario_arguments(*command, arguments->scenario);
   command->add_option("-o,--output", arguments->output, "CSV file to write")->required();
   command->add_option("--at", arguments->at, "Place X,Y in the target frame, m")

@@ -25,7 +25,7 @@ struct Property {
   Number count = Number::kUint8;
 };
 
-struct ArrayType {
+struct Element {
   std::string name;
   std::uint64_t count = 0;
   std::vector<Property> properties;
@@ -75,7 +75,7 @@ class PlyCheck {
 
   SanitisedPolygons check() {
     header();
-    for (const ArrayType& element : elements_) {
+    for (const Element& element : elements_) {
       min_size(element);
       if (element.name == "vertex") {
         vertices(element);
@@ -142,7 +142,7 @@ class PlyCheck {
         const std::string_view name = next_word(line), count = next_word(line);
         const auto number = integer_of(count);
         if (!number || *number < 0) fail(fmt::format("the PLY header promises \"{}\" of \"{}\"", count, name));
-        for (const ArrayType& element : elements_) {
+        for (const Element& element : elements_) {
           if (element.name == name) fail(fmt::format("the PLY header has \"{}\" twice", name));
         }
         elements_.push_back({std::string(name), static_cast<std::uint64_t>(*number), {}});
@@ -166,7 +166,7 @@ class PlyCheck {
   }
 
   // The promised count against what the file can hold at least, before anything is reserved.
-  void min_size(const ArrayType& element) const {
+  void min_size(const Element& element) const {
     std::uint64_t least = 0;
     for (const Property& property : element.properties) {
       least += is_ascii_ ? 2 : size_of(property.is_list ? property.count : property.value);
@@ -206,7 +206,7 @@ class PlyCheck {
     for (std::uint64_t i = 0; i < count; ++i) read(property.value);
   }
 
-  void vertices(const ArrayType& element) {
+  void vertices(const Element& element) {
     for (const char* axis : {"x", "y", "z"}) {
       const auto count =
           std::count_if(element.properties.begin(), element.properties.end(),
@@ -237,7 +237,7 @@ class PlyCheck {
     return property.is_list && (property.name == "vertex_indices" || property.name == "vertex_index");
   }
 
-  void faces(const ArrayType& element) {
+  void faces(const Element& element) {
     // Before the loop, whose count nothing bounds where the faces have no properties.
     if (element.count > 0 && std::none_of(element.properties.begin(), element.properties.end(), has_corners))
       fail("its faces have no vertex_indices");
@@ -295,7 +295,7 @@ class PlyCheck {
   const std::string& file_;
   bool is_ascii_ = false;
   bool swap_ = false;
-  std::vector<ArrayType> elements_;
+  std::vector<Element> elements_;
   std::uint64_t vertex_count_ = 0;
   std::string positions_;
   std::vector<std::uint32_t> corners_;       // of all faces
