@@ -155,7 +155,7 @@ class ObjCheck {
   const std::string& file_;
   SanitisedPolygons plain_;
   std::vector<float> positions_;
-  std::vector<std::uint32_t> corners_;  // of all faces
+  std::vector<std::uint32_t> corners_;  // vertex indices of all faces
   std::vector<Face> faces_;
   std::vector<Vec3> polygon_;
   std::int64_t vertex_count_ = 0;
