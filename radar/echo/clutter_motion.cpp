@@ -16,7 +16,7 @@ constexpr double kSurfaceTension = 0.074;  // N/m, sea water
 constexpr double kWindDrift = 0.03;        // of the wind 10 m above the water
 constexpr double kFullyDeveloped = 0.22;   // Hs = 0.22 U^2 / g
 
-// Phase speed of the ripples that answer by Bragg's law, k_B = 2 k cos(grazing).
+// Phase speed of the Bragg-resonant waves, k_B = 2 k cos(grazing).
 double bragg_speed_mps(double wavelength_m, double cos_grazing) {
   const double k = 4 * kPi / wavelength_m * cos_grazing;
   return std::sqrt(kGravity / k + kSurfaceTension / kSeaWaterDensity * k);
@@ -27,22 +27,21 @@ double beam_deviation_rad(const RadarSpec& radar) {
   return radians(radar.budget.beamwidth_deg) / (4 * std::sqrt(std::log(2.0)));
 }
 
-// coth(k h): how much longer than high a wave's orbits are at the surface, 1 in deep water.
+// coth(k h): ratio of horizontal to vertical orbital amplitude at the surface, 1 in deep water.
 double orbit_ratio(const WaveComponent& wave, double depth) {
   return 1 / std::tanh(std::min(20.0, wave.wavenumber * depth));
 }
 
-// Mean velocity of the water's particles at the surface, along the wave's way (Stokes 1847; Phillips, "The Dynamics of
-// the Upper Ocean", 2nd ed. 1977, section 3.3):
+// Mean velocity of the water particles at the surface, along the wave direction (Stokes 1847; Phillips, "The Dynamics
+// of the Upper Ocean", 2nd ed. 1977, section 3.3):
 // a^2 w k cosh(2 k h) / (2 sinh^2 k h) = a^2 w k (1 + coth^2 k h) / 2.
 double stokes_drift(const WaveComponent& wave, double depth) {
   const double coth = orbit_ratio(wave, depth);
   return wave.amplitude * wave.amplitude * wave.omega * wave.wavenumber * (1 + coth * coth) / 2;
 }
 
-// Mean of the water's velocity at the moving surface: that of eta1 du1/dz, 1/2 a^2 w k along every component's way, in
-// any depth; the rest of the Stokes drift, as much again times coth^2 kh, is what a particle gathers on its orbit. None
-// at order 1.
+// Mean water velocity at the moving surface: the mean of eta1 du1/dz, 1/2 a^2 w k along each component's direction, in
+// any depth; the remainder of the Stokes drift, the same times coth^2 kh, is Lagrangian. Zero at order 1.
 Vec2 mean_at_the_surface(const WaveField& waves) {
   Vec2 mean = Vec2::Zero();
   for (const WaveComponent& wave : std::span(waves.components()).first(waves.second_order_count()))
@@ -55,9 +54,9 @@ Vec2 mean_at_the_surface(const WaveField& waves) {
 VelocityMoments clutter_velocity_moments(const ClutterSpec& spec, const ClutterScene& scene, double wavelength_m) {
   SEAGLINT_CHECK(scene.waves != nullptr, "clutter that follows the sea needs its waves");
   const double cos_grazing = std::hypot(scene.r_hat.x(), scene.r_hat.y()), sin_grazing = scene.r_hat.z();
-  const Vec2 look = Vec2(scene.r_hat.x(), scene.r_hat.y());  // of length cos_grazing
+  const Vec2 look = Vec2(scene.r_hat.x(), scene.r_hat.y());  // norm cos_grazing
 
-  // Orbital velocity of a wave of amplitude a: a w upwards, a w coth(k h) along its way.
+  // Orbital velocity of a wave of amplitude a: a w vertical, a w coth(k h) along its direction.
   Vec2 stokes = Vec2::Zero();
   double variance = 0;
   for (const WaveComponent& wave : scene.waves->components()) {
@@ -67,7 +66,7 @@ VelocityMoments clutter_velocity_moments(const ClutterSpec& spec, const ClutterS
     variance += 0.5 * speed * speed * (horizontal * horizontal + sin_grazing * sin_grazing);
   }
   const double past_mps =
-      scene.r_hat.dot(scene.target_velocity_mps);  // water that stands still falls behind the target
+      scene.r_hat.dot(scene.target_velocity_mps);  // still water moves astern relative to the target
   if (!(stokes.norm() > 0)) return {past_mps, 0};
   const double wind = std::sqrt(kGravity * scene.significant_wave_height_m / kFullyDeveloped);
   const double along_waves = bragg_speed_mps(wavelength_m, cos_grazing) + kWindDrift * wind + stokes.norm();
@@ -89,7 +88,7 @@ FloatingScatterers floating_scatterers(const ClutterScene& scene, const std::vec
   const double cos_grazing = std::hypot(scene.r_hat.x(), scene.r_hat.y());
   const Vec2 away = -Vec2(scene.r_hat.x(), scene.r_hat.y()) / cos_grazing, across(-away.y(), away.x());
   const double deviation_m = scene.radar.range_km * 1e3 * beam_deviation_rad(scene.radar);
-  const Vec2 sailed_m = scene.start_s * scene.target_velocity_mps.head<2>();  // where the target is in the waves by now
+  const Vec2 sailed_m = scene.start_s * scene.target_velocity_mps.head<2>();  // position of the target in the waves
   const Vec2 mean = mean_at_the_surface(*scene.waves);
   FloatingScatterers floating;
   for (const double range : range_m) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// How fast the sea's scatterers move along the line of sight, as the waves and the wind that made them demand.
+// Radial velocity of sea scatterers from waves and wind.
 
 #include <cstdint>
 #include <vector>
@@ -12,16 +12,15 @@
 
 namespace seaglint {
 
-// The sea around the target in one interval, as far as its echo follows it.
+// Sea around the target during one interval.
 struct ClutterScene {
-  RadarSpec radar;             // polarisation, range, beam, transmitter
+  RadarSpec radar;             // polarisation, range, antenna beam, transmitter
   Vec3 r_hat = Vec3::UnitX();  // to the radar, target frame
   double significant_wave_height_m = 0;
-  const WaveField* waves = nullptr;  // needed unless clutter.doppler is given
-  double start_s = 0;                // of the interval, in the waves' time
-  Vec3 target_velocity_mps =
-      Vec3::Zero();               // of the target through the water, which its frame and the radar go along with
-  std::uint64_t texture_key = 0;  // intervals of one key see one texture that changes over time
+  const WaveField* waves = nullptr;         // required unless clutter.doppler is prescribed
+  double start_s = 0;                       // start of the interval on the time axis of the waves
+  Vec3 target_velocity_mps = Vec3::Zero();  // of the target through the water; its frame and the radar move with it
+  std::uint64_t texture_key = 0;            // intervals of one key have one texture, evolving in time
 };
 
 struct VelocityMoments {
@@ -29,30 +28,29 @@ struct VelocityMoments {
   double spread_mps = 0;  // standard deviation
 };
 
-// What waves and wind give the scatterers, after Trizna, "A model for Doppler peak spectral shift for low grazing angle
-// sea scatter", IEEE J. Oceanic Eng. 10 (1985) 368: for vv the phase speed of the Bragg waves, the wind's drift and the
-// Stokes drift, all along the waves; other polarisations are faster by hh_velocity_factor, as that paper found without
-// a model. Spread: the radial part of the waves' orbital velocity. The wind is that of a fully developed sea of this
-// height (Pierson and Moskowitz, J. Geophys. Res. 69 (1964) 5181), and drifts the surface by 3 % of its speed (Wu, J.
-// Fluid Mech. 68 (1975) 49). No waves: no motion but that of the water past a target on its way.
+// Mean and standard deviation of the radial velocity, after Trizna, "A model for Doppler peak spectral shift for low
+// grazing angle sea scatter", IEEE J. Oceanic Eng. 10 (1985) 368: mean for vv: phase speed of the Bragg waves, wind
+// drift and Stokes drift, all along the wave direction; other polarisations times hh_velocity_factor (empirical in that
+// paper). Spread: radial orbital velocity of the waves. The wind is that of a fully developed sea of this height
+// (Pierson and Moskowitz, J. Geophys. Res. 69 (1964) 5181), with a surface drift of 3 % of its speed (Wu, J. Fluid
+// Mech. 68 (1975) 49). Without waves only the motion of the water relative to a target under way remains.
 VelocityMoments clutter_velocity_moments(const ClutterSpec& spec, const ClutterScene& scene, double wavelength_m);
 
-// What a radar that passes by adds to the spread, on its own way and the target's: scatterers off the middle of the
-// beam come nearer or go away, by the speed across the line of sight times the deviation of the two-way Gaussian beam,
-// width / (4 sqrt(ln 2)).
+// Doppler spread due to the relative motion of radar and target: scatterers off the axis of the antenna beam have a
+// radial velocity, the speed across the line of sight times the standard deviation of the two-way Gaussian beam, width
+// / (4 sqrt(ln 2)).
 double platform_doppler_spread_mps(const ClutterScene& scene);
 
-// Radial motion of scatterers that float on the waves: displacement at the time t after the interval's start is v t + a
-// t^2/2.
+// Radial motion of scatterers on the waves: displacement v t + a t^2/2 at time t after the start of the interval.
 struct FloatingScatterers {
   std::vector<double> velocity_mps;
   std::vector<double> acceleration_mps2;
 };
 
-// The water's motion in scene.waves at scatterers of the given slant ranges from the reference point (positive =
-// farther), each at a random place across the beam (Gaussian, two ways), stream kClutterPlace of (seed, index), less
-// the mean that it has at the moving surface: clutter_velocity_moments holds the whole Stokes drift. Velocity is taken
-// at both ends of the interval.
+// Water motion of scene.waves at scatterers of the given slant ranges from the reference point (positive = farther),
+// each at a random cross-range position (two-way Gaussian beam), stream kClutterPlace of (seed, index), minus the mean
+// at the moving surface, since clutter_velocity_moments() includes the whole Stokes drift. Velocity is evaluated at
+// both ends of the interval.
 FloatingScatterers floating_scatterers(const ClutterScene& scene, const std::vector<double>& range_m, double duration_s,
                                        std::uint64_t seed, std::uint64_t index);
 

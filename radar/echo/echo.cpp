@@ -29,7 +29,7 @@ std::vector<Complex> Echo::total() const {
 
 namespace {
 
-// The sea as it answers before any scaling: in m^2 per frequency with level nrl, of mean power 1 otherwise.
+// Unscaled clutter echo: in m^2 per frequency for level nrl, else of mean power 1.
 std::vector<Complex> clutter_echo(const PulseTrain& train, const ClutterSpec& clutter, const ClutterScene& scene,
                                   std::uint64_t seed, std::uint64_t index) {
   double power = 1;
@@ -47,7 +47,7 @@ std::vector<Complex> clutter_echo(const PulseTrain& train, const ClutterSpec& cl
   return echo;
 }
 
-// White and complex Gaussian over the band, mean power 1.
+// White complex Gaussian noise over the band, mean power 1.
 std::vector<Complex> white_noise(std::size_t size, std::uint64_t seed, std::uint64_t index) {
   Random random({seed, Stream::kNoise, index});
   std::vector<Complex> noise;
@@ -59,8 +59,8 @@ std::vector<Complex> white_noise(std::size_t size, std::uint64_t seed, std::uint
   return noise;
 }
 
-// The phase of the radar's own way from the reference point, where the receiver does not take it out: range R(t) -
-// R(0), R(t) = |R_0 r^ + u t|.
+// Phase of the radar's own motion relative to the reference point, unless motion-compensated: range R(t) - R(0), R(t) =
+// |R_0 r^ + u t|.
 void add_own_motion(std::vector<Complex>& echo, const PulseTrain& train, const ClutterScene& scene) {
   const PlatformSpec& platform = scene.radar.platform;
   const Vec3 velocity(platform.velocity_mps.data());

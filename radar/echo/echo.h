@@ -18,14 +18,13 @@ struct Echo {
   int pulses = 0;
   int frequencies = 0;
   std::vector<Complex> target;   // P(f) H, [pulse][frequency]
-  std::vector<Complex> clutter;  // P(f) H of the sea; empty when switched off
-  std::vector<Complex> noise;    // of the receiver; empty when it is relative to clutter that is switched off
+  std::vector<Complex> clutter;  // P(f) H of the sea; empty without clutter
+  std::vector<Complex> noise;    // of the receiver; empty when relative to absent clutter
 
-  std::vector<Complex> total() const;  // what the radar receives
+  std::vector<Complex> total() const;  // target + clutter + noise
 };
 
-// Levels relative to the target, all measured after generation (radar/echo/README.md); NaN when there is no clutter, or
-// no noise.
+// Ratios to the target, measured after generation (radar/echo/README.md), dB; NaN without clutter or noise.
 struct MeasuredRatios {
   double per_pulse_db = 0;
   double peak_cell_db = 0;
@@ -33,15 +32,15 @@ struct MeasuredRatios {
   double snr_per_pulse_db = 0;
 };
 
-// Mean of |x|^2; 0 without values.
+// Mean of |x|^2; 0 for an empty span.
 double mean_power(std::span<const Complex> values);
 
-// The target's echo with sea clutter and noise. Where the level is a ratio, the clutter is scaled so that mean
-// |target|^2 over mean |clutter|^2 is scr_db exactly, per pulse, whatever the definition: the other two need maps
-// (radar/rvmap/scr.h scales on from here); where it is the sea's own, its mean power is sigma0 A / (4 pi), A the area
-// of the range window. The response is the one asked for by interval_sampling(train, ...). Streams kClutter,
-// kClutterPlace and kNoise of (seed, index), kTexture of (seed, scene.texture_key). Throws InputError when the target
-// has no power.
+// Echo of the target with sea clutter and noise. clutter.level scr: the clutter is scaled so that mean |target|^2 over
+// mean |clutter|^2 is scr_db exactly, per pulse, for every definition (the other two need maps: radar/rvmap/scr.h
+// rescales). clutter.level nrl: mean power sigma0 A / (4 pi), A the area of the range window. response: sampled by
+// interval_sampling(train, ...).
+// Streams kClutter, kClutterPlace and kNoise of (seed, index), kTexture of (seed, scene.texture_key). Throws InputError
+// for a target without power.
 Echo synthesise_echo(const PulseTrain& train, const FrequencyResponse& response, const ClutterSpec& clutter,
                      std::uint64_t seed, std::uint64_t index, const ClutterScene& scene = {});
 

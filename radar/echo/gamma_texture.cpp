@@ -73,11 +73,11 @@ double gamma_q(double a, double x) {
 
 double gamma_texture(double shape, double normal) {
   SEAGLINT_CHECK(shape >= 0.1 && shape <= 1000, fmt::format("shape = {}", shape));
-  // The smaller tail keeps the digits: P at the lower half, Q at the upper.
+  // The smaller tail is used to preserve precision: P in the lower half, Q in the upper.
   const bool lower = normal < 0;
   const double tail = 0.5 * std::erfc(std::abs(normal) / std::sqrt(2.0));
-  // Solved for y = ln x, where both tails are smooth: Newton's method on ln(tail), kept inside a bracket by bisection.
-  // First guess: Wilson and Hilferty (1931), or the first term of the series where that is not positive.
+  // Solved for y = ln x, where both tails are smooth: Newton's method on ln(tail), safeguarded by bisection. First
+  // guess: Wilson and Hilferty (1931), or the first term of the series where that is not positive.
   const double root = 1 - 1 / (9 * shape) + normal / (3 * std::sqrt(shape));
   double y = root > 0.1 ? std::log(shape) + 3 * std::log(root) : (std::log(tail * shape) + log_gamma(shape)) / shape;
   double low = -1e4, high = std::log(shape + 1e4);

@@ -10,9 +10,8 @@ namespace seaglint {
 double gamma_p(double a, double x);
 double gamma_q(double a, double x);
 
-// Value of a gamma variable with mean 1 and the given shape (0.1 <= shape <= 1000) at the quantile Phi(normal):
-// monotone in normal, so that correlated normal values give correlated texture. Relative error below 1e-9 for |normal|
-// <= 6.
+// Quantile Phi(normal) of the gamma distribution with mean 1 and the given shape (0.1 <= shape <= 1000); monotone in
+// normal, so that correlated normal values give correlated texture. Relative error below 1e-9 for |normal| <= 6.
 double gamma_texture(double shape, double normal);
 
 }  // namespace seaglint

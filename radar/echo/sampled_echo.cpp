@@ -12,7 +12,7 @@
 namespace seaglint {
 namespace {
 
-constexpr double kWhole = 1e-9;  // relative slack of ratios that must be whole numbers
+constexpr double kWhole = 1e-9;  // relative tolerance of ratios that must be integers
 
 double whole_ratio(double numerator, double denominator) {
   const double ratio = numerator / denominator;
@@ -109,7 +109,7 @@ std::vector<Complex> spectrum_of(const SampledEcho& sampled, const PulseTrain& t
       row[k] = sampled.values[n * sampled.samples() + k] * centred.of_sample(static_cast<double>(k), -1);
     transform.execute();
     for (std::size_t b = 0; b < frequencies; ++b) {
-      // The middle one of the fine frequencies that a coarse one stands for.
+      // The middle one of the fine frequencies of a coarse cell.
       const double i = refinement * static_cast<double>(b) + (refinement - 1) / 2;
       echo.push_back(scale * row[static_cast<std::size_t>(i)] * centred.of_frequency(i, -1));
     }

@@ -13,21 +13,21 @@
 namespace seaglint {
 namespace {
 
-// Scatterers per synthetic range resolution c/(2 B_s): two make speckle of a resolution cell Gaussian and still have
-// their own phases.
+// Scatterers per synthetic range resolution c/(2 B_s): with two the speckle of a resolution cell is Gaussian and their
+// phases remain independent.
 constexpr int kScatterersPerCell = 2;
-// Correlation length of the texture in synthetic range cells (3.75 m for the paper's radar): long against the main
-// lobe, so that a map's cell sees one value of texture and its intensity keeps <I^2>/<I>^2 = 2 (1 + 1/shape) to about 2
-// %.
+// Correlation length of the texture in synthetic range cells (3.75 m for the paper's radar): long compared with the
+// main lobe, so that the texture is constant over a map cell and its intensity has <I^2>/<I>^2 = 2 (1 + 1/shape) to
+// about 2 %.
 constexpr double kTextureCells = 5;
 // A Gaussian process with correlation e^{-(w tau)^2/2} is white noise at nodes every kNodeSpacing/w through the kernel
-// e^{-(w t)^2}; spacing and reach leave errors of 1e-6 and 5e-6 in the correlation.
+// e^{-(w t)^2}; spacing and reach cause errors of 1e-6 and 5e-6 in the correlation.
 constexpr double kNodeSpacing = 0.6;
 constexpr double kKernelReach = 3.5;
-// Pulses further apart than this many 1/w are independent to 4e-6; faster Doppler spreads change nothing any more.
+// Pulses further apart than this many 1/w are independent to 4e-6; larger Doppler spreads have no further effect.
 constexpr double kIndependence = 5;
 
-// The nodes that a moment x (in 1/w) needs, from number `first` on, with weights whose squares add up to 1.
+// Nodes for the time x (in 1/w), from index `first` on, with weights whose squares sum to 1.
 struct Kernel {
   double first = 0;
   std::vector<double> weight;
@@ -86,8 +86,8 @@ class Speckle {
 
 std::vector<double> sea_texture(int cells, double correlation_cells, const ClutterSpec& spec, double time_s,
                                 std::uint64_t seed, std::uint64_t key) {
-  // White on the ring, correlated in time: nodes of their own keys, so that any time can be asked for alone. Numbers of
-  // nodes before t = 0 are negative.
+  // White on the ring, correlated in time. Each node has its own key, so that any time can be evaluated independently;
+  // nodes before t = 0 have negative indices.
   const std::uint64_t own_seed = Random({seed, Stream::kTexture, key}).bits();
   const Kernel in_time = kernel_at(time_s / spec.texture_correlation_time_s);
   std::vector<double> white(cells);
@@ -116,7 +116,7 @@ std::vector<double> sea_texture(int cells, double correlation_cells, const Clutt
 
 namespace {
 
-// Scatterer k of K lies in place k of the window, or k - K: on the half-window on either side of the reference point.
+// Range index of scatterer k of K: k, or k - K, so that they fill half a window on either side of the reference point.
 int place_of(int k, int scatterers) { return k < (scatterers + 1) / 2 ? k : k - scatterers; }
 
 std::vector<double> scatterer_ranges(double window_m, int scatterers) {
@@ -135,7 +135,7 @@ std::vector<Complex> clutter_response(const PulseTrain& train, const ClutterSpec
   const std::vector<double> texture =
       sea_texture(scatterers, kScatterersPerCell * kTextureCells, spec, scene.start_s, seed, scene.texture_key);
 
-  // What the waves add to the given velocity.
+  // Contribution of the waves to the prescribed velocity.
   const double wavelength = kSpeedOfLight / train.band_centre_hz();
   const double duration = std::max(train.time_s.back(), train.pri_s);
   double mean_mps = spec.doppler_mean_mps, spread_mps = spec.doppler_spread_mps;
@@ -154,8 +154,9 @@ std::vector<Complex> clutter_response(const PulseTrain& train, const ClutterSpec
   Speckle speckle(scatterers, rate, random);
 
   // Scatterer k of K lies at range k W / K of the window W = c/(2 step): at frequency i step its phase -4 pi f R / c is
-  // -2 pi i k / K, and a forward transform sums all of them. The first frequency's phase is part of the speckle. On a
-  // grid m times finer the transform is m times longer, and (m - 1)/2 steps come before the first coarse frequency.
+  // -2 pi i k / K, and a forward transform sums all of them. The phase of the first frequency is absorbed by the
+  // speckle. On a grid m times finer the transform is m times longer, and (m - 1)/2 steps precede the first coarse
+  // frequency.
   const int length = scatterers * train.grid_refinement;
   std::vector<Complex> first(scatterers);
   for (int k = 0; k < scatterers; ++k)
@@ -169,7 +170,7 @@ std::vector<Complex> clutter_response(const PulseTrain& train, const ClutterSpec
     const double t = train.time_s[n];
     speckle.at(t, values.data());
     for (int k = 0; k < scatterers; ++k) values[k] *= first[k];
-    // A scatterer on the waves has moved, seen at the pulse's own carrier.
+    // Phase of the displacement on the waves, at the carrier of the pulse.
     for (std::size_t k = 0; k < floating.velocity_mps.size(); ++k) {
       const double moved_m = t * (floating.velocity_mps[k] + 0.5 * t * floating.acceleration_mps2[k]);
       values[k] *= std::polar(1.0, -4 * kPi * train.carrier_hz[n] * moved_m / kSpeedOfLight);

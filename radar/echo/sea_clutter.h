@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The response of the sea around the target: many weak scatterers, K-distributed, each with its own Doppler evolution.
+// Sea clutter response: K-distributed sum of many scatterers with individual Doppler evolution.
 
 #include <cstdint>
 #include <vector>
@@ -13,16 +13,15 @@
 
 namespace seaglint {
 
-// Texture of mean 1 on `cells` points of a ring at one time, gamma distributed with spec.texture_shape. Its Gaussian
-// generator is correlated as e^{-d^2 / (2 l^2)} along the ring, d and l in cells, and as e^{-(t /
+// Gamma-distributed texture of mean 1 and shape spec.texture_shape on `cells` points of a ring at one time. Correlation
+// of its Gaussian generator: e^{-d^2 / (2 l^2)} along the ring, d and l in cells, and e^{-(t /
 // texture_correlation_time_s)^2 / 2} between times of one key (stream kTexture).
 std::vector<double> sea_texture(int cells, double correlation_cells, const ClutterSpec& spec, double time_s,
                                 std::uint64_t seed, std::uint64_t key);
 
-// H of the clutter at the frequencies of every pulse, [pulse][frequency], mean power 1 over all realisations. The
-// scatterers fill the whole unambiguous range window of the map and are the same ones at every carrier and on every
-// refinement of the frequency grid; their velocities are those that spec.doppler asks for. Speckle: stream kClutter of
-// (seed, index); texture: scene.texture_key.
+// H of the clutter at the frequencies of every pulse, [pulse][frequency], ensemble mean power 1. Scatterers fill the
+// whole unambiguous range window and are the same at every carrier and on every refinement of the frequency grid; their
+// velocities follow spec.doppler. Speckle: stream kClutter of (seed, index); texture: scene.texture_key.
 std::vector<Complex> clutter_response(const PulseTrain& train, const ClutterSpec& spec, const ClutterScene& scene,
                                       std::uint64_t seed, std::uint64_t index);
 

@@ -22,12 +22,12 @@ double nrl_reflectivity_db(Polarisation polarisation, double grazing_rad, double
 }
 
 double douglas_sea_state(double significant_wave_height_m) {
-  constexpr std::array kUpperLimit{0.1, 0.5, 1.25, 2.5, 4.0, 6.0};  // m, of the classes 1 to 6
+  constexpr std::array kUpperLimit{0.1, 0.5, 1.25, 2.5, 4.0, 6.0};  // m, upper limits of classes 1 to 6
   SEAGLINT_CHECK(significant_wave_height_m >= 0 && significant_wave_height_m <= kUpperLimit.back(),
                  fmt::format("{} m", significant_wave_height_m));
   double lower = 0, state = 0;
   for (const double upper : kUpperLimit) {
-    const double width = state == 0 ? 1.5 : 1;  // calm water is 0, the end of class 1 is 1.5
+    const double width = state == 0 ? 1.5 : 1;  // 0 m is 0, the upper limit of class 1 is 1.5
     if (significant_wave_height_m <= upper)
       return state + width * (significant_wave_height_m - lower) / (upper - lower);
     state += width;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// How strong the sea's echo is by itself, where no ratio to the target is prescribed.
+// Absolute level of sea clutter.
 
 #include "sim/scenario/radar_spec.h"
 
@@ -12,12 +12,12 @@ namespace seaglint {
 // 0.5 and 35 GHz, 0.1 and 60 deg of grazing, Douglas sea state 0 to 6, within 2 to 3 dB. hh or vv.
 double nrl_reflectivity_db(Polarisation polarisation, double grazing_rad, double frequency_hz, double sea_state);
 
-// Douglas sea state of a significant wave height, WMO code table 3700: class n holds the heights between its two
-// limits, which get n - 1/2 and n + 1/2, and heights between them a number between; 0 m has 0. Up to 6 m (state 6.5).
+// Douglas sea state of a significant wave height, WMO code table 3700: interpolated linearly between the limits of
+// class n, which have the values n - 1/2 and n + 1/2; 0 at 0 m. Up to 6 m (state 6.5).
 double douglas_sea_state(double significant_wave_height_m);
 
-// Area of sea that answers within range_extent_m of slant range: r theta_e / cos(grazing) on the water, theta_e the
-// width of a Gaussian beam over two ways, sqrt(pi / (8 ln 2)) of its one-way width at half power.
+// Area of the clutter patch within range_extent_m of slant range, m^2: range_extent_m r theta_e / cos(grazing), theta_e
+// the two-way width of a Gaussian antenna beam, sqrt(pi / (8 ln 2)) of its one-way half-power width.
 double clutter_patch_area_m2(const RadarSpec& radar, double grazing_rad, double range_extent_m);
 
 }  // namespace seaglint

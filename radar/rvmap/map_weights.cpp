@@ -74,7 +74,7 @@ MapWeights map_weights(const PulseTrain& train, const MapSpec& spec) {
   }
   weights.bin = taper_samples(spec.range_taper, covering.size());
   for (std::size_t k = 0; k < covering.size(); ++k) weights.bin[k] *= covering[k] > 0 ? 1.0 / covering[k] : 0;
-  // A point of amplitude 1 leaves |P|^2 / mean |P|^2 of a matched filter, 1 of an inverse one.
+  // Response of a point of amplitude 1: |P|^2 / mean |P|^2 after a matched filter, 1 after an inverse filter.
   const std::vector<Complex> filter = compression_filter(train, spec.compression);
   double total = 0;
   for (int i = 0; i < train.carriers; ++i) {

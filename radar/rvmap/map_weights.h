@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The range-velocity map as a weighted sum, for whoever needs the map at one point or the response of one scatterer:
-//
-//   RV(r, v) = sum_n sum_b  w_n u_(k) X_n(f_b) e^{+j 4 pi (f_n + f_b) v (t_n + f_b/mu) / c} e^{+j 4 pi (f_n + f_b -
-//   f_c) r / c}
-//
-// with k = C_n bins_per_hop + b the bin of the synthesised band and f_c that band's centre (f_b/mu only with
+// Weights of the range-velocity map as an explicit sum, for the map at one point or the response of one scatterer:
+// RV(r, v) = sum_n sum_b w_n u_(k) X_n(f_b) e^{+j 4 pi (f_n + f_b) v (t_n + f_b/mu) / c} e^{+j 4 pi (f_n + f_b - f_c) r
+// / c}
+// with k = C_n bins_per_hop + b the bin of the synthesised band and f_c the centre of that band (f_b/mu only with
 // intra-pulse motion).
 
 #include <span>
@@ -18,16 +16,16 @@
 namespace seaglint {
 
 struct MapWeights {
-  std::vector<double> pulse;  // w_n: velocity taper / its sum over the pulses of the same carrier
-  std::vector<double> bin;    // u_k: range taper / carriers that cover bin k, 0 in holes; scaled so that a point of
-                              // amplitude 1 peaks at 1
-  int unused_carriers = 0;    // carriers that no pulse used
+  std::vector<double> pulse;  // w_n: velocity taper over its sum for the pulses of the same carrier
+  std::vector<double> bin;    // u_k: range taper over the number of carriers that cover bin k, 0 in gaps; a point of
+                              // amplitude 1 has peak 1
+  int unused_carriers = 0;    // carriers without pulses
 };
 
 MapWeights map_weights(const PulseTrain& train, const MapSpec& spec);
 
-// The filter X = filter Y of pulse compression on the baseband grid: P* / |P|^2 (inverse, zero where |P|^2 is below
-// 1e-9 of its mean) or P* / mean |P|^2 (matched).
+// Pulse compression filter on the baseband grid, X = filter Y: P* / |P|^2 (inverse, zero where |P|^2 is below 1e-9 of
+// its mean) or P* / mean |P|^2 (matched).
 std::vector<Complex> compression_filter(const PulseTrain& train, Compression compression);
 
 // Pulse compression of an echo, [pulse][frequency].

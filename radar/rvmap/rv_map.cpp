@@ -17,11 +17,11 @@ namespace {
 
 constexpr double kMaxCells = 1 << 26;
 
-// Velocities summed together: their phase factors and the sums of one carrier stay in the first-level cache. Flat from
-// 16 to 64.
+// Velocities summed together, so that their phase factors and the sums of one carrier fit into the first-level cache.
+// Run time is flat from 16 to 64.
 constexpr std::size_t kBlock = 32;
 
-// Complex numbers of one block of velocities, real and imaginary parts apart so that loops become vector instructions.
+// Complex numbers of one block of velocities, real and imaginary parts separate for vectorisation.
 struct Block {
   alignas(64) std::array<double, kBlock> re{};
   alignas(64) std::array<double, kBlock> im{};
@@ -48,8 +48,9 @@ Block phase_ramp(double phase, double step) {
   return block;
 }
 
-// Compiled for wider vectors too, chosen when the program starts. Lanes never mix and nothing is contracted to fused
-// products (-ffp-contract=off), so all of them give the same bits. Not under a sanitizer, which starts too late for it.
+// Also compiled for wider vectors, selected at program start. Lanes are independent and products are not fused
+// (-ffp-contract=off), so all variants give the same bits. Disabled under sanitizers, which initialise after the
+// selection.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)
 #define SEAGLINT_FOR_WIDER_VECTORS __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
@@ -114,8 +115,8 @@ RvMap form_rv_map(std::span<const Complex> echo, const PulseTrain& train, const 
   const double velocity_step = train.velocity_resolution_mps() / spec.velocity_oversampling;
   const double per_hz = 4 * kPi / kSpeedOfLight;
 
-  // Bin k against the band's centre has the phase 2 pi (k - (bins - 1)/2) r_i / (window): the inverse FFT runs over k,
-  // and the constant is taken out per range cell.
+  // Relative to the band centre, bin k has the phase 2 pi (k - (bins - 1)/2) r_i / (window): the inverse FFT runs over
+  // k, and the constant is removed per range cell.
   const auto first_range = static_cast<long>(grid.range_m.size() / 2);
   std::vector<Complex> centre_phase(grid.range_m.size());
   std::vector<std::size_t> cell(grid.range_m.size());
@@ -147,14 +148,14 @@ RvMap form_rv_map(std::span<const Complex> echo, const PulseTrain& train, const 
             sums.data());
       }
       for (std::size_t b = 0; b < frequencies; ++b) {
-        // The time f_b / mu inside the pulse is the same for all pulses of the carrier.
+        // The time f_b / mu within the pulse is common to all pulses of the carrier.
         if (intra_pulse_motion) {
           const double metres = per_hz * (lowest_hz + static_cast<double>(b) * train.baseband_step_hz) *
                                 train.baseband_hz[b] / train.chirp_rate_hz_s;
           sums[b].rotate(phase_ramp(metres * velocity, metres * velocity_step));
         }
       }
-      // Along a row of the transform at a time.
+      // One row of the transform at a time.
       const std::size_t first_bin = static_cast<std::size_t>(i) * train.bins_per_hop;
       for (std::size_t l = 0; l < rows; ++l) {
         Complex* row = profile.row(l);

@@ -13,7 +13,7 @@ namespace seaglint {
 namespace {
 
 constexpr double kBoxDepthDb =
-    10;  // above the random-hop pedestal (-15 dB and less), below the stronger centres of a ship
+    10;  // dB: above the random-hop pedestal (-15 dB and below), below the stronger centres of a ship
 
 double largest_power(const RvMap& map) {
   double largest = 0;

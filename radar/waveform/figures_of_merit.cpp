@@ -20,7 +20,7 @@ Complex mean_phasor(double x, double count) {
   return std::polar(1.0, (count - 1) * half) * magnitude;
 }
 
-// Whether pulses come at n T_r, to rounding: then sums over them have a closed form.
+// True for pulses at n T_r, to rounding: sums over them then have a closed form.
 bool are_regular(const PulseTrain& train) {
   for (std::size_t n = 0; n < train.pulses(); ++n) {
     if (std::abs(train.time_s[n] - static_cast<double>(n) * train.pri_s) > 1e-9 * train.pri_s) return false;
@@ -38,8 +38,8 @@ std::string code_name(HopCode code) {
                                       : "given";
 }
 
-// The pedestal lies within half a hop cell's range on either side; from two velocity cells on it is clear of the main
-// lobe.
+// The pedestal extends over half the range cell of one hop on either side; beyond two velocity cells it is outside of
+// the main lobe.
 std::string pedestal_line(const PulseTrain& train, const RadarSpec& spec) {
   if (train.carriers == 1) return "none, one carrier";
   if (spec.hop_code == HopCode::kFile) return "of the given code: see the map of a point";

@@ -13,11 +13,11 @@
 namespace seaglint {
 namespace {
 
-// 1 GiB of complex numbers in one echo; a larger interval is a mistake in the scenario.
+// 1 GiB of complex numbers in one echo; a larger interval indicates an error in the scenario.
 constexpr double kMaxSamples = 1 << 26;
 constexpr double kMaxPulseSamples = 1 << 24;
 constexpr double kMaxSpectrumTerms = 4e9;  // pulse samples times frequencies, about ten seconds
-// Bounds on ratios of decimal inputs (25 / 0.625 must count as 40).
+// Tolerance of ratios of decimal inputs (25 / 0.625 must be 40).
 constexpr double kRatioSlack = 1e-9;
 
 }  // namespace
@@ -42,7 +42,7 @@ std::vector<int> hop_code(HopCode kind, int pulses, int carriers, std::uint64_t 
         kind == HopCode::kRandom ? static_cast<int>(random.below(static_cast<std::uint32_t>(carriers))) : n % carriers;
   }
   if (kind == HopCode::kBalanced) {
-    // Which carriers get one pulse more when M does not divide N is random too: the labels are shuffled first.
+    // The labels are shuffled first, so that the carriers with one pulse more, when M does not divide N, are random.
     std::vector<int> label(carriers);
     for (int i = 0; i < carriers; ++i) label[i] = i;
     const auto shuffle = [&random](std::vector<int>& values) {  // Fisher and Yates
@@ -86,7 +86,7 @@ std::vector<Complex> chirp_spectrum(double bandwidth_hz, double pulse_width_s, d
   for (std::size_t k = 0; k < samples; ++k) chirp[k] = std::polar(1.0, kPi * chirp_rate * time(k) * time(k));
   std::vector<Complex> spectrum;
   for (const double f : frequency_hz) {
-    // The phase factor is multiplied up and formed anew every 64 samples.
+    // The phase factor is updated by multiplication and recomputed every 64 samples.
     Complex sum;
     const Complex step = std::polar(1.0, -2 * kPi * f / sampling_hz);
     Complex factor;
@@ -110,7 +110,7 @@ PulseTrain make_pulse_train(const RadarSpec& spec, double range_window_m, std::u
   const double pulse_width_s = spec.pulse_width_us * 1e-6;
   train.chirp_rate_hz_s = train.bandwidth_hz / pulse_width_s;
 
-  // Bins so fine that the window c / (2 step) holds the wanted range, and that at least one fits into the chirp's band.
+  // Bins fine enough that the window c / (2 step) contains the required range and the chirp band contains at least one.
   const double for_window = std::ceil(train.hop_step_hz * 2 * range_window_m / kSpeedOfLight - kRatioSlack);
   const double for_chirp = std::ceil(train.hop_step_hz / train.bandwidth_hz - kRatioSlack);
   const double per_hop = std::max({1.0, for_window, for_chirp});

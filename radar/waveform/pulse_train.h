@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The frequency-agile LFM pulse train of one coherent interval.
+// Frequency-agile LFM pulse train of one coherent interval.
 
 #include <cstdint>
 #include <vector>
@@ -22,23 +22,22 @@ struct PulseTrain {
   double bandwidth_hz = 0;          // B
   double chirp_rate_hz_s = 0;       // mu = B / T_p
   double pri_s = 0;                 // T_r
-  bool intra_pulse_motion = false;  // what the echo is made with: baseband frequency f meets the target at t_n + f/mu
-  std::vector<double>
-      baseband_hz;  // uniform grid inside |f| <= B/2, symmetric about 0, cells' centres; step divides df
+  bool intra_pulse_motion = false;  // echo model: baseband frequency f is reflected at t_n + f/mu
+  std::vector<double> baseband_hz;  // uniform grid inside |f| <= B/2, symmetric about 0, cell centres; step divides df
   double baseband_step_hz = 0;
   int bins_per_hop = 1;  // df / step, exact
-  // odd: so many steps of this grid make one of the map's (radar/echo/sampled_echo.h)
+  // odd: steps of this grid per step of the map's grid (radar/echo/sampled_echo.h)
   int grid_refinement = 1;
-  std::vector<Complex> chirp_spectrum;  // P(f) on baseband_hz: THE transmit waveform, |P| about 1
+  std::vector<Complex> chirp_spectrum;  // P(f) on baseband_hz: the transmit waveform, |P| about 1
 
   std::size_t pulses() const { return code.size(); }
   std::size_t frequencies() const { return baseband_hz.size(); }  // of one pulse
   int band_bins() const;                    // of the synthesised band, (M - 1) bins_per_hop + frequencies()
   double band_centre_hz() const;            // of the synthesised band
   double synthetic_bandwidth_hz() const;    // B_s = band_bins() step; M df when B = df
-  double unambiguous_range_m() const;       // c / (2 step): the window without wrap
+  double unambiguous_range_m() const;       // c / (2 step)
   double range_resolution_m() const;        // c / (2 B_s)
-  double velocity_resolution_mps() const;   // lambda / (2 N T_r), lambda at the band's centre
+  double velocity_resolution_mps() const;   // lambda / (2 N T_r), lambda at the band centre
   double unambiguous_velocity_mps() const;  // lambda / (4 T_r): the span is +- this
 };
 
@@ -46,17 +45,16 @@ struct PulseTrain {
 // carrier floor(N/M) or ceil(N/M) times in random order, stepped = n mod M.
 std::vector<int> hop_code(HopCode kind, int pulses, int carriers, std::uint64_t seed, std::uint64_t index);
 
-// The same as a scenario asks for it. Codes from a file are used in blocks of spec.pulses, block index modulo their
-// number.
+// Hop code of a scenario; codes of a file are used in blocks of spec.pulses, block `index` modulo their number.
 std::vector<int> hop_code(const RadarSpec& spec, std::uint64_t seed, std::uint64_t index);
 
 // t_n = n T_r + jitter, s; the jitter of all pulses but the first is uniform within +-pri_jitter_us, stream kPriJitter
 // of (seed, index).
 std::vector<double> pulse_times(const RadarSpec& spec, std::uint64_t seed, std::uint64_t index);
 
-// range_window_m: the response's extent plus margin; the baseband step is df / ceil(df 2 window / c), smaller when B is
-// below that. Throws InputError when the interval would need more than 2^26 samples, the pulse more than 2^24, or its
-// spectrum more than 4e9 samples times frequencies.
+// range_window_m: extent of the response plus margin; baseband step df / ceil(df 2 window / c), smaller when B is below
+// that. Throws InputError for more than 2^26 samples per interval, 2^24 per pulse, or 4e9 samples times frequencies of
+// its spectrum.
 PulseTrain make_pulse_train(const RadarSpec& spec, double range_window_m, std::uint64_t seed, std::uint64_t index);
 
 // P(f) = sqrt(mu)/fs sum_k e^{j pi mu t_k^2} e^{-j 2 pi f t_k}, t_k = (k + 1/2)/fs - T_p/2 (README.md, "Transmit
@@ -64,7 +62,7 @@ PulseTrain make_pulse_train(const RadarSpec& spec, double range_window_m, std::u
 std::vector<Complex> chirp_spectrum(double bandwidth_hz, double pulse_width_s, double sampling_hz,
                                     const std::vector<double>& frequency_hz);
 
-// Where the pulse train asks for the target's response in an interval that starts at start_s.
+// Times and frequencies at which the pulse train samples the target response in an interval that starts at start_s.
 IntervalSampling interval_sampling(const PulseTrain& train, double start_s);
 
 }  // namespace seaglint

@@ -12,11 +12,11 @@ namespace {
 
 constexpr std::size_t kTile = 32;  // patches that one thread takes at a time
 
-// Cells of the mouth from which nothing hides the antenna.
+// Cells of the aperture with an unobstructed path to the antenna.
 std::vector<bool> seen_from(std::span<const ApertureCell> aperture, const Vec3& r_hat, const RayScene& scene,
                             double radius) {
   std::vector<Ray> rays;
-  // Rays leave off the mouth's plane, so that its own rim is not met; Embree's numbers are single.
+  // Rays start off the plane of the aperture, so that they do not hit its rim (Embree is single precision).
   for (const ApertureCell& cell : aperture) {
     const double off = 1e-2 * std::sqrt(cell.area) + 1e-6 * radius;
     rays.push_back({cell.centre + off * (r_hat - cell.inward), r_hat});
@@ -43,7 +43,7 @@ ApertureFields incident_aperture_fields(std::span<const ApertureCell> aperture, 
       const ApertureCell& cell = aperture[i];
       const Complex wave = std::polar(std::sqrt(cell.area), k * from.r.dot(cell.centre));
       for (int p = 0; p < 2; ++p) {
-        const Vec3 E = p == 0 ? from.h : from.v, H = -from.r.cross(E);  // of a wave that goes along -r^
+        const Vec3 E = p == 0 ? from.h : from.v, H = -from.r.cross(E);  // of a wave propagating along -r^
         const Vec3 J = cell.inward.cross(H), M = -cell.inward.cross(E);
         fields.block(4 * static_cast<Eigen::Index>(i), 2 * static_cast<Eigen::Index>(view) + p, 4, 1) =
             wave *
@@ -66,7 +66,7 @@ WallFields wall_fields(std::span<const ApertureCell> aperture, std::span<const W
   const auto fill = [&](std::size_t tile) {
     const std::size_t first = tile * kTile, last = std::min(walls.size(), first + kTile);
     const auto count = 2 * static_cast<Eigen::Index>(last - first);
-    // Transposed: a column is what one tangent of one patch receives from every source.
+    // Transposed: one column per patch tangent, with its excitation by every source.
     WallMatrix to_E(sources.rows(), count), to_J(sources.rows(), count);
     for (std::size_t i = first; i < last; ++i) {
       const WallPatch& patch = walls[i];

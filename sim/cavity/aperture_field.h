@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Kirchhoff's fields: plane waves as they stand in the mouth of a cavity, and what they send to its walls.
+// Kirchhoff fields of a cavity aperture: incident plane waves in the aperture, and the fields that they radiate to the
+// walls.
 
 #include <span>
 
@@ -12,17 +13,17 @@
 
 namespace seaglint {
 
-// Equivalent currents in the mouth, eta J = n x eta H and M = -n x E, times the square root of each cell's area: rows
-// 4 i + {J across, J up, M across, M up}, one column for each field. Their inner product is the mouth's integral.
+// Equivalent currents in the aperture, eta J = n x eta H and M = -n x E, times the square root of the cell area: rows 4
+// i + {J across, J up, M across, M up}, one column per field. Their inner product is the integral over the aperture.
 using ApertureFields = Eigen::MatrixXcd;
 
-// The plane waves e^{jk r^.x} of unit strength from the antennas' directions, columns 2 i + {h, v}; zero in cells that
-// look away from the antenna or from where `scene` hides it. radius: of the target, m.
+// Plane waves e^{jk r^.x} of unit amplitude from the directions of the antennas, columns 2 i + {h, v}; zero in cells
+// that face away from the antenna or are hidden from it by `scene`. radius: of the target, m.
 ApertureFields incident_aperture_fields(std::span<const ApertureCell> aperture, double k,
                                         std::span<const BistaticGeometry> views, RadarBasis BistaticGeometry::*antenna,
                                         const RayScene& scene, double radius);
 
-// Both tangential fields on the walls, rows of WallMatrix.
+// Tangential fields on the walls, rows as in WallMatrix.
 struct WallFields {
   WallMatrix incident_electric;  // E
   WallMatrix mfie_excitation;    // 2 n x eta H

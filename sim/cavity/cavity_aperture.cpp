@@ -15,8 +15,8 @@ namespace {
 
 std::string place(const Vec3& x) { return fmt::format("({:.4g}, {:.4g}, {:.4g}) m", x.x(), x.y(), x.z()); }
 
-// The rims as rings of points, each running so that the opening lies to its left seen from within the cavity: against
-// the sense of the walls' own triangles.
+// The rims as closed polygons, oriented so that the aperture is on their left seen from inside the cavity: opposite to
+// the sense of the wall triangles.
 std::vector<std::vector<Vec3>> aperture_rims(const TriangleMesh& walls) {
   const Topology topology = topology_of(walls);
   std::map<std::uint32_t, std::uint32_t> next;  // vertex after each vertex of a rim
@@ -50,7 +50,7 @@ std::vector<std::vector<Vec3>> aperture_rims(const TriangleMesh& walls) {
   return rims;
 }
 
-// Newell's area vector: right for any ring of points, flat or not, convex or not.
+// Newell's area vector, valid for any closed polygon, plane or not, convex or not.
 Vec3 area_of(const std::vector<Vec3>& ring) {
   Vec3 sum = Vec3::Zero();
   for (std::size_t i = 0; i < ring.size(); ++i)
@@ -60,8 +60,8 @@ Vec3 area_of(const std::vector<Vec3>& ring) {
 
 using Outline = std::vector<Vec2>;
 
-// What of the outline lies where side . p >= offset. A part that is not convex may come out joined by edges that run to
-// and fro along the cut, whose areas cancel.
+// Part of the outline with side . p >= offset. Non-convex parts may be connected by coincident opposite edges along the
+// cut, whose areas cancel.
 Outline clipped(const Outline& outline, const Vec2& side, double offset) {
   Outline kept;
   for (std::size_t i = 0; i < outline.size(); ++i) {
@@ -89,7 +89,7 @@ Patch2 measure(const Outline& outline) {
   return sum;
 }
 
-// Rims that share a plane and run opposite ways bound one opening, the largest first: islands within it.
+// Coplanar rims of opposite orientation bound one aperture, the largest first; the others are islands in it.
 std::vector<std::vector<std::vector<Vec3>>> apertures_of(std::vector<std::vector<Vec3>> rims, double pitch) {
   std::stable_sort(rims.begin(), rims.end(),
                    [](const auto& a, const auto& b) { return area_of(a).norm() > area_of(b).norm(); });
@@ -118,7 +118,7 @@ void add_cells(const std::vector<std::vector<Vec3>>& rims, double pitch, std::ve
 
   Vec3 origin = Vec3::Zero();
   for (const Vec3& x : rims.front()) origin += x / static_cast<double>(rims.front().size());
-  std::vector<Outline> outlines;  // islands run clockwise: their areas are negative
+  std::vector<Outline> outlines;  // islands are clockwise: negative areas
   Vec2 lower = Vec2::Zero(), upper = Vec2::Zero();
   for (const std::vector<Vec3>& rim : rims) {
     outlines.emplace_back();
@@ -164,7 +164,7 @@ std::vector<ApertureCell> aperture_cells(const TriangleMesh& walls, double pitch
   std::vector<ApertureCell> cells;
   for (const auto& rims : apertures_of(aperture_rims(walls), pitch)) add_cells(rims, pitch, cells);
   if (cells.empty()) throw InputError("the cavity's walls are closed, or open by nothing at this wavelength");
-  // Walls and openings together enclose the cavity; their normals point into it.
+  // Walls and apertures enclose the cavity; their normals point into it.
   const Vec3 origin = walls.vertices[walls.triangles.front()[0]];
   double volume = enclosed_volume(transformed(walls, Mat3::Identity(), -origin));
   for (const ApertureCell& cell : cells) volume += cell.area * cell.inward.dot(cell.centre - origin) / 3;

@@ -16,19 +16,18 @@
 namespace seaglint {
 namespace {
 
-// The mouth is cut finer than the walls: its cells lie as near as half a patch.
+// The aperture is divided more finely than the walls, to which its cells are as close as half a patch.
 constexpr double kCellsPerPatch = 2;
-// Directions whose fields in the mouth are taken together: at most so many, and so many numbers of theirs (some hundred
-// MB).
+// Batch limits: number of directions, and directions times aperture cells (several hundred MB).
 constexpr std::size_t kMaxViewsPerBatch = 128, kViewsTimesCells = 400'000;
-// Nearer than this times a patch's size point currents do not stand for walls; the mouth comes no nearer than the
-// other.
+// Minimum distances in patch sizes: below the first, point currents do not approximate opposite walls; the second
+// applies to the aperture.
 constexpr double kMinWallGap = 0.5, kMinApertureGap = 0.2;
-// Fields in the mouth are kept to this, root mean square over directions; no new ones are solved where those known
-// leave less than ten times as much.
+// RMS error over directions of the aperture fields in the basis; new fields are solved only where the error of the
+// known basis exceeds ten times this.
 constexpr double kMaxFieldError = 1e-4;
 
-// Neighbours follow each other, from the mouth inwards.
+// Orders patches from the aperture inwards, adjacent ones consecutively.
 void sort_by_depth(const std::vector<ApertureCell>& aperture, std::vector<WallPatch>& walls) {
   Vec3 middle = Vec3::Zero();
   double area = 0;
@@ -44,10 +43,10 @@ void sort_by_depth(const std::vector<ApertureCell>& aperture, std::vector<WallPa
 
 struct FieldBasis {
   ApertureFields fields;     // orthonormal
-  Eigen::VectorXd strength;  // root of the sum of their squares in all directions
+  Eigen::VectorXd strength;  // root of the sum of squares over all directions
 };
 
-// What, with the columns of `basis`, holds every column of `fields`.
+// Basis vectors that, with those of `basis`, represent every column of `fields`.
 FieldBasis extend_basis(const ApertureFields& basis, const ApertureFields& fields) {
   ApertureFields rest = fields;
   for (int pass = 0; pass < 2; ++pass) rest -= basis * (basis.adjoint() * rest);
@@ -63,7 +62,7 @@ FieldBasis extend_basis(const ApertureFields& basis, const ApertureFields& field
   return {rest * modes.eigenvectors().rightCols(count) * strength.cwiseInverse().asDiagonal(), strength};
 }
 
-// Each spread over all views: what the first one finds serves the others.
+// Each batch is spread over all views, so that the basis of the first serves the others.
 std::vector<std::vector<std::size_t>> view_batches(std::size_t views, std::size_t cells) {
   const std::size_t together = std::clamp<std::size_t>(kViewsTimesCells / cells, 1, kMaxViewsPerBatch);
   std::vector<std::vector<std::size_t>> result((views + together - 1) / together);
@@ -71,7 +70,7 @@ std::vector<std::vector<std::size_t>> view_batches(std::size_t views, std::size_
   return result;
 }
 
-// The columns of b to the right of those of a.
+// Columns of a followed by those of b.
 template <typename Columns>
 void append(Columns& a, const Columns& b) {
   const Eigen::Index before = a.cols();
@@ -126,7 +125,7 @@ std::vector<std::array<Complex, 4>> Cavity::scattering_matrices(double k, std::s
   sort_by_depth(aperture, walls);
   const WallCurrents currents(walls, k, threads, stop);
 
-  // The mouth's answer to its own fields: reaction(m, n) = -jk/(4 pi) integral over the walls of E_m . eta J_n.
+  // Reaction of the basis fields: reaction(m, n) = -jk/(4 pi) integral over the walls of E_m . eta J_n.
   ApertureFields basis(4 * static_cast<Eigen::Index>(aperture.size()), 0);
   WallMatrix electric(2 * static_cast<Eigen::Index>(walls.size()), 0), answer = electric;
   Eigen::MatrixXcd reaction;
@@ -161,7 +160,7 @@ std::vector<std::array<Complex, 4>> Cavity::scattering_matrices(double k, std::s
       append(answer, currents.solve(lit.mfie_excitation, fresh.strength, threads, stop));
       reaction = Complex(0, -k / (4 * kPi)) *
                  (electric.cast<Complex>().transpose() * area.asDiagonal() * answer.cast<Complex>());
-      // The true one is symmetric (reciprocity); walls that end at the mouth leave some percent (README.md).
+      // Symmetric by reciprocity; the numerical asymmetry is a few percent where walls end at the aperture (README.md).
       reaction = 0.5 * (reaction + reaction.transpose().eval());
     }
     const Eigen::MatrixXcd s = basis.adjoint() * sent, r = basis.adjoint() * received;

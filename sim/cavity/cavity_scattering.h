@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// What an open cavity in a perfect conductor returns, from the field inside instead of rays (README.md).
+// Scattering of an open-ended cavity in a perfect conductor, from the interior field by an integral equation instead of
+// beam tracing (README.md).
 
 #include <array>
 #include <span>
@@ -27,19 +28,19 @@ inline constexpr double kPatchesPerWavelength = 6;
 
 class Cavity {
  public:
-  // `part` of the mesh (an index into part_names): the cavity's walls, perfectly conducting, whose free edges are its
-  // rims. `whole`: the target it belongs to, which may stand before the mouth. Walls are cut into patches of a
-  // wavelength over patches_per_wavelength (README.md, "Accuracy").
+  // part: index into part_names of the perfectly conducting cavity walls, whose free edges are the rims. whole: the
+  // complete target, which may shadow the aperture. The walls are divided into patches of wavelength /
+  // patches_per_wavelength (README.md, "Accuracy").
   Cavity(const TriangleMesh& mesh, std::size_t part, const Scatterer& whole,
          double patches_per_wavelength = kPatchesPerWavelength);
 
-  // Throws InputError for walls that are closed, face outwards, are too large for the wavelength or too near each other
-  // or the mouth, and for a mouth below half a wavelength. k: 1/m.
+  // Throws InputError for walls that are closed, face outwards, are too large for the wavelength or too close to each
+  // other or to the aperture, and for an aperture narrower than half a wavelength. k: 1/m.
   CavitySize size(double k) const;
 
-  // hh, hv, vh, vv (received, transmitted) in metres for each pair of antennas, phase origin at the body's origin; to
-  // be added to what the rest of the target returns, without what leaves the walls. Throws as size() does, WorkError
-  // when the currents do not settle, and Interrupted when *stop becomes true.
+  // hh, hv, vh, vv (received, transmitted) in metres for each bistatic geometry, phase origin at the body's origin; to
+  // be added to the response of the rest of the target, without contributions of the walls. Throws as size(), WorkError
+  // when the currents do not converge, Interrupted when *stop becomes true.
   std::vector<std::array<Complex, 4>> scattering_matrices(double k, std::span<const BistaticGeometry> views,
                                                           int threads, const StopFlag* stop = nullptr) const;
 

@@ -13,26 +13,26 @@
 namespace seaglint {
 namespace {
 
-// Patches that are solved together. A duct of 3,000: 19, 17, 12, 7 sweeps with 64, 128, 256, 512 of them; with more the
-// blocks' own solutions take over.
+// Patches per diagonal block. A duct of 3,000 patches: 19, 17, 12, 7 iterations with 64, 128, 256, 512; beyond, the
+// solution of the blocks dominates the cost.
 constexpr int kBlock = 512;
-constexpr std::size_t kTile = 32;  // patches of a block whose rows one thread takes at a time
-// patches whose coupling to a tile is formed at once: 64 x 256 numbers stay in the cache
+constexpr std::size_t kTile = 32;  // patches of a block per thread task
+// patches whose coupling to a tile is formed at once: 64 x 256 numbers, within the cache
 constexpr std::size_t kColumns = 128;
-constexpr Eigen::Index kColumnsPerSolve = 32;  // fields solved side by side, which share the coupling's making
+constexpr Eigen::Index kColumnsPerSolve = 32;  // excitations solved together, which share the assembly of the coupling
 constexpr std::size_t kMaxIterations = 150;
 
-// One number for each patch of a block at most; SSE takes four at a time.
+// At most one number per patch of a block; SSE processes four at a time.
 using Line = Eigen::Array<float, Eigen::Dynamic, 1, 0, kBlock, 1>;
 
 struct Phasors {
   Line cosine, sine;
 };
 
-// Of angles >= 0 in turns, below 4 million, to their own rounding: the fraction's half by its series, |x| <= pi/2, then
-// doubled. The library's sine and cosine would take a third of the solution's time.
+// Phasors of angles >= 0 in cycles, below 4 million, to rounding: half of the fraction by its series, |x| <= pi/2, then
+// the double-angle formula. The library functions would take a third of the solution time.
 Phasors phasors(const Line& turns) {
-  constexpr float kRound = 1.5f * (1 << 23);  // added and taken away, it leaves the nearest whole number
+  constexpr float kRound = 1.5f * (1 << 23);  // adding and subtracting it rounds to the nearest integer
   const Line x = static_cast<float>(kPi) * (turns - ((turns + kRound) - kRound)), x2 = x.square();
   const Line sine =
       x * (1 + x2 * (-1 / 6.f + x2 * (1 / 120.f + x2 * (-1 / 5040.f + x2 * (1 / 362880.f - x2 / 39916800.f)))));
@@ -42,17 +42,17 @@ Phasors phasors(const Line& turns) {
   return {1 - 2 * sine.square(), 2 * sine * cosine};
 }
 
-// One field's share of the minimal residuals: its column of every direction, and what they make of it (Saad and Schultz
+// GMRES state of one excitation: its column of every Krylov direction, and the least-squares solution (Saad and Schultz
 // 1986, algorithm 3).
 struct KrylovColumn {
   Eigen::Index column = 0;
-  double length = 0;  // of the driving field
+  double length = 0;  // norm of the excitation
   Eigen::MatrixXcd hessenberg;
   Eigen::VectorXcd weights;  // of the directions in the solution
   double residual = 0;
-  bool exact = false;  // the directions hold the solution
+  bool exact = false;  // the Krylov space contains the solution
 
-  // Makes the column of `next`, the image of the last direction, one more direction.
+  // Orthogonalises the column of `next`, the image of the last direction, into a new direction.
   void add(const std::vector<WallMatrix>& directions, WallMatrix& next) {
     if (length == 0 || exact) return;
     const auto known = static_cast<Eigen::Index>(directions.size());
@@ -72,7 +72,7 @@ struct KrylovColumn {
     residual = (right - hessenberg * weights).norm();
   }
 
-  // The weights' sum of the directions.
+  // Weighted sum of the directions.
   void sum(const std::vector<WallMatrix>& directions, WallMatrix& into) const {
     for (Eigen::Index m = 0; m < weights.size(); ++m)
       into.col(column) += std::complex<float>(weights(m)) * directions[static_cast<std::size_t>(m)].col(column);
@@ -95,8 +95,8 @@ WallCurrents::Rows WallCurrents::block(std::size_t i) const {
 }
 
 // 2 n x (grad G x t') A' on either tangent t of the patches `to`, transposed, from a unit current along t' on `from`:
-//   t . [n x (grad G x t')] = (t . grad G)(n . t') - (t . t')(n . grad G),  grad G = -(1 + jkR) e^{-jkR} / (4 pi R^3) R
-// with R from the source to the patch. A patch does not act on itself: it is flat.
+//   t . [n x (grad G x t')] = (t . grad G)(n . t') - (t . t')(n . grad G), grad G = -(1 + jkR) e^{-jkR} / (4 pi R^3) R
+//   with R from the source to the patch. The self term of a plane patch is zero.
 WallMatrix WallCurrents::coupling(const Rows& to, const Rows& from) const {
   WallMatrix transposed(from.count(), to.count());
   const auto first = static_cast<Eigen::Index>(from.first), count = static_cast<Eigen::Index>(from.last - from.first);
@@ -141,7 +141,7 @@ WallCurrents::WallCurrents(std::span<const WallPatch> walls, double k, int threa
       normal_(area_.size(), 3),
       own_(blocks()) {
   tangent_.fill(Eigen::ArrayX3f(area_.size(), 3));
-  Vec3 middle = Vec3::Zero();  // distances in single precision are those of the cavity, wherever it lies
+  Vec3 middle = Vec3::Zero();  // origin in the cavity, since distances are in single precision
   for (const WallPatch& patch : walls) middle += patch.centre / static_cast<double>(walls.size());
   for (std::size_t i = 0; i < walls.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);
@@ -159,7 +159,7 @@ WallCurrents::WallCurrents(std::span<const WallPatch> walls, double k, int threa
       stop);
 }
 
-// D x.
+// Product D x, D the diagonal blocks.
 WallMatrix WallCurrents::apply_diagonal_blocks(const WallMatrix& x, int threads) const {
   WallMatrix result = x;
   parallel_for(blocks(), threads, [&](std::size_t i) {
@@ -170,7 +170,7 @@ WallMatrix WallCurrents::apply_diagonal_blocks(const WallMatrix& x, int threads)
   return result;
 }
 
-// y of (D - K_L) y = x (or with K_U, upwards), D the blocks' own parts and K_L what the blocks before each one send it.
+// Solves (D - K_L) y = x (upwards: K_U), D the diagonal blocks, K_L the coupling from preceding blocks.
 WallMatrix WallCurrents::half_sweep(const WallMatrix& x, bool upwards, int threads, const StopFlag* stop) const {
   WallMatrix y(x.rows(), x.cols());
   for (std::size_t n = 0; n < blocks(); ++n) {
@@ -195,11 +195,11 @@ WallMatrix WallCurrents::half_sweep(const WallMatrix& x, bool upwards, int threa
   return y;
 }
 
-// Generalised minimal residuals (Saad and Schultz, SIAM J. Sci. Stat. Comput. 7, 1986, 856-869) of each column by
-// itself, preconditioned by a sweep inwards and one outwards, as forward-backward iterations do (Burkholder and Lundin,
-// IEEE Trans. AP-53, 2005, 793-799). With 1 - K = D - K_L - K_U and T = (D - K_U)^-1 D,
+// Generalised minimal residuals (Saad and Schultz, SIAM J. Sci. Stat. Comput. 7, 1986, 856-869) per column,
+// preconditioned by one sweep inwards and one outwards, as forward-backward iterations (Burkholder and Lundin, IEEE
+// Trans. AP-53, 2005, 793-799). With 1 - K = D - K_L - K_U and T = (D - K_U)^-1 D,
 //   (D - K_L)^-1 (1 - K) T = T + (D - K_L)^-1 D (1 - T)
-// so that each application costs one product with K (Eisenstat, SIAM J. Sci. Stat. Comput. 2, 1981, 1-4).
+// so that each application needs one product with K (Eisenstat, SIAM J. Sci. Stat. Comput. 2, 1981, 1-4).
 WallMatrix WallCurrents::solve(const WallMatrix& driven, const Eigen::VectorXd& strength, int threads,
                                const StopFlag* stop) const {
   WallMatrix currents(driven.rows(), driven.cols());

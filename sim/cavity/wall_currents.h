@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The currents on perfectly conducting walls of a cavity, from what falls on them: the magnetic-field integral
+// Surface currents on the perfectly conducting walls of a cavity for given excitations, by the magnetic-field integral
 // equation.
 
 #include <array>
@@ -13,18 +13,18 @@
 
 namespace seaglint {
 
-// One row for each tangent of each patch, 2 i + t; one column for each field that falls on the walls.
+// One row per patch and tangent, 2 i + t; one column per excitation.
 using WallMatrix = Eigen::MatrixXcf;
 
 class WallCurrents {
  public:
-  // k: 1/m. Patches that follow each other in `walls` should be neighbours and go from the openings inwards: what one
-  // sweep through them leaves to the next is then little.
+  // k: 1/m. Consecutive patches in `walls` should be adjacent and ordered from the apertures inwards, for fast
+  // convergence of the sweeps.
   WallCurrents(std::span<const WallPatch> walls, double k, int threads, const StopFlag* stop);
 
-  // The eta J of J = 2 n x H + 2 n x PV integral of grad G x J' dS', in the unit of `mfie_excitation` = 2 n x eta H. A
-  // column's residual times its strength (> 0) is at most kResidual of the strongest one's. Throws WorkError when that
-  // takes too many sweeps, Interrupted when *stop becomes true.
+  // Solves for eta J: J = 2 n x H + 2 n x PV integral of grad G x J' dS', in the unit of `mfie_excitation` = 2 n x eta
+  // H. The residual of a column times its strength (> 0) is at most kResidual of that of the strongest. Throws
+  // WorkError when this needs too many iterations, Interrupted when *stop becomes true.
   WallMatrix solve(const WallMatrix& driven, const Eigen::VectorXd& strength, int threads, const StopFlag* stop) const;
 
   static constexpr double kResidual = 1e-3;
@@ -43,7 +43,7 @@ class WallCurrents {
   Eigen::ArrayXf area_;  // of the patches, m^2
   Eigen::ArrayX3f centre_, normal_;
   std::array<Eigen::ArrayX3f, 2> tangent_;
-  std::vector<Eigen::PartialPivLU<WallMatrix>> own_;  // of each block alone
+  std::vector<Eigen::PartialPivLU<WallMatrix>> own_;  // of the diagonal blocks
 };
 
 }  // namespace seaglint

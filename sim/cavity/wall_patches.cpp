@@ -21,7 +21,8 @@ struct Piece {
   double area;  // m^2
 };
 
-// Halved triangles lie regularly: distances that differ by less than this are equal, so that rounding does not decide.
+// Halved triangles form regular patterns: distances that differ by less than this are treated as equal, so that
+// rounding does not decide.
 constexpr double kTie = 1e-9;
 constexpr std::size_t kMaxPieces = 5'000'000;
 
@@ -48,7 +49,7 @@ struct Seed {
   Vec3 centre, normal;
 };
 
-// Seeds sorted into cells of a lattice: which are near a place?
+// Seeds in the cells of a lattice, for neighbour search.
 class SeedLattice {
  public:
   explicit SeedLattice(double cell) : cell_(cell) {}
@@ -75,7 +76,7 @@ class SeedLattice {
   Cell cell_of(const Vec3& x) const {
     return {std::llround(x.x() / cell_), std::llround(x.y() / cell_), std::llround(x.z() / cell_)};
   }
-  // 21 bits a side: cells that share a key are far apart, and every visitor looks at distances.
+  // 21 bits a side: cells of equal key are far apart, and distances are always tested.
   static std::uint64_t key(const Cell& c) {
     constexpr std::uint64_t kMask = (1u << 21) - 1;
     return (static_cast<std::uint64_t>(c[0]) & kMask) << 42 | (static_cast<std::uint64_t>(c[1]) & kMask) << 21 |
@@ -101,11 +102,11 @@ std::vector<WallPatch> wall_patches(const TriangleMesh& walls, double size) {
   for (const auto& t : walls.triangles)
     cut(walls.vertices[t[0]], walls.vertices[t[1]], walls.vertices[t[2]], size / 3, pieces);
 
-  // Two pieces at right angles are as far apart as 1.4 sizes.
+  // Perpendicular normals add a distance of 1.4 sizes.
   const auto distance2 = [&](const Piece& piece, const Seed& seed) {
     return (piece.centre - seed.centre).squaredNorm() + size * size * (piece.normal - seed.normal).squaredNorm();
   };
-  // No two seeds nearer than this: each then has about a square of `size` to itself.
+  // Minimum distance of seeds, so that each has an area of about size x size.
   const double apart = 0.94 * size;
   std::vector<Seed> seeds;
   SeedLattice first(size);
@@ -121,7 +122,7 @@ std::vector<WallPatch> wall_patches(const TriangleMesh& walls, double size) {
 
   std::vector<int> owner(pieces.size(), -1);
   std::vector<double> owned;
-  constexpr int kRounds = 5;  // with eight a box with a duct differs by 0.01 dB on the mean
+  constexpr int kRounds = 5;  // eight change the mean of a box with a duct by 0.01 dB
   for (int round = 0; round < kRounds; ++round) {
     SeedLattice lattice(size);
     for (std::size_t s = 0; s < seeds.size(); ++s) lattice.add(seeds[s].centre, static_cast<int>(s));

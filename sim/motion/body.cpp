@@ -15,17 +15,17 @@ namespace seaglint {
 
 namespace {
 
-// As many strips as leave S175's responses within 0.5 % of those with 100.
+// Responses of S175 within 0.5 % of those with 100 strips.
 constexpr int kStrips = 40;
 
-// Ratios of a fast displacement hull; model DTMB 5415 (ITTC, L 142 m, B 19.06 m, T 6.15 m) has these.
+// Ratios of a fast displacement hull; those of model DTMB 5415 (ITTC, L 142 m, B 19.06 m, T 6.15 m).
 constexpr double kWaterlineToOverallLength = 0.985;
 constexpr double kWaterlineToOverallBeam = 0.95;
 constexpr double kBeamToDraught = 3.1;
 
 double given_or(double value, double derived) { return value > 0 ? value : derived; }
 
-// What each kind of file says about speed and reference point, and what the user must.
+// Reads a table of responses: speed and reference point come from the file (VERES) or from the spec (WAMIT).
 RaoTable read_table_of(const MotionSpec& spec, const std::filesystem::path& file, const Vec3& reference) {
   if (file.extension() == ".4") {
     if (spec.speed_mps > 0) {
@@ -41,7 +41,7 @@ RaoTable read_table_of(const MotionSpec& spec, const std::filesystem::path& file
   return read_veres_rao(file, spec.speed_mps);
 }
 
-// The shortest natural period of a body that waves or its own start set swinging, s; none of others.
+// Shortest natural period of the oscillating degrees of freedom of a body, s; infinite without any.
 double shortest_period(const Body& body) {
   const double yaw = body.spec.yaw_period_s > 0 ? 2 * kPi / body.spec.yaw_period_s : 0;
   double fastest = 0;  // rad/s
@@ -53,8 +53,8 @@ double shortest_period(const Body& body) {
   return fastest > 0 ? 2 * kPi / fastest : std::numeric_limits<double>::infinity();
 }
 
-// Samples are joined by cubics of Hermite, which err by (w h)^4 / 384 of a motion at w: 1e-3 with eight to a period, a
-// quarter with two.
+// Samples are joined by cubic Hermite polynomials, whose relative error is (w h)^4 / 384 for a motion at w: 1e-3 at
+// eight samples per period, 1/4 at two.
 void check_step(const Body& body) {
   constexpr double kMinSamples = 8, kPrinted = 1e-5;  // the bound is printed with six digits
   const double period = shortest_period(body), longest = period / kMinSamples;

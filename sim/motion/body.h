@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// What moves, made ready once: a ship's sections are solved here, not for every sea.
+// A body prepared for motion once per target: the sections of a ship are solved here, not per sea realisation.
 
 #include <filesystem>
 #include <variant>
@@ -16,27 +16,27 @@
 
 namespace seaglint {
 
-// What the zero fields of a MotionSpec are derived from.
+// Dimensions of the mesh from which zero fields of a MotionSpec are derived.
 struct BodyShape {
   Bounds box;         // of the mesh
-  HullSections hull;  // below its waterline; empty when the mesh ends there
+  HullSections hull;  // below its waterline; empty when the mesh ends at the waterline
 };
 BodyShape shape_of(const TriangleMesh& mesh);
 
 struct Body {
   MotionSpec spec;
   std::variant<std::monostate, ShipParticulars, FloatParticulars, AttitudeSeries, RaoTable>
-      model;                            // nothing moves a fixed body
-  Vec3 rotation_centre = Vec3::Zero();  // in its own frame: spec.rotation_centre_m, else a ship's centre of gravity or
-                                        // a float's centre of flotation
+      model;                            // monostate: a fixed body
+  Vec3 rotation_centre = Vec3::Zero();  // body frame: spec.rotation_centre_m, else a ship's centre of gravity or a
+                                        // float's centre of flotation
 };
 
-// Files the spec names are looked for in `folder`, then in the working directory. Throws InputError when one of them is
-// missing or wrong, or the spec contradicts itself or the shape.
+// Files named in the spec are searched in `folder`, then in the working directory. Throws InputError for a missing or
+// invalid file and for a spec that is inconsistent in itself or with the shape.
 Body make_body(const MotionSpec& spec, const BodyShape& shape, const std::filesystem::path& folder = {});
 
-// The sections a ship moves by: those of spec.sections, else of the mesh, both stretched to the dimensions that the
-// spec gives, else those of HullCoefficients with the mesh's size.
+// Sections of the strip theory: those of spec.sections, else of the mesh, both scaled to the dimensions of the spec,
+// else those of HullCoefficients with the size of the mesh.
 HullSections ship_sections(const MotionSpec& spec, const BodyShape& shape, const std::filesystem::path& folder = {},
                            const HullCoefficients& form = {});
 

@@ -11,13 +11,13 @@
 
 namespace seaglint {
 
-// Where the origin of a body's mesh rests when its place on the water is (x, y): at the waterline for a ship and a
-// fixed body, spec.origin_above_waterline_m higher for a float, whose mesh has its origin in the middle.
+// Rest position of the mesh origin of a body at (x, y) on the water: at the waterline for a ship and a fixed body,
+// spec.origin_above_waterline_m above it for a float, whose mesh has its origin in its middle.
 Vec3 rest_position(const MotionSpec& spec, double x, double y);
 
-// The motion of one body resting with its origin at rest_position (target frame), from t = 0 to duration_s or the end
-// of the step that holds it. The random yaw of a float uses stream kFloatYaw of (seed, index). For `waves: independent`
-// the caller gives each body a sea of its own.
+// Motion of one body with its origin at rest_position (target frame), from t = 0 to the end of the step that contains
+// duration_s. The random yaw of a float uses stream kFloatYaw of (seed, index). For `waves: independent` the caller
+// passes a separate sea per body.
 Trajectory simulate_motion(const Body& body, const Vec3& rest_position, const WaveField& sea, double duration_s,
                            std::uint64_t seed, std::uint64_t index);
 

@@ -12,7 +12,7 @@
 namespace seaglint {
 namespace {
 
-// A window of three angles from `begin` on, each less its mean.
+// The three angles in a window from `begin`, mean removed.
 std::array<std::vector<double>, 3> window_of(const std::vector<MotionSample>& samples, std::size_t begin,
                                              std::size_t length) {
   std::array<std::vector<double>, 3> angles;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The motion of all bodies of a target in one sea realisation.
+// Motion of all bodies of a target in one sea realisation.
 
 #include <cstdint>
 #include <vector>
@@ -13,18 +13,18 @@
 
 namespace seaglint {
 
-// Where the bodies of a target's layout rest on the water, in T: a line along x about its centre; one body at the
-// origin without one.
+// Rest positions on the water of the bodies of a target's layout, in T: a line along x about its centre; without a
+// layout one body at the origin.
 std::vector<Vec2> layout_positions(const TargetSpec& target);
 
-// Which realisation a body's own random numbers belong to; body counts from 0 over all targets of the scenario, in
-// order (below 65536).
+// Realisation index of a body's own random numbers; body counts from 0 over all targets of the scenario, in order
+// (below 65536).
 std::uint64_t body_index(std::uint64_t sea_index, std::size_t body);
 
-// One trajectory per body of the layout, from t = 0 to duration_s, all moving as `body` does; `sea` is
-// realise_sea(state, seed, sea_index), which every body sees unless the spec says `waves: independent`: then each body
-// has a realisation of its own (index body_index + 2^48). The result does not depend on
-// `threads` (0 = all). first_body: how many bodies the targets before this one have.
+// One trajectory per body of the layout, from t = 0 to duration_s, all with the properties `body`. `sea` is
+// realise_sea(state, seed, sea_index), common to all bodies unless the spec has `waves: independent`: then each body
+// has a realisation of its own (index body_index + 2^48). The result does not depend on `threads` (0 = all).
+// first_body: number of bodies of the targets before this one.
 std::vector<Trajectory> simulate_target(const TargetSpec& target, const Body& body, const SeaState& state,
                                         const WaveField& sea, double duration_s, std::uint64_t seed,
                                         std::uint64_t sea_index, std::size_t first_body = 0, int threads = 1);

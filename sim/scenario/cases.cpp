@@ -15,9 +15,8 @@ double echo_duration_us(const RadarSpec& radar, double window_m) {
 
 namespace {
 
-// Tp of a wind sea, where the scenario leaves it to a rule. DNV: 3.96 sqrt(Hs), between the 3.6 and 5 sqrt(Hs) where
-// DNV-RP-C205, 3.5.5.5, finds JONSWAP to hold. Fetch: f U/g = 3.5 (g F/U^2)^-0.33 (Hasselmann et al. 1973), no limit of
-// a fully developed sea.
+// Peak period of a wind sea by a rule. DNV: 3.96 sqrt(Hs), within the validity of JONSWAP by DNV-RP-C205, 3.5.5.5, 3.6
+// to 5 sqrt(Hs). Fetch: f U/g = 3.5 (g F/U^2)^-0.33 (Hasselmann et al. 1973), not limited by the fully developed sea.
 Sweep peak_periods(const SeaSpec& spec, double height) {
   if (spec.table_values) return {2 * kPi / spec.table_values->peak_omega()};
   switch (spec.period_rule) {

@@ -29,14 +29,15 @@ void check_radar(const RadarSpec& radar, const ScenarioDocument& document) {
     document.fail_at("radar.bandwidth_mhz",
                      fmt::format("must be below twice radar.carrier_ghz, {:g}", 2e3 * radar.carrier_ghz));
   }
-  // Fewer samples are no chirp: one sample of a shorter pulse would have the energy of one as long as a sample.
+  // Fewer samples do not represent a chirp: the single sample of a shorter pulse would have the energy of a pulse of
+  // one sample interval.
   if (radar.pulse_width_us * radar.sampling_mhz < kMinSamples) {
     document.fail_at("radar.pulse_width_us", fmt::format("must be at least {:g} us, {} samples of radar.sampling_mhz",
                                                          kMinSamples / radar.sampling_mhz, kMinSamples));
   }
 }
 
-// Pulses that jitter must not overlap, and a hop code comes from a file or a rule.
+// Pulses with jitter must not overlap; a hop code file requires hop_code: file.
 void check_pulse_train(const RadarSpec& radar, const ScenarioDocument& document) {
   if (2 * radar.pri_jitter_us > radar.pri_us - radar.pulse_width_us) {
     document.fail_at("radar.pri_jitter_us",
@@ -50,7 +51,7 @@ void check_pulse_train(const RadarSpec& radar, const ScenarioDocument& document)
   if (!has_file && radar.hop_code == HopCode::kFile) document.fail_at("radar.hop_code_file", "this key is missing");
 }
 
-// The echo of the whole window must be over before the next pulse is sent.
+// The echo of the range window must end before the next pulse.
 void check_window(const Scenario& scenario, const ScenarioDocument& document) {
   const RadarSpec& radar = scenario.radar;
   const double echo_us = echo_duration_us(radar, scenario.map.range_span_m);
@@ -61,8 +62,7 @@ void check_window(const Scenario& scenario, const ScenarioDocument& document) {
   }
 }
 
-// The sea's own level and motion are those of water that the radar sees from above the horizon and not from overhead,
-// within the elevations that the reflectivity was fitted to.
+// Absolute clutter level and sea-state Doppler require grazing angles within the fit of the reflectivity model.
 void check_grazing(const Scenario& scenario, const ScenarioDocument& document) {
   const ClutterSpec& clutter = scenario.clutter;
   const bool own_level = clutter.level == ClutterLevel::kNrl,
@@ -77,7 +77,7 @@ void check_grazing(const Scenario& scenario, const ScenarioDocument& document) {
   }
 }
 
-// The sea's own reflectivity is known where it was fitted.
+// The reflectivity model is valid within its fit.
 void check_clutter(const Scenario& scenario, const ScenarioDocument& document) {
   const ClutterSpec& clutter = scenario.clutter;
   if (!clutter.enabled || clutter.level != ClutterLevel::kNrl) return;
@@ -96,7 +96,7 @@ void check_clutter(const Scenario& scenario, const ScenarioDocument& document) {
   }
 }
 
-// Keys that say nothing about this spectrum would be ignored.
+// Keys that do not apply to this spectrum are errors.
 void check_spectrum(const SeaSpec& sea, const ScenarioDocument& document) {
   const YamlNode* node = document.root.find("sea");
   const auto stands = [&](const char* key) { return node != nullptr && node->find(key) != nullptr; };
@@ -118,7 +118,7 @@ void check_spectrum(const SeaSpec& sea, const ScenarioDocument& document) {
   }
 }
 
-// A sea whose significant height lies beyond what a regular wave of its peak period can have does not exist.
+// The significant wave height must not exceed the breaking limit of a regular wave of the peak period.
 void check_breaking(const std::string& key, double height, double period, double depth,
                     const ScenarioDocument& document) {
   const double highest = breaking_height(2 * kPi / period, depth);
@@ -166,12 +166,12 @@ void check_sea(const SeaSpec& sea, const ScenarioDocument& document) {
   }
 }
 
-// A radar at or below the horizon has no image to see the target from; sea water's model ends at 90 GHz.
+// The sea reflection requires a radar above the horizon; the sea-water model is valid to 90 GHz.
 void check_sea_reflection(const Scenario& scenario, const ScenarioDocument& document) {
   if (!scenario.sea_reflection.enabled) return;
   for (const double elevation : scenario.view.elevation_deg) {
     if (elevation <= 0) document.fail_at("view.elevation_deg", "must be greater than 0 with sea_reflection");
-    // One on its way must stay above it to the interval's end.
+    // A moving radar must remain above it until the end of the interval.
     const RadarSpec& radar = scenario.radar;
     const double sunk_m = -radar.platform.velocity_mps[2] * radar.pulses * radar.pri_us * 1e-6;
     const double height_m = radar.range_km * 1e3 * std::sin(radians(elevation));
@@ -188,7 +188,7 @@ void check_sea_reflection(const Scenario& scenario, const ScenarioDocument& docu
   }
 }
 
-// One map is seen by one radar; from points, which have no such key, it is far away.
+// All targets of one map have the same wavefront range; points, which have no such key, are in the far field.
 void check_one_range(const TargetSpec& target, const TargetSpec& companion, const ScenarioDocument& document) {
   const double range_m = target.solver.wavefront_range_m, other_m = companion.solver.wavefront_range_m;
   if (range_m == other_m) return;
@@ -199,7 +199,7 @@ void check_one_range(const TargetSpec& target, const TargetSpec& companion, cons
                                            right.solver.wavefront_range_m, right.name, document.place_of(key(right))));
 }
 
-// A companion is another target of the file, and brings no companions of its own.
+// A companion is another target of the file, without companions of its own.
 void check_companions(const Scenario& scenario, const TargetSpec& target, const ScenarioDocument& document) {
   for (std::size_t i = 0; i < target.with.size(); ++i) {
     const std::string key = fmt::format("targets.{}.with.{}.target", target.name, i);
@@ -212,8 +212,7 @@ void check_companions(const Scenario& scenario, const TargetSpec& target, const 
   }
 }
 
-// The frame of a target that makes way goes along with it, and the water falls behind; a float and a body at rest stay
-// in the water.
+// The frame of a target under way moves with it relative to the water; a float and a fixed body have no speed.
 void check_speed(const TargetSpec& target, const ScenarioDocument& document) {
   const MotionModel model = target.motion.model;
   if (target.motion.speed_mps > 0 && (model == MotionModel::kFixed || model == MotionModel::kFloat)) {
@@ -229,7 +228,7 @@ void check_target(const TargetSpec& target, const ScenarioDocument& document) {
   if (target.mesh.empty() && target.points.empty()) document.fail_at(path, "must have a mesh or points");
   if (target.points.empty()) return;
   if (!target.mesh.empty()) document.fail_at(path, "must have a mesh or points, not both");
-  // Points carry their own velocity: a motion beside them would be ignored.
+  // Points have velocities of their own: a motion section is an error.
   const YamlNode* node = document.root.find("targets")->find(target.name);
   for (const char* key : {"unit", "material", "part_materials", "sheet_thickness_mm", "layout", "motion", "solver"}) {
     if (node->find(key) != nullptr)
@@ -237,8 +236,7 @@ void check_target(const TargetSpec& target, const ScenarioDocument& document) {
   }
 }
 
-// The response of a mesh is that of a target at rest during a pulse; only ideal points carry the f/mu term in their
-// echo.
+// The response of a mesh assumes a target at rest during a pulse; only ideal points have the f/mu term in their echo.
 void check_intra_pulse_motion(const Scenario& scenario, const ScenarioDocument& document) {
   if (!scenario.radar.intra_pulse_motion) return;
   for (const TargetSpec& target : scenario.targets) {
@@ -258,10 +256,10 @@ void check_dataset(const Scenario& scenario, const ScenarioDocument& document) {
   }
 }
 
-// Two cases of one direction would be equal.
+// Equal directions would give equal cases.
 void check_directions(const std::string& key, const Sweep& values_deg, const ScenarioDocument& document) {
-  constexpr double kSame = 1e-9;                      // deg, beyond the rounding of a turn
-  std::vector<std::pair<double, double>> directions;  // within a turn, as given
+  constexpr double kSame = 1e-9;                      // deg, above the rounding of a full turn
+  std::vector<std::pair<double, double>> directions;  // reduced to one turn; as given
   for (const double value : values_deg) directions.emplace_back(value - 360 * std::floor((value + kSame) / 360), value);
   std::sort(directions.begin(), directions.end());
   for (std::size_t i = 1; i < directions.size(); ++i) {
@@ -271,7 +269,7 @@ void check_directions(const std::string& key, const Sweep& values_deg, const Sce
   }
 }
 
-// The product of all sweeps, as a number that cannot overflow.
+// Product of all sweep lengths in floating point, which does not overflow.
 void check_case_count(const Scenario& scenario, const ScenarioDocument& document) {
   constexpr double kMaxCases = 1e6;
   constexpr double kMaxMaps = 1e9;

@@ -87,7 +87,7 @@ void visit(ViewSpec& spec, FieldVisitor& v) {
   v.sweep("elevation_deg", spec.elevation_deg, within(-90, 90));
 }
 
-// A sweep where words may stand for the values of an enumeration beyond its first.
+// A sweep, or a word for a value of an enumeration after its first.
 template <typename Enumeration, std::size_t n>
 void visit_sweep(FieldVisitor& v, const char* key, Sweep& values, const Bound& bound, Enumeration& rule,
                  const char* const (&words)[n]) {
@@ -107,7 +107,7 @@ void visit(WindSpec& spec, FieldVisitor& v) {
   v.number("fetch_km", spec.fetch_km, within(0.1, 5000));
 }
 
-// The energy of lower waves, their height squared, would end below the numbers a double can hold.
+// The energy of lower waves would underflow.
 constexpr Bound kWaveHeights = zero_or_within(1e-6, 30);
 
 void visit(SwellSpec& spec, FieldVisitor& v) {
@@ -120,7 +120,7 @@ void visit(SwellSpec& spec, FieldVisitor& v) {
 }
 
 void visit(SeaSpec& spec, FieldVisitor& v) {
-  // A table stands for the peak and its form, Bretschneider's spectrum has gamma 1.
+  // A table replaces peak period and shape; Bretschneider's spectrum has gamma 1.
   visit_choice(v, "spectrum", spec.spectrum, {"jonswap", "bretschneider", "table"});
   if (v.optional("table", !spec.table.empty())) v.text("table", spec.table);
   visit_sweep(v, "significant_wave_height_m", spec.significant_wave_height_m, kWaveHeights, spec.height_rule,
@@ -234,7 +234,7 @@ void visit(CompanionSpec& spec, FieldVisitor& v) {
   v.number("y_m", spec.y_m, within(-1e5, 1e5));
 }
 
-// A mesh with its motion, or ideal points; what belongs to a mesh is not written beside points.
+// A mesh with its motion, or ideal points; fields of a mesh are not written for points.
 void visit(TargetSpec& spec, FieldVisitor& v) {
   const auto label = [&] {
     auto index = static_cast<std::size_t>(spec.label);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Every field of every section, named once with its key and its bound. Reading, checking and writing a scenario are
-// visitors of this list.
+// All fields of a scenario with their keys and bounds, listed once; reading, checking and writing are visitors of this
+// list.
 
 #include <array>
 #include <cstdint>
@@ -16,16 +16,16 @@
 
 namespace seaglint {
 
-// The values a number may have.
+// Bounds of a number.
 struct Bound {
   double lowest = -std::numeric_limits<double>::infinity();
   double highest = std::numeric_limits<double>::infinity();
-  bool without_lowest = false;   // lowest itself is not allowed
-  bool without_highest = false;  // highest itself is not allowed
-  bool or_zero = false;          // zero is allowed too
+  bool without_lowest = false;   // lowest excluded
+  bool without_highest = false;  // highest excluded
+  bool or_zero = false;          // zero also allowed
 
   bool holds(double value) const;
-  std::string text() const;  // "within 0.1 and 300", "greater than 0", ...; leaves or_zero to its user
+  std::string text() const;  // "within 0.1 and 300", "greater than 0", ...; without or_zero
 };
 
 constexpr Bound within(double lowest, double highest) { return {lowest, highest}; }
@@ -37,7 +37,7 @@ constexpr Bound above_up_to(double lowest, double highest) {
   return {.lowest = lowest, .highest = highest, .without_lowest = true};
 }
 
-// What is done with each field. Keys are string literals.
+// Operation on each field. Keys are string literals.
 class FieldVisitor {
  public:
   using Fields = std::function<void(FieldVisitor&)>;
@@ -47,15 +47,15 @@ class FieldVisitor {
 
   virtual void number(const char* key, double& value, const Bound& bound) = 0;
   virtual void integer(const char* key, int& value, const Bound& bound) = 0;
-  // 0 <= x < 2^63: the rows of data sets hold signed numbers
+  // 0 <= x < 2^63: data sets store signed numbers
   virtual void natural(const char* key, std::uint64_t& value) = 0;
   virtual void flag(const char* key, bool& value) = 0;
   virtual void text(const char* key, std::string& value) = 0;
   virtual void choice(const char* key, std::size_t& index, Names names) = 0;  // names[index]
   virtual void triple(const char* key, std::array<double, 3>& values, const Bound& bound) = 0;
-  virtual void ratio(const char* key, double& share) = 0;  // a:b for the share a/(a+b)
-  // A number, a list or from:to:step, or one of `words`: *word is 0 for numbers, else the place of the word counted
-  // from 1, and values is empty.
+  virtual void ratio(const char* key, double& share) = 0;  // written a:b for the fraction a/(a+b)
+  // A number, a list or from:to:step, or one of `words`: *word is 0 for numbers, else the 1-based index of the word,
+  // with values empty.
   virtual void sweep(const char* key, Sweep& values, const Bound& bound, Names words = {},
                      std::size_t* word = nullptr) = 0;
   virtual void section(const char* key, const Fields& fields) = 0;
@@ -70,12 +70,12 @@ class FieldVisitor {
 
   // The key must be in the file.
   virtual void require(const char* key) = 0;
-  // Whether to visit a field that need not exist: asked with whether it does; when reading, whether the file has the
-  // key.
+  // Returns whether to visit an optional field. present: whether it has a value; when reading, the result is whether
+  // the file has the key.
   virtual bool optional(const char* key, bool present) = 0;
 };
 
-// All fields of a scenario, section by section, in the order they are written.
+// All fields of a scenario, section by section, in output order.
 void visit_fields(Scenario& scenario, FieldVisitor& visitor);
 
 }  // namespace seaglint

@@ -91,7 +91,7 @@ class Lister : public FieldVisitor {
   }
 
   std::string prefix_;
-  std::string required_;      // the path last said to be required
+  std::string required_;      // path of the last required key
   bool is_optional_ = false;  // the next field has no default
 };
 

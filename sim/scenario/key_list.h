@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Every key a scenario may have, with its default and what it allows, from the one list of fields.
+// List of all scenario keys.
 
 #include <string>
 
 namespace seaglint {
 
-// Every key with its default and what it allows, one line each.
+// All keys with default and allowed values, one line each, from the list of fields.
 std::string list_keys();
 
 }  // namespace seaglint

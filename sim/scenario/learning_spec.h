@@ -13,7 +13,7 @@ struct DatasetSpec {
   double interval_spacing_s = 10;  // between the intervals of one realisation, 0.001 <= x <= 10000
   int maps_per_shard = 20;         // 1 <= x <= 10000
   double train_fraction = 0.7;     // `split: 7:3`, 0 < x < 1
-  bool complex_maps = false;       // store real and imaginary parts beside the magnitude
+  bool complex_maps = false;       // also store real and imaginary parts
 };
 
 struct FeatureSpec {
@@ -34,9 +34,10 @@ struct LearningSpec {
   int batch_size = 32;            // 1 <= x <= 4096
   double learning_rate = 0.001;   // of the network, 1e-6 <= x <= 1
   int embedding_size = 8;         // 1 <= x <= 512
-  int threads = 1;                // of the network, fixed and recorded: another number gives other bits; 1 <= x <= 256
-  double map_floor_db = -40;      // floor of the network's input, below the map's total energy, -120 <= x < 0
-  int trees = 200;                // XGBoost, the paper's table II from here on
+  int threads =
+      1;  // of the network, fixed and recorded: results differ bitwise with the number of threads; 1 <= x <= 256
+  double map_floor_db = -40;  // floor of the network's input, relative to the total energy of the map, -120 <= x < 0
+  int trees = 200;            // XGBoost parameters from here on: table II of the paper
   int max_depth = 6;
   double tree_learning_rate = 0.05;
   double subsample = 0.8;

@@ -109,7 +109,7 @@ void check_dispersion(const DispersionSpec& spec, const std::string& path, bool 
   }
 }
 
-// Keys that say nothing about this kind would be ignored.
+// Keys that do not apply to this kind are errors.
 void check_material(const MaterialSpec& spec, const ScenarioDocument& document) {
   if (spec.highest_ghz < spec.lowest_ghz) {
     document.fail_at("highest_ghz", fmt::format("must be at least lowest_ghz, {}", spec.lowest_ghz));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Material files: their fields, and what is wrong although each field is right.
+// Material files: fields and consistency checks.
 
 #include <filesystem>
 #include <optional>
@@ -15,12 +15,12 @@ namespace seaglint {
 MaterialSpec read_material(const std::filesystem::path& file);
 MaterialSpec parse_material(const std::string& yaml, const std::string& file_name);
 
-// The file of a material, a file itself or NAME for assets/materials/NAME.yaml: beside `folder` or below the working
-// directory; none of `pec`. Throws InputError that begins with `where` when there is none.
+// File of a material: a path, or NAME for assets/materials/NAME.yaml; searched in `folder`, then in the working
+// directory. nullopt for `pec`. Throws InputError, beginning with `where`, when there is none.
 std::optional<std::filesystem::path> find_material_file(const std::string& name, const std::filesystem::path& folder,
                                                         const std::string& where);
 
-// What that file says, a perfect conductor for `pec`; likewise.
+// Contents of that file; a perfect conductor for `pec`. Throws likewise.
 MaterialSpec find_material(const std::string& name, const std::filesystem::path& folder, const std::string& where);
 
 }  // namespace seaglint

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// What a surface is made of, as a file of assets/materials says it. Time factor e^{+jwt}: permittivity and permeability
-// are real - j loss, and a passive medium has loss >= 0.
+// Surface material, as in a file of assets/materials. Time factor e^{+jwt}: permittivity and permeability are real - j
+// loss; a passive medium has loss >= 0.
 
 #include <string>
 #include <vector>
@@ -21,8 +21,9 @@ struct MeasuredSpec {
   double loss = 0;            // 0 <= x <= 1e5
 };
 
-// A relative permittivity or permeability over frequency: a table of measured values, linear in the logarithm of
-// frequency and held beyond its ends; without a table real - j loss + sum of Debye terms - j conductivity / (w eps0).
+// A relative permittivity or permeability over frequency: a table of measured values, interpolated linearly in the
+// logarithm of frequency, constant beyond its ends; without a table real - j loss + sum of Debye terms - j conductivity
+// / (w eps0).
 struct DispersionSpec {
   double real = 1;              // at infinite frequency when there are Debye terms, 0 < x <= 1e5
   double loss = 0;              // 0 <= x <= 1e5
@@ -40,22 +41,22 @@ struct LayerSpec {
 enum class SurfaceKind {
   kPec,        // perfect electric conductor
   kConductor,  // half-space of finite conductivity
-  kImpedance,  // surface impedance relative to that of free space, the same at every angle (Leontovich)
-  kLayers,     // stack of flat layers, first the one the wave meets, on a perfect conductor or with air behind
+  kImpedance,  // surface impedance relative to free space, independent of angle (Leontovich)
+  kLayers,     // stack of plane layers, illuminated layer first, on a perfect conductor or with air behind
   kSeaWater,   // half-space of sea water
-  kSubmerged   // hides what lies behind, neither reflects nor radiates; no file has it
+  kSubmerged   // opaque, neither reflects nor radiates; not available in files
 };
 enum class Backing { kPec, kAir };
 
 struct MaterialSpec {
   std::string name = "pec";
-  std::string source;  // where the values come from
+  std::string source;  // source of the values
   SurfaceKind kind = SurfaceKind::kPec;
-  double lowest_ghz = 0.001;      // range the source covers, 0.001 <= x <= 1000
+  double lowest_ghz = 0.001;      // frequency range of the source, 0.001 <= x <= 1000
   double highest_ghz = 1000;      // lowest_ghz <= x <= 1000
   double roughness_mm = 0;        // RMS height, 0 <= x <= 100
   double conductivity_s_m = 1e7;  // of a conductor, 1 <= x <= 1e9
-  double resistance = 0;          // of an impedance, in units of that of free space, 0 <= x <= 1e6
+  double resistance = 0;          // of an impedance, relative to free space, 0 <= x <= 1e6
   double reactance = 0;           // of an impedance, positive = inductive, |x| <= 1e6
   Backing backing = Backing::kPec;
   std::vector<LayerSpec> layers;

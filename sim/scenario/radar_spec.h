@@ -15,7 +15,7 @@ namespace seaglint {
 enum class HopCode { kRandom, kBalanced, kStepped, kFile };
 enum class Polarisation { kHh, kHv, kVh, kVv };  // first letter received, second transmitted
 
-// What the radar equation needs, for clutter and noise whose level is not given as a ratio.
+// Quantities of the radar equation, for clutter and noise levels that are not given as a ratio.
 struct LinkBudgetSpec {
   double beamwidth_deg = 1.5;   // of the antenna in azimuth, one way at half power, 0.01 <= x <= 60
   double peak_power_kw = 10;    // 1e-6 <= x <= 1e5
@@ -25,11 +25,11 @@ struct LinkBudgetSpec {
   double temperature_k = 290;   // 1 <= x <= 10000
 };
 
-// The radar's own motion; the target's reference point stays where it is, and the line of sight turns as the radar
-// passes by.
+// Motion of the radar relative to the fixed reference point of the target; the line of sight rotates as the radar
+// moves.
 struct PlatformSpec {
   std::array<double, 3> velocity_mps{0, 0, 0};  // target frame, |x| <= 1000
-  bool motion_compensated = true;  // the radar takes its own radial motion towards the reference point out of the echo
+  bool motion_compensated = true;  // own radial motion relative to the reference point removed from the echo
 };
 
 struct RadarSpec {
@@ -38,23 +38,23 @@ struct RadarSpec {
   double hop_step_mhz = 25;             // carrier spacing, > 0
   HopCode hop_code = HopCode::kRandom;  // random (independent, as in the paper), balanced, stepped, file
   std::string hop_code_file;            // of hop_code: file, beside the scenario or below the working directory
-  std::shared_ptr<const std::vector<int>> hop_codes;  // what it holds, read with the scenario; at least `pulses` codes
+  std::shared_ptr<const std::vector<int>> hop_codes;  // contents of that file; at least `pulses` codes
   double bandwidth_mhz = 25;                          // LFM bandwidth B, 0.001 <= x <= 10000
   double pulse_width_us = 36;                         // 0.001 <= x <= 1e6, shorter than pri_us
   double sampling_mhz = 50;                           // complex sampling of the time-domain echo, >= bandwidth_mhz
   double pri_us = 250;                                // 0.01 <= x <= 1e7
-  // every pulse but the first comes up to this much early or late, uniformly; pulses never overlap
+  // uniform jitter within +- this, all pulses but the first; pulses must not overlap
   double pri_jitter_us = 0;
   int pulses = 256;  // of one coherent interval, 1 <= x <= 65536
   Polarisation polarisation = Polarisation::kVv;
   // the f/mu term of Doppler inside the pulse, in echo and map alike; only with points as targets
   bool intra_pulse_motion = false;
-  double range_km = 20;  // to the target's reference point, for budget and platform, 0.1 <= x <= 1000
+  double range_km = 20;  // to the target's reference point, for link_budget and platform, 0.1 <= x <= 1000
   LinkBudgetSpec budget;
   PlatformSpec platform;
 };
 
-// Edges of the whole band.
+// Band edges of all carriers, GHz.
 inline double lowest_ghz(const RadarSpec& radar) { return radar.carrier_ghz - 0.5e-3 * radar.bandwidth_mhz; }
 inline double highest_ghz(const RadarSpec& radar) {
   return radar.carrier_ghz + 1e-3 * ((radar.carrier_count - 1) * radar.hop_step_mhz + 0.5 * radar.bandwidth_mhz);
@@ -69,12 +69,13 @@ struct ViewSpec {
 
 enum class ScrDefinition { kPerPulse, kPeakCell, kExtent };
 
-// kScr: by the ratio to the target. kNrl: by the sea's mean reflectivity, the radar's range and beam.
+// kScr: relative to the target. kNrl: absolute, by the mean reflectivity of the sea, the range and the antenna beam.
 enum class ClutterLevel { kScr, kNrl };
-// kCnr: by the ratio to the clutter. kSnr: by the ratio to the target. kThermal: by the radar equation.
+// kCnr: relative to the clutter. kSnr: relative to the target. kThermal: by the radar equation.
 enum class NoiseLevel { kCnr, kSnr, kThermal };
-// What the waves add to the given mean and spread. kGiven: nothing. kSea: mean and spread of a sea of these waves.
-// kWaveResolved: the sea's mean, and to every scatterer the velocity of the water where it floats in this very sea.
+// Contribution of the waves to the prescribed mean and spread of the velocity. kPrescribed: none. kSea: mean and spread
+// for the sea state. kWaveResolved: mean for the sea state, and per scatterer the velocity of the water at its position
+// in the sea realisation of the target.
 enum class ClutterDoppler { kPrescribed, kSea, kWaveResolved };
 
 struct ClutterSpec {
@@ -83,22 +84,23 @@ struct ClutterSpec {
   ScrDefinition scr_definition = ScrDefinition::kPerPulse;
   bool enabled = true;
   NoiseLevel noise_level = NoiseLevel::kCnr;
-  double noise_to_clutter_db = -30;       // receiver noise relative to clutter, -200 <= x <= 60
-  double snr_db = 20;                     // target to noise, per pulse, -100 <= x <= 200; where noise_level is snr
-  double texture_shape = 2;               // shape of the K distribution's gamma texture, 0.1 <= x <= 1000
-  double texture_correlation_time_s = 3;  // the texture's correlation falls to e^{-1/2} in this time, 0.1 <= x <= 1000
+  double noise_to_clutter_db = -30;  // receiver noise relative to clutter, -200 <= x <= 60
+  double snr_db = 20;                // target to noise, per pulse, -100 <= x <= 200; where noise_level is snr
+  double texture_shape = 2;          // shape of the K distribution's gamma texture, 0.1 <= x <= 1000
+  double texture_correlation_time_s =
+      3;  // time in which the correlation of the texture falls to e^{-1/2}, 0.1 <= x <= 1000
   ClutterDoppler doppler = ClutterDoppler::kPrescribed;
   double doppler_mean_mps = 0;      // mean velocity of the clutter, positive = receding, |x| <= 20
   double doppler_spread_mps = 0.5;  // standard deviation of its velocity, 0 <= x <= 20
-  double hh_velocity_factor = 1.5;  // mean velocity by waves and wind of hh, hv, vh against vv's, 0 <= x <= 5
-  std::optional<double> sea_state;  // Douglas, 0 <= x <= 6; by the significant wave height without it
+  double hh_velocity_factor = 1.5;  // mean velocity by waves and wind of hh, hv, vh relative to vv, 0 <= x <= 5
+  std::optional<double> sea_state;  // Douglas, 0 <= x <= 6; default: from the significant wave height
 };
 
 enum class Compression { kInverse, kMatched };
 enum class Taper { kNone, kHann, kHamming, kTaylor };
 
 struct MapSpec {
-  // full width, centred on the target's reference point, > 0; never beyond the unambiguous window
+  // full width, centred on the target's reference point, > 0; limited to the unambiguous window
   double range_span_m = 192;
   double velocity_span_mps = 9.375;  // full width centred on zero, > 0
   double range_oversampling = 1;     // cells per range resolution c/(2 B_s), 1 <= x <= 16
@@ -106,7 +108,7 @@ struct MapSpec {
   Compression compression = Compression::kInverse;
   Taper range_taper = Taper::kHann;
   Taper velocity_taper = Taper::kNone;
-  bool clean = false;  // points that CLEAN finds come back without the hop code's pedestal
+  bool clean = false;  // restore the points found by CLEAN without the pedestal of the hop code
 };
 
 }  // namespace seaglint

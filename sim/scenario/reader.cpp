@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kMaxSweepValues = 10000;
 
-// A value as a complaint shows it.
+// A value as shown in error messages.
 std::string shown(const YamlNode& node) {
   constexpr std::size_t kLongest = 60;
   switch (node.kind) {
@@ -64,7 +64,7 @@ class KeyCollector : public FieldVisitor {
   }
 };
 
-// Reads the fields of one map. Fields whose key is not in the map keep their defaults.
+// Reads the fields of one map. Fields without a key in the map keep their defaults.
 class Reader : public FieldVisitor {
  public:
   // Visits the fields twice: for the keys they allow, then for the values.
@@ -310,7 +310,7 @@ class Reader : public FieldVisitor {
     const std::string other = words.empty() ? "" : fmt::format(", or {}", fmt::join(words, " or "));
     const std::string what = fmt::format("must be a number, a list or from:to:step, {}{}{}",
                                          bound.or_zero ? "0 or " : "", bound.text(), other);
-    // A range may stand in quotes, as other YAML readers need it.
+    // A range may be quoted, as other YAML readers require.
     const bool readable = is_plain(node) || (node.quoted && node.text.find(':') != std::string::npos);
     if (!readable) fail(node, path, what);
     if (node.text.find(':') == std::string::npos && !parse_number(node.text)) fail(node, path, what);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// From the YAML tree to the structs: what each field accepts.
+// Reads a YAML tree into structs.
 
 #include <functional>
 
@@ -15,7 +15,7 @@ class FieldVisitor;
 // Reads every field. Throws InputError for unknown and duplicate keys, missing required ones, wrong types and values
 // out of bounds.
 Scenario read_fields(const ScenarioDocument& document);
-// The same for another kind of file.
+// The same for another list of fields.
 void read_fields(const ScenarioDocument& document, const std::function<void(FieldVisitor&)>& fields);
 
 }  // namespace seaglint

@@ -36,7 +36,7 @@ SamplePlan::SamplePlan(const Scenario& scenario)
 
 std::size_t SamplePlan::size() const { return sea_states_.size() * realisations_ * per_realisation_; }
 
-// A Fisher-Yates shuffle of its own key.
+// Fisher-Yates shuffle with a key per realisation.
 std::vector<std::uint32_t> SamplePlan::order(std::size_t realisation_number) const {
   std::vector<std::uint32_t> order(per_realisation_);
   std::iota(order.begin(), order.end(), 0u);

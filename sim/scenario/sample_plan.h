@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The fixed enumeration of a scenario's samples: which sea, view, target and interval each one shows, and which shard
-// holds it. One sample is one map of one coherent interval. Definitions of case, realisation and group:
-// classify/dataset/README.md.
+// Enumeration of the samples of a scenario: sea, view, target and interval of each, and its shard. One sample is one
+// map of one coherent interval. Definitions of case, realisation and group: classify/dataset/README.md.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,7 +12,7 @@
 
 namespace seaglint {
 
-// Where a sample lies in the scenario's sweeps, all zero-based.
+// Indices of a sample in the sweeps of the scenario, all zero-based.
 struct SampleAddress {
   int sea_state = 0;    // index into the plan's sea_states()
   int realisation = 0;  // 0..realisations_per_case-1, of the sea state
@@ -24,8 +23,8 @@ struct SampleAddress {
   bool operator==(const SampleAddress&) const = default;
 };
 
-// The key of the random sea of a realisation of one of a scenario's sea states, both counted from 0: sea_state 1000000
-// + realisation, realisation below 1000000. Both classes and all views share it.
+// Random index of a sea realisation: 1000000 sea_state + realisation, both zero-based, realisation below 1000000.
+// Common to both classes and all views.
 std::uint64_t sea_key(std::size_t sea_state, std::size_t realisation);
 
 struct ShardRange {
@@ -33,9 +32,9 @@ struct ShardRange {
   std::size_t count = 0;
 };
 
-// Samples are numbered with the sea state slowest, then the realisation, so that those which share a sea and its
-// motions lie together. Within a realisation views, intervals and targets come in a random order (stream kTargetOrder),
-// so that neither a sample's number nor its neighbours' labels say anything about its own.
+// Samples are numbered with the sea state slowest, then the realisation, so that samples of one sea and its motions are
+// adjacent. Within a realisation views, intervals and targets are in random order (stream kTargetOrder), so that
+// neither the number of a sample nor the labels of adjacent samples carry information about its label.
 class SamplePlan {
  public:
   explicit SamplePlan(const Scenario& scenario);
@@ -49,17 +48,17 @@ class SamplePlan {
   const View& view(const SampleAddress& at) const { return views_[static_cast<std::size_t>(at.view)]; }
   SampleAddress address(std::size_t sample) const;         // sample < size()
   std::size_t sample(const SampleAddress& address) const;  // inverse of address()
-  // Sea state and realisation of a sample, zero elsewhere: what group() needs. address() shuffles the realisation.
+  // Sea state and realisation of a sample, other indices zero; sufficient for group() and cheaper than address().
   SampleAddress sea_address(std::size_t sample) const;
 
   std::size_t shards() const;
-  ShardRange shard(std::size_t index) const;  // the last shard may hold fewer samples
+  ShardRange shard(std::size_t index) const;  // the last shard may have fewer samples
 
   int intervals() const { return intervals_; }
   // One group = one sea realisation, numbered from 0 without gaps.
   std::int64_t group(const SampleAddress& address) const;
   double start_s(const SampleAddress& address) const;  // of the interval within the realisation
-  // The span of time that every interval of a realisation starts in, s.
+  // Start of the last interval of a realisation, s.
   double last_start_s() const;
 
  private:

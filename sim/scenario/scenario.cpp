@@ -28,7 +28,7 @@ std::string place_of(const Scenario& scenario, const std::string& key_path) {
 
 namespace {
 
-// What a scenario without a name is called: its file's name, of printable characters.
+// Default name of a scenario: its file name, printable characters only.
 std::string name_of_file(const fs::path& file) {
   std::string name = file.stem().string();
   std::replace_if(
@@ -37,18 +37,18 @@ std::string name_of_file(const fs::path& file) {
   return name.empty() ? "scenario" : name;
 }
 
-// A file that a key names.
+// The file named by a key.
 fs::path file_of(const Scenario& scenario, const std::string& name, const std::string& key) {
   return find_file(name, scenario.folder, place_of(scenario, key));
 }
 
-// Reads the file that `sea.table` names; nothing where no table is asked for.
+// Reads the file of `sea.table`; null without a table.
 std::shared_ptr<const SpectrumTable> find_spectrum_table(const Scenario& scenario) {
   if (scenario.sea.spectrum != SpectrumKind::kTable || scenario.sea.table.empty()) return nullptr;
   return std::make_shared<SpectrumTable>(read_spectrum_table(file_of(scenario, scenario.sea.table, "sea.table")));
 }
 
-// Reads the file that `radar.hop_code_file` names, likewise.
+// Reads the file of `radar.hop_code_file`, likewise.
 std::shared_ptr<const std::vector<int>> find_hop_codes(const Scenario& scenario) {
   const RadarSpec& radar = scenario.radar;
   if (radar.hop_code != HopCode::kFile || radar.hop_code_file.empty()) return nullptr;

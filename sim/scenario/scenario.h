@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Reading and writing scenario files, and the files that a scenario names.
+// Reads scenario files and locates the files that they name.
 
 #include <filesystem>
 #include <string>
@@ -13,26 +13,26 @@
 
 namespace seaglint {
 
-// Reads and checks a scenario. Throws InputError "file:line:col: key.path: value ...: bound" for the first thing that
-// is wrong: unknown or duplicate keys, wrong types, values out of range, contradictions.
+// Reads and checks a scenario. Throws InputError "file:line:col: key.path: value ...: bound" for the first error:
+// unknown or duplicate keys, wrong types, values out of range, inconsistencies.
 Scenario read_scenario(const std::filesystem::path& file, const std::vector<Override>& overrides = {});
 Scenario parse_scenario(const std::string& yaml, const std::string& file_name,
                         const std::vector<Override>& overrides = {});
 
-// "file:line:col: key.path" of a key or of its closest parent in the file; the key path alone when nothing was read.
+// "file:line:col: key.path" of a key or of its closest parent in the file; the key path alone without a file.
 std::string place_of(const Scenario& scenario, const std::string& key_path);
 
-// The file a target's mesh path names: beside the scenario or below the working directory. Throws InputError when
+// Mesh file of a target: searched in the folder of the scenario, then in the working directory. Throws InputError when
 // neither exists.
 std::filesystem::path find_mesh(const Scenario& scenario, const TargetSpec& target);
 
-// A file that a scenario names: what decides its maps beside its own text.
+// An input file of a scenario, which affects its maps.
 struct InputFile {
-  std::string key;             // that names it
+  std::string key;             // key that names it
   std::filesystem::path path;  // where it was found
 };
 
-// All of them, in the order of the targets; a scenario of points alone has none. Throws InputError when one is missing.
+// All input files, in the order of the targets; empty for a scenario of points. Throws InputError when one is missing.
 std::vector<InputFile> input_files(const Scenario& scenario);
 
 }  // namespace seaglint

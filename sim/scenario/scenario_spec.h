@@ -32,8 +32,8 @@ struct Scenario {
   DatasetSpec dataset;
   FeatureSpec features;
   LearningSpec learning;
-  std::filesystem::path folder;  // of the file: relative mesh paths start here, then at the working directory
-  std::shared_ptr<const ScenarioDocument> document;  // where its keys stand; null when it was not read
+  std::filesystem::path folder;  // of the file: first search folder of relative paths, before the working directory
+  std::shared_ptr<const ScenarioDocument> document;  // positions of its keys; null when not read from a file
 };
 
 }  // namespace seaglint

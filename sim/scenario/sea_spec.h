@@ -15,18 +15,18 @@ namespace seaglint {
 
 enum class SpectrumKind { kJonswap, kBretschneider, kTable };
 
-// kExact: the density integrates to Hs^2/16. kDnv: the factor 1 - 0.287 ln gamma of DNV-RP-C205, which is +0.24 % off
-// at gamma 3.3 and -1.8 % at 7.
+// kExact: the density integrates to Hs^2/16. kDnv: the factor 1 - 0.287 ln gamma of DNV-RP-C205, whose energy error is
+// +0.24 % at gamma 3.3, -1.8 % at 7.
 enum class SpectrumNormalisation { kExact, kDnv };
 
 // `peak_period_s: dnv_wind_sea` is Tp = 3.96 sqrt(Hs); wind_and_fetch follows from the section `wind`.
 enum class PeakPeriod { kGiven, kDnvWindSea, kWindAndFetch };
 enum class PeakEnhancement { kGiven, kDnvRule };  // `gamma: dnv_rule`: from Tp / sqrt(Hs)
-enum class WaveHeight { kGiven, kFromTable };     // `significant_wave_height_m: of_table`: the table's own energy
+enum class WaveHeight { kGiven, kFromTable };     // `significant_wave_height_m: from_table`: energy of the table
 enum class WaveAmplitude { kFixed, kRandom };
 enum class Spreading { kNone, kCos2s, kMitsuyasu, kWrappedNormal };
 
-// How the energy of one frequency is spread over directions (sim/sea/README.md, "Directions").
+// Directional spreading (sim/sea/README.md, "Directions").
 struct SpreadingSpec {
   Spreading kind = Spreading::kNone;
   double s = 10;          // of cos2s; of mitsuyasu at the peak; 0 < x <= 200
@@ -39,7 +39,7 @@ struct WindSpec {
   double fetch_km = 100;  // 0.1 <= x <= 5000
 };
 
-// A second system of waves, from a storm elsewhere.
+// Swell: a second wave system.
 struct SwellSpec {
   double significant_wave_height_m = 0;  // 0 = none, or 1e-6 <= x <= 30
   double peak_period_s = 12;             // 0.5 <= x <= 40
@@ -50,14 +50,14 @@ struct SwellSpec {
 };
 
 struct SeaSpec {
-  Sweep significant_wave_height_m{1};  // of the wind sea, 0 or 1e-6 <= x <= 30; empty when of_table
+  Sweep significant_wave_height_m{1};  // of the wind sea, 0 or 1e-6 <= x <= 30; empty with from_table
   WaveHeight height_rule = WaveHeight::kGiven;
   Sweep peak_period_s{8};  // 0.5 <= x <= 40; empty when a rule gives it
   PeakPeriod period_rule = PeakPeriod::kGiven;
   WindSpec wind;
   SpectrumKind spectrum = SpectrumKind::kJonswap;
   std::string table;  // file of spectrum: table, beside the scenario or below the working directory
-  std::shared_ptr<const SpectrumTable> table_values;  // what it holds, read with the scenario
+  std::shared_ptr<const SpectrumTable> table_values;  // contents of that file
   Sweep gamma{3.3};                                   // peak enhancement, 1 <= x <= 20; empty when a rule gives it
   PeakEnhancement gamma_rule = PeakEnhancement::kGiven;
   SpectrumNormalisation normalisation = SpectrumNormalisation::kExact;
@@ -76,18 +76,19 @@ enum class SeaSurface { kSeaWater, kConductor };
 enum class SeaRoughness { kMillerBrownVegh, kAment, kNone };
 enum class SeaPaths { kAll, kDirect, kMultipath };
 
-// The `sea_reflection` section: the mean sea surface as a mirror between radar and target (sim/scattering/README.md,
-// "Sea reflection"). The loss by waves follows the significant wave height of the sea state.
+// The `sea_reflection` section: specular reflection by the mean sea surface between radar and target
+// (sim/scattering/README.md, "Sea reflection"). The roughness factor follows the significant wave height of the sea
+// state.
 struct SeaReflectionSpec {
   bool enabled = false;
   SeaSurface surface = SeaSurface::kSeaWater;
   double temperature_c = 20;  // -2 <= x <= 29
   double salinity_psu = 35;   // 0 <= x <= 40
   SeaRoughness roughness = SeaRoughness::kMillerBrownVegh;
-  SeaPaths paths = SeaPaths::kAll;  // direct: without those by way of the sea; multipath: those alone
+  SeaPaths paths = SeaPaths::kAll;  // kDirect: without paths via the sea surface; kMultipath: only those
 };
 
-// A system of waves of one origin: the wind sea or the swell of a state.
+// One wave system of a state: wind sea or swell.
 struct WaveSystemState {
   double significant_wave_height_m = 0;
   double peak_period_s = 8;
@@ -97,13 +98,13 @@ struct WaveSystemState {
   int components = 128;
 };
 
-// One sea state: a SeaSpec with one value of each sweep. The first four fields are the wind sea's.
+// One sea state: a SeaSpec with one value of each sweep. The first four fields describe the wind sea.
 struct SeaState {
   double significant_wave_height_m = 1;
   double peak_period_s = 8;
   double gamma = 3.3;
   double propagation_rad = 0;
-  double propagation_deg = 0;  // as the scenario gives it, for records; waves go by propagation_rad
+  double propagation_deg = 0;  // as given in the scenario, for records; computations use propagation_rad
   int order = 2;
   int components = 512;
   double cutoff_rad_s = 8;
@@ -111,7 +112,7 @@ struct SeaState {
   SpreadingSpec spreading;
   SpectrumNormalisation normalisation = SpectrumNormalisation::kExact;
   std::shared_ptr<const SpectrumTable> table;  // replaces JONSWAP, scaled to the significant wave height
-  WaveSystemState swell;                       // none when its height is 0
+  WaveSystemState swell;                       // height 0: none
   double depth_m = kDeepWater;
   WaveAmplitude amplitude = WaveAmplitude::kFixed;
 };

@@ -13,7 +13,7 @@ namespace seaglint {
 enum class MotionModel { kFixed, kShip, kFloat, kSeries, kRao };
 enum class WaveSharing { kSameField, kIndependent };
 
-// Zero in a field marked (auto) means: derived from the mesh's size by the formulas in sim/motion/README.md.
+// (auto): zero means derived from the size of the mesh (sim/motion/ship/README.md, sim/motion/float/README.md).
 struct MotionSpec {
   MotionModel model = MotionModel::kFixed;
   bool translations = false;  // surge, sway and heave too
@@ -26,23 +26,24 @@ struct MotionSpec {
   double roll_quadratic_damping = 0;   // b of b |x'| x', 1/rad, 0 <= x <= 100
   double pitch_damping = 0;            // (auto) ratio to critical, 0 <= x <= 2
   double yaw_damping = 0.1;            // ratio to critical at yaw_period_s, 0 <= x <= 2
-  double yaw_rate_std_deg_s = 0;       // standard deviation of a float's slow random rotation, 0 <= x <= 180
+  double yaw_rate_std_deg_s = 0;       // standard deviation of the slow random yaw rate of a float, 0 <= x <= 180
   double length_m = 0;                 // (auto) waterline length, 0 <= x <= 1000
   double beam_m = 0;                   // (auto) waterline beam, 0 <= x <= 200
-  double draught_m = 0;                // (auto) of a ship; of a float, 0 = too shallow to matter; 0 <= x <= 50
+  double draught_m = 0;                // (auto) of a ship; of a float, 0 = negligible; 0 <= x <= 50
   double heave_period_s = 0;           // (auto) of a float, 0 or 0.2 <= x <= 60
   double heave_damping = 0;            // (auto) of a float, ratio to critical, 0 <= x <= 2
   double metacentric_height_m = 1.95;  // 0.01 <= x <= 20
-  // of gyration of the mass about the centre of gravity; 0: the one of roll_period_s, 0 <= x <= 100
+  // of gyration of the mass about the centre of gravity; 0: derived from roll_period_s, 0 <= x <= 100
   double roll_gyradius_m = 0;
   double pitch_radius_m = 0;  // (auto) 0 <= x <= 500
   double yaw_radius_m = 0;    // (auto) 0 <= x <= 500
   double speed_mps = 0;       // of model ship, rao or series, forward, 0 <= x <= 40
   std::string file;           // of model series (attitude over time) or rao (response operators)
-  double series_start_s = 0;  // time in the series that is t = 0, -1e6 <= x <= 1e6
+  double series_start_s = 0;  // time of the series at t = 0, -1e6 <= x <= 1e6
   double wamit_ulen_m = 1;    // ULEN of a WAMIT table, 0 < x <= 1000
-  std::string sections;       // file of a ship's sections below the waterline; default: the mesh's, else a form
-  double diameter_m = 0;      // (auto) of a float's waterplane, 0 <= x <= 50
+  std::string
+      sections;  // file of a ship's sections below the waterline; default: those of the mesh, else a parametric form
+  double diameter_m = 0;  // (auto) of a float's waterplane, 0 <= x <= 50
   double origin_above_waterline_m =
       0.75;  // height of a float's mesh origin above its centre of flotation, -10 <= x <= 50
   WaveSharing waves = WaveSharing::kSameField;
@@ -58,10 +59,10 @@ struct LineLayout {
   double centre_y_m = 0;
 };
 
-// Another target that stands in the same sea and is seen in the same maps; its own label does not count there.
+// Another target in the same sea and the same maps; its label is ignored there.
 struct CompanionSpec {
   std::string target;  // its name
-  double x_m = 0;      // where its reference point stands, target frame, |x| <= 1e5
+  double x_m = 0;      // position of its reference point, target frame, |x| <= 1e5
   double y_m = 0;
 };
 
@@ -71,23 +72,24 @@ struct PointSpec {
   std::array<double, 3> velocity_mps{0, 0, 0};  // target frame
 };
 
-// How many bounces count, and how many may be asked for. On the ship 8 leave out up to -11 dB, 40 less than -39 dB
-// (sim/scattering/README.md, "High-order bounces" of tests/README.md).
+// Default and maximum number of bounces. On the ship the error of 8 bounces is up to -11 dB, of 40 below -39 dB
+// (tests/README.md, "High-order bounces").
 inline constexpr int kDefaultBounces = 40, kMaxBounces = 200;
 
-// Zero in a field marked (auto) means: derived from the mesh's size by the formula in sim/scattering/README.md.
+// (auto): zero means derived from the size of the mesh (sim/scattering/README.md).
 struct SolverSpec {
   double ray_spacing_m = 0;           // (auto) of rays that would find the detail followed, 0 or 0.001 <= x <= 10
   int max_bounces = kDefaultBounces;  // 1 <= x <= kMaxBounces
-  double max_aspect_change_deg = 0;   // (auto) turn of the body served by one trace, 0 or 0.001 <= x <= 5
-  double crease_deg = 20;  // facets that turn by less belong to one smooth surface, 0 <= x <= 60; 0 = all facets flat
-  bool edges = true;       // fringe currents at sharp edges
+  double max_aspect_change_deg = 0;   // (auto) aspect change covered by one aspect trace, 0 or 0.001 <= x <= 5
+  double crease_deg = 20;  // crease angle: adjacent facets whose normals differ by less belong to one smooth surface, 0
+                           // <= x <= 60; 0 = all facets flat
+  bool edges = true;       // edge diffraction
   double wavefront_range_m = 0;  // for the curvature of the wavefront, 0 or 100 <= x <= 1e7; 0 = far field at any range
 };
 
-// A part of the mesh that is made of something else than the rest.
+// Material of a part of the mesh.
 struct PartMaterialSpec {
-  std::string part;      // its name; with a * at the end, all parts whose names begin so
+  std::string part;      // its name; a trailing * selects all parts with that prefix
   std::string material;  // as TargetSpec::material
 };
 
@@ -97,13 +99,13 @@ struct TargetSpec {
   std::string mesh;              // path relative to the scenario's folder or the working directory; empty for points
   std::string unit = "m";        // of the mesh file: m, cm, mm, km, in, ft
   std::string material = "pec";  // pec, a name of assets/materials, or a file
-  std::vector<PartMaterialSpec> part_materials;  // later ones win
+  std::vector<PartMaterialSpec> part_materials;  // later entries take precedence
   double sheet_thickness_mm = 0;                 // of open surfaces, 0 <= x <= 1000
   std::optional<LineLayout> line;                // along x of the target frame, centred
   MotionSpec motion;
   SolverSpec solver;
   std::vector<PointSpec> points;
-  std::vector<CompanionSpec> with;  // echoes add up; nothing shadows or lights across targets
+  std::vector<CompanionSpec> with;  // their echoes are added; no shadowing or multiple scattering between targets
 };
 
 }  // namespace seaglint

@@ -15,7 +15,7 @@ namespace seaglint {
 
 namespace {
 
-// Plain where YAML reads it back as it is, else in double quotes.
+// Plain where YAML reads it back unchanged, else in double quotes.
 std::string text_as_yaml(const std::string& text) {
   const auto simple = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '/' ||
@@ -33,7 +33,7 @@ std::string text_as_yaml(const std::string& text) {
   return quoted + '"';
 }
 
-// The smallest whole numbers a:b whose share a/(a+b) is this one to the last bit; share:(1-share) always is.
+// The smallest whole numbers a:b with a/(a+b) equal to the fraction to the last bit; otherwise share:(1-share).
 std::string ratio_as_yaml(double share) {
   for (int whole = 2; whole <= 100; ++whole) {
     const int a = static_cast<int>(share * whole + 0.5);
@@ -42,7 +42,7 @@ std::string ratio_as_yaml(double share) {
   return fmt::format("{}:{}", share, 1 - share);
 }
 
-// Every value as YAML has it. Doubles are written by fmt in the fewest digits that read back to the same bits.
+// Writes values as YAML. Doubles have the fewest digits that read back to the same bits (fmt).
 class ValueVisitor : public FieldVisitor {
  public:
   void number(const char* key, double& value, const Bound&) override { line(key, fmt::format("{}", value)); }

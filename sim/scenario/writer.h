@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The effective scenario: every field with its value, defaults included.
+// Writes the effective scenario: every field with its value, defaults included.
 
 #include <string>
 #include <utility>
@@ -11,11 +11,10 @@
 
 namespace seaglint {
 
-// The scenario with every default written out, as YAML that read_scenario takes back to the same value.
+// The scenario with all defaults as YAML; read_scenario() reads it back to the same values.
 std::string effective_yaml(const Scenario& scenario);
 
-// The keys of a section of the effective scenario with their values as YAML has them; of a section without sections in
-// it.
+// Keys of a section of the effective scenario with their values as YAML; the section must not have subsections.
 std::vector<std::pair<std::string, std::string>> section_values(const Scenario& scenario, const std::string& section);
 
 }  // namespace seaglint

@@ -16,7 +16,7 @@ namespace seaglint {
 
 SeaEnsemble make_ensemble(const SeaState& state, std::size_t state_index, std::uint64_t seed, int count,
                           double duration_s, double step_s, int threads, const StopFlag& stop) {
-  // Crests need some twenty samples per wave.
+  // Crests need about twenty samples per wave.
   const double step = std::min(step_s, state.peak_period_s / 20);
   const auto samples = static_cast<std::size_t>(duration_s / step) + 1;
   const double duration = step * static_cast<double>(samples);
@@ -70,7 +70,7 @@ SeaEnsemble make_ensemble(const SeaState& state, std::size_t state_index, std::u
     ensemble.zero_crossing_period_s = duration * count / static_cast<double>(ensemble.crests.size());
   }
 
-  // Bands of some 1/40 of the peak's frequency, of one line at least.
+  // Bands of about 1/40 of the peak frequency, at least one line.
   const auto band = std::max<std::size_t>(1, static_cast<std::size_t>(2 * kPi / state.peak_period_s / 40 / resolution));
   for (std::size_t first = 0; first + band <= lines; first += band) {
     double density = 0, linear = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Many realisations of a sea state, and what they have in common: spectrum, moments, crests.
+// Statistics over many realisations of a sea state: spectrum, moments, crest heights.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,17 +16,17 @@ struct SeaEnsemble {
   int realisations = 0;
   double significant_wave_height_m = 0;  // 4 standard deviations of the elevation
   double skewness = 0;
-  double kurtosis = 0;  // 3 for a normal sea
+  double kurtosis = 0;  // 3 for a Gaussian sea
   double zero_crossing_period_s = 0;
   std::vector<double> crests;           // m, ascending
   std::vector<double> omega;            // rad/s
-  std::vector<double> prescribed;       // density of the state's spectrum, m^2 s/rad
-  std::vector<double> realised;         // of the series' elevation, averaged over bands and realisations
+  std::vector<double> prescribed;       // density of the prescribed spectrum, m^2 s/rad
+  std::vector<double> realised;         // of the elevation series, averaged over bands and realisations
   std::vector<double> realised_linear;  // of the linear part alone
 };
 
-// Realisations 0 to count - 1 of a scenario's sea state `state_index`, each `duration_s` long at one place. The same
-// for any number of threads.
+// Realisations 0 to count - 1 of a scenario's sea state `state_index`, elevation series of `duration_s` at one point.
+// The result does not depend on the number of threads.
 SeaEnsemble make_ensemble(const SeaState& state, std::size_t state_index, std::uint64_t seed, int count,
                           double duration_s, double step_s, int threads, const StopFlag& stop);
 

@@ -10,7 +10,7 @@
 
 namespace seaglint {
 
-// Integral over [a, b] by Gauss and Legendre's five points on pieces no longer than `piece`.
+// Integral over [a, b] by five-point Gauss-Legendre quadrature on subintervals of at most `piece`.
 template <typename Function>
 double integrate(double a, double b, double piece, const Function& f) {
   constexpr std::array<double, 3> x{0, 0.5384693101056831, 0.9061798459386640};

@@ -58,9 +58,9 @@ void check_state(const SeaState& state) {
                swell_cutoff(state), state.depth_m);
 }
 
-// Waves of one origin, as they are cut into strata.
+// A wave system (wind sea or swell) with its frequency strata.
 struct WaveSystem {
-  double StratumWidths::*width = nullptr;  // where its own stands
+  double StratumWidths::*width = nullptr;  // field of this system
   std::unique_ptr<Spectrum> spectrum;
   double cutoff = 0;  // rad/s
   int components = 0;
@@ -91,7 +91,7 @@ Vec2 unit_vector(double angle) {
   return direction;
 }
 
-// The streams of one realisation; the swell goes on where the wind sea ends.
+// The streams of one realisation; the swell continues them after the wind sea.
 struct WaveRandom {
   Random place, phase, direction, amplitude;
 };
@@ -100,7 +100,8 @@ std::vector<WaveComponent> realise_system(const WaveSystem& system, const SeaSta
   const Spectrum& spectrum = *system.spectrum;
   const double lowest = spectrum.lowest_omega();
   const double width = stratum_width(system);
-  // Neighbours in frequency are sent as far apart as can be: the golden ratio's multiples fill (0, 1) evenly.
+  // Directions of components adjacent in frequency are spread by multiples of the golden ratio, which fill (0, 1)
+  // evenly.
   constexpr double kGolden = 0.61803398874989484820;
   double share = system.spreading.kind == Spreading::kNone ? 0 : random.direction.uniform();
   std::vector<WaveComponent> components(static_cast<std::size_t>(system.components));
@@ -117,13 +118,13 @@ std::vector<WaveComponent> realise_system(const WaveSystem& system, const SeaSta
     if (system.spreading.kind != Spreading::kNone) {
       share += kGolden;
       if (share >= 1) share -= 1;
-      // A share of 0 or 1 lies at the ends of the turn.
+      // Keeps the probability off 0 and 1, the ends of the circle.
       angle = spreading_quantile(system.spreading, std::clamp(share, 1e-12, 1 - 1e-12),
                                  component.omega / spectrum.peak_omega());
     }
     component.direction = unit_vector(system.propagation + angle);
   }
-  // The energy below and above the strata goes to the components in proportion, so that Hs is met exactly.
+  // The energy outside of the strata is distributed over the components in proportion, so that Hs is exact.
   const double scale = std::sqrt(spectrum.total_energy()) / std::sqrt(energy);
   for (WaveComponent& component : components) component.amplitude *= scale;
   if (state.amplitude == WaveAmplitude::kRandom) {

@@ -14,9 +14,9 @@ namespace seaglint {
 
 namespace {
 
-constexpr std::size_t kLanes = 4;  // columns that are added at once
+constexpr std::size_t kLanes = 4;  // columns added together
 
-// A wave as the kernels see it.
+// Quantities of one wave in the kernels.
 struct Wave {
   double omega = 0;
   double R = 0;       // k tanh(k h)
@@ -44,8 +44,9 @@ struct Kernels {
 //   D+- = {(r_i +- r_j)[r_j (k_i^2 - R_i^2) +- r_i (k_j^2 - R_j^2)] + 2 (r_i +- r_j)^2 (k_i.k_j -+ R_i R_j)}
 //         / {(r_i +- r_j)^2 - k+- tanh(k+- h)},   r = sqrt R,  k+- = |k_i +- k_j|
 //   P+- = 1/4 g^2 D+- / (w_i w_j (w_i +- w_j)),   w = sqrt(g) r
-// `quotient` is D+- / (r_i +- r_j), which is finite where two waves of one frequency cross. Two waves of one frequency
-// and direction have no difference wave: what they add to the mean level is left out, as for i = j.
+// `quotient` is D+- / (r_i +- r_j), which is finite for two waves of one frequency and different directions. Two waves
+// of one frequency and direction have no difference wave: their contribution to the mean level is omitted, as for i =
+// j.
 Kernels kernels_of(const Wave& a, const Wave& b, double depth) {
   const double ra = std::sqrt(a.R), rb = std::sqrt(b.R);
   const double dot = a.k.dot(b.k);
@@ -66,7 +67,7 @@ Kernels kernels_of(const Wave& a, const Wave& b, double depth) {
   return {elevation_sum, elevation_difference, potential_sum, potential_difference};
 }
 
-// kernel times x, four columns at a time: every element of the result is summed in the same order on any processor.
+// kernel times x, four columns at a time: each element is summed in the same order on all processors.
 std::vector<double> multiply(const std::vector<double>& kernel, const std::vector<double>& x) {
   const std::size_t stride = x.size();
   std::vector<double> result(stride);
@@ -106,7 +107,7 @@ PairInteractions::PairInteractions(std::span<const WaveComponent> components, do
 }
 
 // With z_i = a_i e^{j th_i} and symmetric kernels, eta2 = Re sum_i z_i [(B+ z)_i + conj (B- z)_i], and the bracket has
-// the real part (B+ + B-) Re z and the imaginary part (B+ - B-) Im z. A derivative acts on both factors alike and so
+// the real part (B+ + B-) Re z and the imaginary part (B+ - B-) Im z. A derivative acts on both factors equally and
 // doubles that of the first: d/dt z = j w z, d/dx z = -j k_x z. Likewise for the potential.
 SecondOrder PairInteractions::evaluate(std::span<const WaveComponent> components, std::span<const double> cosine,
                                        std::span<const double> sine, bool motion) const {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// What every pair of waves adds to the surface at second order: any directions, any depth.
+// Second-order interactions of all pairs of waves: any directions, any depth.
 
 #include <cstddef>
 #include <span>
@@ -11,7 +11,7 @@
 
 namespace seaglint {
 
-// The second-order part of the surface at one place and time.
+// Second-order part of the surface at one point and time.
 struct SecondOrder {
   double elevation = 0;  // m
   Vec2 slope = Vec2::Zero();
@@ -21,7 +21,7 @@ struct SecondOrder {
 };
 
 // Sums and differences of all pairs, with kernels computed once (Sharma and Dean 1981; see second_order.cpp). Memory
-// and time of one evaluation grow with the square of the count.
+// and evaluation time are quadratic in the number of components.
 class PairInteractions {
  public:
   static constexpr std::size_t kMaxComponents = 2048;  // 134 MB of kernels
@@ -29,8 +29,8 @@ class PairInteractions {
   // Components of one depth, at most kMaxComponents.
   PairInteractions(std::span<const WaveComponent> components, double depth);
 
-  // cosine, sine: a cos and a sin of each component's angle w t - k.x + phase. The components are those of the
-  // constructor, whose amplitudes may have been changed since. Without motion the last three fields stay 0.
+  // cosine, sine: a cos and a sin of the angle w t - k.x + phase of each component. The components are those of the
+  // constructor, possibly with other amplitudes. Without motion the last three fields remain 0.
   SecondOrder evaluate(std::span<const WaveComponent> components, std::span<const double> cosine,
                        std::span<const double> sine, bool motion) const;
 

@@ -35,7 +35,8 @@ JonswapSpectrum::JonswapSpectrum(double significant_wave_height_m, double peak_p
       total_(significant_wave_height_m * significant_wave_height_m / 16) {
   SEAGLINT_CHECK(significant_wave_height_m > 0 && peak_period_s > 0 && gamma >= 1,
                  fmt::format("Hs = {} m, Tp = {} s, gamma = {}", significant_wave_height_m, peak_period_s, gamma));
-  // The integral of u^-5 exp(-1.25 u^-4) is exp(-1.25 u^-4) / 5, so Pierson-Moskowitz with (5/16) Hs^2 holds Hs^2/16.
+  // The integral of u^-5 exp(-1.25 u^-4) is exp(-1.25 u^-4) / 5, so Pierson-Moskowitz with scale (5/16) Hs^2 integrates
+  // to Hs^2/16.
   scale_ = 5.0 / 16 * significant_wave_height_m * significant_wave_height_m;
   const double enhanced = 1 + 5 * enhancement_integral(0, std::numeric_limits<double>::infinity());
   if (normalisation == SpectrumNormalisation::kExact) {
@@ -55,8 +56,8 @@ double JonswapSpectrum::shape(double u) const {
 
 double JonswapSpectrum::density(double omega) const { return scale_ / peak_omega_ * shape(omega / peak_omega_); }
 
-// What the peak enhancement adds to the integral of the shape; beyond u = 0.3 and 1.9 (ten standard deviations) it adds
-// nothing that a double could hold.
+// Contribution of the peak enhancement to the integral of the shape; below u = 0.3 and above 1.9 (ten standard
+// deviations) it is below double precision.
 double JonswapSpectrum::enhancement_integral(double lower, double upper) const {
   const auto added = [this](double u) {
     const double u4 = u * u * u * u;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// How the energy of a sea is spread over frequency.
+// Frequency spectra of the sea surface elevation.
 
 #include <memory>
 
@@ -19,16 +19,16 @@ class Spectrum {
   virtual double energy_above(double omega) const = 0;          // m^2
   virtual double total_energy() const = 0;                      // m^2
   virtual double peak_omega() const = 0;                        // rad/s
-  virtual double lowest_omega() const = 0;                      // below it lies no energy to speak of, rad/s
+  virtual double lowest_omega() const = 0;                      // rad/s; the energy below is negligible
 };
 
-// Below this multiple of the peak frequency a JONSWAP sea holds less than 1e-20 of its energy: realisations start here.
+// Lower end of realisations, relative to the peak frequency: a JONSWAP sea has less than 1e-20 of its energy below it.
 inline constexpr double kLowestPeakMultiple = 0.4;
 
-// JONSWAP (gamma = 1: Pierson-Moskowitz in Bretschneider's form), all values in SI: Hs and Tp > 0, gamma >= 1. Error
-// of energies: 1e-10 of them or, where that is more, 5e-17 of (5/16) Hs^2, the rounding of the two cumulatives near 0.2
-// whose difference they are far above the peak. Of the last of 512 strata up to 8 rad/s that is 1e-10 at Tp 8 s and
-// 8e-8 at 40 s; up to 100 rad/s at 40 s it is 0.3 %.
+// JONSWAP (gamma = 1: Pierson-Moskowitz in Bretschneider's form), all values in SI: Hs and Tp > 0, gamma >= 1. Error of
+// energies: the larger of 1e-10 relative and 5e-17 (5/16) Hs^2, the rounding of the difference of two cumulatives near
+// 0.2 far above the peak. Relative error of the last of 512 strata up to 8 rad/s: 1e-10 at Tp 8 s, 8e-8 at 40 s; up to
+// 100 rad/s at 40 s: 0.3 %.
 class JonswapSpectrum : public Spectrum {
  public:
   JonswapSpectrum(double significant_wave_height_m, double peak_period_s, double gamma,
@@ -51,7 +51,7 @@ class JonswapSpectrum : public Spectrum {
   double total_;  // m^2
 };
 
-// The straight lines of a table, scaled to a significant wave height.
+// Piecewise linear spectrum of a table, scaled to a significant wave height.
 class TableSpectrum : public Spectrum {
  public:
   TableSpectrum(std::shared_ptr<const SpectrumTable> table, double significant_wave_height_m);
@@ -71,13 +71,12 @@ class TableSpectrum : public Spectrum {
   double scale_;
 };
 
-// Spectrum of a state's wind sea (or table), and of its swell; nothing where their height is 0.
+// Spectrum of the wind sea (or table) and of the swell of a state; null for a height of 0.
 std::unique_ptr<Spectrum> wind_sea_spectrum(const SeaState& state);
 std::unique_ptr<Spectrum> swell_spectrum(const SeaState& state);
 
-// The cut-offs of a state in rad/s; a zero field stands for max(8, 4 wp) (the end of a table) and for the frequency
-// where k Hs = 2 (no limit for Hs = 0). Swell, which has no tail of short waves, ends at four times its peak or at the
-// sea's cut-off.
+// The cut-offs of a state in rad/s; a zero field means max(8, 4 wp) (or the end of a table), and the frequency where k
+// Hs = 2 (no limit for Hs = 0). Swell ends at the lower of four times its peak frequency and the cut-off of the sea.
 double linear_cutoff(const SeaState& state);
 double swell_cutoff(const SeaState& state);
 double second_order_cutoff(const SeaState& state);

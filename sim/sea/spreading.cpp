@@ -24,8 +24,8 @@ double cosine_power(double x, double s) {
   return cosine > 0 ? reproducible_exp(2 * s * reproducible_log(cosine)) : 0;
 }
 
-// Integral of cos^2s over [0, pi/2], bit for bit the same everywhere. With x = pi/2 - y^4 the integrand has no steep
-// end where s is small.
+// Integral of cos^2s over [0, pi/2], bit-identical on all machines. With x = pi/2 - y^4 the integrand has no steep end
+// for small s.
 double quarter_norm(double s, double piece) {
   const double end = std::sqrt(std::sqrt(kPi / 2));
   return integrate(0, end, piece / 6, [s](double y) {
@@ -56,8 +56,8 @@ double spreading_quantile(const SpreadingSpec& spec, double probability, double 
   if (spec.kind == Spreading::kNone) return 0;
   if (spec.kind == Spreading::kWrappedNormal) return radians(spec.width_deg) * normal_quantile(probability);
 
-  // Of x = angle/2 the share within [0, x] is I(x)/(2 I(pi/2)), I the integral of cos^2s. It is concave, so that
-  // Newton's method from 0 climbs to the root without passing it.
+  // With x = angle/2, the probability of [0, x] is I(x)/(2 I(pi/2)), I the integral of cos^2s. It is concave, so that
+  // Newton's method from 0 converges monotonically.
   const double s = spreading_exponent(spec, omega_over_peak);
   const auto power = [s](double x) { return cosine_power(x, s); };
   const double piece = std::min(0.1, 0.5 / std::sqrt(s));  // a fraction of the width of cos^2s

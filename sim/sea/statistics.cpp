@@ -63,7 +63,7 @@ double prescribed_density(const SeaState& state, double omega) {
 
 std::vector<double> crest_heights(std::span<const double> elevation) {
   std::vector<double> crests;
-  bool in_wave = false;  // since an up-crossing
+  bool in_wave = false;  // after an up-crossing
   std::size_t highest = 0;
   for (std::size_t i = 1; i < elevation.size(); ++i) {
     if (elevation[i - 1] <= 0 && elevation[i] > 0) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// What a realisation holds and leaves out, and how often its crests pass a height.
+// Statistics of one realisation, and distributions of crest heights.
 
 #include <span>
 #include <vector>
@@ -11,36 +11,36 @@
 
 namespace seaglint {
 
-// Zeros in flat water, but for the cut-offs.
+// In flat water all fields but the cut-offs are zero.
 struct SeaSummary {
   double significant_wave_height_m = 0;  // 4 sqrt(sum a^2/2)
   double mean_period_s = 0;              // T1 = 2 pi m0/m1 of the components
   double cutoff_rad_s = 0;
   double second_order_cutoff_rad_s = 0;     // infinite in flat water
-  double energy_fraction_above_cutoff = 0;  // of the wind sea's spectrum, added to the components below
+  double energy_fraction_above_cutoff = 0;  // of the wind-sea spectrum; it is added to the components below
   double slope_variance = 0;                // of the linear part; grows with the logarithm of the cut-off
-  double slope_variance_next_octave = 0;    // what the spectrum would add between the cut-off and twice that
-  bool long_crested = true;                 // all components travel one way
-  double direction_r1 = 0;                  // length of the components' mean direction weighted with energy
+  double slope_variance_next_octave = 0;    // contribution of the spectrum between the cut-off and twice the cut-off
+  bool long_crested = true;                 // all components have one direction
+  double direction_r1 = 0;                  // length of the energy-weighted mean direction vector
   double skewness = 0;                      // of the elevation to leading order; 0 at order 1
   double steepness = 0;                     // S1 = 2 pi Hs / (g T1^2)
   double ursell = 0;                        // Ur = Hs / (k1^2 h^3), k1 the wavenumber of T1; 0 in deep water
 };
 SeaSummary summarise(const SeaState& state, const WaveField& field);
 
-// Density of the state's wind sea and swell together, m^2 s/rad.
+// Prescribed density: sum of wind sea and swell, m^2 s/rad.
 double prescribed_density(const SeaState& state, double omega);
 
-// Heights of the crests in a series of elevations at uniform times: the highest point between each zero up-crossing and
-// the next down-crossing, on the parabola through the highest sample and its neighbours (0.15 % low at worst for twelve
-// samples per period).
+// Crest heights of an elevation series at uniform times: the maximum between each zero up-crossing and the next
+// down-crossing, of the parabola through the highest sample and its neighbours (at most 0.15 % low for twelve samples
+// per period).
 std::vector<double> crest_heights(std::span<const double> elevation);
 
-// Probability that a crest is higher than `height` in linear waves of a narrow band (Rayleigh; Longuet-Higgins 1952).
+// Probability that a crest exceeds `height` in narrow-band linear waves (Rayleigh; Longuet-Higgins 1952).
 double rayleigh_exceedance(double height, double significant_wave_height);
 
-// Weibull distribution of crest heights that Forristall (2000, J. Phys. Oceanogr. 30, 1931) fitted to simulations of
-// second order: P(crest > x) = exp(-(x / (alpha Hs))^beta).
+// Weibull distribution of crest heights, fitted by Forristall (2000, J. Phys. Oceanogr. 30, 1931) to second-order
+// simulations: P(crest > x) = exp(-(x / (alpha Hs))^beta).
 struct ForristallCrests {
   double scale = 0;  // alpha Hs, m
   double beta = 2;
@@ -48,7 +48,7 @@ struct ForristallCrests {
   double exceedance(double height) const;
   double height(double probability) const;  // m, exceeded with this probability
 };
-// Of long-crested waves, or of directionally spread ones; deep water: ursell = 0.
+// For long-crested or directionally spread waves; deep water: ursell = 0.
 ForristallCrests forristall_crests(double significant_wave_height, double steepness, double ursell, bool long_crested);
 
 }  // namespace seaglint

@@ -23,7 +23,7 @@ std::vector<WaveComponent> turned(std::vector<WaveComponent> components, const V
   return components;
 }
 
-// Whether every component has a length of its depth, to the digits in which tables give it.
+// True when every component satisfies the dispersion relation, to the digits of tables.
 bool disperse(const std::vector<WaveComponent>& components, double depth) {
   constexpr double kDigits = 1e-6;
   return std::all_of(components.begin(), components.end(), [&](const WaveComponent& c) {
@@ -93,9 +93,9 @@ struct LinearSums {
   }
 };
 
-// What the linear waves and their interactions make at the surface. Velocity: Taylor's expansion from the mean level,
-// upwards by the kinematic condition w = eta_t + u.grad eta. Acceleration: pressure is constant along the surface, so
-// that the water there accelerates along it as it slides, a_h = -(g + a_z) grad eta, and upwards by d/dt of w.
+// Surface quantities from the linear waves and their interactions. Velocity: Taylor expansion from the mean level;
+// vertically the kinematic condition w = eta_t + u.grad eta. Acceleration: with constant pressure along the surface,
+// a_h = -(g + a_z) grad eta; vertically the material derivative of w.
 SurfaceState assemble(const LinearSums& low, const LinearSums& all, const SecondOrder& second, bool motion) {
   SurfaceState state;
   state.elevation_linear = all.elevation;
@@ -142,7 +142,7 @@ SurfaceState WaveField::state(std::span<const double> cosine, std::span<const do
     return state;
   }
 
-  LinearSums low, all;  // low: those in the quadratic sums
+  LinearSums low, all;  // low: components in the quadratic sums
   const std::size_t quadratic = second_order_count_;
   for (std::size_t i = 0; i < quadratic; ++i) low.add(components_[i], cosine[i], sine[i]);
   for (std::size_t i = quadratic; i < count; ++i) all.add(components_[i], cosine[i], sine[i]);
@@ -166,14 +166,14 @@ SurfaceState WaveField::surface(double x, double y, double t, SurfaceQuantities 
     const WaveComponent& c = components_[i];
     angle[i] = c.omega * t - c.wavenumber * (c.direction.x() * x + c.direction.y() * y) + c.phase;
   }
-  // The highest component turns fastest, but a far point can make any of them large.
+  // Any angle can be large at a distant point.
   for (double& phase : angle) phase = wrapped_angle(phase);
   unit_phasors(angle, cosine, sine);
   return state(cosine, sine, detail);
 }
 
 // 3 E[eta1^2 eta2] = 3 sum_ij e_i e_j min(k_i, k_j) with e = a^2/2 in deep water, since B+ + B- = min(k_i, k_j)/2
-// (Marthinsen and Winterstein 1992, ISOPE III, 472); a component of fixed amplitude has half of its own term.
+// (Marthinsen and Winterstein 1992, ISOPE III, 472); the term i = j of a component of fixed amplitude is half of that.
 double WaveField::third_cumulant() const {
   if (pairs_) return pairs_->third_cumulant(std::span(components_).first(second_order_count_));
   double below = 0;  // sum of k_j e_j over j < i

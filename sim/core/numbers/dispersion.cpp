@@ -11,8 +11,8 @@
 
 namespace seaglint {
 
-// Newton's method on x tanh x = w^2 h / g, x = k h, from between the deep and the shallow limit. The function is convex
-// beyond its start, so that a few steps reach rounding.
+// Newton's method on x tanh x = w^2 h / g, x = k h, started between the deep and the shallow limit. The function is
+// convex there, so that a few steps converge to rounding.
 double wavenumber_at(double omega, double depth) {
   SEAGLINT_CHECK(omega >= 0 && depth > 0, fmt::format("omega = {} rad/s, depth = {} m", omega, depth));
   const double deep = omega * omega / kGravity;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// How long a water wave of a given frequency is.
+// Dispersion relation of linear water waves.
 
 #include <limits>
 
@@ -9,10 +9,11 @@ namespace seaglint {
 
 inline constexpr double kDeepWater = std::numeric_limits<double>::infinity();  // as a depth, m
 
-// The wavenumber of linear waves, w^2 = g k tanh(k h) (Airy), rad/m, to rounding; omega >= 0, depth > 0.
+// Wavenumber by w^2 = g k tanh(k h) (Airy), rad/m, to rounding; omega >= 0, depth > 0.
 double wavenumber_at(double omega, double depth = kDeepWater);
 
-// The highest regular wave of a frequency, L/7 tanh(k h), m (Michell 1893 in deep water, Miche 1944); omega > 0.
+// Breaking limit: height of the steepest regular wave, L/7 tanh(k h), m (Michell 1893 in deep water, Miche 1944); omega
+// > 0.
 double breaking_height(double omega, double depth = kDeepWater);
 
 }  // namespace seaglint

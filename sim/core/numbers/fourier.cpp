@@ -13,7 +13,7 @@
 namespace seaglint {
 namespace {
 
-// FFTW's planner keeps state that all threads share.
+// The FFTW planner has global state.
 std::mutex planner_mutex;
 
 void check(std::size_t length, std::size_t count, std::size_t stride) {
@@ -22,7 +22,7 @@ void check(std::size_t length, std::size_t count, std::size_t stride) {
                  fmt::format("{} rows of {}, {} apart", count, length, stride));
 }
 
-// ESTIMATE reads nothing of the data but its alignment.
+// FFTW_ESTIMATE depends on the alignment of the data only.
 fftw_plan plan_rows(Complex* data, std::size_t length, std::size_t count, std::size_t stride, Fourier direction) {
   auto* rows = reinterpret_cast<fftw_complex*>(data);
   const int n = static_cast<int>(length), distance = static_cast<int>(stride);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Discrete Fourier transforms in place (FFTW behind it), planned by FFTW_ESTIMATE, so that bits do not depend on
-// timing. Building a plan is serialised over threads; executing different ones is not.
+// In-place discrete Fourier transforms by FFTW, planned with FFTW_ESTIMATE, so that results do not depend on timing.
+// Planning is serialised between threads, execution is not.
 
 #include <cstddef>
 
@@ -10,16 +10,16 @@
 
 namespace seaglint {
 
-enum class Fourier { kForward, kInverse };  // e^{-j 2 pi k i / L} and e^{+j 2 pi k i / L}, both without a factor
+enum class Fourier { kForward, kInverse };  // e^{-j 2 pi k i / L} and e^{+j 2 pi k i / L}, both unnormalised
 
-// Transforms `count` rows of `length` numbers each in the caller's memory, row i from data + i stride on; what lies
-// between the rows stays. Throws WorkError when FFTW has no plan.
+// Transforms `count` rows of `length` numbers in the caller's memory, row i at data + i stride; memory between the rows
+// is unchanged. Throws WorkError when FFTW returns no plan.
 void transform_rows(Complex* data, std::size_t length, std::size_t count, std::size_t stride, Fourier direction);
 
-// `count` transforms of `length` numbers each, one row after the other in memory of its own, to be executed often.
+// `count` transforms of `length` numbers on contiguous rows in memory of its own, for repeated execution.
 class FourierBatch {
  public:
-  FourierBatch(std::size_t length, std::size_t count, Fourier direction);  // rows start at zero
+  FourierBatch(std::size_t length, std::size_t count, Fourier direction);  // rows are initialised to zero
   ~FourierBatch();
   FourierBatch(const FourierBatch&) = delete;
   FourierBatch& operator=(const FourierBatch&) = delete;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Names of the small vectors and matrices used everywhere.
+// Small fixed-size vectors and matrices.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>

@@ -7,8 +7,8 @@
 
 namespace seaglint {
 
-// Maps local coordinates to those of the outer frame: x = p + R x_local. The columns of R are the local axes, p (m) is
-// the local origin.
+// Maps local coordinates to the outer frame: x = p + R x_local. The columns of R are the local axes, p (m) is the local
+// origin.
 struct Pose {
   Vec3 p = Vec3::Zero();
   Mat3 R = Mat3::Identity();

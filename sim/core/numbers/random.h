@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Counter-based random numbers, keyed by (seed, stream, index): the same on every machine, compiler and thread count,
-// in any order of calls between keys. Philox4x32-10 of Salmon, Moraes, Dror and Shaw, "Parallel random numbers: as easy
-// as 1, 2, 3" (SC11); normal deviates by Wichura's AS 241 with a logarithm made of IEEE-exact operations only.
+// Counter-based random numbers, keyed by (seed, stream, index): identical on every machine, compiler and thread count,
+// and independent of the order of calls between keys. Philox4x32-10 of Salmon, Moraes, Dror and Shaw, "Parallel random
+// numbers: as easy as 1, 2, 3" (SC11); normal deviates by AS 241 (Wichura 1988) with a logarithm of IEEE-exact
+// operations only.
 
 #include <array>
 #include <cstdint>
 
 namespace seaglint {
 
-// What a stream of random numbers is for. Values are part of the data format: never renumber.
+// Purpose of a random stream. The values are part of the data format and must not change.
 enum class Stream : std::uint32_t {
   kWaveFrequency = 1,
   kWavePhase = 2,
@@ -34,7 +35,7 @@ enum class Stream : std::uint32_t {
 struct RandomKey {
   std::uint64_t seed = 0;
   Stream stream = Stream::kTest;
-  std::uint64_t index = 0;  // which realisation, interval or sample
+  std::uint64_t index = 0;  // realisation, interval or sample
 };
 
 // Philox4x32-10 block function (Salmon et al. 2011, section 3.3).
@@ -54,7 +55,7 @@ class Random {
   std::array<std::uint32_t, 2> key_;
   std::array<std::uint32_t, 4> counter_;
   std::array<std::uint32_t, 4> block_{};
-  int used_ = 4;  // words of block_ already given out
+  int used_ = 4;  // words of block_ already used
 };
 
 // Quantile of the normal distribution, |error| < 1e-15 relative (Wichura 1988, AS 241, PPND16); p in (0, 1).

@@ -17,7 +17,8 @@ constexpr double kLn2Low = 0x1.ef35793c76730p-45;
 
 }  // namespace
 
-// x = m 2^e with m in [sqrt(1/2), sqrt(2)); ln m = 2 atanh s, s = (m-1)/(m+1), |s| < 0.172: thirteen terms leave 1e-21.
+// x = m 2^e with m in [sqrt(1/2), sqrt(2)); ln m = 2 atanh s, s = (m-1)/(m+1), |s| < 0.172: error 1e-21 with thirteen
+// terms.
 double reproducible_log(double x) {
   int exponent = 0;
   double m = std::frexp(x, &exponent);
@@ -32,7 +33,7 @@ double reproducible_log(double x) {
   return exponent * kLn2High + (2 * s * series + exponent * kLn2Low);
 }
 
-// x = n ln 2 + r, |r| <= ln(2)/2: the first term left out of e^r is 1e-19.
+// x = n ln 2 + r, |r| <= ln(2)/2: the first neglected term of e^r is 1e-19.
 double reproducible_exp(double x) {
   SEAGLINT_CHECK(x < 700, fmt::format("x = {}", x));
   if (x < -700) return 0;

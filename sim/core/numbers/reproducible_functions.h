@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Logarithm, exponential and hyperbolic tangent from +, -, *, / and scaling by powers of two alone, which IEEE 754
-// rounds alike everywhere; libm's differ between versions and processors.
+// Logarithm, exponential and hyperbolic tangent from +, -, *, / and scaling by powers of two only, which IEEE 754
+// rounds identically everywhere; those of libm differ between versions and processors.
 
 namespace seaglint {
 

@@ -7,10 +7,10 @@
 
 namespace seaglint {
 
-// 1 up to the one value of x, 0 from the other on, smooth between.
+// Smooth taper: 1 for x <= from_to[0], 0 for x >= from_to[1].
 double smooth_taper(double x, const std::array<double, 2>& from_to);
 
-// What is linear between two ends, at a share of the way from the first.
+// Linear interpolation between two ends, at a fraction of the interval from the first.
 template <typename T>
 T interpolate(const std::array<T, 2>& ends, double share) {
   return ends[0] + share * (ends[1] - ends[0]);

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// What is said beside the results. Nobody's work fails because it cannot be shown.
+// Messages on standard error; a failure to print them is never an error.
 
 #include <string>
 
 namespace seaglint {
 
-// Prints the text on standard error; one that is closed or full is passed over in silence.
+// Prints the text on standard error; does nothing when it is closed or full.
 void print_error(const std::string& text);
 
-// A number of standard streams, 0 to 2, may be closed when the program starts, and the first file that it opens would
-// take their place. Afterwards none is: what is written to standard output then still fails, standard error goes
-// nowhere.
+// Opens /dev/null on those of the standard streams 0 to 2 that are closed at program start, whose numbers the next
+// opened file would otherwise take. Writing to a closed standard output still fails afterwards; text for a closed
+// standard error is discarded.
 void reserve_standard_streams();
 
-// A sentence on one line: control characters in it are written as escapes.
+// The text on one line, with control characters escaped.
 std::string on_one_line(const std::string& text);
 
 }  // namespace seaglint

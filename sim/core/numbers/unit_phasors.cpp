@@ -24,7 +24,7 @@ constexpr double kRoundToInteger = 0x1.8p52;  // adding and subtracting it round
 }  // namespace
 
 // theta = n pi + r with |r| <= pi/2; cos theta = (-1)^n cos r and sin theta = (-1)^n sin r, by their Taylor series: the
-// first terms left out are below 1e-18. No branch and no table, so that compilers use all lanes of a processor.
+// first neglected terms are below 1e-18. Branch- and table-free, so that compilers vectorise it.
 void unit_phasors(std::span<const double> angle, std::span<double> cosine, std::span<double> sine) {
   const std::size_t count = angle.size();
   SEAGLINT_CHECK(cosine.size() == count && sine.size() == count, "spans of different lengths");

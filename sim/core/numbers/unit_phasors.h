@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Cosines and sines of many angles at once, from IEEE-exact operations only: the same bits on every machine.
+// Cosines and sines of many angles at once, from IEEE-exact operations only: bit-identical on all machines.
 
 #include <cstddef>
 #include <span>
@@ -9,16 +9,17 @@
 
 namespace seaglint {
 
-// cosine[i], sine[i] of angle[i] (radians), |angle| <= kLargestAngle; absolute error below 4e-16. Spans of one length.
+// cosine[i], sine[i] of angle[i] (radians), |angle| <= kLargestAngle; absolute error below 4e-16. Spans of equal
+// length.
 void unit_phasors(std::span<const double> angle, std::span<double> cosine, std::span<double> sine);
 inline constexpr double kLargestAngle = 4e8;
 
-// The angle itself, to the bit, within kLargestAngle, else less whole turns of it; |angle| <= 1e12, whose own rounding
-// is 1e-4 rad.
+// The angle unchanged within kLargestAngle, else reduced by whole turns; |angle| <= 1e12, where its own rounding is
+// 1e-4 rad.
 double wrapped_angle(double angle);
 
-// Phasors e^{j(omega_i t + phase_i)} at t = start + n step for n = 0, 1, 2, ...: each step turns them by a constant
-// phasor, and every kResynchronise steps they are formed anew from their angles. Error below 1e-13.
+// Phasors e^{j(omega_i t + phase_i)} at t = start + n step for n = 0, 1, 2, ...: each step multiplies them by a
+// constant phasor; every kResynchronise steps they are recomputed from their angles. Error below 1e-13.
 class UniformPhasors {
  public:
   static constexpr int kResynchronise = 64;

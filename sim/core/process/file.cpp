@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// An open file of the system, closed at the end of its life.
+// File descriptor, closed by the destructor.
 class Descriptor {
  public:
   Descriptor(const fs::path& path, int flags) : number_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
@@ -32,7 +32,7 @@ class Descriptor {
 
   int number() const { return number_; }
 
-  // False with errno when the system reports a late write error.
+  // False, with errno, for a delayed write error.
   bool close() {
     const int number = number_;
     number_ = -1;
@@ -47,7 +47,7 @@ class Descriptor {
   throw WorkError(fmt::format("{}: cannot write: {}", path.string(), std::strerror(errno)));
 }
 
-// Errors name the file as `name`.
+// name: file name in error messages.
 void write_all(const fs::path& path, const fs::path& name, int flags, std::string_view content) {
   Descriptor file(path, O_WRONLY | flags);
   if (file.number() < 0) fail_writing(name);
@@ -60,8 +60,7 @@ void write_all(const fs::path& path, const fs::path& name, int flags, std::strin
   if (!file.close()) fail_writing(name);
 }
 
-// Waits until what was written is on the disk. File systems that cannot synchronise directories say EINVAL: they have
-// nothing to wait for.
+// Waits until the data are on the disk. EINVAL, from file systems that cannot synchronise directories, is ignored.
 void synchronise(const fs::path& path, const fs::path& name, int flags) {
   const Descriptor file(path, O_RDONLY | flags);
   if (file.number() < 0 || (::fsync(file.number()) != 0 && errno != EINVAL)) fail_writing(name);
@@ -75,7 +74,7 @@ fs::path temporary_name(fs::path path) {
   return path;
 }
 
-// A pipe, a terminal or a device: written through, since renaming would replace it.
+// A pipe, terminal or device: written directly, since renaming would replace it.
 bool is_stream(const fs::path& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
@@ -95,7 +94,7 @@ fs::path find_file(const std::string& name, const fs::path& folder, const std::s
 }
 
 std::string read_file(const fs::path& path, std::size_t max_bytes) {
-  // Without O_NONBLOCK opening a pipe that nobody writes would wait for ever.
+  // Without O_NONBLOCK, opening a pipe without a writer would block.
   const Descriptor file(path, O_RDONLY | O_NONBLOCK);
   const auto fail = [&](const std::string& reason) {
     throw InputError(fmt::format("{}: cannot read: {}", path.string(), reason));
@@ -137,7 +136,7 @@ void require_writable(const fs::path& path) {
 
 void write_file_with(const fs::path& path, const std::function<void(const fs::path&)>& write) {
   if (is_stream(path)) throw WorkError(fmt::format("{}: cannot write: is not a regular file", path.string()));
-  // A symbolic link keeps pointing where it did.
+  // A symbolic link is preserved: its target is replaced.
   std::error_code error;
   const fs::path resolved = fs::canonical(path, error);
   const fs::path target = error ? path : resolved;

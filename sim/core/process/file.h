@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Files that are either whole or absent: written beside their place as `<name>.<host>-<process>.tmp`, synchronised,
-// renamed. The temporary name is the process's own, so that two processes may write the same file: the last one counts.
+// Atomic file output: written next to the destination as `<name>.<host>-<process>.tmp`, synchronised, renamed. The
+// temporary name is unique to the process, so that two processes may write the same file; the later rename prevails.
 
 #include <cstddef>
 #include <filesystem>
@@ -12,23 +12,25 @@
 
 namespace seaglint {
 
-// Where the file is that `where` names: beside `folder`, else below the working directory. InputError when in neither.
+// Path of the file `name`: in `folder`, else relative to the working directory. Throws InputError, beginning with
+// `where`, when in neither.
 std::filesystem::path find_file(const std::string& name, const std::filesystem::path& folder, const std::string& where);
 
 // Throws InputError when the file is missing, not a regular file, or larger than max_bytes.
 std::string read_file(const std::filesystem::path& path, std::size_t max_bytes = std::size_t{1} << 30);
 
-// Throws WorkError (with the system's reason) when the directory or disk refuses; then nothing is left behind.
+// Throws WorkError (with the system error) when writing fails; no partial file remains.
 void write_file(const std::filesystem::path& path, std::string_view content);
 
-// Throws the WorkError that write_file would where the file's directory is missing or refuses, before long work is done
-// for nothing. An empty path names no file.
+// Throws the WorkError of write_file() when the directory of the file is missing or not writable; called before long
+// work. An empty path is accepted.
 void require_writable(const std::filesystem::path& path);
 
-// Calls write(temporary path), synchronises and renames; for libraries that write files themselves.
+// Calls write(temporary path), synchronises and renames; for libraries with file output of their own.
 void write_file_with(const std::filesystem::path& path, const std::function<void(const std::filesystem::path&)>& write);
 
-// Creates the directory and its parents; throws WorkError with the reason when it cannot, or when it is not writable.
+// Creates the directory and its parents; throws WorkError with the system error when this fails or the directory is not
+// writable.
 void make_directory(const std::filesystem::path& path);
 
 }  // namespace seaglint

@@ -28,8 +28,8 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
   std::size_t failed_index = count;
   std::exception_ptr failure;
 
-  // Indices go out in order, so every index below a failing one is already being worked on and is finished:
-  // which failure is the lowest does not depend on the number of threads.
+  // Indices are assigned in order, so every index below a failing one has been started and is completed: the lowest
+  // failure does not depend on the number of threads.
   const auto work = [&] {
     while (!failed) {
       const std::size_t i = next++;
@@ -51,7 +51,7 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
     }
   };
 
-  // The calling thread is one of them; where the system refuses more, those that started do the work.
+  // The calling thread is one of them; if the system cannot start more, the started ones do the work.
   const std::size_t helpers = std::min(count, static_cast<std::size_t>(thread_count(threads))) - (count > 0 ? 1 : 0);
   std::vector<std::thread> pool;
   pool.reserve(helpers);

@@ -12,8 +12,8 @@ namespace seaglint {
 
 namespace {
 
-constexpr std::chrono::seconds kQuiet{2};          // short work shows nothing
-constexpr std::chrono::milliseconds kRedraw{200};  // pleasant to read, and cheap
+constexpr std::chrono::seconds kQuiet{2};          // shorter work shows nothing
+constexpr std::chrono::milliseconds kRedraw{200};  // redraw interval
 
 std::string duration(double seconds) {
   const auto s = static_cast<long>(std::ceil(std::min(seconds, 1e9)));
@@ -55,7 +55,7 @@ Progress::~Progress() {
 void Progress::advance(std::size_t steps) {
   const std::size_t done = done_ += steps;
   if (!terminal_) return;
-  // Whoever finds another thread drawing goes on with its work.
+  // Skips drawing when another thread is drawing.
   const std::unique_lock lock(mutex_, std::try_to_lock);
   const auto now = std::chrono::steady_clock::now();
   if (!lock || now < next_draw_) return;

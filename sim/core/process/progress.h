@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Progress of long work: a bar with an estimate, on a terminal only and only for work above two seconds.
+// Progress bar with remaining time, shown on a terminal only and only for work longer than two seconds.
 
 #include <atomic>
 #include <chrono>
@@ -13,13 +13,13 @@ namespace seaglint {
 
 class Progress {
  public:
-  // `steps` names them in the rate ("views": 3.1 views/s); without a name no rate is shown.
+  // steps: unit in the rate ("views": 3.1 views/s); empty: no rate.
   Progress(std::string what, std::size_t total, std::string steps = {});
-  ~Progress();  // wipes the bar
+  ~Progress();  // clears the bar
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  void advance(std::size_t steps = 1);  // any thread
+  void advance(std::size_t steps = 1);  // thread-safe
 
  private:
   std::string what_, steps_;

@@ -8,8 +8,8 @@
 
 namespace seaglint {
 
-// What is wrong with a JSON text, in one line for a user: where it breaks off, without a copy of what stands there
-// (which may be megabytes), or what was expected, without the library's numbers.
+// Error of a JSON text in one line for users: the position of a syntax error, without a copy of the text there
+// (possibly megabytes), or what was expected, without the error numbers of the library.
 inline std::string json_problem(const nlohmann::json::exception& error) {
   if (const auto* broken = dynamic_cast<const nlohmann::json::parse_error*>(&error))
     return fmt::format("no valid JSON from byte {} on", broken->byte);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Numbers and ranges as users write them, in scenario files and on the command line.
+// Parsing of numbers and ranges in scenario files and on the command line.
 
 #include <optional>
 #include <string_view>
@@ -9,8 +9,8 @@
 
 namespace seaglint {
 
-// The whole text as a finite decimal number ("16", "-0.5", "+2.5e3"), or nothing. Hexadecimal, infinity and NaN are
-// nothing.
+// The whole text as a finite decimal number ("16", "-0.5", "+2.5e3"), else nullopt, also for hexadecimal, infinity and
+// NaN.
 std::optional<double> parse_number(std::string_view text);
 
 // "A" is one value; "from:to:step" are from, from + step, ... up to `to`, which is included when it lies within 1e-9 of

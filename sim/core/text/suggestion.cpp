@@ -11,7 +11,7 @@ namespace seaglint {
 
 namespace {
 
-// Edit distance with transpositions of neighbours (Damerau 1964, optimal string alignment), ignoring case.
+// Edit distance with transpositions of adjacent characters (Damerau 1964, optimal string alignment), ignoring case.
 std::size_t distance(std::string_view a, std::string_view b) {
   const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
   std::vector<std::size_t> before_last(b.size() + 1);
@@ -35,7 +35,7 @@ std::size_t distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string suggestion(std::string_view misspelt, const std::vector<std::string>& names) {
-  constexpr std::size_t kLongest = 100;  // beyond it nothing is a slip of the pen
+  constexpr std::size_t kLongest = 100;  // longer words get no suggestion
   const std::size_t near = std::max<std::size_t>(1, misspelt.size() / 3);
   std::size_t best = near + 1;
   const std::string* nearest = nullptr;

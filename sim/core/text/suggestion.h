@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// What a misspelt word may have been meant to be.
+// Suggestions for misspelt words.
 
 #include <string>
 #include <string_view>

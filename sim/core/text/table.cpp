@@ -57,7 +57,7 @@ std::vector<std::string_view> split(std::string_view line, char separator) {
   return cells;
 }
 
-// Where each wanted column stands among those of the file.
+// Index of each wanted column among those of the file.
 std::vector<std::size_t> find_columns(const std::vector<std::string_view>& names,
                                       const std::vector<std::string>& wanted, const std::string& place) {
   std::vector<std::size_t> columns;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Tables of numbers in text files written by people and by other programs.
+// Tables of numbers in text files.
 
 #include <filesystem>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace seaglint {
 
-// Named columns of finite numbers, with the lines of the file they came from.
+// Named columns of finite numbers, with the file line of each row.
 class Table {
  public:
   Table(std::string file, std::vector<std::string> names, std::vector<std::vector<double>> cells,
@@ -22,7 +22,7 @@ class Table {
   // "FILE:LINE" of a row.
   std::string place(std::size_t row) const;
 
-  // Throws InputError unless the column's values grow from row to row.
+  // Throws InputError unless the values of the column increase strictly.
   void check_ascending(const std::string& name) const;
   // Throws InputError unless lowest <= value <= highest.
   void check_within(std::size_t row, std::size_t column, double lowest, double highest) const;
@@ -34,18 +34,18 @@ class Table {
   std::vector<int> lines_;
 };
 
-// How a table is laid out: comments of '#' and empty lines first, then a line of column names, then as many lines of
-// units as said, then rows. A separator of ' ' stands for spaces and tabs.
+// Layout of a table: comments ('#') and empty lines, a line of column names, the given number of unit lines, then rows.
+// Separator ' ' means spaces and tabs.
 struct TableLayout {
   char separator = ',';
   int unit_lines = 0;
 };
 
-// The wanted columns, in this order, whatever else the file holds; at least two rows. Throws InputError with file, line
-// and column for a missing column, a row of another length, and a cell that is no finite number.
+// Reads the wanted columns, in this order; other columns are ignored; at least two rows. Throws InputError with file,
+// line and column for a missing column, a row of another length, and a cell that is not a finite number.
 Table read_table(const std::filesystem::path& file, const std::vector<std::string>& wanted, TableLayout layout = {});
 
-// The same of a text whose first row of names stands in the given line (counted from 1).
+// The same for a text whose column names are in the given line (1-based).
 Table parse_table(const std::string& text, const std::string& file, const std::vector<std::string>& wanted,
                   TableLayout layout, int names_line = 0);
 

@@ -5,7 +5,7 @@
 
 namespace seaglint {
 
-// Where two texts first differ, for a user: "line 12: `seed: 43` there, `seed: 42` here".
+// First difference of two texts, for users: "line 12: `seed: 43` there, `seed: 42` here".
 std::string first_difference(const std::string& there, const std::string& here);
 
 }  // namespace seaglint

@@ -5,8 +5,8 @@ namespace seaglint {
 
 namespace {
 
-// Bytes of the character that begins with `lead`, 0 where none does, and what its second byte may be: RFC 3629, section
-// 4, which leaves out what could be written shorter, surrogates, and what lies beyond U+10FFFF.
+// Length in bytes of the character with first byte `lead` (0: invalid) and the range of its second byte: RFC 3629,
+// section 4, which excludes overlong forms, surrogates and values beyond U+10FFFF.
 struct Character {
   std::size_t bytes = 0;
   unsigned lowest = 0x80, highest = 0xbf;

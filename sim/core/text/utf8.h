@@ -7,10 +7,10 @@
 
 namespace seaglint {
 
-// Bytes of the text before the first that is not UTF-8 (RFC 3629); its whole length where all is.
+// Length of the valid UTF-8 prefix (RFC 3629), bytes.
 std::size_t utf8_prefix(std::string_view text);
 
-// The text as UTF-8: what is none already is taken as Latin-1.
+// The text as UTF-8; text that is not valid UTF-8 is read as Latin-1.
 std::string utf8_of(std::string_view text);
 
 }  // namespace seaglint

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Lines, words and numbers of untrusted text, without locale.
+// Locale-independent lines, words and numbers of untrusted text.
 
 #include <cstdint>
 #include <optional>
@@ -18,7 +18,7 @@ std::string_view next_line(std::string_view& text);
 // The text without spaces, tabs and \r at its ends.
 std::string_view trimmed(std::string_view text);
 
-// The whole word as a number, infinity and NaN included, or nothing.
+// The word as a number, infinity and NaN included, else nullopt.
 std::optional<double> number_of(std::string_view word);
 std::optional<std::int64_t> integer_of(std::string_view word);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The container of a .glb: JSON and one piece of binary data.
+// Container of a .glb file: one JSON chunk and at most one binary chunk (glTF 2.0, section 4.4).
 
 #include <string>
 #include <string_view>
@@ -10,16 +10,16 @@ namespace seaglint {
 
 struct GlbChunks {
   std::string_view json;
-  std::string_view binary;  // empty where there is none
+  std::string_view binary;  // empty: no binary chunk
 };
 
 bool is_glb(std::string_view bytes);
 
-// A .glb by its chunks; any other text is all JSON. Throws InputError for a container that is cut short or no version
-// 2.
+// Chunks of a .glb; any other text is one JSON chunk. Throws InputError for a truncated container or a version other
+// than 2.
 GlbChunks glb_chunks(std::string_view bytes, const std::string& file);
 
-// A .glb of these chunks, each filled up to a multiple of 4 bytes.
+// A .glb of these chunks, each padded to a multiple of 4 bytes.
 std::string glb_of(std::string json, std::string_view binary);
 
 }  // namespace seaglint

@@ -61,7 +61,7 @@ class Checker {
       return Json{{"nodes", index_list(s, "nodes", "nodes", at)}};
     });
     if (root_.contains("scene")) plain["scene"] = index(root_, "scene", "scenes", "the file");
-    // tinygltf takes an empty list for a mistake.
+    // tinygltf rejects empty lists.
     for (const char* name : {"buffers", "bufferViews", "accessors", "materials", "meshes", "nodes", "scenes"}) {
       if (plain[name].empty()) plain.erase(name);
     }
@@ -77,7 +77,7 @@ class Checker {
     if (!required->is_array()) fail("extensionsRequired is not a list");
     for (const Json& name : *required) {
       const std::string extension = name.is_string() ? name.get<std::string>() : "?";
-      // These change how a surface looks, not where it is.
+      // These change the appearance of a surface, not its geometry.
       if (extension.starts_with("KHR_materials_") || extension.starts_with("KHR_texture_")) continue;
       fail(fmt::format("needs the extension {}, which is not supported", extension));
     }
@@ -154,7 +154,8 @@ class Checker {
     Json plain{{"byteLength", size}};
     const std::string uri = text(b, "uri");
     if (!uri.empty()) {
-      // Base64 gives three bytes for four letters; a promise beyond that is not worth a library's allocation.
+      // Base64 encodes three bytes in four characters: a declared size beyond the text length is rejected before a
+      // library allocates it.
       if (uri.starts_with("data:") && size > uri.size()) {
         fail(fmt::format("{}.byteLength = {} but its data URI has {} letters", at, size, uri.size()));
       }
@@ -201,7 +202,7 @@ class Checker {
     if (components == 0) fail(fmt::format("{}.type = \"{}\" is unknown", at, shape));
     if (count == 0) fail(at + " is empty");
     Json plain{{"componentType", type}, {"count", count}, {"type", shape}, {"byteOffset", offset}};
-    // An accessor without a view is all zeros, a sparse one is patched; either is refused where a mesh uses it.
+    // An accessor without a view is all zeros, a sparse one replaces values; both are rejected where a mesh uses them.
     if (!a.contains("bufferView") || a.contains("sparse")) {
       plain["byteOffset"] = 0;
       return plain;
@@ -226,7 +227,8 @@ class Checker {
     if (!a.contains("bufferView")) fail(fmt::format("{}: accessors[{}] ({}) has no data", at, i, use));
   }
 
-  // glTF 2.0, section 3.7.2.1: triangles have three corners each, strips and fans one for each after the second.
+  // glTF 2.0, section 3.7.2.1: triangles have three vertices each; strips and fans have one triangle per vertex after
+  // the second.
   void check_corners(const Json& plain, std::uint64_t mode, const std::string& at) const {
     const bool indexed = plain.contains("indices");
     const auto accessor = (indexed ? plain["indices"] : plain["attributes"]["POSITION"]).get<std::uint64_t>();
@@ -294,7 +296,7 @@ class Checker {
 
   // glTF 2.0, section 3.5.3: one affine matrix, or translation, rotation and scale.
   void check_transform(const Json& plain, const std::string& at) const {
-    constexpr double kRounding = 1e-6;  // of a matrix that was kept in float32
+    constexpr double kRounding = 1e-6;  // of a matrix stored in float32
     if (plain.contains("matrix")) {
       for (const char* key : {"translation", "rotation", "scale"}) {
         if (plain.contains(key)) fail(fmt::format("{} has a matrix and a {}: only one of them may place it", at, key));
@@ -315,7 +317,7 @@ class Checker {
 
   Json node(const Json& n, const std::string& at) const {
     Json plain{{"name", text(n, "name")}};
-    // These would place or bend its mesh.
+    // These would displace or deform the mesh.
     if (n.contains("skin")) fail(at + " has a skin, which is not supported: bake the pose into the positions");
     const auto extensions = n.find("extensions");
     if (extensions != n.end() && extensions->contains("EXT_mesh_gpu_instancing"))
@@ -338,8 +340,8 @@ class Checker {
   std::uint64_t binary_size_;
 };
 
-// Levels of lists and objects within each other. The library's own callback looks through all of a list at every object
-// that ends in it.
+// Nesting depth of lists and objects. The parser callback of the library is not used: at the end of each object it
+// scans the whole enclosing list.
 int depth_of(std::string_view text) {
   int depth = 0, deepest = 0;
   bool in_string = false;

@@ -25,9 +25,9 @@ namespace fs = std::filesystem;
 using Mat4 = Eigen::Matrix4d;
 
 constexpr std::size_t kMaxParts = 65000, kMaxMaterials = 65000;
-constexpr std::size_t kMaxPlacedTriangles = 50'000'000;  // a mesh may be placed by many nodes
+constexpr std::size_t kMaxPlacedTriangles = 50'000'000;  // a mesh may be instanced by many nodes
 
-// The only files tinygltf may open are those below the glTF's own folder.
+// Restricts the files that tinygltf opens to the folder of the glTF.
 struct Folder {
   fs::path root;
   std::vector<fs::path> opened;
@@ -148,7 +148,7 @@ class Reader {
   }
 
  private:
-  // The default scene, else the first, else every node that is nobody's child.
+  // The default scene, else the first, else all nodes without a parent.
   std::vector<int> roots() const {
     if (!model_.scenes.empty()) return model_.scenes[std::max(0, model_.defaultScene)].nodes;
     std::vector<bool> is_child(model_.nodes.size(), false);
@@ -169,7 +169,7 @@ class Reader {
     int component;
   };
 
-  // Ranges were checked in sanitised_gltf; tinygltf has seen to it that a buffer is as long as it says.
+  // Ranges were checked in sanitised_gltf; tinygltf guarantees the declared length of a buffer.
   Data data_of(int accessor_index) const {
     const auto& accessor = model_.accessors[accessor_index];
     const auto& view = model_.bufferViews[accessor.bufferView];
@@ -267,7 +267,7 @@ class Writer {
     for (const Material& material : mesh.materials) {
       model_.materials.emplace_back();
       model_.materials.back().name = material.name;
-      // The reader of a two-sided sheet must not hide its back.
+      // Viewers must not cull the back of a sheet.
       model_.materials.back().doubleSided = true;
       model_.materials.back().pbrMetallicRoughness.baseColorFactor = {0.56, 0.60, 0.63, 1.0};
       model_.materials.back().pbrMetallicRoughness.metallicFactor = 0.2;

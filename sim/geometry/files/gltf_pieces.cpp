@@ -16,7 +16,7 @@ std::vector<GltfPiece> pieces_of(const TriangleMesh& mesh) {
 
   std::vector<GltfPiece> pieces;
   struct Placed {
-    std::size_t pieces = 0;  // as many as there were when it was placed last
+    std::size_t pieces = 0;  // number of pieces when the vertex was last emitted
     std::uint32_t index = 0;
   };
   std::vector<Placed> placed(mesh.vertices.size());

@@ -20,7 +20,7 @@ namespace seaglint {
 namespace {
 
 constexpr std::size_t kMaxBytes = std::size_t{1} << 30;
-constexpr double kFarthest = 1e7;  // metres; beyond it the unit is wrong
+constexpr double kFarthest = 1e7;  // m; larger coordinates indicate a wrong unit
 
 std::string ending_of(const std::filesystem::path& path) {
   std::string ending = path.extension().string();

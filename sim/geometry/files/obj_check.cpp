@@ -20,7 +20,7 @@ class ObjCheck {
   ObjCheck(std::string_view bytes, const std::string& file) : rest_(bytes), file_(file) {}
 
   SanitisedPolygons check() {
-    // The mark that some editors put before the first line (UTF-8's byte order mark).
+    // UTF-8 byte order mark.
     constexpr std::string_view kMark = "\xEF\xBB\xBF";
     if (rest_.starts_with(kMark)) rest_.remove_prefix(kMark.size());
     // Faces may name vertices of later lines, so the vertices are counted first.
@@ -36,7 +36,7 @@ class ObjCheck {
     while (!rest_.empty()) {
       ++line_;
       std::string_view line = next_line(rest_);
-      // A line that ends in a backslash goes on in the next, a comment does not.
+      // A backslash at the end of a line continues it; comments are not continued.
       if (line.ends_with('\\') && !has_comment(line)) {
         joined += line.substr(0, line.size() - 1);
         joined += ' ';
@@ -82,7 +82,7 @@ class ObjCheck {
     if (keyword == "v") vertex(line);
     if (keyword == "f") face(line);
     if (keyword == "g" || keyword == "o") group(line);
-    // Normals, texture coordinates, materials' files and curves do not make a mesh.
+    // Normals, texture coordinates, material files and curves are ignored.
   }
 
   void vertex(std::string_view line) {
@@ -104,7 +104,7 @@ class ObjCheck {
     for (std::string_view word = next_word(line); !word.empty() && word[0] != '#'; word = next_word(line)) {
       const auto value = integer_of(word.substr(0, word.find('/')));
       if (!value || *value == 0) fail(fmt::format("\"{}\" is not a corner of a face", word));
-      // Negative indices count back from the vertex before this line.
+      // Negative indices are relative to the vertex before this line.
       const std::int64_t index = *value > 0 ? *value : vertices_so_far_ + *value + 1;
       if (index < 1 || index > vertex_count_)
         fail(fmt::format("the face names vertex {}, there are {}", *value, vertex_count_));
@@ -116,7 +116,7 @@ class ObjCheck {
     faces_.push_back({first, count, line_, part_});
   }
 
-  // Once all vertices are known.
+  // Called once all vertices are read.
   void write(const Face& face) {
     line_ = face.line;
     const std::span<const std::uint32_t> corners(corners_.data() + face.first, face.count);
@@ -155,7 +155,7 @@ class ObjCheck {
   const std::string& file_;
   SanitisedPolygons plain_;
   std::vector<float> positions_;
-  std::vector<std::uint32_t> corners_;  // of all faces
+  std::vector<std::uint32_t> corners_;  // vertex indices of all faces
   std::vector<Face> faces_;
   std::vector<Vec3> polygon_;
   std::int64_t vertex_count_ = 0;

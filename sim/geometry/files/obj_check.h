@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The check of an OBJ file.
+// Validation of an OBJ file before OpenMesh parses it.
 
 #include <string>
 #include <string_view>
@@ -10,8 +10,8 @@
 
 namespace seaglint {
 
-// InputError names the file, the line or byte, and what is wrong. Polygons are split (triangulate_polygon); triangles
-// with two equal corners are left out.
+// Polygons are triangulated (triangulate_polygon); triangles with two equal vertices are dropped. Throws InputError
+// with file, line or byte, and cause.
 SanitisedPolygons sanitised_obj(std::string_view bytes, const std::string& file);
 
 }  // namespace seaglint

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// What the checks of OBJ, STL and PLY files hand to OpenMesh.
+// Result of the validation of OBJ, STL and PLY files: the input of OpenMesh.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,18 +11,18 @@
 
 namespace seaglint {
 
-// A checked file in the plain dialect of its format that OpenMesh reads right: triangles only, absolute indices, finite
-// float positions.
+// A validated file in the plain subset of its format that OpenMesh reads correctly: triangles only, absolute indices,
+// finite float positions.
 struct SanitisedPolygons {
   std::string bytes;
-  bool binary = false;                       // for STL; a PLY says so itself
-  std::size_t triangle_count = 0;            // at most so many will come
-  std::vector<std::string> part_names;       // empty: the format or the file names none
-  std::vector<std::uint16_t> triangle_part;  // as many as triangles, or none
+  bool binary = false;                       // of an STL; a PLY states its encoding itself
+  std::size_t triangle_count = 0;            // upper bound
+  std::vector<std::string> part_names;       // empty: no names
+  std::vector<std::uint16_t> triangle_part;  // one per triangle, or empty
 };
 
-// A coordinate as float32. Not finite and beyond 1e30 is nothing; below 1e-30 is zero, which keeps float text
-// conversions exact.
+// A coordinate as float32; nullopt when not finite or beyond 1e30; 0 below 1e-30, so that conversions to float text are
+// exact.
 std::optional<float> coordinate_of(double value);
 
 }  // namespace seaglint

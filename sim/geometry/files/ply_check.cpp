@@ -66,9 +66,9 @@ double value_at(Number type, const char* bytes, bool swap) {
   return 0;
 }
 
-// OpenMesh's reader waits for ever for a missing end_header, trusts every count, and reads only float coordinates and
-// uchar list counts of binary files. So the file is read here, and handed on as a binary PLY of float x y z and
-// triangles.
+// Parses a PLY and rewrites it as a binary PLY of float x y z and triangles. OpenMesh's own reader does not terminate
+// at a missing end_header, does not check counts, and of binary files reads only float coordinates and uchar list
+// counts.
 class PlyCheck {
  public:
   PlyCheck(std::string_view bytes, const std::string& file) : rest_(bytes), file_(file) {}
@@ -165,7 +165,7 @@ class PlyCheck {
     if (!has_format) fail("the PLY header has no format");
   }
 
-  // The promised count against what the file can hold at least, before anything is reserved.
+  // Checks the declared count against the file size before memory is reserved.
   void min_size(const Element& element) const {
     std::uint64_t least = 0;
     for (const Property& property : element.properties) {
@@ -238,7 +238,7 @@ class PlyCheck {
   }
 
   void faces(const Element& element) {
-    // Before the loop, whose count nothing bounds where the faces have no properties.
+    // Checked before the loop: the count of faces without properties is not bounded by the file size.
     if (element.count > 0 && std::none_of(element.properties.begin(), element.properties.end(), has_corners))
       fail("its faces have no vertex_indices");
     for (std::uint64_t i = 0; i < element.count; ++i) {
@@ -259,7 +259,7 @@ class PlyCheck {
     }
   }
 
-  // Once all vertices are known.
+  // Called once all vertices are read.
   void split(std::size_t face, std::span<const std::uint32_t> corners) {
     polygon_.clear();
     for (const std::uint32_t v : corners) {

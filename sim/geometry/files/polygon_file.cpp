@@ -19,8 +19,7 @@ using OpenMesh::HalfedgeHandle;
 using OpenMesh::VertexHandle;
 using Status = OpenMesh::Attributes::StatusInfo;
 
-// OpenMesh's own mesh refuses faces at non-manifold edges, so its reader is given this soup instead: vertices and faces
-// as they come.
+// Collects vertices and faces unconnected: OpenMesh's own mesh rejects faces at non-manifold edges.
 class SoupImporter : public OpenMesh::IO::BaseImporter {
  public:
   SoupImporter(const SanitisedPolygons& plain, const std::string& file) : plain_(plain), file_(file) {
@@ -33,7 +32,7 @@ class SoupImporter : public OpenMesh::IO::BaseImporter {
     builder_.vertex({p[0], p[1], p[2]});
     return VertexHandle(static_cast<int>(builder_.vertices().size() - 1));
   }
-  // The PLY reader makes a vertex first and places it later.
+  // The PLY reader creates a vertex first and sets its position later.
   VertexHandle add_vertex() override {
     later_.emplace_back(Vec3::Zero());
     return VertexHandle(static_cast<int>(later_.size() - 1));
@@ -105,7 +104,7 @@ class SoupImporter : public OpenMesh::IO::BaseImporter {
   std::size_t placed_ = 0;
 };
 
-// The same way out: a soup has vertices and triangles, and nothing else that a writer may ask for.
+// Counterpart for writing: provides vertices and triangles only.
 class SoupExporter : public OpenMesh::IO::BaseExporter {
  public:
   explicit SoupExporter(const TriangleMesh& mesh) : mesh_(mesh) {}
@@ -169,7 +168,7 @@ class SoupExporter : public OpenMesh::IO::BaseExporter {
   int get_to_vertex_id(HalfedgeHandle) override { return -1; }
   int get_face_id(HalfedgeHandle) override { return -1; }
   Status status(HalfedgeHandle) const override { return {}; }
-  // The PLY writer looks for further properties here and finds none.
+  // The PLY writer queries further properties here; there are none.
   const OpenMesh::BaseKernel* kernel() override { return &no_properties_; }
 
  private:
@@ -177,7 +176,7 @@ class SoupExporter : public OpenMesh::IO::BaseExporter {
   const OpenMesh::BaseKernel no_properties_;
 };
 
-// OpenMesh reports on standard output and error; what matters is thrown here.
+// Suppresses the messages of OpenMesh on standard output and error; failures are thrown here.
 class Silence {
  public:
   Silence() : log_(omlog().is_enabled()), err_(omerr().is_enabled()) {
@@ -196,7 +195,7 @@ class Silence {
   bool err_;
 };
 
-// OpenMesh knows no groups: a line "g part" goes in where the part changes.
+// OpenMesh writes no groups: inserts a line "g part" where the part changes.
 std::string with_groups(const std::string& obj, const TriangleMesh& mesh) {
   std::istringstream lines(obj);
   std::string grouped;
@@ -227,7 +226,7 @@ TriangleMesh read_polygons(const SanitisedPolygons& plain, const std::string& en
 }
 
 std::string polygon_bytes(const TriangleMesh& mesh, const std::string& ending) {
-  constexpr int kDigits = 9;  // enough to give a float32 back
+  constexpr int kDigits = 9;  // round-trips a float32
   const Silence silence;
   SoupExporter exporter(mesh);
   OpenMesh::IO::Options options;

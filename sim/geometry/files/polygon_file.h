@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// OBJ, STL and PLY through OpenMesh; used by mesh_io.
+// OBJ, STL and PLY files by OpenMesh; used by mesh_io.
 
 #include <string>
 
@@ -10,7 +10,7 @@
 
 namespace seaglint {
 
-// `ending` is .obj, .stl or .ply.
+// `ending`: .obj, .stl or .ply.
 TriangleMesh read_polygons(const SanitisedPolygons& plain, const std::string& ending, const std::string& file);
 std::string polygon_bytes(const TriangleMesh& mesh, const std::string& ending);
 

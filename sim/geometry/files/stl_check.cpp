@@ -17,9 +17,9 @@ namespace seaglint {
 namespace {
 
 constexpr std::size_t kHeader = 84,
-                      kFacet = 50;  // bytes: 80 of comment and the count; normal, three corners, attribute
+                      kFacet = 50;  // bytes: 80 of comment and the count; normal, three vertices, attribute
 
-// Header, count, then facets of a normal and three corners as little-endian float32, and nothing behind them.
+// Header, count, then facets of a normal and three vertices as little-endian float32; no trailing bytes.
 SanitisedPolygons check_binary(std::string bytes, const std::string& file) {
   if (bytes.size() < kHeader)
     throw InputError(fmt::format("{}: {} bytes are no binary STL, which begins with 84", file, bytes.size()));
@@ -110,7 +110,7 @@ class AsciiStl {
 
   void facet() {
     expect("normal");
-    // The normal follows from the corners, and some exporters write nan for slivers.
+    // The normal is ignored: it follows from the vertices, and some exporters write nan for slivers.
     for (int i = 0; i < 3; ++i) next_word(rest_);
     expect("outer");
     expect("loop");
@@ -140,7 +140,7 @@ class AsciiStl {
 }  // namespace
 
 SanitisedPolygons sanitised_stl(std::string bytes, const std::string& file) {
-  // Binary files may begin with "solid" too; then their size tells.
+  // Binary files may also begin with "solid": then their size decides.
   std::uint32_t count = 0;
   if (bytes.size() >= kHeader) std::memcpy(&count, bytes.data() + 80, 4);
   const bool has_binary_size = bytes.size() >= kHeader && bytes.size() == kHeader + kFacet * std::size_t{count};

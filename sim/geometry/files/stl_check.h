@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The check of an STL file.
+// Validation of an STL file before OpenMesh parses it.
 
 #include <string>
 #include <string_view>
@@ -10,7 +10,7 @@
 
 namespace seaglint {
 
-// InputError names the file, the line or byte, and what is wrong. Triangles with two equal corners are left out.
+// Triangles with two equal vertices are dropped. Throws InputError with file, line or byte, and cause.
 SanitisedPolygons sanitised_stl(std::string bytes, const std::string& file);
 
 }  // namespace seaglint

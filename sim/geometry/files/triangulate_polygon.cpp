@@ -14,7 +14,7 @@ namespace {
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
 constexpr double kRounding = 2.5e-7;  // of a coordinate: four roundings to float32
-constexpr double kOverlap = 1e-6;     // of a polygon's area, that a triangle of its fan may turn the wrong way by
+constexpr double kOverlap = 1e-6;     // of the polygon's area: largest area of a fan triangle with opposite orientation
 
 // Newell's method (Sutherland, Sproull and Schumacker, ACM Computing Surveys 6, 1974, 1-55): twice the area vector.
 Vec3 newell(std::span<const Vec3> corner) {
@@ -24,14 +24,14 @@ Vec3 newell(std::span<const Vec3> corner) {
   return normal;
 }
 
-// How far the corners may lie from where they were before rounding, m.
+// Bound of the rounding error of the vertex positions, m.
 double rounding_of(std::span<const Vec3> corner) {
   double farthest = 0;
   for (const Vec3& p : corner) farthest = std::max(farthest, p.cwiseAbs().maxCoeff());
   return kRounding * farthest;
 }
 
-// A line, but for rounding.
+// True for a polygon that is a line to rounding.
 bool is_flat(std::span<const Vec3> corner, double rounding) {
   double extent = 0, height = 0;
   for (std::size_t i = 1; i < corner.size(); ++i) extent = std::max(extent, (corner[i] - corner[0]).norm());
@@ -46,8 +46,8 @@ Triangles fan(std::size_t corners) {
   return triangles;
 }
 
-// Triangles that all turn with the polygon cover each point as often as the polygon winds about it, so a fan of such is
-// right unless it goes round more than once.
+// A fan whose triangles all have the orientation of the polygon covers each point as often as the polygon winds about
+// it, so it is a triangulation unless the polygon winds more than once.
 bool fan_covers(std::span<const Vec3> corner, const Vec3& area_vector, double rounding) {
   const Vec3 normal = area_vector.normalized();
   double sweep = 0;
@@ -57,7 +57,7 @@ bool fan_covers(std::span<const Vec3> corner, const Vec3& area_vector, double ro
     if (area < -rounding * std::max(a.norm(), b.norm()) - kOverlap * area_vector.norm()) return false;
     sweep += std::atan2(std::max(area, 0.0), a.dot(b));
   }
-  // Two triangles cannot go round.
+  // Two triangles cannot wind more than once.
   return corner.size() == 4 || sweep < 2 * kPi;
 }
 
@@ -66,7 +66,7 @@ double turn(const Vec2& a, const Vec2& b, const Vec2& c) {
   return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
 }
 
-// How often the polygon goes counter-clockwise round the point: its crossings of the ray towards +x.
+// Winding number of the polygon about the point, by crossings of the ray towards +x.
 int winding(const std::vector<Vec2>& corner, const Vec2& p) {
   int rounds = 0;
   for (std::size_t i = 0; i < corner.size(); ++i) {
@@ -77,10 +77,10 @@ int winding(const std::vector<Vec2>& corner, const Vec2& p) {
   return rounds;
 }
 
-// What may be clipped, the better first; the last two only where nothing better is left.
+// Kinds of ears in order of preference; the last two are clipped only where no better ear remains.
 enum class Ear { kClear, kTouched, kFlat };
 
-// Clips ears, of which every simple polygon has two (Meisters, American Mathematical Monthly 82, 1975, 648-651; Eberly,
+// Ear clipping: every simple polygon has two ears (Meisters, American Mathematical Monthly 82, 1975, 648-651; Eberly,
 // Triangulation by Ear Clipping, 1998).
 class EarClipper {
  public:
@@ -89,11 +89,10 @@ class EarClipper {
     for (std::uint32_t i = 0; i < left_.size(); ++i) left_[i] = i;
   }
 
-  // Empty where no ear is left or what was clipped is no part of the polygon, as happens to those that cross
-  // themselves.
+  // Empty where no ear remains or a clipped triangle is outside of the polygon, as for self-intersecting polygons.
   Triangles clip() {
     Triangles triangles;
-    // Each round tries every corner once; polygons rarely need more than a few rounds per kind.
+    // Each round tests every vertex once; a few rounds per kind suffice for most polygons.
     std::size_t tries = 64 * left_.size(), fruitless = 0, at = 0;
     Ear kind = Ear::kClear;
     while (left_.size() > 3) {
@@ -110,7 +109,7 @@ class EarClipper {
       }
       triangles.push_back(triangle(at));
       left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(at));
-      // The corners beside it may be ears now.
+      // The adjacent vertices may have become ears.
       at = (at + left_.size() - 1) % left_.size();
       fruitless = 0;
       kind = Ear::kClear;
@@ -131,7 +130,7 @@ class EarClipper {
     return {left_[(at + n - 1) % n], left_[at], left_[(at + 1) % n]};
   }
 
-  // Twice the area that rounding may feign, m^2.
+  // Twice the area that rounding alone can produce, m^2.
   double min_area(const Vec2& a, const Vec2& b, const Vec2& c) const {
     return rounding_ * std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
   }
@@ -142,7 +141,7 @@ class EarClipper {
     const double area = turn(a, b, c), least = min_area(a, b, c);
     if (kind == Ear::kFlat) return std::abs(area) <= least;
     if (area <= least) return false;
-    // A corner on the ear's rim would be left on a side that ends elsewhere.
+    // A vertex on the boundary of the ear would be left on a side that ends elsewhere.
     const double margin = kind == Ear::kClear ? -rounding_ : rounding_;
     const auto inside = [&](const Vec2& from, const Vec2& to, const Vec2& p) {
       return turn(from, to, p) > margin * (to - from).norm();
@@ -169,7 +168,7 @@ std::optional<Triangles> triangulate_polygon(std::span<const Vec3> corner) {
   if (fan_covers(corner, area, rounding)) return fan(corner.size());
   if (corner.size() > kMaxConcaveVertices) return std::nullopt;
 
-  // Into the plane, with the normal towards the viewer.
+  // Projection onto the plane, the normal towards the viewer.
   const Vec3 normal = area.normalized(), right = normal.unitOrthogonal(), up = normal.cross(right);
   std::vector<Vec2> flat;
   for (const Vec3& p : corner) flat.emplace_back((p - corner[0]).dot(right), (p - corner[0]).dot(up));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Polygons of files into triangles: fans where these are right, by clipping ears where they are not.
+// Triangulation of the polygons of mesh files: fans of convex polygons, ear clipping of concave ones.
 
 #include <array>
 #include <cstdint>
@@ -14,16 +14,16 @@
 
 namespace seaglint {
 
-// Concave polygons with more corners are not split: the work goes with the square of their number.
+// Maximum number of vertices of a concave polygon: the cost is quadratic in it.
 inline constexpr std::size_t kMaxConcaveVertices = 4096;
 
-// Triangles of indices into `corner` (three or more), turning as the polygon does. Where the fan from the first corner
-// covers the polygon, as it does any convex one, that fan; so too for what encloses nothing but the rounding of float32
-// positions. Corners need not lie in one plane: the plane is that of the polygon's area vector. Nothing where the
-// polygon crosses itself, or is concave and has too many corners.
+// Triangles of indices into `corner` (at least three vertices), oriented as the polygon. The fan of the first vertex
+// where it covers the polygon (every convex one), and for polygons whose area is below the rounding of float32
+// positions; otherwise ear clipping in the plane normal to the area vector. Vertices need not be coplanar. nullopt for
+// a polygon that intersects itself, or is concave with more than kMaxConcaveVertices vertices.
 std::optional<std::vector<std::array<std::uint32_t, 3>>> triangulate_polygon(std::span<const Vec3> corner);
 
-// What to say of a polygon that is not split.
+// Error message for a polygon that is not triangulated.
 std::string untriangulated_message(std::size_t corners);
 
 }  // namespace seaglint

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Which things hang together, told pair by pair.
+// Disjoint sets (union-find) of indices 0 to count - 1.
 
 #include <cstdint>
 #include <numeric>
@@ -13,7 +13,7 @@ class DisjointSets {
  public:
   explicit DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
 
-  // The same number for all that hang together.
+  // Representative index of the set that holds i.
   std::uint32_t find(std::uint32_t i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;

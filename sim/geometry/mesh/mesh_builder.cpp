@@ -10,7 +10,7 @@
 namespace seaglint {
 namespace {
 
-constexpr std::size_t kMaxNames = 65536;  // of parts or materials: triangles hold 16 bits of each
+constexpr std::size_t kMaxNames = 65536;  // of parts or materials: triangles store 16-bit indices
 
 }  // namespace
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Collects triangles part by part into a mesh; what every generator and reader writes into.
+// Builds a mesh part by part; the output of every generator and reader.
 
 #include <string>
 #include <unordered_map>
@@ -12,13 +12,13 @@ namespace seaglint {
 
 class MeshBuilder {
  public:
-  // Triangles that follow belong to this part or material; a name that was used before is continued.
+  // Part or material of the triangles that follow; a name that was used before is continued.
   void begin_part(const std::string& name);
   void begin_material(const std::string& name);
 
   std::uint32_t vertex(const Vec3& position);
 
-  // Corners counter-clockwise seen from outside.
+  // Vertices counter-clockwise seen from outside.
   void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
   // Two triangles a b c, a c d.
   void quad(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d);

@@ -13,7 +13,7 @@
 namespace seaglint {
 namespace {
 
-// The corners in ascending order, and whether the triangle runs through them in an even permutation.
+// The vertices in ascending order, and whether the triangle is an even permutation of them.
 struct Corners {
   std::array<std::uint32_t, 3> sorted;
   bool even;
@@ -41,7 +41,8 @@ struct Diagnosis {
   std::vector<char> turn;  // of an inverted surface
 };
 
-// Marks what is there more than once. Returned are the backs of another material than their fronts, front and back.
+// Marks copies of triangles. Returns pairs (front, back) of coinciding triangles of opposite orientation and different
+// material.
 std::vector<std::array<std::uint32_t, 2>> find_copies(const TriangleMesh& mesh, Diagnosis& d) {
   std::vector<Corners> all;
   all.reserve(mesh.triangles.size());
@@ -53,7 +54,7 @@ std::vector<std::array<std::uint32_t, 2>> find_copies(const TriangleMesh& mesh, 
   });
   std::vector<std::array<std::uint32_t, 2>> backs;
   for (std::size_t i = 0; i < all.size();) {
-    // The first stays; what faces the same way repeats it, what faces the other way is its back.
+    // The first is kept; triangles of the same orientation are copies, those of opposite orientation are its back.
     const Corners& front = all[i];
     bool has_back = false;
     std::size_t next = i + 1;
@@ -74,7 +75,7 @@ std::vector<std::array<std::uint32_t, 2>> find_copies(const TriangleMesh& mesh, 
   return backs;
 }
 
-// The edges as they are once dropped triangles are gone.
+// Topology after the removal of dropped triangles.
 Topology remaining(Topology topology, const std::vector<char>& drop) {
   std::vector<HalfEdge> uses;
   for (MeshEdge& edge : topology.edges) {
@@ -92,8 +93,7 @@ Topology remaining(Topology topology, const std::vector<char>& drop) {
 
 bool is_mixed(std::span<const HalfEdge> uses) { return uses.size() == 2 && uses[0].forward == uses[1].forward; }
 
-// At the root of each set of triangles: does any edge remain that its own triangles do not run through as often in
-// either direction?
+// Per root of each set: true when its triangles do not traverse every edge equally often in both directions.
 std::vector<char> unclosed(const Topology& topology, std::size_t triangles, DisjointSets& sets) {
   std::vector<char> open(triangles, 0);
   std::vector<HalfEdge> uses;
@@ -112,9 +112,9 @@ std::vector<char> unclosed(const Topology& topology, std::size_t triangles, Disj
   return open;
 }
 
-// A sheet of two materials needs both its sides. The solver tells them apart where what hangs together with them is
-// closed; elsewhere it looks at either side of every triangle, and the first of two that coincide hides the other from
-// both.
+// Keeps the backs of sheets of two materials where the connected surface is closed, since the solver then illuminates
+// each triangle on its front only. In open surfaces it illuminates both sides of every triangle, and the first of two
+// coinciding triangles hides the other from both: the back is removed.
 void choose_backs(const TriangleMesh& mesh, const Topology& topology,
                   std::span<const std::array<std::uint32_t, 2>> backs, Diagnosis& d) {
   if (backs.empty()) return;
@@ -150,7 +150,7 @@ Diagnosis find_defects(const TriangleMesh& mesh) {
   choose_backs(mesh, topology, backs, d);
   topology = remaining(std::move(topology), d.drop);
 
-  // Only an edge of two says which triangles go on in each other.
+  // Only edges of two triangles define which triangles continue each other.
   DisjointSets sets(count);
   for (const MeshEdge& edge : topology.edges) {
     const auto uses = uses_of(topology, edge);
@@ -159,8 +159,8 @@ Diagnosis find_defects(const TriangleMesh& mesh) {
     if (is_mixed(uses)) ++d.health.inconsistent_edges;
     if (uses.size() > 2) ++d.health.non_manifold_edges;
   }
-  // What is closed by that is a body of its own and may touch others along edges. What is not hangs together there, and
-  // may be closed as a whole.
+  // Sets that are closed by this are separate bodies, which may touch others along edges. The others are joined across
+  // non-manifold edges and may be closed together.
   const std::vector<char> ends = unclosed(topology, count, sets);
   DisjointSets joined = sets;
   for (const MeshEdge& edge : topology.edges) {
@@ -183,8 +183,8 @@ Diagnosis find_defects(const TriangleMesh& mesh) {
     double volume = 0, area = 0;
     std::size_t triangles = 0;
   };
-  std::vector<Surface> surfaces(count);  // at their root
-  // Volumes about a point of the mesh: far from the origin the divergence theorem's terms would cancel badly.
+  std::vector<Surface> surfaces(count);  // stored at the root
+  // Volumes about a point of the mesh: far from the origin the terms of the divergence theorem cancel.
   const Bounds box = bounds(mesh);
   const Vec3 centre = (box.lower + box.upper) / 2;
   for (std::uint32_t t = 0; t < count; ++t) {
@@ -196,7 +196,7 @@ Diagnosis find_defects(const TriangleMesh& mesh) {
     surface.area += area.norm();
     ++surface.triangles;
   }
-  // Rounding of what encloses nothing.
+  // Below this the enclosed volume is rounding.
   constexpr double kMinVolume = 1e-9;  // of size times area
   const double size = (box.upper - box.lower).norm();
   const auto inverted = [&](const Surface& s) { return !s.open && s.volume < -kMinVolume * size * s.area; };

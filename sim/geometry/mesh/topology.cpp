@@ -49,8 +49,7 @@ EdgeKind kind_of(const std::vector<HalfEdge>& uses, const MeshEdge& edge) {
                                                                           : EdgeKind::kManifold;
 }
 
-// A part without boundary as a chain: along each of its edges the forward and backward runs of its own triangles
-// cancel.
+// A part without boundary as a chain: along each edge the forward and backward traversals of its triangles cancel.
 std::vector<bool> closed_parts(const TriangleMesh& mesh, const Topology& topology) {
   std::vector<bool> closed(mesh.part_names.size(), false);
   for (std::uint16_t part : mesh.triangle_part) closed[part] = true;
@@ -118,8 +117,8 @@ double fold_angle(const TriangleMesh& mesh, const Topology& topology, std::uint3
   const HalfEdge& use = topology.uses[edge.first_use];
   const HalfEdge& other = topology.uses[edge.first_use + 1];
 
-  // With t along the edge as the first triangle runs, its face lies to the left; a convex edge turns its normal about t
-  // by a positive angle into the second one's.
+  // With t along the edge in the sense of the first triangle, its face is to the left; at a convex edge a positive
+  // rotation about t turns its normal into that of the second triangle.
   const auto& corners = mesh.triangles[use.triangle];
   const Vec3 t = (mesh.vertices[corners[(use.side + 1) % 3]] - mesh.vertices[corners[use.side]]).normalized();
   const Vec3 n1 = area_vector(mesh, use.triangle).normalized();

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
 
-// Index of `name` in `names`, added at the end when it is new.
+// Index of `name` in `names`, appended when new.
 template <typename Item, typename NameOf>
 std::uint16_t matched(std::vector<Item>& items, const Item& item, NameOf name_of) {
   for (std::size_t i = 0; i < items.size(); ++i) {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The project's own indexed triangle mesh. It holds any triangle soup, non-manifold ones too; topology is asked of it,
-// never demanded.
+// Indexed triangle mesh. It holds any triangle soup, non-manifold ones included.
 
 #include <array>
 #include <cstdint>
@@ -14,7 +13,7 @@
 namespace seaglint {
 
 struct Material {
-  std::string name = "pec";  // perfect electric conductor; what other names mean is said by material files
+  std::string name = "pec";  // perfect electric conductor; other names are defined by material files
 };
 
 // Lengths in metres, body frame (CONVENTIONS.md): x forward, y to port, z up. Triangles are counter-clockwise seen from
@@ -27,7 +26,7 @@ struct TriangleMesh {
   std::vector<std::string> part_names;
   std::vector<Material> materials;
 
-  // Appends a mesh as it is (its parts and materials are matched by name).
+  // Appends a mesh unchanged; its parts and materials are matched by name.
   void append(const TriangleMesh& other);
 };
 
@@ -35,10 +34,10 @@ struct Bounds {
   Vec3 lower = Vec3::Zero();
   Vec3 upper = Vec3::Zero();
 };
-// Of the vertices that triangles use; zero for a mesh without triangles.
+// Bounding box of the vertices that triangles use; zero for a mesh without triangles.
 Bounds bounds(const TriangleMesh& mesh);
 
-// Half the cross product of two sides: the direction is the outward normal, the length the area in m^2.
+// Half the cross product of two sides: its direction is the outward normal, its length the area in m^2.
 Vec3 area_vector(const TriangleMesh& mesh, std::size_t triangle);
 
 // Sum of the triangles' areas, m^2.
@@ -51,10 +50,10 @@ double enclosed_volume(const TriangleMesh& mesh);
 TriangleMesh transformed(const TriangleMesh& mesh, const Mat3& rotation, const Vec3& translation);
 
 // The same triangles with vertices at identical positions merged (and unused ones dropped), vertices in order of first
-// use. Files repeat a vertex for every triangle (STL) or normal (glTF); topology needs it once.
+// use. Files repeat a vertex per triangle (STL) or per normal (glTF); topology_of() needs it once.
 TriangleMesh welded(const TriangleMesh& mesh);
 
-// The triangles of one part alone, its vertices renumbered; `part` indexes part_names.
+// The triangles of one part, its vertices renumbered; `part` indexes part_names.
 TriangleMesh part_of(const TriangleMesh& mesh, std::size_t part);
 
 }  // namespace seaglint

@@ -7,8 +7,8 @@
 namespace seaglint {
 namespace {
 
-// Of the mesh's largest coordinate, within which a corner lies in the surface: sixteen roundings to float32, which
-// files keep.
+// Distance from the plane, relative to the largest coordinate of the mesh, below which a vertex counts as in it:
+// sixteen roundings to float32, the precision of files.
 constexpr double kInSurface = 1e-6;
 
 }  // namespace
@@ -22,8 +22,8 @@ WaterlineCut cut_at_waterline(const TriangleMesh& mesh, double height) {
   const Bounds box = bounds(mesh);
   const double margin = kInSurface * std::max(box.lower.cwiseAbs().maxCoeff(), box.upper.cwiseAbs().maxCoeff());
   const auto above = [&](std::uint32_t v) { return cut.mesh.vertices[v].z() > height + margin; };
-  // Always from the lower end, so that both triangles of an edge get the same point; that end itself where it touches
-  // the surface.
+  // Interpolated from the lower vertex, so that both triangles of an edge get the same point; the vertex itself where
+  // it is in the plane.
   const auto crossing = [&](std::uint32_t a, std::uint32_t b) {
     const std::uint32_t lower = above(a) ? b : a;
     const Vec3 low = cut.mesh.vertices[lower], high = cut.mesh.vertices[above(a) ? a : b];
@@ -47,7 +47,7 @@ WaterlineCut cut_at_waterline(const TriangleMesh& mesh, double height) {
       add(corner, dry == 0);
       continue;
     }
-    // The corner that lies alone on its side comes first.
+    // Rotate so that the single vertex on its side of the plane comes first.
     int first = 0;
     while (above(corner[first]) != (dry == 1)) ++first;
     const std::uint32_t a = corner[first], b = corner[(first + 1) % 3], c = corner[(first + 2) % 3];

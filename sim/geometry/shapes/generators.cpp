@@ -182,7 +182,8 @@ TriangleMesh make_icosahedral_reflector(double edge) {
   require_size(edge, "reflector edge");
   const Icosahedron solid = icosahedron();
 
-  // Turn the solid so that its first face looks along +x and that face's first corner lies above in the plane y = 0.
+  // Rotate the solid so that its first face has the normal +x and the first vertex of that face is the upper one, in
+  // the plane y = 0.
   const auto& [a0, b0, c0] = solid.faces[0];
   const Vec3 facing = (solid.vertices[a0] + solid.vertices[b0] + solid.vertices[c0]).normalized();
   const Vec3 up = (solid.vertices[a0] - facing * facing.dot(solid.vertices[a0])).normalized();

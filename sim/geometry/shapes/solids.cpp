@@ -15,7 +15,7 @@ std::vector<std::uint32_t> add_ring(MeshBuilder& builder, const std::vector<Vec3
   return indices;
 }
 
-// Two unit vectors that complete an axis to a right-handed frame; the first is as level as can be.
+// Two unit vectors that complete an axis to a right-handed frame; the first as horizontal as possible.
 std::pair<Vec3, Vec3> across(const Vec3& axis) {
   const Vec3 level = std::abs(axis.z()) > 0.999 ? Vec3::UnitX() : Vec3(Vec3::UnitZ().cross(axis).normalized());
   return {level, axis.cross(level)};
@@ -90,7 +90,7 @@ void add_open_box(MeshBuilder& builder, const Pose& pose, const Vec3& size, doub
 }
 
 void add_corner_plates(MeshBuilder& builder, const Pose& pose, const Vec3& legs, double thickness) {
-  // The plates reach behind the corner by their thickness, so that their edges do not coincide.
+  // The plates extend behind the apex by their thickness, so that their edges do not coincide.
   const double t = thickness, x = legs.x(), y = legs.y(), z = legs.z();
   const auto slab = [&](const Vec3& low, const Vec3& high) {
     const Vec3 middle = 0.5 * (low + high), size = high - low;

@@ -21,8 +21,8 @@ void require(double value, double least, double most, const char* name) {
     throw InputError(fmt::format("ship {}: {} is outside {}..{} m", name, value, least, most));
 }
 
-// Positions on a grid of 2^-16 m (15 um, a thousandth of a wavelength at 16 GHz), which float32 holds exactly up to 256
-// m: the last bit of a sine, which may differ between processors, does not show.
+// Positions on a grid of 2^-16 m (15 um, a thousandth of a wavelength at 16 GHz), which float32 represents exactly up
+// to 256 m: differences in the last bit of a sine between processors have no effect.
 TriangleMesh on_grid(TriangleMesh mesh) {
   for (Vec3& p : mesh.vertices) p = (p * 65536.0).array().round() / 65536.0;
   return mesh;

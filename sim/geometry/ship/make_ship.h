@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// A generic naval combatant of about 144 m: no ship in particular, but everything a radar sees of one at grazing
-// elevation.
+// Mesh of a generic naval combatant of about 144 m, with the scattering features of a ship at grazing elevation; no
+// particular ship.
 
 #include "sim/geometry/mesh/triangle_mesh.h"
 #include "sim/geometry/ship/ship_form.h"
@@ -10,8 +10,8 @@
 namespace seaglint {
 
 // Body frame, origin amidships on the centreline at the waterline z = 0, where the hull is cut and closed. Every part
-// is closed and faces outwards; parts stand a little inside one another, so that no two faces coincide. The same form
-// gives the same mesh. InputError for a value out of range.
+// is closed and faces outwards; adjacent parts overlap slightly, so that no two faces coincide. Deterministic: equal
+// forms give equal meshes. Throws InputError for a value out of range.
 TriangleMesh make_ship(const ShipForm& form = {});
 
 }  // namespace seaglint

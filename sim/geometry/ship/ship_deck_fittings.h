@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// What stands on the decks: bitts, fairleads, windlasses, lockers, ventilators, splinter shields, boats and their bays.
+// Fittings on the decks: bitts, fairleads, windlasses, lockers, ventilators, splinter shields, boats and their bays.
 
 #include "sim/geometry/mesh/mesh_builder.h"
 #include "sim/geometry/ship/ship_hull.h"

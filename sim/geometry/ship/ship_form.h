@@ -19,7 +19,7 @@ struct ShipForm {
   double bow_height_m = 9.8;    // of the deck above the water, freeboard <= x <= 14
   double stern_height_m = 5.2;  // of the deck above the water, 3 <= x <= 9
   double panel_m = 1.5;         // length of a hull plate, 0.5 <= x <= 6
-  double plating_m = 0.004;     // largest dent of a hull plate's corner, 0 <= x <= 0.05
+  double plating_m = 0.004;     // largest displacement of a hull plate's vertex, 0 <= x <= 0.05
   double rail_width_m = 0.045;  // 0.02 <= x <= 0.1
   ShipDetail detail = ShipDetail::kRails;
 };

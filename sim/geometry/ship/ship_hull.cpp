@@ -20,8 +20,8 @@ double smooth_step(double from, double to, double x) {
   return t * t * (3.0 - 2.0 * t);
 }
 
-// How far the section has gone from waterline to deck breadth: nearly straight amidships, hollow with a knuckle in the
-// forebody.
+// Fraction of the change from waterline breadth to deck breadth at height v: nearly linear amidships, hollow with a
+// knuckle in the forebody.
 double section(double u, double v) {
   const double forward = smooth_step(0.5, 0.92, u);
   const double power = 1.12 + 0.75 * forward;
@@ -30,7 +30,7 @@ double section(double u, double v) {
   return at_knuckle + (1.0 - at_knuckle) * (v - kKnuckle) / (1.0 - kKnuckle);
 }
 
-// Rim of the deck, lid and transom across the ship, as fractions of the half-breadth from starboard to port.
+// Transverse vertices of deck, lid and transom, as fractions of the half-breadth from starboard to port.
 constexpr std::array<double, 5> kAcross{-1.0, -0.5, 0.0, 0.5, 1.0};
 
 }  // namespace
@@ -108,7 +108,7 @@ void add_hull(MeshBuilder& builder, const HullSurface& hull) {
     }
     sides.push_back(std::move(row));
   }
-  // A quad that may have two equal corners at the stem.
+  // A quad that may have two equal vertices at the stem.
   const auto patch = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
     if (a != b && b != c && c != a) builder.triangle(a, b, c);
     if (a != c && c != d && d != a) builder.triangle(a, c, d);
@@ -157,7 +157,7 @@ void add_bulwark(MeshBuilder& builder, const HullSurface& hull) {
     for (int i = 0; i <= kBays; ++i) {
       const double x = hull.x_of(kFrom + (kTo - kFrom) * i / kBays);
       const double z = hull.deck_height(x), y = std::max(hull.deck_half_breadth(x) - 0.05, 0.02 + kThickness);
-      // It carries the flare on, and ends in a slope.
+      // The bulwark continues the flare and ends in a slope.
       const double height = i == 0 ? 0.25 : kHeight, lean = 0.12 * height;
       const auto at = [&](double offset, double up) { return builder.vertex({x, side * (y + offset), z + up}); };
       sections.push_back({at(0, -kSunk), at(lean, height), at(lean - kThickness, height), at(-kThickness, -kSunk)});

@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The hull as a surface and as a part.
+// Hull of the generated ship: its moulded surface and its mesh.
 
 #include "sim/geometry/mesh/mesh_builder.h"
 #include "sim/geometry/ship/ship_form.h"
 
 namespace seaglint {
 
-// The moulded form: u = 0 at the transom to 1 at the stem, v = 0 at the waterline to 1 at the deck.
+// Moulded surface: u = 0 at the transom to 1 at the stem, v = 0 at the waterline to 1 at the deck.
 class HullSurface {
  public:
   explicit HullSurface(const ShipForm& form) : form_(form) {}
 
   Vec3 side(double u, double v) const;  // port side, y >= 0
-  // Of the deck at a body x in metres.
+  // Height and half-breadth of the deck at body x, m.
   double deck_height(double x) const;
   double deck_half_breadth(double x) const;
 
-  // From positions on the 144 m by 17.5 m design to this form's.
+  // Positions on the 144 m by 17.5 m design, scaled to this form, m.
   double x_of(double design_x) const { return design_x * form_.length_m / 144.0; }
   double y_of(double design_y) const { return design_y * form_.beam_m / 17.5; }
 
@@ -31,7 +31,7 @@ class HullSurface {
   ShipForm form_;
 };
 
-// Plated sides, transom, deck and a lid at z = 0: one closed part.
+// One closed part: plated sides, transom, deck and a lid at z = 0.
 void add_hull(MeshBuilder& builder, const HullSurface& hull);
 
 // Bulwark along the forecastle's edge with its stays.

@@ -21,7 +21,7 @@ void add_platform(MeshBuilder& builder, const Vec3& centre, double half, double 
     const Vec3 root_low = side * Vec3(core - 0.1, 0.02, -0.7), root = side * Vec3(core - 0.1, 0.02, 0.02),
                tip = side * Vec3(half - 0.1, 0.02, 0.02);
     add_plate(builder, {root_low, tip, root}, 0.04);
-    // The coaming's four sides end within one another, at different depths.
+    // The four sides of the coaming overlap at their ends, at different depths.
     add_box(builder, side * upright({half - 0.03, 0, 0.03}), {0.04, 2 * half - (k % 2 == 0 ? 0.06 : 0.08), 0.35});
   }
 }
@@ -53,7 +53,7 @@ void add_enclosed_mast(MeshBuilder& builder, const HullSurface& hull, double foo
   add_frustum(builder, ring(3.3, 0.9, foot - 0.3), ring(2.55, 0.75, foot + 5.8));
   add_frustum(builder, ring(2.35, 0.7, foot + 5.5), ring(1.25, 0.35, top));
 
-  // Four array faces, standing on the upper mast's walls.
+  // Four array faces on the upper mast's walls.
   builder.begin_part("array_faces");
   const double slope = std::atan2(1.1, top - foot - 5.5);
   for (int k = 0; k < 4; ++k) {

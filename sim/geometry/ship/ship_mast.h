@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The enclosed forward mast with its pole, the lattice mast amidships, radars and aerials.
+// Enclosed forward mast with its pole, lattice mast amidships, radars and antennas.
 
 #include "sim/geometry/mesh/mesh_builder.h"
 #include "sim/geometry/ship/ship_hull.h"

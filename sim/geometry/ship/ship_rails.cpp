@@ -29,7 +29,7 @@ void add_rail(MeshBuilder& builder, const std::vector<Vec3>& line, double width)
 }
 
 void add_deck_rails(MeshBuilder& builder, const HullSurface& hull, double width) {
-  // The stretch beside the flight deck has nets instead.
+  // Along the flight deck there are nets instead.
   for (double side : {1.0, -1.0}) {
     builder.begin_part(side > 0 ? "rails_port" : "rails_starboard");
     std::vector<Vec3> line;

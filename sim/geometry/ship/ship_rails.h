@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Rails of posts and bars, ladders, and the nets round the flight deck.
+// Rails of posts and bars, ladders, and the nets around the flight deck.
 
 #include "sim/geometry/mesh/mesh_builder.h"
 #include "sim/geometry/ship/ship_hull.h"

@@ -13,7 +13,7 @@ namespace {
 
 double lean(double slope_deg, double height) { return height * std::tan(radians(slope_deg)); }
 
-// The eight corners of a house at a height, counter-clockwise from the starboard quarter.
+// The eight vertices of a house at a height, counter-clockwise from the starboard quarter.
 std::vector<Vec3> ring(const Deckhouse& house, const HullSurface& hull, double z) {
   const double a = house.aft_at(hull, z), f = house.fore_at(hull, z), w = house.half_width_at(hull, z);
   const double ca = house.aft_chamfer, cf = house.fore_chamfer;
@@ -26,7 +26,7 @@ void add_house(MeshBuilder& builder, const Deckhouse& house, const HullSurface& 
   add_frustum(builder, ring(house, hull, house.foot), ring(house, hull, house.roof));
 }
 
-// A row of panes that stand 3 cm proud of the bridge's front and front corners.
+// A row of panes 3 cm in front of the bridge's front and front corners.
 void add_windows(MeshBuilder& builder, const Deckhouse& bridge, const HullSurface& hull) {
   builder.begin_part("bridge_windows");
   const double low = bridge.roof - 1.7, high = bridge.roof - 0.7;
@@ -53,7 +53,7 @@ void add_windows(MeshBuilder& builder, const Deckhouse& bridge, const HullSurfac
   }
 }
 
-// Open platforms to both sides of the bridge with a solid bulwark: floor and walls are upright to one another.
+// Open platforms to both sides of the bridge with a solid bulwark: floor and walls are perpendicular.
 void add_bridge_wings(MeshBuilder& builder, const Deckhouse& bridge, const HullSurface& hull) {
   builder.begin_part("bridge_wings");
   const double x = hull.x_of(21.4), z = bridge.foot + 0.35, root = bridge.half_width_at(hull, z) - 0.5;
@@ -110,7 +110,8 @@ void add_hangar(MeshBuilder& builder, const HullSurface& hull, const Deckhouse& 
   add_bar(builder, at(3.25, low - 0.3), at(3.25, high + 0.2), 0.35);
   add_bar(builder, at(-3.25, low - 0.3), at(-3.25, high + 0.2), 0.35);
   add_bar(builder, at(3.5, high + 0.2), at(-3.5, high + 0.2), 0.3);
-  // Its sides lean: upright ones would make a right-angled dihedral with the wall that flashes at 2 deg of elevation.
+  // Its sides are inclined: vertical ones would form a right-angled dihedral with the wall, with a specular flash at 2
+  // deg of elevation.
   builder.begin_part("flight_control");
   const double x = aft.aft_at(hull, aft.roof), low_z = aft.roof - 1.7, high_z = aft.roof - 0.3;
   add_frustum(builder, {{x - 1.0, 3.6, low_z}, {x + 0.6, 3.6, low_z}, {x + 0.6, 5.6, low_z}, {x - 1.0, 5.6, low_z}},

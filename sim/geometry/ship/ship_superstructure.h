@@ -12,7 +12,7 @@
 
 namespace seaglint {
 
-// A deckhouse: an eight-cornered frustum whose walls lean inwards. Heights above the waterline; slopes from the
+// A deckhouse: a frustum on an octagon, its walls inclined inwards. Heights above the waterline; wall slopes from the
 // vertical in degrees.
 struct Deckhouse {
   std::string name;
@@ -20,17 +20,18 @@ struct Deckhouse {
   double half_width = 0;      // at the foot, design metres
   double foot = 0, roof = 0;  // m above the waterline
   double side_slope = 8, fore_slope = 12, aft_slope = 6;
-  double fore_chamfer = 2.5, aft_chamfer = 0.8;  // cut off the corners, m
+  double fore_chamfer = 2.5, aft_chamfer = 0.8;  // chamfer of the vertical edges, m
 
   double half_width_at(const HullSurface& hull, double z) const;
   double fore_at(const HullSurface& hull, double z) const;
   double aft_at(const HullSurface& hull, double z) const;
 
-  // On the side wall at design x and height z: local +x out of the wall, +z up along it. side = +1 port, -1 starboard.
+  // Pose on the side wall at design x and height z: +x is the outward normal, +z points up along the wall. side = +1
+  // port, -1 starboard.
   Pose on_side(const HullSurface& hull, double side, double design_x, double z) const;
 };
 
-// Everything stands on one of these.
+// The houses that carry all fittings.
 struct ShipHouses {
   Deckhouse forward, bridge, flag_deck, core, aft, radar_house;
 };

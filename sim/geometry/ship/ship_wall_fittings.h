@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// What hangs on the walls: cabinets, doors, liferafts, fire stations, lamps.
+// Fittings on the walls: cabinets, doors, liferafts, fire stations, lamps.
 
 #include "sim/geometry/mesh/mesh_builder.h"
 #include "sim/geometry/ship/ship_hull.h"

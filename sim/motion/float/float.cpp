@@ -16,13 +16,13 @@ namespace seaglint {
 namespace {
 
 // A disc-like float of 1 m: roll and pitch 1.3 s, heave 1.2 s (a section 0.4 m wide has 1.26 s and 1.17 s, NTNU);
-// periods of similar bodies grow with the root of their size (Froude).
+// periods scale with the square root of the size (Froude).
 constexpr double kTiltPeriod = 1.3;   // s at a diameter of 1 m
 constexpr double kHeavePeriod = 1.2;  // s at a diameter of 1 m
 constexpr double kTiltDamping = 0.25;
 constexpr double kHeaveDamping = 0.3;
 
-// A mooring takes a float back to its place with this time constant, against the waves' own drift.
+// Time constant with which a mooring returns a float to its position, against the wave drift.
 constexpr double kMooringTime = 10;  // s
 
 double given_or(double value, double derived) { return value > 0 ? value : derived; }
@@ -76,13 +76,14 @@ Vec2 soft_limited_slope(const Vec2& slope) {
 
 namespace {
 
-// What reaches a float of the waves on the surface: the disc's mean and the pressure's decay to its draught, e^{-kT}
-// (Smith's correction, as for a ship of effective slope: Jensen, Mansour and Olsen 2004, Ocean Engineering 31, 61).
+// Transfer from the surface wave to the forcing of a float: mean over the disc, and pressure decay to its draught,
+// e^{-kT} (Smith correction, as for the effective slope of a ship: Jensen, Mansour and Olsen 2004, Ocean Engineering
+// 31, 61).
 double float_wave_filter(const FloatParticulars& body, double wavenumber) {
   return disc_slope_filter(wavenumber, 0.5 * body.diameter) * std::exp(-wavenumber * body.draught);
 }
 
-// What the water does at the float, at uniform half steps; at its resting place, or where it has moved to.
+// State of the water at the float at uniform half steps, at its rest position or at its displaced position.
 class Water {
  public:
   Water(const WaveField& sea, const FloatParticulars& body, double x, double y, bool moving, double start, double step)
@@ -96,7 +97,7 @@ class Water {
   Water(const Water&) = delete;
   Water& operator=(const Water&) = delete;
 
-  // The n-th half step; a moving float is at `shift`.
+  // State at the next half step; `shift`: displacement of a moving float.
   SurfaceState next(const Vec2& shift) {
     if (!series_) return field_.surface(x_ + shift.x(), y_ + shift.y(), start_ + step_ * static_cast<double>(count_++));
     if (count_++ > 0) series_->advance();
@@ -110,7 +111,7 @@ class Water {
   std::optional<SurfaceSeries> series_;
 };
 
-// Tilt about the axes x and y of T (not turning with the float), and the shift of the centre of flotation.
+// Tilt about the axes x and y of T (not rotating with the float), and the displacement of the centre of flotation.
 struct FloatState {
   Vec2 tilt = Vec2::Zero();
   Vec2 tilt_rate = Vec2::Zero();
@@ -129,9 +130,9 @@ class Equations {
  public:
   Equations(const FloatParticulars& body, bool moving) : body_(body), moving_(moving) {}
 
-  // Tilt: two oscillators about the float's own axes, which its yaw has turned, forced by the slope there (roll = +d
-  // eta/dy, pitch = -d eta/dx). Heave: stiffness and damping act on the motion relative to the water, z'' + 2 z w0 (z'
-  // - w) + w0^2 (z - eta) = 0. Surge and sway: the float goes with the water at its place, held by its mooring.
+  // Tilt: two oscillators about the yawed axes of the float, forced by the slope there (roll = +d eta/dy, pitch = -d
+  // eta/dx). Heave: stiffness and damping act on the motion relative to the water, z'' + 2 z w0 (z'
+  // - w) + w0^2 (z - eta) = 0. Surge and sway: velocity of the water at the float, with the mooring term.
   FloatState derivative(const FloatState& s, const SurfaceState& water, double yaw) const {
     const Vec2 slope = turned(soft_limited_slope({water.slope_x, water.slope_y}), -yaw);
     const Vec2 target(slope.y(), -slope.x());
@@ -164,7 +165,7 @@ class Equations {
   bool moving_;
 };
 
-// The angles of R = Rz(yaw) Ry(pitch) Rx(roll): roll and pitch are the tilt about the axes that yaw has turned.
+// The angles of R = Rz(yaw) Ry(pitch) Rx(roll): roll and pitch are the tilt about the yawed axes.
 MotionSample sample_of(const FloatState& s, const Vec2& horizontal_rate, const OscillatorState& yaw, bool moving) {
   const Vec2 tilt = turned(s.tilt, -yaw.x);
   const Vec2 rate = turned(s.tilt_rate, -yaw.x) + yaw.rate * Vec2(tilt.y(), -tilt.x());
@@ -207,7 +208,7 @@ std::vector<MotionSample> simulate_float(const FloatParticulars& body, const Mot
     if (n == after) break;
     for (long p = 0; p < parts; ++p) {
       const double t = start + part * (static_cast<double>((n + before) * parts + p));
-      // The water is asked where the float will be to first order in the step: within a millimetre.
+      // The water is evaluated at the position predicted to first order in the step: error below 1 mm.
       const Vec2 velocity = equations.horizontal_rate(state, water0);
       const SurfaceState water_middle = water.next(state.shift.head<2>() + 0.5 * part * velocity);
       const SurfaceState water1 = water.next(state.shift.head<2>() + part * velocity);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// A float a metre across: it tilts with the water at its own place.
+// Motion of a small float (about 1 m): it responds to the local water surface.
 
 #include <cstdint>
 #include <vector>
@@ -15,20 +15,22 @@
 
 namespace seaglint {
 
-// The zero fields of the spec filled in (README.md, "Floats").
+// Parameters of a float, the zero fields of the spec filled in (sim/motion/float/README.md).
 struct FloatParticulars {
   double diameter = 1;  // of the waterplane, m
   double draught = 0;   // m, 0 = shallow
   Oscillator roll, pitch, heave;
 };
 
-// Throws InputError when the mesh has no size to derive from.
+// Throws InputError for a mesh without extent.
 FloatParticulars float_particulars(const MotionSpec& spec, const Bounds& bounds);
 
-// Mean slope of a wave over a disc of radius R, weighted as its moment is: 8 J2(kR) / (kR)^2, 1 for long waves.
+// Moment-weighted mean of a wave slope over a disc of radius R, per slope at its centre: 8 J2(kR) / (kR)^2, 1 for long
+// waves.
 double disc_slope_filter(double wavenumber, double radius);
 
-// The slope a float follows: the water's up to breaking, s / (1 + (s/0.4)^4)^(1/4), in the slope's own direction.
+// Slope that forces a float: s / (1 + (s/0.4)^4)^(1/4), the water slope s limited smoothly at breaking, direction
+// unchanged.
 inline constexpr double kBreakingSlope = 0.4;
 Vec2 soft_limited_slope(const Vec2& slope);
 

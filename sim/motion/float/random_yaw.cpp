@@ -10,8 +10,8 @@
 
 namespace seaglint {
 
-// The rate's spectrum 1 / (1 + (w tau)^2) has the distribution (2/pi) atan(w tau): harmonic m takes a random place of
-// the m-th of equal shares.
+// The rate's spectrum 1 / (1 + (w tau)^2) has the distribution (2/pi) atan(w tau): harmonic m is drawn from the m-th of
+// the intervals of equal probability.
 RandomYaw::RandomYaw(double rate, double period, double damping, std::uint64_t seed, std::uint64_t index) {
   if (rate <= 0) return;
   Random random({seed, Stream::kFloatYaw, index});

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The slow random rotation of a float about the vertical.
+// Slow random rotation of a float about the vertical.
 
 #include <cstdint>
 #include <vector>
@@ -10,10 +10,10 @@
 
 namespace seaglint {
 
-// A slow random rotation: a sum of kYawHarmonics cosines that share the variance of the rate equally, with the
-// frequencies of an Ornstein-Uhlenbeck process of correlation time kYawCorrelationTime; smooth, and the same for any
-// time step. Without a spring the heading at t = 0 is uniform; with one (period > 0) each harmonic passes through the
-// spring's oscillator and the mean heading is 0. A rate of 0 leaves the float at heading 0.
+// Sum of kYawHarmonics cosines of equal variance, whose rate has the spectrum of an Ornstein-Uhlenbeck process of
+// correlation time kYawCorrelationTime; smooth and independent of the time step. Without a spring (period = 0) the
+// heading at t = 0 is uniform; with one each harmonic is filtered by the oscillator of the spring and the mean heading
+// is 0. rate = 0: heading 0.
 inline constexpr int kYawHarmonics = 64;
 inline constexpr double kYawCorrelationTime = 10;  // s
 

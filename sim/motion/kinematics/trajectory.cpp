@@ -50,7 +50,7 @@ struct Hermite {
   Vec3 rate;
 };
 
-// Cubic that takes values a, b and rates da, db at the ends of an interval of length h, at the share u of it.
+// Cubic with values a, b and rates da, db at the ends of an interval of length h, at fraction u of it.
 Hermite hermite(const Vec3& a, const Vec3& da, const Vec3& b, const Vec3& db, double h, double u) {
   const double v = 1 - u;
   return {(1 + 2 * u) * v * v * a + u * u * (3 - 2 * u) * b + h * u * v * (v * da - u * db),

@@ -20,26 +20,24 @@ struct MotionSample {
 class Trajectory {
  public:
   Trajectory() = default;  // at rest at the origin
-  // rest_position: where the body's origin rests in T; rotation_centre: in the body frame.
+  // rest_position: body origin at rest, in T, m; rotation_centre: body frame, m.
   Trajectory(double start_s, double step_s, std::vector<MotionSample> samples, Vec3 rest_position,
              Vec3 rotation_centre);
 
-  // A body that never moves.
+  // A fixed body.
   static Trajectory at_rest(const Vec3& rest_position);
 
-  // The same body carried along: its pose is displaced by velocity (t - from_s) besides, of which sample() knows
-  // nothing.
+  // The same motion plus a uniform drift: the pose is displaced by velocity (t - from_s); sample() excludes it.
   Trajectory with_drift(const Vec3& velocity, double from_s) const;
 
-  // t within [start, end], else throws std::out_of_range; beyond them by kEndSlack of their distance it is rounding,
-  // and taken for the end.
+  // Motion at time t in [start, end]; throws std::out_of_range outside, beyond a tolerance of kEndSlack times the
+  // duration for rounding.
   MotionSample sample(double t) const;
   static constexpr double kEndSlack = 2e-9;
-  // Of the body frame in the target frame at rest (T): p = rest + shift + c - R c with c the rotation centre, and where
-  // it has been carried.
+  // Pose of the body frame in T: p = rest + shift + c - R c with c the rotation centre, plus the drift.
   Pose pose(double t) const;
 
-  // A body at rest is at rest for ever: its start and end are infinite.
+  // Infinite for a fixed body.
   double start_s() const;
   double end_s() const;
 

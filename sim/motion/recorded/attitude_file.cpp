@@ -22,7 +22,7 @@ namespace {
 
 bool has(std::string_view text, std::string_view part) { return text.find(part) != std::string_view::npos; }
 
-// The first line that holds `part` and is no comment, and its number counted from 1; nothing without one.
+// The first non-comment line that contains `part`, with its 1-based number; nullopt without one.
 struct FoundLine {
   std::string_view text;
   int number;
@@ -66,7 +66,7 @@ AttitudeTable read_own(const std::string& text, const std::string& file) {
                       has(names, "surge_m") || has(names, "sway_m") || has(names, "heave_m"), in_degrees, {}, 0);
 }
 
-// Pitch goes with the angular velocity about y beside it: where they go against one another, pitch has the other sign.
+// The sign of pitch is chosen so that its rate correlates positively with the angular velocity about y.
 AttitudeTable read_floating_info(const std::string& text, const std::string& file, const FoundLine& names) {
   const TableLayout layout{';', 0};
   AttitudeTable table = from_columns(
@@ -86,7 +86,7 @@ AttitudeTable read_floating_info(const std::string& text, const std::string& fil
 }
 
 AttitudeTable read_openfast(const std::string& text, const std::string& file, const FoundLine& names) {
-  // The units stand in the next line, in parentheses, below the names.
+  // The next line holds the units, in parentheses below the names.
   std::string_view rest = text;
   for (int i = 0; i < names.number; ++i) next_line(rest);
   std::string_view units = next_line(rest), line = names.text;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The formats of motion series: where their columns stand, their units and signs.
+// File formats of motion time series: columns, units and signs.
 
 #include <filesystem>
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace seaglint {
 
-// Angles in rad and shifts in m in this project's conventions, as they stand in the file.
+// Rows of the file: angles in rad and translations in m, in the conventions of this project.
 struct AttitudeTable {
   std::string file;
   std::vector<int> lines;
@@ -22,7 +22,7 @@ struct AttitudeTable {
   std::string place(std::size_t row) const;  // "FILE:LINE"
 };
 
-// The formats are told in attitude_series.h. Throws InputError with file and line.
+// Formats: attitude_series.h. Throws InputError with file and line.
 AttitudeTable read_attitude_table(const std::filesystem::path& file);
 
 }  // namespace seaglint

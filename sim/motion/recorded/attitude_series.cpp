@@ -51,7 +51,7 @@ void set_rates(AttitudeSeries& series, Value MotionSample::*value, Rate MotionSa
   }
 }
 
-// The factor by which numbers grow when an angle goes from radians to degrees.
+// Factor between an angle in degrees and in radians.
 constexpr double kDegreesPerRadian = 180 / kPi;
 constexpr std::size_t kWindow = 20;  // samples before and after a jump
 
@@ -67,14 +67,14 @@ bool is_57_fold(double factor, double slack) {
   return (up > 1 / slack && up < slack) || (down > 1 / slack && down < slack);
 }
 
-// Numbers that from one line on are 57 times what the line before leads to, and stay as much larger or smaller.
+// Rejects values that change by a factor of 57 from one line to the next and keep the new scale.
 void check_unit_change(const AttitudeTable& table, const std::vector<double>& angle, const char* name) {
   for (std::size_t n = kWindow; n + kWindow <= angle.size(); ++n) {
     const double slope = angle[n - 1] - angle[n - 2];
     const double expected = angle[n - 1] + slope;
     if (expected == 0 || !is_57_fold(angle[n] / expected, 1.3)) continue;
     if (!is_57_fold(angle[n + 1] / (expected + slope), 1.6)) continue;
-    // Over a window the swing itself may grow or fade by some factor.
+    // Within a window the amplitude of the motion itself may change by a small factor.
     if (!is_57_fold(rms(angle, n, n + kWindow) / rms(angle, n - kWindow, n), 8)) continue;
     throw InputError(fmt::format(
         "{}: {}: value {:.6g} after {:.6g}: a 57-fold jump, as between radians and degrees: the unit changes within "
@@ -83,7 +83,7 @@ void check_unit_change(const AttitudeTable& table, const std::vector<double>& an
   }
 }
 
-// No ship and no float lies beyond a right angle; a heading may be anything within two turns.
+// Plausible range: roll and pitch within 90 deg, heading within two turns.
 void check_radians(const AttitudeTable& table) {
   constexpr std::array<double, 3> kLargest{0.5 * kPi, 0.5 * kPi, 4 * kPi};
   constexpr std::array<const char*, 3> kNames{"roll", "pitch", "yaw"};
@@ -130,7 +130,7 @@ void unwrap_yaw(std::vector<MotionSample>& samples) {
   }
 }
 
-// Where the sample before time t stands.
+// Index of the last sample before time t.
 std::size_t interval_of(const std::vector<double>& time, double t) {
   const auto above = std::upper_bound(time.begin(), time.end() - 1, t);
   return static_cast<std::size_t>(std::max<long>(above - time.begin() - 1, 0));
@@ -152,7 +152,7 @@ AttitudeSeries read_attitude_series(const std::filesystem::path& file) {
 Trajectory trajectory_of(const AttitudeSeries& series, double start_s, double duration_s, bool translations,
                          const Vec3& rest_position, const Vec3& rotation_centre) {
   const std::vector<double>& time = series.time;
-  // Half of what the trajectory takes for its ends.
+  // Half of the tolerance of the trajectory at its ends.
   const double slack = 0.5 * Trajectory::kEndSlack * (time.back() - time.front());
   if (start_s < time.front() - slack || start_s + duration_s > time.back() + slack) {
     throw InputError(fmt::format("{}: lasts from {:.6g} to {:.6g} s, {:.6g} to {:.6g} s are needed", series.source,

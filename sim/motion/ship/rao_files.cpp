@@ -24,7 +24,7 @@ namespace seaglint {
 
 namespace {
 
-// Words of a file with the line they stand in.
+// Words of a file with their line numbers.
 class Words {
  public:
   explicit Words(const std::filesystem::path& file) : file_(file.string()), text_(read_file(file)), rest_(text_) {}
@@ -68,7 +68,7 @@ class Words {
 
 using Heading = std::vector<MotionRao>;  // by frequency
 
-// A ship that is alike on both sides answers waves from the other side in mirror image.
+// Response of a port-starboard symmetric ship to the wave from the opposite side.
 MotionRao mirrored(const MotionRao& r) { return {r.surge, -r.sway, r.heave, -r.roll, r.pitch, -r.yaw}; }
 
 double wrapped(double angle) {
@@ -120,9 +120,9 @@ void check_ascending(const std::vector<double>& omega, double value, const std::
 
 // Layout: five lines of text, one of the program, density and gravity, L B T, LCG and VCG, counts of speeds, headings,
 // frequencies and degrees of freedom; for each speed a line (speed, sinkage, trim, x aft of amidships and z above the
-// keel of the point told), for each heading its angle, for each frequency its value and a line per degree of freedom.
-// Axes: heading 0 is a head sea, x aft, y to starboard, z up, e^{+iwt}: mu = heading + 180 deg; surge, sway, roll and
-// pitch change sign, heave and yaw do not.
+// keel of the reference point), for each heading its angle, for each frequency its value and a line per degree of
+// freedom. Axes: heading 0 is a head sea, x aft, y to starboard, z up, e^{+iwt}: mu = heading + 180 deg; surge, sway,
+// roll and pitch change sign, heave and yaw do not.
 RaoTable read_veres_rao(const std::filesystem::path& file, double speed) {
   Words words(file);
   const std::string_view title = words.line();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Tables of other programs: what their numbers mean, and where they stand.
+// Files of response amplitude operators of other programs: formats and conventions.
 
 #include <filesystem>
 
@@ -11,13 +11,13 @@
 namespace seaglint {
 
 // A table of VERES (ShipX), .re1, version 4: heading 0 is a head sea, x aft, y to starboard, motions and wave phase at
-// the point that the file names. Headings of one side only are mirrored. speed: the table's speed nearest to it is
-// taken (m/s). Throws InputError with file and line.
+// the point given in the file. Headings of one side only are mirrored. speed (m/s): the table at the nearest speed is
+// used. Throws InputError with file and line.
 RaoTable read_veres_rao(const std::filesystem::path& file, double speed);
 
 // A table of WAMIT, .4 with periods (IPERIO = 1): heading is the direction of propagation, x forward, y to port,
-// lengths in units of `unit_length` (ULEN, m). Rows of zero and infinite period are left out.
-// `reference` is where WAMIT's body origin lies in the body's frame (the file does not say).
+// lengths in units of `unit_length` (ULEN, m). Rows of zero and infinite period are skipped.
+// `reference`: WAMIT's body origin in the body frame, m (not in the file).
 RaoTable read_wamit_rao(const std::filesystem::path& file, double unit_length, const Vec3& reference = Vec3::Zero());
 
 }  // namespace seaglint

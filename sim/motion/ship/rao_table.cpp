@@ -23,7 +23,7 @@ MotionRao mixed(const MotionRao& a, double share_a, const MotionRao& b, double s
           mix(a.roll, b.roll),   mix(a.pitch, b.pitch), mix(a.yaw, b.yaw)};
 }
 
-// Into (-pi, pi].
+// Angle wrapped into (-pi, pi].
 double wrapped(double angle) { return angle - 2 * kPi * std::ceil(angle / (2 * kPi) - 0.5); }
 
 }  // namespace
@@ -42,8 +42,8 @@ RaoTable::RaoTable(std::string source, std::vector<double> mu, std::vector<doubl
   SEAGLINT_CHECK(std::is_sorted(mu_.begin(), mu_.end()) && std::is_sorted(omega_.begin(), omega_.end()), source_);
 }
 
-// Responses are kept with the phase of the wave at the reference point, where they turn slowly with frequency and
-// heading; e^{-jk.x} brings them to the origin.
+// Responses are interpolated with the phase of the wave at the reference point, where it varies slowly with frequency
+// and heading; e^{-jk.x} brings them to the origin.
 MotionRao RaoTable::at(double omega, double wavenumber, double mu) const {
   if (omega < omega_.front() || omega > omega_.back()) return {};
   const double heading = wrapped(mu);
@@ -55,7 +55,7 @@ MotionRao RaoTable::at(double omega, double wavenumber, double mu) const {
   double place = heading - mu_[left];
   if (gap <= 0) gap += 2 * kPi;
   if (place < 0) place += 2 * kPi;
-  // On a heading (or the only one), to the rounding of angles, there is nothing to bridge.
+  // At a tabulated heading (or the only one), to rounding, no interpolation is needed.
   constexpr double kSameHeading = 1e-9;
   const bool on_right = above < count && std::abs(mu_[above] - heading) < kSameHeading;
   double v = on_right ? 1 : place / gap;

@@ -36,7 +36,7 @@ UniformPhasors ResponseSynthesis::make(const WaveField& sea,
     ResponseChannels& all = responses.emplace_back(response(ship_wave(component)));
     for (std::size_t d = 0; d < kResponseChannels; ++d) {
       all[d] *= component.amplitude;
-      // No comparison below would find it.
+      // A NaN would pass the comparisons below.
       SEAGLINT_CHECK(std::isfinite(all[d].real()) && std::isfinite(all[d].imag()),
                      fmt::format("channel {} at {} rad/s: {} + {}j", d, component.omega, all[d].real(), all[d].imag()));
       largest[d] = std::max(largest[d], std::abs(all[d]));

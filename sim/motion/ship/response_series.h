@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Motion in time as the sum of a body's responses to every wave of a sea.
+// Motion time series of a body: the sum of its responses to all waves of a sea.
 
 #include <array>
 #include <functional>
@@ -14,16 +14,17 @@
 
 namespace seaglint {
 
-// Roll, pitch, yaw (rad/m), surge, sway, heave (m/m) and one more that the caller chooses, per metre of a wave.
+// Responses per metre of wave amplitude: roll, pitch, yaw (rad/m), surge, sway, heave (m/m) and one channel chosen by
+// the caller.
 enum ResponseChannel { kRollAngle, kPitchAngle, kYawAngle, kSurgeShift, kSwayShift, kHeaveShift, kExtra };
 inline constexpr std::size_t kResponseChannels = 7;
 using ResponseChannels = std::array<Complex, kResponseChannels>;
 
-// w_e = w - U k cos(mu): how often a ship of speed U (m/s) meets a wave; negative when it overtakes it.
+// Encounter frequency w_e = w - U k cos(mu) of a ship of speed U (m/s), rad/s; negative when it overtakes the wave.
 double encounter_frequency(const ShipWave& wave, double speed);
 
-// At t = start + n step, of a body that starts at (x, y) at t = 0 and goes on along x with `speed`. Waves with less
-// than 1e-9 of the largest contribution to each channel are left out.
+// At t = start + n step, of a body at (x, y) at t = 0 that moves along x at `speed`, m/s. Waves below 1e-9 of the
+// largest contribution to every channel are skipped.
 class ResponseSynthesis {
  public:
   ResponseSynthesis(const WaveField& sea, const std::function<ResponseChannels(const ShipWave&)>& response,

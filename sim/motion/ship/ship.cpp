@@ -12,7 +12,7 @@ namespace seaglint {
 
 namespace {
 
-// Responses to one wave; with the forcing under which roll's oscillator answers as the coupled hull does.
+// Responses to one wave, and the forcing for which the roll oscillator has the roll response of the coupled hull.
 ResponseChannels channels(const ShipParticulars& ship, const ShipWave& wave, bool translations) {
   const MotionRao rao = ship_rao(ship, wave);
   const double share = translations ? 1 : 0;
@@ -25,7 +25,7 @@ std::vector<OscillatorState> nonlinear_roll(const ShipParticulars& ship, const M
                                             double x, double y, long samples) {
   const double step = spec.step_s;
   const auto before = static_cast<long>(std::ceil(spec.spin_up_s / step));
-  // A step is divided when a short period asks for it.
+  // Steps are subdivided for short natural periods.
   const auto parts = std::max(1L, static_cast<long>(std::ceil(ship.roll.omega0 * step / kLongestTurn)));
   const double part = step / static_cast<double>(parts);
   const auto response = [&](const ShipWave& wave) { return channels(ship, wave, false); };

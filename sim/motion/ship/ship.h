@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// A ship in waves: heave with pitch, and sway with roll and yaw, by strip theory; roll damping may be nonlinear.
+// Ship motion in waves by strip theory: coupled heave and pitch, coupled sway, roll and yaw; optional nonlinear roll
+// damping.
 
 #include <vector>
 
@@ -12,8 +13,8 @@
 
 namespace seaglint {
 
-// Samples at t = 0, step, ..., at least up to duration_s, of a ship whose origin rests at (x, y) at t = 0 and goes on
-// with its speed; the samples are relative to that mean way.
+// Samples at t = 0, step, ..., at least up to duration_s, of a ship whose origin is at (x, y) at t = 0 and moves on at
+// its speed, relative to that mean motion.
 std::vector<MotionSample> simulate_ship(const ShipParticulars& ship, const MotionSpec& spec, const WaveField& sea,
                                         double x, double y, double duration_s);
 

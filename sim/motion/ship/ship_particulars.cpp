@@ -20,13 +20,13 @@ constexpr double kRollDamping = 0.075;  // bilge keels, no speed: 0.05-0.10
 
 double given_or(double value, double derived) { return value > 0 ? value : derived; }
 
-// -w^2 M + C - T of sway, roll and yaw without speed, the inertia of roll about G and further damping left out.
+// -w^2 M + C - T of sway, roll and yaw without speed, without the roll inertia about G and additional damping.
 Eigen::Matrix3cd lateral_impedance(const ShipParticulars& ship, double omega) {
   return -omega * omega * ship.lateral_mass.cast<Complex>() + ship.lateral_stiffness.cast<Complex>() -
          ship.strips->radiation(omega, 0).lateral;
 }
 
-// Roll with sway and yaw following: the moment per roll angle when neither is held.
+// Roll impedance with sway and yaw free: moment per roll angle.
 Complex roll_impedance(const ShipParticulars& ship, double omega) {
   const Eigen::Matrix3cd z = lateral_impedance(ship, omega);
   Eigen::Matrix2cd others;
@@ -37,7 +37,7 @@ Complex roll_impedance(const ShipParticulars& ship, double omega) {
   return z(1, 1) - released;
 }
 
-// w with w^2 inertia = Re impedance(w), for an impedance that holds C - w^2 (added inertia).
+// Natural frequency w: w^2 inertia = Re impedance(w), for an impedance C - w^2 (added inertia).
 template <typename Impedance>
 double natural_frequency(double inertia, double stiffness, const Impedance& impedance) {
   double omega = std::sqrt(stiffness / (1.2 * inertia));
@@ -48,7 +48,7 @@ double natural_frequency(double inertia, double stiffness, const Impedance& impe
   return omega;
 }
 
-// The inertia that has a given period.
+// Inertia for a given natural period.
 template <typename Impedance>
 double inertia_of_period(double omega, const Impedance& impedance, const char* key) {
   const double inertia = impedance(omega).real() / (omega * omega);
@@ -71,7 +71,7 @@ void set_roll(ShipParticulars& ship, const MotionSpec& spec, double mass) {
         given_or(spec.roll_period_s, 2 * kPi * kRollRadius * ship.beam / std::sqrt(kGravity * ship.metacentric_height));
     inertia = inertia_of_period(ship.roll.omega0, impedance, "roll_period_s");
   }
-  // Damping as a ratio to critical; what radiation does not give comes from bilge keels and friction.
+  // Damping ratio to critical; the part beyond radiation represents bilge keels and friction.
   const double omega = ship.roll.omega0;
   const double critical = 2 * stiffness / omega;
   const double radiated = impedance(omega).imag() / omega;
@@ -134,7 +134,7 @@ ShipParticulars ship_particulars(const MotionSpec& spec, const HullSections& hul
   const double weight = kSeaWaterDensity * kGravity;
   const double yaw_radius = given_or(spec.yaw_radius_m, kPitchRadius * ship.length);
   ship.radii_of_gyration.z() = yaw_radius;
-  // A body's momentum with G beside the origin; roll's and pitch's own inertia follow below.
+  // Mass matrix with G away from the origin; the moments of inertia in roll and pitch are added below.
   ship.lateral_mass << 1, -z, x,  //
       -z, z * z, -x * z,          //
       x, -x * z, x * x + yaw_radius * yaw_radius;
@@ -143,7 +143,7 @@ ShipParticulars ship_particulars(const MotionSpec& spec, const HullSections& hul
   ship.lateral_stiffness.setZero();
   ship.lateral_stiffness(1, 1) = weight * h.volume * ship.metacentric_height;
   ship.vertical_mass << mass, -mass * x, -mass * x, mass * x * x;
-  // The slender hull's: pitch leaves out BG beside BM, as the forces of its waves do.
+  // Slender hull: pitch neglects BG against BM, consistent with the wave forces.
   ship.vertical_stiffness << h.waterplane, -h.waterplane_x, -h.waterplane_x, h.waterplane_xx;
   ship.vertical_stiffness *= weight;
 

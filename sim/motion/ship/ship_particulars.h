@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// What the equations of motion of a ship need, derived from its hull and the scenario.
+// Coefficients of the equations of motion of a ship, derived from hull and scenario.
 
 #include <Eigen/Core>
 #include <memory>
@@ -14,8 +14,8 @@
 
 namespace seaglint {
 
-// Everything the equations of motion need, with the zero fields of the spec filled in (README.md, "Ship"). SI, about
-// the origin (waterline amidships) where not said otherwise.
+// Coefficients of the equations of motion, zero fields of the spec filled in (sim/motion/ship/README.md). SI, about the
+// origin (waterline amidships) unless stated otherwise.
 struct ShipParticulars {
   double length = 0;              // of the waterline, m
   double beam = 0;                // m
@@ -23,20 +23,20 @@ struct ShipParticulars {
   double metacentric_height = 0;  // GM, m
   double speed = 0;               // along +x, m/s
   Vec3 centre_of_gravity = Vec3::Zero();
-  Vec3 rotation_centre = Vec3::Zero();    // whose translations are told
+  Vec3 rotation_centre = Vec3::Zero();    // the point whose translations are given
   Vec3 radii_of_gyration = Vec3::Zero();  // radii of the mass about the centre of gravity in roll, pitch, yaw, m
 
-  // Roll as it is near its resonance, sway and yaw following freely: natural frequency and damping with added mass and
-  // radiation. Pitch and heave likewise, each alone.
+  // Natural frequency and damping with added mass and radiation: roll near its resonance with sway and yaw free; pitch
+  // and heave each uncoupled.
   Oscillator roll, pitch, heave;
 
   std::shared_ptr<const StripTheory> strips;
   Eigen::Matrix3d lateral_mass, lateral_damping, lateral_stiffness;  // sway, roll, yaw
   Eigen::Matrix2d vertical_mass, vertical_stiffness;                 // heave, pitch
-  double pitch_damping = 0;                                          // beyond radiation (below: less than), N m s
+  double pitch_damping = 0;                                          // in addition to radiation (negative: less), N m s
 };
 
-// Throws InputError when the hull and the spec contradict each other.
+// Throws InputError for a hull and a spec that are inconsistent.
 ShipParticulars ship_particulars(const MotionSpec& spec, const HullSections& hull);
 
 }  // namespace seaglint

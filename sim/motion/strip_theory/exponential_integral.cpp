@@ -8,7 +8,7 @@ namespace seaglint {
 
 namespace {
 
-// E1(z) = -gamma - ln z - sum_{n>=1} (-z)^n / (n n!); converges everywhere, loses e^{|z| - Re z} of its digits.
+// E1(z) = -gamma - ln z - sum_{n>=1} (-z)^n / (n n!); converges everywhere; rounding is amplified by e^{|z| - Re z}.
 Complex by_series(Complex z) {
   Complex term = 1, sum = 0;
   for (int n = 1; n < 200; ++n) {
@@ -17,12 +17,13 @@ Complex by_series(Complex z) {
     sum += next;
     if (std::abs(next) < 1e-17 * std::abs(sum)) break;
   }
-  // On the cut the logarithm is that of the upper side, whatever the sign of a zero imaginary part.
+  // On the cut the value from above is used, independent of the sign of a zero imaginary part.
   const Complex logarithm(std::log(std::abs(z)), std::atan2(std::abs(z.imag()), z.real()));
   return std::exp(z) * (-std::numbers::egamma - logarithm - sum);
 }
 
-// e^z E1(z) = 1/(z + 1/(1 + 1/(z + 2/(1 + 2/(z + ...))))), from its tail; converges away from the negative axis.
+// e^z E1(z) = 1/(z + 1/(1 + 1/(z + 2/(1 + 2/(z + ...))))), evaluated from its tail; converges away from the negative
+// axis.
 Complex by_fraction(Complex z) {
   Complex tail = 0;
   for (int n = 80; n >= 1; --n) tail = static_cast<double>(n) / (1.0 + static_cast<double>(n) / (z + tail));

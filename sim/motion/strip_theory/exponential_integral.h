@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The exponential integral of a complex argument, as free-surface potentials need it.
+// Exponential integral of a complex argument, for free-surface potentials.
 
 #include "sim/core/numbers/linear.h"
 

@@ -27,8 +27,8 @@ double HullSections::draught() const {
 
 namespace {
 
-// Exponents n of 1 - |u|^n, u from -1 to 1, aft and forward of amidships. A half holds C = n/(n + 1) of its length and
-// has its moment int u (1 - u^n) du = C / (2 (2 - C)): aft is fuller by d on a side, C -+ d.
+// Exponents n of 1 - |u|^n, u from -1 to 1, aft and forward of amidships. One half has coefficient C = n/(n + 1) and
+// moment int u (1 - u^n) du = C / (2 (2 - C)); the coefficients of the halves are C -+ d.
 struct Fullness {
   double aft, forward;  // coefficients of the halves
 
@@ -76,7 +76,7 @@ HullSections sections_of_form(double length, double beam, double draught, const 
 
 namespace {
 
-// The lines in which a plane x = const cuts the mesh, each from (y, z) to (y, z).
+// Intersection of the mesh with a plane x = const: segments from (y, z) to (y, z).
 std::vector<std::array<Vec2, 2>> cut_across(const TriangleMesh& mesh, double x) {
   std::vector<std::array<Vec2, 2>> lines;
   for (const auto& triangle : mesh.triangles) {
@@ -94,7 +94,7 @@ std::vector<std::array<Vec2, 2>> cut_across(const TriangleMesh& mesh, double x) 
   return lines;
 }
 
-// Distance between the outermost walls at depth z; 0 where fewer than two are.
+// Distance between the outermost walls at depth z; 0 for fewer than two.
 double breadth_at(const std::vector<std::array<Vec2, 2>>& lines, double z) {
   double low = 0, high = 0;
   int walls = 0;
@@ -116,7 +116,7 @@ HullSection section_at(const TriangleMesh& mesh, double x) {
   for (const auto& [a, b] : lines) keel = std::min({keel, a.y(), b.y()});
   section.draught = -keel;
   if (!(section.draught > 0)) return section;
-  // Just below the waterline, so that a lid at z = 0 does not count as a wall.
+  // Evaluated just below the waterline, so that a lid at z = 0 does not count as a wall.
   section.breadth = breadth_at(lines, 1e-6 * keel);
   for (int i = 0; i < kLevels; ++i) section.area += breadth_at(lines, keel * (i + 0.5) / kLevels) * -keel / kLevels;
   return section;
@@ -125,11 +125,11 @@ HullSection section_at(const TriangleMesh& mesh, double x) {
 }  // namespace
 
 HullSections sections_of_mesh(const TriangleMesh& mesh, int count) {
-  constexpr double kMinDraught = 0.02;  // per breadth: a mesh cut at the waterline dips by rounding only
+  constexpr double kMinDraught = 0.02;  // per breadth: a mesh cut at the waterline reaches below it by rounding only
   double aft = 0, forward = 0;
   const Bounds box = bounds(mesh);
   if (box.lower.z() > -kMinDraught * (box.upper.y() - box.lower.y())) return {};
-  // The waterline's ends: where triangles cross z = 0.
+  // Ends of the waterline: triangles that cross z = 0.
   bool crosses = false;
   for (const auto& triangle : mesh.triangles) {
     for (std::size_t i = 0; i < 3; ++i) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// A hull below its waterline as breadth, draught and area of sections along its length.
+// Hull below its waterline as breadth, draught and area of sections along its length.
 
 #include <filesystem>
 #include <vector>
@@ -36,19 +36,20 @@ struct HullSections {
   double draught() const;  // largest
 };
 
-// Half-breadth B/2 (1 - |u|^n) with an exponent for each half of the length that meets coefficient and centre; areas
-// likewise. Throws InputError when no exponents do.
+// Half-breadth B/2 (1 - |u|^n) with one exponent per half of the length, from coefficient and centre; areas likewise.
+// Throws InputError when no such exponents exist.
 HullSections sections_of_form(double length, double beam, double draught, const HullCoefficients& form, int count);
 
-// Where a mesh's hull lies below z = 0: cut across at each strip; empty when it ends at the waterline (reaches less
-// than 2 % of its breadth below). Holes and inner walls do not matter: at each depth the outermost walls count.
+// Sections of a mesh below z = 0, by a transverse cut at each strip; empty when the mesh ends at the waterline (less
+// than 2 % of its breadth below). At each depth the outermost walls count, so that holes and inner walls have no
+// effect.
 HullSections sections_of_mesh(const TriangleMesh& mesh, int count);
 
-// A table `x_m,breadth_m,draught_m,area_m2` with ascending x from stern to bow, joined linearly. Throws InputError with
-// file and line.
+// A table `x_m,breadth_m,draught_m,area_m2` with ascending x from stern to bow, interpolated linearly. Throws
+// InputError with file and line.
 HullSections read_sections(const std::filesystem::path& file, int count);
 
-// The hull stretched to these dimensions (0 = as it is), m.
+// The hull scaled to these dimensions, m (0 = unchanged).
 HullSections scaled_to(HullSections hull, double length, double beam, double draught);
 
 }  // namespace seaglint

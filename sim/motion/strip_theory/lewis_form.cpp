@@ -33,9 +33,9 @@ double LewisForm::area_centre() const {
   return moment * 0.5 * kPi / kPoints / area();
 }
 
-// A form is usable while its breadth does not shrink towards the waterline nor its depth towards the keel and it stays
-// on one side of the axes; in terms of the area coefficient 3 pi/32 (2 - H) <= s <= pi/32 (H + 1/H + 10) with H the
-// smaller of half-breadth/draught and its reciprocal (von Kerczek and Tuck 1969).
+// A form is valid while its breadth does not decrease towards the waterline nor its depth towards the keel, and it does
+// not cross the axes; for the area coefficient s: 3 pi/32 (2 - H) <= s <= pi/32 (H + 1/H + 10) with H the smaller of
+// half-breadth/draught and its reciprocal (von Kerczek and Tuck 1969).
 AreaRange lewis_area_range(double half_breadth_to_draught) {
   const double h = std::min(half_breadth_to_draught, 1 / half_breadth_to_draught);
   return {3 * kPi / 32 * (2 - h), kPi / 32 * (h + 1 / h + 10)};
@@ -43,7 +43,7 @@ AreaRange lewis_area_range(double half_breadth_to_draught) {
 
 // Breadth/2 = M (1 + a1 + a3) and draught = M (1 - a1 + a3) give a1 = (1 + a3) q, q = (H - 1)/(H + 1); the area is then
 // quadratic in a3: with s = area/(breadth draught) and c = 3 + 4 s/pi + (1 - 4 s/pi) q^2,
-// c a3^2 + 2 (c - 3) a3 + (c - 4) = 0, of which the larger root is the ship's.
+// c a3^2 + 2 (c - 3) a3 + (c - 4) = 0, larger root.
 LewisForm lewis_form(double breadth, double draught, double area) {
   const double h = 0.5 * breadth / draught;
   const double q = (h - 1) / (h + 1);
@@ -51,7 +51,7 @@ LewisForm lewis_form(double breadth, double draught, double area) {
   const double s = std::clamp(area / (breadth * draught), range.least, range.largest);
   const double c = 3 + 4 * s / kPi + (1 - 4 * s / kPi) * q * q;
   LewisForm form;
-  // At the largest area 9 - 2 c is 0 to its rounding, of either sign.
+  // At the maximum area 9 - 2 c is 0 to rounding, of either sign.
   form.a3 = (3 - c + std::sqrt(std::max(0.0, 9 - 2 * c))) / c;
   form.a1 = q * (1 + form.a3);
   form.scale = 0.5 * breadth / (1 + form.a1 + form.a3);

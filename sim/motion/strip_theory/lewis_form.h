@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// A ship's section as the image of a circle: two parameters hold its breadth, draught and area.
+// Lewis form: a ship section as the conformal image of a circle, determined by breadth, draught and area.
 
 #include "sim/core/numbers/linear.h"
 
@@ -20,12 +20,11 @@ struct LewisForm {
   double area_centre() const;              // z of its centroid, m, below 0
 };
 
-// The form of Lewis (1929) with this waterline breadth, draught (m) and area (m^2), all > 0. An area that would make
-// the section cut itself or bulge beyond its breadth is replaced by the nearest that does not (von Kerczek and Tuck
-// 1969).
+// The form of Lewis (1929) with this waterline breadth, draught (m) and area (m^2), all > 0. An area whose section
+// would intersect itself or exceed its breadth is replaced by the nearest valid one (von Kerczek and Tuck 1969).
 LewisForm lewis_form(double breadth, double draught, double area);
 
-// The least and largest area over breadth times draught that a form can have, by half-breadth over draught.
+// Range of the area coefficient, area / (breadth draught), of valid forms.
 struct AreaRange {
   double least, largest;
 };

@@ -13,7 +13,7 @@ namespace seaglint {
 namespace {
 
 constexpr Complex kI{0, 1};      // of the plane y + i z
-constexpr int kMultipoles = 12;  // wave-free potentials per symmetry; twice as many change added mass by below 1e-3
+constexpr int kMultipoles = 12;  // wave-free potentials per symmetry; doubling changes the added mass by less than 1e-3
 
 // Gauss-Legendre points on [0, 1].
 struct GaussRule {
@@ -40,8 +40,8 @@ struct GaussRule {
   }
 };
 
-// Potential and stream function, n.grad(phi) = d psi/dl from keel to waterline, of which both are real functions of
-// place times a complex amplitude of time.
+// Potential and stream function, n.grad(phi) = d psi/dl from keel to waterline, both real functions of position times a
+// complex time amplitude.
 struct Flow {
   Complex potential, stream;
 };
@@ -49,10 +49,10 @@ struct Flow {
 // Of the analytic function f(y + i z), real in time.
 Flow flow_of(Complex f) { return {f.real(), f.imag()}; }
 
-// Waves of one frequency from the origin, at a place y + i z with y >= 0. The source is
+// Source and dipole of one frequency at the origin, evaluated at y + i z with y >= 0. The source is
 // int_0^inf e^{kz} cos(ky)/(k - K) dk with outgoing waves: principal value - j pi e^{Kz} cos(Ky). With Z = z + i y the
-// principal value is the real part of e^{KZ} (E1(KZ) + i pi) (turn the path of k into the upper half plane); its
-// conjugate is analytic in y + i z.
+// principal value is the real part of e^{KZ} (E1(KZ) + i pi) (by rotating the contour of k into the upper half plane);
+// its conjugate is analytic in y + i z.
 class OriginWaves {
  public:
   OriginWaves(Complex place, double wavenumber)
@@ -62,7 +62,7 @@ class OriginWaves {
         principal_(scaled_exponential_integral(wavenumber * z_) + kI * kPi * wave_) {}
 
   Flow source() const { return with_wave(principal_, wave_); }
-  // The source's derivative along y, times a length.
+  // y derivative of the source, times a length.
   Flow dipole(double length) const {
     const Complex slope = length * kI * (wavenumber_ * principal_ - 1.0 / z_);
     return with_wave(slope, length * kI * wavenumber_ * wave_);
@@ -120,8 +120,8 @@ Contour contour_of(const LewisForm& form) {
   return contour;
 }
 
-// Amplitudes of the potentials by least squares of the stream function on the contour (de Jong 1973): a velocity V of
-// the wall needs d psi = V.n dl, so psi = z in sway, -y in heave, -(y^2 + z^2)/2 in roll; in the odd modes, whose
+// Amplitudes of the potentials by a least-squares fit of the stream function on the contour (de Jong 1973): a wall
+// velocity V requires d psi = V.n dl, so psi = z in sway, -y in heave, -(y^2 + z^2)/2 in roll; in the odd modes, whose
 // stream function does not vanish below the keel, up to a constant.
 SectionRadiation solve_radiation(const LewisForm& form, const Contour& contour, double wavenumber) {
   using Matrix = Eigen::Matrix<Complex, kContourPoints, Eigen::Dynamic, 0, kContourPoints, kMultipoles + 2>;
@@ -163,7 +163,7 @@ SectionRadiation solve_radiation(const LewisForm& form, const Contour& contour, 
     result.potential[kHeave][i] = heave_potential(row);
     result.potential[kRoll][i] = across_potential(row, 1);
   }
-  // Far away the source is -j pi e^{-jK|y|}, the dipole -pi K length; eta = -(1/g) d phi/dt of a velocity jw.
+  // In the far field the source is -j pi e^{-jK|y|}, the dipole -pi K length; eta = -(1/g) d phi/dt of a velocity jw.
   const double dipole_wave = kPi * wavenumber * wavenumber * form.scale;
   result.radiated_wave_ratio = {dipole_wave * std::abs(across(0, 0)), kPi * wavenumber * std::abs(up(0)),
                                 dipole_wave * std::abs(across(0, 1))};

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Waves radiated by a long cylinder of Lewis section that heaves, sways or rolls on deep water: two-dimensional added
-// mass, damping, and the potential on the contour from which diffraction forces follow.
+// Radiation problem of a cylinder of Lewis section in sway, heave or roll on deep water: two-dimensional added mass and
+// damping, and the potential on the contour, from which diffraction forces follow.
 
 #include <array>
 
@@ -11,7 +11,7 @@
 
 namespace seaglint {
 
-enum SectionMode { kSway = 0, kHeave = 1, kRoll = 2 };  // roll about the waterline's middle
+enum SectionMode { kSway = 0, kHeave = 1, kRoll = 2 };  // roll about the middle of the waterline
 inline constexpr std::size_t kSectionModes = 3;
 
 // Gauss points of the starboard-to-port half contour y >= 0, from keel to waterline.
@@ -19,7 +19,7 @@ inline constexpr std::size_t kContourPoints = 24;
 struct Contour {
   std::array<double, kContourPoints> y, z;  // m
   std::array<double, kContourPoints> dy,
-      dz;  // with the quadrature's weight: n_y dl = dz, n_z dl = -dy, n into the water
+      dz;  // times the quadrature weight: n_y dl = dz, n_z dl = -dy, n into the water
 };
 Contour contour_of(const LewisForm& form);
 
@@ -27,12 +27,12 @@ Contour contour_of(const LewisForm& form);
 struct SectionRadiation {
   // Potential at the contour's points; even in y for heave, odd for sway and roll.
   std::array<std::array<Complex, kContourPoints>, kSectionModes> potential;
-  // Amplitude of the waves sent out to y > 0, per unit amplitude of the motion: |eta| = value |x|.
+  // Amplitude of the waves radiated to y > 0, per unit amplitude of the motion: |eta| = value |x|.
   std::array<double, kSectionModes> radiated_wave_ratio;
 
   // int phi_k n_j dl over both sides (m^2 to m^4): added mass -rho Re, damping rho w Im.
   Complex integral(const Contour& contour, SectionMode force, SectionMode motion) const;
-  // The largest error of the boundary condition's stream function over its largest value, by mode.
+  // Maximum error of the stream function in the boundary condition over its maximum value, per mode.
   std::array<double, kSectionModes> residual;
 };
 SectionRadiation solve_radiation(const LewisForm& form, const Contour& contour, double wavenumber);

@@ -16,15 +16,17 @@ namespace {
 
 constexpr Complex kJ{0, 1};
 
-// Strips thinner than this share of the draught (or of less area than that squared of the largest box) carry no force.
+// Sections with a breadth or draught below this fraction of the draught of the hull, or an area below its square times
+// the beam and draught of the hull, are skipped.
 constexpr double kThinnest = 0.01;
 
-// Half-breadth over draught that the multipoles' series reaches; beyond, the flow is that of the nearest form with the
-// same draught (sway and roll of a thin section, whose added mass is a plate's) or the same breadth (a shallow one).
+// Smallest ratio of half-breadth to draught, or its reciprocal, for which the multipole series is accurate. Beyond it
+// the flow is that of the nearest form with the same draught (sway and roll of a thin section, whose added mass is that
+// of a plate) or the same breadth (a shallow one).
 constexpr double kSlenderest = 0.2;
 constexpr double kFlattest = 5;
 
-// e^{kz - jky sin(mu)} at a point of the wall as its even and odd part, with the normals of both sides.
+// e^{kz - jky sin(mu)} on the wall: its parts even and odd in y, with the normals of both sides.
 struct WaveOnWall {
   WaveOnWall(const Contour& c, std::size_t p, double wavenumber, double sin_mu)
       : n_y(2 * c.dz[p]),
@@ -55,7 +57,7 @@ StripTheory::Strip StripTheory::solve(const HullSection& section, const LewisFor
     }
     const Contour& c = strip.lateral_contour;
     strip.integrals.push_back({flow.integral(c, kSway, kSway),
-                               // Equal by Green's theorem; their mean halves the error of the truncated series.
+                               // Equal by Green's theorem; the mean halves the truncation error.
                                0.5 * (flow.integral(c, kSway, kRoll) + flow.integral(c, kRoll, kSway)),
                                flow.integral(c, kRoll, kRoll), flow.integral(strip.heave_contour, kHeave, kHeave)});
     strip.radiation.push_back(flow);
@@ -97,7 +99,7 @@ StripTheory::StripTheory(const HullSections& hull) {
                  fmt::format("volume {} m^3 about ({}, {}) m", h.volume, h.buoyancy_x, h.buoyancy_z));
 }
 
-// Lagrange's cubic through four tabulated frequencies; the first and last serve beyond the ends.
+// Lagrange's cubic through four tabulated frequencies; the first and last four beyond the ends.
 StripTheory::Place StripTheory::place(double omega) const {
   const double u = std::clamp(std::abs(omega) / step_ - 1, 0.0, double(kFrequencies - 1));
   const auto first = static_cast<std::size_t>(std::clamp(std::floor(u) - 1, 0.0, double(kFrequencies - 4)));
@@ -107,10 +109,10 @@ StripTheory::Place StripTheory::place(double omega) const {
            t * (t - 1) * (t - 2) / 6}};
 }
 
-// With p = -rho (j w - U d/dx) phi, a strip's pitch is a heave of -x w + ..., its yaw a sway: the potentials of pitch
-// and yaw are (-x + U/jw) phi_heave and (x - U/jw) phi_sway, and the moments weigh the strips' forces with -(x + U/jw)
-// and (x + U/jw) (Salvesen, Tuck and Faltinsen 1970). A strip's force per displacement is -rho w^2 int phi n dl; its
-// w^2 is shared by the two weights, so that nothing is divided by w.
+// With p = -rho (j w - U d/dx) phi, pitch of a strip is a heave of -x w + ..., yaw a sway: the potentials of pitch and
+// yaw are (-x + U/jw) phi_heave and (x - U/jw) phi_sway, and the moments weigh the strips' forces with -(x + U/jw) and
+// (x + U/jw) (Salvesen, Tuck and Faltinsen 1970). A strip's force per displacement is -rho w^2 int phi n dl; each
+// weight takes one factor w, which avoids division by w.
 StripTheory::Radiation StripTheory::radiation(double encounter, double speed) const {
   const Place at = place(encounter);
   Radiation sum{Eigen::Matrix3cd::Zero(), Eigen::Matrix2cd::Zero()};
@@ -137,9 +139,9 @@ StripTheory::Radiation StripTheory::radiation(double encounter, double speed) co
   return sum;
 }
 
-// Froude-Krylov: -rho g int e^{kz - jk.x} n dS. Diffraction by Green's theorem, as Haskind has it for the whole body:
-// rho w0 w int phi_j (n_z - j sin(mu) n_y) e^{kz - jk.x} dS with phi_j the potential of the motion in still water at
-// the encounter frequency w (Salvesen, Tuck and Faltinsen 1970). Surge: Froude-Krylov alone, as a volume integral.
+// Froude-Krylov: -rho g int e^{kz - jk.x} n dS. Diffraction by Green's theorem (Haskind relation): rho w0 w int phi_j
+// (n_z - j sin(mu) n_y) e^{kz - jk.x} dS with phi_j the potential of the motion in still water at the encounter
+// frequency w (Salvesen, Tuck and Faltinsen 1970). Surge: Froude-Krylov alone, as a volume integral.
 ShipForces StripTheory::excitation(const ShipWave& wave, double speed) const {
   const double k = wave.wavenumber;
   const double along = k * std::cos(wave.mu);

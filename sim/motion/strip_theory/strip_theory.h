@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Forces of waves on a slender hull, from the flow about each of its sections (strip theory of Salvesen, Tuck and
-// Faltinsen 1970, without their terms for a submerged transom).
+// Wave forces on a slender hull from the flow about its sections: strip theory of Salvesen, Tuck and Faltinsen (1970),
+// without their terms for a submerged transom.
 
 #include <Eigen/Core>
 #include <array>
@@ -14,15 +14,15 @@
 
 namespace seaglint {
 
-// A wave eta = Re{e^{j(w t - k.x)}} of one metre, mu its direction of travel in the ship's frame. The wavenumber is its
-// own (finite depth); pressure and radiated waves are those of deep water.
+// A wave eta = Re{e^{j(w t - k.x)}} of one metre, mu its direction of propagation in the frame of the ship. The
+// wavenumber includes finite depth; pressure and radiated waves are those of deep water.
 struct ShipWave {
-  double omega = 0;       // rad/s, in the water's frame
+  double omega = 0;       // rad/s, earth-fixed
   double wavenumber = 0;  // rad/m
   double mu = 0;          // rad
 };
 
-// What the hull floats by, about the origin (waterline amidships).
+// Hydrostatic integrals about the origin (waterline amidships).
 struct Hydrostatics {
   double volume = 0;         // m^3
   double waterplane = 0;     // m^2
@@ -54,7 +54,7 @@ class StripTheory {
   };
   Radiation radiation(double encounter, double speed) const;
 
-  // Froude-Krylov and diffraction force; zero for waves shorter than the tables reach.
+  // Froude-Krylov plus diffraction force; zero for waves beyond the tabulated frequencies.
   ShipForces excitation(const ShipWave& wave, double speed) const;
 
   double highest_omega() const { return step_ * kFrequencies; }
@@ -66,8 +66,8 @@ class StripTheory {
   struct Strip {
     double x = 0;
     double width = 0;
-    Contour contour;                         // as it is
-    Contour heave_contour, lateral_contour;  // for the flow in heave, and in sway and roll
+    Contour contour;                         // of the section
+    Contour heave_contour, lateral_contour;  // of the Lewis forms used for the flow in heave, and in sway and roll
     // At each frequency: potentials of both flows, and int phi_k n_j dl for 22, 24, 44, 33.
     std::vector<SectionRadiation> radiation;
     std::vector<std::array<Complex, 4>> integrals;

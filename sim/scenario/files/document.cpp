@@ -30,7 +30,7 @@ namespace {
   throw InputError(fmt::format("{}:{}:{}: {}", name, location.line, location.column, reason));
 }
 
-// yaml-cpp counts from 0 and says -1 where it knows no place.
+// yaml-cpp counts from 0; -1 means unknown.
 Location location_of(const YAML::Mark& mark) {
   return {mark.line < 0 ? 1 : mark.line + 1, mark.column < 0 ? 1 : mark.column + 1};
 }
@@ -92,7 +92,7 @@ class TreeBuilder : public YAML::EventHandler {
   void OnMapEnd() override { close(); }
 
  private:
-  // A list or map that is not finished yet.
+  // An unfinished list or map.
   struct Open {
     YamlNode node;
     YAML::anchor_t anchor = 0;
@@ -125,7 +125,7 @@ class TreeBuilder : public YAML::EventHandler {
     add(std::move(finished.node), finished.anchor);
   }
 
-  // Puts a finished node where it belongs.
+  // Inserts a finished node into its parent.
   void add(YamlNode node, YAML::anchor_t anchor) {
     count(1, node.location);
     if (anchor != 0) {
@@ -146,7 +146,7 @@ class TreeBuilder : public YAML::EventHandler {
       parent.key_location = node.location;
     } else {
       parent.has_key = false;
-      // yaml-cpp puts a missing value where the next thing stands.
+      // yaml-cpp reports a missing value at the position of the next token.
       if (node.kind == YamlNode::Kind::kNull) node.location = parent.key_location;
       parent.node.entries.push_back({std::move(parent.key), parent.key_location, std::move(node)});
     }
@@ -159,7 +159,7 @@ class TreeBuilder : public YAML::EventHandler {
   std::size_t nodes_ = 0;
 };
 
-// Control characters mean that this is not a text. Another encoding than UTF-8 could not be written to JSON.
+// Rejects control characters (not a text file) and encodings other than UTF-8, which JSON cannot represent.
 void check_text(const std::string& text, const std::string& name) {
   Location location;
   const std::size_t utf8 = utf8_prefix(text);

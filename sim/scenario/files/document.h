@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// A YAML text as a small tree that knows where each value stands; hides yaml-cpp.
+// YAML text as a tree whose nodes have their positions in the file; encapsulates yaml-cpp.
 
 #include <string>
 #include <string_view>
@@ -12,7 +12,7 @@ namespace seaglint {
 struct Location {
   int line = 1;             // from 1
   int column = 1;           // from 1
-  int override_index = -1;  // which --set it comes from; -1 = the file
+  int override_index = -1;  // index of the --set option; -1 = the file
 };
 
 struct YamlEntry;
@@ -36,14 +36,13 @@ struct YamlEntry {
   YamlNode value;
 };
 
-// Limits that no scenario meets and every hostile file does.
+// Size limits, far above those of any scenario, against hostile files.
 inline constexpr std::size_t kMaxYamlBytes = 10'000'000;
 inline constexpr std::size_t kMaxYamlNodes = 300'000;
 inline constexpr int kMaxYamlDepth = 32;
 
-// Parses one document. Aliases are replaced by copies of what they name. Throws InputError "name:line:col: ..." for
-// what is not YAML, not text in UTF-8, too large or too deep, for tags, for keys that are not plain text, and for more
-// than one document.
+// Parses one document. Aliases are replaced by copies. Throws InputError "name:line:col: ..." for invalid YAML, text
+// that is not UTF-8, excessive size or depth, tags, keys that are not plain text, and more than one document.
 YamlNode parse_yaml(const std::string& text, const std::string& name);
 
 }  // namespace seaglint

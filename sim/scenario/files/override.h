@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Values of --set, put into a scenario before it is read.
+// Overrides of --set, inserted into a scenario before it is read.
 
 #include <string>
 
@@ -15,8 +15,7 @@ struct Override {
   std::string value;
 };
 
-// Puts an override's value into the tree; maps on the way that do not exist yet are made, so that reading can complain
-// about them.
+// Inserts an override into the tree. Missing maps on the path are created, so that the reader reports unknown keys.
 void apply_override(ScenarioDocument& document, const Override& override_value);
 
 }  // namespace seaglint

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// A scenario's YAML tree, and where its complaints point.
+// YAML tree of a scenario, with positions for error messages.
 
 #include <string>
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace seaglint {
 
-// A scenario's tree with the overrides applied, and what its complaints need.
+// YAML tree of a scenario with the overrides applied.
 struct ScenarioDocument {
   std::string file_name;
   std::vector<std::string> override_paths;
@@ -18,17 +18,16 @@ struct ScenarioDocument {
 
   // "file:line:col: key.path" or "--set path: key.path".
   std::string place(const Location& location, const std::string& key_path) const;
-  // The same of a key path, or of its closest parent where it is not in the file.
+  // The same for a key path, or for its closest parent in the file.
   std::string place_of(const std::string& key_path) const;
 
   // Throws InputError "file:line:col: key.path: what" or "--set path: key.path: what".
   [[noreturn]] void fail(const Location& location, const std::string& key_path, const std::string& what) const;
-  // The same, at the place of a key path, or of its closest parent where it is not in the file. A value that is there
-  // is quoted.
+  // The same at the position of a key path, or of its closest parent in the file; quotes the value if present.
   [[noreturn]] void fail_at(const std::string& key_path, const std::string& what) const;
 };
 
-// "a.b.c" into its keys.
+// Splits "a.b.c" into its keys.
 std::vector<std::string> split_path(const std::string& key_path);
 
 }  // namespace seaglint

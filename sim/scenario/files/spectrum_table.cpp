@@ -31,7 +31,7 @@ std::vector<std::string_view> cells_of(std::string_view line) {
   }
 }
 
-// Where the two columns stand, and what their values are multiplied by to be in rad/s and m^2 s/rad.
+// Indices of the two columns, and their factors to rad/s and m^2 s/rad.
 struct Columns {
   std::size_t frequency = 0, density = 0;
   double to_omega = 1;

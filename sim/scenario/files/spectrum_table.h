@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// A wave spectrum as a table, read from a file.
+// Wave spectrum read from a table.
 
 #include <filesystem>
 #include <string>
@@ -9,17 +9,17 @@
 
 namespace seaglint {
 
-// One-sided density over angular frequency; zero outside, straight lines between.
+// One-sided density over angular frequency; piecewise linear, zero outside.
 struct SpectrumTable {
   std::vector<double> omega;    // rad/s, ascending, > 0
   std::vector<double> density;  // m^2 s/rad, >= 0, not all zero
 
   double energy() const;      // the integral, m^2
-  double peak_omega() const;  // where the density is highest, rad/s; of several places the first
+  double peak_omega() const;  // frequency of the maximum density, rad/s; the first of equal maxima
 };
 
 // Reads comma-separated columns named `omega_rad_s` and `density_m2_s`, or `frequency_hz` and `density_m2_hz`, in any
-// order and beside any others; lines that begin with # are comments. Throws InputError "file:line: what" for missing
+// order, other columns ignored; lines that begin with # are comments. Throws InputError "file:line: what" for missing
 // columns, what is not a finite number, negative densities, frequencies that do not ascend, fewer than two rows, and a
 // table of zeros.
 SpectrumTable read_spectrum_table(const std::filesystem::path& file);
