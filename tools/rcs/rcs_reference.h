@@ -50,7 +50,7 @@ struct RcsReference {
 
 // Reads one of these formats, recognised by the content:
 //   four columns without header: frequency in Hz, theta, phi in degrees, dBsm (Austin RCS Benchmark Suite); the table
-//   of `seaglint rcs` (columns by name; xx_re and xx_im, or xx_dbsm alone; its head says where the transmitter stands);
+//   of `seaglint rcs` (columns by name; xx_re and xx_im, or xx_dbsm alone; its head gives the transmitter);
 //   a CST farfield table of the RCS: columns by their squeezed names, `Theta[deg.] Phi[deg.] Abs(Theta)[unit]
 //   Phase(Theta)[deg.] ...`, v received = Theta, h received = Phi, units m^2, mm^2, lambda^2 or dB() of them; no
 //   frequency inside. Theta below 0 is folded (|theta|, phi + 180, sign of both unit vectors changed). e^{+jwt}; theta^
