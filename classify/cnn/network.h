@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// A light convolutional network that tells ship from array by the shape of a map; its embedding is the paper's
+// Small convolutional network that classifies a map as ship or array by its shape; its embedding is the paper's
 // lambda_CNN.
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace seaglint {
 
-// What the network makes of maps: `size` embedding values and the logit of label 1, per map.
+// Outputs of the network: `size` embedding values and the logit of label 1, per map.
 struct Embeddings {
   std::size_t size = 0;
   std::vector<float> values;  // [map][size]

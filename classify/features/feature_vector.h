@@ -16,7 +16,7 @@ struct FeatureVector {
   double sigma_r = 0;  // m
   double sigma_v = 0;  // m/s
   int centres = 0;
-  bool degenerate = false;  // fewer than 3 centres: features are defined and finite, but say little
+  bool degenerate = false;  // fewer than 3 centres: features are defined and finite, but carry little information
 };
 
 // README.md. With N_sc centres, weights w_i = N_sc A_i / sum A, and the least-squares line v^ = a r + b

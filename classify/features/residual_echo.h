@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The echo that CLEAN works on: points are fitted to it and taken out of it at their exact phase history, so that what
-// remains is known to rounding whatever the code, holes, tapers and motion.
+// Residual echo of CLEAN: components are fitted to it and subtracted with their exact phase history, so that the
+// residual is exact up to rounding for any hop code, holes, tapers and motion.
 
 #include <span>
 #include <vector>
@@ -24,18 +24,18 @@ class ResidualEcho {
  public:
   ResidualEcho(std::span<const Complex> echo, const PulseTrain& train, const MapSpec& spec, bool intra_pulse_motion);
 
-  RvMap map() const;                                         // exact map of what remains
-  Complex value(double range_m, double velocity_mps) const;  // its value at one point
+  RvMap map() const;                                         // exact map of the residual
+  Complex value(double range_m, double velocity_mps) const;  // value of that map at one point
 
-  // Climbs from (range_m, velocity_mps) to the nearest maximum of the residual's |RV|, at most reach_r and reach_v
-  // away; the amplitude is the map's value there.
+  // Nearest maximum of the residual's |RV|, at most reach_r and reach_v from (range_m, velocity_mps); its amplitude is
+  // the map's value there.
   CleanComponent fit(double range_m, double velocity_mps, double reach_r, double reach_v) const;
 
   void subtract(const CleanComponent& point);
 
  private:
-  // What one pulse adds to RV near a point, as moments of its baseband frequency: M_p = sum_b F Y e^{j phase} (4 pi f_b
-  // / c)^p.
+  // Contribution of one pulse to RV near a point, as moments over baseband frequency: M_p = sum_b F Y e^{j phase} (4 pi
+  // f_b / c)^p.
   struct PulseMoments {
     Complex m0, m1, m2, m3;
   };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// CLEAN's restored map: the points taken out come back without what the hop code smeared (Hogbom 1974, section 2).
+// CLEAN's restored map: residual plus all components with a clean point response (Hogbom 1974, section 2).
 
 #include "classify/features/scattering_centres.h"
 #include "radar/rvmap/rv_map.h"
@@ -10,8 +10,8 @@
 
 namespace seaglint {
 
-// The map as a radar would see it that sends the whole band with every pulse: what was removed comes back with the
-// lobes of the tapers alone, without the hop code's pedestal and without holes.
+// The components return with the point response of a radar that transmits the whole band with every pulse: main and
+// side lobes of the tapers, without the hop code's pedestal and without holes.
 RvMap restored_map(const CleanedMap& cleaned, const PulseTrain& train, const MapSpec& map_spec);
 
 }  // namespace seaglint

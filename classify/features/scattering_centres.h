@@ -21,19 +21,19 @@ struct ScatteringCentre {
 };
 
 // Scattering centres of an interval's echo (target, clutter and noise, [pulse][frequency]), strongest first, by CLEAN
-// with the point response of the map's actual code, holes and tapers included (classify/features/README.md). A centre
-// lies inside the map or less than a cell beside it, within dynamic_range_db of the strongest, above the floor of the
-// final residual and the mean of its surroundings in it by what noise and textured clutter pass in one map out of a
-// hundred, and more than a lobe's width away from every stronger one.
+// with the exact point response of the map's code, holes and tapers (classify/features/README.md). A centre is inside
+// the map or less than a cell outside, within dynamic_range_db of the strongest, more than a main lobe's width from
+// every stronger one, and above the floor and the local mean of the final residual by a threshold that noise or
+// textured clutter exceeds in 1 % of maps.
 struct CleanedMap {
   std::vector<ScatteringCentre> centres;   // strongest first
-  std::vector<CleanComponent> components;  // what was taken out of the echo, in that order
-  RvMap residual;                          // exact map of what is left
+  std::vector<CleanComponent> components;  // subtracted from the echo, in that order
+  RvMap residual;                          // exact map of the residual echo
 };
 CleanedMap clean_map(std::span<const Complex> echo, const PulseTrain& train, const MapSpec& map_spec,
                      bool intra_pulse_motion, const FeatureSpec& spec);
 
-// Its centres alone.
+// The centres of clean_map() alone.
 std::vector<ScatteringCentre> extract_centres(std::span<const Complex> echo, const PulseTrain& train,
                                               const MapSpec& map_spec, bool intra_pulse_motion,
                                               const FeatureSpec& spec);

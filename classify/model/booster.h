@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Gradient-boosted trees (XGBoost: Chen and Guestrin 2016) with the paper's settings (table II), on one thread: the
-// same rows give the same trees and predictions, bit for bit.
+// Gradient-boosted trees (XGBoost: Chen and Guestrin 2016) with the paper's settings (table II), on one thread, so that
+// equal rows give bit-identical trees and predictions.
 
 #include <cstddef>
 #include <filesystem>
@@ -28,7 +28,7 @@ struct FeatureMatrix {
 
 // The given rows, in the given order.
 FeatureMatrix select_rows(const FeatureMatrix& matrix, std::span<const std::size_t> rows);
-// The columns of both, side by side (equal numbers of rows).
+// Concatenates the columns of both (equal numbers of rows).
 FeatureMatrix join_columns(const FeatureMatrix& left, const FeatureMatrix& right);
 
 // Trained trees: probability that a row shows a ship (label 1).
@@ -41,7 +41,7 @@ class Booster {
   static Booster load(const std::filesystem::path& file);  // throws InputError when the file is not such a model
 
   std::vector<double> predict(const FeatureMatrix& features) const;  // same number of columns as in training
-  std::vector<double> gains(std::size_t columns) const;  // share of the total gain per column; sums to 1 (or all 0)
+  std::vector<double> gains(std::size_t columns) const;  // fraction of the total gain per column; sums to 1 (or all 0)
   std::size_t columns() const;
   void save(const std::filesystem::path& file) const;  // XGBoost's JSON; throws WorkError
 

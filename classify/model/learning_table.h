@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// A data set as learning sees it: one row per map.
+// A data set as input of the learning: one row per map.
 
 #include <functional>
 #include <string>
@@ -14,17 +14,18 @@
 
 namespace seaglint {
 
-// What a probe may say about the classes.
+// How a probe's quantity is related to the class.
 enum class ProbeKind {
-  kBlind,    // random by construction: any accuracy away from 50 % is a leak
-  kScale,    // absolute level: a ship is stronger, so it separates; features are normalised and see it by kRatio alone
-  kRatio,    // target over clutter and noise: decides which centres are found, and so reaches every feature
-  kFeature,  // a hand-made feature alone: which of them carries the result
-  kShape,    // follows from the target's shape or motion: may separate honestly, shown to judge the features by
+  kBlind,  // random by construction: any accuracy away from 50 % is a leak
+  kScale,  // absolute level: separates, as a ship is stronger; features are normalised and depend on it through kRatio
+           // only
+  kRatio,  // target over clutter and noise: determines which centres are found, and so affects every feature
+  kFeature,  // a hand-made feature alone: shows which of them separates
+  kShape,    // depends on the target's shape or motion: may separate without a leak; baseline for the features
 };
 const char* name(ProbeKind kind);  // "blind", "scale", "ratio", "shape", "feature"
 
-// Nuisance quantities of every map, to be classified by themselves.
+// Quantities of every map that are classified in isolation, to detect leaks.
 struct Probe {
   std::string name;
   ProbeKind kind = ProbeKind::kBlind;
@@ -46,8 +47,8 @@ struct LearningTable {
   std::size_t rows() const { return labels.size(); }
 };
 
-// Reads every shard, once, and hands each on to `use` where there is one. Throws InputError when a shard is unsound, a
-// feature is not finite, or there are not two classes.
+// Reads every shard once and passes it to `use` if given. Throws InputError when a shard is invalid, a feature is not
+// finite, or there are not two classes.
 LearningTable load_learning_table(const DatasetReader& data, const LearningSpec& spec, const StopFlag* stop = nullptr,
                                   const std::function<void(const Shard&)>& use = {});
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// How good predictions are, with intervals that respect that maps of one sea are not independent.
+// Scores of predictions, with confidence intervals that account for the dependence of maps of one sea.
 
 #include <array>
 #include <cstddef>
@@ -45,7 +45,7 @@ struct WaveHeightScores {
 Scores score(std::span<const Prediction> predictions, int bootstrap_samples, std::uint64_t seed,
              std::uint64_t bootstrap_index);
 
-// The same for each wave height by itself, ascending.
+// The same per wave height, ascending.
 std::vector<WaveHeightScores> score_by_wave_height(std::span<const Prediction> predictions, int bootstrap_samples,
                                                    std::uint64_t seed, std::uint64_t bootstrap_index);
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The whole evaluation of a data set: three groups of features (hand-made, network, both), each with the same trees,
-// under two protocols (random rows as in the paper, whole seas) and two ways of fusing network and trees, with probes
-// for what would give the class away.
+// Evaluation of a data set: three groups of features (hand-made, network, both), each with the same trees, under two
+// protocols (random rows as in the paper, whole seas) and two fusions of network and trees, with probes for leaks of
+// the class.
 
 #include <filesystem>
 #include <optional>
@@ -19,20 +19,20 @@ namespace seaglint {
 struct Evaluation {
   Scores scores;
   std::vector<WaveHeightScores> by_wave_height;
-  std::size_t train_rows = 0;  // rows that the trees saw, of the first repeat
+  std::size_t train_rows = 0;  // training rows of the trees, first repeat
 };
 
-// How one group of features did under one protocol.
+// Results of one group of features under one protocol.
 struct Outcome {
   Protocol protocol = Protocol::kGroup;
   Evaluation primary;      // hand-made: trees on all training rows; others: the scenario's fusion
-  Evaluation alternative;  // hand-made: trees on the rows that fusion `split` leaves them; others: the other fusion
+  Evaluation alternative;  // hand-made: trees on their rows of fusion `split`; others: the other fusion
 };
 
 struct FeatureGroupResult {
   std::string name;  // handmade, cnn, fused
   std::vector<std::string> columns;
-  std::vector<double> gain;       // share of the trees' gain per column, group protocol, first repeat
+  std::vector<double> gain;       // fraction of the trees' gain per column, group protocol, first repeat
   std::vector<Outcome> outcomes;  // random, then group
 };
 
@@ -47,19 +47,19 @@ struct ProbeResult {
 struct Study {
   std::vector<FeatureGroupResult> groups;  // handmade, cnn, fused
   std::vector<ProbeResult> probes;
-  std::optional<Network> network;  // always there when the study is done
+  std::optional<Network> network;  // always set in a finished study
   std::vector<Booster> trees;      // handmade, cnn, fused
   std::vector<Split> splits;       // random, then group, of the first repeat
   FeatureMatrix embeddings;        // of all rows, of the network: embedding values, then the logit
 };
 
-// Throws InputError when rows in these groups leave a side of a split without rows; known before any map is made.
+// Throws InputError when a split of rows in these groups would have an empty side; needs no maps.
 void check_splits(std::span<const RowGroup> rows, const LearningSpec& spec, double train_fraction, std::uint64_t seed);
 
 inline constexpr const char* kNetworkFile = "network.bin";
 inline constexpr const char* kSplitsFile = "splits.csv";
 
-// Trains and evaluates; writes nothing. The result depends on data, spec and seed alone, not on `threads`. Throws
+// Trains and evaluates; writes nothing. The result depends only on data, spec and seed, not on `threads`. Throws
 // InputError as check_splits() does, Interrupted when *stop becomes true.
 Study run_study(const LearningTable& table, const LearningSpec& spec, double train_fraction, std::uint64_t seed,
                 int threads, const StopFlag* stop = nullptr);
@@ -67,8 +67,8 @@ Study run_study(const LearningTable& table, const LearningSpec& spec, double tra
 // Names of the files that save_models() writes.
 std::vector<std::string> model_files();
 
-// Writes network.bin, handmade.json, cnn.json, fused.json and splits.csv of the table's study. Throws WorkError when
-// the disk refuses.
+// Writes network.bin, handmade.json, cnn.json, fused.json and splits.csv of the table's study. Throws WorkError when a
+// file cannot be written.
 void save_models(const Study& study, const LearningTable& table, const std::filesystem::path& model_directory);
 
 }  // namespace seaglint

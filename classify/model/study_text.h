@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The study in words: the accuracy table of the terminal and the numbers of metrics.json.
+// Text output of a study: the accuracy table for the terminal and the numbers of metrics.json.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace seaglint {
 
-// The table of accuracies against wave height as plain text.
+// Table of accuracies by wave height as plain text.
 std::string accuracy_table(const Study& study);
 
 // The study as a JSON object with the members handmade, cnn, fused, probes, network.

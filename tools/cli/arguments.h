@@ -13,16 +13,16 @@
 
 namespace seaglint {
 
-// Throws CLI11's error for an option that is given with none of those that it belongs to.
+// Throws CLI11's error for an option that is given without any of the options that it requires.
 void require_any_of(const CLI::App& command, const std::string& option, const std::vector<std::string>& others);
 
-// The data set in a directory: there, or in the `data` below it that `run` makes.
+// Directory of the data set: the given one, or its `data`, where `run` writes it.
 std::filesystem::path find_data_set(const std::filesystem::path& directory);
 
 // Adds --threads to a command.
 void add_threads_option(CLI::App& command, CommandContext& shell);
 
-// The values of --set, `key.path=value` each. Throws InputError for one without `=`.
+// Parses the values of --set, `key.path=value` each. Throws InputError for one without `=`.
 std::vector<Override> read_overrides(const std::vector<std::string>& set);
 
 // Adds the positional SCENARIO and the repeatable --set key.path=value to a command, and reads them.

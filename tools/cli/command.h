@@ -10,15 +10,15 @@
 
 namespace seaglint {
 
-// What every command is given: the stop flag of Ctrl-C, and the place where the chosen command leaves its work.
+// State shared by all commands: the stop flag of Ctrl-C, the thread count, and the work of the chosen command.
 struct CommandContext {
   StopFlag stop{false};
   int threads = 0;               // --threads, 0 = all processors
   std::function<void()> work;    // set by the chosen command's callback, run by run_command_line
-  bool uninterruptible = false;  // the work never looks at `stop`: Ctrl-C ends it at once
+  bool uninterruptible = false;  // the work never checks `stop`: Ctrl-C ends the process at once
 };
 
-// Each adds its command to the program, with a footer that shows an example; listed in command_line.cpp too.
+// Each adds its command to the program, with an example in the footer of its help; command_line.cpp calls them.
 void add_check(CLI::App& app, CommandContext& shell);
 void add_keys(CLI::App& app, CommandContext& shell);
 void add_mesh(CLI::App& app, CommandContext& shell);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The options of `rcs`, and the plain request that they make.
+// The options of `rcs`, and their conversion to an RcsRequest.
 
 #include <CLI/App.hpp>
 #include <optional>
@@ -14,7 +14,7 @@
 namespace seaglint {
 
 struct RcsArguments {
-  RcsRequest request;  // what the options set as it is; the rest by make_request()
+  RcsRequest request;  // members that options set directly; make_request() fills the others
   std::string target, frequency_ghz, azimuth_deg, elevation_deg = "0", edges = "on", output;
   std::optional<double> transmit_azimuth_deg, transmit_elevation_deg;
   std::vector<std::string> materials;  // NAME or PART=NAME

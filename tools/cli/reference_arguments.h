@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The options of `rcs` that name references, and how they lie to the computed sweep.
+// The options of `rcs` for reference files and for the relation of their angles, frequency and origin to the sweep.
 
 #include <CLI/App.hpp>
 #include <string>
@@ -13,7 +13,7 @@ namespace seaglint {
 
 struct ReferenceArguments {
   std::vector<std::string> files;
-  // Each empty, once for all files, or once for every file in their order.
+  // Each is empty, given once for all files, or given once per file in the order of the files.
   std::vector<std::string> polarisation, phi, frequency_ghz, origin_m;
   double floor_db = 80;
   std::string figure;

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The times of a command that writes a series.
+// Times of a command that writes a time series.
 
 #include <CLI/App.hpp>
 #include <cstddef>
 
 namespace seaglint {
 
-// Adds --duration-s and --step-s with the values there as defaults.
+// Adds --duration-s and --step-s; the present values are the defaults.
 void add_time_options(CLI::App& command, double& duration_s, double& step_s);
 
-// Number of times 0, step, ... up to the duration, which counts when it is within 1e-9 of a step. Throws InputError
-// beyond ten million.
+// Number of times 0, step, ... up to the duration, including the duration when it is within 1e-9 of a step. Throws
+// InputError beyond ten million.
 std::size_t uniform_time_count(double duration_s, double step_s);
 
 }  // namespace seaglint

@@ -7,9 +7,8 @@
 
 namespace seaglint {
 
-// After a parse that failed: the first word that no chosen command knows, an option or a command in a command's place,
-// with what it may have been meant to be, as a message; nothing where every word is known. CLI11 speaks of what is
-// missing first.
+// After a failed parse: a message that names the first word that is no option or subcommand of the chosen command, with
+// the closest valid word; nothing if every word is valid. CLI11 itself reports missing arguments before unknown words.
 std::optional<std::string> unknown_word(const CLI::App& app);
 
 }  // namespace seaglint

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Ctrl-C while files lie about that only this process knows of: it waits until they are gone.
+// Defers Ctrl-C while temporary files exist, until they are removed.
 
 namespace seaglint {
 
-// While one of these lives, on any thread, SIGINT and SIGTERM are noted and do nothing else. When the last one goes,
-// what was in force before is in force again, and a signal that was noted is sent anew. A signal that is ignored stays
-// so.
+// While an object of this type exists, on any thread, SIGINT and SIGTERM are only recorded. The destructor of the last
+// one restores the previous handlers and raises a recorded signal again. A signal that was ignored stays ignored.
 class DeferredSignals {
  public:
   DeferredSignals();
@@ -15,7 +14,7 @@ class DeferredSignals {
   DeferredSignals(const DeferredSignals&) = delete;
   DeferredSignals& operator=(const DeferredSignals&) = delete;
 
-  // One has come since the first of those that live now began: stop, clean up, throw Interrupted.
+  // True if a signal was recorded since the oldest existing object was constructed: stop, clean up, throw Interrupted.
   static bool pending();
 };
 

@@ -17,17 +17,17 @@ using AxisRange = std::pair<double, double>;  // low, high
 
 struct FigureAxis {
   std::string label;               // with its unit, e.g. "range (m)"
-  std::optional<AxisRange> range;  // the data's own when absent
+  std::optional<AxisRange> range;  // absent: that of the data
   bool logarithmic = false;
 };
 
 struct Heatmap {
   std::string title;
   FigureAxis x, y;
-  FigureAxis colour;            // the range clips
+  FigureAxis colour;            // values outside its range are clipped
   std::vector<double> x_cells;  // centres of equal cells, ascending
   std::vector<double> y_cells;
-  std::vector<double> values;                  // [y][x]; NaN stays white
+  std::vector<double> values;                  // [y][x]; NaN is drawn white
   std::vector<std::array<double, 2>> markers;  // x, y of open circles
   std::string marker_name;                     // in the legend, when not empty
   std::vector<std::array<double, 4>> boxes;    // x low, x high, y low, y high of frames
@@ -56,21 +56,21 @@ struct FigureSize {
   int height = 560;
 };
 
-// Throws WorkError, before any work and as write_figure would, where there is no gnuplot.
+// Throws WorkError where gnuplot is missing, as write_figure() would, so that it is reported before any work.
 void require_gnuplot();
 
-// Throws, before any work and as write_figure would, where the name ends in neither .png nor .svg, its directory
-// refuses or there is no gnuplot; nothing for an empty name.
+// Throws, as write_figure() would but before any work, where the name ends in neither .png nor .svg, the directory is
+// not writable or gnuplot is missing. An empty name passes.
 void require_figure(const std::filesystem::path& file);
 
-// Writes the figure whole or not at all. Text is taken literally (no markup). Temporary files stand beside the figure
-// and are removed. Throws InputError for a file that is neither .png nor .svg, WorkError when gnuplot is missing or
-// fails (with its message) or the disk refuses. Ctrl-C ends gnuplot, and is heard when these files are gone: where the
-// program goes on, Interrupted is thrown.
+// Writes the figure completely or not at all. Text is literal (no markup). Temporary files in the figure's directory
+// are removed. Throws InputError for a file that is neither .png nor .svg, WorkError when gnuplot is missing or fails
+// (with its message) or the file cannot be written. Ctrl-C ends gnuplot and takes effect after these files are removed;
+// if the process continues, Interrupted is thrown.
 void write_figure(const Heatmap& figure, const std::filesystem::path& file, FigureSize size = {});
 void write_figure(const LinePlot& figure, const std::filesystem::path& file, FigureSize size = {});
 
-// Several plots in one picture, in rows of `columns`, their frames one below the other; `title` stands above all.
+// Several plots in one figure, in rows of `columns` with aligned frames, below a common `title`.
 void write_figure(const std::string& title, std::span<const LinePlot> plots, int columns,
                   const std::filesystem::path& file, FigureSize size = {});
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// A picture of a mesh: orthographic, flat Lambert shading, dark lines where depth or direction jumps.
+// Picture of a mesh: orthographic projection, flat Lambert shading, dark lines at discontinuities of depth or normal.
 
 #include <cstdint>
 #include <string>
@@ -11,12 +11,12 @@
 
 namespace seaglint {
 
-// The eye stands in the direction r^ of CONVENTIONS.md, "Frames", far away.
+// View from infinity in the direction r^ of CONVENTIONS.md, "Frames".
 struct PictureView {
   double azimuth_deg = 60;
   double elevation_deg = 15;
   int width = 1600;  // pixels, 16 <= x <= 8192
-  int height = 0;    // pixels; 0 = what the mesh needs at this width, at most the width
+  int height = 0;    // pixels; 0 = height of the mesh at this width, at most the width
 };
 
 struct Picture {
@@ -25,10 +25,10 @@ struct Picture {
   std::vector<std::uint8_t> rgb;  // row by row from the top
 };
 
-// The mesh fills the picture but for a margin of 3 %. Throws InputError for a size out of range or an empty mesh.
+// The mesh fills the picture up to a margin of 3 %. Throws InputError for a size out of range or an empty mesh.
 Picture picture_of(const TriangleMesh& mesh, const PictureView& view);
 
-// One above the other on white.
+// The pictures one below the other, on a white background.
 Picture stacked(const std::vector<Picture>& pictures);
 
 std::string png_bytes(const Picture& picture);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// What a scenario's bodies do in the waves, as statistics, spectra and pictures.
+// Motion of a scenario's bodies in waves as statistics, spectra and figures.
 
 #include <filesystem>
 #include <string>
@@ -18,7 +18,7 @@ struct NamedTrajectory {
   std::string body;
   Trajectory trajectory;
   TriangleMesh mesh;  // in the body's frame
-  double speed = 0;   // of the mean way along x that the trajectory is told from, m/s
+  double speed = 0;   // along x, of the frame that the trajectory is relative to, m/s
 };
 
 // One line per body: root mean square, largest modulus and mean period between zero crossings (2 pi rms/rms of the
@@ -29,22 +29,23 @@ std::string motion_statistics(const std::vector<NamedTrajectory>& bodies, double
 // of 120 s (or the whole duration, when shorter), every half of their resolution up to 8 rad/s.
 std::string spectrum_csv(const std::vector<NamedTrajectory>& bodies, double duration_s);
 
-// Roll, pitch and yaw of up to six bodies over the first 100 s.
+// Figure of roll, pitch and yaw of up to six bodies over the first 100 s.
 void write_motion_figure(const std::vector<NamedTrajectory>& bodies, double duration_s, const std::string& title,
                          const std::filesystem::path& file);
 
-// Five moments, a wave period apart in all, of the first and the last body seen from starboard, with the water where
-// they are; x is counted from their mean way.
+// Five snapshots over one wave period of the first and the last body with the water surface around them, seen from
+// starboard; x is relative to the mean motion of each body.
 void write_motion_frames(const std::vector<NamedTrajectory>& bodies, const WaveField& sea, double period_s,
                          const std::string& title, const std::filesystem::path& file);
 
-// A table of VERES or WAMIT to draw beside a ship's responses.
+// Table of VERES or WAMIT to draw with a ship's response amplitude operators.
 struct RaoReference {
   std::filesystem::path file;  // empty: none
-  double unit_length = 1;      // of WAMIT's (ULEN), m
+  double unit_length = 1;      // WAMIT's ULEN, m
 };
 
-// Moduli of a ship's responses over frequency, in waves towards mu (rad) on water of a depth (m).
+// Figure of the moduli of a ship's response amplitude operators over frequency, in waves towards mu (rad) in water of
+// the given depth (m).
 void write_rao_figure(const ShipParticulars& ship, double mu, double depth, const RaoReference& reference,
                       const std::string& title, const std::filesystem::path& file);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The picture of a range-velocity map.
+// Figure of a range-velocity map.
 
 #include <span>
 #include <string>
@@ -12,7 +12,7 @@
 
 namespace seaglint {
 
-// |RV| in dB against its peak, down to floor_db (< 0), centres as circles.
+// |RV| in dB relative to its peak, down to floor_db (< 0), with the scattering centres as circles.
 Heatmap rv_figure(const RvMap& map, std::span<const ScatteringCentre> centres, const std::string& title,
                   double floor_db = -40);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// What many realisations of a sea state have in common, as text and picture.
+// Statistics over many realisations of a sea state as text and figure.
 
 #include <filesystem>
 #include <string>
@@ -12,14 +12,15 @@
 
 namespace seaglint {
 
-// omega_rad_s, density_m2_s (the state's), realised_m2_s, realised_linear_m2_s; spectrum: table reads it.
+// CSV of omega_rad_s, density_m2_s (prescribed), realised_density_m2_s, realised_linear_density_m2_s; `spectrum: table`
+// reads it.
 std::string spectrum_csv(const SeaEnsemble& ensemble);
 
-// The ensemble's numbers beside what theory says, one line each.
+// Statistics of the ensemble and their theoretical values, one line each.
 std::string ensemble_text(const SeaEnsemble& ensemble, const SeaSummary& summary);
 
-// Elevation over time, spectrum against target, exceedance of crests against Rayleigh and Forristall, and the slope
-// that each cut-off would leave.
+// Figure of elevation over time, realised and prescribed spectrum, exceedance of crests with Rayleigh's and
+// Forristall's distributions, and rms slope over the cut-off.
 void write_sea_figure(const SeaState& state, const WaveField& field, const SeaSummary& summary,
                       const SeaEnsemble& ensemble, const std::string& title, const std::filesystem::path& file);
 

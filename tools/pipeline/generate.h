@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// A data set directory from a scenario. Shards are made sample by sample on any number of threads and written whole.
+// Generates a data set directory from a scenario. The samples of a shard are generated in parallel; each shard is
+// written completely or not at all.
 
 #include <filesystem>
 
@@ -14,17 +15,18 @@ namespace seaglint {
 struct GenerateOptions {
   int part = 1;  // this job's part of the shards, 1..parts
   int parts = 1;
-  bool resume = false;  // keep the sound shards that are there
+  bool resume = false;  // keep existing shards that are valid
   int threads = 0;      // 0 = all processors
 };
 
 struct GenerateResult {
-  std::size_t made = 0;     // samples made now
-  std::size_t kept = 0;     // samples of this part that were there already
-  std::size_t missing = 0;  // shards of other parts that are missing or damaged; 0 = the data set is whole
+  std::size_t made = 0;     // samples generated now
+  std::size_t kept = 0;     // samples of this part in existing shards
+  std::size_t missing = 0;  // shards of other parts that are missing or damaged; 0 = the data set is complete
 };
 
-// The bytes of every shard depend on scenario and program alone. Throws Interrupted after whole shards only.
+// The bytes of a shard depend only on scenario, program and processor. On a stop, finished shards are kept and
+// Interrupted is thrown.
 GenerateResult generate_dataset(const Pipeline& pipeline, const std::filesystem::path& directory,
                                 const GenerateOptions& options, const StopFlag* stop = nullptr);
 GenerateResult generate_dataset(const Scenario& scenario, const std::filesystem::path& directory,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// What of a scenario's targets its maps cannot show.
+// Parts of a scenario's targets that lie outside its maps.
 
 #include <string>
 #include <vector>
@@ -11,8 +11,8 @@
 namespace seaglint {
 
 // One line for every target and view whose bodies at rest, points or their velocities reach beyond the map's range or
-// velocity span, with the numbers; at most ten lines, then how many more. What lies outside is cut off or, beyond the
-// unambiguous span, folded in.
+// velocity span, with the numbers; at most ten lines, then the count of the rest. Echoes outside the map are cut off
+// or, beyond the unambiguous span, aliased into it.
 std::vector<std::string> map_coverage_warnings(const Pipeline& pipeline);
 
 }  // namespace seaglint

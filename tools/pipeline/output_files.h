@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Files that a piece of work reads and writes, checked before it begins.
+// Checks of input and output files before a command's work.
 
 #include <filesystem>
 #include <string>
@@ -11,8 +11,8 @@
 
 namespace seaglint {
 
-// Before any work: every file that a command is going to write can be written (WorkError), and none is another of them
-// or one that the command reads (InputError). Empty names are none.
+// Throws WorkError if an output cannot be written, InputError if two outputs are one file or an output is an input.
+// Empty names are skipped.
 void require_outputs(const std::vector<std::string>& outputs, const std::vector<std::filesystem::path>& inputs);
 
 // The files that a scenario names.

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// One sample from a scenario: sea and motion, response, echo, map, features. Every step is one call of one stage.
+// Generates one sample of a scenario: sea and motion, response, echo, map, features. Every step is one call of one
+// stage.
 
 #include <memory>
 #include <mutex>
@@ -21,17 +22,17 @@
 
 namespace seaglint {
 
-// Everything that is known of one sample.
+// All results for one sample.
 struct GeneratedSample {
   SampleAddress address;
   PulseTrain train;
   ReceivedInterval received;  // echo, map, measured SCR
   std::vector<ScatteringCentre> centres;
   FeatureVector features;
-  Sample stored;  // what the data set keeps
+  Sample stored;  // as the data set stores it
 };
 
-// Makes any sample of a scenario, alone and in any order; from any thread.
+// Generates any sample of a scenario, in any order and from any thread.
 class Pipeline {
  public:
   explicit Pipeline(const Scenario& scenario) : Pipeline(scenario, SamplePlan(scenario)) {}
@@ -44,22 +45,22 @@ class Pipeline {
   GeneratedSample generate_sample(
       std::size_t sample) const;  // sample < plan().size(); throws InputError when the target has no power
 
-  double window_m() const { return range_window_m_; }  // the range window of all its maps
+  double window_m() const { return range_window_m_; }  // full width of the range window of all its maps, m
 
-  // H of a sample's target with its companions, where `train` asks for it.
+  // Frequency response H of a sample's target with its companions, at the times and frequencies of `train`.
   BodyResponse response(const SampleAddress& at, const PulseTrain& train) const;
 
-  // What the clutter of a sample follows; refers to the scene.
+  // Sea and motion that the clutter of a sample depends on; refers to the scene.
   ClutterScene clutter_scene(const SampleAddress& at, const Scene& scene) const;
 
-  // The scene of a realisation; the last few are kept.
+  // The scene of a realisation; the most recent ones are cached.
   std::shared_ptr<const Scene> scene(int sea_state, int realisation) const;
 
  private:
   // H of a target with its companions.
   BodyResponse scene_response(std::size_t target, const Scene& scene, const View& view, const SeaState& state,
                               const IntervalSampling& sampling) const;
-  // Where the interval that starts at start_s samples the response, with the radar's own motion.
+  // Times and directions at which the interval from start_s samples the response, with the radar's own motion.
   IntervalSampling sampling(const PulseTrain& train, double start_s) const;
   // H of a target seen from `view` over an interval: the sum over its bodies, or its ideal points.
   BodyResponse target_response(std::size_t target, const Scene& scene, const View& view, const SeaState& state,

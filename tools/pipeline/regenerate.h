@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// A sample of a data set made again from its scenario and row, and held against what is stored.
+// Comparison of a regenerated sample of a data set with the stored one.
 
 #include <string>
 #include <vector>
@@ -14,18 +14,18 @@ namespace seaglint {
 struct StoredSample {
   Sample sample;
   StoredAxes axes;
-  Provenance origin;  // who made it
+  Provenance origin;  // program version and processor that wrote it
 };
 
-// Sample `number` < reader.size() of the data set. Throws InputError naming the shard that is damaged.
+// Reads sample `number` < reader.size() of the data set. Throws InputError naming a damaged shard.
 StoredSample stored_sample(const DatasetReader& reader, std::size_t number);
 
-// What may differ when a sample of this origin is made again here, as a share of the map's peak and of a measured
-// column: nothing for this program on this kind of processor, else kOtherProcessor.
+// Allowed difference of a sample of this origin regenerated here, as a fraction of the map's peak and of a measured
+// column: 0 for this program version on this kind of processor, else kOtherProcessor.
 double reproduction_tolerance(const Provenance& origin);
 
-// What is not as stored in one sample made again, one entry each: map, complex map where both have one, hop code,
-// columns of the row with SCR and features. Empty when all agree within the tolerance; with tolerance 0, bit for bit.
+// Differences between a stored and a regenerated sample, one entry each: map, complex map if both have one, hop code,
+// columns of the row with SCR and features. Empty when all agree within the tolerance; tolerance 0 means bit for bit.
 std::vector<std::string> differences(const Sample& stored, const Sample& again, double tolerance);
 
 }  // namespace seaglint

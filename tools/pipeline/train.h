@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// A model directory from a data set: network, trees, splits, embeddings of all maps, and metrics.json, which is written
-// last: a directory without it holds no whole model.
+// Writes a model directory from a data set: network, trees, splits, embeddings of all maps, and last metrics.json: a
+// directory without it is no complete model.
 
 #include <cstdint>
 #include <filesystem>
@@ -24,23 +24,23 @@ inline constexpr const char* kEmbeddingsFile = "embeddings.csv";
 
 struct TrainedModel {
   Study study;
-  nlohmann::ordered_json metrics;  // as metrics.json has them
+  nlohmann::ordered_json metrics;  // the content of metrics.json
 };
 
-// Trains and evaluates with the learning section of the data set's scenario; every shard is read once and handed on to
-// `use` where there is one. The model directory is made; what an earlier training left there is replaced when all is
-// computed, and stays as it was when the training is stopped before. Throws InputError for an unsound data set or a
-// directory of something else, WorkError when the disk refuses, Interrupted when *stop becomes true.
+// Trains and evaluates with the learning section of the data set's scenario; every shard is read once and passed to
+// `use` if given. The model directory is created; an earlier model there is replaced only when all is computed. Throws
+// InputError for an invalid data set or a directory with other content, WorkError when a file cannot be written,
+// Interrupted when *stop becomes true.
 TrainedModel train_model(const DatasetReader& data, const Scenario& scenario,
                          const std::filesystem::path& model_directory, int threads, const StopFlag* stop = nullptr,
                          const std::function<void(const Shard&)>& use = {});
 
-// Likewise, with the scenario that the data set keeps, changed by `overrides`.
+// The same with the scenario stored in the data set, changed by `overrides`.
 TrainedModel train_model(const std::filesystem::path& data_set, const std::filesystem::path& model_directory,
                          const std::vector<Override>& overrides, int threads, const StopFlag* stop = nullptr);
 
-// The columns of embeddings.csv after those about the sample: hand-made features, then the network's. Throws InputError
-// naming file and line where it is not a table of these samples.
+// Reads the feature columns of embeddings.csv: hand-made features, then embedding and logit of the network. Throws
+// InputError naming file and line if it is not a table of these samples.
 FeatureMatrix read_embeddings(const std::filesystem::path& file, std::span<const std::int64_t> samples);
 
 }  // namespace seaglint

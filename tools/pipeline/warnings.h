@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// What a user should know before believing a scenario's results.
+// Warnings about the validity of a scenario's results.
 
 #include <span>
 #include <string>
@@ -13,17 +13,17 @@ struct Scenario;
 struct SeaState;
 class Pipeline;
 
-// One line for everything that is doubtful about the meshes of the scenario's targets.
+// One line per defect or doubtful property of the meshes of the scenario's targets.
 std::vector<std::string> mesh_warnings(const Pipeline& pipeline);
 
-// One line for each system of waves of the scenario's sea states with too few components to be the same sea from one
-// realisation to the next.
+// One line per wave system of the scenario's sea states with so few components that its mean period varies between
+// realisations.
 std::vector<std::string> sea_warnings(const Scenario& scenario, std::span<const SeaState> states);
 
-// One line where the carriers' bands leave gaps: maps then show targets in false places too.
+// One line if the carriers' bands leave gaps: maps then contain grating lobes of the targets.
 std::vector<std::string> band_warnings(const Pipeline& pipeline);
 
-// Prints each as a warning.
+// Prints each sentence as a warning.
 void warn(std::span<const std::string> sentences);
 
 }  // namespace seaglint

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Echoes selected by part, bounces and mechanism.
+// Selection of contributions by part, bounce count and mechanism.
 
 #include <string>
 
@@ -13,10 +13,11 @@ namespace seaglint {
 
 inline constexpr const char* kMechanismNames[] = {"po", "edge"};
 
-// Throws InputError, also for a selection that nothing can meet: with so many bounces followed, with edges or without.
+// Filter of a selection. Throws InputError for an invalid entry and for a selection that no contribution can satisfy
+// with the given bounce limit and edge diffraction.
 ContributionFilter filter_of(const EchoSelection& selection, const TriangleMesh& mesh, int max_bounces, bool edges);
 
-// The selection as it was given, for the head of a table; "everything" without one.
+// Text of the selection as given, for the head of a table; "everything" if there is none.
 std::string text_of(const EchoSelection& selection);
 
 }  // namespace seaglint

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Parts of a mesh whose echo is found from the field inside them.
+// Parts of a mesh that are solved as open cavities instead of by beam tracing.
 
 #include <string>
 #include <vector>
@@ -21,12 +21,13 @@ struct NamedCavity {
   CavitySize size;  // at the highest frequency
 };
 
-// Indices of the parts asked for. Throws InputError for a part that is not there or no perfect conductor, and for a
-// selection by anything but parts.
+// Indices of the requested parts. Throws InputError for a part that does not exist or is no perfect conductor, and for
+// a selection by anything but parts.
 std::vector<int> cavity_parts(const CavityRequest& request, const TriangleMesh& mesh,
                               const std::vector<MaterialSpec>& materials, const ContributionFilter& selection);
 
-// Those parts of the mesh as cavities. Throws InputError for what is none at the lowest or the highest frequency.
+// Makes cavities of these parts. Throws InputError for a part that is no open cavity at the lowest or the highest
+// frequency.
 std::vector<NamedCavity> make_cavities(const CavityRequest& request, const TriangleMesh& mesh,
                                        const std::vector<int>& parts, const Scatterer& whole, double lowest_hz,
                                        double highest_hz);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// A computed sweep beside a reference: which values belong together, how far apart they are, and the picture of both.
+// Comparison of a computed sweep with a reference: matching of values, error statistics, figure.
 
 #include <array>
 #include <filesystem>
@@ -14,18 +14,18 @@
 
 namespace seaglint {
 
-// What a cut runs along.
+// Variable that changes along a cut.
 enum class CutAxis { kAzimuth, kElevation, kFrequency, kSeveral };
 
-// The values of one reference that the sweep has too, in the sweep's order.
+// Values of one reference at directions and frequencies of the sweep, in the sweep's order.
 struct PairedCut {
   std::string reference;
   Polarisation element = Polarisation::kHh;
   CutAxis axis = CutAxis::kAzimuth;
-  std::optional<double> frequency_hz;  // absent when the cut runs along it
+  std::optional<double> frequency_hz;  // absent if it varies along the cut
   std::vector<double> x;               // deg or GHz; the running number when several axes vary
   std::vector<double> level_dbsm;
-  std::vector<Complex> amplitude_m;  // of the reference about the body's origin; empty without phases
+  std::vector<Complex> amplitude_m;  // of the reference, phase origin at the body's origin; empty without phases
   struct Place {
     std::size_t view = 0, frequency = 0;
   };
@@ -38,13 +38,12 @@ struct PairedCut {
   std::vector<Model> models;
 };
 
-// The sweep's directions and frequencies that the reference holds to 0.001 deg and 1e-6 of the frequency; nothing is
-// interpolated. One cut for each frequency, or one in all when there is one direction. Throws InputError when nothing
-// fits, with what either side holds, and when the reference says that its transmitter stands elsewhere than the
-// sweep's.
+// Matches directions within 0.001 deg and frequencies within a relative 1e-6; nothing is interpolated. One cut per
+// frequency, or a single cut if there is one direction. Throws InputError if nothing matches, naming the content of
+// both, and if the reference declares another transmitter direction than the sweep's.
 std::vector<PairedCut> match_reference(const RcsSweep& sweep, const RcsReference& reference);
 
-// Takes the cut's models from the sweep that it was paired with, once its models are computed.
+// Fills the cut's models from the sweep that it was matched with, once that is computed.
 void set_models(PairedCut& cut, const RcsSweep& sweep);
 
 struct Difference {
@@ -57,15 +56,15 @@ struct Difference {
   std::optional<Complex> correlation;  // <conj(reference) computed> / (|reference| |computed|)
 };
 
-// Levels of both sides are lifted to floor_db below the reference's maximum first (the Austin suite's error measure
-// with 80 dB).
+// Statistics after levels of both are raised to at least floor_db below the reference maximum (error measure of the
+// Austin suite, with 80 dB).
 Difference error_statistics(const PairedCut& cut, const PairedCut::Model& model, double floor_db);
 
-// One line for every cut and model.
+// Text table with one line per cut and model.
 std::string error_table(const std::vector<PairedCut>& cuts, double floor_db);
 
-// Levels above, differences below; a column for each frequency and polarisation, at most four. False when there is
-// nothing to draw a line along.
+// Draws levels above and differences below, one column per frequency and polarisation, at most four. False if no cut
+// has an axis to draw along.
 bool draw_comparison(const std::vector<PairedCut>& cuts, double floor_db, const std::string& title,
                      const std::filesystem::path& file);
 

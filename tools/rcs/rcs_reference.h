@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Cuts of somebody else's radar cross section: measured, or exported by another solver. Read as they are written,
-// brought to this program's conventions.
+// Radar cross-section cuts from measurements or other solvers, read from their files and converted to the conventions
+// of CONVENTIONS.md.
 
 #include <filesystem>
 #include <optional>
@@ -16,9 +16,9 @@ namespace seaglint {
 
 inline constexpr const char* kPolarisationNames[] = {"hh", "hv", "vh", "vv"};
 
-// What a file does not say of itself, and how its angles lie to the body's.
+// Properties that a file does not state itself, and the relation of its angles to those of the body.
 struct ReferenceSettings {
-  std::optional<Polarisation> element;  // absent: from the name, `.H.` is hh and `.V.` is vv (Austin suite)
+  std::optional<Polarisation> element;  // absent: from the file name, `.H.` is hh and `.V.` is vv (Austin suite)
   std::optional<double> frequency_hz;   // of a file without frequencies
   double phi_scale = 1;                 // phi of the file = phi_scale * azimuth + phi_offset_deg
   double phi_offset_deg = 0;
@@ -33,30 +33,30 @@ struct ReferenceSample {
   std::optional<Complex> amplitude_m;  // about the file's phase origin; absent without a phase
 };
 
-// Where a file says that its transmitter stands, in its own angles.
+// Transmitter direction that a file states, in the file's angles.
 struct DeclaredTransmitter {
-  bool is_monostatic = true;  // with the receiver: monostatic, and no angles
+  bool is_monostatic = true;  // monostatic: transmitter at the receiver, angles unused
   double theta_deg = 0, phi_deg = 0;
 };
 
 struct RcsReference {
-  std::string name;  // the file's, without its folder
+  std::string name;  // file name without its folder
   Polarisation element = Polarisation::kHh;
   ReferenceSettings settings;
   std::vector<ReferenceSample> samples;
-  std::optional<DeclaredTransmitter> transmitter;  // absent where the file does not say
+  std::optional<DeclaredTransmitter> transmitter;  // absent if the file does not state it
   bool has_phase() const { return !samples.empty() && samples.front().amplitude_m.has_value(); }
 };
 
-// Reads, by what is in the file,
+// Reads one of these formats, recognised by the content:
 //   four columns without header: frequency in Hz, theta, phi in degrees, dBsm (Austin RCS Benchmark Suite); the table
-//   of `seaglint rcs` (columns by name; xx_re and xx_im, or xx_dbsm alone; its head says where the transmitter stands);
+//   of `seaglint rcs` (columns by name; xx_re and xx_im, or xx_dbsm alone; its head gives the transmitter);
 //   a CST farfield table of the RCS: columns by their squeezed names, `Theta[deg.] Phi[deg.] Abs(Theta)[unit]
 //   Phase(Theta)[deg.] ...`, v received = Theta, h received = Phi, units m^2, mm^2, lambda^2 or dB() of them; no
 //   frequency inside. Theta below 0 is folded (|theta|, phi + 180, sign of both unit vectors changed). e^{+jwt}; theta^
 //   = -v, phi^ = h, so cross-polar terms change sign.
-// Throws InputError with the file, the line and what is missing, and where settings.frequency_hz is another than the
-// file's own.
+// Throws InputError naming the file, the line and what is missing, and where settings.frequency_hz differs from the
+// file's frequency.
 RcsReference read_reference(const std::filesystem::path& file, const ReferenceSettings& settings);
 
 }  // namespace seaglint

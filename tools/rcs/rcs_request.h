@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// What a computation of scattering matrices is asked for, as plain values.
+// Request for a sweep of scattering matrices, as plain values.
 
 #include <filesystem>
 #include <optional>
@@ -26,23 +26,23 @@ struct SeaUnderTarget {
   SeaPaths paths = SeaPaths::kAll;
 };
 
-// Parts of the mesh whose echo is found from the field inside them.
+// Parts of the mesh that are walls of open cavities, solved by the magnetic-field integral equation.
 struct CavityRequest {
   std::vector<std::string> parts;
   double patches_per_wavelength = kPatchesPerWavelength;
 };
 
-// Which echoes are summed, KIND=VALUE each: part=NAME, bounces=N, mechanism=po|edge.
+// Contributions that are summed, KIND=VALUE each: part=NAME, bounces=N, mechanism=po|edge.
 struct EchoSelection {
-  std::vector<std::string> only;     // of one kind any, of several kinds all must hold
-  std::vector<std::string> without;  // none of these
+  std::vector<std::string> only;     // alternatives within a kind; kinds are combined by AND
+  std::vector<std::string> without;  // excluded
 };
 
-// Files that show what one view at one frequency consists of; an empty name asks for none.
+// Exports of the contributions at one aspect and frequency; an empty file name means none.
 struct ViewExport {
   std::string centres, hot_spots;
-  double cell_m = 0.1;   // of the cells whose contributions become one centre
-  double range_db = 60;  // weakest below the strongest
+  double cell_m = 0.1;   // side of the cells whose contributions are merged into one scattering centre
+  double range_db = 60;  // dynamic range below the strongest
 
   bool wanted() const { return !centres.empty() || !hot_spots.empty(); }
 };
@@ -54,12 +54,12 @@ struct FixedTransmitter {
 struct RcsRequest {
   std::filesystem::path target;           // mesh file
   std::string unit = "m";                 // of the mesh: m, cm, mm, km, in, ft
-  std::vector<MaterialChoice> materials;  // none: all is perfect conductor
+  std::vector<MaterialChoice> materials;  // empty: perfect conductor throughout
   std::vector<double> frequency_hz, azimuth_deg, elevation_deg{0};
-  std::optional<FixedTransmitter> transmitter;  // bistatic: the sweep is then the receiver's
+  std::optional<FixedTransmitter> transmitter;  // bistatic: the sweep is over the receiver's directions
   double range_m = 0;                           // 0: far field
   bool edges = true;                            // fringe currents at sharp edges
-  bool physical_optics_too = false;             // a second model without them
+  bool physical_optics_too = false;             // also computes a second model without edge diffraction
   int max_bounces = kDefaultBounces;
   double ray_spacing_m = 0;  // 0: 0.001 radius
   double crease_deg = kDefaultCreaseDeg, sheet_thickness_mm = 0;
@@ -69,11 +69,11 @@ struct RcsRequest {
   ViewExport exports;
 };
 
-// Directions and frequencies of the request without a model. Throws InputError for what contradicts itself and for more
-// than four million rows.
+// Sweep of the request's directions and frequencies, without models. Throws InputError for a contradictory request and
+// for more than four million rows.
 RcsSweep requested_sweep(const RcsRequest& request);
 
-// What a user should know before the work begins, a sentence each.
+// Warnings about the request, a sentence each, to be shown before the work.
 std::vector<std::string> doubts_of(const RcsRequest& request);
 
 }  // namespace seaglint

@@ -10,7 +10,7 @@
 
 namespace seaglint {
 
-// What was computed: scattering matrices hh, hv, vh, vv in metres over frequency and aspect, by one or several models.
+// Computed sweep: scattering matrices hh, hv, vh, vv in metres over frequency and aspect, of one or several models.
 struct RcsSweep {
   std::vector<double> frequency_hz, azimuth_deg, elevation_deg;
   struct Model {
@@ -20,7 +20,8 @@ struct RcsSweep {
     std::vector<std::vector<std::array<Complex, 4>>> matrices;
   };
   std::vector<Model> models;
-  std::optional<Vec3> transmitter;  // its direction where it stands still while the sweep is the receiver's
+  std::optional<Vec3>
+      transmitter;  // look direction of a fixed transmitter; the sweep is then over the receiver's directions
 
   std::size_t views() const { return azimuth_deg.size() * elevation_deg.size(); }
   std::size_t rows() const { return views() * frequency_hz.size(); }

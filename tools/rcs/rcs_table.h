@@ -9,7 +9,7 @@
 
 namespace seaglint {
 
-// The sweep's last model as CSV, frequency slowest, then elevation, then azimuth, below `#` lines with version, target
+// CSV of the sweep's last model, frequency slowest, then elevation, then azimuth, after `#` lines with version, target
 // and settings.
 std::string rcs_table(const RcsRequest& request, const Scatterer& scatterer, const RcsSweep& sweep);
 

@@ -10,22 +10,22 @@
 
 namespace seaglint {
 
-// The target of a request, ready to be computed.
+// Prepared target of a request.
 struct RcsTarget {
   PreparedTarget prepared;
-  ContributionFilter filter;  // which echoes are summed
+  ContributionFilter filter;  // contributions that are summed
   std::vector<NamedCavity> cavities;
 };
 
-// Reads and prepares the request's mesh; doubts says what a user should know of it. Throws InputError for a mesh or
-// material that is missing or unsound, for a request that contradicts itself, and where the whole mesh lies under
-// water.
+// Reads and prepares the request's mesh; its `doubts` are the warnings for the user. Throws InputError for a mesh or
+// material that is missing or invalid, for a contradictory request, and for a mesh that is entirely under water.
 PreparedTarget prepare_mesh(const RcsRequest& request);
 
-// The prepared mesh with the request's selection and cavities. Throws InputError for either that does not fit it.
+// The prepared mesh with the request's selection and cavities. Throws InputError for a selection or cavity that does
+// not fit the mesh.
 RcsTarget select_echoes(const RcsRequest& request, PreparedTarget prepared);
 
-// Both.
+// prepare_mesh() followed by select_echoes().
 RcsTarget prepare_rcs_target(const RcsRequest& request);
 
 }  // namespace seaglint

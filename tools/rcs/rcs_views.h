@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Scattering matrices over the frequencies and aspects of a request, view by view.
+// Computes scattering matrices over the frequencies and aspects of a request, aspect by aspect.
 
 #include <cstddef>
 
@@ -13,20 +13,20 @@
 
 namespace seaglint {
 
-// Of an antenna there; at the zenith and below the keel h is that of the azimuth's lower elevations, phi^ of a
-// spherical table.
+// Polarisation basis of an antenna in that direction; at elevations of +-90 deg h is that of the same azimuth at lower
+// elevations, phi^ of a spherical table.
 RadarBasis basis_at(double azimuth_deg, double elevation_deg);
 
-// How the request's target is illuminated, with edge diffraction or without.
+// Tracing settings for the request's target, with or without edge diffraction.
 TracingSettings settings_of(const RcsRequest& request, const RcsTarget& target, bool edge_diffraction);
 
 struct RcsResult {
-  RcsSweep sweep;            // the request's own model last
-  std::size_t segments = 0;  // of beams followed
+  RcsSweep sweep;            // the requested model is the last
+  std::size_t segments = 0;  // beam segments traced
 };
 
-// Computes all models of the request, on `threads` threads (0 = all processors). Throws WorkError when a cavity has no
-// answer or *stop becomes true.
+// Computes all models of the request, on `threads` threads (0 = all processors). Throws WorkError when a cavity's
+// currents do not converge or *stop becomes true.
 RcsResult compute_rcs(const RcsRequest& request, const RcsTarget& target, int threads = 0,
                       const StopFlag* stop = nullptr);
 

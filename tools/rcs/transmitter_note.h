@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Where the transmitter of a table of `seaglint rcs` stands: one clause of its head, written and read here.
+// Writes and reads the clause in the head of a `seaglint rcs` table that gives the direction of the transmitter.
 
 #include <optional>
 #include <string>
@@ -10,17 +10,17 @@
 
 namespace seaglint {
 
-// Begins the line of the head that holds the clause.
+// First words of the head line that contains the clause.
 inline constexpr const char* kMethodNote = "# physical optics";
 
-// The clause for a transmitter that stands still, or for none: monostatic.
+// The clause for a fixed transmitter; without one, for the monostatic case.
 std::string transmitter_note(const std::optional<FixedTransmitter>& transmitter);
 
 struct NotedTransmitter {
   std::optional<FixedTransmitter> fixed;  // absent: monostatic
 };
 
-// The clause of a line of a head; nothing where it has none. Throws InputError for an angle that is no number.
+// Parses the clause of a head line; empty if the line has none. Throws InputError for an angle that is no number.
 std::optional<NotedTransmitter> read_transmitter_note(const std::string& line);
 
 }  // namespace seaglint

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// What one view at one frequency consists of: scattering centres, hot spots on the mesh.
+// Exports of the contributions at one aspect and frequency: scattering centres, hot spots on the mesh.
 
 #include <string>
 
@@ -11,8 +11,8 @@
 
 namespace seaglint {
 
-// Writes the exports that the request of one view wants; returns one line for each file. Throws Interrupted when *stop
-// becomes true.
+// Writes the exports of a request with one aspect; returns one line per file. Throws Interrupted when *stop becomes
+// true.
 std::string export_view(const RcsRequest& request, const RcsTarget& target, int threads,
                         const StopFlag* stop = nullptr);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Pieces of an HTML page that needs nothing but itself.
+// Building blocks of a self-contained HTML page.
 
 #include <filesystem>
 #include <string>
@@ -16,7 +16,8 @@ std::string base64(std::string_view bytes);  // RFC 4648, section 4
 // A table; cells are HTML, the first row is the head. Columns after the first are right-aligned when `numbers`.
 std::string html_table(const std::vector<std::vector<std::string>>& rows, bool numbers = true);
 
-// A .png or .svg file as an embedded picture with its caption (HTML) below; `alternative` is what a screen reader says.
+// A .png or .svg file as an embedded picture with its caption (HTML) below; `alternative` is the text for screen
+// readers.
 std::string html_figure(const std::filesystem::path& file, std::string_view caption, std::string_view alternative);
 
 // The whole page around its body.

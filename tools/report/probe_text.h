@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// What the report says of quantities that might give the class away, and of the level first among them.
+// Report texts on the probes, quantities that could reveal the class, and on the absolute level.
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace seaglint {
 
-// Both return HTML, from metrics.json and what the scenario says of clutter and noise.
+// Both return HTML, from metrics.json and the scenario's clutter and noise settings.
 std::string probes_table(const nlohmann::ordered_json& metrics, const Scenario& scenario);
 std::string note_of_level(const nlohmann::ordered_json& metrics, const Scenario& scenario);
 

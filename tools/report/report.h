@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The report of a run: one HTML page that needs nothing but itself, and its figures as PNG and SVG files beside it.
+// The report of a run: one self-contained HTML page, and its figures as PNG and SVG files in the same directory.
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -16,21 +16,21 @@ namespace seaglint {
 
 inline constexpr const char* kReportFile = "report.html";
 
-// What a run leaves in memory for its report.
+// Results of a run that its report uses.
 struct RunResults {
   ReportData data;
   nlohmann::ordered_json metrics;  // of the model, with the member `run`
 };
 
 // Draws the figures, adds the numbers that only the report uses to metrics.json (member `report`), and writes
-// report.html last; returns the seconds that it took. The targets are the scenario's.
+// report.html last; returns the elapsed seconds. `targets` are those of the scenario.
 double write_report(const std::filesystem::path& directory, const Scenario& scenario, const SamplePlan& plan,
                     const std::vector<Target>& targets, RunResults results, int threads,
                     const StopFlag* stop = nullptr);
 
-// The same from DIR/metrics.json, DIR/data and DIR/model as `run` left them. `scenario` is the run's own; its targets
-// are drawn where their files are found, else a warning says why not. Throws InputError for a directory that `run` did
-// not make.
+// The same from DIR/metrics.json, DIR/data and DIR/model of a finished run. `scenario` is that of the run; its targets
+// are drawn if their files are found, else a warning gives the reason. Throws InputError for a directory that is no
+// finished run.
 void write_report(const std::filesystem::path& directory, const Scenario& scenario, int threads,
                   const StopFlag* stop = nullptr);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// What the report draws from: the samples of a run without their maps, and the few maps it shows.
+// Data of the report: the samples of a run without their maps, and the few maps that it shows.
 
 #include <cstdint>
 #include <filesystem>
@@ -15,11 +15,11 @@
 
 namespace seaglint {
 
-// The straight line v = a r + b through the stored centres of a map.
+// Least-squares line v = a r + b through the stored centres of a map.
 struct LineFit {
   double slope = 0;      // 1/s
   double intercept = 0;  // m/s
-  double explained = 0;  // adjusted R^2: 1 = all on the line, 0 on average for loose points, NaN below 3 centres
+  double explained = 0;  // adjusted R^2: 1 = all on the line, 0 on average for uncorrelated points, NaN below 3 centres
 };
 LineFit fit_line(const std::vector<StoredCentre>& centres);
 
@@ -39,19 +39,19 @@ struct ReportData {
   std::vector<ShownMap> shown;  // ship and array at the first aspect, then at the second
   double shown_wave_height_m = 0;
   FeatureMatrix handmade;  // of all rows
-  FeatureMatrix fused;     // the same and the network's embeddings
+  FeatureMatrix fused;     // the same plus the network's embeddings
 };
 
-// Takes what the report draws from shards, in their order. Maps shown: aspects nearest 80 and 170 deg azimuth, the sea
-// nearest 1 m (method: the paper's figures); the first such map of each class.
+// Collects the data of the report from shards, in their order. Maps shown: the first of each class at the aspects
+// nearest 80 and 170 deg azimuth in the sea nearest Hs 1 m (as in the paper's figures).
 class ReportCollector {
  public:
   ReportCollector(const Scenario& scenario, const SamplePlan& plan);
 
   void add(const Shard& shard);
-  // embeddings: of all rows, the network's.
+  // embeddings: those of the network, for all rows.
   ReportData with_embeddings(const FeatureMatrix& embeddings) const;
-  // fused: of all rows, hand-made features and embeddings.
+  // fused: hand-made features and embeddings, for all rows.
   ReportData with_fused(FeatureMatrix fused) const;
   std::vector<std::int64_t> samples() const;
 
@@ -60,7 +60,7 @@ class ReportCollector {
   ReportData data_;
 };
 
-// Reads the data set and the embeddings of a run. Throws InputError when either is unsound.
+// Reads the data set and the embeddings of a run. Throws InputError when either is invalid.
 ReportData load_report_data(const std::filesystem::path& directory, const Scenario& scenario, const SamplePlan& plan,
                             const StopFlag* stop);
 

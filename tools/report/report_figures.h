@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The figures of a report, as files beside it.
+// The figures of a report, as files in its directory.
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -15,7 +15,7 @@
 
 namespace seaglint {
 
-// A figure of the report; both files hold the same picture, `svg` is empty for photographs and maps.
+// A figure of the report; both files show the same picture; `svg` is empty for mesh pictures and maps.
 struct ReportFigure {
   std::string section;  // maps, accuracy, features, aspects, sea, targets
   std::filesystem::path png;
@@ -24,8 +24,8 @@ struct ReportFigure {
   std::string alternative;  // plain text
 };
 
-// Draws all figures into the run's directory, on `threads` threads; the order of the list is that of the page.
-// `targets` are the scenario's, or none: then neither they nor their motion are drawn.
+// Draws all figures into the run's directory, on `threads` threads; the list has the order of the page. `targets` are
+// those of the scenario; if empty, neither targets nor motion are drawn.
 std::vector<ReportFigure> draw_report_figures(const std::filesystem::path& directory, const Scenario& scenario,
                                               const SamplePlan& plan, const std::vector<Target>& targets,
                                               const ReportData& data, const nlohmann::ordered_json& metrics,

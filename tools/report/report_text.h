@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The words and tables of a report, all from metrics.json: what came out, what the paper says, what an expert should
-// notice.
+// Texts and tables of a report, all from metrics.json: results, comparison with the paper's statements, expert notes.
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -16,7 +15,7 @@ std::string summary_tiles(const nlohmann::ordered_json& metrics);
 std::string accuracy_tables(const nlohmann::ordered_json& metrics);
 std::string claims_table(const nlohmann::ordered_json& metrics);
 std::string feature_table(const nlohmann::ordered_json& metrics);
-// on how many seas the splits test, one of the expert notes
+// expert note on the number of seas that the splits test
 std::string note_of_seas(const nlohmann::ordered_json& metrics);
 std::string expert_notes(const nlohmann::ordered_json& metrics, const Scenario& scenario);
 std::string provenance_table(const nlohmann::ordered_json& metrics);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Quartiles of the features by class, wave height and aspect: what the report's text and figures argue with.
+// Quartiles of the features by class, wave height and aspect, for the report's text and figures.
 
 #include <array>
 #include <functional>
@@ -21,7 +21,7 @@ struct Quartiles {
 };
 Quartiles quartiles(std::vector<double> values);
 
-// Which rows count: nothing given means all.
+// Selects rows; an absent member selects all.
 struct RowFilter {
   std::optional<int> label;
   std::optional<double> wave_height_m;
@@ -31,11 +31,10 @@ struct RowFilter {
 Quartiles quartiles_of(const ReportData& data, const RowFilter& filter,
                        const std::function<double(const ReportRow&)>& value);
 
-std::vector<double> wave_heights_m(const ReportData& data);  // ascending, once each
+std::vector<double> wave_heights_m(const ReportData& data);  // ascending, unique
 std::vector<double> azimuths_deg(const ReportData& data);
 
-// The numbers of the report that are not in the study: features by class and wave height, the line by aspect, the maps
-// shown.
+// Numbers of the report beyond the study: features by class and wave height, line fit by aspect, maps shown.
 nlohmann::ordered_json report_numbers(const ReportData& data);
 
 }  // namespace seaglint

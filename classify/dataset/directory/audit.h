@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Is a data set what its manifest and its rows say? Everything that can be told without making maps again.
+// Audit of a data set against its manifest and scenario: every check that needs no regenerated map.
 
 #include <filesystem>
 #include <string>
@@ -13,20 +13,21 @@
 namespace seaglint {
 
 struct Audit {
-  std::size_t shards = 0, samples = 0, groups = 0;  // sound ones that were read
+  std::size_t shards = 0, samples = 0, groups = 0;  // valid ones that were read
   std::vector<std::size_t> per_target;              // samples of each target
-  std::vector<std::string> faults;  // file, sample and column each, with what is there and what should be
-  Scenario scenario;                // as the directory keeps it
+  std::vector<std::string> faults;  // each names file, sample and column, with the stored and the expected value
+  Scenario scenario;                // as stored in the directory
 };
 
 // Reads all shards. Faults are
-// - shards that are missing, damaged, foreign or left half-written, and other files that do not belong there;
+// - shards that are missing, damaged, of another data set or left incomplete, and files that do not belong to a data
+// set;
 // - samples that are missing, repeated (by number or by map) or out of order;
 // - rows that contradict the scenario: label, target, sea, view, interval, keys, group;
-// - maps with values that are no magnitudes, or whose peak and energy are not those of the row;
+// - maps with negative or non-finite values, or whose peak or energy differs from that of the row;
 // - hop codes beyond the scenario's carriers; axes that differ between shards;
-// - a merged file beside the shards that is damaged, of another manifest or not what the shards hold;
-// - a sea realisation in two groups or two in one, by which a split would leak.
+// - a merged file in the directory that is damaged, of another manifest or different from the shards;
+// - a sea realisation in two groups or two in one group: splits by group would leak.
 // Throws InputError when manifest or scenario cannot be read, Interrupted when *stop becomes true.
 Audit audit(const std::filesystem::path& directory, const StopFlag* stop = nullptr);
 

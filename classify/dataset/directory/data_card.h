@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The README.md of a data set: what it shows, how it was made, how to read it, what it is not.
+// The data card (README.md) of a data set: content, generation, reading, limitations.
 
 #include <string>
 

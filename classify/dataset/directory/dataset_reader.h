@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// A whole data set, read shard by shard.
+// Reads a complete data set shard by shard.
 
 #include <filesystem>
 
@@ -10,13 +10,14 @@
 
 namespace seaglint {
 
-// What becomes of a directory whose scenario.yaml is not the one that the manifest was written for: an audit reads it.
+// Treatment of a directory whose scenario.yaml does not match the manifest's checksum: rejected, or accepted (for an
+// audit).
 enum class ScenarioMismatch { kReject, kAccept };
 
 class DatasetReader {
  public:
-  // Reads the manifest and sees that every shard is there, and the scenario that they were made by. Throws InputError
-  // naming the file that is missing or wrong.
+  // Reads the manifest and checks that every shard and the scenario exist. Throws InputError naming a file that is
+  // missing or wrong.
   explicit DatasetReader(std::filesystem::path directory, ScenarioMismatch other = ScenarioMismatch::kReject);
 
   const Manifest& manifest() const { return manifest_; }
@@ -25,7 +26,7 @@ class DatasetReader {
   std::size_t shards() const { return manifest_.shards.size(); }
 
   // Reads one shard after comparing its checksum with the manifest's; its samples are those of the manifest, in order.
-  // Throws InputError naming the file and what is wrong.
+  // Throws InputError naming the file and its fault.
   Shard shard(std::size_t index) const;
 
  private:

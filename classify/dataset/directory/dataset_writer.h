@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// A data set directory in the making: scenario.yaml first, then shards in any order and by any number of processes,
-// then manifest.json and the data card. A process that is killed leaves whole shards and at most a temporary file
-// (classify/dataset/directory/temporary.h), which goes when the data set is whole.
+// Writes a data set directory: scenario.yaml first, then shards in any order and by any number of processes, then
+// manifest.json and the data card. A process that is killed leaves complete shards and temporary files
+// (classify/dataset/directory/temporary.h), which are removed when the data set is complete.
 
 #include <filesystem>
 #include <mutex>
@@ -19,44 +19,44 @@
 
 namespace seaglint {
 
-// The data set's own files, those that `merge` and `export` make of it, what a kill left half-written, and hidden ones:
-// a file server keeps so what was removed while another process had it open.
+// True for names of a data set's files, of the outputs of `merge` and `export`, of temporary files, and of hidden
+// files: network file systems keep a file under a hidden name if it was removed while another process had it open.
 bool is_dataset_file(const std::string& name);
 
 class DatasetWriter {
  public:
-  // Makes the directory and writes scenario.yaml. Without `resume` the directory must be new or empty; with it, it must
-  // hold nothing but files of a data set, a scenario.yaml that is there must make the same maps (its learning section
-  // and split may differ), the files that it names be those that the directory was begun with, and the manifest, if
-  // any, be of `program_version`. Throws InputError naming the directory and the difference, WorkError when the disk
-  // refuses.
+  // Creates the directory and writes scenario.yaml. Without `resume` the directory must be new or empty. With `resume`
+  // it must contain only files of a data set; an existing scenario.yaml must define the same maps (its learning section
+  // and split may differ), the files that it names must match inputs.sha256, and an existing manifest must be of
+  // `program_version`. Throws InputError naming the directory and the difference, WorkError when a file cannot be
+  // written.
   DatasetWriter(std::filesystem::path directory, const Scenario& scenario, bool resume, std::string program_version)
       : DatasetWriter(std::move(directory), scenario, SamplePlan(scenario), resume, std::move(program_version)) {}
   DatasetWriter(std::filesystem::path directory, const Scenario& scenario, const SamplePlan& plan, bool resume,
                 std::string program_version);
 
-  // True when the shard is on the disk and sound: it is read, its rows are compared with the scenario, and its checksum
-  // with the manifest's where there is one. Throws InputError when it is sound but another version of the program
-  // made it: a data set of two versions would be neither's.
+  // True when the shard exists and is valid: it is readable, its rows match the scenario, and its checksum the
+  // manifest's if there is one. Throws InputError when it is valid but of another program version: versions must not be
+  // mixed in a data set.
   bool complete(std::size_t shard);
 
-  // Writes a shard, with this program and processor as its origin; from any thread. Throws WorkError when the disk
-  // refuses and the shard is not there already. A manifest that was there goes first: other parts would hold the new
-  // shard against it for ever.
+  // Writes a shard, with this program and processor as its provenance; from any thread. Throws WorkError when the file
+  // cannot be written and the shard does not exist yet. An existing manifest is removed first: its checksum of this
+  // shard would be wrong for other processes.
   void put(std::size_t shard, Shard content);
 
-  // Writes manifest and data card when all shards are there and sound, and removes what killed runs left half-written.
-  // Returns the shards that are missing or damaged.
+  // Writes manifest and data card when all shards exist and are valid, and removes stale temporary files. Returns the
+  // shards that are missing or damaged.
   std::vector<std::size_t> finish();
 
-  // Takes back what the constructor put into a new or empty directory, where nothing else is yet; for a scenario of
-  // which no sample can be made, by a process that nobody shares the directory with.
+  // Removes what the constructor wrote into a new or empty directory if it contains nothing else; for a scenario of
+  // which no sample can be generated. No other process may use the directory.
   void roll_back();
 
   const std::filesystem::path& directory() const { return directory_; }
 
  private:
-  // What finish() needs to know of a sound shard.
+  // State of a shard for finish().
   struct Known {
     bool sound = false;
     std::string processor;
@@ -65,17 +65,17 @@ class DatasetWriter {
 
   std::filesystem::path shard_file(std::size_t shard) const;
   void require_version(const std::filesystem::path& file, const std::string& version) const;
-  Manifest manifest_there() const;  // without shards where there is none
+  Manifest manifest_there() const;  // without shards if there is none
   void invalidate_manifest();
-  Manifest manifest() const;  // of a whole data set
+  Manifest manifest() const;  // of a complete data set
 
   std::filesystem::path directory_;
-  bool begun_here_ = false, made_here_ = false;  // the directory was empty; it was not there
+  bool begun_here_ = false, made_here_ = false;  // the directory was empty; it did not exist
   Scenario scenario_;
   SamplePlan plan_;
   Provenance origin_;
   std::string scenario_yaml_;
-  Manifest earlier_;                // the manifest that was there already; without shards where none is, or retired
+  Manifest earlier_;  // the manifest found at construction; without shards if there was none or after invalidation
   std::vector<Known> known_;        // by shard
   std::optional<StoredAxes> axes_;  // of all shards
   std::mutex mutex_;                // the HDF5 library serves one thread at a time

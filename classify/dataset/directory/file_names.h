@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Names of the files that stand once in a data set's directory, beside its shards.
+// Names of the single files of a data set's directory (all but the shards).
 
 namespace seaglint {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// As much of HDF5 as data sets need. Bytes depend on what is written alone: no times, fixed little-endian types.
-// Files are opened without locks, which some file systems of clusters refuse: nobody writes a file that another reads,
-// since files appear by renaming. One thread at a time may use the library.
+// The subset of HDF5 that data sets use. The bytes depend only on the content: no times, fixed little-endian types.
+// Files are opened without locks, which some cluster file systems do not support; no file is read while it is written,
+// because files appear by renaming. Only one thread at a time may use the library.
 
 #include <cstddef>
 #include <cstdint>
@@ -18,7 +18,7 @@ namespace seaglint {
 
 inline constexpr std::size_t kNameBytes = 64;  // of a string in an array, UTF-8, zero-padded
 
-// What an array holds; kName is kNameBytes characters.
+// Element type of an array; kName is kNameBytes characters.
 enum class ArrayType { kFloat, kDouble, kInt64, kUint16, kName };
 
 template <class T>
@@ -32,13 +32,13 @@ constexpr ArrayType array_type_of() {
 
 using Dimensions = std::vector<std::uint64_t>;
 
-// What an array says of itself.
+// Attributes of an array.
 struct ArrayText {
-  std::string units;  // "1" where there are none
+  std::string units;  // "1" if dimensionless
   std::string description;
 };
 
-// Rows `first` to `first + count - 1` of a virtual array, which are all of the array of the same path in `file`
+// Source of rows `first` to `first + count - 1` of a virtual array: the whole array of the same path in `file`
 // (relative to the folder of the virtual array's file).
 struct VirtualSource {
   std::string file;
@@ -50,10 +50,10 @@ struct VirtualSource {
 
 enum class Hdf5Version { k18, k110 };  // oldest library that reads the file; virtual arrays need 1.10
 
-// Names as an array stores them, kNameBytes each.
+// Names in stored form, kNameBytes each.
 std::string packed_names(std::span<const std::string> names);
 
-// A file in the making. Every call throws WorkError with what could not be written and the system's reason.
+// Writes an HDF5 file. Every call throws WorkError naming what could not be written and the system's reason.
 class Hdf5Writer {
  public:
   Hdf5Writer(const std::filesystem::path& file, Hdf5Version version);
@@ -64,21 +64,21 @@ class Hdf5Writer {
   void attribute(const std::string& name, const std::string& text);  // of the file
   void group(const std::string& path);
 
-  // An array in chunks of `chunk`, each with a Fletcher-32 checksum; filled by write().
+  // Creates an array in chunks of `chunk`, each with a Fletcher-32 checksum; filled by write().
   void array(const std::string& path, ArrayType element, const Dimensions& size, const Dimensions& chunk,
              const ArrayText& text);
-  // An array whose rows lie in other files; where one is missing, readers see NaN or the largest integer.
+  // Creates an array whose rows are in other files; rows of a missing file read as NaN or the largest integer.
   void virtual_array(const std::string& path, ArrayType element, const Dimensions& size,
                      std::span<const VirtualSource> sources, const ArrayText& text);
 
-  // Rows `first` and following of an array; `values` hold whole rows.
+  // Writes rows from `first` on; `values` contains complete rows.
   template <class T>
   void write(const std::string& path, std::uint64_t first, std::span<const T> values) {
     write_bytes(path, array_type_of<T>(), first, values.data(), values.size());
   }
   void write_names(const std::string& path, std::uint64_t first, std::span<const std::string> names);
 
-  void close();  // must be called: a late failure of the disk shows here
+  void close();  // must be called: reports late write errors
 
  private:
   void write_bytes(const std::string& path, ArrayType element, std::uint64_t first, const void* values,
@@ -93,7 +93,7 @@ struct ReadArray {
   std::vector<T> values;
 };
 
-// A file that may be damaged in any way: every call throws WorkError with what is missing or wrong.
+// Reads an HDF5 file that may be damaged in any way: every call throws WorkError naming what is missing or wrong.
 class Hdf5Reader {
  public:
   explicit Hdf5Reader(const std::filesystem::path& file);
@@ -101,13 +101,13 @@ class Hdf5Reader {
   Hdf5Reader(const Hdf5Reader&) = delete;
   Hdf5Reader& operator=(const Hdf5Reader&) = delete;
 
-  std::string attribute(const std::string& name) const;  // of the file; "" where there is none
+  std::string attribute(const std::string& name) const;  // of the file; "" if there is none
   bool has(const std::string& path) const;
   Dimensions size(const std::string& path) const;
-  std::vector<VirtualSource> sources(const std::string& path) const;  // none for an array of this file
+  std::vector<VirtualSource> sources(const std::string& path) const;  // empty for an array of this file
 
-  // All of an array, which must have `rank` dimensions. Memory is taken for what the file can hold only, or for what a
-  // virtual array says.
+  // Reads a whole array, which must have `rank` dimensions. The allocation is limited by the file's size or, for a
+  // virtual array, by its declared size.
   template <class T>
   ReadArray<T> read(const std::string& path, std::size_t rank) const {
     ReadArray<T> array;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// manifest.json: what a data set holds, with a checksum of every shard. It is written last: a data set without it is
-// not whole.
+// manifest.json: content of a data set, with a checksum of every shard. It is written last: a data set without it is
+// incomplete.
 
 #include <cstdint>
 #include <filesystem>
@@ -22,7 +22,7 @@ struct Manifest {
   std::string scenario;         // its name
   std::string scenario_sha256;  // of scenario.yaml
   std::string program_version;
-  std::vector<std::string> processors;  // kinds that made the bytes, in order: another one may differ in the last bit
+  std::vector<std::string> processors;  // kinds that wrote the shards, sorted: the last bit may differ between kinds
   std::uint64_t seed = 0;
   std::uint64_t samples = 0;
   std::uint64_t rows = 0;     // velocity cells of a map
@@ -33,7 +33,7 @@ struct Manifest {
 std::string to_json(const Manifest& manifest);              // with the descriptions of all columns
 Manifest read_manifest(const std::filesystem::path& file);  // throws InputError naming the file and the entry
 
-// The kind of processor as the system names it, "unknown" where it does not.
+// The kind of processor as reported by the system, else "unknown".
 std::string processor_kind();
 
 }  // namespace seaglint

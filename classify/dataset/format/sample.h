@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// One sample of a data set: a range-velocity map with its label and full provenance.
+// One sample of a data set: a range-velocity map with its label and provenance.
 
 #include <array>
 #include <cstdint>
@@ -52,7 +52,7 @@ struct SampleRecord {
 
 struct SampleColumn {
   const char* name;
-  const char* unit;  // "1" where there is none
+  const char* unit;  // "1" if dimensionless
   const char* description;
   std::variant<std::int64_t SampleRecord::*, double SampleRecord::*, std::string SampleRecord::*> member;
 };
@@ -67,7 +67,7 @@ struct Sample {
   SampleRecord record;
   std::vector<float> magnitude;  // |RV| in metres, [velocity][range]
   std::vector<float>
-      complex_values;  // real and imaginary part alternating, [velocity][range][2]; empty unless asked for
+      complex_values;  // real and imaginary part alternating, [velocity][range][2]; empty unless dataset.complex_maps
   std::vector<std::uint16_t> hop_code;    // C_n of every pulse
   std::vector<StoredCentre> centre_list;  // strongest first
 };

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// A shard: some consecutive samples in one HDF5 file. The bytes depend on the content alone: no time, path, host or
-// thread count.
+// A shard: consecutive samples in one HDF5 file. The bytes depend only on the content: no time, path, host or thread
+// count.
 //
 //   /axes/range_m, /axes/velocity_mps   float64
 //   /maps                               float32 [sample][velocity][range], metres, one chunk per sample
@@ -12,8 +12,8 @@
 //                                       /samples/centres
 //   /samples/<column>                   [sample], one array per column of sample_columns()
 //
-// Attributes of the file: `format`, `program_version`, `processor`; of every array: `units`, `description`. Every array
-// carries a Fletcher-32 checksum per chunk, every header one of its own (HDF5 1.8 format).
+// Attributes of the file: `format`, `program_version`, `processor`; of every array: `units`, `description`. Every chunk
+// of an array has a Fletcher-32 checksum, every header a checksum of its own (HDF5 1.8 format).
 
 #include <filesystem>
 #include <string>
@@ -24,13 +24,14 @@
 
 namespace seaglint {
 
-// A whole file, but not of the format that this program reads.
+// Thrown for an intact file of a format that this program does not read.
 class UnsupportedFormat : public InputError {
  public:
   using InputError::InputError;
 };
 
-// Who made the bytes: another version may make other maps, another kind of processor may round the last bit otherwise.
+// Program version and kind of processor that wrote a shard: maps may differ between versions, and in the last bit
+// between processors.
 struct Provenance {
   std::string program_version;
   std::string processor;
@@ -47,13 +48,11 @@ struct Shard {
 // "shard_00012.h5"
 std::string shard_name(std::size_t index);
 
-// Writes the file whole or not at all. All samples have the axes' size, equal numbers
-// of pulses, and complex values or none; centre lists are padded to max_centres. Throws WorkError when the disk
-// refuses.
+// Writes the file completely or not at all. All samples have the axes' size, equal numbers of pulses, and complex
+// values or none; centre lists are padded to max_centres. Throws WorkError when the file cannot be written.
 void write_shard(const std::filesystem::path& file, const Shard& shard, int max_centres);
 
-// Reads and checks a shard. Throws InputError naming the file and what is wrong with it, UnsupportedFormat for one of
-// another format.
+// Reads and checks a shard. Throws InputError naming the file and its fault, UnsupportedFormat for another format.
 Shard read_shard(const std::filesystem::path& file);
 
 }  // namespace seaglint
