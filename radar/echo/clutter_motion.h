@@ -36,9 +36,9 @@ struct VelocityMoments {
 // Mech. 68 (1975) 49). Without waves only the motion of the water relative to a target under way remains.
 VelocityMoments clutter_velocity_moments(const ClutterSpec& spec, const ClutterScene& scene, double wavelength_m);
 
-// Doppler spread due to the relative motion of radar and target: scatterers off the axis of the antenna beam have a
-// radial velocity, the speed across the line of sight times the standard deviation of the two-way Gaussian beam, width
-// / (4 sqrt(ln 2)).
+// Doppler spread due to the relative motion of radar and target: scatterers off the axis of the antenna beam have an
+// additional radial velocity, whose standard deviation is the speed across the line of sight times that of the two-way
+// Gaussian beam, width / (4 sqrt(ln 2)).
 double platform_doppler_spread_mps(const ClutterScene& scene);
 
 // Radial motion of scatterers on the waves: displacement v t + a t^2/2 at time t after the start of the interval.

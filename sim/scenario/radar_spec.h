@@ -37,7 +37,7 @@ struct RadarSpec {
   int carrier_count = 8;                // number of carriers M, 1 <= x <= 1024
   double hop_step_mhz = 25;             // carrier spacing, > 0
   HopCode hop_code = HopCode::kRandom;  // random (independent, as in the paper), balanced, stepped, file
-  std::string hop_code_file;            // of hop_code: file, beside the scenario or below the working directory
+  std::string hop_code_file;            // of hop_code: file, in the scenario's folder or the working directory
   std::shared_ptr<const std::vector<int>> hop_codes;  // contents of that file; at least `pulses` codes
   double bandwidth_mhz = 25;                          // LFM bandwidth B, 0.001 <= x <= 10000
   double pulse_width_us = 36;                         // 0.001 <= x <= 1e6, shorter than pri_us
@@ -47,7 +47,7 @@ struct RadarSpec {
   double pri_jitter_us = 0;
   int pulses = 256;  // of one coherent interval, 1 <= x <= 65536
   Polarisation polarisation = Polarisation::kVv;
-  // the f/mu term of Doppler inside the pulse, in echo and map alike; only with points as targets
+  // the f/mu term of Doppler inside the pulse, in echo and map; only with points as targets
   bool intra_pulse_motion = false;
   double range_km = 20;  // to the target's reference point, for link_budget and platform, 0.1 <= x <= 1000
   LinkBudgetSpec budget;

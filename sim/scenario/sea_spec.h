@@ -56,7 +56,7 @@ struct SeaSpec {
   PeakPeriod period_rule = PeakPeriod::kGiven;
   WindSpec wind;
   SpectrumKind spectrum = SpectrumKind::kJonswap;
-  std::string table;  // file of spectrum: table, beside the scenario or below the working directory
+  std::string table;  // file of spectrum: table, in the scenario's folder or the working directory
   std::shared_ptr<const SpectrumTable> table_values;  // contents of that file
   Sweep gamma{3.3};                                   // peak enhancement, 1 <= x <= 20; empty when a rule gives it
   PeakEnhancement gamma_rule = PeakEnhancement::kGiven;

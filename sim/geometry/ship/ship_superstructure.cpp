@@ -101,7 +101,7 @@ void add_hangar(MeshBuilder& builder, const HullSurface& hull, const Deckhouse& 
   builder.begin_part("hangar_door");
   const double low = hull.deck_height(hull.x_of(aft.aft)) + 0.15, high = low + 4.6;
   const auto at = [&](double y, double z) { return Vec3(aft.aft_at(hull, z) - 0.06, y, z); };
-  // Five slats, each a little proud of the next below.
+  // Five slats, each projecting slightly beyond the one below.
   for (int k = 0; k < 5; ++k) {
     const double from = low + (high - low) * k / 5.0 + 0.02, to = low + (high - low) * (k + 1) / 5.0 - 0.02;
     add_plate(builder, {at(3.0, from), at(-3.0, from), at(-3.0, to), at(3.0, to)}, 0.12);

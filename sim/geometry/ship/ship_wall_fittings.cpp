@@ -70,7 +70,7 @@ void add_brackets(MeshBuilder& builder, const HullSurface& hull, const Deckhouse
   }
 }
 
-// Bay openings in the forward house's flanks for torpedo tubes: deep open boxes that stand a little proud.
+// Bay openings in the forward house's flanks for torpedo tubes: deep open boxes that project slightly.
 void add_bays(MeshBuilder& builder, const HullSurface& hull, const Deckhouse& house) {
   for (double side : {1.0, -1.0}) {
     const Pose wall = house.on_side(hull, side, -5.0, hull.form().freeboard_m + 0.9);
