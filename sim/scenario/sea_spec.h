@@ -77,8 +77,8 @@ enum class SeaRoughness { kMillerBrownVegh, kAment, kNone };
 enum class SeaPaths { kAll, kDirect, kMultipath };
 
 // The `sea_reflection` section: specular reflection by the mean sea surface between radar and target
-// (sim/scattering/README.md, "Sea reflection"). The roughness factor follows the significant wave height of the sea
-// state.
+// (sim/scattering/response/README.md, "Sea reflection"). The roughness factor follows the significant wave height of
+// the sea state.
 struct SeaReflectionSpec {
   bool enabled = false;
   SeaSurface surface = SeaSurface::kSeaWater;
