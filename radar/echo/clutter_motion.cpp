@@ -24,7 +24,7 @@ double bragg_speed_mps(double wavelength_m, double cos_grazing) {
 
 // Two-way gain e^{-8 ln2 phi^2 / width^2} is a normal density of deviation width / (4 sqrt(ln 2)).
 double beam_deviation_rad(const RadarSpec& radar) {
-  return radians(radar.budget.beamwidth_deg) / (4 * std::sqrt(std::log(2.0)));
+  return radians(radar.link_budget.beamwidth_deg) / (4 * std::sqrt(std::log(2.0)));
 }
 
 // coth(k h): ratio of horizontal to vertical orbital amplitude at the surface, 1 in deep water.

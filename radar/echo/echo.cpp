@@ -116,7 +116,7 @@ Echo synthesise_echo(const PulseTrain& train, const FrequencyResponse& response,
   echo.noise = white_noise(echo.target.size(), seed, index);
   switch (clutter.noise_level) {
     case NoiseLevel::kCnr:
-      scale(echo.noise, mean_power(echo.clutter) / mean_power(echo.noise) * ratio(clutter.noise_to_clutter_db));
+      scale(echo.noise, mean_power(echo.clutter) / mean_power(echo.noise) * ratio(-clutter.cnr_db));
       break;
     case NoiseLevel::kSnr: scale(echo.noise, target_power / mean_power(echo.noise) / ratio(clutter.snr_db)); break;
     case NoiseLevel::kThermal: scale(echo.noise, thermal_noise_m2(train, scene.radar)); break;

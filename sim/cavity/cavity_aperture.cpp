@@ -23,14 +23,14 @@ std::vector<std::vector<Vec3>> aperture_rims(const TriangleMesh& walls) {
   for (const MeshEdge& edge : topology.edges) {
     const Vec3& at = walls.vertices[edge.vertices[0]];
     if (edge.kind == EdgeKind::kInconsistent)
-      throw InputError(fmt::format("two triangles of the cavity's walls face opposite ways at {}", place(at)));
+      throw InputError(fmt::format("two triangles of the cavity's walls have opposite orientation at {}", place(at)));
     if (edge.kind == EdgeKind::kNonManifold)
       throw InputError(fmt::format("more than two triangles of the cavity's walls meet at {}", place(at)));
     if (edge.kind != EdgeKind::kBoundary) continue;
     auto [to, from] = edge.vertices;
     if (!topology.uses[edge.first_use].forward) std::swap(to, from);
     if (!next.emplace(from, to).second)
-      throw InputError(fmt::format("a rim of the cavity touches itself at {}", place(walls.vertices[from])));
+      throw InputError(fmt::format("an edge of the cavity aperture touches itself at {}", place(walls.vertices[from])));
   }
   std::vector<std::vector<Vec3>> rims;
   while (!next.empty()) {
@@ -44,7 +44,7 @@ std::vector<std::vector<Vec3>> aperture_rims(const TriangleMesh& walls) {
       at = next.find(end);
     }
     if (end != start)
-      throw InputError(fmt::format("a rim of the cavity does not close at {}", place(walls.vertices[end])));
+      throw InputError(fmt::format("an edge of the cavity aperture does not close at {}", place(walls.vertices[end])));
     rims.push_back(std::move(rim));
   }
   return rims;
@@ -125,9 +125,10 @@ void add_cells(const std::vector<std::vector<Vec3>>& rims, double pitch, std::ve
     for (const Vec3& x : rim) {
       const double uneven = std::abs(cell.inward.dot(x - origin));
       if (uneven > pitch / 4)
-        throw InputError(fmt::format(
-            "a rim of the cavity is not flat: {} lies {:.3g} m off its plane, at most {:.3g} m at this wavelength",
-            place(x), uneven, pitch / 4));
+        throw InputError(
+            fmt::format("an edge of the cavity aperture is not flat: {} lies {:.3g} m off its plane, at most {:.3g} m "
+                        "at this wavelength",
+                        place(x), uneven, pitch / 4));
       outlines.back().emplace_back(cell.across.dot(x - origin), cell.up.dot(x - origin));
       lower = lower.cwiseMin(outlines.back().back());
       upper = upper.cwiseMax(outlines.back().back());
@@ -163,8 +164,9 @@ void add_cells(const std::vector<std::vector<Vec3>>& rims, double pitch, std::ve
 std::vector<ApertureCell> aperture_cells(const TriangleMesh& walls, double pitch) {
   std::vector<ApertureCell> cells;
   for (const auto& rims : apertures_of(aperture_rims(walls), pitch)) add_cells(rims, pitch, cells);
-  if (cells.empty()) throw InputError("the cavity's walls are closed, or open by nothing at this wavelength");
-  // Walls and apertures enclose the cavity; their normals point into it.
+  if (cells.empty())
+    throw InputError("cavity walls are closed, or their openings are smaller than one cell at this wavelength");
+  // Walls and openings together enclose the cavity; their normals point into it.
   const Vec3 origin = walls.vertices[walls.triangles.front()[0]];
   double volume = enclosed_volume(transformed(walls, Mat3::Identity(), -origin));
   for (const ApertureCell& cell : cells) volume += cell.area * cell.inward.dot(cell.centre - origin) / 3;

@@ -93,7 +93,7 @@ Cavity::Discretisation Cavity::shape(double k) const {
   for (const ApertureCell& cell : shape.aperture) mouth += cell.area;
   if (std::sqrt(mouth) < wavelength / 2)
     throw InputError(
-        fmt::format("a mouth of {:.3g} m^2 is less than half a wavelength wide: nothing propagates", mouth));
+        fmt::format("cavity aperture of {:.3g} m^2 is narrower than half a wavelength: below cut-off", mouth));
   const auto refuse_nearer = [&](const Vec3& a, const Vec3& b, double least, const char* what) {
     if ((a - b).squaredNorm() < least * least * patch * patch)
       throw InputError(fmt::format("{} nearer than {:.3g} m at ({:.4g}, {:.4g}, {:.4g}) m: too near at this wavelength",
@@ -102,7 +102,7 @@ Cavity::Discretisation Cavity::shape(double k) const {
   for (std::size_t i = 0; i < shape.walls.size(); ++i) {
     const WallPatch& wall = shape.walls[i];
     for (const ApertureCell& cell : shape.aperture)
-      refuse_nearer(wall.centre, cell.centre, kMinApertureGap, "the cavity's walls and mouth come");
+      refuse_nearer(wall.centre, cell.centre, kMinApertureGap, "the cavity's walls and aperture come");
     for (std::size_t j = 0; j < i; ++j) {
       if (wall.normal.dot(shape.walls[j].normal) < -0.5)
         refuse_nearer(wall.centre, shape.walls[j].centre, kMinWallGap,
@@ -154,7 +154,7 @@ std::vector<std::array<Complex, 4>> Cavity::scattering_matrices(double k, std::s
     if (fresh.fields.cols() > 0) {
       const WallFields lit = wall_fields(aperture, walls, k, fresh.fields, threads, stop);
       SEAGLINT_CHECK(lit.incident_electric.allFinite() && lit.mfie_excitation.allFinite(),
-                     "a wall of a cavity meets its mouth");
+                     "a wall of a cavity meets its aperture");
       append(basis, fresh.fields);
       append(electric, lit.incident_electric);
       append(answer, currents.solve(lit.mfie_excitation, fresh.strength, threads, stop));

@@ -216,7 +216,7 @@ WallMatrix WallCurrents::solve(const WallMatrix& driven, const Eigen::VectorXd& 
     }
     for (double worst = strongest; worst > kResidual * strongest;) {
       if (directions.size() > kMaxIterations)
-        throw WorkError(fmt::format("the cavity's currents did not settle in {} sweeps: residual {:.1e}",
+        throw WorkError(fmt::format("cavity currents did not converge in {} iterations: residual {:.1e}",
                                     kMaxIterations, worst / strongest));
       const WallMatrix outward = half_sweep(apply_diagonal_blocks(directions.back(), threads), true, threads, stop);
       WallMatrix next =

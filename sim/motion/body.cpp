@@ -35,8 +35,7 @@ RaoTable read_table_of(const MotionSpec& spec, const std::filesystem::path& file
     return read_wamit_rao(file, spec.wamit_ulen_m, reference);
   }
   if (spec.rotation_centre_m) {
-    throw InputError(
-        fmt::format("motion.rotation_centre_m: must not stand with {}, which says where it is", file.string()));
+    throw InputError(fmt::format("motion.rotation_centre_m: not allowed here: {} gives it", file.string()));
   }
   return read_veres_rao(file, spec.speed_mps);
 }
@@ -90,12 +89,12 @@ HullSections ship_sections(const MotionSpec& spec, const BodyShape& shape, const
 
 Body make_body(const MotionSpec& spec, const BodyShape& shape, const std::filesystem::path& folder) {
   if (!(spec.step_s > 0)) throw InputError(fmt::format("motion.step_s: value {}: must be > 0", spec.step_s));
-  if (!(spec.spin_up_s >= 0)) throw InputError(fmt::format("motion.preroll_s: value {}: must be >= 0", spec.spin_up_s));
+  if (!(spec.spin_up_s >= 0)) throw InputError(fmt::format("motion.spin_up_s: value {}: must be >= 0", spec.spin_up_s));
   const bool from_file = spec.model == MotionModel::kSeries || spec.model == MotionModel::kRao;
   if (from_file == spec.file.empty()) {
     throw InputError(fmt::format("motion.file: {}", from_file
                                                         ? "this key is missing: model series and rao need it"
-                                                        : "must not stand here, it belongs to model: series or rao"));
+                                                        : "not allowed here: valid only with model: series or rao"));
   }
   Body body{spec, {}, Vec3::Zero()};
   if (spec.model == MotionModel::kShip) {

@@ -47,7 +47,7 @@ void check_pulse_train(const RadarSpec& radar, const ScenarioDocument& document)
   const YamlNode* node = document.root.find("radar");
   const bool has_file = node != nullptr && node->find("hop_code_file") != nullptr;
   if (has_file && radar.hop_code != HopCode::kFile)
-    document.fail_at("radar.hop_code_file", "must not stand here, it belongs to hop_code: file");
+    document.fail_at("radar.hop_code_file", "not allowed here: valid only with hop_code: file");
   if (!has_file && radar.hop_code == HopCode::kFile) document.fail_at("radar.hop_code_file", "this key is missing");
 }
 
@@ -69,8 +69,8 @@ void check_grazing(const Scenario& scenario, const ScenarioDocument& document) {
              own_motion = clutter.doppler != ClutterDoppler::kPrescribed;
   if (!clutter.enabled || !(own_level || own_motion)) return;
   const char* where = own_level                                 ? "level: nrl"
-                      : clutter.doppler == ClutterDoppler::kSea ? "doppler: sea"
-                                                                : "doppler: wave_field";
+                      : clutter.doppler == ClutterDoppler::kSea ? "doppler: sea_state"
+                                                                : "doppler: wave_resolved";
   for (const double elevation : scenario.view.elevation_deg) {
     if (elevation < 0.1 || elevation > 60)
       document.fail_at("view.elevation_deg", fmt::format("must be within 0.1 and 60 with clutter.{}", where));
@@ -102,7 +102,7 @@ void check_spectrum(const SeaSpec& sea, const ScenarioDocument& document) {
   const auto stands = [&](const char* key) { return node != nullptr && node->find(key) != nullptr; };
   const auto only = [&](const char* key, bool allowed, const char* with) {
     if (stands(key) && !allowed) {
-      document.fail_at(fmt::format("sea.{}", key), fmt::format("must not stand here, it belongs to {}", with));
+      document.fail_at(fmt::format("sea.{}", key), fmt::format("not allowed here: valid only with {}", with));
     }
   };
   const bool is_table = sea.spectrum == SpectrumKind::kTable;
@@ -143,7 +143,7 @@ void check_sea(const SeaSpec& sea, const ScenarioDocument& document) {
     const double peak = 2 * kPi / state.peak_period_s;
     if (state.cutoff_rad_s <= peak) {
       document.fail_at("sea.cutoff_rad_s",
-                       fmt::format("must be above the peak, {:.4g} rad/s (four times the peak holds "
+                       fmt::format("must be above the peak, {:.4g} rad/s (four times the peak contains "
                                    "all but 0.4 % of the energy)",
                                    peak));
     }
@@ -192,7 +192,7 @@ void check_sea_reflection(const Scenario& scenario, const ScenarioDocument& docu
 void check_one_range(const TargetSpec& target, const TargetSpec& companion, const ScenarioDocument& document) {
   const double range_m = target.solver.wavefront_range_m, other_m = companion.solver.wavefront_range_m;
   if (range_m == other_m) return;
-  const auto key = [](const TargetSpec& of) { return fmt::format("targets.{}.solver.radar_range_m", of.name); };
+  const auto key = [](const TargetSpec& of) { return fmt::format("targets.{}.solver.wavefront_range_m", of.name); };
   const TargetSpec &wrong = companion.points.empty() ? companion : target,
                    &right = companion.points.empty() ? target : companion;
   document.fail_at(key(wrong), fmt::format("must be {}, as targets.{} has it in the same maps ({})",
@@ -201,13 +201,13 @@ void check_one_range(const TargetSpec& target, const TargetSpec& companion, cons
 
 // A companion is another target of the file, without companions of its own.
 void check_companions(const Scenario& scenario, const TargetSpec& target, const ScenarioDocument& document) {
-  for (std::size_t i = 0; i < target.with.size(); ++i) {
-    const std::string key = fmt::format("targets.{}.with.{}.target", target.name, i);
+  for (std::size_t i = 0; i < target.companions.size(); ++i) {
+    const std::string key = fmt::format("targets.{}.companions.{}.target", target.name, i);
     const auto found = std::find_if(scenario.targets.begin(), scenario.targets.end(),
-                                    [&](const TargetSpec& other) { return other.name == target.with[i].target; });
+                                    [&](const TargetSpec& other) { return other.name == target.companions[i].target; });
     if (found == scenario.targets.end() || found->name == target.name)
       document.fail_at(key, "must be the name of another target");
-    if (!found->with.empty()) document.fail_at(key, "must be a target without companions of its own");
+    if (!found->companions.empty()) document.fail_at(key, "must be a target without companions of its own");
     check_one_range(target, *found, document);
   }
 }
@@ -232,7 +232,7 @@ void check_target(const TargetSpec& target, const ScenarioDocument& document) {
   const YamlNode* node = document.root.find("targets")->find(target.name);
   for (const char* key : {"unit", "material", "part_materials", "sheet_thickness_mm", "layout", "motion", "solver"}) {
     if (node->find(key) != nullptr)
-      document.fail_at(fmt::format("{}.{}", path, key), "must not stand beside points, it belongs to a mesh");
+      document.fail_at(fmt::format("{}.{}", path, key), "not allowed here: valid only with a mesh");
   }
 }
 
@@ -265,7 +265,7 @@ void check_directions(const std::string& key, const Sweep& values_deg, const Sce
   for (std::size_t i = 1; i < directions.size(); ++i) {
     if (directions[i].first - directions[i - 1].first > kSame) continue;
     const auto [lower, higher] = std::minmax(directions[i].second, directions[i - 1].second);
-    document.fail_at(key, fmt::format("{} and {} are one direction: must not stand twice", lower, higher));
+    document.fail_at(key, fmt::format("{} and {} are the same direction: list it once", lower, higher));
   }
 }
 

@@ -55,12 +55,12 @@ void visit(LinkBudgetSpec& spec, FieldVisitor& v) {
   v.number("antenna_gain_db", spec.antenna_gain_db, within(0, 70));
   v.number("noise_figure_db", spec.noise_figure_db, within(0, 40));
   v.number("losses_db", spec.losses_db, within(0, 60));
-  v.number("temperature_k", spec.temperature_k, within(1, 10000));
+  v.number("reference_temperature_k", spec.reference_temperature_k, within(1, 10000));
 }
 
 void visit(PlatformSpec& spec, FieldVisitor& v) {
   v.triple("velocity_mps", spec.velocity_mps, within(-1000, 1000));
-  v.flag("compensated", spec.motion_compensated);
+  v.flag("motion_compensated", spec.motion_compensated);
 }
 
 void visit(RadarSpec& spec, FieldVisitor& v) {
@@ -78,7 +78,7 @@ void visit(RadarSpec& spec, FieldVisitor& v) {
   visit_choice(v, "polarisation", spec.polarisation, {"hh", "hv", "vh", "vv"});
   v.flag("intra_pulse_motion", spec.intra_pulse_motion);
   v.number("range_km", spec.range_km, within(0.1, 1000));
-  v.section("budget", [&](FieldVisitor& budget) { visit(spec.budget, budget); });
+  v.section("link_budget", [&](FieldVisitor& budget) { visit(spec.link_budget, budget); });
   v.section("platform", [&](FieldVisitor& platform) { visit(spec.platform, platform); });
 }
 
@@ -124,7 +124,7 @@ void visit(SeaSpec& spec, FieldVisitor& v) {
   visit_choice(v, "spectrum", spec.spectrum, {"jonswap", "bretschneider", "table"});
   if (v.optional("table", !spec.table.empty())) v.text("table", spec.table);
   visit_sweep(v, "significant_wave_height_m", spec.significant_wave_height_m, kWaveHeights, spec.height_rule,
-              {"of_table"});
+              {"from_table"});
   if (v.optional("peak_period_s", spec.spectrum != SpectrumKind::kTable)) {
     visit_sweep(v, "peak_period_s", spec.peak_period_s, within(0.5, 40), spec.period_rule,
                 {"dnv_wind_sea", "wind_and_fetch"});
@@ -158,7 +158,7 @@ void visit(SeaReflectionSpec& spec, FieldVisitor& v) {
   v.number("temperature_c", spec.temperature_c, within(-2, 29));
   v.number("salinity_psu", spec.salinity_psu, within(0, 40));
   visit_choice(v, "roughness", spec.roughness, {"miller_brown_vegh", "ament", "none"});
-  visit_choice(v, "paths", spec.paths, {"all", "direct", "multipath"});
+  visit_choice(v, "paths", spec.paths, {"all", "direct_only", "multipath_only"});
 }
 
 void visit(LineLayout& layout, FieldVisitor& v) {
@@ -182,35 +182,35 @@ void visit(MotionSpec& spec, FieldVisitor& v) {
   v.number("roll_quadratic_damping", spec.roll_quadratic_damping, within(0, 100));
   v.number("pitch_damping", spec.pitch_damping, within(0, 2));
   v.number("yaw_damping", spec.yaw_damping, within(0, 2));
-  v.number("yaw_rate_deg_s", spec.yaw_rate_std_deg_s, within(0, 180));
+  v.number("yaw_rate_std_deg_s", spec.yaw_rate_std_deg_s, within(0, 180));
   v.number("length_m", spec.length_m, within(0, 1000));
   v.number("beam_m", spec.beam_m, within(0, 200));
   v.number("draught_m", spec.draught_m, within(0, 50));
   v.number("heave_period_s", spec.heave_period_s, zero_or_within(0.2, 60));
   v.number("heave_damping", spec.heave_damping, within(0, 2));
   v.number("metacentric_height_m", spec.metacentric_height_m, within(0.01, 20));
-  v.number("roll_radius_m", spec.roll_gyradius_m, within(0, 100));
-  v.number("pitch_radius_m", spec.pitch_radius_m, within(0, 500));
-  v.number("yaw_radius_m", spec.yaw_radius_m, within(0, 500));
+  v.number("roll_gyradius_m", spec.roll_gyradius_m, within(0, 100));
+  v.number("pitch_gyradius_m", spec.pitch_gyradius_m, within(0, 500));
+  v.number("yaw_gyradius_m", spec.yaw_gyradius_m, within(0, 500));
   v.number("speed_mps", spec.speed_mps, within(0, 40));
   if (v.optional("file", !spec.file.empty())) v.text("file", spec.file);
   v.number("series_start_s", spec.series_start_s, within(-1e6, 1e6));
-  v.number("rao_length_m", spec.wamit_ulen_m, above_up_to(0, 1000));
+  v.number("wamit_ulen_m", spec.wamit_ulen_m, above_up_to(0, 1000));
   if (v.optional("sections", !spec.sections.empty())) v.text("sections", spec.sections);
   v.number("diameter_m", spec.diameter_m, within(0, 50));
-  v.number("centre_above_water_m", spec.origin_above_waterline_m, within(-10, 50));
+  v.number("origin_above_waterline_m", spec.origin_above_waterline_m, within(-10, 50));
   visit_choice(v, "waves", spec.waves, {"same_field", "independent"});
   v.number("step_s", spec.step_s, within(0.001, 0.1));
-  v.number("preroll_s", spec.spin_up_s, within(0, 3600));
+  v.number("spin_up_s", spec.spin_up_s, within(0, 3600));
 }
 
 void visit(SolverSpec& spec, FieldVisitor& v) {
-  v.number("ray_spacing_m", spec.ray_spacing_m, zero_or_within(0.001, 10));
+  v.number("min_patch_m", spec.min_patch_m, zero_or_within(5e-5, 1));
   v.integer("max_bounces", spec.max_bounces, within(1, kMaxBounces));
-  v.number("max_turn_deg", spec.max_aspect_change_deg, zero_or_within(0.001, 5));
+  v.number("max_aspect_change_deg", spec.max_aspect_change_deg, zero_or_within(0.001, 5));
   v.number("crease_deg", spec.crease_deg, within(0, 60));
   v.flag("edges", spec.edges);
-  v.number("radar_range_m", spec.wavefront_range_m, zero_or_within(100, 1e7));
+  v.number("wavefront_range_m", spec.wavefront_range_m, zero_or_within(100, 1e7));
 }
 
 void visit(PointSpec& spec, FieldVisitor& v) {
@@ -268,10 +268,10 @@ void visit(TargetSpec& spec, FieldVisitor& v) {
   }
   if (v.optional("motion", is_mesh)) v.section("motion", [&](FieldVisitor& motion) { visit(spec.motion, motion); });
   if (v.optional("solver", is_mesh)) v.section("solver", [&](FieldVisitor& solver) { visit(spec.solver, solver); });
-  if (v.optional("with", !spec.with.empty())) {
+  if (v.optional("companions", !spec.companions.empty())) {
     v.list(
-        "with", spec.with.size(), 100, [&](std::size_t size) { spec.with.resize(size); },
-        [&](std::size_t i, FieldVisitor& item) { visit(spec.with[i], item); });
+        "companions", spec.companions.size(), 100, [&](std::size_t size) { spec.companions.resize(size); },
+        [&](std::size_t i, FieldVisitor& item) { visit(spec.companions[i], item); });
   }
 }
 
@@ -280,12 +280,12 @@ void visit(ClutterSpec& spec, FieldVisitor& v) {
   v.number("scr_db", spec.scr_db, within(-60, 200));
   visit_choice(v, "scr_definition", spec.scr_definition, {"per_pulse", "peak_cell", "extent"});
   v.flag("enabled", spec.enabled);
-  visit_choice(v, "noise_level", spec.noise_level, {"to_clutter", "snr", "thermal"});
-  v.number("noise_to_clutter_db", spec.noise_to_clutter_db, within(-200, 60));
+  visit_choice(v, "noise_level", spec.noise_level, {"cnr", "snr", "thermal"});
+  v.number("cnr_db", spec.cnr_db, within(-60, 200));
   v.number("snr_db", spec.snr_db, within(-100, 200));
   v.number("texture_shape", spec.texture_shape, within(0.1, 1000));
-  v.number("texture_time_s", spec.texture_correlation_time_s, within(0.1, 1000));
-  visit_choice(v, "doppler", spec.doppler, {"given", "sea", "wave_field"});
+  v.number("texture_correlation_time_s", spec.texture_correlation_time_s, within(0.1, 1000));
+  visit_choice(v, "doppler", spec.doppler, {"prescribed", "sea_state", "wave_resolved"});
   v.number("doppler_mean_mps", spec.doppler_mean_mps, within(-20, 20));
   v.number("doppler_spread_mps", spec.doppler_spread_mps, within(0, 20));
   v.number("hh_velocity_factor", spec.hh_velocity_factor, within(0, 5));
@@ -327,7 +327,7 @@ void visit(FeatureSpec& spec, FieldVisitor& v) {
 
 void visit(LearningSpec& spec, FieldVisitor& v) {
   visit_choice(v, "fusion", spec.fusion, {"split", "in_sample"});
-  v.number("network_share", spec.network_fraction, within(0.1, 0.9));
+  v.number("network_fraction", spec.network_fraction, within(0.1, 0.9));
   v.integer("epochs", spec.epochs, within(1, 10000));
   v.integer("batch_size", spec.batch_size, within(1, 4096));
   v.number("learning_rate", spec.learning_rate, within(1e-6, 1));

@@ -99,7 +99,7 @@ void visit(MaterialSpec& spec, FieldVisitor& v) {
 void check_dispersion(const DispersionSpec& spec, const std::string& path, bool magnetic,
                       const ScenarioDocument& document) {
   if (magnetic && spec.conductivity_s_m > 0) {
-    document.fail_at(path + ".conductivity_s_m", "must stand with a permittivity");
+    document.fail_at(path + ".conductivity_s_m", "not allowed here: valid only with a permittivity");
   }
   for (std::size_t i = 1; i < spec.table.size(); ++i) {
     if (spec.table[i].frequency_ghz <= spec.table[i - 1].frequency_ghz) {
@@ -116,7 +116,7 @@ void check_material(const MaterialSpec& spec, const ScenarioDocument& document) 
   }
   const auto only = [&](const char* key, SurfaceKind kind, const char* name) {
     if (spec.kind != kind && document.root.find(key) != nullptr) {
-      document.fail_at(key, fmt::format("must not stand here, it belongs to kind: {}", name));
+      document.fail_at(key, fmt::format("not allowed here: valid only with kind: {}", name));
     }
   };
   only("conductivity_s_m", SurfaceKind::kConductor, "conductor");

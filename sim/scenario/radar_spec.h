@@ -17,12 +17,12 @@ enum class Polarisation { kHh, kHv, kVh, kVv };  // first letter received, secon
 
 // Quantities of the radar equation, for clutter and noise levels that are not given as a ratio.
 struct LinkBudgetSpec {
-  double beamwidth_deg = 1.5;   // of the antenna in azimuth, one way at half power, 0.01 <= x <= 60
-  double peak_power_kw = 10;    // 1e-6 <= x <= 1e5
-  double antenna_gain_db = 40;  // 0 <= x <= 70
-  double noise_figure_db = 4;   // 0 <= x <= 40
-  double losses_db = 6;         // 0 <= x <= 60
-  double temperature_k = 290;   // 1 <= x <= 10000
+  double beamwidth_deg = 1.5;            // of the antenna in azimuth, one way at half power, 0.01 <= x <= 60
+  double peak_power_kw = 10;             // 1e-6 <= x <= 1e5
+  double antenna_gain_db = 40;           // 0 <= x <= 70
+  double noise_figure_db = 4;            // 0 <= x <= 40
+  double losses_db = 6;                  // 0 <= x <= 60
+  double reference_temperature_k = 290;  // T_0 of the noise power k T_0 F per hertz, 1 <= x <= 10000
 };
 
 // Motion of the radar relative to the fixed reference point of the target; the line of sight rotates as the radar
@@ -49,8 +49,8 @@ struct RadarSpec {
   Polarisation polarisation = Polarisation::kVv;
   // the f/mu term of Doppler inside the pulse, in echo and map; only with points as targets
   bool intra_pulse_motion = false;
-  double range_km = 20;  // to the target's reference point, for link_budget and platform, 0.1 <= x <= 1000
-  LinkBudgetSpec budget;
+  double range_km = 20;  // to the target's reference point, for link budget and platform, 0.1 <= x <= 1000
+  LinkBudgetSpec link_budget;
   PlatformSpec platform;
 };
 
@@ -84,11 +84,10 @@ struct ClutterSpec {
   ScrDefinition scr_definition = ScrDefinition::kPerPulse;
   bool enabled = true;
   NoiseLevel noise_level = NoiseLevel::kCnr;
-  double noise_to_clutter_db = -30;  // receiver noise relative to clutter, -200 <= x <= 60
-  double snr_db = 20;                // target to noise, per pulse, -100 <= x <= 200; where noise_level is snr
-  double texture_shape = 2;          // shape of the K distribution's gamma texture, 0.1 <= x <= 1000
-  double texture_correlation_time_s =
-      3;  // time in which the correlation of the texture falls to e^{-1/2}, 0.1 <= x <= 1000
+  double cnr_db = 30;                     // clutter-to-noise ratio, -60 <= x <= 200; where noise_level is cnr
+  double snr_db = 20;                     // target to noise, per pulse, -100 <= x <= 200; where noise_level is snr
+  double texture_shape = 2;               // shape of the K distribution's gamma texture, 0.1 <= x <= 1000
+  double texture_correlation_time_s = 3;  // the texture's correlation falls to e^{-1/2} in this time, 0.1 <= x <= 1000
   ClutterDoppler doppler = ClutterDoppler::kPrescribed;
   double doppler_mean_mps = 0;      // mean velocity of the clutter, positive = receding, |x| <= 20
   double doppler_spread_mps = 0.5;  // standard deviation of its velocity, 0 <= x <= 20

@@ -11,6 +11,7 @@
 #include "sim/core/text/number.h"
 #include "sim/core/text/suggestion.h"
 #include "sim/scenario/fields.h"
+#include "sim/scenario/renamed_keys.h"
 
 namespace seaglint {
 
@@ -124,6 +125,7 @@ class Reader : public FieldVisitor {
     if (node == nullptr) return;
     const auto found = std::find(names.begin(), names.end(), std::string_view(node->text));
     if (node->kind != YamlNode::Kind::kScalar || found == names.end()) {
+      refuse_renamed(*node, path_of(key));
       fail(*node, path_of(key),
            fmt::format("must be {}{}", names.size() > 2 ? "one of " : "",
                        fmt::join(names, names.size() > 2 ? ", " : " or ")));
@@ -169,6 +171,7 @@ class Reader : public FieldVisitor {
       values.clear();
       return;
     }
+    refuse_renamed(*node, path_of(key));
     if (word != nullptr) *word = 0;
     values = node->kind == YamlNode::Kind::kList ? list_sweep(*node, path_of(key), bound)
                                                  : scalar_sweep(*node, path_of(key), bound, words);
@@ -239,6 +242,12 @@ class Reader : public FieldVisitor {
     document_.fail(node.location, path, fmt::format("{}: {}", shown(node), bound));
   }
 
+  // A value of an earlier version is refused by its new name.
+  void refuse_renamed(const YamlNode& node, const std::string& path) const {
+    if (node.kind != YamlNode::Kind::kScalar) return;
+    if (const auto now = renamed_value(path, node.text)) fail(node, path, fmt::format("renamed to '{}'", *now));
+  }
+
   static bool is_plain(const YamlNode& node) { return node.kind == YamlNode::Kind::kScalar && !node.quoted; }
 
   void expect_map(const YamlNode& node, const std::string& path) const {
@@ -265,6 +274,8 @@ class Reader : public FieldVisitor {
     fields(allowed);
     for (const YamlEntry& entry : map_.entries) {
       if (std::find(allowed.keys.begin(), allowed.keys.end(), entry.key) != allowed.keys.end()) continue;
+      if (const auto renamed = renamed_key(path_of(entry.key), entry.value.text))
+        document_.fail(entry.location, path_of(entry.key), *renamed);
       document_.fail(entry.location, path_of(entry.key), "unknown key: " + suggestion(entry.key, allowed.keys));
     }
   }

@@ -35,12 +35,12 @@ struct MotionSpec {
   double metacentric_height_m = 1.95;  // 0.01 <= x <= 20
   // of gyration of the mass about the centre of gravity; 0: derived from roll_period_s, 0 <= x <= 100
   double roll_gyradius_m = 0;
-  double pitch_radius_m = 0;  // (auto) 0 <= x <= 500
-  double yaw_radius_m = 0;    // (auto) 0 <= x <= 500
-  double speed_mps = 0;       // of model ship, rao or series, forward, 0 <= x <= 40
-  std::string file;           // of model series (attitude over time) or rao (response operators)
-  double series_start_s = 0;  // time of the series at t = 0, -1e6 <= x <= 1e6
-  double wamit_ulen_m = 1;    // ULEN of a WAMIT table, 0 < x <= 1000
+  double pitch_gyradius_m = 0;  // (auto) 0 <= x <= 500
+  double yaw_gyradius_m = 0;    // (auto) 0 <= x <= 500
+  double speed_mps = 0;         // of model ship, rao or series, forward, 0 <= x <= 40
+  std::string file;             // of model series (attitude over time) or rao (response operators)
+  double series_start_s = 0;    // time in the series that is t = 0, -1e6 <= x <= 1e6
+  double wamit_ulen_m = 1;      // ULEN of a WAMIT table, 0 < x <= 1000
   std::string
       sections;  // file of a ship's sections below the waterline; default: those of the mesh, else a parametric form
   double diameter_m = 0;  // (auto) of a float's waterplane, 0 <= x <= 50
@@ -78,7 +78,7 @@ inline constexpr int kDefaultBounces = 40, kMaxBounces = 200;
 
 // (auto): zero means derived from the size of the mesh (sim/scattering/README.md).
 struct SolverSpec {
-  double ray_spacing_m = 0;           // (auto) of rays that would find the detail followed, 0 or 0.001 <= x <= 10
+  double min_patch_m = 0;             // (auto) side of the smallest illuminated patch kept, 0 or 5e-5 <= x <= 1
   int max_bounces = kDefaultBounces;  // 1 <= x <= kMaxBounces
   double max_aspect_change_deg = 0;   // (auto) aspect change covered by one aspect trace, 0 or 0.001 <= x <= 5
   double crease_deg = 20;  // crease angle: adjacent facets whose normals differ by less belong to one smooth surface, 0
@@ -105,7 +105,7 @@ struct TargetSpec {
   MotionSpec motion;
   SolverSpec solver;
   std::vector<PointSpec> points;
-  std::vector<CompanionSpec> with;  // their echoes are added; no shadowing or multiple scattering between targets
+  std::vector<CompanionSpec> companions;  // their echoes are added; no shadowing or multiple scattering between targets
 };
 
 }  // namespace seaglint

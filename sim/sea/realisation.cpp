@@ -35,7 +35,7 @@ void check_system(const std::string& section, double height, double period, doub
   const double peak = 2 * kPi / period;
   if (!(cutoff > peak)) {
     throw InputError(
-        fmt::format("sea.cutoff_rad_s: value {}: must be above the peak, {:.4g} rad/s (4 times the peak holds "
+        fmt::format("sea.cutoff_rad_s: value {}: must be above the peak, {:.4g} rad/s (4 times the peak contains "
                     "all but 0.4 % of the energy)",
                     cutoff, peak));
   }

@@ -173,7 +173,7 @@ void ShipSbrReference(benchmark::State& state) {
   const Vec3 r = direction(static_cast<double>(state.range(0)));
   const RadarBasis basis = radar_basis(r);
   const std::vector<double> k = band(), one(1, k.front());
-  const Matrices exact = scattering_matrices(flat_ship(), monostatic(basis), k, {0.014, kDefaultBounces}, 2);
+  const Matrices exact = scattering_matrices(flat_ship(), monostatic(basis), k, {1e-3, kDefaultBounces}, 2);
   const Matrices by_beams = scattering_matrices(flat_ship(), monostatic(basis), k, {0, kDefaultBounces}, 2);
   const Trajectory trajectory = rolling(0.005, {0, 0, 1.7});
   for (auto _ : state) {

@@ -79,15 +79,18 @@ TEST_F(CavityCommand, RefusesWhatIsNoCavity) {
   refused({"--frequency-ghz", "3", "--cavity", "dukt"}, "--cavity dukt: the mesh has no such part");
   refused({"--frequency-ghz", "3", "--cavity", "box"}, "face away from its inside");
   refused({"--frequency-ghz", "94", "--cavity", "duct"}, "patches of 0.000532 m at this wavelength: at most 20000");
-  refused({"--frequency-ghz", "3", "--cavity", "duct", "--sea-reflection", "--height-m", "2"},
-          "leave out --sea-reflection");
-  refused({"--frequency-ghz", "3", "--cavity", "duct", "--range-m", "100"}, "leave out --sea-reflection, --range-m");
+  refused({"--frequency-ghz", "3", "--cavity", "duct", "--sea-reflection", "--origin-height-m", "2"},
+          "--cavity does not support --sea-reflection");
+  refused({"--frequency-ghz", "3", "--cavity", "duct", "--wavefront-range-m", "100"},
+          "does not support --sea-reflection, --wavefront-range-m");
   refused({"--frequency-ghz", "3", "--cavity", "duct", "--only", "mechanism=edge"}, "select by part=NAME");
   refused({"--frequency-ghz", "16", "--cavity", "duct", "--material",
            SEAGLINT_SOURCE_DIR "/assets/materials/ram_loaded_epoxy.yaml"},
           "its walls must be pec, not");
-  refused({"--frequency-ghz", "3", "--cavity-patches", "8"}, "--cavity-patches requires --cavity");
-  refused({"--frequency-ghz", "3", "--cavity", "duct", "--cavity-patches", "2"}, "--cavity-patches");
+  refused({"--frequency-ghz", "3", "--cavity-patches-per-wavelength", "8"},
+          "--cavity-patches-per-wavelength requires --cavity");
+  refused({"--frequency-ghz", "3", "--cavity", "duct", "--cavity-patches-per-wavelength", "2"},
+          "--cavity-patches-per-wavelength");
 }
 
 }  // namespace

@@ -51,10 +51,11 @@ TEST(Check, SaysWhatIsDoubtfulAboutMeshes) {
   holed.triangles.pop_back();
   write_mesh(folder.path() / "holed.obj", holed);
   const std::string file = folder.path() / "doubtful.yaml";
-  write_file(file,
-             "seaglint: 1\nview: {azimuth_deg: 10}\nsea: {significant_wave_height_m: 1}\n"
-             "targets:\n  a: {label: 1, mesh: inside_out.obj, motion: {model: fixed}, with: [{target: b, x_m: 10}]}\n"
-             "  b: {label: 0, mesh: holed.obj, motion: {model: fixed}}\n");
+  write_file(
+      file,
+      "seaglint: 1\nview: {azimuth_deg: 10}\nsea: {significant_wave_height_m: 1}\n"
+      "targets:\n  a: {label: 1, mesh: inside_out.obj, motion: {model: fixed}, companions: [{target: b, x_m: 10}]}\n"
+      "  b: {label: 0, mesh: holed.obj, motion: {model: fixed}}\n");
   const std::string said =
       "seaglint: warning: targets.a.mesh: 1 closed surface is inside out (60 triangles): turned outwards\n"
       "seaglint: warning: targets.b.mesh: 3 open edges; 1 of 1 surfaces are open: holes, or sheets, seen from both "
@@ -70,9 +71,8 @@ TEST(Check, SaysWhatIsDoubtfulAboutMeshes) {
 // Eight components are another sea in every realisation; the default 512 are not.
 TEST(Check, SaysWhereComponentsAreTooFew) {
   const std::string said =
-      "seaglint: warning: sea.components: 8 for waves of Tp 8 s make strata 1.2 of the peak frequency wide, and the "
-      "mean period is another "
-      "one in every realisation: 98 and more hold it within about 1 %\n";
+      "seaglint: warning: sea.components: 8 components at Tp 8 s give strata 1.2 of the peak frequency wide, so that "
+      "the mean period varies between realisations; 98 or more keep it within about 1 %\n";
   EXPECT_THAT(run_program({"check", kPoints, "--set", "sea.components=8"}).err, HasSubstr(said));
   const TemporaryFolder folder;
   EXPECT_THAT(
@@ -81,7 +81,7 @@ TEST(Check, SaysWhereComponentsAreTooFew) {
       HasSubstr(said));
   EXPECT_THAT(run_program({"check", kPoints, "--set", "sea.components=98"}).err, Not(HasSubstr("sea.components")));
   EXPECT_THAT(run_program({"check", kPoints, "--set", "sea.swell={significant_wave_height_m: 1, components: 9}"}).err,
-              HasSubstr("sea.swell.components: 9 for waves of Tp 12 s make strata 0.4 of the peak frequency wide"));
+              HasSubstr("sea.swell.components: 9 components at Tp 12 s give strata 0.4 of the peak frequency wide"));
 }
 
 TEST(Check, RefusesMeshesThatScatterNothing) {
@@ -94,7 +94,7 @@ TEST(Check, RefusesMeshesThatScatterNothing) {
     expect_refused({"check", file}, "bad.yaml:3:23: targets.a.mesh: " + message);
   };
   refused("line.obj", "no triangle has an area: nothing scatters");
-  refused("far.obj", "the target of 1.414 m lies 9000 m from its origin");
+  refused("far.obj", "the target of 1.414 m is centred 9000 m from the origin");
 }
 
 TEST(Keys, AreListedWithDefaultAndBound) {
@@ -129,7 +129,7 @@ TEST(Check, RefusesATypoInAKey) {
 TEST(Check, RefusesANegativeWaveHeight) {
   expect_refused({"check", kPoints, "--set", "sea.significant_wave_height_m=-1"},
                  "--set sea.significant_wave_height_m: value '-1': must be a number, a list or from:to:step, 0 or "
-                 "within 1e-06 and 30, or of_table\n");
+                 "within 1e-06 and 30, or from_table\n");
 }
 
 TEST(Check, RefusesAMeshThatIsNotThere) {

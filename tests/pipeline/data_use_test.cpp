@@ -71,9 +71,9 @@ TEST_F(DataSetUse, IsNotMergedWithAShardMissing) {
 
 TEST_F(DataSetUse, GivesASampleAgainBitForBit) {
   const fs::path out = folder_->path() / "sample.npz";
-  const ProgramResult result = run_program({"remake", data_, "--sample", "17", "-o", out});
+  const ProgramResult result = run_program({"regenerate", data_, "--sample", "17", "-o", out});
   ASSERT_EQ(result.code, 0) << result.err;
-  EXPECT_THAT(result.out, HasSubstr("made again it is as stored, bit for bit"));
+  EXPECT_THAT(result.out, HasSubstr("the regenerated sample matches the stored one, bit for bit"));
   SKIP_WITHOUT_PYTHON();
   expect_equal_in_python(
       "a, h = np.load(out), h5py.File(data + '/dataset.h5')\n"
@@ -99,11 +99,11 @@ TEST_F(DataSetUse, SaysWhatIsOtherInASampleMadeAgain) {
   ASSERT_NE(manifest.find(original), std::string::npos);
   manifest.replace(manifest.find(original), original.size(), sha256(yaml));
   write_file(data / "manifest.json", manifest);
-  const ProgramResult result = run_program({"remake", data, "--sample", "3"});
+  const ProgramResult result = run_program({"regenerate", data, "--sample", "3"});
   EXPECT_EQ(result.code, 2);
-  EXPECT_THAT(result.err, HasSubstr("sample 3 made again: its map differs by up to"));
+  EXPECT_THAT(result.err, HasSubstr("sample 3 regenerated: its map differs by up to"));
   EXPECT_THAT(result.err, HasSubstr("scr_per_pulse_db"));
-  const ProgramResult beyond = run_program({"remake", data, "--sample", "40"});
+  const ProgramResult beyond = run_program({"regenerate", data, "--sample", "40"});
   EXPECT_EQ(beyond.code, 2);
   EXPECT_THAT(beyond.err, HasSubstr("--sample 40: the data set has samples 0 to 39"));
 }
@@ -156,9 +156,9 @@ TEST_F(DataSetUse, IsNotExportedAmongFilesOfAnother) {
     EXPECT_THAT(result.err, HasSubstr(message));
   };
   const std::string before = read_file(out / "shard_00000.npz");
-  refused(
-      data_, out,
-      "shards: the directory holds shard_00000.npz, which is not of this data set's export; choose a new directory\n");
+  refused(data_, out,
+          "shards: the directory contains shard_00000.npz, which is not of this data set's export; choose a new "
+          "directory\n");
   EXPECT_EQ(read_file(out / "shard_00000.npz"), before);
   // Its own export goes on after it was cut short.
   fs::remove(out / "shard_00000.npz");
@@ -166,7 +166,7 @@ TEST_F(DataSetUse, IsNotExportedAmongFilesOfAnother) {
   EXPECT_EQ(run_program({"export", other, "-o", out}).code, 0);
   EXPECT_EQ(read_file(out / "shard_00000.npz"), before);
   write_file(out / "notes.txt", "mine");
-  refused(other, out, "shards: the directory holds notes.txt");
+  refused(other, out, "shards: the directory contains notes.txt");
   refused(other, out / "notes.txt", "notes.txt: is a file, not a directory");
   refused(other, other, "other: is the data set itself; export it into another directory\n");
   EXPECT_FALSE(fs::exists(other / "shard_00000.npz"));
@@ -193,7 +193,7 @@ TEST_F(DataSetUse, SaysWhereItCannotBeWritten) {
        std::vector<std::vector<std::string>>{{"merge", data_, "-o", "/proc/x.h5"},
                                              {"export", data_, "-o", "/proc/x.npz"},
                                              {"export", data_, "-o", "/proc/x"},
-                                             {"remake", data_, "--sample", "3", "-o", "/proc/x.npz"}}) {
+                                             {"regenerate", data_, "--sample", "3", "-o", "/proc/x.npz"}}) {
     const ProgramResult result = run_program(words);
     EXPECT_EQ(result.code, 1) << words[0];
     EXPECT_THAT(result.err, HasSubstr("seaglint: /proc/x")) << words[0];

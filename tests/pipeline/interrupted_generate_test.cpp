@@ -87,7 +87,7 @@ Finished finished_shards(const fs::path& directory) {
 void expect_kept(const Finished& before, const Finished& after) {
   for (const auto& [name, file] : before) {
     ASSERT_TRUE(after.contains(name)) << name << " was lost";
-    EXPECT_EQ(after.at(name), file) << name << " was made again";
+    EXPECT_EQ(after.at(name), file) << name << " was generated again";
   }
 }
 

@@ -81,9 +81,9 @@ TEST(MapCommand, APointOnAConductingSeaIsSeenFourTimesAsStrong) {
   };
   EXPECT_NEAR(amplitude({}), 2, 0.04);
   EXPECT_NEAR(amplitude({"--set", "sea_reflection={enabled: true, surface: conductor, roughness: none}"}), 8, 0.16);
-  EXPECT_NEAR(
-      amplitude({"--set", "sea_reflection={enabled: true, surface: conductor, roughness: none, paths: multipath}"}), 6,
-      0.12);
+  EXPECT_NEAR(amplitude({"--set",
+                         "sea_reflection={enabled: true, surface: conductor, roughness: none, paths: multipath_only}"}),
+              6, 0.12);
 }
 
 TEST(MapCommand, RefusesASeaReflectionWithoutAnImage) {
@@ -169,9 +169,9 @@ TEST(MapCommand, CompanionsOfAShipUnderWayStayInTheWater) {
     for (const char* sample : {"0", "1", "2", "3"}) {
       const auto found = cluster_centres(
           {"--set", "view={azimuth_deg: 60, elevation_deg: 0}", "--set", "sea={significant_wave_height_m: 0}", "--set",
-           "targets={flagship: {label: 1, " + corner + ", motion: {model: ship, speed_mps: 2, " + hull + "}, with: [" +
-               with + "]}, consort: {label: 1, " + corner + ", motion: {model: ship, speed_mps: 2, " + hull +
-               "}}, decoy: {label: 0, " + corner +
+           "targets={flagship: {label: 1, " + corner + ", motion: {model: ship, speed_mps: 2, " + hull +
+               "}, companions: [" + with + "]}, consort: {label: 1, " + corner +
+               ", motion: {model: ship, speed_mps: 2, " + hull + "}}, decoy: {label: 0, " + corner +
                ", motion: {model: float}}, buoy: {label: 0, points: [{position_m: [0, 0, 0], "
                "amplitude_m: 4}]}}",
            "--set", "dataset={maps_per_case: 1, realisations_per_case: 1}", "--set", "clutter.enabled=false",
@@ -195,13 +195,13 @@ TEST(MapCommand, CompanionsOfAShipUnderWayStayInTheWater) {
 
 TEST(MapCommand, TheRadarsOwnWayShowsUnlessItIsTakenOut) {
   std::vector<std::string> moving = kOnePoint;
-  moving.insert(moving.end(), {"--set", "radar.platform={velocity_mps: [2.5, 0, 0], compensated: false}", "--set",
-                               "clutter.scr_db=60"});
+  moving.insert(moving.end(), {"--set", "radar.platform={velocity_mps: [2.5, 0, 0], motion_compensated: false}",
+                               "--set", "clutter.scr_db=60"});
   const auto seen = cluster_centres(moving);
   ASSERT_GE(seen.size(), 1u);
   EXPECT_NEAR(seen[0][1], -1.5 + 2.5, 0.005);  // the radar ahead draws away
   EXPECT_NEAR(seen[0][0], -30, 0.02);
-  moving.insert(moving.end(), {"--set", "radar.platform.compensated=true"});
+  moving.insert(moving.end(), {"--set", "radar.platform.motion_compensated=true"});
   EXPECT_NEAR(cluster_centres(moving)[0][1], -1.5, 0.005);
 }
 

@@ -38,10 +38,10 @@ class Options : public testing::Test {
 // 010 is ten, neither eight nor refused.
 TEST_F(Options, NumbersAreDecimal) {
   Words words = rcs();
-  words.insert(words.end(), {"--max-bounces", "010", "--range-m", "0100"});
+  words.insert(words.end(), {"--max-bounces", "010", "--wavefront-range-m", "0100"});
   ASSERT_EQ(run_program(words).code, 0);
   EXPECT_THAT(read_file(folder_.path() / "rcs.csv"),
-              testing::AllOf(HasSubstr("max_bounces 10,"), HasSubstr("range_m 100 ")));
+              testing::AllOf(HasSubstr("max_bounces 10,"), HasSubstr("wavefront_range_m 100 ")));
   words = {"mesh", "make", "cylinder", "--segments", "+012", "-o", folder_.path() / "c.stl"};
   ASSERT_EQ(run_program(words).code, 0);
   EXPECT_EQ(fs::file_size(folder_.path() / "c.stl"), 84u + 50u * 4 * 12);  // two of each side, one of each end
@@ -63,7 +63,7 @@ TEST_F(Options, OfNumbersTakeNothingElse) {
     expect_refused(plate(), {"--length-m", value},
                    "--length-m: value " + shown + ": must be a number (see seaglint mesh make plate --help)\n");
   }
-  expect_refused(rcs(), {"--range-m", ""}, "--range-m: value '': must be within 0 and");
+  expect_refused(rcs(), {"--wavefront-range-m", ""}, "--wavefront-range-m: value '': must be within 0 and");
   expect_refused(rcs(), {"--transmit-azimuth-deg", "0x10"}, "--transmit-azimuth-deg: value 0x10: must be within");
   expect_refused(rcs(), {"--elevation-deg", "0x10"}, "--elevation-deg: value '0x10': must be");
   expect_refused({"mesh", "make", "dihedral", "-o", folder_.path() / "d.obj"}, {"--opening-deg", "180"},

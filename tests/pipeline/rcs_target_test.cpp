@@ -28,7 +28,7 @@ TEST_F(RcsTarget, WarnsOfWhatIsWrongWithAMeshAndGoesOn) {
   const ProgramResult result = rcs({"--frequency-ghz", "0.1:10:9.9", "--azimuth-deg", "0"});
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_THAT(result.err,
-              testing::StartsWith("seaglint: warning: 1 triangle repeats another: left out\n"
+              testing::StartsWith("seaglint: warning: 1 triangle repeats another: removed\n"
                                   "seaglint: warning: 1 closed surface is inside out (60 triangles): turned outwards\n"
                                   "seaglint: warning: 3 open edges; 1 of 2 surfaces are open"));
   EXPECT_THAT(result.err, HasSubstr("wavelengths at 0.1 GHz; physical optics needs 3 and more"));
@@ -46,7 +46,7 @@ TEST_F(RcsTarget, RefusesMeshesWithoutAnythingThatScatters) {
   };
   refused("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "no triangle has an area: nothing scatters");
   refused("v 0 0 0\nv 1 0 0\nv 0 nan 1\nf 1 2 3\n", "bad.obj");
-  refused("v 0 0 0\nv 1 0 0\nv 0 1 1\n", "holds no triangles");
+  refused("v 0 0 0\nv 1 0 0\nv 0 1 1\n", "contains no triangles");
   refused("v 9000 0 0\nv 9000 1 0\nv 9000 0 1\nf 1 2 3\n", "from its origin");
 }
 
@@ -62,7 +62,7 @@ TEST_F(RcsTarget, AddsTheThicknessOfSheets) {
   const double thin = level("0", "on", ""), thick = level("1.6", "on", "");
   EXPECT_GT(std::abs(thick - thin), 0.3);
   EXPECT_THAT(read_file(table()), HasSubstr("sheet_thickness_mm 1.6"));
-  EXPECT_DOUBLE_EQ(level("1.6", "off", "a sheet thickness of 1.6 mm changes nothing: edges are off"),
+  EXPECT_DOUBLE_EQ(level("1.6", "off", "sheet thickness of 1.6 mm has no effect: edges are off"),
                    level("0", "off", ""));
   level("4", "on", "sheets of 4 mm are 0.13 wavelengths thick at 10 GHz");
   EXPECT_EQ(rcs({"--frequency-ghz", "10", "--azimuth-deg", "50", "--sheet-thickness-mm", "-1"}).code, 2);
@@ -99,7 +99,7 @@ TEST_F(RcsTarget, APlateStandingOnAConductingSeaIsADihedral) {
   // kWidthM high, its centre half of that above the water: image theory makes it 2 A cos(el) / lambda, less or more the
   // direct lobe of the doubled plate, which is a sine over k kWidthM sin(el) = 50 at 30 deg, two ways.
   const ProgramResult done = rcs({"--frequency-ghz", "16", "--azimuth-deg", "0", "--elevation-deg", "30",
-                                  "--sea-reflection", "--sea-surface", "conductor", "--height-m", "0.15"});
+                                  "--sea-reflection", "--sea-surface", "conductor", "--origin-height-m", "0.15"});
   ASSERT_EQ(done.code, 0) << done.err;
   const auto row = read_table(table()).rows.at(0);
   const double lambda = kSpeedOfLight / 16e9, dihedral = 2 * kLengthM * kWidthM * std::cos(radians(30)) / lambda;
@@ -110,13 +110,14 @@ TEST_F(RcsTarget, APlateStandingOnAConductingSeaIsADihedral) {
 
 // kWidthM high about its middle: a table of zeros would say that it does not scatter.
 TEST_F(RcsTarget, RefusesATargetThatIsWhollyUnderWater) {
-  const ProgramResult done = rcs(
-      {"--frequency-ghz", "16", "--azimuth-deg", "0", "--elevation-deg", "30", "--sea-reflection", "--height-m", "-5"});
+  const ProgramResult done = rcs({"--frequency-ghz", "16", "--azimuth-deg", "0", "--elevation-deg", "30",
+                                  "--sea-reflection", "--origin-height-m", "-5"});
   EXPECT_EQ(done.code, 2);
-  EXPECT_THAT(done.err,
-              HasSubstr("--height-m: value -5: must be greater than -0.15, else the whole target is under water\n"));
+  EXPECT_THAT(
+      done.err,
+      HasSubstr("--origin-height-m: value -5: must be greater than -0.15, else the whole target is under water\n"));
   EXPECT_EQ(rcs({"--frequency-ghz", "16", "--azimuth-deg", "0", "--elevation-deg", "30", "--sea-reflection",
-                 "--height-m", "-0.14"})
+                 "--origin-height-m", "-0.14"})
                 .code,
             0);
 }
@@ -126,7 +127,7 @@ TEST_F(RcsTarget, RefusesASeaReflectionWithoutAnImage) {
       rcs({"--frequency-ghz", "16", "--azimuth-deg", "0", "--elevation-deg", "0", "--sea-reflection"});
   EXPECT_EQ(done.code, 2);
   EXPECT_THAT(done.err, HasSubstr("--elevation-deg: value 0: must be greater than 0 with --sea-reflection"));
-  EXPECT_EQ(rcs({"--frequency-ghz", "16", "--azimuth-deg", "0", "--height-m", "3"}).code, 2);
+  EXPECT_EQ(rcs({"--frequency-ghz", "16", "--azimuth-deg", "0", "--origin-height-m", "3"}).code, 2);
   EXPECT_THAT(rcs({"--frequency-ghz", "94", "--azimuth-deg", "0", "--elevation-deg", "2", "--sea-reflection"}).err,
               HasSubstr("--frequency-ghz: value 94: must be at most 90"));
 }

@@ -86,9 +86,10 @@ TEST_F(RcsCommand, ComparedWithItsOwnTableDiffersByNothingAndDrawsIt) {
   ASSERT_EQ(result.code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("both clipped at 40 dB"));
   // 61 directions, no difference, full correlation without a turn of phase.
-  EXPECT_THAT(result.out,
-              testing::ContainsRegex(
-                  "reference.csv +vv +10 +edges +61 +0.000 +-?0.000 +-?0.000 +-?0.000 .* 1.0000 at -?0.0 deg"));
+  EXPECT_THAT(
+      result.out,
+      testing::ContainsRegex(
+          "reference.csv +vv +10 +po\\+diffraction +61 +0.000 +-?0.000 +-?0.000 +-?0.000 .* 1.0000 at -?0.0 deg"));
   const std::string figure = folder_.path() / "rcs.png";
   EXPECT_THAT(result.out, HasSubstr("Figure: " + figure));
   EXPECT_TRUE(std::filesystem::exists(figure));
@@ -145,14 +146,13 @@ TEST_F(RcsCommand, ExportsCentresAndHotSpotsOfOneViewAndSelects) {
                                "16", "--azimuth-deg", "0"});
     return run_program(more);
   };
-  const ProgramResult result =
-      reflector({"--export-centres", centres, "--export-hot-spots", spots, "--export-range-db", "40"});
+  const ProgramResult result = reflector(
+      {"--export-scattering-centres", centres, "--export-hot-spots", spots, "--export-dynamic-range-db", "40"});
   ASSERT_EQ(result.code, 0) << result.err;
   std::istringstream lines(read_file(centres));
   std::string line;
   while (std::getline(lines, line) && line.starts_with("#")) continue;
-  EXPECT_EQ(line,
-            "x_m,y_m,z_m,psi_m,hh_re,hh_im,hv_re,hv_im,vh_re,vh_im,vv_re,vv_im,strongest_dbsm,part,bounces,mechanism");
+  EXPECT_EQ(line, "x_m,y_m,z_m,psi_m,hh_re,hh_im,hv_re,hv_im,vh_re,vh_im,vv_re,vv_im,max_dbsm,part,bounces,mechanism");
   // Face on, the cell that looks at the radar is the strongest: its three-bounce echo comes from the apex.
   ASSERT_TRUE(std::getline(lines, line));
   EXPECT_THAT(line, testing::EndsWith("cell_01,3,po"));
@@ -191,10 +191,12 @@ TEST_F(RcsCommand, ExportsCentresAndHotSpotsOfOneViewAndSelects) {
   refused({"--only", "mechanism=edge", "--edges", "off"}, "--only mechanism=edge requires --edges on");
   refused({"--only", "mechanism=po", "--without", "mechanism=po"},
           "--only mechanism=po and --without mechanism=po leave nothing of it");
-  refused({"--centre-cell-m", "0.2"}, "--centre-cell-m requires --export-centres (see seaglint rcs --help)");
-  refused({"--centre-cell-m", "0.2", "--export-hot-spots", spots}, "--centre-cell-m requires --export-centres");
-  refused({"--export-range-db", "40"}, "--export-range-db requires --export-centres or --export-hot-spots");
-  refused({"--export-centres", centres, "--elevation-deg", "0:1:1"},
+  refused({"--centre-cell-m", "0.2"}, "--centre-cell-m requires --export-scattering-centres (see seaglint rcs --help)");
+  refused({"--centre-cell-m", "0.2", "--export-hot-spots", spots},
+          "--centre-cell-m requires --export-scattering-centres");
+  refused({"--export-dynamic-range-db", "40"},
+          "--export-dynamic-range-db requires --export-scattering-centres or --export-hot-spots");
+  refused({"--export-scattering-centres", centres, "--elevation-deg", "0:1:1"},
           "one frequency, azimuth and elevation; there are 2 rows");
   refused({"--export-hot-spots", folder_.path() / "spots.stl"}, "colours need the ending .glb or .gltf");
 }
@@ -232,8 +234,7 @@ TEST_F(RcsCommand, SweepsAReceiverRoundATransmitterThatStandsStill) {
   for (const auto& other : {std::vector<std::string>{}, {"--transmit-azimuth-deg", "21"}}) {
     const ProgramResult compared = against(other);
     EXPECT_EQ(compared.code, 2);
-    EXPECT_THAT(compared.err,
-                HasSubstr("own.csv: its transmitter stands at azimuth 20 deg, elevation 0 deg, the sweep"));
+    EXPECT_THAT(compared.err, HasSubstr("own.csv: its transmitter is at azimuth 20 deg, elevation 0 deg, the sweep"));
     EXPECT_FALSE(std::filesystem::exists(table()));
   }
   EXPECT_EQ(against({"--transmit-azimuth-deg", "20"}).code, 0);
@@ -247,13 +248,14 @@ TEST_F(RcsCommand, SweepsAReceiverRoundATransmitterThatStandsStill) {
 TEST_F(RcsCommand, BendsTheWavefrontOfARadarNearby) {
   ASSERT_EQ(run_program({"mesh", "make", "plate", "--length-m", "2", "--width-m", "0.2", "-o", plate()}).code, 0);
   const auto level = [&](const std::string& range_m) {
-    EXPECT_EQ(rcs({"--frequency-ghz", "10", "--azimuth-deg", "0", "--edges", "off", "--range-m", range_m}).code, 0);
+    EXPECT_EQ(
+        rcs({"--frequency-ghz", "10", "--azimuth-deg", "0", "--edges", "off", "--wavefront-range-m", range_m}).code, 0);
     return read_table(table()).rows.at(0).back();
   };
   // 2 L^2 / lambda = 267 m: far beyond it nothing changes, at 30 m the ends are 14 rad behind.
   EXPECT_NEAR(level("100000"), level("0"), 0.01);
   EXPECT_LT(level("30"), level("0") - 6);
-  const ProgramResult inside = rcs({"--frequency-ghz", "10", "--azimuth-deg", "0", "--range-m", "0.5"});
+  const ProgramResult inside = rcs({"--frequency-ghz", "10", "--azimuth-deg", "0", "--wavefront-range-m", "0.5"});
   EXPECT_EQ(inside.code, 2);
   EXPECT_THAT(inside.err, HasSubstr("radar range 0.5 m: the target reaches"));
 }
@@ -297,9 +299,9 @@ TEST_F(RcsCommand, RefusesEdgesAndRangesThatCannotBe) {
   refused({"--frequency-ghz", "10", "--azimuth-deg", "0", "--transmit-elevation-deg", "3"},
           "--transmit-elevation-deg requires --transmit-azimuth-deg");
   refused({"--frequency-ghz", "10", "--azimuth-deg", "0", "--elevation-deg", "2", "--transmit-azimuth-deg", "3",
-           "--sea-reflection", "--height-m", "5"},
+           "--sea-reflection", "--origin-height-m", "5"},
           "are monostatic");
-  refused({"--frequency-ghz", "10", "--azimuth-deg", "0", "--range-m", "-1"}, "--range-m");
+  refused({"--frequency-ghz", "10", "--azimuth-deg", "0", "--wavefront-range-m", "-1"}, "--wavefront-range-m");
 }
 
 }  // namespace

@@ -101,9 +101,9 @@ TEST_F(InputErrors, OfAMeshThatIsMissingOrCutShort) {
 // The 144 m ship reaches 72 m from its origin; the second order of the wavefront needs ten times that.
 TEST_F(InputErrors, OfARadarTooNearForItsWavefront) {
   for (const char* command : {"check", "generate"}) {
-    Words words{command, "scenarios/quick.yaml", "--set", "targets.ship.solver.radar_range_m=500"};
+    Words words{command, "scenarios/quick.yaml", "--set", "targets.ship.solver.wavefront_range_m=500"};
     if (words.front() != "check") words.insert(words.end(), {"-o", folder() / "data"});
-    expect_failure(folder(), words, 2, "targets.ship.solver: radar range 500 m");
+    expect_failure(folder(), words, 2, "targets.ship.solver: wavefront range 500 m");
   }
 }
 
@@ -113,24 +113,27 @@ TEST_F(InputErrors, OfARadarTooNearForALayoutOrACompanion) {
   write_file(
       folder() / "near.yaml",
       "seaglint: 1\ntargets:\n"
-      "  ship: {label: 1, mesh: assets/icosahedral_reflector.glb, with: [{target: decoy, x_m: 0, y_m: 60}], solver: "
-      "{radar_range_m: 400}}\n"
-      "  decoy: {label: 0, mesh: assets/icosahedral_reflector.glb, solver: {radar_range_m: 400}}\n"
+      "  ship: {label: 1, mesh: assets/icosahedral_reflector.glb, companions: [{target: decoy, x_m: 0, y_m: 60}], "
+      "solver: "
+      "{wavefront_range_m: 400}}\n"
+      "  decoy: {label: 0, mesh: assets/icosahedral_reflector.glb, solver: {wavefront_range_m: 400}}\n"
       "  array: {label: 0, mesh: assets/icosahedral_reflector.glb, layout: {line: {count: 4, spacing_m: 40}}}\n");
   const std::string file = folder() / "near.yaml";
-  for (const Words& more : {Words{}, Words{"--set", "targets.array.solver.radar_range_m=600"}}) {
+  for (const Words& more : {Words{}, Words{"--set", "targets.array.solver.wavefront_range_m=600"}}) {
     for (Words words : {Words{"check", file}, Words{"map", file, "-o", folder() / "map.png"},
                         Words{"generate", file, "-o", folder() / "data"}}) {
       words.insert(words.end(), more.begin(), more.end());
-      expect_failure(folder(), words, 2,
-                     more.empty() ? "near.yaml:3:66: targets.ship.with.0: radar range 400 m: the target reaches 60.5 m "
-                                    "from where it is counted"
-                                  : "targets.array.solver: radar range 600 m: the target reaches 60.5 m");
+      expect_failure(
+          folder(), words, 2,
+          more.empty()
+              ? "near.yaml:3:66: targets.ship.companions.0: wavefront range 400 m: must be at "
+                "least ten times the target radius of 60.5 m"
+              : "targets.array.solver: wavefront range 600 m: must be at least ten times the target radius of 60.5 m");
     }
   }
-  const ProgramResult far =
-      run_program({"check", file, "--set", "targets.ship.solver.radar_range_m=610", "--set",
-                   "targets.decoy.solver.radar_range_m=610", "--set", "targets.array.solver.radar_range_m=610"});
+  const ProgramResult far = run_program({"check", file, "--set", "targets.ship.solver.wavefront_range_m=610", "--set",
+                                         "targets.decoy.solver.wavefront_range_m=610", "--set",
+                                         "targets.array.solver.wavefront_range_m=610"});
   EXPECT_EQ(far.code, 0) << far.err;
 }
 
@@ -155,14 +158,15 @@ TEST_F(InputErrors, OfASeriesThatDoesNotCoverTheIntervals) {
 
 TEST_F(InputErrors, OfATargetUnderWater) {
   const std::string file = folder() / "water.yaml";
-  write_file(file,
-             "seaglint: 1\nsea_reflection: {enabled: true}\ntargets:\n"
-             "  array: {label: 0, mesh: assets/icosahedral_reflector.glb, motion: {model: float, centre_above_water_m: "
-             "-10}}\n");
+  write_file(
+      file,
+      "seaglint: 1\nsea_reflection: {enabled: true}\ntargets:\n"
+      "  array: {label: 0, mesh: assets/icosahedral_reflector.glb, motion: {model: float, origin_above_waterline_m: "
+      "-10}}\n");
   for (const Words& words : {Words{"check", file}, Words{"map", file, "-o", folder() / "map.png"},
                              Words{"generate", file, "-o", folder() / "data"}})
     expect_failure(folder(), words, 2,
-                   "water.yaml:4:106: targets.array.motion.centre_above_water_m: value -10: must be greater than ");
+                   "water.yaml:4:106: targets.array.motion.origin_above_waterline_m: value -10: must be greater than ");
   EXPECT_EQ(run_program({"check", file, "--set", "sea_reflection.enabled=false"}).code, 0);
 }
 
@@ -185,13 +189,13 @@ TEST_F(InputErrors, OfATargetWithoutAnEcho) {
 TEST_F(InputErrors, OfANumberThatIsNone) {
   const std::string mesh = folder() / "whole.glb";
   for (const char* option :
-       {"--range-m", "--crease-deg", "--ray-spacing-m", "--transmit-azimuth-deg", "--centre-cell-m"}) {
+       {"--wavefront-range-m", "--crease-deg", "--min-patch-m", "--transmit-azimuth-deg", "--centre-cell-m"}) {
     expect_failure(folder(),
                    {"rcs", "--target", mesh, "--frequency-ghz", "10", "--azimuth-deg", "0", "-o", folder() / "rcs.csv",
                     option, "nan"},
                    2, std::string(option) + ": value nan: must be within");
   }
-  expect_failure(folder(), {"mesh", "info", mesh, "--wedge-deg", "nan"}, 2, "value nan");
+  expect_failure(folder(), {"mesh", "info", mesh, "--min-wedge-angle-deg", "nan"}, 2, "value nan");
   expect_failure(folder(), {"map", "scenarios/points.yaml", "--sample", "-1", "-o", folder() / "map.png"}, 2, "-1");
 }
 
@@ -200,7 +204,7 @@ TEST_F(InputErrors, OfAnOptionInWordsThatHelp) {
   for (const char* value : {"-1", "2.5", "1e3", "99999999999999999999"}) {
     for (const Words& words :
          {Words{"map", "scenarios/points.yaml", "-o", folder() / "map.png"},
-          Words{"echo", "scenarios/points.yaml", "-o", folder() / "e.npz"}, Words{"remake", folder()}}) {
+          Words{"echo", "scenarios/points.yaml", "-o", folder() / "e.npz"}, Words{"regenerate", folder()}}) {
       Words all = words;
       all.insert(all.end(), {"--sample", value});
       expect_failure(folder(), all, 2,
@@ -229,7 +233,7 @@ TEST_F(InputErrors, OfGoingOnAmongOtherFiles) {
   write_file(folder() / "other" / "notes.txt", "mine");
   for (const char* command : {"generate", "run"})
     expect_failure(folder(), {command, "scenarios/points.yaml", "-o", folder() / "other", "--resume"}, 2,
-                   "other: the directory holds");
+                   "other: the directory contains");
 }
 
 // By whatever name a command's input is called, and whichever key of a scenario names it.
@@ -245,7 +249,7 @@ TEST_F(InputErrors, OfWritingOverWhatIsRead) {
   };
   for (const Words& words :
        {with(rcs, {"-o", mesh}), with(rcs, {"-o", link}), with(rcs, {"-o", rao, "--reference", rao}),
-        with(rcs, {"-o", folder() / "rcs.csv", "--export-centres", folder() / "." / "whole.glb"}),
+        with(rcs, {"-o", folder() / "rcs.csv", "--export-scattering-centres", folder() / "." / "whole.glb"}),
         Words{"mesh", "info", mesh, "--picture", mesh}, Words{"sea", file, "-o", file},
         Words{"motion", file, "-o", file}, Words{"motion", file, "-o", mesh},
         Words{"motion", file, "-o", rao, "--rao", folder() / "rao.png", "--rao-reference", rao}}) {
@@ -258,9 +262,9 @@ TEST_F(InputErrors, OfTwoOutputsInOneFile) {
                     png = folder() / "out.png";
   for (const Words& words : {Words{"sea", file, "-o", csv, "--spectrum", csv, "--realisations", "2"},
                              Words{"motion", file, "-o", csv, "--spectrum", folder() / "." / "out.csv"},
-                             Words{"motion", file, "-o", csv, "--figure", png, "--frames", png},
+                             Words{"motion", file, "-o", csv, "--figure", png, "--snapshots", png},
                              Words{"rcs", "--target", mesh, "--frequency-ghz", "10", "--azimuth-deg", "0", "-o", csv,
-                                   "--export-centres", csv}}) {
+                                   "--export-scattering-centres", csv}}) {
     expect_failure(folder(), words, 2, "would be written twice");
   }
 }
@@ -272,7 +276,7 @@ TEST_F(InputErrors, OfAnEndingThatSaysAnotherFormat) {
   for (const char* name : {"ship.jpg", "ship.svg", "ship"})
     expect_failure(folder(), {"mesh", "info", mesh, "--picture", folder() / name}, 2,
                    std::string(name) + ": the name of a mesh's picture ends in .png");
-  expect_failure(folder(), {"remake", folder(), "--sample", "0", "-o", folder() / "sample"}, 2,
+  expect_failure(folder(), {"regenerate", folder(), "--sample", "0", "-o", folder() / "sample"}, 2,
                  "sample: NumPy's archives end in .npz");
   expect_failure(folder(),
                  {"rcs", "--target", mesh, "--frequency-ghz", "10", "--azimuth-deg", "0", "-o", folder() / "rcs.csv",

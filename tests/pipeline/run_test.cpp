@@ -98,7 +98,7 @@ TEST_F(RunOutput, IsADataSetForTheCommandsOfOne) {
   for (const std::vector<std::string>& words : {std::vector<std::string>{"verify", directory_},
                                                 {"merge", directory_, "-o", folder.path() / "all.h5"},
                                                 {"export", directory_, "-o", folder.path() / "all.npz"},
-                                                {"remake", directory_, "--sample", "3"}}) {
+                                                {"regenerate", directory_, "--sample", "3"}}) {
     const ProgramResult result = run_program(words);
     EXPECT_EQ(result.code, 0) << words[0] << ": " << result.err;
   }
@@ -159,7 +159,7 @@ TEST_F(RunOutput, IsReadWithItsOwnScenarioOnly) {
   for (const std::vector<std::string>& words : {std::vector<std::string>{"report", run},
                                                 {"train", run, "-o", folder.path() / "model"},
                                                 {"export", run, "-o", folder.path() / "all.npz"},
-                                                {"remake", run, "--sample", "3"},
+                                                {"regenerate", run, "--sample", "3"},
                                                 {"merge", run, "-o", folder.path() / "all.h5"}}) {
     const ProgramResult result = run_program(words);
     EXPECT_EQ(result.code, 2) << words[0];

@@ -124,7 +124,7 @@ TEST(Sea, WritesASpectrumThatAScenarioReads) {
 
   const ProgramResult again = run_program({"sea", kPoints, "--duration-s", "1", "-o", folder.path() / "again.csv",
                                            "--set", "sea.spectrum=table", "--set", "sea.table=" + one.string(), "--set",
-                                           "sea.significant_wave_height_m=of_table"});
+                                           "sea.significant_wave_height_m=from_table"});
   EXPECT_EQ(again.code, 0) << again.err;
   EXPECT_THAT(again.out, HasSubstr("4 sqrt(m0) 0.99"));  // the table ends at 1.2 times the cut-off
 }
@@ -183,14 +183,14 @@ TEST(Commands, AskForThePlacesOfTheirFilesFirst) {
                             {"map", "no.yaml", "-o", nowhere},
                             {"echo", "no.yaml", "-o", no_archive},
                             with(rcs, {"-o", nowhere}),
-                            with(rcs, {"-o", table, "--export-centres", nowhere})}) {
+                            with(rcs, {"-o", table, "--export-scattering-centres", nowhere})}) {
     const ProgramResult result = run_program(words);
     EXPECT_EQ(result.code, 1) << words.front();
     EXPECT_THAT(result.err, HasSubstr((words.front() == "echo" ? no_archive : nowhere) +
                                       ": cannot write: No such file or directory"));
   }
   for (const auto& words : {std::vector<std::string>{"sea", "no.yaml", "-o", table, "--figure", "figure.bmp"},
-                            {"motion", "no.yaml", "-o", table, "--frames", "figure.bmp"},
+                            {"motion", "no.yaml", "-o", table, "--snapshots", "figure.bmp"},
                             {"map", "no.yaml", "-o", "figure.bmp"}}) {
     const ProgramResult result = run_program(words);
     EXPECT_EQ(result.code, 2) << words.front();
@@ -217,7 +217,7 @@ TEST(Motion, DrawsResponsesInTheScenariosUnitsAndDepth) {
     return read_file(figure);
   };
   const std::string of_metres = picture("0.02", {});
-  EXPECT_EQ(picture("2", {"targets.ship.motion.rao_length_m=100"}), of_metres);
+  EXPECT_EQ(picture("2", {"targets.ship.motion.wamit_ulen_m=100"}), of_metres);
   EXPECT_NE(picture("0.02", {"sea.depth_m=12"}), of_metres);
 }
 

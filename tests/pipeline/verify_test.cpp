@@ -25,9 +25,9 @@ class DataSetVerification : public testing::Test {
 };
 
 TEST_F(DataSetVerification, IsFoundSoundAndTheSameWhenMadeAgain) {
-  const ProgramResult result = run_program({"verify", directory_, "--remake", "4"});
+  const ProgramResult result = run_program({"verify", directory_, "--regenerate", "4"});
   EXPECT_EQ(result.code, 0) << result.err;
-  EXPECT_THAT(result.out, HasSubstr("4 samples made again are as stored"));
+  EXPECT_THAT(result.out, HasSubstr("4 regenerated samples match the stored ones"));
   EXPECT_THAT(result.out, HasSubstr("no fault found"));
 }
 
@@ -42,10 +42,10 @@ TEST_F(DataSetVerification, IsNeitherMergedOverItselfNorTakenForARun) {
   const ProgramResult run =
       run_program({"run", "scenarios/points.yaml", "--set", "seed=99", "-o", directory_, "--resume"});
   EXPECT_EQ(run.code, 2);
-  EXPECT_THAT(run.err, HasSubstr("holds something else than a run"));
+  EXPECT_THAT(run.err, HasSubstr("contains something else than a run"));
   EXPECT_EQ(read_file(directory_ / "shard_00000.h5"), shard);
   EXPECT_EQ(read_file(directory_ / "scenario.yaml"), scenario);
-  EXPECT_EQ(run_program({"verify", directory_, "--remake", "0"}).code, 0);
+  EXPECT_EQ(run_program({"verify", directory_, "--regenerate", "0"}).code, 0);
 }
 
 TEST_F(DataSetVerification, IsRefusedWhenAShardIsCutOff) {
@@ -66,7 +66,7 @@ TEST_F(DataSetVerification, IsRefusedWithAFileThatDoesNotBelongThere) {
   EXPECT_THAT(result.out, HasSubstr("fault: foo: is no file of a data set\n"));
   fs::remove(directory_ / "foo");
   write_file(directory_ / ".nfs0001", "");  // a file server's own
-  EXPECT_EQ(run_program({"verify", directory_, "--remake", "0"}).code, 0);
+  EXPECT_EQ(run_program({"verify", directory_, "--regenerate", "0"}).code, 0);
 }
 
 TEST_F(DataSetVerification, IsRefusedWithoutItsManifest) {

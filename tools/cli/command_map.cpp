@@ -106,8 +106,8 @@ void add_map(CLI::App& app, CommandContext& shell) {
   command
       ->add_option(
           "--product", arguments->product,
-          "rv: the map; isar: the target's image, and hrrp: its range profiles, as a radar has them that sends "
-          "the whole band with every pulse, without clutter and noise")
+          "rv: range-velocity map; isar, hrrp: ISAR image or range profiles of the target alone, full synthetic "
+          "bandwidth in every pulse")
       ->check(CLI::IsMember({"rv", "isar", "hrrp"}))
       ->capture_default_str();
   add_threads_option(*command, shell);

@@ -20,7 +20,7 @@ void add_merge(CLI::App& app, CommandContext& shell) {
       app.add_subcommand("merge", "One HDF5 file over all shards of a data set, which stay where they are");
   auto arguments = std::make_shared<Arguments>();
   command->add_option("directory", arguments->directory, "Directory of the data set")->required();
-  command->add_option("-o,--output", arguments->file, "The merged file; DIRECTORY/dataset.h5 unless told");
+  command->add_option("-o,--output", arguments->file, "The merged file; DIRECTORY/dataset.h5 unless given");
   command->footer("Example:\n  seaglint merge build/points/data");
   command->callback([arguments, &shell] {
     shell.work = [arguments, &shell] {

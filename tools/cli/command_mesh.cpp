@@ -63,10 +63,10 @@ std::string material_lines(const TriangleMesh& mesh) {
 }
 
 std::string topology_lines(const TriangleMesh& mesh, const Topology& topology, double wedge_deg) {
-  std::size_t convex = 0, concave = 0, rims = 0;
+  std::size_t convex = 0, concave = 0, free_edges = 0;
   for (const Wedge& wedge : wedges(mesh, topology, radians(wedge_deg))) {
     if (wedge.triangles[1] == kNoIndex) {
-      ++rims;
+      ++free_edges;
     } else if (wedge.exterior_angle > kPi) {
       ++convex;
     } else {
@@ -74,11 +74,11 @@ std::string topology_lines(const TriangleMesh& mesh, const Topology& topology, d
     }
   }
   return fmt::format(
-      "edges      {} in all; {} boundary (holes and rims), {} non-manifold, {} with a flipped neighbour\n"
+      "edges      {} in all; {} boundary (holes and free edges), {} non-manifold, {} with a flipped neighbour\n"
       "degenerate {} triangles without area\n"
-      "wedges     {} convex, {} concave that turn by more than {:g} deg, {} rims\n",
+      "wedges     {} convex, {} concave of more than {:g} deg, {} free edges\n",
       topology.edges.size(), topology.count(EdgeKind::kBoundary), topology.count(EdgeKind::kNonManifold),
-      topology.count(EdgeKind::kInconsistent), topology.degenerate.size(), convex, concave, wedge_deg, rims);
+      topology.count(EdgeKind::kInconsistent), topology.degenerate.size(), convex, concave, wedge_deg, free_edges);
 }
 
 // A kind of mesh that `mesh make` knows; the options it declares are captured by the maker.
@@ -115,8 +115,8 @@ void add_ship_kind(CLI::App& make, CommandContext& shell) {
   kind->add_option("--freeboard-m", form->freeboard_m, "Height of the deck amidships")->capture_default_str();
   kind->add_option("--bow-height-m", form->bow_height_m, "Height of the deck at the bow")->capture_default_str();
   kind->add_option("--stern-height-m", form->stern_height_m, "Height of the deck at the stern")->capture_default_str();
-  kind->add_option("--panel-m", form->panel_m, "Length of a hull plate")->capture_default_str();
-  kind->add_option("--plating-m", form->plating_m, "Largest dent of a hull plate's corner")->capture_default_str();
+  kind->add_option("--plate-length-m", form->panel_m, "Length of a hull plate")->capture_default_str();
+  kind->add_option("--plate-dent-m", form->plating_m, "Largest dent of a hull plate's corner")->capture_default_str();
   kind->add_option("--rail-width-m", form->rail_width_m, "Width of rail posts")->capture_default_str();
   kind->add_option("--detail", *detail, "How much is built: hull (with houses), fittings, rails (all)")
       ->check(CLI::IsMember({"hull", "fittings", "rails"}))
@@ -196,7 +196,7 @@ void add_info(CLI::App& mesh, CommandContext& shell) {
   auto arguments = std::make_shared<InfoArguments>();
   info->add_option("FILE", arguments->file, "Mesh file: .glb .gltf .obj .stl or .ply")->required();
   info->add_option("--unit", arguments->unit, "Unit of the file's lengths: m cm mm km in ft")->capture_default_str();
-  info->add_option("--wedge-deg", arguments->wedge_deg, "Least turn of an edge that counts as a wedge")
+  info->add_option("--min-wedge-angle-deg", arguments->wedge_deg, "Smallest angle between the normals at a wedge")
       ->check(number_within(0.0, 180.0))
       ->capture_default_str();
   CLI::Option* picture = info->add_option("--picture", arguments->picture, "Write a picture, .png");
@@ -220,7 +220,7 @@ void add_info(CLI::App& mesh, CommandContext& shell) {
 }  // namespace
 
 void add_mesh(CLI::App& app, CommandContext& shell) {
-  CLI::App* mesh = app.add_subcommand("mesh", "Make a mesh, or tell what is in one");
+  CLI::App* mesh = app.add_subcommand("mesh", "Create a mesh, or report its contents");
   mesh->require_subcommand(1);
   mesh->footer("Example:\n  seaglint mesh make ship -o ship.glb\n  seaglint mesh info ship.glb");
   CLI::App* make = mesh->add_subcommand("make", "Make a mesh: a ship, a reflector or a canonical target");

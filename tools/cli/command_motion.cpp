@@ -162,17 +162,18 @@ void add_motion(CLI::App& app, CommandContext& shell) {
   command->add_option("--spectrum", arguments->spectrum, "CSV file for the spectra of the series' angles");
   command->add_option("--figure", arguments->figure, "Picture (.png or .svg) of the first 100 s of all angles");
   command->add_option(
-      "--frames", arguments->frames,
-      "Picture of five moments of a wave period: first and last body in the water, seen from starboard");
-  CLI::Option* rao = command->add_option(
-      "--rao", arguments->rao, "Picture of the first ship's response operators in waves of the sea's direction");
+      "--snapshots", arguments->frames,
+      "Figure with five snapshots over one wave period: first and last body in the waves, seen from starboard");
+  CLI::Option* rao =
+      command->add_option("--rao", arguments->rao,
+                          "Figure of the first ship's response amplitude operators for the scenario's wave direction");
   command->add_option("--rao-reference", arguments->rao_reference, "VERES .re1 or WAMIT .4 to draw beside them")
       ->needs(rao);
   add_threads_option(*command, shell);
   add_time_options(*command, arguments->duration_s, arguments->step_s);
   command->footer(
       "Example:\n  seaglint motion scenarios/quick.yaml --duration-s 60 -o motion.csv\n"
-      "  seaglint motion scenarios/quick.yaml --figure motion.png --frames frames.png -o motion.csv");
+      "  seaglint motion scenarios/quick.yaml --figure motion.png --snapshots snapshots.png -o motion.csv");
   command->callback([arguments, &shell] { shell.work = [arguments, &shell] { write_motion(*arguments, shell); }; });
 }
 

@@ -56,7 +56,7 @@ void show_comparison(const RcsArguments& arguments, const std::vector<PairedCut>
   }
 }
 
-// The cuts of the references that the sweep holds; one that does not fit is refused before any work.
+// The cuts of the references that the sweep contains; one that does not fit is refused before any work.
 std::vector<PairedCut> pair_with_all(const RcsSweep& sweep, const std::vector<RcsReference>& references) {
   std::vector<PairedCut> cuts;
   for (const RcsReference& reference : references) {
@@ -84,7 +84,7 @@ void run_rcs(const RcsArguments& arguments, const CommandContext& shell) {
   warn(prepared.doubts);
   const RcsTarget target = select_echoes(request, std::move(prepared));
   for (const NamedCavity& cavity : target.cavities) {
-    print_error(fmt::format("cavity {}: mouth of {:.4g} m^2, walls of {:.4g} m^2, {} patches at {:.6g} GHz\n",
+    print_error(fmt::format("cavity {}: aperture of {:.4g} m^2, walls of {:.4g} m^2, {} patches at {:.6g} GHz\n",
                             cavity.name, cavity.size.aperture_m2, cavity.size.walls_m2, cavity.size.patches,
                             1e-9 * *std::max_element(request.frequency_hz.begin(), request.frequency_hz.end())));
   }
@@ -97,7 +97,7 @@ void run_rcs(const RcsArguments& arguments, const CommandContext& shell) {
   write_file(arguments.output, rcs_table(request, *target.prepared.scatterer, sweep));
   const double million_segments = 1e-6 * static_cast<double>(result.segments),
                views = static_cast<double>(sweep.views());
-  print_error(fmt::format("{}: {} rows, {} views in {:.2f} s ({:.3g} views/s, {:.2f} M beam legs, {:.2f} M/s)\n",
+  print_error(fmt::format("{}: {} rows, {} views in {:.2f} s ({:.3g} views/s, {:.2f} M beam segments, {:.2f} M/s)\n",
                           arguments.output, sweep.rows(), sweep.views(), seconds, views / seconds, million_segments,
                           million_segments / seconds));
   if (request.exports.wanted()) fmt::print("{}", export_view(request, target, shell.threads, &shell.stop));
@@ -120,8 +120,8 @@ void add_rcs(CLI::App& app, CommandContext& shell) {
       "ref.H.txt --reference ref.V.txt");
   command->callback([arguments, command, &shell] {
     require_any_of(*command, "--transmit-elevation-deg", {"--transmit-azimuth-deg"});
-    require_any_of(*command, "--centre-cell-m", {"--export-centres"});
-    require_any_of(*command, "--export-range-db", {"--export-centres", "--export-hot-spots"});
+    require_any_of(*command, "--centre-cell-m", {"--export-scattering-centres"});
+    require_any_of(*command, "--export-dynamic-range-db", {"--export-scattering-centres", "--export-hot-spots"});
     shell.work = [arguments, &shell] { run_rcs(*arguments, shell); };
   });
 }

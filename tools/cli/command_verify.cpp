@@ -20,18 +20,18 @@ namespace {
 
 struct Arguments {
   std::string directory;
-  int remake = 2;
+  int regenerate = 2;
 };
 
-// Makes `count` samples again, spread evenly over the data set; returns what is not as stored.
-std::vector<std::string> remake(const std::string& directory, std::size_t count, const Scenario& scenario,
-                                const CommandContext& shell) {
+// Regenerates `count` samples, spread evenly over the data set; returns what is not as stored.
+std::vector<std::string> regenerate(const std::string& directory, std::size_t count, const Scenario& scenario,
+                                    const CommandContext& shell) {
   const DatasetReader reader(directory);
   require_same_inputs(directory, scenario);
   const Pipeline pipeline(scenario);
   std::vector<std::vector<std::string>> faults(count);
   std::mutex reading;  // HDF5 serves one thread at a time
-  Progress progress("making samples again", count);
+  Progress progress("regenerating samples", count);
   parallel_for(
       count, thread_count(shell.threads),
       [&](std::size_t n) {
@@ -44,7 +44,7 @@ std::vector<std::string> remake(const std::string& directory, std::size_t count,
         }
         const Sample again = pipeline.generate_sample(number).stored;
         for (const std::string& what : differences(stored.sample, again, reproduction_tolerance(stored.origin))) {
-          faults[n].push_back(fmt::format("sample {} ({}) made again: {}", number,
+          faults[n].push_back(fmt::format("sample {} ({}) regenerated: {}", number,
                                           scenario.targets[static_cast<std::size_t>(address.target)].name, what));
         }
         progress.advance();
@@ -56,7 +56,7 @@ std::vector<std::string> remake(const std::string& directory, std::size_t count,
 }
 
 void verify(const Arguments& given, const CommandContext& shell) {
-  const Arguments arguments{find_data_set(given.directory), given.remake};
+  const Arguments arguments{find_data_set(given.directory), given.regenerate};
   Audit result = audit(arguments.directory, &shell.stop);
   fmt::print("{}: {} sound shards, {} samples in {} groups\n", arguments.directory, result.shards, result.samples,
              result.groups);
@@ -64,10 +64,11 @@ void verify(const Arguments& given, const CommandContext& shell) {
     const TargetSpec& target = result.scenario.targets[t];
     fmt::print("  {:<12} label {}  {} samples\n", target.name, target.label, result.per_target[t]);
   }
-  const std::size_t count = std::min(static_cast<std::size_t>(arguments.remake), result.samples);
+  const std::size_t count = std::min(static_cast<std::size_t>(arguments.regenerate), result.samples);
   if (result.faults.empty() && count > 0) {
-    result.faults = remake(arguments.directory, count, result.scenario, shell);
-    if (result.faults.empty()) fmt::print("{} samples made again are as stored, SCR and features included\n", count);
+    result.faults = regenerate(arguments.directory, count, result.scenario, shell);
+    if (result.faults.empty())
+      fmt::print("{} regenerated samples match the stored ones, SCR and features included\n", count);
   }
   if (result.faults.empty()) {
     fmt::print("no fault found\n");
@@ -85,14 +86,16 @@ void verify(const Arguments& given, const CommandContext& shell) {
 
 void add_verify(CLI::App& app, CommandContext& shell) {
   CLI::App* command = app.add_subcommand(
-      "verify", "Audit a data set: missing, repeated, damaged and mislabelled samples; makes some of them again");
+      "verify", "Audit a data set: missing, repeated, damaged and mislabelled samples; regenerates some of them");
   auto arguments = std::make_shared<Arguments>();
   command->add_option("directory", arguments->directory, "Directory of the data set")->required();
-  command->add_option("--remake", arguments->remake, "Samples to make again from their rows, spread over the data set")
+  command
+      ->add_option("--regenerate", arguments->regenerate,
+                   "Samples to regenerate from their rows, spread over the data set")
       ->check(CLI::Range(0, 1000000))
       ->capture_default_str();
   add_threads_option(*command, shell);
-  command->footer("Example:\n  seaglint verify build/demo/data --remake 5");
+  command->footer("Example:\n  seaglint verify build/demo/data --regenerate 5");
   command->callback([arguments, &shell] { shell.work = [arguments, &shell] { verify(*arguments, shell); }; });
 }
 

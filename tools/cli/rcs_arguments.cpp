@@ -8,6 +8,7 @@
 #include "sim/core/process/error.h"
 #include "sim/core/text/number.h"
 #include "tools/cli/option_numbers.h"
+#include "tools/cli/renamed_words.h"
 
 namespace seaglint {
 namespace {
@@ -39,14 +40,13 @@ MaterialChoice material_choice(const std::string& text) {
 void add_cavity_options(CLI::App& command, CavityRequest& cavities) {
   command
       .add_option("--cavity", cavities.parts,
-                  "Part of the mesh that is the walls of a cavity with an open mouth, some wavelengths wide: its echo "
-                  "from the field inside (integral "
-                  "equation) instead of rays; minutes per frequency (repeatable)")
+                  "Part that forms the walls of an open-ended cavity a few wavelengths wide: solved by the "
+                  "magnetic-field integral equation instead of beam tracing; minutes per frequency (repeatable)")
       ->type_name("PART")
       ->allow_extra_args(false);
   command
-      .add_option("--cavity-patches", cavities.patches_per_wavelength,
-                  "Patches of its walls per wavelength: time goes with the fourth power")
+      .add_option("--cavity-patches-per-wavelength", cavities.patches_per_wavelength,
+                  "Wall patches per wavelength; run time grows with the fourth power")
       ->check(number_within(4.0, 20.0))
       ->capture_default_str()
       ->needs("--cavity");
@@ -56,12 +56,14 @@ void add_sea_options(CLI::App& command, RcsArguments& arguments) {
   SeaUnderTarget& under = arguments.request.sea;
   CLI::Option* sea = command.add_flag(
       "--sea-reflection", under.reflection,
-      "Four ways between radar and target: direct and by the mean sea surface; elevations must be above 0");
-  command.add_option("--height-m", under.height_m, "Height of the mesh's origin above the mean sea surface")
+      "Four-path multipath: direct and specularly reflected by the mean sea surface; elevations must be above 0");
+  command.add_option("--origin-height-m", under.height_m, "Height of the mesh's origin above the mean sea surface")
       ->check(number_within(-1e4, 1e4))
       ->capture_default_str()
       ->needs(sea);
-  command.add_option("--wave-height-m", under.wave_height_m, "Significant wave height: roughness of the mirror")
+  command
+      .add_option("--significant-wave-height-m", under.wave_height_m,
+                  "Significant wave height: roughness of the sea surface")
       ->check(number_within(0.0, 30.0))
       ->capture_default_str()
       ->needs(sea);
@@ -69,8 +71,9 @@ void add_sea_options(CLI::App& command, RcsArguments& arguments) {
       ->check(CLI::IsMember({"sea_water", "conductor"}))
       ->capture_default_str()
       ->needs(sea);
-  command.add_option("--sea-paths", arguments.sea_paths, "all, direct or multipath")
-      ->check(CLI::IsMember({"all", "direct", "multipath"}))
+  command.add_option("--sea-paths", arguments.sea_paths, "all, direct_only or multipath_only")
+      ->check(no_renamed_value("--sea-paths"))
+      ->check(CLI::IsMember({"all", "direct_only", "multipath_only"}))
       ->capture_default_str()
       ->needs(sea);
 }
@@ -83,13 +86,15 @@ void add_selection_options(CLI::App& command, EchoSelection& selection) {
         ->group("Selection and export");
   };
   selectors("--only", selection.only,
-            "Sum only the echoes of part=NAME, of bounces=N, of mechanism=po or edge (repeatable; of one kind any, of "
-            "several kinds all must hold)");
-  selectors("--without", selection.without, "Leave out the echoes of any of these (repeatable)");
+            "Sum only the contributions of part=NAME, bounces=N, mechanism=po or edge (repeatable; of one kind any, of "
+            "several kinds all must apply)");
+  selectors("--without", selection.without, "Exclude the contributions of any of these (repeatable)");
 }
 
 void add_export_options(CLI::App& command, ViewExport& exports) {
-  command.add_option("--export-centres", exports.centres, "Scattering centres of one view at one frequency, as CSV")
+  command
+      .add_option("--export-scattering-centres", exports.centres,
+                  "Scattering centres of one aspect at one frequency, as CSV")
       ->group("Selection and export");
   command.add_option("--centre-cell-m", exports.cell_m, "Size of the cells whose contributions become one centre")
       ->check(number_within(1e-4, 100.0))
@@ -97,9 +102,9 @@ void add_export_options(CLI::App& command, ViewExport& exports) {
       ->group("Selection and export");
   command
       .add_option("--export-hot-spots", exports.hot_spots,
-                  "The mesh, .glb or .gltf, its facets coloured by the strength of what leaves them in one view")
+                  "Mesh (.glb or .gltf) with facets coloured by their RCS contribution at one aspect")
       ->group("Selection and export");
-  command.add_option("--export-range-db", exports.range_db, "Weakest of the exports below the strongest")
+  command.add_option("--export-dynamic-range-db", exports.range_db, "Dynamic range of the exports below the strongest")
       ->check(number_within(2.0, 300.0))
       ->capture_default_str()
       ->group("Selection and export");
@@ -122,43 +127,48 @@ void RcsArguments::add_to(CLI::App& command) {
       .add_option("--elevation-deg", elevation_deg,
                   "A or A:B:STEP within -90 and 90; of the radar seen from the target")
       ->capture_default_str();
-  command.add_option("--edges", edges, "Fringe currents at sharp edges: on, or off for physical optics alone")
+  command
+      .add_option(
+          "--edges", edges,
+          "Edge diffraction (equivalent edge currents, single and multiple): on, or off for physical optics alone")
       ->check(CLI::IsMember({"on", "off"}))
       ->capture_default_str();
   command
-      .add_option("--crease-deg", request.crease_deg,
-                  "Facets that turn by less belong to one smooth surface; 0 = all facets flat")
+      .add_option(
+          "--crease-deg", request.crease_deg,
+          "Crease angle: adjacent facets whose normals differ by less belong to one smooth surface; 0 = all facets "
+          "flat")
       ->check(number_within(0.0, 60.0))
       ->capture_default_str();
   command
       .add_option("--sheet-thickness-mm", request.sheet_thickness_mm,
-                  "Of open surfaces, drawn where their lit faces are: changes what their rims return, to a tenth of "
-                  "the wavelength")
+                  "Thickness of open surfaces (meshed at the illuminated face): first-order correction of their edge "
+                  "diffraction, valid up to a tenth of a wavelength")
       ->check(number_within(0.0, 1000.0))
       ->capture_default_str();
   command
       .add_option("--transmit-azimuth-deg", transmit_azimuth_deg,
-                  "Bistatic: a transmitter that stands still, while azimuth and elevation are the receiver's")
+                  "Bistatic: azimuth of a fixed transmitter; --azimuth-deg and --elevation-deg then sweep the receiver")
       ->check(number_within(-720.0, 720.0));
   command.add_option("--transmit-elevation-deg", transmit_elevation_deg, "Its elevation; 0 unless given")
       ->check(number_within(-90.0, 90.0));
   command
-      .add_option("--range-m", request.range_m,
-                  "Of the radar from the target's origin, with --sea-reflection from the sea below it, for the "
-                  "curvature of the wavefront; 0 = far field")
+      .add_option("--wavefront-range-m", request.range_m,
+                  "Radar range for the wavefront curvature, from the target origin (with --sea-reflection from the sea "
+                  "surface below it); 0 = plane wave")
       ->check(number_within(0.0, 1e9));
-  command.add_option("--max-bounces", request.max_bounces, "Reflections followed")
+  command.add_option("--max-bounces", request.max_bounces, "Maximum number of bounces")
       ->check(CLI::Range(1, kMaxBounces))
       ->capture_default_str();
   command
-      .add_option("--ray-spacing-m", request.ray_spacing_m,
-                  "Detail followed, as the spacing of rays that would find it: pieces below a fourteenth are left "
-                  "out; 0 = 0.001 radius, the coarsest")
+      .add_option("--min-patch-m", request.min_patch_m,
+                  "Side of the smallest illuminated patch kept; 0 = 0.7e-4 of the target radius, the coarsest")
       ->check(number_within(0.0, 1e6));
   command
-      .add_option("--material", materials,
-                  "What the target is made of: pec, a name of assets/materials or a file; PART=NAME for one part, "
-                  "PART* for all that begin so (repeatable)")
+      .add_option(
+          "--material", materials,
+          "Material: pec, a name in assets/materials, or a file; PART=NAME for one part, PART* for every part with "
+          "that prefix (repeatable)")
       ->type_name("[PART=]NAME")
       ->allow_extra_args(false);
   add_cavity_options(command, request.cavities);
@@ -182,9 +192,9 @@ RcsRequest RcsArguments::make_request() const {
     made.transmitter = FixedTransmitter{*transmit_azimuth_deg, transmit_elevation_deg.value_or(0)};
   for (const std::string& text : materials) made.materials.push_back(material_choice(text));
   made.sea.surface = sea_surface == "conductor" ? SeaSurface::kConductor : SeaSurface::kSeaWater;
-  made.sea.paths = sea_paths == "multipath" ? SeaPaths::kMultipath
-                   : sea_paths == "direct"  ? SeaPaths::kDirect
-                                            : SeaPaths::kAll;
+  made.sea.paths = sea_paths == "multipath_only" ? SeaPaths::kMultipath
+                   : sea_paths == "direct_only"  ? SeaPaths::kDirect
+                                                 : SeaPaths::kAll;
   return made;
 }
 

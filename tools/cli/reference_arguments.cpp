@@ -69,7 +69,7 @@ void ReferenceArguments::add_to(CLI::App& command) {
   repeatable("--reference-origin-m", origin_m, "The reference's phase origin in the body's frame; default 0,0,0",
              "X,Y,Z")
       ->needs(reference);
-  command.add_option("--floor-db", floor_db, "Levels further below the reference's maximum than this count as this")
+  command.add_option("--floor-db", floor_db, "Levels further below the reference maximum are clipped to this floor")
       ->check(number_within(1.0, 300.0))
       ->capture_default_str()
       ->needs(reference)

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sim/core/text/suggestion.h"
+#include "tools/cli/renamed_words.h"
 
 namespace seaglint {
 namespace {
@@ -26,9 +27,19 @@ std::vector<std::string> command_names(const CLI::App& app) {
   return names;
 }
 
+// The words of a command below the program's name: "mesh make ship"; "" of the program.
+std::string command_of(const CLI::App& app) {
+  if (app.get_parent() == nullptr) return "";
+  const std::string before = command_of(*app.get_parent());
+  return before.empty() ? app.get_name() : before + " " + app.get_name();
+}
+
 // The list of all options is long: --help has it.
 std::string unknown_option(const CLI::App& app, const std::string& word) {
-  const std::string name = word.substr(0, word.find('=')), meant = suggestion(name, option_names(app));
+  const std::string name = word.substr(0, word.find('='));
+  if (const auto renamed = renamed_word(command_of(app), name))
+    return fmt::format("unknown option '{}': {}", name, *renamed);
+  const std::string meant = suggestion(name, option_names(app));
   return fmt::format("unknown option '{}'{}", name, meant.starts_with("did you mean") ? ": " + meant : "");
 }
 
@@ -38,7 +49,9 @@ std::optional<std::string> unknown_word(const CLI::App& app) {
   const std::vector<std::string> commands = command_names(app);
   for (const std::string& word : app.remaining()) {
     if (word.starts_with('-')) return unknown_option(app, word);
-    if (!commands.empty()) return fmt::format("unknown command '{}': {}", word, suggestion(word, commands));
+    if (commands.empty()) continue;
+    const std::optional<std::string> renamed = renamed_word(command_of(app), word);
+    return fmt::format("unknown command '{}': {}", word, renamed ? *renamed : suggestion(word, commands));
   }
   for (const CLI::App* chosen : app.get_subcommands()) {
     if (const std::optional<std::string> found = unknown_word(*chosen)) return found;

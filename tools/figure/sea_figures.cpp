@@ -120,7 +120,7 @@ double exceeded_by(const std::vector<double>& ascending, double share) {
 }  // namespace
 
 std::string spectrum_csv(const SeaEnsemble& ensemble) {
-  std::string text = "omega_rad_s,density_m2_s,realised_m2_s,realised_linear_m2_s\n";
+  std::string text = "omega_rad_s,density_m2_s,realised_density_m2_s,realised_linear_density_m2_s\n";
   for (std::size_t i = 0; i < ensemble.omega.size(); ++i) {
     fmt::format_to(std::back_inserter(text), "{:.9g},{:.9g},{:.9g},{:.9g}\n", ensemble.omega[i], ensemble.prescribed[i],
                    ensemble.realised[i], ensemble.realised_linear[i]);

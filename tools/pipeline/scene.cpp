@@ -89,7 +89,7 @@ void check_scene_range(const Scenario& scenario, const TargetSpec& spec, const T
     check_wavefront_range(reach_m(body, interval_length_s(scenario.radar)), spec.solver.wavefront_range_m);
   } catch (const InputError& error) {
     const std::string key =
-        fmt::format("targets.{}.{}", spec.name, companion ? fmt::format("with.{}", *companion) : "solver");
+        fmt::format("targets.{}.{}", spec.name, companion ? fmt::format("companions.{}", *companion) : "solver");
     throw InputError(fmt::format("{}: {}", place_of(scenario, key), error.what()));
   }
 }
@@ -115,7 +115,7 @@ void check_above_water(const Scenario& scenario, const TargetSpec& spec, const T
   if (spec.motion.model == MotionModel::kFloat) {
     throw InputError(fmt::format(
         "{}: value {}: must be greater than {:.6g} with sea_reflection, else the whole target is under water",
-        place_of(scenario, fmt::format("targets.{}.motion.centre_above_water_m", spec.name)), height_m, -top_m));
+        place_of(scenario, fmt::format("targets.{}.motion.origin_above_waterline_m", spec.name)), height_m, -top_m));
   }
   throw InputError(
       fmt::format("{}: its highest point is at z = {:.6g} m: must be above 0, the water, with sea_reflection, else the "
@@ -189,7 +189,7 @@ std::vector<Target> load_targets(const Scenario& scenario, const SamplePlan& pla
     check_scene_range(scenario, spec, targets.back(), std::nullopt);
   }
   for (std::size_t t = 0; t < scenario.targets.size(); ++t) {
-    for (const CompanionSpec& companion : scenario.targets[t].with) {
+    for (const CompanionSpec& companion : scenario.targets[t].companions) {
       const auto named = std::find_if(scenario.targets.begin(), scenario.targets.end(),
                                       [&](const TargetSpec& spec) { return spec.name == companion.target; });
       Target target =

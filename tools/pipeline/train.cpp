@@ -73,7 +73,7 @@ void require_own_directory(const fs::path& directory) {
   for (const auto& entry : fs::directory_iterator(directory)) {
     const std::string name = entry.path().filename();
     if (name.ends_with(".tmp") || std::find(ours.begin(), ours.end(), name) != ours.end()) continue;
-    throw InputError(fmt::format("{}: the directory holds no model, but {}", directory.string(), name));
+    throw InputError(fmt::format("{}: the directory contains no model, but {}", directory.string(), name));
   }
 }
 

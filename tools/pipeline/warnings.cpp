@@ -24,8 +24,8 @@ struct CoarsestSea {
 void add_doubt(std::vector<std::string>& lines, const char* key, int components, const CoarsestSea& sea) {
   if (sea.width <= kMaxStratumWidth) return;
   lines.push_back(fmt::format(
-      "{}: {} for waves of Tp {:.3g} s make strata {:.2g} of the peak frequency wide, and the mean period is "
-      "another one in every realisation: {:.0f} and more hold it within about 1 %",
+      "{}: {} components at Tp {:.3g} s give strata {:.2g} of the peak frequency wide, so that the mean period varies "
+      "between realisations; {:.0f} or more keep it within about 1 %",
       key, components, sea.peak_period_s, sea.width, std::ceil(components * sea.width / kMaxStratumWidth)));
 }
 

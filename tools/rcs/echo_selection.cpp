@@ -48,7 +48,7 @@ ContributionFilter filter_of(const EchoSelection& selection, const TriangleMesh&
     const ContributionSelector one = selector("--only", text, mesh);
     if (one.kind == ContributionSelector::Kind::kBounces && one.value > max_bounces)
       throw InputError(
-          fmt::format("--only {} requires --max-bounces {} or more; {} are followed", text, one.value, max_bounces));
+          fmt::format("--only {} requires --max-bounces {} or more; {} are traced", text, one.value, max_bounces));
     if (one.kind == ContributionSelector::Kind::kMechanism && one.value == static_cast<int>(Mechanism::kDiffraction) &&
         !edges)
       throw InputError(fmt::format("--only {} requires --edges on", text));
@@ -63,9 +63,8 @@ ContributionFilter filter_of(const EchoSelection& selection, const TriangleMesh&
 }
 
 std::string text_of(const EchoSelection& selection) {
-  if (selection.only.empty() && selection.without.empty()) return "everything";
-  return fmt::format("only {}{}{}",
-                     selection.only.empty() ? "everything" : fmt::format("{}", fmt::join(selection.only, " ")),
+  if (selection.only.empty() && selection.without.empty()) return "all";
+  return fmt::format("{}{}{}", selection.only.empty() ? "all" : fmt::format("only {}", fmt::join(selection.only, " ")),
                      selection.without.empty() ? "" : " without ", fmt::join(selection.without, " "));
 }
 

@@ -30,8 +30,7 @@ std::vector<int> cavity_parts(const CavityRequest& request, const TriangleMesh& 
   for (const auto* selectors : {&selection.included, &selection.excluded}) {
     for (const ContributionSelector& s : *selectors) {
       if (!request.parts.empty() && s.kind != ContributionSelector::Kind::kPart)
-        throw InputError(
-            "--cavity: what comes out of a cavity has neither bounces nor a mechanism; select by part=NAME");
+        throw InputError("--cavity: cavity contributions have no bounce count or mechanism; select with part=NAME");
     }
   }
   return indices;

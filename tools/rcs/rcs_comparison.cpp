@@ -36,8 +36,8 @@ class Samples {
       if (std::abs(sample.frequency_hz - frequency_hz) > kFrequencyTolerance * frequency_hz) continue;
       const auto [place, is_new] = by_direction_.try_emplace(key_of(sample.theta_deg, sample.phi_deg), &sample);
       if (!is_new && std::abs(place->second->level_dbsm - sample.level_dbsm) > kSameLevel_db) {
-        throw InputError(fmt::format("{}: theta {} phi {} at {} GHz stands twice, with {} and {} dBsm", reference.name,
-                                     sample.theta_deg, sample.phi_deg, sample.frequency_hz * 1e-9,
+        throw InputError(fmt::format("{}: theta {} phi {} at {} GHz is a duplicate, with {} and {} dBsm",
+                                     reference.name, sample.theta_deg, sample.phi_deg, sample.frequency_hz * 1e-9,
                                      place->second->level_dbsm, sample.level_dbsm));
       }
     }
@@ -97,8 +97,8 @@ void require_same_transmitter(const RcsSweep& sweep, const RcsReference& referen
   const auto fail = [&](const std::string& ours) {
     throw InputError(fmt::format("{}: {}, {}", reference.name,
                                  theirs.is_monostatic
-                                     ? std::string("is monostatic by its own words")
-                                     : fmt::format("its transmitter stands at azimuth {:g} deg, elevation {:g} deg",
+                                     ? std::string("is declared monostatic")
+                                     : fmt::format("its transmitter is at azimuth {:g} deg, elevation {:g} deg",
                                                    theirs.phi_deg, 90 - theirs.theta_deg),
                                  ours));
   };
@@ -111,9 +111,8 @@ void require_same_transmitter(const RcsSweep& sweep, const RcsReference& referen
   const double theta_deg = degrees(std::acos(std::clamp(t.z(), -1.0, 1.0)));
   const double phi_deg =
       reference.settings.phi_scale * degrees(std::atan2(t.y(), t.x())) + reference.settings.phi_offset_deg;
-  const std::string ours =
-      fmt::format("the sweep's transmitter stands at azimuth {:g} deg, elevation {:g} deg of the same angles", phi_deg,
-                  90 - theta_deg);
+  const std::string ours = fmt::format(
+      "the sweep's transmitter is at azimuth {:g} deg, elevation {:g} deg of the same angles", phi_deg, 90 - theta_deg);
   if (theirs.is_monostatic || (unit_vector(theta_deg, phi_deg) - unit_vector(theirs.theta_deg, theirs.phi_deg)).norm() >
                                   radians(kAngleStep_deg))
     fail(ours);

@@ -309,7 +309,7 @@ void require_own_frequency(const RcsReference& reference, const std::string& fil
   constexpr double kTolerance = 1e-6;
   for (const ReferenceSample& sample : reference.samples) {
     if (std::abs(sample.frequency_hz - *reference.settings.frequency_hz) <= kTolerance * sample.frequency_hz) continue;
-    throw InputError(fmt::format("{}: holds {:g} GHz by its own words: leave out --reference-frequency-ghz {:g}", file,
+    throw InputError(fmt::format("{}: declares {:g} GHz: remove --reference-frequency-ghz {:g}", file,
                                  sample.frequency_hz * 1e-9, *reference.settings.frequency_hz * 1e-9));
   }
 }
@@ -329,7 +329,7 @@ RcsReference read_reference(const std::filesystem::path& file, const ReferenceSe
     case Format::kOwnTable: read_own_table(lines, reference); break;
     case Format::kCstTable: read_cst_table(lines, reference); break;
   }
-  if (reference.samples.empty()) throw InputError(fmt::format("{}: holds no values", file.string()));
+  if (reference.samples.empty()) throw InputError(fmt::format("{}: contains no values", file.string()));
   require_own_frequency(reference, file.string());
   return reference;
 }

@@ -39,19 +39,17 @@ RcsSweep requested_sweep(const RcsRequest& request) {
   if (request.transmitter) sweep.transmitter = direction_to(*request.transmitter);
   check_sea(request);
   if (!request.cavities.parts.empty() && (request.sea.reflection || request.range_m > 0 || request.exports.wanted()))
-    throw InputError(
-        "--cavity is of the far field and the target alone: leave out --sea-reflection, --range-m and exports of a "
-        "view");
+    throw InputError("--cavity does not support --sea-reflection, --wavefront-range-m and exports of one aspect");
   constexpr std::size_t kMaxRows = 4'000'000;  // 256 MB of matrices
   if (sweep.rows() > kMaxRows) throw InputError(fmt::format("{} rows of output: at most {}", sweep.rows(), kMaxRows));
   if (sweep.rows() == 0) throw InputError("no frequency, azimuth or elevation");
   if (request.exports.wanted() && sweep.rows() != 1)
-    throw InputError(
-        fmt::format("exports of a view need one frequency, azimuth and elevation; there are {} rows", sweep.rows()));
+    throw InputError(fmt::format("exports of one aspect need one frequency, azimuth and elevation; there are {} rows",
+                                 sweep.rows()));
   if (request.exports.wanted() && request.sea.reflection)
-    throw InputError("exports of a view are of the target alone: leave out --sea-reflection");
+    throw InputError("exports of one aspect do not support --sea-reflection");
   if (request.transmitter && (request.exports.wanted() || request.sea.reflection)) {
-    throw InputError("--transmit-azimuth-deg: exports of a view and --sea-reflection are monostatic");
+    throw InputError("--transmit-azimuth-deg: exports of one aspect and --sea-reflection are monostatic");
   }
   return sweep;
 }
@@ -72,8 +70,8 @@ std::vector<std::string> doubts_of(const RcsRequest& request) {
   if (farthest <= kFarthestDeg) return {};
   return {
       fmt::format("receivers up to {:.0f} deg from the transmitter: behind the target, beyond {:g} deg, "
-                  "only sharp edges scatter, and the shadow's own field, within 15 deg of "
-                  "the wave's way on, is not modelled",
+                  "only sharp edges scatter, and the forward-scattered field, within 15 "
+                  "deg of the incident direction, is not modelled",
                   farthest, kFarthestDeg)};
 }
 

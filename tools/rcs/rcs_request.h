@@ -61,7 +61,7 @@ struct RcsRequest {
   bool edges = true;                            // fringe currents at sharp edges
   bool physical_optics_too = false;             // also computes a second model without edge diffraction
   int max_bounces = kDefaultBounces;
-  double ray_spacing_m = 0;  // 0: 0.001 radius
+  double min_patch_m = 0;  // 0: default_min_patch()
   double crease_deg = kDefaultCreaseDeg, sheet_thickness_mm = 0;
   EchoSelection selection;
   SeaUnderTarget sea;

@@ -27,11 +27,12 @@ std::string materials_text(const std::vector<MaterialChoice>& materials) {
 std::string sea_line(const SeaUnderTarget& sea) {
   if (!sea.reflection) return "";
   const char* surface = sea.surface == SeaSurface::kConductor ? "conductor" : "sea_water";
-  const char* paths = sea.paths == SeaPaths::kMultipath ? "multipath"
-                      : sea.paths == SeaPaths::kDirect  ? "direct"
+  const char* paths = sea.paths == SeaPaths::kMultipath ? "multipath_only"
+                      : sea.paths == SeaPaths::kDirect  ? "direct_only"
                                                         : "all";
-  return fmt::format("# over {}, origin {:.6g} m above the mean surface, significant wave height {:.6g} m, paths {}\n",
-                     surface, sea.height_m, sea.wave_height_m, paths);
+  return fmt::format(
+      "# over {}, origin {:.6g} m above the mean surface, significant wave height {:.6g} m, propagation paths: {}\n",
+      surface, sea.height_m, sea.wave_height_m, paths);
 }
 
 // A line for the cavities; empty without one.
@@ -39,7 +40,7 @@ std::string cavity_line(const CavityRequest& cavities) {
   if (cavities.parts.empty()) return "";
   return fmt::format(
       "# cavities {}: from the currents on their walls (magnetic-field integral equation, {:.6g} patches per "
-      "wavelength), fed through their mouths\n",
+      "wavelength), excited through their apertures\n",
       fmt::join(cavities.parts, " "), cavities.patches_per_wavelength);
 }
 
@@ -47,18 +48,19 @@ std::string cavity_line(const CavityRequest& cavities) {
 
 std::string rcs_table(const RcsRequest& request, const Scatterer& scatterer, const RcsSweep& sweep) {
   std::string csv = fmt::format(
-      "# seaglint {} rcs\n# target {} unit {}: {} facets, radius {:.6g} m\n# material {}, echoes of {}\n{}{} at every "
+      "# seaglint {} rcs\n# target {} unit {}: {} facets, radius {:.6g} m\n# material {}, contributions: {}\n{}{} at "
+      "every "
       "visible bounce, "
-      "max_bounces {}, edges {}, crease_deg {:.6g}, sheet_thickness_mm {:.6g}, range_m {:.9g} (0 = far field), {}, "
-      "ray_spacing_m {:.6g}\n{}# amplitudes in metres, e^{{+jwt}}, phase origin at the body's origin, S_pq: q "
+      "max_bounces {}, edges {}, crease_deg {:.6g}, sheet_thickness_mm {:.6g}, wavefront_range_m {:.9g} (0 = plane "
+      "wave), {}, "
+      "min_patch_m {:.6g}\n{}# amplitudes in metres, e^{{+jwt}}, phase origin at the body's origin, S_pq: q "
       "transmitted, p received; basis of CONVENTIONS.md\n"
       "frequency_hz,azimuth_deg,elevation_deg,hh_re,hh_im,hv_re,hv_im,vh_re,vh_im,vv_re,vv_im,hh_dbsm,vv_dbsm\n",
       kVersion, request.target.string(), request.unit, scatterer.facets().size(), scatterer.radius(),
       materials_text(request.materials), text_of(request.selection), sea_line(request.sea), kMethodNote,
       request.max_bounces, request.edges ? "on" : "off", request.crease_deg, request.sheet_thickness_mm,
       request.range_m, transmitter_note(request.transmitter),
-      request.ray_spacing_m > 0 ? request.ray_spacing_m : default_ray_spacing(scatterer),
-      cavity_line(request.cavities));
+      request.min_patch_m > 0 ? request.min_patch_m : default_min_patch(scatterer), cavity_line(request.cavities));
   for (std::size_t q = 0; q < sweep.frequency_hz.size(); ++q) {
     for (std::size_t view = 0; view < sweep.views(); ++view) {
       const auto& s = sweep.models.back().matrices[view][q];

@@ -16,7 +16,7 @@ void require_above_water(const SeaUnderTarget& sea, const TriangleMesh& mesh) {
   const double top_m = bounds(mesh).upper.z();
   if (!(top_m + sea.height_m > 0)) {
     throw InputError(
-        fmt::format("--height-m: value {}: must be greater than {:.6g}, else the whole target is under water",
+        fmt::format("--origin-height-m: value {}: must be greater than {:.6g}, else the whole target is under water",
                     sea.height_m, -top_m));
   }
 }

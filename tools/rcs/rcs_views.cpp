@@ -92,7 +92,7 @@ RadarBasis basis_at(double azimuth_deg, double elevation_deg) {
 }
 
 TracingSettings settings_of(const RcsRequest& request, const RcsTarget& target, bool edge_diffraction) {
-  return {request.ray_spacing_m, request.max_bounces, edge_diffraction, target.filter, request.range_m};
+  return {request.min_patch_m, request.max_bounces, edge_diffraction, target.filter, request.range_m};
 }
 
 RcsResult compute_rcs(const RcsRequest& request, const RcsTarget& target, int threads, const StopFlag* stop) {
@@ -100,7 +100,7 @@ RcsResult compute_rcs(const RcsRequest& request, const RcsTarget& target, int th
   RcsSweep& sweep = result.sweep;
   const std::vector<std::vector<std::array<Complex, 4>>> empty(sweep.views());
   if (!request.edges || request.physical_optics_too) sweep.models.push_back({"po", false, empty});
-  if (request.edges) sweep.models.push_back({"edges", true, empty});
+  if (request.edges) sweep.models.push_back({"po+diffraction", true, empty});
   const int count = thread_count(threads);
   result.segments = compute_sweep(request, target, count, stop, sweep);
   if (!target.cavities.empty()) add_cavities(request, target, count, stop, sweep);

@@ -61,11 +61,11 @@ std::string write_centres(const ViewExport& arguments, const TriangleMesh& mesh,
   }
   write_file(arguments.centres, heading +
                                     fmt::format("# {} of {} centres, down to {:g} dB below the strongest; cells of "
-                                                "{:g} m; their sum misses {:.1f} dB of the view's S\n"
+                                                "{:g} m; the remainder is {:.1f} dB of the aspect's S\n"
                                                 "# S(k + dk, r^ + d) = sum of s e^{{j dk psi + j (k + dk) 2 x.d}}; "
                                                 "amplitudes s at k and r^ in metres, psi = minus the two-way path\n"
                                                 "x_m,y_m,z_m,psi_m,hh_re,hh_im,hv_re,hv_im,vh_re,vh_im,vv_re,vv_im,"
-                                                "strongest_dbsm,part,bounces,mechanism\n",
+                                                "max_dbsm,part,bounces,mechanism\n",
                                                 count, centres.size(), arguments.range_db, arguments.cell_m,
                                                 size > 0 ? dbsm_of_area(missing / size) : -1000.0) +
                                     rows);
@@ -114,15 +114,15 @@ std::string write_hot_spots(const ViewExport& arguments, const TriangleMesh& mes
     coloured.triangle_material.push_back(static_cast<std::uint16_t>(std::clamp(step, 0, steps)));
   }
   write_coloured_mesh(arguments.hot_spots, welded(coloured), colours);
-  return fmt::format("{}: facets by the strength of what leaves them, {}\n", arguments.hot_spots,
-                     silent ? "no echo in this view" : fmt::format("up to {:.1f} dBsm", highest));
+  return fmt::format("{}: facets coloured by their RCS contribution, {}\n", arguments.hot_spots,
+                     silent ? "no echo at this aspect" : fmt::format("up to {:.1f} dBsm", highest));
 }
 
 // The head of a table of scattering centres.
 std::string heading(const RcsRequest& request) {
   return fmt::format(
       "# seaglint {} rcs: scattering centres\n# target {} unit {}, {:.9g} Hz, azimuth {:.9g} deg, elevation {:.9g} "
-      "deg, max_bounces {}, edges {}, of {}\n"
+      "deg, max_bounces {}, edges {}, contributions: {}\n"
       "# body frame, e^{{+jwt}}, phase origin at the body's origin, S_pq: q transmitted, p received; basis of "
       "CONVENTIONS.md\n",
       kVersion, request.target.string(), request.unit, request.frequency_hz[0], request.azimuth_deg[0],

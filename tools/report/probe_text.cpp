@@ -67,7 +67,7 @@ std::string note_of_level(const ordered_json& metrics, const Scenario& scenario)
         "reach here may be the "
         "target’s size. Clutter and noise at given ratios to the target (<code>clutter.level: scr</code>, "
         "<code>noise_level: "
-        "to_clutter</code> or <code>snr</code>) take it out.",
+        "cnr</code> or <code>snr</code>) take it out.",
         absolute, power, percent(probe_accuracy(metrics, "signal to clutter and noise")));
   }
   return fmt::format(

@@ -115,7 +115,7 @@ std::string page(const ordered_json& metrics, const Scenario& scenario, const st
   body += summary_tiles(metrics);
   body += section("maps", "Range-velocity maps",
                   "<p>Levels in dB below each map’s strongest cell. Circles are the scattering centres that CLEAN "
-                  "finds, the frame holds them all. Range grows away from the "
+                  "finds, the frame contains them all. Range grows away from the "
                   "radar, velocity is positive when receding.</p>\n" +
                       figures(all, "maps"));
   body += section("accuracy", "Accuracy",

@@ -157,7 +157,8 @@ std::string accuracy_tables(const ordered_json& metrics) {
   html +=
       "<p>Fusion <code>split</code>: the network learns from one part of the training maps, the trees from the other, "
       "so that the trees never see "
-      "features of maps the network was fitted to. <code>in_sample</code>, the paper’s way, gives both the same maps: "
+      "features of maps the network was fitted to. <code>in_sample</code>, the paper’s method, gives both the same "
+      "maps: "
       "the trees then trust the "
       "network more than unseen maps justify. Hand-made features need no network; “rows of split” shows them with as "
       "few maps as the fused ones "
@@ -315,7 +316,7 @@ std::string expert_notes(const ordered_json& metrics, const Scenario& scenario) 
   const std::size_t degenerate = metrics.at("data").at("maps_with_fewer_than_3_centres");
   if (degenerate > 0) {
     html +=
-        item(fmt::format("<b>Thin maps.</b> {} of {} maps hold fewer than three centres; their line features are "
+        item(fmt::format("<b>Thin maps.</b> {} of {} maps contain fewer than three centres; their line features are "
                          "defined but say little.",
                          degenerate, metrics.at("data").at("maps").get<std::size_t>()));
   }

@@ -61,7 +61,7 @@ void require_directory(const fs::path& directory, bool resume) {
         fmt::format("{}: the directory is not empty; go on with what is there by --resume", directory.string()));
   }
   if (!fs::is_directory(directory / "data", error))
-    throw InputError(fmt::format("{}: the directory holds something else than a run", directory.string()));
+    throw InputError(fmt::format("{}: the directory contains something else than a run", directory.string()));
 }
 
 // What learning would refuse after all maps were made.

@@ -90,7 +90,8 @@ class Auditor {
   // One sea per group and one group per sea, and every sample once.
   void whole() {
     for (const auto& [group, seas] : seas_of_group_) {
-      if (seas.size() > 1) fault(fmt::format("group {}", group), fmt::format("holds {} sea realisations", seas.size()));
+      if (seas.size() > 1)
+        fault(fmt::format("group {}", group), fmt::format("contains {} sea realisations", seas.size()));
     }
     std::map<std::int64_t, std::set<std::int64_t>> groups_of_sea;
     for (const auto& [group, seas] : seas_of_group_) {

@@ -81,7 +81,7 @@ std::string data_card(const Scenario& scenario, const Manifest& manifest, const 
       "    label = shard[\"samples/label\"][:]\n"
       "```\n\n"
       "`seaglint merge DIR` makes one file of all shards, `seaglint export DIR -o FILE.npz` arrays for NumPy.\n"
-      "`manifest.json` lists the shards in order with their SHA-256. `hop_code` holds the carrier number of every "
+      "`manifest.json` lists the shards in order with their SHA-256. `hop_code` contains the carrier number of every "
       "pulse, `centres` the\n"
       "scattering centres (range, velocity, amplitude), zero beyond `samples/centres`.\n\n"
       "## Columns of `samples/`\n\n";

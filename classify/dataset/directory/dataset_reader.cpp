@@ -59,14 +59,14 @@ Shard DatasetReader::shard(std::size_t index) const {
   Shard shard = read_shard(file);
   if (shard.samples.size() != entry.samples || shard.axes.velocity_mps.size() != manifest_.rows ||
       shard.axes.range_m.size() != manifest_.columns) {
-    throw InputError(fmt::format("{}: does not hold what the manifest says", file.string()));
+    throw InputError(fmt::format("{}: does not contain what the manifest lists", file.string()));
   }
   for (std::size_t row = 0; row < shard.samples.size(); ++row) {
     const std::int64_t sample = shard.samples[row].record.sample;
     const std::uint64_t planned = entry.first_sample + row;
     if (sample != static_cast<std::int64_t>(planned)) {
       throw InputError(
-          fmt::format("{}: row {} holds sample {}, by the manifest {}", file.string(), row, sample, planned));
+          fmt::format("{}: row {} contains sample {}, by the manifest {}", file.string(), row, sample, planned));
     }
   }
   return shard;

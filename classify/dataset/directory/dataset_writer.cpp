@@ -60,7 +60,7 @@ void require_own_directory(const fs::path& directory) {
     const fs::path of_run = directory / "data";
     std::error_code error;
     const bool is_run = fs::exists(of_run / kScenarioFile, error);
-    throw InputError(fmt::format("{}: the directory holds {}, which is no file of a data set{}", directory.string(),
+    throw InputError(fmt::format("{}: the directory contains {}, which is no file of a data set{}", directory.string(),
                                  name, is_run ? "; the run's data set is " + of_run.string() : ""));
   }
 }
@@ -142,7 +142,7 @@ DatasetWriter::DatasetWriter(fs::path directory, const Scenario& scenario, const
     same_text = read_file(scenario_file) == scenario_yaml_;
     const std::string there = maps_yaml(read_scenario(scenario_file)), here = maps_yaml(scenario_);
     if (there != here) {
-      throw InputError(fmt::format("{}: the directory holds another scenario ({}); choose another directory",
+      throw InputError(fmt::format("{}: the directory contains another scenario ({}); choose another directory",
                                    scenario_file.string(), first_difference(there, here)));
     }
   }

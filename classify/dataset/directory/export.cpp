@@ -159,7 +159,7 @@ void require_export_directory(const DatasetReader& reader, const fs::path& direc
     if (name.starts_with('.') || is_temporary(name)) continue;
     if (ours.contains(name) && exported_manifest(directory / name) == manifest) continue;
     throw InputError(
-        fmt::format("{}: the directory holds {}, which is not of this data set's export; choose a new directory",
+        fmt::format("{}: the directory contains {}, which is not of this data set's export; choose a new directory",
                     directory.string(), name));
   }
 }

@@ -85,7 +85,8 @@ Manifest read_manifest(const std::filesystem::path& file) {
       manifest.shards.push_back(std::move(shard));
     }
     if (next != manifest.samples) {
-      throw InputError(fmt::format("{}: samples: {}, but the shards hold {}", file.string(), manifest.samples, next));
+      throw InputError(
+          fmt::format("{}: samples: {}, but the shards contain {}", file.string(), manifest.samples, next));
     }
     if (next < 1 || next > kMaxSamples) {
       throw InputError(

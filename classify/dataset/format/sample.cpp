@@ -26,7 +26,7 @@ std::span<const SampleColumn> sample_columns() {
       {"sea_key", "1", "random key of the sea", &R::sea_key},
       {"first_motion_key", "1", "random key of the target's first body; further bodies follow", &R::first_motion_key},
       {"radar_key", "1", "random key of hop code, clutter and noise", &R::radar_key},
-      {"empty_carriers", "1", "carriers that no pulse of the interval used (zero band)", &R::unused_carriers},
+      {"unused_carriers", "1", "carriers that no pulse of the interval used (zero band)", &R::unused_carriers},
       {"scr_per_pulse_db", "dB", "target to clutter, mean over pulses and frequencies", &R::scr_per_pulse_db},
       {"scr_peak_cell_db", "dB", "target's largest cell to mean clutter cell", &R::scr_peak_cell_db},
       {"scr_extent_db", "dB", "target to clutter inside the target's own box", &R::scr_extent_db},
@@ -39,7 +39,7 @@ std::span<const SampleColumn> sample_columns() {
       {"sigma_v_mps", "m/s", "standard deviation of the centres' velocities", &R::sigma_v_mps},
       {"centres", "1", "number of scattering centres", &R::centres},
       {"degenerate", "1", "1 when fewer than 3 centres were found", &R::degenerate},
-      {"traces", "1", "traces made: directions that were lit, all bodies and ways over the sea", &R::aspect_traces},
+      {"aspect_traces", "1", "look directions traced, all bodies and propagation paths", &R::aspect_traces},
   };
   return columns;
 }

@@ -14,7 +14,7 @@ namespace seaglint {
 
 namespace {
 
-constexpr const char* kFormat = "seaglint shard 2";
+constexpr const char* kFormat = "seaglint shard 3";
 
 // The values of a column, one per sample.
 template <class T>
@@ -25,7 +25,7 @@ std::vector<T> column_values(const std::vector<Sample>& samples, T SampleRecord:
 }
 
 void check_shapes(const Shard& shard, int max_centres) {
-  SEAGLINT_CHECK(!shard.samples.empty() && max_centres >= 1, "a shard holds at least one sample and one centre");
+  SEAGLINT_CHECK(!shard.samples.empty() && max_centres >= 1, "a shard contains at least one sample and one centre");
   const Sample& first = shard.samples.front();
   for (const Sample& sample : shard.samples) {
     SEAGLINT_CHECK(sample.magnitude.size() == shard.axes.cells(),

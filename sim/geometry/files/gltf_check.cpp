@@ -161,7 +161,7 @@ class Checker {
       }
       plain["uri"] = uri;
     } else if (at != "buffers[0]" || size > binary_size_) {
-      fail(fmt::format("{}.byteLength = {} but the file's binary chunk holds {} bytes", at, size,
+      fail(fmt::format("{}.byteLength = {} but the file's binary chunk contains {} bytes", at, size,
                        at == "buffers[0]" ? binary_size_ : 0));
     }
     return plain;

@@ -44,7 +44,7 @@ SanitisedPolygons plain_polygons(const std::string& ending, std::string bytes, c
 }
 
 void check_mesh(const TriangleMesh& mesh, const std::string& file) {
-  if (mesh.triangles.empty()) throw InputError(fmt::format("{}: holds no triangles", file));
+  if (mesh.triangles.empty()) throw InputError(fmt::format("{}: contains no triangles", file));
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     const Vec3& p = mesh.vertices[v];
     if (!p.allFinite()) throw InputError(fmt::format("{}: vertex {} is not finite", file, v));

@@ -26,7 +26,7 @@ SanitisedPolygons check_binary(std::string bytes, const std::string& file) {
   std::uint32_t count = 0;
   std::memcpy(&count, bytes.data() + 80, 4);
   const std::size_t held = (bytes.size() - kHeader) / kFacet;
-  if (count > held) throw InputError(fmt::format("{}: promises {} triangles, holds {}", file, count, held));
+  if (count > held) throw InputError(fmt::format("{}: promises {} triangles, contains {}", file, count, held));
   const std::size_t end = kHeader + kFacet * count;
   if (bytes.size() > end)
     throw InputError(fmt::format("{}: promises {} triangles, which end at byte {}; {} bytes are left over", file, count,

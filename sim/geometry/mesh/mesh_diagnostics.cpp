@@ -224,9 +224,9 @@ MeshDiagnostics diagnose(const TriangleMesh& mesh) { return find_defects(mesh).h
 
 std::vector<std::string> diagnostic_messages(const MeshDiagnostics& h) {
   std::vector<std::string> found;
-  if (h.degenerate > 0) found.push_back(counted(h.degenerate, "triangle has", "triangles have") + " no area: left out");
+  if (h.degenerate > 0) found.push_back(counted(h.degenerate, "triangle has", "triangles have") + " no area: removed");
   if (h.repeated > 0)
-    found.push_back(counted(h.repeated, "triangle repeats", "triangles repeat") + " another: left out");
+    found.push_back(counted(h.repeated, "triangle repeats", "triangles repeat") + " another: removed");
   if (h.inverted_surfaces > 0) {
     found.push_back(fmt::format("{} inside out ({}): turned outwards",
                                 counted(h.inverted_surfaces, "closed surface is", "closed surfaces are"),
@@ -239,7 +239,7 @@ std::vector<std::string> diagnostic_messages(const MeshDiagnostics& h) {
   }
   if (h.inconsistent_edges > 0) {
     found.push_back(counted(h.inconsistent_edges, "edge has", "edges have") +
-                    " neighbours that face opposite ways: their surfaces are taken as sheets, seen from both sides");
+                    " neighbours of opposite orientation: their surfaces are taken as sheets, seen from both sides");
   }
   if (h.non_manifold_edges > 0) {
     found.push_back(
@@ -250,13 +250,12 @@ std::vector<std::string> diagnostic_messages(const MeshDiagnostics& h) {
                            counted(h.non_manifold_surfaces, "surface that branches", "surfaces that branch"))));
   }
   if (h.two_sided > 0)
-    found.push_back(counted(h.two_sided, "triangle is", "triangles are") +
-                    " the back of another: left out, a sheet of one material is seen from both sides");
+    found.push_back(counted(h.two_sided, "triangle duplicates another", "triangles duplicate others") +
+                    " with opposite orientation: removed; a single-material sheet scatters from both sides");
   if (h.dropped_backs > 0) {
     found.push_back(
-        fmt::format("{} the back of another in another material, the first of them of part '{}' behind part '{}': left "
-                    "out, their surfaces are open; "
-                    "both sides answer as the front does",
+        fmt::format("{} the back of another in another material, the first of them of part '{}' behind part '{}': "
+                    "removed, their surfaces are open; both sides scatter as the front does",
                     counted(h.dropped_backs, "triangle is", "triangles are"), h.lost_part, h.lost_behind));
   }
   return found;

@@ -42,7 +42,7 @@ class Words {
   std::vector<double> numbers(std::size_t count, const char* what) {
     std::string_view text;
     do {
-      if (at_end()) throw InputError(fmt::format("{}: ends where {} should stand", place(), what));
+      if (at_end()) throw InputError(fmt::format("{}: ends where {} should follow", place(), what));
       text = line();
     } while (text.find_first_not_of(" \t\r") == std::string_view::npos);
     std::vector<double> values;
@@ -182,8 +182,8 @@ RaoTable read_veres_rao(const std::filesystem::path& file, double speed) {
   // Half a knot: the encounter frequency that the responses belong to.
   constexpr double kSpeedSlack = 0.26;
   if (std::abs(nearest->speed() - speed) > kSpeedSlack) {
-    throw InputError(fmt::format("{}: no responses at a speed of {:.4g} m/s: it holds {:.4g} m/s", words.file(), speed,
-                                 fmt::join(speeds, ", ")));
+    throw InputError(fmt::format("{}: no responses at a speed of {:.4g} m/s: it contains {:.4g} m/s", words.file(),
+                                 speed, fmt::join(speeds, ", ")));
   }
   return *nearest;
 }
@@ -208,11 +208,11 @@ RaoTable read_wamit_rao(const std::filesystem::path& file, double unit_length, c
     auto& cell = rows[wrapped(radians(row[1]))][2 * kPi / row[0]][static_cast<std::size_t>(mode) - 1];
     if (cell) {
       throw InputError(
-          fmt::format("{}: period {} s, heading {} deg, mode {}: stands twice", words.place(), row[0], row[1], mode));
+          fmt::format("{}: period {} s, heading {} deg, mode {}: duplicate", words.place(), row[0], row[1], mode));
     }
     cell = mode > 3 ? value / unit_length : value;
   }
-  if (rows.empty()) throw InputError(fmt::format("{}: holds no responses", words.file()));
+  if (rows.empty()) throw InputError(fmt::format("{}: contains no responses", words.file()));
 
   std::vector<double> omega;
   for (const auto& [frequency, modes] : rows.begin()->second) omega.push_back(frequency);

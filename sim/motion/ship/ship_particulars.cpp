@@ -88,9 +88,9 @@ void set_pitch_and_heave(ShipParticulars& ship, const MotionSpec& spec, double m
   const auto impedance = [&](double omega) -> Complex {
     return stiffness - omega * omega * ship.vertical_mass(1, 1) - ship.strips->radiation(omega, 0).vertical(1, 1);
   };
-  const double radius = given_or(spec.pitch_radius_m, kPitchRadius * ship.length);
+  const double radius = given_or(spec.pitch_gyradius_m, kPitchRadius * ship.length);
   double inertia = mass * radius * radius;
-  if (spec.pitch_period_s > 0 && !(spec.pitch_radius_m > 0)) {
+  if (spec.pitch_period_s > 0 && !(spec.pitch_gyradius_m > 0)) {
     inertia = inertia_of_period(2 * kPi / spec.pitch_period_s, impedance, "pitch_period_s");
   }
   ship.pitch.omega0 = natural_frequency(inertia, stiffness, impedance);
@@ -132,7 +132,7 @@ ShipParticulars ship_particulars(const MotionSpec& spec, const HullSections& hul
   const double x = ship.centre_of_gravity.x();
   const double z = ship.centre_of_gravity.z();
   const double weight = kSeaWaterDensity * kGravity;
-  const double yaw_radius = given_or(spec.yaw_radius_m, kPitchRadius * ship.length);
+  const double yaw_radius = given_or(spec.yaw_gyradius_m, kPitchRadius * ship.length);
   ship.radii_of_gyration.z() = yaw_radius;
   // Mass matrix with G away from the origin; the moments of inertia in roll and pitch are added below.
   ship.lateral_mass << 1, -z, x,  //

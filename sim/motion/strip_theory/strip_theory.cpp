@@ -92,7 +92,7 @@ StripTheory::StripTheory(const HullSections& hull) {
     h.waterplane_xx += section.breadth * width * section.x * section.x;
     h.waterplane_yy += std::pow(section.breadth, 3) / 12 * width;
   }
-  if (strips_.empty()) throw InputError("hull sections: none holds enough water to carry a ship");
+  if (strips_.empty()) throw InputError("hull sections: none displaces enough water to carry a ship");
   h.buoyancy_x = volume_x / h.volume;
   h.buoyancy_z = volume_z / h.volume;
   SEAGLINT_CHECK(std::isfinite(h.buoyancy_x) && std::isfinite(h.buoyancy_z),

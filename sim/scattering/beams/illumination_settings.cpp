@@ -8,24 +8,21 @@
 namespace seaglint {
 namespace {
 
-// Side of the smallest illuminated patch in target radii: 5 mm on the 144 m ship.
-constexpr double kMinPatchSide = 0.7e-4;
-// A lattice of rays detects most patches whose side is a fourteenth of its spacing, given one more ray within every
-// corner.
-constexpr double kSpacingPerSide = 14;
+// Side of the smallest illuminated patch in target radii, 9.8e-4 / 14 = 0.7e-4: 5 mm on the 144 m ship.
+constexpr double kRadiusFraction = 9.8e-4, kFractionPerSide = 14;
 
 }  // namespace
 
-double smallest_area(const Scatterer& scatterer, const TracingSettings& settings) {
-  const double side = ray_spacing(scatterer, settings) / kSpacingPerSide;
-  return side * side;
+double default_min_patch(const Scatterer& scatterer) { return kRadiusFraction * scatterer.radius() / kFractionPerSide; }
+
+double min_patch(const Scatterer& scatterer, const TracingSettings& settings) {
+  const double coarsest = default_min_patch(scatterer);
+  return settings.min_patch_m > 0 ? std::min(coarsest, settings.min_patch_m) : coarsest;
 }
 
-double default_ray_spacing(const Scatterer& scatterer) { return kSpacingPerSide * kMinPatchSide * scatterer.radius(); }
-
-double ray_spacing(const Scatterer& scatterer, const TracingSettings& settings) {
-  const double coarsest = default_ray_spacing(scatterer);
-  return settings.ray_spacing_m > 0 ? std::min(coarsest, settings.ray_spacing_m) : coarsest;
+double smallest_area(const Scatterer& scatterer, const TracingSettings& settings) {
+  const double side = min_patch(scatterer, settings);
+  return side * side;
 }
 
 double min_amplitude(const Scatterer& scatterer, const TracingSettings& settings, double k) {

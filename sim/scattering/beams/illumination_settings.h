@@ -11,9 +11,9 @@
 namespace seaglint {
 
 struct TracingSettings {
-  // 14 times the side of the smallest illuminated patch that is kept, m; the smallest beam followed is 3.6 times as
-  // wide as that patch. 0 or a value above default_ray_spacing(): default_ray_spacing().
-  double ray_spacing_m = 0;
+  // Side of the smallest illuminated patch kept, m; beams narrower than 3.6 times it are not followed to further
+  // reflectors. 0 or coarser than default_min_patch(): that.
+  double min_patch_m = 0;
   int max_bounces = kDefaultBounces;  // 1 <= x <= kMaxBounces
   bool edges = false;                 // edge diffraction
   ContributionFilter filter = {};     // contributions that are summed; beams end at the walls of cavities only
@@ -23,11 +23,11 @@ struct TracingSettings {
   Vec3 origin = Vec3::Zero();  // position of the target frame's origin from that point, m
 };
 
-// 14 * 0.7e-4 of the target's radius: 0.07 m on the 144 m ship, whose smallest patches are then 5 mm wide.
-double default_ray_spacing(const Scatterer& scatterer);
+// Side of the smallest illuminated patch kept by default, m: 0.7e-4 of the radius, 5 mm on the 144 m ship (README.md).
+double default_min_patch(const Scatterer& scatterer);
 
-// Spacing of the settings, at most the default one, m.
-double ray_spacing(const Scatterer& scatterer, const TracingSettings& settings);
+// Side of the smallest illuminated patch kept, m: that of the settings, or the default where that is finer.
+double min_patch(const Scatterer& scatterer, const TracingSettings& settings);
 
 // A tenth of the amplitude k area / 2 pi of the smallest patch, m: end-point and edge contributions below it may be
 // left out. On the ship they are -65 dB of the echo together.

@@ -8,8 +8,8 @@
 namespace seaglint {
 namespace {
 
-// In ray spacings.
-constexpr double kMinRunForMultiple = 3, kMinRunForHighOrder = 20;
+// In sides of the smallest illuminated patch kept.
+constexpr double kMinRunForMultiple = 42, kMinRunForHighOrder = 280;
 
 // Multiple diffraction that starts at an edge, and paths that end at it where it is concave. For one antenna it is the
 // mean of a path and its reciprocal, as single diffraction is: off Keller's cone the two differ. For two antennas it is
@@ -34,9 +34,8 @@ void append_multiple_diffraction(const Scatterer& scatterer, const BistaticGeome
 
 MultipleDiffractionLimits multiple_diffraction_limits(const Scatterer& scatterer, const TracingSettings& settings,
                                                       double lowest) {
-  const double spacing = ray_spacing(scatterer, settings);
-  return {kMinRunForMultiple * spacing, kMinRunForHighOrder * spacing, min_amplitude(scatterer, settings, lowest),
-          lowest};
+  const double patch = min_patch(scatterer, settings);
+  return {kMinRunForMultiple * patch, kMinRunForHighOrder * patch, min_amplitude(scatterer, settings, lowest), lowest};
 }
 
 void edge_diffraction(const Scatterer& scatterer, const BistaticGeometry& geometry, const TracingSettings& settings,

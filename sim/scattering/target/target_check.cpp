@@ -18,7 +18,7 @@ constexpr double kLongestTarget_m = 5e3;  // ten times the longest ships
 constexpr double kFarOrigin = 10;         // half-sizes from the origin: warning
 // Half-sizes from the origin, error: details of a thirtieth of the half-size are below the smallest patch.
 constexpr double kTooFarOrigin = 300;
-constexpr double kMinDetail = 7e-5;  // smallest patch in radii about the origin (default_ray_spacing / 14)
+constexpr double kMinDetail = 7e-5;  // smallest patch in radii about the origin (default_min_patch())
 constexpr std::size_t kManyTriangles = 1'000'000;
 // Memory and time per million triangles on two cores, measured on a wavy sheet of 10 million and on a mesh of 2 million
 // with all edges sharp.
@@ -57,13 +57,15 @@ std::vector<std::string> check_target(const TriangleMesh& mesh, double lowest_hz
 
   const double distance = centre.norm() / std::max(longest / 2, 1e-300);
   if (distance > kTooFarOrigin) {
-    throw InputError(fmt::format(
-        "the target of {:.4g} m lies {:.4g} m from its origin, about which it turns and has its phase: move it there",
-        longest, centre.norm()));
+    throw InputError(
+        fmt::format("the target of {:.4g} m is centred {:.4g} m from the origin, its centre of rotation and phase "
+                    "centre: translate "
+                    "the mesh",
+                    longest, centre.norm()));
   }
   if (distance > kFarOrigin)
     found.push_back(
-        fmt::format("the target of {:.4g} m lies {:.4g} m from its origin; details below {:.2g} m are left out",
+        fmt::format("the target of {:.4g} m is centred {:.4g} m from the origin; details below {:.2g} m are neglected",
                     longest, centre.norm(), kMinDetail * (centre.norm() + longest / 2)));
 
   if (mesh.triangles.size() > kManyTriangles) {
@@ -81,10 +83,10 @@ std::vector<std::string> check_target(const TriangleMesh& mesh, double lowest_hz
 std::vector<std::string> check_edges(const Scatterer& scatterer, bool followed, double lowest_hz, double highest_hz) {
   const double longest = kSpeedOfLight / lowest_hz, shortest = kSpeedOfLight / highest_hz,
                thickness = scatterer.sheet_thickness();
-  const auto changes_nothing = [&](const char* why) {
-    return fmt::format("a sheet thickness of {:g} mm changes nothing: {}", 1e3 * thickness, why);
+  const auto no_effect = [&](const char* why) {
+    return fmt::format("sheet thickness of {:g} mm has no effect: {}", 1e3 * thickness, why);
   };
-  if (!followed) return thickness > 0 ? std::vector{changes_nothing("edges are off")} : std::vector<std::string>{};
+  if (!followed) return thickness > 0 ? std::vector{no_effect("edges are off")} : std::vector<std::string>{};
   double all = 0, narrow = 0;
   for (const SharpEdge& edge : scatterer.edges().edges) {
     const double length = edge.length();
@@ -99,17 +101,16 @@ std::vector<std::string> check_edges(const Scatterer& scatterer, bool followed, 
   std::vector<std::string> found;
   if (narrow > 0) {
     found.push_back(
-        fmt::format("{:.3g} m of {:.3g} m of sharp edges bound bars or strips narrower than a third of the wavelength "
-                    "at {:g} GHz, which return too "
-                    "much with edges on",
+        fmt::format("{:.3g} m of {:.3g} m of diffracting edges belong to bars or strips narrower than a third of a "
+                    "wavelength at {:g} GHz: half-plane diffraction overestimates their echo",
                     narrow, all, lowest_hz * 1e-9));
   }
   if (thickness > 0 && !any_free_edge) {
-    found.push_back(changes_nothing("no surface is open and a perfect conductor"));
+    found.push_back(no_effect("no surface is open and a perfect conductor"));
   } else if (thickness > kThickSheet * shortest) {
     found.push_back(
-        fmt::format("sheets of {:g} mm are {:.2g} wavelengths thick at {:g} GHz; their rims are followed to first "
-                    "order, good up to a tenth",
+        fmt::format("sheets of {:g} mm are {:.2g} wavelengths thick at {:g} GHz: the correction of their edge "
+                    "diffraction is of first order, valid up to a tenth",
                     1e3 * thickness, thickness / shortest, highest_hz * 1e-9));
   }
   return found;
@@ -118,10 +119,8 @@ std::vector<std::string> check_edges(const Scatterer& scatterer, bool followed, 
 void check_wavefront_range(double radius_m, double range_m) {
   constexpr double kNearestRadii = 10;
   if (range_m > 0 && range_m < kNearestRadii * radius_m) {
-    throw InputError(
-        fmt::format("radar range {} m: the target reaches {:.3g} m from where it is counted, and the range must be ten "
-                    "times that or more",
-                    range_m, radius_m));
+    throw InputError(fmt::format("wavefront range {} m: must be at least ten times the target radius of {:.3g} m",
+                                 range_m, radius_m));
   }
 }
 

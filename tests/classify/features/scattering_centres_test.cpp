@@ -191,7 +191,7 @@ TEST(CleanCentres, ClearOfAStrongRidgeAreFoundWhateverItsCrestDoes) {
   clutter.scr_db = 0;
   clutter.doppler_spread_mps = 0.15;
   clutter.texture_shape = 1000;
-  clutter.noise_to_clutter_db = -60;
+  clutter.cnr_db = 60;
   MapSpec map;
   map.velocity_taper = Taper::kHann;
   const std::vector<ScatteringCentre> truth{{-40, 3, 4}, {0, 3, 4}, {40, 3, 4}};

@@ -115,7 +115,7 @@ TEST(FloatingScatterers, GoAlongWithTheWaves) {
   const double omega = 2 * kPi / 8, k = omega * omega / kGravity;
   const WaveField wave({WaveComponent{omega, 1, 0, k, {1, 0}}}, Vec2(1, 0), 1, 10);
   ClutterScene scene = scene_of(wave);
-  scene.radar.budget.beamwidth_deg = 0.01;
+  scene.radar.link_budget.beamwidth_deg = 0.01;
   scene.start_s = 3;
   const FloatingScatterers floating = floating_scatterers(scene, {0, 25}, 0.064, 1, 1);
   for (const int i : {0, 1}) {
@@ -141,7 +141,7 @@ TEST(FloatingScatterers, HaveNoMeanOfTheirOwnBesidesTheSeas) {
     half_drift += 0.5 * wave.amplitude * wave.amplitude * wave.omega * wave.wavenumber;
   }
   ClutterScene scene = scene_of(waves);
-  scene.radar.budget.beamwidth_deg = 1e-9;
+  scene.radar.link_budget.beamwidth_deg = 1e-9;
   // Over 40 km and 10 moments, each range weighted by Hann's window: what is left of a wave is its spectrum's side
   // lobe.
   std::vector<double> ranges;
@@ -183,7 +183,7 @@ TEST(ClutterOfMovingShip, IsThePassingWaters) {
   sailing.waves = &waves;
 
   // The waves that it meets are those where it has got to: 200 m on along x, x = -range cos(azimuth) without beam.
-  scene.radar.budget.beamwidth_deg = sailing.radar.budget.beamwidth_deg = 1e-9;
+  scene.radar.link_budget.beamwidth_deg = sailing.radar.link_budget.beamwidth_deg = 1e-9;
   const FloatingScatterers floating = floating_scatterers(sailing, {0, 70}, 0.064, 1, 1);
   for (const int i : {0, 1}) {
     const double x = 200 - 70 * i / std::cos(grazing) * std::cos(azimuth),
@@ -192,7 +192,7 @@ TEST(ClutterOfMovingShip, IsThePassingWaters) {
   }
   // Across the line of sight the whole beam passes by.
   EXPECT_EQ(platform_doppler_spread_mps(scene), 0);
-  scene.radar.budget.beamwidth_deg = sailing.radar.budget.beamwidth_deg = 2;
+  scene.radar.link_budget.beamwidth_deg = sailing.radar.link_budget.beamwidth_deg = 2;
   EXPECT_NEAR(platform_doppler_spread_mps(sailing),
               10 * std::sin(azimuth) * radians(2) / (4 * std::sqrt(std::log(2.0))), 1e-9);
 }

@@ -43,7 +43,7 @@ TEST(SeaReflectivity, SeaStatesAreThoseOfTheCodeTable) {
 TEST(SeaReflectivity, AreaIsThatOfTheTwoWayBeam) {
   RadarSpec radar;
   radar.range_km = 10;
-  radar.budget.beamwidth_deg = 2;
+  radar.link_budget.beamwidth_deg = 2;
   const double width = radians(2);
   double sum = 0;
   const double step = width / 1000;

@@ -21,7 +21,7 @@ TEST(Scr, TheNamedDefinitionIsMetExactlyAndAllThreeAreMeasured) {
   for (const ScrDefinition definition : {ScrDefinition::kPerPulse, ScrDefinition::kPeakCell, ScrDefinition::kExtent}) {
     ClutterSpec clutter;
     clutter.scr_definition = definition;
-    clutter.noise_to_clutter_db = -200;  // nothing but clutter beside the target
+    clutter.cnr_db = 200;  // nothing but clutter beside the target
     const Echo echo = echo_with_clutter(train, clutter);
     const ReceivedInterval received = form_received_interval(echo, train, clutter, {}, false);
     // Measured again from what was received: the target is known, the rest is clutter.

@@ -112,7 +112,7 @@ TEST(CavityAperture, RefusesWhatIsNoCavity) {
 
   TriangleMesh flipped = guide(0.3, 0.2, 0.5);
   std::swap(flipped.triangles[8][1], flipped.triangles[8][2]);
-  refused(flipped, "face opposite ways");
+  refused(flipped, "have opposite orientation");
 
   MeshBuilder sheet;
   sheet.begin_part("sheet");

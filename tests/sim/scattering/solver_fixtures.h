@@ -30,14 +30,14 @@ inline Vec3 direction(double azimuth_deg, double elevation_deg) {
   return {std::cos(el) * std::cos(az), std::cos(el) * std::sin(az), std::sin(el)};
 }
 
-inline std::array<Complex, 4> echo(const Scatterer& scatterer, const RadarBasis& basis, double k, double spacing = 0,
-                                   int bounces = 8, bool edges = false) {
-  return scattering_matrices(scatterer, monostatic(basis), std::array{k}, {spacing, bounces, edges})[0];
+inline std::array<Complex, 4> echo(const Scatterer& scatterer, const RadarBasis& basis, double k,
+                                   double min_patch_m = 0, int bounces = 8, bool edges = false) {
+  return scattering_matrices(scatterer, monostatic(basis), std::array{k}, {min_patch_m, bounces, edges})[0];
 }
 
-inline std::array<Complex, 4> echo(const TriangleMesh& mesh, const Vec3& r_hat, double k, double spacing = 0,
+inline std::array<Complex, 4> echo(const TriangleMesh& mesh, const Vec3& r_hat, double k, double min_patch_m = 0,
                                    int bounces = 8) {
-  return echo(Scatterer(mesh), radar_basis(r_hat), k, spacing, bounces);
+  return echo(Scatterer(mesh), radar_basis(r_hat), k, min_patch_m, bounces);
 }
 
 enum Channel { kHhChannel, kHvChannel, kVhChannel, kVvChannel };

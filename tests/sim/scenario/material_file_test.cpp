@@ -65,13 +65,13 @@ TEST(MaterialFile, RefusesMediaThatWouldAmplify) {
 
 TEST(MaterialFile, NamesEveryOtherMistake) {
   EXPECT_THAT(refusal(with(kCoating, "kind: layers", "kind: layer")), HasSubstr("m.yaml:3:7: kind: value 'layer'"));
-  EXPECT_THAT(refusal(with(kCoating, "backing: pec", "resistance: 1")), HasSubstr("belongs to kind: impedance"));
+  EXPECT_THAT(refusal(with(kCoating, "backing: pec", "resistance: 1")), HasSubstr("valid only with kind: impedance"));
   EXPECT_THAT(refusal(with(kCoating, "thickness_mm", "thicknes_mm")), HasSubstr("did you mean 'thickness_mm'?"));
   EXPECT_THAT(refusal(with(kCoating, "thickness_mm: 1.2", "thickness_mm: 0")), HasSubstr("greater than 0"));
   EXPECT_THAT(refusal(with(kCoating, "frequency_ghz: 18", "frequency_ghz: 8")),
               HasSubstr("must be greater than the row before"));
   EXPECT_THAT(refusal(with(kCoating, "permeability: {table", "permeability: {conductivity_s_m: 1, table")),
-              HasSubstr("must stand with a permittivity"));
+              HasSubstr("valid only with a permittivity"));
   EXPECT_THAT(refusal("material: x\nsource: y\nkind: layers\n"), HasSubstr("layers: this key is missing"));
   EXPECT_THAT(refusal("material: x\nkind: pec\n"), HasSubstr("source: this key is missing"));
   EXPECT_THAT(refusal("material: x\nsource: y\nkind: sea_water\ntemperature_c: 40\n"), HasSubstr("temperature_c"));

@@ -64,12 +64,13 @@ TEST(ScenarioReading, TextIsUtf8) {
 
 TEST(ScenarioReading, OneDirectionStandsOnceInASweep) {
   EXPECT_EQ(complaint_about(kShort + "view: {azimuth_deg: [30, -330]}\n"),
-            "folder/file.yaml:4:21: view.azimuth_deg: -330 and 30 are one direction: must not stand twice");
-  EXPECT_THAT(complaint_about(kShort + "view: {azimuth_deg: 0:360:10}\n"), HasSubstr("0 and 360 are one direction"));
+            "folder/file.yaml:4:21: view.azimuth_deg: -330 and 30 are the same direction: list it once");
+  EXPECT_THAT(complaint_about(kShort + "view: {azimuth_deg: 0:360:10}\n"),
+              HasSubstr("0 and 360 are the same direction"));
   EXPECT_THAT(complaint_about(kShort + "view: {azimuth_deg: [-180, 90, 180]}\n"),
-              HasSubstr("-180 and 180 are one direction"));
+              HasSubstr("-180 and 180 are the same direction"));
   EXPECT_THAT(complaint_about(kShort + "sea: {propagation_deg: [270, -90]}\n"),
-              HasSubstr("sea.propagation_deg: -90 and 270 are one direction"));
+              HasSubstr("sea.propagation_deg: -90 and 270 are the same direction"));
   EXPECT_EQ(complaint_about(kShort + "view: {azimuth_deg: -180:179.9:0.1}\n"), "none");
   EXPECT_EQ(complaint_about(kShort + "view: {azimuth_deg: -360}\n"), "none");
 }
@@ -90,7 +91,7 @@ TEST(ScenarioReading, TheRadarChainsContradictionsAreNamed) {
   const std::pair<std::vector<Override>, const char*> cases[] = {
       {{{"radar.pri_jitter_us", "108"}}, "radar.pri_jitter_us: value '108': pulses would overlap: must be at most"},
       {{{"radar.hop_code", "file"}}, "radar.hop_code_file: this key is missing"},
-      {{{"radar.hop_code_file", "codes.txt"}}, "radar.hop_code_file: value 'codes.txt': must not stand here"},
+      {{{"radar.hop_code_file", "codes.txt"}}, "radar.hop_code_file: value 'codes.txt': not allowed here"},
       {{{"radar.hop_code", "file"}, {"radar.hop_code_file", "none.txt"}},
        "radar.hop_code_file: value 'none.txt': no such file"},
       {{{"map.range_span_m", "40000"}}, "map.range_span_m: value '40000': its echo lasts 302.8"},
@@ -107,26 +108,27 @@ TEST(ScenarioReading, TheRadarChainsContradictionsAreNamed) {
        "radar.pulse_width_us: value '0.1': must be at least 0.16 us, 8 samples of radar.sampling_mhz"},
       {{{"clutter.level", "nrl"}, {"view", "{elevation_deg: 0}"}},
        "view.elevation_deg: value '0': must be within 0.1 and 60"},
-      {{{"clutter.doppler", "wave_field"}, {"view", "{elevation_deg: [2, 90]}"}},
-       "must be within 0.1 and 60 with clutter.doppler: wave_field"},
-      {{{"clutter.doppler", "sea"}, {"view", "{elevation_deg: -1}"}},
-       "view.elevation_deg: value '-1': must be within 0.1 and 60 with clutter.doppler: sea"},
+      {{{"clutter.doppler", "wave_resolved"}, {"view", "{elevation_deg: [2, 90]}"}},
+       "must be within 0.1 and 60 with clutter.doppler: wave_resolved"},
+      {{{"clutter.doppler", "sea_state"}, {"view", "{elevation_deg: -1}"}},
+       "view.elevation_deg: value '-1': must be within 0.1 and 60 with clutter.doppler: sea_state"},
       {{{"clutter.level", "nrl"}, {"sea", "{significant_wave_height_m: 7, peak_period_s: 14}"}},
        "sea.significant_wave_height_m: value '7': must be at most 6"},
-      {{{"targets.a.with", "[{target: b}]"}}, "must be the name of another target"},
-      {{{"targets.a.with", "[{target: a}]"}}, "must be the name of another target"}};
+      {{{"targets.a.companions", "[{target: b}]"}}, "must be the name of another target"},
+      {{{"targets.a.companions", "[{target: a}]"}}, "must be the name of another target"}};
   for (const auto& [overrides, message] : cases) {
     EXPECT_THAT(complaint_about(kShort, overrides), HasSubstr(message)) << message;
   }
   EXPECT_EQ(complaint_about(kShort, {{"clutter.level", "nrl"}}), "none");
-  EXPECT_EQ(complaint_about("seaglint: 1\nview:\n  elevation_deg: 90\nclutter: {doppler: wave_field}\ntargets:\n  a: "
-                            "{label: 1, mesh: a.glb}\n"),
-            "folder/file.yaml:3:18: view.elevation_deg: value '90': must be within 0.1 and 60 with clutter.doppler: "
-            "wave_field");
+  EXPECT_EQ(
+      complaint_about("seaglint: 1\nview:\n  elevation_deg: 90\nclutter: {doppler: wave_resolved}\ntargets:\n  a: "
+                      "{label: 1, mesh: a.glb}\n"),
+      "folder/file.yaml:3:18: view.elevation_deg: value '90': must be within 0.1 and 60 with clutter.doppler: "
+      "wave_resolved");
   // Clutter at a ratio and of a given Doppler spectrum is seen from anywhere, and none at all has no sea to be seen.
   EXPECT_EQ(complaint_about(kShort, {{"view.elevation_deg", "90"}}), "none");
   EXPECT_EQ(
-      complaint_about(kShort, {{"view.elevation_deg", "90"}, {"clutter", "{enabled: false, doppler: wave_field}"}}),
+      complaint_about(kShort, {{"view.elevation_deg", "90"}, {"clutter", "{enabled: false, doppler: wave_resolved}"}}),
       "none");
 }
 
@@ -235,7 +237,7 @@ TEST(ScenarioReading, EveryMistakeIsNamedWithItsPlaceValueAndBound) {
       {"learning: {subsample: 0}", "23: learning.subsample: value '0': must be a number greater than 0 and at most 1"},
       {"sea: {significant_wave_height_m: -1}",
        "34: sea.significant_wave_height_m: value '-1': must be a number, a list or from:to:step, 0 or within 1e-06 and "
-       "30, or of_table"},
+       "30, or from_table"},
       // Sweeps.
       {"view: {azimuth_deg: [1, x]}", "25: view.azimuth_deg: value 'x': must be a list of numbers within -360 and 360"},
       {"view: {azimuth_deg: [1, 400]}",
@@ -292,7 +294,7 @@ TEST(ScenarioReading, EveryMistakeInATargetIsNamed) {
       {"  t: {label: 1, mesh: a.glb, points: [{position_m: [0, 0, 0]}]}",
        "6: targets.t: must have a mesh or points, not both"},
       {"  t: {label: 1, motion: {}, points: [{position_m: [0, 0, 0]}]}",
-       "25: targets.t.motion: must not stand beside points, it belongs to a mesh"},
+       "25: targets.t.motion: not allowed here: valid only with a mesh"},
       {"  t: {label: 1, points: []}", "25: targets.t.points: a list: must be a list of 1 to 10000 maps"},
       {"  t: {label: 1, points: [{}]}", "26: targets.t.points.0.position_m: this key is missing"},
       {"  t: {label: 1, points: [{position_m: [0, 0]}]}",
@@ -365,22 +367,26 @@ TEST(ScenarioReading, MaterialsOfATargetAndItsPartsComeBackFromTheEffectiveForm)
 
 TEST(ScenarioReading, OneMapHasOneRadarRange) {
   const auto with = [](const std::string& ship, const std::string& decoy) {
-    return "seaglint: 1\ntargets:\n  ship: {label: 1, " + ship + ", with: [{target: decoy}]}\n  decoy: {label: 0, " +
-           decoy + "}\n";
+    return "seaglint: 1\ntargets:\n  ship: {label: 1, " + ship +
+           ", companions: [{target: decoy}]}\n  decoy: {label: 0, " + decoy + "}\n";
   };
-  const std::string mesh = "mesh: a.glb", far = "mesh: a.glb, solver: {radar_range_m: 20000}",
-                    near = "mesh: a.glb, solver: {radar_range_m: 5000.5}", points = "points: [{position_m: [0, 0, 0]}]";
-  EXPECT_EQ(complaint_about(with(far, near)),
-            "folder/file.yaml:4:58: targets.decoy.solver.radar_range_m: value '5000.5': must be 20000, as targets.ship "
-            "has it in the same "
-            "maps (folder/file.yaml:3:57: targets.ship.solver.radar_range_m)");
-  EXPECT_THAT(complaint_about(with(far, mesh)), HasSubstr("4:10: targets.decoy.solver.radar_range_m: must be 20000"));
+  const std::string mesh = "mesh: a.glb", far = "mesh: a.glb, solver: {wavefront_range_m: 20000}",
+                    near = "mesh: a.glb, solver: {wavefront_range_m: 5000.5}",
+                    points = "points: [{position_m: [0, 0, 0]}]";
+  EXPECT_EQ(
+      complaint_about(with(far, near)),
+      "folder/file.yaml:4:58: targets.decoy.solver.wavefront_range_m: value '5000.5': must be 20000, as targets.ship "
+      "has it in the same "
+      "maps (folder/file.yaml:3:57: targets.ship.solver.wavefront_range_m)");
+  EXPECT_THAT(complaint_about(with(far, mesh)),
+              HasSubstr("4:10: targets.decoy.solver.wavefront_range_m: must be 20000"));
   EXPECT_THAT(complaint_about(with(mesh, far)),
-              HasSubstr("targets.decoy.solver.radar_range_m: value '20000': must be 0"));
-  EXPECT_THAT(complaint_about(with(far, points)),
-              HasSubstr("3:57: targets.ship.solver.radar_range_m: value '20000': must be 0, as targets.decoy has it"));
+              HasSubstr("targets.decoy.solver.wavefront_range_m: value '20000': must be 0"));
+  EXPECT_THAT(
+      complaint_about(with(far, points)),
+      HasSubstr("3:57: targets.ship.solver.wavefront_range_m: value '20000': must be 0, as targets.decoy has it"));
   EXPECT_THAT(complaint_about(with(points, far)),
-              HasSubstr("4:58: targets.decoy.solver.radar_range_m: value '20000': must be 0"));
+              HasSubstr("4:58: targets.decoy.solver.wavefront_range_m: value '20000': must be 0"));
   EXPECT_EQ(complaint_about(with(far, far)), "none");
   EXPECT_EQ(complaint_about(with(points, points)), "none");
 }
@@ -391,7 +397,7 @@ TEST(ScenarioReading, ThicknessOfSheetsBelongsToAMesh) {
   };
   EXPECT_DOUBLE_EQ(parse(effective_yaml(parse(with("mesh: a.glb")))).targets[0].sheet_thickness_mm, 1.5);
   EXPECT_THAT(complaint_about(with("points: [{position_m: [0, 0, 0]}]")),
-              HasSubstr("sheet_thickness_mm: value '1.5': must not stand beside points"));
+              HasSubstr("sheet_thickness_mm: value '1.5': not allowed here: valid only with a mesh"));
 }
 
 }  // namespace

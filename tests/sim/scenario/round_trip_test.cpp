@@ -111,7 +111,7 @@ Scenario full_scenario() {
   ship.label = 1;
   ship.mesh = "ship.glb";
   ship.motion.rotation_centre_m = {1, 2, 3};
-  ship.with = {{"array", 0, 0}};
+  ship.companions = {{"array", 0, 0}};
   ship.part_materials = {{"mast", "pec"}, {"hull*", "steel"}};
   TargetSpec array;
   array.name = "array";
@@ -160,9 +160,9 @@ void make_consistent(Scenario& scenario) {
   }
   for (TargetSpec& target : scenario.targets) {
     if (!target.mesh.empty()) scenario.radar.intra_pulse_motion = false;
-    for (CompanionSpec& companion : target.with) companion.target = "array";
+    for (CompanionSpec& companion : target.companions) companion.target = "array";
     for (TargetSpec& array : scenario.targets) {
-      if (!target.with.empty() && array.name == "array")
+      if (!target.companions.empty() && array.name == "array")
         array.solver.wavefront_range_m = target.solver.wavefront_range_m;
     }
     if (target.motion.model == MotionModel::kFixed || target.motion.model == MotionModel::kFloat)
@@ -203,7 +203,7 @@ TEST(RoundTrip, EveryFieldComesBackToTheBit) {
   }
   // The mutation reached every field but the format's version.
   for (const auto& [path, count] : changes)
-    EXPECT_TRUE(count > 0 || path == "seaglint" || path == "targets.ship-1.with.0.target")
+    EXPECT_TRUE(count > 0 || path == "seaglint" || path == "targets.ship-1.companions.0.target")
         << path << " was never changed";
   EXPECT_GT(changes.size(), 120u);
 }

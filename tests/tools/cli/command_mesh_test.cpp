@@ -77,7 +77,7 @@ TEST_F(MeshCommand, TellsWhatIsInAFileInItsUnit) {
   EXPECT_THAT(text, testing::HasSubstr("size       0 x 1 x 0.5 m"));
   EXPECT_THAT(text, testing::HasSubstr("triangles  2, vertices 4, area 0.5 m^2"));
   EXPECT_THAT(text, testing::HasSubstr("4 boundary"));
-  EXPECT_THAT(text, testing::HasSubstr("4 rims"));
+  EXPECT_THAT(text, testing::HasSubstr("4 free edges"));
   EXPECT_THAT(read_file(picture), testing::StartsWith("\x89PNG"));
 }
 

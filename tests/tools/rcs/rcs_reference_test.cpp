@@ -57,8 +57,8 @@ ReferenceSettings as(Polarisation element, double frequency_ghz = 10) {
 // What `seaglint rcs` writes above its columns.
 std::string own_table(const std::string& transmitter) {
   return "# seaglint 0.1.0 rcs\n# physical optics at every visible bounce, max_bounces 40, edges on, crease_deg 20, "
-         "sheet_thickness_mm 0, range_m 0 (0 = far field), " +
-         transmitter + ", ray_spacing_m 0.001\nfrequency_hz,azimuth_deg,elevation_deg,vv_dbsm\n1e+10,3,4,-5\n";
+         "sheet_thickness_mm 0, wavefront_range_m 0 (0 = plane wave), " +
+         transmitter + ", min_patch_m 7e-05\nfrequency_hz,azimuth_deg,elevation_deg,vv_dbsm\n1e+10,3,4,-5\n";
 }
 
 // A table as CST 2020 writes it: names padded inside parentheses, units inside brackets, CRLF, theta fastest and
@@ -185,7 +185,7 @@ TEST_F(RcsReferenceFile, ThatCannotBeUsedIsRefusedWithItsPlace) {
   EXPECT_THAT(refusal("a.txt", cst_table("V/m", row), as(Polarisation::kVv)), HasSubstr("[V/m]: the unit must be"));
   EXPECT_THAT(refusal("a.txt", cst_table("m^2", "90 0 1\r\n"), as(Polarisation::kVv)),
               HasSubstr("a.txt:3: 3 columns: the header has 8"));
-  EXPECT_THAT(refusal("a.txt", cst_table("m^2", ""), as(Polarisation::kVv)), HasSubstr("holds no values"));
+  EXPECT_THAT(refusal("a.txt", cst_table("m^2", ""), as(Polarisation::kVv)), HasSubstr("contains no values"));
   EXPECT_THAT(refusal("own.csv", "frequency_hz,azimuth_deg,elevation_deg,vv_re\n", as(Polarisation::kHh)),
               HasSubstr("hh_dbsm"));
 }
@@ -205,9 +205,9 @@ TEST_F(RcsReferenceFile, SaysWhereItsTransmitterStands) {
 
 TEST_F(RcsReferenceFile, IsRefusedWithAFrequencyThatIsNotItsOwn) {
   EXPECT_THAT(refusal("a.V.txt", "10e9 90 0 -3\n", as(Polarisation::kVv, 11)),
-              HasSubstr("a.V.txt: holds 10 GHz by its own words: leave out --reference-frequency-ghz 11"));
+              HasSubstr("a.V.txt: declares 10 GHz: remove --reference-frequency-ghz 11"));
   EXPECT_THAT(refusal("own.csv", own_table("monostatic"), as(Polarisation::kVv, 11)),
-              HasSubstr("own.csv: holds 10 GHz by its own words"));
+              HasSubstr("own.csv: declares 10 GHz"));
   EXPECT_EQ(read("b.V.txt", "10e9 90 0 -3\n", as(Polarisation::kVv, 10)).samples.size(), 1u);
 }
 
@@ -312,19 +312,17 @@ TEST(RcsComparison, RefusesAReferenceOfAnotherTransmitter) {
   EXPECT_EQ(refusal(sweep, monostatic), "");
   EXPECT_THAT(
       refusal(sweep, bistatic),
-      HasSubstr(
-          "its transmitter stands at azimuth 20 deg, elevation 10 deg, the sweep is monostatic: give --transmit"));
+      HasSubstr("its transmitter is at azimuth 20 deg, elevation 10 deg, the sweep is monostatic: give --transmit"));
   sweep.transmitter = Vec3(std::cos(radians(10)) * std::cos(radians(20)), std::cos(radians(10)) * std::sin(radians(20)),
                            std::sin(radians(10)));
   EXPECT_EQ(refusal(sweep, silent), "");
   EXPECT_EQ(refusal(sweep, bistatic), "");
   EXPECT_THAT(refusal(sweep, monostatic),
-              HasSubstr("is monostatic by its own words, the sweep's transmitter stands at azimuth 20 deg"));
+              HasSubstr("is declared monostatic, the sweep's transmitter is at azimuth 20 deg"));
   bistatic.transmitter->phi_deg = 21;
   EXPECT_THAT(
       refusal(sweep, bistatic),
-      HasSubstr(
-          "azimuth 21 deg, elevation 10 deg, the sweep's transmitter stands at azimuth 20 deg, elevation 10 deg"));
+      HasSubstr("azimuth 21 deg, elevation 10 deg, the sweep's transmitter is at azimuth 20 deg, elevation 10 deg"));
   bistatic.settings.phi_offset_deg = 1;
   EXPECT_EQ(refusal(sweep, bistatic), "");
 }

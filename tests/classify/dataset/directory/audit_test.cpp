@@ -59,13 +59,13 @@ TEST_F(DataSetAudit, ShowsAWrongLabel) {
 
 TEST_F(DataSetAudit, ShowsASampleThatIsThereTwiceAndTheOneThatIsMissing) {
   falsify(0, [](Shard& shard) { shard.samples[1] = shard.samples[0]; });
-  EXPECT_THAT(faults(), ElementsAre(HasSubstr("shard_00000.h5: row 1 holds sample 0, by the manifest 1"),
+  EXPECT_THAT(faults(), ElementsAre(HasSubstr("shard_00000.h5: row 1 contains sample 0, by the manifest 1"),
                                     HasSubstr("3 of 8 samples are missing")));
 }
 
 TEST_F(DataSetAudit, ShowsSamplesOutOfOrder) {
   falsify(0, [](Shard& shard) { std::swap(shard.samples[1], shard.samples[2]); });
-  EXPECT_THAT(faults(), ElementsAre(HasSubstr("shard_00000.h5: row 1 holds sample 2, by the manifest 1"),
+  EXPECT_THAT(faults(), ElementsAre(HasSubstr("shard_00000.h5: row 1 contains sample 2, by the manifest 1"),
                                     HasSubstr("3 of 8 samples are missing")));
 }
 
@@ -106,7 +106,7 @@ TEST_F(DataSetAudit, ShowsASeaInTwoGroups) {
   falsify(0, [](Shard& shard) { shard.samples[0].record.group = 1; });
   EXPECT_THAT(faults(),
               ElementsAre(HasSubstr("sample 0: group 1, by the scenario 0"),
-                          HasSubstr("group 1: holds 2 sea realisations"), HasSubstr("a split by group would leak")));
+                          HasSubstr("group 1: contains 2 sea realisations"), HasSubstr("a split by group would leak")));
 }
 
 TEST_F(DataSetAudit, ShowsFilesThatAreDamagedHalfWrittenOrForeign) {

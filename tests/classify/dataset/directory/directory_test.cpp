@@ -144,7 +144,7 @@ TEST_F(DataSetDirectory, BeforeItsScenarioMayHoldItsOwnTemporaryFilesOnly) {
   fs::remove(directory_ / kScenarioFile);
   write_file(directory_ / "notes.tmp", "mine");
   EXPECT_THAT(error_of([&] { DatasetWriter(directory_, scenario_, true, kTestVersion); }),
-              HasSubstr("the directory holds notes.tmp, which is no file of a data set"));
+              HasSubstr("the directory contains notes.tmp, which is no file of a data set"));
 }
 
 // Its scenario alone makes a directory no data set's: a run has one too.
@@ -154,7 +154,7 @@ TEST_F(DataSetDirectory, ToGoOnInMayHoldNothingButADataSet) {
   EXPECT_NO_THROW(DatasetWriter(directory_, scenario_, true, kTestVersion));
   write_file(directory_ / "metrics.json", "{}");
   const auto refusal = [&] { return error_of([&] { DatasetWriter(directory_, scenario_, true, kTestVersion); }); };
-  EXPECT_THAT(refusal(), testing::EndsWith("the directory holds metrics.json, which is no file of a data set"));
+  EXPECT_THAT(refusal(), testing::EndsWith("the directory contains metrics.json, which is no file of a data set"));
   fs::create_directories(directory_ / "data");
   write_file(directory_ / "data" / kScenarioFile, effective_yaml(scenario_));
   EXPECT_THAT(refusal(), testing::EndsWith("which is no file of a data set; the run's data set is " +
@@ -253,7 +253,7 @@ TEST_F(DataSetDirectory, OfAnotherFormatIsRefused) {
   other.attribute("format", "seaglint shard 9");
   other.close();
   EXPECT_THAT(error_of([&] { DatasetWriter(directory_, scenario_, true, kTestVersion).complete(1); }),
-              HasSubstr("shard_00001.h5: format \"seaglint shard 9\"; this program reads \"seaglint shard 2\""));
+              HasSubstr("shard_00001.h5: format \"seaglint shard 9\"; this program reads \"seaglint shard 3\""));
 }
 
 // What the message advises, it keeps.

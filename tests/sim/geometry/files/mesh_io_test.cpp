@@ -199,7 +199,7 @@ TEST_F(MeshFile, StlThatPromisesMoreTrianglesThanItHoldsIsRefused) {
   std::string bytes = bytes_of(folder / "a.stl");
   ASSERT_EQ(bytes.size(), 84u + 2 * 50);
   bytes[83] = 0x7f;
-  expect_error(put("b.stl", bytes), "holds 2");
+  expect_error(put("b.stl", bytes), "contains 2");
   expect_error(put("b.stl", bytes.substr(0, 40)), "84");
 }
 

@@ -62,7 +62,7 @@ TEST(MeshDiagnostics, CountsHolesAndTrianglesThatFaceTheOtherWay) {
   EXPECT_EQ(diagnose(mixed).inconsistent_edges, 3u);
   EXPECT_EQ(diagnose(mixed).inverted_surfaces, 0u);
   EXPECT_THAT(diagnostic_messages(diagnose(mixed)),
-              ElementsAre(HasSubstr("3 edges have neighbours that face opposite ways")));
+              ElementsAre(HasSubstr("3 edges have neighbours of opposite orientation")));
 }
 
 TEST(MeshDiagnostics, LeavesOutRepeatedAndDegenerateTriangles) {

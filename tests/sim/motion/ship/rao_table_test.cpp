@@ -186,7 +186,7 @@ TEST(ReadRao, RefusesWhatIsNoTable) {
   const std::size_t number = text.find("0.20961041E-07");
   write(text.substr(0, number) + "NaN" + text.substr(number + 14));
   EXPECT_THAT(message_of([&] { read_veres_rao(file, 0); }), testing::HasSubstr("must be a finite number"));
-  EXPECT_THAT(message_of([&] { read_veres_rao(kVeres, 5); }), testing::HasSubstr("it holds 0, 10.29 m/s"));
+  EXPECT_THAT(message_of([&] { read_veres_rao(kVeres, 5); }), testing::HasSubstr("it contains 0, 10.29 m/s"));
   write("1 0 1 2 90 1 1\n");
   EXPECT_THAT(message_of([&] { read_wamit_rao(file, 1); }), testing::HasSubstr("wrong.re1:1: modulus 2"));
   write("1 0 7 1 90 0 1\n");

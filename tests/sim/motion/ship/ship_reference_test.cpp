@@ -18,14 +18,14 @@ namespace seaglint {
 namespace {
 
 // S175 as its main particulars say (tests/reference/ship_motion/SOURCE.md); its centre of flotation is where the
-// reference's forces of long waves put it, its sections are Lewis forms of HullCoefficients's lines.
+// reference's forces of long waves put it, its sections are Lewis forms of the coefficients' lines.
 ShipParticulars s175(double speed) {
   MotionSpec spec;
   spec.model = MotionModel::kShip;
   spec.metacentric_height_m = 0.996;
   spec.roll_gyradius_m = 8.331;
-  spec.pitch_radius_m = 42;
-  spec.yaw_radius_m = 42;
+  spec.pitch_gyradius_m = 42;
+  spec.yaw_gyradius_m = 42;
   spec.roll_damping = 0.05;
   spec.speed_mps = speed;
   return ship_particulars(spec, sections_of_form(175, 25.4, 9.5, {0.569, 0.709, 0.966, -2.55 / 175, -6.93 / 175}, 40));

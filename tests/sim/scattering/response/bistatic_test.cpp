@@ -92,7 +92,7 @@ TEST(Bistatic, DihedralMirrorsAlongItsSeam) {
   const Scatterer dihedral(mesh);
   const double el = 20;
   const auto s = scattering_matrices(
-      dihedral, bistatic(radar_basis(direction(45, el)), radar_basis(direction(45, -el))), std::array{k}, {0.01, 2})[0];
+      dihedral, bistatic(radar_basis(direction(45, el)), radar_basis(direction(45, -el))), std::array{k}, {7e-4, 2})[0];
   // Two bounces: aperture 2 side sin 45 x side cos(el) in phase, less what leaves past the end while it travels from
   // face to face (sqrt2 x tan(el) along the seam at x from it), on top of single bounces without a specular direction.
   const double kept = 1 - std::tan(radians(el)) / std::sqrt(2.0);

@@ -58,7 +58,7 @@ double error_against_fresh_traces(const Scatterer& scatterer, const Trajectory& 
     const RadarBasis seen = range_m > 0 ? radar_basis((range_m * r_hat - pose.p).normalized()) : world;
     const double nearer_m = range_m > 0 ? range_m - (range_m * r_hat - pose.p).norm() : r_hat.dot(pose.p);
     const BistaticGeometry geometry = monostatic({R_BT * seen.r, R_BT * seen.h, R_BT * seen.v});
-    const TracingSettings settings{solver.ray_spacing_m, solver.max_bounces, solver.edges, {}, range_m};
+    const TracingSettings settings{solver.min_patch_m, solver.max_bounces, solver.edges, {}, range_m};
     const Complex s = scattering_matrices(scatterer, geometry, std::array{k}, settings, 2)[0][kVvChannel];
     const Complex fresh = s * std::polar(1.0, 2 * k * nearer_m);
     error += std::norm(body.response.at(n, b) - fresh) / spots;
@@ -71,7 +71,7 @@ double error_against_fresh_traces(const Scatterer& scatterer, const Trajectory& 
 TEST(Contributions, SumToTheClosedFormWhereTheyWereMade) {
   const Scatterer reflector(make_icosahedral_reflector());
   const RadarBasis basis = radar_basis(direction(67, 2));
-  const Illumination illumination(reflector, monostatic(basis), {0.02, 8});
+  const Illumination illumination(reflector, monostatic(basis), {1.4e-3, 8});
   const double kc = wavenumber(16.1e9);
   for (const double turn : {0.0, 1e-3, 1e-2}) {
     std::vector<PointContribution> contributions;

@@ -67,12 +67,12 @@ TEST(TargetCheck, WarnsOfSheetsThickerThanATenthOfAWavelength) {
   EXPECT_THAT(found(make_plate(1, 1), 2e-3),
               ElementsAre(HasSubstr("sheets of 2 mm are 0.11 wavelengths thick at 16 GHz")));
   EXPECT_THAT(found(make_icosahedral_reflector(), 1e-3),
-              ElementsAre(HasSubstr("1 mm changes nothing: no surface is open")));
+              ElementsAre(HasSubstr("1 mm has no effect: no surface is open")));
   MaterialSpec lossy;
   lossy.kind = SurfaceKind::kImpedance;
   EXPECT_THAT(check_edges(Scatterer(make_plate(1, 1), {lossy}, 0.3, 1e-3), true, 8e9, 16e9),
-              ElementsAre(HasSubstr("1 mm changes nothing")));
-  EXPECT_THAT(found(make_plate(1, 1), 1e-3, false), ElementsAre(HasSubstr("1 mm changes nothing: edges are off")));
+              ElementsAre(HasSubstr("1 mm has no effect")));
+  EXPECT_THAT(found(make_plate(1, 1), 1e-3, false), ElementsAre(HasSubstr("1 mm has no effect: edges are off")));
   EXPECT_THAT(found(make_icosahedral_reflector(), 0), ElementsAre());
 }
 

@@ -50,7 +50,7 @@ Deviation against_integral_equations(const Scatterer& ship, double elevation_deg
   std::array<double, 3> error{}, power{};
   for (const auto& row : read_csv("block_ship.csv")) {
     if (std::stod(row[1]) != elevation_deg) continue;
-    const auto s = echo(ship, radar_basis(direction(std::stod(row[0]), elevation_deg)), 2 * kPi, 1e-3, 8, true);
+    const auto s = echo(ship, radar_basis(direction(std::stod(row[0]), elevation_deg)), 2 * kPi, 7e-5, 8, true);
     const std::array<Complex, 3> ours{s[kHhChannel], 0.5 * (s[kHvChannel] + s[kVhChannel]), s[kVvChannel]};
     for (std::size_t i = 0; i < 3; ++i) {
       const Complex exact(std::stod(row[2 + 2 * i]), std::stod(row[3 + 2 * i]));

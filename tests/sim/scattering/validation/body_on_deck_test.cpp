@@ -95,7 +95,7 @@ Deviation against_image_theory(const TriangleMesh& body, const TriangleMesh& dou
   TriangleMesh both = deck;
   both.append(body);
   const Scatterer alone(deck), standing(both), doubled(doubled_body, {}, 0);
-  const TracingSettings settings{2e-4, 8, true};
+  const TracingSettings settings{1.4e-5, 8, true};
   std::array<double, 3> error{}, power{};
   for (double elevation = elevations.first_deg; elevation <= elevations.last_deg; elevation += 0.5) {
     const RadarBasis radar = radar_basis(direction(azimuth_deg, elevation)),

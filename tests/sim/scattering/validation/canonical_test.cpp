@@ -15,14 +15,14 @@ using namespace testing_echoes;
 constexpr double kRounding = 1e-9;  // relative; double arithmetic on a few thousand terms
 const double k16 = wavenumber(16e9);
 
-TEST(Plate, AnswersMinusJAreaOverWavelengthAtNormalIncidenceForAnySizeAndSpacing) {
+TEST(Plate, AnswersMinusJAreaOverWavelengthAtNormalIncidenceForAnySizeAndSmallestPatch) {
   for (const auto& [length, width] : {std::pair{0.5, 0.3}, {0.05, 0.05}, {10.0, 2.0}}) {
-    for (const double spacing : {0.001, 0.01, 0.3, 20.0}) {
-      if (length / spacing > 2000) continue;  // so much finer than the plate says nothing new
-      const auto s = echo(make_plate(length, width), Vec3::UnitX(), k16, spacing);
+    for (const double min_patch_m : {7e-5, 7e-4, 0.02, 1.4}) {
+      if (length / min_patch_m > 28000) continue;  // so much finer than the plate says nothing new
+      const auto s = echo(make_plate(length, width), Vec3::UnitX(), k16, min_patch_m);
       const Complex expected(0, -length * width * k16 / (2 * kPi));
       EXPECT_LT(std::abs(s[kHhChannel] - expected), kRounding * std::abs(expected))
-          << length << " x " << width << " at " << spacing;
+          << length << " x " << width << " at " << min_patch_m;
       EXPECT_LT(std::abs(s[kVvChannel] - expected), kRounding * std::abs(expected));
       EXPECT_LT(std::abs(s[kHvChannel]), kRounding * std::abs(expected));
     }
@@ -31,14 +31,14 @@ TEST(Plate, AnswersMinusJAreaOverWavelengthAtNormalIncidenceForAnySizeAndSpacing
 
 // Physical optics of a rectangular plate in the plane of its length (Balanis, Advanced Engineering Electromagnetics,
 // example 11-3): S = -j A cos(theta) / lambda sin(X)/X, X = k L sin(theta), both polarisations alike.
-TEST(Plate, FollowsThePhysicalOpticsLobesForAnySpacing) {
+TEST(Plate, FollowsThePhysicalOpticsLobesForAnySmallestPatch) {
   const double length = 0.2667, width = 0.1524, k = wavenumber(10.24e9);
   const Scatterer plate(make_plate(length, width));
-  for (const double spacing : {0.003, 0.05, 1.0}) {
+  for (const double min_patch_m : {2e-4, 3.5e-3, 0.07}) {
     for (double theta_deg = 0.5; theta_deg < 80; theta_deg += 1.37) {
       const double theta = radians(theta_deg), x = k * length * std::sin(theta);
       const Complex expected(0, -length * width * std::cos(theta) * k / (2 * kPi) * std::sin(x) / x);
-      const auto s = echo(plate, radar_basis(direction(theta_deg, 0)), k, spacing);
+      const auto s = echo(plate, radar_basis(direction(theta_deg, 0)), k, min_patch_m);
       EXPECT_LT(std::abs(s[kVvChannel] - expected), kRounding * length * width * k) << theta_deg;
       EXPECT_LT(std::abs(s[kHhChannel] - expected), kRounding * length * width * k) << theta_deg;
     }
@@ -119,7 +119,7 @@ TEST(Sphere, FollowsTheMieSeries) {
   for (const auto& row : read_csv("mie_sphere.csv")) {
     const double ka = std::stod(row[0]);
     const Complex mie(std::stod(row[1]), std::stod(row[2]));
-    const auto s = echo(sphere, radar_basis(direction(23, 11)), ka, 0.02);
+    const auto s = echo(sphere, radar_basis(direction(23, 11)), ka, 1.4e-3);
     EXPECT_NEAR(dbsm(s[kVvChannel]) - dbsm(mie), 0, 0.25) << ka;
     EXPECT_NEAR(degrees(std::arg(s[kHhChannel] / mie)), 0, 4) << ka;
   }
@@ -128,7 +128,7 @@ TEST(Sphere, FollowsTheMieSeries) {
 // Broadside of a cylinder: |S| = L sqrt(ka) / (2 sqrt(pi)), sigma = k a L^2.
 TEST(Cylinder, FlashesAtBroadside) {
   const double radius = 0.5, height = 1.2, k = wavenumber(3e9);
-  const auto s = echo(make_cylinder(radius, height, 720), Vec3::UnitX(), k, 0.01);
+  const auto s = echo(make_cylinder(radius, height, 720), Vec3::UnitX(), k, 7e-4);
   EXPECT_NEAR(dbsm(s[kVvChannel]), 10 * std::log10(k * radius * height * height), 0.3);
 }
 
@@ -138,7 +138,7 @@ TEST(IcosahedralReflector, ReturnsATrihedralsPeakFaceOn) {
   const Scatterer reflector(make_icosahedral_reflector());
   const double leg = kReflectorEdge / std::sqrt(2.0);
   const double peak = 10 * std::log10(4 * kPi * std::pow(leg, 4) / 3 * std::pow(k16 / (2 * kPi), 2));
-  EXPECT_NEAR(dbsm(echo(reflector, radar_basis(Vec3::UnitX()), k16, 0.01)[kVvChannel]), peak, 1);
+  EXPECT_NEAR(dbsm(echo(reflector, radar_basis(Vec3::UnitX()), k16, 7e-4)[kVvChannel]), peak, 1);
 }
 
 // Mean over the sphere -1.68 dB and median -1.31 dB of the peak (geometrical optics, all visible cells); medians over 2
@@ -154,7 +154,7 @@ TEST(IcosahedralReflector, HasTheMeanOfGeometricalOpticsOverAllDirections) {
   for (int i = 0; i < kDirections; ++i) {
     const double z = 1 - (2 * i + 1.0) / kDirections, turn = 2.399963229728653 * i;
     const Vec3 r(std::sqrt(1 - z * z) * std::cos(turn), std::sqrt(1 - z * z) * std::sin(turn), z);
-    sum += 4 * kPi * std::norm(echo(reflector, radar_basis(r), k16, 0.02)[kVvChannel]);
+    sum += 4 * kPi * std::norm(echo(reflector, radar_basis(r), k16, 1.4e-3)[kVvChannel]);
     ++count;
   }
   const double mean_db = 10 * std::log10(sum / count / peak);

@@ -71,7 +71,7 @@ struct Echoes {
 Echoes echoes_per_metre(const Scatterer& one, const Scatterer& two, double height, const BistaticGeometry& geometry,
                         double k) {
   const auto echo_of = [&](const Scatterer& target) {
-    return scattering_matrices(target, geometry, std::array{k}, {1e-3, 8, true})[0];
+    return scattering_matrices(target, geometry, std::array{k}, {7e-5, 8, true})[0];
   };
   const auto long_one = echo_of(two), short_one = echo_of(one);
   const Complex per_metre = kPi / (height * Complex(0, 1));

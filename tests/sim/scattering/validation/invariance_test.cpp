@@ -24,7 +24,7 @@ double difference(const std::array<Complex, 4>& a, const std::array<Complex, 4>&
 // A piece that is just below the detail on one target may be just above it on the moved one. At a detail of a 400th of
 // the target, such slivers are below 1e-3 of the aperture's width and their echo below 1e-4 of the whole.
 constexpr double kSlivers = 2e-4;
-constexpr double kFine = 0.002;  // m
+constexpr double kFine = 1.4e-4;  // m
 
 TEST(Invariance, MovingATargetTowardsTheRadarAdvancesThePhase) {
   const Vec3 r = direction(38, 27), step(0.31, -0.22, 0.47);
@@ -84,7 +84,8 @@ TEST(Invariance, ManyBouncesAreReciprocalAsFarAsPhysicalOpticsIs) {
 TEST(Invariance, FlatFaceIndependentOfTriangulation) {
   const TriangleMesh whole = make_plate(0.5, 0.4), cut = cut_plate(0.5, 0.4, 17);
   for (const double azimuth : {0.0, 17.0, 58.0}) {
-    const auto one = echo(whole, direction(azimuth, 9), k10, 0.02), many = echo(cut, direction(azimuth, 9), k10, 0.02);
+    const auto one = echo(whole, direction(azimuth, 9), k10, 1.4e-3),
+               many = echo(cut, direction(azimuth, 9), k10, 1.4e-3);
     EXPECT_LT(difference(one, many), 1e-9 * 0.2 * k10) << azimuth;
   }
 }
@@ -102,7 +103,7 @@ TEST(Invariance, APlateThatHidesAnotherCastsAShadowOfItsOwnShape) {
   // A small plate 1 m in front of a large one, both facing the radar: Babinet's bookkeeping, both areas known exactly.
   TriangleMesh mesh = make_plate(0.6, 0.6);
   mesh.append(transformed(make_plate(0.2, 0.3), Mat3::Identity(), {1.0, 0.05, -0.02}));
-  const auto s = echo(mesh, Vec3::UnitX(), k10, 0.03);
+  const auto s = echo(mesh, Vec3::UnitX(), k10, 2e-3);
   const Complex expected = Complex(0, -k10 / (2 * kPi)) * (0.36 - 0.06 + 0.06 * std::polar(1.0, 2 * k10 * 1.0));
   EXPECT_LT(std::abs(s[kVvChannel] - expected), 1e-9 * std::abs(expected));
 }
@@ -130,7 +131,7 @@ TEST(Invariance, FacetsThatPassThroughEachOtherHideWhatLiesBehindTheirCommonLine
   };
   TriangleMesh visible = half(radians(30), -1);
   visible.append(half(radians(-30), +1));
-  const auto all = echo(crossed, Vec3::UnitX(), k10, 0.005, 1), front = echo(visible, Vec3::UnitX(), k10, 0.005, 1);
+  const auto all = echo(crossed, Vec3::UnitX(), k10, 3.5e-4, 1), front = echo(visible, Vec3::UnitX(), k10, 3.5e-4, 1);
   EXPECT_LT(difference(all, front), 1e-6 * 0.12 * k10);
 }
 

@@ -80,7 +80,7 @@ class SeaKeys : public testing::Test {
 };
 
 TEST_F(SeaKeys, ATableGivesPeakAndHeight) {
-  const Scenario own = read("spectrum: table, table: buoy.csv, significant_wave_height_m: of_table");
+  const Scenario own = read("spectrum: table, table: buoy.csv, significant_wave_height_m: from_table");
   const SeaState state = sea_states(own.sea).at(0);
   EXPECT_DOUBLE_EQ(state.significant_wave_height_m, 4 * std::sqrt(0.3));
   EXPECT_DOUBLE_EQ(state.peak_period_s, 2 * kPi / 0.8);
@@ -122,7 +122,7 @@ TEST_F(SeaKeys, WavesAreNothingOrHighEnoughToSquare) {
   for (const char* height : {"1e-162", "9e-7", "30.1"}) {
     EXPECT_EQ(complaint(fmt::format("significant_wave_height_m: {}", height)),
               fmt::format("sea.significant_wave_height_m: value '{}': must be a number, a list or from:to:step, "
-                          "0 or within 1e-06 and 30, or of_table",
+                          "0 or within 1e-06 and 30, or from_table",
                           height));
     EXPECT_EQ(complaint(fmt::format("swell: {{significant_wave_height_m: {}}}", height)),
               fmt::format("sea.swell.significant_wave_height_m: value '{}': must be 0 or a number within 1e-06 and 30",
@@ -142,20 +142,20 @@ TEST_F(SeaKeys, ThatContradictEachOtherAreNamed) {
             fmt::format("sea.table: value 'none.csv': no such file, neither {} nor below the working directory",
                         (folder_ / "none.csv").string()));
   EXPECT_EQ(complaint("table: buoy.csv"),
-            "sea.table: value 'buoy.csv': must not stand here, it belongs to spectrum: table");
+            "sea.table: value 'buoy.csv': not allowed here: valid only with spectrum: table");
   EXPECT_EQ(
       complaint("spectrum: table, table: buoy.csv, peak_period_s: 8"),
-      "sea.peak_period_s: value '8': must not stand here, it belongs to spectrum: jonswap or bretschneider; a table "
+      "sea.peak_period_s: value '8': not allowed here: valid only with spectrum: jonswap or bretschneider; a table "
       "has its own peak");
   EXPECT_EQ(complaint("spectrum: bretschneider, gamma: 2"),
-            "sea.gamma: value '2': must not stand here, it belongs to spectrum: jonswap");
-  EXPECT_EQ(complaint("significant_wave_height_m: of_table"),
-            "sea.significant_wave_height_m: value 'of_table': must be a number without spectrum: table");
+            "sea.gamma: value '2': not allowed here: valid only with spectrum: jonswap");
+  EXPECT_EQ(complaint("significant_wave_height_m: from_table"),
+            "sea.significant_wave_height_m: value 'from_table': must be a number without spectrum: table");
   EXPECT_EQ(complaint("wind: {speed_mps: 10}"),
-            "sea.wind: must not stand here, it belongs to peak_period_s: wind_and_fetch");
+            "sea.wind: not allowed here: valid only with peak_period_s: wind_and_fetch");
   EXPECT_EQ(
       complaint("cutoff_rad_s: 0.7"),
-      "sea.cutoff_rad_s: value '0.7': must be above the peak, 0.7854 rad/s (four times the peak holds all but 0.4 % "
+      "sea.cutoff_rad_s: value '0.7': must be above the peak, 0.7854 rad/s (four times the peak contains all but 0.4 % "
       "of the energy)");
   EXPECT_EQ(
       complaint("significant_wave_height_m: 2, depth_m: 2"),
