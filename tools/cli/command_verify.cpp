@@ -23,14 +23,14 @@ struct Arguments {
   int remake = 2;
 };
 
-// Makes `count` samples again, spread evenly over the data set; returns what is not as stored.
+// Regenerates `count` samples, spread evenly over the data set; returns the differences from the stored ones.
 std::vector<std::string> remake(const std::string& directory, std::size_t count, const Scenario& scenario,
                                 const CommandContext& shell) {
   const DatasetReader reader(directory);
   require_same_inputs(directory, scenario);
   const Pipeline pipeline(scenario);
   std::vector<std::vector<std::string>> faults(count);
-  std::mutex reading;  // HDF5 serves one thread at a time
+  std::mutex reading;  // HDF5 allows one thread at a time
   Progress progress("making samples again", count);
   parallel_for(
       count, thread_count(shell.threads),

@@ -26,7 +26,7 @@ std::vector<std::string> command_names(const CLI::App& app) {
   return names;
 }
 
-// The list of all options is long: --help has it.
+// The full list of options is left to --help.
 std::string unknown_option(const CLI::App& app, const std::string& word) {
   const std::string name = word.substr(0, word.find('=')), meant = suggestion(name, option_names(app));
   return fmt::format("unknown option '{}'{}", name, meant.starts_with("did you mean") ? ": " + meant : "");
