@@ -108,7 +108,7 @@ void check_series(const Scenario& scenario, const SamplePlan& plan, const Target
   }
 }
 
-// Throws InputError for a target below the sea surface: the specular reflection model needs it above.
+// Throws InputError for a target that is entirely under water, if the sea reflects.
 void check_above_water(const Scenario& scenario, const TargetSpec& spec, const TriangleMesh& mesh) {
   const double top_m = bounds(mesh).upper.z(), height_m = rest_position(spec.motion, 0, 0).z();
   if (!scenario.sea_reflection.enabled || top_m + height_m > 0) return;

@@ -45,7 +45,7 @@ bool rises(const ordered_json& scores) {
   return scores.at("by_wave_height").size() > 1;
 }
 
-// Mean over two wave heights of a feature's median, of one class.
+// Median of a feature of class `label` in the entry of `list` with `key` equal to `at`; NaN if there is none.
 double median_at(const ordered_json& metrics, const char* list, const char* key, double at, int label,
                  const char* feature) {
   for (const auto& entry : metrics.at("report").at(list)) {
