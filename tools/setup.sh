@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Sourced by tools/demo and tools/check: installs missing packages, configures and builds build/release.
 set -euo pipefail
-export LC_ALL=C.UTF-8  # awk's numbers have points
+export LC_ALL=C.UTF-8  # decimal points in awk's output
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-# install_packages KIND...: installs what is missing of the packages of these kinds in tools/packages.txt.
+# install_packages KIND...: installs the missing packages of these kinds of tools/packages.txt.
 install_packages() {
   local missing=() kind package
   while read -r kind package; do

@@ -156,7 +156,7 @@ std::size_t Network::parameter_count() const {
 const std::vector<double>& Network::losses() const { return layers_->losses; }
 
 // The file: kFormat, embedding size, thread count, number of weights (uint32 each), then the weights (float32) in the
-// order of the layers. The library's own archive would hold time stamps.
+// order of the layers. The library's own archive would contain time stamps.
 void Network::save(const std::filesystem::path& file) const {
   std::string bytes;
   const auto append = [&bytes](const void* data, std::size_t count) {

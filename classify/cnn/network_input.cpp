@@ -12,7 +12,7 @@ namespace seaglint {
 
 namespace {
 
-// The cells [begin, end) that window i of `windows` averages over; windows overlap or repeat where cells are few.
+// The cells [begin, end) that window i of `windows` averages; with few cells, windows overlap or repeat.
 struct Window {
   std::size_t begin = 0;
   std::size_t end = 0;

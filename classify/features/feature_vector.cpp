@@ -7,7 +7,7 @@
 namespace seaglint {
 namespace {
 
-constexpr double kCcfGuard = 1e-6;  // the paper's, against 0 / 0
+constexpr double kCcfGuard = 1e-6;  // from the paper, avoids 0 / 0
 
 struct Line {
   double slope = 0, offset = 0;
@@ -28,7 +28,7 @@ Line fit_line(std::span<const ScatteringCentre> centres, const std::vector<doubl
     rr += weight[i] * (centres[i].range_m - mean_r) * (centres[i].range_m - mean_r);
     rv += weight[i] * (centres[i].range_m - mean_r) * (centres[i].velocity_mps - mean_v);
   }
-  const double slope = rr > 1e-12 * sum ? rv / rr : 0;  // ranges within a micrometre are one range
+  const double slope = rr > 1e-12 * sum ? rv / rr : 0;  // ranges within a micrometre count as equal
   return {slope, mean_v - slope * mean_r};
 }
 
@@ -41,7 +41,7 @@ FeatureVector compute_features(std::span<const ScatteringCentre> centres, const 
   if (centres.empty()) return features;
   const auto count = static_cast<double>(centres.size());
 
-  // Weights from amplitude with sum N_sc.
+  // Weights proportional to amplitude, with sum N_sc.
   double total = 0;
   for (const ScatteringCentre& centre : centres) total += centre.amplitude_m;
   std::vector<double> weight, equal(centres.size(), 1.0);

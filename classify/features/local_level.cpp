@@ -9,17 +9,17 @@
 namespace seaglint {
 namespace {
 
-// Half widths of the surroundings, in resolution cells. Along velocity as far as a ridge of 0.2 m/s reaches, along
-// range about as far as texture keeps its strength (five cells): with 8 or 10 ranges two or three times as many maps of
-// waves held a false centre, with 10 half as many weak centres of ships were lost.
+// Half widths of the surroundings, in resolution cells. Along velocity the width of a ridge of 0.2 m/s, along range
+// about the correlation length of texture (five cells). With 8 or 10 ranges two or three times as many maps of waves
+// contain a false centre; with 10, half as many weak centres of ships are lost.
 constexpr double kHalfVelocities = 2;
 constexpr double kHalfRanges = 6;
-// Points that hold this many times the rest explain their surroundings, the strongest left out, since it would shelter
-// the clutter around it: so for 77 to 80 % of the judgements of points on ships, for 0.2 % or less of those of crests
-// of clutter (3 % where its texture's shape is 0.5 or its spread 0.05 m/s). With 2 three times as many maps of
-// shape 0.5 held a false centre, with 6 ships lost 1.3 to 2 times as many weak centres.
+// Points whose power is this many times the rest explain their surroundings; the strongest is excluded, since it would
+// protect clutter around it. Holds for 77 to 80 % of the tests of points on ships and for at most 0.2 % of those of
+// clutter peaks (3 % for texture of shape 0.5 or a spread of 0.05 m/s). With 2, three times as many maps of shape 0.5
+// contain a false centre; with 6, ships lose 1.3 to 2 times as many weak centres.
 constexpr double kPointsOverRest = 3;
-// Texture of the sea at metres of resolution (the default of `clutter.texture_shape`).
+// Texture shape of sea clutter at a resolution of metres (the default of `clutter.texture_shape`).
 constexpr double kTextureShape = 2;
 
 struct Cell {
@@ -34,7 +34,7 @@ Cell cell_of(const CleanComponent& point, const RvMap& map, const CellSizes& cel
           index(map.range_m, point.range_m, cells.range_m / cells.range_oversampling)};
 }
 
-// Power of the residual around a cell, and over how many cells it was summed.
+// Summed power of the residual around a cell, and the number of cells.
 struct Surroundings {
   double power = 0, count = 0;
 };
@@ -80,9 +80,9 @@ double texture_threshold_margin(double shape, double factor) {
   return below / factor;
 }
 
-// Censored cell averaging: what is found to be a target leaves the cells that the others are held against, what is not
-// stays in (Barkat, Himonas and Varshney, "CFAR detection for multiple target situations", IEE Proc. F 136 (1989) 193,
-// who censor cells in the order of their power; here points in the order of theirs).
+// Censored cell averaging: accepted targets are excluded from the local level of the others, rejected ones are included
+// (Barkat, Himonas and Varshney, "CFAR detection for multiple target situations", IEE Proc. F 136 (1989) 193, who
+// censor cells in the order of their power; here points in the order of theirs).
 std::vector<bool> exceeds_local_level(std::span<const CleanComponent> points, const RvMap& residual,
                                       const std::vector<double>& floor, double factor, double min_power,
                                       const CellSizes& cells) {
@@ -112,7 +112,8 @@ std::vector<bool> exceeds_local_level(std::span<const CleanComponent> points, co
     return std::max(global, margin * left / rest[i].count);
   };
 
-  // The weakest first, since its failing decides about its neighbours; until all that stay stand out.
+  // Weakest first, since its rejection raises the local level of its neighbours; until all remaining points are
+  // accepted.
   std::vector<std::size_t> order(points.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {

@@ -9,15 +9,16 @@
 namespace seaglint {
 namespace {
 
-// Moments up to the third describe phases of this many radians at the chirp's edge to 0.2^4/24 = 7e-5; fits that went
-// further take them anew where they arrived.
+// Largest phase at the chirp's edge, rad, for which moments up to the third suffice (error 0.2^4/24 = 7e-5); a fit that
+// moves further recomputes them at its new position.
 constexpr double kMomentReach = 0.2;
 constexpr int kMaxPasses = 4;
-// ln |RV| bends this much less along one axis than along the other when the echo tells nothing along it.
+// Ratio of the curvatures of ln |RV| along the two axes below which the echo has no resolution along the flatter one.
 constexpr double kFlat = 1e-9;
 
 // Phase factors e^{j phase(b)} of one pulse, phase = 4 pi [f v (t + f_b/mu) + (f - f_c) r] / c, quadratic in b: each
-// factor is the last one times a ratio, the ratio bends by a constant (1 without motion inside the pulse).
+// factor is the previous one times a ratio, and the ratio changes by a constant factor (1 without motion during the
+// pulse).
 struct PulsePhasor {
   Complex value, ratio, bend;
   bool bent;
@@ -44,7 +45,7 @@ struct PulsePhasor {
   }
 };
 
-// Value and derivatives of RV at an offset from where the moments were taken.
+// Value and derivatives of RV at an offset from the position of the moments.
 struct Taylor {
   Complex rv, r, v, rr, rv_mixed, vv;
 };
@@ -113,7 +114,7 @@ CleanComponent ResidualEcho::fit(double range_m, double velocity_mps, double rea
         const Complex z1 = turn * (all[n].m1 + Complex(0, y) * all[n].m2 - 0.5 * y * y * all[n].m3);
         const Complex z0 = turn * (all[n].m0 + Complex(0, y) * all[n].m1 - 0.5 * y * y * all[n].m2 -
                                    Complex(0, y * y * y / 6) * all[n].m3);
-        // d/dr brings j (kr + k_b), d/dv brings j (kv + k_b t), k_b the baseband wavenumber of the moments.
+        // d/dr gives a factor j (kr + k_b), d/dv a factor j (kv + k_b t), k_b the baseband wavenumber of the moments.
         s.rv += z0;
         s.r += kr * z0 + z1;
         s.v += kv * z0 + t * z1;
@@ -125,7 +126,7 @@ CleanComponent ResidualEcho::fit(double range_m, double velocity_mps, double rea
       return Taylor{s.rv, j * s.r, j * s.v, -s.rr, -s.rv_mixed, -s.vv};
     };
 
-    // Newton's method on ln |RV|, which is concave in the main lobe; steps that do not climb are halved.
+    // Newton's method on ln |RV|, which is concave in the main lobe; steps that do not increase it are halved.
     double dr = 0, dv = 0;
     Taylor here = expand(0, 0);
     for (int i = 0; i < 8 && std::abs(here.rv) > 0; ++i) {
@@ -133,7 +134,7 @@ CleanComponent ResidualEcho::fit(double range_m, double velocity_mps, double rea
       const double hrr = std::real(here.rr / here.rv - here.r * here.r / (here.rv * here.rv));
       const double hvv = std::real(here.vv / here.rv - here.v * here.v / (here.rv * here.rv));
       const double hrv = std::real(here.rv_mixed / here.rv - here.r * here.v / (here.rv * here.rv));
-      // One pulse tells no velocity, one frequency no range: there the other is fitted alone.
+      // One pulse has no velocity resolution, one frequency no range resolution: then only the other is fitted.
       const double bend_r = -hrr * reach_r * reach_r, bend_v = -hvv * reach_v * reach_v;
       double step_r = 0, step_v = 0;
       if (bend_r > 0 && std::abs(bend_v) < kFlat * bend_r) {
@@ -146,7 +147,8 @@ CleanComponent ResidualEcho::fit(double range_m, double velocity_mps, double rea
         step_r = -(hvv * gr - hrv * gv) / determinant;
         step_v = -(hrr * gv - hrv * gr) / determinant;
       }
-      // Steps below a hundredth of the reach are the last: Newton's error after them is the square of that.
+      // The iteration ends with a step below a hundredth of the reach: the remaining error of Newton's method is its
+      // square.
       const bool last = std::abs(step_r) < 1e-2 * reach_r && std::abs(step_v) < 1e-2 * reach_v;
       bool climbed = false;
       for (int half = 0; half < (last ? 1 : 4) && !climbed; ++half, step_r *= 0.5, step_v *= 0.5) {

@@ -7,15 +7,15 @@
 namespace seaglint {
 namespace {
 
-// A row may be filled to three quarters by the target (144 m of 192 m), a column hardly ever to a half.
+// A target may occupy three quarters of a row (144 m of 192 m), a column rarely to a half.
 constexpr double kRowQuantile = 0.2;
 constexpr double kColumnQuantile = 0.5;
 constexpr double kMapQuantile = 0.5;
 constexpr double kFalseMaps = 0.01;
-// A maximum is the highest of all positions inside its cell, not of one: four times the chances.
+// A maximum is the highest of all positions inside its cell: four times as many independent trials.
 constexpr double kPositionsPerCell = 4;
 
-// Mean of an exponential distribution whose quantile this is.
+// Mean of an exponential distribution from its quantile.
 double mean_from_quantile(std::vector<double> powers, double quantile) {
   const auto at = powers.begin() + static_cast<std::ptrdiff_t>(quantile * static_cast<double>(powers.size()));
   std::nth_element(powers.begin(), at, powers.end());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // CLEAN (Hogbom, "Aperture synthesis with a non-regular distribution of interferometer baselines", Astron. Astrophys.
-// Suppl. 15 (1974) 417), with the map formed anew from the residual echo after each round, so that no point response is
+// Suppl. 15 (1974) 417), with the map recomputed from the residual echo after each round, so that no point response is
 // approximated.
 #include "classify/features/scattering_centres.h"
 
@@ -16,19 +16,18 @@
 namespace seaglint {
 namespace {
 
-// Maxima down to this far below the round's strongest are taken out in one round, each fitted in what the ones before
-// left. Higher saves no map, lower spends fits on sidelobes (-13 dB untapered in velocity).
+// Maxima down to this far below the round's strongest are subtracted in one round, each fitted in the residual of the
+// previous ones. A smaller depth saves no map, a larger one spends fits on sidelobes (-13 dB untapered in velocity).
 constexpr double kRoundDepthDb = 9;
-// A maximum between cells is estimated by parabolas through ln |RV|, short of the truth by at most this (2.8 dB for an
-// untapered lobe half a cell away); what cannot reach a threshold even so is not fitted.
+// Largest underestimation of a maximum between cells by parabolas through ln |RV| (2.8 dB for an untapered lobe half a
+// cell away); maxima that are below the threshold even with this margin are not fitted.
 constexpr double kParabolaShortfallDb = 3;
-// Fits per round, against maps made of noise alone.
+// Limit of fits per round, for maps of noise alone.
 constexpr std::size_t kMaxFitsPerRound = 256;
 
 double decibel_ratio(double db) { return std::pow(10, db / 10); }
 
-// Widths of the main lobe, -3.9 dB below the peak, in units of the untapered one (1 cell): two centres closer than that
-// are one.
+// Widths of the main lobe, -3.9 dB below the peak, in units of the untapered one (1 cell): closer centres are merged.
 double lobe_width(Taper taper) {
   switch (taper) {
     case Taper::kNone: return 1;
@@ -39,7 +38,7 @@ double lobe_width(Taper taper) {
   return 1;
 }
 
-// Power that a point of amplitude 1 spreads over the resolution cells of one axis: count sum w^2 / (sum w)^2, the
+// Power of a point of amplitude 1, summed over the resolution cells of one axis: count sum w^2 / (sum w)^2, the
 // equivalent noise bandwidth (Harris, Proc. IEEE 66 (1978) 51, equation 11).
 double lobe_power(Taper taper, std::size_t count) {
   double sum = 0, squares = 0;
@@ -55,14 +54,14 @@ struct Maximum {
   double power;  // estimate between cells
 };
 
-// Rise above the middle of three equally spaced values, of the parabola through their logarithms.
+// Ratio of the maximum of the parabola through the logarithms of three equally spaced values to the middle value.
 double parabola_gain(double before, double middle, double after) {
   if (!(before > 0 && after > 0)) return 1;
   const double l = std::log(before / middle), r = std::log(after / middle);  // both <= 0 at a maximum
   return l + r < 0 ? std::exp(-(l - r) * (l - r) / (8 * (l + r))) : 1;
 }
 
-// Local maxima of |RV|^2 that may reach the threshold and `factor` times the floor, strongest first.
+// Local maxima of |RV|^2 that can reach the threshold and `factor` times the floor, strongest first.
 std::vector<Maximum> local_maxima(const RvMap& map, double threshold, double factor, const std::vector<double>& floor) {
   const std::size_t rows = map.velocity_mps.size(), columns = map.columns();
   const double shortfall = decibel_ratio(kParabolaShortfallDb);
@@ -97,8 +96,8 @@ double step_of(const std::vector<double>& axis, double otherwise) {
   return axis.size() > 1 ? axis[1] - axis[0] : otherwise;
 }
 
-// Components of one lobe become one centre: those within half a lobe add up (what a loop gain below 1 takes in several
-// steps), those between half and one lobe are remains of a stronger one.
+// Merges the components of one main lobe: those within half a lobe are added (a loop gain below 1 gives several), those
+// between half and one lobe are remainders of a stronger one.
 std::vector<CleanComponent> merge(std::vector<CleanComponent> components, double lobe_r, double lobe_v) {
   const auto stronger = [](const CleanComponent& a, const CleanComponent& b) {
     return std::norm(a.amplitude_m) > std::norm(b.amplitude_m);
@@ -144,9 +143,9 @@ CleanedMap clean_map(std::span<const Complex> echo, const PulseTrain& train, con
     found = false;
     const std::vector<Maximum> maxima = local_maxima(map, depth * strongest, factor, floor);
     if (maxima.empty()) break;
-    // Below the round's depth, counted from the strongest maximum that holds, one may be a sidelobe or pedestal of a
-    // stronger one: it waits for the next map. What does not hold, a ridge of clutter say, has been looked at and
-    // decides nothing.
+    // A maximum below the round's depth, relative to the strongest accepted maximum, may be a sidelobe or pedestal of a
+    // stronger one and is left to the next map. A rejected maximum, such as a ridge of clutter, does not set this
+    // level.
     double round_floor = 0;
     std::size_t fits = 0;
     for (const Maximum& cell : maxima) {
@@ -170,13 +169,13 @@ CleanedMap clean_map(std::span<const Complex> echo, const PulseTrain& train, con
     floor = residual_floor(map);
   }
 
-  // Judged by what is left at the end, when no centre's pedestal raises the floor any more.
+  // Accepted by the final residual, in which no centre's pedestal raises the floor.
   if (!components.empty()) {
     map = residual.map();
     floor = residual_floor(map);
   }
   std::vector<CleanComponent> points = merge(components, lobe_r, lobe_v);
-  // A loop gain below 1 leaves a part of every centre behind.
+  // With a loop gain below 1 a part of every centre remains in the residual.
   for (CleanComponent& point : points) {
     if (spec.clean_gain < 1) point.amplitude_m += residual.value(point.range_m, point.velocity_mps);
   }

@@ -18,7 +18,7 @@ void require(int status, const char* what) {
   if (status != 0) throw WorkError(fmt::format("XGBoost: {}: {}", what, XGBGetLastError()));
 }
 
-// The library's table of rows, freed at the end of its life.
+// The library's matrix of rows, freed by the destructor.
 class Rows {
  public:
   explicit Rows(const FeatureMatrix& features) {
@@ -35,7 +35,7 @@ class Rows {
   DMatrixHandle handle_ = nullptr;
 };
 
-// Messages of the library would mix with the program's own.
+// Suppresses the library's messages.
 void quieten() { require(XGBSetGlobalConfig(R"({"verbosity": 0})"), "settings"); }
 
 }  // namespace
@@ -126,7 +126,7 @@ std::vector<double> Booster::gains(std::size_t columns) const {
   require(XGBoosterFeatureScore(model_->handle, R"({"importance_type": "total_gain"})", &count, &names, &dimensions,
                                 &shape, &scores),
           "gains");
-  // Columns without a split are left out of the answer; the others are called f0, f1, ...
+  // The library omits columns without a split; the others are named f0, f1, ...
   std::vector<double> shares(columns, 0.0);
   double total = 0;
   for (bst_ulong i = 0; i < count; ++i) {

@@ -22,7 +22,8 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-// Target over clutter and noise together, dB: 1/R = 1/SCR + 1/SNR, of those that there are; 300 without either.
+// Target over clutter and noise together, dB: 1/R = 1/SCR + 1/SNR, without a term that does not exist; 300 without
+// either.
 double signal_to_rest_db(const SampleRecord& record) {
   double inverse = 0;
   for (const double ratio_db : {record.scr_per_pulse_db, record.snr_per_pulse_db}) {
@@ -31,7 +32,7 @@ double signal_to_rest_db(const SampleRecord& record) {
   return std::clamp(-decibel(inverse), -300.0, 300.0);
 }
 
-// Levels of one map that a classifier might lean on instead of on the target's motion.
+// Levels of one map that a classifier could use instead of the target's motion.
 struct MapLevels {
   double floor_db = 0;         // median cell below the map's energy
   double pedestal_db = 0;      // median over velocity in the strongest cell's range, below that cell

@@ -42,7 +42,7 @@ Split cut(std::span<const RowGroup> rows, const std::vector<std::size_t>& candid
     for (const std::size_t row : candidates) groups_of_state[rows[row].sea_state].insert(rows[row].group);
     std::vector<std::int64_t> states;
     for (const auto& [state, groups] : groups_of_state) states.push_back(state);
-    // In a fixed order the carried rounding would give every repeat's test groups to the same states.
+    // With a fixed order the carried rounding would take the test groups of every repeat from the same states.
     shuffle(states, {seed, Stream::kSplit, kOrderOfStates + key_index(repeat, protocol, fusion, 0)});
     std::set<std::int64_t> chosen;
     double wanted = 0;

@@ -24,7 +24,7 @@ std::vector<int> select(const std::vector<int>& labels, const std::vector<std::s
   return selected;
 }
 
-// One training of network and trees: a repeat of a protocol with one way of fusing.
+// One training of network and trees: a repeat of a protocol with one kind of fusion.
 struct Job {
   std::uint64_t repeat = 0;
   Protocol protocol = Protocol::kGroup;
@@ -76,7 +76,7 @@ std::vector<Job> all_jobs(const LearningSpec& spec) {
   return jobs;
 }
 
-// The rows of a job: `test` of the split is what it is judged by.
+// The rows of a job; its scores are those of `test`.
 struct JobRows {
   Split split;
   std::vector<std::size_t> network;
@@ -199,7 +199,7 @@ Study run_study(const LearningTable& table, const LearningSpec& spec, double tra
       },
       stop);
 
-  // Job numbers: protocol slowest, then main and other fusion, then repeat.
+  // Job numbers: protocol slowest, then primary and alternative fusion, then repeat.
   const auto pooled = [&](std::size_t protocol, std::size_t fusion, int group) {
     std::vector<Prediction> predictions;
     for (std::size_t repeat = 0; repeat < repeats; ++repeat) {
@@ -217,8 +217,8 @@ Study run_study(const LearningTable& table, const LearningSpec& spec, double tra
     for (std::size_t protocol = 0; protocol < 2; ++protocol) {
       Outcome outcome;
       outcome.protocol = kProtocols[protocol];
-      // Hand-made features need no network: their main result uses every training row, which is what `in_sample` gives
-      // the trees.
+      // Hand-made features need no network: their primary result uses every training row, as `in_sample` does for the
+      // trees.
       const bool swap = group == 0 && spec.fusion == Fusion::kSplit;
       for (std::size_t place = 0; place < 2; ++place) {
         const std::size_t fusion = swap ? 1 - place : place;

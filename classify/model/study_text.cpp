@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// JSON has no NaN: what is not defined is null.
+// JSON has no NaN: an undefined value is null.
 ordered_json number(double value) { return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr); }
 
 ordered_json to_object(const Scores& scores) {

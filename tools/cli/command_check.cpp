@@ -36,7 +36,7 @@ void add_check(CLI::App& app, CommandContext& shell) {
   command->callback([arguments, &shell] {
     shell.work = [arguments] {
       const Scenario scenario = arguments->read();
-      const Pipeline pipeline(scenario);  // reads every file the scenario names
+      const Pipeline pipeline(scenario);  // reads every file that the scenario names
       const PulseTrain train = make_pulse_train(scenario.radar, pipeline.window_m(), scenario.seed, 0);
       fmt::print("{}", effective_yaml(scenario));
       std::fflush(stdout);

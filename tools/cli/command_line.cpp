@@ -25,15 +25,15 @@ namespace seaglint {
 
 namespace {
 
-// A signal handler reaches only what has static storage.
+// Signal handlers can access static storage only.
 StopFlag* stop_flag = nullptr;
 
 void request_stop(int) { *stop_flag = true; }
 
-// A write beyond the limit on file sizes fails like one to a full disk, instead of killing.
+// A write beyond the file size limit then fails with an error, as on a full disk, instead of ending the process.
 void survive_file_size_limit() { signal(SIGXFSZ, SIG_IGN); }
 
-// The first Ctrl-C asks the work to stop; the handler is then gone, so that the second one kills.
+// The first Ctrl-C sets the stop flag and removes the handler, so that the second one ends the process.
 void handle_signals(CommandContext& shell) {
   stop_flag = &shell.stop;
   struct sigaction action {};
@@ -69,20 +69,20 @@ int fail(int code, const std::string& message) {
   return code;
 }
 
-// 0, or 1 where standard output did not take all that was printed.
+// 0, or 1 if a write to standard output failed.
 int end_output() {
   std::cout.flush();
   if (std::cout && std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return 0;
   return fail(1, fmt::format("standard output: cannot write: {}", std::strerror(errno)));
 }
 
-// The words that chose a command: " mesh make sphere".
+// The words that select a command: " mesh make sphere".
 std::string chosen_words(const CLI::App& app) {
   const auto chosen = app.get_subcommands();
   return chosen.empty() ? "" : " " + chosen.front()->get_name() + chosen_words(*chosen.front());
 }
 
-// CLI11 prints what was asked for (--help, --version); everything else is wrong input.
+// CLI11 prints --help and --version; every other parse error is wrong input.
 int end_parsing(const CLI::App& app, const CLI::ParseError& error) {
   if (error.get_exit_code() == 0) {
     app.exit(error);

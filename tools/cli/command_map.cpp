@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One range-velocity map of a scenario: its picture, its scattering centres and its features.
+// One range-velocity map of a scenario: its figure, its scattering centres and its features.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -87,7 +87,7 @@ void show_map(const Arguments& arguments) {
     return;
   }
   warn(band_warnings(pipeline));
-  warn(map_coverage_warnings(pipeline));  // a map of too many cells ends here
+  warn(map_coverage_warnings(pipeline));  // throws if the map has too many cells
   const GeneratedSample made = pipeline.generate_sample(sample);
   write_figure(rv_figure(made.received.map, made.centres, title), arguments.output);
   print_result(made.received, made.centres, made.features);

@@ -36,7 +36,7 @@ std::string counts_line(const TriangleMesh& mesh) {
                      surface_area(mesh));
 }
 
-// One line for each part: triangles, volume where it is closed, material.
+// One line for each part: triangles, volume if it is closed, material.
 std::string part_lines(const TriangleMesh& mesh, const Topology& topology) {
   std::vector<std::size_t> count(mesh.part_names.size(), 0);
   std::vector<double> volume(mesh.part_names.size(), 0);
@@ -81,7 +81,7 @@ std::string topology_lines(const TriangleMesh& mesh, const Topology& topology, d
       topology.count(EdgeKind::kInconsistent), topology.degenerate.size(), convex, concave, wedge_deg, free_edges);
 }
 
-// A kind of mesh that `mesh make` knows; the options it declares are captured by the maker.
+// Adds a kind of mesh to `mesh make`; its options are captured by the function that makes the mesh.
 CLI::App* add_kind(CLI::App& make, CommandContext& shell, const char* name, const char* what, const char* example,
                    const Maker& maker) {
   CLI::App* kind = make.add_subcommand(name, what);

@@ -37,8 +37,8 @@ struct MotionArguments {
   double step_s = 0.1;
 };
 
-// Everything that moves in the first sea state: the bodies of every mesh target in the order of the file, `ship`,
-// `array_1`, `array_2`, ..., and how each target moves.
+// Moving bodies of the first sea state: those of every mesh target in the order of the file, `ship`, `array_1`,
+// `array_2`, ..., and the motion model of each target.
 struct MovingScene {
   SeaState state;
   WaveField sea;
@@ -46,7 +46,7 @@ struct MovingScene {
   std::vector<NamedTrajectory> bodies;
 };
 
-// How fast a body goes along x beside its motion in the waves, m/s.
+// Mean velocity of a body along x, without its motion in the waves, m/s.
 double mean_speed(const Body& body) {
   if (const auto* ship = std::get_if<ShipParticulars>(&body.model)) return ship->speed;
   if (const auto* table = std::get_if<RaoTable>(&body.model)) return table->speed();
@@ -75,7 +75,7 @@ MovingScene simulate_all(const Scenario& scenario, const SeaState& state, double
   return scene;
 }
 
-// What a table of response operators leaves out of this sea.
+// Part of this sea's spectrum outside the table of response amplitude operators, as text.
 std::string coverage(const MovingScene& scene) {
   std::string text;
   for (const Body& body : scene.targets) {

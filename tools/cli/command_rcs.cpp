@@ -56,7 +56,7 @@ void show_comparison(const RcsArguments& arguments, const std::vector<PairedCut>
   }
 }
 
-// The cuts of the references that the sweep contains; one that does not fit is refused before any work.
+// The cuts of all references that the sweep covers; throws before any work if one does not match.
 std::vector<PairedCut> pair_with_all(const RcsSweep& sweep, const std::vector<RcsReference>& references) {
   std::vector<PairedCut> cuts;
   for (const RcsReference& reference : references) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One sample of a data set, regenerated from its scenario and row and compared with the stored one.
+// Regenerates one sample of a data set from its scenario and row and compares it with the stored one.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -61,7 +61,7 @@ void regenerate_sample(const Arguments& arguments) {
   const StoredSample stored = stored_sample(reader, arguments.sample);
   Scenario scenario = read_scenario(reader.directory() / kScenarioFile);
   require_same_inputs(reader.directory(), scenario);
-  scenario.dataset.complex_maps = true;  // for the output; it changes nothing else
+  scenario.dataset.complex_maps = true;  // for the output; the other results do not depend on it
   const Pipeline pipeline(scenario);
   if (arguments.sample >= pipeline.plan().size()) {
     throw InputError(

@@ -17,7 +17,7 @@ namespace seaglint {
 
 namespace {
 
-// The run's own scenario, which its data set was made by: the page would show one and speak of another.
+// The scenario of the run; throws if it is not that of the data set, as figures and text would then disagree.
 Scenario read_own_scenario(const std::filesystem::path& run) {
   const std::filesystem::path file = run / "scenario.yaml", of_data = run / "data" / kScenarioFile;
   if (!std::filesystem::exists(file))

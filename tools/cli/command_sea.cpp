@@ -50,7 +50,7 @@ const char* name_of(Spreading spreading) {
   return "none";
 }
 
-// What the series holds, as lines without their comment sign.
+// Description of the series, as lines without comment sign.
 std::string description(const Scenario& scenario, const SeaState& state, const WaveField& field,
                         const SeaSummary& summary) {
   std::string text;

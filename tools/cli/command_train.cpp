@@ -20,7 +20,7 @@ struct Arguments {
   std::vector<std::string> set;
 };
 
-// The maps are made: what they were made by can no longer be changed.
+// Only keys of learning and split may be overridden: the maps exist already.
 std::vector<Override> learning_overrides(const std::vector<std::string>& set) {
   const std::vector<Override> overrides = read_overrides(set);
   for (const Override& entry : overrides) {

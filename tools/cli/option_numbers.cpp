@@ -16,7 +16,7 @@ namespace {
 
 std::string shown(const std::string& text) { return text.empty() ? "''" : text; }
 
-// The whole text as a decimal whole number, or nothing.
+// The text as a decimal integer, or nothing if any part of it is not.
 template <class Whole>
 std::optional<Whole> parse_whole(std::string_view text) {
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
@@ -27,7 +27,7 @@ std::optional<Whole> parse_whole(std::string_view text) {
   return value;
 }
 
-// Leaves the number in digits that mean the same to CLI11.
+// Rewrites the number in digits that CLI11 parses to the same value.
 template <class Whole>
 CLI::Validator decimal_whole(const char* bound) {
   const auto rewrite = [bound](std::string& text) {
@@ -62,7 +62,8 @@ void require_decimal_numbers(CLI::App& app) {
     const std::string type = option->get_type_name();
     if (type.starts_with("INT")) option->transform(decimal_whole<std::int64_t>(""));
     if (type.starts_with("UINT")) option->transform(decimal_whole<std::uint64_t>(", 0 or more"));
-    if (type.starts_with("FLOAT")) option->check(decimal_number());  // after an option's own bounds, which say more
+    if (type.starts_with("FLOAT"))
+      option->check(decimal_number());  // after an option's own bounds, whose message is more specific
   }
   for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) require_decimal_numbers(*command);
 }

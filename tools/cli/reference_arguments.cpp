@@ -27,7 +27,7 @@ std::vector<double> numbers(const std::string& option, const std::string& text, 
   return values;
 }
 
-// The value meant for file i: none, the only one, or the i-th.
+// The value for file i: none, the only one, or the i-th.
 const std::string* value_for(const std::string& option, const std::vector<std::string>& values, std::size_t i,
                              std::size_t files) {
   if (values.empty()) return nullptr;

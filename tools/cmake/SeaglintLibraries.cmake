@@ -28,8 +28,8 @@ target_include_directories(SeaglintTorch SYSTEM INTERFACE ${TORCH_INCLUDE_DIRS})
 # Flags of the project's own code. Phase is formed in double: no fast-math, no contraction, so that bits agree across builds.
 add_library(seaglint_flags INTERFACE)
 target_compile_options(seaglint_flags INTERFACE -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
-# Complex products and quotients do not ask about infinities, which would double their cost; finite products keep
-# their bits, quotients theirs to rounding. clang knows the option from 18 on only, and clang-tidy reads the flags as clang.
+# Complex products and quotients do not check for infinities, which would double their cost; finite products keep
+# their bits, quotients theirs to rounding. clang has the option only from 18 on, and clang-tidy reads the flags as clang.
 include(CheckCXXCompilerFlag)
 check_cxx_compiler_flag(-fcx-fortran-rules SEAGLINT_FINITE_PRODUCTS)
 if(SEAGLINT_FINITE_PRODUCTS AND NOT CMAKE_CXX_CLANG_TIDY)

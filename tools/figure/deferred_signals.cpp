@@ -13,13 +13,13 @@ namespace {
 
 constexpr std::array kHeld{SIGINT, SIGTERM};
 
-// A signal handler reaches only what has static storage.
+// Signal handlers can access static storage only.
 std::atomic<int> noted_signal{0};
 static_assert(std::atomic<int>::is_always_lock_free);
 
 void note(int signal) { noted_signal = signal; }
 
-// Who holds them, and what was in force before.
+// Number of DeferredSignals objects, and the previous handlers.
 struct Holding {
   std::mutex mutex;
   int holders = 0;

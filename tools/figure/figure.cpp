@@ -36,7 +36,7 @@ constexpr const char* kViridis =
     "set palette defined (0 '#440154', 1 '#472c7a', 2 '#3b518b', 3 '#2c718e', 4 '#21908d', 5 '#27ad81', 6 '#5cc863', 7 "
     "'#aadc32', "
     "8 '#fde725')\n";
-// Okabe and Ito's palette, told apart by colour-blind readers.
+// Okabe and Ito's palette, distinguishable for colour-blind readers.
 constexpr const char* kLineColours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"};
 
 // A string in gnuplot's single quotes; line breaks would end the command.
@@ -51,7 +51,7 @@ std::string quoted(const std::string& text) {
 
 std::string number(double value) { return std::isfinite(value) ? fmt::format("{:.9g}", value) : "NaN"; }
 
-// Files beside the figure, removed at the end whatever happens.
+// Temporary files in the figure's directory, removed by the destructor.
 class Scratch {
  public:
   explicit Scratch(const fs::path& figure) {
@@ -77,9 +77,9 @@ WorkError cannot_start(int error) {
       fmt::format("gnuplot cannot be started ({}): install the package gnuplot-nox", std::strerror(error)));
 }
 
-// A child's status when it has ended; Ctrl-C ends it. Throws WorkError.
+// Waits for a child process and returns its status; Ctrl-C ends it. Throws WorkError.
 int wait_for(pid_t child) {
-  constexpr std::chrono::milliseconds kLook{5};  // gnuplot takes a hundred times that
+  constexpr std::chrono::milliseconds kLook{5};  // a hundredth of gnuplot's run time
   for (;;) {
     int status = 0;
     const pid_t ended = ::waitpid(child, &status, WNOHANG);
@@ -90,7 +90,7 @@ int wait_for(pid_t child) {
   }
 }
 
-// Runs gnuplot on a script, its messages into a file. Throws WorkError, Interrupted after Ctrl-C.
+// Runs gnuplot on a script, with its messages written to a file. Throws WorkError, Interrupted after Ctrl-C.
 void run_gnuplot(const Scratch& scratch) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
@@ -114,8 +114,8 @@ void run_gnuplot(const Scratch& scratch) {
   throw WorkError(fmt::format("gnuplot failed: {}", messages.substr(0, 500)));
 }
 
-// gnuplot does not look whether its writes succeed: a figure cut off by a full disk lacks the end of its format. Throws
-// WorkError.
+// Checks the end mark of the figure's format, because gnuplot does not check its writes: a full disk truncates the
+// figure. Throws WorkError.
 void require_whole(const fs::path& drawn, const fs::path& file) {
   const std::string bytes = read_file(drawn);
   const std::string_view end = file.extension() == ".png" ? "IEND\xae\x42\x60\x82" : "</svg>";
@@ -132,12 +132,12 @@ std::string axis_commands(const char* name, const FigureAxis& axis) {
   return text;
 }
 
-// Writes data and script, runs gnuplot into a temporary file, and gives it the figure's name.
+// Writes data and script, runs gnuplot into a temporary file, and renames it to the figure's name.
 void draw(const fs::path& file, FigureSize size, const std::string& title, const std::string& data,
           const std::string& commands) {
   require_figure(file);
   const std::string extension = file.extension();
-  const DeferredSignals held;  // let go when all files are removed
+  const DeferredSignals held;  // released when all files are removed
   const Scratch scratch(file);
   write_file(scratch.data, data);
   write_file_with(file, [&](const fs::path& temporary) {
@@ -180,7 +180,7 @@ void write_figure(const Heatmap& figure, const fs::path& file, FigureSize size) 
   const std::size_t columns = figure.x_cells.size(), rows = figure.y_cells.size();
   SEAGLINT_CHECK(columns >= 1 && rows >= 1 && figure.values.size() == columns * rows,
                  fmt::format("{} values for {} x {} cells", figure.values.size(), rows, columns));
-  // Corners of the cells, so that also a single row or column is drawn: pm3d colours the cell by its first corner.
+  // Vertices of the cells, so that a single row or column is also drawn: pm3d colours a cell by its first vertex.
   const auto corners = [](const std::vector<double>& cells) {
     const double step = cells.size() > 1 ? (cells.back() - cells.front()) / static_cast<double>(cells.size() - 1) : 1;
     std::vector<double> out;
@@ -234,7 +234,7 @@ void write_figure(const Heatmap& figure, const fs::path& file, FigureSize size) 
 
 namespace {
 
-// The commands that draw a plot whose series begin at `first_index` of the data, and those series' data.
+// The commands that draw a plot whose series start at `first_index` of the data, and the data of these series.
 struct PlotText {
   std::string commands, data;
 };
@@ -300,7 +300,7 @@ void write_figure(const std::string& title, std::span<const LinePlot> plots, int
   std::size_t index = 0;
   for (const LinePlot& plot : plots) {
     const PlotText text = plot_text(plot, index);
-    // Each plot begins with the axes that gnuplot has of itself.
+    // Each plot starts from gnuplot's default axes.
     commands += fmt::format(
                     "unset logscale\nset format\nset xlabel offset 0,0.3\nset xrange [*:*]\nset yrange [*:*]\nset "
                     "offsets\nset title {}\n",

@@ -18,7 +18,7 @@ namespace {
 constexpr int kSamples = 3;  // per pixel and axis
 constexpr double kMargin = 0.03;
 
-// Directions on the picture: right, up and towards the eye.
+// Directions of the picture: right, up and towards the viewer.
 struct Camera {
   Vec3 right, up, eye;
 };
@@ -42,7 +42,7 @@ class Canvas {
  public:
   Canvas(int width, int height) : width_(width), height_(height), samples_(static_cast<std::size_t>(width) * height) {}
 
-  // Corners in sample coordinates with their depth; the nearest surface wins.
+  // Rasterises a triangle with vertices in sample coordinates and depth; the nearest surface is kept.
   void fill(const std::array<Vec3, 3>& p, float brightness, float facing) {
     const double area = (p[1] - p[0]).x() * (p[2] - p[0]).y() - (p[1] - p[0]).y() * (p[2] - p[0]).x();
     if (area == 0) return;
@@ -76,8 +76,8 @@ class Canvas {
   std::vector<Sample> samples_;
 };
 
-// Ink where the silhouette ends, where depth breaks off the plane through the two neighbours by more than `step`, or
-// where the shade changes.
+// Darkness of the line at a sample: on the silhouette, where depth departs from the plane through the two neighbours by
+// more than `step`, or where the shade changes.
 double line_at(const Canvas& canvas, int x, int y, float step) {
   const Sample& here = canvas.at(x, y);
   double line = 0;
@@ -122,7 +122,7 @@ Picture picture_of(const TriangleMesh& mesh, const PictureView& view) {
   const double x0 = 0.5 * kSamples * picture.width - scale * 0.5 * (low.x() + high.x());
   const double y0 = 0.5 * kSamples * picture.height + scale * 0.5 * (low.y() + high.y());
 
-  // Light from above the eye's left shoulder; sheets are lit from both sides.
+  // Light source above and to the left of the viewer; sheets are shaded from both sides.
   const Vec3 light = (camera.eye + 0.55 * Vec3::UnitZ() - 0.6 * camera.right).normalized();
   Canvas canvas(kSamples * picture.width, kSamples * picture.height);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {

@@ -84,7 +84,7 @@ void write_motion_figure(const std::vector<NamedTrajectory>& bodies, double dura
 
 namespace {
 
-// The mesh's silhouette seen along y, turned and moved by a pose: highest and lowest vertex over bins of the body's x.
+// Silhouette of the mesh along y, in a pose: highest and lowest vertex over bins of the body's x.
 Series silhouette(const TriangleMesh& mesh, const Pose& pose) {
   constexpr int kBins = 80;
   const Bounds box = bounds(mesh);
@@ -121,7 +121,7 @@ Series silhouette(const TriangleMesh& mesh, const Pose& pose) {
   return outline;
 }
 
-// A window of the water's surface about a body, as wide as it takes, that goes on with the body's mean way.
+// Snapshot of the water surface around a body, over an interval of x that moves with the body's mean velocity.
 LinePlot frame(const NamedTrajectory& body, const WaveField& sea, double t) {
   const Pose pose = body.trajectory.pose(std::min(t, body.trajectory.end_s()));
   const Bounds box = bounds(body.mesh);
@@ -200,7 +200,7 @@ void write_rao_figure(const ShipParticulars& ship, double mu, double depth, cons
     if (axis == 0) theirs[axis].name = reference.file.filename().string();
     theirs[axis].style = SeriesStyle::kPoints;
     plots[axis].series.push_back(theirs[axis]);
-    // A resonance whose damping is not known would hide all else.
+    // The axis is limited, as a resonance of unknown damping would compress the other curves.
     double largest = 0;
     for (const double y : theirs[axis].y) largest = std::max(largest, y);
     plots[axis].y.range = AxisRange{0, 1.3 * largest};

@@ -56,7 +56,7 @@ LinePlot crest_plot(const SeaSummary& summary, const SeaEnsemble& ensemble) {
   const ForristallCrests forristall =
       forristall_crests(height, summary.steepness, summary.ursell, summary.long_crested);
   Series simulated{.name = "simulated", .x = {}, .y = {}, .interval = {}, .style = SeriesStyle::kPoints};
-  // Every crest among the highest, the others thinned.
+  // Every crest among the highest, a subset of the others.
   const auto count = static_cast<double>(ensemble.crests.size());
   for (double rank = 1; rank <= count; rank = std::max(rank + 1, std::floor(rank * 1.15))) {
     simulated.x.push_back(ensemble.crests[ensemble.crests.size() - static_cast<std::size_t>(rank)] / height);
@@ -111,7 +111,7 @@ LinePlot slope_plot(const SeaState& state, const WaveField& field, const SeaSumm
   return plot;
 }
 
-// The height that a share of the crests passes.
+// The height exceeded by a fraction of the crests.
 double exceeded_by(const std::vector<double>& ascending, double share) {
   const auto rank = static_cast<std::size_t>((1 - share) * static_cast<double>(ascending.size()));
   return ascending[std::min(rank, ascending.size() - 1)];
@@ -139,7 +139,7 @@ std::string ensemble_text(const SeaEnsemble& ensemble, const SeaSummary& summary
       forristall_crests(summary.significant_wave_height_m, summary.steepness, summary.ursell, summary.long_crested);
   fmt::format_to(out, "{} crests; height passed by 10 / 1 / 0.1 %:", ensemble.crests.size());
   for (const double share : {0.1, 0.01, 0.001}) {
-    // Ten crests at least, or a height is chance.
+    // At least ten crests are needed for a meaningful height.
     if (share * static_cast<double>(ensemble.crests.size()) < 10) {
       text += " too few crests,";
       continue;

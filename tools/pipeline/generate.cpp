@@ -18,10 +18,10 @@ namespace seaglint {
 
 namespace {
 
-// A shard whose samples arrive in any order.
+// A shard being assembled from samples in any order.
 struct OpenShard {
   Shard content;
-  std::size_t waiting = 0;  // samples that are still to come
+  std::size_t waiting = 0;  // samples not yet generated
 };
 
 }  // namespace
@@ -41,7 +41,7 @@ GenerateResult generate_dataset(const Pipeline& pipeline, const std::filesystem:
   warn(map_coverage_warnings(pipeline));
   DatasetWriter writer(directory, scenario, plan, options.resume, kVersion);
 
-  // The part's shards that are to be made, and their samples in order.
+  // The part's shards to be generated, and their samples in order.
   GenerateResult result;
   struct Work {
     std::size_t shard = 0;
@@ -86,7 +86,8 @@ GenerateResult generate_dataset(const Pipeline& pipeline, const std::filesystem:
         },
         stop);
   } catch (const InputError&) {
-    // The scenario put right must find the directory as it was; other parts may be at work in it.
+    // A corrected scenario needs the directory in its previous state; not with several parts, which may be writing to
+    // it.
     if (parts == 1) writer.roll_back();
     throw;
   }

@@ -22,14 +22,14 @@ struct Span {
     low = std::min(low, value);
     high = std::max(high, value);
   }
-  // In the cells of the axis; one cell alone holds everything.
+  // Within the cells of the axis; a single cell contains everything.
   bool within(const std::vector<double>& axis) const {
     const double half = axis.size() > 1 ? (axis[1] - axis[0]) / 2 : std::numeric_limits<double>::infinity();
     return low >= axis.front() - half && high <= axis.back() + half;
   }
 };
 
-// Of a target with its companions, as the radar sees it.
+// Extent of a target with its companions in range and velocity.
 struct Reach {
   Span range_m, velocity_mps;
 };

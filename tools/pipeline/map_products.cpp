@@ -9,7 +9,8 @@ namespace seaglint {
 
 FullBandInterval full_band_interval(const Pipeline& pipeline, std::size_t sample) {
   const Scenario& scenario = pipeline.scenario();
-  // One carrier as wide as all of them: steps of the whole band, so that the window without wrap stays.
+  // One carrier with the bandwidth of all; the hop step is the whole band, so that the unambiguous range window is
+  // unchanged.
   RadarSpec radar = scenario.radar;
   const double lowest_mhz = 1e3 * radar.carrier_ghz - 0.5 * radar.bandwidth_mhz;
   radar.bandwidth_mhz += (radar.carrier_count - 1) * radar.hop_step_mhz;

@@ -44,7 +44,7 @@ void store_signal(const GeneratedSample& made, bool complex_maps, Sample& stored
 
 }  // namespace
 
-// A scene that one thread makes while others wait for it.
+// A scene that one thread generates while others wait for it.
 struct Pipeline::SceneSlot {
   int sea_state = 0;
   int realisation = 0;
@@ -104,7 +104,7 @@ BodyResponse Pipeline::target_response(std::size_t target, const Scene& scene, c
   }
   BodyResponse sum;
   for (const Trajectory& body : scene.bodies[target]) {
-    // A companion is at its place when the interval begins.
+    // A companion is at its given place at the start of the interval.
     const Trajectory carried =
         relative_velocity_mps.isZero(0) ? body : body.with_drift(relative_velocity_mps, sampling.pulse_time_s.front());
     const BodyResponse term = body_response(*targets_[target].scatterer, carried, r_hat, scenario_.radar.polarisation,
@@ -126,8 +126,8 @@ IntervalSampling Pipeline::sampling(const PulseTrain& train, double start_s) con
 }
 
 ClutterScene Pipeline::clutter_scene(const SampleAddress& at, const Scene& scene) const {
-  // Maps of one sea, view and target see one texture; those of another target do not, as a texture that two labels
-  // shared would tell one from the other.
+  // Maps of one sea, view and target have one texture; another target has another texture, since a texture common to
+  // both labels would reveal one label from the other.
   const std::uint64_t seen =
       static_cast<std::uint64_t>(plan_.group(at)) * plan_.views().size() + static_cast<std::uint64_t>(at.view);
   const View& view = plan_.view(at);
@@ -165,7 +165,7 @@ GeneratedSample Pipeline::generate_sample(std::size_t sample) const {
   made.address = plan_.address(sample);
   const SampleAddress& at = made.address;
 
-  // Sea and motion are shared by both classes and all views; hop code, clutter and noise are the sample's own.
+  // Sea and motion are common to both classes and all views; hop code, clutter and noise are specific to the sample.
   const std::shared_ptr<const Scene> moving = scene(at.sea_state, at.realisation);
   made.train = make_pulse_train(scenario_.radar, range_window_m_, scenario_.seed, sample);
   const BodyResponse response = this->response(at, made.train);

@@ -14,7 +14,8 @@ namespace seaglint {
 
 namespace {
 
-// Another kind of processor may round transforms otherwise: so much of the map's peak, and of a measured column.
+// Tolerance for another kind of processor, which may round transforms differently: fraction of the map's peak and of a
+// measured column.
 constexpr double kOtherProcessor = 1e-5;
 
 bool agree(double a, double b, double tolerance) {
@@ -22,7 +23,7 @@ bool agree(double a, double b, double tolerance) {
          std::abs(a - b) <= tolerance * std::max(std::abs(a), std::abs(b));
 }
 
-// Columns of a row made again that are not the stored ones.
+// Columns of a regenerated row that differ from the stored ones.
 std::string different_columns(const SampleRecord& stored, const SampleRecord& again, double tolerance) {
   std::string names;
   for (const SampleColumn& column : sample_columns()) {
@@ -41,7 +42,7 @@ std::string different_columns(const SampleRecord& stored, const SampleRecord& ag
   return names;
 }
 
-// Largest difference of two maps; infinite when their sizes differ or one of them holds no number.
+// Largest difference of two maps; infinite when their sizes differ or one contains NaN.
 double largest_difference(const std::vector<float>& a, const std::vector<float>& b) {
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
   if (a.size() != b.size()) return kInfinite;

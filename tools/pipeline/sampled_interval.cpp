@@ -37,7 +37,7 @@ void scale(SampledEcho& sampled, double power_gain) {
 SampledInterval sampled_interval(const Pipeline& pipeline, std::size_t sample) {
   const Scenario& scenario = pipeline.scenario();
   const double sampling_hz = scenario.radar.sampling_mhz * 1e6;
-  // The pulses of the map, known before it is made.
+  // The pulses of the map, without generating it.
   const PulseTrain train = make_pulse_train(scenario.radar, pipeline.window_m(), scenario.seed, sample);
   const PulseTrain fine = train_for_samples(train, scenario.radar);
   check_size(scenario, fine, sampling_hz);

@@ -20,7 +20,7 @@ namespace seaglint {
 
 namespace {
 
-// How far a mesh reaches from its origin.
+// Largest distance of a vertex from the mesh's origin, m.
 double radius_m(const TriangleMesh& mesh) {
   double radius = 0;
   for (const Vec3& vertex : mesh.vertices) radius = std::max(radius, vertex.norm());
@@ -34,7 +34,7 @@ double scene_duration_s(const Scenario& scenario, const SamplePlan& plan) {
   return plan.last_start_s() + interval_length_s(scenario.radar);
 }
 
-// Radius about the target's reference point that the target never leaves.
+// Radius, m, about the target's reference point within which the target stays.
 double reach_m(const Target& target, double interval_s) {
   double reach = 0;
   for (const PointSpec& point : target.spec.points) {
@@ -48,7 +48,7 @@ double reach_m(const Target& target, double interval_s) {
   return reach;
 }
 
-// Mesh and materials of a target, with the keys that an error is about.
+// Mesh and materials of a target, with their keys for error messages.
 TargetSource source_of(const Scenario& scenario, const TargetSpec& spec) {
   const std::string path = "targets." + spec.name;
   TargetSource source{.mesh = find_mesh(scenario, spec),
@@ -76,13 +76,13 @@ ScattererSettings scatterer_settings(const Scenario& scenario, const TargetSpec&
                              .edges = spec.solver.edges,
                              .lowest_hz = 1e9 * lowest_ghz(scenario.radar),
                              .highest_hz = 1e9 * highest_ghz(scenario.radar)};
-  // The radar's image looks at the hull from below.
+  // The radar's image illuminates the hull from below.
   if (scenario.sea_reflection.enabled) settings.waterline_m = -rest_position(spec.motion, 0, 0).z();
   return settings;
 }
 
-// The radar must be far from all that stands in one map, however far from the reference point its bodies are.
-// `companion`: which one of the target's, if any.
+// Throws InputError unless the radar is far from all bodies of one map, including those far from the reference point.
+// `companion`: index of the target's companion, if any.
 void check_scene_range(const Scenario& scenario, const TargetSpec& spec, const Target& body,
                        std::optional<std::size_t> companion) {
   try {
@@ -94,7 +94,7 @@ void check_scene_range(const Scenario& scenario, const TargetSpec& spec, const T
   }
 }
 
-// The intervals of a realisation must lie within a series that is played to them.
+// Throws InputError unless the intervals of a realisation are within the time series of the motion.
 void check_series(const Scenario& scenario, const SamplePlan& plan, const TargetSpec& spec, const Body& body) {
   const auto* series = std::get_if<AttitudeSeries>(&body.model);
   if (series == nullptr) return;
@@ -108,7 +108,7 @@ void check_series(const Scenario& scenario, const SamplePlan& plan, const Target
   }
 }
 
-// The sea's mirror shows nothing of what lies below it.
+// Throws InputError for a target that is entirely under water, if the sea reflects.
 void check_above_water(const Scenario& scenario, const TargetSpec& spec, const TriangleMesh& mesh) {
   const double top_m = bounds(mesh).upper.z(), height_m = rest_position(spec.motion, 0, 0).z();
   if (!scenario.sea_reflection.enabled || top_m + height_m > 0) return;
@@ -150,7 +150,7 @@ Target load_target(const Scenario& scenario, const SamplePlan& plan, const Targe
   return target;
 }
 
-// Its bodies at rest, the first of them numbered `bodies`, which is raised by their number.
+// Sets the rest positions of the target's bodies, the first numbered `bodies`, and increases `bodies` by their number.
 void place_bodies(Target& target, std::size_t& bodies) {
   target.first_body = bodies;
   if (target.spec.mesh.empty()) return;
@@ -159,8 +159,8 @@ void place_bodies(Target& target, std::size_t& bodies) {
   bodies += target.rest_positions.size();
 }
 
-// Another target where a companion of it stands. Each makes its own way through the water: a decoy stays in it and
-// falls behind a ship whose frame goes along with the ship.
+// Copy of a target at the place of a companion. Each has its own velocity through the water: a decoy drifts astern of a
+// ship under way, whose frame moves with the ship.
 Target moved(const Target& original, const TargetSpec& host, const CompanionSpec& companion) {
   Target target = original;
   target.spec.name += " (companion)";
@@ -206,7 +206,7 @@ std::vector<Target> load_targets(const Scenario& scenario, const SamplePlan& pla
 double range_window_m(const Scenario& scenario, const std::vector<Target>& targets) {
   double reach = 0;
   for (const Target& target : targets) reach = std::max(reach, reach_m(target, interval_length_s(scenario.radar)));
-  // A tenth more than the target, since bodies drift and shadowed paths are longer than straight ones.
+  // 10 % larger than the target, since bodies drift and multiply reflected paths are longer than direct ones.
   const double window_m = std::max(scenario.map.range_span_m, 2.2 * reach);
   const RadarSpec& radar = scenario.radar;
   const double echo_us = echo_duration_us(radar, window_m);

@@ -39,7 +39,7 @@ std::string embeddings_csv(const LearningTable& table, const FeatureMatrix& embe
   return text;
 }
 
-// The keys of a section of the effective scenario with their values as YAML has them: numbers, flags, words.
+// The keys of a section of the effective scenario with their values, typed as in YAML: numbers, booleans, strings.
 nlohmann::ordered_json section_of(const Scenario& scenario, const std::string& section) {
   nlohmann::ordered_json json;
   for (const auto& [key, text] : section_values(scenario, section)) {
@@ -64,7 +64,7 @@ nlohmann::ordered_json metrics_json(const Study& study, const LearningTable& tab
   return json;
 }
 
-// Empty, absent, or with a model in it, be it one that a killed training left half-written.
+// Throws InputError unless the directory is empty, absent, or contains a model, complete or incomplete.
 void require_own_directory(const fs::path& directory) {
   if (!fs::exists(directory)) return;
   if (!fs::is_directory(directory)) throw InputError(fmt::format("{}: is a file, not a directory", directory.string()));
@@ -89,7 +89,7 @@ TrainedModel train_model(const DatasetReader& data, const Scenario& scenario, co
       run_study(table, scenario.learning, scenario.dataset.train_fraction, scenario.seed, thread_count(threads), stop);
   model.metrics = metrics_json(model.study, table, scenario, data.manifest());
 
-  // metrics.json is the mark of a whole model: the earlier one goes before any other file is replaced.
+  // metrics.json marks a complete model: the earlier one is removed before any other file is replaced.
   const fs::path mark = model_directory / kMetricsFile;
   std::error_code error;
   fs::remove(mark, error);

@@ -15,9 +15,9 @@ namespace seaglint {
 
 namespace {
 
-// Of the sea states the one with the widest strata speaks for all.
+// The sea state with the widest strata, the only one that is reported.
 struct CoarsestSea {
-  double width = 0;  // over the peak frequency
+  double width = 0;  // relative to the peak frequency
   double peak_period_s = 0;
 };
 

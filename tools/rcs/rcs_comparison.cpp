@@ -16,10 +16,10 @@
 namespace seaglint {
 namespace {
 
-constexpr double kAngleStep_deg = 1e-3;  // CST prints three digits after the point
-constexpr long kCircle = 360'000;        // steps in a turn
+constexpr double kAngleStep_deg = 1e-3;  // CST prints three decimals
+constexpr long kCircle = 360'000;        // steps in 360 deg
 constexpr double kFrequencyTolerance = 1e-6;
-constexpr double kSameLevel_db = 0.1;  // of a direction that a file gives twice
+constexpr double kSameLevel_db = 0.1;  // allowed difference of a direction that a file contains twice
 
 using DirectionKey = std::pair<long, long>;
 
@@ -42,7 +42,7 @@ class Samples {
       }
     }
   }
-  // Rounding may put equal angles into neighbouring keys.
+  // Rounding may give equal angles neighbouring keys.
   const ReferenceSample* at(double theta_deg, double phi_deg) const {
     const DirectionKey key = key_of(theta_deg, phi_deg);
     for (const long theta : {0L, -1L, 1L}) {
@@ -90,7 +90,8 @@ Vec3 unit_vector(double theta_deg, double phi_deg) {
   return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
 }
 
-// A monostatic echo and one from another transmitter are different quantities, however well their angles fit.
+// Throws InputError if the transmitters differ: monostatic and bistatic echoes are different quantities even at equal
+// angles.
 void require_same_transmitter(const RcsSweep& sweep, const RcsReference& reference) {
   if (!reference.transmitter) return;
   const DeclaredTransmitter& theirs = *reference.transmitter;
@@ -174,8 +175,8 @@ std::vector<PairedCut> match_reference(const RcsSweep& sweep, const RcsReference
                                                     : static_cast<double>(cut.x.size() + 1));
       cut.level_dbsm.push_back(sample->level_dbsm);
       if (sample->amplitude_m) {
-        // A phase origin at x0 lies (r^_t + r^_s).x0 nearer to the radar, both ways, than the body's (CONVENTIONS.md,
-        // "Scattering").
+        // For a phase origin at x0 the two-way path is shorter by (r^_t + r^_s).x0 than for the body's origin
+        // (CONVENTIONS.md, "Scattering").
         const Vec3 r = direction_to_radar(radians(az), radians(el));
         cut.amplitude_m.push_back(
             *sample->amplitude_m *
@@ -237,7 +238,7 @@ Difference error_statistics(const PairedCut& cut, const PairedCut::Model& model,
 
 namespace {
 
-// Another reference of the same values, as if it had been computed.
+// Another reference at the same directions and frequencies, in the role of a computed model.
 std::optional<PairedCut::Model> as_model(const PairedCut& other, const PairedCut& cut) {
   if (other.element != cut.element || other.frequency_hz != cut.frequency_hz || other.x != cut.x) return std::nullopt;
   PairedCut::Model model{other.reference, other.level_dbsm, other.amplitude_m};
@@ -258,7 +259,7 @@ std::string error_table(const std::vector<PairedCut>& cuts, double floor_db) {
     for (const PairedCut::Model& model : cut.models)
       rows.push_back({&cut, model.name, error_statistics(cut, model, floor_db)});
   }
-  // How far references are apart from each other.
+  // Differences between references.
   for (std::size_t i = 0; i < cuts.size(); ++i) {
     for (std::size_t j = i + 1; j < cuts.size(); ++j) {
       if (const auto model = as_model(cuts[i], cuts[j]))
@@ -350,7 +351,7 @@ bool draw_comparison(const std::vector<PairedCut>& cuts, double floor_db, const 
       for (std::size_t n = 0; n < upper.size(); ++n) series.y.push_back(upper[n] - lower[n]);
       difference.series.push_back(std::move(series));
     }
-    // Nulls that only one side has would squeeze everything else.
+    // The axis is limited: nulls of only one curve would compress the rest.
     constexpr double kMargin_db = 3, kBelowReference_db = 12, kWidest_db = 20;
     level.y = {"radar cross section (dBsm)",
                AxisRange{std::max(floor, lowest - kBelowReference_db), highest + kMargin_db}, false};
@@ -359,7 +360,7 @@ bool draw_comparison(const std::vector<PairedCut>& cuts, double floor_db, const 
     levels.push_back(std::move(level));
     differences.push_back(std::move(difference));
   }
-  // Two columns abreast (all of an odd number): levels over differences, then the next two.
+  // Two columns per row (all, if their number is odd): levels above differences, then the next two.
   const std::size_t count = columns.size(), abreast = count % 2 == 0 ? 2 : count;
   std::vector<LinePlot> plots;
   for (std::size_t first = 0; first < count; first += abreast) {

@@ -23,8 +23,8 @@ Complex amplitude_of(double level_dbsm, double phase_rad) {
   return std::polar(std::sqrt(std::pow(10.0, level_dbsm / 10) / (4 * kPi)), phase_rad);
 }
 
-// Brings a direction to theta 0..180, phi 0..360; true when it lay on the circle's other half, theta below 0 or above
-// 180.
+// Maps a direction to theta 0..180, phi 0..360; true if theta was below 0 or above 180, on the other half of the great
+// circle.
 bool fold(double& theta_deg, double& phi_deg) {
   theta_deg = std::remainder(theta_deg, 360);
   const bool negative = theta_deg < 0;
@@ -37,7 +37,7 @@ bool fold(double& theta_deg, double& phi_deg) {
   return negative;
 }
 
-// A text by lines, with the number of the line that was read last.
+// Reads a text by lines and counts them.
 class Lines {
  public:
   Lines(const std::string& text, std::string file) : stream_(text), file_(std::move(file)) {}
@@ -87,7 +87,7 @@ double number_in(const Lines& lines, const std::string& cell) {
   return *value;
 }
 
-// A level in dB; the logarithm of an exact zero is the floor.
+// Parses a level in dB; the logarithm of an exact zero becomes kMinLevel_dbsm.
 double level_in(const Lines& lines, const std::string& cell) {
   return cell == "-inf" || cell == "-Inf" || cell == "-INF" ? kMinLevel_dbsm : number_in(lines, cell);
 }
@@ -115,8 +115,7 @@ void read_four_columns(Lines& lines, RcsReference& reference) {
   }
 }
 
-// Where a line of the head of a table of `seaglint rcs` says that its transmitter stands; nothing where it says
-// nothing.
+// Transmitter stated in a head line of a `seaglint rcs` table; empty if it states none.
 std::optional<DeclaredTransmitter> stated_transmitter(const Lines& lines, const std::string& line) {
   try {
     const std::optional<NotedTransmitter> noted = read_transmitter_note(line);
@@ -172,10 +171,11 @@ void read_own_table(Lines& lines, RcsReference& reference) {
 }
 
 struct CstColumn {
-  std::string name, unit;  // squeezed
+  std::string name, unit;  // without spaces
 };
 
-// `Theta [deg.]  Phi   [deg.]  Abs(RCS )[dB(m^2)] ...`: names and units are padded inside, so only brackets separate.
+// `Theta [deg.] Phi [deg.] Abs(RCS )[dB(m^2)] ...`: names and units contain padding, so that only brackets separate
+// them.
 std::vector<CstColumn> cst_columns(const Lines& lines, const std::string& header) {
   std::vector<CstColumn> columns;
   for (std::size_t at = 0;;) {
@@ -252,7 +252,7 @@ void read_cst_table(Lines& lines, RcsReference& reference) {
 
   while (lines.next(line)) {
     if (is_blank(line) || line.find_first_not_of("-= \t") == std::string::npos) continue;
-    std::replace(line.begin(), line.end(), ',', '.');  // decimal commas of localised machines
+    std::replace(line.begin(), line.end(), ',', '.');  // decimal commas of localised systems
     const std::vector<std::string> words = words_of(line);
     if (words.size() != columns.size())
       lines.fail(fmt::format("{} columns: the header has {}", words.size(), columns.size()));
@@ -303,7 +303,7 @@ Polarisation polarisation_of(const std::string& name, const ReferenceSettings& s
   throw InputError(fmt::format("{}: its name does not say the polarisation: give --reference-polarisation", name));
 }
 
-// A frequency that is given beside the file's own must be it.
+// Throws InputError if a frequency is given that differs from the file's.
 void require_own_frequency(const RcsReference& reference, const std::string& file) {
   if (!reference.settings.frequency_hz) return;
   constexpr double kTolerance = 1e-6;

@@ -16,7 +16,8 @@ Vec3 direction_to(const FixedTransmitter& transmitter) {
   return direction_to_radar(radians(transmitter.azimuth_deg), radians(transmitter.elevation_deg));
 }
 
-// Every direction of the sea needs an image, every frequency a model of sea water.
+// Throws InputError unless every direction has an image in the sea and every frequency is within the model of sea
+// water.
 void check_sea(const RcsRequest& request) {
   if (!request.sea.reflection) return;
   for (const double elevation : request.elevation_deg) {
@@ -54,8 +55,8 @@ RcsSweep requested_sweep(const RcsRequest& request) {
   return sweep;
 }
 
-// Behind a target only its sharp edges scatter: a sphere's echo errs by 0.65 dB in the mean between 90 and 120 deg from
-// the transmitter.
+// Behind a target only its sharp edges scatter: the echo of a sphere has a mean error of 0.65 dB between 90 and 120 deg
+// from the transmitter.
 std::vector<std::string> doubts_of(const RcsRequest& request) {
   if (!request.transmitter) return {};
   constexpr double kFarthestDeg = 120;

@@ -23,7 +23,7 @@ std::string materials_text(const std::vector<MaterialChoice>& materials) {
   return fmt::format("{}", fmt::join(choices, " "));
 }
 
-// A line for the sea under the target; empty without it.
+// Head line on the sea under the target; empty without it.
 std::string sea_line(const SeaUnderTarget& sea) {
   if (!sea.reflection) return "";
   const char* surface = sea.surface == SeaSurface::kConductor ? "conductor" : "sea_water";
@@ -35,7 +35,7 @@ std::string sea_line(const SeaUnderTarget& sea) {
       surface, sea.height_m, sea.wave_height_m, paths);
 }
 
-// A line for the cavities; empty without one.
+// Head line on the cavities; empty without one.
 std::string cavity_line(const CavityRequest& cavities) {
   if (cavities.parts.empty()) return "";
   return fmt::format(

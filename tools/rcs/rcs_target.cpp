@@ -24,7 +24,7 @@ void require_above_water(const SeaUnderTarget& sea, const TriangleMesh& mesh) {
 }  // namespace
 
 PreparedTarget prepare_mesh(const RcsRequest& request) {
-  requested_sweep(request);  // throws where the request contradicts itself
+  requested_sweep(request);  // throws InputError for a contradictory request
   const auto [lowest, highest] = std::minmax_element(request.frequency_hz.begin(), request.frequency_hz.end());
   SolverMesh mesh = load_solver_mesh({.mesh = request.target,
                                       .unit = request.unit,

@@ -54,7 +54,7 @@ std::size_t compute_sweep(const RcsRequest& request, const RcsTarget& target, in
   return segments;
 }
 
-// Adds the echoes of cavities to every model of the sweep.
+// Adds the scattering matrices of cavities to every model of the sweep.
 void add_cavities(const RcsRequest& request, const RcsTarget& target, int threads, const StopFlag* stop,
                   RcsSweep& sweep) {
   std::vector<BistaticGeometry> views;

@@ -25,7 +25,7 @@ constexpr double kViridis[9][3] = {{0x44, 0x01, 0x54}, {0x47, 0x2c, 0x7a}, {0x3b
                                    {0x2c, 0x71, 0x8e}, {0x21, 0x90, 0x8d}, {0x27, 0xad, 0x81},
                                    {0x5c, 0xc8, 0x63}, {0xaa, 0xdc, 0x32}, {0xfd, 0xe7, 0x25}};
 
-// Linear light of viridis at 0..1 (glTF wants linear factors; IEC 61966-2-1).
+// Linear RGB of viridis at 0..1 (glTF uses linear factors; sRGB conversion of IEC 61966-2-1).
 std::array<double, 3> viridis(double at) {
   const double x = std::clamp(at, 0.0, 1.0) * 8;
   const int below = std::min(7, static_cast<int>(x));
@@ -72,13 +72,13 @@ std::string write_centres(const ViewExport& arguments, const TriangleMesh& mesh,
   return fmt::format("{}: {} of {} scattering centres\n", arguments.centres, count, centres.size());
 }
 
-// The mesh with one material for each 2 dB of strength; what is weaker than the range, or answers nothing, has the
-// lowest colour.
+// Writes the mesh with one material per 2 dB of strength; facets without contribution or below the dynamic range have
+// the lowest colour.
 std::string write_hot_spots(const ViewExport& arguments, const TriangleMesh& mesh, const Scatterer& scatterer,
                             const std::vector<std::array<Complex, 4>>& echoes) {
   constexpr double kStep_db = 2;
   const std::size_t facets = scatterer.facets().size();
-  // A panel's facets answer together.
+  // The contributions of a panel are summed over its facets.
   std::vector<std::array<Complex, 4>> panel(facets);
   for (std::size_t f = 0; f < facets; ++f) {
     for (std::size_t i = 0; i < 4; ++i)
@@ -99,7 +99,7 @@ std::string write_hot_spots(const ViewExport& arguments, const TriangleMesh& mes
   TriangleMesh coloured;
   coloured.part_names = mesh.part_names;
   std::vector<std::array<double, 3>> colours;
-  for (int i = 0; i <= steps; ++i) {  // 0: below the range
+  for (int i = 0; i <= steps; ++i) {  // 0: below the dynamic range
     const double from = top - (steps - i + 1) * kStep_db;
     coloured.materials.push_back({i == 0 ? fmt::format("below {:g} dBsm", from + kStep_db)
                                          : fmt::format("{:g} to {:g} dBsm", from, from + kStep_db)});

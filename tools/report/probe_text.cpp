@@ -14,8 +14,8 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// What of clutter and noise does not follow the target's level; empty where all does. A target's size then decides
-// which of its centres stand out, and features see the level by that.
+// Those of clutter and noise whose level does not follow the target's; empty if both do. The target's level then
+// determines which of its centres exceed the threshold, and so affects the features.
 std::string not_scaled(const ClutterSpec& clutter) {
   const bool sea = clutter.enabled && clutter.level == ClutterLevel::kNrl;
   const bool receiver = clutter.noise_level == NoiseLevel::kThermal;
@@ -24,7 +24,7 @@ std::string not_scaled(const ClutterSpec& clutter) {
   return receiver ? "The receiver’s noise is" : "";
 }
 
-// What a probe's accuracy means, by its kind.
+// Interpretation of a probe's accuracy by its kind.
 std::string reading(const std::string& kind, bool chance, bool level_seen) {
   if (kind == "blind") return chance ? "as chance" : "<b>away from chance: look for a leak</b>";
   if (kind == "feature") {

@@ -28,7 +28,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// Throws InputError naming the file where it is no JSON object.
+// Throws InputError naming the file if it is no JSON object.
 ordered_json read_object(const fs::path& file) {
   try {
     ordered_json object = ordered_json::parse(read_file(file));
@@ -39,13 +39,14 @@ ordered_json read_object(const fs::path& file) {
   }
 }
 
-// The run's numbers, which must be those of the model beside them: tables and figures would be of two trainings.
+// The run's numbers; throws InputError if they differ from those of its model, as tables and figures would be of two
+// trainings.
 ordered_json read_metrics(const fs::path& directory) {
   const fs::path file = directory / kMetricsFile;
   if (!fs::exists(file))
     throw InputError(fmt::format("{}: not the directory of a finished run: no {}", directory.string(), kMetricsFile));
   ordered_json metrics = read_object(file);
-  // What every part of the page leans on; an older or foreign file is told apart here.
+  // Members that every part of the page uses; a file of another version or origin is detected here.
   for (const char* member : {"handmade", "cnn", "fused", "probes", "network", "data", "run"}) {
     if (!metrics.contains(member)) throw InputError(fmt::format("{}: no member `{}`", file.string(), member));
   }
@@ -63,8 +64,8 @@ ordered_json read_metrics(const fs::path& directory) {
   return metrics;
 }
 
-// Why neither the targets' pictures nor their motion can be drawn: a file that the scenario names and that is not to be
-// found from here. Empty where all are.
+// Names a missing input file of the scenario, without which neither the targets' pictures nor their motion can be
+// drawn; empty if all exist.
 std::string missing_input(const Scenario& scenario) {
   try {
     input_files(scenario);
@@ -74,7 +75,7 @@ std::string missing_input(const Scenario& scenario) {
   }
 }
 
-// The figures of a section, two abreast.
+// The figures of a section, two per row.
 std::string figures(const std::vector<ReportFigure>& all, const std::string& section) {
   std::string html;
   for (const ReportFigure& figure : all) {
@@ -149,7 +150,7 @@ std::string page(const ordered_json& metrics, const Scenario& scenario, const st
 
 using Clock = std::chrono::steady_clock;
 
-// `missing`: why there are no targets to draw; `begin`: when the report began.
+// `missing`: reason why no targets are drawn; `begin`: start time of the report.
 double draw_and_write(const fs::path& directory, const Scenario& scenario, const SamplePlan& plan,
                       const std::vector<Target>& targets, const std::string& missing, RunResults results, int threads,
                       const StopFlag* stop, Clock::time_point begin) {

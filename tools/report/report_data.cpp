@@ -27,7 +27,7 @@ int nearest(std::size_t count, Distance distance) {
   return best;
 }
 
-// The samples the report shows, by their numbers: both classes at two aspects.
+// Numbers of the samples that the report shows: both classes at two aspects.
 std::vector<std::size_t> shown_samples(const Scenario& scenario, const SamplePlan& plan) {
   const std::vector<SeaState>& states = plan.sea_states();
   const std::vector<View>& aspects = plan.views();
@@ -73,7 +73,8 @@ LineFit fit_line(const std::vector<StoredCentre>& centres) {
   }
   fit.slope = rr > 0 ? rv / rr : 0;
   fit.intercept = v - fit.slope * r;
-  // A line through n loose points explains 1 / (n - 1) of their variance; the adjusted share (Ezekiel 1930) does not.
+  // A line through n uncorrelated points explains 1 / (n - 1) of their variance; the adjusted R^2 (Ezekiel 1930)
+  // corrects for it.
   const bool defined = centres.size() >= 3 && rr > 0 && vv > 0;
   fit.explained =
       defined ? 1 - (1 - rv * rv / (rr * vv)) * (n - 1) / (n - 2) : std::numeric_limits<double>::quiet_NaN();

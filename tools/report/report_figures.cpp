@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kMapFloorDb = -45;          // of the colour scale, below the map's strongest cell
+constexpr double kMapFloorDb = -45;          // lower end of the colour scale, relative to the map's strongest cell
 constexpr std::size_t kMaxNeighbours = 700;  // rows of a t-SNE plane
 constexpr const char* kClassNames[2] = {"array", "ship"};
 
@@ -81,7 +81,7 @@ std::string file_word(const std::string& name) {
   return word;
 }
 
-// The frame round all scattering centres of a map, half a cell and a little wider than they are.
+// The frame around all scattering centres of a map, with a margin of slightly more than half a cell.
 std::array<double, 4> centre_box(const ShownMap& shown) {
   const auto& range = shown.axes.range_m;
   const auto& velocity = shown.axes.velocity_mps;
@@ -139,7 +139,7 @@ void add_accuracy(FigureList& list, const nlohmann::ordered_json& metrics) {
     for (const auto& row : metrics.at("handmade").at(protocol).at("by_wave_height")) {
       span = std::max(span, row.at("significant_wave_height_m").get<double>());
     }
-    double shift = -0.012 * span;  // side by side, so that the intervals do not hide each other
+    double shift = -0.012 * span;  // offset, so that the error bars do not overlap
     for (const auto& [group, label] : {std::pair{"handmade", "hand-made"}, {"cnn", "CNN"}, {"fused", "fused"}}) {
       Series series;
       series.name = label;
@@ -185,7 +185,7 @@ LinePlot class_scatter(const ReportData& data, const std::function<std::array<do
   return plot;
 }
 
-// At most `most` rows, evenly spread.
+// At most `most` rows, evenly spaced.
 std::vector<std::size_t> thinned(std::size_t rows, std::size_t most) {
   std::vector<std::size_t> chosen;
   const std::size_t count = std::min(rows, most);

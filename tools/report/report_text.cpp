@@ -35,7 +35,7 @@ std::string by_height(const ordered_json& scores) {
   return text + " %";
 }
 
-// Whether the accuracy rises from each height to the next.
+// True if the accuracy increases from each height to the next.
 bool rises(const ordered_json& scores) {
   double last = -1;
   for (const auto& row : scores.at("by_wave_height")) {
@@ -45,7 +45,7 @@ bool rises(const ordered_json& scores) {
   return scores.at("by_wave_height").size() > 1;
 }
 
-// The median of a feature over both wave heights given, of one class.
+// Median of a feature of class `label` in the entry of `list` with `key` equal to `at`; NaN if there is none.
 double median_at(const ordered_json& metrics, const char* list, const char* key, double at, int label,
                  const char* feature) {
   for (const auto& entry : metrics.at("report").at(list)) {
@@ -54,8 +54,8 @@ double median_at(const ordered_json& metrics, const char* list, const char* key,
   return std::nan("");
 }
 
-// How the accuracy on random rows compares with that on unseen seas: two figures whose 95 % intervals reach each other
-// are not told apart.
+// Comparison of the accuracy on random rows with that on unseen seas; with overlapping 95 % intervals they are not
+// distinguished.
 std::string compared_protocols(const ordered_json& random, const ordered_json& group) {
   const double gap = 100 * (value_or_nan(random.at("accuracy")) - value_or_nan(group.at("accuracy")));
   const auto low = [](const ordered_json& scores) { return value_or_nan(scores.at("accuracy_95")[0]); };
@@ -71,7 +71,7 @@ std::string compared_protocols(const ordered_json& random, const ordered_json& g
                      known ? "which is within the intervals" : "without intervals to judge it by");
 }
 
-// Of what the rows of a table are counted.
+// Note on what the row counts of a table refer to.
 std::string pooled_splits(int repeats) {
   if (repeats == 1) return "<p>One split under each protocol: a test prediction is a map.</p>\n";
   return fmt::format(
@@ -279,7 +279,7 @@ std::string expert_notes(const ordered_json& metrics, const Scenario& scenario) 
                        "interval. With several probes and few seas this happens by chance now and then; repeat with "
                        "another seed before believing it.",
                        chance));
-  // The random code's pedestal and the velocity cell set what the features can resolve.
+  // The random code's pedestal and the velocity cell determine what the features can resolve.
   const PulseTrain train = make_pulse_train(scenario.radar, scenario.map.range_span_m, scenario.seed, 0);
   const double cell = train.velocity_resolution_mps();
   const double shown = metrics.at("report").at("features_by_azimuth")[0].at("significant_wave_height_m");

@@ -49,7 +49,7 @@ class StageClock {
   std::vector<std::pair<std::string, double>> seconds_;
 };
 
-// To go on in a directory it must be one of a run, to begin it must be empty.
+// Throws InputError unless the directory is that of a run (with resume), or empty or absent.
 void require_directory(const fs::path& directory, bool resume) {
   std::error_code error;
   if (fs::exists(directory, error) && !fs::is_directory(directory, error)) {
@@ -64,7 +64,7 @@ void require_directory(const fs::path& directory, bool resume) {
     throw InputError(fmt::format("{}: the directory contains something else than a run", directory.string()));
 }
 
-// What learning would refuse after all maps were made.
+// Rejects, before any map is generated, what learning would reject.
 void check_learnable(const Scenario& scenario, const SamplePlan& plan) {
   const auto has = [&](int label) {
     return std::any_of(scenario.targets.begin(), scenario.targets.end(),
@@ -100,7 +100,7 @@ std::string run_scenario(const Scenario& scenario, const fs::path& directory, co
                        [&](const Shard& shard) { collector.add(shard); });
   });
 
-  // metrics.json of the run holds the model's numbers and the times of this run; `report` starts from it.
+  // metrics.json of the run contains the model's numbers and the times of this run; `report` reads it.
   nlohmann::ordered_json& metrics = model.metrics;
   metrics["run"]["threads"] = thread_count(options.threads);
   metrics["run"]["maps_made"] = made.made;

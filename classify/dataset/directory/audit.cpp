@@ -27,9 +27,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Maps are stored in single precision: peak and energy of a row were taken before, and agree to its rounding.
+// Relative tolerance of peak and energy: a row's are computed before the map is rounded to single precision.
 constexpr double kSinglePrecision = 1e-6;
-constexpr double kSmallest = std::numeric_limits<float>::min();  // m; the rounding of what is below is not relative
+constexpr double kSmallest = std::numeric_limits<float>::min();  // m; rounding of smaller values is not relative
 
 class Auditor {
  public:
@@ -37,7 +37,7 @@ class Auditor {
     result.per_target.assign(result.scenario.targets.size(), 0);
   }
 
-  // What the directory holds and the manifest lists, against the scenario's plan.
+  // Compares the directory's files and the manifest with the scenario's plan.
   void files() {
     const Manifest& manifest = reader_.manifest();
     if (const std::string yaml = read_file(reader_.directory() / kScenarioFile);
@@ -87,7 +87,7 @@ class Auditor {
     }
   }
 
-  // One sea per group and one group per sea, and every sample once.
+  // Checks one sea per group, one group per sea, and every sample once.
   void whole() {
     for (const auto& [group, seas] : seas_of_group_) {
       if (seas.size() > 1)
@@ -162,9 +162,9 @@ class Auditor {
   const DatasetReader& reader_;
   SamplePlan plan_;
   Audit& result_;
-  std::vector<MergedFileVerifier> merged_;  // files over all shards that lie beside them
-  std::optional<StoredAxes> axes_;          // of the first sound shard
-  std::size_t planned_ = 0;  // samples of the plan that were read; the reader sees to it that none comes twice
+  std::vector<MergedFileVerifier> merged_;  // merged files in the directory
+  std::optional<StoredAxes> axes_;          // of the first valid shard
+  std::size_t planned_ = 0;  // samples of the plan that were read; the reader ensures that none is repeated
   std::map<std::string, std::int64_t> maps_;  // sample of each map's checksum
   std::map<std::int64_t, std::set<std::int64_t>> seas_of_group_;
 };

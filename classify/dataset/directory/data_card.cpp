@@ -31,7 +31,7 @@ std::string columns_table() {
   return table;
 }
 
-// Of the sea states, each once; a table of the spectrum may have given them.
+// Unique wave heights of the sea states, also of those from a spectrum table.
 std::vector<double> wave_heights(const Scenario& scenario) {
   std::vector<double> heights;
   for (const SeaState& state : sea_states(scenario.sea)) {

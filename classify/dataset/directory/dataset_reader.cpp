@@ -47,7 +47,7 @@ Shard DatasetReader::shard(std::size_t index) const {
   const ManifestShard& entry = manifest_.shards[index];
   const fs::path file = directory_ / entry.file;
   if (sha256_file(file) != entry.sha256) {
-    // Reading it may tell more than the checksum does.
+    // Reading it may give a more specific fault than the checksum.
     std::string detail = "its checksum is not the manifest's";
     try {
       read_shard(file);

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The scenario as far as it decides the maps: learning may be changed over the same maps.
+// The part of the scenario that determines the maps: all but learning and split.
 std::string maps_yaml(Scenario scenario) {
   scenario.learning = {};
   scenario.dataset.train_fraction = DatasetSpec{}.train_fraction;
@@ -51,8 +51,8 @@ std::set<std::string> file_names(const fs::path& directory) {
   return names;
 }
 
-// A directory to go on in holds nothing else than a data set. That of a run has a scenario too; its data set lies
-// below.
+// A directory to be resumed contains only files of a data set. That of a run also has a scenario.yaml; its data set is
+// a subdirectory.
 void require_own_directory(const fs::path& directory) {
   if (is_empty_or_absent(directory)) return;
   for (const std::string& name : file_names(directory)) {
@@ -65,7 +65,8 @@ void require_own_directory(const fs::path& directory) {
   }
 }
 
-// Another process that finishes the same data set writes the same bytes, and may have removed our temporary file.
+// Writes a file; another process that finishes the same data set writes the same bytes and may have removed this
+// process's temporary file.
 void write_in_company(const fs::path& file, const std::string& content) {
   try {
     write_file(file, content);
@@ -75,10 +76,10 @@ void write_in_company(const fs::path& file, const std::string& content) {
   }
 }
 
-// What runs that were killed left half-written.
+// Removes stale temporary files.
 void remove_temporaries(const fs::path& directory) {
   for (const std::string& name : file_names(directory)) {
-    std::error_code ignored;  // what cannot be removed is shown by `verify`
+    std::error_code ignored;  // `verify` reports files that cannot be removed
     if (is_stale(directory / name)) fs::remove(directory / name, ignored);
   }
 }
@@ -87,7 +88,7 @@ bool same_row(const SampleRecord& a, const SampleRecord& b) {
   const auto same = [&](const SampleColumn& column) {
     return std::visit(
         [&](auto member) {
-          // Rows without clutter hold NaN, which is never equal to itself.
+          // Rows without clutter contain NaN, which is not equal to itself.
           return a.*member == b.*member || (a.*member != a.*member && b.*member != b.*member);
         },
         column.member);
@@ -95,7 +96,7 @@ bool same_row(const SampleRecord& a, const SampleRecord& b) {
   return std::all_of(sample_columns().begin(), sample_columns().end(), same);
 }
 
-// A shard's bytes depend on its content alone, so equal content is equal bytes.
+// True if the file contains this shard: its bytes depend only on the content, so that equal content means equal bytes.
 bool holds(const fs::path& file, const Shard& content) {
   Shard there;
   try {
@@ -157,7 +158,7 @@ void DatasetWriter::roll_back() {
   for (const std::string& name : file_names(directory_)) {
     if (name != kScenarioFile && name != kInputsFile) return;
   }
-  std::error_code ignored;  // what cannot be removed was whole, and names the scenario that it is of
+  std::error_code ignored;  // a file that cannot be removed is complete and names its scenario
   for (const char* own : {kInputsFile, kScenarioFile}) fs::remove(directory_ / own, ignored);
   if (made_here_) fs::remove(directory_, ignored);
 }
@@ -181,7 +182,7 @@ Manifest DatasetWriter::manifest_there() const {
     return manifest;
   } catch (const InputError&) {
     if (fs::exists(file)) throw;
-    return {};  // another part retired it meanwhile
+    return {};  // removed by another process in the meantime
   }
 }
 
@@ -230,7 +231,7 @@ void DatasetWriter::put(std::size_t shard, Shard content) {
     try {
       write_shard(file, content, scenario_.features.max_centres);
     } catch (const WorkError&) {
-      // Another process that makes the same shard may have been in the way.
+      // Another process may have written the same shard at the same time.
       if (!holds(file, content)) throw;
     }
     axes_ = content.axes;
@@ -258,14 +259,14 @@ Manifest DatasetWriter::manifest() const {
 }
 
 std::vector<std::size_t> DatasetWriter::finish() {
-  // One look at the directory: a thousand parts asking for every file would be what a file server does all day.
+  // The directory is listed once: a query per file by a thousand parts would overload a file server.
   const std::set<std::string> there = file_names(directory_);
   std::vector<std::size_t> missing;
   for (std::size_t i = 0; i < plan_.shards(); ++i) {
     if (!there.contains(shard_name(i))) missing.push_back(i);
   }
   if (!missing.empty()) return missing;
-  // Another part may have retired it, or written it anew.
+  // Another process may have removed or rewritten it.
   if (!earlier_.shards.empty()) earlier_ = manifest_there();
   Progress progress("checking shards", plan_.shards());
   for (std::size_t i = 0; i < plan_.shards(); ++i) {

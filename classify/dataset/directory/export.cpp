@@ -43,7 +43,7 @@ struct Range {
   fs::path file(std::size_t i) const { return reader.directory() / reader.manifest().shards[first + i].file; }
 };
 
-// An array whose rows are read shard by shard, when they are asked for.
+// NpzArray whose rows are read shard by shard on demand.
 template <class T>
 NpzArray streamed(const Range& range, const StoredArray& array, const char* type, Dimensions shape) {
   const std::size_t rank = shape.size() + (std::string_view(type) == "<c8" ? 1 : 0);
@@ -68,7 +68,7 @@ std::string column_bytes(const std::vector<SampleRecord>& rows, T SampleRecord::
   }
 }
 
-// Of the data set that an archive was exported from; empty where it is no export.
+// Manifest checksum of the data set that an archive was exported from; empty if it is no export.
 std::string exported_manifest(const fs::path& file) {
   try {
     return nlohmann::json::parse(read_npz_text(file, kDescription)).at("manifest_sha256").get<std::string>();
@@ -79,7 +79,7 @@ std::string exported_manifest(const fs::path& file) {
   }
 }
 
-// What HDF5 says in attributes.
+// Content of description.json: the attributes of the HDF5 files.
 std::string description(const Range& range, const std::set<std::string>& processors, bool complex_maps) {
   nlohmann::ordered_json json;
   json["format"] = "seaglint npz 1";
@@ -155,7 +155,7 @@ void require_export_directory(const DatasetReader& reader, const fs::path& direc
     there.insert(it->path().filename());
   if (error) throw WorkError(fmt::format("{}: {}", directory.string(), error.message()));
   for (const std::string& name : there) {
-    // A file server keeps under a hidden name what was removed while another process had it open.
+    // Network file systems keep a file under a hidden name if it was removed while another process had it open.
     if (name.starts_with('.') || is_temporary(name)) continue;
     if (ours.contains(name) && exported_manifest(directory / name) == manifest) continue;
     throw InputError(

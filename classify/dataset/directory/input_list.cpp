@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Checksums by key of a list's lines, "CHECKSUM  KEY".
+// Checksums by key, from lines "CHECKSUM KEY".
 std::map<std::string, std::string> read_list(const fs::path& file) {
   std::map<std::string, std::string> checksums;
   std::istringstream lines(read_file(file));
@@ -32,7 +32,7 @@ std::map<std::string, std::string> read_list(const fs::path& file) {
   return checksums;
 }
 
-// Every file that the scenario names, and under "KEY/NAME" what a mesh keeps beside itself.
+// Every file that the scenario names, and under "KEY/NAME" the buffer files of a mesh.
 std::vector<InputFile> all_files(const Scenario& scenario) {
   std::vector<InputFile> files;
   for (const InputFile& named : input_files(scenario)) {

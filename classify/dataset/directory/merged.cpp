@@ -23,7 +23,7 @@ namespace {
 constexpr const char* kFormat = "seaglint merged 1";
 constexpr std::uint64_t kColumnChunk = 8192;  // rows; half a megabyte of names
 
-// The arrays whose rows stay in the shards.
+// An array whose rows remain in the shards.
 struct Virtual {
   StoredArray array;
   ArrayType element;
@@ -33,7 +33,7 @@ constexpr Virtual kVirtual[] = {{kMaps, ArrayType::kFloat},
                                 {kHopCodes, ArrayType::kUint16},
                                 {kCentres, ArrayType::kFloat}};
 
-// The folder that a file lies in, or will lie in, without symbolic links.
+// The folder of an existing or future file, without symbolic links.
 fs::path folder_of(const fs::path& file) {
   std::error_code error;
   const fs::path resolved = fs::canonical(file, error);
@@ -49,7 +49,7 @@ std::vector<VirtualSource> shard_sources(const DatasetReader& reader, const fs::
   return sources;
 }
 
-// Shards named like ours that the plan does not know, and HDF5 files of others.
+// Throws InputError for shards beyond the plan and for HDF5 files of other origin.
 void refuse_foreign_files(const fs::path& directory, std::size_t shards) {
   std::set<std::string> ours;
   for (std::size_t i = 0; i < shards; ++i) ours.insert(shard_name(i));
@@ -60,7 +60,7 @@ void refuse_foreign_files(const fs::path& directory, std::size_t shards) {
   }
 }
 
-// What stands at the merged file's place and is none itself would be lost, a shard above all.
+// Throws InputError if an existing file that is no merged file, such as a shard, would be overwritten.
 void require_own_place(const fs::path& file) {
   if (file.extension() != ".h5")
     throw InputError(fmt::format("{}: the name of a merged file ends in .h5", file.string()));
@@ -237,7 +237,7 @@ void MergedFileVerifier::compare(std::size_t index, const Shard& shard) {
             }
             for (std::size_t i = 0; i < count; ++i) {
               const T& there = shard.samples[i].record.*member;
-              // Rows without clutter hold NaN, which is never equal to itself.
+              // Rows without clutter contain NaN, which is not equal to itself.
               if (!(stored[i] == there || (stored[i] != stored[i] && there != there)))
                 throw WorkError(fmt::format("{} of sample {} is not the shard's", column_path(column), first_row + i));
             }

@@ -19,7 +19,7 @@ SampleRecord planned_record(const Scenario& scenario, const SamplePlan& plan, st
   const TargetSpec& target = scenario.targets[static_cast<std::size_t>(at.target)];
   const SeaState& state = plan.sea_state(at);
   const View& view = plan.view(at);
-  std::size_t first_body = 0;  // bodies are counted over all targets, in order
+  std::size_t first_body = 0;  // bodies are numbered over all targets, in order
   for (int t = 0; t < at.target; ++t) {
     const TargetSpec& before = scenario.targets[static_cast<std::size_t>(t)];
     if (before.points.empty()) first_body += layout_positions(before).size();

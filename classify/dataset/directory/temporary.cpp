@@ -21,13 +21,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Who writes a temporary file.
+// Process that writes a temporary file.
 struct Author {
   std::string_view host;
   pid_t process = 0;
 };
 
-// What stands behind the name of one of our files, from its dot on; empty where none begins so.
+// The rest of a file name after the name of a data set's file, from its dot on; empty if it has no such prefix.
 std::string_view behind_own_name(std::string_view name) {
   for (const std::string_view own : {kScenarioFile, kInputsFile, kManifestFile, kDataCardFile}) {
     if (name.starts_with(own)) return name.substr(own.size());
@@ -39,7 +39,7 @@ std::string_view behind_own_name(std::string_view name) {
   return {};
 }
 
-// Host names hold dots and hyphens, but the process is behind the last hyphen.
+// Host names may contain dots and hyphens; the process number follows the last hyphen.
 std::optional<Author> author_of(std::string_view name) {
   constexpr std::string_view kEnding = ".tmp";
   if (!name.ends_with(kEnding)) return std::nullopt;

@@ -18,7 +18,7 @@ namespace seaglint {
 
 namespace {
 
-// The system's reason in HDF5's stack of errors, ": No space left on device"; "" where it was no call of the system.
+// The system error in HDF5's error stack, ": No space left on device"; "" if no system call failed.
 std::string system_reason() {
   std::string reason;
   const auto look = [](unsigned, const H5E_error2_t* error, void* found) -> herr_t {
@@ -34,7 +34,7 @@ std::string system_reason() {
   return reason;
 }
 
-// An HDF5 identifier that closes itself. `what` is said when the call that made it failed.
+// HDF5 identifier, closed by its destructor. `what` is the message if the call that created it failed.
 class Handle {
  public:
   Handle(hid_t id, herr_t (*closer)(hid_t), const std::string& what) : id_(id), close_(closer) {
@@ -60,8 +60,8 @@ void require(herr_t status, const std::string& what) {
   if (status < 0) throw WorkError(what + system_reason());
 }
 
-// Before the first file. Errors are reported by our own exceptions; HDF5 would print its stack on stderr. Files are
-// closed by their owners; at the program's end HDF5 would try once more to write what a full disk refused, and crash.
+// To be called before the first file. Errors are reported by exceptions; HDF5 would print its error stack on stderr.
+// Files are closed by their owners; at exit HDF5 would otherwise repeat writes that failed on a full disk, and crash.
 void prepare_library() {
   H5dont_atexit();
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
@@ -145,7 +145,7 @@ Handle open_file(const std::filesystem::path& file) {
                 "not a whole HDF5 file (truncated or damaged)");
 }
 
-// What readers see where the file behind a virtual array is missing: nothing that could be taken for data.
+// Sets the value that is read if a source file of a virtual array is missing: none that could be mistaken for data.
 void set_missing_value(hid_t properties, ArrayType element, const std::string& what) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   constexpr std::int64_t kLargest = std::numeric_limits<std::int64_t>::max();
@@ -156,7 +156,7 @@ void set_missing_value(hid_t properties, ArrayType element, const std::string& w
   if (element == ArrayType::kUint16) require(H5Pset_fill_value(properties, H5T_NATIVE_UINT16, &kLargest16), what);
 }
 
-// A name with every `from` as `to`: HDF5 reads %b in a name as the number of a block, %% as a percent sign.
+// Replaces every `from` by `to` in a name: HDF5 interprets %b in a name as a block number, %% as a percent sign.
 std::string with_percents(const std::string& name, std::string_view from, std::string_view to) {
   std::string result;
   std::size_t begin = 0;
@@ -278,7 +278,7 @@ void Hdf5Writer::close() {
 
 struct Hdf5Reader::Open {
   Handle file;
-  std::map<std::string, Handle> arrays;  // by path, opened when first asked for
+  std::map<std::string, Handle> arrays;  // by path, opened at first use
 
   const Handle& array(const std::string& path) {
     const auto known = arrays.find(path);
@@ -300,7 +300,7 @@ std::string Hdf5Reader::attribute(const std::string& name) const {
   const Handle attribute(H5Aopen(open_->file, name.c_str(), H5P_DEFAULT), H5Aclose, what);
   const Handle type(H5Aget_type(attribute), H5Tclose, what);
   const hsize_t bytes = H5Aget_storage_size(attribute);
-  constexpr hsize_t kMax = 65536;  // of an attribute in an object's header
+  constexpr hsize_t kMax = 65536;  // size of an attribute in an object's header
   if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0 || bytes > kMax || bytes != H5Tget_size(type))
     throw WorkError(what);
   std::vector<char> text(bytes + 1, '\0');

@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* kFormat = "seaglint data set 2";
 
-// The most that a scenario can ask for: dataset.maps_per_shard, and all maps of its sweeps.
+// Upper limits of a scenario: dataset.maps_per_shard, and all maps of its sweeps.
 constexpr std::uint64_t kMaxShardSamples = 10000;
 constexpr std::uint64_t kMaxSamples = 1000000000;
 
@@ -69,7 +69,7 @@ Manifest read_manifest(const std::filesystem::path& file) {
     for (const nlohmann::json& entry : json.at("shards")) {
       ManifestShard shard{entry.at("file").get<std::string>(), entry.at("first_sample").get<std::uint64_t>(),
                           entry.at("samples").get<std::uint64_t>(), entry.at("sha256").get<std::string>()};
-      // A name with a folder in it could point anywhere.
+      // A name with a folder could refer to a file outside the directory.
       if (shard.file.empty() || std::filesystem::path(shard.file).filename() != shard.file) {
         throw InputError(
             fmt::format("{}: shards: \"{}\" is not the name of a file beside it", file.string(), shard.file));

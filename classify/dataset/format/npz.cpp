@@ -50,7 +50,7 @@ std::uint64_t item_bytes(const std::string& type) {
   return bytes;
 }
 
-// A member of the archive that libzip reads when it writes the archive.
+// A member of the archive, read by libzip while it writes the archive.
 struct Member {
   std::string name;
   std::string head;  // before the blocks
@@ -59,8 +59,8 @@ struct Member {
 
   std::string block;
   std::size_t place = 0;       // in block
-  std::uint64_t given = 0;     // bytes that libzip has
-  std::exception_ptr* failed;  // what next() threw, of any member
+  std::uint64_t given = 0;     // bytes passed to libzip
+  std::exception_ptr* failed;  // exception of any member's next()
 
   zip_int64_t read(char* to, zip_uint64_t most) {
     zip_uint64_t count = 0;
@@ -88,7 +88,7 @@ zip_int64_t serve(void* user, void* data, zip_uint64_t length, zip_source_cmd_t 
     case ZIP_SOURCE_CLOSE:
     case ZIP_SOURCE_FREE: return 0;
     case ZIP_SOURCE_READ: try { return member->read(static_cast<char*>(data), length);
-      } catch (...) {  // no exception may pass through a library in C
+      } catch (...) {  // exceptions must not propagate through a C library
         *member->failed = std::current_exception();
         return -1;
       }

@@ -37,7 +37,7 @@ void check_shapes(const Shard& shard, int max_centres) {
   }
 }
 
-// An array written whole.
+// Writes a complete array.
 template <class T>
 void write_values(Hdf5Writer& file, const StoredArray& array, const Dimensions& size, const Dimensions& chunk,
                   const std::vector<T>& values) {
