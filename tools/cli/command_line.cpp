@@ -18,8 +18,8 @@
 #include "sim/core/numbers/standard_error.h"
 #include "sim/core/process/error.h"
 #include "tools/cli/command.h"
-#include "tools/cli/option_numbers.h"
-#include "tools/cli/unknown_word.h"
+#include "tools/options/option_numbers.h"
+#include "tools/options/unknown_word.h"
 
 namespace seaglint {
 

@@ -14,8 +14,8 @@
 #include "sim/geometry/ship/make_ship.h"
 #include "tools/cli/arguments.h"
 #include "tools/cli/command.h"
-#include "tools/cli/option_numbers.h"
 #include "tools/figure/mesh_picture.h"
+#include "tools/options/option_numbers.h"
 #include "tools/pipeline/output_files.h"
 
 namespace seaglint {

@@ -17,10 +17,10 @@
 #include "sim/sea/wave_field.h"
 #include "tools/cli/arguments.h"
 #include "tools/cli/command.h"
-#include "tools/cli/option_numbers.h"
-#include "tools/cli/series_times.h"
 #include "tools/figure/figure.h"
 #include "tools/figure/sea_figures.h"
+#include "tools/options/option_numbers.h"
+#include "tools/options/series_times.h"
 #include "tools/pipeline/output_files.h"
 #include "tools/pipeline/warnings.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/cli/reference_arguments.h"
+#include "tools/options/reference_arguments.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 
 #include "sim/core/process/error.h"
 #include "sim/core/text/number.h"
-#include "tools/cli/option_numbers.h"
+#include "tools/options/option_numbers.h"
 
 namespace seaglint {
 namespace {

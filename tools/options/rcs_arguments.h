@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/cli/reference_arguments.h"
+#include "tools/options/reference_arguments.h"
 #include "tools/rcs/rcs_request.h"
 
 namespace seaglint {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/cli/option_numbers.h"
+#include "tools/options/option_numbers.h"
 
 #include <fmt/format.h>
 

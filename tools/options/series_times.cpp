@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/cli/series_times.h"
+#include "tools/options/series_times.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "sim/core/process/error.h"
-#include "tools/cli/option_numbers.h"
+#include "tools/options/option_numbers.h"
 
 namespace seaglint {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/cli/rcs_arguments.h"
+#include "tools/options/rcs_arguments.h"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 
 #include "sim/core/process/error.h"
 #include "sim/core/text/number.h"
-#include "tools/cli/option_numbers.h"
-#include "tools/cli/renamed_words.h"
+#include "tools/options/option_numbers.h"
+#include "tools/options/renamed_words.h"
 
 namespace seaglint {
 namespace {

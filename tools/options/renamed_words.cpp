@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/cli/renamed_words.h"
+#include "tools/options/renamed_words.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/cli/unknown_word.h"
+#include "tools/options/unknown_word.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "sim/core/text/suggestion.h"
-#include "tools/cli/renamed_words.h"
+#include "tools/options/renamed_words.h"
 
 namespace seaglint {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Every option, option value and command of earlier versions is refused by its new name.
-#include "tools/cli/renamed_words.h"
+#include "tools/options/renamed_words.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
