@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/core/numbers/smooth_step.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+namespace seaglint {
+namespace {
+
+TEST(SmoothStep, FallsFromOneToZeroWithoutAKink) {
+  const std::array<double, 2> from_to{2, 5};
+  EXPECT_EQ(smooth_taper(1, from_to), 1);
+  EXPECT_EQ(smooth_taper(2, from_to), 1);
+  EXPECT_EQ(smooth_taper(3.5, from_to), 0.5);
+  EXPECT_EQ(smooth_taper(5, from_to), 0);
+  EXPECT_EQ(smooth_taper(7, from_to), 0);
+  // Its slope at either end is zero: there it differs by 3 (x / 3)^2.
+  EXPECT_NEAR(1 - smooth_taper(2 + 3e-4, from_to), 3e-8, 1e-11);
+  EXPECT_NEAR(smooth_taper(5 - 3e-4, from_to), 3e-8, 1e-11);
+}
+
+TEST(SmoothStep, InterpolatesFromTheFirstEnd) {
+  EXPECT_EQ(interpolate<double>({4, 8}, 0), 4);
+  EXPECT_EQ(interpolate<double>({4, 8}, 0.25), 5);
+  EXPECT_EQ(interpolate<double>({4, 8}, 1), 8);
+}
+
+}  // namespace
+}  // namespace seaglint
