@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A declaration is found by its source's name: every source has a header of its stem beside it.
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+#include "tests/architecture/source_files.h"
+
+namespace seaglint {
+namespace {
+
+// The program itself, and the commands, all of which tools/cli/command.h declares.
+bool may_have_no_header(const std::string& source) {
+  return source == "tools/main.cpp" || source.starts_with("tools/cli/command_");
+}
+
+TEST(SourceHeader, EverySourceHasAHeaderOfItsName) {
+  std::set<std::string> files;
+  for (const SourceFile& file : code_files()) files.insert(file.path);
+  int sources = 0;
+  for (const std::string& file : files) {
+    if (!file.ends_with(".cpp") || file.starts_with("tests/") || may_have_no_header(file)) continue;
+    ++sources;
+    EXPECT_TRUE(files.contains(file.substr(0, file.size() - 4) + ".h")) << file;
+  }
+  EXPECT_GT(sources, 100) << "the test finds no sources";
+}
+
+}  // namespace
+}  // namespace seaglint
