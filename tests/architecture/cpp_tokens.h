@@ -4,6 +4,7 @@
 // C++ text as tokens: identifiers, numbers, `::`, `->` and single characters. Comments, preprocessor lines and the
 // branches of #else are left out, literals of text become one token each.
 
+#include <algorithm>
 #include <cctype>
 #include <cstddef>
 #include <string>
@@ -101,7 +102,9 @@ class Tokeniser {
 
   std::string raw_text() {
     const std::size_t open = text_.find('(', at_);
-    const std::string end = ")" + text_.substr(at_ + 2, open - at_ - 2) + "\"";
+    std::string end = text_.substr(at_ + 1, open - at_ - 1);  // ", then the delimiter
+    std::rotate(end.begin(), end.begin() + 1, end.end());
+    end.insert(end.begin(), ')');
     skip_to(end);
     skip(end.size());
     return "\"";
