@@ -83,7 +83,7 @@ TEST_F(CavityCommand, RefusesWhatIsNoCavity) {
           "--cavity does not support --sea-reflection");
   refused({"--frequency-ghz", "3", "--cavity", "duct", "--wavefront-range-m", "100"},
           "does not support --sea-reflection, --wavefront-range-m");
-  refused({"--frequency-ghz", "3", "--cavity", "duct", "--only", "mechanism=edge"}, "select by part=NAME");
+  refused({"--frequency-ghz", "3", "--cavity", "duct", "--only", "mechanism=edge"}, "select with part=NAME");
   refused({"--frequency-ghz", "16", "--cavity", "duct", "--material",
            SEAGLINT_SOURCE_DIR "/assets/materials/ram_loaded_epoxy.yaml"},
           "its walls must be pec, not");

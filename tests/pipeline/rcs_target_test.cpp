@@ -47,7 +47,7 @@ TEST_F(RcsTarget, RefusesMeshesWithoutAnythingThatScatters) {
   refused("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "no triangle has an area: nothing scatters");
   refused("v 0 0 0\nv 1 0 0\nv 0 nan 1\nf 1 2 3\n", "bad.obj");
   refused("v 0 0 0\nv 1 0 0\nv 0 1 1\n", "contains no triangles");
-  refused("v 9000 0 0\nv 9000 1 0\nv 9000 0 1\nf 1 2 3\n", "from its origin");
+  refused("v 9000 0 0\nv 9000 1 0\nv 9000 0 1\nf 1 2 3\n", "from the origin");
 }
 
 TEST_F(RcsTarget, AddsTheThicknessOfSheets) {

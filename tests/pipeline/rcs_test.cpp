@@ -187,7 +187,7 @@ TEST_F(RcsCommand, ExportsCentresAndHotSpotsOfOneViewAndSelects) {
   refused({"--only", "bounces=0"}, "bounces must be 1, 2, ... 200");
   refused({"--without", "mechanism=magic"}, "must be one of po, edge");
   refused({"--only", "colour=red"}, "must be part=NAME");
-  refused({"--only", "bounces=41"}, "--only bounces=41 requires --max-bounces 41 or more; 40 are followed");
+  refused({"--only", "bounces=41"}, "--only bounces=41 requires --max-bounces 41 or more; 40 are traced");
   refused({"--only", "mechanism=edge", "--edges", "off"}, "--only mechanism=edge requires --edges on");
   refused({"--only", "mechanism=po", "--without", "mechanism=po"},
           "--only mechanism=po and --without mechanism=po leave nothing of it");
@@ -257,7 +257,7 @@ TEST_F(RcsCommand, BendsTheWavefrontOfARadarNearby) {
   EXPECT_LT(level("30"), level("0") - 6);
   const ProgramResult inside = rcs({"--frequency-ghz", "10", "--azimuth-deg", "0", "--wavefront-range-m", "0.5"});
   EXPECT_EQ(inside.code, 2);
-  EXPECT_THAT(inside.err, HasSubstr("radar range 0.5 m: the target reaches"));
+  EXPECT_THAT(inside.err, HasSubstr("wavefront range 0.5 m: must be at least ten times the target radius"));
 }
 
 // A strip that leans is no disc: at the zenith its matrix turns with the azimuth as it does just below.

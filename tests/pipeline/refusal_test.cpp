@@ -114,8 +114,7 @@ TEST_F(InputErrors, OfARadarTooNearForALayoutOrACompanion) {
       folder() / "near.yaml",
       "seaglint: 1\ntargets:\n"
       "  ship: {label: 1, mesh: assets/icosahedral_reflector.glb, companions: [{target: decoy, x_m: 0, y_m: 60}], "
-      "solver: "
-      "{wavefront_range_m: 400}}\n"
+      "solver: {wavefront_range_m: 400}}\n"
       "  decoy: {label: 0, mesh: assets/icosahedral_reflector.glb, solver: {wavefront_range_m: 400}}\n"
       "  array: {label: 0, mesh: assets/icosahedral_reflector.glb, layout: {line: {count: 4, spacing_m: 40}}}\n");
   const std::string file = folder() / "near.yaml";
@@ -126,8 +125,8 @@ TEST_F(InputErrors, OfARadarTooNearForALayoutOrACompanion) {
       expect_failure(
           folder(), words, 2,
           more.empty()
-              ? "near.yaml:3:66: targets.ship.companions.0: wavefront range 400 m: must be at "
-                "least ten times the target radius of 60.5 m"
+              ? "near.yaml:3:72: targets.ship.companions.0: wavefront range 400 m: must be at least ten "
+                "times the target radius of 60.5 m"
               : "targets.array.solver: wavefront range 600 m: must be at least ten times the target radius of 60.5 m");
     }
   }
@@ -166,7 +165,7 @@ TEST_F(InputErrors, OfATargetUnderWater) {
   for (const Words& words : {Words{"check", file}, Words{"map", file, "-o", folder() / "map.png"},
                              Words{"generate", file, "-o", folder() / "data"}})
     expect_failure(folder(), words, 2,
-                   "water.yaml:4:106: targets.array.motion.origin_above_waterline_m: value -10: must be greater than ");
+                   "water.yaml:4:110: targets.array.motion.origin_above_waterline_m: value -10: must be greater than ");
   EXPECT_EQ(run_program({"check", file, "--set", "sea_reflection.enabled=false"}).code, 0);
 }
 

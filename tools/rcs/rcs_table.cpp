@@ -48,13 +48,13 @@ std::string cavity_line(const CavityRequest& cavities) {
 
 std::string rcs_table(const RcsRequest& request, const Scatterer& scatterer, const RcsSweep& sweep) {
   std::string csv = fmt::format(
-      "# seaglint {} rcs\n# target {} unit {}: {} facets, radius {:.6g} m\n# material {}, contributions: {}\n{}{} at "
-      "every "
-      "visible bounce, "
-      "max_bounces {}, edges {}, crease_deg {:.6g}, sheet_thickness_mm {:.6g}, wavefront_range_m {:.9g} (0 = plane "
-      "wave), {}, "
-      "min_patch_m {:.6g}\n{}# amplitudes in metres, e^{{+jwt}}, phase origin at the body's origin, S_pq: q "
-      "transmitted, p received; basis of CONVENTIONS.md\n"
+      "# seaglint {} rcs\n# target {} unit {}: {} facets, radius {:.6g} m\n"
+      "# material {}, contributions: {}\n{}"
+      "{} at every visible bounce, max_bounces {}, edges {}, crease_deg {:.6g}, sheet_thickness_mm {:.6g}, "
+      "wavefront_range_m {:.9g} (0 = plane wave), {}, min_patch_m {:.6g}\n{}"
+      "# amplitudes in metres, e^{{+jwt}}, phase origin at the body's origin, S_pq: q transmitted, p received; basis "
+      "of "
+      "CONVENTIONS.md\n"
       "frequency_hz,azimuth_deg,elevation_deg,hh_re,hh_im,hv_re,hv_im,vh_re,vh_im,vv_re,vv_im,hh_dbsm,vv_dbsm\n",
       kVersion, request.target.string(), request.unit, scatterer.facets().size(), scatterer.radius(),
       materials_text(request.materials), text_of(request.selection), sea_line(request.sea), kMethodNote,

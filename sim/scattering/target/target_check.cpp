@@ -59,8 +59,7 @@ std::vector<std::string> check_target(const TriangleMesh& mesh, double lowest_hz
   if (distance > kTooFarOrigin) {
     throw InputError(
         fmt::format("the target of {:.4g} m is centred {:.4g} m from the origin, its centre of rotation and phase "
-                    "centre: translate "
-                    "the mesh",
+                    "centre: translate the mesh",
                     longest, centre.norm()));
   }
   if (distance > kFarOrigin)

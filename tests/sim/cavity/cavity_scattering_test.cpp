@@ -198,7 +198,7 @@ TEST(CavityEcho, RefusesWhatPointCurrentsDoNotDescribe) {
     }
   };
   EXPECT_GT(Cavity(crooked_guide(), 0, Scatterer(crooked_guide())).size(kWavenumber).patches, 500u);
-  refused(guide(0.29, 0.19, 0.25), kWavenumber / 30, "less than half a wavelength");
+  refused(guide(0.29, 0.19, 0.25), kWavenumber / 30, "narrower than half a wavelength");
   refused(guide(0.29, 0.19, 0.001), kWavenumber, "walls and aperture come nearer");
   // A shutter of 2 mm of metal within the guide.
   TriangleMesh shut = guide(0.29, 0.19, 0.25);

@@ -87,8 +87,9 @@ TEST(MeshDiagnostics, LeavesOneSideOfSheetsOfTwo) {
   const MeshDiagnostics health = diagnose(two_sided);
   EXPECT_EQ(health.two_sided, 2u);
   EXPECT_EQ(health.open_edges, 4u);
-  EXPECT_THAT(diagnostic_messages(health),
-              ElementsAre(HasSubstr("4 open edges"), HasSubstr("2 triangles are the back of another")));
+  EXPECT_THAT(
+      diagnostic_messages(health),
+      ElementsAre(HasSubstr("4 open edges"), HasSubstr("2 triangles duplicate others with opposite orientation")));
   EXPECT_EQ(repair(two_sided).triangles, sheet.triangles);
 }
 
