@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "sim/geometry/files/mesh_io.h"
 #include "sim/scattering/beams/beam_segment.h"
 #include "sim/scattering/response/scattering_matrix.h"
 #include "sim/scattering/surfaces/phase_integral.h"

@@ -3,6 +3,7 @@
 #include <benchmark/benchmark.h>
 #include <sys/resource.h>
 
+#include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/shapes/generators.h"
 #include "sim/scattering/response/scattering_matrix.h"
 #include "sim/scattering/target/embree_scene.h"

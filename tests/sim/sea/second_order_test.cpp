@@ -10,6 +10,7 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/random.h"
+#include "sim/sea/wave_field.h"
 #include "tests/sim/sea/double_sum.h"
 #include "tests/sim/sea/reference_table.h"
 
