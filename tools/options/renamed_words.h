@@ -3,6 +3,7 @@
 
 // Options, their values and commands of earlier versions: what each is called now. None is accepted under its old name.
 
+#include <CLI/App.hpp>
 #include <CLI/Validators.hpp>
 #include <optional>
 #include <span>
