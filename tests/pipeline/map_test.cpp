@@ -142,7 +142,8 @@ TEST(MapCommand, ACompanionIsSeenInTheSameMap) {
   const auto centres_in = [](const std::string& sample) {
     return cluster_centres(
         {"--set", "view={azimuth_deg: 0, elevation_deg: 0}", "--set",
-         "targets={one: {label: 1, points: [{position_m: [30, 0, 0], amplitude_m: 2, velocity_mps: [1, 0, 0]}], with: "
+         "targets={one: {label: 1, points: [{position_m: [30, 0, 0], amplitude_m: 2, velocity_mps: [1, 0, 0]}], "
+         "companions: "
          "[{target: other, x_m: -50, y_m: 8}]}, other: {label: 0, points: [{position_m: [5, 0, 0]}]}}",
          "--set", "dataset={maps_per_case: 1, realisations_per_case: 1}", "--set", "clutter.scr_db=60", "--sample",
          sample});

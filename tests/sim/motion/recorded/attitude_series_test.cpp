@@ -14,12 +14,15 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
 #include "sim/motion/simulate.h"
+#include "tests/temporary_folder.h"
 
 namespace seaglint {
 namespace {
 
+// In a folder of this process: tests of other processes write files of the same names.
 std::filesystem::path write(const std::string& text, const char* name = "series.csv") {
-  const std::filesystem::path file = std::filesystem::path(SEAGLINT_BINARY_DIR) / name;
+  static const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / name;
   std::ofstream(file) << text;
   return file;
 }
