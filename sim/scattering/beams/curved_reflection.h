@@ -26,7 +26,7 @@ ParaxialBundle propagated_to(const BeamSegment& segment, const CandidatePanel& c
 
 // A point, and the corners of a facet, in the projection plane after the reflections of the segment, m.
 Vec2 projected(const CurvatureContext& on, const BeamSegment& segment, const Vec3& x);
-std::array<Vec2, 3> projected(const CurvatureContext& on, const BeamSegment& leg, int facet);
+std::array<Vec2, 3> projected(const CurvatureContext& on, const BeamSegment& segment, int facet);
 
 // Sagittas of a curved facet's three edges on the illuminated side, m, each times `factor` of the cosine of incidence
 // at the edge. That cosine is at least 8 sagitta / length, twice the half-angle of the edge's arc, since currents

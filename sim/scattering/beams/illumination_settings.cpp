@@ -8,12 +8,12 @@
 namespace seaglint {
 namespace {
 
-// Side of the smallest illuminated patch in target radii, 9.8e-4 / 14 = 0.7e-4: 5 mm on the 144 m ship.
-constexpr double kRadiusFraction = 9.8e-4, kFractionPerSide = 14;
+// Side of the smallest illuminated patch in target radii: 5 mm on the 144 m ship.
+constexpr double kMinPatchSide = 0.7e-4;
 
 }  // namespace
 
-double default_min_patch(const Scatterer& scatterer) { return kRadiusFraction * scatterer.radius() / kFractionPerSide; }
+double default_min_patch(const Scatterer& scatterer) { return kMinPatchSide * scatterer.radius(); }
 
 double min_patch(const Scatterer& scatterer, const TracingSettings& settings) {
   const double coarsest = default_min_patch(scatterer);

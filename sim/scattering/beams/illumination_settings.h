@@ -23,7 +23,7 @@ struct TracingSettings {
   Vec3 origin = Vec3::Zero();  // position of the target frame's origin from that point, m
 };
 
-// Side of the smallest illuminated patch kept by default, m: 0.7e-4 of the radius, 5 mm on the 144 m ship (README.md).
+// Side of the smallest illuminated patch kept by default, m: 0.7e-4 of the radius, 5 mm on the 144 m ship.
 double default_min_patch(const Scatterer& scatterer);
 
 // Side of the smallest illuminated patch kept, m: that of the settings, or the default where that is finer.

@@ -6,8 +6,8 @@
 
 namespace seaglint {
 
-void split(const EdgeContribution& contribution, const DecompositionSettings& settings,
-           std::vector<PointContribution>& out) {
+void decompose(const EdgeContribution& contribution, const DecompositionSettings& settings,
+               std::vector<PointContribution>& out) {
   PointContribution c;
   c.facet = contribution.facet;
   c.part = contribution.part;

@@ -13,7 +13,7 @@ namespace seaglint {
 
 // Appends the point contributions of an edge contribution at kc: its two end points, or pieces short enough for one
 // point each, by the criteria of decompose() for footprints.
-void split(const EdgeContribution& contribution, const DecompositionSettings& settings,
-           std::vector<PointContribution>& out);
+void decompose(const EdgeContribution& contribution, const DecompositionSettings& settings,
+               std::vector<PointContribution>& out);
 
 }  // namespace seaglint

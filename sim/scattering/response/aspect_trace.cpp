@@ -14,9 +14,9 @@ bool same(const RadarBasis& a, const RadarBasis& b) { return a.r == b.r && a.h =
 
 // Edge illuminations from a receive direction that transmits in no pair: no footprints are computed, and beams end
 // after the reflections that an edge contribution allows.
-IlluminationByEdge arrivals_of(const Scatterer& scatterer, const std::shared_ptr<const Aspect>& direction,
-                               TracingSettings settings, std::span<const double> wavenumbers, int threads,
-                               const StopFlag* stop) {
+IlluminationByEdge edge_illumination_from(const Scatterer& scatterer, const std::shared_ptr<const Aspect>& direction,
+                                          TracingSettings settings, std::span<const double> wavenumbers, int threads,
+                                          const StopFlag* stop) {
   settings.max_bounces = std::min(settings.max_bounces, kMaxEdgeReflections + 1);
   return Illumination(scatterer, {direction, {}}, settings, wavenumbers)
       .trace_all(
@@ -64,7 +64,7 @@ std::size_t AspectTrace::chunk_count(std::size_t pair) const {
 
 std::size_t AspectTrace::run(const AspectVisitor& visit, const StopFlag* stop) const {
   std::size_t segments = 0;
-  std::vector<std::optional<IlluminationByEdge>> arrivals(directions_.size());
+  std::vector<std::optional<IlluminationByEdge>> illuminations(directions_.size());
   for (const Transmitter& transmitter : transmitters_) {
     TraceSummary reached = transmitter.illumination.trace_all(
         threads_,
@@ -74,18 +74,19 @@ std::size_t AspectTrace::run(const AspectVisitor& visit, const StopFlag* stop) c
           visit.edges(pair, chunk, contributions.boundary_terms);
         },
         stop);
-    arrivals[transmitter.direction] = std::move(reached.edge_illuminations);
+    illuminations[transmitter.direction] = std::move(reached.edge_illuminations);
     segments += reached.segments;
   }
   if (!settings_.edges) return segments;
   for (std::size_t pair = 0; pair < pairs_.size(); ++pair) {
-    std::optional<IlluminationByEdge>& outgoing = arrivals[receive_[pair]];
+    std::optional<IlluminationByEdge>& outgoing = illuminations[receive_[pair]];
     if (!outgoing) {
-      outgoing = arrivals_of(scatterer_, directions_[receive_[pair]], settings_, wavenumbers_, threads_, stop);
+      outgoing =
+          edge_illumination_from(scatterer_, directions_[receive_[pair]], settings_, wavenumbers_, threads_, stop);
     }
     const std::size_t first = chunk_count(pair) - kEdgeChunks;
-    edge_diffraction(scatterer_, pairs_[pair], settings_, wavenumbers_, *arrivals[transmit_[pair]], *outgoing, threads_,
-                     [&](std::size_t chunk, std::span<const EdgeContribution> footprints) {
+    edge_diffraction(scatterer_, pairs_[pair], settings_, wavenumbers_, *illuminations[transmit_[pair]], *outgoing,
+                     threads_, [&](std::size_t chunk, std::span<const EdgeContribution> footprints) {
                        visit.edges(pair, first + chunk, footprints);
                      });
   }

@@ -59,7 +59,7 @@ class WayPoints {
     std::vector<PointContribution> contributions;
     for (const EdgeContribution& contribution : footprints) {
       contributions.clear();
-      split(contribution, split_, contributions);
+      decompose(contribution, split_, contributions);
       keep(chunk, contributions);
     }
   }

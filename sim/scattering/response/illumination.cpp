@@ -59,7 +59,7 @@ class LitRecorder : public BeamVisitor {
     for (std::size_t i = 0; i < out.seen.size(); ++i) {
       const Receiver& receiver = scene.receivers[i];
       echoes_.emplace_back(scene, receiver, out.seen[i].footprints,
-                           &ends_.emplace_back(scene, receiver, out.seen[i].beam_ends));
+                           &ends_.emplace_back(scene, receiver, out.seen[i].boundary_terms));
     }
   }
 
@@ -146,17 +146,17 @@ TraceSummary Illumination::trace_all(int threads, const Visit& visit, const Stop
         LitRecorder recorder(of_chunk, traced);
         segments[chunk] = trace_beams(of_chunk, panels, recorder, [&] {
           for (std::size_t receiver = 0; receiver < traced.seen.size(); ++receiver) {
-            auto& [footprints, beam_ends] = traced.seen[receiver];
+            auto& [footprints, boundary_terms] = traced.seen[receiver];
             std::erase_if(footprints, [&](const Footprint& f) {
               return !filter.accepts(f.part, f.bounces, Mechanism::kPhysicalOptics);
             });
-            std::erase_if(beam_ends, [&](const EdgeContribution& end) {
+            std::erase_if(boundary_terms, [&](const EdgeContribution& end) {
               return !filter.accepts_edge(end.part, end.other_part, end.bounces) ||
                      (faint > 0 && boundary_term_bound(end, lowest_, highest_) < faint);
             });
-            visit(chunk, receiver, {footprints, beam_ends});
+            visit(chunk, receiver, {footprints, boundary_terms});
             footprints.clear();
-            beam_ends.clear();
+            boundary_terms.clear();
           }
         });
         illuminations[chunk] = std::move(traced.edge_illuminations);

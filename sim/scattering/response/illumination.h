@@ -27,7 +27,7 @@ struct TracedContributions {
   // Of one receiver: footprints, and the boundary terms of their beams.
   struct Seen {
     std::vector<Footprint> footprints;
-    std::vector<EdgeContribution> beam_ends;
+    std::vector<EdgeContribution> boundary_terms;
   };
   std::vector<Seen> seen;
   std::vector<EdgeIllumination> edge_illuminations;  // filled, as boundary_terms are, with edge diffraction on
@@ -86,7 +86,7 @@ class Illumination {
 
   // Appends the contributions of all beams whose first reflector is the panel of one of these facets, its direct
   // illumination included; returns the number of beam segments traced.
-  std::size_t trace_from(int facet, TracedContributions& lit) const { return trace_from({&facet, 1}, lit); }
+  std::size_t trace_from(int facet, TracedContributions& traced) const { return trace_from({&facet, 1}, traced); }
   std::size_t trace_from(std::span<const int> facets, TracedContributions& traced) const;
 
  private:

@@ -50,7 +50,7 @@ class MatrixSum {
   std::array<Complex, 4> of_edge(const EdgeContribution& contribution, double k) const {
     if (settings_.range_m <= 0) return scattered(contribution, k);
     std::vector<PointContribution> points;
-    split(contribution, {k, spread_}, points);
+    decompose(contribution, {k, spread_}, points);
     return bent(points, k);
   }
 
@@ -141,7 +141,7 @@ std::vector<PointContribution> aspect_contributions(const Scatterer& scatterer, 
                  decompose(footprint, geometry.transmit, bent, chunks[chunk]);
              },
              [&](std::size_t, std::size_t chunk, std::span<const EdgeContribution> contributions) {
-               for (const EdgeContribution& contribution : contributions) split(contribution, bent, chunks[chunk]);
+               for (const EdgeContribution& contribution : contributions) decompose(contribution, bent, chunks[chunk]);
              }},
             stop);
   std::vector<PointContribution> all;

@@ -210,7 +210,7 @@ TEST(SimulateAttitudeSeries, FollowsASeries) {
   const Body body = make_body(spec, {});
   const Trajectory trajectory = simulate_motion(body, {1, 2, 3}, WaveField(), 30, 1, 0);
   EXPECT_NEAR(degrees(trajectory.sample(10).angles.x()), 3, 1e-9);
-  EXPECT_EQ(trajectory.sample(10).translation.z(), 0);  // no translations asked for
+  EXPECT_EQ(trajectory.sample(10).translation.z(), 0);  // translations are off
   // A heading about 180 deg does not turn once around from row to row.
   EXPECT_NEAR(degrees(trajectory.sample(10).angles.z()), 179, 1.5);
   EXPECT_NEAR(trajectory.pose(0).p.x(), 1, 1e-12);

@@ -128,7 +128,7 @@ TEST(DoubleKnifeEdge, FollowATurnAsFreshTracesDo) {
     const Vec3 r = direction(azimuth, elevation);
     std::vector<PointContribution> points;
     for (const EdgeContribution& contribution : beam_ends(reflector, r))
-      split(contribution, {k, radians(0.15)}, points);
+      decompose(contribution, {k, radians(0.15)}, points);
     double error = 0, power = 0;
     for (const double turn : {-0.07, 0.07}) {
       const Vec3 turned = direction(azimuth + turn, elevation + 0.7 * turn);

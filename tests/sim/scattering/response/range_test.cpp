@@ -43,8 +43,8 @@ TEST(WavefrontCurvature, PlateIsTheSumOverItsCurvedWavefront) {
       const Vec3 r = direction(azimuth, 0.7);
       const Complex expected = summed_plate(length, width, r, k, range_m),
                     ours = at_range(make_plate(length, width), r, k, range_m);
-      // Frozen amplitudes of split() over radius / R: kMaxAmplitudeError of the strongest end; the cells' own error is
-      // 1e-5.
+      // Frozen amplitudes of decompose() over radius / R: kMaxAmplitudeError of the strongest end; the cells' own error
+      // is 1e-5.
       const double size = std::abs(summed_plate(length, width, direction(0, 0.7), k, range_m));
       fmt::print("plate at {} m, {} deg: {:.4f} of the broadside echo\n", range_m, azimuth,
                  std::abs(ours - expected) / size);
@@ -140,7 +140,7 @@ TEST(WavefrontCurvature, PlateBesideTheReferencePointIsTheSumOfItsPointDistances
         body_response(plate, Trajectory::at_rest(rest), r, Polarisation::kVv, sampling, solver).response.at(0, 0);
     const double size = k * length * width / (2 * kPi), error = std::abs(ours - summed(r)) / size;
     fmt::print("plate 60 m beside at {} m, {} deg: {:.4f} of the broadside echo\n", range_m, azimuth, error);
-    EXPECT_LT(error, 0.02) << azimuth;  // frozen amplitudes of split() as above
+    EXPECT_LT(error, 0.02) << azimuth;  // frozen amplitudes of decompose() as above
   }
 }
 

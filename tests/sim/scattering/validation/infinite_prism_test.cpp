@@ -170,7 +170,7 @@ TEST(InfinitePrism, OfADihedralOffTheRightAngleAnswersAsIntegralEquationsSay) {
 
 // What one arm sends nearly along the other has a penumbra there, within some 13 deg over 5 wavelengths, which physical
 // optics does not know; the corner sends it as a wave along the arm (multiple_diffraction.h). Without that hard fields
-// err by 0.21 and 0.28, of arms of 20 wavelengths by 0.22. What is left: ways back, of which only half is told apart
+// err by 0.21 and 0.28, of arms of 20 wavelengths by 0.22. The rest: return paths, of which only half is separable
 // from the ends of beams there, and below a right angle the rims' own fields, that come back as rays.
 TEST(InfinitePrism, OfADihedralHasWavesFromItsCorner) {
   for (const double elevation : {0.0, 40.0})

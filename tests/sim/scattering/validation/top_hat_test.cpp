@@ -23,7 +23,7 @@ std::uint32_t add_vertex(TriangleMesh& mesh, double x, double y, double z) {
 }
 
 // The part of a cylinder's wall within 1.3 rad of the x axis, of quads about kCell wide, upright on the plate z = 0,
-// which reaches as far beyond it as a wave from `elevation_deg` needs to light the whole wall. The plate's two
+// which reaches as far beyond it as a wave from `elevation_deg` needs to illuminate the whole wall. The plate's two
 // triangles start at its corner number `cut`, 0..3.
 TriangleMesh top_hat(double radius, double height, double elevation_deg, std::size_t cut = 0) {
   TriangleMesh mesh = make_plate(1, 1);
@@ -56,9 +56,9 @@ TriangleMesh top_hat(double radius, double height, double elevation_deg, std::si
   return mesh;
 }
 
-// Two bounces, plate and wall in either order: each returns what a cylinder of radius R does at normal incidence,
-// sqrt(k R cos(el) / 4 pi) h (E. F. Knott, J. F. Shaeffer and M. T. Tuley, Radar Cross Section, 2nd ed., "top hat"), in
-// phase with the other; stationary phase about the azimuth of the radar.
+// Two bounces, plate and wall in either order. By image theory in the plate, stationary phase about the azimuth of the
+// radar gives each the amplitude of a cylinder of radius R cos(el) and height h at normal incidence, h sqrt(k R cos(el)
+// / 4 pi) (sigma = k a h^2 of a cylinder of radius a); both orders have the same path and add in phase.
 double closed_form(double k, double radius, double height, double elevation_deg) {
   return 2 * height * std::sqrt(k * radius * std::cos(radians(elevation_deg)) / (4 * kPi));
 }
@@ -71,7 +71,7 @@ class TopHatEcho : public testing::TestWithParam<TopHat> {};
 
 // Causes of the bound: stationary phase, 1 / (8 k R cos(el)) of the amplitude, 0.05 dB at most here; the facets' second
 // order, edge^3, 0.1 dB. Where a bundle widens by 1 + 2 d / R > 4 on its way d along the plate it counts as one of flat
-// mirrors (kMaxDivergence), as what leaves the upper part of the wall does in the last three: 1.2 dB.
+// reflectors (kMaxDivergence), as what leaves the upper part of the wall does in the last three: 1.2 dB.
 TEST_P(TopHatEcho, HasTheClosedFormInEveryView) {
   const auto& [radius, height, elevation_deg] = GetParam();
   const Scatterer scatterer(top_hat(radius, height, elevation_deg), {}, radians(kDefaultCreaseDeg));
