@@ -127,7 +127,7 @@ std::vector<std::array<Complex, 4>> Cavity::scattering_matrices(double k, std::s
 
   // Reaction of the basis fields: reaction(m, n) = -jk/(4 pi) integral over the walls of E_m . eta J_n.
   ApertureFields basis(4 * static_cast<Eigen::Index>(aperture.size()), 0);
-  WallMatrix electric(2 * static_cast<Eigen::Index>(walls.size()), 0), answer = electric;
+  WallMatrix electric(2 * static_cast<Eigen::Index>(walls.size()), 0), solution = electric;
   Eigen::MatrixXcd reaction;
   Eigen::VectorXd area(electric.rows());
   for (std::size_t i = 0; i < walls.size(); ++i)
@@ -157,9 +157,9 @@ std::vector<std::array<Complex, 4>> Cavity::scattering_matrices(double k, std::s
                      "a wall of a cavity meets its aperture");
       append(basis, fresh.fields);
       append(electric, lit.incident_electric);
-      append(answer, currents.solve(lit.mfie_excitation, fresh.strength, threads, stop));
+      append(solution, currents.solve(lit.mfie_excitation, fresh.strength, threads, stop));
       reaction = Complex(0, -k / (4 * kPi)) *
-                 (electric.cast<Complex>().transpose() * area.asDiagonal() * answer.cast<Complex>());
+                 (electric.cast<Complex>().transpose() * area.asDiagonal() * solution.cast<Complex>());
       // Symmetric by reciprocity; the numerical asymmetry is a few percent where walls end at the aperture (README.md).
       reaction = 0.5 * (reaction + reaction.transpose().eval());
     }

@@ -19,7 +19,8 @@ constexpr int kBlock = 512;
 constexpr std::size_t kTile = 32;  // patches of a block per thread task
 // patches whose coupling to a tile is formed at once: 64 x 256 numbers, within the cache
 constexpr std::size_t kColumns = 128;
-constexpr Eigen::Index kColumnsPerSolve = 32;  // excitations solved together, which share the assembly of the coupling
+constexpr Eigen::Index kColumnsPerSolve =
+    32;  // excitations solved together, which projection the assembly of the coupling
 constexpr std::size_t kMaxIterations = 150;
 
 // At most one number per patch of a block; SSE processes four at a time.
@@ -59,9 +60,9 @@ struct KrylovColumn {
     hessenberg.conservativeResizeLike(Eigen::MatrixXcd::Zero(known + 1, known));
     for (Eigen::Index m = 0; m < known; ++m) {
       const auto direction = directions[static_cast<std::size_t>(m)].col(column);
-      const std::complex<float> share = direction.dot(next.col(column));
-      hessenberg(m, known - 1) = share;
-      next.col(column) -= share * direction;
+      const std::complex<float> projection = direction.dot(next.col(column));
+      hessenberg(m, known - 1) = projection;
+      next.col(column) -= projection * direction;
     }
     const float rest = next.col(column).norm();
     hessenberg(known, known - 1) = rest;
@@ -226,7 +227,7 @@ WallMatrix WallCurrents::solve(const WallMatrix& driven, const Eigen::VectorXd& 
         field.add(directions, next);
         const double left = field.residual * strength(first + field.column);
         if (!std::isfinite(left))
-          throw WorkError("the cavity's currents have no finite answer: walls too near each other for their patches");
+          throw WorkError("the cavity's currents have no finite solution: walls too near each other for their patches");
         worst = std::max(worst, left);
       }
       directions.push_back(std::move(next));

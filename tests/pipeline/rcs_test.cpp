@@ -177,6 +177,12 @@ TEST_F(RcsCommand, ExportsCentresAndHotSpotsOfOneViewAndSelects) {
   EXPECT_GT(std::abs(edges), 1e-4 * std::abs(all));
   ASSERT_EQ(reflector({"--without", "mechanism=edge"}).code, 0);
   EXPECT_LT(std::abs(edges + vv() - all), 1e-7 * std::abs(all)) << "nine printed digits";
+  std::complex<double> sum = 0;
+  for (const char* mechanism : {"single", "multiple", "reflected_edge", "shadow_boundary", "penumbra", "concave"}) {
+    ASSERT_EQ(reflector({"--only", std::string("mechanism=") + mechanism}).code, 0);
+    sum += vv();
+  }
+  EXPECT_LT(std::abs(sum - edges), 1e-6 * std::abs(edges)) << "nine printed digits";
 
   const auto refused = [&](std::vector<std::string> more, const std::string& message) {
     const ProgramResult answer = reflector(std::move(more));
@@ -185,7 +191,7 @@ TEST_F(RcsCommand, ExportsCentresAndHotSpotsOfOneViewAndSelects) {
   };
   refused({"--only", "part=cell_1"}, "did you mean 'cell_01'?");
   refused({"--only", "bounces=0"}, "bounces must be 1, 2, ... 200");
-  refused({"--without", "mechanism=magic"}, "must be one of po, edge");
+  refused({"--without", "mechanism=magic"}, "must be edge or one of po, single, multiple");
   refused({"--only", "colour=red"}, "must be part=NAME");
   refused({"--only", "bounces=41"}, "--only bounces=41 requires --max-bounces 41 or more; 40 are traced");
   refused({"--only", "mechanism=edge", "--edges", "off"}, "--only mechanism=edge requires --edges on");

@@ -3,6 +3,7 @@
 
 // Selection of contributions by part, bounce count and mechanism.
 
+#include <array>
 #include <string>
 
 #include "sim/geometry/mesh/triangle_mesh.h"
@@ -11,7 +12,9 @@
 
 namespace seaglint {
 
-inline constexpr const char* kMechanismNames[] = {"po", "edge"};
+// Names of the mechanisms in tables and selections, in the order of Mechanism. In selections `edge` is all but `po`.
+inline constexpr std::array<const char*, kMechanisms> kMechanismNames{
+    "po", "single", "multiple", "reflected_edge", "shadow_boundary", "penumbra", "concave"};
 
 // Filter of a selection. Throws InputError for an invalid entry and for a selection that no contribution can satisfy
 // with the given bounce limit and edge diffraction.

@@ -42,9 +42,9 @@ std::size_t compute_sweep(const RcsRequest& request, const RcsTarget& target, in
         model.matrices[view] =
             request.sea.reflection
                 ? scattering_matrices_over_sea(scatterer, basis.r, request.sea.height_m, mirror_of(request.sea),
-                                               wavenumbers, settings, threads, &segments, stop)
+                                               wavenumbers, settings, threads, &segments, stop, request.range_m)
                 : scattering_matrices(scatterer, antennas_of(request, basis), wavenumbers, settings, threads, &segments,
-                                      stop);
+                                      stop, {request.range_m});
       }
     } catch (const Interrupted&) {
       throw WorkError(fmt::format("interrupted after {} of {} views", view, sweep.views()));
@@ -92,7 +92,7 @@ RadarBasis basis_at(double azimuth_deg, double elevation_deg) {
 }
 
 TracingSettings settings_of(const RcsRequest& request, const RcsTarget& target, bool edge_diffraction) {
-  return {request.min_patch_m, request.max_bounces, edge_diffraction, target.filter, request.range_m};
+  return {request.min_patch_m, request.max_bounces, edge_diffraction, target.filter};
 }
 
 RcsResult compute_rcs(const RcsRequest& request, const RcsTarget& target, int threads, const StopFlag* stop) {

@@ -137,7 +137,7 @@ std::string export_view(const RcsRequest& request, const RcsTarget& target, int 
   const DecompositionSettings split{k, default_aspect_change(scatterer, 2 * kPi / k)};
   const std::vector<PointContribution> contributions =
       aspect_contributions(scatterer, monostatic(basis_at(request.azimuth_deg[0], request.elevation_deg[0])), split,
-                           settings_of(request, target, request.edges), thread_count(threads), stop);
+                           settings_of(request, target, request.edges), thread_count(threads), stop, {request.range_m});
   std::string lines;
   if (!request.exports.centres.empty())
     lines += write_centres(request.exports, target.prepared.mesh,

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "sim/scattering/diffraction/tolerances.h"
 #include "sim/scattering/diffraction/wedge.h"
 
 namespace seaglint {

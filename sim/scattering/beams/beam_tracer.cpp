@@ -8,6 +8,7 @@
 
 #include "sim/scattering/beams/beam_culling.h"
 #include "sim/scattering/beams/curved_reflection.h"
+#include "sim/scattering/diffraction/tolerances.h"
 #include "sim/scattering/diffraction/wedge.h"
 #include "sim/scattering/material/reflection.h"
 
@@ -37,7 +38,7 @@ class BeamTracer {
     candidate.projection.facet = facet;
     candidate.projection.plane = depth_plane(facets_[facet].normal, facets_[facet].offset, basis_);
     candidate.illuminated.assign(scene_.visible_to_transmitter.pieces(facet));
-    hand_on(first, candidate, scratch_[0].visible);
+    visit_candidate(first, candidate, scratch_[0].visible);
     if (continues(first, candidate)) trace_segment(reflected_segment(first, candidate), candidate.illuminated);
   }
 
@@ -52,21 +53,21 @@ class BeamTracer {
   };
 
   // Passes the illuminated polygons and, for every receiver, their visible parts to the visitor. `seen`: work memory.
-  void hand_on(const BeamSegment& segment, const CandidatePanel& candidate, std::vector<MovingPolygon>& seen) {
-    visitor_.lit(segment, candidate);
+  void visit_candidate(const BeamSegment& segment, const CandidatePanel& candidate, std::vector<MovingPolygon>& seen) {
+    visitor_.illuminated(segment, candidate);
     const Vec3 illuminated_side = illuminated_normal(segment, facets_[candidate.projection.facet]);
     for (std::size_t i = 0; i < scene_.receivers.size(); ++i) {
       const auto& [geometry, visible] = scene_.receivers[i];
       // At the first bounce a monostatic receiver sees exactly the illuminated polygons.
       if (segment.bounce == 1 && geometry.monostatic) {
-        visitor_.seen(segment, candidate, i, candidate.illuminated.polygons());
+        visitor_.visible(segment, candidate, i, candidate.illuminated.polygons());
         continue;
       }
       seen.clear();
       if (illuminated_side.dot(geometry.receive.r) > kEdgeOn)
         visible->visible_after_reflections(candidate.projection.facet, segment.image_transform,
                                            candidate.illuminated.polygons(), basis_, seen);
-      visitor_.seen(segment, candidate, i, seen);
+      visitor_.visible(segment, candidate, i, seen);
     }
   }
 
@@ -117,7 +118,7 @@ class BeamTracer {
         return !receiver.visible_to_receiver->pieces(panel->facet).empty();
       });
     };
-    if (segment.bounce == scene_.settings.max_bounces && !visitor_.wants(segment) &&
+    if (segment.bounce == scene_.settings.max_bounces && !visitor_.needs_last_segment(segment) &&
         std::ranges::none_of(scratch.found, seen))
       return;
 
@@ -154,7 +155,7 @@ class BeamTracer {
     for (const std::uint32_t i : order) {
       const CandidatePanel& candidate = met[i];
       if (candidate.illuminated.empty() || scene_.is_submerged(candidate.projection.facet)) continue;
-      hand_on(segment, candidate, scratch.visible);
+      visit_candidate(segment, candidate, scratch.visible);
       if (continues(segment, candidate)) trace_segment(reflected_segment(segment, candidate), candidate.illuminated);
     }
   }

@@ -17,13 +17,13 @@ class BeamVisitor {
  public:
   virtual ~BeamVisitor() = default;
   // True when a last segment (bounce = max_bounces) must be traced although no receiver sees any panel in its path.
-  virtual bool wants(const BeamSegment& segment) const = 0;
+  virtual bool needs_last_segment(const BeamSegment& segment) const = 0;
   // Called once for every segment and panel, with the illuminated polygons.
-  virtual void lit(const BeamSegment& segment, const CandidatePanel& candidate) = 0;
+  virtual void illuminated(const BeamSegment& segment, const CandidatePanel& candidate) = 0;
   // Called next for every receiver: the convex parts of those polygons with an unobstructed direct path to it, in the
   // projection plane of the transmitter; may be empty.
-  virtual void seen(const BeamSegment& segment, const CandidatePanel& candidate, std::size_t receiver,
-                    std::span<const MovingPolygon> pieces) = 0;
+  virtual void visible(const BeamSegment& segment, const CandidatePanel& candidate, std::size_t receiver,
+                       std::span<const MovingPolygon> pieces) = 0;
 };
 
 // Traces all beams whose first reflector is the panel of one of these facets (its first facet) and returns the number

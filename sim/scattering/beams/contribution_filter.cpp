@@ -29,9 +29,9 @@ bool ContributionFilter::accepts(int part, int bounces, Mechanism mechanism) con
   return !is_cavity(part) && selected(*this, part, bounces, mechanism);
 }
 
-bool ContributionFilter::accepts_edge(int part, int other_part, int bounces) const {
+bool ContributionFilter::accepts_edge(int part, int other_part, int bounces, Mechanism mechanism) const {
   if (is_cavity(part) && is_cavity(other_part)) return false;
-  return selected(*this, is_cavity(part) ? other_part : part, bounces, Mechanism::kDiffraction);
+  return selected(*this, is_cavity(part) ? other_part : part, bounces, mechanism);
 }
 
 bool ContributionFilter::accepts_cavity(int part) const { return selected(*this, part, 1, Mechanism::kPhysicalOptics); }

@@ -8,15 +8,23 @@
 
 namespace seaglint {
 
-// Mechanism of a contribution.
+// Mechanism of a contribution. All but the first are edge diffraction.
 enum class Mechanism : std::uint8_t {
-  kPhysicalOptics,  // surface current of the geometrical-optics field
-  kDiffraction,     // edge currents, multiple diffraction, boundary terms of beams, wall penumbrae
+  kPhysicalOptics,       // surface current of the geometrical-optics field
+  kSingleDiffraction,    // convex edge, transmitter - edge - receiver
+  kMultipleDiffraction,  // face-grazing waves between convex edges
+  kReflectedEdge,        // edge with reflectors on the incident or the exit path
+  kShadowBoundary,       // boundary terms of reflected beams
+  kWallPenumbra,         // wall in the penumbra of the edge of a face
+  kConcaveEdge,          // concave edge, and face-grazing waves that start, end or are diffracted at one
 };
+inline constexpr int kMechanisms = 7;
 
 struct ContributionSelector {
   enum class Kind : std::uint8_t { kPart, kBounces, kMechanism } kind = Kind::kPart;
   int value = 0;  // part index, number of bounces, or numerical value of the mechanism
+
+  bool operator==(const ContributionSelector&) const = default;
 };
 
 // Selects contributions; the default selects all. A contribution is selected when it matches, of every kind that occurs
@@ -31,7 +39,7 @@ struct ContributionFilter {
   bool accepts(int part, int bounces, Mechanism mechanism) const;
   // Of an edge between two parts the part of its first facet decides; at the rim of a cavity that of the part outside
   // it.
-  bool accepts_edge(int part, int other_part, int bounces) const;
+  bool accepts_edge(int part, int other_part, int bounces, Mechanism mechanism) const;
   // Whether the contribution of a cavity, as one bounce of physical optics on this part, is selected.
   bool accepts_cavity(int part) const;
 };

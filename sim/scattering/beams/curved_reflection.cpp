@@ -15,9 +15,9 @@ Vec2 projected(const CurvatureContext& on, const BeamSegment& segment, const Vec
   return {image.dot(on.transmit.h), image.dot(on.transmit.v)};
 }
 
-std::array<Vec2, 3> projected(const CurvatureContext& on, const BeamSegment& leg, int facet) {
+std::array<Vec2, 3> projected(const CurvatureContext& on, const BeamSegment& segment, int facet) {
   const auto& [a, b, c] = on.facets[facet].corner;
-  return {projected(on, leg, a), projected(on, leg, b), projected(on, leg, c)};
+  return {projected(on, segment, a), projected(on, segment, b), projected(on, segment, c)};
 }
 
 ParaxialBundle reflected_bundle(const CurvatureContext& on, const BeamSegment& segment,

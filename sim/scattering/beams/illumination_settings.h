@@ -3,7 +3,6 @@
 
 // Settings of one illumination: depth of the beams, edge diffraction, and the smallest patches kept.
 
-#include "sim/core/numbers/linear.h"
 #include "sim/scattering/beams/contribution_filter.h"
 #include "sim/scattering/target/scatterer.h"
 #include "sim/scenario/target_spec.h"
@@ -17,10 +16,6 @@ struct TracingSettings {
   int max_bounces = kDefaultBounces;  // 1 <= x <= kMaxBounces
   bool edges = false;                 // edge diffraction
   ContributionFilter filter = {};     // contributions that are summed; beams end at the walls of cavities only
-  // Radar range for the wavefront curvature, m; 0 = plane wave; else at least ten times the target's radius about the
-  // point from which range is counted.
-  double range_m = 0;
-  Vec3 origin = Vec3::Zero();  // position of the target frame's origin from that point, m
 };
 
 // Side of the smallest illuminated patch kept by default, m: 0.7e-4 of the radius, 5 mm on the 144 m ship.

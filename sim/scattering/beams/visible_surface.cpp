@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "sim/core/process/parallel.h"
+#include "sim/scattering/diffraction/tolerances.h"
 
 namespace seaglint {
 namespace {
@@ -26,7 +27,7 @@ double least_area(const Vec3& normal, const RadarBasis& basis, double min_area) 
 bool project_panel(ProjectedPanel& projection, const BvhPanel& panel, const ImageTransform& image_transform,
                    const RadarBasis& basis, double min_area) {
   const Vec3 n_image = image_transform.L * panel.normal;
-  if (std::abs(n_image.dot(basis.r)) < kEdgeOnPanel) return false;
+  if (std::abs(n_image.dot(basis.r)) < kInPlaneAngle) return false;
   projection.facet = panel.facet;
   projection.plane = depth_plane(n_image, panel.offset + n_image.dot(image_transform.t), basis);
   projection.polygon.clear();
@@ -174,13 +175,14 @@ void VisibleSurface::visible_after_reflections(int facet, const ImageTransform& 
                   transmit, visible);
 }
 
-void VisibleSurface::visible_via_reflector(int mirror, int facet, const ImageTransform& image_transform,
+void VisibleSurface::visible_via_reflector(int reflector, int facet, const ImageTransform& image_transform,
                                            std::span<const MovingPolygon> illuminated, const RadarBasis& transmit,
                                            std::vector<MovingPolygon>& visible) const {
-  const ImageTransform by = plane_reflection(facets_[mirror].normal, facets_[mirror].offset);
+  const ImageTransform by = plane_reflection(facets_[reflector].normal, facets_[reflector].offset);
   const Vec3 normal = by.L * facets_[facet].normal;
-  clip_to_visible(window(mirror), normal, depth_plane(normal, normal.dot(by.image(facets_[facet].corner[0])), basis_),
-                  image_transform, illuminated, transmit, visible);
+  clip_to_visible(window(reflector), normal,
+                  depth_plane(normal, normal.dot(by.image(facets_[facet].corner[0])), basis_), image_transform,
+                  illuminated, transmit, visible);
 }
 
 void VisibleSurface::clip_to_visible(const VisiblePieces& window, const Vec3& normal, const DepthPlane& own,

@@ -11,16 +11,11 @@
 
 #include "sim/scattering/beams/image_transform.h"
 #include "sim/scattering/beams/polygon_set.h"
+#include "sim/scattering/diffraction/tolerances.h"
 #include "sim/scattering/target/facets.h"
 #include "sim/scattering/target/panel_bvh.h"
 
 namespace seaglint {
-
-// Distance below which facets are coplanar: 1e-5 of a wavelength of 10 mm.
-inline constexpr double kCoincident = 1e-7;  // m
-
-// |normal . r^| below which a panel is edge-on and has no projection.
-inline constexpr double kEdgeOnPanel = 1e-7;
 
 // Panel in image space, projected along the unfolded ray.
 struct ProjectedPanel {
@@ -83,10 +78,10 @@ class VisibleSurface {
                                  std::span<const MovingPolygon> illuminated, const RadarBasis& transmit,
                                  std::vector<MovingPolygon>& visible) const;
 
-  // The same via a reflector: parts that the radar sees reflected in the panel with first facet `mirror`, in the plane
-  // of their image in it. image_transform = M R, first R, the reflection in that panel, then M, those of the beam.
-  // Occlusion between the two panels is neglected.
-  void visible_via_reflector(int mirror, int facet, const ImageTransform& image_transform,
+  // The same via a reflector: parts that the radar sees reflected in the panel with first facet `reflector`, in the
+  // plane of their image in it. image_transform = M R, first R, the reflection in that panel, then M, those of the
+  // beam. Occlusion between the two panels is neglected.
+  void visible_via_reflector(int reflector, int facet, const ImageTransform& image_transform,
                              std::span<const MovingPolygon> illuminated, const RadarBasis& transmit,
                              std::vector<MovingPolygon>& visible) const;
 

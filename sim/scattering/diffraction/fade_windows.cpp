@@ -3,16 +3,18 @@
 
 #include <cmath>
 
-#include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/smooth_step.h"
 
 namespace seaglint {
 
 double fringe_forward_taper(const Vec3& k_hat, const Vec3& s) {
-  return smooth_taper(k_hat.dot(s), {0, std::cos(kPi / 6)});
+  return smooth_taper(k_hat.dot(s), kFringeForwardWindow);
 }
 
-double diffraction_forward_taper(const Vec3& k_hat, const Vec3& s) { return diffraction_forward_taper(k_hat.dot(s)); }
-double diffraction_forward_taper(double cosine) { return smooth_taper(cosine, {0.95, 0.999}); }
+double diffraction_forward_taper(const Vec3& k_hat, const Vec3& s) {
+  return smooth_taper(k_hat.dot(s), kDiffractionForwardWindow);
+}
+
+double grazing_taper(const Vec3& s, const Vec3& n) { return smooth_taper(std::abs(n.dot(s)), kGrazingWindow); }
 
 }  // namespace seaglint

@@ -1,22 +1,100 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Tapers between two asymptotic forms about the forward direction of an incident wave, the incident shadow boundary of
-// an edge. k_hat: direction of the wave, s: direction of the diffracted ray, both unit; 1 where the term counts fully,
-// 0 where it is left out.
+// Windows over which two asymptotic forms of edge diffraction replace each other: full weight at or below the first
+// value, none at or above the second, smooth_taper() between. They are chosen, not derived. Meaning, unit and origin
+// stand here; README.md has what the references change by when a window is moved ("Fade windows").
+
+#include <array>
 
 #include "sim/core/numbers/linear.h"
 
 namespace seaglint {
 
-// Taper of fringe contributions on paths via reflectors, with s the direction before the first of them: 1 from 90 deg
-// off the forward direction on, 0 within 30 deg of it. Near the shadow boundary the field towards a reflector at finite
-// distance is no separate ray; the end-point contribution of the beam on that reflector contains it.
-double fringe_forward_taper(const Vec3& k_hat, const Vec3& s);
+using FadeWindow = std::array<double, 2>;
 
-// Taper of the edge's diffracted field, which is separable from the beam: 1 from 18 deg off the forward direction on, 0
-// within 2.6 deg of it. cosine: k_hat . s.
+// Fringe currents on paths via reflectors: cosine of the angle from the forward direction of the incident wave, 90 and
+// 30 deg. Nearer, the field towards a reflector at a finite distance is no separate ray: the end-point contribution of
+// the beam on that reflector contains it.
+inline constexpr FadeWindow kFringeForwardWindow{0, 0.8660254037844387};
+
+// Diffracted field of an edge, which is separable from the beam: the same cosine, 18 and 2.6 deg, beyond the angular
+// width of the transition region at distances of tens to thousands of wavelengths.
+inline constexpr FadeWindow kDiffractionForwardWindow{0.95, 0.999};
+
+// Grazing treatment of reflectors (path_weights.h), and the complement for the diffracted field of a
+// reflector's edge: sine of the grazing angle, 2 and 6 deg. The beam, the direct wave and the diffracted wave overlap
+// there.
+inline constexpr FadeWindow kGrazingWindow{0.035, 0.11};
+
+// Length of a reflector along the path relative to the height of the other one over it, from which on it contains the
+// image.
+inline constexpr FadeWindow kCoverageWindow{1, 2};
+
+// Diffracted field towards reflectors: component along the edge by which an exit direction departs from Keller's cone,
+// off which only the ends of the edge radiate.
+inline constexpr FadeWindow kOffConeWindow{0.1, 0.2};
+
+// Behind three reflectors: angle from the specular direction, rad. Below the first value the poles of both end-point
+// contributions must cancel, above the second each may be used alone.
+inline constexpr FadeWindow kOffSpecularWindow{0.1, 0.2};
+
+// The same as a fraction of the angle between the specular and the forward direction, at which the residual of another
+// face at grazing has its pole.
+inline constexpr FadeWindow kOffGrazingWindow{0.25, 0.5};
+
+// End-point contributions at shadow-boundary lines: slope of psi across the line. Below the first value the
+// contribution stays on the line, above the second it is moved to the edge. Both contributions grow as 1 / slope, and
+// an interval of pulses changes the slope by some thousandths. The phase difference k d slope^2 / 2 between the two is
+// neglected below.
+inline constexpr FadeWindow kSlopeWindow{0.03, 0.08};
+
+// Double knife-edge diffraction on the axis, for edges whose end-point contributions do not move: slope of psi; where
+// the phase k d slope^2 / 2 (next window) leaves any.
+inline constexpr FadeWindow kAxialSlopeWindow{0.1, 0.2};
+
+// Double knife-edge diffraction on the axis: k d slope^2 / 2, rad, the phase by which a moved end-point contribution
+// differs.
+inline constexpr FadeWindow kAxialPhaseWindow{0, 1};
+
+// Path from edge to edge against the beam: rad, limit of the paraxial Fresnel form.
+inline constexpr FadeWindow kParaxialWindow{0.2, 0.5};
+
+// Sine of the angle between two edges, which near their crossing affect no more than lambda d.
+inline constexpr FadeWindow kSkewWindow{0.3, 0.7};
+
+// Boundary and penumbra terms: 2 d / (k depth^2), 1 where the panel is as deep as the transition region (2 d / k)^(1/2)
+// is wide.
+inline constexpr FadeWindow kFresnelDepthWindow{1, 2.5};
+
+// Wall penumbra: sine of the grazing angle over the face, 37 and 64 deg.
+inline constexpr FadeWindow kPenumbraAngleWindow{0.6, 0.9};
+
+// Wall penumbra: cosine between the propagation direction on the face and the wall's normal, below which the wave runs
+// along the wall. Taper of what is omitted.
+inline constexpr FadeWindow kAlongWallWindow{0.1, 0.3};
+
+// Wall penumbra: height of the image's shadow-boundary line on the wall relative to the wall, above which the edge's
+// image in the wall is not visible.
+inline constexpr FadeWindow kWallTopWindow{0.6, 1};
+
+// Angle from a shadow or reflection boundary within which equivalent edge currents are fringe currents, rad; a sharp
+// limit, for paths without reflectors and for the diffracted field towards reflectors, whose growth near the shadow
+// boundary diffraction_forward_taper() removes.
+inline constexpr double kShadowBoundaryGuard = 0.26, kReflectedBoundaryGuard = 0.04;
+
+// Smooth-surface shadow boundary: the current is tapered as t^3 (10 - 15 t + 6 t^2), t = sin(elevation over the
+// surface) / (kTransitionZoneWidth (kappa / k)^(1/3)), 0..1. (kappa / k)^(1/3) is the width of Fock's transition region
+// (V. A. Fock, J. Phys. USSR 10, 1946, 130-136). Half of that width separates the taper from the specular zone down to
+// kR = 15; values of 0.3 to 2 give equal results above kR = 40.
+inline constexpr double kTransitionZoneWidth = 0.5;
+
+// Tapers about the forward direction. k_hat: direction of the incident wave, s: of the diffracted ray, both unit.
+double fringe_forward_taper(const Vec3& k_hat, const Vec3& s);
 double diffraction_forward_taper(const Vec3& k_hat, const Vec3& s);
-double diffraction_forward_taper(double cosine);
+
+// Weight of the grazing treatment: 1 at grazing incidence, 0 away from it, for a direction s over a surface with normal
+// n, both unit.
+double grazing_taper(const Vec3& s, const Vec3& n);
 
 }  // namespace seaglint

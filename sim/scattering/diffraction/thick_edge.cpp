@@ -19,8 +19,8 @@ struct EdgeAngle {
   double sin_b = 1;  // > 0
 };
 
-EdgeAngle about(const WedgeFrame& rim, const Vec3& towards) {
-  const WedgeFace& face = rim.face[0];
+EdgeAngle about(const WedgeFrame& wedge, const Vec3& towards) {
+  const WedgeFace& face = wedge.face[0];
   const double out = -towards.dot(face.x), up = towards.dot(face.n);
   constexpr double kMinSine = 1e-6;
   return {std::atan2(up, out), std::max(std::hypot(out, up), kMinSine)};
@@ -59,15 +59,15 @@ ThicknessTerms thickness_terms(double phi, double phi0) {
 
 }  // namespace
 
-std::array<FirstOrderThickness<CVec3>, 2> thick_edge_currents(const WedgeFrame& rim, const Vec3& k_hat,
+std::array<FirstOrderThickness<CVec3>, 2> thick_edge_currents(const WedgeFrame& wedge, const Vec3& k_hat,
                                                               const std::array<Vec3, 2>& fields, const Vec3& s) {
-  const EdgeAngle in = about(rim, -k_hat), out = about(rim, s);
+  const EdgeAngle in = about(wedge, -k_hat), out = about(wedge, s);
   const ThicknessTerms terms = thickness_terms(out.phi, in.phi);
   // Off Keller's cone: geometric mean of both waves' sines, which is reciprocal.
   const double sin_b = std::sqrt(in.sin_b * out.sin_b);
   const FirstOrderThickness<Complex> end = end_logarithm(sin_b);
   const Complex soft = terms.soft + terms.soft_log * end.constant, hard = terms.hard + terms.hard_log * end.constant;
-  const Vec3& t = rim.face[0].t;
+  const Vec3& t = wedge.face[0].t;
   const Vec3 e_hard = t.cross(s);
   std::array<FirstOrderThickness<CVec3>, 2> currents;
   for (int i = 0; i < 2; ++i) {
@@ -82,8 +82,8 @@ std::array<FirstOrderThickness<CVec3>, 2> thick_edge_currents(const WedgeFrame& 
   return currents;
 }
 
-FirstOrderThickness<Complex> thick_edge_wave_change(const WedgeFrame& rim, const Vec3& towards) {
-  const auto [phi, sin_b] = about(rim, towards);
+FirstOrderThickness<Complex> thick_edge_wave_change(const WedgeFrame& wedge, const Vec3& towards) {
+  const auto [phi, sin_b] = about(wedge, towards);
   const double C = std::cos(phi / 2), S = std::sin(std::abs(phi) / 2);
   const FirstOrderThickness<Complex> end = end_logarithm(sin_b);
   const Complex all = -j * sin_b * S;

@@ -44,15 +44,15 @@ struct FirstOrderThickness {
 };
 
 // Change by the thickness of the edge's equivalent_edge_currents(), in the same units: p . current adds to S per metre
-// of edge, for received polarisation p (unit) in direction s (unit). rim: a WedgeFrame with N = 2; k_hat: direction of
-// incidence, unit; fields: two incident electric fields. Reciprocal; finite everywhere.
-std::array<FirstOrderThickness<CVec3>, 2> thick_edge_currents(const WedgeFrame& rim, const Vec3& k_hat,
+// of edge, for received polarisation p (unit) in direction s (unit). wedge: a WedgeFrame with N = 2; k_hat: direction
+// of incidence, unit; fields: two incident electric fields. Reciprocal; finite everywhere.
+std::array<FirstOrderThickness<CVec3>, 2> thick_edge_currents(const WedgeFrame& wedge, const Vec3& k_hat,
                                                               const std::array<Vec3, 2>& fields, const Vec3& s);
 
 // Relative change by the thickness of a hard wave between the direction `towards` (source or receiver, unit) and a
 // direction along the sheet, -j kappa t S_0 [ S_0 (1 - gamma - ln(kappa t / 2 pi) - j pi / 2) / pi + C_0 (1 - phi_0 /
 // pi) ]: once for every free edge at which the wave is launched, received or diffracted again; phi_0 = pi for a wave
 // along the sheet. The mean of both faces.
-FirstOrderThickness<Complex> thick_edge_wave_change(const WedgeFrame& rim, const Vec3& towards);
+FirstOrderThickness<Complex> thick_edge_wave_change(const WedgeFrame& wedge, const Vec3& towards);
 
 }  // namespace seaglint

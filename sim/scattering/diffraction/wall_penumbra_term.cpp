@@ -21,13 +21,14 @@ constexpr double kTurn = 1e-3;
 
 }  // namespace
 
-Complex WallPenumbraTerm::at_sine(double s, double k, double share, double run) const {
-  const double way = std::max(l[0] + share * (l[1] - l[0]), kMinLength), more = l[1] - l[0], c = std::sqrt(1 - s * s);
-  // A term whose phase is that of the foot less k falls l, and so has its own run.
-  const auto with_phase = [&](double falls, const auto& amplitude) {
-    const double lower = k * (falls - psi_decrement), own = run - lower * more;
+Complex WallPenumbraTerm::at_sine(double s, double k, double fraction, double run) const {
+  const double length = std::max(l[0] + fraction * (l[1] - l[0]), kMinLength), growth = l[1] - l[0],
+               c = std::sqrt(1 - s * s);
+  // A term whose phase is that of the foot less k decrement l, and so has its own run.
+  const auto with_phase = [&](double decrement, const auto& amplitude) {
+    const double lower = k * (decrement - psi_decrement), own = run - lower * growth;
     const double kept = std::abs(own) < kMinRun ? std::copysign(kMinRun, own) : own;
-    return run / kept * amplitude(kept) * std::polar(1.0, -lower * way);
+    return run / kept * amplitude(kept) * std::polar(1.0, -lower * length);
   };
   Complex sum = 0;
   const double at_end = 1 / (4 * kPi * std::abs(s));
@@ -35,25 +36,25 @@ Complex WallPenumbraTerm::at_sine(double s, double k, double share, double run) 
   if (shadow_line_weight != 0) sum += with_phase(2 * s * s / c, [&](double) { return shadow_line_weight * at_end; });
   if (edge_path_weight > 0) {
     sum -= with_phase(2 * (1 - c), [&](double own) {
-      const double x = k * way * s * s, z = -std::clamp(own * way / more, -kFar, kFar);
+      const double x = k * length * s * s, z = -std::clamp(own * length / growth, -kFar, kFar);
       const Complex hard = triple_transition_function(x, x, z);
-      return edge_path_weight / (2 * kPi * s * s * std::sqrt(kPi * k * way)) * std::polar(1.0, -kPi / 4) *
+      return edge_path_weight / (2 * kPi * s * s * std::sqrt(kPi * k * length)) * std::polar(1.0, -kPi / 4) *
              (soft ? double_transition_function(x, z) - hard : hard);
     });
   }
   return sum;
 }
 
-Complex WallPenumbraTerm::at(double k, double share, double run) const {
-  if (part == Part::kComplete) return at_sine(sine, k, share, run);
+Complex WallPenumbraTerm::at(double k, double fraction, double run) const {
+  if (part == Part::kComplete) return at_sine(sine, k, fraction, run);
   const double side = std::copysign(1.0, sine), near = std::abs(sine);
   const double min = std::max(near - kTurn, kMinSine), max = near + kTurn;
   const Complex change =
-      (at_sine(side * max, k, share, run) - at_sine(side * min, k, share, run)) / (side * (max - min));
+      (at_sine(side * max, k, fraction, run) - at_sine(side * min, k, fraction, run)) / (side * (max - min));
   const Complex of_change = change / Complex(0, k * derivative_scale_m);
   if (part == Part::kDerivative) return of_change;
   const double here = std::max(near, kMinSine);
-  return at_sine(side * here, k, share, run) + side * (near - here) * change - of_change;
+  return at_sine(side * here, k, fraction, run) + side * (near - here) * change - of_change;
 }
 
 }  // namespace seaglint

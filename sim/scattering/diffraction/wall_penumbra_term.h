@@ -29,13 +29,13 @@ struct WallPenumbraTerm {
   enum class Part { kComplete, kValue, kDerivative } part = Part::kComplete;
   double derivative_scale_m = 0;  // g, m
 
-  // Amplitude at the fraction `share` of the interval: times length / (j run) it is the end-point contribution there to
-  // the integral of e^{jk psi} over the interval, run (rad, not zero) being the change of k psi over it. k: wavenumber,
-  // rad/m.
-  Complex at(double k, double share, double run) const;
+  // Amplitude at the fraction `fraction` of the interval: times length / (j run) it is the end-point contribution there
+  // to the integral of e^{jk psi} over the interval, run (rad, not zero) being the change of k psi over it. k:
+  // wavenumber, rad/m.
+  Complex at(double k, double fraction, double run) const;
 
  private:
-  Complex at_sine(double s, double k, double share, double run) const;
+  Complex at_sine(double s, double k, double fraction, double run) const;
 };
 
 }  // namespace seaglint

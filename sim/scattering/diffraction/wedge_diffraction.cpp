@@ -7,15 +7,12 @@
 #include <span>
 
 #include "sim/core/numbers/constants.h"
+#include "sim/scattering/diffraction/tolerances.h"
 
 namespace seaglint {
 namespace {
 
 constexpr Complex j(0, 1);
-
-// For a wave incident in the plane of a face the grazing wave is infinite and its transition function zero; their
-// product has a limit. Both are evaluated at this angle off the plane, rad.
-constexpr double kMinBoundaryAngle = 1e-7;
 
 // sum: half of G(a - phi) + G(a + phi), over sin a; difference: half of G(a - phi) - G(a + phi); G(y) = cot(y / 2N) / N
 // less cot(y / 2) for every wave of physical optics.
@@ -110,10 +107,9 @@ void add_face_current(const WedgeFace& face, double N, double phi, bool only_vis
   const double mu = (sin_b * s.dot(face.x) + cos_b * (s.dot(face.t) - cos_b)) / (sin_b * sin_b);
   // cos a = -mu; mu <= 1 for real directions, and a is imaginary for mu < -1. The singularities at a = 0 and pi are
   // removable, at pi only in the component of the current normal to s: a is kept off both.
-  constexpr double kAside = 1e-7;
   const bool real = mu >= -1;
-  const double a = real ? std::clamp(std::acos(std::clamp(-mu, -1.0, 1.0)), kAside, kPi - kAside)
-                        : std::max(std::acosh(-mu), kAside);
+  const double a = real ? std::clamp(std::acos(std::clamp(-mu, -1.0, 1.0)), kInPlaneAngle, kPi - kInPlaneAngle)
+                        : std::max(std::acosh(-mu), kInPlaneAngle);
   const bool in_shadow_boundary = (real ? std::abs(a - phi) : std::hypot(a, phi)) < shadow;
   const FaceIncidenceAngles optics = !only_visible || in_shadow_boundary || s.dot(face.n) > kEdgeOn
                                          ? FaceIncidenceAngles(phi, N)
@@ -174,7 +170,9 @@ GrazingDiffractedWave grazing_diffracted_wave(const WedgeFrame& wedge, int face,
   if (phi > N * kPi) return wave;
   // Of the waves incident on the face, for N < 1 via both faces, the one nearest to grazing has the pole.
   const double image = N < 1 ? image_angle_nearest_grazing(phi, N) : phi;
-  const double off = std::copysign(std::max(std::abs(kPi - image), kMinBoundaryAngle), kPi - image);
+  // In the plane of a face the grazing wave is infinite and its transition function zero; their product has a limit:
+  // both are evaluated kInPlaneAngle off the plane.
+  const double off = std::copysign(std::max(std::abs(kPi - image), kInPlaneAngle), kPi - image);
   phi = kPi - off;
   wave.launch_parameter = std::pow(sin_b * std::sin(off / 2), 2);
   const Complex D = std::polar(1.0, -kPi / 4) * std::sin(kPi / N) / (N * std::sqrt(2 * kPi) * sin_b) * 2.0 /
@@ -185,7 +183,7 @@ GrazingDiffractedWave grazing_diffracted_wave(const WedgeFrame& wedge, int face,
 }
 
 double transition_parameter(const Vec3& along_face, const Vec3& other) {
-  return 0.25 * std::max((along_face - other).squaredNorm(), kMinBoundaryAngle * kMinBoundaryAngle);
+  return 0.25 * std::max((along_face - other).squaredNorm(), kInPlaneAngle * kInPlaneAngle);
 }
 
 }  // namespace seaglint

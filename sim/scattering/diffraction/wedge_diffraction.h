@@ -13,6 +13,7 @@
 #include <array>
 
 #include "sim/core/numbers/linear.h"
+#include "sim/scattering/diffraction/fade_windows.h"
 #include "sim/scattering/diffraction/wedge.h"
 
 namespace seaglint {
@@ -23,9 +24,6 @@ namespace seaglint {
 // exit. Zero for a wave from inside the conductor. For N < 1 physical optics comprises all reflections between the
 // faces; for N = 1/2, 1/3, ... these are exact and the result is zero.
 Vec3 fringe_current(const WedgeFrame& wedge, const Vec3& k_hat, const Vec3& E, const Vec3& s);
-
-// Default distance of a grazing diffracted ray from a shadow or reflection boundary, rad.
-inline constexpr double kShadowBoundaryGuard = 0.26;
 
 // Equivalent edge currents for two fields: as fringe_current(), but physical optics is subtracted only on faces that
 // are both illuminated and visible from s, since a face radiates only into its own half-space. Faces plus edge then

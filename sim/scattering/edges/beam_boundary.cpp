@@ -8,16 +8,13 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/smooth_step.h"
+#include "sim/scattering/diffraction/fade_windows.h"
+#include "sim/scattering/diffraction/tolerances.h"
 
 namespace seaglint {
 namespace {
 
 constexpr double kMinLength = 1e-4;  // m
-// Tapers, 1 below the first value and 0 above the second: slope of psi across edges whose end-point contributions do
-// not move, where DoubleKnifeEdge::axial_taper leaves any; angle between the path from edge to edge and the beam, rad,
-// for the paraxial Fresnel form; sine of the angle between the edges, which near their crossing affect no more than
-// lambda d.
-constexpr std::array<double, 2> kAxialSlopeTaper{0.1, 0.2}, kParaxialTaper{0.2, 0.5}, kSkewTaper{0.3, 0.7};
 
 // The common interval of two edges along a polygon side that the inner one bounds.
 class EdgePair {
@@ -49,8 +46,8 @@ class EdgePair {
   };
   EdgePoints at(std::size_t end) const {
     const auto& [t, moves] = end_[end];
-    const double share = (t - side_.t(outer_.a)) / (side_.t(outer_.b) - side_.t(outer_.a));
-    const Vec2 on_side = side_.from.p + t * side_.along, on_outer = outer_.a + share * (outer_.b - outer_.a);
+    const double fraction = (t - side_.t(outer_.a)) / (side_.t(outer_.b) - side_.t(outer_.a));
+    const Vec2 on_side = side_.from.p + t * side_.along, on_outer = outer_.a + fraction * (outer_.b - outer_.a);
     const Vec2 &first = outer_is_first_ ? on_outer : on_side, &second = outer_is_first_ ? on_side : on_outer;
     return {first, second, -side_.x(on_outer), first_.plane->at(first) - second_.plane->at(second), moves};
   }
@@ -92,8 +89,8 @@ class SideBoundaryTerms {
   // Subtracts the end-point contribution at the shadow-boundary line of an edge on this side, and adds it at the edge
   // unless the path from there is obstructed.
   void move_endpoint_to_edge(const BeamEdge& edge, bool hidden) {
-    const auto [share, seen] = paths_.edge_weight(edge, slope_);
-    if (share <= 0) return;
+    const auto [weight, visible] = paths_.edge_weight(edge, slope_);
+    if (weight <= 0) return;
     const double a = side_.t(edge.a), b = side_.t(edge.b), length = side_.length;
     const std::array<double, 2> t{std::max(0.0, std::min(a, b)), std::min(length, std::max(a, b))};
     if (t[1] - t[0] < kMinLength) return;
@@ -101,7 +98,7 @@ class SideBoundaryTerms {
     const DepthPlane& plane = *panels_on_path_[edge.panel_index].plane;
     const Vec2 middle = side_.from.p + 0.5 * (t[0] + t[1]) * side_.along;
     set_fresnel_limit(plane.at(middle) - footprint_.plane.at(middle), edge.depth, on_line);
-    set_pattern(share, edge, on_line);
+    set_pattern(weight, edge, on_line);
     std::array<Vec2, 2> places, moves;
     for (std::size_t end = 0; end < 2; ++end) {
       const double s = t[end] / length;
@@ -114,7 +111,7 @@ class SideBoundaryTerms {
       moves[end] = {side_.along.dot(vertex.d1), side_.along.dot(vertex.d2)};
     }
     out_.push_back(on_line);
-    if (seen && !hidden) add_at_edge(edge, places, moves, share, on_line);
+    if (visible && !hidden) add_at_edge(edge, places, moves, weight, on_line);
   }
 
   // Adds the coupling of two edges, of which `inner` bounds this side. True when the outer edge obstructs the path over
@@ -124,7 +121,7 @@ class SideBoundaryTerms {
         side_.x(outer.interior_point) <= 0.5 * (side_.x(outer.a) + side_.x(outer.b)))
       return false;
     const Vec2 run = (outer.b - outer.a).normalized();
-    const double askew = smooth_taper(std::abs(side_.across.dot(run)), kSkewTaper),
+    const double askew = smooth_taper(std::abs(side_.across.dot(run)), kSkewWindow),
                  parallel = std::abs(side_.along.dot(run));
     if (askew <= 0) return false;
     if (side_.lies_on(outer) && outer.panel_index < inner.panel_index) return false;  // found as (outer, inner)
@@ -135,24 +132,24 @@ class SideBoundaryTerms {
                    &second = inner.panel_index < outer.panel_index ? outer : inner;
     const double turned = &first == &outer ? parallel : 1.0;
     const std::array<EdgePair::EdgePoints, 2> ends{both.at(0), both.at(1)};
-    const double way = ends[0].distance + ends[1].distance;
-    if (way < kMinLength) return false;
+    const double distance_sum = ends[0].distance + ends[1].distance;
+    if (distance_sum < kMinLength) return false;
     // Edges of neighbouring panels meet.
     for (const EdgePair::EdgePoints& end : ends) {
-      if (end.apart < -kOnEdgeTolerance || end.distance < -kOnEdgeTolerance) return false;
+      if (end.apart < -kCoincident || end.distance < -kCoincident) return false;
     }
 
     EdgeContribution lacking = new_term(turned * both.length());
-    EdgeContribution::DoubleKnifeEdge knives;
+    DoubleKnifeEdge knives;
     knives.psi_slope = slope_;
-    set_fresnel_limit(0.5 * way, first.depth, lacking);
+    set_fresnel_limit(0.5 * distance_sum, first.depth, lacking);
     knives.second_in_shadow = &first == &inner;
     // Between edges of two reflectors the last panel does not determine which of them obstructs the path.
-    const DiffractedPaths::EdgeWeight share = second.panel_index + 1 == panels_on_path_.size()
+    const DiffractedPaths::EdgeWeight moved = second.panel_index + 1 == panels_on_path_.size()
                                                   ? paths_.edge_weight(first, slope_)
                                                   : DiffractedPaths::EdgeWeight{};
-    knives.off_axis_weight = share.weight;
-    knives.axial_weight = (1 - share.weight) * smooth_taper(std::abs(slope_), kAxialSlopeTaper);
+    knives.off_axis_weight = moved.weight;
+    knives.axial_weight = (1 - moved.weight) * smooth_taper(std::abs(slope_), kAxialSlopeWindow);
     const Vec2 exit_direction = paths_.exit_in_plane(side_.across);
     std::array<double, 2> within{};  // distance from the second edge to the landing point of the first one's path, m
     for (std::size_t end = 0; end < 2; ++end) {
@@ -175,16 +172,17 @@ class SideBoundaryTerms {
     const double landed = within[0] + within[1];
     for (std::size_t end = 0; end < 2; ++end)
       knives.exit_excess[end] =
-          std::copysign(knives.exit_excess[end], std::abs(within[end]) < kOnEdgeTolerance ? landed : within[end]);
-    if (!knives.second_in_shadow && share.face_visible && landed > 0)
-      add_at_edge(first, {ends[0].first, ends[1].first}, {ends[0].moves, ends[1].moves}, askew * share.weight, lacking);
-    const double weight = askew * smooth_taper(turned * (ends[0].apart + ends[1].apart) / way, kParaxialTaper);
+          std::copysign(knives.exit_excess[end], std::abs(within[end]) < kCoincident ? landed : within[end]);
+    if (!knives.second_in_shadow && moved.face_visible && landed > 0)
+      add_at_edge(first, {ends[0].first, ends[1].first}, {ends[0].moves, ends[1].moves}, askew * moved.weight, lacking);
+    const double weight =
+        askew * smooth_taper(turned * (ends[0].apart + ends[1].apart) / distance_sum, kParaxialWindow);
     if (weight > 0 && knives.off_axis_weight + knives.axial_weight > 0) {
       for (int i = 0; i < 4; ++i) lacking.pattern.thin[i] = Complex(0, weight / (2 * kPi)) * footprint_.pattern[i];
-      lacking.double_knife_edge = knives;
+      lacking.amplitude = knives;
       out_.push_back(lacking);
     }
-    return knives.second_in_shadow && share.weight > 0 && landed < 0;
+    return knives.second_in_shadow && moved.weight > 0 && landed < 0;
   }
 
  private:
@@ -194,6 +192,7 @@ class SideBoundaryTerms {
     end.facet = footprint_.facet;
     end.part = end.other_part = footprint_.part;
     end.bounces = footprint_.bounces;
+    end.mechanism = Mechanism::kShadowBoundary;
     return end;
   }
 
@@ -202,15 +201,15 @@ class SideBoundaryTerms {
     end.fresnel_wavenumber = 2 * distance / (depth * depth);
   }
 
-  // PO end-point contribution along this side, with the sign that subtracts `share` of it: by the divergence theorem
+  // PO end-point contribution along this side, with the sign that subtracts `weight` of it: by the divergence theorem
   // with F = e e^{jk w.p} / (jk w.e), e the inward direction on the edge's face. Every point of the edge then has the
   // end-point contribution of the strip that it bounds, as in endpoint_correction(), and the phase may vary along the
   // side. Gordon's e = w (phase_integral) would include end-point contributions of other sides.
-  void set_pattern(double share, const BeamEdge& edge, EdgeContribution& end) const {
+  void set_pattern(double weight, const BeamEdge& edge, EdgeContribution& end) const {
     const Vec2& e = edge.inward;
     const double across = e.x() * side_.along.y() - e.y() * side_.along.x(), slope = footprint_.w.dot(e) / across;
-    if (!(std::abs(slope) > kSlopeTaper[0])) return;  // infinite or, for a face observed along its edge, undefined
-    const double factor = share * (1 - smooth_taper(std::abs(slope), kSlopeTaper)) / (2 * kPi * slope);
+    if (!(std::abs(slope) > kSlopeWindow[0])) return;  // infinite or, for a face observed along its edge, undefined
+    const double factor = weight * (1 - smooth_taper(std::abs(slope), kSlopeWindow)) / (2 * kPi * slope);
     for (int i = 0; i < 4; ++i) end.pattern.thin[i] = factor * footprint_.pattern[i];
   }
 
@@ -220,21 +219,21 @@ class SideBoundaryTerms {
   // Adds the end-point contribution at the edge of a reflector; `moves`: rates of its points along the side. Length and
   // fresnel_wavenumber are those of `other`.
   void add_at_edge(const BeamEdge& edge, const std::array<Vec2, 2>& places, const std::array<Vec2, 2>& moves,
-                   double share, const EdgeContribution& other) {
-    if (share <= 0) return;
+                   double weight, const EdgeContribution& other) {
+    if (weight <= 0) return;
     EdgeContribution on_edge = new_term(other.length);
     on_edge.fresnel_wavenumber = other.fresnel_wavenumber;
-    set_pattern(-share, edge, on_edge);
-    std::array<DiffractedPaths::DiffractedPath, 2> way{paths_.diffracted_path(edge.panel_index, places[0]),
-                                                       paths_.diffracted_path(edge.panel_index, places[1])};
-    const double run = (way[1].psi - way[0].psi) / on_edge.length;
+    set_pattern(-weight, edge, on_edge);
+    std::array<DiffractedPaths::DiffractedPath, 2> path{paths_.diffracted_path(edge.panel_index, places[0]),
+                                                        paths_.diffracted_path(edge.panel_index, places[1])};
+    const double run = (path[1].psi - path[0].psi) / on_edge.length;
     for (std::size_t end = 0; end < 2; ++end) {
       const Vec2 slide = run * slide_along_side(moves[end], panels_on_path_[edge.panel_index].plane->at(places[end]));
       PathGradient& gradient = on_edge.gradient[end];
-      on_edge.psi[end] = way[end].psi;
+      on_edge.psi[end] = path[end].psi;
       gradient.transmit_slide = slide.x() * transmit_.h + slide.y() * transmit_.v;
-      gradient.transmit = way[end].transmit + gradient.transmit_slide;
-      gradient.receive = way[end].receive;
+      gradient.transmit = path[end].transmit + gradient.transmit_slide;
+      gradient.receive = path[end].receive;
     }
     out_.push_back(on_edge);
   }
@@ -285,8 +284,8 @@ double boundary_term_bound(const EdgeContribution& contribution, double lowest, 
   for (const Complex& element : contribution.pattern.thin) pattern = std::max(pattern, std::abs(element));
   // With a varying phase an interval radiates from its ends.
   const double run = lowest * std::abs(contribution.psi[1] - contribution.psi[0]);
-  return pattern * contribution.length * std::min(1.0, 2 / run) *
-         (contribution.double_knife_edge ? contribution.double_knife_edge->upper_bound(lowest) : 1.0) *
+  const auto* knives = std::get_if<DoubleKnifeEdge>(&contribution.amplitude);  // else uniform
+  return pattern * contribution.length * std::min(1.0, 2 / run) * (knives ? knives->upper_bound(lowest) : 1.0) *
          contribution.fresnel_taper(highest);
 }
 

@@ -6,7 +6,9 @@
 #include <cmath>
 
 #include "sim/core/numbers/smooth_step.h"
-#include "sim/scattering/edges/reflected_edge.h"
+#include "sim/scattering/diffraction/fade_windows.h"
+#include "sim/scattering/diffraction/path_weights.h"
+#include "sim/scattering/diffraction/tolerances.h"
 
 namespace seaglint {
 namespace {
@@ -41,8 +43,8 @@ std::vector<Vec2> projected_outline(const Panels& panels, const RadarBasis& tran
 
 std::vector<BeamEdge> beam_edges(const SharpEdges& edges, const Panels& panels, const RadarBasis& transmit,
                                  std::span<const PathPanel> panels_on_path) {
-  std::vector<BeamEdge> rims;
-  rims.reserve(4 * panels_on_path.size());
+  std::vector<BeamEdge> found;
+  found.reserve(4 * panels_on_path.size());
   for (std::size_t i = 0; i < panels_on_path.size(); ++i) {
     const PathPanel& panel = panels_on_path[i];
     const ProjectionMap into(transmit, *panel.image_transform);
@@ -60,10 +62,10 @@ std::vector<BeamEdge> beam_edges(const SharpEdges& edges, const Panels& panels, 
         middle += p / static_cast<double>(outline.size());
         depth = std::max(depth, std::abs(along.x() * (p - a).y() - along.y() * (p - a).x()));
       }
-      if (depth > kShallow) rims.push_back({i, a, b, middle, into(edge.a + n.cross(edge.along())) - a, depth});
+      if (depth > kShallow) found.push_back({i, a, b, middle, into(edge.a + n.cross(edge.along())) - a, depth});
     }
   }
-  return rims;
+  return found;
 }
 
 SideFrame::SideFrame(const MovingVertex& start, const MovingVertex& end)
@@ -74,8 +76,7 @@ SideFrame::SideFrame(const MovingVertex& start, const MovingVertex& end)
       across(-along.y(), along.x()) {}
 
 bool SideFrame::lies_on(const BeamEdge& edge) const {
-  return std::abs(x(edge.a)) <= kOnEdgeTolerance && std::abs(x(edge.b)) <= kOnEdgeTolerance &&
-         x(edge.interior_point) > 0;
+  return std::abs(x(edge.a)) <= kCoincident && std::abs(x(edge.b)) <= kCoincident && x(edge.interior_point) > 0;
 }
 
 DiffractedPaths::DiffractedPaths(const BistaticGeometry& geometry, std::span<const PathPanel> panels_on_path,
@@ -104,19 +105,19 @@ Vec2 DiffractedPaths::exit_in_plane(const Vec2& direction) const {
 }
 
 DiffractedPaths::EdgeWeight DiffractedPaths::edge_weight(const BeamEdge& edge, double slope) const {
-  const PathPanel& mirror = panels_on_path_[edge.panel_index];
+  const PathPanel& reflector = panels_on_path_[edge.panel_index];
   // In real space at the edge: exit direction, normals of its face and of the last panel, and the direction of the
   // edge.
-  const Mat3 real = mirror.image_transform->L.transpose();
+  const Mat3 real = reflector.image_transform->L.transpose();
   const Vec3 s = real * before_, last = real * normal_;
-  Vec3 n = real * normal_of(*mirror.plane, basis_);
-  if (n.dot(mirror.direction) > 0) n = -n;
+  Vec3 n = real * normal_of(*reflector.plane, basis_);
+  if (n.dot(reflector.direction) > 0) n = -n;
   const Vec2 run = (edge.b - edge.a).normalized();
   const Vec3 along =
-      real * (run.x() * basis_.h + run.y() * basis_.v + mirror.plane->slope.dot(run) * basis_.r).normalized();
-  const double moved = reflected_edge_weight(n, along, mirror.direction, s, last) *
-                       beam_incidence_taper(reflect_direction(mirror.direction, n), s, last) *
-                       (1 - smooth_taper(std::abs(slope), kSlopeTaper));
+      real * (run.x() * basis_.h + run.y() * basis_.v + reflector.plane->slope.dot(run) * basis_.r).normalized();
+  const double moved = reflected_edge_weight(n, along, reflector.direction, s, last) *
+                       beam_incidence_taper(reflect_direction(reflector.direction, n), s, last) *
+                       (1 - smooth_taper(std::abs(slope), kSlopeWindow));
   return {moved, n.dot(s) > 0};
 }
 

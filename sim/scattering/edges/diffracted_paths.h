@@ -24,14 +24,6 @@ struct PathPanel {
   Vec3 direction = Vec3::Zero();  // of the incident wave, unit
 };
 
-// Distance within which a point counts as on an edge, as for illuminated polygons in single_diffraction.cpp.
-inline constexpr double kOnEdgeTolerance = 1e-7;  // m
-
-// Slopes of psi across a shadow-boundary line: below the first the end-point contribution stays on the line, above the
-// second it is fully moved to the edge. Both contributions grow as 1 / slope, and an interval changes the slope by some
-// thousandths. The phase difference k d slope^2 / 2 between the two is neglected below.
-inline constexpr std::array<double, 2> kSlopeTaper{0.03, 0.08};
-
 // A bounding edge in image space, projected on the projection plane.
 struct BeamEdge {
   std::size_t panel_index;

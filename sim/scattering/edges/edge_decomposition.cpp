@@ -12,7 +12,7 @@ void decompose(const EdgeContribution& contribution, const DecompositionSettings
   c.facet = contribution.facet;
   c.part = contribution.part;
   c.bounces = contribution.bounces;
-  c.mechanism = Mechanism::kDiffraction;
+  c.mechanism = contribution.mechanism;
   const std::array<Complex, 4> pattern = contribution.pattern.at(settings.kc);
   for (int i = 0; i < 4; ++i) c.pattern[i] = std::complex<float>(pattern[i]);
   const double k = settings.kc, run = contribution.psi[1] - contribution.psi[0];

@@ -12,22 +12,19 @@ namespace {
 constexpr double kMinRunForMultiple = 42, kMinRunForHighOrder = 280;
 
 // Multiple diffraction that starts at an edge, and paths that end at it where it is concave. For one antenna it is the
-// mean of a path and its reciprocal, as single diffraction is: off Keller's cone the two differ. For two antennas it is
-// that of the transmitter's wave, as PO and single diffraction are: near grazing all three are large, and only terms of
-// the same wave cancel.
+// mean of a path and its reciprocal, as single diffraction is. For two antennas it is that of the transmitter's wave:
+// near grazing physical optics, single and multiple diffraction are all large, and only terms of the same wave cancel.
 void append_multiple_diffraction(const Scatterer& scatterer, const BistaticGeometry& geometry, int edge,
                                  const IlluminationByEdge& incoming, const IlluminationByEdge& outgoing,
-                                 const MultipleDiffractionLimits& limits, std::vector<EdgeContribution>& answer) {
-  const std::size_t first = answer.size();
+                                 const MultipleDiffractionLimits& limits,
+                                 std::vector<EdgeContribution>& contributions) {
+  const std::size_t first = contributions.size();
   trace_multiple_diffraction(scatterer.edges(), scatterer.facets(), scatterer.panels(), geometry, incoming.of(edge),
-                             outgoing, limits, answer);
+                             outgoing, limits, contributions);
   trace_diffraction_to_concave_edges(scatterer.edges(), scatterer.facets(), scatterer.panels(), geometry, incoming,
-                                     outgoing.of(edge), limits, answer);
+                                     outgoing.of(edge), limits, contributions);
   if (!geometry.monostatic) return;
-  for (EdgeContribution& f : std::span(answer).subspan(first)) {
-    f.pattern += transposed(f.pattern);
-    f.pattern *= 0.5;
-  }
+  for (EdgeContribution& c : std::span(contributions).subspan(first)) c.pattern = reciprocal_mean(c.pattern, c.pattern);
 }
 
 }  // namespace
@@ -52,16 +49,16 @@ void edge_diffraction(const Scatterer& scatterer, const BistaticGeometry& geomet
                                : static_cast<int>(edges.size());
   };
   parallel_for(kEdgeChunks, threads, [&](std::size_t chunk) {
-    std::vector<EdgeContribution> answer;
+    std::vector<EdgeContribution> contributions;
     for (int edge = chunk_start(chunk); edge < chunk_start(chunk + 1); ++edge) {
-      answer.clear();
+      contributions.clear();
       append_single_diffraction(edges[edge], scatterer.facets(), geometry, incoming.of(edge), outgoing.of(edge),
-                                settings.max_bounces, answer);
-      append_multiple_diffraction(scatterer, geometry, edge, incoming, outgoing, limits, answer);
-      std::erase_if(answer, [&](const EdgeContribution& f) {
-        return !settings.filter.accepts_edge(f.part, f.other_part, f.bounces);
+                                settings.max_bounces, contributions);
+      append_multiple_diffraction(scatterer, geometry, edge, incoming, outgoing, limits, contributions);
+      std::erase_if(contributions, [&](const EdgeContribution& f) {
+        return !settings.filter.accepts_edge(f.part, f.other_part, f.bounces, f.mechanism);
       });
-      if (!answer.empty()) visit(chunk, answer);
+      if (!contributions.empty()) visit(chunk, contributions);
     }
   });
 }

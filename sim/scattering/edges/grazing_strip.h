@@ -43,6 +43,7 @@ struct EdgeIncidentWave {
   // maps directions behind those walls, or behind the other wall of a concave edge, to image space
   Mat3 unfolding = Mat3::Identity();
   Vec3 previous_direction = Vec3::Zero();  // of the wave at the previous edge
+  bool met_concave_edge = false;           // among the edges before
 };
 
 // A strip of parallel rays on a face: u transverse, w along the rays, both unit vectors in the face.
@@ -76,6 +77,7 @@ struct GrazingSource {
   ThicknessChange thickness = {};  // including the edge's own
   int wall_reflections = 0;
   Mat3 unfolding = Mat3::Identity();
+  bool met_concave_edge = false;  // including the edge it leaves
 };
 
 // Reflection of directions in a plane with unit normal n.

@@ -7,27 +7,21 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/smooth_step.h"
-#include "sim/scattering/diffraction/fade_windows.h"
+#include "sim/scattering/diffraction/path_weights.h"
+#include "sim/scattering/diffraction/tolerances.h"
 #include "sim/scattering/edges/grazing_strip.h"
 #include "sim/scattering/edges/wall_penumbra.h"
-#include "sim/scattering/surfaces/grazing_reflection.h"
 
 namespace seaglint {
 namespace {
 
-// Facets whose normals differ by less belong to one flat face; grazing waves leave curved faces.
-constexpr double kFlat = 1e-6;
-constexpr double kMinLength = 1e-7;  // m
 constexpr double kNarrowest = 1e-9;  // m
-constexpr double kOnEnd = 1e-7;      // m, from the end of an interval
 // Sine of the angle between a grazing wave and an edge below which they do not meet. Look directions that would make
 // them parallel are perturbed by more (illumination.cpp).
 constexpr double kParallelSine = 1e-9;
 // Sine of the angle between an edge and the wave it launches along a face: for an incident wave from outside, and for a
 // grazing wave.
 constexpr double kMinLaunchSine = 1e-6, kMinRelaunchSine = 1e-5;
-// A grazing wave is tilted towards its face by this angle, so that rounding does not move it to the other side.
-constexpr double kGrazingLift = 1e-7;
 
 // A grazing wave that is relaunched enters by its mean amplitude over parts of its interval along which its length
 // grows by at most kMaxGrowth. Lengths below kShortestShare of the longest count as that.
@@ -46,10 +40,10 @@ constexpr int kMaxWallReflections = 2;
 
 // Multiple diffraction with reflections on the incident or exit path is omitted: it is weaker than the uncertainty of
 // PO there.
-bool is_reflected(const EdgeIllumination& way) { return way.reflections > 0; }
+bool is_reflected(const EdgeIllumination& illumination) { return illumination.reflections > 0; }
 
 // Direction of a grazing wave along w, tilted towards the face.
-Vec3 grazing(const WedgeFace& face, const Vec3& w) { return (w - kGrazingLift * face.n).normalized(); }
+Vec3 grazing(const WedgeFace& face, const Vec3& w) { return (w - kInPlaneAngle * face.n).normalized(); }
 
 // 1 - s.w, kept positive.
 double one_minus_cosine(const Vec3& w, const Vec3& s) { return std::max(0.5 * (s - w).squaredNorm(), 1e-15); }
@@ -115,7 +109,8 @@ class MultipleDiffractionTracer {
           wave.launch_parameter,
           thickness,
           0,
-          wedge->N < 1 && in.grazing_waves == 0 ? householder(wedge->face[1 - i].n) : in.unfolding};
+          wedge->N < 1 && in.grazing_waves == 0 ? householder(wedge->face[1 - i].n) : in.unfolding,
+          in.met_concave_edge || wedge->N < 1};
       if (!is_significant(source)) continue;
       // Below a right angle a concave edge also radiates the field of the grazing wave (E along the normal) back along
       // the same face as a ray, without which the diffracted field is incomplete: both are omitted.
@@ -193,19 +188,20 @@ class MultipleDiffractionTracer {
     const Vec3 n = source.face.n.cross(foot.along());  // of the wall
     if (source.wall_reflections == 0 && geometry_.monostatic && !reciprocal_)
       add_wall_penumbra(source, facet, foot, n, strip);
-    const Mat3 mirror = householder(n);
+    const Mat3 reflection = householder(n);
     const Vec3 shift = 2 * n.dot(foot.a) * n;
     const GrazingSource image{source.in,
                               source.face,
-                              mirror * source.start + shift,
-                              mirror * source.along,
+                              reflection * source.start + shift,
+                              reflection * source.along,
                               {-source.amplitude[0], -source.amplitude[1]},
                               source.departure,
                               source.thickness,
                               source.wall_reflections + 1,
-                              source.unfolding * mirror};
-    const Vec3 u = mirror * strip.u;
-    traverse_facet(image, facet, side, {u, mirror * strip.w, strip.from + u.dot(shift), strip.to + u.dot(shift)},
+                              source.unfolding * reflection,
+                              source.met_concave_edge};
+    const Vec3 u = reflection * strip.u;
+    traverse_facet(image, facet, side, {u, reflection * strip.w, strip.from + u.dot(shift), strip.to + u.dot(shift)},
                    depth + 1);
   }
 
@@ -217,7 +213,7 @@ class MultipleDiffractionTracer {
       const double u = end == 0 ? strip.from : strip.to;
       wall.foot[end] = foot.a + (u - strip.u.dot(foot.a)) / strip.u.dot(foot.along()) * foot.along();
       const double s = (u - strip.u.dot(source.start)) / strip.u.dot(source.along);
-      wall.ends_follow_edge[end] = s - source.in.s[0] < kOnEnd || source.in.s[1] - s < kOnEnd;
+      wall.ends_follow_edge[end] = s - source.in.s[0] < kCoincident || source.in.s[1] - s < kCoincident;
     }
     const auto panel_of = [&](int facet) {
       return ReflectorPanel{facets_[facet].normal, panels_.outline(panels_.representative(facet))};
@@ -228,12 +224,13 @@ class MultipleDiffractionTracer {
       for (const Vec3& x : panels_.outline(panels_.representative(facet)))
         wall.height = std::max(wall.height, source.face.n.dot(x - foot.a));
     }
-    if (wall.height < kMinLength) return;
+    if (wall.height < kCoincident) return;
     EdgeContribution echo;  // of the wall, at its foot
     echo.facet = foot.facet[0];
     echo.part = facets_[foot.facet[0]].part;
     echo.other_part = facets_[foot.facet[1]].part;
     echo.bounces = 2;
+    echo.mechanism = Mechanism::kWallPenumbra;
     append_wall_penumbra(wall, geometry_.transmit, echo, limits_.k, limits_.min_amplitude_m, out_);
   }
 
@@ -261,12 +258,13 @@ class MultipleDiffractionTracer {
     for (int end = 0; end < 2; ++end) {
       const Vec3 Q2 = edge.a + next.s[end] * along;
       const double s1 = strip.u.dot(Q2 - source.start) / strip.u.dot(source.along);
-      const double share = (s1 - in.s[0]) / (in.s[1] - in.s[0]);
+      const double fraction = (s1 - in.s[0]) / (in.s[1] - in.s[0]);
       next.l[end] = std::max(0.0, strip.w.dot(Q2 - source.start - s1 * source.along));
-      next.psi[end] = interpolate(in.psi, share) - next.l[end];
-      next.X[end] = interpolate(in.X, share);
+      next.psi[end] = interpolate(in.psi, fraction) - next.l[end];
+      next.X[end] = interpolate(in.X, fraction);
     }
     if (mean_inverse_sqrt_length(next.l) > 2e4) return;
+    next.met_concave_edge = source.met_concave_edge;
     if (in.grazing_waves == 0) next.departure = source.departure;
     if (in.grazing_waves == 1)
       next.first_length_m = 1 / (mean_inverse_sqrt_length(in.l) * mean_inverse_sqrt_length(in.l));
@@ -308,9 +306,9 @@ class MultipleDiffractionTracer {
     const SharpEdge& edge = edges_.edges[in.edge];
     if (is_reflected(departure) || illuminated_wedge(edge, departure.direction) != &wedge) return;
     const std::array<double, 2> s{std::max(in.s[0], departure.s[0]), std::min(in.s[1], departure.s[1])};
-    if (s[1] - s[0] < kMinLength) return;
+    if (s[1] - s[0] < kCoincident) return;
     const double weight = in.wall_reflections > 0 || (reciprocal_ && in.grazing_waves == 1)
-                              ? diffraction_forward_taper(in.previous_direction, in.unfolding * -departure.direction)
+                              ? grazing_wave_weight(in.previous_direction, in.unfolding * -departure.direction)
                               : 1.0;
     if (weight <= 0) return;
     const Vec3& along = edge.along();
@@ -325,20 +323,21 @@ class MultipleDiffractionTracer {
     contribution.part = facets_[edge.facet[0]].part;
     contribution.other_part = facets_[edge.facet[1]].part;
     contribution.bounces = static_cast<std::uint8_t>(in.wall_reflections + in.grazing_waves + 1);
-    EdgeContribution::MultipleDiffraction range;
+    contribution.mechanism = in.met_concave_edge ? Mechanism::kConcaveEdge : Mechanism::kMultipleDiffraction;
+    GrazingWaveAmplitude range;
     for (int end = 0; end < 2; ++end) {
-      const double share = (s[end] - in.s[0]) / (in.s[1] - in.s[0]);
+      const double fraction = (s[end] - in.s[0]) / (in.s[1] - in.s[0]);
       const Vec3 Y = departure.image_start + s[end] * departure.image_edge_direction;
-      contribution.psi[end] = interpolate(in.psi, share) + geometry_.receive.r.dot(Y);
-      contribution.gradient[end].transmit = interpolate(in.X, share);
+      contribution.psi[end] = interpolate(in.psi, fraction) + geometry_.receive.r.dot(Y);
+      contribution.gradient[end].transmit = interpolate(in.X, fraction);
       contribution.gradient[end].receive = Y;
-      range.l[end] = interpolate(in.l, share);
+      range.l[end] = interpolate(in.l, fraction);
     }
     range.launch_parameter = in.departure;
     range.exit_parameter = arrival;
     range.first_length_m = in.first_length_m;
     range.grazing_waves = in.grazing_waves;
-    contribution.multiple_diffraction = range;
+    contribution.amplitude = range;
     const Vec3 J = weight * second_edge_current(wedge, face, along, w, out);
     const double h = departure.E_h.dot(J), v = departure.E_v.dot(J);
     EdgePattern& pattern = contribution.pattern;

@@ -6,20 +6,13 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/smooth_step.h"
+#include "sim/scattering/beams/image_transform.h"
 #include "sim/scattering/diffraction/fade_windows.h"
-#include "sim/scattering/surfaces/grazing_reflection.h"
+#include "sim/scattering/diffraction/path_weights.h"
 
 namespace seaglint {
 namespace {
 
-// Angle from the specular direction, rad: below the first the poles of both end-point contributions must cancel, above
-// the second each may be used alone.
-constexpr std::array<double, 2> kOffSpecularTaper{0.1, 0.2};
-// The same as a fraction of the angle between the specular and the forward direction, at which the residual of another
-// face at grazing has its pole.
-constexpr std::array<double, 2> kOffGrazingTaper{0.25, 0.5};
-// Component along the edge by which an exit direction departs from Keller's cone.
-constexpr std::array<double, 2> kOffConeTaper{0.1, 0.2};
 // Within this angle of the specular direction, rad, the end-point contributions are evaluated at this offset to either
 // side, where their poles cancel: an error of the offset squared times their second derivative, 1e-6 at 10 deg.
 constexpr double kAtSpecular = 1e-3, kAside = 1e-4;
@@ -29,40 +22,23 @@ Vec3 half_po_current(const Vec3& n, const Vec3& k_hat, const Vec3& E) { return n
 
 }  // namespace
 
-double beam_incidence_taper(const Vec3& beam, const Vec3& s, const Vec3& last) {
-  const double lands = last.dot(s) * last.dot(beam) > 0 ? 1 - grazing_taper(beam, last) : 0,
-               leaves = 1 - grazing_taper(s, last);
-  return lands < leaves ? lands / leaves : 1;
-}
-
-double reflected_edge_weight(const Vec3& n, const Vec3& t, const Vec3& k_hat, const Vec3& s, const Vec3& last) {
-  const double cosine = -n.dot(k_hat);
-  if (cosine <= 0) return 0;
-  return diffraction_forward_taper(k_hat, s) * (1 - grazing_taper(cosine)) * (1 - grazing_taper(s, last)) *
-         smooth_taper(std::abs(t.dot(s - k_hat)), kOffConeTaper);
-}
-
-double specular_grazing_weight(double sine) {
-  return diffraction_forward_taper(1 - 2 * sine * sine) * (1 - grazing_taper(sine));
-}
-
 std::array<double, 2> reflected_face_weights(const WedgeFrame& wedge, const EdgeIllumination& in,
                                              const EdgeIllumination& out) {
-  std::array<double, 2> shares{};
+  std::array<double, 2> weights{};
   const Vec3 &k_hat = in.direction, s = -out.direction;
   for (int i = 0; i < 2; ++i) {
     const auto& [x, n, t] = wedge.face[i];
     if (n.dot(k_hat) >= 0 || n.dot(s) <= 0) continue;
-    shares[i] = 1;
-    if (out.reflections > 0) shares[i] = reflected_edge_weight(n, t, k_hat, s, out.first_reflector_normal);
+    weights[i] = 1;
+    if (out.reflections > 0) weights[i] = reflected_edge_weight(n, t, k_hat, s, out.first_reflector_normal);
     if (in.reflections > 0)
-      shares[i] = std::min(shares[i], reflected_edge_weight(n, t, -s, -k_hat, in.first_reflector_normal));
+      weights[i] = std::min(weights[i], reflected_edge_weight(n, t, -s, -k_hat, in.first_reflector_normal));
     if (in.reflections + out.reflections > kMaxCorrectedReflections) {
       const double off = (s - reflect_direction(k_hat, n)).norm(), cosine = -n.dot(k_hat);
-      shares[i] *= smooth_taper(off, kOffSpecularTaper) * smooth_taper(off / (2 * cosine), kOffGrazingTaper);
+      weights[i] *= smooth_taper(off, kOffSpecularWindow) * smooth_taper(off / (2 * cosine), kOffGrazingWindow);
     }
   }
-  return shares;
+  return weights;
 }
 
 std::array<double, 4> endpoint_correction(const WedgeFace& face, const EdgeIllumination& in,
@@ -81,7 +57,7 @@ std::array<double, 4> endpoint_correction(const WedgeFace& face, const EdgeIllum
   const auto about_edge = [&](const Vec3& x) { return std::atan2(face.n.dot(x), face.x.dot(x)); };
   const double off = std::remainder(about_edge(s) - about_edge(beam), 2 * kPi);
   // Where the last reflector has no end-point contribution, that of the edge's face is used alone, away from its pole.
-  const double alone = 1 - (1 - lands) * smooth_taper(std::abs(off), kOffSpecularTaper);
+  const double alone = 1 - (1 - lands) * smooth_taper(std::abs(off), kOffSpecularWindow);
   const auto add = [&](double angle, double weight) {
     const Vec3 on_cone = Eigen::AngleAxisd(angle, face.t) * beam, away = on_cone - beam;
     const auto turned = Eigen::Quaterniond::FromTwoVectors(s, on_cone);

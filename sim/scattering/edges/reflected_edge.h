@@ -27,20 +27,6 @@
 
 namespace seaglint {
 
-// Taper 0..1: 1 where the beam along `beam` meets a reflector (normal `last`, of either sign) on the side of the exit
-// direction s, 0 where the beam is closer to grazing incidence than the exit path, so that its boundary lies far away
-// or does not exist.
-double beam_incidence_taper(const Vec3& beam, const Vec3& s, const Vec3& last);
-
-// Weight 0..1 of the diffracted field above, for a wave along k_hat on a face with normal n and an exit direction s
-// towards a reflector with normal `last`: 0 near the forward direction, where wave or exit path graze a reflector, and
-// off Keller's cone about the edge (direction t), where only the ends of the edge radiate.
-double reflected_edge_weight(const Vec3& n, const Vec3& t, const Vec3& k_hat, const Vec3& s, const Vec3& last);
-
-// The factor of that weight near the specular direction, for a wave at this sine of the grazing angle over the face;
-// wall_penumbra.h supplies the remainder.
-double specular_grazing_weight(double sine);
-
 // Weights with which the two faces of a wedge radiate towards reflectors. With more reflections on both paths together
 // than kMaxCorrectedReflections the shadow-boundary lines keep their end-point contributions, and the weights are
 // limited to 0.2 rad about the specular direction.

@@ -8,15 +8,11 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/scattering/diffraction/fade_windows.h"
 #include "sim/scattering/diffraction/thick_edge.h"
+#include "sim/scattering/diffraction/tolerances.h"
 #include "sim/scattering/edges/reflected_edge.h"
 
 namespace seaglint {
 namespace {
-
-// Distance within which a vertex counts as on an edge; clipping is exact to rounding of the target's size.
-constexpr double kOnEdge = 1e-7;  // m
-// As kShadowBoundaryGuard, where diffraction_forward_taper() removes the growth near the shadow boundary.
-constexpr double kReflectedGuard = 0.04;  // rad
 
 struct EdgeInterval {
   std::array<double, 2> s;
@@ -24,22 +20,22 @@ struct EdgeInterval {
 };
 
 // Joins overlapping and adjoining intervals.
-void merge_intervals(std::vector<EdgeInterval>& stretches) {
-  std::sort(stretches.begin(), stretches.end(),
+void merge_intervals(std::vector<EdgeInterval>& intervals) {
+  std::sort(intervals.begin(), intervals.end(),
             [](const EdgeInterval& a, const EdgeInterval& b) { return a.s[0] < b.s[0]; });
   std::size_t kept = 0;
-  for (std::size_t i = 1; i < stretches.size(); ++i) {
-    EdgeInterval& last = stretches[kept];
-    if (stretches[i].s[0] <= last.s[1] + kOnEdge) {
-      if (stretches[i].s[1] > last.s[1]) {
-        last.s[1] = stretches[i].s[1];
-        last.slip[1] = stretches[i].slip[1];
+  for (std::size_t i = 1; i < intervals.size(); ++i) {
+    EdgeInterval& last = intervals[kept];
+    if (intervals[i].s[0] <= last.s[1] + kCoincident) {
+      if (intervals[i].s[1] > last.s[1]) {
+        last.s[1] = intervals[i].s[1];
+        last.slip[1] = intervals[i].slip[1];
       }
     } else {
-      stretches[++kept] = stretches[i];
+      intervals[++kept] = intervals[i];
     }
   }
-  if (!stretches.empty()) stretches.resize(kept + 1);
+  if (!intervals.empty()) intervals.resize(kept + 1);
 }
 
 // Intervals in which sides of the illuminated polygons coincide with an edge, given by its image's start and direction.
@@ -48,8 +44,8 @@ std::vector<EdgeInterval> illuminated_intervals(const Vec3& image, const Vec3& a
   const RadarBasis& a = wave.antenna;
   const Vec2 start(image.dot(a.h), image.dot(a.v)), run(along.dot(a.h), along.dot(a.v));
   const double shortened = run.norm();  // projected length of a metre of edge
-  std::vector<EdgeInterval> stretches;
-  if (shortened < 1e-6) return stretches;  // parallel to the line of sight
+  std::vector<EdgeInterval> intervals;
+  if (shortened < 1e-6) return intervals;  // parallel to the line of sight
   const Vec2 across(-run.y() / shortened, run.x() / shortened);
   const auto place = [&](const MovingVertex& vertex) { return run.dot(vertex.p - start) / (shortened * shortened); };
   // Slide of a vertex along the edge: its motion beyond that of a body-fixed point, -z d_i.
@@ -57,7 +53,9 @@ std::vector<EdgeInterval> illuminated_intervals(const Vec3& image, const Vec3& a
     const double z = wave.plane.at(corner.p);
     return Vec2(run.dot(corner.d1 + Vec2(z, 0)), run.dot(corner.d2 + Vec2(0, z))) / (shortened * shortened);
   };
-  const auto on_edge = [&](const MovingVertex& corner) { return std::abs(across.dot(corner.p - start)) <= kOnEdge; };
+  const auto on_edge = [&](const MovingVertex& corner) {
+    return std::abs(across.dot(corner.p - start)) <= kCoincident;
+  };
   for (const MovingPolygon& piece : illuminated) {
     bool here = on_edge(piece.back());
     for (std::size_t i = 0; i < piece.size(); ++i) {
@@ -65,26 +63,26 @@ std::vector<EdgeInterval> illuminated_intervals(const Vec3& image, const Vec3& a
       const bool before = here;
       here = on_edge(q);
       if (!before || !here) continue;
-      EdgeInterval stretch{{place(p), place(q)}, {slip(p), slip(q)}};
-      if (stretch.s[0] > stretch.s[1]) {
-        std::swap(stretch.s[0], stretch.s[1]);
-        std::swap(stretch.slip[0], stretch.slip[1]);
+      EdgeInterval interval{{place(p), place(q)}, {slip(p), slip(q)}};
+      if (interval.s[0] > interval.s[1]) {
+        std::swap(interval.s[0], interval.s[1]);
+        std::swap(interval.slip[0], interval.slip[1]);
       }
       // A polygon side may continue along the next collinear edge; the interval then ends at the fixed end of this
       // edge.
-      if (stretch.s[0] < 0) {
-        stretch.s[0] = 0;
-        stretch.slip[0].setZero();
+      if (interval.s[0] < 0) {
+        interval.s[0] = 0;
+        interval.slip[0].setZero();
       }
-      if (stretch.s[1] > length) {
-        stretch.s[1] = length;
-        stretch.slip[1].setZero();
+      if (interval.s[1] > length) {
+        interval.s[1] = length;
+        interval.slip[1].setZero();
       }
-      if (stretch.s[1] - stretch.s[0] > kOnEdge) stretches.push_back(stretch);
+      if (interval.s[1] - interval.s[0] > kCoincident) intervals.push_back(interval);
     }
   }
-  merge_intervals(stretches);
-  return stretches;
+  merge_intervals(intervals);
+  return intervals;
 }
 
 // hh, hv, vh, vv of an incident and an exit path. The received polarisation is the field of the receiver's wave at the
@@ -104,36 +102,17 @@ EdgePattern pattern(const WedgeFrame& wedge, const EdgeIllumination& in, const E
   return pattern;
 }
 
-// Mean of a path and its reciprocal.
-EdgePattern mean(EdgePattern there, const EdgePattern& back) {
-  there += transposed(back);
-  there *= 0.5;
-  return there;
-}
-
-EdgePattern reciprocal_mean(const WedgeFrame& wedge, const EdgeIllumination& in, const EdgeIllumination& out) {
-  const EdgePattern there = pattern(wedge, in, out);
-  return mean(there, &in == &out ? there : pattern(wedge, out, in));
-}
-
-// equivalent_edge_currents() subtracts the facets' direct radiation of the transmitter's wave. For one antenna single
-// diffraction is the mean of a path and its reciprocal; for two antennas only the transmitter's wave gives Keller's
-// field together with the facets.
-EdgePattern direct(const WedgeFrame& wedge, const EdgeIllumination& in, const EdgeIllumination& out, bool monostatic) {
-  return monostatic ? reciprocal_mean(wedge, in, out) : pattern(wedge, in, out);
-}
-
 // Diffracted field of the edge via reflectors, in addition to the beams that its faces reflect to them, with the weight
 // of each face (reflected_edge.h).
-EdgePattern edge_field_pattern(const WedgeFrame& wedge, const std::array<double, 2>& shares, const EdgeIllumination& in,
-                               const EdgeIllumination& out) {
-  EdgePattern answer = pattern(wedge, in, out, kReflectedGuard);
+EdgePattern edge_field_pattern(const WedgeFrame& wedge, const std::array<double, 2>& weights,
+                               const EdgeIllumination& in, const EdgeIllumination& out) {
+  EdgePattern sum = pattern(wedge, in, out, kReflectedBoundaryGuard);
   for (int f = 0; f < 2; ++f) {
-    if (shares[f] <= 0) continue;
+    if (weights[f] <= 0) continue;
     const std::array<double, 4> ends = endpoint_correction(wedge.face[f], in, out);
-    for (int i = 0; i < 4; ++i) answer.thin[i] += shares[f] * ends[i];
+    for (int i = 0; i < 4; ++i) sum.thin[i] += weights[f] * ends[i];
   }
-  return answer;
+  return sum;
 }
 
 // Where that field is not separable from the beam: fringe currents, of the wave that is reflected more often, since the
@@ -141,34 +120,50 @@ EdgePattern edge_field_pattern(const WedgeFrame& wedge, const std::array<double,
 // reciprocal; with equal numbers the mean of both is used.
 EdgePattern fringe_pattern(const WedgeFrame& wedge, const EdgeIllumination& in, const EdgeIllumination& out) {
   if (in.reflections > out.reflections) return pattern(wedge, in, out);
-  return in.reflections < out.reflections ? transposed(pattern(wedge, out, in)) : reciprocal_mean(wedge, in, out);
+  if (in.reflections < out.reflections) return transposed(pattern(wedge, out, in));
+  return reciprocal_mean(pattern(wedge, in, out), pattern(wedge, out, in));
 }
 
-// Pattern of a path via reflectors; none where its tapers are zero near the forward direction. `both_paths`: adds the
-// reciprocal path, whose last reflector and PO end-point contributions differ, so that S_hv = S_vh.
-std::optional<EdgePattern> reflected_pattern(const WedgeFrame& wedge, const EdgeIllumination& in,
-                                             const EdgeIllumination& out, bool both_paths) {
+// Pattern of one or two paths transmitter - edge - receiver, in two parts: `beams` belongs together with the facets'
+// direct radiation and is reciprocal in truth, `edge` with the boundary terms of the beams on the last reflector, whose
+// wave and order of reflections it shares.
+struct PathPattern {
+  EdgePattern beams, edge;
+  bool any = false;
+};
+
+// Adds the pattern of a path; nothing where its tapers are zero near the forward direction.
+void add_path(const WedgeFrame& wedge, const EdgeIllumination& in, const EdgeIllumination& out, PathPattern& sum) {
+  const auto add = [&](EdgePattern part, double weight, EdgePattern& to) {
+    part *= weight;
+    to += part;
+    sum.any = true;
+  };
+  if (in.reflections + out.reflections == 0) return add(pattern(wedge, in, out), 1, sum.beams);
   std::array<double, 2> reflecting = reflected_face_weights(wedge, in, out);
   const double by_edge = std::ranges::max(reflecting),
                by_beam = (1 - by_edge) * fringe_forward_taper(in.direction, -out.direction);
-  if (by_edge <= 0 && by_beam <= 0) return std::nullopt;
-  EdgePattern answer;
-  answer.thickness_m = wedge.thickness_m;
-  const auto add = [&](EdgePattern part, double share) {
-    part *= share;
-    answer += part;
-  };
   if (by_edge > 0) {
-    for (double& share : reflecting) share /= by_edge;
-    add(edge_field_pattern(wedge, reflecting, in, out), by_edge);
-    if (both_paths) add(edge_field_pattern(wedge, reflecting, out, in), by_edge);
+    for (double& weight : reflecting) weight /= by_edge;
+    add(edge_field_pattern(wedge, reflecting, in, out), by_edge, sum.edge);
   }
-  if (by_beam > 0) {
-    const EdgePattern beam = fringe_pattern(wedge, in, out);
-    add(beam, by_beam);
-    if (both_paths) add(transposed(beam), by_beam);
-  }
-  return answer;
+  if (by_beam > 0) add(fringe_pattern(wedge, in, out), by_beam, sum.beams);
+}
+
+// Pattern of a pair of illuminations; none where it vanishes. Reciprocity: for one antenna a path and its reciprocal
+// have the same length and are one contribution; off Keller's cone the part that belongs to the facets is not
+// reciprocal and enters by the mean of its matrix and the transposed one. For two antennas only the transmitter's wave
+// gives Keller's field together with the facets.
+std::optional<EdgePattern> pair_pattern(const WedgeFrame& wedge, const EdgeIllumination& in,
+                                        const EdgeIllumination& out, bool monostatic) {
+  PathPattern sum;
+  sum.beams.thickness_m = sum.edge.thickness_m = wedge.thickness_m;
+  add_path(wedge, in, out, sum);
+  if (monostatic && &in != &out) add_path(wedge, out, in, sum);
+  if (!sum.any) return std::nullopt;
+  if (monostatic) sum.beams = reciprocal_mean(sum.beams, sum.beams);
+  sum.beams += sum.edge;
+  return sum.beams;
 }
 
 }  // namespace
@@ -183,8 +178,8 @@ void find_edge_illumination(const SharpEdges& edges, int facet, const FacetWave&
     if (!wedge || !records_edge(edge, *wedge, side.is_first_face, wave.direction)) continue;
     if (wedge->N < 1 && wave.bounce > 1) continue;  // PO of a concave edge includes its reflections
     const Vec3 image = wave.image_transform.image(edge.a), along = wave.image_transform.L * edge.along();
-    for (const EdgeInterval& stretch : illuminated_intervals(image, along, edge.length(), wave, illuminated)) {
-      illuminations.push_back({side.edge, stretch.s, stretch.slip, image, along, wave.direction, wave.E_h, wave.E_v,
+    for (const EdgeInterval& interval : illuminated_intervals(image, along, edge.length(), wave, illuminated)) {
+      illuminations.push_back({side.edge, interval.s, interval.slip, image, along, wave.direction, wave.E_h, wave.E_v,
                                static_cast<std::uint8_t>(wave.bounce - 1), wave.first_reflector_normal});
     }
   }
@@ -194,22 +189,14 @@ void append_single_diffraction(const SharpEdge& edge, std::span<const Facet> fac
                                EdgeIlluminations incoming, EdgeIlluminations outgoing, int max_bounces,
                                std::vector<EdgeContribution>& contributions) {
   const int max_reflections = std::min(kMaxEdgeReflections, max_bounces - 1);
-  // For one antenna only one of two reciprocal paths is evaluated: both have the same length.
-  const auto echo = [&](const EdgeIllumination& in, const EdgeIllumination& out) {
-    const bool both_paths = geometry.monostatic && &in != &out;
+  const auto append = [&](const EdgeIllumination& in, const EdgeIllumination& out) {
     const double first = std::max(in.s[0], out.s[0]), last = std::min(in.s[1], out.s[1]);
-    if (last - first <= kOnEdge || in.reflections + out.reflections > max_reflections) return;
+    if (last - first <= kCoincident || in.reflections + out.reflections > max_reflections) return;
     const WedgeFrame* wedge = illuminated_wedge(edge, in.direction);
     if (!wedge || illuminated_wedge(edge, out.direction) != wedge) return;
 
-    std::optional<EdgePattern> answer;
-    if (in.reflections + out.reflections > 0) {
-      answer = reflected_pattern(*wedge, in, out, both_paths);
-    } else {
-      answer = direct(*wedge, in, out, geometry.monostatic);
-      if (both_paths) *answer += transposed(*answer);
-    }
-    if (!answer) return;
+    const std::optional<EdgePattern> pattern = pair_pattern(*wedge, in, out, geometry.monostatic);
+    if (!pattern) return;
 
     EdgeContribution contribution;
     contribution.length = last - first;
@@ -217,7 +204,12 @@ void append_single_diffraction(const SharpEdge& edge, std::span<const Facet> fac
     contribution.part = facets[edge.facet[0]].part;
     contribution.other_part = facets[edge.facet[1]].part;
     contribution.bounces = static_cast<std::uint8_t>(in.reflections + out.reflections + 1);
-    contribution.pattern = *answer;
+    contribution.pattern = *pattern;
+    if (in.reflections + out.reflections > 0) {
+      contribution.mechanism = Mechanism::kReflectedEdge;
+    } else if (wedge->N < 1) {
+      contribution.mechanism = Mechanism::kConcaveEdge;
+    }
 
     const RadarBasis &t = geometry.transmit, &r = geometry.receive;
     const double slope = t.r.dot(in.image_edge_direction) + r.r.dot(out.image_edge_direction);  // of psi along the edge
@@ -241,7 +233,7 @@ void append_single_diffraction(const SharpEdge& edge, std::span<const Facet> fac
   };
 
   for (std::size_t a = 0; a < incoming.size(); ++a) {
-    for (std::size_t b = geometry.monostatic ? a : 0; b < outgoing.size(); ++b) echo(*incoming[a], *outgoing[b]);
+    for (std::size_t b = geometry.monostatic ? a : 0; b < outgoing.size(); ++b) append(*incoming[a], *outgoing[b]);
   }
 }
 

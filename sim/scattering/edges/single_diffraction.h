@@ -38,7 +38,8 @@ void find_edge_illumination(const SharpEdges& edges, int facet, const FacetWave&
 
 // Appends the contributions of all intervals of an edge common to an illumination by the transmitter (`incoming`) and
 // one by the receiver (`outgoing`), with at most `max_bounces` interactions, the diffraction included. For one antenna
-// the two lists are the same object. Multiple diffraction is in multiple_diffraction.h.
+// the two lists are the same object, and two reciprocal paths are one contribution. Multiple diffraction is in
+// multiple_diffraction.h.
 void append_single_diffraction(const SharpEdge& edge, std::span<const Facet> facets, const BistaticGeometry& geometry,
                                EdgeIlluminations incoming, EdgeIlluminations outgoing, int max_bounces,
                                std::vector<EdgeContribution>& contributions);

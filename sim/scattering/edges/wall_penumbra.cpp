@@ -7,27 +7,17 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/smooth_step.h"
 #include "sim/scattering/diffraction/fade_windows.h"
-#include "sim/scattering/edges/reflected_edge.h"
+#include "sim/scattering/diffraction/path_weights.h"
+#include "sim/scattering/diffraction/tolerances.h"
 
 namespace seaglint {
 namespace {
 
-// Sine of the grazing angle up to which the terms are used: 37 to 64 deg.
-constexpr std::array<double, 2> kAngleTaper{0.6, 0.9};
 // k l s^2 below which all terms form one amplitude with its derivative; above, where they are small, each has its own
 // phase.
 constexpr double kMergedLimit = 9;
 // Phase of the derivative term per unit of sine: 0.1 rad for an aspect change of 1e-3 rad.
 constexpr double kChangePhase = 100;
-// Cosine between the propagation direction on the face and the wall's normal below which the wave runs along the wall.
-constexpr std::array<double, 2> kAlongWall{0.1, 0.3};
-// Height of the image's shadow-boundary line on the wall, relative to the wall, above which the edge's image in the
-// wall is not visible.
-constexpr std::array<double, 2> kTopTaper{0.6, 1};
-
-// Distance below which edge and foot meet.
-constexpr double kInCorner = 1e-7;  // m
-
 // hh, hv, vh, vv
 using Pattern = std::array<double, 4>;
 
@@ -41,21 +31,21 @@ Pattern wall_pattern(const Vec3& n, const RadarBasis& antenna, const Vec3& k_hat
 
 void append_wall_penumbra(const WallBehindEdge& wall, const RadarBasis& antenna, const EdgeContribution& foot_echo,
                           double k, double min_amplitude_m, std::vector<EdgeContribution>& contributions) {
-  const auto& [rim, along, n, wall_normal, height, image_fraction, foot, shown] = wall;
+  const auto& [edge_point, along, n, wall_normal, height, image_fraction, foot, follows_edge] = wall;
   const Vec3& r = antenna.r;
   const double s = n.dot(r), c = std::sqrt(1 - s * s);
   const Vec3 back = (r - s * n).normalized();  // on the face, from the wall to the edge
-  const double grazes = smooth_taper(std::abs(s), kAngleTaper),
-               faces = 1 - smooth_taper(wall_normal.dot(back), kAlongWall), length = (foot[1] - foot[0]).norm();
+  const double grazes = smooth_taper(std::abs(s), kPenumbraAngleWindow),
+               faces = 1 - smooth_taper(wall_normal.dot(back), kAlongWallWindow), length = (foot[1] - foot[0]).norm();
   const double across = back.cross(along).dot(n);
   if (grazes * faces <= 0 || across == 0) return;
   std::array<double, 2> l;
   for (int end = 0; end < 2; ++end) {
-    const double way = (rim - foot[end]).cross(along).dot(n) / across;
-    if (way < -kInCorner) return;
-    l[end] = std::max(way, 0.0);  // edge and foot may meet
+    const double distance = (edge_point - foot[end]).cross(along).dot(n) / across;
+    if (distance < -kCoincident) return;
+    l[end] = std::max(distance, 0.0);  // edge and foot may meet
   }
-  const double way = 0.5 * (l[0] + l[1]);
+  const double mean_distance = 0.5 * (l[0] + l[1]);
   // Slide of an end along the interval as the look direction rotates about the face's normal, m/rad, and the change of
   // the distance to the edge.
   const Vec3 run = (foot[1] - foot[0]) / length, turn = n.cross(back) / c;
@@ -76,8 +66,8 @@ void append_wall_penumbra(const WallBehindEdge& wall, const RadarBasis& antenna,
                           double max_amplitude) {
     EdgeContribution contribution = foot_echo;
     contribution.length = length;
-    contribution.fresnel_wavenumber = 2 * way / (height * height);
-    contribution.penumbra = range;
+    contribution.fresnel_wavenumber = 2 * mean_distance / (height * height);
+    contribution.amplitude = range;
     for (int i = 0; i < 4; ++i) contribution.pattern.thin[i] = pattern[i];
     for (int end = 0; end < 2; ++end) {
       contribution.psi[end] = 2 * r.dot(foot[end]) - range.psi_decrement * l[end];
@@ -87,7 +77,7 @@ void append_wall_penumbra(const WallBehindEdge& wall, const RadarBasis& antenna,
     }
     const double rate = (contribution.psi[1] - contribution.psi[0]) / length;
     for (int end = 0; end < 2; ++end) {
-      if (!shown[end]) continue;
+      if (!follows_edge[end]) continue;
       contribution.gradient[end].transmit_slide = rate * slides * l[end] * turn;
       contribution.gradient[end].transmit += contribution.gradient[end].transmit_slide;
     }
@@ -96,15 +86,15 @@ void append_wall_penumbra(const WallBehindEdge& wall, const RadarBasis& antenna,
     if (max * max_amplitude * extent >= min_amplitude_m) contributions.push_back(contribution);
   };
 
-  // Weights complementary to those of reflected_edge.h and of multiple diffraction via walls.
-  const double ahead = 1 - diffraction_forward_taper(1 - 2 * s * s), share = grazes * faces;
-  const double past_top = s > 0 ? smooth_taper(way * s / c / height, kTopTaper) : 1,
-               by_edge = (1 - specular_grazing_weight(s)) * past_top;
+  const PenumbraWeights weights = penumbra_weights(s);
+  const double ahead = weights.edge_path, weight = grazes * faces;
+  const double past_top = s > 0 ? smooth_taper(mean_distance * s / c / height, kWallTopWindow) : 1,
+               by_edge = weights.foot * past_top;
   // Already radiated by the wall's image, which ends at the line.
   const double by_image = image_fraction * past_top;
   const double at_end = 1 / (4 * kPi * std::abs(s)),
-               by_way = std::min(at_end, std::sqrt(k * std::max(l[0], l[1]) / kPi) / (2 * kPi));
-  const double at_foot = s > 0 ? share * (by_edge + by_image) : 0, at_line = s > 0 ? -share * by_image : share;
+               by_path = std::min(at_end, std::sqrt(k * std::max(l[0], l[1]) / kPi) / (2 * kPi));
+  const double at_foot = s > 0 ? weight * (by_edge + by_image) : 0, at_line = s > 0 ? -weight * by_image : weight;
   WallPenumbraTerm range;
   range.l = l;
   range.sine = s;
@@ -114,11 +104,11 @@ void append_wall_penumbra(const WallBehindEdge& wall, const RadarBasis& antenna,
       range.soft = is_soft;
       range.foot_weight = at_foot;
       range.shadow_line_weight = at_line;
-      range.edge_path_weight = share * (is_soft ? 1 : ahead);
+      range.edge_path_weight = weight * (is_soft ? 1 : ahead);
       range.part = WallPenumbraTerm::Part::kValue;
-      append(is_soft ? soft : hard, range, 0, 0, 4 * by_way);
+      append(is_soft ? soft : hard, range, 0, 0, 4 * by_path);
       range.part = WallPenumbraTerm::Part::kDerivative;
-      append(is_soft ? soft : hard, range, range.derivative_scale_m, 0, 4 * by_way);
+      append(is_soft ? soft : hard, range, range.derivative_scale_m, 0, 4 * by_path);
     }
     return;
   }
@@ -134,8 +124,8 @@ void append_wall_penumbra(const WallBehindEdge& wall, const RadarBasis& antenna,
   range.psi_decrement = 2 * (1 - c);
   for (const bool is_soft : {false, true}) {
     range.soft = is_soft;
-    range.edge_path_weight = share * (is_soft ? 1 : ahead);
-    append(is_soft ? soft : hard, range, 0, 2 * s / c, by_way);
+    range.edge_path_weight = weight * (is_soft ? 1 : ahead);
+    append(is_soft ? soft : hard, range, 0, 2 * s / c, by_path);
   }
 }
 

@@ -24,7 +24,7 @@
 //     from the edge to the wall and back         (l / pi k)^(1/2) e^{-j pi/4} e^{-jx} [F(x) / (2jx) -+ (1 - F(x))]
 //
 // whose singularities at a = 0 cancel. Where the image of the wall in the face radiates up to z = b
-// (grazing_reflection.h), it already contributes (1 - e^{-2jx}) / (2jks): a second -1 / (2jks) is then added at the
+// (path_weights.h), it already contributes (1 - e^{-2jx}) / (2jks): a second -1 / (2jks) is then added at the
 // foot, and e^{-2jx} / (2jks) at the line for a > 0 too. The third term is, hard, the face-grazing diffracted wave that
 // the wall reflects (multiple_diffraction.h). Soft it decays faster than multiple diffraction, but at grazing it is
 // equally large: the sum is -2 (l / pi k)^(1/2) e^{-j pi/4}, by which the height of a wall on a face of length l is
@@ -44,7 +44,7 @@ struct WallBehindEdge {
   Vec3 face_normal;                 // on the illuminated side
   Vec3 wall_normal;                 // towards the edge
   double height = 0;         // of the wall, m; the terms are tapered to zero for a wall no higher than the penumbra
-  double image_weight = 0;   // fraction of the echo via the face that its image radiates (grazing_reflection.h)
+  double image_weight = 0;   // fraction of the echo via the face that its image radiates (path_weights.h)
   std::array<Vec3, 2> foot;  // ends of the interval of the wall behind the edge
   // true: the end of the interval is the projection of an end of the edge and slides with the look direction; false: it
   // is fixed

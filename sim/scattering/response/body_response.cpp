@@ -33,13 +33,13 @@ struct alignas(64) ChunkPoints {
 };
 
 // Points of the contributions of one propagation path, with their rates along its look-direction path.
-class WayPoints {
+class PathPoints {
  public:
-  WayPoints(const Scatterer& scatterer, const PlannedPath& path, double kc, double half_band, double faint, int channel,
-            double range_m, std::size_t chunks)
+  PathPoints(const Scatterer& scatterer, const PlannedPath& path, double kc, double half_band, double faint,
+             int channel, double range_m, std::size_t chunks)
       : geometry_(path.geometry),
         path_(path.look_path),
-        split_{kc, path_.max_change + direction_spread(scatterer, range_m, Vec3::Zero())},
+        split_{kc, path_.max_change + direction_spread(scatterer, {range_m})},
         half_band_(half_band),
         faint_(faint),
         channel_(channel),
@@ -55,9 +55,9 @@ class WayPoints {
       keep(chunk, contributions);
     }
   }
-  void add(std::size_t chunk, std::span<const EdgeContribution> footprints) {
+  void add(std::size_t chunk, std::span<const EdgeContribution> edges) {
     std::vector<PointContribution> contributions;
-    for (const EdgeContribution& contribution : footprints) {
+    for (const EdgeContribution& contribution : edges) {
       contributions.clear();
       decompose(contribution, split_, contributions);
       keep(chunk, contributions);
@@ -84,7 +84,7 @@ class WayPoints {
  private:
   // At a finite range the wavefront is curved about the body's own origin, from which the look directions are measured.
   void keep(std::size_t chunk, std::span<PointContribution> contributions) {
-    if (range_m_ > 0) apply_wavefront_curvature(contributions, geometry_, Vec3::Zero(), range_m_);
+    if (range_m_ > 0) apply_wavefront_curvature(contributions, geometry_, {range_m_});
     for (const PointContribution& c : contributions) {
       const Complex amplitude = c.amplitude * Complex(c.pattern[channel_]);
       if (std::norm(amplitude) < faint_ * faint_) continue;
@@ -109,7 +109,7 @@ class WayPoints {
 };
 
 // Response of the body over the propagation paths of one trace.
-std::vector<ResponseGrid> trace_to_grid(const Scatterer& scatterer, std::span<const PlannedPath> ways,
+std::vector<ResponseGrid> trace_to_grid(const Scatterer& scatterer, std::span<const PlannedPath> paths,
                                         const WavenumberGrid& wavenumbers, int channel, const SolverSpec& solver,
                                         int threads) {
   const double kc = wavenumbers.at(wavenumbers.centre_index());
@@ -118,21 +118,21 @@ std::vector<ResponseGrid> trace_to_grid(const Scatterer& scatterer, std::span<co
   const std::array band{kc - half_band, kc, kc + half_band};
   const TracingSettings settings{solver.min_patch_m, solver.max_bounces, solver.edges};
   std::vector<BistaticGeometry> pairs;
-  for (const PlannedPath& path : ways) pairs.push_back(path.geometry);
+  for (const PlannedPath& path : paths) pairs.push_back(path.geometry);
   const AspectTrace trace(scatterer, pairs, settings, band, threads);
   const double faint = min_amplitude(scatterer, settings, kc);
-  std::vector<WayPoints> points;
-  for (std::size_t way = 0; way < ways.size(); ++way) {
-    points.emplace_back(scatterer, ways[way], kc, half_band, faint, channel, solver.wavefront_range_m,
-                        trace.chunk_count(way));
+  std::vector<PathPoints> points;
+  for (std::size_t path = 0; path < paths.size(); ++path) {
+    points.emplace_back(scatterer, paths[path], kc, half_band, faint, channel, solver.wavefront_range_m,
+                        trace.chunk_count(path));
   }
-  const auto add = [&](std::size_t way, std::size_t chunk, const auto& footprints) {
-    points[way].add(chunk, footprints);
+  const auto add = [&](std::size_t path, std::size_t chunk, const auto& contributions) {
+    points[path].add(chunk, contributions);
   };
   trace.run({add, add});
   std::vector<ResponseGrid> grids;
-  for (const WayPoints& of_way : points)
-    grids.push_back(of_way.grid(wavenumbers, cross_track_limit(scatterer), threads));
+  for (const PathPoints& of_path : points)
+    grids.push_back(of_path.grid(wavenumbers, cross_track_limit(scatterer), threads));
   return grids;
 }
 
@@ -203,25 +203,25 @@ BodyResponse body_response(const Scatterer& scatterer, const Trajectory& traject
   result.response.pulses = pulses;
   result.response.frequencies_per_pulse = sampling.frequencies_per_pulse;
   result.response.values.assign(static_cast<std::size_t>(pulses) * sampling.frequencies_per_pulse, 0.0);
-  std::optional<SeaReflectionOverPulses> mirror;
-  if (sea != nullptr) mirror.emplace(*sea, plan, sampling, wavenumbers);
-  std::vector<Complex> answer(static_cast<std::size_t>(sampling.frequencies_per_pulse));
+  std::optional<SeaReflectionOverPulses> reflection;
+  if (sea != nullptr) reflection.emplace(*sea, plan, sampling, wavenumbers);
+  std::vector<Complex> values(static_cast<std::size_t>(sampling.frequencies_per_pulse));
   for (std::size_t i = 0; i < traces.size(); ++i) {
     for (std::size_t w = 0; w < traces[i].paths.size(); ++w) {
       const auto& [path, geometry, moves] = traces[i].paths[w];
       ++result.traces;
       for (int n = traces[i].first; n <= traces[i].last; ++n) {
         const auto at = static_cast<std::size_t>(n - traces[i].first);
-        returns[i][w].response(sampling.pulse_first[n], moves.s[at], moves.q[at], answer);
+        returns[i][w].response(sampling.pulse_first[n], moves.s[at], moves.q[at], values);
         // Motion of the body's origin: e^{jk (a + b).p} with the look directions a and b of the two paths, or by the
         // distances to a radar at a finite range; exact for every pulse and frequency.
         const double origin_path = plan.path_advance(path, n);
         for (int b = 0; b < sampling.frequencies_per_pulse; ++b) {
           const int q = sampling.pulse_first[n] + b;
           const Complex by_sea =
-              path.is_multipath() ? SeaReflection::path_factor(path, mirror->at(n, b), channel) : 1.0;
+              path.is_multipath() ? SeaReflection::path_factor(path, reflection->at(n, b), channel) : 1.0;
           result.response.at(n, b) +=
-              plan.interpolation_weight(i, n) * by_sea * std::polar(1.0, wavenumbers.at(q) * origin_path) * answer[b];
+              plan.interpolation_weight(i, n) * by_sea * std::polar(1.0, wavenumbers.at(q) * origin_path) * values[b];
         }
       }
     }

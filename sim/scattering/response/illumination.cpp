@@ -8,6 +8,7 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
 #include "sim/scattering/beams/beam_tracer.h"
+#include "sim/scattering/diffraction/tolerances.h"
 #include "sim/scattering/edges/beam_boundary.h"
 #include "sim/scattering/edges/beam_edges.h"
 #include "sim/scattering/surfaces/beam_contributions.h"
@@ -31,9 +32,11 @@ constexpr double kLookPerturbation = 1e-6;
 RadarBasis perturbed_look_direction(const Scatterer& scatterer, const RadarBasis& basis, bool edges) {
   const auto has_a_limit = [&](const Vec3& r) {
     const auto in_its_plane = [&](const Facet& facet) {
-      return (facet.two_sided || edges) && std::abs(facet.normal.dot(r)) < kEdgeOnPanel;
+      return (facet.two_sided || edges) && std::abs(facet.normal.dot(r)) < kInPlaneAngle;
     };
-    const auto square_to = [&](const SharpEdge& edge) { return edges && std::abs(edge.along().dot(r)) < kEdgeOnPanel; };
+    const auto square_to = [&](const SharpEdge& edge) {
+      return edges && std::abs(edge.along().dot(r)) < kInPlaneAngle;
+    };
     return std::ranges::any_of(scatterer.facets(), in_its_plane) ||
            std::ranges::any_of(scatterer.edges().edges, square_to);
   };
@@ -51,33 +54,34 @@ RadarBasis perturbed_look_direction(const Scatterer& scatterer, const RadarBasis
 }
 
 // Records the contributions and edge illuminations of the beam segments of one illumination.
-class LitRecorder : public BeamVisitor {
+class IlluminationRecorder : public BeamVisitor {
  public:
-  LitRecorder(const TracingContext& scene, TracedContributions& out) : scene_(scene), out_(out) {
-    out.seen.resize(scene.receivers.size());
-    ends_.reserve(out.seen.size());  // referenced by echoes_
-    for (std::size_t i = 0; i < out.seen.size(); ++i) {
+  IlluminationRecorder(const TracingContext& scene, TracedContributions& out) : scene_(scene), out_(out) {
+    out.receivers.resize(scene.receivers.size());
+    edges_of_receiver_.reserve(out.receivers.size());  // referenced by surfaces_of_receiver_
+    for (std::size_t i = 0; i < out.receivers.size(); ++i) {
       const Receiver& receiver = scene.receivers[i];
-      echoes_.emplace_back(scene, receiver, out.seen[i].footprints,
-                           &ends_.emplace_back(scene, receiver, out.seen[i].boundary_terms));
+      surfaces_of_receiver_.emplace_back(
+          scene, receiver, out.receivers[i].footprints,
+          &edges_of_receiver_.emplace_back(scene, receiver, out.receivers[i].boundary_terms));
     }
   }
 
-  bool wants(const BeamSegment& segment) const override { return records_edges(scene_, segment); }
-  void lit(const BeamSegment& segment, const CandidatePanel& candidate) override {
+  bool needs_last_segment(const BeamSegment& segment) const override { return records_edges(scene_, segment); }
+  void illuminated(const BeamSegment& segment, const CandidatePanel& candidate) override {
     if (records_edges(scene_, segment)) record_edges(scene_, segment, candidate, out_.edge_illuminations);
   }
-  void seen(const BeamSegment& segment, const CandidatePanel& candidate, std::size_t receiver,
-            std::span<const MovingPolygon> pieces) override {
-    echoes_[receiver].radiate(segment, candidate, pieces);
-    echoes_[receiver].radiate_image(segment, candidate, pieces);
+  void visible(const BeamSegment& segment, const CandidatePanel& candidate, std::size_t receiver,
+               std::span<const MovingPolygon> pieces) override {
+    surfaces_of_receiver_[receiver].radiate(segment, candidate, pieces);
+    surfaces_of_receiver_[receiver].radiate_image(segment, candidate, pieces);
   }
 
  private:
   const TracingContext& scene_;
   TracedContributions& out_;
-  std::vector<FootprintEnds> ends_;
-  std::vector<BeamContributions> echoes_;
+  std::vector<FootprintEnds> edges_of_receiver_;
+  std::vector<BeamContributions> surfaces_of_receiver_;
 };
 
 Aspects aspects_of(const Scatterer& scatterer, const BistaticGeometry& geometry, const TracingSettings& settings,
@@ -143,15 +147,15 @@ TraceSummary Illumination::trace_all(int threads, const Visit& visit, const Stop
         TracedContributions traced;
         const auto panels = visible_panels().subspan(chunk * size, std::min(size, seen_.size() - chunk * size));
         const TracingContext of_chunk = scene();
-        LitRecorder recorder(of_chunk, traced);
+        IlluminationRecorder recorder(of_chunk, traced);
         segments[chunk] = trace_beams(of_chunk, panels, recorder, [&] {
-          for (std::size_t receiver = 0; receiver < traced.seen.size(); ++receiver) {
-            auto& [footprints, boundary_terms] = traced.seen[receiver];
+          for (std::size_t receiver = 0; receiver < traced.receivers.size(); ++receiver) {
+            auto& [footprints, boundary_terms] = traced.receivers[receiver];
             std::erase_if(footprints, [&](const Footprint& f) {
               return !filter.accepts(f.part, f.bounces, Mechanism::kPhysicalOptics);
             });
             std::erase_if(boundary_terms, [&](const EdgeContribution& end) {
-              return !filter.accepts_edge(end.part, end.other_part, end.bounces) ||
+              return !filter.accepts_edge(end.part, end.other_part, end.bounces, end.mechanism) ||
                      (faint > 0 && boundary_term_bound(end, lowest_, highest_) < faint);
             });
             visit(chunk, receiver, {footprints, boundary_terms});
@@ -175,7 +179,7 @@ TracingContext Illumination::scene() const {
 
 std::size_t Illumination::trace_from(std::span<const int> facets, TracedContributions& traced) const {
   const TracingContext of_facets = scene();
-  LitRecorder recorder(of_facets, traced);
+  IlluminationRecorder recorder(of_facets, traced);
   return trace_beams(of_facets, facets, recorder);
 }
 

@@ -25,11 +25,11 @@ namespace seaglint {
 // Contributions of the beams that leave one or several panels.
 struct TracedContributions {
   // Of one receiver: footprints, and the boundary terms of their beams.
-  struct Seen {
+  struct OfReceiver {
     std::vector<Footprint> footprints;
     std::vector<EdgeContribution> boundary_terms;
   };
-  std::vector<Seen> seen;
+  std::vector<OfReceiver> receivers;
   std::vector<EdgeIllumination> edge_illuminations;  // filled, as boundary_terms are, with edge diffraction on
 };
 

@@ -164,7 +164,7 @@ void ResponseGrid::spread(std::span<const GridPoint> points) {
     for (int term = 0; term < terms_; ++term, power *= beside) {
       Complex* of_term = &cells_[term * cells_per_term()];
       for (int j = 0; j < kWidth; ++j) {
-        const double share = power * along_u[j], re = share * value.real(), im = share * value.imag();
+        const double weight = power * along_u[j], re = weight * value.real(), im = weight * value.imag();
         auto* cells = reinterpret_cast<double*>(of_term + cell(first_u + j, column));
         for (int i = 0; i < kWidth; ++i) {
           cells[2 * i] += along_psi[i] * re;
@@ -217,13 +217,13 @@ void ResponseGrid::response(int first, double s, double cross_track, std::span<C
         re[l] = row[bin[l]].real();
         im[l] = row[bin[l]].imag();
       }
-      std::array<double, kLanes> share;  // phase^term / term!, without the factor j^term
-      share.fill(1);
+      std::array<double, kLanes> power_term;  // phase^term / term!, without the factor j^term
+      power_term.fill(1);
       for (int term = 1; term < terms_; ++term) {
         row += cells_per_term();
         for (std::size_t l = 0; l < kLanes; ++l) {
-          share[l] *= phase[l] / term;
-          const Complex more = share[l] * times_j(row[bin[l]], term);
+          power_term[l] *= phase[l] / term;
+          const Complex more = power_term[l] * times_j(row[bin[l]], term);
           re[l] += more.real();
           im[l] += more.imag();
         }

@@ -17,9 +17,9 @@ using Matrices = std::vector<std::array<Complex, 4>>;  // per wavenumber
 // differs from point to point.
 class MatrixSum {
  public:
-  MatrixSum(const BistaticGeometry& geometry, std::span<const double> wavenumbers, const TracingSettings& settings,
+  MatrixSum(const BistaticGeometry& geometry, std::span<const double> wavenumbers, const RadarRange& radar,
             double spread)
-      : geometry_(geometry), wavenumbers_(wavenumbers), settings_(settings), spread_(spread) {}
+      : geometry_(geometry), wavenumbers_(wavenumbers), radar_(radar), spread_(spread) {}
 
   void add(std::span<const Footprint> footprints, Matrices& sum) const {
     for (const Footprint& footprint : footprints) {
@@ -37,18 +37,18 @@ class MatrixSum {
 
  private:
   std::array<Complex, 4> bent(std::vector<PointContribution>& points, double k) const {
-    apply_wavefront_curvature(points, geometry_, settings_.origin, settings_.range_m);
+    apply_wavefront_curvature(points, geometry_, radar_);
     return direct_sum(points, k, Vec3::Zero());
   }
   std::array<Complex, 4> of_facet(Footprint footprint, std::size_t q) const {
-    if (settings_.range_m <= 0) return scattered(footprint, wavenumbers_[q], q);
+    if (radar_.range_m <= 0) return scattered(footprint, wavenumbers_[q], q);
     if (!footprint.patterns.empty()) footprint.pattern = footprint.patterns[q];
     std::vector<PointContribution> points;
     decompose(footprint, geometry_.transmit, {wavenumbers_[q], spread_}, points);
     return bent(points, wavenumbers_[q]);
   }
   std::array<Complex, 4> of_edge(const EdgeContribution& contribution, double k) const {
-    if (settings_.range_m <= 0) return scattered(contribution, k);
+    if (radar_.range_m <= 0) return scattered(contribution, k);
     std::vector<PointContribution> points;
     decompose(contribution, {k, spread_}, points);
     return bent(points, k);
@@ -56,27 +56,28 @@ class MatrixSum {
 
   const BistaticGeometry& geometry_;
   std::span<const double> wavenumbers_;
-  const TracingSettings& settings_;
+  const RadarRange& radar_;
   double spread_;
 };
 
 }  // namespace
 
-double direction_spread(const Scatterer& scatterer, double range_m, const Vec3& origin) {
-  const double reach = scatterer.radius() + origin.norm();
-  check_wavefront_range(reach, range_m);
-  return range_m > 0 ? reach / range_m : 0;
+double direction_spread(const Scatterer& scatterer, const RadarRange& radar) {
+  const double reach = scatterer.radius() + radar.origin.norm();
+  check_wavefront_range(reach, radar.range_m);
+  return radar.range_m > 0 ? reach / radar.range_m : 0;
 }
 
 std::vector<Matrices> scattering_matrices(const Scatterer& scatterer, std::span<const BistaticGeometry> pairs,
                                           std::span<const double> wavenumbers, const TracingSettings& settings,
-                                          int threads, std::size_t* segments, const StopFlag* stop) {
-  const double spread = direction_spread(scatterer, settings.range_m, settings.origin);
+                                          int threads, std::size_t* segments, const StopFlag* stop,
+                                          const RadarRange& radar) {
+  const double spread = direction_spread(scatterer, radar);
   const AspectTrace trace(scatterer, pairs, settings, wavenumbers, threads);
   std::vector<std::vector<Matrices>> parts(pairs.size());  // [pair][chunk]
   for (std::size_t i = 0; i < pairs.size(); ++i) parts[i].assign(trace.chunk_count(i), Matrices(wavenumbers.size()));
   const auto add = [&](std::size_t pair, std::size_t chunk, const auto& footprints) {
-    MatrixSum(pairs[pair], wavenumbers, settings, spread).add(footprints, parts[pair][chunk]);
+    MatrixSum(pairs[pair], wavenumbers, radar, spread).add(footprints, parts[pair][chunk]);
   };
   const std::size_t followed = trace.run({add, add}, stop);
   if (segments) *segments += followed;
@@ -92,18 +93,16 @@ std::vector<Matrices> scattering_matrices(const Scatterer& scatterer, std::span<
 
 Matrices scattering_matrices(const Scatterer& scatterer, const BistaticGeometry& geometry,
                              std::span<const double> wavenumbers, const TracingSettings& settings, int threads,
-                             std::size_t* segments, const StopFlag* stop) {
-  return scattering_matrices(scatterer, std::span(&geometry, 1), wavenumbers, settings, threads, segments, stop)
+                             std::size_t* segments, const StopFlag* stop, const RadarRange& radar) {
+  return scattering_matrices(scatterer, std::span(&geometry, 1), wavenumbers, settings, threads, segments, stop, radar)
       .front();
 }
 
 Matrices scattering_matrices_over_sea(const Scatterer& scatterer, const Vec3& r_hat, double height_m,
                                       const SeaReflection& sea, std::span<const double> wavenumbers,
                                       const TracingSettings& settings, int threads, std::size_t* segments,
-                                      const StopFlag* stop) {
+                                      const StopFlag* stop, double range_m) {
   const RadarBasis radar = radar_basis(r_hat), image = image_basis(radar);
-  TracingSettings raised = settings;
-  raised.origin = {0, 0, height_m};
   std::vector<PropagationPath> paths;
   std::vector<BistaticGeometry> pairs;
   for (const PropagationPath& path : kFourPaths) {
@@ -112,7 +111,8 @@ Matrices scattering_matrices_over_sea(const Scatterer& scatterer, const Vec3& r_
     paths.push_back(path);
     pairs.push_back(path.outbound_via_sea == path.return_via_sea ? monostatic(transmit) : bistatic(transmit, receive));
   }
-  const auto matrices = scattering_matrices(scatterer, pairs, wavenumbers, raised, threads, segments, stop);
+  const auto matrices = scattering_matrices(scatterer, pairs, wavenumbers, settings, threads, segments, stop,
+                                            {range_m, {0, 0, height_m}});
   Matrices sum(wavenumbers.size());
   for (std::size_t w = 0; w < paths.size(); ++w) {
     // Phase relative to the body's origin at (0, 0, height): e^{jk (a + b - 2 r).(0, 0, height)}.
@@ -129,10 +129,10 @@ Matrices scattering_matrices_over_sea(const Scatterer& scatterer, const Vec3& r_
 
 std::vector<PointContribution> aspect_contributions(const Scatterer& scatterer, const BistaticGeometry& geometry,
                                                     const DecompositionSettings& split_settings,
-                                                    const TracingSettings& settings, int threads,
-                                                    const StopFlag* stop) {
+                                                    const TracingSettings& settings, int threads, const StopFlag* stop,
+                                                    const RadarRange& radar) {
   DecompositionSettings bent = split_settings;
-  bent.aspect_change_rad += direction_spread(scatterer, settings.range_m, settings.origin);
+  bent.aspect_change_rad += direction_spread(scatterer, radar);
   const std::array wavenumber{split_settings.kc};
   const AspectTrace trace(scatterer, std::span(&geometry, 1), settings, wavenumber, threads);
   std::vector<std::vector<PointContribution>> chunks(trace.chunk_count(0));
@@ -146,7 +146,7 @@ std::vector<PointContribution> aspect_contributions(const Scatterer& scatterer, 
             stop);
   std::vector<PointContribution> all;
   for (const auto& chunk : chunks) all.insert(all.end(), chunk.begin(), chunk.end());
-  if (settings.range_m > 0) apply_wavefront_curvature(all, geometry, settings.origin, settings.range_m);
+  if (radar.range_m > 0) apply_wavefront_curvature(all, geometry, radar);
   return all;
 }
 

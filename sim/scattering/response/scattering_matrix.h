@@ -16,9 +16,9 @@
 
 namespace seaglint {
 
-// Largest difference of the direction to a radar at range_m over the target, rad; 0 in the far field (range_m = 0).
+// Largest difference of the direction to the radar over the target, rad; 0 in the far field (range_m = 0).
 // Throws InputError when the range is below ten times the reach of the target from the point it refers to.
-double direction_spread(const Scatterer& scatterer, double range_m, const Vec3& origin);
+double direction_spread(const Scatterer& scatterer, const RadarRange& radar);
 
 // hh, hv, vh, vv (received, transmitted) in metres at each wavenumber, body at rest: one trace, and the exact phase
 // integral of every footprint at every wavenumber. Each direction has its own polarisation basis. Adds the number of
@@ -26,28 +26,30 @@ double direction_spread(const Scatterer& scatterer, double range_m, const Vec3& 
 std::vector<std::array<Complex, 4>> scattering_matrices(const Scatterer& scatterer, const BistaticGeometry& geometry,
                                                         std::span<const double> wavenumbers,
                                                         const TracingSettings& settings, int threads = 1,
-                                                        std::size_t* segments = nullptr,
-                                                        const StopFlag* stop = nullptr);
+                                                        std::size_t* segments = nullptr, const StopFlag* stop = nullptr,
+                                                        const RadarRange& radar = {});
 
 // The same for each pair of directions; every transmit direction is traced once (aspect_trace.h).
 std::vector<std::vector<std::array<Complex, 4>>> scattering_matrices(
     const Scatterer& scatterer, std::span<const BistaticGeometry> pairs, std::span<const double> wavenumbers,
-    const TracingSettings& settings, int threads = 1, std::size_t* segments = nullptr, const StopFlag* stop = nullptr);
+    const TracingSettings& settings, int threads = 1, std::size_t* segments = nullptr, const StopFlag* stop = nullptr,
+    const RadarRange& radar = {});
 
 // hh, hv, vh, vv in metres of a body at rest over the sea, at each wavenumber, with the phase referred to the body's
-// origin, `height_m` above the mean surface. r_hat in the body frame, z up, r_hat.z() > 0. Adds the number of beam
-// segments traced to *segments.
+// origin, `height_m` above the mean surface. r_hat in the body frame, z up, r_hat.z() > 0; range_m from the point of
+// the mean surface below the body, 0: plane wave. Adds the number of beam segments traced to *segments.
 std::vector<std::array<Complex, 4>> scattering_matrices_over_sea(const Scatterer& scatterer, const Vec3& r_hat,
                                                                  double height_m, const SeaReflection& sea,
                                                                  std::span<const double> wavenumbers,
                                                                  const TracingSettings& settings, int threads = 1,
                                                                  std::size_t* segments = nullptr,
-                                                                 const StopFlag* stop = nullptr);
+                                                                 const StopFlag* stop = nullptr, double range_m = 0);
 
 // Point contributions of one aspect, in an order independent of the number of threads. Their direct sum at split.kc is
 // the scattering matrix.
 std::vector<PointContribution> aspect_contributions(const Scatterer& scatterer, const BistaticGeometry& geometry,
                                                     const DecompositionSettings& split, const TracingSettings& settings,
-                                                    int threads = 1, const StopFlag* stop = nullptr);
+                                                    int threads = 1, const StopFlag* stop = nullptr,
+                                                    const RadarRange& radar = {});
 
 }  // namespace seaglint

@@ -13,9 +13,9 @@ RadarBasis body_basis(const RadarBasis& world, const Pose& pose) {
   return {R_BT * world.r, R_BT * world.h, R_BT * world.v};
 }
 
-double length_of(std::span<const Vec3> way) {
+double length_of(std::span<const Vec3> points) {
   double length = 0;
-  for (std::size_t n = 1; n < way.size(); ++n) length += (way[n] - way[n - 1]).norm();
+  for (std::size_t n = 1; n < points.size(); ++n) length += (points[n] - points[n - 1]).norm();
   return length;
 }
 
@@ -57,7 +57,7 @@ TracePlan::TracePlan(const Trajectory& trajectory, const IntervalSampling& sampl
       const Pose pose = trajectory.pose(middle_s);
       traces_.push_back(planned(
           i, pose, line_of_sight_from(line_of_sight_at(sampling, r_hat, middle_s), pose.p, range_m), seen, paths));
-      for (const PlannedPath& way : traces_.back().paths) beside = std::max(beside, way.look_path.q_limit);
+      for (const PlannedPath& path : traces_.back().paths) beside = std::max(beside, path.look_path.q_limit);
     }
     if (beside <= limits.cross_track || spans_ >= time_.size()) break;
   }

@@ -1,12 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/scattering/surfaces/beam_contributions.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "sim/scattering/diffraction/wedge.h"
 #include "sim/scattering/material/reflection.h"
 
 namespace seaglint {
+namespace {
+
+// Multiplies the pattern of a perfectly conducting footprint by a weight; the part above 1 is the transposed pattern
+// (reciprocal path).
+void weight_with_reciprocal(double weight, Footprint& footprint) {
+  const double there = std::min(weight, 1.0), back = weight - there;
+  const auto [hh, hv, vh, vv] = footprint.pattern;
+  footprint.pattern = {there * hh + back * hh, there * hv + back * vh, there * vh + back * hv, there * vv + back * vv};
+}
+
+}  // namespace
+
 BeamContributions::BeamContributions(const TracingContext& scene, const Receiver& receiver, std::vector<Footprint>& out,
                                      FootprintVisitor* visitor)
     : scene_(scene),
@@ -41,17 +54,17 @@ void BeamContributions::radiate(const BeamSegment& segment, const CandidatePanel
   }
   footprint.curvature = make_curved_footprint(curvature_, panels_, geometry_, segment, candidate, footprint);
   if (visitor_) visitor_->start(segment, candidate, footprint);
-  const double share = uses_grazing_treatment(segment, footprint.facet) ? path_weight(segment, footprint.facet) : 1.0;
+  const double weight = uses_grazing_treatment(segment, footprint.facet) ? path_weight(segment, footprint.facet) : 1.0;
   // A weight above 1 applies to the boundary terms too; for a weight below 1 they are tapered equally
   // (reflected_edge_weight).
-  if (share > 1) weight_with_reciprocal(share, footprint);
+  if (weight > 1) weight_with_reciprocal(weight, footprint);
   for (const MovingPolygon& piece : pieces) {
     footprint.polygon = piece;
     limit_slide_rate(footprint, max_slide_rate_);
     if (visitor_) visitor_->add(footprint);
-    if (share <= 0) continue;
+    if (weight <= 0) continue;
     out_.push_back(footprint);
-    if (share < 1) weight_with_reciprocal(share, out_.back());
+    if (weight < 1) weight_with_reciprocal(weight, out_.back());
   }
 }
 
@@ -60,10 +73,10 @@ void BeamContributions::radiate_image(const BeamSegment& segment, const Candidat
   const int facet = candidate.projection.facet;
   if (segment.bounce < 2 || segment.bounce >= scene_.settings.max_bounces || !uses_grazing_treatment(segment, facet))
     return;
-  const double share = image_weight(basis_.r, reflector_panel(segment.first_reflector), reflector_panel(facet));
-  if (share <= 0) return;
-  const Facet& mirror = facets_[segment.first_reflector];
-  const ImageTransform by = plane_reflection(mirror.normal, mirror.offset);
+  const double weight = image_weight(basis_.r, reflector_panel(segment.first_reflector), reflector_panel(facet));
+  if (weight <= 0) return;
+  const Facet& reflector = facets_[segment.first_reflector];
+  const ImageTransform by = plane_reflection(reflector.normal, reflector.offset);
   const Vec3 illuminated_side = illuminated_normal(segment, facets_[facet]), n = by.L * illuminated_side;
   if (n.dot(basis_.r) <= kEdgeOn) return;
   // The tangential field of the image has the opposite sign (perfect conductor).
@@ -80,7 +93,7 @@ void BeamContributions::radiate_image(const BeamSegment& segment, const Candidat
   footprint.bounces = static_cast<std::uint8_t>(segment.bounce + 1);
   set_phase(footprint, segment.image_transform.L * illuminated_side, geometry_);
   footprint.pattern = pec_pattern(image, n, std::abs(n.dot(image.direction)), basis_);
-  weight_with_reciprocal(share, footprint);
+  weight_with_reciprocal(weight, footprint);
   // The part that the reflector illuminates first is the part that a receiver at the same place sees via it.
   std::vector<MovingPolygon> by_reflector;
   if (segment.bounce > 2)

@@ -9,9 +9,9 @@
 
 #include "sim/scattering/beams/beam_segment.h"
 #include "sim/scattering/beams/tracing_context.h"
+#include "sim/scattering/diffraction/path_weights.h"
 #include "sim/scattering/surfaces/curved_footprint.h"
 #include "sim/scattering/surfaces/footprint.h"
-#include "sim/scattering/surfaces/grazing_reflection.h"
 
 namespace seaglint {
 
@@ -44,7 +44,7 @@ class BeamContributions {
  private:
   // Pattern per wavenumber, where the panel or a reflector before it is not a perfect conductor.
   std::vector<std::array<Complex, 4>> patterns(const BeamSegment& segment, int facet, const Vec3& n) const;
-  // True where the grazing treatment applies (grazing_reflection.h): one antenna, edge diffraction on, flat perfect
+  // True where the grazing treatment applies (path_weights.h): one antenna, edge diffraction on, flat perfect
   // conductors, no cavity walls.
   bool uses_grazing_treatment(const BeamSegment& segment, int facet) const;
   ReflectorPanel reflector_panel(int facet) const;

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "sim/core/numbers/sinc.h"
+#include "sim/scattering/diffraction/fade_windows.h"
 #include "sim/scattering/surfaces/decomposition.h"
 
 namespace seaglint {
@@ -31,10 +32,10 @@ class CurvedDecomposer {
       fade_[i] = shadow_taper(std::min(c_.incident_shadow_distance[i], c_.receiver_shadow_distance[i]), k);
     // Maps a slope in the projection plane to one along the surface: divided by 1/cos along the steepest direction.
     const Vec2 steepest = footprint.plane.slope;
-    const double stretch = std::sqrt(1 + steepest.squaredNorm());
+    const double area_ratio = std::sqrt(1 + steepest.squaredNorm());
     along_surface_ = Mat2::Identity();
     if (steepest.squaredNorm() > 0) {
-      along_surface_ -= (1 - 1 / stretch) / steepest.squaredNorm() * steepest * steepest.transpose();
+      along_surface_ -= (1 - 1 / area_ratio) / steepest.squaredNorm() * steepest * steepest.transpose();
     }
     for (int i = 0; i < 3; ++i) {
       const int j = (i + 1) % 3;
@@ -57,7 +58,7 @@ class CurvedDecomposer {
  private:
   // Barycentric coordinates of a point in the facet; their sum is 1.
   using BarycentricWeights = std::array<double, 3>;
-  BarycentricWeights shares(const Vec2& p) const {
+  BarycentricWeights barycentric(const Vec2& p) const {
     return {c_.lambda.at(0, p), c_.lambda.at(1, p), c_.lambda.at(2, p)};
   }
 
@@ -71,9 +72,9 @@ class CurvedDecomposer {
     }
     return sum;
   }
-  double psi(const Vec2& p) const { return psi(p, shares(p)); }
+  double psi(const Vec2& p) const { return psi(p, barycentric(p)); }
   Vec2 psi_slope(const Vec2& p) const {
-    const BarycentricWeights of_p = shares(p);
+    const BarycentricWeights of_p = barycentric(p);
     Vec2 sum = footprint_.w + c_.phase.slope(p);
     for (int i = 0; i < 3; ++i) {
       const int j = (i + 1) % 3;
@@ -107,7 +108,7 @@ class CurvedDecomposer {
     }
     // The slope is linear over the triangle: at least that at the centre less the largest difference from it.
     std::array<Vec2, 3> slope;
-    for (int i = 0; i < 3; ++i) slope[i] = between(slope_, shares(triangle[i]));
+    for (int i = 0; i < 3; ++i) slope[i] = between(slope_, barycentric(triangle[i]));
     const Vec2 mean = (slope[0] + slope[1] + slope[2]) / 3;
     const double min =
         mean.norm() - std::max({(slope[0] - mean).norm(), (slope[1] - mean).norm(), (slope[2] - mean).norm()});
@@ -145,7 +146,7 @@ class CurvedDecomposer {
     constexpr double kNear = 0.10128650732345634, kFar = 0.47014206410511509;
     constexpr double kWeightNear = 0.12593918054482715, kWeightFar = 0.13239415278850618, kWeightMiddle = 0.225;
     const auto value = [&](const Vec2& p) {
-      const BarycentricWeights of_p = shares(p);
+      const BarycentricWeights of_p = barycentric(p);
       return between(fade_, of_p) * std::polar(1.0, k_ * (psi(p, of_p) - psi_c));
     };
     Complex integral = 0;
@@ -168,7 +169,7 @@ class CurvedDecomposer {
     const std::size_t n = polygon.size();
     std::vector<std::optional<Complex>> end(n);
     const auto flux = [&](const Vec2& p, const Vec2& along) -> Complex {
-      const BarycentricWeights of_p = shares(p);
+      const BarycentricWeights of_p = barycentric(p);
       const Vec2 w = between(c_.w, of_p);
       return between(fade_, of_p) * cross(w, along) / (Complex(0, k_) * w.squaredNorm());
     };
@@ -219,7 +220,7 @@ class CurvedDecomposer {
 
   // A term at a point that slides with a vertex.
   void slide(const Complex& integral, const MovingVertex& vertex) {
-    const BarycentricWeights of_p = shares(vertex.p);
+    const BarycentricWeights of_p = barycentric(vertex.p);
     const Vec2 w = between(c_.w, of_p);
     const double z = footprint_.plane.at(vertex.p);
     out_.push_back(
@@ -254,8 +255,8 @@ std::array<Complex, 4> pattern_at(const Footprint& footprint, const Vec2& p, con
     return pattern;
   }
   for (int i = 0; i < 3; ++i) {
-    const Complex share = curvature.divergence_factor * curvature.lambda.at(i, p);
-    for (int q = 0; q < 4; ++q) pattern[q] += share * curvature.pattern[i][q];
+    const Complex factor = curvature.divergence_factor * curvature.lambda.at(i, p);
+    for (int q = 0; q < 4; ++q) pattern[q] += factor * curvature.pattern[i][q];
   }
   return pattern;
 }

@@ -10,12 +10,6 @@
 
 namespace seaglint {
 
-// The current is tapered at the smooth-surface shadow boundary as t^3 (10 - 15 t + 6 t^2), t = sin(elevation over the
-// surface) / (kTransitionZoneWidth (kappa / k)^(1/3)), 0..1. (kappa / k)^(1/3) is the width of Fock's transition region
-// (V. A. Fock, J. Phys. USSR 10, 1946, 130-136). Half of that width separates the taper from the specular zone down to
-// kR = 15; values of 0.3 to 2 give equal results above kR = 40.
-inline constexpr double kTransitionZoneWidth = 0.5;
-
 // Contour terms with the local slope replace an area where k slope^2 exceeds this multiple of the change of the slope
 // per metre of surface. Near a specular point their relative error is the inverse of it; elsewhere the omitted terms
 // cancel at the taper.

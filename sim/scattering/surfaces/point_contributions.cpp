@@ -182,15 +182,15 @@ void decompose_over_band(const Footprint& footprint, const RadarBasis& transmit,
 }
 
 void apply_wavefront_curvature(std::span<PointContribution> contributions, const BistaticGeometry& geometry,
-                               const Vec3& origin, double range_m) {
+                               const RadarRange& radar) {
   for (PointContribution& c : contributions) {
     for (const bool out : {false, true}) {
       const Vec3& r = out ? geometry.receive.r : geometry.transmit.r;
       Vec3& gradient = out ? c.gradient.receive : c.gradient.transmit;
-      const Vec3 x = origin + gradient - (out ? c.gradient.receive_slide : c.gradient.transmit_slide);
+      const Vec3 x = radar.origin + gradient - (out ? c.gradient.receive_slide : c.gradient.transmit_slide);
       const double along = r.dot(x);
-      c.psi -= (x - along * r).squaredNorm() / (2 * range_m);
-      gradient += along / range_m * x;  // of -|x_perp|^2 / (2 R) with r
+      c.psi -= (x - along * r).squaredNorm() / (2 * radar.range_m);
+      gradient += along / radar.range_m * x;  // of -|x_perp|^2 / (2 R) with r
     }
   }
 }

@@ -42,13 +42,19 @@ void decompose(const Footprint& footprint, const RadarBasis& transmit, const Dec
 void decompose_over_band(const Footprint& footprint, const RadarBasis& transmit, const DecompositionSettings& settings,
                          double half_band, std::vector<PointContribution>& out);
 
+// Distance of the radar, for the curvature of the wavefront.
+struct RadarRange {
+  double range_m = 0;  // 0: plane wave; else at least ten times the target's radius about the point it refers to
+  Vec3 origin = Vec3::Zero();  // of the target frame, relative to that point, m
+};
+
 // Adds the curvature of the wavefront at a finite range, to second order (CONVENTIONS.md, "Plane waves"): each path is
-// longer by |x_perp|^2 / (2 R), x measured from the point that range_m refers to; `origin`: origin of the
-// contributions' frame relative to that point. The gradients are corrected too, except for the slide of a shadow
-// boundary along the curved front, |x_perp| / R of its slide. Contributions must have been decomposed for an aspect
-// change larger by (reach from that point) / R, since the direction to the radar differs between points.
+// longer by |x_perp|^2 / (2 R), x measured from the point that R = range_m > 0 refers to. The gradients are corrected
+// too, except for the slide of a shadow boundary along the curved front, |x_perp| / R of its slide. Contributions must
+// have been decomposed for an aspect change larger by (reach from that point) / R, since the direction to the radar
+// differs between points.
 void apply_wavefront_curvature(std::span<PointContribution> contributions, const BistaticGeometry& geometry,
-                               const Vec3& origin, double range_m);
+                               const RadarRange& radar);
 
 // Sum of pattern amplitude e^{jk (psi + gradient . turn)} over all contributions, `turn` the change of both look
 // directions: the direct sum, for tests and for few points.

@@ -64,7 +64,7 @@ std::vector<Facet> make_facets(const TriangleMesh& mesh) {
     return std::tie(a.low, a.high, a.facet, a.edge) < std::tie(b.low, b.high, b.facet, b.edge);
   });
   DisjointSets surfaces(facets.size());
-  std::vector<std::uint32_t> rims;  // facets at free edges or edges where the orientation reverses
+  std::vector<std::uint32_t> at_boundary;  // facets at free edges or edges where the orientation reverses
   for (std::size_t i = 0; i < sides.size();) {
     std::size_t end = i + 1;
     int upward = sides[i].upward ? 1 : -1;
@@ -75,11 +75,11 @@ std::vector<Facet> make_facets(const TriangleMesh& mesh) {
     for (std::size_t j = i; end - i > 1 && j < end; ++j) {
       facets[sides[j].facet].neighbour[sides[j].edge] = static_cast<std::int32_t>(sides[j + 1 < end ? j + 1 : i].facet);
     }
-    if (upward != 0) rims.push_back(sides[i].facet);
+    if (upward != 0) at_boundary.push_back(sides[i].facet);
     i = end;
   }
   std::vector<char> open(facets.size(), 0);
-  for (const std::uint32_t f : rims) open[surfaces.find(f)] = 1;
+  for (const std::uint32_t f : at_boundary) open[surfaces.find(f)] = 1;
   for (std::uint32_t f = 0; f < facets.size(); ++f) facets[f].two_sided = open[surfaces.find(f)] != 0;
   return facets;
 }

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <array>
 
+#include "sim/scattering/diffraction/tolerances.h"
+
 namespace seaglint {
 namespace {
 
-// Largest distance of a facet's vertices from the panel's plane: 1e-5 of a wavelength of 10 mm, as for coplanar facets.
-constexpr double kInPlane = 1e-7;  // m
-// Smallest cosine between normals in one panel: excludes folded facets thinner than kInPlane.
+// Smallest cosine between normals in one panel: excludes folded facets thinner than kCoincident.
 constexpr double kSameWay = 0.999;
 // Limit while a panel grows, vertices on straight sides included.
 constexpr std::size_t kMaxCorners = 32;
@@ -74,7 +74,7 @@ Panels::Panels(std::span<const Facet> facets, const SmoothSurface& surface)
           return false;
         if (other.normal.dot(first.normal) < kSameWay) return false;
         for (const Vec3& x : other.corner) {
-          if (std::abs(first.normal.dot(x) - first.offset) > kInPlane) return false;
+          if (std::abs(first.normal.dot(x) - first.offset) > kCoincident) return false;
         }
         const int shared = static_cast<int>(back - other.neighbour.begin());
         return grow(outline, i, g, shared, other.corner[(shared + 2) % 3]);

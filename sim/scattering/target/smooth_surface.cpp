@@ -128,9 +128,9 @@ SmoothSurface::SmoothSurface(std::span<const Facet> facets, double crease, doubl
     }
     const Mat3 B = normal_derivative(facet, normal);
     for (int i = 0; i < 3; ++i) {
-      const double share = weight(facet, i, false);
-      vertices_[vertex_of[f][i]].curvature += share * 0.5 * (B + B.transpose());
-      weights[vertex_of[f][i]] += share;
+      const double vertex_weight = weight(facet, i, false);
+      vertices_[vertex_of[f][i]].curvature += vertex_weight * 0.5 * (B + B.transpose());
+      weights[vertex_of[f][i]] += vertex_weight;
     }
   }
   for (std::size_t i = 0; i < vertices_.size(); ++i) vertices_[i].curvature /= weights[i];

@@ -174,7 +174,8 @@ EdgeWaveSum edge_wave_sum(const TriangleMesh& mesh, const BistaticGeometry& geom
                              outgoing, {}, contributions);
   EdgeWaveSum sum;
   for (const EdgeContribution& contribution : contributions) {
-    if (contribution.multiple_diffraction->grazing_waves != 1 || contribution.bounces != 2 + walls) continue;
+    const auto* wave = std::get_if<GrazingWaveAmplitude>(&contribution.amplitude);
+    if (!wave || wave->grazing_waves != 1 || contribution.bounces != 2 + walls) continue;
     const auto s = scattered(contribution, k);
     for (int i = 0; i < 4; ++i) sum.S[i] += s[i];
     ++sum.count;
@@ -307,8 +308,8 @@ TEST(MultipleDiffraction, LeaveOutOnlyWhatIsFaint) {
                                  illuminations, {0, 0, limit, k}, contributions);
       count += contributions.size();
       return std::count_if(contributions.begin(), contributions.end(), [&](const EdgeContribution& f) {
-        return f.multiple_diffraction && f.multiple_diffraction->grazing_waves == 1 &&
-               largest(scattered(f, k)) >= min_amplitude;
+        const auto* wave = std::get_if<GrazingWaveAmplitude>(&f.amplitude);
+        return wave && wave->grazing_waves == 1 && largest(scattered(f, k)) >= min_amplitude;
       });
     };
     const auto of_all = loud(0, all), of_kept = loud(min_amplitude, kept);
@@ -369,7 +370,7 @@ TEST(MultipleDiffraction, DoNotDependOnHowTheirFaceIsCut) {
                                  illuminations, {}, contributions);
       std::array<Complex, 4> sum{};
       for (const EdgeContribution& contribution : contributions) {
-        if (once && contribution.multiple_diffraction->grazing_waves > 1) continue;
+        if (once && std::get<GrazingWaveAmplitude>(contribution.amplitude).grazing_waves > 1) continue;
         const auto s = scattered(contribution, k);
         for (int i = 0; i < 4; ++i) sum[i] += s[i];
       }

@@ -9,10 +9,10 @@
 #include <cmath>
 
 #include "sim/core/numbers/smooth_step.h"
+#include "sim/scattering/diffraction/fade_windows.h"
 #include "sim/scattering/diffraction/wedge_diffraction.h"
 #include "sim/scattering/edges/multiple_diffraction.h"
 #include "sim/scattering/response/illumination.h"
-#include "sim/scattering/surfaces/grazing_reflection.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
 namespace seaglint {
@@ -64,7 +64,7 @@ Complex half_plane(double from, double x, double z, double k) {
 }
 // What the field on the wall and its slope, which by reciprocity is the receiver's, have over physical optics: that
 // lights the wall, and once more by the floor up to the rim's shadow line, where the wall's image radiates as well
-// (grazing_reflection.h). They agree far above the penumbra but for waves that run ever faster up the wall, which are
+// (path_weights.h). They agree far above the penumbra but for waves that run ever faster up the wall, which are
 // faded out.
 Answer integral(double sine, double k) {
   const double angle = std::asin(sine), penumbra = std::sqrt(2 * kWay / k), shadow = kWay * std::tan(angle);
@@ -142,7 +142,7 @@ TEST(WallPenumbra, IsTheWallsAndItsFloors) {
                              illuminations, {}, contributions);
   int walls = 0;
   for (const EdgeContribution& contribution : contributions) {
-    if (!contribution.penumbra) continue;
+    if (!std::holds_alternative<WallPenumbraTerm>(contribution.amplitude)) continue;
     ++walls;
     EXPECT_NE(contribution.part, contribution.other_part);
   }

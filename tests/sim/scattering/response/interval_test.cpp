@@ -58,8 +58,9 @@ double error_against_fresh_traces(const Scatterer& scatterer, const Trajectory& 
     const RadarBasis seen = range_m > 0 ? radar_basis((range_m * r_hat - pose.p).normalized()) : world;
     const double nearer_m = range_m > 0 ? range_m - (range_m * r_hat - pose.p).norm() : r_hat.dot(pose.p);
     const BistaticGeometry geometry = monostatic({R_BT * seen.r, R_BT * seen.h, R_BT * seen.v});
-    const TracingSettings settings{solver.min_patch_m, solver.max_bounces, solver.edges, {}, range_m};
-    const Complex s = scattering_matrices(scatterer, geometry, std::array{k}, settings, 2)[0][kVvChannel];
+    const TracingSettings settings{solver.min_patch_m, solver.max_bounces, solver.edges};
+    const Complex s = scattering_matrices(scatterer, geometry, std::array{k}, settings, 2, nullptr, nullptr,
+                                          {range_m})[0][kVvChannel];
     const Complex fresh = s * std::polar(1.0, 2 * k * nearer_m);
     error += std::norm(body.response.at(n, b) - fresh) / spots;
   }
@@ -78,7 +79,7 @@ TEST(Contributions, SumToTheClosedFormWhereTheyWereMade) {
     std::array<Complex, 4> exact{};
     TracedContributions traced;
     for (const int facet : illumination.visible_panels()) illumination.trace_from(facet, traced);
-    for (const Footprint& footprint : traced.seen[0].footprints) {
+    for (const Footprint& footprint : traced.receivers[0].footprints) {
       decompose(footprint, basis, {kc, turn}, contributions);
       const auto s = scattered(footprint, kc);
       for (int i = 0; i < 4; ++i) exact[i] += s[i];

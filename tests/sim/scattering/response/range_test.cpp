@@ -17,9 +17,8 @@ namespace {
 using namespace testing_echoes;
 
 Complex at_range(const TriangleMesh& mesh, const Vec3& r, double k, double range_m) {
-  TracingSettings settings;
-  settings.range_m = range_m;
-  return scattering_matrices(Scatterer(mesh), monostatic(radar_basis(r)), std::array{k}, settings)[0][kVvChannel];
+  return scattering_matrices(Scatterer(mesh), monostatic(radar_basis(r)), std::array{k}, TracingSettings{}, 1, nullptr,
+                             nullptr, {range_m})[0][kVvChannel];
 }
 
 // Physical optics of a plate in x = 0, its phase summed over small cells: e^{2jk (r.x - |x_perp|^2 / 2R)}.
@@ -78,8 +77,8 @@ TEST(WavefrontCurvature, SlipOfAShadowEdgeIsNoPlace) {
   settings.filter.included = {{ContributionSelector::Kind::kPart, 0}};
   const Vec3 r = direction(0, 0);
   const auto seen_from = [&](double range_m) {
-    settings.range_m = range_m;
-    return scattering_matrices(Scatterer(mesh), monostatic(radar_basis(r)), std::array{k}, settings)[0][kVvChannel];
+    return scattering_matrices(Scatterer(mesh), monostatic(radar_basis(r)), std::array{k}, settings, 1, nullptr,
+                               nullptr, {range_m})[0][kVvChannel];
   };
   const Complex far = seen_from(0), near = seen_from(10e3);
   // Half the plate reaches 1 m off the axis: k 1 / R = 6e-3 rad; amplitudes are frozen over 10 / R.

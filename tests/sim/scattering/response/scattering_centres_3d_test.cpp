@@ -130,15 +130,15 @@ TEST(ContributionFilter, KeepsTheRimWhicheverPartComesFirst) {
   filter.cavities = {1};
   EXPECT_FALSE(filter.accepts(1, 1, Mechanism::kPhysicalOptics));
   EXPECT_TRUE(filter.accepts(0, 1, Mechanism::kPhysicalOptics));
-  EXPECT_FALSE(filter.accepts_edge(1, 1, 1));
-  EXPECT_TRUE(filter.accepts_edge(0, 1, 1));
-  EXPECT_TRUE(filter.accepts_edge(1, 0, 1));
+  EXPECT_FALSE(filter.accepts_edge(1, 1, 1, Mechanism::kSingleDiffraction));
+  EXPECT_TRUE(filter.accepts_edge(0, 1, 1, Mechanism::kSingleDiffraction));
+  EXPECT_TRUE(filter.accepts_edge(1, 0, 1, Mechanism::kSingleDiffraction));
   // The rim counts as the other part's, in a selection too.
   filter.excluded = {{ContributionSelector::Kind::kPart, 1}};
-  EXPECT_TRUE(filter.accepts_edge(1, 0, 1));
+  EXPECT_TRUE(filter.accepts_edge(1, 0, 1, Mechanism::kSingleDiffraction));
   EXPECT_FALSE(filter.accepts_cavity(1));
   filter.excluded = {{ContributionSelector::Kind::kPart, 0}};
-  EXPECT_FALSE(filter.accepts_edge(1, 0, 1));
+  EXPECT_FALSE(filter.accepts_edge(1, 0, 1, Mechanism::kSingleDiffraction));
   EXPECT_TRUE(filter.accepts_cavity(1));
 }
 

@@ -60,10 +60,8 @@ TEST(SeaReflection, CountsTheRangeFromTheWaterBelow) {
       }
     }
     sum *= std::polar(1.0, -2 * k * r.z() * height);  // phases are about the body's origin
-    TracingSettings settings;
-    settings.range_m = range_m;
-    const Complex ours =
-        scattering_matrices_over_sea(sphere, r, height, conductor(), std::array{k}, settings)[0][kHhChannel];
+    const Complex ours = scattering_matrices_over_sea(sphere, r, height, conductor(), std::array{k}, TracingSettings{},
+                                                      1, nullptr, nullptr, range_m)[0][kHhChannel];
     // Of the four ways' 4 |alone|: 2 % for what a sphere answers 10 deg off, and the third order of the way, k X H^2 /
     // R^2 = 0.01 rad at 5 km.
     EXPECT_LT(std::abs(ours - sum), 0.03 * 4 * std::abs(alone)) << range_m;

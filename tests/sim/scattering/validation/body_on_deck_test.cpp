@@ -153,7 +153,7 @@ TEST(BodyOnDeck, FollowsImageTheory) {
 }
 
 // A deck of 30 x 30 m, so that all of what the wall sends down comes down on it. Bounds are measured, a tenth above the
-// largest: below 5 deg the ways by the deck are images (grazing_reflection.h), from 6 deg on they end on the deck and
+// largest: below 5 deg the ways by the deck are images (path_weights.h), from 6 deg on they end on the deck and
 // its rims. With the deck as the last mirror at every elevation hh and vv erred by up to 0.57 and 0.53 from 1 to 3 deg,
 // by 0.29 and 0.21 from 3 to 5 deg.
 TEST(BodyOnDeck, FollowsImageTheoryAtLowElevations) {

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/scattering/diffraction/grazing_wave_amplitude.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/core/numbers/smooth_step.h"
+#include "sim/scattering/diffraction/transition.h"
+
+namespace seaglint {
+
+Complex GrazingWaveAmplitude::at(double k, double fraction, double run) const {
+  constexpr double kMinLength = 1e-12;  // m: at a vertex, where both edges meet, the product with the decay is finite
+  constexpr double kFar = 1e15;         // parallel edges
+  const double length = std::max(interpolate(l, fraction), kMinLength);
+  const double phase = std::clamp(run * length / (l[1] - l[0]), -kFar, kFar);
+  const double x = 2 * k * launch_parameter * (grazing_waves == 1 ? length : first_length_m),
+               y = 2 * k * exit_parameter * length;
+  const Complex boundaries = grazing_waves == 1 ? triple_transition_function(x, y, -phase)
+                                                : transition_function(x) * double_transition_function(y, -phase);
+  return boundaries * std::pow(k, -0.5 * grazing_waves) / std::sqrt(length);
+}
+
+}  // namespace seaglint
