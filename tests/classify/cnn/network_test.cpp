@@ -25,7 +25,7 @@ std::vector<float> noise_map(std::size_t rows, std::size_t columns, std::uint64_
 TEST(NetworkInput, InvariantToMapScale) {
   const std::vector<float> map = noise_map(64, 256, 1);
   std::vector<float> louder = map;
-  for (float& value : louder) value *= 1024;  // a power of two: the mantissas stay
+  for (float& value : louder) value *= 1024;  // a power of two, so that mantissas do not change
   const std::vector<float> input = network_input(map, 64, 256, -60);
   EXPECT_EQ(input, network_input(louder, 64, 256, -60));
   for (float& value : louder) value *= 1.7f;

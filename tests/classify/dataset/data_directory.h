@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// A small data set in a directory of its own, whose rows and maps agree with its scenario.
+// A small data set in a directory of its own; its rows and maps are consistent with its scenario.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

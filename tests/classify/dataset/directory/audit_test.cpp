@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An audit must find each fault that was put into a sound data set, and no other.
+// An audit reports exactly the faults that were introduced into a valid data set.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ class DataSetAudit : public DataSetDirectory {
     make_whole();
   }
 
-  // Changes a shard and its checksum, as a faulty program would write it.
+  // Changes a shard and its checksum, as a faulty program would.
   void falsify(std::size_t index, const std::function<void(Shard&)>& change) {
     Shard shard = shard_of(index);
     change(shard);
@@ -69,7 +69,7 @@ TEST_F(DataSetAudit, ShowsSamplesOutOfOrder) {
                                     HasSubstr("3 of 8 samples are missing")));
 }
 
-// A map near the smallest float loses digits when it is stored; peak and energy were taken before.
+// A map near the smallest float loses digits when it is stored; its peak and energy are computed before that.
 TEST_F(DataSetAudit, AllowsForTheRoundingOfTheSmallestNumbers) {
   const auto with_factor = [&](double stored, double recorded) {
     falsify(0, [&](Shard& shard) {

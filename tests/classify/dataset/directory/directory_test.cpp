@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The life of a data set directory: made, resumed, damaged, read.
+// A data set directory when it is created, resumed, damaged and read.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -98,7 +98,7 @@ TEST_F(DataSetDirectory, WithAChangedShardIsRefusedWithTheFilesName) {
   EXPECT_THAT(error_of([&] { DatasetReader reader(directory_); }), HasSubstr("shard_00001.h5: missing"));
 }
 
-// Before there is a manifest nothing but the file itself says what it should be.
+// Before there is a manifest, a shard is verified by its own checksums only.
 TEST_F(DataSetDirectory, IsNotWholeWithAShardThatIsDamagedOrOfAnotherScenario) {
   DatasetWriter writer(directory_, scenario_, false, kTestVersion);
   for (std::size_t i = 0; i < plan_.shards(); ++i) writer.put(i, shard_of(i));
@@ -147,7 +147,7 @@ TEST_F(DataSetDirectory, BeforeItsScenarioMayHoldItsOwnTemporaryFilesOnly) {
               HasSubstr("the directory contains notes.tmp, which is no file of a data set"));
 }
 
-// Its scenario alone makes a directory no data set's: a run has one too.
+// A scenario alone does not make a directory a data set's, since a run also has one.
 TEST_F(DataSetDirectory, ToGoOnInMayHoldNothingButADataSet) {
   make_whole();
   for (const char* name : {"all.h5", "all.npz", ".nfs0001"}) write_file(directory_ / name, "ours, or the system's");
@@ -164,7 +164,7 @@ TEST_F(DataSetDirectory, ToGoOnInMayHoldNothingButADataSet) {
 TEST_F(DataSetDirectory, TakesAShardThatAnotherProcessWroteMeanwhileForItsOwn) {
   make_whole();
   DatasetWriter writer(directory_, scenario_, true, kTestVersion);
-  // A folder in the place of the temporary file: nothing can be written.
+  // A folder replaces the temporary file, so that nothing can be written.
   fs::create_directories(directory_ / temporary_name(shard_name(0), ::getpid()) / "in the way");
   EXPECT_NO_THROW(writer.put(0, shard_of(0)));
   Shard other = shard_of(0);
@@ -175,7 +175,7 @@ TEST_F(DataSetDirectory, TakesAShardThatAnotherProcessWroteMeanwhileForItsOwn) {
   EXPECT_THROW(writer.put(0, other), WorkError);
 }
 
-// A manifest whose checksums of two shards are wrong, as after another processor made these with other last bits.
+// A manifest with wrong checksums of two shards, as after these were regenerated on a processor with other rounding.
 class ConcurrentRepair : public DataSetDirectory {
  protected:
   void SetUp() override {
@@ -186,7 +186,7 @@ class ConcurrentRepair : public DataSetDirectory {
     write_file(directory_ / kManifestFile, to_json(manifest));
   }
 
-  // The shards from `first` to `last`, as one part makes them.
+  // The shards from `first` to `last`, as one part generates them.
   void make_part(DatasetWriter& writer, std::size_t first, std::size_t last) const {
     for (std::size_t i = first; i < last; ++i) {
       if (!writer.complete(i)) writer.put(i, shard_of(i));
@@ -248,7 +248,7 @@ TEST_F(DataSetDirectory, OfAnotherFormatIsRefused) {
   EXPECT_THAT(error_of([&] { DatasetReader reader(directory_); }),
               HasSubstr("manifest.json: format \"seaglint data set 9\"; this program reads \"seaglint data set 2\""));
   fs::remove(directory_ / kManifestFile);
-  // A whole file of another format must not be taken for a damaged one and made anew.
+  // A complete file of another format must not be treated as damaged and regenerated.
   Hdf5Writer other(directory_ / shard_name(1), Hdf5Version::k18);
   other.attribute("format", "seaglint shard 9");
   other.close();
@@ -256,7 +256,7 @@ TEST_F(DataSetDirectory, OfAnotherFormatIsRefused) {
               HasSubstr("shard_00001.h5: format \"seaglint shard 9\"; this program reads \"seaglint shard 3\""));
 }
 
-// What the message advises, it keeps.
+// The action that the message recommends succeeds.
 TEST_F(DataSetDirectory, WithADamagedManifestGoesOnWithoutIt) {
   make_whole();
   const fs::path file = directory_ / kManifestFile;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A data set is of one scenario and of the files that it names.
+// A data set records its scenario and the files that the scenario names.
 #include "classify/dataset/directory/input_list.h"
 
 #include <fmt/format.h>

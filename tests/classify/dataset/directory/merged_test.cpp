@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One file over all shards: says what they say, and is not written over shards that are missing, damaged or foreign.
+// One virtual file over all shards: it returns the shards' data and is not written over shards that are missing,
+// damaged or foreign.
 #include "classify/dataset/directory/merged.h"
 
 #include <gmock/gmock.h>
@@ -58,7 +59,7 @@ TEST_F(MergedDataSet, TakesEveryRowFromItsShard) {
 TEST_F(MergedDataSet, HasTheSameBytesWheneverItIsWritten) {
   merge();
   const std::string first = read_file(file());
-  timespec pause{1, 100000000};  // a time stamp of whole seconds would show
+  timespec pause{1, 100000000};  // longer than the resolution of a time stamp in whole seconds
   nanosleep(&pause, nullptr);
   merge();
   EXPECT_EQ(read_file(file()), first);
@@ -110,7 +111,7 @@ TEST_F(MergedDataSet, IsRefusedWhereAShardIsOfAnotherVersion) {
   EXPECT_THAT(refusal(), HasSubstr("shard_00001.h5: made by seaglint 0.0.1, this is seaglint 0.0.0"));
 }
 
-// What HDF5 shows of a shard that went away later must not look like a map.
+// What HDF5 returns for a shard that was removed later must not look like a map.
 TEST_F(MergedDataSet, ShowsNoNumberWhereAShardWentAway) {
   merge();
   fs::remove(directory_ / shard_name(1));
