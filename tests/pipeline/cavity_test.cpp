@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `seaglint rcs --cavity`: a part whose echo is found from the field inside.
+// `seaglint rcs --cavity`: a part whose echo is computed from the field inside it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ class CavityCommand : public testing::Test {
     more.insert(more.begin(), {"rcs", "--target", kBox, "-o", table()});
     return run_program(more);
   }
-  // Numbers of every row of a sweep at 3 GHz towards the mouth.
+  // The numbers of every row of a sweep at 3 GHz towards the aperture.
   std::vector<std::vector<double>> sweep(std::vector<std::string> more) const {
     more.insert(more.begin(),
                 {"--frequency-ghz", "3", "--azimuth-deg", "120:240:30", "--elevation-deg", "5", "--max-bounces", "4"});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Wrong input gives one clear line and exit 2, for `check` as for everything that reads a scenario.
+// Wrong input gives one clear line and exit code 2, for `check` as for every command that reads a scenario.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -41,7 +41,7 @@ TEST(Check, PrintsAScenarioThatReadsBackTheSame) {
   EXPECT_EQ(parse_scenario(result.out, kPoints).radar.pulses, 64);
 }
 
-// What rcs says of a mesh, a scenario says too, of each target once.
+// The warnings that rcs prints about a mesh are printed for a scenario too, once per target.
 TEST(Check, SaysWhatIsDoubtfulAboutMeshes) {
   const TemporaryFolder folder;
   TriangleMesh inside_out = make_icosahedral_reflector();
@@ -68,7 +68,7 @@ TEST(Check, SaysWhatIsDoubtfulAboutMeshes) {
   EXPECT_THAT(run_program({"map", file, "--sample", "0", "-o", folder.path() / "map.png"}).err, StartsWith(said));
 }
 
-// Eight components are another sea in every realisation; the default 512 are not.
+// Eight components give a different sea in every realisation; the default 512 do not.
 TEST(Check, SaysWhereComponentsAreTooFew) {
   const std::string said =
       "seaglint: warning: sea.components: 8 components at Tp 8 s give strata 1.2 of the peak frequency wide, so that "
@@ -183,7 +183,7 @@ TEST(CommandLine, SaysWhenItsOutputCannotBeWritten) {
   EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 1);
 }
 
-// What cannot be shown is no failure, and no file takes the number of a stream that is closed.
+// Output that cannot be printed is not a failure, and no file is opened under the number of a closed stream.
 TEST(CommandLine, ClosedOrFullStandardErrorChangesNoExitCode) {
   const TemporaryFolder folder;
   const std::string csv = folder.path() / "cut.csv",
@@ -211,7 +211,7 @@ TEST(CommandLine, SaysWhyOnOneLine) {
   EXPECT_EQ(result.err, "seaglint: --set seed: value '1\\nview: 3': not valid YAML\n");
 }
 
-// Each line of the list of commands in --help names one.
+// Each line of the list of commands in --help starts with a command's name.
 std::vector<std::string> command_names() {
   std::istringstream help(run_program({"--help"}).out);
   std::vector<std::string> names;

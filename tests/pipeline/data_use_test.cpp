@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a user does with a data set: merges, verifies, makes a sample again, exports, reads with NumPy and h5py.
+// Uses of a data set: merging, verification, regeneration of a sample, export, reading with NumPy and h5py.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ bool has_python() { return fs::exists(kPython) && run_words({kPython, "-c", "imp
 #define SKIP_WITHOUT_PYTHON() \
   if (!has_python()) GTEST_SKIP() << "needs the packages python3-h5py and python3-numpy"
 
-// One data set with complex maps for all tests of this file; tests that change it copy it.
+// One data set with complex maps for all tests of this file; tests that change it use a copy.
 class DataSetUse : public testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -93,7 +93,7 @@ TEST_F(DataSetUse, SaysWhatIsOtherInASampleMadeAgain) {
   std::string yaml = read_file(data / "scenario.yaml");
   yaml.replace(yaml.find("scr_db: 20"), 10, "scr_db: 15");
   write_file(data / "scenario.yaml", yaml);
-  // As if the maps had been made by it.
+  // As if the maps had been generated with the changed scenario.
   std::string manifest = read_file(data / "manifest.json");
   const std::string original = sha256_file(data_ / "scenario.yaml");
   ASSERT_NE(manifest.find(original), std::string::npos);
@@ -138,7 +138,7 @@ TEST_F(DataSetUse, IsExportedInTheSameBytesAtAnotherTime) {
   const fs::path out = folder_->path() / "twice.npz";
   ASSERT_EQ(run_program({"export", data_, "-o", out}).code, 0);
   const std::string first = read_file(out);
-  timespec pause{2, 100000000};  // a zip counts in two seconds
+  timespec pause{2, 100000000};  // longer than the two-second resolution of a zip's time stamps
   nanosleep(&pause, nullptr);
   ASSERT_EQ(run_program({"export", data_, "-o", out}).code, 0);
   EXPECT_EQ(read_file(out), first);
@@ -160,7 +160,7 @@ TEST_F(DataSetUse, IsNotExportedAmongFilesOfAnother) {
           "shards: the directory contains shard_00000.npz, which is not of this data set's export; choose a new "
           "directory\n");
   EXPECT_EQ(read_file(out / "shard_00000.npz"), before);
-  // Its own export goes on after it was cut short.
+  // An interrupted export of the same data set is continued.
   fs::remove(out / "shard_00000.npz");
   write_file(out / "shard_00000.npz.elsewhere-12.tmp", "half");
   EXPECT_EQ(run_program({"export", other, "-o", out}).code, 0);
@@ -187,7 +187,7 @@ TEST_F(DataSetUse, IsNotExportedWithAShardDamagedNorOntoAFullDisk) {
   }
 }
 
-// In /proc nobody may write, not even root.
+// No user can write in /proc, not even root.
 TEST_F(DataSetUse, SaysWhereItCannotBeWritten) {
   for (const std::vector<std::string>& words :
        std::vector<std::vector<std::string>>{{"merge", data_, "-o", "/proc/x.h5"},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `seaglint echo`: what NumPy reads is the chirp of the scenario, delayed by the point's range.
+// `seaglint echo`: the samples that NumPy reads are the chirp of the scenario, delayed by the point's range.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// One point of 2 m, 30 m nearer than the reference point, drawing near at 1.5 m/s.
+// One point of 2 m, 30 m nearer than the reference point, approaching at 1.5 m/s.
 std::vector<std::string> echo_of(const std::string& output, std::vector<std::string> more = {}) {
   std::vector<std::string> words{
       "echo",

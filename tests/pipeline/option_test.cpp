@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a user writes behind the program's name: numbers, misspelt words, options that belong to others.
+// Command-line arguments: numbers, misspelt words, options that belong to other commands.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -35,7 +35,7 @@ class Options : public testing::Test {
   TemporaryFolder folder_;
 };
 
-// 010 is ten, neither eight nor refused.
+// 010 is ten, neither octal nor an error.
 TEST_F(Options, NumbersAreDecimal) {
   Words words = rcs();
   words.insert(words.end(), {"--max-bounces", "010", "--wavefront-range-m", "0100"});
@@ -71,7 +71,7 @@ TEST_F(Options, OfNumbersTakeNothingElse) {
   expect_refused(plate(), {"--length-m", "1e308"}, "plate length: 1e+308 m is outside 1e-20..1e+07 m\n");
 }
 
-// Before anything that is missing.
+// Reported before missing files or other missing input.
 TEST_F(Options, AndCommandsThatAreMisspeltAreNamed) {
   expect_refused({"rcs", "--targt", "x"}, {},
                  "seaglint: unknown option '--targt': did you mean '--target'? (see seaglint rcs --help)\n");

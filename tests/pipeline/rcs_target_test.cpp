@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `seaglint rcs`: what is wrong with its target, what the target is made of, and the sea that it stands on.
+// `seaglint rcs`: warnings about its target, the target's materials, and the sea below it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -16,8 +16,8 @@ namespace {
 using testing::HasSubstr;
 using RcsTarget = RcsCommand;
 
-// A reflector inside out with a hole beside it: one echoes as it should, the other's interior is seen; both are said,
-// in one line each.
+// A reflector inside out with a mesh with a hole next to it: the first is repaired, the interior of the second is
+// visible; both are reported in one line each.
 TEST_F(RcsTarget, WarnsOfWhatIsWrongWithAMeshAndGoesOn) {
   TriangleMesh mesh = make_icosahedral_reflector();
   for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
@@ -69,7 +69,7 @@ TEST_F(RcsTarget, AddsTheThicknessOfSheets) {
 }
 
 TEST_F(RcsTarget, ACoatedPlateDropsByItsMaterial) {
-  // Aluminium's surface resistance is 1e-4 of free space's: nothing is lost. The coating's |Gamma| is that of its
+  // Aluminium's surface resistance is 1e-4 of free space's: no measurable loss. The coating's |Gamma| is that of its
   // quarter-wave layer, about -11 dB at 16 GHz.
   const std::string library = SEAGLINT_SOURCE_DIR "/assets/materials/";
   const auto square = [&](const std::string& material) {
@@ -96,8 +96,8 @@ TEST_F(RcsTarget, RefusesMaterialsThatAreNotKnownThere) {
 }
 
 TEST_F(RcsTarget, APlateStandingOnAConductingSeaIsADihedral) {
-  // kWidthM high, its centre half of that above the water: image theory makes it 2 A cos(el) / lambda, less or more the
-  // direct lobe of the doubled plate, which is a sine over k kWidthM sin(el) = 50 at 30 deg, two ways.
+  // kWidthM high, its centre half of that above the water: image theory gives 2 A cos(el) / lambda, plus or minus the
+  // direct lobe of the doubled plate, which is a sine over k kWidthM sin(el) = 50 at 30 deg, for two paths.
   const ProgramResult done = rcs({"--frequency-ghz", "16", "--azimuth-deg", "0", "--elevation-deg", "30",
                                   "--sea-reflection", "--sea-surface", "conductor", "--origin-height-m", "0.15"});
   ASSERT_EQ(done.code, 0) << done.err;
@@ -108,7 +108,7 @@ TEST_F(RcsTarget, APlateStandingOnAConductingSeaIsADihedral) {
   EXPECT_NEAR(row.at(12), level, 20 * std::log10(1 + 1.0 / 50));
 }
 
-// kWidthM high about its middle: a table of zeros would say that it does not scatter.
+// kWidthM high about its middle: a table of zeros would suggest that it does not scatter.
 TEST_F(RcsTarget, RefusesATargetThatIsWhollyUnderWater) {
   const ProgramResult done = rcs({"--frequency-ghz", "16", "--azimuth-deg", "0", "--elevation-deg", "30",
                                   "--sea-reflection", "--origin-height-m", "-5"});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The main job on ideal points: from scenario to report, and the report in a real browser.
+// The main job on ideal points: from scenario to report, and the report in a browser.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -64,7 +64,7 @@ TEST_F(RunOutput, RepeatsItsNumbersBitForBit) {
       {"run", "scenarios/points.yaml", "-o", folder.path() / "run", "--threads", "1", "--set", "learning.epochs=3"});
   ASSERT_EQ(result.code, 0) << result.err;
   nlohmann::json a = metrics_of(directory_), b = metrics_of(folder.path() / "run");
-  a.erase("run");  // seconds and threads
+  a.erase("run");  // run times and threads
   b.erase("run");
   EXPECT_EQ(a, b);
   EXPECT_EQ(read_file(directory_ / "model" / "network.bin"),
@@ -141,7 +141,7 @@ TEST_F(RunOutput, IsNotReportedWithTheModelOfAnotherTrainingOrHalfOfOne) {
   EXPECT_THAT(half.err, HasSubstr((model / "metrics.json").string() + ": missing"));
 }
 
-// The stored scenario says what the maps are of.
+// The stored scenario specifies the contents of the maps.
 TEST_F(RunOutput, IsReadWithItsOwnScenarioOnly) {
   const TemporaryFolder folder;
   const fs::path run = folder.path() / "run";
@@ -183,8 +183,8 @@ TEST_F(RunOutput, ReportHoldsEverythingInItself) {
   EXPECT_GE(pictures, 10u);
 }
 
-// Asks headless Chromium. The page's own script is none; this one is put beside it in a copy and writes what it finds
-// into the title.
+// Runs headless Chromium. The page contains no script; one is added to a copy of it and writes its result into the
+// title.
 TEST_F(RunOutput, ReportShowsEveryPictureInABrowser) {
   if (std::system("command -v chromium >/dev/null 2>&1") != 0) GTEST_SKIP() << "the package chromium is not installed";
   const TemporaryFolder folder;
@@ -215,7 +215,7 @@ TEST_F(RunOutput, ReportShowsEveryPictureInABrowser) {
   EXPECT_EQ(found[4], "false") << "the page is wider than the window";
 }
 
-// The page needs the maps; the targets' files are needed for their pictures and motion alone.
+// The page needs the maps; the targets' files are needed only for their figures and motion.
 TEST(Report, IsMadeWithoutTheMeshesWhereTheyAreNotFound) {
   const TemporaryFolder folder;
   const fs::path run = folder.path() / "run", scenario = folder.path() / "scenario.yaml";

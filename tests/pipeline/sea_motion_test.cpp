@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `sea` and `motion` write what their stages compute, in the columns that are promised.
+// `sea` and `motion` write the results of their stages in the documented columns.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -36,7 +36,7 @@ std::vector<double> numbers(const std::string& line) {
   return values;
 }
 
-// A scenario with a box for a ship and boxes for floats beside it.
+// A scenario with a box for a ship and boxes for floats next to it.
 std::string write_boxes(const std::filesystem::path& folder) {
   write_file(folder / "box.obj",
              "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
@@ -63,7 +63,7 @@ TEST(Sea, WritesTheSurfaceOfTheFirstSeaState) {
     const std::vector<double> row = numbers(lines[i]);
     ASSERT_EQ(row.size(), 5u);
     const SurfaceState surface = field.surface(-5, 3, row[0]);
-    // Nine digits are written.
+    // Nine digits are printed.
     EXPECT_NEAR(row[1], surface.elevation, 1e-8);
     EXPECT_NEAR(row[2], surface.elevation_linear, 1e-8);
     EXPECT_NEAR(row[3], surface.slope_x, 1e-9);
@@ -98,7 +98,7 @@ TEST(Sea, AddsTheMotionOfTheWaterWhenAsked) {
   EXPECT_THAT(read_file(file), HasSubstr("# depth_m 15, Ursell number"));
 }
 
-// The spectrum's file is a spectrum that a scenario can name; statistics do not depend on threads.
+// The file of the spectrum can be named as a spectrum by a scenario; statistics do not depend on threads.
 TEST(Sea, WritesASpectrumThatAScenarioReads) {
   const TemporaryFolder folder;
   const std::filesystem::path one = folder.path() / "one.csv", two = folder.path() / "two.csv";
@@ -119,7 +119,7 @@ TEST(Sea, WritesASpectrumThatAScenarioReads) {
     target += numbers(lines[i])[1];
     realised += numbers(lines[i])[3];
   }
-  // Forty windowed records of 25 waves, some four of them independent in energy: 8 %; three times that.
+  // Forty windowed records of 25 waves, about four of them with independent energy: 8 %; three times that.
   EXPECT_NEAR(realised / target, 1, 0.24);
 
   const ProgramResult again = run_program({"sea", kPoints, "--duration-s", "1", "-o", folder.path() / "again.csv",
@@ -166,7 +166,7 @@ TEST(Sea, FailsWhereItCannotWrite) {
   EXPECT_THAT(result.err, HasSubstr("/nonexistent/sea.csv"));
 }
 
-// Before the work, and so before the scenario or mesh, which is not there either.
+// Before the work, and so before the scenario or mesh, which are missing too.
 TEST(Commands, AskForThePlacesOfTheirFilesFirst) {
   const TemporaryFolder folder;
   const std::string table = folder.path() / "table.csv", nowhere = "/nonexistent/file.png",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stages that run beside each other in one process share what their libraries share.
+// Stages that run concurrently in one process use the same libraries safely.
 #include <gtest/gtest.h>
 
 #include "sim/core/numbers/fourier.h"

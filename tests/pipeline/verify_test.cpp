@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `seaglint verify` on data sets that the real program made.
+// `seaglint verify` on data sets that the program generated.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -65,7 +65,7 @@ TEST_F(DataSetVerification, IsRefusedWithAFileThatDoesNotBelongThere) {
   EXPECT_EQ(result.code, 2);
   EXPECT_THAT(result.out, HasSubstr("fault: foo: is no file of a data set\n"));
   fs::remove(directory_ / "foo");
-  write_file(directory_ / ".nfs0001", "");  // a file server's own
+  write_file(directory_ / ".nfs0001", "");  // temporary file of a network file server
   EXPECT_EQ(run_program({"verify", directory_, "--regenerate", "0"}).code, 0);
 }
 

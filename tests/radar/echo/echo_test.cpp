@@ -21,15 +21,14 @@ FrequencyResponse one_point(const PulseTrain& train, double amplitude = 1) {
   return point_response({&point, 1}, Vec3(1, 0, 0), interval_sampling(train, 0));
 }
 
-// An interval whose texture is its own.
+// An interval with a texture of its own.
 ClutterScene interval(std::uint64_t index) {
   ClutterScene scene;
   scene.texture_key = index;
   return scene;
 }
 
-// Mean over intervals of a ratio of echo powers, and so on, needs many small intervals: one carrier's worth of range
-// cells.
+// Mean ratios of echo powers over intervals need many small intervals: range cells of one carrier.
 RadarSpec small_radar() {
   RadarSpec radar;
   radar.pulses = 64;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Clutter and noise whose level is physical: reflectivity, area, radar equation, and that the echo has them.
+// Clutter and noise of absolute level: reflectivity, area, radar equation, and the level of the echo.
 #include "radar/echo/sea_reflectivity.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@
 namespace seaglint {
 namespace {
 
-// Values of the model at 16 GHz, worked out by hand from Gregers-Hansen and Mital (2012), to 0.01 dB.
+// Values of the model at 16 GHz, computed by hand from Gregers-Hansen and Mital (2012), to 0.01 dB.
 TEST(SeaReflectivity, HasTheModelsValuesAtSixteenGigahertz) {
   const struct {
     double grazing_deg, sea_state, hh_db, vv_db;
@@ -86,8 +86,8 @@ TEST(SeaReflectivity, TheEchoHasIt) {
   EXPECT_NEAR(mean / expected, 1, 4 * error + 0.0012);  // and 0.005 dB of the rounded sigma0
 }
 
-// 1 m of scattering amplitude (11 dBsm) 20 km away, 10 kW, 36 us, 40 dB, 16.0875 GHz, 290 K, 4 dB, 6 dB of losses:
-// E = P T G^2 lambda^2 / ((4 pi)^2 R^4 L), N0 = k T F, in decibels by hand.
+// 1 m of scattering amplitude (11 dBsm) at 20 km, 10 kW, 36 us, 40 dB, 16.0875 GHz, 290 K, 4 dB, 6 dB of losses: E = P
+// T G^2 lambda^2 / ((4 pi)^2 R^4 L), N0 = k T F, in decibels by hand.
 TEST(ReceiverNoise, FollowsTheRadarEquation) {
   const PulseTrain train = make_pulse_train({}, 239.8, 1, 2);
   const double lambda_db = 20 * std::log10(299792458.0 / train.band_centre_hz());

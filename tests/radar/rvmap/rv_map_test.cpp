@@ -24,7 +24,7 @@ MapSpec untapered() {
   return spec;
 }
 
-// The echo of points on the line of sight: range and velocity as the map should show them.
+// The echo of points on the line of sight: range and velocity at which the map contains them.
 struct MovingPoint {
   double range_m, velocity_mps, amplitude_m;
 };
@@ -53,7 +53,7 @@ Peak peak_of(const RvMap& map) {
   return peak;
 }
 
-// One cell of the map straight from the definition (radar/rvmap/README.md): compress, compensate, mean over each
+// One cell of the map directly from the definition (radar/rvmap/README.md): compress, compensate, mean over each
 // carrier's pulses, inverse transform over the synthesised band; the band's centre is the phase reference.
 Complex by_definition(const std::vector<Complex>& echo, const PulseTrain& train, const MapSpec& spec, bool intra_pulse,
                       double range_m, double velocity_mps) {
@@ -362,8 +362,8 @@ TEST(RvMap, IntraPulseMotionMustBeTheSameInEchoAndMap) {
   spec.velocity_span_mps = 37;
   const std::vector<Complex> echo = echo_of(sweeping, {{0, velocity, 1}});
   EXPECT_NEAR(peak_of(form_rv_map(echo, sweeping, spec, true)).level, 1, 1e-9);
-  // Left in, f/mu is a phase slope of 4 pi f_c v / (mu c) over each pulse's band: a range shift of f_c v / mu = 0.34 m
-  // that the synthesised band cannot compress.
+  // Without compensation f/mu is a phase slope of 4 pi f_c v / (mu c) over each pulse's band: a range shift of f_c v /
+  // mu = 0.34 m that the synthesised band cannot compress.
   EXPECT_LT(peak_of(form_rv_map(echo, sweeping, spec, false)).level, 0.999);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The time-domain path: the same maps as in the frequency domain, and what an echo made independently, by delaying the
-// ideal chirp, differs by.
+// Time-domain echo: the same maps as in the frequency domain, and its difference from an echo formed independently by
+// delaying the ideal chirp.
 #include "radar/echo/sampled_echo.h"
 
 #include <gtest/gtest.h>
@@ -35,8 +35,8 @@ std::vector<Complex> echo_in_frequency(const PulseTrain& train) {
   return synthesise_echo(train, point_response(kPoints, Vec3(1, 0, 0), interval_sampling(train, 0)), off, 1, 1).target;
 }
 
-// Every point's echo is the ideal rectangular chirp, delayed. With motion inside the pulse the delay is the one of the
-// moment when the sample's wave met the point, t - R/c; without it the one at the pulse's middle.
+// Every point's echo is the ideal rectangular chirp, delayed. With motion inside the pulse the delay is that of the
+// moment when the sample's wave reached the point, t - R/c; without it, that of the pulse's middle.
 SampledEcho echo_by_delay(const PulseTrain& train, const RadarSpec& radar, const SampledEcho& like) {
   SampledEcho sampled = like;
   const double pulse_s = radar.pulse_width_us * 1e-6, mu = train.chirp_rate_hz_s;
@@ -135,7 +135,8 @@ TEST(SampledEcho, DiffersFromAChirpDelayedInTimeByItsAliasingOnly) {
                 100 * difference, in_map);
     EXPECT_LT(difference, 0.02);
     EXPECT_LT(in_map, 0.005);
-    // A mistake of the sign of time, range or Doppler, or of f/mu, would show: the wrong setting is told apart.
+    // An error of the sign of time, range or Doppler, or of f/mu, must be detected: the wrong setting gives a different
+    // map.
     const RadarSpec other = radar_with(!intra_pulse_motion);
     const std::vector<Complex> wrong = echo_in_frequency(make_pulse_train(other, 239.8, 1, 2));
     EXPECT_GT(relative_difference(wrong, in_time), 1.5 * difference);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Codes that a file gives, and pulses that come early or late.
+// Codes from a file, and pulses with jittered start times.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -107,7 +107,7 @@ TEST(ChirpSpectrum, IsTheStationaryPhaseSpectrumOfAnLfmPulse) {
 }
 
 TEST(ChirpSpectrum, IsSymmetricAndHoldsTheEnergyOfThePulseByParseval) {
-  // All of the sampled spectrum: 1800 frequencies of one turn, so that sum |P|^2 df = mu T_p.
+  // The whole sampled spectrum: 1800 frequencies of one period, so that sum |P|^2 df = mu T_p.
   const double bandwidth = 25e6, width = 36e-6, sampling = 50e6;
   std::vector<double> frequencies;
   for (int i = -900; i < 900; ++i) frequencies.push_back((i + 0.5) * sampling / 1800);
@@ -142,7 +142,7 @@ TEST(PulseTrain, DescribesItselfForEveryCode) {
   }
 }
 
-// Listed in the design: one scatterer, 256 pulses, 8 carriers of 25 MHz.
+// Reference figures: one scatterer, 256 pulses, 8 carriers of 25 MHz.
 TEST(ExpectedResponse, GivesThePedestalOfBalancedCodesAtKnownPoints) {
   RadarSpec spec = paper_radar();
   spec.hop_code = HopCode::kBalanced;
