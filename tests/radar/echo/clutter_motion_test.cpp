@@ -127,7 +127,7 @@ TEST(FloatingScatterers, GoAlongWithTheWaves) {
 
 // At order 2 the water's velocity at the moving surface has a mean, that of eta1 du1/dz: 1/2 a^2 w k of every component
 // in the quadratic sums. It is part of the Stokes drift, which clutter_velocity_moments contains, and is therefore
-// subtracted from the scatterers' own velocity.
+// not contained in the scatterers' own velocity.
 TEST(FloatingScatterers, HaveNoMeanOfTheirOwnBesidesTheSeas) {
   SeaState state = waves_towards(180);
   state.significant_wave_height_m = 2;

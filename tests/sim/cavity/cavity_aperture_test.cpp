@@ -29,7 +29,7 @@ TriangleMesh turned(TriangleMesh mesh) {
 }
 
 // A prism with its base at z = -1 and its top open at z = 0; the outline runs counter-clockwise seen from above. Side
-// faces look inwards; the base is a fan about `hub`, from which all of it must be seen.
+// faces have inward normals; the base is a fan about `hub`, from which all of it must be visible.
 TriangleMesh pit(const std::vector<Vec2>& outline, const Vec2& hub) {
   MeshBuilder builder;
   builder.begin_part("pit");
@@ -67,8 +67,8 @@ TEST(CavityAperture, MayBeAnyShapeEvenOneThatTurnsInwards) {
 }
 
 TEST(CavityAperture, WithAnIslandIsTheRingBetweenTheRims) {
-  // A post of 1 m square stands in a pit of 3 m square, as high as the rim, its own inside being solid: its walls face
-  // the pit, so that its rim runs the other way.
+  // A post of 1 m square in a pit of 3 m square, as high as the rim, with a solid interior: its walls face the pit, so
+  // that its rim has the opposite orientation.
   TriangleMesh mesh = pit({{0, 0}, {3, 0}, {3, 3}, {0, 3}}, {1.5, 1.5});
   const TriangleMesh post = turned(pit({{1, 1}, {2, 1}, {2, 2}, {1, 2}}, {1.5, 1.5}));
   mesh.append(post);
@@ -76,7 +76,7 @@ TEST(CavityAperture, WithAnIslandIsTheRingBetweenTheRims) {
   const Sum sum = sum_of(cells);
   EXPECT_LT((sum.area - Vec3(0, 0, -8)).norm(), 1e-11);
   for (const ApertureCell& cell : cells) {
-    EXPECT_LT(cell.inward.z(), -0.99);  // a wave from above falls into all of them
+    EXPECT_LT(cell.inward.z(), -0.99);  // a wave from above enters through all of them
     EXPECT_GT((cell.centre - Vec3(1.5, 1.5, 0)).cwiseAbs().maxCoeff(), 0.5 - 1e-9);
   }
 }
@@ -92,7 +92,7 @@ TEST(CavityAperture, RefusesWhatIsNoCavity) {
   };
   refused(turned(guide(0.3, 0.2, 0.5)), "face away from its inside");
 
-  // Its two halves, mouth to mouth.
+  // Its two halves with their apertures facing each other.
   TriangleMesh closed = guide(0.3, 0.2, 0.5);
   const Mat3 half_turn = Vec3(-1, -1, 1).asDiagonal();
   closed.append(transformed(closed, half_turn, Vec3(0, 0.3, 0)));
@@ -102,7 +102,7 @@ TEST(CavityAperture, RefusesWhatIsNoCavity) {
   uneven.vertices[2].x() = 0.05;
   refused(uneven, "not flat");
 
-  // Two guides that share one edge, or one corner of their mouths.
+  // Two guides whose apertures have one edge or one vertex in common.
   TriangleMesh sharing = guide(0.3, 0.2, 0.5), touching = sharing;
   sharing.append(transformed(guide(0.3, 0.2, 0.5), Mat3::Identity(), Vec3(0, 0.3, 0.2)));
   refused(welded(sharing), "more than two triangles");

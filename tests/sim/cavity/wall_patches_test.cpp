@@ -56,7 +56,7 @@ TEST(WallPatches, AreAboutOneSizeAndLieOnTheWall) {
     EXPECT_GT(p.area, 0.3 * kSize * kSize);
     EXPECT_LT(p.area, 2 * kSize * kSize);
     const Vec3 outwards = Vec3(0, p.centre.y(), p.centre.z()).normalized();
-    // A patch over an arc of `kSize` to either side at most: its middle stands off the wall by the arc's height.
+    // A patch extends over an arc of at most `kSize` to either side: its centre is off the wall by the arc's height.
     EXPECT_NEAR(Vec3(0, p.centre.y(), p.centre.z()).norm(), kRadius, kSize * kSize / (2 * kRadius));
     EXPECT_GT(-outwards.dot(p.normal), std::cos(kSize / kRadius));
     EXPECT_LT((p.tangent[0].cross(p.tangent[1]) - p.normal).norm(), 1e-12);

@@ -42,7 +42,7 @@ TEST(SimulateTarget, MovesEachBodyAtItsOwnPlaceInTheSameSea) {
   ASSERT_EQ(bodies.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) {
     const Pose pose = bodies[i].pose(2.5);
-    // The centre of flotation stays.
+    // The centre of flotation is at rest.
     EXPECT_NEAR((pose.R * Vec3(0, 0, -0.75) + pose.p - Vec3(-60 + 40.0 * static_cast<double>(i), 0, 0)).norm(), 0,
                 1e-12);
   }
@@ -57,7 +57,7 @@ TEST(SimulateTarget, DoesNotDependOnThreads) {
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(one[i].sample(1.7).angles, two[i].sample(1.7).angles);
 }
 
-// In waves of hundreds of metres floats side by side move alike, unless each has a sea of its own.
+// In waves of hundreds of metres adjacent floats move alike, unless each has an independent sea.
 TEST(SimulateTarget, GivesIndependentBodiesSeasOfTheirOwn) {
   const SeaState state = state_of(1, 20);
   SeaState long_waves = state;

@@ -42,7 +42,7 @@ TEST(Random, DiffersWhenSeedStreamOrIndexDiffers) {
   EXPECT_NE(Random({1, Stream::kTest, std::uint64_t{1} << 32 | 1}).bits(), base);
 }
 
-// Bits pinned once: a change here changes every data set that was ever made.
+// Values that must never change: every data set depends on them.
 TEST(Random, RepeatsItsFirstNumbersOnEveryMachine) {
   Random uniform({42, Stream::kTest, 0});
   Random normal({42, Stream::kTest, 0});

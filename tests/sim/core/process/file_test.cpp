@@ -112,7 +112,7 @@ TEST_F(Files, MakesADirectoryWithItsParents) {
   make_directory(folder_ / "a");
   write_file(folder_ / "x", "");
   EXPECT_THAT(message_of<WorkError>([&] { make_directory(folder_ / "x"); }), HasSubstr("x: cannot make the directory"));
-  // Root may write anywhere: a child process that is not root asks.
+  // Root can write anywhere: the check runs in a child process that is not root.
   fs::permissions(folder_, fs::perms::group_exec | fs::perms::others_exec, fs::perm_options::add);
   const fs::path locked = folder_ / "locked";
   fs::create_directory(locked);

@@ -40,7 +40,7 @@ TEST(Progress, IsSilentWhereThereIsNoTerminal) {
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
 
-// What a terminal in place of stderr is sent while `work` runs.
+// The output to a terminal in place of stderr while `work` runs.
 template <typename Function>
 std::string sent_to_terminal(const Function& work) {
   const int terminal = ::posix_openpt(O_RDWR | O_NOCTTY);

@@ -42,7 +42,7 @@ TEST(Range, IncludesBothEnds) {
 }
 
 TEST(Range, EndsExactlyWhereItWasTold) {
-  // Sums of 0.1 miss 0.3, 0.7 and 1 by rounding; the end must neither be lost nor be doubled.
+  // Sums of 0.1 differ from 0.3, 0.7 and 1 by rounding; the end must neither be lost nor be doubled.
   for (int last = 1; last <= 1000; ++last) {
     const std::string end = std::to_string(last / 10) + "." + std::to_string(last % 10);
     const std::vector<double> values = parse_range("0:" + end + ":0.1");

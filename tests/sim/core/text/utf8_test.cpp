@@ -33,8 +33,8 @@ TEST(Utf8, EndsWhereAByteFitsNowhere) {
   EXPECT_EQ(utf8_prefix("caf\xe9"), 3u);  // Latin-1
   EXPECT_EQ(utf8_prefix("caf\xc3\xa9"), 5u);
   EXPECT_EQ(utf8_prefix("a\xc3"), 1u);     // cut short
-  EXPECT_EQ(utf8_prefix("\x80"), 0u);      // no lead
-  EXPECT_EQ(utf8_prefix("\xc0\xaf"), 0u);  // longer than need be
+  EXPECT_EQ(utf8_prefix("\x80"), 0u);      // no lead byte
+  EXPECT_EQ(utf8_prefix("\xc0\xaf"), 0u);  // overlong encoding
   EXPECT_EQ(utf8_prefix("\xe0\x80\xaf"), 0u);
   EXPECT_EQ(utf8_prefix("\xf4\x90\x80\x80"), 0u);  // beyond the last code point
   EXPECT_EQ(utf8_prefix(""), 0u);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files of meshes that are valid as far as bytes go and say something that cannot be meant.
+// Mesh files with a valid encoding and invalid contents.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ class MeshErrors : public testing::Test {
   TemporaryFolder folder_;
 };
 
-// The first `count` of four corners, as a sheet of this mode placed by this node.
+// The first `count` of four vertices, as a sheet of this mode placed by this node.
 std::string gltf_of(int count, const std::string& mode, const std::string& node, const std::string& asset = "") {
   return R"({"asset":{"version":"2.0")" + asset + R"(},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0)" + node +
          R"(}],"meshes":[{"primitives":[{"mode":)" + mode +
@@ -77,7 +77,7 @@ TEST_F(MeshErrors, OfAFileForALaterGltf) {
               HasSubstr("a.gltf: needs more than glTF 2 (asset.minVersion)"));
 }
 
-// One solid behind the other, or a count that was not written to the end.
+// Two solids in one file, or a count that is smaller than the contents.
 TEST_F(MeshErrors, OfBinaryStlWithMoreThanItPromises) {
   write_mesh(folder_.path() / "plate.stl", make_plate(1, 1));
   std::string bytes = read_file(folder_.path() / "plate.stl");
@@ -103,7 +103,7 @@ TEST_F(MeshErrors, OfSizesThatNoFormatGivesBack) {
       }
     }
   }
-  // What is read back by nobody is not written either.
+  // A mesh that cannot be read back is not written either.
   TriangleMesh far = make_plate(1, 1);
   far.vertices[0].x() = 1e9;
   EXPECT_THROW(write_mesh(folder_.path() / "far.obj", far), InputError);

@@ -38,7 +38,7 @@ TEST(MeshDiagnostics, TurnsAClosedSurfaceThatIsInsideOut) {
   const TriangleMesh sphere = make_sphere(1, 1);
   TriangleMesh inverted = transformed(sphere, Mat3::Identity(), Vec3(0, 0, 50));
   for (std::size_t t = 0; t < inverted.triangles.size(); ++t) flip(inverted, t);
-  TriangleMesh both = sphere;  // a sound one beside it stays
+  TriangleMesh both = sphere;  // a valid one next to it is not changed
   both.append(inverted);
   const MeshDiagnostics health = diagnose(both);
   EXPECT_EQ(health.surfaces, 2u);
@@ -69,7 +69,7 @@ TEST(MeshDiagnostics, LeavesOutRepeatedAndDegenerateTriangles) {
   const TriangleMesh sphere = make_sphere(1, 1);
   TriangleMesh dirty = sphere;
   const auto [a, b, c] = sphere.triangles[5];
-  add(dirty, {b, c, a});  // the same triangle, begun elsewhere
+  add(dirty, {b, c, a});  // the same triangle from another first vertex
   add(dirty, {a, a, b});
   const MeshDiagnostics health = diagnose(dirty);
   EXPECT_EQ(health.repeated, 1u);
@@ -93,7 +93,7 @@ TEST(MeshDiagnostics, LeavesOneSideOfSheetsOfTwo) {
   EXPECT_EQ(repair(two_sided).triangles, sheet.triangles);
 }
 
-// A plate whose back is a part and a material of its own, in either order.
+// A plate whose back is a part with a material of its own, in either order.
 TriangleMesh plate_of_two_materials(bool front_first) {
   TriangleMesh mesh = make_plate(1, 1);
   mesh.part_names = {"front", "back"};
@@ -142,7 +142,7 @@ TEST(MeshDiagnostics, CountsEdgesOfThreeTriangles) {
   EXPECT_EQ(diagnose(fin).non_manifold_edges, 1u);
 }
 
-// A cube of edge 1 with its lower corner here.
+// A cube of edge 1 with its lower vertex here.
 TriangleMesh cube_at(const Vec3& lower) {
   MeshBuilder builder;
   for (int i = 0; i < 8; ++i) builder.vertex(lower + Vec3(i & 1, (i >> 1) & 1, i >> 2));
@@ -169,8 +169,8 @@ TEST(MeshDiagnostics, JudgesBodiesThatTouchAlongAnEdgeEachByItself) {
   }
 }
 
-// Two caps and two discs between them on one ring of edges: none is closed alone, all together are the skin of a hollow
-// body.
+// Two caps and two discs between them on one ring of edges: none is closed alone, all together are the surface of a
+// hollow body.
 TEST(MeshDiagnostics, JudgesPiecesThatOnlyCloseTogetherAsOne) {
   MeshBuilder builder;
   for (int i = 0; i < 4; ++i) builder.vertex({std::cos(i * kPi / 2), std::sin(i * kPi / 2), 0});

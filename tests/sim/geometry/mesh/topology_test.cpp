@@ -76,7 +76,7 @@ TEST(Topology, SurvivesEdgesOfManyTrianglesAndTrianglesWithoutArea) {
   for (int i = 0; i < 5; ++i) builder.triangle(a, b, builder.vertex({std::cos(i), std::sin(i), 0.5}));
   const auto middle = builder.vertex({0, 0, 0.5});
   builder.triangle(a, b, middle);  // collinear
-  builder.triangle(a, a, b);       // two corners are one
+  builder.triangle(a, a, b);       // two vertices coincide
   const TriangleMesh fan = builder.take();
   const Topology topology = topology_of(fan);
   EXPECT_EQ(topology.count(EdgeKind::kNonManifold), 1u);

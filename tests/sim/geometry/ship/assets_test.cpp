@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The files in assets/ are what the generators make.
+// The files in assets/ are the output of the generators.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -20,7 +20,7 @@ void expect_same_bytes(const TriangleMesh& mesh, const char* name) {
   const std::filesystem::path again =
       std::filesystem::path(testing::TempDir()) / ("seaglint_again_" + std::to_string(::getpid()) + name);
   write_mesh(again, mesh);
-  // Not EXPECT_EQ, which would print half a megabyte.
+  // EXPECT_EQ would print half a megabyte.
   EXPECT_TRUE(read_file(again) == read_file(kAssets / name))
       << "assets/" << name << " is not what its command in assets/README.md makes";
   std::filesystem::remove(again);

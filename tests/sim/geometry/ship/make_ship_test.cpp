@@ -28,7 +28,7 @@ TEST_F(ShipMesh, HasItsLengthAndStandsOnTheWaterline) {
   EXPECT_NEAR(box.upper.x(), 72, 0.01);
   EXPECT_EQ(box.lower.z(), 0.0);
   EXPECT_GT(box.upper.z(), 25);
-  // Fittings do not come in mirrored pairs only, but the beam does.
+  // Not all fittings are in symmetric pairs, but the beam is symmetric.
   EXPECT_NEAR(box.lower.y(), -box.upper.y(), 1e-4);
 }
 
@@ -51,7 +51,7 @@ TEST_F(ShipMesh, ConsistsOfClosedPartsThatFaceOutwards) {
   }
 }
 
-// Follows neighbours from triangle to triangle: each solid within a part is turned outwards by itself.
+// Follows neighbours from triangle to triangle: each solid within a part has its own outward orientation.
 TEST_F(ShipMesh, EverySolidWithinAPartFacesOutwards) {
   const Topology topology = topology_of(mesh);
   std::vector<bool> seen(mesh.triangles.size(), false);
@@ -87,7 +87,8 @@ TEST_F(ShipMesh, HullHasTheVolumeOfItsSections) {
   EXPECT_LT(volume, 0.85 * box);
 }
 
-// A plate of the hull is small, and the flare turns along the ship and with height, so that no aspect sees one mirror.
+// The plates of the hull are small, and their normals vary along the ship and with height, so that no aspect has one
+// large specular reflection.
 TEST_F(ShipMesh, HullPlatesAreSmallAndTurnAwayFromOneAnother) {
   const TriangleMesh hull = part_of(mesh, 0);
   std::vector<double> flare;
@@ -104,11 +105,11 @@ TEST_F(ShipMesh, HullPlatesAreSmallAndTurnAwayFromOneAnother) {
   }
   std::sort(flare.begin(), flare.end());
   EXPECT_LT(flare[flare.size() / 20], flare[flare.size() * 19 / 20] - 5.0);
-  // The sides lean outwards by several degrees, so that at 2 deg of elevation none looks at the radar.
+  // The sides lean outwards by several degrees, so that at 2 deg of elevation none faces the radar.
   EXPECT_LT(flare[flare.size() * 3 / 4], -3.0);
 }
 
-// Vertices where three faces meet at inner right angles: what answers in many directions.
+// Vertices where three faces meet at inner right angles: corner reflectors, which scatter in many directions.
 TEST_F(ShipMesh, HasInnerRightAngledCornersAllAlong) {
   const Topology topology = topology_of(mesh);
   std::vector<int> right_seams(mesh.vertices.size(), 0);

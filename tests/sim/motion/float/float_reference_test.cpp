@@ -30,8 +30,8 @@ std::vector<Measured> measured() {
 // The measured +-35 %, and half a unit of the table's last digit.
 double tolerance(double value) { return 0.35 * value + 0.005; }
 
-// The section as strip theory has it: a cylinder in beam waves, its mass and GM as measured, radiation and diffraction
-// of its Lewis form; the sharp bilge's own damping 0.05 of critical.
+// The section by strip theory: a cylinder in beam waves, its mass and GM as measured, radiation and diffraction of its
+// Lewis form; additional damping of the sharp bilge 0.05 of critical.
 TEST(FloatReference, SectionForcesGiveTheMeasuredRollAndHeave) {
   const double area = kBeam * kDraught - 2 * (1 - 0.25 * kPi) * kBilge * kBilge;
   HullSections hull{0.586, {}};
@@ -85,7 +85,7 @@ TEST(FloatReference, AFloatsOscillatorGivesTheMeasuredRoll) {
     std::printf("%.3f rad/s: heave %.3f (%.2f), roll %.3f (%.2f)\n", m.omega, std::abs(heave) / amplitude, m.heave,
                 std::abs(roll) / (k * amplitude), m.roll);
     EXPECT_NEAR(std::abs(roll) / (k * amplitude), m.roll, tolerance(m.roll)) << m.omega;
-    // One oscillator with constant mass and damping misses the heave off resonance, as strip theory does not.
+    // One oscillator with constant mass and damping has a wrong heave off resonance, in contrast to strip theory.
     if (m.omega > 5 && m.omega < 5.5) {
       EXPECT_NEAR(std::abs(heave) / amplitude, m.heave, tolerance(m.heave)) << m.omega;
     }

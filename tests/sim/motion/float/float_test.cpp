@@ -99,14 +99,14 @@ TEST(SimulateFloat, RespondsToARegularWaveAsItsOscillatorDoes) {
                       disc_slope_filter(k, 0.5);
   for (std::size_t n = 0; n < samples.size(); n += 11) {
     const Complex expected = rao * std::polar(amplitude, omega * 0.02 * static_cast<double>(n) + 0.4);
-    // The limiter takes (0.0163/0.4)^4/4 = 7e-7 of the slope; Runge-Kutta at w h = 0.1 leaves 1e-6.
+    // The limiter reduces the slope by (0.0163/0.4)^4/4 = 7e-7; the error of Runge-Kutta at w h = 0.1 is 1e-6.
     EXPECT_NEAR(samples[n].angles.x(), expected.real(), 5e-6 * std::abs(rao) * amplitude + 1e-9);
     EXPECT_NEAR(samples[n].angle_rates.x(), -omega * expected.imag(), 5e-6 * omega * std::abs(rao) * amplitude + 1e-9);
     EXPECT_NEAR(samples[n].angles.y(), 0, 1e-15);
   }
 }
 
-// Apex velocity u (1 - k h): tilt and orbital motion come from one field and oppose each other.
+// Apex velocity u (1 - k h): tilt and orbital motion have opposite signs in the same wave.
 TEST(SimulateFloat, ItsMastMovesLessThanTheWaterBelowResonance) {
   MotionSpec spec = float_spec();
   spec.translations = true;
@@ -137,7 +137,7 @@ TEST(SimulateFloat, RidesOnTheSurfaceWithTranslations) {
   for (std::size_t n = 0; n < samples.size(); n += 41) {
     const Vec3& shift = samples[n].translation;
     const SurfaceState water = sea.surface(shift.x(), shift.y(), 0.02 * static_cast<double>(n));
-    // (w/w0)^2 = 1.3 % of the amplitude, and the advection of the slope that the linear vertical velocity leaves out.
+    // (w/w0)^2 = 1.3 % of the amplitude, and the advection of the slope, which the linear vertical velocity neglects.
     EXPECT_NEAR(shift.z(), water.elevation, 0.04 * 0.5);
   }
 }
@@ -170,7 +170,7 @@ TEST(SimulateFloat, IsInSteadyStateAtTimeZero) {
     const std::vector<MotionSample> once = simulate_float(body, spec, sea, 40, 0, 10, 42, 1);
     spec.spin_up_s *= 2;
     const std::vector<MotionSample> twice = simulate_float(body, spec, sea, 40, 0, 10, 42, 1);
-    // Tilt forgets within seconds; the mooring leaves e^{-12} of an excursion of a metre.
+    // Transients of the tilt decay within seconds; the mooring leaves e^{-12} of an excursion of a metre.
     for (std::size_t n = 0; n < once.size(); n += 50) {
       EXPECT_NEAR((once[n].angles - twice[n].angles).norm(), 0, translations ? 1e-4 : 1e-9);
       EXPECT_NEAR((once[n].translation - twice[n].translation).norm(), 0, 1e-4);
@@ -190,7 +190,7 @@ TEST(SimulateFloat, TurnsAboutItsCentreOfFlotation) {
   }
 }
 
-// Eight samples to the shortest natural period: what the cubics between them miss of a float that rolls at 0.2 s in
+// Eight samples to the shortest natural period: the error of cubic interpolation for a float that rolls at 0.2 s in
 // waves of 0.5 s is 14 % at 0.1 s, 1.1 % at 0.05 s and 0.07 % at the bound.
 TEST(MakeBody, RefusesStepsThatABodysSwingWouldFallBetween) {
   MotionSpec spec = float_spec();

@@ -83,7 +83,7 @@ TEST(Oscillator, IsIntegratedToFourthOrder) {
     return state.x;
   };
   const double fine = end(12800);
-  // |x'| x' has a jump in its second derivative where the rate passes zero, which costs a little of the order.
+  // |x'| x' has a jump in its second derivative where the rate passes zero, which reduces the order a little.
   EXPECT_GT(std::abs(end(50) - fine) / std::abs(end(100) - fine), 7);
 }
 

@@ -72,7 +72,7 @@ TEST(Trajectory, TurnsTheBodyAboutItsRotationCentre) {
   const Vec3 rest(10, 20, 0.75), centre(1, -2, -0.75);
   const Trajectory trajectory(0, 1, {tilted, tilted}, rest, centre);
   const Pose pose = trajectory.pose(0.5);
-  // The rotation centre itself only shifts.
+  // The rotation centre is only translated.
   EXPECT_NEAR((pose.R * centre + pose.p - (rest + centre + tilted.translation)).norm(), 0, 1e-14);
   EXPECT_NEAR((pose.R - rotation_from_angles(0.3, -0.2, 0.5)).norm(), 0, 1e-15);
 }

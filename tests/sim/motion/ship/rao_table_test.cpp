@@ -25,8 +25,8 @@ const char* const kWamit = SEAGLINT_SOURCE_DIR "/tests/reference/ship_motion/fps
 
 double wavenumber(double omega) { return omega * omega / kGravity; }
 
-// Long waves pin every sign: surge and sway -j along the waves, heave 1, roll -jk sin mu, pitch +jk cos mu, yaw in
-// antiphase.
+// Long waves determine every sign: surge and sway -j along the waves, heave 1, roll -jk sin mu, pitch +jk cos mu, yaw
+// in antiphase.
 void expect_long_wave_limits(const RaoTable& table, double omega, double roll_factor) {
   const double k = wavenumber(omega);
   for (const double mu_deg : {0.0, 30.0, 60.0, 120.0, 150.0, 180.0, -30.0, -60.0, -120.0, -150.0}) {
@@ -91,7 +91,7 @@ TEST(RaoTable, IsReadBetweenItsRowsAndMirrored) {
   EXPECT_EQ(table.at(5, wavenumber(5), 1).heave, Complex(0));
 }
 
-// A heading that stands in the table needs no neighbour, whichever side of it rounding falls.
+// A heading of the table needs no neighbour, whichever side of it rounding falls.
 TEST(RaoTable, KnowsItsOwnHeadingsToTheirRounding) {
   std::vector<MotionRao> responses(3);
   for (std::size_t m = 0; m < 3; ++m) responses[m].heave = static_cast<double>(m + 1);
@@ -113,7 +113,7 @@ MotionSpec rao_spec(const char* file) {
   return spec;
 }
 
-// The whole way: file, body, series in an irregular sea; its RMS is the root of int |H|^2 S.
+// The complete chain: file, body, series in an irregular sea; its RMS is the root of int |H|^2 S.
 TEST(SimulateRao, HasTheVarianceOfSpectrumAndTable) {
   SeaState state;
   state.significant_wave_height_m = 2;

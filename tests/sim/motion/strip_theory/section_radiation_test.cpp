@@ -108,7 +108,7 @@ TEST(SectionRadiation, OfASemicircleHasTheLimitsOfHighAndLowFrequency) {
   const Section fast(2, 1, kCircle, 40);
   // To the next order 1 - 4/(3 pi K) (Ursell 1953): 0.989 at K = 40; the series itself 1e-3.
   EXPECT_NEAR(fast.added_mass(kHeave, kHeave) / kHalfDisc, 1 - 4 / (3 * kPi * 40), 2e-3);
-  // The way there is as 1/K: what is left after taking that away is of the order 1/K^2 and of the series.
+  // The limit is approached as 1/K: the residual after subtracting that term is of the order 1/K^2 and of the series.
   const double extrapolated = 2 * fast.added_mass(kSway, kSway) - Section(2, 1, kCircle, 20).added_mass(kSway, kSway);
   EXPECT_NEAR(extrapolated / kHalfDisc, 4 / (kPi * kPi), 3e-3);
   const Section slow(2, 1, kCircle, 1e-4);
@@ -127,7 +127,8 @@ TEST(SectionRadiation, OfACircleInRollIsNothing) {
   }
 }
 
-// The work done by damping leaves as waves: b = rho g^2 A^2 / w^3 with A the waves' amplitude per amplitude of motion.
+// The work done by damping is radiated as waves: b = rho g^2 A^2 / w^3 with A the waves' amplitude per amplitude of
+// motion.
 TEST(SectionRadiation, SendsOutTheEnergyThatDampingTakes) {
   for (const double draught : {0.3, 1.0, 3.0}) {
     for (const double coefficient : {0.7, kCircle, 0.95}) {
@@ -157,8 +158,8 @@ TEST(SectionRadiation, IsReciprocal) {
   }
 }
 
-// The force of a beam sea of amplitude 1 and the waves sent out are tied by Haskind's relation, in two dimensions
-// |F|^2 = rho g^2 b / w for a body that is alike on both sides (Newman 1962).
+// The force of a beam sea of amplitude 1 and the radiated waves are related by Haskind's relation, in two dimensions
+// |F|^2 = rho g^2 b / w for a symmetric body (Newman 1962).
 TEST(SectionRadiation, FeelsWavesAsItSendsThemOut) {
   for (const double draught : {0.4, 1.0, 2.0}) {
     for (const double k : {0.05, 0.3, 1.0}) {
@@ -170,7 +171,7 @@ TEST(SectionRadiation, FeelsWavesAsItSendsThemOut) {
         const double cosine = std::exp(k * c.z[p]) * std::cos(k * c.y[p]);
         const double sine = std::exp(k * c.z[p]) * std::sin(k * c.y[p]);
         const double n_y = 2 * c.dz[p], n_z = -2 * c.dy[p];
-        // Froude-Krylov and diffraction of a beam sea, as StripTheory::excitation has them.
+        // Froude-Krylov and diffraction force of a beam sea, as in StripTheory::excitation.
         heave += -kGravity * cosine * n_z + w * w * s.flow.potential[kHeave][p] * (n_z * cosine - n_y * sine);
         sway += Complex(0, kGravity) * sine * n_y -
                 Complex(0, w * w) * s.flow.potential[kSway][p] * (n_z * sine + n_y * cosine);
