@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rims of sheets that are not infinitely thin: against integral equations, and laws.
+// Edges of sheets of finite thickness: against integral equations, reciprocity, continuity and symmetry.
 #include "sim/scattering/diffraction/thick_edge.h"
 #include "sim/scattering/response/scattering_matrix.h"
 
@@ -42,8 +42,8 @@ struct Deviation {
   double relative = 0, mean_db = 0;  // of the field in L2; of its level up to 60 deg
 };
 
-// What 2 m more of an upright strip 9.1 wavelengths wide add to its echo, against the strip's integral equations, over
-// all pairs of directions that `is_enabled` asks for.
+// Difference of the echoes of upright strips of 4 m and 2 m height and 9.1 wavelengths width, against the integral
+// equations of the infinite strip, over all pairs of directions that `wanted` selects.
 template <typename Wanted>
 Deviation against_integral_equations(double thickness_mm, bool soft, const Wanted& wanted) {
   const double k = wavenumber(10.24e9), height = 2;
@@ -60,7 +60,8 @@ Deviation against_integral_equations(double thickness_mm, bool soft, const Wante
     const auto echo_of = [&](const Scatterer& target) {
       return scattering_matrices(target, geometry, std::array{k}, {0, 8, true})[0][soft ? kVvChannel : kHhChannel];
     };
-    // S per metre is j P / pi, of the hard wave with H against the axis; the sheet is drawn t/2 before its middle.
+    // S per metre is j P / pi, of the hard wave with H opposite to the axis; the sheet is meshed t/2 in front of its
+    // middle.
     const double before_middle = 0.5e-3 * thickness_mm * (std::cos(radians(transmit)) + std::cos(radians(receive)));
     const Complex P =
         (soft ? 1.0 : -1.0) * (echo_of(two) - echo_of(one)) / height * kPi / j * std::polar(1.0, k * before_middle);
@@ -76,9 +77,9 @@ Deviation against_integral_equations(double thickness_mm, bool soft, const Wante
   return deviation;
 }
 
-// The limits, by thickness: without one, what fifth and higher diffractions leave; else the next order, (k t)^2 of the
-// field times 0.06 to 0.03 (soft) and 0.15 to 0.06 (hard, which meets two rims on each way along the strip), falling as
-// a logarithm of k t does. Rims without thickness are off by 0.64 and 1.2 dB at 1.6 mm.
+// Limits by thickness: without one, the fifth and higher orders of diffraction; else the next order, (k t)^2 of the
+// field times 0.06 to 0.03 (soft) and 0.15 to 0.06 (hard, which is diffracted at two edges on each path along the
+// strip), decreasing as a logarithm of k t. Without the thickness term the errors are 0.64 and 1.2 dB at 1.6 mm.
 TEST(ThickEdge, OfStripsFollowsIntegralEquations) {
   struct Case {
     double t_mm, soft, hard;  // largest relative errors, 0 to 90 deg
@@ -90,8 +91,8 @@ TEST(ThickEdge, OfStripsFollowsIntegralEquations) {
   }
 }
 
-// Towards another receiver, to 75 deg from the normal: physical optics is not reciprocal there, its sum with the fringe
-// currents must be. Soft waves that graze the strip (slope diffraction) leave 0.2 % from 51 deg.
+// Bistatic echo to 75 deg from the normal: physical optics is not reciprocal there, its sum with the fringe currents
+// must be. Soft waves at grazing incidence on the strip (slope diffraction) leave 0.2 % from 51 deg.
 TEST(ThickEdge, OfStripsFollowsIntegralEquationsTowardsOtherReceivers) {
   for (const double transmit : {21.0, 51.0}) {
     const auto from = [&](double at, double receive) { return at == transmit && receive != at; };
@@ -118,9 +119,9 @@ TEST(ThickEdge, IsReciprocal) {
   }
 }
 
-// Where the sheet reflects one direction into the other, where the light passes the rim, and in the sheet's plane the
-// closed forms are 0/0: there the currents are the mean of those beside to the square of the distance, times a
-// curvature of 30 at 0.1 rad from the plane.
+// At the reflection and the incident shadow boundary and in the sheet's plane the closed forms are 0/0: there the
+// currents equal the mean of adjacent ones up to the square of the distance times a curvature of 30 at 0.1 rad from the
+// plane.
 TEST(ThickEdge, HasNoJumps) {
   const WedgeFrame rim = rim_of(1e-3);
   const auto response = [&](double phi, double phi_in) {
@@ -147,8 +148,8 @@ TEST(ThickEdge, HasNoJumps) {
   EXPECT_TRUE(end_on[0].constant.allFinite() && end_on[1].constant.allFinite());
 }
 
-// Either side of a sheet is its lit face: turned round, it answers alike, but for edge waves' 1e-7 rad down on their
-// face (3e-7 m without thickness too).
+// Either side of a sheet is its illuminated face: a rotated sheet has the same echo, but for the tilt of 1e-7 rad of
+// face-grazing diffracted waves towards their face (3e-7 m, also without thickness).
 TEST(ThickEdge, IsTheSameFromEitherSide) {
   const Scatterer plate = strip(0.1524, 1.6e-3);
   const double k = wavenumber(10.24e9);
@@ -161,7 +162,7 @@ TEST(ThickEdge, IsTheSameFromEitherSide) {
   }
 }
 
-// An interval's points carry the thickness at their carrier (patterns are kept in single precision).
+// The points of an interval contain the thickness term at their carrier (patterns are stored in single precision).
 TEST(ThickEdge, IsInTheContributionsOfAView) {
   const Scatterer plate = strip(0.1524, 1.6e-3), thin = strip(0.1524, 0);
   const double k = wavenumber(10.24e9);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where beams end: the width of what two rims share against Fresnel's integral, its points against fresh traces. The
-// echo is held to integral equations in infinite_prism_test.cpp.
+// Shadow boundaries of reflected beams: the effective width of a double knife-edge against Fresnel's integral, its
+// point contributions against independent traces. The echo is compared with integral equations in
+// infinite_prism_test.cpp.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -30,9 +31,9 @@ std::vector<EdgeContribution> beam_ends(const Scatterer& scatterer, const Vec3& 
   return all;
 }
 
-// Behind a half-plane the field at u beyond the shadow line is erfc(e^{j pi/4} u) / 2; the beam lacks its integral from
-// the second rim on. With both integrals turned by e^{-j pi/4} and their order changed it is that of t e^{-(a + t)^2} /
-// sqrt(pi) over t > 0, a = e^{j pi/4} u.
+// Behind a half-plane the field at u beyond the shadow-boundary line is erfc(e^{j pi/4} u) / 2; the correction of the
+// beam is its integral beyond the second edge. With both integrals rotated by e^{-j pi/4} and their order exchanged it
+// is that of t e^{-(a + t)^2} / sqrt(pi) over t > 0, a = e^{j pi/4} u.
 TEST(DoubleKnifeEdge, LackWhatFresnelsFieldHasBeyondTheSecondRim) {
   const double k = wavenumber(10e9), d = 0.7;
   for (const double apart : {0.0, 0.01, 0.05, 0.2}) {
@@ -43,14 +44,14 @@ TEST(DoubleKnifeEdge, LackWhatFresnelsFieldHasBeyondTheSecondRim) {
     for (double t = step / 2; t < 12; t += step) integral += step * t * std::exp(-(a + t) * (a + t)) / std::sqrt(kPi);
     const Complex lacking =
         k * std::sqrt(2 * d / k) * std::polar(1.0, -kPi / 4) * integral * std::exp(j * std::norm(a));
-    // The transition function errs by 1e-7, the sum by step^2 / 24 of the integrand's slope.
+    // The error of the transition function is 1e-7, that of the sum step^2 / 24 of the integrand's slope.
     EXPECT_NEAR(std::abs(knives.effective_width(k, 0.5) - lacking), 0, 1e-6 * k * std::sqrt(2 * d / k)) << apart;
   }
 }
 
-// The same where psi slopes by `slope`: what is left of the integral of E(x) e^{jk slope x} up to the second rim at w,
-// when the end of physical optics there and the first rim's own, as far as it lands within the second one, are taken
-// off. The field beyond the second rim is turned and its order changed as above.
+// The same for a psi of slope `slope`: the residual of the integral of E(x) e^{jk slope x} up to the second edge at w,
+// less the end-point contribution of physical optics there and that of the first edge where its path lands within the
+// second one. The field beyond the second edge is rotated and its order exchanged as above.
 TEST(DoubleKnifeEdge, ShareTheirEndsWherePsiSlopes) {
   const double k = wavenumber(10e9), d = 0.7, unit = std::sqrt(2 * d / k);
   for (const double slope : {-0.3, -0.05, 0.04, 0.15}) {
@@ -61,7 +62,7 @@ TEST(DoubleKnifeEdge, ShareTheirEndsWherePsiSlopes) {
       knives.second_in_shadow = w > 0;
       knives.off_axis_weight = 1;
       knives.axial_weight = 0;
-      // What the first rim's field has beyond the second one, times e^{-jk slope w}.
+      // The first edge's field beyond the second one, times e^{-jk slope w}.
       const Complex a = std::polar(1.0, kPi / 4) * (w / unit), c = j * sigma * std::polar(1.0, -kPi / 4);
       Complex beyond = 0;
       constexpr double step = 2e-4;
@@ -69,20 +70,21 @@ TEST(DoubleKnifeEdge, ShareTheirEndsWherePsiSlopes) {
         beyond += step * (std::exp(c * r - (a + r) * (a + r)) - std::exp(-(a + r) * (a + r))) / (c * std::sqrt(kPi));
       beyond *= unit * std::polar(1.0, -kPi / 4);
       const auto end = [&](double phase) { return std::polar(1.0, phase) / (j * k * slope); };
-      // All of it is e^{j k slope^2 d / 2}'s, of which the second rim takes `beyond`.
+      // The whole integral is that of e^{j k slope^2 d / 2}, from which the second edge removes `beyond`.
       const Complex all = end(0.5 * k * slope * slope * d - k * slope * w) - beyond;
       const Complex told =
           (landed > 0 ? end(0.5 * k * slope * slope * d - k * slope * w) : 0.0) + (w < 0 ? end(0) : 0.0);
       const Complex width = -k * (all - told) * std::polar(1.0, k * w * w / (2 * d));
-      // The transition function errs by 1e-7 of the ends, nearly equal arguments by the square of 0.05 over 24.
+      // The error of the transition function is 1e-7 of the end-point contributions, that of nearly equal arguments the
+      // square of 0.05 over 24.
       EXPECT_NEAR(std::abs(knives.effective_width(k, 0.5) - width), 0, 2e-4 / std::abs(slope) + 1e-6 * k * unit)
           << slope << " " << w;
     }
   }
 }
 
-// Rims that meet in one point: the way between them grows from 0. The closed form of the ends takes over where the
-// phase runs through ten cycles.
+// Edges that meet in one point: the path between them grows from 0. The end-point contributions replace the integral
+// where the phase difference reaches ten cycles.
 TEST(DoubleKnifeEdge, AnswerFromTheirEndsWherePhasesRun) {
   const double k = wavenumber(10e9);
   EdgeContribution contribution;
@@ -99,8 +101,8 @@ TEST(DoubleKnifeEdge, AnswerFromTheirEndsWherePhasesRun) {
   EXPECT_NEAR(std::abs(parts - summed), 0, 1e-3 * std::abs(summed));
 }
 
-// Rims that meet in a corner share nothing there, on whichever side of 0 rounding puts the ways: else a long stretch,
-// of which the ends answer alone, would have an end of its own.
+// Edges that meet in a vertex are not coupled there, for either sign of the paths' rounding: otherwise a long interval
+// that is represented by its end-point contributions would have one there.
 TEST(DoubleKnifeEdge, VanishesWhereEdgesMeet) {
   const Scatterer reflector(read_mesh(SEAGLINT_SOURCE_DIR "/assets/icosahedral_reflector.glb"));
   int corners = 0;
@@ -109,7 +111,7 @@ TEST(DoubleKnifeEdge, VanishesWhereEdgesMeet) {
       if (!contribution.double_knife_edge) continue;
       const EdgeContribution::DoubleKnifeEdge& knives = *contribution.double_knife_edge;
       for (std::size_t end = 0; end < 2; ++end) {
-        // Where only one of both is hidden the end of the other stands beside, and they do share.
+        // Where only one of both is in shadow the end-point contribution of the other remains, and they are coupled.
         if (knives.separation[end] > 1e-9 || (knives.exit_excess[1 - end] > 0) != knives.second_in_shadow) continue;
         ++corners;
         // F(u^2) / u of u below 1e-6 over slopes from 0.03
@@ -120,7 +122,8 @@ TEST(DoubleKnifeEdge, VanishesWhereEdgesMeet) {
   EXPECT_GT(corners, 100);
 }
 
-// What one trace knows of them serves a turn of 0.1 deg: the icosahedral reflector, where they answer most.
+// One trace is valid over an aspect change of 0.1 deg: the icosahedral reflector, where these contributions are
+// largest.
 TEST(DoubleKnifeEdge, FollowATurnAsFreshTracesDo) {
   const Scatterer reflector(read_mesh(SEAGLINT_SOURCE_DIR "/assets/icosahedral_reflector.glb"));
   const double k = wavenumber(16e9);
@@ -145,7 +148,7 @@ TEST(DoubleKnifeEdge, FollowATurnAsFreshTracesDo) {
     }
     std::printf("%g deg: %.3f m, error %.1f dB\n", azimuth, std::sqrt(power / 2), 10 * std::log10(error / power));
     EXPECT_GT(std::sqrt(power / 2), 0.05);
-    // ends that slip and widths are frozen: -27 dB of what is -30 dB of the reflector's echo itself
+    // end points that slide and widths are frozen: -27 dB of what is -30 dB of the reflector's own echo
     EXPECT_LT(error, 2e-3 * power) << azimuth;
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Arrivals edge by edge against the lists they were found in.
+// Edge illuminations indexed by edge against the lists that they come from.
 #include "sim/scattering/edges/edge_illumination.h"
 
 #include <gtest/gtest.h>

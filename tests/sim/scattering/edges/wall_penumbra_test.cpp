@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Walls behind rims of faces that the wave grazes, against integrals over the half-plane's field.
+// Walls behind edges of faces at grazing incidence, against integrals over the half-plane's field.
 #include "sim/scattering/edges/wall_penumbra.h"
 #include "sim/scattering/diffraction/transition.h"
 #include "sim/scattering/surfaces/phase_integral.h"
@@ -20,7 +20,7 @@ namespace {
 
 using namespace testing_echoes;
 
-// A floor z = 0, whose rim lies along y in x = 0, and a wall in x = -20 m, as wide as long, seen along x from 15 deg
+// A floor z = 0 with an edge along y at x = 0, and a wall at x = -20 m, as wide as long, viewed along x from 15 deg
 // above the floor to as much below.
 constexpr double kWay = 20, kWidth = 20;
 
@@ -50,25 +50,25 @@ Answer closed_form(double sine, double k, double height = 1000) {
   return sum;
 }
 
-// erfc(e^{j pi/4} u) / 2 by the transition function, which wedge_diffraction_test.cpp holds to Fresnel's integrals.
+// erfc(e^{j pi/4} u) / 2 by the transition function, which multiple_diffraction_test.cpp compares with its integral.
 Complex shadowed(double u) {
   if (u < 0) return 1.0 - shadowed(-u);
   return u < 1e-9 ? 0.5 : std::polar(1.0, -u * u - kPi / 4) * transition_function(u * u) / (2 * std::sqrt(kPi) * u);
 }
 
-// A. Sommerfeld's half-plane (M. Born and E. Wolf, Principles of Optics, 8.7), which is the floor: the wave from a side
-// of it, as the angle from the floor round the rim, or its image, from minus that, at (x, z).
+// Sommerfeld's solution for the half-plane (M. Born and E. Wolf, Principles of Optics, 8.7), which is the floor: the
+// wave incident from the angle `from`, measured from the floor about the edge, or its image from minus that, at (x, z).
 Complex half_plane(double from, double x, double z, double k) {
   const double r = std::hypot(x, z), off = std::atan2(z, -x) - from;
   return std::polar(1.0, k * r * std::cos(off)) * shadowed(-std::sqrt(2 * k * r) * std::cos(0.5 * off));
 }
-// What the field on the wall and its slope, which by reciprocity is the receiver's, have over physical optics: that
-// lights the wall, and once more by the floor up to the rim's shadow line, where the wall's image radiates as well
-// (grazing_reflection.h). They agree far above the penumbra but for waves that run ever faster up the wall, which are
-// faded out.
+// The difference of the exact product of the field on the wall and its slope, which by reciprocity is the receiver's,
+// from physical optics, which illuminates the wall directly and once more via the floor up to the shadow-boundary line
+// of the edge, where the wall's image radiates as well (grazing_reflection.h). They agree far above the penumbra except
+// for waves of increasing phase rate up the wall, which a taper removes.
 Answer integral(double sine, double k) {
   const double angle = std::asin(sine), penumbra = std::sqrt(2 * kWay / k), shadow = kWay * std::tan(angle);
-  // no step of the midpoint rule has the line within
+  // no step of the midpoint rule contains the line
   const double line = shadow != 0 ? std::abs(shadow) : 0.01 * penumbra,
                step = line / std::ceil(line / (0.002 * penumbra));
   const double from = std::abs(shadow) + 12 * penumbra, to = from + 40 * penumbra, h = 1e-5;
@@ -93,16 +93,16 @@ Answer integral(double sine, double k) {
   return {factor * soft, factor * hard};
 }
 
-// Soft up to 2 deg above the floor, whence mirrored rims take part, and to 15 below; hard to 2 either way, whence edge
-// waves do.
+// Soft up to 2 deg above the floor, where reflected-edge contributions begin, and to 15 deg below; hard to 2 deg either
+// way, where multiple diffraction begins.
 TEST(WallPenumbra, IsWhatPhysicalOpticsLacksOfTheHalfPlanesField) {
-  // soft, in grazing: 2 (l / pi k)^(1/2) k / 2 pi
+  // soft, at grazing: 2 (l / pi k)^(1/2) k / 2 pi
   const double k = wavenumber(10e9), all = std::sqrt(k * kWay / kPi) / kPi;
   for (const double sine :
        {-0.25, -0.1, -0.03, -0.01, -0.003, -0.001, -0.00005, 0.0, 0.00005, 0.001, 0.003, 0.01, 0.03}) {
     const Answer found = closed_form(sine, k), expected = integral(sine, k);
-    // What cosines of the angle leave; the midpoint rule; within 1e-4 of the floor's plane what goes on from there,
-    // with the change over 1e-3, lacks the second order in x.
+    // Error of cosines of the angle; the midpoint rule; within 1e-4 of the floor's plane the extrapolation from there
+    // with the derivative over 1e-3, which lacks the second order in x.
     const double tolerance = 1.5 * sine * sine * std::abs(expected.soft) + 1e-4 * all +
                              (std::abs(sine) < 1e-4 ? 2 * k * kWay * 1e-4 * 1e-3 * all : 0);
     EXPECT_LT(std::abs(found.soft - expected.soft), tolerance) << sine;
@@ -111,7 +111,8 @@ TEST(WallPenumbra, IsWhatPhysicalOpticsLacksOfTheHalfPlanesField) {
   }
 }
 
-// In grazing the soft wave's wall is less by (l / pi k)^(1/2) of its height on either way, and the hard one's whole.
+// At grazing the effective height of the wall is lower by (l / pi k)^(1/2) for the soft wave on either path, and
+// unchanged for the hard one.
 TEST(WallPenumbra, LowersEffectiveWallHeightAtGrazing) {
   const double k = wavenumber(10e9), all = std::sqrt(k * kWay / kPi) / kPi;
   const Answer answer = closed_form(0, k);
@@ -127,7 +128,8 @@ TEST(WallPenumbra, NeedsAWallThatIsHigherThanIt) {
   EXPECT_GT(in_grazing(0.5), 10);
 }
 
-// So that a cavity found from the field inside has it there, and a house's echo is the house's.
+// The contribution belongs to the parts of wall and floor, so that a filter by part includes it correctly, and a cavity
+// can replace it.
 TEST(WallPenumbra, IsTheWallsAndItsFloors) {
   TriangleMesh corner = make_square_trihedral(0.4);
   for (std::size_t i = 0; i < corner.triangles.size(); ++i) corner.triangle_part[i] = static_cast<std::uint16_t>(i / 2);

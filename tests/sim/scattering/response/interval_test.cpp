@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One trace for a whole band and interval: its points against the closed form, its grid against the direct sum, and the
-// response against fresh traces for every pulse and frequency.
+// response against independent traces per pulse and frequency.
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
@@ -39,9 +39,9 @@ Trajectory rocking(const Vec3& rates, double period_s, const Vec3& centre, const
   return Trajectory(0, step, samples, rest, centre);
 }
 
-// Relative L2 error of a response against fresh traces with exact phase integrals, dB: their mean square difference at
-// `spots` random pulses and frequencies over the mean square of the whole response. A few spots alone may lie in a
-// fade, whose own power says nothing of the interval's.
+// Relative L2 error of a response against independent traces with exact phase integrals, dB: their mean square
+// difference at `spots` random pulses and frequencies over the mean square of the whole response. The mean square at a
+// few spots may be that of a fade.
 double error_against_fresh_traces(const Scatterer& scatterer, const Trajectory& trajectory, const Vec3& r_hat,
                                   const SolverSpec& solver, int spots, std::uint64_t index) {
   const IntervalSampling sampling = paper_interval(0.3);
@@ -84,13 +84,13 @@ TEST(Contributions, SumToTheClosedFormWhereTheyWereMade) {
       for (int i = 0; i < 4; ++i) exact[i] += s[i];
     }
     const auto sum = direct_sum(contributions, kc, Vec3::Zero());
-    // Patterns are kept in single precision: 6e-8 of each of a few hundred terms.
+    // Patterns are stored in single precision: 6e-8 of each of a few hundred terms.
     EXPECT_LT(std::abs(sum[kVvChannel] - exact[kVvChannel]), 1e-6 * std::abs(exact[kVvChannel])) << turn;
   }
 }
 
-// Relative L2 error of a grid's answers against the direct sum of the points it was made of, the direction up to 2 mrad
-// along its track and `most_beside` beside it.
+// Relative L2 error of a grid's response against the direct sum of its points, with the look direction up to 2 mrad
+// along-track and `most_beside` cross-track.
 double error_of_grid(double max_cross_track) {
   const WavenumberGrid wavenumbers{wavenumber(15.9878125e9), wavenumber(0.625e6), 320};
   Random random({5, Stream::kTest, 1});
@@ -126,8 +126,8 @@ double error_of_grid(double max_cross_track) {
 // Kernel of width 6 at oversampling 2: 1e-5 per axis.
 TEST(ResponseGrid, EqualsTheDirectSumOfTheSamePoints) { EXPECT_LT(error_of_grid(0), 3e-5); }
 
-// Beside the track a series of one to five terms: the first one left out is at most 3 % for the fastest point at the
-// farthest instant, and the mean square over speeds |v| evenly up to the fastest is 1 / (2 p + 1) of its square.
+// Cross-track a series of one to five terms: the first truncated one is at most 3 % for the fastest point at the
+// farthest instant, and the mean square over speeds |v| uniform up to the fastest is 1 / (2 p + 1) of its square.
 TEST(ResponseGrid, FollowsAPathThatBends) {
   const double k = wavenumber(16.1875e9);
   for (const double phase : {0.02, 0.1, 0.24, 0.5, 0.9, kMaxCrossTrackPhase}) {
@@ -173,7 +173,7 @@ TEST(IntervalResponse, OfATiltingReflectorEqualsFreshTraces) {
   EXPECT_LT(worst, -30);
 }
 
-// Beside the point that the radar's range is counted from, and left behind.
+// Off the point to which the radar's range refers, and drifting astern.
 TEST(IntervalResponse, OfAFloatBesideTheReferencePointAtAFiniteRangeEqualsFreshTraces) {
   const Scatterer reflector(make_icosahedral_reflector());
   SolverSpec solver;
@@ -201,9 +201,9 @@ TEST(IntervalResponse, OfTheRollingShipEqualsFreshTraces) {
   }
 }
 
-// The goal: the ship turning by 0.1 deg in the interval to -30 dB and the reflector by 2 deg to -40 dB, over random
-// directions, in the median and in 95 of 100. Sixty-four milliseconds of 27 mrad/s and of 0.55 rad/s about an oblique
-// axis.
+// Required accuracy: the ship rotating by 0.1 deg in the interval to -30 dB and the reflector by 2 deg to -40 dB, over
+// random directions, in the median and in 95 of 100. Sixty-four milliseconds of 27 mrad/s and of 0.55 rad/s about an
+// oblique axis.
 TEST(IntervalResponse, FollowsFreshTracesInRandomDirections) {
   const auto study = [](const char* name, const Scatterer& scatterer, const Vec3& rates, const Vec3& centre,
                         double max_elevation_deg, int directions, int spots) {
@@ -228,11 +228,11 @@ TEST(IntervalResponse, FollowsFreshTracesInRandomDirections) {
   const auto [ship, ship_worst] = study("ship", Scatterer(read_mesh(SEAGLINT_SOURCE_DIR "/assets/combatant_144m.glb")),
                                         {0.016, 0.016, 0.016}, {0, 0, 1.7}, 5, 12, 8);
   EXPECT_LT(ship, -30);
-  EXPECT_LT(ship_worst, -30);  // of so few directions the worst one
+  EXPECT_LT(ship_worst, -30);  // the maximum of so few directions
 }
 
 TEST(IntervalResponse, OfABodyInFreeFallTurnsPhaseWithItsOrigin) {
-  // Translation alone: the phase of e^{j 2k r^.p(t)} and nothing else.
+  // Translation only: the phase of e^{j 2k r^.p(t)}.
   std::vector<MotionSample> samples(11);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     samples[i].translation = 0.1 * static_cast<double>(i) * Vec3(1, -0.5, 0.2);

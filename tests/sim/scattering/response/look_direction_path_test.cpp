@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The way directions move: along a track, beside it, and how fast a corner may slip meanwhile.
+// Paths of look directions: along-track and cross-track components, and the limit of the slide rate of a vertex.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -27,7 +27,7 @@ TEST(LookDirectionPath, OfOneAntennaIsAlongTheChordAndBesideIt) {
   const LookDirectionPath path =
       look_direction_path(curved_path(basis, reach, c), curved_path(basis, reach, c), basis.r, basis.r);
   ASSERT_EQ(path.s.size(), 17u);
-  // Both directions turn alike, so that s is sqrt(2) times the turn of each.
+  // Both directions change equally, so that s is sqrt(2) times the change of each.
   EXPECT_NEAR(std::abs(path.s.front()), std::sqrt(2) * reach, 1e-8);
   EXPECT_NEAR(path.s_limit, std::sqrt(2) * reach, 1e-8);
   EXPECT_NEAR(std::abs(path.q.front()), std::sqrt(2) * c * reach * reach, 1e-8);
@@ -35,7 +35,7 @@ TEST(LookDirectionPath, OfOneAntennaIsAlongTheChordAndBesideIt) {
   EXPECT_NEAR(path.max_change, reach * std::sqrt(1 + c * c * reach * reach), 1e-8);
   EXPECT_NEAR(path.along_track.transmit.dot(basis.r), 0, 1e-12);
   EXPECT_NEAR(path.cross_track.transmit.dot(path.along_track.transmit), 0, 1e-12);
-  // A body-fixed point's phase by both axes is that by the directions: psi changes by 2 x . (r^ - r^_0).
+  // A body-fixed point's phase by both axes equals that by the directions: psi changes by 2 x . (r^ - r^_0).
   const Vec3 x(30, -5, 8);
   const PathGradient gradient{x, x};
   const std::vector<Vec3> way = curved_path(basis, reach, c);
@@ -59,7 +59,7 @@ TEST(LookDirectionPath, OfTwoAntennasKeepsWhatBothDoTogether) {
     const Vec3 t = there[n] - to.r, r = back[n] - from.r;
     const double across =
         gradient.transmit.dot(t - to.r * to.r.dot(t)) + gradient.receive.dot(r - from.r * from.r.dot(r));
-    // Both bend in proportion, so that one axis has all of it; unit vectors bring terms of third order.
+    // Both curves are proportional, so that one axis contains all of it; unit vectors add terms of third order.
     EXPECT_NEAR(path.s[n] * path.along_track.path_rate(gradient) + path.q[n] * path.cross_track.path_rate(gradient),
                 across, 30 * 2e-9);
   }
@@ -93,7 +93,7 @@ TEST(Footprint, SlowsACornerThatSlipsFasterThanAShadow) {
   EXPECT_NEAR((footprint.polygon[1].d1 - Vec2(60 - z, 0)).norm(), 0, 1e-12);
   EXPECT_NEAR((footprint.polygon[1].d2 - Vec2(0, 80 - z)).norm(), 0, 1e-12);
   EXPECT_EQ(footprint.polygon[0].d1, before[0].d1);
-  EXPECT_EQ(footprint.polygon[2].d1, before[2].d1);  // slow enough
+  EXPECT_EQ(footprint.polygon[2].d1, before[2].d1);  // below the limit
 }
 
 }  // namespace

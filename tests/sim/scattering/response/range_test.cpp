@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A radar at a finite range: the wavefront's second order against sums over its definition.
+// A radar at a finite range: the second order of the wavefront against sums over its definition.
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
@@ -43,8 +43,8 @@ TEST(WavefrontCurvature, PlateIsTheSumOverItsCurvedWavefront) {
       const Vec3 r = direction(azimuth, 0.7);
       const Complex expected = summed_plate(length, width, r, k, range_m),
                     ours = at_range(make_plate(length, width), r, k, range_m);
-      // Frozen amplitudes of decompose() over radius / R: kMaxAmplitudeError of the strongest end; the cells' own error
-      // is 1e-5.
+      // Frozen amplitudes of decompose() over radius / R: kMaxAmplitudeError of the strongest end point; the error of
+      // the cells is 1e-5.
       const double size = std::abs(summed_plate(length, width, direction(0, 0.7), k, range_m));
       fmt::print("plate at {} m, {} deg: {:.4f} of the broadside echo\n", range_m, azimuth,
                  std::abs(ours - expected) / size);
@@ -53,7 +53,7 @@ TEST(WavefrontCurvature, PlateIsTheSumOverItsCurvedWavefront) {
   }
 }
 
-// Nothing changes for a body on the line of sight but what its own size does.
+// For a body on the line of sight only its own size has an effect.
 TEST(WavefrontCurvature, CurvedBodyOnTheLineOfSightKeepsItsEcho) {
   const double k = wavenumber(10e9);
   const TriangleMesh sphere = transformed(make_sphere(1, 4), Mat3::Identity(), {20, 0, 0});
@@ -65,7 +65,7 @@ TEST(WavefrontCurvature, CurvedBodyOnTheLineOfSightKeepsItsEcho) {
   }
 }
 
-// A shadow edge on the axis has no second order, however fast it slips in the plate that it falls on.
+// A shadow edge on the axis has no second order, however fast it slides over the plate on which it falls.
 TEST(WavefrontCurvature, SlipOfAShadowEdgeIsNoPlace) {
   const double k = wavenumber(3e9);
   const Mat3 tilt = Eigen::AngleAxisd(radians(50), Vec3::UnitY()).toRotationMatrix();
@@ -94,25 +94,24 @@ TEST(WavefrontCurvature, FarAwayIsTheFarField) {
   EXPECT_LT(std::abs(at_range(make_icosahedral_reflector(), r, k, 1e7) - far), 1e-4 * std::abs(far));
 }
 
-// Three bounces end where they began: a trihedral's echo comes from its apex, wherever its faces are, and keeps the
-// apex's path at any range. Its aperture is seen as a point, so that only what the wavefront bends over the aperture is
-// lost.
+// Three bounces end where they began: a trihedral's echo is centred at its apex, wherever its faces are, and has the
+// path of the apex at any range. Only the wavefront curvature over the aperture reduces it.
 TEST(WavefrontCurvature, TrihedralKeepsThePathOfItsApex) {
   const double leg = 0.3, k = wavenumber(16e9), range_m = 500;
   const Vec3 r = Vec3(1, 1, 1).normalized(), aside = 20 * Vec3(1, -1, 0).normalized();
   TriangleMesh mesh = make_triangular_trihedral(leg);
   const Complex at_origin = at_range(mesh, r, k, range_m);
   const Complex moved = at_range(transformed(mesh, Mat3::Identity(), aside), r, k, range_m);
-  // The path grows by |x_perp|^2 / R. At 20 m aside the radar stands d = 2.3 deg off the axis, which costs a triangular
-  // aperture d^2 and its first bounces' interference some 2 / (k leg); its middle lies up to leg / 2 aside of the apex,
-  // which turns the wavefront's second order by k (leg / 2)^2 / R.
+  // The path grows by |x_perp|^2 / R. At 20 m off the axis the radar is d = 2.3 deg off the boresight, which reduces a
+  // triangular aperture by d^2 and changes its first bounces' interference by some 2 / (k leg); its centre is up to leg
+  // / 2 from the apex, where the wavefront's second order is k (leg / 2)^2 / R.
   const Complex turned = moved / at_origin * std::polar(1.0, k * aside.squaredNorm() / range_m);
   const double off_axis = aside.norm() / range_m;
   EXPECT_NEAR(std::abs(turned), 1, off_axis * off_axis + 2 / (k * leg));
   EXPECT_NEAR(std::arg(turned), 0, 2 / (k * leg) + k * leg * leg / 4 / range_m);
 }
 
-// A float of a layout has its own origin, the radar's range is counted from the layout's.
+// A float of a layout has its own origin, whereas the radar's range refers to that of the layout.
 TEST(WavefrontCurvature, PlateBesideTheReferencePointIsTheSumOfItsPointDistances) {
   const double length = 2, width = 0.8, range_m = 1000;
   const Vec3 rest(5, 60, 0.75);

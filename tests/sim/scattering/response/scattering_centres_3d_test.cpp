@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What one view consists of: selected, binned into centres, summed by facet.
+// Decomposition of the echo at one aspect: selected, clustered into centres, summed by facet.
 #include "sim/scattering/response/scattering_centres_3d.h"
 #include "sim/scattering/response/scattering_matrix.h"
 
@@ -53,7 +53,7 @@ TEST_F(AspectDecomposition, ItsCentresAndItsFacetsBothSumToTheScatteringMatrix) 
   EXPECT_LT(distance(by_facet, s), kRounding * size(s));
 }
 
-// The bound of the header, and how far below it the error really is.
+// The bound that the header states, and the ratio of the actual error to it.
 TEST_F(AspectDecomposition, CentresErrByNoMoreThanTheirCellsAllowOffTheView) {
   const auto all = contributions();
   const Vec3 turn = 2e-4 * radar_.h - 1e-4 * radar_.v;
@@ -71,7 +71,7 @@ TEST_F(AspectDecomposition, CentresErrByNoMoreThanTheirCellsAllowOffTheView) {
     for (const ScatteringCentre3d& c : cluster_centres(all, k16, cell)) {
       for (int i = 0; i < 4; ++i) sum[i] += c.amplitude[i] * std::polar(1.0, dk * c.psi + k * c.gradient.dot(turn));
     }
-    // 2: four elements' norm
+    // 2: norm of four elements
     const double error = distance(sum, exact),
                  bound = 2 * amplitudes * 2 * cell * (dk + std::sqrt(3.0) * k * turn.norm());
     EXPECT_LT(error, bound) << cell;
@@ -111,7 +111,7 @@ TEST_F(AspectDecomposition, OfOneSelectionAndTheRestSumToAll) {
   EXPECT_GT(count, 0u);
 }
 
-// A corner's three-bounce echo has its phase centre at the apex, wherever the radar stands (Fermat).
+// A trihedral's three-bounce echo has its phase centre at the apex, wherever the radar is (Fermat).
 TEST(ScatteringCentres3d, OfATrihedralsThreeBouncesLieAtItsApex) {
   const Scatterer corner(transformed(make_triangular_trihedral(0.3), Mat3::Identity(), Vec3(1, 2, 0.5)));
   TracingSettings settings;
@@ -133,7 +133,7 @@ TEST(ContributionFilter, KeepsTheRimWhicheverPartComesFirst) {
   EXPECT_FALSE(filter.accepts_edge(1, 1, 1));
   EXPECT_TRUE(filter.accepts_edge(0, 1, 1));
   EXPECT_TRUE(filter.accepts_edge(1, 0, 1));
-  // The rim counts as the other part's, in a selection too.
+  // The edge belongs to the other part, in a selection too.
   filter.excluded = {{ContributionSelector::Kind::kPart, 1}};
   EXPECT_TRUE(filter.accepts_edge(1, 0, 1));
   EXPECT_FALSE(filter.accepts_cavity(1));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sea as a mirror: image theory, the four paths in closed form, and the response over an interval.
+// Specular sea reflection: image theory, the four paths in closed form, and the response over an interval.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -38,7 +38,7 @@ double largest(const std::array<Complex, 4>& s) {
 }
 
 // A sphere 10 m ahead of the origin and 10 m up, the radar some km from the water below the origin: the sum over the
-// four ways by their lengths.
+// four paths by their lengths.
 TEST(SeaReflection, CountsTheRangeFromTheWaterBelow) {
   const double k = wavenumber(10e9), radius = 0.1, height = 10, el = radians(5);
   const Vec3 r = direction(0, 5);
@@ -50,7 +50,7 @@ TEST(SeaReflection, CountsTheRangeFromTheWaterBelow) {
     for (const Vec3& there : {centre, image}) {
       for (const Vec3& back : {centre, image}) {
         const Vec3 a = radar - there, b = radar - back;
-        // Towards the image the wave comes from below.
+        // Towards the image the wave is incident from below.
         const auto up = [&](const Vec3& way, const Vec3& point) {
           return Vec3(way.x(), way.y(), point == image ? -way.z() : way.z()).normalized();
         };
@@ -64,8 +64,8 @@ TEST(SeaReflection, CountsTheRangeFromTheWaterBelow) {
     settings.range_m = range_m;
     const Complex ours =
         scattering_matrices_over_sea(sphere, r, height, conductor(), std::array{k}, settings)[0][kHhChannel];
-    // Of the four ways' 4 |alone|: 2 % for what a sphere answers 10 deg off, and the third order of the way, k X H^2 /
-    // R^2 = 0.01 rad at 5 km.
+    // Of 4 |alone|, the sum of the four paths: 2 % for the echo of a sphere 10 deg off, and the third order of the
+    // path, k X H^2 / R^2 = 0.01 rad at 5 km.
     EXPECT_LT(std::abs(ours - sum), 0.03 * 4 * std::abs(alone)) << range_m;
   }
 }
@@ -88,7 +88,7 @@ TEST(SeaReflection, SeaWaterIsAFresnelMirrorWithAPseudoBrewsterAngle) {
   RecordProperty("pseudo_brewster_deg", std::to_string(least_at));
   // |sin psi| = |eps|^{-1/2} within a few tenths of a degree: 7.6 deg.
   EXPECT_NEAR(least_at, degrees(std::asin(1 / std::sqrt(std::abs(index * index)))), 0.3);
-  // At grazing both polarisations tend to -1 in one sense: rho_h = rho_v = -1.
+  // At grazing both polarisations tend to -1 in the same convention: rho_h = rho_v = -1.
   EXPECT_LT(std::abs(sea.at(k16, 1e-5).v + 1.0), 1e-3);
   EXPECT_LT(std::abs(sea.at(k16, 1e-5).h + 1.0), 1e-3);
 }
@@ -105,7 +105,7 @@ TEST(SeaReflection, SphereAboveItShowsTheFourPathInterference) {
     const auto s = over_sea(sphere, direction(15, 1.2), height * half, conductor(), k, 7e-5);
     const Complex e = std::polar(1.0, -2 * k * height * half * std::sin(el));
     // The bistatic angle of 2.4 deg moves the specular point: psi = 2 a cos(1.2 deg) is 2 a 2.2e-4 shorter, 0.005 rad
-    // on two paths; the tessellation's facets answer alike within 2 %.
+    // on two paths; the facets of the tessellation scatter equally within 2 %.
     worst = std::max(
         {worst, std::abs(s[kHhChannel] - (1.0 - e) * (1.0 - e) * alone[kHhChannel]) / std::abs(alone[kHhChannel]),
          std::abs(s[kVvChannel] - (1.0 + e) * (1.0 + e) * alone[kVvChannel]) / std::abs(alone[kVvChannel])});
@@ -115,8 +115,7 @@ TEST(SeaReflection, SphereAboveItShowsTheFourPathInterference) {
         << height;
   }
   fmt::print("sphere over the sea: within {:.4f} of its echo\n", worst);
-  // Nulls and peaks where they are expected: hh vanishes at whole multiples of half, vv at odd halves; peaks are 12 dB
-  // up.
+  // Positions of nulls and peaks: hh vanishes at whole multiples of half, vv at odd halves; peaks are 12 dB up.
   EXPECT_LT(std::abs(over_sea(sphere, direction(15, 1.2), half, conductor(), k, 7e-5)[kHhChannel]),
             0.05 * std::abs(alone[kHhChannel]));
   EXPECT_NEAR(
@@ -143,9 +142,9 @@ TEST(SeaReflection, RoughnessTakesTheInterferenceAway) {
   EXPECT_LT(level(3), 1.1 * alone);
 }
 
-// A vertical plate that stands on a conducting sea is, by image theory, a plate of twice the height lit by the radar
-// and its image (odd for h, even for v): S_pp = S2(r, r) + rho_p S2(r', r) with S2 of the doubled plate; S2(r', r) is
-// its mirror reflection, 2 A cos(el) / lambda: the dihedral's echo.
+// A vertical plate on a conducting sea is, by image theory, a plate of twice the height illuminated by the radar and
+// its image (odd for h, even for v): S_pp = S2(r, r) + rho_p S2(r', r) with S2 of the doubled plate; S2(r', r) is its
+// specular reflection, 2 A cos(el) / lambda: the dihedral's echo.
 TEST(SeaReflection, PlateStandingOnAConductingSeaIsADihedral) {
   const double width = 0.3, height = 0.2;
   const auto standing = [&](double from, double to) {
@@ -164,19 +163,19 @@ TEST(SeaReflection, PlateStandingOnAConductingSeaIsADihedral) {
     EXPECT_NEAR(std::abs(mirrored[kVvChannel]), dihedral, 1e-9 * dihedral);
     EXPECT_LT(std::abs(s[kHhChannel] - (direct[kHhChannel] - mirrored[kHhChannel])), 1e-9 * dihedral) << elevation;
     EXPECT_LT(std::abs(s[kVvChannel] - (direct[kVvChannel] + mirrored[kVvChannel])), 1e-9 * dihedral) << elevation;
-    // Opposite signs, as a dihedral with its seam across has; the direct lobe of the doubled plate is what differs.
+    // Opposite signs, as a dihedral with a horizontal seam has; the difference is the direct lobe of the doubled plate.
     EXPECT_LT(std::abs(s[kHhChannel] + s[kVvChannel]), 2 * std::abs(direct[kHhChannel]) + 1e-9 * dihedral);
   }
 }
 
-// The same as a mesh: a large conducting floor under the plate, in the solver's own two bounces. What differs is what
-// the floor's finite size leaves.
+// The same as a mesh: a large conducting floor under the plate, with the solver's own two bounces. The difference is
+// due to the floor's finite size.
 TEST(SeaReflection, PlateOnAFloorOfTheSolversOwnAnswersAlike) {
   const double width = 0.3, height = 0.2, elevation = 30;
   TriangleMesh plate = make_plate(width, height);
   for (Vec3& x : plate.vertices) x.z() += 0.5 * height;
   const auto s = over_sea(Scatterer(plate), direction(0, elevation), 0, conductor(), k16);
-  // Just as large as the beams need: height / tan(el).
+  // As large as the beams need: height / tan(el).
   const double depth = height / std::tan(radians(elevation));
   TriangleMesh corner = plate;
   TriangleMesh floor;
@@ -191,20 +190,20 @@ TEST(SeaReflection, PlateOnAFloorOfTheSolversOwnAnswersAlike) {
   for (const int i : {kHhChannel, kVvChannel}) {
     fmt::print("plate on a floor: {:.3f} dB\n", dbsm(s[i]) - dbsm(with_floor[i]));
     EXPECT_NEAR(dbsm(s[i]) - dbsm(with_floor[i]), 0, 0.5) << i;
-    // Side lobes of single bounces, 1 / (k h sin el) of the whole each: 1/33 for either face.
+    // Side lobes of single bounces, each 1 / (k h sin el) of the echo: 1/33 for either face.
     EXPECT_LT(std::abs(s[i] - with_floor[i]), 0.08 * std::abs(s[i])) << i;
   }
 }
 
 TEST(SeaReflection, AFloatingBodyIsItsDryPartAlone) {
-  // An upright cylinder sunk to its middle: broadside half of it answers, from above all of its top, from below
-  // nothing, and the image does not see the inside.
+  // An upright cylinder submerged to its middle: broadside half of it scatters, from above all of its top, from below
+  // nothing, and the inside is not visible to the image.
   const TriangleMesh whole = make_cylinder(0.4, 0.6, 90);
   TriangleMesh mesh = whole, top = make_cylinder(0.4, 0.3, 90);
   for (Vec3& x : top.vertices) x.z() += 0.15;
   std::vector<MaterialSpec> materials{MaterialSpec{}};
   cut_at_sea_level(mesh, materials, 0);
-  // Flat facets: a cut through them makes vertices that do not lie on the smooth surface.
+  // Flat facets: a cut through them creates vertices off the smooth surface.
   const Scatterer floating(mesh, materials, 0);
   const auto broadside = echo(floating, radar_basis(Vec3::UnitX()), k16, 7e-4),
              half = echo(Scatterer(top, {}, 0), radar_basis(Vec3::UnitX()), k16, 7e-4);

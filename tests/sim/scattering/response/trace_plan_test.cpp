@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Directions that are traced over an interval: their shares, and how many it takes.
+// Traced look directions over an interval: their interpolation weights and their number.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +15,7 @@ using namespace testing_echoes;
 
 const std::vector<PropagationPath> kDirect{PropagationPath{}};
 
-// Pitch and yaw by `angle` rad about their means, round and round once in period_s: directions ahead go in a circle.
+// Pitch and yaw by `angle` rad about their means along a circle, once in period_s: directions ahead follow a circle.
 Trajectory circling(double angle, double period_s) {
   const double omega = 2 * kPi / period_s, step = 0.001;
   std::vector<MotionSample> samples(1000);
@@ -40,7 +40,7 @@ void expect_shares_sum_to_one(const TracePlan& plan, int pulses) {
   }
 }
 
-// By distances, and along its own direction, which turns as the body is carried.
+// From the positions, and along its own direction, which changes as the body drifts.
 TEST(TracePlan, OfABodyBesideANearRadarsReferencePoint) {
   const Vec3 r = direction(30, 2), rest(-40, 45, 3), velocity(0, 10, 0);
   const double range_m = 1000;

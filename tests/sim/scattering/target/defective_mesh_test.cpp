@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes as they come out of CAD: what is wrong with them is said, and what can be right is.
+// Defective meshes as CAD programs export them: defects are reported and, where possible, repaired.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -52,7 +52,7 @@ TEST(DefectiveMesh, OfMixedNormalsEchoesAsTheSoundOne) {
   const TriangleMesh sound = make_icosahedral_reflector();
   TriangleMesh mixed = sound;
   for (std::size_t t = 0; t < mixed.triangles.size(); t += 3) flip(mixed, t);
-  // both sides are looked at: what is hidden is hidden by polygons, to their smallest area
+  // both sides are viewed: hidden parts are removed as polygons, to the smallest patch area
   EXPECT_LT(difference(sound, repair(mixed)), 1e-6);
 }
 
@@ -73,8 +73,8 @@ TEST(DefectiveMesh, OfTwoSidedSheetsEchoesAsTheSheets) {
   EXPECT_LT(difference(sheet, repair(two_sided)), kRounding);
 }
 
-// Front and back of a corner are parts of their own, of conductor and of an impedance: from either side what stands
-// there answers, whichever part comes first.
+// Front and back of a trihedral are separate parts, of conductor and of an impedance: the part on the viewed side
+// scatters, whatever the order of the parts.
 TEST(DefectiveMesh, SheetsOfTwoMaterialsShowEachSideItsOwn) {
   MaterialSpec dull;
   dull.name = "dull";

@@ -28,7 +28,7 @@ TEST(RayScene, LeavesTheCallersFloatingPointModeAsItWas) {
     const int hit = plate.first_hit(rays.front());
     const unsigned after_one = _mm_getcsr();
     _mm_setcsr(before);
-    constexpr unsigned kModes = ~unsigned{_MM_EXCEPT_MASK};  // the exceptions that occurred are no mode
+    constexpr unsigned kModes = ~unsigned{_MM_EXCEPT_MASK};  // the mode without the flags of exceptions that occurred
     EXPECT_EQ(after_many & kModes, set & kModes);
     EXPECT_EQ(after_one & kModes, set & kModes);
     EXPECT_NE(hit, kNoFacet);
@@ -36,7 +36,7 @@ TEST(RayScene, LeavesTheCallersFloatingPointModeAsItWas) {
   }
 }
 
-// Every box is a leaf once, and lies in the boxes above it.
+// Every box is a leaf once, and lies in all boxes above it.
 TEST(BvhBuild, HoldsEveryBoxOnceWithinItsParents) {
   Random random({29, Stream::kTest, 0});
   for (const int count : {1, 2, 5, 1000}) {
@@ -44,7 +44,7 @@ TEST(BvhBuild, HoldsEveryBoxOnceWithinItsParents) {
     for (Box3& box : boxes) {
       const Vec3 x(random.normal(), random.normal(), random.normal());
       box.add(x);
-      // Some without extent, and many alike.
+      // Some without extent, and many identical ones.
       box.add(random.uniform() < 0.5 ? x : Vec3(x + Vec3(random.uniform(), 0, random.uniform())));
       if (random.uniform() < 0.3) box = boxes[0];
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tree of facets against Embree, and against looking at every facet.
+// The hierarchy of panels against Embree, and against a test of every panel.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 using namespace testing_echoes;
 
-// All facets that a prism of the given width about a ray meets.
+// All panels that overlap a prism of the given width about a ray.
 std::vector<int> walked(const Scatterer& scatterer, const Ray& ray, double width) {
   const RadarBasis across = radar_basis(ray.direction);
   const double x = across.h.dot(ray.origin), y = across.v.dot(ray.origin);
@@ -73,7 +73,7 @@ TEST(PanelBvh, MissesNoFacetWithACornerInThePrism) {
   }
 }
 
-// Seen along the diagonal a cube is a hexagon: in the corners that a rectangle around it has besides there is nothing.
+// Seen along the diagonal a cube is a hexagon: the corners of its bounding rectangle are empty.
 TEST(PanelBvh, LeavesOutAPrismBesideABoxSeenAskew) {
   TriangleMesh mesh = make_plate(1, 1);
   mesh.vertices = {{0, 0, 0}, {1, 1, 0}, {0, 1, 1}};  // their box is the unit cube
@@ -86,7 +86,7 @@ TEST(PanelBvh, LeavesOutAPrismBesideABoxSeenAskew) {
     const Vec3 centre = 0.5 * Vec3::Ones();
     return !walked(triangle, {centre + h * across.h + v * across.v - 5 * along, along}, 0.02).empty();
   };
-  // Corners at 0.816 from its middle, sides at 0.707, two of them square to h.
+  // Vertices at 0.816 from its middle, sides at 0.707, two of them normal to h.
   for (const double h : {-0.6, 0.6}) {
     for (const double v : {-0.7, 0.7}) EXPECT_FALSE(walked_at(h, v)) << h << ' ' << v;
   }
@@ -95,11 +95,11 @@ TEST(PanelBvh, LeavesOutAPrismBesideABoxSeenAskew) {
 }
 
 TEST(PanelBvh, PartsManyFacetsAtOnePlace) {
-  // A hundred copies of one plate: no cut parts their centres, and the tree must still end.
+  // A hundred copies of one plate: no cut separates their centres, and the hierarchy must still be finite.
   TriangleMesh mesh = make_plate(0.3, 0.2);
   for (int i = 0; i < 99; ++i) mesh.append(make_plate(0.3, 0.2));
   const Scatterer plates(mesh);
-  // many facets share each edge: none are joined
+  // many facets have each edge in common: none are joined
   EXPECT_EQ(walked(plates, {Vec3::UnitX(), -Vec3::UnitX()}, 0.01).size(), 200u);
 }
 

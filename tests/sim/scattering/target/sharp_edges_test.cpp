@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which edges are sharp, and which of their faces speaks for them.
+// Which edges are sharp, and which of their faces records the illumination.
 #include "sim/scattering/target/sharp_edges.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ TEST(SharpEdges, AreThoseOfAPlateABoxAndADihedral) {
   const auto rims = edges_of(make_plate(0.3, 0.2));
   EXPECT_EQ(rims.size(), 4u);
   for (const SharpEdge& edge : rims) EXPECT_DOUBLE_EQ(edge.front_wedge.N, 2);
-  // Seen from within the corner the seam is concave; from behind it is a wedge of three right angles.
+  // Seen from within the dihedral the seam is concave; from behind it is a wedge of three right angles.
   int seams = 0;
   for (const SharpEdge& edge : edges_of(make_dihedral(0.25, 0.3, kPi / 2))) {
     if (edge.is_free_edge()) continue;
@@ -35,7 +35,7 @@ TEST(SharpEdges, AreThoseOfAPlateABoxAndADihedral) {
   EXPECT_TRUE(edges_of(make_sphere(1, 3)).empty());
 }
 
-// However a face is cut and wherever it stands, its edges know how long they are as a whole; round a corner a run ends.
+// The collinear length of an edge does not depend on triangulation and position; it ends at a vertex of the face.
 TEST(SharpEdges, KnowTheStraightRunTheyArePartOf) {
   const Mat3 askew = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
   for (const std::uint32_t pieces : {1u, 16u}) {
@@ -44,12 +44,12 @@ TEST(SharpEdges, KnowTheStraightRunTheyArePartOf) {
     const Vec3 wide = askew * Vec3::UnitY();
     for (const SharpEdge& edge : plate.edges().edges) {
       const double expected = std::abs(edge.along().dot(wide)) > 0.5 ? 0.3 : 0.2;
-      EXPECT_NEAR(edge.collinear_length_m, expected, 1e-13 * pieces);  // of places 40 m out
+      EXPECT_NEAR(edge.collinear_length_m, expected, 1e-13 * pieces);  // of positions 40 m out
     }
   }
 }
 
-// Where a hundred loose triangles meet in a point none of their rims goes on in the one across.
+// At a vertex of a hundred loose triangles no edge continues in the opposite one.
 TEST(SharpEdges, EndTheirRunsInAFanOfLooseTriangles) {
   constexpr std::uint32_t kTriangles = 100;
   TriangleMesh fan = make_plate(1, 1);
@@ -68,7 +68,8 @@ TEST(SharpEdges, EndTheirRunsInAFanOfLooseTriangles) {
   for (const SharpEdge& edge : scatterer.edges().edges) EXPECT_EQ(edge.collinear_length_m, edge.length());
 }
 
-// Corners: those that images solve send nothing, nor are those asked that have more images than a sum of them holds.
+// Concave edges: those that image theory solves exactly do not diffract, nor do those with more images than the sum
+// contains.
 TEST(SharpEdges, OfCornersDiffractBetweenTwelveDegAndAHalfTurn) {
   const auto corner_diffracts = [](double opening_deg) {
     const Scatterer scatterer(make_dihedral(0.25, 0.3, radians(opening_deg)));
@@ -88,9 +89,10 @@ TEST(SharpEdges, OfCornersDiffractBetweenTwelveDegAndAHalfTurn) {
     EXPECT_FALSE(corner_diffracts(opening_deg)) << opening_deg;
 }
 
-// A wave between the faces of a corner of sheets meets the corner. Reflected by one face it lights the other one up to
-// the seam and comes as if from behind the first, where there is a wedge; it meets neither, its echo being a part of
-// the corner's answer. A wave that does come from behind meets that wedge by the face it lights.
+// A wave incident between the faces of a concave edge of sheets illuminates the concave edge. After reflection by one
+// face it illuminates the other one up to the seam and seems to arrive from behind the first, where the edge is a
+// convex wedge; it excites neither, since its echo is part of the concave edge's. A wave that does arrive from behind
+// excites the convex wedge via the face that it illuminates.
 TEST(SharpEdges, OfACornerAreNotMetByWhatItsOwnFacesReflect) {
   for (const double opening_deg : {90.0, 135.0, 150.0}) {
     const Scatterer scatterer(make_dihedral(0.25, 0.3, radians(opening_deg)));
@@ -99,7 +101,7 @@ TEST(SharpEdges, OfACornerAreNotMetByWhatItsOwnFacesReflect) {
       const bool concave_outside = edge.front_wedge.N < 1;
       const WedgeFrame &corner = concave_outside ? edge.front_wedge : edge.back_wedge,
                        &back = concave_outside ? edge.back_wedge : edge.front_wedge;
-      // the mirror; from twice that on nothing reflected meets the other face
+      // the reflected direction; beyond twice that angle no reflected wave reaches the other face
       const double above = 0.5 * (kPi - radians(opening_deg));
       for (const int mirror : {0, 1}) {
         const WedgeFace& face = corner.face[mirror];
@@ -135,7 +137,7 @@ TEST(SharpEdges, ExactlyOneFaceRecordsEachEdge) {
       }
       for (std::size_t number = 0; number < edges.edges.size(); ++number) {
         const SharpEdge& edge = edges.edges[number];
-        // The rim of a sheet has one facet, which keeps it once.
+        // The free edge of a sheet has one panel, which records it once.
         if (illuminated_wedge(edge, k_hat)) {
           EXPECT_EQ(speaking[number], 1) << number;
         }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Targets that the solver cannot answer for, or not well.
+// Targets outside or at the limits of the solver's validity.
 #include "sim/scattering/target/target_check.h"
 
 #include <gmock/gmock.h>

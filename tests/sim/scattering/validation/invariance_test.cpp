@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Laws that hold whatever the target: translation, rotation, mirror symmetry, scaling, reciprocity, tessellation,
+// Invariances of the solver for any target: translation, rotation, mirror symmetry, scaling, reciprocity, tessellation,
 // threads.
 #include <gtest/gtest.h>
 
@@ -21,8 +21,8 @@ double difference(const std::array<Complex, 4>& a, const std::array<Complex, 4>&
   return size;
 }
 
-// A piece that is just below the detail on one target may be just above it on the moved one. At a detail of a 400th of
-// the target, such slivers are below 1e-3 of the aperture's width and their echo below 1e-4 of the whole.
+// A patch just below the smallest size on one target may be just above it on the moved one. With patches of a 400th of
+// the target, such slivers are below 1e-3 of the projection's width and their echo below 1e-4 of the whole.
 constexpr double kSlivers = 2e-4;
 constexpr double kFine = 1.4e-4;  // m
 
@@ -70,8 +70,8 @@ TEST(Invariance, TheFirstBounceIsReciprocalToRounding) {
 }
 
 TEST(Invariance, ManyBouncesAreReciprocalAsFarAsPhysicalOpticsIs) {
-  // Physical optics radiates the currents of every bounce but lets only geometrical optics light the next one: the two
-  // ways round a path differ by their edge waves, about 1/(k a) = 1/84 of the amplitude.
+  // Physical optics radiates the currents of every bounce, but only geometrical optics illuminates the next one: a path
+  // and its reciprocal differ by diffraction, about 1/(k a) = 1/84 of the amplitude.
   double worst = 0;
   for (const double azimuth : {25.0, 45.0, 60.0}) {
     const auto s = echo(make_triangular_trihedral(0.4), direction(azimuth, 35.264), k10, kFine);
@@ -100,7 +100,8 @@ TEST(Invariance, NoBitDependsOnTheNumberOfThreads) {
 }
 
 TEST(Invariance, APlateThatHidesAnotherCastsAShadowOfItsOwnShape) {
-  // A small plate 1 m in front of a large one, both facing the radar: Babinet's bookkeeping, both areas known exactly.
+  // A small plate 1 m in front of a large one, both facing the radar: the shadow has the area of the small plate
+  // exactly.
   TriangleMesh mesh = make_plate(0.6, 0.6);
   mesh.append(transformed(make_plate(0.2, 0.3), Mat3::Identity(), {1.0, 0.05, -0.02}));
   const auto s = echo(mesh, Vec3::UnitX(), k10, 2e-3);
@@ -116,14 +117,14 @@ TEST(Invariance, FacetsThatCoincideCountOnce) {
 }
 
 TEST(Invariance, FacetsThatPassThroughEachOtherHideWhatLiesBehindTheirCommonLine) {
-  // Two crossed plates seen along the bisector: each shows the half that lies in front.
+  // Two crossed plates viewed along the bisector: of each the half in front is visible.
   const auto plate = [](double angle) {
     return transformed(make_plate(0.4, 0.3), Eigen::AngleAxisd(angle, Vec3::UnitZ()).toRotationMatrix(), Vec3::Zero());
   };
   TriangleMesh crossed = plate(radians(30));
   crossed.append(plate(radians(-30)));
-  // The same surface with the hidden halves taken away: a roof seen from its ridge side would be convex; here the
-  // halves meet in a valley line x = 0 and the visible halves are those with x > 0.
+  // The same surface with the hidden halves removed: the visible halves meet in a valley line x = 0 and are those with
+  // x > 0.
   const auto half = [](double angle, double side) {
     TriangleMesh mesh = make_plate(0.2, 0.3);
     for (Vec3& x : mesh.vertices) x.y() += side * 0.1;
