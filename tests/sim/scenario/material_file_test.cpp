@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Material files: what they say is what the struct holds, and every mistake is named where it stands.
+// Material files: their contents are read into the struct, and every error is reported with its place.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a scenario file says is what the structs hold, and every mistake in it is named where it stands.
+// The contents of a scenario file are read into the structs, and every error is reported with its place.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -53,7 +53,7 @@ TEST(ScenarioReading, WhatIsNotGivenKeepsItsDefault) {
   EXPECT_EQ(scenario.targets[0].motion.model, MotionModel::kFixed);
 }
 
-// Names go into JSON, which holds nothing else.
+// Names are written into JSON, which contains only UTF-8.
 TEST(ScenarioReading, TextIsUtf8) {
   EXPECT_EQ(parse(kShort + "name: caf\xc3\xa9\n").name, "caf\xc3\xa9");
   EXPECT_EQ(complaint_about(kShort + "name: caf\xe9\n"), "folder/file.yaml:4:10: byte 0xe9: not a text in UTF-8");
@@ -123,14 +123,14 @@ TEST(ScenarioReading, TheRadarChainsContradictionsAreNamed) {
                       "{label: 1, mesh: a.glb}\n"),
       "folder/file.yaml:3:18: view.elevation_deg: value '90': must be within 0.1 and 60 with clutter.doppler: "
       "wave_resolved");
-  // Clutter at a ratio and of a given Doppler spectrum is seen from anywhere, and none at all has no sea to be seen.
+  // Clutter of a given ratio and Doppler spectrum is valid at any elevation, and disabled clutter sets no limit.
   EXPECT_EQ(complaint_about(kShort, {{"view.elevation_deg", "90"}}), "none");
   EXPECT_EQ(
       complaint_about(kShort, {{"view.elevation_deg", "90"}, {"clutter", "{enabled: false, doppler: wave_resolved}"}}),
       "none");
 }
 
-// A float and a body at rest stay in the water that a speed would have fall behind.
+// A float and a body at rest have no speed through the water.
 TEST(ScenarioReading, OnlyModelsThatMakeWayHaveASpeed) {
   for (const char* model : {"fixed", "float"}) {
     EXPECT_EQ(
@@ -340,7 +340,7 @@ TEST(ScenarioReading, HostileFilesAreRefusedBeforeTheyCost) {
   std::string many = "seaglint: [";
   for (int i = 0; i < 400000; ++i) many += "1,";
   EXPECT_THAT(complaint_about(many + "]"), HasSubstr("more than 300000 values"));
-  // Each line names the one before ten times: 10^12 values if they were all made.
+  // Each line contains the one before ten times: 10^12 values if all were expanded.
   std::string laughs = "a0: &a0 x\n";
   for (int i = 1; i <= 12; ++i) {
     laughs += fmt::format("a{}: &a{} [", i, i);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every key and value of earlier versions is refused by its new name.
+// Every key and value of earlier versions is refused with its new name.
 #include "sim/scenario/renamed_keys.h"
 
 #include <fmt/format.h>
@@ -53,7 +53,7 @@ TEST(RenamedKeys, AreRefusedByTheirNewNames) {
     EXPECT_THAT(
         complaint_about(scenario_with(path, "0.07")),
         AllOf(StartsWith("folder/file.yaml:2:"), EndsWith(fmt::format(": {}: {}{}", path, renamed, converted))));
-    // What is no number is named without a value to write.
+    // A value that is not a number is reported without a value to write.
     EXPECT_EQ(complaint_about(kShort, {{path, "x"}}), fmt::format("--set {}: {}", path, renamed));
     EXPECT_THAT(complaint_about(kShort, {{with_last(path, key.now), "0.07"}}),
                 Not(testing::AnyOf(HasSubstr("unknown key"), HasSubstr("renamed"))));
@@ -70,7 +70,7 @@ TEST(RenamedKeys, WithAnotherUnitSayTheValueToWrite) {
               EndsWith("renamed to cnr_db, which has the opposite sign: write cnr_db: 30"));
 }
 
-// An override below a section of an old name is refused by the section's new name.
+// An override below a section of an old name is refused with the section's new name.
 TEST(RenamedKeys, OfASectionAreNamedBelowItToo) {
   EXPECT_EQ(complaint_about(kShort, {{"radar.budget.losses_db", "3"}}),
             "--set radar.budget.losses_db: radar.budget: renamed to link_budget");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every field is visited: changed to another allowed value, written, read back, compared bit by bit.
+// Round trip of every field: changed to another allowed value, written, read back, compared bit by bit.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@
 namespace seaglint {
 namespace {
 
-// Walks all fields; the derived visitor sees each value with its full key path.
+// Visits all fields; the derived visitor receives each value with its full key path.
 class Walker : public FieldVisitor {
  public:
   void section(const char* key, const Fields& fields) override {
@@ -132,7 +132,7 @@ std::map<std::string, std::string> values_of(Scenario scenario) {
   return collector.values;
 }
 
-// Mutated values contradict each other now and then; these ones are put right again.
+// Mutated values may contradict each other; these are corrected.
 void make_consistent(Scenario& scenario) {
   scenario.radar.pulse_width_us = scenario.radar.pri_us / 3;
   if (scenario.radar.pulse_width_us < 0.001 || scenario.radar.pulse_width_us > 1e6) {
@@ -217,10 +217,10 @@ TEST(RoundTrip, DefaultsComeBackAndTheEffectiveScenarioIsItsOwn) {
 }
 
 TEST(RoundTrip, EveryAllowedWordIsRead) {
-  // Each choice is written by name and read back by name; a name listed twice or out of order would not come back.
+  // Each choice is written by name and read back by name; a name listed twice or out of order would not be recovered.
   for (int step = 0; step < 6; ++step) {
     Scenario scenario = full_scenario();
-    scenario.clutter.enabled = false;  // its reflectivity is known for two of the polarisations
+    scenario.clutter.enabled = false;  // its reflectivity is modelled for two of the polarisations
     for (int i = 0; i < step; ++i) {
       class Turn : public Mutator {
        public:

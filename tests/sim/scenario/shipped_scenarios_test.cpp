@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The scenarios that come with the project are valid and of the size their table promises.
+// The scenarios of the project are valid and have the sizes of their table.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -96,7 +96,7 @@ TEST(JonswapSpectrum, GivesTheSkewnessOfWafo) {
   for (const std::vector<double>& row : read_reference("wafo_second_order_moments.csv")) {
     const double height = row[1], period = row[2], gamma = row[3], depth = row[4], cutoff = row[5], expected = row[7];
     if (std::isfinite(depth) && depth > 0) continue;
-    // Half a per cent: WAFO's own grid misses 0.03 % of Hs, and its spectrum ends at the cut-off.
+    // Half a per cent: the error of Hs on WAFO's own grid is 0.03 %, and its spectrum ends at the cut-off.
     EXPECT_NEAR(skewness({height, period, gamma}, cutoff), expected, 0.005 * expected) << "Hs " << height;
   }
 }

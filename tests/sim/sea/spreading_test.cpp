@@ -25,15 +25,15 @@ double over_a_turn(const Function& f) {
   return sum;
 }
 
-// The density of energy that the sampler must have, at an angle from the mean direction, 1/rad; integrates to 1 over a
-// full turn: the wrapped normal, or cos^2s(angle/2) over 2 sqrt(pi) Gamma(s + 1/2) / Gamma(s + 1) (Longuet-Higgins,
-// Cartwright and Smith 1963).
+// The energy density of the sampler's angles from the mean direction, 1/rad; integrates to 1 over 2 pi: the wrapped
+// normal, or cos^2s(angle/2) over 2 sqrt(pi) Gamma(s + 1/2) / Gamma(s + 1) (Longuet-Higgins, Cartwright and Smith
+// 1963).
 double spreading_density(const SpreadingSpec& spec, double angle, double omega_over_peak) {
   const double theta = std::remainder(angle, 2 * kPi);
   if (spec.kind == Spreading::kWrappedNormal) {
     const double sigma = radians(spec.width_deg);
     double sum = 0;
-    constexpr int kTurns = 6;  // of images: beyond lies less than 1e-20 of the energy up to a width of 180 deg
+    constexpr int kTurns = 6;  // of images: beyond these is less than 1e-20 of the energy up to a width of 180 deg
     for (int turn = -kTurns; turn <= kTurns; ++turn) {
       const double z = (theta + 2 * kPi * turn) / sigma;
       sum += std::exp(-0.5 * z * z);
@@ -72,7 +72,7 @@ TEST(Spreading, IntegratesToOneAndHasItsR1) {
   }
 }
 
-// Mitsuyasu et al. (1975): widest beyond the peak, narrowest at it.
+// Mitsuyasu et al. (1975): widest above the peak, narrowest at it.
 TEST(Spreading, OfMitsuyasuIsNarrowestAtThePeak) {
   const SpreadingSpec spec = spec_of(Spreading::kMitsuyasu, 10);
   EXPECT_NEAR(spreading_exponent(spec, 1), 10, 1e-13);
@@ -85,11 +85,11 @@ TEST(Spreading, QuantileIsTheInverseOfTheShare) {
     for (const double probability : {1e-6, 0.02, 0.3, 0.5, 0.77, 0.999}) {
       const double angle = spreading_quantile(spec, probability, u);
       if (spec.kind == Spreading::kWrappedNormal) {
-        // Before wrapping: the normal's share.
+        // Before wrapping: the normal's fraction.
         EXPECT_NEAR(0.5 * std::erfc(-angle / radians(spec.width_deg) / std::sqrt(2.0)), probability, 1e-12);
         continue;
       }
-      // The share between 0 and the angle by Simpson's rule, which the density's smoothness inside the turn allows.
+      // The fraction between 0 and the angle by Simpson's rule, for which the density is smooth enough.
       double sum = 0;
       constexpr int kSteps = 4000;
       for (int i = 0; i <= kSteps; ++i) {
@@ -121,7 +121,7 @@ TEST(Spreading, OfARealisationHasItsR1) {
       mean += share * c.direction;
       expected += share * spreading_r1(state.spreading, c.omega * 8 / (2 * kPi));
     }
-    // Thirty neighbours share the peak's energy, their directions a thirtieth of the circle apart in share.
+    // Thirty adjacent components have the peak's energy, their directions a thirtieth of the distribution apart.
     EXPECT_NEAR(mean.norm(), expected, 0.01);
     EXPECT_NEAR(std::atan2(mean.y(), mean.x()), radians(120), 0.02);
   }

@@ -97,7 +97,7 @@ TEST(MeshPicture, ShowsThePlateThatFacesTheEyeAndLeavesTheRestWhite) {
   std::size_t white = 0;
   for (std::size_t i = 0; i < picture.rgb.size(); i += 3) white += picture.rgb[i] == 255;
   const double covered = 1.0 - static_cast<double>(3 * white) / static_cast<double>(picture.rgb.size());
-  EXPECT_NEAR(covered, 2.0 / (2.12 * 1.12), 0.03);  // the rim's pixels are partly covered
+  EXPECT_NEAR(covered, 2.0 / (2.12 * 1.12), 0.03);  // pixels at the boundary are partly covered
 }
 
 TEST(MeshPicture, HasTheBowOnTheLeftSeenFromPort) {

@@ -85,7 +85,7 @@ TEST_F(Figure, RefusesOtherFormatsAndFoldersThatAreNotThere) {
   EXPECT_EQ(files(), 0u);
 }
 
-// While it lives no file grows beyond `bytes`; writes fail as on a full disk.
+// During its lifetime no file grows beyond `bytes`; writes fail as on a full disk.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) : handler_(::signal(SIGXFSZ, SIG_IGN)) {

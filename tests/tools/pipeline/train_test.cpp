@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A model directory is that of one whole training, whatever ends another one.
+// A model directory is that of one complete training, even when another one is interrupted.
 #include "tools/pipeline/train.h"
 
 #include <gtest/gtest.h>
@@ -83,7 +83,7 @@ TEST_F(Training, IsWrittenDownWithWhatItWasTrainedBy) {
   EXPECT_EQ(learning.at("map_floor_db"), -50);
   EXPECT_EQ(learning.at("learning_rate"), 0.002);
 
-  // What is written is enough to set every key again.
+  // The recorded settings are sufficient to set every key again.
   std::vector<Override> again{{"dataset.split", metrics.at("dataset").at("split")}};
   for (const auto& [key, value] : learning.items())
     again.push_back({"learning." + key, value.is_string() ? value.get<std::string>() : value.dump()});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// References of the radar cross section: formats as other programs write them, and the pairing with a sweep.
+// References of the radar cross section: formats of other programs, and matching with a sweep.
 #include "tools/rcs/rcs_reference.h"
 
 #include <gmock/gmock.h>
@@ -54,7 +54,7 @@ ReferenceSettings as(Polarisation element, double frequency_ghz = 10) {
   return settings;
 }
 
-// What `seaglint rcs` writes above its columns.
+// The header that `seaglint rcs` writes above its columns.
 std::string own_table(const std::string& transmitter) {
   return "# seaglint 0.1.0 rcs\n# physical optics at every visible bounce, max_bounces 40, edges on, crease_deg 20, "
          "sheet_thickness_mm 0, wavefront_range_m 0 (0 = plane wave), " +
@@ -125,7 +125,7 @@ TEST_F(RcsReferenceFile, OfCstHasItsColumnsByNameAndItsUnitsByHeader) {
 }
 
 TEST_F(RcsReferenceFile, OfCstWithNegativeThetaIsFoldedAndChangesSign) {
-  // a localised machine's decimals
+  // decimal commas of another locale
   const std::string row = " -30,000  90,000  0,000e+00  0,000e+00  10,000  0,000e+00  20,000  0,000e+00\r\n";
   const RcsReference vv = read("a.txt", cst_table("dB(m^2)", row), as(Polarisation::kVv));
   EXPECT_EQ(vv.samples[0].theta_deg, 30);
@@ -260,8 +260,8 @@ TEST(RcsComparison, TakesLevelsBelowTheFloorAsTheFloor) {
 }
 
 TEST(RcsComparison, CorrelatesComplexValuesAboutTheBodysOrigin) {
-  // The same point scatterer at x0, told about the body's origin here and about x0 there: S = e^{2jk r.x0}
-  // (CONVENTIONS.md).
+  // The same point scatterer at x0, with the phase reference at the body's origin here and at x0 there: S = e^{2jk
+  // r.x0} (CONVENTIONS.md).
   const Vec3 x0(0.3, -0.2, 0.1);
   const double k = 2 * kPi * 10e9 / kSpeedOfLight;
   std::vector<double> azimuths;
@@ -294,7 +294,8 @@ TEST(RcsComparison, RefusesAReferenceThatHasNothingInCommonAndSaysWhatBothHold) 
       << "one direction with two levels";
 }
 
-// At azimuth 20, elevation 10 deg by both, whatever the file counts phi from; a file that says nothing may be either.
+// At azimuth 20, elevation 10 deg by both, whatever the file's origin of phi; for a file that does not specify its
+// transmitter it may be either.
 TEST(RcsComparison, RefusesAReferenceOfAnotherTransmitter) {
   const auto refusal = [](const RcsSweep& sweep, const RcsReference& reference) -> std::string {
     try {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scattering matrices from a plain request, as a program that has no command line asks for them.
+// Scattering matrices from a plain request, as of a program without a command line.
 #include "tools/rcs/rcs_request.h"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Values of --set in place of the file's.
+// Values of --set that replace those of the file.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

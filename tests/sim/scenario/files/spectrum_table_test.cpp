@@ -87,7 +87,7 @@ TEST_F(SeaKeys, ATableGivesPeakAndHeight) {
   EXPECT_EQ(state.cutoff_rad_s, 1.6);
   const Scenario scaled = read("spectrum: table, table: buoy.csv, significant_wave_height_m: [1, 2]");
   EXPECT_EQ(sea_states(scaled.sea).at(1).significant_wave_height_m, 2);
-  // The effective scenario says the same.
+  // The effective scenario contains the same.
   const Scenario again = parse_scenario(effective_yaml(own), folder_ / "again.yaml");
   EXPECT_EQ(effective_yaml(again), effective_yaml(own));
   EXPECT_EQ(sea_states(again.sea).at(0).peak_period_s, state.peak_period_s);
@@ -117,7 +117,7 @@ TEST_F(SeaKeys, DepthAndSwellReachTheState) {
   EXPECT_EQ(sea_states(read("order: 1").sea)[0].depth_m, kDeepWater);
 }
 
-// A height whose square is no number any more would make a sea of NaN.
+// A height whose square overflows would give a sea of NaN.
 TEST_F(SeaKeys, WavesAreNothingOrHighEnoughToSquare) {
   for (const char* height : {"1e-162", "9e-7", "30.1"}) {
     EXPECT_EQ(complaint(fmt::format("significant_wave_height_m: {}", height)),
