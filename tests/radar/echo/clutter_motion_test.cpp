@@ -83,8 +83,8 @@ TEST(SeaVelocity, HoldsTheDriftOfAParticleInAnyDepth) {
     const double drift = -clutter_velocity_moments({}, scene, kWavelength).mean_mps - bragg;
     std::printf("depth %.4g m: drift %.6g mm/s, of a particle %.6g, a^2 w k %.6g\n", depth, 1e3 * drift, 1e3 * x / t,
                 1e3 * amplitude * amplitude * omega * k);
-    // The next order is smaller by (3/8 Ur)^2 = (3/8 a / (k^2 h^3))^2 and (k a)^2, 4e-6 at most; the midpoint rule errs
-    // by (w step)^2 / 24 = 1e-7 of orbital speeds that are up to 800 times the drift.
+    // The next order is smaller by (3/8 Ur)^2 = (3/8 a / (k^2 h^3))^2 and (k a)^2, 4e-6 at most; the error of the midpoint rule
+    // is (w step)^2 / 24 = 1e-7 of orbital speeds that are up to 800 times the drift.
     EXPECT_NEAR(drift / (x / t), 1, 1e-4) << depth << " m";
   }
 }

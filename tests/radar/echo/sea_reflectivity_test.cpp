@@ -39,7 +39,7 @@ TEST(SeaReflectivity, SeaStatesAreThoseOfTheCodeTable) {
   EXPECT_NEAR(douglas_sea_state(0.875), 3, 1e-12);  // the middle of class 3
 }
 
-// Two-way beam of a Gaussian pattern by quadrature against the closed form behind the area.
+// Two-way beam of a Gaussian pattern by quadrature against the closed form of the area.
 TEST(SeaReflectivity, AreaIsThatOfTheTwoWayBeam) {
   RadarSpec radar;
   radar.range_km = 10;

@@ -50,7 +50,7 @@ TEST(WallPatches, AreAboutOneSizeAndLieOnTheWall) {
   const TriangleMesh mesh = tube(kRadius, 0.5, 300);
   const auto patches = wall_patches(mesh, kSize);
   EXPECT_NEAR(static_cast<double>(patches.size()) * kSize * kSize / surface_area(mesh), 1, 0.25);
-  // Seeds lie 0.94 of a size apart at least: a hexagon of 0.77 squares, of which the tube's end may take half; no point
+  // Seeds lie 0.94 of a size apart at least: a hexagon of 0.77 squares, of which half may be cut by the tube's end; no point
   // is farther than that from a seed, which a hexagon of 2.3 squares would need everywhere.
   for (const WallPatch& p : patches) {
     EXPECT_GT(p.area, 0.3 * kSize * kSize);

@@ -183,7 +183,7 @@ TEST(SurfaceSeries, EqualsTheSurfaceAtItsPoint) {
   for (int i = 0; i < 5000; ++i, series.advance()) {
     const SurfaceState expected = field.surface(30, -20, -60 + 0.01 * i);
     const SurfaceState state = series.state();
-    // 64 turns of two roundings each, 2e-14 per phasor, summed over 512 of them; angles of 500 rad add 1e-13.
+    // 64 rotations of two roundings each, 2e-14 per phasor, summed over 512 of them; angles of 500 rad add 1e-13.
     ASSERT_NEAR(state.elevation, expected.elevation, 1e-12 * 2);
     ASSERT_NEAR(state.elevation_linear, expected.elevation_linear, 1e-12 * 2);
     ASSERT_NEAR(state.slope_x, expected.slope_x, 1e-12);

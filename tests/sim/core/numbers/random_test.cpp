@@ -13,7 +13,7 @@ namespace {
 
 using Words = std::array<std::uint32_t, 4>;
 
-// Known answers of the authors' library Random123 (BSD-3-Clause, D. E. Shaw Research), tests/kat_vectors, lines
+// Reference values of the authors' library Random123 (BSD-3-Clause, D. E. Shaw Research), tests/kat_vectors, lines
 // "philox4x32 10".
 TEST(Philox, GivesTheKnownAnswersOfItsAuthors) {
   EXPECT_EQ(philox4x32({0, 0, 0, 0}, {0, 0}), (Words{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8}));

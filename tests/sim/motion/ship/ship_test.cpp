@@ -57,7 +57,7 @@ TEST(ShipParticulars, HaveThePeriodsOfTheCombatant) {
   const ShipParticulars ship = ship_of(combatant());
   EXPECT_NEAR(2 * kPi / ship.roll.omega0, 10.9, 0.1);
   EXPECT_NEAR(ship.roll.damping, 0.075, 1e-12);
-  // Strip theory with the hull's own lines gives 5.6 s; the form has no bulb.
+  // Strip theory with the hull's own lines: 5.6 s; the form has no bulb.
   EXPECT_NEAR(2 * kPi / ship.pitch.omega0, 5.6, 0.2);
   EXPECT_NEAR(ship.pitch.damping, 0.25, 0.1);
   // The centre of gravity of DTMB 5415 is 1.4 m above the waterline (KG 7.56 m).

@@ -93,8 +93,8 @@ Answer integral(double sine, double k) {
   return {factor * soft, factor * hard};
 }
 
-// Soft up to 2 deg above the floor, where reflected-edge contributions begin, and to 15 deg below; hard to 2 deg either
-// way, where multiple diffraction begins.
+// Soft up to 2 deg above the floor, where reflected-edge contributions begin, and to 15 deg below; hard to 2 deg on
+// either side, where multiple diffraction begins.
 TEST(WallPenumbra, IsWhatPhysicalOpticsLacksOfTheHalfPlanesField) {
   // soft, at grazing: 2 (l / pi k)^(1/2) k / 2 pi
   const double k = wavenumber(10e9), all = std::sqrt(k * kWay / kPi) / kPi;
