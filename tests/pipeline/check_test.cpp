@@ -42,7 +42,7 @@ TEST(Check, PrintsAScenarioThatReadsBackTheSame) {
 }
 
 // The warnings that rcs prints about a mesh are printed for a scenario too, once per target.
-TEST(Check, SaysWhatIsDoubtfulAboutMeshes) {
+TEST(Check, WarnsAboutMeshes) {
   const TemporaryFolder folder;
   TriangleMesh inside_out = make_icosahedral_reflector();
   for (auto& t : inside_out.triangles) std::swap(t[1], t[2]);
@@ -69,7 +69,7 @@ TEST(Check, SaysWhatIsDoubtfulAboutMeshes) {
 }
 
 // Eight components give a different sea in every realisation; the default 512 do not.
-TEST(Check, SaysWhereComponentsAreTooFew) {
+TEST(Check, WarnsOfTooFewComponents) {
   const std::string said =
       "seaglint: warning: sea.components: 8 components at Tp 8 s give strata 1.2 of the peak frequency wide, so that "
       "the mean period varies between realisations; 98 or more keep it within about 1 %\n";
@@ -132,7 +132,7 @@ TEST(Check, RefusesANegativeWaveHeight) {
                  "within 1e-06 and 30, or from_table\n");
 }
 
-TEST(Check, RefusesAMeshThatIsNotThere) {
+TEST(Check, RefusesAMissingMesh) {
   const TemporaryFolder folder;
   const std::string file = folder.path() / "missing.yaml";
   write_file(file, "seaglint: 1\ntargets: {a: {label: 1, mesh: none.glb}}\n");
@@ -168,7 +168,7 @@ TEST(Check, RefusesScenariosThatCannotBeRead) {
                  "large.yaml: cannot read: is larger than the limit of 10000000 bytes\n");
 }
 
-TEST(CommandLine, RefusesWhatItDoesNotKnow) {
+TEST(CommandLine, RefusesUnknownWords) {
   expect_refused({}, "A subcommand is required (see seaglint --help)\n");
   expect_refused({"chek", kPoints}, "unknown command 'chek': did you mean 'check'? (see seaglint --help)\n");
   expect_refused({"check"}, "SCENARIO is required (see seaglint check --help)\n");
@@ -177,7 +177,7 @@ TEST(CommandLine, RefusesWhatItDoesNotKnow) {
   expect_refused({"--bogus"}, "(see seaglint --help)\n");
 }
 
-TEST(CommandLine, SaysWhenItsOutputCannotBeWritten) {
+TEST(CommandLine, FailsWhenItsOutputCannotBeWritten) {
   const std::string command =
       "'" SEAGLINT_BINARY_DIR "/seaglint' check '" SEAGLINT_SOURCE_DIR "/scenarios/points.yaml' >/dev/full 2>/dev/null";
   EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 1);
@@ -205,7 +205,7 @@ TEST(CommandLine, ClosedOrFullStandardErrorChangesNoExitCode) {
   }
 }
 
-TEST(CommandLine, SaysWhyOnOneLine) {
+TEST(CommandLine, ReportsErrorsOnOneLine) {
   const ProgramResult result = run_program({"check", kPoints, "--set", "seed=1\nview: 3"});
   EXPECT_EQ(result.code, 2);
   EXPECT_EQ(result.err, "seaglint: --set seed: value '1\\nview: 3': not valid YAML\n");

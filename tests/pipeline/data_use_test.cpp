@@ -69,7 +69,7 @@ TEST_F(DataSetUse, IsNotMergedWithAShardMissing) {
   EXPECT_FALSE(fs::exists(data / "new.h5"));
 }
 
-TEST_F(DataSetUse, GivesASampleAgainBitForBit) {
+TEST_F(DataSetUse, RegeneratesASampleBitForBit) {
   const fs::path out = folder_->path() / "sample.npz";
   const ProgramResult result = run_program({"regenerate", data_, "--sample", "17", "-o", out});
   ASSERT_EQ(result.code, 0) << result.err;
@@ -88,7 +88,7 @@ TEST_F(DataSetUse, GivesASampleAgainBitForBit) {
       out);
 }
 
-TEST_F(DataSetUse, SaysWhatIsOtherInASampleMadeAgain) {
+TEST_F(DataSetUse, ReportsDifferencesOfARegeneratedSample) {
   const fs::path data = copy();
   std::string yaml = read_file(data / "scenario.yaml");
   yaml.replace(yaml.find("scr_db: 20"), 10, "scr_db: 15");
@@ -134,7 +134,7 @@ TEST_F(DataSetUse, IsTheSameInNumpy) {
                          many);
 }
 
-TEST_F(DataSetUse, IsExportedInTheSameBytesAtAnotherTime) {
+TEST_F(DataSetUse, IsExportedInTheSameBytesAtAnyTime) {
   const fs::path out = folder_->path() / "twice.npz";
   ASSERT_EQ(run_program({"export", data_, "-o", out}).code, 0);
   const std::string first = read_file(out);
@@ -188,7 +188,7 @@ TEST_F(DataSetUse, IsNotExportedWithAShardDamagedNorOntoAFullDisk) {
 }
 
 // No user can write in /proc, not even root.
-TEST_F(DataSetUse, SaysWhereItCannotBeWritten) {
+TEST_F(DataSetUse, ReportsWhereItCannotBeWritten) {
   for (const std::vector<std::string>& words :
        std::vector<std::vector<std::string>>{{"merge", data_, "-o", "/proc/x.h5"},
                                              {"export", data_, "-o", "/proc/x.npz"},

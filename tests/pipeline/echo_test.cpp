@@ -56,14 +56,14 @@ print('point found')
   EXPECT_EQ(read.out, "point found\n");
 }
 
-TEST(EchoCommand, RefusesSamplesThatAreNotThere) {
+TEST(EchoCommand, RefusesSamplesThatDoNotExist) {
   const TemporaryFolder folder;
   const ProgramResult result = run_program(echo_of(folder.path() / "echo.npz", {"--sample", "1000000"}));
   EXPECT_EQ(result.code, 2);
   EXPECT_THAT(result.err, HasSubstr("--sample 1000000: the scenario has samples 0 to"));
 }
 
-TEST(EchoCommand, RefusesMoreSamplesThanMemoryHolds) {
+TEST(EchoCommand, RefusesMoreSamplesThanFitIntoMemory) {
   const TemporaryFolder folder;
   const std::string file = folder.path() / "echo.npz";
   const ProgramResult result =

@@ -82,7 +82,7 @@ int run_and_signal(const std::vector<std::string>& arguments, const fs::path& di
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-TEST(Generate, GivesTheSameBytesForAnyNumberOfThreads) {
+TEST(Generate, WritesTheSameBytesForAnyNumberOfThreads) {
   for (const char* threads : {"2", "5"}) {
     const TemporaryFolder folder;
     const ProgramResult result = run_program(generate(folder.path() / "data", {"--threads", threads}));
@@ -91,7 +91,7 @@ TEST(Generate, GivesTheSameBytesForAnyNumberOfThreads) {
   }
 }
 
-TEST(Generate, GivesTheSameBytesInPartsInAnyOrder) {
+TEST(Generate, WritesTheSameBytesInPartsInAnyOrder) {
   const TemporaryFolder folder;
   for (const char* part : {"3/3", "1/3", "2/3"}) {
     EXPECT_FALSE(fs::exists(folder.path() / "data" / "manifest.json"));
@@ -101,7 +101,7 @@ TEST(Generate, GivesTheSameBytesInPartsInAnyOrder) {
   EXPECT_THAT(differences(bytes_of(folder.path() / "data"), undisturbed()), testing::IsEmpty());
 }
 
-TEST(Generate, GivesTheSameBytesAfterKillsAndResumes) {
+TEST(Generate, WritesTheSameBytesAfterKillsAndResumes) {
   const TemporaryFolder folder;
   const fs::path data = folder.path() / "data";
   int killed = 0;
@@ -117,7 +117,7 @@ TEST(Generate, GivesTheSameBytesAfterKillsAndResumes) {
   EXPECT_THAT(differences(bytes_of(data), undisturbed()), testing::IsEmpty());
 }
 
-TEST(Generate, MakesADamagedShardAgain) {
+TEST(Generate, RegeneratesADamagedShard) {
   const TemporaryFolder folder;
   const fs::path data = folder.path() / "data";
   ASSERT_EQ(run_program(generate(data, {})).code, 0);
@@ -128,7 +128,7 @@ TEST(Generate, MakesADamagedShardAgain) {
   EXPECT_THAT(differences(bytes_of(data), undisturbed()), testing::IsEmpty());
 }
 
-TEST(Generate, StopsCleanlyAtControlCAndSaysHowToGoOn) {
+TEST(Generate, StopsCleanlyAtControlCAndPrintsHowToResume) {
   const TemporaryFolder folder;
   const fs::path data = folder.path() / "data";
   const auto arguments = generate(data, {"--threads", "1", "--set", "dataset.maps_per_case=100"});
@@ -149,7 +149,7 @@ TEST(Generate, RefusesADirectoryThatIsNotEmpty) {
   EXPECT_THAT(other.err, HasSubstr("another scenario"));
 }
 
-TEST(Generate, RefusesWhatCannotBe) {
+TEST(Generate, RefusesInvalidArguments) {
   const TemporaryFolder folder;
   for (const char* part : {"0/3", "4/3", "1", "a/b", "1/", "-1/2", "1/2/3"}) {
     const ProgramResult result = run_program(generate(folder.path() / "data", {"--part", part}));
@@ -161,7 +161,7 @@ TEST(Generate, RefusesWhatCannotBe) {
   EXPECT_EQ(file.code, 1) << file.err;
 }
 
-TEST(Generate, GivesTheSameBytesOfRealTargetsForOneAndTwoThreads) {
+TEST(Generate, WritesTheSameBytesOfRealTargetsForOneAndTwoThreads) {
   Bytes first;
   for (const char* threads : {"1", "2"}) {
     const TemporaryFolder folder;

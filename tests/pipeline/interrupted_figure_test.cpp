@@ -62,14 +62,14 @@ class InterruptedFigure : public testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(InterruptedFigure, OfACommandThatEndsAtOnceLeavesNothing) {
+TEST_F(InterruptedFigure, OfACommandThatEndsImmediatelyLeavesNoFile) {
   for (const int signal : {SIGINT, SIGTERM}) {
     EXPECT_EQ(signalled({"map", "scenarios/points.yaml", "-o", out() / "map.png"}, signal), 128 + signal);
     EXPECT_THAT(left(), testing::IsEmpty());
   }
 }
 
-TEST_F(InterruptedFigure, OfOtherCommandsIsTheirFailure) {
+TEST_F(InterruptedFigure, OfOtherCommandsMakesThemFail) {
   write_file(out() / "cut.csv", "# frequency_hz theta_deg phi_deg dBsm\n1e10 90 0 -3\n1e10 90 1 -3\n");
   for (const Words& words :
        {Words{"sea", "scenarios/points.yaml", "--duration-s", "20", "--figure", out() / "sea.png", "-o",

@@ -147,7 +147,7 @@ TEST(InterruptedGenerate, LosesNoFinishedShardInTwentyKills) {
 }
 
 // They compete for the directory, scenario.yaml, the manifest and the data card.
-TEST(InterruptedGenerate, GivesTheSameBytesInSevenPartsAtTheSameTime) {
+TEST(InterruptedGenerate, WritesTheSameBytesInSevenConcurrentParts) {
   const TemporaryFolder folder;
   const fs::path data = folder.path() / "data";
   std::vector<ProgramResult> results(7);
@@ -167,7 +167,7 @@ TEST(InterruptedGenerate, GivesTheSameBytesInSevenPartsAtTheSameTime) {
 }
 
 // The first process to end removes temporary files while the other one still writes.
-TEST(InterruptedGenerate, GivesTheSameBytesWhenTwoProcessesMakeAllOfIt) {
+TEST(InterruptedGenerate, WritesTheSameBytesInTwoConcurrentProcesses) {
   for (int round = 0; round < 4; ++round) {
     const TemporaryFolder folder;
     const fs::path data = folder.path() / "data";
@@ -190,7 +190,7 @@ void expect_one_line(const ProgramResult& result, const std::string& message) {
   EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
 }
 
-TEST(InterruptedGenerate, SaysThatAFileMayNotGrowAndResumes) {
+TEST(InterruptedGenerate, ReportsAFileSizeLimitAndResumes) {
   const TemporaryFolder folder;
   const fs::path data = folder.path() / "data";
   // 50 KiB are enough for scenario.yaml, not for a shard; SIGXFSZ is ignored, so that a longer write fails.

@@ -62,7 +62,7 @@ TEST(MapCommand, EchoAndGenerateWarnOfGapsInTheBand) {
   EXPECT_EQ(run_program(map_of(folder.path() / "map.png")).err, "");
 }
 
-TEST(MapCommand, APointOnAConductingSeaIsSeenFourTimesAsStrong) {
+TEST(MapCommand, APointOnAConductingSeaIsFourTimesAsStrong) {
   // On the plane itself all four paths are equal, and rho_v = +1.
   const TemporaryFolder folder;
   const auto amplitude = [&](std::vector<std::string> more) {
@@ -95,7 +95,7 @@ TEST(MapCommand, RefusesASeaReflectionWithoutAnImage) {
   EXPECT_THAT(result.err, HasSubstr("view.elevation_deg: value '0': must be greater than 0 with sea_reflection"));
 }
 
-TEST(MapCommand, RefusesARadarThatSinksBelowTheSeaThatReflects) {
+TEST(MapCommand, RefusesARadarThatDescendsBelowTheReflectingSea) {
   // 64 ms at 1000 m/s, from 0.2 deg at 10 km.
   const TemporaryFolder folder;
   std::vector<std::string> more = kOnePoint;
@@ -117,7 +117,7 @@ TEST(MapCommand, WarnsAboutPointsOutsideTheMap) {
   EXPECT_THAT(result.err, HasSubstr("moves at -1.50 to 0.00 m/s, the map shows"));
 }
 
-TEST(MapCommand, RefusesSamplesAndFilesThatCannotBe) {
+TEST(MapCommand, RefusesInvalidSamplesAndFiles) {
   const TemporaryFolder folder;
   EXPECT_EQ(run_program(map_of(folder.path() / "map.png", {"--sample", "1000000"})).code, 2);
   EXPECT_EQ(run_program(map_of(folder.path() / "map.jpg")).code, 2);
@@ -138,7 +138,7 @@ std::vector<std::array<double, 3>> cluster_centres(const std::vector<std::string
   return centres;
 }
 
-TEST(MapCommand, ACompanionIsSeenInTheSameMap) {
+TEST(MapCommand, ACompanionIsInTheSameMap) {
   const auto centres_in = [](const std::string& sample) {
     return cluster_centres(
         {"--set", "view={azimuth_deg: 0, elevation_deg: 0}", "--set",
@@ -194,7 +194,7 @@ TEST(MapCommand, CompanionsOfAShipUnderWayStayInTheWater) {
   EXPECT_NEAR(velocity_at_40_m("consort"), 0, 0.0146);
 }
 
-TEST(MapCommand, TheRadarsOwnWayShowsUnlessItIsTakenOut) {
+TEST(MapCommand, PlatformMotionIsVisibleUnlessCompensated) {
   std::vector<std::string> moving = kOnePoint;
   moving.insert(moving.end(), {"--set", "radar.platform={velocity_mps: [2.5, 0, 0], motion_compensated: false}",
                                "--set", "clutter.scr_db=60"});

@@ -47,7 +47,7 @@ TEST_F(Options, NumbersAreDecimal) {
   EXPECT_EQ(fs::file_size(folder_.path() / "c.stl"), 84u + 50u * 4 * 12);  // two of each side, one of each end
 }
 
-TEST_F(Options, OfNumbersTakeNothingElse) {
+TEST_F(Options, OfNumbersAcceptNothingElse) {
   for (const std::string value : {"0x10", "2.0", "1e3", "abc", ""}) {
     const std::string shown = value.empty() ? "''" : value;
     expect_refused(rcs(), {"--max-bounces", value},
@@ -89,7 +89,7 @@ TEST_F(Options, AndCommandsThatAreMisspeltAreNamed) {
   expect_refused({"check", "scenarios/points.yaml", "other.yaml"}, {}, "other.yaml");
 }
 
-TEST_F(Options, ThatBelongToOthersAskForThem) {
+TEST_F(Options, ThatNeedOthersNameThem) {
   const Words sea{"sea", "scenarios/points.yaml", "-o", folder_.path() / "sea.csv"};
   expect_refused(sea, {"--realisations", "2"},
                  "--realisations requires --spectrum or --figure (see seaglint sea --help)\n");

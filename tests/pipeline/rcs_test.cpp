@@ -41,7 +41,7 @@ TEST_F(RcsCommand, WritesTheHeaderAndFrequencySlowestThenElevationThenAzimuth) {
   }
 }
 
-TEST_F(RcsCommand, DecibelsBelongToTheAmplitudesBesideThem) {
+TEST_F(RcsCommand, DecibelsAreThoseOfTheAmplitudes) {
   ASSERT_EQ(rcs({"--frequency-ghz", "10", "--azimuth-deg", "0:3:0.5"}).code, 0);
   for (const auto& cells : read_table(table()).rows) {
     // Four digits are printed after the point.
@@ -52,7 +52,7 @@ TEST_F(RcsCommand, DecibelsBelongToTheAmplitudesBesideThem) {
 
 // Physical optics of a flat plate of area A at normal incidence: S = -j A / lambda in e^{+jwt}, so sigma = 4 pi A^2 /
 // lambda^2.
-TEST_F(RcsCommand, APlateSeenSquareHasItsClosedForm) {
+TEST_F(RcsCommand, APlateAtNormalIncidenceHasItsClosedForm) {
   ASSERT_EQ(rcs({"--frequency-ghz", "8:16:4", "--azimuth-deg", "0", "--elevation-deg", "0"}).code, 0);
   const CsvTable read = read_table(table());
   ASSERT_EQ(read.rows.size(), 3u);
@@ -66,7 +66,7 @@ TEST_F(RcsCommand, APlateSeenSquareHasItsClosedForm) {
   }
 }
 
-TEST_F(RcsCommand, GivesTheSameBytesForOneAndTwoThreads) {
+TEST_F(RcsCommand, WritesTheSameBytesForOneAndTwoThreads) {
   std::string first;
   for (const char* threads : {"1", "2"}) {
     ASSERT_EQ(rcs({"--frequency-ghz", "9:10:0.1", "--azimuth-deg", "-30:30:5", "--threads", threads}).code, 0);
@@ -76,7 +76,7 @@ TEST_F(RcsCommand, GivesTheSameBytesForOneAndTwoThreads) {
   }
 }
 
-TEST_F(RcsCommand, ComparedWithItsOwnTableDiffersByNothingAndDrawsIt) {
+TEST_F(RcsCommand, EqualsItsOwnTableAndDrawsIt) {
   const std::vector<std::string> sweep{"--frequency-ghz", "10", "--azimuth-deg", "-30:30:1"};
   ASSERT_EQ(rcs(sweep).code, 0);
   const std::string reference = folder_.path() / "reference.csv";
@@ -99,7 +99,7 @@ TEST_F(RcsCommand, ComparedWithItsOwnTableDiffersByNothingAndDrawsIt) {
 // Plate of problem set IIB: near its normal the echo is that of physical optics. The residual is the edges'
 // diffraction, 1/(k L) = 2 % of the peak at 0.15 m and 10.24 GHz or 0.2 dB, and the difference between the measured and
 // the computed reference there (0.4 dB).
-TEST_F(RcsCommand, MeetsTheMeasuredPlateAroundItsNormal) {
+TEST_F(RcsCommand, MatchesTheMeasuredPlateNearItsNormal) {
   ASSERT_EQ(run_program({"mesh", "make", "plate", "--length-m", "0.2667", "--width-m", "0.1524", "-o", plate()}).code,
             0);
   const std::string folder = "tests/reference/rcs/austin/";
@@ -140,7 +140,7 @@ TEST_F(RcsCommand, RefusesAReferenceThatDoesNotFitBeforeAnyWork) {
   refused({"--floor-db", "0"}, "--floor-db");
 }
 
-TEST_F(RcsCommand, ExportsCentresAndHotSpotsOfOneViewAndSelects) {
+TEST_F(RcsCommand, ExportsSelectedCentresAndHotSpotsOfOneAspect) {
   const std::string centres = folder_.path() / "centres.csv", spots = folder_.path() / "spots.glb";
   const auto reflector = [&](std::vector<std::string> more) {
     more.insert(more.begin(), {"rcs", "--target", "assets/icosahedral_reflector.glb", "-o", table(), "--frequency-ghz",
@@ -202,7 +202,7 @@ TEST_F(RcsCommand, ExportsCentresAndHotSpotsOfOneViewAndSelects) {
   refused({"--export-hot-spots", folder_.path() / "spots.stl"}, "colours need the ending .glb or .gltf");
 }
 
-TEST_F(RcsCommand, SweepsAReceiverRoundATransmitterThatStandsStill) {
+TEST_F(RcsCommand, SweepsAReceiverAboutAFixedTransmitter) {
   ASSERT_EQ(run_program({"mesh", "make", "plate", "--length-m", "0.3", "--width-m", "0.2", "-o", plate()}).code, 0);
   ASSERT_EQ(
       rcs({"--frequency-ghz", "10", "--azimuth-deg", "-40:40:20", "--transmit-azimuth-deg", "20", "--edges", "off"})
@@ -246,7 +246,7 @@ TEST_F(RcsCommand, SweepsAReceiverRoundATransmitterThatStandsStill) {
   EXPECT_THAT(warned("-90:160:10"), HasSubstr("receivers up to 140 deg from the transmitter: behind the target"));
 }
 
-TEST_F(RcsCommand, BendsTheWavefrontOfARadarNearby) {
+TEST_F(RcsCommand, HasAWavefrontCurvatureAtShortRange) {
   ASSERT_EQ(run_program({"mesh", "make", "plate", "--length-m", "2", "--width-m", "0.2", "-o", plate()}).code, 0);
   const auto level = [&](const std::string& range_m) {
     EXPECT_EQ(
@@ -281,7 +281,7 @@ TEST_F(RcsCommand, KeepsItsBasisThroughTheZenith) {
   }
 }
 
-TEST_F(RcsCommand, RefusesEdgesAndRangesThatCannotBe) {
+TEST_F(RcsCommand, RefusesInvalidEdgesAndRanges) {
   const auto refused = [&](std::vector<std::string> arguments, const std::string& message) {
     const ProgramResult result = rcs(std::move(arguments));
     EXPECT_EQ(result.code, 2) << result.err;

@@ -99,7 +99,7 @@ TEST_F(InputErrors, OfAMeshThatIsMissingOrCutShort) {
 }
 
 // The 144 m ship extends 72 m from its origin; the second order of the wavefront needs ten times that range.
-TEST_F(InputErrors, OfARadarTooNearForItsWavefront) {
+TEST_F(InputErrors, OfAWavefrontRangeTooShort) {
   for (const char* command : {"check", "generate"}) {
     Words words{command, "scenarios/quick.yaml", "--set", "targets.ship.solver.wavefront_range_m=500"};
     if (words.front() != "check") words.insert(words.end(), {"-o", folder() / "data"});
@@ -109,7 +109,7 @@ TEST_F(InputErrors, OfARadarTooNearForItsWavefront) {
 
 // Four reflectors 40 m apart extend to 60.5 m, wherever the origin of each; the extent of a companion includes its
 // distance.
-TEST_F(InputErrors, OfARadarTooNearForALayoutOrACompanion) {
+TEST_F(InputErrors, OfAWavefrontRangeTooShortForALayoutOrACompanion) {
   write_file(
       folder() / "near.yaml",
       "seaglint: 1\ntargets:\n"
@@ -186,7 +186,7 @@ TEST_F(InputErrors, OfATargetWithoutAnEcho) {
   EXPECT_TRUE(files_below(folder()) == before);
 }
 
-TEST_F(InputErrors, OfANumberThatIsNone) {
+TEST_F(InputErrors, OfANumberThatIsNotANumber) {
   const std::string mesh = folder() / "whole.glb";
   for (const char* option :
        {"--wavefront-range-m", "--crease-deg", "--min-patch-m", "--transmit-azimuth-deg", "--centre-cell-m"}) {
@@ -200,7 +200,7 @@ TEST_F(InputErrors, OfANumberThatIsNone) {
 }
 
 // Bounds and references to help are those of the command that was called.
-TEST_F(InputErrors, OfAnOptionInWordsThatHelp) {
+TEST_F(InputErrors, OfAnOptionWithItsBoundsAndHelp) {
   for (const char* value : {"-1", "2.5", "1e3", "99999999999999999999"}) {
     for (const Words& words :
          {Words{"map", "scenarios/points.yaml", "-o", folder() / "map.png"},
@@ -228,7 +228,7 @@ TEST_F(InputErrors, OfAFullStandardOutput) {
 }
 
 // A directory with other contents cannot be resumed.
-TEST_F(InputErrors, OfGoingOnAmongOtherFiles) {
+TEST_F(InputErrors, OfResumingAmongOtherFiles) {
   make_directory(folder() / "other");
   write_file(folder() / "other" / "notes.txt", "mine");
   for (const char* command : {"generate", "run"})
@@ -237,7 +237,7 @@ TEST_F(InputErrors, OfGoingOnAmongOtherFiles) {
 }
 
 // An output must not overwrite an input, by whatever name and key the input is given.
-TEST_F(InputErrors, OfWritingOverWhatIsRead) {
+TEST_F(InputErrors, OfWritingOverAnInput) {
   const std::string mesh = folder() / "whole.glb", file = scenario(""), rao = folder() / "rao.csv",
                     link = folder() / "link.glb";
   write_file(rao, "none");
@@ -269,7 +269,7 @@ TEST_F(InputErrors, OfTwoOutputsInOneFile) {
   }
 }
 
-TEST_F(InputErrors, OfAnEndingThatSaysAnotherFormat) {
+TEST_F(InputErrors, OfAnEndingOfAnotherFormat) {
   const std::string mesh = folder() / "whole.glb";
   expect_failure(folder(), {"echo", "scenarios/points.yaml", "-o", folder() / "echo.csv"}, 2,
                  "echo.csv: NumPy's archives end in .npz");
@@ -305,7 +305,7 @@ TEST_F(InputErrors, OfALimitOnFileSizes) {
 }
 
 // Below a file and in /proc no user can write, not even root; a folder without write permission stops all other users.
-TEST_F(InputErrors, OfAPlaceWhereNothingCanBeWritten) {
+TEST_F(InputErrors, OfAPlaceThatCannotBeWritten) {
   const fs::path locked = folder() / "locked";
   fs::create_directory(locked);
   fs::permissions(locked, fs::perms::owner_read | fs::perms::owner_exec);

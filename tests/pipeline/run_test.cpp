@@ -84,7 +84,7 @@ TEST_F(RunOutput, IsRefusedAsATargetWithoutResumeAndContinuedWithIt) {
   EXPECT_EQ(read_file(directory_ / "model" / "fused.json"), before);
 }
 
-TEST_F(RunOutput, GoesOnAfterAKillThatLeftHalfAModel) {
+TEST_F(RunOutput, IsResumedAfterAKillDuringTraining) {
   for (const char* name : {"network.bin", "splits.csv", "embeddings.csv", "metrics.json"})
     fs::remove(directory_ / "model" / name);
   const ProgramResult resumed =
@@ -170,7 +170,7 @@ TEST_F(RunOutput, IsReadWithItsOwnScenarioOnly) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 1);
 }
 
-TEST_F(RunOutput, ReportHoldsEverythingInItself) {
+TEST_F(RunOutput, ReportIsSelfContained) {
   const std::string page = read_file(directory_ / "report.html");
   EXPECT_THAT(page, HasSubstr("<h2>Range-velocity maps</h2>"));
   for (const char* outside : {"http://", "https://", "src=\"/", "<script", "@import", "url("})
@@ -185,7 +185,7 @@ TEST_F(RunOutput, ReportHoldsEverythingInItself) {
 
 // Runs headless Chromium. The page contains no script; one is added to a copy of it and writes its result into the
 // title.
-TEST_F(RunOutput, ReportShowsEveryPictureInABrowser) {
+TEST_F(RunOutput, EveryPictureOfTheReportLoadsInABrowser) {
   if (std::system("command -v chromium >/dev/null 2>&1") != 0) GTEST_SKIP() << "the package chromium is not installed";
   const TemporaryFolder folder;
   std::string page = read_file(directory_ / "report.html");
@@ -216,7 +216,7 @@ TEST_F(RunOutput, ReportShowsEveryPictureInABrowser) {
 }
 
 // The page needs the maps; the targets' files are needed only for their figures and motion.
-TEST(Report, IsMadeWithoutTheMeshesWhereTheyAreNotFound) {
+TEST(Report, IsWrittenWithoutMeshesThatAreNotFound) {
   const TemporaryFolder folder;
   const fs::path run = folder.path() / "run", scenario = folder.path() / "scenario.yaml";
   write_file(
@@ -238,7 +238,7 @@ TEST(Report, IsMadeWithoutTheMeshesWhereTheyAreNotFound) {
   EXPECT_THAT(page, HasSubstr("Elevation of the sea against time"));
 }
 
-TEST(Run, SaysBeforeAnyWorkWhatLearningWouldRefuse) {
+TEST(Run, ReportsErrorsOfLearningBeforeAnyWork) {
   const TemporaryFolder folder;
   const ProgramResult few = run_program({"run", "scenarios/points.yaml", "-o", folder.path() / "run", "--set",
                                          "dataset.maps_per_case=2", "--set", "dataset.realisations_per_case=2"});
@@ -251,7 +251,7 @@ TEST(Run, SaysBeforeAnyWorkWhatLearningWouldRefuse) {
   EXPECT_FALSE(fs::exists(folder.path() / "run"));
 }
 
-TEST(Run, SaysBeforeAnyWorkThatGnuplotIsMissing) {
+TEST(Run, ReportsAMissingGnuplotBeforeAnyWork) {
   const TemporaryFolder folder;
   const ProgramResult result = run_words({"/usr/bin/env", "PATH=" + folder.path().string(), kProgram, "run",
                                           "scenarios/points.yaml", "-o", folder.path() / "run"});
@@ -260,7 +260,7 @@ TEST(Run, SaysBeforeAnyWorkThatGnuplotIsMissing) {
   EXPECT_FALSE(fs::exists(folder.path() / "run"));
 }
 
-TEST(Report, RefusesWhatIsNotARun) {
+TEST(Report, RefusesADirectoryThatIsNoRun) {
   const TemporaryFolder folder;
   const ProgramResult result = run_program({"report", folder.path()});
   EXPECT_EQ(result.code, 2);

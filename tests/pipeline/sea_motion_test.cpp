@@ -74,7 +74,7 @@ TEST(Sea, WritesTheSurfaceOfTheFirstSeaState) {
   EXPECT_THAT(text, HasSubstr("cut-off"));
 }
 
-TEST(Sea, AddsTheMotionOfTheWaterWhenAsked) {
+TEST(Sea, WritesTheKinematicsWithTheirOption) {
   const TemporaryFolder folder;
   const std::string file = folder.path() / "sea.csv";
   ASSERT_EQ(run_program({"sea", kPoints, "--kinematics", "--duration-s", "4", "--step-s", "0.5", "-o", file, "--set",
@@ -99,7 +99,7 @@ TEST(Sea, AddsTheMotionOfTheWaterWhenAsked) {
 }
 
 // The file of the spectrum can be named as a spectrum by a scenario; statistics do not depend on threads.
-TEST(Sea, WritesASpectrumThatAScenarioReads) {
+TEST(Sea, WritesASpectrumThatAScenarioAccepts) {
   const TemporaryFolder folder;
   const std::filesystem::path one = folder.path() / "one.csv", two = folder.path() / "two.csv";
   const auto run = [&](const std::filesystem::path& spectrum, const std::string& threads) {
@@ -129,7 +129,7 @@ TEST(Sea, WritesASpectrumThatAScenarioReads) {
   EXPECT_THAT(again.out, HasSubstr("4 sqrt(m0) 0.99"));  // the table ends at 1.2 times the cut-off
 }
 
-TEST(Sea, DrawsItsFigureOrLeavesNothingBehind) {
+TEST(Sea, DrawsItsFigureOrLeavesNoFile) {
   const TemporaryFolder folder;
   const std::filesystem::path csv = folder.path() / "sea.csv", figure = folder.path() / "sea.png";
   ASSERT_EQ(
@@ -145,7 +145,7 @@ TEST(Sea, DrawsItsFigureOrLeavesNothingBehind) {
       run_program({"sea", kPoints, "--figure", figure, "-o", csv, "--set", "sea.significant_wave_height_m=0"}).code, 2);
 }
 
-TEST(Sea, RefusesRangesThatMakeNoSense) {
+TEST(Sea, RefusesInvalidRanges) {
   for (const auto& wrong :
        {std::pair{"--step-s", "0"}, std::pair{"--duration-s", "-1"}, std::pair{"--at", "1"}, std::pair{"--at", "nan,0"},
         std::pair{"--duration-s", "nan"}, std::pair{"--step-s", "nan"}}) {
@@ -167,7 +167,7 @@ TEST(Sea, FailsWhereItCannotWrite) {
 }
 
 // Before the work, and so before the scenario or mesh, which are missing too.
-TEST(Commands, AskForThePlacesOfTheirFilesFirst) {
+TEST(Commands, CheckTheirOutputFilesFirst) {
   const TemporaryFolder folder;
   const std::string table = folder.path() / "table.csv", nowhere = "/nonexistent/file.png",
                     no_archive = "/nonexistent/file.npz";
@@ -199,7 +199,7 @@ TEST(Commands, AskForThePlacesOfTheirFilesFirst) {
 }
 
 // Rotations of WAMIT are per wamit_ulen_m, and waves of finite depth are shorter.
-TEST(Motion, DrawsResponsesInTheScenariosUnitsAndDepth) {
+TEST(Motion, DrawsRaosInTheScenariosUnitsAndDepth) {
   const TemporaryFolder folder;
   const auto picture = [&](const std::string& scale, const std::vector<std::string>& settings) {
     const std::string reference = folder.path() / "ship.4", figure = folder.path() / "rao.svg";

@@ -11,7 +11,7 @@
 namespace seaglint {
 namespace {
 
-TEST(Threads, SolverAndRadarPlanTheirTransformsAtTheSameTime) {
+TEST(Threads, SolverAndRadarPlanTheirTransformsConcurrently) {
   const Scatterer plate(make_plate(0.2, 0.2));
   IntervalSampling sampling;
   sampling.first_hz = 16e9;

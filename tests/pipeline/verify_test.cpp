@@ -24,14 +24,14 @@ class DataSetVerification : public testing::Test {
   fs::path directory_;
 };
 
-TEST_F(DataSetVerification, IsFoundSoundAndTheSameWhenMadeAgain) {
+TEST_F(DataSetVerification, AcceptsAValidDataSetAndItsRegeneratedSamples) {
   const ProgramResult result = run_program({"verify", directory_, "--regenerate", "4"});
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("4 regenerated samples match the stored ones"));
   EXPECT_THAT(result.out, HasSubstr("no fault found"));
 }
 
-TEST_F(DataSetVerification, IsNeitherMergedOverItselfNorTakenForARun) {
+TEST_F(DataSetVerification, NeitherMergesOverItselfNorAcceptsItAsARun) {
   const std::string shard = read_file(directory_ / "shard_00000.h5"),
                     scenario = read_file(directory_ / "scenario.yaml");
   for (const char* name : {"shard_00000.h5", "scenario.yaml", "manifest.json", "merged.txt"}) {
@@ -48,7 +48,7 @@ TEST_F(DataSetVerification, IsNeitherMergedOverItselfNorTakenForARun) {
   EXPECT_EQ(run_program({"verify", directory_, "--regenerate", "0"}).code, 0);
 }
 
-TEST_F(DataSetVerification, IsRefusedWhenAShardIsCutOff) {
+TEST_F(DataSetVerification, RefusesATruncatedShard) {
   fs::path shard;
   for (const auto& entry : fs::directory_iterator(directory_)) {
     if (entry.path().extension() == ".h5") shard = entry.path();
@@ -59,7 +59,7 @@ TEST_F(DataSetVerification, IsRefusedWhenAShardIsCutOff) {
   EXPECT_THAT(result.err, HasSubstr("faults, the first: " + shard.string()));
 }
 
-TEST_F(DataSetVerification, IsRefusedWithAFileThatDoesNotBelongThere) {
+TEST_F(DataSetVerification, RefusesAForeignFile) {
   write_file(directory_ / "foo", "");
   const ProgramResult result = run_program({"verify", directory_});
   EXPECT_EQ(result.code, 2);
@@ -69,7 +69,7 @@ TEST_F(DataSetVerification, IsRefusedWithAFileThatDoesNotBelongThere) {
   EXPECT_EQ(run_program({"verify", directory_, "--regenerate", "0"}).code, 0);
 }
 
-TEST_F(DataSetVerification, IsRefusedWithoutItsManifest) {
+TEST_F(DataSetVerification, RefusesAMissingManifest) {
   fs::remove(directory_ / "manifest.json");
   const ProgramResult result = run_program({"verify", directory_});
   EXPECT_EQ(result.code, 2);

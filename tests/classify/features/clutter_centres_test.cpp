@@ -74,7 +74,7 @@ FalseMaps false_maps(const SeaOf& sea, int intervals) {
 // A clutter ridge that moves with the waves: at each velocity most ranges are empty, at each range most velocities.
 // Without a local level every one of these maps has false alarms, 53 and 17 on average. 3 % of 200 maps had one at 2 m,
 // none at 1 m; for probabilities of 5 % and 1 %, more than 9 and 4 of 60 occur once in a thousand runs.
-TEST(ClutterFalseAlarms, AreRareInSeaThatMovesWithItsWaves) {
+TEST(ClutterFalseAlarms, AreRareInWaveResolvedClutter) {
   const FalseMaps high = false_maps({2, ClutterDoppler::kWaveResolved}, 60),
                   low = false_maps({1, ClutterDoppler::kWaveResolved}, 60);
   std::printf("wave_field: %d of 60 maps with %d centres at Hs 2 m, %d with %d at 1 m\n", high.maps, high.centres,
@@ -94,7 +94,7 @@ TEST(ClutterFalseAlarms, AreRareInTexturedClutterOfOneSpectrum) {
 }
 
 // Four points of amplitude 4 m (23 dBsm) in waves of 2 m: the points are detected, and no clutter near them is.
-TEST(ClutterFalseAlarms, LeaveAFewPointsInWavesAsTheyAre) {
+TEST(ClutterFalseAlarms, LeaveAFewPointsInWavesUnchanged) {
   const SeaOf sea(2, ClutterDoppler::kWaveResolved);
   int missed = 0, extra = 0;
   for (std::uint64_t i = 0; i < 20; ++i) {
@@ -116,7 +116,7 @@ TEST(ClutterFalseAlarms, LeaveAFewPointsInWavesAsTheyAre) {
 }
 
 // Points so dense that their own mean level would mask them all: 40 equal ones, 2.5 m apart, at one velocity.
-TEST(ClutterFalseAlarms, DoNotCountPointsThatStandSideBySide) {
+TEST(ClutterFalseAlarms, DoNotIncludeDensePoints) {
   const PulseTrain train = make_pulse_train({}, kWindow, 1, 1);
   std::vector<PointSpec> points;
   for (int i = 0; i < 40; ++i) points.push_back({{-50 + 2.5 * i, 0, 0}, 1.0, {-0.01, 0, 0}});
@@ -130,7 +130,7 @@ TEST(ClutterFalseAlarms, DoNotCountPointsThatStandSideBySide) {
 
 // Shape 1/2 has the closed form P(x) = e^{-sqrt(2 x)}, so that the margin is factor / 2; shape 2 at 15.6955:
 // 48.99991 of (2 / Gamma(nu)) (nu x)^{nu/2} K_nu(2 sqrt(nu x)) = e^{-15.6955} by SciPy; no texture: none.
-TEST(TextureMargin, IsTheOneOfTheKDistribution) {
+TEST(TextureMargin, IsThatOfTheKDistribution) {
   for (const double factor : {5.0, 15.7, 30.0})
     EXPECT_NEAR(texture_threshold_margin(0.5, factor), factor / 2, 1e-6 * factor);
   EXPECT_NEAR(texture_threshold_margin(2, 15.695525), 48.99991 / 15.695525, 1e-6);

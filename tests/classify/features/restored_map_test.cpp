@@ -32,7 +32,7 @@ double largest_difference_db(const RvMap& a, const RvMap& b) {
   return 20 * std::log10(difference / peak);
 }
 
-TEST(RestoredMap, IsTheMapOfARadarThatDoesNotHop) {
+TEST(RestoredMap, EqualsTheMapWithoutFrequencyHopping) {
   const PulseTrain train = make_pulse_train({}, 239.8, 1, 2);
   RadarSpec whole;
   whole.carrier_count = 1;

@@ -50,7 +50,7 @@ Match match(const std::vector<ScatteringCentre>& centres, const ScatteringCentre
   return best;
 }
 
-TEST(ResidualEcho, FitsAnIsolatedPointAndLeavesNothing) {
+TEST(ResidualEcho, OfAFittedIsolatedPointVanishes) {
   for (const bool intra_pulse : {false, true}) {
     for (const Compression compression : {Compression::kInverse, Compression::kMatched}) {
       RadarSpec radar;
@@ -129,7 +129,7 @@ TEST(CleanCentres, AnIsolatedPointIsFoundToACentimetreAndAMillimetrePerSecond) {
   EXPECT_LT(worst_mps, 1e-3);
 }
 
-TEST(CleanCentres, AWeakPointHiddenInTheStrongOnesPedestalIsFound) {
+TEST(CleanCentres, AWeakPointBelowTheStrongOnesPedestalIsFound) {
   // 20 dB below, in the same 6 m range cell, where the pedestal alone reaches -15 to -24 dB.
   int found = 0;
   const int trials = 20;
@@ -163,7 +163,7 @@ TEST(CleanCentres, OfPureNoiseAreAlmostAlwaysNone) {
   EXPECT_LE(false_maps, 3);
 }
 
-TEST(CleanCentres, InClutterAreThePointsAndHardlyAnythingElse) {
+TEST(CleanCentres, InClutterAreThePointsAndFewFalseAlarms) {
   int missed = 0, extra = 0;
   for (int trial = 0; trial < 10; ++trial) {
     const PulseTrain train = make_pulse_train({}, kShipWindow, 1, trial);
@@ -181,7 +181,7 @@ TEST(CleanCentres, InClutterAreThePointsAndHardlyAnythingElse) {
 
 // A ridge of clutter as strong as the target in one cell, whose highest peak may be below its own floor by up to the
 // parabola's shortfall: CLEAN must still find points separate from the ridge.
-TEST(CleanCentres, ClearOfAStrongRidgeAreFoundWhateverItsCrestDoes) {
+TEST(CleanCentres, OutsideAStrongClutterRidgeAreFound) {
   RadarSpec radar;
   radar.carrier_count = 1;
   radar.bandwidth_mhz = 200;
@@ -240,7 +240,7 @@ TEST(CleanCentres, OfMapsThatAreShortAlongOneAxisAreFound) {
   EXPECT_LT(match(centres, truth, train).cells, 0.05);
 }
 
-TEST(CleanCentres, AreNoMoreThanAskedForAndWithinTheDynamicRange) {
+TEST(CleanCentres, AreLimitedInNumberAndDynamicRange) {
   const PulseTrain train = make_pulse_train({}, kShipWindow, 1, 1);
   std::vector<ScatteringCentre> truth;
   for (int i = 0; i < 10; ++i) truth.push_back({-60 + 12.0 * i, 0.1 * i, std::pow(10, -0.2 * i)});  // 4 dB steps

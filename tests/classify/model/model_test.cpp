@@ -26,7 +26,7 @@ std::vector<RowGroup> fifteen_seas() {
   return rows;
 }
 
-TEST(Split, ByGroupNeverDividesASea) {
+TEST(Split, ByGroupKeepsEverySeaInOnePart) {
   const auto rows = fifteen_seas();
   for (std::uint64_t repeat = 0; repeat < 20; ++repeat) {
     const Split split = split_rows(rows, Protocol::kGroup, 0.7, 42, repeat);
@@ -59,7 +59,7 @@ TEST(Split, ByGroupTestsOnEveryStateInSomeRepeat) {
 
 // Ten seas of each of three states: 7 of each are training groups, without remainders, so that the states are split
 // independently.
-TEST(Split, ByGroupOfWholeSharesIsThatOfEachStateAlone) {
+TEST(Split, ByGroupOfWholeFractionsIsThatOfEachState) {
   std::vector<RowGroup> rows;
   for (int group = 0; group < 30; ++group) rows.push_back({group, group / 10});
   for (std::uint64_t repeat = 0; repeat < 20; ++repeat) {
@@ -74,7 +74,7 @@ TEST(Split, ByGroupOfWholeSharesIsThatOfEachStateAlone) {
   }
 }
 
-TEST(Split, ByRowsGivesTheShareAndCutsThroughSeas) {
+TEST(Split, ByRowsHasTheFractionAndDividesSeas) {
   const auto rows = fifteen_seas();
   const Split split = split_rows(rows, Protocol::kRandom, 0.7, 42, 0);
   EXPECT_EQ(split.train.size(), 210u);
@@ -170,7 +170,7 @@ FeatureMatrix noise_and_signal(std::vector<int>& labels, int rows) {
   return features;
 }
 
-TEST(Booster, FindsTheColumnThatTells) {
+TEST(Booster, FindsTheInformativeColumn) {
   std::vector<int> labels;
   const FeatureMatrix features = noise_and_signal(labels, 400);
   const Booster booster = Booster::train(features, labels, LearningSpec{});
@@ -183,7 +183,7 @@ TEST(Booster, FindsTheColumnThatTells) {
   EXPECT_NEAR(gains[0] + gains[1] + gains[2], 1, 1e-6);
 }
 
-TEST(Booster, RepeatsBitForBitAndComesBackFromItsFile) {
+TEST(Booster, RepeatsBitForBitAndReloadsFromItsFile) {
   std::vector<int> labels;
   const FeatureMatrix features = noise_and_signal(labels, 200);
   const Booster first = Booster::train(features, labels, LearningSpec{});
@@ -210,7 +210,7 @@ TEST(Booster, StopsBetweenTwoTrees) {
   EXPECT_THROW(Booster::train(features, labels, LearningSpec{}, &stop), Interrupted);
 }
 
-TEST(Booster, GivesOneProbabilityWhenThereIsNothingToLearn) {
+TEST(Booster, HasOneProbabilityWithoutInformation) {
   FeatureMatrix features{{"constant"}, std::vector<float>(50, 1.0f)};
   std::vector<int> labels(50, 0);
   for (std::size_t i = 0; i < 25; ++i) labels[i] = 1;
@@ -242,7 +242,7 @@ TEST(Tsne, KeepsSeparateClustersApart) {
   EXPECT_EQ(points, tsne(features, 15, 300, 1));
 }
 
-TEST(Tsne, TakesAnything) {
+TEST(Tsne, AcceptsAnyInput) {
   EXPECT_EQ(tsne(FeatureMatrix{{"a"}, {1, 2, 3}}, 30, 10, 1).size(), 3u);
   for (const auto& point : tsne(FeatureMatrix{{"a"}, std::vector<float>(20, 1.0f)}, 30, 50, 1)) {
     EXPECT_TRUE(std::isfinite(point[0]) && std::isfinite(point[1]));

@@ -61,7 +61,7 @@ TEST(SeaVelocity, IsOppositeFromBehindNoneFromTheSideAndFasterInHh) {
 
 // The clutter drifts as a particle of the second-order surface does: in water of 8 m depth, with orbits 1.54 times as
 // long as high, 1.7 times as fast as in deep water.
-TEST(SeaVelocity, HoldsTheDriftOfAParticleInAnyDepth) {
+TEST(SeaVelocity, ContainsTheDriftOfAParticleInAnyDepth) {
   const double omega = 2 * kPi / 8, period = 8, amplitude = 0.02;
   for (const double depth : {8.0, 25.0, kDeepWater}) {
     const double k = wavenumber_at(omega, depth);
@@ -83,13 +83,13 @@ TEST(SeaVelocity, HoldsTheDriftOfAParticleInAnyDepth) {
     const double drift = -clutter_velocity_moments({}, scene, kWavelength).mean_mps - bragg;
     std::printf("depth %.4g m: drift %.6g mm/s, of a particle %.6g, a^2 w k %.6g\n", depth, 1e3 * drift, 1e3 * x / t,
                 1e3 * amplitude * amplitude * omega * k);
-    // The next order is smaller by (3/8 Ur)^2 = (3/8 a / (k^2 h^3))^2 and (k a)^2, 4e-6 at most; the error of the midpoint rule
-    // is (w step)^2 / 24 = 1e-7 of orbital speeds that are up to 800 times the drift.
+    // The next order is smaller by (3/8 Ur)^2 = (3/8 a / (k^2 h^3))^2 and (k a)^2, 4e-6 at most; the error of the
+    // midpoint rule is (w step)^2 / 24 = 1e-7 of orbital speeds that are up to 800 times the drift.
     EXPECT_NEAR(drift / (x / t), 1, 1e-4) << depth << " m";
   }
 }
 
-TEST(SeaVelocity, SpreadIsTheOneOfTheWaterAndOfFloatingScatterers) {
+TEST(SeaVelocity, SpreadIsThatOfTheWaterAndOfFloatingScatterers) {
   const WaveField waves = realise_sea(waves_towards(150), 1, 1);
   ClutterScene scene = scene_of(waves);
   const double grazing = radians(10);
@@ -109,7 +109,7 @@ TEST(SeaVelocity, SpreadIsTheOneOfTheWaterAndOfFloatingScatterers) {
   EXPECT_NEAR(std::sqrt(square / count) / spread, 1, 4 / std::sqrt(2 * 2000.0));
 }
 
-TEST(FloatingScatterers, GoAlongWithTheWaves) {
+TEST(FloatingScatterers, MoveWithTheWaves) {
   // One wave of 1 m amplitude and 8 s towards the radar: u = a w cos(w t - k x) along it; the radial velocity is -u.
   const double omega = 2 * kPi / 8, k = omega * omega / kGravity;
   const WaveField wave({WaveComponent{omega, 1, 0, k, {1, 0}}}, Vec2(1, 0), 1, 10);
@@ -128,7 +128,7 @@ TEST(FloatingScatterers, GoAlongWithTheWaves) {
 // At order 2 the water's velocity at the moving surface has a mean, that of eta1 du1/dz: 1/2 a^2 w k of every component
 // in the quadratic sums. It is part of the Stokes drift, which clutter_velocity_moments contains, and is therefore
 // not contained in the scatterers' own velocity.
-TEST(FloatingScatterers, HaveNoMeanOfTheirOwnBesidesTheSeas) {
+TEST(FloatingScatterers, HaveZeroMeanRelativeToTheSea) {
   SeaState state = waves_towards(180);
   state.significant_wave_height_m = 2;
   state.peak_period_s = 6.5;
@@ -165,7 +165,7 @@ TEST(FloatingScatterers, HaveNoMeanOfTheirOwnBesidesTheSeas) {
 }
 
 // The frame of a ship that is under way moves with it, and so does the radar.
-TEST(ClutterOfMovingShip, IsThePassingWaters) {
+TEST(ClutterOfMovingShip, HasTheVelocityOfTheWaterRelativeToTheShip) {
   const WaveField waves = realise_sea(waves_towards(150), 1, 1), calm({}, Vec2(1, 0), 1, 10);
   ClutterScene scene = scene_of(waves);
   const double grazing = radians(2), azimuth = radians(30);
@@ -196,7 +196,7 @@ TEST(ClutterOfMovingShip, IsThePassingWaters) {
               10 * std::sin(azimuth) * radians(2) / (4 * std::sqrt(std::log(2.0))), 1e-9);
 }
 
-TEST(ClutterDoppler, HasTheDopplerOfTheSea) {
+TEST(ClutterDoppler, EqualsTheVelocityMomentsOfTheSea) {
   RadarSpec radar;
   radar.carrier_count = 1;
   radar.pulses = 64;

@@ -57,7 +57,7 @@ FrequencyResponse one_point(const PulseTrain& train) {
   return point_response({&point, 1}, Vec3(1, 0, 0), interval_sampling(train, 0));
 }
 
-TEST(SeaReflectivity, TheEchoHasIt) {
+TEST(SeaReflectivity, IsThatOfTheEcho) {
   RadarSpec radar;
   radar.pulses = 64;
   const PulseTrain train = make_pulse_train(radar, 239.8, 1, 2);
@@ -97,7 +97,7 @@ TEST(ReceiverNoise, FollowsTheRadarEquation) {
   EXPECT_NEAR(noise_db, density_db - energy_db + 10 * std::log10(40.0), 1e-4);
 }
 
-TEST(ReceiverNoise, HasTheRatioThatIsAskedFor) {
+TEST(ReceiverNoise, HasTheSpecifiedRatio) {
   const PulseTrain train = make_pulse_train({}, 239.8, 1, 2);
   ClutterSpec spec;
   spec.enabled = false;
@@ -111,7 +111,7 @@ TEST(ReceiverNoise, HasTheRatioThatIsAskedFor) {
   EXPECT_NEAR(mean_power(thermal.noise) / thermal_noise_m2(train, {}), 1, 4 / std::sqrt(256 * 40.0));
 }
 
-TEST(Texture, ChangesOverTimeAsStated) {
+TEST(Texture, HasTheSpecifiedCorrelationTime) {
   ClutterSpec spec;
   spec.texture_shape = 1000;  // nearly Gaussian: the generator's correlation is the texture's
   spec.texture_correlation_time_s = 2;

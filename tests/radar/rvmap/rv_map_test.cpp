@@ -233,7 +233,7 @@ TEST(CompressedPulses, FollowThePhaseOfAPointOverTheWholeInterval) {
   }
 }
 
-TEST(RvMap, FastPointsLoseNothingToRangeMigration) {
+TEST(RvMap, FastPointsHaveNoRangeMigrationLoss) {
   // 15 m/s: 0.96 m of migration, more than a cell, and a Doppler that differs by 1.25 % over the band.
   const PulseTrain train = make_pulse_train({}, kShipWindow, 1, 2);
   MapSpec spec;
@@ -289,7 +289,7 @@ TEST(RvMap, VelocityCutOfOneCarrierIsTheDirichletKernelOfTheInterval) {
   }
 }
 
-TEST(RvMap, TwoPointsAtTheResolutionLimitAreSeparate) {
+TEST(RvMap, TwoPointsAtTheResolutionLimitAreResolved) {
   RadarSpec radar;
   radar.hop_code = HopCode::kBalanced;
   const PulseTrain train = make_pulse_train(radar, kShipWindow, 1, 2);

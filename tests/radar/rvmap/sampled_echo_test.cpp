@@ -76,7 +76,7 @@ double largest_difference(const RvMap& a, const RvMap& b) {
   return difference / peak;
 }
 
-TEST(SampledEcho, HoldsTheWholePulseAndTheWindow) {
+TEST(SampledEcho, ContainsTheWholePulseAndTheWindow) {
   const RadarSpec radar = radar_with(false);
   const PulseTrain train = make_pulse_train(radar, 239.8, 1, 2), fine = train_for_samples(train, radar);
   const SampledEcho sampled = sample_echo(echo_in_frequency(fine), fine, 50e6);
@@ -106,7 +106,7 @@ TEST(SampledEcho, OfAPointAtRestIsTheChirpTimesItsAmplitude) {
   }
 }
 
-TEST(SampledEcho, GivesTheSameMapAsTheFrequencyDomain) {
+TEST(SampledEcho, HasTheSameMapAsTheFrequencyDomain) {
   for (const bool intra_pulse_motion : {false, true}) {
     const RadarSpec radar = radar_with(intra_pulse_motion);
     const PulseTrain train = make_pulse_train(radar, 239.8, 1, 2), fine = train_for_samples(train, radar);
@@ -143,7 +143,7 @@ TEST(SampledEcho, DiffersFromAChirpDelayedInTimeByItsAliasingOnly) {
   }
 }
 
-TEST(SampledEcho, SeesTheSameClutter) {
+TEST(SampledEcho, HasTheSameClutter) {
   const RadarSpec radar = radar_with(false);
   const PulseTrain train = make_pulse_train(radar, 100, 1, 2), fine = train_for_samples(train, radar);
   const std::vector<Complex> coarse = clutter_response(train, {}, {}, 3, 4),
@@ -159,7 +159,7 @@ TEST(SampledEcho, SeesTheSameClutter) {
   EXPECT_LT(largest, 1e-12);
 }
 
-TEST(SampledEcho, RefusesASamplingThatNoGridFits) {
+TEST(SampledEcho, RefusesASamplingThatFitsNoGrid) {
   RadarSpec radar = radar_with(false);
   radar.sampling_mhz = 50.0 * std::sqrt(1.1);
   const PulseTrain train = make_pulse_train(radar, 239.8, 1, 2);

@@ -16,7 +16,7 @@ Echo echo_with_clutter(const PulseTrain& train, const ClutterSpec& clutter) {
   return synthesise_echo(train, point_response(points, Vec3(1, 0, 0), interval_sampling(train, 0)), clutter, 5, 6);
 }
 
-TEST(Scr, TheNamedDefinitionIsMetExactlyAndAllThreeAreMeasured) {
+TEST(Scr, TheSelectedDefinitionIsExactAndAllThreeAreMeasured) {
   const PulseTrain train = make_pulse_train({}, 239.8, 1, 2);
   for (const ScrDefinition definition : {ScrDefinition::kPerPulse, ScrDefinition::kPeakCell, ScrDefinition::kExtent}) {
     ClutterSpec clutter;
@@ -56,7 +56,7 @@ TEST(Scr, TheReceivedMapIsTheMapOfTheReceivedEcho) {
     EXPECT_NEAR(std::abs(again.values[i] - received.map.values[i]), 0, 1e-12);
 }
 
-TEST(Scr, TheTargetsBoxHoldsItsTwoPoints) {
+TEST(Scr, TheTargetsExtentContainsItsTwoPoints) {
   const PulseTrain train = make_pulse_train({}, 239.8, 1, 2);
   ClutterSpec off;
   off.enabled = false;

@@ -47,13 +47,13 @@ TriangleMesh pit(const std::vector<Vec2>& outline, const Vec2& hub) {
   return builder.take();
 }
 
-TEST(CavityAperture, OfAGuideIsItsOpenFaceAndLooksInwards) {
+TEST(CavityAperture, OfAGuideIsItsOpenFaceWithInwardNormal) {
   const Sum sum = sum_of(aperture_cells(guide(0.3, 0.2, 0.5), 0.011));
   EXPECT_LT((sum.area - Vec3(0.06, 0, 0)).norm(), 1e-12);
   EXPECT_LT((sum.moment / 0.06 - Vec3(0, 0.15, 0.1)).norm(), 1e-12);
 }
 
-TEST(CavityAperture, MayBeAnyShapeEvenOneThatTurnsInwards) {
+TEST(CavityAperture, MayBeOfAnyShapeEvenConcave) {
   // An L: two unit squares and one in the corner.
   const std::vector<Vec2> outline{{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
   const auto cells = aperture_cells(pit(outline, {0.5, 0.5}), 0.07);
@@ -81,7 +81,7 @@ TEST(CavityAperture, WithAnIslandIsTheRingBetweenTheRims) {
   }
 }
 
-TEST(CavityAperture, RefusesWhatIsNoCavity) {
+TEST(CavityAperture, RefusesSurfacesThatAreNoCavity) {
   const auto refused = [](const TriangleMesh& mesh, const std::string& why) {
     try {
       aperture_cells(mesh, 0.01);

@@ -109,7 +109,7 @@ double error_of_guide(double wavelength) {
   return std::sqrt(error / sum);
 }
 
-TEST(CavityEcho, OfAShortedGuideIsThatOfItsModes) {
+TEST(CavityEcho, OfAShortedGuideMatchesItsModalSolution) {
   // In the modal solution the guide continues in front of its aperture, in the cavity solver it ends there: the
   // currents differ within a fraction of a wavelength of it, with less effect the wider the aperture. Measured 0.204,
   // 0.113, and further 0.076 and 0.060 at wavelengths of 0.07 and 0.05 m.
@@ -147,7 +147,7 @@ TEST(CavityEcho, IsReciprocal) {
   EXPECT_GT(std::abs(s[2][1]), 0.1 * norm(s[2]));
 }
 
-TEST(CavityEcho, MovesItsPhaseWithItsPlaceAndGrowsWithItsSize) {
+TEST(CavityEcho, FollowsTranslationAndScaling) {
   const std::vector<BistaticGeometry> views = cut(140, 220, 20, 10);
   const TriangleMesh mesh = crooked_guide();
   const std::vector<Matrix> here = echoes(mesh, views);
@@ -175,7 +175,7 @@ TEST(CavityEcho, DoesNotDependOnOtherViewsOrThreads) {
   EXPECT_LT(difference(alone[0], together[30]), 2e-3 * norm(alone[0]));  // the residual, and the common basis of fields
 }
 
-TEST(CavityEcho, NeedsAViewOfTheMouth) {
+TEST(CavityEcho, NeedsAVisibleAperture) {
   TriangleMesh mesh = guide(0.29, 0.19, 0.25);
   for (const Matrix& s : echoes(mesh, cut(-80, 80, 40, 0))) EXPECT_EQ(norm(s), 0);
   // A lid half a metre in front of it.
@@ -187,7 +187,7 @@ TEST(CavityEcho, NeedsAViewOfTheMouth) {
   for (const Matrix& s : echoes(mesh, cut(170, 190, 10, 0))) EXPECT_EQ(norm(s), 0);
 }
 
-TEST(CavityEcho, RefusesWhatPointCurrentsDoNotDescribe) {
+TEST(CavityEcho, RefusesGeometryThatPointCurrentsCannotRepresent) {
   const auto refused = [](const TriangleMesh& mesh, double k, const std::string& why) {
     const Scatterer whole(mesh);
     try {
@@ -226,7 +226,7 @@ std::map<double, double> reference_cut(const std::string& name) {
   return levels;
 }
 
-TEST(CavityEcho, AndTheRestOfABoxWithADuctComeWithinADecibelOfTheMethodOfMoments) {
+TEST(CavityEcho, WithTheRestOfADuctBoxIsWithinADecibelOfTheMethodOfMoments) {
   const TriangleMesh mesh =
       read_mesh(std::string(SEAGLINT_SOURCE_DIR) + "/tests/reference/rcs/austin/duct_box.glb", "m");
   const auto duct = std::find(mesh.part_names.begin(), mesh.part_names.end(), "duct") - mesh.part_names.begin();

@@ -26,7 +26,7 @@ double backscatter_of_sphere(double ka) {
   return std::abs(sum) / (2 * ka);
 }
 
-TEST(WallCurrents, OnTheOutsideOfASphereGiveItsExactEcho) {
+TEST(WallCurrents, OnTheOutsideOfASphereHaveItsExactEcho) {
   constexpr double ka = 6.5;  // of a radius of 1 m, away from the interior resonances, where the equation is singular
   const TriangleMesh sphere = make_sphere(1, 4);
   const RadarBasis radar = radar_basis(Vec3::UnitX());

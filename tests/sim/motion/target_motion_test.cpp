@@ -58,7 +58,7 @@ TEST(SimulateTarget, DoesNotDependOnThreads) {
 }
 
 // In waves of hundreds of metres adjacent floats move alike, unless each has an independent sea.
-TEST(SimulateTarget, GivesIndependentBodiesSeasOfTheirOwn) {
+TEST(SimulateTarget, IndependentBodiesHaveSeparateSeas) {
   const SeaState state = state_of(1, 20);
   SeaState long_waves = state;
   long_waves.cutoff_rad_s = 0.7;
@@ -78,7 +78,7 @@ TEST(SimulateTarget, GivesIndependentBodiesSeasOfTheirOwn) {
   EXPECT_GT(difference(), 0.5);
 }
 
-TEST(BodyIndex, NeverMeetsAnotherRealisation) {
+TEST(BodyIndex, IsUniqueAmongRealisations) {
   EXPECT_EQ(body_index(3, 0), body_index(2, 65535) + 1);
   EXPECT_THROW(body_index(0, 65536), std::logic_error);
 }

@@ -38,7 +38,7 @@ std::string with(std::string text, const std::string& from, const std::string& t
   return text.replace(text.find(from), from.size(), to);
 }
 
-TEST(MaterialFile, HoldsWhatItSays) {
+TEST(MaterialFile, IsReadIntoTheStruct) {
   const MaterialSpec spec = parse_material(kCoating, "m.yaml");
   EXPECT_EQ(spec.name, "coating");
   EXPECT_EQ(spec.kind, SurfaceKind::kLayers);

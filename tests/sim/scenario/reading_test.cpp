@@ -20,7 +20,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-TEST(ScenarioReading, TheExampleOfTheDescriptionIsUnderstood) {
+TEST(ScenarioReading, TheExampleOfTheDescriptionIsRead) {
   const Scenario scenario = parse(kPaper);
   EXPECT_EQ(scenario.name, "paper");
   EXPECT_EQ(scenario.seed, 42u);
@@ -62,7 +62,7 @@ TEST(ScenarioReading, TextIsUtf8) {
   EXPECT_EQ(parse_scenario(kShort, "folder/caf\xe9.yaml").name, "caf_");
 }
 
-TEST(ScenarioReading, OneDirectionStandsOnceInASweep) {
+TEST(ScenarioReading, ADirectionIsListedOnceInASweep) {
   EXPECT_EQ(complaint_about(kShort + "view: {azimuth_deg: [30, -330]}\n"),
             "folder/file.yaml:4:21: view.azimuth_deg: -330 and 30 are the same direction: list it once");
   EXPECT_THAT(complaint_about(kShort + "view: {azimuth_deg: 0:360:10}\n"),
@@ -131,7 +131,7 @@ TEST(ScenarioReading, TheRadarChainsContradictionsAreNamed) {
 }
 
 // A float and a body at rest have no speed through the water.
-TEST(ScenarioReading, OnlyModelsThatMakeWayHaveASpeed) {
+TEST(ScenarioReading, OnlyModelsUnderWayHaveASpeed) {
   for (const char* model : {"fixed", "float"}) {
     EXPECT_EQ(
         complaint_about(fmt::format(
@@ -319,7 +319,7 @@ TEST(ScenarioReading, EveryMistakeInATargetIsNamed) {
   EXPECT_EQ(complaint_about("seaglint: 2\ntargets: {}\n"), "folder/file.yaml:1:11: seaglint: value '2': must be 1");
 }
 
-TEST(ScenarioReading, FilesThatAreNoScenarioAtAllGetAClearAnswer) {
+TEST(ScenarioReading, FilesThatAreNoScenarioHaveAClearError) {
   EXPECT_EQ(complaint_about(""), "folder/file.yaml: the file is empty: must be a map of key: value");
   EXPECT_EQ(complaint_about("# nothing\n\n"), "folder/file.yaml: the file is empty: must be a map of key: value");
   EXPECT_EQ(complaint_about("just words"), "folder/file.yaml:1:1: value 'just words': must be a map of key: value");
@@ -330,7 +330,7 @@ TEST(ScenarioReading, FilesThatAreNoScenarioAtAllGetAClearAnswer) {
   EXPECT_THAT(complaint_about("\xff\xfe\xfd\x80"), StartsWith("folder/file.yaml:1:"));
 }
 
-TEST(ScenarioReading, HostileFilesAreRefusedBeforeTheyCost) {
+TEST(ScenarioReading, HostileFilesAreRefusedBeforeExpansion) {
   EXPECT_EQ(complaint_about(std::string(kMaxYamlBytes + 1, ' ')), "folder/file.yaml: larger than 10000000 bytes");
   EXPECT_THAT(complaint_about(std::string(100000, '[')), HasSubstr("nested deeper than 32 levels"));
   EXPECT_THAT(complaint_about(std::string(100000, '{')), StartsWith("folder/file.yaml:1:"));
@@ -349,7 +349,7 @@ TEST(ScenarioReading, HostileFilesAreRefusedBeforeTheyCost) {
   EXPECT_THAT(complaint_about(laughs), HasSubstr("more than 300000 values"));
 }
 
-TEST(ScenarioReading, MaterialsOfATargetAndItsPartsComeBackFromTheEffectiveForm) {
+TEST(ScenarioReading, MaterialsOfATargetAndItsPartsRoundTrip) {
   const Scenario scenario = parse(
       "seaglint: 1\ntargets:\n  a: {label: 1, mesh: a.glb, material: aluminium, part_materials: [{part: mast*, "
       "material: m.yaml}]}\n");

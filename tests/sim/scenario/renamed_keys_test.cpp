@@ -60,7 +60,7 @@ TEST(RenamedKeys, AreRefusedByTheirNewNames) {
   }
 }
 
-TEST(RenamedKeys, WithAnotherUnitSayTheValueToWrite) {
+TEST(RenamedKeys, WithAnotherUnitReportTheConvertedValue) {
   EXPECT_EQ(complaint_about("seaglint: 1\ntargets:\n  a:\n    label: 1\n    mesh: a.glb\n    solver:\n"
                             "      ray_spacing_m: 0.07\n"),
             "folder/file.yaml:7:7: targets.a.solver.ray_spacing_m: renamed to min_patch_m, which is a fourteenth: "
@@ -78,7 +78,7 @@ TEST(RenamedKeys, OfASectionAreNamedBelowItToo) {
             "--set targets.a.with.0.target: targets.a.with: renamed to companions");
 }
 
-TEST(RenamedKeys, AreThoseOfTheirOwnSectionAlone) {
+TEST(RenamedKeys, AreThoseOfTheirOwnSectionOnly) {
   EXPECT_THAT(complaint_about(kShort, {{"radar.with", "1"}}), HasSubstr("unknown key"));
   EXPECT_THAT(complaint_about(kShort, {{"clutter.budget", "1"}}), HasSubstr("unknown key"));
 }

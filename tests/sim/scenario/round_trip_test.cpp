@@ -208,7 +208,7 @@ TEST(RoundTrip, EveryFieldComesBackToTheBit) {
   EXPECT_GT(changes.size(), 120u);
 }
 
-TEST(RoundTrip, DefaultsComeBackAndTheEffectiveScenarioIsItsOwn) {
+TEST(RoundTrip, DefaultsRoundTripAndTheEffectiveScenarioIsIdempotent) {
   const Scenario scenario = full_scenario();
   const std::string yaml = effective_yaml(scenario);
   const Scenario read = parse_scenario(yaml, "effective.yaml");

@@ -17,7 +17,7 @@ std::size_t map_count(const Scenario& scenario) {
          static_cast<std::size_t>(scenario.dataset.maps_per_case);
 }
 
-TEST(ShippedScenarios, AreValidAndComeBackFromTheirEffectiveForm) {
+TEST(ShippedScenarios, AreValidAndRoundTripThroughTheirEffectiveForm) {
   int count = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(SEAGLINT_SOURCE_DIR "/scenarios")) {
     if (entry.path().extension() != ".yaml") continue;

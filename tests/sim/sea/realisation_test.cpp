@@ -17,7 +17,7 @@
 namespace seaglint {
 namespace {
 
-TEST(RealiseSea, MeetsTheSignificantWaveHeightExactly) {
+TEST(RealiseSea, HasTheSignificantWaveHeightExactly) {
   for (const double height : {0.1, 1.0, 2.0, 8.0}) {
     for (const std::uint64_t seed : {1u, 2u, 3u}) {
       const SeaState state = state_of(height, 10);
@@ -26,7 +26,7 @@ TEST(RealiseSea, MeetsTheSignificantWaveHeightExactly) {
   }
 }
 
-TEST(RealiseSea, GivesEachStratumTheEnergyOfItsDensity) {
+TEST(RealiseSea, HasTheEnergyOfTheDensityInEachStratum) {
   const SeaState state = state_of(2, 8);
   const JonswapSpectrum spectrum(2, 8, 3.3);
   const WaveField field = realise_sea(state, 42, 0);
@@ -100,7 +100,7 @@ TEST(RealiseSea, HasTheVarianceAndSkewnessOfItsSpectrum) {
 }
 
 // The correlation of two points is int S cos(k dx) dw / m0; one sea's sum over components is its time average.
-TEST(RealiseSea, CorrelatesTwoPointsAsItsSpectrumSays) {
+TEST(RealiseSea, CorrelatesTwoPointsByItsSpectrum) {
   SeaState state = state_of(1, 8);
   state.order = 1;
   const JonswapSpectrum spectrum(1, 8, 3.3);
@@ -227,7 +227,7 @@ TEST(RealiseSea, IsFlatWithoutWaves) {
   EXPECT_EQ(summarise(state_of(0, 8), field).significant_wave_height_m, 0);
 }
 
-TEST(RealiseSea, ReportsWhatIsAboveTheCutoff) {
+TEST(RealiseSea, ReportsTheEnergyAboveTheCutoff) {
   SeaState state = state_of(1, 1.25);
   state.significant_wave_height_m = 0.1;
   state.cutoff_rad_s = 8;
@@ -275,7 +275,7 @@ double scatter_of_mean_period(SeaState state, int components) {
 }
 
 // With strata a tenth of the peak frequency wide T1 varies within 1 %; with eight components it varies far more.
-TEST(StratumWidths, TellHowMuchTheMeanPeriodScatters) {
+TEST(StratumWidths, DetermineTheScatterOfTheMeanPeriod) {
   SeaState state;  // Hs 1 m, Tp 8 s, up to 8 rad/s
   state.order = 1;
   const double peak = 2 * kPi / 8, span = (8 - 0.4 * peak) / peak;

@@ -71,7 +71,7 @@ INSTANTIATE_TEST_SUITE_P(, SecondOrderKernels,
                                          Case{"DirectionalIn15Metres", 15, 1.5}, Case{"OpposedIn8Metres", 8, 3.1}),
                          [](const auto& one) { return one.param.name; });
 
-TEST(RegularWaves, AreStokesWavesAtEveryDepthGiven) {
+TEST(RegularWaves, AreStokesWavesAtEveryGivenDepth) {
   for (const char* table : {"raschii_stokes2_deep.csv", "raschii_stokes2_15m.csv"}) {
     for (const std::vector<double>& row : read_reference(table)) {
       const double height = row[2], depth = row[3], k = 2 * kPi / row[4], x = row[5], eta = row[6];
@@ -118,7 +118,7 @@ TEST(PairInteractions, OfWavesOfOneFrequencyAreFinite) {
 }
 
 // Water drifts with a regular wave at a^2 w k, Stokes' drift at the surface of deep water, to the order of a^4.
-TEST(SurfaceVelocity, CarriesAParticleWithStokesDrift) {
+TEST(SurfaceVelocity, MovesAParticleWithStokesDrift) {
   const double k = 0.15, omega = std::sqrt(kGravity * k), period = 2 * kPi / omega;
   for (const double amplitude : {0.1, 0.4}) {
     const WaveField wave({{omega, amplitude, 0, k}}, {1, 0}, 2, kNoCutoff);

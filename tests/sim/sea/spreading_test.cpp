@@ -80,7 +80,7 @@ TEST(Spreading, OfMitsuyasuIsNarrowestAtThePeak) {
   EXPECT_NEAR(spreading_exponent(spec, 2), 10 * std::pow(2, -2.5), 1e-13);
 }
 
-TEST(Spreading, QuantileIsTheInverseOfTheShare) {
+TEST(Spreading, QuantileIsTheInverseOfTheFraction) {
   for (const auto& [spec, u] : kCases) {
     for (const double probability : {1e-6, 0.02, 0.3, 0.5, 0.77, 0.999}) {
       const double angle = spreading_quantile(spec, probability, u);
@@ -128,7 +128,7 @@ TEST(Spreading, OfARealisationHasItsR1) {
 }
 
 // Correlation of two points across the waves: int int S D cos(k dx sin(angle)) / m0.
-TEST(Spreading, MakesTheCorrelationAcrossTheWavesThatItsIntegralSays) {
+TEST(Spreading, CorrelationAcrossTheWavesEqualsItsIntegral) {
   SeaState state;
   state.significant_wave_height_m = 1;
   state.peak_period_s = 8;

@@ -43,7 +43,7 @@ class Crests : public testing::TestWithParam<std::pair<double, double>> {};
 
 // Forristall's fit has an error of a few per cent itself; of 25,000 crests 25 exceed the height of 0.1 %, whose
 // standard error is 1.5 %.
-TEST_P(Crests, AreAsHighAsForristallFound) {
+TEST_P(Crests, HaveForristallsDistribution) {
   const auto [height, period] = GetParam();
   const SeaState state = state_of(height, period);
   const std::vector<double> crests = ensemble(state, 120, 200 * period, period / 24);
@@ -109,7 +109,7 @@ double skewness_of(const JonswapSpectrum& spectrum, double cutoff, double depth,
 // WAFO integrates over the spectrum. N waves of fixed amplitude have half of the self-interaction of each, a deficit of
 // 1/N, which the step from N to 2 N removes. Half a per cent: the error of Hs on WAFO's own grid is 0.03 %, and its
 // spectrum ends at the cut-off.
-TEST(Skewness, IsThatOfWafoAtEveryDepthGiven) {
+TEST(Skewness, IsThatOfWafoAtEveryGivenDepth) {
   for (const std::vector<double>& row : read_reference("wafo_second_order_moments.csv")) {
     const double depth = std::isfinite(row[4]) && row[4] > 0 ? row[4] : kDeepWater;
     const JonswapSpectrum spectrum(row[1], row[2], row[3]);
@@ -145,7 +145,7 @@ TEST(Skewness, OfAnEnsembleOfDirectionalSeasLiesWithinItsConfidence) {
 }
 
 // The slope variance of a w^-5 sea grows with the logarithm of the cut-off: alpha/2 ... per octave alpha ln 2.
-TEST(SeaSummary, SaysWhatTheCutoffTakesFromTheSlope) {
+TEST(SeaSummary, ReportsTheSlopeVarianceAboveTheCutoff) {
   SeaState state = state_of(1, 8);
   const SeaSummary at8 = summarise(state, realise_sea(state, 1, 0));
   state.cutoff_rad_s = 16;
@@ -155,7 +155,7 @@ TEST(SeaSummary, SaysWhatTheCutoffTakesFromTheSlope) {
   EXPECT_NEAR(at8.slope_variance_next_octave, at16.slope_variance_next_octave, 0.01 * at8.slope_variance_next_octave);
 }
 
-TEST(SeaSummary, KnowsSteepnessUrsellAndDirection) {
+TEST(SeaSummary, HasSteepnessUrsellAndDirection) {
   SeaState state = state_of(2, 7);
   state.depth_m = 15;
   state.spreading = {Spreading::kWrappedNormal, 10, 25};

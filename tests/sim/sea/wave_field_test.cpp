@@ -193,7 +193,7 @@ TEST(SurfaceSeries, EqualsTheSurfaceAtItsPoint) {
 }
 
 // Far from the origin a short wave has more phase than unit_phasors accepts; whole cycles are removed.
-TEST(WaveField, GoesOnFarFromTheOrigin) {
+TEST(WaveField, IsAccurateFarFromTheOrigin) {
   const WaveComponent wave{100, 0.01, 0.3, 100 * 100 / kGravity, Vec2(1, 0)};
   const WaveField field({wave}, 1, 0);
   const double x = -5e6, t = 7;

@@ -47,7 +47,7 @@ class MeshCommand : public testing::Test {
   fs::path folder;
 };
 
-TEST_F(MeshCommand, MakesEveryKindOfMesh) {
+TEST_F(MeshCommand, CreatesEveryKindOfMesh) {
   const std::string file = (folder / "a.glb").string();
   const std::pair<std::vector<std::string>, double> kinds[] = {
       {{"plate", "--length-m", "2", "--width-m", "0.5"}, 1.0},
@@ -70,7 +70,7 @@ TEST_F(MeshCommand, MakesEveryKindOfMesh) {
   EXPECT_NEAR(bounds(read_mesh(file)).upper.x(), 60, 0.01);
 }
 
-TEST_F(MeshCommand, TellsWhatIsInAFileInItsUnit) {
+TEST_F(MeshCommand, ReportsTheContentsOfAFileInItsUnit) {
   const std::string file = (folder / "plate.stl").string(), picture = (folder / "plate.png").string();
   write_mesh(file, make_plate(1000, 500));
   const std::string text = run({"mesh", "info", file, "--unit", "mm", "--picture", picture, "--width", "64"});
@@ -90,7 +90,7 @@ TEST_F(MeshCommand, RefusesWrongInput) {
   EXPECT_THROW(run({"mesh", "make", "boat", "-o", "a.glb"}), CLI::ParseError);
 }
 
-TEST(MeshPicture, ShowsThePlateThatFacesTheEyeAndLeavesTheRestWhite) {
+TEST(MeshPicture, DrawsThePlateThatFacesTheViewerOnWhite) {
   const Picture picture = picture_of(make_plate(2, 1), {.azimuth_deg = 0, .elevation_deg = 0, .width = 200});
   // 2 m and twice 3 % of it across: 2.12 by 1.12 m.
   EXPECT_NEAR(picture.height, 200 * 1.12 / 2.12, 1.0);
@@ -116,7 +116,7 @@ TEST(MeshPicture, HasTheBowOnTheLeftSeenFromPort) {
   EXPECT_GT(left, 8 * right);
 }
 
-TEST(MeshPicture, RefusesNonsense) {
+TEST(MeshPicture, RefusesInvalidArguments) {
   EXPECT_THROW(picture_of(TriangleMesh{}, {}), InputError);
   EXPECT_THROW(picture_of(make_plate(1, 1), {.width = 1}), InputError);
   EXPECT_THROW(picture_of(make_plate(1, 1), {.width = 100000}), InputError);

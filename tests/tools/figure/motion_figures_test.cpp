@@ -13,7 +13,7 @@ namespace seaglint {
 namespace {
 
 // A ship that moves with a wave's phase speed is at rest in the wave: all its snapshots equal the first.
-TEST(MotionFrames, DrawTheWaterThatAShipComesTo) {
+TEST(MotionFrames, DrawTheWaterAtAShipsPosition) {
   const double omega = 30, wavenumber = omega * omega / kGravity;
   const WaveField sea({{omega, 0.1, 0.2, wavenumber}}, Vec2(1, 0), 1, 0);
   const std::filesystem::path file =

@@ -62,7 +62,7 @@ TEST(RenamedWords, AreRefusedWithTheirValueBehindAnEqualsSign) {
 }
 
 // A word is renamed only for its own command.
-TEST(RenamedWords, AreThoseOfTheirOwnCommandAlone) {
+TEST(RenamedWords, AreThoseOfTheirOwnCommandOnly) {
   EXPECT_THAT(run({"echo", "--range-m", "1"}).message, Not(HasSubstr("renamed")));
   EXPECT_THAT(run({"mesh", "remake"}).message, Not(HasSubstr("renamed")));
 }

@@ -57,7 +57,7 @@ TEST(FullBand, ImageHasThePointAndNoPedestal) {
   }
 }
 
-TEST(FullBand, MovesWithARadarWhoseOwnWayIsNotCompensated) {
+TEST(FullBand, FollowsUncompensatedPlatformMotion) {
   const char* const moving = "platform: {velocity_mps: [0.8, 0, 0], motion_compensated: ";
   double step_mps = 0;
   const auto velocity = [&](const char* compensated) {

@@ -51,7 +51,7 @@ class Training : public testing::Test {
   static inline fs::path folder_;
 };
 
-TEST_F(Training, ThatIsStoppedEndsSoonAndLeavesTheEarlierModel) {
+TEST_F(Training, ThatIsStoppedEndsSoonAndKeepsTheEarlierModel) {
   const auto before = files();
   ASSERT_TRUE(before.contains(kMetricsFile));
   StopFlag stop = false;
@@ -69,7 +69,7 @@ TEST_F(Training, ThatIsStoppedEndsSoonAndLeavesTheEarlierModel) {
   EXPECT_EQ(files(), before);
 }
 
-TEST_F(Training, IsWrittenDownWithWhatItWasTrainedBy) {
+TEST_F(Training, RecordsItsSettings) {
   const std::vector<Override> overrides{{"learning.epochs", "1"},
                                         {"learning.fusion", "in_sample"},
                                         {"learning.map_floor_db", "-50"},

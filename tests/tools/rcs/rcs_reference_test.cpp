@@ -146,7 +146,7 @@ TEST_F(RcsReferenceFile, OfAFullCircleIsFoldedAtBothPoles) {
   EXPECT_LT(std::abs(*cst.samples[0].amplitude_m + *cst.samples[1].amplitude_m), kPrinted_db);
 }
 
-TEST_F(RcsReferenceFile, MayHaveAHeadAndExactZeros) {
+TEST_F(RcsReferenceFile, MayHaveAHeaderAndExactZeros) {
   const RcsReference reference =
       read("a.V.txt", "# frequency_hz theta_deg phi_deg dBsm\n1e10 90 0 -inf\n1e10 90 1 -3\n");
   ASSERT_EQ(reference.samples.size(), 2u);
@@ -190,7 +190,7 @@ TEST_F(RcsReferenceFile, ThatCannotBeUsedIsRefusedWithItsPlace) {
               HasSubstr("hh_dbsm"));
 }
 
-TEST_F(RcsReferenceFile, SaysWhereItsTransmitterStands) {
+TEST_F(RcsReferenceFile, HasTheDirectionOfItsTransmitter) {
   const RcsReference monostatic = read("m.csv", own_table("monostatic"), as(Polarisation::kVv));
   ASSERT_TRUE(monostatic.transmitter);
   EXPECT_TRUE(monostatic.transmitter->is_monostatic);
@@ -244,7 +244,7 @@ TEST(RcsComparison, FindsTheSameDirectionsThroughTheAnglesMap) {
     EXPECT_NEAR(error_statistics(cuts[0], cuts[0].models[0], 80).bias_db, -20, kPrinted_db);
 }
 
-TEST(RcsComparison, TakesLevelsBelowTheFloorAsTheFloor) {
+TEST(RcsComparison, ClipsLevelsToTheFloor) {
   // 0, -10 and -300 dB against 0, -13 and -90 dB below the maximum.
   const auto db = [](double x) { return std::pow(10.0, x / 20); };
   const auto cuts =
@@ -282,7 +282,7 @@ TEST(RcsComparison, CorrelatesComplexValuesAboutTheBodysOrigin) {
   EXPECT_LT(std::abs(*error_statistics(unmoved[0], unmoved[0].models[0], 80).correlation), 0.5);
 }
 
-TEST(RcsComparison, RefusesAReferenceThatHasNothingInCommonAndSaysWhatBothHold) {
+TEST(RcsComparison, RefusesAReferenceWithoutCommonSamplesAndListsBoth) {
   try {
     match_reference(sweep_of({0, 1}, {1, 1}), cut_of({{30, 1}, {60, 1}}));
     ADD_FAILURE() << "no error";

@@ -36,7 +36,7 @@ std::string table_of(const ordered_json& scores) {
       {});
 }
 
-TEST(ProbesTable, CallsTheSharesOfTheClassesChance) {
+TEST(ProbesTable, TreatsClassProportionsAsChance) {
   // With equal numbers of ships and arrays half is chance, plus or minus 2.576 standard deviations, 7.4 points.
   EXPECT_THAT(table_of(scores(150, 80, 75)), HasSubstr("as chance"));
   EXPECT_THAT(table_of(scores(150, 90, 90)), HasSubstr("look for a leak"));
@@ -68,7 +68,7 @@ Scenario with_clutter(ClutterLevel level, NoiseLevel noise, bool enabled = true)
 }
 
 // Where clutter or noise have their own level, the ratio of the target to them determines which centres are found.
-TEST(AbsoluteLevel, IsSeenByFeaturesWhereClutterOrNoiseDoNotFollowTheTarget) {
+TEST(AbsoluteLevel, AffectsFeaturesWhereClutterOrNoiseIsIndependentOfTheTarget) {
   const ordered_json metrics = telling_probes();
   for (const Scenario& unseen :
        {with_clutter(ClutterLevel::kScr, NoiseLevel::kCnr), with_clutter(ClutterLevel::kScr, NoiseLevel::kSnr),
@@ -96,7 +96,7 @@ TEST(AbsoluteLevel, IsSeenByFeaturesWhereClutterOrNoiseDoNotFollowTheTarget) {
 }
 
 // 36 predictions of three splits are not 36 of a data set's 40 maps, 28 of which are each split's training rows.
-TEST(AccuracyTables, CallPredictionsOfPooledSplitsSo) {
+TEST(AccuracyTables, LabelPredictionsOfPooledSplits) {
   ordered_json evaluation = scores(150, 140, 140);
   evaluation.update({{"rows", 36},
                      {"groups", 8},

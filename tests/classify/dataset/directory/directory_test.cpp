@@ -32,7 +32,7 @@ std::string error_of(Action action) {
   return "no error";
 }
 
-TEST_F(DataSetDirectory, IsReadBackWhole) {
+TEST_F(DataSetDirectory, IsReadBackCompletely) {
   make_whole();
   const DatasetReader reader(directory_);
   EXPECT_EQ(reader.size(), plan_.size());
@@ -45,7 +45,7 @@ TEST_F(DataSetDirectory, IsReadBackWhole) {
   EXPECT_THAT(read_file(directory_ / kDataCardFile), HasSubstr("| ship | 1 |"));
 }
 
-TEST_F(DataSetDirectory, IsNotWholeUntilTheLastShardIsThere) {
+TEST_F(DataSetDirectory, IsIncompleteUntilTheLastShardExists) {
   DatasetWriter writer(directory_, scenario_, false, kTestVersion);
   writer.put(0, shard_of(0));
   EXPECT_THAT(writer.finish(), ElementsAre(1, 2));
@@ -75,7 +75,7 @@ TEST_F(DataSetDirectory, KeepsItsMapsWhenOnlyLearningChanges) {
   EXPECT_EQ(read_scenario(directory_ / kScenarioFile).learning.epochs, 7);
 }
 
-TEST_F(DataSetDirectory, ResumesOnlyWhatIsUnsound) {
+TEST_F(DataSetDirectory, RegeneratesOnlyInvalidShards) {
   make_whole();
   fs::remove(directory_ / kManifestFile);
   fs::resize_file(directory_ / shard_name(1), fs::file_size(directory_ / shard_name(1)) - 10);
@@ -99,7 +99,7 @@ TEST_F(DataSetDirectory, WithAChangedShardIsRefusedWithTheFilesName) {
 }
 
 // Before there is a manifest, a shard is verified by its own checksums only.
-TEST_F(DataSetDirectory, IsNotWholeWithAShardThatIsDamagedOrOfAnotherScenario) {
+TEST_F(DataSetDirectory, IsIncompleteWithADamagedOrForeignShard) {
   DatasetWriter writer(directory_, scenario_, false, kTestVersion);
   for (std::size_t i = 0; i < plan_.shards(); ++i) writer.put(i, shard_of(i));
   fs::resize_file(directory_ / shard_name(0), fs::file_size(directory_ / shard_name(0)) - 10);
@@ -112,7 +112,7 @@ TEST_F(DataSetDirectory, IsNotWholeWithAShardThatIsDamagedOrOfAnotherScenario) {
   EXPECT_FALSE(fs::exists(directory_ / kManifestFile));
 }
 
-TEST_F(DataSetDirectory, LosesWhatKilledRunsLeftHalfWrittenWhenItIsWhole) {
+TEST_F(DataSetDirectory, HasNoTemporaryFilesOfKilledRunsOnceComplete) {
   DatasetWriter writer(directory_, scenario_, false, kTestVersion);
   const pid_t dead = dead_process();
   const std::vector<std::string> left{temporary_name("shard_00001.h5", dead), temporary_name("manifest.json", dead),
@@ -137,7 +137,7 @@ TEST_F(DataSetDirectory, LosesWhatKilledRunsLeftHalfWrittenWhenItIsWhole) {
   for (const std::string& name : others) EXPECT_TRUE(fs::exists(directory_ / name)) << name;
 }
 
-TEST_F(DataSetDirectory, BeforeItsScenarioMayHoldItsOwnTemporaryFilesOnly) {
+TEST_F(DataSetDirectory, MayContainOnlyItsTemporaryFilesBeforeItsScenario) {
   fs::create_directories(directory_);
   write_file(directory_ / temporary_name("scenario.yaml", dead_process()), "half");
   EXPECT_NO_THROW(DatasetWriter(directory_, scenario_, true, kTestVersion));
@@ -148,7 +148,7 @@ TEST_F(DataSetDirectory, BeforeItsScenarioMayHoldItsOwnTemporaryFilesOnly) {
 }
 
 // A scenario alone does not make a directory a data set's, since a run also has one.
-TEST_F(DataSetDirectory, ToGoOnInMayHoldNothingButADataSet) {
+TEST_F(DataSetDirectory, IsResumedOnlyIfItContainsNothingElse) {
   make_whole();
   for (const char* name : {"all.h5", "all.npz", ".nfs0001"}) write_file(directory_ / name, "ours, or the system's");
   EXPECT_NO_THROW(DatasetWriter(directory_, scenario_, true, kTestVersion));
@@ -161,7 +161,7 @@ TEST_F(DataSetDirectory, ToGoOnInMayHoldNothingButADataSet) {
                                            (directory_ / "data").string()));
 }
 
-TEST_F(DataSetDirectory, TakesAShardThatAnotherProcessWroteMeanwhileForItsOwn) {
+TEST_F(DataSetDirectory, AcceptsAShardOfAConcurrentProcess) {
   make_whole();
   DatasetWriter writer(directory_, scenario_, true, kTestVersion);
   // A folder replaces the temporary file, so that nothing can be written.
@@ -199,7 +199,7 @@ class ConcurrentRepair : public DataSetDirectory {
   }
 };
 
-TEST_F(ConcurrentRepair, IsWholeAfterOneRoundOfParts) {
+TEST_F(ConcurrentRepair, IsCompleteAfterOneRoundOfParts) {
   for (const auto& [first, last] : {std::pair<std::size_t, std::size_t>{0, 1}, {1, 3}}) {
     DatasetWriter writer(directory_, scenario_, true, kTestVersion);
     make_part(writer, first, last);
@@ -208,7 +208,7 @@ TEST_F(ConcurrentRepair, IsWholeAfterOneRoundOfParts) {
   expect_whole();
 }
 
-TEST_F(ConcurrentRepair, IsWholeWhenPartsMakeItAtTheSameTime) {
+TEST_F(ConcurrentRepair, IsCompleteAfterConcurrentParts) {
   DatasetWriter one(directory_, scenario_, true, kTestVersion), two(directory_, scenario_, true, kTestVersion),
       looks_only(directory_, scenario_, true, kTestVersion);
   make_part(one, 0, 1);
@@ -229,7 +229,7 @@ TEST_F(DataSetDirectory, OfAnotherVersionIsReadButNotContinued) {
   EXPECT_EQ(DatasetReader(directory_).shard(0).origin.program_version, kTestVersion);
 }
 
-TEST_F(DataSetDirectory, WhoseScenarioWasChangedIsReadForAnAuditOnly) {
+TEST_F(DataSetDirectory, WithAChangedScenarioIsReadForAnAuditOnly) {
   make_whole();
   write_file(directory_ / kScenarioFile, read_file(directory_ / kScenarioFile) + "# mine\n");
   EXPECT_THAT(error_of([&] { DatasetReader reader(directory_); }),
@@ -257,7 +257,7 @@ TEST_F(DataSetDirectory, OfAnotherFormatIsRefused) {
 }
 
 // The action that the message recommends succeeds.
-TEST_F(DataSetDirectory, WithADamagedManifestGoesOnWithoutIt) {
+TEST_F(DataSetDirectory, WithADamagedManifestIsResumedWithoutIt) {
   make_whole();
   const fs::path file = directory_ / kManifestFile;
   const std::string good = read_file(file);

@@ -43,7 +43,7 @@ class MergedDataSet : public DataSetDirectory {
   fs::path file() const { return directory_ / kMergedFile; }
 };
 
-TEST_F(MergedDataSet, TakesEveryRowFromItsShard) {
+TEST_F(MergedDataSet, HasTheRowsOfItsShards) {
   merge();
   const Hdf5Reader merged(file());
   EXPECT_EQ(merged.size("/maps"), (Dimensions{plan_.size(), 2, 2}));
@@ -65,7 +65,7 @@ TEST_F(MergedDataSet, HasTheSameBytesWheneverItIsWritten) {
   EXPECT_EQ(read_file(file()), first);
 }
 
-TEST_F(MergedDataSet, WritesTheManifestThatTwoPartsFinishingTogetherLeftOut) {
+TEST_F(MergedDataSet, WritesAManifestMissingAfterConcurrentParts) {
   const std::string manifest = read_file(directory_ / kManifestFile);
   fs::remove(directory_ / kManifestFile);
   EXPECT_TRUE(merge_dataset(directory_, file(), kTestVersion).wrote_manifest);
@@ -112,14 +112,14 @@ TEST_F(MergedDataSet, IsRefusedWhereAShardIsOfAnotherVersion) {
 }
 
 // What HDF5 returns for a shard that was removed later must not look like a map.
-TEST_F(MergedDataSet, ShowsNoNumberWhereAShardWentAway) {
+TEST_F(MergedDataSet, IsNaNWhereAShardIsMissing) {
   merge();
   fs::remove(directory_ / shard_name(1));
   const std::vector<float> maps = Hdf5Reader(file()).read<float>("/maps", 3).values;
   for (std::size_t i = 0; i < maps.size(); ++i) EXPECT_EQ(std::isnan(maps[i]), i / 4 >= 3 && i / 4 < 6) << i;
 }
 
-TEST_F(MergedDataSet, FindsItsShardsFromAnotherFolderWithOddNames) {
+TEST_F(MergedDataSet, FindsItsShardsFromAnotherFolder) {
   // HDF5 reads %b in the name of a source as the number of a block.
   const fs::path beside = directory_.string() + "_beside", moved = directory_.string() + "_50 %b";
   fs::remove_all(beside);

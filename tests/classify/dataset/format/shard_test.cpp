@@ -83,7 +83,7 @@ std::string message_of(const fs::path& file) {
   return "no error";
 }
 
-TEST_F(ShardFile, ComesBackAsItWas) {
+TEST_F(ShardFile, IsReadAsItWasWritten) {
   for (const bool complex_values : {false, true}) {
     write_shard(file_, some_shard(complex_values), 8);
     expect_equal(read_shard(file_), some_shard(complex_values));
@@ -144,18 +144,18 @@ TEST_F(ShardFile, NeverCrashesTheReaderWhateverByteIsChanged) {
   EXPECT_GT(refused, kTrials / 10);
 }
 
-TEST_F(ShardFile, SaysWhatIsMissing) {
+TEST_F(ShardFile, NamesMissingContents) {
   EXPECT_THAT(message_of(directory_ / "none.h5"), HasSubstr("none.h5: no such shard"));
   write_file(file_, "this is text");
   EXPECT_THAT(message_of(file_), HasSubstr("not a whole HDF5 file"));
 }
 
-TEST_F(ShardFile, LeavesNothingBehindWhenTheDiskRefuses) {
+TEST_F(ShardFile, LeavesNoFileWhenWritingFails) {
   EXPECT_THROW(write_shard(directory_ / "absent" / "shard_00000.h5", some_shard(), 8), WorkError);
   EXPECT_TRUE(fs::is_empty(directory_));
 }
 
-TEST(Checksum, AgreesWithThePublishedDigest) {
+TEST(Checksum, EqualsThePublishedDigest) {
   // FIPS 180-4 example "abc".
   EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
 }

@@ -25,7 +25,7 @@ TEST(ParallelFor, VisitsEveryIndexOnce) {
   }
 }
 
-TEST(ParallelFor, UsesAtMostTheThreadsItIsGiven) {
+TEST(ParallelFor, UsesAtMostTheGivenNumberOfThreads) {
   std::mutex mutex;
   std::set<std::thread::id> ids;
   parallel_for(200, 3, [&](std::size_t) {

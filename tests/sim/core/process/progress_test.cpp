@@ -14,7 +14,7 @@
 namespace seaglint {
 namespace {
 
-TEST(ProgressLine, ShowsShareAndTimeLeft) {
+TEST(ProgressLine, ContainsFractionAndRemainingTime) {
   EXPECT_EQ(progress_line("maps", 0, 10, 3), "maps  [....................]   0 %, no estimate yet");
   EXPECT_EQ(progress_line("maps", 1, 4, 10), "maps  [#####...............]  25 %, 30 s left");
   EXPECT_EQ(progress_line("maps", 1, 2, 130), "maps  [##########..........]  50 %, 2 min 10 s left");
@@ -24,7 +24,7 @@ TEST(ProgressLine, ShowsShareAndTimeLeft) {
   EXPECT_EQ(progress_line("maps", 0, 0, 1), "maps  [####################] 100 %, 0 s left");
 }
 
-TEST(ProgressLine, ShowsARateWhereTheStepsHaveAName) {
+TEST(ProgressLine, ContainsARateForNamedSteps) {
   EXPECT_EQ(progress_line("rcs", 1, 4, 10, "views"), "rcs  [#####...............]  25 %, 30 s left, 0.1 views/s");
   EXPECT_EQ(progress_line("rcs", 0, 4, 10, "views"), "rcs  [....................]   0 %, no estimate yet");
 }
@@ -59,7 +59,7 @@ std::string sent_to_terminal(const Function& work) {
   return std::string(buffer, count > 0 ? static_cast<std::size_t>(count) : 0);
 }
 
-TEST(Progress, ShowsABarOnATerminalAfterTwoSecondsAndWipesItAtTheEnd) {
+TEST(Progress, DrawsABarOnATerminalAfterTwoSecondsAndErasesIt) {
   const std::string sent = sent_to_terminal([] {
     Progress progress("maps", 4);
     progress.advance();

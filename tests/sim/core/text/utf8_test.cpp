@@ -21,7 +21,7 @@ std::string encoded(unsigned point) {
   return text;
 }
 
-TEST(Utf8, HoldsEveryCodePointButSurrogates) {
+TEST(Utf8, ContainsEveryCodePointButSurrogates) {
   for (unsigned point = 0; point < 0x110000; ++point) {
     const std::string text = encoded(point);
     const bool surrogate = point >= 0xd800 && point < 0xe000;
@@ -29,7 +29,7 @@ TEST(Utf8, HoldsEveryCodePointButSurrogates) {
   }
 }
 
-TEST(Utf8, EndsWhereAByteFitsNowhere) {
+TEST(Utf8, EndsAtAnInvalidByte) {
   EXPECT_EQ(utf8_prefix("caf\xe9"), 3u);  // Latin-1
   EXPECT_EQ(utf8_prefix("caf\xc3\xa9"), 5u);
   EXPECT_EQ(utf8_prefix("a\xc3"), 1u);     // cut short

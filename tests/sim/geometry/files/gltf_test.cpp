@@ -49,7 +49,7 @@ TEST_F(GltfFile, NodesPlaceMeshesByTheProductOfTheirTransforms) {
   EXPECT_LT((area_vector(mesh, 0) + area_vector(mesh, 1)).norm(), 1e-12);
 }
 
-TEST_F(GltfFile, MayKeepItsBufferInAFileBesideIt) {
+TEST_F(GltfFile, MayHaveItsBufferInAFileNextToIt) {
   std::string json = gltf_with(R"([{"mesh":0}])");
   const std::string data("\0\0\0\0\0\0\0\0\0\0\0\0\0\0\x80\x3f\0\0\0\0\0\0\0\0\0\0\0\0\0\0\x80\x3f\0\0\0\0", 36);
   put("triangle.bin", data);
@@ -65,7 +65,7 @@ TEST_F(GltfFile, MayKeepItsBufferInAFileBesideIt) {
   expect_error(put("inner/a.gltf", std::string(json).replace(from, to - from, "link.bin")), "link.bin");
 }
 
-TEST_F(GltfFile, ThatPromisesWhatItDoesNotHoldIsRefused) {
+TEST_F(GltfFile, ThatLacksItsDeclaredContentsIsRefused) {
   const auto changed = [&](const std::string& from, const std::string& to) {
     std::string json = gltf_with(R"([{"mesh":0}])");
     const std::size_t at = json.find(from);
@@ -95,7 +95,7 @@ TEST_F(GltfFile, ThatPromisesWhatItDoesNotHoldIsRefused) {
 }
 
 // Extensions that move or deform vertices are not supported, and must be reported.
-TEST_F(GltfFile, ThatPlacesItsMeshOtherwiseIsRefused) {
+TEST_F(GltfFile, WithAnUnsupportedTransformIsRefused) {
   expect_error(put("a.gltf", gltf_with(R"([{"mesh":0,"skin":0}])")), "nodes[0] has a skin");
   expect_error(
       put("a.gltf",

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TEST_F(MeshFile, EveryFormatGivesTheSameTrianglesBack) {
+TEST_F(MeshFile, EveryFormatPreservesTheTriangles) {
   TriangleMesh mesh = make_icosahedral_reflector();
   mesh = transformed(mesh, Eigen::AngleAxisd(0.3, Vec3(1, 2, 3).normalized()).toRotationMatrix(), Vec3(2, -1, 5));
   for (const char* name : {"a.glb", "a.gltf", "a.obj", "a.stl", "a.ply"}) {
@@ -40,7 +40,7 @@ TEST_F(MeshFile, EveryFormatGivesTheSameTrianglesBack) {
   }
 }
 
-TEST_F(MeshFile, PartsAndMaterialsSurviveWhereTheFormatHasThem) {
+TEST_F(MeshFile, PartsAndMaterialsArePreservedWhereTheFormatHasThem) {
   TriangleMesh mesh = make_icosahedral_reflector();
   mesh.materials = {Material{"pec"}, Material{"canvas"}};
   mesh.triangle_material[4] = 1;
@@ -53,7 +53,7 @@ TEST_F(MeshFile, PartsAndMaterialsSurviveWhereTheFormatHasThem) {
   EXPECT_EQ(read_mesh(folder / "a.obj").part_names, mesh.part_names);
 }
 
-TEST_F(MeshFile, WritingTwiceGivesTheSameBytes) {
+TEST_F(MeshFile, WritingIsReproducible) {
   const TriangleMesh mesh = make_sphere(1, 2);
   for (const char* name : {"a.glb", "a.gltf", "a.obj", "a.stl", "a.ply"}) {
     write_mesh(folder / name, mesh);
@@ -73,7 +73,7 @@ TEST_F(MeshFile, UnitsScaleLengths) {
   EXPECT_THROW(read_mesh(folder / "a.stl", "yard"), InputError);
 }
 
-TEST_F(MeshFile, NonManifoldSoupIsReadWhole) {
+TEST_F(MeshFile, NonManifoldSoupIsReadCompletely) {
   // Five sheets on one edge, then a flipped copy of the first: OpenMesh's own mesh would accept two of them.
   std::string obj = "v 0 0 0\nv 0 0 1\n";
   for (int i = 0; i < 5; ++i) obj += "v " + std::to_string(std::cos(i)) + " " + std::to_string(std::sin(i)) + " 0.5\n";
@@ -119,7 +119,7 @@ TEST_F(MeshFile, ConcavePolygonsAreCoveredOnce) {
 }
 
 // A comment that ends in a backslash, as folders of Windows do, ends with its line; so does one after numbers.
-TEST_F(MeshFile, ObjCommentsNeverGoOnInTheNextLine) {
+TEST_F(MeshFile, ObjCommentsEndWithTheirLine) {
   const std::string corners = "v 0 0 0\nv 2 0 0\nv 0 1 0\nv 0 3 0\n";
   for (const std::string& text :
        {"# made from C:\\models\\\n" + corners + "f 1 2 3\n", "  #\\\r\n" + corners + "f 1 2 3\n",
@@ -194,7 +194,7 @@ TEST_F(MeshFile, AsciiStlIsReadWithItsSolids) {
   expect_error(put("a.stl", "solid a\nendsolid a\n"), "no triangles");
 }
 
-TEST_F(MeshFile, StlThatPromisesMoreTrianglesThanItHoldsIsRefused) {
+TEST_F(MeshFile, StlWithFewerTrianglesThanDeclaredIsRefused) {
   write_mesh(folder / "a.stl", make_plate(1, 1));
   std::string bytes = bytes_of(folder / "a.stl");
   ASSERT_EQ(bytes.size(), 84u + 2 * 50);

@@ -84,7 +84,7 @@ void expect_covers_however_written(Corners corner, double area) {
   }
 }
 
-TEST(PolygonTriangulation, CoversConcaveShapesWhereverTheyBegin) {
+TEST(PolygonTriangulation, CoversConcaveShapesFromAnyFirstVertex) {
   expect_covers_however_written(kL, 3);
   expect_covers_however_written(kU, 7);
   expect_covers_however_written(kCollinear, 3);
@@ -104,13 +104,13 @@ TEST(PolygonTriangulation, KeepsTheFanOfConvexOnes) {
   }
 }
 
-TEST(PolygonTriangulation, KeepsTheFanOfOneThatItCovers) {
+TEST(PolygonTriangulation, KeepsTheFanOfPolygonsThatItCovers) {
   Corners corner = kL;  // from its concave vertex
   std::rotate(corner.begin(), corner.begin() + 3, corner.end());
   EXPECT_EQ(triangulate_polygon(corner), (Triangles{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}}));
 }
 
-TEST(PolygonTriangulation, TakesCornersOutOfAnyPlaneInThatOfTheArea) {
+TEST(PolygonTriangulation, ProjectsNonPlanarVerticesOntoThePlaneOfTheArea) {
   Corners corner = kL;
   for (std::size_t i = 0; i < corner.size(); ++i) corner[i].z() = i % 2 == 0 ? 0.1 : -0.1;
   const auto triangles = triangulate_polygon(corner);
@@ -124,12 +124,12 @@ TEST(PolygonTriangulation, TakesCornersOutOfAnyPlaneInThatOfTheArea) {
   EXPECT_LT((sum - area_of(corner)).norm(), 1e-12);
 }
 
-TEST(PolygonTriangulation, FansWhatEnclosesNothing) {
+TEST(PolygonTriangulation, FansPolygonsWithoutArea) {
   EXPECT_EQ(triangulate_polygon(flat({{0, 0}, {1, 0}, {3, 0}, {2, 0}}))->size(), 2u);
   EXPECT_EQ(triangulate_polygon(flat({{0, 0}, {0, 0}, {0, 0}, {0, 0}}))->size(), 2u);
 }
 
-TEST(PolygonTriangulation, SplitsThousandsOfCornersAndNoMore) {
+TEST(PolygonTriangulation, TriangulatesThousandsOfVerticesAndNoMore) {
   const Corners most = spiral(static_cast<int>(kMaxConcaveVertices) / 2 - 1),
                 more = spiral(static_cast<int>(kMaxConcaveVertices) / 2);
   ASSERT_EQ(most.size(), kMaxConcaveVertices);
@@ -140,7 +140,7 @@ TEST(PolygonTriangulation, SplitsThousandsOfCornersAndNoMore) {
   EXPECT_EQ(triangulate_polygon(round)->size(), 9998u);
 }
 
-TEST(PolygonTriangulation, HasNothingForWhatCrossesItself) {
+TEST(PolygonTriangulation, RefusesSelfIntersectingPolygons) {
   EXPECT_FALSE(triangulate_polygon(flat({{0, 0}, {1, 1}, {1, 0}, {0, 1}})));
   EXPECT_FALSE(triangulate_polygon(flat({{0, 0}, {1, 1}, {1, 0}, {0, 3}})));
   Corners pentagram;

@@ -27,14 +27,14 @@ void add(TriangleMesh& mesh, std::array<std::uint32_t, 3> triangle) {
   mesh.triangle_material.push_back(0);
 }
 
-TEST(MeshDiagnostics, HasNothingToSayOfAClosedMesh) {
+TEST(MeshDiagnostics, AreEmptyForAClosedMesh) {
   for (const TriangleMesh& mesh : {make_sphere(1, 2), make_icosahedral_reflector(), make_cylinder(1, 2, 12)}) {
     EXPECT_THAT(diagnostic_messages(diagnose(mesh)), ElementsAre());
     EXPECT_EQ(repair(mesh).triangles, mesh.triangles);
   }
 }
 
-TEST(MeshDiagnostics, TurnsAClosedSurfaceThatIsInsideOut) {
+TEST(MeshDiagnostics, InvertAClosedSurfaceThatIsInsideOut) {
   const TriangleMesh sphere = make_sphere(1, 1);
   TriangleMesh inverted = transformed(sphere, Mat3::Identity(), Vec3(0, 0, 50));
   for (std::size_t t = 0; t < inverted.triangles.size(); ++t) flip(inverted, t);
@@ -50,7 +50,7 @@ TEST(MeshDiagnostics, TurnsAClosedSurfaceThatIsInsideOut) {
   EXPECT_NEAR(enclosed_volume(turned), 2 * enclosed_volume(sphere), 1e-9);
 }
 
-TEST(MeshDiagnostics, CountsHolesAndTrianglesThatFaceTheOtherWay) {
+TEST(MeshDiagnostics, CountHolesAndInconsistentTriangles) {
   TriangleMesh holed = make_sphere(1, 1);
   holed.triangles.pop_back();
   holed.triangle_part.pop_back();
@@ -65,7 +65,7 @@ TEST(MeshDiagnostics, CountsHolesAndTrianglesThatFaceTheOtherWay) {
               ElementsAre(HasSubstr("3 edges have neighbours of opposite orientation")));
 }
 
-TEST(MeshDiagnostics, LeavesOutRepeatedAndDegenerateTriangles) {
+TEST(MeshDiagnostics, RemoveRepeatedAndDegenerateTriangles) {
   const TriangleMesh sphere = make_sphere(1, 1);
   TriangleMesh dirty = sphere;
   const auto [a, b, c] = sphere.triangles[5];
@@ -80,7 +80,7 @@ TEST(MeshDiagnostics, LeavesOutRepeatedAndDegenerateTriangles) {
   EXPECT_EQ(repair(dirty).triangles, sphere.triangles);
 }
 
-TEST(MeshDiagnostics, LeavesOneSideOfSheetsOfTwo) {
+TEST(MeshDiagnostics, KeepOneSideOfTwoSidedSheets) {
   const TriangleMesh sheet = make_plate(1, 1);
   TriangleMesh two_sided = sheet;
   for (const auto& t : sheet.triangles) add(two_sided, {t[0], t[2], t[1]});
@@ -108,7 +108,7 @@ TriangleMesh plate_of_two_materials(bool front_first) {
   return mesh;
 }
 
-TEST(MeshDiagnostics, KeepsBothSidesOfASheetOfTwoMaterials) {
+TEST(MeshDiagnostics, KeepBothSidesOfASheetOfTwoMaterials) {
   for (const bool front_first : {true, false}) {
     TriangleMesh mesh = plate_of_two_materials(front_first);
     EXPECT_EQ(diagnose(mesh).kept_backs, 2u);
@@ -122,7 +122,7 @@ TEST(MeshDiagnostics, KeepsBothSidesOfASheetOfTwoMaterials) {
   }
 }
 
-TEST(MeshDiagnostics, NamesTheSideThatAnOpenSurfaceLoses) {
+TEST(MeshDiagnostics, NameTheRemovedSideOfAnOpenSurface) {
   TriangleMesh mesh = plate_of_two_materials(true);
   mesh.vertices.push_back({1, 0, 0});
   // a fin of one side
@@ -134,7 +134,7 @@ TEST(MeshDiagnostics, NamesTheSideThatAnOpenSurfaceLoses) {
   EXPECT_EQ(repair(mesh).triangles.size(), 3u);
 }
 
-TEST(MeshDiagnostics, CountsEdgesOfThreeTriangles) {
+TEST(MeshDiagnostics, CountEdgesOfThreeTriangles) {
   TriangleMesh fin = make_plate(1, 1);
   fin.vertices.push_back({1, 0, 0});
   // on the diagonal
@@ -151,7 +151,7 @@ TriangleMesh cube_at(const Vec3& lower) {
   return builder.take();
 }
 
-TEST(MeshDiagnostics, JudgesBodiesThatTouchAlongAnEdgeEachByItself) {
+TEST(MeshDiagnostics, TreatBodiesThatTouchAlongAnEdgeSeparately) {
   const TriangleMesh first = cube_at(Vec3::Zero()), second = cube_at({1, 1, 0});
   ASSERT_NEAR(enclosed_volume(first), 1, 1e-12);
   for (const bool larger_first : {true, false}) {
@@ -171,7 +171,7 @@ TEST(MeshDiagnostics, JudgesBodiesThatTouchAlongAnEdgeEachByItself) {
 
 // Two caps and two discs between them on one ring of edges: none is closed alone, all together are the surface of a
 // hollow body.
-TEST(MeshDiagnostics, JudgesPiecesThatOnlyCloseTogetherAsOne) {
+TEST(MeshDiagnostics, TreatPiecesThatCloseOnlyTogetherAsOne) {
   MeshBuilder builder;
   for (int i = 0; i < 4; ++i) builder.vertex({std::cos(i * kPi / 2), std::sin(i * kPi / 2), 0});
   for (const double z : {1.0, -1.0, 0.2, -0.2}) builder.vertex({0, 0, z});
@@ -189,7 +189,7 @@ TEST(MeshDiagnostics, JudgesPiecesThatOnlyCloseTogetherAsOne) {
   EXPECT_NEAR(enclosed_volume(repair(mesh)), volume, 1e-12);
 }
 
-TEST(MeshDiagnostics, SaysWhereAPartitionLeavesNoInside) {
+TEST(MeshDiagnostics, ReportAPartitionInsideABody) {
   TriangleMesh divided = cube_at(Vec3::Zero());
   // a slanting wall from edge to edge
   for (const auto& t : {std::array<std::uint32_t, 3>{0, 1, 7}, {0, 7, 6}}) add(divided, t);

@@ -12,7 +12,7 @@
 namespace seaglint {
 namespace {
 
-TEST(Waterline, KeepsAreaVolumeAndClosedSurfaceAndPutsEachTriangleOnOneSide) {
+TEST(Waterline, KeepsAreaVolumeAndClosednessWithEachTriangleOnOneSide) {
   const TriangleMesh sphere = make_sphere(1, 3);
   for (const double height : {-0.83, -0.2, 0.0, 0.31, 0.9}) {
     const WaterlineCut cut = cut_at_waterline(sphere, height);
@@ -34,14 +34,14 @@ TEST(Waterline, KeepsAreaVolumeAndClosedSurfaceAndPutsEachTriangleOnOneSide) {
   }
 }
 
-TEST(Waterline, LeavesAMeshThatStandsOnTheWaterAsItIs) {
+TEST(Waterline, KeepsAMeshOnTheWaterUnchanged) {
   const WaterlineCut cut = cut_at_waterline(make_plate(0.5, 0.4), -0.2);
   EXPECT_EQ(cut.mesh.triangles.size(), 2u);
   EXPECT_EQ(std::count(cut.submerged.begin(), cut.submerged.end(), true), 0);
 }
 
 // The bottom of a body that is read from a file may be above or below the water by a rounding error.
-TEST(Waterline, WetsABottomOnTheWaterWhateverItsRounding) {
+TEST(Waterline, SubmergesABottomOnTheWaterForAnyRounding) {
   for (const double height : {-1.25, -1.3, -1.7, 2.3, 0.1}) {
     for (const double offset : {-2e-7, 0.0, 2e-7}) {
       TriangleMesh cylinder = transformed(make_cylinder(0.5, 1, 12), Mat3::Identity(),

@@ -26,9 +26,9 @@ void expect_same_bytes(const TriangleMesh& mesh, const char* name) {
   std::filesystem::remove(again);
 }
 
-TEST(Assets, ShipIsWhatItsGeneratorMakes) { expect_same_bytes(make_ship(), "combatant_144m.glb"); }
+TEST(Assets, ShipEqualsItsGeneratorsOutput) { expect_same_bytes(make_ship(), "combatant_144m.glb"); }
 
-TEST(Assets, ReflectorIsWhatItsGeneratorMakes) {
+TEST(Assets, ReflectorEqualsItsGeneratorsOutput) {
   expect_same_bytes(make_icosahedral_reflector(), "icosahedral_reflector.glb");
 }
 
@@ -42,7 +42,7 @@ TEST(Assets, HaveTheirChecksums) {
   EXPECT_EQ(std::system(command.c_str()), 0);
 }
 
-TEST(Assets, SurviveTheRoundTripThroughTheirFiles) {
+TEST(Assets, AreUnchangedByARoundTripThroughTheirFiles) {
   const TriangleMesh ship = make_ship();
   const TriangleMesh again = read_mesh(kAssets / "combatant_144m.glb");
   ASSERT_EQ(again.triangles.size(), ship.triangles.size());

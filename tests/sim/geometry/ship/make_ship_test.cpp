@@ -22,7 +22,7 @@ class ShipMesh : public testing::Test {
   static inline TriangleMesh mesh;
 };
 
-TEST_F(ShipMesh, HasItsLengthAndStandsOnTheWaterline) {
+TEST_F(ShipMesh, HasItsLengthAndDraught) {
   const Bounds box = bounds(mesh);
   EXPECT_NEAR(box.lower.x(), -72, 0.01);
   EXPECT_NEAR(box.upper.x(), 72, 0.01);
@@ -89,7 +89,7 @@ TEST_F(ShipMesh, HullHasTheVolumeOfItsSections) {
 
 // The plates of the hull are small, and their normals vary along the ship and with height, so that no aspect has one
 // large specular reflection.
-TEST_F(ShipMesh, HullPlatesAreSmallAndTurnAwayFromOneAnother) {
+TEST_F(ShipMesh, HullPlatesAreSmallAndOfVaryingNormals) {
   const TriangleMesh hull = part_of(mesh, 0);
   std::vector<double> flare;
   for (std::size_t t = 0; t < hull.triangles.size(); ++t) {
@@ -110,7 +110,7 @@ TEST_F(ShipMesh, HullPlatesAreSmallAndTurnAwayFromOneAnother) {
 }
 
 // Vertices where three faces meet at inner right angles: corner reflectors, which scatter in many directions.
-TEST_F(ShipMesh, HasInnerRightAngledCornersAllAlong) {
+TEST_F(ShipMesh, HasInnerRightAngledVerticesAlongItsLength) {
   const Topology topology = topology_of(mesh);
   std::vector<int> right_seams(mesh.vertices.size(), 0);
   for (const Wedge& wedge : wedges(mesh, topology, radians(45))) {
@@ -128,7 +128,7 @@ TEST_F(ShipMesh, HasInnerRightAngledCornersAllAlong) {
   EXPECT_GE(slices.size(), 15u) << "of 24 slices of 6 m";
 }
 
-TEST_F(ShipMesh, KeepsItsBudget) {
+TEST_F(ShipMesh, HasAtMostItsNumberOfTriangles) {
   EXPECT_GE(mesh.triangles.size(), 15000u);
   EXPECT_LE(mesh.triangles.size(), 40000u);
 }

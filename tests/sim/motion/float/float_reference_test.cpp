@@ -32,7 +32,7 @@ double tolerance(double value) { return 0.35 * value + 0.005; }
 
 // The section by strip theory: a cylinder in beam waves, its mass and GM as measured, radiation and diffraction of its
 // Lewis form; additional damping of the sharp bilge 0.05 of critical.
-TEST(FloatReference, SectionForcesGiveTheMeasuredRollAndHeave) {
+TEST(FloatReference, SectionForcesMatchTheMeasuredRollAndHeave) {
   const double area = kBeam * kDraught - 2 * (1 - 0.25 * kPi) * kBilge * kBilge;
   HullSections hull{0.586, {}};
   for (int i = 0; i < 10; ++i) hull.sections.push_back({0.586 * ((i + 0.5) / 10 - 0.5), kBeam, kDraught, area});
@@ -57,7 +57,7 @@ TEST(FloatReference, SectionForcesGiveTheMeasuredRollAndHeave) {
 }
 
 // A float with the section's periods, width and draught: amplitudes of its series in small regular waves.
-TEST(FloatReference, AFloatsOscillatorGivesTheMeasuredRoll) {
+TEST(FloatReference, AFloatsOscillatorMatchesTheMeasuredRoll) {
   MotionSpec spec;
   spec.model = MotionModel::kFloat;
   spec.diameter_m = kBeam;

@@ -89,7 +89,7 @@ TEST(SimulateFloat, FollowsTheSlopeOfLongWaves) {
   }
 }
 
-TEST(SimulateFloat, RespondsToARegularWaveAsItsOscillatorDoes) {
+TEST(SimulateFloat, HasTheOscillatorsResponseToARegularWave) {
   const double omega = 4, amplitude = 0.01;
   const WaveField sea = regular_wave(amplitude, omega, {0, 1});
   const FloatParticulars body = float_particulars(float_spec(), kReflector);
@@ -107,7 +107,7 @@ TEST(SimulateFloat, RespondsToARegularWaveAsItsOscillatorDoes) {
 }
 
 // Apex velocity u (1 - k h): tilt and orbital motion have opposite signs in the same wave.
-TEST(SimulateFloat, ItsMastMovesLessThanTheWaterBelowResonance) {
+TEST(SimulateFloat, MastMovesLessThanTheWaterBelowResonance) {
   MotionSpec spec = float_spec();
   spec.translations = true;
   const double omega = 0.8, amplitude = 0.05;
@@ -128,7 +128,7 @@ TEST(SimulateFloat, ItsMastMovesLessThanTheWaterBelowResonance) {
   EXPECT_NEAR(largest, expected, 0.03 * amplitude * omega);
 }
 
-TEST(SimulateFloat, RidesOnTheSurfaceWithTranslations) {
+TEST(SimulateFloat, FollowsTheSurfaceWithTranslations) {
   MotionSpec spec = float_spec();
   spec.translations = true;
   const WaveField sea = regular_wave(0.5, 0.6, {1, 0});
@@ -178,7 +178,7 @@ TEST(SimulateFloat, IsInSteadyStateAtTimeZero) {
   }
 }
 
-TEST(SimulateFloat, TurnsAboutItsCentreOfFlotation) {
+TEST(SimulateFloat, RotatesAboutItsCentreOfFlotation) {
   const MotionSpec spec = float_spec();
   const Vec3 rest = rest_position(spec, 40, 0);
   EXPECT_EQ((rest - Vec3(40, 0, 0.75)).norm(), 0);
@@ -192,7 +192,7 @@ TEST(SimulateFloat, TurnsAboutItsCentreOfFlotation) {
 
 // Eight samples to the shortest natural period: the error of cubic interpolation for a float that rolls at 0.2 s in
 // waves of 0.5 s is 14 % at 0.1 s, 1.1 % at 0.05 s and 0.07 % at the bound.
-TEST(MakeBody, RefusesStepsThatABodysSwingWouldFallBetween) {
+TEST(MakeBody, RefusesStepsTooLongForTheNaturalPeriods) {
   MotionSpec spec = float_spec();
   spec.roll_period_s = spec.pitch_period_s = 0.2;
   const auto refused = [&](double step_s) {
@@ -231,7 +231,7 @@ TEST(RandomYaw, HasTheGivenRateAndTheCorrelationOfItsProcess) {
   EXPECT_NEAR(product / (rate * rate), std::exp(-1.0), 4 * std::sqrt((1 + std::exp(-2.0)) / kBodies));
 }
 
-TEST(RandomYaw, WithASpringKeepsItsMeanHeadingAndWithoutOneHasNone) {
+TEST(RandomYaw, HasAMeanHeadingOnlyWithASpring) {
   double free = 0, moored = 0;
   constexpr int kBodies = 2000;
   for (int body = 0; body < kBodies; ++body) {
@@ -256,7 +256,7 @@ TEST(SimulateMotion, IsTheSameForTheSameKey) {
   EXPECT_GT((angles(1) - angles(2)).norm(), 0);
 }
 
-TEST(SimulateMotion, AFixedBodyStays) {
+TEST(SimulateMotion, AFixedBodyIsAtRest) {
   const Trajectory still = simulate_motion(make_body(MotionSpec{}, {kReflector, {}}), {1, 2, 3},
                                            realise_sea(state_of(1, 5), 1, 0), 5, 42, 0);
   EXPECT_EQ((still.pose(3).p - Vec3(1, 2, 3)).norm(), 0);

@@ -43,7 +43,7 @@ TEST(Oscillator, DecaysWithTheLogarithmicDecrementOfLinearDamping) {
 
 // While x' > 0, p = x'^2 obeys dp/dx + 2 b p = -2 w0^2 x, so that between two turning points -X and X' the integral of
 // x e^{2 b x} vanishes: (2 b x - 1) e^{2 b x} has the same value at both. A downward swing is its mirror image.
-TEST(Oscillator, DecaysAsTheFirstIntegralOfQuadraticDampingSays) {
+TEST(Oscillator, DecaysByTheFirstIntegralOfQuadraticDamping) {
   const double b = 0.5;
   const Oscillator roll{2 * kPi / 10.9, 0, b};
   double last = 0.3;

@@ -72,7 +72,7 @@ TEST(AttitudeSeries, AreReadFromThisProgramsTables) {
 }
 
 // Comments may contain any words, also those by which the kinds of tables are distinguished.
-TEST(AttitudeSeries, AreToldApartByTheirNamesAlone) {
+TEST(AttitudeSeries, AreDistinguishedByTheirColumnNames) {
   for (const char* comment : {"night_time_sea", "roll [deg]", "PtfmRoll"}) {
     const AttitudeSeries series = read_attitude_series(write(
         std::string("\n# scenario ") + comment +
@@ -152,7 +152,7 @@ TEST(TrajectoryOf, AddsNoEnergy) {
   }
 }
 
-TEST(AttitudeSeries, NameWhatIsWrongWithTheirTimes) {
+TEST(AttitudeSeries, ReportErrorsOfTheirTimes) {
   const char* head = "time_s,roll_deg,pitch_deg,yaw_deg\n";
   const auto read = [&](const std::string& rows) {
     return message_of([&] { read_attitude_series(write(head + rows)); });
@@ -171,7 +171,7 @@ TEST(AttitudeSeries, NameWhatIsWrongWithTheirTimes) {
   EXPECT_THAT(message_of([] { read_attitude_series(write("")); }), testing::HasSubstr("0 rows"));
 }
 
-TEST(AttitudeSeries, NameDegreesWhereRadiansAreDeclared) {
+TEST(AttitudeSeries, ReportDegreesWhereRadiansAreDeclared) {
   std::string all = "time_s,roll_rad,pitch_rad,yaw_rad\n", half = all;
   for (int n = 0; n < 400; ++n) {
     const double roll = 0.1 * std::sin(0.06 * n);
@@ -186,7 +186,7 @@ TEST(AttitudeSeries, NameDegreesWhereRadiansAreDeclared) {
 }
 
 // Times with rounding errors are those of the series' ends.
-TEST(TrajectoryOf, CoversTheTimesItWasAskedForToTheirRounding) {
+TEST(TrajectoryOf, CoversTheRequestedTimesToTheirRounding) {
   const AttitudeSeries series =
       read_attitude_series(write("time_s,roll_deg,pitch_deg,yaw_deg\n0,0,0,0\n1,1,0,0\n2,2,0,0\n3,3,0,0\n"));
   for (const double start : {-2.9e-9, -1e-9, 0.0, 1e-9, 2.9e-9}) {

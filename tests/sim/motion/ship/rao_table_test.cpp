@@ -52,7 +52,7 @@ TEST(WamitTable, TendsToTheSlopeOfLongWaves) {
 }
 
 // The file's own numbers: heading 30 is towards 180 + 30 deg, where surge, sway, roll and pitch have the other sign.
-TEST(VeresTable, HoldsTheFilesNumbers) {
+TEST(VeresTable, ContainsTheFilesNumbers) {
   const RaoTable table = read_veres_rao(kVeres, 0);
   EXPECT_NEAR(table.reference().x(), -2.54748, 1e-9);
   EXPECT_NEAR(table.reference().z(), 0.05, 1e-9);
@@ -74,7 +74,7 @@ TEST(VeresTable, HoldsTheFilesNumbers) {
   }
 }
 
-TEST(RaoTable, IsReadBetweenItsRowsAndMirrored) {
+TEST(RaoTable, IsInterpolatedAndMirrored) {
   const RaoTable table = read_veres_rao(kVeres, 0);
   const double w = 0.75, k = wavenumber(w);
   const MotionRao port = table.at(w, k, radians(65));
@@ -92,7 +92,7 @@ TEST(RaoTable, IsReadBetweenItsRowsAndMirrored) {
 }
 
 // A heading of the table needs no neighbour, whichever side of it rounding falls.
-TEST(RaoTable, KnowsItsOwnHeadingsToTheirRounding) {
+TEST(RaoTable, ContainsItsHeadingsToTheirRounding) {
   std::vector<MotionRao> responses(3);
   for (std::size_t m = 0; m < 3; ++m) responses[m].heave = static_cast<double>(m + 1);
   const RaoTable table("test", {radians(-55), radians(55), kPi}, {1}, responses, Vec3::Zero(), 0);
@@ -174,7 +174,7 @@ TEST(SimulateRao, RefusesASeaThatTheTableDoesNotCover) {
   EXPECT_THAT(message, testing::HasSubstr("% of the waves' variance lies"));
 }
 
-TEST(ReadRao, RefusesWhatIsNoTable) {
+TEST(ReadRao, RefusesInvalidTables) {
   const std::filesystem::path file = std::filesystem::path(SEAGLINT_BINARY_DIR) / "wrong.re1";
   const auto write = [&](const std::string& text) { std::ofstream(file) << text; };
   write("time,roll\n");

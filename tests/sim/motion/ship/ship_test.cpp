@@ -100,7 +100,7 @@ TEST(ShipParticulars, AreDerivedFromTheMeshOrTakenFromTheSpec) {
   EXPECT_NEAR(ship_of(again).roll.omega0, given.roll.omega0, 1e-6);
 }
 
-TEST(ShipParticulars, RefuseWhatNoHullIs) {
+TEST(ShipParticulars, RefuseImpossibleHulls) {
   EXPECT_THROW(ship_sections(ship_spec(), BodyShape{}), InputError);
   MotionSpec spec = combatant();
   spec.metacentric_height_m = 0;
@@ -111,7 +111,7 @@ TEST(ShipParticulars, RefuseWhatNoHullIs) {
 }
 
 // Walls that lean outwards below the water enclose more area than any Lewis form.
-TEST(SimulateShip, MovesAHullWiderBelowTheWater) {
+TEST(SimulateShip, AcceptsAHullWiderBelowTheWater) {
   HullSections hull;
   hull.length = 60;
   for (int i = 0; i < 10; ++i) hull.sections.push_back({-27.0 + 6 * i, 8.5, 6, 85.5});
@@ -125,7 +125,7 @@ TEST(SimulateShip, MovesAHullWiderBelowTheWater) {
   EXPECT_GT(degrees(largest), 0.1);
 }
 
-TEST(ResponseSynthesis, RefusesResponsesThatAreNoNumbers) {
+TEST(ResponseSynthesis, RefusesNonFiniteResponses) {
   const WaveField sea = realise_sea(state_of(2, 8, 60), 1, 0);
   const auto response = [](const ShipWave&) {
     ResponseChannels all{};
@@ -231,7 +231,7 @@ double rms_deg(const ShipParticulars& ship, const WaveField& sea, double mu_deg,
 
 // Strip theory for a 144 m hull without speed: roll in beam seas 0.21, 0.70, 2.1 deg; pitch in head seas 0.03, 0.16,
 // 0.41.
-TEST(ShipRao, HasTheSizeThatStripTheoryGives) {
+TEST(ShipRao, HasTheMagnitudeOfStripTheory) {
   const ShipParticulars ship = ship_of(combatant());
   struct Case {
     double height, period, roll, pitch;
@@ -257,7 +257,7 @@ TEST(SimulateShip, HardlyMovesInSmallWaves) {
   }
 }
 
-TEST(SimulateShip, TurnsAShipAboutItsCentreOfGravity) {
+TEST(SimulateShip, RotatesAShipAboutItsCentreOfGravity) {
   const WaveField sea = realise_sea(state_of(2, 8, 120), 1, 0);
   const Vec3 rest = rest_position(combatant(), 0, 0);
   EXPECT_EQ(rest.norm(), 0);

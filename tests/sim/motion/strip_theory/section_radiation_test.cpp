@@ -33,7 +33,7 @@ TEST(ScaledExponentialIntegral, IsItsIntegral) {
   EXPECT_NEAR(on_cut.imag(), -kPi / std::exp(1.0), 1e-9);
 }
 
-TEST(LewisForm, HasTheBreadthDraughtAndAreaAskedFor) {
+TEST(LewisForm, HasTheGivenBreadthDraughtAndArea) {
   for (const double draught : {0.3, 1.0, 4.0}) {
     for (const double coefficient : {0.7, 0.785, 0.9}) {
       const LewisForm form = lewis_form(2, draught, coefficient * 2 * draught);
@@ -54,7 +54,7 @@ TEST(LewisForm, HasTheBreadthDraughtAndAreaAskedFor) {
   EXPECT_NEAR(lewis_form(2, 1, 0.5 * kPi).area_centre(), -4 / (3 * kPi), 1e-6);
 }
 
-TEST(LewisForm, NeverCutsItself) {
+TEST(LewisForm, DoesNotIntersectItself) {
   for (const double draught : {0.05, 0.3, 1.0, 4.0, 20.0}) {
     for (const double coefficient : {0.1, 0.5, 1.0, 1.5}) {
       const LewisForm form = lewis_form(2, draught, coefficient * 2 * draught);
@@ -73,7 +73,7 @@ TEST(LewisForm, NeverCutsItself) {
 }
 
 // The root of the quadratic for a3 is 0 at the largest area, whose rounding may fall on either side of it.
-TEST(LewisForm, OfTheLargestAreaIsANumberAtEveryRatio) {
+TEST(LewisForm, OfTheLargestAreaIsFiniteAtEveryRatio) {
   for (int i = 0; i <= 2000; ++i) {
     const double draught = std::pow(10, -1.5 + 3.0 * i / 2000);
     const LewisForm form = lewis_form(2, draught, 1e3 * draught);
@@ -119,7 +119,7 @@ TEST(SectionRadiation, OfASemicircleHasTheLimitsOfHighAndLowFrequency) {
               8 / (kPi * kPi) * std::log(10.0), 6e-3);  // the series
 }
 
-TEST(SectionRadiation, OfACircleInRollIsNothing) {
+TEST(SectionRadiation, OfACircleInRollVanishes) {
   for (const double k : {0.1, 1.0, 5.0}) {
     const Section circle(2, 1, kCircle, k);
     EXPECT_NEAR(circle.added_mass(kRoll, kRoll), 0, 1e-12);
@@ -129,7 +129,7 @@ TEST(SectionRadiation, OfACircleInRollIsNothing) {
 
 // The work done by damping is radiated as waves: b = rho g^2 A^2 / w^3 with A the waves' amplitude per amplitude of
 // motion.
-TEST(SectionRadiation, SendsOutTheEnergyThatDampingTakes) {
+TEST(SectionRadiation, RadiatesTheEnergyOfDamping) {
   for (const double draught : {0.3, 1.0, 3.0}) {
     for (const double coefficient : {0.7, kCircle, 0.95}) {
       for (const double k : {0.01, 0.1, 0.5, 1.0}) {
@@ -160,7 +160,7 @@ TEST(SectionRadiation, IsReciprocal) {
 
 // The force of a beam sea of amplitude 1 and the radiated waves are related by Haskind's relation, in two dimensions
 // |F|^2 = rho g^2 b / w for a symmetric body (Newman 1962).
-TEST(SectionRadiation, FeelsWavesAsItSendsThemOut) {
+TEST(SectionRadiation, SatisfiesHaskindsRelation) {
   for (const double draught : {0.4, 1.0, 2.0}) {
     for (const double k : {0.05, 0.3, 1.0}) {
       const Section s(2, draught, 0.9, k);
@@ -184,7 +184,7 @@ TEST(SectionRadiation, FeelsWavesAsItSendsThemOut) {
   }
 }
 
-TEST(SectionRadiation, ReachesItsBoundaryCondition) {
+TEST(SectionRadiation, SatisfiesItsBoundaryCondition) {
   for (const double draught : {0.2, 1.0, 4.5}) {
     for (const double k : {0.05, 0.5, 2.0}) {
       const Section section(2, draught, 0.8, k);

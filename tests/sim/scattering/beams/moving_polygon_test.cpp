@@ -30,7 +30,7 @@ MovingPolygon moved(MovingPolygon polygon, double d1) {
   return polygon;
 }
 
-TEST(PolygonSet, CuttingAHoleLeavesTheAreaOutsideIt) {
+TEST(PolygonSet, SubtractingAHoleKeepsTheAreaOutsideIt) {
   Random random({3, Stream::kTest, 0});
   for (int trial = 0; trial < 300; ++trial) {
     PolygonSet pieces;
@@ -57,7 +57,7 @@ TEST(PolygonSet, CuttingAHoleLeavesTheAreaOutsideIt) {
   }
 }
 
-TEST(MovingPolygon, CornersMadeByClippingMoveAsTheIntersectionOfTheirEdges) {
+TEST(MovingPolygon, ClippedVerticesMoveAsTheIntersectionOfTheirLines) {
   MovingPolygon window = square(0, 0, 1);  // at rest
   MovingPolygon moving(3);
   moving[0] = {{-0.3, 0.4}, {0.2, 0.1}, {0, 0}};
@@ -78,7 +78,7 @@ TEST(MovingPolygon, CornersMadeByClippingMoveAsTheIntersectionOfTheirEdges) {
 
 // A bounding box that is infinite leaves every side to the vertices: the result with the exact box is identical.
 // Vertices on a lattice lie on each other's sides, and some sides have no length.
-TEST(MovingPolygon, BoxesTellOfEdgesWhatTheirCornersWould) {
+TEST(MovingPolygon, BoundingBoxesDoNotChangeClipping) {
   constexpr double kFar = 1e6;
   const Box everywhere{{-kFar, -kFar}, {kFar, kFar}};
   Random random({3, Stream::kTest, 2});
@@ -114,7 +114,7 @@ TEST(MovingPolygon, BoxesTellOfEdgesWhatTheirCornersWould) {
   EXPECT_GT(cuts, 500u);
 }
 
-TEST(MovingPolygon, HalvesAreWhatClippingLeavesOnEitherSide) {
+TEST(MovingPolygon, HalvesEqualClippingOnEitherSide) {
   Random random({3, Stream::kTest, 1});
   const MovingPolygon whole = square(0, 0, 1);
   for (int trial = 0; trial < 300; ++trial) {
@@ -148,7 +148,7 @@ TEST(MovingPolygon, HalvesAreWhatClippingLeavesOnEitherSide) {
   for (const MovingPolygon& half : split_by_line(flat, on_it)) EXPECT_TRUE(half.empty());
 }
 
-TEST(MovingPolygon, TheLineWhereTwoPlanesMeetMovesWithTheDirection) {
+TEST(MovingPolygon, TheIntersectionOfTwoPlanesMovesWithTheDirection) {
   // Planes n1.x = c1, n2.x = c2 seen from r and from r rotated by d1 h: the heights' difference vanishes on the same
   // body points.
   const Vec3 n1 = Vec3(1, 0.3, -0.2).normalized(), n2 = Vec3(0.7, -0.4, 0.5).normalized();

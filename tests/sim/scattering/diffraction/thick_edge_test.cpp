@@ -80,7 +80,7 @@ Deviation against_integral_equations(double thickness_mm, bool soft, const Wante
 // Limits by thickness: without one, the fifth and higher orders of diffraction; else the next order, (k t)^2 of the
 // field times 0.06 to 0.03 (soft) and 0.15 to 0.06 (hard, which is diffracted at two edges on each path along the
 // strip), decreasing as a logarithm of k t. Without the thickness term the errors are 0.64 and 1.2 dB at 1.6 mm.
-TEST(ThickEdge, OfStripsFollowsIntegralEquations) {
+TEST(ThickEdge, OfStripsMatchesIntegralEquations) {
   struct Case {
     double t_mm, soft, hard;  // largest relative errors, 0 to 90 deg
   };
@@ -93,7 +93,7 @@ TEST(ThickEdge, OfStripsFollowsIntegralEquations) {
 
 // Bistatic echo to 75 deg from the normal: physical optics is not reciprocal there, its sum with the fringe currents
 // must be. Soft waves at grazing incidence on the strip (slope diffraction) leave 0.2 % from 51 deg.
-TEST(ThickEdge, OfStripsFollowsIntegralEquationsTowardsOtherReceivers) {
+TEST(ThickEdge, OfStripsMatchesIntegralEquationsForOtherReceivers) {
   for (const double transmit : {21.0, 51.0}) {
     const auto from = [&](double at, double receive) { return at == transmit && receive != at; };
     for (const double t_mm : {0.0, 1.6256}) {
@@ -163,7 +163,7 @@ TEST(ThickEdge, IsTheSameFromEitherSide) {
 }
 
 // The points of an interval contain the thickness term at their carrier (patterns are stored in single precision).
-TEST(ThickEdge, IsInTheContributionsOfAView) {
+TEST(ThickEdge, IsInTheContributionsOfAnAspect) {
   const Scatterer plate = strip(0.1524, 1.6e-3), thin = strip(0.1524, 0);
   const double k = wavenumber(10.24e9);
   const RadarBasis basis = radar_basis(direction(33, 7));

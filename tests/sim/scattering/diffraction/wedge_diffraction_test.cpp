@@ -70,7 +70,7 @@ TEST(FringeCurrent, IsKellersCoefficientLessThatOfPhysicalOptics) {
 
 // On Keller's cone Keller's coefficients grow by 1 / sin(beta), and so does the field of a line of currents with the
 // phase of cos(beta) along it: K is constant.
-TEST(FringeCurrent, IsTheSameOnEveryOneOfKellersCones) {
+TEST(FringeCurrent, IsTheSameOnEveryKellerCone) {
   const double N = 1.5, phi_in = 0.8, phi = 2.9;
   const auto [soft, hard] = keller(N, phi, phi_in);
   const auto [soft_1, hard_1] = optics(phi, phi_in);
@@ -140,7 +140,7 @@ TEST(FringeCurrent, IsTheCotangentsOfAComplexAngle) {
 
 // The same at a concave edge, where physical optics is the sum over all images: each face is illuminated by the
 // incident wave and by the reflections of the other face, and vanishes where image theory is exact.
-TEST(FringeCurrent, OfACornerIsKellersCoefficientLessThatOfItsReflections) {
+TEST(FringeCurrent, OfAConcaveEdgeIsKellersCoefficientLessThatOfItsImages) {
   Random random({3, Stream::kTest, 21});
   int reflected = 0;
   for (int i = 0; i < 600; ++i) {
@@ -176,7 +176,7 @@ TEST(FringeCurrent, OfACornerIsKellersCoefficientLessThatOfItsReflections) {
 
 // A face radiates only towards receivers that see it: towards others the edge has all of Keller's field, except near
 // the incident shadow boundary.
-TEST(EquivalentEdgeCurrents, LeaveOutPhysicalOpticsOnlyOfFacesThatAreSeen) {
+TEST(EquivalentEdgeCurrents, ExcludePhysicalOpticsOnlyOfVisibleFaces) {
   Random random({3, Stream::kTest, 20});
   int unseen = 0;
   for (int i = 0; i < 1000; ++i) {

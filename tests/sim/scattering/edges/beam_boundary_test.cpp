@@ -34,7 +34,7 @@ std::vector<EdgeContribution> beam_ends(const Scatterer& scatterer, const Vec3& 
 // Behind a half-plane the field at u beyond the shadow-boundary line is erfc(e^{j pi/4} u) / 2; the correction of the
 // beam is its integral beyond the second edge. With both integrals rotated by e^{-j pi/4} and their order exchanged it
 // is that of t e^{-(a + t)^2} / sqrt(pi) over t > 0, a = e^{j pi/4} u.
-TEST(DoubleKnifeEdge, LackWhatFresnelsFieldHasBeyondTheSecondRim) {
+TEST(DoubleKnifeEdge, HasTheWidthOfFresnelsFieldBeyondTheSecondEdge) {
   const double k = wavenumber(10e9), d = 0.7;
   for (const double apart : {0.0, 0.01, 0.05, 0.2}) {
     EdgeContribution::DoubleKnifeEdge knives{{d, d}, {apart * apart / (2 * d), apart * apart / (2 * d)}, 0};
@@ -52,7 +52,7 @@ TEST(DoubleKnifeEdge, LackWhatFresnelsFieldHasBeyondTheSecondRim) {
 // The same for a psi of slope `slope`: the residual of the integral of E(x) e^{jk slope x} up to the second edge at w,
 // less the end-point contribution of physical optics there and that of the first edge where its path lands within the
 // second one. The field beyond the second edge is rotated and its order exchanged as above.
-TEST(DoubleKnifeEdge, ShareTheirEndsWherePsiSlopes) {
+TEST(DoubleKnifeEdge, CouplesEndPointsForASlopingPsi) {
   const double k = wavenumber(10e9), d = 0.7, unit = std::sqrt(2 * d / k);
   for (const double slope : {-0.3, -0.05, 0.04, 0.15}) {
     for (const double w : {-0.3, -0.08, -0.01, 0.003, 0.05, 0.4}) {
@@ -85,7 +85,7 @@ TEST(DoubleKnifeEdge, ShareTheirEndsWherePsiSlopes) {
 
 // Edges that meet in one point: the path between them grows from 0. The end-point contributions replace the integral
 // where the phase difference reaches ten cycles.
-TEST(DoubleKnifeEdge, AnswerFromTheirEndsWherePhasesRun) {
+TEST(DoubleKnifeEdge, EqualsItsEndPointContributionsOverManyCycles) {
   const double k = wavenumber(10e9);
   EdgeContribution contribution;
   contribution.length = 0.4;
@@ -124,7 +124,7 @@ TEST(DoubleKnifeEdge, VanishesWhereEdgesMeet) {
 
 // One trace is valid over an aspect change of 0.1 deg: the icosahedral reflector, where these contributions are
 // largest.
-TEST(DoubleKnifeEdge, FollowATurnAsFreshTracesDo) {
+TEST(DoubleKnifeEdge, MatchesIndependentTracesOverAnAspectChange) {
   const Scatterer reflector(read_mesh(SEAGLINT_SOURCE_DIR "/assets/icosahedral_reflector.glb"));
   const double k = wavenumber(16e9);
   for (const auto& [azimuth, elevation] : {std::pair{48.0, 20.0}, {70.0, 2.0}, {33.0, 20.0}}) {

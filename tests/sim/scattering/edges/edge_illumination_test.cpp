@@ -12,7 +12,7 @@
 namespace seaglint {
 namespace {
 
-TEST(IlluminationByEdge, AreAllOfEachEdgeInTheOrderOfTheirLists) {
+TEST(IlluminationByEdge, ContainsAllOfEachEdgeInTheOrderOfTheirLists) {
   constexpr int kEdges = 50;
   Random random({3, Stream::kTest, 0});
   std::vector<std::vector<EdgeIllumination>> lists(7);
@@ -41,7 +41,7 @@ TEST(IlluminationByEdge, AreAllOfEachEdgeInTheOrderOfTheirLists) {
   }
 }
 
-TEST(IlluminationByEdge, OfNoneAreNone) {
+TEST(IlluminationByEdge, IsEmptyWithoutIlluminations) {
   const IlluminationByEdge illuminations({}, 3);
   EXPECT_TRUE(illuminations.all().empty());
   EXPECT_TRUE(illuminations.of(2).empty());

@@ -35,7 +35,7 @@ std::map<double, double> austin(const std::string& file) {
 // Physical optics without edges has an error of 4.3-5.4 dB; measurement and method of moments differ by 0.3-0.5 dB.
 // Without the thickness term (k t = 0.17 and 0.35) a strip of this width has errors of 0.3 and 0.7, 0.6 and 1.2 dB.
 // With it vertices, the next order in k t and fifth-order diffraction remain, half a decibel at 4.6 wavelengths.
-TEST(PlateEdges, FollowsTheMethodOfMomentsWithItsEdges) {
+TEST(PlateEdges, MatchTheMethodOfMoments) {
   const TriangleMesh mesh = make_plate(10.5 * 0.0254, 6 * 0.0254);
   const Scatterer sheet(mesh), plate(mesh, {}, radians(kDefaultCreaseDeg), 0.064 * 0.0254);
   for (const auto& [name, hz] : {std::pair{"f10", 5.12e9}, std::pair{"f11", 10.24e9}}) {
@@ -60,7 +60,7 @@ TEST(PlateEdges, FollowsTheMethodOfMomentsWithItsEdges) {
   }
 }
 
-TEST(TrihedralEdges, IsNearerToTheFullWaveSolutionWithItsEdges) {
+TEST(TrihedralEdges, ReduceTheErrorFromTheFullWaveSolution) {
   const Scatterer trihedral(make_triangular_trihedral(4));
   double squares[2] = {}, powers[2] = {}, power = 0;
   Complex product[2] = {};
@@ -92,7 +92,7 @@ TEST(TrihedralEdges, IsNearerToTheFullWaveSolutionWithItsEdges) {
 // m is continuous there: over 0.002 deg it changes by less than its lobes do, k times the leg per radian, and 0.01 m of
 // face-grazing diffracted waves along the edges from a vertex, on one side of the plane or the other. A jump of 0.7 m
 // would result from reflected waves that illuminate the seams from behind.
-TEST(TrihedralEdges, HasNoStepWhereTwoFacesChangePlaces) {
+TEST(TrihedralEdges, AreContinuousWhereTheOrderOfReflectionsChanges) {
   constexpr double leg = 4, aside_deg = 0.001;
   const Scatterer trihedral(make_triangular_trihedral(leg));
   const double k = wavenumber(0.3e9);
@@ -113,7 +113,7 @@ TEST(TrihedralEdges, HasNoStepWhereTwoFacesChangePlaces) {
 // A sweep in small steps has no spikes: the echo changes no faster than the plate's own lobes, k times its length per
 // radian and with their envelope: the sinc's 1 or 1 / X, X = k length u, and an edge's, which does not grow towards the
 // normal.
-TEST(PlateEdges, HasNoSpikesInASweepAllTheWayRound) {
+TEST(PlateEdges, HaveNoSpikesInAFullSweep) {
   const Scatterer plate(make_plate(0.25, 0.15));
   const double k = wavenumber(10e9), step = 0.05, length = 0.25, width = 0.15;
   for (const double elevation : {0.0, 2.0, 35.0}) {
@@ -137,7 +137,7 @@ TEST(PlateEdges, HasNoSpikesInASweepAllTheWayRound) {
 // VV is the echo of a half-plane's edge of this length, width / 2 pi, and the contribution of the rear edge. Each order
 // of diffraction has that magnitude. For a direction exactly in the sheet the look direction is perturbed a little,
 // whatever the sheet's orientation about the line of sight.
-TEST(PlateEdges, EdgeOnIsSeenHoweverItIsTurned) {
+TEST(PlateEdges, EdgeOnEchoIsContinuousForAnyOrientation) {
   const double k = wavenumber(10e9);
   for (const double turned_deg : {0.0, 20.0, 45.0, 90.0, 135.0, 160.0}) {
     const Mat3 turn = Eigen::AngleAxisd(radians(turned_deg), Vec3::UnitX()).toRotationMatrix();
@@ -152,7 +152,7 @@ TEST(PlateEdges, EdgeOnIsSeenHoweverItIsTurned) {
 
 // A sheet in the line of sight scatters however small it is compared with the radius of the body: far from the origin
 // as at the origin, but for the phase.
-TEST(PlateEdges, EdgeOnAnswersWhereverItIs) {
+TEST(PlateEdges, EdgeOnEchoIndependentOfPosition) {
   const double k = wavenumber(10e9);
   const Mat3 flat = Eigen::AngleAxisd(kPi / 2, Vec3::UnitY()).toRotationMatrix();
   for (const double elevation_deg : {0.0, 5e-4}) {
@@ -171,7 +171,7 @@ TEST(PlateEdges, EdgeOnAnswersWhereverItIs) {
   }
 }
 
-TEST(PlateEdges, EdgeOnAnswersOnlyTheFieldAlongItsRim) {
+TEST(PlateEdges, EdgeOnEchoOnlyForEAlongTheEdge) {
   const double width = 0.15, rim = width / (2 * kPi);
   const Scatterer plate(make_plate(0.25, width));
   for (const double off_deg : {1.0, 0.1, 0.01, 0.001, 0.0, -0.1}) {
@@ -201,7 +201,7 @@ TriangleMesh box() {
 // In the plane of a face multiple diffraction has a pole whose product with the transition function has a limit: the
 // edges' contribution there differs by at most half of the longest edge's contribution from that at 0.01 deg off, where
 // it still varies.
-TEST(EdgeDiffraction, HaveALimitInThePlaneOfAFace) {
+TEST(EdgeDiffraction, HasALimitInThePlaneOfAFace) {
   const Scatterer target(box());
   const double k = wavenumber(10e9), one_edge = 0.4 / (2 * kPi);
   const auto edge_part = [&](double azimuth, double elevation) {
@@ -221,7 +221,7 @@ TEST(EdgeDiffraction, HaveALimitInThePlaneOfAFace) {
   }
 }
 
-TEST(EdgeDiffraction, OfTheShipAreFiniteInThePlanesOfItsFaces) {
+TEST(EdgeDiffraction, OfTheShipIsFiniteInThePlanesOfItsFaces) {
   const Scatterer ship(read_mesh(SEAGLINT_SOURCE_DIR "/assets/combatant_144m.glb"));
   for (const double elevation : {0.0, 2.0}) {
     for (const double azimuth : {0.0, 45.0, 90.0, 180.0}) {

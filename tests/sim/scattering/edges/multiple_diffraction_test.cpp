@@ -25,7 +25,7 @@ using namespace testing_echoes;
 
 constexpr Complex j(0, 1);
 
-TEST(TransitionFunction, FollowsItsIntegral) {
+TEST(TransitionFunction, EqualsItsIntegral) {
   for (const double x : {0.01, 0.3, 1.0, 5.5, 11.9, 16.9, 17.1, 40.0}) {
     // 2j sqrt(x) e^{jx} integral; t = sqrt(x) + u e^{-j pi/4} transforms the oscillation into decay.
     Complex integral = 0;
@@ -133,7 +133,7 @@ TriangleMesh extruded(const std::vector<Vec2>& profile, double width) {
 
 // Kouyoumjian and Pathak (1974): on the cone that both rays lie on, at angle b to the edge, L = l sin^2 b and the sine
 // squared of half the angle about the edge.
-TEST(TransitionFunction, CountsTheAngleAboutTheEdgeOnKellersCone) {
+TEST(TransitionFunction, HasTheAngleAboutTheEdgeOnKellersCone) {
   for (const double b : {1.5, 0.6, 0.05}) {
     for (const double about : {3.0, 0.4, 1e-4}) {
       const auto ray = [&](double angle) {
@@ -186,7 +186,7 @@ EdgeWaveSum edge_wave_sum(const TriangleMesh& mesh, const BistaticGeometry& geom
 // Image theory: a wave that an upright wall reflects is diffracted at the edges' images, received along the image
 // direction with the image of the polarisation, whose sign a conductor changes: p' = -(p - 2 (n.p) n). The elevation is
 // high enough that no taper applies (fringe_forward_taper).
-TEST(MultipleDiffraction, OffAnUprightWallIsThatOfTheImage) {
+TEST(MultipleDiffraction, AtAnUprightWallIsThatOfTheImage) {
   const double length = 0.31, width = 0.22, k = wavenumber(10e9);
   const TriangleMesh twice = extruded({{length, 0}, {0, 0}, {-length, 0}, {-length, -0.1}, {length, -0.1}}, width);
   const TriangleMesh corner =
@@ -209,7 +209,7 @@ TEST(MultipleDiffraction, OffAnUprightWallIsThatOfTheImage) {
 // A horizontal sheet, near grazing and nearly along its sides, where waves are incident on edges at small angles. S_hv
 // = S_vh at every elevation; in the sheet's plane both vanish by mirror symmetry: multiple diffraction cancels the
 // cross-polar single diffraction.
-TEST(MultipleDiffraction, OfAGrazedSheetAreReciprocalAndKeepItsMirrorSymmetry) {
+TEST(MultipleDiffraction, OfAGrazingSheetIsReciprocalAndMirrorSymmetric) {
   const double length = 0.3, width = 0.2, k = wavenumber(10e9), rim = length / (2 * kPi);
   const Mat3 lie_down = Eigen::AngleAxisd(kPi / 2, Vec3::UnitY()).toRotationMatrix();
   const Scatterer sheet(transformed(make_plate(width, length), lie_down, Vec3::Zero()));
@@ -294,7 +294,7 @@ TEST(MultipleDiffraction, SendNothingAcrossASheetIntoItsPlane) {
 }
 
 // Only paths below the required amplitude are dropped before their current is known, and these are more than half.
-TEST(MultipleDiffraction, LeaveOutOnlyWhatIsFaint) {
+TEST(MultipleDiffraction, DropsOnlyWeakPaths) {
   const double k = wavenumber(10e9), min_amplitude = 1e-4;
   const Scatterer corner(stepped_corner());
   std::size_t all = 0, kept = 0;
@@ -322,7 +322,7 @@ TEST(MultipleDiffraction, LeaveOutOnlyWhatIsFaint) {
 
 // Short runs of edges launch no grazing waves, and triple and quadruple diffraction needs a long run. The contribution
 // of the dropped paths is below a tenth of the -30 dB that an interval's error may reach, though they are the majority.
-TEST(MultipleDiffraction, OfShortRunsAreFaintOnTheShip) {
+TEST(MultipleDiffraction, OfShortRunsIsNegligibleOnTheShip) {
   const Scatterer ship(read_mesh(SEAGLINT_SOURCE_DIR "/assets/combatant_144m.glb"));
   const double k = wavenumber(16e9);
   const TracingSettings settings{0, 2, true};
@@ -356,7 +356,7 @@ TEST(MultipleDiffraction, OfShortRunsAreFaintOnTheShip) {
 }
 
 // Away from the principal planes, where each edge scatters from its end points only.
-TEST(MultipleDiffraction, DoNotDependOnHowTheirFaceIsCut) {
+TEST(MultipleDiffraction, DoNotDependOnTriangulation) {
   const double k = wavenumber(10e9);
   const Scatterer whole(make_plate(0.25, 0.125)), cut(cut_plate(0.25, 0.125, 16));
   double difference = 0, power = 0;

@@ -45,7 +45,7 @@ std::array<double, 2> answer(const DihedralEdge& rim) {
 
 // Keller's 1 / (2 sin a) less tan(a) / 2 of the other arm's end-point contribution, over 2 pi; soft and hard
 // coefficients have opposite signs, as a dihedral's echoes do.
-TEST(ReflectedEdge, OfADihedralIsKellersCoefficientLessTheEndOnTheOtherArm) {
+TEST(ReflectedEdge, OfADihedralIsKellersCoefficientLessTheOtherArmsEndPoint) {
   // the sign of the edge of the last reflector, below
   const double sign = std::copysign(1.0, answer(dihedral_edge(radians(45)))[0]);
   for (const double above_deg : {10.0, 20.0, 33.0, 45.0, 60.0}) {
@@ -59,7 +59,7 @@ TEST(ReflectedEdge, OfADihedralIsKellersCoefficientLessTheEndOnTheOtherArm) {
 }
 
 // On a dihedral's axis both arms are equivalent, and so are the bounding edges of the first and the last reflector.
-TEST(ReflectedEdge, OnADihedralsAxisIsWhatItIsOfTheLastMirror) {
+TEST(ReflectedEdge, OnADihedralsAxisEqualsThatOfTheLastReflector) {
   const DihedralEdge first = dihedral_edge(radians(45));
   const auto currents =
       equivalent_edge_currents(first.wedge, first.out.direction, {first.out.E_h, first.out.E_v}, -first.in.direction);
@@ -68,7 +68,7 @@ TEST(ReflectedEdge, OnADihedralsAxisIsWhatItIsOfTheLastMirror) {
   EXPECT_NEAR(first.in.E_v.dot(currents[1]), soft, 1e-6);
 }
 
-TEST(ReflectedEdge, HasNoOtherEndWhereItsFaceIsTheLastMirror) {
+TEST(ReflectedEdge, NeedsNoCorrectionOnTheLastReflector) {
   const DihedralEdge rim = dihedral_edge(radians(30));
   for (const double end : endpoint_correction(rim.wedge.face[0], rim.out, rim.in)) EXPECT_EQ(end, 0);
 }
@@ -76,7 +76,7 @@ TEST(ReflectedEdge, HasNoOtherEndWhereItsFaceIsTheLastMirror) {
 // At an angle b about the edge off the specular direction: Keller's coefficients of a half-plane less the end-point
 // contribution of physical optics on the other arm, whose currents are proportional to the cosine of incidence (soft)
 // or of the exit direction (hard).
-TEST(ReflectedEdge, LacksTheEndOnTheOtherArmOffTheDirectionOfReflectionToo) {
+TEST(ReflectedEdge, ExcludesTheOtherArmsEndPointOffTheSpecularDirection) {
   for (const double above_deg : {20.0, 45.0, 60.0}) {
     const double above = radians(above_deg), sign = std::copysign(1.0, answer(dihedral_edge(radians(45)))[0]);
     for (const double beside : {-0.15, -0.002, 0.002, 0.05, 0.3}) {
@@ -106,7 +106,7 @@ TEST(ReflectedEdge, EqualsKellerFieldWithoutReflectedBeam) {
   EXPECT_NEAR(std::abs(hard), std::abs(1 + 1 / std::cos(radians(50))) / (4 * kPi), 1e-9);
 }
 
-TEST(ReflectedEdge, IsToldFromTheBeam) {
+TEST(ReflectedEdge, WeightsVanishWhereNotSeparableFromTheBeam) {
   const auto share = [](double above, double beside, int mirrors = 1) {
     DihedralEdge rim = dihedral_edge(above, beside);
     rim.out.reflections = static_cast<std::uint8_t>(mirrors);

@@ -95,7 +95,7 @@ Answer integral(double sine, double k) {
 
 // Soft up to 2 deg above the floor, where reflected-edge contributions begin, and to 15 deg below; hard to 2 deg on
 // either side, where multiple diffraction begins.
-TEST(WallPenumbra, IsWhatPhysicalOpticsLacksOfTheHalfPlanesField) {
+TEST(WallPenumbra, EqualsHalfPlaneFieldLessPhysicalOptics) {
   // soft, at grazing: 2 (l / pi k)^(1/2) k / 2 pi
   const double k = wavenumber(10e9), all = std::sqrt(k * kWay / kPi) / kPi;
   for (const double sine :
@@ -121,7 +121,7 @@ TEST(WallPenumbra, LowersEffectiveWallHeightAtGrazing) {
 }
 
 // The penumbra is (2 l / k)^(1/2) = 0.44 m high.
-TEST(WallPenumbra, NeedsAWallThatIsHigherThanIt) {
+TEST(WallPenumbra, NeedsAWallHigherThanThePenumbra) {
   const double k = wavenumber(10e9);
   const auto in_grazing = [&](double height) { return std::abs(closed_form(0, k, height).soft); };
   EXPECT_EQ(in_grazing(0.25), 0);
@@ -130,7 +130,7 @@ TEST(WallPenumbra, NeedsAWallThatIsHigherThanIt) {
 
 // The contribution belongs to the parts of wall and floor, so that a filter by part includes it correctly, and a cavity
 // can replace it.
-TEST(WallPenumbra, IsTheWallsAndItsFloors) {
+TEST(WallPenumbra, BelongsToTheWallAndItsFloor) {
   TriangleMesh corner = make_square_trihedral(0.4);
   for (std::size_t i = 0; i < corner.triangles.size(); ++i) corner.triangle_part[i] = static_cast<std::uint16_t>(i / 2);
   corner.part_names = {"one", "two", "three"};

@@ -41,7 +41,7 @@ MaterialSpec library(const std::string& name) {
   return read_material(SEAGLINT_SOURCE_DIR "/assets/materials/" + name + ".yaml");
 }
 
-TEST(Material, PerfectConductorHasMinusOneAcrossAndPlusOneInThePlaneOfIncidence) {
+TEST(Material, PerfectConductorReflectsTeByMinusOneAndTmByPlusOne) {
   const InterfaceCoefficients fields = MaterialSurface(MaterialSpec{}, 300).at(0.3);
   EXPECT_EQ(fields.te, Complex(-1));
   EXPECT_EQ(fields.tm, Complex(1));
@@ -122,7 +122,7 @@ TEST(Material, SheetOfHalfAWaveIsTransparent) {
   EXPECT_NEAR(std::abs(fields.te_transmission), 1, kRounding);
 }
 
-TEST(Material, SheetOfVacuumIsNotThere) {
+TEST(Material, SheetOfVacuumIsTransparent) {
   for (const double cosine : {1.0, 0.6, 0.05}) {
     const InterfaceCoefficients fields =
         MaterialSurface(stack({layer(3, 1.0), layer(0.7, 1.0)}, Backing::kAir), 335).at(cosine);
@@ -173,7 +173,7 @@ TEST(Material, StacksFollowTheProductOfTheirCharacteristicMatrices) {
   }
 }
 
-TEST(Material, PassiveStacksGiveBackNoMoreThanTheyGet) {
+TEST(Material, PassiveStacksConserveEnergy) {
   Random random({3, Stream::kTest, 1});
   for (int trial = 0; trial < 2000; ++trial) {
     std::vector<LayerSpec> layers;
@@ -189,7 +189,7 @@ TEST(Material, PassiveStacksGiveBackNoMoreThanTheyGet) {
   }
 }
 
-TEST(Material, LosslessSheetsKeepAllEnergyAndPassTheSameFromEitherSide) {
+TEST(Material, LosslessSheetsConserveEnergyAndAreReciprocal) {
   const std::vector<LayerSpec> layers{layer(1.2, 2.2), layer(0.4, 9.0, 1.5), layer(3.1, 4.0)};
   const std::vector<LayerSpec> reversed(layers.rbegin(), layers.rend());
   for (const double cosine : {1.0, 0.7, 0.1}) {
@@ -218,7 +218,7 @@ TEST(Material, DenseMediumTendsToItsLeontovichImpedance) {
   }
 }
 
-TEST(Material, RoughnessTakesItsShareOfTheCoherentField) {
+TEST(Material, RoughnessReducesTheCoherentField) {
   MaterialSpec rough;
   rough.roughness_mm = 1.5;
   const double k = 335, cosine = 0.4;
@@ -278,13 +278,13 @@ TEST(SeaWater, TwoPublishedModelsAgreeWithinTheirMeasurements) {
 // Sensing (2014), sec. 4-2, at 10 GHz, 9.85 deg C, 10 psu, as printed in the documentation of the package CanopyOptics:
 // 51.79 - j 38.32; Boutin et al., IEEE Trans. Geosci. Remote Sens. 59 (2021), at 1.4 GHz, 5 deg C, 33 psu, as in the
 // tests of the package SMRT: 76.408 - j 50.057.
-TEST(SeaWater, MeetsPrintedValuesOfOtherModels) {
+TEST(SeaWater, MatchesPrintedValuesOfOtherModels) {
   const Complex ulaby_long(51.7925, -38.3230), boutin(76.4080, -50.0570);
   EXPECT_LT(std::abs(sea_water_permittivity(10e9, 9.85, 10) - ulaby_long), 0.015 * std::abs(ulaby_long));
   EXPECT_LT(std::abs(sea_water_permittivity(1.4e9, 5, 33) - boutin), 0.015 * std::abs(boutin));
 }
 
-TEST(SeaWater, ConductsAsTheStandardSeaWaterOfOceanographyDoes) {
+TEST(SeaWater, HasTheConductivityOfStandardSeaWater) {
   // Practical salinity scale 1978: S = 35 at 15 deg C and one atmosphere has 4.2914 S/m.
   EXPECT_NEAR(sea_water_conductivity(15, 35), 4.2914, 0.002);
   // S/m at 20 deg C by the scale's r_t = 1.1165: 4.2914 * 1.1165

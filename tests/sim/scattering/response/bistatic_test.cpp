@@ -28,7 +28,7 @@ std::array<Complex, 4> bistatic_echo(const Scatterer& scatterer, const Vec3& r_t
 
 // In the specular direction the whole plate radiates in phase: |S| = A cos(theta) / lambda. Geometrical optics reflects
 // v as v and h as -h, which is the h of the other side.
-TEST(Bistatic, PlateMirrorsTheWaveIntoTheSpecularDirection) {
+TEST(Bistatic, PlateReflectsIntoTheSpecularDirection) {
   const Scatterer target(plate(0.3, 0.2));
   const double lambda = kSpeedOfLight / kF;
   for (const double theta : {5.0, 30.0, 60.0, 80.0}) {
@@ -69,7 +69,7 @@ TEST(Bistatic, EqualDirectionsAreTheMonostaticEcho) {
   for (int i = 0; i < 4; ++i) EXPECT_NEAR(std::abs(one[i] - two[i]), 0, 1e-5);
 }
 
-TEST(Bistatic, MovingTheTargetTurnsThePhaseByBothPaths) {
+TEST(Bistatic, TranslationChangesThePhaseByBothPaths) {
   TriangleMesh mesh = make_icosahedral_reflector();
   const Vec3 r_t = direction(33, 7), r_s = direction(52, -4), shift(0.7, -1.1, 0.4);
   const auto before = bistatic_echo(Scatterer(mesh), r_t, r_s);
@@ -83,7 +83,7 @@ TEST(Bistatic, MovingTheTargetTurnsThePhaseByBothPaths) {
 
 // A right-angled dihedral reflects a wave from any direction of its cross-section back towards its source, and
 // specularly along its seam.
-TEST(Bistatic, DihedralMirrorsAlongItsSeam) {
+TEST(Bistatic, DihedralIsSpecularAlongItsSeam) {
   const double side = 0.3, k = wavenumber(kF);
   TriangleMesh mesh;  // faces in x = 0 and y = 0, seam along z
   mesh.vertices = {{0, 0, -side / 2}, {side, 0, -side / 2}, {side, 0, side / 2},

@@ -68,7 +68,7 @@ double error_against_fresh_traces(const Scatterer& scatterer, const Trajectory& 
   return 10 * std::log10(error / power);
 }
 
-TEST(Contributions, SumToTheClosedFormWhereTheyWereMade) {
+TEST(Contributions, SumToTheClosedFormAtTheTracedAspect) {
   const Scatterer reflector(make_icosahedral_reflector());
   const RadarBasis basis = radar_basis(direction(67, 2));
   const Illumination illumination(reflector, monostatic(basis), {1.4e-3, 8});
@@ -128,7 +128,7 @@ TEST(ResponseGrid, EqualsTheDirectSumOfTheSamePoints) { EXPECT_LT(error_of_grid(
 
 // Cross-track a series of one to five terms: the first truncated one is at most 3 % for the fastest point at the
 // farthest instant, and the mean square over speeds |v| uniform up to the fastest is 1 / (2 p + 1) of its square.
-TEST(ResponseGrid, FollowsAPathThatBends) {
+TEST(ResponseGrid, MatchesTheDirectSumOnACurvedPath) {
   const double k = wavenumber(16.1875e9);
   for (const double phase : {0.02, 0.1, 0.24, 0.5, 0.9, kMaxCrossTrackPhase}) {
     const double error = error_of_grid(phase / (k * 40));
@@ -155,7 +155,7 @@ TEST(IntervalResponse, OfABodyAtRestEqualsItsScatteringMatrix) {
   }
 }
 
-TEST(IntervalResponse, OfATiltingReflectorEqualsFreshTraces) {
+TEST(IntervalResponse, OfATiltingReflectorMatchesIndependentTraces) {
   const Scatterer reflector(make_icosahedral_reflector());
   double sum = 0, worst = -1000;
   int count = 0;
@@ -174,7 +174,7 @@ TEST(IntervalResponse, OfATiltingReflectorEqualsFreshTraces) {
 }
 
 // Off the point to which the radar's range refers, and drifting astern.
-TEST(IntervalResponse, OfAFloatBesideTheReferencePointAtAFiniteRangeEqualsFreshTraces) {
+TEST(IntervalResponse, FloatAtFiniteRangeMatchesIndependentTraces) {
   const Scatterer reflector(make_icosahedral_reflector());
   SolverSpec solver;
   solver.wavefront_range_m = 1000;
@@ -189,7 +189,7 @@ TEST(IntervalResponse, OfAFloatBesideTheReferencePointAtAFiniteRangeEqualsFreshT
   }
 }
 
-TEST(IntervalResponse, OfTheRollingShipEqualsFreshTraces) {
+TEST(IntervalResponse, OfTheRollingShipMatchesIndependentTraces) {
   const Scatterer ship(read_mesh(SEAGLINT_SOURCE_DIR "/assets/combatant_144m.glb"));
   // Hs 2 m, Tp 8 s: rates of 0.8, 0.6 and 0.3 deg/s, about one RMS each.
   for (const double azimuth : {10.0, 50.0, 80.0, 130.0}) {
@@ -204,7 +204,7 @@ TEST(IntervalResponse, OfTheRollingShipEqualsFreshTraces) {
 // Required accuracy: the ship rotating by 0.1 deg in the interval to -30 dB and the reflector by 2 deg to -40 dB, over
 // random directions, in the median and in 95 of 100. Sixty-four milliseconds of 27 mrad/s and of 0.55 rad/s about an
 // oblique axis.
-TEST(IntervalResponse, FollowsFreshTracesInRandomDirections) {
+TEST(IntervalResponse, MatchesIndependentTracesInRandomDirections) {
   const auto study = [](const char* name, const Scatterer& scatterer, const Vec3& rates, const Vec3& centre,
                         double max_elevation_deg, int directions, int spots) {
     Random random({13, Stream::kTest, 0});
@@ -231,7 +231,7 @@ TEST(IntervalResponse, FollowsFreshTracesInRandomDirections) {
   EXPECT_LT(ship_worst, -30);  // the maximum of so few directions
 }
 
-TEST(IntervalResponse, OfABodyInFreeFallTurnsPhaseWithItsOrigin) {
+TEST(IntervalResponse, OfATranslatedBodyHasThePhaseOfItsOrigin) {
   // Translation only: the phase of e^{j 2k r^.p(t)}.
   std::vector<MotionSample> samples(11);
   for (std::size_t i = 0; i < samples.size(); ++i) {

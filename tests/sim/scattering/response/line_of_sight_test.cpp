@@ -43,7 +43,7 @@ IntervalSampling only_pulse(const IntervalSampling& sampling, int pulse) {
   return one;
 }
 
-TEST(MovingRadar, PointsChangeTheirRangeAsTheWayDemands) {
+TEST(MovingRadar, PointsHaveTheRangeOfTheRadarsPath) {
   const IntervalSampling sampling = interval();
   const Vec3 r_hat = direction_to_radar(radians(30), radians(3));
   const Vec3 x(25, -40, 12);
@@ -108,7 +108,7 @@ Vec3 direction_at(const IntervalSampling& sampling, const Vec3& r_hat, std::size
 // Waves that halve the specular reflection.
 SeaReflection rough_water() { return SeaReflection(SeaReflectionSpec{}, 0.1); }
 
-TEST(MovingRadar, PointsOverTheSeaAnswerFourWaysFromWhereItIs) {
+TEST(MovingRadar, PointsOverTheSeaHaveFourPathsPerPulseDirection) {
   const Vec3 r_hat = direction_to_radar(radians(10), radians(5)), x(25, -40, 12), v(3, -2, 1);
   const PointSpec point{{x.x(), x.y(), x.z()}, 1, {v.x(), v.y(), v.z()}};
   const SeaReflection sea = rough_water();
@@ -135,7 +135,7 @@ TEST(MovingRadar, PointsOverTheSeaAnswerFourWaysFromWhereItIs) {
   }
 }
 
-TEST(MovingRadar, BodiesOverTheSeaAnswerAsFromTheDirectionsOfItsWay) {
+TEST(MovingRadar, BodyResponseOverTheSeaMatchesPerPulseDirections) {
   const Scatterer scatterer(make_icosahedral_reflector(1.0));
   // With a small rotation and heave, off the reference point.
   MotionSample first, last;

@@ -21,7 +21,7 @@ std::vector<Vec3> curved_path(const RadarBasis& basis, double reach, double c) {
   return way;
 }
 
-TEST(LookDirectionPath, OfOneAntennaIsAlongTheChordAndBesideIt) {
+TEST(LookDirectionPath, MonostaticHasAlongTrackAndCrossTrackAxes) {
   const RadarBasis basis = radar_basis(Vec3(0.6, -0.7, 0.2).normalized());
   const double reach = 1e-3, c = 20;
   const LookDirectionPath path =
@@ -47,7 +47,7 @@ TEST(LookDirectionPath, OfOneAntennaIsAlongTheChordAndBesideIt) {
   }
 }
 
-TEST(LookDirectionPath, OfTwoAntennasKeepsWhatBothDoTogether) {
+TEST(LookDirectionPath, BistaticContainsTheCommonMotion) {
   const RadarBasis to = radar_basis(Vec3(0.9, 0.1, 0.3).normalized()),
                    from = radar_basis(Vec3(0.8, -0.4, -0.3).normalized());
   const double reach = 1e-3;
@@ -65,7 +65,7 @@ TEST(LookDirectionPath, OfTwoAntennasKeepsWhatBothDoTogether) {
   }
 }
 
-TEST(LookDirectionPath, OfABodyAtRestHasATrackAndNoBend) {
+TEST(LookDirectionPath, OfABodyAtRestHasNoCrossTrack) {
   const RadarBasis basis = radar_basis(Vec3(0, 0, 1));
   const std::vector<Vec3> still(5, basis.r);
   const LookDirectionPath path = look_direction_path(still, still, basis.r, basis.r);
@@ -75,7 +75,7 @@ TEST(LookDirectionPath, OfABodyAtRestHasATrackAndNoBend) {
   EXPECT_EQ(path.max_change, 0);
 }
 
-TEST(Footprint, SlowsACornerThatSlipsFasterThanAShadow) {
+TEST(Footprint, LimitsTheSlideRateOfAVertex) {
   const RadarBasis basis = radar_basis(Vec3(1, 0, 0));
   Footprint footprint;
   footprint.plane = depth_plane(Vec3(0.8, 0.6, 0), 3, basis);

@@ -66,7 +66,7 @@ TEST(WavefrontCurvature, CurvedBodyOnTheLineOfSightKeepsItsEcho) {
 }
 
 // A shadow edge on the axis has no second order, however fast it slides over the plate on which it falls.
-TEST(WavefrontCurvature, SlipOfAShadowEdgeIsNoPlace) {
+TEST(WavefrontCurvature, SlideOfAShadowEdgeHasNoSecondOrder) {
   const double k = wavenumber(3e9);
   const Mat3 tilt = Eigen::AngleAxisd(radians(50), Vec3::UnitY()).toRotationMatrix();
   TriangleMesh mesh = transformed(make_plate(2, 2), tilt, Vec3::Zero());
@@ -86,7 +86,7 @@ TEST(WavefrontCurvature, SlipOfAShadowEdgeIsNoPlace) {
   EXPECT_LT(std::abs(near - far), 0.02 * std::abs(far));
 }
 
-TEST(WavefrontCurvature, FarAwayIsTheFarField) {
+TEST(WavefrontCurvature, AtLongRangeIsTheFarField) {
   const double k = wavenumber(16e9);
   const Vec3 r = direction(20, 10);
   const Complex far = echo(make_icosahedral_reflector(), r, k)[kVvChannel];
@@ -112,7 +112,7 @@ TEST(WavefrontCurvature, TrihedralKeepsThePathOfItsApex) {
 }
 
 // A float of a layout has its own origin, whereas the radar's range refers to that of the layout.
-TEST(WavefrontCurvature, PlateBesideTheReferencePointIsTheSumOfItsPointDistances) {
+TEST(WavefrontCurvature, PlateOffTheReferencePointIsTheSumOfItsPointDistances) {
   const double length = 2, width = 0.8, range_m = 1000;
   const Vec3 rest(5, 60, 0.75);
   const Scatterer plate(make_plate(length, width));
@@ -143,7 +143,7 @@ TEST(WavefrontCurvature, PlateBesideTheReferencePointIsTheSumOfItsPointDistances
   }
 }
 
-TEST(WavefrontCurvature, RefusesARadarInsideTheTargetOrBesideIt) {
+TEST(WavefrontCurvature, RefusesARadarInsideOrNearTheTarget) {
   EXPECT_THROW(at_range(make_plate(2, 1), Vec3::UnitX(), 200, 0.5), InputError);
   EXPECT_THROW(at_range(make_plate(2, 1), Vec3::UnitX(), 200, 10), InputError);
 }

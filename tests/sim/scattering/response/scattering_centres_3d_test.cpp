@@ -39,7 +39,7 @@ class AspectDecomposition : public testing::Test {
 // Rounding of phases of some 1e4 rad over some 1e4 terms, whose sizes add to a few thousand times their sum.
 constexpr double kRounding = 1e-7;
 
-TEST_F(AspectDecomposition, ItsCentresAndItsFacetsBothSumToTheScatteringMatrix) {
+TEST_F(AspectDecomposition, CentresAndFacetsBothSumToTheScatteringMatrix) {
   const auto all = contributions();
   const auto s = matrix(k16);
   std::array<Complex, 4> by_centre{}, by_facet{};
@@ -54,7 +54,7 @@ TEST_F(AspectDecomposition, ItsCentresAndItsFacetsBothSumToTheScatteringMatrix) 
 }
 
 // The bound that the header states, and the ratio of the actual error to it.
-TEST_F(AspectDecomposition, CentresErrByNoMoreThanTheirCellsAllowOffTheView) {
+TEST_F(AspectDecomposition, ErrorOffTheAspectIsBoundedByTheCellSize) {
   const auto all = contributions();
   const Vec3 turn = 2e-4 * radar_.h - 1e-4 * radar_.v;
   const double dk = wavenumber(100e6), k = k16 + dk;
@@ -86,7 +86,7 @@ TEST_F(AspectDecomposition, CentresErrByNoMoreThanTheirCellsAllowOffTheView) {
   EXPECT_LT(20 * std::log10(coarser / size(exact)), -40);
 }
 
-TEST_F(AspectDecomposition, OfOneSelectionAndTheRestSumToAll) {
+TEST_F(AspectDecomposition, SelectionAndComplementSumToAll) {
   TracingSettings only, rest, several;
   only.filter.included = {{ContributionSelector::Kind::kBounces, 3}};
   rest.filter.excluded = {{ContributionSelector::Kind::kBounces, 3}};
@@ -112,7 +112,7 @@ TEST_F(AspectDecomposition, OfOneSelectionAndTheRestSumToAll) {
 }
 
 // A trihedral's three-bounce echo has its phase centre at the apex, wherever the radar is (Fermat).
-TEST(ScatteringCentres3d, OfATrihedralsThreeBouncesLieAtItsApex) {
+TEST(ScatteringCentres3d, OfATrihedralsThreeBouncesAreAtItsApex) {
   const Scatterer corner(transformed(make_triangular_trihedral(0.3), Mat3::Identity(), Vec3(1, 2, 0.5)));
   TracingSettings settings;
   settings.filter.included = {{ContributionSelector::Kind::kBounces, 3}};
@@ -125,7 +125,7 @@ TEST(ScatteringCentres3d, OfATrihedralsThreeBouncesLieAtItsApex) {
   EXPECT_EQ(centres.front().bounces, 3);
 }
 
-TEST(ContributionFilter, KeepsTheRimWhicheverPartComesFirst) {
+TEST(ContributionFilter, IncludesTheRimForAnyOrderOfParts) {
   ContributionFilter filter;
   filter.cavities = {1};
   EXPECT_FALSE(filter.accepts(1, 1, Mechanism::kPhysicalOptics));

@@ -39,7 +39,7 @@ double largest(const std::array<Complex, 4>& s) {
 
 // A sphere 10 m ahead of the origin and 10 m up, the radar some km from the water below the origin: the sum over the
 // four paths by their lengths.
-TEST(SeaReflection, CountsTheRangeFromTheWaterBelow) {
+TEST(SeaReflection, RefersTheRangeToTheWaterBelow) {
   const double k = wavenumber(10e9), radius = 0.1, height = 10, el = radians(5);
   const Vec3 r = direction(0, 5);
   const Scatterer sphere(transformed(make_sphere(radius, 4), Mat3::Identity(), {10, 0, 0}));
@@ -70,7 +70,7 @@ TEST(SeaReflection, CountsTheRangeFromTheWaterBelow) {
   }
 }
 
-TEST(SeaReflection, SeaWaterIsAFresnelMirrorWithAPseudoBrewsterAngle) {
+TEST(SeaReflection, SeaWaterHasFresnelsCoefficientsAndAPseudoBrewsterAngle) {
   const SeaReflection sea(SeaReflectionSpec{}, 0);
   // Fresnel's formulas for the permittivity itself (Born and Wolf, 1.5.2, eqs. 21 and 21a).
   const Complex index = std::sqrt(sea_water_permittivity(16e9, 20, 35));
@@ -95,7 +95,7 @@ TEST(SeaReflection, SeaWaterIsAFresnelMirrorWithAPseudoBrewsterAngle) {
 
 // A small sphere at height H: all four echoes are S0 = -(a/2) e^{j2ka}-like, the bistatic ones (by 2 el) nearly so.
 // Then S = S0 (1 + rho e^{-j 2 k H sin el})^2 about the sphere.
-TEST(SeaReflection, SphereAboveItShowsTheFourPathInterference) {
+TEST(SeaReflection, SphereAboveTheSeaHasFourPathInterference) {
   const double radius = 0.05, el = radians(1.2), k = wavenumber(10e9);
   const Scatterer sphere(make_sphere(radius, 4));
   const auto alone = echo(sphere, radar_basis(direction(15, 1.2)), k, 7e-5);
@@ -123,7 +123,7 @@ TEST(SeaReflection, SphereAboveItShowsTheFourPathInterference) {
       12.04, 0.2);
 }
 
-TEST(SeaReflection, RoughnessTakesTheInterferenceAway) {
+TEST(SeaReflection, RoughnessRemovesTheInterference) {
   const double k = k16, el = radians(2);
   const Scatterer sphere(make_sphere(0.05, 4));
   const double height = kPi / (2 * k * std::sin(el));  // peak of hh over a smooth sea
@@ -145,7 +145,7 @@ TEST(SeaReflection, RoughnessTakesTheInterferenceAway) {
 // A vertical plate on a conducting sea is, by image theory, a plate of twice the height illuminated by the radar and
 // its image (odd for h, even for v): S_pp = S2(r, r) + rho_p S2(r', r) with S2 of the doubled plate; S2(r', r) is its
 // specular reflection, 2 A cos(el) / lambda: the dihedral's echo.
-TEST(SeaReflection, PlateStandingOnAConductingSeaIsADihedral) {
+TEST(SeaReflection, PlateOnAConductingSeaIsADihedral) {
   const double width = 0.3, height = 0.2;
   const auto standing = [&](double from, double to) {
     TriangleMesh mesh = make_plate(width, to - from);
@@ -170,7 +170,7 @@ TEST(SeaReflection, PlateStandingOnAConductingSeaIsADihedral) {
 
 // The same as a mesh: a large conducting floor under the plate, with the solver's own two bounces. The difference is
 // due to the floor's finite size.
-TEST(SeaReflection, PlateOnAFloorOfTheSolversOwnAnswersAlike) {
+TEST(SeaReflection, PlateOnAMeshedFloorHasTheSameEcho) {
   const double width = 0.3, height = 0.2, elevation = 30;
   TriangleMesh plate = make_plate(width, height);
   for (Vec3& x : plate.vertices) x.z() += 0.5 * height;
@@ -195,7 +195,7 @@ TEST(SeaReflection, PlateOnAFloorOfTheSolversOwnAnswersAlike) {
   }
 }
 
-TEST(SeaReflection, AFloatingBodyIsItsDryPartAlone) {
+TEST(SeaReflection, AFloatingBodyIsItsDryPart) {
   // An upright cylinder submerged to its middle: broadside half of it scatters, from above all of its top, from below
   // nothing, and the inside is not visible to the image.
   const TriangleMesh whole = make_cylinder(0.4, 0.6, 90);
@@ -227,7 +227,7 @@ TEST(SeaReflection, MatrixIsTheSumOfItsDirectAndMultipathParts) {
   for (int i = 0; i < 4; ++i) EXPECT_LT(std::abs(a[i] - d[i] - m[i]), 1e-12);
 }
 
-TEST(SeaReflection, APointsResponseIsTheProductOfItsTwoWays) {
+TEST(SeaReflection, APointsResponseIsTheProductOfItsTwoPaths) {
   PointSpec point;
   point.position_m = {3, -2, 4.5};
   point.amplitude_m = 2;
@@ -297,7 +297,7 @@ Trajectory rocking(const Vec3& angle_rates, double heave_rate, const Vec3& rest)
   return Trajectory(0, 0.01, samples, rest, Vec3::Zero());
 }
 
-TEST(SeaReflection, ResponseOverAnIntervalFollowsFreshTraces) {
+TEST(SeaReflection, ResponseOverAnIntervalMatchesIndependentTraces) {
   const Scatterer reflector(make_icosahedral_reflector());
   const Trajectory trajectory = rocking({0.3, -0.2, 0.4}, 0.6, {12, 5, 0.75});
   const SeaReflection sea(SeaReflectionSpec{}, 0.1);
@@ -308,7 +308,7 @@ TEST(SeaReflection, ResponseOverAnIntervalFollowsFreshTraces) {
   }
 }
 
-TEST(SeaReflection, ShipsResponseOverAnIntervalFollowsFreshTraces) {
+TEST(SeaReflection, ShipsResponseOverAnIntervalMatchesIndependentTraces) {
   TriangleMesh mesh = read_mesh(SEAGLINT_SOURCE_DIR "/assets/combatant_144m.glb");
   std::vector<MaterialSpec> materials(mesh.materials.size());
   cut_at_sea_level(mesh, materials, 0);

@@ -41,7 +41,7 @@ void expect_shares_sum_to_one(const TracePlan& plan, int pulses) {
 }
 
 // From the positions, and along its own direction, which changes as the body drifts.
-TEST(TracePlan, OfABodyBesideANearRadarsReferencePoint) {
+TEST(TracePlan, HasTheDirectionsOfABodyOffTheReferencePoint) {
   const Vec3 r = direction(30, 2), rest(-40, 45, 3), velocity(0, 10, 0);
   const double range_m = 1000;
   const IntervalSampling sampling = paper_interval(0.2);
@@ -78,7 +78,7 @@ TEST(TracePlan, OfOnePulseIsOneTrace) {
   expect_shares_sum_to_one(plan, 1);
 }
 
-TEST(TracePlan, HasAsManyTracesAsTheTurnNeeds) {
+TEST(TracePlan, HasTheNumberOfTracesOfTheAspectChange) {
   // 64 ms of 2 pi 0.01 rad/s: 4.0 mrad.
   const double turn = 2 * kPi * 0.01 * 255 * 250e-6;
   for (const int count : {1, 2, 5}) {
@@ -88,7 +88,7 @@ TEST(TracePlan, HasAsManyTracesAsTheTurnNeeds) {
   }
 }
 
-TEST(TracePlan, HasMoreTracesWhereThePathBends) {
+TEST(TracePlan, HasMoreTracesForACurvedPath) {
   // A quarter of a circle in the interval.
   const double radius = 0.01;
   const Trajectory trajectory = circling(radius, 4 * 255 * 250e-6);

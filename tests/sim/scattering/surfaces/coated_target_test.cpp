@@ -70,7 +70,7 @@ TEST(CoatedTarget, ImpedanceOfZeroIsThePerfectConductorOnEveryPath) {
   for (int i = 0; i < 4; ++i) EXPECT_LT(std::abs(coated_echo[i] - metal_echo[i]), kRounding * largest(metal_echo));
 }
 
-TEST(CoatedTarget, MaterialsThatAreAllPerfectConductorChangeNoBit) {
+TEST(CoatedTarget, PerfectConductorsAsMaterialsChangeNoBit) {
   TriangleMesh mesh = make_icosahedral_reflector();
   const auto plain = echo(Scatterer(mesh), radar_basis(direction(20, 5)), k16);
   const auto named = echo(coated(mesh, MaterialSpec{}), radar_basis(direction(20, 5)), k16);
@@ -194,7 +194,7 @@ TEST(CoatedTarget, IntervalFollowsTheCoefficientsOfACurvedSurface) {
   }
 }
 
-TEST(CoatedTarget, TurningTargetAndRadarTogetherChangesNothing) {
+TEST(CoatedTarget, IsInvariantToCommonRotation) {
   const Mat3 turn = Eigen::AngleAxisd(1.1, Vec3(0.3, -1, 0.6).normalized()).toRotationMatrix();
   const MaterialSpec material = library("ram_loaded_epoxy");
   const RadarBasis basis = radar_basis(direction(41, 22));
@@ -219,7 +219,7 @@ TEST(CoatedTarget, RoughPlateLosesItsCoherentEcho) {
   EXPECT_LT(std::abs(s[kVvChannel] - loss * smooth[kVvChannel]), kRounding);
 }
 
-TEST(MaterialParts, GoToThePartsTheyName) {
+TEST(MaterialParts, AreAssignedByPartNames) {
   TriangleMesh mesh = make_plate(1, 1);
   mesh.append(make_sphere(1, 1));
   ASSERT_EQ(mesh.part_names.size(), 2u);

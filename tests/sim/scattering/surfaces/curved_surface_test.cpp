@@ -131,7 +131,7 @@ TEST(CurvedSurface, CylinderAtBroadsideFollowsTheExactSeries) {
 
 // Bistatic sphere of the Austin suite (problem set IA), D = 19.2 m, 0.32 GHz, incidence from phi 0, in the plane theta
 // = 90.
-TEST(CurvedSurface, BistaticSphereFollowsTheSeriesOverTheLitHalf) {
+TEST(CurvedSurface, BistaticSphereFollowsTheSeriesOverTheIlluminatedHalf) {
   const Scatterer sphere(make_sphere(9.6, 5));
   const RadarBasis transmit = radar_basis(direction(0, 0));
   for (const auto& [file, channel] :
@@ -203,7 +203,7 @@ TEST(CurvedSurface, TheShadowBoundaryDoesNotRadiate) {
 // A cylinder on a plate reflects a wave that is incident on either of them first and on the other next. Unfolded in the
 // plate, either path is the cylinder's specular flash at its full height: together |S| = (k / pi) L cos(el) R sqrt(pi /
 // (k R cos(el))), whatever the distance between them.
-TEST(CurvedSurface, CylinderOnAPlateReturnsTheTopHatsEcho) {
+TEST(CurvedSurface, CylinderOnAPlateHasTheTopHatsEcho) {
   const double radius = 0.5, height = 0.4, k = wavenumber(8e9), elevation = radians(40);
   const double expected =
       k / kPi * height * std::cos(elevation) * radius * std::sqrt(kPi / (k * radius * std::cos(elevation)));
@@ -234,7 +234,7 @@ TEST(CurvedSurface, CylinderOnAPlateReturnsTheTopHatsEcho) {
   }
 }
 
-TEST(SmoothSurface, LeavesSharpTargetsFlat) {
+TEST(SmoothSurface, KeepsSharpTargetsFlat) {
   EXPECT_EQ(Scatterer(make_icosahedral_reflector()).surface().curved_count(), 0u);
   EXPECT_EQ(Scatterer(make_plate(0.3, 0.2)).surface().curved_count(), 0u);
   EXPECT_EQ(Scatterer(make_square_trihedral(1)).surface().curved_count(), 0u);
@@ -242,7 +242,7 @@ TEST(SmoothSurface, LeavesSharpTargetsFlat) {
   EXPECT_EQ(Scatterer(make_cylinder(0.5, 1, 24)).surface().curved_count(), 48u) << "caps stay flat";
 }
 
-TEST(SmoothSurface, KnowsTheCurvatureOfASphereAndItsSagitta) {
+TEST(SmoothSurface, HasTheCurvatureAndSagittaOfASphere) {
   const double radius = 2;
   const Scatterer sphere(make_sphere(radius, 4));
   for (int f = 0; f < 5120; f += 97) {
@@ -261,7 +261,7 @@ TEST(SmoothSurface, KnowsTheCurvatureOfASphereAndItsSagitta) {
 
 // A box 1 m wide whose edges are rounded by strips of 5 deg and 9 mm: its faces may be curved by no more than the
 // strips are.
-TEST(SmoothSurface, KeepsALargeFaceFlatBesideAFillet) {
+TEST(SmoothSurface, KeepsALargeFaceFlatNextToAFillet) {
   const double radius = 0.1, half = 0.5;
   TriangleMesh mesh;
   const auto column = [&](double y, double x) {
@@ -286,7 +286,7 @@ TEST(SmoothSurface, KeepsALargeFaceFlatBesideAFillet) {
 
 // A cut of a facet by the solver is fixed to the body: one trace is valid over an aspect change, however far along the
 // line of sight the body is from its origin.
-TEST(CurvedSurface, HoldsOverATurnWhereverItStands) {
+TEST(CurvedSurface, IsValidOverAnAspectChangeAtAnyPosition) {
   const double k = wavenumber(10e9);
   for (const Vec3& place : {Vec3(0, 0, 0), Vec3(20, 0, 0), Vec3(0, 0, 20)}) {
     const Scatterer sphere(transformed(make_sphere(1, 4), Mat3::Identity(), place));

@@ -40,7 +40,7 @@ double difference(const TriangleMesh& a, const TriangleMesh& b) {
   return max / size;
 }
 
-TEST(DefectiveMesh, InsideOutEchoesAsTheSoundOneOnceRepaired) {
+TEST(DefectiveMesh, InsideOutHasTheEchoOfTheValidOneOnceRepaired) {
   const TriangleMesh sound = make_icosahedral_reflector();
   TriangleMesh inverted = sound;
   for (std::size_t t = 0; t < inverted.triangles.size(); ++t) flip(inverted, t);
@@ -48,7 +48,7 @@ TEST(DefectiveMesh, InsideOutEchoesAsTheSoundOneOnceRepaired) {
   EXPECT_LT(difference(sound, repair(inverted)), kRounding);
 }
 
-TEST(DefectiveMesh, OfMixedNormalsEchoesAsTheSoundOne) {
+TEST(DefectiveMesh, OfMixedNormalsHasTheEchoOfTheValidOne) {
   const TriangleMesh sound = make_icosahedral_reflector();
   TriangleMesh mixed = sound;
   for (std::size_t t = 0; t < mixed.triangles.size(); t += 3) flip(mixed, t);
@@ -56,7 +56,7 @@ TEST(DefectiveMesh, OfMixedNormalsEchoesAsTheSoundOne) {
   EXPECT_LT(difference(sound, repair(mixed)), 1e-6);
 }
 
-TEST(DefectiveMesh, WithRepeatedAndDegenerateTrianglesEchoesAsTheSoundOne) {
+TEST(DefectiveMesh, WithRepeatedAndDegenerateTrianglesHasTheEchoOfTheValidOne) {
   const TriangleMesh sound = make_icosahedral_reflector();
   TriangleMesh dirty = sound;
   for (std::size_t t = 0; t < 60; t += 7) {
@@ -66,7 +66,7 @@ TEST(DefectiveMesh, WithRepeatedAndDegenerateTrianglesEchoesAsTheSoundOne) {
   EXPECT_LT(difference(sound, repair(dirty)), kRounding);
 }
 
-TEST(DefectiveMesh, OfTwoSidedSheetsEchoesAsTheSheets) {
+TEST(DefectiveMesh, OfTwoSidedSheetsHasTheEchoOfTheSheets) {
   const TriangleMesh sheet = make_triangular_trihedral(0.3);
   TriangleMesh two_sided = sheet;
   for (const auto& t : sheet.triangles) add(two_sided, {t[0], t[2], t[1]});
@@ -75,7 +75,7 @@ TEST(DefectiveMesh, OfTwoSidedSheetsEchoesAsTheSheets) {
 
 // Front and back of a trihedral are separate parts, of conductor and of an impedance: the part on the viewed side
 // scatters, whatever the order of the parts.
-TEST(DefectiveMesh, SheetsOfTwoMaterialsShowEachSideItsOwn) {
+TEST(DefectiveMesh, SheetsOfTwoMaterialsScatterByTheViewedSide) {
   MaterialSpec dull;
   dull.name = "dull";
   dull.kind = SurfaceKind::kImpedance;

@@ -15,7 +15,7 @@
 namespace seaglint {
 namespace {
 
-TEST(RayScene, LeavesTheCallersFloatingPointModeAsItWas) {
+TEST(RayScene, KeepsTheCallersFloatingPointMode) {
   const RayScene plate(make_facets(make_plate(1, 1)));
   const std::vector<Ray> rays(20, Ray{Vec3(1, 0.1, 0.2), Vec3(-1, 0, 0)});
   std::vector<int> hits(rays.size(), kNoFacet);
@@ -37,7 +37,7 @@ TEST(RayScene, LeavesTheCallersFloatingPointModeAsItWas) {
 }
 
 // Every box is a leaf once, and lies in all boxes above it.
-TEST(BvhBuild, HoldsEveryBoxOnceWithinItsParents) {
+TEST(BvhBuild, ContainsEveryBoxOnceWithinItsParents) {
   Random random({29, Stream::kTest, 0});
   for (const int count : {1, 2, 5, 1000}) {
     std::vector<Box3> boxes(count);

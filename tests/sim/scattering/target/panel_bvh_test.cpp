@@ -37,7 +37,7 @@ Ray random_ray(Random& random, double radius) {
   return {radius * Vec3(random.uniform() - 0.5, 0.2 * (random.uniform() - 0.5), 0.2 * random.uniform()), direction};
 }
 
-TEST(PanelBvh, FindsWhatARayHits) {
+TEST(PanelBvh, FindsThePanelsThatARayHits) {
   const Scatterer ship(read_mesh(SEAGLINT_SOURCE_DIR "/assets/combatant_144m.glb"));
   const RayScene scene(ship.facets());
   Random random({23, Stream::kTest, 0});
@@ -54,7 +54,7 @@ TEST(PanelBvh, FindsWhatARayHits) {
   EXPECT_GT(hits, 5000);
 }
 
-TEST(PanelBvh, MissesNoFacetWithACornerInThePrism) {
+TEST(PanelBvh, FindsEveryPanelWithAVertexInThePrism) {
   const Scatterer reflector(make_icosahedral_reflector());
   Random random({23, Stream::kTest, 1});
   for (int trial = 0; trial < 2000; ++trial) {
@@ -74,7 +74,7 @@ TEST(PanelBvh, MissesNoFacetWithACornerInThePrism) {
 }
 
 // Seen along the diagonal a cube is a hexagon: the corners of its bounding rectangle are empty.
-TEST(PanelBvh, LeavesOutAPrismBesideABoxSeenAskew) {
+TEST(PanelBvh, ExcludesAPrismNextToASkewedBox) {
   TriangleMesh mesh = make_plate(1, 1);
   mesh.vertices = {{0, 0, 0}, {1, 1, 0}, {0, 1, 1}};  // their box is the unit cube
   mesh.triangles = {{0, 1, 2}};
@@ -94,7 +94,7 @@ TEST(PanelBvh, LeavesOutAPrismBesideABoxSeenAskew) {
     EXPECT_TRUE(walked_at(h, v)) << h << ' ' << v;
 }
 
-TEST(PanelBvh, PartsManyFacetsAtOnePlace) {
+TEST(PanelBvh, IsFiniteForManyPanelsAtOnePlace) {
   // A hundred copies of one plate: no cut separates their centres, and the hierarchy must still be finite.
   TriangleMesh mesh = make_plate(0.3, 0.2);
   for (int i = 0; i < 99; ++i) mesh.append(make_plate(0.3, 0.2));

@@ -55,7 +55,7 @@ TEST(Panels, OfTheShipAreConvexLieInOnePlaneAndKeepItsArea) {
       << "every facet in one panel";
 }
 
-TEST(Panels, StayApartWhereMaterialOrPlaneChanges) {
+TEST(Panels, AreSeparateWhereMaterialOrPlaneChanges) {
   TriangleMesh mesh = make_plate(0.3, 0.2);
   auto facets = make_facets(mesh);
   facets[1].material = 1;

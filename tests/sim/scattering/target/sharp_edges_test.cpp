@@ -36,7 +36,7 @@ TEST(SharpEdges, AreThoseOfAPlateABoxAndADihedral) {
 }
 
 // The collinear length of an edge does not depend on triangulation and position; it ends at a vertex of the face.
-TEST(SharpEdges, KnowTheStraightRunTheyArePartOf) {
+TEST(SharpEdges, HaveTheLengthOfTheirCollinearChain) {
   const Mat3 askew = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
   for (const std::uint32_t pieces : {1u, 16u}) {
     const Scatterer plate(transformed(cut_plate(0.3, 0.2, pieces), askew, Vec3(40, -7, 3)));
@@ -70,7 +70,7 @@ TEST(SharpEdges, EndTheirRunsInAFanOfLooseTriangles) {
 
 // Concave edges: those that image theory solves exactly do not diffract, nor do those with more images than the sum
 // contains.
-TEST(SharpEdges, OfCornersDiffractBetweenTwelveDegAndAHalfTurn) {
+TEST(SharpEdges, ConcaveOnesDiffractBetween12And180Deg) {
   const auto corner_diffracts = [](double opening_deg) {
     const Scatterer scatterer(make_dihedral(0.25, 0.3, radians(opening_deg)));
     for (const SharpEdge& edge : scatterer.edges().edges) {
@@ -93,7 +93,7 @@ TEST(SharpEdges, OfCornersDiffractBetweenTwelveDegAndAHalfTurn) {
 // face it illuminates the other one up to the seam and seems to arrive from behind the first, where the edge is a
 // convex wedge; it excites neither, since its echo is part of the concave edge's. A wave that does arrive from behind
 // excites the convex wedge via the face that it illuminates.
-TEST(SharpEdges, OfACornerAreNotMetByWhatItsOwnFacesReflect) {
+TEST(SharpEdges, ConcaveOnesAreNotIlluminatedByTheirOwnFaces) {
   for (const double opening_deg : {90.0, 135.0, 150.0}) {
     const Scatterer scatterer(make_dihedral(0.25, 0.3, radians(opening_deg)));
     for (const SharpEdge& edge : scatterer.edges().edges) {

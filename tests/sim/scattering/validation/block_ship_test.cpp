@@ -69,7 +69,7 @@ Deviation against_integral_equations(const Scatterer& ship, double elevation_deg
 // wavelengths wide and whose house is 1 wide, with multiple interactions that the model neglects. Without edges the
 // errors of hh and vv are 0.27 and 0.16 at 2 deg, 0.20 and 0.19 at 10, 0.48 and 0.61 at 25, 0.38 and 0.52 at 50. hv of
 // such a body is not predicted: its error equals its magnitude.
-TEST(BlockShip, AnswersAsIntegralEquationsSay) {
+TEST(BlockShip, MatchesIntegralEquations) {
   const Scatterer ship(block_ship());
   for (const auto& [elevation, hh, vv] :
        {std::array{2.0, 0.13, 0.08}, {10.0, 0.18, 0.14}, {25.0, 0.225, 0.245}, {50.0, 0.14, 0.43}}) {

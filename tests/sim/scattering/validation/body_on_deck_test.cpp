@@ -171,7 +171,7 @@ TEST(BodyOnDeck, FollowsImageTheoryAtLowElevations) {
 // The path deck - one wall - the other - deck is also represented by the image. The residual of vv is present at 20 deg
 // of elevation too (0.1): the walls' edges behind two reflectors. With the deck as the last reflector it was 0.33 to
 // 0.37 and 0.37 to 0.38 from 1 to 3 deg.
-TEST(BodyOnDeck, MayBeACorner) {
+TEST(BodyOnDeck, ConcaveWallsFollowImageTheory) {
   for (const double azimuth : {0.0, 5.0, 20.0}) {
     SCOPED_TRACE(testing::Message() << "azimuth " << azimuth);
     const auto deviation = [&](const Elevations& elevations) {

@@ -15,7 +15,7 @@ using namespace testing_echoes;
 constexpr double kRounding = 1e-9;  // relative; double arithmetic on a few thousand terms
 const double k16 = wavenumber(16e9);
 
-TEST(Plate, AnswersMinusJAreaOverWavelengthAtNormalIncidenceForAnySizeAndSmallestPatch) {
+TEST(Plate, IsMinusJAreaOverWavelengthAtNormalIncidence) {
   for (const auto& [length, width] : {std::pair{0.5, 0.3}, {0.05, 0.05}, {10.0, 2.0}}) {
     for (const double min_patch_m : {7e-5, 7e-4, 0.02, 1.4}) {
       if (length / min_patch_m > 28000) continue;  // much finer than the plate needs
@@ -45,7 +45,7 @@ TEST(Plate, FollowsThePhysicalOpticsLobesForAnySmallestPatch) {
   }
 }
 
-TEST(Plate, ScattersFromBothSidesOfItsSheet) {
+TEST(Plate, ScattersFromBothSides) {
   const auto front = echo(make_plate(0.3, 0.2), direction(10, 5), k16);
   const auto back = echo(make_plate(0.3, 0.2), direction(190, -5), k16);
   EXPECT_LT(std::abs(front[kVvChannel] - back[kVvChannel]), kRounding * std::abs(front[kVvChannel]) + 1e-12);
@@ -66,7 +66,7 @@ TEST(Dihedral, HasOppositeSignsForHhAndVvAndTheApertureFormulasStrength) {
   EXPECT_NEAR(10 * std::log10(std::norm(s[kVvChannel]) / (expected * expected)), 0, 0.1);
 }
 
-TEST(Dihedral, TurnedBy45DegreesIsPureCrossPolarised) {
+TEST(Dihedral, RotatedBy45DegreesIsPureCrossPolarised) {
   const TriangleMesh turned = transformed(make_dihedral(0.25, 0.3, kPi / 2),
                                           Eigen::AngleAxisd(kPi / 4, Vec3::UnitX()).toRotationMatrix(), Vec3::Zero());
   const auto s = echo(turned, Vec3::UnitX(), k16);

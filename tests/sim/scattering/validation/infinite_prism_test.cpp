@@ -110,7 +110,7 @@ Deviation against_integral_equations(const std::string& section, double min_deg,
 
 // The errors are due to higher diffraction orders and, for the hard field, to the largest elements of the integral
 // equations.
-TEST(InfinitePrism, AnswersAsIntegralEquationsSay) {
+TEST(InfinitePrism, BackscatterMatchesIntegralEquation) {
   for (const std::string section : {"box", "knife", "triangle"}) {
     const Deviation back = against_integral_equations(section, 0, 0, 0);
     EXPECT_LT(back.soft, 0.0015) << section;
@@ -120,7 +120,7 @@ TEST(InfinitePrism, AnswersAsIntegralEquationsSay) {
 
 // The concave edge of a chevron diffracts; without it the error of the soft field is 0.04 and, without the waves that
 // it launches along its walls, that of the hard one 0.09.
-TEST(InfinitePrism, WithACornerAnswersAsIntegralEquationsSay) {
+TEST(InfinitePrism, WithAConcaveEdgeMatchesIntegralEquation) {
   const Deviation back = against_integral_equations("chevron", 0, 0, 0);
   EXPECT_LT(back.soft, 0.02);
   EXPECT_LT(back.hard, 0.08);
@@ -132,7 +132,7 @@ TEST(InfinitePrism, WithACornerAnswersAsIntegralEquationsSay) {
 // Keller's field less the end-point contribution of physical optics on the other arm (reflected_edge.h); with that on
 // its own arm the error is 0.023 within 20 deg and 0.06 within 38. The remaining error, of arms of 5 wavelengths, is
 // due to waves along them, most of the hard field.
-TEST(InfinitePrism, OfADihedralAnswersAsIntegralEquationsSay) {
+TEST(InfinitePrism, DihedralMatchesIntegralEquation) {
   for (const double elevation : {0.0, 40.0}) {
     const Deviation axis = against_integral_equations("dihedral", 0, 0, elevation, 8),
                     back = against_integral_equations("dihedral", 0, 0, elevation, 20);
@@ -160,7 +160,7 @@ TEST(InfinitePrism, DihedralAlongItsArmsMatchesIntegralEquation) {
 
 // For other opening angles than 90 deg the exit paths of edges differ from the beams that they bound: with end-point
 // contributions of physical optics on shadow-boundary lines the error is 0.14 to 0.20 (beam_boundary.h).
-TEST(InfinitePrism, OfADihedralOffTheRightAngleAnswersAsIntegralEquationsSay) {
+TEST(InfinitePrism, DihedralOffTheRightAngleMatchesIntegralEquation) {
   for (const std::string section : {"dihedral85", "dihedral95"}) {
     const Deviation axis = against_integral_equations(section, 0, 0, 0, 8),
                     back = against_integral_equations(section, 0, 0, 0, 20);
@@ -176,7 +176,7 @@ TEST(InfinitePrism, OfADihedralOffTheRightAngleAnswersAsIntegralEquationsSay) {
 // Without that the errors of the hard field are 0.21 and 0.28, of arms of 20 wavelengths 0.22. The remaining error is
 // that of return paths, of which only half is separable from the beams' end-point contributions there, and below a
 // right angle of the edges' own fields, which return as rays.
-TEST(InfinitePrism, OfADihedralHasWavesFromItsCorner) {
+TEST(InfinitePrism, DihedralHasWavesFromItsConcaveEdge) {
   for (const double elevation : {0.0, 40.0})
     EXPECT_LT(against_integral_equations("dihedral95", 0, 0, elevation, 47).hard, 0.12) << elevation;
   EXPECT_LT(against_integral_equations("dihedral85", 0, 0, 0, 42).hard, 0.2);
@@ -186,7 +186,7 @@ TEST(InfinitePrism, OfADihedralHasWavesFromItsCorner) {
 // At 37.5 deg the wave that one arm of the 95 deg dihedral reflects passes along the other, which it illuminates on one
 // side of that direction only. Without waves from the concave edge the echo has a step of 5.5 there; the remaining
 // step, 1.2, is due to the edges' paths via the other arm, which are tapered near the forward direction.
-TEST(InfinitePrism, OfADihedralStepsLittleWhereAnArmGrazesTheOther) {
+TEST(InfinitePrism, DihedralHasASmallStepWhereABeamGrazesAnArm) {
   const double k = wavenumber(10.24e9), height = 2;
   const Scatterer one(prism(sections().at("dihedral95"), height)), two(prism(sections().at("dihedral95"), 2 * height));
   const auto hard_at = [&](double azimuth) {
@@ -200,7 +200,7 @@ TEST(InfinitePrism, OfADihedralStepsLittleWhereAnArmGrazesTheOther) {
 // Illuminated faces that are not visible to the receiver do not radiate to it: without their contribution to the edges'
 // field its error is 0.03 to 0.1. Behind the target the error is that of soft waves at grazing incidence on a face
 // (slope diffraction); up to 20 deg from the forward direction.
-TEST(InfinitePrism, AnswersOtherReceiversAsIntegralEquationsSay) {
+TEST(InfinitePrism, BistaticEchoMatchesIntegralEquation) {
   for (const std::string section : {"box", "knife", "triangle"}) {
     for (const double elevation : {0.0, 40.0}) {
       const Deviation before = against_integral_equations(section, 1, 90, elevation),

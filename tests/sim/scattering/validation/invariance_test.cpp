@@ -34,7 +34,7 @@ TEST(Invariance, MovingATargetTowardsTheRadarAdvancesThePhase) {
   EXPECT_LT(difference(at_origin, moved), kSlivers * largest(at_origin));
 }
 
-TEST(Invariance, TurningTargetAndRadarTogetherChangesNothing) {
+TEST(Invariance, CommonRotationChangesNothing) {
   const Mat3 turn = Eigen::AngleAxisd(1.1, Vec3(0.3, -1, 0.6).normalized()).toRotationMatrix();
   const RadarBasis basis = radar_basis(direction(41, 22));
   const RadarBasis turned{turn * basis.r, turn * basis.h, turn * basis.v};
@@ -43,7 +43,7 @@ TEST(Invariance, TurningTargetAndRadarTogetherChangesNothing) {
   EXPECT_LT(difference(before, after), kSlivers * largest(before));
 }
 
-TEST(Invariance, AMirroredTargetAnswersAlikeWithTheSignOfCrossPolarisationTurned) {
+TEST(Invariance, MirroredTargetHasOppositeCrossPolarisation) {
   TriangleMesh mirrored = stepped_corner();
   for (Vec3& x : mirrored.vertices) x.y() = -x.y();
   const auto before = echo(stepped_corner(), direction(35, 25), k10, kFine);
@@ -53,7 +53,7 @@ TEST(Invariance, AMirroredTargetAnswersAlikeWithTheSignOfCrossPolarisationTurned
   EXPECT_LT(difference(before, after), kSlivers * largest(before));
 }
 
-TEST(Invariance, TwiceTheSizeAtHalfTheFrequencyScattersTwiceAsMuch) {
+TEST(Invariance, TwiceTheSizeAtHalfTheFrequencyDoublesTheAmplitude) {
   TriangleMesh large = stepped_corner();
   for (Vec3& x : large.vertices) x *= 2;
   const auto small_echo = echo(stepped_corner(), direction(40, 30), k10, kFine);
@@ -69,7 +69,7 @@ TEST(Invariance, TheFirstBounceIsReciprocalToRounding) {
   }
 }
 
-TEST(Invariance, ManyBouncesAreReciprocalAsFarAsPhysicalOpticsIs) {
+TEST(Invariance, ManyBouncesAreReciprocalWithinPhysicalOptics) {
   // Physical optics radiates the currents of every bounce, but only geometrical optics illuminates the next one: a path
   // and its reciprocal differ by diffraction, about 1/(k a) = 1/84 of the amplitude.
   double worst = 0;
@@ -99,7 +99,7 @@ TEST(Invariance, NoBitDependsOnTheNumberOfThreads) {
   EXPECT_EQ(one, two);
 }
 
-TEST(Invariance, APlateThatHidesAnotherCastsAShadowOfItsOwnShape) {
+TEST(Invariance, ShadowHasTheShapeOfTheHidingPlate) {
   // A small plate 1 m in front of a large one, both facing the radar: the shadow has the area of the small plate
   // exactly.
   TriangleMesh mesh = make_plate(0.6, 0.6);
@@ -116,7 +116,7 @@ TEST(Invariance, FacetsThatCoincideCountOnce) {
   EXPECT_LT(difference(once, doubled), 1e-9 * largest(once));
 }
 
-TEST(Invariance, FacetsThatPassThroughEachOtherHideWhatLiesBehindTheirCommonLine) {
+TEST(Invariance, IntersectingFacetsHideEachOtherBehindTheirCommonLine) {
   // Two crossed plates viewed along the bisector: of each the half in front is visible.
   const auto plate = [](double angle) {
     return transformed(make_plate(0.4, 0.3), Eigen::AngleAxisd(angle, Vec3::UnitZ()).toRotationMatrix(), Vec3::Zero());

@@ -103,7 +103,7 @@ INSTANTIATE_TEST_SUITE_P(RadiiHeightsAndElevations, TopHatEcho,
 
 // An odd number of columns has a facet that faces the x axis, so that the phase is stationary inside its footprint.
 // Bound: the choice between contour and area depends on the triangle, and the two differ by kContourRatio^-1.5.
-TEST(TopHat, DoesNotDependOnHowThePlateIsCut) {
+TEST(TopHat, IsIndependentOfTriangulation) {
   constexpr double kRadius = 0.49, kHeight = 0.4, kElevationDeg = 40;
   const double k = wavenumber(8e9);
   TracingSettings settings{0, 2};

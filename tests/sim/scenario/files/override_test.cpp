@@ -29,7 +29,7 @@ TEST(Overrides, ReplaceAndAddValuesOfTheFile) {
   EXPECT_EQ(scenario.map.range_span_m, 100);
 }
 
-TEST(Overrides, ReachIntoLists) {
+TEST(Overrides, ApplyInsideLists) {
   const std::string yaml =
       "seaglint: 1\ntargets:\n  p: {label: 0, points: [{position_m: [0, 0, 0]}, {position_m: [1, 1, 1]}]}\n";
   const Scenario scenario =
