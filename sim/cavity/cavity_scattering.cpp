@@ -89,11 +89,11 @@ Cavity::Cavity(const TriangleMesh& mesh, std::size_t part, const Scatterer& whol
 Cavity::Discretisation Cavity::shape(double k) const {
   const double wavelength = 2 * kPi / k, patch = wavelength / patches_per_wavelength_;
   Discretisation shape{aperture_cells(walls_, patch / kCellsPerPatch), wall_patches(walls_, patch)};
-  double mouth = 0;
-  for (const ApertureCell& cell : shape.aperture) mouth += cell.area;
-  if (std::sqrt(mouth) < wavelength / 2)
+  double aperture_m2 = 0;
+  for (const ApertureCell& cell : shape.aperture) aperture_m2 += cell.area;
+  if (std::sqrt(aperture_m2) < wavelength / 2)
     throw InputError(
-        fmt::format("cavity aperture of {:.3g} m^2 is narrower than half a wavelength: below cut-off", mouth));
+        fmt::format("cavity aperture of {:.3g} m^2 is narrower than half a wavelength: below cut-off", aperture_m2));
   const auto refuse_nearer = [&](const Vec3& a, const Vec3& b, double least, const char* what) {
     if ((a - b).squaredNorm() < least * least * patch * patch)
       throw InputError(fmt::format("{} nearer than {:.3g} m at ({:.4g}, {:.4g}, {:.4g}) m: too near at this wavelength",
@@ -127,7 +127,7 @@ std::vector<std::array<Complex, 4>> Cavity::scattering_matrices(double k, std::s
 
   // Reaction of the basis fields: reaction(m, n) = -jk/(4 pi) integral over the walls of E_m . eta J_n.
   ApertureFields basis(4 * static_cast<Eigen::Index>(aperture.size()), 0);
-  WallMatrix electric(2 * static_cast<Eigen::Index>(walls.size()), 0), answer = electric;
+  WallMatrix electric(2 * static_cast<Eigen::Index>(walls.size()), 0), currents_on_walls = electric;
   Eigen::MatrixXcd reaction;
   Eigen::VectorXd area(electric.rows());
   for (std::size_t i = 0; i < walls.size(); ++i)
@@ -138,32 +138,32 @@ std::vector<std::array<Complex, 4>> Cavity::scattering_matrices(double k, std::s
     if (stop != nullptr && *stop) throw Interrupted();
     std::vector<BistaticGeometry> together;
     for (const std::size_t view : batch) together.push_back(views[view]);
-    const ApertureFields sent =
+    const ApertureFields transmitted =
         incident_aperture_fields(aperture, k, together, &BistaticGeometry::transmit, scene_, radius_);
     const bool one_antenna =
         std::all_of(together.begin(), together.end(), [](const BistaticGeometry& a) { return a.monostatic; });
-    ApertureFields back, both;
+    ApertureFields receive_fields, all_fields;
     if (!one_antenna) {
-      back = incident_aperture_fields(aperture, k, together, &BistaticGeometry::receive, scene_, radius_);
-      both = sent;
-      append(both, back);
+      receive_fields = incident_aperture_fields(aperture, k, together, &BistaticGeometry::receive, scene_, radius_);
+      all_fields = transmitted;
+      append(all_fields, receive_fields);
     }
-    const ApertureFields& received = one_antenna ? sent : back;
-    if (sent.squaredNorm() == 0 || received.squaredNorm() == 0) continue;
-    const FieldBasis fresh = extend_basis(basis, one_antenna ? sent : both);
-    if (fresh.fields.cols() > 0) {
-      const WallFields lit = wall_fields(aperture, walls, k, fresh.fields, threads, stop);
-      SEAGLINT_CHECK(lit.incident_electric.allFinite() && lit.mfie_excitation.allFinite(),
+    const ApertureFields& received = one_antenna ? transmitted : receive_fields;
+    if (transmitted.squaredNorm() == 0 || received.squaredNorm() == 0) continue;
+    const FieldBasis new_fields = extend_basis(basis, one_antenna ? transmitted : all_fields);
+    if (new_fields.fields.cols() > 0) {
+      const WallFields excited = wall_fields(aperture, walls, k, new_fields.fields, threads, stop);
+      SEAGLINT_CHECK(excited.incident_electric.allFinite() && excited.mfie_excitation.allFinite(),
                      "a wall of a cavity meets its aperture");
-      append(basis, fresh.fields);
-      append(electric, lit.incident_electric);
-      append(answer, currents.solve(lit.mfie_excitation, fresh.strength, threads, stop));
+      append(basis, new_fields.fields);
+      append(electric, excited.incident_electric);
+      append(currents_on_walls, currents.solve(excited.mfie_excitation, new_fields.strength, threads, stop));
       reaction = Complex(0, -k / (4 * kPi)) *
-                 (electric.cast<Complex>().transpose() * area.asDiagonal() * answer.cast<Complex>());
+                 (electric.cast<Complex>().transpose() * area.asDiagonal() * currents_on_walls.cast<Complex>());
       // Symmetric by reciprocity; the numerical asymmetry is a few percent where walls end at the aperture (README.md).
       reaction = 0.5 * (reaction + reaction.transpose().eval());
     }
-    const Eigen::MatrixXcd s = basis.adjoint() * sent, r = basis.adjoint() * received;
+    const Eigen::MatrixXcd s = basis.adjoint() * transmitted, r = basis.adjoint() * received;
     for (std::size_t i = 0; i < together.size(); ++i) {
       const auto at = 2 * static_cast<Eigen::Index>(i);
       const Eigen::Matrix2cd S = r.middleCols(at, 2).transpose() * reaction * s.middleCols(at, 2);

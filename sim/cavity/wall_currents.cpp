@@ -59,9 +59,9 @@ struct KrylovColumn {
     hessenberg.conservativeResizeLike(Eigen::MatrixXcd::Zero(known + 1, known));
     for (Eigen::Index m = 0; m < known; ++m) {
       const auto direction = directions[static_cast<std::size_t>(m)].col(column);
-      const std::complex<float> share = direction.dot(next.col(column));
-      hessenberg(m, known - 1) = share;
-      next.col(column) -= share * direction;
+      const std::complex<float> projection = direction.dot(next.col(column));
+      hessenberg(m, known - 1) = projection;
+      next.col(column) -= projection * direction;
     }
     const float rest = next.col(column).norm();
     hessenberg(known, known - 1) = rest;

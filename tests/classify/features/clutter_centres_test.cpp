@@ -86,9 +86,9 @@ TEST(ClutterFalseAlarms, AreRareInWaveResolvedClutter) {
 
 // K-distributed texture with the same Doppler spectrum everywhere: one map in a hundred, as for noise.
 TEST(ClutterFalseAlarms, AreRareInTexturedClutterOfOneSpectrum) {
-  for (const ClutterDoppler doppler : {ClutterDoppler::kPrescribed, ClutterDoppler::kSea}) {
+  for (const ClutterDoppler doppler : {ClutterDoppler::kPrescribed, ClutterDoppler::kSeaState}) {
     const FalseMaps found = false_maps({2, doppler}, 60);
-    std::printf("%s: %d of 60 maps\n", doppler == ClutterDoppler::kSea ? "sea" : "given", found.maps);
+    std::printf("%s: %d of 60 maps\n", doppler == ClutterDoppler::kSeaState ? "sea" : "given", found.maps);
     EXPECT_LE(found.maps, 4);
   }
 }

@@ -47,16 +47,16 @@ TEST(SeaVelocity, IsTheSumOfRipplesDriftAndWind) {
 }
 
 TEST(SeaVelocity, IsOppositeFromBehindNoneFromTheSideAndFasterInHh) {
-  const WaveField away = realise_sea(waves_towards(180), 1, 1), nearer = realise_sea(waves_towards(0), 1, 1),
-                  aside = realise_sea(waves_towards(90), 1, 1);
-  const double mean = clutter_velocity_moments({}, scene_of(away), kWavelength).mean_mps;
-  EXPECT_NEAR(clutter_velocity_moments({}, scene_of(nearer), kWavelength).mean_mps, -mean, 1e-12);
-  EXPECT_NEAR(clutter_velocity_moments({}, scene_of(aside), kWavelength).mean_mps, 0, 1e-12);
-  ClutterScene hh = scene_of(away);
+  const WaveField receding = realise_sea(waves_towards(180), 1, 1), approaching = realise_sea(waves_towards(0), 1, 1),
+                  abeam = realise_sea(waves_towards(90), 1, 1);
+  const double mean = clutter_velocity_moments({}, scene_of(receding), kWavelength).mean_mps;
+  EXPECT_NEAR(clutter_velocity_moments({}, scene_of(approaching), kWavelength).mean_mps, -mean, 1e-12);
+  EXPECT_NEAR(clutter_velocity_moments({}, scene_of(abeam), kWavelength).mean_mps, 0, 1e-12);
+  ClutterScene hh = scene_of(receding);
   hh.radar.polarisation = Polarisation::kHh;
   EXPECT_NEAR(clutter_velocity_moments({}, hh, kWavelength).mean_mps, 1.5 * mean, 1e-12);
   // Long-crested waves viewed from the side move only vertically: no velocity along a level line of sight.
-  EXPECT_NEAR(clutter_velocity_moments({}, scene_of(aside), kWavelength).spread_mps, 0, 1e-9);
+  EXPECT_NEAR(clutter_velocity_moments({}, scene_of(abeam), kWavelength).spread_mps, 0, 1e-9);
 }
 
 // The clutter drifts as a particle of the second-order surface does: in water of 8 m depth, with orbits 1.54 times as
@@ -71,11 +71,11 @@ TEST(SeaVelocity, ContainsTheDriftOfAParticleInAnyDepth) {
     double x = 0, t = 0, phase = 0;
     while (phase < end) {
       const double half = x + 0.5 * step * wave.surface(x, 0, t).velocity.x();
-      const double way = step * wave.surface(half, 0, t + 0.5 * step).velocity.x();
-      const double share = std::min(1.0, (end - phase) / (omega * step - k * way));
-      x += share * way;
-      t += share * step;
-      phase = share < 1 ? end : phase + omega * step - k * way;
+      const double displacement = step * wave.surface(half, 0, t + 0.5 * step).velocity.x();
+      const double fraction = std::min(1.0, (end - phase) / (omega * step - k * displacement));
+      x += fraction * displacement;
+      t += fraction * step;
+      phase = fraction < 1 ? end : phase + omega * step - k * displacement;
     }
     ClutterScene scene = scene_of(wave);
     scene.significant_wave_height_m = 0;  // no wind
@@ -206,7 +206,7 @@ TEST(ClutterDoppler, EqualsTheVelocityMomentsOfTheSea) {
   ClutterScene scene = scene_of(waves);
   scene.radar = radar;
   constexpr std::size_t kLag = 4;
-  for (const ClutterDoppler doppler : {ClutterDoppler::kSea, ClutterDoppler::kWaveResolved}) {
+  for (const ClutterDoppler doppler : {ClutterDoppler::kSeaState, ClutterDoppler::kWaveResolved}) {
     ClutterSpec spec;
     spec.doppler = doppler;
     spec.doppler_spread_mps = 0.1;

@@ -129,7 +129,7 @@ TEST(ResponseSynthesis, RefusesNonFiniteResponses) {
   const WaveField sea = realise_sea(state_of(2, 8, 60), 1, 0);
   const auto response = [](const ShipWave&) {
     ResponseChannels all{};
-    all[kHeaveShift] = std::nan("");
+    all[static_cast<std::size_t>(ResponseChannel::kHeave)] = std::nan("");
     return all;
   };
   EXPECT_THROW(ResponseSynthesis(sea, response, 0, 0, 0, 0, 0.1), std::logic_error);
@@ -178,9 +178,9 @@ TEST(SimulateShip, IsTheSumOfItsResponsesToTheComponents) {
           // Position of the ship at that time.
           const double phase = c.omega * t - c.wavenumber * c.direction.dot(Vec2(30 + speed * t, -10)) + c.phase;
           const Complex wave = std::polar(c.amplitude, phase);
-          const double met = c.omega - c.wavenumber * c.direction.x() * speed;
+          const double encounter_omega = c.omega - c.wavenumber * c.direction.x() * speed;
           angles += Vec3((rao.roll * wave).real(), (rao.pitch * wave).real(), (rao.yaw * wave).real());
-          rates -= met * Vec3((rao.roll * wave).imag(), (rao.pitch * wave).imag(), (rao.yaw * wave).imag());
+          rates -= encounter_omega * Vec3((rao.roll * wave).imag(), (rao.pitch * wave).imag(), (rao.yaw * wave).imag());
           shift += Vec3((rao.surge * wave).real(), (rao.sway * wave).real(), (rao.heave * wave).real());
         }
         // The truncated components.
