@@ -98,7 +98,7 @@ class RaySolver {
       std::vector<Ray> rays;
       for (const Tube& tube : tubes) rays.push_back(tube.ray);
       const std::vector<int> hits = first_hits(rays);
-      std::vector<Tube> lit;
+      std::vector<Tube> reflected;
       std::vector<Footprint> footprints;
       std::vector<Ray> to_radar;
       for (std::size_t i = 0; i < tubes.size(); ++i) {
@@ -108,8 +108,8 @@ class RaySolver {
         const Vec3 n = illuminated_normal(tube.segment, facet);
         const double cosine = -n.dot(tube.segment.direction);
         if (cosine < 1e-6 || (!facet.two_sided && facet.normal.dot(tube.segment.direction) > 0)) continue;
-        const double way = n.dot(facet.corner[0] - tube.ray.origin) / n.dot(tube.segment.direction);
-        const Vec3 hit = tube.ray.origin + way * tube.segment.direction + kOffSurface * n;
+        const double distance = n.dot(facet.corner[0] - tube.ray.origin) / n.dot(tube.segment.direction);
+        const Vec3 hit = tube.ray.origin + distance * tube.segment.direction + kOffSurface * n;
         if (n.dot(geometry_.receive.r) > 1e-6) {
           footprints.push_back(footprint(tube, facet, n, cosine, bounce));
           to_radar.push_back({hit, geometry_.receive.r});
@@ -121,7 +121,7 @@ class RaySolver {
         tube.segment.E_h = 2 * n.dot(tube.segment.E_h) * n - tube.segment.E_h;
         tube.segment.E_v = 2 * n.dot(tube.segment.E_v) * n - tube.segment.E_v;
         tube.ray = {hit, tube.segment.direction};
-        lit.push_back(tube);
+        reflected.push_back(tube);
       }
       // The first hit is visible to the radar.
       const std::vector<int> hidden = bounce == 1 ? std::vector<int>(to_radar.size(), kNoFacet) : first_hits(to_radar);
@@ -132,7 +132,7 @@ class RaySolver {
           for (int c = 0; c < 4; ++c) sum[q][c] += s[c];
         }
       }
-      tubes = std::move(lit);
+      tubes = std::move(reflected);
     }
   }
 
@@ -160,7 +160,7 @@ class RaySolver {
 };
 
 template <typename Seconds>
-double least_of_three(const Seconds& seconds) {
+double fastest_of_three(const Seconds& seconds) {
   return std::min({seconds(), seconds(), seconds()});
 }
 
@@ -179,18 +179,18 @@ void ShipSbrReference(benchmark::State& state) {
   for (auto _ : state) {
     Matrices by_rays;
     std::size_t traced = 0;
-    const double embree = least_of_three([&] {
+    const double embree = fastest_of_three([&] {
       RaySolver rays(flat_ship(), basis, 1e-3 * static_cast<double>(state.range(1)));
       by_rays = rays.solve(k);
       traced = rays.rays();
       return rays.embree_seconds();
     });
-    const double matrix = least_of_three([&] {
+    const double matrix = fastest_of_three([&] {
       return processor_seconds([&] {
         benchmark::DoNotOptimize(scattering_matrices(flat_ship(), monostatic(basis), one, {0, kDefaultBounces}, 1));
       });
     });
-    const double interval = least_of_three([&] {
+    const double interval = fastest_of_three([&] {
       return processor_seconds([&] {
         benchmark::DoNotOptimize(body_response(ship(), trajectory, r, Polarisation::kVv, paper_interval(), {}, 1));
       });

@@ -86,7 +86,7 @@ void ShipAspect(benchmark::State& state) {
   const std::vector<double> k(static_cast<std::size_t>(state.range(1)), 2 * kPi * 16e9 / kSpeedOfLight);
   std::size_t segments = 0;
   for (auto _ : state) benchmark::DoNotOptimize(scattering_matrices(ship(), monostatic(basis), k, {}, 2, &segments));
-  state.counters["legs/s"] = benchmark::Counter(static_cast<double>(segments), benchmark::Counter::kIsRate);
+  state.counters["segments/s"] = benchmark::Counter(static_cast<double>(segments), benchmark::Counter::kIsRate);
 }
 BENCHMARK(ShipAspect)->Args({50, 1})->Args({50, 16})->Unit(benchmark::kMillisecond)->UseRealTime();
 

@@ -25,9 +25,9 @@ class DataSetUse : public testing::Test {
   static void SetUpTestSuite() {
     folder_ = new TemporaryFolder;
     data_ = folder_->path() / "data";
-    const ProgramResult made = run_program({"generate", "scenarios/points.yaml", "-o", data_, "--set",
-                                            "dataset.maps_per_shard=15", "--set", "dataset.complex_maps=true"});
-    ASSERT_EQ(made.code, 0) << made.err;
+    const ProgramResult generated = run_program({"generate", "scenarios/points.yaml", "-o", data_, "--set",
+                                                 "dataset.maps_per_shard=15", "--set", "dataset.complex_maps=true"});
+    ASSERT_EQ(generated.code, 0) << generated.err;
     const ProgramResult merged = run_program({"merge", data_});
     ASSERT_EQ(merged.code, 0) << merged.err;
     EXPECT_THAT(merged.out, HasSubstr("dataset.h5: 40 samples of 3 shards"));
@@ -120,13 +120,13 @@ TEST_F(DataSetUse, IsTheSameInNumpy) {
       "  names = []\n"
       "  h.visititems(lambda name, item: names.append(name) if isinstance(item, h5py.Dataset) else None)\n"
       "  assert sorted(names + ['description.json']) == sorted(a.files), (names, a.files)\n"
-      "  told = json.loads(a['description.json'])['arrays']\n"
+      "  declared = json.loads(a['description.json'])['arrays']\n"
       "  for name in names:\n"
       "    there, here = h[name][:], a[name]\n"
       "    if name == 'maps_complex': there = there.view(np.complex64)[..., 0]\n"
       "    assert here.dtype == there.dtype and here.shape == there.shape, name\n"
       "    assert (here == there).all(), name\n"
-      "    assert told[name]['units'] == h[name].attrs['units'].decode(), name\n";
+      "    assert declared[name]['units'] == h[name].attrs['units'].decode(), name\n";
   expect_equal_in_python(compare + "equal(np.load(out), h5py.File(data + '/dataset.h5'))", one);
   expect_equal_in_python(compare +
                              "for shard in sorted(glob.glob(data + '/shard_*.h5')):\n"

@@ -38,15 +38,15 @@ import sys, numpy as np
 a = np.load(sys.argv[1])
 c, mu, width = 299792458.0, 25e6 / 36e-6, 36e-6
 t = a['time_s']
-def answer(n, r):
+def correlation(n, r):
     u = t - 2 * r / c
     return np.vdot(np.where(abs(u) < width / 2, np.exp(1j * np.pi * mu * u * u), 0), a['target'][n]) / (width * 50e6)
 ranges = np.arange(-60, 60, 0.25)
-best = ranges[np.argmax([abs(answer(0, r)) for r in ranges])]
+best = ranges[np.argmax([abs(correlation(0, r)) for r in ranges])]
 assert abs(best + 30) <= 0.5, best
 for n in (0, 100, 255):
     r = -30 - 1.5 * a['pulse_time_s'][n]
-    z = answer(n, r) * np.exp(4j * np.pi * a['carrier_hz'][n] * r / c)
+    z = correlation(n, r) * np.exp(4j * np.pi * a['carrier_hz'][n] * r / c)
     assert abs(z - 2) < 0.04, z   # the ideal chirp has a few percent of its energy beyond the band
 assert a['clutter'].shape == a['noise'].shape == a['target'].shape
 print('point found')

@@ -198,10 +198,10 @@ TEST(MapCommand, PlatformMotionIsVisibleUnlessCompensated) {
   std::vector<std::string> moving = kOnePoint;
   moving.insert(moving.end(), {"--set", "radar.platform={velocity_mps: [2.5, 0, 0], motion_compensated: false}",
                                "--set", "clutter.scr_db=60"});
-  const auto seen = cluster_centres(moving);
-  ASSERT_GE(seen.size(), 1u);
-  EXPECT_NEAR(seen[0][1], -1.5 + 2.5, 0.005);  // the radar ahead recedes
-  EXPECT_NEAR(seen[0][0], -30, 0.02);
+  const auto detected = cluster_centres(moving);
+  ASSERT_GE(detected.size(), 1u);
+  EXPECT_NEAR(detected[0][1], -1.5 + 2.5, 0.005);  // the radar ahead recedes
+  EXPECT_NEAR(detected[0][0], -30, 0.02);
   moving.insert(moving.end(), {"--set", "radar.platform.motion_compensated=true"});
   EXPECT_NEAR(cluster_centres(moving)[0][1], -1.5, 0.005);
 }

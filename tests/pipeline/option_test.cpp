@@ -49,9 +49,9 @@ TEST_F(Options, NumbersAreDecimal) {
 
 TEST_F(Options, OfNumbersAcceptNothingElse) {
   for (const std::string value : {"0x10", "2.0", "1e3", "abc", ""}) {
-    const std::string shown = value.empty() ? "''" : value;
+    const std::string quoted = value.empty() ? "''" : value;
     expect_refused(rcs(), {"--max-bounces", value},
-                   "--max-bounces: value " + shown + ": must be a whole number (see seaglint rcs --help)\n");
+                   "--max-bounces: value " + quoted + ": must be a whole number (see seaglint rcs --help)\n");
   }
   expect_refused(rcs(), {"--threads", "0x1"}, "--threads: value 0x1: must be a whole number (");
   expect_refused({"mesh", "make", "sphere", "-o", folder_.path() / "s.stl"}, {"--subdivisions", ""},
@@ -59,9 +59,9 @@ TEST_F(Options, OfNumbersAcceptNothingElse) {
   expect_refused({"map", "scenarios/points.yaml", "-o", folder_.path() / "m.png"}, {"--sample", "0x1"},
                  "--sample: value 0x1: must be a whole number, 0 or more (");
   for (const std::string value : {"0x10", "abc", "", "inf", "nan"}) {
-    const std::string shown = value.empty() ? "''" : value;
+    const std::string quoted = value.empty() ? "''" : value;
     expect_refused(plate(), {"--length-m", value},
-                   "--length-m: value " + shown + ": must be a number (see seaglint mesh make plate --help)\n");
+                   "--length-m: value " + quoted + ": must be a number (see seaglint mesh make plate --help)\n");
   }
   expect_refused(rcs(), {"--wavefront-range-m", ""}, "--wavefront-range-m: value '': must be within 0 and");
   expect_refused(rcs(), {"--transmit-azimuth-deg", "0x10"}, "--transmit-azimuth-deg: value 0x10: must be within");

@@ -19,9 +19,9 @@ inline constexpr double kLengthM = 0.5, kWidthM = 0.3;
 class RcsCommand : public testing::Test {
  protected:
   void SetUp() override {
-    const ProgramResult made =
+    const ProgramResult generated =
         run_program({"mesh", "make", "plate", "--length-m", "0.5", "--width-m", "0.3", "-o", plate()});
-    ASSERT_EQ(made.code, 0) << made.err;
+    ASSERT_EQ(generated.code, 0) << generated.err;
   }
   std::string plate() const { return folder_.path() / "plate.glb"; }
   std::string table() const { return folder_.path() / "rcs.csv"; }

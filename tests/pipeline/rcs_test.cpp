@@ -180,9 +180,9 @@ TEST_F(RcsCommand, ExportsSelectedCentresAndHotSpotsOfOneAspect) {
   EXPECT_LT(std::abs(edges + vv() - all), 1e-7 * std::abs(all)) << "nine printed digits";
 
   const auto refused = [&](std::vector<std::string> more, const std::string& message) {
-    const ProgramResult answer = reflector(std::move(more));
-    EXPECT_EQ(answer.code, 2);
-    EXPECT_THAT(answer.err, HasSubstr(message));
+    const ProgramResult invalid = reflector(std::move(more));
+    EXPECT_EQ(invalid.code, 2);
+    EXPECT_THAT(invalid.err, HasSubstr(message));
   };
   refused({"--only", "part=cell_1"}, "did you mean 'cell_01'?");
   refused({"--only", "bounces=0"}, "bounces must be 1, 2, ... 200");

@@ -224,8 +224,8 @@ TEST(Report, IsWrittenWithoutMeshesThatAreNotFound) {
       "seaglint: 1\ntargets:\n  one: {label: 1, mesh: assets/icosahedral_reflector.glb, motion: {model: float}}\n"
       "  two: {label: 0, mesh: assets/icosahedral_reflector.glb, layout: {line: {count: 2, spacing_m: 20}}}\n"
       "radar: {pulses: 32}\ndataset: {maps_per_case: 10, realisations_per_case: 5}\nlearning: {epochs: 1}\n");
-  const ProgramResult made = run_program({"run", scenario, "-o", run});
-  ASSERT_EQ(made.code, 0) << made.err;
+  const ProgramResult first_run = run_program({"run", scenario, "-o", run});
+  ASSERT_EQ(first_run.code, 0) << first_run.err;
   EXPECT_THAT(read_file(run / "report.html"), HasSubstr("Picture of one"));
   const ProgramResult elsewhere =
       run_words({"/bin/bash", "-c", "cd / && exec \"$@\"", "elsewhere", kProgram, "report", run});

@@ -15,9 +15,9 @@ class DataSetVerification : public testing::Test {
  protected:
   void SetUp() override {
     directory_ = folder_.path() / "data";
-    const ProgramResult made =
+    const ProgramResult generated =
         run_program({"generate", "scenarios/points.yaml", "-o", directory_, "--set", "dataset.maps_per_shard=5"});
-    ASSERT_EQ(made.code, 0) << made.err;
+    ASSERT_EQ(generated.code, 0) << generated.err;
   }
 
   TemporaryFolder folder_;

@@ -24,12 +24,12 @@ std::vector<float> noise_map(std::size_t rows, std::size_t columns, std::uint64_
 
 TEST(NetworkInput, InvariantToMapScale) {
   const std::vector<float> map = noise_map(64, 256, 1);
-  std::vector<float> louder = map;
-  for (float& value : louder) value *= 1024;  // a power of two, so that mantissas do not change
+  std::vector<float> amplified = map;
+  for (float& value : amplified) value *= 1024;  // a power of two, so that mantissas do not change
   const std::vector<float> input = network_input(map, 64, 256, -60);
-  EXPECT_EQ(input, network_input(louder, 64, 256, -60));
-  for (float& value : louder) value *= 1.7f;
-  const std::vector<float> scaled = network_input(louder, 64, 256, -60);
+  EXPECT_EQ(input, network_input(amplified, 64, 256, -60));
+  for (float& value : amplified) value *= 1.7f;
+  const std::vector<float> scaled = network_input(amplified, 64, 256, -60);
   // Float rounding of the scaled cells: 6e-8 relative, 8.7 dB per neper, 60 dB full scale, and a float result.
   for (std::size_t i = 0; i < input.size(); ++i) EXPECT_NEAR(scaled[i], input[i], 2e-7);
 }
@@ -132,7 +132,7 @@ TEST(Network, LearnsShapesWithFewParameters) {
   ASSERT_EQ(embeddings.values.size(), 64u * embeddings.size);
   int right = 0;
   for (std::size_t i = 48; i < 64; ++i) right += (embeddings.logits[i] > 0) == (toy.labels[i] == 1) ? 1 : 0;
-  EXPECT_GE(right, 14) << "of 16 maps that training has not seen";
+  EXPECT_GE(right, 14) << "of 16 maps outside the training set";
   EXPECT_LE(network.parameter_count(), 25000u);
 }
 

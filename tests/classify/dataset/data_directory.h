@@ -61,7 +61,7 @@ class DataSetDirectory : public testing::Test {
     return shard;
   }
 
-  void make_whole() {
+  void make_complete() {
     DatasetWriter writer(directory_, scenario_, false, kTestVersion);
     for (std::size_t i = 0; i < plan_.shards(); ++i) writer.put(i, shard_of(i));
     ASSERT_TRUE(writer.finish().empty());

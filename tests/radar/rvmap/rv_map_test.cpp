@@ -305,10 +305,10 @@ TEST(RvMap, TwoPointsAtTheResolutionLimitAreResolved) {
   };
   // In quadrature at the band's centre, so that their sum in the middle depends on magnitudes: 0.64 sqrt 2 = 0.9.
   const double quadrature = kSpeedOfLight / train.band_centre_hz() / 8;
-  const double apart = std::round(1.25 * dr / (4 * quadrature)) * 4 * quadrature + quadrature;
-  const RvMap ranges = form_rv_map(echo_of(train, {{-apart / 2, 0, 1}, {apart / 2, 0, 1}}), train, spec, false);
-  EXPECT_LT(level(ranges, 0, 0), 0.9 * level(ranges, apart / 2, 0));
-  EXPECT_LT(level(ranges, 0, 0), 0.9 * level(ranges, -apart / 2, 0));
+  const double distance = std::round(1.25 * dr / (4 * quadrature)) * 4 * quadrature + quadrature;
+  const RvMap ranges = form_rv_map(echo_of(train, {{-distance / 2, 0, 1}, {distance / 2, 0, 1}}), train, spec, false);
+  EXPECT_LT(level(ranges, 0, 0), 0.9 * level(ranges, distance / 2, 0));
+  EXPECT_LT(level(ranges, 0, 0), 0.9 * level(ranges, -distance / 2, 0));
   const RvMap velocities =
       form_rv_map(echo_of(train, {{0, -0.75 * dv, 1}, {quadrature, 0.75 * dv, 1}}), train, spec, false);
   EXPECT_LT(level(velocities, 0, 0), 0.9 * level(velocities, 0, 0.75 * dv));

@@ -46,7 +46,7 @@ SampledEcho echo_by_delay(const PulseTrain& train, const RadarSpec& radar, const
       Complex sum;
       for (const PointSpec& point : kPoints) {
         double met_s = train.time_s[n], delay_s = 0;
-        for (int turn = 0; turn < 4; ++turn) {  // c is 1e8 times faster than the points
+        for (int iteration = 0; iteration < 4; ++iteration) {  // c is 1e8 times faster than the points
           const double range_m = -(point.position_m[0] + point.velocity_mps[0] * met_s);
           delay_s = 2 * range_m / kSpeedOfLight;
           if (radar.intra_pulse_motion) met_s = train.time_s[n] + t - delay_s / 2;

@@ -23,7 +23,7 @@ Sum sum_of(const std::vector<ApertureCell>& cells) {
   return sum;
 }
 
-TriangleMesh turned(TriangleMesh mesh) {
+TriangleMesh inverted(TriangleMesh mesh) {
   for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
   return mesh;
 }
@@ -70,7 +70,7 @@ TEST(CavityAperture, WithAnIslandIsTheRingBetweenTheRims) {
   // A post of 1 m square in a pit of 3 m square, as high as the rim, with a solid interior: its walls face the pit, so
   // that its rim has the opposite orientation.
   TriangleMesh mesh = pit({{0, 0}, {3, 0}, {3, 3}, {0, 3}}, {1.5, 1.5});
-  const TriangleMesh post = turned(pit({{1, 1}, {2, 1}, {2, 2}, {1, 2}}, {1.5, 1.5}));
+  const TriangleMesh post = inverted(pit({{1, 1}, {2, 1}, {2, 2}, {1, 2}}, {1.5, 1.5}));
   mesh.append(post);
   const auto cells = aperture_cells(mesh, 0.1);
   const Sum sum = sum_of(cells);
@@ -90,7 +90,7 @@ TEST(CavityAperture, RefusesSurfacesThatAreNoCavity) {
       EXPECT_THAT(error.what(), testing::HasSubstr(why));
     }
   };
-  refused(turned(guide(0.3, 0.2, 0.5)), "face away from its inside");
+  refused(inverted(guide(0.3, 0.2, 0.5)), "face away from its inside");
 
   // Its two halves with their apertures facing each other.
   TriangleMesh closed = guide(0.3, 0.2, 0.5);
@@ -106,8 +106,8 @@ TEST(CavityAperture, RefusesSurfacesThatAreNoCavity) {
   TriangleMesh sharing = guide(0.3, 0.2, 0.5), touching = sharing;
   sharing.append(transformed(guide(0.3, 0.2, 0.5), Mat3::Identity(), Vec3(0, 0.3, 0.2)));
   refused(welded(sharing), "more than two triangles");
-  const Mat3 aside = Eigen::AngleAxisd(0.1, Vec3::UnitY()).toRotationMatrix();
-  touching.append(transformed(guide(0.3, 0.2, 0.5), aside, Vec3(0, 0.3, 0.2)));
+  const Mat3 tilt = Eigen::AngleAxisd(0.1, Vec3::UnitY()).toRotationMatrix();
+  touching.append(transformed(guide(0.3, 0.2, 0.5), tilt, Vec3(0, 0.3, 0.2)));
   refused(welded(touching), "touches itself");
 
   TriangleMesh flipped = guide(0.3, 0.2, 0.5);

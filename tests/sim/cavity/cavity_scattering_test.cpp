@@ -67,13 +67,13 @@ Matrix guide_by_modes(double a, double b, double depth, double k, const RadarBas
       // Of cos(ky y) sin(kz z) and sin(ky y) cos(kz z), the patterns of e_y and e_z.
       const Complex in_y = integral(a, m, true, radar.r.y()) * integral(b, n, false, radar.r.z());
       const Complex in_z = integral(a, m, false, radar.r.y()) * integral(b, n, true, radar.r.z());
-      const double share_y = (m == 0 ? 1.0 : 0.5) * (n == 0 ? 0.0 : 0.5) * a * b,
-                   share_z = (m == 0 ? 0.0 : 0.5) * (n == 0 ? 1.0 : 0.5) * a * b;
+      const double norm_y = (m == 0 ? 1.0 : 0.5) * (n == 0 ? 0.0 : 0.5) * a * b,
+                   norm_z = (m == 0 ? 0.0 : 0.5) * (n == 0 ? 1.0 : 0.5) * a * b;
       for (const bool te : {true, false}) {
         if (!te && (m == 0 || n == 0)) continue;
         const double e_y = te ? kz : ky, e_z = te ? -ky : kz;
         const Complex y = te ? beta / k : k / beta;
-        const Complex P = y * (e_y * e_y * share_y + e_z * e_z * share_z);
+        const Complex P = y * (e_y * e_y * norm_y + e_z * e_z * norm_z);
         std::array<Complex, 2> amplitude;
         for (int p = 0; p < 2; ++p) {
           const Vec3 E = p == 0 ? radar.h : radar.v, H = (-radar.r.cross(E)).cross(Vec3::UnitX());  // eta H x x^

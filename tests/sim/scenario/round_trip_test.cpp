@@ -87,7 +87,7 @@ class Mutator : public Walker {
   void triple(const char*, std::array<double, 3>& values, const Bound& bound) override {
     for (double& value : values) value = draw(bound);
   }
-  void ratio(const char*, double& share) override { share = random_.uniform(); }
+  void ratio(const char*, double& fraction) override { fraction = random_.uniform(); }
   void sweep(const char*, Sweep& values, const Bound& bound, Names, std::size_t* word) override {
     if (word != nullptr && *word > 0) return;
     values.resize(1 + random_.below(3));
@@ -222,9 +222,9 @@ TEST(RoundTrip, EveryAllowedWordIsRead) {
     Scenario scenario = full_scenario();
     scenario.clutter.enabled = false;  // its reflectivity is modelled for two of the polarisations
     for (int i = 0; i < step; ++i) {
-      class Turn : public Mutator {
+      class Change : public Mutator {
        public:
-        Turn() : Mutator(0) {}
+        Change() : Mutator(0) {}
         void number(const char*, double&, const Bound&) override {}
         void integer(const char*, int&, const Bound&) override {}
         void flag(const char*, bool&) override {}
@@ -232,8 +232,8 @@ TEST(RoundTrip, EveryAllowedWordIsRead) {
         void triple(const char*, std::array<double, 3>&, const Bound&) override {}
         void ratio(const char*, double&) override {}
         void sweep(const char*, Sweep&, const Bound&, Names, std::size_t*) override {}
-      } turn;
-      visit_fields(scenario, turn);
+      } change;
+      visit_fields(scenario, change);
     }
     if (scenario.sea.spectrum == SpectrumKind::kTable) scenario.sea.spectrum = SpectrumKind::kJonswap;
     if (scenario.radar.hop_code == HopCode::kFile) scenario.radar.hop_code = HopCode::kRandom;  // needs its file too

@@ -38,17 +38,17 @@ TEST(SamplePlan, CountsMapsPerCaseAndClass) {
 
 TEST(SamplePlan, NumbersEveryAddressOnce) {
   const SamplePlan plan(small_scenario());
-  std::set<std::tuple<int, int, int, int, int>> seen;
+  std::set<std::tuple<int, int, int, int, int>> addresses;
   for (std::size_t i = 0; i < plan.size(); ++i) {
     const SampleAddress at = plan.address(i);
-    seen.insert({at.sea_state, at.realisation, at.view, at.interval, at.target});
+    addresses.insert({at.sea_state, at.realisation, at.view, at.interval, at.target});
     EXPECT_EQ(plan.sample(at), i);
     const SampleAddress sea = plan.sea_address(i);
     EXPECT_EQ(sea.sea_state, at.sea_state);
     EXPECT_EQ(sea.realisation, at.realisation);
     EXPECT_EQ(plan.group(sea), plan.group(at));
   }
-  EXPECT_EQ(seen.size(), plan.size());
+  EXPECT_EQ(addresses.size(), plan.size());
 }
 
 TEST(SamplePlan, ShardsCoverAllSamplesInOrder) {

@@ -14,7 +14,7 @@ namespace {
 
 // Tanh-sinh rule over [-pi, pi], whose end points may be singular; exact to rounding for these functions.
 template <typename Function>
-double over_a_turn(const Function& f) {
+double over_full_circle(const Function& f) {
   double sum = 0;
   constexpr double kStep = 1.0 / 64;
   for (int n = -250; n <= 250; ++n) {
@@ -65,10 +65,10 @@ const Case kCases[] = {{spec_of(Spreading::kCos2s, 0.5), 1},
 TEST(Spreading, IntegratesToOneAndHasItsR1) {
   for (const auto& [spec, u] : kCases) {
     const auto density = [&spec = spec, u = u](double angle) { return spreading_density(spec, angle, u); };
-    EXPECT_NEAR(over_a_turn(density), 1, 1e-12) << spreading_exponent(spec, u);
-    EXPECT_NEAR(over_a_turn([&](double angle) { return density(angle) * std::cos(angle); }), spreading_r1(spec, u),
+    EXPECT_NEAR(over_full_circle(density), 1, 1e-12) << spreading_exponent(spec, u);
+    EXPECT_NEAR(over_full_circle([&](double angle) { return density(angle) * std::cos(angle); }), spreading_r1(spec, u),
                 1e-12);
-    EXPECT_NEAR(over_a_turn([&](double angle) { return density(angle) * std::sin(angle); }), 0, 1e-12);
+    EXPECT_NEAR(over_full_circle([&](double angle) { return density(angle) * std::sin(angle); }), 0, 1e-12);
   }
 }
 
@@ -117,9 +117,9 @@ TEST(Spreading, OfARealisationHasItsR1) {
     double expected = 0;
     for (const WaveComponent& c : field.components()) {
       EXPECT_NEAR(c.direction.norm(), 1, 1e-14);
-      const double share = 8 * c.amplitude * c.amplitude;
-      mean += share * c.direction;
-      expected += share * spreading_r1(state.spreading, c.omega * 8 / (2 * kPi));
+      const double fraction = 8 * c.amplitude * c.amplitude;
+      mean += fraction * c.direction;
+      expected += fraction * spreading_r1(state.spreading, c.omega * 8 / (2 * kPi));
     }
     // Thirty adjacent components have the peak's energy, their directions a thirtieth of the distribution apart.
     EXPECT_NEAR(mean.norm(), expected, 0.01);
@@ -143,10 +143,10 @@ TEST(Spreading, CorrelationAcrossTheWavesEqualsItsIntegral) {
       double one = 0;
       const WaveField field = realise_sea(state, seed, 0);
       for (const WaveComponent& c : field.components()) {
-        const double share = 8 * c.amplitude * c.amplitude;
-        one += share * std::cos(c.wavenumber * distance * c.direction.y());
+        const double fraction = 8 * c.amplitude * c.amplitude;
+        one += fraction * std::cos(c.wavenumber * distance * c.direction.y());
         expected +=
-            share / kSeeds * over_a_turn([&](double angle) {
+            fraction / kSeeds * over_full_circle([&](double angle) {
               return spreading_density(state.spreading, angle, 1) * std::cos(c.wavenumber * distance * std::sin(angle));
             });
       }

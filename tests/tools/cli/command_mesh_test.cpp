@@ -30,13 +30,13 @@ class MeshCommand : public testing::Test {
   // What the command prints.
   static std::string run(std::vector<std::string> words) {
     CLI::App app("test");
-    CommandContext shell;
-    add_mesh(app, shell);
+    CommandContext context;
+    add_mesh(app, context);
     std::reverse(words.begin(), words.end());
     app.parse(words);
     testing::internal::CaptureStdout();
     try {
-      shell.work();
+      context.work();
     } catch (...) {
       testing::internal::GetCapturedStdout();
       throw;
@@ -102,9 +102,9 @@ TEST(MeshPicture, DrawsThePlateThatFacesTheViewerOnWhite) {
 
 TEST(MeshPicture, HasTheBowOnTheLeftSeenFromPort) {
   // A plate at x = 10 and a smaller one at x = -10, both seen from port.
-  const Mat3 turned = Eigen::AngleAxisd(0.5 * 3.14159265358979, Vec3::UnitZ()).toRotationMatrix();
-  TriangleMesh mesh = transformed(make_plate(4, 4), turned, Vec3(10, 0, 0));
-  mesh.append(transformed(make_plate(1, 1), turned, Vec3(-10, 0, 0)));
+  const Mat3 rotation = Eigen::AngleAxisd(0.5 * 3.14159265358979, Vec3::UnitZ()).toRotationMatrix();
+  TriangleMesh mesh = transformed(make_plate(4, 4), rotation, Vec3(10, 0, 0));
+  mesh.append(transformed(make_plate(1, 1), rotation, Vec3(-10, 0, 0)));
   const Picture picture = picture_of(mesh, {.azimuth_deg = 90, .elevation_deg = 0, .width = 300});
   std::size_t left = 0, right = 0;
   for (int y = 0; y < picture.height; ++y) {

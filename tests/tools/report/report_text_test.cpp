@@ -70,21 +70,21 @@ Scenario with_clutter(ClutterLevel level, NoiseLevel noise, bool enabled = true)
 // Where clutter or noise have their own level, the ratio of the target to them determines which centres are found.
 TEST(AbsoluteLevel, AffectsFeaturesWhereClutterOrNoiseIsIndependentOfTheTarget) {
   const ordered_json metrics = telling_probes();
-  for (const Scenario& unseen :
+  for (const Scenario& scenario :
        {with_clutter(ClutterLevel::kScr, NoiseLevel::kCnr), with_clutter(ClutterLevel::kScr, NoiseLevel::kSnr),
         with_clutter(ClutterLevel::kNrl, NoiseLevel::kSnr, false)}) {
-    EXPECT_THAT(note_of_level(metrics, unseen),
+    EXPECT_THAT(note_of_level(metrics, scenario),
                 HasSubstr("Total power alone reaches 96.7 % on unseen seas. No feature group sees it"));
-    EXPECT_THAT(probes_table(metrics, unseen), HasSubstr("no feature uses it"));
-    EXPECT_THAT(probes_table(metrics, unseen), Not(HasSubstr("level has a part")));
+    EXPECT_THAT(probes_table(metrics, scenario), HasSubstr("no feature uses it"));
+    EXPECT_THAT(probes_table(metrics, scenario), Not(HasSubstr("level has a part")));
   }
   const std::pair<Scenario, const char*> cases[] = {
       {with_clutter(ClutterLevel::kNrl, NoiseLevel::kCnr), "The clutter is not scaled"},
       {with_clutter(ClutterLevel::kNrl, NoiseLevel::kThermal), "Clutter and receiver noise are not scaled"},
       {with_clutter(ClutterLevel::kScr, NoiseLevel::kThermal), "The receiver’s noise is not scaled"},
       {with_clutter(ClutterLevel::kNrl, NoiseLevel::kThermal, false), "The receiver’s noise is not scaled"}};
-  for (const auto& [seen, words] : cases) {
-    const std::string note = note_of_level(metrics, seen), table = probes_table(metrics, seen);
+  for (const auto& [scenario, words] : cases) {
+    const std::string note = note_of_level(metrics, scenario), table = probes_table(metrics, scenario);
     EXPECT_THAT(note, HasSubstr("Features see the level.</b> " + std::string(words)));
     EXPECT_THAT(note, HasSubstr("the ratio of the target to clutter and noise 96.7 %"));
     EXPECT_THAT(note, Not(HasSubstr("No feature group sees it")));

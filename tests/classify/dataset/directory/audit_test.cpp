@@ -25,7 +25,7 @@ class DataSetAudit : public DataSetDirectory {
  protected:
   void SetUp() override {
     DataSetDirectory::SetUp();
-    make_whole();
+    make_complete();
   }
 
   // Changes a shard and its checksum, as a faulty program would.

@@ -33,7 +33,7 @@ std::string error_of(Action action) {
 }
 
 TEST_F(DataSetDirectory, IsReadBackCompletely) {
-  make_whole();
+  make_complete();
   const DatasetReader reader(directory_);
   EXPECT_EQ(reader.size(), plan_.size());
   std::int64_t next = 0;
@@ -53,13 +53,13 @@ TEST_F(DataSetDirectory, IsIncompleteUntilTheLastShardExists) {
 }
 
 TEST_F(DataSetDirectory, ThatIsNotEmptyNeedsResume) {
-  make_whole();
+  make_complete();
   EXPECT_THAT(error_of([&] { DatasetWriter(directory_, scenario_, false, kTestVersion); }), HasSubstr("--resume"));
   EXPECT_NO_THROW(DatasetWriter(directory_, scenario_, true, kTestVersion));
 }
 
 TEST_F(DataSetDirectory, OfAnotherScenarioIsRefusedWithTheFirstDifference) {
-  make_whole();
+  make_complete();
   Scenario other = scenario_;
   other.seed = 43;
   EXPECT_THAT(error_of([&] { DatasetWriter(directory_, other, true, kTestVersion); }),
@@ -67,7 +67,7 @@ TEST_F(DataSetDirectory, OfAnotherScenarioIsRefusedWithTheFirstDifference) {
 }
 
 TEST_F(DataSetDirectory, KeepsItsMapsWhenOnlyLearningChanges) {
-  make_whole();
+  make_complete();
   Scenario other = scenario_;
   other.learning.epochs = 7;
   other.dataset.train_fraction = 0.5;
@@ -76,7 +76,7 @@ TEST_F(DataSetDirectory, KeepsItsMapsWhenOnlyLearningChanges) {
 }
 
 TEST_F(DataSetDirectory, RegeneratesOnlyInvalidShards) {
-  make_whole();
+  make_complete();
   fs::remove(directory_ / kManifestFile);
   fs::resize_file(directory_ / shard_name(1), fs::file_size(directory_ / shard_name(1)) - 10);
   fs::remove(directory_ / shard_name(2));
@@ -87,7 +87,7 @@ TEST_F(DataSetDirectory, RegeneratesOnlyInvalidShards) {
 }
 
 TEST_F(DataSetDirectory, WithAChangedShardIsRefusedWithTheFilesName) {
-  make_whole();
+  make_complete();
   const fs::path file = directory_ / shard_name(1);
   std::string bytes = read_file(file);
   bytes.back() = static_cast<char>(bytes.back() ^ 1);
@@ -149,7 +149,7 @@ TEST_F(DataSetDirectory, MayContainOnlyItsTemporaryFilesBeforeItsScenario) {
 
 // A scenario alone does not make a directory a data set's, since a run also has one.
 TEST_F(DataSetDirectory, IsResumedOnlyIfItContainsNothingElse) {
-  make_whole();
+  make_complete();
   for (const char* name : {"all.h5", "all.npz", ".nfs0001"}) write_file(directory_ / name, "ours, or the system's");
   EXPECT_NO_THROW(DatasetWriter(directory_, scenario_, true, kTestVersion));
   write_file(directory_ / "metrics.json", "{}");
@@ -162,7 +162,7 @@ TEST_F(DataSetDirectory, IsResumedOnlyIfItContainsNothingElse) {
 }
 
 TEST_F(DataSetDirectory, AcceptsAShardOfAConcurrentProcess) {
-  make_whole();
+  make_complete();
   DatasetWriter writer(directory_, scenario_, true, kTestVersion);
   // A folder replaces the temporary file, so that nothing can be written.
   fs::create_directories(directory_ / temporary_name(shard_name(0), ::getpid()) / "in the way");
@@ -180,7 +180,7 @@ class ConcurrentRepair : public DataSetDirectory {
  protected:
   void SetUp() override {
     DataSetDirectory::SetUp();
-    make_whole();
+    make_complete();
     Manifest manifest = read_manifest(directory_ / kManifestFile);
     for (const std::size_t i : {0u, 2u}) manifest.shards[i].sha256 = std::string(64, '0');
     write_file(directory_ / kManifestFile, to_json(manifest));
@@ -193,7 +193,7 @@ class ConcurrentRepair : public DataSetDirectory {
     }
   }
 
-  void expect_whole() const {
+  void expect_complete() const {
     const DatasetReader reader(directory_);
     for (std::size_t i = 0; i < reader.shards(); ++i) EXPECT_EQ(reader.shard(i).samples.size(), plan_.shard(i).count);
   }
@@ -205,7 +205,7 @@ TEST_F(ConcurrentRepair, IsCompleteAfterOneRoundOfParts) {
     make_part(writer, first, last);
     EXPECT_THAT(writer.finish(), testing::IsEmpty());
   }
-  expect_whole();
+  expect_complete();
 }
 
 TEST_F(ConcurrentRepair, IsCompleteAfterConcurrentParts) {
@@ -215,12 +215,12 @@ TEST_F(ConcurrentRepair, IsCompleteAfterConcurrentParts) {
   make_part(two, 2, 3);
   for (DatasetWriter* writer : {&one, &two, &looks_only}) {
     EXPECT_THAT(writer->finish(), testing::IsEmpty());
-    expect_whole();
+    expect_complete();
   }
 }
 
 TEST_F(DataSetDirectory, OfAnotherVersionIsReadButNotContinued) {
-  make_whole();
+  make_complete();
   const auto resume = [&] { DatasetWriter(directory_, scenario_, true, "0.0.1").finish(); };
   EXPECT_THAT(error_of(resume), HasSubstr("manifest.json: made by seaglint 0.0.0, this is seaglint 0.0.1"));
   fs::remove(directory_ / kManifestFile);
@@ -230,7 +230,7 @@ TEST_F(DataSetDirectory, OfAnotherVersionIsReadButNotContinued) {
 }
 
 TEST_F(DataSetDirectory, WithAChangedScenarioIsReadForAnAuditOnly) {
-  make_whole();
+  make_complete();
   write_file(directory_ / kScenarioFile, read_file(directory_ / kScenarioFile) + "# mine\n");
   EXPECT_THAT(error_of([&] { DatasetReader reader(directory_); }),
               HasSubstr("scenario.yaml: is not the one that the manifest was written for"));
@@ -238,7 +238,7 @@ TEST_F(DataSetDirectory, WithAChangedScenarioIsReadForAnAuditOnly) {
 }
 
 TEST_F(DataSetDirectory, OfAnotherFormatIsRefused) {
-  make_whole();
+  make_complete();
   const auto replace = [&](const fs::path& file, const std::string& from, const std::string& to) {
     std::string bytes = read_file(file);
     bytes.replace(bytes.find(from), from.size(), to);
@@ -258,7 +258,7 @@ TEST_F(DataSetDirectory, OfAnotherFormatIsRefused) {
 
 // The action that the message recommends succeeds.
 TEST_F(DataSetDirectory, WithADamagedManifestIsResumedWithoutIt) {
-  make_whole();
+  make_complete();
   const fs::path file = directory_ / kManifestFile;
   const std::string good = read_file(file);
   write_file(file, good.substr(0, good.size() / 2));
@@ -273,7 +273,7 @@ TEST_F(DataSetDirectory, WithADamagedManifestIsResumedWithoutIt) {
 }
 
 TEST_F(DataSetDirectory, WithABrokenManifestIsRefused) {
-  make_whole();
+  make_complete();
   const std::string good = read_file(directory_ / kManifestFile);
   Manifest manifest = read_manifest(directory_ / kManifestFile);
   const auto refused = [&](const std::string& text) {

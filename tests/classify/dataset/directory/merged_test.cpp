@@ -26,7 +26,7 @@ class MergedDataSet : public DataSetDirectory {
  protected:
   void SetUp() override {
     DataSetDirectory::SetUp();
-    make_whole();
+    make_complete();
   }
 
   std::string refusal() const {
@@ -121,18 +121,18 @@ TEST_F(MergedDataSet, IsNaNWhereAShardIsMissing) {
 
 TEST_F(MergedDataSet, FindsItsShardsFromAnotherFolder) {
   // HDF5 reads %b in the name of a source as the number of a block.
-  const fs::path beside = directory_.string() + "_beside", moved = directory_.string() + "_50 %b";
-  fs::remove_all(beside);
+  const fs::path other = directory_.string() + "_beside", moved = directory_.string() + "_50 %b";
+  fs::remove_all(other);
   fs::remove_all(moved);
-  fs::create_directories(beside);
+  fs::create_directories(other);
   fs::rename(directory_, moved);
-  merge_dataset(moved, beside / "all.h5", kTestVersion);
+  merge_dataset(moved, other / "all.h5", kTestVersion);
   {
-    const Hdf5Reader merged(beside / "all.h5");
+    const Hdf5Reader merged(other / "all.h5");
     EXPECT_EQ(merged.sources("/maps").front().file, "../" + moved.filename().string() + "/shard_00000.h5");
     for (const float value : merged.read<float>("/maps", 3).values) EXPECT_FALSE(std::isnan(value));
   }
-  fs::remove_all(beside);
+  fs::remove_all(other);
   fs::remove_all(moved);
 }
 

@@ -84,8 +84,8 @@ TEST(Random, NormalHasTheMomentsAndTailsOfANormal) {
   EXPECT_NEAR(moment[2], 1, 5 * std::sqrt(2.0 / kCount));
   EXPECT_NEAR(moment[3], 0, 5 * std::sqrt(15.0 / kCount));
   EXPECT_NEAR(moment[4], 3, 5 * std::sqrt(96.0 / kCount));
-  const double share = std::erfc(2 / std::sqrt(2.0));
-  EXPECT_NEAR(beyond_two, kCount * share, 5 * std::sqrt(kCount * share * (1 - share)));
+  const double probability = std::erfc(2 / std::sqrt(2.0));
+  EXPECT_NEAR(beyond_two, kCount * probability, 5 * std::sqrt(kCount * probability * (1 - probability)));
 }
 
 TEST(Random, BelowIsUnbiasedForCountsThatDoNotDivideTheRange) {

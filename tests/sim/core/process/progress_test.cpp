@@ -42,7 +42,7 @@ TEST(Progress, IsSilentWhereThereIsNoTerminal) {
 
 // The output to a terminal in place of stderr while `work` runs.
 template <typename Function>
-std::string sent_to_terminal(const Function& work) {
+std::string output_to_terminal(const Function& work) {
   const int terminal = ::posix_openpt(O_RDWR | O_NOCTTY);
   EXPECT_TRUE(terminal >= 0 && ::grantpt(terminal) == 0 && ::unlockpt(terminal) == 0);
   const int inside = ::open(::ptsname(terminal), O_RDWR | O_NOCTTY);
@@ -60,19 +60,19 @@ std::string sent_to_terminal(const Function& work) {
 }
 
 TEST(Progress, DrawsABarOnATerminalAfterTwoSecondsAndErasesIt) {
-  const std::string sent = sent_to_terminal([] {
+  const std::string output = output_to_terminal([] {
     Progress progress("maps", 4);
     progress.advance();
     std::this_thread::sleep_for(std::chrono::milliseconds(2100));
     progress.advance();
     progress.advance();  // too soon to be drawn
   });
-  EXPECT_THAT(sent, ::testing::StartsWith("\rmaps  [##########..........]  50 %, "));
-  EXPECT_THAT(sent, ::testing::EndsWith(" s left\033[K\r\033[K"));
+  EXPECT_THAT(output, ::testing::StartsWith("\rmaps  [##########..........]  50 %, "));
+  EXPECT_THAT(output, ::testing::EndsWith(" s left\033[K\r\033[K"));
 }
 
 TEST(Progress, IsSilentForShortWork) {
-  EXPECT_EQ(sent_to_terminal([] {
+  EXPECT_EQ(output_to_terminal([] {
               Progress progress("maps", 2);
               progress.advance();
               progress.advance();

@@ -25,10 +25,10 @@ class MeshFuzzing : public testing::TestWithParam<const char*> {
       : folder(fs::path(testing::TempDir()) /
                ("seaglint_damage_" + std::to_string(::getpid()) + std::string(GetParam()))) {
     fs::create_directories(folder);
-    const fs::path sound = folder / ("sound" + std::string(GetParam()));
-    write_mesh(sound, make_icosahedral_reflector());
+    const fs::path valid = folder / ("sound" + std::string(GetParam()));
+    write_mesh(valid, make_icosahedral_reflector());
     std::ostringstream content;
-    content << std::ifstream(sound, std::ios::binary).rdbuf();
+    content << std::ifstream(valid, std::ios::binary).rdbuf();
     bytes = content.str();
   }
   ~MeshFuzzing() override { fs::remove_all(folder); }

@@ -78,9 +78,9 @@ void expect_covers_however_written(Corners corner, double area) {
     std::rotate(corner.begin(), corner.begin() + 1, corner.end());
     expect_covers(corner, area);
     expect_covers(Corners(corner.rbegin(), corner.rend()), area);
-    Corners turned;
-    for (const Vec3& p : corner) turned.push_back(R * p + Vec3(3, 4, -2));
-    expect_covers(turned, area);
+    Corners rotated;
+    for (const Vec3& p : corner) rotated.push_back(R * p + Vec3(3, 4, -2));
+    expect_covers(rotated, area);
   }
 }
 

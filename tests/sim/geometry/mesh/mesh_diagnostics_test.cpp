@@ -45,9 +45,9 @@ TEST(MeshDiagnostics, InvertAClosedSurfaceThatIsInsideOut) {
   EXPECT_EQ(health.inverted_surfaces, 1u);
   EXPECT_EQ(health.inverted_triangles, 80u);
   EXPECT_THAT(diagnostic_messages(health), ElementsAre(HasSubstr("1 closed surface is inside out (80 triangles)")));
-  const TriangleMesh turned = repair(both);
-  EXPECT_EQ(diagnose(turned).inverted_surfaces, 0u);
-  EXPECT_NEAR(enclosed_volume(turned), 2 * enclosed_volume(sphere), 1e-9);
+  const TriangleMesh repaired = repair(both);
+  EXPECT_EQ(diagnose(repaired).inverted_surfaces, 0u);
+  EXPECT_NEAR(enclosed_volume(repaired), 2 * enclosed_volume(sphere), 1e-9);
 }
 
 TEST(MeshDiagnostics, CountHolesAndInconsistentTriangles) {

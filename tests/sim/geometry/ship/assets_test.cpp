@@ -22,7 +22,7 @@ void expect_same_bytes(const TriangleMesh& mesh, const char* name) {
   write_mesh(again, mesh);
   // EXPECT_EQ would print half a megabyte.
   EXPECT_TRUE(read_file(again) == read_file(kAssets / name))
-      << "assets/" << name << " is not what its command in assets/README.md makes";
+      << "assets/" << name << " differs from the output of its command in assets/README.md";
   std::filesystem::remove(again);
 }
 
@@ -50,7 +50,7 @@ TEST(Assets, AreUnchangedByARoundTripThroughTheirFiles) {
   for (std::size_t t = 0; t < ship.triangles.size(); ++t) {
     for (int i = 0; i < 3; ++i) {
       ASSERT_EQ(again.vertices[again.triangles[t][i]], ship.vertices[ship.triangles[t][i]])
-          << "positions lie on a grid that float32 holds exactly";
+          << "positions lie on a grid that float32 represents exactly";
     }
   }
 }

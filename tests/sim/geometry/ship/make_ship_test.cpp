@@ -54,22 +54,22 @@ TEST_F(ShipMesh, ConsistsOfClosedPartsThatFaceOutwards) {
 // Follows neighbours from triangle to triangle: each solid within a part has its own outward orientation.
 TEST_F(ShipMesh, EverySolidWithinAPartFacesOutwards) {
   const Topology topology = topology_of(mesh);
-  std::vector<bool> seen(mesh.triangles.size(), false);
+  std::vector<bool> visited(mesh.triangles.size(), false);
   int solids = 0;
   for (std::uint32_t start = 0; start < mesh.triangles.size(); ++start) {
-    if (seen[start]) continue;
+    if (visited[start]) continue;
     double volume = 0;
     const Vec3 origin = mesh.vertices[mesh.triangles[start][0]];
     std::vector<std::uint32_t> pending{start};
-    seen[start] = true;
+    visited[start] = true;
     while (!pending.empty()) {
       const std::uint32_t t = pending.back();
       pending.pop_back();
       volume += (mesh.vertices[mesh.triangles[t][0]] - origin).dot(area_vector(mesh, t)) / 3.0;
       for (std::uint32_t n : topology.neighbours[t]) {
         ASSERT_NE(n, kNoIndex);
-        if (!seen[n]) pending.push_back(n);
-        seen[n] = true;
+        if (!visited[n]) pending.push_back(n);
+        visited[n] = true;
       }
     }
     EXPECT_GT(volume, 0) << mesh.part_names[mesh.triangle_part[start]];

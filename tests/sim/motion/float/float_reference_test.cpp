@@ -77,10 +77,10 @@ TEST(FloatReference, AFloatsOscillatorMatchesTheMeasuredRoll) {
     const auto count =
         static_cast<std::size_t>(std::floor(std::floor(40 * m.omega / (2 * kPi)) * 2 * kPi / m.omega / spec.step_s));
     for (std::size_t n = 0; n < count; ++n) {
-      const Complex turn =
+      const Complex phasor =
           std::polar(2.0 / static_cast<double>(count), -m.omega * spec.step_s * static_cast<double>(n));
-      roll += samples[n].angles.x() * turn;
-      heave += samples[n].translation.z() * turn;
+      roll += samples[n].angles.x() * phasor;
+      heave += samples[n].translation.z() * phasor;
     }
     std::printf("%.3f rad/s: heave %.3f (%.2f), roll %.3f (%.2f)\n", m.omega, std::abs(heave) / amplitude, m.heave,
                 std::abs(roll) / (k * amplitude), m.roll);

@@ -151,12 +151,13 @@ TEST(SimulateFloat, RatesAreTheDerivativesOfItsMotion) {
       simulate_float(float_particulars(spec, kReflector), spec, sea, 0, 0, 20, 42, 3);
   for (std::size_t n = 1; n + 1 < samples.size(); n += 7) {
     // Simpson's rule over two steps: h^4/90 times the fifth derivative of the motion, and the kinks of breaking.
-    const Vec3 turn = 0.02 / 3 * (samples[n - 1].angle_rates + 4 * samples[n].angle_rates + samples[n + 1].angle_rates);
-    EXPECT_NEAR((samples[n + 1].angles - samples[n - 1].angles - turn).norm(), 0, 1e-5);
-    const Vec3 way =
+    const Vec3 rotation =
+        0.02 / 3 * (samples[n - 1].angle_rates + 4 * samples[n].angle_rates + samples[n + 1].angle_rates);
+    EXPECT_NEAR((samples[n + 1].angles - samples[n - 1].angles - rotation).norm(), 0, 1e-5);
+    const Vec3 displacement =
         0.02 / 3 *
         (samples[n - 1].translation_rates + 4 * samples[n].translation_rates + samples[n + 1].translation_rates);
-    EXPECT_NEAR((samples[n + 1].translation - samples[n - 1].translation - way).norm(), 0, 1e-5);
+    EXPECT_NEAR((samples[n + 1].translation - samples[n - 1].translation - displacement).norm(), 0, 1e-5);
   }
 }
 

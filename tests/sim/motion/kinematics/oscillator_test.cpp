@@ -19,8 +19,8 @@ std::vector<double> peaks_of_decay(const Oscillator& oscillator, double x0, doub
     const OscillatorState next = advance(oscillator, state, 0, 0, 0, step);
     if (state.rate != 0 && state.rate * next.rate <= 0) {
       // The rate passes zero inside the step: the value there by a parabola through it.
-      const double share = state.rate / (state.rate - next.rate);
-      peaks.push_back(state.x + 0.5 * share * step * state.rate);
+      const double fraction = state.rate / (state.rate - next.rate);
+      peaks.push_back(state.x + 0.5 * fraction * step * state.rate);
     }
     state = next;
   }

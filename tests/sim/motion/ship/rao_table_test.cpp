@@ -96,10 +96,10 @@ TEST(RaoTable, ContainsItsHeadingsToTheirRounding) {
   std::vector<MotionRao> responses(3);
   for (std::size_t m = 0; m < 3; ++m) responses[m].heave = static_cast<double>(m + 1);
   const RaoTable table("test", {radians(-55), radians(55), kPi}, {1}, responses, Vec3::Zero(), 0);
-  for (const double slip : {-1e-15, 0.0, 1e-15}) {
-    EXPECT_NEAR(std::abs(table.at(1, 0.1, radians(-55) + slip).heave - 1.0), 0, 1e-12) << slip;
-    EXPECT_NEAR(std::abs(table.at(1, 0.1, radians(55) + slip).heave - 2.0), 0, 1e-12) << slip;
-    EXPECT_NEAR(std::abs(table.at(1, 0.1, kPi + slip).heave - 3.0), 0, 1e-12) << slip;
+  for (const double rounding : {-1e-15, 0.0, 1e-15}) {
+    EXPECT_NEAR(std::abs(table.at(1, 0.1, radians(-55) + rounding).heave - 1.0), 0, 1e-12) << rounding;
+    EXPECT_NEAR(std::abs(table.at(1, 0.1, radians(55) + rounding).heave - 2.0), 0, 1e-12) << rounding;
+    EXPECT_NEAR(std::abs(table.at(1, 0.1, kPi + rounding).heave - 3.0), 0, 1e-12) << rounding;
   }
   EXPECT_THROW(table.at(1, 0.1, radians(55) + 1e-6), InputError);
   EXPECT_THROW(table.at(1, 0.1, radians(55) - 1e-6), InputError);

@@ -135,11 +135,11 @@ TEST(SectionRadiation, RadiatesTheEnergyOfDamping) {
       for (const double k : {0.01, 0.1, 0.5, 1.0}) {
         const Section section(2, draught, coefficient, k);
         for (const SectionMode mode : {kSway, kHeave, kRoll}) {
-          const double sent =
+          const double radiated =
               std::pow(kGravity * section.flow.radiated_wave_ratio[mode], 2) / std::pow(section.omega, 3);
           if (mode == kRoll && coefficient == kCircle && draught == 1.0) continue;
           // The truncated series: residuals of 1e-3 at the waterline.
-          EXPECT_NEAR(section.damping(mode, mode) / sent, 1, 0.01)
+          EXPECT_NEAR(section.damping(mode, mode) / radiated, 1, 0.01)
               << draught << " " << coefficient << " " << k << " " << mode;
         }
       }

@@ -18,7 +18,7 @@ using namespace testing_echoes;
 
 constexpr Complex j(0, 1);
 
-WedgeFrame rim_of(double thickness_m) {
+WedgeFrame edge_of(double thickness_m) {
   const Vec3 x = Vec3::UnitX(), n = Vec3::UnitY(), t = x.cross(n);
   return {{{x, n, t}, {x, -n, -t}}, 2, thickness_m};
 }
@@ -34,7 +34,7 @@ Vec3 any_direction(Random& random) {
 
 Vec3 any_field(Random& random, const Vec3& direction) { return any_direction(random).cross(direction).normalized(); }
 
-Vec3 about_the_rim(double angle_from_extension) {
+Vec3 about_the_edge(double angle_from_extension) {
   return {-std::cos(angle_from_extension), std::sin(angle_from_extension), 0};
 }
 
@@ -44,15 +44,15 @@ struct Deviation {
 
 // Difference of the echoes of upright strips of 4 m and 2 m height and 9.1 wavelengths width, against the integral
 // equations of the infinite strip, over all pairs of directions that `wanted` selects.
-template <typename Wanted>
-Deviation against_integral_equations(double thickness_mm, bool soft, const Wanted& wanted) {
+template <typename Selected>
+Deviation against_integral_equations(double thickness_mm, bool soft, const Selected& selected) {
   const double k = wavenumber(10.24e9), height = 2;
   const Scatterer one = strip(height, 1e-3 * thickness_mm), two = strip(2 * height, 1e-3 * thickness_mm);
   double error = 0, power = 0, decibels = 0;
   int count = 0;
   for (const auto& row : read_csv("strip.csv")) {
     const double transmit = std::stod(row[1]), receive = std::stod(row[2]);
-    if (std::stod(row[0]) != thickness_mm || !wanted(transmit, receive)) continue;
+    if (std::stod(row[0]) != thickness_mm || !selected(transmit, receive)) continue;
     const Complex reference(std::stod(row[soft ? 3 : 5]), std::stod(row[soft ? 4 : 6]));
     const BistaticGeometry geometry =
         transmit == receive ? monostatic(radar_basis(direction(receive, 0)))
@@ -105,16 +105,17 @@ TEST(ThickEdge, OfStripsMatchesIntegralEquationsForOtherReceivers) {
 }
 
 TEST(ThickEdge, IsReciprocal) {
-  const WedgeFrame rim = rim_of(1e-3);
+  const WedgeFrame edge = edge_of(1e-3);
   Random random({11, Stream::kTest, 41});
   for (int i = 0; i < 200; ++i) {
     const Vec3 in = any_direction(random), out = any_direction(random);
     const Vec3 E = any_field(random, in), p = any_field(random, out);
-    const auto there = thick_edge_currents(rim, in, {E, E}, out)[0],
-               back = thick_edge_currents(rim, -out, {p, p}, -in)[0];
-    const Complex a = p.dot(there.constant), b = E.dot(back.constant);
+    const auto forward = thick_edge_currents(edge, in, {E, E}, out)[0],
+               reversed = thick_edge_currents(edge, -out, {p, p}, -in)[0];
+    const Complex a = p.dot(forward.constant), b = E.dot(reversed.constant);
     EXPECT_LT(std::abs(a - b), 1e-9 * (1 + std::abs(a))) << i;
-    EXPECT_LT(std::abs(Complex(p.dot(there.logarithm)) - Complex(E.dot(back.logarithm))), 1e-12 * (1 + std::abs(a)))
+    EXPECT_LT(std::abs(Complex(p.dot(forward.logarithm)) - Complex(E.dot(reversed.logarithm))),
+              1e-12 * (1 + std::abs(a)))
         << i;
   }
 }
@@ -123,17 +124,17 @@ TEST(ThickEdge, IsReciprocal) {
 // currents equal the mean of adjacent ones up to the square of the distance times a curvature of 30 at 0.1 rad from the
 // plane.
 TEST(ThickEdge, HasNoJumps) {
-  const WedgeFrame rim = rim_of(1e-3);
+  const WedgeFrame edge = edge_of(1e-3);
   const auto response = [&](double phi, double phi_in) {
-    const Vec3 in = -about_the_rim(phi_in), s = about_the_rim(phi), z = Vec3::UnitZ();
-    const auto currents = thick_edge_currents(rim, in, {z, z.cross(in)}, s);
+    const Vec3 in = -about_the_edge(phi_in), s = about_the_edge(phi), z = Vec3::UnitZ();
+    const auto currents = thick_edge_currents(edge, in, {z, z.cross(in)}, s);
     return std::array{Complex(z.dot(currents[0].constant)), Complex(z.cross(s).dot(currents[1].constant))};
   };
   for (double phi_in = 0.1; phi_in < kPi - 0.1; phi_in += 0.1) {
     for (const double phi : {kPi - phi_in, phi_in - kPi}) {
-      constexpr double kMinRelaunchSine = 1e-3;
-      const auto at = response(phi, phi_in), before = response(phi - kMinRelaunchSine, phi_in),
-                 after = response(phi + kMinRelaunchSine, phi_in);
+      constexpr double kOffset = 1e-3;
+      const auto at = response(phi, phi_in), before = response(phi - kOffset, phi_in),
+                 after = response(phi + kOffset, phi_in);
       for (int i = 0; i < 2; ++i)
         EXPECT_LT(std::abs(at[i] - 0.5 * (before[i] + after[i])), 3e-5) << phi_in << ' ' << phi << ' ' << i;
     }
@@ -144,7 +145,7 @@ TEST(ThickEdge, HasNoJumps) {
     }
   }
   const Vec3 along = Vec3::UnitZ();
-  const auto end_on = thick_edge_currents(rim, along, {Vec3::UnitX(), Vec3::UnitY()}, -along);
+  const auto end_on = thick_edge_currents(edge, along, {Vec3::UnitX(), Vec3::UnitY()}, -along);
   EXPECT_TRUE(end_on[0].constant.allFinite() && end_on[1].constant.allFinite());
 }
 
@@ -155,10 +156,10 @@ TEST(ThickEdge, IsTheSameFromEitherSide) {
   const double k = wavenumber(10.24e9);
   for (const double azimuth : {3.0, 37.0, 81.0}) {
     const auto front = echo(plate, radar_basis(direction(azimuth, 12)), k, 0, 8, true),
-               back = echo(plate, radar_basis(direction(180 - azimuth, 12)), k, 0, 8, true);
-    EXPECT_LT(std::abs(front[kHhChannel] - back[kHhChannel]), 1e-6) << azimuth;
-    EXPECT_LT(std::abs(front[kVvChannel] - back[kVvChannel]), 1e-6) << azimuth;
-    EXPECT_LT(std::abs(front[kHvChannel] + back[kHvChannel]), 1e-6) << azimuth;
+               reversed = echo(plate, radar_basis(direction(180 - azimuth, 12)), k, 0, 8, true);
+    EXPECT_LT(std::abs(front[kHhChannel] - reversed[kHhChannel]), 1e-6) << azimuth;
+    EXPECT_LT(std::abs(front[kVvChannel] - reversed[kVvChannel]), 1e-6) << azimuth;
+    EXPECT_LT(std::abs(front[kHvChannel] + reversed[kHvChannel]), 1e-6) << azimuth;
   }
 }
 

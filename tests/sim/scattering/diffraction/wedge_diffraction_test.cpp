@@ -100,8 +100,8 @@ TEST(FringeCurrent, IsTheCotangentsOfAComplexAngle) {
                  beta = 0.2 + 1.2 * random.uniform();
     const Vec3 k_hat(-std::sin(beta) * std::cos(phi), -std::sin(beta) * std::sin(phi), std::cos(beta));
     const Vec3 E = k_hat.cross(Vec3(0.3, -0.5, 0.8)).normalized();
-    const double z = 2 * random.uniform() - 1, turn = 2 * kPi * random.uniform();
-    const Vec3 s(std::sqrt(1 - z * z) * std::cos(turn), std::sqrt(1 - z * z) * std::sin(turn), z);
+    const double z = 2 * random.uniform() - 1, angle = 2 * kPi * random.uniform();
+    const Vec3 s(std::sqrt(1 - z * z) * std::cos(angle), std::sqrt(1 - z * z) * std::sin(angle), z);
     const WedgeFrame frame = wedge(N);
     CVec3 expected = CVec3::Zero();
     bool near_a_pole = false;
@@ -178,7 +178,7 @@ TEST(FringeCurrent, OfAConcaveEdgeIsKellersCoefficientLessThatOfItsImages) {
 // the incident shadow boundary.
 TEST(EquivalentEdgeCurrents, ExcludePhysicalOpticsOnlyOfVisibleFaces) {
   Random random({3, Stream::kTest, 20});
-  int unseen = 0;
+  int invisible = 0;
   for (int i = 0; i < 1000; ++i) {
     const double N = 1.05 + 0.95 * random.uniform();
     const double phi_in = N * kPi * random.uniform(), phi = N * kPi * random.uniform();
@@ -191,7 +191,7 @@ TEST(EquivalentEdgeCurrents, ExcludePhysicalOpticsOnlyOfVisibleFaces) {
     auto [soft, hard] = keller(N, phi, phi_in);
     for (const bool second : {false, true}) {
       const double out = second ? N * kPi - phi : phi, in = second ? N * kPi - phi_in : phi_in;
-      if (in < kPi && out > kPi) ++unseen;
+      if (in < kPi && out > kPi) ++invisible;
       if (out > kPi && from_shadow > kShadowBoundaryGuard) continue;
       const auto [soft_face, hard_face] = optics(out, in);
       soft -= soft_face;
@@ -202,15 +202,15 @@ TEST(EquivalentEdgeCurrents, ExcludePhysicalOpticsOnlyOfVisibleFaces) {
     EXPECT_NEAR(z.cross(s).dot(K_hard), hard / (2 * kPi), 1e-9 * (1 + std::abs(hard)))
         << N << ' ' << phi_in << ' ' << phi;
   }
-  EXPECT_GT(unseen, 300);
+  EXPECT_GT(invisible, 300);
 }
 
 TEST(FringeCurrent, IsFiniteEverywhereButAlongTheGrazingRay) {
   Random random({3, Stream::kTest, 18});
   for (int i = 0; i < 20000; ++i) {
     const auto any = [&] {
-      const double z = 2 * random.uniform() - 1, turn = 2 * kPi * random.uniform();
-      return Vec3(std::sqrt(1 - z * z) * std::cos(turn), std::sqrt(1 - z * z) * std::sin(turn), z);
+      const double z = 2 * random.uniform() - 1, angle = 2 * kPi * random.uniform();
+      return Vec3(std::sqrt(1 - z * z) * std::cos(angle), std::sqrt(1 - z * z) * std::sin(angle), z);
     };
     const Vec3 k_hat = any();
     const Vec3 E = k_hat.cross(any()).normalized();

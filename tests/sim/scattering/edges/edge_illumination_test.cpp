@@ -22,10 +22,10 @@ TEST(IlluminationByEdge, ContainsAllOfEachEdgeInTheOrderOfTheirLists) {
     for (int i = 0; i < 20; ++i) {
       const int edge = 2 * static_cast<int>(kEdges / 2 * random.uniform());  // every other one has none
       const Vec3 x = Vec3::Zero();
-      const EdgeIllumination arrival{edge, {static_cast<double>(count++), 0}, {Vec2::Zero(), Vec2::Zero()}, x, x, x, x,
-                                     x};
-      expected[arrival.edge].push_back(arrival.s[0]);
-      list.push_back(arrival);
+      const EdgeIllumination illumination{
+          edge, {static_cast<double>(count++), 0}, {Vec2::Zero(), Vec2::Zero()}, x, x, x, x, x};
+      expected[illumination.edge].push_back(illumination.s[0]);
+      list.push_back(illumination);
     }
   }
   const IlluminationByEdge illuminations(std::move(lists), kEdges);

@@ -93,7 +93,7 @@ TEST(TrihedralEdges, ReduceTheErrorFromTheFullWaveSolution) {
 // face-grazing diffracted waves along the edges from a vertex, on one side of the plane or the other. A jump of 0.7 m
 // would result from reflected waves that illuminate the seams from behind.
 TEST(TrihedralEdges, AreContinuousWhereTheOrderOfReflectionsChanges) {
-  constexpr double leg = 4, aside_deg = 0.001;
+  constexpr double leg = 4, offset_deg = 0.001;
   const Scatterer trihedral(make_triangular_trihedral(leg));
   const double k = wavenumber(0.3e9);
   for (const double elevation_deg : {10.0, 25.0, 35.0}) {
@@ -101,10 +101,10 @@ TEST(TrihedralEdges, AreContinuousWhereTheOrderOfReflectionsChanges) {
     const auto at = [&](double azimuth_deg) {
       return echo(trihedral, radar_basis(direction(azimuth_deg, elevation_deg)), k, 0, 8, true);
     };
-    const auto before = at(middle_deg - aside_deg), after = at(middle_deg + aside_deg);
+    const auto before = at(middle_deg - offset_deg), after = at(middle_deg + offset_deg);
     for (const int channel : {kHhChannel, kVvChannel}) {
       EXPECT_LT(std::abs(after[channel] - before[channel]),
-                0.01 + std::abs(before[channel]) * k * leg * 2 * radians(aside_deg))
+                0.01 + std::abs(before[channel]) * k * leg * 2 * radians(offset_deg))
           << elevation_deg << ' ' << channel;
     }
   }
@@ -139,14 +139,14 @@ TEST(PlateEdges, HaveNoSpikesInAFullSweep) {
 // whatever the sheet's orientation about the line of sight.
 TEST(PlateEdges, EdgeOnEchoIsContinuousForAnyOrientation) {
   const double k = wavenumber(10e9);
-  for (const double turned_deg : {0.0, 20.0, 45.0, 90.0, 135.0, 160.0}) {
-    const Mat3 turn = Eigen::AngleAxisd(radians(turned_deg), Vec3::UnitX()).toRotationMatrix();
+  for (const double rotation_deg : {0.0, 20.0, 45.0, 90.0, 135.0, 160.0}) {
+    const Mat3 rotation = Eigen::AngleAxisd(radians(rotation_deg), Vec3::UnitX()).toRotationMatrix();
     const Scatterer sheet(transformed(
-        make_plate(0.3, 0.2), turn * Eigen::AngleAxisd(kPi / 2, Vec3::UnitY()).toRotationMatrix(), Vec3::Zero()));
+        make_plate(0.3, 0.2), rotation * Eigen::AngleAxisd(kPi / 2, Vec3::UnitY()).toRotationMatrix(), Vec3::Zero()));
     const double exactly = largest(echo(sheet, radar_basis(direction(0, 0)), k, 0, 8, true));
-    const double beside = largest(echo(sheet, radar_basis(direction(1e-3, 1.3e-3)), k, 0, 8, true));
-    EXPECT_GT(exactly, 0.5 * beside) << turned_deg;
-    EXPECT_LT(exactly, 2 * beside) << turned_deg;
+    const double off_plane = largest(echo(sheet, radar_basis(direction(1e-3, 1.3e-3)), k, 0, 8, true));
+    EXPECT_GT(exactly, 0.5 * off_plane) << rotation_deg;
+    EXPECT_LT(exactly, 2 * off_plane) << rotation_deg;
   }
 }
 
@@ -161,25 +161,25 @@ TEST(PlateEdges, EdgeOnEchoIndependentOfPosition) {
                               true)[kHhChannel];
     EXPECT_GT(std::abs(here), 0.01);  // m
     for (const Vec3& place : {Vec3(3, 0, 0), Vec3(5, 20, 1)}) {
-      const Complex there =
+      const Complex elsewhere =
           echo(Scatterer(transformed(make_plate(0.2, 0.2), flat, place)), radar_basis(r), k, 0, 8, true)[kHhChannel];
       // Exactly in its plane the look direction is perturbed by 1e-6 rad, and vertices lie within 1e-7 m of it.
       const double tolerance = 2 * k * (1e-6 * place.norm() + 1e-7);
-      EXPECT_LT(std::abs(there / here * std::polar(1.0, -2 * k * r.dot(place)) - 1.0), tolerance)
+      EXPECT_LT(std::abs(elsewhere / here * std::polar(1.0, -2 * k * r.dot(place)) - 1.0), tolerance)
           << elevation_deg << ' ' << place.transpose();
     }
   }
 }
 
 TEST(PlateEdges, EdgeOnEchoOnlyForEAlongTheEdge) {
-  const double width = 0.15, rim = width / (2 * kPi);
+  const double width = 0.15, edge_amplitude = width / (2 * kPi);
   const Scatterer plate(make_plate(0.25, width));
   for (const double off_deg : {1.0, 0.1, 0.01, 0.001, 0.0, -0.1}) {
     const auto s = echo(plate, radar_basis(direction(90 - off_deg, 0)), wavenumber(10e9), 0, 8, true);
     // The fourth order is truncated, 1 / (2 pi k length) of the others; a direction exactly in the sheet is perturbed
     // by 1e-6 rad.
-    EXPECT_LT(std::abs(s[kHhChannel]), 0.1 * rim) << off_deg;
-    EXPECT_NEAR(std::abs(s[kVvChannel]), rim, 0.1 * rim) << off_deg;
+    EXPECT_LT(std::abs(s[kHhChannel]), 0.1 * edge_amplitude) << off_deg;
+    EXPECT_NEAR(std::abs(s[kVvChannel]), edge_amplitude, 0.1 * edge_amplitude) << off_deg;
   }
 }
 
@@ -213,9 +213,9 @@ TEST(EdgeDiffraction, HasALimitInThePlaneOfAFace) {
   };
   for (const double elevation : {0.0, 2.0}) {
     for (const double azimuth : {0.0, 90.0, 180.0}) {
-      const auto in_plane = edge_part(azimuth, elevation), beside = edge_part(azimuth - 0.01, elevation);
+      const auto in_plane = edge_part(azimuth, elevation), off_plane = edge_part(azimuth - 0.01, elevation);
       for (const int channel : {kHhChannel, kVvChannel}) {
-        EXPECT_LT(std::abs(in_plane[channel] - beside[channel]), 0.5 * one_edge) << azimuth << ' ' << elevation;
+        EXPECT_LT(std::abs(in_plane[channel] - off_plane[channel]), 0.5 * one_edge) << azimuth << ' ' << elevation;
       }
     }
   }
@@ -246,11 +246,13 @@ TEST(EdgeDiffraction, PlateIsReciprocal) {
   for (int i = 0; i < 200; ++i) {
     const RadarBasis t = any_view(), r = any_view();
     for (const bool edges : {false, true}) {
-      const auto there = scattering_matrices(plate, bistatic(t, r), k, {0, 1, edges})[0],
-                 back = scattering_matrices(plate, bistatic(r, t), k, {0, 1, edges})[0];
+      const auto forward = scattering_matrices(plate, bistatic(t, r), k, {0, 1, edges})[0],
+                 reciprocal = scattering_matrices(plate, bistatic(r, t), k, {0, 1, edges})[0];
       double& sum = edges ? with_edges : optics;
-      sum += std::norm(there[kHhChannel] - back[kHhChannel]) + std::norm(there[kVvChannel] - back[kVvChannel]) +
-             std::norm(there[kHvChannel] - back[kVhChannel]) + std::norm(there[kVhChannel] - back[kHvChannel]);
+      sum += std::norm(forward[kHhChannel] - reciprocal[kHhChannel]) +
+             std::norm(forward[kVvChannel] - reciprocal[kVvChannel]) +
+             std::norm(forward[kHvChannel] - reciprocal[kVhChannel]) +
+             std::norm(forward[kVhChannel] - reciprocal[kHvChannel]);
     }
   }
   std::printf("rms |S(a, b) - S(b, a)^T|: %.4f, without edges %.4f m\n", std::sqrt(with_edges / 200),

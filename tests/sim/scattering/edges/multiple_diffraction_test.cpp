@@ -146,24 +146,25 @@ TEST(TransitionFunction, HasTheAngleAboutTheEdgeOnKellersCone) {
   }
 }
 
-struct EdgeWaveSum {
+struct DoubleDiffractionSum {
   std::array<Complex, 4> S{};
   int count = 0;
 };
 
 // Double diffraction from edges of the floor z = 0 with all x up to `first_below` to edges with all x from `last_above`
 // on, with `walls` reflections at walls between them.
-EdgeWaveSum edge_wave_sum(const TriangleMesh& mesh, const BistaticGeometry& geometry, double k, double first_below,
-                          double last_above, int walls) {
+DoubleDiffractionSum double_diffraction_sum(const TriangleMesh& mesh, const BistaticGeometry& geometry, double k,
+                                            double first_below, double last_above, int walls) {
   const Scatterer scatterer(mesh);
   const auto edge = [&](const EdgeIllumination& illumination) { return scatterer.edges().edges[illumination.edge]; };
   // Illuminations of edges on the floor that `wanted` selects.
-  const auto reached = [&](const RadarBasis& basis, const auto& wanted) {
+  const auto reached = [&](const RadarBasis& basis, const auto& selected) {
     std::vector<EdgeIllumination> kept;
     const TraceSummary all =
         Illumination(scatterer, monostatic(basis), {0, 1, true}).trace_all(1, [](std::size_t, std::size_t, auto) {});
-    for (const EdgeIllumination* arrival : all.edge_illuminations.all()) {
-      if (edge(*arrival).a.z() == 0 && edge(*arrival).b.z() == 0 && wanted(edge(*arrival))) kept.push_back(*arrival);
+    for (const EdgeIllumination* illumination : all.edge_illuminations.all()) {
+      if (edge(*illumination).a.z() == 0 && edge(*illumination).b.z() == 0 && selected(edge(*illumination)))
+        kept.push_back(*illumination);
     }
     return IlluminationByEdge({std::move(kept)}, scatterer.edges().edges.size());
   };
@@ -173,7 +174,7 @@ EdgeWaveSum edge_wave_sum(const TriangleMesh& mesh, const BistaticGeometry& geom
   std::vector<EdgeContribution> contributions;
   trace_multiple_diffraction(scatterer.edges(), scatterer.facets(), scatterer.panels(), geometry, incoming.all(),
                              outgoing, {}, contributions);
-  EdgeWaveSum sum;
+  DoubleDiffractionSum sum;
   for (const EdgeContribution& contribution : contributions) {
     if (contribution.multiple_diffraction->grazing_waves != 1 || contribution.bounces != 2 + walls) continue;
     const auto s = scattered(contribution, k);
@@ -196,8 +197,8 @@ TEST(MultipleDiffraction, AtAnUprightWallIsThatOfTheImage) {
     const RadarBasis basis = radar_basis(direction(azimuth, 55));
     // The image basis is right-handed with -h' and v'; the conductor changes the sign of both.
     const RadarBasis mirrored{image(basis.r), -image(basis.h), image(basis.v)};
-    const EdgeWaveSum wall = edge_wave_sum(corner, monostatic(basis), k, 0, -length, 1),
-                      slab = edge_wave_sum(twice, bistatic(basis, mirrored), k, 0, 0, 0);
+    const DoubleDiffractionSum wall = double_diffraction_sum(corner, monostatic(basis), k, 0, -length, 1),
+                               slab = double_diffraction_sum(twice, bistatic(basis, mirrored), k, 0, 0, 0);
     EXPECT_GT(slab.count, 0);
     for (const int channel : {kHhChannel, kHvChannel})
       EXPECT_NEAR(std::abs(wall.S[channel] - slab.S[channel]), 0, 1e-9 * largest(slab.S)) << azimuth;
@@ -210,13 +211,13 @@ TEST(MultipleDiffraction, AtAnUprightWallIsThatOfTheImage) {
 // = S_vh at every elevation; in the sheet's plane both vanish by mirror symmetry: multiple diffraction cancels the
 // cross-polar single diffraction.
 TEST(MultipleDiffraction, OfAGrazingSheetIsReciprocalAndMirrorSymmetric) {
-  const double length = 0.3, width = 0.2, k = wavenumber(10e9), rim = length / (2 * kPi);
+  const double length = 0.3, width = 0.2, k = wavenumber(10e9), edge_amplitude = length / (2 * kPi);
   const Mat3 lie_down = Eigen::AngleAxisd(kPi / 2, Vec3::UnitY()).toRotationMatrix();
   const Scatterer sheet(transformed(make_plate(width, length), lie_down, Vec3::Zero()));
-  const double rounding = 1e-12 * rim;
+  const double rounding = 1e-12 * edge_amplitude;
   // Relative to the edges' echo: the fourth order, 1 / (2 pi k width) of the others, is truncated; the look direction
   // is perturbed by 1e-6 rad, which leaves cross-polar terms of that fraction of the co-polar ones.
-  const double left_out = rim / (2 * kPi * k * width), aside = 1e-6 * rim;
+  const double left_out = edge_amplitude / (2 * kPi * k * width), perturbation = 1e-6 * edge_amplitude;
   double max = 0;
   for (const double elevation : {0.0, 0.1, 0.5, 1.0, 2.0, 5.0}) {
     for (const double azimuth : {0.1, 0.3, 1.0, 2.0, 3.0, 5.0, 7.5, 10.0, 15.0, 20.0, 45.0, 85.0, 89.9}) {
@@ -224,11 +225,11 @@ TEST(MultipleDiffraction, OfAGrazingSheetIsReciprocalAndMirrorSymmetric) {
       EXPECT_NEAR(std::abs(s[kHvChannel] - s[kVhChannel]), 0, rounding) << azimuth << ' ' << elevation;
       if (elevation > 0) continue;
       max = std::max(max, std::abs(s[kHvChannel]));
-      EXPECT_LT(std::abs(s[kHvChannel]), left_out + aside) << azimuth;
+      EXPECT_LT(std::abs(s[kHvChannel]), left_out + perturbation) << azimuth;
     }
   }
   RecordProperty("crossed_dbsm", std::to_string(dbsm(max)));
-  RecordProperty("bound_dbsm", std::to_string(dbsm(left_out + aside)));
+  RecordProperty("bound_dbsm", std::to_string(dbsm(left_out + perturbation)));
 }
 
 // The echo of a sheet, and the part of it that is due to quadruple diffraction, the highest order.
@@ -279,14 +280,14 @@ TEST(MultipleDiffraction, SendNothingAcrossASheetIntoItsPlane) {
       const auto& [all, fourth] = with_last(sheet, geometry, k);
       // The highest order has no successor that would cancel it, and the look direction of the receiver is perturbed by
       // 1e-6 rad, which changes phases by 1e-6 k radius.
-      const double aside = 1e-6 * k * sheet.radius() * largest(all);
-      const auto left = [&](int channel) { return std::abs(fourth[channel]) + aside; };
-      EXPECT_LT(std::abs(all[kHhChannel]), left(kHhChannel))
+      const double perturbation = 1e-6 * k * sheet.radius() * largest(all);
+      const auto residual = [&](int channel) { return std::abs(fourth[channel]) + perturbation; };
+      EXPECT_LT(std::abs(all[kHhChannel]), residual(kHhChannel))
           << azimuth << ' ' << elevation << ' ' << side << ' ' << height;
-      EXPECT_LT(std::abs(all[kHvChannel]), left(kHvChannel))
+      EXPECT_LT(std::abs(all[kHvChannel]), residual(kHvChannel))
           << azimuth << ' ' << elevation << ' ' << side << ' ' << height;
       if (elevation == 0 && height == 0) {
-        EXPECT_LT(std::abs(all[kVhChannel]), left(kVhChannel)) << azimuth << ' ' << side;
+        EXPECT_LT(std::abs(all[kVhChannel]), residual(kVhChannel)) << azimuth << ' ' << side;
         EXPECT_LT(std::abs(fourth[kVhChannel]), 0.01 * std::abs(all[kVvChannel])) << azimuth << ' ' << side;
       }
     }
@@ -303,7 +304,7 @@ TEST(MultipleDiffraction, DropsOnlyWeakPaths) {
     const auto illuminations = Illumination(corner, geometry, {0, 4, true})
                                    .trace_all(1, [](std::size_t, std::size_t, auto) {})
                                    .edge_illuminations;
-    const auto loud = [&](double limit, std::size_t& count) {
+    const auto significant = [&](double limit, std::size_t& count) {
       std::vector<EdgeContribution> contributions;
       trace_multiple_diffraction(corner.edges(), corner.facets(), corner.panels(), geometry, illuminations.all(),
                                  illuminations, {0, 0, limit, k}, contributions);
@@ -313,7 +314,7 @@ TEST(MultipleDiffraction, DropsOnlyWeakPaths) {
                largest(scattered(f, k)) >= min_amplitude;
       });
     };
-    const auto of_all = loud(0, all), of_kept = loud(min_amplitude, kept);
+    const auto of_all = significant(0, all), of_kept = significant(min_amplitude, kept);
     EXPECT_GT(of_all, 0) << azimuth;
     EXPECT_EQ(of_all, of_kept) << azimuth;
   }

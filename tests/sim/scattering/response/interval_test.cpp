@@ -42,8 +42,8 @@ Trajectory rocking(const Vec3& rates, double period_s, const Vec3& centre, const
 // Relative L2 error of a response against independent traces with exact phase integrals, dB: their mean square
 // difference at `spots` random pulses and frequencies over the mean square of the whole response. The mean square at a
 // few spots may be that of a fade.
-double error_against_fresh_traces(const Scatterer& scatterer, const Trajectory& trajectory, const Vec3& r_hat,
-                                  const SolverSpec& solver, int spots, std::uint64_t index) {
+double error_against_independent_traces(const Scatterer& scatterer, const Trajectory& trajectory, const Vec3& r_hat,
+                                        const SolverSpec& solver, int spots, std::uint64_t index) {
   const IntervalSampling sampling = paper_interval(0.3);
   const BodyResponse body = body_response(scatterer, trajectory, r_hat, Polarisation::kVv, sampling, solver, 2);
   const RadarBasis world = radar_basis(r_hat);
@@ -55,13 +55,14 @@ double error_against_fresh_traces(const Scatterer& scatterer, const Trajectory& 
     const Pose pose = trajectory.pose(sampling.pulse_time_s[n]);
     const Mat3 R_BT = pose.R.transpose();
     const double k = wavenumber(sampling.first_hz + (sampling.pulse_first[n] + b) * sampling.step_hz);
-    const RadarBasis seen = range_m > 0 ? radar_basis((range_m * r_hat - pose.p).normalized()) : world;
+    const RadarBasis basis_at_body = range_m > 0 ? radar_basis((range_m * r_hat - pose.p).normalized()) : world;
     const double nearer_m = range_m > 0 ? range_m - (range_m * r_hat - pose.p).norm() : r_hat.dot(pose.p);
-    const BistaticGeometry geometry = monostatic({R_BT * seen.r, R_BT * seen.h, R_BT * seen.v});
+    const BistaticGeometry geometry =
+        monostatic({R_BT * basis_at_body.r, R_BT * basis_at_body.h, R_BT * basis_at_body.v});
     const TracingSettings settings{solver.min_patch_m, solver.max_bounces, solver.edges, {}, range_m};
     const Complex s = scattering_matrices(scatterer, geometry, std::array{k}, settings, 2)[0][kVvChannel];
-    const Complex fresh = s * std::polar(1.0, 2 * k * nearer_m);
-    error += std::norm(body.response.at(n, b) - fresh) / spots;
+    const Complex independent = s * std::polar(1.0, 2 * k * nearer_m);
+    error += std::norm(body.response.at(n, b) - independent) / spots;
   }
   for (const Complex& value : body.response.values)
     power += std::norm(value) / static_cast<double>(body.response.values.size());
@@ -73,19 +74,19 @@ TEST(Contributions, SumToTheClosedFormAtTheTracedAspect) {
   const RadarBasis basis = radar_basis(direction(67, 2));
   const Illumination illumination(reflector, monostatic(basis), {1.4e-3, 8});
   const double kc = wavenumber(16.1e9);
-  for (const double turn : {0.0, 1e-3, 1e-2}) {
+  for (const double aspect_change : {0.0, 1e-3, 1e-2}) {
     std::vector<PointContribution> contributions;
     std::array<Complex, 4> exact{};
     TracedContributions traced;
     for (const int facet : illumination.visible_panels()) illumination.trace_from(facet, traced);
     for (const Footprint& footprint : traced.seen[0].footprints) {
-      decompose(footprint, basis, {kc, turn}, contributions);
+      decompose(footprint, basis, {kc, aspect_change}, contributions);
       const auto s = scattered(footprint, kc);
       for (int i = 0; i < 4; ++i) exact[i] += s[i];
     }
     const auto sum = direct_sum(contributions, kc, Vec3::Zero());
     // Patterns are stored in single precision: 6e-8 of each of a few hundred terms.
-    EXPECT_LT(std::abs(sum[kVvChannel] - exact[kVvChannel]), 1e-6 * std::abs(exact[kVvChannel])) << turn;
+    EXPECT_LT(std::abs(sum[kVvChannel] - exact[kVvChannel]), 1e-6 * std::abs(exact[kVvChannel])) << aspect_change;
   }
 }
 
@@ -133,7 +134,7 @@ TEST(ResponseGrid, MatchesTheDirectSumOnACurvedPath) {
   for (const double phase : {0.02, 0.1, 0.24, 0.5, 0.9, kMaxCrossTrackPhase}) {
     const double error = error_of_grid(phase / (k * 40));
     RecordProperty(fmt::format("error_at_{}_rad", phase), fmt::format("{:.1e}", error));
-    fmt::print("{} rad beside the track: {:.1e}\n", phase, error);
+    fmt::print("{} rad cross-track: {:.1e}\n", phase, error);
     EXPECT_LT(error, 0.03 / std::sqrt(3)) << phase;
   }
 }
@@ -157,20 +158,21 @@ TEST(IntervalResponse, OfABodyAtRestEqualsItsScatteringMatrix) {
 
 TEST(IntervalResponse, OfATiltingReflectorMatchesIndependentTraces) {
   const Scatterer reflector(make_icosahedral_reflector());
-  double sum = 0, worst = -1000;
+  double sum = 0, max_error = -1000;
   int count = 0;
   for (const double azimuth : {10.0, 48.0, 93.0, 131.0, 170.0}) {
     // 0.6 rad/s, 2.2 deg in the interval, about its waterline 0.75 m below.
-    const double error = error_against_fresh_traces(reflector, rocking({0.6, 0.4, 0.1}, 1.3, {0, 0, -0.75}),
-                                                    direction(azimuth, 2), {}, 60, static_cast<std::uint64_t>(azimuth));
+    const double error =
+        error_against_independent_traces(reflector, rocking({0.6, 0.4, 0.1}, 1.3, {0, 0, -0.75}), direction(azimuth, 2),
+                                         {}, 60, static_cast<std::uint64_t>(azimuth));
     RecordProperty(fmt::format("error_db_{}", azimuth), fmt::format("{:.1f}", error));
     std::printf("reflector at %g deg: %.1f dB\n", azimuth, error);
-    worst = std::max(worst, error);
+    max_error = std::max(max_error, error);
     sum += error;
     ++count;
   }
   EXPECT_LT(sum / count, -38);
-  EXPECT_LT(worst, -30);
+  EXPECT_LT(max_error, -30);
 }
 
 // Off the point to which the radar's range refers, and drifting astern.
@@ -181,8 +183,8 @@ TEST(IntervalResponse, FloatAtFiniteRangeMatchesIndependentTraces) {
   const Trajectory floating =
       rocking({0.6, 0.4, 0.1}, 1.3, {0, 0, -0.75}, {45, -40, 0.75}).with_drift({-10, 0, 0}, 0.3);
   for (const double azimuth : {10.0, 48.0, 131.0}) {
-    const double error = error_against_fresh_traces(reflector, floating, direction(azimuth, 2), solver, 60,
-                                                    static_cast<std::uint64_t>(azimuth));
+    const double error = error_against_independent_traces(reflector, floating, direction(azimuth, 2), solver, 60,
+                                                          static_cast<std::uint64_t>(azimuth));
     RecordProperty(fmt::format("error_db_{}", azimuth), fmt::format("{:.1f}", error));
     fmt::print("float at {} deg: {:.1f} dB\n", azimuth, error);
     EXPECT_LT(error, -30) << azimuth;  // as at its reference point
@@ -193,8 +195,9 @@ TEST(IntervalResponse, OfTheRollingShipMatchesIndependentTraces) {
   const Scatterer ship(read_mesh(SEAGLINT_SOURCE_DIR "/assets/combatant_144m.glb"));
   // Hs 2 m, Tp 8 s: rates of 0.8, 0.6 and 0.3 deg/s, about one RMS each.
   for (const double azimuth : {10.0, 50.0, 80.0, 130.0}) {
-    const double error = error_against_fresh_traces(ship, rocking({0.014, 0.010, 0.005}, 8, {0, 0, 1.7}),
-                                                    direction(azimuth, 2), {}, 6, static_cast<std::uint64_t>(azimuth));
+    const double error =
+        error_against_independent_traces(ship, rocking({0.014, 0.010, 0.005}, 8, {0, 0, 1.7}), direction(azimuth, 2),
+                                         {}, 6, static_cast<std::uint64_t>(azimuth));
     RecordProperty(fmt::format("error_db_{}", azimuth), fmt::format("{:.1f}", error));
     std::printf("ship at %g deg: %.1f dB\n", azimuth, error);
     EXPECT_LT(error, -30) << azimuth;
@@ -212,14 +215,14 @@ TEST(IntervalResponse, MatchesIndependentTracesInRandomDirections) {
     for (int i = 0; i < directions; ++i) {
       const double elevation_deg = max_elevation_deg * random.uniform(), azimuth_deg = 360 * random.uniform();
       const Vec3 r_hat = direction(azimuth_deg, elevation_deg);
-      errors.push_back(error_against_fresh_traces(scatterer, rocking(rates, 8, centre), r_hat, {}, spots,
-                                                  static_cast<std::uint64_t>(1000 + i)));
+      errors.push_back(error_against_independent_traces(scatterer, rocking(rates, 8, centre), r_hat, {}, spots,
+                                                        static_cast<std::uint64_t>(1000 + i)));
     }
     std::sort(errors.begin(), errors.end());
     const double median = errors[errors.size() / 2],
-                 worst = errors[static_cast<std::size_t>(0.95 * static_cast<double>(errors.size()))];
-    fmt::print("{} in {} random directions: median {:.1f}, 95 % {:.1f} dB\n", name, directions, median, worst);
-    return std::pair{median, worst};
+                 max_error = errors[static_cast<std::size_t>(0.95 * static_cast<double>(errors.size()))];
+    fmt::print("{} in {} random directions: median {:.1f}, 95 % {:.1f} dB\n", name, directions, median, max_error);
+    return std::pair{median, max_error};
   };
   const auto [reflector, reflector_worst] =
       study("reflector", Scatterer(make_icosahedral_reflector()), {0.32, 0.32, 0.32}, {0, 0, -0.75}, 30, 40, 20);

@@ -69,20 +69,20 @@ TEST(MovingRadar, PointsHaveTheRangeOfTheRadarsPath) {
 
 TEST(MovingRadar, BodyResponseMatchesPerPulseDirections) {
   const Scatterer scatterer(make_icosahedral_reflector(1.0));
-  const Trajectory still = Trajectory::at_rest(Vec3(15, 30, 0.75));
+  const Trajectory at_rest = Trajectory::at_rest(Vec3(15, 30, 0.75));
   IntervalSampling sampling = interval();
   sampling.line_of_sight_rate *= 5;  // at 4 km
   const Vec3 r_hat = direction_to_radar(radians(70), radians(2));
-  const FrequencyResponse passing = body_response(scatterer, still, r_hat, Polarisation::kVv, sampling, {}).response;
+  const FrequencyResponse passing = body_response(scatterer, at_rest, r_hat, Polarisation::kVv, sampling, {}).response;
   double difference = 0, power = 0;
   for (const int n : {0, 7, 15}) {
     const IntervalSampling one = only_pulse(sampling, n);
     const double t = sampling.pulse_time_s[n] - sampling.pulse_time_s.front();
     const Vec3 direction = (r_hat + t * sampling.line_of_sight_rate).normalized();
-    const FrequencyResponse fresh = body_response(scatterer, still, direction, Polarisation::kVv, one, {}).response;
+    const FrequencyResponse traced = body_response(scatterer, at_rest, direction, Polarisation::kVv, one, {}).response;
     for (int b = 0; b < sampling.frequencies_per_pulse; ++b) {
-      difference += std::norm(passing.at(n, b) - fresh.at(0, b));
-      power += std::norm(fresh.at(0, b));
+      difference += std::norm(passing.at(n, b) - traced.at(0, b));
+      power += std::norm(traced.at(0, b));
     }
   }
   // -40 dB of the interval, as for a rotating body; without the change of direction the echo is a different one.
@@ -122,10 +122,10 @@ TEST(MovingRadar, PointsOverTheSeaHaveFourPathsPerPulseDirection) {
       for (int b = 0; b < sampling.frequencies_per_pulse; ++b) {
         const double k = 2 * kPi * (sampling.first_hz + b * sampling.step_hz) / kSpeedOfLight;
         const SeaReflectionCoefficients rho = sea.at(k, r.z());
-        const auto way = [&](const Complex& c) {
+        const auto path = [&](const Complex& c) {
           return std::polar(1.0, k * r.dot(now)) + c * std::polar(1.0, k * image.dot(now));
         };
-        const Complex four = way(rho.h) * way(rho.v);
+        const Complex four = path(rho.h) * path(rho.v);
         difference += std::norm(response.at(static_cast<int>(n), b) - four);
         power += std::norm(four);
       }
@@ -154,11 +154,11 @@ TEST(MovingRadar, BodyResponseOverTheSeaMatchesPerPulseDirections) {
     for (const int n : {0, 7, 15}) {
       const IntervalSampling one = only_pulse(sampling, n);
       const Vec3 direction = direction_at(sampling, r_hat, static_cast<std::size_t>(n));
-      const FrequencyResponse fresh =
+      const FrequencyResponse traced =
           body_response(scatterer, body, direction, Polarisation::kHh, one, {}, 2, &sea).response;
       for (int b = 0; b < sampling.frequencies_per_pulse; ++b) {
-        difference += std::norm(passing.at(n, b) - fresh.at(0, b));
-        power += std::norm(fresh.at(0, b));
+        difference += std::norm(passing.at(n, b) - traced.at(0, b));
+        power += std::norm(traced.at(0, b));
       }
     }
     fmt::print("radar at {}, {}, {} m/s over the sea: {:.1f} dB\n", velocity.x(), velocity.y(), velocity.z(),

@@ -13,12 +13,12 @@ namespace {
 
 // Directions s h + c s^2 v from r on, s from -reach to reach.
 std::vector<Vec3> curved_path(const RadarBasis& basis, double reach, double c) {
-  std::vector<Vec3> way;
+  std::vector<Vec3> directions;
   for (int n = -8; n <= 8; ++n) {
     const double s = reach * n / 8;
-    way.push_back((basis.r + s * basis.h + c * s * s * basis.v).normalized());
+    directions.push_back((basis.r + s * basis.h + c * s * s * basis.v).normalized());
   }
-  return way;
+  return directions;
 }
 
 TEST(LookDirectionPath, MonostaticHasAlongTrackAndCrossTrackAxes) {
@@ -38,9 +38,9 @@ TEST(LookDirectionPath, MonostaticHasAlongTrackAndCrossTrackAxes) {
   // A body-fixed point's phase by both axes equals that by the directions: psi changes by 2 x . (r^ - r^_0).
   const Vec3 x(30, -5, 8);
   const PathGradient gradient{x, x};
-  const std::vector<Vec3> way = curved_path(basis, reach, c);
-  for (std::size_t n = 0; n < way.size(); ++n) {
-    const Vec3 moved = way[n] - basis.r;
+  const std::vector<Vec3> directions = curved_path(basis, reach, c);
+  for (std::size_t n = 0; n < directions.size(); ++n) {
+    const Vec3 moved = directions[n] - basis.r;
     const double across = 2 * x.dot(moved - basis.r * basis.r.dot(moved));
     EXPECT_NEAR(path.s[n] * path.along_track.path_rate(gradient) + path.q[n] * path.cross_track.path_rate(gradient),
                 across, 1e-12);
@@ -54,9 +54,9 @@ TEST(LookDirectionPath, BistaticContainsTheCommonMotion) {
   const LookDirectionPath path =
       look_direction_path(curved_path(to, reach, 10), curved_path(from, 0.5 * reach, 40), to.r, from.r);
   const PathGradient gradient{Vec3(20, 4, 9), Vec3(-3, 11, 2)};
-  const std::vector<Vec3> there = curved_path(to, reach, 10), back = curved_path(from, 0.5 * reach, 40);
-  for (std::size_t n = 0; n < there.size(); ++n) {
-    const Vec3 t = there[n] - to.r, r = back[n] - from.r;
+  const std::vector<Vec3> transmit = curved_path(to, reach, 10), receive = curved_path(from, 0.5 * reach, 40);
+  for (std::size_t n = 0; n < transmit.size(); ++n) {
+    const Vec3 t = transmit[n] - to.r, r = receive[n] - from.r;
     const double across =
         gradient.transmit.dot(t - to.r * to.r.dot(t)) + gradient.receive.dot(r - from.r * from.r.dot(r));
     // Both curves are proportional, so that one axis contains all of it; unit vectors add terms of third order.

@@ -77,11 +77,11 @@ TEST(WavefrontCurvature, SlideOfAShadowEdgeHasNoSecondOrder) {
   settings.max_bounces = 1;
   settings.filter.included = {{ContributionSelector::Kind::kPart, 0}};
   const Vec3 r = direction(0, 0);
-  const auto seen_from = [&](double range_m) {
+  const auto plate_at = [&](double range_m) {
     settings.range_m = range_m;
     return scattering_matrices(Scatterer(mesh), monostatic(radar_basis(r)), std::array{k}, settings)[0][kVvChannel];
   };
-  const Complex far = seen_from(0), near = seen_from(10e3);
+  const Complex far = plate_at(0), near = plate_at(10e3);
   // Half the plate reaches 1 m off the axis: k 1 / R = 6e-3 rad; amplitudes are frozen over 10 / R.
   EXPECT_LT(std::abs(near - far), 0.02 * std::abs(far));
 }
@@ -98,17 +98,17 @@ TEST(WavefrontCurvature, AtLongRangeIsTheFarField) {
 // path of the apex at any range. Only the wavefront curvature over the aperture reduces it.
 TEST(WavefrontCurvature, TrihedralKeepsThePathOfItsApex) {
   const double leg = 0.3, k = wavenumber(16e9), range_m = 500;
-  const Vec3 r = Vec3(1, 1, 1).normalized(), aside = 20 * Vec3(1, -1, 0).normalized();
+  const Vec3 r = Vec3(1, 1, 1).normalized(), offset = 20 * Vec3(1, -1, 0).normalized();
   TriangleMesh mesh = make_triangular_trihedral(leg);
   const Complex at_origin = at_range(mesh, r, k, range_m);
-  const Complex moved = at_range(transformed(mesh, Mat3::Identity(), aside), r, k, range_m);
+  const Complex moved = at_range(transformed(mesh, Mat3::Identity(), offset), r, k, range_m);
   // The path grows by |x_perp|^2 / R. At 20 m off the axis the radar is d = 2.3 deg off the boresight, which reduces a
   // triangular aperture by d^2 and changes its first bounces' interference by some 2 / (k leg); its centre is up to leg
   // / 2 from the apex, where the wavefront's second order is k (leg / 2)^2 / R.
-  const Complex turned = moved / at_origin * std::polar(1.0, k * aside.squaredNorm() / range_m);
-  const double off_axis = aside.norm() / range_m;
-  EXPECT_NEAR(std::abs(turned), 1, off_axis * off_axis + 2 / (k * leg));
-  EXPECT_NEAR(std::arg(turned), 0, 2 / (k * leg) + k * leg * leg / 4 / range_m);
+  const Complex ratio = moved / at_origin * std::polar(1.0, k * offset.squaredNorm() / range_m);
+  const double off_axis = offset.norm() / range_m;
+  EXPECT_NEAR(std::abs(ratio), 1, off_axis * off_axis + 2 / (k * leg));
+  EXPECT_NEAR(std::arg(ratio), 0, 2 / (k * leg) + k * leg * leg / 4 / range_m);
 }
 
 // A float of a layout has its own origin, whereas the radar's range refers to that of the layout.
@@ -138,7 +138,8 @@ TEST(WavefrontCurvature, PlateOffTheReferencePointIsTheSumOfItsPointDistances) {
     const Complex ours =
         body_response(plate, Trajectory::at_rest(rest), r, Polarisation::kVv, sampling, solver).response.at(0, 0);
     const double size = k * length * width / (2 * kPi), error = std::abs(ours - summed(r)) / size;
-    fmt::print("plate 60 m beside at {} m, {} deg: {:.4f} of the broadside echo\n", range_m, azimuth, error);
+    fmt::print("plate 60 m off the reference point at {} m, {} deg: {:.4f} of the broadside echo\n", range_m, azimuth,
+               error);
     EXPECT_LT(error, 0.02) << azimuth;  // frozen amplitudes of decompose() as above
   }
 }

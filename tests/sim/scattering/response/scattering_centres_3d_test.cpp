@@ -56,9 +56,9 @@ TEST_F(AspectDecomposition, CentresAndFacetsBothSumToTheScatteringMatrix) {
 // The bound that the header states, and the ratio of the actual error to it.
 TEST_F(AspectDecomposition, ErrorOffTheAspectIsBoundedByTheCellSize) {
   const auto all = contributions();
-  const Vec3 turn = 2e-4 * radar_.h - 1e-4 * radar_.v;
+  const Vec3 aspect_change = 2e-4 * radar_.h - 1e-4 * radar_.v;
   const double dk = wavenumber(100e6), k = k16 + dk;
-  const auto exact = direct_sum(all, k, turn);
+  const auto exact = direct_sum(all, k, aspect_change);
   double amplitudes = 0;
   for (const PointContribution& c : all) {
     double max = 0;
@@ -69,17 +69,17 @@ TEST_F(AspectDecomposition, ErrorOffTheAspectIsBoundedByTheCellSize) {
   for (const double cell : {0.04, 0.01, 0.0025}) {
     std::array<Complex, 4> sum{};
     for (const ScatteringCentre3d& c : cluster_centres(all, k16, cell)) {
-      for (int i = 0; i < 4; ++i) sum[i] += c.amplitude[i] * std::polar(1.0, dk * c.psi + k * c.gradient.dot(turn));
+      for (int i = 0; i < 4; ++i)
+        sum[i] += c.amplitude[i] * std::polar(1.0, dk * c.psi + k * c.gradient.dot(aspect_change));
     }
     // 2: norm of four elements
     const double error = distance(sum, exact),
-                 bound = 2 * amplitudes * 2 * cell * (dk + std::sqrt(3.0) * k * turn.norm());
+                 bound = 2 * amplitudes * 2 * cell * (dk + std::sqrt(3.0) * k * aspect_change.norm());
     EXPECT_LT(error, bound) << cell;
     RecordProperty("relative_error_db_cell_" + std::to_string(cell),
                    std::to_string(20 * std::log10(error / size(exact))));
     if (coarser > 0) {
-      EXPECT_LT(error, 0.6 * coarser)
-          << "a quarter of the cell leaves a quarter of the error, give and take its speckle";
+      EXPECT_LT(error, 0.6 * coarser) << "a quarter of the cell leaves a quarter of the error, apart from speckle";
     }
     coarser = error;
   }

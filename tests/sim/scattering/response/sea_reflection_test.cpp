@@ -47,15 +47,15 @@ TEST(SeaReflection, RefersTheRangeToTheWaterBelow) {
   for (const double range_m : {5e3, 20e3}) {
     const Vec3 radar(range_m * std::cos(el), 0, range_m * std::sin(el)), centre(10, 0, height), image(10, 0, -height);
     Complex sum = 0;
-    for (const Vec3& there : {centre, image}) {
-      for (const Vec3& back : {centre, image}) {
-        const Vec3 a = radar - there, b = radar - back;
+    for (const Vec3& outbound : {centre, image}) {
+      for (const Vec3& inbound : {centre, image}) {
+        const Vec3 a = radar - outbound, b = radar - inbound;
         // Towards the image the wave is incident from below.
-        const auto up = [&](const Vec3& way, const Vec3& point) {
-          return Vec3(way.x(), way.y(), point == image ? -way.z() : way.z()).normalized();
+        const auto up = [&](const Vec3& path, const Vec3& point) {
+          return Vec3(path.x(), path.y(), point == image ? -path.z() : path.z()).normalized();
         };
-        const double front = radius * ((up(a, there) + up(b, back)).norm() - 2);
-        const double sign = (there == image ? -1 : 1) * (back == image ? -1 : 1);
+        const double front = radius * ((up(a, outbound) + up(b, inbound)).norm() - 2);
+        const double sign = (outbound == image ? -1 : 1) * (inbound == image ? -1 : 1);
         sum += sign * alone * std::polar(1.0, -k * (a.norm() + b.norm() - 2 * range_m) + k * front);
       }
     }
@@ -100,21 +100,21 @@ TEST(SeaReflection, SphereAboveTheSeaHasFourPathInterference) {
   const Scatterer sphere(make_sphere(radius, 4));
   const auto alone = echo(sphere, radar_basis(direction(15, 1.2)), k, 7e-5);
   const double half = kPi / (k * std::sin(el));  // height from null to null, m
-  double worst = 0;
+  double max_error = 0;
   for (const double height : {0.25, 0.5, 0.75, 1.0, 1.3, 2.5}) {
     const auto s = over_sea(sphere, direction(15, 1.2), height * half, conductor(), k, 7e-5);
     const Complex e = std::polar(1.0, -2 * k * height * half * std::sin(el));
     // The bistatic angle of 2.4 deg moves the specular point: psi = 2 a cos(1.2 deg) is 2 a 2.2e-4 shorter, 0.005 rad
     // on two paths; the facets of the tessellation scatter equally within 2 %.
-    worst = std::max(
-        {worst, std::abs(s[kHhChannel] - (1.0 - e) * (1.0 - e) * alone[kHhChannel]) / std::abs(alone[kHhChannel]),
+    max_error = std::max(
+        {max_error, std::abs(s[kHhChannel] - (1.0 - e) * (1.0 - e) * alone[kHhChannel]) / std::abs(alone[kHhChannel]),
          std::abs(s[kVvChannel] - (1.0 + e) * (1.0 + e) * alone[kVvChannel]) / std::abs(alone[kVvChannel])});
     EXPECT_LT(std::abs(s[kHhChannel] - (1.0 - e) * (1.0 - e) * alone[kHhChannel]), 0.03 * std::abs(alone[kHhChannel]))
         << height;
     EXPECT_LT(std::abs(s[kVvChannel] - (1.0 + e) * (1.0 + e) * alone[kVvChannel]), 0.03 * std::abs(alone[kVvChannel]))
         << height;
   }
-  fmt::print("sphere over the sea: within {:.4f} of its echo\n", worst);
+  fmt::print("sphere over the sea: within {:.4f} of its echo\n", max_error);
   // Positions of nulls and peaks: hh vanishes at whole multiples of half, vv at odd halves; peaks are 12 dB up.
   EXPECT_LT(std::abs(over_sea(sphere, direction(15, 1.2), half, conductor(), k, 7e-5)[kHhChannel]),
             0.05 * std::abs(alone[kHhChannel]));
@@ -147,12 +147,12 @@ TEST(SeaReflection, RoughnessRemovesTheInterference) {
 // specular reflection, 2 A cos(el) / lambda: the dihedral's echo.
 TEST(SeaReflection, PlateOnAConductingSeaIsADihedral) {
   const double width = 0.3, height = 0.2;
-  const auto standing = [&](double from, double to) {
+  const auto vertical_plate = [&](double from, double to) {
     TriangleMesh mesh = make_plate(width, to - from);
     for (Vec3& x : mesh.vertices) x.z() += 0.5 * (from + to);
     return mesh;
   };
-  const Scatterer plate(standing(0, height)), doubled(standing(-height, height));
+  const Scatterer plate(vertical_plate(0, height)), doubled(vertical_plate(-height, height));
   for (const double elevation : {2.0, 10.0, 35.0}) {
     const Vec3 r = direction(0, elevation);
     const auto s = over_sea(plate, r, 0, conductor(), k16);
@@ -243,17 +243,17 @@ TEST(SeaReflection, APointsResponseIsTheProductOfItsTwoPaths) {
   for (int b = 0; b < 8; ++b) {
     const double k = wavenumber(16e9 + 1e6 * b);
     const SeaReflectionCoefficients rho = sea.at(k, r.z());
-    const auto way = [&](const Complex& c) {
+    const auto path = [&](const Complex& c) {
       return std::polar(1.0, k * r.dot(x)) + c * std::polar(1.0, k * image_direction(r).dot(x));
     };
-    EXPECT_LT(std::abs(response.at(0, b) - 2.0 * way(rho.h) * way(rho.v)), 1e-9) << b;
+    EXPECT_LT(std::abs(response.at(0, b) - 2.0 * path(rho.h) * path(rho.v)), 1e-9) << b;
   }
 }
 
 // The paper's interval: 8 carriers by 25 MHz, 40 frequencies each, 256 pulses by 250 us.
 // Relative L2 error, dB, of a body's response over the sea against fresh matrices at random pulses and frequencies.
-double error_against_fresh_traces(const Scatterer& scatterer, const Trajectory& trajectory, const Vec3& r,
-                                  const SeaReflection& sea, Polarisation polarisation, int spots) {
+double error_against_independent_traces(const Scatterer& scatterer, const Trajectory& trajectory, const Vec3& r,
+                                        const SeaReflection& sea, Polarisation polarisation, int spots) {
   const IntervalSampling sampling = paper_interval(0.3);
   const RadarBasis radar = radar_basis(r), image = radar_basis(image_direction(r));
   const int element = static_cast<int>(polarisation);
@@ -265,18 +265,18 @@ double error_against_fresh_traces(const Scatterer& scatterer, const Trajectory& 
     const Pose pose = trajectory.pose(sampling.pulse_time_s[n]);
     const Mat3 R_BT = pose.R.transpose();
     const double k = wavenumber(sampling.first_hz + (sampling.pulse_first[n] + b) * sampling.step_hz);
-    Complex fresh = 0;
+    Complex independent = 0;
     for (const PropagationPath& path : kFourPaths) {
-      const auto turned = [&](const RadarBasis& w) { return RadarBasis{R_BT * w.r, R_BT * w.h, R_BT * w.v}; };
+      const auto in_body = [&](const RadarBasis& w) { return RadarBasis{R_BT * w.r, R_BT * w.h, R_BT * w.v}; };
       const RadarBasis &t = path.outbound_via_sea ? image : radar, &s = path.return_via_sea ? image : radar;
       const BistaticGeometry pair =
-          path.outbound_via_sea == path.return_via_sea ? monostatic(turned(t)) : bistatic(turned(t), turned(s));
-      fresh +=
+          path.outbound_via_sea == path.return_via_sea ? monostatic(in_body(t)) : bistatic(in_body(t), in_body(s));
+      independent +=
           SeaReflection::path_factor(path, sea.at(k, r.z()), element) * std::polar(1.0, k * (t.r + s.r).dot(pose.p)) *
           scattering_matrices(scatterer, pair, std::array{k}, {0, kDefaultBounces, SolverSpec{}.edges}, 2)[0][element];
     }
-    error += std::norm(body.response.at(n, b) - fresh);
-    power += std::norm(fresh);
+    error += std::norm(body.response.at(n, b) - independent);
+    power += std::norm(independent);
   }
   return 10 * std::log10(error / power);
 }
@@ -302,7 +302,8 @@ TEST(SeaReflection, ResponseOverAnIntervalMatchesIndependentTraces) {
   const Trajectory trajectory = rocking({0.3, -0.2, 0.4}, 0.6, {12, 5, 0.75});
   const SeaReflection sea(SeaReflectionSpec{}, 0.1);
   for (const auto& [polarisation, name] : {std::pair{Polarisation::kVv, "vv"}, {Polarisation::kHh, "hh"}}) {
-    const double error_db = error_against_fresh_traces(reflector, trajectory, direction(20, 2), sea, polarisation, 20);
+    const double error_db =
+        error_against_independent_traces(reflector, trajectory, direction(20, 2), sea, polarisation, 20);
     fmt::print("reflector over the sea, {}: {:.1f} dB\n", name, error_db);
     EXPECT_LT(error_db, -40);
   }
@@ -314,8 +315,8 @@ TEST(SeaReflection, ShipsResponseOverAnIntervalMatchesIndependentTraces) {
   cut_at_sea_level(mesh, materials, 0);
   const Scatterer ship(mesh, materials);
   const Trajectory trajectory = rocking({radians(0.8), radians(0.6), radians(0.3)}, 0.5, Vec3::Zero());
-  const double error_db = error_against_fresh_traces(ship, trajectory, direction(50, 2),
-                                                     SeaReflection(SeaReflectionSpec{}, 0.1), Polarisation::kVv, 5);
+  const double error_db = error_against_independent_traces(
+      ship, trajectory, direction(50, 2), SeaReflection(SeaReflectionSpec{}, 0.1), Polarisation::kVv, 5);
   fmt::print("ship over the sea: {:.1f} dB\n", error_db);
   EXPECT_LT(error_db, -30);
 }

@@ -166,10 +166,10 @@ double band_error_db(const Scatterer& target, const Vec3& r) {
       body_response(target, Trajectory::at_rest(Vec3::Zero()), r, Polarisation::kVv, sampling, SolverSpec{});
   double error = 0, power = 0;
   for (int b = 0; b < sampling.count; ++b) {
-    const Complex fresh =
+    const Complex independent =
         echo(target, radar_basis(r), wavenumber(sampling.first_hz + sampling.step_hz * b), 0, 8, true)[kVvChannel];
-    error += std::norm(body.response.at(0, b) - fresh);
-    power += std::norm(fresh);
+    error += std::norm(body.response.at(0, b) - independent);
+    power += std::norm(independent);
   }
   return 10 * std::log10(error / power);
 }
@@ -195,12 +195,12 @@ TEST(CoatedTarget, IntervalFollowsTheCoefficientsOfACurvedSurface) {
 }
 
 TEST(CoatedTarget, IsInvariantToCommonRotation) {
-  const Mat3 turn = Eigen::AngleAxisd(1.1, Vec3(0.3, -1, 0.6).normalized()).toRotationMatrix();
+  const Mat3 rotation = Eigen::AngleAxisd(1.1, Vec3(0.3, -1, 0.6).normalized()).toRotationMatrix();
   const MaterialSpec material = library("ram_loaded_epoxy");
   const RadarBasis basis = radar_basis(direction(41, 22));
-  const RadarBasis turned{turn * basis.r, turn * basis.h, turn * basis.v};
+  const RadarBasis rotated{rotation * basis.r, rotation * basis.h, rotation * basis.v};
   const auto before = echo(coated(make_plate(0.3, 0.2), material), basis, k16);
-  const auto after = echo(coated(transformed(make_plate(0.3, 0.2), turn, Vec3::Zero()), material), turned, k16);
+  const auto after = echo(coated(transformed(make_plate(0.3, 0.2), rotation, Vec3::Zero()), material), rotated, k16);
   for (int i = 0; i < 4; ++i) EXPECT_LT(std::abs(before[i] - after[i]), 1e-9 * largest(before));
 }
 

@@ -238,7 +238,8 @@ TEST(SmoothSurface, KeepsSharpTargetsFlat) {
   EXPECT_EQ(Scatterer(make_icosahedral_reflector()).surface().curved_count(), 0u);
   EXPECT_EQ(Scatterer(make_plate(0.3, 0.2)).surface().curved_count(), 0u);
   EXPECT_EQ(Scatterer(make_square_trihedral(1)).surface().curved_count(), 0u);
-  EXPECT_EQ(Scatterer(make_cylinder(0.5, 1, 12)).surface().curved_count(), 0u) << "sides that turn by 30 deg are meant";
+  EXPECT_EQ(Scatterer(make_cylinder(0.5, 1, 12)).surface().curved_count(), 0u)
+      << "sides whose normals differ by 30 deg are edges";
   EXPECT_EQ(Scatterer(make_cylinder(0.5, 1, 24)).surface().curved_count(), 48u) << "caps stay flat";
 }
 
@@ -293,12 +294,13 @@ TEST(CurvedSurface, IsValidOverAnAspectChangeAtAnyPosition) {
     const Vec3 r = direction(0, 0);
     TracingSettings settings;
     const auto points = aspect_contributions(sphere, monostatic(radar_basis(r)), {k, radians(0.075)}, settings);
-    for (const double turned_deg : {0.02, 0.05, 0.07}) {
-      const Vec3 there = direction(turned_deg, 0);
-      const Complex fresh = echo(sphere, radar_basis(there), k)[kVvChannel];
-      const Complex held = direct_sum(points, k, there - r)[kVvChannel];
+    for (const double aspect_change_deg : {0.02, 0.05, 0.07}) {
+      const Vec3 there = direction(aspect_change_deg, 0);
+      const Complex independent = echo(sphere, radar_basis(there), k)[kVvChannel];
+      const Complex from_points = direct_sum(points, k, there - r)[kVvChannel];
       // Half the aspect change squared times the distance, k 20 (1.2e-3)^2 = 0.006 rad; frozen amplitudes 0.2 %.
-      EXPECT_LT(std::abs(held - fresh), 0.01 * std::abs(fresh)) << place.transpose() << " turned by " << turned_deg;
+      EXPECT_LT(std::abs(from_points - independent), 0.01 * std::abs(independent))
+          << place.transpose() << ", aspect change " << aspect_change_deg;
     }
   }
 }

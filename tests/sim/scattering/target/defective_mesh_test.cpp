@@ -41,29 +41,29 @@ double difference(const TriangleMesh& a, const TriangleMesh& b) {
 }
 
 TEST(DefectiveMesh, InsideOutHasTheEchoOfTheValidOneOnceRepaired) {
-  const TriangleMesh sound = make_icosahedral_reflector();
-  TriangleMesh inverted = sound;
+  const TriangleMesh valid = make_icosahedral_reflector();
+  TriangleMesh inverted = valid;
   for (std::size_t t = 0; t < inverted.triangles.size(); ++t) flip(inverted, t);
-  EXPECT_GT(difference(sound, inverted), 0.1) << "as it stands it shows its inside";
-  EXPECT_LT(difference(sound, repair(inverted)), kRounding);
+  EXPECT_GT(difference(valid, inverted), 0.1) << "without repair its inside is visible";
+  EXPECT_LT(difference(valid, repair(inverted)), kRounding);
 }
 
 TEST(DefectiveMesh, OfMixedNormalsHasTheEchoOfTheValidOne) {
-  const TriangleMesh sound = make_icosahedral_reflector();
-  TriangleMesh mixed = sound;
+  const TriangleMesh valid = make_icosahedral_reflector();
+  TriangleMesh mixed = valid;
   for (std::size_t t = 0; t < mixed.triangles.size(); t += 3) flip(mixed, t);
   // both sides are viewed: hidden parts are removed as polygons, to the smallest patch area
-  EXPECT_LT(difference(sound, repair(mixed)), 1e-6);
+  EXPECT_LT(difference(valid, repair(mixed)), 1e-6);
 }
 
 TEST(DefectiveMesh, WithRepeatedAndDegenerateTrianglesHasTheEchoOfTheValidOne) {
-  const TriangleMesh sound = make_icosahedral_reflector();
-  TriangleMesh dirty = sound;
+  const TriangleMesh valid = make_icosahedral_reflector();
+  TriangleMesh dirty = valid;
   for (std::size_t t = 0; t < 60; t += 7) {
-    add(dirty, sound.triangles[t]);
-    add(dirty, {sound.triangles[t][0], sound.triangles[t][1], sound.triangles[t][1]});
+    add(dirty, valid.triangles[t]);
+    add(dirty, {valid.triangles[t][0], valid.triangles[t][1], valid.triangles[t][1]});
   }
-  EXPECT_LT(difference(sound, repair(dirty)), kRounding);
+  EXPECT_LT(difference(valid, repair(dirty)), kRounding);
 }
 
 TEST(DefectiveMesh, OfTwoSidedSheetsHasTheEchoOfTheSheets) {
@@ -88,7 +88,7 @@ TEST(DefectiveMesh, SheetsOfTwoMaterialsScatterByTheViewedSide) {
     for (std::size_t t = 0; back && t < mesh.triangles.size(); ++t) flip(mesh, t);
     return mesh;
   };
-  const auto seen = [&](TriangleMesh mesh, const Vec3& r_hat, const std::vector<PartMaterial>& parts) {
+  const auto echo_at = [&](TriangleMesh mesh, const Vec3& r_hat, const std::vector<PartMaterial>& parts) {
     const auto materials = assign_materials(mesh, {}, parts);
     return echo(Scatterer(repair(mesh), materials, radians(20)), radar_basis(r_hat), k10);
   };
@@ -98,9 +98,9 @@ TEST(DefectiveMesh, SheetsOfTwoMaterialsScatterByTheViewedSide) {
     both.append(side(back_first ? "front" : "back", !back_first));
     both = welded(both);
     const Vec3 into = direction(40, 30), behind = direction(220, -30);
-    const auto front = seen(both, into, {{"back", dull}}), front_alone = seen(side("front", false), into, {});
-    const auto back = seen(both, behind, {{"back", dull}}),
-               back_alone = seen(side("back", true), behind, {{"back", dull}});
+    const auto front = echo_at(both, into, {{"back", dull}}), front_alone = echo_at(side("front", false), into, {});
+    const auto back = echo_at(both, behind, {{"back", dull}}),
+               back_alone = echo_at(side("back", true), behind, {{"back", dull}});
     for (int i = 0; i < 4; ++i) {
       EXPECT_LT(std::abs(front[i] - front_alone[i]), 1e-6 * largest(front_alone)) << first << " comes first";
       EXPECT_LT(std::abs(back[i] - back_alone[i]), 1e-6 * largest(back_alone)) << first << " comes first";

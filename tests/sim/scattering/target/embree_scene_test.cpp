@@ -49,7 +49,7 @@ TEST(BvhBuild, ContainsEveryBoxOnceWithinItsParents) {
       if (random.uniform() < 0.3) box = boxes[0];
     }
     const std::vector<BvhNode> nodes = build_bvh(boxes);
-    std::vector<int> met(count, 0);
+    std::vector<int> visits(count, 0);
     int deepest = 0;
     const auto visit = [&](const auto& self, const BvhNode& node, int level) -> void {
       deepest = std::max(deepest, level);
@@ -64,7 +64,7 @@ TEST(BvhBuild, ContainsEveryBoxOnceWithinItsParents) {
           }
           self(self, nodes[child.index], level + 1);
         } else {
-          ++met[-1 - child.index];
+          ++visits[-1 - child.index];
           for (int a = 0; a < 3; ++a) {
             EXPECT_LE(child.lower[a], boxes[-1 - child.index].lower[a]);
             EXPECT_GE(child.upper[a], boxes[-1 - child.index].upper[a]);
@@ -73,7 +73,7 @@ TEST(BvhBuild, ContainsEveryBoxOnceWithinItsParents) {
       }
     };
     visit(visit, nodes.at(0), 1);
-    for (const int times : met) EXPECT_EQ(times, 1);
+    for (const int times : visits) EXPECT_EQ(times, 1);
     EXPECT_LE(deepest, kMaxLevels);
   }
   EXPECT_TRUE(build_bvh({}).empty());

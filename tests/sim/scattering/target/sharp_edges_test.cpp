@@ -20,9 +20,9 @@ using testing_echoes::cut_plate;
 
 TEST(SharpEdges, AreThoseOfAPlateABoxAndADihedral) {
   const auto edges_of = [](const TriangleMesh& mesh) { return Scatterer(mesh).edges().edges; };
-  const auto rims = edges_of(make_plate(0.3, 0.2));
-  EXPECT_EQ(rims.size(), 4u);
-  for (const SharpEdge& edge : rims) EXPECT_DOUBLE_EQ(edge.front_wedge.N, 2);
+  const auto free_edges = edges_of(make_plate(0.3, 0.2));
+  EXPECT_EQ(free_edges.size(), 4u);
+  for (const SharpEdge& edge : free_edges) EXPECT_DOUBLE_EQ(edge.front_wedge.N, 2);
   // Seen from within the dihedral the seam is concave; from behind it is a wedge of three right angles.
   int seams = 0;
   for (const SharpEdge& edge : edges_of(make_dihedral(0.25, 0.3, kPi / 2))) {
@@ -37,11 +37,11 @@ TEST(SharpEdges, AreThoseOfAPlateABoxAndADihedral) {
 
 // The collinear length of an edge does not depend on triangulation and position; it ends at a vertex of the face.
 TEST(SharpEdges, HaveTheLengthOfTheirCollinearChain) {
-  const Mat3 askew = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+  const Mat3 rotation = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
   for (const std::uint32_t pieces : {1u, 16u}) {
-    const Scatterer plate(transformed(cut_plate(0.3, 0.2, pieces), askew, Vec3(40, -7, 3)));
+    const Scatterer plate(transformed(cut_plate(0.3, 0.2, pieces), rotation, Vec3(40, -7, 3)));
     EXPECT_EQ(plate.edges().edges.size(), 4 * pieces);
-    const Vec3 wide = askew * Vec3::UnitY();
+    const Vec3 wide = rotation * Vec3::UnitY();
     for (const SharpEdge& edge : plate.edges().edges) {
       const double expected = std::abs(edge.along().dot(wide)) > 0.5 ? 0.3 : 0.2;
       EXPECT_NEAR(edge.collinear_length_m, expected, 1e-13 * pieces);  // of positions 40 m out
@@ -77,9 +77,9 @@ TEST(SharpEdges, ConcaveOnesDiffractBetween12And180Deg) {
       if (edge.is_free_edge()) continue;
       const WedgeFrame& corner = edge.front_wedge.N < 1 ? edge.front_wedge : edge.back_wedge;
       const Vec3 between = (corner.face[0].x + corner.face[1].x).normalized();
-      const WedgeFrame* met = illuminated_wedge(edge, -between);
-      EXPECT_TRUE(met == nullptr || met == &corner) << opening_deg;
-      return met != nullptr;
+      const WedgeFrame* wedge = illuminated_wedge(edge, -between);
+      EXPECT_TRUE(wedge == nullptr || wedge == &corner) << opening_deg;
+      return wedge != nullptr;
     }
     ADD_FAILURE() << "no seam";
     return false;
@@ -103,13 +103,13 @@ TEST(SharpEdges, ConcaveOnesAreNotIlluminatedByTheirOwnFaces) {
                        &back = concave_outside ? edge.back_wedge : edge.front_wedge;
       // the reflected direction; beyond twice that angle no reflected wave reaches the other face
       const double above = 0.5 * (kPi - radians(opening_deg));
-      for (const int mirror : {0, 1}) {
-        const WedgeFace& face = corner.face[mirror];
+      for (const int reflecting_face : {0, 1}) {
+        const WedgeFace& face = corner.face[reflecting_face];
         const Vec3 reflected = -std::cos(above) * face.x + std::sin(above) * face.n;
         EXPECT_EQ(illuminated_wedge(edge, reflected), &back) << opening_deg;
-        EXPECT_EQ(wedge_on_illuminated_face(edge, mirror == 1, reflected), nullptr) << opening_deg;
-        EXPECT_EQ(wedge_on_illuminated_face(edge, mirror == 0, reflected), &back) << opening_deg;
-        EXPECT_FALSE(records_edge(edge, back, mirror == 1, reflected)) << opening_deg;
+        EXPECT_EQ(wedge_on_illuminated_face(edge, reflecting_face == 1, reflected), nullptr) << opening_deg;
+        EXPECT_EQ(wedge_on_illuminated_face(edge, reflecting_face == 0, reflected), &back) << opening_deg;
+        EXPECT_FALSE(records_edge(edge, back, reflecting_face == 1, reflected)) << opening_deg;
       }
     }
   }
@@ -123,14 +123,14 @@ TEST(SharpEdges, ExactlyOneFaceRecordsEachEdge) {
     Random random({3, Stream::kTest, 18});
     for (int i = 0; i < 20; ++i) {
       const Vec3 k_hat = Vec3(random.normal(), random.normal(), random.normal()).normalized();
-      std::vector<int> speaking(edges.edges.size(), 0);
+      std::vector<int> records(edges.edges.size(), 0);
       for (int panel = 0; panel < static_cast<int>(scatterer.facets().size()); ++panel) {
         for (const PanelEdge& side : edges.edges_of_panel(panel)) {
           const SharpEdge& edge = edges.edges[side.edge];
           const WedgeFrame* wedge = side.may_record_edge(k_hat) ? illuminated_wedge(edge, k_hat) : nullptr;
-          const bool speaking_here = wedge && records_edge(edge, *wedge, side.is_first_face, k_hat);
-          speaking[side.edge] += speaking_here;
-          if (speaking_here) {
+          const bool recorded_here = wedge && records_edge(edge, *wedge, side.is_first_face, k_hat);
+          records[side.edge] += recorded_here;
+          if (recorded_here) {
             EXPECT_EQ(wedge_on_illuminated_face(edge, side.is_first_face, k_hat), wedge) << side.edge;
           }
         }
@@ -139,10 +139,10 @@ TEST(SharpEdges, ExactlyOneFaceRecordsEachEdge) {
         const SharpEdge& edge = edges.edges[number];
         // The free edge of a sheet has one panel, which records it once.
         if (illuminated_wedge(edge, k_hat)) {
-          EXPECT_EQ(speaking[number], 1) << number;
+          EXPECT_EQ(records[number], 1) << number;
         }
         if (!edge.two_sided && edge.front_wedge.N < 1 && std::abs(std::sin(kPi / edge.front_wedge.N)) < 1e-3) {
-          EXPECT_EQ(speaking[number], 0) << number;
+          EXPECT_EQ(records[number], 0) << number;
         }
       }
     }

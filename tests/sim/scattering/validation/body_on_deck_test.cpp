@@ -95,7 +95,7 @@ Deviation against_image_theory(const TriangleMesh& body, const TriangleMesh& dou
   const TriangleMesh deck = block(half_deck, half_deck, -1, 0);
   TriangleMesh both = deck;
   both.append(body);
-  const Scatterer alone(deck), standing(both), doubled(doubled_body, {}, 0);
+  const Scatterer alone(deck), on_deck(both), doubled(doubled_body, {}, 0);
   const TracingSettings settings{1.4e-5, 8, true};
   std::array<double, 3> error{}, power{};
   for (double elevation = elevations.first_deg; elevation <= elevations.last_deg; elevation += 0.5) {
@@ -104,7 +104,7 @@ Deviation against_image_theory(const TriangleMesh& body, const TriangleMesh& dou
     const auto echo_of = [&](const Scatterer& target, const BistaticGeometry& geometry) {
       return scattering_matrices(target, geometry, std::array{k}, settings)[0];
     };
-    const auto with = echo_of(standing, monostatic(radar)), without = echo_of(alone, monostatic(radar));
+    const auto with = echo_of(on_deck, monostatic(radar)), without = echo_of(alone, monostatic(radar));
     // the image's h has the other sign
     const auto direct = echo_of(doubled, monostatic(radar)), mirrored = echo_of(doubled, bistatic(image, radar));
     const std::array<Complex, 4> exact{

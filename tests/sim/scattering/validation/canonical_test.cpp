@@ -67,9 +67,9 @@ TEST(Dihedral, HasOppositeSignsForHhAndVvAndTheApertureFormulasStrength) {
 }
 
 TEST(Dihedral, RotatedBy45DegreesIsPureCrossPolarised) {
-  const TriangleMesh turned = transformed(make_dihedral(0.25, 0.3, kPi / 2),
-                                          Eigen::AngleAxisd(kPi / 4, Vec3::UnitX()).toRotationMatrix(), Vec3::Zero());
-  const auto s = echo(turned, Vec3::UnitX(), k16);
+  const TriangleMesh rotated = transformed(make_dihedral(0.25, 0.3, kPi / 2),
+                                           Eigen::AngleAxisd(kPi / 4, Vec3::UnitX()).toRotationMatrix(), Vec3::Zero());
+  const auto s = echo(rotated, Vec3::UnitX(), k16);
   const double expected = std::sqrt(2.0) * 0.3 * 0.25 * k16 / (2 * kPi);
   const double side_lobe = 2 * 0.3 * 0.25 * k16 / (2 * kPi) / (k16 * 0.3);
   EXPECT_NEAR(std::abs(s[kHvChannel]), expected, side_lobe);
@@ -152,8 +152,8 @@ TEST(IcosahedralReflector, HasTheMeanOfGeometricalOpticsOverAllDirections) {
   // A Fibonacci lattice covers the sphere evenly.
   constexpr int kDirections = 1500;
   for (int i = 0; i < kDirections; ++i) {
-    const double z = 1 - (2 * i + 1.0) / kDirections, turn = 2.399963229728653 * i;
-    const Vec3 r(std::sqrt(1 - z * z) * std::cos(turn), std::sqrt(1 - z * z) * std::sin(turn), z);
+    const double z = 1 - (2 * i + 1.0) / kDirections, azimuth = 2.399963229728653 * i;
+    const Vec3 r(std::sqrt(1 - z * z) * std::cos(azimuth), std::sqrt(1 - z * z) * std::sin(azimuth), z);
     sum += 4 * kPi * std::norm(echo(reflector, radar_basis(r), k16, 1.4e-3)[kVvChannel]);
     ++count;
   }

@@ -90,11 +90,13 @@ Deviation against_integral_equations(const std::string& section, double min_deg,
   for (const auto& row : read_csv("sections.csv")) {
     if (row[6] != section) continue;
     const double transmit = std::stod(row[0]), receive = std::stod(row[1]);
-    const double apart = std::abs(std::remainder(transmit - receive, 360));
-    if (apart < min_deg || apart > max_deg || std::abs(std::remainder(receive, 360)) > about_deg) continue;
-    const auto geometry = apart == 0 && elevation_deg == 0 ? monostatic(radar_basis(direction(receive, 0)))
-                                                           : bistatic(radar_basis(direction(transmit, elevation_deg)),
-                                                                      radar_basis(direction(receive, -elevation_deg)));
+    const double bistatic_angle = std::abs(std::remainder(transmit - receive, 360));
+    if (bistatic_angle < min_deg || bistatic_angle > max_deg || std::abs(std::remainder(receive, 360)) > about_deg)
+      continue;
+    const auto geometry = bistatic_angle == 0 && elevation_deg == 0
+                              ? monostatic(radar_basis(direction(receive, 0)))
+                              : bistatic(radar_basis(direction(transmit, elevation_deg)),
+                                         radar_basis(direction(receive, -elevation_deg)));
     const auto [soft_P, hard_P] = echoes_per_metre(one, two, height, geometry, k);
     for (const bool hard : {false, true}) {
       const Complex reference(std::stod(row[hard ? 4 : 2]), std::stod(row[hard ? 5 : 3]));

@@ -35,11 +35,11 @@ TEST(Invariance, MovingATargetTowardsTheRadarAdvancesThePhase) {
 }
 
 TEST(Invariance, CommonRotationChangesNothing) {
-  const Mat3 turn = Eigen::AngleAxisd(1.1, Vec3(0.3, -1, 0.6).normalized()).toRotationMatrix();
+  const Mat3 rotation = Eigen::AngleAxisd(1.1, Vec3(0.3, -1, 0.6).normalized()).toRotationMatrix();
   const RadarBasis basis = radar_basis(direction(41, 22));
-  const RadarBasis turned{turn * basis.r, turn * basis.h, turn * basis.v};
+  const RadarBasis rotated{rotation * basis.r, rotation * basis.h, rotation * basis.v};
   const auto before = echo(Scatterer(stepped_corner()), basis, k10, kFine);
-  const auto after = echo(Scatterer(transformed(stepped_corner(), turn, Vec3::Zero())), turned, k10, kFine);
+  const auto after = echo(Scatterer(transformed(stepped_corner(), rotation, Vec3::Zero())), rotated, k10, kFine);
   EXPECT_LT(difference(before, after), kSlivers * largest(before));
 }
 
@@ -72,13 +72,13 @@ TEST(Invariance, TheFirstBounceIsReciprocalToRounding) {
 TEST(Invariance, ManyBouncesAreReciprocalWithinPhysicalOptics) {
   // Physical optics radiates the currents of every bounce, but only geometrical optics illuminates the next one: a path
   // and its reciprocal differ by diffraction, about 1/(k a) = 1/84 of the amplitude.
-  double worst = 0;
+  double max_error = 0;
   for (const double azimuth : {25.0, 45.0, 60.0}) {
     const auto s = echo(make_triangular_trihedral(0.4), direction(azimuth, 35.264), k10, kFine);
-    worst = std::max(worst, std::abs(s[kHvChannel] - s[kVhChannel]) / largest(s));
+    max_error = std::max(max_error, std::abs(s[kHvChannel] - s[kVhChannel]) / largest(s));
   }
-  RecordProperty("worst_relative", std::to_string(worst));
-  EXPECT_LT(worst, 0.03);
+  RecordProperty("worst_relative", std::to_string(max_error));
+  EXPECT_LT(max_error, 0.03);
 }
 
 TEST(Invariance, FlatFaceIndependentOfTriangulation) {

@@ -121,7 +121,7 @@ TEST(TopHat, IsIndependentOfTriangulation) {
     for (std::size_t cut = 1; cut < 4; ++cut)
       max = std::max(max, std::abs(echo_of(hats[cut]) - first) / closed_form(k, kRadius, kHeight, kElevationDeg));
   }
-  std::printf("four ways to cut the plate: echoes differ by %.5f of the closed form at most\n", max);
+  std::printf("four triangulations of the plate: echoes differ by %.5f of the closed form at most\n", max);
   EXPECT_LT(max, std::pow(kContourRatio, -1.5));
 }
 
