@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// An empty folder that lives as long as this object.
+// An empty folder with the lifetime of this object.
 
 #include <cstdlib>
 #include <filesystem>

@@ -20,8 +20,8 @@ constexpr double kFlat = 1e-9;
 // factor is the previous one times a ratio, and the ratio changes by a constant factor (1 without motion during the
 // pulse).
 struct PulsePhasor {
-  Complex value, ratio, bend;
-  bool bent;
+  Complex value, ratio, ratio_step;
+  bool is_quadratic;
 
   PulsePhasor(const PulseTrain& train, std::size_t pulse, double range_m, double velocity_mps,
               bool intra_pulse_motion) {
@@ -35,13 +35,13 @@ struct PulsePhasor {
     };
     value = std::polar(1.0, phase(0));
     ratio = std::polar(1.0, phase(1) - phase(0));
-    bent = intra_pulse_motion;
-    bend = std::polar(1.0, 8 * kPi / kSpeedOfLight * slope * step * step);
+    is_quadratic = intra_pulse_motion;
+    ratio_step = std::polar(1.0, 8 * kPi / kSpeedOfLight * slope * step * step);
   }
 
   void next() {
     value *= ratio;
-    if (bent) ratio *= bend;
+    if (is_quadratic) ratio *= ratio_step;
   }
 };
 
@@ -108,12 +108,12 @@ CleanComponent ResidualEcho::fit(double range_m, double velocity_mps, double rea
       for (std::size_t n = 0; n < all.size(); ++n) {
         const double t = train_.time_s[n], f = train_.carrier_hz[n];
         const double kr = 4 * kPi / kSpeedOfLight * (f - train_.band_centre_hz()), kv = 4 * kPi / kSpeedOfLight * f * t;
-        const Complex turn = std::polar(1.0, kr * dr + kv * dv);
+        const Complex phasor = std::polar(1.0, kr * dr + kv * dv);
         const double y = dr + dv * t;
-        const Complex z2 = turn * (all[n].m2 + Complex(0, y) * all[n].m3);
-        const Complex z1 = turn * (all[n].m1 + Complex(0, y) * all[n].m2 - 0.5 * y * y * all[n].m3);
-        const Complex z0 = turn * (all[n].m0 + Complex(0, y) * all[n].m1 - 0.5 * y * y * all[n].m2 -
-                                   Complex(0, y * y * y / 6) * all[n].m3);
+        const Complex z2 = phasor * (all[n].m2 + Complex(0, y) * all[n].m3);
+        const Complex z1 = phasor * (all[n].m1 + Complex(0, y) * all[n].m2 - 0.5 * y * y * all[n].m3);
+        const Complex z0 = phasor * (all[n].m0 + Complex(0, y) * all[n].m1 - 0.5 * y * y * all[n].m2 -
+                                     Complex(0, y * y * y / 6) * all[n].m3);
         // d/dr gives a factor j (kr + k_b), d/dv a factor j (kv + k_b t), k_b the baseband wavenumber of the moments.
         s.rv += z0;
         s.r += kr * z0 + z1;

@@ -127,16 +127,16 @@ std::vector<double> Booster::gains(std::size_t columns) const {
                                 &shape, &scores),
           "gains");
   // The library omits columns without a split; the others are named f0, f1, ...
-  std::vector<double> shares(columns, 0.0);
+  std::vector<double> fractions(columns, 0.0);
   double total = 0;
   for (bst_ulong i = 0; i < count; ++i) {
     const std::size_t column = std::strtoul(names[i] + 1, nullptr, 10);
     SEAGLINT_CHECK(column < columns, names[i]);
-    shares[column] = scores[i];
+    fractions[column] = scores[i];
     total += scores[i];
   }
-  for (double& share : shares) share = total > 0 ? share / total : 0;
-  return shares;
+  for (double& fraction : fractions) fraction = total > 0 ? fraction / total : 0;
+  return fractions;
 }
 
 std::size_t Booster::columns() const {

@@ -28,13 +28,13 @@ void shuffle(std::vector<T>& values, const RandomKey& key) {
     std::swap(values[i - 1], values[random.below(static_cast<std::uint32_t>(i))]);
 }
 
-Split cut(std::span<const RowGroup> rows, const std::vector<std::size_t>& candidates, Protocol protocol, double share,
-          std::uint64_t seed, std::uint64_t repeat, bool fusion) {
+Split cut(std::span<const RowGroup> rows, const std::vector<std::size_t>& candidates, Protocol protocol,
+          double fraction, std::uint64_t seed, std::uint64_t repeat, bool fusion) {
   Split split;
   if (protocol == Protocol::kRandom) {
     std::vector<std::size_t> order = candidates;
     shuffle(order, {seed, Stream::kSplit, key_index(repeat, protocol, fusion, 0)});
-    const auto middle = order.begin() + std::lround(share * static_cast<double>(order.size()));
+    const auto middle = order.begin() + std::lround(fraction * static_cast<double>(order.size()));
     split.train.assign(order.begin(), middle);
     split.test.assign(middle, order.end());
   } else {
@@ -45,14 +45,14 @@ Split cut(std::span<const RowGroup> rows, const std::vector<std::size_t>& candid
     // With a fixed order the carried rounding would take the test groups of every repeat from the same states.
     shuffle(states, {seed, Stream::kSplit, kOrderOfStates + key_index(repeat, protocol, fusion, 0)});
     std::set<std::int64_t> chosen;
-    double wanted = 0;
+    double target_count = 0;
     for (const std::int64_t state : states) {
       const std::set<std::int64_t>& groups = groups_of_state[state];
       std::vector<std::int64_t> order(groups.begin(), groups.end());
       shuffle(order, {seed, Stream::kSplit, key_index(repeat, protocol, fusion, static_cast<std::uint64_t>(state))});
-      wanted += share * static_cast<double>(order.size());
+      target_count += fraction * static_cast<double>(order.size());
       const long all = static_cast<long>(order.size());
-      long count = std::lround(wanted - static_cast<double>(chosen.size()));
+      long count = std::lround(target_count - static_cast<double>(chosen.size()));
       count = all >= 2 ? std::clamp(count, 1L, all - 1) : std::clamp(count, 0L, all);
       chosen.insert(order.begin(), order.begin() + count);
     }

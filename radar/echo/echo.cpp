@@ -69,9 +69,9 @@ void add_own_motion(std::vector<Complex>& echo, const PulseTrain& train, const C
   for (std::size_t n = 0; n < train.pulses(); ++n) {
     for (std::size_t b = 0; b < train.frequencies(); ++b) {
       const double t = train.time_s[n] + (train.intra_pulse_motion ? train.baseband_hz[b] / train.chirp_rate_hz_s : 0);
-      const double along = scene.r_hat.dot(velocity) * t, way_2 = velocity.squaredNorm() * t * t;
-      const double now_m = std::sqrt(start_m * start_m + 2 * start_m * along + way_2);
-      const double farther_m = (2 * start_m * along + way_2) / (now_m + start_m);
+      const double along = scene.r_hat.dot(velocity) * t, distance2 = velocity.squaredNorm() * t * t;
+      const double now_m = std::sqrt(start_m * start_m + 2 * start_m * along + distance2);
+      const double farther_m = (2 * start_m * along + distance2) / (now_m + start_m);
       echo[n * train.frequencies() + b] *=
           std::polar(1.0, -4 * kPi * (train.carrier_hz[n] + train.baseband_hz[b]) * farther_m / kSpeedOfLight);
     }

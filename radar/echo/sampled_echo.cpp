@@ -38,15 +38,15 @@ struct CentredTransform {
 PulseTrain train_for_samples(const PulseTrain& train, const RadarSpec& radar) {
   const double sampling_hz = radar.sampling_mhz * 1e6, pulse_s = radar.pulse_width_us * 1e-6;
   const double needed_s = pulse_s + 2 * train.unambiguous_range_m() / kSpeedOfLight;
-  const int least = static_cast<int>(std::ceil(needed_s * train.baseband_step_hz));
-  int refinement = least + (least + 1) % 2;
+  const int min_refinement = static_cast<int>(std::ceil(needed_s * train.baseband_step_hz));
+  int refinement = min_refinement + (min_refinement + 1) % 2;
   while (whole_ratio(sampling_hz, train.baseband_step_hz / refinement) == 0) {
     refinement += 2;
-    if (refinement > 4 * least) {
+    if (refinement > 4 * min_refinement) {
       throw InputError(
           fmt::format("radar.sampling_mhz: value {}: must be a multiple of a frequency step below {:.6g} MHz "
                       "for an echo in samples",
-                      radar.sampling_mhz, train.baseband_step_hz * 1e-6 / least));
+                      radar.sampling_mhz, train.baseband_step_hz * 1e-6 / min_refinement));
     }
   }
   PulseTrain fine = train;

@@ -97,11 +97,11 @@ std::vector<double> sea_texture(int cells, double correlation_cells, const Clutt
     for (double& value : white) value += in_time.weight[i] * random.normal();
   }
   // The kernel e^{-d^2/l^2} folded onto the ring.
-  const int reach = static_cast<int>(std::ceil(kKernelReach * correlation_cells));
-  std::vector<double> kernel(std::min(cells, 2 * reach + 1));
-  for (int d = -reach; d <= reach; ++d) {
+  const int half_width = static_cast<int>(std::ceil(kKernelReach * correlation_cells));
+  std::vector<double> kernel(std::min(cells, 2 * half_width + 1));
+  for (int d = -half_width; d <= half_width; ++d) {
     const double x = d / correlation_cells;
-    kernel[(d + static_cast<long>(reach)) % static_cast<long>(kernel.size())] += std::exp(-x * x);
+    kernel[(d + static_cast<long>(half_width)) % static_cast<long>(kernel.size())] += std::exp(-x * x);
   }
   double power = 0;
   for (const double w : kernel) power += w * w;
@@ -144,7 +144,7 @@ std::vector<Complex> clutter_response(const PulseTrain& train, const ClutterSpec
   if (spec.doppler != ClutterDoppler::kPrescribed) {
     const VelocityMoments sea = clutter_velocity_moments(spec, scene, wavelength);
     mean_mps += sea.mean_mps;
-    if (spec.doppler == ClutterDoppler::kSea) spread_mps = std::hypot(spread_mps, sea.spread_mps);
+    if (spec.doppler == ClutterDoppler::kSeaState) spread_mps = std::hypot(spread_mps, sea.spread_mps);
     if (spec.doppler == ClutterDoppler::kWaveResolved)
       floating = floating_scatterers(scene, scatterer_ranges(window_m, scatterers), duration, seed, index);
   }

@@ -112,12 +112,12 @@ std::string band_gap_warning(const PulseTrain& train) {
 std::string figures_of_merit_text(const PulseTrain& train, const RadarSpec& spec) {
   std::vector<int> count(train.carriers);
   for (const int c : train.code) ++count[c];
-  const auto [fewest, most] = std::minmax_element(count.begin(), count.end());
+  const auto [min, max] = std::minmax_element(count.begin(), count.end());
   const double mhz = 1e-6;
   std::string text;
   text += fmt::format(
       "carriers            {} from {:g} GHz by {:g} MHz, {} code, {} to {} pulses each in the first interval\n",
-      train.carriers, spec.carrier_ghz, spec.hop_step_mhz, code_name(spec.hop_code), *fewest, *most);
+      train.carriers, spec.carrier_ghz, spec.hop_step_mhz, code_name(spec.hop_code), *min, *max);
   text += fmt::format("synthesised band    {:.6g} MHz in {} bins of {:.6g} MHz, {} per pulse\n",
                       train.synthetic_bandwidth_hz() * mhz, train.band_bins(), train.baseband_step_hz * mhz,
                       train.frequencies());

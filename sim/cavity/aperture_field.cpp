@@ -13,8 +13,8 @@ namespace {
 constexpr std::size_t kTile = 32;  // patches that one thread takes at a time
 
 // Cells of the aperture with an unobstructed path to the antenna.
-std::vector<bool> seen_from(std::span<const ApertureCell> aperture, const Vec3& r_hat, const RayScene& scene,
-                            double radius) {
+std::vector<bool> visible_cells(std::span<const ApertureCell> aperture, const Vec3& r_hat, const RayScene& scene,
+                                double radius) {
   std::vector<Ray> rays;
   // Rays start off the plane of the aperture, so that they do not hit its rim (Embree is single precision).
   for (const ApertureCell& cell : aperture) {
@@ -23,9 +23,10 @@ std::vector<bool> seen_from(std::span<const ApertureCell> aperture, const Vec3& 
   }
   std::vector<int> hit(rays.size());
   scene.first_hits(rays, hit);
-  std::vector<bool> seen(aperture.size());
-  for (std::size_t i = 0; i < aperture.size(); ++i) seen[i] = aperture[i].inward.dot(r_hat) < 0 && hit[i] == kNoFacet;
-  return seen;
+  std::vector<bool> visible(aperture.size());
+  for (std::size_t i = 0; i < aperture.size(); ++i)
+    visible[i] = aperture[i].inward.dot(r_hat) < 0 && hit[i] == kNoFacet;
+  return visible;
 }
 
 }  // namespace
@@ -37,9 +38,9 @@ ApertureFields incident_aperture_fields(std::span<const ApertureCell> aperture, 
       ApertureFields::Zero(4 * static_cast<Eigen::Index>(aperture.size()), 2 * static_cast<Eigen::Index>(views.size()));
   for (std::size_t view = 0; view < views.size(); ++view) {
     const RadarBasis& from = views[view].*antenna;
-    const std::vector<bool> seen = seen_from(aperture, from.r, scene, radius);
+    const std::vector<bool> visible = visible_cells(aperture, from.r, scene, radius);
     for (std::size_t i = 0; i < aperture.size(); ++i) {
-      if (!seen[i]) continue;
+      if (!visible[i]) continue;
       const ApertureCell& cell = aperture[i];
       const Complex wave = std::polar(std::sqrt(cell.area), k * from.r.dot(cell.centre));
       for (int p = 0; p < 2; ++p) {
@@ -81,7 +82,7 @@ WallFields wall_fields(std::span<const ApertureCell> aperture, std::span<const W
                       radiated = Complex(0, -k) * G;
         for (int t = 0; t < 2; ++t) {
           const Vec3& tangent = patch.tangent[t];
-          const Vec3 turned = tangent.cross(patch.normal);  // tangent . (n x H) = turned . H
+          const Vec3 rotated_tangent = tangent.cross(patch.normal);  // tangent . (n x H) = rotated_tangent . H
           const auto column = 2 * static_cast<Eigen::Index>(i - first) + t;
           for (int s = 0; s < 2; ++s) {
             const Vec3& along = s == 0 ? cell.across : cell.up;
@@ -92,8 +93,8 @@ WallFields wall_fields(std::span<const ApertureCell> aperture, std::span<const W
             const auto J = 4 * static_cast<Eigen::Index>(j) + s, M = J + 2;
             to_E(J, column) = std::complex<float>(direct(tangent));
             to_E(M, column) = std::complex<float>(-slope * tangent.dot(around));
-            to_J(J, column) = std::complex<float>(2.0 * slope * turned.dot(around));
-            to_J(M, column) = std::complex<float>(2.0 * direct(turned));
+            to_J(J, column) = std::complex<float>(2.0 * slope * rotated_tangent.dot(around));
+            to_J(M, column) = std::complex<float>(2.0 * direct(rotated_tangent));
           }
         }
       }

@@ -107,13 +107,13 @@ std::vector<WallPatch> wall_patches(const TriangleMesh& walls, double size) {
     return (piece.centre - seed.centre).squaredNorm() + size * size * (piece.normal - seed.normal).squaredNorm();
   };
   // Minimum distance of seeds, so that each has an area of about size x size.
-  const double apart = 0.94 * size;
+  const double min_distance = 0.94 * size;
   std::vector<Seed> seeds;
   SeedLattice first(size);
   for (const Piece& piece : pieces) {
     bool free = true;
     first.near(piece.centre, [&](int s) {
-      free = free && distance2(piece, seeds[static_cast<std::size_t>(s)]) >= apart * apart * (1 - kTie);
+      free = free && distance2(piece, seeds[static_cast<std::size_t>(s)]) >= min_distance * min_distance * (1 - kTie);
     });
     if (!free) continue;
     first.add(piece.centre, static_cast<int>(seeds.size()));

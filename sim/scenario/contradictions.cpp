@@ -68,9 +68,9 @@ void check_grazing(const Scenario& scenario, const ScenarioDocument& document) {
   const bool own_level = clutter.level == ClutterLevel::kNrl,
              own_motion = clutter.doppler != ClutterDoppler::kPrescribed;
   if (!clutter.enabled || !(own_level || own_motion)) return;
-  const char* where = own_level                                 ? "level: nrl"
-                      : clutter.doppler == ClutterDoppler::kSea ? "doppler: sea_state"
-                                                                : "doppler: wave_resolved";
+  const char* where = own_level                                      ? "level: nrl"
+                      : clutter.doppler == ClutterDoppler::kSeaState ? "doppler: sea_state"
+                                                                     : "doppler: wave_resolved";
   for (const double elevation : scenario.view.elevation_deg) {
     if (elevation < 0.1 || elevation > 60)
       document.fail_at("view.elevation_deg", fmt::format("must be within 0.1 and 60 with clutter.{}", where));
@@ -99,9 +99,9 @@ void check_clutter(const Scenario& scenario, const ScenarioDocument& document) {
 // Keys that do not apply to this spectrum are errors.
 void check_spectrum(const SeaSpec& sea, const ScenarioDocument& document) {
   const YamlNode* node = document.root.find("sea");
-  const auto stands = [&](const char* key) { return node != nullptr && node->find(key) != nullptr; };
+  const auto is_given = [&](const char* key) { return node != nullptr && node->find(key) != nullptr; };
   const auto only = [&](const char* key, bool allowed, const char* with) {
-    if (stands(key) && !allowed) {
+    if (is_given(key) && !allowed) {
       document.fail_at(fmt::format("sea.{}", key), fmt::format("not allowed here: valid only with {}", with));
     }
   };

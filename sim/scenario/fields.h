@@ -53,7 +53,7 @@ class FieldVisitor {
   virtual void text(const char* key, std::string& value) = 0;
   virtual void choice(const char* key, std::size_t& index, Names names) = 0;  // names[index]
   virtual void triple(const char* key, std::array<double, 3>& values, const Bound& bound) = 0;
-  virtual void ratio(const char* key, double& share) = 0;  // written a:b for the fraction a/(a+b)
+  virtual void ratio(const char* key, double& fraction) = 0;  // written a:b for the fraction a/(a+b)
   // A number, a list or from:to:step, or one of `words`: *word is 0 for numbers, else the 1-based index of the word,
   // with values empty.
   virtual void sweep(const char* key, Sweep& values, const Bound& bound, Names words = {},

@@ -42,8 +42,8 @@ class Lister : public FieldVisitor {
   void triple(const char* key, std::array<double, 3>& values, const Bound& bound) override {
     add(key, is_optional_ ? "" : fmt::format("[{}]", fmt::join(values, ", ")), "[x, y, z], " + number_text(bound));
   }
-  void ratio(const char* key, double& share) override {
-    add(key, fmt::format("{:g}:{:g}", 10 * share, 10 * (1 - share)), "a:b, both greater than 0");
+  void ratio(const char* key, double& fraction) override {
+    add(key, fmt::format("{:g}:{:g}", 10 * fraction, 10 * (1 - fraction)), "a:b, both greater than 0");
   }
   void sweep(const char* key, Sweep& values, const Bound& bound, Names words, std::size_t*) override {
     const std::string other = words.empty() ? "" : fmt::format(", or {}", fmt::join(words, " or "));

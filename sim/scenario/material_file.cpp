@@ -163,14 +163,15 @@ std::optional<fs::path> find_material_file(const std::string& name, const fs::pa
   }
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
-  const fs::path beside = folder / path;
+  const fs::path in_folder = folder / path;
   if (is_file) {
     throw InputError(fmt::format("{}: value '{}': no such material file{} below the working directory", where, name,
-                                 folder.empty() ? "" : fmt::format(", neither {} nor", beside.string())));
+                                 folder.empty() ? "" : fmt::format(", neither {} nor", in_folder.string())));
   }
-  throw InputError(fmt::format("{}: value '{}': no such material{} in {} below the working directory: {}", where, name,
-                               folder.empty() ? "" : fmt::format(", neither in {} nor", beside.parent_path().string()),
-                               path.parent_path().string(), suggestion(name, names)));
+  throw InputError(
+      fmt::format("{}: value '{}': no such material{} in {} below the working directory: {}", where, name,
+                  folder.empty() ? "" : fmt::format(", neither in {} nor", in_folder.parent_path().string()),
+                  path.parent_path().string(), suggestion(name, names)));
 }
 
 MaterialSpec find_material(const std::string& name, const fs::path& folder, const std::string& where) {

@@ -73,10 +73,10 @@ enum class ScrDefinition { kPerPulse, kPeakCell, kExtent };
 enum class ClutterLevel { kScr, kNrl };
 // kCnr: relative to the clutter. kSnr: relative to the target. kThermal: by the radar equation.
 enum class NoiseLevel { kCnr, kSnr, kThermal };
-// Contribution of the waves to the prescribed mean and spread of the velocity. kPrescribed: none. kSea: mean and spread
-// for the sea state. kWaveResolved: mean for the sea state, and per scatterer the velocity of the water at its position
-// in the sea realisation of the target.
-enum class ClutterDoppler { kPrescribed, kSea, kWaveResolved };
+// Contribution of the waves to the prescribed mean and spread of the velocity. kPrescribed: none. kSeaState: mean and
+// spread for the sea state. kWaveResolved: mean for the sea state, and per scatterer the velocity of the water at its
+// position in the sea realisation of the target.
+enum class ClutterDoppler { kPrescribed, kSeaState, kWaveResolved };
 
 struct ClutterSpec {
   ClutterLevel level = ClutterLevel::kScr;

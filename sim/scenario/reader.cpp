@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t kMaxSweepValues = 10000;
 
 // A value as shown in error messages.
-std::string shown(const YamlNode& node) {
+std::string value_text(const YamlNode& node) {
   constexpr std::size_t kLongest = 60;
   switch (node.kind) {
     case YamlNode::Kind::kNull: return "no value";
@@ -144,7 +144,7 @@ class Reader : public FieldVisitor {
     }
   }
 
-  void ratio(const char* key, double& share) override {
+  void ratio(const char* key, double& fraction) override {
     const YamlNode* node = map_.find(key);
     if (node == nullptr) return;
     const std::size_t colon = node->text.find(':');
@@ -154,7 +154,7 @@ class Reader : public FieldVisitor {
       if (a && b && *a > 0 && *b > 0) {
         const double read = *a / (*a + *b);
         if (read > 0 && read < 1) {
-          share = read;
+          fraction = read;
           return;
         }
       }
@@ -239,7 +239,7 @@ class Reader : public FieldVisitor {
   std::string path_of(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
 
   [[noreturn]] void fail(const YamlNode& node, const std::string& path, const std::string& bound) const {
-    document_.fail(node.location, path, fmt::format("{}: {}", shown(node), bound));
+    document_.fail(node.location, path, fmt::format("{}: {}", value_text(node), bound));
   }
 
   // A value of an earlier version is refused by its new name.
@@ -349,7 +349,8 @@ void read_fields(const ScenarioDocument& document, const std::function<void(Fiel
   }
   if (document.root.kind != YamlNode::Kind::kMap) {
     throw InputError(fmt::format("{}:{}:{}: {}: must be a map of key: value", document.file_name,
-                                 document.root.location.line, document.root.location.column, shown(document.root)));
+                                 document.root.location.line, document.root.location.column,
+                                 value_text(document.root)));
   }
   Reader::read(document, document.root, "", fields);
 }

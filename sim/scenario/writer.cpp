@@ -33,13 +33,13 @@ std::string text_as_yaml(const std::string& text) {
   return quoted + '"';
 }
 
-// The smallest whole numbers a:b with a/(a+b) equal to the fraction to the last bit; otherwise share:(1-share).
-std::string ratio_as_yaml(double share) {
+// The smallest whole numbers a:b with a/(a+b) equal to the fraction to the last bit; otherwise fraction:(1-fraction).
+std::string ratio_as_yaml(double fraction) {
   for (int whole = 2; whole <= 100; ++whole) {
-    const int a = static_cast<int>(share * whole + 0.5);
-    if (a > 0 && a < whole && static_cast<double>(a) / whole == share) return fmt::format("{}:{}", a, whole - a);
+    const int a = static_cast<int>(fraction * whole + 0.5);
+    if (a > 0 && a < whole && static_cast<double>(a) / whole == fraction) return fmt::format("{}:{}", a, whole - a);
   }
-  return fmt::format("{}:{}", share, 1 - share);
+  return fmt::format("{}:{}", fraction, 1 - fraction);
 }
 
 // Writes values as YAML. Doubles have the fewest digits that read back to the same bits (fmt).
@@ -57,7 +57,7 @@ class ValueVisitor : public FieldVisitor {
   void triple(const char* key, std::array<double, 3>& values, const Bound&) override {
     line(key, fmt::format("[{}]", fmt::join(values, ", ")));
   }
-  void ratio(const char* key, double& share) override { line(key, ratio_as_yaml(share)); }
+  void ratio(const char* key, double& fraction) override { line(key, ratio_as_yaml(fraction)); }
   void sweep(const char* key, Sweep& values, const Bound&, Names words, std::size_t* word) override {
     if (word != nullptr && *word > 0) {
       line(key, words[*word - 1]);

@@ -45,11 +45,11 @@ LongCrestedSurface surface(const WaveComponent* component, const double* cosine,
       const double w = component[i].omega;
       // sum_{j<i} (k_i - k_j)(w_i - w_j) v_j and sum_{j<i} (k_i - k_j)(w_i - w_j)^2 v_j, with w_j^2 = g k_j
       const Pair w_first{k * omega0.c - omega1.c, k * omega0.s - omega1.s};
-      const Pair turned{w * first.c - w_first.c, w * first.s - w_first.s};
-      const Pair twice{w * (turned.c - w_first.c) + kGravity * (k * sum1.c - sum2.c),
-                       w * (turned.s - w_first.s) + kGravity * (k * sum1.s - sum2.s)};
+      const Pair product{w * first.c - w_first.c, w * first.s - w_first.s};
+      const Pair twice{w * (product.c - w_first.c) + kGravity * (k * sum1.c - sum2.c),
+                       w * (product.s - w_first.s) + kGravity * (k * sum1.s - sum2.s)};
       drift += w * (v.c * first.c + v.s * first.s);
-      rate += v.s * turned.c - v.c * turned.s;
+      rate += v.s * product.c - v.c * product.s;
       elevation_tt += v.c * twice.c + v.s * twice.s;
       omega0 = {omega0.c + w * v.c, omega0.s + w * v.s};
       omega1 = {omega1.c + w * kv.c, omega1.s + w * kv.s};

@@ -103,7 +103,7 @@ std::vector<WaveComponent> realise_system(const WaveSystem& system, const SeaSta
   // Directions of components adjacent in frequency are spread by multiples of the golden ratio, which fill (0, 1)
   // evenly.
   constexpr double kGolden = 0.61803398874989484820;
-  double share = system.spreading.kind == Spreading::kNone ? 0 : random.direction.uniform();
+  double probability = system.spreading.kind == Spreading::kNone ? 0 : random.direction.uniform();
   std::vector<WaveComponent> components(static_cast<std::size_t>(system.components));
   double energy = 0;
   for (std::size_t i = 0; i < components.size(); ++i) {
@@ -116,10 +116,10 @@ std::vector<WaveComponent> realise_system(const WaveSystem& system, const SeaSta
     energy += 0.5 * component.amplitude * component.amplitude;
     double angle = 0;
     if (system.spreading.kind != Spreading::kNone) {
-      share += kGolden;
-      if (share >= 1) share -= 1;
+      probability += kGolden;
+      if (probability >= 1) probability -= 1;
       // Keeps the probability off 0 and 1, the ends of the circle.
-      angle = spreading_quantile(system.spreading, std::clamp(share, 1e-12, 1 - 1e-12),
+      angle = spreading_quantile(system.spreading, std::clamp(probability, 1e-12, 1 - 1e-12),
                                  component.omega / spectrum.peak_omega());
     }
     component.direction = unit_vector(system.propagation + angle);

@@ -61,11 +61,11 @@ double spreading_quantile(const SpreadingSpec& spec, double probability, double 
   const double s = spreading_exponent(spec, omega_over_peak);
   const auto power = [s](double x) { return cosine_power(x, s); };
   const double piece = std::min(0.1, 0.5 / std::sqrt(s));  // a fraction of the width of cos^2s
-  const double wanted = std::abs(2 * probability - 1) * quarter_norm(s, piece);
+  const double target = std::abs(2 * probability - 1) * quarter_norm(s, piece);
   double x = 0, reached = 0;
   constexpr int kMaxSteps = 200;
   for (int i = 0; i < kMaxSteps; ++i) {
-    const double next = std::min(x + (wanted - reached) / power(x), kPi / 2);
+    const double next = std::min(x + (target - reached) / power(x), kPi / 2);
     if (!(next - x > 1e-11)) break;
     reached += integrate(x, next, piece, power);
     x = next;

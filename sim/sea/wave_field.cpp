@@ -17,7 +17,7 @@ namespace seaglint {
 
 namespace {
 
-std::vector<WaveComponent> turned(std::vector<WaveComponent> components, const Vec2& direction) {
+std::vector<WaveComponent> rotated(std::vector<WaveComponent> components, const Vec2& direction) {
   SEAGLINT_CHECK(direction.norm() > 0, "a direction of length zero");
   for (WaveComponent& component : components) component.direction = direction.normalized();
   return components;
@@ -57,11 +57,11 @@ WaveField::WaveField(std::vector<WaveComponent> components, int order, double se
 
 WaveField::WaveField(std::vector<WaveComponent> components, Vec2 direction, int order, double second_order_cutoff_rad_s,
                      double depth)
-    : WaveField(turned(std::move(components), direction), order, second_order_cutoff_rad_s, depth) {}
+    : WaveField(rotated(std::move(components), direction), order, second_order_cutoff_rad_s, depth) {}
 
 namespace {
 
-constexpr double kNotAskedFor = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNotComputed = std::numeric_limits<double>::quiet_NaN();
 
 // Sums over linear waves of any direction and depth; their kinematics at the mean level (Airy).
 struct LinearSums {
@@ -104,8 +104,8 @@ SurfaceState assemble(const LinearSums& low, const LinearSums& all, const Second
   state.slope_x = slope.x();
   state.slope_y = slope.y();
   if (!motion) {
-    state.velocity.setConstant(kNotAskedFor);
-    state.acceleration.setConstant(kNotAskedFor);
+    state.velocity.setConstant(kNotComputed);
+    state.acceleration.setConstant(kNotComputed);
     return state;
   }
   state.velocity.head<2>() = all.velocity + low.elevation * low.shear + second.velocity;
@@ -136,8 +136,8 @@ SurfaceState WaveField::state(std::span<const double> cosine, std::span<const do
     state.acceleration = {along.acceleration * direction.x(), along.acceleration * direction.y(),
                           along.vertical_acceleration};
     if (!motion) {
-      state.velocity.setConstant(kNotAskedFor);
-      state.acceleration.setConstant(kNotAskedFor);
+      state.velocity.setConstant(kNotComputed);
+      state.acceleration.setConstant(kNotComputed);
     }
     return state;
   }

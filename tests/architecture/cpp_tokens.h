@@ -59,7 +59,7 @@ class Tokeniser {
     while (at_ < text_.size() && !starts(end)) skip(1);
   }
 
-  // Of #if, #else and #endif the first branch stays.
+  // The first branch of #if, #else and #endif is kept.
   void directive() {
     std::string line;
     for (; at_ < text_.size() && text_[at_] != '\n'; skip(1)) {
@@ -134,7 +134,7 @@ inline std::size_t past_bracket(const std::vector<Token>& tokens, std::size_t i)
   for (; i < tokens.size(); ++i) {
     if (tokens[i].text == open) ++depth;
     if (tokens[i].text == close && --depth == 0) return i + 1;
-    // Round and curly brackets inside angle brackets may hold a comparison.
+    // Round and curly brackets inside angle brackets may contain a comparison.
     if (open == "<" && (tokens[i].text == "(" || tokens[i].text == "{")) i = past_bracket(tokens, i) - 1;
   }
   return i;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The types and functions that a file defines at namespace scope with external linkage, by a scan of its tokens: no
-// compiler is asked, macros and aliases are taken as written.
+// The types and functions that a file defines at namespace scope with external linkage, found by a scan of its tokens
+// without a compiler: macros and aliases are taken as written.
 
 #include <algorithm>
 #include <cstddef>

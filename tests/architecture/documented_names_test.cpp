@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What documents name exists: filters of tests and benchmarks wherever they stand, in READMEs programs, commands and
-// scripts too.
+// Every name that a document uses exists: filters of tests and benchmarks in all files; programs, commands and scripts
+// in READMEs.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -140,7 +140,7 @@ TEST(DocumentedNames, FiltersCommandsAndScriptsExist) {
   EXPECT_GT(runnable().test_programs.size(), 10u);
   Faults faults;
   for (const SourceFile& file : source_files()) {
-    // The changelog names what was; sources hold filters of programs that they start.
+    // The changelog contains names of earlier versions; sources contain filters of the programs that they start.
     if (file.path == "CHANGELOG.md" || file.path.ends_with(".cpp") || file.is_below("tests/architecture")) continue;
     for (const std::string& fault : faults_in(file)) faults.push_back(fault);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One idea in a file, and a folder that one sees at once.
+// Limits of the number of lines of a file and of the number of files in a folder.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace seaglint {
 namespace {
 
 constexpr int kLongestHeader = 250, kLongestSource = 400;  // lines
-constexpr int kMaxFiles = 30;                              // in a folder, its sub-folders' not counted
+constexpr int kMaxFiles = 30;                              // in a folder, without those of its sub-folders
 
 TEST(FileSizes, HeadersHaveAtMost250LinesAndSources400) {
   std::set<std::string> found;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The corridor holds: a file includes its own stage or room or those to its left, and third-party libraries stay behind
-// one file per stage.
+// A file includes only its own stage or room or those before it in the order of folders, and each stage includes a
+// third-party library in one source file only.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-// The place of a file's folder in the order, -1 when it belongs to none. Rooms come before the stage they are in.
+// Index of a file's folder in the order, -1 when it belongs to none. Rooms precede the stage that they are in.
 int place_of(const std::vector<std::string>& folders, const std::string& file) {
   for (std::size_t i = 0; i < folders.size(); ++i) {
     if (file.starts_with(folders[i] + "/")) return static_cast<int>(i);

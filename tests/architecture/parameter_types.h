@@ -14,8 +14,8 @@
 
 namespace seaglint {
 
-// The type of one parameter without its name. The const of a copy is no part of a function's type, an array's size
-// neither.
+// The type of one parameter without its name. The const of a parameter passed by value and the size of an array are not
+// part of a function's type.
 inline std::string parameter_type(std::vector<std::string> words) {
   static const std::set<std::string> kKeywords = {"int",   "double", "float", "bool",     "char", "void",
                                                   "short", "long",   "auto",  "unsigned", "const"};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The text files of the repository as the tests of its architecture read them, and the order of its folders.
+// The text files of the repository for the tests of its architecture, and the order of its folders.
 
 #include <algorithm>
 #include <filesystem>
@@ -76,8 +76,8 @@ inline std::vector<SourceFile> code_files() {
   return code;
 }
 
-// The folders of stages and rooms from the first that may be included to the last: the rooms of a stage, then the stage
-// itself for the files beside its rooms.
+// The folders of stages and rooms from the first that may be included to the last: the rooms of a stage precede the
+// stage itself, which contains the files outside its rooms.
 inline std::vector<std::string> ordered_folders(const std::vector<std::string>& stages,
                                                 const std::vector<std::string>& rooms) {
   std::vector<std::string> folders;

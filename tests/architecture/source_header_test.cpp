@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A declaration is found by its source's name: every source has a header of its stem beside it.
+// Every source has a header of the same stem in its folder, in which its declarations are found.
 #include <gtest/gtest.h>
 
 #include <set>

@@ -15,11 +15,11 @@ namespace seaglint {
 
 struct NamedTest {
   std::string suite;
-  std::string name;  // as a filter sees it: SUITE.NAME, of an instantiated one INSTANCE/SUITE.NAME/0
+  std::string name;  // as in a filter: SUITE.NAME, of an instantiated one INSTANCE/SUITE.NAME/0
   std::string file;
 };
 
-// The tests of one file; instantiations stand in the file of their tests.
+// The tests of one file; instantiations are in the file of their tests.
 inline std::vector<NamedTest> tests_in(const SourceFile& file) {
   static const std::set<std::string> kMacros = {"TEST", "TEST_F", "TEST_P", "TYPED_TEST"};
   const std::vector<Token> tokens = tokens_of(file.text);

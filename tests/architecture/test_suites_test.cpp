@@ -28,7 +28,7 @@ std::vector<std::string> in_several_files(const std::vector<NamedTest>& tests) {
   return found;
 }
 
-TEST(TestSuites, StandInOneFileEach) {
+TEST(TestSuites, AreInOneFileEach) {
   const std::vector<NamedTest> tests = all_tests();
   EXPECT_GT(tests.size(), 800u) << "the test finds no tests";
   EXPECT_THAT(in_several_files(tests), IsEmpty());

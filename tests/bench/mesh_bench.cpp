@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a mesh file costs against the number of its parts: the same faces in one and in 60,000.
+// Run time of reading and writing a mesh against the number of its parts: the same faces in 1 and in 60,000 parts.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 

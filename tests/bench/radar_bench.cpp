@@ -75,8 +75,8 @@ void EchoAndReceivedMap(benchmark::State& state) {
 }
 BENCHMARK(EchoAndReceivedMap)->Arg(64)->Arg(256)->Unit(benchmark::kMillisecond);
 
-// The map at one cell by its definition: the sum over all pulses and frequencies of what the matched filter and the
-// weights leave of the echo, turned back by the phase of a point at this range and velocity (radar/rvmap/README.md).
+// The map at one cell by its definition: the sum over all pulses and frequencies of the echo times matched filter and
+// weights, with the phase of a point at this range and velocity removed (radar/rvmap/README.md).
 Complex map_by_definition(const Echo& echo, const PulseTrain& train, const MapSpec& spec, double range_m,
                           double velocity_mps) {
   const MapWeights weights = map_weights(train, spec);
@@ -119,7 +119,7 @@ double seconds(const std::function<void()>& work) {
   return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
-// Of the definition every 997th cell is formed, of all rows and columns; its time is that of all cells by their number.
+// The direct sum is evaluated in every 997th cell of all rows and columns; its time is scaled to the number of cells.
 struct Reference {
   double seconds = 0, error_db = 0;
 };
@@ -151,7 +151,7 @@ MapSpec map_of_320_by_128() {
   return spec;
 }
 
-// 256 pulses on 8 carriers, 320 range x 128 velocity cells, beside the definition.
+// 256 pulses on 8 carriers, 320 range x 128 velocity cells, compared with the direct sum.
 void MapVersusDirectSum(benchmark::State& state) {
   const Interval interval;
   const MapSpec spec = map_of_320_by_128();
@@ -165,7 +165,7 @@ void MapVersusDirectSum(benchmark::State& state) {
 }
 BENCHMARK(MapVersusDirectSum)->Unit(benchmark::kMillisecond);
 
-// 60 points over one interval: response, echo and map without clutter, beside the definitions of echo and map.
+// 60 points over one interval: response, echo and map without clutter, compared with the direct sums of echo and map.
 void SixtyPointsVersusDirectSum(benchmark::State& state) {
   const Interval interval;
   const MapSpec spec = map_of_320_by_128();

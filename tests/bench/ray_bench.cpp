@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What would rays cost? The usual solver of shooting and bouncing rays, with Embree, beside beams: error and time of
-// both on the 144 m ship.
+// Shooting and bouncing rays with Embree compared with beam tracing: error and run time of both on the 144 m ship.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -17,13 +16,13 @@ namespace {
 
 using Matrices = std::vector<std::array<Complex, 4>>;
 
-// Facets flat for both solvers.
+// Flat facets for both solvers.
 const Scatterer& flat_ship() {
   static const Scatterer scatterer(read_mesh(SEAGLINT_SOURCE_DIR "/assets/combatant_144m.glb"), {}, 0);
   return scatterer;
 }
 
-// A few frequencies of 200 MHz.
+// Six frequencies of 200 MHz.
 std::vector<double> band() {
   std::vector<double> k;
   for (int q = 0; q < 6; ++q) k.push_back(2 * kPi * (16e9 + 200e6 * q / 6) / kSpeedOfLight);
@@ -41,9 +40,9 @@ double relative_error_db(const Matrices& S, const Matrices& exact) {
   return 10 * std::log10(error / power);
 }
 
-// One ray for each square of the aperture, a tube with the square's side: physical optics at every bounce that the
-// radar sees, with the closed-form phase integral over the tube's whole footprint. Everything in double but what Embree
-// answers, facet numbers.
+// Shooting and bouncing rays: one ray tube per square of the projection plane, with physical optics at every bounce
+// that is visible to the radar and the closed-form phase integral over the tube's footprint. Everything is in double
+// precision except Embree's queries, which return facet numbers.
 class RaySolver {
  public:
   RaySolver(const Scatterer& scatterer, const RadarBasis& basis, double side)
@@ -53,7 +52,7 @@ class RaySolver {
     const RadarBasis& basis = geometry_.transmit;
     const auto [lower, upper] = window_of(scatterer_, basis);
     Matrices sum(k.size());
-    // Tiles of rays: packets of neighbours.
+    // Tiles of rays: packets of adjacent rays.
     constexpr int kTile = 64;
     const double tile = kTile * side_;
     for (double y = lower.y(); y < upper.y(); y += tile) {
@@ -79,7 +78,7 @@ class RaySolver {
 
  private:
   struct Tube {
-    Vec2 p;  // in the aperture
+    Vec2 p;  // in the projection plane
     Ray ray;
     BeamSegment segment;
   };
@@ -99,7 +98,7 @@ class RaySolver {
       std::vector<Ray> rays;
       for (const Tube& tube : tubes) rays.push_back(tube.ray);
       const std::vector<int> hits = first_hits(rays);
-      std::vector<Tube> lit;
+      std::vector<Tube> reflected;
       std::vector<Footprint> footprints;
       std::vector<Ray> to_radar;
       for (std::size_t i = 0; i < tubes.size(); ++i) {
@@ -109,8 +108,8 @@ class RaySolver {
         const Vec3 n = illuminated_normal(tube.segment, facet);
         const double cosine = -n.dot(tube.segment.direction);
         if (cosine < 1e-6 || (!facet.two_sided && facet.normal.dot(tube.segment.direction) > 0)) continue;
-        const double way = n.dot(facet.corner[0] - tube.ray.origin) / n.dot(tube.segment.direction);
-        const Vec3 hit = tube.ray.origin + way * tube.segment.direction + kOffSurface * n;
+        const double distance = n.dot(facet.corner[0] - tube.ray.origin) / n.dot(tube.segment.direction);
+        const Vec3 hit = tube.ray.origin + distance * tube.segment.direction + kOffSurface * n;
         if (n.dot(geometry_.receive.r) > 1e-6) {
           footprints.push_back(footprint(tube, facet, n, cosine, bounce));
           to_radar.push_back({hit, geometry_.receive.r});
@@ -122,9 +121,9 @@ class RaySolver {
         tube.segment.E_h = 2 * n.dot(tube.segment.E_h) * n - tube.segment.E_h;
         tube.segment.E_v = 2 * n.dot(tube.segment.E_v) * n - tube.segment.E_v;
         tube.ray = {hit, tube.segment.direction};
-        lit.push_back(tube);
+        reflected.push_back(tube);
       }
-      // What is hit first is seen.
+      // The first hit is visible to the radar.
       const std::vector<int> hidden = bounce == 1 ? std::vector<int>(to_radar.size(), kNoFacet) : first_hits(to_radar);
       for (std::size_t i = 0; i < footprints.size(); ++i) {
         if (hidden[i] != kNoFacet) continue;
@@ -133,7 +132,7 @@ class RaySolver {
           for (int c = 0; c < 4; ++c) sum[q][c] += s[c];
         }
       }
-      tubes = std::move(lit);
+      tubes = std::move(reflected);
     }
   }
 
@@ -161,15 +160,15 @@ class RaySolver {
 };
 
 template <typename Seconds>
-double least_of_three(const Seconds& seconds) {
+double fastest_of_three(const Seconds& seconds) {
   return std::min({seconds(), seconds(), seconds()});
 }
 
-// Azimuth in degrees, side of a tube in mm; 18 is that of the smallest beam that goes on to further mirrors. embree_s
-// is the time of Embree's queries alone, for every bounce and from each hit behind the first one towards the radar.
-// Beside it the solver's own, one thread each: a matrix without edges, which is what the rays compute, and the default,
-// edges and all of an interval's 256 pulses and 320 frequencies. Every time is the least of three: the first run of
-// each also fills memory. Errors against beams with pieces of 1 mm.
+// Azimuth in degrees, side of a tube in mm; 18 mm is the side of the smallest beam that is reflected further. embree_s
+// is the time of Embree's queries alone, for every bounce and from each hit after the first towards the radar. For
+// comparison the beam tracer on one thread: a matrix without edges, which is what the rays compute, and the default
+// with edges for all 256 pulses and 320 frequencies of an interval. Every time is the fastest of three runs, since the
+// first run also allocates memory. Errors are relative to beams with patches of 1 mm.
 void ShipSbrReference(benchmark::State& state) {
   const Vec3 r = direction(static_cast<double>(state.range(0)));
   const RadarBasis basis = radar_basis(r);
@@ -180,18 +179,18 @@ void ShipSbrReference(benchmark::State& state) {
   for (auto _ : state) {
     Matrices by_rays;
     std::size_t traced = 0;
-    const double embree = least_of_three([&] {
+    const double embree = fastest_of_three([&] {
       RaySolver rays(flat_ship(), basis, 1e-3 * static_cast<double>(state.range(1)));
       by_rays = rays.solve(k);
       traced = rays.rays();
       return rays.embree_seconds();
     });
-    const double matrix = least_of_three([&] {
+    const double matrix = fastest_of_three([&] {
       return processor_seconds([&] {
         benchmark::DoNotOptimize(scattering_matrices(flat_ship(), monostatic(basis), one, {0, kDefaultBounces}, 1));
       });
     });
-    const double interval = least_of_three([&] {
+    const double interval = fastest_of_three([&] {
       return processor_seconds([&] {
         benchmark::DoNotOptimize(body_response(ship(), trajectory, r, Polarisation::kVv, paper_interval(), {}, 1));
       });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the surface costs against the number of components: linear where all waves go one way in deep water, quadratic
-// where they do not.
+// Run time of the sea surface against the number of components: linear for unidirectional waves in deep water,
+// quadratic otherwise.
 #include <benchmark/benchmark.h>
 
 #include "sim/sea/realisation.h"

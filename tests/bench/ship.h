@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The ship, the directions it is seen from and the interval that the benchmarks of the solver share.
+// The ship, the look directions and the interval that the benchmarks of the solver have in common.
 
 #include <ctime>
 #include <vector>
@@ -13,7 +13,7 @@
 
 namespace seaglint {
 
-// Where the radar stands, elevation 2 deg.
+// Look direction of the radar, elevation 2 deg.
 inline Vec3 direction(double azimuth_deg) { return direction_to_radar(radians(azimuth_deg), radians(2)); }
 
 inline const Scatterer& ship() {
@@ -25,7 +25,7 @@ inline const Scatterer& ship() {
   return *target.scatterer;
 }
 
-// What the target covers of the aperture.
+// Extent of the target in the projection plane.
 inline Box window_of(const Scatterer& scatterer, const RadarBasis& basis) {
   Box window{Vec2::Constant(1e9), Vec2::Constant(-1e9)};
   for (const Facet& facet : scatterer.facets()) {
@@ -51,7 +51,7 @@ inline IntervalSampling paper_interval() {
   return sampling;
 }
 
-// Rolls with the given rate, rad/s.
+// Roll with the given rate, rad/s.
 inline Trajectory rolling(double rate, const Vec3& centre) {
   std::vector<MotionSample> samples(101);
   for (std::size_t i = 0; i < samples.size(); ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The solver on the 144 m ship and the 1 m reflector, beside Embree alone on primary rays.
+// Run time of the solver on the 144 m ship and the 1 m reflector, compared with Embree alone on primary rays.
 #include <benchmark/benchmark.h>
 #include <sys/resource.h>
 
@@ -17,7 +17,7 @@ const RayScene& ship_rays() {
   return scene;
 }
 
-// Primary rays 0.1 m apart over the ship's window.
+// Primary rays 0.1 m apart over the ship's extent in the projection plane.
 std::vector<Ray> primary_rays(const RadarBasis& basis) {
   std::vector<Ray> rays;
   const auto [lower, upper] = window_of(ship(), basis);
@@ -38,8 +38,8 @@ void EmbreeFirstHitsOnShip(benchmark::State& state) {
 }
 BENCHMARK(EmbreeFirstHitsOnShip)->Arg(10)->Arg(50)->Arg(90)->Unit(benchmark::kMillisecond);
 
-// One trace and the whole band and interval from it, two threads; beside it Embree alone, first hits of primary rays
-// 0.1 m apart, in processor time of the same run.
+// One trace and the response over the whole band and interval from it, on two threads; for comparison Embree alone,
+// first hits of primary rays 0.1 m apart, in processor time of the same run.
 void ShipInterval(benchmark::State& state) {
   const Trajectory trajectory = rolling(0.005, {0, 0, 1.7});
   const Vec3 r = direction(static_cast<double>(state.range(0)));
@@ -59,7 +59,7 @@ void ShipInterval(benchmark::State& state) {
 }
 BENCHMARK(ShipInterval)->Arg(10)->Arg(50)->Arg(90)->Arg(130)->Unit(benchmark::kMillisecond)->UseRealTime();
 
-// At the roll rate of Hs 2 m, Tp 8 s: as many traces as the turn needs.
+// At the roll rate of Hs 2 m, Tp 8 s, with the number of aspect traces that the aspect change needs.
 void ShipIntervalRollingAtOneRms(benchmark::State& state) {
   const Trajectory trajectory = rolling(0.014, {0, 0, 1.7});
   const Vec3 r = direction(static_cast<double>(state.range(0)));
@@ -80,18 +80,18 @@ void ReflectorInterval(benchmark::State& state) {
 }
 BENCHMARK(ReflectorInterval)->Unit(benchmark::kMillisecond)->UseRealTime();
 
-// The trace alone at one frequency: what a sweep of aspects costs.
+// The trace alone at one frequency: the cost of one aspect of a sweep.
 void ShipAspect(benchmark::State& state) {
   const RadarBasis basis = radar_basis(direction(static_cast<double>(state.range(0))));
   const std::vector<double> k(static_cast<std::size_t>(state.range(1)), 2 * kPi * 16e9 / kSpeedOfLight);
   std::size_t segments = 0;
   for (auto _ : state) benchmark::DoNotOptimize(scattering_matrices(ship(), monostatic(basis), k, {}, 2, &segments));
-  state.counters["legs/s"] = benchmark::Counter(static_cast<double>(segments), benchmark::Counter::kIsRate);
+  state.counters["segments/s"] = benchmark::Counter(static_cast<double>(segments), benchmark::Counter::kIsRate);
 }
 BENCHMARK(ShipAspect)->Args({50, 1})->Args({50, 16})->Unit(benchmark::kMillisecond)->UseRealTime();
 
-// The whole solver beside Embree alone on its primary rays 0.1 m apart, turn by turn in one run and one thread each.
-// The solver traces no rays; its beams see every bounce, these rays the first alone.
+// Run time of the solver over that of Embree on primary rays 0.1 m apart, alternating in one run on one thread each.
+// The solver traces no rays; its beams include every bounce, the primary rays only the first.
 void SolverTimeOverEmbreeFirstHits(benchmark::State& state) {
   const RadarBasis basis = radar_basis(direction(static_cast<double>(state.range(0))));
   const std::vector<Ray> rays = primary_rays(basis);
@@ -113,7 +113,7 @@ void SolverTimeOverEmbreeFirstHits(benchmark::State& state) {
 }
 BENCHMARK(SolverTimeOverEmbreeFirstHits)->Arg(10)->Arg(50)->Arg(90)->Unit(benchmark::kMillisecond);
 
-// Cost against the ship's length in metres.
+// Run time against the ship's length in metres.
 void ShipLength(benchmark::State& state) {
   TriangleMesh mesh = read_mesh(SEAGLINT_SOURCE_DIR "/assets/combatant_144m.glb");
   for (Vec3& x : mesh.vertices) x *= static_cast<double>(state.range(0)) / 144;
@@ -124,7 +124,7 @@ void ShipLength(benchmark::State& state) {
 }
 BENCHMARK(ShipLength)->Arg(36)->Arg(72)->Arg(144)->Arg(288)->Unit(benchmark::kMillisecond);
 
-// Cost of a body at rest for one pulse against the carrier in GHz and the number of frequencies.
+// Run time for a body at rest and one pulse against the carrier in GHz and the number of frequencies.
 void ShipBand(benchmark::State& state) {
   IntervalSampling sampling;
   sampling.step_hz = 0.3125e6;
@@ -141,8 +141,8 @@ BENCHMARK(ShipBand)
     ->ArgsProduct({{16}, {1, 16, 160, 640}})
     ->Unit(benchmark::kMillisecond);
 
-// Relative L2 error of the default against pieces of a five-thousandth of the area, over 24 frequencies of 200 MHz, hh
-// and vv.
+// Relative L2 error of the default settings against patches of a five-thousandth of the area, over 24 frequencies of
+// 200 MHz, hh and vv.
 void ShipDefaultSettingsError(benchmark::State& state) {
   const RadarBasis basis = radar_basis(direction(static_cast<double>(state.range(0))));
   std::vector<double> k;
@@ -170,7 +170,7 @@ BENCHMARK(ShipDefaultSettingsError)
     ->UseRealTime()
     ->Iterations(1);
 
-// A sphere of 1.3 million facets with the largest resident memory of the process so far.
+// A sphere of 1.3 million facets; reports the maximum resident memory of the process so far.
 void MillionFacets(benchmark::State& state) {
   const Scatterer sphere(make_sphere(10, 8));
   const std::vector<double> k(1, 2 * kPi * 1e9 * static_cast<double>(state.range(0)) / kSpeedOfLight);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The ship must look like a ship: many scattering centres over its length, none of which drowns the others.
+// The map of the ship has many scattering centres along its length within a dynamic range of 30 dB.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -35,8 +35,8 @@ int local_maxima(const RvMap& map) {
   return count;
 }
 
-// Stepped code (every carrier's pulses as regular as can be), no clutter, Hann taper both ways; the ship rolls, pitches
-// and yaws as at Hs 2 m, Tp 8 s.
+// Stepped code (each carrier's pulses as regular as possible), no clutter, Hann taper along both axes; the ship rolls,
+// pitches and yaws as at Hs 2 m, Tp 8 s.
 TEST(ShipCentres, HoldsAtLeastTwentyScatteringCentresWithin30DbAtObliqueAspects) {
   const Scatterer ship(read_mesh(SEAGLINT_SOURCE_DIR "/assets/combatant_144m.glb"));
   RadarSpec radar;
@@ -44,7 +44,7 @@ TEST(ShipCentres, HoldsAtLeastTwentyScatteringCentresWithin30DbAtObliqueAspects)
   const PulseTrain train = make_pulse_train(radar, 200, 1, 1);
   MapSpec spec;
   spec.range_taper = spec.velocity_taper = Taper::kHann;
-  // The stepped code repeats every point one range cell further each 4.7 m/s: the window shows each once.
+  // With the stepped code every point recurs one range cell further each 4.7 m/s: the window contains each once.
   spec.velocity_span_mps = 4;
   std::vector<MotionSample> samples(101);
   for (std::size_t i = 0; i < samples.size(); ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `seaglint rcs --cavity`: a part whose echo is found from the field inside.
+// `seaglint rcs --cavity`: a part whose echo is computed from the field inside it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ class CavityCommand : public testing::Test {
     more.insert(more.begin(), {"rcs", "--target", kBox, "-o", table()});
     return run_program(more);
   }
-  // Numbers of every row of a sweep at 3 GHz towards the mouth.
+  // The numbers of every row of a sweep at 3 GHz towards the aperture.
   std::vector<std::vector<double>> sweep(std::vector<std::string> more) const {
     more.insert(more.begin(),
                 {"--frequency-ghz", "3", "--azimuth-deg", "120:240:30", "--elevation-deg", "5", "--max-bounces", "4"});
@@ -42,7 +42,7 @@ class CavityCommand : public testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(CavityCommand, TakesThePlaceOfTheRaysThatLeaveThePart) {
+TEST_F(CavityCommand, ReplacesTheBeamsThatLeaveThePart) {
   const auto rays = sweep({}), whole = sweep({"--cavity", "duct"});
   EXPECT_THAT(read_file(table()), HasSubstr("# cavities duct: from the currents on their walls"));
   const auto inside = sweep({"--cavity", "duct", "--only", "part=duct"}),
@@ -58,7 +58,7 @@ TEST_F(CavityCommand, TakesThePlaceOfTheRaysThatLeaveThePart) {
   EXPECT_GT(changed, 1e-2);
 }
 
-TEST_F(CavityCommand, ChangesNothingWhereTheMouthIsNotSeen) {
+TEST_F(CavityCommand, ChangesNothingWhereTheApertureIsNotVisible) {
   const auto behind = [&](std::vector<std::string> more) {
     more.insert(more.begin(), {"--frequency-ghz", "3", "--azimuth-deg", "20", "--max-bounces", "4"});
     EXPECT_EQ(rcs(more).code, 0);
@@ -68,7 +68,7 @@ TEST_F(CavityCommand, ChangesNothingWhereTheMouthIsNotSeen) {
   EXPECT_EQ(behind({}), behind({"--cavity", "duct"}));
 }
 
-TEST_F(CavityCommand, RefusesWhatIsNoCavity) {
+TEST_F(CavityCommand, RefusesPartsThatAreNoCavity) {
   const auto refused = [&](std::vector<std::string> more, const std::string& message) {
     more.insert(more.begin(), {"--azimuth-deg", "180", "--elevation-deg", "5"});
     const ProgramResult result = rcs(more);

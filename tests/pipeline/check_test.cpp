@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Wrong input gives one clear line and exit 2, for `check` as for everything that reads a scenario.
+// Wrong input gives one clear line and exit code 2, for `check` as for every command that reads a scenario.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -41,8 +41,8 @@ TEST(Check, PrintsAScenarioThatReadsBackTheSame) {
   EXPECT_EQ(parse_scenario(result.out, kPoints).radar.pulses, 64);
 }
 
-// What rcs says of a mesh, a scenario says too, of each target once.
-TEST(Check, SaysWhatIsDoubtfulAboutMeshes) {
+// The warnings that rcs prints about a mesh are printed for a scenario too, once per target.
+TEST(Check, WarnsAboutMeshes) {
   const TemporaryFolder folder;
   TriangleMesh inside_out = make_icosahedral_reflector();
   for (auto& t : inside_out.triangles) std::swap(t[1], t[2]);
@@ -68,8 +68,8 @@ TEST(Check, SaysWhatIsDoubtfulAboutMeshes) {
   EXPECT_THAT(run_program({"map", file, "--sample", "0", "-o", folder.path() / "map.png"}).err, StartsWith(said));
 }
 
-// Eight components are another sea in every realisation; the default 512 are not.
-TEST(Check, SaysWhereComponentsAreTooFew) {
+// Eight components give a different sea in every realisation; the default 512 do not.
+TEST(Check, WarnsOfTooFewComponents) {
   const std::string said =
       "seaglint: warning: sea.components: 8 components at Tp 8 s give strata 1.2 of the peak frequency wide, so that "
       "the mean period varies between realisations; 98 or more keep it within about 1 %\n";
@@ -132,7 +132,7 @@ TEST(Check, RefusesANegativeWaveHeight) {
                  "within 1e-06 and 30, or from_table\n");
 }
 
-TEST(Check, RefusesAMeshThatIsNotThere) {
+TEST(Check, RefusesAMissingMesh) {
   const TemporaryFolder folder;
   const std::string file = folder.path() / "missing.yaml";
   write_file(file, "seaglint: 1\ntargets: {a: {label: 1, mesh: none.glb}}\n");
@@ -168,7 +168,7 @@ TEST(Check, RefusesScenariosThatCannotBeRead) {
                  "large.yaml: cannot read: is larger than the limit of 10000000 bytes\n");
 }
 
-TEST(CommandLine, RefusesWhatItDoesNotKnow) {
+TEST(CommandLine, RefusesUnknownWords) {
   expect_refused({}, "A subcommand is required (see seaglint --help)\n");
   expect_refused({"chek", kPoints}, "unknown command 'chek': did you mean 'check'? (see seaglint --help)\n");
   expect_refused({"check"}, "SCENARIO is required (see seaglint check --help)\n");
@@ -177,13 +177,13 @@ TEST(CommandLine, RefusesWhatItDoesNotKnow) {
   expect_refused({"--bogus"}, "(see seaglint --help)\n");
 }
 
-TEST(CommandLine, SaysWhenItsOutputCannotBeWritten) {
+TEST(CommandLine, FailsWhenItsOutputCannotBeWritten) {
   const std::string command =
       "'" SEAGLINT_BINARY_DIR "/seaglint' check '" SEAGLINT_SOURCE_DIR "/scenarios/points.yaml' >/dev/full 2>/dev/null";
   EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 1);
 }
 
-// What cannot be shown is no failure, and no file takes the number of a stream that is closed.
+// Output that cannot be printed is not a failure, and no file is opened under the number of a closed stream.
 TEST(CommandLine, ClosedOrFullStandardErrorChangesNoExitCode) {
   const TemporaryFolder folder;
   const std::string csv = folder.path() / "cut.csv",
@@ -205,13 +205,13 @@ TEST(CommandLine, ClosedOrFullStandardErrorChangesNoExitCode) {
   }
 }
 
-TEST(CommandLine, SaysWhyOnOneLine) {
+TEST(CommandLine, ReportsErrorsOnOneLine) {
   const ProgramResult result = run_program({"check", kPoints, "--set", "seed=1\nview: 3"});
   EXPECT_EQ(result.code, 2);
   EXPECT_EQ(result.err, "seaglint: --set seed: value '1\\nview: 3': not valid YAML\n");
 }
 
-// Each line of the list of commands in --help names one.
+// Each line of the list of commands in --help starts with a command's name.
 std::vector<std::string> command_names() {
   std::istringstream help(run_program({"--help"}).out);
   std::vector<std::string> names;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a user does with a data set: merges, verifies, makes a sample again, exports, reads with NumPy and h5py.
+// Uses of a data set: merging, verification, regeneration of a sample, export, reading with NumPy and h5py.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -19,15 +19,15 @@ bool has_python() { return fs::exists(kPython) && run_words({kPython, "-c", "imp
 #define SKIP_WITHOUT_PYTHON() \
   if (!has_python()) GTEST_SKIP() << "needs the packages python3-h5py and python3-numpy"
 
-// One data set with complex maps for all tests of this file; tests that change it copy it.
+// One data set with complex maps for all tests of this file; tests that change it use a copy.
 class DataSetUse : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = new TemporaryFolder;
     data_ = folder_->path() / "data";
-    const ProgramResult made = run_program({"generate", "scenarios/points.yaml", "-o", data_, "--set",
-                                            "dataset.maps_per_shard=15", "--set", "dataset.complex_maps=true"});
-    ASSERT_EQ(made.code, 0) << made.err;
+    const ProgramResult generated = run_program({"generate", "scenarios/points.yaml", "-o", data_, "--set",
+                                                 "dataset.maps_per_shard=15", "--set", "dataset.complex_maps=true"});
+    ASSERT_EQ(generated.code, 0) << generated.err;
     const ProgramResult merged = run_program({"merge", data_});
     ASSERT_EQ(merged.code, 0) << merged.err;
     EXPECT_THAT(merged.out, HasSubstr("dataset.h5: 40 samples of 3 shards"));
@@ -69,7 +69,7 @@ TEST_F(DataSetUse, IsNotMergedWithAShardMissing) {
   EXPECT_FALSE(fs::exists(data / "new.h5"));
 }
 
-TEST_F(DataSetUse, GivesASampleAgainBitForBit) {
+TEST_F(DataSetUse, RegeneratesASampleBitForBit) {
   const fs::path out = folder_->path() / "sample.npz";
   const ProgramResult result = run_program({"regenerate", data_, "--sample", "17", "-o", out});
   ASSERT_EQ(result.code, 0) << result.err;
@@ -88,12 +88,12 @@ TEST_F(DataSetUse, GivesASampleAgainBitForBit) {
       out);
 }
 
-TEST_F(DataSetUse, SaysWhatIsOtherInASampleMadeAgain) {
+TEST_F(DataSetUse, ReportsDifferencesOfARegeneratedSample) {
   const fs::path data = copy();
   std::string yaml = read_file(data / "scenario.yaml");
   yaml.replace(yaml.find("scr_db: 20"), 10, "scr_db: 15");
   write_file(data / "scenario.yaml", yaml);
-  // As if the maps had been made by it.
+  // As if the maps had been generated with the changed scenario.
   std::string manifest = read_file(data / "manifest.json");
   const std::string original = sha256_file(data_ / "scenario.yaml");
   ASSERT_NE(manifest.find(original), std::string::npos);
@@ -120,13 +120,13 @@ TEST_F(DataSetUse, IsTheSameInNumpy) {
       "  names = []\n"
       "  h.visititems(lambda name, item: names.append(name) if isinstance(item, h5py.Dataset) else None)\n"
       "  assert sorted(names + ['description.json']) == sorted(a.files), (names, a.files)\n"
-      "  told = json.loads(a['description.json'])['arrays']\n"
+      "  declared = json.loads(a['description.json'])['arrays']\n"
       "  for name in names:\n"
       "    there, here = h[name][:], a[name]\n"
       "    if name == 'maps_complex': there = there.view(np.complex64)[..., 0]\n"
       "    assert here.dtype == there.dtype and here.shape == there.shape, name\n"
       "    assert (here == there).all(), name\n"
-      "    assert told[name]['units'] == h[name].attrs['units'].decode(), name\n";
+      "    assert declared[name]['units'] == h[name].attrs['units'].decode(), name\n";
   expect_equal_in_python(compare + "equal(np.load(out), h5py.File(data + '/dataset.h5'))", one);
   expect_equal_in_python(compare +
                              "for shard in sorted(glob.glob(data + '/shard_*.h5')):\n"
@@ -134,11 +134,11 @@ TEST_F(DataSetUse, IsTheSameInNumpy) {
                          many);
 }
 
-TEST_F(DataSetUse, IsExportedInTheSameBytesAtAnotherTime) {
+TEST_F(DataSetUse, IsExportedInTheSameBytesAtAnyTime) {
   const fs::path out = folder_->path() / "twice.npz";
   ASSERT_EQ(run_program({"export", data_, "-o", out}).code, 0);
   const std::string first = read_file(out);
-  timespec pause{2, 100000000};  // a zip counts in two seconds
+  timespec pause{2, 100000000};  // longer than the two-second resolution of a zip's time stamps
   nanosleep(&pause, nullptr);
   ASSERT_EQ(run_program({"export", data_, "-o", out}).code, 0);
   EXPECT_EQ(read_file(out), first);
@@ -160,7 +160,7 @@ TEST_F(DataSetUse, IsNotExportedAmongFilesOfAnother) {
           "shards: the directory contains shard_00000.npz, which is not of this data set's export; choose a new "
           "directory\n");
   EXPECT_EQ(read_file(out / "shard_00000.npz"), before);
-  // Its own export goes on after it was cut short.
+  // An interrupted export of the same data set is continued.
   fs::remove(out / "shard_00000.npz");
   write_file(out / "shard_00000.npz.elsewhere-12.tmp", "half");
   EXPECT_EQ(run_program({"export", other, "-o", out}).code, 0);
@@ -187,8 +187,8 @@ TEST_F(DataSetUse, IsNotExportedWithAShardDamagedNorOntoAFullDisk) {
   }
 }
 
-// In /proc nobody may write, not even root.
-TEST_F(DataSetUse, SaysWhereItCannotBeWritten) {
+// No user can write in /proc, not even root.
+TEST_F(DataSetUse, ReportsWhereItCannotBeWritten) {
   for (const std::vector<std::string>& words :
        std::vector<std::vector<std::string>>{{"merge", data_, "-o", "/proc/x.h5"},
                                              {"export", data_, "-o", "/proc/x.npz"},

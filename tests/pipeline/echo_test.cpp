@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `seaglint echo`: what NumPy reads is the chirp of the scenario, delayed by the point's range.
+// `seaglint echo`: the samples that NumPy reads are the chirp of the scenario, delayed by the point's range.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// One point of 2 m, 30 m nearer than the reference point, drawing near at 1.5 m/s.
+// One point of 2 m, 30 m nearer than the reference point, approaching at 1.5 m/s.
 std::vector<std::string> echo_of(const std::string& output, std::vector<std::string> more = {}) {
   std::vector<std::string> words{
       "echo",
@@ -38,15 +38,15 @@ import sys, numpy as np
 a = np.load(sys.argv[1])
 c, mu, width = 299792458.0, 25e6 / 36e-6, 36e-6
 t = a['time_s']
-def answer(n, r):
+def correlation(n, r):
     u = t - 2 * r / c
     return np.vdot(np.where(abs(u) < width / 2, np.exp(1j * np.pi * mu * u * u), 0), a['target'][n]) / (width * 50e6)
 ranges = np.arange(-60, 60, 0.25)
-best = ranges[np.argmax([abs(answer(0, r)) for r in ranges])]
+best = ranges[np.argmax([abs(correlation(0, r)) for r in ranges])]
 assert abs(best + 30) <= 0.5, best
 for n in (0, 100, 255):
     r = -30 - 1.5 * a['pulse_time_s'][n]
-    z = answer(n, r) * np.exp(4j * np.pi * a['carrier_hz'][n] * r / c)
+    z = correlation(n, r) * np.exp(4j * np.pi * a['carrier_hz'][n] * r / c)
     assert abs(z - 2) < 0.04, z   # the ideal chirp has a few percent of its energy beyond the band
 assert a['clutter'].shape == a['noise'].shape == a['target'].shape
 print('point found')
@@ -56,14 +56,14 @@ print('point found')
   EXPECT_EQ(read.out, "point found\n");
 }
 
-TEST(EchoCommand, RefusesSamplesThatAreNotThere) {
+TEST(EchoCommand, RefusesSamplesThatDoNotExist) {
   const TemporaryFolder folder;
   const ProgramResult result = run_program(echo_of(folder.path() / "echo.npz", {"--sample", "1000000"}));
   EXPECT_EQ(result.code, 2);
   EXPECT_THAT(result.err, HasSubstr("--sample 1000000: the scenario has samples 0 to"));
 }
 
-TEST(EchoCommand, RefusesMoreSamplesThanMemoryHolds) {
+TEST(EchoCommand, RefusesMoreSamplesThanFitIntoMemory) {
   const TemporaryFolder folder;
   const std::string file = folder.path() / "echo.npz";
   const ProgramResult result =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ctrl-C while gnuplot draws: nothing is left beside the figure, and the command does not go on as if nothing were.
+// Ctrl-C while gnuplot draws: no temporary file is left, and the command ends as interrupted.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -17,8 +17,8 @@ using Words = std::vector<std::string>;
 
 class InterruptedFigure : public testing::Test {
  protected:
-  // A gnuplot that says that it has begun, and takes so long that a program that waits for it runs into the test's time
-  // limit.
+  // A gnuplot that reports its start and then runs longer than the test's time limit, so that a program that waits for
+  // it fails the test.
   void SetUp() override {
     fs::create_directories(bin());
     fs::create_directories(out());
@@ -28,7 +28,7 @@ class InterruptedFigure : public testing::Test {
 
   fs::path out() const { return folder_.path() / "out"; }
 
-  // Exit code, 128 + n when signal n ended it, of the program that was sent a signal as soon as gnuplot was at work.
+  // Exit code, or 128 + n when signal n ended it, of the program that receives a signal as soon as gnuplot runs.
   int signalled(const Words& arguments, int signal, std::string* said = nullptr) {
     Words words{"/usr/bin/env", "PATH=" + bin().string() + ":/usr/bin:/bin", kProgram};
     words.insert(words.end(), arguments.begin(), arguments.end());
@@ -62,14 +62,14 @@ class InterruptedFigure : public testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(InterruptedFigure, OfACommandThatEndsAtOnceLeavesNothing) {
+TEST_F(InterruptedFigure, OfACommandThatEndsImmediatelyLeavesNoFile) {
   for (const int signal : {SIGINT, SIGTERM}) {
     EXPECT_EQ(signalled({"map", "scenarios/points.yaml", "-o", out() / "map.png"}, signal), 128 + signal);
     EXPECT_THAT(left(), testing::IsEmpty());
   }
 }
 
-TEST_F(InterruptedFigure, OfOtherCommandsIsTheirFailure) {
+TEST_F(InterruptedFigure, OfOtherCommandsMakesThemFail) {
   write_file(out() / "cut.csv", "# frequency_hz theta_deg phi_deg dBsm\n1e10 90 0 -3\n1e10 90 1 -3\n");
   for (const Words& words :
        {Words{"sea", "scenarios/points.yaml", "--duration-s", "20", "--figure", out() / "sea.png", "-o",

@@ -16,7 +16,7 @@ namespace {
 using ::testing::HasSubstr;
 
 const std::string kPoints = "scenarios/points.yaml";
-// One approaching point 30 m nearer than the reference point, seen from ahead.
+// One approaching point 30 m nearer than the reference point, viewed from ahead.
 const std::vector<std::string> kOnePoint = {
     "--set", "view={azimuth_deg: 0, elevation_deg: 0}", "--set",
     "targets={line: {label: 1, points: [{position_m: [30, 0, 0], amplitude_m: 2, velocity_mps: [1.5, 0, 0]}]}}"};
@@ -42,7 +42,7 @@ TEST(MapCommand, DrawsTheMapAndListsTheCentre) {
   EXPECT_THAT(result.out, HasSubstr("SCR per pulse 20.00 dB"));
 }
 
-// A chirp narrower than the step leaves the band in pieces, and centres are listed where nothing is.
+// A chirp narrower than the carrier step leaves gaps in the band, and centres are listed at empty places.
 TEST(MapCommand, EchoAndGenerateWarnOfGapsInTheBand) {
   const TemporaryFolder folder;
   const std::string warning =
@@ -62,7 +62,7 @@ TEST(MapCommand, EchoAndGenerateWarnOfGapsInTheBand) {
   EXPECT_EQ(run_program(map_of(folder.path() / "map.png")).err, "");
 }
 
-TEST(MapCommand, APointOnAConductingSeaIsSeenFourTimesAsStrong) {
+TEST(MapCommand, APointOnAConductingSeaIsFourTimesAsStrong) {
   // On the plane itself all four paths are equal, and rho_v = +1.
   const TemporaryFolder folder;
   const auto amplitude = [&](std::vector<std::string> more) {
@@ -88,14 +88,14 @@ TEST(MapCommand, APointOnAConductingSeaIsSeenFourTimesAsStrong) {
 
 TEST(MapCommand, RefusesASeaReflectionWithoutAnImage) {
   const TemporaryFolder folder;
-  std::vector<std::string> more = kOnePoint;  // seen at elevation 0
+  std::vector<std::string> more = kOnePoint;  // at elevation 0
   more.insert(more.end(), {"--set", "sea_reflection.enabled=true"});
   const ProgramResult result = run_program(map_of(folder.path() / "map.png", more));
   EXPECT_EQ(result.code, 2);
   EXPECT_THAT(result.err, HasSubstr("view.elevation_deg: value '0': must be greater than 0 with sea_reflection"));
 }
 
-TEST(MapCommand, RefusesARadarThatSinksBelowTheSeaThatReflects) {
+TEST(MapCommand, RefusesARadarThatDescendsBelowTheReflectingSea) {
   // 64 ms at 1000 m/s, from 0.2 deg at 10 km.
   const TemporaryFolder folder;
   std::vector<std::string> more = kOnePoint;
@@ -117,7 +117,7 @@ TEST(MapCommand, WarnsAboutPointsOutsideTheMap) {
   EXPECT_THAT(result.err, HasSubstr("moves at -1.50 to 0.00 m/s, the map shows"));
 }
 
-TEST(MapCommand, RefusesSamplesAndFilesThatCannotBe) {
+TEST(MapCommand, RefusesInvalidSamplesAndFiles) {
   const TemporaryFolder folder;
   EXPECT_EQ(run_program(map_of(folder.path() / "map.png", {"--sample", "1000000"})).code, 2);
   EXPECT_EQ(run_program(map_of(folder.path() / "map.jpg")).code, 2);
@@ -138,7 +138,7 @@ std::vector<std::array<double, 3>> cluster_centres(const std::vector<std::string
   return centres;
 }
 
-TEST(MapCommand, ACompanionIsSeenInTheSameMap) {
+TEST(MapCommand, ACompanionIsInTheSameMap) {
   const auto centres_in = [](const std::string& sample) {
     return cluster_centres(
         {"--set", "view={azimuth_deg: 0, elevation_deg: 0}", "--set",
@@ -148,7 +148,7 @@ TEST(MapCommand, ACompanionIsSeenInTheSameMap) {
          "--set", "dataset={maps_per_case: 1, realisations_per_case: 1}", "--set", "clutter.scr_db=60", "--sample",
          sample});
   };
-  // Which of the two targets sample 0 shows is random; the companion comes with one of them.
+  // Which of the two targets sample 0 contains is random; the companion is placed with one of them.
   const auto first = centres_in("0"), second = centres_in("1");
   const auto& both = first.size() > second.size() ? first : second;
   const auto& alone = first.size() > second.size() ? second : first;
@@ -161,8 +161,8 @@ TEST(MapCommand, ACompanionIsSeenInTheSameMap) {
   EXPECT_NEAR(alone[0][0], -5, 0.02);
 }
 
-// A ship at 2 m/s, seen from 60 deg off the bow: what stays in the water falls behind by 2 cos 60 = 1 m/s, a float and
-// an ideal point alike; another ship of its speed keeps station.
+// A ship at 2 m/s, viewed from 60 deg off the bow: floats and ideal points, which stay in the water, drift astern at 2
+// cos 60 = 1 m/s; another ship of the same speed keeps its position.
 TEST(MapCommand, CompanionsOfAShipUnderWayStayInTheWater) {
   const std::string corner = "mesh: assets/icosahedral_reflector.glb", hull = "length_m: 140, beam_m: 19, draught_m: 6";
   const auto centres = [&](const std::string& with) {
@@ -181,7 +181,7 @@ TEST(MapCommand, CompanionsOfAShipUnderWayStayInTheWater) {
     }
     return most;
   };
-  // Velocity of the strongest centre within a metre of the range at which a companion at x = -80 m stands.
+  // Velocity of the strongest centre within a metre of the range of a companion at x = -80 m.
   const auto velocity_at_40_m = [&](const std::string& companion) {
     std::array<double, 3> strongest{0, 99, 0};
     for (const auto& centre : centres("{target: " + companion + ", x_m: -80}")) {
@@ -194,14 +194,14 @@ TEST(MapCommand, CompanionsOfAShipUnderWayStayInTheWater) {
   EXPECT_NEAR(velocity_at_40_m("consort"), 0, 0.0146);
 }
 
-TEST(MapCommand, TheRadarsOwnWayShowsUnlessItIsTakenOut) {
+TEST(MapCommand, PlatformMotionIsVisibleUnlessCompensated) {
   std::vector<std::string> moving = kOnePoint;
   moving.insert(moving.end(), {"--set", "radar.platform={velocity_mps: [2.5, 0, 0], motion_compensated: false}",
                                "--set", "clutter.scr_db=60"});
-  const auto seen = cluster_centres(moving);
-  ASSERT_GE(seen.size(), 1u);
-  EXPECT_NEAR(seen[0][1], -1.5 + 2.5, 0.005);  // the radar ahead draws away
-  EXPECT_NEAR(seen[0][0], -30, 0.02);
+  const auto detected = cluster_centres(moving);
+  ASSERT_GE(detected.size(), 1u);
+  EXPECT_NEAR(detected[0][1], -1.5 + 2.5, 0.005);  // the radar ahead recedes
+  EXPECT_NEAR(detected[0][0], -30, 0.02);
   moving.insert(moving.end(), {"--set", "radar.platform.motion_compensated=true"});
   EXPECT_NEAR(cluster_centres(moving)[0][1], -1.5, 0.005);
 }

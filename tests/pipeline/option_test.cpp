@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a user writes behind the program's name: numbers, misspelt words, options that belong to others.
+// Command-line arguments: numbers, misspelt words, options that belong to other commands.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -35,7 +35,7 @@ class Options : public testing::Test {
   TemporaryFolder folder_;
 };
 
-// 010 is ten, neither eight nor refused.
+// 010 is ten, neither octal nor an error.
 TEST_F(Options, NumbersAreDecimal) {
   Words words = rcs();
   words.insert(words.end(), {"--max-bounces", "010", "--wavefront-range-m", "0100"});
@@ -47,11 +47,11 @@ TEST_F(Options, NumbersAreDecimal) {
   EXPECT_EQ(fs::file_size(folder_.path() / "c.stl"), 84u + 50u * 4 * 12);  // two of each side, one of each end
 }
 
-TEST_F(Options, OfNumbersTakeNothingElse) {
+TEST_F(Options, OfNumbersAcceptNothingElse) {
   for (const std::string value : {"0x10", "2.0", "1e3", "abc", ""}) {
-    const std::string shown = value.empty() ? "''" : value;
+    const std::string quoted = value.empty() ? "''" : value;
     expect_refused(rcs(), {"--max-bounces", value},
-                   "--max-bounces: value " + shown + ": must be a whole number (see seaglint rcs --help)\n");
+                   "--max-bounces: value " + quoted + ": must be a whole number (see seaglint rcs --help)\n");
   }
   expect_refused(rcs(), {"--threads", "0x1"}, "--threads: value 0x1: must be a whole number (");
   expect_refused({"mesh", "make", "sphere", "-o", folder_.path() / "s.stl"}, {"--subdivisions", ""},
@@ -59,9 +59,9 @@ TEST_F(Options, OfNumbersTakeNothingElse) {
   expect_refused({"map", "scenarios/points.yaml", "-o", folder_.path() / "m.png"}, {"--sample", "0x1"},
                  "--sample: value 0x1: must be a whole number, 0 or more (");
   for (const std::string value : {"0x10", "abc", "", "inf", "nan"}) {
-    const std::string shown = value.empty() ? "''" : value;
+    const std::string quoted = value.empty() ? "''" : value;
     expect_refused(plate(), {"--length-m", value},
-                   "--length-m: value " + shown + ": must be a number (see seaglint mesh make plate --help)\n");
+                   "--length-m: value " + quoted + ": must be a number (see seaglint mesh make plate --help)\n");
   }
   expect_refused(rcs(), {"--wavefront-range-m", ""}, "--wavefront-range-m: value '': must be within 0 and");
   expect_refused(rcs(), {"--transmit-azimuth-deg", "0x10"}, "--transmit-azimuth-deg: value 0x10: must be within");
@@ -71,7 +71,7 @@ TEST_F(Options, OfNumbersTakeNothingElse) {
   expect_refused(plate(), {"--length-m", "1e308"}, "plate length: 1e+308 m is outside 1e-20..1e+07 m\n");
 }
 
-// Before anything that is missing.
+// Reported before missing files or other missing input.
 TEST_F(Options, AndCommandsThatAreMisspeltAreNamed) {
   expect_refused({"rcs", "--targt", "x"}, {},
                  "seaglint: unknown option '--targt': did you mean '--target'? (see seaglint rcs --help)\n");
@@ -89,7 +89,7 @@ TEST_F(Options, AndCommandsThatAreMisspeltAreNamed) {
   expect_refused({"check", "scenarios/points.yaml", "other.yaml"}, {}, "other.yaml");
 }
 
-TEST_F(Options, ThatBelongToOthersAskForThem) {
+TEST_F(Options, ThatNeedOthersNameThem) {
   const Words sea{"sea", "scenarios/points.yaml", "-o", folder_.path() / "sea.csv"};
   expect_refused(sea, {"--realisations", "2"},
                  "--realisations requires --spectrum or --figure (see seaglint sea --help)\n");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Runs the real program as a user does.
+// Runs the program as a user does.
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ inline constexpr const char* kProgram = SEAGLINT_BINARY_DIR "/seaglint";
 
 inline constexpr const char* kPython = "/usr/bin/python3";  // Debian's packages are for Debian's Python
 
-// Starts any program, words[0], with the project's root as working directory; both files are written anew.
+// Starts any program, words[0], with the project's root as working directory; both output files are overwritten.
 inline pid_t start_words(std::vector<std::string> words, const std::string& out, const std::string& err) {
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
@@ -47,7 +47,7 @@ inline pid_t start_words(std::vector<std::string> words, const std::string& out,
   return -1;
 }
 
-// The same, until it ends.
+// The same, and waits for its end.
 inline ProgramResult run_words(std::vector<std::string> words) {
   const TemporaryFolder folder;
   const std::string out = folder.path() / "out";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `seaglint rcs`: what is wrong with its target, what the target is made of, and the sea that it stands on.
+// `seaglint rcs`: warnings about its target, the target's materials, and the sea below it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -16,9 +16,9 @@ namespace {
 using testing::HasSubstr;
 using RcsTarget = RcsCommand;
 
-// A reflector inside out with a hole beside it: one echoes as it should, the other's interior is seen; both are said,
-// in one line each.
-TEST_F(RcsTarget, WarnsOfWhatIsWrongWithAMeshAndGoesOn) {
+// A reflector inside out with a mesh with a hole next to it: the first is repaired, the interior of the second is
+// visible; both are reported in one line each.
+TEST_F(RcsTarget, WarnsOfDefectsOfAMeshAndContinues) {
   TriangleMesh mesh = make_icosahedral_reflector();
   for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
   TriangleMesh holed = transformed(make_sphere(0.3, 2), Mat3::Identity(), Vec3(0, 3, 0));
@@ -50,7 +50,7 @@ TEST_F(RcsTarget, RefusesMeshesWithoutAnythingThatScatters) {
   refused("v 9000 0 0\nv 9000 1 0\nv 9000 0 1\nf 1 2 3\n", "from the origin");
 }
 
-TEST_F(RcsTarget, AddsTheThicknessOfSheets) {
+TEST_F(RcsTarget, IncludesTheThicknessOfSheets) {
   ASSERT_EQ(run_program({"mesh", "make", "plate", "--length-m", "0.3", "--width-m", "0.2", "-o", plate()}).code, 0);
   const auto level = [&](const char* thickness_mm, const char* edges, const char* warning) {
     const ProgramResult run =
@@ -69,7 +69,7 @@ TEST_F(RcsTarget, AddsTheThicknessOfSheets) {
 }
 
 TEST_F(RcsTarget, ACoatedPlateDropsByItsMaterial) {
-  // Aluminium's surface resistance is 1e-4 of free space's: nothing is lost. The coating's |Gamma| is that of its
+  // Aluminium's surface resistance is 1e-4 of free space's: no measurable loss. The coating's |Gamma| is that of its
   // quarter-wave layer, about -11 dB at 16 GHz.
   const std::string library = SEAGLINT_SOURCE_DIR "/assets/materials/";
   const auto square = [&](const std::string& material) {
@@ -83,7 +83,7 @@ TEST_F(RcsTarget, ACoatedPlateDropsByItsMaterial) {
   EXPECT_NEAR(square("*=" + library + "ram_loaded_epoxy.yaml"), metal - 11.1, 0.5);
 }
 
-TEST_F(RcsTarget, RefusesMaterialsThatAreNotKnownThere) {
+TEST_F(RcsTarget, RefusesUnknownMaterials) {
   const std::string library = SEAGLINT_SOURCE_DIR "/assets/materials/";
   const auto refused = [&](const std::string& ghz, const std::string& material) {
     const ProgramResult done = rcs({"--frequency-ghz", ghz, "--azimuth-deg", "0", "--material", material});
@@ -95,9 +95,9 @@ TEST_F(RcsTarget, RefusesMaterialsThatAreNotKnownThere) {
   EXPECT_THAT(refused("36", library + "grp_sheet.yaml"), HasSubstr("its source covers 1 to 20 GHz"));
 }
 
-TEST_F(RcsTarget, APlateStandingOnAConductingSeaIsADihedral) {
-  // kWidthM high, its centre half of that above the water: image theory makes it 2 A cos(el) / lambda, less or more the
-  // direct lobe of the doubled plate, which is a sine over k kWidthM sin(el) = 50 at 30 deg, two ways.
+TEST_F(RcsTarget, APlateOnAConductingSeaIsADihedral) {
+  // kWidthM high, its centre half of that above the water: image theory gives 2 A cos(el) / lambda, plus or minus the
+  // direct lobe of the doubled plate, which is a sine over k kWidthM sin(el) = 50 at 30 deg, for two paths.
   const ProgramResult done = rcs({"--frequency-ghz", "16", "--azimuth-deg", "0", "--elevation-deg", "30",
                                   "--sea-reflection", "--sea-surface", "conductor", "--origin-height-m", "0.15"});
   ASSERT_EQ(done.code, 0) << done.err;
@@ -108,8 +108,8 @@ TEST_F(RcsTarget, APlateStandingOnAConductingSeaIsADihedral) {
   EXPECT_NEAR(row.at(12), level, 20 * std::log10(1 + 1.0 / 50));
 }
 
-// kWidthM high about its middle: a table of zeros would say that it does not scatter.
-TEST_F(RcsTarget, RefusesATargetThatIsWhollyUnderWater) {
+// kWidthM high about its middle: a table of zeros would suggest that it does not scatter.
+TEST_F(RcsTarget, RefusesASubmergedTarget) {
   const ProgramResult done = rcs({"--frequency-ghz", "16", "--azimuth-deg", "0", "--elevation-deg", "30",
                                   "--sea-reflection", "--origin-height-m", "-5"});
   EXPECT_EQ(done.code, 2);

@@ -41,17 +41,18 @@ TEST_F(RcsCommand, WritesTheHeaderAndFrequencySlowestThenElevationThenAzimuth) {
   }
 }
 
-TEST_F(RcsCommand, DecibelsBelongToTheAmplitudesBesideThem) {
+TEST_F(RcsCommand, DecibelsAreThoseOfTheAmplitudes) {
   ASSERT_EQ(rcs({"--frequency-ghz", "10", "--azimuth-deg", "0:3:0.5"}).code, 0);
   for (const auto& cells : read_table(table()).rows) {
-    // Printed with four digits after the point.
+    // Four digits are printed after the point.
     EXPECT_NEAR(cells[11], 10 * std::log10(4 * kPi * std::norm(std::complex(cells[3], cells[4]))), 1e-4);
     EXPECT_NEAR(cells[12], 10 * std::log10(4 * kPi * std::norm(std::complex(cells[9], cells[10]))), 1e-4);
   }
 }
 
-// Physical optics of a flat plate of area A seen square: S = -j A / lambda in e^{+jwt}, so sigma = 4 pi A^2 / lambda^2.
-TEST_F(RcsCommand, APlateSeenSquareHasItsClosedForm) {
+// Physical optics of a flat plate of area A at normal incidence: S = -j A / lambda in e^{+jwt}, so sigma = 4 pi A^2 /
+// lambda^2.
+TEST_F(RcsCommand, APlateAtNormalIncidenceHasItsClosedForm) {
   ASSERT_EQ(rcs({"--frequency-ghz", "8:16:4", "--azimuth-deg", "0", "--elevation-deg", "0"}).code, 0);
   const CsvTable read = read_table(table());
   ASSERT_EQ(read.rows.size(), 3u);
@@ -65,7 +66,7 @@ TEST_F(RcsCommand, APlateSeenSquareHasItsClosedForm) {
   }
 }
 
-TEST_F(RcsCommand, GivesTheSameBytesForOneAndTwoThreads) {
+TEST_F(RcsCommand, WritesTheSameBytesForOneAndTwoThreads) {
   std::string first;
   for (const char* threads : {"1", "2"}) {
     ASSERT_EQ(rcs({"--frequency-ghz", "9:10:0.1", "--azimuth-deg", "-30:30:5", "--threads", threads}).code, 0);
@@ -75,7 +76,7 @@ TEST_F(RcsCommand, GivesTheSameBytesForOneAndTwoThreads) {
   }
 }
 
-TEST_F(RcsCommand, ComparedWithItsOwnTableDiffersByNothingAndDrawsIt) {
+TEST_F(RcsCommand, EqualsItsOwnTableAndDrawsIt) {
   const std::vector<std::string> sweep{"--frequency-ghz", "10", "--azimuth-deg", "-30:30:1"};
   ASSERT_EQ(rcs(sweep).code, 0);
   const std::string reference = folder_.path() / "reference.csv";
@@ -85,7 +86,7 @@ TEST_F(RcsCommand, ComparedWithItsOwnTableDiffersByNothingAndDrawsIt) {
   const ProgramResult result = rcs(words);
   ASSERT_EQ(result.code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("both clipped at 40 dB"));
-  // 61 directions, no difference, full correlation without a turn of phase.
+  // 61 directions, no difference, full correlation without a phase rotation.
   EXPECT_THAT(
       result.out,
       testing::ContainsRegex(
@@ -95,10 +96,10 @@ TEST_F(RcsCommand, ComparedWithItsOwnTableDiffersByNothingAndDrawsIt) {
   EXPECT_TRUE(std::filesystem::exists(figure));
 }
 
-// Plate of problem set IIB: around its normal physical optics is the answer. Left are the rims' currents, 1/(k L) = 2 %
-// of the peak at 0.15 m and 10.24 GHz or 0.2 dB, and what the measured and the computed reference differ by there (0.4
-// dB).
-TEST_F(RcsCommand, MeetsTheMeasuredPlateAroundItsNormal) {
+// Plate of problem set IIB: near its normal the echo is that of physical optics. The residual is the edges'
+// diffraction, 1/(k L) = 2 % of the peak at 0.15 m and 10.24 GHz or 0.2 dB, and the difference between the measured and
+// the computed reference there (0.4 dB).
+TEST_F(RcsCommand, MatchesTheMeasuredPlateNearItsNormal) {
   ASSERT_EQ(run_program({"mesh", "make", "plate", "--length-m", "0.2667", "--width-m", "0.1524", "-o", plate()}).code,
             0);
   const std::string folder = "tests/reference/rcs/austin/";
@@ -139,7 +140,7 @@ TEST_F(RcsCommand, RefusesAReferenceThatDoesNotFitBeforeAnyWork) {
   refused({"--floor-db", "0"}, "--floor-db");
 }
 
-TEST_F(RcsCommand, ExportsCentresAndHotSpotsOfOneViewAndSelects) {
+TEST_F(RcsCommand, ExportsSelectedCentresAndHotSpotsOfOneAspect) {
   const std::string centres = folder_.path() / "centres.csv", spots = folder_.path() / "spots.glb";
   const auto reflector = [&](std::vector<std::string> more) {
     more.insert(more.begin(), {"rcs", "--target", "assets/icosahedral_reflector.glb", "-o", table(), "--frequency-ghz",
@@ -153,7 +154,7 @@ TEST_F(RcsCommand, ExportsCentresAndHotSpotsOfOneViewAndSelects) {
   std::string line;
   while (std::getline(lines, line) && line.starts_with("#")) continue;
   EXPECT_EQ(line, "x_m,y_m,z_m,psi_m,hh_re,hh_im,hv_re,hv_im,vh_re,vh_im,vv_re,vv_im,max_dbsm,part,bounces,mechanism");
-  // Face on, the cell that looks at the radar is the strongest: its three-bounce echo comes from the apex.
+  // Face-on, the cell that faces the radar is the strongest: its three-bounce echo is centred at the apex.
   ASSERT_TRUE(std::getline(lines, line));
   EXPECT_THAT(line, testing::EndsWith("cell_01,3,po"));
   // The picture has the mesh's facets and materials named by level.
@@ -185,9 +186,9 @@ TEST_F(RcsCommand, ExportsCentresAndHotSpotsOfOneViewAndSelects) {
   EXPECT_LT(std::abs(sum - edges), 1e-6 * std::abs(edges)) << "nine printed digits";
 
   const auto refused = [&](std::vector<std::string> more, const std::string& message) {
-    const ProgramResult answer = reflector(std::move(more));
-    EXPECT_EQ(answer.code, 2);
-    EXPECT_THAT(answer.err, HasSubstr(message));
+    const ProgramResult invalid = reflector(std::move(more));
+    EXPECT_EQ(invalid.code, 2);
+    EXPECT_THAT(invalid.err, HasSubstr(message));
   };
   refused({"--only", "part=cell_1"}, "did you mean 'cell_01'?");
   refused({"--only", "bounces=0"}, "bounces must be 1, 2, ... 200");
@@ -207,7 +208,7 @@ TEST_F(RcsCommand, ExportsCentresAndHotSpotsOfOneViewAndSelects) {
   refused({"--export-hot-spots", folder_.path() / "spots.stl"}, "colours need the ending .glb or .gltf");
 }
 
-TEST_F(RcsCommand, SweepsAReceiverRoundATransmitterThatStandsStill) {
+TEST_F(RcsCommand, SweepsAReceiverAboutAFixedTransmitter) {
   ASSERT_EQ(run_program({"mesh", "make", "plate", "--length-m", "0.3", "--width-m", "0.2", "-o", plate()}).code, 0);
   ASSERT_EQ(
       rcs({"--frequency-ghz", "10", "--azimuth-deg", "-40:40:20", "--transmit-azimuth-deg", "20", "--edges", "off"})
@@ -215,17 +216,17 @@ TEST_F(RcsCommand, SweepsAReceiverRoundATransmitterThatStandsStill) {
       0);
   const auto rows = read_table(table()).rows;
   ASSERT_EQ(rows.size(), 5u);
-  // All of the plate in phase in the mirror direction: 4 pi (A cos(20 deg) / lambda)^2.
+  // The whole plate is in phase in the specular direction: 4 pi (A cos(20 deg) / lambda)^2.
   const double area = 0.06 * std::cos(20 * kPi / 180), lambda = 0.0299792458;
   EXPECT_NEAR(rows[1].back(), 10 * std::log10(4 * kPi * area * area / (lambda * lambda)), 1e-3);
   for (const std::size_t other : {0u, 2u, 4u}) EXPECT_LT(rows[other].back(), rows[1].back() - 10);
-  // The trip back from there is the same.
+  // The reciprocal path has the same echo.
   ASSERT_EQ(
       rcs({"--frequency-ghz", "10", "--azimuth-deg", "20", "--transmit-azimuth-deg", "20", "--edges", "off"}).code, 0);
   const double there = read_table(table()).rows.at(0).back();
   ASSERT_EQ(rcs({"--frequency-ghz", "10", "--azimuth-deg", "20", "--edges", "off"}).code, 0);
   EXPECT_NEAR(read_table(table()).rows.at(0).back(), there, 1e-3);
-  // A table says where its transmitter stood, and is compared with no other.
+  // The table states the direction of its transmitter, and is not compared with tables of other transmitters.
   const std::string own = folder_.path() / "own.csv";
   const auto against = [&](std::vector<std::string> more) {
     more.insert(more.begin(), {"rcs", "--target", plate(), "-o", table(), "--frequency-ghz", "10", "--azimuth-deg",
@@ -251,14 +252,14 @@ TEST_F(RcsCommand, SweepsAReceiverRoundATransmitterThatStandsStill) {
   EXPECT_THAT(warned("-90:160:10"), HasSubstr("receivers up to 140 deg from the transmitter: behind the target"));
 }
 
-TEST_F(RcsCommand, BendsTheWavefrontOfARadarNearby) {
+TEST_F(RcsCommand, HasAWavefrontCurvatureAtShortRange) {
   ASSERT_EQ(run_program({"mesh", "make", "plate", "--length-m", "2", "--width-m", "0.2", "-o", plate()}).code, 0);
   const auto level = [&](const std::string& range_m) {
     EXPECT_EQ(
         rcs({"--frequency-ghz", "10", "--azimuth-deg", "0", "--edges", "off", "--wavefront-range-m", range_m}).code, 0);
     return read_table(table()).rows.at(0).back();
   };
-  // 2 L^2 / lambda = 267 m: far beyond it nothing changes, at 30 m the ends are 14 rad behind.
+  // 2 L^2 / lambda = 267 m: far beyond it the echo does not change, at 30 m the phase of the ends differs by 14 rad.
   EXPECT_NEAR(level("100000"), level("0"), 0.01);
   EXPECT_LT(level("30"), level("0") - 6);
   const ProgramResult inside = rcs({"--frequency-ghz", "10", "--azimuth-deg", "0", "--wavefront-range-m", "0.5"});
@@ -266,7 +267,7 @@ TEST_F(RcsCommand, BendsTheWavefrontOfARadarNearby) {
   EXPECT_THAT(inside.err, HasSubstr("wavefront range 0.5 m: must be at least ten times the target radius"));
 }
 
-// A strip that leans is no disc: at the zenith its matrix turns with the azimuth as it does just below.
+// A leaning strip has no rotational symmetry: at the zenith its matrix rotates with the azimuth as it does just below.
 TEST_F(RcsCommand, KeepsItsBasisThroughTheZenith) {
   const Mat3 leaning =
       (Eigen::AngleAxisd(0.15, Vec3::UnitX()) * Eigen::AngleAxisd(kPi / 2 - 0.02, Vec3::UnitY())).toRotationMatrix();
@@ -277,7 +278,7 @@ TEST_F(RcsCommand, KeepsItsBasisThroughTheZenith) {
     ASSERT_EQ(result.code, 0) << result.err;
     const auto rows = read_table(table()).rows;
     ASSERT_EQ(rows.size(), 2u);
-    // 1e-3 deg turn the phase at the strip's ends by 2 k 0.15 m 1.7e-5 rad.
+    // 1e-3 deg change the phase at the strip's ends by 2 k 0.15 m 1.7e-5 rad.
     const double tolerance = 1.1e-3 * std::hypot(rows[1][3], rows[1][4]);
     for (std::size_t column = 3; column <= 10; ++column)
       EXPECT_NEAR(rows[0][column], rows[1][column], tolerance) << azimuth << ' ' << column;
@@ -286,7 +287,7 @@ TEST_F(RcsCommand, KeepsItsBasisThroughTheZenith) {
   }
 }
 
-TEST_F(RcsCommand, RefusesEdgesAndRangesThatCannotBe) {
+TEST_F(RcsCommand, RefusesInvalidEdgesAndRanges) {
   const auto refused = [&](std::vector<std::string> arguments, const std::string& message) {
     const ProgramResult result = rcs(std::move(arguments));
     EXPECT_EQ(result.code, 2) << result.err;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whatever is wrong, every command says so in one line, exits as promised and leaves no file behind.
+// For every wrong input each command reports one line, exits with the documented code and leaves no file.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ using testing::StartsWith;
 
 using Words = std::vector<std::string>;
 
-// What every file below a folder holds; of a folder nothing.
+// Contents of every file below a folder; empty for a folder.
 std::map<std::string, std::string> files_below(const fs::path& folder) {
   std::map<std::string, std::string> files;
   for (const auto& entry : fs::recursive_directory_iterator(folder))
@@ -25,7 +25,7 @@ std::map<std::string, std::string> files_below(const fs::path& folder) {
   return files;
 }
 
-// Runs the program, which must fail with one line that holds `message` and leave the folder as it was.
+// Runs the program, which must fail with one line that contains `message` and leave the folder unchanged.
 void expect_failure(const fs::path& folder, const Words& words, int code, const std::string& message) {
   SCOPED_TRACE(testing::PrintToString(words));
   const std::map<std::string, std::string> before = files_below(folder);
@@ -83,7 +83,7 @@ TEST_F(InputErrors, OfANegativeWaveHeight) {
                    "scenario.yaml:2:34: sea.significant_wave_height_m: value '-1': must be a number");
 }
 
-// The sea has no targets in it: `sea` reads no mesh.
+// The sea contains no targets: `sea` reads no mesh.
 TEST_F(InputErrors, OfAMeshThatIsMissingOrCutShort) {
   for (const std::string mesh : {"none.glb", "truncated.glb"}) {
     const std::string file = scenario("", mesh);
@@ -98,8 +98,8 @@ TEST_F(InputErrors, OfAMeshThatIsMissingOrCutShort) {
   }
 }
 
-// The 144 m ship reaches 72 m from its origin; the second order of the wavefront needs ten times that.
-TEST_F(InputErrors, OfARadarTooNearForItsWavefront) {
+// The 144 m ship extends 72 m from its origin; the second order of the wavefront needs ten times that range.
+TEST_F(InputErrors, OfAWavefrontRangeTooShort) {
   for (const char* command : {"check", "generate"}) {
     Words words{command, "scenarios/quick.yaml", "--set", "targets.ship.solver.wavefront_range_m=500"};
     if (words.front() != "check") words.insert(words.end(), {"-o", folder() / "data"});
@@ -107,9 +107,9 @@ TEST_F(InputErrors, OfARadarTooNearForItsWavefront) {
   }
 }
 
-// Four reflectors 40 m apart reach 60.5 m, wherever each has its own origin; a companion reaches as far as it stands
-// away.
-TEST_F(InputErrors, OfARadarTooNearForALayoutOrACompanion) {
+// Four reflectors 40 m apart extend to 60.5 m, wherever the origin of each; the extent of a companion includes its
+// distance.
+TEST_F(InputErrors, OfAWavefrontRangeTooShortForALayoutOrACompanion) {
   write_file(
       folder() / "near.yaml",
       "seaglint: 1\ntargets:\n"
@@ -136,7 +136,8 @@ TEST_F(InputErrors, OfARadarTooNearForALayoutOrACompanion) {
   EXPECT_EQ(far.code, 0) << far.err;
 }
 
-// Of a scenario of which no sample can be made `generate` leaves nothing, so that the one put right can follow.
+// For a scenario of which no sample can be generated, `generate` leaves no file, so that a corrected scenario can
+// follow.
 TEST_F(InputErrors, OfASeriesThatDoesNotCoverTheIntervals) {
   std::string series = "time_s,roll_deg,pitch_deg,yaw_deg\n";
   for (int t = 0; t <= 40; ++t) series += std::to_string(t) + ",0,0,0\n";
@@ -169,7 +170,7 @@ TEST_F(InputErrors, OfATargetUnderWater) {
   EXPECT_EQ(run_program({"check", file, "--set", "sea_reflection.enabled=false"}).code, 0);
 }
 
-// That a plate does not return this polarisation is known when it has been traced.
+// That a plate does not return this polarisation is found only by tracing it.
 TEST_F(InputErrors, OfATargetWithoutAnEcho) {
   const std::string plate = folder() / "plate.obj", file = folder() / "plate.yaml";
   write_file(plate, "v 0 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n");
@@ -185,7 +186,7 @@ TEST_F(InputErrors, OfATargetWithoutAnEcho) {
   EXPECT_TRUE(files_below(folder()) == before);
 }
 
-TEST_F(InputErrors, OfANumberThatIsNone) {
+TEST_F(InputErrors, OfANumberThatIsNotANumber) {
   const std::string mesh = folder() / "whole.glb";
   for (const char* option :
        {"--wavefront-range-m", "--crease-deg", "--min-patch-m", "--transmit-azimuth-deg", "--centre-cell-m"}) {
@@ -198,8 +199,8 @@ TEST_F(InputErrors, OfANumberThatIsNone) {
   expect_failure(folder(), {"map", "scenarios/points.yaml", "--sample", "-1", "-o", folder() / "map.png"}, 2, "-1");
 }
 
-// Bounds and places to look are those of the very command.
-TEST_F(InputErrors, OfAnOptionInWordsThatHelp) {
+// Bounds and references to help are those of the command that was called.
+TEST_F(InputErrors, OfAnOptionWithItsBoundsAndHelp) {
   for (const char* value : {"-1", "2.5", "1e3", "99999999999999999999"}) {
     for (const Words& words :
          {Words{"map", "scenarios/points.yaml", "-o", folder() / "map.png"},
@@ -226,8 +227,8 @@ TEST_F(InputErrors, OfAFullStandardOutput) {
   }
 }
 
-// A directory of something else is none to go on in.
-TEST_F(InputErrors, OfGoingOnAmongOtherFiles) {
+// A directory with other contents cannot be resumed.
+TEST_F(InputErrors, OfResumingAmongOtherFiles) {
   make_directory(folder() / "other");
   write_file(folder() / "other" / "notes.txt", "mine");
   for (const char* command : {"generate", "run"})
@@ -235,8 +236,8 @@ TEST_F(InputErrors, OfGoingOnAmongOtherFiles) {
                    "other: the directory contains");
 }
 
-// By whatever name a command's input is called, and whichever key of a scenario names it.
-TEST_F(InputErrors, OfWritingOverWhatIsRead) {
+// An output must not overwrite an input, by whatever name and key the input is given.
+TEST_F(InputErrors, OfWritingOverAnInput) {
   const std::string mesh = folder() / "whole.glb", file = scenario(""), rao = folder() / "rao.csv",
                     link = folder() / "link.glb";
   write_file(rao, "none");
@@ -268,7 +269,7 @@ TEST_F(InputErrors, OfTwoOutputsInOneFile) {
   }
 }
 
-TEST_F(InputErrors, OfAnEndingThatSaysAnotherFormat) {
+TEST_F(InputErrors, OfAnEndingOfAnotherFormat) {
   const std::string mesh = folder() / "whole.glb";
   expect_failure(folder(), {"echo", "scenarios/points.yaml", "-o", folder() / "echo.csv"}, 2,
                  "echo.csv: NumPy's archives end in .npz");
@@ -283,7 +284,7 @@ TEST_F(InputErrors, OfAnEndingThatSaysAnotherFormat) {
                  2, "spots.obj: colours need the ending .glb or .gltf");
 }
 
-// The shell's limit is in units of 1024 bytes; without care the system kills what goes beyond it.
+// The shell's limit is in units of 1024 bytes; by default the system kills a program that exceeds it.
 TEST_F(InputErrors, OfALimitOnFileSizes) {
   const auto limited = [&](const Words& words) {
     SCOPED_TRACE(words.front());
@@ -303,8 +304,8 @@ TEST_F(InputErrors, OfALimitOnFileSizes) {
   EXPECT_THAT(names, testing::ElementsAre("scenario.yaml"));
 }
 
-// Below a file and in /proc nobody may write, not even root; a folder without write permission stops everybody else.
-TEST_F(InputErrors, OfAPlaceWhereNothingCanBeWritten) {
+// Below a file and in /proc no user can write, not even root; a folder without write permission stops all other users.
+TEST_F(InputErrors, OfAPlaceThatCannotBeWritten) {
   const fs::path locked = folder() / "locked";
   fs::create_directory(locked);
   fs::permissions(locked, fs::perms::owner_read | fs::perms::owner_exec);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The main job on ideal points: from scenario to report, and the report in a real browser.
+// The main job on ideal points: from scenario to report, and the report in a browser.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -64,7 +64,7 @@ TEST_F(RunOutput, RepeatsItsNumbersBitForBit) {
       {"run", "scenarios/points.yaml", "-o", folder.path() / "run", "--threads", "1", "--set", "learning.epochs=3"});
   ASSERT_EQ(result.code, 0) << result.err;
   nlohmann::json a = metrics_of(directory_), b = metrics_of(folder.path() / "run");
-  a.erase("run");  // seconds and threads
+  a.erase("run");  // run times and threads
   b.erase("run");
   EXPECT_EQ(a, b);
   EXPECT_EQ(read_file(directory_ / "model" / "network.bin"),
@@ -84,7 +84,7 @@ TEST_F(RunOutput, IsRefusedAsATargetWithoutResumeAndContinuedWithIt) {
   EXPECT_EQ(read_file(directory_ / "model" / "fused.json"), before);
 }
 
-TEST_F(RunOutput, GoesOnAfterAKillThatLeftHalfAModel) {
+TEST_F(RunOutput, IsResumedAfterAKillDuringTraining) {
   for (const char* name : {"network.bin", "splits.csv", "embeddings.csv", "metrics.json"})
     fs::remove(directory_ / "model" / name);
   const ProgramResult resumed =
@@ -141,7 +141,7 @@ TEST_F(RunOutput, IsNotReportedWithTheModelOfAnotherTrainingOrHalfOfOne) {
   EXPECT_THAT(half.err, HasSubstr((model / "metrics.json").string() + ": missing"));
 }
 
-// The stored scenario says what the maps are of.
+// The stored scenario specifies the contents of the maps.
 TEST_F(RunOutput, IsReadWithItsOwnScenarioOnly) {
   const TemporaryFolder folder;
   const fs::path run = folder.path() / "run";
@@ -170,7 +170,7 @@ TEST_F(RunOutput, IsReadWithItsOwnScenarioOnly) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 1);
 }
 
-TEST_F(RunOutput, ReportHoldsEverythingInItself) {
+TEST_F(RunOutput, ReportIsSelfContained) {
   const std::string page = read_file(directory_ / "report.html");
   EXPECT_THAT(page, HasSubstr("<h2>Range-velocity maps</h2>"));
   for (const char* outside : {"http://", "https://", "src=\"/", "<script", "@import", "url("})
@@ -183,9 +183,9 @@ TEST_F(RunOutput, ReportHoldsEverythingInItself) {
   EXPECT_GE(pictures, 10u);
 }
 
-// Asks headless Chromium. The page's own script is none; this one is put beside it in a copy and writes what it finds
-// into the title.
-TEST_F(RunOutput, ReportShowsEveryPictureInABrowser) {
+// Runs headless Chromium. The page contains no script; one is added to a copy of it and writes its result into the
+// title.
+TEST_F(RunOutput, EveryPictureOfTheReportLoadsInABrowser) {
   if (std::system("command -v chromium >/dev/null 2>&1") != 0) GTEST_SKIP() << "the package chromium is not installed";
   const TemporaryFolder folder;
   std::string page = read_file(directory_ / "report.html");
@@ -215,8 +215,8 @@ TEST_F(RunOutput, ReportShowsEveryPictureInABrowser) {
   EXPECT_EQ(found[4], "false") << "the page is wider than the window";
 }
 
-// The page needs the maps; the targets' files are needed for their pictures and motion alone.
-TEST(Report, IsMadeWithoutTheMeshesWhereTheyAreNotFound) {
+// The page needs the maps; the targets' files are needed only for their figures and motion.
+TEST(Report, IsWrittenWithoutMeshesThatAreNotFound) {
   const TemporaryFolder folder;
   const fs::path run = folder.path() / "run", scenario = folder.path() / "scenario.yaml";
   write_file(
@@ -224,8 +224,8 @@ TEST(Report, IsMadeWithoutTheMeshesWhereTheyAreNotFound) {
       "seaglint: 1\ntargets:\n  one: {label: 1, mesh: assets/icosahedral_reflector.glb, motion: {model: float}}\n"
       "  two: {label: 0, mesh: assets/icosahedral_reflector.glb, layout: {line: {count: 2, spacing_m: 20}}}\n"
       "radar: {pulses: 32}\ndataset: {maps_per_case: 10, realisations_per_case: 5}\nlearning: {epochs: 1}\n");
-  const ProgramResult made = run_program({"run", scenario, "-o", run});
-  ASSERT_EQ(made.code, 0) << made.err;
+  const ProgramResult first_run = run_program({"run", scenario, "-o", run});
+  ASSERT_EQ(first_run.code, 0) << first_run.err;
   EXPECT_THAT(read_file(run / "report.html"), HasSubstr("Picture of one"));
   const ProgramResult elsewhere =
       run_words({"/bin/bash", "-c", "cd / && exec \"$@\"", "elsewhere", kProgram, "report", run});
@@ -238,7 +238,7 @@ TEST(Report, IsMadeWithoutTheMeshesWhereTheyAreNotFound) {
   EXPECT_THAT(page, HasSubstr("Elevation of the sea against time"));
 }
 
-TEST(Run, SaysBeforeAnyWorkWhatLearningWouldRefuse) {
+TEST(Run, ReportsErrorsOfLearningBeforeAnyWork) {
   const TemporaryFolder folder;
   const ProgramResult few = run_program({"run", "scenarios/points.yaml", "-o", folder.path() / "run", "--set",
                                          "dataset.maps_per_case=2", "--set", "dataset.realisations_per_case=2"});
@@ -251,7 +251,7 @@ TEST(Run, SaysBeforeAnyWorkWhatLearningWouldRefuse) {
   EXPECT_FALSE(fs::exists(folder.path() / "run"));
 }
 
-TEST(Run, SaysBeforeAnyWorkThatGnuplotIsMissing) {
+TEST(Run, ReportsAMissingGnuplotBeforeAnyWork) {
   const TemporaryFolder folder;
   const ProgramResult result = run_words({"/usr/bin/env", "PATH=" + folder.path().string(), kProgram, "run",
                                           "scenarios/points.yaml", "-o", folder.path() / "run"});
@@ -260,7 +260,7 @@ TEST(Run, SaysBeforeAnyWorkThatGnuplotIsMissing) {
   EXPECT_FALSE(fs::exists(folder.path() / "run"));
 }
 
-TEST(Report, RefusesWhatIsNotARun) {
+TEST(Report, RefusesADirectoryThatIsNoRun) {
   const TemporaryFolder folder;
   const ProgramResult result = run_program({"report", folder.path()});
   EXPECT_EQ(result.code, 2);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `sea` and `motion` write what their stages compute, in the columns that are promised.
+// `sea` and `motion` write the results of their stages in the documented columns.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -36,7 +36,7 @@ std::vector<double> numbers(const std::string& line) {
   return values;
 }
 
-// A scenario with a box for a ship and boxes for floats beside it.
+// A scenario with a box for a ship and boxes for floats next to it.
 std::string write_boxes(const std::filesystem::path& folder) {
   write_file(folder / "box.obj",
              "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
@@ -63,7 +63,7 @@ TEST(Sea, WritesTheSurfaceOfTheFirstSeaState) {
     const std::vector<double> row = numbers(lines[i]);
     ASSERT_EQ(row.size(), 5u);
     const SurfaceState surface = field.surface(-5, 3, row[0]);
-    // Nine digits are written.
+    // Nine digits are printed.
     EXPECT_NEAR(row[1], surface.elevation, 1e-8);
     EXPECT_NEAR(row[2], surface.elevation_linear, 1e-8);
     EXPECT_NEAR(row[3], surface.slope_x, 1e-9);
@@ -74,7 +74,7 @@ TEST(Sea, WritesTheSurfaceOfTheFirstSeaState) {
   EXPECT_THAT(text, HasSubstr("cut-off"));
 }
 
-TEST(Sea, AddsTheMotionOfTheWaterWhenAsked) {
+TEST(Sea, WritesTheKinematicsWithTheirOption) {
   const TemporaryFolder folder;
   const std::string file = folder.path() / "sea.csv";
   ASSERT_EQ(run_program({"sea", kPoints, "--kinematics", "--duration-s", "4", "--step-s", "0.5", "-o", file, "--set",
@@ -98,8 +98,8 @@ TEST(Sea, AddsTheMotionOfTheWaterWhenAsked) {
   EXPECT_THAT(read_file(file), HasSubstr("# depth_m 15, Ursell number"));
 }
 
-// The spectrum's file is a spectrum that a scenario can name; statistics do not depend on threads.
-TEST(Sea, WritesASpectrumThatAScenarioReads) {
+// The file of the spectrum can be named as a spectrum by a scenario; statistics do not depend on threads.
+TEST(Sea, WritesASpectrumThatAScenarioAccepts) {
   const TemporaryFolder folder;
   const std::filesystem::path one = folder.path() / "one.csv", two = folder.path() / "two.csv";
   const auto run = [&](const std::filesystem::path& spectrum, const std::string& threads) {
@@ -119,7 +119,7 @@ TEST(Sea, WritesASpectrumThatAScenarioReads) {
     target += numbers(lines[i])[1];
     realised += numbers(lines[i])[3];
   }
-  // Forty windowed records of 25 waves, some four of them independent in energy: 8 %; three times that.
+  // Forty windowed records of 25 waves, about four of them with independent energy: 8 %; three times that.
   EXPECT_NEAR(realised / target, 1, 0.24);
 
   const ProgramResult again = run_program({"sea", kPoints, "--duration-s", "1", "-o", folder.path() / "again.csv",
@@ -129,7 +129,7 @@ TEST(Sea, WritesASpectrumThatAScenarioReads) {
   EXPECT_THAT(again.out, HasSubstr("4 sqrt(m0) 0.99"));  // the table ends at 1.2 times the cut-off
 }
 
-TEST(Sea, DrawsItsFigureOrLeavesNothingBehind) {
+TEST(Sea, DrawsItsFigureOrLeavesNoFile) {
   const TemporaryFolder folder;
   const std::filesystem::path csv = folder.path() / "sea.csv", figure = folder.path() / "sea.png";
   ASSERT_EQ(
@@ -145,7 +145,7 @@ TEST(Sea, DrawsItsFigureOrLeavesNothingBehind) {
       run_program({"sea", kPoints, "--figure", figure, "-o", csv, "--set", "sea.significant_wave_height_m=0"}).code, 2);
 }
 
-TEST(Sea, RefusesRangesThatMakeNoSense) {
+TEST(Sea, RefusesInvalidRanges) {
   for (const auto& wrong :
        {std::pair{"--step-s", "0"}, std::pair{"--duration-s", "-1"}, std::pair{"--at", "1"}, std::pair{"--at", "nan,0"},
         std::pair{"--duration-s", "nan"}, std::pair{"--step-s", "nan"}}) {
@@ -166,8 +166,8 @@ TEST(Sea, FailsWhereItCannotWrite) {
   EXPECT_THAT(result.err, HasSubstr("/nonexistent/sea.csv"));
 }
 
-// Before the work, and so before the scenario or mesh, which is not there either.
-TEST(Commands, AskForThePlacesOfTheirFilesFirst) {
+// Before the work, and so before the scenario or mesh, which are missing too.
+TEST(Commands, CheckTheirOutputFilesFirst) {
   const TemporaryFolder folder;
   const std::string table = folder.path() / "table.csv", nowhere = "/nonexistent/file.png",
                     no_archive = "/nonexistent/file.npz";
@@ -199,7 +199,7 @@ TEST(Commands, AskForThePlacesOfTheirFilesFirst) {
 }
 
 // Rotations of WAMIT are per wamit_ulen_m, and waves of finite depth are shorter.
-TEST(Motion, DrawsResponsesInTheScenariosUnitsAndDepth) {
+TEST(Motion, DrawsRaosInTheScenariosUnitsAndDepth) {
   const TemporaryFolder folder;
   const auto picture = [&](const std::string& scale, const std::vector<std::string>& settings) {
     const std::string reference = folder.path() / "ship.4", figure = folder.path() / "rao.svg";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stages that run beside each other in one process share what their libraries share.
+// Stages that run concurrently in one process use the same libraries safely.
 #include <gtest/gtest.h>
 
 #include "sim/core/numbers/fourier.h"
@@ -11,7 +11,7 @@
 namespace seaglint {
 namespace {
 
-TEST(Threads, SolverAndRadarPlanTheirTransformsAtTheSameTime) {
+TEST(Threads, SolverAndRadarPlanTheirTransformsConcurrently) {
   const Scatterer plate(make_plate(0.2, 0.2));
   IntervalSampling sampling;
   sampling.first_hz = 16e9;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `seaglint verify` on data sets that the real program made.
+// `seaglint verify` on data sets that the program generated.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,23 +15,23 @@ class DataSetVerification : public testing::Test {
  protected:
   void SetUp() override {
     directory_ = folder_.path() / "data";
-    const ProgramResult made =
+    const ProgramResult generated =
         run_program({"generate", "scenarios/points.yaml", "-o", directory_, "--set", "dataset.maps_per_shard=5"});
-    ASSERT_EQ(made.code, 0) << made.err;
+    ASSERT_EQ(generated.code, 0) << generated.err;
   }
 
   TemporaryFolder folder_;
   fs::path directory_;
 };
 
-TEST_F(DataSetVerification, IsFoundSoundAndTheSameWhenMadeAgain) {
+TEST_F(DataSetVerification, AcceptsAValidDataSetAndItsRegeneratedSamples) {
   const ProgramResult result = run_program({"verify", directory_, "--regenerate", "4"});
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("4 regenerated samples match the stored ones"));
   EXPECT_THAT(result.out, HasSubstr("no fault found"));
 }
 
-TEST_F(DataSetVerification, IsNeitherMergedOverItselfNorTakenForARun) {
+TEST_F(DataSetVerification, NeitherMergesOverItselfNorAcceptsItAsARun) {
   const std::string shard = read_file(directory_ / "shard_00000.h5"),
                     scenario = read_file(directory_ / "scenario.yaml");
   for (const char* name : {"shard_00000.h5", "scenario.yaml", "manifest.json", "merged.txt"}) {
@@ -48,7 +48,7 @@ TEST_F(DataSetVerification, IsNeitherMergedOverItselfNorTakenForARun) {
   EXPECT_EQ(run_program({"verify", directory_, "--regenerate", "0"}).code, 0);
 }
 
-TEST_F(DataSetVerification, IsRefusedWhenAShardIsCutOff) {
+TEST_F(DataSetVerification, RefusesATruncatedShard) {
   fs::path shard;
   for (const auto& entry : fs::directory_iterator(directory_)) {
     if (entry.path().extension() == ".h5") shard = entry.path();
@@ -59,17 +59,17 @@ TEST_F(DataSetVerification, IsRefusedWhenAShardIsCutOff) {
   EXPECT_THAT(result.err, HasSubstr("faults, the first: " + shard.string()));
 }
 
-TEST_F(DataSetVerification, IsRefusedWithAFileThatDoesNotBelongThere) {
+TEST_F(DataSetVerification, RefusesAForeignFile) {
   write_file(directory_ / "foo", "");
   const ProgramResult result = run_program({"verify", directory_});
   EXPECT_EQ(result.code, 2);
   EXPECT_THAT(result.out, HasSubstr("fault: foo: is no file of a data set\n"));
   fs::remove(directory_ / "foo");
-  write_file(directory_ / ".nfs0001", "");  // a file server's own
+  write_file(directory_ / ".nfs0001", "");  // temporary file of a network file server
   EXPECT_EQ(run_program({"verify", directory_, "--regenerate", "0"}).code, 0);
 }
 
-TEST_F(DataSetVerification, IsRefusedWithoutItsManifest) {
+TEST_F(DataSetVerification, RefusesAMissingManifest) {
   fs::remove(directory_ / "manifest.json");
   const ProgramResult result = run_program({"verify", directory_});
   EXPECT_EQ(result.code, 2);

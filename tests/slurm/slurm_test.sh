@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# tools/slurm with a real slurmctld and two slurmd on this machine: a node is killed in the middle, a task fails once, and
-# the merged data set verifies and has the bytes of a single run. Arguments: program, source folder. Exit code 77: skipped.
+# tools/slurm with a real slurmctld and two slurmd on this machine: a node is killed while it works, a task fails once,
+# and the merged data set verifies and has the bytes of a single run. Arguments: program, source folder. Exit code 77: skipped.
 set -euo pipefail
 program=$(realpath "$1")
 source=$(realpath "$2")
@@ -48,7 +48,7 @@ until_true() {
   local end=$((SECONDS + $1))
   shift
   until "$@" >/dev/null 2>&1; do
-    ((SECONDS < end)) || fail "waited in vain for: $*"
+    ((SECONDS < end)) || fail "timed out: $*"
     sleep 0.2
   done
 }
@@ -62,7 +62,7 @@ start_slurm() {
   dd if=/dev/urandom of="$work/munge/key" bs=128 count=1 status=none
   chmod 400 "$work/munge/key"
   chown -R munge "$work/munge"
-  # However this script ends, the daemons end with it.
+  # The daemons end with this script, whatever its exit code.
   setpriv --pdeathsig=KILL --reuid=munge --regid=munge --clear-groups munged --foreground --force --socket="$work/munge/socket" \
     --key-file="$work/munge/key" --log-file="$work/munge/log" --pid-file="$work/munge/pid" \
     --seed-file="$work/munge/seed" >"$work/munged.log" 2>&1 &
@@ -123,7 +123,7 @@ echo "== Slurm"
 start_slurm
 sinfo
 
-# The program fails the first time part 3 is asked for, as a full local disk or a lost file system would make it.
+# The program fails the first time that part 3 runs, as on a full local disk or a lost file system.
 cat >"$work/program" <<END
 #!/bin/bash
 if [[ "\$*" == *"--part 3/6"* && ! -e $work/failed_once ]]; then touch $work/failed_once; exit 1; fi
@@ -143,11 +143,11 @@ for pid in $victims; do echo "$pid $(tr '\0' ' ' <"/proc/$pid/cmdline")"; done
 kill -9 "$node_2" $victims
 wait "$waiting" || { cat "$work/submit.log"; fail "tools/slurm --wait"; }
 
-echo "== tools/slurm said"
+echo "== output of tools/slurm"
 cat "$work/submit.log"
-echo "== Slurm said"
+echo "== output of Slurm"
 grep -hE "requeue|not responding|Killing|DOWN" "$work/slurmctld.log" | head -n 8 || true
-echo "== the last job said"
+echo "== output of the last job"
 cat "$work/data.slurm/finish.log"
 [[ -e $work/failed_once ]] || fail "no task failed"
 grep -hq "restart 1" "$work"/data.slurm/part-*.log || fail "no part was requeued after its node was killed"

@@ -17,7 +17,7 @@ import numpy as np
 
 
 def require_shards(directory):
-    """The shards that the manifest lists, in order. A virtual data set shows NaN where one is missing: look first."""
+    """The shards that the manifest lists, in order. A virtual data set returns NaN for a missing shard, hence this check."""
     manifest = directory / "manifest.json"
     if not manifest.is_file():
         sys.exit(f"{manifest}: missing: the data set is not finished")
@@ -51,11 +51,11 @@ def read_maps(files, rows):
     return np.concatenate(maps)
 
 
-def split_by_group(group, share, seed=0):
-    """True for the training rows. All maps of one sea lie on one side: a split through a group looks too good."""
+def split_by_group(group, fraction, seed=0):
+    """True for the training rows. All maps of one sea are in one part: a split within groups overestimates the accuracy."""
     seas = np.unique(group)
     order = np.random.default_rng(seed).permutation(seas)
-    return np.isin(group, order[: max(1, round(share * seas.size))])
+    return np.isin(group, order[: max(1, round(fraction * seas.size))])
 
 
 def main():
@@ -74,9 +74,9 @@ def main():
         sys.exit(f"{arguments.data}: no map has label {arguments.label}")
     maps = read_maps(files, rows)
     assert not np.isnan(maps).any(), "a shard is missing"
-    train = split_by_group(columns["group"][rows], share=0.7)
+    train = split_by_group(columns["group"][rows], fraction=0.7)
 
-    # Divided by its own energy a map no longer tells the target's size by its level.
+    # Normalised to its energy, a map contains no absolute level, which would depend on the target's size.
     power = maps**2 / np.sum(maps**2, axis=(1, 2), keepdims=True)
     with h5py.File(files[0]) as data:
         velocity = data["axes/velocity_mps"][:]

@@ -38,9 +38,9 @@ std::vector<InputFile> all_files(const Scenario& scenario) {
   for (const InputFile& named : input_files(scenario)) {
     files.push_back(named);
     if (!named.key.ends_with(".mesh")) continue;
-    for (const fs::path& beside : sidecar_files(named.path)) {
-      const fs::path name = beside.lexically_relative(fs::canonical(named.path).parent_path());
-      files.push_back({fmt::format("{}/{}", named.key, name.string()), beside});
+    for (const fs::path& sidecar : sidecar_files(named.path)) {
+      const fs::path name = sidecar.lexically_relative(fs::canonical(named.path).parent_path());
+      files.push_back({fmt::format("{}/{}", named.key, name.string()), sidecar});
     }
   }
   return files;

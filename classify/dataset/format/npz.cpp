@@ -62,15 +62,15 @@ struct Member {
   std::uint64_t given = 0;     // bytes passed to libzip
   std::exception_ptr* failed;  // exception of any member's next()
 
-  zip_int64_t read(char* to, zip_uint64_t most) {
+  zip_int64_t read(char* to, zip_uint64_t max_bytes) {
     zip_uint64_t count = 0;
-    while (count < most) {
+    while (count < max_bytes) {
       if (place == block.size()) {
         block = given + count < head.size() ? head : next();
         place = 0;
         if (block.empty()) break;
       }
-      const std::size_t some = std::min<std::size_t>(most - count, block.size() - place);
+      const std::size_t some = std::min<std::size_t>(max_bytes - count, block.size() - place);
       std::memcpy(to + count, block.data() + place, some);
       count += some;
       place += some;

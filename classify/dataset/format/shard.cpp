@@ -154,14 +154,14 @@ Shard read_content(const std::filesystem::path& path) {
     shard.samples[i].hop_code.assign(codes.values.begin() + i * pulses, codes.values.begin() + (i + 1) * pulses);
   const ReadArray<float> centres = file.read<float>(kCentres.path, 3);
   expect(centres.size[0] == n && centres.size[2] == 3, "/centres does not fit /maps");
-  const std::size_t most = centres.size[1];
+  const std::size_t max_centres = centres.size[1];
 
   read_columns(file, shard.samples);
   for (std::size_t i = 0; i < n; ++i) {
     const std::int64_t count = shard.samples[i].record.centres;
     expect(count >= 0, "/samples/centres is negative");
-    for (std::size_t k = 0; k < std::min<std::size_t>(static_cast<std::size_t>(count), most); ++k) {
-      const float* row = centres.values.data() + (i * most + k) * 3;
+    for (std::size_t k = 0; k < std::min<std::size_t>(static_cast<std::size_t>(count), max_centres); ++k) {
+      const float* row = centres.values.data() + (i * max_centres + k) * 3;
       shard.samples[i].centre_list.push_back({row[0], row[1], row[2]});
     }
   }

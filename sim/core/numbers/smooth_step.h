@@ -12,8 +12,8 @@ double smooth_taper(double x, const std::array<double, 2>& from_to);
 
 // Linear interpolation between two ends, at a fraction of the interval from the first.
 template <typename T>
-T interpolate(const std::array<T, 2>& ends, double share) {
-  return ends[0] + share * (ends[1] - ends[0]);
+T interpolate(const std::array<T, 2>& ends, double fraction) {
+  return ends[0] + fraction * (ends[1] - ends[0]);
 }
 
 }  // namespace seaglint

@@ -101,9 +101,9 @@ void UniformPhasors::advance() {
   const double* tc = turn_cosine_.data();
   const double* ts = turn_sine_.data();
   for (std::size_t i = 0; i < omega_.size(); ++i) {
-    const double turned = c[i] * tc[i] - s[i] * ts[i];
+    const double rotated = c[i] * tc[i] - s[i] * ts[i];
     s[i] = s[i] * tc[i] + c[i] * ts[i];
-    c[i] = turned;
+    c[i] = rotated;
   }
 }
 

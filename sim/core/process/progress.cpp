@@ -27,14 +27,14 @@ std::string duration(double seconds) {
 std::string progress_line(const std::string& what, std::size_t done, std::size_t total, double elapsed_s,
                           const std::string& steps) {
   constexpr std::size_t kWidth = 20;
-  const double share = total == 0 ? 1 : std::min(1.0, static_cast<double>(done) / static_cast<double>(total));
-  const auto filled = static_cast<std::size_t>(share * kWidth);
-  const std::string left = share > 0 ? duration(elapsed_s * (1 - share) / share) + " left" : "no estimate yet";
+  const double fraction = total == 0 ? 1 : std::min(1.0, static_cast<double>(done) / static_cast<double>(total));
+  const auto filled = static_cast<std::size_t>(fraction * kWidth);
+  const std::string left = fraction > 0 ? duration(elapsed_s * (1 - fraction) / fraction) + " left" : "no estimate yet";
   const std::string rate = steps.empty() || done == 0
                                ? std::string()
                                : fmt::format(", {:.3g} {}/s", static_cast<double>(done) / elapsed_s, steps);
   return fmt::format("{}  [{}{}] {:3.0f} %, {}{}", what, std::string(filled, '#'), std::string(kWidth - filled, '.'),
-                     std::floor(100 * share), left, rate);
+                     std::floor(100 * fraction), left, rate);
 }
 
 Progress::Progress(std::string what, std::size_t total, std::string steps)

@@ -57,11 +57,11 @@ std::vector<std::string_view> split(std::string_view line, char separator) {
   return cells;
 }
 
-// Index of each wanted column among those of the file.
+// Index of each requested column among those of the file.
 std::vector<std::size_t> find_columns(const std::vector<std::string_view>& names,
-                                      const std::vector<std::string>& wanted, const std::string& place) {
+                                      const std::vector<std::string>& requested, const std::string& place) {
   std::vector<std::size_t> columns;
-  for (const std::string& name : wanted) {
+  for (const std::string& name : requested) {
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end()) {
       throw InputError(fmt::format("{}: no column {}; the columns are {}", place, name, fmt::join(names, ", ")));
@@ -73,7 +73,7 @@ std::vector<std::size_t> find_columns(const std::vector<std::string_view>& names
 
 }  // namespace
 
-Table parse_table(const std::string& text, const std::string& file, const std::vector<std::string>& wanted,
+Table parse_table(const std::string& text, const std::string& file, const std::vector<std::string>& requested,
                   TableLayout layout, int names_line) {
   std::string_view rest = text;
   std::vector<std::size_t> columns;
@@ -88,7 +88,7 @@ Table parse_table(const std::string& text, const std::string& file, const std::v
     if (number < names_line || line.empty() || line.front() == '#') continue;
     const std::vector<std::string_view> words = split(line, layout.separator);
     if (columns.empty()) {
-      columns = find_columns(words, wanted, fmt::format("{}:{}", file, number));
+      columns = find_columns(words, requested, fmt::format("{}:{}", file, number));
       width = words.size();
       continue;
     }
@@ -104,7 +104,7 @@ Table parse_table(const std::string& text, const std::string& file, const std::v
       const std::optional<double> value = number_of(words[columns[i]]);
       if (!value || !std::isfinite(*value)) {
         throw InputError(fmt::format("{}:{}:{}: {}: value '{}': must be a finite number", file, number,
-                                     words[columns[i]].data() - line.data() + 1, wanted[i], words[columns[i]]));
+                                     words[columns[i]].data() - line.data() + 1, requested[i], words[columns[i]]));
       }
       row.push_back(*value);
     }
@@ -113,11 +113,11 @@ Table parse_table(const std::string& text, const std::string& file, const std::v
   if (cells.size() < 2) {
     throw InputError(fmt::format("{}: {} rows of numbers below the names: must be at least 2", file, cells.size()));
   }
-  return Table(file, wanted, std::move(cells), std::move(lines));
+  return Table(file, requested, std::move(cells), std::move(lines));
 }
 
-Table read_table(const std::filesystem::path& file, const std::vector<std::string>& wanted, TableLayout layout) {
-  return parse_table(read_file(file), file.string(), wanted, layout);
+Table read_table(const std::filesystem::path& file, const std::vector<std::string>& requested, TableLayout layout) {
+  return parse_table(read_file(file), file.string(), requested, layout);
 }
 
 }  // namespace seaglint

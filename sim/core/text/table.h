@@ -41,12 +41,12 @@ struct TableLayout {
   int unit_lines = 0;
 };
 
-// Reads the wanted columns, in this order; other columns are ignored; at least two rows. Throws InputError with file,
-// line and column for a missing column, a row of another length, and a cell that is not a finite number.
-Table read_table(const std::filesystem::path& file, const std::vector<std::string>& wanted, TableLayout layout = {});
+// Reads the requested columns, in this order; other columns are ignored; at least two rows. Throws InputError with
+// file, line and column for a missing column, a row of another length, and a cell that is not a finite number.
+Table read_table(const std::filesystem::path& file, const std::vector<std::string>& requested, TableLayout layout = {});
 
 // The same for a text whose column names are in the given line (1-based).
-Table parse_table(const std::string& text, const std::string& file, const std::vector<std::string>& wanted,
+Table parse_table(const std::string& text, const std::string& file, const std::vector<std::string>& requested,
                   TableLayout layout, int names_line = 0);
 
 }  // namespace seaglint

@@ -170,11 +170,11 @@ class Checker {
   Json view(const Json& v, const std::string& at) const {
     const std::uint64_t buffer = index(v, "buffer", "buffers", at);
     const std::uint64_t offset = whole(v, "byteOffset", at, 0), size = whole(v, "byteLength", at, 0);
-    const std::uint64_t stride = whole(v, "byteStride", at, 0), held = buffer_size(buffer);
+    const std::uint64_t stride = whole(v, "byteStride", at, 0), available = buffer_size(buffer);
     if (size == 0) fail(at + " is empty");
-    if (offset > held || size > held - offset) {
-      fail(
-          fmt::format("{} wants bytes {} to {} of buffers[{}], which has {}", at, offset, offset + size, buffer, held));
+    if (offset > available || size > available - offset) {
+      fail(fmt::format("{} wants bytes {} to {} of buffers[{}], which has {}", at, offset, offset + size, buffer,
+                       available));
     }
     if (stride != 0 && (stride < 4 || stride > 252 || stride % 4 != 0)) {
       fail(fmt::format("{}.byteStride = {} is not a multiple of 4 in 4..252", at, stride));
@@ -212,10 +212,10 @@ class Checker {
     const Json& v = root_["bufferViews"][i];
     const std::uint64_t element = size * components;
     const std::uint64_t stride = std::max(element, whole(v, "byteStride", view_name, 0));
-    const std::uint64_t held = whole(v, "byteLength", view_name, 0);
-    if (count > kMaxBytes || offset > held || (count - 1) * stride + element > held - offset) {
+    const std::uint64_t available = whole(v, "byteLength", view_name, 0);
+    if (count > kMaxBytes || offset > available || (count - 1) * stride + element > available - offset) {
       fail(fmt::format("{} wants {} elements of {} bytes from byte {} of {}, which has {}", at, count, stride, offset,
-                       view_name, held));
+                       view_name, available));
     }
     plain["bufferView"] = i;
     return plain;

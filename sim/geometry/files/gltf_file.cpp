@@ -130,14 +130,14 @@ class Reader {
       Mat4 parent;
     };
     std::vector<Visit> pending;
-    std::vector<bool> seen(model_.nodes.size(), false);
+    std::vector<bool> visited(model_.nodes.size(), false);
     for (int root : roots()) pending.push_back({root, Mat4::Identity()});
     std::reverse(pending.begin(), pending.end());
     while (!pending.empty()) {
       const Visit visit = pending.back();
       pending.pop_back();
-      if (seen[visit.node]) throw InputError(fmt::format("{}: nodes[{}] has two parents", file_, visit.node));
-      seen[visit.node] = true;
+      if (visited[visit.node]) throw InputError(fmt::format("{}: nodes[{}] has two parents", file_, visit.node));
+      visited[visit.node] = true;
       const tinygltf::Node& node = model_.nodes[visit.node];
       const Mat4 world = visit.parent * local_transform(node);
       if (node.mesh >= 0) add_mesh(node, world);

@@ -167,13 +167,13 @@ class PlyCheck {
 
   // Checks the declared count against the file size before memory is reserved.
   void min_size(const Element& element) const {
-    std::uint64_t least = 0;
+    std::uint64_t min_bytes = 0;
     for (const Property& property : element.properties) {
-      least += is_ascii_ ? 2 : size_of(property.is_list ? property.count : property.value);
+      min_bytes += is_ascii_ ? 2 : size_of(property.is_list ? property.count : property.value);
     }
-    const std::uint64_t held = least == 0 ? 0 : (rest_.size() + 1) / least;
-    if (element.count > held && !element.properties.empty()) {
-      fail(fmt::format("promises {} of \"{}\", has room for {} at most", element.count, element.name, held));
+    const std::uint64_t available = min_bytes == 0 ? 0 : (rest_.size() + 1) / min_bytes;
+    if (element.count > available && !element.properties.empty()) {
+      fail(fmt::format("promises {} of \"{}\", has room for {} at most", element.count, element.name, available));
     }
   }
 

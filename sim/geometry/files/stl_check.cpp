@@ -25,8 +25,9 @@ SanitisedPolygons check_binary(std::string bytes, const std::string& file) {
     throw InputError(fmt::format("{}: {} bytes are no binary STL, which begins with 84", file, bytes.size()));
   std::uint32_t count = 0;
   std::memcpy(&count, bytes.data() + 80, 4);
-  const std::size_t held = (bytes.size() - kHeader) / kFacet;
-  if (count > held) throw InputError(fmt::format("{}: promises {} triangles, contains {}", file, count, held));
+  const std::size_t available = (bytes.size() - kHeader) / kFacet;
+  if (count > available)
+    throw InputError(fmt::format("{}: promises {} triangles, contains {}", file, count, available));
   const std::size_t end = kHeader + kFacet * count;
   if (bytes.size() > end)
     throw InputError(fmt::format("{}: promises {} triangles, which end at byte {}; {} bytes are left over", file, count,

@@ -62,7 +62,7 @@ bool fan_covers(std::span<const Vec3> corner, const Vec3& area_vector, double ro
 }
 
 // Twice the signed area of a triangle in the plane, positive counter-clockwise.
-double turn(const Vec2& a, const Vec2& b, const Vec2& c) {
+double twice_signed_area(const Vec2& a, const Vec2& b, const Vec2& c) {
   return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
 }
 
@@ -71,8 +71,8 @@ int winding(const std::vector<Vec2>& corner, const Vec2& p) {
   int rounds = 0;
   for (std::size_t i = 0; i < corner.size(); ++i) {
     const Vec2 &a = corner[i], &b = corner[(i + 1) % corner.size()];
-    if (a.y() <= p.y() && b.y() > p.y() && turn(a, b, p) > 0) ++rounds;
-    if (a.y() > p.y() && b.y() <= p.y() && turn(a, b, p) < 0) --rounds;
+    if (a.y() <= p.y() && b.y() > p.y() && twice_signed_area(a, b, p) > 0) ++rounds;
+    if (a.y() > p.y() && b.y() <= p.y() && twice_signed_area(a, b, p) < 0) --rounds;
   }
   return rounds;
 }
@@ -116,10 +116,10 @@ class EarClipper {
     }
     triangles.push_back(triangle(1));
     for (const auto& [a, b, c] : triangles) {
-      const double area = turn(corner_[a], corner_[b], corner_[c]),
-                   least = min_area(corner_[a], corner_[b], corner_[c]);
-      if (area < -least) return {};
-      if (area > least && winding(corner_, (corner_[a] + corner_[b] + corner_[c]) / 3) != 1) return {};
+      const double area = twice_signed_area(corner_[a], corner_[b], corner_[c]),
+                   tolerance = min_area(corner_[a], corner_[b], corner_[c]);
+      if (area < -tolerance) return {};
+      if (area > tolerance && winding(corner_, (corner_[a] + corner_[b] + corner_[c]) / 3) != 1) return {};
     }
     return triangles;
   }
@@ -138,13 +138,13 @@ class EarClipper {
   bool is_ear(std::size_t at, Ear kind) const {
     const auto [i, j, k] = triangle(at);
     const Vec2 &a = corner_[i], &b = corner_[j], &c = corner_[k];
-    const double area = turn(a, b, c), least = min_area(a, b, c);
-    if (kind == Ear::kFlat) return std::abs(area) <= least;
-    if (area <= least) return false;
+    const double area = twice_signed_area(a, b, c), tolerance = min_area(a, b, c);
+    if (kind == Ear::kFlat) return std::abs(area) <= tolerance;
+    if (area <= tolerance) return false;
     // A vertex on the boundary of the ear would be left on a side that ends elsewhere.
     const double margin = kind == Ear::kClear ? -rounding_ : rounding_;
     const auto inside = [&](const Vec2& from, const Vec2& to, const Vec2& p) {
-      return turn(from, to, p) > margin * (to - from).norm();
+      return twice_signed_area(from, to, p) > margin * (to - from).norm();
     };
     return std::none_of(left_.begin(), left_.end(), [&](std::uint32_t other) {
       const Vec2& p = corner_[other];

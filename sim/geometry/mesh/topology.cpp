@@ -128,7 +128,7 @@ double fold_angle(const TriangleMesh& mesh, const Topology& topology, std::uint3
 
 }  // namespace
 
-std::vector<Wedge> wedges(const TriangleMesh& mesh, const Topology& topology, double least_turn) {
+std::vector<Wedge> wedges(const TriangleMesh& mesh, const Topology& topology, double min_angle) {
   const auto usable = [&](std::uint32_t triangle) {
     return !std::binary_search(topology.degenerate.begin(), topology.degenerate.end(), triangle);
   };
@@ -141,8 +141,8 @@ std::vector<Wedge> wedges(const TriangleMesh& mesh, const Topology& topology, do
     } else if (edge.kind == EdgeKind::kManifold) {
       const std::uint32_t second = topology.uses[edge.first_use + 1].triangle;
       if (!usable(first) || !usable(second)) continue;
-      const double turn = fold_angle(mesh, topology, e);
-      if (std::abs(turn) > least_turn) found.push_back({e, {first, second}, kPi + turn});
+      const double angle = fold_angle(mesh, topology, e);
+      if (std::abs(angle) > min_angle) found.push_back({e, {first, second}, kPi + angle});
     }
   }
   return found;

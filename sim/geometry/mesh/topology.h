@@ -60,8 +60,8 @@ struct Wedge {
   double exterior_angle = 0;
 };
 
-// Manifold edges whose face normals differ by more than `least_turn` (radians), and free edges of sheets. Edges of
+// Manifold edges whose face normals differ by more than `min_angle` (radians), and free edges of sheets. Edges of
 // degenerate triangles are skipped, and inconsistent and non-manifold ones, whose faces do not define the free space.
-std::vector<Wedge> wedges(const TriangleMesh& mesh, const Topology& topology, double least_turn);
+std::vector<Wedge> wedges(const TriangleMesh& mesh, const Topology& topology, double min_angle);
 
 }  // namespace seaglint

@@ -20,9 +20,8 @@ void require_size(double value, const char* name) {
     throw InputError(fmt::format("{}: {} m is outside {:g}..{:g} m", name, value, kMinSize, kLargestSize));
 }
 
-void require_count(int value, int least, int most, const char* name) {
-  if (value < least || value > most)
-    throw InputError(fmt::format("{}: {} is outside {}..{}", name, value, least, most));
+void require_count(int value, int min, int max, const char* name) {
+  if (value < min || value > max) throw InputError(fmt::format("{}: {} is outside {}..{}", name, value, min, max));
 }
 
 using Triangle = std::array<std::uint32_t, 3>;

@@ -15,10 +15,10 @@
 namespace seaglint {
 namespace {
 
-void require(double value, double least, double most, const char* name) {
+void require(double value, double min, double max, const char* name) {
   // Written so that a NaN fails.
-  if (!(value >= least && value <= most))
-    throw InputError(fmt::format("ship {}: {} is outside {}..{} m", name, value, least, most));
+  if (!(value >= min && value <= max))
+    throw InputError(fmt::format("ship {}: {} is outside {}..{} m", name, value, min, max));
 }
 
 // Positions on a grid of 2^-16 m (15 um, a thousandth of a wavelength at 16 GHz), which float32 represents exactly up

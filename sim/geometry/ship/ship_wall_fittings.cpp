@@ -60,9 +60,9 @@ void add_brackets(MeshBuilder& builder, const HullSurface& hull, const Deckhouse
     for (double x : places) {
       const Pose wall = house.on_side(hull, side, x, z);
       // The shelf looks up for one and down for the next, the cheek is fore or aft.
-      const double turn = n % 4 == 0 ? 0 : n % 4 == 1 ? 0.5 * kPi : n % 4 == 2 ? kPi : 1.5 * kPi;
+      const double angle = n % 4 == 0 ? 0 : n % 4 == 1 ? 0.5 * kPi : n % 4 == 2 ? kPi : 1.5 * kPi;
       const Pose bracket =
-          moved(wall, 0.02, 0, 0) * Pose{Vec3::Zero(), Eigen::AngleAxisd(turn, Vec3::UnitX()).toRotationMatrix()};
+          moved(wall, 0.02, 0, 0) * Pose{Vec3::Zero(), Eigen::AngleAxisd(angle, Vec3::UnitX()).toRotationMatrix()};
       const double leg = 0.32 + 0.05 * (n % 3);
       add_corner_plates(builder, bracket, {leg, leg, leg}, 0.03);
       ++n;

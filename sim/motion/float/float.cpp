@@ -27,7 +27,7 @@ constexpr double kMooringTime = 10;  // s
 
 double given_or(double value, double derived) { return value > 0 ? value : derived; }
 
-Vec2 turned(const Vec2& v, double angle) {
+Vec2 rotated(const Vec2& v, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
   return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
 }
@@ -70,8 +70,8 @@ double disc_slope_filter(double wavenumber, double radius) {
 }
 
 Vec2 soft_limited_slope(const Vec2& slope) {
-  const double share = slope.squaredNorm() / (kBreakingSlope * kBreakingSlope);
-  return slope / std::sqrt(std::sqrt(1 + share * share));
+  const double ratio = slope.squaredNorm() / (kBreakingSlope * kBreakingSlope);
+  return slope / std::sqrt(std::sqrt(1 + ratio * ratio));
 }
 
 namespace {
@@ -134,18 +134,18 @@ class Equations {
   // eta/dx). Heave: stiffness and damping act on the motion relative to the water, z'' + 2 z w0 (z'
   // - w) + w0^2 (z - eta) = 0. Surge and sway: velocity of the water at the float, with the mooring term.
   FloatState derivative(const FloatState& s, const SurfaceState& water, double yaw) const {
-    const Vec2 slope = turned(soft_limited_slope({water.slope_x, water.slope_y}), -yaw);
+    const Vec2 slope = rotated(soft_limited_slope({water.slope_x, water.slope_y}), -yaw);
     const Vec2 target(slope.y(), -slope.x());
-    const Vec2 tilt = turned(s.tilt, -yaw);
-    const Vec2 rate = turned(s.tilt_rate, -yaw);
+    const Vec2 tilt = rotated(s.tilt, -yaw);
+    const Vec2 rate = rotated(s.tilt_rate, -yaw);
     const auto acceleration = [](const Oscillator& o, double to, double x, double v) {
       return o.omega0 * o.omega0 * (to - x) - 2 * o.damping * o.omega0 * v - o.quadratic * std::abs(v) * v;
     };
     FloatState d;
     d.tilt = s.tilt_rate;
-    d.tilt_rate = turned({acceleration(body_.roll, target.x(), tilt.x(), rate.x()),
-                          acceleration(body_.pitch, target.y(), tilt.y(), rate.y())},
-                         yaw);
+    d.tilt_rate = rotated({acceleration(body_.roll, target.x(), tilt.x(), rate.x()),
+                           acceleration(body_.pitch, target.y(), tilt.y(), rate.y())},
+                          yaw);
     if (moving_) {
       const Vec2 horizontal = horizontal_rate(s, water);
       d.shift = {horizontal.x(), horizontal.y(), s.heave_rate};
@@ -167,8 +167,8 @@ class Equations {
 
 // The angles of R = Rz(yaw) Ry(pitch) Rx(roll): roll and pitch are the tilt about the yawed axes.
 MotionSample sample_of(const FloatState& s, const Vec2& horizontal_rate, const OscillatorState& yaw, bool moving) {
-  const Vec2 tilt = turned(s.tilt, -yaw.x);
-  const Vec2 rate = turned(s.tilt_rate, -yaw.x) + yaw.rate * Vec2(tilt.y(), -tilt.x());
+  const Vec2 tilt = rotated(s.tilt, -yaw.x);
+  const Vec2 rate = rotated(s.tilt_rate, -yaw.x) + yaw.rate * Vec2(tilt.y(), -tilt.x());
   MotionSample sample;
   sample.angles = {tilt.x(), tilt.y(), yaw.x};
   sample.angle_rates = {rate.x(), rate.y(), yaw.rate};

@@ -24,9 +24,9 @@ Trajectory::Trajectory(double start_s, double step_s, std::vector<MotionSample> 
 }
 
 Trajectory Trajectory::at_rest(const Vec3& rest_position) {
-  Trajectory still;
-  still.rest_position_ = rest_position;
-  return still;
+  Trajectory constant;
+  constant.rest_position_ = rest_position;
+  return constant;
 }
 
 Trajectory Trajectory::with_drift(const Vec3& velocity, double from_s) const {

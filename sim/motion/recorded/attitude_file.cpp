@@ -76,8 +76,8 @@ AttitudeTable read_floating_info(const std::string& text, const std::string& fil
   const Table rate = parse_table(text, file, {"fomega.y [rad/s]"}, layout, names.number);
   double agreement = 0;
   for (std::size_t n = 1; n < rate.rows(); ++n) {
-    const double turned = table.samples[n].angles.y() - table.samples[n - 1].angles.y();
-    agreement += turned * 0.5 * (rate.at(n, 0) + rate.at(n - 1, 0));
+    const double difference = table.samples[n].angles.y() - table.samples[n - 1].angles.y();
+    agreement += difference * 0.5 * (rate.at(n, 0) + rate.at(n - 1, 0));
   }
   if (agreement < 0) {
     for (MotionSample& sample : table.samples) sample.angles.y() = -sample.angles.y();

@@ -30,11 +30,11 @@ std::vector<double> spline_slopes(const std::vector<double>& t, const std::vecto
     const double before = 1 / (t[i] - t[i - 1]);
     const double after = last ? 0 : 1 / (t[i + 1] - t[i]);
     const double lower = last ? 1 : before;
-    const double share = lower / diagonal[i - 1];
-    diagonal[i] = (last ? 2 : 2 * (before + after)) - share * upper[i - 1];
+    const double factor = lower / diagonal[i - 1];
+    diagonal[i] = (last ? 2 : 2 * (before + after)) - factor * upper[i - 1];
     upper[i] = after;
     const double right = last ? 3 * chord(i - 1) : 3 * (before * chord(i - 1) + after * chord(i));
-    slope[i] = right - share * slope[i - 1];
+    slope[i] = right - factor * slope[i - 1];
   }
   slope[n - 1] /= diagonal[n - 1];
   for (std::size_t i = n - 1; i-- > 0;) slope[i] = (slope[i] - upper[i] * slope[i + 1]) / diagonal[i];

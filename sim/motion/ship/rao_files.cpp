@@ -72,8 +72,8 @@ using Heading = std::vector<MotionRao>;  // by frequency
 MotionRao mirrored(const MotionRao& r) { return {r.surge, -r.sway, r.heave, -r.roll, r.pitch, -r.yaw}; }
 
 double wrapped(double angle) {
-  const double turned = angle - 2 * kPi * std::ceil(angle / (2 * kPi) - 0.5);
-  return turned <= -kPi + 1e-9 ? turned + 2 * kPi : turned;
+  const double wrapped_angle = angle - 2 * kPi * std::ceil(angle / (2 * kPi) - 0.5);
+  return wrapped_angle <= -kPi + 1e-9 ? wrapped_angle + 2 * kPi : wrapped_angle;
 }
 
 RaoTable table_of(std::string source, const std::map<double, Heading>& headings, std::vector<double> omega,
@@ -98,7 +98,7 @@ bool one_sided(const std::map<double, Heading>& headings) {
   return port != starboard;
 }
 
-void mirror(std::map<double, Heading>& headings) {
+void add_mirrored_headings(std::map<double, Heading>& headings) {
   if (!one_sided(headings)) return;
   std::map<double, Heading> other;
   for (const auto& [mu, values] : headings) {
@@ -174,7 +174,7 @@ RaoTable read_veres_rao(const std::filesystem::path& file, double speed) {
       }
       headings[mu] = values;
     }
-    mirror(headings);
+    add_mirrored_headings(headings);
     if (!nearest || std::abs(state[0] - speed) < std::abs(nearest->speed() - speed)) {
       nearest = table_of(words.file(), headings, omega, {-state[3], 0, state[4] - draught}, state[0]);
     }
@@ -238,7 +238,7 @@ RaoTable read_wamit_rao(const std::filesystem::path& file, double unit_length, c
                                    degrees(mu), n, degrees(rows.begin()->first), omega.size()));
     }
   }
-  mirror(headings);
+  add_mirrored_headings(headings);
   return table_of(words.file(), headings, omega, reference, 0);
 }
 

@@ -17,8 +17,8 @@ namespace {
 
 constexpr double kWidestGap = radians(45);
 
-MotionRao mixed(const MotionRao& a, double share_a, const MotionRao& b, double share_b) {
-  const auto mix = [&](Complex p, Complex q) { return share_a * p + share_b * q; };
+MotionRao mixed(const MotionRao& a, double weight_a, const MotionRao& b, double weight_b) {
+  const auto mix = [&](Complex p, Complex q) { return weight_a * p + weight_b * q; };
   return {mix(a.surge, b.surge), mix(a.sway, b.sway),   mix(a.heave, b.heave),
           mix(a.roll, b.roll),   mix(a.pitch, b.pitch), mix(a.yaw, b.yaw)};
 }
@@ -75,10 +75,10 @@ MotionRao RaoTable::at(double omega, double wavenumber, double mu) const {
   const auto along = [&](std::size_t m) {
     return mixed(responses_[m * omega_.size() + low], 1 - u, responses_[m * omega_.size() + next], u);
   };
-  const MotionRao there = mixed(along(left), 1 - v, along(right), v);
+  const MotionRao interpolated = mixed(along(left), 1 - v, along(right), v);
   const Complex phase = std::polar(1.0, -wavenumber * (std::cos(mu) * reference_.x() + std::sin(mu) * reference_.y()));
-  return {phase * there.surge, phase * there.sway,  phase * there.heave,
-          phase * there.roll,  phase * there.pitch, phase * there.yaw};
+  return {phase * interpolated.surge, phase * interpolated.sway,  phase * interpolated.heave,
+          phase * interpolated.roll,  phase * interpolated.pitch, phase * interpolated.yaw};
 }
 
 double RaoTable::uncovered_variance_fraction(const WaveField& sea) const {
@@ -93,17 +93,17 @@ double RaoTable::uncovered_variance_fraction(const WaveField& sea) const {
 
 std::vector<MotionSample> simulate_rao(const RaoTable& table, const MotionSpec& spec, const WaveField& sea, double x,
                                        double y, double duration_s) {
-  const double share = table.uncovered_variance_fraction(sea);
-  if (share > kMaxUncoveredVariance) {
+  const double uncovered = table.uncovered_variance_fraction(sea);
+  if (uncovered > kMaxUncoveredVariance) {
     throw InputError(fmt::format(
         "{}: covers {:.4g} to {:.4g} rad/s, outside of which {:.3g} % of the waves' variance lies: must be "
         "at most {:g} %",
-        table.source(), table.omegas().front(), table.omegas().back(), 100 * share, 100 * kMaxUncoveredVariance));
+        table.source(), table.omegas().front(), table.omegas().back(), 100 * uncovered, 100 * kMaxUncoveredVariance));
   }
-  const double told = spec.translations ? 1 : 0;
+  const double factor = spec.translations ? 1 : 0;
   const auto response = [&](const ShipWave& wave) -> ResponseChannels {
     const MotionRao r = table.at(wave.omega, wave.wavenumber, wave.mu);
-    return {r.roll, r.pitch, r.yaw, told * r.surge, told * r.sway, told * r.heave, 0};
+    return {r.roll, r.pitch, r.yaw, factor * r.surge, factor * r.sway, factor * r.heave, 0};
   };
   ResponseSynthesis series(sea, response, table.speed(), x, y, 0, spec.step_s);
   const long count = std::max(1L, static_cast<long>(std::ceil(duration_s / spec.step_s))) + 1;

@@ -16,6 +16,11 @@ ShipWave ship_wave(const WaveComponent& component) {
   return {component.omega, component.wavenumber, std::atan2(component.direction.y(), component.direction.x())};
 }
 
+constexpr ResponseChannel kAngles[] = {ResponseChannel::kRoll, ResponseChannel::kPitch, ResponseChannel::kYaw};
+constexpr ResponseChannel kTranslations[] = {ResponseChannel::kSurge, ResponseChannel::kSway, ResponseChannel::kHeave};
+
+constexpr std::size_t index_of(ResponseChannel channel) { return static_cast<std::size_t>(channel); }
+
 }  // namespace
 
 double encounter_frequency(const ShipWave& wave, double speed) {
@@ -63,7 +68,7 @@ UniformPhasors ResponseSynthesis::make(const WaveField& sea,
 }
 
 double ResponseSynthesis::value(ResponseChannel channel) const {
-  const Parts& a = parts_[channel];
+  const Parts& a = parts_[index_of(channel)];
   const double* c = phasors_.cosine().data();
   const double* s = phasors_.sine().data();
   double sum = 0;
@@ -73,7 +78,7 @@ double ResponseSynthesis::value(ResponseChannel channel) const {
 
 // Re{j w x}.
 double ResponseSynthesis::rate(ResponseChannel channel) const {
-  const Parts& a = parts_[channel];
+  const Parts& a = parts_[index_of(channel)];
   const double* c = phasors_.cosine().data();
   const double* s = phasors_.sine().data();
   double sum = 0;
@@ -84,12 +89,11 @@ double ResponseSynthesis::rate(ResponseChannel channel) const {
 MotionSample ResponseSynthesis::sample() const {
   MotionSample sample;
   for (int axis = 0; axis < 3; ++axis) {
-    const auto angle = static_cast<ResponseChannel>(kRollAngle + axis);
-    const auto shift = static_cast<ResponseChannel>(kSurgeShift + axis);
-    if (moves_[angle]) sample.angles[axis] = value(angle);
-    if (moves_[angle]) sample.angle_rates[axis] = rate(angle);
-    if (moves_[shift]) sample.translation[axis] = value(shift);
-    if (moves_[shift]) sample.translation_rates[axis] = rate(shift);
+    const ResponseChannel angle = kAngles[axis], translation = kTranslations[axis];
+    if (moves_[index_of(angle)]) sample.angles[axis] = value(angle);
+    if (moves_[index_of(angle)]) sample.angle_rates[axis] = rate(angle);
+    if (moves_[index_of(translation)]) sample.translation[axis] = value(translation);
+    if (moves_[index_of(translation)]) sample.translation_rates[axis] = rate(translation);
   }
   return sample;
 }

@@ -16,7 +16,7 @@ namespace seaglint {
 
 // Responses per metre of wave amplitude: roll, pitch, yaw (rad/m), surge, sway, heave (m/m) and one channel chosen by
 // the caller.
-enum ResponseChannel { kRollAngle, kPitchAngle, kYawAngle, kSurgeShift, kSwayShift, kHeaveShift, kExtra };
+enum class ResponseChannel { kRoll, kPitch, kYaw, kSurge, kSway, kHeave, kExtra };
 inline constexpr std::size_t kResponseChannels = 7;
 using ResponseChannels = std::array<Complex, kResponseChannels>;
 

@@ -15,9 +15,9 @@ namespace {
 // Responses to one wave, and the forcing for which the roll oscillator has the roll response of the coupled hull.
 ResponseChannels channels(const ShipParticulars& ship, const ShipWave& wave, bool translations) {
   const MotionRao rao = ship_rao(ship, wave);
-  const double share = translations ? 1 : 0;
+  const double factor = translations ? 1 : 0;
   const Complex forcing = rao.roll / linear_response(ship.roll, encounter_frequency(wave, ship.speed));
-  return {rao.roll, rao.pitch, rao.yaw, share * rao.surge, share * rao.sway, share * rao.heave, forcing};
+  return {rao.roll, rao.pitch, rao.yaw, factor * rao.surge, factor * rao.sway, factor * rao.heave, forcing};
 }
 
 // Roll with quadratic damping, from the linear steady state spin_up_s before t = 0.
@@ -30,16 +30,16 @@ std::vector<OscillatorState> nonlinear_roll(const ShipParticulars& ship, const M
   const double part = step / static_cast<double>(parts);
   const auto response = [&](const ShipWave& wave) { return channels(ship, wave, false); };
   ResponseSynthesis series(sea, response, ship.speed, x, y, -step * static_cast<double>(before), 0.5 * part);
-  OscillatorState state{series.value(kRollAngle), series.rate(kRollAngle)};
+  OscillatorState state{series.value(ResponseChannel::kRoll), series.rate(ResponseChannel::kRoll)};
   std::vector<OscillatorState> roll;
-  double begin = series.value(kExtra);
+  double begin = series.value(ResponseChannel::kExtra);
   for (long n = -before; n < samples; ++n) {
     if (n >= 0) roll.push_back(state);
     for (long p = 0; p < parts; ++p) {
       series.advance();
-      const double middle = series.value(kExtra);
+      const double middle = series.value(ResponseChannel::kExtra);
       series.advance();
-      const double end = series.value(kExtra);
+      const double end = series.value(ResponseChannel::kExtra);
       state = advance(ship.roll, state, begin, middle, end, part);
       begin = end;
     }

@@ -149,10 +149,10 @@ ShipParticulars ship_particulars(const MotionSpec& spec, const HullSections& hul
 
   if (spec.yaw_period_s > 0) {
     const double omega = 2 * kPi / spec.yaw_period_s;
-    const double turning =
+    const double yaw_inertia =
         ship.lateral_mass(2, 2) + ship.strips->radiation(omega, 0).lateral(2, 2).real() / (omega * omega);
-    ship.lateral_stiffness(2, 2) = omega * omega * turning;
-    ship.lateral_damping(2, 2) = 2 * spec.yaw_damping * omega * turning;
+    ship.lateral_stiffness(2, 2) = omega * omega * yaw_inertia;
+    ship.lateral_damping(2, 2) = 2 * spec.yaw_damping * omega * yaw_inertia;
   }
   set_roll(ship, spec, mass);
   set_pitch_and_heave(ship, spec, mass);

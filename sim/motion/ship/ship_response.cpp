@@ -43,9 +43,10 @@ MotionRao ship_rao(const ShipParticulars& ship, const ShipWave& wave) {
   // Translation of the origin and rotation of the hull; the rotation centre c moves by the translation plus rotation x
   // c.
   const Complex surge = force.surge / (-omega * omega * ship.vertical_mass(0, 0));
-  const CVec3 turn(across(1), upright(1), across(2));
-  const CVec3 shift = CVec3(surge, across(0), upright(0)) + turn.cross(CVec3(ship.rotation_centre.cast<Complex>()));
-  return {shift.x(), shift.y(), shift.z(), turn.x(), turn.y(), turn.z()};
+  const CVec3 rotation(across(1), upright(1), across(2));
+  const CVec3 translation =
+      CVec3(surge, across(0), upright(0)) + rotation.cross(CVec3(ship.rotation_centre.cast<Complex>()));
+  return {translation.x(), translation.y(), translation.z(), rotation.x(), rotation.y(), rotation.z()};
 }
 
 }  // namespace seaglint

@@ -39,12 +39,12 @@ struct Fullness {
     const auto centre_of = [&](double d) {
       return 0.5 * (moment(coefficient + d) - moment(coefficient - d)) / (2 * coefficient);
     };
-    const double most = std::min(coefficient, 1 - coefficient) * 0.999;
-    if (!(coefficient > 0 && coefficient < 1) || std::abs(centre) > centre_of(most)) {
+    const double limit = std::min(coefficient, 1 - coefficient) * 0.999;
+    if (!(coefficient > 0 && coefficient < 1) || std::abs(centre) > centre_of(limit)) {
       throw InputError(fmt::format("hull form: {} coefficient {} with its centre at {} of the length: no hull has it",
                                    what, coefficient, centre));
     }
-    double low = -most, high = most;
+    double low = -limit, high = limit;
     for (int i = 0; i < 60; ++i) {
       const double middle = 0.5 * (low + high);
       (centre_of(middle) < centre ? low : high) = middle;
@@ -177,7 +177,7 @@ HullSections read_sections(const std::filesystem::path& file, int count) {
 }
 
 HullSections scaled_to(HullSections hull, double length, double beam, double draught) {
-  const auto factor = [](double wanted, double is) { return wanted > 0 ? wanted / is : 1.0; };
+  const auto factor = [](double prescribed, double actual) { return prescribed > 0 ? prescribed / actual : 1.0; };
   const double along = factor(length, hull.length);
   const double across = factor(beam, hull.beam());
   const double down = factor(draught, hull.draught());

@@ -24,24 +24,24 @@ std::vector<float> noise_map(std::size_t rows, std::size_t columns, std::uint64_
 
 TEST(NetworkInput, InvariantToMapScale) {
   const std::vector<float> map = noise_map(64, 256, 1);
-  std::vector<float> louder = map;
-  for (float& value : louder) value *= 1024;  // a power of two: the mantissas stay
+  std::vector<float> amplified = map;
+  for (float& value : amplified) value *= 1024;  // a power of two, so that mantissas do not change
   const std::vector<float> input = network_input(map, 64, 256, -60);
-  EXPECT_EQ(input, network_input(louder, 64, 256, -60));
-  for (float& value : louder) value *= 1.7f;
-  const std::vector<float> scaled = network_input(louder, 64, 256, -60);
+  EXPECT_EQ(input, network_input(amplified, 64, 256, -60));
+  for (float& value : amplified) value *= 1.7f;
+  const std::vector<float> scaled = network_input(amplified, 64, 256, -60);
   // Float rounding of the scaled cells: 6e-8 relative, 8.7 dB per neper, 60 dB full scale, and a float result.
   for (std::size_t i = 0; i < input.size(); ++i) EXPECT_NEAR(scaled[i], input[i], 2e-7);
 }
 
-TEST(NetworkInput, PutsAllEnergyInOneWindowAtOneAndTheRestAtZero) {
+TEST(NetworkInput, IsOneInTheWindowOfAllEnergyAndZeroElsewhere) {
   std::vector<float> map(64 * 128, 0.0f);
   map[10 * 128 + 20] = 3;
   const std::vector<float> input = network_input(map, 64, 128, -40);
   for (std::size_t i = 0; i < input.size(); ++i) EXPECT_EQ(input[i], i == 10 * 128 + 20 ? 1.0f : 0.0f);
 }
 
-TEST(NetworkInput, StandsForTheLevelInDecibelsAboveTheFloor) {
+TEST(NetworkInput, IsTheLevelInDecibelsAboveTheFloor) {
   std::vector<float> map(64 * 128, 0.0f);
   map[0] = 1;
   map[1] = 0.1f;
@@ -50,7 +50,7 @@ TEST(NetworkInput, StandsForTheLevelInDecibelsAboveTheFloor) {
   EXPECT_NEAR(input[1], 0.5 - 10 * std::log10(1.01) / 40, 1e-6);
 }
 
-TEST(NetworkInput, TakesMapsOfAnySize) {
+TEST(NetworkInput, AcceptsMapsOfAnySize) {
   for (const auto& [rows, columns] : {std::pair<std::size_t, std::size_t>{1, 1}, {3, 500}, {200, 7}, {65, 129}}) {
     const std::vector<float> input = network_input(noise_map(rows, columns, 2), rows, columns, -40);
     ASSERT_EQ(input.size(), kInputCells);
@@ -113,7 +113,7 @@ TEST(Network, RepeatsBitForBitOnAnyThread) {
   EXPECT_EQ(b, first);
 }
 
-TEST(Network, AnotherSeedGivesAnotherNetwork) {
+TEST(Network, DependsOnItsSeed) {
   const Toy toy = toy_maps(8);
   const auto logits = [&](std::uint64_t seed) {
     return Network::train(toy.inputs, toy.rows, toy.labels, short_training(), seed, 0).embed(toy.inputs).logits;
@@ -121,7 +121,7 @@ TEST(Network, AnotherSeedGivesAnotherNetwork) {
   EXPECT_NE(logits(42), logits(43));
 }
 
-TEST(Network, LearnsShapesAndIsLight) {
+TEST(Network, LearnsShapesWithFewParameters) {
   const Toy toy = toy_maps(64);
   LearningSpec spec = short_training();
   spec.epochs = 40;
@@ -132,11 +132,11 @@ TEST(Network, LearnsShapesAndIsLight) {
   ASSERT_EQ(embeddings.values.size(), 64u * embeddings.size);
   int right = 0;
   for (std::size_t i = 48; i < 64; ++i) right += (embeddings.logits[i] > 0) == (toy.labels[i] == 1) ? 1 : 0;
-  EXPECT_GE(right, 14) << "of 16 maps that training has not seen";
+  EXPECT_GE(right, 14) << "of 16 maps outside the training set";
   EXPECT_LE(network.parameter_count(), 25000u);
 }
 
-TEST(Network, ComesBackFromItsFileAndRefusesBrokenOnes) {
+TEST(Network, ReloadsFromItsFileAndRejectsBrokenOnes) {
   const Toy toy = toy_maps(8);
   const Network network = Network::train(toy.inputs, toy.rows, toy.labels, short_training(), 42, 0);
   const auto file =
@@ -152,7 +152,7 @@ TEST(Network, ComesBackFromItsFileAndRefusesBrokenOnes) {
   std::filesystem::remove(file);
 }
 
-TEST(Network, StopsWhenAsked) {
+TEST(Network, StopsWhenTheFlagIsSet) {
   const Toy toy = toy_maps(8);
   const StopFlag stop{true};
   EXPECT_THROW(Network::train(toy.inputs, toy.rows, toy.labels, short_training(), 42, 0, &stop), Interrupted);

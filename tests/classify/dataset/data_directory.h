@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// A small data set in a directory of its own, whose rows and maps agree with its scenario.
+// A small data set in a directory of its own; its rows and maps are consistent with its scenario.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -61,7 +61,7 @@ class DataSetDirectory : public testing::Test {
     return shard;
   }
 
-  void make_whole() {
+  void make_complete() {
     DatasetWriter writer(directory_, scenario_, false, kTestVersion);
     for (std::size_t i = 0; i < plan_.shards(); ++i) writer.put(i, shard_of(i));
     ASSERT_TRUE(writer.finish().empty());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How often CLEAN takes sea clutter for scattering centres, and what it costs targets that it must not.
+// False alarms of CLEAN in sea clutter, and detections that the clutter threshold costs.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kWindow = 239.8;
 
-// The sea of scenarios/realistic.yaml seen along its waves, with receiver noise 30 dB below it.
+// The sea of scenarios/realistic.yaml viewed along its wave direction, with receiver noise 30 dB below it.
 struct SeaOf {
   RadarSpec radar;
   SeaState state;
@@ -71,10 +71,10 @@ FalseMaps false_maps(const SeaOf& sea, int intervals) {
   return found;
 }
 
-// A ridge that wanders with the waves: at each velocity most ranges are empty, at each range most velocities. Without a
-// level of its surroundings every one of these maps holds false centres, 53 and 17 in the mean. 3 % of 200 maps held
-// one at 2 m, none at 1 m; at 5 % and 1 % more than 9 and 4 of 60 come up once in a thousand runs.
-TEST(ClutterFalseAlarms, AreRareInSeaThatMovesWithItsWaves) {
+// A clutter ridge that moves with the waves: at each velocity most ranges are empty, at each range most velocities.
+// Without a local level every one of these maps has false alarms, 53 and 17 on average. 3 % of 200 maps had one at 2 m,
+// none at 1 m; for probabilities of 5 % and 1 %, more than 9 and 4 of 60 occur once in a thousand runs.
+TEST(ClutterFalseAlarms, AreRareInWaveResolvedClutter) {
   const FalseMaps high = false_maps({2, ClutterDoppler::kWaveResolved}, 60),
                   low = false_maps({1, ClutterDoppler::kWaveResolved}, 60);
   std::printf("wave_field: %d of 60 maps with %d centres at Hs 2 m, %d with %d at 1 m\n", high.maps, high.centres,
@@ -84,17 +84,17 @@ TEST(ClutterFalseAlarms, AreRareInSeaThatMovesWithItsWaves) {
   EXPECT_LE(low.maps, 4);
 }
 
-// K-distributed texture with one and the same Doppler spectrum everywhere: one map in a hundred, as for noise.
+// K-distributed texture with the same Doppler spectrum everywhere: one map in a hundred, as for noise.
 TEST(ClutterFalseAlarms, AreRareInTexturedClutterOfOneSpectrum) {
-  for (const ClutterDoppler doppler : {ClutterDoppler::kPrescribed, ClutterDoppler::kSea}) {
+  for (const ClutterDoppler doppler : {ClutterDoppler::kPrescribed, ClutterDoppler::kSeaState}) {
     const FalseMaps found = false_maps({2, doppler}, 60);
-    std::printf("%s: %d of 60 maps\n", doppler == ClutterDoppler::kSea ? "sea" : "given", found.maps);
+    std::printf("%s: %d of 60 maps\n", doppler == ClutterDoppler::kSeaState ? "sea" : "given", found.maps);
     EXPECT_LE(found.maps, 4);
   }
 }
 
-// Four points of amplitude 4 m (23 dBsm) in waves of 2 m: points stay, and shelter no clutter around them.
-TEST(ClutterFalseAlarms, LeaveAFewPointsInWavesAsTheyAre) {
+// Four points of amplitude 4 m (23 dBsm) in waves of 2 m: the points are detected, and no clutter near them is.
+TEST(ClutterFalseAlarms, LeaveAFewPointsInWavesUnchanged) {
   const SeaOf sea(2, ClutterDoppler::kWaveResolved);
   int missed = 0, extra = 0;
   for (std::uint64_t i = 0; i < 20; ++i) {
@@ -115,8 +115,8 @@ TEST(ClutterFalseAlarms, LeaveAFewPointsInWavesAsTheyAre) {
   EXPECT_LE(extra, 5);
 }
 
-// Points so dense that their own mean would hide them all: 40 equal ones, 2.5 m apart, at one velocity.
-TEST(ClutterFalseAlarms, DoNotCountPointsThatStandSideBySide) {
+// Points so dense that their own mean level would mask them all: 40 equal ones, 2.5 m apart, at one velocity.
+TEST(ClutterFalseAlarms, DoNotIncludeDensePoints) {
   const PulseTrain train = make_pulse_train({}, kWindow, 1, 1);
   std::vector<PointSpec> points;
   for (int i = 0; i < 40; ++i) points.push_back({{-50 + 2.5 * i, 0, 0}, 1.0, {-0.01, 0, 0}});
@@ -130,7 +130,7 @@ TEST(ClutterFalseAlarms, DoNotCountPointsThatStandSideBySide) {
 
 // Shape 1/2 has the closed form P(x) = e^{-sqrt(2 x)}, so that the margin is factor / 2; shape 2 at 15.6955:
 // 48.99991 of (2 / Gamma(nu)) (nu x)^{nu/2} K_nu(2 sqrt(nu x)) = e^{-15.6955} by SciPy; no texture: none.
-TEST(TextureMargin, IsTheOneOfTheKDistribution) {
+TEST(TextureMargin, IsThatOfTheKDistribution) {
   for (const double factor : {5.0, 15.7, 30.0})
     EXPECT_NEAR(texture_threshold_margin(0.5, factor), factor / 2, 1e-6 * factor);
   EXPECT_NEAR(texture_threshold_margin(2, 15.695525), 48.99991 / 15.695525, 1e-6);

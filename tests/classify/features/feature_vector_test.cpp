@@ -36,10 +36,10 @@ TEST(Features, FollowTheirFormulasForFourCentres) {
   EXPECT_NEAR(features.ccf, (0.5 - 0.4) / (0.5 + 0.4 + 1e-6), 1e-12);  // 20/40 against 0.2/0.5
 
   // Unequal residuals: weights matter. Amplitudes 1, 1, 4 and residuals from the unweighted line.
-  const std::vector<ScatteringCentre> bent = {{-1, 0, 1}, {1, 0, 1}, {0, 3, 4}};  // line v = 1: residuals -1, -1, 2
-  EXPECT_NEAR(compute_features(bent, spec).mwr, (0.5 * 1 + 0.5 * 1 + 2 * 4) / 3, 1e-12);
+  const std::vector<ScatteringCentre> uneven = {{-1, 0, 1}, {1, 0, 1}, {0, 3, 4}};  // line v = 1: residuals -1, -1, 2
+  EXPECT_NEAR(compute_features(uneven, spec).mwr, (0.5 * 1 + 0.5 * 1 + 2 * 4) / 3, 1e-12);
   spec.weighted_fit = true;  // line v = 2: residuals -2, -2, 1
-  EXPECT_NEAR(compute_features(bent, spec).mwr, (0.5 * 4 + 0.5 * 4 + 2 * 1) / 3, 1e-12);
+  EXPECT_NEAR(compute_features(uneven, spec).mwr, (0.5 * 4 + 0.5 * 4 + 2 * 1) / 3, 1e-12);
 }
 
 TEST(Features, DoNotDependOnTheScaleOfTheAmplitudes) {

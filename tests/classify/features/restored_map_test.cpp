@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// CLEAN's restored map against the map of a radar that has no pedestal because it does not hop.
+// CLEAN's restored map against the map of a radar without frequency hopping, which has no pedestal.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,8 +22,7 @@ std::vector<Complex> echo_of(const PulseTrain& train) {
   return synthesise_echo(train, point_response(kPoints, Vec3(1, 0, 0), interval_sampling(train, 0)), none, 1, 1).target;
 }
 
-// Largest difference of magnitudes against the largest of `b`, and the same without looking at the lobes'
-// neighbourhood.
+// Maximum difference of magnitudes relative to the maximum of `b`, and the same outside the neighbourhood of the lobes.
 double largest_difference_db(const RvMap& a, const RvMap& b) {
   double difference = 0, peak = 0;
   for (std::size_t i = 0; i < a.values.size(); ++i) {
@@ -33,7 +32,7 @@ double largest_difference_db(const RvMap& a, const RvMap& b) {
   return 20 * std::log10(difference / peak);
 }
 
-TEST(RestoredMap, IsTheMapOfARadarThatDoesNotHop) {
+TEST(RestoredMap, EqualsTheMapWithoutFrequencyHopping) {
   const PulseTrain train = make_pulse_train({}, 239.8, 1, 2);
   RadarSpec whole;
   whole.carrier_count = 1;
@@ -51,8 +50,8 @@ TEST(RestoredMap, IsTheMapOfARadarThatDoesNotHop) {
   const double before = largest_difference_db(raw, reference),
                after = largest_difference_db(restored_map(cleaned, train, {}), reference);
   std::printf("against a radar that does not hop: map %.1f dB, restored %.1f dB of the peak\n", before, after);
-  // Left: range migration within a point's velocity sidelobes, 0.06 m of 0.75 m for 1 m/s off the peak; the map sees
-  // it.
+  // The residual is range migration within a point's velocity sidelobes, 0.06 m of 0.75 m for 1 m/s off the peak, which
+  // the map contains.
   EXPECT_GT(before, -25);
   EXPECT_LT(after, -45);
 }

@@ -50,14 +50,14 @@ Match match(const std::vector<ScatteringCentre>& centres, const ScatteringCentre
   return best;
 }
 
-TEST(ResidualEcho, FitsAnIsolatedPointAndLeavesNothing) {
+TEST(ResidualEcho, OfAFittedIsolatedPointVanishes) {
   for (const bool intra_pulse : {false, true}) {
     for (const Compression compression : {Compression::kInverse, Compression::kMatched}) {
       RadarSpec radar;
       radar.intra_pulse_motion = intra_pulse;
       radar.pulses = 60;
-      radar.carrier_count = 16;  // uneven counts, perhaps holes
-      if (intra_pulse) {         // one carrier with the whole band: moments of the chirp are taken anew several times
+      radar.carrier_count = 16;  // uneven counts, some of them possibly zero
+      if (intra_pulse) {         // one carrier with the whole band: the chirp's moments are recomputed several times
         radar.carrier_count = 1;
         radar.bandwidth_mhz = 200;
         radar.sampling_mhz = 400;
@@ -94,7 +94,7 @@ TEST(CleanCentres, OfKnownPointsAreRecoveredToATenthOfACell) {
         truth.push_back(
             {-70 + 12 * i + 4 * random.uniform(), 1.5 * (2 * random.uniform() - 1), std::pow(10, -random.uniform())});
       }
-      // A stepped code repeats every 8 pulses: beyond 4.66 m/s every point comes again one range cell further.
+      // A stepped code repeats every 8 pulses: beyond 4.66 m/s every point recurs one range cell further.
       MapSpec spec;
       if (code == HopCode::kStepped) spec.velocity_span_mps = 4;
       const auto centres = clean_map(echo_of(train, truth, no_clutter()), train, spec, false, {}).centres;
@@ -129,7 +129,7 @@ TEST(CleanCentres, AnIsolatedPointIsFoundToACentimetreAndAMillimetrePerSecond) {
   EXPECT_LT(worst_mps, 1e-3);
 }
 
-TEST(CleanCentres, AWeakPointHiddenInTheStrongOnesPedestalIsFound) {
+TEST(CleanCentres, AWeakPointBelowTheStrongOnesPedestalIsFound) {
   // 20 dB below, in the same 6 m range cell, where the pedestal alone reaches -15 to -24 dB.
   int found = 0;
   const int trials = 20;
@@ -147,7 +147,7 @@ TEST(CleanCentres, AWeakPointHiddenInTheStrongOnesPedestalIsFound) {
 }
 
 TEST(CleanCentres, OfPureNoiseAreAlmostAlwaysNone) {
-  // One false map in a hundred is promised for noise; 40 maps hold at most 3 with 99.9 % probability.
+  // The false-alarm probability in noise is one map in a hundred; 40 maps contain at most 3 with 99.9 % probability.
   const PulseTrain train = make_pulse_train({}, kShipWindow, 1, 1);
   int false_maps = 0;
   for (int i = 0; i < 40; ++i) {
@@ -163,7 +163,7 @@ TEST(CleanCentres, OfPureNoiseAreAlmostAlwaysNone) {
   EXPECT_LE(false_maps, 3);
 }
 
-TEST(CleanCentres, InClutterAreThePointsAndHardlyAnythingElse) {
+TEST(CleanCentres, InClutterAreThePointsAndFewFalseAlarms) {
   int missed = 0, extra = 0;
   for (int trial = 0; trial < 10; ++trial) {
     const PulseTrain train = make_pulse_train({}, kShipWindow, 1, trial);
@@ -179,9 +179,9 @@ TEST(CleanCentres, InClutterAreThePointsAndHardlyAnythingElse) {
   EXPECT_LE(extra, 2);
 }
 
-// A ridge of clutter as strong as the target in one cell, whose highest crest may miss its own floor by less than the
-// parabola's shortfall: it must not keep CLEAN from what stands clear of the ridge.
-TEST(CleanCentres, ClearOfAStrongRidgeAreFoundWhateverItsCrestDoes) {
+// A ridge of clutter as strong as the target in one cell, whose highest peak may be below its own floor by up to the
+// parabola's shortfall: CLEAN must still find points separate from the ridge.
+TEST(CleanCentres, OutsideAStrongClutterRidgeAreFound) {
   RadarSpec radar;
   radar.carrier_count = 1;
   radar.bandwidth_mhz = 200;
@@ -209,7 +209,7 @@ TEST(CleanCentres, ClearOfAStrongRidgeAreFoundWhateverItsCrestDoes) {
   }
 }
 
-// With one pulse there is no velocity to fit, with one range cell shown no level along range.
+// With one pulse there is no velocity to fit, with one displayed range cell there is no level along range.
 TEST(CleanCentres, OfMapsThatAreShortAlongOneAxisAreFound) {
   RadarSpec radar;
   radar.carrier_count = 1;
@@ -240,7 +240,7 @@ TEST(CleanCentres, OfMapsThatAreShortAlongOneAxisAreFound) {
   EXPECT_LT(match(centres, truth, train).cells, 0.05);
 }
 
-TEST(CleanCentres, AreNoMoreThanAskedForAndWithinTheDynamicRange) {
+TEST(CleanCentres, AreLimitedInNumberAndDynamicRange) {
   const PulseTrain train = make_pulse_train({}, kShipWindow, 1, 1);
   std::vector<ScatteringCentre> truth;
   for (int i = 0; i < 10; ++i) truth.push_back({-60 + 12.0 * i, 0.1 * i, std::pow(10, -0.2 * i)});  // 4 dB steps

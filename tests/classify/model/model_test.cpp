@@ -26,7 +26,7 @@ std::vector<RowGroup> fifteen_seas() {
   return rows;
 }
 
-TEST(Split, ByGroupNeverDividesASea) {
+TEST(Split, ByGroupKeepsEverySeaInOnePart) {
   const auto rows = fifteen_seas();
   for (std::uint64_t repeat = 0; repeat < 20; ++repeat) {
     const Split split = split_rows(rows, Protocol::kGroup, 0.7, 42, repeat);
@@ -35,7 +35,7 @@ TEST(Split, ByGroupNeverDividesASea) {
     for (const std::size_t row : split.test) test.insert(rows[row].group);
     for (const std::int64_t group : test) EXPECT_FALSE(train.contains(group));
     EXPECT_EQ(split.train.size() + split.test.size(), rows.size());
-    // 10.5 groups of 15, and every sea state on both sides.
+    // 10.5 groups of 15, with every sea state in both parts.
     EXPECT_NEAR(static_cast<double>(train.size()), 10.5, 0.5);
     std::set<std::int64_t> states;
     for (const std::int64_t group : test) states.insert(group / 5);
@@ -43,7 +43,7 @@ TEST(Split, ByGroupNeverDividesASea) {
   }
 }
 
-// One sea of each of four states: 2.8 go to training.
+// One sea of each of four states: 2.8 are training groups.
 TEST(Split, ByGroupTestsOnEveryStateInSomeRepeat) {
   std::vector<RowGroup> rows;
   for (int group = 0; group < 4; ++group) rows.insert(rows.end(), 20, {group, group});
@@ -57,8 +57,9 @@ TEST(Split, ByGroupTestsOnEveryStateInSomeRepeat) {
   for (int state = 0; state < 4; ++state) EXPECT_NEAR(repeats_of_state[state], 100, 35) << "state " << state;
 }
 
-// Ten seas of each of three states: 7 of each train, nothing is carried, so no state knows of the others.
-TEST(Split, ByGroupOfWholeSharesIsThatOfEachStateAlone) {
+// Ten seas of each of three states: 7 of each are training groups, without remainders, so that the states are split
+// independently.
+TEST(Split, ByGroupOfWholeFractionsIsThatOfEachState) {
   std::vector<RowGroup> rows;
   for (int group = 0; group < 30; ++group) rows.push_back({group, group / 10});
   for (std::uint64_t repeat = 0; repeat < 20; ++repeat) {
@@ -73,7 +74,7 @@ TEST(Split, ByGroupOfWholeSharesIsThatOfEachStateAlone) {
   }
 }
 
-TEST(Split, ByRowsGivesTheShareAndCutsThroughSeas) {
+TEST(Split, ByRowsHasTheFractionAndDividesSeas) {
   const auto rows = fifteen_seas();
   const Split split = split_rows(rows, Protocol::kRandom, 0.7, 42, 0);
   EXPECT_EQ(split.train.size(), 210u);
@@ -120,7 +121,8 @@ TEST(Scores, AreThoseOfASmallExampleByHand) {
   const auto predictions = predictions_of({{1, 0.9}, {1, 0.4}, {0, 0.4}, {0, 0.1}, {0, 0.7}});
   const Scores scores = score(predictions, 100, 1, 0);
   EXPECT_DOUBLE_EQ(scores.accuracy, 3.0 / 5);
-  // Pairs (ship, array) ranked rightly: 0.9 beats all three; 0.4 ties 0.4, beats 0.1, loses to 0.7: (3 + 1.5) / 6.
+  // Correctly ranked pairs (ship, array): 0.9 ranks above all three; 0.4 ties with 0.4, ranks above 0.1 and below 0.7:
+  // (3 + 1.5) / 6.
   EXPECT_DOUBLE_EQ(scores.auc, 4.5 / 6);
   EXPECT_NEAR(scores.log_loss, -(std::log(0.9) + std::log(0.4) + std::log(0.6) + std::log(0.9) + std::log(0.3)) / 5,
               1e-12);
@@ -154,7 +156,7 @@ TEST(Scores, BootstrapIntervalGrowsWhenRowsOfASeaAgree) {
   EXPECT_GT(scores.accuracy_95.high - scores.accuracy_95.low, 0.25);
 }
 
-// Two columns of noise, the label is the sign of a third.
+// Two columns of noise; the label is the sign of a third.
 FeatureMatrix noise_and_signal(std::vector<int>& labels, int rows) {
   FeatureMatrix features{{"noise_1", "noise_2", "signal"}, {}};
   Random random({5, Stream::kTest, 0});
@@ -168,7 +170,7 @@ FeatureMatrix noise_and_signal(std::vector<int>& labels, int rows) {
   return features;
 }
 
-TEST(Booster, FindsTheColumnThatTells) {
+TEST(Booster, FindsTheInformativeColumn) {
   std::vector<int> labels;
   const FeatureMatrix features = noise_and_signal(labels, 400);
   const Booster booster = Booster::train(features, labels, LearningSpec{});
@@ -181,7 +183,7 @@ TEST(Booster, FindsTheColumnThatTells) {
   EXPECT_NEAR(gains[0] + gains[1] + gains[2], 1, 1e-6);
 }
 
-TEST(Booster, RepeatsBitForBitAndComesBackFromItsFile) {
+TEST(Booster, RepeatsBitForBitAndReloadsFromItsFile) {
   std::vector<int> labels;
   const FeatureMatrix features = noise_and_signal(labels, 200);
   const Booster first = Booster::train(features, labels, LearningSpec{});
@@ -208,7 +210,7 @@ TEST(Booster, StopsBetweenTwoTrees) {
   EXPECT_THROW(Booster::train(features, labels, LearningSpec{}, &stop), Interrupted);
 }
 
-TEST(Booster, GivesOneProbabilityWhenThereIsNothingToLearn) {
+TEST(Booster, HasOneProbabilityWithoutInformation) {
   FeatureMatrix features{{"constant"}, std::vector<float>(50, 1.0f)};
   std::vector<int> labels(50, 0);
   for (std::size_t i = 0; i < 25; ++i) labels[i] = 1;
@@ -240,7 +242,7 @@ TEST(Tsne, KeepsSeparateClustersApart) {
   EXPECT_EQ(points, tsne(features, 15, 300, 1));
 }
 
-TEST(Tsne, TakesAnything) {
+TEST(Tsne, AcceptsAnyInput) {
   EXPECT_EQ(tsne(FeatureMatrix{{"a"}, {1, 2, 3}}, 30, 10, 1).size(), 3u);
   for (const auto& point : tsne(FeatureMatrix{{"a"}, std::vector<float>(20, 1.0f)}, 30, 50, 1)) {
     EXPECT_TRUE(std::isfinite(point[0]) && std::isfinite(point[1]));

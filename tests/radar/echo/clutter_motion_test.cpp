@@ -47,35 +47,35 @@ TEST(SeaVelocity, IsTheSumOfRipplesDriftAndWind) {
 }
 
 TEST(SeaVelocity, IsOppositeFromBehindNoneFromTheSideAndFasterInHh) {
-  const WaveField away = realise_sea(waves_towards(180), 1, 1), nearer = realise_sea(waves_towards(0), 1, 1),
-                  aside = realise_sea(waves_towards(90), 1, 1);
-  const double mean = clutter_velocity_moments({}, scene_of(away), kWavelength).mean_mps;
-  EXPECT_NEAR(clutter_velocity_moments({}, scene_of(nearer), kWavelength).mean_mps, -mean, 1e-12);
-  EXPECT_NEAR(clutter_velocity_moments({}, scene_of(aside), kWavelength).mean_mps, 0, 1e-12);
-  ClutterScene hh = scene_of(away);
+  const WaveField receding = realise_sea(waves_towards(180), 1, 1), approaching = realise_sea(waves_towards(0), 1, 1),
+                  abeam = realise_sea(waves_towards(90), 1, 1);
+  const double mean = clutter_velocity_moments({}, scene_of(receding), kWavelength).mean_mps;
+  EXPECT_NEAR(clutter_velocity_moments({}, scene_of(approaching), kWavelength).mean_mps, -mean, 1e-12);
+  EXPECT_NEAR(clutter_velocity_moments({}, scene_of(abeam), kWavelength).mean_mps, 0, 1e-12);
+  ClutterScene hh = scene_of(receding);
   hh.radar.polarisation = Polarisation::kHh;
   EXPECT_NEAR(clutter_velocity_moments({}, hh, kWavelength).mean_mps, 1.5 * mean, 1e-12);
-  // Long-crested waves seen from the side move up and down only: nothing along a level line of sight.
-  EXPECT_NEAR(clutter_velocity_moments({}, scene_of(aside), kWavelength).spread_mps, 0, 1e-9);
+  // Long-crested waves viewed from the side move only vertically: no velocity along a level line of sight.
+  EXPECT_NEAR(clutter_velocity_moments({}, scene_of(abeam), kWavelength).spread_mps, 0, 1e-9);
 }
 
-// What drifts with the waves drifts as a particle of the second-order surface does: in water of 8 m, whose orbits are
-// 1.54 times as long as high, 1.7 times as fast as in deep water.
-TEST(SeaVelocity, HoldsTheDriftOfAParticleInAnyDepth) {
+// The clutter drifts as a particle of the second-order surface does: in water of 8 m depth, with orbits 1.54 times as
+// long as high, 1.7 times as fast as in deep water.
+TEST(SeaVelocity, ContainsTheDriftOfAParticleInAnyDepth) {
   const double omega = 2 * kPi / 8, period = 8, amplitude = 0.02;
   for (const double depth : {8.0, 25.0, kDeepWater}) {
     const double k = wavenumber_at(omega, depth);
     const WaveField wave({WaveComponent{omega, amplitude, 0, k, {1, 0}}}, 2, 10, depth);
-    // Ten of the particle's own periods, to the very moment within the last step.
+    // Ten of the particle's own periods, up to the exact moment within the last step.
     const double step = period / 4000, end = 20 * kPi;
     double x = 0, t = 0, phase = 0;
     while (phase < end) {
       const double half = x + 0.5 * step * wave.surface(x, 0, t).velocity.x();
-      const double way = step * wave.surface(half, 0, t + 0.5 * step).velocity.x();
-      const double share = std::min(1.0, (end - phase) / (omega * step - k * way));
-      x += share * way;
-      t += share * step;
-      phase = share < 1 ? end : phase + omega * step - k * way;
+      const double displacement = step * wave.surface(half, 0, t + 0.5 * step).velocity.x();
+      const double fraction = std::min(1.0, (end - phase) / (omega * step - k * displacement));
+      x += fraction * displacement;
+      t += fraction * step;
+      phase = fraction < 1 ? end : phase + omega * step - k * displacement;
     }
     ClutterScene scene = scene_of(wave);
     scene.significant_wave_height_m = 0;  // no wind
@@ -83,20 +83,20 @@ TEST(SeaVelocity, HoldsTheDriftOfAParticleInAnyDepth) {
     const double drift = -clutter_velocity_moments({}, scene, kWavelength).mean_mps - bragg;
     std::printf("depth %.4g m: drift %.6g mm/s, of a particle %.6g, a^2 w k %.6g\n", depth, 1e3 * drift, 1e3 * x / t,
                 1e3 * amplitude * amplitude * omega * k);
-    // The next order is smaller by (3/8 Ur)^2 = (3/8 a / (k^2 h^3))^2 and (k a)^2, 4e-6 at most; the midpoint rule errs
-    // by (w step)^2 / 24 = 1e-7 of orbital speeds that are up to 800 times the drift.
+    // The next order is smaller by (3/8 Ur)^2 = (3/8 a / (k^2 h^3))^2 and (k a)^2, 4e-6 at most; the error of the
+    // midpoint rule is (w step)^2 / 24 = 1e-7 of orbital speeds that are up to 800 times the drift.
     EXPECT_NEAR(drift / (x / t), 1, 1e-4) << depth << " m";
   }
 }
 
-TEST(SeaVelocity, SpreadIsTheOneOfTheWaterAndOfFloatingScatterers) {
+TEST(SeaVelocity, SpreadIsThatOfTheWaterAndOfFloatingScatterers) {
   const WaveField waves = realise_sea(waves_towards(150), 1, 1);
   ClutterScene scene = scene_of(waves);
   const double grazing = radians(10);
   scene.r_hat = Vec3(std::cos(grazing), 0, std::sin(grazing));
   scene.radar.range_km = 2;
   const double spread = clutter_velocity_moments({}, scene, kWavelength).spread_mps;
-  // The water's own velocity at many places and times.
+  // The velocity of the water at many places and times.
   std::vector<double> ranges;
   for (int i = 0; i < 400; ++i) ranges.push_back(-4000 + 20.0 * i);
   double square = 0, count = 0;
@@ -109,9 +109,8 @@ TEST(SeaVelocity, SpreadIsTheOneOfTheWaterAndOfFloatingScatterers) {
   EXPECT_NEAR(std::sqrt(square / count) / spread, 1, 4 / std::sqrt(2 * 2000.0));
 }
 
-TEST(FloatingScatterers, GoAlongWithTheWaves) {
-  // One wave of 1 m amplitude and 8 s towards the radar: u = a w cos(w t - k x) along it; radial velocity is minus
-  // that.
+TEST(FloatingScatterers, MoveWithTheWaves) {
+  // One wave of 1 m amplitude and 8 s towards the radar: u = a w cos(w t - k x) along it; the radial velocity is -u.
   const double omega = 2 * kPi / 8, k = omega * omega / kGravity;
   const WaveField wave({WaveComponent{omega, 1, 0, k, {1, 0}}}, Vec2(1, 0), 1, 10);
   ClutterScene scene = scene_of(wave);
@@ -127,9 +126,9 @@ TEST(FloatingScatterers, GoAlongWithTheWaves) {
 }
 
 // At order 2 the water's velocity at the moving surface has a mean, that of eta1 du1/dz: 1/2 a^2 w k of every component
-// in the quadratic sums. It is part of the Stokes drift, which clutter_velocity_moments holds, and so none of the
-// scatterers' own.
-TEST(FloatingScatterers, HaveNoMeanOfTheirOwnBesidesTheSeas) {
+// in the quadratic sums. It is part of the Stokes drift, which clutter_velocity_moments contains, and is therefore
+// not contained in the scatterers' own velocity.
+TEST(FloatingScatterers, HaveZeroMeanRelativeToTheSea) {
   SeaState state = waves_towards(180);
   state.significant_wave_height_m = 2;
   state.peak_period_s = 6.5;
@@ -142,7 +141,7 @@ TEST(FloatingScatterers, HaveNoMeanOfTheirOwnBesidesTheSeas) {
   }
   ClutterScene scene = scene_of(waves);
   scene.radar.link_budget.beamwidth_deg = 1e-9;
-  // Over 40 km and 10 moments, each range weighted by Hann's window: what is left of a wave is its spectrum's side
+  // Over 40 km and 10 moments, each range weighted by Hann's window: the residual of a wave is its spectrum's side
   // lobe.
   std::vector<double> ranges;
   for (int i = 0; i < 4000; ++i) ranges.push_back(10.0 * (i - 2000));
@@ -158,15 +157,15 @@ TEST(FloatingScatterers, HaveNoMeanOfTheirOwnBesidesTheSeas) {
     }
   }
   std::printf("mean %.4f m/s, half of the Stokes drift %.4f m/s\n", sum / weights, half_drift);
-  // Difference waves that are longer than the window are no zero there. Neighbours are one or two kilometres apart
-  // (0.01 rad/s), but strata are filled at random and a tenth of the pairs is ten times as close: of the hundred
-  // components with the energy ten pairs of random phase, sqrt(10) / 100 of the drift; three standard deviations.
+  // Difference waves longer than the window do not average out. Adjacent ones are one or two kilometres long (0.01
+  // rad/s), but strata are filled at random and a tenth of the pairs is ten times as close: of the hundred components
+  // with the energy ten pairs of random phase, sqrt(10) / 100 of the drift; three standard deviations.
   EXPECT_NEAR(sum / weights, 0, 3 * std::sqrt(10.0) / 100 * half_drift);
   EXPECT_GT(half_drift, 0.05);
 }
 
-// The frame of a ship that makes way goes along with it, and so does the radar.
-TEST(ClutterOfMovingShip, IsThePassingWaters) {
+// The frame of a ship that is under way moves with it, and so does the radar.
+TEST(ClutterOfMovingShip, HasTheVelocityOfTheWaterRelativeToTheShip) {
   const WaveField waves = realise_sea(waves_towards(150), 1, 1), calm({}, Vec2(1, 0), 1, 10);
   ClutterScene scene = scene_of(waves);
   const double grazing = radians(2), azimuth = radians(30);
@@ -174,7 +173,7 @@ TEST(ClutterOfMovingShip, IsThePassingWaters) {
   scene.start_s = 20;
   ClutterScene sailing = scene;
   sailing.target_velocity_mps = {10, 0, 0};
-  // Seen from ahead the water falls behind, away from the radar.
+  // Viewed from ahead the water drifts astern, away from the radar.
   const double past = 10 * scene.r_hat.x();
   EXPECT_NEAR(clutter_velocity_moments({}, sailing, kWavelength).mean_mps,
               clutter_velocity_moments({}, scene, kWavelength).mean_mps + past, 1e-12);
@@ -182,7 +181,7 @@ TEST(ClutterOfMovingShip, IsThePassingWaters) {
   EXPECT_NEAR(clutter_velocity_moments({}, sailing, kWavelength).mean_mps, past, 1e-12);
   sailing.waves = &waves;
 
-  // The waves that it meets are those where it has got to: 200 m on along x, x = -range cos(azimuth) without beam.
+  // The waves are those at the ship's present position: 200 m further along x, x = -range cos(azimuth) without beam.
   scene.radar.link_budget.beamwidth_deg = sailing.radar.link_budget.beamwidth_deg = 1e-9;
   const FloatingScatterers floating = floating_scatterers(sailing, {0, 70}, 0.064, 1, 1);
   for (const int i : {0, 1}) {
@@ -190,14 +189,14 @@ TEST(ClutterOfMovingShip, IsThePassingWaters) {
                  y = -70 * i / std::cos(grazing) * std::sin(azimuth);
     EXPECT_NEAR(floating.velocity_mps[i], -scene.r_hat.dot(waves.surface(x, y, 20).velocity), 1e-6);
   }
-  // Across the line of sight the whole beam passes by.
+  // The velocity across the line of sight spreads the Doppler over the whole beam.
   EXPECT_EQ(platform_doppler_spread_mps(scene), 0);
   scene.radar.link_budget.beamwidth_deg = sailing.radar.link_budget.beamwidth_deg = 2;
   EXPECT_NEAR(platform_doppler_spread_mps(sailing),
               10 * std::sin(azimuth) * radians(2) / (4 * std::sqrt(std::log(2.0))), 1e-9);
 }
 
-TEST(ClutterDoppler, HasTheDopplerOfTheSea) {
+TEST(ClutterDoppler, EqualsTheVelocityMomentsOfTheSea) {
   RadarSpec radar;
   radar.carrier_count = 1;
   radar.pulses = 64;
@@ -207,7 +206,7 @@ TEST(ClutterDoppler, HasTheDopplerOfTheSea) {
   ClutterScene scene = scene_of(waves);
   scene.radar = radar;
   constexpr std::size_t kLag = 4;
-  for (const ClutterDoppler doppler : {ClutterDoppler::kSea, ClutterDoppler::kWaveResolved}) {
+  for (const ClutterDoppler doppler : {ClutterDoppler::kSeaState, ClutterDoppler::kWaveResolved}) {
     ClutterSpec spec;
     spec.doppler = doppler;
     spec.doppler_spread_mps = 0.1;
@@ -223,7 +222,7 @@ TEST(ClutterDoppler, HasTheDopplerOfTheSea) {
         power += 0.5 * (std::norm(response[j]) + std::norm(response[j - kLag * bins]));
       }
     }
-    // A small lag: the phase is the mean velocity, the loss of magnitude the spread.
+    // For a small lag the phase gives the mean velocity, the loss of magnitude the spread.
     const VelocityMoments sea = clutter_velocity_moments(spec, scene, wavelength);
     const double per_mps = 4 * kPi * kLag * train.pri_s / wavelength;
     const double mean = -std::arg(sum) / per_mps;

@@ -21,15 +21,14 @@ FrequencyResponse one_point(const PulseTrain& train, double amplitude = 1) {
   return point_response({&point, 1}, Vec3(1, 0, 0), interval_sampling(train, 0));
 }
 
-// An interval whose texture is its own.
+// An interval with a texture of its own.
 ClutterScene interval(std::uint64_t index) {
   ClutterScene scene;
   scene.texture_key = index;
   return scene;
 }
 
-// Mean over intervals of a ratio of echo powers, and so on, needs many small intervals: one carrier's worth of range
-// cells.
+// Mean ratios of echo powers over intervals need many small intervals: range cells of one carrier.
 RadarSpec small_radar() {
   RadarSpec radar;
   radar.pulses = 64;
@@ -51,7 +50,7 @@ TEST(Echo, IsTheTransmitSpectrumTimesTheResponse) {
   EXPECT_EQ(echo.total(), echo.target);
 }
 
-TEST(Echo, MeetsThePerPulseRatioExactly) {
+TEST(Echo, HasThePerPulseRatioExactly) {
   const PulseTrain train = make_pulse_train({}, kShipWindow, 1, 2);
   for (const double scr_db : {-10.0, 20.0, 60.0}) {
     ClutterSpec clutter;
@@ -61,7 +60,7 @@ TEST(Echo, MeetsThePerPulseRatioExactly) {
   }
 }
 
-TEST(Echo, OfNothingIsRefused) {
+TEST(Echo, OfNoTargetIsRefused) {
   const PulseTrain train = make_pulse_train({}, kShipWindow, 1, 2);
   FrequencyResponse nothing = one_point(train);
   for (Complex& value : nothing.values) value = 0;
@@ -115,7 +114,7 @@ std::vector<Complex> range_profile(const PulseTrain& train, const std::vector<Co
   return profile;
 }
 
-TEST(Clutter, IsKDistributedInTheCellsItIsMeantFor) {
+TEST(Clutter, IsKDistributedInRangeCells) {
   RadarSpec radar;
   radar.pulses = 8;
   radar.hop_code = HopCode::kStepped;
@@ -168,7 +167,7 @@ TEST(Clutter, IsTheSameSeaAtEveryCarrier) {
   }
 }
 
-TEST(Clutter, DecorrelatesWithinTheChirpAsItsRangeWindowDemands) {
+TEST(Clutter, DecorrelatesWithinTheChirpByItsRangeWindow) {
   // Scatterers fill the window c / (2 step) evenly: neighbouring bins are uncorrelated, <H(f) H*(f')> = 0.
   const PulseTrain train = make_pulse_train(small_radar(), 100, 1, 2);
   ClutterSpec spec;
@@ -187,7 +186,7 @@ TEST(Clutter, DecorrelatesWithinTheChirpAsItsRangeWindowDemands) {
   EXPECT_LT(std::abs(sum) / power, 4 / std::sqrt(samples));
 }
 
-TEST(Clutter, HasTheStatedDopplerMeanAndSpread) {
+TEST(Clutter, HasTheSpecifiedDopplerMeanAndSpread) {
   RadarSpec radar;
   radar.carrier_count = 1;
   radar.pulses = 64;

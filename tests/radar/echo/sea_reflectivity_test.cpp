@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Clutter and noise whose level is physical: reflectivity, area, radar equation, and that the echo has them.
+// Clutter and noise of absolute level: reflectivity, area, radar equation, and the level of the echo.
 #include "radar/echo/sea_reflectivity.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@
 namespace seaglint {
 namespace {
 
-// Values of the model at 16 GHz, worked out by hand from Gregers-Hansen and Mital (2012), to 0.01 dB.
+// Values of the model at 16 GHz, computed by hand from Gregers-Hansen and Mital (2012), to 0.01 dB.
 TEST(SeaReflectivity, HasTheModelsValuesAtSixteenGigahertz) {
   const struct {
     double grazing_deg, sea_state, hh_db, vv_db;
@@ -39,7 +39,7 @@ TEST(SeaReflectivity, SeaStatesAreThoseOfTheCodeTable) {
   EXPECT_NEAR(douglas_sea_state(0.875), 3, 1e-12);  // the middle of class 3
 }
 
-// Two-way beam of a Gaussian pattern by quadrature against the closed form behind the area.
+// Two-way beam of a Gaussian pattern by quadrature against the closed form of the area.
 TEST(SeaReflectivity, AreaIsThatOfTheTwoWayBeam) {
   RadarSpec radar;
   radar.range_km = 10;
@@ -57,7 +57,7 @@ FrequencyResponse one_point(const PulseTrain& train) {
   return point_response({&point, 1}, Vec3(1, 0, 0), interval_sampling(train, 0));
 }
 
-TEST(SeaReflectivity, TheEchoHasIt) {
+TEST(SeaReflectivity, IsThatOfTheEcho) {
   RadarSpec radar;
   radar.pulses = 64;
   const PulseTrain train = make_pulse_train(radar, 239.8, 1, 2);
@@ -86,8 +86,8 @@ TEST(SeaReflectivity, TheEchoHasIt) {
   EXPECT_NEAR(mean / expected, 1, 4 * error + 0.0012);  // and 0.005 dB of the rounded sigma0
 }
 
-// 1 m of scattering amplitude (11 dBsm) 20 km away, 10 kW, 36 us, 40 dB, 16.0875 GHz, 290 K, 4 dB, 6 dB of losses:
-// E = P T G^2 lambda^2 / ((4 pi)^2 R^4 L), N0 = k T F, in decibels by hand.
+// 1 m of scattering amplitude (11 dBsm) at 20 km, 10 kW, 36 us, 40 dB, 16.0875 GHz, 290 K, 4 dB, 6 dB of losses: E = P
+// T G^2 lambda^2 / ((4 pi)^2 R^4 L), N0 = k T F, in decibels by hand.
 TEST(ReceiverNoise, FollowsTheRadarEquation) {
   const PulseTrain train = make_pulse_train({}, 239.8, 1, 2);
   const double lambda_db = 20 * std::log10(299792458.0 / train.band_centre_hz());
@@ -97,7 +97,7 @@ TEST(ReceiverNoise, FollowsTheRadarEquation) {
   EXPECT_NEAR(noise_db, density_db - energy_db + 10 * std::log10(40.0), 1e-4);
 }
 
-TEST(ReceiverNoise, HasTheRatioThatIsAskedFor) {
+TEST(ReceiverNoise, HasTheSpecifiedRatio) {
   const PulseTrain train = make_pulse_train({}, 239.8, 1, 2);
   ClutterSpec spec;
   spec.enabled = false;
@@ -111,7 +111,7 @@ TEST(ReceiverNoise, HasTheRatioThatIsAskedFor) {
   EXPECT_NEAR(mean_power(thermal.noise) / thermal_noise_m2(train, {}), 1, 4 / std::sqrt(256 * 40.0));
 }
 
-TEST(Texture, ChangesOverTimeAsStated) {
+TEST(Texture, HasTheSpecifiedCorrelationTime) {
   ClutterSpec spec;
   spec.texture_shape = 1000;  // nearly Gaussian: the generator's correlation is the texture's
   spec.texture_correlation_time_s = 2;

@@ -17,8 +17,7 @@ namespace seaglint {
 namespace {
 
 constexpr double kPedestalTolerance = 0.5;  // dB: 3.6 standard errors of the mean of 1,000 exponential values
-constexpr double kListRounding =
-    0.2;  // dB: the list gives one figure for both kinds of code where they are 0.13 dB apart
+constexpr double kListRounding = 0.2;  // dB: the list gives one figure for both kinds of code, which differ by 0.13 dB
 constexpr int kCodes = 1000;
 
 struct Offset {
@@ -28,7 +27,7 @@ struct Offset {
 constexpr Offset kListed[] = {
     {1.5, 1.757, -24.1, -24.1}, {0, 1, -34.3, -33.1}, {0, 5, -31.4, -30.7}, {2, 0, -18.09, -18.09}};
 
-// Mean |RV|^2 at one offset from the point's peak over codes, and the mean of its closed form, by a map of one cell
+// Mean |RV|^2 at one offset from the point's peak over codes, and the mean of its closed form, from a map of one cell
 // row.
 struct Means {
   double measured = 0, expected = 0;
@@ -37,7 +36,7 @@ Means mean_response(RadarSpec radar, const Offset& offset, double window_m) {
   Means means;
   for (int i = 0; i < kCodes; ++i) {
     const PulseTrain train = make_pulse_train(radar, window_m, 77, i);
-    // The map's cell at 0, 0 sees a point at minus the offset.
+    // In the map's cell at 0, 0 the point is at minus the offset.
     const PointSpec point{{offset.range_m, 0, 0}, 1, {offset.velocity_mps, 0, 0}};
     ClutterSpec clutter;
     clutter.enabled = false;
@@ -56,7 +55,7 @@ Means mean_response(RadarSpec radar, const Offset& offset, double window_m) {
 
 double decibel(double power) { return 10 * std::log10(power); }
 
-// One frequency per pulse: exactly what the closed form describes.
+// One frequency per pulse, for which the closed form is exact.
 TEST(Pedestal, OfOneFrequencyPerPulseIsTheClosedForm) {
   for (const HopCode code : {HopCode::kBalanced, HopCode::kRandom}) {
     for (const Offset& offset : kListed) {
@@ -74,8 +73,8 @@ TEST(Pedestal, OfOneFrequencyPerPulseIsTheClosedForm) {
   }
 }
 
-// 1,000 codes leave 0.14 dB of chance in a cell's mean, 40,000 leave 0.02 dB: the map's estimator, mean over each
-// carrier's pulses, then over the carriers that were used, written out.
+// 1,000 codes leave a standard error of 0.14 dB in a cell's mean, 40,000 leave 0.02 dB: the map's estimator, mean over
+// each carrier's pulses, then over the carriers that were used, written out.
 TEST(Pedestal, OfFortyThousandCodesIsTheClosedFormToATenthOfADecibel) {
   constexpr int kManyCodes = 40000;
   for (const HopCode code : {HopCode::kBalanced, HopCode::kRandom}) {

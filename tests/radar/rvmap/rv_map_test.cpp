@@ -24,7 +24,7 @@ MapSpec untapered() {
   return spec;
 }
 
-// The echo of points on the line of sight: range and velocity as the map should show them.
+// The echo of points on the line of sight: range and velocity at which the map contains them.
 struct MovingPoint {
   double range_m, velocity_mps, amplitude_m;
 };
@@ -53,7 +53,7 @@ Peak peak_of(const RvMap& map) {
   return peak;
 }
 
-// One cell of the map straight from the definition (radar/rvmap/README.md): compress, compensate, mean over each
+// One cell of the map directly from the definition (radar/rvmap/README.md): compress, compensate, mean over each
 // carrier's pulses, inverse transform over the synthesised band; the band's centre is the phase reference.
 Complex by_definition(const std::vector<Complex>& echo, const PulseTrain& train, const MapSpec& spec, bool intra_pulse,
                       double range_m, double velocity_mps) {
@@ -233,7 +233,7 @@ TEST(CompressedPulses, FollowThePhaseOfAPointOverTheWholeInterval) {
   }
 }
 
-TEST(RvMap, FastPointsLoseNothingToRangeMigration) {
+TEST(RvMap, FastPointsHaveNoRangeMigrationLoss) {
   // 15 m/s: 0.96 m of migration, more than a cell, and a Doppler that differs by 1.25 % over the band.
   const PulseTrain train = make_pulse_train({}, kShipWindow, 1, 2);
   MapSpec spec;
@@ -289,7 +289,7 @@ TEST(RvMap, VelocityCutOfOneCarrierIsTheDirichletKernelOfTheInterval) {
   }
 }
 
-TEST(RvMap, TwoPointsAtTheResolutionLimitAreSeparate) {
+TEST(RvMap, TwoPointsAtTheResolutionLimitAreResolved) {
   RadarSpec radar;
   radar.hop_code = HopCode::kBalanced;
   const PulseTrain train = make_pulse_train(radar, kShipWindow, 1, 2);
@@ -305,10 +305,10 @@ TEST(RvMap, TwoPointsAtTheResolutionLimitAreSeparate) {
   };
   // In quadrature at the band's centre, so that their sum in the middle depends on magnitudes: 0.64 sqrt 2 = 0.9.
   const double quadrature = kSpeedOfLight / train.band_centre_hz() / 8;
-  const double apart = std::round(1.25 * dr / (4 * quadrature)) * 4 * quadrature + quadrature;
-  const RvMap ranges = form_rv_map(echo_of(train, {{-apart / 2, 0, 1}, {apart / 2, 0, 1}}), train, spec, false);
-  EXPECT_LT(level(ranges, 0, 0), 0.9 * level(ranges, apart / 2, 0));
-  EXPECT_LT(level(ranges, 0, 0), 0.9 * level(ranges, -apart / 2, 0));
+  const double distance = std::round(1.25 * dr / (4 * quadrature)) * 4 * quadrature + quadrature;
+  const RvMap ranges = form_rv_map(echo_of(train, {{-distance / 2, 0, 1}, {distance / 2, 0, 1}}), train, spec, false);
+  EXPECT_LT(level(ranges, 0, 0), 0.9 * level(ranges, distance / 2, 0));
+  EXPECT_LT(level(ranges, 0, 0), 0.9 * level(ranges, -distance / 2, 0));
   const RvMap velocities =
       form_rv_map(echo_of(train, {{0, -0.75 * dv, 1}, {quadrature, 0.75 * dv, 1}}), train, spec, false);
   EXPECT_LT(level(velocities, 0, 0), 0.9 * level(velocities, 0, 0.75 * dv));
@@ -362,8 +362,8 @@ TEST(RvMap, IntraPulseMotionMustBeTheSameInEchoAndMap) {
   spec.velocity_span_mps = 37;
   const std::vector<Complex> echo = echo_of(sweeping, {{0, velocity, 1}});
   EXPECT_NEAR(peak_of(form_rv_map(echo, sweeping, spec, true)).level, 1, 1e-9);
-  // Left in, f/mu is a phase slope of 4 pi f_c v / (mu c) over each pulse's band: a range shift of f_c v / mu = 0.34 m
-  // that the synthesised band cannot compress.
+  // Without compensation f/mu is a phase slope of 4 pi f_c v / (mu c) over each pulse's band: a range shift of f_c v /
+  // mu = 0.34 m that the synthesised band cannot compress.
   EXPECT_LT(peak_of(form_rv_map(echo, sweeping, spec, false)).level, 0.999);
 }
 

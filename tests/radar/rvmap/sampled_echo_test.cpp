@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The time-domain path: the same maps as in the frequency domain, and what an echo made independently, by delaying the
-// ideal chirp, differs by.
+// Time-domain echo: the same maps as in the frequency domain, and its difference from an echo formed independently by
+// delaying the ideal chirp.
 #include "radar/echo/sampled_echo.h"
 
 #include <gtest/gtest.h>
@@ -35,8 +35,8 @@ std::vector<Complex> echo_in_frequency(const PulseTrain& train) {
   return synthesise_echo(train, point_response(kPoints, Vec3(1, 0, 0), interval_sampling(train, 0)), off, 1, 1).target;
 }
 
-// Every point's echo is the ideal rectangular chirp, delayed. With motion inside the pulse the delay is the one of the
-// moment when the sample's wave met the point, t - R/c; without it the one at the pulse's middle.
+// Every point's echo is the ideal rectangular chirp, delayed. With motion inside the pulse the delay is that of the
+// moment when the sample's wave reached the point, t - R/c; without it, that of the pulse's middle.
 SampledEcho echo_by_delay(const PulseTrain& train, const RadarSpec& radar, const SampledEcho& like) {
   SampledEcho sampled = like;
   const double pulse_s = radar.pulse_width_us * 1e-6, mu = train.chirp_rate_hz_s;
@@ -46,7 +46,7 @@ SampledEcho echo_by_delay(const PulseTrain& train, const RadarSpec& radar, const
       Complex sum;
       for (const PointSpec& point : kPoints) {
         double met_s = train.time_s[n], delay_s = 0;
-        for (int turn = 0; turn < 4; ++turn) {  // c is 1e8 times faster than the points
+        for (int iteration = 0; iteration < 4; ++iteration) {  // c is 1e8 times faster than the points
           const double range_m = -(point.position_m[0] + point.velocity_mps[0] * met_s);
           delay_s = 2 * range_m / kSpeedOfLight;
           if (radar.intra_pulse_motion) met_s = train.time_s[n] + t - delay_s / 2;
@@ -76,7 +76,7 @@ double largest_difference(const RvMap& a, const RvMap& b) {
   return difference / peak;
 }
 
-TEST(SampledEcho, HoldsTheWholePulseAndTheWindow) {
+TEST(SampledEcho, ContainsTheWholePulseAndTheWindow) {
   const RadarSpec radar = radar_with(false);
   const PulseTrain train = make_pulse_train(radar, 239.8, 1, 2), fine = train_for_samples(train, radar);
   const SampledEcho sampled = sample_echo(echo_in_frequency(fine), fine, 50e6);
@@ -106,7 +106,7 @@ TEST(SampledEcho, OfAPointAtRestIsTheChirpTimesItsAmplitude) {
   }
 }
 
-TEST(SampledEcho, GivesTheSameMapAsTheFrequencyDomain) {
+TEST(SampledEcho, HasTheSameMapAsTheFrequencyDomain) {
   for (const bool intra_pulse_motion : {false, true}) {
     const RadarSpec radar = radar_with(intra_pulse_motion);
     const PulseTrain train = make_pulse_train(radar, 239.8, 1, 2), fine = train_for_samples(train, radar);
@@ -135,14 +135,15 @@ TEST(SampledEcho, DiffersFromAChirpDelayedInTimeByItsAliasingOnly) {
                 100 * difference, in_map);
     EXPECT_LT(difference, 0.02);
     EXPECT_LT(in_map, 0.005);
-    // A mistake of the sign of time, range or Doppler, or of f/mu, would show: the wrong setting is told apart.
+    // An error of the sign of time, range or Doppler, or of f/mu, must be detected: the wrong setting gives a different
+    // map.
     const RadarSpec other = radar_with(!intra_pulse_motion);
     const std::vector<Complex> wrong = echo_in_frequency(make_pulse_train(other, 239.8, 1, 2));
     EXPECT_GT(relative_difference(wrong, in_time), 1.5 * difference);
   }
 }
 
-TEST(SampledEcho, SeesTheSameClutter) {
+TEST(SampledEcho, HasTheSameClutter) {
   const RadarSpec radar = radar_with(false);
   const PulseTrain train = make_pulse_train(radar, 100, 1, 2), fine = train_for_samples(train, radar);
   const std::vector<Complex> coarse = clutter_response(train, {}, {}, 3, 4),
@@ -158,7 +159,7 @@ TEST(SampledEcho, SeesTheSameClutter) {
   EXPECT_LT(largest, 1e-12);
 }
 
-TEST(SampledEcho, RefusesASamplingThatNoGridFits) {
+TEST(SampledEcho, RefusesASamplingThatFitsNoGrid) {
   RadarSpec radar = radar_with(false);
   radar.sampling_mhz = 50.0 * std::sqrt(1.1);
   const PulseTrain train = make_pulse_train(radar, 239.8, 1, 2);

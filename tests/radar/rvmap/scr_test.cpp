@@ -16,15 +16,15 @@ Echo echo_with_clutter(const PulseTrain& train, const ClutterSpec& clutter) {
   return synthesise_echo(train, point_response(points, Vec3(1, 0, 0), interval_sampling(train, 0)), clutter, 5, 6);
 }
 
-TEST(Scr, TheNamedDefinitionIsMetExactlyAndAllThreeAreMeasured) {
+TEST(Scr, TheSelectedDefinitionIsExactAndAllThreeAreMeasured) {
   const PulseTrain train = make_pulse_train({}, 239.8, 1, 2);
   for (const ScrDefinition definition : {ScrDefinition::kPerPulse, ScrDefinition::kPeakCell, ScrDefinition::kExtent}) {
     ClutterSpec clutter;
     clutter.scr_definition = definition;
-    clutter.cnr_db = 200;  // nothing but clutter beside the target
+    clutter.cnr_db = 200;  // the interval contains only target and clutter
     const Echo echo = echo_with_clutter(train, clutter);
     const ReceivedInterval received = form_received_interval(echo, train, clutter, {}, false);
-    // Measured again from what was received: the target is known, the rest is clutter.
+    // Recomputed from the received signal: the target is known, the rest is clutter.
     std::vector<Complex> rest = received.echo;
     for (std::size_t i = 0; i < rest.size(); ++i) rest[i] -= echo.target[i];
     const RvMap target = form_rv_map(echo.target, train, {}, false), disturbance = form_rv_map(rest, train, {}, false);
@@ -44,7 +44,7 @@ TEST(Scr, TheNamedDefinitionIsMetExactlyAndAllThreeAreMeasured) {
       EXPECT_NEAR(received.scr.scr_extent_db, 20, 1e-6);
     }
     EXPECT_GT(received.scr.peak_cell_db, received.scr.scr_extent_db);
-    EXPECT_GT(received.scr.peak_cell_db, received.scr.per_pulse_db + 20);  // the map gathers what a pulse spreads
+    EXPECT_GT(received.scr.peak_cell_db, received.scr.per_pulse_db + 20);  // the map integrates what a pulse spreads
   }
 }
 
@@ -56,7 +56,7 @@ TEST(Scr, TheReceivedMapIsTheMapOfTheReceivedEcho) {
     EXPECT_NEAR(std::abs(again.values[i] - received.map.values[i]), 0, 1e-12);
 }
 
-TEST(Scr, TheTargetsBoxHoldsItsTwoPoints) {
+TEST(Scr, TheTargetsExtentContainsItsTwoPoints) {
   const PulseTrain train = make_pulse_train({}, 239.8, 1, 2);
   ClutterSpec off;
   off.enabled = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Codes that a file gives, and pulses that come early or late.
+// Codes from a file, and pulses with jittered start times.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -27,7 +27,7 @@ TEST(HopCodeFile, IsUsedBlockByBlock) {
             std::string::npos);
 }
 
-TEST(HopCodeFile, RefusesWhatIsNoCode) {
+TEST(HopCodeFile, RefusesInvalidCodes) {
   for (const char* text :
        {"", "# nothing\n", "0 1 2", "0 1 2 3", "0 1 x 2", "0 1 -1 2", "0 1 1.5 2", "0 1 2 99999999999"}) {
     EXPECT_THROW(parse_hop_code(text, "codes.txt", 4, 3), InputError) << text;
@@ -40,7 +40,7 @@ TEST(HopCodeFile, RefusesWhatIsNoCode) {
   }
 }
 
-TEST(PriJitter, MovesEveryPulseButTheFirstWithinItsBound) {
+TEST(PriJitter, ShiftsEveryPulseButTheFirstWithinItsBound) {
   RadarSpec spec;
   spec.pri_jitter_us = 100;
   const std::vector<double> times = pulse_times(spec, 1, 2);

@@ -29,7 +29,7 @@ TEST(PulseTrain, ThePaperRadarHasItsResolutionsAndFortyBinsPerPulse) {
   EXPECT_NEAR(train.band_centre_hz(), 16e9 + 3.5 * 25e6, 1e-3);
 }
 
-TEST(PulseTrain, BandsOfNeighbouringCarriersTileTheBandUniformly) {
+TEST(PulseTrain, BandsOfAdjacentCarriersCoverTheBandUniformly) {
   const PulseTrain train = make_pulse_train(paper_radar(), kShipWindow, 1, 2);
   std::vector<double> all;
   for (int i = 0; i < train.carriers; ++i) {
@@ -39,7 +39,7 @@ TEST(PulseTrain, BandsOfNeighbouringCarriersTileTheBandUniformly) {
     EXPECT_NEAR(all[k] - all[k - 1], train.baseband_step_hz, 1e-5);  // 16e9 eps = 4e-6
 }
 
-TEST(PulseTrain, SamplingNamesTheFrequenciesOfEveryPulseOnOneGrid) {
+TEST(PulseTrain, FrequenciesOfEveryPulseAreOnOneGrid) {
   for (const double bandwidth : {10.0, 25.0, 60.0}) {
     RadarSpec spec = paper_radar();
     spec.bandwidth_mhz = bandwidth;
@@ -60,7 +60,7 @@ TEST(PulseTrain, SamplingNamesTheFrequenciesOfEveryPulseOnOneGrid) {
   }
 }
 
-TEST(PulseTrain, TheWindowIsNeverShorterThanAsked) {
+TEST(PulseTrain, TheWindowIsAtLeastTheRequestedOne) {
   for (const double window : {0.5, 5.9, 6.1, 100.0, 239.8, 240.0, 1000.0}) {
     EXPECT_GE(make_pulse_train(paper_radar(), window, 1, 1).unambiguous_range_m(), window * (1 - 1e-9));
   }
@@ -106,8 +106,8 @@ TEST(ChirpSpectrum, IsTheStationaryPhaseSpectrumOfAnLfmPulse) {
   }
 }
 
-TEST(ChirpSpectrum, IsSymmetricAndHoldsTheEnergyOfThePulseByParseval) {
-  // All of the sampled spectrum: 1800 frequencies of one turn, so that sum |P|^2 df = mu T_p.
+TEST(ChirpSpectrum, IsSymmetricAndHasTheEnergyOfThePulse) {
+  // The whole sampled spectrum: 1800 frequencies of one period, so that sum |P|^2 df = mu T_p.
   const double bandwidth = 25e6, width = 36e-6, sampling = 50e6;
   std::vector<double> frequencies;
   for (int i = -900; i < 900; ++i) frequencies.push_back((i + 0.5) * sampling / 1800);
@@ -120,7 +120,7 @@ TEST(ChirpSpectrum, IsSymmetricAndHoldsTheEnergyOfThePulseByParseval) {
   EXPECT_NEAR(energy / bandwidth, 1, 1e-12);  // mu T_p = B
 }
 
-TEST(PulseTrain, RefusesIntervalsThatNoMemoryHolds) {
+TEST(PulseTrain, RefusesIntervalsTooLargeForMemory) {
   RadarSpec spec = paper_radar();
   EXPECT_THROW(make_pulse_train(spec, 1e12, 1, 1), InputError);
   spec.pulses = 65536;
@@ -131,7 +131,7 @@ TEST(PulseTrain, RefusesIntervalsThatNoMemoryHolds) {
   EXPECT_THROW(make_pulse_train(spec, 200, 1, 1), InputError);
 }
 
-TEST(PulseTrain, DescribesItselfForEveryCode) {
+TEST(PulseTrain, HasADescriptionForEveryCode) {
   for (const HopCode code : {HopCode::kRandom, HopCode::kBalanced, HopCode::kStepped}) {
     RadarSpec spec = paper_radar();
     spec.hop_code = code;
@@ -142,8 +142,8 @@ TEST(PulseTrain, DescribesItselfForEveryCode) {
   }
 }
 
-// Listed in the design: one scatterer, 256 pulses, 8 carriers of 25 MHz.
-TEST(ExpectedResponse, GivesThePedestalOfBalancedCodesAtKnownPoints) {
+// Reference figures: one scatterer, 256 pulses, 8 carriers of 25 MHz.
+TEST(ExpectedResponse, HasThePedestalOfBalancedCodesAtKnownPoints) {
   RadarSpec spec = paper_radar();
   spec.hop_code = HopCode::kBalanced;
   const PulseTrain train = make_pulse_train(spec, kShipWindow, 1, 2);

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Scattering of a ship in small, perfectly conducting, by integral equations: block_ship.py > block_ship.csv; block_ship.py sphere: the same code against Mie's series
+"""Scattering of a small, perfectly conducting model of a ship, by integral equations: block_ship.py > block_ship.csv; block_ship.py sphere: the same code against Mie's series
 
-A hull of 6 x 1.6 x 1.2 wavelengths, from z = 0 up, with a house of 1.8 x 1 x 1.2 on the middle of its deck: decks, walls on them, corners of right angles and free edges. Functions of S. M. Rao, D. R. Wilton
-and A. W. Glisson (IEEE Trans. AP-30, 1982, 409-418) on triangles; the electric field's equation with n x the magnetic field's (J. R. Mautz and R. F. Harrington, AEU 32, 1978, 157-164), since either alone has
-the resonances of the inside; Galerkin's test. Pairs of triangles near each other by the exact potentials of 1/R and its gradient (D. R. Wilton et al., IEEE Trans. AP-32, 1984, 276-281; R. D. Graglia, AP-41,
-1993, 1448-1455) and quadrature of the rest, others by quadrature (D. A. Dunavant, Int. J. Num. Meth. Eng. 21, 1985, 1129-1148).
+A hull of 6 x 1.6 x 1.2 wavelengths, from z = 0 up, with a house of 1.8 x 1 x 1.2 on the middle of its deck: decks, walls on them, right-angled concave edges and free edges. Basis functions of S. M. Rao, D. R. Wilton
+and A. W. Glisson (IEEE Trans. AP-30, 1982, 409-418) on triangles; the combined-field integral equation (J. R. Mautz and R. F. Harrington, AEU 32, 1978, 157-164), since the electric-field and the magnetic-field
+equation each have interior resonances; Galerkin testing. Pairs of triangles near each other by the exact potentials of 1/R and its gradient (D. R. Wilton et al., IEEE Trans. AP-32, 1984, 276-281; R. D. Graglia, AP-41,
+1993, 1448-1455) and quadrature of the remainder, others by quadrature (D. A. Dunavant, Int. J. Num. Meth. Eng. 21, 1985, 1129-1148).
 
 Needs numpy and scipy. Columns: azimuth and elevation, deg; S in wavelengths, hh, hv, vv; |S|^2 4 pi is the cross-section, phase from the origin, e^{+jwt}, h and v the azimuth's and elevation's unit vectors
 (CONVENTIONS.md).
@@ -19,12 +19,12 @@ from scipy.spatial import cKDTree
 from scipy.special import spherical_jn, spherical_yn
 
 HULL, HOUSE = (-3, 3, -0.8, 0.8, 0, 1.2), (-0.9, 0.9, -0.5, 0.5, 1.2, 2.4)
-LONGEST_SIDE = 0.1  # of what triangles halve, wavelengths
-ELECTRIC = 0.7  # share of the electric field's equation
-NEAR = 3.5  # sides, to which pairs are near
+LONGEST_SIDE = 0.1  # of the rectangles that two triangles form, wavelengths
+ELECTRIC = 0.7  # weight of the electric-field equation
+NEAR = 3.5  # maximum distance of near pairs, sides
 
 
-def dunavant(count):  # barycentric places and weights
+def dunavant(count):  # barycentric coordinates and weights
     if count == 3:
         return np.array([[4, 1, 1], [1, 4, 1], [1, 1, 4]]) / 6, np.full(3, 1 / 3)
     a, b = (6 + np.sqrt(15)) / 21, (6 - np.sqrt(15)) / 21
@@ -40,7 +40,7 @@ class Mesh:  # closed, normals outwards
         self.area = np.linalg.norm(normal, axis=1) / 2
         self.normal = normal / (2 * self.area)[:, None]
         self.centre = self.corners.mean(1)
-        # The unknown of the side opposite each corner, the current over it, out of the one of its triangles into the other.
+        # The unknown of the side opposite each vertex is the current across it, from one of its triangles into the other.
         self.unknown, self.sign, sides = np.zeros((len(self.triangles), 3), int), np.ones((len(self.triangles), 3)), {}
         for t, corners in enumerate(self.triangles):
             for i in range(3):
@@ -56,7 +56,7 @@ class Mesh:  # closed, normals outwards
         places, weights = dunavant(count)
         return np.einsum("qi,tic->tqc", places, self.corners), self.area[:, None] * weights
 
-    def functions(self, count):  # points; f, div f, f x n, (f x n) x r, r x f with the weights, as matrices from unknowns to points, one for each component
+    def functions(self, count):  # points; f, div f, f x n, (f x n) x r, r x f with the weights, as matrices from unknowns to points, one per component
         points, weights = self.points(count)
         f = self.scale[:, None, :, None] * (points[:, :, None, :] - self.corners[:, None, :, :])
         row = np.broadcast_to(np.arange(weights.size).reshape(*weights.shape, 1), f.shape[:3])
@@ -73,7 +73,7 @@ class Mesh:  # closed, normals outwards
         return points.reshape(-1, 3), matrices(f), matrix(divergence), matrices(turned), matrices(np.cross(turned, r)), matrices(np.cross(r, f))
 
 
-def static_potentials(r, corners, normal):  # over a triangle seen from r: integrals of 1/R, of (r' - foot of r)/R and of the gradient, by r, of -1/R; the foot
+def static_potentials(r, corners, normal):  # integrals over a triangle, for the observer r, of 1/R, of (r' - foot of r)/R and of the gradient with respect to r of -1/R; the foot
     height = np.einsum("...c,...c->...", r - corners[..., 0, :], normal)
     foot, above = r - height[..., None] * normal, np.abs(height)
     potential, moment, gradient, angle = 0, 0, 0, 0
@@ -168,7 +168,7 @@ def scattering_matrices(mesh, k, azimuths_deg, elevations_deg):  # S [direction,
     return -1j * k / (4 * np.pi) * np.einsum("uap,uaq->apq", electric, currents)
 
 
-def surface_of_boxes(boxes, longest):  # of their union, grids along all sides of all boxes
+def surface_of_boxes(boxes, longest):  # of the union of the boxes, on grids along all sides of all boxes
     grids = []
     for axis in range(3):
         cuts = sorted({box[2 * axis + i] for box in boxes for i in (0, 1)})
@@ -189,13 +189,13 @@ def surface_of_boxes(boxes, longest):  # of their union, grids along all sides o
                 quad.append(numbers.setdefault(tuple(node), len(numbers)))
             if step[place] > 0:  # into the body
                 quad.reverse()
-            turned = (corner[b] + corner[c]) % 2  # diagonals of neighbours meet
+            turned = (corner[b] + corner[c]) % 2  # diagonals of adjacent rectangles meet
             p, q, r, s = quad
             triangles += [(p, q, r), (p, r, s)] if turned else [(p, q, s), (q, r, s)]
     return Mesh([[grids[a][node[a]] for a in range(3)] for node in numbers], triangles)
 
 
-def sphere(halvings):  # of unit radius by its area
+def sphere(halvings):  # its area is that of unit radius
     from scipy.spatial import ConvexHull
 
     t = (1 + 5**0.5) / 2
@@ -207,7 +207,7 @@ def sphere(halvings):  # of unit radius by its area
     return Mesh(points * np.sqrt(4 * np.pi / Mesh(points, triangles).area.sum()), triangles)
 
 
-def mie(ka):  # S / a back from a sphere: Bohren and Huffman, Absorption and Scattering of Light by Small Particles (1983), 4.61, of an infinite index
+def mie(ka):  # monostatic S / a of a sphere: Bohren and Huffman, Absorption and Scattering of Light by Small Particles (1983), 4.61, of an infinite index
     n = np.arange(1, int(ka + 4 * ka ** (1 / 3) + 10))
     j, y, dj, dy = spherical_jn(n, ka), spherical_yn(n, ka), spherical_jn(n, ka, True), spherical_yn(n, ka, True)
     electric, magnetic = (j + ka * dj) / (j - 1j * y + ka * (dj - 1j * dy)), j / (j - 1j * y)
@@ -217,7 +217,7 @@ def mie(ka):  # S / a back from a sphere: Bohren and Huffman, Absorption and Sca
 if __name__ == "__main__":
     if sys.argv[1:] == ["sphere"]:
         mesh = sphere(3)
-        for ka in (2.0, 4.0, 4.4934, 5.0):  # 4.4934: a resonance of the inside
+        for ka in (2.0, 4.0, 4.4934, 5.0):  # 4.4934: an interior resonance
             S, exact = scattering_matrices(mesh, ka, np.array([30.0]), np.array([20.0]))[0], mie(ka)
             print(f"ka {ka}: hh, vv over Mie's {S[0, 0] / exact:.4f} {S[1, 1] / exact:.4f}, hv {abs(S[0, 1]):.1e}")
         sys.exit()

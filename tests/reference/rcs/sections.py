@@ -2,12 +2,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Scattering of infinitely long perfectly conducting prisms at 10.24 GHz, by integral equations: sections.py > sections.csv
 
-The currents round the outline of the cross-section on elements that shrink to its corners; pulses and point matching for the soft field (along the edges), triangles
-and the weak form of the hypersingular equation (A. W. Maue, Z. Phys. 126, 1949, 601-618) for the hard one; of long sections together with the double layer's
-equation (A. J. Burton and G. F. Miller, Proc. R. Soc. A 323, 1971, 201-210), since alone it has the resonances of the outline's inside for solutions, which no element
-size of use removes.
+The currents on the outline of the cross-section, on elements graded towards its vertices; pulses and point matching for the soft field (along the edges), triangles
+and the weak form of the hypersingular equation (A. W. Maue, Z. Phys. 126, 1949, 601-618) for the hard one; for large sections combined with the double-layer
+equation (A. J. Burton and G. F. Miller, Proc. R. Soc. A 323, 1971, 201-210), since alone it has the interior resonances of the outline as solutions, which no practicable element
+size removes.
 
-Needs numpy and scipy. Columns: azimuths of transmitter and receiver, deg; P soft (vv of a prism that stands upright) and hard (hh), the amplitude of the
+Needs numpy and scipy. Columns: azimuths of transmitter and receiver, deg; P soft (vv of an upright prism) and hard (hh), the amplitude of the
 field's component along the edges as P sqrt(2 / pi k r) e^{-jkr + j pi/4}, e^{+jwt}, phase from the origin of the cross-section; its name.
 """
 import numpy as np
@@ -16,7 +16,7 @@ from scipy.special import j0, j1, y0, y1
 WAVELENGTH = 299792458 / 10.24e9
 
 
-def graded(length, smallest, largest, growth=1.2):  # places from 0 to length, close together at both ends
+def graded(length, smallest, largest, growth=1.2):  # positions from 0 to length, dense at both ends
     s, h = [0.0], smallest
     while s[-1] < length / 2:
         s.append(s[-1] + h)
@@ -29,20 +29,20 @@ def directions(azimuths_deg):
     return np.c_[np.cos(np.radians(azimuths_deg)), np.sin(np.radians(azimuths_deg))]
 
 
-def closed(corners, smallest, largest):  # the nodes round a polygon
+def closed(corners, smallest, largest):  # the nodes along a polygon
     corners = np.array(corners)
     sides = [(a, b - a, np.linalg.norm(b - a)) for a, b in zip(corners, np.roll(corners, -1, 0))]
     return np.array([a + along * s / length for a, along, length in sides for s in graded(length, smallest, largest)[:-1]])
 
 
-def echoes(p, k, incident, scattered, combined=False):  # P soft and hard [receiver, transmitter] of the outline through the nodes p; unit vectors towards either
+def echoes(p, k, incident, scattered, combined=False):  # P soft and hard [receiver, transmitter] of the outline through the nodes p; unit vectors towards receiver and transmitter
     q = np.roll(p, -1, 0)
     middle, length = (p + q) / 2, np.linalg.norm(q - p, axis=1)
     tangent = (q - p) / length[:, None]
     normal = np.c_[tangent[:, 1], -tangent[:, 0]]
     points, weights = np.polynomial.legendre.leggauss(4)
 
-    def integral_of_ln(x):  # over each element, seen from x
+    def integral_of_ln(x):  # over each element, for the observer x
         d = x[:, None, :] - p[None, :, :]
         a, b = np.einsum("ijk,jk->ij", d, tangent), np.einsum("ijk,jk->ij", d, normal)
 
@@ -53,7 +53,7 @@ def echoes(p, k, incident, scattered, combined=False):  # P soft and hard [recei
 
         return primitive(a) - primitive(a - length[None, :])
 
-    smooth = np.zeros((len(p), len(p)), complex)  # integral of H0 less its logarithm
+    smooth = np.zeros((len(p), len(p)), complex)  # integral of H0 less its logarithmic part
     for x, w in zip(points, weights):
         r = np.maximum(np.linalg.norm(middle[:, None, :] - (p + 0.5 * (1 + x) * length[:, None] * tangent)[None], axis=2), 1e-12)
         smooth += (j0(k * r) - 1j * (y0(k * r) - 2 / np.pi * np.log(r))) * (0.5 * w * length)[None, :]
@@ -63,11 +63,11 @@ def echoes(p, k, incident, scattered, combined=False):  # P soft and hard [recei
     double = length[:, None] * (smooth - 2j / np.pi * twice)
     double = 0.5 * (double + double.T)
     before = np.roll(np.arange(len(p)), 1)
-    equal, mixed = lambda M: M + M[np.ix_(before, before)], lambda M: M[before] + M[:, before]  # of triangles on two elements
+    equal, mixed = lambda M: M + M[np.ix_(before, before)], lambda M: M[before] + M[:, before]  # of triangle functions on two elements
     currents, charges = k**2 * (normal @ normal.T) * double, double / (length[:, None] * length[None, :])
     Z = 0.25 * (equal(currents) + mixed(currents)) - (equal(charges) - mixed(charges))
 
-    def double_layer():  # (-2j + D) u = incident field, tested as Z u = its slope is; D the integral of dH0/dn', u the field on the outline over -4j
+    def double_layer():  # (-2j + D) u = incident field, tested like Z u = its normal derivative; D the integral of dH0/dn', u the field on the outline over -4j
         D = np.zeros((len(p), len(p)), complex)
         for x, w in zip(points, weights):
             d = p[None, :, :] - (p + 0.5 * (1 + x) * length[:, None] * tangent)[:, None, :]
@@ -98,7 +98,7 @@ def echoes(p, k, incident, scattered, combined=False):  # P soft and hard [recei
     return -(soft_out * length[:, None]).T @ np.linalg.solve(G, soft_in), -hard_out.T @ np.linalg.solve(Z, hard_in)
 
 
-def chevron(opening_deg, arm, thickness):  # its inner corner in the origin, towards azimuth 0
+def chevron(opening_deg, arm, thickness):  # its concave vertex in the origin, open towards azimuth 0
     half = np.radians(opening_deg / 2)
     end = arm * np.array([np.cos(half), np.sin(half)])
     back = end + thickness * np.array([-np.sin(half), np.cos(half)])

@@ -2,12 +2,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Scattering of an infinitely long perfectly conducting strip, 0.2667 m wide at 10.24 GHz, by integral equations: strip.py > strip.csv
 
-Without thickness: both integral equations in Chebyshev functions of the strip's own coordinate, which have the currents' edge singularities, with Kress'
-quadrature for the logarithm (R. Kress, J. Comput. Appl. Math. 61, 1995, 345-360): the echo to 1e-9. With one: the rectangle by
+Without thickness: both integral equations in Chebyshev functions of the strip's coordinate, which contain the currents' edge singularities, with Kress'
+quadrature for the logarithm (R. Kress, J. Comput. Appl. Math. 61, 1995, 345-360): relative error of the echo 1e-9. With thickness: a rectangle by
 sections.py.
 
-Needs numpy and scipy. Columns: thickness; angles of transmitter and receiver from the normal, turned about the strip's axis; P soft (vv of a strip that stands
-upright) and hard (hh), the amplitude of the field's component along the edges as P sqrt(2 / pi k r) e^{-jkr + j pi/4}, e^{+jwt}, phase from the middle of the cross-section.
+Needs numpy and scipy. Columns: thickness; angles of transmitter and receiver from the normal, about the strip's axis; P soft (vv of an upright
+strip) and hard (hh), the amplitude of the field's component along the edges as P sqrt(2 / pi k r) e^{-jkr + j pi/4}, e^{+jwt}, phase from the middle of the cross-section.
 """
 import numpy as np
 from scipy.special import j0, y0
@@ -20,7 +20,7 @@ GAMMA = np.euler_gamma
 LARGEST = 0.15e-3  # element, m
 
 
-def thin(angles):  # both P for every pair of angles
+def thin(angles):  # soft and hard P for every pair of angles
     ka = K * WIDTH / 2
     n = int(2 * ka + 60)  # Chebyshev functions
     P = 2 * n

@@ -23,13 +23,13 @@ Sum sum_of(const std::vector<ApertureCell>& cells) {
   return sum;
 }
 
-TriangleMesh turned(TriangleMesh mesh) {
+TriangleMesh inverted(TriangleMesh mesh) {
   for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
   return mesh;
 }
 
 // A prism with its base at z = -1 and its top open at z = 0; the outline runs counter-clockwise seen from above. Side
-// faces look inwards; the base is a fan about `hub`, from which all of it must be seen.
+// faces have inward normals; the base is a fan about `hub`, from which all of it must be visible.
 TriangleMesh pit(const std::vector<Vec2>& outline, const Vec2& hub) {
   MeshBuilder builder;
   builder.begin_part("pit");
@@ -47,13 +47,13 @@ TriangleMesh pit(const std::vector<Vec2>& outline, const Vec2& hub) {
   return builder.take();
 }
 
-TEST(CavityAperture, OfAGuideIsItsOpenFaceAndLooksInwards) {
+TEST(CavityAperture, OfAGuideIsItsOpenFaceWithInwardNormal) {
   const Sum sum = sum_of(aperture_cells(guide(0.3, 0.2, 0.5), 0.011));
   EXPECT_LT((sum.area - Vec3(0.06, 0, 0)).norm(), 1e-12);
   EXPECT_LT((sum.moment / 0.06 - Vec3(0, 0.15, 0.1)).norm(), 1e-12);
 }
 
-TEST(CavityAperture, MayBeAnyShapeEvenOneThatTurnsInwards) {
+TEST(CavityAperture, MayBeOfAnyShapeEvenConcave) {
   // An L: two unit squares and one in the corner.
   const std::vector<Vec2> outline{{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
   const auto cells = aperture_cells(pit(outline, {0.5, 0.5}), 0.07);
@@ -67,21 +67,21 @@ TEST(CavityAperture, MayBeAnyShapeEvenOneThatTurnsInwards) {
 }
 
 TEST(CavityAperture, WithAnIslandIsTheRingBetweenTheRims) {
-  // A post of 1 m square stands in a pit of 3 m square, as high as the rim, its own inside being solid: its walls face
-  // the pit, so that its rim runs the other way.
+  // A post of 1 m square in a pit of 3 m square, as high as the rim, with a solid interior: its walls face the pit, so
+  // that its rim has the opposite orientation.
   TriangleMesh mesh = pit({{0, 0}, {3, 0}, {3, 3}, {0, 3}}, {1.5, 1.5});
-  const TriangleMesh post = turned(pit({{1, 1}, {2, 1}, {2, 2}, {1, 2}}, {1.5, 1.5}));
+  const TriangleMesh post = inverted(pit({{1, 1}, {2, 1}, {2, 2}, {1, 2}}, {1.5, 1.5}));
   mesh.append(post);
   const auto cells = aperture_cells(mesh, 0.1);
   const Sum sum = sum_of(cells);
   EXPECT_LT((sum.area - Vec3(0, 0, -8)).norm(), 1e-11);
   for (const ApertureCell& cell : cells) {
-    EXPECT_LT(cell.inward.z(), -0.99);  // a wave from above falls into all of them
+    EXPECT_LT(cell.inward.z(), -0.99);  // a wave from above enters through all of them
     EXPECT_GT((cell.centre - Vec3(1.5, 1.5, 0)).cwiseAbs().maxCoeff(), 0.5 - 1e-9);
   }
 }
 
-TEST(CavityAperture, RefusesWhatIsNoCavity) {
+TEST(CavityAperture, RefusesSurfacesThatAreNoCavity) {
   const auto refused = [](const TriangleMesh& mesh, const std::string& why) {
     try {
       aperture_cells(mesh, 0.01);
@@ -90,9 +90,9 @@ TEST(CavityAperture, RefusesWhatIsNoCavity) {
       EXPECT_THAT(error.what(), testing::HasSubstr(why));
     }
   };
-  refused(turned(guide(0.3, 0.2, 0.5)), "face away from its inside");
+  refused(inverted(guide(0.3, 0.2, 0.5)), "face away from its inside");
 
-  // Its two halves, mouth to mouth.
+  // Its two halves with their apertures facing each other.
   TriangleMesh closed = guide(0.3, 0.2, 0.5);
   const Mat3 half_turn = Vec3(-1, -1, 1).asDiagonal();
   closed.append(transformed(closed, half_turn, Vec3(0, 0.3, 0)));
@@ -102,12 +102,12 @@ TEST(CavityAperture, RefusesWhatIsNoCavity) {
   uneven.vertices[2].x() = 0.05;
   refused(uneven, "not flat");
 
-  // Two guides that share one edge, or one corner of their mouths.
+  // Two guides whose apertures have one edge or one vertex in common.
   TriangleMesh sharing = guide(0.3, 0.2, 0.5), touching = sharing;
   sharing.append(transformed(guide(0.3, 0.2, 0.5), Mat3::Identity(), Vec3(0, 0.3, 0.2)));
   refused(welded(sharing), "more than two triangles");
-  const Mat3 aside = Eigen::AngleAxisd(0.1, Vec3::UnitY()).toRotationMatrix();
-  touching.append(transformed(guide(0.3, 0.2, 0.5), aside, Vec3(0, 0.3, 0.2)));
+  const Mat3 tilt = Eigen::AngleAxisd(0.1, Vec3::UnitY()).toRotationMatrix();
+  touching.append(transformed(guide(0.3, 0.2, 0.5), tilt, Vec3(0, 0.3, 0.2)));
   refused(welded(touching), "touches itself");
 
   TriangleMesh flipped = guide(0.3, 0.2, 0.5);

@@ -67,13 +67,13 @@ Matrix guide_by_modes(double a, double b, double depth, double k, const RadarBas
       // Of cos(ky y) sin(kz z) and sin(ky y) cos(kz z), the patterns of e_y and e_z.
       const Complex in_y = integral(a, m, true, radar.r.y()) * integral(b, n, false, radar.r.z());
       const Complex in_z = integral(a, m, false, radar.r.y()) * integral(b, n, true, radar.r.z());
-      const double share_y = (m == 0 ? 1.0 : 0.5) * (n == 0 ? 0.0 : 0.5) * a * b,
-                   share_z = (m == 0 ? 0.0 : 0.5) * (n == 0 ? 1.0 : 0.5) * a * b;
+      const double norm_y = (m == 0 ? 1.0 : 0.5) * (n == 0 ? 0.0 : 0.5) * a * b,
+                   norm_z = (m == 0 ? 0.0 : 0.5) * (n == 0 ? 1.0 : 0.5) * a * b;
       for (const bool te : {true, false}) {
         if (!te && (m == 0 || n == 0)) continue;
         const double e_y = te ? kz : ky, e_z = te ? -ky : kz;
         const Complex y = te ? beta / k : k / beta;
-        const Complex P = y * (e_y * e_y * share_y + e_z * e_z * share_z);
+        const Complex P = y * (e_y * e_y * norm_y + e_z * e_z * norm_z);
         std::array<Complex, 2> amplitude;
         for (int p = 0; p < 2; ++p) {
           const Vec3 E = p == 0 ? radar.h : radar.v, H = (-radar.r.cross(E)).cross(Vec3::UnitX());  // eta H x x^
@@ -89,7 +89,7 @@ Matrix guide_by_modes(double a, double b, double depth, double k, const RadarBas
   return S;
 }
 
-// Relative L2 error of a guide's echoes against its modes, +-50 deg about its axis.
+// Relative L2 error of a guide's echoes against the modal solution, +-50 deg about its axis.
 double error_of_guide(double wavelength) {
   constexpr double kA = 0.29, kB = 0.19, kDepth = 0.25;
   const TriangleMesh mesh = guide(kA, kB, kDepth);
@@ -109,10 +109,10 @@ double error_of_guide(double wavelength) {
   return std::sqrt(error / sum);
 }
 
-TEST(CavityEcho, OfAShortedGuideIsThatOfItsModes) {
-  // In the modes' solution the guide goes on before its mouth, in ours it ends there: what its last fraction of a
-  // wavelength does differs, the less the wider the mouth. Measured 0.204, 0.113, and further 0.076 and 0.060 at
-  // wavelengths of 0.07 and 0.05 m.
+TEST(CavityEcho, OfAShortedGuideMatchesItsModalSolution) {
+  // In the modal solution the guide continues in front of its aperture, in the cavity solver it ends there: the
+  // currents differ within a fraction of a wavelength of it, with less effect the wider the aperture. Measured 0.204,
+  // 0.113, and further 0.076 and 0.060 at wavelengths of 0.07 and 0.05 m.
   const double coarse = error_of_guide(0.2), fine = error_of_guide(0.1);
   RecordProperty("relative_errors", fmt::format("{:.3f} {:.3f}", coarse, fine));
   EXPECT_LT(coarse, 1.1 * 0.2);
@@ -120,7 +120,7 @@ TEST(CavityEcho, OfAShortedGuideIsThatOfItsModes) {
   EXPECT_LT(fine, 0.6 * coarse);
 }
 
-// A guide of 2.9 x 1.9 wavelengths whose end is not square to it, so that nothing is symmetric.
+// A guide of 2.9 x 1.9 wavelengths with an oblique end, so that it has no symmetry.
 constexpr double kWavenumber = 2 * kPi / 0.1;
 
 TriangleMesh crooked_guide() {
@@ -141,13 +141,13 @@ TEST(CavityEcho, IsReciprocal) {
   const RadarBasis a = radar_basis(direction(150, 10)), b = radar_basis(direction(200, -25));
   const std::vector<Matrix> s = echoes(crooked_guide(), {bistatic(a, b), bistatic(b, a), monostatic(a)});
   const Matrix back{s[1][0], s[1][2], s[1][1], s[1][3]};
-  // The same fields are kept of both directions to 1e-4 of their mean.
+  // The fields of both directions are approximated to 1e-4 of their mean.
   EXPECT_LT(difference(s[0], back), 1e-3 * norm(s[0]));
   EXPECT_LT(std::abs(s[2][1] - s[2][2]), 1e-6 * norm(s[2]));
   EXPECT_GT(std::abs(s[2][1]), 0.1 * norm(s[2]));
 }
 
-TEST(CavityEcho, MovesItsPhaseWithItsPlaceAndGrowsWithItsSize) {
+TEST(CavityEcho, FollowsTranslationAndScaling) {
   const std::vector<BistaticGeometry> views = cut(140, 220, 20, 10);
   const TriangleMesh mesh = crooked_guide();
   const std::vector<Matrix> here = echoes(mesh, views);
@@ -160,7 +160,7 @@ TEST(CavityEcho, MovesItsPhaseWithItsPlaceAndGrowsWithItsSize) {
     Matrix expected = here[i], doubled = here[i];
     for (Complex& x : expected) x *= phase;
     for (Complex& x : doubled) x *= 2;
-    // Single precision of the coupling, and the residual, which another order of sums shares out otherwise.
+    // Single precision of the coupling, and the residual, which depends on the order of summation.
     EXPECT_LT(difference(there[i], expected), 2e-3 * norm(here[i])) << i;
     EXPECT_LT(difference(twice[i], doubled), 4e-3 * norm(here[i])) << i;
   }
@@ -172,13 +172,13 @@ TEST(CavityEcho, DoesNotDependOnOtherViewsOrThreads) {
   const std::vector<Matrix> together = echoes(mesh, views, kWavenumber, 2);
   EXPECT_EQ(echoes(mesh, views, kWavenumber, 1), together);
   const std::vector<Matrix> alone = echoes(mesh, {views[30]});
-  EXPECT_LT(difference(alone[0], together[30]), 2e-3 * norm(alone[0]));  // the residual, and fields taken as one
+  EXPECT_LT(difference(alone[0], together[30]), 2e-3 * norm(alone[0]));  // the residual, and the common basis of fields
 }
 
-TEST(CavityEcho, NeedsAViewOfTheMouth) {
+TEST(CavityEcho, NeedsAVisibleAperture) {
   TriangleMesh mesh = guide(0.29, 0.19, 0.25);
   for (const Matrix& s : echoes(mesh, cut(-80, 80, 40, 0))) EXPECT_EQ(norm(s), 0);
-  // A lid half a metre before it.
+  // A lid half a metre in front of it.
   MeshBuilder lid;
   lid.begin_part("lid");
   const auto v = [&](double y, double z) { return lid.vertex({-0.5, y, z}); };
@@ -187,7 +187,7 @@ TEST(CavityEcho, NeedsAViewOfTheMouth) {
   for (const Matrix& s : echoes(mesh, cut(170, 190, 10, 0))) EXPECT_EQ(norm(s), 0);
 }
 
-TEST(CavityEcho, RefusesWhatPointCurrentsDoNotDescribe) {
+TEST(CavityEcho, RefusesGeometryThatPointCurrentsCannotRepresent) {
   const auto refused = [](const TriangleMesh& mesh, double k, const std::string& why) {
     const Scatterer whole(mesh);
     try {
@@ -200,7 +200,7 @@ TEST(CavityEcho, RefusesWhatPointCurrentsDoNotDescribe) {
   EXPECT_GT(Cavity(crooked_guide(), 0, Scatterer(crooked_guide())).size(kWavenumber).patches, 500u);
   refused(guide(0.29, 0.19, 0.25), kWavenumber / 30, "narrower than half a wavelength");
   refused(guide(0.29, 0.19, 0.001), kWavenumber, "walls and aperture come nearer");
-  // A shutter of 2 mm of metal within the guide.
+  // A shutter of 2 mm of metal inside the guide.
   TriangleMesh shut = guide(0.29, 0.19, 0.25);
   MeshBuilder shutter;
   shutter.begin_part("guide");
@@ -226,7 +226,7 @@ std::map<double, double> reference_cut(const std::string& name) {
   return levels;
 }
 
-TEST(CavityEcho, AndTheRestOfABoxWithADuctComeWithinADecibelOfTheMethodOfMoments) {
+TEST(CavityEcho, WithTheRestOfADuctBoxIsWithinADecibelOfTheMethodOfMoments) {
   const TriangleMesh mesh =
       read_mesh(std::string(SEAGLINT_SOURCE_DIR) + "/tests/reference/rcs/austin/duct_box.glb", "m");
   const auto duct = std::find(mesh.part_names.begin(), mesh.part_names.end(), "duct") - mesh.part_names.begin();
@@ -251,7 +251,7 @@ TEST(CavityEcho, AndTheRestOfABoxWithADuctComeWithinADecibelOfTheMethodOfMoments
     }
     const double mean = sum / static_cast<double>(views.size());
     RecordProperty(fmt::format("mean_db_{}", name), fmt::format("{:.2f}", mean));
-    EXPECT_LT(mean, 1) << name;  // the project's aim; rays alone leave 2.0 and 2.5, the measurement 0.3 and 0.4
+    EXPECT_LT(mean, 1) << name;  // the project's aim; beam tracing leaves 2.0 and 2.5, the measurement 0.3 and 0.4
   }
 }
 

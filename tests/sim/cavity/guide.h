@@ -7,7 +7,7 @@
 
 namespace seaglint {
 
-// Its inner faces alone, each of two triangles; part "guide".
+// Its inner faces, each of two triangles; part "guide".
 inline TriangleMesh guide(double a, double b, double depth) {
   MeshBuilder builder;
   builder.begin_part("guide");

@@ -13,7 +13,7 @@
 namespace seaglint {
 namespace {
 
-// The magnetic-field integral equation holds on the outside of a closed body as well, where the echo is known.
+// The magnetic-field integral equation also holds on the outside of a closed body, for which the echo is known.
 double backscatter_of_sphere(double ka) {
   // |sum of (-1)^n (2n + 1) (b_n - a_n)| / 2k, radius 1 m (Ruck, Radar Cross Section Handbook, 1970, eq. 3.2-2)
   Complex sum = 0;
@@ -26,8 +26,8 @@ double backscatter_of_sphere(double ka) {
   return std::abs(sum) / (2 * ka);
 }
 
-TEST(WallCurrents, OnTheOutsideOfASphereGiveItsExactEcho) {
-  constexpr double ka = 6.5;  // of a radius of 1 m, off the resonances of the inside, where the equation has no answer
+TEST(WallCurrents, OnTheOutsideOfASphereHaveItsExactEcho) {
+  constexpr double ka = 6.5;  // of a radius of 1 m, away from the interior resonances, where the equation is singular
   const TriangleMesh sphere = make_sphere(1, 4);
   const RadarBasis radar = radar_basis(Vec3::UnitX());
   const auto echo = [&](double patches_per_wavelength) {
@@ -49,7 +49,8 @@ TEST(WallCurrents, OnTheOutsideOfASphereGiveItsExactEcho) {
     }
     return std::abs(S) * ka / (4 * kPi);
   };
-  // Patches of a sixth of a wavelength err by some tenths of a decibel, finer ones by less; measured 0.11 and 0.05 dB.
+  // Patches of a sixth of a wavelength have errors of some tenths of a decibel, finer ones less; measured 0.11 and 0.05
+  // dB.
   const auto error_db = [&](double patches) {
     return std::abs(20 * std::log10(echo(patches) / backscatter_of_sphere(ka)));
   };

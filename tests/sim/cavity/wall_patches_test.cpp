@@ -30,7 +30,7 @@ TriangleMesh tube(double radius, double length, int sides) {
   return builder.take();
 }
 
-TEST(WallPatches, KeepTheAreaAndItsVectorWhateverTheTriangles) {
+TEST(WallPatches, KeepAreaAndVectorAreaForAnyTriangulation) {
   const TriangleMesh mesh = tube(0.1, 0.5, 300);
   const auto patches = wall_patches(mesh, 0.02);
   double area = 0;
@@ -50,20 +50,20 @@ TEST(WallPatches, AreAboutOneSizeAndLieOnTheWall) {
   const TriangleMesh mesh = tube(kRadius, 0.5, 300);
   const auto patches = wall_patches(mesh, kSize);
   EXPECT_NEAR(static_cast<double>(patches.size()) * kSize * kSize / surface_area(mesh), 1, 0.25);
-  // Seeds lie 0.94 of a size apart at least: a hexagon of 0.77 squares, of which the tube's end may take half; no point
-  // is farther than that from a seed, which a hexagon of 2.3 squares would need everywhere.
+  // Seeds lie 0.94 of a size apart at least: a hexagon of 0.77 squares, of which half may be cut by the tube's end; no
+  // point is farther than that from a seed, which a hexagon of 2.3 squares would need everywhere.
   for (const WallPatch& p : patches) {
     EXPECT_GT(p.area, 0.3 * kSize * kSize);
     EXPECT_LT(p.area, 2 * kSize * kSize);
     const Vec3 outwards = Vec3(0, p.centre.y(), p.centre.z()).normalized();
-    // A patch over an arc of `kSize` to either side at most: its middle stands off the wall by the arc's height.
+    // A patch extends over an arc of at most `kSize` to either side: its centre is off the wall by the arc's height.
     EXPECT_NEAR(Vec3(0, p.centre.y(), p.centre.z()).norm(), kRadius, kSize * kSize / (2 * kRadius));
     EXPECT_GT(-outwards.dot(p.normal), std::cos(kSize / kRadius));
     EXPECT_LT((p.tangent[0].cross(p.tangent[1]) - p.normal).norm(), 1e-12);
   }
 }
 
-TEST(WallPatches, EndAtCorners) {
+TEST(WallPatches, EndAtEdges) {
   for (const WallPatch& p : wall_patches(guide(0.3, 0.2, 0.5), 0.013))
     EXPECT_GT(p.normal.cwiseAbs().maxCoeff(), 1 - 1e-9);
 }

@@ -8,7 +8,7 @@
 namespace seaglint {
 namespace {
 
-TEST(RotationFromAngles, TurnsAsTheConventionsSay) {
+TEST(RotationFromAngles, FollowsTheConventions) {
   const double quarter = kPi / 2;
   // Roll turns y (port) towards z; pitch puts the bow down; yaw turns the bow to port.
   EXPECT_NEAR((rotation_from_angles(quarter, 0, 0) * Vec3::UnitY() - Vec3::UnitZ()).norm(), 0, 1e-15);

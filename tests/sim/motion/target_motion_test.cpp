@@ -42,7 +42,7 @@ TEST(SimulateTarget, MovesEachBodyAtItsOwnPlaceInTheSameSea) {
   ASSERT_EQ(bodies.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) {
     const Pose pose = bodies[i].pose(2.5);
-    // The centre of flotation stays.
+    // The centre of flotation is at rest.
     EXPECT_NEAR((pose.R * Vec3(0, 0, -0.75) + pose.p - Vec3(-60 + 40.0 * static_cast<double>(i), 0, 0)).norm(), 0,
                 1e-12);
   }
@@ -57,8 +57,8 @@ TEST(SimulateTarget, DoesNotDependOnThreads) {
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(one[i].sample(1.7).angles, two[i].sample(1.7).angles);
 }
 
-// In waves of hundreds of metres floats side by side move alike, unless each has a sea of its own.
-TEST(SimulateTarget, GivesIndependentBodiesSeasOfTheirOwn) {
+// In waves of hundreds of metres adjacent floats move alike, unless each has an independent sea.
+TEST(SimulateTarget, IndependentBodiesHaveSeparateSeas) {
   const SeaState state = state_of(1, 20);
   SeaState long_waves = state;
   long_waves.cutoff_rad_s = 0.7;
@@ -78,7 +78,7 @@ TEST(SimulateTarget, GivesIndependentBodiesSeasOfTheirOwn) {
   EXPECT_GT(difference(), 0.5);
 }
 
-TEST(BodyIndex, NeverMeetsAnotherRealisation) {
+TEST(BodyIndex, IsUniqueAmongRealisations) {
   EXPECT_EQ(body_index(3, 0), body_index(2, 65535) + 1);
   EXPECT_THROW(body_index(0, 65536), std::logic_error);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Short cuts shared by the scattering tests.
+// Helpers that the scattering tests have in common.
 
 #include <gtest/gtest.h>
 
@@ -69,7 +69,8 @@ inline TriangleMesh cut_plate(double length, double width, std::uint32_t cells) 
   return cut;
 }
 
-// A square trihedral with a tilted plate before it: first, second and third bounces, shadows on both ways.
+// A square trihedral with a tilted plate in front of it: first, second and third bounces, shadowing of the incident and
+// the exit path.
 inline TriangleMesh stepped_corner() {
   TriangleMesh mesh = make_square_trihedral(0.4);
   mesh.append(transformed(make_plate(0.11, 0.13),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Material files: what they say is what the struct holds, and every mistake is named where it stands.
+// Material files: their contents are read into the struct, and every error is reported with its place.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -38,7 +38,7 @@ std::string with(std::string text, const std::string& from, const std::string& t
   return text.replace(text.find(from), from.size(), to);
 }
 
-TEST(MaterialFile, HoldsWhatItSays) {
+TEST(MaterialFile, IsReadIntoTheStruct) {
   const MaterialSpec spec = parse_material(kCoating, "m.yaml");
   EXPECT_EQ(spec.name, "coating");
   EXPECT_EQ(spec.kind, SurfaceKind::kLayers);

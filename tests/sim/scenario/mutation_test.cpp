@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A deterministic fuzz: scenarios with bytes and pieces changed are read, or refused with an InputError; nothing else
-// may happen.
+// Deterministic fuzzing: scenarios with changed bytes and pieces are read, or refused with an InputError, without any
+// other effect.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -71,7 +71,7 @@ TEST(ScenarioFuzzing, BrokenScenariosAreReadOrRefusedWithAnInputError) {
       FAIL() << "mutation " << i << ": " << error.what() << "\n" << text;
     }
   }
-  // Both ways out are taken: the mutations are neither all harmless nor all hopeless.
+  // Both outcomes occur: the mutations are neither all harmless nor all invalid.
   EXPECT_GT(read, 100);
   EXPECT_GT(refused, 5000);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Texts and short cuts shared by the tests that read scenarios.
+// Texts and helpers that the tests of scenario reading have in common.
 
 #include <string>
 #include <vector>
@@ -11,7 +11,7 @@
 
 namespace seaglint::testing_scenarios {
 
-// The scenario of the project's description, to the letter.
+// The scenario of the project's description, verbatim.
 inline const char* const kPaper = R"(seaglint: 1
 name: paper
 seed: 42

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a scenario file says is what the structs hold, and every mistake in it is named where it stands.
+// The contents of a scenario file are read into the structs, and every error is reported with its place.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-TEST(ScenarioReading, TheExampleOfTheDescriptionIsUnderstood) {
+TEST(ScenarioReading, TheExampleOfTheDescriptionIsRead) {
   const Scenario scenario = parse(kPaper);
   EXPECT_EQ(scenario.name, "paper");
   EXPECT_EQ(scenario.seed, 42u);
@@ -53,7 +53,7 @@ TEST(ScenarioReading, WhatIsNotGivenKeepsItsDefault) {
   EXPECT_EQ(scenario.targets[0].motion.model, MotionModel::kFixed);
 }
 
-// Names go into JSON, which holds nothing else.
+// Names are written into JSON, which contains only UTF-8.
 TEST(ScenarioReading, TextIsUtf8) {
   EXPECT_EQ(parse(kShort + "name: caf\xc3\xa9\n").name, "caf\xc3\xa9");
   EXPECT_EQ(complaint_about(kShort + "name: caf\xe9\n"), "folder/file.yaml:4:10: byte 0xe9: not a text in UTF-8");
@@ -62,7 +62,7 @@ TEST(ScenarioReading, TextIsUtf8) {
   EXPECT_EQ(parse_scenario(kShort, "folder/caf\xe9.yaml").name, "caf_");
 }
 
-TEST(ScenarioReading, OneDirectionStandsOnceInASweep) {
+TEST(ScenarioReading, ADirectionIsListedOnceInASweep) {
   EXPECT_EQ(complaint_about(kShort + "view: {azimuth_deg: [30, -330]}\n"),
             "folder/file.yaml:4:21: view.azimuth_deg: -330 and 30 are the same direction: list it once");
   EXPECT_THAT(complaint_about(kShort + "view: {azimuth_deg: 0:360:10}\n"),
@@ -123,15 +123,15 @@ TEST(ScenarioReading, TheRadarChainsContradictionsAreNamed) {
                       "{label: 1, mesh: a.glb}\n"),
       "folder/file.yaml:3:18: view.elevation_deg: value '90': must be within 0.1 and 60 with clutter.doppler: "
       "wave_resolved");
-  // Clutter at a ratio and of a given Doppler spectrum is seen from anywhere, and none at all has no sea to be seen.
+  // Clutter of a given ratio and Doppler spectrum is valid at any elevation, and disabled clutter sets no limit.
   EXPECT_EQ(complaint_about(kShort, {{"view.elevation_deg", "90"}}), "none");
   EXPECT_EQ(
       complaint_about(kShort, {{"view.elevation_deg", "90"}, {"clutter", "{enabled: false, doppler: wave_resolved}"}}),
       "none");
 }
 
-// A float and a body at rest stay in the water that a speed would have fall behind.
-TEST(ScenarioReading, OnlyModelsThatMakeWayHaveASpeed) {
+// A float and a body at rest have no speed through the water.
+TEST(ScenarioReading, OnlyModelsUnderWayHaveASpeed) {
   for (const char* model : {"fixed", "float"}) {
     EXPECT_EQ(
         complaint_about(fmt::format(
@@ -319,7 +319,7 @@ TEST(ScenarioReading, EveryMistakeInATargetIsNamed) {
   EXPECT_EQ(complaint_about("seaglint: 2\ntargets: {}\n"), "folder/file.yaml:1:11: seaglint: value '2': must be 1");
 }
 
-TEST(ScenarioReading, FilesThatAreNoScenarioAtAllGetAClearAnswer) {
+TEST(ScenarioReading, FilesThatAreNoScenarioHaveAClearError) {
   EXPECT_EQ(complaint_about(""), "folder/file.yaml: the file is empty: must be a map of key: value");
   EXPECT_EQ(complaint_about("# nothing\n\n"), "folder/file.yaml: the file is empty: must be a map of key: value");
   EXPECT_EQ(complaint_about("just words"), "folder/file.yaml:1:1: value 'just words': must be a map of key: value");
@@ -330,7 +330,7 @@ TEST(ScenarioReading, FilesThatAreNoScenarioAtAllGetAClearAnswer) {
   EXPECT_THAT(complaint_about("\xff\xfe\xfd\x80"), StartsWith("folder/file.yaml:1:"));
 }
 
-TEST(ScenarioReading, HostileFilesAreRefusedBeforeTheyCost) {
+TEST(ScenarioReading, HostileFilesAreRefusedBeforeExpansion) {
   EXPECT_EQ(complaint_about(std::string(kMaxYamlBytes + 1, ' ')), "folder/file.yaml: larger than 10000000 bytes");
   EXPECT_THAT(complaint_about(std::string(100000, '[')), HasSubstr("nested deeper than 32 levels"));
   EXPECT_THAT(complaint_about(std::string(100000, '{')), StartsWith("folder/file.yaml:1:"));
@@ -340,7 +340,7 @@ TEST(ScenarioReading, HostileFilesAreRefusedBeforeTheyCost) {
   std::string many = "seaglint: [";
   for (int i = 0; i < 400000; ++i) many += "1,";
   EXPECT_THAT(complaint_about(many + "]"), HasSubstr("more than 300000 values"));
-  // Each line names the one before ten times: 10^12 values if they were all made.
+  // Each line contains the one before ten times: 10^12 values if all were expanded.
   std::string laughs = "a0: &a0 x\n";
   for (int i = 1; i <= 12; ++i) {
     laughs += fmt::format("a{}: &a{} [", i, i);
@@ -349,7 +349,7 @@ TEST(ScenarioReading, HostileFilesAreRefusedBeforeTheyCost) {
   EXPECT_THAT(complaint_about(laughs), HasSubstr("more than 300000 values"));
 }
 
-TEST(ScenarioReading, MaterialsOfATargetAndItsPartsComeBackFromTheEffectiveForm) {
+TEST(ScenarioReading, MaterialsOfATargetAndItsPartsRoundTrip) {
   const Scenario scenario = parse(
       "seaglint: 1\ntargets:\n  a: {label: 1, mesh: a.glb, material: aluminium, part_materials: [{part: mast*, "
       "material: m.yaml}]}\n");

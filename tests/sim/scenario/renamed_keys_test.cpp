@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every key and value of earlier versions is refused by its new name.
+// Every key and value of earlier versions is refused with its new name.
 #include "sim/scenario/renamed_keys.h"
 
 #include <fmt/format.h>
@@ -53,14 +53,14 @@ TEST(RenamedKeys, AreRefusedByTheirNewNames) {
     EXPECT_THAT(
         complaint_about(scenario_with(path, "0.07")),
         AllOf(StartsWith("folder/file.yaml:2:"), EndsWith(fmt::format(": {}: {}{}", path, renamed, converted))));
-    // What is no number is named without a value to write.
+    // A value that is not a number is reported without a value to write.
     EXPECT_EQ(complaint_about(kShort, {{path, "x"}}), fmt::format("--set {}: {}", path, renamed));
     EXPECT_THAT(complaint_about(kShort, {{with_last(path, key.now), "0.07"}}),
                 Not(testing::AnyOf(HasSubstr("unknown key"), HasSubstr("renamed"))));
   }
 }
 
-TEST(RenamedKeys, WithAnotherUnitSayTheValueToWrite) {
+TEST(RenamedKeys, WithAnotherUnitReportTheConvertedValue) {
   EXPECT_EQ(complaint_about("seaglint: 1\ntargets:\n  a:\n    label: 1\n    mesh: a.glb\n    solver:\n"
                             "      ray_spacing_m: 0.07\n"),
             "folder/file.yaml:7:7: targets.a.solver.ray_spacing_m: renamed to min_patch_m, which is a fourteenth: "
@@ -70,7 +70,7 @@ TEST(RenamedKeys, WithAnotherUnitSayTheValueToWrite) {
               EndsWith("renamed to cnr_db, which has the opposite sign: write cnr_db: 30"));
 }
 
-// An override below a section of an old name is refused by the section's new name.
+// An override below a section of an old name is refused with the section's new name.
 TEST(RenamedKeys, OfASectionAreNamedBelowItToo) {
   EXPECT_EQ(complaint_about(kShort, {{"radar.budget.losses_db", "3"}}),
             "--set radar.budget.losses_db: radar.budget: renamed to link_budget");
@@ -78,7 +78,7 @@ TEST(RenamedKeys, OfASectionAreNamedBelowItToo) {
             "--set targets.a.with.0.target: targets.a.with: renamed to companions");
 }
 
-TEST(RenamedKeys, AreThoseOfTheirOwnSectionAlone) {
+TEST(RenamedKeys, AreThoseOfTheirOwnSectionOnly) {
   EXPECT_THAT(complaint_about(kShort, {{"radar.with", "1"}}), HasSubstr("unknown key"));
   EXPECT_THAT(complaint_about(kShort, {{"clutter.budget", "1"}}), HasSubstr("unknown key"));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every field is visited: changed to another allowed value, written, read back, compared bit by bit.
+// Round trip of every field: changed to another allowed value, written, read back, compared bit by bit.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@
 namespace seaglint {
 namespace {
 
-// Walks all fields; the derived visitor sees each value with its full key path.
+// Visits all fields; the derived visitor receives each value with its full key path.
 class Walker : public FieldVisitor {
  public:
   void section(const char* key, const Fields& fields) override {
@@ -87,7 +87,7 @@ class Mutator : public Walker {
   void triple(const char*, std::array<double, 3>& values, const Bound& bound) override {
     for (double& value : values) value = draw(bound);
   }
-  void ratio(const char*, double& share) override { share = random_.uniform(); }
+  void ratio(const char*, double& fraction) override { fraction = random_.uniform(); }
   void sweep(const char*, Sweep& values, const Bound& bound, Names, std::size_t* word) override {
     if (word != nullptr && *word > 0) return;
     values.resize(1 + random_.below(3));
@@ -132,7 +132,7 @@ std::map<std::string, std::string> values_of(Scenario scenario) {
   return collector.values;
 }
 
-// Mutated values contradict each other now and then; these ones are put right again.
+// Mutated values may contradict each other; these are corrected.
 void make_consistent(Scenario& scenario) {
   scenario.radar.pulse_width_us = scenario.radar.pri_us / 3;
   if (scenario.radar.pulse_width_us < 0.001 || scenario.radar.pulse_width_us > 1e6) {
@@ -208,7 +208,7 @@ TEST(RoundTrip, EveryFieldComesBackToTheBit) {
   EXPECT_GT(changes.size(), 120u);
 }
 
-TEST(RoundTrip, DefaultsComeBackAndTheEffectiveScenarioIsItsOwn) {
+TEST(RoundTrip, DefaultsRoundTripAndTheEffectiveScenarioIsIdempotent) {
   const Scenario scenario = full_scenario();
   const std::string yaml = effective_yaml(scenario);
   const Scenario read = parse_scenario(yaml, "effective.yaml");
@@ -217,14 +217,14 @@ TEST(RoundTrip, DefaultsComeBackAndTheEffectiveScenarioIsItsOwn) {
 }
 
 TEST(RoundTrip, EveryAllowedWordIsRead) {
-  // Each choice is written by name and read back by name; a name listed twice or out of order would not come back.
+  // Each choice is written by name and read back by name; a name listed twice or out of order would not be recovered.
   for (int step = 0; step < 6; ++step) {
     Scenario scenario = full_scenario();
-    scenario.clutter.enabled = false;  // its reflectivity is known for two of the polarisations
+    scenario.clutter.enabled = false;  // its reflectivity is modelled for two of the polarisations
     for (int i = 0; i < step; ++i) {
-      class Turn : public Mutator {
+      class Change : public Mutator {
        public:
-        Turn() : Mutator(0) {}
+        Change() : Mutator(0) {}
         void number(const char*, double&, const Bound&) override {}
         void integer(const char*, int&, const Bound&) override {}
         void flag(const char*, bool&) override {}
@@ -232,8 +232,8 @@ TEST(RoundTrip, EveryAllowedWordIsRead) {
         void triple(const char*, std::array<double, 3>&, const Bound&) override {}
         void ratio(const char*, double&) override {}
         void sweep(const char*, Sweep&, const Bound&, Names, std::size_t*) override {}
-      } turn;
-      visit_fields(scenario, turn);
+      } change;
+      visit_fields(scenario, change);
     }
     if (scenario.sea.spectrum == SpectrumKind::kTable) scenario.sea.spectrum = SpectrumKind::kJonswap;
     if (scenario.radar.hop_code == HopCode::kFile) scenario.radar.hop_code = HopCode::kRandom;  // needs its file too

@@ -38,17 +38,17 @@ TEST(SamplePlan, CountsMapsPerCaseAndClass) {
 
 TEST(SamplePlan, NumbersEveryAddressOnce) {
   const SamplePlan plan(small_scenario());
-  std::set<std::tuple<int, int, int, int, int>> seen;
+  std::set<std::tuple<int, int, int, int, int>> addresses;
   for (std::size_t i = 0; i < plan.size(); ++i) {
     const SampleAddress at = plan.address(i);
-    seen.insert({at.sea_state, at.realisation, at.view, at.interval, at.target});
+    addresses.insert({at.sea_state, at.realisation, at.view, at.interval, at.target});
     EXPECT_EQ(plan.sample(at), i);
     const SampleAddress sea = plan.sea_address(i);
     EXPECT_EQ(sea.sea_state, at.sea_state);
     EXPECT_EQ(sea.realisation, at.realisation);
     EXPECT_EQ(plan.group(sea), plan.group(at));
   }
-  EXPECT_EQ(seen.size(), plan.size());
+  EXPECT_EQ(addresses.size(), plan.size());
 }
 
 TEST(SamplePlan, ShardsCoverAllSamplesInOrder) {
@@ -62,7 +62,7 @@ TEST(SamplePlan, ShardsCoverAllSamplesInOrder) {
   EXPECT_EQ(next, plan.size());
 }
 
-TEST(SamplePlan, BothClassesAndAllViewsShareTheSeaOfAGroup) {
+TEST(SamplePlan, BothClassesAndAllViewsHaveTheSeaOfTheirGroup) {
   const SamplePlan plan(small_scenario());
   std::map<std::int64_t, std::set<std::uint64_t>> seas_of_group;
   std::map<std::int64_t, std::set<std::pair<int, int>>> uses_of_group;
@@ -77,7 +77,7 @@ TEST(SamplePlan, BothClassesAndAllViewsShareTheSeaOfAGroup) {
   for (const auto& [group, uses] : uses_of_group) EXPECT_EQ(uses.size(), 6u);
 }
 
-TEST(SamplePlan, NeitherParityNorTheNeighbourTellsTheTarget) {
+TEST(SamplePlan, ClassIsIndependentOfParityAndNeighbour) {
   Scenario scenario = small_scenario();
   scenario.dataset.maps_per_case = 300;
   const SamplePlan plan(scenario);
@@ -93,7 +93,7 @@ TEST(SamplePlan, NeitherParityNorTheNeighbourTellsTheTarget) {
   EXPECT_NEAR(changes, samples / 4, 2 * std::sqrt(samples / 2) + 3);
 }
 
-TEST(SamplePlan, SamplesOfOneSeaLieTogether) {
+TEST(SamplePlan, SamplesOfOneSeaAreContiguous) {
   const SamplePlan plan(small_scenario());
   std::int64_t last = 0;
   for (std::size_t i = 0; i < plan.size(); ++i) {

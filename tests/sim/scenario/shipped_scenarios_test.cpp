@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The scenarios that come with the project are valid and of the size their table promises.
+// The scenarios of the project are valid and have the sizes of their table.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -17,7 +17,7 @@ std::size_t map_count(const Scenario& scenario) {
          static_cast<std::size_t>(scenario.dataset.maps_per_case);
 }
 
-TEST(ShippedScenarios, AreValidAndComeBackFromTheirEffectiveForm) {
+TEST(ShippedScenarios, AreValidAndRoundTripThroughTheirEffectiveForm) {
   int count = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(SEAGLINT_SOURCE_DIR "/scenarios")) {
     if (entry.path().extension() != ".yaml") continue;

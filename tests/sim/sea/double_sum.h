@@ -14,7 +14,7 @@
 
 namespace seaglint {
 
-// Linear and second-order surface at one place and time, with the motion of the water there to second order.
+// Linear and second-order surface at one place and time, with the velocity of the water there to second order.
 struct ReferenceSurface {
   double linear = 0, second = 0;  // elevation
   Vec2 second_slope = Vec2::Zero();

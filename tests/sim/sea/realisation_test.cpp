@@ -17,7 +17,7 @@
 namespace seaglint {
 namespace {
 
-TEST(RealiseSea, MeetsTheSignificantWaveHeightExactly) {
+TEST(RealiseSea, HasTheSignificantWaveHeightExactly) {
   for (const double height : {0.1, 1.0, 2.0, 8.0}) {
     for (const std::uint64_t seed : {1u, 2u, 3u}) {
       const SeaState state = state_of(height, 10);
@@ -26,7 +26,7 @@ TEST(RealiseSea, MeetsTheSignificantWaveHeightExactly) {
   }
 }
 
-TEST(RealiseSea, GivesEachStratumTheEnergyOfItsDensity) {
+TEST(RealiseSea, HasTheEnergyOfTheDensityInEachStratum) {
   const SeaState state = state_of(2, 8);
   const JonswapSpectrum spectrum(2, 8, 3.3);
   const WaveField field = realise_sea(state, 42, 0);
@@ -94,13 +94,13 @@ TEST(RealiseSea, HasTheVarianceAndSkewnessOfItsSpectrum) {
   EXPECT_NEAR(variance, 1.0 / 16, 4 * std::sqrt((variance2 - variance * variance) / kSeeds));
   const double expected = skewness * std::pow(1.0 / 16, 1.5);
   EXPECT_NEAR(third, expected, 4 * std::sqrt((third2 - third * third) / kSeeds));
-  // The cut-off of the quadratic sums and of the spectrum takes a little from c(3.3) kp Hs.
+  // The cut-off of the quadratic sums and of the spectrum lowers c(3.3) kp Hs a little.
   const double kp = 4 * kPi * kPi / 36 / kGravity;
   EXPECT_NEAR(skewness, 0.783 * kp, 0.05 * 0.783 * kp);
 }
 
 // The correlation of two points is int S cos(k dx) dw / m0; one sea's sum over components is its time average.
-TEST(RealiseSea, CorrelatesTwoPointsAsItsSpectrumSays) {
+TEST(RealiseSea, CorrelatesTwoPointsByItsSpectrum) {
   SeaState state = state_of(1, 8);
   state.order = 1;
   const JonswapSpectrum spectrum(1, 8, 3.3);
@@ -115,8 +115,8 @@ TEST(RealiseSea, CorrelatesTwoPointsAsItsSpectrumSays) {
     const WaveField field = realise_sea(state, 1, 0);
     for (const WaveComponent& c : field.components())
       sum += 8 * c.amplitude * c.amplitude * std::cos(c.wavenumber * distance);
-    // A component sits anywhere in its stratum of 0.0149 rad/s: k dx is uncertain by 2 w dx 0.0043/g, averaged over
-    // some 20 strata of the peak.
+    // A component lies anywhere in its stratum of 0.0149 rad/s: k dx has an uncertainty of 2 w dx 0.0043/g, averaged
+    // over some 20 strata of the peak.
     EXPECT_NEAR(sum, expected, 0.01 + 0.001 * distance) << distance << " m";
   }
 }
@@ -127,7 +127,7 @@ double energy_of(const WaveField& field) {
   return energy;
 }
 
-// Fixed amplitudes carry the spectrum's energy in every sea; random ones on the average, with the scatter of a sum of
+// Fixed amplitudes have the spectrum's energy in every sea; random ones on average, with the scatter of a sum of
 // exponential deviates: variance sum e^2.
 TEST(RealiseSea, ScattersItsEnergyWithRandomAmplitudes) {
   SeaState state = state_of(1, 8);
@@ -139,7 +139,7 @@ TEST(RealiseSea, ScattersItsEnergyWithRandomAmplitudes) {
   double mean = 0, square = 0;
   for (int seed = 0; seed < kSeeds; ++seed) {
     const WaveField field = realise_sea(state, 42, static_cast<std::uint64_t>(seed));
-    // Places and phases are those of the fixed amplitudes.
+    // Frequencies and phases are those of the fixed amplitudes.
     if (seed == 0) {
       EXPECT_EQ(field.components()[100].omega, fixed.components()[100].omega);
     }
@@ -147,7 +147,8 @@ TEST(RealiseSea, ScattersItsEnergyWithRandomAmplitudes) {
     square += std::pow(energy_of(field), 2) / kSeeds;
   }
   EXPECT_NEAR(mean, 1.0 / 16, 4 * std::sqrt(expected_variance / kSeeds));
-  // The variance of 400 draws is known to 1/sqrt(200), more with the exponential's tail: 7 %; three times that.
+  // The variance of 400 draws has a standard error of 1/sqrt(200), more with the exponential's tail: 7 %; three times
+  // that.
   EXPECT_NEAR(square - mean * mean, expected_variance, 0.25 * expected_variance);
 }
 
@@ -169,7 +170,7 @@ TEST(RealiseSea, AddsSwellOfItsOwnDirectionAndEnergy) {
   EXPECT_NEAR(swell, 0.04, 1e-15);
   EXPECT_NEAR(energy_of(both) - swell, energy_of(wind), 1e-15);
   EXPECT_NEAR(summarise(state, both).significant_wave_height_m, std::sqrt(1.64), 1e-13);
-  // Swell alone, and swell along the wind sea, whose waves then share one direction.
+  // Swell alone, and swell along the wind sea, whose waves then have one direction in common.
   state.significant_wave_height_m = 0;
   EXPECT_EQ(realise_sea(state, 42, 0).components().size(), 128u);
   state.significant_wave_height_m = 1;
@@ -195,10 +196,10 @@ TEST(RealiseSea, FollowsATable) {
   EXPECT_NEAR(energy_of(field), 1.5 * 1.5 / 16, 1e-14);
   EXPECT_GE(field.components().front().omega, 0.4);
   EXPECT_LE(field.components().back().omega, 1.6);
-  // Share of the energy below 0.8: the first triangle.
+  // Fraction of the energy below 0.8: the first triangle.
   double below = 0;
   for (const WaveComponent& c : field.components()) below += c.omega < 0.8 ? 0.5 * c.amplitude * c.amplitude : 0;
-  // The stratum at 0.8 holds 1/160 of the energy and lies on either side.
+  // The stratum at 0.8 contains 1/160 of the energy and extends to either side.
   EXPECT_NEAR(below / energy_of(field), 0.1 / (0.1 + 0.06 + 0.03), 1.0 / 160);
   const TableSpectrum spectrum(table, 1.5);
   EXPECT_NEAR(spectrum.energy(0, 10), 1.5 * 1.5 / 16, 1e-15);
@@ -226,7 +227,7 @@ TEST(RealiseSea, IsFlatWithoutWaves) {
   EXPECT_EQ(summarise(state_of(0, 8), field).significant_wave_height_m, 0);
 }
 
-TEST(RealiseSea, ReportsWhatIsAboveTheCutoff) {
+TEST(RealiseSea, ReportsTheEnergyAboveTheCutoff) {
   SeaState state = state_of(1, 1.25);
   state.significant_wave_height_m = 0.1;
   state.cutoff_rad_s = 8;
@@ -273,8 +274,8 @@ double scatter_of_mean_period(SeaState state, int components) {
   return std::sqrt(std::max(0.0, square - sum * sum)) / sum;
 }
 
-// Components enough that strata are a tenth of the peak frequency wide hold T1 within 1 %; eight do not hold it at all.
-TEST(StratumWidths, TellHowMuchTheMeanPeriodScatters) {
+// With strata a tenth of the peak frequency wide T1 varies within 1 %; with eight components it varies far more.
+TEST(StratumWidths, DetermineTheScatterOfTheMeanPeriod) {
   SeaState state;  // Hs 1 m, Tp 8 s, up to 8 rad/s
   state.order = 1;
   const double peak = 2 * kPi / 8, span = (8 - 0.4 * peak) / peak;
@@ -289,7 +290,7 @@ TEST(StratumWidths, TellHowMuchTheMeanPeriodScatters) {
   const double fine = scatter_of_mean_period(state, 512), bound = scatter_of_mean_period(state, 98),
                coarse = scatter_of_mean_period(state, 8);
   std::printf("scatter of T1: %.2f, %.2f, %.1f %%\n", 100 * fine, 100 * bound, 100 * coarse);
-  // 400 seas know a standard deviation to 1 / sqrt(800), 3.5 %; three of these.
+  // Standard error of a standard deviation of 400 seas: 1 / sqrt(800), 3.5 %; three of these.
   EXPECT_LT(fine, 0.001 * 1.1);
   EXPECT_LT(bound, 0.009 * 1.1);
   EXPECT_GT(coarse, 0.2);

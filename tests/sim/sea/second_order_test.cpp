@@ -43,8 +43,8 @@ struct Case {
 
 class SecondOrderKernels : public testing::TestWithParam<Case> {};
 
-// Both sides are sums of 1152 terms of at most 1e-3 m, so that rounding is 1e-16 m; the difference waves of close
-// neighbours lose four digits to cancellation in either.
+// Both sides are sums of 1152 terms of at most 1e-3 m, so that rounding is 1e-16 m; the difference waves of components
+// of similar frequency lose four digits to cancellation in either.
 TEST_P(SecondOrderKernels, EqualADoubleSumFromTheBoundaryConditions) {
   const auto [name, depth, spread] = GetParam();
   const WaveField field(some_waves(depth, spread), 2, kNoCutoff, depth);
@@ -63,7 +63,7 @@ TEST_P(SecondOrderKernels, EqualADoubleSumFromTheBoundaryConditions) {
     EXPECT_NEAR((surface.acceleration - expected.acceleration).norm(), 0, 1e-12);
     largest = std::max(largest, std::abs(expected.second));
   }
-  EXPECT_GT(largest, 1e-3);  // there is something to compare
+  EXPECT_GT(largest, 1e-3);  // the comparison is not empty
 }
 INSTANTIATE_TEST_SUITE_P(, SecondOrderKernels,
                          testing::Values(Case{"DeepLongCrested", kDeepWater, 0},
@@ -71,7 +71,7 @@ INSTANTIATE_TEST_SUITE_P(, SecondOrderKernels,
                                          Case{"DirectionalIn15Metres", 15, 1.5}, Case{"OpposedIn8Metres", 8, 3.1}),
                          [](const auto& one) { return one.param.name; });
 
-TEST(RegularWaves, AreStokesWavesAtEveryDepthGiven) {
+TEST(RegularWaves, AreStokesWavesAtEveryGivenDepth) {
   for (const char* table : {"raschii_stokes2_deep.csv", "raschii_stokes2_15m.csv"}) {
     for (const std::vector<double>& row : read_reference(table)) {
       const double height = row[2], depth = row[3], k = 2 * kPi / row[4], x = row[5], eta = row[6];
@@ -83,7 +83,7 @@ TEST(RegularWaves, AreStokesWavesAtEveryDepthGiven) {
   }
 }
 
-// Four waves that meet: the same surface whether its pairs are summed one way or the other.
+// Four crossing waves: the same surface for either order of summation of the pairs.
 TEST(PairInteractions, EqualTheRunningSumsOfWavesOfOneDirection) {
   const std::vector<WaveComponent> waves = some_waves(kDeepWater, 0, 100);
   const WaveField running(waves, 2, kNoCutoff);
@@ -99,7 +99,7 @@ TEST(PairInteractions, EqualTheRunningSumsOfWavesOfOneDirection) {
   EXPECT_EQ(pairs.evaluate(waves, cosine, sine, false).elevation, second.elevation);
 }
 
-// Waves of one frequency that cross have a difference wave that stands still, and no singular kernel.
+// Crossing waves of one frequency have a difference wave of zero frequency, and no singular kernel.
 TEST(PairInteractions, OfWavesOfOneFrequencyAreFinite) {
   const double k = 0.1, omega = std::sqrt(kGravity * k);
   for (const double depth : {kDeepWater, 20.0}) {
@@ -118,11 +118,11 @@ TEST(PairInteractions, OfWavesOfOneFrequencyAreFinite) {
 }
 
 // Water drifts with a regular wave at a^2 w k, Stokes' drift at the surface of deep water, to the order of a^4.
-TEST(SurfaceVelocity, CarriesAParticleWithStokesDrift) {
+TEST(SurfaceVelocity, MovesAParticleWithStokesDrift) {
   const double k = 0.15, omega = std::sqrt(kGravity * k), period = 2 * kPi / omega;
   for (const double amplitude : {0.1, 0.4}) {
     const WaveField wave({{omega, amplitude, 0, k}}, {1, 0}, 2, kNoCutoff);
-    // Ten of the particle's own periods, which are longer than the wave's: it runs with the wave.
+    // Ten of the particle's own periods, which are longer than the wave's, since it drifts with the wave.
     double x = 0, t = 0;
     const double step = period / 4000;
     for (; omega * t - k * x < 20 * kPi; t += step) {
@@ -137,8 +137,8 @@ TEST(SurfaceVelocity, CarriesAParticleWithStokesDrift) {
   }
 }
 
-// The acceleration is that of the water which moves with the velocity: d/dt of the surface velocity along its path, up
-// to terms of third order, which fall eightfold when the waves are halved.
+// The acceleration is that of the water particle: d/dt of the surface velocity along its path, up to terms of third
+// order, which decrease eightfold when the waves are halved.
 TEST(SurfaceAcceleration, IsTheRateOfTheVelocityOfTheMovingWater) {
   const auto residual = [](double scale, double depth, double spread) {
     std::vector<WaveComponent> waves = some_waves(depth, spread);
@@ -165,7 +165,7 @@ TEST(SurfaceAcceleration, IsTheRateOfTheVelocityOfTheMovingWater) {
 
 TEST(Wavenumber, IsThatOfMhkit) {
   for (const std::vector<double>& row : read_reference("mhkit_dispersion.csv")) {
-    // MHKiT's data are w(k) with its own g, 9.80665 or 9.81: in the digits they share.
+    // MHKiT's data are w(k) with its own g, 9.80665 or 9.81: compared in the digits that both have in common.
     EXPECT_NEAR(wavenumber_at(row[1], row[0]), row[2], 1e-3 * row[2]);
   }
 }

@@ -40,7 +40,7 @@ TEST(JonswapSpectrum, EqualsTheTableOfMhkitInDnvMode) {
   }
 }
 
-TEST(JonswapSpectrum, HoldsASixteenthOfTheSquaredHeightWhenExact) {
+TEST(JonswapSpectrum, HasASixteenthOfTheSquaredHeightWhenExact) {
   for (const double gamma : {1.0, 2.0, 3.3, 7.0, 20.0}) {
     const JonswapSpectrum spectrum(2, 9, gamma);
     EXPECT_NEAR(spectrum.energy(0, kInfinity), 0.25, 0.25 * 1e-12) << "gamma " << gamma;
@@ -48,7 +48,7 @@ TEST(JonswapSpectrum, HoldsASixteenthOfTheSquaredHeightWhenExact) {
   }
 }
 
-TEST(JonswapSpectrum, IsOffByTheKnownAmountsInDnvMode) {
+TEST(JonswapSpectrum, HasTheKnownErrorsInDnvMode) {
   EXPECT_NEAR(JonswapSpectrum(1, 5, 3.3, kDnv).energy_above(0) * 16, 1.0024, 0.0001);
   EXPECT_NEAR(JonswapSpectrum(1, 5, 7, kDnv).energy_above(0) * 16, 0.982, 0.001);
 }
@@ -92,11 +92,11 @@ double skewness(const JonswapSpectrum& spectrum, double cutoff) {
   return 3 * sum / std::pow(m0, 1.5);
 }
 
-TEST(JonswapSpectrum, GivesTheSkewnessOfWafo) {
+TEST(JonswapSpectrum, HasTheSkewnessOfWafo) {
   for (const std::vector<double>& row : read_reference("wafo_second_order_moments.csv")) {
     const double height = row[1], period = row[2], gamma = row[3], depth = row[4], cutoff = row[5], expected = row[7];
     if (std::isfinite(depth) && depth > 0) continue;
-    // Half a per cent: WAFO's own grid misses 0.03 % of Hs, and its spectrum ends at the cut-off.
+    // Half a per cent: the error of Hs on WAFO's own grid is 0.03 %, and its spectrum ends at the cut-off.
     EXPECT_NEAR(skewness({height, period, gamma}, cutoff), expected, 0.005 * expected) << "Hs " << height;
   }
 }

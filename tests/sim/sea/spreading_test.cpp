@@ -14,7 +14,7 @@ namespace {
 
 // Tanh-sinh rule over [-pi, pi], whose end points may be singular; exact to rounding for these functions.
 template <typename Function>
-double over_a_turn(const Function& f) {
+double over_full_circle(const Function& f) {
   double sum = 0;
   constexpr double kStep = 1.0 / 64;
   for (int n = -250; n <= 250; ++n) {
@@ -25,15 +25,15 @@ double over_a_turn(const Function& f) {
   return sum;
 }
 
-// The density of energy that the sampler must have, at an angle from the mean direction, 1/rad; integrates to 1 over a
-// full turn: the wrapped normal, or cos^2s(angle/2) over 2 sqrt(pi) Gamma(s + 1/2) / Gamma(s + 1) (Longuet-Higgins,
-// Cartwright and Smith 1963).
+// The energy density of the sampler's angles from the mean direction, 1/rad; integrates to 1 over 2 pi: the wrapped
+// normal, or cos^2s(angle/2) over 2 sqrt(pi) Gamma(s + 1/2) / Gamma(s + 1) (Longuet-Higgins, Cartwright and Smith
+// 1963).
 double spreading_density(const SpreadingSpec& spec, double angle, double omega_over_peak) {
   const double theta = std::remainder(angle, 2 * kPi);
   if (spec.kind == Spreading::kWrappedNormal) {
     const double sigma = radians(spec.width_deg);
     double sum = 0;
-    constexpr int kTurns = 6;  // of images: beyond lies less than 1e-20 of the energy up to a width of 180 deg
+    constexpr int kTurns = 6;  // of images: beyond these is less than 1e-20 of the energy up to a width of 180 deg
     for (int turn = -kTurns; turn <= kTurns; ++turn) {
       const double z = (theta + 2 * kPi * turn) / sigma;
       sum += std::exp(-0.5 * z * z);
@@ -65,14 +65,14 @@ const Case kCases[] = {{spec_of(Spreading::kCos2s, 0.5), 1},
 TEST(Spreading, IntegratesToOneAndHasItsR1) {
   for (const auto& [spec, u] : kCases) {
     const auto density = [&spec = spec, u = u](double angle) { return spreading_density(spec, angle, u); };
-    EXPECT_NEAR(over_a_turn(density), 1, 1e-12) << spreading_exponent(spec, u);
-    EXPECT_NEAR(over_a_turn([&](double angle) { return density(angle) * std::cos(angle); }), spreading_r1(spec, u),
+    EXPECT_NEAR(over_full_circle(density), 1, 1e-12) << spreading_exponent(spec, u);
+    EXPECT_NEAR(over_full_circle([&](double angle) { return density(angle) * std::cos(angle); }), spreading_r1(spec, u),
                 1e-12);
-    EXPECT_NEAR(over_a_turn([&](double angle) { return density(angle) * std::sin(angle); }), 0, 1e-12);
+    EXPECT_NEAR(over_full_circle([&](double angle) { return density(angle) * std::sin(angle); }), 0, 1e-12);
   }
 }
 
-// Mitsuyasu et al. (1975): widest beyond the peak, narrowest at it.
+// Mitsuyasu et al. (1975): widest above the peak, narrowest at it.
 TEST(Spreading, OfMitsuyasuIsNarrowestAtThePeak) {
   const SpreadingSpec spec = spec_of(Spreading::kMitsuyasu, 10);
   EXPECT_NEAR(spreading_exponent(spec, 1), 10, 1e-13);
@@ -80,16 +80,16 @@ TEST(Spreading, OfMitsuyasuIsNarrowestAtThePeak) {
   EXPECT_NEAR(spreading_exponent(spec, 2), 10 * std::pow(2, -2.5), 1e-13);
 }
 
-TEST(Spreading, QuantileIsTheInverseOfTheShare) {
+TEST(Spreading, QuantileIsTheInverseOfTheFraction) {
   for (const auto& [spec, u] : kCases) {
     for (const double probability : {1e-6, 0.02, 0.3, 0.5, 0.77, 0.999}) {
       const double angle = spreading_quantile(spec, probability, u);
       if (spec.kind == Spreading::kWrappedNormal) {
-        // Before wrapping: the normal's share.
+        // Before wrapping: the normal's fraction.
         EXPECT_NEAR(0.5 * std::erfc(-angle / radians(spec.width_deg) / std::sqrt(2.0)), probability, 1e-12);
         continue;
       }
-      // The share between 0 and the angle by Simpson's rule, which the density's smoothness inside the turn allows.
+      // The fraction between 0 and the angle by Simpson's rule, for which the density is smooth enough.
       double sum = 0;
       constexpr int kSteps = 4000;
       for (int i = 0; i <= kSteps; ++i) {
@@ -117,18 +117,18 @@ TEST(Spreading, OfARealisationHasItsR1) {
     double expected = 0;
     for (const WaveComponent& c : field.components()) {
       EXPECT_NEAR(c.direction.norm(), 1, 1e-14);
-      const double share = 8 * c.amplitude * c.amplitude;
-      mean += share * c.direction;
-      expected += share * spreading_r1(state.spreading, c.omega * 8 / (2 * kPi));
+      const double fraction = 8 * c.amplitude * c.amplitude;
+      mean += fraction * c.direction;
+      expected += fraction * spreading_r1(state.spreading, c.omega * 8 / (2 * kPi));
     }
-    // Thirty neighbours share the peak's energy, their directions a thirtieth of the circle apart in share.
+    // Thirty adjacent components have the peak's energy, their directions a thirtieth of the distribution apart.
     EXPECT_NEAR(mean.norm(), expected, 0.01);
     EXPECT_NEAR(std::atan2(mean.y(), mean.x()), radians(120), 0.02);
   }
 }
 
 // Correlation of two points across the waves: int int S D cos(k dx sin(angle)) / m0.
-TEST(Spreading, MakesTheCorrelationAcrossTheWavesThatItsIntegralSays) {
+TEST(Spreading, CorrelationAcrossTheWavesEqualsItsIntegral) {
   SeaState state;
   state.significant_wave_height_m = 1;
   state.peak_period_s = 8;
@@ -143,10 +143,10 @@ TEST(Spreading, MakesTheCorrelationAcrossTheWavesThatItsIntegralSays) {
       double one = 0;
       const WaveField field = realise_sea(state, seed, 0);
       for (const WaveComponent& c : field.components()) {
-        const double share = 8 * c.amplitude * c.amplitude;
-        one += share * std::cos(c.wavenumber * distance * c.direction.y());
+        const double fraction = 8 * c.amplitude * c.amplitude;
+        one += fraction * std::cos(c.wavenumber * distance * c.direction.y());
         expected +=
-            share / kSeeds * over_a_turn([&](double angle) {
+            fraction / kSeeds * over_full_circle([&](double angle) {
               return spreading_density(state.spreading, angle, 1) * std::cos(c.wavenumber * distance * std::sin(angle));
             });
       }

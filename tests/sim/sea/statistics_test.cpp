@@ -41,8 +41,9 @@ double exceeded_with(const std::vector<double>& ascending, double probability) {
 
 class Crests : public testing::TestWithParam<std::pair<double, double>> {};
 
-// Forristall's fit has a few per cent itself; of 25,000 crests 25 pass the height of 0.1 %, which is known to 1.5 %.
-TEST_P(Crests, AreAsHighAsForristallFound) {
+// Forristall's fit has an error of a few per cent itself; of 25,000 crests 25 exceed the height of 0.1 %, whose
+// standard error is 1.5 %.
+TEST_P(Crests, HaveForristallsDistribution) {
   const auto [height, period] = GetParam();
   const SeaState state = state_of(height, period);
   const std::vector<double> crests = ensemble(state, 120, 200 * period, period / 24);
@@ -67,7 +68,7 @@ TEST(Crests, OfLinearNarrowWavesAreRayleighs) {
   state.cutoff_rad_s = 1.2;
   const std::vector<double> crests = ensemble(state, 60, 1600, 0.4);
   for (const double probability : {0.3, 0.1, 0.03, 0.01}) {
-    // Crests of a spectrum of this width fall short of the narrow limit by 2 %.
+    // Crests of a spectrum of this width are 2 % below the narrow-band limit.
     EXPECT_NEAR(rayleigh_exceedance(exceeded_with(crests, probability), 1) / probability, 1, 0.2) << probability;
   }
 }
@@ -105,10 +106,10 @@ double skewness_of(const JonswapSpectrum& spectrum, double cutoff, double depth,
   return WaveField(components, {1, 0}, 2, 1e9, depth).third_cumulant() / std::pow(m0, 1.5);
 }
 
-// WAFO integrates over the spectrum. N waves of fixed amplitude lack half of what each makes with itself, a share of
-// 1/N, which the step from N to 2 N takes out. Half a per cent: WAFO's own grid misses 0.03 % of Hs, and its spectrum
-// ends at the cut-off.
-TEST(Skewness, IsThatOfWafoAtEveryDepthGiven) {
+// WAFO integrates over the spectrum. N waves of fixed amplitude have half of the self-interaction of each, a deficit of
+// 1/N, which the step from N to 2 N removes. Half a per cent: the error of Hs on WAFO's own grid is 0.03 %, and its
+// spectrum ends at the cut-off.
+TEST(Skewness, IsThatOfWafoAtEveryGivenDepth) {
   for (const std::vector<double>& row : read_reference("wafo_second_order_moments.csv")) {
     const double depth = std::isfinite(row[4]) && row[4] > 0 ? row[4] : kDeepWater;
     const JonswapSpectrum spectrum(row[1], row[2], row[3]);
@@ -138,13 +139,13 @@ TEST(Skewness, OfAnEnsembleOfDirectionalSeasLiesWithinItsConfidence) {
     mean += third / kSeeds;
     square += third * third / kSeeds;
   }
-  // Four standard errors of the mean: one chance in 16,000 to miss.
+  // Four standard errors of the mean: a false failure in one of 16,000 runs.
   EXPECT_NEAR(mean, expected, 4 * std::sqrt((square - mean * mean) / kSeeds));
   EXPECT_GT(expected, 0);
 }
 
 // The slope variance of a w^-5 sea grows with the logarithm of the cut-off: alpha/2 ... per octave alpha ln 2.
-TEST(SeaSummary, SaysWhatTheCutoffTakesFromTheSlope) {
+TEST(SeaSummary, ReportsTheSlopeVarianceAboveTheCutoff) {
   SeaState state = state_of(1, 8);
   const SeaSummary at8 = summarise(state, realise_sea(state, 1, 0));
   state.cutoff_rad_s = 16;
@@ -154,7 +155,7 @@ TEST(SeaSummary, SaysWhatTheCutoffTakesFromTheSlope) {
   EXPECT_NEAR(at8.slope_variance_next_octave, at16.slope_variance_next_octave, 0.01 * at8.slope_variance_next_octave);
 }
 
-TEST(SeaSummary, KnowsSteepnessUrsellAndDirection) {
+TEST(SeaSummary, HasSteepnessUrsellAndDirection) {
   SeaState state = state_of(2, 7);
   state.depth_m = 15;
   state.spreading = {Spreading::kWrappedNormal, 10, 25};
@@ -166,7 +167,7 @@ TEST(SeaSummary, KnowsSteepnessUrsellAndDirection) {
   EXPECT_NEAR(summary.steepness, 2 * kPi * 2 / (kGravity * summary.mean_period_s * summary.mean_period_s), 1e-12);
   const double k1 = wavenumber_at(2 * kPi / summary.mean_period_s, 15);
   EXPECT_NEAR(summary.ursell, 2 / (k1 * k1 * 15 * 15 * 15), 1e-12);
-  // Thirty neighbours share the peak's energy, their directions a thirtieth of the circle apart in share.
+  // Thirty adjacent components have the peak's energy, their directions a thirtieth of the distribution apart.
   EXPECT_NEAR(summary.direction_r1, std::exp(-0.5 * radians(25) * radians(25)), 0.01);
 }
 

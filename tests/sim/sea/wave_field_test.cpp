@@ -122,7 +122,7 @@ TEST(WaveField, OrbitalVelocityIsThatOfLinearTheory) {
   const double amplitude = 0.5, k = 0.2;
   const double omega = std::sqrt(kGravity * k);
   const WaveField wave = regular_wave(amplitude, k, {0.6, 0.8}, 1);
-  // Under a crest water goes with the wave, a quarter of a period earlier it rises.
+  // Under a crest water moves with the wave, a quarter of a period earlier it rises.
   const Vec3 crest = wave.surface(0, 0, 0).velocity;
   EXPECT_NEAR((crest - amplitude * omega * Vec3(0.6, 0.8, 0)).norm(), 0, 1e-12);
   const Vec3 rising = wave.surface(0, 0, -0.25 * 2 * kPi / omega).velocity;
@@ -156,7 +156,7 @@ TEST(WaveField, ComponentsAboveTheSecondOrderCutoffStayLinear) {
   EXPECT_NEAR(all.elevation - all.elevation_linear, part.elevation - part.elevation_linear, 1e-14);
 }
 
-// RMS of the second-order slope at Hs 2 m, Tp 5.6 s: 0.034 at the default limit, beyond all measure when it is 8 rad/s.
+// RMS of the second-order slope at Hs 2 m, Tp 5.6 s: 0.034 at the default limit, unbounded growth when it is 8 rad/s.
 TEST(WaveField, SecondOrderSlopeStaysSmallAtTheDefaultCutoff) {
   const auto second_order_slope = [](double cutoff) {
     SeaState state = state_of(2, 5.6);
@@ -183,7 +183,7 @@ TEST(SurfaceSeries, EqualsTheSurfaceAtItsPoint) {
   for (int i = 0; i < 5000; ++i, series.advance()) {
     const SurfaceState expected = field.surface(30, -20, -60 + 0.01 * i);
     const SurfaceState state = series.state();
-    // 64 turns of two roundings each, 2e-14 per phasor, summed over 512 of them; angles of 500 rad add 1e-13.
+    // 64 rotations of two roundings each, 2e-14 per phasor, summed over 512 of them; angles of 500 rad add 1e-13.
     ASSERT_NEAR(state.elevation, expected.elevation, 1e-12 * 2);
     ASSERT_NEAR(state.elevation_linear, expected.elevation_linear, 1e-12 * 2);
     ASSERT_NEAR(state.slope_x, expected.slope_x, 1e-12);
@@ -192,8 +192,8 @@ TEST(SurfaceSeries, EqualsTheSurfaceAtItsPoint) {
   }
 }
 
-// Far from the origin a short wave has more phase than unit_phasors takes; whole turns of it do not count.
-TEST(WaveField, GoesOnFarFromTheOrigin) {
+// Far from the origin a short wave has more phase than unit_phasors accepts; whole cycles are removed.
+TEST(WaveField, IsAccurateFarFromTheOrigin) {
   const WaveComponent wave{100, 0.01, 0.3, 100 * 100 / kGravity, Vec2(1, 0)};
   const WaveField field({wave}, 1, 0);
   const double x = -5e6, t = 7;
@@ -204,7 +204,7 @@ TEST(WaveField, GoesOnFarFromTheOrigin) {
               tolerance);
   SurfaceSeries series(field, x, 0, t, 0.01, SurfaceQuantities::kElevationAndSlope);
   EXPECT_NEAR(series.state().elevation, 0.01 * std::cos(angle), tolerance);
-  // Where a phase's own rounding is a share of a turn there is no wave to speak of.
+  // A position at which the rounding of a phase is a fraction of a cycle is an error.
   EXPECT_THROW(field.surface(1e12, 0, t), std::logic_error);
 }
 

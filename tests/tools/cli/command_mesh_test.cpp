@@ -30,13 +30,13 @@ class MeshCommand : public testing::Test {
   // What the command prints.
   static std::string run(std::vector<std::string> words) {
     CLI::App app("test");
-    CommandContext shell;
-    add_mesh(app, shell);
+    CommandContext context;
+    add_mesh(app, context);
     std::reverse(words.begin(), words.end());
     app.parse(words);
     testing::internal::CaptureStdout();
     try {
-      shell.work();
+      context.work();
     } catch (...) {
       testing::internal::GetCapturedStdout();
       throw;
@@ -47,7 +47,7 @@ class MeshCommand : public testing::Test {
   fs::path folder;
 };
 
-TEST_F(MeshCommand, MakesEveryKindOfMesh) {
+TEST_F(MeshCommand, CreatesEveryKindOfMesh) {
   const std::string file = (folder / "a.glb").string();
   const std::pair<std::vector<std::string>, double> kinds[] = {
       {{"plate", "--length-m", "2", "--width-m", "0.5"}, 1.0},
@@ -70,7 +70,7 @@ TEST_F(MeshCommand, MakesEveryKindOfMesh) {
   EXPECT_NEAR(bounds(read_mesh(file)).upper.x(), 60, 0.01);
 }
 
-TEST_F(MeshCommand, TellsWhatIsInAFileInItsUnit) {
+TEST_F(MeshCommand, ReportsTheContentsOfAFileInItsUnit) {
   const std::string file = (folder / "plate.stl").string(), picture = (folder / "plate.png").string();
   write_mesh(file, make_plate(1000, 500));
   const std::string text = run({"mesh", "info", file, "--unit", "mm", "--picture", picture, "--width", "64"});
@@ -90,21 +90,21 @@ TEST_F(MeshCommand, RefusesWrongInput) {
   EXPECT_THROW(run({"mesh", "make", "boat", "-o", "a.glb"}), CLI::ParseError);
 }
 
-TEST(MeshPicture, ShowsThePlateThatFacesTheEyeAndLeavesTheRestWhite) {
+TEST(MeshPicture, DrawsThePlateThatFacesTheViewerOnWhite) {
   const Picture picture = picture_of(make_plate(2, 1), {.azimuth_deg = 0, .elevation_deg = 0, .width = 200});
   // 2 m and twice 3 % of it across: 2.12 by 1.12 m.
   EXPECT_NEAR(picture.height, 200 * 1.12 / 2.12, 1.0);
   std::size_t white = 0;
   for (std::size_t i = 0; i < picture.rgb.size(); i += 3) white += picture.rgb[i] == 255;
   const double covered = 1.0 - static_cast<double>(3 * white) / static_cast<double>(picture.rgb.size());
-  EXPECT_NEAR(covered, 2.0 / (2.12 * 1.12), 0.03);  // the rim's pixels are partly covered
+  EXPECT_NEAR(covered, 2.0 / (2.12 * 1.12), 0.03);  // pixels at the boundary are partly covered
 }
 
 TEST(MeshPicture, HasTheBowOnTheLeftSeenFromPort) {
   // A plate at x = 10 and a smaller one at x = -10, both seen from port.
-  const Mat3 turned = Eigen::AngleAxisd(0.5 * 3.14159265358979, Vec3::UnitZ()).toRotationMatrix();
-  TriangleMesh mesh = transformed(make_plate(4, 4), turned, Vec3(10, 0, 0));
-  mesh.append(transformed(make_plate(1, 1), turned, Vec3(-10, 0, 0)));
+  const Mat3 rotation = Eigen::AngleAxisd(0.5 * 3.14159265358979, Vec3::UnitZ()).toRotationMatrix();
+  TriangleMesh mesh = transformed(make_plate(4, 4), rotation, Vec3(10, 0, 0));
+  mesh.append(transformed(make_plate(1, 1), rotation, Vec3(-10, 0, 0)));
   const Picture picture = picture_of(mesh, {.azimuth_deg = 90, .elevation_deg = 0, .width = 300});
   std::size_t left = 0, right = 0;
   for (int y = 0; y < picture.height; ++y) {
@@ -116,7 +116,7 @@ TEST(MeshPicture, HasTheBowOnTheLeftSeenFromPort) {
   EXPECT_GT(left, 8 * right);
 }
 
-TEST(MeshPicture, RefusesNonsense) {
+TEST(MeshPicture, RefusesInvalidArguments) {
   EXPECT_THROW(picture_of(TriangleMesh{}, {}), InputError);
   EXPECT_THROW(picture_of(make_plate(1, 1), {.width = 1}), InputError);
   EXPECT_THROW(picture_of(make_plate(1, 1), {.width = 100000}), InputError);

@@ -52,7 +52,7 @@ Heatmap ripple(int columns, int rows) {
   return map;
 }
 
-TEST_F(Figure, HeatmapsOfAnyShapeBecomePicturesAndLeaveNothingElse) {
+TEST_F(Figure, HeatmapsOfAnyShapeBecomePicturesWithoutOtherFiles) {
   std::size_t count = 0;
   for (const auto& [columns, rows] : {std::pair{40, 20}, {40, 1}, {1, 20}, {1, 1}}) {
     for (const char* extension : {"png", "svg"}) {
@@ -79,13 +79,13 @@ TEST_F(Figure, LinesPointsBarsAndIntervalsBecomePictures) {
   EXPECT_EQ(files(), 1u);
 }
 
-TEST_F(Figure, RefusesOtherFormatsAndFoldersThatAreNotThere) {
+TEST_F(Figure, RefusesOtherFormatsAndMissingFolders) {
   EXPECT_THROW(write_figure(ripple(4, 4), folder_ / "map.jpg"), InputError);
   EXPECT_THROW(write_figure(ripple(4, 4), folder_ / "missing" / "map.png"), WorkError);
   EXPECT_EQ(files(), 0u);
 }
 
-// While it lives no file grows beyond `bytes`; writes fail as on a full disk.
+// During its lifetime no file grows beyond `bytes`; writes fail as on a full disk.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) : handler_(::signal(SIGXFSZ, SIG_IGN)) {
@@ -116,7 +116,7 @@ TEST_F(Figure, CutShortByAFullDiskIsAnErrorAndNoFile) {
   EXPECT_GT(read_file(folder_ / "map.png").size(), 4096u);
 }
 
-TEST_F(Figure, SaysSoWhenGnuplotIsMissing) {
+TEST_F(Figure, ReportsAMissingGnuplot) {
   const std::string path = std::getenv("PATH");
   ::setenv("PATH", folder_.c_str(), 1);
   try {

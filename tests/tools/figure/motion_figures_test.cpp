@@ -12,8 +12,8 @@
 namespace seaglint {
 namespace {
 
-// A ship that goes with a wave's crests stays where the wave is still: all its moments are the first.
-TEST(MotionFrames, DrawTheWaterThatAShipComesTo) {
+// A ship that moves with a wave's phase speed is at rest in the wave: all its snapshots equal the first.
+TEST(MotionFrames, DrawTheWaterAtAShipsPosition) {
   const double omega = 30, wavenumber = omega * omega / kGravity;
   const WaveField sea({{omega, 0.1, 0.2, wavenumber}}, Vec2(1, 0), 1, 0);
   const std::filesystem::path file =
@@ -24,14 +24,14 @@ TEST(MotionFrames, DrawTheWaterThatAShipComesTo) {
     std::filesystem::remove(file);
     return text;
   };
-  // A period this short is 0.0 s in the titles of its moments.
+  // A period this short is 0.0 s in the titles of its snapshots.
   const double period = 0.05;
   EXPECT_EQ(picture(omega / wavenumber, period), picture(0, 0));
   EXPECT_NE(picture(0, period), picture(0, 0));
 }
 
-// A heading of 300 deg that swings by 10 deg (7.07 deg rms) about it every 8 s: the mean takes no part in the rms and
-// the period. The samples, 0.1 s apart, are those of ten whole periods, the last without its end.
+// A heading of 300 deg that oscillates by 10 deg (7.07 deg rms) about it every 8 s: rms and period do not include the
+// mean. The samples, 0.1 s apart, are those of ten whole periods, the last without its end.
 TEST(MotionStatistics, AreThoseAboutTheMean) {
   constexpr double kStep = 0.1, kPeriod = 8, kDuration = 79.9;
   const double omega = 2 * kPi / kPeriod, swing = radians(10);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every option, option value and command of earlier versions is refused by its new name.
+// Every option, option value and command of earlier versions is refused with its new name.
 #include "tools/options/renamed_words.h"
 
 #include <fmt/format.h>
@@ -61,8 +61,8 @@ TEST(RenamedWords, AreRefusedWithTheirValueBehindAnEqualsSign) {
             "seaglint rcs --help)\n");
 }
 
-// A word is old only in its own command.
-TEST(RenamedWords, AreThoseOfTheirOwnCommandAlone) {
+// A word is renamed only for its own command.
+TEST(RenamedWords, AreThoseOfTheirOwnCommandOnly) {
   EXPECT_THAT(run({"echo", "--range-m", "1"}).message, Not(HasSubstr("renamed")));
   EXPECT_THAT(run({"mesh", "remake"}).message, Not(HasSubstr("renamed")));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a radar sees that sends the whole band with every pulse: no pedestal, and the target's own motion.
+// Maps with the whole synthetic bandwidth in every pulse: no pedestal, and the target's own motion.
 #include "tools/pipeline/map_products.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 namespace seaglint {
 namespace {
 
-// One point of 2 m, 30 m nearer than the reference point, drawing near at 1.5 m/s, seen from ahead.
+// One point of 2 m, 30 m nearer than the reference point, approaching at 1.5 m/s, viewed from ahead.
 const char* const kOnePoint = R"(
 seaglint: 1
 radar: {pulses: 64}
@@ -45,9 +45,9 @@ TEST(FullBand, ImageHasThePointAndNoPedestal) {
   const double cell_m = band.train.range_resolution_m() / 4, cell_mps = band.train.velocity_resolution_mps() / 4;
   EXPECT_NEAR(peak.range_m, -30, cell_m / 2 + 1e-9);
   EXPECT_NEAR(peak.velocity_mps, -1.5, cell_mps / 2 + 1e-9);
-  EXPECT_NEAR(peak.magnitude_m, 2, 0.1);  // an eighth of a lobe beside its top, in range and velocity
-  // Two lobes of the Hann taper and more from the point nothing is left but the velocity's own lobes, -13 dB and below
-  // along its range.
+  EXPECT_NEAR(peak.magnitude_m, 2, 0.1);  // an eighth of a lobe off its peak, in range and velocity
+  // More than two lobes of the Hann taper from the point only the velocity sidelobes remain, at its range and -13 dB or
+  // less.
   for (std::size_t v = 0; v < band.image.velocity_mps.size(); ++v) {
     for (std::size_t r = 0; r < band.image.columns(); ++r) {
       if (std::abs(band.image.range_m[r] + 30) > 6) {
@@ -57,7 +57,7 @@ TEST(FullBand, ImageHasThePointAndNoPedestal) {
   }
 }
 
-TEST(FullBand, MovesWithARadarWhoseOwnWayIsNotCompensated) {
+TEST(FullBand, FollowsUncompensatedPlatformMotion) {
   const char* const moving = "platform: {velocity_mps: [0.8, 0, 0], motion_compensated: ";
   double step_mps = 0;
   const auto velocity = [&](const char* compensated) {
@@ -67,7 +67,7 @@ TEST(FullBand, MovesWithARadarWhoseOwnWayIsNotCompensated) {
     step_mps = band.image.velocity_mps[1] - band.image.velocity_mps[0];
     return peak_of(band.image).velocity_mps;
   };
-  // A radar ahead that goes on away from the target; each peak lies on the map's cells.
+  // A radar ahead that recedes from the target; each peak lies on the map's cells.
   const double difference = velocity("false") - velocity("true");
   EXPECT_NEAR(difference, 0.8, step_mps);
 }

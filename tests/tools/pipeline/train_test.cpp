@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A model directory is that of one whole training, whatever ends another one.
+// A model directory is that of one complete training, even when another one is interrupted.
 #include "tools/pipeline/train.h"
 
 #include <gtest/gtest.h>
@@ -51,7 +51,7 @@ class Training : public testing::Test {
   static inline fs::path folder_;
 };
 
-TEST_F(Training, ThatIsStoppedEndsSoonAndLeavesTheEarlierModel) {
+TEST_F(Training, ThatIsStoppedEndsSoonAndKeepsTheEarlierModel) {
   const auto before = files();
   ASSERT_TRUE(before.contains(kMetricsFile));
   StopFlag stop = false;
@@ -69,7 +69,7 @@ TEST_F(Training, ThatIsStoppedEndsSoonAndLeavesTheEarlierModel) {
   EXPECT_EQ(files(), before);
 }
 
-TEST_F(Training, IsWrittenDownWithWhatItWasTrainedBy) {
+TEST_F(Training, RecordsItsSettings) {
   const std::vector<Override> overrides{{"learning.epochs", "1"},
                                         {"learning.fusion", "in_sample"},
                                         {"learning.map_floor_db", "-50"},
@@ -83,7 +83,7 @@ TEST_F(Training, IsWrittenDownWithWhatItWasTrainedBy) {
   EXPECT_EQ(learning.at("map_floor_db"), -50);
   EXPECT_EQ(learning.at("learning_rate"), 0.002);
 
-  // What is written is enough to set every key again.
+  // The recorded settings are sufficient to set every key again.
   std::vector<Override> again{{"dataset.split", metrics.at("dataset").at("split")}};
   for (const auto& [key, value] : learning.items())
     again.push_back({"learning." + key, value.is_string() ? value.get<std::string>() : value.dump()});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// References of the radar cross section: formats as other programs write them, and the pairing with a sweep.
+// References of the radar cross section: formats of other programs, and matching with a sweep.
 #include "tools/rcs/rcs_reference.h"
 
 #include <gmock/gmock.h>
@@ -54,7 +54,7 @@ ReferenceSettings as(Polarisation element, double frequency_ghz = 10) {
   return settings;
 }
 
-// What `seaglint rcs` writes above its columns.
+// The header that `seaglint rcs` writes above its columns.
 std::string own_table(const std::string& transmitter) {
   return "# seaglint 0.1.0 rcs\n# physical optics at every visible bounce, max_bounces 40, edges on, crease_deg 20, "
          "sheet_thickness_mm 0, wavefront_range_m 0 (0 = plane wave), " +
@@ -125,7 +125,7 @@ TEST_F(RcsReferenceFile, OfCstHasItsColumnsByNameAndItsUnitsByHeader) {
 }
 
 TEST_F(RcsReferenceFile, OfCstWithNegativeThetaIsFoldedAndChangesSign) {
-  // a localised machine's decimals
+  // decimal commas of another locale
   const std::string row = " -30,000  90,000  0,000e+00  0,000e+00  10,000  0,000e+00  20,000  0,000e+00\r\n";
   const RcsReference vv = read("a.txt", cst_table("dB(m^2)", row), as(Polarisation::kVv));
   EXPECT_EQ(vv.samples[0].theta_deg, 30);
@@ -146,7 +146,7 @@ TEST_F(RcsReferenceFile, OfAFullCircleIsFoldedAtBothPoles) {
   EXPECT_LT(std::abs(*cst.samples[0].amplitude_m + *cst.samples[1].amplitude_m), kPrinted_db);
 }
 
-TEST_F(RcsReferenceFile, MayHaveAHeadAndExactZeros) {
+TEST_F(RcsReferenceFile, MayHaveAHeaderAndExactZeros) {
   const RcsReference reference =
       read("a.V.txt", "# frequency_hz theta_deg phi_deg dBsm\n1e10 90 0 -inf\n1e10 90 1 -3\n");
   ASSERT_EQ(reference.samples.size(), 2u);
@@ -190,7 +190,7 @@ TEST_F(RcsReferenceFile, ThatCannotBeUsedIsRefusedWithItsPlace) {
               HasSubstr("hh_dbsm"));
 }
 
-TEST_F(RcsReferenceFile, SaysWhereItsTransmitterStands) {
+TEST_F(RcsReferenceFile, HasTheDirectionOfItsTransmitter) {
   const RcsReference monostatic = read("m.csv", own_table("monostatic"), as(Polarisation::kVv));
   ASSERT_TRUE(monostatic.transmitter);
   EXPECT_TRUE(monostatic.transmitter->is_monostatic);
@@ -244,7 +244,7 @@ TEST(RcsComparison, FindsTheSameDirectionsThroughTheAnglesMap) {
     EXPECT_NEAR(error_statistics(cuts[0], cuts[0].models[0], 80).bias_db, -20, kPrinted_db);
 }
 
-TEST(RcsComparison, TakesLevelsBelowTheFloorAsTheFloor) {
+TEST(RcsComparison, ClipsLevelsToTheFloor) {
   // 0, -10 and -300 dB against 0, -13 and -90 dB below the maximum.
   const auto db = [](double x) { return std::pow(10.0, x / 20); };
   const auto cuts =
@@ -260,8 +260,8 @@ TEST(RcsComparison, TakesLevelsBelowTheFloorAsTheFloor) {
 }
 
 TEST(RcsComparison, CorrelatesComplexValuesAboutTheBodysOrigin) {
-  // The same point scatterer at x0, told about the body's origin here and about x0 there: S = e^{2jk r.x0}
-  // (CONVENTIONS.md).
+  // The same point scatterer at x0, with the phase reference at the body's origin here and at x0 there: S = e^{2jk
+  // r.x0} (CONVENTIONS.md).
   const Vec3 x0(0.3, -0.2, 0.1);
   const double k = 2 * kPi * 10e9 / kSpeedOfLight;
   std::vector<double> azimuths;
@@ -282,7 +282,7 @@ TEST(RcsComparison, CorrelatesComplexValuesAboutTheBodysOrigin) {
   EXPECT_LT(std::abs(*error_statistics(unmoved[0], unmoved[0].models[0], 80).correlation), 0.5);
 }
 
-TEST(RcsComparison, RefusesAReferenceThatHasNothingInCommonAndSaysWhatBothHold) {
+TEST(RcsComparison, RefusesAReferenceWithoutCommonSamplesAndListsBoth) {
   try {
     match_reference(sweep_of({0, 1}, {1, 1}), cut_of({{30, 1}, {60, 1}}));
     ADD_FAILURE() << "no error";
@@ -294,7 +294,8 @@ TEST(RcsComparison, RefusesAReferenceThatHasNothingInCommonAndSaysWhatBothHold) 
       << "one direction with two levels";
 }
 
-// At azimuth 20, elevation 10 deg by both, whatever the file counts phi from; a file that says nothing may be either.
+// At azimuth 20, elevation 10 deg by both, whatever the file's origin of phi; for a file that does not specify its
+// transmitter it may be either.
 TEST(RcsComparison, RefusesAReferenceOfAnotherTransmitter) {
   const auto refusal = [](const RcsSweep& sweep, const RcsReference& reference) -> std::string {
     try {

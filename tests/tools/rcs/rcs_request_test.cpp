@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scattering matrices from a plain request, as a program that has no command line asks for them.
+// Scattering matrices from a plain request, as of a program without a command line.
 #include "tools/rcs/rcs_request.h"
 
 #include <gmock/gmock.h>
@@ -56,7 +56,7 @@ class PlateRequest : public testing::Test {
 };
 
 // Normal incidence on a plate of area A: 4 pi (A / lambda)^2.
-TEST_F(PlateRequest, GivesThePlatesEchoAtNormalIncidence) {
+TEST_F(PlateRequest, HasThePlatesEchoAtNormalIncidence) {
   const double expected = dbsm(kLengthM * kWidthM * kFrequencyHz / kSpeedOfLight);
   request_.physical_optics_too = true;
   const RcsTarget target = prepare_rcs_target(request_);
@@ -68,7 +68,7 @@ TEST_F(PlateRequest, GivesThePlatesEchoAtNormalIncidence) {
   EXPECT_NEAR(dbsm(result.sweep.models[1].matrices[0][0][3]), expected, 0.1);
 }
 
-TEST_F(PlateRequest, WritesATableWhoseTransmitterIsReadAgain) {
+TEST_F(PlateRequest, WritesATableWithItsTransmitter) {
   const RcsTarget target = prepare_rcs_target(request_);
   const RcsReference monostatic = read_again(compute_rcs(request_, target, 1).sweep, *target.prepared.scatterer);
   ASSERT_TRUE(monostatic.transmitter);
@@ -83,7 +83,7 @@ TEST_F(PlateRequest, WritesATableWhoseTransmitterIsReadAgain) {
   EXPECT_EQ(bistatic.transmitter->phi_deg, 340);
 }
 
-TEST_F(PlateRequest, IsRefusedWhereItContradictsItself) {
+TEST_F(PlateRequest, IsRefusedWhenContradictory) {
   EXPECT_EQ(refusal(), "");
   request_.exports.centres = folder_ / "centres.csv";
   request_.azimuth_deg = {0, 1};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the report says of probes, of the level among them, and of how many predictions and seas its figures are.
+// Report texts on the probes, on the absolute level among them, and on the numbers of predictions and seas behind its
+// figures.
 #include "tools/report/report_text.h"
 
 #include <gmock/gmock.h>
@@ -14,7 +15,7 @@ using nlohmann::ordered_json;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-// Scores of 300 rows: right about so many of the ships and of the arrays.
+// Scores of 300 rows: this many of the ships and of the arrays are classified correctly.
 ordered_json scores(double ships, double ships_right, double arrays_right) {
   const double arrays = 300 - ships;
   return {{"rows", 300},
@@ -35,19 +36,19 @@ std::string table_of(const ordered_json& scores) {
       {});
 }
 
-TEST(ProbesTable, CallsTheSharesOfTheClassesChance) {
-  // As many ships as arrays: half is chance, give or take 2.576 standard deviations, 7.4 points.
+TEST(ProbesTable, TreatsClassProportionsAsChance) {
+  // With equal numbers of ships and arrays half is chance, plus or minus 2.576 standard deviations, 7.4 points.
   EXPECT_THAT(table_of(scores(150, 80, 75)), HasSubstr("as chance"));
   EXPECT_THAT(table_of(scores(150, 90, 90)), HasSubstr("look for a leak"));
   EXPECT_THAT(table_of(scores(150, 60, 60)), HasSubstr("look for a leak"));
-  // Two ships to an array: naming ships always is right in 66.7 %, guessing at the shares in 55.6 %.
+  // Two ships to an array: always predicting ship is correct in 66.7 %, guessing in proportion in 55.6 %.
   EXPECT_THAT(table_of(scores(200, 200, 0)), Not(HasSubstr("leak")));
   EXPECT_THAT(table_of(scores(200, 133, 33)), Not(HasSubstr("leak")));
   EXPECT_THAT(table_of(scores(200, 180, 50)), HasSubstr("look for a leak"));
   EXPECT_THAT(table_of(scores(200, 100, 20)), HasSubstr("look for a leak"));
 }
 
-// A probe of each kind that tells the classes.
+// A probe of each kind that separates the classes.
 ordered_json telling_probes() {
   ordered_json metrics{{"split_repeats", 1}, {"probes", ordered_json::array()}};
   const ordered_json right = scores(150, 145, 145);
@@ -66,24 +67,24 @@ Scenario with_clutter(ClutterLevel level, NoiseLevel noise, bool enabled = true)
   return scenario;
 }
 
-// Where clutter or noise keep their own level, the ratio of the target to them decides which centres are found.
-TEST(AbsoluteLevel, IsSeenByFeaturesWhereClutterOrNoiseDoNotFollowTheTarget) {
+// Where clutter or noise have their own level, the ratio of the target to them determines which centres are found.
+TEST(AbsoluteLevel, AffectsFeaturesWhereClutterOrNoiseIsIndependentOfTheTarget) {
   const ordered_json metrics = telling_probes();
-  for (const Scenario& unseen :
+  for (const Scenario& scenario :
        {with_clutter(ClutterLevel::kScr, NoiseLevel::kCnr), with_clutter(ClutterLevel::kScr, NoiseLevel::kSnr),
         with_clutter(ClutterLevel::kNrl, NoiseLevel::kSnr, false)}) {
-    EXPECT_THAT(note_of_level(metrics, unseen),
+    EXPECT_THAT(note_of_level(metrics, scenario),
                 HasSubstr("Total power alone reaches 96.7 % on unseen seas. No feature group sees it"));
-    EXPECT_THAT(probes_table(metrics, unseen), HasSubstr("no feature uses it"));
-    EXPECT_THAT(probes_table(metrics, unseen), Not(HasSubstr("level has a part")));
+    EXPECT_THAT(probes_table(metrics, scenario), HasSubstr("no feature uses it"));
+    EXPECT_THAT(probes_table(metrics, scenario), Not(HasSubstr("level has a part")));
   }
   const std::pair<Scenario, const char*> cases[] = {
       {with_clutter(ClutterLevel::kNrl, NoiseLevel::kCnr), "The clutter is not scaled"},
       {with_clutter(ClutterLevel::kNrl, NoiseLevel::kThermal), "Clutter and receiver noise are not scaled"},
       {with_clutter(ClutterLevel::kScr, NoiseLevel::kThermal), "The receiver’s noise is not scaled"},
       {with_clutter(ClutterLevel::kNrl, NoiseLevel::kThermal, false), "The receiver’s noise is not scaled"}};
-  for (const auto& [seen, words] : cases) {
-    const std::string note = note_of_level(metrics, seen), table = probes_table(metrics, seen);
+  for (const auto& [scenario, words] : cases) {
+    const std::string note = note_of_level(metrics, scenario), table = probes_table(metrics, scenario);
     EXPECT_THAT(note, HasSubstr("Features see the level.</b> " + std::string(words)));
     EXPECT_THAT(note, HasSubstr("the ratio of the target to clutter and noise 96.7 %"));
     EXPECT_THAT(note, Not(HasSubstr("No feature group sees it")));
@@ -94,8 +95,8 @@ TEST(AbsoluteLevel, IsSeenByFeaturesWhereClutterOrNoiseDoNotFollowTheTarget) {
   }
 }
 
-// 36 predictions of three splits are not 36 of a data set's 40 maps, 28 of which each split learns from.
-TEST(AccuracyTables, CallPredictionsOfPooledSplitsSo) {
+// 36 predictions of three splits are not 36 of a data set's 40 maps, 28 of which are each split's training rows.
+TEST(AccuracyTables, LabelPredictionsOfPooledSplits) {
   ordered_json evaluation = scores(150, 140, 140);
   evaluation.update({{"rows", 36},
                      {"groups", 8},

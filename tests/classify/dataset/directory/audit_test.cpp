@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An audit must find each fault that was put into a sound data set, and no other.
+// An audit reports exactly the faults that were introduced into a valid data set.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -25,10 +25,10 @@ class DataSetAudit : public DataSetDirectory {
  protected:
   void SetUp() override {
     DataSetDirectory::SetUp();
-    make_whole();
+    make_complete();
   }
 
-  // Changes a shard and its checksum, as a faulty program would write it.
+  // Changes a shard and its checksum, as a faulty program would.
   void falsify(std::size_t index, const std::function<void(Shard&)>& change) {
     Shard shard = shard_of(index);
     change(shard);
@@ -43,7 +43,7 @@ class DataSetAudit : public DataSetDirectory {
   std::vector<std::string> faults() const { return audit(directory_).faults; }
 };
 
-TEST_F(DataSetAudit, WithoutFaultIsCounted) {
+TEST_F(DataSetAudit, CountsAValidDataSet) {
   const Audit result = audit(directory_);
   EXPECT_THAT(result.faults, IsEmpty());
   EXPECT_EQ(result.shards, plan_.shards());
@@ -52,24 +52,24 @@ TEST_F(DataSetAudit, WithoutFaultIsCounted) {
   EXPECT_THAT(result.per_target, ElementsAre(plan_.size() / 2, plan_.size() / 2));
 }
 
-TEST_F(DataSetAudit, ShowsAWrongLabel) {
+TEST_F(DataSetAudit, ReportsAWrongLabel) {
   falsify(1, [](Shard& shard) { shard.samples[0].record.label = 1 - shard.samples[0].record.label; });
   EXPECT_THAT(faults(), ElementsAre(HasSubstr("sample 3: label")));
 }
 
-TEST_F(DataSetAudit, ShowsASampleThatIsThereTwiceAndTheOneThatIsMissing) {
+TEST_F(DataSetAudit, ReportsDuplicateAndMissingSamples) {
   falsify(0, [](Shard& shard) { shard.samples[1] = shard.samples[0]; });
   EXPECT_THAT(faults(), ElementsAre(HasSubstr("shard_00000.h5: row 1 contains sample 0, by the manifest 1"),
                                     HasSubstr("3 of 8 samples are missing")));
 }
 
-TEST_F(DataSetAudit, ShowsSamplesOutOfOrder) {
+TEST_F(DataSetAudit, ReportsSamplesOutOfOrder) {
   falsify(0, [](Shard& shard) { std::swap(shard.samples[1], shard.samples[2]); });
   EXPECT_THAT(faults(), ElementsAre(HasSubstr("shard_00000.h5: row 1 contains sample 2, by the manifest 1"),
                                     HasSubstr("3 of 8 samples are missing")));
 }
 
-// A map near the smallest float loses digits when it is stored; peak and energy were taken before.
+// A map near the smallest float loses digits when it is stored; its peak and energy are computed before that.
 TEST_F(DataSetAudit, AllowsForTheRoundingOfTheSmallestNumbers) {
   const auto with_factor = [&](double stored, double recorded) {
     falsify(0, [&](Shard& shard) {
@@ -86,7 +86,7 @@ TEST_F(DataSetAudit, AllowsForTheRoundingOfTheSmallestNumbers) {
   EXPECT_THAT(with_factor(1e-30, 1.001e-30), Contains(HasSubstr("energy_m2")));
 }
 
-TEST_F(DataSetAudit, ShowsAMapThatAppearsUnderTwoNumbers) {
+TEST_F(DataSetAudit, ReportsEqualMapsOfTwoSamples) {
   falsify(0, [](Shard& shard) {
     shard.samples[1].magnitude = shard.samples[0].magnitude;
     shard.samples[1].record.peak_m = shard.samples[0].record.peak_m;
@@ -95,21 +95,21 @@ TEST_F(DataSetAudit, ShowsAMapThatAppearsUnderTwoNumbers) {
   EXPECT_THAT(faults(), ElementsAre(HasSubstr("the same map as sample 0")));
 }
 
-TEST_F(DataSetAudit, ShowsMapsThatAreNotThoseOfTheirRows) {
+TEST_F(DataSetAudit, ReportsMapsThatDifferFromTheirRows) {
   falsify(2, [](Shard& shard) { shard.samples[0].magnitude[1] = 2.5F; });
   EXPECT_THAT(faults(), ElementsAre(HasSubstr("energy_m2")));
   falsify(2, [](Shard& shard) { shard.samples[0].magnitude[1] = std::numeric_limits<float>::quiet_NaN(); });
   EXPECT_THAT(faults(), ElementsAre(HasSubstr("no magnitude")));
 }
 
-TEST_F(DataSetAudit, ShowsASeaInTwoGroups) {
+TEST_F(DataSetAudit, ReportsASeaInTwoGroups) {
   falsify(0, [](Shard& shard) { shard.samples[0].record.group = 1; });
   EXPECT_THAT(faults(),
               ElementsAre(HasSubstr("sample 0: group 1, by the scenario 0"),
                           HasSubstr("group 1: contains 2 sea realisations"), HasSubstr("a split by group would leak")));
 }
 
-TEST_F(DataSetAudit, ShowsFilesThatAreDamagedHalfWrittenOrForeign) {
+TEST_F(DataSetAudit, ReportsDamagedTruncatedAndForeignFiles) {
   write_file(directory_ / temporary_name("shard_00007.h5", dead_process()), "half");
   write_file(directory_ / temporary_name("dataset.h5", ::getpid()), "being written");
   write_file(directory_ / "notes.tmp", "no file of a data set");
@@ -126,7 +126,7 @@ TEST_F(DataSetAudit, ShowsFilesThatAreDamagedHalfWrittenOrForeign) {
   EXPECT_THAT(found, Contains(HasSubstr("3 of 8 samples are missing")));
 }
 
-TEST_F(DataSetAudit, ShowsAnotherScenario) {
+TEST_F(DataSetAudit, ReportsAnotherScenario) {
   std::string yaml = read_file(directory_ / kScenarioFile);
   const std::string seed = "seed: ";
   yaml.insert(yaml.find(seed) + seed.size(), "9");

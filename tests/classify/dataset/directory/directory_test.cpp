@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The life of a data set directory: made, resumed, damaged, read.
+// A data set directory when it is created, resumed, damaged and read.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -32,8 +32,8 @@ std::string error_of(Action action) {
   return "no error";
 }
 
-TEST_F(DataSetDirectory, IsReadBackWhole) {
-  make_whole();
+TEST_F(DataSetDirectory, IsReadBackCompletely) {
+  make_complete();
   const DatasetReader reader(directory_);
   EXPECT_EQ(reader.size(), plan_.size());
   std::int64_t next = 0;
@@ -45,7 +45,7 @@ TEST_F(DataSetDirectory, IsReadBackWhole) {
   EXPECT_THAT(read_file(directory_ / kDataCardFile), HasSubstr("| ship | 1 |"));
 }
 
-TEST_F(DataSetDirectory, IsNotWholeUntilTheLastShardIsThere) {
+TEST_F(DataSetDirectory, IsIncompleteUntilTheLastShardExists) {
   DatasetWriter writer(directory_, scenario_, false, kTestVersion);
   writer.put(0, shard_of(0));
   EXPECT_THAT(writer.finish(), ElementsAre(1, 2));
@@ -53,13 +53,13 @@ TEST_F(DataSetDirectory, IsNotWholeUntilTheLastShardIsThere) {
 }
 
 TEST_F(DataSetDirectory, ThatIsNotEmptyNeedsResume) {
-  make_whole();
+  make_complete();
   EXPECT_THAT(error_of([&] { DatasetWriter(directory_, scenario_, false, kTestVersion); }), HasSubstr("--resume"));
   EXPECT_NO_THROW(DatasetWriter(directory_, scenario_, true, kTestVersion));
 }
 
 TEST_F(DataSetDirectory, OfAnotherScenarioIsRefusedWithTheFirstDifference) {
-  make_whole();
+  make_complete();
   Scenario other = scenario_;
   other.seed = 43;
   EXPECT_THAT(error_of([&] { DatasetWriter(directory_, other, true, kTestVersion); }),
@@ -67,7 +67,7 @@ TEST_F(DataSetDirectory, OfAnotherScenarioIsRefusedWithTheFirstDifference) {
 }
 
 TEST_F(DataSetDirectory, KeepsItsMapsWhenOnlyLearningChanges) {
-  make_whole();
+  make_complete();
   Scenario other = scenario_;
   other.learning.epochs = 7;
   other.dataset.train_fraction = 0.5;
@@ -75,8 +75,8 @@ TEST_F(DataSetDirectory, KeepsItsMapsWhenOnlyLearningChanges) {
   EXPECT_EQ(read_scenario(directory_ / kScenarioFile).learning.epochs, 7);
 }
 
-TEST_F(DataSetDirectory, ResumesOnlyWhatIsUnsound) {
-  make_whole();
+TEST_F(DataSetDirectory, RegeneratesOnlyInvalidShards) {
+  make_complete();
   fs::remove(directory_ / kManifestFile);
   fs::resize_file(directory_ / shard_name(1), fs::file_size(directory_ / shard_name(1)) - 10);
   fs::remove(directory_ / shard_name(2));
@@ -87,7 +87,7 @@ TEST_F(DataSetDirectory, ResumesOnlyWhatIsUnsound) {
 }
 
 TEST_F(DataSetDirectory, WithAChangedShardIsRefusedWithTheFilesName) {
-  make_whole();
+  make_complete();
   const fs::path file = directory_ / shard_name(1);
   std::string bytes = read_file(file);
   bytes.back() = static_cast<char>(bytes.back() ^ 1);
@@ -98,8 +98,8 @@ TEST_F(DataSetDirectory, WithAChangedShardIsRefusedWithTheFilesName) {
   EXPECT_THAT(error_of([&] { DatasetReader reader(directory_); }), HasSubstr("shard_00001.h5: missing"));
 }
 
-// Before there is a manifest nothing but the file itself says what it should be.
-TEST_F(DataSetDirectory, IsNotWholeWithAShardThatIsDamagedOrOfAnotherScenario) {
+// Before there is a manifest, a shard is verified by its own checksums only.
+TEST_F(DataSetDirectory, IsIncompleteWithADamagedOrForeignShard) {
   DatasetWriter writer(directory_, scenario_, false, kTestVersion);
   for (std::size_t i = 0; i < plan_.shards(); ++i) writer.put(i, shard_of(i));
   fs::resize_file(directory_ / shard_name(0), fs::file_size(directory_ / shard_name(0)) - 10);
@@ -112,7 +112,7 @@ TEST_F(DataSetDirectory, IsNotWholeWithAShardThatIsDamagedOrOfAnotherScenario) {
   EXPECT_FALSE(fs::exists(directory_ / kManifestFile));
 }
 
-TEST_F(DataSetDirectory, LosesWhatKilledRunsLeftHalfWrittenWhenItIsWhole) {
+TEST_F(DataSetDirectory, HasNoTemporaryFilesOfKilledRunsOnceComplete) {
   DatasetWriter writer(directory_, scenario_, false, kTestVersion);
   const pid_t dead = dead_process();
   const std::vector<std::string> left{temporary_name("shard_00001.h5", dead), temporary_name("manifest.json", dead),
@@ -137,7 +137,7 @@ TEST_F(DataSetDirectory, LosesWhatKilledRunsLeftHalfWrittenWhenItIsWhole) {
   for (const std::string& name : others) EXPECT_TRUE(fs::exists(directory_ / name)) << name;
 }
 
-TEST_F(DataSetDirectory, BeforeItsScenarioMayHoldItsOwnTemporaryFilesOnly) {
+TEST_F(DataSetDirectory, MayContainOnlyItsTemporaryFilesBeforeItsScenario) {
   fs::create_directories(directory_);
   write_file(directory_ / temporary_name("scenario.yaml", dead_process()), "half");
   EXPECT_NO_THROW(DatasetWriter(directory_, scenario_, true, kTestVersion));
@@ -147,9 +147,9 @@ TEST_F(DataSetDirectory, BeforeItsScenarioMayHoldItsOwnTemporaryFilesOnly) {
               HasSubstr("the directory contains notes.tmp, which is no file of a data set"));
 }
 
-// Its scenario alone makes a directory no data set's: a run has one too.
-TEST_F(DataSetDirectory, ToGoOnInMayHoldNothingButADataSet) {
-  make_whole();
+// A scenario alone does not make a directory a data set's, since a run also has one.
+TEST_F(DataSetDirectory, IsResumedOnlyIfItContainsNothingElse) {
+  make_complete();
   for (const char* name : {"all.h5", "all.npz", ".nfs0001"}) write_file(directory_ / name, "ours, or the system's");
   EXPECT_NO_THROW(DatasetWriter(directory_, scenario_, true, kTestVersion));
   write_file(directory_ / "metrics.json", "{}");
@@ -161,10 +161,10 @@ TEST_F(DataSetDirectory, ToGoOnInMayHoldNothingButADataSet) {
                                            (directory_ / "data").string()));
 }
 
-TEST_F(DataSetDirectory, TakesAShardThatAnotherProcessWroteMeanwhileForItsOwn) {
-  make_whole();
+TEST_F(DataSetDirectory, AcceptsAShardOfAConcurrentProcess) {
+  make_complete();
   DatasetWriter writer(directory_, scenario_, true, kTestVersion);
-  // A folder in the place of the temporary file: nothing can be written.
+  // A folder replaces the temporary file, so that nothing can be written.
   fs::create_directories(directory_ / temporary_name(shard_name(0), ::getpid()) / "in the way");
   EXPECT_NO_THROW(writer.put(0, shard_of(0)));
   Shard other = shard_of(0);
@@ -175,52 +175,52 @@ TEST_F(DataSetDirectory, TakesAShardThatAnotherProcessWroteMeanwhileForItsOwn) {
   EXPECT_THROW(writer.put(0, other), WorkError);
 }
 
-// A manifest whose checksums of two shards are wrong, as after another processor made these with other last bits.
+// A manifest with wrong checksums of two shards, as after these were regenerated on a processor with other rounding.
 class ConcurrentRepair : public DataSetDirectory {
  protected:
   void SetUp() override {
     DataSetDirectory::SetUp();
-    make_whole();
+    make_complete();
     Manifest manifest = read_manifest(directory_ / kManifestFile);
     for (const std::size_t i : {0u, 2u}) manifest.shards[i].sha256 = std::string(64, '0');
     write_file(directory_ / kManifestFile, to_json(manifest));
   }
 
-  // The shards from `first` to `last`, as one part makes them.
+  // The shards from `first` to `last`, as one part generates them.
   void make_part(DatasetWriter& writer, std::size_t first, std::size_t last) const {
     for (std::size_t i = first; i < last; ++i) {
       if (!writer.complete(i)) writer.put(i, shard_of(i));
     }
   }
 
-  void expect_whole() const {
+  void expect_complete() const {
     const DatasetReader reader(directory_);
     for (std::size_t i = 0; i < reader.shards(); ++i) EXPECT_EQ(reader.shard(i).samples.size(), plan_.shard(i).count);
   }
 };
 
-TEST_F(ConcurrentRepair, IsWholeAfterOneRoundOfParts) {
+TEST_F(ConcurrentRepair, IsCompleteAfterOneRoundOfParts) {
   for (const auto& [first, last] : {std::pair<std::size_t, std::size_t>{0, 1}, {1, 3}}) {
     DatasetWriter writer(directory_, scenario_, true, kTestVersion);
     make_part(writer, first, last);
     EXPECT_THAT(writer.finish(), testing::IsEmpty());
   }
-  expect_whole();
+  expect_complete();
 }
 
-TEST_F(ConcurrentRepair, IsWholeWhenPartsMakeItAtTheSameTime) {
+TEST_F(ConcurrentRepair, IsCompleteAfterConcurrentParts) {
   DatasetWriter one(directory_, scenario_, true, kTestVersion), two(directory_, scenario_, true, kTestVersion),
       looks_only(directory_, scenario_, true, kTestVersion);
   make_part(one, 0, 1);
   make_part(two, 2, 3);
   for (DatasetWriter* writer : {&one, &two, &looks_only}) {
     EXPECT_THAT(writer->finish(), testing::IsEmpty());
-    expect_whole();
+    expect_complete();
   }
 }
 
 TEST_F(DataSetDirectory, OfAnotherVersionIsReadButNotContinued) {
-  make_whole();
+  make_complete();
   const auto resume = [&] { DatasetWriter(directory_, scenario_, true, "0.0.1").finish(); };
   EXPECT_THAT(error_of(resume), HasSubstr("manifest.json: made by seaglint 0.0.0, this is seaglint 0.0.1"));
   fs::remove(directory_ / kManifestFile);
@@ -229,8 +229,8 @@ TEST_F(DataSetDirectory, OfAnotherVersionIsReadButNotContinued) {
   EXPECT_EQ(DatasetReader(directory_).shard(0).origin.program_version, kTestVersion);
 }
 
-TEST_F(DataSetDirectory, WhoseScenarioWasChangedIsReadForAnAuditOnly) {
-  make_whole();
+TEST_F(DataSetDirectory, WithAChangedScenarioIsReadForAnAuditOnly) {
+  make_complete();
   write_file(directory_ / kScenarioFile, read_file(directory_ / kScenarioFile) + "# mine\n");
   EXPECT_THAT(error_of([&] { DatasetReader reader(directory_); }),
               HasSubstr("scenario.yaml: is not the one that the manifest was written for"));
@@ -238,7 +238,7 @@ TEST_F(DataSetDirectory, WhoseScenarioWasChangedIsReadForAnAuditOnly) {
 }
 
 TEST_F(DataSetDirectory, OfAnotherFormatIsRefused) {
-  make_whole();
+  make_complete();
   const auto replace = [&](const fs::path& file, const std::string& from, const std::string& to) {
     std::string bytes = read_file(file);
     bytes.replace(bytes.find(from), from.size(), to);
@@ -248,7 +248,7 @@ TEST_F(DataSetDirectory, OfAnotherFormatIsRefused) {
   EXPECT_THAT(error_of([&] { DatasetReader reader(directory_); }),
               HasSubstr("manifest.json: format \"seaglint data set 9\"; this program reads \"seaglint data set 2\""));
   fs::remove(directory_ / kManifestFile);
-  // A whole file of another format must not be taken for a damaged one and made anew.
+  // A complete file of another format must not be treated as damaged and regenerated.
   Hdf5Writer other(directory_ / shard_name(1), Hdf5Version::k18);
   other.attribute("format", "seaglint shard 9");
   other.close();
@@ -256,9 +256,9 @@ TEST_F(DataSetDirectory, OfAnotherFormatIsRefused) {
               HasSubstr("shard_00001.h5: format \"seaglint shard 9\"; this program reads \"seaglint shard 3\""));
 }
 
-// What the message advises, it keeps.
-TEST_F(DataSetDirectory, WithADamagedManifestGoesOnWithoutIt) {
-  make_whole();
+// The action that the message recommends succeeds.
+TEST_F(DataSetDirectory, WithADamagedManifestIsResumedWithoutIt) {
+  make_complete();
   const fs::path file = directory_ / kManifestFile;
   const std::string good = read_file(file);
   write_file(file, good.substr(0, good.size() / 2));
@@ -273,7 +273,7 @@ TEST_F(DataSetDirectory, WithADamagedManifestGoesOnWithoutIt) {
 }
 
 TEST_F(DataSetDirectory, WithABrokenManifestIsRefused) {
-  make_whole();
+  make_complete();
   const std::string good = read_file(directory_ / kManifestFile);
   Manifest manifest = read_manifest(directory_ / kManifestFile);
   const auto refused = [&](const std::string& text) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A data set is of one scenario and of the files that it names.
+// A data set records its scenario and the files that the scenario names.
 #include "classify/dataset/directory/input_list.h"
 
 #include <fmt/format.h>
@@ -46,7 +46,7 @@ class InputList : public ::testing::Test {
   Scenario scenario_;
 };
 
-TEST_F(InputList, IsWrittenOnceAndHoldsTheFilesToIt) {
+TEST_F(InputList, IsWrittenOnceAndFilesMustMatchIt) {
   EXPECT_EQ(complaint(), "");
   EXPECT_EQ(read_file(folder_ / "data" / kInputsFile), sha256("ship") + "  targets.ship.mesh\n");
   EXPECT_EQ(complaint(), "");
@@ -59,7 +59,7 @@ TEST_F(InputList, IsWrittenOnceAndHoldsTheFilesToIt) {
   EXPECT_EQ(complaint(), "");
 }
 
-TEST_F(InputList, HoldsAMeshToItsBuffersToo) {
+TEST_F(InputList, IncludesTheBuffersOfAMesh) {
   constexpr std::size_t kTriangleBytes = 36;
   write("ship.gltf",
         R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],)"

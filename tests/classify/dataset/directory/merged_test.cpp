@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One file over all shards: says what they say, and is not written over shards that are missing, damaged or foreign.
+// One virtual file over all shards: it returns the shards' data and is not written over shards that are missing,
+// damaged or foreign.
 #include "classify/dataset/directory/merged.h"
 
 #include <gmock/gmock.h>
@@ -25,7 +26,7 @@ class MergedDataSet : public DataSetDirectory {
  protected:
   void SetUp() override {
     DataSetDirectory::SetUp();
-    make_whole();
+    make_complete();
   }
 
   std::string refusal() const {
@@ -42,7 +43,7 @@ class MergedDataSet : public DataSetDirectory {
   fs::path file() const { return directory_ / kMergedFile; }
 };
 
-TEST_F(MergedDataSet, TakesEveryRowFromItsShard) {
+TEST_F(MergedDataSet, HasTheRowsOfItsShards) {
   merge();
   const Hdf5Reader merged(file());
   EXPECT_EQ(merged.size("/maps"), (Dimensions{plan_.size(), 2, 2}));
@@ -58,13 +59,13 @@ TEST_F(MergedDataSet, TakesEveryRowFromItsShard) {
 TEST_F(MergedDataSet, HasTheSameBytesWheneverItIsWritten) {
   merge();
   const std::string first = read_file(file());
-  timespec pause{1, 100000000};  // a time stamp of whole seconds would show
+  timespec pause{1, 100000000};  // longer than the resolution of a time stamp in whole seconds
   nanosleep(&pause, nullptr);
   merge();
   EXPECT_EQ(read_file(file()), first);
 }
 
-TEST_F(MergedDataSet, WritesTheManifestThatTwoPartsFinishingTogetherLeftOut) {
+TEST_F(MergedDataSet, WritesAManifestMissingAfterConcurrentParts) {
   const std::string manifest = read_file(directory_ / kManifestFile);
   fs::remove(directory_ / kManifestFile);
   EXPECT_TRUE(merge_dataset(directory_, file(), kTestVersion).wrote_manifest);
@@ -110,28 +111,28 @@ TEST_F(MergedDataSet, IsRefusedWhereAShardIsOfAnotherVersion) {
   EXPECT_THAT(refusal(), HasSubstr("shard_00001.h5: made by seaglint 0.0.1, this is seaglint 0.0.0"));
 }
 
-// What HDF5 shows of a shard that went away later must not look like a map.
-TEST_F(MergedDataSet, ShowsNoNumberWhereAShardWentAway) {
+// What HDF5 returns for a shard that was removed later must not look like a map.
+TEST_F(MergedDataSet, IsNaNWhereAShardIsMissing) {
   merge();
   fs::remove(directory_ / shard_name(1));
   const std::vector<float> maps = Hdf5Reader(file()).read<float>("/maps", 3).values;
   for (std::size_t i = 0; i < maps.size(); ++i) EXPECT_EQ(std::isnan(maps[i]), i / 4 >= 3 && i / 4 < 6) << i;
 }
 
-TEST_F(MergedDataSet, FindsItsShardsFromAnotherFolderWithOddNames) {
+TEST_F(MergedDataSet, FindsItsShardsFromAnotherFolder) {
   // HDF5 reads %b in the name of a source as the number of a block.
-  const fs::path beside = directory_.string() + "_beside", moved = directory_.string() + "_50 %b";
-  fs::remove_all(beside);
+  const fs::path other = directory_.string() + "_beside", moved = directory_.string() + "_50 %b";
+  fs::remove_all(other);
   fs::remove_all(moved);
-  fs::create_directories(beside);
+  fs::create_directories(other);
   fs::rename(directory_, moved);
-  merge_dataset(moved, beside / "all.h5", kTestVersion);
+  merge_dataset(moved, other / "all.h5", kTestVersion);
   {
-    const Hdf5Reader merged(beside / "all.h5");
+    const Hdf5Reader merged(other / "all.h5");
     EXPECT_EQ(merged.sources("/maps").front().file, "../" + moved.filename().string() + "/shard_00000.h5");
     for (const float value : merged.read<float>("/maps", 3).values) EXPECT_FALSE(std::isnan(value));
   }
-  fs::remove_all(beside);
+  fs::remove_all(other);
   fs::remove_all(moved);
 }
 

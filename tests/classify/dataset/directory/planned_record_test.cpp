@@ -9,9 +9,9 @@
 namespace seaglint {
 namespace {
 
-// A turn of 30 deg to radians and back is 29.999999999999996: a selection by the scenario's own angle would find
+// 30 deg converted to radians and back is 29.999999999999996: a selection by the scenario's own angle would find
 // nothing.
-TEST(PlannedRecord, HasTheAnglesThatTheScenarioGives) {
+TEST(PlannedRecord, HasTheAnglesOfTheScenario) {
   Scenario scenario;
   scenario.targets.resize(2);
   scenario.sea.propagation_deg = {120, -33.3};

@@ -83,7 +83,7 @@ std::string message_of(const fs::path& file) {
   return "no error";
 }
 
-TEST_F(ShardFile, ComesBackAsItWas) {
+TEST_F(ShardFile, IsReadAsItWasWritten) {
   for (const bool complex_values : {false, true}) {
     write_shard(file_, some_shard(complex_values), 8);
     expect_equal(read_shard(file_), some_shard(complex_values));
@@ -97,7 +97,7 @@ TEST_F(ShardFile, HasTheSameBytesWheneverAndWhereverItIsWritten) {
   fs::create_directories(directory_ / "elsewhere");
   write_shard(directory_ / "elsewhere" / "another_name.h5", some_shard(), 8);
   EXPECT_EQ(sha256_file(directory_ / "elsewhere" / "another_name.h5"), first);
-  // A time stamp of whole seconds would show after one second.
+  // A time stamp of whole seconds would differ after one second.
   timespec pause{1, 100000000};
   nanosleep(&pause, nullptr);
   write_shard(file_, some_shard(), 8);
@@ -116,7 +116,7 @@ TEST_F(ShardFile, IsRefusedWithItsNameWhenTruncated) {
 TEST_F(ShardFile, IsRefusedWhenAnyByteOfAMapIsChanged) {
   write_shard(file_, some_shard(), 8);
   std::string bytes = read_file(file_);
-  // The second sample's map as it lies in the file.
+  // The second sample's map as stored in the file.
   const Shard shard = some_shard();
   const std::string map(reinterpret_cast<const char*>(shard.samples[1].magnitude.data()),
                         shard.axes.cells() * sizeof(float));
@@ -140,22 +140,22 @@ TEST_F(ShardFile, NeverCrashesTheReaderWhateverByteIsChanged) {
     std::ofstream(file_, std::ios::binary) << changed;
     if (message_of(file_) != "no error") ++refused;
   }
-  // Padding between the objects of the file carries no checksum; the manifest's SHA-256 covers it.
+  // Padding between the objects of the file has no checksum of its own; the manifest's SHA-256 includes it.
   EXPECT_GT(refused, kTrials / 10);
 }
 
-TEST_F(ShardFile, SaysWhatIsMissing) {
+TEST_F(ShardFile, NamesMissingContents) {
   EXPECT_THAT(message_of(directory_ / "none.h5"), HasSubstr("none.h5: no such shard"));
   write_file(file_, "this is text");
   EXPECT_THAT(message_of(file_), HasSubstr("not a whole HDF5 file"));
 }
 
-TEST_F(ShardFile, LeavesNothingBehindWhenTheDiskRefuses) {
+TEST_F(ShardFile, LeavesNoFileWhenWritingFails) {
   EXPECT_THROW(write_shard(directory_ / "absent" / "shard_00000.h5", some_shard(), 8), WorkError);
   EXPECT_TRUE(fs::is_empty(directory_));
 }
 
-TEST(Checksum, AgreesWithThePublishedDigest) {
+TEST(Checksum, EqualsThePublishedDigest) {
   // FIPS 180-4 example "abc".
   EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
 }

@@ -48,7 +48,7 @@ TEST(FourierBatch, IsTheSumOfItsDefinition) {
   }
 }
 
-TEST(TransformRows, LeavesWhatLiesBetweenTheRows) {
+TEST(TransformRows, KeepsValuesBetweenTheRows) {
   constexpr std::size_t kStride = kLength + 6;
   const std::vector<Complex> before = random_numbers(kStride * kRows);
   std::vector<Complex> values = before;

@@ -12,7 +12,7 @@
 namespace seaglint {
 namespace {
 
-// A sine of amplitude a has the variance a^2 / 2, wherever between two lines it lies.
+// A sine of amplitude a has the variance a^2 / 2, at any frequency between two lines.
 TEST(Periodogram, HoldsTheVarianceOfASine) {
   constexpr double kStep = 0.1, kAmplitude = 3, kOmega = 2.345;
   constexpr std::size_t kSamples = 1000;

@@ -13,9 +13,9 @@ namespace {
 
 using Words = std::array<std::uint32_t, 4>;
 
-// Known answers of the authors' library Random123 (BSD-3-Clause, D. E. Shaw Research), tests/kat_vectors, lines
+// Reference values of the authors' library Random123 (BSD-3-Clause, D. E. Shaw Research), tests/kat_vectors, lines
 // "philox4x32 10".
-TEST(Philox, GivesTheKnownAnswersOfItsAuthors) {
+TEST(Philox, EqualsTheReferenceValuesOfItsAuthors) {
   EXPECT_EQ(philox4x32({0, 0, 0, 0}, {0, 0}), (Words{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8}));
   EXPECT_EQ(philox4x32({0xffffffff, 0xffffffff, 0xffffffff, 0xffffffff}, {0xffffffff, 0xffffffff}),
             (Words{0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd}));
@@ -23,7 +23,7 @@ TEST(Philox, GivesTheKnownAnswersOfItsAuthors) {
             (Words{0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1}));
 }
 
-TEST(Random, TakesItsNumbersFromThePhiloxBlocksOfItsKey) {
+TEST(Random, ReturnsThePhiloxBlocksOfItsKey) {
   Random random({0x1122334455667788u, Stream::kNoise, 0x99aabbccddeeff00u});
   for (std::uint32_t block = 0; block < 3; ++block) {
     const Words words = philox4x32({block, 6, 0xddeeff00, 0x99aabbcc}, {0x55667788, 0x11223344});
@@ -42,7 +42,7 @@ TEST(Random, DiffersWhenSeedStreamOrIndexDiffers) {
   EXPECT_NE(Random({1, Stream::kTest, std::uint64_t{1} << 32 | 1}).bits(), base);
 }
 
-// Bits pinned once: a change here changes every data set that was ever made.
+// Values that must never change: every data set depends on them.
 TEST(Random, RepeatsItsFirstNumbersOnEveryMachine) {
   Random uniform({42, Stream::kTest, 0});
   Random normal({42, Stream::kTest, 0});
@@ -84,8 +84,8 @@ TEST(Random, NormalHasTheMomentsAndTailsOfANormal) {
   EXPECT_NEAR(moment[2], 1, 5 * std::sqrt(2.0 / kCount));
   EXPECT_NEAR(moment[3], 0, 5 * std::sqrt(15.0 / kCount));
   EXPECT_NEAR(moment[4], 3, 5 * std::sqrt(96.0 / kCount));
-  const double share = std::erfc(2 / std::sqrt(2.0));
-  EXPECT_NEAR(beyond_two, kCount * share, 5 * std::sqrt(kCount * share * (1 - share)));
+  const double probability = std::erfc(2 / std::sqrt(2.0));
+  EXPECT_NEAR(beyond_two, kCount * probability, 5 * std::sqrt(kCount * probability * (1 - probability)));
 }
 
 TEST(Random, BelowIsUnbiasedForCountsThatDoNotDivideTheRange) {
@@ -111,7 +111,7 @@ TEST(Random, BelowReachesEveryValueOfASmallCount) {
 }
 
 // The three values printed in the paper of AS 241, section "Test data" (to 16 digits).
-TEST(NormalQuantile, GivesTheValuesOfItsPaper) {
+TEST(NormalQuantile, HasTheValuesOfItsPaper) {
   constexpr double kRelative = 1e-15;
   EXPECT_NEAR(normal_quantile(0.25), -0.6744897501960817, 0.6744897501960817 * kRelative);
   EXPECT_NEAR(normal_quantile(0.001), -3.090232306167814, 3.090232306167814 * kRelative);
@@ -127,7 +127,7 @@ TEST(NormalQuantile, InvertsTheNormalDistribution) {
   }
 }
 
-TEST(NormalQuantile, IsOddAboutOneHalfAndRejectsWhatHasNoQuantile) {
+TEST(NormalQuantile, IsOddAboutOneHalfAndRejectsInvalidProbabilities) {
   EXPECT_EQ(normal_quantile(0.5), 0.0);
   for (const double p : {0.03125, 0.25, 0.4375}) EXPECT_EQ(normal_quantile(p), -normal_quantile(1 - p));
   for (const double p : {0.0, 1.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {

@@ -40,7 +40,7 @@ class Files : public ::testing::Test {
   const fs::path folder_ = temporary_.path();
 };
 
-TEST_F(Files, WhatIsWrittenIsRead) {
+TEST_F(Files, AreReadAsWritten) {
   const std::string content("a\0b\n", 4);
   write_file(folder_ / "x", content);
   EXPECT_EQ(read_file(folder_ / "x"), content);
@@ -52,7 +52,7 @@ TEST_F(Files, WhatIsWrittenIsRead) {
   EXPECT_EQ(entries(), 1u);
 }
 
-TEST_F(Files, ReadingSaysWhatIsWrong) {
+TEST_F(Files, ReadingErrorsNameTheCause) {
   const auto reading = [&](const fs::path& path, std::size_t limit = 100) {
     return message_of<InputError>([&] { read_file(path, limit); });
   };
@@ -78,7 +78,7 @@ TEST_F(Files, AFailedWriteLeavesTheOldFileAndNothingElse) {
   EXPECT_EQ(entries(), 1u);
 }
 
-TEST_F(Files, WritingNamesTheFileAndTheReason) {
+TEST_F(Files, WritingErrorsNameTheFileAndTheCause) {
   const auto writing = [](const fs::path& path) { return message_of<WorkError>([&] { write_file(path, "content"); }); };
   EXPECT_THAT(writing(folder_ / "none" / "x"), HasSubstr("none/x: cannot write: No such file or directory"));
   EXPECT_THAT(writing(folder_), HasSubstr("cannot write: Is a directory"));
@@ -86,19 +86,19 @@ TEST_F(Files, WritingNamesTheFileAndTheReason) {
   EXPECT_EQ(entries(), 0u);
 }
 
-TEST_F(Files, AWriterThatMakesNoFileIsAnError) {
+TEST_F(Files, AWriterWithoutAFileIsAnError) {
   EXPECT_THAT(message_of<WorkError>([&] { write_file_with(folder_ / "x", [](const fs::path&) {}); }),
               HasSubstr("x: cannot write: No such file or directory"));
 }
 
-TEST_F(Files, ADeviceIsWrittenThroughNotReplaced) {
+TEST_F(Files, ADeviceIsWrittenNotReplaced) {
   write_file("/dev/null", "content");
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
   EXPECT_THAT(message_of<WorkError>([] { write_file_with("/dev/null", [](const fs::path&) {}); }),
               HasSubstr("is not a regular file"));
 }
 
-TEST_F(Files, ASymbolicLinkKeepsPointingWhereItDid) {
+TEST_F(Files, ASymbolicLinkIsKept) {
   write_file(folder_ / "target", "old");
   fs::create_symlink("target", folder_ / "link");
   write_file(folder_ / "link", "new");
@@ -112,7 +112,7 @@ TEST_F(Files, MakesADirectoryWithItsParents) {
   make_directory(folder_ / "a");
   write_file(folder_ / "x", "");
   EXPECT_THAT(message_of<WorkError>([&] { make_directory(folder_ / "x"); }), HasSubstr("x: cannot make the directory"));
-  // Root may write anywhere: a child process that is not root asks.
+  // Root can write anywhere: the check runs in a child process that is not root.
   fs::permissions(folder_, fs::perms::group_exec | fs::perms::others_exec, fs::perm_options::add);
   const fs::path locked = folder_ / "locked";
   fs::create_directory(locked);

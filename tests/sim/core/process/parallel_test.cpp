@@ -25,7 +25,7 @@ TEST(ParallelFor, VisitsEveryIndexOnce) {
   }
 }
 
-TEST(ParallelFor, UsesAtMostTheThreadsItIsGiven) {
+TEST(ParallelFor, UsesAtMostTheGivenNumberOfThreads) {
   std::mutex mutex;
   std::set<std::thread::id> ids;
   parallel_for(200, 3, [&](std::size_t) {
@@ -40,7 +40,7 @@ TEST(ParallelFor, RethrowsTheFailureOfTheLowestIndexForAnyThreadCount) {
     for (int repeat = 0; repeat < 50; ++repeat) {
       try {
         parallel_for(100, threads, [](std::size_t i) {
-          // The lowest failure is the slowest to come.
+          // The lowest index fails last.
           if (i == 37) std::this_thread::sleep_for(std::chrono::microseconds(200));
           if (i >= 37) throw std::runtime_error(std::to_string(i));
         });

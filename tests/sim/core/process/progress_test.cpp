@@ -14,7 +14,7 @@
 namespace seaglint {
 namespace {
 
-TEST(ProgressLine, ShowsShareAndTimeLeft) {
+TEST(ProgressLine, ContainsFractionAndRemainingTime) {
   EXPECT_EQ(progress_line("maps", 0, 10, 3), "maps  [....................]   0 %, no estimate yet");
   EXPECT_EQ(progress_line("maps", 1, 4, 10), "maps  [#####...............]  25 %, 30 s left");
   EXPECT_EQ(progress_line("maps", 1, 2, 130), "maps  [##########..........]  50 %, 2 min 10 s left");
@@ -24,7 +24,7 @@ TEST(ProgressLine, ShowsShareAndTimeLeft) {
   EXPECT_EQ(progress_line("maps", 0, 0, 1), "maps  [####################] 100 %, 0 s left");
 }
 
-TEST(ProgressLine, ShowsARateWhereTheStepsHaveAName) {
+TEST(ProgressLine, ContainsARateForNamedSteps) {
   EXPECT_EQ(progress_line("rcs", 1, 4, 10, "views"), "rcs  [#####...............]  25 %, 30 s left, 0.1 views/s");
   EXPECT_EQ(progress_line("rcs", 0, 4, 10, "views"), "rcs  [....................]   0 %, no estimate yet");
 }
@@ -40,9 +40,9 @@ TEST(Progress, IsSilentWhereThereIsNoTerminal) {
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
 
-// What a terminal in place of stderr is sent while `work` runs.
+// The output to a terminal in place of stderr while `work` runs.
 template <typename Function>
-std::string sent_to_terminal(const Function& work) {
+std::string output_to_terminal(const Function& work) {
   const int terminal = ::posix_openpt(O_RDWR | O_NOCTTY);
   EXPECT_TRUE(terminal >= 0 && ::grantpt(terminal) == 0 && ::unlockpt(terminal) == 0);
   const int inside = ::open(::ptsname(terminal), O_RDWR | O_NOCTTY);
@@ -59,20 +59,20 @@ std::string sent_to_terminal(const Function& work) {
   return std::string(buffer, count > 0 ? static_cast<std::size_t>(count) : 0);
 }
 
-TEST(Progress, ShowsABarOnATerminalAfterTwoSecondsAndWipesItAtTheEnd) {
-  const std::string sent = sent_to_terminal([] {
+TEST(Progress, DrawsABarOnATerminalAfterTwoSecondsAndErasesIt) {
+  const std::string output = output_to_terminal([] {
     Progress progress("maps", 4);
     progress.advance();
     std::this_thread::sleep_for(std::chrono::milliseconds(2100));
     progress.advance();
     progress.advance();  // too soon to be drawn
   });
-  EXPECT_THAT(sent, ::testing::StartsWith("\rmaps  [##########..........]  50 %, "));
-  EXPECT_THAT(sent, ::testing::EndsWith(" s left\033[K\r\033[K"));
+  EXPECT_THAT(output, ::testing::StartsWith("\rmaps  [##########..........]  50 %, "));
+  EXPECT_THAT(output, ::testing::EndsWith(" s left\033[K\r\033[K"));
 }
 
 TEST(Progress, IsSilentForShortWork) {
-  EXPECT_EQ(sent_to_terminal([] {
+  EXPECT_EQ(output_to_terminal([] {
               Progress progress("maps", 2);
               progress.advance();
               progress.advance();

@@ -22,7 +22,7 @@ std::string complaint_about(const std::string& range) {
   return "none";
 }
 
-TEST(Number, IsReadWholeOrNotAtAll) {
+TEST(Number, IsReadCompletelyOrNotAtAll) {
   EXPECT_EQ(parse_number("16"), 16.0);
   EXPECT_EQ(parse_number("-0.5"), -0.5);
   EXPECT_EQ(parse_number("+2.5e3"), 2500.0);
@@ -41,8 +41,8 @@ TEST(Range, IncludesBothEnds) {
   EXPECT_THAT(parse_range("10:15:2"), ElementsAre(10, 12, 14));
 }
 
-TEST(Range, EndsExactlyWhereItWasTold) {
-  // Sums of 0.1 miss 0.3, 0.7 and 1 by rounding; the end must neither be lost nor be doubled.
+TEST(Range, EndsExactlyAtItsEnd) {
+  // Sums of 0.1 differ from 0.3, 0.7 and 1 by rounding; the end must neither be lost nor be doubled.
   for (int last = 1; last <= 1000; ++last) {
     const std::string end = std::to_string(last / 10) + "." + std::to_string(last % 10);
     const std::vector<double> values = parse_range("0:" + end + ":0.1");
@@ -51,7 +51,7 @@ TEST(Range, EndsExactlyWhereItWasTold) {
   }
 }
 
-TEST(Range, SaysWhatIsWrong) {
+TEST(Range, ReportsErrors) {
   EXPECT_EQ(complaint_about("1:2"), "value '1:2': must be a number or from:to:step");
   EXPECT_EQ(complaint_about("1:2:3:4"), "value '1:2:3:4': must be a number or from:to:step");
   EXPECT_EQ(complaint_about("a:2:1"), "value 'a:2:1': must be a number or from:to:step");

@@ -21,7 +21,7 @@ std::string encoded(unsigned point) {
   return text;
 }
 
-TEST(Utf8, HoldsEveryCodePointButSurrogates) {
+TEST(Utf8, ContainsEveryCodePointButSurrogates) {
   for (unsigned point = 0; point < 0x110000; ++point) {
     const std::string text = encoded(point);
     const bool surrogate = point >= 0xd800 && point < 0xe000;
@@ -29,12 +29,12 @@ TEST(Utf8, HoldsEveryCodePointButSurrogates) {
   }
 }
 
-TEST(Utf8, EndsWhereAByteFitsNowhere) {
+TEST(Utf8, EndsAtAnInvalidByte) {
   EXPECT_EQ(utf8_prefix("caf\xe9"), 3u);  // Latin-1
   EXPECT_EQ(utf8_prefix("caf\xc3\xa9"), 5u);
   EXPECT_EQ(utf8_prefix("a\xc3"), 1u);     // cut short
-  EXPECT_EQ(utf8_prefix("\x80"), 0u);      // no lead
-  EXPECT_EQ(utf8_prefix("\xc0\xaf"), 0u);  // longer than need be
+  EXPECT_EQ(utf8_prefix("\x80"), 0u);      // no lead byte
+  EXPECT_EQ(utf8_prefix("\xc0\xaf"), 0u);  // overlong encoding
   EXPECT_EQ(utf8_prefix("\xe0\x80\xaf"), 0u);
   EXPECT_EQ(utf8_prefix("\xf4\x90\x80\x80"), 0u);  // beyond the last code point
   EXPECT_EQ(utf8_prefix(""), 0u);

@@ -34,8 +34,8 @@ TEST_F(GltfFile, ForwardIsTheBowAndUpIsUp) {
 }
 
 TEST_F(GltfFile, NodesPlaceMeshesByTheProductOfTheirTransforms) {
-  // The parent turns by 90 deg about glTF's y and doubles, the child shifts first; the second child is mirrored, so its
-  // corners swap.
+  // The parent rotates by 90 deg about glTF's y and doubles, the child translates first; the second child is mirrored,
+  // so that its vertices swap.
   const TriangleMesh mesh = read_mesh(
       put("a.gltf",
           gltf_with(
@@ -43,13 +43,13 @@ TEST_F(GltfFile, NodesPlaceMeshesByTheProductOfTheirTransforms) {
               R"({"name":"shifted","mesh":0,"translation":[1,0,0]},{"name":"mirrored","mesh":0,"scale":[1,1,-1]}])")));
   ASSERT_EQ(mesh.triangles.size(), 2u);
   EXPECT_EQ(mesh.part_names, (std::vector<std::string>{"shifted", "mirrored"}));
-  // glTF (1,0,0) -> scaled (2,0,0) -> turned (0,0,-2) -> body x = -2.
+  // glTF (1,0,0) -> scaled (2,0,0) -> rotated (0,0,-2) -> body x = -2.
   EXPECT_LT((mesh.vertices[mesh.triangles[0][0]] - Vec3(-2, 0, 0)).norm(), 1e-12);
   EXPECT_NEAR(area_vector(mesh, 0).norm(), 2.0, 1e-12);
   EXPECT_LT((area_vector(mesh, 0) + area_vector(mesh, 1)).norm(), 1e-12);
 }
 
-TEST_F(GltfFile, MayKeepItsBufferInAFileBesideIt) {
+TEST_F(GltfFile, MayHaveItsBufferInAFileNextToIt) {
   std::string json = gltf_with(R"([{"mesh":0}])");
   const std::string data("\0\0\0\0\0\0\0\0\0\0\0\0\0\0\x80\x3f\0\0\0\0\0\0\0\0\0\0\0\0\0\0\x80\x3f\0\0\0\0", 36);
   put("triangle.bin", data);
@@ -65,7 +65,7 @@ TEST_F(GltfFile, MayKeepItsBufferInAFileBesideIt) {
   expect_error(put("inner/a.gltf", std::string(json).replace(from, to - from, "link.bin")), "link.bin");
 }
 
-TEST_F(GltfFile, ThatPromisesWhatItDoesNotHoldIsRefused) {
+TEST_F(GltfFile, ThatLacksItsDeclaredContentsIsRefused) {
   const auto changed = [&](const std::string& from, const std::string& to) {
     std::string json = gltf_with(R"([{"mesh":0}])");
     const std::size_t at = json.find(from);
@@ -94,8 +94,8 @@ TEST_F(GltfFile, ThatPromisesWhatItDoesNotHoldIsRefused) {
   expect_error(put("a.gltf", R"({"asset":{"version":"2.0"}})"), "no triangles");
 }
 
-// What would move or bend vertices is not read, and must not be left out in silence.
-TEST_F(GltfFile, ThatPlacesItsMeshOtherwiseIsRefused) {
+// Extensions that move or deform vertices are not supported, and must be reported.
+TEST_F(GltfFile, WithAnUnsupportedTransformIsRefused) {
   expect_error(put("a.gltf", gltf_with(R"([{"mesh":0,"skin":0}])")), "nodes[0] has a skin");
   expect_error(
       put("a.gltf",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Damaged files of all formats: each is read as some mesh or refused with an InputError that names it; nothing else may
-// happen.
+// Damaged files of all formats: each is read as some mesh or refused with an InputError that names it, without any
+// other effect.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -25,10 +25,10 @@ class MeshFuzzing : public testing::TestWithParam<const char*> {
       : folder(fs::path(testing::TempDir()) /
                ("seaglint_damage_" + std::to_string(::getpid()) + std::string(GetParam()))) {
     fs::create_directories(folder);
-    const fs::path sound = folder / ("sound" + std::string(GetParam()));
-    write_mesh(sound, make_icosahedral_reflector());
+    const fs::path valid = folder / ("sound" + std::string(GetParam()));
+    write_mesh(valid, make_icosahedral_reflector());
     std::ostringstream content;
-    content << std::ifstream(sound, std::ios::binary).rdbuf();
+    content << std::ifstream(valid, std::ios::binary).rdbuf();
     bytes = content.str();
   }
   ~MeshFuzzing() override { fs::remove_all(folder); }
@@ -56,7 +56,7 @@ class MeshFuzzing : public testing::TestWithParam<const char*> {
 TEST_P(MeshFuzzing, CutShortAnywhereIsNeverACrash) {
   int refusals = 0;
   for (std::size_t i = 0; i < 50; ++i) refusals += refused(bytes.substr(0, bytes.size() * i / 50));
-  // Text formats without counts may lose their tail and still be sound; the others always notice.
+  // Text formats without counts may be valid when truncated; the others always report it.
   const std::string format = GetParam();
   EXPECT_GE(refusals, format == ".obj" ? 1 : 50);
 }
@@ -67,7 +67,7 @@ TEST_P(MeshFuzzing, ChangedBytesAreNeverACrash) {
   for (int i = 0; i < 400; ++i) {
     std::string changed = bytes;
     const std::uint32_t count = 1 + random.below(4);
-    // Half of the changes go to the first 2 kB, where the promises stand.
+    // Half of the changes are in the first 2 kB, which contain the header.
     const auto span =
         static_cast<std::uint32_t>(i % 2 == 0 ? changed.size() : std::min<std::size_t>(changed.size(), 2048));
     for (std::uint32_t k = 0; k < count; ++k) changed[random.below(span)] = static_cast<char>(random.below(256));
@@ -97,7 +97,7 @@ TEST_P(MeshFuzzing, NoiseIsRefused) {
     std::string noise(size, '\0');
     for (char& c : noise) c = static_cast<char>(random.below(256));
     EXPECT_TRUE(refused(noise)) << size;
-    // The right beginning, then noise.
+    // A valid header followed by noise.
     EXPECT_TRUE(refused(bytes.substr(0, 30) + noise)) << size;
   }
 }

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TEST_F(MeshFile, EveryFormatGivesTheSameTrianglesBack) {
+TEST_F(MeshFile, EveryFormatPreservesTheTriangles) {
   TriangleMesh mesh = make_icosahedral_reflector();
   mesh = transformed(mesh, Eigen::AngleAxisd(0.3, Vec3(1, 2, 3).normalized()).toRotationMatrix(), Vec3(2, -1, 5));
   for (const char* name : {"a.glb", "a.gltf", "a.obj", "a.stl", "a.ply"}) {
@@ -40,7 +40,7 @@ TEST_F(MeshFile, EveryFormatGivesTheSameTrianglesBack) {
   }
 }
 
-TEST_F(MeshFile, PartsAndMaterialsSurviveWhereTheFormatHasThem) {
+TEST_F(MeshFile, PartsAndMaterialsArePreservedWhereTheFormatHasThem) {
   TriangleMesh mesh = make_icosahedral_reflector();
   mesh.materials = {Material{"pec"}, Material{"canvas"}};
   mesh.triangle_material[4] = 1;
@@ -53,7 +53,7 @@ TEST_F(MeshFile, PartsAndMaterialsSurviveWhereTheFormatHasThem) {
   EXPECT_EQ(read_mesh(folder / "a.obj").part_names, mesh.part_names);
 }
 
-TEST_F(MeshFile, WritingTwiceGivesTheSameBytes) {
+TEST_F(MeshFile, WritingIsReproducible) {
   const TriangleMesh mesh = make_sphere(1, 2);
   for (const char* name : {"a.glb", "a.gltf", "a.obj", "a.stl", "a.ply"}) {
     write_mesh(folder / name, mesh);
@@ -73,8 +73,8 @@ TEST_F(MeshFile, UnitsScaleLengths) {
   EXPECT_THROW(read_mesh(folder / "a.stl", "yard"), InputError);
 }
 
-TEST_F(MeshFile, NonManifoldSoupIsReadWhole) {
-  // Five sheets on one edge, then a flipped copy of the first: OpenMesh's own mesh would take two of them.
+TEST_F(MeshFile, NonManifoldSoupIsReadCompletely) {
+  // Five sheets on one edge, then a flipped copy of the first: OpenMesh's own mesh would accept two of them.
   std::string obj = "v 0 0 0\nv 0 0 1\n";
   for (int i = 0; i < 5; ++i) obj += "v " + std::to_string(std::cos(i)) + " " + std::to_string(std::sin(i)) + " 0.5\n";
   obj += "g fan\n";
@@ -101,7 +101,7 @@ TEST_F(MeshFile, ObjReadsPolygonsRelativeIndicesAndContinuedLines) {
 }
 
 TEST_F(MeshFile, ConcavePolygonsAreCoveredOnce) {
-  // An L of area 3, from a corner whose fan would reach outside; its vertices stand behind the face.
+  // An L of area 3, from a vertex whose fan would lie partly outside; its vertices follow the face.
   const std::string corners = "1 0 0\n2 0 0\n2 1 0\n1 1 0\n1 2 0\n0 2 0\n0 0 0\n";
   std::string obj = "f 2 3 4 5 6 7 1\n";
   std::istringstream lines(corners);
@@ -118,8 +118,8 @@ TEST_F(MeshFile, ConcavePolygonsAreCoveredOnce) {
   expect_error(put("a.obj", obj + "f 1 3 2 6\n"), ":9: a polygon of 4 corners that crosses itself");
 }
 
-// A comment that ends in a backslash, as Windows' folders do, ends with its line; so does one behind numbers.
-TEST_F(MeshFile, ObjCommentsNeverGoOnInTheNextLine) {
+// A comment that ends in a backslash, as folders of Windows do, ends with its line; so does one after numbers.
+TEST_F(MeshFile, ObjCommentsEndWithTheirLine) {
   const std::string corners = "v 0 0 0\nv 2 0 0\nv 0 1 0\nv 0 3 0\n";
   for (const std::string& text :
        {"# made from C:\\models\\\n" + corners + "f 1 2 3\n", "  #\\\r\n" + corners + "f 1 2 3\n",
@@ -130,7 +130,7 @@ TEST_F(MeshFile, ObjCommentsNeverGoOnInTheNextLine) {
                "4 lines begin with v, 3 of them are vertices");
 }
 
-// What they cost is in tests/bench/mesh_bench.cpp.
+// tests/bench/mesh_bench.cpp measures the run time.
 TEST_F(MeshFile, SixtyThousandPartsAreReadAndWritten) {
   constexpr int kParts = 60000;
   std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
@@ -194,7 +194,7 @@ TEST_F(MeshFile, AsciiStlIsReadWithItsSolids) {
   expect_error(put("a.stl", "solid a\nendsolid a\n"), "no triangles");
 }
 
-TEST_F(MeshFile, StlThatPromisesMoreTrianglesThanItHoldsIsRefused) {
+TEST_F(MeshFile, StlWithFewerTrianglesThanDeclaredIsRefused) {
   write_mesh(folder / "a.stl", make_plate(1, 1));
   std::string bytes = bytes_of(folder / "a.stl");
   ASSERT_EQ(bytes.size(), 84u + 2 * 50);
@@ -253,7 +253,7 @@ TEST_F(MeshFile, BrokenPlyIsRefused) {
   expect_error(ply("element vertex 3\nproperty float x\nproperty float x\nproperty float y\nelement face 1\n" + face,
                    "0 0 0 1 0 0 0 1 0 3 0 1 2"),
                "must have x, y and z once each");
-  // Faces without properties cost no bytes; a billion times a billion of them must not be counted through.
+  // Faces without properties occupy no bytes; a count of 1e18 of them must not be iterated over.
   for (const char* properties : {"", "property uchar flags\n", "property list uchar int texcoord\n"}) {
     expect_error(ply("element vertex 1\n" + vertex + "element face " +
                          (*properties == 0 ? "1000000000000000000" : "1") + "\n" + properties,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files of meshes that are valid as far as bytes go and say something that cannot be meant.
+// Mesh files with a valid encoding and invalid contents.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ class MeshErrors : public testing::Test {
   TemporaryFolder folder_;
 };
 
-// The first `count` of four corners, as a sheet of this mode placed by this node.
+// The first `count` of four vertices, as a sheet of this mode placed by this node.
 std::string gltf_of(int count, const std::string& mode, const std::string& node, const std::string& asset = "") {
   return R"({"asset":{"version":"2.0")" + asset + R"(},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0)" + node +
          R"(}],"meshes":[{"primitives":[{"mode":)" + mode +
@@ -43,7 +43,7 @@ std::string gltf_of(int count, const std::string& mode, const std::string& node,
          R"("uri":"data:application/octet-stream;base64,AAAAvwAAAL8AAAAAAAAAPwAAAL8AAAAAAAAAPwAAAD8AAAAAAAAAvwAAAD8AAAAA"}]})";
 }
 
-TEST_F(MeshErrors, OfCornersThatMakeNoWholeTriangles) {
+TEST_F(MeshErrors, OfVerticesThatFormNoWholeTriangles) {
   EXPECT_EQ(refusal("a.gltf", gltf_of(3, "4", "")), "");
   EXPECT_EQ(refusal("a.gltf", gltf_of(4, "5", "")), "");
   EXPECT_THAT(
@@ -58,7 +58,7 @@ TEST_F(MeshErrors, OfCornersThatMakeNoWholeTriangles) {
               HasSubstr("5 indices are no whole number of triangles"));
 }
 
-TEST_F(MeshErrors, OfTransformsThatPlaceNothing) {
+TEST_F(MeshErrors, OfSingularTransforms) {
   const auto with = [&](const std::string& node) { return refusal("a.gltf", gltf_of(3, "4", node)); };
   EXPECT_EQ(with(R"(,"matrix":[1,0,0,0, 0,1,0,0, 0,0,1,0, 5,0,0,1])"), "");
   EXPECT_THAT(with(R"(,"matrix":[1,0,0,0.5, 0,1,0,0, 0,0,1,0, 0,0,0,1])"),
@@ -77,8 +77,8 @@ TEST_F(MeshErrors, OfAFileForALaterGltf) {
               HasSubstr("a.gltf: needs more than glTF 2 (asset.minVersion)"));
 }
 
-// One solid behind the other, or a count that was not written to the end.
-TEST_F(MeshErrors, OfBinaryStlWithMoreThanItPromises) {
+// Two solids in one file, or a count that is smaller than the contents.
+TEST_F(MeshErrors, OfBinaryStlWithMoreTrianglesThanDeclared) {
   write_mesh(folder_.path() / "plate.stl", make_plate(1, 1));
   std::string bytes = read_file(folder_.path() / "plate.stl");
   EXPECT_THAT(refusal("a.stl", bytes + bytes),
@@ -88,7 +88,7 @@ TEST_F(MeshErrors, OfBinaryStlWithMoreThanItPromises) {
               HasSubstr("promises 1 triangles, which end at byte 134; 50 bytes are left over"));
 }
 
-TEST_F(MeshErrors, OfSizesThatNoFormatGivesBack) {
+TEST_F(MeshErrors, OfSizesThatNoFormatPreserves) {
   for (const double size : {1e-308, 9e-21, 1.01e7, 1e38, 1e308}) {
     EXPECT_THROW(make_plate(size, 1), InputError) << size;
     EXPECT_THROW(make_sphere(size, 1), InputError) << size;
@@ -103,7 +103,7 @@ TEST_F(MeshErrors, OfSizesThatNoFormatGivesBack) {
       }
     }
   }
-  // What is read back by nobody is not written either.
+  // A mesh that cannot be read back is not written either.
   TriangleMesh far = make_plate(1, 1);
   far.vertices[0].x() = 1e9;
   EXPECT_THROW(write_mesh(folder_.path() / "far.obj", far), InputError);

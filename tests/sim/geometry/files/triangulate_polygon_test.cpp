@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A polygon's triangles cover it once: all turn with it, their areas sum to its own.
+// A polygon's triangles cover it once: all have its orientation, and their areas sum to its own.
 #include "sim/geometry/files/triangulate_polygon.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ Corners flat(const std::vector<std::array<double, 2>>& points) {
 const Corners kL = flat({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}});
 const Corners kU = flat({{0, 0}, {3, 0}, {3, 3}, {2, 3}, {2, 1}, {1, 1}, {1, 3}, {0, 3}});
 const Corners kCollinear = flat({{0, 0}, {1, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 1.5}, {1, 2}, {0, 2}, {0, 1}});
-// A square within a square, led to by a slit: corners 0 and 5, 4 and 9 are the same two places.
+// A square within a square, connected by a slit: vertices 0 and 5, 4 and 9 coincide.
 const Corners kKeyhole = flat({{0, 0}, {3, 0}, {3, 3}, {0, 3}, {0, 0}, {1, 1}, {1, 2}, {2, 2}, {2, 1}, {1, 1}});
 
 Corners star(int points) {
@@ -37,7 +37,7 @@ Corners star(int points) {
   return corners;
 }
 
-// A band that winds inwards: out along one side, back along the other.
+// A spiral band: outwards along one side, back along the other.
 Corners spiral(int steps) {
   Corners corners;
   for (const bool back : {false, true}) {
@@ -70,7 +70,7 @@ void expect_covers(const Corners& corner, double area) {
   EXPECT_NEAR(sum, area, 1e-12 * static_cast<double>(corner.size()));
 }
 
-// From every first corner, both ways round, seen from any side and away from the origin.
+// From every first vertex, in both orientations, seen from any side and away from the origin.
 void expect_covers_however_written(Corners corner, double area) {
   const Mat3 R = Eigen::AngleAxisd(1.1, Vec3(1, -2, 0.5).normalized()).toRotationMatrix();
   for (std::size_t start = 0; start < corner.size(); ++start) {
@@ -78,13 +78,13 @@ void expect_covers_however_written(Corners corner, double area) {
     std::rotate(corner.begin(), corner.begin() + 1, corner.end());
     expect_covers(corner, area);
     expect_covers(Corners(corner.rbegin(), corner.rend()), area);
-    Corners turned;
-    for (const Vec3& p : corner) turned.push_back(R * p + Vec3(3, 4, -2));
-    expect_covers(turned, area);
+    Corners rotated;
+    for (const Vec3& p : corner) rotated.push_back(R * p + Vec3(3, 4, -2));
+    expect_covers(rotated, area);
   }
 }
 
-TEST(PolygonTriangulation, CoversConcaveShapesWhereverTheyBegin) {
+TEST(PolygonTriangulation, CoversConcaveShapesFromAnyFirstVertex) {
   expect_covers_however_written(kL, 3);
   expect_covers_however_written(kU, 7);
   expect_covers_however_written(kCollinear, 3);
@@ -104,13 +104,13 @@ TEST(PolygonTriangulation, KeepsTheFanOfConvexOnes) {
   }
 }
 
-TEST(PolygonTriangulation, KeepsTheFanOfOneThatItCovers) {
-  Corners corner = kL;  // from its inner corner
+TEST(PolygonTriangulation, KeepsTheFanOfPolygonsThatItCovers) {
+  Corners corner = kL;  // from its concave vertex
   std::rotate(corner.begin(), corner.begin() + 3, corner.end());
   EXPECT_EQ(triangulate_polygon(corner), (Triangles{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}}));
 }
 
-TEST(PolygonTriangulation, TakesCornersOutOfAnyPlaneInThatOfTheArea) {
+TEST(PolygonTriangulation, ProjectsNonPlanarVerticesOntoThePlaneOfTheArea) {
   Corners corner = kL;
   for (std::size_t i = 0; i < corner.size(); ++i) corner[i].z() = i % 2 == 0 ? 0.1 : -0.1;
   const auto triangles = triangulate_polygon(corner);
@@ -124,12 +124,12 @@ TEST(PolygonTriangulation, TakesCornersOutOfAnyPlaneInThatOfTheArea) {
   EXPECT_LT((sum - area_of(corner)).norm(), 1e-12);
 }
 
-TEST(PolygonTriangulation, FansWhatEnclosesNothing) {
+TEST(PolygonTriangulation, FansPolygonsWithoutArea) {
   EXPECT_EQ(triangulate_polygon(flat({{0, 0}, {1, 0}, {3, 0}, {2, 0}}))->size(), 2u);
   EXPECT_EQ(triangulate_polygon(flat({{0, 0}, {0, 0}, {0, 0}, {0, 0}}))->size(), 2u);
 }
 
-TEST(PolygonTriangulation, SplitsThousandsOfCornersAndNoMore) {
+TEST(PolygonTriangulation, TriangulatesThousandsOfVerticesAndNoMore) {
   const Corners most = spiral(static_cast<int>(kMaxConcaveVertices) / 2 - 1),
                 more = spiral(static_cast<int>(kMaxConcaveVertices) / 2);
   ASSERT_EQ(most.size(), kMaxConcaveVertices);
@@ -140,7 +140,7 @@ TEST(PolygonTriangulation, SplitsThousandsOfCornersAndNoMore) {
   EXPECT_EQ(triangulate_polygon(round)->size(), 9998u);
 }
 
-TEST(PolygonTriangulation, HasNothingForWhatCrossesItself) {
+TEST(PolygonTriangulation, RefusesSelfIntersectingPolygons) {
   EXPECT_FALSE(triangulate_polygon(flat({{0, 0}, {1, 1}, {1, 0}, {0, 1}})));
   EXPECT_FALSE(triangulate_polygon(flat({{0, 0}, {1, 1}, {1, 0}, {0, 3}})));
   Corners pentagram;

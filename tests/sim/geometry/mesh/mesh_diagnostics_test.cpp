@@ -27,30 +27,30 @@ void add(TriangleMesh& mesh, std::array<std::uint32_t, 3> triangle) {
   mesh.triangle_material.push_back(0);
 }
 
-TEST(MeshDiagnostics, HasNothingToSayOfAClosedMesh) {
+TEST(MeshDiagnostics, AreEmptyForAClosedMesh) {
   for (const TriangleMesh& mesh : {make_sphere(1, 2), make_icosahedral_reflector(), make_cylinder(1, 2, 12)}) {
     EXPECT_THAT(diagnostic_messages(diagnose(mesh)), ElementsAre());
     EXPECT_EQ(repair(mesh).triangles, mesh.triangles);
   }
 }
 
-TEST(MeshDiagnostics, TurnsAClosedSurfaceThatIsInsideOut) {
+TEST(MeshDiagnostics, InvertAClosedSurfaceThatIsInsideOut) {
   const TriangleMesh sphere = make_sphere(1, 1);
   TriangleMesh inverted = transformed(sphere, Mat3::Identity(), Vec3(0, 0, 50));
   for (std::size_t t = 0; t < inverted.triangles.size(); ++t) flip(inverted, t);
-  TriangleMesh both = sphere;  // a sound one beside it stays
+  TriangleMesh both = sphere;  // a valid one next to it is not changed
   both.append(inverted);
   const MeshDiagnostics health = diagnose(both);
   EXPECT_EQ(health.surfaces, 2u);
   EXPECT_EQ(health.inverted_surfaces, 1u);
   EXPECT_EQ(health.inverted_triangles, 80u);
   EXPECT_THAT(diagnostic_messages(health), ElementsAre(HasSubstr("1 closed surface is inside out (80 triangles)")));
-  const TriangleMesh turned = repair(both);
-  EXPECT_EQ(diagnose(turned).inverted_surfaces, 0u);
-  EXPECT_NEAR(enclosed_volume(turned), 2 * enclosed_volume(sphere), 1e-9);
+  const TriangleMesh repaired = repair(both);
+  EXPECT_EQ(diagnose(repaired).inverted_surfaces, 0u);
+  EXPECT_NEAR(enclosed_volume(repaired), 2 * enclosed_volume(sphere), 1e-9);
 }
 
-TEST(MeshDiagnostics, CountsHolesAndTrianglesThatFaceTheOtherWay) {
+TEST(MeshDiagnostics, CountHolesAndInconsistentTriangles) {
   TriangleMesh holed = make_sphere(1, 1);
   holed.triangles.pop_back();
   holed.triangle_part.pop_back();
@@ -65,11 +65,11 @@ TEST(MeshDiagnostics, CountsHolesAndTrianglesThatFaceTheOtherWay) {
               ElementsAre(HasSubstr("3 edges have neighbours of opposite orientation")));
 }
 
-TEST(MeshDiagnostics, LeavesOutRepeatedAndDegenerateTriangles) {
+TEST(MeshDiagnostics, RemoveRepeatedAndDegenerateTriangles) {
   const TriangleMesh sphere = make_sphere(1, 1);
   TriangleMesh dirty = sphere;
   const auto [a, b, c] = sphere.triangles[5];
-  add(dirty, {b, c, a});  // the same triangle, begun elsewhere
+  add(dirty, {b, c, a});  // the same triangle from another first vertex
   add(dirty, {a, a, b});
   const MeshDiagnostics health = diagnose(dirty);
   EXPECT_EQ(health.repeated, 1u);
@@ -80,7 +80,7 @@ TEST(MeshDiagnostics, LeavesOutRepeatedAndDegenerateTriangles) {
   EXPECT_EQ(repair(dirty).triangles, sphere.triangles);
 }
 
-TEST(MeshDiagnostics, LeavesOneSideOfSheetsOfTwo) {
+TEST(MeshDiagnostics, KeepOneSideOfTwoSidedSheets) {
   const TriangleMesh sheet = make_plate(1, 1);
   TriangleMesh two_sided = sheet;
   for (const auto& t : sheet.triangles) add(two_sided, {t[0], t[2], t[1]});
@@ -93,7 +93,7 @@ TEST(MeshDiagnostics, LeavesOneSideOfSheetsOfTwo) {
   EXPECT_EQ(repair(two_sided).triangles, sheet.triangles);
 }
 
-// A plate whose back is a part and a material of its own, in either order.
+// A plate whose back is a part with a material of its own, in either order.
 TriangleMesh plate_of_two_materials(bool front_first) {
   TriangleMesh mesh = make_plate(1, 1);
   mesh.part_names = {"front", "back"};
@@ -108,7 +108,7 @@ TriangleMesh plate_of_two_materials(bool front_first) {
   return mesh;
 }
 
-TEST(MeshDiagnostics, KeepsBothSidesOfASheetOfTwoMaterials) {
+TEST(MeshDiagnostics, KeepBothSidesOfASheetOfTwoMaterials) {
   for (const bool front_first : {true, false}) {
     TriangleMesh mesh = plate_of_two_materials(front_first);
     EXPECT_EQ(diagnose(mesh).kept_backs, 2u);
@@ -122,7 +122,7 @@ TEST(MeshDiagnostics, KeepsBothSidesOfASheetOfTwoMaterials) {
   }
 }
 
-TEST(MeshDiagnostics, NamesTheSideThatAnOpenSurfaceLoses) {
+TEST(MeshDiagnostics, NameTheRemovedSideOfAnOpenSurface) {
   TriangleMesh mesh = plate_of_two_materials(true);
   mesh.vertices.push_back({1, 0, 0});
   // a fin of one side
@@ -134,7 +134,7 @@ TEST(MeshDiagnostics, NamesTheSideThatAnOpenSurfaceLoses) {
   EXPECT_EQ(repair(mesh).triangles.size(), 3u);
 }
 
-TEST(MeshDiagnostics, CountsEdgesOfThreeTriangles) {
+TEST(MeshDiagnostics, CountEdgesOfThreeTriangles) {
   TriangleMesh fin = make_plate(1, 1);
   fin.vertices.push_back({1, 0, 0});
   // on the diagonal
@@ -142,7 +142,7 @@ TEST(MeshDiagnostics, CountsEdgesOfThreeTriangles) {
   EXPECT_EQ(diagnose(fin).non_manifold_edges, 1u);
 }
 
-// A cube of edge 1 with its lower corner here.
+// A cube of edge 1 with its lower vertex here.
 TriangleMesh cube_at(const Vec3& lower) {
   MeshBuilder builder;
   for (int i = 0; i < 8; ++i) builder.vertex(lower + Vec3(i & 1, (i >> 1) & 1, i >> 2));
@@ -151,7 +151,7 @@ TriangleMesh cube_at(const Vec3& lower) {
   return builder.take();
 }
 
-TEST(MeshDiagnostics, JudgesBodiesThatTouchAlongAnEdgeEachByItself) {
+TEST(MeshDiagnostics, TreatBodiesThatTouchAlongAnEdgeSeparately) {
   const TriangleMesh first = cube_at(Vec3::Zero()), second = cube_at({1, 1, 0});
   ASSERT_NEAR(enclosed_volume(first), 1, 1e-12);
   for (const bool larger_first : {true, false}) {
@@ -169,9 +169,9 @@ TEST(MeshDiagnostics, JudgesBodiesThatTouchAlongAnEdgeEachByItself) {
   }
 }
 
-// Two caps and two discs between them on one ring of edges: none is closed alone, all together are the skin of a hollow
-// body.
-TEST(MeshDiagnostics, JudgesPiecesThatOnlyCloseTogetherAsOne) {
+// Two caps and two discs between them on one ring of edges: none is closed alone, all together are the surface of a
+// hollow body.
+TEST(MeshDiagnostics, TreatPiecesThatCloseOnlyTogetherAsOne) {
   MeshBuilder builder;
   for (int i = 0; i < 4; ++i) builder.vertex({std::cos(i * kPi / 2), std::sin(i * kPi / 2), 0});
   for (const double z : {1.0, -1.0, 0.2, -0.2}) builder.vertex({0, 0, z});
@@ -189,7 +189,7 @@ TEST(MeshDiagnostics, JudgesPiecesThatOnlyCloseTogetherAsOne) {
   EXPECT_NEAR(enclosed_volume(repair(mesh)), volume, 1e-12);
 }
 
-TEST(MeshDiagnostics, SaysWhereAPartitionLeavesNoInside) {
+TEST(MeshDiagnostics, ReportAPartitionInsideABody) {
   TriangleMesh divided = cube_at(Vec3::Zero());
   // a slanting wall from edge to edge
   for (const auto& t : {std::array<std::uint32_t, 3>{0, 1, 7}, {0, 7, 6}}) add(divided, t);

@@ -46,7 +46,7 @@ TEST(Topology, OfACubeTurnedInsideOutHasConcaveWedges) {
   for (const Wedge& wedge : wedges(cube, topology, radians(5))) EXPECT_NEAR(wedge.exterior_angle, 0.5 * kPi, 1e-15);
 }
 
-TEST(Topology, NeighboursNameEachOther) {
+TEST(Topology, NeighboursReferToEachOther) {
   const TriangleMesh sphere = make_sphere(1, 2);
   const Topology topology = topology_of(sphere);
   for (std::uint32_t t = 0; t < sphere.triangles.size(); ++t) {
@@ -69,14 +69,14 @@ TEST(Topology, CountsAHoleAndAFlippedTriangle) {
   EXPECT_FALSE(topology_of(cube).part_closed[0]);
 }
 
-TEST(Topology, SurvivesEdgesOfManyTrianglesAndTrianglesWithoutArea) {
+TEST(Topology, AcceptsNonManifoldEdgesAndDegenerateTriangles) {
   MeshBuilder builder;
   builder.begin_part("fan");
   const auto a = builder.vertex({0, 0, 0}), b = builder.vertex({0, 0, 1});
   for (int i = 0; i < 5; ++i) builder.triangle(a, b, builder.vertex({std::cos(i), std::sin(i), 0.5}));
   const auto middle = builder.vertex({0, 0, 0.5});
   builder.triangle(a, b, middle);  // collinear
-  builder.triangle(a, a, b);       // two corners are one
+  builder.triangle(a, a, b);       // two vertices coincide
   const TriangleMesh fan = builder.take();
   const Topology topology = topology_of(fan);
   EXPECT_EQ(topology.count(EdgeKind::kNonManifold), 1u);
@@ -88,7 +88,7 @@ TEST(Topology, SurvivesEdgesOfManyTrianglesAndTrianglesWithoutArea) {
   }
 }
 
-TEST(Topology, TwoClosedPartsThatShareAnEdgeAreEachClosed) {
+TEST(Topology, TwoClosedPartsWithACommonEdgeAreEachClosed) {
   TriangleMesh first = unit_cube(), second = unit_cube();
   second.part_names = {"other"};
   const Mat3 half_turn = Eigen::AngleAxisd(kPi, Vec3::UnitZ()).toRotationMatrix().array().round();

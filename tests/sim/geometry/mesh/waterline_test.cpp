@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The cut at the waterline: nothing is lost, nothing stands on both sides.
+// The cut at the waterline keeps all area, and every triangle is on one side of it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace seaglint {
 namespace {
 
-TEST(Waterline, KeepsAreaVolumeAndClosedSurfaceAndPutsEachTriangleOnOneSide) {
+TEST(Waterline, KeepsAreaVolumeAndClosednessWithEachTriangleOnOneSide) {
   const TriangleMesh sphere = make_sphere(1, 3);
   for (const double height : {-0.83, -0.2, 0.0, 0.31, 0.9}) {
     const WaterlineCut cut = cut_at_waterline(sphere, height);
@@ -29,19 +29,19 @@ TEST(Waterline, KeepsAreaVolumeAndClosedSurfaceAndPutsEachTriangleOnOneSide) {
       }
       if (cut.submerged[t]) wet += area_vector(cut.mesh, t).norm();
     }
-    // Archimedes: the zone below has area 2 pi (1 + height); the sphere of 1,280 facets lacks 1 % of it.
+    // Archimedes: the zone below has area 2 pi (1 + height); that of the sphere of 1,280 facets is 1 % smaller.
     EXPECT_NEAR(wet, 2 * 3.14159265358979 * (1 + height), 0.02 * 4 * 3.14159265358979);
   }
 }
 
-TEST(Waterline, LeavesAMeshThatStandsOnTheWaterAsItIs) {
+TEST(Waterline, KeepsAMeshOnTheWaterUnchanged) {
   const WaterlineCut cut = cut_at_waterline(make_plate(0.5, 0.4), -0.2);
   EXPECT_EQ(cut.mesh.triangles.size(), 2u);
   EXPECT_EQ(std::count(cut.submerged.begin(), cut.submerged.end(), true), 0);
 }
 
-// Read from a file the bottom of a body lies a rounding above or below where it was drawn.
-TEST(Waterline, WetsABottomOnTheWaterWhateverItsRounding) {
+// The bottom of a body that is read from a file may be above or below the water by a rounding error.
+TEST(Waterline, SubmergesABottomOnTheWaterForAnyRounding) {
   for (const double height : {-1.25, -1.3, -1.7, 2.3, 0.1}) {
     for (const double offset : {-2e-7, 0.0, 2e-7}) {
       TriangleMesh cylinder = transformed(make_cylinder(0.5, 1, 12), Mat3::Identity(),

@@ -25,7 +25,7 @@ TEST(PlateMesh, HasItsAreaAndFacesForward) {
   EXPECT_NEAR(bounds(plate).upper.z(), 0.10, kRounding);
 }
 
-TEST(DihedralMesh, OpensForwardWithItsAngleAtAVerticalSeam) {
+TEST(DihedralMesh, IsOpenForwardWithItsAngleAtAVerticalSeam) {
   const TriangleMesh dihedral = make_dihedral(0.4, 0.3, radians(90));
   EXPECT_NEAR(surface_area(dihedral), 2 * 0.4 * 0.3, kRounding);
   const Topology topology = topology_of(dihedral);
@@ -43,7 +43,7 @@ TEST(DihedralMesh, OpensForwardWithItsAngleAtAVerticalSeam) {
   for (std::size_t t = 0; t < dihedral.triangles.size(); ++t) EXPECT_GT(area_vector(dihedral, t).x(), 0);
 }
 
-TEST(TrihedralMesh, HasThreeFacesThatLookIntoTheFirstOctant) {
+TEST(TrihedralMesh, HasThreeFacesTowardsTheFirstOctant) {
   const double leg = 0.372;
   const TriangleMesh triangular = make_triangular_trihedral(leg), square = make_square_trihedral(leg);
   EXPECT_NEAR(surface_area(triangular), 1.5 * leg * leg, kRounding);
@@ -148,7 +148,7 @@ TEST_F(Reflector, FacesForwardWithItsFirstCellAndIsMirrorSymmetric) {
   }
 }
 
-TEST(Generators, RefuseSizesThatAreNoSizes) {
+TEST(Generators, RefuseInvalidSizes) {
   const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
   for (double bad : {0.0, -1.0, nan, inf}) {
     EXPECT_THROW(make_plate(bad, 1), InputError);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The files in assets/ are what the generators make.
+// The files in assets/ are the output of the generators.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -20,15 +20,15 @@ void expect_same_bytes(const TriangleMesh& mesh, const char* name) {
   const std::filesystem::path again =
       std::filesystem::path(testing::TempDir()) / ("seaglint_again_" + std::to_string(::getpid()) + name);
   write_mesh(again, mesh);
-  // Not EXPECT_EQ, which would print half a megabyte.
+  // EXPECT_EQ would print half a megabyte.
   EXPECT_TRUE(read_file(again) == read_file(kAssets / name))
-      << "assets/" << name << " is not what its command in assets/README.md makes";
+      << "assets/" << name << " differs from the output of its command in assets/README.md";
   std::filesystem::remove(again);
 }
 
-TEST(Assets, ShipIsWhatItsGeneratorMakes) { expect_same_bytes(make_ship(), "combatant_144m.glb"); }
+TEST(Assets, ShipEqualsItsGeneratorsOutput) { expect_same_bytes(make_ship(), "combatant_144m.glb"); }
 
-TEST(Assets, ReflectorIsWhatItsGeneratorMakes) {
+TEST(Assets, ReflectorEqualsItsGeneratorsOutput) {
   expect_same_bytes(make_icosahedral_reflector(), "icosahedral_reflector.glb");
 }
 
@@ -42,7 +42,7 @@ TEST(Assets, HaveTheirChecksums) {
   EXPECT_EQ(std::system(command.c_str()), 0);
 }
 
-TEST(Assets, SurviveTheRoundTripThroughTheirFiles) {
+TEST(Assets, AreUnchangedByARoundTripThroughTheirFiles) {
   const TriangleMesh ship = make_ship();
   const TriangleMesh again = read_mesh(kAssets / "combatant_144m.glb");
   ASSERT_EQ(again.triangles.size(), ship.triangles.size());
@@ -50,7 +50,7 @@ TEST(Assets, SurviveTheRoundTripThroughTheirFiles) {
   for (std::size_t t = 0; t < ship.triangles.size(); ++t) {
     for (int i = 0; i < 3; ++i) {
       ASSERT_EQ(again.vertices[again.triangles[t][i]], ship.vertices[ship.triangles[t][i]])
-          << "positions lie on a grid that float32 holds exactly";
+          << "positions lie on a grid that float32 represents exactly";
     }
   }
 }

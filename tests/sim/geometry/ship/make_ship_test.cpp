@@ -22,13 +22,13 @@ class ShipMesh : public testing::Test {
   static inline TriangleMesh mesh;
 };
 
-TEST_F(ShipMesh, HasItsLengthAndStandsOnTheWaterline) {
+TEST_F(ShipMesh, HasItsLengthAndDraught) {
   const Bounds box = bounds(mesh);
   EXPECT_NEAR(box.lower.x(), -72, 0.01);
   EXPECT_NEAR(box.upper.x(), 72, 0.01);
   EXPECT_EQ(box.lower.z(), 0.0);
   EXPECT_GT(box.upper.z(), 25);
-  // Fittings do not come in mirrored pairs only, but the beam does.
+  // Not all fittings are in symmetric pairs, but the beam is symmetric.
   EXPECT_NEAR(box.lower.y(), -box.upper.y(), 1e-4);
 }
 
@@ -51,25 +51,25 @@ TEST_F(ShipMesh, ConsistsOfClosedPartsThatFaceOutwards) {
   }
 }
 
-// Follows neighbours from triangle to triangle: each solid within a part is turned outwards by itself.
+// Follows neighbours from triangle to triangle: each solid within a part has its own outward orientation.
 TEST_F(ShipMesh, EverySolidWithinAPartFacesOutwards) {
   const Topology topology = topology_of(mesh);
-  std::vector<bool> seen(mesh.triangles.size(), false);
+  std::vector<bool> visited(mesh.triangles.size(), false);
   int solids = 0;
   for (std::uint32_t start = 0; start < mesh.triangles.size(); ++start) {
-    if (seen[start]) continue;
+    if (visited[start]) continue;
     double volume = 0;
     const Vec3 origin = mesh.vertices[mesh.triangles[start][0]];
     std::vector<std::uint32_t> pending{start};
-    seen[start] = true;
+    visited[start] = true;
     while (!pending.empty()) {
       const std::uint32_t t = pending.back();
       pending.pop_back();
       volume += (mesh.vertices[mesh.triangles[t][0]] - origin).dot(area_vector(mesh, t)) / 3.0;
       for (std::uint32_t n : topology.neighbours[t]) {
         ASSERT_NE(n, kNoIndex);
-        if (!seen[n]) pending.push_back(n);
-        seen[n] = true;
+        if (!visited[n]) pending.push_back(n);
+        visited[n] = true;
       }
     }
     EXPECT_GT(volume, 0) << mesh.part_names[mesh.triangle_part[start]];
@@ -87,8 +87,9 @@ TEST_F(ShipMesh, HullHasTheVolumeOfItsSections) {
   EXPECT_LT(volume, 0.85 * box);
 }
 
-// A plate of the hull is small, and the flare turns along the ship and with height, so that no aspect sees one mirror.
-TEST_F(ShipMesh, HullPlatesAreSmallAndTurnAwayFromOneAnother) {
+// The plates of the hull are small, and their normals vary along the ship and with height, so that no aspect has one
+// large specular reflection.
+TEST_F(ShipMesh, HullPlatesAreSmallAndOfVaryingNormals) {
   const TriangleMesh hull = part_of(mesh, 0);
   std::vector<double> flare;
   for (std::size_t t = 0; t < hull.triangles.size(); ++t) {
@@ -104,12 +105,12 @@ TEST_F(ShipMesh, HullPlatesAreSmallAndTurnAwayFromOneAnother) {
   }
   std::sort(flare.begin(), flare.end());
   EXPECT_LT(flare[flare.size() / 20], flare[flare.size() * 19 / 20] - 5.0);
-  // The sides lean outwards by several degrees, so that at 2 deg of elevation none looks at the radar.
+  // The sides lean outwards by several degrees, so that at 2 deg of elevation none faces the radar.
   EXPECT_LT(flare[flare.size() * 3 / 4], -3.0);
 }
 
-// Vertices where three faces meet at inner right angles: what answers in many directions.
-TEST_F(ShipMesh, HasInnerRightAngledCornersAllAlong) {
+// Vertices where three faces meet at inner right angles: corner reflectors, which scatter in many directions.
+TEST_F(ShipMesh, HasInnerRightAngledVerticesAlongItsLength) {
   const Topology topology = topology_of(mesh);
   std::vector<int> right_seams(mesh.vertices.size(), 0);
   for (const Wedge& wedge : wedges(mesh, topology, radians(45))) {
@@ -127,7 +128,7 @@ TEST_F(ShipMesh, HasInnerRightAngledCornersAllAlong) {
   EXPECT_GE(slices.size(), 15u) << "of 24 slices of 6 m";
 }
 
-TEST_F(ShipMesh, KeepsItsBudget) {
+TEST_F(ShipMesh, HasAtMostItsNumberOfTriangles) {
   EXPECT_GE(mesh.triangles.size(), 15000u);
   EXPECT_LE(mesh.triangles.size(), 40000u);
 }

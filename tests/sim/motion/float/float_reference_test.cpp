@@ -30,9 +30,9 @@ std::vector<Measured> measured() {
 // The measured +-35 %, and half a unit of the table's last digit.
 double tolerance(double value) { return 0.35 * value + 0.005; }
 
-// The section as strip theory has it: a cylinder in beam waves, its mass and GM as measured, radiation and diffraction
-// of its Lewis form; the sharp bilge's own damping 0.05 of critical.
-TEST(FloatReference, SectionForcesGiveTheMeasuredRollAndHeave) {
+// The section by strip theory: a cylinder in beam waves, its mass and GM as measured, radiation and diffraction of its
+// Lewis form; additional damping of the sharp bilge 0.05 of critical.
+TEST(FloatReference, SectionForcesMatchTheMeasuredRollAndHeave) {
   const double area = kBeam * kDraught - 2 * (1 - 0.25 * kPi) * kBilge * kBilge;
   HullSections hull{0.586, {}};
   for (int i = 0; i < 10; ++i) hull.sections.push_back({0.586 * ((i + 0.5) / 10 - 0.5), kBeam, kDraught, area});
@@ -57,7 +57,7 @@ TEST(FloatReference, SectionForcesGiveTheMeasuredRollAndHeave) {
 }
 
 // A float with the section's periods, width and draught: amplitudes of its series in small regular waves.
-TEST(FloatReference, AFloatsOscillatorGivesTheMeasuredRoll) {
+TEST(FloatReference, AFloatsOscillatorMatchesTheMeasuredRoll) {
   MotionSpec spec;
   spec.model = MotionModel::kFloat;
   spec.diameter_m = kBeam;
@@ -77,15 +77,15 @@ TEST(FloatReference, AFloatsOscillatorGivesTheMeasuredRoll) {
     const auto count =
         static_cast<std::size_t>(std::floor(std::floor(40 * m.omega / (2 * kPi)) * 2 * kPi / m.omega / spec.step_s));
     for (std::size_t n = 0; n < count; ++n) {
-      const Complex turn =
+      const Complex phasor =
           std::polar(2.0 / static_cast<double>(count), -m.omega * spec.step_s * static_cast<double>(n));
-      roll += samples[n].angles.x() * turn;
-      heave += samples[n].translation.z() * turn;
+      roll += samples[n].angles.x() * phasor;
+      heave += samples[n].translation.z() * phasor;
     }
     std::printf("%.3f rad/s: heave %.3f (%.2f), roll %.3f (%.2f)\n", m.omega, std::abs(heave) / amplitude, m.heave,
                 std::abs(roll) / (k * amplitude), m.roll);
     EXPECT_NEAR(std::abs(roll) / (k * amplitude), m.roll, tolerance(m.roll)) << m.omega;
-    // One oscillator with constant mass and damping misses the heave off resonance, as strip theory does not.
+    // One oscillator with constant mass and damping has a wrong heave off resonance, in contrast to strip theory.
     if (m.omega > 5 && m.omega < 5.5) {
       EXPECT_NEAR(std::abs(heave) / amplitude, m.heave, tolerance(m.heave)) << m.omega;
     }

@@ -89,7 +89,7 @@ TEST(SimulateFloat, FollowsTheSlopeOfLongWaves) {
   }
 }
 
-TEST(SimulateFloat, RespondsToARegularWaveAsItsOscillatorDoes) {
+TEST(SimulateFloat, HasTheOscillatorsResponseToARegularWave) {
   const double omega = 4, amplitude = 0.01;
   const WaveField sea = regular_wave(amplitude, omega, {0, 1});
   const FloatParticulars body = float_particulars(float_spec(), kReflector);
@@ -99,15 +99,15 @@ TEST(SimulateFloat, RespondsToARegularWaveAsItsOscillatorDoes) {
                       disc_slope_filter(k, 0.5);
   for (std::size_t n = 0; n < samples.size(); n += 11) {
     const Complex expected = rao * std::polar(amplitude, omega * 0.02 * static_cast<double>(n) + 0.4);
-    // The limiter takes (0.0163/0.4)^4/4 = 7e-7 of the slope; Runge-Kutta at w h = 0.1 leaves 1e-6.
+    // The limiter reduces the slope by (0.0163/0.4)^4/4 = 7e-7; the error of Runge-Kutta at w h = 0.1 is 1e-6.
     EXPECT_NEAR(samples[n].angles.x(), expected.real(), 5e-6 * std::abs(rao) * amplitude + 1e-9);
     EXPECT_NEAR(samples[n].angle_rates.x(), -omega * expected.imag(), 5e-6 * omega * std::abs(rao) * amplitude + 1e-9);
     EXPECT_NEAR(samples[n].angles.y(), 0, 1e-15);
   }
 }
 
-// Apex velocity u (1 - k h): tilt and orbital motion come from one field and oppose each other.
-TEST(SimulateFloat, ItsMastMovesLessThanTheWaterBelowResonance) {
+// Apex velocity u (1 - k h): tilt and orbital motion have opposite signs in the same wave.
+TEST(SimulateFloat, MastMovesLessThanTheWaterBelowResonance) {
   MotionSpec spec = float_spec();
   spec.translations = true;
   const double omega = 0.8, amplitude = 0.05;
@@ -128,7 +128,7 @@ TEST(SimulateFloat, ItsMastMovesLessThanTheWaterBelowResonance) {
   EXPECT_NEAR(largest, expected, 0.03 * amplitude * omega);
 }
 
-TEST(SimulateFloat, RidesOnTheSurfaceWithTranslations) {
+TEST(SimulateFloat, FollowsTheSurfaceWithTranslations) {
   MotionSpec spec = float_spec();
   spec.translations = true;
   const WaveField sea = regular_wave(0.5, 0.6, {1, 0});
@@ -137,7 +137,7 @@ TEST(SimulateFloat, RidesOnTheSurfaceWithTranslations) {
   for (std::size_t n = 0; n < samples.size(); n += 41) {
     const Vec3& shift = samples[n].translation;
     const SurfaceState water = sea.surface(shift.x(), shift.y(), 0.02 * static_cast<double>(n));
-    // (w/w0)^2 = 1.3 % of the amplitude, and the advection of the slope that the linear vertical velocity leaves out.
+    // (w/w0)^2 = 1.3 % of the amplitude, and the advection of the slope, which the linear vertical velocity neglects.
     EXPECT_NEAR(shift.z(), water.elevation, 0.04 * 0.5);
   }
 }
@@ -151,12 +151,13 @@ TEST(SimulateFloat, RatesAreTheDerivativesOfItsMotion) {
       simulate_float(float_particulars(spec, kReflector), spec, sea, 0, 0, 20, 42, 3);
   for (std::size_t n = 1; n + 1 < samples.size(); n += 7) {
     // Simpson's rule over two steps: h^4/90 times the fifth derivative of the motion, and the kinks of breaking.
-    const Vec3 turn = 0.02 / 3 * (samples[n - 1].angle_rates + 4 * samples[n].angle_rates + samples[n + 1].angle_rates);
-    EXPECT_NEAR((samples[n + 1].angles - samples[n - 1].angles - turn).norm(), 0, 1e-5);
-    const Vec3 way =
+    const Vec3 rotation =
+        0.02 / 3 * (samples[n - 1].angle_rates + 4 * samples[n].angle_rates + samples[n + 1].angle_rates);
+    EXPECT_NEAR((samples[n + 1].angles - samples[n - 1].angles - rotation).norm(), 0, 1e-5);
+    const Vec3 displacement =
         0.02 / 3 *
         (samples[n - 1].translation_rates + 4 * samples[n].translation_rates + samples[n + 1].translation_rates);
-    EXPECT_NEAR((samples[n + 1].translation - samples[n - 1].translation - way).norm(), 0, 1e-5);
+    EXPECT_NEAR((samples[n + 1].translation - samples[n - 1].translation - displacement).norm(), 0, 1e-5);
   }
 }
 
@@ -170,7 +171,7 @@ TEST(SimulateFloat, IsInSteadyStateAtTimeZero) {
     const std::vector<MotionSample> once = simulate_float(body, spec, sea, 40, 0, 10, 42, 1);
     spec.spin_up_s *= 2;
     const std::vector<MotionSample> twice = simulate_float(body, spec, sea, 40, 0, 10, 42, 1);
-    // Tilt forgets within seconds; the mooring leaves e^{-12} of an excursion of a metre.
+    // Transients of the tilt decay within seconds; the mooring leaves e^{-12} of an excursion of a metre.
     for (std::size_t n = 0; n < once.size(); n += 50) {
       EXPECT_NEAR((once[n].angles - twice[n].angles).norm(), 0, translations ? 1e-4 : 1e-9);
       EXPECT_NEAR((once[n].translation - twice[n].translation).norm(), 0, 1e-4);
@@ -178,7 +179,7 @@ TEST(SimulateFloat, IsInSteadyStateAtTimeZero) {
   }
 }
 
-TEST(SimulateFloat, TurnsAboutItsCentreOfFlotation) {
+TEST(SimulateFloat, RotatesAboutItsCentreOfFlotation) {
   const MotionSpec spec = float_spec();
   const Vec3 rest = rest_position(spec, 40, 0);
   EXPECT_EQ((rest - Vec3(40, 0, 0.75)).norm(), 0);
@@ -190,9 +191,9 @@ TEST(SimulateFloat, TurnsAboutItsCentreOfFlotation) {
   }
 }
 
-// Eight samples to the shortest natural period: what the cubics between them miss of a float that rolls at 0.2 s in
+// Eight samples to the shortest natural period: the error of cubic interpolation for a float that rolls at 0.2 s in
 // waves of 0.5 s is 14 % at 0.1 s, 1.1 % at 0.05 s and 0.07 % at the bound.
-TEST(MakeBody, RefusesStepsThatABodysSwingWouldFallBetween) {
+TEST(MakeBody, RefusesStepsTooLongForTheNaturalPeriods) {
   MotionSpec spec = float_spec();
   spec.roll_period_s = spec.pitch_period_s = 0.2;
   const auto refused = [&](double step_s) {
@@ -231,7 +232,7 @@ TEST(RandomYaw, HasTheGivenRateAndTheCorrelationOfItsProcess) {
   EXPECT_NEAR(product / (rate * rate), std::exp(-1.0), 4 * std::sqrt((1 + std::exp(-2.0)) / kBodies));
 }
 
-TEST(RandomYaw, WithASpringKeepsItsMeanHeadingAndWithoutOneHasNone) {
+TEST(RandomYaw, HasAMeanHeadingOnlyWithASpring) {
   double free = 0, moored = 0;
   constexpr int kBodies = 2000;
   for (int body = 0; body < kBodies; ++body) {
@@ -256,7 +257,7 @@ TEST(SimulateMotion, IsTheSameForTheSameKey) {
   EXPECT_GT((angles(1) - angles(2)).norm(), 0);
 }
 
-TEST(SimulateMotion, AFixedBodyStays) {
+TEST(SimulateMotion, AFixedBodyIsAtRest) {
   const Trajectory still = simulate_motion(make_body(MotionSpec{}, {kReflector, {}}), {1, 2, 3},
                                            realise_sea(state_of(1, 5), 1, 0), 5, 42, 0);
   EXPECT_EQ((still.pose(3).p - Vec3(1, 2, 3)).norm(), 0);

@@ -19,8 +19,8 @@ std::vector<double> peaks_of_decay(const Oscillator& oscillator, double x0, doub
     const OscillatorState next = advance(oscillator, state, 0, 0, 0, step);
     if (state.rate != 0 && state.rate * next.rate <= 0) {
       // The rate passes zero inside the step: the value there by a parabola through it.
-      const double share = state.rate / (state.rate - next.rate);
-      peaks.push_back(state.x + 0.5 * share * step * state.rate);
+      const double fraction = state.rate / (state.rate - next.rate);
+      peaks.push_back(state.x + 0.5 * fraction * step * state.rate);
     }
     state = next;
   }
@@ -43,7 +43,7 @@ TEST(Oscillator, DecaysWithTheLogarithmicDecrementOfLinearDamping) {
 
 // While x' > 0, p = x'^2 obeys dp/dx + 2 b p = -2 w0^2 x, so that between two turning points -X and X' the integral of
 // x e^{2 b x} vanishes: (2 b x - 1) e^{2 b x} has the same value at both. A downward swing is its mirror image.
-TEST(Oscillator, DecaysAsTheFirstIntegralOfQuadraticDampingSays) {
+TEST(Oscillator, DecaysByTheFirstIntegralOfQuadraticDamping) {
   const double b = 0.5;
   const Oscillator roll{2 * kPi / 10.9, 0, b};
   double last = 0.3;
@@ -83,7 +83,7 @@ TEST(Oscillator, IsIntegratedToFourthOrder) {
     return state.x;
   };
   const double fine = end(12800);
-  // |x'| x' has a jump in its second derivative where the rate passes zero, which costs a little of the order.
+  // |x'| x' has a jump in its second derivative where the rate passes zero, which reduces the order a little.
   EXPECT_GT(std::abs(end(50) - fine) / std::abs(end(100) - fine), 7);
 }
 

@@ -11,7 +11,7 @@
 namespace seaglint {
 namespace {
 
-TEST(Trajectory, IsCarriedAlongFromAMomentOn) {
+TEST(Trajectory, DriftsFromAGivenTime) {
   const Vec3 rest(1, 2, 3), velocity(-10, 0, 0);
   const Trajectory still = Trajectory::at_rest(rest).with_drift(velocity, 20);
   EXPECT_EQ(still.pose(20).p, rest);
@@ -65,19 +65,19 @@ TEST(Trajectory, RefusesTimesOutsideItself) {
   EXPECT_THROW(trajectory.sample(NAN), std::out_of_range);
 }
 
-TEST(Trajectory, TurnsTheBodyAboutItsRotationCentre) {
+TEST(Trajectory, RotatesTheBodyAboutItsRotationCentre) {
   MotionSample tilted;
   tilted.angles = {0.3, -0.2, 0.5};
   tilted.translation = {1, 2, 3};
   const Vec3 rest(10, 20, 0.75), centre(1, -2, -0.75);
   const Trajectory trajectory(0, 1, {tilted, tilted}, rest, centre);
   const Pose pose = trajectory.pose(0.5);
-  // The rotation centre itself only shifts.
+  // The rotation centre is only translated.
   EXPECT_NEAR((pose.R * centre + pose.p - (rest + centre + tilted.translation)).norm(), 0, 1e-14);
   EXPECT_NEAR((pose.R - rotation_from_angles(0.3, -0.2, 0.5)).norm(), 0, 1e-15);
 }
 
-TEST(Trajectory, AtRestStaysForEver) {
+TEST(Trajectory, AtRestIsConstant) {
   const Trajectory still = Trajectory::at_rest({1, 2, 3});
   for (const double t : {-1e9, 0.0, 1e9}) {
     EXPECT_EQ((still.pose(t).p - Vec3(1, 2, 3)).norm(), 0);

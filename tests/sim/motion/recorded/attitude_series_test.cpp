@@ -19,7 +19,7 @@
 namespace seaglint {
 namespace {
 
-// In a folder of this process: tests of other processes write files of the same names.
+// In a folder of this process, since tests of other processes write files of the same names.
 std::filesystem::path write(const std::string& text, const char* name = "series.csv") {
   static const TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / name;
@@ -36,7 +36,7 @@ std::string message_of(const std::function<void()>& work) {
   return "";
 }
 
-// A ship's roll and pitch as two programs would tell them, 100 s at 0.1 s.
+// A ship's roll and pitch as two programs would write them, 100 s at 0.1 s.
 struct Wave {
   double roll(double t) const { return 3 * std::sin(0.6 * t); }
   double pitch(double t) const { return 0.8 * std::cos(0.9 * t + 1); }
@@ -71,8 +71,8 @@ TEST(AttitudeSeries, AreReadFromThisProgramsTables) {
   expect_wave(read_attitude_series(write(in_radians)), true);
 }
 
-// Comments may hold any words, those that tell the kinds of tables apart among them.
-TEST(AttitudeSeries, AreToldApartByTheirNamesAlone) {
+// Comments may contain any words, also those by which the kinds of tables are distinguished.
+TEST(AttitudeSeries, AreDistinguishedByTheirColumnNames) {
   for (const char* comment : {"night_time_sea", "roll [deg]", "PtfmRoll"}) {
     const AttitudeSeries series = read_attitude_series(write(
         std::string("\n# scenario ") + comment +
@@ -81,7 +81,7 @@ TEST(AttitudeSeries, AreToldApartByTheirNamesAlone) {
   }
 }
 
-// The header as DualSPHysics' FloatingInfo writes it; pitch with either sign beside the same angular velocity.
+// The header as DualSPHysics' FloatingInfo writes it; pitch of either sign with the same angular velocity.
 TEST(AttitudeSeries, AreReadFromFloatingInfoWithEitherSignOfPitch) {
   const Wave wave;
   for (const double sign : {1.0, -1.0}) {
@@ -119,8 +119,8 @@ TEST(AttitudeSeries, AreReadFromOpenFast) {
       testing::HasSubstr("unit '(grad)' of PtfmRoll"));
 }
 
-// A third of the series' Nyquist frequency, told at uniform and at uneven times: read at ten times as many it has the
-// same variance, and nothing of note above the Nyquist frequency.
+// A third of the Nyquist frequency of the series, given at uniform and at non-uniform times: read at ten times as many
+// it has the same variance, and negligible energy above the Nyquist frequency.
 TEST(TrajectoryOf, AddsNoEnergy) {
   for (const double jitter : {0.0, 0.3}) {
     AttitudeSeries series{"test", {}, {}};
@@ -145,14 +145,14 @@ TEST(TrajectoryOf, AddsNoEnergy) {
     }
     above = 0.5 * std::norm(image);
     EXPECT_LE(fast, 0.5 * 1.002) << jitter;
-    // A cubic spline passes 0.994 of an amplitude a third up its band; uneven times cost a little more.
+    // A cubic spline passes 0.994 of an amplitude at a third of its band; non-uniform times reduce it a little.
     EXPECT_NEAR(fast, 0.5, 0.5 * (jitter > 0 ? 0.03 : 0.015)) << jitter;
     EXPECT_NEAR(slow, 0.5, 0.5 * 2e-3) << jitter;
     EXPECT_LT(above, 0.5 * 1e-3) << jitter;
   }
 }
 
-TEST(AttitudeSeries, NameWhatIsWrongWithTheirTimes) {
+TEST(AttitudeSeries, ReportErrorsOfTheirTimes) {
   const char* head = "time_s,roll_deg,pitch_deg,yaw_deg\n";
   const auto read = [&](const std::string& rows) {
     return message_of([&] { read_attitude_series(write(head + rows)); });
@@ -171,7 +171,7 @@ TEST(AttitudeSeries, NameWhatIsWrongWithTheirTimes) {
   EXPECT_THAT(message_of([] { read_attitude_series(write("")); }), testing::HasSubstr("0 rows"));
 }
 
-TEST(AttitudeSeries, NameDegreesWhereRadiansAreDeclared) {
+TEST(AttitudeSeries, ReportDegreesWhereRadiansAreDeclared) {
   std::string all = "time_s,roll_rad,pitch_rad,yaw_rad\n", half = all;
   for (int n = 0; n < 400; ++n) {
     const double roll = 0.1 * std::sin(0.06 * n);
@@ -185,8 +185,8 @@ TEST(AttitudeSeries, NameDegreesWhereRadiansAreDeclared) {
   EXPECT_THAT(message, testing::HasSubstr("a 57-fold jump, as between radians and degrees"));
 }
 
-// Times with rounding in them are those of the series' ends.
-TEST(TrajectoryOf, CoversTheTimesItWasAskedForToTheirRounding) {
+// Times with rounding errors are those of the series' ends.
+TEST(TrajectoryOf, CoversTheRequestedTimesToTheirRounding) {
   const AttitudeSeries series =
       read_attitude_series(write("time_s,roll_deg,pitch_deg,yaw_deg\n0,0,0,0\n1,1,0,0\n2,2,0,0\n3,3,0,0\n"));
   for (const double start : {-2.9e-9, -1e-9, 0.0, 1e-9, 2.9e-9}) {
@@ -211,7 +211,7 @@ TEST(SimulateAttitudeSeries, FollowsASeries) {
   const Trajectory trajectory = simulate_motion(body, {1, 2, 3}, WaveField(), 30, 1, 0);
   EXPECT_NEAR(degrees(trajectory.sample(10).angles.x()), 3, 1e-9);
   EXPECT_EQ(trajectory.sample(10).translation.z(), 0);  // translations are off
-  // A heading about 180 deg does not turn once around from row to row.
+  // A heading that varies about 180 deg does not make a full rotation from row to row.
   EXPECT_NEAR(degrees(trajectory.sample(10).angles.z()), 179, 1.5);
   EXPECT_NEAR(trajectory.pose(0).p.x(), 1, 1e-12);
   EXPECT_THAT(message_of([&] {

@@ -25,8 +25,8 @@ const char* const kWamit = SEAGLINT_SOURCE_DIR "/tests/reference/ship_motion/fps
 
 double wavenumber(double omega) { return omega * omega / kGravity; }
 
-// Long waves pin every sign: surge and sway -j along the waves, heave 1, roll -jk sin mu, pitch +jk cos mu, yaw in
-// antiphase.
+// Long waves determine every sign: surge and sway -j along the waves, heave 1, roll -jk sin mu, pitch +jk cos mu, yaw
+// in antiphase.
 void expect_long_wave_limits(const RaoTable& table, double omega, double roll_factor) {
   const double k = wavenumber(omega);
   for (const double mu_deg : {0.0, 30.0, 60.0, 120.0, 150.0, 180.0, -30.0, -60.0, -120.0, -150.0}) {
@@ -52,7 +52,7 @@ TEST(WamitTable, TendsToTheSlopeOfLongWaves) {
 }
 
 // The file's own numbers: heading 30 is towards 180 + 30 deg, where surge, sway, roll and pitch have the other sign.
-TEST(VeresTable, HoldsTheFilesNumbers) {
+TEST(VeresTable, ContainsTheFilesNumbers) {
   const RaoTable table = read_veres_rao(kVeres, 0);
   EXPECT_NEAR(table.reference().x(), -2.54748, 1e-9);
   EXPECT_NEAR(table.reference().z(), 0.05, 1e-9);
@@ -74,7 +74,7 @@ TEST(VeresTable, HoldsTheFilesNumbers) {
   }
 }
 
-TEST(RaoTable, IsReadBetweenItsRowsAndMirrored) {
+TEST(RaoTable, IsInterpolatedAndMirrored) {
   const RaoTable table = read_veres_rao(kVeres, 0);
   const double w = 0.75, k = wavenumber(w);
   const MotionRao port = table.at(w, k, radians(65));
@@ -91,15 +91,15 @@ TEST(RaoTable, IsReadBetweenItsRowsAndMirrored) {
   EXPECT_EQ(table.at(5, wavenumber(5), 1).heave, Complex(0));
 }
 
-// A heading that stands in the table needs no neighbour, whichever side of it rounding falls.
-TEST(RaoTable, KnowsItsOwnHeadingsToTheirRounding) {
+// A heading of the table needs no neighbour, whichever side of it rounding falls.
+TEST(RaoTable, ContainsItsHeadingsToTheirRounding) {
   std::vector<MotionRao> responses(3);
   for (std::size_t m = 0; m < 3; ++m) responses[m].heave = static_cast<double>(m + 1);
   const RaoTable table("test", {radians(-55), radians(55), kPi}, {1}, responses, Vec3::Zero(), 0);
-  for (const double slip : {-1e-15, 0.0, 1e-15}) {
-    EXPECT_NEAR(std::abs(table.at(1, 0.1, radians(-55) + slip).heave - 1.0), 0, 1e-12) << slip;
-    EXPECT_NEAR(std::abs(table.at(1, 0.1, radians(55) + slip).heave - 2.0), 0, 1e-12) << slip;
-    EXPECT_NEAR(std::abs(table.at(1, 0.1, kPi + slip).heave - 3.0), 0, 1e-12) << slip;
+  for (const double rounding : {-1e-15, 0.0, 1e-15}) {
+    EXPECT_NEAR(std::abs(table.at(1, 0.1, radians(-55) + rounding).heave - 1.0), 0, 1e-12) << rounding;
+    EXPECT_NEAR(std::abs(table.at(1, 0.1, radians(55) + rounding).heave - 2.0), 0, 1e-12) << rounding;
+    EXPECT_NEAR(std::abs(table.at(1, 0.1, kPi + rounding).heave - 3.0), 0, 1e-12) << rounding;
   }
   EXPECT_THROW(table.at(1, 0.1, radians(55) + 1e-6), InputError);
   EXPECT_THROW(table.at(1, 0.1, radians(55) - 1e-6), InputError);
@@ -113,7 +113,7 @@ MotionSpec rao_spec(const char* file) {
   return spec;
 }
 
-// The whole way: file, body, series in an irregular sea; its RMS is the root of int |H|^2 S.
+// The complete chain: file, body, series in an irregular sea; its RMS is the root of int |H|^2 S.
 TEST(SimulateRao, HasTheVarianceOfSpectrumAndTable) {
   SeaState state;
   state.significant_wave_height_m = 2;
@@ -174,7 +174,7 @@ TEST(SimulateRao, RefusesASeaThatTheTableDoesNotCover) {
   EXPECT_THAT(message, testing::HasSubstr("% of the waves' variance lies"));
 }
 
-TEST(ReadRao, RefusesWhatIsNoTable) {
+TEST(ReadRao, RefusesInvalidTables) {
   const std::filesystem::path file = std::filesystem::path(SEAGLINT_BINARY_DIR) / "wrong.re1";
   const auto write = [&](const std::string& text) { std::ofstream(file) << text; };
   write("time,roll\n");

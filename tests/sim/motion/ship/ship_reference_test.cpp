@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The container ship S175 in waves against VERES, a strip theory program of others.
+// The container ship S175 in waves against the strip theory program VERES.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,8 +17,8 @@
 namespace seaglint {
 namespace {
 
-// S175 as its main particulars say (tests/reference/ship_motion/SOURCE.md); its centre of flotation is where the
-// reference's forces of long waves put it, its sections are Lewis forms of the coefficients' lines.
+// S175 with its main particulars (tests/reference/ship_motion/SOURCE.md); its centre of flotation follows from the
+// reference's forces of long waves, its sections are Lewis forms of the coefficients' lines.
 ShipParticulars s175(double speed) {
   MotionSpec spec;
   spec.model = MotionModel::kShip;
@@ -69,7 +69,7 @@ Misfit misfit_to(const RaoTable& table, const ShipParticulars& ship) {
 
 const char* const kVeres = SEAGLINT_SOURCE_DIR "/tests/reference/ship_motion/s175_veres.re1";
 
-// The goals for a ship without speed.
+// The required accuracy for a ship without speed.
 TEST(S175, ResponsesMatchStripTheoryWithoutSpeed) {
   const ShipParticulars ship = s175(0);
   // Floats as the reference's hull: KG 9.55 m above the keel, 24,610 t.
@@ -84,8 +84,8 @@ TEST(S175, ResponsesMatchStripTheoryWithoutSpeed) {
   EXPECT_LT(misfit.worst.z(), 0.40);
 }
 
-// Roll radiates as another program's does at low frequencies; above, fine V-shaped ends that the form lacks radiate
-// less.
+// The roll radiation equals another program's at low frequencies; above, fine V-shaped ends, which the form lacks,
+// radiate less.
 TEST(S175, RollDampingMatchesAnotherStripTheory) {
   const ShipParticulars ship = s175(0);
   const Table reference = read_table(SEAGLINT_SOURCE_DIR "/tests/reference/ship_motion/s175_roll_wave_damping.csv",
@@ -99,8 +99,8 @@ TEST(S175, RollDampingMatchesAnotherStripTheory) {
   }
 }
 
-// At 20 knots. Roll in quartering seas meets its resonance, where the reference's damping (lift, bilge keels) is not
-// known, so that it is left out here.
+// At 20 knots. Roll in quartering seas is at its resonance, where the reference's damping (lift, bilge keels) is not
+// known; it is not compared.
 TEST(S175, ResponsesMatchStripTheoryAtTwentyKnots) {
   const double speed = 20 * 1852.0 / 3600;
   const Misfit misfit = misfit_to(read_veres_rao(kVeres, speed), s175(speed));

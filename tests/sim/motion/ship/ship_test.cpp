@@ -57,7 +57,7 @@ TEST(ShipParticulars, HaveThePeriodsOfTheCombatant) {
   const ShipParticulars ship = ship_of(combatant());
   EXPECT_NEAR(2 * kPi / ship.roll.omega0, 10.9, 0.1);
   EXPECT_NEAR(ship.roll.damping, 0.075, 1e-12);
-  // Strip theory with the hull's own lines gives 5.6 s; the form has no bulb.
+  // Strip theory with the hull's own lines: 5.6 s; the form has no bulb.
   EXPECT_NEAR(2 * kPi / ship.pitch.omega0, 5.6, 0.2);
   EXPECT_NEAR(ship.pitch.damping, 0.25, 0.1);
   // The centre of gravity of DTMB 5415 is 1.4 m above the waterline (KG 7.56 m).
@@ -83,7 +83,7 @@ TEST(ShipParticulars, AreDerivedFromTheMeshOrTakenFromTheSpec) {
   spec.yaw_period_s = 60;
   const ShipParticulars given = ship_of(spec);
   EXPECT_EQ(given.length, 100);
-  // Strips stand beside amidships.
+  // No strip is exactly at midships.
   EXPECT_NEAR(given.beam, 15, 0.01);
   EXPECT_EQ(given.draught, 5);
   EXPECT_NEAR(given.roll.omega0, 2 * kPi / 9, 1e-12);
@@ -100,7 +100,7 @@ TEST(ShipParticulars, AreDerivedFromTheMeshOrTakenFromTheSpec) {
   EXPECT_NEAR(ship_of(again).roll.omega0, given.roll.omega0, 1e-6);
 }
 
-TEST(ShipParticulars, RefuseWhatNoHullIs) {
+TEST(ShipParticulars, RefuseImpossibleHulls) {
   EXPECT_THROW(ship_sections(ship_spec(), BodyShape{}), InputError);
   MotionSpec spec = combatant();
   spec.metacentric_height_m = 0;
@@ -110,8 +110,8 @@ TEST(ShipParticulars, RefuseWhatNoHullIs) {
   EXPECT_THROW(ship_of(spec), InputError);
 }
 
-// Walls that lean out below the water hold more than any Lewis form.
-TEST(SimulateShip, MovesAHullWiderBelowTheWater) {
+// Walls that lean outwards below the water enclose more area than any Lewis form.
+TEST(SimulateShip, AcceptsAHullWiderBelowTheWater) {
   HullSections hull;
   hull.length = 60;
   for (int i = 0; i < 10; ++i) hull.sections.push_back({-27.0 + 6 * i, 8.5, 6, 85.5});
@@ -125,11 +125,11 @@ TEST(SimulateShip, MovesAHullWiderBelowTheWater) {
   EXPECT_GT(degrees(largest), 0.1);
 }
 
-TEST(ResponseSynthesis, RefusesResponsesThatAreNoNumbers) {
+TEST(ResponseSynthesis, RefusesNonFiniteResponses) {
   const WaveField sea = realise_sea(state_of(2, 8, 60), 1, 0);
   const auto response = [](const ShipWave&) {
     ResponseChannels all{};
-    all[kHeaveShift] = std::nan("");
+    all[static_cast<std::size_t>(ResponseChannel::kHeave)] = std::nan("");
     return all;
   };
   EXPECT_THROW(ResponseSynthesis(sea, response, 0, 0, 0, 0, 0.1), std::logic_error);
@@ -152,15 +152,15 @@ TEST(ShipRao, FollowsTheSlopeOfLongWaves) {
     EXPECT_NEAR(yaw.imag(), 0, 0.01);
     EXPECT_LE(yaw.real() * std::sin(mu) * std::cos(mu), 1e-12) << mu_deg;
     EXPECT_NEAR(std::abs(yaw), 0.86 * std::abs(std::sin(mu) * std::cos(mu)), 0.06) << mu_deg;
-    // Water under a crest has gone a quarter of a period less far than it rises: -j along the waves.
+    // Under a crest the water has moved by a quarter of a period less along the waves than upwards: -j along the waves.
     EXPECT_NEAR(std::abs(rao.surge + kJ * std::cos(mu)), 0, 0.005) << mu_deg;
     EXPECT_NEAR(std::abs(rao.sway + kJ * std::sin(mu)), 0, 0.005) << mu_deg;
     EXPECT_NEAR(std::abs(rao.heave - 1.0), 0, 0.006) << mu_deg;
   }
 }
 
-// What the time series must be when nothing is nonlinear: the sum of the components' responses. This implies a response
-// spectrum |RAO|^2 S.
+// Without nonlinear terms the time series is the sum of the components' responses. This implies a response spectrum
+// |RAO|^2 S.
 TEST(SimulateShip, IsTheSumOfItsResponsesToTheComponents) {
   for (const double mu_deg : {60.0, 120.0, 200.0}) {
     for (const double speed : {0.0, 8.0}) {
@@ -175,15 +175,15 @@ TEST(SimulateShip, IsTheSumOfItsResponsesToTheComponents) {
         Vec3 angles = Vec3::Zero(), rates = Vec3::Zero(), shift = Vec3::Zero();
         for (const WaveComponent& c : sea.components()) {
           const MotionRao rao = ship_rao(ship, {c.omega, c.wavenumber, radians(mu_deg)});
-          // Where the ship is by then.
+          // Position of the ship at that time.
           const double phase = c.omega * t - c.wavenumber * c.direction.dot(Vec2(30 + speed * t, -10)) + c.phase;
           const Complex wave = std::polar(c.amplitude, phase);
-          const double met = c.omega - c.wavenumber * c.direction.x() * speed;
+          const double encounter_omega = c.omega - c.wavenumber * c.direction.x() * speed;
           angles += Vec3((rao.roll * wave).real(), (rao.pitch * wave).real(), (rao.yaw * wave).real());
-          rates -= met * Vec3((rao.roll * wave).imag(), (rao.pitch * wave).imag(), (rao.yaw * wave).imag());
+          rates -= encounter_omega * Vec3((rao.roll * wave).imag(), (rao.pitch * wave).imag(), (rao.yaw * wave).imag());
           shift += Vec3((rao.surge * wave).real(), (rao.sway * wave).real(), (rao.heave * wave).real());
         }
-        // The components left out.
+        // The truncated components.
         EXPECT_NEAR((samples[n].angles - angles).norm(), 0, 1e-8) << t;
         EXPECT_NEAR((samples[n].angle_rates - rates).norm(), 0, 1e-8) << t;
         EXPECT_NEAR((samples[n].translation - shift).norm(), 0, 1e-7) << t;
@@ -192,7 +192,7 @@ TEST(SimulateShip, IsTheSumOfItsResponsesToTheComponents) {
   }
 }
 
-// Nonlinear damping as small as none takes the way by the integrated oscillator and must give the same roll.
+// With negligible nonlinear damping roll is integrated as an oscillator and must equal the sum of responses.
 TEST(SimulateShip, IntegratesRollToItsLinearResponse) {
   MotionSpec spec = combatant();
   const WaveField sea = realise_sea(state_of(2, 8, 60), 42, 1);
@@ -214,7 +214,8 @@ TEST(SimulateShip, IsInSteadyStateAtTimeZero) {
   const std::vector<MotionSample> once = simulate_ship(ship, spec, sea, 0, 0, 20);
   spec.spin_up_s *= 2;
   const std::vector<MotionSample> twice = simulate_ship(ship, spec, sea, 0, 0, 20);
-  // What is left of the nonlinear transient: e^{-0.075 0.576 120} = 0.6 % of a start that is already almost right.
+  // The residual of the nonlinear transient: e^{-0.075 0.576 120} = 0.6 % of the error of the initial state, which is
+  // small itself.
   for (std::size_t n = 0; n < once.size(); n += 50) {
     EXPECT_NEAR((once[n].angles - twice[n].angles).norm(), 0, 2e-4 * 0.1) << n;
   }
@@ -230,7 +231,7 @@ double rms_deg(const ShipParticulars& ship, const WaveField& sea, double mu_deg,
 
 // Strip theory for a 144 m hull without speed: roll in beam seas 0.21, 0.70, 2.1 deg; pitch in head seas 0.03, 0.16,
 // 0.41.
-TEST(ShipRao, HasTheSizeThatStripTheoryGives) {
+TEST(ShipRao, HasTheMagnitudeOfStripTheory) {
   const ShipParticulars ship = ship_of(combatant());
   struct Case {
     double height, period, roll, pitch;
@@ -256,7 +257,7 @@ TEST(SimulateShip, HardlyMovesInSmallWaves) {
   }
 }
 
-TEST(SimulateShip, TurnsAShipAboutItsCentreOfGravity) {
+TEST(SimulateShip, RotatesAShipAboutItsCentreOfGravity) {
   const WaveField sea = realise_sea(state_of(2, 8, 120), 1, 0);
   const Vec3 rest = rest_position(combatant(), 0, 0);
   EXPECT_EQ(rest.norm(), 0);

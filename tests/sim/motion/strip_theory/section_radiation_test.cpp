@@ -33,7 +33,7 @@ TEST(ScaledExponentialIntegral, IsItsIntegral) {
   EXPECT_NEAR(on_cut.imag(), -kPi / std::exp(1.0), 1e-9);
 }
 
-TEST(LewisForm, HasTheBreadthDraughtAndAreaAskedFor) {
+TEST(LewisForm, HasTheGivenBreadthDraughtAndArea) {
   for (const double draught : {0.3, 1.0, 4.0}) {
     for (const double coefficient : {0.7, 0.785, 0.9}) {
       const LewisForm form = lewis_form(2, draught, coefficient * 2 * draught);
@@ -54,7 +54,7 @@ TEST(LewisForm, HasTheBreadthDraughtAndAreaAskedFor) {
   EXPECT_NEAR(lewis_form(2, 1, 0.5 * kPi).area_centre(), -4 / (3 * kPi), 1e-6);
 }
 
-TEST(LewisForm, NeverCutsItself) {
+TEST(LewisForm, DoesNotIntersectItself) {
   for (const double draught : {0.05, 0.3, 1.0, 4.0, 20.0}) {
     for (const double coefficient : {0.1, 0.5, 1.0, 1.5}) {
       const LewisForm form = lewis_form(2, draught, coefficient * 2 * draught);
@@ -73,7 +73,7 @@ TEST(LewisForm, NeverCutsItself) {
 }
 
 // The root of the quadratic for a3 is 0 at the largest area, whose rounding may fall on either side of it.
-TEST(LewisForm, OfTheLargestAreaIsANumberAtEveryRatio) {
+TEST(LewisForm, OfTheLargestAreaIsFiniteAtEveryRatio) {
   for (int i = 0; i <= 2000; ++i) {
     const double draught = std::pow(10, -1.5 + 3.0 * i / 2000);
     const LewisForm form = lewis_form(2, draught, 1e3 * draught);
@@ -108,7 +108,7 @@ TEST(SectionRadiation, OfASemicircleHasTheLimitsOfHighAndLowFrequency) {
   const Section fast(2, 1, kCircle, 40);
   // To the next order 1 - 4/(3 pi K) (Ursell 1953): 0.989 at K = 40; the series itself 1e-3.
   EXPECT_NEAR(fast.added_mass(kHeave, kHeave) / kHalfDisc, 1 - 4 / (3 * kPi * 40), 2e-3);
-  // The way there is as 1/K: what is left after taking that away is of the order 1/K^2 and of the series.
+  // The limit is approached as 1/K: the residual after subtracting that term is of the order 1/K^2 and of the series.
   const double extrapolated = 2 * fast.added_mass(kSway, kSway) - Section(2, 1, kCircle, 20).added_mass(kSway, kSway);
   EXPECT_NEAR(extrapolated / kHalfDisc, 4 / (kPi * kPi), 3e-3);
   const Section slow(2, 1, kCircle, 1e-4);
@@ -119,7 +119,7 @@ TEST(SectionRadiation, OfASemicircleHasTheLimitsOfHighAndLowFrequency) {
               8 / (kPi * kPi) * std::log(10.0), 6e-3);  // the series
 }
 
-TEST(SectionRadiation, OfACircleInRollIsNothing) {
+TEST(SectionRadiation, OfACircleInRollVanishes) {
   for (const double k : {0.1, 1.0, 5.0}) {
     const Section circle(2, 1, kCircle, k);
     EXPECT_NEAR(circle.added_mass(kRoll, kRoll), 0, 1e-12);
@@ -127,18 +127,19 @@ TEST(SectionRadiation, OfACircleInRollIsNothing) {
   }
 }
 
-// The work done by damping leaves as waves: b = rho g^2 A^2 / w^3 with A the waves' amplitude per amplitude of motion.
-TEST(SectionRadiation, SendsOutTheEnergyThatDampingTakes) {
+// The work done by damping is radiated as waves: b = rho g^2 A^2 / w^3 with A the waves' amplitude per amplitude of
+// motion.
+TEST(SectionRadiation, RadiatesTheEnergyOfDamping) {
   for (const double draught : {0.3, 1.0, 3.0}) {
     for (const double coefficient : {0.7, kCircle, 0.95}) {
       for (const double k : {0.01, 0.1, 0.5, 1.0}) {
         const Section section(2, draught, coefficient, k);
         for (const SectionMode mode : {kSway, kHeave, kRoll}) {
-          const double sent =
+          const double radiated =
               std::pow(kGravity * section.flow.radiated_wave_ratio[mode], 2) / std::pow(section.omega, 3);
           if (mode == kRoll && coefficient == kCircle && draught == 1.0) continue;
           // The truncated series: residuals of 1e-3 at the waterline.
-          EXPECT_NEAR(section.damping(mode, mode) / sent, 1, 0.01)
+          EXPECT_NEAR(section.damping(mode, mode) / radiated, 1, 0.01)
               << draught << " " << coefficient << " " << k << " " << mode;
         }
       }
@@ -157,9 +158,9 @@ TEST(SectionRadiation, IsReciprocal) {
   }
 }
 
-// The force of a beam sea of amplitude 1 and the waves sent out are tied by Haskind's relation, in two dimensions
-// |F|^2 = rho g^2 b / w for a body that is alike on both sides (Newman 1962).
-TEST(SectionRadiation, FeelsWavesAsItSendsThemOut) {
+// The force of a beam sea of amplitude 1 and the radiated waves are related by Haskind's relation, in two dimensions
+// |F|^2 = rho g^2 b / w for a symmetric body (Newman 1962).
+TEST(SectionRadiation, SatisfiesHaskindsRelation) {
   for (const double draught : {0.4, 1.0, 2.0}) {
     for (const double k : {0.05, 0.3, 1.0}) {
       const Section s(2, draught, 0.9, k);
@@ -170,7 +171,7 @@ TEST(SectionRadiation, FeelsWavesAsItSendsThemOut) {
         const double cosine = std::exp(k * c.z[p]) * std::cos(k * c.y[p]);
         const double sine = std::exp(k * c.z[p]) * std::sin(k * c.y[p]);
         const double n_y = 2 * c.dz[p], n_z = -2 * c.dy[p];
-        // Froude-Krylov and diffraction of a beam sea, as StripTheory::excitation has them.
+        // Froude-Krylov and diffraction force of a beam sea, as in StripTheory::excitation.
         heave += -kGravity * cosine * n_z + w * w * s.flow.potential[kHeave][p] * (n_z * cosine - n_y * sine);
         sway += Complex(0, kGravity) * sine * n_y -
                 Complex(0, w * w) * s.flow.potential[kSway][p] * (n_z * sine + n_y * cosine);
@@ -183,7 +184,7 @@ TEST(SectionRadiation, FeelsWavesAsItSendsThemOut) {
   }
 }
 
-TEST(SectionRadiation, ReachesItsBoundaryCondition) {
+TEST(SectionRadiation, SatisfiesItsBoundaryCondition) {
   for (const double draught : {0.2, 1.0, 4.5}) {
     for (const double k : {0.05, 0.5, 2.0}) {
       const Section section(2, draught, 0.8, k);

@@ -24,18 +24,18 @@ MovingPolygon square(double x, double y, double side) {
   return polygon;
 }
 
-// The polygon after a turn of d1, to first order.
+// The polygon for a change d1 of the look direction, to first order.
 MovingPolygon moved(MovingPolygon polygon, double d1) {
   for (MovingVertex& c : polygon) c.p += d1 * c.d1;
   return polygon;
 }
 
-TEST(PolygonSet, CuttingAHoleLeavesTheAreaOutsideIt) {
+TEST(PolygonSet, SubtractingAHoleKeepsTheAreaOutsideIt) {
   Random random({3, Stream::kTest, 0});
   for (int trial = 0; trial < 300; ++trial) {
     PolygonSet pieces;
     pieces.assign(std::array{square(random.uniform(), random.uniform(), 0.2 + random.uniform())});
-    for (int holes = 0; holes < 3; ++holes) {  // the later ones meet several pieces
+    for (int holes = 0; holes < 3; ++holes) {  // the later ones intersect several polygons
       MovingPolygon hole(3);
       for (MovingVertex& c : hole) c.p = {2 * random.uniform(), 2 * random.uniform()};
       hole = counter_clockwise(hole);
@@ -45,7 +45,7 @@ TEST(PolygonSet, CuttingAHoleLeavesTheAreaOutsideIt) {
         left -= common.empty() ? 0 : signed_area(common);
       }
       pieces.subtract_hole(hole, box_of(hole), 0);
-      EXPECT_NEAR(pieces.area(), left, 1e-9);  // slivers beside a line within 1e-10 count as on it
+      EXPECT_NEAR(pieces.area(), left, 1e-9);  // slivers within 1e-10 of a line count as on it
     }
     ASSERT_EQ(pieces.boxes().size(), pieces.size());
     for (std::size_t i = 0; i < pieces.size(); ++i) {
@@ -57,7 +57,7 @@ TEST(PolygonSet, CuttingAHoleLeavesTheAreaOutsideIt) {
   }
 }
 
-TEST(MovingPolygon, CornersMadeByClippingMoveAsTheIntersectionOfTheirEdges) {
+TEST(MovingPolygon, ClippedVerticesMoveAsTheIntersectionOfTheirLines) {
   MovingPolygon window = square(0, 0, 1);  // at rest
   MovingPolygon moving(3);
   moving[0] = {{-0.3, 0.4}, {0.2, 0.1}, {0, 0}};
@@ -76,9 +76,9 @@ TEST(MovingPolygon, CornersMadeByClippingMoveAsTheIntersectionOfTheirEdges) {
   }
 }
 
-// A box that tells nothing leaves every edge to the corners: what one that fits tells is the same, bit for bit. Corners
-// on a lattice lie on each other's edges, and edges without length among them.
-TEST(MovingPolygon, BoxesTellOfEdgesWhatTheirCornersWould) {
+// A bounding box that is infinite leaves every side to the vertices: the result with the exact box is identical.
+// Vertices on a lattice lie on each other's sides, and some sides have no length.
+TEST(MovingPolygon, BoundingBoxesDoNotChangeClipping) {
   constexpr double kFar = 1e6;
   const Box everywhere{{-kFar, -kFar}, {kFar, kFar}};
   Random random({3, Stream::kTest, 2});
@@ -92,7 +92,7 @@ TEST(MovingPolygon, BoxesTellOfEdgesWhatTheirCornersWould) {
       MovingPolygon polygon(3);
       for (MovingVertex& c : polygon) c = {corner(), corner(), corner()};
       polygon = counter_clockwise(polygon);
-      if (trial % 3 == 0) polygon.push_back(polygon.back());  // an edge without length
+      if (trial % 3 == 0) polygon.push_back(polygon.back());  // a side without length
       return polygon;
     };
     const MovingPolygon a = triangle(), b = triangle();
@@ -114,15 +114,15 @@ TEST(MovingPolygon, BoxesTellOfEdgesWhatTheirCornersWould) {
   EXPECT_GT(cuts, 500u);
 }
 
-TEST(MovingPolygon, HalvesAreWhatClippingLeavesOnEitherSide) {
+TEST(MovingPolygon, HalvesEqualClippingOnEitherSide) {
   Random random({3, Stream::kTest, 1});
   const MovingPolygon whole = square(0, 0, 1);
   for (int trial = 0; trial < 300; ++trial) {
     const double angle = 2 * kPi * random.uniform();
     MovingLine line;
     line.gradient = {std::cos(angle), std::sin(angle)};
-    line.value = 3 * random.uniform() - 1.5;  // some pass the square by
-    if (trial < 8) {                          // along a side, through corners, and along the diagonal
+    line.value = 3 * random.uniform() - 1.5;  // some do not intersect the square
+    if (trial < 8) {                          // along a side, through vertices, and along the diagonal
       line.gradient = std::array<Vec2, 4>{Vec2(1, 0), Vec2(0, -1), Vec2(1, 1), Vec2(1, -1)}[trial % 4];
       line.value = trial < 4 ? 0 : -1;
     }
@@ -148,8 +148,8 @@ TEST(MovingPolygon, HalvesAreWhatClippingLeavesOnEitherSide) {
   for (const MovingPolygon& half : split_by_line(flat, on_it)) EXPECT_TRUE(half.empty());
 }
 
-TEST(MovingPolygon, TheLineWhereTwoPlanesMeetMovesWithTheDirection) {
-  // Planes n1.x = c1, n2.x = c2 seen from r and from r turned by d1 h: the heights' difference vanishes on the same
+TEST(MovingPolygon, TheIntersectionOfTwoPlanesMovesWithTheDirection) {
+  // Planes n1.x = c1, n2.x = c2 seen from r and from r rotated by d1 h: the heights' difference vanishes on the same
   // body points.
   const Vec3 n1 = Vec3(1, 0.3, -0.2).normalized(), n2 = Vec3(0.7, -0.4, 0.5).normalized();
   const auto line_at = [&](double d1) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rims of sheets that are not infinitely thin: against integral equations, and laws.
+// Edges of sheets of finite thickness: against integral equations, reciprocity, continuity and symmetry.
 #include "sim/scattering/diffraction/thick_edge.h"
 #include "sim/scattering/response/scattering_matrix.h"
 
@@ -18,7 +18,7 @@ using namespace testing_echoes;
 
 constexpr Complex j(0, 1);
 
-WedgeFrame rim_of(double thickness_m) {
+WedgeFrame edge_of(double thickness_m) {
   const Vec3 x = Vec3::UnitX(), n = Vec3::UnitY(), t = x.cross(n);
   return {{{x, n, t}, {x, -n, -t}}, 2, thickness_m};
 }
@@ -34,7 +34,7 @@ Vec3 any_direction(Random& random) {
 
 Vec3 any_field(Random& random, const Vec3& direction) { return any_direction(random).cross(direction).normalized(); }
 
-Vec3 about_the_rim(double angle_from_extension) {
+Vec3 about_the_edge(double angle_from_extension) {
   return {-std::cos(angle_from_extension), std::sin(angle_from_extension), 0};
 }
 
@@ -42,17 +42,17 @@ struct Deviation {
   double relative = 0, mean_db = 0;  // of the field in L2; of its level up to 60 deg
 };
 
-// What 2 m more of an upright strip 9.1 wavelengths wide add to its echo, against the strip's integral equations, over
-// all pairs of directions that `is_enabled` asks for.
-template <typename Wanted>
-Deviation against_integral_equations(double thickness_mm, bool soft, const Wanted& wanted) {
+// Difference of the echoes of upright strips of 4 m and 2 m height and 9.1 wavelengths width, against the integral
+// equations of the infinite strip, over all pairs of directions that `wanted` selects.
+template <typename Selected>
+Deviation against_integral_equations(double thickness_mm, bool soft, const Selected& selected) {
   const double k = wavenumber(10.24e9), height = 2;
   const Scatterer one = strip(height, 1e-3 * thickness_mm), two = strip(2 * height, 1e-3 * thickness_mm);
   double error = 0, power = 0, decibels = 0;
   int count = 0;
   for (const auto& row : read_csv("strip.csv")) {
     const double transmit = std::stod(row[1]), receive = std::stod(row[2]);
-    if (std::stod(row[0]) != thickness_mm || !wanted(transmit, receive)) continue;
+    if (std::stod(row[0]) != thickness_mm || !selected(transmit, receive)) continue;
     const Complex reference(std::stod(row[soft ? 3 : 5]), std::stod(row[soft ? 4 : 6]));
     const BistaticGeometry geometry =
         transmit == receive ? monostatic(radar_basis(direction(receive, 0)))
@@ -60,7 +60,8 @@ Deviation against_integral_equations(double thickness_mm, bool soft, const Wante
     const auto echo_of = [&](const Scatterer& target) {
       return scattering_matrices(target, geometry, std::array{k}, {0, 8, true})[0][soft ? kVvChannel : kHhChannel];
     };
-    // S per metre is j P / pi, of the hard wave with H against the axis; the sheet is drawn t/2 before its middle.
+    // S per metre is j P / pi, of the hard wave with H opposite to the axis; the sheet is meshed t/2 in front of its
+    // middle.
     const double before_middle = 0.5e-3 * thickness_mm * (std::cos(radians(transmit)) + std::cos(radians(receive)));
     const Complex P =
         (soft ? 1.0 : -1.0) * (echo_of(two) - echo_of(one)) / height * kPi / j * std::polar(1.0, k * before_middle);
@@ -76,10 +77,10 @@ Deviation against_integral_equations(double thickness_mm, bool soft, const Wante
   return deviation;
 }
 
-// The limits, by thickness: without one, what fifth and higher diffractions leave; else the next order, (k t)^2 of the
-// field times 0.06 to 0.03 (soft) and 0.15 to 0.06 (hard, which meets two rims on each way along the strip), falling as
-// a logarithm of k t does. Rims without thickness are off by 0.64 and 1.2 dB at 1.6 mm.
-TEST(ThickEdge, OfStripsFollowsIntegralEquations) {
+// Limits by thickness: without one, the fifth and higher orders of diffraction; else the next order, (k t)^2 of the
+// field times 0.06 to 0.03 (soft) and 0.15 to 0.06 (hard, which is diffracted at two edges on each path along the
+// strip), decreasing as a logarithm of k t. Without the thickness term the errors are 0.64 and 1.2 dB at 1.6 mm.
+TEST(ThickEdge, OfStripsMatchesIntegralEquations) {
   struct Case {
     double t_mm, soft, hard;  // largest relative errors, 0 to 90 deg
   };
@@ -90,9 +91,9 @@ TEST(ThickEdge, OfStripsFollowsIntegralEquations) {
   }
 }
 
-// Towards another receiver, to 75 deg from the normal: physical optics is not reciprocal there, its sum with the fringe
-// currents must be. Soft waves that graze the strip (slope diffraction) leave 0.2 % from 51 deg.
-TEST(ThickEdge, OfStripsFollowsIntegralEquationsTowardsOtherReceivers) {
+// Bistatic echo to 75 deg from the normal: physical optics is not reciprocal there, its sum with the fringe currents
+// must be. Soft waves at grazing incidence on the strip (slope diffraction) leave 0.2 % from 51 deg.
+TEST(ThickEdge, OfStripsMatchesIntegralEquationsForOtherReceivers) {
   for (const double transmit : {21.0, 51.0}) {
     const auto from = [&](double at, double receive) { return at == transmit && receive != at; };
     for (const double t_mm : {0.0, 1.6256}) {
@@ -104,35 +105,36 @@ TEST(ThickEdge, OfStripsFollowsIntegralEquationsTowardsOtherReceivers) {
 }
 
 TEST(ThickEdge, IsReciprocal) {
-  const WedgeFrame rim = rim_of(1e-3);
+  const WedgeFrame edge = edge_of(1e-3);
   Random random({11, Stream::kTest, 41});
   for (int i = 0; i < 200; ++i) {
     const Vec3 in = any_direction(random), out = any_direction(random);
     const Vec3 E = any_field(random, in), p = any_field(random, out);
-    const auto there = thick_edge_currents(rim, in, {E, E}, out)[0],
-               back = thick_edge_currents(rim, -out, {p, p}, -in)[0];
-    const Complex a = p.dot(there.constant), b = E.dot(back.constant);
+    const auto forward = thick_edge_currents(edge, in, {E, E}, out)[0],
+               reversed = thick_edge_currents(edge, -out, {p, p}, -in)[0];
+    const Complex a = p.dot(forward.constant), b = E.dot(reversed.constant);
     EXPECT_LT(std::abs(a - b), 1e-9 * (1 + std::abs(a))) << i;
-    EXPECT_LT(std::abs(Complex(p.dot(there.logarithm)) - Complex(E.dot(back.logarithm))), 1e-12 * (1 + std::abs(a)))
+    EXPECT_LT(std::abs(Complex(p.dot(forward.logarithm)) - Complex(E.dot(reversed.logarithm))),
+              1e-12 * (1 + std::abs(a)))
         << i;
   }
 }
 
-// Where the sheet reflects one direction into the other, where the light passes the rim, and in the sheet's plane the
-// closed forms are 0/0: there the currents are the mean of those beside to the square of the distance, times a
-// curvature of 30 at 0.1 rad from the plane.
+// At the reflection and the incident shadow boundary and in the sheet's plane the closed forms are 0/0: there the
+// currents equal the mean of adjacent ones up to the square of the distance times a curvature of 30 at 0.1 rad from the
+// plane.
 TEST(ThickEdge, HasNoJumps) {
-  const WedgeFrame rim = rim_of(1e-3);
+  const WedgeFrame edge = edge_of(1e-3);
   const auto response = [&](double phi, double phi_in) {
-    const Vec3 in = -about_the_rim(phi_in), s = about_the_rim(phi), z = Vec3::UnitZ();
-    const auto currents = thick_edge_currents(rim, in, {z, z.cross(in)}, s);
+    const Vec3 in = -about_the_edge(phi_in), s = about_the_edge(phi), z = Vec3::UnitZ();
+    const auto currents = thick_edge_currents(edge, in, {z, z.cross(in)}, s);
     return std::array{Complex(z.dot(currents[0].constant)), Complex(z.cross(s).dot(currents[1].constant))};
   };
   for (double phi_in = 0.1; phi_in < kPi - 0.1; phi_in += 0.1) {
     for (const double phi : {kPi - phi_in, phi_in - kPi}) {
-      constexpr double kMinRelaunchSine = 1e-3;
-      const auto at = response(phi, phi_in), before = response(phi - kMinRelaunchSine, phi_in),
-                 after = response(phi + kMinRelaunchSine, phi_in);
+      constexpr double kOffset = 1e-3;
+      const auto at = response(phi, phi_in), before = response(phi - kOffset, phi_in),
+                 after = response(phi + kOffset, phi_in);
       for (int i = 0; i < 2; ++i)
         EXPECT_LT(std::abs(at[i] - 0.5 * (before[i] + after[i])), 3e-5) << phi_in << ' ' << phi << ' ' << i;
     }
@@ -143,26 +145,26 @@ TEST(ThickEdge, HasNoJumps) {
     }
   }
   const Vec3 along = Vec3::UnitZ();
-  const auto end_on = thick_edge_currents(rim, along, {Vec3::UnitX(), Vec3::UnitY()}, -along);
+  const auto end_on = thick_edge_currents(edge, along, {Vec3::UnitX(), Vec3::UnitY()}, -along);
   EXPECT_TRUE(end_on[0].constant.allFinite() && end_on[1].constant.allFinite());
 }
 
-// Either side of a sheet is its lit face: turned round, it answers alike, but for edge waves' 1e-7 rad down on their
-// face (3e-7 m without thickness too).
+// Either side of a sheet is its illuminated face: a rotated sheet has the same echo, but for the tilt of 1e-7 rad of
+// face-grazing diffracted waves towards their face (3e-7 m, also without thickness).
 TEST(ThickEdge, IsTheSameFromEitherSide) {
   const Scatterer plate = strip(0.1524, 1.6e-3);
   const double k = wavenumber(10.24e9);
   for (const double azimuth : {3.0, 37.0, 81.0}) {
     const auto front = echo(plate, radar_basis(direction(azimuth, 12)), k, 0, 8, true),
-               back = echo(plate, radar_basis(direction(180 - azimuth, 12)), k, 0, 8, true);
-    EXPECT_LT(std::abs(front[kHhChannel] - back[kHhChannel]), 1e-6) << azimuth;
-    EXPECT_LT(std::abs(front[kVvChannel] - back[kVvChannel]), 1e-6) << azimuth;
-    EXPECT_LT(std::abs(front[kHvChannel] + back[kHvChannel]), 1e-6) << azimuth;
+               reversed = echo(plate, radar_basis(direction(180 - azimuth, 12)), k, 0, 8, true);
+    EXPECT_LT(std::abs(front[kHhChannel] - reversed[kHhChannel]), 1e-6) << azimuth;
+    EXPECT_LT(std::abs(front[kVvChannel] - reversed[kVvChannel]), 1e-6) << azimuth;
+    EXPECT_LT(std::abs(front[kHvChannel] + reversed[kHvChannel]), 1e-6) << azimuth;
   }
 }
 
-// An interval's points carry the thickness at their carrier (patterns are kept in single precision).
-TEST(ThickEdge, IsInTheContributionsOfAView) {
+// The points of an interval contain the thickness term at their carrier (patterns are stored in single precision).
+TEST(ThickEdge, IsInTheContributionsOfAnAspect) {
   const Scatterer plate = strip(0.1524, 1.6e-3), thin = strip(0.1524, 0);
   const double k = wavenumber(10.24e9);
   const RadarBasis basis = radar_basis(direction(33, 7));

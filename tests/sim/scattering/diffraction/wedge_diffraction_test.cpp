@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fringe currents of wedges and corners: against Keller's coefficients.
+// Fringe currents of convex wedges and concave edges against Keller's coefficients.
 #include "sim/scattering/diffraction/wedge_diffraction.h"
 #include "sim/scattering/surfaces/phase_integral.h"
 
@@ -30,24 +30,24 @@ std::pair<double, double> keller(double N, double phi, double phi_in) {
   return {a * (minus - plus), a * (minus + plus)};
 }
 
-// The same of physical optics on one face that the wave lights: half-line integrals of 2 n x H, as Ufimtsev gives them,
-// sin phi' / (cos phi + cos phi') for the soft one, -sin phi for the hard one, in the same scale.
+// The same of physical optics on one illuminated face: half-line integrals of 2 n x H, as given by Ufimtsev, sin phi' /
+// (cos phi + cos phi') for the soft one, -sin phi for the hard one, in the same scale.
 std::pair<double, double> optics(double phi, double phi_in) {
   if (phi_in >= kPi) return {0, 0};
   const double pole = std::cos(phi) + std::cos(phi_in);
   return {std::sin(phi_in) / pole, -std::sin(phi) / pole};
 }
 
-// Across the edge the exact wedge is Keller's: fringe current = his coefficient less that of physical optics. A line of
-// p . K per metre radiates K sqrt(2 pi / k) e^{-j pi/4} e^{-jk rho} / sqrt(rho) in the plane across it; his
-// coefficients carry e^{-j pi/4} / sqrt(2 pi k): K = D / 2 pi.
+// In the plane normal to the edge the exact wedge field is Keller's: fringe current = Keller's coefficient less that of
+// physical optics. A line of p . K per metre radiates K sqrt(2 pi / k) e^{-j pi/4} e^{-jk rho} / sqrt(rho) in that
+// plane; Keller's coefficients contain e^{-j pi/4} / sqrt(2 pi k): K = D / 2 pi.
 TEST(FringeCurrent, IsKellersCoefficientLessThatOfPhysicalOptics) {
   Random random({3, Stream::kTest, 17});
   for (int i = 0; i < 300; ++i) {
     const double N = 1.05 + 0.95 * random.uniform();
     const double phi_in = N * kPi * random.uniform(), phi = N * kPi * random.uniform();
-    // His coefficients are infinite on the boundaries of light and reflection; stay a little away, where rounding
-    // counts.
+    // Keller's coefficients are infinite at the incident and the reflection shadow boundary; near them rounding errors
+    // grow.
     if (std::abs(std::abs(phi - phi_in) - kPi) < 0.05 || std::abs(phi + phi_in - kPi) < 0.05 ||
         std::abs(2 * N * kPi - phi - phi_in - kPi) < 0.05) {
       continue;
@@ -68,9 +68,9 @@ TEST(FringeCurrent, IsKellersCoefficientLessThatOfPhysicalOptics) {
   }
 }
 
-// On Keller's cone his coefficients grow by 1 / sin(beta), and so does the field of a line of currents that runs ahead
-// by cos(beta): K stays.
-TEST(FringeCurrent, IsTheSameOnEveryOneOfKellersCones) {
+// On Keller's cone Keller's coefficients grow by 1 / sin(beta), and so does the field of a line of currents with the
+// phase of cos(beta) along it: K is constant.
+TEST(FringeCurrent, IsTheSameOnEveryKellerCone) {
   const double N = 1.5, phi_in = 0.8, phi = 2.9;
   const auto [soft, hard] = keller(N, phi, phi_in);
   const auto [soft_1, hard_1] = optics(phi, phi_in);
@@ -78,7 +78,7 @@ TEST(FringeCurrent, IsTheSameOnEveryOneOfKellersCones) {
   for (const double beta : {1.5, 1.0, 0.5}) {
     const double sb = std::sin(beta), cb = std::cos(beta);
     const Vec3 k_hat(-sb * std::cos(phi_in), -sb * std::sin(phi_in), cb), s(sb * std::cos(phi), sb * std::sin(phi), cb);
-    // Ray-fixed unit vectors: phi^ and beta^ = k x phi^ on either side (as Kouyoumjian and Pathak take them).
+    // Ray-fixed unit vectors: phi^ and beta^ = k x phi^ of either ray (Kouyoumjian and Pathak).
     const Vec3 phi_hat_in = Vec3::UnitZ().cross(k_hat).normalized(), beta_in = k_hat.cross(phi_hat_in);
     const Vec3 phi_hat = Vec3::UnitZ().cross(s).normalized(), beta_out = s.cross(phi_hat);
     // The field along the edge keeps its sign with respect to beta^ of either ray; H along the edge with respect to
@@ -90,7 +90,8 @@ TEST(FringeCurrent, IsTheSameOnEveryOneOfKellersCones) {
   }
 }
 
-// Off the cones the grazing ray's angle a may be imaginary. Here it is complex and the cotangents are Sommerfeld's own.
+// Off the cones the angle a of the grazing ray may be imaginary. Here it is complex and the cotangents are
+// Sommerfeld's.
 TEST(FringeCurrent, IsTheCotangentsOfAComplexAngle) {
   Random random({3, Stream::kTest, 19});
   int imaginary = 0;
@@ -99,8 +100,8 @@ TEST(FringeCurrent, IsTheCotangentsOfAComplexAngle) {
                  beta = 0.2 + 1.2 * random.uniform();
     const Vec3 k_hat(-std::sin(beta) * std::cos(phi), -std::sin(beta) * std::sin(phi), std::cos(beta));
     const Vec3 E = k_hat.cross(Vec3(0.3, -0.5, 0.8)).normalized();
-    const double z = 2 * random.uniform() - 1, turn = 2 * kPi * random.uniform();
-    const Vec3 s(std::sqrt(1 - z * z) * std::cos(turn), std::sqrt(1 - z * z) * std::sin(turn), z);
+    const double z = 2 * random.uniform() - 1, angle = 2 * kPi * random.uniform();
+    const Vec3 s(std::sqrt(1 - z * z) * std::cos(angle), std::sqrt(1 - z * z) * std::sin(angle), z);
     const WedgeFrame frame = wedge(N);
     CVec3 expected = CVec3::Zero();
     bool near_a_pole = false;
@@ -137,9 +138,9 @@ TEST(FringeCurrent, IsTheCotangentsOfAComplexAngle) {
   EXPECT_GT(imaginary, 200);
 }
 
-// In a corner, too, where physical optics is that of all images: each face is lit by the wave and by what the faces
-// send to one another, and where images solve the corner nothing is left.
-TEST(FringeCurrent, OfACornerIsKellersCoefficientLessThatOfItsReflections) {
+// The same at a concave edge, where physical optics is the sum over all images: each face is illuminated by the
+// incident wave and by the reflections of the other face, and vanishes where image theory is exact.
+TEST(FringeCurrent, OfAConcaveEdgeIsKellersCoefficientLessThatOfItsImages) {
   Random random({3, Stream::kTest, 21});
   int reflected = 0;
   for (int i = 0; i < 600; ++i) {
@@ -154,7 +155,7 @@ TEST(FringeCurrent, OfACornerIsKellersCoefficientLessThatOfItsReflections) {
         const double image = in + 2 * m * N * kPi;
         near_a_boundary |= std::abs(std::abs(image) - kPi) < 0.02 || std::abs(std::cos(out) + std::cos(image)) < 0.05;
         if (std::abs(image) > kPi) continue;
-        // Mirrored once more the electric field along the edge turns round, the magnetic one does not.
+        // With each further reflection the electric field along the edge changes its sign, the magnetic one does not.
         const double pole = std::cos(out) + std::cos(image);
         soft -= std::sin(image) / pole;
         hard += std::sin(out) / pole;
@@ -173,11 +174,11 @@ TEST(FringeCurrent, OfACornerIsKellersCoefficientLessThatOfItsReflections) {
   EXPECT_GT(reflected, 500);
 }
 
-// A face radiates to where it is seen and nowhere else: there the edge has all of Keller's field, but near the boundary
-// of shadow.
-TEST(EquivalentEdgeCurrents, LeaveOutPhysicalOpticsOnlyOfFacesThatAreSeen) {
+// A face radiates only towards receivers that see it: towards others the edge has all of Keller's field, except near
+// the incident shadow boundary.
+TEST(EquivalentEdgeCurrents, ExcludePhysicalOpticsOnlyOfVisibleFaces) {
   Random random({3, Stream::kTest, 20});
-  int unseen = 0;
+  int invisible = 0;
   for (int i = 0; i < 1000; ++i) {
     const double N = 1.05 + 0.95 * random.uniform();
     const double phi_in = N * kPi * random.uniform(), phi = N * kPi * random.uniform();
@@ -190,7 +191,7 @@ TEST(EquivalentEdgeCurrents, LeaveOutPhysicalOpticsOnlyOfFacesThatAreSeen) {
     auto [soft, hard] = keller(N, phi, phi_in);
     for (const bool second : {false, true}) {
       const double out = second ? N * kPi - phi : phi, in = second ? N * kPi - phi_in : phi_in;
-      if (in < kPi && out > kPi) ++unseen;
+      if (in < kPi && out > kPi) ++invisible;
       if (out > kPi && from_shadow > kShadowBoundaryGuard) continue;
       const auto [soft_face, hard_face] = optics(out, in);
       soft -= soft_face;
@@ -201,19 +202,19 @@ TEST(EquivalentEdgeCurrents, LeaveOutPhysicalOpticsOnlyOfFacesThatAreSeen) {
     EXPECT_NEAR(z.cross(s).dot(K_hard), hard / (2 * kPi), 1e-9 * (1 + std::abs(hard)))
         << N << ' ' << phi_in << ' ' << phi;
   }
-  EXPECT_GT(unseen, 300);
+  EXPECT_GT(invisible, 300);
 }
 
 TEST(FringeCurrent, IsFiniteEverywhereButAlongTheGrazingRay) {
   Random random({3, Stream::kTest, 18});
   for (int i = 0; i < 20000; ++i) {
     const auto any = [&] {
-      const double z = 2 * random.uniform() - 1, turn = 2 * kPi * random.uniform();
-      return Vec3(std::sqrt(1 - z * z) * std::cos(turn), std::sqrt(1 - z * z) * std::sin(turn), z);
+      const double z = 2 * random.uniform() - 1, angle = 2 * kPi * random.uniform();
+      return Vec3(std::sqrt(1 - z * z) * std::cos(angle), std::sqrt(1 - z * z) * std::sin(angle), z);
     };
     const Vec3 k_hat = any();
     const Vec3 E = k_hat.cross(any()).normalized();
-    // Backscatter, as in every monostatic sweep: what is received lies across the direction.
+    // Backscatter, as in every monostatic sweep: the received component is normal to the direction.
     for (const double N : {1.2, 1.5, 2.0}) {
       const Vec3 K = fringe_current(wedge(N), k_hat, E, -k_hat);
       EXPECT_LT((K - k_hat * k_hat.dot(K)).cwiseAbs().maxCoeff(), 1) << N << ' ' << k_hat.transpose();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Arrivals edge by edge against the lists they were found in.
+// Edge illuminations indexed by edge against the lists that they come from.
 #include "sim/scattering/edges/edge_illumination.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 namespace seaglint {
 namespace {
 
-TEST(IlluminationByEdge, AreAllOfEachEdgeInTheOrderOfTheirLists) {
+TEST(IlluminationByEdge, ContainsAllOfEachEdgeInTheOrderOfTheirLists) {
   constexpr int kEdges = 50;
   Random random({3, Stream::kTest, 0});
   std::vector<std::vector<EdgeIllumination>> lists(7);
@@ -22,10 +22,10 @@ TEST(IlluminationByEdge, AreAllOfEachEdgeInTheOrderOfTheirLists) {
     for (int i = 0; i < 20; ++i) {
       const int edge = 2 * static_cast<int>(kEdges / 2 * random.uniform());  // every other one has none
       const Vec3 x = Vec3::Zero();
-      const EdgeIllumination arrival{edge, {static_cast<double>(count++), 0}, {Vec2::Zero(), Vec2::Zero()}, x, x, x, x,
-                                     x};
-      expected[arrival.edge].push_back(arrival.s[0]);
-      list.push_back(arrival);
+      const EdgeIllumination illumination{
+          edge, {static_cast<double>(count++), 0}, {Vec2::Zero(), Vec2::Zero()}, x, x, x, x, x};
+      expected[illumination.edge].push_back(illumination.s[0]);
+      list.push_back(illumination);
     }
   }
   const IlluminationByEdge illuminations(std::move(lists), kEdges);
@@ -41,7 +41,7 @@ TEST(IlluminationByEdge, AreAllOfEachEdgeInTheOrderOfTheirLists) {
   }
 }
 
-TEST(IlluminationByEdge, OfNoneAreNone) {
+TEST(IlluminationByEdge, IsEmptyWithoutIlluminations) {
   const IlluminationByEdge illuminations({}, 3);
   EXPECT_TRUE(illuminations.all().empty());
   EXPECT_TRUE(illuminations.of(2).empty());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Edges of plates, trihedrals, boxes and ships: against measured and full-wave bodies, and laws.
+// Edge diffraction of plates, trihedrals, boxes and ships: against measured and full-wave echoes, continuity and
+// reciprocity.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -31,10 +32,10 @@ std::map<double, double> austin(const std::string& file) {
 }
 
 // Austin RCS benchmark suite, problem IIB: 6 x 10.5 inch, 64 mil, in the plane of the long side, 0-60 deg from normal.
-// Physical optics alone has 4.3-5.4 dB; measurement and method of moments differ by 0.3-0.5 dB. As a sheet without
-// thickness the plate is off by that (k t = 0.17 and 0.35): a strip of this width by 0.3 and 0.7, 0.6 and 1.2 dB.
-// With it there are left corners, the next order in k t and fifth-order diffraction, at 4.6 wavelengths half a decibel.
-TEST(PlateEdges, FollowsTheMethodOfMomentsWithItsEdges) {
+// Physical optics without edges has an error of 4.3-5.4 dB; measurement and method of moments differ by 0.3-0.5 dB.
+// Without the thickness term (k t = 0.17 and 0.35) a strip of this width has errors of 0.3 and 0.7, 0.6 and 1.2 dB.
+// With it vertices, the next order in k t and fifth-order diffraction remain, half a decibel at 4.6 wavelengths.
+TEST(PlateEdges, MatchTheMethodOfMoments) {
   const TriangleMesh mesh = make_plate(10.5 * 0.0254, 6 * 0.0254);
   const Scatterer sheet(mesh), plate(mesh, {}, radians(kDefaultCreaseDeg), 0.064 * 0.0254);
   for (const auto& [name, hz] : {std::pair{"f10", 5.12e9}, std::pair{"f11", 10.24e9}}) {
@@ -59,7 +60,7 @@ TEST(PlateEdges, FollowsTheMethodOfMomentsWithItsEdges) {
   }
 }
 
-TEST(TrihedralEdges, IsNearerToTheFullWaveSolutionWithItsEdges) {
+TEST(TrihedralEdges, ReduceTheErrorFromTheFullWaveSolution) {
   const Scatterer trihedral(make_triangular_trihedral(4));
   double squares[2] = {}, powers[2] = {}, power = 0;
   Complex product[2] = {};
@@ -81,18 +82,18 @@ TEST(TrihedralEdges, IsNearerToTheFullWaveSolutionWithItsEdges) {
   const double rms = std::sqrt(squares[1] / count), correlation = std::abs(product[1]) / std::sqrt(powers[1] * power);
   RecordProperty("rms_db", std::to_string(rms));
   RecordProperty("correlation", std::to_string(correlation));
-  // The reference's own 0.3 dB, and at 4-5 wavelengths what more diffractions and the corners add.
+  // The reference's own 0.3 dB, and at 4-5 wavelengths higher diffraction orders and vertices.
   EXPECT_LT(rms, 0.35);
   EXPECT_LT(rms, std::sqrt(squares[0] / count));
   EXPECT_GT(correlation, 0.995);
 }
 
-// Where a trihedral's direction passes the plane halfway between two of its faces, these change places on the ways by
-// both. Nothing steps there: over 0.002 deg the echo of 6.5 m moves by less than its lobes, k times the leg per radian
-// of turn, and 0.01 m of edge waves that run along the rims from a vertex, on one side of the plane or the other.
-// Reflected waves that met the seams as if from behind stepped by 0.7 m.
-TEST(TrihedralEdges, HasNoStepWhereTwoFacesChangePlaces) {
-  constexpr double leg = 4, aside_deg = 0.001;
+// At the plane of symmetry between two faces of a trihedral the order of their two reflections changes. The echo of 6.5
+// m is continuous there: over 0.002 deg it changes by less than its lobes do, k times the leg per radian, and 0.01 m of
+// face-grazing diffracted waves along the edges from a vertex, on one side of the plane or the other. A jump of 0.7 m
+// would result from reflected waves that illuminate the seams from behind.
+TEST(TrihedralEdges, AreContinuousWhereTheOrderOfReflectionsChanges) {
+  constexpr double leg = 4, offset_deg = 0.001;
   const Scatterer trihedral(make_triangular_trihedral(leg));
   const double k = wavenumber(0.3e9);
   for (const double elevation_deg : {10.0, 25.0, 35.0}) {
@@ -100,19 +101,19 @@ TEST(TrihedralEdges, HasNoStepWhereTwoFacesChangePlaces) {
     const auto at = [&](double azimuth_deg) {
       return echo(trihedral, radar_basis(direction(azimuth_deg, elevation_deg)), k, 0, 8, true);
     };
-    const auto before = at(middle_deg - aside_deg), after = at(middle_deg + aside_deg);
+    const auto before = at(middle_deg - offset_deg), after = at(middle_deg + offset_deg);
     for (const int channel : {kHhChannel, kVvChannel}) {
       EXPECT_LT(std::abs(after[channel] - before[channel]),
-                0.01 + std::abs(before[channel]) * k * leg * 2 * radians(aside_deg))
+                0.01 + std::abs(before[channel]) * k * leg * 2 * radians(offset_deg))
           << elevation_deg << ' ' << channel;
     }
   }
 }
 
-// A sweep in small steps has no spikes: nothing in it changes faster than the plate's own lobes, k times its length per
-// radian and as large as their envelope: the sinc's 1 or 1 / X, X = k length u, and an edge's, which does not grow
-// towards the normal.
-TEST(PlateEdges, HasNoSpikesInASweepAllTheWayRound) {
+// A sweep in small steps has no spikes: the echo changes no faster than the plate's own lobes, k times its length per
+// radian and with their envelope: the sinc's 1 or 1 / X, X = k length u, and an edge's, which does not grow towards the
+// normal.
+TEST(PlateEdges, HaveNoSpikesInAFullSweep) {
   const Scatterer plate(make_plate(0.25, 0.15));
   const double k = wavenumber(10e9), step = 0.05, length = 0.25, width = 0.15;
   for (const double elevation : {0.0, 2.0, 35.0}) {
@@ -132,26 +133,26 @@ TEST(PlateEdges, HasNoSpikesInASweepAllTheWayRound) {
   }
 }
 
-// A sheet without thickness does nothing to a wave whose electric field stands on it everywhere: edge-on, HH vanishes,
-// while VV is what a half-plane's rim of this length returns, width / 2 pi, and the rear rim's share. Each order of
-// diffraction alone is as large.
-// Exactly edge-on a sheet is looked at a little aside, whichever way it stands about the line of sight.
-TEST(PlateEdges, EdgeOnIsSeenHoweverItIsTurned) {
+// A sheet without thickness does not scatter a wave whose electric field is normal to it: edge-on, HH vanishes, while
+// VV is the echo of a half-plane's edge of this length, width / 2 pi, and the contribution of the rear edge. Each order
+// of diffraction has that magnitude. For a direction exactly in the sheet the look direction is perturbed a little,
+// whatever the sheet's orientation about the line of sight.
+TEST(PlateEdges, EdgeOnEchoIsContinuousForAnyOrientation) {
   const double k = wavenumber(10e9);
-  for (const double turned_deg : {0.0, 20.0, 45.0, 90.0, 135.0, 160.0}) {
-    const Mat3 turn = Eigen::AngleAxisd(radians(turned_deg), Vec3::UnitX()).toRotationMatrix();
+  for (const double rotation_deg : {0.0, 20.0, 45.0, 90.0, 135.0, 160.0}) {
+    const Mat3 rotation = Eigen::AngleAxisd(radians(rotation_deg), Vec3::UnitX()).toRotationMatrix();
     const Scatterer sheet(transformed(
-        make_plate(0.3, 0.2), turn * Eigen::AngleAxisd(kPi / 2, Vec3::UnitY()).toRotationMatrix(), Vec3::Zero()));
+        make_plate(0.3, 0.2), rotation * Eigen::AngleAxisd(kPi / 2, Vec3::UnitY()).toRotationMatrix(), Vec3::Zero()));
     const double exactly = largest(echo(sheet, radar_basis(direction(0, 0)), k, 0, 8, true));
-    const double beside = largest(echo(sheet, radar_basis(direction(1e-3, 1.3e-3)), k, 0, 8, true));
-    EXPECT_GT(exactly, 0.5 * beside) << turned_deg;
-    EXPECT_LT(exactly, 2 * beside) << turned_deg;
+    const double off_plane = largest(echo(sheet, radar_basis(direction(1e-3, 1.3e-3)), k, 0, 8, true));
+    EXPECT_GT(exactly, 0.5 * off_plane) << rotation_deg;
+    EXPECT_LT(exactly, 2 * off_plane) << rotation_deg;
   }
 }
 
-// A sheet in the line of sight answers however small it is beside the body's radius: far from the origin as at it, but
-// for the phase.
-TEST(PlateEdges, EdgeOnAnswersWhereverItIs) {
+// A sheet in the line of sight scatters however small it is compared with the radius of the body: far from the origin
+// as at the origin, but for the phase.
+TEST(PlateEdges, EdgeOnEchoIndependentOfPosition) {
   const double k = wavenumber(10e9);
   const Mat3 flat = Eigen::AngleAxisd(kPi / 2, Vec3::UnitY()).toRotationMatrix();
   for (const double elevation_deg : {0.0, 5e-4}) {
@@ -160,25 +161,25 @@ TEST(PlateEdges, EdgeOnAnswersWhereverItIs) {
                               true)[kHhChannel];
     EXPECT_GT(std::abs(here), 0.01);  // m
     for (const Vec3& place : {Vec3(3, 0, 0), Vec3(5, 20, 1)}) {
-      const Complex there =
+      const Complex elsewhere =
           echo(Scatterer(transformed(make_plate(0.2, 0.2), flat, place)), radar_basis(r), k, 0, 8, true)[kHhChannel];
-      // Exactly in its plane it is looked at 1e-6 rad aside, and corners lie within 1e-7 m of it.
+      // Exactly in its plane the look direction is perturbed by 1e-6 rad, and vertices lie within 1e-7 m of it.
       const double tolerance = 2 * k * (1e-6 * place.norm() + 1e-7);
-      EXPECT_LT(std::abs(there / here * std::polar(1.0, -2 * k * r.dot(place)) - 1.0), tolerance)
+      EXPECT_LT(std::abs(elsewhere / here * std::polar(1.0, -2 * k * r.dot(place)) - 1.0), tolerance)
           << elevation_deg << ' ' << place.transpose();
     }
   }
 }
 
-TEST(PlateEdges, EdgeOnAnswersOnlyTheFieldAlongItsRim) {
-  const double width = 0.15, rim = width / (2 * kPi);
+TEST(PlateEdges, EdgeOnEchoOnlyForEAlongTheEdge) {
+  const double width = 0.15, edge_amplitude = width / (2 * kPi);
   const Scatterer plate(make_plate(0.25, width));
   for (const double off_deg : {1.0, 0.1, 0.01, 0.001, 0.0, -0.1}) {
     const auto s = echo(plate, radar_basis(direction(90 - off_deg, 0)), wavenumber(10e9), 0, 8, true);
-    // The fourth order is left out, 1 / (2 pi k length) of the others; a direction exactly in the sheet is met 1e-6 rad
-    // off.
-    EXPECT_LT(std::abs(s[kHhChannel]), 0.1 * rim) << off_deg;
-    EXPECT_NEAR(std::abs(s[kVvChannel]), rim, 0.1 * rim) << off_deg;
+    // The fourth order is truncated, 1 / (2 pi k length) of the others; a direction exactly in the sheet is perturbed
+    // by 1e-6 rad.
+    EXPECT_LT(std::abs(s[kHhChannel]), 0.1 * edge_amplitude) << off_deg;
+    EXPECT_NEAR(std::abs(s[kVvChannel]), edge_amplitude, 0.1 * edge_amplitude) << off_deg;
   }
 }
 
@@ -197,9 +198,10 @@ TriangleMesh box() {
   return mesh;
 }
 
-// In the plane of a face edge waves have a pole whose product with the transition function has a limit: what the edges
-// answer there stays within half of the longest edge's answer of that 0.01 deg beside it, where it is still settling.
-TEST(EdgeDiffraction, HaveALimitInThePlaneOfAFace) {
+// In the plane of a face multiple diffraction has a pole whose product with the transition function has a limit: the
+// edges' contribution there differs by at most half of the longest edge's contribution from that at 0.01 deg off, where
+// it still varies.
+TEST(EdgeDiffraction, HasALimitInThePlaneOfAFace) {
   const Scatterer target(box());
   const double k = wavenumber(10e9), one_edge = 0.4 / (2 * kPi);
   const auto edge_part = [&](double azimuth, double elevation) {
@@ -211,27 +213,28 @@ TEST(EdgeDiffraction, HaveALimitInThePlaneOfAFace) {
   };
   for (const double elevation : {0.0, 2.0}) {
     for (const double azimuth : {0.0, 90.0, 180.0}) {
-      const auto in_plane = edge_part(azimuth, elevation), beside = edge_part(azimuth - 0.01, elevation);
+      const auto in_plane = edge_part(azimuth, elevation), off_plane = edge_part(azimuth - 0.01, elevation);
       for (const int channel : {kHhChannel, kVvChannel}) {
-        EXPECT_LT(std::abs(in_plane[channel] - beside[channel]), 0.5 * one_edge) << azimuth << ' ' << elevation;
+        EXPECT_LT(std::abs(in_plane[channel] - off_plane[channel]), 0.5 * one_edge) << azimuth << ' ' << elevation;
       }
     }
   }
 }
 
-TEST(EdgeDiffraction, OfTheShipAreFiniteInThePlanesOfItsFaces) {
+TEST(EdgeDiffraction, OfTheShipIsFiniteInThePlanesOfItsFaces) {
   const Scatterer ship(read_mesh(SEAGLINT_SOURCE_DIR "/assets/combatant_144m.glb"));
   for (const double elevation : {0.0, 2.0}) {
     for (const double azimuth : {0.0, 45.0, 90.0, 180.0}) {
       const BistaticGeometry geometry = monostatic(radar_basis(direction(azimuth, elevation)));
       const auto s = scattering_matrices(ship, geometry, std::array{wavenumber(16e9)}, {0, 8, true}, 2)[0];
-      for (const Complex& x : s) EXPECT_LT(std::abs(x), 1e4) << azimuth << ' ' << elevation;  // which no NaN is
+      for (const Complex& x : s) EXPECT_LT(std::abs(x), 1e4) << azimuth << ' ' << elevation;  // also excludes NaN
     }
   }
 }
 
-// Physical optics of a face is not reciprocal, Keller's coefficients are: fringe currents make up for it. What is left
-// is corners, and in any direction that lies on no edge's cone the choice of the ray along which currents are summed.
+// Physical optics of a face is not reciprocal, Keller's coefficients are: fringe currents correct it. The residual is
+// that of vertices and, in any direction off all Keller cones, the choice of the ray along which currents are
+// integrated.
 TEST(EdgeDiffraction, PlateIsReciprocal) {
   const Scatterer plate(make_plate(0.25, 0.15));
   const std::array k{wavenumber(10e9)};
@@ -243,11 +246,13 @@ TEST(EdgeDiffraction, PlateIsReciprocal) {
   for (int i = 0; i < 200; ++i) {
     const RadarBasis t = any_view(), r = any_view();
     for (const bool edges : {false, true}) {
-      const auto there = scattering_matrices(plate, bistatic(t, r), k, {0, 1, edges})[0],
-                 back = scattering_matrices(plate, bistatic(r, t), k, {0, 1, edges})[0];
+      const auto forward = scattering_matrices(plate, bistatic(t, r), k, {0, 1, edges})[0],
+                 reciprocal = scattering_matrices(plate, bistatic(r, t), k, {0, 1, edges})[0];
       double& sum = edges ? with_edges : optics;
-      sum += std::norm(there[kHhChannel] - back[kHhChannel]) + std::norm(there[kVvChannel] - back[kVvChannel]) +
-             std::norm(there[kHvChannel] - back[kVhChannel]) + std::norm(there[kVhChannel] - back[kHvChannel]);
+      sum += std::norm(forward[kHhChannel] - reciprocal[kHhChannel]) +
+             std::norm(forward[kVvChannel] - reciprocal[kVvChannel]) +
+             std::norm(forward[kHvChannel] - reciprocal[kVhChannel]) +
+             std::norm(forward[kVhChannel] - reciprocal[kHvChannel]);
     }
   }
   std::printf("rms |S(a, b) - S(b, a)^T|: %.4f, without edges %.4f m\n", std::sqrt(with_edges / 200),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Walls behind rims of faces that the wave grazes, against integrals over the half-plane's field.
+// Walls behind edges of faces at grazing incidence, against integrals over the half-plane's field.
 #include "sim/scattering/edges/wall_penumbra.h"
 #include "sim/scattering/diffraction/transition.h"
 #include "sim/scattering/surfaces/phase_integral.h"
@@ -20,15 +20,15 @@ namespace {
 
 using namespace testing_echoes;
 
-// A floor z = 0, whose rim lies along y in x = 0, and a wall in x = -20 m, as wide as long, seen along x from 15 deg
+// A floor z = 0 with an edge along y at x = 0, and a wall at x = -20 m, as wide as long, viewed along x from 15 deg
 // above the floor to as much below.
-constexpr double kWay = 20, kWidth = 20;
+constexpr double kWallDistance = 20, kWidth = 20;
 
-struct Answer {
+struct Field {
   Complex soft, hard;  // hh and vv per metre of wall
 };
 
-Answer closed_form(double sine, double k, double height = 1000) {
+Field closed_form(double sine, double k, double height = 1000) {
   const RadarBasis radar = radar_basis(Vec3(std::sqrt(1 - sine * sine), 0, sine));
   const WallBehindEdge wall{Vec3::Zero(),
                             Vec3::UnitY(),
@@ -36,99 +36,103 @@ Answer closed_form(double sine, double k, double height = 1000) {
                             Vec3::UnitX(),
                             height,
                             grazing_taper(radar.r, Vec3::UnitZ()),
-                            {Vec3(-kWay, -kWidth / 2, 0), Vec3(-kWay, kWidth / 2, 0)}};
+                            {Vec3(-kWallDistance, -kWidth / 2, 0), Vec3(-kWallDistance, kWidth / 2, 0)}};
   std::vector<EdgeContribution> contributions;
   append_wall_penumbra(wall, radar, {}, k, 0, contributions);
-  Answer sum{};
+  Field sum{};
   for (const EdgeContribution& contribution : contributions) {
     const auto s = scattered(contribution, k);
     // Phase from the foot.
-    const Complex per_metre = std::polar(1 / kWidth, 2 * k * kWay * std::sqrt(1 - sine * sine));
+    const Complex per_metre = std::polar(1 / kWidth, 2 * k * kWallDistance * std::sqrt(1 - sine * sine));
     sum.soft += per_metre * s[kHhChannel];
     sum.hard += per_metre * s[kVvChannel];
   }
   return sum;
 }
 
-// erfc(e^{j pi/4} u) / 2 by the transition function, which wedge_diffraction_test.cpp holds to Fresnel's integrals.
-Complex shadowed(double u) {
-  if (u < 0) return 1.0 - shadowed(-u);
+// erfc(e^{j pi/4} u) / 2 by the transition function, which multiple_diffraction_test.cpp compares with its integral.
+Complex shadow_field(double u) {
+  if (u < 0) return 1.0 - shadow_field(-u);
   return u < 1e-9 ? 0.5 : std::polar(1.0, -u * u - kPi / 4) * transition_function(u * u) / (2 * std::sqrt(kPi) * u);
 }
 
-// A. Sommerfeld's half-plane (M. Born and E. Wolf, Principles of Optics, 8.7), which is the floor: the wave from a side
-// of it, as the angle from the floor round the rim, or its image, from minus that, at (x, z).
+// Sommerfeld's solution for the half-plane (M. Born and E. Wolf, Principles of Optics, 8.7), which is the floor: the
+// wave incident from the angle `from`, measured from the floor about the edge, or its image from minus that, at (x, z).
 Complex half_plane(double from, double x, double z, double k) {
   const double r = std::hypot(x, z), off = std::atan2(z, -x) - from;
-  return std::polar(1.0, k * r * std::cos(off)) * shadowed(-std::sqrt(2 * k * r) * std::cos(0.5 * off));
+  return std::polar(1.0, k * r * std::cos(off)) * shadow_field(-std::sqrt(2 * k * r) * std::cos(0.5 * off));
 }
-// What the field on the wall and its slope, which by reciprocity is the receiver's, have over physical optics: that
-// lights the wall, and once more by the floor up to the rim's shadow line, where the wall's image radiates as well
-// (path_weights.h). They agree far above the penumbra but for waves that run ever faster up the wall, which are
-// faded out.
-Answer integral(double sine, double k) {
-  const double angle = std::asin(sine), penumbra = std::sqrt(2 * kWay / k), shadow = kWay * std::tan(angle);
-  // no step of the midpoint rule has the line within
+// The difference of the exact product of the field on the wall and its slope, which by reciprocity is the receiver's,
+// from physical optics, which illuminates the wall directly and once more via the floor up to the shadow-boundary line
+// of the edge, where the wall's image radiates as well (path_weights.h). They agree far above the penumbra except
+// for waves of increasing phase rate up the wall, which a taper removes.
+Field integral(double sine, double k) {
+  const double angle = std::asin(sine), penumbra = std::sqrt(2 * kWallDistance / k),
+               shadow = kWallDistance * std::tan(angle);
+  // no step of the midpoint rule contains the line
   const double line = shadow != 0 ? std::abs(shadow) : 0.01 * penumbra,
                step = line / std::ceil(line / (0.002 * penumbra));
   const double from = std::abs(shadow) + 12 * penumbra, to = from + 40 * penumbra, h = 1e-5;
   Complex soft = 0, hard = 0;
   for (double z = step / 2; z < to; z += step) {
-    const Complex up = std::polar(1.0, -2 * k * kWay * std::cos(angle)) * std::polar(1.0, 2 * k * z * sine);
-    const Complex lit = z + shadow > 0 ? up : 0,
-                  by_floor = z < shadow ? std::polar(1.0, -2 * k * kWay * std::cos(angle)) : 0,
-                  by_image = by_floor * std::polar(1.0, -2 * k * z * sine);
+    const Complex up = std::polar(1.0, -2 * k * kWallDistance * std::cos(angle)) * std::polar(1.0, 2 * k * z * sine);
+    const Complex direct = z + shadow > 0 ? up : 0,
+                  via_floor = z < shadow ? std::polar(1.0, -2 * k * kWallDistance * std::cos(angle)) : 0,
+                  via_image = via_floor * std::polar(1.0, -2 * k * z * sine);
     for (const double sign : {-1.0, 1.0}) {
       const auto field = [&](double x) {
         return half_plane(kPi - angle, x, z, k) + sign * half_plane(angle - kPi, x, z, k);
       };
-      const Complex slope = (field(-kWay + h) - field(-kWay - h)) / Complex(0, 2 * h * k);
+      const Complex slope = (field(-kWallDistance + h) - field(-kWallDistance - h)) / Complex(0, 2 * h * k);
       (sign < 0 ? soft : hard) +=
           smooth_taper(z, {from, to}) *
-          (field(-kWay) * slope - std::cos(angle) * (lit + by_image + 2 * sign * (lit == 0.0 ? 0.0 : by_floor)));
+          (field(-kWallDistance) * slope -
+           std::cos(angle) * (direct + via_image + 2 * sign * (direct == 0.0 ? 0.0 : via_floor)));
     }
   }
   // S is -jk / 2 pi times that; phase from the foot.
-  const Complex factor = Complex(0, -k / (2 * kPi)) * step * std::polar(1.0, 2 * k * kWay * std::cos(angle));
+  const Complex factor = Complex(0, -k / (2 * kPi)) * step * std::polar(1.0, 2 * k * kWallDistance * std::cos(angle));
   return {factor * soft, factor * hard};
 }
 
-// Soft up to 2 deg above the floor, whence mirrored rims take part, and to 15 below; hard to 2 either way, whence edge
-// waves do.
-TEST(WallPenumbra, IsWhatPhysicalOpticsLacksOfTheHalfPlanesField) {
-  // soft, in grazing: 2 (l / pi k)^(1/2) k / 2 pi
-  const double k = wavenumber(10e9), all = std::sqrt(k * kWay / kPi) / kPi;
+// Soft up to 2 deg above the floor, where reflected-edge contributions begin, and to 15 deg below; hard to 2 deg on
+// either side, where multiple diffraction begins.
+TEST(WallPenumbra, EqualsHalfPlaneFieldLessPhysicalOptics) {
+  // soft, at grazing: 2 (l / pi k)^(1/2) k / 2 pi
+  const double k = wavenumber(10e9), soft_at_grazing = std::sqrt(k * kWallDistance / kPi) / kPi;
   for (const double sine :
        {-0.25, -0.1, -0.03, -0.01, -0.003, -0.001, -0.00005, 0.0, 0.00005, 0.001, 0.003, 0.01, 0.03}) {
-    const Answer found = closed_form(sine, k), expected = integral(sine, k);
-    // What cosines of the angle leave; the midpoint rule; within 1e-4 of the floor's plane what goes on from there,
-    // with the change over 1e-3, lacks the second order in x.
-    const double tolerance = 1.5 * sine * sine * std::abs(expected.soft) + 1e-4 * all +
-                             (std::abs(sine) < 1e-4 ? 2 * k * kWay * 1e-4 * 1e-3 * all : 0);
+    const Field found = closed_form(sine, k), expected = integral(sine, k);
+    // Error of cosines of the angle; the midpoint rule; within 1e-4 of the floor's plane the extrapolation from there
+    // with the derivative over 1e-3, which lacks the second order in x.
+    const double tolerance = 1.5 * sine * sine * std::abs(expected.soft) + 1e-4 * soft_at_grazing +
+                             (std::abs(sine) < 1e-4 ? 2 * k * kWallDistance * 1e-4 * 1e-3 * soft_at_grazing : 0);
     EXPECT_LT(std::abs(found.soft - expected.soft), tolerance) << sine;
     if (std::abs(sine) > 0.03) continue;
     EXPECT_LT(std::abs(found.hard - expected.hard), tolerance + 1.5 * sine * sine * std::abs(expected.hard)) << sine;
   }
 }
 
-// In grazing the soft wave's wall is less by (l / pi k)^(1/2) of its height on either way, and the hard one's whole.
+// At grazing the effective height of the wall is lower by (l / pi k)^(1/2) for the soft wave on either path, and
+// unchanged for the hard one.
 TEST(WallPenumbra, LowersEffectiveWallHeightAtGrazing) {
-  const double k = wavenumber(10e9), all = std::sqrt(k * kWay / kPi) / kPi;
-  const Answer answer = closed_form(0, k);
-  EXPECT_LT(std::abs(answer.soft - std::polar(all, kPi / 4)), 1e-3 * all);
-  EXPECT_LT(std::abs(answer.hard), 1e-3 * all);
+  const double k = wavenumber(10e9), soft_at_grazing = std::sqrt(k * kWallDistance / kPi) / kPi;
+  const Field field = closed_form(0, k);
+  EXPECT_LT(std::abs(field.soft - std::polar(soft_at_grazing, kPi / 4)), 1e-3 * soft_at_grazing);
+  EXPECT_LT(std::abs(field.hard), 1e-3 * soft_at_grazing);
 }
 
 // The penumbra is (2 l / k)^(1/2) = 0.44 m high.
-TEST(WallPenumbra, NeedsAWallThatIsHigherThanIt) {
+TEST(WallPenumbra, NeedsAWallHigherThanThePenumbra) {
   const double k = wavenumber(10e9);
   const auto in_grazing = [&](double height) { return std::abs(closed_form(0, k, height).soft); };
   EXPECT_EQ(in_grazing(0.25), 0);
   EXPECT_GT(in_grazing(0.5), 10);
 }
 
-// So that a cavity found from the field inside has it there, and a house's echo is the house's.
-TEST(WallPenumbra, IsTheWallsAndItsFloors) {
+// The contribution belongs to the parts of wall and floor, so that a filter by part includes it correctly, and a cavity
+// can replace it.
+TEST(WallPenumbra, BelongsToTheWallAndItsFloor) {
   TriangleMesh corner = make_square_trihedral(0.4);
   for (std::size_t i = 0; i < corner.triangles.size(); ++i) corner.triangle_part[i] = static_cast<std::uint16_t>(i / 2);
   corner.part_names = {"one", "two", "three"};

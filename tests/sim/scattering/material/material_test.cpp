@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reflection of a plane wave by flat materials: closed forms of other kinds than the recursion, limits, and energy.
+// Reflection of a plane wave by flat materials: closed forms other than the recursion, limits, and energy.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -41,7 +41,7 @@ MaterialSpec library(const std::string& name) {
   return read_material(SEAGLINT_SOURCE_DIR "/assets/materials/" + name + ".yaml");
 }
 
-TEST(Material, PerfectConductorHasMinusOneAcrossAndPlusOneInThePlaneOfIncidence) {
+TEST(Material, PerfectConductorReflectsTeByMinusOneAndTmByPlusOne) {
   const InterfaceCoefficients fields = MaterialSurface(MaterialSpec{}, 300).at(0.3);
   EXPECT_EQ(fields.te, Complex(-1));
   EXPECT_EQ(fields.tm, Complex(1));
@@ -58,8 +58,8 @@ TEST(Material, PerfectConductorHasMinusOneAcrossAndPlusOneInThePlaneOfIncidence)
 // Fresnel's formulas with angles (Born and Wolf, Principles of Optics, 1.5.2, eqs. 21 and 21a): r_perp = -sin(i -
 // t)/sin(i + t), r_par = tan(i - t)/tan(i + t).
 TEST(Material, ThickDielectricFollowsFresnelsFormulasInAngles) {
-  // A layer of many skin depths hides its conductor: e^{-2 * 0.01 * 300 * 1} of field would be left of 1 m with eps''
-  // 0.04 n.
+  // A layer of many skin depths hides its conductor: e^{-2 * 0.01 * 300 * 1} of the field would remain of 1 m with
+  // eps'' 0.04 n.
   const double n = 1.7;
   const MaterialSurface glass(stack({layer(1000, Complex(n * n, -0.3))}, Backing::kPec), 300);
   const Complex index = std::sqrt(Complex(n * n, -0.3));
@@ -72,7 +72,7 @@ TEST(Material, ThickDielectricFollowsFresnelsFormulasInAngles) {
 }
 
 TEST(Material, ReflectsNothingInThePlaneOfIncidenceAtBrewstersAngle) {
-  // tan(i) = n for a lossless medium; an air-backed sheet reflects nothing there either, whatever its thickness.
+  // tan(i) = n for a lossless medium; an air-backed sheet has no reflection there either, whatever its thickness.
   for (const double thickness : {0.3, 1.7, 12.0}) {
     const InterfaceCoefficients fields =
         MaterialSurface(stack({layer(thickness, 4.0)}, Backing::kAir), 300).at(std::cos(std::atan(2.0)));
@@ -104,7 +104,7 @@ TEST(Material, DallenbachLayerFollowsItsClosedFormAndHasItsNull) {
     EXPECT_LT(std::abs(fields.te - (z - 1.0) / (z + 1.0)), kRounding) << thickness_mm;
     EXPECT_LT(std::abs(fields.te + fields.tm), kRounding) << thickness_mm;
   }
-  // Thin magnetic absorber: Z = j k d mu, matched when k d mu'' = 1 and mu' = 0 as far as it can be: with mu =
+  // Thin magnetic absorber: Z = j k d mu, matched when k d mu'' = 1 and mu' = 0 as closely as possible: with mu =
   // mu'(small) - j / (k d).
   const double d_mm = 0.1;
   const InterfaceCoefficients matched =
@@ -122,7 +122,7 @@ TEST(Material, SheetOfHalfAWaveIsTransparent) {
   EXPECT_NEAR(std::abs(fields.te_transmission), 1, kRounding);
 }
 
-TEST(Material, SheetOfVacuumIsNotThere) {
+TEST(Material, SheetOfVacuumIsTransparent) {
   for (const double cosine : {1.0, 0.6, 0.05}) {
     const InterfaceCoefficients fields =
         MaterialSurface(stack({layer(3, 1.0), layer(0.7, 1.0)}, Backing::kAir), 335).at(cosine);
@@ -173,7 +173,7 @@ TEST(Material, StacksFollowTheProductOfTheirCharacteristicMatrices) {
   }
 }
 
-TEST(Material, PassiveStacksGiveBackNoMoreThanTheyGet) {
+TEST(Material, PassiveStacksConserveEnergy) {
   Random random({3, Stream::kTest, 1});
   for (int trial = 0; trial < 2000; ++trial) {
     std::vector<LayerSpec> layers;
@@ -189,7 +189,7 @@ TEST(Material, PassiveStacksGiveBackNoMoreThanTheyGet) {
   }
 }
 
-TEST(Material, LosslessSheetsKeepAllEnergyAndPassTheSameFromEitherSide) {
+TEST(Material, LosslessSheetsConserveEnergyAndAreReciprocal) {
   const std::vector<LayerSpec> layers{layer(1.2, 2.2), layer(0.4, 9.0, 1.5), layer(3.1, 4.0)};
   const std::vector<LayerSpec> reversed(layers.rbegin(), layers.rend());
   for (const double cosine : {1.0, 0.7, 0.1}) {
@@ -218,13 +218,13 @@ TEST(Material, DenseMediumTendsToItsLeontovichImpedance) {
   }
 }
 
-TEST(Material, RoughnessTakesItsShareOfTheCoherentField) {
+TEST(Material, RoughnessReducesTheCoherentField) {
   MaterialSpec rough;
   rough.roughness_mm = 1.5;
   const double k = 335, cosine = 0.4;
   const MaterialSurface surface(rough, k);
   EXPECT_NEAR(surface.roughness_factor(cosine, cosine), std::exp(-2 * std::pow(k * 1.5e-3 * cosine, 2)), kRounding);
-  EXPECT_NEAR(surface.roughness_factor(1, -1), 1, kRounding);  // straight on, heights do not matter
+  EXPECT_NEAR(surface.roughness_factor(1, -1), 1, kRounding);  // forward direction, independent of heights
 }
 
 TEST(Material, DispersionIsADebyeSumOrATable) {
@@ -259,32 +259,32 @@ Complex klein_swift(double f, double T, double S) {
 }
 
 TEST(SeaWater, TwoPublishedModelsAgreeWithinTheirMeasurements) {
-  // Klein and Swift state tenths of a percent at L and S band; the measurements both rest on scatter by 1 %. At higher
-  // bands they leave their accuracy open, and their relaxation time is of warm water: compared there at 20 deg C only.
-  double worst = 0;
+  // Klein and Swift state tenths of a percent at L and S band; the measurements of both models scatter by 1 %. At
+  // higher bands they state no accuracy, and their relaxation time is of warm water: compared there at 20 deg C only.
+  double max_error = 0;
   const auto compare = [&](double ghz, double celsius) {
     const Complex ours = sea_water_permittivity(1e9 * ghz, celsius, 35), theirs = klein_swift(1e9 * ghz, celsius, 35);
-    worst = std::max(worst, std::abs(ours - theirs) / std::abs(theirs));
+    max_error = std::max(max_error, std::abs(ours - theirs) / std::abs(theirs));
   };
   for (const double celsius : {0.0, 10.0, 20.0, 29.0}) {
     for (const double ghz : {1.0, 1.4, 3.0}) compare(ghz, celsius);
   }
   for (const double ghz : {10.0, 16.0}) compare(ghz, 20);
-  RecordProperty("worst_relative", std::to_string(worst));
-  EXPECT_LT(worst, 0.015);
+  RecordProperty("worst_relative", std::to_string(max_error));
+  EXPECT_LT(max_error, 0.015);
 }
 
-// Values of third parties' models, each other than this one: Ulaby and Long, Microwave Radar and Radiometric Remote
+// Values of third-party models, each different from this one: Ulaby and Long, Microwave Radar and Radiometric Remote
 // Sensing (2014), sec. 4-2, at 10 GHz, 9.85 deg C, 10 psu, as printed in the documentation of the package CanopyOptics:
 // 51.79 - j 38.32; Boutin et al., IEEE Trans. Geosci. Remote Sens. 59 (2021), at 1.4 GHz, 5 deg C, 33 psu, as in the
 // tests of the package SMRT: 76.408 - j 50.057.
-TEST(SeaWater, MeetsPrintedValuesOfOtherModels) {
+TEST(SeaWater, MatchesPrintedValuesOfOtherModels) {
   const Complex ulaby_long(51.7925, -38.3230), boutin(76.4080, -50.0570);
   EXPECT_LT(std::abs(sea_water_permittivity(10e9, 9.85, 10) - ulaby_long), 0.015 * std::abs(ulaby_long));
   EXPECT_LT(std::abs(sea_water_permittivity(1.4e9, 5, 33) - boutin), 0.015 * std::abs(boutin));
 }
 
-TEST(SeaWater, ConductsAsTheStandardSeaWaterOfOceanographyDoes) {
+TEST(SeaWater, HasTheConductivityOfStandardSeaWater) {
   // Practical salinity scale 1978: S = 35 at 15 deg C and one atmosphere has 4.2914 S/m.
   EXPECT_NEAR(sea_water_conductivity(15, 35), 4.2914, 0.002);
   // S/m at 20 deg C by the scale's r_t = 1.1165: 4.2914 * 1.1165

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Separate directions to transmit and to receive.
+// Separate transmit and receive directions.
 #include <gtest/gtest.h>
 
 #include "sim/core/numbers/sinc.h"
@@ -26,9 +26,9 @@ std::array<Complex, 4> bistatic_echo(const Scatterer& scatterer, const Vec3& r_t
                              {0.01, bounces})[0];
 }
 
-// In the specular direction all of the plate radiates in phase: |S| = A cos(theta) / lambda. Geometrical optics turns v
-// into v and h into minus itself, which is h of the other side.
-TEST(Bistatic, PlateMirrorsTheWaveIntoTheSpecularDirection) {
+// In the specular direction the whole plate radiates in phase: |S| = A cos(theta) / lambda. Geometrical optics reflects
+// v as v and h as -h, which is the h of the other side.
+TEST(Bistatic, PlateReflectsIntoTheSpecularDirection) {
   const Scatterer target(plate(0.3, 0.2));
   const double lambda = kSpeedOfLight / kF;
   for (const double theta : {5.0, 30.0, 60.0, 80.0}) {
@@ -65,11 +65,11 @@ TEST(Bistatic, EqualDirectionsAreTheMonostaticEcho) {
   const std::array k{wavenumber(kF)};
   const auto one = scattering_matrices(corner, monostatic(basis), k, {})[0];
   const auto two = scattering_matrices(corner, bistatic(basis, basis), k, {})[0];
-  // Slivers below the smallest area that is kept differ.
+  // Slivers below the smallest patch area differ.
   for (int i = 0; i < 4; ++i) EXPECT_NEAR(std::abs(one[i] - two[i]), 0, 1e-5);
 }
 
-TEST(Bistatic, MovingTheTargetTurnsThePhaseByBothPaths) {
+TEST(Bistatic, TranslationChangesThePhaseByBothPaths) {
   TriangleMesh mesh = make_icosahedral_reflector();
   const Vec3 r_t = direction(33, 7), r_s = direction(52, -4), shift(0.7, -1.1, 0.4);
   const auto before = bistatic_echo(Scatterer(mesh), r_t, r_s);
@@ -77,13 +77,13 @@ TEST(Bistatic, MovingTheTargetTurnsThePhaseByBothPaths) {
   const auto after = bistatic_echo(Scatterer(mesh), r_t, r_s);
   const Complex phase = std::polar(1.0, wavenumber(kF) * shift.dot(r_t + r_s));
   const double size = std::abs(before[kVvChannel]) + std::abs(before[kHhChannel]);
-  // As for one direction (laws_test): slivers about as large as the detail.
+  // As for the monostatic case (invariance_test): slivers of about the smallest patch size.
   for (int i = 0; i < 4; ++i) EXPECT_NEAR(std::abs(after[i] - before[i] * phase), 0, 1e-3 * size);
 }
 
-// A right-angled dihedral answers a wave from any side in its cross section back to where it came from, and mirrors it
-// along its seam.
-TEST(Bistatic, DihedralMirrorsAlongItsSeam) {
+// A right-angled dihedral reflects a wave from any direction of its cross-section back towards its source, and
+// specularly along its seam.
+TEST(Bistatic, DihedralIsSpecularAlongItsSeam) {
   const double side = 0.3, k = wavenumber(kF);
   TriangleMesh mesh;  // faces in x = 0 and y = 0, seam along z
   mesh.vertices = {{0, 0, -side / 2}, {side, 0, -side / 2}, {side, 0, side / 2},
@@ -93,8 +93,9 @@ TEST(Bistatic, DihedralMirrorsAlongItsSeam) {
   const double el = 20;
   const auto s = scattering_matrices(
       dihedral, bistatic(radar_basis(direction(45, el)), radar_basis(direction(45, -el))), std::array{k}, {7e-4, 2})[0];
-  // Two bounces: aperture 2 side sin 45 x side cos(el) in phase, less what leaves past the end while it travels from
-  // face to face (sqrt2 x tan(el) along the seam at x from it), on top of single bounces without a specular direction.
+  // Two bounces: aperture 2 side sin 45 x side cos(el) in phase, less the part that passes the end while it propagates
+  // from face to face (sqrt2 x tan(el) along the seam at x from it), in addition to single bounces without a specular
+  // direction.
   const double kept = 1 - std::tan(radians(el)) / std::sqrt(2.0);
   const double aperture = kept * std::sqrt(2.0) * side * side * std::cos(radians(el)) * k / (2 * kPi);
   EXPECT_NEAR(std::abs(s[kVvChannel]), aperture, 0.03 * aperture);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A radar that passes by: the direction to it, and to its image in the sea, turns as the geometry of its way demands.
+// A moving radar: the directions to it and to its image in the sea change with its relative motion.
 #include "sim/scattering/response/line_of_sight.h"
 
 #include <fmt/format.h>
@@ -18,7 +18,7 @@ namespace seaglint {
 namespace {
 
 constexpr double kRange = 20e3;
-const Vec3 kVelocity(40, 220, -15);  // an aircraft that passes
+const Vec3 kVelocity(40, 220, -15);  // a passing aircraft
 
 IntervalSampling interval() {
   IntervalSampling sampling;
@@ -34,7 +34,7 @@ IntervalSampling interval() {
   return sampling;
 }
 
-// That pulse alone, from where the radar then stands.
+// A single pulse from the position of the radar at that time.
 IntervalSampling only_pulse(const IntervalSampling& sampling, int pulse) {
   IntervalSampling one = sampling;
   one.pulse_first = {0};
@@ -43,7 +43,7 @@ IntervalSampling only_pulse(const IntervalSampling& sampling, int pulse) {
   return one;
 }
 
-TEST(MovingRadar, PointsChangeTheirRangeAsTheWayDemands) {
+TEST(MovingRadar, PointsHaveTheRangeOfTheRadarsPath) {
   const IntervalSampling sampling = interval();
   const Vec3 r_hat = direction_to_radar(radians(30), radians(3));
   const Vec3 x(25, -40, 12);
@@ -58,7 +58,7 @@ TEST(MovingRadar, PointsChangeTheirRangeAsTheWayDemands) {
     const double k = 2 * kPi * (sampling.first_hz + 7 * sampling.step_hz) / kSpeedOfLight;
     const double moved_m = range_beyond_reference(t) - range_beyond_reference(0);
     const double phase = std::arg(response.at(static_cast<int>(n), 7) / response.at(0, 7));
-    // Neglected: how the wavefront's curvature x^2 / (2 R) changes with the direction, below x^2 u t / R^2.
+    // Neglected: the change of the wavefront's curvature x^2 / (2 R) with the direction, below x^2 u t / R^2.
     const double curvature_m = x.squaredNorm() * kVelocity.norm() * t / (kRange * kRange);
     EXPECT_NEAR(std::remainder(phase + 2 * k * moved_m, 2 * kPi), 0, 2 * k * curvature_m + 1e-9);
     if (n > 8) {
@@ -69,28 +69,28 @@ TEST(MovingRadar, PointsChangeTheirRangeAsTheWayDemands) {
 
 TEST(MovingRadar, BodyResponseMatchesPerPulseDirections) {
   const Scatterer scatterer(make_icosahedral_reflector(1.0));
-  const Trajectory still = Trajectory::at_rest(Vec3(15, 30, 0.75));
+  const Trajectory at_rest = Trajectory::at_rest(Vec3(15, 30, 0.75));
   IntervalSampling sampling = interval();
-  sampling.line_of_sight_rate *= 5;  // 4 km away
+  sampling.line_of_sight_rate *= 5;  // at 4 km
   const Vec3 r_hat = direction_to_radar(radians(70), radians(2));
-  const FrequencyResponse passing = body_response(scatterer, still, r_hat, Polarisation::kVv, sampling, {}).response;
+  const FrequencyResponse passing = body_response(scatterer, at_rest, r_hat, Polarisation::kVv, sampling, {}).response;
   double difference = 0, power = 0;
   for (const int n : {0, 7, 15}) {
     const IntervalSampling one = only_pulse(sampling, n);
     const double t = sampling.pulse_time_s[n] - sampling.pulse_time_s.front();
     const Vec3 direction = (r_hat + t * sampling.line_of_sight_rate).normalized();
-    const FrequencyResponse fresh = body_response(scatterer, still, direction, Polarisation::kVv, one, {}).response;
+    const FrequencyResponse traced = body_response(scatterer, at_rest, direction, Polarisation::kVv, one, {}).response;
     for (int b = 0; b < sampling.frequencies_per_pulse; ++b) {
-      difference += std::norm(passing.at(n, b) - fresh.at(0, b));
-      power += std::norm(fresh.at(0, b));
+      difference += std::norm(passing.at(n, b) - traced.at(0, b));
+      power += std::norm(traced.at(0, b));
     }
   }
-  // -40 dB of the interval, as for a body that turns itself; without the turn it is another echo.
+  // -40 dB of the interval, as for a rotating body; without the change of direction the echo is a different one.
   EXPECT_LT(std::sqrt(difference / power), 0.01);
 }
 
-// Over the sea each way is r^.x or r'.x at the direction of the radar's true place, r' with r_z turned over: a radar
-// that comes nearer in level flight, climbs or passes by sees the image move the other way.
+// Over the sea the path lengths are r^.x or r'.x at the direction of the radar's true position, r' with r_z negated:
+// for a radar that approaches in level flight, climbs or passes the image moves in the opposite sense.
 constexpr double kNearRange = 4e3;
 const std::array<Vec3, 4> kVelocities{Vec3(-300, 0, 0), Vec3(0, 0, 100), Vec3(0, 100, 0), Vec3(-200, 80, -30)};
 
@@ -105,10 +105,10 @@ Vec3 direction_at(const IntervalSampling& sampling, const Vec3& r_hat, std::size
   return (r_hat + t * sampling.line_of_sight_rate).normalized();
 }
 
-// Of waves that leave half of the mirror.
+// Waves that halve the specular reflection.
 SeaReflection rough_water() { return SeaReflection(SeaReflectionSpec{}, 0.1); }
 
-TEST(MovingRadar, PointsOverTheSeaAnswerFourWaysFromWhereItIs) {
+TEST(MovingRadar, PointsOverTheSeaHaveFourPathsPerPulseDirection) {
   const Vec3 r_hat = direction_to_radar(radians(10), radians(5)), x(25, -40, 12), v(3, -2, 1);
   const PointSpec point{{x.x(), x.y(), x.z()}, 1, {v.x(), v.y(), v.z()}};
   const SeaReflection sea = rough_water();
@@ -122,10 +122,10 @@ TEST(MovingRadar, PointsOverTheSeaAnswerFourWaysFromWhereItIs) {
       for (int b = 0; b < sampling.frequencies_per_pulse; ++b) {
         const double k = 2 * kPi * (sampling.first_hz + b * sampling.step_hz) / kSpeedOfLight;
         const SeaReflectionCoefficients rho = sea.at(k, r.z());
-        const auto way = [&](const Complex& c) {
+        const auto path = [&](const Complex& c) {
           return std::polar(1.0, k * r.dot(now)) + c * std::polar(1.0, k * image.dot(now));
         };
-        const Complex four = way(rho.h) * way(rho.v);
+        const Complex four = path(rho.h) * path(rho.v);
         difference += std::norm(response.at(static_cast<int>(n), b) - four);
         power += std::norm(four);
       }
@@ -135,9 +135,9 @@ TEST(MovingRadar, PointsOverTheSeaAnswerFourWaysFromWhereItIs) {
   }
 }
 
-TEST(MovingRadar, BodiesOverTheSeaAnswerAsFromTheDirectionsOfItsWay) {
+TEST(MovingRadar, BodyResponseOverTheSeaMatchesPerPulseDirections) {
   const Scatterer scatterer(make_icosahedral_reflector(1.0));
-  // Turning and heaving a little, off the reference point.
+  // With a small rotation and heave, off the reference point.
   MotionSample first, last;
   first.angle_rates = last.angle_rates = {0.1, -0.05, 0.02};
   first.translation_rates = last.translation_rates = {0, 0, 0.4};
@@ -154,11 +154,11 @@ TEST(MovingRadar, BodiesOverTheSeaAnswerAsFromTheDirectionsOfItsWay) {
     for (const int n : {0, 7, 15}) {
       const IntervalSampling one = only_pulse(sampling, n);
       const Vec3 direction = direction_at(sampling, r_hat, static_cast<std::size_t>(n));
-      const FrequencyResponse fresh =
+      const FrequencyResponse traced =
           body_response(scatterer, body, direction, Polarisation::kHh, one, {}, 2, &sea).response;
       for (int b = 0; b < sampling.frequencies_per_pulse; ++b) {
-        difference += std::norm(passing.at(n, b) - fresh.at(0, b));
-        power += std::norm(fresh.at(0, b));
+        difference += std::norm(passing.at(n, b) - traced.at(0, b));
+        power += std::norm(traced.at(0, b));
       }
     }
     fmt::print("radar at {}, {}, {} m/s over the sea: {:.1f} dB\n", velocity.x(), velocity.y(), velocity.z(),

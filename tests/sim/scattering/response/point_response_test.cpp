@@ -52,7 +52,7 @@ TEST(PointResponse, AVelocityAwayFromTheRadarDelaysLaterPulses) {
   }
 }
 
-TEST(PointResponse, ASweepingPulseMeetsThePointAtTheTimeOfEachFrequency) {
+TEST(PointResponse, AChirpReachesThePointAtTheTimeOfEachFrequency) {
   IntervalSampling sampling = two_pulses();
   sampling.chirp_rate_hz_s = 70e6 / 36e-6;
   const Vec3 r_hat = direction_to_radar(radians(180), radians(0));
@@ -69,7 +69,7 @@ TEST(PointResponse, ASweepingPulseMeetsThePointAtTheTimeOfEachFrequency) {
   }
 }
 
-TEST(PointResponse, DirectionsTurnCounterClockwiseFromTheBowAndRise) {
+TEST(PointResponse, DirectionsAreCounterClockwiseFromTheBowAndUpwards) {
   EXPECT_NEAR((direction_to_radar(radians(0), radians(0)) - Vec3(1, 0, 0)).norm(), 0, 1e-15);
   EXPECT_NEAR((direction_to_radar(radians(90), radians(0)) - Vec3(0, 1, 0)).norm(), 0, 1e-15);
   EXPECT_NEAR((direction_to_radar(radians(30), radians(90)) - Vec3(0, 0, 1)).norm(), 0, 1e-15);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A radar at a finite range: the wavefront's second order against sums over its definition.
+// A radar at a finite range: the second order of the wavefront against sums over its definition.
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
@@ -42,8 +42,8 @@ TEST(WavefrontCurvature, PlateIsTheSumOverItsCurvedWavefront) {
       const Vec3 r = direction(azimuth, 0.7);
       const Complex expected = summed_plate(length, width, r, k, range_m),
                     ours = at_range(make_plate(length, width), r, k, range_m);
-      // Frozen amplitudes of decompose() over radius / R: kMaxAmplitudeError of the strongest end; the cells' own error
-      // is 1e-5.
+      // Frozen amplitudes of decompose() over radius / R: kMaxAmplitudeError of the strongest end point; the error of
+      // the cells is 1e-5.
       const double size = std::abs(summed_plate(length, width, direction(0, 0.7), k, range_m));
       fmt::print("plate at {} m, {} deg: {:.4f} of the broadside echo\n", range_m, azimuth,
                  std::abs(ours - expected) / size);
@@ -52,7 +52,7 @@ TEST(WavefrontCurvature, PlateIsTheSumOverItsCurvedWavefront) {
   }
 }
 
-// Nothing changes for a body on the line of sight but what its own size does.
+// For a body on the line of sight only its own size has an effect.
 TEST(WavefrontCurvature, CurvedBodyOnTheLineOfSightKeepsItsEcho) {
   const double k = wavenumber(10e9);
   const TriangleMesh sphere = transformed(make_sphere(1, 4), Mat3::Identity(), {20, 0, 0});
@@ -64,8 +64,8 @@ TEST(WavefrontCurvature, CurvedBodyOnTheLineOfSightKeepsItsEcho) {
   }
 }
 
-// A shadow edge on the axis has no second order, however fast it slips in the plate that it falls on.
-TEST(WavefrontCurvature, SlipOfAShadowEdgeIsNoPlace) {
+// A shadow edge on the axis has no second order, however fast it slides over the plate on which it falls.
+TEST(WavefrontCurvature, SlideOfAShadowEdgeHasNoSecondOrder) {
   const double k = wavenumber(3e9);
   const Mat3 tilt = Eigen::AngleAxisd(radians(50), Vec3::UnitY()).toRotationMatrix();
   TriangleMesh mesh = transformed(make_plate(2, 2), tilt, Vec3::Zero());
@@ -76,16 +76,16 @@ TEST(WavefrontCurvature, SlipOfAShadowEdgeIsNoPlace) {
   settings.max_bounces = 1;
   settings.filter.included = {{ContributionSelector::Kind::kPart, 0}};
   const Vec3 r = direction(0, 0);
-  const auto seen_from = [&](double range_m) {
+  const auto plate_at = [&](double range_m) {
     return scattering_matrices(Scatterer(mesh), monostatic(radar_basis(r)), std::array{k}, settings, 1, nullptr,
                                nullptr, {range_m})[0][kVvChannel];
   };
-  const Complex far = seen_from(0), near = seen_from(10e3);
+  const Complex far = plate_at(0), near = plate_at(10e3);
   // Half the plate reaches 1 m off the axis: k 1 / R = 6e-3 rad; amplitudes are frozen over 10 / R.
   EXPECT_LT(std::abs(near - far), 0.02 * std::abs(far));
 }
 
-TEST(WavefrontCurvature, FarAwayIsTheFarField) {
+TEST(WavefrontCurvature, AtLongRangeIsTheFarField) {
   const double k = wavenumber(16e9);
   const Vec3 r = direction(20, 10);
   const Complex far = echo(make_icosahedral_reflector(), r, k)[kVvChannel];
@@ -93,26 +93,25 @@ TEST(WavefrontCurvature, FarAwayIsTheFarField) {
   EXPECT_LT(std::abs(at_range(make_icosahedral_reflector(), r, k, 1e7) - far), 1e-4 * std::abs(far));
 }
 
-// Three bounces end where they began: a trihedral's echo comes from its apex, wherever its faces are, and keeps the
-// apex's path at any range. Its aperture is seen as a point, so that only what the wavefront bends over the aperture is
-// lost.
+// Three bounces end where they began: a trihedral's echo is centred at its apex, wherever its faces are, and has the
+// path of the apex at any range. Only the wavefront curvature over the aperture reduces it.
 TEST(WavefrontCurvature, TrihedralKeepsThePathOfItsApex) {
   const double leg = 0.3, k = wavenumber(16e9), range_m = 500;
-  const Vec3 r = Vec3(1, 1, 1).normalized(), aside = 20 * Vec3(1, -1, 0).normalized();
+  const Vec3 r = Vec3(1, 1, 1).normalized(), offset = 20 * Vec3(1, -1, 0).normalized();
   TriangleMesh mesh = make_triangular_trihedral(leg);
   const Complex at_origin = at_range(mesh, r, k, range_m);
-  const Complex moved = at_range(transformed(mesh, Mat3::Identity(), aside), r, k, range_m);
-  // The path grows by |x_perp|^2 / R. At 20 m aside the radar stands d = 2.3 deg off the axis, which costs a triangular
-  // aperture d^2 and its first bounces' interference some 2 / (k leg); its middle lies up to leg / 2 aside of the apex,
-  // which turns the wavefront's second order by k (leg / 2)^2 / R.
-  const Complex turned = moved / at_origin * std::polar(1.0, k * aside.squaredNorm() / range_m);
-  const double off_axis = aside.norm() / range_m;
-  EXPECT_NEAR(std::abs(turned), 1, off_axis * off_axis + 2 / (k * leg));
-  EXPECT_NEAR(std::arg(turned), 0, 2 / (k * leg) + k * leg * leg / 4 / range_m);
+  const Complex moved = at_range(transformed(mesh, Mat3::Identity(), offset), r, k, range_m);
+  // The path grows by |x_perp|^2 / R. At 20 m off the axis the radar is d = 2.3 deg off the boresight, which reduces a
+  // triangular aperture by d^2 and changes its first bounces' interference by some 2 / (k leg); its centre is up to leg
+  // / 2 from the apex, where the wavefront's second order is k (leg / 2)^2 / R.
+  const Complex ratio = moved / at_origin * std::polar(1.0, k * offset.squaredNorm() / range_m);
+  const double off_axis = offset.norm() / range_m;
+  EXPECT_NEAR(std::abs(ratio), 1, off_axis * off_axis + 2 / (k * leg));
+  EXPECT_NEAR(std::arg(ratio), 0, 2 / (k * leg) + k * leg * leg / 4 / range_m);
 }
 
-// A float of a layout has its own origin, the radar's range is counted from the layout's.
-TEST(WavefrontCurvature, PlateBesideTheReferencePointIsTheSumOfItsPointDistances) {
+// A float of a layout has its own origin, whereas the radar's range refers to that of the layout.
+TEST(WavefrontCurvature, PlateOffTheReferencePointIsTheSumOfItsPointDistances) {
   const double length = 2, width = 0.8, range_m = 1000;
   const Vec3 rest(5, 60, 0.75);
   const Scatterer plate(make_plate(length, width));
@@ -138,12 +137,13 @@ TEST(WavefrontCurvature, PlateBesideTheReferencePointIsTheSumOfItsPointDistances
     const Complex ours =
         body_response(plate, Trajectory::at_rest(rest), r, Polarisation::kVv, sampling, solver).response.at(0, 0);
     const double size = k * length * width / (2 * kPi), error = std::abs(ours - summed(r)) / size;
-    fmt::print("plate 60 m beside at {} m, {} deg: {:.4f} of the broadside echo\n", range_m, azimuth, error);
+    fmt::print("plate 60 m off the reference point at {} m, {} deg: {:.4f} of the broadside echo\n", range_m, azimuth,
+               error);
     EXPECT_LT(error, 0.02) << azimuth;  // frozen amplitudes of decompose() as above
   }
 }
 
-TEST(WavefrontCurvature, RefusesARadarInsideTheTargetOrBesideIt) {
+TEST(WavefrontCurvature, RefusesARadarInsideOrNearTheTarget) {
   EXPECT_THROW(at_range(make_plate(2, 1), Vec3::UnitX(), 200, 0.5), InputError);
   EXPECT_THROW(at_range(make_plate(2, 1), Vec3::UnitX(), 200, 10), InputError);
 }

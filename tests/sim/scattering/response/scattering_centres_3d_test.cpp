@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What one view consists of: selected, binned into centres, summed by facet.
+// Decomposition of the echo at one aspect: selected, clustered into centres, summed by facet.
 #include "sim/scattering/response/scattering_centres_3d.h"
 #include "sim/scattering/response/scattering_matrix.h"
 
@@ -39,7 +39,7 @@ class AspectDecomposition : public testing::Test {
 // Rounding of phases of some 1e4 rad over some 1e4 terms, whose sizes add to a few thousand times their sum.
 constexpr double kRounding = 1e-7;
 
-TEST_F(AspectDecomposition, ItsCentresAndItsFacetsBothSumToTheScatteringMatrix) {
+TEST_F(AspectDecomposition, CentresAndFacetsBothSumToTheScatteringMatrix) {
   const auto all = contributions();
   const auto s = matrix(k16);
   std::array<Complex, 4> by_centre{}, by_facet{};
@@ -53,12 +53,12 @@ TEST_F(AspectDecomposition, ItsCentresAndItsFacetsBothSumToTheScatteringMatrix) 
   EXPECT_LT(distance(by_facet, s), kRounding * size(s));
 }
 
-// The bound of the header, and how far below it the error really is.
-TEST_F(AspectDecomposition, CentresErrByNoMoreThanTheirCellsAllowOffTheView) {
+// The bound that the header states, and the ratio of the actual error to it.
+TEST_F(AspectDecomposition, ErrorOffTheAspectIsBoundedByTheCellSize) {
   const auto all = contributions();
-  const Vec3 turn = 2e-4 * radar_.h - 1e-4 * radar_.v;
+  const Vec3 aspect_change = 2e-4 * radar_.h - 1e-4 * radar_.v;
   const double dk = wavenumber(100e6), k = k16 + dk;
-  const auto exact = direct_sum(all, k, turn);
+  const auto exact = direct_sum(all, k, aspect_change);
   double amplitudes = 0;
   for (const PointContribution& c : all) {
     double max = 0;
@@ -69,24 +69,24 @@ TEST_F(AspectDecomposition, CentresErrByNoMoreThanTheirCellsAllowOffTheView) {
   for (const double cell : {0.04, 0.01, 0.0025}) {
     std::array<Complex, 4> sum{};
     for (const ScatteringCentre3d& c : cluster_centres(all, k16, cell)) {
-      for (int i = 0; i < 4; ++i) sum[i] += c.amplitude[i] * std::polar(1.0, dk * c.psi + k * c.gradient.dot(turn));
+      for (int i = 0; i < 4; ++i)
+        sum[i] += c.amplitude[i] * std::polar(1.0, dk * c.psi + k * c.gradient.dot(aspect_change));
     }
-    // 2: four elements' norm
+    // 2: norm of four elements
     const double error = distance(sum, exact),
-                 bound = 2 * amplitudes * 2 * cell * (dk + std::sqrt(3.0) * k * turn.norm());
+                 bound = 2 * amplitudes * 2 * cell * (dk + std::sqrt(3.0) * k * aspect_change.norm());
     EXPECT_LT(error, bound) << cell;
     RecordProperty("relative_error_db_cell_" + std::to_string(cell),
                    std::to_string(20 * std::log10(error / size(exact))));
     if (coarser > 0) {
-      EXPECT_LT(error, 0.6 * coarser)
-          << "a quarter of the cell leaves a quarter of the error, give and take its speckle";
+      EXPECT_LT(error, 0.6 * coarser) << "a quarter of the cell leaves a quarter of the error, apart from speckle";
     }
     coarser = error;
   }
   EXPECT_LT(20 * std::log10(coarser / size(exact)), -40);
 }
 
-TEST_F(AspectDecomposition, OfOneSelectionAndTheRestSumToAll) {
+TEST_F(AspectDecomposition, SelectionAndComplementSumToAll) {
   TracingSettings only, rest, several;
   only.filter.included = {{ContributionSelector::Kind::kBounces, 3}};
   rest.filter.excluded = {{ContributionSelector::Kind::kBounces, 3}};
@@ -111,8 +111,8 @@ TEST_F(AspectDecomposition, OfOneSelectionAndTheRestSumToAll) {
   EXPECT_GT(count, 0u);
 }
 
-// A corner's three-bounce echo has its phase centre at the apex, wherever the radar stands (Fermat).
-TEST(ScatteringCentres3d, OfATrihedralsThreeBouncesLieAtItsApex) {
+// A trihedral's three-bounce echo has its phase centre at the apex, wherever the radar is (Fermat).
+TEST(ScatteringCentres3d, OfATrihedralsThreeBouncesAreAtItsApex) {
   const Scatterer corner(transformed(make_triangular_trihedral(0.3), Mat3::Identity(), Vec3(1, 2, 0.5)));
   TracingSettings settings;
   settings.filter.included = {{ContributionSelector::Kind::kBounces, 3}};
@@ -125,7 +125,7 @@ TEST(ScatteringCentres3d, OfATrihedralsThreeBouncesLieAtItsApex) {
   EXPECT_EQ(centres.front().bounces, 3);
 }
 
-TEST(ContributionFilter, KeepsTheRimWhicheverPartComesFirst) {
+TEST(ContributionFilter, IncludesTheRimForAnyOrderOfParts) {
   ContributionFilter filter;
   filter.cavities = {1};
   EXPECT_FALSE(filter.accepts(1, 1, Mechanism::kPhysicalOptics));
@@ -133,7 +133,7 @@ TEST(ContributionFilter, KeepsTheRimWhicheverPartComesFirst) {
   EXPECT_FALSE(filter.accepts_edge(1, 1, 1, Mechanism::kSingleDiffraction));
   EXPECT_TRUE(filter.accepts_edge(0, 1, 1, Mechanism::kSingleDiffraction));
   EXPECT_TRUE(filter.accepts_edge(1, 0, 1, Mechanism::kSingleDiffraction));
-  // The rim counts as the other part's, in a selection too.
+  // The edge belongs to the other part, in a selection too.
   filter.excluded = {{ContributionSelector::Kind::kPart, 1}};
   EXPECT_TRUE(filter.accepts_edge(1, 0, 1, Mechanism::kSingleDiffraction));
   EXPECT_FALSE(filter.accepts_cavity(1));

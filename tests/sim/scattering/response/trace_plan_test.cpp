@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Directions that are traced over an interval: their shares, and how many it takes.
+// Traced look directions over an interval: their interpolation weights and their number.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +15,7 @@ using namespace testing_echoes;
 
 const std::vector<PropagationPath> kDirect{PropagationPath{}};
 
-// Pitch and yaw by `angle` rad about their means, round and round once in period_s: directions ahead go in a circle.
+// Pitch and yaw by `angle` rad about their means along a circle, once in period_s: directions ahead follow a circle.
 Trajectory circling(double angle, double period_s) {
   const double omega = 2 * kPi / period_s, step = 0.001;
   std::vector<MotionSample> samples(1000);
@@ -27,21 +27,21 @@ Trajectory circling(double angle, double period_s) {
   return Trajectory(0, step, samples, Vec3::Zero(), Vec3::Zero());
 }
 
-void expect_shares_sum_to_one(const TracePlan& plan, int pulses) {
+void expect_weights_sum_to_one(const TracePlan& plan, int pulses) {
   for (int n = 0; n < pulses; ++n) {
     double sum = 0;
     for (std::size_t i = 0; i < plan.traces().size(); ++i) {
       const PlannedTrace& trace = plan.traces()[i];
-      const double share = plan.interpolation_weight(i, n);
-      sum += share;
-      EXPECT_EQ(share > 0, trace.first <= n && n <= trace.last) << "trace " << i << ", pulse " << n;
+      const double weight = plan.interpolation_weight(i, n);
+      sum += weight;
+      EXPECT_EQ(weight > 0, trace.first <= n && n <= trace.last) << "trace " << i << ", pulse " << n;
     }
     EXPECT_NEAR(sum, 1, 1e-12) << "pulse " << n;
   }
 }
 
-// By distances, and along its own direction, which turns as the body is carried.
-TEST(TracePlan, OfABodyBesideANearRadarsReferencePoint) {
+// From the positions, and along its own direction, which changes as the body drifts.
+TEST(TracePlan, HasTheDirectionsOfABodyOffTheReferencePoint) {
   const Vec3 r = direction(30, 2), rest(-40, 45, 3), velocity(0, 10, 0);
   const double range_m = 1000;
   const IntervalSampling sampling = paper_interval(0.2);
@@ -54,10 +54,10 @@ TEST(TracePlan, OfABodyBesideANearRadarsReferencePoint) {
   }
   const Vec3 middle = rest + 0.5 * (sampling.pulse_time_s.back() - 0.2) * velocity;
   const TracePlan still(Trajectory::at_rest(middle), sampling, r, range_m, kDirect, {1, 1});
-  const RadarBasis& seen = still.traces()[0].paths[0].geometry.transmit;
-  EXPECT_LT((seen.r - (range_m * r - middle).normalized()).norm(), 1e-12);
-  EXPECT_NEAR(seen.h.dot(seen.r), 0, 1e-12);
-  EXPECT_LT((seen.r.cross(seen.h) - seen.v).norm(), 1e-12);
+  const RadarBasis& traced = still.traces()[0].paths[0].geometry.transmit;
+  EXPECT_LT((traced.r - (range_m * r - middle).normalized()).norm(), 1e-12);
+  EXPECT_NEAR(traced.h.dot(traced.r), 0, 1e-12);
+  EXPECT_LT((traced.r.cross(traced.h) - traced.v).norm(), 1e-12);
 }
 
 TEST(TracePlan, OfABodyAtRestIsOneTrace) {
@@ -66,7 +66,7 @@ TEST(TracePlan, OfABodyAtRestIsOneTrace) {
   ASSERT_EQ(plan.traces().size(), 1u);
   EXPECT_EQ(plan.traces()[0].last, 255);
   EXPECT_DOUBLE_EQ(plan.path_advance(kDirect[0], 255), 2 * direction(30, 2).dot(Vec3(1, 2, 3)));
-  expect_shares_sum_to_one(plan, 256);
+  expect_weights_sum_to_one(plan, 256);
 }
 
 TEST(TracePlan, OfOnePulseIsOneTrace) {
@@ -75,32 +75,33 @@ TEST(TracePlan, OfOnePulseIsOneTrace) {
   sampling.pulse_time_s.resize(1);
   const TracePlan plan(circling(0.01, 1), sampling, Vec3::UnitX(), 0, kDirect, {1e-3, 1e-9});
   ASSERT_EQ(plan.traces().size(), 1u);
-  expect_shares_sum_to_one(plan, 1);
+  expect_weights_sum_to_one(plan, 1);
 }
 
-TEST(TracePlan, HasAsManyTracesAsTheTurnNeeds) {
+TEST(TracePlan, HasTheNumberOfTracesOfTheAspectChange) {
   // 64 ms of 2 pi 0.01 rad/s: 4.0 mrad.
-  const double turn = 2 * kPi * 0.01 * 255 * 250e-6;
+  const double aspect_change = 2 * kPi * 0.01 * 255 * 250e-6;
   for (const int count : {1, 2, 5}) {
-    const TracePlan plan(circling(0.01, 1), paper_interval(0.2), Vec3::UnitX(), 0, kDirect, {turn / (count - 0.5), 1});
+    const TracePlan plan(circling(0.01, 1), paper_interval(0.2), Vec3::UnitX(), 0, kDirect,
+                         {aspect_change / (count - 0.5), 1});
     EXPECT_EQ(plan.traces().size(), static_cast<std::size_t>(count));
-    expect_shares_sum_to_one(plan, 256);
+    expect_weights_sum_to_one(plan, 256);
   }
 }
 
-TEST(TracePlan, HasMoreTracesWhereThePathBends) {
+TEST(TracePlan, HasMoreTracesForACurvedPath) {
   // A quarter of a circle in the interval.
   const double radius = 0.01;
   const Trajectory trajectory = circling(radius, 4 * 255 * 250e-6);
   std::size_t before = 1;
-  for (const double beside : {1.0, 0.1 * radius, 0.01 * radius}) {
-    const TracePlan plan(trajectory, paper_interval(0.2), Vec3::UnitX(), 0, kDirect, {1, beside});
-    EXPECT_GE(plan.traces().size(), before) << beside;
+  for (const double cross_track_limit : {1.0, 0.1 * radius, 0.01 * radius}) {
+    const TracePlan plan(trajectory, paper_interval(0.2), Vec3::UnitX(), 0, kDirect, {1, cross_track_limit});
+    EXPECT_GE(plan.traces().size(), before) << cross_track_limit;
     before = plan.traces().size();
     for (const PlannedTrace& trace : plan.traces()) {
-      for (const PlannedPath& path : trace.paths) EXPECT_LE(path.look_path.q_limit, beside);
+      for (const PlannedPath& path : trace.paths) EXPECT_LE(path.look_path.q_limit, cross_track_limit);
     }
-    expect_shares_sum_to_one(plan, 256);
+    expect_weights_sum_to_one(plan, 256);
   }
   EXPECT_GT(before, 4u);
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Targets of other materials than perfect conductor: the flat surface's reflection coefficients must come out of the
-// solver.
+// Targets of materials other than perfect conductors: their echoes have the flat surface's reflection coefficients.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -47,8 +46,8 @@ Scatterer coated(TriangleMesh mesh, const MaterialSpec& material) {
 }
 
 TEST(CoatedTarget, PlateDropsByTheReflectionCoefficientSquaredAtEveryAngle) {
-  // The plate turns about z: h lies in the plane of incidence, v across it. Backscatter of physical optics is the
-  // conductor's times tm and -te.
+  // The plate rotates about z: h lies in the plane of incidence, v is normal to it. Backscatter of physical optics is
+  // the conductor's times tm and -te.
   const TriangleMesh plate = make_plate(0.3, 0.2);
   for (const MaterialSpec& material :
        {impedance(0.5, 0.3), library("ram_loaded_epoxy"), library("grp_sheet"), library("sea_water")}) {
@@ -71,7 +70,7 @@ TEST(CoatedTarget, ImpedanceOfZeroIsThePerfectConductorOnEveryPath) {
   for (int i = 0; i < 4; ++i) EXPECT_LT(std::abs(coated_echo[i] - metal_echo[i]), kRounding * largest(metal_echo));
 }
 
-TEST(CoatedTarget, MaterialsThatAreAllPerfectConductorChangeNoBit) {
+TEST(CoatedTarget, PerfectConductorsAsMaterialsChangeNoBit) {
   TriangleMesh mesh = make_icosahedral_reflector();
   const auto plain = echo(Scatterer(mesh), radar_basis(direction(20, 5)), k16);
   const auto named = echo(coated(mesh, MaterialSpec{}), radar_basis(direction(20, 5)), k16);
@@ -94,8 +93,8 @@ TEST(CoatedTarget, SpecularBistaticEchoFollowsTheCoefficientsOfItsAngle) {
 }
 
 TEST(CoatedTarget, DihedralMultipliesTheCoefficientsOfItsTwoFaces) {
-  // Along the bisector both faces are met at 45 deg; seam along z, so v is across both planes of incidence and h in
-  // them.
+  // Along the bisector the angle of incidence on both faces is 45 deg; the seam is along z, so v is normal to both
+  // planes of incidence and h lies in them.
   const double a = 0.3, b = 0.25;
   const MaterialSpec one = library("ram_loaded_epoxy"), two = impedance(0.2, 0.4);
   TriangleMesh mesh = make_dihedral(b, a, kPi / 2);
@@ -109,7 +108,7 @@ TEST(CoatedTarget, DihedralMultipliesTheCoefficientsOfItsTwoFaces) {
   const auto s = echo(target, radar_basis(Vec3::UnitX()), k16), pec = echo(metal, radar_basis(Vec3::UnitX()), k16);
   const InterfaceCoefficients first = MaterialSurface(one, k16).at(std::sqrt(0.5)),
                               second = MaterialSurface(two, k16).at(std::sqrt(0.5));
-  // First-bounce side lobes: each face answers at most 2 a b / (k a) / lambda, the conductor's too.
+  // First-bounce side lobes: each face contributes at most 2 a b / (k a) / lambda, the conductor's too.
   const double side_lobe = 2 * a * b * k16 / (2 * kPi) / (k16 * a);
   EXPECT_LT(std::abs(s[kVvChannel] - first.te * second.te * pec[kVvChannel]), 2 * side_lobe);
   EXPECT_LT(std::abs(s[kHhChannel] - first.tm * second.tm * pec[kHhChannel]), 2 * side_lobe);
@@ -128,8 +127,8 @@ TEST(CoatedTarget, SheetOfVacuumScattersNothingInAnyDirection) {
 }
 
 TEST(CoatedTarget, SphereTendsToTheConductorsEchoTimesItsCoefficientAtNormalIncidence) {
-  // Only the front matters, where the wave comes in along the normal; what stays is the false echo of the shadow edge,
-  // 1 / (2 ka) of the conductor's.
+  // Only the front matters, at normal incidence; the residual is the spurious echo of the shadow edge, 1 / (2 ka) of
+  // the conductor's.
   const MaterialSpec material = impedance(0.4, 0.25);
   const TriangleMesh mesh = make_sphere(1, 5);
   const Scatterer target = coated(mesh, material), metal(mesh);
@@ -154,8 +153,8 @@ TEST(CoatedTarget, EveryFrequencyOfASweepHasItsOwnCoefficients) {
   }
 }
 
-// Relative L2 error, dB, of the response over 16.0-16.2 GHz against fresh traces per frequency. It takes the
-// coefficients at the band's middle and their first-order change over the band.
+// Relative L2 error, dB, of the response over 16.0-16.2 GHz against independent traces per frequency. The response has
+// the coefficients at the band's middle and their first-order change over the band.
 double band_error_db(const Scatterer& target, const Vec3& r) {
   IntervalSampling sampling;
   sampling.first_hz = 16.0e9;
@@ -167,16 +166,16 @@ double band_error_db(const Scatterer& target, const Vec3& r) {
       body_response(target, Trajectory::at_rest(Vec3::Zero()), r, Polarisation::kVv, sampling, SolverSpec{});
   double error = 0, power = 0;
   for (int b = 0; b < sampling.count; ++b) {
-    const Complex fresh =
+    const Complex independent =
         echo(target, radar_basis(r), wavenumber(sampling.first_hz + sampling.step_hz * b), 0, 8, true)[kVvChannel];
-    error += std::norm(body.response.at(0, b) - fresh);
-    power += std::norm(fresh);
+    error += std::norm(body.response.at(0, b) - independent);
+    power += std::norm(independent);
   }
   return 10 * std::log10(error / power);
 }
 
 // The second order of three coefficients, each of which changes by at most 5 % over +-100 MHz, 3 (0.05)^2 / 2, and
-// |k/kc - 1| = 0.6 % of the end points.
+// |k/kc - 1| = 0.6 % of the end-point contributions.
 const double kBandErrorDb = 20 * std::log10(3 * 0.05 * 0.05 / 2 + 0.006);
 
 TEST(CoatedTarget, IntervalFollowsTheCoefficientsOverItsBand) {
@@ -195,13 +194,13 @@ TEST(CoatedTarget, IntervalFollowsTheCoefficientsOfACurvedSurface) {
   }
 }
 
-TEST(CoatedTarget, TurningTargetAndRadarTogetherChangesNothing) {
-  const Mat3 turn = Eigen::AngleAxisd(1.1, Vec3(0.3, -1, 0.6).normalized()).toRotationMatrix();
+TEST(CoatedTarget, IsInvariantToCommonRotation) {
+  const Mat3 rotation = Eigen::AngleAxisd(1.1, Vec3(0.3, -1, 0.6).normalized()).toRotationMatrix();
   const MaterialSpec material = library("ram_loaded_epoxy");
   const RadarBasis basis = radar_basis(direction(41, 22));
-  const RadarBasis turned{turn * basis.r, turn * basis.h, turn * basis.v};
+  const RadarBasis rotated{rotation * basis.r, rotation * basis.h, rotation * basis.v};
   const auto before = echo(coated(make_plate(0.3, 0.2), material), basis, k16);
-  const auto after = echo(coated(transformed(make_plate(0.3, 0.2), turn, Vec3::Zero()), material), turned, k16);
+  const auto after = echo(coated(transformed(make_plate(0.3, 0.2), rotation, Vec3::Zero()), material), rotated, k16);
   for (int i = 0; i < 4; ++i) EXPECT_LT(std::abs(before[i] - after[i]), 1e-9 * largest(before));
 }
 
@@ -220,7 +219,7 @@ TEST(CoatedTarget, RoughPlateLosesItsCoherentEcho) {
   EXPECT_LT(std::abs(s[kVvChannel] - loss * smooth[kVvChannel]), kRounding);
 }
 
-TEST(MaterialParts, GoToThePartsTheyName) {
+TEST(MaterialParts, AreAssignedByPartNames) {
   TriangleMesh mesh = make_plate(1, 1);
   mesh.append(make_sphere(1, 1));
   ASSERT_EQ(mesh.part_names.size(), 2u);

@@ -39,7 +39,7 @@ struct Deviation {
   double mean_db = 0, largest_db = 0, largest_deg = 0;
 };
 
-// Of ours from the exact values, complex amplitudes at the same wavenumbers.
+// Errors relative to the exact values, complex amplitudes at the same wavenumbers.
 Deviation deviation(const std::vector<Complex>& ours, const std::vector<Complex>& exact) {
   Deviation d;
   for (std::size_t i = 0; i < ours.size(); ++i) {
@@ -66,8 +66,8 @@ Deviation sphere_against_mie(int subdivisions, double crease_deg, const Vec3& r_
   return deviation(ours, mie);
 }
 
-// What remains at 20,480 facets: contour terms beside the specular point (1 / kContourRatio of the ring's share),
-// quadratic facets (edge^3), the creeping wave (0.017 dB at ka 64).
+// The residual at 20,480 facets: contour terms next to the specular point (1 / kContourRatio of the ring's
+// contribution), quadratic facets (edge^3), the creeping wave (0.017 dB at ka 64).
 TEST(CurvedSurface, SphereFollowsTheMieSeriesFromKa60To200) {
   double sum = 0;
   for (const Vec3& r_hat : {direction(23, 11), direction(80, -35), direction(200, 60)}) {
@@ -118,8 +118,8 @@ TEST(CurvedSurface, CylinderAtBroadsideFollowsTheExactSeries) {
                   segments, crease_deg, dv.mean_db, dv.largest_db, dv.largest_deg, dh.mean_db, dh.largest_db,
                   dh.largest_deg);
       if (crease_deg == 0) continue;
-      // Physical optics is off by 5/16 and 11/16 of 1/ka in phase: 0.3 and 0.7 deg at ka 60; the contour beside the
-      // flash by 1 / (kContourRatio^1.5).
+      // Physical optics has a phase error of 5/16 and 11/16 of 1/ka: 0.3 and 0.7 deg at ka 60; the contour next to the
+      // flash 1 / (kContourRatio^1.5).
       EXPECT_LT(dv.mean_db, 0.05) << segments;
       EXPECT_LT(dv.largest_db, 0.1) << segments;
       EXPECT_LT(dh.largest_db, 0.1) << segments;
@@ -131,7 +131,7 @@ TEST(CurvedSurface, CylinderAtBroadsideFollowsTheExactSeries) {
 
 // Bistatic sphere of the Austin suite (problem set IA), D = 19.2 m, 0.32 GHz, incidence from phi 0, in the plane theta
 // = 90.
-TEST(CurvedSurface, BistaticSphereFollowsTheSeriesOverTheLitHalf) {
+TEST(CurvedSurface, BistaticSphereFollowsTheSeriesOverTheIlluminatedHalf) {
   const Scatterer sphere(make_sphere(9.6, 5));
   const RadarBasis transmit = radar_basis(direction(0, 0));
   for (const auto& [file, channel] :
@@ -153,12 +153,12 @@ TEST(CurvedSurface, BistaticSphereFollowsTheSeriesOverTheLitHalf) {
       std::printf("%s phi %d-%d: mean %.3f, largest %.3f dB\n", file, 30 * i, 30 * i + 30, sum[i] / count[i],
                   largest[i]);
     }
-    // The shadow boundary of incidence is 90 deg from backscatter, that of reception moves in with phi.
+    // The incident shadow boundary is 90 deg from backscatter, that of the receiver moves inwards with phi.
     EXPECT_LT((sum[0] + sum[1] + sum[2]) / (count[0] + count[1] + count[2]), 0.5) << file;
   }
 }
 
-// The specular point of a sphere lies anywhere in a facet; none of its edges may be seen.
+// The specular point of a sphere may be anywhere in a facet; the edges of facets must have no effect.
 TEST(CurvedSurface, EdgesOfFacetsDoNotRadiate) {
   const double ka = 150;
   const Scatterer smooth(make_sphere(1, 4)), flat(make_sphere(1, 4), {}, 0);
@@ -178,8 +178,8 @@ TEST(CurvedSurface, EdgesOfFacetsDoNotRadiate) {
   EXPECT_LT(without, 0.25 * with_edges);
 }
 
-// A hard shadow edge of a sphere adds a false end point, -jk integral of z e^{2jkz} dz at z = 0: +j/(4k). Its phase
-// stands still while the specular one runs with 2ka, so that a mean over whole cycles singles it out.
+// A sharp shadow edge of a sphere adds a spurious end point, -jk integral of z e^{2jkz} dz at z = 0: +j/(4k). Its phase
+// is constant while the specular one varies with 2ka, so that a mean over whole cycles isolates it.
 TEST(CurvedSurface, TheShadowBoundaryDoesNotRadiate) {
   constexpr int kSteps = 60;
   std::vector<double> ka;
@@ -200,10 +200,10 @@ TEST(CurvedSurface, TheShadowBoundaryDoesNotRadiate) {
   EXPECT_LT(faded, 0.1);
 }
 
-// A cylinder standing on a plate returns what falls on either of them first and the other next. Unfolded in the plate,
-// either way is the cylinder's specular flash at its full height: together |S| = (k / pi) L cos(el) R sqrt(pi / (k R
-// cos(el))), whatever the distance between them.
-TEST(CurvedSurface, CylinderOnAPlateReturnsTheTopHatsEcho) {
+// A cylinder on a plate reflects a wave that is incident on either of them first and on the other next. Unfolded in the
+// plate, either path is the cylinder's specular flash at its full height: together |S| = (k / pi) L cos(el) R sqrt(pi /
+// (k R cos(el))), whatever the distance between them.
+TEST(CurvedSurface, CylinderOnAPlateHasTheTopHatsEcho) {
   const double radius = 0.5, height = 0.4, k = wavenumber(8e9), elevation = radians(40);
   const double expected =
       k / kPi * height * std::cos(elevation) * radius * std::sqrt(kPi / (k * radius * std::cos(elevation)));
@@ -234,15 +234,16 @@ TEST(CurvedSurface, CylinderOnAPlateReturnsTheTopHatsEcho) {
   }
 }
 
-TEST(SmoothSurface, LeavesSharpTargetsFlat) {
+TEST(SmoothSurface, KeepsSharpTargetsFlat) {
   EXPECT_EQ(Scatterer(make_icosahedral_reflector()).surface().curved_count(), 0u);
   EXPECT_EQ(Scatterer(make_plate(0.3, 0.2)).surface().curved_count(), 0u);
   EXPECT_EQ(Scatterer(make_square_trihedral(1)).surface().curved_count(), 0u);
-  EXPECT_EQ(Scatterer(make_cylinder(0.5, 1, 12)).surface().curved_count(), 0u) << "sides that turn by 30 deg are meant";
+  EXPECT_EQ(Scatterer(make_cylinder(0.5, 1, 12)).surface().curved_count(), 0u)
+      << "sides whose normals differ by 30 deg are edges";
   EXPECT_EQ(Scatterer(make_cylinder(0.5, 1, 24)).surface().curved_count(), 48u) << "caps stay flat";
 }
 
-TEST(SmoothSurface, KnowsTheCurvatureOfASphereAndItsSagitta) {
+TEST(SmoothSurface, HasTheCurvatureAndSagittaOfASphere) {
   const double radius = 2;
   const Scatterer sphere(make_sphere(radius, 4));
   for (int f = 0; f < 5120; f += 97) {
@@ -259,8 +260,9 @@ TEST(SmoothSurface, KnowsTheCurvatureOfASphereAndItsSagitta) {
   }
 }
 
-// A box 1 m wide whose edges are rounded by strips of 5 deg and 9 mm: its faces may bend by no more than the strips do.
-TEST(SmoothSurface, KeepsALargeFaceFlatBesideAFillet) {
+// A box 1 m wide whose edges are rounded by strips of 5 deg and 9 mm: its faces may be curved by no more than the
+// strips are.
+TEST(SmoothSurface, KeepsALargeFaceFlatNextToAFillet) {
   const double radius = 0.1, half = 0.5;
   TriangleMesh mesh;
   const auto column = [&](double y, double x) {
@@ -283,21 +285,22 @@ TEST(SmoothSurface, KeepsALargeFaceFlatBesideAFillet) {
   }
 }
 
-// Where the solver cuts a facet of its own accord, the cut stays with the body: one trace holds over a turn however far
-// along the line of sight the body stands from its origin.
-TEST(CurvedSurface, HoldsOverATurnWhereverItStands) {
+// A cut of a facet by the solver is fixed to the body: one trace is valid over an aspect change, however far along the
+// line of sight the body is from its origin.
+TEST(CurvedSurface, IsValidOverAnAspectChangeAtAnyPosition) {
   const double k = wavenumber(10e9);
   for (const Vec3& place : {Vec3(0, 0, 0), Vec3(20, 0, 0), Vec3(0, 0, 20)}) {
     const Scatterer sphere(transformed(make_sphere(1, 4), Mat3::Identity(), place));
     const Vec3 r = direction(0, 0);
     TracingSettings settings;
     const auto points = aspect_contributions(sphere, monostatic(radar_basis(r)), {k, radians(0.075)}, settings);
-    for (const double turned_deg : {0.02, 0.05, 0.07}) {
-      const Vec3 there = direction(turned_deg, 0);
-      const Complex fresh = echo(sphere, radar_basis(there), k)[kVvChannel];
-      const Complex held = direct_sum(points, k, there - r)[kVvChannel];
-      // Half the turn squared times the distance, k 20 (1.2e-3)^2 = 0.006 rad; frozen amplitudes 0.2 %.
-      EXPECT_LT(std::abs(held - fresh), 0.01 * std::abs(fresh)) << place.transpose() << " turned by " << turned_deg;
+    for (const double aspect_change_deg : {0.02, 0.05, 0.07}) {
+      const Vec3 there = direction(aspect_change_deg, 0);
+      const Complex independent = echo(sphere, radar_basis(there), k)[kVvChannel];
+      const Complex from_points = direct_sum(points, k, there - r)[kVvChannel];
+      // Half the aspect change squared times the distance, k 20 (1.2e-3)^2 = 0.006 rad; frozen amplitudes 0.2 %.
+      EXPECT_LT(std::abs(from_points - independent), 0.01 * std::abs(independent))
+          << place.transpose() << ", aspect change " << aspect_change_deg;
     }
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes as they come out of CAD: what is wrong with them is said, and what can be right is.
+// Defective meshes as CAD programs export them: defects are reported and, where possible, repaired.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -40,42 +40,42 @@ double difference(const TriangleMesh& a, const TriangleMesh& b) {
   return max / size;
 }
 
-TEST(DefectiveMesh, InsideOutEchoesAsTheSoundOneOnceRepaired) {
-  const TriangleMesh sound = make_icosahedral_reflector();
-  TriangleMesh inverted = sound;
+TEST(DefectiveMesh, InsideOutHasTheEchoOfTheValidOneOnceRepaired) {
+  const TriangleMesh valid = make_icosahedral_reflector();
+  TriangleMesh inverted = valid;
   for (std::size_t t = 0; t < inverted.triangles.size(); ++t) flip(inverted, t);
-  EXPECT_GT(difference(sound, inverted), 0.1) << "as it stands it shows its inside";
-  EXPECT_LT(difference(sound, repair(inverted)), kRounding);
+  EXPECT_GT(difference(valid, inverted), 0.1) << "without repair its inside is visible";
+  EXPECT_LT(difference(valid, repair(inverted)), kRounding);
 }
 
-TEST(DefectiveMesh, OfMixedNormalsEchoesAsTheSoundOne) {
-  const TriangleMesh sound = make_icosahedral_reflector();
-  TriangleMesh mixed = sound;
+TEST(DefectiveMesh, OfMixedNormalsHasTheEchoOfTheValidOne) {
+  const TriangleMesh valid = make_icosahedral_reflector();
+  TriangleMesh mixed = valid;
   for (std::size_t t = 0; t < mixed.triangles.size(); t += 3) flip(mixed, t);
-  // both sides are looked at: what is hidden is hidden by polygons, to their smallest area
-  EXPECT_LT(difference(sound, repair(mixed)), 1e-6);
+  // both sides are viewed: hidden parts are removed as polygons, to the smallest patch area
+  EXPECT_LT(difference(valid, repair(mixed)), 1e-6);
 }
 
-TEST(DefectiveMesh, WithRepeatedAndDegenerateTrianglesEchoesAsTheSoundOne) {
-  const TriangleMesh sound = make_icosahedral_reflector();
-  TriangleMesh dirty = sound;
+TEST(DefectiveMesh, WithRepeatedAndDegenerateTrianglesHasTheEchoOfTheValidOne) {
+  const TriangleMesh valid = make_icosahedral_reflector();
+  TriangleMesh dirty = valid;
   for (std::size_t t = 0; t < 60; t += 7) {
-    add(dirty, sound.triangles[t]);
-    add(dirty, {sound.triangles[t][0], sound.triangles[t][1], sound.triangles[t][1]});
+    add(dirty, valid.triangles[t]);
+    add(dirty, {valid.triangles[t][0], valid.triangles[t][1], valid.triangles[t][1]});
   }
-  EXPECT_LT(difference(sound, repair(dirty)), kRounding);
+  EXPECT_LT(difference(valid, repair(dirty)), kRounding);
 }
 
-TEST(DefectiveMesh, OfTwoSidedSheetsEchoesAsTheSheets) {
+TEST(DefectiveMesh, OfTwoSidedSheetsHasTheEchoOfTheSheets) {
   const TriangleMesh sheet = make_triangular_trihedral(0.3);
   TriangleMesh two_sided = sheet;
   for (const auto& t : sheet.triangles) add(two_sided, {t[0], t[2], t[1]});
   EXPECT_LT(difference(sheet, repair(two_sided)), kRounding);
 }
 
-// Front and back of a corner are parts of their own, of conductor and of an impedance: from either side what stands
-// there answers, whichever part comes first.
-TEST(DefectiveMesh, SheetsOfTwoMaterialsShowEachSideItsOwn) {
+// Front and back of a trihedral are separate parts, of conductor and of an impedance: the part on the viewed side
+// scatters, whatever the order of the parts.
+TEST(DefectiveMesh, SheetsOfTwoMaterialsScatterByTheViewedSide) {
   MaterialSpec dull;
   dull.name = "dull";
   dull.kind = SurfaceKind::kImpedance;
@@ -88,7 +88,7 @@ TEST(DefectiveMesh, SheetsOfTwoMaterialsShowEachSideItsOwn) {
     for (std::size_t t = 0; back && t < mesh.triangles.size(); ++t) flip(mesh, t);
     return mesh;
   };
-  const auto seen = [&](TriangleMesh mesh, const Vec3& r_hat, const std::vector<PartMaterial>& parts) {
+  const auto echo_at = [&](TriangleMesh mesh, const Vec3& r_hat, const std::vector<PartMaterial>& parts) {
     const auto materials = assign_materials(mesh, {}, parts);
     return echo(Scatterer(repair(mesh), materials, radians(20)), radar_basis(r_hat), k10);
   };
@@ -98,9 +98,9 @@ TEST(DefectiveMesh, SheetsOfTwoMaterialsShowEachSideItsOwn) {
     both.append(side(back_first ? "front" : "back", !back_first));
     both = welded(both);
     const Vec3 into = direction(40, 30), behind = direction(220, -30);
-    const auto front = seen(both, into, {{"back", dull}}), front_alone = seen(side("front", false), into, {});
-    const auto back = seen(both, behind, {{"back", dull}}),
-               back_alone = seen(side("back", true), behind, {{"back", dull}});
+    const auto front = echo_at(both, into, {{"back", dull}}), front_alone = echo_at(side("front", false), into, {});
+    const auto back = echo_at(both, behind, {{"back", dull}}),
+               back_alone = echo_at(side("back", true), behind, {{"back", dull}});
     for (int i = 0; i < 4; ++i) {
       EXPECT_LT(std::abs(front[i] - front_alone[i]), 1e-6 * largest(front_alone)) << first << " comes first";
       EXPECT_LT(std::abs(back[i] - back_alone[i]), 1e-6 * largest(back_alone)) << first << " comes first";

@@ -15,7 +15,7 @@
 namespace seaglint {
 namespace {
 
-TEST(RayScene, LeavesTheCallersFloatingPointModeAsItWas) {
+TEST(RayScene, KeepsTheCallersFloatingPointMode) {
   const RayScene plate(make_facets(make_plate(1, 1)));
   const std::vector<Ray> rays(20, Ray{Vec3(1, 0.1, 0.2), Vec3(-1, 0, 0)});
   std::vector<int> hits(rays.size(), kNoFacet);
@@ -28,7 +28,7 @@ TEST(RayScene, LeavesTheCallersFloatingPointModeAsItWas) {
     const int hit = plate.first_hit(rays.front());
     const unsigned after_one = _mm_getcsr();
     _mm_setcsr(before);
-    constexpr unsigned kModes = ~unsigned{_MM_EXCEPT_MASK};  // the exceptions that occurred are no mode
+    constexpr unsigned kModes = ~unsigned{_MM_EXCEPT_MASK};  // the mode without the flags of exceptions that occurred
     EXPECT_EQ(after_many & kModes, set & kModes);
     EXPECT_EQ(after_one & kModes, set & kModes);
     EXPECT_NE(hit, kNoFacet);
@@ -36,20 +36,20 @@ TEST(RayScene, LeavesTheCallersFloatingPointModeAsItWas) {
   }
 }
 
-// Every box is a leaf once, and lies in the boxes above it.
-TEST(BvhBuild, HoldsEveryBoxOnceWithinItsParents) {
+// Every box is a leaf once, and lies in all boxes above it.
+TEST(BvhBuild, ContainsEveryBoxOnceWithinItsParents) {
   Random random({29, Stream::kTest, 0});
   for (const int count : {1, 2, 5, 1000}) {
     std::vector<Box3> boxes(count);
     for (Box3& box : boxes) {
       const Vec3 x(random.normal(), random.normal(), random.normal());
       box.add(x);
-      // Some without extent, and many alike.
+      // Some without extent, and many identical ones.
       box.add(random.uniform() < 0.5 ? x : Vec3(x + Vec3(random.uniform(), 0, random.uniform())));
       if (random.uniform() < 0.3) box = boxes[0];
     }
     const std::vector<BvhNode> nodes = build_bvh(boxes);
-    std::vector<int> met(count, 0);
+    std::vector<int> visits(count, 0);
     int deepest = 0;
     const auto visit = [&](const auto& self, const BvhNode& node, int level) -> void {
       deepest = std::max(deepest, level);
@@ -64,7 +64,7 @@ TEST(BvhBuild, HoldsEveryBoxOnceWithinItsParents) {
           }
           self(self, nodes[child.index], level + 1);
         } else {
-          ++met[-1 - child.index];
+          ++visits[-1 - child.index];
           for (int a = 0; a < 3; ++a) {
             EXPECT_LE(child.lower[a], boxes[-1 - child.index].lower[a]);
             EXPECT_GE(child.upper[a], boxes[-1 - child.index].upper[a]);
@@ -73,7 +73,7 @@ TEST(BvhBuild, HoldsEveryBoxOnceWithinItsParents) {
       }
     };
     visit(visit, nodes.at(0), 1);
-    for (const int times : met) EXPECT_EQ(times, 1);
+    for (const int times : visits) EXPECT_EQ(times, 1);
     EXPECT_LE(deepest, kMaxLevels);
   }
   EXPECT_TRUE(build_bvh({}).empty());

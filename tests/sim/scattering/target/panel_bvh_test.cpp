@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tree of facets against Embree, and against looking at every facet.
+// The hierarchy of panels against Embree, and against a test of every panel.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 using namespace testing_echoes;
 
-// All facets that a prism of the given width about a ray meets.
+// All panels that overlap a prism of the given width about a ray.
 std::vector<int> walked(const Scatterer& scatterer, const Ray& ray, double width) {
   const RadarBasis across = radar_basis(ray.direction);
   const double x = across.h.dot(ray.origin), y = across.v.dot(ray.origin);
@@ -37,7 +37,7 @@ Ray random_ray(Random& random, double radius) {
   return {radius * Vec3(random.uniform() - 0.5, 0.2 * (random.uniform() - 0.5), 0.2 * random.uniform()), direction};
 }
 
-TEST(PanelBvh, FindsWhatARayHits) {
+TEST(PanelBvh, FindsThePanelsThatARayHits) {
   const Scatterer ship(read_mesh(SEAGLINT_SOURCE_DIR "/assets/combatant_144m.glb"));
   const RayScene scene(ship.facets());
   Random random({23, Stream::kTest, 0});
@@ -54,7 +54,7 @@ TEST(PanelBvh, FindsWhatARayHits) {
   EXPECT_GT(hits, 5000);
 }
 
-TEST(PanelBvh, MissesNoFacetWithACornerInThePrism) {
+TEST(PanelBvh, FindsEveryPanelWithAVertexInThePrism) {
   const Scatterer reflector(make_icosahedral_reflector());
   Random random({23, Stream::kTest, 1});
   for (int trial = 0; trial < 2000; ++trial) {
@@ -73,8 +73,8 @@ TEST(PanelBvh, MissesNoFacetWithACornerInThePrism) {
   }
 }
 
-// Seen along the diagonal a cube is a hexagon: in the corners that a rectangle around it has besides there is nothing.
-TEST(PanelBvh, LeavesOutAPrismBesideABoxSeenAskew) {
+// Seen along the diagonal a cube is a hexagon: the corners of its bounding rectangle are empty.
+TEST(PanelBvh, ExcludesAPrismNextToASkewedBox) {
   TriangleMesh mesh = make_plate(1, 1);
   mesh.vertices = {{0, 0, 0}, {1, 1, 0}, {0, 1, 1}};  // their box is the unit cube
   mesh.triangles = {{0, 1, 2}};
@@ -86,7 +86,7 @@ TEST(PanelBvh, LeavesOutAPrismBesideABoxSeenAskew) {
     const Vec3 centre = 0.5 * Vec3::Ones();
     return !walked(triangle, {centre + h * across.h + v * across.v - 5 * along, along}, 0.02).empty();
   };
-  // Corners at 0.816 from its middle, sides at 0.707, two of them square to h.
+  // Vertices at 0.816 from its middle, sides at 0.707, two of them normal to h.
   for (const double h : {-0.6, 0.6}) {
     for (const double v : {-0.7, 0.7}) EXPECT_FALSE(walked_at(h, v)) << h << ' ' << v;
   }
@@ -94,12 +94,12 @@ TEST(PanelBvh, LeavesOutAPrismBesideABoxSeenAskew) {
     EXPECT_TRUE(walked_at(h, v)) << h << ' ' << v;
 }
 
-TEST(PanelBvh, PartsManyFacetsAtOnePlace) {
-  // A hundred copies of one plate: no cut parts their centres, and the tree must still end.
+TEST(PanelBvh, IsFiniteForManyPanelsAtOnePlace) {
+  // A hundred copies of one plate: no cut separates their centres, and the hierarchy must still be finite.
   TriangleMesh mesh = make_plate(0.3, 0.2);
   for (int i = 0; i < 99; ++i) mesh.append(make_plate(0.3, 0.2));
   const Scatterer plates(mesh);
-  // many facets share each edge: none are joined
+  // many facets have each edge in common: none are joined
   EXPECT_EQ(walked(plates, {Vec3::UnitX(), -Vec3::UnitX()}, 0.01).size(), 200u);
 }
 

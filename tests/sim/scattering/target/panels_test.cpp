@@ -33,13 +33,13 @@ TEST(Panels, JoinTheTwoTrianglesOfAPlate) {
 TEST(Panels, OfTheShipAreConvexLieInOnePlaneAndKeepItsArea) {
   const auto facets = make_facets(read_mesh(SEAGLINT_SOURCE_DIR "/assets/combatant_144m.glb"));
   const Panels panels(facets);
-  std::vector<int> met(facets.size(), 0);
+  std::vector<int> memberships(facets.size(), 0);
   for (int f = 0; f < static_cast<int>(facets.size()); ++f) {
     if (!panels.is_representative(f)) continue;
     const auto outline = panels.outline(f);
     double area = 0;
     for (const int member : panels.members(f)) {
-      ++met[member];
+      ++memberships[member];
       EXPECT_EQ(panels.representative(member), f);
       EXPECT_EQ(facets[member].part, facets[f].part);
       area += area_of(facets[member].corner, facets[f].normal);
@@ -51,11 +51,11 @@ TEST(Panels, OfTheShipAreConvexLieInOnePlaneAndKeepItsArea) {
       EXPECT_GT((b - a).cross(c - b).dot(facets[f].normal), 0) << f;
     }
   }
-  EXPECT_EQ(std::count(met.begin(), met.end(), 1), static_cast<std::ptrdiff_t>(facets.size()))
+  EXPECT_EQ(std::count(memberships.begin(), memberships.end(), 1), static_cast<std::ptrdiff_t>(facets.size()))
       << "every facet in one panel";
 }
 
-TEST(Panels, StayApartWhereMaterialOrPlaneChanges) {
+TEST(Panels, AreSeparateWhereMaterialOrPlaneChanges) {
   TriangleMesh mesh = make_plate(0.3, 0.2);
   auto facets = make_facets(mesh);
   facets[1].material = 1;

@@ -36,7 +36,7 @@ class PreparedCylinder : public testing::Test {
   TargetSource source_;
 };
 
-TEST_F(PreparedCylinder, IsRepairedAndSaysSo) {
+TEST_F(PreparedCylinder, IsRepairedWithAWarning) {
   const PreparedTarget target = prepare_target(load_solver_mesh(source_), {});
   EXPECT_EQ(target.mesh.triangles.size(), make_cylinder(0.5, 2, 16).triangles.size());
   EXPECT_FALSE(target.doubts.empty());

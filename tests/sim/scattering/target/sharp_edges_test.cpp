@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which edges are sharp, and which of their faces speaks for them.
+// Which edges are sharp, and which of their faces records the illumination.
 #include "sim/scattering/target/sharp_edges.h"
 
 #include <gtest/gtest.h>
@@ -20,10 +20,10 @@ using testing_echoes::cut_plate;
 
 TEST(SharpEdges, AreThoseOfAPlateABoxAndADihedral) {
   const auto edges_of = [](const TriangleMesh& mesh) { return Scatterer(mesh).edges().edges; };
-  const auto rims = edges_of(make_plate(0.3, 0.2));
-  EXPECT_EQ(rims.size(), 4u);
-  for (const SharpEdge& edge : rims) EXPECT_DOUBLE_EQ(edge.front_wedge.N, 2);
-  // Seen from within the corner the seam is concave; from behind it is a wedge of three right angles.
+  const auto free_edges = edges_of(make_plate(0.3, 0.2));
+  EXPECT_EQ(free_edges.size(), 4u);
+  for (const SharpEdge& edge : free_edges) EXPECT_DOUBLE_EQ(edge.front_wedge.N, 2);
+  // Seen from within the dihedral the seam is concave; from behind it is a wedge of three right angles.
   int seams = 0;
   for (const SharpEdge& edge : edges_of(make_dihedral(0.25, 0.3, kPi / 2))) {
     if (edge.is_free_edge()) continue;
@@ -35,21 +35,21 @@ TEST(SharpEdges, AreThoseOfAPlateABoxAndADihedral) {
   EXPECT_TRUE(edges_of(make_sphere(1, 3)).empty());
 }
 
-// However a face is cut and wherever it stands, its edges know how long they are as a whole; round a corner a run ends.
-TEST(SharpEdges, KnowTheStraightRunTheyArePartOf) {
-  const Mat3 askew = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+// The collinear length of an edge does not depend on triangulation and position; it ends at a vertex of the face.
+TEST(SharpEdges, HaveTheLengthOfTheirCollinearChain) {
+  const Mat3 rotation = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
   for (const std::uint32_t pieces : {1u, 16u}) {
-    const Scatterer plate(transformed(cut_plate(0.3, 0.2, pieces), askew, Vec3(40, -7, 3)));
+    const Scatterer plate(transformed(cut_plate(0.3, 0.2, pieces), rotation, Vec3(40, -7, 3)));
     EXPECT_EQ(plate.edges().edges.size(), 4 * pieces);
-    const Vec3 wide = askew * Vec3::UnitY();
+    const Vec3 wide = rotation * Vec3::UnitY();
     for (const SharpEdge& edge : plate.edges().edges) {
       const double expected = std::abs(edge.along().dot(wide)) > 0.5 ? 0.3 : 0.2;
-      EXPECT_NEAR(edge.collinear_length_m, expected, 1e-13 * pieces);  // of places 40 m out
+      EXPECT_NEAR(edge.collinear_length_m, expected, 1e-13 * pieces);  // of positions 40 m out
     }
   }
 }
 
-// Where a hundred loose triangles meet in a point none of their rims goes on in the one across.
+// At a vertex of a hundred loose triangles no edge continues in the opposite one.
 TEST(SharpEdges, EndTheirRunsInAFanOfLooseTriangles) {
   constexpr std::uint32_t kTriangles = 100;
   TriangleMesh fan = make_plate(1, 1);
@@ -68,17 +68,18 @@ TEST(SharpEdges, EndTheirRunsInAFanOfLooseTriangles) {
   for (const SharpEdge& edge : scatterer.edges().edges) EXPECT_EQ(edge.collinear_length_m, edge.length());
 }
 
-// Corners: those that images solve send nothing, nor are those asked that have more images than a sum of them holds.
-TEST(SharpEdges, OfCornersDiffractBetweenTwelveDegAndAHalfTurn) {
+// Concave edges: those that image theory solves exactly do not diffract, nor do those with more images than the sum
+// contains.
+TEST(SharpEdges, ConcaveOnesDiffractBetween12And180Deg) {
   const auto corner_diffracts = [](double opening_deg) {
     const Scatterer scatterer(make_dihedral(0.25, 0.3, radians(opening_deg)));
     for (const SharpEdge& edge : scatterer.edges().edges) {
       if (edge.is_free_edge()) continue;
       const WedgeFrame& corner = edge.front_wedge.N < 1 ? edge.front_wedge : edge.back_wedge;
       const Vec3 between = (corner.face[0].x + corner.face[1].x).normalized();
-      const WedgeFrame* met = illuminated_wedge(edge, -between);
-      EXPECT_TRUE(met == nullptr || met == &corner) << opening_deg;
-      return met != nullptr;
+      const WedgeFrame* wedge = illuminated_wedge(edge, -between);
+      EXPECT_TRUE(wedge == nullptr || wedge == &corner) << opening_deg;
+      return wedge != nullptr;
     }
     ADD_FAILURE() << "no seam";
     return false;
@@ -88,10 +89,11 @@ TEST(SharpEdges, OfCornersDiffractBetweenTwelveDegAndAHalfTurn) {
     EXPECT_FALSE(corner_diffracts(opening_deg)) << opening_deg;
 }
 
-// A wave between the faces of a corner of sheets meets the corner. Reflected by one face it lights the other one up to
-// the seam and comes as if from behind the first, where there is a wedge; it meets neither, its echo being a part of
-// the corner's answer. A wave that does come from behind meets that wedge by the face it lights.
-TEST(SharpEdges, OfACornerAreNotMetByWhatItsOwnFacesReflect) {
+// A wave incident between the faces of a concave edge of sheets illuminates the concave edge. After reflection by one
+// face it illuminates the other one up to the seam and seems to arrive from behind the first, where the edge is a
+// convex wedge; it excites neither, since its echo is part of the concave edge's. A wave that does arrive from behind
+// excites the convex wedge via the face that it illuminates.
+TEST(SharpEdges, ConcaveOnesAreNotIlluminatedByTheirOwnFaces) {
   for (const double opening_deg : {90.0, 135.0, 150.0}) {
     const Scatterer scatterer(make_dihedral(0.25, 0.3, radians(opening_deg)));
     for (const SharpEdge& edge : scatterer.edges().edges) {
@@ -99,15 +101,15 @@ TEST(SharpEdges, OfACornerAreNotMetByWhatItsOwnFacesReflect) {
       const bool concave_outside = edge.front_wedge.N < 1;
       const WedgeFrame &corner = concave_outside ? edge.front_wedge : edge.back_wedge,
                        &back = concave_outside ? edge.back_wedge : edge.front_wedge;
-      // the mirror; from twice that on nothing reflected meets the other face
+      // the reflected direction; beyond twice that angle no reflected wave reaches the other face
       const double above = 0.5 * (kPi - radians(opening_deg));
-      for (const int mirror : {0, 1}) {
-        const WedgeFace& face = corner.face[mirror];
+      for (const int reflecting_face : {0, 1}) {
+        const WedgeFace& face = corner.face[reflecting_face];
         const Vec3 reflected = -std::cos(above) * face.x + std::sin(above) * face.n;
         EXPECT_EQ(illuminated_wedge(edge, reflected), &back) << opening_deg;
-        EXPECT_EQ(wedge_on_illuminated_face(edge, mirror == 1, reflected), nullptr) << opening_deg;
-        EXPECT_EQ(wedge_on_illuminated_face(edge, mirror == 0, reflected), &back) << opening_deg;
-        EXPECT_FALSE(records_edge(edge, back, mirror == 1, reflected)) << opening_deg;
+        EXPECT_EQ(wedge_on_illuminated_face(edge, reflecting_face == 1, reflected), nullptr) << opening_deg;
+        EXPECT_EQ(wedge_on_illuminated_face(edge, reflecting_face == 0, reflected), &back) << opening_deg;
+        EXPECT_FALSE(records_edge(edge, back, reflecting_face == 1, reflected)) << opening_deg;
       }
     }
   }
@@ -121,26 +123,26 @@ TEST(SharpEdges, ExactlyOneFaceRecordsEachEdge) {
     Random random({3, Stream::kTest, 18});
     for (int i = 0; i < 20; ++i) {
       const Vec3 k_hat = Vec3(random.normal(), random.normal(), random.normal()).normalized();
-      std::vector<int> speaking(edges.edges.size(), 0);
+      std::vector<int> records(edges.edges.size(), 0);
       for (int panel = 0; panel < static_cast<int>(scatterer.facets().size()); ++panel) {
         for (const PanelEdge& side : edges.edges_of_panel(panel)) {
           const SharpEdge& edge = edges.edges[side.edge];
           const WedgeFrame* wedge = side.may_record_edge(k_hat) ? illuminated_wedge(edge, k_hat) : nullptr;
-          const bool speaking_here = wedge && records_edge(edge, *wedge, side.is_first_face, k_hat);
-          speaking[side.edge] += speaking_here;
-          if (speaking_here) {
+          const bool recorded_here = wedge && records_edge(edge, *wedge, side.is_first_face, k_hat);
+          records[side.edge] += recorded_here;
+          if (recorded_here) {
             EXPECT_EQ(wedge_on_illuminated_face(edge, side.is_first_face, k_hat), wedge) << side.edge;
           }
         }
       }
       for (std::size_t number = 0; number < edges.edges.size(); ++number) {
         const SharpEdge& edge = edges.edges[number];
-        // The rim of a sheet has one facet, which keeps it once.
+        // The free edge of a sheet has one panel, which records it once.
         if (illuminated_wedge(edge, k_hat)) {
-          EXPECT_EQ(speaking[number], 1) << number;
+          EXPECT_EQ(records[number], 1) << number;
         }
         if (!edge.two_sided && edge.front_wedge.N < 1 && std::abs(std::sin(kPi / edge.front_wedge.N)) < 1e-3) {
-          EXPECT_EQ(speaking[number], 0) << number;
+          EXPECT_EQ(records[number], 0) << number;
         }
       }
     }

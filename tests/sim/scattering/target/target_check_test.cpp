@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Targets that the solver cannot answer for, or not well.
+// Targets outside or at the limits of the solver's validity.
 #include "sim/scattering/target/target_check.h"
 
 #include <gmock/gmock.h>
@@ -15,7 +15,7 @@ using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-TEST(TargetCheck, HasNothingToSayOfAReflectorAtSixteenGigahertz) {
+TEST(TargetCheck, IsSilentForAReflectorAt16GHz) {
   EXPECT_THAT(check_target(make_icosahedral_reflector(), 16e9), ElementsAre());
 }
 
@@ -27,7 +27,7 @@ TEST(TargetCheck, WarnsOfTargetsTooSmallTooLargeAndTooFar) {
   EXPECT_THROW(check_target(transformed(make_sphere(1, 2), Mat3::Identity(), Vec3(5e3, 0, 0)), 10e9), InputError);
 }
 
-TEST(TargetCheck, TellsWhatMillionsOfTrianglesCost) {
+TEST(TargetCheck, ReportsTheCostOfMillionsOfTriangles) {
   TriangleMesh mesh = make_plate(1, 1);
   mesh.triangles.resize(1'000'000, mesh.triangles[0]);
   EXPECT_THAT(check_target(mesh, 10e9), ElementsAre());

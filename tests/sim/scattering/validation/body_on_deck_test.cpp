@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What stands on a deck, against image theory: a body twice as high in free space, lit by the wave and by its image.
+// A body on a deck against image theory: a body of twice the height in free space, illuminated by the wave and by its
+// image.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -48,14 +49,14 @@ TriangleMesh block(double x, double y, double bottom, double top, bool open_belo
   return mesh;
 }
 
-// A plate whose top leans back by that much per metre.
+// A plate whose top leans back by `lean` per metre.
 TriangleMesh leaning_plate(double half_width, double height, double lean) {
   TriangleMesh mesh = block(0, half_width, 0, height);
   for (Vec3& p : mesh.vertices) p.x() -= lean * p.z();
   return mesh;
 }
 
-// And its image in the deck.
+// The mesh with its image in the deck.
 TriangleMesh with_image(TriangleMesh mesh) {
   TriangleMesh image = mesh;
   for (Vec3& p : image.vertices) p.z() *= -1;
@@ -69,7 +70,7 @@ struct Elevations {
 };
 
 struct Deviation {
-  double hh, vv, hv;  // over elevations in L2: relative, of hv beside hh
+  double hh, vv, hv;  // over elevations in L2: relative, of hv relative to hh
 };
 
 void expect_below(const Deviation& deviation, const Deviation& bound) {
@@ -78,7 +79,7 @@ void expect_below(const Deviation& deviation, const Deviation& bound) {
   EXPECT_LT(deviation.hv, bound.hv);
 }
 
-// Two walls as wide that meet at a right angle, open towards x.
+// Two walls of equal width that meet at a right angle, open towards x.
 TriangleMesh inner_corner(double width, double bottom, double top) {
   TriangleMesh mesh = without_triangles();
   const double a = width * std::sqrt(0.5);
@@ -87,14 +88,14 @@ TriangleMesh inner_corner(double width, double bottom, double top) {
   return mesh;
 }
 
-// At 10 GHz, on a square deck whose own echo is taken off.
+// At 10 GHz, on a square deck whose own echo is subtracted.
 Deviation against_image_theory(const TriangleMesh& body, const TriangleMesh& doubled_body, double half_deck,
                                double azimuth_deg, const Elevations& elevations) {
   const double k = wavenumber(10e9);
   const TriangleMesh deck = block(half_deck, half_deck, -1, 0);
   TriangleMesh both = deck;
   both.append(body);
-  const Scatterer alone(deck), standing(both), doubled(doubled_body, {}, 0);
+  const Scatterer alone(deck), on_deck(both), doubled(doubled_body, {}, 0);
   const TracingSettings settings{1.4e-5, 8, true};
   std::array<double, 3> error{}, power{};
   for (double elevation = elevations.first_deg; elevation <= elevations.last_deg; elevation += 0.5) {
@@ -103,7 +104,7 @@ Deviation against_image_theory(const TriangleMesh& body, const TriangleMesh& dou
     const auto echo_of = [&](const Scatterer& target, const BistaticGeometry& geometry) {
       return scattering_matrices(target, geometry, std::array{k}, settings)[0];
     };
-    const auto with = echo_of(standing, monostatic(radar)), without = echo_of(alone, monostatic(radar));
+    const auto with = echo_of(on_deck, monostatic(radar)), without = echo_of(alone, monostatic(radar));
     // the image's h has the other sign
     const auto direct = echo_of(doubled, monostatic(radar)), mirrored = echo_of(doubled, bistatic(image, radar));
     const std::array<Complex, 4> exact{
@@ -124,7 +125,7 @@ Deviation against_image_theory(const TriangleMesh& body, const TriangleMesh& dou
   return deviation;
 }
 
-// What stands there is 10 wavelengths wide and 6.7 high.
+// The body is 10 wavelengths wide and 6.7 high.
 constexpr double kHalfWidth = 0.15, kHeight = 0.2;
 
 Deviation of_block(double half_depth, double half_deck, double azimuth_deg, const Elevations& elevations) {
@@ -137,11 +138,11 @@ Deviation of_leaning_plate(double lean_deg, double half_deck, double azimuth_deg
   return against_image_theory(plate, with_image(plate), half_deck, azimuth_deg, elevations);
 }
 
-// Bounds are measured, a tenth above the largest: what physical optics of the deck, the last mirror, has of the beams'
-// ends, taken off, and the rims' fields by the deck, put on, leave of an echo that falls from 3.6 m to 0.08 m (30 to 45
-// deg off, where the upper rim's ends, off Keller's cone, are all that is left to err). With Gordon's ends on the rims,
-// one face's of two, and the mean of both ways hh and vv erred by up to 0.31 and 0.20, hv by 0.25; without edges by
-// 0.5, since the deck's half of the echo is missing.
+// Bounds are measured, a tenth above the maximum: the residual of subtracting the end-point contributions of physical
+// optics on the deck, the last reflector, and adding the edges' fields via the deck, for an echo that decreases from
+// 3.6 m to 0.08 m (30 to 45 deg off, where the error is that of the end points of the upper edge, off Keller's cone).
+// With Gordon's end-point contributions at the edges, one face's of two, and the mean of a path and its reciprocal, hh
+// and vv had errors of up to 0.31 and 0.20, hv 0.25; without edges 0.5, since the deck's half of the echo is missing.
 TEST(BodyOnDeck, FollowsImageTheory) {
   for (const auto& [half_depth, hh, vv, hv] :
        {std::array{0.0, 0.2, 0.06, 0.015}, {0.05, 0.17, 0.07, 0.07}, {0.15, 0.11, 0.075, 0.012}}) {
@@ -152,10 +153,10 @@ TEST(BodyOnDeck, FollowsImageTheory) {
   }
 }
 
-// A deck of 30 x 30 m, so that all of what the wall sends down comes down on it. Bounds are measured, a tenth above the
-// largest: below 5 deg the ways by the deck are images (path_weights.h), from 6 deg on they end on the deck and
-// its rims. With the deck as the last mirror at every elevation hh and vv erred by up to 0.57 and 0.53 from 1 to 3 deg,
-// by 0.29 and 0.21 from 3 to 5 deg.
+// A deck of 30 x 30 m, so that all of the wave that the wall reflects downwards is incident on it. Bounds are measured,
+// a tenth above the maximum: below 5 deg the paths via the deck are images (path_weights.h), from 6 deg on they
+// end on the deck and its edges. With the deck as the last reflector at every elevation hh and vv had errors of up to
+// 0.57 and 0.53 from 1 to 3 deg, 0.29 and 0.21 from 3 to 5 deg.
 TEST(BodyOnDeck, FollowsImageTheoryAtLowElevations) {
   for (const auto& [half_depth, hh] : {std::pair{0.0, 0.12}, {0.15, 0.135}}) {
     for (const double azimuth : {0.0, 5.0, 10.0}) {
@@ -167,10 +168,10 @@ TEST(BodyOnDeck, FollowsImageTheoryAtLowElevations) {
   }
 }
 
-// What comes by the deck to one wall, to the other and back by the deck is the image's as well. What is left of vv is
-// left at 20 deg of elevation too (0.1): the walls' rims behind two mirrors. With the deck as the last mirror 0.33 to
+// The path deck - one wall - the other - deck is also represented by the image. The residual of vv is present at 20 deg
+// of elevation too (0.1): the walls' edges behind two reflectors. With the deck as the last reflector it was 0.33 to
 // 0.37 and 0.37 to 0.38 from 1 to 3 deg.
-TEST(BodyOnDeck, MayBeACorner) {
+TEST(BodyOnDeck, ConcaveWallsFollowImageTheory) {
   for (const double azimuth : {0.0, 5.0, 20.0}) {
     SCOPED_TRACE(testing::Message() << "azimuth " << azimuth);
     const auto deviation = [&](const Elevations& elevations) {
@@ -182,9 +183,9 @@ TEST(BodyOnDeck, MayBeACorner) {
   }
 }
 
-// Walls that lean back, as deck houses do, and forward. Their images are lit and seen as the walls themselves, though
-// geometrical optics knows no way from deck to wall and back to the deck, and from a wall that leans back by more than
-// half of the elevation none to the deck either. Bounds as above; with the deck as the last mirror 0.26 to 2.
+// Walls that lean back, as those of deckhouses, and forward. Their images are illuminated and visible as the walls
+// themselves, though geometrical optics has no path deck - wall - deck, and from a wall that leans back by more than
+// half of the elevation none to the deck either. Bounds as above; with the deck as the last reflector 0.26 to 2.
 TEST(BodyOnDeck, LeaningPlatesFollowImageTheory) {
   for (const auto& [lean_deg, hh, vv, hv] : {std::array{-5.0, 0.26, 0.115, 0.11},
                                              {-1.0, 0.12, 0.115, 0.005},

@@ -15,10 +15,10 @@ using namespace testing_echoes;
 constexpr double kRounding = 1e-9;  // relative; double arithmetic on a few thousand terms
 const double k16 = wavenumber(16e9);
 
-TEST(Plate, AnswersMinusJAreaOverWavelengthAtNormalIncidenceForAnySizeAndSmallestPatch) {
+TEST(Plate, IsMinusJAreaOverWavelengthAtNormalIncidence) {
   for (const auto& [length, width] : {std::pair{0.5, 0.3}, {0.05, 0.05}, {10.0, 2.0}}) {
     for (const double min_patch_m : {7e-5, 7e-4, 0.02, 1.4}) {
-      if (length / min_patch_m > 28000) continue;  // so much finer than the plate says nothing new
+      if (length / min_patch_m > 28000) continue;  // much finer than the plate needs
       const auto s = echo(make_plate(length, width), Vec3::UnitX(), k16, min_patch_m);
       const Complex expected(0, -length * width * k16 / (2 * kPi));
       EXPECT_LT(std::abs(s[kHhChannel] - expected), kRounding * std::abs(expected))
@@ -30,7 +30,7 @@ TEST(Plate, AnswersMinusJAreaOverWavelengthAtNormalIncidenceForAnySizeAndSmalles
 }
 
 // Physical optics of a rectangular plate in the plane of its length (Balanis, Advanced Engineering Electromagnetics,
-// example 11-3): S = -j A cos(theta) / lambda sin(X)/X, X = k L sin(theta), both polarisations alike.
+// example 11-3): S = -j A cos(theta) / lambda sin(X)/X, X = k L sin(theta), equal for both polarisations.
 TEST(Plate, FollowsThePhysicalOpticsLobesForAnySmallestPatch) {
   const double length = 0.2667, width = 0.1524, k = wavenumber(10.24e9);
   const Scatterer plate(make_plate(length, width));
@@ -45,20 +45,20 @@ TEST(Plate, FollowsThePhysicalOpticsLobesForAnySmallestPatch) {
   }
 }
 
-TEST(Plate, ScattersFromBothSidesOfItsSheet) {
+TEST(Plate, ScattersFromBothSides) {
   const auto front = echo(make_plate(0.3, 0.2), direction(10, 5), k16);
   const auto back = echo(make_plate(0.3, 0.2), direction(190, -5), k16);
   EXPECT_LT(std::abs(front[kVvChannel] - back[kVvChannel]), kRounding * std::abs(front[kVvChannel]) + 1e-12);
 }
 
-// A dihedral looked at along its bisector returns everything after two bounces: aperture sqrt(2) a b; its first-bounce
+// A dihedral viewed along its bisector returns the whole wave after two bounces: aperture sqrt(2) a b; its first-bounce
 // lobes at 45 deg off each face vanish here, as k a sin(45 deg) is far out in their side lobes. Seam along z: S_hh =
 // -S_vv (CONVENTIONS.md).
 TEST(Dihedral, HasOppositeSignsForHhAndVvAndTheApertureFormulasStrength) {
   const double a = 0.3, b = 0.25;
   const auto s = echo(make_dihedral(b, a, kPi / 2), Vec3::UnitX(), k16);
   const double expected = std::sqrt(2.0) * a * b * k16 / (2 * kPi);  // |S| = A / lambda
-  // First-bounce side lobes: each face answers at most A cos45 / (lambda k a sin45).
+  // First-bounce side lobes: each face contributes at most A cos45 / (lambda k a sin45).
   const double side_lobe = 2 * a * b * k16 / (2 * kPi) / (k16 * a);
   EXPECT_NEAR(std::abs(s[kHhChannel]), expected, side_lobe);
   EXPECT_LT(std::abs(s[kHhChannel] + s[kVvChannel]), 2 * side_lobe);
@@ -66,10 +66,10 @@ TEST(Dihedral, HasOppositeSignsForHhAndVvAndTheApertureFormulasStrength) {
   EXPECT_NEAR(10 * std::log10(std::norm(s[kVvChannel]) / (expected * expected)), 0, 0.1);
 }
 
-TEST(Dihedral, TurnedBy45DegreesIsPureCrossPolarised) {
-  const TriangleMesh turned = transformed(make_dihedral(0.25, 0.3, kPi / 2),
-                                          Eigen::AngleAxisd(kPi / 4, Vec3::UnitX()).toRotationMatrix(), Vec3::Zero());
-  const auto s = echo(turned, Vec3::UnitX(), k16);
+TEST(Dihedral, RotatedBy45DegreesIsPureCrossPolarised) {
+  const TriangleMesh rotated = transformed(make_dihedral(0.25, 0.3, kPi / 2),
+                                           Eigen::AngleAxisd(kPi / 4, Vec3::UnitX()).toRotationMatrix(), Vec3::Zero());
+  const auto s = echo(rotated, Vec3::UnitX(), k16);
   const double expected = std::sqrt(2.0) * 0.3 * 0.25 * k16 / (2 * kPi);
   const double side_lobe = 2 * 0.3 * 0.25 * k16 / (2 * kPi) / (k16 * 0.3);
   EXPECT_NEAR(std::abs(s[kHvChannel]), expected, side_lobe);
@@ -99,8 +99,8 @@ TEST(TrihedralFacets, IsWithinPhysicalOpticsReachOfTheFullWaveSolution) {
     const auto s = echo(trihedral, radar_basis(direction(45 + azimuth, 35.264389682754654)), 2 * kPi * f_rel);
     const Complex ours = s[row[1] == "V" ? kVvChannel : kHhChannel];
     const double difference = dbsm(ours) - dbsm(full_wave);
-    // The reference's 0.3 dB and 10 deg, and the edge waves that physical optics lacks at 4-5 wavelengths: about 1/(k
-    // leg) = 4 % each from three rims and three seams, at worst 1 dB and 8 deg.
+    // The reference's 0.3 dB and 10 deg, and the edge diffraction that physical optics neglects at 4-5 wavelengths:
+    // about 1/(k leg) = 4 % each from three free edges and three seams, at most 1 dB and 8 deg.
     EXPECT_NEAR(difference, 0, 1.3) << azimuth << " deg " << row[1] << " f_rel " << f_rel;
     EXPECT_NEAR(degrees(std::arg(ours / full_wave)), 0, 18) << azimuth << " deg " << row[1] << " f_rel " << f_rel;
     squares += difference * difference;
@@ -113,7 +113,7 @@ TEST(TrihedralFacets, IsWithinPhysicalOpticsReachOfTheFullWaveSolution) {
 
 TEST(Sphere, FollowsTheMieSeries) {
   // 20,480 facets: the chord lies edge^2 / (12 R) inside the sphere on average, which at ka 150 is 1.7 deg of two-way
-  // phase and 0.01 dB; the shadow boundary's end point is worth 1 / (2 ka) (0.09 dB at ka 64 once rounded up by the
+  // phase and 0.01 dB; the shadow boundary's end point contributes 1 / (2 ka) (0.09 dB at ka 64 once rounded up by the
   // facets along it).
   const Scatterer sphere(make_sphere(1, 5));
   for (const auto& row : read_csv("mie_sphere.csv")) {
@@ -132,8 +132,8 @@ TEST(Cylinder, FlashesAtBroadside) {
   EXPECT_NEAR(dbsm(s[kVvChannel]), 10 * std::log10(k * radius * height * height), 0.3);
 }
 
-// Right-angled trihedra in the faces of an icosahedron: one looked into along its axis gives its peak, less or more
-// what the five cells around it add (they lie 41.8 deg away and more, each at least 6 dB down in its own pattern).
+// Right-angled trihedrals in the faces of an icosahedron: one viewed along its axis gives its peak, plus or minus the
+// contribution of the five cells around it (41.8 deg away and more, each at least 6 dB down in its own pattern).
 TEST(IcosahedralReflector, ReturnsATrihedralsPeakFaceOn) {
   const Scatterer reflector(make_icosahedral_reflector());
   const double leg = kReflectorEdge / std::sqrt(2.0);
@@ -152,8 +152,8 @@ TEST(IcosahedralReflector, HasTheMeanOfGeometricalOpticsOverAllDirections) {
   // A Fibonacci lattice covers the sphere evenly.
   constexpr int kDirections = 1500;
   for (int i = 0; i < kDirections; ++i) {
-    const double z = 1 - (2 * i + 1.0) / kDirections, turn = 2.399963229728653 * i;
-    const Vec3 r(std::sqrt(1 - z * z) * std::cos(turn), std::sqrt(1 - z * z) * std::sin(turn), z);
+    const double z = 1 - (2 * i + 1.0) / kDirections, azimuth = 2.399963229728653 * i;
+    const Vec3 r(std::sqrt(1 - z * z) * std::cos(azimuth), std::sqrt(1 - z * z) * std::sin(azimuth), z);
     sum += 4 * kPi * std::norm(echo(reflector, radar_basis(r), k16, 1.4e-3)[kVvChannel]);
     ++count;
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Prisms of several cross-sections against integral equations of the infinitely long ones: wedges of any angle, back
-// and towards any receiver.
+// Prisms of several cross-sections against integral equations of the infinitely long ones: wedges of any angle,
+// monostatic and bistatic.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -39,7 +39,7 @@ const std::map<std::string, std::vector<Vec2>>& sections() {
   return all;
 }
 
-// A cross-section whose first corner sees all of it stood upright, its middle at z = 0.
+// An upright prism, its middle at z = 0; all of the cross-section is visible from its first vertex.
 TriangleMesh prism(const std::vector<Vec2>& corners, double height) {
   TriangleMesh mesh;
   const auto n = static_cast<std::uint32_t>(corners.size());
@@ -66,8 +66,8 @@ struct Echoes {
   Complex soft, hard;
 };
 
-// P of sections.py, of what a prism twice as high has more. S per metre is j P / pi, of the hard wave with H against
-// the axis.
+// P of sections.py, from the difference of a prism of twice the height and the prism. S per metre is j P / pi, of the
+// hard wave with H opposite to the axis.
 Echoes echoes_per_metre(const Scatterer& one, const Scatterer& two, double height, const BistaticGeometry& geometry,
                         double k) {
   const auto echo_of = [&](const Scatterer& target) {
@@ -79,9 +79,9 @@ Echoes echoes_per_metre(const Scatterer& one, const Scatterer& two, double heigh
           -per_metre * (long_one[kHhChannel] - short_one[kHhChannel])};
 }
 
-// What 2 m more of a prism add to its echo, against the integral equations, over all pairs whose directions lie between
+// Relative error of the echo of 2 m of a prism against the integral equations, over all pairs of directions between
 // these angles apart, the receiver's within `about_deg` of azimuth 0. On the cone of an elevation (transmitter above,
-// receiver as far below) a prism answers as at elevation 0 and the wavenumber across it.
+// receiver as far below) a prism scatters as at elevation 0 with the wavenumber normal to its axis.
 Deviation against_integral_equations(const std::string& section, double min_deg, double max_deg, double elevation_deg,
                                      double about_deg = 180) {
   const double k = wavenumber(10.24e9) / std::cos(radians(elevation_deg)), height = 2;
@@ -90,11 +90,13 @@ Deviation against_integral_equations(const std::string& section, double min_deg,
   for (const auto& row : read_csv("sections.csv")) {
     if (row[6] != section) continue;
     const double transmit = std::stod(row[0]), receive = std::stod(row[1]);
-    const double apart = std::abs(std::remainder(transmit - receive, 360));
-    if (apart < min_deg || apart > max_deg || std::abs(std::remainder(receive, 360)) > about_deg) continue;
-    const auto geometry = apart == 0 && elevation_deg == 0 ? monostatic(radar_basis(direction(receive, 0)))
-                                                           : bistatic(radar_basis(direction(transmit, elevation_deg)),
-                                                                      radar_basis(direction(receive, -elevation_deg)));
+    const double bistatic_angle = std::abs(std::remainder(transmit - receive, 360));
+    if (bistatic_angle < min_deg || bistatic_angle > max_deg || std::abs(std::remainder(receive, 360)) > about_deg)
+      continue;
+    const auto geometry = bistatic_angle == 0 && elevation_deg == 0
+                              ? monostatic(radar_basis(direction(receive, 0)))
+                              : bistatic(radar_basis(direction(transmit, elevation_deg)),
+                                         radar_basis(direction(receive, -elevation_deg)));
     const auto [soft_P, hard_P] = echoes_per_metre(one, two, height, geometry, k);
     for (const bool hard : {false, true}) {
       const Complex reference(std::stod(row[hard ? 4 : 2]), std::stod(row[hard ? 5 : 3]));
@@ -108,8 +110,9 @@ Deviation against_integral_equations(const std::string& section, double min_deg,
   return deviation;
 }
 
-// What higher diffractions and, of the hard field, the last elements of the integral equations leave.
-TEST(InfinitePrism, AnswersAsIntegralEquationsSay) {
+// The errors are due to higher diffraction orders and, for the hard field, to the largest elements of the integral
+// equations.
+TEST(InfinitePrism, BackscatterMatchesIntegralEquation) {
   for (const std::string section : {"box", "knife", "triangle"}) {
     const Deviation back = against_integral_equations(section, 0, 0, 0);
     EXPECT_LT(back.soft, 0.0015) << section;
@@ -117,20 +120,21 @@ TEST(InfinitePrism, AnswersAsIntegralEquationsSay) {
   }
 }
 
-// The corner of a chevron diffracts; left out, the soft field errs by 0.04 and, without the waves that it sends along
-// its walls, the hard one by 0.09.
-TEST(InfinitePrism, WithACornerAnswersAsIntegralEquationsSay) {
+// The concave edge of a chevron diffracts; without it the error of the soft field is 0.04 and, without the waves that
+// it launches along its walls, that of the hard one 0.09.
+TEST(InfinitePrism, WithAConcaveEdgeMatchesIntegralEquation) {
   const Deviation back = against_integral_equations("chevron", 0, 0, 0);
   EXPECT_LT(back.soft, 0.02);
   EXPECT_LT(back.hard, 0.08);
 }
 
-// Either arm's rim cuts what it reflects to the other, whose rim stands where the shadow's edge falls, so that half of
-// what light spreads into the shadow is lost: with beams that end in a line the fields err by 0.09 within 8 deg of the
-// axis. Farther off, where the beam leaves an arm at a small angle, the rim answers along it by what its field has over
-// the end of physical optics on the other arm (reflected_edge.h); with that on its own arm the fields err by 0.023
-// within 20 deg and 0.06 within 38. What is left, of arms of 5 wavelengths: waves along them, most of the hard field.
-TEST(InfinitePrism, OfADihedralAnswersAsIntegralEquationsSay) {
+// The free edge of either arm bounds the beam that it reflects to the other, whose edge coincides with the shadow
+// boundary, so that half of the field in the transition region is lost: with a sharp shadow boundary the error is 0.09
+// within 8 deg of the axis. Farther off, where the beam leaves an arm at a small angle, the edge radiates along it
+// Keller's field less the end-point contribution of physical optics on the other arm (reflected_edge.h); with that on
+// its own arm the error is 0.023 within 20 deg and 0.06 within 38. The remaining error, of arms of 5 wavelengths, is
+// due to waves along them, most of the hard field.
+TEST(InfinitePrism, DihedralMatchesIntegralEquation) {
   for (const double elevation : {0.0, 40.0}) {
     const Deviation axis = against_integral_equations("dihedral", 0, 0, elevation, 8),
                     back = against_integral_equations("dihedral", 0, 0, elevation, 20);
@@ -139,13 +143,14 @@ TEST(InfinitePrism, OfADihedralAnswersAsIntegralEquationsSay) {
     EXPECT_LT(axis.hard, 0.02);
     EXPECT_LT(back.soft, 0.01);
     EXPECT_LT(back.hard, 0.02);
-    EXPECT_LT(grazing.soft, 0.03);  // 0.012 but for two antennas
+    EXPECT_LT(grazing.soft, 0.03);  // 0.012 except for the bistatic geometry
     EXPECT_LT(grazing.hard, 0.03);
   }
 }
 
-// Towards an arm and beyond the other arm stands in the rim's penumbra (wall_penumbra.h): lit by physical optics in
-// whole, arms of 5 wavelengths err by 0.10 (soft) and 0.055 (hard), of 20 by 0.042 and 0.023.
+// At directions along one arm and beyond, the other arm is in the penumbra of the edge (wall_penumbra.h): with full
+// illumination by physical optics the errors are 0.10 (soft) and 0.055 (hard) for arms of 5 wavelengths, 0.042 and
+// 0.023 for arms of 20.
 TEST(InfinitePrism, DihedralAlongItsArmsMatchesIntegralEquation) {
   const Deviation near = against_integral_equations("dihedral", 0, 0, 0, 70),
                   far = against_integral_equations("dihedral90long", 0, 0, 0, 70);
@@ -155,9 +160,9 @@ TEST(InfinitePrism, DihedralAlongItsArmsMatchesIntegralEquation) {
   EXPECT_LT(far.hard, 0.01);
 }
 
-// Where the corner is no right angle the ways out of rims leave the beams that they bound: with ends of physical optics
-// on shadow lines the fields err by 0.14 to 0.20 (beam_boundary.h).
-TEST(InfinitePrism, OfADihedralOffTheRightAngleAnswersAsIntegralEquationsSay) {
+// For other opening angles than 90 deg the exit paths of edges differ from the beams that they bound: with end-point
+// contributions of physical optics on shadow-boundary lines the error is 0.14 to 0.20 (beam_boundary.h).
+TEST(InfinitePrism, DihedralOffTheRightAngleMatchesIntegralEquation) {
   for (const std::string section : {"dihedral85", "dihedral95"}) {
     const Deviation axis = against_integral_equations(section, 0, 0, 0, 8),
                     back = against_integral_equations(section, 0, 0, 0, 20);
@@ -168,21 +173,22 @@ TEST(InfinitePrism, OfADihedralOffTheRightAngleAnswersAsIntegralEquationsSay) {
   }
 }
 
-// What one arm sends nearly along the other has a penumbra there, within some 13 deg over 5 wavelengths, which physical
-// optics does not know; the corner sends it as a wave along the arm (multiple_diffraction.h). Without that hard fields
-// err by 0.21 and 0.28, of arms of 20 wavelengths by 0.22. The rest: return paths, of which only half is separable
-// from the ends of beams there, and below a right angle the rims' own fields, that come back as rays.
-TEST(InfinitePrism, OfADihedralHasWavesFromItsCorner) {
+// A beam that one arm reflects nearly along the other has a penumbra there, within some 13 deg over 5 wavelengths,
+// which physical optics neglects; the concave edge launches it as a wave along the arm (multiple_diffraction.h).
+// Without that the errors of the hard field are 0.21 and 0.28, of arms of 20 wavelengths 0.22. The remaining error is
+// that of return paths, of which only half is separable from the beams' end-point contributions there, and below a
+// right angle of the edges' own fields, which return as rays.
+TEST(InfinitePrism, DihedralHasWavesFromItsConcaveEdge) {
   for (const double elevation : {0.0, 40.0})
     EXPECT_LT(against_integral_equations("dihedral95", 0, 0, elevation, 47).hard, 0.12) << elevation;
   EXPECT_LT(against_integral_equations("dihedral85", 0, 0, 0, 42).hard, 0.2);
   EXPECT_LT(against_integral_equations("dihedral95long", 0, 0, 0, 46).hard, 0.16);
 }
 
-// At 37.5 deg what one arm of the 95 deg dihedral reflects passes along the other, which it lights on one side of that
-// direction only. Without waves from the corner the echo steps by 5.5 there; what is left of that, 1.2, belongs to the
-// rims' ways by the other arm, which fade out ahead of the wave.
-TEST(InfinitePrism, OfADihedralStepsLittleWhereAnArmGrazesTheOther) {
+// At 37.5 deg the wave that one arm of the 95 deg dihedral reflects passes along the other, which it illuminates on one
+// side of that direction only. Without waves from the concave edge the echo has a step of 5.5 there; the remaining
+// step, 1.2, is due to the edges' paths via the other arm, which are tapered near the forward direction.
+TEST(InfinitePrism, DihedralHasASmallStepWhereABeamGrazesAnArm) {
   const double k = wavenumber(10.24e9), height = 2;
   const Scatterer one(prism(sections().at("dihedral95"), height)), two(prism(sections().at("dihedral95"), 2 * height));
   const auto hard_at = [&](double azimuth) {
@@ -193,10 +199,10 @@ TEST(InfinitePrism, OfADihedralStepsLittleWhereAnArmGrazesTheOther) {
   EXPECT_LT(std::abs(after - before), 1.5);
 }
 
-// Lit faces that the receiver does not see radiate nothing to it: without their share in the edges' field it errs by
-// 0.03 to 0.1. Behind the target soft waves that graze a face (slope diffraction) are left; to within 20 deg of the
-// wave's way on.
-TEST(InfinitePrism, AnswersOtherReceiversAsIntegralEquationsSay) {
+// Illuminated faces that are not visible to the receiver do not radiate to it: without their contribution to the edges'
+// field its error is 0.03 to 0.1. Behind the target the error is that of soft waves at grazing incidence on a face
+// (slope diffraction); up to 20 deg from the forward direction.
+TEST(InfinitePrism, BistaticEchoMatchesIntegralEquation) {
   for (const std::string section : {"box", "knife", "triangle"}) {
     for (const double elevation : {0.0, 40.0}) {
       const Deviation before = against_integral_equations(section, 1, 90, elevation),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Laws that hold whatever the target: translation, rotation, mirror symmetry, scaling, reciprocity, tessellation,
+// Invariances of the solver for any target: translation, rotation, mirror symmetry, scaling, reciprocity, tessellation,
 // threads.
 #include <gtest/gtest.h>
 
@@ -21,8 +21,8 @@ double difference(const std::array<Complex, 4>& a, const std::array<Complex, 4>&
   return size;
 }
 
-// A piece that is just below the detail on one target may be just above it on the moved one. At a detail of a 400th of
-// the target, such slivers are below 1e-3 of the aperture's width and their echo below 1e-4 of the whole.
+// A patch just below the smallest size on one target may be just above it on the moved one. With patches of a 400th of
+// the target, such slivers are below 1e-3 of the projection's width and their echo below 1e-4 of the whole.
 constexpr double kSlivers = 2e-4;
 constexpr double kFine = 1.4e-4;  // m
 
@@ -34,16 +34,16 @@ TEST(Invariance, MovingATargetTowardsTheRadarAdvancesThePhase) {
   EXPECT_LT(difference(at_origin, moved), kSlivers * largest(at_origin));
 }
 
-TEST(Invariance, TurningTargetAndRadarTogetherChangesNothing) {
-  const Mat3 turn = Eigen::AngleAxisd(1.1, Vec3(0.3, -1, 0.6).normalized()).toRotationMatrix();
+TEST(Invariance, CommonRotationChangesNothing) {
+  const Mat3 rotation = Eigen::AngleAxisd(1.1, Vec3(0.3, -1, 0.6).normalized()).toRotationMatrix();
   const RadarBasis basis = radar_basis(direction(41, 22));
-  const RadarBasis turned{turn * basis.r, turn * basis.h, turn * basis.v};
+  const RadarBasis rotated{rotation * basis.r, rotation * basis.h, rotation * basis.v};
   const auto before = echo(Scatterer(stepped_corner()), basis, k10, kFine);
-  const auto after = echo(Scatterer(transformed(stepped_corner(), turn, Vec3::Zero())), turned, k10, kFine);
+  const auto after = echo(Scatterer(transformed(stepped_corner(), rotation, Vec3::Zero())), rotated, k10, kFine);
   EXPECT_LT(difference(before, after), kSlivers * largest(before));
 }
 
-TEST(Invariance, AMirroredTargetAnswersAlikeWithTheSignOfCrossPolarisationTurned) {
+TEST(Invariance, MirroredTargetHasOppositeCrossPolarisation) {
   TriangleMesh mirrored = stepped_corner();
   for (Vec3& x : mirrored.vertices) x.y() = -x.y();
   const auto before = echo(stepped_corner(), direction(35, 25), k10, kFine);
@@ -53,7 +53,7 @@ TEST(Invariance, AMirroredTargetAnswersAlikeWithTheSignOfCrossPolarisationTurned
   EXPECT_LT(difference(before, after), kSlivers * largest(before));
 }
 
-TEST(Invariance, TwiceTheSizeAtHalfTheFrequencyScattersTwiceAsMuch) {
+TEST(Invariance, TwiceTheSizeAtHalfTheFrequencyDoublesTheAmplitude) {
   TriangleMesh large = stepped_corner();
   for (Vec3& x : large.vertices) x *= 2;
   const auto small_echo = echo(stepped_corner(), direction(40, 30), k10, kFine);
@@ -69,16 +69,16 @@ TEST(Invariance, TheFirstBounceIsReciprocalToRounding) {
   }
 }
 
-TEST(Invariance, ManyBouncesAreReciprocalAsFarAsPhysicalOpticsIs) {
-  // Physical optics radiates the currents of every bounce but lets only geometrical optics light the next one: the two
-  // ways round a path differ by their edge waves, about 1/(k a) = 1/84 of the amplitude.
-  double worst = 0;
+TEST(Invariance, ManyBouncesAreReciprocalWithinPhysicalOptics) {
+  // Physical optics radiates the currents of every bounce, but only geometrical optics illuminates the next one: a path
+  // and its reciprocal differ by diffraction, about 1/(k a) = 1/84 of the amplitude.
+  double max_error = 0;
   for (const double azimuth : {25.0, 45.0, 60.0}) {
     const auto s = echo(make_triangular_trihedral(0.4), direction(azimuth, 35.264), k10, kFine);
-    worst = std::max(worst, std::abs(s[kHvChannel] - s[kVhChannel]) / largest(s));
+    max_error = std::max(max_error, std::abs(s[kHvChannel] - s[kVhChannel]) / largest(s));
   }
-  RecordProperty("worst_relative", std::to_string(worst));
-  EXPECT_LT(worst, 0.03);
+  RecordProperty("worst_relative", std::to_string(max_error));
+  EXPECT_LT(max_error, 0.03);
 }
 
 TEST(Invariance, FlatFaceIndependentOfTriangulation) {
@@ -99,8 +99,9 @@ TEST(Invariance, NoBitDependsOnTheNumberOfThreads) {
   EXPECT_EQ(one, two);
 }
 
-TEST(Invariance, APlateThatHidesAnotherCastsAShadowOfItsOwnShape) {
-  // A small plate 1 m in front of a large one, both facing the radar: Babinet's bookkeeping, both areas known exactly.
+TEST(Invariance, ShadowHasTheShapeOfTheHidingPlate) {
+  // A small plate 1 m in front of a large one, both facing the radar: the shadow has the area of the small plate
+  // exactly.
   TriangleMesh mesh = make_plate(0.6, 0.6);
   mesh.append(transformed(make_plate(0.2, 0.3), Mat3::Identity(), {1.0, 0.05, -0.02}));
   const auto s = echo(mesh, Vec3::UnitX(), k10, 2e-3);
@@ -115,15 +116,15 @@ TEST(Invariance, FacetsThatCoincideCountOnce) {
   EXPECT_LT(difference(once, doubled), 1e-9 * largest(once));
 }
 
-TEST(Invariance, FacetsThatPassThroughEachOtherHideWhatLiesBehindTheirCommonLine) {
-  // Two crossed plates seen along the bisector: each shows the half that lies in front.
+TEST(Invariance, IntersectingFacetsHideEachOtherBehindTheirCommonLine) {
+  // Two crossed plates viewed along the bisector: of each the half in front is visible.
   const auto plate = [](double angle) {
     return transformed(make_plate(0.4, 0.3), Eigen::AngleAxisd(angle, Vec3::UnitZ()).toRotationMatrix(), Vec3::Zero());
   };
   TriangleMesh crossed = plate(radians(30));
   crossed.append(plate(radians(-30)));
-  // The same surface with the hidden halves taken away: a roof seen from its ridge side would be convex; here the
-  // halves meet in a valley line x = 0 and the visible halves are those with x > 0.
+  // The same surface with the hidden halves removed: the visible halves meet in a valley line x = 0 and are those with
+  // x > 0.
   const auto half = [](double angle, double side) {
     TriangleMesh mesh = make_plate(0.2, 0.3);
     for (Vec3& x : mesh.vertices) x.y() += side * 0.1;

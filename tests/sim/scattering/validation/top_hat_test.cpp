@@ -69,9 +69,9 @@ struct TopHat {
 
 class TopHatEcho : public testing::TestWithParam<TopHat> {};
 
-// Causes of the bound: stationary phase, 1 / (8 k R cos(el)) of the amplitude, 0.05 dB at most here; the facets' second
-// order, edge^3, 0.1 dB. Where a bundle widens by 1 + 2 d / R > 4 on its way d along the plate it counts as one of flat
-// reflectors (kMaxDivergence), as what leaves the upper part of the wall does in the last three: 1.2 dB.
+// Terms of the bound: stationary phase, 1 / (8 k R cos(el)) of the amplitude, 0.05 dB at most here; the facets' second
+// order, edge^3, 0.1 dB. A bundle whose divergence is 1 + 2 d / R > 4 over its path d along the plate is treated as one
+// of flat reflectors (kMaxDivergence), as that from the upper part of the wall in the last three: 1.2 dB.
 TEST_P(TopHatEcho, HasTheClosedFormInEveryView) {
   const auto& [radius, height, elevation_deg] = GetParam();
   const Scatterer scatterer(top_hat(radius, height, elevation_deg), {}, radians(kDefaultCreaseDeg));
@@ -102,8 +102,8 @@ INSTANTIATE_TEST_SUITE_P(RadiiHeightsAndElevations, TopHatEcho,
                                          TopHat{0.5, 0.4, 25}));
 
 // An odd number of columns has a facet that faces the x axis, so that the phase is stationary inside its footprint.
-// Bound: what decides between contour and area depends on the triangle, and the two differ by kContourRatio^-1.5.
-TEST(TopHat, DoesNotDependOnHowThePlateIsCut) {
+// Bound: the choice between contour and area depends on the triangle, and the two differ by kContourRatio^-1.5.
+TEST(TopHat, IsIndependentOfTriangulation) {
   constexpr double kRadius = 0.49, kHeight = 0.4, kElevationDeg = 40;
   const double k = wavenumber(8e9);
   TracingSettings settings{0, 2};
@@ -121,7 +121,7 @@ TEST(TopHat, DoesNotDependOnHowThePlateIsCut) {
     for (std::size_t cut = 1; cut < 4; ++cut)
       max = std::max(max, std::abs(echo_of(hats[cut]) - first) / closed_form(k, kRadius, kHeight, kElevationDeg));
   }
-  std::printf("four ways to cut the plate: echoes differ by %.5f of the closed form at most\n", max);
+  std::printf("four triangulations of the plate: echoes differ by %.5f of the closed form at most\n", max);
   EXPECT_LT(max, std::pow(kContourRatio, -1.5));
 }
 

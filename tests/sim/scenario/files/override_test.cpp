@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Values of --set in place of the file's.
+// Values of --set that replace those of the file.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -29,7 +29,7 @@ TEST(Overrides, ReplaceAndAddValuesOfTheFile) {
   EXPECT_EQ(scenario.map.range_span_m, 100);
 }
 
-TEST(Overrides, ReachIntoLists) {
+TEST(Overrides, ApplyInsideLists) {
   const std::string yaml =
       "seaglint: 1\ntargets:\n  p: {label: 0, points: [{position_m: [0, 0, 0]}, {position_m: [1, 1, 1]}]}\n";
   const Scenario scenario =

@@ -79,7 +79,7 @@ class SeaKeys : public testing::Test {
   fs::path folder_;
 };
 
-TEST_F(SeaKeys, ATableGivesPeakAndHeight) {
+TEST_F(SeaKeys, ATableHasPeakAndHeight) {
   const Scenario own = read("spectrum: table, table: buoy.csv, significant_wave_height_m: from_table");
   const SeaState state = sea_states(own.sea).at(0);
   EXPECT_DOUBLE_EQ(state.significant_wave_height_m, 4 * std::sqrt(0.3));
@@ -87,13 +87,13 @@ TEST_F(SeaKeys, ATableGivesPeakAndHeight) {
   EXPECT_EQ(state.cutoff_rad_s, 1.6);
   const Scenario scaled = read("spectrum: table, table: buoy.csv, significant_wave_height_m: [1, 2]");
   EXPECT_EQ(sea_states(scaled.sea).at(1).significant_wave_height_m, 2);
-  // The effective scenario says the same.
+  // The effective scenario contains the same.
   const Scenario again = parse_scenario(effective_yaml(own), folder_ / "again.yaml");
   EXPECT_EQ(effective_yaml(again), effective_yaml(own));
   EXPECT_EQ(sea_states(again.sea).at(0).peak_period_s, state.peak_period_s);
 }
 
-TEST_F(SeaKeys, RulesGivePeriodAndGamma) {
+TEST_F(SeaKeys, RulesSetPeriodAndGamma) {
   // DNV-RP-C205, 3.5.5.5, at its three branches.
   EXPECT_EQ(sea_states(read("significant_wave_height_m: 4, peak_period_s: 7, gamma: dnv_rule").sea)[0].gamma, 5);
   EXPECT_EQ(sea_states(read("significant_wave_height_m: 4, peak_period_s: 10, gamma: dnv_rule").sea)[0].gamma, 1);
@@ -117,8 +117,8 @@ TEST_F(SeaKeys, DepthAndSwellReachTheState) {
   EXPECT_EQ(sea_states(read("order: 1").sea)[0].depth_m, kDeepWater);
 }
 
-// A height whose square is no number any more would make a sea of NaN.
-TEST_F(SeaKeys, WavesAreNothingOrHighEnoughToSquare) {
+// A height whose square overflows would give a sea of NaN.
+TEST_F(SeaKeys, WavesAreZeroOrHighEnoughToSquare) {
   for (const char* height : {"1e-162", "9e-7", "30.1"}) {
     EXPECT_EQ(complaint(fmt::format("significant_wave_height_m: {}", height)),
               fmt::format("sea.significant_wave_height_m: value '{}': must be a number, a list or from:to:step, "
