@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
@@ -12,6 +13,7 @@
 #include "sim/scattering/beams/bistatic_geometry.h"
 #include "sim/scattering/response/scattering_matrix.h"
 #include "sim/scattering/response/sea_reflection.h"
+#include "tools/rcs/view_trace.h"
 
 namespace seaglint {
 namespace {
@@ -59,13 +61,21 @@ class SweepTracer {
   }
 
  private:
-  // Fills in the matrices of a model for the views first, first + 1, ..., first + count - 1.
+  // Fills in the matrices of a model for the views first, first + 1, ..., first + count - 1, and the contributions of
+  // an exported view.
   void trace(std::size_t first, std::size_t count, RcsSweep::Model& model, RcsResult& result) const {
     const Scatterer& scatterer = *target_.prepared.scatterer;
     const TracingSettings settings = settings_of(request_, target_, model.edge_diffraction);
     std::vector<BistaticGeometry> pairs;
     for (std::size_t view = first; view < first + count; ++view)
       pairs.push_back(antennas_of(request_, basis_at(result.sweep.azimuth_of(view), result.sweep.elevation_of(view))));
+    if (request_.exports.wanted() && &model == &result.sweep.models.back()) {
+      TracedView view = trace_view(scatterer, pairs.front(), wavenumbers_.front(), settings, threads_, stop_);
+      model.matrices[first] = {view.matrix};
+      result.contributions = std::move(view.contributions);
+      result.segments += view.segments;
+      return;
+    }
     if (!request_.sea.reflection) {
       std::ranges::move(
           scattering_matrices(scatterer, pairs, wavenumbers_, settings, threads_, &result.segments, stop_),
@@ -129,7 +139,7 @@ TracingSettings settings_of(const RcsRequest& request, const RcsTarget& target, 
 }
 
 RcsResult compute_rcs(const RcsRequest& request, const RcsTarget& target, int threads, const StopFlag* stop) {
-  RcsResult result{requested_sweep(request), 0};
+  RcsResult result{requested_sweep(request), {}, 0};
   RcsSweep& sweep = result.sweep;
   const std::vector<std::vector<std::array<Complex, 4>>> empty(sweep.views());
   if (!request.edges || request.physical_optics_too) sweep.models.push_back({"po", false, empty});

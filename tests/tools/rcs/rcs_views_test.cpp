@@ -11,8 +11,11 @@
 #include <utility>
 #include <vector>
 
+#include "sim/core/numbers/constants.h"
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/shapes/generators.h"
+#include "sim/scattering/response/body_response.h"
+#include "sim/scattering/response/scattering_matrix.h"
 
 namespace seaglint {
 namespace {
@@ -79,6 +82,28 @@ TEST_F(ReflectorSweep, HasTheViewsOfSingleTracesAtAFiniteRange) {
 TEST_F(ReflectorSweep, TracesEveryViewOfOneAntenna) {
   const RcsResult sweep = result_of(with({10e9}, {0, 7}));
   EXPECT_EQ(sweep.segments, result_of(with({10e9}, {0})).segments + result_of(with({10e9}, {7})).segments);
+}
+
+// The points of an exported view come from the trace that gives its matrix.
+TEST_F(ReflectorSweep, TracesAnExportedViewOnce) {
+  for (const double range_m : {0.0, 60.0}) {
+    request_.range_m = range_m;
+    RcsRequest exported = with({10e9}, {7});
+    const RcsResult without = result_of(exported);
+    EXPECT_TRUE(without.contributions.empty());
+    exported.exports.centres = "centres.csv";
+    const RcsResult result = result_of(exported);
+    EXPECT_EQ(result.sweep.models.back().matrices, without.sweep.models.back().matrices) << range_m;
+    EXPECT_EQ(result.segments, without.segments);
+
+    const double k = 2 * kPi * exported.frequency_hz[0] / kSpeedOfLight;
+    const Scatterer& scatterer = *target_->prepared.scatterer;
+    const auto expected = direct_sum(
+        aspect_contributions(scatterer, monostatic(basis_at(7, 2)), {k, default_aspect_change(scatterer, 2 * kPi / k)},
+                             settings_of(exported, *target_, true)),
+        k, Vec3::Zero());
+    EXPECT_EQ(direct_sum(result.contributions, k, Vec3::Zero()), expected);
+  }
 }
 
 }  // namespace
