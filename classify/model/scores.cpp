@@ -8,6 +8,7 @@
 #include <numeric>
 #include <utility>
 
+#include "sim/core/numbers/quantile.h"
 #include "sim/core/numbers/random.h"
 
 namespace seaglint {
@@ -67,13 +68,7 @@ ConfidenceInterval bootstrap_accuracy(std::span<const Prediction> predictions, i
     accuracies.push_back(sum.right / sum.rows);
   }
   std::sort(accuracies.begin(), accuracies.end());
-  const auto quantile = [&](double p) {
-    const double place = p * static_cast<double>(accuracies.size() - 1);
-    const std::size_t below = static_cast<std::size_t>(place);
-    const std::size_t above = std::min(below + 1, accuracies.size() - 1);
-    return accuracies[below] + (place - static_cast<double>(below)) * (accuracies[above] - accuracies[below]);
-  };
-  return {quantile(0.025), quantile(0.975)};
+  return {quantile(accuracies, 0.025), quantile(accuracies, 0.975)};
 }
 
 }  // namespace

@@ -77,8 +77,8 @@ void check_grazing(const Scenario& scenario, const ScenarioDocument& document) {
   }
 }
 
-// The reflectivity model is valid within its fit.
-void check_clutter(const Scenario& scenario, const ScenarioDocument& document) {
+// The reflectivity model is valid within its fit. `states`: all of the sweeps.
+void check_clutter(const Scenario& scenario, const std::vector<SeaState>& states, const ScenarioDocument& document) {
   const ClutterSpec& clutter = scenario.clutter;
   if (!clutter.enabled || clutter.level != ClutterLevel::kNrl) return;
   const RadarSpec& radar = scenario.radar;
@@ -90,7 +90,7 @@ void check_clutter(const Scenario& scenario, const ScenarioDocument& document) {
                      fmt::format("all carriers with their band, {:g} to {:g} GHz, must be within 0.5 and 35 {}",
                                  lowest_ghz(radar), highest_ghz(radar), where));
   }
-  for (const SeaState& state : sea_states(scenario.sea)) {
+  for (const SeaState& state : states) {
     if (!clutter.sea_state && total_wave_height(state) > 6)
       document.fail_at("sea.significant_wave_height_m", fmt::format("must be at most 6 {}, sea state 6", where));
   }
@@ -130,8 +130,8 @@ void check_breaking(const std::string& key, double height, double period, double
   }
 }
 
-void check_sea(const SeaSpec& sea, const ScenarioDocument& document) {
-  for (const SeaState& state : sea_states(sea)) {
+void check_sea(const SeaSpec& sea, const std::vector<SeaState>& states, const ScenarioDocument& document) {
+  for (const SeaState& state : states) {
     const double height = state.significant_wave_height_m;
     if (sea.period_rule == PeakPeriod::kDnvWindSea && height == 0) {
       document.fail_at("sea.significant_wave_height_m", "must be greater than 0 with peak_period_s: dnv_wind_sea");
@@ -294,12 +294,13 @@ void check_contradictions(const Scenario& scenario, const ScenarioDocument& docu
   check_pulse_train(scenario.radar, document);
   check_window(scenario, document);
   check_grazing(scenario, document);
-  check_clutter(scenario, document);
   check_case_count(scenario, document);
   check_directions("view.azimuth_deg", scenario.view.azimuth_deg, document);
   check_directions("sea.propagation_deg", scenario.sea.propagation_deg, document);
   check_spectrum(scenario.sea, document);
-  check_sea(scenario.sea, document);
+  const std::vector<SeaState> states = sea_states(scenario.sea);
+  check_clutter(scenario, states, document);
+  check_sea(scenario.sea, states, document);
   check_sea_reflection(scenario, document);
   for (const TargetSpec& target : scenario.targets) check_target(target, document);
   for (const TargetSpec& target : scenario.targets) check_companions(scenario, target, document);

@@ -100,7 +100,7 @@ void run_rcs(const RcsArguments& arguments, const CommandContext& shell) {
   print_error(fmt::format("{}: {} rows, {} views in {:.2f} s ({:.3g} views/s, {:.2f} M beam segments, {:.2f} M/s)\n",
                           arguments.output, sweep.rows(), sweep.views(), seconds, views / seconds, million_segments,
                           million_segments / seconds));
-  if (request.exports.wanted()) fmt::print("{}", export_view(request, target, shell.threads, &shell.stop));
+  if (request.exports.wanted()) fmt::print("{}", export_view(request, target, result.contributions));
   if (cuts.empty()) return;
   for (PairedCut& cut : cuts) set_models(cut, sweep);
   show_comparison(arguments, cuts);

@@ -101,13 +101,15 @@ Picture picture_of(const TriangleMesh& mesh, const PictureView& view) {
     throw InputError(fmt::format("a picture of {} by {} pixels is outside 16..8192", view.width, view.height));
   }
   const Camera camera = camera_of(view);
-  const auto seen = [&](const Vec3& p) { return Vec3(camera.right.dot(p), camera.up.dot(p), camera.eye.dot(p)); };
+  const auto in_camera_axes = [&](const Vec3& p) {
+    return Vec3(camera.right.dot(p), camera.up.dot(p), camera.eye.dot(p));
+  };
 
-  Vec3 low = seen(mesh.vertices[mesh.triangles[0][0]]), high = low;
+  Vec3 low = in_camera_axes(mesh.vertices[mesh.triangles[0][0]]), high = low;
   for (const auto& triangle : mesh.triangles) {
     for (std::uint32_t v : triangle) {
-      low = low.cwiseMin(seen(mesh.vertices[v]));
-      high = high.cwiseMax(seen(mesh.vertices[v]));
+      low = low.cwiseMin(in_camera_axes(mesh.vertices[v]));
+      high = high.cwiseMax(in_camera_axes(mesh.vertices[v]));
     }
   }
   const Vec3 size = (high - low).cwiseMax(1e-9);
@@ -133,7 +135,7 @@ Picture picture_of(const TriangleMesh& mesh, const PictureView& view) {
     const double shade = 0.30 + 0.70 * std::max(0.0, normal.dot(light));
     std::array<Vec3, 3> corners;
     for (int i = 0; i < 3; ++i) {
-      const Vec3 p = seen(mesh.vertices[mesh.triangles[t][i]]);
+      const Vec3 p = in_camera_axes(mesh.vertices[mesh.triangles[t][i]]);
       corners[i] = {x0 + scale * p.x(), y0 - scale * p.y(), p.z()};
     }
     canvas.fill(corners, static_cast<float>(shade), static_cast<float>(normal.dot(camera.up)));

@@ -166,17 +166,17 @@ void write_rao_figure(const ShipParticulars& ship, double mu, double depth, cons
   constexpr int kPoints = 150;
   constexpr double kHighest = 2;
   std::vector<LinePlot> plots(3);
-  std::array<Series, 3> ours;
+  std::array<Series, 3> computed;
   for (int i = 1; i <= kPoints; ++i) {
     const double omega = kHighest * i / kPoints;
     const MotionRao r = ship_rao(ship, {omega, wavenumber_at(omega, depth), mu});
     const std::array<Complex, 3> angles{r.roll, r.pitch, r.yaw};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      ours[axis].x.push_back(omega);
-      ours[axis].y.push_back(degrees(std::abs(angles[axis])));
+      computed[axis].x.push_back(omega);
+      computed[axis].y.push_back(degrees(std::abs(angles[axis])));
     }
   }
-  std::array<Series, 3> theirs;
+  std::array<Series, 3> published;
   if (!reference.file.empty()) {
     const RaoTable table = reference.file.extension() == ".4" ? read_wamit_rao(reference.file, reference.unit_length)
                                                               : read_veres_rao(reference.file, ship.speed);
@@ -185,8 +185,8 @@ void write_rao_figure(const ShipParticulars& ship, double mu, double depth, cons
       const MotionRao r = table.at(omega, wavenumber_at(omega, depth), mu);
       const std::array<Complex, 3> angles{r.roll, r.pitch, r.yaw};
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        theirs[axis].x.push_back(omega);
-        theirs[axis].y.push_back(degrees(std::abs(angles[axis])));
+        published[axis].x.push_back(omega);
+        published[axis].y.push_back(degrees(std::abs(angles[axis])));
       }
     }
   }
@@ -194,15 +194,15 @@ void write_rao_figure(const ShipParticulars& ship, double mu, double depth, cons
     plots[axis].x.label = "wave frequency (rad/s)";
     plots[axis].y.label = fmt::format("{} (deg/m)", kAngles[axis]);
     plots[axis].legend_above = axis == 0;
-    if (axis == 0) ours[axis].name = "seaglint";
-    plots[axis].series.push_back(ours[axis]);
+    if (axis == 0) computed[axis].name = "seaglint";
+    plots[axis].series.push_back(computed[axis]);
     if (reference.file.empty()) continue;
-    if (axis == 0) theirs[axis].name = reference.file.filename().string();
-    theirs[axis].style = SeriesStyle::kPoints;
-    plots[axis].series.push_back(theirs[axis]);
+    if (axis == 0) published[axis].name = reference.file.filename().string();
+    published[axis].style = SeriesStyle::kPoints;
+    plots[axis].series.push_back(published[axis]);
     // The axis is limited, as a resonance of unknown damping would compress the other curves.
     double largest = 0;
-    for (const double y : theirs[axis].y) largest = std::max(largest, y);
+    for (const double y : published[axis].y) largest = std::max(largest, y);
     plots[axis].y.range = AxisRange{0, 1.3 * largest};
   }
   write_figure(title, plots, 1, file, {900, 1000});

@@ -111,9 +111,9 @@ LinePlot slope_plot(const SeaState& state, const WaveField& field, const SeaSumm
   return plot;
 }
 
-// The height exceeded by a fraction of the crests.
-double exceeded_by(const std::vector<double>& ascending, double share) {
-  const auto rank = static_cast<std::size_t>((1 - share) * static_cast<double>(ascending.size()));
+// The height that a crest exceeds with this probability.
+double exceeded_by(const std::vector<double>& ascending, double probability) {
+  const auto rank = static_cast<std::size_t>((1 - probability) * static_cast<double>(ascending.size()));
   return ascending[std::min(rank, ascending.size() - 1)];
 }
 
@@ -138,15 +138,15 @@ std::string ensemble_text(const SeaEnsemble& ensemble, const SeaSummary& summary
   const ForristallCrests forristall =
       forristall_crests(summary.significant_wave_height_m, summary.steepness, summary.ursell, summary.long_crested);
   fmt::format_to(out, "{} crests; height passed by 10 / 1 / 0.1 %:", ensemble.crests.size());
-  for (const double share : {0.1, 0.01, 0.001}) {
+  for (const double probability : {0.1, 0.01, 0.001}) {
     // At least ten crests are needed for a meaningful height.
-    if (share * static_cast<double>(ensemble.crests.size()) < 10) {
+    if (probability * static_cast<double>(ensemble.crests.size()) < 10) {
       text += " too few crests,";
       continue;
     }
-    const double rayleigh = summary.significant_wave_height_m * std::sqrt(-std::log(share) / 8);
-    fmt::format_to(out, " {:.3g} m (Forristall {:.3g}, Rayleigh {:.3g}),", exceeded_by(ensemble.crests, share),
-                   forristall.height(share), rayleigh);
+    const double rayleigh = summary.significant_wave_height_m * std::sqrt(-std::log(probability) / 8);
+    fmt::format_to(out, " {:.3g} m (Forristall {:.3g}, Rayleigh {:.3g}),", exceeded_by(ensemble.crests, probability),
+                   forristall.height(probability), rayleigh);
   }
   text.back() = '\n';
   return text;

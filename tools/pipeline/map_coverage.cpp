@@ -64,7 +64,7 @@ std::vector<std::string> map_coverage_warnings(const Pipeline& pipeline) {
   const PlatformSpec& platform = scenario.radar.platform;
   std::vector<std::string> lines;
   std::size_t more = 0;
-  const auto tell = [&](const std::string& line) {
+  const auto add_line = [&](const std::string& line) {
     if (lines.size() < kMaxLines) {
       lines.push_back(line);
     } else {
@@ -84,13 +84,14 @@ std::vector<std::string> map_coverage_warnings(const Pipeline& pipeline) {
       }
       const std::string who = fmt::format("targets.{} at azimuth {:g} deg", scenario.targets[t].name, view.azimuth_deg);
       if (!reach.range_m.within(grid.range_m)) {
-        tell(fmt::format("{} reaches from {:.1f} to {:.1f} m, the map from {:.1f} to {:.1f} m: raise map.range_span_m",
-                         who, reach.range_m.low, reach.range_m.high, grid.range_m.front(), grid.range_m.back()));
+        add_line(
+            fmt::format("{} reaches from {:.1f} to {:.1f} m, the map from {:.1f} to {:.1f} m: raise map.range_span_m",
+                        who, reach.range_m.low, reach.range_m.high, grid.range_m.front(), grid.range_m.back()));
       }
       if (!reach.velocity_mps.within(grid.velocity_mps)) {
         const double unambiguous = train.unambiguous_velocity_mps();
         const bool folds = std::max(-reach.velocity_mps.low, reach.velocity_mps.high) > unambiguous;
-        tell(fmt::format(
+        add_line(fmt::format(
             "{} moves at {:.2f} to {:.2f} m/s, the map shows {:.2f} to {:.2f} m/s (unambiguous within +-{:.2f}): {}",
             who, reach.velocity_mps.low, reach.velocity_mps.high, grid.velocity_mps.front(), grid.velocity_mps.back(),
             unambiguous, folds ? "shorten radar.pri_us" : "raise map.velocity_span_mps"));

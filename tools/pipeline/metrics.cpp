@@ -26,7 +26,7 @@ bool scores_as_chance(const ordered_json& scores, bool independent, int repeats)
 
 double value_or_nan(const ordered_json& json) { return json.is_number() ? json.get<double>() : std::nan(""); }
 
-std::string percent(double share) { return std::isfinite(share) ? fmt::format("{:.1f} %", 100 * share) : "–"; }
+std::string percent(double fraction) { return std::isfinite(fraction) ? fmt::format("{:.1f} %", 100 * fraction) : "–"; }
 
 std::string accuracy_cell(const ordered_json& scores) {
   const double low = value_or_nan(scores.at("accuracy_95")[0]), high = value_or_nan(scores.at("accuracy_95")[1]);

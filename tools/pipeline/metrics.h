@@ -10,7 +10,7 @@ namespace seaglint {
 
 double value_or_nan(const nlohmann::ordered_json& json);  // JSON has no NaN: an undefined value is null
 
-std::string percent(double share);  // "93.3 %", a dash for NaN
+std::string percent(double fraction);  // "93.3 %", a dash for NaN
 // "93.3 % (88–98)" in HTML, with the 95 % interval if there is one
 std::string accuracy_cell(const nlohmann::ordered_json& scores);
 

@@ -128,7 +128,7 @@ IntervalSampling Pipeline::sampling(const PulseTrain& train, double start_s) con
 ClutterScene Pipeline::clutter_scene(const SampleAddress& at, const Scene& scene) const {
   // Maps of one sea, view and target have one texture; another target has another texture, since a texture common to
   // both labels would reveal one label from the other.
-  const std::uint64_t seen =
+  const std::uint64_t sea_and_view =
       static_cast<std::uint64_t>(plan_.group(at)) * plan_.views().size() + static_cast<std::uint64_t>(at.view);
   const View& view = plan_.view(at);
   return {scenario_.radar,
@@ -137,7 +137,7 @@ ClutterScene Pipeline::clutter_scene(const SampleAddress& at, const Scene& scene
           &scene.sea,
           plan_.start_s(at),
           Vec3(scenario_.targets[static_cast<std::size_t>(at.target)].motion.speed_mps, 0, 0),
-          seen * scenario_.targets.size() + static_cast<std::uint64_t>(at.target)};
+          sea_and_view * scenario_.targets.size() + static_cast<std::uint64_t>(at.target)};
 }
 
 BodyResponse Pipeline::response(const SampleAddress& at, const PulseTrain& train) const {

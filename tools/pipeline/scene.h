@@ -21,7 +21,7 @@ namespace seaglint {
 struct Target {
   TargetSpec spec;
   TriangleMesh mesh;                           // empty for points
-  std::vector<std::string> doubts;             // warnings about the mesh, a sentence each
+  std::vector<std::string> warnings;           // about the mesh, a sentence each
   std::shared_ptr<const Scatterer> scatterer;  // of the mesh; null for points
   Body body;                                   // motion model; unused for points
   std::vector<Vec3> rest_positions;            // of the bodies' origins, target frame; empty for points

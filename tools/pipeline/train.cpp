@@ -69,10 +69,11 @@ void require_own_directory(const fs::path& directory) {
   if (!fs::exists(directory)) return;
   if (!fs::is_directory(directory)) throw InputError(fmt::format("{}: is a file, not a directory", directory.string()));
   if (fs::exists(directory / kNetworkFile)) return;
-  const std::vector<std::string> ours = model_files();
+  const std::vector<std::string> model_names = model_files();
   for (const auto& entry : fs::directory_iterator(directory)) {
     const std::string name = entry.path().filename();
-    if (name.ends_with(".tmp") || std::find(ours.begin(), ours.end(), name) != ours.end()) continue;
+    if (name.ends_with(".tmp") || std::find(model_names.begin(), model_names.end(), name) != model_names.end())
+      continue;
     throw InputError(fmt::format("{}: the directory contains no model, but {}", directory.string(), name));
   }
 }

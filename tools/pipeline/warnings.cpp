@@ -35,8 +35,8 @@ std::vector<std::string> mesh_warnings(const Pipeline& pipeline) {
   std::vector<std::string> lines;
   // no companions
   for (const Target& target : std::span(pipeline.targets()).first(pipeline.scenario().targets.size())) {
-    for (const std::string& doubt : target.doubts)
-      lines.push_back(fmt::format("targets.{}.mesh: {}", target.spec.name, doubt));
+    for (const std::string& warning : target.warnings)
+      lines.push_back(fmt::format("targets.{}.mesh: {}", target.spec.name, warning));
   }
   return lines;
 }

@@ -72,17 +72,17 @@ std::string span_text(std::vector<double> values) {
     theta.push_back(s.theta_deg);
     phi.push_back(s.phi_deg);
   }
-  std::vector<double> our_f, our_theta, our_phi;
-  for (const double hz : sweep.frequency_hz) our_f.push_back(hz * 1e-9);
-  for (const double el : sweep.elevation_deg) our_theta.push_back(90 - el);
+  std::vector<double> sweep_f, sweep_theta, sweep_phi;
+  for (const double hz : sweep.frequency_hz) sweep_f.push_back(hz * 1e-9);
+  for (const double el : sweep.elevation_deg) sweep_theta.push_back(90 - el);
   for (const double az : sweep.azimuth_deg)
-    our_phi.push_back(reference.settings.phi_scale * az + reference.settings.phi_offset_deg);
+    sweep_phi.push_back(reference.settings.phi_scale * az + reference.settings.phi_offset_deg);
   throw InputError(fmt::format(
       "{}: no direction in common with the sweep; the file has {} GHz, theta {}, phi {} deg, the sweep {} GHz, theta "
       "{}, phi {} deg "
       "(theta = 90 - elevation, phi by --reference-phi {:g},{:g})",
-      reference.name, span_text(f), span_text(theta), span_text(phi), span_text(our_f), span_text(our_theta),
-      span_text(our_phi), reference.settings.phi_scale, reference.settings.phi_offset_deg));
+      reference.name, span_text(f), span_text(theta), span_text(phi), span_text(sweep_f), span_text(sweep_theta),
+      span_text(sweep_phi), reference.settings.phi_scale, reference.settings.phi_offset_deg));
 }
 
 Vec3 unit_vector(double theta_deg, double phi_deg) {
@@ -94,17 +94,17 @@ Vec3 unit_vector(double theta_deg, double phi_deg) {
 // angles.
 void require_same_transmitter(const RcsSweep& sweep, const RcsReference& reference) {
   if (!reference.transmitter) return;
-  const DeclaredTransmitter& theirs = *reference.transmitter;
-  const auto fail = [&](const std::string& ours) {
+  const DeclaredTransmitter& declared = *reference.transmitter;
+  const auto fail = [&](const std::string& of_sweep) {
     throw InputError(fmt::format("{}: {}, {}", reference.name,
-                                 theirs.is_monostatic
+                                 declared.is_monostatic
                                      ? std::string("is declared monostatic")
                                      : fmt::format("its transmitter is at azimuth {:g} deg, elevation {:g} deg",
-                                                   theirs.phi_deg, 90 - theirs.theta_deg),
-                                 ours));
+                                                   declared.phi_deg, 90 - declared.theta_deg),
+                                 of_sweep));
   };
   if (!sweep.transmitter) {
-    if (!theirs.is_monostatic)
+    if (!declared.is_monostatic)
       fail("the sweep is monostatic: give --transmit-azimuth-deg and --transmit-elevation-deg");
     return;
   }
@@ -112,11 +112,12 @@ void require_same_transmitter(const RcsSweep& sweep, const RcsReference& referen
   const double theta_deg = degrees(std::acos(std::clamp(t.z(), -1.0, 1.0)));
   const double phi_deg =
       reference.settings.phi_scale * degrees(std::atan2(t.y(), t.x())) + reference.settings.phi_offset_deg;
-  const std::string ours = fmt::format(
+  const std::string of_sweep = fmt::format(
       "the sweep's transmitter is at azimuth {:g} deg, elevation {:g} deg of the same angles", phi_deg, 90 - theta_deg);
-  if (theirs.is_monostatic || (unit_vector(theta_deg, phi_deg) - unit_vector(theirs.theta_deg, theirs.phi_deg)).norm() >
-                                  radians(kAngleStep_deg))
-    fail(ours);
+  if (declared.is_monostatic ||
+      (unit_vector(theta_deg, phi_deg) - unit_vector(declared.theta_deg, declared.phi_deg)).norm() >
+          radians(kAngleStep_deg))
+    fail(of_sweep);
 }
 
 CutAxis axis_of(const RcsSweep& sweep) {
@@ -225,13 +226,13 @@ Difference error_statistics(const PairedCut& cut, const PairedCut::Model& model,
   d.rms_db = std::sqrt(squares / n);
   if (!cut.amplitude_m.empty()) {
     Complex product = 0;
-    double ours = 0, theirs = 0;
+    double model_power = 0, reference_power = 0;
     for (std::size_t i = 0; i < cut.x.size(); ++i) {
       product += std::conj(cut.amplitude_m[i]) * model.amplitude_m[i];
-      ours += std::norm(model.amplitude_m[i]);
-      theirs += std::norm(cut.amplitude_m[i]);
+      model_power += std::norm(model.amplitude_m[i]);
+      reference_power += std::norm(cut.amplitude_m[i]);
     }
-    if (ours > 0 && theirs > 0) d.correlation = product / std::sqrt(ours * theirs);
+    if (model_power > 0 && reference_power > 0) d.correlation = product / std::sqrt(model_power * reference_power);
   }
   return d;
 }
@@ -333,9 +334,9 @@ bool draw_comparison(const std::vector<PairedCut>& cuts, double floor_db, const 
       level.series.push_back({name, cut->x, clipped(cut->level_dbsm), {}, SeriesStyle::kLines});
       for (const PairedCut::Model& model : cut->models) {
         Series series{model.name + " - " + name, cut->x, {}, {}, SeriesStyle::kLines};
-        const std::vector<double> ours = clipped(model.level_dbsm), theirs = clipped(cut->level_dbsm);
+        const std::vector<double> computed = clipped(model.level_dbsm), reference = clipped(cut->level_dbsm);
         for (std::size_t i = 0; i < cut->x.size(); ++i) {
-          series.y.push_back(ours[i] - theirs[i]);
+          series.y.push_back(computed[i] - reference[i]);
           widest = std::max(widest, std::abs(series.y.back()));
         }
         difference.series.push_back(std::move(series));

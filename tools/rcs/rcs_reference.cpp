@@ -12,7 +12,7 @@
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/core/text/number.h"
-#include "tools/rcs/transmitter_note.h"
+#include "tools/rcs/transmitter_keys.h"
 
 namespace seaglint {
 namespace {
@@ -115,18 +115,27 @@ void read_four_columns(Lines& lines, RcsReference& reference) {
   }
 }
 
-// Transmitter stated in a head line of a `seaglint rcs` table; empty if it states none.
+// Transmitter that a head line of a `seaglint rcs` table states; empty if it states none.
 std::optional<DeclaredTransmitter> stated_transmitter(const Lines& lines, const std::string& line) {
   try {
-    const std::optional<NotedTransmitter> noted = read_transmitter_note(line);
-    if (!noted) return std::nullopt;
-    if (!noted->fixed) return DeclaredTransmitter{};
-    DeclaredTransmitter there{false, 90 - noted->fixed->elevation_deg, noted->fixed->azimuth_deg};
-    fold(there.theta_deg, there.phi_deg);
-    return there;
+    const std::optional<TransmitterKeys> keys = read_transmitter_line(line);
+    if (!keys) return std::nullopt;
+    if (!keys->fixed) return DeclaredTransmitter{};
+    DeclaredTransmitter transmitter{false, 90 - keys->fixed->elevation_deg, keys->fixed->azimuth_deg};
+    fold(transmitter.theta_deg, transmitter.phi_deg);
+    return transmitter;
   } catch (const InputError& error) {
     lines.fail(error.what());
   }
+}
+
+// Throws InputError for a table whose head was written by `seaglint rcs`, but states no transmitter.
+void require_transmitter(const RcsReference& reference, const std::string& text, const std::string& file) {
+  if (reference.transmitter || !text.starts_with("# seaglint ")) return;
+  throw InputError(
+      fmt::format("{}: its head does not state the transmitter: add the line '{}', or '{}' with its angles, or make "
+                  "the table again",
+                  file, transmitter_line({}), transmitter_line(FixedTransmitter{})));
 }
 
 // The table of `seaglint rcs`.
@@ -326,7 +335,10 @@ RcsReference read_reference(const std::filesystem::path& file, const ReferenceSe
   Lines lines(text, file.string());
   switch (format) {
     case Format::kFourColumns: read_four_columns(lines, reference); break;
-    case Format::kOwnTable: read_own_table(lines, reference); break;
+    case Format::kOwnTable:
+      read_own_table(lines, reference);
+      require_transmitter(reference, text, file.string());
+      break;
     case Format::kCstTable: read_cst_table(lines, reference); break;
   }
   if (reference.samples.empty()) throw InputError(fmt::format("{}: contains no values", file.string()));

@@ -55,8 +55,8 @@ struct RcsReference {
 //   Phase(Theta)[deg.] ...`, v received = Theta, h received = Phi, units m^2, mm^2, lambda^2 or dB() of them; no
 //   frequency inside. Theta below 0 is folded (|theta|, phi + 180, sign of both unit vectors changed). e^{+jwt}; theta^
 //   = -v, phi^ = h, so cross-polar terms change sign.
-// Throws InputError naming the file, the line and what is missing, and where settings.frequency_hz differs from the
-// file's frequency.
+// Throws InputError naming the file, the line and what is missing, the transmitter in the head of a table of `seaglint
+// rcs` included, and where settings.frequency_hz differs from the file's frequency.
 RcsReference read_reference(const std::filesystem::path& file, const ReferenceSettings& settings);
 
 }  // namespace seaglint

@@ -8,7 +8,7 @@
 #include "sim/core/numbers/dbsm.h"
 #include "sim/scattering/beams/illumination_settings.h"
 #include "tools/rcs/echo_selection.h"
-#include "tools/rcs/transmitter_note.h"
+#include "tools/rcs/transmitter_keys.h"
 
 namespace seaglint {
 namespace {
@@ -50,17 +50,17 @@ std::string rcs_table(const RcsRequest& request, const Scatterer& scatterer, con
   std::string csv = fmt::format(
       "# seaglint {} rcs\n# target {} unit {}: {} facets, radius {:.6g} m\n"
       "# material {}, contributions: {}\n{}"
-      "{} at every visible bounce, max_bounces {}, edges {}, crease_deg {:.6g}, sheet_thickness_mm {:.6g}, "
-      "wavefront_range_m {:.9g} (0 = plane wave), {}, min_patch_m {:.6g}\n{}"
+      "# physical optics at every visible bounce, max_bounces {}, edges {}, crease_deg {:.6g}, sheet_thickness_mm "
+      "{:.6g}, wavefront_range_m {:.9g} (0 = plane wave), min_patch_m {:.6g}\n{}{}\n"
       "# amplitudes in metres, e^{{+jwt}}, phase origin at the body's origin, S_pq: q transmitted, p received; basis "
       "of "
       "CONVENTIONS.md\n"
       "frequency_hz,azimuth_deg,elevation_deg,hh_re,hh_im,hv_re,hv_im,vh_re,vh_im,vv_re,vv_im,hh_dbsm,vv_dbsm\n",
       kVersion, request.target.string(), request.unit, scatterer.facets().size(), scatterer.radius(),
-      materials_text(request.materials), text_of(request.selection), sea_line(request.sea), kMethodNote,
-      request.max_bounces, request.edges ? "on" : "off", request.crease_deg, request.sheet_thickness_mm,
-      request.range_m, transmitter_note(request.transmitter),
-      request.min_patch_m > 0 ? request.min_patch_m : default_min_patch(scatterer), cavity_line(request.cavities));
+      materials_text(request.materials), text_of(request.selection), sea_line(request.sea), request.max_bounces,
+      request.edges ? "on" : "off", request.crease_deg, request.sheet_thickness_mm, request.range_m,
+      request.min_patch_m > 0 ? request.min_patch_m : default_min_patch(scatterer), cavity_line(request.cavities),
+      transmitter_line(request.transmitter));
   for (std::size_t q = 0; q < sweep.frequency_hz.size(); ++q) {
     for (std::size_t view = 0; view < sweep.views(); ++view) {
       const auto& s = sweep.models.back().matrices[view][q];

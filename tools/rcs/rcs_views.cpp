@@ -3,12 +3,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/progress.h"
 #include "sim/scattering/beams/bistatic_geometry.h"
+#include "sim/scattering/response/body_response.h"
 #include "sim/scattering/response/scattering_matrix.h"
 #include "sim/scattering/response/sea_reflection.h"
 
@@ -20,39 +23,82 @@ BistaticGeometry antennas_of(const RcsRequest& request, const RadarBasis& swept)
   return bistatic(basis_at(request.transmitter->azimuth_deg, request.transmitter->elevation_deg), swept);
 }
 
-SeaReflection mirror_of(const SeaUnderTarget& sea) {
+SeaReflection reflection_of(const SeaUnderTarget& sea) {
   SeaReflectionSpec spec;
   spec.surface = sea.surface;
   spec.paths = sea.paths;
   return SeaReflection(spec, sea.wave_height_m);
 }
 
-std::size_t compute_sweep(const RcsRequest& request, const RcsTarget& target, int threads, const StopFlag* stop,
-                          RcsSweep& sweep) {
-  const Scatterer& scatterer = *target.prepared.scatterer;
-  std::vector<double> wavenumbers;
-  for (const double hz : sweep.frequency_hz) wavenumbers.push_back(2 * kPi * hz / kSpeedOfLight);
-  std::size_t segments = 0;
-  Progress progress("rcs", sweep.views(), "views");
-  for (std::size_t view = 0; view < sweep.views(); ++view) {
-    const RadarBasis basis = basis_at(sweep.azimuth_of(view), sweep.elevation_of(view));
-    try {
-      for (RcsSweep::Model& model : sweep.models) {
-        const TracingSettings settings = settings_of(request, target, model.edge_diffraction);
-        model.matrices[view] =
-            request.sea.reflection
-                ? scattering_matrices_over_sea(scatterer, basis.r, request.sea.height_m, mirror_of(request.sea),
-                                               wavenumbers, settings, threads, &segments, stop, request.range_m)
-                : scattering_matrices(scatterer, antennas_of(request, basis), wavenumbers, settings, threads, &segments,
-                                      stop, {request.range_m});
-      }
-    } catch (const Interrupted&) {
-      throw WorkError(fmt::format("interrupted after {} of {} views", view, sweep.views()));
-    }
-    progress.advance();
-  }
-  return segments;
+// Number of views traced together. The views of a fixed transmitter share its trace, whose sums need at most 64 MB: 132
+// kB for each view and frequency of the largest targets.
+std::size_t views_per_trace(const RcsRequest& request) {
+  constexpr std::size_t kMaxViews = 32, kMaxMatrices = 512;
+  if (!request.transmitter) return 1;
+  return std::clamp<std::size_t>(kMaxMatrices / request.frequency_hz.size(), 1, kMaxViews);
 }
+
+// Computes the views of a sweep by beam tracing, several at a time. A view's matrices do not depend on the others.
+class SweepTracer {
+ public:
+  SweepTracer(const RcsRequest& request, const RcsTarget& target, int threads, const StopFlag* stop)
+      : request_(request), target_(target), threads_(threads), stop_(stop) {
+    for (const double hz : request.frequency_hz) wavenumbers_.push_back(2 * kPi * hz / kSpeedOfLight);
+  }
+
+  void run(RcsResult& result) const {
+    const std::size_t views = result.sweep.views(), together = views_per_trace(request_);
+    Progress progress("rcs", views, "views");
+    for (std::size_t first = 0; first < views; first += together) {
+      const std::size_t count = std::min(together, views - first);
+      try {
+        for (RcsSweep::Model& model : result.sweep.models) trace(first, count, model, result);
+      } catch (const Interrupted&) {
+        throw WorkError(fmt::format("interrupted after {} of {} views", first, views));
+      }
+      progress.advance(count);
+    }
+  }
+
+ private:
+  // Fills in the matrices of a model for the views first, first + 1, ..., first + count - 1, and the contributions of
+  // an exported view.
+  void trace(std::size_t first, std::size_t count, RcsSweep::Model& model, RcsResult& result) const {
+    const Scatterer& scatterer = *target_.prepared.scatterer;
+    const TracingSettings settings = settings_of(request_, target_, model.edge_diffraction);
+    std::vector<BistaticGeometry> pairs;
+    for (std::size_t view = first; view < first + count; ++view)
+      pairs.push_back(antennas_of(request_, basis_at(result.sweep.azimuth_of(view), result.sweep.elevation_of(view))));
+    if (request_.exports.wanted() && &model == &result.sweep.models.back()) {
+      const double k = wavenumbers_.front();
+      AspectContributions view =
+          aspect_contributions(scatterer, pairs.front(), {k, default_aspect_change(scatterer, 2 * kPi / k)}, settings,
+                               threads_, stop_, {request_.range_m});
+      model.matrices[first] = {view.matrix};
+      result.contributions = std::move(view.points);
+      result.segments += view.segments;
+      return;
+    }
+    if (!request_.sea.reflection) {
+      std::ranges::move(scattering_matrices(scatterer, pairs, wavenumbers_, settings, threads_, &result.segments, stop_,
+                                            {request_.range_m}),
+                        model.matrices.begin() + static_cast<std::ptrdiff_t>(first));
+      return;
+    }
+    const SeaReflection sea = reflection_of(request_.sea);
+    for (std::size_t i = 0; i < count; ++i) {
+      model.matrices[first + i] =
+          scattering_matrices_over_sea(scatterer, pairs[i].receive.r, request_.sea.height_m, sea, wavenumbers_,
+                                       settings, threads_, &result.segments, stop_, request_.range_m);
+    }
+  }
+
+  const RcsRequest& request_;
+  const RcsTarget& target_;
+  int threads_;
+  const StopFlag* stop_;
+  std::vector<double> wavenumbers_;
+};
 
 // Adds the scattering matrices of cavities to every model of the sweep.
 void add_cavities(const RcsRequest& request, const RcsTarget& target, int threads, const StopFlag* stop,
@@ -96,13 +142,13 @@ TracingSettings settings_of(const RcsRequest& request, const RcsTarget& target, 
 }
 
 RcsResult compute_rcs(const RcsRequest& request, const RcsTarget& target, int threads, const StopFlag* stop) {
-  RcsResult result{requested_sweep(request), 0};
+  RcsResult result{requested_sweep(request), {}, 0};
   RcsSweep& sweep = result.sweep;
   const std::vector<std::vector<std::array<Complex, 4>>> empty(sweep.views());
   if (!request.edges || request.physical_optics_too) sweep.models.push_back({"po", false, empty});
   if (request.edges) sweep.models.push_back({"po+diffraction", true, empty});
   const int count = thread_count(threads);
-  result.segments = compute_sweep(request, target, count, stop, sweep);
+  SweepTracer(request, target, count, stop).run(result);
   if (!target.cavities.empty()) add_cavities(request, target, count, stop, sweep);
   return result;
 }

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Computes scattering matrices over the frequencies and aspects of a request, aspect by aspect.
+// Computes scattering matrices over the frequencies and aspects of a request. Every aspect of one antenna is traced by
+// itself; the aspects of a fixed transmitter are traced together.
 
 #include <cstddef>
+#include <vector>
 
 #include "sim/core/process/parallel.h"
 #include "sim/scattering/beams/illumination_settings.h"
+#include "sim/scattering/surfaces/point_contributions.h"
 #include "tools/rcs/rcs_request.h"
 #include "tools/rcs/rcs_sweep.h"
 #include "tools/rcs/rcs_target.h"
@@ -21,8 +24,9 @@ RadarBasis basis_at(double azimuth_deg, double elevation_deg);
 TracingSettings settings_of(const RcsRequest& request, const RcsTarget& target, bool edge_diffraction);
 
 struct RcsResult {
-  RcsSweep sweep;            // the requested model is the last
-  std::size_t segments = 0;  // beam segments traced
+  RcsSweep sweep;                                // the requested model is the last
+  std::vector<PointContribution> contributions;  // of the requested model, for a request with exports
+  std::size_t segments = 0;                      // beam segments traced from transmitters
 };
 
 // Computes all models of the request, on `threads` threads (0 = all processors). Throws WorkError when a cavity's

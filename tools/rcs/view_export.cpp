@@ -11,11 +11,8 @@
 #include "sim/core/numbers/dbsm.h"
 #include "sim/core/process/file.h"
 #include "sim/geometry/files/mesh_io.h"
-#include "sim/scattering/response/body_response.h"
 #include "sim/scattering/response/scattering_centres_3d.h"
-#include "sim/scattering/response/scattering_matrix.h"
 #include "tools/rcs/echo_selection.h"
-#include "tools/rcs/rcs_views.h"
 
 namespace seaglint {
 namespace {
@@ -131,13 +128,10 @@ std::string heading(const RcsRequest& request) {
 
 }  // namespace
 
-std::string export_view(const RcsRequest& request, const RcsTarget& target, int threads, const StopFlag* stop) {
+std::string export_view(const RcsRequest& request, const RcsTarget& target,
+                        std::span<const PointContribution> contributions) {
   const Scatterer& scatterer = *target.prepared.scatterer;
   const double k = 2 * kPi * request.frequency_hz[0] / kSpeedOfLight;
-  const DecompositionSettings split{k, default_aspect_change(scatterer, 2 * kPi / k)};
-  const std::vector<PointContribution> contributions =
-      aspect_contributions(scatterer, monostatic(basis_at(request.azimuth_deg[0], request.elevation_deg[0])), split,
-                           settings_of(request, target, request.edges), thread_count(threads), stop, {request.range_m});
   std::string lines;
   if (!request.exports.centres.empty())
     lines += write_centres(request.exports, target.prepared.mesh,

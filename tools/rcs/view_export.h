@@ -3,17 +3,18 @@
 
 // Exports of the contributions at one aspect and frequency: scattering centres, hot spots on the mesh.
 
+#include <span>
 #include <string>
 
-#include "sim/core/process/parallel.h"
+#include "sim/scattering/surfaces/point_contributions.h"
 #include "tools/rcs/rcs_request.h"
 #include "tools/rcs/rcs_target.h"
 
 namespace seaglint {
 
-// Writes the exports of a request with one aspect; returns one line per file. Throws Interrupted when *stop becomes
-// true.
-std::string export_view(const RcsRequest& request, const RcsTarget& target, int threads,
-                        const StopFlag* stop = nullptr);
+// Writes the exports of a request with one aspect from the contributions at that aspect (rcs_views.h); returns one line
+// per file.
+std::string export_view(const RcsRequest& request, const RcsTarget& target,
+                        std::span<const PointContribution> contributions);
 
 }  // namespace seaglint

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/report/summary.h"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 
 namespace seaglint {
@@ -47,19 +45,6 @@ std::vector<double> distinct(const ReportData& data, Member member) {
 }
 
 }  // namespace
-
-Quartiles quartiles(std::vector<double> values) {
-  values.erase(std::remove_if(values.begin(), values.end(), [](double x) { return !std::isfinite(x); }), values.end());
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-  if (values.empty()) return {kNan, kNan, kNan};
-  std::sort(values.begin(), values.end());
-  const auto at = [&](double p) {
-    const double place = p * static_cast<double>(values.size() - 1);
-    const std::size_t below = static_cast<std::size_t>(place), above = std::min(below + 1, values.size() - 1);
-    return values[below] + (place - static_cast<double>(below)) * (values[above] - values[below]);
-  };
-  return {at(0.25), at(0.5), at(0.75)};
-}
 
 Quartiles quartiles_of(const ReportData& data, const RowFilter& filter,
                        const std::function<double(const ReportRow&)>& value) {

@@ -9,17 +9,10 @@
 #include <optional>
 #include <vector>
 
+#include "sim/core/numbers/quantile.h"
 #include "tools/report/report_data.h"
 
 namespace seaglint {
-
-// Lower quartile, median, upper quartile of the finite values (linear interpolation); NaN without values.
-struct Quartiles {
-  double lower = 0;
-  double median = 0;
-  double upper = 0;
-};
-Quartiles quartiles(std::vector<double> values);
 
 // Selects rows; an absent member selects all.
 struct RowFilter {

@@ -33,9 +33,7 @@ constexpr double kSmallest = std::numeric_limits<float>::min();  // m; rounding 
 
 class Auditor {
  public:
-  Auditor(const DatasetReader& reader, Audit& result) : reader_(reader), plan_(result.scenario), result_(result) {
-    result.per_target.assign(result.scenario.targets.size(), 0);
-  }
+  Auditor(const DatasetReader& reader, Audit& result) : reader_(reader), plan_(result.plan), result_(result) {}
 
   // Compares the directory's files and the manifest with the scenario's plan.
   void files() {
@@ -160,7 +158,7 @@ class Auditor {
   }
 
   const DatasetReader& reader_;
-  SamplePlan plan_;
+  const SamplePlan& plan_;
   Audit& result_;
   std::vector<MergedFileVerifier> merged_;  // merged files in the directory
   std::optional<StoredAxes> axes_;          // of the first valid shard
@@ -173,8 +171,7 @@ class Auditor {
 
 Audit audit(const fs::path& directory, const StopFlag* stop) {
   const DatasetReader reader(directory, ScenarioMismatch::kAccept);
-  Audit result;
-  result.scenario = read_scenario(directory / kScenarioFile);
+  Audit result(read_scenario(directory / kScenarioFile));
   Auditor auditor(reader, result);
   auditor.files();
   Progress progress("reading shards", reader.shards());

@@ -5,18 +5,23 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sim/core/process/parallel.h"
+#include "sim/scenario/sample_plan.h"
 #include "sim/scenario/scenario.h"
 
 namespace seaglint {
 
 struct Audit {
+  Scenario scenario;                                // as stored in the directory
+  SamplePlan plan;                                  // of the scenario
   std::size_t shards = 0, samples = 0, groups = 0;  // valid ones that were read
   std::vector<std::size_t> per_target;              // samples of each target
   std::vector<std::string> faults;  // each names file, sample and column, with the stored and the expected value
-  Scenario scenario;                // as stored in the directory
+
+  explicit Audit(Scenario stored) : scenario(std::move(stored)), plan(scenario), per_target(scenario.targets.size()) {}
 };
 
 // Reads all shards. Faults are

@@ -32,9 +32,9 @@ std::string columns_table() {
 }
 
 // Unique wave heights of the sea states, also of those from a spectrum table.
-std::vector<double> wave_heights(const Scenario& scenario) {
+std::vector<double> wave_heights(const SamplePlan& plan) {
   std::vector<double> heights;
-  for (const SeaState& state : sea_states(scenario.sea)) {
+  for (const SeaState& state : plan.sea_states()) {
     if (heights.empty() || heights.back() != state.significant_wave_height_m) {
       heights.push_back(state.significant_wave_height_m);
     }
@@ -51,7 +51,8 @@ std::string clutter_level(const ClutterSpec& clutter) {
 
 }  // namespace
 
-std::string data_card(const Scenario& scenario, const Manifest& manifest, const StoredAxes& axes) {
+std::string data_card(const Scenario& scenario, const SamplePlan& plan, const Manifest& manifest,
+                      const StoredAxes& axes) {
   const DatasetSpec& set = scenario.dataset;
   std::string text = fmt::format("# Data set `{}`\n\n", scenario.name);
   text += fmt::format(
@@ -66,10 +67,9 @@ std::string data_card(const Scenario& scenario, const Manifest& manifest, const 
       "* A map has {} velocity cells ({:.3f} to {:.3f} m/s, positive = receding) and {} range cells ({:.2f} to {:.2f} "
       "m, positive = farther).\n"
       "* Values are |RV| in metres: a point scatterer of amplitude a = sqrt(sigma / 4 pi) peaks at a.\n\n",
-      join(wave_heights(scenario)), join(scenario.view.azimuth_deg), join(scenario.view.elevation_deg),
-      set.maps_per_case, set.realisations_per_case, set.interval_spacing_s, axes.velocity_mps.size(),
-      axes.velocity_mps.front(), axes.velocity_mps.back(), axes.range_m.size(), axes.range_m.front(),
-      axes.range_m.back());
+      join(wave_heights(plan)), join(scenario.view.azimuth_deg), join(scenario.view.elevation_deg), set.maps_per_case,
+      set.realisations_per_case, set.interval_spacing_s, axes.velocity_mps.size(), axes.velocity_mps.front(),
+      axes.velocity_mps.back(), axes.range_m.size(), axes.range_m.front(), axes.range_m.back());
   text +=
       "## Reading\n\n"
       "```python\n"

@@ -7,10 +7,13 @@
 
 #include "classify/dataset/format/manifest.h"
 #include "classify/dataset/format/sample.h"
+#include "sim/scenario/sample_plan.h"
 #include "sim/scenario/scenario.h"
 
 namespace seaglint {
 
-std::string data_card(const Scenario& scenario, const Manifest& manifest, const StoredAxes& axes);
+// `plan`: of the scenario.
+std::string data_card(const Scenario& scenario, const SamplePlan& plan, const Manifest& manifest,
+                      const StoredAxes& axes);
 
 }  // namespace seaglint

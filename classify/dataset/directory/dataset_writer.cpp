@@ -276,7 +276,7 @@ std::vector<std::size_t> DatasetWriter::finish() {
   if (!missing.empty()) return missing;
 
   const Manifest whole = manifest();
-  write_in_company(directory_ / kDataCardFile, data_card(scenario_, whole, *axes_));
+  write_in_company(directory_ / kDataCardFile, data_card(scenario_, plan_, whole, *axes_));
   write_in_company(directory_ / kManifestFile, to_json(whole));
   remove_temporaries(directory_);
   return {};

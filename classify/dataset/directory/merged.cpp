@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kFormat = "seaglint merged 1";
+constexpr const char* kFormat = "seaglint merged 2";
 constexpr std::uint64_t kColumnChunk = 8192;  // rows; half a megabyte of names
 
 // An array whose rows remain in the shards.
@@ -197,7 +197,8 @@ MergedFileVerifier::MergedFileVerifier(fs::path file, const DatasetReader& reade
   try {
     content_ = std::make_unique<Hdf5Reader>(file_);
     if (content_->attribute("format") != kFormat)
-      throw WorkError(fmt::format("format \"{}\"; this program reads \"{}\"", content_->attribute("format"), kFormat));
+      throw WorkError(
+          fmt::format("format \"{}\"; this program reads \"{}\"; merge again", content_->attribute("format"), kFormat));
     if (content_->attribute("manifest_sha256") != sha256_file(reader.directory() / kManifestFile))
       throw WorkError("is of another manifest; merge again");
     const Hdf5Reader first(reader.directory() / reader.manifest().shards.front().file);

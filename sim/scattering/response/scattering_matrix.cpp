@@ -127,26 +127,34 @@ Matrices scattering_matrices_over_sea(const Scatterer& scatterer, const Vec3& r_
   return sum;
 }
 
-std::vector<PointContribution> aspect_contributions(const Scatterer& scatterer, const BistaticGeometry& geometry,
-                                                    const DecompositionSettings& split_settings,
-                                                    const TracingSettings& settings, int threads, const StopFlag* stop,
-                                                    const RadarRange& radar) {
+AspectContributions aspect_contributions(const Scatterer& scatterer, const BistaticGeometry& geometry,
+                                         const DecompositionSettings& split_settings, const TracingSettings& settings,
+                                         int threads, const StopFlag* stop, const RadarRange& radar) {
+  const double spread = direction_spread(scatterer, radar);
   DecompositionSettings bent = split_settings;
-  bent.aspect_change_rad += direction_spread(scatterer, radar);
+  bent.aspect_change_rad += spread;
   const std::array wavenumber{split_settings.kc};
+  const MatrixSum sum(geometry, wavenumber, radar, spread);
   const AspectTrace trace(scatterer, std::span(&geometry, 1), settings, wavenumber, threads);
-  std::vector<std::vector<PointContribution>> chunks(trace.chunk_count(0));
-  trace.run({[&](std::size_t, std::size_t chunk, std::span<const Footprint> footprints) {
-               for (const Footprint& footprint : footprints)
-                 decompose(footprint, geometry.transmit, bent, chunks[chunk]);
-             },
-             [&](std::size_t, std::size_t chunk, std::span<const EdgeContribution> contributions) {
-               for (const EdgeContribution& contribution : contributions) decompose(contribution, bent, chunks[chunk]);
-             }},
-            stop);
-  std::vector<PointContribution> all;
-  for (const auto& chunk : chunks) all.insert(all.end(), chunk.begin(), chunk.end());
-  if (radar.range_m > 0) apply_wavefront_curvature(all, geometry, radar);
+  std::vector<std::vector<PointContribution>> points(trace.chunk_count(0));
+  std::vector<Matrices> parts(trace.chunk_count(0), Matrices(1));
+  AspectContributions all;
+  all.segments = trace.run({[&](std::size_t, std::size_t chunk, std::span<const Footprint> footprints) {
+                              sum.add(footprints, parts[chunk]);
+                              for (const Footprint& footprint : footprints)
+                                decompose(footprint, geometry.transmit, bent, points[chunk]);
+                            },
+                            [&](std::size_t, std::size_t chunk, std::span<const EdgeContribution> contributions) {
+                              sum.add(contributions, parts[chunk]);
+                              for (const EdgeContribution& contribution : contributions)
+                                decompose(contribution, bent, points[chunk]);
+                            }},
+                           stop);
+  for (std::size_t chunk = 0; chunk < points.size(); ++chunk) {
+    MatrixSum::add(parts[chunk][0], all.matrix);
+    all.points.insert(all.points.end(), points[chunk].begin(), points[chunk].end());
+  }
+  if (radar.range_m > 0) apply_wavefront_curvature(all.points, geometry, radar);
   return all;
 }
 

@@ -45,11 +45,16 @@ std::vector<std::array<Complex, 4>> scattering_matrices_over_sea(const Scatterer
                                                                  std::size_t* segments = nullptr,
                                                                  const StopFlag* stop = nullptr, double range_m = 0);
 
-// Point contributions of one aspect, in an order independent of the number of threads. Their direct sum at split.kc is
-// the scattering matrix.
-std::vector<PointContribution> aspect_contributions(const Scatterer& scatterer, const BistaticGeometry& geometry,
-                                                    const DecompositionSettings& split, const TracingSettings& settings,
-                                                    int threads = 1, const StopFlag* stop = nullptr,
-                                                    const RadarRange& radar = {});
+// Point contributions of one aspect, and their sum in closed form.
+struct AspectContributions {
+  std::vector<PointContribution> points;  // in an order independent of the number of threads
+  std::array<Complex, 4> matrix{};        // hh, hv, vh, vv at split.kc, as scattering_matrices() returns it, m
+  std::size_t segments = 0;               // beam segments traced
+};
+
+// The direct sum of the points at split.kc is the scattering matrix, to the error of their decomposition.
+AspectContributions aspect_contributions(const Scatterer& scatterer, const BistaticGeometry& geometry,
+                                         const DecompositionSettings& split, const TracingSettings& settings,
+                                         int threads = 1, const StopFlag* stop = nullptr, const RadarRange& radar = {});
 
 }  // namespace seaglint

@@ -57,8 +57,8 @@ ReferenceSettings as(Polarisation element, double frequency_ghz = 10) {
 // The header that `seaglint rcs` writes above its columns.
 std::string own_table(const std::string& transmitter) {
   return "# seaglint 0.1.0 rcs\n# physical optics at every visible bounce, max_bounces 40, edges on, crease_deg 20, "
-         "sheet_thickness_mm 0, wavefront_range_m 0 (0 = plane wave), " +
-         transmitter + ", min_patch_m 7e-05\nfrequency_hz,azimuth_deg,elevation_deg,vv_dbsm\n1e+10,3,4,-5\n";
+         "sheet_thickness_mm 0, wavefront_range_m 0 (0 = plane wave), min_patch_m 7e-05\n" +
+         transmitter + "\nfrequency_hz,azimuth_deg,elevation_deg,vv_dbsm\n1e+10,3,4,-5\n";
 }
 
 // A table as CST 2020 writes it: names padded inside parentheses, units inside brackets, CRLF, theta fastest and
@@ -191,22 +191,41 @@ TEST_F(RcsReferenceFile, ThatCannotBeUsedIsRefusedWithItsPlace) {
 }
 
 TEST_F(RcsReferenceFile, HasTheDirectionOfItsTransmitter) {
-  const RcsReference monostatic = read("m.csv", own_table("monostatic"), as(Polarisation::kVv));
+  const RcsReference monostatic = read("m.csv", own_table("# transmitter=monostatic"), as(Polarisation::kVv));
   ASSERT_TRUE(monostatic.transmitter);
   EXPECT_TRUE(monostatic.transmitter->is_monostatic);
   const RcsReference bistatic =
-      read("b.csv", own_table("transmitter at azimuth -20 deg, elevation 30.5 deg"), as(Polarisation::kVv));
+      read("b.csv", own_table("# transmitter_azimuth_deg=-20 transmitter_elevation_deg=30.5"), as(Polarisation::kVv));
   ASSERT_TRUE(bistatic.transmitter);
   EXPECT_FALSE(bistatic.transmitter->is_monostatic);
   EXPECT_EQ(bistatic.transmitter->phi_deg, 340);
   EXPECT_EQ(bistatic.transmitter->theta_deg, 59.5);
   EXPECT_FALSE(read("a.V.txt", "10e9 90 0 -3\n").transmitter);
+  EXPECT_FALSE(read("c.csv", "frequency_hz,azimuth_deg,elevation_deg,vv_dbsm\n1e+10,3,4,-5\n", as(Polarisation::kVv))
+                   .transmitter);
+}
+
+TEST_F(RcsReferenceFile, IsRefusedWhereItsHeadDoesNotStateTheTransmitter) {
+  const auto refused = [&](const std::string& line) {
+    return refusal("d.csv", own_table(line), as(Polarisation::kVv));
+  };
+  EXPECT_THAT(refused("# plane wave, transmitter at azimuth -20 deg, elevation 30.5 deg"),
+              HasSubstr("d.csv: its head does not state the transmitter: add the line '# transmitter=monostatic', or "
+                        "'# transmitter_azimuth_deg=0 transmitter_elevation_deg=0' with its angles"));
+  EXPECT_THAT(refused("# transmitter_azimuth_deg=3"),
+              HasSubstr("d.csv:3: the key transmitter_elevation_deg is missing"));
+  EXPECT_THAT(refused("# transmitter_azimuth_deg=3 transmitter_elevation_deg=x"),
+              HasSubstr("d.csv:3: transmitter_elevation_deg=x: must be a number"));
+  EXPECT_THAT(refused("# transmitter=fixed"),
+              HasSubstr("d.csv:3: transmitter=fixed: must be transmitter=monostatic or"));
+  EXPECT_THAT(refused("# transmitter=monostatic (backscatter)"),
+              HasSubstr("d.csv:3: '(backscatter)': no key of the transmitter"));
 }
 
 TEST_F(RcsReferenceFile, IsRefusedWithAFrequencyThatIsNotItsOwn) {
   EXPECT_THAT(refusal("a.V.txt", "10e9 90 0 -3\n", as(Polarisation::kVv, 11)),
               HasSubstr("a.V.txt: declares 10 GHz: remove --reference-frequency-ghz 11"));
-  EXPECT_THAT(refusal("own.csv", own_table("monostatic"), as(Polarisation::kVv, 11)),
+  EXPECT_THAT(refusal("own.csv", own_table("# transmitter=monostatic"), as(Polarisation::kVv, 11)),
               HasSubstr("own.csv: declares 10 GHz"));
   EXPECT_EQ(read("b.V.txt", "10e9 90 0 -3\n", as(Polarisation::kVv, 10)).samples.size(), 1u);
 }

@@ -9,6 +9,8 @@
 #include <cmath>
 
 #include "classify/dataset/directory/audit.h"
+#include "classify/dataset/format/checksum.h"
+#include "classify/dataset/format/hdf5_file.h"
 #include "classify/dataset/format/layout.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
@@ -151,6 +153,23 @@ TEST_F(MergedDataSet, FailsTheAuditWhenItIsOfAnotherManifestOrDamaged) {
   other.learning.epochs = 7;
   EXPECT_THAT(DatasetWriter(directory_, other, true, kTestVersion).finish(), IsEmpty());
   EXPECT_THAT(audit(directory_).faults, ElementsAre(HasSubstr("dataset.h5: is of another manifest; merge again")));
+}
+
+// A file of an earlier format has columns of other names. It is found by the audit and may be overwritten.
+TEST_F(MergedDataSet, FailsTheAuditWhenItIsOfAnEarlierFormat) {
+  merge();
+  const std::string good = read_file(file());
+  fs::remove(file());
+  Hdf5Writer earlier(file(), Hdf5Version::k110);
+  earlier.attribute("format", "seaglint merged 1");
+  earlier.attribute("manifest_sha256", sha256_file(directory_ / kManifestFile));
+  earlier.close();
+  EXPECT_THAT(
+      audit(directory_).faults,
+      ElementsAre(HasSubstr("dataset.h5: format \"seaglint merged 1\"; this program reads \"seaglint merged 2\"; "
+                            "merge again")));
+  merge();
+  EXPECT_EQ(read_file(file()), good);
 }
 
 TEST_F(MergedDataSet, FailsTheAuditWhenAnyByteOfARowIsChanged) {

@@ -29,7 +29,8 @@ class AspectDecomposition : public testing::Test {
   const RadarBasis radar_ = radar_basis(direction(25, 8));
   std::vector<PointContribution> contributions(const TracingSettings& settings = {}) const {
     return aspect_contributions(scatterer_, monostatic(radar_), {k16, default_aspect_change(scatterer_, 2 * kPi / k16)},
-                                settings);
+                                settings)
+        .points;
   }
   std::array<Complex, 4> matrix(double k, const TracingSettings& settings = {}) const {
     return scattering_matrices(scatterer_, monostatic(radar_), std::array{k}, settings)[0];
@@ -118,7 +119,7 @@ TEST(ScatteringCentres3d, OfATrihedralsThreeBouncesAreAtItsApex) {
   settings.filter.included = {{ContributionSelector::Kind::kBounces, 3}};
   const RadarBasis radar = radar_basis(direction(40, 30));
   const auto centres =
-      cluster_centres(aspect_contributions(corner, monostatic(radar), {k16, 1e-4}, settings), k16, 0.02);
+      cluster_centres(aspect_contributions(corner, monostatic(radar), {k16, 1e-4}, settings).points, k16, 0.02);
   ASSERT_FALSE(centres.empty());
   EXPECT_LT((centres.front().position() - Vec3(1, 2, 0.5)).norm(), 1e-6);
   EXPECT_NEAR(centres.front().psi, 2 * radar.r.dot(Vec3(1, 2, 0.5)), 1e-6);

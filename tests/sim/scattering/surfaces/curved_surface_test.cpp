@@ -293,7 +293,7 @@ TEST(CurvedSurface, IsValidOverAnAspectChangeAtAnyPosition) {
     const Scatterer sphere(transformed(make_sphere(1, 4), Mat3::Identity(), place));
     const Vec3 r = direction(0, 0);
     TracingSettings settings;
-    const auto points = aspect_contributions(sphere, monostatic(radar_basis(r)), {k, radians(0.075)}, settings);
+    const auto points = aspect_contributions(sphere, monostatic(radar_basis(r)), {k, radians(0.075)}, settings).points;
     for (const double aspect_change_deg : {0.02, 0.05, 0.07}) {
       const Vec3 there = direction(aspect_change_deg, 0);
       const Complex independent = echo(sphere, radar_basis(there), k)[kVvChannel];
