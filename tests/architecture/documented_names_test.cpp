@@ -36,7 +36,7 @@ const Runnable& runnable() {
       const std::size_t equals = program.find('=');
       found.test_programs[program.substr(0, equals)] = program.substr(equals + 1);
     }
-    static const std::regex command(R"re(\badd_subcommand\(\s*"([a-z-]+)")re");
+    static const std::regex command(R"re(\badd_command\(\s*"([a-z-]+)")re");
     for (const SourceFile& file : code_files()) {
       if (!file.is_below("tools")) continue;
       for (std::sregex_iterator match(file.text.begin(), file.text.end(), command), end; match != end; ++match)

@@ -3,7 +3,6 @@
 
 // Arguments that several commands share.
 
-#include <CLI/App.hpp>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -13,14 +12,11 @@
 
 namespace seaglint {
 
-// Throws CLI11's error for an option that is given without any of the options that it requires.
-void require_any_of(const CLI::App& command, const std::string& option, const std::vector<std::string>& others);
-
 // Directory of the data set: the given one, or its `data`, where `run` writes it.
 std::filesystem::path find_data_set(const std::filesystem::path& directory);
 
 // Adds --threads to a command.
-void add_threads_option(CLI::App& command, CommandContext& shell);
+void add_threads_option(CommandOptions& command, CommandContext& shell);
 
 // Parses the values of --set, `key.path=value` each. Throws InputError for one without `=`.
 std::vector<Override> read_overrides(const std::vector<std::string>& set);
@@ -31,6 +27,6 @@ struct ScenarioArguments {
   std::vector<std::string> set;
   Scenario read() const;  // throws InputError
 };
-void add_scenario_arguments(CLI::App& command, ScenarioArguments& arguments);
+void add_scenario_arguments(CommandOptions& command, ScenarioArguments& arguments);
 
 }  // namespace seaglint

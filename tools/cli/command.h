@@ -3,10 +3,10 @@
 
 // The subcommands of `seaglint`, one file command_<verb>.cpp each, in the order of the data flow.
 
-#include <CLI/App.hpp>
 #include <functional>
 
 #include "sim/core/process/parallel.h"
+#include "tools/options/command_options.h"
 
 namespace seaglint {
 
@@ -19,21 +19,21 @@ struct CommandContext {
 };
 
 // Each adds its command to the program, with an example in the footer of its help; command_line.cpp calls them.
-void add_check(CLI::App& app, CommandContext& shell);
-void add_keys(CLI::App& app, CommandContext& shell);
-void add_mesh(CLI::App& app, CommandContext& shell);
-void add_sea(CLI::App& app, CommandContext& shell);
-void add_motion(CLI::App& app, CommandContext& shell);
-void add_rcs(CLI::App& app, CommandContext& shell);
-void add_echo(CLI::App& app, CommandContext& shell);
-void add_map(CLI::App& app, CommandContext& shell);
-void add_generate(CLI::App& app, CommandContext& shell);
-void add_merge(CLI::App& app, CommandContext& shell);
-void add_verify(CLI::App& app, CommandContext& shell);
-void add_regenerate(CLI::App& app, CommandContext& shell);
-void add_export(CLI::App& app, CommandContext& shell);
-void add_train(CLI::App& app, CommandContext& shell);
-void add_run(CLI::App& app, CommandContext& shell);
-void add_report(CLI::App& app, CommandContext& shell);
+void add_check(CommandOptions& program, CommandContext& shell);
+void add_keys(CommandOptions& program, CommandContext& shell);
+void add_mesh(CommandOptions& program, CommandContext& shell);
+void add_sea(CommandOptions& program, CommandContext& shell);
+void add_motion(CommandOptions& program, CommandContext& shell);
+void add_rcs(CommandOptions& program, CommandContext& shell);
+void add_echo(CommandOptions& program, CommandContext& shell);
+void add_map(CommandOptions& program, CommandContext& shell);
+void add_generate(CommandOptions& program, CommandContext& shell);
+void add_merge(CommandOptions& program, CommandContext& shell);
+void add_verify(CommandOptions& program, CommandContext& shell);
+void add_regenerate(CommandOptions& program, CommandContext& shell);
+void add_export(CommandOptions& program, CommandContext& shell);
+void add_train(CommandOptions& program, CommandContext& shell);
+void add_run(CommandOptions& program, CommandContext& shell);
+void add_report(CommandOptions& program, CommandContext& shell);
 
 }  // namespace seaglint

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 
@@ -27,13 +26,13 @@ std::string summary(const Scenario& scenario, const SamplePlan& plan) {
 
 }  // namespace
 
-void add_check(CLI::App& app, CommandContext& shell) {
-  CLI::App* command =
-      app.add_subcommand("check", "Read and validate a scenario, print it with every default written out");
+void add_check(CommandOptions& program, CommandContext& shell) {
+  CommandOptions command =
+      program.add_command("check", "Read and validate a scenario, print it with every default written out");
   auto arguments = std::make_shared<ScenarioArguments>();
-  add_scenario_arguments(*command, *arguments);
-  command->footer("Example:\n  seaglint check scenarios/quick.yaml --set sea.peak_period_s=9");
-  command->callback([arguments, &shell] {
+  add_scenario_arguments(command, *arguments);
+  command.footer("Example:\n  seaglint check scenarios/quick.yaml --set sea.peak_period_s=9");
+  command.callback([arguments, &shell] {
     shell.work = [arguments] {
       const Scenario scenario = arguments->read();
       const Pipeline pipeline(scenario);  // reads every file that the scenario names

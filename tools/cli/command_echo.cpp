@@ -2,7 +2,6 @@
 // The echo of one sample as I/Q samples over time.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -75,16 +74,16 @@ void write_echo(const Arguments& arguments) {
 
 }  // namespace
 
-void add_echo(CLI::App& app, CommandContext& shell) {
-  CLI::App* command = app.add_subcommand("echo", "Write the echo of one sample as I/Q samples over time (NumPy .npz)");
+void add_echo(CommandOptions& program, CommandContext& shell) {
+  CommandOptions command =
+      program.add_command("echo", "Write the echo of one sample as I/Q samples over time (NumPy .npz)");
   auto arguments = std::make_shared<Arguments>();
-  add_scenario_arguments(*command, *arguments);
-  command->add_option("--sample", arguments->sample, "Number of the sample in the scenario's plan")
-      ->capture_default_str();
-  command->add_option("-o,--output", arguments->output, "File, .npz")->required();
-  add_threads_option(*command, shell);
-  command->footer("Example:\n  seaglint echo scenarios/points.yaml --sample 0 -o echo.npz");
-  command->callback([arguments, &shell] {
+  add_scenario_arguments(command, *arguments);
+  command.add_option("--sample", arguments->sample, "Number of the sample in the scenario's plan").show_default();
+  command.add_option("-o,--output", arguments->output, "File, .npz").required();
+  add_threads_option(command, shell);
+  command.footer("Example:\n  seaglint echo scenarios/points.yaml --sample 0 -o echo.npz");
+  command.callback([arguments, &shell] {
     shell.uninterruptible = true;
     shell.work = [arguments] { write_echo(*arguments); };
   });

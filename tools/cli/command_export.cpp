@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "classify/dataset/directory/export.h"
@@ -36,23 +35,23 @@ void export_dataset(const std::string& directory, const fs::path& output, const 
 
 }  // namespace
 
-void add_export(CLI::App& app, CommandContext& shell) {
+void add_export(CommandOptions& program, CommandContext& shell) {
   struct Arguments {
     std::string directory;
     std::string output;
   };
-  CLI::App* command = app.add_subcommand("export", "A data set as NumPy's .npz, in one file or one for each shard");
+  CommandOptions command =
+      program.add_command("export", "A data set as NumPy's .npz, in one file or one for each shard");
   auto arguments = std::make_shared<Arguments>();
-  command->add_option("directory", arguments->directory, "Directory of the data set")->required();
+  command.add_option("directory", arguments->directory, "Directory of the data set").required();
   command
-      ->add_option(
-          "-o,--output", arguments->output,
-          "FILE.npz: everything in one file, for up to some 10,000 maps; else a directory for one file a shard")
-      ->required();
-  command->footer(
+      .add_option("-o,--output", arguments->output,
+                  "FILE.npz: everything in one file, for up to some 10,000 maps; else a directory for one file a shard")
+      .required();
+  command.footer(
       "Example:\n  seaglint export build/points/data -o build/points.npz\n  seaglint export build/paper -o "
       "build/paper_npz");
-  command->callback([arguments, &shell] {
+  command.callback([arguments, &shell] {
     shell.work = [arguments, &shell] { export_dataset(arguments->directory, arguments->output, shell.stop); };
   });
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <charconv>
 #include <chrono>
 #include <memory>
@@ -62,19 +61,19 @@ void generate(const Arguments& arguments, const CommandContext& shell) {
 
 }  // namespace
 
-void add_generate(CLI::App& app, CommandContext& shell) {
-  CLI::App* command =
-      app.add_subcommand("generate", "Make the data set of a scenario: range-velocity maps with labels in HDF5 shards");
+void add_generate(CommandOptions& program, CommandContext& shell) {
+  CommandOptions command = program.add_command(
+      "generate", "Make the data set of a scenario: range-velocity maps with labels in HDF5 shards");
   auto arguments = std::make_shared<Arguments>();
-  add_scenario_arguments(*command, arguments->scenario);
-  command->add_option("-o,--output", arguments->directory, "Directory of the data set, new or empty")->required();
-  command->add_option("--part", arguments->part, "Make the I-th of N parts (whole shards), as I/N");
-  command->add_flag("--resume", arguments->resume, "Keep the sound shards that are there; also starts a new directory");
-  add_threads_option(*command, shell);
-  command->footer(
+  add_scenario_arguments(command, arguments->scenario);
+  command.add_option("-o,--output", arguments->directory, "Directory of the data set, new or empty").required();
+  command.add_option("--part", arguments->part, "Make the I-th of N parts (whole shards), as I/N");
+  command.add_flag("--resume", arguments->resume, "Keep the sound shards that are there; also starts a new directory");
+  add_threads_option(command, shell);
+  command.footer(
       "Example:\n  seaglint generate scenarios/points.yaml -o build/points\n"
       "  seaglint generate scenarios/paper.yaml -o build/paper --part 3/16 --resume");
-  command->callback([arguments, &shell] { shell.work = [arguments, &shell] { generate(*arguments, shell); }; });
+  command.callback([arguments, &shell] { shell.work = [arguments, &shell] { generate(*arguments, shell); }; });
 }
 
 }  // namespace seaglint

@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
-
 #include "sim/scenario/key_list.h"
 #include "tools/cli/command.h"
 
 namespace seaglint {
 
-void add_keys(CLI::App& app, CommandContext& shell) {
-  CLI::App* command =
-      app.add_subcommand("keys", "List every key of a scenario file with its default and what it allows");
-  command->footer("Example:\n  seaglint keys");
-  command->callback([&shell] { shell.work = [] { fmt::print("{}", list_keys()); }; });
+void add_keys(CommandOptions& program, CommandContext& shell) {
+  CommandOptions command =
+      program.add_command("keys", "List every key of a scenario file with its default and what it allows");
+  command.footer("Example:\n  seaglint keys");
+  command.callback([&shell] { shell.work = [] { fmt::print("{}", list_keys()); }; });
 }
 
 }  // namespace seaglint

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <signal.h>
 
-#include <CLI/CLI.hpp>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -18,8 +17,6 @@
 #include "sim/core/numbers/standard_error.h"
 #include "sim/core/process/error.h"
 #include "tools/cli/command.h"
-#include "tools/options/option_numbers.h"
-#include "tools/options/unknown_word.h"
 
 namespace seaglint {
 
@@ -44,23 +41,23 @@ void handle_signals(CommandContext& shell) {
 }
 
 // In the order of the data flow.
-void add_commands(CLI::App& app, CommandContext& shell) {
-  add_check(app, shell);
-  add_keys(app, shell);
-  add_mesh(app, shell);
-  add_sea(app, shell);
-  add_motion(app, shell);
-  add_rcs(app, shell);
-  add_echo(app, shell);
-  add_map(app, shell);
-  add_generate(app, shell);
-  add_merge(app, shell);
-  add_verify(app, shell);
-  add_regenerate(app, shell);
-  add_export(app, shell);
-  add_train(app, shell);
-  add_run(app, shell);
-  add_report(app, shell);
+void add_commands(CommandOptions& program, CommandContext& shell) {
+  add_check(program, shell);
+  add_keys(program, shell);
+  add_mesh(program, shell);
+  add_sea(program, shell);
+  add_motion(program, shell);
+  add_rcs(program, shell);
+  add_echo(program, shell);
+  add_map(program, shell);
+  add_generate(program, shell);
+  add_merge(program, shell);
+  add_verify(program, shell);
+  add_regenerate(program, shell);
+  add_export(program, shell);
+  add_train(program, shell);
+  add_run(program, shell);
+  add_report(program, shell);
 }
 
 int fail(int code, const std::string& message) {
@@ -74,22 +71,6 @@ int end_output() {
   std::cout.flush();
   if (std::cout && std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return 0;
   return fail(1, fmt::format("standard output: cannot write: {}", std::strerror(errno)));
-}
-
-// The words that select a command: " mesh make sphere".
-std::string chosen_words(const CLI::App& app) {
-  const auto chosen = app.get_subcommands();
-  return chosen.empty() ? "" : " " + chosen.front()->get_name() + chosen_words(*chosen.front());
-}
-
-// CLI11 prints --help and --version; every other parse error is wrong input.
-int end_parsing(const CLI::App& app, const CLI::ParseError& error) {
-  if (error.get_exit_code() == 0) {
-    app.exit(error);
-    return end_output();
-  }
-  const std::string message = unknown_word(app).value_or(error.what());
-  return fail(2, fmt::format("{} (see seaglint{} --help)", message, chosen_words(app)));
 }
 
 int run(CommandContext& shell) {
@@ -112,19 +93,19 @@ int run(CommandContext& shell) {
 int run_command_line(int argc, char** argv) {
   reserve_standard_streams();
   CommandContext shell;
-  CLI::App app(
+  ProgramOptions program(
+      "seaglint",
       "Ships and corner-reflector decoys at sea as a frequency-agile radar sees them: from a scenario to classified "
-      "maps",
-      "seaglint");
-  app.set_version_flag("--version", fmt::format("seaglint {}", kVersion));
-  app.require_subcommand(1);
-  app.footer("Example:\n  seaglint check scenarios/quick.yaml\n\nEvery command has --help with an example.");
-  add_commands(app, shell);
-  require_decimal_numbers(app);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return end_parsing(app, error);
+      "maps");
+  program.set_version(fmt::format("seaglint {}", kVersion));
+  program.require_command();
+  program.footer("Example:\n  seaglint check scenarios/quick.yaml\n\nEvery command has --help with an example.");
+  add_commands(program, shell);
+  const ParsedCommandLine parsed = program.parse(argc, argv);
+  if (parsed.error) return fail(2, *parsed.error);
+  if (parsed.information) {
+    std::cout << *parsed.information;
+    return end_output();
   }
   survive_file_size_limit();
   if (!shell.uninterruptible) handle_signals(shell);

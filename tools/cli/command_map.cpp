@@ -2,7 +2,6 @@
 // One range-velocity map of a scenario: its figure, its scattering centres and its features.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -95,26 +94,25 @@ void show_map(const Arguments& arguments) {
 
 }  // namespace
 
-void add_map(CLI::App& app, CommandContext& shell) {
-  CLI::App* command =
-      app.add_subcommand("map", "Draw one range-velocity map, list its scattering centres and features");
+void add_map(CommandOptions& program, CommandContext& shell) {
+  CommandOptions command =
+      program.add_command("map", "Draw one range-velocity map, list its scattering centres and features");
   auto arguments = std::make_shared<Arguments>();
-  add_scenario_arguments(*command, *arguments);
-  command->add_option("--sample", arguments->sample, "Number of the sample in the scenario's plan")
-      ->capture_default_str();
-  command->add_option("-o,--output", arguments->output, "Picture, .png or .svg")->required();
+  add_scenario_arguments(command, *arguments);
+  command.add_option("--sample", arguments->sample, "Number of the sample in the scenario's plan").show_default();
+  command.add_option("-o,--output", arguments->output, "Picture, .png or .svg").required();
   command
-      ->add_option(
+      .add_option(
           "--product", arguments->product,
           "rv: range-velocity map; isar, hrrp: ISAR image or range profiles of the target alone, full synthetic "
           "bandwidth in every pulse")
-      ->check(CLI::IsMember({"rv", "isar", "hrrp"}))
-      ->capture_default_str();
-  add_threads_option(*command, shell);
-  command->footer(
+      .one_of({"rv", "isar", "hrrp"})
+      .show_default();
+  add_threads_option(command, shell);
+  command.footer(
       "Example:\n  seaglint map scenarios/points.yaml --sample 0 -o map.png\n"
       "  seaglint map scenarios/points.yaml --sample 0 --set map.clean=true -o clean.png");
-  command->callback([arguments, &shell] {
+  command.callback([arguments, &shell] {
     shell.uninterruptible = true;
     shell.work = [arguments] { show_map(*arguments); };
   });

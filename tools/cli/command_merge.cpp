@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "classify/dataset/directory/merged.h"
@@ -11,18 +10,18 @@
 
 namespace seaglint {
 
-void add_merge(CLI::App& app, CommandContext& shell) {
+void add_merge(CommandOptions& program, CommandContext& shell) {
   struct Arguments {
     std::string directory;
     std::string file;
   };
-  CLI::App* command =
-      app.add_subcommand("merge", "One HDF5 file over all shards of a data set, which stay where they are");
+  CommandOptions command =
+      program.add_command("merge", "One HDF5 file over all shards of a data set, which stay where they are");
   auto arguments = std::make_shared<Arguments>();
-  command->add_option("directory", arguments->directory, "Directory of the data set")->required();
-  command->add_option("-o,--output", arguments->file, "The merged file; DIRECTORY/dataset.h5 unless given");
-  command->footer("Example:\n  seaglint merge build/points/data");
-  command->callback([arguments, &shell] {
+  command.add_option("directory", arguments->directory, "Directory of the data set").required();
+  command.add_option("-o,--output", arguments->file, "The merged file; DIRECTORY/dataset.h5 unless given");
+  command.footer("Example:\n  seaglint merge build/points/data");
+  command.callback([arguments, &shell] {
     shell.work = [arguments, &shell] {
       const std::filesystem::path directory = find_data_set(arguments->directory);
       std::filesystem::path file = arguments->file;

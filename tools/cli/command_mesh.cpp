@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "sim/core/numbers/constants.h"
@@ -15,7 +14,6 @@
 #include "tools/cli/arguments.h"
 #include "tools/cli/command.h"
 #include "tools/figure/mesh_picture.h"
-#include "tools/options/option_numbers.h"
 #include "tools/pipeline/output_files.h"
 
 namespace seaglint {
@@ -82,14 +80,14 @@ std::string topology_lines(const TriangleMesh& mesh, const Topology& topology, d
 }
 
 // Adds a kind of mesh to `mesh make`; its options are captured by the function that makes the mesh.
-CLI::App* add_kind(CLI::App& make, CommandContext& shell, const char* name, const char* what, const char* example,
-                   const Maker& maker) {
-  CLI::App* kind = make.add_subcommand(name, what);
+CommandOptions add_kind(CommandOptions& make, CommandContext& shell, const char* name, const char* what,
+                        const char* example, const Maker& maker) {
+  CommandOptions kind = make.add_command(name, what);
   auto output = std::make_shared<std::string>();
-  kind->add_option("-o,--output", *output, "Mesh file to write: .glb .gltf .obj .stl or .ply")->required();
-  add_threads_option(*kind, shell);
-  kind->footer(fmt::format("Example:\n  seaglint mesh make {} {}", name, example));
-  kind->callback([output, maker, &shell] {
+  kind.add_option("-o,--output", *output, "Mesh file to write: .glb .gltf .obj .stl or .ply").required();
+  add_threads_option(kind, shell);
+  kind.footer(fmt::format("Example:\n  seaglint mesh make {} {}", name, example));
+  kind.callback([output, maker, &shell] {
     shell.work = [output, maker] {
       const TriangleMesh mesh = maker();
       write_mesh(*output, mesh);
@@ -99,10 +97,10 @@ CLI::App* add_kind(CLI::App& make, CommandContext& shell, const char* name, cons
   return kind;
 }
 
-void add_ship_kind(CLI::App& make, CommandContext& shell) {
+void add_ship_kind(CommandOptions& make, CommandContext& shell) {
   auto form = std::make_shared<ShipForm>();
   auto detail = std::make_shared<std::string>("rails");
-  CLI::App* kind =
+  CommandOptions kind =
       add_kind(make, shell, "ship", "Naval combatant, cut at the waterline z = 0", "-o ship.glb", [form, detail] {
         ShipForm f = *form;
         f.detail = *detail == "hull"       ? ShipDetail::kHull
@@ -110,64 +108,65 @@ void add_ship_kind(CLI::App& make, CommandContext& shell) {
                                            : ShipDetail::kRails;
         return make_ship(f);
       });
-  kind->add_option("--length-m", form->length_m, "Length overall")->capture_default_str();
-  kind->add_option("--beam-m", form->beam_m, "Beam at the waterline")->capture_default_str();
-  kind->add_option("--freeboard-m", form->freeboard_m, "Height of the deck amidships")->capture_default_str();
-  kind->add_option("--bow-height-m", form->bow_height_m, "Height of the deck at the bow")->capture_default_str();
-  kind->add_option("--stern-height-m", form->stern_height_m, "Height of the deck at the stern")->capture_default_str();
-  kind->add_option("--plate-length-m", form->panel_m, "Length of a hull plate")->capture_default_str();
-  kind->add_option("--plate-dent-m", form->plating_m, "Largest dent of a hull plate's corner")->capture_default_str();
-  kind->add_option("--rail-width-m", form->rail_width_m, "Width of rail posts")->capture_default_str();
-  kind->add_option("--detail", *detail, "How much is built: hull (with houses), fittings, rails (all)")
-      ->check(CLI::IsMember({"hull", "fittings", "rails"}))
-      ->capture_default_str();
+  kind.add_option("--length-m", form->length_m, "Length overall").show_default();
+  kind.add_option("--beam-m", form->beam_m, "Beam at the waterline").show_default();
+  kind.add_option("--freeboard-m", form->freeboard_m, "Height of the deck amidships").show_default();
+  kind.add_option("--bow-height-m", form->bow_height_m, "Height of the deck at the bow").show_default();
+  kind.add_option("--stern-height-m", form->stern_height_m, "Height of the deck at the stern").show_default();
+  kind.add_option("--plate-length-m", form->panel_m, "Length of a hull plate").show_default();
+  kind.add_option("--plate-dent-m", form->plating_m, "Largest dent of a hull plate's corner").show_default();
+  kind.add_option("--rail-width-m", form->rail_width_m, "Width of rail posts").show_default();
+  kind.add_option("--detail", *detail, "How much is built: hull (with houses), fittings, rails (all)")
+      .one_of({"hull", "fittings", "rails"})
+      .show_default();
 }
 
-void add_reflector_kinds(CLI::App& make, CommandContext& shell) {
+void add_reflector_kinds(CommandOptions& make, CommandContext& shell) {
   auto edge = std::make_shared<double>(kReflectorEdge);
   add_kind(make, shell, "reflector", "Icosahedral corner reflector of 20 trihedra", "-o reflector.glb",
            [edge] { return make_icosahedral_reflector(*edge); })
-      ->add_option("--edge-m", *edge, "Edge of the icosahedron")
-      ->capture_default_str();
+      .add_option("--edge-m", *edge, "Edge of the icosahedron")
+      .show_default();
 
   auto leg = std::make_shared<double>(0.372);
   auto is_square = std::make_shared<bool>(false);
-  CLI::App* trihedral = add_kind(
+  CommandOptions trihedral = add_kind(
       make, shell, "trihedral", "Right-angled corner with its legs along +x, +y, +z", "--leg-m 0.372 -o corner.glb",
       [leg, is_square] { return *is_square ? make_square_trihedral(*leg) : make_triangular_trihedral(*leg); });
-  trihedral->add_option("--leg-m", *leg, "Length of a leg")->capture_default_str();
-  trihedral->add_flag("--square", *is_square, "Square plates instead of triangles");
+  trihedral.add_option("--leg-m", *leg, "Length of a leg").show_default();
+  trihedral.add_flag("--square", *is_square, "Square plates instead of triangles");
 
   auto length = std::make_shared<double>(1.0), width = std::make_shared<double>(1.0),
        opening = std::make_shared<double>(90.0);
-  CLI::App* dihedral = add_kind(make, shell, "dihedral", "Two plates with a seam along z, open towards +x",
-                                "--length-m 0.4 --width-m 0.3 -o dihedral.glb",
-                                [=] { return make_dihedral(*length, *width, radians(*opening)); });
-  dihedral->add_option("--length-m", *length, "Length of the seam")->capture_default_str();
-  dihedral->add_option("--width-m", *width, "Width of a plate")->capture_default_str();
-  dihedral->add_option("--opening-deg", *opening, "Angle between the plates")->capture_default_str();
+  CommandOptions dihedral = add_kind(make, shell, "dihedral", "Two plates with a seam along z, open towards +x",
+                                     "--length-m 0.4 --width-m 0.3 -o dihedral.glb",
+                                     [=] { return make_dihedral(*length, *width, radians(*opening)); });
+  dihedral.add_option("--length-m", *length, "Length of the seam").show_default();
+  dihedral.add_option("--width-m", *width, "Width of a plate").show_default();
+  dihedral.add_option("--opening-deg", *opening, "Angle between the plates").show_default();
 }
 
-void add_simple_kinds(CLI::App& make, CommandContext& shell) {
+void add_simple_kinds(CommandOptions& make, CommandContext& shell) {
   auto length = std::make_shared<double>(1.0), width = std::make_shared<double>(1.0);
-  CLI::App* plate = add_kind(make, shell, "plate", "Flat sheet in the plane x = 0, seen square from ahead",
-                             "--length-m 0.5 --width-m 0.3 -o plate.stl", [=] { return make_plate(*length, *width); });
-  plate->add_option("--length-m", *length, "Size along y")->capture_default_str();
-  plate->add_option("--width-m", *width, "Size along z")->capture_default_str();
+  CommandOptions plate =
+      add_kind(make, shell, "plate", "Flat sheet in the plane x = 0, seen square from ahead",
+               "--length-m 0.5 --width-m 0.3 -o plate.stl", [=] { return make_plate(*length, *width); });
+  plate.add_option("--length-m", *length, "Size along y").show_default();
+  plate.add_option("--width-m", *width, "Size along z").show_default();
 
   auto radius = std::make_shared<double>(0.5), height = std::make_shared<double>(1.0);
   auto subdivisions = std::make_shared<int>(4), segments = std::make_shared<int>(64);
-  CLI::App* sphere =
+  CommandOptions sphere =
       add_kind(make, shell, "sphere", "Subdivided icosahedron", "--radius-m 0.3 --subdivisions 5 -o sphere.ply",
                [=] { return make_sphere(*radius, *subdivisions); });
-  sphere->add_option("--radius-m", *radius, "Radius of its vertices")->capture_default_str();
-  sphere->add_option("--subdivisions", *subdivisions, "0..8; 20 * 4^n triangles")->capture_default_str();
-  CLI::App* cylinder =
+  sphere.add_option("--radius-m", *radius, "Radius of its vertices").show_default();
+  sphere.add_option("--subdivisions", *subdivisions, "0..8; 20 * 4^n triangles").show_default();
+  CommandOptions cylinder =
       add_kind(make, shell, "cylinder", "Capped prism about the z axis", "--radius-m 0.2 --height-m 1 -o cylinder.obj",
                [=] { return make_cylinder(*radius, *height, *segments); });
-  cylinder->add_option("--radius-m", *radius, "Radius of its vertices")->capture_default_str();
-  cylinder->add_option("--height-m", *height, "Height")->capture_default_str();
-  cylinder->add_option("--segments", *segments, "3..100000 sides")->capture_default_str();
+  cylinder.add_option("--radius-m", *radius, "Radius of its vertices").show_default();
+  cylinder.add_option("--height-m", *height, "Height").show_default();
+  cylinder.add_option("--segments", *segments, "3..100000 sides").show_default();
 }
 
 struct InfoArguments {
@@ -190,46 +189,46 @@ void print_info(const InfoArguments& arguments) {
   for (const std::string& finding : diagnostic_messages(diagnose(mesh))) fmt::print("finding    {}\n", finding);
 }
 
-void add_info(CLI::App& mesh, CommandContext& shell) {
-  CLI::App* info =
-      mesh.add_subcommand("info", "Size, parts, materials, holes, degenerate and non-manifold elements, wedges");
+void add_info(CommandOptions& mesh, CommandContext& shell) {
+  CommandOptions info =
+      mesh.add_command("info", "Size, parts, materials, holes, degenerate and non-manifold elements, wedges");
   auto arguments = std::make_shared<InfoArguments>();
-  info->add_option("FILE", arguments->file, "Mesh file: .glb .gltf .obj .stl or .ply")->required();
-  info->add_option("--unit", arguments->unit, "Unit of the file's lengths: m cm mm km in ft")->capture_default_str();
-  info->add_option("--min-wedge-angle-deg", arguments->wedge_deg, "Smallest angle between the normals at a wedge")
-      ->check(number_within(0.0, 180.0))
-      ->capture_default_str();
-  CLI::Option* picture = info->add_option("--picture", arguments->picture, "Write a picture, .png");
-  info->add_option("--azimuth-deg", arguments->view.azimuth_deg, "The picture's viewpoint, as the radar's")
-      ->check(number_within(-720, 720))
-      ->capture_default_str()
-      ->needs(picture);
-  info->add_option("--elevation-deg", arguments->view.elevation_deg, "The picture's viewpoint, as the radar's")
-      ->check(number_within(-90.0, 90.0))
-      ->capture_default_str()
-      ->needs(picture);
-  info->add_option("--width", arguments->view.width, "The picture's width in pixels")
-      ->check(CLI::Range(16, 8192))
-      ->capture_default_str()
-      ->needs(picture);
-  add_threads_option(*info, shell);
-  info->footer("Example:\n  seaglint mesh info assets/combatant_144m.glb --picture ship.png --azimuth-deg 50");
-  info->callback([arguments, &shell] { shell.work = [arguments] { print_info(*arguments); }; });
+  info.add_option("FILE", arguments->file, "Mesh file: .glb .gltf .obj .stl or .ply").required();
+  info.add_option("--unit", arguments->unit, "Unit of the file's lengths: m cm mm km in ft").show_default();
+  info.add_option("--min-wedge-angle-deg", arguments->wedge_deg, "Smallest angle between the normals at a wedge")
+      .number_within(0.0, 180.0)
+      .show_default();
+  const CommandOption picture = info.add_option("--picture", arguments->picture, "Write a picture, .png");
+  info.add_option("--azimuth-deg", arguments->view.azimuth_deg, "The picture's viewpoint, as the radar's")
+      .number_within(-720, 720)
+      .show_default()
+      .needs(picture);
+  info.add_option("--elevation-deg", arguments->view.elevation_deg, "The picture's viewpoint, as the radar's")
+      .number_within(-90.0, 90.0)
+      .show_default()
+      .needs(picture);
+  info.add_option("--width", arguments->view.width, "The picture's width in pixels")
+      .integer_within(16, 8192)
+      .show_default()
+      .needs(picture);
+  add_threads_option(info, shell);
+  info.footer("Example:\n  seaglint mesh info assets/combatant_144m.glb --picture ship.png --azimuth-deg 50");
+  info.callback([arguments, &shell] { shell.work = [arguments] { print_info(*arguments); }; });
 }
 
 }  // namespace
 
-void add_mesh(CLI::App& app, CommandContext& shell) {
-  CLI::App* mesh = app.add_subcommand("mesh", "Create a mesh, or report its contents");
-  mesh->require_subcommand(1);
-  mesh->footer("Example:\n  seaglint mesh make ship -o ship.glb\n  seaglint mesh info ship.glb");
-  CLI::App* make = mesh->add_subcommand("make", "Make a mesh: a ship, a reflector or a canonical target");
-  make->require_subcommand(1);
-  make->footer("Example:\n  seaglint mesh make reflector -o reflector.glb");
-  add_ship_kind(*make, shell);
-  add_reflector_kinds(*make, shell);
-  add_simple_kinds(*make, shell);
-  add_info(*mesh, shell);
+void add_mesh(CommandOptions& program, CommandContext& shell) {
+  CommandOptions mesh = program.add_command("mesh", "Create a mesh, or report its contents");
+  mesh.require_command();
+  mesh.footer("Example:\n  seaglint mesh make ship -o ship.glb\n  seaglint mesh info ship.glb");
+  CommandOptions make = mesh.add_command("make", "Make a mesh: a ship, a reflector or a canonical target");
+  make.require_command();
+  make.footer("Example:\n  seaglint mesh make reflector -o reflector.glb");
+  add_ship_kind(make, shell);
+  add_reflector_kinds(make, shell);
+  add_simple_kinds(make, shell);
+  add_info(mesh, shell);
 }
 
 }  // namespace seaglint

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -151,30 +150,30 @@ void write_motion(const MotionArguments& arguments, const CommandContext& shell)
 
 }  // namespace
 
-void add_motion(CLI::App& app, CommandContext& shell) {
-  CLI::App* command = app.add_subcommand(
+void add_motion(CommandOptions& program, CommandContext& shell) {
+  CommandOptions command = program.add_command(
       "motion",
       "Write the angles and translations of every body in the scenario's first sea state, their spectra and "
       "statistics");
   auto arguments = std::make_shared<MotionArguments>();
-  add_scenario_arguments(*command, arguments->scenario);
-  command->add_option("-o,--output", arguments->output, "CSV file to write")->required();
-  command->add_option("--spectrum", arguments->spectrum, "CSV file for the spectra of the series' angles");
-  command->add_option("--figure", arguments->figure, "Picture (.png or .svg) of the first 100 s of all angles");
-  command->add_option(
+  add_scenario_arguments(command, arguments->scenario);
+  command.add_option("-o,--output", arguments->output, "CSV file to write").required();
+  command.add_option("--spectrum", arguments->spectrum, "CSV file for the spectra of the series' angles");
+  command.add_option("--figure", arguments->figure, "Picture (.png or .svg) of the first 100 s of all angles");
+  command.add_option(
       "--snapshots", arguments->frames,
       "Figure with five snapshots over one wave period: first and last body in the waves, seen from starboard");
-  CLI::Option* rao =
-      command->add_option("--rao", arguments->rao,
-                          "Figure of the first ship's response amplitude operators for the scenario's wave direction");
-  command->add_option("--rao-reference", arguments->rao_reference, "VERES .re1 or WAMIT .4 to draw beside them")
-      ->needs(rao);
-  add_threads_option(*command, shell);
-  add_time_options(*command, arguments->duration_s, arguments->step_s);
-  command->footer(
+  const CommandOption rao =
+      command.add_option("--rao", arguments->rao,
+                         "Figure of the first ship's response amplitude operators for the scenario's wave direction");
+  command.add_option("--rao-reference", arguments->rao_reference, "VERES .re1 or WAMIT .4 to draw beside them")
+      .needs(rao);
+  add_threads_option(command, shell);
+  add_time_options(command, arguments->duration_s, arguments->step_s);
+  command.footer(
       "Example:\n  seaglint motion scenarios/quick.yaml --duration-s 60 -o motion.csv\n"
       "  seaglint motion scenarios/quick.yaml --figure motion.png --snapshots snapshots.png -o motion.csv");
-  command->callback([arguments, &shell] { shell.work = [arguments, &shell] { write_motion(*arguments, shell); }; });
+  command.callback([arguments, &shell] { shell.work = [arguments, &shell] { write_motion(*arguments, shell); }; });
 }
 
 }  // namespace seaglint

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <memory>
@@ -108,20 +107,20 @@ void run_rcs(const RcsArguments& arguments, const CommandContext& shell) {
 
 }  // namespace
 
-void add_rcs(CLI::App& app, CommandContext& shell) {
-  CLI::App* command = app.add_subcommand("rcs", "Scattering matrix of a mesh at rest over frequency and aspect");
+void add_rcs(CommandOptions& program, CommandContext& shell) {
+  CommandOptions command = program.add_command("rcs", "Scattering matrix of a mesh at rest over frequency and aspect");
   auto arguments = std::make_shared<RcsArguments>();
-  arguments->add_to(*command);
-  add_threads_option(*command, shell);
-  command->footer(
+  arguments->add_to(command);
+  add_threads_option(command, shell);
+  command.footer(
       "Example:\n  seaglint rcs --target assets/icosahedral_reflector.glb --frequency-ghz 16 --azimuth-deg 0:360:0.5 "
       "--elevation-deg 2 -o rcs.csv\n  seaglint rcs --target plate.glb --frequency-ghz 10.24 --azimuth-deg 0:60:0.5 -o "
       "plate.csv --reference "
       "ref.H.txt --reference ref.V.txt");
-  command->callback([arguments, command, &shell] {
-    require_any_of(*command, "--transmit-elevation-deg", {"--transmit-azimuth-deg"});
-    require_any_of(*command, "--centre-cell-m", {"--export-scattering-centres"});
-    require_any_of(*command, "--export-dynamic-range-db", {"--export-scattering-centres", "--export-hot-spots"});
+  command.callback([arguments, command, &shell] {
+    command.require_any_of("--transmit-elevation-deg", {"--transmit-azimuth-deg"});
+    command.require_any_of("--centre-cell-m", {"--export-scattering-centres"});
+    command.require_any_of("--export-dynamic-range-db", {"--export-scattering-centres", "--export-hot-spots"});
     shell.work = [arguments, &shell] { run_rcs(*arguments, shell); };
   });
 }

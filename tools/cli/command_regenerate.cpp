@@ -2,7 +2,6 @@
 // Regenerates one sample of a data set from its scenario and row and compares it with the stored one.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "classify/dataset/directory/dataset_writer.h"
@@ -97,16 +96,16 @@ void regenerate_sample(const Arguments& arguments) {
 
 }  // namespace
 
-void add_regenerate(CLI::App& app, CommandContext& shell) {
-  CLI::App* command =
-      app.add_subcommand("regenerate", "Regenerate one sample of a data set and compare it with the stored one");
+void add_regenerate(CommandOptions& program, CommandContext& shell) {
+  CommandOptions command =
+      program.add_command("regenerate", "Regenerate one sample of a data set and compare it with the stored one");
   auto arguments = std::make_shared<Arguments>();
-  command->add_option("directory", arguments->directory, "Directory of the data set")->required();
-  command->add_option("--sample", arguments->sample, "Number of the sample")->required();
-  command->add_option("-o,--output", arguments->output,
-                      "Map (also complex), axes, hop code, centres and row as NumPy's .npz");
-  command->footer("Example:\n  seaglint regenerate build/points/data --sample 7 -o build/sample_7.npz");
-  command->callback([arguments, &shell] {
+  command.add_option("directory", arguments->directory, "Directory of the data set").required();
+  command.add_option("--sample", arguments->sample, "Number of the sample").required();
+  command.add_option("-o,--output", arguments->output,
+                     "Map (also complex), axes, hop code, centres and row as NumPy's .npz");
+  command.footer("Example:\n  seaglint regenerate build/points/data --sample 7 -o build/sample_7.npz");
+  command.callback([arguments, &shell] {
     shell.uninterruptible = true;
     shell.work = [arguments] { regenerate_sample(*arguments); };
   });

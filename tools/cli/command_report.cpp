@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 
@@ -43,13 +42,13 @@ Scenario read_own_scenario(const std::filesystem::path& run) {
 
 }  // namespace
 
-void add_report(CLI::App& app, CommandContext& shell) {
-  CLI::App* command = app.add_subcommand("report", "Draw the figures of a run again and write its report.html");
+void add_report(CommandOptions& program, CommandContext& shell) {
+  CommandOptions command = program.add_command("report", "Draw the figures of a run again and write its report.html");
   auto directory = std::make_shared<std::string>();
-  command->add_option("DIR", *directory, "Directory made by `seaglint run`")->required();
-  add_threads_option(*command, shell);
-  command->footer("Example:\n  seaglint report build/demo");
-  command->callback([directory, &shell] {
+  command.add_option("DIR", *directory, "Directory made by `seaglint run`").required();
+  add_threads_option(command, shell);
+  command.footer("Example:\n  seaglint report build/demo");
+  command.callback([directory, &shell] {
     shell.work = [directory, &shell] {
       const std::filesystem::path run = *directory;
       write_report(run, read_own_scenario(run), shell.threads, &shell.stop);

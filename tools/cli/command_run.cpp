@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "sim/core/process/error.h"
@@ -21,16 +20,16 @@ struct Arguments {
 
 }  // namespace
 
-void add_run(CLI::App& app, CommandContext& shell) {
-  CLI::App* command =
-      app.add_subcommand("run", "The main job: make the maps of a scenario, train, evaluate, write the report");
+void add_run(CommandOptions& program, CommandContext& shell) {
+  CommandOptions command =
+      program.add_command("run", "The main job: make the maps of a scenario, train, evaluate, write the report");
   auto arguments = std::make_shared<Arguments>();
-  add_scenario_arguments(*command, arguments->scenario);
-  command->add_option("-o,--output", arguments->directory, "Directory of the results, new or empty")->required();
-  command->add_flag("--resume", arguments->resume, "Go on with what an earlier run left in the directory");
-  add_threads_option(*command, shell);
-  command->footer("Example:\n  seaglint run scenarios/points.yaml -o build/points-run");
-  command->callback([arguments, &shell] {
+  add_scenario_arguments(command, arguments->scenario);
+  command.add_option("-o,--output", arguments->directory, "Directory of the results, new or empty").required();
+  command.add_flag("--resume", arguments->resume, "Go on with what an earlier run left in the directory");
+  add_threads_option(command, shell);
+  command.footer("Example:\n  seaglint run scenarios/points.yaml -o build/points-run");
+  command.callback([arguments, &shell] {
     shell.work = [arguments, &shell] {
       const Scenario scenario = arguments->scenario.read();
       try {

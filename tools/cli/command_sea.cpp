@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -19,7 +18,6 @@
 #include "tools/cli/command.h"
 #include "tools/figure/figure.h"
 #include "tools/figure/sea_figures.h"
-#include "tools/options/option_numbers.h"
 #include "tools/options/series_times.h"
 #include "tools/pipeline/output_files.h"
 #include "tools/pipeline/warnings.h"
@@ -153,32 +151,31 @@ void write_sea(const SeaArguments& arguments, const CommandContext& shell) {
 
 }  // namespace
 
-void add_sea(CLI::App& app, CommandContext& shell) {
-  CLI::App* command = app.add_subcommand(
+void add_sea(CommandOptions& program, CommandContext& shell) {
+  CommandOptions command = program.add_command(
       "sea", "Write elevation and slope of the scenario's first sea state over time, its spectrum and its statistics");
   auto arguments = std::make_shared<SeaArguments>();
-  add_scenario_arguments(*command, arguments->scenario);
-  command->add_option("-o,--output", arguments->output, "CSV file to write")->required();
-  command->add_option("--at", arguments->at, "Place X,Y in the target frame, m")
-      ->delimiter(',')
-      ->expected(2)
-      ->check(number_within(-1e4, 1e4));
-  command->add_flag("--kinematics", arguments->kinematics,
-                    "Add velocity and acceleration of the water at the surface to the columns");
-  command->add_option("--spectrum", arguments->spectrum,
-                      "CSV file for the spectrum: the state's, and that of the realisations");
-  command->add_option("--figure", arguments->figure,
-                      "Picture (.png or .svg) of elevation, spectrum, exceedance of crests and slope");
+  add_scenario_arguments(command, arguments->scenario);
+  command.add_option("-o,--output", arguments->output, "CSV file to write").required();
+  command.add_option("--at", arguments->at, "Place X,Y in the target frame, m")
+      .comma_separated(2)
+      .number_within(-1e4, 1e4);
+  command.add_flag("--kinematics", arguments->kinematics,
+                   "Add velocity and acceleration of the water at the surface to the columns");
+  command.add_option("--spectrum", arguments->spectrum,
+                     "CSV file for the spectrum: the state's, and that of the realisations");
+  command.add_option("--figure", arguments->figure,
+                     "Picture (.png or .svg) of elevation, spectrum, exceedance of crests and slope");
   command
-      ->add_option("--realisations", arguments->realisations, "Realisations that --spectrum and --figure take together")
-      ->check(CLI::Range(1, 10000));
-  add_threads_option(*command, shell);
-  add_time_options(*command, arguments->duration_s, arguments->step_s);
-  command->footer(
+      .add_option("--realisations", arguments->realisations, "Realisations that --spectrum and --figure take together")
+      .integer_within(1, 10000);
+  add_threads_option(command, shell);
+  add_time_options(command, arguments->duration_s, arguments->step_s);
+  command.footer(
       "Example:\n  seaglint sea scenarios/quick.yaml --at 40,0 --duration-s 100 -o sea.csv\n"
       "  seaglint sea scenarios/quick.yaml --realisations 100 --figure sea.png -o sea.csv");
-  command->callback([arguments, command, &shell] {
-    require_any_of(*command, "--realisations", {"--spectrum", "--figure"});
+  command.callback([arguments, command, &shell] {
+    command.require_any_of("--realisations", {"--spectrum", "--figure"});
     shell.work = [arguments, &shell] { write_sea(*arguments, shell); };
   });
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "classify/model/study_text.h"
@@ -34,18 +33,17 @@ std::vector<Override> learning_overrides(const std::vector<std::string>& set) {
 
 }  // namespace
 
-void add_train(CLI::App& app, CommandContext& shell) {
-  CLI::App* command =
-      app.add_subcommand("train", "Train network and trees on a data set and evaluate them on unseen maps and seas");
+void add_train(CommandOptions& program, CommandContext& shell) {
+  CommandOptions command =
+      program.add_command("train", "Train network and trees on a data set and evaluate them on unseen maps and seas");
   auto arguments = std::make_shared<Arguments>();
-  command->add_option("DIR", arguments->data, "Data set made by `seaglint generate` or `seaglint run`")->required();
-  command->add_option("-o,--output", arguments->model, "Directory of the model")->required();
-  command->add_option("--set", arguments->set, "Replace a value of the data set's scenario (repeatable)")
-      ->type_name("learning.KEY=VALUE")
-      ->allow_extra_args(false);
-  add_threads_option(*command, shell);
-  command->footer("Example:\n  seaglint train build/points -o build/points-model --set learning.epochs=40");
-  command->callback([arguments, &shell] {
+  command.add_option("DIR", arguments->data, "Data set made by `seaglint generate` or `seaglint run`").required();
+  command.add_option("-o,--output", arguments->model, "Directory of the model").required();
+  command.add_option("--set", arguments->set, "Replace a value of the data set's scenario (repeatable)")
+      .repeatable("learning.KEY=VALUE");
+  add_threads_option(command, shell);
+  command.footer("Example:\n  seaglint train build/points -o build/points-model --set learning.epochs=40");
+  command.callback([arguments, &shell] {
     shell.work = [arguments, &shell] {
       const TrainedModel model = train_model(find_data_set(arguments->data), arguments->model,
                                              learning_overrides(arguments->set), shell.threads, &shell.stop);

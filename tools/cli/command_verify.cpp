@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
 #include <mutex>
@@ -84,19 +83,19 @@ void verify(const Arguments& given, const CommandContext& shell) {
 
 }  // namespace
 
-void add_verify(CLI::App& app, CommandContext& shell) {
-  CLI::App* command = app.add_subcommand(
+void add_verify(CommandOptions& program, CommandContext& shell) {
+  CommandOptions command = program.add_command(
       "verify", "Audit a data set: missing, repeated, damaged and mislabelled samples; regenerates some of them");
   auto arguments = std::make_shared<Arguments>();
-  command->add_option("directory", arguments->directory, "Directory of the data set")->required();
+  command.add_option("directory", arguments->directory, "Directory of the data set").required();
   command
-      ->add_option("--regenerate", arguments->regenerate,
-                   "Samples to regenerate from their rows, spread over the data set")
-      ->check(CLI::Range(0, 1000000))
-      ->capture_default_str();
-  add_threads_option(*command, shell);
-  command->footer("Example:\n  seaglint verify build/demo/data --regenerate 5");
-  command->callback([arguments, &shell] { shell.work = [arguments, &shell] { verify(*arguments, shell); }; });
+      .add_option("--regenerate", arguments->regenerate,
+                  "Samples to regenerate from their rows, spread over the data set")
+      .integer_within(0, 1000000)
+      .show_default();
+  add_threads_option(command, shell);
+  command.footer("Example:\n  seaglint verify build/demo/data --regenerate 5");
+  command.callback([arguments, &shell] { shell.work = [arguments, &shell] { verify(*arguments, shell); }; });
 }
 
 }  // namespace seaglint

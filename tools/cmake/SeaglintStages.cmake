@@ -48,9 +48,7 @@ function(add_stage folder)
     target_link_libraries(${target} PUBLIC ${upstream} PRIVATE seaglint_flags ${STAGE_LIBRARIES})
     # Eigen and fmt are the two libraries whose types the public headers use.
     target_link_libraries(${target} PUBLIC Eigen3::Eigen fmt::fmt)
-    if(folder STREQUAL "tools")
-      precompile_headers(${target} ${target} ${SEAGLINT_COMMON_HEADERS} <CLI/CLI.hpp> <nlohmann/json.hpp>)
-    elseif(NOT folder STREQUAL "classify/cnn")  # libtorch has macros and flags of its own
+    if(NOT folder STREQUAL "classify/cnn")  # libtorch has macros and flags of its own
       precompile_headers(${target} seaglint_core ${SEAGLINT_COMMON_HEADERS})
     endif()
   else()

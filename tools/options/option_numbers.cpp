@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <charconv>
 #include <cstdint>
 #include <optional>
+#include <string_view>
 #include <system_error>
 
 #include "sim/core/text/number.h"
@@ -27,45 +27,27 @@ std::optional<Whole> parse_whole(std::string_view text) {
   return value;
 }
 
-// Rewrites the number in digits that CLI11 parses to the same value.
 template <class Whole>
-CLI::Validator decimal_whole(const char* bound) {
-  const auto rewrite = [bound](std::string& text) {
-    const std::optional<Whole> value = parse_whole<Whole>(text);
-    if (!value) return fmt::format("value {}: must be a whole number{}", shown(text), bound);
-    text = fmt::format("{}", *value);
-    return std::string();
-  };
-  return CLI::Validator(rewrite, "");
-}
-
-CLI::Validator decimal_number() {
-  const auto check = [](const std::string& text) {
-    return parse_number(text) ? std::string() : fmt::format("value {}: must be a number", shown(text));
-  };
-  return CLI::Validator(check, "");
+std::string rewrite_whole(std::string& text, const char* bound) {
+  const std::optional<Whole> value = parse_whole<Whole>(text);
+  if (!value) return fmt::format("value {}: must be a whole number{}", shown(text), bound);
+  text = fmt::format("{}", *value);
+  return "";
 }
 
 }  // namespace
 
-CLI::Validator number_within(double lowest, double highest) {
-  const auto check = [lowest, highest](const std::string& text) {
-    const std::optional<double> value = parse_number(text);
-    const bool inside = value && *value >= lowest && *value <= highest;
-    return inside ? std::string() : fmt::format("value {}: must be within {} and {}", shown(text), lowest, highest);
-  };
-  return CLI::Validator(check, fmt::format("within {} and {}", lowest, highest));
+std::string number_error(const std::string& text) {
+  return parse_number(text) ? "" : fmt::format("value {}: must be a number", shown(text));
 }
 
-void require_decimal_numbers(CLI::App& app) {
-  for (CLI::Option* option : app.get_options()) {
-    const std::string type = option->get_type_name();
-    if (type.starts_with("INT")) option->transform(decimal_whole<std::int64_t>(""));
-    if (type.starts_with("UINT")) option->transform(decimal_whole<std::uint64_t>(", 0 or more"));
-    if (type.starts_with("FLOAT"))
-      option->check(decimal_number());  // after an option's own bounds, whose message is more specific
-  }
-  for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) require_decimal_numbers(*command);
+std::string number_error(const std::string& text, double lowest, double highest) {
+  const std::optional<double> value = parse_number(text);
+  const bool inside = value && *value >= lowest && *value <= highest;
+  return inside ? "" : fmt::format("value {}: must be within {} and {}", shown(text), lowest, highest);
 }
+
+std::string rewrite_integer(std::string& text) { return rewrite_whole<std::int64_t>(text, ""); }
+std::string rewrite_natural_number(std::string& text) { return rewrite_whole<std::uint64_t>(text, ", 0 or more"); }
 
 }  // namespace seaglint

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Numbers on the command line are decimal. CLI11 alone reads them as C literals: 010 as eight, 0x10 as sixteen, an
-// empty word as zero.
+// Decimal numbers on the command line. Each function returns the error text of an option's value, "" if it is valid.
 
-#include <CLI/App.hpp>
-#include <CLI/Validators.hpp>
+#include <string>
 
 namespace seaglint {
 
-// Validator for numbers in [lowest, highest]; unlike CLI::Range it rejects NaN.
-CLI::Validator number_within(double lowest, double highest);
+std::string number_error(const std::string& text);
+std::string number_error(const std::string& text, double lowest, double highest);  // NaN is outside all bounds
 
-// Restricts every numeric option, also of all subcommands, to decimal numbers.
-void require_decimal_numbers(CLI::App& app);
+// For integers and for those of 0 or more; replace a valid text by the shortest decimal digits of the same value.
+std::string rewrite_integer(std::string& text);
+std::string rewrite_natural_number(std::string& text);
 
 }  // namespace seaglint

@@ -3,11 +3,8 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
-
 #include "sim/core/process/error.h"
 #include "sim/core/text/number.h"
-#include "tools/options/option_numbers.h"
 #include "tools/options/renamed_words.h"
 
 namespace seaglint {
@@ -37,53 +34,50 @@ MaterialChoice material_choice(const std::string& text) {
   return choice;
 }
 
-void add_cavity_options(CLI::App& command, CavityRequest& cavities) {
-  command
-      .add_option("--cavity", cavities.parts,
-                  "Part that forms the walls of an open-ended cavity a few wavelengths wide: solved by the "
-                  "magnetic-field integral equation instead of beam tracing; minutes per frequency (repeatable)")
-      ->type_name("PART")
-      ->allow_extra_args(false);
+void add_cavity_options(CommandOptions& command, CavityRequest& cavities) {
+  const CommandOption cavity =
+      command
+          .add_option("--cavity", cavities.parts,
+                      "Part that forms the walls of an open-ended cavity a few wavelengths wide: solved by the "
+                      "magnetic-field integral equation instead of beam tracing; minutes per frequency (repeatable)")
+          .repeatable("PART");
   command
       .add_option("--cavity-patches-per-wavelength", cavities.patches_per_wavelength,
                   "Wall patches per wavelength; run time grows with the fourth power")
-      ->check(number_within(4.0, 20.0))
-      ->capture_default_str()
-      ->needs("--cavity");
+      .number_within(4.0, 20.0)
+      .show_default()
+      .needs(cavity);
 }
 
-void add_sea_options(CLI::App& command, RcsArguments& arguments) {
+void add_sea_options(CommandOptions& command, RcsArguments& arguments) {
   SeaUnderTarget& under = arguments.request.sea;
-  CLI::Option* sea = command.add_flag(
+  const CommandOption sea = command.add_flag(
       "--sea-reflection", under.reflection,
       "Four-path multipath: direct and specularly reflected by the mean sea surface; elevations must be above 0");
   command.add_option("--origin-height-m", under.height_m, "Height of the mesh's origin above the mean sea surface")
-      ->check(number_within(-1e4, 1e4))
-      ->capture_default_str()
-      ->needs(sea);
+      .number_within(-1e4, 1e4)
+      .show_default()
+      .needs(sea);
   command
       .add_option("--significant-wave-height-m", under.wave_height_m,
                   "Significant wave height: roughness of the sea surface")
-      ->check(number_within(0.0, 30.0))
-      ->capture_default_str()
-      ->needs(sea);
+      .number_within(0.0, 30.0)
+      .show_default()
+      .needs(sea);
   command.add_option("--sea-surface", arguments.sea_surface, "sea_water (20 deg C, 35 psu) or conductor")
-      ->check(CLI::IsMember({"sea_water", "conductor"}))
-      ->capture_default_str()
-      ->needs(sea);
+      .one_of({"sea_water", "conductor"})
+      .show_default()
+      .needs(sea);
   command.add_option("--sea-paths", arguments.sea_paths, "all, direct_only or multipath_only")
-      ->check(no_renamed_value("--sea-paths"))
-      ->check(CLI::IsMember({"all", "direct_only", "multipath_only"}))
-      ->capture_default_str()
-      ->needs(sea);
+      .check([](const std::string& value) { return renamed_value_error("--sea-paths", value); })
+      .one_of({"all", "direct_only", "multipath_only"})
+      .show_default()
+      .needs(sea);
 }
 
-void add_selection_options(CLI::App& command, EchoSelection& selection) {
+void add_selection_options(CommandOptions& command, EchoSelection& selection) {
   const auto selectors = [&](const char* name, std::vector<std::string>& values, const char* what) {
-    command.add_option(name, values, what)
-        ->type_name("KIND=VALUE")
-        ->allow_extra_args(false)
-        ->group("Selection and export");
+    command.add_option(name, values, what).repeatable("KIND=VALUE").group("Selection and export");
   };
   selectors("--only", selection.only,
             "Sum only the contributions of part=NAME, bounces=N, mechanism=po or edge (repeatable; of one kind any, of "
@@ -91,89 +85,88 @@ void add_selection_options(CLI::App& command, EchoSelection& selection) {
   selectors("--without", selection.without, "Exclude the contributions of any of these (repeatable)");
 }
 
-void add_export_options(CLI::App& command, ViewExport& exports) {
+void add_export_options(CommandOptions& command, ViewExport& exports) {
   command
       .add_option("--export-scattering-centres", exports.centres,
                   "Scattering centres of one aspect at one frequency, as CSV")
-      ->group("Selection and export");
+      .group("Selection and export");
   command.add_option("--centre-cell-m", exports.cell_m, "Size of the cells whose contributions become one centre")
-      ->check(number_within(1e-4, 100.0))
-      ->capture_default_str()
-      ->group("Selection and export");
+      .number_within(1e-4, 100.0)
+      .show_default()
+      .group("Selection and export");
   command
       .add_option("--export-hot-spots", exports.hot_spots,
                   "Mesh (.glb or .gltf) with facets coloured by their RCS contribution at one aspect")
-      ->group("Selection and export");
+      .group("Selection and export");
   command.add_option("--export-dynamic-range-db", exports.range_db, "Dynamic range of the exports below the strongest")
-      ->check(number_within(2.0, 300.0))
-      ->capture_default_str()
-      ->group("Selection and export");
+      .number_within(2.0, 300.0)
+      .show_default()
+      .group("Selection and export");
 }
 
 }  // namespace
 
-void RcsArguments::add_to(CLI::App& command) {
-  command.add_option("--target", target, "Mesh file: .glb, .gltf, .obj, .stl or .ply")->required();
-  command.add_option("--unit", request.unit, "Unit of the mesh: m, cm, mm, km, in, ft")->capture_default_str();
+void RcsArguments::add_to(CommandOptions& command) {
+  command.add_option("--target", target, "Mesh file: .glb, .gltf, .obj, .stl or .ply").required();
+  command.add_option("--unit", request.unit, "Unit of the mesh: m, cm, mm, km, in, ft").show_default();
   command
       .add_option("--frequency-ghz", frequency_ghz,
                   "A or A:B:STEP (B included where a step meets it), within 0.001 and 1000")
-      ->required();
+      .required();
   command
       .add_option("--azimuth-deg", azimuth_deg,
                   "A or A:B:STEP within -720 and 720; 0 = radar ahead of the bow, counter-clockwise from above")
-      ->required();
+      .required();
   command
       .add_option("--elevation-deg", elevation_deg,
                   "A or A:B:STEP within -90 and 90; of the radar seen from the target")
-      ->capture_default_str();
+      .show_default();
   command
       .add_option(
           "--edges", edges,
           "Edge diffraction (equivalent edge currents, single and multiple): on, or off for physical optics alone")
-      ->check(CLI::IsMember({"on", "off"}))
-      ->capture_default_str();
+      .one_of({"on", "off"})
+      .show_default();
   command
       .add_option(
           "--crease-deg", request.crease_deg,
           "Crease angle: adjacent facets whose normals differ by less belong to one smooth surface; 0 = all facets "
           "flat")
-      ->check(number_within(0.0, 60.0))
-      ->capture_default_str();
+      .number_within(0.0, 60.0)
+      .show_default();
   command
       .add_option("--sheet-thickness-mm", request.sheet_thickness_mm,
                   "Thickness of open surfaces (meshed at the illuminated face): first-order correction of their edge "
                   "diffraction, valid up to a tenth of a wavelength")
-      ->check(number_within(0.0, 1000.0))
-      ->capture_default_str();
+      .number_within(0.0, 1000.0)
+      .show_default();
   command
       .add_option("--transmit-azimuth-deg", transmit_azimuth_deg,
                   "Bistatic: azimuth of a fixed transmitter; --azimuth-deg and --elevation-deg then sweep the receiver")
-      ->check(number_within(-720.0, 720.0));
+      .number_within(-720.0, 720.0);
   command.add_option("--transmit-elevation-deg", transmit_elevation_deg, "Its elevation; 0 unless given")
-      ->check(number_within(-90.0, 90.0));
+      .number_within(-90.0, 90.0);
   command
       .add_option("--wavefront-range-m", request.range_m,
                   "Radar range for the wavefront curvature, from the target origin (with --sea-reflection from the sea "
                   "surface below it); 0 = plane wave")
-      ->check(number_within(0.0, 1e9));
+      .number_within(0.0, 1e9);
   command.add_option("--max-bounces", request.max_bounces, "Maximum number of bounces")
-      ->check(CLI::Range(1, kMaxBounces))
-      ->capture_default_str();
+      .integer_within(1, kMaxBounces)
+      .show_default();
   command
       .add_option("--min-patch-m", request.min_patch_m,
                   "Side of the smallest illuminated patch kept; 0 = 0.7e-4 of the target radius, the coarsest")
-      ->check(number_within(0.0, 1e6));
+      .number_within(0.0, 1e6);
   command
       .add_option(
           "--material", materials,
           "Material: pec, a name in assets/materials, or a file; PART=NAME for one part, PART* for every part with "
           "that prefix (repeatable)")
-      ->type_name("[PART=]NAME")
-      ->allow_extra_args(false);
+      .repeatable("[PART=]NAME");
   add_cavity_options(command, request.cavities);
   add_sea_options(command, *this);
-  command.add_option("-o,--output", output, "CSV file to write")->required();
+  command.add_option("-o,--output", output, "CSV file to write").required();
   add_selection_options(command, request.selection);
   add_export_options(command, request.exports);
   reference.add_to(command);

@@ -3,11 +3,11 @@
 
 // The options of `rcs`, and their conversion to an RcsRequest.
 
-#include <CLI/App.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "tools/options/command_options.h"
 #include "tools/options/reference_arguments.h"
 #include "tools/rcs/rcs_request.h"
 
@@ -21,7 +21,7 @@ struct RcsArguments {
   std::string sea_surface = "sea_water", sea_paths = "all";
   ReferenceArguments reference;
 
-  void add_to(CLI::App& command);
+  void add_to(CommandOptions& command);
   RcsRequest make_request() const;  // throws InputError
 };
 

@@ -3,13 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <sstream>
 
 #include "sim/core/process/error.h"
 #include "sim/core/text/number.h"
-#include "tools/options/option_numbers.h"
 
 namespace seaglint {
 namespace {
@@ -47,37 +45,38 @@ Polarisation polarisation_named(const std::string& name) {
 
 }  // namespace
 
-void ReferenceArguments::add_to(CLI::App& command) {
+void ReferenceArguments::add_to(CommandOptions& command) {
   const auto repeatable = [&](const char* name, std::vector<std::string>& values, const char* what, const char* type) {
-    return command.add_option(name, values, what)->type_name(type)->allow_extra_args(false)->group("Reference");
+    return command.add_option(name, values, what).repeatable(type).group("Reference");
   };
-  CLI::Option* reference = repeatable("--reference", files,
-                                      "Compare with a cut that was measured or computed elsewhere (repeatable): four "
-                                      "columns frequency_hz theta_deg phi_deg dBsm, a table "
-                                      "of this command, or a monostatic CST farfield table of the RCS",
-                                      "FILE");
+  const CommandOption reference =
+      repeatable("--reference", files,
+                 "Compare with a cut that was measured or computed elsewhere (repeatable): four "
+                 "columns frequency_hz theta_deg phi_deg dBsm, a table "
+                 "of this command, or a monostatic CST farfield table of the RCS",
+                 "FILE");
   repeatable(
       "--reference-polarisation", polarisation,
       "hh, hv, vh or vv (received, transmitted); default from the name, .H. or .V.; once, or once for each reference",
       "PP")
-      ->needs(reference);
+      .needs(reference);
   repeatable("--reference-phi", phi,
              "A,B: the reference's phi is A * azimuth + B degrees; default 1,0. Its theta is 90 - elevation", "A,B")
-      ->needs(reference);
+      .needs(reference);
   repeatable("--reference-frequency-ghz", frequency_ghz, "Frequency of a reference that does not say it (CST)", "GHZ")
-      ->needs(reference);
+      .needs(reference);
   repeatable("--reference-origin-m", origin_m, "The reference's phase origin in the body's frame; default 0,0,0",
              "X,Y,Z")
-      ->needs(reference);
+      .needs(reference);
   command.add_option("--floor-db", floor_db, "Levels further below the reference maximum are clipped to this floor")
-      ->check(number_within(1.0, 300.0))
-      ->capture_default_str()
-      ->needs(reference)
-      ->group("Reference");
+      .number_within(1.0, 300.0)
+      .show_default()
+      .needs(reference)
+      .group("Reference");
   command
       .add_option("--figure", figure, "Picture of the comparison, .png or .svg; default: the output's name with .png")
-      ->needs(reference)
-      ->group("Reference");
+      .needs(reference)
+      .group("Reference");
 }
 
 std::vector<RcsReference> ReferenceArguments::read() const {

@@ -3,10 +3,10 @@
 
 // The options of `rcs` for reference files and for the relation of their angles, frequency and origin to the sweep.
 
-#include <CLI/App.hpp>
 #include <string>
 #include <vector>
 
+#include "tools/options/command_options.h"
 #include "tools/rcs/rcs_reference.h"
 
 namespace seaglint {
@@ -18,7 +18,7 @@ struct ReferenceArguments {
   double floor_db = 80;
   std::string figure;
 
-  void add_to(CLI::App& command);
+  void add_to(CommandOptions& command);
   std::vector<RcsReference> read() const;  // throws InputError
 };
 

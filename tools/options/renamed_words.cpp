@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <utility>
+#include <iterator>
 
 namespace seaglint {
 namespace {
@@ -42,15 +42,10 @@ std::optional<std::string> renamed_word(std::string_view command, std::string_vi
   return fmt::format("renamed to {}{}", found->now, found->note);
 }
 
-CLI::Validator no_renamed_value(std::string option) {
-  return CLI::Validator(
-      [option = std::move(option)](const std::string& value) -> std::string {
-        const auto found = std::ranges::find_if(
-            kValues, [&](const RenamedOptionValue& old) { return old.option == option && old.value == value; });
-        if (found == std::end(kValues)) return "";
-        return fmt::format("value '{}': renamed to '{}'", value, found->now);
-      },
-      "", "");
+std::string renamed_value_error(std::string_view option, std::string_view value) {
+  const auto found = std::ranges::find_if(
+      kValues, [&](const RenamedOptionValue& old) { return old.option == option && old.value == value; });
+  return found == std::end(kValues) ? "" : fmt::format("value '{}': renamed to '{}'", value, found->now);
 }
 
 }  // namespace seaglint

@@ -3,8 +3,6 @@
 
 // Options, their values and commands of earlier versions: what each is called now. None is accepted under its old name.
 
-#include <CLI/App.hpp>
-#include <CLI/Validators.hpp>
 #include <optional>
 #include <span>
 #include <string>
@@ -28,7 +26,7 @@ std::span<const RenamedOptionValue> renamed_option_values();
 // "renamed to NEW (note)" for an old option or command; nothing for other words.
 std::optional<std::string> renamed_word(std::string_view command, std::string_view word);
 
-// Refuses the old values of an option by their new names.
-CLI::Validator no_renamed_value(std::string option);
+// "value 'OLD': renamed to 'NEW'" for an old value of an option; "" for other values.
+std::string renamed_value_error(std::string_view option, std::string_view value);
 
 }  // namespace seaglint

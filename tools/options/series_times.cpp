@@ -3,21 +3,15 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 
 #include "sim/core/process/error.h"
-#include "tools/options/option_numbers.h"
 
 namespace seaglint {
 
-void add_time_options(CLI::App& command, double& duration_s, double& step_s) {
-  command.add_option("--duration-s", duration_s, "Length of the series")
-      ->capture_default_str()
-      ->check(number_within(0, 1e6));
-  command.add_option("--step-s", step_s, "Time between its rows")
-      ->capture_default_str()
-      ->check(number_within(1e-4, 1e4));
+void add_time_options(CommandOptions& command, double& duration_s, double& step_s) {
+  command.add_option("--duration-s", duration_s, "Length of the series").show_default().number_within(0, 1e6);
+  command.add_option("--step-s", step_s, "Time between its rows").show_default().number_within(1e-4, 1e4);
 }
 
 std::size_t uniform_time_count(double duration_s, double step_s) {

@@ -3,13 +3,14 @@
 
 // Times of a command that writes a time series.
 
-#include <CLI/App.hpp>
 #include <cstddef>
+
+#include "tools/options/command_options.h"
 
 namespace seaglint {
 
 // Adds --duration-s and --step-s; the present values are the defaults.
-void add_time_options(CLI::App& command, double& duration_s, double& step_s);
+void add_time_options(CommandOptions& command, double& duration_s, double& step_s);
 
 // Number of times 0, step, ... up to the duration, including the duration when it is within 1e-9 of a step. Throws
 // InputError beyond ten million.

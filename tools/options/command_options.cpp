@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/options/command_options.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <sstream>
+
+#include "tools/options/option_numbers.h"
+#include "tools/options/unknown_word.h"
+
+namespace seaglint {
+namespace {
+
+std::vector<CLI::App*> subcommands(CLI::App& command) {
+  return command.get_subcommands([](const CLI::App*) { return true; });
+}
+
+// CLI11 alone reads numbers as C literals: 010 as eight, 0x10 as sixteen, an empty word as zero.
+void require_decimal_numbers(CLI::App& command) {
+  for (CLI::Option* option : command.get_options()) {
+    const std::string type = option->get_type_name();
+    if (type.starts_with("INT")) option->transform(CLI::Validator(rewrite_integer, ""));
+    if (type.starts_with("UINT")) option->transform(CLI::Validator(rewrite_natural_number, ""));
+    if (type.starts_with("FLOAT")) {
+      // After an option's own bounds, whose error text is more specific.
+      option->check([](const std::string& text) { return number_error(text); });
+    }
+  }
+  for (CLI::App* subcommand : subcommands(command)) require_decimal_numbers(*subcommand);
+}
+
+// The words of a command below the program's name: "mesh make ship"; "" of the program.
+std::string words_of(const CLI::App& command) {
+  if (command.get_parent() == nullptr) return "";
+  const std::string before = words_of(*command.get_parent());
+  return before.empty() ? command.get_name() : before + " " + command.get_name();
+}
+
+const CLI::App* given_subcommand(const CLI::App& command) {
+  const std::vector<CLI::App*> given = command.get_subcommands();
+  return given.empty() ? nullptr : given.front();
+}
+
+// The error text of the first unknown word, of the command or of the subcommands given.
+std::optional<std::string> unknown_word_below(CLI::App& command) {
+  CommandWords words{words_of(command), {}, {}, command.remaining()};
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) words.options.push_back("--" + name);
+  }
+  for (const CLI::App* subcommand : subcommands(command)) words.commands.push_back(subcommand->get_name());
+  if (const std::optional<std::string> found = unknown_word(words)) return found;
+  for (CLI::App* given : command.get_subcommands()) {
+    if (const std::optional<std::string> found = unknown_word_below(*given)) return found;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+CommandOption CommandOption::required() {
+  option_->required();
+  return *this;
+}
+
+CommandOption CommandOption::needs(const CommandOption& other) {
+  option_->needs(other.option_);
+  return *this;
+}
+
+CommandOption CommandOption::show_default() {
+  option_->capture_default_str();
+  return *this;
+}
+
+CommandOption CommandOption::group(const std::string& heading) {
+  option_->group(heading);
+  return *this;
+}
+
+CommandOption CommandOption::repeatable(const std::string& value_name) {
+  option_->type_name(value_name)->allow_extra_args(false);
+  return *this;
+}
+
+CommandOption CommandOption::comma_separated(int count) {
+  option_->delimiter(',')->expected(count);
+  return *this;
+}
+
+CommandOption CommandOption::integer_within(int lowest, int highest) {
+  option_->check(CLI::Range(lowest, highest));
+  return *this;
+}
+
+CommandOption CommandOption::number_within(double lowest, double highest) {
+  option_->check([=](const std::string& text) { return number_error(text, lowest, highest); },
+                 fmt::format("within {} and {}", lowest, highest));
+  return *this;
+}
+
+CommandOption CommandOption::one_of(const std::vector<std::string>& values) {
+  option_->check(CLI::IsMember(values));
+  return *this;
+}
+
+CommandOption CommandOption::check(const ErrorText& error_text) {
+  option_->check(error_text);
+  return *this;
+}
+
+CommandOptions CommandOptions::add_command(const std::string& name, const std::string& what) {
+  return CommandOptions(command_->add_subcommand(name, what));
+}
+
+void CommandOptions::require_command() { command_->require_subcommand(1); }
+
+void CommandOptions::footer(const std::string& text) { command_->footer(text); }
+
+void CommandOptions::callback(const std::function<void()>& call) { command_->callback(call); }
+
+CommandOption CommandOptions::add_option(const std::string& names, std::string& value, const std::string& what) {
+  return CommandOption(command_->add_option(names, value, what));
+}
+
+CommandOption CommandOptions::add_option(const std::string& names, int& value, const std::string& what) {
+  return CommandOption(command_->add_option(names, value, what));
+}
+
+CommandOption CommandOptions::add_option(const std::string& names, std::size_t& value, const std::string& what) {
+  return CommandOption(command_->add_option(names, value, what));
+}
+
+CommandOption CommandOptions::add_option(const std::string& names, double& value, const std::string& what) {
+  return CommandOption(command_->add_option(names, value, what));
+}
+
+CommandOption CommandOptions::add_option(const std::string& names, std::optional<double>& value,
+                                         const std::string& what) {
+  return CommandOption(command_->add_option(names, value, what));
+}
+
+CommandOption CommandOptions::add_option(const std::string& names, std::vector<double>& values,
+                                         const std::string& what) {
+  return CommandOption(command_->add_option(names, values, what));
+}
+
+CommandOption CommandOptions::add_option(const std::string& names, std::vector<std::string>& values,
+                                         const std::string& what) {
+  return CommandOption(command_->add_option(names, values, what));
+}
+
+CommandOption CommandOptions::add_flag(const std::string& names, bool& value, const std::string& what) {
+  return CommandOption(command_->add_flag(names, value, what));
+}
+
+void CommandOptions::require_any_of(const std::string& option, const std::vector<std::string>& others) const {
+  const auto given = [this](const std::string& name) { return command_->count(name) > 0; };
+  if (given(option) && std::none_of(others.begin(), others.end(), given))
+    throw CLI::RequiresError(option, fmt::format("{}", fmt::join(others, " or ")));
+}
+
+ProgramOptions::ProgramOptions(const std::string& name, const std::string& what)
+    : CommandOptions(nullptr), program_(std::make_unique<CLI::App>(what, name)) {
+  command_ = program_.get();
+}
+
+ProgramOptions::~ProgramOptions() = default;
+
+void ProgramOptions::set_version(const std::string& text) { program_->set_version_flag("--version", text); }
+
+ParsedCommandLine ProgramOptions::parse(int argc, const char* const* argv) {
+  require_decimal_numbers(*program_);
+  try {
+    program_->parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) {
+      std::ostringstream text;
+      program_->exit(error, text);
+      return {text.str(), std::nullopt};
+    }
+    const CLI::App* last = program_.get();
+    while (const CLI::App* given = given_subcommand(*last)) last = given;
+    std::string chosen = words_of(*last);
+    if (!chosen.empty()) chosen.insert(0, " ");
+    return {std::nullopt, fmt::format("{} (see {}{} --help)", unknown_word_below(*program_).value_or(error.what()),
+                                      program_->get_name(), chosen)};
+  }
+  return {};
+}
+
+}  // namespace seaglint
