@@ -33,9 +33,4 @@ struct CleanedMap {
 CleanedMap clean_map(std::span<const Complex> echo, const PulseTrain& train, const MapSpec& map_spec,
                      bool intra_pulse_motion, const FeatureSpec& spec);
 
-// The centres of clean_map() alone.
-std::vector<ScatteringCentre> extract_centres(std::span<const Complex> echo, const PulseTrain& train,
-                                              const MapSpec& map_spec, bool intra_pulse_motion,
-                                              const FeatureSpec& spec);
-
 }  // namespace seaglint

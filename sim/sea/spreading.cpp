@@ -41,16 +41,6 @@ double spreading_exponent(const SpreadingSpec& spec, double omega_over_peak) {
   return spec.s * reproducible_exp((omega_over_peak <= 1 ? 5 : -2.5) * reproducible_log(omega_over_peak));
 }
 
-double spreading_r1(const SpreadingSpec& spec, double omega_over_peak) {
-  if (spec.kind == Spreading::kNone) return 1;
-  if (spec.kind == Spreading::kWrappedNormal) {
-    const double sigma = radians(spec.width_deg);
-    return std::exp(-0.5 * sigma * sigma);
-  }
-  const double s = spreading_exponent(spec, omega_over_peak);
-  return s / (s + 1);
-}
-
 double spreading_quantile(const SpreadingSpec& spec, double probability, double omega_over_peak) {
   SEAGLINT_CHECK(probability > 0 && probability < 1, fmt::format("probability {}", probability));
   if (spec.kind == Spreading::kNone) return 0;

@@ -11,10 +11,6 @@ namespace seaglint {
 // and s (f/fp)^-2.5 above (Mitsuyasu et al. 1975, in Goda's form).
 double spreading_exponent(const SpreadingSpec& spec, double omega_over_peak);
 
-// First circular moment of the density D over the angle from the mean direction, the mean of its cosine: 1 for kNone,
-// s/(s+1) for cos^2s, exp(-width^2/2) for the wrapped normal.
-double spreading_r1(const SpreadingSpec& spec, double omega_over_peak);
-
 // Quantile of the directional distribution: the angle from the mean direction below which, from -pi on, the fraction
 // `probability` in (0, 1) of the energy lies; error 1e-10 rad, bit-identical on all machines. For the wrapped normal,
 // the quantile of the normal distribution before wrapping.

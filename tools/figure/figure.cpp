@@ -263,18 +263,14 @@ PlotText plot_text(const LinePlot& figure, std::size_t first_index) {
     if (!series.interval.empty()) {
       plots += fmt::format("{}1:2:3:4 with yerrorbars lc rgb '{}' lw 1.2 ps 0 notitle, ", index, colour);
     }
-    if (series.style == SeriesStyle::kBars) {
-      plots += fmt::format("{}1:2 with boxes fs solid 0.7 lc rgb '{}' {}, ", index, colour, title);
-    } else {
-      const bool line = series.style == SeriesStyle::kLines;
-      const char* style = line ? "lines" : series.style == SeriesStyle::kPoints ? "points" : "linespoints";
-      const std::string marks = line ? "" : fmt::format("pt {} ps 0.8", s % 2 == 0 ? 7 : 5);
-      plots += fmt::format("{}1:2 with {} lc rgb '{}' lw 1.6 {} {}, ", index, style, colour, marks, title);
-    }
+    const bool line = series.style == SeriesStyle::kLines;
+    const char* style = line ? "lines" : series.style == SeriesStyle::kPoints ? "points" : "linespoints";
+    const std::string marks = line ? "" : fmt::format("pt {} ps 0.8", s % 2 == 0 ? 7 : 5);
+    plots += fmt::format("{}1:2 with {} lc rgb '{}' lw 1.6 {} {}, ", index, style, colour, marks, title);
   }
   SEAGLINT_CHECK(!plots.empty(), "a plot without series");
   std::string commands = axis_commands("x", figure.x) + axis_commands("y", figure.y);
-  commands += "set grid lc rgb '#d8d8d8' lw 0.6\nset boxwidth 0.8 relative\n";
+  commands += "set grid lc rgb '#d8d8d8' lw 0.6\n";
   const char* place = figure.legend_above ? "outside center top horizontal" : "outside right top";
   commands += named ? fmt::format("set key {} reverse Left samplen 2\n", place) : "unset key\n";
   if (!figure.x.range && !figure.x.logarithmic)

@@ -33,7 +33,7 @@ struct Heatmap {
   std::vector<std::array<double, 4>> boxes;    // x low, x high, y low, y high of frames
 };
 
-enum class SeriesStyle { kLines, kPoints, kLinesPoints, kBars };
+enum class SeriesStyle { kLines, kPoints, kLinesPoints };
 
 struct Series {
   std::string name;  // in the legend, when not empty

@@ -161,20 +161,6 @@ Picture picture_of(const TriangleMesh& mesh, const PictureView& view) {
   return picture;
 }
 
-Picture stacked(const std::vector<Picture>& pictures) {
-  Picture sheet;
-  for (const Picture& p : pictures) sheet.width = std::max(sheet.width, p.width);
-  for (const Picture& p : pictures) {
-    for (int y = 0; y < p.height; ++y) {
-      const auto row = p.rgb.begin() + static_cast<std::ptrdiff_t>(3) * p.width * y;
-      sheet.rgb.insert(sheet.rgb.end(), row, row + 3 * p.width);
-      sheet.rgb.insert(sheet.rgb.end(), static_cast<std::size_t>(3 * (sheet.width - p.width)), 255);
-    }
-    sheet.height += p.height;
-  }
-  return sheet;
-}
-
 std::string png_bytes(const Picture& picture) {
   png_image image{};
   image.version = PNG_IMAGE_VERSION;

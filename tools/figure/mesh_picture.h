@@ -28,9 +28,6 @@ struct Picture {
 // The mesh fills the picture up to a margin of 3 %. Throws InputError for a size out of range or an empty mesh.
 Picture picture_of(const TriangleMesh& mesh, const PictureView& view);
 
-// The pictures one below the other, on a white background.
-Picture stacked(const std::vector<Picture>& pictures);
-
 std::string png_bytes(const Picture& picture);
 
 }  // namespace seaglint

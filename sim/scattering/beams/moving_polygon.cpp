@@ -125,11 +125,6 @@ Vec2 centroid(const MovingPolygon& polygon) {
   return polygon[0].p + (std::abs(area) > 1e-16 ? Vec2(weighted / area) : mean);
 }
 
-MovingPolygon counter_clockwise(MovingPolygon polygon) {
-  if (signed_area(polygon) < 0) std::reverse(polygon.begin(), polygon.end());
-  return polygon;
-}
-
 MovingPolygon clip(const MovingPolygon& polygon, const MovingLine& line, int keep) {
   const MovingLine inside = keep > 0 ? line : opposite(line);
   MovingPolygon kept;

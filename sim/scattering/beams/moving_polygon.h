@@ -130,7 +130,6 @@ inline double signed_area(const MovingPolygon& polygon) {
   return 0.5 * twice;
 }
 Vec2 centroid(const MovingPolygon& polygon);  // of the area; mean of the vertices for zero area
-MovingPolygon counter_clockwise(MovingPolygon polygon);
 
 // Part of the polygon where line >= 0, or line <= 0 with keep = -1. Vertices with |line| < kLineTolerance are on the
 // line (m for a line of unit gradient).

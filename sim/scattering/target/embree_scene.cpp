@@ -225,27 +225,4 @@ void RayScene::first_hits(std::span<const Ray> rays, std::span<int> facets) cons
   }
 }
 
-int RayScene::first_hit(const Ray& ray) const {
-  const DenormalsAreZero mode;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  RTCRayHit query;
-  query.ray.org_x = static_cast<float>(ray.origin.x());
-  query.ray.org_y = static_cast<float>(ray.origin.y());
-  query.ray.org_z = static_cast<float>(ray.origin.z());
-  query.ray.dir_x = static_cast<float>(ray.direction.x());
-  query.ray.dir_y = static_cast<float>(ray.direction.y());
-  query.ray.dir_z = static_cast<float>(ray.direction.z());
-  query.ray.tnear = 0;
-  query.ray.tfar = std::numeric_limits<float>::infinity();
-  query.ray.time = 0;
-  query.ray.mask = ~0u;
-  query.ray.id = 0;
-  query.ray.flags = 0;
-  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(impl_->scene, &context, &query);
-  return query.hit.geomID == RTC_INVALID_GEOMETRY_ID ? kNoFacet : static_cast<int>(query.hit.primID);
-}
-
 }  // namespace seaglint

@@ -64,8 +64,6 @@ class RayScene {
 
   // First facet along each ray, or kNoFacet. Rays are traced in packets of 16; neighbouring rays should be coherent.
   void first_hits(std::span<const Ray> rays, std::span<int> facets) const;
-  // The same for a single ray.
-  int first_hit(const Ray& ray) const;
 
  private:
   struct Impl;

@@ -25,6 +25,18 @@ double over_full_circle(const Function& f) {
   return sum;
 }
 
+// First circular moment of the density over the angle from the mean direction, the mean of its cosine: s/(s+1) for
+// cos^2s, exp(-width^2/2) for the wrapped normal.
+double spreading_r1(const SpreadingSpec& spec, double omega_over_peak) {
+  if (spec.kind == Spreading::kNone) return 1;
+  if (spec.kind == Spreading::kWrappedNormal) {
+    const double sigma = radians(spec.width_deg);
+    return std::exp(-0.5 * sigma * sigma);
+  }
+  const double s = spreading_exponent(spec, omega_over_peak);
+  return s / (s + 1);
+}
+
 // The energy density of the sampler's angles from the mean direction, 1/rad; integrates to 1 over 2 pi: the wrapped
 // normal, or cos^2s(angle/2) over 2 sqrt(pi) Gamma(s + 1/2) / Gamma(s + 1) (Longuet-Higgins, Cartwright and Smith
 // 1963).

@@ -122,14 +122,5 @@ TEST(MeshPicture, RefusesInvalidArguments) {
   EXPECT_THROW(picture_of(make_plate(1, 1), {.width = 100000}), InputError);
 }
 
-TEST(MeshPicture, StacksPicturesOnWhite) {
-  const Picture a{2, 1, std::vector<std::uint8_t>(6, 10)}, b{1, 2, std::vector<std::uint8_t>(6, 20)};
-  const Picture sheet = stacked({a, b});
-  EXPECT_EQ(sheet.width, 2);
-  EXPECT_EQ(sheet.height, 3);
-  EXPECT_EQ(sheet.rgb,
-            (std::vector<std::uint8_t>{10, 10, 10, 10, 10, 10, 20, 20, 20, 255, 255, 255, 20, 20, 20, 255, 255, 255}));
-}
-
 }  // namespace
 }  // namespace seaglint

@@ -64,7 +64,7 @@ TEST_F(Figure, HeatmapsOfAnyShapeBecomePicturesWithoutOtherFiles) {
   }
 }
 
-TEST_F(Figure, LinesPointsBarsAndIntervalsBecomePictures) {
+TEST_F(Figure, LinesPointsAndIntervalsBecomePictures) {
   LinePlot plot;
   plot.title = "accuracy";
   plot.x.label = "significant wave height (m)";
@@ -72,7 +72,6 @@ TEST_F(Figure, LinesPointsBarsAndIntervalsBecomePictures) {
   plot.series = {{"hand-made", {0.1, 1, 2}, {70, 80, 90}, {{65, 75}, {78, 83}, {85, 94}}, SeriesStyle::kLinesPoints},
                  {"network", {0.1, 1, 2}, {75, std::nan(""), 95}, {}, SeriesStyle::kLines},
                  {"", {0.5, 1.5}, {60, 65}, {}, SeriesStyle::kPoints},
-                 {"bars", {0.1, 1, 2}, {55, 56, 57}, {}, SeriesStyle::kBars},
                  {"empty", {}, {}, {}, SeriesStyle::kLines}};
   write_figure(plot, folder_ / "lines.svg");
   EXPECT_NE(read_file(folder_ / "lines.svg").find("hand-made"), std::string::npos);

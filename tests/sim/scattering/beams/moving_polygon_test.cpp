@@ -30,6 +30,11 @@ MovingPolygon moved(MovingPolygon polygon, double d1) {
   return polygon;
 }
 
+MovingPolygon counter_clockwise(MovingPolygon polygon) {
+  if (signed_area(polygon) < 0) std::reverse(polygon.begin(), polygon.end());
+  return polygon;
+}
+
 TEST(PolygonSet, SubtractingAHoleKeepsTheAreaOutsideIt) {
   Random random({3, Stream::kTest, 0});
   for (int trial = 0; trial < 300; ++trial) {

@@ -44,7 +44,8 @@ TEST(PanelBvh, FindsThePanelsThatARayHits) {
   int hits = 0;
   for (int trial = 0; trial < 20000; ++trial) {
     const Ray ray = random_ray(random, ship.radius());
-    const int hit = scene.first_hit(ray);
+    int hit = kNoFacet;
+    scene.first_hits({&ray, 1}, {&hit, 1});
     if (hit == kNoFacet) continue;
     ++hits;
     // Embree's coordinates are single precision: 6e-8 of 72 m.
