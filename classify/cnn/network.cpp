@@ -2,7 +2,10 @@
 #include "classify/cnn/network.h"
 
 #include <fmt/format.h>
-#include <torch/torch.h>
+#include <torch/nn/modules/conv.h>
+#include <torch/nn/modules/linear.h>
+#include <torch/nn/modules/normalization.h>
+#include <torch/optim/adam.h>
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 
 // Access to metrics.json for the report, and tests of accuracies against chance.
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 namespace seaglint {

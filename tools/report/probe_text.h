@@ -3,7 +3,7 @@
 
 // Report texts on the probes, quantities that could reveal the class, and on the absolute level.
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "sim/scenario/scenario.h"

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <nlohmann/json.hpp>
 
 #include "classify/model/tsne.h"
 #include "sim/core/numbers/constants.h"

@@ -4,7 +4,7 @@
 // The figures of a report, as files in its directory.
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 

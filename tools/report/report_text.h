@@ -3,7 +3,7 @@
 
 // Texts and tables of a report, all from metrics.json: results, comparison with the paper's statements, expert notes.
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "sim/scenario/scenario.h"

@@ -2,6 +2,7 @@
 #include "tools/report/summary.h"
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <set>
 
 namespace seaglint {
