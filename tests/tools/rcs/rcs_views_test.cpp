@@ -68,9 +68,9 @@ std::vector<double> steps(std::size_t count, double first, double step) {
 
 TEST_F(ReflectorSweep, TracesAFixedTransmitterOnceForManyReceivers) {
   request_.transmitter = FixedTransmitter{20, 2};
-  EXPECT_EQ(traces_of(with({10e9}, steps(9, 0, 5))), 1u);  // one of them in the transmitter's direction
-  EXPECT_EQ(traces_of(with({10e9}, steps(35, 0, 2))), 2u);
-  EXPECT_EQ(traces_of(with(steps(64, 10e9, 10e6), steps(9, 0, 5))), 2u);
+  EXPECT_EQ(traces_of(with({10e9}, steps(8, 0, 5))), 1u);  // one of them in the transmitter's direction
+  EXPECT_EQ(traces_of(with({10e9}, steps(17, 0, 2))), 3u);
+  EXPECT_EQ(traces_of(with(steps(128, 10e9, 10e6), steps(8, 0, 5))), 2u);
 }
 
 TEST_F(ReflectorSweep, HasTheViewsOfSingleTracesAtAFiniteRange) {
