@@ -13,8 +13,8 @@ std::filesystem::path find_data_set(const std::filesystem::path& directory) {
   return below ? directory / "data" : directory;
 }
 
-void add_threads_option(CommandOptions& command, CommandContext& shell) {
-  command.add_option("--threads", shell.threads, "Number of threads; 0 = all processors").integer_within(0, 1024);
+void add_threads_option(CommandOptions& command, CommandContext& context) {
+  command.add_option("--threads", context.threads, "Number of threads; 0 = all processors").integer_within(0, 1024);
 }
 
 void add_scenario_arguments(CommandOptions& command, ScenarioArguments& arguments) {

@@ -16,7 +16,7 @@ namespace seaglint {
 std::filesystem::path find_data_set(const std::filesystem::path& directory);
 
 // Adds --threads to a command.
-void add_threads_option(CommandOptions& command, CommandContext& shell);
+void add_threads_option(CommandOptions& command, CommandContext& context);
 
 // Parses the values of --set, `key.path=value` each. Throws InputError for one without `=`.
 std::vector<Override> read_overrides(const std::vector<std::string>& set);

@@ -19,21 +19,21 @@ struct CommandContext {
 };
 
 // Each adds its command to the program, with an example in the footer of its help; command_line.cpp calls them.
-void add_check(CommandOptions& program, CommandContext& shell);
-void add_keys(CommandOptions& program, CommandContext& shell);
-void add_mesh(CommandOptions& program, CommandContext& shell);
-void add_sea(CommandOptions& program, CommandContext& shell);
-void add_motion(CommandOptions& program, CommandContext& shell);
-void add_rcs(CommandOptions& program, CommandContext& shell);
-void add_echo(CommandOptions& program, CommandContext& shell);
-void add_map(CommandOptions& program, CommandContext& shell);
-void add_generate(CommandOptions& program, CommandContext& shell);
-void add_merge(CommandOptions& program, CommandContext& shell);
-void add_verify(CommandOptions& program, CommandContext& shell);
-void add_regenerate(CommandOptions& program, CommandContext& shell);
-void add_export(CommandOptions& program, CommandContext& shell);
-void add_train(CommandOptions& program, CommandContext& shell);
-void add_run(CommandOptions& program, CommandContext& shell);
-void add_report(CommandOptions& program, CommandContext& shell);
+void add_check(CommandOptions& program, CommandContext& context);
+void add_keys(CommandOptions& program, CommandContext& context);
+void add_mesh(CommandOptions& program, CommandContext& context);
+void add_sea(CommandOptions& program, CommandContext& context);
+void add_motion(CommandOptions& program, CommandContext& context);
+void add_rcs(CommandOptions& program, CommandContext& context);
+void add_echo(CommandOptions& program, CommandContext& context);
+void add_map(CommandOptions& program, CommandContext& context);
+void add_generate(CommandOptions& program, CommandContext& context);
+void add_merge(CommandOptions& program, CommandContext& context);
+void add_verify(CommandOptions& program, CommandContext& context);
+void add_regenerate(CommandOptions& program, CommandContext& context);
+void add_export(CommandOptions& program, CommandContext& context);
+void add_train(CommandOptions& program, CommandContext& context);
+void add_run(CommandOptions& program, CommandContext& context);
+void add_report(CommandOptions& program, CommandContext& context);
 
 }  // namespace seaglint

@@ -6,7 +6,7 @@
 
 #include "radar/waveform/figures_of_merit.h"
 #include "radar/waveform/pulse_train.h"
-#include "sim/core/numbers/standard_error.h"
+#include "sim/core/process/standard_error.h"
 #include "sim/scenario/writer.h"
 #include "tools/cli/arguments.h"
 #include "tools/cli/command.h"
@@ -26,14 +26,14 @@ std::string summary(const Scenario& scenario, const SamplePlan& plan) {
 
 }  // namespace
 
-void add_check(CommandOptions& program, CommandContext& shell) {
+void add_check(CommandOptions& program, CommandContext& context) {
   CommandOptions command =
       program.add_command("check", "Read and validate a scenario, print it with every default written out");
   auto arguments = std::make_shared<ScenarioArguments>();
   add_scenario_arguments(command, *arguments);
   command.footer("Example:\n  seaglint check scenarios/quick.yaml --set sea.peak_period_s=9");
-  command.callback([arguments, &shell] {
-    shell.work = [arguments] {
+  command.callback([arguments, &context] {
+    context.work = [arguments] {
       const Scenario scenario = arguments->read();
       const Pipeline pipeline(scenario);  // reads every file that the scenario names
       const PulseTrain train = make_pulse_train(scenario.radar, pipeline.window_m(), scenario.seed, 0);

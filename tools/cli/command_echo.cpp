@@ -74,18 +74,18 @@ void write_echo(const Arguments& arguments) {
 
 }  // namespace
 
-void add_echo(CommandOptions& program, CommandContext& shell) {
+void add_echo(CommandOptions& program, CommandContext& context) {
   CommandOptions command =
       program.add_command("echo", "Write the echo of one sample as I/Q samples over time (NumPy .npz)");
   auto arguments = std::make_shared<Arguments>();
   add_scenario_arguments(command, *arguments);
   command.add_option("--sample", arguments->sample, "Number of the sample in the scenario's plan").show_default();
   command.add_option("-o,--output", arguments->output, "File, .npz").required();
-  add_threads_option(command, shell);
+  add_threads_option(command, context);
   command.footer("Example:\n  seaglint echo scenarios/points.yaml --sample 0 -o echo.npz");
-  command.callback([arguments, &shell] {
-    shell.uninterruptible = true;
-    shell.work = [arguments] { write_echo(*arguments); };
+  command.callback([arguments, &context] {
+    context.uninterruptible = true;
+    context.work = [arguments] { write_echo(*arguments); };
   });
 }
 

@@ -35,7 +35,7 @@ void export_dataset(const std::string& directory, const fs::path& output, const 
 
 }  // namespace
 
-void add_export(CommandOptions& program, CommandContext& shell) {
+void add_export(CommandOptions& program, CommandContext& context) {
   struct Arguments {
     std::string directory;
     std::string output;
@@ -51,8 +51,8 @@ void add_export(CommandOptions& program, CommandContext& shell) {
   command.footer(
       "Example:\n  seaglint export build/points/data -o build/points.npz\n  seaglint export build/paper -o "
       "build/paper_npz");
-  command.callback([arguments, &shell] {
-    shell.work = [arguments, &shell] { export_dataset(arguments->directory, arguments->output, shell.stop); };
+  command.callback([arguments, &context] {
+    context.work = [arguments, &context] { export_dataset(arguments->directory, arguments->output, context.stop); };
   });
 }
 

@@ -38,16 +38,16 @@ void read_part(const std::string& text, GenerateOptions& options) {
   }
 }
 
-void generate(const Arguments& arguments, const CommandContext& shell) {
+void generate(const Arguments& arguments, const CommandContext& context) {
   GenerateOptions options;
   options.resume = arguments.resume;
-  options.threads = shell.threads;
+  options.threads = context.threads;
   if (!arguments.part.empty()) read_part(arguments.part, options);
   const Scenario scenario = arguments.scenario.read();
   const auto begin = std::chrono::steady_clock::now();
   GenerateResult result;
   try {
-    result = generate_dataset(scenario, arguments.directory, options, &shell.stop);
+    result = generate_dataset(scenario, arguments.directory, options, &context.stop);
   } catch (const Interrupted&) {
     throw WorkError(fmt::format("interrupted; whole shards are kept, go on by the same command with --resume ({})",
                                 arguments.directory));
@@ -61,7 +61,7 @@ void generate(const Arguments& arguments, const CommandContext& shell) {
 
 }  // namespace
 
-void add_generate(CommandOptions& program, CommandContext& shell) {
+void add_generate(CommandOptions& program, CommandContext& context) {
   CommandOptions command = program.add_command(
       "generate", "Make the data set of a scenario: range-velocity maps with labels in HDF5 shards");
   auto arguments = std::make_shared<Arguments>();
@@ -69,11 +69,11 @@ void add_generate(CommandOptions& program, CommandContext& shell) {
   command.add_option("-o,--output", arguments->directory, "Directory of the data set, new or empty").required();
   command.add_option("--part", arguments->part, "Make the I-th of N parts (whole shards), as I/N");
   command.add_flag("--resume", arguments->resume, "Keep the sound shards that are there; also starts a new directory");
-  add_threads_option(command, shell);
+  add_threads_option(command, context);
   command.footer(
       "Example:\n  seaglint generate scenarios/points.yaml -o build/points\n"
       "  seaglint generate scenarios/paper.yaml -o build/paper --part 3/16 --resume");
-  command.callback([arguments, &shell] { shell.work = [arguments, &shell] { generate(*arguments, shell); }; });
+  command.callback([arguments, &context] { context.work = [arguments, &context] { generate(*arguments, context); }; });
 }
 
 }  // namespace seaglint

@@ -6,11 +6,11 @@
 
 namespace seaglint {
 
-void add_keys(CommandOptions& program, CommandContext& shell) {
+void add_keys(CommandOptions& program, CommandContext& context) {
   CommandOptions command =
       program.add_command("keys", "List every key of a scenario file with its default and what it allows");
   command.footer("Example:\n  seaglint keys");
-  command.callback([&shell] { shell.work = [] { fmt::print("{}", list_keys()); }; });
+  command.callback([&context] { context.work = [] { fmt::print("{}", list_keys()); }; });
 }
 
 }  // namespace seaglint

@@ -14,8 +14,8 @@
 #include <string>
 
 #include "seaglint_version.h"
-#include "sim/core/numbers/standard_error.h"
 #include "sim/core/process/error.h"
+#include "sim/core/process/standard_error.h"
 #include "tools/cli/command.h"
 
 namespace seaglint {
@@ -31,8 +31,8 @@ void request_stop(int) { *stop_flag = true; }
 void survive_file_size_limit() { signal(SIGXFSZ, SIG_IGN); }
 
 // The first Ctrl-C sets the stop flag and removes the handler, so that the second one ends the process.
-void handle_signals(CommandContext& shell) {
-  stop_flag = &shell.stop;
+void handle_signals(CommandContext& context) {
+  stop_flag = &context.stop;
   struct sigaction action {};
   action.sa_handler = request_stop;
   action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
@@ -41,23 +41,23 @@ void handle_signals(CommandContext& shell) {
 }
 
 // In the order of the data flow.
-void add_commands(CommandOptions& program, CommandContext& shell) {
-  add_check(program, shell);
-  add_keys(program, shell);
-  add_mesh(program, shell);
-  add_sea(program, shell);
-  add_motion(program, shell);
-  add_rcs(program, shell);
-  add_echo(program, shell);
-  add_map(program, shell);
-  add_generate(program, shell);
-  add_merge(program, shell);
-  add_verify(program, shell);
-  add_regenerate(program, shell);
-  add_export(program, shell);
-  add_train(program, shell);
-  add_run(program, shell);
-  add_report(program, shell);
+void add_commands(CommandOptions& program, CommandContext& context) {
+  add_check(program, context);
+  add_keys(program, context);
+  add_mesh(program, context);
+  add_sea(program, context);
+  add_motion(program, context);
+  add_rcs(program, context);
+  add_echo(program, context);
+  add_map(program, context);
+  add_generate(program, context);
+  add_merge(program, context);
+  add_verify(program, context);
+  add_regenerate(program, context);
+  add_export(program, context);
+  add_train(program, context);
+  add_run(program, context);
+  add_report(program, context);
 }
 
 int fail(int code, const std::string& message) {
@@ -73,9 +73,9 @@ int end_output() {
   return fail(1, fmt::format("standard output: cannot write: {}", std::strerror(errno)));
 }
 
-int run(CommandContext& shell) {
+int run(CommandContext& context) {
   try {
-    shell.work();
+    context.work();
     return end_output();
   } catch (const InputError& error) {
     return fail(2, error.what());
@@ -92,7 +92,7 @@ int run(CommandContext& shell) {
 
 int run_command_line(int argc, char** argv) {
   reserve_standard_streams();
-  CommandContext shell;
+  CommandContext context;
   ProgramOptions program(
       "seaglint",
       "Ships and corner-reflector decoys at sea as a frequency-agile radar sees them: from a scenario to classified "
@@ -100,7 +100,7 @@ int run_command_line(int argc, char** argv) {
   program.set_version(fmt::format("seaglint {}", kVersion));
   program.require_command();
   program.footer("Example:\n  seaglint check scenarios/quick.yaml\n\nEvery command has --help with an example.");
-  add_commands(program, shell);
+  add_commands(program, context);
   const ParsedCommandLine parsed = program.parse(argc, argv);
   if (parsed.error) return fail(2, *parsed.error);
   if (parsed.information) {
@@ -108,8 +108,8 @@ int run_command_line(int argc, char** argv) {
     return end_output();
   }
   survive_file_size_limit();
-  if (!shell.uninterruptible) handle_signals(shell);
-  return run(shell);
+  if (!context.uninterruptible) handle_signals(context);
+  return run(context);
 }
 
 }  // namespace seaglint

@@ -94,7 +94,7 @@ void show_map(const Arguments& arguments) {
 
 }  // namespace
 
-void add_map(CommandOptions& program, CommandContext& shell) {
+void add_map(CommandOptions& program, CommandContext& context) {
   CommandOptions command =
       program.add_command("map", "Draw one range-velocity map, list its scattering centres and features");
   auto arguments = std::make_shared<Arguments>();
@@ -108,13 +108,13 @@ void add_map(CommandOptions& program, CommandContext& shell) {
           "bandwidth in every pulse")
       .one_of({"rv", "isar", "hrrp"})
       .show_default();
-  add_threads_option(command, shell);
+  add_threads_option(command, context);
   command.footer(
       "Example:\n  seaglint map scenarios/points.yaml --sample 0 -o map.png\n"
       "  seaglint map scenarios/points.yaml --sample 0 --set map.clean=true -o clean.png");
-  command.callback([arguments, &shell] {
-    shell.uninterruptible = true;
-    shell.work = [arguments] { show_map(*arguments); };
+  command.callback([arguments, &context] {
+    context.uninterruptible = true;
+    context.work = [arguments] { show_map(*arguments); };
   });
 }
 

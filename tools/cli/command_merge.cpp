@@ -10,7 +10,7 @@
 
 namespace seaglint {
 
-void add_merge(CommandOptions& program, CommandContext& shell) {
+void add_merge(CommandOptions& program, CommandContext& context) {
   struct Arguments {
     std::string directory;
     std::string file;
@@ -21,12 +21,12 @@ void add_merge(CommandOptions& program, CommandContext& shell) {
   command.add_option("directory", arguments->directory, "Directory of the data set").required();
   command.add_option("-o,--output", arguments->file, "The merged file; DIRECTORY/dataset.h5 unless given");
   command.footer("Example:\n  seaglint merge build/points/data");
-  command.callback([arguments, &shell] {
-    shell.work = [arguments, &shell] {
+  command.callback([arguments, &context] {
+    context.work = [arguments, &context] {
       const std::filesystem::path directory = find_data_set(arguments->directory);
       std::filesystem::path file = arguments->file;
       if (file.empty()) file = directory / kMergedFile;
-      const Merged merged = merge_dataset(directory, file, kVersion, &shell.stop);
+      const Merged merged = merge_dataset(directory, file, kVersion, &context.stop);
       if (merged.wrote_manifest) fmt::print("{}: all shards were there; manifest.json written\n", directory.string());
       fmt::print("{}: {} samples of {} shards\n", file.string(), merged.samples, merged.shards);
     };

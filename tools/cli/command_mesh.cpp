@@ -80,15 +80,15 @@ std::string topology_lines(const TriangleMesh& mesh, const Topology& topology, d
 }
 
 // Adds a kind of mesh to `mesh make`; its options are captured by the function that makes the mesh.
-CommandOptions add_kind(CommandOptions& make, CommandContext& shell, const char* name, const char* what,
+CommandOptions add_kind(CommandOptions& make, CommandContext& context, const char* name, const char* what,
                         const char* example, const Maker& maker) {
   CommandOptions kind = make.add_command(name, what);
   auto output = std::make_shared<std::string>();
   kind.add_option("-o,--output", *output, "Mesh file to write: .glb .gltf .obj .stl or .ply").required();
-  add_threads_option(kind, shell);
+  add_threads_option(kind, context);
   kind.footer(fmt::format("Example:\n  seaglint mesh make {} {}", name, example));
-  kind.callback([output, maker, &shell] {
-    shell.work = [output, maker] {
+  kind.callback([output, maker, &context] {
+    context.work = [output, maker] {
       const TriangleMesh mesh = maker();
       write_mesh(*output, mesh);
       fmt::print("{}\n{}{}", *output, size_line(mesh), counts_line(mesh));
@@ -97,11 +97,11 @@ CommandOptions add_kind(CommandOptions& make, CommandContext& shell, const char*
   return kind;
 }
 
-void add_ship_kind(CommandOptions& make, CommandContext& shell) {
+void add_ship_kind(CommandOptions& make, CommandContext& context) {
   auto form = std::make_shared<ShipForm>();
   auto detail = std::make_shared<std::string>("rails");
   CommandOptions kind =
-      add_kind(make, shell, "ship", "Naval combatant, cut at the waterline z = 0", "-o ship.glb", [form, detail] {
+      add_kind(make, context, "ship", "Naval combatant, cut at the waterline z = 0", "-o ship.glb", [form, detail] {
         ShipForm f = *form;
         f.detail = *detail == "hull"       ? ShipDetail::kHull
                    : *detail == "fittings" ? ShipDetail::kFittings
@@ -121,9 +121,9 @@ void add_ship_kind(CommandOptions& make, CommandContext& shell) {
       .show_default();
 }
 
-void add_reflector_kinds(CommandOptions& make, CommandContext& shell) {
+void add_reflector_kinds(CommandOptions& make, CommandContext& context) {
   auto edge = std::make_shared<double>(kReflectorEdge);
-  add_kind(make, shell, "reflector", "Icosahedral corner reflector of 20 trihedra", "-o reflector.glb",
+  add_kind(make, context, "reflector", "Icosahedral corner reflector of 20 trihedra", "-o reflector.glb",
            [edge] { return make_icosahedral_reflector(*edge); })
       .add_option("--edge-m", *edge, "Edge of the icosahedron")
       .show_default();
@@ -131,14 +131,14 @@ void add_reflector_kinds(CommandOptions& make, CommandContext& shell) {
   auto leg = std::make_shared<double>(0.372);
   auto is_square = std::make_shared<bool>(false);
   CommandOptions trihedral = add_kind(
-      make, shell, "trihedral", "Right-angled corner with its legs along +x, +y, +z", "--leg-m 0.372 -o corner.glb",
+      make, context, "trihedral", "Right-angled corner with its legs along +x, +y, +z", "--leg-m 0.372 -o corner.glb",
       [leg, is_square] { return *is_square ? make_square_trihedral(*leg) : make_triangular_trihedral(*leg); });
   trihedral.add_option("--leg-m", *leg, "Length of a leg").show_default();
   trihedral.add_flag("--square", *is_square, "Square plates instead of triangles");
 
   auto length = std::make_shared<double>(1.0), width = std::make_shared<double>(1.0),
        opening = std::make_shared<double>(90.0);
-  CommandOptions dihedral = add_kind(make, shell, "dihedral", "Two plates with a seam along z, open towards +x",
+  CommandOptions dihedral = add_kind(make, context, "dihedral", "Two plates with a seam along z, open towards +x",
                                      "--length-m 0.4 --width-m 0.3 -o dihedral.glb",
                                      [=] { return make_dihedral(*length, *width, radians(*opening)); });
   dihedral.add_option("--length-m", *length, "Length of the seam").show_default();
@@ -146,10 +146,10 @@ void add_reflector_kinds(CommandOptions& make, CommandContext& shell) {
   dihedral.add_option("--opening-deg", *opening, "Angle between the plates").show_default();
 }
 
-void add_simple_kinds(CommandOptions& make, CommandContext& shell) {
+void add_simple_kinds(CommandOptions& make, CommandContext& context) {
   auto length = std::make_shared<double>(1.0), width = std::make_shared<double>(1.0);
   CommandOptions plate =
-      add_kind(make, shell, "plate", "Flat sheet in the plane x = 0, seen square from ahead",
+      add_kind(make, context, "plate", "Flat sheet in the plane x = 0, seen square from ahead",
                "--length-m 0.5 --width-m 0.3 -o plate.stl", [=] { return make_plate(*length, *width); });
   plate.add_option("--length-m", *length, "Size along y").show_default();
   plate.add_option("--width-m", *width, "Size along z").show_default();
@@ -157,13 +157,13 @@ void add_simple_kinds(CommandOptions& make, CommandContext& shell) {
   auto radius = std::make_shared<double>(0.5), height = std::make_shared<double>(1.0);
   auto subdivisions = std::make_shared<int>(4), segments = std::make_shared<int>(64);
   CommandOptions sphere =
-      add_kind(make, shell, "sphere", "Subdivided icosahedron", "--radius-m 0.3 --subdivisions 5 -o sphere.ply",
+      add_kind(make, context, "sphere", "Subdivided icosahedron", "--radius-m 0.3 --subdivisions 5 -o sphere.ply",
                [=] { return make_sphere(*radius, *subdivisions); });
   sphere.add_option("--radius-m", *radius, "Radius of its vertices").show_default();
   sphere.add_option("--subdivisions", *subdivisions, "0..8; 20 * 4^n triangles").show_default();
-  CommandOptions cylinder =
-      add_kind(make, shell, "cylinder", "Capped prism about the z axis", "--radius-m 0.2 --height-m 1 -o cylinder.obj",
-               [=] { return make_cylinder(*radius, *height, *segments); });
+  CommandOptions cylinder = add_kind(make, context, "cylinder", "Capped prism about the z axis",
+                                     "--radius-m 0.2 --height-m 1 -o cylinder.obj",
+                                     [=] { return make_cylinder(*radius, *height, *segments); });
   cylinder.add_option("--radius-m", *radius, "Radius of its vertices").show_default();
   cylinder.add_option("--height-m", *height, "Height").show_default();
   cylinder.add_option("--segments", *segments, "3..100000 sides").show_default();
@@ -189,7 +189,7 @@ void print_info(const InfoArguments& arguments) {
   for (const std::string& finding : diagnostic_messages(diagnose(mesh))) fmt::print("finding    {}\n", finding);
 }
 
-void add_info(CommandOptions& mesh, CommandContext& shell) {
+void add_info(CommandOptions& mesh, CommandContext& context) {
   CommandOptions info =
       mesh.add_command("info", "Size, parts, materials, holes, degenerate and non-manifold elements, wedges");
   auto arguments = std::make_shared<InfoArguments>();
@@ -211,24 +211,24 @@ void add_info(CommandOptions& mesh, CommandContext& shell) {
       .integer_within(16, 8192)
       .show_default()
       .needs(picture);
-  add_threads_option(info, shell);
+  add_threads_option(info, context);
   info.footer("Example:\n  seaglint mesh info assets/combatant_144m.glb --picture ship.png --azimuth-deg 50");
-  info.callback([arguments, &shell] { shell.work = [arguments] { print_info(*arguments); }; });
+  info.callback([arguments, &context] { context.work = [arguments] { print_info(*arguments); }; });
 }
 
 }  // namespace
 
-void add_mesh(CommandOptions& program, CommandContext& shell) {
+void add_mesh(CommandOptions& program, CommandContext& context) {
   CommandOptions mesh = program.add_command("mesh", "Create a mesh, or report its contents");
   mesh.require_command();
   mesh.footer("Example:\n  seaglint mesh make ship -o ship.glb\n  seaglint mesh info ship.glb");
   CommandOptions make = mesh.add_command("make", "Make a mesh: a ship, a reflector or a canonical target");
   make.require_command();
   make.footer("Example:\n  seaglint mesh make reflector -o reflector.glb");
-  add_ship_kind(make, shell);
-  add_reflector_kinds(make, shell);
-  add_simple_kinds(make, shell);
-  add_info(mesh, shell);
+  add_ship_kind(make, context);
+  add_reflector_kinds(make, context);
+  add_simple_kinds(make, context);
+  add_info(mesh, context);
 }
 
 }  // namespace seaglint

@@ -109,7 +109,7 @@ void write_pictures(const MotionArguments& arguments, const Scenario& scenario, 
   throw InputError("--rao: no target of the scenario has motion.model: ship");
 }
 
-void write_motion(const MotionArguments& arguments, const CommandContext& shell) {
+void write_motion(const MotionArguments& arguments, const CommandContext& context) {
   for (const std::string& file : {arguments.figure, arguments.frames, arguments.rao}) require_figure(file);
   const std::vector<std::string> outputs{arguments.output, arguments.spectrum, arguments.figure, arguments.frames,
                                          arguments.rao};
@@ -119,7 +119,7 @@ void write_motion(const MotionArguments& arguments, const CommandContext& shell)
   const std::vector<SeaState> states = sea_states(scenario.sea);
   warn(sea_warnings(scenario, states));
   const std::size_t count = uniform_time_count(arguments.duration_s, arguments.step_s);
-  const MovingScene scene = simulate_all(scenario, states.front(), arguments.duration_s, shell.threads, shell.stop);
+  const MovingScene scene = simulate_all(scenario, states.front(), arguments.duration_s, context.threads, context.stop);
   const std::vector<NamedTrajectory>& bodies = scene.bodies;
   const SeaState& state = scene.state;
   std::string text;
@@ -132,7 +132,7 @@ void write_motion(const MotionArguments& arguments, const CommandContext& shell)
   text += coverage(scene);
   text += "time_s,body,roll_deg,pitch_deg,yaw_deg,surge_m,sway_m,heave_m\n";
   for (std::size_t n = 0; n < count; ++n) {
-    if (shell.stop) throw Interrupted();
+    if (context.stop) throw Interrupted();
     const double t = arguments.step_s * static_cast<double>(n);
     for (const NamedTrajectory& body : bodies) {
       // A body at rest has no samples of its own; the last time may pass the last sample by its rounding.
@@ -150,7 +150,7 @@ void write_motion(const MotionArguments& arguments, const CommandContext& shell)
 
 }  // namespace
 
-void add_motion(CommandOptions& program, CommandContext& shell) {
+void add_motion(CommandOptions& program, CommandContext& context) {
   CommandOptions command = program.add_command(
       "motion",
       "Write the angles and translations of every body in the scenario's first sea state, their spectra and "
@@ -168,12 +168,13 @@ void add_motion(CommandOptions& program, CommandContext& shell) {
                          "Figure of the first ship's response amplitude operators for the scenario's wave direction");
   command.add_option("--rao-reference", arguments->rao_reference, "VERES .re1 or WAMIT .4 to draw beside them")
       .needs(rao);
-  add_threads_option(command, shell);
+  add_threads_option(command, context);
   add_time_options(command, arguments->duration_s, arguments->step_s);
   command.footer(
       "Example:\n  seaglint motion scenarios/quick.yaml --duration-s 60 -o motion.csv\n"
       "  seaglint motion scenarios/quick.yaml --figure motion.png --snapshots snapshots.png -o motion.csv");
-  command.callback([arguments, &shell] { shell.work = [arguments, &shell] { write_motion(*arguments, shell); }; });
+  command.callback(
+      [arguments, &context] { context.work = [arguments, &context] { write_motion(*arguments, context); }; });
 }
 
 }  // namespace seaglint

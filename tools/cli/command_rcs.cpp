@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "seaglint_version.h"
-#include "sim/core/numbers/standard_error.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
+#include "sim/core/process/standard_error.h"
 #include "sim/geometry/files/mesh_io.h"
 #include "tools/cli/arguments.h"
 #include "tools/cli/command.h"
@@ -65,22 +65,22 @@ std::vector<PairedCut> pair_with_all(const RcsSweep& sweep, const std::vector<Rc
 }
 
 RcsResult compute(const RcsArguments& arguments, const RcsRequest& request, const RcsTarget& target,
-                  const CommandContext& shell) {
+                  const CommandContext& context) {
   try {
-    return compute_rcs(request, target, shell.threads, &shell.stop);
+    return compute_rcs(request, target, context.threads, &context.stop);
   } catch (const WorkError& error) {
     throw WorkError(fmt::format("{}; {} is not written", error.what(), arguments.output));
   }
 }
 
-void run_rcs(const RcsArguments& arguments, const CommandContext& shell) {
+void run_rcs(const RcsArguments& arguments, const CommandContext& context) {
   require_files(arguments);
   const RcsRequest request = arguments.make_request();
-  warn(doubts_of(request));
+  warn(request_warnings(request));
   const RcsSweep asked = requested_sweep(request);
   std::vector<PairedCut> cuts = pair_with_all(asked, arguments.reference.read());
   PreparedTarget prepared = prepare_mesh(request);
-  warn(prepared.doubts);
+  warn(prepared.warnings);
   const RcsTarget target = select_echoes(request, std::move(prepared));
   for (const NamedCavity& cavity : target.cavities) {
     print_error(fmt::format("cavity {}: aperture of {:.4g} m^2, walls of {:.4g} m^2, {} patches at {:.6g} GHz\n",
@@ -88,7 +88,7 @@ void run_rcs(const RcsArguments& arguments, const CommandContext& shell) {
                             1e-9 * *std::max_element(request.frequency_hz.begin(), request.frequency_hz.end())));
   }
   const auto start = std::chrono::steady_clock::now();
-  const RcsResult result = compute(arguments, request, target, shell);
+  const RcsResult result = compute(arguments, request, target, context);
   const double seconds =
       std::max(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 1e-9);
 
@@ -107,21 +107,21 @@ void run_rcs(const RcsArguments& arguments, const CommandContext& shell) {
 
 }  // namespace
 
-void add_rcs(CommandOptions& program, CommandContext& shell) {
+void add_rcs(CommandOptions& program, CommandContext& context) {
   CommandOptions command = program.add_command("rcs", "Scattering matrix of a mesh at rest over frequency and aspect");
   auto arguments = std::make_shared<RcsArguments>();
   arguments->add_to(command);
-  add_threads_option(command, shell);
+  add_threads_option(command, context);
   command.footer(
       "Example:\n  seaglint rcs --target assets/icosahedral_reflector.glb --frequency-ghz 16 --azimuth-deg 0:360:0.5 "
       "--elevation-deg 2 -o rcs.csv\n  seaglint rcs --target plate.glb --frequency-ghz 10.24 --azimuth-deg 0:60:0.5 -o "
       "plate.csv --reference "
       "ref.H.txt --reference ref.V.txt");
-  command.callback([arguments, command, &shell] {
+  command.callback([arguments, command, &context] {
     command.require_any_of("--transmit-elevation-deg", {"--transmit-azimuth-deg"});
     command.require_any_of("--centre-cell-m", {"--export-scattering-centres"});
     command.require_any_of("--export-dynamic-range-db", {"--export-scattering-centres", "--export-hot-spots"});
-    shell.work = [arguments, &shell] { run_rcs(*arguments, shell); };
+    context.work = [arguments, &context] { run_rcs(*arguments, context); };
   });
 }
 

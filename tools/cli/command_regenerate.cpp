@@ -96,7 +96,7 @@ void regenerate_sample(const Arguments& arguments) {
 
 }  // namespace
 
-void add_regenerate(CommandOptions& program, CommandContext& shell) {
+void add_regenerate(CommandOptions& program, CommandContext& context) {
   CommandOptions command =
       program.add_command("regenerate", "Regenerate one sample of a data set and compare it with the stored one");
   auto arguments = std::make_shared<Arguments>();
@@ -105,9 +105,9 @@ void add_regenerate(CommandOptions& program, CommandContext& shell) {
   command.add_option("-o,--output", arguments->output,
                      "Map (also complex), axes, hop code, centres and row as NumPy's .npz");
   command.footer("Example:\n  seaglint regenerate build/points/data --sample 7 -o build/sample_7.npz");
-  command.callback([arguments, &shell] {
-    shell.uninterruptible = true;
-    shell.work = [arguments] { regenerate_sample(*arguments); };
+  command.callback([arguments, &context] {
+    context.uninterruptible = true;
+    context.work = [arguments] { regenerate_sample(*arguments); };
   });
 }
 

@@ -42,16 +42,16 @@ Scenario read_own_scenario(const std::filesystem::path& run) {
 
 }  // namespace
 
-void add_report(CommandOptions& program, CommandContext& shell) {
+void add_report(CommandOptions& program, CommandContext& context) {
   CommandOptions command = program.add_command("report", "Draw the figures of a run again and write its report.html");
   auto directory = std::make_shared<std::string>();
   command.add_option("DIR", *directory, "Directory made by `seaglint run`").required();
-  add_threads_option(command, shell);
+  add_threads_option(command, context);
   command.footer("Example:\n  seaglint report build/demo");
-  command.callback([directory, &shell] {
-    shell.work = [directory, &shell] {
+  command.callback([directory, &context] {
+    context.work = [directory, &context] {
       const std::filesystem::path run = *directory;
-      write_report(run, read_own_scenario(run), shell.threads, &shell.stop);
+      write_report(run, read_own_scenario(run), context.threads, &context.stop);
       fmt::print("Report: {}\n", (run / kReportFile).string());
     };
   });

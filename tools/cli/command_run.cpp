@@ -20,20 +20,21 @@ struct Arguments {
 
 }  // namespace
 
-void add_run(CommandOptions& program, CommandContext& shell) {
+void add_run(CommandOptions& program, CommandContext& context) {
   CommandOptions command =
       program.add_command("run", "The main job: make the maps of a scenario, train, evaluate, write the report");
   auto arguments = std::make_shared<Arguments>();
   add_scenario_arguments(command, arguments->scenario);
   command.add_option("-o,--output", arguments->directory, "Directory of the results, new or empty").required();
   command.add_flag("--resume", arguments->resume, "Go on with what an earlier run left in the directory");
-  add_threads_option(command, shell);
+  add_threads_option(command, context);
   command.footer("Example:\n  seaglint run scenarios/points.yaml -o build/points-run");
-  command.callback([arguments, &shell] {
-    shell.work = [arguments, &shell] {
+  command.callback([arguments, &context] {
+    context.work = [arguments, &context] {
       const Scenario scenario = arguments->scenario.read();
       try {
-        fmt::print("{}", run_scenario(scenario, arguments->directory, {arguments->resume, shell.threads}, &shell.stop));
+        fmt::print("{}",
+                   run_scenario(scenario, arguments->directory, {arguments->resume, context.threads}, &context.stop));
       } catch (const Interrupted&) {
         throw WorkError(fmt::format("interrupted; whole shards are kept, go on by the same command with --resume ({})",
                                     arguments->directory));

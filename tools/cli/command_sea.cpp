@@ -118,7 +118,7 @@ std::string series_csv(const WaveField& field, const SeaArguments& arguments, co
   return text;
 }
 
-void write_sea(const SeaArguments& arguments, const CommandContext& shell) {
+void write_sea(const SeaArguments& arguments, const CommandContext& context) {
   require_figure(arguments.figure);
   const std::vector<std::string> outputs{arguments.output, arguments.spectrum, arguments.figure};
   require_outputs(outputs, {arguments.scenario.file});
@@ -130,13 +130,13 @@ void write_sea(const SeaArguments& arguments, const CommandContext& shell) {
   const WaveField field = realise_sea(state, scenario.seed, sea_key(0, 0));
   const SeaSummary summary = summarise(state, field);
   const std::string lines = description(scenario, state, field, summary);
-  const std::string series = as_comment(lines) + series_csv(field, arguments, shell.stop);
+  const std::string series = as_comment(lines) + series_csv(field, arguments, context.stop);
 
   std::string statistics;
   if (!arguments.spectrum.empty() || !arguments.figure.empty()) {
     if (total_wave_height(state) == 0) throw InputError("sea.significant_wave_height_m: flat water has no spectrum");
     const SeaEnsemble ensemble = make_ensemble(state, 0, scenario.seed, arguments.realisations, arguments.duration_s,
-                                               arguments.step_s, thread_count(shell.threads), shell.stop);
+                                               arguments.step_s, thread_count(context.threads), context.stop);
     statistics = ensemble_text(ensemble, summary);
     if (!arguments.figure.empty()) {
       const std::string title =
@@ -151,7 +151,7 @@ void write_sea(const SeaArguments& arguments, const CommandContext& shell) {
 
 }  // namespace
 
-void add_sea(CommandOptions& program, CommandContext& shell) {
+void add_sea(CommandOptions& program, CommandContext& context) {
   CommandOptions command = program.add_command(
       "sea", "Write elevation and slope of the scenario's first sea state over time, its spectrum and its statistics");
   auto arguments = std::make_shared<SeaArguments>();
@@ -169,14 +169,14 @@ void add_sea(CommandOptions& program, CommandContext& shell) {
   command
       .add_option("--realisations", arguments->realisations, "Realisations that --spectrum and --figure take together")
       .integer_within(1, 10000);
-  add_threads_option(command, shell);
+  add_threads_option(command, context);
   add_time_options(command, arguments->duration_s, arguments->step_s);
   command.footer(
       "Example:\n  seaglint sea scenarios/quick.yaml --at 40,0 --duration-s 100 -o sea.csv\n"
       "  seaglint sea scenarios/quick.yaml --realisations 100 --figure sea.png -o sea.csv");
-  command.callback([arguments, command, &shell] {
+  command.callback([arguments, command, &context] {
     command.require_any_of("--realisations", {"--spectrum", "--figure"});
-    shell.work = [arguments, &shell] { write_sea(*arguments, shell); };
+    context.work = [arguments, &context] { write_sea(*arguments, context); };
   });
 }
 

@@ -33,7 +33,7 @@ std::vector<Override> learning_overrides(const std::vector<std::string>& set) {
 
 }  // namespace
 
-void add_train(CommandOptions& program, CommandContext& shell) {
+void add_train(CommandOptions& program, CommandContext& context) {
   CommandOptions command =
       program.add_command("train", "Train network and trees on a data set and evaluate them on unseen maps and seas");
   auto arguments = std::make_shared<Arguments>();
@@ -41,12 +41,12 @@ void add_train(CommandOptions& program, CommandContext& shell) {
   command.add_option("-o,--output", arguments->model, "Directory of the model").required();
   command.add_option("--set", arguments->set, "Replace a value of the data set's scenario (repeatable)")
       .repeatable("learning.KEY=VALUE");
-  add_threads_option(command, shell);
+  add_threads_option(command, context);
   command.footer("Example:\n  seaglint train build/points -o build/points-model --set learning.epochs=40");
-  command.callback([arguments, &shell] {
-    shell.work = [arguments, &shell] {
+  command.callback([arguments, &context] {
+    context.work = [arguments, &context] {
       const TrainedModel model = train_model(find_data_set(arguments->data), arguments->model,
-                                             learning_overrides(arguments->set), shell.threads, &shell.stop);
+                                             learning_overrides(arguments->set), context.threads, &context.stop);
       fmt::print("{}\n{}: network, trees and {}\n", accuracy_table(model.study), arguments->model, kMetricsFile);
     };
   });

@@ -24,7 +24,7 @@ struct Arguments {
 
 // Regenerates `count` samples, spread evenly over the data set; returns what is not as stored.
 std::vector<std::string> regenerate(const std::string& directory, std::size_t count, const Scenario& scenario,
-                                    const CommandContext& shell) {
+                                    const CommandContext& context) {
   const DatasetReader reader(directory);
   require_same_inputs(directory, scenario);
   const Pipeline pipeline(scenario);
@@ -32,7 +32,7 @@ std::vector<std::string> regenerate(const std::string& directory, std::size_t co
   std::mutex reading;  // HDF5 serves one thread at a time
   Progress progress("regenerating samples", count);
   parallel_for(
-      count, thread_count(shell.threads),
+      count, thread_count(context.threads),
       [&](std::size_t n) {
         const std::size_t number = (2 * n + 1) * reader.size() / (2 * count);
         const SampleAddress address = pipeline.plan().address(number);
@@ -48,15 +48,15 @@ std::vector<std::string> regenerate(const std::string& directory, std::size_t co
         }
         progress.advance();
       },
-      &shell.stop);
+      &context.stop);
   std::vector<std::string> all;
   for (const auto& some : faults) all.insert(all.end(), some.begin(), some.end());
   return all;
 }
 
-void verify(const Arguments& given, const CommandContext& shell) {
+void verify(const Arguments& given, const CommandContext& context) {
   const Arguments arguments{find_data_set(given.directory), given.regenerate};
-  Audit result = audit(arguments.directory, &shell.stop);
+  Audit result = audit(arguments.directory, &context.stop);
   fmt::print("{}: {} sound shards, {} samples in {} groups\n", arguments.directory, result.shards, result.samples,
              result.groups);
   for (std::size_t t = 0; t < result.per_target.size(); ++t) {
@@ -65,7 +65,7 @@ void verify(const Arguments& given, const CommandContext& shell) {
   }
   const std::size_t count = std::min(static_cast<std::size_t>(arguments.regenerate), result.samples);
   if (result.faults.empty() && count > 0) {
-    result.faults = regenerate(arguments.directory, count, result.scenario, shell);
+    result.faults = regenerate(arguments.directory, count, result.scenario, context);
     if (result.faults.empty())
       fmt::print("{} regenerated samples match the stored ones, SCR and features included\n", count);
   }
@@ -83,7 +83,7 @@ void verify(const Arguments& given, const CommandContext& shell) {
 
 }  // namespace
 
-void add_verify(CommandOptions& program, CommandContext& shell) {
+void add_verify(CommandOptions& program, CommandContext& context) {
   CommandOptions command = program.add_command(
       "verify", "Audit a data set: missing, repeated, damaged and mislabelled samples; regenerates some of them");
   auto arguments = std::make_shared<Arguments>();
@@ -93,9 +93,9 @@ void add_verify(CommandOptions& program, CommandContext& shell) {
                   "Samples to regenerate from their rows, spread over the data set")
       .integer_within(0, 1000000)
       .show_default();
-  add_threads_option(command, shell);
+  add_threads_option(command, context);
   command.footer("Example:\n  seaglint verify build/demo/data --regenerate 5");
-  command.callback([arguments, &shell] { shell.work = [arguments, &shell] { verify(*arguments, shell); }; });
+  command.callback([arguments, &context] { context.work = [arguments, &context] { verify(*arguments, context); }; });
 }
 
 }  // namespace seaglint

@@ -145,7 +145,7 @@ Target load_target(const Scenario& scenario, const SamplePlan& plan, const Targe
   check_above_water(scenario, spec, whole.mesh);
   PreparedTarget prepared = prepare_target(std::move(whole), scatterer_settings(scenario, spec));
   target.mesh = std::move(prepared.mesh);
-  target.warnings = std::move(prepared.doubts);
+  target.warnings = std::move(prepared.warnings);
   target.scatterer = std::move(prepared.scatterer);
   return target;
 }

@@ -57,7 +57,7 @@ RcsSweep requested_sweep(const RcsRequest& request) {
 
 // Behind a target only its sharp edges scatter: the echo of a sphere has a mean error of 0.65 dB between 90 and 120 deg
 // from the transmitter.
-std::vector<std::string> doubts_of(const RcsRequest& request) {
+std::vector<std::string> request_warnings(const RcsRequest& request) {
   if (!request.transmitter) return {};
   constexpr double kFarthestDeg = 120;
   const Vec3 transmitter = direction_to(*request.transmitter);

@@ -74,6 +74,6 @@ struct RcsRequest {
 RcsSweep requested_sweep(const RcsRequest& request);
 
 // Warnings about the request, a sentence each, to be shown before the work.
-std::vector<std::string> doubts_of(const RcsRequest& request);
+std::vector<std::string> request_warnings(const RcsRequest& request);
 
 }  // namespace seaglint

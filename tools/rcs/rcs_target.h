@@ -17,7 +17,7 @@ struct RcsTarget {
   std::vector<NamedCavity> cavities;
 };
 
-// Reads and prepares the request's mesh; its `doubts` are the warnings for the user. Throws InputError for a mesh or
+// Reads and prepares the request's mesh; its `warnings` are the warnings for the user. Throws InputError for a mesh or
 // material that is missing or invalid, for a contradictory request, and for a mesh that is entirely under water.
 PreparedTarget prepare_mesh(const RcsRequest& request);
 

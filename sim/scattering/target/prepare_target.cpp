@@ -53,20 +53,20 @@ SolverMesh load_solver_mesh(const TargetSource& source) {
   SolverMesh target{read_mesh(source.mesh, source.unit), {}, {}};
   target.materials = choose_materials(source, target.mesh);
   at_place(source.mesh_place, [&] {
-    target.doubts = diagnostic_messages(diagnose(target.mesh));
+    target.warnings = diagnostic_messages(diagnose(target.mesh));
     target.mesh = repair(target.mesh);
     if (target.mesh.triangles.empty()) throw InputError("no triangle has an area: nothing scatters");
-    append(target.doubts, check_target(target.mesh, source.lowest_hz));
+    append(target.warnings, check_target(target.mesh, source.lowest_hz));
   });
   return target;
 }
 
 PreparedTarget prepare_target(SolverMesh mesh, const ScattererSettings& settings) {
-  PreparedTarget target{std::move(mesh.mesh), std::move(mesh.materials), std::move(mesh.doubts), nullptr};
+  PreparedTarget target{std::move(mesh.mesh), std::move(mesh.materials), std::move(mesh.warnings), nullptr};
   if (settings.waterline_m) cut_at_sea_level(target.mesh, target.materials, *settings.waterline_m);
   target.scatterer =
       std::make_shared<const Scatterer>(target.mesh, target.materials, settings.crease_rad, settings.sheet_thickness_m);
-  append(target.doubts, check_edges(*target.scatterer, settings.edges, settings.lowest_hz, settings.highest_hz));
+  append(target.warnings, check_edges(*target.scatterer, settings.edges, settings.lowest_hz, settings.highest_hz));
   return target;
 }
 

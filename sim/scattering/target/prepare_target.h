@@ -39,7 +39,7 @@ struct TargetSource {
 struct SolverMesh {
   TriangleMesh mesh;
   std::vector<MaterialSpec> materials;  // in the order of mesh.materials
-  std::vector<std::string> doubts;      // one sentence per defect or possible mistake of the mesh
+  std::vector<std::string> warnings;    // one sentence per defect or possible mistake of the mesh
 };
 
 // Reads the mesh, assigns its materials and repairs it. Throws InputError for a mesh that is missing, invalid or
@@ -60,7 +60,7 @@ struct ScattererSettings {
 struct PreparedTarget {
   TriangleMesh mesh;  // triangles below the waterline are submerged
   std::vector<MaterialSpec> materials;
-  std::vector<std::string> doubts;  // warnings about mesh and edges
+  std::vector<std::string> warnings;  // warnings about mesh and edges
   std::shared_ptr<const Scatterer> scatterer;
 };
 

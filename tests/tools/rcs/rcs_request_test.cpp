@@ -96,10 +96,10 @@ TEST_F(PlateRequest, IsRefusedWhenContradictory) {
 }
 
 TEST_F(PlateRequest, WarnsOfReceiversBehindTheTarget) {
-  EXPECT_TRUE(doubts_of(request_).empty());
+  EXPECT_TRUE(request_warnings(request_).empty());
   request_.transmitter = FixedTransmitter{150, 0};
-  ASSERT_EQ(doubts_of(request_).size(), 1u);
-  EXPECT_THAT(doubts_of(request_).front(), HasSubstr("receivers up to 150 deg from the transmitter"));
+  ASSERT_EQ(request_warnings(request_).size(), 1u);
+  EXPECT_THAT(request_warnings(request_).front(), HasSubstr("receivers up to 150 deg from the transmitter"));
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ class PreparedCylinder : public testing::Test {
 TEST_F(PreparedCylinder, IsRepairedWithAWarning) {
   const PreparedTarget target = prepare_target(load_solver_mesh(source_), {});
   EXPECT_EQ(target.mesh.triangles.size(), make_cylinder(0.5, 2, 16).triangles.size());
-  EXPECT_FALSE(target.doubts.empty());
+  EXPECT_FALSE(target.warnings.empty());
   ASSERT_EQ(target.materials.size(), 1u);
   EXPECT_EQ(target.materials.front().kind, SurfaceKind::kPec);
   EXPECT_NEAR(target.scatterer->radius(), std::hypot(0.5, 1.0), 1e-6);

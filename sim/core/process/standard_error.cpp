@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/core/numbers/standard_error.h"
+#include "sim/core/process/standard_error.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
