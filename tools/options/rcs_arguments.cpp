@@ -80,7 +80,8 @@ void add_selection_options(CommandOptions& command, EchoSelection& selection) {
     command.add_option(name, values, what).repeatable("KIND=VALUE").group("Selection and export");
   };
   selectors("--only", selection.only,
-            "Sum only the contributions of part=NAME, bounces=N, mechanism=po or edge (repeatable; of one kind any, of "
+            "Sum only the contributions of part=NAME, bounces=N, mechanism=po, edge, or one of edge diffraction "
+            "(single, multiple, reflected_edge, shadow_boundary, penumbra, concave) (repeatable; of one kind any, of "
             "several kinds all must apply)");
   selectors("--without", selection.without, "Exclude the contributions of any of these (repeatable)");
 }
