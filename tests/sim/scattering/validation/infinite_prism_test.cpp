@@ -8,6 +8,7 @@
 #include <map>
 
 #include "sim/scattering/response/scattering_matrix.h"
+#include "tests/measured.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
 namespace seaglint {
@@ -108,13 +109,21 @@ Deviation against_integral_equations(const std::string& section, double min_deg,
   return deviation;
 }
 
+Deviation larger(const Deviation& a, const Deviation& b) {
+  return {std::max(a.soft, b.soft), std::max(a.hard, b.hard)};
+}
+
 // What higher diffractions and, of the hard field, the last elements of the integral equations leave.
 TEST(InfinitePrism, AnswersAsIntegralEquationsSay) {
+  Deviation worst;
   for (const std::string section : {"box", "knife", "triangle"}) {
     const Deviation back = against_integral_equations(section, 0, 0, 0);
+    worst = larger(worst, back);
     EXPECT_LT(back.soft, 0.0015) << section;
     EXPECT_LT(back.hard, 0.003) << section;
   }
+  record_figure(worst.soft, 4, "prism_back_soft");
+  record_figure(worst.hard, 4, "prism_back_hard");
 }
 
 // The corner of a chevron diffracts; left out, the soft field errs by 0.04 and, without the waves that it sends along
@@ -123,6 +132,8 @@ TEST(InfinitePrism, WithACornerAnswersAsIntegralEquationsSay) {
   const Deviation back = against_integral_equations("chevron", 0, 0, 0);
   EXPECT_LT(back.soft, 0.02);
   EXPECT_LT(back.hard, 0.08);
+  record_figure(back.soft, 3, "chevron_soft");
+  record_figure(back.hard, 3, "chevron_hard");
 }
 
 // Either arm's rim cuts what it reflects to the other, whose rim stands where the shadow's edge falls, so that half of
@@ -141,6 +152,12 @@ TEST(InfinitePrism, OfADihedralAnswersAsIntegralEquationsSay) {
     EXPECT_LT(back.hard, 0.02);
     EXPECT_LT(grazing.soft, 0.03);  // 0.012 but for two antennas
     EXPECT_LT(grazing.hard, 0.03);
+    record_figure(axis.soft, 3, "dihedral_8_deg_cone_{}_soft", elevation);
+    record_figure(axis.hard, 3, "dihedral_8_deg_cone_{}_hard", elevation);
+    record_figure(back.soft, 3, "dihedral_20_deg_cone_{}_soft", elevation);
+    record_figure(back.hard, 3, "dihedral_20_deg_cone_{}_hard", elevation);
+    record_figure(grazing.soft, 3, "dihedral_38_deg_cone_{}_soft", elevation);
+    record_figure(grazing.hard, 3, "dihedral_38_deg_cone_{}_hard", elevation);
   }
 }
 
@@ -153,6 +170,10 @@ TEST(InfinitePrism, DihedralAlongItsArmsMatchesIntegralEquation) {
   EXPECT_LT(near.hard, 0.03);
   EXPECT_LT(far.soft, 0.003);
   EXPECT_LT(far.hard, 0.01);
+  record_figure(near.soft, 3, "dihedral_70_deg_soft");
+  record_figure(near.hard, 3, "dihedral_70_deg_hard");
+  record_figure(far.soft, 3, "dihedral_long_70_deg_soft");
+  record_figure(far.hard, 3, "dihedral_long_70_deg_hard");
 }
 
 // Where the corner is no right angle the ways out of rims leave the beams that they bound: with ends of physical optics
@@ -165,6 +186,10 @@ TEST(InfinitePrism, OfADihedralOffTheRightAngleAnswersAsIntegralEquationsSay) {
     EXPECT_LT(axis.hard, 0.05) << section;
     EXPECT_LT(back.soft, 0.03) << section;
     EXPECT_LT(back.hard, 0.08) << section;
+    record_figure(axis.soft, 3, "{}_8_deg_soft", section);
+    record_figure(axis.hard, 3, "{}_8_deg_hard", section);
+    record_figure(back.soft, 3, "{}_20_deg_soft", section);
+    record_figure(back.hard, 3, "{}_20_deg_hard", section);
   }
 }
 
@@ -173,10 +198,17 @@ TEST(InfinitePrism, OfADihedralOffTheRightAngleAnswersAsIntegralEquationsSay) {
 // err by 0.21 and 0.28, of arms of 20 wavelengths by 0.22. The rest: return paths, of which only half is separable
 // from the ends of beams there, and below a right angle the rims' own fields, that come back as rays.
 TEST(InfinitePrism, OfADihedralHasWavesFromItsCorner) {
-  for (const double elevation : {0.0, 40.0})
-    EXPECT_LT(against_integral_equations("dihedral95", 0, 0, elevation, 47).hard, 0.12) << elevation;
-  EXPECT_LT(against_integral_equations("dihedral85", 0, 0, 0, 42).hard, 0.2);
-  EXPECT_LT(against_integral_equations("dihedral95long", 0, 0, 0, 46).hard, 0.16);
+  for (const double elevation : {0.0, 40.0}) {
+    const double wide = against_integral_equations("dihedral95", 0, 0, elevation, 47).hard;
+    EXPECT_LT(wide, 0.12) << elevation;
+    record_figure(wide, 3, "dihedral95_47_deg_cone_{}_hard", elevation);
+  }
+  const double narrow = against_integral_equations("dihedral85", 0, 0, 0, 42).hard,
+               long_one = against_integral_equations("dihedral95long", 0, 0, 0, 46).hard;
+  EXPECT_LT(narrow, 0.2);
+  EXPECT_LT(long_one, 0.16);
+  record_figure(narrow, 3, "dihedral85_42_deg_hard");
+  record_figure(long_one, 3, "dihedral95_long_46_deg_hard");
 }
 
 // At 37.5 deg what one arm of the 95 deg dihedral reflects passes along the other, which it lights on one side of that
@@ -197,6 +229,7 @@ TEST(InfinitePrism, OfADihedralStepsLittleWhereAnArmGrazesTheOther) {
 // 0.03 to 0.1. Behind the target soft waves that graze a face (slope diffraction) are left; to within 20 deg of the
 // wave's way on.
 TEST(InfinitePrism, AnswersOtherReceiversAsIntegralEquationsSay) {
+  Deviation worst_before, worst_behind;
   for (const std::string section : {"box", "knife", "triangle"}) {
     for (const double elevation : {0.0, 40.0}) {
       const Deviation before = against_integral_equations(section, 1, 90, elevation),
@@ -205,8 +238,14 @@ TEST(InfinitePrism, AnswersOtherReceiversAsIntegralEquationsSay) {
       EXPECT_LT(before.hard, 0.004) << section;
       EXPECT_LT(behind.soft, 0.09) << section;
       EXPECT_LT(behind.hard, 0.01) << section;
+      worst_before = larger(worst_before, before);
+      worst_behind = larger(worst_behind, behind);
     }
   }
+  record_figure(worst_before.soft, 4, "prism_90_deg_soft");
+  record_figure(worst_before.hard, 4, "prism_90_deg_hard");
+  record_figure(worst_behind.soft, 3, "prism_160_deg_soft");
+  record_figure(worst_behind.hard, 3, "prism_160_deg_hard");
 }
 
 }  // namespace
