@@ -57,9 +57,10 @@ def seconds(run_of, clock="real_time"):
     return run_of[clock] * {"ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1}[run_of["time_unit"]]
 
 
-def each(identifier, figure):
-    """Figures of each benchmark: `identifier` with its arguments, `figure` of its runs."""
-    return lambda runs: {identifier.format(*name.split("/")[1:]): figure(of) for name, of in runs.items()}
+def each(identifier, figure, choose=lambda name: True):
+    """Figures of each of these benchmarks: `identifier` with its arguments, `figure` of its runs."""
+    return lambda runs: {identifier.format(*name.split("/")[1:]): figure(of)
+                         for name, of in runs.items() if choose(name)}
 
 
 def fastest_s(runs):
@@ -92,6 +93,10 @@ def joined(*functions):
     return lambda runs: {name: figure for function in functions for name, figure in function(runs).items()}
 
 
+def of_fine_rays(name):
+    return name.endswith(("/18", "/10"))
+
+
 def beside_definition(identifier):
     return lambda runs: {f"{identifier}_ms": milliseconds("cpu_time")(next(iter(runs.values()))),
                          f"{identifier}_speed_up": significant(next(iter(runs.values()))[0]["definition_over_this"], 2)}
@@ -111,8 +116,8 @@ BENCHMARKS = {
     "MillionFacets/": (1, lambda runs: {"million_facets_gb": f"{1e-3 * next(iter(runs.values()))[0]['peak_MB']:.2f}"}),
     "ShipSbrReference/": (3, joined(each("rays_{}_{}mm_db", median("rays_dB", 0)),
                                     each("beams_{}_db", median("beams_dB", 0)),
-                                    each("matrix_over_rays_{}_{}mm", median("matrix/embree", 2)),
-                                    each("interval_over_rays_{}_{}mm", median("interval/embree", 2)))),
+                                    each("matrix_over_rays_{}_{}mm", median("matrix/embree", 2), of_fine_rays),
+                                    each("interval_over_rays_{}_{}mm", median("interval/embree", 2), of_fine_rays))),
     "LongCrestedSeries/": (1, each("sea_series_{}_us", microseconds)),
     "LongCrestedMotion/": (1, each("sea_motion_{}_us", microseconds)),
     "LongCrestedAnywhere/": (1, each("sea_anywhere_{}_us", microseconds)),
