@@ -12,6 +12,7 @@
 #include "sim/scattering/beams/bistatic_geometry.h"
 #include "sim/scattering/response/body_response.h"
 #include "sim/scattering/response/point_response.h"
+#include "tests/measured.h"
 
 namespace seaglint {
 namespace {
@@ -65,7 +66,7 @@ TEST(ShipCentres, HoldsAtLeastTwentyScatteringCentresWithin30DbAtObliqueAspects)
   }
   std::sort(counts.begin(), counts.end());
   const double median = 0.5 * (counts[2] + counts[3]);
-  RecordProperty("median_centres", std::to_string(median));
+  record_figure(median, 0, "ship_centres_median");
   EXPECT_GE(median, 20);
 }
 

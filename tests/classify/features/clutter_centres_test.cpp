@@ -14,6 +14,7 @@
 #include "sim/scenario/scenario.h"
 #include "sim/sea/realisation.h"
 #include "sim/sea/wave_field.h"
+#include "tests/measured.h"
 
 namespace seaglint {
 namespace {
@@ -79,6 +80,8 @@ TEST(ClutterFalseAlarms, AreRareInWaveResolvedClutter) {
                   low = false_maps({1, ClutterDoppler::kWaveResolved}, 60);
   std::printf("wave_field: %d of 60 maps with %d centres at Hs 2 m, %d with %d at 1 m\n", high.maps, high.centres,
               low.maps, low.centres);
+  record_figure(high.maps, 0, "false_alarms_waves_2_m");
+  record_figure(low.maps, 0, "false_alarms_waves_1_m");
   EXPECT_LE(high.maps, 9);
   EXPECT_LE(high.centres, 18);
   EXPECT_LE(low.maps, 4);
@@ -89,6 +92,7 @@ TEST(ClutterFalseAlarms, AreRareInTexturedClutterOfOneSpectrum) {
   for (const ClutterDoppler doppler : {ClutterDoppler::kPrescribed, ClutterDoppler::kSeaState}) {
     const FalseMaps found = false_maps({2, doppler}, 60);
     std::printf("%s: %d of 60 maps\n", doppler == ClutterDoppler::kSeaState ? "sea" : "given", found.maps);
+    record_figure(found.maps, 0, "false_alarms_{}", doppler == ClutterDoppler::kSeaState ? "sea_state" : "prescribed");
     EXPECT_LE(found.maps, 4);
   }
 }

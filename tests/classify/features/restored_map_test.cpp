@@ -9,6 +9,7 @@
 #include "classify/features/scattering_centres.h"
 #include "radar/echo/echo.h"
 #include "sim/scattering/response/point_response.h"
+#include "tests/measured.h"
 
 namespace seaglint {
 namespace {
@@ -50,6 +51,8 @@ TEST(RestoredMap, EqualsTheMapWithoutFrequencyHopping) {
   const double before = largest_difference_db(raw, reference),
                after = largest_difference_db(restored_map(cleaned, train, {}), reference);
   std::printf("against a radar that does not hop: map %.1f dB, restored %.1f dB of the peak\n", before, after);
+  record_figure(before, 0, "unrestored_map_db");
+  record_figure(after, 0, "restored_map_db");
   // The residual is range migration within a point's velocity sidelobes, 0.06 m of 0.75 m for 1 m/s off the peak, which
   // the map contains.
   EXPECT_GT(before, -25);

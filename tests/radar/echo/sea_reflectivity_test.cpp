@@ -12,6 +12,7 @@
 #include "radar/echo/sea_clutter.h"
 #include "sim/core/numbers/constants.h"
 #include "sim/scattering/response/point_response.h"
+#include "tests/measured.h"
 
 namespace seaglint {
 namespace {
@@ -82,6 +83,8 @@ TEST(SeaReflectivity, IsThatOfTheEcho) {
                           mean_power(train.chirp_spectrum);
   const double error = std::sqrt((square - mean * mean) / intervals) / expected;
   std::printf("clutter %.4g m^2, law %.4g, standard error %.2g\n", mean, expected, error);
+  record_figure(mean, 3, "clutter_power_m2");
+  record_figure(expected, 3, "clutter_power_law_m2");
   EXPECT_LT(error, 0.02);
   EXPECT_NEAR(mean / expected, 1, 4 * error + 0.0012);  // and 0.005 dB of the rounded sigma0
 }

@@ -12,6 +12,7 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/random.h"
 #include "sim/scattering/response/point_response.h"
+#include "tests/measured.h"
 
 namespace seaglint {
 namespace {
@@ -162,7 +163,6 @@ TEST(RvMap, AgreesWithTheDefinitionSummedDirectly) {
       }
     }
   }
-  RecordProperty("worst_relative_error", std::to_string(worst));
   std::printf("worst relative error %.1e\n", worst);
 }
 
@@ -253,6 +253,8 @@ TEST(RvMap, RangeCutIsTheDirichletKernelOfTheBand) {
   const RvMap map = form_rv_map(echo_of(train, {{0, 0, 1}}), train, spec, false);
   const std::size_t rest = map.velocity_mps.size() / 2;
   const double dr = 2.99792458e8 / 2 / 200e6;
+  record_figure(train.range_resolution_m(), 4, "range_resolution_m");
+  record_figure(train.velocity_resolution_mps(), 4, "velocity_resolution_mps");
   double worst = 0;
   for (std::size_t r = 0; r < map.columns(); ++r) {
     const double x = map.range_m[r] / dr;

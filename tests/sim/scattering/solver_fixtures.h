@@ -95,7 +95,7 @@ inline IntervalSampling paper_interval(double start_s) {
 
 // Rows of a table in tests/reference/rcs without its heading and comments.
 inline std::vector<std::vector<std::string>> read_csv(const std::string& name) {
-  std::ifstream file(std::string(SEAGLINT_SOURCE_DIR) + "/tests/reference/rcs/" + name);
+  std::ifstream file(SEAGLINT_SOURCE_DIR "/tests/reference/rcs/" + name);
   std::vector<std::vector<std::string>> rows;
   for (std::string line; std::getline(file, line);) {
     if (line.empty() || line[0] == '#' || !(std::isdigit(line[0]) || line[0] == '-')) continue;

@@ -12,6 +12,7 @@
 #include "sim/sea/spectrum.h"
 #include "sim/sea/statistics.h"
 #include "sim/sea/wave_field.h"
+#include "tests/measured.h"
 #include "tests/sim/sea/sea_state.h"
 
 namespace seaglint {
@@ -290,6 +291,9 @@ TEST(StratumWidths, DetermineTheScatterOfTheMeanPeriod) {
   const double fine = scatter_of_mean_period(state, 512), bound = scatter_of_mean_period(state, 98),
                coarse = scatter_of_mean_period(state, 8);
   std::printf("scatter of T1: %.2f, %.2f, %.1f %%\n", 100 * fine, 100 * bound, 100 * coarse);
+  record_figure(100 * fine, 2, "mean_period_512_components_percent");
+  record_figure(100 * bound, 2, "mean_period_98_components_percent");
+  record_figure(100 * coarse, 0, "mean_period_8_components_percent");
   // Standard error of a standard deviation of 400 seas: 1 / sqrt(800), 3.5 %; three of these.
   EXPECT_LT(fine, 0.001 * 1.1);
   EXPECT_LT(bound, 0.009 * 1.1);

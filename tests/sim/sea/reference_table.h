@@ -13,7 +13,7 @@ namespace seaglint {
 
 // Rows of a comma-separated file below its header; a cell that is not a number reads as 0.
 inline std::vector<std::vector<double>> read_reference(const std::string& name) {
-  std::ifstream file(std::string(SEAGLINT_SOURCE_DIR) + "/tests/reference/waves/" + name);
+  std::ifstream file(SEAGLINT_SOURCE_DIR "/tests/reference/waves/" + name);
   if (!file) throw std::runtime_error("no " + name);
   std::vector<std::vector<double>> rows;
   std::string line;

@@ -13,6 +13,7 @@
 #include "sim/motion/ship/ship_particulars.h"
 #include "sim/motion/ship/ship_response.h"
 #include "sim/sea/spectrum.h"
+#include "tests/measured.h"
 
 namespace seaglint {
 namespace {
@@ -76,6 +77,9 @@ TEST(S175, ResponsesMatchStripTheoryWithoutSpeed) {
   EXPECT_NEAR(ship.centre_of_gravity.z(), 0.05, 0.1);
   EXPECT_NEAR(ship.strips->hydrostatics().volume * 1.025, 24610, 100);
   const Misfit misfit = misfit_to(read_veres_rao(kVeres, 0), ship);
+  record_figure(100 * misfit.rms.x(), 0, "s175_roll_percent");
+  record_figure(100 * misfit.rms.y(), 0, "s175_pitch_percent");
+  record_figure(100 * misfit.rms.z(), 0, "s175_yaw_percent");
   EXPECT_LT(misfit.rms.x(), 0.40);
   EXPECT_LT(misfit.rms.y(), 0.15);
   EXPECT_LT(misfit.rms.z(), 0.20);
@@ -104,6 +108,8 @@ TEST(S175, RollDampingMatchesAnotherStripTheory) {
 TEST(S175, ResponsesMatchStripTheoryAtTwentyKnots) {
   const double speed = 20 * 1852.0 / 3600;
   const Misfit misfit = misfit_to(read_veres_rao(kVeres, speed), s175(speed));
+  record_figure(100 * misfit.rms.y(), 0, "s175_20_knots_pitch_percent");
+  record_figure(100 * misfit.rms.z(), 0, "s175_20_knots_yaw_percent");
   EXPECT_LT(misfit.rms.y(), 0.15);
   EXPECT_LT(misfit.rms.z(), 0.20);
   EXPECT_LT(misfit.worst.y(), 0.25);

@@ -9,6 +9,7 @@
 #include <cstdio>
 
 #include "sim/scattering/surfaces/point_contributions.h"
+#include "tests/measured.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
 namespace seaglint {
@@ -86,8 +87,14 @@ TEST(ThickEdge, OfStripsMatchesIntegralEquations) {
   };
   const auto backscatter = [](double transmit, double receive) { return transmit == receive; };
   for (const Case& limits : {Case{0, 0.0005, 0.0005}, {0.5, 0.001, 0.002}, {1.6256, 0.006, 0.012}, {3, 0.015, 0.03}}) {
-    EXPECT_LT(against_integral_equations(limits.t_mm, true, backscatter).relative, limits.soft) << limits.t_mm;
-    EXPECT_LT(against_integral_equations(limits.t_mm, false, backscatter).relative, limits.hard) << limits.t_mm;
+    for (const bool soft : {true, false}) {
+      const Deviation found = against_integral_equations(limits.t_mm, soft, backscatter);
+      EXPECT_LT(found.relative, soft ? limits.soft : limits.hard) << limits.t_mm;
+      const int thickness_um = static_cast<int>(1e3 * limits.t_mm);
+      record_figure(found.relative, thickness_um == 0 ? 5 : 4, "strip_{}_um_{}", thickness_um, soft ? "soft" : "hard");
+      record_figure(found.mean_db, thickness_um == 0 ? 3 : 2, "strip_{}_um_{}_mean_db", thickness_um,
+                    soft ? "soft" : "hard");
+    }
   }
 }
 
@@ -98,8 +105,17 @@ TEST(ThickEdge, OfStripsMatchesIntegralEquationsForOtherReceivers) {
     const auto from = [&](double at, double receive) { return at == transmit && receive != at; };
     for (const double t_mm : {0.0, 1.6256}) {
       const double limit = t_mm > 0 ? 0.008 : 0.003;
-      EXPECT_LT(against_integral_equations(t_mm, true, from).relative, limit) << transmit;
-      EXPECT_LT(against_integral_equations(t_mm, false, from).relative, limit) << transmit;
+      for (const bool soft : {true, false}) {
+        const Deviation found = against_integral_equations(t_mm, soft, from);
+        EXPECT_LT(found.relative, limit) << transmit;
+        const int thickness_um = static_cast<int>(1e3 * t_mm);
+        record_figure(found.relative, thickness_um == 0 ? 5 : 4, "strip_{}_um_from_{}_deg_{}", thickness_um, transmit,
+                      soft ? "soft" : "hard");
+        if (thickness_um > 0) {
+          record_figure(found.mean_db, 2, "strip_{}_um_from_{}_deg_{}_mean_db", thickness_um, transmit,
+                        soft ? "soft" : "hard");
+        }
+      }
     }
   }
 }

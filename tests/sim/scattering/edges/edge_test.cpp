@@ -16,6 +16,7 @@
 #include "sim/scattering/diffraction/transition.h"
 #include "sim/scattering/response/scattering_matrix.h"
 #include "sim/scattering/target/sharp_edges.h"
+#include "tests/measured.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
 namespace seaglint {
@@ -52,7 +53,10 @@ TEST(PlateEdges, MatchTheMethodOfMoments) {
         without += std::abs(dbsm(echo(sheet, basis, wavenumber(hz), 0, 8, false)[channel]) - moments);
         ++count;
       }
-      RecordProperty(std::string(name) + polarisation + "_mean_db", std::to_string(thick / count));
+      const char* channel_name = polarisation == 'H' ? "hh" : "vv";
+      record_figure(thick / count, 2, "plate_{:.0f}ghz_{}_mean_db", 1e-9 * hz, channel_name);
+      record_figure(thin / count, 2, "plate_{:.0f}ghz_{}_thin_mean_db", 1e-9 * hz, channel_name);
+      record_figure(without / count, 2, "plate_{:.0f}ghz_{}_without_edges_mean_db", 1e-9 * hz, channel_name);
       EXPECT_LT(thick / count, hz < 6e9 ? 0.55 : 0.25) << name << polarisation;
       EXPECT_LT(thin / count, 1.5) << name << polarisation;
       EXPECT_GT(without / count, 4) << name << polarisation;
@@ -80,8 +84,10 @@ TEST(TrihedralEdges, ReduceTheErrorFromTheFullWaveSolution) {
   }
   ASSERT_EQ(count, 20);
   const double rms = std::sqrt(squares[1] / count), correlation = std::abs(product[1]) / std::sqrt(powers[1] * power);
-  RecordProperty("rms_db", std::to_string(rms));
-  RecordProperty("correlation", std::to_string(correlation));
+  record_figure(rms, 2, "trihedral_rms_db");
+  record_figure(correlation, 3, "trihedral_correlation");
+  record_figure(std::sqrt(squares[0] / count), 2, "trihedral_without_edges_rms_db");
+  record_figure(std::abs(product[0]) / std::sqrt(powers[0] * power), 3, "trihedral_without_edges_correlation");
   // The reference's own 0.3 dB, and at 4-5 wavelengths higher diffraction orders and vertices.
   EXPECT_LT(rms, 0.35);
   EXPECT_LT(rms, std::sqrt(squares[0] / count));

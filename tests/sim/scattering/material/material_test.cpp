@@ -10,6 +10,7 @@
 #include "sim/scattering/material/material.h"
 #include "sim/scattering/material/sea_water.h"
 #include "sim/scenario/material_file.h"
+#include "tests/measured.h"
 
 namespace seaglint {
 namespace {
@@ -270,7 +271,7 @@ TEST(SeaWater, TwoPublishedModelsAgreeWithinTheirMeasurements) {
     for (const double ghz : {1.0, 1.4, 3.0}) compare(ghz, celsius);
   }
   for (const double ghz : {10.0, 16.0}) compare(ghz, 20);
-  RecordProperty("worst_relative", std::to_string(max_error));
+  record_figure(100 * max_error, 2, "sea_water_percent");
   EXPECT_LT(max_error, 0.015);
 }
 

@@ -16,6 +16,7 @@
 #include "sim/scattering/response/scattering_matrix.h"
 #include "sim/scattering/surfaces/phase_integral.h"
 #include "sim/scattering/surfaces/point_contributions.h"
+#include "tests/measured.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
 namespace seaglint {
@@ -132,12 +133,14 @@ TEST(ResponseGrid, EqualsTheDirectSumOfTheSamePoints) { EXPECT_LT(error_of_grid(
 // farthest instant, and the mean square over speeds |v| uniform up to the fastest is 1 / (2 p + 1) of its square.
 TEST(ResponseGrid, MatchesTheDirectSumOnACurvedPath) {
   const double k = wavenumber(16.1875e9);
+  double worst = 0;
   for (const double phase : {0.02, 0.1, 0.24, 0.5, 0.9, kMaxCrossTrackPhase}) {
     const double error = error_of_grid(phase / (k * 40));
-    RecordProperty(fmt::format("error_at_{}_rad", phase), fmt::format("{:.1e}", error));
+    worst = std::max(worst, error);
     fmt::print("{} rad cross-track: {:.1e}\n", phase, error);
     EXPECT_LT(error, 0.03 / std::sqrt(3)) << phase;
   }
+  record_figure(100 * worst, 2, "cross_track_percent");
 }
 
 TEST(IntervalResponse, OfABodyAtRestEqualsItsScatteringMatrix) {
@@ -166,7 +169,7 @@ TEST(IntervalResponse, OfATiltingReflectorMatchesIndependentTraces) {
     const double error =
         error_against_independent_traces(reflector, rocking({0.6, 0.4, 0.1}, 1.3, {0, 0, -0.75}), direction(azimuth, 2),
                                          {}, 60, static_cast<std::uint64_t>(azimuth));
-    RecordProperty(fmt::format("error_db_{}", azimuth), fmt::format("{:.1f}", error));
+    record_figure(error, 1, "interval_reflector_{}_db", azimuth);
     std::printf("reflector at %g deg: %.1f dB\n", azimuth, error);
     max_error = std::max(max_error, error);
     sum += error;
@@ -186,7 +189,6 @@ TEST(IntervalResponse, FloatAtFiniteRangeMatchesIndependentTraces) {
   for (const double azimuth : {10.0, 48.0, 131.0}) {
     const double error = error_against_independent_traces(reflector, floating, direction(azimuth, 2), solver, 60,
                                                           static_cast<std::uint64_t>(azimuth));
-    RecordProperty(fmt::format("error_db_{}", azimuth), fmt::format("{:.1f}", error));
     fmt::print("float at {} deg: {:.1f} dB\n", azimuth, error);
     EXPECT_LT(error, -30) << azimuth;  // as at its reference point
   }
@@ -199,7 +201,7 @@ TEST(IntervalResponse, OfTheRollingShipMatchesIndependentTraces) {
     const double error =
         error_against_independent_traces(ship, rocking({0.014, 0.010, 0.005}, 8, {0, 0, 1.7}), direction(azimuth, 2),
                                          {}, 6, static_cast<std::uint64_t>(azimuth));
-    RecordProperty(fmt::format("error_db_{}", azimuth), fmt::format("{:.1f}", error));
+    record_figure(error, 1, "interval_ship_{}_db", azimuth);
     std::printf("ship at %g deg: %.1f dB\n", azimuth, error);
     EXPECT_LT(error, -30) << azimuth;
   }
@@ -229,10 +231,14 @@ TEST(IntervalResponse, MatchesIndependentTracesInRandomDirections) {
       study("reflector", Scatterer(make_icosahedral_reflector()), {0.32, 0.32, 0.32}, {0, 0, -0.75}, 30, 40, 20);
   EXPECT_LT(reflector, -40);
   EXPECT_LT(reflector_worst, -40);
+  record_figure(reflector, 1, "interval_random_reflector_median_db");
+  record_figure(reflector_worst, 1, "interval_random_reflector_95_db");
   const auto [ship, ship_worst] = study("ship", Scatterer(read_mesh(SEAGLINT_SOURCE_DIR "/assets/combatant_144m.glb")),
                                         {0.016, 0.016, 0.016}, {0, 0, 1.7}, 5, 12, 8);
   EXPECT_LT(ship, -30);
   EXPECT_LT(ship_worst, -30);  // the maximum of so few directions
+  record_figure(ship, 1, "interval_random_ship_median_db");
+  record_figure(ship_worst, 1, "interval_random_ship_worst_db");
 }
 
 TEST(IntervalResponse, OfATranslatedBodyHasThePhaseOfItsOrigin) {

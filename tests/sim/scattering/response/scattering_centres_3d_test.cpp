@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/geometry/shapes/generators.h"
+#include "tests/measured.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
 namespace seaglint {
@@ -77,8 +78,7 @@ TEST_F(AspectDecomposition, ErrorOffTheAspectIsBoundedByTheCellSize) {
     const double error = distance(sum, exact),
                  bound = 2 * amplitudes * 2 * cell * (dk + std::sqrt(3.0) * k * aspect_change.norm());
     EXPECT_LT(error, bound) << cell;
-    RecordProperty("relative_error_db_cell_" + std::to_string(cell),
-                   std::to_string(20 * std::log10(error / size(exact))));
+    record_figure(20 * std::log10(error / size(exact)), 0, "centres_{:.0f}_um_db", 1e6 * cell);
     if (coarser > 0) {
       EXPECT_LT(error, 0.6 * coarser) << "a quarter of the cell leaves a quarter of the error, apart from speckle";
     }

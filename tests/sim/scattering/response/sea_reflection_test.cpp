@@ -11,6 +11,7 @@
 #include "sim/scattering/response/scattering_matrix.h"
 #include "sim/scattering/response/sea_reflection.h"
 #include "sim/scattering/target/part_materials.h"
+#include "tests/measured.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
 namespace seaglint {
@@ -113,6 +114,7 @@ TEST(SeaReflection, SphereAboveTheSeaHasFourPathInterference) {
         << height;
   }
   fmt::print("sphere over the sea: within {:.4f} of its echo\n", max_error);
+  record_figure(100 * max_error, 1, "sea_sphere_percent");
   // Positions of nulls and peaks: hh vanishes at whole multiples of half, vv at odd halves; peaks are 12 dB up.
   EXPECT_LT(std::abs(over_sea(sphere, direction(15, 1.2), half, conductor(), k, 7e-5)[kHhChannel]),
             0.05 * std::abs(alone[kHhChannel]));
@@ -185,12 +187,15 @@ TEST(SeaReflection, PlateOnAMeshedFloorHasTheSameEcho) {
   floor.materials = plate.materials;
   corner.append(floor);
   const auto with_floor = echo(Scatterer(corner), radar_basis(direction(0, elevation)), k16, 3.5e-4);
+  double worst_db = 0;
   for (const int i : {kHhChannel, kVvChannel}) {
     fmt::print("plate on a floor: {:.3f} dB\n", dbsm(s[i]) - dbsm(with_floor[i]));
+    worst_db = std::max(worst_db, std::abs(dbsm(s[i]) - dbsm(with_floor[i])));
     EXPECT_NEAR(dbsm(s[i]) - dbsm(with_floor[i]), 0, 0.5) << i;
     // Side lobes of single bounces, each 1 / (k h sin el) of the echo: 1/33 for either face.
     EXPECT_LT(std::abs(s[i] - with_floor[i]), 0.08 * std::abs(s[i])) << i;
   }
+  record_figure(worst_db, 2, "sea_plate_on_floor_db");
 }
 
 TEST(SeaReflection, AFloatingBodyIsItsDryPart) {
@@ -303,6 +308,7 @@ TEST(SeaReflection, ResponseOverAnIntervalMatchesIndependentTraces) {
     const double error_db =
         error_against_independent_traces(reflector, trajectory, direction(20, 2), sea, polarisation, 20);
     fmt::print("reflector over the sea, {}: {:.1f} dB\n", name, error_db);
+    record_figure(error_db, 1, "sea_reflector_{}_db", name);
     EXPECT_LT(error_db, -40);
   }
 }
@@ -316,6 +322,7 @@ TEST(SeaReflection, ShipsResponseOverAnIntervalMatchesIndependentTraces) {
   const double error_db = error_against_independent_traces(
       ship, trajectory, direction(50, 2), SeaReflection(SeaReflectionSpec{}, 0.1), Polarisation::kVv, 5);
   fmt::print("ship over the sea: {:.1f} dB\n", error_db);
+  record_figure(error_db, 1, "sea_ship_db");
   EXPECT_LT(error_db, -30);
 }
 

@@ -9,6 +9,7 @@
 #include "sim/scattering/response/scattering_matrix.h"
 #include "sim/scattering/target/part_materials.h"
 #include "sim/scenario/material_file.h"
+#include "tests/measured.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
 namespace seaglint {
@@ -115,6 +116,9 @@ TEST(CoatedTarget, DihedralMultipliesTheCoefficientsOfItsTwoFaces) {
   fmt::print("dihedral: vv {:.2f} dB below the conductor's, the product's {:.2f} dB\n",
              -20 * std::log10(std::abs(s[kVvChannel] / pec[kVvChannel])),
              -20 * std::log10(std::abs(first.te * second.te)));
+  record_figure(std::abs(20 * std::log10(std::abs(s[kVvChannel] / pec[kVvChannel] / (first.te * second.te)))), 2,
+                "coated_dihedral_db");
+  record_figure(-20 * std::log10(std::abs(first.te * second.te)), 1, "coated_dihedral_product_db");
 }
 
 TEST(CoatedTarget, SheetOfVacuumScattersNothingInAnyDirection) {
@@ -138,6 +142,7 @@ TEST(CoatedTarget, SphereTendsToTheConductorsEchoTimesItsCoefficientAtNormalInci
     const Complex ratio = echo(target, basis, ka, 1.4e-3)[kVvChannel] / echo(metal, basis, ka, 1.4e-3)[kVvChannel];
     fmt::print("sphere of impedance at ka {}: {:.4f} off its coefficient {:.4f}\n", ka, std::abs(ratio - gamma),
                std::abs(gamma));
+    record_figure(std::abs(ratio - gamma), 4, "impedance_sphere_ka_{}", ka);
     EXPECT_LT(std::abs(ratio - gamma), 1 / (2 * ka)) << ka;
   }
 }
@@ -182,6 +187,7 @@ TEST(CoatedTarget, IntervalFollowsTheCoefficientsOverItsBand) {
   for (const char* name : {"sea_water", "ram_loaded_epoxy", "grp_sheet", "window_glass"}) {
     const double error_db = band_error_db(coated(make_icosahedral_reflector(), library(name)), direction(3, 2));
     fmt::print("reflector of {} over 200 MHz: {:.1f} dB\n", name, error_db);
+    record_figure(error_db, 1, "coated_reflector_{}_db", name);
     EXPECT_LT(error_db, kBandErrorDb) << name;
   }
 }
@@ -190,6 +196,7 @@ TEST(CoatedTarget, IntervalFollowsTheCoefficientsOfACurvedSurface) {
   for (const char* name : {"sea_water", "ram_loaded_epoxy", "grp_sheet", "window_glass"}) {
     const double error_db = band_error_db(coated(make_sphere(0.5, 4), library(name)), direction(23, 11));
     fmt::print("sphere of {} over 200 MHz: {:.1f} dB\n", name, error_db);
+    record_figure(error_db, 1, "coated_sphere_{}_db", name);
     EXPECT_LT(error_db, kBandErrorDb) << name;
   }
 }

@@ -13,6 +13,7 @@
 #include "sim/scattering/surfaces/phase_integral.h"
 #include "sim/scattering/surfaces/point_contributions.h"
 #include "sim/scattering/target/smooth_surface.h"
+#include "tests/measured.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
 namespace seaglint {
@@ -21,7 +22,7 @@ namespace {
 using namespace testing_echoes;
 
 std::vector<std::vector<double>> read_numbers(const std::string& name) {
-  std::ifstream file(std::string(SEAGLINT_SOURCE_DIR) + "/tests/reference/rcs/" + name);
+  std::ifstream file(SEAGLINT_SOURCE_DIR "/tests/reference/rcs/" + name);
   std::vector<std::vector<double>> rows;
   for (std::string line; std::getline(file, line);) {
     if (line.empty() || line[0] == 'k') continue;
@@ -88,6 +89,13 @@ TEST(CurvedSurface, SphereNeedsFewFacets) {
     std::printf("%d facets: flat mean %.3f, largest %.3f dB, %.1f deg; smooth mean %.3f, largest %.3f dB, %.2f deg\n",
                 20 << (2 * subdivisions), flat.mean_db, flat.largest_db, flat.largest_deg, smooth.mean_db,
                 smooth.largest_db, smooth.largest_deg);
+    const int facets = 20 << (2 * subdivisions);
+    record_figure(smooth.mean_db, 3, "sphere_{}_mean_db", facets);
+    record_figure(smooth.largest_db, 3, "sphere_{}_largest_db", facets);
+    record_figure(smooth.largest_deg, 2, "sphere_{}_largest_deg", facets);
+    record_figure(flat.mean_db, 3, "sphere_{}_flat_mean_db", facets);
+    record_figure(flat.largest_db, 2, "sphere_{}_flat_largest_db", facets);
+    record_figure(flat.largest_deg, 1, "sphere_{}_flat_largest_deg", facets);
     EXPECT_LT(smooth.mean_db, 0.05);
     EXPECT_LT(smooth.largest_db, 0.1);
     EXPECT_LT(smooth.largest_deg, 1);
@@ -105,6 +113,7 @@ TEST(CurvedSurface, CylinderAtBroadsideFollowsTheExactSeries) {
     tm.push_back(Complex(0, height / kPi) * Complex(row[1], row[2]));
     te.push_back(Complex(0, -height / kPi) * Complex(row[3], row[4]));
   }
+  Deviation worst;
   for (const int segments : {36, 72, 144, 720}) {
     for (const double crease_deg : {0.0, kDefaultCreaseDeg}) {
       const Scatterer cylinder(make_cylinder(radius, height, segments), {}, radians(crease_deg));
@@ -117,7 +126,13 @@ TEST(CurvedSurface, CylinderAtBroadsideFollowsTheExactSeries) {
       std::printf("%d sides, crease %g deg: vv mean %.3f, largest %.3f dB, %.2f deg; hh %.3f, %.3f dB, %.2f deg\n",
                   segments, crease_deg, dv.mean_db, dv.largest_db, dv.largest_deg, dh.mean_db, dh.largest_db,
                   dh.largest_deg);
-      if (crease_deg == 0) continue;
+      if (crease_deg == 0) {
+        record_figure(std::max(dv.mean_db, dh.mean_db), 3, "cylinder_{}_flat_mean_db", segments);
+        continue;
+      }
+      worst.mean_db = std::max({worst.mean_db, dv.mean_db, dh.mean_db});
+      worst.largest_db = std::max({worst.largest_db, dv.largest_db, dh.largest_db});
+      worst.largest_deg = std::max({worst.largest_deg, dv.largest_deg, dh.largest_deg});
       // Physical optics has a phase error of 5/16 and 11/16 of 1/ka: 0.3 and 0.7 deg at ka 60; the contour next to the
       // flash 1 / (kContourRatio^1.5).
       EXPECT_LT(dv.mean_db, 0.05) << segments;
@@ -127,6 +142,9 @@ TEST(CurvedSurface, CylinderAtBroadsideFollowsTheExactSeries) {
       EXPECT_LT(dh.largest_deg, 1.5) << segments;
     }
   }
+  record_figure(worst.mean_db, 3, "cylinder_mean_db");
+  record_figure(worst.largest_db, 3, "cylinder_largest_db");
+  record_figure(worst.largest_deg, 2, "cylinder_largest_deg");
 }
 
 // Bistatic sphere of the Austin suite (problem set IA), D = 19.2 m, 0.32 GHz, incidence from phi 0, in the plane theta
@@ -134,6 +152,7 @@ TEST(CurvedSurface, CylinderAtBroadsideFollowsTheExactSeries) {
 TEST(CurvedSurface, BistaticSphereFollowsTheSeriesOverTheIlluminatedHalf) {
   const Scatterer sphere(make_sphere(9.6, 5));
   const RadarBasis transmit = radar_basis(direction(0, 0));
+  std::array<double, 4> worst_mean{}, worst{};  // of both polarisations
   for (const auto& [file, channel] :
        {std::pair{"austin/ref_rcs.I.A.s7.f6.H.txt", kHhChannel}, {"austin/ref_rcs.I.A.s7.f6.V.txt", kVvChannel}}) {
     std::array<double, 4> sum{}, largest{};
@@ -152,9 +171,15 @@ TEST(CurvedSurface, BistaticSphereFollowsTheSeriesOverTheIlluminatedHalf) {
     for (int i = 0; i < 4; ++i) {
       std::printf("%s phi %d-%d: mean %.3f, largest %.3f dB\n", file, 30 * i, 30 * i + 30, sum[i] / count[i],
                   largest[i]);
+      worst_mean[i] = std::max(worst_mean[i], sum[i] / count[i]);
+      worst[i] = std::max(worst[i], largest[i]);
     }
     // The incident shadow boundary is 90 deg from backscatter, that of the receiver moves inwards with phi.
     EXPECT_LT((sum[0] + sum[1] + sum[2]) / (count[0] + count[1] + count[2]), 0.5) << file;
+  }
+  for (int i = 0; i < 4; ++i) {
+    record_figure(worst_mean[i], 2, "bistatic_sphere_{}_deg_mean_db", 30 * i + 30);
+    record_figure(worst[i], 2, "bistatic_sphere_{}_deg_largest_db", 30 * i + 30);
   }
 }
 
@@ -174,6 +199,8 @@ TEST(CurvedSurface, EdgesOfFacetsDoNotRadiate) {
   };
   const double with_edges = ripple(flat), without = ripple(smooth);
   std::printf("5,120 facets, ka 150, ripple over 10 deg: flat %.3f dB, smooth %.3f dB\n", with_edges, without);
+  record_figure(without, 2, "sphere_ripple_db");
+  record_figure(with_edges, 2, "sphere_ripple_flat_db");
   EXPECT_LT(without, 0.2);
   EXPECT_LT(without, 0.25 * with_edges);
 }
@@ -196,6 +223,8 @@ TEST(CurvedSurface, TheShadowBoundaryDoesNotRadiate) {
   };
   const double hard = false_end(Scatterer(make_sphere(1, 5), {}, 0)), faded = false_end(Scatterer(make_sphere(1, 5)));
   std::printf("false end point of the shadow boundary: hard %.2f, faded %.3f of j/(4k)\n", hard, faded);
+  record_figure(faded, 3, "shadow_end_point");
+  record_figure(hard, 2, "shadow_end_point_flat");
   EXPECT_GT(hard, 0.5);
   EXPECT_LT(faded, 0.1);
 }
@@ -207,6 +236,7 @@ TEST(CurvedSurface, CylinderOnAPlateHasTheTopHatsEcho) {
   const double radius = 0.5, height = 0.4, k = wavenumber(8e9), elevation = radians(40);
   const double expected =
       k / kPi * height * std::cos(elevation) * radius * std::sqrt(kPi / (k * radius * std::cos(elevation)));
+  double worst = 0, worst_mean = 0, worst_flat_mean = 0;
   for (const int segments : {72, 144, 288}) {
     TriangleMesh hat =
         transformed(make_cylinder(radius, height, segments), Mat3::Identity(), {0, 0, 0.5 * height + 1e-4});
@@ -228,10 +258,16 @@ TEST(CurvedSurface, CylinderOnAPlateHasTheTopHatsEcho) {
       std::printf("top hat, %d sides, %s: mean %.2f, largest %.2f dB\n", segments, mode == 0 ? "flat" : "smooth",
                   mean[mode], largest);
       if (mode == 1) {
+        worst = std::max(worst, largest);
         EXPECT_LT(largest, 0.5) << segments;
       }
     }
+    worst_flat_mean = std::max(worst_flat_mean, std::abs(mean[0]));
+    worst_mean = std::max(worst_mean, std::abs(mean[1]));
   }
+  record_figure(worst, 2, "top_hat_largest_db");
+  record_figure(worst_mean, 2, "top_hat_mean_db");
+  record_figure(worst_flat_mean, 2, "top_hat_flat_mean_db");
 }
 
 TEST(SmoothSurface, KeepsSharpTargetsFlat) {

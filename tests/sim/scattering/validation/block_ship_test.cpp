@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "tests/measured.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
 namespace seaglint {
@@ -77,6 +78,9 @@ TEST(BlockShip, MatchesIntegralEquations) {
     EXPECT_LT(deviation.hh, hh) << elevation;
     EXPECT_LT(deviation.vv, vv) << elevation;
     EXPECT_LT(deviation.hv, 0.25) << elevation;
+    record_figure(deviation.hh, 3, "block_ship_{}_deg_hh", elevation);
+    record_figure(deviation.vv, 3, "block_ship_{}_deg_vv", elevation);
+    record_figure(deviation.hv, 2, "block_ship_{}_deg_hv", elevation);
   }
 }
 

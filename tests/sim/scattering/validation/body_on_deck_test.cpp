@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "sim/scattering/response/scattering_matrix.h"
+#include "tests/measured.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
 namespace seaglint {
@@ -79,6 +80,13 @@ void expect_below(const Deviation& deviation, const Deviation& bound) {
   EXPECT_LT(deviation.hv, bound.hv);
 }
 
+// The same; `largest` becomes the largest of what was compared with it.
+void expect_below(const Deviation& deviation, const Deviation& bound, Deviation& largest) {
+  expect_below(deviation, bound);
+  largest = {std::max(largest.hh, deviation.hh), std::max(largest.vv, deviation.vv),
+             std::max(largest.hv, deviation.hv)};
+}
+
 // Two walls of equal width that meet at a right angle, open towards x.
 TriangleMesh inner_corner(double width, double bottom, double top) {
   TriangleMesh mesh = without_triangles();
@@ -148,7 +156,11 @@ TEST(BodyOnDeck, FollowsImageTheory) {
        {std::array{0.0, 0.2, 0.06, 0.015}, {0.05, 0.17, 0.07, 0.07}, {0.15, 0.11, 0.075, 0.012}}) {
     for (const double azimuth : {0.0, 5.0, 10.0, 20.0, 30.0, 45.0}) {
       SCOPED_TRACE(testing::Message() << 2 * half_depth << " m deep, azimuth " << azimuth);
-      expect_below(of_block(half_depth, 2, azimuth, {10, 40}), {hh, vv, hv});
+      const Deviation found = of_block(half_depth, 2, azimuth, {10, 40});
+      expect_below(found, {hh, vv, hv});
+      record_figure(found.hh, 3, "deck_{:.0f}cm_{}_deg_hh", 200 * half_depth, azimuth);
+      record_figure(found.vv, 3, "deck_{:.0f}cm_{}_deg_vv", 200 * half_depth, azimuth);
+      record_figure(found.hv, 3, "deck_{:.0f}cm_{}_deg_hv", 200 * half_depth, azimuth);
     }
   }
 }
@@ -158,29 +170,41 @@ TEST(BodyOnDeck, FollowsImageTheory) {
 // end on the deck and its edges. With the deck as the last reflector at every elevation hh and vv had errors of up to
 // 0.57 and 0.53 from 1 to 3 deg, 0.29 and 0.21 from 3 to 5 deg.
 TEST(BodyOnDeck, FollowsImageTheoryAtLowElevations) {
+  Deviation first{}, second{}, third{};
   for (const auto& [half_depth, hh] : {std::pair{0.0, 0.12}, {0.15, 0.135}}) {
     for (const double azimuth : {0.0, 5.0, 10.0}) {
       SCOPED_TRACE(testing::Message() << 2 * half_depth << " m deep, azimuth " << azimuth);
-      expect_below(of_block(half_depth, 15, azimuth, {1, 3}), {0.085, 0.05, 0.006});
-      expect_below(of_block(half_depth, 15, azimuth, {3, 5}), {0.075, 0.05, 0.015});
-      expect_below(of_block(half_depth, 15, azimuth, {5, 8}), {hh, 0.11, 0.02});
+      expect_below(of_block(half_depth, 15, azimuth, {1, 3}), {0.085, 0.05, 0.006}, first);
+      expect_below(of_block(half_depth, 15, azimuth, {3, 5}), {0.075, 0.05, 0.015}, second);
+      expect_below(of_block(half_depth, 15, azimuth, {5, 8}), {hh, 0.11, 0.02}, third);
     }
   }
+  record_figure(first.hh, 2, "deck_1_to_3_deg_hh");
+  record_figure(first.vv, 2, "deck_1_to_3_deg_vv");
+  record_figure(second.hh, 2, "deck_3_to_5_deg_hh");
+  record_figure(second.vv, 2, "deck_3_to_5_deg_vv");
+  record_figure(third.hh, 2, "deck_5_to_8_deg_hh");
+  record_figure(third.vv, 2, "deck_5_to_8_deg_vv");
 }
 
 // The path deck - one wall - the other - deck is also represented by the image. The residual of vv is present at 20 deg
 // of elevation too (0.1): the walls' edges behind two reflectors. With the deck as the last reflector it was 0.33 to
 // 0.37 and 0.37 to 0.38 from 1 to 3 deg.
 TEST(BodyOnDeck, ConcaveWallsFollowImageTheory) {
+  Deviation first{}, second{};
   for (const double azimuth : {0.0, 5.0, 20.0}) {
     SCOPED_TRACE(testing::Message() << "azimuth " << azimuth);
     const auto deviation = [&](const Elevations& elevations) {
       return against_image_theory(inner_corner(0.2, 0, kHeight), inner_corner(0.2, -kHeight, kHeight), 15, azimuth,
                                   elevations);
     };
-    expect_below(deviation({1, 3}), {0.23, 0.19, 0.03});
-    expect_below(deviation({3, 5}), {0.085, 0.24, 0.015});
+    expect_below(deviation({1, 3}), {0.23, 0.19, 0.03}, first);
+    expect_below(deviation({3, 5}), {0.085, 0.24, 0.015}, second);
   }
+  record_figure(first.hh, 2, "deck_corner_1_to_3_deg_hh");
+  record_figure(first.vv, 2, "deck_corner_1_to_3_deg_vv");
+  record_figure(second.hh, 2, "deck_corner_3_to_5_deg_hh");
+  record_figure(second.vv, 2, "deck_corner_3_to_5_deg_vv");
 }
 
 // Walls that lean back, as those of deckhouses, and forward. Their images are illuminated and visible as the walls
@@ -192,10 +216,14 @@ TEST(BodyOnDeck, LeaningPlatesFollowImageTheory) {
                                              {1.0, 0.12, 0.09, 0.02},
                                              {5.0, 0.065, 0.085, 0.005},
                                              {10.0, 0.16, 0.155, 0.005}}) {
+    Deviation largest{};
     for (const double azimuth : {0.0, 5.0, 10.0}) {
       SCOPED_TRACE(testing::Message() << "leans " << lean_deg << " deg, azimuth " << azimuth);
-      expect_below(of_leaning_plate(lean_deg, 15, azimuth, {1, 4}), {hh, vv, hv});
+      expect_below(of_leaning_plate(lean_deg, 15, azimuth, {1, 4}), {hh, vv, hv}, largest);
     }
+    const char* way = lean_deg < 0 ? "forward" : "back";
+    record_figure(largest.hh, 2, "deck_plate_leans_{}_{:.0f}_deg_hh", way, std::abs(lean_deg));
+    record_figure(largest.vv, 2, "deck_plate_leans_{}_{:.0f}_deg_vv", way, std::abs(lean_deg));
   }
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sim/geometry/shapes/generators.h"
+#include "tests/measured.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
 namespace seaglint {
@@ -84,6 +85,7 @@ TEST(TrihedralFacets, ReachesItsPeakOnItsAxis) {
   const auto s = echo(make_triangular_trihedral(leg), Vec3(1, 1, 1).normalized(), k16);
   const double peak = 10 * std::log10(4 * kPi * std::pow(leg, 4) / 3 * std::pow(k16 / (2 * kPi), 2));
   EXPECT_NEAR(peak, 23.6, 0.05);
+  record_figure(dbsm(s[kVvChannel]), 2, "trihedral_peak_dbsm");
   // First- and second-bounce lobes add at most their edges' sum, below 2 % of the amplitude at k leg = 125.
   EXPECT_NEAR(dbsm(s[kVvChannel]), peak, 0.17);
   EXPECT_NEAR(dbsm(s[kHhChannel]), peak, 0.17);

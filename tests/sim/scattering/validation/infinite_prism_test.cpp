@@ -8,6 +8,7 @@
 #include <map>
 
 #include "sim/scattering/response/scattering_matrix.h"
+#include "tests/measured.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
 namespace seaglint {
@@ -110,14 +111,22 @@ Deviation against_integral_equations(const std::string& section, double min_deg,
   return deviation;
 }
 
+Deviation larger(const Deviation& a, const Deviation& b) {
+  return {std::max(a.soft, b.soft), std::max(a.hard, b.hard)};
+}
+
 // The errors are due to higher diffraction orders and, for the hard field, to the largest elements of the integral
 // equations.
 TEST(InfinitePrism, BackscatterMatchesIntegralEquation) {
+  Deviation worst;
   for (const std::string section : {"box", "knife", "triangle"}) {
     const Deviation back = against_integral_equations(section, 0, 0, 0);
+    worst = larger(worst, back);
     EXPECT_LT(back.soft, 0.0015) << section;
     EXPECT_LT(back.hard, 0.003) << section;
   }
+  record_figure(worst.soft, 4, "prism_back_soft");
+  record_figure(worst.hard, 4, "prism_back_hard");
 }
 
 // The concave edge of a chevron diffracts; without it the error of the soft field is 0.04 and, without the waves that
@@ -126,6 +135,8 @@ TEST(InfinitePrism, WithAConcaveEdgeMatchesIntegralEquation) {
   const Deviation back = against_integral_equations("chevron", 0, 0, 0);
   EXPECT_LT(back.soft, 0.02);
   EXPECT_LT(back.hard, 0.08);
+  record_figure(back.soft, 3, "chevron_soft");
+  record_figure(back.hard, 3, "chevron_hard");
 }
 
 // The free edge of either arm bounds the beam that it reflects to the other, whose edge coincides with the shadow
@@ -145,6 +156,12 @@ TEST(InfinitePrism, DihedralMatchesIntegralEquation) {
     EXPECT_LT(back.hard, 0.02);
     EXPECT_LT(grazing.soft, 0.03);  // 0.012 except for the bistatic geometry
     EXPECT_LT(grazing.hard, 0.03);
+    record_figure(axis.soft, 3, "dihedral_8_deg_cone_{}_soft", elevation);
+    record_figure(axis.hard, 3, "dihedral_8_deg_cone_{}_hard", elevation);
+    record_figure(back.soft, 3, "dihedral_20_deg_cone_{}_soft", elevation);
+    record_figure(back.hard, 3, "dihedral_20_deg_cone_{}_hard", elevation);
+    record_figure(grazing.soft, 3, "dihedral_38_deg_cone_{}_soft", elevation);
+    record_figure(grazing.hard, 3, "dihedral_38_deg_cone_{}_hard", elevation);
   }
 }
 
@@ -158,6 +175,10 @@ TEST(InfinitePrism, DihedralAlongItsArmsMatchesIntegralEquation) {
   EXPECT_LT(near.hard, 0.03);
   EXPECT_LT(far.soft, 0.003);
   EXPECT_LT(far.hard, 0.01);
+  record_figure(near.soft, 3, "dihedral_70_deg_soft");
+  record_figure(near.hard, 3, "dihedral_70_deg_hard");
+  record_figure(far.soft, 3, "dihedral_long_70_deg_soft");
+  record_figure(far.hard, 3, "dihedral_long_70_deg_hard");
 }
 
 // For other opening angles than 90 deg the exit paths of edges differ from the beams that they bound: with end-point
@@ -170,6 +191,10 @@ TEST(InfinitePrism, DihedralOffTheRightAngleMatchesIntegralEquation) {
     EXPECT_LT(axis.hard, 0.05) << section;
     EXPECT_LT(back.soft, 0.03) << section;
     EXPECT_LT(back.hard, 0.08) << section;
+    record_figure(axis.soft, 3, "{}_8_deg_soft", section);
+    record_figure(axis.hard, 3, "{}_8_deg_hard", section);
+    record_figure(back.soft, 3, "{}_20_deg_soft", section);
+    record_figure(back.hard, 3, "{}_20_deg_hard", section);
   }
 }
 
@@ -179,10 +204,17 @@ TEST(InfinitePrism, DihedralOffTheRightAngleMatchesIntegralEquation) {
 // that of return paths, of which only half is separable from the beams' end-point contributions there, and below a
 // right angle of the edges' own fields, which return as rays.
 TEST(InfinitePrism, DihedralHasWavesFromItsConcaveEdge) {
-  for (const double elevation : {0.0, 40.0})
-    EXPECT_LT(against_integral_equations("dihedral95", 0, 0, elevation, 47).hard, 0.12) << elevation;
-  EXPECT_LT(against_integral_equations("dihedral85", 0, 0, 0, 42).hard, 0.2);
-  EXPECT_LT(against_integral_equations("dihedral95long", 0, 0, 0, 46).hard, 0.16);
+  for (const double elevation : {0.0, 40.0}) {
+    const double wide = against_integral_equations("dihedral95", 0, 0, elevation, 47).hard;
+    EXPECT_LT(wide, 0.12) << elevation;
+    record_figure(wide, 3, "dihedral95_47_deg_cone_{}_hard", elevation);
+  }
+  const double narrow = against_integral_equations("dihedral85", 0, 0, 0, 42).hard,
+               long_one = against_integral_equations("dihedral95long", 0, 0, 0, 46).hard;
+  EXPECT_LT(narrow, 0.2);
+  EXPECT_LT(long_one, 0.16);
+  record_figure(narrow, 3, "dihedral85_42_deg_hard");
+  record_figure(long_one, 3, "dihedral95_long_46_deg_hard");
 }
 
 // At 37.5 deg the wave that one arm of the 95 deg dihedral reflects passes along the other, which it illuminates on one
@@ -203,6 +235,7 @@ TEST(InfinitePrism, DihedralHasASmallStepWhereABeamGrazesAnArm) {
 // field its error is 0.03 to 0.1. Behind the target the error is that of soft waves at grazing incidence on a face
 // (slope diffraction); up to 20 deg from the forward direction.
 TEST(InfinitePrism, BistaticEchoMatchesIntegralEquation) {
+  Deviation worst_before, worst_behind;
   for (const std::string section : {"box", "knife", "triangle"}) {
     for (const double elevation : {0.0, 40.0}) {
       const Deviation before = against_integral_equations(section, 1, 90, elevation),
@@ -211,8 +244,14 @@ TEST(InfinitePrism, BistaticEchoMatchesIntegralEquation) {
       EXPECT_LT(before.hard, 0.004) << section;
       EXPECT_LT(behind.soft, 0.09) << section;
       EXPECT_LT(behind.hard, 0.01) << section;
+      worst_before = larger(worst_before, before);
+      worst_behind = larger(worst_behind, behind);
     }
   }
+  record_figure(worst_before.soft, 4, "prism_90_deg_soft");
+  record_figure(worst_before.hard, 4, "prism_90_deg_hard");
+  record_figure(worst_behind.soft, 3, "prism_160_deg_soft");
+  record_figure(worst_behind.hard, 3, "prism_160_deg_hard");
 }
 
 }  // namespace

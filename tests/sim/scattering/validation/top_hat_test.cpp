@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sim/scattering/surfaces/curved_integral.h"
+#include "tests/measured.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
 namespace seaglint {
@@ -90,6 +91,8 @@ TEST_P(TopHatEcho, HasTheClosedFormInEveryView) {
   }
   std::printf("R %.1f m, h %.1f m, elevation %.0f deg: %.2f to %.2f dBsm, closed form %.2f\n", radius, height,
               elevation_deg, min, max, expected);
+  record_figure(std::max(max - expected, expected - min), 2, "top_hat_{:.0f}cm_{:.0f}cm_{:.0f}deg_db", 100 * radius,
+                100 * height, elevation_deg);
   const double widest = 1 + 2 * height / (radius * std::tan(radians(elevation_deg)));
   const double bound_db = widest < 4 ? 0.15 : 1.2;
   EXPECT_GT(min, expected - bound_db);
@@ -122,6 +125,7 @@ TEST(TopHat, IsIndependentOfTriangulation) {
       max = std::max(max, std::abs(echo_of(hats[cut]) - first) / closed_form(k, kRadius, kHeight, kElevationDeg));
   }
   std::printf("four triangulations of the plate: echoes differ by %.5f of the closed form at most\n", max);
+  record_figure(max, 5, "top_hat_cut");
   EXPECT_LT(max, std::pow(kContourRatio, -1.5));
 }
 

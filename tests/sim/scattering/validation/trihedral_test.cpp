@@ -11,6 +11,7 @@
 
 #include "sim/geometry/shapes/generators.h"
 #include "sim/scattering/response/scattering_matrix.h"
+#include "tests/measured.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
 namespace seaglint {
@@ -63,6 +64,7 @@ TEST(Trihedral, TriangularFollowsItsApertureOver25Degrees) {
   double largest = 0;
   const double mean = mean_difference_db(make_triangular_trihedral(0.8), 0.8, triangular_aperture, largest);
   fmt::print("triangular trihedral, +-25 deg: mean {:.4f} dB, largest {:.4f} dB\n", mean, largest);
+  record_figure(mean, 4, "trihedral_triangular_mean_db");
   EXPECT_LT(mean, 0.3);
 }
 
@@ -70,6 +72,7 @@ TEST(Trihedral, SquareFollowsItsApertureOver25Degrees) {
   double largest = 0;
   const double mean = mean_difference_db(make_square_trihedral(0.8), 0.8, square_aperture, largest);
   fmt::print("square trihedral, +-25 deg: mean {:.4f} dB, largest {:.4f} dB\n", mean, largest);
+  record_figure(mean, 4, "trihedral_square_mean_db");
   EXPECT_LT(mean, 0.3);
 }
 
