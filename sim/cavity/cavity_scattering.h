@@ -12,8 +12,7 @@
 #include "sim/cavity/wall_patches.h"
 #include "sim/core/process/parallel.h"
 #include "sim/geometry/mesh/triangle_mesh.h"
-#include "sim/scattering/response/scattering_matrix.h"
-#include "sim/scattering/surfaces/footprint.h"
+#include "sim/scattering/beams/bistatic_geometry.h"
 #include "sim/scattering/target/embree_scene.h"
 #include "sim/scattering/target/scatterer.h"
 
