@@ -9,39 +9,12 @@
 
 #include "tests/measured.h"
 #include "tests/sim/scattering/solver_fixtures.h"
+#include "tests/sim/scattering/validation/reference_bodies.h"
 
 namespace seaglint {
 namespace {
 
 using namespace testing_echoes;
-
-// block_ship.py's hull of 6 x 1.6 x 1.2 with a house of 1.8 x 1 x 1.2 on the middle of its deck.
-TriangleMesh block_ship() {
-  TriangleMesh mesh;
-  const auto rectangle = [&mesh](double half_length, double half_width, double z) {
-    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-    for (const auto& [x, y] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})
-      mesh.vertices.push_back({x * half_length, y * half_width, z});
-    return first;
-  };
-  const auto quad = [&mesh](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
-    mesh.triangles.push_back({a, b, c});
-    mesh.triangles.push_back({a, c, d});
-  };
-  const std::uint32_t keel = rectangle(3, 0.8, 0), deck = rectangle(3, 0.8, 1.2), foot = rectangle(0.9, 0.5, 1.2),
-                      roof = rectangle(0.9, 0.5, 2.4);
-  quad(keel, keel + 3, keel + 2, keel + 1);
-  quad(roof, roof + 1, roof + 2, roof + 3);
-  for (std::uint32_t i = 0; i < 4; ++i) {
-    const std::uint32_t next = (i + 1) % 4;
-    quad(keel + i, keel + next, deck + next, deck + i);
-    quad(deck + i, deck + next, foot + next, foot + i);
-    quad(foot + i, foot + next, roof + next, roof + i);
-  }
-  mesh.triangle_part.assign(mesh.triangles.size(), 0);
-  mesh.triangle_material.assign(mesh.triangles.size(), 0);
-  return mesh;
-}
 
 struct Deviation {
   double hh = 0, vv = 0, hv = 0;  // in L2 over azimuth 0 to 90 deg: of hh and vv relative, of hv relative to hh

@@ -5,59 +5,16 @@
 
 #include <cmath>
 #include <cstdio>
-#include <map>
 
 #include "sim/scattering/response/scattering_matrix.h"
 #include "tests/measured.h"
 #include "tests/sim/scattering/solver_fixtures.h"
+#include "tests/sim/scattering/validation/reference_bodies.h"
 
 namespace seaglint {
 namespace {
 
 using namespace testing_echoes;
-
-// The cross-sections of sections.py, counter-clockwise, m.
-const std::map<std::string, std::vector<Vec2>>& sections() {
-  static const auto all = [] {
-    std::map<std::string, std::vector<Vec2>> result{
-        {"box", {{-0.05, -0.075}, {0.05, -0.075}, {0.05, 0.075}, {-0.05, 0.075}}},
-        {"knife", {{-0.1, 0}, {0.1, -0.02}, {0.1, 0.02}}}};
-    const auto chevron = [](double half, double arm) -> std::vector<Vec2> {
-      const Vec2 end = arm * Vec2(std::cos(half), std::sin(half)),
-                 back = end + 0.04 * Vec2(-std::sin(half), std::cos(half));
-      return {{0, 0}, end, back, {-0.04 / std::sin(half), 0}, {back.x(), -back.y()}, {end.x(), -end.y()}};
-    };
-    result["chevron"] = chevron(radians(75), 0.1);
-    result["dihedral"] = chevron(radians(45), 0.15);
-    result["dihedral85"] = chevron(radians(42.5), 0.15);
-    result["dihedral95"] = chevron(radians(47.5), 0.15);
-    result["dihedral90long"] = chevron(radians(45), 0.6);
-    result["dihedral95long"] = chevron(radians(47.5), 0.6);
-    for (const double at : {10.0, 130.0, 250.0})
-      result["triangle"].push_back(0.1 * Vec2(std::cos(radians(at)), std::sin(radians(at))));
-    return result;
-  }();
-  return all;
-}
-
-// An upright prism, its middle at z = 0; all of the cross-section is visible from its first vertex.
-TriangleMesh prism(const std::vector<Vec2>& corners, double height) {
-  TriangleMesh mesh;
-  const auto n = static_cast<std::uint32_t>(corners.size());
-  for (const double z : {-height / 2, height / 2}) {
-    for (const Vec2& corner : corners) mesh.vertices.push_back({corner.x(), corner.y(), z});
-  }
-  for (std::uint32_t i = 0; i < n; ++i) {
-    const std::uint32_t next = (i + 1) % n;
-    mesh.triangles.push_back({i, next, n + next});
-    mesh.triangles.push_back({i, n + next, n + i});
-  }
-  for (std::uint32_t i = 1; i + 1 < n; ++i) {
-    mesh.triangles.push_back({0, i + 1, i});
-    mesh.triangles.push_back({n, n + i, n + i + 1});
-  }
-  return mesh;
-}
 
 struct Deviation {
   double soft = 0, hard = 0;  // relative, of the field in L2

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Worth of the mechanisms of edge diffraction: the error against references, and the echo of ship and decoy, without
+// each of them.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "sim/geometry/files/mesh_io.h"
+#include "sim/scattering/response/scattering_matrix.h"
+#include "tests/measured.h"
+#include "tests/sim/scattering/solver_fixtures.h"
+#include "tests/sim/scattering/validation/reference_bodies.h"
+
+namespace seaglint {
+namespace {
+
+using namespace testing_echoes;
+
+using ByMechanism = std::array<std::array<Complex, 4>, kMechanisms>;
+
+// The scattering matrix in parts, one per mechanism, from one trace.
+ByMechanism parts_of(const Scatterer& target, const BistaticGeometry& geometry, double k,
+                     const TracingSettings& settings) {
+  ByMechanism parts{};
+  for (const PointContribution& point : aspect_contributions(target, geometry, {k, 0}, settings, 2).points) {
+    const Complex s = point.amplitude * std::polar(1.0, k * point.psi);
+    for (std::size_t i = 0; i < 4; ++i)
+      parts[static_cast<std::size_t>(point.mechanism)][i] += s * Complex(point.pattern[i]);
+  }
+  return parts;
+}
+
+// Echo of one polarisation at one aspect, in parts, and its reference value.
+struct Sample {
+  std::array<Complex, kMechanisms> parts{};
+  Complex reference;
+};
+
+// Relative error in L2 without the mechanisms for which `omitted` is true.
+double error_without(const std::vector<Sample>& samples, const std::function<bool(Mechanism)>& omitted) {
+  double error = 0, power = 0;
+  for (const Sample& sample : samples) {
+    Complex sum = 0;
+    for (std::size_t m = 0; m < kMechanisms; ++m) {
+      if (!omitted(static_cast<Mechanism>(m))) sum += sample.parts[m];
+    }
+    error += std::norm(sum - sample.reference);
+    power += std::norm(sample.reference);
+  }
+  return std::sqrt(error / power);
+}
+
+double error_without(const std::vector<Sample>& samples, Mechanism mechanism) {
+  return error_without(samples, [&](Mechanism m) { return m == mechanism; });
+}
+
+double error_with_all(const std::vector<Sample>& samples) {
+  return error_without(samples, [](Mechanism) { return false; });
+}
+
+// Backscatter of a prism per metre of its length, soft or hard, within `about_deg` of azimuth 0.
+std::vector<Sample> prism_samples(const std::string& section, bool hard, double about_deg) {
+  const double k = wavenumber(10.24e9), height = 2;
+  const Scatterer one(prism(sections().at(section), height)), two(prism(sections().at(section), 2 * height));
+  const Complex per_metre = (hard ? -1.0 : 1.0) * kPi / (height * Complex(0, 1));
+  const auto channel = static_cast<std::size_t>(hard ? kHhChannel : kVvChannel);
+  std::vector<Sample> samples;
+  for (const auto& row : read_csv("sections.csv")) {
+    const double transmit = std::stod(row[0]), receive = std::stod(row[1]);
+    if (row[6] != section || transmit != receive || std::abs(std::remainder(receive, 360)) > about_deg) continue;
+    const BistaticGeometry geometry = monostatic(radar_basis(direction(receive, 0)));
+    const ByMechanism with_two = parts_of(two, geometry, k, {7e-5, 8, true}),
+                      with_one = parts_of(one, geometry, k, {7e-5, 8, true});
+    Sample& sample = samples.emplace_back();
+    for (std::size_t m = 0; m < kMechanisms; ++m)
+      sample.parts[m] = per_metre * (with_two[m][channel] - with_one[m][channel]);
+    sample.reference = {std::stod(row[hard ? 4 : 2]), std::stod(row[hard ? 5 : 3])};
+  }
+  return samples;
+}
+
+std::vector<Sample> block_ship_samples(double elevation_deg, Channel channel) {
+  const Scatterer ship(block_ship());
+  const std::size_t column = channel == kHhChannel ? 2 : 6;
+  std::vector<Sample> samples;
+  for (const auto& row : read_csv("block_ship.csv")) {
+    if (std::stod(row[1]) != elevation_deg) continue;
+    const ByMechanism parts =
+        parts_of(ship, monostatic(radar_basis(direction(std::stod(row[0]), elevation_deg))), 2 * kPi, {7e-5, 8, true});
+    Sample& sample = samples.emplace_back();
+    for (std::size_t m = 0; m < kMechanisms; ++m) sample.parts[m] = parts[m][channel];
+    sample.reference = {std::stod(row[column]), std::stod(row[column + 1])};
+  }
+  return samples;
+}
+
+// hh and vv of a target at 16 GHz, elevation 2 deg; the reference is the whole echo.
+std::vector<Sample> target_samples(const std::string& mesh, int aspects) {
+  const Scatterer target(read_mesh(SEAGLINT_SOURCE_DIR "/assets/" + mesh));
+  std::vector<Sample> samples;
+  for (int i = 0; i < aspects; ++i) {
+    const ByMechanism parts = parts_of(target, monostatic(radar_basis(direction(3.7 + 360.0 * i / aspects, 2))),
+                                       wavenumber(16e9), {0, kDefaultBounces, true});
+    for (const Channel channel : {kHhChannel, kVvChannel}) {
+      Sample& sample = samples.emplace_back();
+      for (std::size_t m = 0; m < kMechanisms; ++m) {
+        sample.parts[m] = parts[m][channel];
+        sample.reference += parts[m][channel];
+      }
+    }
+  }
+  return samples;
+}
+
+void print_errors(const std::string& name, const std::vector<Sample>& samples) {
+  std::printf("%-22s all %.4f, without:", name.c_str(), error_with_all(samples));
+  for (int m = 1; m < kMechanisms; ++m) std::printf(" %.4f", error_without(samples, static_cast<Mechanism>(m)));
+  std::printf(", any edge %.4f\n", error_without(samples, [](Mechanism m) { return m != Mechanism::kPhysicalOptics; }));
+}
+
+bool is_reflected_field(Mechanism m) { return m == Mechanism::kReflectedEdge || m == Mechanism::kShadowBoundary; }
+
+struct Prism {
+  const char* section;
+  double about_deg;
+};
+
+TEST(MechanismWorth, OnPrisms) {
+  for (const Prism& prism : {Prism{"box", 180},
+                             {"knife", 180},
+                             {"triangle", 180},
+                             {"chevron", 180},
+                             {"dihedral", 8},
+                             {"dihedral", 20},
+                             {"dihedral", 38},
+                             {"dihedral", 70},
+                             {"dihedral90long", 70},
+                             {"dihedral85", 42},
+                             {"dihedral95", 47},
+                             {"dihedral95long", 46}}) {
+    for (const bool hard : {false, true})
+      print_errors(std::string(prism.section) + (hard ? " hard " : " soft ") + std::to_string(int(prism.about_deg)),
+                   prism_samples(prism.section, hard, prism.about_deg));
+  }
+  for (const double elevation : {2.0, 10.0, 25.0, 50.0}) {
+    print_errors("block hh", block_ship_samples(elevation, kHhChannel));
+    print_errors("block vv", block_ship_samples(elevation, kVvChannel));
+  }
+  print_errors("ship", target_samples("combatant_144m.glb", 12));
+  print_errors("decoy", target_samples("icosahedral_reflector.glb", 36));
+}
+
+}  // namespace
+}  // namespace seaglint
