@@ -21,6 +21,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
+using nlohmann::ordered_json;
+
 constexpr const char* kDescription = "description.json";
 
 std::string name_of(const std::string& path) { return path.substr(1); }
@@ -71,17 +73,17 @@ std::string column_bytes(const std::vector<SampleRecord>& rows, T SampleRecord::
 // Manifest checksum of the data set that an archive was exported from; empty if it is no export.
 std::string exported_manifest(const fs::path& file) {
   try {
-    return nlohmann::json::parse(read_npz_text(file, kDescription)).at("manifest_sha256").get<std::string>();
+    return ordered_json::parse(read_npz_text(file, kDescription)).at("manifest_sha256").get<std::string>();
   } catch (const InputError&) {
     return {};
-  } catch (const nlohmann::json::exception&) {
+  } catch (const ordered_json::exception&) {
     return {};
   }
 }
 
 // Content of description.json: the attributes of the HDF5 files.
 std::string description(const Range& range, const std::set<std::string>& processors, bool complex_maps) {
-  nlohmann::ordered_json json;
+  ordered_json json;
   json["format"] = "seaglint npz 1";
   json["program_version"] = range.reader.manifest().program_version;
   json["processors"] = processors;

@@ -15,6 +15,8 @@ namespace seaglint {
 
 namespace {
 
+using nlohmann::ordered_json;
+
 constexpr const char* kFormat = "seaglint data set 2";
 
 // Upper limits of a scenario: dataset.maps_per_shard, and all maps of its sweeps.
@@ -24,7 +26,6 @@ constexpr std::uint64_t kMaxSamples = 1000000000;
 }  // namespace
 
 std::string to_json(const Manifest& manifest) {
-  using nlohmann::ordered_json;
   ordered_json json;
   json["format"] = kFormat;
   json["scenario"] = manifest.scenario;
@@ -51,7 +52,7 @@ std::string to_json(const Manifest& manifest) {
 Manifest read_manifest(const std::filesystem::path& file) {
   const std::string text = read_file(file, std::size_t{256} << 20);
   try {
-    const nlohmann::json json = nlohmann::json::parse(text);
+    const ordered_json json = ordered_json::parse(text);
     if (json.at("format") != kFormat) {
       throw InputError(
           fmt::format("{}: format {}; this program reads \"{}\"", file.string(), json.at("format").dump(), kFormat));
@@ -66,7 +67,7 @@ Manifest read_manifest(const std::filesystem::path& file) {
     manifest.rows = json.at("map").at("rows").get<std::uint64_t>();
     manifest.columns = json.at("map").at("columns").get<std::uint64_t>();
     std::uint64_t next = 0;
-    for (const nlohmann::json& entry : json.at("shards")) {
+    for (const ordered_json& entry : json.at("shards")) {
       ManifestShard shard{entry.at("file").get<std::string>(), entry.at("first_sample").get<std::uint64_t>(),
                           entry.at("samples").get<std::uint64_t>(), entry.at("sha256").get<std::string>()};
       // A name with a folder could refer to a file outside the directory.
@@ -93,7 +94,7 @@ Manifest read_manifest(const std::filesystem::path& file) {
           fmt::format("{}: samples: {}, must be within 1 and {}", file.string(), manifest.samples, kMaxSamples));
     }
     return manifest;
-  } catch (const nlohmann::json::exception& error) {
+  } catch (const ordered_json::exception& error) {
     throw InputError(fmt::format(
         "{}: {}; the shards are kept: remove this file and go on by `seaglint generate SCENARIO -o DIR --resume`",
         file.string(), json_problem(error)));
