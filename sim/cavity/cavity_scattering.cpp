@@ -152,12 +152,12 @@ std::vector<std::array<Complex, 4>> Cavity::scattering_matrices(double k, std::s
     if (sent.squaredNorm() == 0 || received.squaredNorm() == 0) continue;
     const FieldBasis fresh = extend_basis(basis, one_antenna ? sent : both);
     if (fresh.fields.cols() > 0) {
-      const WallFields lit = wall_fields(aperture, walls, k, fresh.fields, threads, stop);
-      SEAGLINT_CHECK(lit.incident_electric.allFinite() && lit.mfie_excitation.allFinite(),
+      const WallFields fields_on_walls = wall_fields(aperture, walls, k, fresh.fields, threads, stop);
+      SEAGLINT_CHECK(fields_on_walls.incident_electric.allFinite() && fields_on_walls.mfie_excitation.allFinite(),
                      "a wall of a cavity meets its aperture");
       append(basis, fresh.fields);
-      append(electric, lit.incident_electric);
-      append(solution, currents.solve(lit.mfie_excitation, fresh.strength, threads, stop));
+      append(electric, fields_on_walls.incident_electric);
+      append(solution, currents.solve(fields_on_walls.mfie_excitation, fresh.strength, threads, stop));
       reaction = Complex(0, -k / (4 * kPi)) *
                  (electric.cast<Complex>().transpose() * area.asDiagonal() * solution.cast<Complex>());
       // Symmetric by reciprocity; the numerical asymmetry is a few percent where walls end at the aperture (README.md).

@@ -2,8 +2,8 @@
 #pragma once
 
 // Windows over which two asymptotic forms of edge diffraction replace each other: full weight at or below the first
-// value, none at or above the second, smooth_taper() between. They are chosen, not derived. Meaning, unit and origin
-// stand here; README.md has what the references change by when a window is moved ("Fade windows").
+// value, none at or above the second, smooth_taper() between. They are chosen, not derived: meaning, unit and origin
+// are given here, the change of the references when a window is moved in README.md, "Fade windows".
 
 #include <array>
 
@@ -39,10 +39,6 @@ inline constexpr FadeWindow kOffConeWindow{0.1, 0.2};
 // contributions must cancel, above the second each may be used alone.
 inline constexpr FadeWindow kOffSpecularWindow{0.1, 0.2};
 
-// The same as a fraction of the angle between the specular and the forward direction, at which the residual of another
-// face at grazing has its pole.
-inline constexpr FadeWindow kOffGrazingWindow{0.25, 0.5};
-
 // End-point contributions at shadow-boundary lines: slope of psi across the line. Below the first value the
 // contribution stays on the line, above the second it is moved to the edge. Both contributions grow as 1 / slope, and
 // an interval of pulses changes the slope by some thousandths. The phase difference k d slope^2 / 2 between the two is
@@ -69,10 +65,6 @@ inline constexpr FadeWindow kFresnelDepthWindow{1, 2.5};
 
 // Wall penumbra: sine of the grazing angle over the face, 37 and 64 deg.
 inline constexpr FadeWindow kPenumbraAngleWindow{0.6, 0.9};
-
-// Wall penumbra: cosine between the propagation direction on the face and the wall's normal, below which the wave runs
-// along the wall. Taper of what is omitted.
-inline constexpr FadeWindow kAlongWallWindow{0.1, 0.3};
 
 // Wall penumbra: height of the image's shadow-boundary line on the wall relative to the wall, above which the edge's
 // image in the wall is not visible.

@@ -34,8 +34,7 @@ std::array<double, 2> reflected_face_weights(const WedgeFrame& wedge, const Edge
     if (in.reflections > 0)
       weights[i] = std::min(weights[i], reflected_edge_weight(n, t, -s, -k_hat, in.first_reflector_normal));
     if (in.reflections + out.reflections > kMaxCorrectedReflections) {
-      const double off = (s - reflect_direction(k_hat, n)).norm(), cosine = -n.dot(k_hat);
-      weights[i] *= smooth_taper(off, kOffSpecularWindow) * smooth_taper(off / (2 * cosine), kOffGrazingWindow);
+      weights[i] *= smooth_taper((s - reflect_direction(k_hat, n)).norm(), kOffSpecularWindow);
     }
   }
   return weights;

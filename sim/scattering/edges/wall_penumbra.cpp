@@ -35,10 +35,9 @@ void append_wall_penumbra(const WallBehindEdge& wall, const RadarBasis& antenna,
   const Vec3& r = antenna.r;
   const double s = n.dot(r), c = std::sqrt(1 - s * s);
   const Vec3 back = (r - s * n).normalized();  // on the face, from the wall to the edge
-  const double grazes = smooth_taper(std::abs(s), kPenumbraAngleWindow),
-               faces = 1 - smooth_taper(wall_normal.dot(back), kAlongWallWindow), length = (foot[1] - foot[0]).norm();
+  const double weight = smooth_taper(std::abs(s), kPenumbraAngleWindow), length = (foot[1] - foot[0]).norm();
   const double across = back.cross(along).dot(n);
-  if (grazes * faces <= 0 || across == 0) return;
+  if (weight <= 0 || wall_normal.dot(back) <= 0 || across == 0) return;
   std::array<double, 2> l;
   for (int end = 0; end < 2; ++end) {
     const double distance = (edge_point - foot[end]).cross(along).dot(n) / across;
@@ -87,7 +86,7 @@ void append_wall_penumbra(const WallBehindEdge& wall, const RadarBasis& antenna,
   };
 
   const PenumbraWeights weights = penumbra_weights(s);
-  const double ahead = weights.edge_path, weight = grazes * faces;
+  const double ahead = weights.edge_path;
   const double past_top = s > 0 ? smooth_taper(mean_distance * s / c / height, kWallTopWindow) : 1,
                by_edge = weights.foot * past_top;
   // Already radiated by the wall's image, which ends at the line.
