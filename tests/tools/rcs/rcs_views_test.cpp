@@ -99,10 +99,11 @@ TEST_F(ReflectorSweep, TracesAnExportedViewOnce) {
     const double k = 2 * kPi * exported.frequency_hz[0] / kSpeedOfLight;
     const auto sum = direct_sum(result.contributions, k, Vec3::Zero());
     const std::array<Complex, 4>& matrix = result.sweep.models.back().matrices[0][0];
-    // Patterns of points in single precision; at a finite range amplitudes frozen over radius / R, kMaxAmplitudeError
-    // of the strongest end point.
+    // Of the points, edge contributions enter by their end points where the matrix has the integral along the interval:
+    // 3e-4 here. At a finite range amplitudes are frozen over radius / R, kMaxAmplitudeError of the strongest end
+    // point.
     for (std::size_t i = 0; i < 4; ++i)
-      EXPECT_LT(std::abs(sum[i] - matrix[i]), (range_m > 0 ? 0.04 : 1e-5) * std::abs(matrix[3])) << range_m << ' ' << i;
+      EXPECT_LT(std::abs(sum[i] - matrix[i]), (range_m > 0 ? 0.04 : 1e-3) * std::abs(matrix[3])) << range_m << ' ' << i;
   }
 }
 
