@@ -104,6 +104,13 @@ def beside_definition(identifier):
 
 # By the beginning of the benchmarks' names, each a process of its own: number of runs, and what makes figures of them.
 SETTINGS = {"ShipDefaultSettingsError/": (1, each("default_error_{}_db", median("error_dB", 1)))}
+# Beams beside rays, half an hour.
+RAYS = {
+    "ShipSbrReference/": (3, joined(each("rays_{}_{}mm_db", median("rays_dB", 0)),
+                                    each("beams_{}_db", median("beams_dB", 0)),
+                                    each("matrix_over_rays_{}_{}mm", median("matrix/embree", 2), of_fine_rays),
+                                    each("interval_over_rays_{}_{}mm", median("interval/embree", 2), of_fine_rays))),
+}
 BENCHMARKS = {
     "ShipAspect/": (4, each("ship_aspect_{1}_s", fastest_s)),
     "ShipInterval/": (4, each("ship_interval_{}_s", fastest_s)),
@@ -114,10 +121,6 @@ BENCHMARKS = {
     "ShipBand/": (1, joined(extremes("ship_carrier", lambda name: name.endswith("/320")),
                             extremes("ship_frequencies", lambda name: "/16/" in name and not name.endswith("/320")))),
     "MillionFacets/": (1, lambda runs: {"million_facets_gb": f"{1e-3 * next(iter(runs.values()))[0]['peak_MB']:.2f}"}),
-    "ShipSbrReference/": (3, joined(each("rays_{}_{}mm_db", median("rays_dB", 0)),
-                                    each("beams_{}_db", median("beams_dB", 0)),
-                                    each("matrix_over_rays_{}_{}mm", median("matrix/embree", 2), of_fine_rays),
-                                    each("interval_over_rays_{}_{}mm", median("interval/embree", 2), of_fine_rays))),
     "LongCrestedSeries/": (1, each("sea_series_{}_us", microseconds)),
     "LongCrestedMotion/": (1, each("sea_motion_{}_us", microseconds)),
     "LongCrestedAnywhere/": (1, each("sea_anywhere_{}_us", microseconds)),
