@@ -12,6 +12,7 @@
 #include "sim/scattering/diffraction/fade_windows.h"
 #include "sim/scattering/diffraction/wedge_diffraction.h"
 #include "sim/scattering/edges/multiple_diffraction.h"
+#include "sim/scattering/edges/reflected_edge.h"
 #include "sim/scattering/response/illumination.h"
 #include "tests/sim/scattering/solver_fixtures.h"
 
@@ -120,6 +121,35 @@ TEST(WallPenumbra, LowersEffectiveWallHeightAtGrazing) {
   const Field field = closed_form(0, k);
   EXPECT_LT(std::abs(field.soft - std::polar(soft_at_grazing, kPi / 4)), 1e-3 * soft_at_grazing);
   EXPECT_LT(std::abs(field.hard), 1e-3 * soft_at_grazing);
+}
+
+// The term at the foot and the edge's diffracted field via the wall are weighted where they are computed, each by the
+// geometry it has: together they are one field.
+TEST(WallPenumbra, FootAndReflectedEdgeSumToOne) {
+  const double k = wavenumber(10e9), distance = 20;
+  WedgeFrame edge_of_deck;  // the deck z = 0 at x < 0, its edge along y
+  edge_of_deck.N = 1.5;
+  edge_of_deck.face[0] = {-Vec3::UnitX(), Vec3::UnitZ(), Vec3::UnitY()};
+  edge_of_deck.face[1] = {-Vec3::UnitZ(), Vec3::UnitX(), -Vec3::UnitY()};
+  int shared = 0;
+  for (double sine = 0.05; sine < 0.55; sine += 0.01) {
+    const Vec3 r(std::sqrt(1 - sine * sine), 0, sine), normal = Vec3::UnitX();
+    const WallBehindEdge wall{
+        Vec3::Zero(), Vec3::UnitY(), Vec3::UnitZ(), normal, 1000, 0, {Vec3(-distance, -1, 0), Vec3(-distance, 1, 0)}};
+    std::vector<EdgeContribution> contributions;
+    append_wall_penumbra(wall, radar_basis(r), {}, k, 0, contributions);
+    ASSERT_FALSE(contributions.empty());
+    const double foot = std::get<WallPenumbraTerm>(contributions.front().amplitude).foot_weight;
+    EdgeIllumination in, out;
+    in.direction = -r;
+    out.direction = -(r - 2 * normal.dot(r) * normal);  // of the receiver's wave, after the wall
+    out.reflections = 1;
+    out.first_reflector_normal = normal;
+    const double edge = reflected_face_weights(edge_of_deck, in, out)[0];
+    EXPECT_NEAR(foot + edge, 1, 1e-12) << sine;
+    shared += edge > 0.01 && edge < 0.99;
+  }
+  EXPECT_GT(shared, 3);
 }
 
 // The penumbra is (2 l / k)^(1/2) = 0.44 m high.

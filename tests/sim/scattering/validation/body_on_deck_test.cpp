@@ -221,9 +221,9 @@ TEST(BodyOnDeck, LeaningPlatesFollowImageTheory) {
       SCOPED_TRACE(testing::Message() << "leans " << lean_deg << " deg, azimuth " << azimuth);
       expect_below(of_leaning_plate(lean_deg, 15, azimuth, {1, 4}), {hh, vv, hv}, largest);
     }
-    const char* way = lean_deg < 0 ? "forward" : "back";
-    record_figure(largest.hh, 2, "deck_plate_leans_{}_{:.0f}_deg_hh", way, std::abs(lean_deg));
-    record_figure(largest.vv, 2, "deck_plate_leans_{}_{:.0f}_deg_vv", way, std::abs(lean_deg));
+    const char* direction_of_lean = lean_deg < 0 ? "forward" : "back";
+    record_figure(largest.hh, 2, "deck_plate_leans_{}_{:.0f}_deg_hh", direction_of_lean, std::abs(lean_deg));
+    record_figure(largest.vv, 2, "deck_plate_leans_{}_{:.0f}_deg_vv", direction_of_lean, std::abs(lean_deg));
   }
 }
 
