@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "sim/scattering/beams/polygon_set.h"
 #include "sim/scattering/beams/ray_bundle.h"
 #include "sim/scattering/beams/visible_surface.h"
 #include "sim/scattering/material/reflection.h"
@@ -25,10 +26,15 @@ struct BeamSegment {
   int bounce = 1;                     // number of the reflection at the end of the segment, from 1
   // Unit normal of the first reflector, mirrored in the later ones; zero before the first reflection.
   Vec3 first_reflector_normal = Vec3::Zero();
-  int first_reflector = -1;               // its first facet; -1 before the first reflection
-  bool has_curved_reflection = false;     // one of the reflectors so far is curved
-  ParaxialBundle ray_bundle;              // rays as they leave the last reflector, where one was curved
-  const BeamSegment* previous = nullptr;  // segment that ends at the last reflector
+  int first_reflector = -1;            // its first facet; -1 before the first reflection
+  bool has_curved_reflection = false;  // one of the reflectors so far is curved
+  // Where a reflector was curved: the rays as they leave the last one, psi that its curvature adds, m, the chief ray's
+  // way from the one before, m, and the factor of all curvatures on the path (curved_reflection.h).
+  ParaxialBundle ray_bundle;
+  Quadratic reflector_curvature;
+  double path_m = 0, curvature_scale = 1;
+  const PolygonSet* cross_section = nullptr;  // of the beam as it leaves the last reflector
+  const BeamSegment* previous = nullptr;      // segment that ends at the last reflector
 };
 
 // Panel that a segment may illuminate, with its illuminated polygons; these shrink as occluders are subtracted.

@@ -193,8 +193,7 @@ class BeamTracer {
     next.first_reflector_normal = segment.bounce == 1 ? n : reflect_direction(segment.first_reflector_normal, n);
     next.previous = &segment;
     next.first_reflector = segment.bounce == 1 ? facet : segment.first_reflector;
-    next.has_curved_reflection = segment.has_curved_reflection || curvature_.surface.curved(facet);
-    next.ray_bundle = reflected_bundle(curvature_, segment, candidate);
+    reflect_rays(curvature_, segment, candidate, next);
     return next;
   }
 

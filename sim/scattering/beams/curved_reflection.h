@@ -21,8 +21,17 @@ struct CurvatureContext {
   const RadarBasis& transmit;  // basis of the projection plane
 };
 
-// The segment's ray bundle propagated to the candidate's plane.
-ParaxialBundle propagated_to(const BeamSegment& segment, const CandidatePanel& candidate);
+// Rays of a segment at a panel, and the factor 0 < scale <= 1 of the curvature of all reflectors on their path.
+struct ArrivingRays {
+  ParaxialBundle bundle;
+  double scale = 1;
+};
+
+// The segment's rays at the candidate, of reflectors whose curvature is reduced until the bundle is paraxial: no ray at
+// a corner of the cross-section is tilted by more than kMaxTilt, and either none is displaced by more than half the
+// width of the cross-section along its displacement or all stay on the candidate, where the boundary of what they
+// illuminate does not matter. The factor is a continuous function of the geometry.
+ArrivingRays arriving_rays(const BeamSegment& segment, const CandidatePanel& candidate);
 
 // A point, and the corners of a facet, in the projection plane after the reflections of the segment, m.
 Vec2 projected(const CurvatureContext& on, const BeamSegment& segment, const Vec3& x);
@@ -48,8 +57,8 @@ std::array<double, 3> edge_sagittas(const CurvatureContext& on, const BeamSegmen
   return middle;
 }
 
-// Ray bundle reflected by the candidate: the identity where neither it nor an earlier reflector is curved.
-ParaxialBundle reflected_bundle(const CurvatureContext& on, const BeamSegment& segment,
-                                const CandidatePanel& candidate);
+// Sets the rays of `next`, the segment that the candidate reflects, where it or an earlier reflector is curved.
+void reflect_rays(const CurvatureContext& on, const BeamSegment& segment, const CandidatePanel& candidate,
+                  BeamSegment& next);
 
 }  // namespace seaglint

@@ -10,6 +10,13 @@ Quadratic& Quadratic::operator+=(const Quadratic& other) {
   return *this;
 }
 
+Quadratic& Quadratic::operator*=(double factor) {
+  value *= factor;
+  gradient *= factor;
+  hessian *= factor;
+  return *this;
+}
+
 Quadratic compose(const Quadratic& q, const Affine& f) {
   return {q.at(f.offset), f.matrix.transpose() * q.slope(f.offset), f.matrix.transpose() * q.hessian * f.matrix};
 }

@@ -20,6 +20,7 @@ struct Quadratic {
   double at(const Vec2& p) const { return value + gradient.dot(p) + 0.5 * p.dot(hessian * p); }
   Vec2 slope(const Vec2& p) const { return gradient + hessian * p; }
   Quadratic& operator+=(const Quadratic& other);
+  Quadratic& operator*=(double factor);
 };
 
 // offset + matrix p

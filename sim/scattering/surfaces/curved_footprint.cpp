@@ -8,11 +8,6 @@
 namespace seaglint {
 namespace {
 
-// Norm of the matrix of a bundle's rays above which curved reflectors count as flat. Beyond it a bundle arrives
-// displaced from its cross-section by more than its width; the divergence of the bundles of adjacent facets then is the
-// only spreading.
-constexpr double kMaxDivergence = 4;
-
 // Triangle of a flat panel's first facet, enlarged until it encloses the whole panel. It depends on the panel alone:
 // adjoining footprints on the panel are divided equally, and their contour terms cancel.
 std::array<Vec2, 3> around_panel(const CurvatureContext& on, const BeamSegment& segment, std::span<const Vec3> outline,
@@ -48,11 +43,8 @@ std::shared_ptr<const CurvedFootprint> make_curved_footprint(const CurvatureCont
   const auto& [transmit, receive, is_monostatic] = geometry;
   const int facet = candidate.projection.facet;
   const CurvedFacet* curved = on.surface.curved(facet);
-  ParaxialBundle bundle;
-  if (segment.has_curved_reflection) bundle = propagated_to(segment, candidate);
-  const bool bent = segment.has_curved_reflection && bundle.position_map.matrix.norm() < kMaxDivergence;
-  if (!bent) bundle = {};
-  if (!curved && !bent) return nullptr;
+  if (!curved && !segment.has_curved_reflection) return nullptr;
+  const ParaxialBundle bundle = arriving_rays(segment, candidate).bundle;
   auto corner = projected(on, segment, facet);
   if (!curved) corner = around_panel(on, segment, panels.outline(facet), corner);
   const Barycentric lambda(corner);

@@ -71,11 +71,10 @@ struct TopHat {
 class TopHatEcho : public testing::TestWithParam<TopHat> {};
 
 // Terms of the bound: stationary phase, 1 / (8 k R cos(el)) of the amplitude, 0.05 dB at most here; the facets' second
-// order, edge^3, 0.1 dB. A bundle whose divergence is 1 + 2 d / R > 4 over its path d along the plate is treated as one
-// of flat reflectors (kMaxDivergence), as that from the upper part of the wall in the last three: 1.2 dB.
+// order, edge^3, 0.1 dB.
 TEST_P(TopHatEcho, HasTheClosedFormInEveryView) {
   const auto& [radius, height, elevation_deg] = GetParam();
-  const Scatterer scatterer(top_hat(radius, height, elevation_deg), {}, radians(kDefaultCreaseDeg));
+  const Scatterer scatterer(top_hat(radius, height, elevation_deg));
   const double k = wavenumber(8e9);
   const double expected = dbsm(closed_form(k, radius, height, elevation_deg));
   TracingSettings settings{0, 2};
@@ -93,8 +92,7 @@ TEST_P(TopHatEcho, HasTheClosedFormInEveryView) {
               elevation_deg, min, max, expected);
   record_figure(std::max(max - expected, expected - min), 2, "top_hat_{:.0f}cm_{:.0f}cm_{:.0f}deg_db", 100 * radius,
                 100 * height, elevation_deg);
-  const double widest = 1 + 2 * height / (radius * std::tan(radians(elevation_deg)));
-  const double bound_db = widest < 4 ? 0.15 : 1.2;
+  constexpr double bound_db = 0.15;
   EXPECT_GT(min, expected - bound_db);
   EXPECT_LT(max, expected + bound_db);
 }
