@@ -23,7 +23,7 @@ std::vector<std::uint32_t> weld(const std::vector<Vec3>& vertices) {
 
 }  // namespace
 
-std::vector<Facet> make_facets(const TriangleMesh& mesh) {
+std::vector<Facet> make_facets(const TriangleMesh& mesh, std::span<const std::uint32_t> face) {
   const std::vector<std::uint32_t> welded = weld(mesh.vertices);
   std::vector<Facet> facets;
   std::vector<std::array<std::uint32_t, 3>> indices;
@@ -43,6 +43,7 @@ std::vector<Facet> make_facets(const TriangleMesh& mesh) {
     facet.longest_edge = longest;
     facet.part = mesh.triangle_part.empty() ? std::uint16_t{0} : mesh.triangle_part[t];
     facet.material = mesh.triangle_material.empty() ? std::uint16_t{0} : mesh.triangle_material[t];
+    if (!face.empty()) facet.face = static_cast<std::int32_t>(face[t]);
     facets.push_back(facet);
     indices.push_back({welded[triangle[0]], welded[triangle[1]], welded[triangle[2]]});
   }

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "sim/geometry/mesh/triangle_mesh.h"
@@ -22,10 +23,12 @@ struct Facet {
   bool two_sided = false;      // part of a surface with a free edge: visible from either side
   std::uint16_t part = 0;      // index of mesh.part_names
   std::uint16_t material = 0;  // index of mesh.materials
+  std::int32_t face = -1;      // planar face, PlanarFaces::face; -1: of no known face
 };
 
 // Facets of the mesh without its degenerate triangles (height below 1e-9 m). Neighbours are found by vertex position,
 // so that duplicated vertices do not separate facets.
-std::vector<Facet> make_facets(const TriangleMesh& mesh);
+// face: planar face of every triangle, or empty.
+std::vector<Facet> make_facets(const TriangleMesh& mesh, std::span<const std::uint32_t> face = {});
 
 }  // namespace seaglint

@@ -73,8 +73,9 @@ Panels::Panels(std::span<const Facet> facets, const SmoothSurface& surface)
             other.two_sided != first.two_sided)
           return false;
         if (other.normal.dot(first.normal) < kSameWay) return false;
+        const bool one_face = first.face >= 0 && other.face == first.face;
         for (const Vec3& x : other.corner) {
-          if (std::abs(first.normal.dot(x) - first.offset) > kCoincident) return false;
+          if (!one_face && std::abs(first.normal.dot(x) - first.offset) > kCoincident) return false;
         }
         const int shared = static_cast<int>(back - other.neighbour.begin());
         return grow(outline, i, g, shared, other.corner[(shared + 2) % 3]);

@@ -17,7 +17,8 @@ class Panels {
  public:
   // Every facet of a curved surface is a panel of its own. The facets must outlive the panels.
   Panels(std::span<const Facet> facets, const SmoothSurface& surface);
-  explicit Panels(std::span<const Facet> facets) : Panels(facets, SmoothSurface(facets, 0, 0)) {}
+  explicit Panels(std::span<const Facet> facets)
+      : Panels(facets, SmoothSurface(facets, smooth_sides_by_angle(facets, 0), 0)) {}
 
   // Representative of the facet's panel.
   int representative(int facet) const { return of_[facet]; }

@@ -7,9 +7,14 @@
 #include <utility>
 
 #include "sim/core/process/error.h"
+#include "sim/geometry/mesh/planar_faces.h"
 
 namespace seaglint {
 namespace {
+
+// Distance from a common plane within which neighbouring triangles are one planar face, relative to half the diagonal
+// of the bounding box: the rounding of single-precision coordinates.
+constexpr double kPlanar = 6e-8;
 
 double radius_of(std::span<const Facet> facets) {
   double radius = 0;
@@ -19,18 +24,33 @@ double radius_of(std::span<const Facet> facets) {
   return radius;
 }
 
+std::vector<Facet> facets_of_planar_faces(const TriangleMesh& mesh) {
+  const Bounds box = bounds(mesh);
+  const PlanarFaces faces = merge_planar_faces(mesh, kPlanar * 0.5 * (box.upper - box.lower).norm());
+  return make_facets(faces.mesh, faces.face);
+}
+
 }  // namespace
+
+Scatterer::Scatterer(const TriangleMesh& mesh, std::vector<MaterialSpec> materials, std::optional<double> crease_rad,
+                     double sheet_thickness_m)
+    : Scatterer(crease_rad ? make_facets(mesh) : facets_of_planar_faces(mesh), std::move(materials), crease_rad,
+                sheet_thickness_m) {}
 
 // Surfaces that rise above their facets by less than 1e-7 of the radius count as flat: it is the rounding of
 // single-precision coordinates, 7 um on the 144 m ship, 0.3 deg of phase at 16 GHz.
-Scatterer::Scatterer(const TriangleMesh& mesh, std::vector<MaterialSpec> materials, double crease_rad,
+Scatterer::Scatterer(std::vector<Facet> facets, std::vector<MaterialSpec> materials, std::optional<double> crease_rad,
                      double sheet_thickness_m)
-    : facets_(make_facets(mesh)),
+    : facets_(std::move(facets)),
       radius_(radius_of(facets_)),
       sheet_thickness_(sheet_thickness_m),
-      surface_(facets_, crease_rad, 1e-7 * radius_),
+      surface_(facets_,
+               crease_rad ? smooth_sides_by_angle(facets_, *crease_rad)
+                          : smooth_sides_by_shape(facets_, radians(kDefaultCreaseDeg)),
+               1e-7 * radius_),
       panels_(facets_, surface_),
-      edges_(find_sharp_edges(facets_, crease_rad > 0 ? crease_rad : radians(kDefaultCreaseDeg), sheet_thickness_)),
+      edges_(find_sharp_edges(facets_, crease_rad.value_or(0) > 0 ? *crease_rad : radians(kDefaultCreaseDeg),
+                              sheet_thickness_)),
       tree_(facets_, panels_),
       materials_(std::move(materials)) {
   for (const Facet& facet : facets_) {

@@ -3,6 +3,7 @@
 
 // Target geometry and materials of the solver, independent of the look direction.
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,10 +22,11 @@ namespace seaglint {
 class Scatterer {
  public:
   // materials[i]: material of mesh.materials[i]; empty: perfect conductor. crease_rad: adjacent facets whose normals
-  // differ by less form one smooth surface, 0..pi; 0: all facets flat. sheet_thickness_m: thickness of open surfaces at
-  // their free edges, m. Throws InputError when every triangle is degenerate.
+  // differ by less form one smooth surface, 0..pi; 0: all facets flat; absent: planar faces are triangulated anew and
+  // the shape determines which facets form a smooth surface (smooth_sides_by_shape()). sheet_thickness_m: thickness of
+  // open surfaces at their free edges, m. Throws InputError when every triangle is degenerate.
   explicit Scatterer(const TriangleMesh& mesh, std::vector<MaterialSpec> materials = {},
-                     double crease_rad = radians(kDefaultCreaseDeg), double sheet_thickness_m = 0);
+                     std::optional<double> crease_rad = std::nullopt, double sheet_thickness_m = 0);
 
   // Movable only: surface and panels refer to the facets.
   Scatterer(Scatterer&&) = default;
@@ -40,6 +42,9 @@ class Scatterer {
   std::span<const MaterialSpec> materials() const { return materials_; }  // empty: perfect conductor
 
  private:
+  Scatterer(std::vector<Facet> facets, std::vector<MaterialSpec> materials, std::optional<double> crease_rad,
+            double sheet_thickness_m);
+
   std::vector<Facet> facets_;
   double radius_ = 0, sheet_thickness_ = 0;
   SmoothSurface surface_;

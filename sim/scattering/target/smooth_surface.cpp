@@ -5,6 +5,10 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/Eigenvalues>
+
+#include "sim/core/numbers/smooth_step.h"
+
 namespace seaglint {
 namespace {
 
@@ -21,33 +25,57 @@ int corner_at(const Facet& facet, const Vec3& position) {
   return -1;
 }
 
-// Facet that continues f smoothly across its side: the only neighbour there, of the same orientation, whose normal
-// differs by less than the crease angle; else -1.
-int smooth_neighbour(std::span<const Facet> facets, int f, int edge, double cos_crease) {
-  const int g = facets[f].neighbour[edge];
-  if (g < 0 || facets[f].normal.dot(facets[g].normal) < cos_crease) return -1;
-  const int from = corner_at(facets[g], facets[f].corner[(edge + 1) % 3]);
-  if (from < 0 || facets[g].corner[(from + 1) % 3] != facets[f].corner[edge]) return -1;
-  return facets[g].neighbour[from] == f ? g : -1;
-}
-
-double width(const Facet& facet) {
-  return (facet.corner[1] - facet.corner[0]).cross(facet.corner[2] - facet.corner[0]).norm() / facet.longest_edge;
+// Width of every facet: that of its planar face, sqrt(12 times the least second moment of its area / area), the smaller
+// side of a rectangle; of a facet of no known face, its height over the longest side.
+std::vector<double> face_widths(std::span<const Facet> facets) {
+  std::int32_t faces = 0;
+  for (const Facet& facet : facets) faces = std::max(faces, facet.face + 1);
+  std::vector<double> area(static_cast<std::size_t>(faces), 0);
+  std::vector<Vec3> origin(area.size()), first(area.size(), Vec3::Zero());
+  std::vector<Mat3> second(area.size(), Mat3::Zero());
+  for (const Facet& facet : facets) {
+    if (facet.face < 0) continue;
+    const auto face = static_cast<std::size_t>(facet.face);
+    if (area[face] == 0) origin[face] = facet.corner[0];
+    const Vec3 a = facet.corner[0] - origin[face], b = facet.corner[1] - origin[face],
+               c = facet.corner[2] - origin[face];
+    const double own = 0.5 * (b - a).cross(c - a).norm();
+    // Integral of x x^T over a triangle: area / 12 (sum of its corners' plus 9 times its centroid's).
+    const Vec3 centre = (a + b + c) / 3;
+    area[face] += own;
+    first[face] += own * centre;
+    second[face] +=
+        own / 12 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + 9 * centre * centre.transpose());
+  }
+  std::vector<double> width(facets.size());
+  for (std::size_t f = 0; f < facets.size(); ++f) {
+    if (facets[f].face < 0) {
+      width[f] = (facets[f].corner[1] - facets[f].corner[0]).cross(facets[f].corner[2] - facets[f].corner[0]).norm() /
+                 facets[f].longest_edge;
+      continue;
+    }
+    const auto face = static_cast<std::size_t>(facets[f].face);
+    const Vec3 mean = first[face] / area[face];
+    const Mat3 about = second[face] / area[face] - mean * mean.transpose();
+    // Moments in the plane: the two larger eigenvalues; the smallest belongs to the normal.
+    width[f] = std::sqrt(12 * std::max(0.0, Eigen::SelfAdjointEigenSolver<Mat3>(about).eigenvalues()[1]));
+  }
+  return width;
 }
 
 // Weight of a facet in a vertex normal. Facets of similar width: sin(angle) / (product of the two sides), exact on a
 // sphere for any triangulation (N. Max, Journal of Graphics Tools 4 (1999) 1-6). Otherwise angle times width, which
 // keeps a large flat face next to the narrow strips of a fillet flat to within their sagitta. Neither depends on the
 // triangulation of a flat face.
-double weight(const Facet& facet, int corner, bool alike) {
+double weight(const Facet& facet, int corner, double width, bool alike) {
   const Vec3 a = facet.corner[(corner + 1) % 3] - facet.corner[corner],
              b = facet.corner[(corner + 2) % 3] - facet.corner[corner];
   const double twice_area = a.cross(b).norm();
-  return alike ? twice_area / (a.squaredNorm() * b.squaredNorm()) : std::atan2(twice_area, a.dot(b)) * width(facet);
+  return alike ? twice_area / (a.squaredNorm() * b.squaredNorm()) : std::atan2(twice_area, a.dot(b)) * width;
 }
 
-// Ratio of widths below which facets are of similar width.
-constexpr double kAlike = 2;
+// Ratio of the largest to the smallest width up to which facets are of similar width, and from which they are not.
+constexpr std::array<double, 2> kAlike{2, 3};
 
 // B of dn = B dx on one facet, from the normals at its corners, 1/m.
 Mat3 normal_derivative(const Facet& facet, const std::array<Vec3, 3>& normal) {
@@ -60,14 +88,10 @@ Mat3 normal_derivative(const Facet& facet, const std::array<Vec3, 3>& normal) {
 
 }  // namespace
 
-SmoothSurface::SmoothSurface(std::span<const Facet> facets, double crease, double negligible)
+SmoothSurface::SmoothSurface(std::span<const Facet> facets, const SmoothSides& smooth, double negligible)
     : index_(facets.size(), -1), facets_(facets) {
-  const double cos_crease = std::cos(crease);
   const int count = static_cast<int>(facets.size());
-  std::vector<std::array<std::int32_t, 3>> smooth(facets.size());
-  for (int f = 0; f < count; ++f) {
-    for (int e = 0; e < 3; ++e) smooth[f][e] = crease > 0 ? smooth_neighbour(facets, f, e, cos_crease) : -1;
-  }
+  const std::vector<double> width = face_widths(facets);
 
   // Fan of a corner: facets connected to it through smooth sides at its vertex.
   std::vector<std::array<std::int32_t, 3>> vertex_of(facets.size(), {-1, -1, -1});
@@ -94,15 +118,17 @@ SmoothSurface::SmoothSurface(std::span<const Facet> facets, double crease, doubl
       vertex.count = static_cast<std::int32_t>(members.size()) - vertex.first;
       double narrowest = std::numeric_limits<double>::infinity(), widest = 0;
       for (std::size_t i = vertex.first; i < members.size(); ++i) {
-        narrowest = std::min(narrowest, width(facets[members[i].facet]));
-        widest = std::max(widest, width(facets[members[i].facet]));
+        narrowest = std::min(narrowest, width[members[i].facet]);
+        widest = std::max(widest, width[members[i].facet]);
       }
-      const bool alike = widest < kAlike * narrowest;
-      Vec3 sum = Vec3::Zero();
+      Vec3 of_alike = Vec3::Zero(), of_unlike = Vec3::Zero();
       for (std::size_t i = vertex.first; i < members.size(); ++i) {
-        sum += weight(facets[members[i].facet], members[i].corner, alike) * facets[members[i].facet].normal;
+        const auto [facet, corner] = members[i];
+        of_alike += weight(facets[facet], corner, width[facet], true) * facets[facet].normal;
+        of_unlike += weight(facets[facet], corner, width[facet], false) * facets[facet].normal;
       }
-      vertex.normal = sum.normalized();
+      const double alike = smooth_taper(widest / narrowest, kAlike);
+      vertex.normal = (alike * of_alike.normalized() + (1 - alike) * of_unlike.normalized()).normalized();
       vertices_.push_back(vertex);
     }
   }
@@ -128,7 +154,7 @@ SmoothSurface::SmoothSurface(std::span<const Facet> facets, double crease, doubl
     }
     const Mat3 B = normal_derivative(facet, normal);
     for (int i = 0; i < 3; ++i) {
-      const double vertex_weight = weight(facet, i, false);
+      const double vertex_weight = weight(facet, i, width[f], false);
       vertices_[vertex_of[f][i]].curvature += vertex_weight * 0.5 * (B + B.transpose());
       weights[vertex_of[f][i]] += vertex_weight;
     }

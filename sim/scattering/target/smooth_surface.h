@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "sim/scattering/target/facets.h"
+#include "sim/scattering/target/smooth_sides.h"
 
 namespace seaglint {
 
@@ -34,9 +34,8 @@ struct CurvedFacet {
 
 class SmoothSurface {
  public:
-  // crease: crease angle, 0 <= x <= pi rad; 0 makes every facet flat. Facets over which the surface rises by less than
-  // `negligible` (m) stay flat. The facets must outlive the surface.
-  SmoothSurface(std::span<const Facet> facets, double crease, double negligible);
+  // Facets over which the surface rises by less than `negligible` (m) stay flat. The facets must outlive the surface.
+  SmoothSurface(std::span<const Facet> facets, const SmoothSides& smooth, double negligible);
 
   // Null for a flat facet.
   const CurvedFacet* curved(int facet) const {

@@ -4,6 +4,7 @@
 
 #include <cstdio>
 #include <fstream>
+#include <optional>
 #include <sstream>
 #include <vector>
 
@@ -53,7 +54,7 @@ Deviation deviation(const std::vector<Complex>& ours, const std::vector<Complex>
 }
 
 // At every `step`-th of the series' ka, 60 to 200 by 1.
-Deviation sphere_against_mie(int subdivisions, double crease_deg, const Vec3& r_hat, int step) {
+Deviation sphere_against_mie(int subdivisions, std::optional<double> crease, const Vec3& r_hat, int step) {
   std::vector<double> k;
   std::vector<Complex> mie, ours;
   for (const auto& row : read_numbers("mie_sphere_ka60_200.csv")) {
@@ -61,7 +62,7 @@ Deviation sphere_against_mie(int subdivisions, double crease_deg, const Vec3& r_
     k.push_back(row[0]);
     mie.emplace_back(row[1], row[2]);
   }
-  const Scatterer sphere(make_sphere(1, subdivisions), {}, radians(crease_deg));
+  const Scatterer sphere(make_sphere(1, subdivisions), {}, crease);
   for (const auto& s : scattering_matrices(sphere, monostatic(radar_basis(r_hat)), k, {0, 1}))
     ours.push_back(s[kVvChannel]);
   return deviation(ours, mie);
@@ -72,7 +73,7 @@ Deviation sphere_against_mie(int subdivisions, double crease_deg, const Vec3& r_
 TEST(CurvedSurface, SphereFollowsTheMieSeriesFromKa60To200) {
   double sum = 0;
   for (const Vec3& r_hat : {direction(23, 11), direction(80, -35), direction(200, 60)}) {
-    const Deviation d = sphere_against_mie(5, kDefaultCreaseDeg, r_hat, 3);
+    const Deviation d = sphere_against_mie(5, std::nullopt, r_hat, 3);
     std::printf("20,480 facets: mean %.3f, largest %.3f dB, %.2f deg\n", d.mean_db, d.largest_db, d.largest_deg);
     EXPECT_LT(d.mean_db, 0.05);
     EXPECT_LT(d.largest_db, 0.1);
@@ -84,8 +85,8 @@ TEST(CurvedSurface, SphereFollowsTheMieSeriesFromKa60To200) {
 
 TEST(CurvedSurface, SphereNeedsFewFacets) {
   for (const int subdivisions : {3, 4, 5}) {
-    const Deviation flat = sphere_against_mie(subdivisions, 0, direction(23, 11), 3);
-    const Deviation smooth = sphere_against_mie(subdivisions, kDefaultCreaseDeg, direction(23, 11), 3);
+    const Deviation flat = sphere_against_mie(subdivisions, 0.0, direction(23, 11), 3);
+    const Deviation smooth = sphere_against_mie(subdivisions, std::nullopt, direction(23, 11), 3);
     std::printf("%d facets: flat mean %.3f, largest %.3f dB, %.1f deg; smooth mean %.3f, largest %.3f dB, %.2f deg\n",
                 20 << (2 * subdivisions), flat.mean_db, flat.largest_db, flat.largest_deg, smooth.mean_db,
                 smooth.largest_db, smooth.largest_deg);
@@ -115,18 +116,18 @@ TEST(CurvedSurface, CylinderAtBroadsideFollowsTheExactSeries) {
   }
   Deviation worst;
   for (const int segments : {36, 72, 144, 720}) {
-    for (const double crease_deg : {0.0, kDefaultCreaseDeg}) {
-      const Scatterer cylinder(make_cylinder(radius, height, segments), {}, radians(crease_deg));
+    for (const bool flat : {true, false}) {
+      const Scatterer cylinder(make_cylinder(radius, height, segments), {}, flat ? std::optional(0.0) : std::nullopt);
       std::vector<Complex> h, v;
       for (const auto& s : scattering_matrices(cylinder, monostatic(radar_basis(direction(17, 0))), k, {0, 1})) {
         h.push_back(s[kHhChannel]);
         v.push_back(s[kVvChannel]);
       }
       const Deviation dv = deviation(v, tm), dh = deviation(h, te);
-      std::printf("%d sides, crease %g deg: vv mean %.3f, largest %.3f dB, %.2f deg; hh %.3f, %.3f dB, %.2f deg\n",
-                  segments, crease_deg, dv.mean_db, dv.largest_db, dv.largest_deg, dh.mean_db, dh.largest_db,
+      std::printf("%d sides, %s: vv mean %.3f, largest %.3f dB, %.2f deg; hh %.3f, %.3f dB, %.2f deg\n", segments,
+                  flat ? "flat" : "smooth", dv.mean_db, dv.largest_db, dv.largest_deg, dh.mean_db, dh.largest_db,
                   dh.largest_deg);
-      if (crease_deg == 0) {
+      if (flat) {
         record_figure(std::max(dv.mean_db, dh.mean_db), 3, "cylinder_{}_flat_mean_db", segments);
         continue;
       }
@@ -245,7 +246,7 @@ TEST(CurvedSurface, CylinderOnAPlateHasTheTopHatsEcho) {
     hat.append(floor);
     std::array<double, 2> mean{};
     for (int mode = 0; mode < 2; ++mode) {
-      const Scatterer scatterer(hat, {}, mode == 0 ? 0 : radians(kDefaultCreaseDeg));
+      const Scatterer scatterer(hat, {}, mode == 0 ? std::optional(0.0) : std::nullopt);
       constexpr int kViews = 12;
       double largest = 0;
       for (int i = 0; i < kViews; ++i) {

@@ -39,7 +39,7 @@ TEST(SharpEdges, AreThoseOfAPlateABoxAndADihedral) {
 TEST(SharpEdges, HaveTheLengthOfTheirCollinearChain) {
   const Mat3 rotation = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
   for (const std::uint32_t pieces : {1u, 16u}) {
-    const Scatterer plate(transformed(cut_plate(0.3, 0.2, pieces), rotation, Vec3(40, -7, 3)));
+    const Scatterer plate(transformed(cut_plate(0.3, 0.2, pieces), rotation, Vec3(40, -7, 3)), {}, 0.0);
     EXPECT_EQ(plate.edges().edges.size(), 4 * pieces);
     const Vec3 wide = rotation * Vec3::UnitY();
     for (const SharpEdge& edge : plate.edges().edges) {

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// Sides of facets across which the target is one smooth surface.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "sim/scattering/target/facets.h"
+
+namespace seaglint {
+
+// Facet that continues a facet smoothly across each of its sides; -1 where the side is a knuckle, an edge or free.
+using SmoothSides = std::vector<std::array<std::int32_t, 3>>;
+
+// Sides where exactly two facets of one orientation meet and their normals differ by less than the crease angle,
+// 0 <= crease <= pi rad; none for 0.
+SmoothSides smooth_sides_by_angle(std::span<const Facet> facets, double crease);
+
+// The same sides, but those only where the facets are samples of one curved surface: on a line square to the side the
+// turn goes on at the distance of the facets' own size, on one side at least, and most sides nearby do so (README.md,
+// "Smooth surface").
+SmoothSides smooth_sides_by_shape(std::span<const Facet> facets, double crease);
+
+}  // namespace seaglint
