@@ -80,15 +80,39 @@ void ReflectorInterval(benchmark::State& state) {
 }
 BENCHMARK(ReflectorInterval)->Unit(benchmark::kMillisecond)->UseRealTime();
 
-// The trace alone at one frequency: the cost of one aspect of a sweep.
+// This many frequencies of 200 MHz about 16 GHz.
+std::vector<double> frequency_sweep(int count) {
+  std::vector<double> k;
+  for (int q = 0; q < count; ++q) k.push_back(2 * kPi * (16e9 + 200e6 * ((q + 0.5) / count - 0.5)) / kSpeedOfLight);
+  return k;
+}
+
+// One aspect of a sweep.
 void ShipAspect(benchmark::State& state) {
   const RadarBasis basis = radar_basis(direction(static_cast<double>(state.range(0))));
-  const std::vector<double> k(static_cast<std::size_t>(state.range(1)), 2 * kPi * 16e9 / kSpeedOfLight);
+  const std::vector<double> k = frequency_sweep(static_cast<int>(state.range(1)));
   std::size_t segments = 0;
   for (auto _ : state) benchmark::DoNotOptimize(scattering_matrices(ship(), monostatic(basis), k, {}, 2, &segments));
   state.counters["segments/s"] = benchmark::Counter(static_cast<double>(segments), benchmark::Counter::kIsRate);
 }
 BENCHMARK(ShipAspect)->Args({50, 1})->Args({50, 16})->Unit(benchmark::kMillisecond)->UseRealTime();
+
+// Processor time of 150 frequencies of one aspect over that of one frequency, alternating in one run on one thread,
+// edge diffraction on.
+void ShipSweepOverOneFrequency(benchmark::State& state) {
+  const RadarBasis basis = radar_basis(direction(static_cast<double>(state.range(0))));
+  const std::vector<double> one = frequency_sweep(1), many = frequency_sweep(150);
+  const TracingSettings settings{0, kDefaultBounces, true};
+  double of_one = 0, of_many = 0;
+  for (auto _ : state) {
+    of_one += processor_seconds(
+        [&] { benchmark::DoNotOptimize(scattering_matrices(ship(), monostatic(basis), one, settings, 1)); });
+    of_many += processor_seconds(
+        [&] { benchmark::DoNotOptimize(scattering_matrices(ship(), monostatic(basis), many, settings, 1)); });
+  }
+  state.counters["ratio"] = of_many / of_one;
+}
+BENCHMARK(ShipSweepOverOneFrequency)->Arg(10)->Arg(50)->Arg(90)->Unit(benchmark::kMillisecond);
 
 // Run time of the solver over that of Embree on primary rays 0.1 m apart, alternating in one run on one thread each.
 // The solver traces no rays; its beams include every bounce, the primary rays only the first.

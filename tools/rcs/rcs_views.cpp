@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <utility>
 
@@ -38,6 +39,9 @@ std::size_t views_per_trace(const RcsRequest& request) {
   return std::clamp<std::size_t>(kMaxMatrices / request.frequency_hz.size(), 1, kMaxViews);
 }
 
+// Largest number of groups of views computed at the same time, each of which needs the memory of a trace.
+constexpr std::size_t kMaxSideBySide = 8;
+
 // Computes the views of a sweep by beam tracing, several at a time. A view's matrices do not depend on the others.
 class SweepTracer {
  public:
@@ -46,24 +50,37 @@ class SweepTracer {
     for (const double hz : request.frequency_hz) wavenumbers_.push_back(2 * kPi * hz / kSpeedOfLight);
   }
 
+  // Views in parallel before panels in parallel, which needs more synchronisation.
   void run(RcsResult& result) const {
-    const std::size_t views = result.sweep.views(), together = views_per_trace(request_);
+    const std::size_t views = result.sweep.views(), together = views_per_trace(request_),
+                      groups = (views + together - 1) / together;
+    const int side_by_side = static_cast<int>(std::min({groups, static_cast<std::size_t>(threads_), kMaxSideBySide}));
+    std::atomic<std::size_t> done{0}, segments{0};
     Progress progress("rcs", views, "views");
-    for (std::size_t first = 0; first < views; first += together) {
-      const std::size_t count = std::min(together, views - first);
-      try {
-        for (RcsSweep::Model& model : result.sweep.models) trace(first, count, model, result);
-      } catch (const Interrupted&) {
-        throw WorkError(fmt::format("interrupted after {} of {} views", first, views));
-      }
-      progress.advance(count);
+    try {
+      parallel_for(
+          groups, side_by_side,
+          [&](std::size_t group) {
+            const std::size_t first = group * together, count = std::min(together, views - first);
+            std::size_t of_group = 0;
+            for (RcsSweep::Model& model : result.sweep.models)
+              trace(first, count, model, result, std::max(1, threads_ / side_by_side), of_group);
+            segments += of_group;
+            done += count;
+            progress.advance(count);
+          },
+          stop_);
+    } catch (const Interrupted&) {
+      throw WorkError(fmt::format("interrupted after {} of {} views", done.load(), views));
     }
+    result.segments += segments;
   }
 
  private:
   // Fills in the matrices of a model for the views first, first + 1, ..., first + count - 1, and the contributions of
-  // an exported view.
-  void trace(std::size_t first, std::size_t count, RcsSweep::Model& model, RcsResult& result) const {
+  // an exported view; adds the number of beam segments.
+  void trace(std::size_t first, std::size_t count, RcsSweep::Model& model, RcsResult& result, int threads,
+             std::size_t& segments) const {
     const Scatterer& scatterer = *target_.prepared.scatterer;
     const TracingSettings settings = settings_of(request_, target_, model.edge_diffraction);
     std::vector<BistaticGeometry> pairs;
@@ -73,23 +90,23 @@ class SweepTracer {
       const double k = wavenumbers_.front();
       AspectContributions view =
           aspect_contributions(scatterer, pairs.front(), {k, default_aspect_change(scatterer, 2 * kPi / k)}, settings,
-                               threads_, stop_, {request_.range_m});
+                               threads, stop_, {request_.range_m});
       model.matrices[first] = {view.matrix};
       result.contributions = std::move(view.points);
-      result.segments += view.segments;
+      segments += view.segments;
       return;
     }
     if (!request_.sea.reflection) {
-      std::ranges::move(scattering_matrices(scatterer, pairs, wavenumbers_, settings, threads_, &result.segments, stop_,
-                                            {request_.range_m}),
-                        model.matrices.begin() + static_cast<std::ptrdiff_t>(first));
+      std::ranges::move(
+          scattering_matrices(scatterer, pairs, wavenumbers_, settings, threads, &segments, stop_, {request_.range_m}),
+          model.matrices.begin() + static_cast<std::ptrdiff_t>(first));
       return;
     }
     const SeaReflection sea = reflection_of(request_.sea);
     for (std::size_t i = 0; i < count; ++i) {
       model.matrices[first + i] =
           scattering_matrices_over_sea(scatterer, pairs[i].receive.r, request_.sea.height_m, sea, wavenumbers_,
-                                       settings, threads_, &result.segments, stop_, request_.range_m);
+                                       settings, threads, &segments, stop_, request_.range_m);
     }
   }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 // Computes scattering matrices over the frequencies and aspects of a request. Every aspect of one antenna is traced by
-// itself; the aspects of a fixed transmitter are traced together.
+// itself, several in parallel; the aspects of a fixed transmitter are traced together.
 
 #include <cstddef>
 #include <vector>

@@ -45,6 +45,18 @@ Complex WallPenumbraTerm::at_sine(double s, double k, double fraction, double ru
   return sum;
 }
 
+double WallPenumbraTerm::psi_spread() const {
+  const double c = std::sqrt(1 - sine * sine);
+  double spread = 0;
+  const auto include = [&](double weight, double decrement) {
+    if (weight != 0) spread = std::max(spread, std::abs(decrement - psi_decrement));
+  };
+  include(foot_weight, 0);
+  include(shadow_line_weight, 2 * sine * sine / c);
+  include(edge_path_weight, 2 * (1 - c));
+  return spread * std::max(l[0], l[1]);
+}
+
 Complex WallPenumbraTerm::at(double k, double fraction, double run) const {
   if (part == Part::kComplete) return at_sine(sine, k, fraction, run);
   const double side = std::copysign(1.0, sine), near = std::abs(sine);

@@ -34,6 +34,10 @@ struct WallPenumbraTerm {
   // wavenumber, rad/m.
   Complex at(double k, double fraction, double run) const;
 
+  // Largest difference between the psi of one of the contributions and that of the phase, m: at() oscillates with k over
+  // it.
+  double psi_spread() const;
+
  private:
   Complex at_sine(double s, double k, double fraction, double run) const;
 };

@@ -16,4 +16,12 @@ namespace seaglint {
 void decompose(const EdgeContribution& contribution, const DecompositionSettings& settings,
                std::vector<PointContribution>& out);
 
+// The same with the amplitudes at the nodes of a band, for a sweep; the patterns, contribution.pattern at the nodes,
+// are not set. Without an aspect change pieces are only as short as the width of the band requires.
+void decompose(const EdgeContribution& contribution, const FrequencyBand& band, double aspect_change_rad,
+               std::vector<BandPoint>& out);
+
+// False where the amplitude law oscillates over the band, so that its nodes do not determine it.
+bool varies_slowly(const EdgeContribution& contribution, const FrequencyBand& band);
+
 }  // namespace seaglint

@@ -73,7 +73,11 @@ std::size_t AspectTrace::run(const AspectVisitor& visit, const StopFlag* stop) c
           visit.surfaces(pair, chunk, contributions.footprints);
           visit.edges(pair, chunk, contributions.boundary_terms);
         },
-        stop);
+        stop,
+        [&](std::size_t chunk) {
+          if (!visit.complete) return;
+          for (const std::size_t pair : transmitter.pairs) visit.complete(pair, chunk);
+        });
     illuminations[transmitter.direction] = std::move(reached.edge_illuminations);
     segments += reached.segments;
   }
@@ -89,6 +93,7 @@ std::size_t AspectTrace::run(const AspectVisitor& visit, const StopFlag* stop) c
                      threads_, [&](std::size_t chunk, std::span<const EdgeContribution> footprints) {
                        visit.edges(pair, first + chunk, footprints);
                      });
+    for (std::size_t chunk = first; visit.complete && chunk < first + kEdgeChunks; ++chunk) visit.complete(pair, chunk);
   }
   return segments;
 }

@@ -18,10 +18,12 @@
 
 namespace seaglint {
 
-// Receives the contributions of a pair by chunk; those of a chunk arrive in order from one thread.
+// Receives the contributions of a pair by chunk; those of a chunk arrive in order from one thread. `complete` may be
+// empty; it is called once per chunk, from any thread, after the chunk's last contribution.
 struct AspectVisitor {
   std::function<void(std::size_t pair, std::size_t chunk, std::span<const Footprint>)> surfaces;
   std::function<void(std::size_t pair, std::size_t chunk, std::span<const EdgeContribution>)> edges;
+  std::function<void(std::size_t pair, std::size_t chunk)> complete = {};
 };
 
 class AspectTrace {

@@ -135,7 +135,8 @@ std::size_t Illumination::panels_per_chunk() const {
 
 std::size_t Illumination::chunk_count() const { return (seen_.size() + panels_per_chunk() - 1) / panels_per_chunk(); }
 
-TraceSummary Illumination::trace_all(int threads, const Visit& visit, const StopFlag* stop) const {
+TraceSummary Illumination::trace_all(int threads, const Visit& visit, const StopFlag* stop,
+                                     const std::function<void(std::size_t)>& complete) const {
   const std::size_t size = panels_per_chunk();
   const ContributionFilter& filter = settings_.filter;
   const double faint = lowest_ > 0 ? min_amplitude(scatterer_, settings_, lowest_) : 0.0;
@@ -164,6 +165,7 @@ TraceSummary Illumination::trace_all(int threads, const Visit& visit, const Stop
           }
         });
         illuminations[chunk] = std::move(traced.edge_illuminations);
+        if (complete) complete(chunk);
       },
       stop);
   return {IlluminationByEdge(std::move(illuminations), scatterer_.edges().edges.size()),

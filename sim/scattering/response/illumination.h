@@ -82,7 +82,9 @@ class Illumination {
   // Throws Interrupted when *stop becomes true.
   std::size_t chunk_count() const;
   using Visit = std::function<void(std::size_t chunk, std::size_t receiver, const PanelContributions& contributions)>;
-  TraceSummary trace_all(int threads, const Visit& visit, const StopFlag* stop = nullptr) const;
+  // `complete`, unless empty, is called after the last contributions of a chunk.
+  TraceSummary trace_all(int threads, const Visit& visit, const StopFlag* stop = nullptr,
+                         const std::function<void(std::size_t chunk)>& complete = {}) const;
 
   // Appends the contributions of all beams whose first reflector is the panel of one of these facets, its direct
   // illumination included; returns the number of beam segments traced.

@@ -2,66 +2,14 @@
 #include "sim/scattering/response/scattering_matrix.h"
 
 #include <cmath>
+#include <deque>
 
 #include "sim/scattering/edges/edge_decomposition.h"
 #include "sim/scattering/response/aspect_trace.h"
-#include "sim/scattering/surfaces/phase_integral.h"
+#include "sim/scattering/response/sweep_sum.h"
 #include "sim/scattering/target/target_check.h"
 
 namespace seaglint {
-namespace {
-
-using Matrices = std::vector<std::array<Complex, 4>>;  // per wavenumber
-
-// Sums the contributions of one pair in closed form, or as points at a finite range, for which the wavefront correction
-// differs from point to point.
-class MatrixSum {
- public:
-  MatrixSum(const BistaticGeometry& geometry, std::span<const double> wavenumbers, const RadarRange& radar,
-            double spread)
-      : geometry_(geometry), wavenumbers_(wavenumbers), radar_(radar), spread_(spread) {}
-
-  void add(std::span<const Footprint> footprints, Matrices& sum) const {
-    for (const Footprint& footprint : footprints) {
-      for (std::size_t q = 0; q < wavenumbers_.size(); ++q) add(of_facet(footprint, q), sum[q]);
-    }
-  }
-  void add(std::span<const EdgeContribution> contributions, Matrices& sum) const {
-    for (const EdgeContribution& contribution : contributions) {
-      for (std::size_t q = 0; q < wavenumbers_.size(); ++q) add(of_edge(contribution, wavenumbers_[q]), sum[q]);
-    }
-  }
-  static void add(const std::array<Complex, 4>& s, std::array<Complex, 4>& sum) {
-    for (int i = 0; i < 4; ++i) sum[i] += s[i];
-  }
-
- private:
-  std::array<Complex, 4> bent(std::vector<PointContribution>& points, double k) const {
-    apply_wavefront_curvature(points, geometry_, radar_);
-    return direct_sum(points, k, Vec3::Zero());
-  }
-  std::array<Complex, 4> of_facet(Footprint footprint, std::size_t q) const {
-    if (radar_.range_m <= 0) return scattered(footprint, wavenumbers_[q], q);
-    if (!footprint.patterns.empty()) footprint.pattern = footprint.patterns[q];
-    std::vector<PointContribution> points;
-    decompose(footprint, geometry_.transmit, {wavenumbers_[q], spread_}, points);
-    return bent(points, wavenumbers_[q]);
-  }
-  std::array<Complex, 4> of_edge(const EdgeContribution& contribution, double k) const {
-    if (radar_.range_m <= 0) return scattered(contribution, k);
-    std::vector<PointContribution> points;
-    decompose(contribution, {k, spread_}, points);
-    return bent(points, k);
-  }
-
-  const BistaticGeometry& geometry_;
-  std::span<const double> wavenumbers_;
-  const RadarRange& radar_;
-  double spread_;
-};
-
-}  // namespace
-
 double direction_spread(const Scatterer& scatterer, const RadarRange& radar) {
   const double reach = scatterer.radius() + radar.origin.norm();
   check_wavefront_range(reach, radar.range_m);
@@ -73,22 +21,20 @@ std::vector<Matrices> scattering_matrices(const Scatterer& scatterer, std::span<
                                           int threads, std::size_t* segments, const StopFlag* stop,
                                           const RadarRange& radar) {
   const double spread = direction_spread(scatterer, radar);
-  const AspectTrace trace(scatterer, pairs, settings, wavenumbers, threads);
-  std::vector<std::vector<Matrices>> parts(pairs.size());  // [pair][chunk]
-  for (std::size_t i = 0; i < pairs.size(); ++i) parts[i].assign(trace.chunk_count(i), Matrices(wavenumbers.size()));
-  const auto add = [&](std::size_t pair, std::size_t chunk, const auto& footprints) {
-    MatrixSum(pairs[pair], wavenumbers, radar, spread).add(footprints, parts[pair][chunk]);
+  const SweepPlan plan(scatterer, wavenumbers);
+  const AspectTrace trace(scatterer, pairs, settings, plan.nodes(), threads);
+  std::deque<OrderedSweepSum> sums;
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    sums.emplace_back(SweepSum(plan, pairs[i], radar, spread), trace.chunk_count(i));
+  const auto add = [&](std::size_t pair, std::size_t chunk, const auto& contributions) {
+    sums[pair].chunk(chunk).add(contributions);
   };
-  const std::size_t followed = trace.run({add, add}, stop);
+  const auto complete = [&](std::size_t pair, std::size_t chunk) { sums[pair].complete(chunk); };
+  const std::size_t followed = trace.run({add, add, complete}, stop);
   if (segments) *segments += followed;
-  std::vector<Matrices> sums;
-  for (const std::vector<Matrices>& chunks : parts) {
-    Matrices& sum = sums.emplace_back(wavenumbers.size());
-    for (const Matrices& part : chunks) {
-      for (std::size_t q = 0; q < wavenumbers.size(); ++q) MatrixSum::add(part[q], sum[q]);
-    }
-  }
-  return sums;
+  std::vector<Matrices> matrices;
+  for (const OrderedSweepSum& sum : sums) matrices.push_back(sum.matrices());
+  return matrices;
 }
 
 Matrices scattering_matrices(const Scatterer& scatterer, const BistaticGeometry& geometry,
@@ -134,26 +80,26 @@ AspectContributions aspect_contributions(const Scatterer& scatterer, const Bista
   DecompositionSettings bent = split_settings;
   bent.aspect_change_rad += spread;
   const std::array wavenumber{split_settings.kc};
-  const MatrixSum sum(geometry, wavenumber, radar, spread);
+  const SweepPlan plan(scatterer, wavenumber);
   const AspectTrace trace(scatterer, std::span(&geometry, 1), settings, wavenumber, threads);
+  OrderedSweepSum sum(SweepSum(plan, geometry, radar, spread), trace.chunk_count(0));
   std::vector<std::vector<PointContribution>> points(trace.chunk_count(0));
-  std::vector<Matrices> parts(trace.chunk_count(0), Matrices(1));
   AspectContributions all;
   all.segments = trace.run({[&](std::size_t, std::size_t chunk, std::span<const Footprint> footprints) {
-                              sum.add(footprints, parts[chunk]);
+                              sum.chunk(chunk).add(footprints);
                               for (const Footprint& footprint : footprints)
                                 decompose(footprint, geometry.transmit, bent, points[chunk]);
                             },
                             [&](std::size_t, std::size_t chunk, std::span<const EdgeContribution> contributions) {
-                              sum.add(contributions, parts[chunk]);
+                              sum.chunk(chunk).add(contributions);
                               for (const EdgeContribution& contribution : contributions)
                                 decompose(contribution, bent, points[chunk]);
-                            }},
+                            },
+                            [&](std::size_t, std::size_t chunk) { sum.complete(chunk); }},
                            stop);
-  for (std::size_t chunk = 0; chunk < points.size(); ++chunk) {
-    MatrixSum::add(parts[chunk][0], all.matrix);
-    all.points.insert(all.points.end(), points[chunk].begin(), points[chunk].end());
-  }
+  all.matrix = sum.matrices().front();
+  for (const std::vector<PointContribution>& of_chunk : points)
+    all.points.insert(all.points.end(), of_chunk.begin(), of_chunk.end());
   if (radar.range_m > 0) apply_wavefront_curvature(all.points, geometry, radar);
   return all;
 }

@@ -12,8 +12,6 @@
 namespace seaglint {
 namespace {
 
-using Triangle = std::array<Vec2, 3>;
-
 // Facets whose taper is below this at all vertices are omitted.
 constexpr double kNegligibleTaper = 2e-3;
 
@@ -26,10 +24,13 @@ double shadow_taper(double distance, double k) {
 
 class CurvedDecomposer {
  public:
-  CurvedDecomposer(const Footprint& footprint, double k, double min_slope, std::vector<CurvedContribution>& out)
-      : footprint_(footprint), c_(*footprint.curvature), k_(k), min_slope_(min_slope), out_(out) {
-    for (int i = 0; i < 3; ++i)
-      fade_[i] = shadow_taper(std::min(c_.incident_shadow_distance[i], c_.receiver_shadow_distance[i]), k);
+  CurvedDecomposer(const Footprint& footprint, const FrequencyBand& band, double min_slope,
+                   std::vector<CurvedContribution>& out)
+      : footprint_(footprint), c_(*footprint.curvature), band_(band), min_slope_(min_slope), out_(out) {
+    for (int i = 0; i < 3; ++i) {
+      const double distance = std::min(c_.incident_shadow_distance[i], c_.receiver_shadow_distance[i]);
+      fade_[i] = shadow_taper(distance, band.form().centre());
+    }
     // Maps a slope in the projection plane to one along the surface: divided by 1/cos along the steepest direction.
     const Vec2 steepest = footprint.plane.slope;
     const double area_ratio = std::sqrt(1 + steepest.squaredNorm());
@@ -52,7 +53,8 @@ class CurvedDecomposer {
   }
 
   void run() {
-    if (std::max({fade_[0], fade_[1], fade_[2]}) > kNegligibleTaper) part(footprint_.polygon, c_.corner);
+    if (std::max({fade_[0], fade_[1], fade_[2]}) > kNegligibleTaper)
+      part(footprint_.polygon, {corner_at(c_.corner[0]), corner_at(c_.corner[1]), corner_at(c_.corner[2])});
   }
 
  private:
@@ -89,16 +91,22 @@ class CurvedDecomposer {
     return of_p[0] * corner[0] + of_p[1] * corner[1] + of_p[2] * corner[2];
   }
 
+  // Vertex of a triangle of the facet.
+  struct Corner {
+    Vec2 p, w;   // m; gradient of psi
+    Vec2 slope;  // of psi along the surface
+  };
+  Corner corner_at(const Vec2& p) const { return {p, psi_slope(p), between(slope_, barycentric(p))}; }
+
   // Decomposes the illuminated polygon inside a triangle of the facet; the triangle determines the form.
-  void part(const MovingPolygon& polygon, const Triangle& triangle) {
+  void part(const MovingPolygon& polygon, const std::array<Corner, 3>& triangle) {
     double size = 0, largest = 0;
     int longest = 0;
-    const std::array<Vec2, 3> w{psi_slope(triangle[0]), psi_slope(triangle[1]), psi_slope(triangle[2])};
     for (int i = 0; i < 3; ++i) {
       const int j = (i + 1) % 3;
-      const Vec2 along = triangle[j] - triangle[i];
+      const Vec2 along = triangle[j].p - triangle[i].p;
       const double length = footprint_.surface_length(along);
-      const double run_i = w[i].dot(along), run_j = w[j].dot(along);
+      const double run_i = triangle[i].w.dot(along), run_j = triangle[j].w.dot(along);
       const double run = std::max({std::abs(run_i), std::abs(run_j), kMaxAmplitudeError * min_slope_ * length});
       size = std::max(size, length);
       if (run > largest) {
@@ -107,71 +115,84 @@ class CurvedDecomposer {
       }
     }
     // The slope is linear over the triangle: at least that at the centre less the largest difference from it.
-    std::array<Vec2, 3> slope;
-    for (int i = 0; i < 3; ++i) slope[i] = between(slope_, barycentric(triangle[i]));
-    const Vec2 mean = (slope[0] + slope[1] + slope[2]) / 3;
-    const double min =
-        mean.norm() - std::max({(slope[0] - mean).norm(), (slope[1] - mean).norm(), (slope[2] - mean).norm()});
-    if (min > min_slope_ && k_ * min * size / 2 > kMaxHalfPhase && k_ * min * min > kContourRatio * curvature_) {
+    const Vec2 mean = (triangle[0].slope + triangle[1].slope + triangle[2].slope) / 3;
+    double difference = 0;
+    for (const Corner& corner : triangle) difference = std::max(difference, (corner.slope - mean).squaredNorm());
+    const double min = mean.norm() - std::sqrt(difference);
+    const double k = band_.form().centre();
+    if (min > min_slope_ && k * min * size / 2 > kMaxHalfPhase && k * min * min > kContourRatio * curvature_) {
       contour(polygon);
       return;
     }
-    if (k_ * largest / 2 <= kMaxHalfPhase || size < 1e-6) {
+    if (k * largest / 2 <= kMaxHalfPhase || size < 1e-6) {
       point(polygon);
       return;
     }
     // The cut is fixed in the body, whose points at height z move by -z d_i when the look direction changes by d_i: at
     // rest in the projection plane it would slide on the facet.
-    const Vec2 &a = triangle[longest], &b = triangle[(longest + 1) % 3], &far = triangle[(longest + 2) % 3];
-    const Vec2 middle = 0.5 * (a + b), along = far - middle;
+    const Corner &a = triangle[longest], &b = triangle[(longest + 1) % 3], &far = triangle[(longest + 2) % 3];
+    const Corner middle = corner_at(0.5 * (a.p + b.p));
+    const Vec2 along = far.p - middle.p;
     MovingLine line;
     line.gradient = Vec2(-along.y(), along.x()).normalized();
-    line.value = -line.gradient.dot(middle);
+    line.value = -line.gradient.dot(middle.p);
     const DepthPlane& plane = footprint_.plane;
     line.value_d1 = line.gradient.x() * plane.z0;
     line.value_d2 = line.gradient.y() * plane.z0;
     line.gradient_d1 = line.gradient.x() * plane.slope;
     line.gradient_d2 = line.gradient.y() * plane.slope;
     auto [near_a, near_b] = split_by_line(polygon, line);
-    if (line.at(a) <= line.at(b)) std::swap(near_a, near_b);
+    if (line.at(a.p) <= line.at(b.p)) std::swap(near_a, near_b);
     if (!near_a.empty()) part(near_a, {a, middle, far});
     if (!near_b.empty()) part(near_b, {middle, b, far});
   }
 
   // Integral over a small polygon as one term at its centroid, by the seven-point rule of degree 5 on its triangles (A.
-  // H. Stroud, Approximate Calculation of Multiple Integrals, T2: 5-1).
+  // H. Stroud, Approximate Calculation of Multiple Integrals, T2: 5-1), as a power series of e^{jkd} in the path d from
+  // the centroid: with |kd| < 1 its first omitted term is below 1/40320.
   void point(const MovingPolygon& polygon) {
     const Vec2 c = centroid(polygon);
     const double psi_c = psi(c);
     constexpr double kNear = 0.10128650732345634, kFar = 0.47014206410511509;
     constexpr double kWeightNear = 0.12593918054482715, kWeightFar = 0.13239415278850618, kWeightMiddle = 0.225;
-    const auto value = [&](const Vec2& p) {
-      const BarycentricWeights of_p = barycentric(p);
-      return between(fade_, of_p) * std::polar(1.0, k_ * (psi(p, of_p) - psi_c));
-    };
-    Complex integral = 0;
+    std::array<double, 8> moment{};  // of d^n / n!, with the taper
     for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
       const Vec2 &a = polygon[0].p, &b = polygon[i].p, &d = polygon[i + 1].p;
       const double area = 0.5 * cross(b - a, d - a);
-      Complex mean = kWeightMiddle * value((a + b + d) / 3);
+      const auto add = [&](double weight, const Vec2& p) {
+        const BarycentricWeights of_p = barycentric(p);
+        const double path = psi(p, of_p) - psi_c;
+        double term = area * weight * between(fade_, of_p);
+        for (std::size_t n = 0; n < moment.size(); ++n) {
+          moment[n] += term;
+          term *= path / static_cast<double>(n + 1);
+        }
+      };
+      add(kWeightMiddle, (a + b + d) / 3);
       for (const auto& [x, y, z] : {std::array{a, b, d}, {b, d, a}, {d, a, b}}) {
-        mean += kWeightNear * value((1 - 2 * kNear) * x + kNear * (y + z)) +
-                kWeightFar * value((1 - 2 * kFar) * x + kFar * (y + z));
+        add(kWeightNear, (1 - 2 * kNear) * x + kNear * (y + z));
+        add(kWeightFar, (1 - 2 * kFar) * x + kFar * (y + z));
       }
-      integral += area * mean;
     }
-    out_.push_back({integral, psi_c, c, 0, 0});
+    out_.push_back({at_nodes([&](double k) {
+                      const double x = k * k;
+                      return Complex(moment[0] - x * (moment[2] - x * (moment[4] - x * moment[6])),
+                                     k * (moment[1] - x * (moment[3] - x * (moment[5] - x * moment[7]))));
+                    }),
+                    psi_c, c, 0, 0});
   }
 
   // Leading contour term of the area: each side carries taper cross(w, side)/(jk |w|^2) e^{jk psi} with the local slope
   // w, by the divergence theorem with F = w e^{jk psi} / (jk |w|^2).
   void contour(const MovingPolygon& polygon) {
     const std::size_t n = polygon.size();
-    std::vector<std::optional<Complex>> end(n);
+    const double k_form = band_.form().centre();
+    std::vector<std::optional<Complex>> end(n);  // times k^2
+    // Times k.
     const auto flux = [&](const Vec2& p, const Vec2& along) -> Complex {
       const BarycentricWeights of_p = barycentric(p);
       const Vec2 w = between(c_.w, of_p);
-      return between(fade_, of_p) * cross(w, along) / (Complex(0, k_) * w.squaredNorm());
+      return between(fade_, of_p) * cross(w, along) / (Complex(0, 1) * w.squaredNorm());
     };
     for (std::size_t i = 0; i < n; ++i) {
       const std::size_t j = (i + 1) % n;
@@ -186,25 +207,27 @@ class CurvedDecomposer {
       // Where psi varies fast enough a part of the side is replaced by its end points; those inside the side cancel.
       const auto part_of_edge = [&](const auto& self, double from, double to, double run_from, double run_to) -> void {
         const double min = run_from * run_to > 0 ? std::min(std::abs(run_from), std::abs(run_to)) : 0, step = to - from;
-        if (min > min_slope_ * length && k_ * min * step / 2 > kMaxHalfPhase &&
-            k_ * min * min * step > kContourRatio * std::abs(run_to - run_from)) {
-          const Complex first = -flux(a.p + from * along, along) / Complex(0, k_ * run_from);
-          const Complex last = flux(a.p + to * along, along) / Complex(0, k_ * run_to);
+        if (min > min_slope_ * length && k_form * min * step / 2 > kMaxHalfPhase &&
+            k_form * min * min * step > kContourRatio * std::abs(run_to - run_from)) {
+          const Complex first = -flux(a.p + from * along, along) / Complex(0, run_from);
+          const Complex last = flux(a.p + to * along, along) / Complex(0, run_to);
           if (from == 0)
             end[i] = end[i].value_or(0.0) + first;
           else
-            slide(first, at(from));
+            slide_end(first, at(from));
           if (to == 1)
             end[j] = end[j].value_or(0.0) + last;
           else
-            slide(last, at(to));
+            slide_end(last, at(to));
           return;
         }
         const double largest =
             std::max({std::abs(run_from), std::abs(run_to), kMaxAmplitudeError * min_slope_ * length});
         const double middle = 0.5 * (from + to);
-        if (k_ * largest * step / 2 <= kMaxHalfPhase) {
-          slide(flux(a.p + middle * along, along) * (half_argument_sinc(k_ * run(middle) * step) * step), at(middle));
+        if (k_form * largest * step / 2 <= kMaxHalfPhase) {
+          const Complex whole = flux(a.p + middle * along, along) * step;
+          const double run_of_part = run(middle) * step;
+          slide(at_nodes([&](double k) { return whole * (half_argument_sinc(k * run_of_part) / k); }), at(middle));
           return;
         }
         const double run_middle = run(middle);
@@ -214,12 +237,25 @@ class CurvedDecomposer {
       part_of_edge(part_of_edge, 0, 1, run(0), run(1));
     }
     for (std::size_t i = 0; i < n; ++i) {
-      if (end[i]) slide(*end[i], polygon[i]);
+      if (end[i]) slide_end(*end[i], polygon[i]);
     }
   }
 
+  // Values of a function of k at the nodes of the band.
+  template <typename Amplitude>
+  BandValues at_nodes(const Amplitude& amplitude) const {
+    BandValues values{};
+    for (std::size_t n = 0; n < band_.nodes().size(); ++n) values[n] = amplitude(band_.nodes()[n]);
+    return values;
+  }
+
+  // The term of an end point, k^2 times which is given.
+  void slide_end(const Complex& integral, const MovingVertex& vertex) {
+    slide(at_nodes([&](double k) { return integral / (k * k); }), vertex);
+  }
+
   // A term at a point that slides with a vertex.
-  void slide(const Complex& integral, const MovingVertex& vertex) {
+  void slide(const BandValues& integral, const MovingVertex& vertex) {
     const BarycentricWeights of_p = barycentric(vertex.p);
     const Vec2 w = between(c_.w, of_p);
     const double z = footprint_.plane.at(vertex.p);
@@ -229,7 +265,8 @@ class CurvedDecomposer {
 
   const Footprint& footprint_;
   const CurvedFootprint& c_;
-  double k_, min_slope_;
+  const FrequencyBand& band_;
+  double min_slope_;
   std::array<double, 3> skew_{};
   std::vector<CurvedContribution>& out_;
   std::array<double, 3> fade_;
@@ -240,11 +277,11 @@ class CurvedDecomposer {
 
 }  // namespace
 
-void curved_contributions(const Footprint& footprint, double k, double min_slope,
+void curved_contributions(const Footprint& footprint, const FrequencyBand& band, double min_slope,
                           std::vector<CurvedContribution>& terms) {
   constexpr std::size_t kAsUsual = 16;
   terms.reserve(kAsUsual);
-  CurvedDecomposer(footprint, k, min_slope, terms).run();
+  CurvedDecomposer(footprint, band, min_slope, terms).run();
 }
 
 std::array<Complex, 4> pattern_at(const Footprint& footprint, const Vec2& p, const std::array<Complex, 4>& flat) {

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Phase integral of a footprint on a curved surface, as terms that hold over a band and a small aspect change.
+// Phase integral of a footprint on a curved surface, as terms that hold over a band and a small aspect change. The band
+// determines the terms once; their amplitudes follow at each of its nodes.
 
 #include <array>
 #include <vector>
 
 #include "sim/scattering/surfaces/curved_footprint.h"
+#include "sim/scattering/surfaces/frequency_band.h"
 
 namespace seaglint {
 
@@ -18,18 +20,18 @@ inline constexpr double kContourRatio = 50;
 // A term of the phase integral: the amplitude varies slowly with k and look direction, the phase is e^{jk psi}. The
 // point slides on the body as the look direction changes, which adds slide1 h + slide2 v to the gradient of psi.
 struct CurvedContribution {
-  Complex integral;  // m^2, without the phase; with the taper, without the pattern
-  double psi = 0;    // m
+  BandValues integral;  // m^2, without the phase; with the taper, without the pattern
+  double psi = 0;       // m
   Vec2 p = Vec2::Zero();
   double slide1 = 0, slide2 = 0;
 };
 
-// Appends the terms of a footprint with curvature that hold at k and, for `min_slope` > 0, while the slope of psi along
-// the surface changes by kMaxAmplitudeError min_slope. Where the slope is large enough these are end points and edges
-// of the contour with the local slope, which cancel where two smooth facets meet; elsewhere pieces of half-phase below
-// kMaxHalfPhase, integrated with the full phase. The triangle and its halves determine the choice, not their
-// illuminated part.
-void curved_contributions(const Footprint& footprint, double k, double min_slope,
+// Appends the terms of a footprint with curvature that hold over the band and, for `min_slope` > 0, while the slope of
+// psi along the surface changes by kMaxAmplitudeError min_slope. Where the slope is large enough these are end points
+// and edges of the contour with the local slope, which cancel where two smooth facets meet; elsewhere pieces of
+// half-phase below kMaxHalfPhase, integrated with the full phase. The triangle and its halves determine the choice, not
+// their illuminated part. The form and the taper are those of the centre of the FormRange.
+void curved_contributions(const Footprint& footprint, const FrequencyBand& band, double min_slope,
                           std::vector<CurvedContribution>& terms);
 
 // Pattern at the point p, interpolated between the vertices of the facet. With materials other than perfect conductors

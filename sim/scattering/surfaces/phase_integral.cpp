@@ -34,15 +34,7 @@ Complex small_phase_integral(const MovingPolygon& polygon, const Vec2& c, const 
 
 }  // namespace
 
-Complex phase_integral(const Footprint& footprint, double k) {
-  if (footprint.curvature) {
-    std::vector<CurvedContribution> terms;
-    curved_contributions(footprint, k, 0, terms);
-    Complex sum = 0;
-    for (const CurvedContribution& term : terms) sum += term.integral * std::polar(1.0, k * term.psi);
-    return sum;
-  }
-  const MovingPolygon& polygon = footprint.polygon;
+Complex flat_phase_integral(const Footprint& footprint, const MovingPolygon& polygon, double k) {
   const Vec2 c = centroid(polygon);
   const Complex phase_c = std::polar(1.0, k * footprint.psi(c));
   const Vec2 kw = k * footprint.w;
@@ -58,14 +50,23 @@ Complex phase_integral(const Footprint& footprint, double k) {
   return phase_c * sum / (Complex(0, 1) * kw.squaredNorm());
 }
 
+Complex phase_integral(const Footprint& footprint, double k) {
+  if (!footprint.curvature) return flat_phase_integral(footprint, footprint.polygon, k);
+  std::vector<CurvedContribution> terms;
+  curved_contributions(footprint, FrequencyBand(k), 0, terms);
+  Complex sum = 0;
+  for (const CurvedContribution& term : terms) sum += term.integral[0] * std::polar(1.0, k * term.psi);
+  return sum;
+}
+
 std::array<Complex, 4> scattered(const Footprint& footprint, double k, std::size_t index) {
   const std::array<Complex, 4>& pattern = footprint.patterns.empty() ? footprint.pattern : footprint.patterns[index];
   std::array<Complex, 4> s{};
   if (footprint.curvature) {
     std::vector<CurvedContribution> terms;
-    curved_contributions(footprint, k, 0, terms);
+    curved_contributions(footprint, FrequencyBand(k), 0, terms);
     for (const CurvedContribution& term : terms) {
-      const Complex value = Complex(0, -k / (2 * kPi)) * term.integral * std::polar(1.0, k * term.psi);
+      const Complex value = Complex(0, -k / (2 * kPi)) * term.integral[0] * std::polar(1.0, k * term.psi);
       const auto local = pattern_at(footprint, term.p, pattern);
       for (int i = 0; i < 4; ++i) s[i] += value * local[i];
     }

@@ -15,6 +15,9 @@ namespace seaglint {
 // With curvature: the sum of curved_contributions(), taper included.
 Complex phase_integral(const Footprint& footprint, double k);
 
+// The same over another part of the flat facet.
+Complex flat_phase_integral(const Footprint& footprint, const MovingPolygon& polygon, double k);
+
 // S = -jk/(2 pi) pattern I(k): physical optics, E_s = -(jk eta / 4 pi) (e^{-jkr}/r) integral (J - r^ r^.J) e^{jk r^.x}
 // dS with J = 2 n x H (Balanis, Advanced Engineering Electromagnetics, eqs. 6-95, 7-54), dS = d^2p / |n . k^|. hh, hv,
 // vh, vv in metres. `index`: of k in the illumination's wavenumbers, used where materials make the pattern depend on

@@ -15,16 +15,55 @@ namespace {
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-class Decomposer {
+// -jk / 2 pi
+Complex radiation_factor(double k) { return {0, -k / (2 * kPi)}; }
+
+// Appends points with the amplitude at one wavenumber.
+class PointWriter {
  public:
-  Decomposer(const Footprint& footprint, const RadarBasis& basis, const DecompositionSettings& settings,
-             std::vector<PointContribution>& out)
-      : footprint_(footprint), basis_(basis), settings_(settings), out_(out) {
+  PointWriter(const Footprint& footprint, std::vector<PointContribution>& out) : out_(out) {
     prototype_.facet = footprint.facet;
     prototype_.part = footprint.part;
     prototype_.bounces = footprint.bounces;
-    for (int i = 0; i < 4; ++i) prototype_.pattern[i] = std::complex<float>(footprint.pattern[i]);
-    threshold_ = std::max(settings.aspect_change_rad * footprint.psi_slope_rate / kMaxAmplitudeError, 1e-9);
+    set_pattern(footprint.pattern);
+  }
+  void set_pattern(const std::array<Complex, 4>& pattern) {
+    for (int i = 0; i < 4; ++i) prototype_.pattern[i] = std::complex<float>(pattern[i]);
+  }
+  void add(const BandValues& amplitude, double psi, const PathGradient& gradient) {
+    PointContribution& c = out_.emplace_back(prototype_);
+    c.amplitude = amplitude[0];
+    c.psi = psi;
+    c.gradient = gradient;
+  }
+
+ private:
+  PointContribution prototype_;
+  std::vector<PointContribution>& out_;
+};
+
+// Appends points with the amplitudes at the nodes of a band.
+class BandPointWriter {
+ public:
+  BandPointWriter(const Footprint& footprint, std::vector<BandPoint>& out) : out_(out), pattern_(footprint.pattern) {}
+  void set_pattern(const std::array<Complex, 4>& pattern) { pattern_ = pattern; }
+  void add(const BandValues& amplitude, double psi, const PathGradient& gradient) {
+    out_.push_back({amplitude, psi, gradient, pattern_});
+  }
+
+ private:
+  std::vector<BandPoint>& out_;
+  std::array<Complex, 4> pattern_;
+};
+
+// The wavenumber kc determines the form, which is exact at every node of the band.
+template <typename Writer>
+class Decomposer {
+ public:
+  Decomposer(const Footprint& footprint, const RadarBasis& basis, const FrequencyBand& band, double kc,
+             double aspect_change_rad, Writer writer)
+      : footprint_(footprint), basis_(basis), band_(band), kc_(kc), writer_(writer) {
+    threshold_ = std::max(aspect_change_rad * footprint.psi_slope_rate / kMaxAmplitudeError, 1e-9);
   }
 
   void run() {
@@ -34,7 +73,7 @@ class Decomposer {
     }
     // End points require a phase of a good part of a cycle. The whole panel determines this, not the polygon: polygons
     // with a common moving boundary must be treated equally, or its two sides do not cancel.
-    const double half_phase = settings_.kc * footprint_.psi_slope * footprint_.panel_size / 2;
+    const double half_phase = kc_ * footprint_.psi_slope * footprint_.panel_size / 2;
     if (footprint_.psi_slope > threshold_ && half_phase > kMaxHalfPhase) {
       edges();
     } else {
@@ -43,24 +82,27 @@ class Decomposer {
   }
 
  private:
-  void emit(const Complex& integral, double psi, const PathGradient& gradient) {
-    PointContribution c = prototype_;
-    c.amplitude = Complex(0, -settings_.kc / (2 * kPi)) * integral;
-    c.psi = psi;
-    c.gradient = gradient;
-    out_.push_back(c);
+  // `integral`: phase integral without the phase e^{jk psi} as a function of k.
+  template <typename Integral>
+  void emit(const Integral& integral, double psi, const PathGradient& gradient) {
+    BandValues amplitude;
+    for (std::size_t n = 0; n < band_.nodes().size(); ++n) {
+      const double k = band_.nodes()[n];
+      amplitude[n] = radiation_factor(k) * integral(k);
+    }
+    writer_.add(amplitude, psi, gradient);
   }
 
   void curved() {
     std::vector<CurvedContribution> terms;
-    curved_contributions(footprint_, settings_.kc, threshold_, terms);
-    for (const CurvedContribution& term : terms) {
-      const auto pattern = pattern_at(footprint_, term.p, footprint_.pattern);
-      for (int i = 0; i < 4; ++i) prototype_.pattern[i] = std::complex<float>(pattern[i]);
+    curved_contributions(footprint_, band_, threshold_, terms);
+    for (CurvedContribution& term : terms) {
+      writer_.set_pattern(pattern_at(footprint_, term.p, footprint_.pattern));
       PathGradient gradient = phase_gradient(footprint_, term.p, basis_);
       gradient.transmit_slide = term.slide1 * basis_.h + term.slide2 * basis_.v;
       gradient.transmit += gradient.transmit_slide;
-      emit(term.integral, term.psi, gradient);
+      for (std::size_t n = 0; n < band_.nodes().size(); ++n) term.integral[n] *= radiation_factor(band_.nodes()[n]);
+      writer_.add(term.integral, term.psi, gradient);
     }
   }
 
@@ -80,7 +122,7 @@ class Decomposer {
       }
     }
     const double slope = std::max(footprint_.psi_slope, kMaxAmplitudeError * threshold_);
-    if (settings_.kc * slope * longest / 2 > kMaxHalfPhase && longest > 1e-6) {
+    if (kc_ * slope * longest / 2 > kMaxHalfPhase && longest > 1e-6) {
       MovingLine line;  // through the centroid, normal to the longest extent; at rest
       line.gradient = along.normalized();
       line.value = -line.gradient.dot(c);
@@ -91,10 +133,8 @@ class Decomposer {
         return;
       }
     }
-    Footprint piece = footprint_;
-    piece.polygon = polygon;
     const double psi = footprint_.psi(c);
-    emit(phase_integral(piece, settings_.kc) * std::polar(1.0, -settings_.kc * psi), psi,
+    emit([&](double k) { return flat_phase_integral(footprint_, polygon, k) * std::polar(1.0, -k * psi); }, psi,
          phase_gradient(footprint_, c, basis_));
   }
 
@@ -102,17 +142,16 @@ class Decomposer {
   struct Edge {
     double run = 0;     // psi from its start to its end, m
     double length = 0;  // m
-    Complex flux;       // cross / (jk |w|^2), m^2
-    // flux / (jk run) where end points replace the side: the term of its end, and minus that of its start
+    double flux = 0;    // cross / |w|^2, m^2
+    // -flux / run where end points replace the side: k^2 times the term of its end, and minus that of its start
     std::optional<double> end = {};
   };
   Edge edge_of(const MovingVertex& a, const MovingVertex& b) const {
     const Vec2 along = b.p - a.p;
-    const double k = settings_.kc;
     Edge edge{footprint_.w.dot(along), footprint_.surface_length(along),
-              Complex(0, -cross(footprint_.w, along) / (k * footprint_.w.squaredNorm()))};
-    if (std::abs(edge.run) > threshold_ * edge.length && std::abs(k * edge.run) / 2 > kMaxHalfPhase)
-      edge.end = edge.flux.imag() / (k * edge.run);
+              cross(footprint_.w, along) / footprint_.w.squaredNorm()};
+    if (std::abs(edge.run) > threshold_ * edge.length && std::abs(kc_ * edge.run) / 2 > kMaxHalfPhase)
+      edge.end = -edge.flux / edge.run;
     return edge;
   }
 
@@ -124,31 +163,33 @@ class Decomposer {
     const MovingVertex* a = &polygon.back();
     for (const MovingVertex& b : polygon) {
       const Edge edge = edge_of(*a, b);
-      if (!edge.end && edge.length >= kMinLength) edge_pieces(*a, b, edge.flux, edge.run, edge.length);
-      if (before || edge.end)
-        emit(before.value_or(0) - edge.end.value_or(0), footprint_.psi(a->p), phase_gradient(footprint_, *a, basis_));
+      if (!edge.end && edge.length >= kMinLength) edge_pieces(*a, b, edge);
+      if (before || edge.end) {
+        const double ends = before.value_or(0) - edge.end.value_or(0);
+        emit([&](double k) { return ends / (k * k); }, footprint_.psi(a->p), phase_gradient(footprint_, *a, basis_));
+      }
       before = edge.end;
       a = &b;
     }
   }
 
-  void edge_pieces(const MovingVertex& a, const MovingVertex& b, const Complex& edge, double run, double length) {
-    const double k = settings_.kc;
-    const double slope = std::max(std::abs(run), kMaxAmplitudeError * threshold_ * length);
-    const int pieces = std::max(1, static_cast<int>(std::ceil(k * slope / 2 / kMaxHalfPhase)));
+  void edge_pieces(const MovingVertex& a, const MovingVertex& b, const Edge& edge) {
+    const double slope = std::max(std::abs(edge.run), kMaxAmplitudeError * threshold_ * edge.length);
+    const int pieces = std::max(1, static_cast<int>(std::ceil(kc_ * slope / 2 / kMaxHalfPhase)));
     const PathGradient ga = phase_gradient(footprint_, a, basis_), gb = phase_gradient(footprint_, b, basis_);
-    const double psi_a = footprint_.psi(a.p);
+    const double psi_a = footprint_.psi(a.p), run = edge.run / pieces;
     for (int i = 0; i < pieces; ++i) {
       const double s = (i + 0.5) / pieces;
-      emit(edge * (half_argument_sinc(k * run / pieces) / pieces), psi_a + s * run, interpolate(ga, gb, s));
+      emit([&](double k) { return Complex(0, -edge.flux / k) * (half_argument_sinc(k * run) / pieces); },
+           psi_a + s * edge.run, interpolate(ga, gb, s));
     }
   }
 
   const Footprint& footprint_;
   const RadarBasis& basis_;
-  const DecompositionSettings& settings_;
-  std::vector<PointContribution>& out_;
-  PointContribution prototype_;
+  const FrequencyBand& band_;
+  double kc_;
+  Writer writer_;
   double threshold_ = 0;  // slope of psi along the surface above which end points are used
 };
 
@@ -156,7 +197,13 @@ class Decomposer {
 
 void decompose(const Footprint& footprint, const RadarBasis& transmit, const DecompositionSettings& settings,
                std::vector<PointContribution>& out) {
-  Decomposer(footprint, transmit, settings, out).run();
+  const FrequencyBand band(settings.kc);
+  Decomposer(footprint, transmit, band, settings.kc, settings.aspect_change_rad, PointWriter(footprint, out)).run();
+}
+
+void decompose(const Footprint& footprint, const RadarBasis& transmit, const FrequencyBand& band,
+               double aspect_change_rad, std::vector<BandPoint>& out) {
+  Decomposer(footprint, transmit, band, band.form().centre(), aspect_change_rad, BandPointWriter(footprint, out)).run();
 }
 
 void decompose_over_band(const Footprint& footprint, const RadarBasis& transmit, const DecompositionSettings& settings,
@@ -181,9 +228,11 @@ void decompose_over_band(const Footprint& footprint, const RadarBasis& transmit,
   }
 }
 
-void apply_wavefront_curvature(std::span<PointContribution> contributions, const BistaticGeometry& geometry,
-                               const RadarRange& radar) {
-  for (PointContribution& c : contributions) {
+namespace {
+
+template <typename Point>
+void bend(std::span<Point> contributions, const BistaticGeometry& geometry, const RadarRange& radar) {
+  for (Point& c : contributions) {
     for (const bool out : {false, true}) {
       const Vec3& r = out ? geometry.receive.r : geometry.transmit.r;
       Vec3& gradient = out ? c.gradient.receive : c.gradient.transmit;
@@ -193,6 +242,18 @@ void apply_wavefront_curvature(std::span<PointContribution> contributions, const
       gradient += along / radar.range_m * x;  // of -|x_perp|^2 / (2 R) with r
     }
   }
+}
+
+}  // namespace
+
+void apply_wavefront_curvature(std::span<PointContribution> contributions, const BistaticGeometry& geometry,
+                               const RadarRange& radar) {
+  bend(contributions, geometry, radar);
+}
+
+void apply_wavefront_curvature(std::span<BandPoint> contributions, const BistaticGeometry& geometry,
+                               const RadarRange& radar) {
+  bend(contributions, geometry, radar);
 }
 
 std::array<Complex, 4> direct_sum(std::span<const PointContribution> contributions, double k, const Vec3& turn) {

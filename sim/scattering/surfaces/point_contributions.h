@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "sim/scattering/beams/contribution_filter.h"
+#include "sim/scattering/surfaces/band_sum.h"
 #include "sim/scattering/surfaces/decomposition.h"
 #include "sim/scattering/surfaces/footprint.h"
 
@@ -35,7 +36,12 @@ struct PointContribution {
 void decompose(const Footprint& footprint, const RadarBasis& transmit, const DecompositionSettings& settings,
                std::vector<PointContribution>& out);
 
-// The same over a band kc -+ half_band for a footprint with patterns at the lower end, centre and upper end of the
+// The same with the amplitudes at the nodes of a band, for a sweep: over the band nothing is frozen but the taper of
+// curved surfaces. The points of footprints with a pattern per wavenumber have that of `pattern`.
+void decompose(const Footprint& footprint, const RadarBasis& transmit, const FrequencyBand& band,
+               double aspect_change_rad, std::vector<BandPoint>& out);
+
+// As the first, over a band kc -+ half_band for a footprint with patterns at the lower end, centre and upper end of the
 // band: the first-order change with k becomes two more sets of points. With P1 = dP/dk and a small delta,
 //     (k - kc) P1 e^{jk psi}  is  sin((k - kc) delta) / delta P1 e^{jk psi},
 // points at psi +- delta; kDerivativePhase = half_band delta bounds the error by kDerivativePhase^2 / 6 of that change.
@@ -54,6 +60,8 @@ struct RadarRange {
 // have been decomposed for an aspect change larger by (reach from that point) / R, since the direction to the radar
 // differs between points.
 void apply_wavefront_curvature(std::span<PointContribution> contributions, const BistaticGeometry& geometry,
+                               const RadarRange& radar);
+void apply_wavefront_curvature(std::span<BandPoint> contributions, const BistaticGeometry& geometry,
                                const RadarRange& radar);
 
 // Sum of pattern amplitude e^{jk (psi + gradient . turn)} over all contributions, `turn` the change of both look
