@@ -60,7 +60,17 @@ class MatrixSum {
   double spread_;
 };
 
+// radar.origin of the body's frame becomes that of the scatterer's coordinates.
+RadarRange relative_to_centre(const Scatterer& scatterer, RadarRange radar) {
+  radar.origin += scatterer.centre();
+  return radar;
+}
+
 }  // namespace
+
+Complex origin_phase(const Scatterer& scatterer, const BistaticGeometry& geometry, double k) {
+  return std::polar(1.0, k * scatterer.centre().dot(geometry.transmit.r + geometry.receive.r));
+}
 
 double direction_spread(const Scatterer& scatterer, const RadarRange& radar) {
   const double reach = scatterer.radius() + radar.origin.norm();
@@ -72,20 +82,24 @@ std::vector<Matrices> scattering_matrices(const Scatterer& scatterer, std::span<
                                           std::span<const double> wavenumbers, const TracingSettings& settings,
                                           int threads, std::size_t* segments, const StopFlag* stop,
                                           const RadarRange& radar) {
-  const double spread = direction_spread(scatterer, radar);
+  const RadarRange to_centre = relative_to_centre(scatterer, radar);
+  const double spread = direction_spread(scatterer, to_centre);
   const AspectTrace trace(scatterer, pairs, settings, wavenumbers, threads);
   std::vector<std::vector<Matrices>> parts(pairs.size());  // [pair][chunk]
   for (std::size_t i = 0; i < pairs.size(); ++i) parts[i].assign(trace.chunk_count(i), Matrices(wavenumbers.size()));
   const auto add = [&](std::size_t pair, std::size_t chunk, const auto& footprints) {
-    MatrixSum(pairs[pair], wavenumbers, radar, spread).add(footprints, parts[pair][chunk]);
+    MatrixSum(pairs[pair], wavenumbers, to_centre, spread).add(footprints, parts[pair][chunk]);
   };
   const std::size_t followed = trace.run({add, add}, stop);
   if (segments) *segments += followed;
   std::vector<Matrices> sums;
-  for (const std::vector<Matrices>& chunks : parts) {
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
     Matrices& sum = sums.emplace_back(wavenumbers.size());
-    for (const Matrices& part : chunks) {
+    for (const Matrices& part : parts[i]) {
       for (std::size_t q = 0; q < wavenumbers.size(); ++q) MatrixSum::add(part[q], sum[q]);
+    }
+    for (std::size_t q = 0; q < wavenumbers.size(); ++q) {
+      for (Complex& s : sum[q]) s *= origin_phase(scatterer, pairs[i], wavenumbers[q]);
     }
   }
   return sums;
@@ -130,11 +144,12 @@ Matrices scattering_matrices_over_sea(const Scatterer& scatterer, const Vec3& r_
 AspectContributions aspect_contributions(const Scatterer& scatterer, const BistaticGeometry& geometry,
                                          const DecompositionSettings& split_settings, const TracingSettings& settings,
                                          int threads, const StopFlag* stop, const RadarRange& radar) {
-  const double spread = direction_spread(scatterer, radar);
+  const RadarRange to_centre = relative_to_centre(scatterer, radar);
+  const double spread = direction_spread(scatterer, to_centre);
   DecompositionSettings bent = split_settings;
   bent.aspect_change_rad += spread;
   const std::array wavenumber{split_settings.kc};
-  const MatrixSum sum(geometry, wavenumber, radar, spread);
+  const MatrixSum sum(geometry, wavenumber, to_centre, spread);
   const AspectTrace trace(scatterer, std::span(&geometry, 1), settings, wavenumber, threads);
   std::vector<std::vector<PointContribution>> points(trace.chunk_count(0));
   std::vector<Matrices> parts(trace.chunk_count(0), Matrices(1));
@@ -154,7 +169,14 @@ AspectContributions aspect_contributions(const Scatterer& scatterer, const Bista
     MatrixSum::add(parts[chunk][0], all.matrix);
     all.points.insert(all.points.end(), points[chunk].begin(), points[chunk].end());
   }
-  if (radar.range_m > 0) apply_wavefront_curvature(all.points, geometry, radar);
+  if (radar.range_m > 0) apply_wavefront_curvature(all.points, geometry, to_centre);
+  const Vec3& centre = scatterer.centre();
+  for (Complex& s : all.matrix) s *= origin_phase(scatterer, geometry, split_settings.kc);
+  for (PointContribution& point : all.points) {
+    point.psi += centre.dot(geometry.transmit.r + geometry.receive.r);
+    point.gradient.transmit += centre;
+    point.gradient.receive += centre;
+  }
   return all;
 }
 

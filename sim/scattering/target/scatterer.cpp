@@ -4,12 +4,28 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "sim/core/process/error.h"
+#include "sim/geometry/mesh/bounding_sphere.h"
 
 namespace seaglint {
 namespace {
+
+// Centre of the smallest sphere about the vertices that triangles use, rounded to a power of two of 2^-20 to 2^-21 of
+// its radius, so that the origin of a symmetric body stays in place.
+Vec3 centre_of(const TriangleMesh& mesh) {
+  std::vector<Vec3> points;
+  points.reserve(3 * mesh.triangles.size());
+  for (const auto& triangle : mesh.triangles) {
+    for (const std::uint32_t v : triangle) points.push_back(mesh.vertices[v]);
+  }
+  const Sphere sphere = bounding_sphere(points);
+  if (!(sphere.radius > 0)) return Vec3::Zero();
+  const double step = std::ldexp(1.0, std::ilogb(sphere.radius) - 20);
+  return (sphere.centre / step).array().round() * step;
+}
 
 double radius_of(std::span<const Facet> facets) {
   double radius = 0;
@@ -25,7 +41,8 @@ double radius_of(std::span<const Facet> facets) {
 // single-precision coordinates, 7 um on the 144 m ship, 0.3 deg of phase at 16 GHz.
 Scatterer::Scatterer(const TriangleMesh& mesh, std::vector<MaterialSpec> materials, double crease_rad,
                      double sheet_thickness_m)
-    : facets_(make_facets(mesh)),
+    : centre_(centre_of(mesh)),
+      facets_(make_facets(transformed(mesh, Mat3::Identity(), -centre_))),
       radius_(radius_of(facets_)),
       sheet_thickness_(sheet_thickness_m),
       surface_(facets_, crease_rad, 1e-7 * radius_),
