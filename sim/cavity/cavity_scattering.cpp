@@ -81,7 +81,8 @@ void append(Columns& a, const Columns& b) {
 }  // namespace
 
 Cavity::Cavity(const TriangleMesh& mesh, std::size_t part, const Scatterer& whole, double patches_per_wavelength)
-    : walls_(welded(part_of(mesh, part))),
+    : centre_(whole.centre()),
+      walls_(transformed(welded(part_of(mesh, part)), Mat3::Identity(), -centre_)),
       scene_(whole.facets()),
       radius_(whole.radius()),
       patches_per_wavelength_(patches_per_wavelength) {}
@@ -95,9 +96,10 @@ Cavity::Discretisation Cavity::shape(double k) const {
     throw InputError(
         fmt::format("cavity aperture of {:.3g} m^2 is narrower than half a wavelength: below cut-off", mouth));
   const auto refuse_nearer = [&](const Vec3& a, const Vec3& b, double least, const char* what) {
-    if ((a - b).squaredNorm() < least * least * patch * patch)
-      throw InputError(fmt::format("{} nearer than {:.3g} m at ({:.4g}, {:.4g}, {:.4g}) m: too near at this wavelength",
-                                   what, least * patch, a.x(), a.y(), a.z()));
+    if ((a - b).squaredNorm() >= least * least * patch * patch) return;
+    const Vec3 place = a + centre_;
+    throw InputError(fmt::format("{} nearer than {:.3g} m at ({:.4g}, {:.4g}, {:.4g}) m: too near at this wavelength",
+                                 what, least * patch, place.x(), place.y(), place.z()));
   };
   for (std::size_t i = 0; i < shape.walls.size(); ++i) {
     const WallPatch& wall = shape.walls[i];
@@ -167,7 +169,8 @@ std::vector<std::array<Complex, 4>> Cavity::scattering_matrices(double k, std::s
     for (std::size_t i = 0; i < together.size(); ++i) {
       const auto at = 2 * static_cast<Eigen::Index>(i);
       const Eigen::Matrix2cd S = r.middleCols(at, 2).transpose() * reaction * s.middleCols(at, 2);
-      result[batch[i]] = {S(0, 0), S(0, 1), S(1, 0), S(1, 1)};
+      const Complex phase = std::polar(1.0, k * centre_.dot(together[i].transmit.r + together[i].receive.r));
+      result[batch[i]] = {phase * S(0, 0), phase * S(0, 1), phase * S(1, 0), phase * S(1, 1)};
     }
   }
   return result;

@@ -50,7 +50,8 @@ class Cavity {
   };
   Discretisation shape(double k) const;
 
-  TriangleMesh walls_;
+  Vec3 centre_;         // of the complete target, body frame
+  TriangleMesh walls_;  // relative to it
   RayScene scene_;
   double radius_;
   double patches_per_wavelength_;

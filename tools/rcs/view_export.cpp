@@ -104,7 +104,7 @@ std::string write_hot_spots(const ViewExport& arguments, const TriangleMesh& mes
   }
   for (std::size_t f = 0; f < facets; ++f) {
     const auto first = static_cast<std::uint32_t>(coloured.vertices.size());
-    for (const Vec3& corner : scatterer.facets()[f].corner) coloured.vertices.push_back(corner);
+    for (const Vec3& corner : scatterer.facets()[f].corner) coloured.vertices.push_back(scatterer.centre() + corner);
     coloured.triangles.push_back({first, first + 1, first + 2});
     coloured.triangle_part.push_back(scatterer.facets()[f].part);
     const int step = steps + 1 - static_cast<int>(std::floor((top - level[f]) / kStep_db)) - 1;

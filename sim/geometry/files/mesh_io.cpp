@@ -11,10 +11,10 @@
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/geometry/files/gltf_file.h"
-#include "sim/geometry/files/obj_check.h"
-#include "sim/geometry/files/ply_check.h"
-#include "sim/geometry/files/polygon_file.h"
-#include "sim/geometry/files/stl_check.h"
+#include "sim/geometry/files/obj_file.h"
+#include "sim/geometry/files/ply_file.h"
+#include "sim/geometry/files/stl_file.h"
+#include "sim/geometry/files/stl_soup.h"
 
 namespace seaglint {
 namespace {
@@ -37,10 +37,16 @@ void require_known(const std::string& ending, const std::filesystem::path& path)
                                path.string(), ending));
 }
 
-SanitisedPolygons plain_polygons(const std::string& ending, std::string bytes, const std::string& file) {
-  if (ending == ".obj") return sanitised_obj(bytes, file);
-  if (ending == ".stl") return sanitised_stl(std::move(bytes), file);
-  return sanitised_ply(bytes, file);
+TriangleMesh read_polygons(const std::string& ending, std::string bytes, const std::string& file) {
+  if (ending == ".obj") return read_obj(bytes, file);
+  if (ending == ".stl") return read_stl(std::move(bytes), file);
+  return read_ply(bytes, file);
+}
+
+std::string polygon_bytes(const std::string& ending, const TriangleMesh& mesh) {
+  if (ending == ".obj") return obj_bytes(mesh);
+  if (ending == ".stl") return stl_bytes(mesh);
+  return ply_bytes(mesh);
 }
 
 void check_mesh(const TriangleMesh& mesh, const std::string& file) {
@@ -75,8 +81,7 @@ TriangleMesh read_mesh(const std::filesystem::path& path, const std::string& uni
   std::string bytes = read_file(path, kMaxBytes);
   if (bytes.empty()) throw InputError(fmt::format("{}: the file is empty", file));
 
-  TriangleMesh mesh = is_gltf(ending) ? read_gltf(bytes, path)
-                                      : read_polygons(plain_polygons(ending, std::move(bytes), file), ending, file);
+  TriangleMesh mesh = is_gltf(ending) ? read_gltf(bytes, path) : read_polygons(ending, std::move(bytes), file);
   if (scale != 1.0) {
     for (Vec3& p : mesh.vertices) p *= scale;
   }
@@ -95,7 +100,7 @@ void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh) {
   if (mesh.triangles.empty())
     throw InputError(fmt::format("{}: a mesh without triangles is not written", path.string()));
   check_mesh(mesh, path.string());
-  const std::string bytes = is_gltf(ending) ? gltf_bytes(mesh, ending == ".glb") : polygon_bytes(mesh, ending);
+  const std::string bytes = is_gltf(ending) ? gltf_bytes(mesh, ending == ".glb") : polygon_bytes(ending, mesh);
   write_file(path, bytes);
 }
 

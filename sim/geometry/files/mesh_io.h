@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Mesh files: .glb and .gltf (tinygltf), .obj, .stl and .ply (OpenMesh). The file name extension selects the format.
+// Mesh files: .glb and .gltf (tinygltf), .obj, .ply, .stl (binary: OpenMesh). The file name extension selects the
+// format.
 
 #include <array>
 #include <filesystem>
@@ -14,10 +15,11 @@
 namespace seaglint {
 
 // The triangles of a file in metres and the body frame. Vertices at identical positions are merged (also across parts),
-// polygons are triangulated, positions are rounded to float32.
+// polygons are triangulated. Positions have the precision of the file: doubles in text and in PLY properties of that
+// type; float32 in glTF, whose nodes place them in double precision, and in binary STL.
 // Files are untrusted: every count, size and index is checked against the file before a library allocates. Throws
 // InputError with file and cause; also for a unit other than m, cm, mm, km, in, ft, a mesh without triangles, and
-// coordinates that are not finite or exceed 1e7 m. Not thread-safe: OpenMesh's readers are global objects.
+// coordinates that are not finite or exceed 1e7 m. Not thread-safe for STL: OpenMesh's readers are global objects.
 //   glTF is +Y up, +Z forward (glTF 2.0, section 3.4): x = Z, y = X, z = Y. Nodes are parts, named after node or mesh.
 //   OBJ, STL and PLY define no axes: they are read as body axes. Groups, objects and solids are parts.
 TriangleMesh read_mesh(const std::filesystem::path& path, const std::string& unit = "m");
@@ -26,9 +28,10 @@ TriangleMesh read_mesh(const std::filesystem::path& path, const std::string& uni
 // where read_mesh() rejects the glTF.
 std::vector<std::filesystem::path> sidecar_files(const std::filesystem::path& path);
 
-// Positions are rounded to float32, lengths are metres. glTF keeps parts and materials, OBJ parts, STL and PLY neither.
-// The file is complete or absent (sim/core/process/file.h); equal meshes give equal bytes. Throws InputError for an
-// unknown extension, an empty mesh and a mesh that read_mesh() rejects, WorkError when writing fails.
+// Lengths are metres. OBJ and PLY hold the positions as doubles, glTF and STL round them to float32. glTF keeps parts
+// and materials, OBJ parts, STL and PLY neither. The file is complete or absent (sim/core/process/file.h); equal meshes
+// give equal bytes. Throws InputError for an unknown extension, an empty mesh and a mesh that read_mesh() rejects,
+// WorkError when writing fails.
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh);
 
 // Throws InputError unless write_coloured_mesh() supports the extension.

@@ -13,8 +13,9 @@ namespace {
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-constexpr double kRounding = 2.5e-7;  // of a coordinate: four roundings to float32
-constexpr double kOverlap = 1e-6;     // of the polygon's area: largest area of a fan triangle with opposite orientation
+constexpr double kRounding =
+    2.5e-7;                        // of a coordinate: four roundings to float32, which most files' numbers have passed
+constexpr double kOverlap = 1e-6;  // of the polygon's area: largest area of a fan triangle with opposite orientation
 
 // Newell's method (Sutherland, Sproull and Schumacker, ACM Computing Surveys 6, 1974, 1-55): twice the area vector.
 Vec3 newell(std::span<const Vec3> corner) {

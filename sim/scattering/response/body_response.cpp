@@ -82,7 +82,7 @@ class PathPoints {
   }
 
  private:
-  // At a finite range the wavefront is curved about the body's own origin, from which the look directions are measured.
+  // At a finite range the wavefront is curved about the body's centre, from which the look directions are measured.
   void keep(std::size_t chunk, std::span<PointContribution> contributions) {
     if (range_m_ > 0) apply_wavefront_curvature(contributions, geometry_, {range_m_});
     for (const PointContribution& c : contributions) {
@@ -187,7 +187,7 @@ BodyResponse body_response(const Scatterer& scatterer, const Trajectory& traject
   const double served = solver.max_aspect_change_deg > 0 ? radians(solver.max_aspect_change_deg)
                                                          : default_aspect_change(scatterer, 2 * kPi / kc);
   const TracePlan plan(trajectory, sampling, r_hat, solver.wavefront_range_m, paths,
-                       {served, kMaxCrossTrackPhase / (k_last * cross_track_limit(scatterer))});
+                       {served, kMaxCrossTrackPhase / (k_last * cross_track_limit(scatterer))}, scatterer.centre());
 
   // Traces in parallel before facets in parallel, which needs fewer synchronisations.
   threads = std::max(1, threads);
@@ -213,7 +213,7 @@ BodyResponse body_response(const Scatterer& scatterer, const Trajectory& traject
       for (int n = traces[i].first; n <= traces[i].last; ++n) {
         const auto at = static_cast<std::size_t>(n - traces[i].first);
         returns[i][w].response(sampling.pulse_first[n], moves.s[at], moves.q[at], values);
-        // Motion of the body's origin: e^{jk (a + b).p} with the look directions a and b of the two paths, or by the
+        // Motion of the body's centre: e^{jk (a + b).p} with the look directions a and b of the two paths, or by the
         // distances to a radar at a finite range; exact for every pulse and frequency.
         const double origin_path = plan.path_advance(path, n);
         for (int b = 0; b < sampling.frequencies_per_pulse; ++b) {

@@ -10,6 +10,20 @@
 #include "sim/scattering/target/target_check.h"
 
 namespace seaglint {
+namespace {
+
+// radar.origin of the body's frame becomes that of the scatterer's coordinates.
+RadarRange relative_to_centre(const Scatterer& scatterer, RadarRange radar) {
+  radar.origin += scatterer.centre();
+  return radar;
+}
+
+}  // namespace
+
+Complex origin_phase(const Scatterer& scatterer, const BistaticGeometry& geometry, double k) {
+  return std::polar(1.0, k * scatterer.centre().dot(geometry.transmit.r + geometry.receive.r));
+}
+
 double direction_spread(const Scatterer& scatterer, const RadarRange& radar) {
   const double reach = scatterer.radius() + radar.origin.norm();
   check_wavefront_range(reach, radar.range_m);
@@ -20,12 +34,13 @@ std::vector<Matrices> scattering_matrices(const Scatterer& scatterer, std::span<
                                           std::span<const double> wavenumbers, const TracingSettings& settings,
                                           int threads, std::size_t* segments, const StopFlag* stop,
                                           const RadarRange& radar) {
-  const double spread = direction_spread(scatterer, radar);
+  const RadarRange to_centre = relative_to_centre(scatterer, radar);
+  const double spread = direction_spread(scatterer, to_centre);
   const SweepPlan plan(scatterer, wavenumbers);
   const AspectTrace trace(scatterer, pairs, settings, plan.nodes(), threads);
   std::deque<OrderedSweepSum> sums;
   for (std::size_t i = 0; i < pairs.size(); ++i)
-    sums.emplace_back(SweepSum(plan, pairs[i], radar, spread), trace.chunk_count(i));
+    sums.emplace_back(SweepSum(plan, pairs[i], to_centre, spread), trace.chunk_count(i));
   const auto add = [&](std::size_t pair, std::size_t chunk, const auto& contributions) {
     sums[pair].chunk(chunk).add(contributions);
   };
@@ -33,7 +48,12 @@ std::vector<Matrices> scattering_matrices(const Scatterer& scatterer, std::span<
   const std::size_t followed = trace.run({add, add, complete}, stop);
   if (segments) *segments += followed;
   std::vector<Matrices> matrices;
-  for (const OrderedSweepSum& sum : sums) matrices.push_back(sum.matrices());
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    Matrices& sum = matrices.emplace_back(sums[i].matrices());
+    for (std::size_t q = 0; q < wavenumbers.size(); ++q) {
+      for (Complex& s : sum[q]) s *= origin_phase(scatterer, pairs[i], wavenumbers[q]);
+    }
+  }
   return matrices;
 }
 
@@ -76,13 +96,14 @@ Matrices scattering_matrices_over_sea(const Scatterer& scatterer, const Vec3& r_
 AspectContributions aspect_contributions(const Scatterer& scatterer, const BistaticGeometry& geometry,
                                          const DecompositionSettings& split_settings, const TracingSettings& settings,
                                          int threads, const StopFlag* stop, const RadarRange& radar) {
-  const double spread = direction_spread(scatterer, radar);
+  const RadarRange to_centre = relative_to_centre(scatterer, radar);
+  const double spread = direction_spread(scatterer, to_centre);
   DecompositionSettings bent = split_settings;
   bent.aspect_change_rad += spread;
   const std::array wavenumber{split_settings.kc};
   const SweepPlan plan(scatterer, wavenumber);
   const AspectTrace trace(scatterer, std::span(&geometry, 1), settings, wavenumber, threads);
-  OrderedSweepSum sum(SweepSum(plan, geometry, radar, spread), trace.chunk_count(0));
+  OrderedSweepSum sum(SweepSum(plan, geometry, to_centre, spread), trace.chunk_count(0));
   std::vector<std::vector<PointContribution>> points(trace.chunk_count(0));
   AspectContributions all;
   all.segments = trace.run({[&](std::size_t, std::size_t chunk, std::span<const Footprint> footprints) {
@@ -100,7 +121,14 @@ AspectContributions aspect_contributions(const Scatterer& scatterer, const Bista
   all.matrix = sum.matrices().front();
   for (const std::vector<PointContribution>& of_chunk : points)
     all.points.insert(all.points.end(), of_chunk.begin(), of_chunk.end());
-  if (radar.range_m > 0) apply_wavefront_curvature(all.points, geometry, radar);
+  if (radar.range_m > 0) apply_wavefront_curvature(all.points, geometry, to_centre);
+  const Vec3& centre = scatterer.centre();
+  for (Complex& s : all.matrix) s *= origin_phase(scatterer, geometry, split_settings.kc);
+  for (PointContribution& point : all.points) {
+    point.psi += centre.dot(geometry.transmit.r + geometry.receive.r);
+    point.gradient.transmit += centre;
+    point.gradient.receive += centre;
+  }
   return all;
 }
 

@@ -16,13 +16,18 @@
 
 namespace seaglint {
 
+// e^{jk (r_t + r_s) . c}, c the scatterer's centre: from the phase about its centre, about which contributions are
+// computed, to that about the body's origin.
+Complex origin_phase(const Scatterer& scatterer, const BistaticGeometry& geometry, double k);
+
 // Largest difference of the direction to the radar over the target, rad; 0 in the far field (range_m = 0).
-// Throws InputError when the range is below ten times the reach of the target from the point it refers to.
+// radar.origin: the scatterer's centre relative to the point that the range refers to. Throws InputError when the range
+// is below ten times the reach of the target from that point.
 double direction_spread(const Scatterer& scatterer, const RadarRange& radar);
 
 // hh, hv, vh, vv (received, transmitted) in metres at each wavenumber, body at rest: one trace, and the exact phase
-// integral of every footprint at every wavenumber. Each direction has its own polarisation basis. Adds the number of
-// beam segments traced to *segments.
+// integral of every footprint at every wavenumber. Phase origin: the body's origin. Each direction has its own
+// polarisation basis. Adds the number of beam segments traced to *segments.
 std::vector<std::array<Complex, 4>> scattering_matrices(const Scatterer& scatterer, const BistaticGeometry& geometry,
                                                         std::span<const double> wavenumbers,
                                                         const TracingSettings& settings, int threads = 1,

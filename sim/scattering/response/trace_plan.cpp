@@ -29,13 +29,18 @@ struct TracePlan::Directions {
 };
 
 TracePlan::TracePlan(const Trajectory& trajectory, const IntervalSampling& sampling, const Vec3& r_hat, double range_m,
-                     std::span<const PropagationPath> paths, const TraceLimits& limits)
+                     std::span<const PropagationPath> paths, const TraceLimits& limits, const Vec3& centre)
     : range_m_(range_m) {
   const double start = sampling.pulse_time_s.front(), length = sampling.pulse_time_s.back() - start;
+  const auto pose_at = [&](double time_s) {
+    Pose pose = trajectory.pose(time_s);
+    pose.p += pose.R * centre;
+    return pose;
+  };
   Directions seen;
   for (const double time_s : sampling.pulse_time_s) {
     time_.push_back(length > 0 ? (time_s - start) / length : 0);
-    const Pose& pose = poses_.emplace_back(trajectory.pose(time_s));
+    const Pose& pose = poses_.emplace_back(pose_at(time_s));
     const LineOfSight line_of_sight =
         line_of_sight_from(sights_.emplace_back(line_of_sight_at(sampling, r_hat, time_s)), pose.p, range_m);
     seen.to_radar.push_back(pose.R.transpose() * line_of_sight.radar.r);
@@ -54,7 +59,7 @@ TracePlan::TracePlan(const Trajectory& trajectory, const IntervalSampling& sampl
     double beside = 0;
     for (std::size_t i = 0; i < spans_; ++i) {
       const double middle_s = start + length * (static_cast<double>(i) + 0.5) / static_cast<double>(spans_);
-      const Pose pose = trajectory.pose(middle_s);
+      const Pose pose = pose_at(middle_s);
       traces_.push_back(planned(
           i, pose, line_of_sight_from(line_of_sight_at(sampling, r_hat, middle_s), pose.p, range_m), seen, paths));
       for (const PlannedPath& path : traces_.back().paths) beside = std::max(beside, path.look_path.q_limit);

@@ -37,17 +37,17 @@ struct TraceLimits {
 class TracePlan {
  public:
   // The trajectory must cover the interval of one or more pulses. r_hat in the target frame; the radar is at range_m
-  // from its origin, 0 = far field.
+  // from its origin, 0 = far field. centre: the point of the body, body frame, about which it is traced.
   TracePlan(const Trajectory& trajectory, const IntervalSampling& sampling, const Vec3& r_hat, double range_m,
-            std::span<const PropagationPath> paths, const TraceLimits& limits);
+            std::span<const PropagationPath> paths, const TraceLimits& limits, const Vec3& centre = Vec3::Zero());
 
   std::span<const PlannedTrace> traces() const { return traces_; }
   // Weight of a trace at a pulse; the weights of all traces sum to one.
   double interpolation_weight(std::size_t trace, int pulse) const;
-  // Pose of the body at a pulse, and the look directions from the origin of the target frame.
+  // Pose of the body about its centre at a pulse, and the look directions from the origin of the target frame.
   const Pose& pose(int pulse) const { return poses_[static_cast<std::size_t>(pulse)]; }
   const LineOfSight& sight(int pulse) const { return sights_[static_cast<std::size_t>(pulse)]; }
-  // Two-way path to the body's origin relative to that to the origin of the target frame, m, positive when shorter.
+  // Two-way path to the body's centre relative to that to the origin of the target frame, m, positive when shorter.
   double path_advance(const PropagationPath& path, int pulse) const {
     return sight(pulse).path_advance(path, pose(pulse).p, range_m_);
   }

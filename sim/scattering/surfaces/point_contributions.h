@@ -51,7 +51,7 @@ void decompose_over_band(const Footprint& footprint, const RadarBasis& transmit,
 // Distance of the radar, for the curvature of the wavefront.
 struct RadarRange {
   double range_m = 0;  // 0: plane wave; else at least ten times the target's radius about the point it refers to
-  Vec3 origin = Vec3::Zero();  // of the target frame, relative to that point, m
+  Vec3 origin = Vec3::Zero();  // of the target's coordinates, relative to that point, m
 };
 
 // Adds the curvature of the wavefront at a finite range, to second order (CONVENTIONS.md, "Plane waves"): each path is

@@ -4,17 +4,33 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "sim/core/process/error.h"
+#include "sim/geometry/mesh/bounding_sphere.h"
 #include "sim/geometry/mesh/planar_faces.h"
 
 namespace seaglint {
 namespace {
 
-// Distance from a common plane within which neighbouring triangles are one planar face, relative to half the diagonal
-// of the bounding box: the rounding of single-precision coordinates.
+// Distance from a common plane within which neighbouring triangles are one planar face, relative to the target's
+// radius: the rounding of single-precision coordinates.
 constexpr double kPlanar = 6e-8;
+
+// Centre of the smallest sphere about the vertices that triangles use, rounded to a power of two of 2^-20 to 2^-21 of
+// its radius, so that the origin of a symmetric body stays in place.
+Vec3 centre_of(const TriangleMesh& mesh) {
+  std::vector<Vec3> points;
+  points.reserve(3 * mesh.triangles.size());
+  for (const auto& triangle : mesh.triangles) {
+    for (const std::uint32_t v : triangle) points.push_back(mesh.vertices[v]);
+  }
+  const Sphere sphere = bounding_sphere(points);
+  if (!(sphere.radius > 0)) return Vec3::Zero();
+  const double step = std::ldexp(1.0, std::ilogb(sphere.radius) - 20);
+  return (sphere.centre / step).array().round() * step;
+}
 
 double radius_of(std::span<const Facet> facets) {
   double radius = 0;
@@ -24,24 +40,21 @@ double radius_of(std::span<const Facet> facets) {
   return radius;
 }
 
-std::vector<Facet> facets_of_planar_faces(const TriangleMesh& mesh) {
-  const Bounds box = bounds(mesh);
-  const PlanarFaces faces = merge_planar_faces(mesh, kPlanar * 0.5 * (box.upper - box.lower).norm());
+// Facets of the mesh as it is, or of its planar faces triangulated anew.
+std::vector<Facet> facets_of(const TriangleMesh& mesh, bool as_meshed) {
+  if (as_meshed) return make_facets(mesh);
+  const PlanarFaces faces = merge_planar_faces(mesh, kPlanar * radius_of(make_facets(mesh)));
   return make_facets(faces.mesh, faces.face);
 }
 
 }  // namespace
 
-Scatterer::Scatterer(const TriangleMesh& mesh, std::vector<MaterialSpec> materials, std::optional<double> crease_rad,
-                     double sheet_thickness_m)
-    : Scatterer(crease_rad ? make_facets(mesh) : facets_of_planar_faces(mesh), std::move(materials), crease_rad,
-                sheet_thickness_m) {}
-
 // Surfaces that rise above their facets by less than 1e-7 of the radius count as flat: it is the rounding of
 // single-precision coordinates, 7 um on the 144 m ship, 0.3 deg of phase at 16 GHz.
-Scatterer::Scatterer(std::vector<Facet> facets, std::vector<MaterialSpec> materials, std::optional<double> crease_rad,
+Scatterer::Scatterer(const TriangleMesh& mesh, std::vector<MaterialSpec> materials, std::optional<double> crease_rad,
                      double sheet_thickness_m)
-    : facets_(std::move(facets)),
+    : centre_(centre_of(mesh)),
+      facets_(facets_of(transformed(mesh, Mat3::Identity(), -centre_), crease_rad.has_value())),
       radius_(radius_of(facets_)),
       sheet_thickness_(sheet_thickness_m),
       surface_(facets_,

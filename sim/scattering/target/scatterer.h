@@ -18,7 +18,9 @@
 namespace seaglint {
 
 // Facets, smooth surface, panels, sharp edges and the panel hierarchy of a target. Built once per mesh; safe to share
-// between threads.
+// between threads. Their coordinates are those of the mesh relative to centre(), so that no tolerance and no rounding
+// depends on where a file has its origin; the response adds the phase of the origin (origin_phase() in
+// response/scattering_matrix.h) or the motion of the centre.
 class Scatterer {
  public:
   // materials[i]: material of mesh.materials[i]; empty: perfect conductor. crease_rad: adjacent facets whose normals
@@ -38,13 +40,13 @@ class Scatterer {
   const PanelBvh& tree() const { return tree_; }
   const SharpEdges& edges() const { return edges_; }
   double sheet_thickness() const { return sheet_thickness_; }  // m
-  double radius() const { return radius_; }                    // of the bounding sphere about the body's origin, m
+  // Bounding sphere: its centre in the body frame, rounded to 1e-6 of its radius, and its radius about that, m.
+  const Vec3& centre() const { return centre_; }
+  double radius() const { return radius_; }
   std::span<const MaterialSpec> materials() const { return materials_; }  // empty: perfect conductor
 
  private:
-  Scatterer(std::vector<Facet> facets, std::vector<MaterialSpec> materials, std::optional<double> crease_rad,
-            double sheet_thickness_m);
-
+  Vec3 centre_;
   std::vector<Facet> facets_;
   double radius_ = 0, sheet_thickness_ = 0;
   SmoothSurface surface_;

@@ -21,6 +21,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// OBJ and PLY hold doubles; glTF and binary STL are float32 by format.
+bool keeps_doubles(const std::string& name) { return name.ends_with(".obj") || name.ends_with(".ply"); }
+
 TEST_F(MeshFile, EveryFormatPreservesTheTriangles) {
   TriangleMesh mesh = make_icosahedral_reflector();
   mesh = transformed(mesh, Eigen::AngleAxisd(0.3, Vec3(1, 2, 3).normalized()).toRotationMatrix(), Vec3(2, -1, 5));
@@ -34,10 +37,49 @@ TEST_F(MeshFile, EveryFormatPreservesTheTriangles) {
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       for (int i = 0; i < 3; ++i) {
         const Vec3 difference = again.vertices[again.triangles[t][i]] - mesh.vertices[mesh.triangles[t][i]];
-        EXPECT_LT(difference.cwiseAbs().maxCoeff(), 5.6 * kFloatRounding);  // the farthest coordinate is 5.5 m
+        if (keeps_doubles(name)) {
+          EXPECT_EQ(difference, Vec3::Zero());
+        } else {
+          EXPECT_LT(difference.cwiseAbs().maxCoeff(), 5.6 * kFloatRounding);  // the farthest coordinate is 5.5 m
+        }
       }
     }
   }
+}
+
+// Each side of a mesh 1 km off its origin keeps its length to the rounding of the move, half a unit in the last place
+// of 1 km per end and axis, and of the differences taken here, as much of 1 m; the files add none.
+TEST_F(MeshFile, DoublesKeepTheShapeOfAMeshFarFromItsOrigin) {
+  const TriangleMesh near = make_sphere(0.7, 2), far = transformed(near, Mat3::Identity(), Vec3(1000, -300, 20));
+  constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+  const double rounding = std::sqrt(3) * (2 * 0.5 * 512 * kEpsilon + 2 * 0.5 * kEpsilon);
+  const auto expect_same_sides = [&](const TriangleMesh& again) {
+    ASSERT_EQ(again.triangles.size(), near.triangles.size());
+    ASSERT_EQ(again.vertices.size(), near.vertices.size());
+    for (std::size_t t = 0; t < near.triangles.size(); ++t) {
+      for (int i = 0; i < 3; ++i) {
+        const auto side = [&](const TriangleMesh& mesh) {
+          return Vec3(mesh.vertices[mesh.triangles[t][(i + 1) % 3]] - mesh.vertices[mesh.triangles[t][i]]);
+        };
+        EXPECT_LT((side(again) - side(near)).norm(), rounding);
+      }
+    }
+  };
+  for (const char* name : {"a.obj", "a.ply"}) {
+    SCOPED_TRACE(name);
+    write_mesh(folder / name, far);
+    expect_same_sides(read_mesh(folder / name));
+  }
+  std::string stl = "solid far\n";
+  for (const auto& triangle : far.triangles) {
+    stl += "facet normal 0 0 0\nouter loop\n";
+    for (const std::uint32_t v : triangle) {
+      const Vec3& p = far.vertices[v];
+      stl += fmt::format("vertex {} {} {}\n", p.x(), p.y(), p.z());
+    }
+    stl += "endloop\nendfacet\n";
+  }
+  expect_same_sides(read_mesh(put("a.stl", stl + "endsolid\n")));
 }
 
 TEST_F(MeshFile, PartsAndMaterialsArePreservedWhereTheFormatHasThem) {
@@ -74,7 +116,7 @@ TEST_F(MeshFile, UnitsScaleLengths) {
 }
 
 TEST_F(MeshFile, NonManifoldSoupIsReadCompletely) {
-  // Five sheets on one edge, then a flipped copy of the first: OpenMesh's own mesh would accept two of them.
+  // Five sheets on one edge, then a flipped copy of the first: a half-edge mesh would accept two of them.
   std::string obj = "v 0 0 0\nv 0 0 1\n";
   for (int i = 0; i < 5; ++i) obj += "v " + std::to_string(std::cos(i)) + " " + std::to_string(std::sin(i)) + " 0.5\n";
   obj += "g fan\n";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/geometry/files/polygon_file.h"
+#include "sim/geometry/files/stl_soup.h"
 
 #include <fmt/format.h>
 
@@ -22,9 +22,7 @@ using Status = OpenMesh::Attributes::StatusInfo;
 // Collects vertices and faces unconnected: OpenMesh's own mesh rejects faces at non-manifold edges.
 class SoupImporter : public OpenMesh::IO::BaseImporter {
  public:
-  SoupImporter(const SanitisedPolygons& plain, const std::string& file) : plain_(plain), file_(file) {
-    if (plain.part_names.empty()) builder_.begin_part("body");
-  }
+  SoupImporter(std::size_t triangle_count, const std::string& file) : triangle_count_(triangle_count), file_(file) {}
 
   TriangleMesh take() { return builder_.take(); }
 
@@ -32,17 +30,9 @@ class SoupImporter : public OpenMesh::IO::BaseImporter {
     builder_.vertex({p[0], p[1], p[2]});
     return VertexHandle(static_cast<int>(builder_.vertices().size() - 1));
   }
-  // The PLY reader creates a vertex first and sets its position later.
-  VertexHandle add_vertex() override {
-    later_.emplace_back(Vec3::Zero());
-    return VertexHandle(static_cast<int>(later_.size() - 1));
-  }
-  void set_point(VertexHandle v, const OpenMesh::Vec3f& p) override { later_.at(v.idx()) = {p[0], p[1], p[2]}; }
-
   FaceHandle add_face(const VHandles& corners) override {
-    for (; placed_ < later_.size(); ++placed_) builder_.vertex(later_[placed_]);
     const std::size_t face = builder_.triangle_count();
-    if (corners.size() != 3 || face >= plain_.triangle_count) {
+    if (corners.size() != 3 || face >= triangle_count_) {
       throw InputError(fmt::format("{}: face {} has {} corners", file_, face, corners.size()));
     }
     for (VertexHandle v : corners) {
@@ -50,7 +40,6 @@ class SoupImporter : public OpenMesh::IO::BaseImporter {
         throw InputError(fmt::format("{}: face {} names vertex {}", file_, face, v.idx()));
       }
     }
-    if (!plain_.part_names.empty()) builder_.begin_part(plain_.part_names[plain_.triangle_part[face]]);
     builder_.triangle(static_cast<std::uint32_t>(corners[0].idx()), static_cast<std::uint32_t>(corners[1].idx()),
                       static_cast<std::uint32_t>(corners[2].idx()));
     return FaceHandle(static_cast<int>(face));
@@ -60,7 +49,9 @@ class SoupImporter : public OpenMesh::IO::BaseImporter {
   std::size_t n_faces() const override { return builder_.triangle_count(); }
   std::size_t n_edges() const override { return 0; }
 
-  // Half-edges, normals, colours and textures are not read.
+  // STL has none of these.
+  VertexHandle add_vertex() override { return VertexHandle(); }
+  void set_point(VertexHandle, const OpenMesh::Vec3f&) override {}
   HalfedgeHandle add_edge(VertexHandle, VertexHandle) override { return HalfedgeHandle(); }
   FaceHandle add_face(HalfedgeHandle) override { return FaceHandle(); }
   void add_face_texcoords(FaceHandle, VertexHandle, const std::vector<OpenMesh::Vec2f>&) override {}
@@ -97,11 +88,9 @@ class SoupImporter : public OpenMesh::IO::BaseImporter {
   void add_texture_information(int, std::string) override {}
 
  private:
-  const SanitisedPolygons& plain_;
+  std::size_t triangle_count_;
   const std::string& file_;
   MeshBuilder builder_;
-  std::vector<Vec3> later_;
-  std::size_t placed_ = 0;
 };
 
 // Counterpart for writing: provides vertices and triangles only.
@@ -168,7 +157,6 @@ class SoupExporter : public OpenMesh::IO::BaseExporter {
   int get_to_vertex_id(HalfedgeHandle) override { return -1; }
   int get_face_id(HalfedgeHandle) override { return -1; }
   Status status(HalfedgeHandle) const override { return {}; }
-  // The PLY writer queries further properties here; there are none.
   const OpenMesh::BaseKernel* kernel() override { return &no_properties_; }
 
  private:
@@ -195,48 +183,28 @@ class Silence {
   bool err_;
 };
 
-// OpenMesh writes no groups: inserts a line "g part" where the part changes.
-std::string with_groups(const std::string& obj, const TriangleMesh& mesh) {
-  std::istringstream lines(obj);
-  std::string grouped;
-  std::size_t face = 0;
-  for (std::string line; std::getline(lines, line);) {
-    if (line.starts_with("f ")) {
-      const std::uint16_t part = mesh.triangle_part[face];
-      if (face == 0 || part != mesh.triangle_part[face - 1]) grouped += "g " + mesh.part_names[part] + "\n";
-      ++face;
-    }
-    grouped += line + "\n";
-  }
-  return grouped;
-}
-
 }  // namespace
 
-TriangleMesh read_polygons(const SanitisedPolygons& plain, const std::string& ending, const std::string& file) {
+TriangleMesh read_stl_soup(const std::string& bytes, std::size_t triangle_count, const std::string& file) {
   const Silence silence;
-  SoupImporter importer(plain, file);
-  OpenMesh::IO::Options options;
-  if (plain.binary) options += OpenMesh::IO::Options::Binary;
-  std::istringstream stream(plain.bytes);
-  if (!OpenMesh::IO::IOManager().read(stream, ending, importer, options)) {
+  SoupImporter importer(triangle_count, file);
+  OpenMesh::IO::Options options = OpenMesh::IO::Options::Binary;
+  std::istringstream stream(bytes);
+  if (!OpenMesh::IO::IOManager().read(stream, ".stl", importer, options)) {
     throw InputError(fmt::format("{}: OpenMesh could not read it", file));
   }
   return importer.take();
 }
 
-std::string polygon_bytes(const TriangleMesh& mesh, const std::string& ending) {
-  constexpr int kDigits = 9;  // round-trips a float32
+std::string stl_bytes(const TriangleMesh& mesh) {
   const Silence silence;
   SoupExporter exporter(mesh);
-  OpenMesh::IO::Options options;
-  if (ending != ".obj") options += OpenMesh::IO::Options::Binary;
-  if (ending == ".ply") options += OpenMesh::IO::Options::LSB;
+  OpenMesh::IO::Options options = OpenMesh::IO::Options::Binary;
   std::ostringstream stream;
-  if (!OpenMesh::IO::IOManager().write(stream, ending, exporter, options, kDigits)) {
+  if (!OpenMesh::IO::IOManager().write(stream, ".stl", exporter, options)) {
     throw WorkError("OpenMesh could not write the mesh");
   }
-  return ending == ".obj" ? with_groups(stream.str(), mesh) : stream.str();
+  return stream.str();
 }
 
 }  // namespace seaglint

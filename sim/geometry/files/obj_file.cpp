@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/geometry/files/obj_check.h"
+#include "sim/geometry/files/obj_file.h"
 
 #include <fmt/format.h>
 
@@ -10,16 +10,18 @@
 #include "sim/core/process/error.h"
 #include "sim/core/text/utf8.h"
 #include "sim/core/text/words.h"
+#include "sim/geometry/files/coordinate.h"
 #include "sim/geometry/files/triangulate_polygon.h"
+#include "sim/geometry/mesh/mesh_builder.h"
 
 namespace seaglint {
 namespace {
 
-class ObjCheck {
+class ObjReader {
  public:
-  ObjCheck(std::string_view bytes, const std::string& file) : rest_(bytes), file_(file) {}
+  ObjReader(std::string_view bytes, const std::string& file) : rest_(bytes), file_(file) {}
 
-  SanitisedPolygons check() {
+  TriangleMesh read() {
     // UTF-8 byte order mark.
     constexpr std::string_view kMark = "\xEF\xBB\xBF";
     if (rest_.starts_with(kMark)) rest_.remove_prefix(kMark.size());
@@ -55,15 +57,15 @@ class ObjCheck {
       fail(fmt::format("{} lines begin with v, {} of them are vertices: a backslash joins one to the line before it",
                        vertex_count_, vertices_so_far_));
     }
-    for (const Face& face : faces_) write(face);
-    return std::move(plain_);
+    for (const Face& face : faces_) triangulate(face);
+    return builder_.take();
   }
 
  private:
   struct Face {
     std::size_t first, count;  // corners
     std::size_t line;
-    std::uint16_t part;
+    std::size_t part;  // index into part_names_
   };
 
   [[noreturn]] void fail(const std::string& what) const {
@@ -86,16 +88,15 @@ class ObjCheck {
   }
 
   void vertex(std::string_view line) {
-    plain_.bytes += 'v';
-    for (int i = 0; i < 3; ++i) {
+    Vec3 position;
+    for (double& x : position) {
       const std::string_view word = next_word(line);
       const auto number = number_of(word);
       const auto coordinate = number ? coordinate_of(*number) : std::nullopt;
       if (!coordinate) fail(fmt::format("\"{}\" is not a coordinate", word));
-      positions_.push_back(*coordinate);
-      fmt::format_to(std::back_inserter(plain_.bytes), " {}", *coordinate);
+      x = *coordinate;
     }
-    plain_.bytes += '\n';
+    builder_.vertex(position);
     ++vertices_so_far_;
   }
 
@@ -112,25 +113,23 @@ class ObjCheck {
     }
     const std::size_t count = corners_.size() - first;
     if (count < 3) fail(fmt::format("a face of {} corners", count));
-    if (plain_.part_names.empty()) begin_part("body");
+    if (part_names_.empty()) begin_part("body");
     faces_.push_back({first, count, line_, part_});
   }
 
   // Called once all vertices are read.
-  void write(const Face& face) {
+  void triangulate(const Face& face) {
     line_ = face.line;
     const std::span<const std::uint32_t> corners(corners_.data() + face.first, face.count);
     polygon_.clear();
-    for (const std::uint32_t v : corners)
-      polygon_.push_back({positions_[3 * v], positions_[3 * v + 1], positions_[3 * v + 2]});
+    for (const std::uint32_t v : corners) polygon_.push_back(builder_.vertices()[v]);
     const auto triangles = triangulate_polygon(polygon_);
     if (!triangles) fail(untriangulated_message(face.count));
     for (const auto& [i, j, k] : *triangles) {
       const std::uint32_t a = corners[i], b = corners[j], c = corners[k];
       if (a == b || b == c || c == a) continue;
-      fmt::format_to(std::back_inserter(plain_.bytes), "f {} {} {}\n", a + 1, b + 1, c + 1);
-      ++plain_.triangle_count;
-      plain_.triangle_part.push_back(face.part);
+      builder_.begin_part(part_names_[face.part]);
+      builder_.triangle(a, b, c);
     }
   }
 
@@ -144,31 +143,48 @@ class ObjCheck {
   }
 
   void begin_part(const std::string& name) {
-    auto& names = plain_.part_names;
-    const auto [place, is_new] = part_of_name_.try_emplace(name, names.size());
-    if (is_new && names.size() > 65000) fail("more than 65000 groups");
-    if (is_new) names.push_back(name);
-    part_ = static_cast<std::uint16_t>(place->second);
+    const auto [place, is_new] = part_of_name_.try_emplace(name, part_names_.size());
+    if (is_new && part_names_.size() > 65000) fail("more than 65000 groups");
+    if (is_new) part_names_.push_back(name);
+    part_ = place->second;
   }
 
   std::string_view rest_;
   const std::string& file_;
-  SanitisedPolygons plain_;
-  std::vector<float> positions_;
+  MeshBuilder builder_;
   std::vector<std::uint32_t> corners_;  // vertex indices of all faces
   std::vector<Face> faces_;
   std::vector<Vec3> polygon_;
   std::int64_t vertex_count_ = 0;
   std::int64_t vertices_so_far_ = 0;
   std::size_t line_ = 0;
+  std::vector<std::string> part_names_;  // in order of first appearance, groups without faces included
   std::unordered_map<std::string, std::size_t> part_of_name_;
-  std::uint16_t part_ = 0;
+  std::size_t part_ = 0;
 };
+
+// Three numbers in the fewest digits that read back as the same doubles; -0 becomes +0.
+void append_numbers(std::string& text, const Vec3& x) {
+  fmt::format_to(std::back_inserter(text), " {} {} {}\n", x.x() + 0.0, x.y() + 0.0, x.z() + 0.0);
+}
 
 }  // namespace
 
-SanitisedPolygons sanitised_obj(std::string_view bytes, const std::string& file) {
-  return ObjCheck(bytes, file).check();
+TriangleMesh read_obj(std::string_view bytes, const std::string& file) { return ObjReader(bytes, file).read(); }
+
+std::string obj_bytes(const TriangleMesh& mesh) {
+  std::string text = fmt::format("# {} vertices, {} faces\n", mesh.vertices.size(), mesh.triangles.size());
+  for (const Vec3& p : mesh.vertices) {
+    text += 'v';
+    append_numbers(text, p);
+  }
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const std::uint16_t part = mesh.triangle_part[t];
+    if (t == 0 || part != mesh.triangle_part[t - 1]) text += fmt::format("g {}\n", mesh.part_names[part]);
+    const auto& [a, b, c] = mesh.triangles[t];
+    fmt::format_to(std::back_inserter(text), "f {} {} {}\n", a + 1, b + 1, c + 1);
+  }
+  return text;
 }
 
 }  // namespace seaglint

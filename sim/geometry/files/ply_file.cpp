@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/geometry/files/ply_check.h"
+#include "sim/geometry/files/ply_file.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cstring>
 #include <span>
 
 #include "sim/core/process/error.h"
 #include "sim/core/text/words.h"
+#include "sim/geometry/files/coordinate.h"
 #include "sim/geometry/files/triangulate_polygon.h"
+#include "sim/geometry/mesh/mesh_builder.h"
 
 namespace seaglint {
 namespace {
@@ -66,14 +67,13 @@ double value_at(Number type, const char* bytes, bool swap) {
   return 0;
 }
 
-// Parses a PLY and rewrites it as a binary PLY of float x y z and triangles. OpenMesh's own reader does not terminate
-// at a missing end_header, does not check counts, and of binary files reads only float coordinates and uchar list
-// counts.
-class PlyCheck {
+// Parses a PLY. OpenMesh's own reader does not terminate at a missing end_header, does not check counts, and of binary
+// files reads only float coordinates and uchar list counts.
+class PlyReader {
  public:
-  PlyCheck(std::string_view bytes, const std::string& file) : rest_(bytes), file_(file) {}
+  PlyReader(std::string_view bytes, const std::string& file) : rest_(bytes), file_(file) {}
 
-  SanitisedPolygons check() {
+  TriangleMesh read() {
     header();
     for (const Element& element : elements_) {
       min_size(element);
@@ -93,7 +93,7 @@ class PlyCheck {
     std::size_t first = 0;
     for (std::size_t face = 0; face < corner_count_.size(); first += corner_count_[face++])
       split(face, {corners_.data() + first, corner_count_[face]});
-    return written();
+    return builder_.take();
   }
 
  private:
@@ -177,7 +177,7 @@ class PlyCheck {
     }
   }
 
-  double read(Number type) {
+  double number(Number type) {
     if (is_ascii_) {
       const std::string_view word = next_word(rest_);
       const auto number = number_of(word);
@@ -193,7 +193,7 @@ class PlyCheck {
   }
 
   std::uint64_t read_count(const Property& property) {
-    const double count = read(property.count);
+    const double count = number(property.count);
     if (!(count >= 0 && count <= static_cast<double>(rest_.size()) &&
           count == static_cast<double>(static_cast<std::uint64_t>(count)))) {
       fail(fmt::format("a list of {} entries with {} bytes left", count, rest_.size()));
@@ -203,7 +203,7 @@ class PlyCheck {
 
   void skip(const Property& property) {
     const std::uint64_t count = property.is_list ? read_count(property) : 1;
-    for (std::uint64_t i = 0; i < count; ++i) read(property.value);
+    for (std::uint64_t i = 0; i < count; ++i) number(property.value);
   }
 
   void vertices(const Element& element) {
@@ -217,19 +217,19 @@ class PlyCheck {
     vertex_count_ = element.count;
     if (vertex_count_ > 0x7fffffff) fail(fmt::format("{} vertices are too many", vertex_count_));
     for (std::uint64_t i = 0; i < element.count; ++i) {
-      std::array<float, 3> p{};
+      Vec3 p = Vec3::Zero();
       for (const Property& property : element.properties) {
         const int axis = property.is_list || property.name.size() != 1 ? -1 : property.name[0] - 'x';
         if (axis < 0 || axis > 2) {
           skip(property);
           continue;
         }
-        const double value = read(property.value);
+        const double value = number(property.value);
         const auto coordinate = coordinate_of(value);
         if (!coordinate) fail(fmt::format("vertex {} has the coordinate {}", i, value));
         p[axis] = *coordinate;
       }
-      positions_.append(reinterpret_cast<const char*>(p.data()), sizeof p);
+      builder_.vertex(p);
     }
   }
 
@@ -249,7 +249,7 @@ class PlyCheck {
         }
         const std::uint64_t count = read_count(property);
         for (std::uint64_t k = 0; k < count; ++k) {
-          const double index = read(property.value);
+          const double index = number(property.value);
           if (!(index >= 0 && index < 2147483648.0)) fail(fmt::format("face {} names vertex {}", i, index));
           corners_.push_back(static_cast<std::uint32_t>(index));
         }
@@ -262,33 +262,13 @@ class PlyCheck {
   // Called once all vertices are read.
   void split(std::size_t face, std::span<const std::uint32_t> corners) {
     polygon_.clear();
-    for (const std::uint32_t v : corners) {
-      std::array<float, 3> p;
-      std::memcpy(p.data(), positions_.data() + v * sizeof p, sizeof p);
-      polygon_.push_back({p[0], p[1], p[2]});
-    }
+    for (const std::uint32_t v : corners) polygon_.push_back(builder_.vertices()[v]);
     const auto triangles = triangulate_polygon(polygon_);
     if (!triangles) fail(fmt::format("face {}: {}", face, untriangulated_message(corners.size())));
     for (const auto& [i, j, k] : *triangles) {
       const std::uint32_t a = corners[i], b = corners[j], c = corners[k];
-      if (a != b && b != c && c != a) triangles_.insert(triangles_.end(), {a, b, c});
+      if (a != b && b != c && c != a) builder_.triangle(a, b, c);
     }
-  }
-
-  SanitisedPolygons written() const {
-    SanitisedPolygons plain;
-    plain.triangle_count = triangles_.size() / 3;
-    plain.bytes = fmt::format(
-        "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float "
-        "z\n"
-        "element face {}\nproperty list uchar uint vertex_indices\nend_header\n",
-        vertex_count_, plain.triangle_count);
-    plain.bytes += positions_;
-    for (std::size_t i = 0; i < triangles_.size(); i += 3) {
-      plain.bytes += '\3';
-      plain.bytes.append(reinterpret_cast<const char*>(&triangles_[i]), 12);
-    }
-    return plain;
   }
 
   std::string_view rest_;
@@ -297,17 +277,36 @@ class PlyCheck {
   bool swap_ = false;
   std::vector<Element> elements_;
   std::uint64_t vertex_count_ = 0;
-  std::string positions_;
   std::vector<std::uint32_t> corners_;       // of all faces
   std::vector<std::uint32_t> corner_count_;  // of each
   std::vector<Vec3> polygon_;
-  std::vector<std::uint32_t> triangles_;
+  MeshBuilder builder_;
 };
+
+template <typename T>
+void append_raw(std::string& bytes, T value) {
+  const auto raw = std::bit_cast<std::array<char, sizeof(T)>>(value);
+  bytes.append(raw.data(), raw.size());
+}
 
 }  // namespace
 
-SanitisedPolygons sanitised_ply(std::string_view bytes, const std::string& file) {
-  return PlyCheck(bytes, file).check();
+TriangleMesh read_ply(std::string_view bytes, const std::string& file) { return PlyReader(bytes, file).read(); }
+
+std::string ply_bytes(const TriangleMesh& mesh) {
+  static_assert(std::endian::native == std::endian::little);
+  std::string bytes = fmt::format(
+      "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty double x\nproperty double y\nproperty double "
+      "z\nelement face {}\nproperty list uchar uint vertex_indices\nend_header\n",
+      mesh.vertices.size(), mesh.triangles.size());
+  for (const Vec3& p : mesh.vertices) {
+    for (const double x : p) append_raw(bytes, x + 0.0);  // turns -0 into +0
+  }
+  for (const auto& triangle : mesh.triangles) {
+    append_raw(bytes, std::uint8_t{3});
+    for (const std::uint32_t v : triangle) append_raw(bytes, v);
+  }
+  return bytes;
 }
 
 }  // namespace seaglint

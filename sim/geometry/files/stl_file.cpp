@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/geometry/files/stl_check.h"
+#include "sim/geometry/files/stl_file.h"
 
 #include <fmt/format.h>
 
@@ -7,11 +7,13 @@
 #include <array>
 #include <cctype>
 #include <cstring>
-#include <unordered_map>
 
 #include "sim/core/process/error.h"
 #include "sim/core/text/utf8.h"
 #include "sim/core/text/words.h"
+#include "sim/geometry/files/coordinate.h"
+#include "sim/geometry/files/stl_soup.h"
+#include "sim/geometry/mesh/mesh_builder.h"
 
 namespace seaglint {
 namespace {
@@ -19,8 +21,10 @@ namespace {
 constexpr std::size_t kHeader = 84,
                       kFacet = 50;  // bytes: 80 of comment and the count; normal, three vertices, attribute
 
+constexpr std::size_t kMaxSolids = 65000;
+
 // Header, count, then facets of a normal and three vertices as little-endian float32; no trailing bytes.
-SanitisedPolygons check_binary(std::string bytes, const std::string& file) {
+TriangleMesh read_binary(std::string bytes, const std::string& file) {
   if (bytes.size() < kHeader)
     throw InputError(fmt::format("{}: {} bytes are no binary STL, which begins with 84", file, bytes.size()));
   std::uint32_t count = 0;
@@ -39,21 +43,18 @@ SanitisedPolygons check_binary(std::string bytes, const std::string& file) {
       std::memcpy(&value, at, 4);
       const auto coordinate = coordinate_of(value);
       if (!coordinate) throw InputError(fmt::format("{}: triangle {} has the coordinate {}", file, t, value));
-      std::memcpy(at, &*coordinate, 4);
+      value = static_cast<float>(*coordinate) + 0.0f;  // turns -0 into +0
+      std::memcpy(at, &value, 4);
     }
   }
-  SanitisedPolygons plain;
-  plain.bytes = std::move(bytes);
-  plain.binary = true;
-  plain.triangle_count = count;
-  return plain;
+  return read_stl_soup(bytes, count, file);
 }
 
 class AsciiStl {
  public:
   AsciiStl(std::string_view bytes, const std::string& file) : bytes_(bytes), rest_(bytes), file_(file) {}
 
-  SanitisedPolygons check() {
+  TriangleMesh read() {
     for (std::string word = lower_word(); !word.empty(); word = lower_word()) {
       if (word == "solid") {
         begin_solid();
@@ -65,7 +66,7 @@ class AsciiStl {
         fail(fmt::format("\"{}\" where facet or endsolid belongs", word.substr(0, 40)));
       }
     }
-    return std::move(plain_);
+    return builder_.take();
   }
 
  private:
@@ -93,15 +94,10 @@ class AsciiStl {
       if (!name.empty()) name += ' ';
       name += word;
     }
-    name = name.empty() ? "body" : utf8_of(name);
-    auto& names = plain_.part_names;
-    const auto [place, is_new] = part_of_name_.try_emplace(name, names.size());
-    if (is_new && names.size() > 65000) fail("more than 65000 solids");
-    if (is_new) names.push_back(name);
-    part_ = static_cast<std::uint16_t>(place->second);
+    solid_ = name.empty() ? "body" : utf8_of(name);
   }
 
-  float coordinate() {
+  double coordinate() {
     const std::string_view word = next_word(rest_);
     const auto number = number_of(word);
     const auto value = number ? coordinate_of(*number) : std::nullopt;
@@ -115,32 +111,31 @@ class AsciiStl {
     for (int i = 0; i < 3; ++i) next_word(rest_);
     expect("outer");
     expect("loop");
-    std::array<std::array<float, 3>, 3> corners{};
-    for (auto& corner : corners) {
+    std::array<Vec3, 3> corners;
+    for (Vec3& corner : corners) {
       expect("vertex");
-      for (float& value : corner) value = coordinate();
+      for (double& value : corner) value = coordinate();
     }
     expect("endloop");
     expect("endfacet");
     if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) return;
-    plain_.bytes += "outer loop\n";
-    for (const auto& p : corners)
-      fmt::format_to(std::back_inserter(plain_.bytes), "vertex {} {} {}\n", p[0], p[1], p[2]);
-    ++plain_.triangle_count;
-    plain_.triangle_part.push_back(part_);
+    builder_.begin_part(solid_);
+    if (builder_.part_count() > kMaxSolids) fail(fmt::format("more than {} solids", kMaxSolids));
+    const std::uint32_t a = builder_.vertex(corners[0]), b = builder_.vertex(corners[1]),
+                        c = builder_.vertex(corners[2]);
+    builder_.triangle(a, b, c);
   }
 
   std::string_view bytes_;
   std::string_view rest_;
   const std::string& file_;
-  SanitisedPolygons plain_;
-  std::unordered_map<std::string, std::size_t> part_of_name_;
-  std::uint16_t part_ = 0;
+  MeshBuilder builder_;
+  std::string solid_ = "body";
 };
 
 }  // namespace
 
-SanitisedPolygons sanitised_stl(std::string bytes, const std::string& file) {
+TriangleMesh read_stl(std::string bytes, const std::string& file) {
   // Binary files may also begin with "solid": then their size decides.
   std::uint32_t count = 0;
   if (bytes.size() >= kHeader) std::memcpy(&count, bytes.data() + 80, 4);
@@ -148,8 +143,8 @@ SanitisedPolygons sanitised_stl(std::string bytes, const std::string& file) {
   std::string_view start = bytes;
   const std::string_view word = next_word(start);
   const bool says_solid = word.size() == 5 && (word == "solid" || word == "SOLID" || word == "Solid");
-  if (has_binary_size || !says_solid) return check_binary(std::move(bytes), file);
-  return AsciiStl(bytes, file).check();
+  if (has_binary_size || !says_solid) return read_binary(std::move(bytes), file);
+  return AsciiStl(bytes, file).read();
 }
 
 }  // namespace seaglint

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// OBJ files; used by mesh_io. OpenMesh 9 rounds their numbers to float32, so they are read here.
+
+#include <string>
+#include <string_view>
+
+#include "sim/geometry/mesh/triangle_mesh.h"
+
+namespace seaglint {
+
+// Positions are the doubles that the text states. Polygons are triangulated (triangulate_polygon); triangles with two
+// equal vertices are dropped. Throws InputError with file, line or byte, and cause.
+TriangleMesh read_obj(std::string_view bytes, const std::string& file);
+
+// Positions with the digits that restore the doubles, a group per run of triangles of one part.
+std::string obj_bytes(const TriangleMesh& mesh);
+
+}  // namespace seaglint
