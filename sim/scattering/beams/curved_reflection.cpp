@@ -3,6 +3,8 @@
 
 #include <limits>
 
+#include "sim/scattering/diffraction/tolerances.h"
+
 namespace seaglint {
 
 namespace {
@@ -40,11 +42,11 @@ ParaxialBundle leaving_rays(const BeamSegment& segment, double scale) {
 }
 
 // Largest displacement of a ray at a corner of the cross-section, in halves of the width along that displacement.
-double relative_displacement(const PolygonSet& cross_section, const ParaxialBundle& bundle) {
+double relative_displacement(const PolygonSet& cross_section, const ArrivingRays& rays) {
   double largest = 0;
   for (const MovingPolygon& polygon : cross_section.polygons()) {
     for (const MovingVertex& vertex : polygon) {
-      const Vec2 moved = bundle.position_map.at(vertex.p) - vertex.p;
+      const Vec2 moved = rays.position(vertex.p) - vertex.p;
       const double length = moved.norm();
       if (length == 0) continue;
       double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -62,16 +64,18 @@ double relative_displacement(const PolygonSet& cross_section, const ParaxialBund
 
 // Largest displacement of a ray at a corner of the illuminated polygons towards a side of the panel, relative to the
 // corner's distance from that side: at most 1 where all rays stay on the panel.
-double relative_to_panel(const CandidatePanel& candidate, const ParaxialBundle& bundle) {
+double relative_to_panel(const CandidatePanel& candidate, const ArrivingRays& rays) {
   const MovingPolygon& panel = candidate.projection.polygon;
   double largest = 0;
   for (const MovingPolygon& polygon : candidate.illuminated.polygons()) {
     for (const MovingVertex& vertex : polygon) {
-      const Vec2 moved = bundle.position_map.at(vertex.p) - vertex.p;
+      const Vec2 moved = rays.position(vertex.p) - vertex.p;
       for (std::size_t i = 0; i < panel.size(); ++i) {
         const Vec2 &a = panel[i].p, side = panel[(i + 1) % panel.size()].p - a;
-        const Vec2 outward(side.y(), -side.x());
-        const double out = outward.dot(moved), distance = -outward.dot(vertex.p - a);
+        const Vec2 outward = Vec2(side.y(), -side.x()).normalized();
+        // Rays that have not left the reflector's own plane, with which the panel ends, are displaced by rounding
+        // alone.
+        const double out = outward.dot(moved) - kCoincident, distance = -outward.dot(vertex.p - a);
         if (out > 0)
           largest = std::max(largest, distance > 0 ? out / distance : std::numeric_limits<double>::infinity());
       }
@@ -95,12 +99,14 @@ ArrivingRays arriving_rays(const BeamSegment& segment, const CandidatePanel& can
   ArrivingRays rays{segment.ray_bundle, segment.curvature_scale};
   if (!segment.has_curved_reflection) return rays;
   const double distance = distance_to(segment, candidate);
+  rays.chief = chief_ray(candidate);
+  rays.path_slope = segment.source_plane.slope - candidate.projection.plane.slope;
   rays.bundle.propagate(distance);
   // The displacement is nearly proportional to the scale; the repetitions correct for its higher orders.
   constexpr int kRepetitions = 3;
   for (int i = 0; i < kRepetitions; ++i) {
-    double excess = relative_displacement(*segment.cross_section, rays.bundle);
-    if (excess > 1) excess = std::min(excess, relative_to_panel(candidate, rays.bundle));
+    double excess = relative_displacement(*segment.cross_section, rays);
+    if (excess > 1) excess = std::min(excess, relative_to_panel(candidate, rays));
     excess = std::max(excess, relative_tilt(*segment.cross_section, rays.bundle));
     if (excess <= 1) break;
     rays.scale /= excess;

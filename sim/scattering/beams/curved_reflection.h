@@ -21,10 +21,35 @@ struct CurvatureContext {
   const RadarBasis& transmit;  // basis of the projection plane
 };
 
-// Rays of a segment at a panel, and the factor 0 < scale <= 1 of the curvature of all reflectors on their path.
+// Rays of a segment on a panel, which the rays of one bundle reach after paths of different lengths. `bundle`: at the
+// path length of the chief ray.
 struct ArrivingRays {
   ParaxialBundle bundle;
-  double scale = 1;
+  double scale = 1;                // factor 0 < x <= 1 of the curvature of all reflectors on the path
+  Vec2 chief = Vec2::Zero();       // of the projection plane, m
+  Vec2 path_slope = Vec2::Zero();  // gradient of the path length to the panel
+
+  // Path of the ray p beyond that of the chief ray, m.
+  double further_path(const Vec2& p) const { return path_slope.dot(p - chief); }
+  // Position of the ray p on the panel, in the projection plane, m.
+  Vec2 position(const Vec2& p) const {
+    return bundle.position_map.at(p) + further_path(p) * bundle.direction_map.at(p);
+  }
+  // Derivatives by p of the position across the ray, at one length of the path, and of that on the panel.
+  Mat2 spreading(const Vec2& p) const {
+    return bundle.position_map.matrix + further_path(p) * bundle.direction_map.matrix;
+  }
+  Mat2 panel_spreading(const Vec2& p) const {
+    return spreading(p) + bundle.direction_map.at(p) * path_slope.transpose();
+  }
+  // psi of the further path, - further_path |tilt|^2 / 2, m, and its gradient.
+  double further_phase(const Vec2& p) const {
+    return -0.5 * further_path(p) * bundle.direction_map.at(p).squaredNorm();
+  }
+  Vec2 further_phase_slope(const Vec2& p) const {
+    const Vec2 tilt = bundle.direction_map.at(p);
+    return -0.5 * tilt.squaredNorm() * path_slope - further_path(p) * (bundle.direction_map.matrix.transpose() * tilt);
+  }
 };
 
 // The segment's rays at the candidate, of reflectors whose curvature is reduced until the bundle is paraxial: no ray at

@@ -21,6 +21,11 @@ Quadratic compose(const Quadratic& q, const Affine& f) {
   return {q.at(f.offset), f.matrix.transpose() * q.slope(f.offset), f.matrix.transpose() * q.hessian * f.matrix};
 }
 
+Quadratic product(const Quadratic& a, const Quadratic& b) {
+  const Mat2 outer = a.gradient * b.gradient.transpose();
+  return {a.value * b.value, a.value * b.gradient + b.value * a.gradient, outer + outer.transpose()};
+}
+
 Quadratic squared(const Affine& f) {
   return {f.offset.squaredNorm(), 2 * f.matrix.transpose() * f.offset, 2 * f.matrix.transpose() * f.matrix};
 }

@@ -33,6 +33,8 @@ struct Affine {
 
 // q(f(p)) as a function of p.
 Quadratic compose(const Quadratic& q, const Affine& f);
+// Product of two linear functions, of which value and gradient are used.
+Quadratic product(const Quadratic& a, const Quadratic& b);
 // |f(p)|^2
 Quadratic squared(const Affine& f);
 

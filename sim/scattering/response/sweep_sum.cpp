@@ -36,10 +36,7 @@ void SweepSum::add(std::span<const Footprint> footprints) {
         continue;
       }
       std::array<std::array<Complex, 4>, kBandNodes> patterns;
-      const Complex factor = footprint.curvature ? footprint.curvature->divergence_factor : 1.0;
-      for (std::size_t n = 0; n < band.nodes().size(); ++n) {
-        for (int i = 0; i < 4; ++i) patterns[n][i] = factor * footprint.patterns[first_node + n][i];
-      }
+      for (std::size_t n = 0; n < band.nodes().size(); ++n) patterns[n] = footprint.patterns[first_node + n];
       add_points(patterns, bands_[b]);
     }
   }

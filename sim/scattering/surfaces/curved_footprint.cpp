@@ -8,23 +8,18 @@
 namespace seaglint {
 namespace {
 
-// Triangle of a flat panel's first facet, enlarged until it encloses the whole panel. It depends on the panel alone:
-// adjoining footprints on the panel are divided equally, and their contour terms cancel.
-std::array<Vec2, 3> around_panel(const CurvatureContext& on, const BeamSegment& segment, std::span<const Vec3> outline,
-                                 const std::array<Vec2, 3>& first) {
-  if (outline.size() == 3) return first;
-  const Barycentric lambda(first);
-  std::array<double, 3> min{};
-  for (const Vec3& x : outline) {
-    const Vec2 p = projected(on, segment, x);
-    for (int i = 0; i < 3; ++i) min[i] = std::min(min[i], lambda.at(i, p));
+// Triangle around the cross-section of a beam. It depends on the beam alone: adjoining footprints of the beam are
+// divided equally, and their contour terms cancel.
+std::array<Vec2, 3> around_beam(const BeamSegment& segment) {
+  Vec2 low = Vec2::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (const MovingPolygon& polygon : segment.cross_section->polygons()) {
+    for (const MovingVertex& vertex : polygon) {
+      low = low.cwiseMin(vertex.p);
+      high = high.cwiseMax(vertex.p);
+    }
   }
-  std::array<Vec2, 3> corner;
-  for (int i = 0; i < 3; ++i) {
-    const int j = (i + 1) % 3, l = (i + 2) % 3;
-    corner[i] = (1 - min[j] - min[l]) * first[i] + min[j] * first[j] + min[l] * first[l];
-  }
-  return corner;
+  const Vec2 size = high - low;
+  return {low, Vec2(low.x() + 2 * size.x(), low.y()), Vec2(low.x(), low.y() + 2 * size.y())};
 }
 
 // Cosine of incidence at a normal of the smooth surface; kept positive beyond the shadow boundary, where the current is
@@ -35,7 +30,15 @@ double smooth_cosine(const BeamSegment& segment, const Facet& flat, const Vec3& 
 
 }  // namespace
 
-std::shared_ptr<const CurvedFootprint> make_curved_footprint(const CurvatureContext& on, const Panels& panels,
+Complex CurvedFootprint::divergence_factor(const Vec2& p) const {
+  if (!has_bundle) return 1;
+  const Mat2 spreading = rays.spreading(p);
+  const double widened = spreading.determinant();
+  const Complex caustics = widened < 0 ? Complex(0, 1) : spreading.trace() < 0 ? Complex(-1) : Complex(1);
+  return caustics * std::abs(rays.panel_spreading(p).determinant()) / std::sqrt(std::max(std::abs(widened), 1e-12));
+}
+
+std::shared_ptr<const CurvedFootprint> make_curved_footprint(const CurvatureContext& on, const Panels&,
                                                              const BistaticGeometry& geometry,
                                                              const BeamSegment& segment,
                                                              const CandidatePanel& candidate,
@@ -44,9 +47,10 @@ std::shared_ptr<const CurvedFootprint> make_curved_footprint(const CurvatureCont
   const int facet = candidate.projection.facet;
   const CurvedFacet* curved = on.surface.curved(facet);
   if (!curved && !segment.has_curved_reflection) return nullptr;
-  const ParaxialBundle bundle = arriving_rays(segment, candidate).bundle;
+  const ArrivingRays rays = arriving_rays(segment, candidate);
+  const ParaxialBundle& bundle = rays.bundle;
   auto corner = projected(on, segment, facet);
-  if (!curved) corner = around_panel(on, segment, panels.outline(facet), corner);
+  if (!curved) corner = around_beam(segment);
   const Barycentric lambda(corner);
 
   // The surface is displaced by z / cos(incidence) along the ray, on both paths.
@@ -58,20 +62,22 @@ std::shared_ptr<const CurvedFootprint> make_curved_footprint(const CurvatureCont
     standing = edge_midpoint_quadratic(
         lambda, edge_sagittas(on, segment, facet, [&](double cosine) { return both_paths / cosine; }));
 
-  CurvedFootprint c{corner, lambda, bundle.phase, {}, {}, {}, {}, {}, {}};
+  CurvedFootprint c{corner, lambda, bundle.phase, {}, {}, {}, segment.has_curved_reflection, !curved, rays, {}, {}};
   c.phase += compose({0, footprint.w, Mat2::Zero()},
                      {bundle.position_map.offset, bundle.position_map.matrix - Mat2::Identity()});
   c.phase += compose(standing, bundle.position_map);
-  // A bundle widened by the determinant illuminates a larger area with a weaker field: amplitude times the square root.
-  // The phase advances by 90 deg behind one caustic and by 180 deg behind two.
-  const double widened = bundle.position_map.matrix.determinant();
-  c.divergence_factor = std::sqrt(std::abs(widened)) * (widened < 0                              ? Complex(0, 1)
-                                                        : bundle.position_map.matrix.trace() < 0 ? Complex(-1)
-                                                                                                 : Complex(1));
+  if (c.has_bundle) {
+    // The further path moves the rays on the panel by its length times their tilt.
+    c.phase += product({-rays.path_slope.dot(rays.chief), rays.path_slope, Mat2::Zero()},
+                       {footprint.w.dot(bundle.direction_map.offset),
+                        bundle.direction_map.matrix.transpose() * footprint.w, Mat2::Zero()});
+  }
   const double side = on.facets[facet].normal.dot(segment.direction) < 0 ? 1 : -1;
   for (int i = 0; i < 3; ++i) {
     c.incident_shadow_distance[i] = c.receiver_shadow_distance[i] = std::numeric_limits<double>::infinity();
-    c.w[i] = c.slope[i] = footprint.w + c.phase.slope(corner[i]);
+    c.w[i] = footprint.w + c.phase.slope(corner[i]);
+    if (c.has_bundle) c.w[i] += rays.further_phase_slope(corner[i]);
+    c.slope[i] = c.w[i];
     c.pattern[i] = footprint.pattern;
     if (curved) {
       const int vertex = curved->vertex[i];

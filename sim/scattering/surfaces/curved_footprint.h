@@ -27,10 +27,17 @@ struct CurvedFootprint {
   std::array<Vec2, 3> slope;
   // as Footprint::pattern, with the smooth normals where all surfaces are perfect conductors
   std::array<std::array<Complex, 4>, 3> pattern;
-  Complex divergence_factor = 1;  // amplitude factor of rays reflected by curved reflectors
+  bool has_bundle = false;  // a reflector before the panel is curved
+  bool flat_panel = false;  // the panel is not: psi and its gradient hold at every point
+  ArrivingRays rays;        // where has_bundle
   // distances from the shadow boundaries of the incident wave and of the receiver, in units of m^(1/3); see
   // kTransitionZoneWidth
   std::array<double, 3> incident_shadow_distance, receiver_shadow_distance;
+
+  // Amplitude factor of the ray p of a bundle that curved reflectors have widened: the area that it illuminates on the
+  // panel, relative to that of the flat bundle, over the square root of the widening across the ray; +90 deg behind one
+  // caustic, 180 deg behind two.
+  Complex divergence_factor(const Vec2& p) const;
 };
 
 // Curvature terms of a footprint whose flat phase and pattern are set; null where the facet and all reflectors are

@@ -15,6 +15,10 @@ namespace {
 // Facets whose taper is below this at all vertices are omitted.
 constexpr double kNegligibleTaper = 2e-3;
 
+// Largest error of linear interpolation of a function with second derivative 1 between the vertices of a triangle and
+// between the ends of a side, of unit length (circle of radius 1 / sqrt(3)).
+constexpr double kTriangleError = 1.0 / 6, kSideError = 1.0 / 8;
+
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 double shadow_taper(double distance, double k) {
@@ -42,14 +46,12 @@ class CurvedDecomposer {
       const int j = (i + 1) % 3;
       const Vec2 along = c_.corner[j] - c_.corner[i];
       const double max = 0.25 * std::abs(along.dot(c_.phase.hessian * along));
+      if (c_.flat_panel) continue;
       skew_[i] = std::clamp(0.5 * (c_.w[i] + c_.w[j]).dot(along) - (psi(c_.corner[j]) - psi(c_.corner[i])), -max, max);
     }
     for (int i = 0; i < 3; ++i) slope_[i] = along_surface_ * c_.slope[i];
-    for (int i = 0; i < 3; ++i) {
-      const int j = (i + 1) % 3;
-      curvature_ =
-          std::max(curvature_, (slope_[j] - slope_[i]).norm() / footprint.surface_length(c_.corner[j] - c_.corner[i]));
-    }
+    if (c_.has_bundle)
+      slope_change_ = 3 * c_.rays.path_slope.norm() * c_.rays.bundle.direction_map.matrix.squaredNorm();
   }
 
   void run() {
@@ -68,6 +70,8 @@ class CurvedDecomposer {
   // both ends.
   double psi(const Vec2& p, const BarycentricWeights& of_p) const {
     double sum = footprint_.psi(p) + c_.phase.at(p);
+    if (c_.has_bundle) sum += c_.rays.further_phase(p);
+    if (c_.flat_panel) return sum;
     for (int i = 0; i < 3; ++i) {
       const double a = of_p[i], b = of_p[(i + 1) % 3];
       sum += skew_[i] * a * b * (a - b);
@@ -78,6 +82,8 @@ class CurvedDecomposer {
   Vec2 psi_slope(const Vec2& p) const {
     const BarycentricWeights of_p = barycentric(p);
     Vec2 sum = footprint_.w + c_.phase.slope(p);
+    if (c_.has_bundle) sum += c_.rays.further_phase_slope(p);
+    if (c_.flat_panel) return sum;
     for (int i = 0; i < 3; ++i) {
       const int j = (i + 1) % 3;
       const double a = of_p[i], b = of_p[j];
@@ -91,16 +97,26 @@ class CurvedDecomposer {
     return of_p[0] * corner[0] + of_p[1] * corner[1] + of_p[2] * corner[2];
   }
 
+  double contour_ratio() const { return c_.flat_panel ? kBundleContourRatio : kContourRatio; }
+
+  // Gradient of psi with the smooth normals, continuous between facets.
+  Vec2 smooth_slope(const Vec2& p, const BarycentricWeights& of_p) const {
+    return c_.flat_panel ? psi_slope(p) : between(c_.w, of_p);
+  }
+
   // Vertex of a triangle of the facet.
   struct Corner {
     Vec2 p, w;   // m; gradient of psi
     Vec2 slope;  // of psi along the surface
   };
-  Corner corner_at(const Vec2& p) const { return {p, psi_slope(p), between(slope_, barycentric(p))}; }
+  Corner corner_at(const Vec2& p) const {
+    const Vec2 w = psi_slope(p);
+    return {p, w, c_.flat_panel ? Vec2(along_surface_ * w) : between(slope_, barycentric(p))};
+  }
 
   // Decomposes the illuminated polygon inside a triangle of the facet; the triangle determines the form.
   void part(const MovingPolygon& polygon, const std::array<Corner, 3>& triangle) {
-    double size = 0, largest = 0;
+    double size = 0, largest = 0, curvature = 0;  // change of the slope along the surface, 1/m
     int longest = 0;
     for (int i = 0; i < 3; ++i) {
       const int j = (i + 1) % 3;
@@ -109,18 +125,20 @@ class CurvedDecomposer {
       const double run_i = triangle[i].w.dot(along), run_j = triangle[j].w.dot(along);
       const double run = std::max({std::abs(run_i), std::abs(run_j), kMaxAmplitudeError * min_slope_ * length});
       size = std::max(size, length);
+      curvature = std::max(curvature, (triangle[j].slope - triangle[i].slope).norm() / length);
       if (run > largest) {
         largest = run;
         longest = i;
       }
     }
-    // The slope is linear over the triangle: at least that at the centre less the largest difference from it.
+    // The slope is linear over the triangle, but for the further path: at least that at the centre less the largest
+    // difference from it and less the error of linear interpolation.
     const Vec2 mean = (triangle[0].slope + triangle[1].slope + triangle[2].slope) / 3;
     double difference = 0;
     for (const Corner& corner : triangle) difference = std::max(difference, (corner.slope - mean).squaredNorm());
-    const double min = mean.norm() - std::sqrt(difference);
+    const double min = mean.norm() - std::sqrt(difference) - kTriangleError * slope_change_ * size * size;
     const double k = band_.form().centre();
-    if (min > min_slope_ && k * min * size / 2 > kMaxHalfPhase && k * min * min > kContourRatio * curvature_) {
+    if (min > min_slope_ && k * min * size / 2 > kMaxHalfPhase && k * min * min > contour_ratio() * curvature) {
       contour(polygon);
       return;
     }
@@ -174,10 +192,11 @@ class CurvedDecomposer {
         add(kWeightFar, (1 - 2 * kFar) * x + kFar * (y + z));
       }
     }
+    const Complex spreading = c_.divergence_factor(c);
     out_.push_back({at_nodes([&](double k) {
                       const double x = k * k;
-                      return Complex(moment[0] - x * (moment[2] - x * (moment[4] - x * moment[6])),
-                                     k * (moment[1] - x * (moment[3] - x * (moment[5] - x * moment[7]))));
+                      return spreading * Complex(moment[0] - x * (moment[2] - x * (moment[4] - x * moment[6])),
+                                                 k * (moment[1] - x * (moment[3] - x * (moment[5] - x * moment[7]))));
                     }),
                     psi_c, c, 0, 0});
   }
@@ -191,7 +210,7 @@ class CurvedDecomposer {
     // Times k.
     const auto flux = [&](const Vec2& p, const Vec2& along) -> Complex {
       const BarycentricWeights of_p = barycentric(p);
-      const Vec2 w = between(c_.w, of_p);
+      const Vec2 w = smooth_slope(p, of_p);
       return between(fade_, of_p) * cross(w, along) / (Complex(0, 1) * w.squaredNorm());
     };
     for (std::size_t i = 0; i < n; ++i) {
@@ -206,9 +225,11 @@ class CurvedDecomposer {
       const auto run = [&](double x) { return psi_slope(a.p + x * along).dot(along); };  // d psi / dx
       // Where psi varies fast enough a part of the side is replaced by its end points; those inside the side cancel.
       const auto part_of_edge = [&](const auto& self, double from, double to, double run_from, double run_to) -> void {
-        const double min = run_from * run_to > 0 ? std::min(std::abs(run_from), std::abs(run_to)) : 0, step = to - from;
+        const double step = to - from;
+        const double dip = kSideError * slope_change_ * length * std::pow(length * step, 2);
+        const double min = run_from * run_to > 0 ? std::min(std::abs(run_from), std::abs(run_to)) - dip : 0;
         if (min > min_slope_ * length && k_form * min * step / 2 > kMaxHalfPhase &&
-            k_form * min * min * step > kContourRatio * std::abs(run_to - run_from)) {
+            k_form * min * min * step > contour_ratio() * std::abs(run_to - run_from)) {
           const Complex first = -flux(a.p + from * along, along) / Complex(0, run_from);
           const Complex last = flux(a.p + to * along, along) / Complex(0, run_to);
           if (from == 0)
@@ -257,10 +278,12 @@ class CurvedDecomposer {
   // A term at a point that slides with a vertex.
   void slide(const BandValues& integral, const MovingVertex& vertex) {
     const BarycentricWeights of_p = barycentric(vertex.p);
-    const Vec2 w = between(c_.w, of_p);
+    const Vec2 w = smooth_slope(vertex.p, of_p);
     const double z = footprint_.plane.at(vertex.p);
     out_.push_back(
         {integral, psi(vertex.p, of_p), vertex.p, w.dot(vertex.d1 + Vec2(z, 0)), w.dot(vertex.d2 + Vec2(0, z))});
+    const Complex spreading = c_.divergence_factor(vertex.p);
+    for (Complex& value : out_.back().integral) value *= spreading;
   }
 
   const Footprint& footprint_;
@@ -271,8 +294,8 @@ class CurvedDecomposer {
   std::vector<CurvedContribution>& out_;
   std::array<double, 3> fade_;
   Mat2 along_surface_;
+  double slope_change_ = 0;    // bound of the second derivative of the slope of psi, by the further path, 1/m^2
   std::array<Vec2, 3> slope_;  // of psi along the surface, at the vertices of the facet
-  double curvature_ = 0;       // change of that slope, 1/m
 };
 
 }  // namespace
@@ -286,14 +309,11 @@ void curved_contributions(const Footprint& footprint, const FrequencyBand& band,
 
 std::array<Complex, 4> pattern_at(const Footprint& footprint, const Vec2& p, const std::array<Complex, 4>& flat) {
   const CurvedFootprint& curvature = *footprint.curvature;
+  if (!footprint.patterns.empty()) return flat;
   std::array<Complex, 4> pattern{};
-  if (!footprint.patterns.empty()) {
-    for (int q = 0; q < 4; ++q) pattern[q] = curvature.divergence_factor * flat[q];
-    return pattern;
-  }
   for (int i = 0; i < 3; ++i) {
-    const Complex factor = curvature.divergence_factor * curvature.lambda.at(i, p);
-    for (int q = 0; q < 4; ++q) pattern[q] += factor * curvature.pattern[i][q];
+    const double weight = curvature.lambda.at(i, p);
+    for (int q = 0; q < 4; ++q) pattern[q] += weight * curvature.pattern[i][q];
   }
   return pattern;
 }
