@@ -3,12 +3,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace seaglint {
 namespace {
 
-// Distance from the plane, relative to the largest coordinate of the mesh, below which a vertex counts as in it:
-// sixteen roundings to float32, the precision of files.
+// Distance from the plane below which a vertex counts as in it, relative to the largest height above the origin or half
+// the longest side of the mesh: sixteen roundings to float32, the precision of files.
 constexpr double kInSurface = 1e-6;
 
 }  // namespace
@@ -20,7 +21,8 @@ WaterlineCut cut_at_waterline(const TriangleMesh& mesh, double height) {
   cut.mesh.triangle_part.clear();
   cut.mesh.triangle_material.clear();
   const Bounds box = bounds(mesh);
-  const double margin = kInSurface * std::max(box.lower.cwiseAbs().maxCoeff(), box.upper.cwiseAbs().maxCoeff());
+  const double margin = kInSurface * std::max({std::abs(box.lower.z()), std::abs(box.upper.z()),
+                                               0.5 * (box.upper - box.lower).maxCoeff()});
   const auto above = [&](std::uint32_t v) { return cut.mesh.vertices[v].z() > height + margin; };
   // Interpolated from the lower vertex, so that both triangles of an edge get the same point; the vertex itself where
   // it is in the plane.

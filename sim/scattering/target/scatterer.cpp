@@ -49,6 +49,7 @@ Scatterer::Scatterer(const TriangleMesh& mesh, std::vector<MaterialSpec> materia
       panels_(facets_, surface_),
       edges_(find_sharp_edges(facets_, crease_rad > 0 ? crease_rad : radians(kDefaultCreaseDeg), sheet_thickness_)),
       tree_(facets_, panels_),
+      bodies_(body_sizes(facets_, tree_)),
       materials_(std::move(materials)) {
   for (const Facet& facet : facets_) {
     SEAGLINT_CHECK(materials_.empty() || facet.material < materials_.size(),
