@@ -32,6 +32,12 @@ Shape shape_at(const TriangleMesh& mesh, const Corner& at) {
   return {a, b, a.cross(b).norm() / std::max({a.norm(), b.norm(), (last - next).norm()})};
 }
 
+double longest_side(const TriangleMesh& mesh, std::uint32_t triangle) {
+  const auto& [a, b, c] = mesh.triangles[triangle];
+  const auto length = [&](std::uint32_t p, std::uint32_t q) { return (mesh.vertices[q] - mesh.vertices[p]).norm(); };
+  return std::max({length(a, b), length(b, c), length(c, a)});
+}
+
 double weight(const Shape& shape, bool alike) {
   const double twice_area = shape.a.cross(shape.b).norm();
   return alike ? twice_area / (shape.a.squaredNorm() * shape.b.squaredNorm())
@@ -51,7 +57,7 @@ Vec3 mean_normal(const TriangleMesh& mesh, const std::vector<Vec3>& normal, cons
 
 }  // namespace
 
-std::vector<std::array<Vec3, 3>> crease_normals(const TriangleMesh& mesh, double crease_rad) {
+std::vector<std::array<Vec3, 3>> crease_normals(const TriangleMesh& mesh, double crease_rad, double negligible_m) {
   const TriangleMesh joined = welded(mesh);
   const Topology topology = topology_of(joined);
   const double cos_crease = std::cos(crease_rad);
@@ -88,6 +94,10 @@ std::vector<std::array<Vec3, 3>> crease_normals(const TriangleMesh& mesh, double
       }
       if (fan.size() == 1) continue;
       const Vec3 mean = mean_normal(joined, normal, fan);
+      const auto is_flat = [&](const Corner& at) {
+        return (mean - normal[at.triangle]).norm() * longest_side(joined, at.triangle) / 8 <= negligible_m;
+      };
+      if (std::ranges::all_of(fan, is_flat)) continue;
       for (const auto& [triangle, corner] : fan) found[triangle][corner] = mean;
     }
   }

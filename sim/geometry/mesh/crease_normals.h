@@ -14,7 +14,9 @@ namespace seaglint {
 // crease_rad (0 <= x <= pi): the weighted mean over the fan of triangles so connected at a vertex. Triangles of similar
 // width (within a factor of 2) have the weight sin(angle) / (product of both sides), exact on a sphere (N. Max, Journal
 // of Graphics Tools 4, 1999, 1-6), others angle times width, which keeps a large flat face beside the narrow strips of
-// a fillet flat to within their sagitta. Zero where the fan is one triangle. Vertices are identified by position.
-std::vector<std::array<Vec3, 3>> crease_normals(const TriangleMesh& mesh, double crease_rad);
+// a fillet flat to within their sagitta. Zero where the fan is flat: one triangle, or the surface rises over none of
+// its triangles by more than negligible_m, the deviation of the normal times the longest side / 8. Vertices are
+// identified by position.
+std::vector<std::array<Vec3, 3>> crease_normals(const TriangleMesh& mesh, double crease_rad, double negligible_m = 0);
 
 }  // namespace seaglint
