@@ -157,7 +157,7 @@ void RcsArguments::add_to(CommandOptions& command) {
       .show_default();
   command
       .add_option("--min-patch-m", request.min_patch_m,
-                  "Side of the smallest illuminated patch kept; 0 = 0.7e-4 of the target radius, the coarsest")
+                  "Side of the smallest illuminated patch kept; 0 = 0.7e-4 of the radius of each body, the coarsest")
       .number_within(0.0, 1e6);
   command
       .add_option(

@@ -238,6 +238,18 @@ class Checker {
     if (count < 3) fail(fmt::format("{}: {} {} make no triangle", at, count, what));
   }
 
+  // True where NORMAL is an accessor of VEC3 of float with data, one per position. Any other is left out: normals never
+  // refuse a mesh.
+  bool has_normals(const Json& attributes, std::uint64_t position) const {
+    const auto found = attributes.find("NORMAL");
+    if (found == attributes.end() || !found->is_number_unsigned() || found->get<std::uint64_t>() >= length("accessors"))
+      return false;
+    const Json &a = root_["accessors"][found->get<std::uint64_t>()], &positions = root_["accessors"][position];
+    return a.contains("bufferView") && !a.contains("sparse") && text(a, "type") == "VEC3" &&
+           whole(a, "componentType", "NORMAL", 0) == 5126 &&
+           whole(a, "count", "NORMAL", 0) == whole(positions, "count", "POSITION", 0);
+  }
+
   Json primitive(const Json& p, const std::string& at) const {
     const std::uint64_t mode = whole(p, "mode", at, 4);
     if (mode > 6) fail(fmt::format("{}.mode = {} is unknown", at, mode));
@@ -253,6 +265,7 @@ class Checker {
         fail(fmt::format("{}: accessors[{}] (POSITION) is not VEC3 of float", at, position));
       }
     }
+    if (is_surface && has_normals(*attributes, position)) plain["attributes"]["NORMAL"] = (*attributes)["NORMAL"];
     if (p.contains("indices")) {
       const std::uint64_t indices = index(p, "indices", "accessors", at);
       if (is_surface) {

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "sim/core/process/error.h"
-#include "sim/core/process/file.h"
 #include "sim/geometry/files/glb_chunks.h"
 #include "sim/geometry/files/gltf_check.h"
+#include "sim/geometry/files/gltf_folder.h"
 #include "sim/geometry/files/gltf_pieces.h"
 #include "sim/geometry/mesh/mesh_builder.h"
 
@@ -26,46 +26,6 @@ using Mat4 = Eigen::Matrix4d;
 
 constexpr std::size_t kMaxParts = 65000, kMaxMaterials = 65000;
 constexpr std::size_t kMaxPlacedTriangles = 50'000'000;  // a mesh may be instanced by many nodes
-
-// Restricts the files that tinygltf opens to the folder of the glTF.
-struct Folder {
-  fs::path root;
-  std::vector<fs::path> opened;
-
-  bool holds(const std::string& name) const {
-    std::error_code error;
-    const fs::path file = fs::weakly_canonical(name, error);
-    if (error) return false;
-    const auto [rest, unused] = std::mismatch(root.begin(), root.end(), file.begin(), file.end());
-    return rest == root.end();
-  }
-};
-
-bool exists_in_folder(const std::string& name, void* folder) {
-  std::error_code error;
-  return static_cast<const Folder*>(folder)->holds(name) && fs::is_regular_file(name, error);
-}
-
-std::string same_path(const std::string& name, void*) { return name; }
-
-bool read_in_folder(std::vector<unsigned char>* content, std::string* problem, const std::string& name, void* user) {
-  Folder& folder = *static_cast<Folder*>(user);
-  if (!folder.holds(name)) {
-    *problem += name + " is outside the file's folder";
-    return false;
-  }
-  try {
-    const std::string bytes = read_file(name);
-    content->assign(bytes.begin(), bytes.end());
-    folder.opened.emplace_back(name);
-    return true;
-  } catch (const InputError& error) {
-    *problem += error.what();
-    return false;
-  }
-}
-
-bool write_nothing(std::string*, const std::string&, const std::vector<unsigned char>&, void*) { return false; }
 
 std::string one_line(std::string text) {
   while (!text.empty() && text.back() == '\n') text.pop_back();
@@ -81,7 +41,7 @@ struct Loaded {
 Loaded load(const std::string& bytes, const fs::path& path) {
   const std::string plain = sanitised_gltf(bytes, path.string());
   std::error_code error;
-  Folder folder{fs::canonical(path, error).parent_path(), {}};
+  GltfFolder folder{fs::canonical(path, error).parent_path(), {}};
   if (error) throw InputError(fmt::format("{}: {}", path.string(), error.message()));
 
   tinygltf::TinyGLTF loader;
@@ -184,6 +144,24 @@ class Reader {
     return {bytes.data() + begin, static_cast<std::size_t>(stride), accessor.count, accessor.componentType};
   }
 
+  static Vec3 vector_at(const Data& data, std::size_t i) {
+    Eigen::Vector3f x;
+    std::memcpy(x.data(), data.first + i * data.stride, sizeof x);
+    return x.cast<double>();
+  }
+
+  // Normals of the vertices in the body frame, by the inverse transpose of the node's matrix; empty where the primitive
+  // has none.
+  std::vector<Vec3> normals(const tinygltf::Primitive& primitive, const Mat4& world) const {
+    const auto attribute = primitive.attributes.find("NORMAL");
+    if (attribute == primitive.attributes.end()) return {};
+    const Data data = data_of(attribute->second);
+    const Mat3 turn = body_from_gltf() * world.topLeftCorner<3, 3>().inverse().transpose();
+    std::vector<Vec3> list;
+    for (std::size_t i = 0; i < data.count; ++i) list.push_back(turn * vector_at(data, i));
+    return list;
+  }
+
   std::vector<std::uint32_t> corners(const tinygltf::Primitive& primitive, std::size_t vertex_count) const {
     std::vector<std::uint32_t> list;
     if (primitive.indices < 0) {
@@ -226,16 +204,17 @@ class Reader {
     const auto base = static_cast<std::uint32_t>(builder_.vertices().size());
     if (builder_.vertices().size() + positions.count > 3 * kMaxPlacedTriangles) fail_size();
     for (std::size_t i = 0; i < positions.count; ++i) {
-      float p[3];
-      std::memcpy(p, positions.first + i * positions.stride, sizeof p);
-      const Vec3 placed = (world * Eigen::Vector4d(p[0], p[1], p[2], 1)).head<3>();
+      const Vec3 placed = (world * vector_at(positions, i).homogeneous()).head<3>();
       builder_.vertex(body_from_gltf() * placed);
     }
 
     const auto list = corners(primitive, positions.count);
+    const std::vector<Vec3> normal = normals(primitive, world);
     const auto add = [&](std::size_t i, std::size_t j, std::size_t k) {
       if (is_mirrored) std::swap(j, k);
-      builder_.triangle(base + list[i], base + list[j], base + list[k]);
+      const std::uint32_t a = list[i], b = list[j], c = list[k];
+      if (normal.empty()) return builder_.triangle(base + a, base + b, base + c);
+      builder_.triangle(base + a, base + b, base + c, {normal[a], normal[b], normal[c]});
     };
     if (builder_.triangle_count() + list.size() > kMaxPlacedTriangles) fail_size();
     if (primitive.mode == TINYGLTF_MODE_TRIANGLES) {
@@ -319,6 +298,11 @@ class Writer {
                                        TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3, TINYGLTF_TARGET_ARRAY_BUFFER);
     set_bounds(model_.accessors[positions], piece.positions);
     p.attributes["POSITION"] = positions;
+    if (!piece.normals.empty()) {
+      p.attributes["NORMAL"] =
+          add_accessor(piece.normals.data(), piece.normals.size() * sizeof(float), vertex_count,
+                       TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3, TINYGLTF_TARGET_ARRAY_BUFFER);
+    }
     p.indices = narrow.empty() ? add_accessor(piece.indices.data(), piece.indices.size() * 4, piece.indices.size(),
                                               TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR,
                                               TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER)

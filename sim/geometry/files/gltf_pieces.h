@@ -16,10 +16,12 @@ inline const Mat3& body_from_gltf() {
   return R;
 }
 
-// The triangles of one part and one material, with float32 vertices of their own in glTF axes.
+// The triangles of one part and one material, with float32 vertices of their own in glTF axes, one for each position
+// and normal that occur together. Normals are written where any corner of the piece has one, as the format has it for
+// all vertices or none: a corner without takes that of its triangle.
 struct GltfPiece {
   std::uint16_t part = 0, material = 0;
-  std::vector<float> positions;
+  std::vector<float> positions, normals;  // normals: empty, or one per position
   std::vector<std::uint32_t> indices;
 };
 

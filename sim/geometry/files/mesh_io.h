@@ -21,6 +21,9 @@ namespace seaglint {
 // InputError with file and cause; also for a unit other than m, cm, mm, km, in, ft, a mesh without triangles, and
 // coordinates that are not finite or exceed 1e7 m. Not thread-safe for STL: OpenMesh's readers are global objects.
 //   glTF is +Y up, +Z forward (glTF 2.0, section 3.4): x = Z, y = X, z = Y. Nodes are parts, named after node or mesh.
+// Normals of glTF (NORMAL), OBJ (vn) and PLY (nx, ny, nz) become corner normals; those that are no unit vectors are
+// normalised, invalid ones are none and refuse nothing. Facet normals of STL are ignored: they follow from the
+// vertices.
 //   OBJ, STL and PLY define no axes: they are read as body axes. Groups, objects and solids are parts.
 TriangleMesh read_mesh(const std::filesystem::path& path, const std::string& unit = "m");
 
@@ -29,9 +32,9 @@ TriangleMesh read_mesh(const std::filesystem::path& path, const std::string& uni
 std::vector<std::filesystem::path> sidecar_files(const std::filesystem::path& path);
 
 // Lengths are metres. OBJ and PLY hold the positions as doubles, glTF and STL round them to float32. glTF keeps parts
-// and materials, OBJ parts, STL and PLY neither. The file is complete or absent (sim/core/process/file.h); equal meshes
-// give equal bytes. Throws InputError for an unknown extension, an empty mesh and a mesh that read_mesh() rejects,
-// WorkError when writing fails.
+// and materials, OBJ parts, STL and PLY neither; all but STL keep normals. The file is complete or absent
+// (sim/core/process/file.h); equal meshes give equal bytes. Throws InputError for an unknown extension, an empty mesh
+// and a mesh that read_mesh() rejects, WorkError when writing fails.
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh);
 
 // Throws InputError unless write_coloured_mesh() supports the extension.

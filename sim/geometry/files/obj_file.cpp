@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <limits>
+#include <map>
 #include <span>
 #include <unordered_map>
 
@@ -82,9 +85,10 @@ class ObjReader {
   void statement(std::string_view line) {
     const std::string_view keyword = next_word(line);
     if (keyword == "v") vertex(line);
+    if (keyword == "vn") normal(line);
     if (keyword == "f") face(line);
     if (keyword == "g" || keyword == "o") group(line);
-    // Normals, texture coordinates, material files and curves are ignored.
+    // Texture coordinates, material files and curves are ignored.
   }
 
   void vertex(std::string_view line) {
@@ -100,6 +104,27 @@ class ObjReader {
     ++vertices_so_far_;
   }
 
+  // A normal that is none never refuses a file: it becomes zero.
+  void normal(std::string_view line) {
+    Vec3 n;
+    for (double& x : n) x = number_of(next_word(line)).value_or(0);
+    normals_.push_back(n);
+  }
+
+  // The normal of a corner v//n or v/t/n, zero-based, as far as faces may name one; a later line may still define it.
+  std::int64_t normal_index(std::string_view corner) const {
+    const std::size_t first = corner.find('/'), second = corner.find('/', first + 1);
+    if (first == std::string_view::npos || second == std::string_view::npos) return -1;
+    const auto value = integer_of(corner.substr(second + 1));
+    if (!value || *value == 0) return -1;
+    return *value > 0 ? *value - 1 : static_cast<std::int64_t>(normals_.size()) + *value;
+  }
+
+  Vec3 normal_at(std::int64_t index) const {
+    if (index < 0 || index >= static_cast<std::int64_t>(normals_.size())) return Vec3::Zero();
+    return normals_[static_cast<std::size_t>(index)];
+  }
+
   void face(std::string_view line) {
     const std::size_t first = corners_.size();
     for (std::string_view word = next_word(line); !word.empty() && word[0] != '#'; word = next_word(line)) {
@@ -110,6 +135,7 @@ class ObjReader {
       if (index < 1 || index > vertex_count_)
         fail(fmt::format("the face names vertex {}, there are {}", *value, vertex_count_));
       corners_.push_back(static_cast<std::uint32_t>(index - 1));
+      corner_normals_.push_back(normal_index(word));
     }
     const std::size_t count = corners_.size() - first;
     if (count < 3) fail(fmt::format("a face of {} corners", count));
@@ -129,7 +155,12 @@ class ObjReader {
       const std::uint32_t a = corners[i], b = corners[j], c = corners[k];
       if (a == b || b == c || c == a) continue;
       builder_.begin_part(part_names_[face.part]);
-      builder_.triangle(a, b, c);
+      if (normals_.empty()) {
+        builder_.triangle(a, b, c);
+      } else {
+        const auto at = [&](std::uint32_t corner) { return normal_at(corner_normals_[face.first + corner]); };
+        builder_.triangle(a, b, c, {at(i), at(j), at(k)});
+      }
     }
   }
 
@@ -152,7 +183,9 @@ class ObjReader {
   std::string_view rest_;
   const std::string& file_;
   MeshBuilder builder_;
-  std::vector<std::uint32_t> corners_;  // vertex indices of all faces
+  std::vector<std::uint32_t> corners_;        // vertex indices of all faces
+  std::vector<std::int64_t> corner_normals_;  // indices into normals_, below zero: none
+  std::vector<Vec3> normals_;
   std::vector<Face> faces_;
   std::vector<Vec3> polygon_;
   std::int64_t vertex_count_ = 0;
@@ -168,6 +201,22 @@ void append_numbers(std::string& text, const Vec3& x) {
   fmt::format_to(std::back_inserter(text), " {} {} {}\n", x.x() + 0.0, x.y() + 0.0, x.z() + 0.0);
 }
 
+bool is_without(const std::array<Vec3, 3>& normals) {
+  return std::ranges::any_of(normals, [](const Vec3& n) { return n.isZero(0); });
+}
+
+// Distinct normals in order of first use.
+struct NumberedNormals {
+  std::vector<Vec3> all;
+  std::map<std::array<double, 3>, std::size_t> index;
+
+  std::size_t of(const Vec3& n) {
+    const auto [place, is_new] = index.try_emplace({n.x(), n.y(), n.z()}, all.size());
+    if (is_new) all.push_back(n);
+    return place->second;
+  }
+};
+
 }  // namespace
 
 TriangleMesh read_obj(std::string_view bytes, const std::string& file) { return ObjReader(bytes, file).read(); }
@@ -178,11 +227,27 @@ std::string obj_bytes(const TriangleMesh& mesh) {
     text += 'v';
     append_numbers(text, p);
   }
+  // A face has all its normals or none.
+  NumberedNormals normals;
+  std::vector<std::array<std::size_t, 3>> number(mesh.corner_normals.size(), {0, 0, 0});
+  for (std::size_t t = 0; t < mesh.corner_normals.size(); ++t) {
+    for (int i = 0; i < 3 && !is_without(mesh.corner_normals[t]); ++i)
+      number[t][i] = 1 + normals.of(mesh.corner_normals[t][i]);
+  }
+  for (const Vec3& n : normals.all) {
+    text += "vn";
+    append_numbers(text, n);
+  }
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const std::uint16_t part = mesh.triangle_part[t];
     if (t == 0 || part != mesh.triangle_part[t - 1]) text += fmt::format("g {}\n", mesh.part_names[part]);
     const auto& [a, b, c] = mesh.triangles[t];
-    fmt::format_to(std::back_inserter(text), "f {} {} {}\n", a + 1, b + 1, c + 1);
+    if (number.empty() || number[t][0] == 0) {
+      fmt::format_to(std::back_inserter(text), "f {} {} {}\n", a + 1, b + 1, c + 1);
+    } else {
+      fmt::format_to(std::back_inserter(text), "f {}//{} {}//{} {}//{}\n", a + 1, number[t][0], b + 1, number[t][1],
+                     c + 1, number[t][2]);
+    }
   }
   return text;
 }

@@ -10,11 +10,12 @@
 
 namespace seaglint {
 
-// Positions are the doubles that the text states. Polygons are triangulated (triangulate_polygon); triangles with two
-// equal vertices are dropped. Throws InputError with file, line or byte, and cause.
+// Positions and normals are the doubles that the text states; a normal that is missing or no number is none. Polygons
+// are triangulated (triangulate_polygon); triangles with two equal vertices are dropped. Throws InputError with file,
+// line or byte, and cause.
 TriangleMesh read_obj(std::string_view bytes, const std::string& file);
 
-// Positions with the digits that restore the doubles, a group per run of triangles of one part.
+// Positions and normals with the digits that restore the doubles, a group per run of triangles of one part.
 std::string obj_bytes(const TriangleMesh& mesh);
 
 }  // namespace seaglint

@@ -11,6 +11,7 @@
 #include "sim/core/process/error.h"
 #include "sim/core/text/words.h"
 #include "sim/geometry/files/coordinate.h"
+#include "sim/geometry/files/split_vertices.h"
 #include "sim/geometry/files/triangulate_polygon.h"
 #include "sim/geometry/mesh/mesh_builder.h"
 
@@ -216,12 +217,20 @@ class PlyReader {
     }
     vertex_count_ = element.count;
     if (vertex_count_ > 0x7fffffff) fail(fmt::format("{} vertices are too many", vertex_count_));
+    const bool has_normals = std::ranges::any_of(
+        element.properties, [](const Property& property) { return !property.is_list && property.name == "nx"; });
     for (std::uint64_t i = 0; i < element.count; ++i) {
-      Vec3 p = Vec3::Zero();
+      Vec3 p = Vec3::Zero(), n = Vec3::Zero();
       for (const Property& property : element.properties) {
         const int axis = property.is_list || property.name.size() != 1 ? -1 : property.name[0] - 'x';
         if (axis < 0 || axis > 2) {
-          skip(property);
+          const bool is_normal = !property.is_list && property.name.size() == 2 && property.name[0] == 'n' &&
+                                 property.name[1] >= 'x' && property.name[1] <= 'z';
+          if (is_normal) {
+            n[property.name[1] - 'x'] = number(property.value);
+          } else {
+            skip(property);
+          }
           continue;
         }
         const double value = number(property.value);
@@ -230,6 +239,7 @@ class PlyReader {
         p[axis] = *coordinate;
       }
       builder_.vertex(p);
+      if (has_normals) normals_.push_back(n);
     }
   }
 
@@ -267,7 +277,12 @@ class PlyReader {
     if (!triangles) fail(fmt::format("face {}: {}", face, untriangulated_message(corners.size())));
     for (const auto& [i, j, k] : *triangles) {
       const std::uint32_t a = corners[i], b = corners[j], c = corners[k];
-      if (a != b && b != c && c != a) builder_.triangle(a, b, c);
+      if (a == b || b == c || c == a) continue;
+      if (normals_.empty()) {
+        builder_.triangle(a, b, c);
+      } else {
+        builder_.triangle(a, b, c, {normals_[a], normals_[b], normals_[c]});
+      }
     }
   }
 
@@ -277,6 +292,7 @@ class PlyReader {
   bool swap_ = false;
   std::vector<Element> elements_;
   std::uint64_t vertex_count_ = 0;
+  std::vector<Vec3> normals_;                // of the vertices; empty: none
   std::vector<std::uint32_t> corners_;       // of all faces
   std::vector<std::uint32_t> corner_count_;  // of each
   std::vector<Vec3> polygon_;
@@ -295,14 +311,20 @@ TriangleMesh read_ply(std::string_view bytes, const std::string& file) { return 
 
 std::string ply_bytes(const TriangleMesh& mesh) {
   static_assert(std::endian::native == std::endian::little);
+  const SplitVertices split = split_by_normal(mesh);
   std::string bytes = fmt::format(
       "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty double x\nproperty double y\nproperty double "
-      "z\nelement face {}\nproperty list uchar uint vertex_indices\nend_header\n",
-      mesh.vertices.size(), mesh.triangles.size());
-  for (const Vec3& p : mesh.vertices) {
-    for (const double x : p) append_raw(bytes, x + 0.0);  // turns -0 into +0
+      "z\n{}element face {}\nproperty list uchar uint vertex_indices\nend_header\n",
+      split.vertex.size(), split.normal.empty() ? "" : "property double nx\nproperty double ny\nproperty double nz\n",
+      mesh.triangles.size());
+  const auto append = [&](const Vec3& x) {
+    for (const double value : x) append_raw(bytes, value + 0.0);  // turns -0 into +0
+  };
+  for (std::size_t i = 0; i < split.vertex.size(); ++i) {
+    append(mesh.vertices[split.vertex[i]]);
+    if (!split.normal.empty()) append(split.normal[i]);
   }
-  for (const auto& triangle : mesh.triangles) {
+  for (const auto& triangle : split.triangles) {
     append_raw(bytes, std::uint8_t{3});
     for (const std::uint32_t v : triangle) append_raw(bytes, v);
   }

@@ -12,6 +12,8 @@ namespace {
 
 constexpr std::size_t kMaxNames = 65536;  // of parts or materials: triangles store 16-bit indices
 
+const std::array<Vec3, 3> kNoNormals{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+
 }  // namespace
 
 void MeshBuilder::begin_part(const std::string& name) {
@@ -39,6 +41,13 @@ void MeshBuilder::triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
   mesh_.triangles.push_back({a, b, c});
   mesh_.triangle_part.push_back(part_);
   mesh_.triangle_material.push_back(material_);
+  if (!mesh_.corner_normals.empty()) mesh_.corner_normals.resize(mesh_.triangles.size(), kNoNormals);
+}
+
+void MeshBuilder::triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, const std::array<Vec3, 3>& normals) {
+  triangle(a, b, c);
+  mesh_.corner_normals.resize(mesh_.triangles.size(), kNoNormals);
+  for (int i = 0; i < 3; ++i) mesh_.corner_normals.back()[i] = unit_normal(normals[i]);
 }
 
 void MeshBuilder::quad(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {

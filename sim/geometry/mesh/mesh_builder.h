@@ -3,6 +3,7 @@
 
 // Builds a mesh part by part; the output of every generator and reader.
 
+#include <array>
 #include <string>
 #include <unordered_map>
 
@@ -20,6 +21,8 @@ class MeshBuilder {
 
   // Vertices counter-clockwise seen from outside.
   void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
+  // With the surface's normals at its corners, of any length; one that is not finite or zero is none.
+  void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, const std::array<Vec3, 3>& normals);
   // Two triangles a b c, a c d.
   void quad(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d);
 

@@ -143,6 +143,8 @@ Diagnosis find_defects(const TriangleMesh& mesh) {
   d.drop.assign(count, 0);
   d.turn.assign(count, 0);
   d.health.triangles = count;
+  for (const auto& normals : mesh.corner_normals)
+    d.health.corners_without_normal += static_cast<std::size_t>(std::ranges::count(normals, Vec3(Vec3::Zero())));
   Topology topology = topology_of(mesh);
   for (const std::uint32_t t : topology.degenerate) d.drop[t] = 1;
   d.health.degenerate = topology.degenerate.size();
@@ -258,6 +260,9 @@ std::vector<std::string> diagnostic_messages(const MeshDiagnostics& h) {
                     "removed, their surfaces are open; both sides scatter as the front does",
                     counted(h.dropped_backs, "triangle is", "triangles are"), h.lost_part, h.lost_behind));
   }
+  if (h.corners_without_normal > 0)
+    found.push_back(fmt::format("{} of {} corners have no usable normal: not finite, zero or not given",
+                                h.corners_without_normal, 3 * h.triangles));
   return found;
 }
 
@@ -267,6 +272,7 @@ TriangleMesh repair(const TriangleMesh& mesh) {
   result.triangles.clear();
   result.triangle_part.clear();
   result.triangle_material.clear();
+  result.corner_normals.clear();
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     if (d.drop[t]) continue;
     auto triangle = mesh.triangles[t];
@@ -274,6 +280,10 @@ TriangleMesh repair(const TriangleMesh& mesh) {
     result.triangles.push_back(triangle);
     result.triangle_part.push_back(mesh.triangle_part[t]);
     result.triangle_material.push_back(mesh.triangle_material[t]);
+    if (mesh.corner_normals.empty()) continue;
+    auto normals = mesh.corner_normals[t];
+    if (d.turn[t]) normals = {-normals[0], -normals[2], -normals[1]};
+    result.corner_normals.push_back(normals);
   }
   return result;
 }

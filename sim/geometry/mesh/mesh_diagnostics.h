@@ -31,8 +31,9 @@ struct MeshDiagnostics {
   std::size_t open_surfaces = 0;
   std::size_t non_manifold_surfaces =
       0;  // open surfaces without open or inconsistent edges: three or five triangles meet at an edge
-  std::size_t inverted_surfaces = 0;   // closed, with negative enclosed volume: inside out
-  std::size_t inverted_triangles = 0;  // of those surfaces
+  std::size_t inverted_surfaces = 0;       // closed, with negative enclosed volume: inside out
+  std::size_t inverted_triangles = 0;      // of those surfaces
+  std::size_t corners_without_normal = 0;  // of a mesh that has normals
 };
 
 // Vertices are identified by their index: weld first (read_mesh does).
@@ -41,11 +42,11 @@ MeshDiagnostics diagnose(const TriangleMesh& mesh);
 // One sentence per defect, with its treatment by the solver; empty for a closed mesh without defects.
 std::vector<std::string> diagnostic_messages(const MeshDiagnostics& health);
 
-// The mesh without degenerate triangles and copies, with closed surfaces oriented outwards; triangles keep their order.
-// A ray meets only one of coinciding triangles, and the solver skips facets that face away, so that of an inside-out
-// surface it would illuminate the inside. The back of a sheet is kept where its material differs and its surface is
-// closed, so materials are assigned before the repair. A closed cavity inside a closed body is also oriented outwards;
-// it is never visible.
+// The mesh without degenerate triangles and copies, with closed surfaces oriented outwards, their normals too;
+// triangles keep their order. A ray meets only one of coinciding triangles, and the solver skips facets that face away,
+// so that of an inside-out surface it would illuminate the inside. The back of a sheet is kept where its material
+// differs and its surface is closed, so materials are assigned before the repair. A closed cavity inside a closed body
+// is also oriented outwards; it is never visible.
 TriangleMesh repair(const TriangleMesh& mesh);
 
 }  // namespace seaglint

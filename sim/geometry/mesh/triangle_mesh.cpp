@@ -12,6 +12,7 @@
 namespace seaglint {
 namespace {
 
+const std::array<Vec3, 3> kNoNormals{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
 constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
 
 // Index of `name` in `names`, appended when new.
@@ -55,6 +56,11 @@ void TriangleMesh::append(const TriangleMesh& other) {
   }
 
   SEAGLINT_CHECK(vertices.size() + other.vertices.size() < kUnused, fmt::format("{} vertices", vertices.size()));
+  if (!corner_normals.empty() || !other.corner_normals.empty()) {
+    corner_normals.resize(triangles.size(), kNoNormals);
+    corner_normals.insert(corner_normals.end(), other.corner_normals.begin(), other.corner_normals.end());
+    corner_normals.resize(triangles.size() + other.triangles.size(), kNoNormals);
+  }
   const auto base = static_cast<std::uint32_t>(vertices.size());
   vertices.insert(vertices.end(), other.vertices.begin(), other.vertices.end());
   for (std::size_t t = 0; t < other.triangles.size(); ++t) {
@@ -63,6 +69,12 @@ void TriangleMesh::append(const TriangleMesh& other) {
     triangle_part.push_back(part[other.triangle_part[t]]);
     triangle_material.push_back(material[other.triangle_material[t]]);
   }
+}
+
+Vec3 unit_normal(const Vec3& normal) {
+  const double largest = normal.cwiseAbs().maxCoeff();
+  if (!normal.allFinite() || !(largest > 0)) return Vec3::Zero();
+  return (normal / largest).normalized();
 }
 
 Bounds bounds(const TriangleMesh& mesh) {
@@ -100,6 +112,9 @@ double enclosed_volume(const TriangleMesh& mesh) {
 TriangleMesh transformed(const TriangleMesh& mesh, const Mat3& rotation, const Vec3& translation) {
   TriangleMesh moved = mesh;
   for (Vec3& p : moved.vertices) p = rotation * p + translation;
+  for (auto& normals : moved.corner_normals) {
+    for (Vec3& n : normals) n = rotation * n;
+  }
   return moved;
 }
 
@@ -139,6 +154,7 @@ TriangleMesh part_of(const TriangleMesh& mesh, std::size_t part) {
     result.triangles.push_back(triangle);
     result.triangle_part.push_back(0);
     result.triangle_material.push_back(mesh.triangle_material[t]);
+    if (!mesh.corner_normals.empty()) result.corner_normals.push_back(mesh.corner_normals[t]);
   }
   return result;
 }

@@ -25,10 +25,16 @@ struct TriangleMesh {
   std::vector<std::uint16_t> triangle_material;  // index into materials, one per triangle
   std::vector<std::string> part_names;
   std::vector<Material> materials;
+  // Normals of the surface that the mesh samples, at the three corners of each triangle: unit vectors, outwards, or
+  // zero where none is given. Empty: no normals at all.
+  std::vector<std::array<Vec3, 3>> corner_normals;
 
   // Appends a mesh unchanged; its parts and materials are matched by name.
   void append(const TriangleMesh& other);
 };
+
+// The unit vector along a surface normal of a file; zero where that is not finite or has no length.
+Vec3 unit_normal(const Vec3& normal);
 
 struct Bounds {
   Vec3 lower = Vec3::Zero();
@@ -46,7 +52,7 @@ double surface_area(const TriangleMesh& mesh);
 // Divergence theorem, V = 1/3 sum x.A: the volume of a closed mesh in m^3, positive when its triangles face outwards.
 double enclosed_volume(const TriangleMesh& mesh);
 
-// The mesh moved by p -> R p + t.
+// The mesh moved by p -> R p + t, R a rotation.
 TriangleMesh transformed(const TriangleMesh& mesh, const Mat3& rotation, const Vec3& translation);
 
 // The same triangles with vertices at identical positions merged (and unused ones dropped), vertices in order of first

@@ -15,8 +15,9 @@ struct WaterlineCut {
 };
 
 // Cuts the mesh along the plane z = height, m. Triangles that share an edge are cut at the same points. Vertices closer
-// to the plane than 1e-6 of the largest coordinate of the mesh count as in the plane and are not moved, so that
-// rounding does not decide whether a bottom at the waterline is submerged. Parts and materials are kept.
+// to the plane than 1e-6 of its largest height or half-length count as in the plane and are not moved, so that
+// rounding does not decide whether a bottom at the waterline is submerged. Parts, materials and normals
+// are kept; the normals of new vertices are interpolated.
 WaterlineCut cut_at_waterline(const TriangleMesh& mesh, double height);
 
 }  // namespace seaglint

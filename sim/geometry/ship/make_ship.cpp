@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
+#include "sim/geometry/mesh/crease_normals.h"
 #include "sim/geometry/ship/ship_deck_fittings.h"
 #include "sim/geometry/ship/ship_hull.h"
 #include "sim/geometry/ship/ship_mast.h"
@@ -27,6 +29,13 @@ TriangleMesh on_grid(TriangleMesh mesh) {
   for (Vec3& p : mesh.vertices) p = (p * 65536.0).array().round() / 65536.0;
   return mesh;
 }
+
+// Facets of the hull and of fairings turn by less, the sides of pipes and masts, knuckles and box edges by 22 deg and
+// more.
+constexpr double kSmoothTurn_deg = 20;
+// Surfaces that rise by less count as flat, m: positions on the grid bend a long flat face of four corners by as much,
+// which is 1.2 deg of two-way phase at 16 GHz.
+constexpr double kFlat_m = 3e-5;
 
 }  // namespace
 
@@ -53,7 +62,9 @@ TriangleMesh make_ship(const ShipForm& form) {
     add_wall_fittings(builder, hull, houses);
   }
   if (form.detail >= ShipDetail::kRails) add_rails(builder, hull, houses);
-  return on_grid(builder.take());
+  TriangleMesh ship = on_grid(builder.take());
+  ship.corner_normals = crease_normals(ship, radians(kSmoothTurn_deg), kFlat_m);
+  return ship;
 }
 
 }  // namespace seaglint

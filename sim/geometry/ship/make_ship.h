@@ -10,8 +10,8 @@
 namespace seaglint {
 
 // Body frame, origin amidships on the centreline at the waterline z = 0, where the hull is cut and closed. Every part
-// is closed and faces outwards; adjacent parts overlap slightly, so that no two faces coincide. Deterministic: equal
-// forms give equal meshes. Throws InputError for a value out of range.
+// is closed and faces outwards, with normals where the surface is smooth; adjacent parts overlap slightly, so that no
+// two faces coincide. Deterministic: equal forms give equal meshes. Throws InputError for a value out of range.
 TriangleMesh make_ship(const ShipForm& form = {});
 
 }  // namespace seaglint

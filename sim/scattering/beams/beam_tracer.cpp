@@ -76,7 +76,8 @@ class BeamTracer {
   bool intersect_panel(const BeamSegment& segment, const PolygonSet& window, const BvhPanel& panel,
                        CandidatePanel& candidate) const {
     ProjectedPanel& projection = candidate.projection;
-    if (!project_panel(projection, panel, segment.image_transform, basis_, scene_.min_area)) return false;
+    const double min_area = scene_.min_area.on(panel.facet);
+    if (!project_panel(projection, panel, segment.image_transform, basis_, min_area)) return false;
     double farthest = 0, nearest = 0;  // distance beyond the last reflector along the ray, m
     for (const MovingVertex& vertex : projection.polygon) {
       const double beyond = segment.source_plane.at(vertex.p) - projection.plane.at(vertex.p);
@@ -86,14 +87,14 @@ class BeamTracer {
     if (farthest < kCoincident) return false;  // it is coplanar with the last reflector or behind it
     if (nearest < 0) {
       projection.polygon = clip(projection.polygon, depth_difference(projection.plane, segment.source_plane), +1);
-      if (projection.polygon.empty() || signed_area(projection.polygon) < scene_.min_area) return false;
+      if (projection.polygon.empty() || signed_area(projection.polygon) < min_area) return false;
     }
     const Box box = box_of(projection.polygon);
     candidate.illuminated.clear();
     for (std::size_t i = 0; i < window.size(); ++i) {
       if (!overlap(window.boxes()[i], box)) continue;
       MovingPolygon common = intersect(window.polygons()[i], window.boxes()[i], projection.polygon);
-      if (!common.empty() && signed_area(common) > scene_.min_area) candidate.illuminated.push_back(std::move(common));
+      if (!common.empty() && signed_area(common) > min_area) candidate.illuminated.push_back(std::move(common));
     }
     return !candidate.illuminated.empty();
   }
@@ -143,8 +144,8 @@ class BeamTracer {
     // it. A fully occluded panel need not be subtracted, since its own occluders cover everything it does.
     const auto hides = [&](std::uint32_t front, std::uint32_t behind) {
       if (!may_occlude(extent[behind], extent[front])) return;
-      occlude(met[behind].projection, extent[behind], met[front].projection, extent[front], scene_.min_area,
-              met[behind].illuminated);
+      occlude(met[behind].projection, extent[behind], met[front].projection, extent[front],
+              scene_.min_area.on(met[behind].projection.facet), met[behind].illuminated);
       if (met[behind].illuminated.empty()) extent[behind] = empty_extent();
     };
     for (std::size_t i = 0; i < order.size(); ++i) {
@@ -197,12 +198,12 @@ class BeamTracer {
     return next;
   }
 
-  // False at max_bounces, at the wall of a cavity, and for cross-sections below min_beam_area.
+  // False at max_bounces, at the wall of a cavity, and for cross-sections below the smallest of this body.
   bool continues(const BeamSegment& segment, const CandidatePanel& candidate) const {
     if (segment.bounce >= scene_.settings.max_bounces ||
         scene_.settings.filter.is_cavity(facets_[candidate.projection.facet].part))
       return false;
-    return candidate.illuminated.area() >= scene_.min_beam_area;
+    return candidate.illuminated.area() >= scene_.min_beam_per_patch * scene_.min_area.on(candidate.projection.facet);
   }
 
   const TracingContext& scene_;

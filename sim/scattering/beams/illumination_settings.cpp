@@ -8,25 +8,36 @@
 namespace seaglint {
 namespace {
 
-// Side of the smallest illuminated patch in target radii: 5 mm on the 144 m ship.
+// Side of the smallest illuminated patch in radii of the body: 5 mm on the 144 m ship.
 constexpr double kMinPatchSide = 0.7e-4;
 
-}  // namespace
-
-double default_min_patch(const Scatterer& scatterer) { return kMinPatchSide * scatterer.radius(); }
-
-double min_patch(const Scatterer& scatterer, const TracingSettings& settings) {
-  const double coarsest = default_min_patch(scatterer);
+// Side of the smallest patch on a body of this radius, m.
+double patch_side(double radius, const TracingSettings& settings) {
+  const double coarsest = kMinPatchSide * radius;
   return settings.min_patch_m > 0 ? std::min(coarsest, settings.min_patch_m) : coarsest;
 }
 
-double smallest_area(const Scatterer& scatterer, const TracingSettings& settings) {
-  const double side = min_patch(scatterer, settings);
-  return side * side;
+double smallest_radius(const Scatterer& scatterer) { return std::ranges::min(scatterer.bodies().radius); }
+
+}  // namespace
+
+double default_min_patch(const Scatterer& scatterer) { return kMinPatchSide * smallest_radius(scatterer); }
+
+double min_patch(const Scatterer& scatterer, const TracingSettings& settings) {
+  return patch_side(smallest_radius(scatterer), settings);
 }
 
 double min_amplitude(const Scatterer& scatterer, const TracingSettings& settings, double k) {
-  return 0.1 * k * smallest_area(scatterer, settings) / (2 * kPi);
+  const double side = min_patch(scatterer, settings);
+  return 0.1 * k * side * side / (2 * kPi);
+}
+
+SmallestAreas::SmallestAreas(const Scatterer& scatterer, const TracingSettings& settings)
+    : surface_of_(scatterer.bodies().surface_of) {
+  for (const double radius : scatterer.bodies().radius) {
+    const double side = patch_side(radius, settings);
+    of_surface_.push_back(side * side);
+  }
 }
 
 }  // namespace seaglint

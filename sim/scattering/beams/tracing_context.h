@@ -28,8 +28,8 @@ struct TracingContext {
   const TracingSettings& settings;
   const VisibleSurface& visible_to_transmitter;            // directly illuminated part of the surface
   std::span<const std::vector<MaterialSurface>> surfaces;  // [material][wavenumber]; none for a perfect conductor
-  double min_area = 0;                                     // of illuminated patches that are kept, m^2
-  double min_beam_area = 0;                                // of beam cross-sections that are reflected further, m^2
+  SmallestAreas min_area;                                  // of illuminated patches that are kept, m^2
+  double min_beam_per_patch = 1;  // area of the smallest beam cross-section that is reflected further over min_area
 
   // Material of the facet at each wavenumber; empty for a perfect conductor.
   std::span<const MaterialSurface> surface_of(int facet) const {

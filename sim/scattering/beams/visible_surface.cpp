@@ -95,7 +95,7 @@ bool occlude(const ProjectedPanel& behind, const Extent& behind_extent, const Pr
 }
 
 VisibleSurface::VisibleSurface(std::span<const Facet> facets, const Panels& panels, const PanelBvh& tree,
-                               const RadarBasis& basis, double min_area, int threads)
+                               const RadarBasis& basis, const SmallestAreas& min_area, int threads)
     : facets_(facets), basis_(basis), min_area_(min_area), image_of_(facets.size(), -1) {
   // Back faces of closed surfaces are hidden by front faces, so that only front faces and open sheets are visible or
   // occlude.
@@ -109,7 +109,7 @@ VisibleSurface::VisibleSurface(std::span<const Facet> facets, const Panels& pane
   ProjectedPanel fresh;
   for (int f = 0; f < static_cast<int>(facets.size()); ++f) {
     if (!may_be_visible(f) || !project_panel(fresh, bvh_panel(facets, panels, f), ImageTransform{}, basis,
-                                             least_area(facets[f].normal, basis, min_area)))
+                                             least_area(facets[f].normal, basis, min_area.on(f))))
       continue;
     image_of_[f] = static_cast<std::int32_t>(images_.size());
     images_.push_back(fresh);
@@ -124,7 +124,7 @@ VisibleSurface::VisibleSurface(std::span<const Facet> facets, const Panels& pane
       const ProjectedPanel& projection = images_[i];
       const Extent& extent = extents_[i];
       const Facet& facet = facets[projection.facet];
-      const double min = least_area(facet.normal, basis, min_area);
+      const double min = least_area(facet.normal, basis, min_area.on(projection.facet));
       const Vec3 towards = facet.normal.dot(basis.r) > 0 ? facet.normal : Vec3(-facet.normal);
       const Prism prism{{basis.h, basis.v},
                         {extent.box.lower.x(), extent.box.lower.y()},
@@ -171,8 +171,8 @@ void VisibleSurface::visible_after_reflections(int facet, const ImageTransform& 
     return;
   }
   const Facet& own = facets_[facet];
-  clip_to_visible(window(facet), own.normal, depth_plane(own.normal, own.offset, basis_), image_transform, illuminated,
-                  transmit, visible);
+  clip_to_visible(window(facet), least_area(own.normal, basis_, min_area_.on(facet)),
+                  depth_plane(own.normal, own.offset, basis_), image_transform, illuminated, transmit, visible);
 }
 
 void VisibleSurface::visible_via_reflector(int reflector, int facet, const ImageTransform& image_transform,
@@ -180,12 +180,12 @@ void VisibleSurface::visible_via_reflector(int reflector, int facet, const Image
                                            std::vector<MovingPolygon>& visible) const {
   const ImageTransform by = plane_reflection(facets_[reflector].normal, facets_[reflector].offset);
   const Vec3 normal = by.L * facets_[facet].normal;
-  clip_to_visible(window(reflector), normal,
+  clip_to_visible(window(reflector), least_area(normal, basis_, min_area_.on(facet)),
                   depth_plane(normal, normal.dot(by.image(facets_[facet].corner[0])), basis_), image_transform,
                   illuminated, transmit, visible);
 }
 
-void VisibleSurface::clip_to_visible(const VisiblePieces& window, const Vec3& normal, const DepthPlane& own,
+void VisibleSurface::clip_to_visible(const VisiblePieces& window, double min_area, const DepthPlane& own,
                                      const ImageTransform& image_transform, std::span<const MovingPolygon> illuminated,
                                      const RadarBasis& transmit, std::vector<MovingPolygon>& visible) const {
   if (window.pieces.empty() || illuminated.empty()) return;
@@ -206,7 +206,6 @@ void VisibleSurface::clip_to_visible(const VisiblePieces& window, const Vec3& no
       direct = {start ? q : Vec2(direct.lower.cwiseMin(q)), start ? q : Vec2(direct.upper.cwiseMax(q))};
     }
   }
-  const double min = least_area(normal, basis_, min_area_);
   MovingPolygon image;
   for (std::size_t i = 0; i < window.pieces.size(); ++i) {
     const MovingPolygon& piece = window.pieces[i];
@@ -225,7 +224,7 @@ void VisibleSurface::clip_to_visible(const VisiblePieces& window, const Vec3& no
     for (const MovingPolygon& part : illuminated) {
       if (!overlap(box_of(part), around)) continue;
       MovingPolygon both = intersect(part, image);
-      if (signed_area(both) > min) visible.push_back(std::move(both));
+      if (signed_area(both) > min_area) visible.push_back(std::move(both));
     }
   }
 }

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "sim/scattering/beams/illumination_settings.h"
 #include "sim/scattering/beams/image_transform.h"
 #include "sim/scattering/beams/polygon_set.h"
 #include "sim/scattering/diffraction/tolerances.h"
@@ -62,10 +63,10 @@ bool occlude(const ProjectedPanel& behind, const Extent& behind_extent, const Pr
 // Directly visible part of every panel from one look direction, as disjoint convex polygons; exact for flat facets.
 class VisibleSurface {
  public:
-  // min_area: of the smallest polygon kept, m^2; panels within 0.01 rad of edge-on keep polygons of that area on the
+  // min_area: of the smallest polygons kept, m^2; panels within 0.01 rad of edge-on keep polygons of that area on the
   // panel itself. The facets must outlive the surface.
   VisibleSurface(std::span<const Facet> facets, const Panels& panels, const PanelBvh& tree, const RadarBasis& basis,
-                 double min_area, int threads);
+                 const SmallestAreas& min_area, int threads);
 
   // Visible polygons of the panel with this first facet in the radar's projection plane. Empty for a panel that is
   // hidden or faces away (open sheets are visible from either side), and for facets that are not the first of their
@@ -92,14 +93,15 @@ class VisibleSurface {
     const Box* boxes = nullptr;
   };
   VisiblePieces window(int facet) const;
-  // Intersects the illuminated polygons, in a plane that the radar sees as `own`, with the visible polygons `window`.
-  void clip_to_visible(const VisiblePieces& window, const Vec3& normal, const DepthPlane& own,
+  // Intersects the illuminated polygons, in a plane that the radar sees as `own`, with the visible polygons `window`;
+  // intersections below min_area (m^2) are left out.
+  void clip_to_visible(const VisiblePieces& window, double min_area, const DepthPlane& own,
                        const ImageTransform& image_transform, std::span<const MovingPolygon> illuminated,
                        const RadarBasis& transmit, std::vector<MovingPolygon>& visible) const;
 
   std::span<const Facet> facets_;
   RadarBasis basis_;
-  double min_area_;
+  SmallestAreas min_area_;
   // Panels that face the radar, and the visible polygons of those that are partly hidden, stored by chunks of panels.
   std::vector<ProjectedPanel> images_;
   std::vector<Extent> extents_;         // of the projections

@@ -96,7 +96,7 @@ Aspects aspects_of(const Scatterer& scatterer, const BistaticGeometry& geometry,
 
 Aspect::Aspect(const Scatterer& scatterer, const RadarBasis& direction, const TracingSettings& settings, int threads)
     : basis(perturbed_look_direction(scatterer, direction, settings.edges)),
-      visible(scatterer.facets(), scatterer.panels(), scatterer.tree(), basis, smallest_area(scatterer, settings),
+      visible(scatterer.facets(), scatterer.panels(), scatterer.tree(), basis, SmallestAreas(scatterer, settings),
               threads) {}
 
 Illumination::Illumination(const Scatterer& scatterer, Aspects aspects, const TracingSettings& settings,
@@ -173,10 +173,15 @@ TraceSummary Illumination::trace_all(int threads, const Visit& visit, const Stop
 }
 
 TracingContext Illumination::scene() const {
-  const double min_area = smallest_area(scatterer_, settings_);
   const auto& [basis, visible] = *aspects_.transmitter;
-  return {scatterer_, basis,     receivers_, settings_,
-          visible,    surfaces_, min_area,   kMinBeamPerPatch * kMinBeamPerPatch * min_area};
+  return {scatterer_,
+          basis,
+          receivers_,
+          settings_,
+          visible,
+          surfaces_,
+          SmallestAreas(scatterer_, settings_),
+          kMinBeamPerPatch * kMinBeamPerPatch};
 }
 
 std::size_t Illumination::trace_from(std::span<const int> facets, TracedContributions& traced) const {

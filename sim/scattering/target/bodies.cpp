@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "sim/geometry/mesh/bounding_sphere.h"
@@ -11,120 +12,117 @@
 namespace seaglint {
 namespace {
 
-// Distance at which surfaces meet, of the target's radius: coordinates in single precision.
-constexpr double kGap = 1e-6;
+// Distance from the centre of a surface's sphere within which a larger surface is of the same body, in its radii. The
+// ship's brackets hang up to 1.6 radii from the walls that they belong to.
+constexpr double kReach = 2;
 
-// Unites facets that have a vertex in common.
-DisjointSets surfaces_of(std::span<const Facet> facets) {
+// Number of the surface of every facet, in order of their first facets.
+std::vector<std::int32_t> surfaces(std::span<const Facet> facets) {
   std::vector<std::pair<const Vec3*, std::uint32_t>> corners;
   corners.reserve(3 * facets.size());
   for (std::uint32_t f = 0; f < facets.size(); ++f) {
     for (const Vec3& corner : facets[f].corner) corners.emplace_back(&corner, f);
   }
-  std::ranges::sort(corners, [](const auto& a, const auto& b) {
-    return std::ranges::lexicographical_compare(*a.first, *b.first);
-  });
+  std::ranges::sort(
+      corners, [](const auto& a, const auto& b) { return std::ranges::lexicographical_compare(*a.first, *b.first); });
   DisjointSets sets(facets.size());
   for (std::size_t i = 1; i < corners.size(); ++i) {
     if (*corners[i].first == *corners[i - 1].first) sets.unite(corners[i].second, corners[i - 1].second);
   }
-  return sets;
+  std::vector<std::int32_t> number(facets.size(), -1), of_facet;
+  std::int32_t count = 0;
+  for (std::uint32_t f = 0; f < facets.size(); ++f) {
+    std::int32_t& own = number[sets.find(f)];
+    if (own < 0) own = count++;
+    of_facet.push_back(own);
+  }
+  return of_facet;
 }
 
-// True where the segment from a to b meets the panel to within `gap`, m.
-bool meets(const Vec3& a, const Vec3& b, const BvhPanel& panel, double gap) {
-  const double at_a = panel.normal.dot(a) - panel.offset, at_b = panel.normal.dot(b) - panel.offset;
-  if (std::min(at_a, at_b) > gap || std::max(at_a, at_b) < -gap) return false;
-  const double fraction = at_a == at_b ? 0 : std::clamp(at_a / (at_a - at_b), 0.0, 1.0);
-  const Vec3 x = a + fraction * (b - a);
+struct Surface {
+  Sphere sphere;
+  bool open = false;
+};
+
+double distance_to_side(const Vec3& x, const Vec3& a, const Vec3& b) {
+  const double fraction = std::clamp((x - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
+  return (x - a - fraction * (b - a)).norm();
+}
+
+double distance_to_panel(const Vec3& x, const BvhPanel& panel) {
   const std::span<const Vec3> outline = panel.outline();
+  bool inside = true;
+  double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < outline.size(); ++i) {
-    const Vec3 side = outline[(i + 1) % outline.size()] - outline[i];
-    if (panel.normal.cross(side).dot(x - outline[i]) < -gap * side.norm()) return false;
+    const Vec3 &a = outline[i], &b = outline[(i + 1) % outline.size()];
+    inside = inside && panel.normal.cross(b - a).dot(x - a) >= 0;
+    nearest = std::min(nearest, distance_to_side(x, a, b));
   }
-  return true;
+  return inside ? std::abs(panel.normal.dot(x) - panel.offset) : nearest;
 }
 
-// Panels that may meet the segment, as a prism without width.
-Prism prism_about(const Vec3& a, const Vec3& b, double gap) {
-  Prism prism;
-  prism.along = prism.normal = (b - a).normalized();
-  prism.offset = prism.normal.dot(a) - gap;
-  prism.across[0] = prism.along.unitOrthogonal();
-  prism.across[1] = prism.along.cross(prism.across[0]);
-  for (int i = 0; i < 2; ++i) {
-    prism.lower[i] = prism.across[i].dot(a) - gap;
-    prism.upper[i] = prism.across[i].dot(a) + gap;
-  }
-  prism.wave = Vec3::Zero();  // no panel faces away
-  return prism;
-}
-
-std::vector<double> radii(std::span<const Facet> facets, std::span<const std::uint32_t> root) {
-  std::vector<std::vector<Vec3>> points(facets.size());
-  for (std::size_t f = 0; f < facets.size(); ++f)
-    points[root[f]].insert(points[root[f]].end(), facets[f].corner.begin(), facets[f].corner.end());
-  std::vector<double> radius(facets.size(), 0);
-  for (std::size_t i = 0; i < points.size(); ++i) radius[i] = bounding_sphere(points[i]).radius;
-  return radius;
-}
-
-std::vector<std::uint32_t> roots(DisjointSets& sets, std::size_t count) {
-  std::vector<std::uint32_t> root(count);
-  for (std::uint32_t i = 0; i < count; ++i) root[i] = sets.find(i);
-  return root;
+// Calls visit(panel) for every panel that reaches into the sphere.
+template <typename Visit>
+void panels_in(const Sphere& sphere, const PanelBvh& tree, const Visit& visit) {
+  const auto from = [&](int axis) { return sphere.centre[axis] - sphere.radius; };
+  const auto to = [&](int axis) { return sphere.centre[axis] + sphere.radius; };
+  Prism box;
+  box.along = box.normal = Vec3::UnitX();
+  box.offset = from(0);
+  box.across = {Vec3::UnitY(), Vec3::UnitZ()};
+  box.lower = {from(1), from(2)};
+  box.upper = {to(1), to(2)};
+  box.wave = Vec3::Zero();  // no panel faces away
+  tree.traverse(box, [&](const BvhPanel& panel) {
+    if (distance_to_panel(sphere.centre, panel) <= sphere.radius) visit(panel);
+    return to(0);
+  });
 }
 
 }  // namespace
 
-Bodies find_bodies(std::span<const Facet> facets, const PanelBvh& tree, double radius) {
-  DisjointSets surfaces = surfaces_of(facets);
-  const std::vector<std::uint32_t> surface = roots(surfaces, facets.size());
-  std::vector<char> open(facets.size(), 0);  // by root
-  for (std::size_t f = 0; f < facets.size(); ++f) open[surface[f]] |= static_cast<char>(facets[f].two_sided);
-
-  // Surfaces meet where a side of a facet of one meets a panel of the other. Those that are alike are united; pairs of
-  // a closed and an open one wait.
-  DisjointSets bodies = surfaces;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> mixed;
-  const double gap = kGap * radius;
-  const bool one_surface = std::ranges::all_of(surface, [&](std::uint32_t root) { return root == surface[0]; });
-  for (std::uint32_t f = 0; f < facets.size() && !one_surface; ++f) {
-    for (int i = 0; i < 3; ++i) {
-      if (facets[f].neighbour[i] > static_cast<std::int32_t>(f)) continue;  // the side of that facet
-      const Vec3 &a = facets[f].corner[i], &b = facets[f].corner[(i + 1) % 3];
-      const Prism prism = prism_about(a, b, gap);
-      const double end = prism.along.dot(b) + gap;
-      tree.traverse(prism, [&](const BvhPanel& panel) {
-        const std::uint32_t own = surface[f], other = surface[static_cast<std::size_t>(panel.facet)];
-        if (own == other || bodies.find(own) == bodies.find(other)) return end;
-        const auto pair = open[own] != 0 ? std::pair{other, own} : std::pair{own, other};  // closed, open
-        const bool alike = open[own] == open[other];
-        if ((!alike && !mixed.empty() && mixed.back() == pair) || !meets(a, b, panel, gap)) return end;
-        if (alike) bodies.unite(own, other);
-        if (!alike) mixed.push_back(pair);
-        return end;
-      });
-    }
+BodySizes body_sizes(std::span<const Facet> facets, const PanelBvh& tree) {
+  BodySizes sizes{surfaces(facets), {}};
+  const auto count = static_cast<std::size_t>(*std::ranges::max_element(sizes.surface_of) + 1);
+  std::vector<std::vector<Vec3>> corners(count);
+  std::vector<Surface> surface(count);
+  for (std::size_t f = 0; f < facets.size(); ++f) {
+    const auto own = static_cast<std::size_t>(sizes.surface_of[f]);
+    corners[own].insert(corners[own].end(), facets[f].corner.begin(), facets[f].corner.end());
+    surface[own].open = surface[own].open || facets[f].two_sided;
   }
-  const std::vector<double> size = radii(facets, roots(bodies, facets.size()));
+  for (std::size_t i = 0; i < count; ++i) surface[i].sphere = bounding_sphere(corners[i]);
+
+  // Surfaces of one kind are united with those that they reach; pairs of a closed and an open one are decided by size
+  // afterwards.
+  DisjointSets bodies(count);
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> mixed;  // closed, open
+  for (std::uint32_t own = 0; own < count; ++own) {
+    panels_in({surface[own].sphere.centre, kReach * surface[own].sphere.radius}, tree, [&](const BvhPanel& panel) {
+      const auto other = static_cast<std::uint32_t>(sizes.surface_of[static_cast<std::size_t>(panel.facet)]);
+      if (other == own || surface[other].sphere.radius < surface[own].sphere.radius) return;
+      if (surface[other].open == surface[own].open) {
+        bodies.unite(own, other);
+      } else {
+        const auto pair = surface[own].open ? std::pair{other, own} : std::pair{own, other};
+        if (mixed.empty() || mixed.back() != pair) mixed.push_back(pair);
+      }
+    });
+  }
+  const auto largest = [&](DisjointSets& sets) {
+    std::vector<double> radius(count, 0);  // by representative
+    for (std::uint32_t i = 0; i < count; ++i)
+      radius[sets.find(i)] = std::max(radius[sets.find(i)], surface[i].sphere.radius);
+    return radius;
+  };
+  const std::vector<double> radius = largest(bodies);
   DisjointSets joined = bodies;
-  for (const auto& [closed, sheet] : mixed) {
-    if (size[bodies.find(sheet)] <= size[bodies.find(closed)]) joined.unite(sheet, closed);
+  for (const auto& [closed, open] : mixed) {
+    if (radius[bodies.find(open)] <= radius[bodies.find(closed)]) joined.unite(open, closed);
   }
-
-  const std::vector<std::uint32_t> root = roots(joined, facets.size());
-  const std::vector<double> of_root = radii(facets, root);
-  Bodies result;
-  std::vector<std::int32_t> number(facets.size(), -1);
-  for (const std::uint32_t r : root) {
-    if (number[r] < 0) {
-      number[r] = static_cast<std::int32_t>(result.radius.size());
-      result.radius.push_back(of_root[r]);
-    }
-    result.of_facet.push_back(number[r]);
-  }
-  return result;
+  const std::vector<double> of_body = largest(joined);
+  for (std::uint32_t i = 0; i < count; ++i) sizes.radius.push_back(of_body[joined.find(i)]);
+  return sizes;
 }
 
 }  // namespace seaglint

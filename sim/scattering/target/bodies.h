@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Bodies of a target: which facets belong together, and their size.
+// Size of the body to which each facet belongs.
 
 #include <cstdint>
 #include <span>
@@ -12,15 +12,18 @@
 
 namespace seaglint {
 
-// A surface is a set of facets connected by common vertices. Surfaces that meet or intersect, to 1e-6 of the target's
-// radius, form one body: the parts of a ship. An open surface larger than the body of closed ones that it meets, a
-// piece of sea or ground around it, is a body of its own; so are surfaces that meet no other.
-struct Bodies {
-  std::vector<std::int32_t> of_facet;
-  std::vector<double> radius;  // of each body's bounding sphere about its own centre, m
+// A surface is a set of facets connected by common vertices. Where a surface at least as large comes nearer to
+// the centre of its bounding sphere than twice its radius, both belong to one body, whose size is that of its largest
+// surface: the parts of a ship, their fittings and rails. Open surfaces belong to a body of closed ones only where they
+// are no larger: a piece of sea or ground about a closed body is a body of its own. Sizes turn and move with a target.
+struct BodySizes {
+  std::vector<std::int32_t> surface_of;  // by facet
+  std::vector<double> radius;            // of the bounding sphere of its body's largest surface, m, by surface
+
+  double at(int facet) const { return radius[static_cast<std::size_t>(surface_of[static_cast<std::size_t>(facet)])]; }
 };
 
-// radius: of the target, m. The tree is that of the facets.
-Bodies find_bodies(std::span<const Facet> facets, const PanelBvh& tree, double radius);
+// The tree is that of the facets.
+BodySizes body_sizes(std::span<const Facet> facets, const PanelBvh& tree);
 
 }  // namespace seaglint

@@ -65,6 +65,7 @@ Scatterer::Scatterer(const TriangleMesh& mesh, std::vector<MaterialSpec> materia
       edges_(find_sharp_edges(facets_, crease_rad.value_or(0) > 0 ? *crease_rad : radians(kDefaultCreaseDeg),
                               sheet_thickness_)),
       tree_(facets_, panels_),
+      bodies_(body_sizes(facets_, tree_)),
       materials_(std::move(materials)) {
   for (const Facet& facet : facets_) {
     SEAGLINT_CHECK(materials_.empty() || facet.material < materials_.size(),

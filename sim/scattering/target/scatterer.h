@@ -9,6 +9,7 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/scattering/material/material.h"
+#include "sim/scattering/target/bodies.h"
 #include "sim/scattering/target/facets.h"
 #include "sim/scattering/target/panel_bvh.h"
 #include "sim/scattering/target/panels.h"
@@ -43,6 +44,8 @@ class Scatterer {
   // Bounding sphere: its centre in the body frame, rounded to 1e-6 of its radius, and its radius about that, m.
   const Vec3& centre() const { return centre_; }
   double radius() const { return radius_; }
+  // Size of the body of each facet, which determines the detail on it.
+  const BodySizes& bodies() const { return bodies_; }
   std::span<const MaterialSpec> materials() const { return materials_; }  // empty: perfect conductor
 
  private:
@@ -53,6 +56,7 @@ class Scatterer {
   Panels panels_;
   SharpEdges edges_;
   PanelBvh tree_;
+  BodySizes bodies_;
   std::vector<MaterialSpec> materials_;
 };
 

@@ -55,5 +55,22 @@ TEST(Assets, AreUnchangedByARoundTripThroughTheirFiles) {
   }
 }
 
+// The hull is smooth between its knuckles; the file rounds normals to float32.
+TEST(Assets, HaveTheNormalsOfTheShipsSmoothSurfaces) {
+  const TriangleMesh ship = make_ship(), again = read_mesh(kAssets / "combatant_144m.glb");
+  ASSERT_EQ(again.corner_normals.size(), ship.corner_normals.size());
+  std::size_t smooth = 0;
+  for (std::size_t t = 0; t < ship.triangles.size(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 &n = ship.corner_normals[t][i], own = area_vector(ship, t).normalized();
+      smooth += n.isZero(0) ? 0 : 1;
+      // A corner without a normal has that of its triangle in the file, or none.
+      const Vec3& read = again.corner_normals[t][i];
+      EXPECT_LT((read - (n.isZero(0) ? (read.isZero(0) ? Vec3::Zero().eval() : own) : n)).norm(), 1.1e-7);
+    }
+  }
+  EXPECT_GT(smooth, 12000u) << "the hull's triangles";
+}
+
 }  // namespace
 }  // namespace seaglint

@@ -156,28 +156,22 @@ struct DoubleDiffractionSum {
 DoubleDiffractionSum double_diffraction_sum(const TriangleMesh& mesh, const BistaticGeometry& geometry, double k,
                                             double first_below, double last_above, int walls) {
   const Scatterer scatterer(mesh, {}, 0.0);  // with the edges that the mesh has
-  // In the mesh's coordinates, which the scatterer's centre rounds in the last place.
-  constexpr double kLastPlace = 1e-12;
-  const auto edge = [&](const EdgeIllumination& illumination) {
-    SharpEdge found = scatterer.edges().edges[illumination.edge];
-    found.a += scatterer.centre();
-    found.b += scatterer.centre();
-    return found;
-  };
+  const Vec3& c = scatterer.centre();  // to which edges are relative; rounds them in the last place
+  const auto edge = [&](const EdgeIllumination& illumination) { return scatterer.edges().edges[illumination.edge]; };
   // Illuminations of edges on the floor that `wanted` selects.
   const auto reached = [&](const RadarBasis& basis, const auto& selected) {
     std::vector<EdgeIllumination> kept;
     const TraceSummary all =
         Illumination(scatterer, monostatic(basis), {0, 1, true}).trace_all(1, [](std::size_t, std::size_t, auto) {});
     for (const EdgeIllumination* illumination : all.edge_illuminations.all()) {
-      const SharpEdge reached_edge = edge(*illumination);
-      if (std::max(std::abs(reached_edge.a.z()), std::abs(reached_edge.b.z())) < kLastPlace && selected(reached_edge))
-        kept.push_back(*illumination);
+      const double height =
+          std::max(std::abs(edge(*illumination).a.z() + c.z()), std::abs(edge(*illumination).b.z() + c.z()));
+      if (height < 1e-12 && selected(edge(*illumination))) kept.push_back(*illumination);
     }
     return IlluminationByEdge({std::move(kept)}, scatterer.edges().edges.size());
   };
-  const auto first = [&](const SharpEdge& e) { return std::max(e.a.x(), e.b.x()) <= first_below + kLastPlace; };
-  const auto last = [&](const SharpEdge& e) { return std::min(e.a.x(), e.b.x()) >= last_above - kLastPlace; };
+  const auto first = [&](const SharpEdge& e) { return std::max(e.a.x(), e.b.x()) + c.x() <= first_below + 1e-12; };
+  const auto last = [&](const SharpEdge& e) { return std::min(e.a.x(), e.b.x()) + c.x() >= last_above - 1e-12; };
   const IlluminationByEdge incoming = reached(geometry.transmit, first), outgoing = reached(geometry.receive, last);
   std::vector<EdgeContribution> contributions;
   trace_multiple_diffraction(scatterer.edges(), scatterer.facets(), scatterer.panels(), geometry, incoming.all(),

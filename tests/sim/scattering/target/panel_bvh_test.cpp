@@ -84,7 +84,7 @@ TEST(PanelBvh, ExcludesAPrismNextToASkewedBox) {
   const Vec3 along = Vec3::Ones().normalized();
   const RadarBasis across = radar_basis(along);
   const auto walked_at = [&](double h, double v) {
-    const Vec3 centre = 0.5 * Vec3::Ones();
+    const Vec3 centre = 0.5 * Vec3::Ones() - triangle.centre();
     return !walked(triangle, {centre + h * across.h + v * across.v - 5 * along, along}, 0.02).empty();
   };
   // Vertices at 0.816 from its middle, sides at 0.707, two of them normal to h.
