@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -46,6 +47,8 @@ class FieldVisitor {
   virtual ~FieldVisitor() = default;
 
   virtual void number(const char* key, double& value, const Bound& bound) = 0;
+  // A number, or the word auto for none.
+  virtual void number_or_auto(const char* key, std::optional<double>& value, const Bound& bound) = 0;
   virtual void integer(const char* key, int& value, const Bound& bound) = 0;
   // 0 <= x < 2^63: data sets store signed numbers
   virtual void natural(const char* key, std::uint64_t& value) = 0;

@@ -27,6 +27,9 @@ class Lister : public FieldVisitor {
   void number(const char* key, double& value, const Bound& bound) override {
     add(key, is_optional_ ? "" : fmt::format("{}", value), number_text(bound));
   }
+  void number_or_auto(const char* key, std::optional<double>& value, const Bound& bound) override {
+    add(key, value ? fmt::format("{}", *value) : "auto", "auto, or " + number_text(bound));
+  }
   void integer(const char* key, int& value, const Bound& bound) override {
     const bool single = bound.lowest == bound.highest;
     add(key, fmt::format("{}", value), single ? fmt::format("{}", bound.lowest) : "whole, " + bound.text());

@@ -40,6 +40,7 @@ class KeyCollector : public FieldVisitor {
   std::vector<std::string> keys;
 
   void number(const char* key, double&, const Bound&) override { keys.emplace_back(key); }
+  void number_or_auto(const char* key, std::optional<double>&, const Bound&) override { keys.emplace_back(key); }
   void integer(const char* key, int&, const Bound&) override { keys.emplace_back(key); }
   void natural(const char* key, std::uint64_t&) override { keys.emplace_back(key); }
   void flag(const char* key, bool&) override { keys.emplace_back(key); }
@@ -78,6 +79,14 @@ class Reader : public FieldVisitor {
 
   void number(const char* key, double& value, const Bound& bound) override {
     if (const YamlNode* node = map_.find(key)) value = number_of(*node, path_of(key), bound, "a number");
+  }
+
+  void number_or_auto(const char* key, std::optional<double>& value, const Bound& bound) override {
+    const YamlNode* node = map_.find(key);
+    if (node == nullptr) return;
+    value.reset();
+    if (node->kind == YamlNode::Kind::kScalar && node->text == "auto") return;
+    value = number_of(*node, path_of(key), bound, "auto or a number");
   }
 
   void integer(const char* key, int& value, const Bound& bound) override {

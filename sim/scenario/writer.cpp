@@ -46,6 +46,9 @@ std::string ratio_as_yaml(double fraction) {
 class ValueVisitor : public FieldVisitor {
  public:
   void number(const char* key, double& value, const Bound&) override { line(key, fmt::format("{}", value)); }
+  void number_or_auto(const char* key, std::optional<double>& value, const Bound&) override {
+    line(key, value ? fmt::format("{}", *value) : "auto");
+  }
   void integer(const char* key, int& value, const Bound&) override { line(key, fmt::format("{}", value)); }
   void natural(const char* key, std::uint64_t& value) override { line(key, fmt::format("{}", value)); }
   void flag(const char* key, bool& value) override { line(key, value ? "true" : "false"); }

@@ -188,13 +188,17 @@ TEST_F(InputErrors, OfATargetWithoutAnEcho) {
 
 TEST_F(InputErrors, OfANumberThatIsNotANumber) {
   const std::string mesh = folder() / "whole.glb";
-  for (const char* option :
-       {"--wavefront-range-m", "--crease-deg", "--min-patch-m", "--transmit-azimuth-deg", "--centre-cell-m"}) {
+  for (const char* option : {"--wavefront-range-m", "--min-patch-m", "--transmit-azimuth-deg", "--centre-cell-m"}) {
     expect_failure(folder(),
                    {"rcs", "--target", mesh, "--frequency-ghz", "10", "--azimuth-deg", "0", "-o", folder() / "rcs.csv",
                     option, "nan"},
                    2, std::string(option) + ": value nan: must be within");
   }
+  for (const char* angle : {"nan", "61", "-1", "smooth"})
+    expect_failure(folder(),
+                   {"rcs", "--target", mesh, "--frequency-ghz", "10", "--azimuth-deg", "0", "-o", folder() / "rcs.csv",
+                    "--crease-deg", angle},
+                   2, std::string("value ") + angle + ": must be auto or within 0 and 60");
   expect_failure(folder(), {"mesh", "info", mesh, "--min-wedge-angle-deg", "nan"}, 2, "value nan");
   expect_failure(folder(), {"map", "scenarios/points.yaml", "--sample", "-1", "-o", folder() / "map.png"}, 2, "-1");
 }

@@ -34,6 +34,12 @@ MaterialChoice material_choice(const std::string& text) {
   return choice;
 }
 
+std::string crease_error(const std::string& value) {
+  const std::optional<double> angle = parse_number(value);
+  const bool valid = value == "auto" || (angle && *angle >= 0 && *angle <= 60);
+  return valid ? "" : fmt::format("value {}: must be auto or within 0 and 60", value);
+}
+
 void add_cavity_options(CommandOptions& command, CavityRequest& cavities) {
   const CommandOption cavity =
       command
@@ -129,11 +135,10 @@ void RcsArguments::add_to(CommandOptions& command) {
       .one_of({"on", "off"})
       .show_default();
   command
-      .add_option(
-          "--crease-deg", request.crease_deg,
-          "Crease angle: adjacent facets whose normals differ by less belong to one smooth surface; 0 = all facets "
-          "flat")
-      .number_within(0.0, 60.0)
+      .add_option("--crease-deg", crease_deg,
+                  "Facets that form a smooth surface: auto = as the mesh's normals or its shape say; a crease angle "
+                  "within 0 and 60 = adjacent ones whose normals differ by less; 0 = all facets flat")
+      .check(crease_error)
       .show_default();
   command
       .add_option("--sheet-thickness-mm", request.sheet_thickness_mm,
@@ -177,6 +182,7 @@ RcsRequest RcsArguments::make_request() const {
   RcsRequest made = request;
   made.target = target;
   made.edges = edges == "on";
+  if (crease_deg != "auto") made.crease_deg = parse_number(crease_deg);
   made.physical_optics_too = !reference.files.empty();
   made.frequency_hz = range("--frequency-ghz", frequency_ghz, 1e-3, 1000);
   for (double& f : made.frequency_hz) f *= 1e9;

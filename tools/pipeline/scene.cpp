@@ -70,12 +70,13 @@ TargetSource source_of(const Scenario& scenario, const TargetSpec& spec) {
 }
 
 ScattererSettings scatterer_settings(const Scenario& scenario, const TargetSpec& spec) {
-  ScattererSettings settings{.waterline_m = std::nullopt,
-                             .crease_rad = radians(spec.solver.crease_deg),
-                             .sheet_thickness_m = 1e-3 * spec.sheet_thickness_mm,
-                             .edges = spec.solver.edges,
-                             .lowest_hz = 1e9 * lowest_ghz(scenario.radar),
-                             .highest_hz = 1e9 * highest_ghz(scenario.radar)};
+  ScattererSettings settings{
+      .waterline_m = std::nullopt,
+      .crease_rad = spec.solver.crease_deg ? std::optional(radians(*spec.solver.crease_deg)) : std::nullopt,
+      .sheet_thickness_m = 1e-3 * spec.sheet_thickness_mm,
+      .edges = spec.solver.edges,
+      .lowest_hz = 1e9 * lowest_ghz(scenario.radar),
+      .highest_hz = 1e9 * highest_ghz(scenario.radar)};
   // The radar's image illuminates the hull from below.
   if (scenario.sea_reflection.enabled) settings.waterline_m = -rest_position(spec.motion, 0, 0).z();
   return settings;

@@ -62,7 +62,8 @@ struct RcsRequest {
   bool physical_optics_too = false;             // also computes a second model without edge diffraction
   int max_bounces = kDefaultBounces;
   double min_patch_m = 0;  // 0: default_min_patch()
-  double crease_deg = kDefaultCreaseDeg, sheet_thickness_mm = 0;
+  std::optional<double> crease_deg;  // absent: as the mesh's normals or its shape say
+  double sheet_thickness_mm = 0;
   EchoSelection selection;
   SeaUnderTarget sea;
   CavityRequest cavities;

@@ -50,7 +50,7 @@ std::string rcs_table(const RcsRequest& request, const Scatterer& scatterer, con
   std::string csv = fmt::format(
       "# seaglint {} rcs\n# target {} unit {}: {} facets, radius {:.6g} m\n"
       "# material {}, contributions: {}\n{}"
-      "# physical optics at every visible bounce, max_bounces {}, edges {}, crease_deg {:.6g}, sheet_thickness_mm "
+      "# physical optics at every visible bounce, max_bounces {}, edges {}, crease_deg {}, sheet_thickness_mm "
       "{:.6g}, wavefront_range_m {:.9g} (0 = plane wave), min_patch_m {:.6g}\n{}{}\n"
       "# amplitudes in metres, e^{{+jwt}}, phase origin at the body's origin, S_pq: q transmitted, p received; basis "
       "of "
@@ -58,7 +58,8 @@ std::string rcs_table(const RcsRequest& request, const Scatterer& scatterer, con
       "frequency_hz,azimuth_deg,elevation_deg,hh_re,hh_im,hv_re,hv_im,vh_re,vh_im,vv_re,vv_im,hh_dbsm,vv_dbsm\n",
       kVersion, request.target.string(), request.unit, scatterer.facets().size(), scatterer.radius(),
       materials_text(request.materials), text_of(request.selection), sea_line(request.sea), request.max_bounces,
-      request.edges ? "on" : "off", request.crease_deg, request.sheet_thickness_mm, request.range_m,
+      request.edges ? "on" : "off", request.crease_deg ? fmt::format("{:.6g}", *request.crease_deg) : "auto",
+      request.sheet_thickness_mm, request.range_m,
       request.min_patch_m > 0 ? request.min_patch_m : default_min_patch(scatterer), cavity_line(request.cavities),
       transmitter_line(request.transmitter));
   for (std::size_t q = 0; q < sweep.frequency_hz.size(); ++q) {

@@ -35,12 +35,13 @@ PreparedTarget prepare_mesh(const RcsRequest& request) {
                                       .materials_place = "--material",
                                       .frequencies_place = "",
                                       .mesh_place = request.target.string()});
-  ScattererSettings settings{.waterline_m = std::nullopt,
-                             .crease_rad = radians(request.crease_deg),
-                             .sheet_thickness_m = 1e-3 * request.sheet_thickness_mm,
-                             .edges = request.edges,
-                             .lowest_hz = *lowest,
-                             .highest_hz = *highest};
+  ScattererSettings settings{
+      .waterline_m = std::nullopt,
+      .crease_rad = request.crease_deg ? std::optional(radians(*request.crease_deg)) : std::nullopt,
+      .sheet_thickness_m = 1e-3 * request.sheet_thickness_mm,
+      .edges = request.edges,
+      .lowest_hz = *lowest,
+      .highest_hz = *highest};
   if (request.sea.reflection) {
     require_above_water(request.sea, mesh.mesh);
     settings.waterline_m = -request.sea.height_m;

@@ -42,7 +42,11 @@ bool runs(const std::array<std::uint32_t, 3>& triangle, std::uint32_t a, std::ui
 }  // namespace
 
 EditableMesh::EditableMesh(const TriangleMesh& mesh, std::vector<std::uint32_t> face)
-    : vertices_(mesh.vertices), triangles_(mesh.triangles), face_(std::move(face)), at_(mesh.vertices.size()) {
+    : vertices_(mesh.vertices),
+      triangles_(mesh.triangles),
+      face_(std::move(face)),
+      at_(mesh.vertices.size()),
+      kept_(mesh.vertices.size(), 0) {
   face_normal_.assign(triangles_.size(), Vec3::Zero());
   for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
     Triangle& triangle = triangles_[t];
@@ -93,9 +97,13 @@ void EditableMesh::remove_flat_vertices(double tolerance) {
   std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) { return is_before(a, b); });
   for (bool changed = true; changed;) {
     changed = false;
-    for (const std::uint32_t v : order) changed |= !at_[v].empty() && remove_vertex(v, tolerance);
+    for (const std::uint32_t v : order) changed |= !kept_[v] && !at_[v].empty() && remove_vertex(v, tolerance);
     if (changed) make_delaunay();
   }
+}
+
+void EditableMesh::keep_vertices(std::uint32_t triangle) {
+  for (const std::uint32_t v : triangles_[triangle]) kept_[v] = 1;
 }
 
 bool EditableMesh::remove_vertex(std::uint32_t v, double tolerance) {
@@ -209,6 +217,7 @@ void EditableMesh::store(TriangleMesh& mesh, std::vector<std::uint32_t>& face) c
   result.triangles.clear();
   result.triangle_part.clear();
   result.triangle_material.clear();
+  result.corner_normals.clear();
   std::map<std::uint32_t, std::uint32_t> number;
   face.clear();
   for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
@@ -216,6 +225,10 @@ void EditableMesh::store(TriangleMesh& mesh, std::vector<std::uint32_t>& face) c
     result.triangles.push_back(triangles_[t]);
     result.triangle_part.push_back(mesh.triangle_part[t]);
     result.triangle_material.push_back(mesh.triangle_material[t]);
+    if (!mesh.corner_normals.empty())
+      result.corner_normals.push_back(triangles_[t] == mesh.triangles[t]
+                                          ? mesh.corner_normals[t]
+                                          : std::array{Vec3(Vec3::Zero()), Vec3(Vec3::Zero()), Vec3(Vec3::Zero())});
     face.push_back(number.try_emplace(face_[t], static_cast<std::uint32_t>(number.size())).first->second);
   }
   mesh = std::move(result);

@@ -18,6 +18,9 @@ class EditableMesh {
   // `face`: planar face of every triangle, any numbers. Vertices at one position must be one vertex.
   EditableMesh(const TriangleMesh& mesh, std::vector<std::uint32_t> face);
 
+  // The vertices of this triangle will not be removed.
+  void keep_vertices(std::uint32_t triangle);
+
   // Removes vertices inside a face and vertices where exactly two collinear boundary edges of faces meet. A removed
   // vertex lies within `tolerance` (m) of the boundary edge that replaces its edges (H. Hoppe et al., Proc. SIGGRAPH
   // 1993, 19-26: edge collapse and its link condition).
@@ -27,7 +30,8 @@ class EditableMesh {
   // in Mathematical Software III, 1977, 161-194); ties as in merge_planar_faces().
   void make_delaunay();
 
-  // Replaces the triangles of the mesh, with parts and materials, and numbers the faces from 0.
+  // Replaces the triangles of the mesh, with parts, materials and the corner normals of unchanged triangles, and
+  // numbers the faces from 0.
   void store(TriangleMesh& mesh, std::vector<std::uint32_t>& face) const;
 
  private:
@@ -51,6 +55,7 @@ class EditableMesh {
   std::vector<std::uint32_t> face_;
   std::vector<std::vector<std::uint32_t>> at_;  // triangles by vertex
   std::map<Edge, std::vector<Vec3>> removed_;   // vertices removed from boundary edges
+  std::vector<char> kept_;                      // by vertex
   std::vector<Vec3> face_normal_;               // by triangle number of the face, unit
 };
 

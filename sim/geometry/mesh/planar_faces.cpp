@@ -39,8 +39,18 @@ struct Plane {
   Vec3 normal() const { return area.normalized(); }
 };
 
+// True where a corner normal is off the triangle's own: a sample of a curved surface.
+bool is_curved(const TriangleMesh& mesh, std::uint32_t t) {
+  constexpr double kOff = 1e-3;  // rad, the digits of normals in files
+  if (mesh.corner_normals.empty()) return false;
+  const Vec3 own = area_vector(mesh, t).normalized();
+  return std::ranges::any_of(mesh.corner_normals[t],
+                             [&](const Vec3& n) { return !n.isZero(0) && (n - own).norm() > kOff; });
+}
+
 bool alike(const TriangleMesh& mesh, std::uint32_t a, std::uint32_t b) {
-  return mesh.triangle_part[a] == mesh.triangle_part[b] && mesh.triangle_material[a] == mesh.triangle_material[b];
+  return !is_curved(mesh, a) && !is_curved(mesh, b) && mesh.triangle_part[a] == mesh.triangle_part[b] &&
+         mesh.triangle_material[a] == mesh.triangle_material[b];
 }
 
 // True where the smaller of two neighbouring triangles lies in the plane of the larger one.
@@ -143,6 +153,9 @@ PlanarFaces merge_planar_faces(const TriangleMesh& mesh, double tolerance) {
   const Bounds box = bounds(merged);
   const double exact = kExact * std::max(box.lower.cwiseAbs().maxCoeff(), box.upper.cwiseAbs().maxCoeff());
   EditableMesh surface(merged, find_faces(merged, std::max(tolerance, exact), exact));
+  for (std::uint32_t t = 0; t < merged.triangles.size(); ++t) {
+    if (is_curved(merged, t)) surface.keep_vertices(t);
+  }
   surface.remove_flat_vertices(std::max(tolerance, exact));
   surface.make_delaunay();
   surface.store(merged, result.face);

@@ -20,7 +20,7 @@ struct PlanarFaces {
 // and on straight parts of its boundary, free and non-manifold edges included, are removed; the others stay where they
 // are. The triangulation is the constrained Delaunay triangulation of each face; of cocircular vertices the one with
 // the smallest coordinates is joined to all others. Meshes that differ in the division of their planar faces only give
-// the same triangles.
+// the same triangles. Triangles with corner normals off their own stay as they are.
 PlanarFaces merge_planar_faces(const TriangleMesh& mesh, double tolerance);
 
 }  // namespace seaglint

@@ -97,8 +97,6 @@ class CurvedDecomposer {
     return of_p[0] * corner[0] + of_p[1] * corner[1] + of_p[2] * corner[2];
   }
 
-  double contour_ratio() const { return c_.flat_panel ? kBundleContourRatio : kContourRatio; }
-
   // Gradient of psi with the smooth normals, continuous between facets.
   Vec2 smooth_slope(const Vec2& p, const BarycentricWeights& of_p) const {
     return c_.flat_panel ? psi_slope(p) : between(c_.w, of_p);
@@ -138,7 +136,7 @@ class CurvedDecomposer {
     for (const Corner& corner : triangle) difference = std::max(difference, (corner.slope - mean).squaredNorm());
     const double min = mean.norm() - std::sqrt(difference) - kTriangleError * slope_change_ * size * size;
     const double k = band_.form().centre();
-    if (min > min_slope_ && k * min * size / 2 > kMaxHalfPhase && k * min * min > contour_ratio() * curvature) {
+    if (min > min_slope_ && k * min * size / 2 > kMaxHalfPhase && k * min * min > kContourRatio * curvature) {
       contour(polygon);
       return;
     }
@@ -229,7 +227,7 @@ class CurvedDecomposer {
         const double dip = kSideError * slope_change_ * length * std::pow(length * step, 2);
         const double min = run_from * run_to > 0 ? std::min(std::abs(run_from), std::abs(run_to)) - dip : 0;
         if (min > min_slope_ * length && k_form * min * step / 2 > kMaxHalfPhase &&
-            k_form * min * min * step > contour_ratio() * std::abs(run_to - run_from)) {
+            k_form * min * min * step > kContourRatio * std::abs(run_to - run_from)) {
           const Complex first = -flux(a.p + from * along, along) / Complex(0, run_from);
           const Complex last = flux(a.p + to * along, along) / Complex(0, run_to);
           if (from == 0)

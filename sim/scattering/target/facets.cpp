@@ -43,6 +43,7 @@ std::vector<Facet> make_facets(const TriangleMesh& mesh, std::span<const std::ui
     facet.longest_edge = longest;
     facet.part = mesh.triangle_part.empty() ? std::uint16_t{0} : mesh.triangle_part[t];
     facet.material = mesh.triangle_material.empty() ? std::uint16_t{0} : mesh.triangle_material[t];
+    if (!mesh.corner_normals.empty()) facet.corner_normal = mesh.corner_normals[t];
     if (!face.empty()) facet.face = static_cast<std::int32_t>(face[t]);
     facets.push_back(facet);
     indices.push_back({welded[triangle[0]], welded[triangle[1]], welded[triangle[2]]});

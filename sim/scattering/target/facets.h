@@ -24,6 +24,8 @@ struct Facet {
   std::uint16_t part = 0;      // index of mesh.part_names
   std::uint16_t material = 0;  // index of mesh.materials
   std::int32_t face = -1;      // planar face, PlanarFaces::face; -1: of no known face
+  // Normals of the smooth surface at the corners, unit, as its file gives them; zero: none.
+  std::array<Vec3, 3> corner_normal{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
 };
 
 // Facets of the mesh without its degenerate triangles (height below 1e-9 m). Neighbours are found by vertex position,

@@ -40,11 +40,19 @@ double radius_of(std::span<const Facet> facets) {
   return radius;
 }
 
-// Facets of the mesh as it is, or of its planar faces triangulated anew.
-std::vector<Facet> facets_of(const TriangleMesh& mesh, bool as_meshed) {
+// Facets of the mesh as it is, without its normals, or of its planar faces triangulated anew, with those normals that
+// describe a surface.
+std::vector<Facet> facets_of(TriangleMesh mesh, bool as_meshed) {
+  if (as_meshed || !normals_describe_surface(mesh)) mesh.corner_normals.clear();
   if (as_meshed) return make_facets(mesh);
   const PlanarFaces faces = merge_planar_faces(mesh, kPlanar * radius_of(make_facets(mesh)));
   return make_facets(faces.mesh, faces.face);
+}
+
+SmoothSides smooth_sides(std::span<const Facet> facets, std::optional<double> crease_rad) {
+  if (crease_rad) return smooth_sides_by_angle(facets, *crease_rad);
+  const bool given = std::ranges::any_of(facets, [](const Facet& facet) { return !facet.corner_normal[0].isZero(0); });
+  return given ? smooth_sides_by_normals(facets) : smooth_sides_by_shape(facets, radians(kDefaultCreaseDeg));
 }
 
 }  // namespace
@@ -57,10 +65,7 @@ Scatterer::Scatterer(const TriangleMesh& mesh, std::vector<MaterialSpec> materia
       facets_(facets_of(transformed(mesh, Mat3::Identity(), -centre_), crease_rad.has_value())),
       radius_(radius_of(facets_)),
       sheet_thickness_(sheet_thickness_m),
-      surface_(facets_,
-               crease_rad ? smooth_sides_by_angle(facets_, *crease_rad)
-                          : smooth_sides_by_shape(facets_, radians(kDefaultCreaseDeg)),
-               1e-7 * radius_),
+      surface_(facets_, smooth_sides(facets_, crease_rad), 1e-7 * radius_),
       panels_(facets_, surface_),
       edges_(find_sharp_edges(facets_, crease_rad.value_or(0) > 0 ? *crease_rad : radians(kDefaultCreaseDeg),
                               sheet_thickness_)),

@@ -193,4 +193,39 @@ SmoothSides smooth_sides_by_shape(std::span<const Facet> facets, double crease) 
   return ShapeTest(facets, candidates).run();
 }
 
+SmoothSides smooth_sides_by_normals(std::span<const Facet> facets) {
+  constexpr double kAgree = 0.01;  // rad
+  SmoothSides sides = smooth_sides_by_angle(facets, 2 * kMaxNormalDeviation);
+  for (std::size_t f = 0; f < facets.size(); ++f) {
+    for (std::size_t e = 0; e < 3; ++e) {
+      if (sides[f][e] < 0) continue;
+      const Facet &here = facets[f], &there = facets[static_cast<std::size_t>(sides[f][e])];
+      for (const std::size_t corner : {e, (e + 1) % 3}) {
+        const int other = corner_at(there, here.corner[corner]);
+        const Vec3 &a = here.corner_normal[corner], &b = there.corner_normal[static_cast<std::size_t>(other)];
+        if (a.isZero(0) || b.isZero(0) || (a - b).norm() > kAgree) sides[f][e] = -1;
+      }
+    }
+  }
+  return sides;
+}
+
+bool normals_describe_surface(const TriangleMesh& mesh) {
+  constexpr double kRepeated = 1e-3;  // rad, the digits of normals in files
+  constexpr double kShaded = 0.01;    // of the area
+  double off = 0, far = 0, all = 0;
+  for (std::size_t t = 0; t < mesh.corner_normals.size(); ++t) {
+    const Vec3 own = area_vector(mesh, t);
+    const double area = own.norm();
+    double largest = 0;
+    for (const Vec3& n : mesh.corner_normals[t]) {
+      if (!n.isZero(0) && area > 0) largest = std::max(largest, std::acos(std::clamp(n.dot(own) / area, -1.0, 1.0)));
+    }
+    all += area;
+    if (largest > kRepeated) off += area;
+    if (largest > kMaxNormalDeviation) far += area;
+  }
+  return off > 0 && far <= kShaded * all;
+}
+
 }  // namespace seaglint

@@ -24,4 +24,13 @@ SmoothSides smooth_sides_by_angle(std::span<const Facet> facets, double crease);
 // "Smooth surface").
 SmoothSides smooth_sides_by_shape(std::span<const Facet> facets, double crease);
 
+// Sides of the same kind where the corner normals of both facets are given and agree.
+SmoothSides smooth_sides_by_normals(std::span<const Facet> facets);
+
+// True where the corner normals of a mesh describe a smooth surface: some are off their triangles' own, so that they do
+// not repeat the facets, and none by more than kMaxNormalDeviation but for a hundredth of the area, so that they are
+// not the shading of a box.
+inline constexpr double kMaxNormalDeviation = 0.52;  // rad: the facets of a cylinder of six sides
+bool normals_describe_surface(const TriangleMesh& mesh);
+
 }  // namespace seaglint

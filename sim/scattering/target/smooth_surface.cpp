@@ -129,6 +129,7 @@ SmoothSurface::SmoothSurface(std::span<const Facet> facets, const SmoothSides& s
       }
       const double alike = smooth_taper(widest / narrowest, kAlike);
       vertex.normal = (alike * of_alike.normalized() + (1 - alike) * of_unlike.normalized()).normalized();
+      if (const Vec3& given = facets[f].corner_normal[c]; !given.isZero(0)) vertex.normal = given;
       vertices_.push_back(vertex);
     }
   }

@@ -53,6 +53,9 @@ class Collector : public Walker {
   std::map<std::string, std::string> values;
 
   void number(const char* key, double& value, const Bound&) override { values[path(key)] = fmt::format("{:a}", value); }
+  void number_or_auto(const char* key, std::optional<double>& value, const Bound&) override {
+    values[path(key)] = value ? fmt::format("{:a}", *value) : "auto";
+  }
   void integer(const char* key, int& value, const Bound&) override { values[path(key)] = std::to_string(value); }
   void natural(const char* key, std::uint64_t& value) override { values[path(key)] = std::to_string(value); }
   void flag(const char* key, bool& value) override { values[path(key)] = std::to_string(value); }
@@ -74,6 +77,7 @@ class Mutator : public Walker {
   explicit Mutator(std::uint64_t index) : random_({1, Stream::kTest, index}) {}
 
   void number(const char*, double& value, const Bound& bound) override { value = draw(bound); }
+  void number_or_auto(const char*, std::optional<double>& value, const Bound& bound) override { value = draw(bound); }
   void integer(const char* key, int& value, const Bound& bound) override {
     if (path(key) == "seaglint") return;
     const auto low = static_cast<std::int64_t>(std::ceil(bound.lowest));
@@ -226,6 +230,7 @@ TEST(RoundTrip, EveryAllowedWordIsRead) {
        public:
         Change() : Mutator(0) {}
         void number(const char*, double&, const Bound&) override {}
+        void number_or_auto(const char*, std::optional<double>&, const Bound&) override {}
         void integer(const char*, int&, const Bound&) override {}
         void flag(const char*, bool&) override {}
         void text(const char*, std::string&) override {}

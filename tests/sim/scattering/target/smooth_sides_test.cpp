@@ -6,9 +6,11 @@
 
 #include <cmath>
 #include <cstdio>
+#include <functional>
 
 #include "sim/geometry/mesh/planar_faces.h"
 #include "sim/geometry/shapes/generators.h"
+#include "sim/geometry/shapes/solids.h"
 #include "tests/measured.h"
 #include "tests/sim/geometry/mesh_changes.h"
 #include "tests/sim/scattering/solver_fixtures.h"
@@ -101,6 +103,40 @@ TEST(SmoothSides, AKnuckleStaysAKnuckle) {
   mesh.append(transformed(make_plate(1, 1), turn, hinge + turn * hinge));
   EXPECT_EQ(smooth_share(welded(mesh)), 0);
   EXPECT_EQ(smooth_share(cut_in_four(cut_in_four(welded(mesh)))), 0);
+}
+
+// Each corner's normal is that of the body at its vertex.
+TriangleMesh with_normals(TriangleMesh mesh, const std::function<Vec3(const Vec3&)>& normal) {
+  for (const auto& triangle : mesh.triangles) {
+    auto& normals = mesh.corner_normals.emplace_back();
+    for (std::size_t i = 0; i < 3; ++i) normals[i] = normal(mesh.vertices[triangle[i]]);
+  }
+  return mesh;
+}
+
+// Normals of a file are believed where they agree with its facets and say more than these: a sphere of 80 facets, whose
+// sides turn by more than any crease angle, is smooth by them.
+TEST(SmoothSides, FollowTheNormalsOfTheFile) {
+  const auto radial = [](const Vec3& x) { return Vec3(x.normalized()); };
+  const TriangleMesh sphere = with_normals(make_sphere(1, 1), radial);
+  EXPECT_TRUE(normals_describe_surface(sphere));
+  EXPECT_EQ(Scatterer(sphere).surface().curved_count(), 80u);
+  EXPECT_EQ(Scatterer(make_sphere(1, 1)).surface().curved_count(), 0u);
+  EXPECT_EQ(Scatterer(sphere, {}, 0.0).surface().curved_count(), 0u) << "a crease angle overrides normals";
+}
+
+TEST(SmoothSides, IgnoreNormalsThatShadeABoxOrRepeatTheFacets) {
+  MeshBuilder builder;
+  builder.begin_part("box");
+  add_box(builder, {}, {1, 1, 1});
+  const TriangleMesh shaded = with_normals(builder.take(), [](const Vec3& x) { return Vec3(x.normalized()); });
+  EXPECT_FALSE(normals_describe_surface(shaded));
+  EXPECT_EQ(Scatterer(shaded).surface().curved_count(), 0u);
+  TriangleMesh sphere = make_sphere(1, 3);
+  for (std::size_t t = 0; t < sphere.triangles.size(); ++t)
+    sphere.corner_normals.emplace_back().fill(area_vector(sphere, t).normalized());
+  EXPECT_FALSE(normals_describe_surface(sphere));
+  EXPECT_EQ(Scatterer(sphere).surface().curved_count(), 1280u) << "the shape decides";
 }
 
 }  // namespace
