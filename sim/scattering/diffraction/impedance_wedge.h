@@ -35,7 +35,8 @@ inline constexpr double kSoftConductor = 1e12;
 Complex brewster_sine(const Complex& reflection, double sin_phi);
 
 // P for sin(theta) of both faces, 0 <= phi, phi0 <= N pi, 1 <= N <= 2; N = 1 is a plane with a junction of two
-// impedances. Infinite on the incident and the reflection shadow boundaries. Error below 1e-6.
+// impedances. Infinite on the incident and the reflection shadow boundaries. Relative error of g by
+// quadrature, up to 0.98 N pi from the other face: below 2e-6 for |sin(theta)| <= 10, up to 1.3e-4 for 10 to 100.
 Complex impedance_wedge(double phi, double phi0, const std::array<Complex, 2>& brewster_sines, double N);
 
 // P of the physical-optics currents on a half-plane illuminated from phi0 in (0, pi), of the total field with the
