@@ -70,6 +70,15 @@ inline constexpr FadeWindow kPenumbraAngleWindow{0.6, 0.9};
 // image in the wall is not visible.
 inline constexpr FadeWindow kWallTopWindow{0.6, 1};
 
+// Edge of a thin sheet: |cos phi| at which the current along its normal vanishes, from zero for a dielectric. Below the
+// first value this zero is split by Wiener and Hopf, above the second it is far from every direction and the sheet has
+// the impedance of the angle (material_edge.h).
+inline constexpr FadeWindow kNormalPolarisationWindow{0.8, 1.2};
+
+// The same of the odd part, whose zeros count while the sheet is weak: its admittance at normal incidence, infinite for
+// a perfect conductor.
+inline constexpr FadeWindow kSheetAdmittanceWindow{1.5, 3};
+
 // Angle from a shadow or reflection boundary within which equivalent edge currents are fringe currents, rad; a sharp
 // limit, for paths without reflectors and for the diffracted field towards reflectors, whose growth near the shadow
 // boundary diffraction_forward_taper() removes.

@@ -13,10 +13,17 @@ bool records_edges(const TracingContext& scene, const BeamSegment& segment) {
 
 void record_edges(const TracingContext& scene, const BeamSegment& segment, const CandidatePanel& candidate,
                   std::vector<EdgeIllumination>& illuminations) {
-  if (!segment.fields.empty() || !scene.surface_of(candidate.projection.facet).empty()) return;
-  const FacetWave wave{
-      scene.transmit, segment.image_transform, candidate.projection.plane,    segment.direction, segment.E_h,
-      segment.E_v,    segment.bounce,          segment.first_reflector_normal};
+  if (!segment.fields.empty()) return;
+  const bool on_conductor = scene.surface_of(candidate.projection.facet).empty();
+  const FacetWave wave{scene.transmit,
+                       segment.image_transform,
+                       candidate.projection.plane,
+                       segment.direction,
+                       segment.E_h,
+                       segment.E_v,
+                       segment.bounce,
+                       on_conductor,
+                       segment.first_reflector_normal};
   find_edge_illumination(scene.scatterer.edges(), candidate.projection.facet, wave, candidate.illuminated.polygons(),
                          illuminations);
 }

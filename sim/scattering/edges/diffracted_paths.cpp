@@ -52,6 +52,7 @@ std::vector<BeamEdge> beam_edges(const SharpEdges& edges, const Panels& panels, 
     std::vector<Vec2> outline;
     for (const PanelEdge& side : edges.edges_of_panel(panel.facet)) {
       const SharpEdge& edge = edges.edges[side.edge];
+      if (!edge.conducts) continue;
       const WedgeFrame* wedge = wedge_on_illuminated_face(edge, side.is_first_face, panel.direction);
       if (!wedge || wedge->N <= 1) continue;
       if (outline.empty()) outline = projected_outline(panels, transmit, panel);

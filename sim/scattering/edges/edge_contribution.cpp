@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/scattering/edges/edge_contribution.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "sim/core/numbers/sinc.h"
@@ -9,8 +11,24 @@
 #include "sim/scattering/diffraction/fade_windows.h"
 
 namespace seaglint {
+namespace {
+
+std::array<Complex, 4> tabulated(const std::vector<EdgePattern::AtWavenumber>& table, double k) {
+  const auto above =
+      std::ranges::lower_bound(table, k, {}, [](const EdgePattern::AtWavenumber& entry) { return entry.k; });
+  if (above == table.end()) return table.back().value;
+  if (above == table.begin() || above->k == k) return above->value;
+  const EdgePattern::AtWavenumber &a = *std::prev(above), &b = *above;
+  const double share = (k - a.k) / (b.k - a.k);
+  std::array<Complex, 4> value;
+  for (int i = 0; i < 4; ++i) value[i] = a.value[i] + share * (b.value[i] - a.value[i]);
+  return value;
+}
+
+}  // namespace
 
 std::array<Complex, 4> EdgePattern::at(double k) const {
+  if (!by_wavenumber.empty()) return tabulated(by_wavenumber, k);
   std::array<Complex, 4> all = thin;
   if (thickness_m > 0) {
     const double kt = k * thickness_m, logarithm = std::log(kt);
@@ -25,6 +43,9 @@ EdgePattern& EdgePattern::operator+=(const EdgePattern& other) {
     thickness_linear[i] += other.thickness_linear[i];
     thickness_log[i] += other.thickness_log[i];
   }
+  for (std::size_t q = 0; q < by_wavenumber.size(); ++q) {
+    for (int i = 0; i < 4; ++i) by_wavenumber[q].value[i] += other.by_wavenumber[q].value[i];
+  }
   return *this;
 }
 
@@ -32,12 +53,16 @@ EdgePattern& EdgePattern::operator*=(double factor) {
   for (auto* part : {&thin, &thickness_linear, &thickness_log}) {
     for (Complex& element : *part) element *= factor;
   }
+  for (AtWavenumber& entry : by_wavenumber) {
+    for (Complex& element : entry.value) element *= factor;
+  }
   return *this;
 }
 
 EdgePattern transposed(EdgePattern pattern) {
   for (auto* part : {&pattern.thin, &pattern.thickness_linear, &pattern.thickness_log})
     std::swap((*part)[1], (*part)[2]);
+  for (EdgePattern::AtWavenumber& entry : pattern.by_wavenumber) std::swap(entry.value[1], entry.value[2]);
   return pattern;
 }
 

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <variant>
+#include <vector>
 
 #include "sim/scattering/beams/contribution_filter.h"
 #include "sim/scattering/diffraction/double_knife_edge.h"
@@ -18,13 +19,20 @@
 namespace seaglint {
 
 // Patterns hh, hv, vh, vv (received, transmitted) per metre of edge, dimensionless: thin + k t (thickness_linear +
-// thickness_log ln(k t)), t the thickness of the sheets.
+// thickness_log ln(k t)), t the thickness of the sheets. Edges of materials depend on k by a table.
 struct EdgePattern {
   std::array<Complex, 4> thin{}, thickness_linear{}, thickness_log{};
   double thickness_m = 0;  // t; 0: the thickness terms are unused
 
+  struct AtWavenumber {
+    double k;  // rad/m
+    std::array<Complex, 4> value;
+  };
+  // Where not empty, in place of all other terms: ascending k, linear between, constant beyond.
+  std::vector<AtWavenumber> by_wavenumber{};
+
   std::array<Complex, 4> at(double k) const;
-  EdgePattern& operator+=(const EdgePattern& other);  // of the same edges
+  EdgePattern& operator+=(const EdgePattern& other);  // of the same edges, with as many wavenumbers
   EdgePattern& operator*=(double factor);
 };
 EdgePattern transposed(EdgePattern pattern);

@@ -27,6 +27,37 @@ void append_multiple_diffraction(const Scatterer& scatterer, const BistaticGeome
   for (EdgeContribution& c : std::span(contributions).subspan(first)) c.pattern = reciprocal_mean(c.pattern, c.pattern);
 }
 
+// Materials of the target at every wavenumber, ascending, for the edges that they bound.
+class EdgeMaterials {
+ public:
+  EdgeMaterials(const Scatterer& scatterer, std::span<const double> wavenumbers)
+      : scatterer_(scatterer), wavenumbers_(wavenumbers.begin(), wavenumbers.end()) {
+    if (std::ranges::all_of(scatterer.edges().edges, &SharpEdge::conducts)) return;
+    std::ranges::sort(wavenumbers_);
+    for (const MaterialSpec& material : scatterer.materials()) {
+      std::vector<MaterialSurface>& surfaces = surfaces_.emplace_back();
+      for (const double k : wavenumbers_) surfaces.emplace_back(material, k);
+    }
+  }
+
+  // Surfaces of both faces per wavenumber; empty for perfect conductors.
+  std::vector<MaterialFaces> of(const SharpEdge& edge) const {
+    std::vector<MaterialFaces> faces;
+    if (edge.conducts) return faces;
+    const auto material = [&](int i) { return scatterer_.facets()[edge.facet[i]].material; };
+    const MaterialSpec& first = scatterer_.materials()[material(0)];
+    const bool is_sheet = edge.is_free_edge() && first.kind == SurfaceKind::kLayers && first.backing == Backing::kAir;
+    for (std::size_t q = 0; q < wavenumbers_.size(); ++q)
+      faces.push_back({{&surfaces_[material(0)][q], &surfaces_[material(1)][q]}, wavenumbers_[q], is_sheet});
+    return faces;
+  }
+
+ private:
+  const Scatterer& scatterer_;
+  std::vector<double> wavenumbers_;
+  std::vector<std::vector<MaterialSurface>> surfaces_;  // [material][wavenumber]
+};
+
 }  // namespace
 
 MultipleDiffractionLimits multiple_diffraction_limits(const Scatterer& scatterer, const TracingSettings& settings,
@@ -43,6 +74,7 @@ void edge_diffraction(const Scatterer& scatterer, const BistaticGeometry& geomet
   const MultipleDiffractionLimits limits =
       multiple_diffraction_limits(scatterer, settings, std::ranges::min(wavenumbers));
   const std::vector<SharpEdge>& edges = scatterer.edges().edges;
+  const EdgeMaterials materials(scatterer, wavenumbers);
   // Chunks with about equal numbers of edge illuminations.
   const auto chunk_start = [&](std::size_t chunk) {
     return chunk < kEdgeChunks ? incoming.edge_after(incoming.all().size() * chunk / kEdgeChunks)
@@ -53,8 +85,9 @@ void edge_diffraction(const Scatterer& scatterer, const BistaticGeometry& geomet
     for (int edge = chunk_start(chunk); edge < chunk_start(chunk + 1); ++edge) {
       contributions.clear();
       append_single_diffraction(edges[edge], scatterer.facets(), geometry, incoming.of(edge), outgoing.of(edge),
-                                settings.max_bounces, contributions);
-      append_multiple_diffraction(scatterer, geometry, edge, incoming, outgoing, limits, contributions);
+                                settings.max_bounces, materials.of(edges[edge]), contributions);
+      if (edges[edge].conducts)
+        append_multiple_diffraction(scatterer, geometry, edge, incoming, outgoing, limits, contributions);
       std::erase_if(contributions, [&](const EdgeContribution& f) {
         return !settings.filter.accepts_edge(f.part, f.other_part, f.bounces, f.mechanism);
       });

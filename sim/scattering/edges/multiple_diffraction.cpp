@@ -151,6 +151,7 @@ class MultipleDiffractionTracer {
       part.to = std::min(strip.to, std::max(split, other));
       if (part.to - part.from < kNarrowest) continue;
       const int edge = edges_.edges_of_facet[number][side];
+      if (edge != kNoEdge && !edges_.edges[edge].conducts) continue;
       if (edge != kNoEdge && is_perpendicular_wall(edges_.edges[edge], source.face.n)) {
         reflect(source, number, side, edges_.edges[edge], part, depth);
       } else if (edge != kNoEdge) {

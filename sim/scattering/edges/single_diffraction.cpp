@@ -10,6 +10,7 @@
 #include "sim/scattering/diffraction/thick_edge.h"
 #include "sim/scattering/diffraction/tolerances.h"
 #include "sim/scattering/edges/reflected_edge.h"
+#include "sim/scattering/material/reflection.h"
 
 namespace seaglint {
 namespace {
@@ -166,6 +167,20 @@ std::optional<EdgePattern> pair_pattern(const WedgeFrame& wedge, const EdgeIllum
   return sum.beams;
 }
 
+// Pattern of direct incident and exit paths at an edge with a face that is no perfect conductor.
+EdgePattern material_pattern(const WedgeFrame& wedge, std::span<const MaterialFaces> materials,
+                             const EdgeIllumination& in, const EdgeIllumination& out, bool monostatic) {
+  EdgePattern pattern;
+  for (const MaterialFaces& faces : materials) {
+    const auto [J_h, J_v] =
+        material_edge_currents(wedge, faces, in.direction, {in.E_h, in.E_v}, -out.direction, kShadowBoundaryGuard);
+    pattern.by_wavenumber.push_back({faces.k,
+                                     {component_along(out.E_h, J_h), component_along(out.E_h, J_v),
+                                      component_along(out.E_v, J_h), component_along(out.E_v, J_v)}});
+  }
+  return monostatic ? reciprocal_mean(pattern, pattern) : pattern;
+}
+
 }  // namespace
 
 void find_edge_illumination(const SharpEdges& edges, int facet, const FacetWave& wave,
@@ -177,6 +192,8 @@ void find_edge_illumination(const SharpEdges& edges, int facet, const FacetWave&
     const WedgeFrame* wedge = illuminated_wedge(edge, wave.direction);
     if (!wedge || !records_edge(edge, *wedge, side.is_first_face, wave.direction)) continue;
     if (wedge->N < 1 && wave.bounce > 1) continue;  // PO of a concave edge includes its reflections
+    // Edges of materials are illuminated directly only; on other panels than smooth conductors no other edge is.
+    if (edge.conducts ? !wave.on_conductor : wave.bounce > 1) continue;
     const Vec3 image = wave.image_transform.image(edge.a), along = wave.image_transform.L * edge.along();
     for (const EdgeInterval& interval : illuminated_intervals(image, along, edge.length(), wave, illuminated)) {
       illuminations.push_back({side.edge, interval.s, interval.slip, image, along, wave.direction, wave.E_h, wave.E_v,
@@ -187,7 +204,7 @@ void find_edge_illumination(const SharpEdges& edges, int facet, const FacetWave&
 
 void append_single_diffraction(const SharpEdge& edge, std::span<const Facet> facets, const BistaticGeometry& geometry,
                                EdgeIlluminations incoming, EdgeIlluminations outgoing, int max_bounces,
-                               std::vector<EdgeContribution>& contributions) {
+                               std::span<const MaterialFaces> materials, std::vector<EdgeContribution>& contributions) {
   const int max_reflections = std::min(kMaxEdgeReflections, max_bounces - 1);
   const auto append = [&](const EdgeIllumination& in, const EdgeIllumination& out) {
     const double first = std::max(in.s[0], out.s[0]), last = std::min(in.s[1], out.s[1]);
@@ -195,7 +212,9 @@ void append_single_diffraction(const SharpEdge& edge, std::span<const Facet> fac
     const WedgeFrame* wedge = illuminated_wedge(edge, in.direction);
     if (!wedge || illuminated_wedge(edge, out.direction) != wedge) return;
 
-    const std::optional<EdgePattern> pattern = pair_pattern(*wedge, in, out, geometry.monostatic);
+    const std::optional<EdgePattern> pattern = edge.conducts
+                                                   ? pair_pattern(*wedge, in, out, geometry.monostatic)
+                                                   : material_pattern(*wedge, materials, in, out, geometry.monostatic);
     if (!pattern) return;
 
     EdgeContribution contribution;

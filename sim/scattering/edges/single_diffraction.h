@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "sim/scattering/diffraction/material_edge.h"
 #include "sim/scattering/edges/edge_contribution.h"
 #include "sim/scattering/edges/edge_illumination.h"
 #include "sim/scattering/target/sharp_edges.h"
@@ -28,6 +29,7 @@ struct FacetWave {
   const DepthPlane& plane;  // of the panel's image
   Vec3 direction, E_h, E_v;
   int bounce = 1;                              // 1-based number of the reflection at this panel
+  bool on_conductor = true;                    // the panel is a smooth perfect conductor
   Vec3 first_reflector_normal = Vec3::Zero();  // as in EdgeIllumination
 };
 
@@ -39,9 +41,10 @@ void find_edge_illumination(const SharpEdges& edges, int facet, const FacetWave&
 // Appends the contributions of all intervals of an edge common to an illumination by the transmitter (`incoming`) and
 // one by the receiver (`outgoing`), with at most `max_bounces` interactions, the diffraction included. For one antenna
 // the two lists are the same object, and two reciprocal paths are one contribution. Multiple diffraction is in
-// multiple_diffraction.h.
+// multiple_diffraction.h. `materials`:
+// surfaces of both faces for each wavenumber, ascending, where one is no perfect conductor; else empty.
 void append_single_diffraction(const SharpEdge& edge, std::span<const Facet> facets, const BistaticGeometry& geometry,
                                EdgeIlluminations incoming, EdgeIlluminations outgoing, int max_bounces,
-                               std::vector<EdgeContribution>& contributions);
+                               std::span<const MaterialFaces> materials, std::vector<EdgeContribution>& contributions);
 
 }  // namespace seaglint

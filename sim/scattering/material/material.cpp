@@ -86,6 +86,12 @@ InterfaceCoefficients MaterialSurface::at(double cos_incidence) const {
   return fields;
 }
 
+double MaterialSurface::thickness() const {
+  double sum = 0;
+  for (const Slab& slab : slabs_) sum += slab.thickness;
+  return sum;
+}
+
 double MaterialSurface::roughness_factor(double cos_in, double cos_out) const {
   return roughness_ > 0 ? ament_factor(k_, roughness_, 0.5 * (cos_in + cos_out)) : 1.0;
 }

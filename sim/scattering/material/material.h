@@ -36,6 +36,9 @@ class MaterialSurface {
 
   bool is_submerged() const { return kind_ == SurfaceKind::kSubmerged; }
 
+  // Of all layers, m; 0 without layers.
+  double thickness() const;
+
   // Coefficients of the smooth surface at cos_incidence = |n.d|, 0 < x <= 1. Layers: recursion of generalised
   // reflection coefficients (W. C. Chew, Waves and Fields in Inhomogeneous Media, eq. 2.1.24, with j for -i).
   InterfaceCoefficients at(double cos_incidence) const;

@@ -49,9 +49,9 @@ SolverMesh load_solver_mesh(const TargetSource& source);
 
 struct ScattererSettings {
   std::optional<double> waterline_m;  // z of the mean sea surface in the mesh frame, m; absent: no sea
-  std::optional<double> crease_rad;  // crease angle of Scatterer; absent: as the mesh's normals or its shape say
-  double sheet_thickness_m = 0;  // thickness of open surfaces
-  bool edges = true;             // edge diffraction is used
+  std::optional<double> crease_rad;   // crease angle of Scatterer; absent: as the mesh's normals or its shape say
+  double sheet_thickness_m = 0;       // thickness of open surfaces
+  bool edges = true;                  // edge diffraction is used
   double lowest_hz = 1e9, highest_hz = 1e9;
 };
 

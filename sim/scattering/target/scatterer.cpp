@@ -55,6 +55,18 @@ SmoothSides smooth_sides(std::span<const Facet> facets, std::optional<double> cr
   return given ? smooth_sides_by_normals(facets) : smooth_sides_by_shape(facets, radians(kDefaultCreaseDeg));
 }
 
+bool is_air_backed(const MaterialSpec& material) {
+  return material.kind == SurfaceKind::kLayers && material.backing == Backing::kAir;
+}
+
+// Edges of materials diffract where there is a coefficient for them: free edges of sheets, with air behind or opaque,
+// and convex wedges of two opaque faces; none at submerged faces.
+bool diffracts_with(const MaterialSpec& a, const MaterialSpec& b, const SharpEdge& edge) {
+  if (a.kind == SurfaceKind::kSubmerged || b.kind == SurfaceKind::kSubmerged) return false;
+  if (edge.is_free_edge()) return edge.two_sided;
+  return !edge.two_sided && edge.front_wedge.N > 1 && !is_air_backed(a) && !is_air_backed(b);
+}
+
 }  // namespace
 
 // Surfaces that rise above their facets by less than 1e-7 of the radius count as flat: it is the rounding of
@@ -77,13 +89,14 @@ Scatterer::Scatterer(const TriangleMesh& mesh, std::vector<MaterialSpec> materia
                    fmt::format("material {} of {}", facet.material, materials_.size()));
   }
   if (facets_.empty()) throw InputError("the mesh has no triangle with an area: nothing scatters");
-  // Only wedges with two perfectly conducting faces diffract; a face that is coated or submerged removes the edge.
   for (auto& sides : edges_.edges_of_facet) {
     for (int& edge : sides) {
       if (edge == kNoEdge || materials_.empty()) continue;
-      const auto conducts = [&](int facet) { return materials_[facets_[facet].material].kind == SurfaceKind::kPec; };
-      if (const SharpEdge& wedge = edges_.edges[edge]; !conducts(wedge.facet[0]) || !conducts(wedge.facet[1]))
-        edge = kNoEdge;
+      SharpEdge& wedge = edges_.edges[edge];
+      const MaterialSpec &a = materials_[facets_[wedge.facet[0]].material],
+                         &b = materials_[facets_[wedge.facet[1]].material];
+      wedge.conducts = a.kind == SurfaceKind::kPec && b.kind == SurfaceKind::kPec;
+      if (!wedge.conducts && !diffracts_with(a, b, wedge)) edge = kNoEdge;
     }
   }
   index_by_panel(edges_, facets_, panels_);

@@ -22,6 +22,7 @@ struct SharpEdge {
   WedgeFrame front_wedge;         // wedge on the side of the facet normals
   WedgeFrame back_wedge;          // wedge on the other side, of an open sheet
   bool two_sided = false;         // the wave may be incident from either side
+  bool conducts = true;           // both faces are perfect conductors
   double collinear_length_m = 0;  // of the chain of collinear edges it belongs to, independent of the triangulation
 
   bool is_free_edge() const { return facet[0] == facet[1]; }

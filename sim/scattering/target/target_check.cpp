@@ -93,10 +93,12 @@ std::vector<std::string> check_edges(const Scatterer& scatterer, bool followed, 
     const auto is_narrow = [&](int facet) { return panel_area(scatterer, facet) < kNarrow * longest * length; };
     if (length > longest && is_narrow(edge.facet[0]) && is_narrow(edge.facet[1])) narrow += length;
   }
-  // panel_edges holds edges of perfect conductors only.
+  // Edges of materials have no thickness.
   const SharpEdges& edges = scatterer.edges();
-  const bool any_free_edge = std::ranges::any_of(
-      edges.panel_edges, [&](const PanelEdge& side) { return edges.edges[side.edge].front_wedge.thickness_m > 0; });
+  const bool any_free_edge = std::ranges::any_of(edges.panel_edges, [&](const PanelEdge& side) {
+    const SharpEdge& edge = edges.edges[side.edge];
+    return edge.conducts && edge.front_wedge.thickness_m > 0;
+  });
   std::vector<std::string> found;
   if (narrow > 0) {
     found.push_back(
