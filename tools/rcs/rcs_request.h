@@ -61,7 +61,7 @@ struct RcsRequest {
   bool edges = true;                            // fringe currents at sharp edges
   bool physical_optics_too = false;             // also computes a second model without edge diffraction
   int max_bounces = kDefaultBounces;
-  double min_patch_m = 0;  // 0: default_min_patch()
+  double min_patch_m = 0;            // 0: default_min_patch()
   std::optional<double> crease_deg;  // absent: as the mesh's normals or its shape say
   double sheet_thickness_mm = 0;
   EchoSelection selection;

@@ -34,8 +34,8 @@ struct WallPenumbraTerm {
   // wavenumber, rad/m.
   Complex at(double k, double fraction, double run) const;
 
-  // Largest difference between the psi of one of the contributions and that of the phase, m: at() oscillates with k over
-  // it.
+  // Largest difference between the psi of one of the contributions and that of the phase, m: at() oscillates with k
+  // over it.
   double psi_spread() const;
 
  private:

@@ -49,7 +49,13 @@ class CurvedDecomposer {
       if (c_.flat_panel) continue;
       skew_[i] = std::clamp(0.5 * (c_.w[i] + c_.w[j]).dot(along) - (psi(c_.corner[j]) - psi(c_.corner[i])), -max, max);
     }
-    for (int i = 0; i < 3; ++i) slope_[i] = along_surface_ * c_.slope[i];
+    Mat2 change = c_.phase.hessian;
+    if (!c_.flat_panel) change.setZero();
+    for (int i = 0; i < 3; ++i) {
+      slope_[i] = along_surface_ * c_.slope[i];
+      if (!c_.flat_panel) change += c_.slope[i] * c_.lambda.gradient[i].transpose();
+    }
+    curvature_ = (along_surface_ * change * along_surface_).norm();
     if (c_.has_bundle)
       slope_change_ = 3 * c_.rays.path_slope.norm() * c_.rays.bundle.direction_map.matrix.squaredNorm();
   }
@@ -114,7 +120,7 @@ class CurvedDecomposer {
 
   // Decomposes the illuminated polygon inside a triangle of the facet; the triangle determines the form.
   void part(const MovingPolygon& polygon, const std::array<Corner, 3>& triangle) {
-    double size = 0, largest = 0, curvature = 0;  // change of the slope along the surface, 1/m
+    double size = 0, largest = 0;
     int longest = 0;
     for (int i = 0; i < 3; ++i) {
       const int j = (i + 1) % 3;
@@ -123,7 +129,6 @@ class CurvedDecomposer {
       const double run_i = triangle[i].w.dot(along), run_j = triangle[j].w.dot(along);
       const double run = std::max({std::abs(run_i), std::abs(run_j), kMaxAmplitudeError * min_slope_ * length});
       size = std::max(size, length);
-      curvature = std::max(curvature, (triangle[j].slope - triangle[i].slope).norm() / length);
       if (run > largest) {
         largest = run;
         longest = i;
@@ -136,7 +141,7 @@ class CurvedDecomposer {
     for (const Corner& corner : triangle) difference = std::max(difference, (corner.slope - mean).squaredNorm());
     const double min = mean.norm() - std::sqrt(difference) - kTriangleError * slope_change_ * size * size;
     const double k = band_.form().centre();
-    if (min > min_slope_ && k * min * size / 2 > kMaxHalfPhase && k * min * min > kContourRatio * curvature) {
+    if (min > min_slope_ && k * min * size / 2 > kMaxHalfPhase && k * min * min > kContourRatio * curvature_) {
       contour(polygon);
       return;
     }
@@ -293,6 +298,7 @@ class CurvedDecomposer {
   std::array<double, 3> fade_;
   Mat2 along_surface_;
   double slope_change_ = 0;    // bound of the second derivative of the slope of psi, by the further path, 1/m^2
+  double curvature_ = 0;       // change of the slope of psi along the surface, 1/m
   std::array<Vec2, 3> slope_;  // of psi along the surface, at the vertices of the facet
 };
 

@@ -15,7 +15,7 @@ namespace seaglint {
 // Contour terms with the local slope replace an area where k slope^2 exceeds this multiple of the change of the slope
 // per metre of surface. Near a specular point their relative error is the inverse of it; elsewhere the omitted terms
 // cancel at the taper.
-inline constexpr double kContourRatio = 200;
+inline constexpr double kContourRatio = 50;
 
 // A term of the phase integral: the amplitude varies slowly with k and look direction, the phase is e^{jk psi}. The
 // point slides on the body as the look direction changes, which adds slide1 h + slide2 v to the gradient of psi.

@@ -67,6 +67,13 @@ bool diffracts_with(const MaterialSpec& a, const MaterialSpec& b, const SharpEdg
   return !edge.two_sided && edge.front_wedge.N > 1 && !is_air_backed(a) && !is_air_backed(b);
 }
 
+// True where both facets of an edge belong to one smooth surface, whose two vertices there they have in common.
+bool is_inside_surface(const SmoothSurface& surface, const SharpEdge& edge) {
+  const CurvedFacet *a = surface.curved(edge.facet[0]), *b = surface.curved(edge.facet[1]);
+  if (edge.is_free_edge() || !a || !b) return false;
+  return std::ranges::count_if(a->vertex, [&](std::int32_t v) { return std::ranges::count(b->vertex, v) > 0; }) == 2;
+}
+
 }  // namespace
 
 // Surfaces that rise above their facets by less than 1e-7 of the radius count as flat: it is the rounding of
@@ -91,8 +98,10 @@ Scatterer::Scatterer(const TriangleMesh& mesh, std::vector<MaterialSpec> materia
   if (facets_.empty()) throw InputError("the mesh has no triangle with an area: nothing scatters");
   for (auto& sides : edges_.edges_of_facet) {
     for (int& edge : sides) {
-      if (edge == kNoEdge || materials_.empty()) continue;
+      if (edge == kNoEdge) continue;
       SharpEdge& wedge = edges_.edges[edge];
+      if (is_inside_surface(surface_, wedge)) edge = kNoEdge;
+      if (edge == kNoEdge || materials_.empty()) continue;
       const MaterialSpec &a = materials_[facets_[wedge.facet[0]].material],
                          &b = materials_[facets_[wedge.facet[1]].material];
       wedge.conducts = a.kind == SurfaceKind::kPec && b.kind == SurfaceKind::kPec;

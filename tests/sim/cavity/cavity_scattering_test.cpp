@@ -227,8 +227,7 @@ std::map<double, double> reference_cut(const std::string& name) {
 }
 
 TEST(CavityEcho, WithTheRestOfADuctBoxIsWithinADecibelOfTheMethodOfMoments) {
-  const TriangleMesh mesh =
-      read_mesh(std::string(SEAGLINT_SOURCE_DIR) + "/tests/reference/rcs/austin/duct_box.glb", "m");
+  const TriangleMesh mesh = read_mesh(SEAGLINT_SOURCE_DIR "/tests/reference/rcs/austin/duct_box.glb", "m");
   const auto duct = std::find(mesh.part_names.begin(), mesh.part_names.end(), "duct") - mesh.part_names.begin();
   const Scatterer box(mesh);
   TracingSettings settings;

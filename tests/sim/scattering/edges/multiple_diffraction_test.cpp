@@ -156,7 +156,7 @@ struct DoubleDiffractionSum {
 DoubleDiffractionSum double_diffraction_sum(const TriangleMesh& mesh, const BistaticGeometry& geometry, double k,
                                             double first_below, double last_above, int walls) {
   const Scatterer scatterer(mesh, {}, 0.0);  // with the edges that the mesh has
-  const Vec3& c = scatterer.centre();  // to which edges are relative; rounds them in the last place
+  const Vec3& c = scatterer.centre();        // to which edges are relative; rounds them in the last place
   const auto edge = [&](const EdgeIllumination& illumination) { return scatterer.edges().edges[illumination.edge]; };
   // Illuminations of edges on the floor that `wanted` selects.
   const auto reached = [&](const RadarBasis& basis, const auto& selected) {
