@@ -122,7 +122,8 @@ TEST(SmoothSides, FollowTheNormalsOfTheFile) {
   EXPECT_TRUE(normals_describe_surface(sphere));
   EXPECT_EQ(Scatterer(sphere).surface().curved_count(), 80u);
   EXPECT_EQ(Scatterer(make_sphere(1, 1)).surface().curved_count(), 0u);
-  for (const auto& sides : Scatterer(sphere).edges().edges_of_facet) {
+  const Scatterer smooth(sphere);
+  for (const auto& sides : smooth.edges().edges_of_facet) {
     for (const int edge : sides) EXPECT_EQ(edge, kNoEdge) << "sides inside a smooth surface do not diffract";
   }
   EXPECT_EQ(Scatterer(sphere, {}, 0.0).surface().curved_count(), 0u) << "a crease angle overrides normals";
