@@ -52,7 +52,7 @@ void BeamContributions::radiate(const BeamSegment& segment, const CandidatePanel
     footprint.patterns = patterns(segment, footprint.facet, n);
     footprint.pattern = footprint.patterns[footprint.patterns.size() / 2];
   }
-  footprint.curvature = make_curved_footprint(curvature_, panels_, geometry_, segment, candidate, footprint);
+  footprint.curvature = make_curved_footprint(curvature_, geometry_, segment, candidate, footprint);
   if (visitor_) visitor_->start(segment, candidate, footprint);
   const double weight = uses_grazing_treatment(segment, footprint.facet) ? path_weight(segment, footprint.facet) : 1.0;
   // A weight above 1 applies to the boundary terms too; for a weight below 1 they are tapered equally

@@ -12,6 +12,7 @@
 #include "sim/scattering/diffraction/path_weights.h"
 #include "sim/scattering/surfaces/curved_footprint.h"
 #include "sim/scattering/surfaces/footprint.h"
+#include "sim/scattering/target/panels.h"
 
 namespace seaglint {
 

@@ -35,10 +35,13 @@ Complex CurvedFootprint::divergence_factor(const Vec2& p) const {
   const Mat2 spreading = rays.spreading(p);
   const double widened = spreading.determinant();
   const Complex caustics = widened < 0 ? Complex(0, 1) : spreading.trace() < 0 ? Complex(-1) : Complex(1);
-  return caustics * std::abs(rays.panel_spreading(p).determinant()) / std::sqrt(std::max(std::abs(widened), 1e-12));
+  // Limited, so that the factor tends to zero at a caustic also on an oblique panel.
+  constexpr double kMaxObliquity = 2;
+  const double on_panel = std::abs(rays.panel_spreading(p).determinant()), across = std::abs(widened);
+  return caustics * std::min(on_panel, kMaxObliquity * across) / std::sqrt(std::max(across, 1e-12));
 }
 
-std::shared_ptr<const CurvedFootprint> make_curved_footprint(const CurvatureContext& on, const Panels&,
+std::shared_ptr<const CurvedFootprint> make_curved_footprint(const CurvatureContext& on,
                                                              const BistaticGeometry& geometry,
                                                              const BeamSegment& segment,
                                                              const CandidatePanel& candidate,

@@ -10,12 +10,11 @@
 
 #include "sim/scattering/beams/curved_reflection.h"
 #include "sim/scattering/surfaces/footprint.h"
-#include "sim/scattering/target/panels.h"
 
 namespace seaglint {
 
-// Of a triangle that contains everything one beam illuminates on a panel: the curved facet itself, or an enlarged
-// triangle around the whole flat panel. Shared by all polygons of the footprint. Arrays are indexed by the vertices of
+// Of a triangle that contains everything one beam illuminates on a panel: the curved facet itself, or one
+// around the beam on a flat panel. Shared by all polygons of the footprint. Arrays are indexed by the vertices of
 // the triangle.
 struct CurvedFootprint {
   std::array<Vec2, 3> corner;
@@ -41,8 +40,8 @@ struct CurvedFootprint {
 };
 
 // Curvature terms of a footprint whose flat phase and pattern are set; null where the facet and all reflectors are
-// flat. The triangle is the curved facet, or encloses the whole flat panel.
-std::shared_ptr<const CurvedFootprint> make_curved_footprint(const CurvatureContext& on, const Panels& panels,
+// flat. The triangle is the curved facet, or encloses the beam on a flat panel.
+std::shared_ptr<const CurvedFootprint> make_curved_footprint(const CurvatureContext& on,
                                                              const BistaticGeometry& geometry,
                                                              const BeamSegment& segment,
                                                              const CandidatePanel& candidate,
