@@ -104,7 +104,7 @@ class Reader {
       for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
         pending.push_back({*child, world});
     }
-    return builder_.take();
+    return with_flat_normals(builder_.take());
   }
 
  private:
@@ -213,7 +213,10 @@ class Reader {
     const auto add = [&](std::size_t i, std::size_t j, std::size_t k) {
       if (is_mirrored) std::swap(j, k);
       const std::uint32_t a = list[i], b = list[j], c = list[k];
-      if (normal.empty()) return builder_.triangle(base + a, base + b, base + c);
+      if (normal.empty()) {
+        flat_.push_back(builder_.triangle_count());
+        return builder_.triangle(base + a, base + b, base + c);
+      }
       builder_.triangle(base + a, base + b, base + c, {normal[a], normal[b], normal[c]});
     };
     if (builder_.triangle_count() + list.size() > kMaxPlacedTriangles) fail_size();
@@ -226,6 +229,13 @@ class Reader {
     }
   }
 
+  // A primitive without normals has flat ones (glTF 2.0, section 3.7.2.1), where others of the file have theirs.
+  TriangleMesh with_flat_normals(TriangleMesh mesh) const {
+    if (mesh.corner_normals.empty()) return mesh;
+    for (const std::size_t t : flat_) mesh.corner_normals[t].fill(unit_normal(area_vector(mesh, t)));
+    return mesh;
+  }
+
   [[noreturn]] void fail_size() const {
     throw InputError(fmt::format("{}: its nodes place more than {} triangles", file_, kMaxPlacedTriangles));
   }
@@ -233,6 +243,7 @@ class Reader {
   const tinygltf::Model& model_;
   std::string file_;
   MeshBuilder builder_;
+  std::vector<std::size_t> flat_;  // triangles of primitives without normals
 };
 
 class Writer {

@@ -89,6 +89,16 @@ TEST_F(MeshNormals, OfGltfAreTransformedByTheInverseTranspose) {
   }
 }
 
+// glTF 2.0, section 3.7.2.1: a primitive without NORMAL is flat. The ship has primitives of both kinds.
+TEST_F(MeshNormals, OfPrimitivesWithoutThemAreFlatInGltf) {
+  const TriangleMesh ship = read_mesh(SEAGLINT_SOURCE_DIR "/assets/combatant_144m.glb");
+  EXPECT_EQ(diagnose(ship).corners_without_normal, 0u);
+  std::size_t flat = 0;
+  for (std::size_t t = 0; t < ship.triangles.size(); ++t) flat += normal_deviation(ship, t) < kNormalDigits ? 1 : 0;
+  EXPECT_GT(flat, ship.triangles.size() / 2);
+  EXPECT_LT(flat, ship.triangles.size());
+}
+
 TEST_F(MeshNormals, ThatAreInvalidRefuseNoFileAndAreCounted) {
   const TriangleMesh mesh = read_mesh(put("a.obj",
                                           "v 0 0 0\nv 2 0 0\nv 0 1 0\nvn 0 0 5\nvn nan 0 1\nvn 0 0\n"
