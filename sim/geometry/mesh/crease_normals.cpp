@@ -38,12 +38,6 @@ double longest_side(const TriangleMesh& mesh, std::uint32_t triangle) {
   return std::max({length(a, b), length(b, c), length(c, a)});
 }
 
-double weight(const Shape& shape, bool alike) {
-  const double twice_area = shape.a.cross(shape.b).norm();
-  return alike ? twice_area / (shape.a.squaredNorm() * shape.b.squaredNorm())
-               : std::atan2(twice_area, shape.a.dot(shape.b)) * shape.width;
-}
-
 Vec3 mean_normal(const TriangleMesh& mesh, const std::vector<Vec3>& normal, const std::vector<Corner>& fan) {
   double narrowest = std::numeric_limits<double>::infinity(), widest = 0;
   for (const Corner& at : fan) {
@@ -51,11 +45,19 @@ Vec3 mean_normal(const TriangleMesh& mesh, const std::vector<Vec3>& normal, cons
     widest = std::max(widest, shape_at(mesh, at).width);
   }
   Vec3 sum = Vec3::Zero();
-  for (const Corner& at : fan) sum += weight(shape_at(mesh, at), widest < kAlike * narrowest) * normal[at.triangle];
+  for (const Corner& at : fan) {
+    const Shape shape = shape_at(mesh, at);
+    sum += corner_weight(shape.a, shape.b, shape.width, widest < kAlike * narrowest) * normal[at.triangle];
+  }
   return unit_normal(sum);
 }
 
 }  // namespace
+
+double corner_weight(const Vec3& a, const Vec3& b, double width, bool alike) {
+  const double twice_area = a.cross(b).norm();
+  return alike ? twice_area / (a.squaredNorm() * b.squaredNorm()) : std::atan2(twice_area, a.dot(b)) * width;
+}
 
 std::vector<std::array<Vec3, 3>> crease_normals(const TriangleMesh& mesh, double crease_rad, double negligible_m) {
   const TriangleMesh joined = welded(mesh);

@@ -2,9 +2,10 @@
 #include "sim/geometry/mesh/planar_faces.h"
 
 #include <algorithm>
-#include <limits>
 #include <set>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include "sim/geometry/mesh/disjoint_sets.h"
 #include "sim/geometry/mesh/editable_mesh.h"
@@ -39,14 +40,8 @@ struct Plane {
   Vec3 normal() const { return area.normalized(); }
 };
 
-// True where a corner normal is off the triangle's own: a sample of a curved surface.
-bool is_curved(const TriangleMesh& mesh, std::uint32_t t) {
-  constexpr double kOff = 1e-3;  // rad, the digits of normals in files
-  if (mesh.corner_normals.empty()) return false;
-  const Vec3 own = area_vector(mesh, t).normalized();
-  return std::ranges::any_of(mesh.corner_normals[t],
-                             [&](const Vec3& n) { return !n.isZero(0) && (n - own).norm() > kOff; });
-}
+// True for a sample of a curved surface.
+bool is_curved(const TriangleMesh& mesh, std::uint32_t t) { return normal_deviation(mesh, t) > kNormalDigits; }
 
 bool alike(const TriangleMesh& mesh, std::uint32_t a, std::uint32_t b) {
   return !is_curved(mesh, a) && !is_curved(mesh, b) && mesh.triangle_part[a] == mesh.triangle_part[b] &&
@@ -67,80 +62,113 @@ bool coplanar(const TriangleMesh& mesh, std::uint32_t a, std::uint32_t b, double
 
 std::tuple<double, double, double> position_key(const Vec3& x) { return {x.x(), x.y(), x.z()}; }
 
-// Face of every triangle: exactly planar regions, joined to the largest plane they are within `tolerance` of.
-std::vector<std::uint32_t> find_faces(const TriangleMesh& mesh, double tolerance, double exact) {
-  const Topology topology = topology_of(mesh);
-  const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
-  DisjointSets regions(count);
-  for (std::uint32_t t = 0; t < count; ++t) {
-    for (const std::uint32_t g : topology.neighbours[t]) {
-      if (g != kNoIndex && g > t && alike(mesh, t, g) && coplanar(mesh, t, g, exact)) regions.unite(t, g);
-    }
-  }
-  std::vector<Plane> plane(count);
-  std::vector<std::vector<std::uint32_t>> members(count);
-  std::vector<Vec3> first(count, Vec3::Constant(std::numeric_limits<double>::infinity()));
-  std::vector<std::uint32_t> seeds;
-  for (std::uint32_t t = 0; t < count; ++t) {
-    const std::uint32_t region = regions.find(t);
-    if (members[region].empty()) seeds.push_back(region);
-    members[region].push_back(t);
-    plane[region].add(mesh, t);
-    for (const std::uint32_t v : mesh.triangles[t]) {
-      if (position_key(mesh.vertices[v]) < position_key(first[region])) first[region] = mesh.vertices[v];
-    }
-  }
-  std::ranges::sort(seeds, [&](std::uint32_t a, std::uint32_t b) {
-    return std::tuple(-plane[a].total, position_key(first[a])) < std::tuple(-plane[b].total, position_key(first[b]));
-  });
-  std::vector<std::uint32_t> face(count, kNoIndex);
-  // Regions of one material that hang together with the seed and lie in a plane, the seed first.
-  const auto regions_in_plane = [&](std::uint32_t seed, const Plane& of) {
-    const Vec3 n = of.normal(), centroid = of.moment / of.total;
-    const auto fits = [&](std::uint32_t region) {
-      return std::ranges::all_of(members[region], [&](std::uint32_t t) {
-        return area_vector(mesh, t).dot(n) > kSameSide * area_vector(mesh, t).norm() &&
-               std::ranges::all_of(mesh.triangles[t], [&](std::uint32_t v) {
-                 return std::abs(n.dot(mesh.vertices[v] - centroid)) <= tolerance;
-               });
-      });
-    };
-    std::vector<std::uint32_t> found{seed};
-    std::set<std::uint32_t> known{seed};
-    for (std::size_t i = 0; i < found.size(); ++i) {
-      for (const std::uint32_t t : members[found[i]]) {
-        for (const std::uint32_t g : topology.neighbours[t]) {
-          if (g == kNoIndex || face[g] != kNoIndex || !alike(mesh, g, t)) continue;
-          const std::uint32_t region = regions.find(g);
-          if (!known.contains(region) && fits(region)) {
-            known.insert(region);
-            found.push_back(region);
-          }
-        }
+// Exactly planar regions of triangles, joined to faces.
+class FaceFinder {
+ public:
+  FaceFinder(const TriangleMesh& mesh, double tolerance, double exact)
+      : mesh_(mesh),
+        tolerance_(tolerance),
+        topology_(topology_of(mesh)),
+        regions_(mesh.triangles.size()),
+        plane_(mesh.triangles.size()),
+        members_(mesh.triangles.size()),
+        face_(mesh.triangles.size(), kNoIndex) {
+    for (std::uint32_t t = 0; t < count(); ++t) {
+      for (const std::uint32_t g : topology_.neighbours[t]) {
+        if (g != kNoIndex && g > t && alike(mesh, t, g) && coplanar(mesh, t, g, exact)) regions_.unite(t, g);
       }
     }
-    return found;
-  };
-  for (const std::uint32_t seed : seeds) {
-    if (face[members[seed].front()] != kNoIndex || !(plane[seed].total > 0)) continue;
-    // The plane of the regions found so far, until no further one lies in it.
+    for (std::uint32_t t = 0; t < count(); ++t) {
+      const std::uint32_t region = regions_.find(t);
+      members_[region].push_back(t);
+      plane_[region].add(mesh, t);
+    }
+  }
+
+  // Face of every triangle. The largest region comes first; of equal ones that with the smallest vertex.
+  std::vector<std::uint32_t> run() {
+    for (const std::uint32_t seed : regions_by_size()) {
+      if (face_[members_[seed].front()] != kNoIndex || !(plane_[seed].total > 0)) continue;
+      for (const std::uint32_t region : regions_of_face(seed)) {
+        for (const std::uint32_t t : members_[region]) face_[t] = seed;
+      }
+    }
+    for (std::uint32_t t = 0; t < count(); ++t) {
+      if (face_[t] == kNoIndex) face_[t] = t;
+    }
+    return face_;
+  }
+
+ private:
+  std::uint32_t count() const { return static_cast<std::uint32_t>(mesh_.triangles.size()); }
+
+  std::vector<std::uint32_t> regions_by_size() const {
+    std::vector<std::uint32_t> seeds;
+    std::vector<std::tuple<double, double, double, double>> key(count());  // minus the area, smallest vertex
+    for (std::uint32_t region = 0; region < count(); ++region) {
+      if (members_[region].empty()) continue;
+      seeds.push_back(region);
+      Vec3 first = mesh_.vertices[mesh_.triangles[members_[region].front()][0]];
+      for (const std::uint32_t t : members_[region]) {
+        for (const std::uint32_t v : mesh_.triangles[t]) {
+          if (position_key(mesh_.vertices[v]) < position_key(first)) first = mesh_.vertices[v];
+        }
+      }
+      key[region] = std::tuple_cat(std::tuple(-plane_[region].total), position_key(first));
+    }
+    std::ranges::sort(seeds, {}, [&](std::uint32_t region) { return key[region]; });
+    return seeds;
+  }
+
+  // Regions in the plane of the regions found so far, until no further one lies in it.
+  std::vector<std::uint32_t> regions_of_face(std::uint32_t seed) {
     std::vector<std::uint32_t> own{seed};
     for (std::size_t before = 0; own.size() > before;) {
       before = own.size();
       Plane fit;
-      for (const std::uint32_t region : own) fit.add(plane[region]);
-      const std::vector<std::uint32_t> found = regions_in_plane(seed, fit);
-      if (found.size() > before) own = found;
+      for (const std::uint32_t region : own) fit.add(plane_[region]);
+      std::vector<std::uint32_t> found = regions_in_plane(seed, fit);
+      if (found.size() > before) own = std::move(found);
     }
-    for (const std::uint32_t region : own) {
-      for (const std::uint32_t t : members[region]) face[t] = seed;
+    return own;
+  }
+
+  // Regions without a face that are connected to the seed and lie in a plane, the seed first.
+  std::vector<std::uint32_t> regions_in_plane(std::uint32_t seed, const Plane& plane) {
+    const Vec3 n = plane.normal(), centroid = plane.moment / plane.total;
+    std::vector<std::uint32_t> found{seed};
+    std::set<std::uint32_t> known{seed};
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      for (const std::uint32_t t : members_[found[i]]) {
+        for (const std::uint32_t g : topology_.neighbours[t]) {
+          if (g == kNoIndex || face_[g] != kNoIndex || !alike(mesh_, g, t)) continue;
+          const std::uint32_t region = regions_.find(g);
+          if (known.contains(region) || !lies_in_plane(region, n, centroid)) continue;
+          known.insert(region);
+          found.push_back(region);
+        }
+      }
     }
+    return found;
   }
-  for (std::uint32_t t = 0; t < count; ++t) {
-    if (face[t] == kNoIndex) face[t] = t;
+
+  bool lies_in_plane(std::uint32_t region, const Vec3& n, const Vec3& centroid) const {
+    return std::ranges::all_of(members_[region], [&](std::uint32_t t) {
+      const Vec3 area = area_vector(mesh_, t);
+      return area.dot(n) > kSameSide * area.norm() && std::ranges::all_of(mesh_.triangles[t], [&](std::uint32_t v) {
+               return std::abs(n.dot(mesh_.vertices[v] - centroid)) <= tolerance_;
+             });
+    });
   }
-  return face;
-}
+
+  const TriangleMesh& mesh_;
+  double tolerance_;
+  Topology topology_;
+  DisjointSets regions_;
+  std::vector<Plane> plane_;                         // of every region
+  std::vector<std::vector<std::uint32_t>> members_;  // triangles of every region
+  std::vector<std::uint32_t> face_;                  // of every triangle; kNoIndex: none yet
+};
 
 }  // namespace
 
@@ -152,7 +180,7 @@ PlanarFaces merge_planar_faces(const TriangleMesh& mesh, double tolerance) {
   if (merged.part_names.empty()) merged.part_names = {"all"};
   const Bounds box = bounds(merged);
   const double exact = kExact * std::max(box.lower.cwiseAbs().maxCoeff(), box.upper.cwiseAbs().maxCoeff());
-  EditableMesh surface(merged, find_faces(merged, std::max(tolerance, exact), exact));
+  EditableMesh surface(merged, FaceFinder(merged, std::max(tolerance, exact), exact).run());
   for (std::uint32_t t = 0; t < merged.triangles.size(); ++t) {
     if (is_curved(merged, t)) surface.keep_vertices(t);
   }

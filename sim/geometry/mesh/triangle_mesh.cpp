@@ -95,6 +95,16 @@ Vec3 area_vector(const TriangleMesh& mesh, std::size_t triangle) {
   return 0.5 * (mesh.vertices[b] - p).cross(mesh.vertices[c] - p);
 }
 
+double normal_deviation(const TriangleMesh& mesh, std::size_t triangle) {
+  if (mesh.corner_normals.empty()) return 0;
+  const Vec3 own = area_vector(mesh, triangle);
+  double largest = 0;
+  for (const Vec3& n : mesh.corner_normals[triangle]) {
+    if (!n.isZero(0) && !own.isZero(0)) largest = std::max(largest, std::atan2(own.cross(n).norm(), own.dot(n)));
+  }
+  return largest;
+}
+
 double surface_area(const TriangleMesh& mesh) {
   double sum = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) sum += area_vector(mesh, t).norm();

@@ -46,6 +46,11 @@ Bounds bounds(const TriangleMesh& mesh);
 // Half the cross product of two sides: its direction is the outward normal, its length the area in m^2.
 Vec3 area_vector(const TriangleMesh& mesh, std::size_t triangle);
 
+// Largest angle between a triangle's corner normals and its own, rad; 0 without. Below kNormalDigits, the digits of
+// normals in files, they repeat the triangle.
+double normal_deviation(const TriangleMesh& mesh, std::size_t triangle);
+inline constexpr double kNormalDigits = 1e-3;
+
 // Sum of the triangles' areas, m^2.
 double surface_area(const TriangleMesh& mesh);
 

@@ -25,9 +25,9 @@ Vec2 chief_ray(const CandidatePanel& candidate) {
   return area > 0 ? Vec2(moment / area) : centroid(candidate.illuminated.polygons().front());
 }
 
-double distance_to(const BeamSegment& segment, const CandidatePanel& candidate) {
-  const Vec2 c = chief_ray(candidate);
-  return std::max(0.0, segment.source_plane.at(c) - candidate.projection.plane.at(c));
+// Path of a ray from the last reflector to the panel, m.
+double distance_to(const BeamSegment& segment, const CandidatePanel& candidate, const Vec2& ray) {
+  return std::max(0.0, segment.source_plane.at(ray) - candidate.projection.plane.at(ray));
 }
 
 // Rays as they leave the segment's last reflector, with all curvatures on the path times `scale`.
@@ -98,8 +98,8 @@ double relative_tilt(const PolygonSet& cross_section, const ParaxialBundle& bund
 ArrivingRays arriving_rays(const BeamSegment& segment, const CandidatePanel& candidate) {
   ArrivingRays rays{segment.ray_bundle, segment.curvature_scale};
   if (!segment.has_curved_reflection) return rays;
-  const double distance = distance_to(segment, candidate);
   rays.chief = chief_ray(candidate);
+  const double distance = distance_to(segment, candidate, rays.chief);
   rays.path_slope = segment.source_plane.slope - candidate.projection.plane.slope;
   rays.bundle.propagate(distance);
   // The displacement is nearly proportional to the scale; the repetitions correct for its higher orders.
@@ -136,7 +136,7 @@ void reflect_rays(const CurvatureContext& on, const BeamSegment& segment, const 
   const ArrivingRays rays = arriving_rays(segment, candidate);
   next.ray_bundle = rays.bundle;
   next.curvature_scale = rays.scale;
-  if (segment.has_curved_reflection) next.path_m = distance_to(segment, candidate);
+  if (segment.has_curved_reflection) next.path_m = distance_to(segment, candidate, rays.chief);
   if (!curved) return;
   // Fermat: a reflector higher by s shortens the path by 2 s cos(incidence).
   next.reflector_curvature =

@@ -86,4 +86,9 @@ std::vector<Facet> make_facets(const TriangleMesh& mesh, std::span<const std::ui
   return facets;
 }
 
+int corner_at(const Facet& facet, const Vec3& position) {
+  const auto found = std::ranges::find(facet.corner, position);
+  return found == facet.corner.end() ? -1 : static_cast<int>(found - facet.corner.begin());
+}
+
 }  // namespace seaglint

@@ -33,4 +33,7 @@ struct Facet {
 // face: planar face of every triangle, or empty.
 std::vector<Facet> make_facets(const TriangleMesh& mesh, std::span<const std::uint32_t> face = {});
 
+// Index of the facet's corner at this position, or -1.
+int corner_at(const Facet& facet, const Vec3& position);
+
 }  // namespace seaglint

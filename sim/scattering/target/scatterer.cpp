@@ -40,18 +40,28 @@ double radius_of(std::span<const Facet> facets) {
   return radius;
 }
 
+double radius_of(const TriangleMesh& mesh) {
+  double radius = 0;
+  for (const auto& triangle : mesh.triangles) {
+    for (const std::uint32_t v : triangle) radius = std::max(radius, mesh.vertices[v].norm());
+  }
+  return radius;
+}
+
 // Facets of the mesh as it is, without its normals, or of its planar faces triangulated anew, with those normals that
 // describe a surface.
 std::vector<Facet> facets_of(TriangleMesh mesh, bool as_meshed) {
   if (as_meshed || !normals_describe_surface(mesh)) mesh.corner_normals.clear();
   if (as_meshed) return make_facets(mesh);
-  const PlanarFaces faces = merge_planar_faces(mesh, kPlanar * radius_of(make_facets(mesh)));
+  const PlanarFaces faces = merge_planar_faces(mesh, kPlanar * radius_of(mesh));
   return make_facets(faces.mesh, faces.face);
 }
 
 SmoothSides smooth_sides(std::span<const Facet> facets, std::optional<double> crease_rad) {
   if (crease_rad) return smooth_sides_by_angle(facets, *crease_rad);
-  const bool given = std::ranges::any_of(facets, [](const Facet& facet) { return !facet.corner_normal[0].isZero(0); });
+  const bool given = std::ranges::any_of(facets, [](const Facet& facet) {
+    return std::ranges::any_of(facet.corner_normal, [](const Vec3& n) { return !n.isZero(0); });
+  });
   return given ? smooth_sides_by_normals(facets) : smooth_sides_by_shape(facets, radians(kDefaultCreaseDeg));
 }
 

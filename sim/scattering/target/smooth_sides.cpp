@@ -12,23 +12,15 @@
 namespace seaglint {
 namespace {
 
-// Constants of the walk, as fractions of the turn at the side where it starts: the turn that ends the flat strip next
-// to the side, the turn that continues it, and the largest one that does so.
-constexpr double kBegins = 0.05, kContinues = 0.6, kTooMuch = 2;
-// Length of the walk in widths of that flat strip.
+// On a line square to a side, as fractions of the turn at the side: the turn at the end of the flat strip next to it,
+// the least turn that continues it, and the largest one.
+constexpr double kStripTurn = 0.05, kLeastTurn = 0.6, kLargestTurn = 2;
+// Length of the line in widths of that flat strip.
 constexpr double kReach = 2.5;
-// Share of a neighbourhood's turn at sides that continue, above which its sides are smooth.
+// Fraction of the turn around two facets, at sides whose turn continues, from which their common side is smooth.
 constexpr double kMajority = 0.7;
 // Largest turn of a side that does not itself continue, relative to the mean of those nearby that do.
 constexpr double kAlikeTurn = 3;
-
-// Index of the facet's corner at this position, or -1.
-int corner_at(const Facet& facet, const Vec3& position) {
-  for (int i = 0; i < 3; ++i) {
-    if (facet.corner[i] == position) return i;
-  }
-  return -1;
-}
 
 // Facet across the side, if it is the only one there, of the same orientation, and turns by less than the crease angle;
 // else -1.
@@ -51,7 +43,7 @@ class ShapeTest {
       for (int e = 0; e < 3; ++e) {
         const int g = candidates[f][e];
         if (g < 0 || turn_[f][e] == 0) continue;
-        continues_[f][e] = walk_continues(f, e) || walk_continues(g, side_towards(g, f));
+        continues_[f][e] = turn_continues(f, e) || turn_continues(g, side_towards(g, f));
       }
     }
   }
@@ -65,9 +57,9 @@ class ShapeTest {
         const int g = candidates_[f][e];
         if (g < 0) continue;
         if (turn_[f][e] == 0) continue;  // inside a planar face
-        const double share = std::max(around[f].share(), around[g].share());
+        const double fraction = std::max(around[f].fraction(), around[g].fraction());
         const double mean = std::max(around[f].mean_turn(), around[g].mean_turn());
-        if (share < kMajority || (!continues_[f][e] && std::abs(turn_[f][e]) > kAlikeTurn * mean)) smooth[f][e] = -1;
+        if (fraction < kMajority || (!continues_[f][e] && std::abs(turn_[f][e]) > kAlikeTurn * mean)) smooth[f][e] = -1;
       }
     }
     return smooth;
@@ -77,7 +69,7 @@ class ShapeTest {
   // Sums over the candidate sides of some facets, each weighted by its length.
   struct Neighbourhood {
     double turn = 0, continuing_turn = 0, continuing_length = 0;
-    double share() const { return turn > 0 ? continuing_turn / turn : 0; }
+    double fraction() const { return turn > 0 ? continuing_turn / turn : 0; }
     double mean_turn() const { return continuing_length > 0 ? continuing_turn / continuing_length : 0; }
   };
 
@@ -98,14 +90,14 @@ class ShapeTest {
     return std::atan2(here.normal.cross(there.normal).dot(along), here.normal.dot(there.normal));
   }
 
-  // Walks from the middle of a side over the facet and on, square to the side on the unfolded surface. True where the
-  // turn across the side goes on: before kReach widths of the flat strip next to it the sum of further turns along the
-  // walk reaches kContinues of it with its sign, and at most kTooMuch of it.
-  bool walk_continues(int f, int e) const {
+  // The line starts at the middle of a side and runs over the facet and on, square to the side on the unfolded surface.
+  // True where the turn at the side continues: within kReach widths of the flat strip next to it the sum of further
+  // turns along the line reaches kLeastTurn of it with its sign, and at most kLargestTurn of it.
+  bool turn_continues(int f, int e) const {
     const double start = turn_[f][e];
     Vec3 at = 0.5 * (facets_[f].corner[e] + facets_[f].corner[(e + 1) % 3]);
     Vec3 direction = facets_[f].normal.cross(facets_[f].corner[(e + 1) % 3] - facets_[f].corner[e]).normalized();
-    double walked = 0, sum = 0, reach = std::numeric_limits<double>::infinity();
+    double length = 0, sum = 0, reach = std::numeric_limits<double>::infinity();
     int entry = e;
     constexpr int kMaxSteps = 1000;
     for (int step = 0; step < kMaxSteps; ++step) {
@@ -123,18 +115,18 @@ class ShapeTest {
         }
       }
       if (exit < 0) return false;
-      walked += nearest;
+      length += nearest;
       const int g = candidates_[f][exit];
-      if (walked > reach || g < 0) return false;
+      if (length > reach || g < 0) return false;
       at += nearest * direction;
       const Vec3 normal = facets_[f].normal;
-      // The turn about the line square to the walk counts.
+      // Of the turn, its part about the axis square to the line counts.
       const Vec3 along = (facets_[f].corner[(exit + 1) % 3] - facets_[f].corner[exit]).normalized();
       sum += turn_[f][exit] * std::abs(along.cross(direction).dot(normal));
       direction = Eigen::Quaterniond::FromTwoVectors(normal, facets_[g].normal) * direction;
-      if (std::abs(sum) > kBegins * std::abs(start)) reach = std::min(reach, kReach * walked);
-      if (std::abs(sum) >= kContinues * std::abs(start))
-        return sum * start > 0 && std::abs(sum) <= kTooMuch * std::abs(start);
+      if (std::abs(sum) > kStripTurn * std::abs(start)) reach = std::min(reach, kReach * length);
+      if (std::abs(sum) >= kLeastTurn * std::abs(start))
+        return sum * start > 0 && std::abs(sum) <= kLargestTurn * std::abs(start);
       entry = side_towards(g, f);
       f = g;
     }
@@ -211,19 +203,13 @@ SmoothSides smooth_sides_by_normals(std::span<const Facet> facets) {
 }
 
 bool normals_describe_surface(const TriangleMesh& mesh) {
-  constexpr double kRepeated = 1e-3;  // rad, the digits of normals in files
-  constexpr double kShaded = 0.01;    // of the area
+  constexpr double kShaded = 0.01;  // of the area
   double off = 0, far = 0, all = 0;
   for (std::size_t t = 0; t < mesh.corner_normals.size(); ++t) {
-    const Vec3 own = area_vector(mesh, t);
-    const double area = own.norm();
-    double largest = 0;
-    for (const Vec3& n : mesh.corner_normals[t]) {
-      if (!n.isZero(0) && area > 0) largest = std::max(largest, std::acos(std::clamp(n.dot(own) / area, -1.0, 1.0)));
-    }
+    const double area = area_vector(mesh, t).norm(), deviation = normal_deviation(mesh, t);
     all += area;
-    if (largest > kRepeated) off += area;
-    if (largest > kMaxNormalDeviation) far += area;
+    if (deviation > kNormalDigits) off += area;
+    if (deviation > kMaxNormalDeviation) far += area;
   }
   return off > 0 && far <= kShaded * all;
 }

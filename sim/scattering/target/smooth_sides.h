@@ -30,7 +30,7 @@ SmoothSides smooth_sides_by_normals(std::span<const Facet> facets);
 // True where the corner normals of a mesh describe a smooth surface: some are off their triangles' own, so that they do
 // not repeat the facets, and none by more than kMaxNormalDeviation but for a hundredth of the area, so that they are
 // not the shading of a box.
-inline constexpr double kMaxNormalDeviation = 0.52;  // rad: the facets of a cylinder of six sides
+inline constexpr double kMaxNormalDeviation = 0.53;  // rad: 30 deg, a cylinder of six sides, and the digits of normals
 bool normals_describe_surface(const TriangleMesh& mesh);
 
 }  // namespace seaglint

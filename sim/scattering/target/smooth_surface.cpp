@@ -8,6 +8,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "sim/core/numbers/smooth_step.h"
+#include "sim/geometry/mesh/crease_normals.h"
 
 namespace seaglint {
 namespace {
@@ -16,14 +17,6 @@ struct FacetCorner {
   std::int32_t facet = 0;
   std::int8_t corner = 0;
 };
-
-// Index of the facet's corner at this position, or -1.
-int corner_at(const Facet& facet, const Vec3& position) {
-  for (int i = 0; i < 3; ++i) {
-    if (facet.corner[i] == position) return i;
-  }
-  return -1;
-}
 
 // Width of every facet: that of its planar face, sqrt(12 times the least second moment of its area / area), the smaller
 // side of a rectangle; of a facet of no known face, its height over the longest side.
@@ -63,15 +56,9 @@ std::vector<double> face_widths(std::span<const Facet> facets) {
   return width;
 }
 
-// Weight of a facet in a vertex normal. Facets of similar width: sin(angle) / (product of the two sides), exact on a
-// sphere for any triangulation (N. Max, Journal of Graphics Tools 4 (1999) 1-6). Otherwise angle times width, which
-// keeps a large flat face next to the narrow strips of a fillet flat to within their sagitta. Neither depends on the
-// triangulation of a flat face.
 double weight(const Facet& facet, int corner, double width, bool alike) {
-  const Vec3 a = facet.corner[(corner + 1) % 3] - facet.corner[corner],
-             b = facet.corner[(corner + 2) % 3] - facet.corner[corner];
-  const double twice_area = a.cross(b).norm();
-  return alike ? twice_area / (a.squaredNorm() * b.squaredNorm()) : std::atan2(twice_area, a.dot(b)) * width;
+  return corner_weight(facet.corner[(corner + 1) % 3] - facet.corner[corner],
+                       facet.corner[(corner + 2) % 3] - facet.corner[corner], width, alike);
 }
 
 // Ratio of the largest to the smallest width up to which facets are of similar width, and from which they are not.

@@ -21,8 +21,8 @@ namespace {
 using namespace testing_echoes;
 using namespace testing_meshes;
 
-// Share of the length of sides with a turn of less than the crease angle, planar faces excluded, that are smooth.
-double smooth_share(const TriangleMesh& mesh) {
+// Fraction, by length, of the sides with a turn of less than the crease angle, planar faces excluded, that are smooth.
+double smooth_fraction(const TriangleMesh& mesh) {
   const PlanarFaces faces = merge_planar_faces(mesh, 1e-7);
   const std::vector<Facet> facets = make_facets(faces.mesh, faces.face);
   const double crease = radians(kDefaultCreaseDeg);
@@ -60,7 +60,7 @@ TEST(SmoothSides, OfRoundBodiesAreAllSmooth) {
   for (const TriangleMesh& body :
        {make_sphere(1, 3), cut_in_four(make_sphere(1, 3)), irregular_sphere(3), scaled(make_sphere(1, 4), {3, 1, 0.5}),
         make_cylinder(0.5, 1, 48), cut_in_four(make_cylinder(0.5, 1, 48))})
-    EXPECT_EQ(smooth_share(body), 1);
+    EXPECT_EQ(smooth_fraction(body), 1);
 }
 
 // A quarter-round of six strips between two large faces: the strips hang together, and so do the first and the last
@@ -80,8 +80,8 @@ TEST(SmoothSides, OfAFilletJoinItToTheFaces) {
     mesh.triangles.push_back({i, i + 2, i + 3});
     mesh.triangles.push_back({i, i + 3, i + 1});
   }
-  EXPECT_EQ(smooth_share(mesh), 1);
-  EXPECT_EQ(smooth_share(cut_in_four(mesh)), 1);
+  EXPECT_EQ(smooth_fraction(mesh), 1);
+  EXPECT_EQ(smooth_fraction(cut_in_four(mesh)), 1);
 }
 
 // Facets of 2 cm with vertices 0.1 mm off the planes of a trihedral: turns of either sign, no surface.
@@ -89,10 +89,10 @@ TEST(SmoothSides, OfRoughPlanesAreKnuckles) {
   TriangleMesh mesh = make_square_trihedral(1);
   for (int i = 0; i < 6; ++i) mesh = cut_in_four(mesh);
   Random random({5, Stream::kTest, 0});
-  const double share = smooth_share(with_noise(mesh, 1e-4, random));
-  std::printf("smooth share of a rough trihedral: %.4f\n", share);
-  record_figure(share, 4, "smooth_share_rough_trihedral");
-  EXPECT_LT(share, 0.01);
+  const double fraction = smooth_fraction(with_noise(mesh, 1e-4, random));
+  std::printf("smooth fraction of a rough trihedral: %.4f\n", fraction);
+  record_figure(fraction, 4, "smooth_fraction_rough_trihedral");
+  EXPECT_LT(fraction, 0.01);
 }
 
 // A single knuckle of 10 deg between two flat plates, as between strakes of a hull.
@@ -101,8 +101,8 @@ TEST(SmoothSides, AKnuckleStaysAKnuckle) {
   const Vec3 hinge(0, 0.5, 0);
   const Mat3 turn = Eigen::AngleAxisd(radians(10), Vec3::UnitZ()).toRotationMatrix();
   mesh.append(transformed(make_plate(1, 1), turn, hinge + turn * hinge));
-  EXPECT_EQ(smooth_share(welded(mesh)), 0);
-  EXPECT_EQ(smooth_share(cut_in_four(cut_in_four(welded(mesh)))), 0);
+  EXPECT_EQ(smooth_fraction(welded(mesh)), 0);
+  EXPECT_EQ(smooth_fraction(cut_in_four(cut_in_four(welded(mesh)))), 0);
 }
 
 // Each corner's normal is that of the body at its vertex.
