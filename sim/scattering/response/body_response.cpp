@@ -14,6 +14,7 @@
 #include "sim/core/process/parallel.h"
 #include "sim/scattering/edges/edge_decomposition.h"
 #include "sim/scattering/response/aspect_trace.h"
+#include "sim/scattering/response/reciprocity.h"
 #include "sim/scattering/response/response_grid.h"
 #include "sim/scattering/response/scattering_matrix.h"
 #include "sim/scattering/response/trace_plan.h"
@@ -86,7 +87,8 @@ class PathPoints {
   void keep(std::size_t chunk, std::span<PointContribution> contributions) {
     if (range_m_ > 0) apply_wavefront_curvature(contributions, geometry_, {range_m_});
     for (const PointContribution& c : contributions) {
-      const Complex amplitude = c.amplitude * Complex(c.pattern[channel_]);
+      const auto pattern = geometry_.monostatic ? reciprocal_mean(c.pattern, c.pattern) : c.pattern;
+      const Complex amplitude = c.amplitude * Complex(pattern[channel_]);
       if (std::norm(amplitude) < faint_ * faint_) continue;
       const double cut = std::min(1.0, limit_ / c.gradient.sum().norm());
       const double u = cut * path_.along_track.path_rate(c.gradient), v = cut * path_.cross_track.path_rate(c.gradient);

@@ -3,9 +3,11 @@
 
 #include <cmath>
 #include <deque>
+#include <utility>
 
 #include "sim/scattering/edges/edge_decomposition.h"
 #include "sim/scattering/response/aspect_trace.h"
+#include "sim/scattering/response/reciprocity.h"
 #include "sim/scattering/response/sweep_sum.h"
 #include "sim/scattering/target/target_check.h"
 
@@ -16,6 +18,12 @@ namespace {
 RadarRange relative_to_centre(const Scatterer& scatterer, RadarRange radar) {
   radar.origin += scatterer.centre();
   return radar;
+}
+
+void exchange_antennas(PointContribution& point) {
+  std::swap(point.pattern[1], point.pattern[2]);
+  std::swap(point.gradient.transmit, point.gradient.receive);
+  std::swap(point.gradient.transmit_slide, point.gradient.receive_slide);
 }
 
 }  // namespace
@@ -30,10 +38,10 @@ double direction_spread(const Scatterer& scatterer, const RadarRange& radar) {
   return radar.range_m > 0 ? reach / radar.range_m : 0;
 }
 
-std::vector<Matrices> scattering_matrices(const Scatterer& scatterer, std::span<const BistaticGeometry> pairs,
-                                          std::span<const double> wavenumbers, const TracingSettings& settings,
-                                          int threads, std::size_t* segments, const StopFlag* stop,
-                                          const RadarRange& radar) {
+std::vector<Matrices> one_way_matrices(const Scatterer& scatterer, std::span<const BistaticGeometry> pairs,
+                                       std::span<const double> wavenumbers, const TracingSettings& settings,
+                                       int threads, std::size_t* segments, const StopFlag* stop,
+                                       const RadarRange& radar) {
   const RadarRange to_centre = relative_to_centre(scatterer, radar);
   const double spread = direction_spread(scatterer, to_centre);
   const SweepPlan plan(scatterer, wavenumbers);
@@ -53,6 +61,21 @@ std::vector<Matrices> scattering_matrices(const Scatterer& scatterer, std::span<
     for (std::size_t q = 0; q < wavenumbers.size(); ++q) {
       for (Complex& s : sum[q]) s *= origin_phase(scatterer, pairs[i], wavenumbers[q]);
     }
+  }
+  return matrices;
+}
+
+std::vector<Matrices> scattering_matrices(const Scatterer& scatterer, std::span<const BistaticGeometry> pairs,
+                                          std::span<const double> wavenumbers, const TracingSettings& settings,
+                                          int threads, std::size_t* segments, const StopFlag* stop,
+                                          const RadarRange& radar) {
+  const ReciprocalPairs reciprocal(pairs);
+  const std::vector<Matrices> one_way =
+      one_way_matrices(scatterer, reciprocal.all(), wavenumbers, settings, threads, segments, stop, radar);
+  std::vector<Matrices> matrices(pairs.size(), Matrices(wavenumbers.size()));
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    for (std::size_t q = 0; q < wavenumbers.size(); ++q)
+      matrices[i][q] = reciprocal_mean(one_way[i][q], one_way[reciprocal.exchanged(i)][q]);
   }
   return matrices;
 }
@@ -102,25 +125,42 @@ AspectContributions aspect_contributions(const Scatterer& scatterer, const Bista
   bent.aspect_change_rad += spread;
   const std::array wavenumber{split_settings.kc};
   const SweepPlan plan(scatterer, wavenumber);
-  const AspectTrace trace(scatterer, std::span(&geometry, 1), settings, wavenumber, threads);
-  OrderedSweepSum sum(SweepSum(plan, geometry, to_centre, spread), trace.chunk_count(0));
-  std::vector<std::vector<PointContribution>> points(trace.chunk_count(0));
+  const ReciprocalPairs reciprocal(std::span(&geometry, 1));
+  const std::span<const BistaticGeometry> traced = reciprocal.all();
+  const AspectTrace trace(scatterer, traced, settings, wavenumber, threads);
+  std::deque<OrderedSweepSum> sums;
+  std::vector<std::vector<std::vector<PointContribution>>> points;  // [pair][chunk]
+  for (std::size_t i = 0; i < traced.size(); ++i) {
+    sums.emplace_back(SweepSum(plan, traced[i], to_centre, spread), trace.chunk_count(i));
+    points.emplace_back(trace.chunk_count(i));
+  }
   AspectContributions all;
-  all.segments = trace.run({[&](std::size_t, std::size_t chunk, std::span<const Footprint> footprints) {
-                              sum.chunk(chunk).add(footprints);
+  all.segments = trace.run({[&](std::size_t pair, std::size_t chunk, std::span<const Footprint> footprints) {
+                              sums[pair].chunk(chunk).add(footprints);
                               for (const Footprint& footprint : footprints)
-                                decompose(footprint, geometry.transmit, bent, points[chunk]);
+                                decompose(footprint, traced[pair].transmit, bent, points[pair][chunk]);
                             },
-                            [&](std::size_t, std::size_t chunk, std::span<const EdgeContribution> contributions) {
-                              sum.chunk(chunk).add(contributions);
+                            [&](std::size_t pair, std::size_t chunk, std::span<const EdgeContribution> contributions) {
+                              sums[pair].chunk(chunk).add(contributions);
                               for (const EdgeContribution& contribution : contributions)
-                                decompose(contribution, bent, points[chunk]);
+                                decompose(contribution, bent, points[pair][chunk]);
                             },
-                            [&](std::size_t, std::size_t chunk) { sum.complete(chunk); }},
+                            [&](std::size_t pair, std::size_t chunk) { sums[pair].complete(chunk); }},
                            stop);
-  all.matrix = sum.matrices().front();
-  for (const std::vector<PointContribution>& of_chunk : points)
-    all.points.insert(all.points.end(), of_chunk.begin(), of_chunk.end());
+  all.matrix = reciprocal_mean(sums.front().matrices().front(), sums.back().matrices().front());
+  for (std::size_t pair = 0; pair < traced.size(); ++pair) {
+    for (std::vector<PointContribution>& of_chunk : points[pair]) {
+      for (PointContribution& point : of_chunk) {
+        if (geometry.monostatic) {
+          point.pattern = reciprocal_mean(point.pattern, point.pattern);
+          continue;
+        }
+        point.amplitude *= 0.5;
+        if (pair > 0) exchange_antennas(point);
+      }
+      all.points.insert(all.points.end(), of_chunk.begin(), of_chunk.end());
+    }
+  }
   if (radar.range_m > 0) apply_wavefront_curvature(all.points, geometry, to_centre);
   const Vec3& centre = scatterer.centre();
   for (Complex& s : all.matrix) s *= origin_phase(scatterer, geometry, split_settings.kc);
