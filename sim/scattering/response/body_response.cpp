@@ -37,31 +37,37 @@ struct alignas(64) ChunkPoints {
 class PathPoints {
  public:
   PathPoints(const Scatterer& scatterer, const PlannedPath& path, double kc, double half_band, double faint,
-             int channel, double range_m, std::size_t chunks)
-      : geometry_(path.geometry),
-        path_(path.look_path),
+             int channel, double range_m, std::size_t slots)
+      : path_(path.look_path),
         split_{kc, path_.max_change + direction_spread(scatterer, {range_m})},
         half_band_(half_band),
         faint_(faint),
         channel_(channel),
         range_m_(range_m),
         limit_(8 * scatterer.radius()),
-        points_(chunks) {}
+        points_(slots) {}
 
-  void add(std::size_t chunk, std::span<const Footprint> footprints) {
+  // Contributions of one trace to the path, into one slot.
+  struct Source {
+    std::size_t slot;
+    const BistaticGeometry& traced;  // this path's, or that with the antennas exchanged
+    bool is_exchanged;
+    double weight;
+  };
+  void add(const Source& source, std::span<const Footprint> footprints) {
     std::vector<PointContribution> contributions;
     for (const Footprint& footprint : footprints) {
       contributions.clear();
-      decompose_over_band(footprint, geometry_.transmit, split_, half_band_, contributions);
-      keep(chunk, contributions);
+      decompose_over_band(footprint, source.traced.transmit, split_, half_band_, contributions);
+      keep(source, contributions);
     }
   }
-  void add(std::size_t chunk, std::span<const EdgeContribution> edges) {
+  void add(const Source& source, std::span<const EdgeContribution> edges) {
     std::vector<PointContribution> contributions;
     for (const EdgeContribution& contribution : edges) {
       contributions.clear();
       decompose(contribution, split_, contributions);
-      keep(chunk, contributions);
+      keep(source, contributions);
     }
   }
 
@@ -84,20 +90,21 @@ class PathPoints {
 
  private:
   // At a finite range the wavefront is curved about the body's centre, from which the look directions are measured.
-  void keep(std::size_t chunk, std::span<PointContribution> contributions) {
-    if (range_m_ > 0) apply_wavefront_curvature(contributions, geometry_, {range_m_});
-    for (const PointContribution& c : contributions) {
-      const auto pattern = geometry_.monostatic ? reciprocal_mean(c.pattern, c.pattern) : c.pattern;
-      const Complex amplitude = c.amplitude * Complex(pattern[channel_]);
+  void keep(const Source& source, std::span<PointContribution> contributions) {
+    if (range_m_ > 0) apply_wavefront_curvature(contributions, source.traced, {range_m_});
+    for (PointContribution& c : contributions) {
+      if (source.is_exchanged) exchange_antennas(c);
+      const auto pattern = source.traced.monostatic ? reciprocal_mean(c.pattern, c.pattern) : c.pattern;
+      const Complex amplitude = source.weight * c.amplitude * Complex(pattern[channel_]);
       if (std::norm(amplitude) < faint_ * faint_) continue;
       const double cut = std::min(1.0, limit_ / c.gradient.sum().norm());
       const double u = cut * path_.along_track.path_rate(c.gradient), v = cut * path_.cross_track.path_rate(c.gradient);
-      points_[chunk].points.push_back({amplitude, c.psi, u, v});
-      points_[chunk].fastest = std::max(points_[chunk].fastest, std::abs(u));
+      ChunkPoints& points = points_[source.slot];
+      points.points.push_back({amplitude, c.psi, u, v});
+      points.fastest = std::max(points.fastest, std::abs(u));
     }
   }
 
-  const BistaticGeometry& geometry_;
   const LookDirectionPath& path_;
   DecompositionSettings split_;
   double half_band_;
@@ -107,7 +114,7 @@ class PathPoints {
   // A shadow boundary at grazing incidence slides along its facet much faster than any point of the body. Its rate is
   // limited to that of a point at four radii: such end points are weak and cross many velocity cells.
   double limit_;
-  std::vector<ChunkPoints> points_;
+  std::vector<ChunkPoints> points_;  // by slot
 };
 
 // Response of the body over the propagation paths of one trace.
@@ -123,13 +130,25 @@ std::vector<ResponseGrid> trace_to_grid(const Scatterer& scatterer, std::span<co
   for (const PlannedPath& path : paths) pairs.push_back(path.geometry);
   const AspectTrace trace(scatterer, pairs, settings, band, threads);
   const double faint = min_amplitude(scatterer, settings, kc);
+  // The two paths that meet the sea once are reciprocal: the cross-polarised response of each is the mean over both.
+  const ReciprocalPairs reciprocal(pairs);
+  const bool is_cross_polarised =
+      channel == static_cast<int>(Polarisation::kHv) || channel == static_cast<int>(Polarisation::kVh);
+  const auto is_shared = [&](std::size_t path) {
+    return is_cross_polarised && !pairs[path].monostatic && reciprocal.exchanged(path) < pairs.size();
+  };
   std::vector<PathPoints> points;
   for (std::size_t path = 0; path < paths.size(); ++path) {
+    const std::size_t from_exchanged = is_shared(path) ? trace.chunk_count(reciprocal.exchanged(path)) : 0;
     points.emplace_back(scatterer, paths[path], kc, half_band, faint, channel, solver.wavefront_range_m,
-                        trace.chunk_count(path));
+                        trace.chunk_count(path) + from_exchanged);
   }
   const auto add = [&](std::size_t path, std::size_t chunk, const auto& contributions) {
-    points[path].add(chunk, contributions);
+    const double weight = is_shared(path) ? 0.5 : 1;
+    points[path].add({chunk, pairs[path], false, weight}, contributions);
+    if (!is_shared(path)) return;
+    const std::size_t exchanged = reciprocal.exchanged(path);
+    points[exchanged].add({trace.chunk_count(exchanged) + chunk, pairs[path], true, weight}, contributions);
   };
   trace.run({add, add});
   std::vector<ResponseGrid> grids;

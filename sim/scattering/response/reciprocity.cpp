@@ -2,6 +2,7 @@
 #include "sim/scattering/response/reciprocity.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace seaglint {
 namespace {
@@ -19,6 +20,12 @@ ReciprocalPairs::ReciprocalPairs(std::span<const BistaticGeometry> pairs)
     exchanged_[i] = static_cast<std::size_t>(exchanged - all_.begin());
     if (exchanged == all_.end()) all_.push_back(bistatic(pairs[i].receive, pairs[i].transmit));
   }
+}
+
+void exchange_antennas(PointContribution& point) {
+  std::swap(point.pattern[1], point.pattern[2]);
+  std::swap(point.gradient.transmit, point.gradient.receive);
+  std::swap(point.gradient.transmit_slide, point.gradient.receive_slide);
 }
 
 }  // namespace seaglint

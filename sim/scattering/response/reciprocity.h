@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "sim/scattering/beams/bistatic_geometry.h"
+#include "sim/scattering/surfaces/point_contributions.h"
 
 namespace seaglint {
 
@@ -37,5 +38,8 @@ std::array<Element, 4> reciprocal_mean(const std::array<Element, 4>& matrix, con
   const auto mean = [&](int i, int j) { return (matrix[i] + exchanged[j]) * typename Element::value_type(0.5); };
   return {mean(0, 0), mean(1, 2), mean(2, 1), mean(3, 3)};
 }
+
+// The point of a path becomes that of its reciprocal.
+void exchange_antennas(PointContribution& point);
 
 }  // namespace seaglint

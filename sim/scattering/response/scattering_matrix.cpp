@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <deque>
-#include <utility>
 
 #include "sim/scattering/edges/edge_decomposition.h"
 #include "sim/scattering/response/aspect_trace.h"
@@ -18,12 +17,6 @@ namespace {
 RadarRange relative_to_centre(const Scatterer& scatterer, RadarRange radar) {
   radar.origin += scatterer.centre();
   return radar;
-}
-
-void exchange_antennas(PointContribution& point) {
-  std::swap(point.pattern[1], point.pattern[2]);
-  std::swap(point.gradient.transmit, point.gradient.receive);
-  std::swap(point.gradient.transmit_slide, point.gradient.receive_slide);
 }
 
 }  // namespace
