@@ -33,6 +33,13 @@ struct alignas(64) ChunkPoints {
   double fastest = 0;  // largest |u|, m
 };
 
+// Over a curved wavefront the slope of psi changes along a panel also where it does not with the look direction, as in
+// a corner that returns the wave as it came.
+Footprint at_any_slope_rate(Footprint footprint) {
+  footprint.psi_slope_rate = 2;
+  return footprint;
+}
+
 // Points of the contributions of one propagation path, with their rates along its look-direction path.
 class PathPoints {
  public:
@@ -58,7 +65,8 @@ class PathPoints {
     std::vector<PointContribution> contributions;
     for (const Footprint& footprint : footprints) {
       contributions.clear();
-      decompose_over_band(footprint, source.traced.transmit, split_, half_band_, contributions);
+      decompose_over_band(range_m_ > 0 ? at_any_slope_rate(footprint) : footprint, source.traced.transmit, split_,
+                          half_band_, contributions);
       keep(source, contributions);
     }
   }

@@ -5,6 +5,7 @@
 
 #include "sim/scattering/edges/edge_decomposition.h"
 #include "sim/scattering/surfaces/curved_footprint.h"
+#include "sim/scattering/surfaces/finite_range.h"
 #include "sim/scattering/surfaces/phase_integral.h"
 
 namespace seaglint {
@@ -30,7 +31,11 @@ void SweepSum::add(std::span<const Footprint> footprints) {
         continue;
       }
       points_.clear();
-      decompose(footprint, geometry_.transmit, band, spread_, points_);
+      if (radar_.range_m > 0) {
+        decompose_at_range(footprint, geometry_, band, radar_, points_);
+      } else {
+        decompose(footprint, geometry_.transmit, band, 0, points_);
+      }
       if (footprint.patterns.empty()) {
         add_points({}, bands_[b]);
         continue;
@@ -85,13 +90,13 @@ std::array<Complex, 4> SweepSum::at(const EdgeContribution& contribution, double
 void SweepSum::decompose_edge(const EdgeContribution& contribution, const FrequencyBand& band, BandSum& sum) {
   points_.clear();
   decompose(contribution, band, spread_, points_);
+  if (radar_.range_m > 0) apply_wavefront_curvature(points_, geometry_, radar_);
   std::array<std::array<Complex, 4>, kBandNodes> patterns;
   for (std::size_t n = 0; n < band.nodes().size(); ++n) patterns[n] = contribution.pattern.at(band.nodes()[n]);
   add_points(patterns, sum);
 }
 
 void SweepSum::add_points(std::span<const std::array<Complex, 4>> patterns, BandSum& sum) {
-  if (radar_.range_m > 0) apply_wavefront_curvature(points_, geometry_, radar_);
   for (const BandPoint& point : points_) sum.add(point, patterns);
 }
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "sim/core/process/error.h"
 #include "sim/geometry/shapes/generators.h"
@@ -112,6 +113,44 @@ TEST(WavefrontCurvature, TrihedralKeepsThePathOfItsApex) {
   const double off_axis = offset.norm() / range_m;
   EXPECT_NEAR(std::abs(ratio), 1, off_axis * off_axis + 2 / (k * leg));
   EXPECT_NEAR(std::arg(ratio), 0, 2 / (k * leg) + k * leg * leg / 4 / range_m);
+}
+
+// Three bounces return the wave that meets the aperture at p from -p, so that its path is longer by |p|^2 / R. Seen
+// along the axis the aperture of legs a is a regular hexagon about the apex, of sides a sqrt(2) / 3.
+TEST(WavefrontCurvature, OfATrihedralIsThatOfItsAperture) {
+  const double leg = 1, k = wavenumber(16e9), side = leg * std::numbers::sqrt2 / 3;
+  const Scatterer corner(make_triangular_trihedral(leg));
+  TracingSettings settings;
+  settings.filter.included = {{ContributionSelector::Kind::kBounces, 3}};
+  const RadarBasis axis = radar_basis(Vec3(1, 1, 1).normalized());
+  for (const double range_m : {20.0, 40.0, 100.0}) {
+    const auto s = scattering_matrices(corner, monostatic(axis), std::array{k}, settings, 1, nullptr, nullptr,
+                                       {range_m, corner.centre()})[0];
+    // Twelve right triangles of height sqrt(3) side / 2 and angle 30 deg, in rings of equal distance from the apex.
+    const int rings = 20000;
+    const double height = std::numbers::sqrt3 / 2 * side;
+    Complex sum = 0;
+    for (int i = 0; i < rings; ++i) {
+      const double r = (i + 0.5) / rings * side;
+      const double arc = r <= height ? kPi / 6 : kPi / 6 - std::acos(height / r);
+      sum += 12 * r * arc * std::polar(1.0, -k * r * r / range_m) * (side / rings);
+    }
+    const double expected = k / (2 * kPi) * std::abs(sum);
+    fmt::print("trihedral at {} m: {:.4f} of {:.4f} m, {:.4f} m far away\n", range_m, std::abs(s[kHhChannel]), expected,
+               k / (2 * kPi) * leg * leg / std::numbers::sqrt3);
+    EXPECT_NEAR(std::abs(s[kHhChannel]) / expected, 1, 0.005) << range_m;
+    // In an interval, at rest; the few other bounces interfere.
+    SolverSpec solver;
+    solver.edges = false;
+    solver.wavefront_range_m = range_m;
+    const Complex at_rest = body_response(corner, Trajectory::at_rest(Vec3::Zero()), axis.r, Polarisation::kHh,
+                                          {16e9, 1e6, 1, 1, {0}, {0.0}}, solver)
+                                .response.at(0, 0);
+    const TracingSettings all{0, solver.max_bounces, false};
+    const Complex matrix = scattering_matrices(corner, monostatic(axis), std::array{k}, all, 1, nullptr, nullptr,
+                                               {range_m, -corner.centre()})[0][kHhChannel];
+    EXPECT_LT(std::abs(at_rest - matrix), 0.01 * expected) << range_m;
+  }
 }
 
 // A float of a layout has its own origin, whereas the radar's range refers to that of the layout.
