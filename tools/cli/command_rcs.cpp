@@ -19,13 +19,14 @@
 #include "tools/pipeline/warnings.h"
 #include "tools/rcs/rcs_comparison.h"
 #include "tools/rcs/rcs_table.h"
+#include "tools/rcs/rcs_uncertainty.h"
 #include "tools/rcs/rcs_views.h"
 #include "tools/rcs/view_export.h"
 
 namespace seaglint {
 namespace {
 
-std::filesystem::path comparison_figure(const RcsArguments& arguments) {
+std::filesystem::path figure_file(const RcsArguments& arguments) {
   if (!arguments.reference.figure.empty()) return arguments.reference.figure;
   return std::filesystem::path(arguments.output).replace_extension(".png");
 }
@@ -35,20 +36,21 @@ void require_files(const RcsArguments& arguments) {
   std::vector<std::filesystem::path> inputs(arguments.reference.files.begin(), arguments.reference.files.end());
   inputs.emplace_back(arguments.target);
   std::vector<std::string> outputs{arguments.output, exports.centres, exports.hot_spots};
-  if (!arguments.reference.files.empty()) {
-    outputs.push_back(comparison_figure(arguments));
+  if (!arguments.reference.files.empty() || arguments.request.uncertainty) {
+    outputs.push_back(figure_file(arguments));
     require_figure(outputs.back());
   }
   require_outputs(outputs, inputs);
   if (!exports.hot_spots.empty()) require_coloured_mesh(exports.hot_spots);
 }
 
-void show_comparison(const RcsArguments& arguments, const std::vector<PairedCut>& cuts) {
-  fmt::print("{}", error_table(cuts, arguments.reference.floor_db));
-  const std::filesystem::path figure = comparison_figure(arguments);
+// Draws the comparison, or without references the uncertainty.
+void show_figure(const RcsArguments& arguments, const std::vector<PairedCut>& cuts, const RcsSweep& sweep) {
+  const std::filesystem::path figure = figure_file(arguments);
   const std::string title =
       fmt::format("{}, seaglint {}", std::filesystem::path(arguments.target).filename().string(), kVersion);
-  if (draw_comparison(cuts, arguments.reference.floor_db, title, figure)) {
+  if (cuts.empty() ? draw_uncertainty(sweep, title, figure)
+                   : draw_comparison(cuts, arguments.reference.floor_db, title, figure)) {
     fmt::print("Figure: {}\n", figure.string());
   } else {
     fmt::print("No figure: it needs a cut along azimuth, elevation or frequency of two points or more\n");
@@ -76,10 +78,12 @@ RcsResult compute(const RcsArguments& arguments, const RcsRequest& request, cons
 void run_rcs(const RcsArguments& arguments, const CommandContext& context) {
   require_files(arguments);
   const RcsRequest request = arguments.make_request();
-  warn(request_warnings(request));
+  std::vector<std::string> warnings = request_warnings(request);
+  warn(warnings);
   const RcsSweep asked = requested_sweep(request);
   std::vector<PairedCut> cuts = pair_with_all(asked, arguments.reference.read());
   PreparedTarget prepared = prepare_mesh(request);
+  warnings.insert(warnings.end(), prepared.warnings.begin(), prepared.warnings.end());
   warn(prepared.warnings);
   const RcsTarget target = select_echoes(request, std::move(prepared));
   for (const NamedCavity& cavity : target.cavities) {
@@ -93,16 +97,19 @@ void run_rcs(const RcsArguments& arguments, const CommandContext& context) {
       std::max(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 1e-9);
 
   const RcsSweep& sweep = result.sweep;
-  write_file(arguments.output, rcs_table(request, *target.prepared.scatterer, sweep));
+  const std::vector<std::string> uncertain = uncertainty_warnings(sweep, target.prepared.mesh.part_names);
+  warn(uncertain);
+  warnings.insert(warnings.end(), uncertain.begin(), uncertain.end());
+  write_file(arguments.output, rcs_table(request, *target.prepared.scatterer, sweep, warnings));
   const double million_segments = 1e-6 * static_cast<double>(result.segments),
                views = static_cast<double>(sweep.views());
   print_error(fmt::format("{}: {} rows, {} views in {:.2f} s ({:.3g} views/s, {:.2f} M beam segments, {:.2f} M/s)\n",
                           arguments.output, sweep.rows(), sweep.views(), seconds, views / seconds, million_segments,
                           million_segments / seconds));
   if (request.exports.wanted()) fmt::print("{}", export_view(request, target, result.contributions));
-  if (cuts.empty()) return;
   for (PairedCut& cut : cuts) set_models(cut, sweep);
-  show_comparison(arguments, cuts);
+  if (!cuts.empty()) fmt::print("{}", error_table(cuts, arguments.reference.floor_db));
+  if (!cuts.empty() || request.uncertainty) show_figure(arguments, cuts, sweep);
 }
 
 }  // namespace
@@ -119,6 +126,7 @@ void add_rcs(CommandOptions& program, CommandContext& context) {
       "ref.H.txt --reference ref.V.txt");
   command.callback([arguments, command, &context] {
     command.require_any_of("--transmit-elevation-deg", {"--transmit-azimuth-deg"});
+    command.require_any_of("--figure", {"--reference", "--uncertainty"});
     command.require_any_of("--centre-cell-m", {"--export-scattering-centres"});
     command.require_any_of("--export-dynamic-range-db", {"--export-scattering-centres", "--export-hot-spots"});
     context.work = [arguments, &context] { run_rcs(*arguments, context); };

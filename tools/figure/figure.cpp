@@ -260,6 +260,11 @@ PlotText plot_text(const LinePlot& figure, std::size_t first_index) {
     const std::string title = series.name.empty() ? "notitle" : "title " + quoted(series.name);
     named = named || !series.name.empty();
     const std::string index = fmt::format("data index {} using ", first_index + s);
+    if (series.style == SeriesStyle::kBand) {
+      plots += fmt::format("{}1:3:4 with filledcurves fc rgb '{}' fs transparent solid 0.3 noborder {}, ", index,
+                           colour, title);
+      continue;
+    }
     if (!series.interval.empty()) {
       plots += fmt::format("{}1:2:3:4 with yerrorbars lc rgb '{}' lw 1.2 ps 0 notitle, ", index, colour);
     }

@@ -33,7 +33,8 @@ struct Heatmap {
   std::vector<std::array<double, 4>> boxes;    // x low, x high, y low, y high of frames
 };
 
-enum class SeriesStyle { kLines, kPoints, kLinesPoints };
+// kBand: the area between the interval's ends.
+enum class SeriesStyle { kLines, kPoints, kLinesPoints, kBand };
 
 struct Series {
   std::string name;  // in the legend, when not empty

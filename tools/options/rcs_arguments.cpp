@@ -170,6 +170,10 @@ void RcsArguments::add_to(CommandOptions& command) {
           "Material: pec, a name in assets/materials, or a file; PART=NAME for one part, PART* for every part with "
           "that prefix (repeatable)")
       .repeatable("[PART=]NAME");
+  command.add_flag("--uncertainty", request.uncertainty,
+                   "Also trace with all facets flat: columns xx_flat_over_smooth_db after the others (level of flat "
+                   "facets over that of smooth surfaces) and xx_vertex_change (estimated change, relative to the echo, "
+                   "by vertices displaced by a 2000th of a wavelength), and a figure of both");
   add_cavity_options(command, request.cavities);
   add_sea_options(command, *this);
   command.add_option("-o,--output", output, "CSV file to write").required();

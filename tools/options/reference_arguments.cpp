@@ -74,8 +74,8 @@ void ReferenceArguments::add_to(CommandOptions& command) {
       .needs(reference)
       .group("Reference");
   command
-      .add_option("--figure", figure, "Picture of the comparison, .png or .svg; default: the output's name with .png")
-      .needs(reference)
+      .add_option("--figure", figure,
+                  "Figure of the comparison, or of --uncertainty, .png or .svg; default: the output's name with .png")
       .group("Reference");
 }
 

@@ -194,15 +194,19 @@ std::vector<PairedCut> match_reference(const RcsSweep& sweep, const RcsReference
 
 void set_models(PairedCut& cut, const RcsSweep& sweep) {
   const auto element = static_cast<std::size_t>(cut.element);
-  cut.models.clear();
-  for (const RcsSweep::Model& model : sweep.models) {
-    cut.models.push_back({model.name, {}, {}});
+  const auto along_cut = [&](const RcsSweep::Model& model) {
+    PairedCut::Model values{model.name, {}, {}};
     for (const PairedCut::Place& place : cut.places) {
       const Complex s = model.matrices[place.view][place.frequency][element];
-      cut.models.back().level_dbsm.push_back(dbsm(s));
-      cut.models.back().amplitude_m.push_back(s);
+      values.level_dbsm.push_back(dbsm(s));
+      values.amplitude_m.push_back(s);
     }
-  }
+    return values;
+  };
+  cut.models.clear();
+  for (const RcsSweep::Model& model : sweep.models) cut.models.push_back(along_cut(model));
+  cut.flat.reset();
+  if (sweep.flat) cut.flat = along_cut(*sweep.flat);
 }
 
 Difference error_statistics(const PairedCut& cut, const PairedCut::Model& model, double floor_db) {
@@ -344,6 +348,13 @@ bool draw_comparison(const std::vector<PairedCut>& cuts, double floor_db, const 
     }
     for (const PairedCut::Model& model : first.models)
       level.series.push_back({model.name, first.x, clipped(model.level_dbsm), {}, SeriesStyle::kLines});
+    if (first.flat) {
+      const std::vector<double> flat = clipped(first.flat->level_dbsm), smooth = level.series.back().y;
+      Series band{"to flat facets", first.x, smooth, {}, SeriesStyle::kBand};
+      for (std::size_t i = 0; i < flat.size(); ++i)
+        band.interval.push_back({std::min(flat[i], smooth[i]), std::max(flat[i], smooth[i])});
+      level.series.push_back(std::move(band));
+    }
     for (std::size_t i = 0; i + 1 < column.size(); ++i) {
       const auto other = as_model(*column[i], *column[i + 1]);
       if (!other) continue;

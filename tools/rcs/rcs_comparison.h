@@ -36,6 +36,7 @@ struct PairedCut {
     std::vector<Complex> amplitude_m;
   };
   std::vector<Model> models;
+  std::optional<Model> flat;  // the last model with flat facets, where the sweep has it
 };
 
 // Matches directions within 0.001 deg and frequencies within a relative 1e-6; nothing is interpolated. One cut per
@@ -63,8 +64,8 @@ Difference error_statistics(const PairedCut& cut, const PairedCut::Model& model,
 // Text table with one line per cut and model.
 std::string error_table(const std::vector<PairedCut>& cuts, double floor_db);
 
-// Draws levels above and differences below, one column per frequency and polarisation, at most four. False if no cut
-// has an axis to draw along.
+// Draws levels above and differences below, one column per frequency and polarisation, at most four; the area between
+// the last model and flat facets is filled. False if no cut has an axis to draw along.
 bool draw_comparison(const std::vector<PairedCut>& cuts, double floor_db, const std::string& title,
                      const std::filesystem::path& file);
 

@@ -36,9 +36,11 @@ void check_sea(const RcsRequest& request) {
 }  // namespace
 
 RcsSweep requested_sweep(const RcsRequest& request) {
-  RcsSweep sweep{request.frequency_hz, request.azimuth_deg, request.elevation_deg, {}, {}};
+  RcsSweep sweep{request.frequency_hz, request.azimuth_deg, request.elevation_deg, {}, {}, {}, 0, {}};
   if (request.transmitter) sweep.transmitter = direction_to(*request.transmitter);
   check_sea(request);
+  if (request.uncertainty && request.crease_deg && *request.crease_deg == 0)
+    throw InputError("--uncertainty compares smooth surfaces with flat facets; with --crease-deg 0 all are flat");
   if (!request.cavities.parts.empty() && (request.sea.reflection || request.range_m > 0 || request.exports.wanted()))
     throw InputError("--cavity does not support --sea-reflection, --wavefront-range-m and exports of one aspect");
   constexpr std::size_t kMaxRows = 4'000'000;  // 256 MB of matrices

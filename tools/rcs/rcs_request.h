@@ -59,6 +59,7 @@ struct RcsRequest {
   std::optional<FixedTransmitter> transmitter;  // bistatic: the sweep is over the receiver's directions
   double range_m = 0;                           // 0: far field
   bool edges = true;                            // fringe currents at sharp edges
+  bool uncertainty = false;                     // also computes the echo of flat facets
   bool physical_optics_too = false;             // also computes a second model without edge diffraction
   int max_bounces = kDefaultBounces;
   double min_patch_m = 0;            // 0: default_min_patch()

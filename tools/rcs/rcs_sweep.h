@@ -2,6 +2,9 @@
 #pragma once
 
 #include <array>
+#include <complex>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +12,16 @@
 #include "sim/core/numbers/linear.h"
 
 namespace seaglint {
+
+// Estimates of one view at one frequency (sim/scattering/surfaces/view_estimate.h) for hh and vv, and the indices of
+// the parts that contribute most to each.
+struct ViewUncertainty {
+  std::array<std::complex<float>, 2> flat_less_smooth{};  // echo of flat facets less that of smooth surfaces, m
+  std::array<std::complex<float>, 2> in_cavity{};         // of paths within the cavities of one part, m
+  std::array<float, 2> displaced{};                       // rms change by small displacements of the vertices, m
+  float non_reciprocal = 0;                               // |hv - vh| / 2 of one antenna's beams, m
+  std::uint16_t flat_part = 0, cavity_part = 0, displaced_part = 0, non_reciprocal_part = 0;
+};
 
 // Computed sweep: scattering matrices hh, hv, vh, vv in metres over frequency and aspect, of one or several models.
 struct RcsSweep {
@@ -20,6 +33,10 @@ struct RcsSweep {
     std::vector<std::vector<std::array<Complex, 4>>> matrices;
   };
   std::vector<Model> models;
+  std::optional<Model> flat;  // the last model with all facets flat, of a request with `uncertainty`
+  // By view, of the last model; empty where it is not computed. At frequency index `estimated`.
+  std::vector<ViewUncertainty> uncertainty;
+  std::size_t estimated = 0;
   std::optional<Vec3>
       transmitter;  // look direction of a fixed transmitter; the sweep is then over the receiver's directions
 

@@ -6,8 +6,10 @@
 
 #include "seaglint_version.h"
 #include "sim/core/numbers/dbsm.h"
+#include "sim/core/process/standard_error.h"
 #include "sim/scattering/beams/illumination_settings.h"
 #include "tools/rcs/echo_selection.h"
+#include "tools/rcs/rcs_uncertainty.h"
 #include "tools/rcs/transmitter_keys.h"
 
 namespace seaglint {
@@ -44,9 +46,16 @@ std::string cavity_line(const CavityRequest& cavities) {
       fmt::join(cavities.parts, " "), cavities.patches_per_wavelength);
 }
 
+std::string warning_lines(std::span<const std::string> warnings) {
+  std::string lines;
+  for (const std::string& warning : warnings) lines += fmt::format("# warning: {}\n", on_one_line(warning));
+  return lines;
+}
+
 }  // namespace
 
-std::string rcs_table(const RcsRequest& request, const Scatterer& scatterer, const RcsSweep& sweep) {
+std::string rcs_table(const RcsRequest& request, const Scatterer& scatterer, const RcsSweep& sweep,
+                      std::span<const std::string> warnings) {
   std::string csv = fmt::format(
       "# seaglint {} rcs\n# target {} unit {}: {} facets, radius {:.6g} m\n"
       "# material {}, contributions: {}\n{}"
@@ -54,21 +63,22 @@ std::string rcs_table(const RcsRequest& request, const Scatterer& scatterer, con
       "{:.6g}, wavefront_range_m {:.9g} (0 = plane wave), min_patch_m {:.6g}\n{}{}\n"
       "# amplitudes in metres, e^{{+jwt}}, phase origin at the body's origin, S_pq: q transmitted, p received; basis "
       "of "
-      "CONVENTIONS.md\n"
-      "frequency_hz,azimuth_deg,elevation_deg,hh_re,hh_im,hv_re,hv_im,vh_re,vh_im,vv_re,vv_im,hh_dbsm,vv_dbsm\n",
+      "CONVENTIONS.md\n{}"
+      "frequency_hz,azimuth_deg,elevation_deg,hh_re,hh_im,hv_re,hv_im,vh_re,vh_im,vv_re,vv_im,hh_dbsm,vv_dbsm{}\n",
       kVersion, request.target.string(), request.unit, scatterer.facets().size(), scatterer.radius(),
       materials_text(request.materials), text_of(request.selection), sea_line(request.sea), request.max_bounces,
       request.edges ? "on" : "off", request.crease_deg ? fmt::format("{:.6g}", *request.crease_deg) : "auto",
       request.sheet_thickness_mm, request.range_m,
       request.min_patch_m > 0 ? request.min_patch_m : default_min_patch(scatterer), cavity_line(request.cavities),
-      transmitter_line(request.transmitter));
+      transmitter_line(request.transmitter), warning_lines(warnings), sweep.flat ? uncertainty_header() : "");
   for (std::size_t q = 0; q < sweep.frequency_hz.size(); ++q) {
     for (std::size_t view = 0; view < sweep.views(); ++view) {
       const auto& s = sweep.models.back().matrices[view][q];
       csv +=
           fmt::format("{:.9g},{:.9g},{:.9g}", sweep.frequency_hz[q], sweep.azimuth_of(view), sweep.elevation_of(view));
       for (const Complex& x : s) csv += fmt::format(",{:.9g},{:.9g}", x.real(), x.imag());
-      csv += fmt::format(",{:.4f},{:.4f}\n", dbsm(s[0], kMinPrinted_m2), dbsm(s[3], kMinPrinted_m2));
+      csv += fmt::format(",{:.4f},{:.4f}", dbsm(s[0], kMinPrinted_m2), dbsm(s[3], kMinPrinted_m2));
+      csv += sweep.flat ? uncertainty_cells(sweep, view, q) + "\n" : "\n";
     }
   }
   return csv;

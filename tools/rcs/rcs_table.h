@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "sim/scattering/target/scatterer.h"
@@ -9,8 +10,9 @@
 
 namespace seaglint {
 
-// CSV of the sweep's last model, frequency slowest, then elevation, then azimuth, after `#` lines with version, target
-// and settings.
-std::string rcs_table(const RcsRequest& request, const Scatterer& scatterer, const RcsSweep& sweep);
+// CSV of the sweep's last model, frequency slowest, then elevation, then azimuth, after `#` lines with version, target,
+// settings and the warnings, a sentence each. A sweep with a flat model has the columns of its uncertainty.
+std::string rcs_table(const RcsRequest& request, const Scatterer& scatterer, const RcsSweep& sweep,
+                      std::span<const std::string> warnings = {});
 
 }  // namespace seaglint

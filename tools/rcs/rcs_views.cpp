@@ -15,6 +15,7 @@
 #include "sim/scattering/response/body_response.h"
 #include "sim/scattering/response/scattering_matrix.h"
 #include "sim/scattering/response/sea_reflection.h"
+#include "tools/rcs/rcs_uncertainty.h"
 
 namespace seaglint {
 namespace {
@@ -86,27 +87,42 @@ class SweepTracer {
     std::vector<BistaticGeometry> pairs;
     for (std::size_t view = first; view < first + count; ++view)
       pairs.push_back(antennas_of(request_, basis_at(result.sweep.azimuth_of(view), result.sweep.elevation_of(view))));
-    if (request_.exports.wanted() && &model == &result.sweep.models.back()) {
+    const bool requested = &model == &result.sweep.models.back();
+    if (request_.exports.wanted() && requested) {
       const double k = wavenumbers_.front();
       AspectContributions view =
           aspect_contributions(scatterer, pairs.front(), {k, default_aspect_change(scatterer, 2 * kPi / k)}, settings,
                                threads, stop_, {request_.range_m});
       model.matrices[first] = {view.matrix};
+      set_uncertainty(first, view.estimate, result.sweep);
       result.contributions = std::move(view.points);
       segments += view.segments;
       return;
     }
     if (!request_.sea.reflection) {
-      std::ranges::move(
-          scattering_matrices(scatterer, pairs, wavenumbers_, settings, threads, &segments, stop_, {request_.range_m}),
-          model.matrices.begin() + static_cast<std::ptrdiff_t>(first));
+      std::vector<ViewEstimate> estimates;
+      std::ranges::move(scattering_matrices(scatterer, pairs, wavenumbers_, settings, threads, &segments, stop_,
+                                            {request_.range_m}, requested ? &estimates : nullptr),
+                        model.matrices.begin() + static_cast<std::ptrdiff_t>(first));
+      for (std::size_t i = 0; i < estimates.size(); ++i) set_uncertainty(first + i, estimates[i], result.sweep);
       return;
     }
     const SeaReflection sea = reflection_of(request_.sea);
     for (std::size_t i = 0; i < count; ++i) {
-      model.matrices[first + i] =
-          scattering_matrices_over_sea(scatterer, pairs[i].receive.r, request_.sea.height_m, sea, wavenumbers_,
-                                       settings, threads, &segments, stop_, request_.range_m);
+      ViewEstimate estimate(wavenumbers_.front());
+      model.matrices[first + i] = scattering_matrices_over_sea(scatterer, pairs[i].receive.r, request_.sea.height_m,
+                                                               sea, wavenumbers_, settings, threads, &segments, stop_,
+                                                               request_.range_m, requested ? &estimate : nullptr);
+      if (requested) set_uncertainty(first + i, estimate, result.sweep);
+    }
+  }
+
+  // All views of a sweep are estimated at the same frequency.
+  void set_uncertainty(std::size_t view, const ViewEstimate& estimate, RcsSweep& sweep) const {
+    sweep.uncertainty[view] = summary_of(estimate);
+    if (view == 0) {
+      const auto at = std::ranges::find(wavenumbers_, estimate.wavenumber());
+      sweep.estimated = static_cast<std::size_t>(at - wavenumbers_.begin());
     }
   }
 
@@ -145,6 +161,16 @@ void add_cavities(const RcsRequest& request, const RcsTarget& target, int thread
   }
 }
 
+// The requested model of the target with all facets flat.
+RcsSweep::Model flat_model(RcsRequest request, int threads, const StopFlag* stop) {
+  request.crease_deg = 0;
+  request.uncertainty = request.physical_optics_too = false;
+  request.exports = {};
+  RcsSweep::Model model = compute_rcs(request, prepare_rcs_target(request), threads, stop).sweep.models.back();
+  model.name += ", flat facets";
+  return model;
+}
+
 }  // namespace
 
 RadarBasis basis_at(double azimuth_deg, double elevation_deg) {
@@ -164,9 +190,11 @@ RcsResult compute_rcs(const RcsRequest& request, const RcsTarget& target, int th
   const std::vector<std::vector<std::array<Complex, 4>>> empty(sweep.views());
   if (!request.edges || request.physical_optics_too) sweep.models.push_back({"po", false, empty});
   if (request.edges) sweep.models.push_back({"po+diffraction", true, empty});
+  sweep.uncertainty.resize(sweep.views());
   const int count = thread_count(threads);
   SweepTracer(request, target, count, stop).run(result);
   if (!target.cavities.empty()) add_cavities(request, target, count, stop, sweep);
+  if (request.uncertainty) sweep.flat = flat_model(request, threads, stop);
   return result;
 }
 

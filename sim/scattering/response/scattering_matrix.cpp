@@ -19,6 +19,14 @@ RadarRange relative_to_centre(const Scatterer& scatterer, RadarRange radar) {
   return radar;
 }
 
+// The estimate with the phase referred to the body's origin.
+ViewEstimate about_origin(const ViewEstimate& estimate, const Scatterer& scatterer, const BistaticGeometry& geometry) {
+  const Complex phase = origin_phase(scatterer, geometry, estimate.wavenumber());
+  ViewEstimate moved(estimate.wavenumber());
+  moved.add(estimate, {phase, phase});
+  return moved;
+}
+
 }  // namespace
 
 Complex origin_phase(const Scatterer& scatterer, const BistaticGeometry& geometry, double k) {
@@ -34,14 +42,15 @@ double direction_spread(const Scatterer& scatterer, const RadarRange& radar) {
 std::vector<Matrices> one_way_matrices(const Scatterer& scatterer, std::span<const BistaticGeometry> pairs,
                                        std::span<const double> wavenumbers, const TracingSettings& settings,
                                        int threads, std::size_t* segments, const StopFlag* stop,
-                                       const RadarRange& radar) {
+                                       const RadarRange& radar, std::vector<ViewEstimate>* estimates) {
   const RadarRange to_centre = relative_to_centre(scatterer, radar);
   const double spread = direction_spread(scatterer, to_centre);
   const SweepPlan plan(scatterer, wavenumbers);
   const AspectTrace trace(scatterer, pairs, settings, plan.nodes(), threads);
   std::deque<OrderedSweepSum> sums;
+  const auto estimated = estimates ? std::optional(plan.middle()) : std::nullopt;
   for (std::size_t i = 0; i < pairs.size(); ++i)
-    sums.emplace_back(SweepSum(plan, pairs[i], to_centre, spread), trace.chunk_count(i));
+    sums.emplace_back(SweepSum(plan, pairs[i], to_centre, spread, estimated), trace.chunk_count(i));
   const auto add = [&](std::size_t pair, std::size_t chunk, const auto& contributions) {
     sums[pair].chunk(chunk).add(contributions);
   };
@@ -54,6 +63,7 @@ std::vector<Matrices> one_way_matrices(const Scatterer& scatterer, std::span<con
     for (std::size_t q = 0; q < wavenumbers.size(); ++q) {
       for (Complex& s : sum[q]) s *= origin_phase(scatterer, pairs[i], wavenumbers[q]);
     }
+    if (estimates) estimates->push_back(about_origin(*sums[i].estimate(), scatterer, pairs[i]));
   }
   return matrices;
 }
@@ -61,14 +71,18 @@ std::vector<Matrices> one_way_matrices(const Scatterer& scatterer, std::span<con
 std::vector<Matrices> scattering_matrices(const Scatterer& scatterer, std::span<const BistaticGeometry> pairs,
                                           std::span<const double> wavenumbers, const TracingSettings& settings,
                                           int threads, std::size_t* segments, const StopFlag* stop,
-                                          const RadarRange& radar) {
+                                          const RadarRange& radar, std::vector<ViewEstimate>* estimates) {
   const ReciprocalPairs reciprocal(pairs);
+  std::vector<ViewEstimate> one_way_estimates;
   const std::vector<Matrices> one_way =
-      one_way_matrices(scatterer, reciprocal.all(), wavenumbers, settings, threads, segments, stop, radar);
+      one_way_matrices(scatterer, reciprocal.all(), wavenumbers, settings, threads, segments, stop, radar,
+                       estimates ? &one_way_estimates : nullptr);
   std::vector<Matrices> matrices(pairs.size(), Matrices(wavenumbers.size()));
   for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const std::size_t exchanged = reciprocal.exchanged(i);
     for (std::size_t q = 0; q < wavenumbers.size(); ++q)
-      matrices[i][q] = reciprocal_mean(one_way[i][q], one_way[reciprocal.exchanged(i)][q]);
+      matrices[i][q] = reciprocal_mean(one_way[i][q], one_way[exchanged][q]);
+    if (estimates) estimates->push_back(mean(one_way_estimates[i], one_way_estimates[exchanged]));
   }
   return matrices;
 }
@@ -83,7 +97,7 @@ Matrices scattering_matrices(const Scatterer& scatterer, const BistaticGeometry&
 Matrices scattering_matrices_over_sea(const Scatterer& scatterer, const Vec3& r_hat, double height_m,
                                       const SeaReflection& sea, std::span<const double> wavenumbers,
                                       const TracingSettings& settings, int threads, std::size_t* segments,
-                                      const StopFlag* stop, double range_m) {
+                                      const StopFlag* stop, double range_m, ViewEstimate* estimate) {
   const RadarBasis radar = radar_basis(r_hat), image = image_basis(radar);
   std::vector<PropagationPath> paths;
   std::vector<BistaticGeometry> pairs;
@@ -93,8 +107,10 @@ Matrices scattering_matrices_over_sea(const Scatterer& scatterer, const Vec3& r_
     paths.push_back(path);
     pairs.push_back(path.outbound_via_sea == path.return_via_sea ? monostatic(transmit) : bistatic(transmit, receive));
   }
+  std::vector<ViewEstimate> estimates;
   const auto matrices = scattering_matrices(scatterer, pairs, wavenumbers, settings, threads, segments, stop,
-                                            {range_m, {0, 0, height_m}});
+                                            {range_m, {0, 0, height_m}}, estimate ? &estimates : nullptr);
+  if (estimate) *estimate = ViewEstimate(estimates.front().wavenumber());
   Matrices sum(wavenumbers.size());
   for (std::size_t w = 0; w < paths.size(); ++w) {
     // Phase relative to the body's origin at (0, 0, height): e^{jk (a + b - 2 r).(0, 0, height)}.
@@ -105,6 +121,13 @@ Matrices scattering_matrices_over_sea(const Scatterer& scatterer, const Vec3& r_
       const Complex phase = std::polar(1.0, wavenumbers[q] * detour);
       for (int i = 0; i < 4; ++i) sum[q][i] += SeaReflection::path_factor(paths[w], rho, i) * phase * matrices[w][q][i];
     }
+    if (!estimate) continue;
+    const double k = estimate->wavenumber();
+    const SeaReflectionCoefficients rho = sea.at(k, r_hat.z());
+    const auto factor = [&](int i) {
+      return SeaReflection::path_factor(paths[w], rho, i) * std::polar(1.0, k * detour);
+    };
+    estimate->add(estimates[w], {factor(0), factor(3)});
   }
   return sum;
 }
@@ -124,10 +147,10 @@ AspectContributions aspect_contributions(const Scatterer& scatterer, const Bista
   std::deque<OrderedSweepSum> sums;
   std::vector<std::vector<std::vector<PointContribution>>> points;  // [pair][chunk]
   for (std::size_t i = 0; i < traced.size(); ++i) {
-    sums.emplace_back(SweepSum(plan, traced[i], to_centre, spread), trace.chunk_count(i));
+    sums.emplace_back(SweepSum(plan, traced[i], to_centre, spread, plan.middle()), trace.chunk_count(i));
     points.emplace_back(trace.chunk_count(i));
   }
-  AspectContributions all;
+  AspectContributions all{{}, {}, 0, ViewEstimate(split_settings.kc)};
   all.segments = trace.run({[&](std::size_t pair, std::size_t chunk, std::span<const Footprint> footprints) {
                               sums[pair].chunk(chunk).add(footprints);
                               for (const Footprint& footprint : footprints)
@@ -141,6 +164,7 @@ AspectContributions aspect_contributions(const Scatterer& scatterer, const Bista
                             [&](std::size_t pair, std::size_t chunk) { sums[pair].complete(chunk); }},
                            stop);
   all.matrix = reciprocal_mean(sums.front().matrices().front(), sums.back().matrices().front());
+  all.estimate = about_origin(mean(*sums.front().estimate(), *sums.back().estimate()), scatterer, geometry);
   for (std::size_t pair = 0; pair < traced.size(); ++pair) {
     for (std::vector<PointContribution>& of_chunk : points[pair]) {
       for (PointContribution& point : of_chunk) {

@@ -13,6 +13,7 @@
 #include "sim/scattering/beams/illumination_settings.h"
 #include "sim/scattering/response/sea_reflection.h"
 #include "sim/scattering/surfaces/point_contributions.h"
+#include "sim/scattering/surfaces/view_estimate.h"
 
 namespace seaglint {
 
@@ -35,33 +36,37 @@ std::vector<std::array<Complex, 4>> scattering_matrices(const Scatterer& scatter
                                                         std::size_t* segments = nullptr, const StopFlag* stop = nullptr,
                                                         const RadarRange& radar = {});
 
-// The same for each pair of directions; every transmit direction is traced once (aspect_trace.h).
+// The same for each pair of directions; every transmit direction is traced once (aspect_trace.h). Appends the estimate
+// of each pair, at the frequency nearest to the middle of the sweep, to *estimates.
 std::vector<std::vector<std::array<Complex, 4>>> scattering_matrices(
     const Scatterer& scatterer, std::span<const BistaticGeometry> pairs, std::span<const double> wavenumbers,
     const TracingSettings& settings, int threads = 1, std::size_t* segments = nullptr, const StopFlag* stop = nullptr,
-    const RadarRange& radar = {});
+    const RadarRange& radar = {}, std::vector<ViewEstimate>* estimates = nullptr);
 
 // The same of the beams from the transmitters alone, reciprocal only to the accuracy of the method.
 std::vector<std::vector<std::array<Complex, 4>>> one_way_matrices(
     const Scatterer& scatterer, std::span<const BistaticGeometry> pairs, std::span<const double> wavenumbers,
     const TracingSettings& settings, int threads = 1, std::size_t* segments = nullptr, const StopFlag* stop = nullptr,
-    const RadarRange& radar = {});
+    const RadarRange& radar = {}, std::vector<ViewEstimate>* estimates = nullptr);
 
 // hh, hv, vh, vv in metres of a body at rest over the sea, at each wavenumber, with the phase referred to the body's
 // origin, `height_m` above the mean surface. r_hat in the body frame, z up, r_hat.z() > 0; range_m from the point of
-// the mean surface below the body, 0: plane wave. Adds the number of beam segments traced to *segments.
+// the mean surface below the body, 0: plane wave. Adds the number of beam segments traced to *segments; *estimate
+// becomes that of the view.
 std::vector<std::array<Complex, 4>> scattering_matrices_over_sea(const Scatterer& scatterer, const Vec3& r_hat,
                                                                  double height_m, const SeaReflection& sea,
                                                                  std::span<const double> wavenumbers,
                                                                  const TracingSettings& settings, int threads = 1,
                                                                  std::size_t* segments = nullptr,
-                                                                 const StopFlag* stop = nullptr, double range_m = 0);
+                                                                 const StopFlag* stop = nullptr, double range_m = 0,
+                                                                 ViewEstimate* estimate = nullptr);
 
 // Point contributions of one aspect, and their sum in closed form.
 struct AspectContributions {
   std::vector<PointContribution> points;  // in an order independent of the number of threads
   std::array<Complex, 4> matrix{};        // hh, hv, vh, vv at split.kc, as scattering_matrices() returns it, m
   std::size_t segments = 0;               // beam segments traced
+  ViewEstimate estimate;
 };
 
 // The direct sum of the points at split.kc is the scattering matrix, to the error of their decomposition.

@@ -68,6 +68,17 @@ SweepPlan::SweepPlan(const Scatterer& scatterer, std::span<const double> wavenum
   }
 }
 
+std::size_t SweepPlan::middle() const {
+  const auto [lowest, highest] = std::ranges::minmax(wavenumbers_);
+  const auto distance = [middle = 0.5 * (lowest + highest)](double k) { return std::abs(k - middle); };
+  std::size_t nearest = 0;
+  for (std::size_t q = 1; q < size(); ++q) {
+    const double k = wavenumbers_[q], best = wavenumbers_[nearest];
+    if (distance(k) < distance(best) || (distance(k) == distance(best) && k < best)) nearest = q;
+  }
+  return nearest;
+}
+
 void SweepPlan::add(const FrequencyBand& band, std::vector<std::size_t> points) {
   bands_.push_back({band, nodes_.size(), std::move(points)});
   nodes_.insert(nodes_.end(), band.nodes().begin(), band.nodes().end());

@@ -27,6 +27,8 @@ class SweepPlan {
   std::span<const Band> bands() const { return bands_; }
   std::size_t size() const { return wavenumbers_.size(); }  // frequencies
   double wavenumber(std::size_t frequency) const { return wavenumbers_[frequency]; }
+  // Frequency nearest to the middle of the sweep, the lower of two.
+  std::size_t middle() const;
   // Wavenumbers at which contributions are evaluated, those of all bands.
   std::span<const double> nodes() const { return nodes_; }
 

@@ -13,23 +13,26 @@
 #include "sim/scattering/edges/edge_contribution.h"
 #include "sim/scattering/response/sweep_plan.h"
 #include "sim/scattering/surfaces/point_contributions.h"
+#include "sim/scattering/surfaces/view_estimate.h"
 
 namespace seaglint {
 
 using Matrices = std::vector<std::array<Complex, 4>>;  // hh, hv, vh, vv per frequency, m
 
 // Of one pair of directions. At a finite range contributions are points, to each of which its own part of the wavefront
-// belongs; `spread`: largest difference of the direction to the radar over the target, rad. The plan and the geometry
-// must outlive the object.
+// belongs; `spread`: largest difference of the direction to the radar over the target, rad. `estimated`: frequency of
+// the view's estimate, which changes no matrix. The plan and the geometry must outlive the object.
 class SweepSum {
  public:
-  SweepSum(const SweepPlan& plan, const BistaticGeometry& geometry, const RadarRange& radar, double spread);
+  SweepSum(const SweepPlan& plan, const BistaticGeometry& geometry, const RadarRange& radar, double spread,
+           std::optional<std::size_t> estimated = std::nullopt);
 
   void add(std::span<const Footprint> footprints);
   void add(std::span<const EdgeContribution> contributions);
   void add(const SweepSum& other);
 
   Matrices matrices() const;
+  const std::optional<ViewEstimate>& estimate() const { return estimate_; }
 
  private:
   bool in_closed_form(const FrequencyBand& band) const { return band.nodes().size() == 1 && radar_.range_m <= 0; }
@@ -38,6 +41,10 @@ class SweepSum {
   void decompose_edge(const EdgeContribution& contribution, const FrequencyBand& band, BandSum& sum);
   // Adds the points to the sum of a band.
   void add_points(std::span<const std::array<Complex, 4>> patterns, BandSum& sum);
+  // Adds a footprint with its matrix to the estimate.
+  void estimate(const Footprint& footprint, const std::array<Complex, 4>& matrix);
+  // Matrix of points_ at the estimate's wavenumber, interpolated in the band, m.
+  std::array<Complex, 4> at_estimate(const FrequencyBand& band, std::span<const std::array<Complex, 4>> patterns) const;
 
   const SweepPlan& plan_;
   const BistaticGeometry& geometry_;
@@ -46,6 +53,8 @@ class SweepSum {
   std::vector<BandSum> bands_;     // of the plan's bands
   Matrices direct_;                // of contributions in closed form, at the first of equal frequencies
   std::vector<BandPoint> points_;  // of one contribution
+  std::optional<ViewEstimate> estimate_;
+  std::size_t estimated_band_ = 0, estimated_node_ = 0;  // of the plan: that with its frequency, and its nearest node
 };
 
 // Adds the sums of chunks in the order of the chunks, whichever is complete first, so that bits do not depend on
@@ -59,6 +68,7 @@ class OrderedSweepSum {
   void complete(std::size_t chunk);
 
   Matrices matrices() const { return sum_.matrices(); }
+  const std::optional<ViewEstimate>& estimate() const { return sum_.estimate(); }
 
  private:
   SweepSum empty_, sum_;

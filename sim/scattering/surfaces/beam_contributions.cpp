@@ -46,6 +46,7 @@ void BeamContributions::radiate(const BeamSegment& segment, const CandidatePanel
   footprint.part = facet.part;
   footprint.panel_size = panels_.size(candidate.projection.facet);
   footprint.bounces = static_cast<std::uint8_t>(segment.bounce);
+  footprint.history = beam_history(segment, candidate, scene_.scatterer);
   set_phase(footprint, segment.image_transform.L * facet.normal, geometry_);
   footprint.pattern = pec_pattern(segment, n, std::abs(n.dot(segment.direction)), geometry_.receive);
   if (!segment.fields.empty() || !scene_.surface_of(footprint.facet).empty()) {
@@ -91,6 +92,7 @@ void BeamContributions::radiate_image(const BeamSegment& segment, const Candidat
   footprint.part = facets_[facet].part;
   footprint.panel_size = panels_.size(facet);
   footprint.bounces = static_cast<std::uint8_t>(segment.bounce + 1);
+  footprint.history = beam_history(segment, candidate, scene_.scatterer);
   set_phase(footprint, segment.image_transform.L * illuminated_side, geometry_);
   footprint.pattern = pec_pattern(image, n, std::abs(n.dot(image.direction)), basis_);
   weight_with_reciprocal(weight, footprint);

@@ -13,6 +13,7 @@
 #include "sim/scattering/beams/bistatic_geometry.h"
 #include "sim/scattering/beams/image_transform.h"
 #include "sim/scattering/beams/moving_polygon.h"
+#include "sim/scattering/surfaces/beam_history.h"
 
 namespace seaglint {
 
@@ -34,6 +35,7 @@ struct Footprint {
   int facet = -1;          // representative facet of the panel
   std::uint16_t part = 0;  // of that facet
   std::uint8_t bounces = 1;
+  BeamHistory history;                               // of the beam
   std::shared_ptr<const CurvedFootprint> curvature;  // null when the facet and all reflectors are flat
 
   // Of the flat facet, m.

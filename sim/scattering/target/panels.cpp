@@ -48,7 +48,7 @@ bool grow(Outline& outline, std::size_t i, int facet, int edge, const Vec3& apex
 }  // namespace
 
 Panels::Panels(std::span<const Facet> facets, const SmoothSurface& surface)
-    : facets_(facets), of_(facets.size(), -1), size_(facets.size(), 0) {
+    : facets_(facets), of_(facets.size(), -1), size_(facets.size(), 0), width_(facets.size(), 0) {
   first_corner_.reserve(facets.size() + 1);
   first_member_.reserve(facets.size() + 1);
   members_.reserve(facets.size());
@@ -95,7 +95,9 @@ Panels::Panels(std::span<const Facet> facets, const SmoothSurface& surface)
       if (n > 3 && turn(before, here, after, outline.normal) > kStraight * (after - before).squaredNorm())
         corners_.push_back(here);
       for (const Vec3& other : outline.corner) size_[f] = std::max(size_[f], (other - here).norm());
+      width_[f] += 0.5 * first.normal.dot((before - outline.corner[0]).cross(here - outline.corner[0]));
     }
+    width_[f] /= size_[f];
   }
   first_corner_.push_back(static_cast<std::uint32_t>(corners_.size()));
   first_member_.push_back(static_cast<std::uint32_t>(members_.size()));

@@ -34,6 +34,8 @@ class Panels {
   }
   // Largest distance between two vertices of the panel, m; 0 for a facet that is not a representative.
   double size(int facet) const { return size_[facet]; }
+  // Area of the panel over its size, m: the width of a long one.
+  double width(int facet) const { return width_[facet]; }
 
  private:
   bool is_single(int facet) const { return first_member_[facet + 1] - first_member_[facet] == 1; }
@@ -43,7 +45,7 @@ class Panels {
   std::vector<Vec3> corners_;  // vertices by panel, of panels with several facets
   std::vector<int> members_;
   std::vector<std::uint32_t> first_corner_, first_member_;  // by facet, with one entry past the end
-  std::vector<double> size_;
+  std::vector<double> size_, width_;
 };
 
 }  // namespace seaglint

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Warnings, columns and figure of a sweep's uncertainty.
+#include "tools/rcs/rcs_uncertainty.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "sim/core/numbers/dbsm.h"
+#include "sim/core/process/error.h"
+#include "sim/core/process/file.h"
+#include "sim/geometry/files/mesh_io.h"
+#include "sim/geometry/shapes/generators.h"
+#include "tools/rcs/rcs_reference.h"
+#include "tools/rcs/rcs_table.h"
+#include "tools/rcs/rcs_views.h"
+
+namespace seaglint {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+// A sweep of views with these echoes and estimates, hh equal to vv.
+RcsSweep sweep_of(const std::vector<double>& echo, const std::vector<ViewUncertainty>& uncertainty) {
+  RcsSweep sweep;
+  sweep.frequency_hz = {10e9};
+  sweep.elevation_deg = {5};
+  sweep.models = {{"po", false, {}}};
+  for (std::size_t view = 0; view < echo.size(); ++view) {
+    sweep.azimuth_deg.push_back(10 * static_cast<double>(view));
+    sweep.models[0].matrices.push_back({std::array<Complex, 4>{echo[view], 0, 0, echo[view]}});
+  }
+  sweep.uncertainty = uncertainty;
+  return sweep;
+}
+
+ViewUncertainty flat_less_smooth(float by, std::uint16_t part) {
+  ViewUncertainty view;
+  view.flat_less_smooth = {by, by};
+  view.flat_part = part;
+  return view;
+}
+
+const std::vector<std::string> kParts{"hull", "mast"};
+
+TEST(UncertaintyWarnings, NameTheNumberOfViewsTheWorstOneAndItsPart) {
+  // 0, 20 lg 1.5 = 3.5, 20 lg 0.5 = -6.0 dB
+  const RcsSweep sweep = sweep_of({1, 2, 2}, {flat_less_smooth(0, 0), flat_less_smooth(1, 0), flat_less_smooth(-1, 1)});
+  EXPECT_NEAR(flat_over_smooth_db(sweep, 2, 1), 20 * std::log10(0.5), 1e-6);
+  EXPECT_THAT(uncertainty_warnings(sweep, kParts),
+              ElementsAre(testing::AllOf(HasSubstr("part 'mast': with flat facets"), HasSubstr("2 of 3 views"),
+                                         HasSubstr("-6.0 dB at azimuth 20, elevation 5 deg, hh"))));
+}
+
+TEST(UncertaintyWarnings, IgnoreViewsThirtyDecibelsBelowTheHighest) {
+  EXPECT_THAT(uncertainty_warnings(sweep_of({1, 0.03}, {{}, flat_less_smooth(0.03F, 0)}), kParts), IsEmpty());
+  EXPECT_EQ(uncertainty_warnings(sweep_of({1, 0.04}, {{}, flat_less_smooth(0.04F, 0)}), kParts).size(), 1u);
+  EXPECT_THAT(uncertainty_warnings(sweep_of({0}, {{}}), kParts), IsEmpty());
+}
+
+TEST(UncertaintyWarnings, NameDisplacedVerticesAndCavities) {
+  ViewUncertainty view;
+  view.displaced = {0.5, 1.2F};
+  view.displaced_part = 1;
+  view.in_cavity[0] = {0, 1.8F};
+  EXPECT_THAT(uncertainty_warnings(sweep_of({2}, {view}), kParts),
+              ElementsAre(testing::AllOf(HasSubstr("part 'mast'"), HasSubstr("most by 0.6 at azimuth 0")),
+                          testing::AllOf(HasSubstr("part 'hull': 4 or more reflections"), HasSubstr("most 0.9 at"))));
+}
+
+class UncertainCylinder : public testing::Test {
+ protected:
+  UncertainCylinder() : folder_(fs::path(testing::TempDir()) / ("rcs_uncertainty_" + std::to_string(::getpid()))) {
+    fs::create_directories(folder_);
+    request_.target = folder_ / "cylinder.obj";
+    write_mesh(request_.target, make_cylinder(0.5, 1, 48));
+    request_.frequency_hz = {10e9, 10.1e9};
+    request_.azimuth_deg = {20, 21, 22};
+    request_.uncertainty = true;
+  }
+  ~UncertainCylinder() override { fs::remove_all(folder_); }
+
+  fs::path folder_;
+  RcsRequest request_;
+};
+
+// The estimate is that of the same polygons but for the smallest patches.
+TEST_F(UncertainCylinder, HasTheEchoOfFlatFacetsAfterThePromisedColumns) {
+  constexpr double kSmallestPatches_db = 0.1, kPrinted = 1e-4;
+  const RcsTarget target = prepare_rcs_target(request_);
+  const RcsSweep sweep = compute_rcs(request_, target, 1).sweep;
+  ASSERT_TRUE(sweep.flat);
+  RcsRequest flat = request_;
+  flat.uncertainty = false;
+  flat.crease_deg = 0;
+  const RcsSweep of_flat = compute_rcs(flat, prepare_rcs_target(flat), 1).sweep;
+  EXPECT_EQ(sweep.flat->matrices, of_flat.models.back().matrices);
+  EXPECT_EQ(compute_rcs(request_, target, 2).sweep.flat->matrices, sweep.flat->matrices);
+
+  const std::vector<std::string> warnings = uncertainty_warnings(sweep, target.prepared.mesh.part_names);
+  ASSERT_EQ(warnings.size(), 1u);
+  const std::string table = rcs_table(request_, *target.prepared.scatterer, sweep, warnings);
+  EXPECT_THAT(table, HasSubstr("# warning: part '" + target.prepared.mesh.part_names[0] + "': with flat facets"));
+  EXPECT_THAT(table, HasSubstr(",hh_dbsm,vv_dbsm,hh_flat_over_smooth_db,vv_flat_over_smooth_db,hh_vertex_change,"
+                               "vv_vertex_change\n"));
+  for (std::size_t view = 0; view < sweep.views(); ++view) {
+    const double computed =
+        dbsm(of_flat.models.back().matrices[view][0][3]) - dbsm(sweep.models.back().matrices[view][0][3]);
+    EXPECT_NEAR(flat_over_smooth_db(sweep, view, 1), computed, kSmallestPatches_db);
+    EXPECT_NEAR(std::stod(uncertainty_cells(sweep, view, 0).substr(uncertainty_cells(sweep, view, 0).find(',', 1) + 1)),
+                computed, kPrinted);
+  }
+  // Still a reference, with or without these columns.
+  write_file(folder_ / "table.V.csv", table);
+  EXPECT_EQ(read_reference(folder_ / "table.V.csv", {}).samples.size(), sweep.rows());
+}
+
+TEST_F(UncertainCylinder, IsDrawn) {
+  const RcsSweep sweep = compute_rcs(request_, prepare_rcs_target(request_), 1).sweep;
+  EXPECT_TRUE(draw_uncertainty(sweep, "cylinder", folder_ / "azimuth.svg"));
+  EXPECT_THAT(read_file(folder_ / "azimuth.svg"), HasSubstr("to flat facets"));
+  request_.azimuth_deg = {20};
+  EXPECT_TRUE(draw_uncertainty(compute_rcs(request_, prepare_rcs_target(request_), 1).sweep, "cylinder",
+                               folder_ / "frequency.svg"));
+  request_.frequency_hz = {10e9};
+  EXPECT_FALSE(
+      draw_uncertainty(compute_rcs(request_, prepare_rcs_target(request_), 1).sweep, "cylinder", folder_ / "none.svg"));
+}
+
+TEST_F(UncertainCylinder, IsRefusedWhereAllFacetsAreFlat) {
+  request_.crease_deg = 0;
+  EXPECT_THROW(requested_sweep(request_), InputError);
+}
+
+}  // namespace
+}  // namespace seaglint
