@@ -204,8 +204,10 @@ class CurvedDecomposer {
                     psi_c, c, 0, 0});
   }
 
-  // Leading contour term of the area: each side carries taper cross(w, side)/(jk |w|^2) e^{jk psi} with the local slope
-  // w, by the divergence theorem with F = w e^{jk psi} / (jk |w|^2).
+  // Leading contour term of the area: each side carries taper cross(G w, side)/(jk w . G w) e^{jk psi} with the local
+  // slope w, by the divergence theorem with F = G w e^{jk psi} / (jk w . G w). G = 1 - rise rise^T / (1 + |rise|^2): G
+  // w is the slope along the surface, seen in the projection plane, and kContourRatio bounds the omitted term of F at
+  // any incidence.
   void contour(const MovingPolygon& polygon) {
     const std::size_t n = polygon.size();
     const double k_form = band_.form().centre();
@@ -213,8 +215,9 @@ class CurvedDecomposer {
     // Times k.
     const auto flux = [&](const Vec2& p, const Vec2& along) -> Complex {
       const BarycentricWeights of_p = barycentric(p);
-      const Vec2 w = smooth_slope(p, of_p);
-      return between(fade_, of_p) * cross(w, along) / (Complex(0, 1) * w.squaredNorm());
+      const Vec2 w = smooth_slope(p, of_p), rise = between(c_.rise, of_p);
+      const Vec2 along_surface = w - rise.dot(w) / (1 + rise.squaredNorm()) * rise;
+      return between(fade_, of_p) * cross(along_surface, along) / (Complex(0, 1) * w.dot(along_surface));
     };
     for (std::size_t i = 0; i < n; ++i) {
       const std::size_t j = (i + 1) % n;
