@@ -113,7 +113,7 @@ void add_export_options(CommandOptions& command, ViewExport& exports) {
 
 }  // namespace
 
-void RcsArguments::add_to(CommandOptions& command) {
+void RcsArguments::add_mesh_to(CommandOptions& command) {
   command.add_option("--target", target, "Mesh file: .glb, .gltf, .obj, .stl or .ply").required();
   command.add_option("--unit", request.unit, "Unit of the mesh: m, cm, mm, km, in, ft").show_default();
   command
@@ -146,17 +146,6 @@ void RcsArguments::add_to(CommandOptions& command) {
                   "diffraction, valid up to a tenth of a wavelength")
       .number_within(0.0, 1000.0)
       .show_default();
-  command
-      .add_option("--transmit-azimuth-deg", transmit_azimuth_deg,
-                  "Bistatic: azimuth of a fixed transmitter; --azimuth-deg and --elevation-deg then sweep the receiver")
-      .number_within(-720.0, 720.0);
-  command.add_option("--transmit-elevation-deg", transmit_elevation_deg, "Its elevation; 0 unless given")
-      .number_within(-90.0, 90.0);
-  command
-      .add_option("--wavefront-range-m", request.range_m,
-                  "Radar range for the wavefront curvature, from the target origin (with --sea-reflection from the sea "
-                  "surface below it); 0 = plane wave")
-      .number_within(0.0, 1e9);
   command.add_option("--max-bounces", request.max_bounces, "Maximum number of bounces")
       .integer_within(1, kMaxBounces)
       .show_default();
@@ -170,6 +159,21 @@ void RcsArguments::add_to(CommandOptions& command) {
           "Material: pec, a name in assets/materials, or a file; PART=NAME for one part, PART* for every part with "
           "that prefix (repeatable)")
       .repeatable("[PART=]NAME");
+}
+
+void RcsArguments::add_to(CommandOptions& command) {
+  add_mesh_to(command);
+  command
+      .add_option("--transmit-azimuth-deg", transmit_azimuth_deg,
+                  "Bistatic: azimuth of a fixed transmitter; --azimuth-deg and --elevation-deg then sweep the receiver")
+      .number_within(-720.0, 720.0);
+  command.add_option("--transmit-elevation-deg", transmit_elevation_deg, "Its elevation; 0 unless given")
+      .number_within(-90.0, 90.0);
+  command
+      .add_option("--wavefront-range-m", request.range_m,
+                  "Radar range for the wavefront curvature, from the target origin (with --sea-reflection from the sea "
+                  "surface below it); 0 = plane wave")
+      .number_within(0.0, 1e9);
   command.add_flag("--uncertainty", request.uncertainty,
                    "Also trace with all facets flat: columns xx_flat_over_smooth_db after the others (level of flat "
                    "facets over that of smooth surfaces) and xx_vertex_change (estimated change, relative to the echo, "

@@ -22,6 +22,8 @@ struct RcsArguments {
   ReferenceArguments reference;
 
   void add_to(CommandOptions& command);
+  // Only those of a mesh, its materials and detail, and of the views of one antenna.
+  void add_mesh_to(CommandOptions& command);
   RcsRequest make_request() const;  // throws InputError
 };
 

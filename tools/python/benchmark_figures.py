@@ -113,6 +113,7 @@ RAYS = {
 }
 BENCHMARKS = {
     "ShipAspect/": (4, each("ship_aspect_{1}_s", fastest_s)),
+    "ShipSweepOverOneFrequency/": (1, each("ship_sweep_over_one_{}", median("ratio", 2))),
     "ShipInterval/": (4, each("ship_interval_{}_s", fastest_s)),
     "ShipIntervalRollingAtOneRms/": (4, each("ship_rolling_{}_s", fastest_s)),
     "ReflectorInterval": (4, lambda runs: {"reflector_interval_ms": milliseconds("real_time")(*runs.values())}),

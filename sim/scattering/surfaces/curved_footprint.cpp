@@ -65,7 +65,7 @@ std::shared_ptr<const CurvedFootprint> make_curved_footprint(const CurvatureCont
     standing = edge_midpoint_quadratic(
         lambda, edge_sagittas(on, segment, facet, [&](double cosine) { return both_paths / cosine; }));
 
-  CurvedFootprint c{corner, lambda, bundle.phase, {}, {}, {}, segment.has_curved_reflection, !curved, rays, {}, {}};
+  CurvedFootprint c{corner, lambda, bundle.phase, {}, {}, {}, {}, segment.has_curved_reflection, !curved, rays, {}, {}};
   c.phase += compose({0, footprint.w, Mat2::Zero()},
                      {bundle.position_map.offset, bundle.position_map.matrix - Mat2::Identity()});
   c.phase += compose(standing, bundle.position_map);
@@ -80,6 +80,7 @@ std::shared_ptr<const CurvedFootprint> make_curved_footprint(const CurvatureCont
     c.incident_shadow_distance[i] = c.receiver_shadow_distance[i] = std::numeric_limits<double>::infinity();
     c.w[i] = footprint.w + c.phase.slope(corner[i]);
     if (c.has_bundle) c.w[i] += rays.further_phase_slope(corner[i]);
+    c.rise[i] = footprint.plane.slope;
     c.slope[i] = c.w[i];
     c.pattern[i] = footprint.pattern;
     if (curved) {
@@ -90,8 +91,8 @@ std::shared_ptr<const CurvedFootprint> make_curved_footprint(const CurvatureCont
       const Vec3 n = side * on.surface.vertex(vertex).normal;
       const double cosine = smooth_cosine(segment, on.facets[facet], n);
       const Vec3 image = L * n;
-      const Vec2 slope = -Vec2(image.dot(transmit.h), image.dot(transmit.v)) / cosine;
-      c.w[i] += both_paths * (slope - footprint.plane.slope) - standing.slope(corner[i]);
+      c.rise[i] = -Vec2(image.dot(transmit.h), image.dot(transmit.v)) / cosine;
+      c.w[i] += both_paths * (c.rise[i] - footprint.plane.slope) - standing.slope(corner[i]);
       const Vec3 tangential = both - image * image.dot(both);
       c.slope[i] += Vec2(tangential.dot(transmit.h), tangential.dot(transmit.v)) +
                     tangential.dot(transmit.r) * footprint.plane.slope - footprint.w - standing.slope(corner[i]);

@@ -19,8 +19,9 @@ namespace seaglint {
 struct CurvedFootprint {
   std::array<Vec2, 3> corner;
   Barycentric lambda;
-  Quadratic phase;        // psi minus that of the flat facet, m
-  std::array<Vec2, 3> w;  // gradient of psi with the smooth normals, continuous between facets
+  Quadratic phase;           // psi minus that of the flat facet, m
+  std::array<Vec2, 3> w;     // gradient of psi with the smooth normals, continuous between facets
+  std::array<Vec2, 3> rise;  // gradient of DepthPlane::at of the tangent planes, continuous between facets
   // gradient of psi along the surface, magnitude 0..2, as components along a step on the flat facet in the projection
   // plane
   std::array<Vec2, 3> slope;

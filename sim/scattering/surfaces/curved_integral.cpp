@@ -170,10 +170,11 @@ class CurvedDecomposer {
 
   // Integral over a small polygon as one term at its centroid, by the seven-point rule of degree 5 on its triangles (A.
   // H. Stroud, Approximate Calculation of Multiple Integrals, T2: 5-1), as a power series of e^{jkd} in the path d from
-  // the centroid: with |kd| < 1 its first omitted term is below 1/40320.
+  // the centroid: with |kd| < 1 its first omitted term is below 1/40320. The path is limited to that, so that a piece
+  // that rounding leaves outside its triangle, seen almost edge-on, contributes no more than its area.
   void point(const MovingPolygon& polygon) {
     const Vec2 c = centroid(polygon);
-    const double psi_c = psi(c);
+    const double psi_c = psi(c), max_path = 1 / band_.form().highest;
     constexpr double kNear = 0.10128650732345634, kFar = 0.47014206410511509;
     constexpr double kWeightNear = 0.12593918054482715, kWeightFar = 0.13239415278850618, kWeightMiddle = 0.225;
     std::array<double, 8> moment{};  // of d^n / n!, with the taper
@@ -182,7 +183,7 @@ class CurvedDecomposer {
       const double area = 0.5 * cross(b - a, d - a);
       const auto add = [&](double weight, const Vec2& p) {
         const BarycentricWeights of_p = barycentric(p);
-        const double path = psi(p, of_p) - psi_c;
+        const double path = std::clamp(psi(p, of_p) - psi_c, -max_path, max_path);
         double term = area * weight * between(fade_, of_p);
         for (std::size_t n = 0; n < moment.size(); ++n) {
           moment[n] += term;
@@ -204,8 +205,10 @@ class CurvedDecomposer {
                     psi_c, c, 0, 0});
   }
 
-  // Leading contour term of the area: each side carries taper cross(w, side)/(jk |w|^2) e^{jk psi} with the local slope
-  // w, by the divergence theorem with F = w e^{jk psi} / (jk |w|^2).
+  // Leading contour term of the area: each side carries taper cross(G w, side)/(jk w . G w) e^{jk psi} with the local
+  // slope w, by the divergence theorem with F = G w e^{jk psi} / (jk w . G w). G = 1 - rise rise^T / (1 + |rise|^2): G
+  // w is the slope along the surface, seen in the projection plane, and kContourRatio bounds the omitted term of F at
+  // any incidence.
   void contour(const MovingPolygon& polygon) {
     const std::size_t n = polygon.size();
     const double k_form = band_.form().centre();
@@ -213,8 +216,9 @@ class CurvedDecomposer {
     // Times k.
     const auto flux = [&](const Vec2& p, const Vec2& along) -> Complex {
       const BarycentricWeights of_p = barycentric(p);
-      const Vec2 w = smooth_slope(p, of_p);
-      return between(fade_, of_p) * cross(w, along) / (Complex(0, 1) * w.squaredNorm());
+      const Vec2 w = smooth_slope(p, of_p), rise = between(c_.rise, of_p);
+      const Vec2 along_surface = w - rise.dot(w) / (1 + rise.squaredNorm()) * rise;
+      return between(fade_, of_p) * cross(along_surface, along) / (Complex(0, 1) * w.dot(along_surface));
     };
     for (std::size_t i = 0; i < n; ++i) {
       const std::size_t j = (i + 1) % n;

@@ -9,39 +9,16 @@
 #include <utility>
 #include <vector>
 
-#include "sim/geometry/shapes/solids.h"
 #include "tests/measured.h"
 #include "tests/sim/geometry/mesh_changes.h"
 #include "tests/sim/scattering/solver_fixtures.h"
+#include "tests/sim/scattering/validation/random_body.h"
 
 namespace seaglint {
 namespace {
 
 using namespace testing_echoes;
 using namespace testing_meshes;
-
-// A body of flat and curved parts at random places: a box, an ellipsoid and a cylinder upright on a plate.
-TriangleMesh random_body(std::uint64_t seed) {
-  Random random({seed, Stream::kTest, 0});
-  const auto between = [&](double low, double high) { return low + (high - low) * random.uniform(); };
-  const auto upright = [&](TriangleMesh mesh, const Vec3& place) {
-    return transformed(mesh, Eigen::AngleAxisd(between(0, 2 * kPi), Vec3::UnitZ()).toRotationMatrix(), place);
-  };
-  TriangleMesh body = transformed(make_plate(2, 2), Eigen::AngleAxisd(-kPi / 2, Vec3::UnitY()).toRotationMatrix(),
-                                  {0, 0, between(-0.1, 0.1)});
-  TriangleMesh ellipsoid = make_sphere(0.25, 3);
-  for (Vec3& x : ellipsoid.vertices) x = x.cwiseProduct(Vec3(between(0.5, 2), 1, between(0.5, 1)));
-  body.append(upright(ellipsoid, {between(-0.6, -0.4), between(-0.6, 0.6), 0.5}));
-  body.append(upright(make_cylinder(between(0.1, 0.2), 0.5, 40), {between(0.1, 0.3), between(0.3, 0.6), 0.4}));
-  MeshBuilder box;
-  box.begin_part("box");
-  Pose pose;
-  pose.R = Eigen::AngleAxisd(between(0, 1), Vec3(0.1, 0, 1).normalized()).toRotationMatrix();
-  pose.p = {between(0.1, 0.5), between(-0.6, -0.3), 0.35};
-  add_box(box, pose, {0.4, 0.3, 0.4});
-  body.append(box.take());
-  return body;
-}
 
 // hh and vv in eight views at three frequencies; the body is turned by `turn` and moved by `shift`, and so is the
 // radar.
