@@ -64,9 +64,10 @@ inline ProgramResult run_words(std::vector<std::string> words) {
 }
 
 // `seaglint arguments...`
-inline ProgramResult run_program(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), kProgram);
-  return run_words(std::move(arguments));
+inline ProgramResult run_program(const std::vector<std::string>& arguments) {
+  std::vector<std::string> words{kProgram};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  return run_words(std::move(words));
 }
 
 }  // namespace seaglint

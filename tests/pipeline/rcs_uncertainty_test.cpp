@@ -13,15 +13,23 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-class UncertainRcs : public RcsCommand {};
+class UncertainRcs : public RcsCommand {
+ protected:
+  std::string cylinder() const { return folder_.path() / "cylinder.obj"; }
+  // `rcs --uncertainty` of the cylinder with more words.
+  ProgramResult uncertain(const std::vector<std::string>& more) const {
+    std::vector<std::string> words{"rcs",           "--target", cylinder(), "--frequency-ghz", "10",
+                                   "--azimuth-deg", "0:45:1",   "-o",       table(),           "--uncertainty"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run_program(words);
+  }
+};
 
 TEST_F(UncertainRcs, WarnsWhereFlatFacetsWouldDiffer) {
-  const std::string cylinder = folder_.path() / "cylinder.obj";
-  ASSERT_EQ(run_program({"mesh", "make", "cylinder", "--segments", "48", "-o", cylinder}).code, 0);
+  ASSERT_EQ(run_program({"mesh", "make", "cylinder", "--segments", "48", "-o", cylinder()}).code, 0);
   std::string tables[2];
   for (const char* threads : {"1", "2"}) {
-    const ProgramResult result = run_program({"rcs", "--target", cylinder, "--frequency-ghz", "10", "--azimuth-deg",
-                                              "0:45:1", "-o", table(), "--uncertainty", "--threads", threads});
+    const ProgramResult result = uncertain({"--threads", threads});
     ASSERT_EQ(result.code, 0) << result.err;
     EXPECT_THAT(result.err, HasSubstr("warning: part 'cylinder': with flat facets in place of smooth surfaces"));
     EXPECT_THAT(result.out, HasSubstr("Figure: "));
@@ -35,9 +43,7 @@ TEST_F(UncertainRcs, WarnsWhereFlatFacetsWouldDiffer) {
   // A table with these columns is a reference, and the picture of the comparison has the band.
   const std::string reference = folder_.path() / "reference.V.csv", figure = folder_.path() / "comparison.svg";
   std::filesystem::rename(table(), reference);
-  const ProgramResult compared =
-      run_program({"rcs", "--target", cylinder, "--frequency-ghz", "10", "--azimuth-deg", "0:45:1", "-o", table(),
-                   "--uncertainty", "--reference", reference, "--figure", figure});
+  const ProgramResult compared = uncertain({"--reference", reference, "--figure", figure});
   ASSERT_EQ(compared.code, 0) << compared.err;
   EXPECT_THAT(read_file(figure), HasSubstr("to flat facets"));
 }

@@ -118,9 +118,9 @@ std::vector<std::string> uncertainty_warnings(const RcsSweep& sweep, std::span<c
   if (flat.views > 0) {
     found.push_back(fmt::format(
         "part '{}': with flat facets in place of smooth surfaces {} would differ by more than {:g} dB at {:.6g} GHz, "
-        "most by {:+.1f} dB at {}; --uncertainty computes both",
+        "most by {:+.1f} dB at {}{}",
         part_names[sweep.uncertainty[flat.worst_view].flat_part], count_of(sweep, flat), kLargeDifference_db, ghz,
-        flat.worst, place_of(sweep, flat)));
+        flat.worst, place_of(sweep, flat), sweep.flat ? "" : "; --uncertainty computes both"));
   }
   const Exceeded moved =
       exceeding(sweep, kLargeShare, [&](std::size_t view, std::size_t e) { return vertex_change(sweep, view, e); });

@@ -63,7 +63,7 @@ struct PreparedTarget {
   std::shared_ptr<const Scatterer> scatterer;
 };
 
-// Cuts the mesh at the waterline, builds the scatterer and checks its edges (check_edges()).
+// Cuts the mesh at the waterline, builds the scatterer and checks its edges and bars (target_check.h).
 PreparedTarget prepare_target(SolverMesh mesh, const ScattererSettings& settings);
 
 }  // namespace seaglint
