@@ -16,6 +16,7 @@
 #include "tools/figure/mesh_picture.h"
 #include "tools/options/rcs_arguments.h"
 #include "tools/pipeline/output_files.h"
+#include "tools/pipeline/warnings.h"
 #include "tools/rcs/mesh_sensitivity.h"
 
 namespace seaglint {
@@ -225,8 +226,9 @@ void add_sensitivity(CommandOptions& mesh, CommandContext& context) {
   auto noise_um = std::make_shared<double>(0);
   arguments->add_mesh_to(command);
   command
-      .add_option("--noise-um", *noise_um,
-                  "Noise on the vertices, standard deviation in every coordinate; 0 = a 1900th of the wavelength")
+      .add_option(
+          "--noise-um", *noise_um,
+          "Noise on the vertices, standard deviation in every coordinate; 0 = a 1900th of the shortest wavelength")
       .number_within(0.0, 1e6);
   add_threads_option(command, context);
   command.footer(
@@ -234,8 +236,10 @@ void add_sensitivity(CommandOptions& mesh, CommandContext& context) {
       "--elevation-deg 5");
   command.callback([arguments, noise_um, &context] {
     context.work = [arguments, noise_um, &context] {
-      fmt::print("{}", sensitivity_table(mesh_sensitivity(arguments->make_request(), 1e-6 * *noise_um, context.threads,
-                                                          &context.stop)));
+      const MeshSensitivity sensitivity =
+          mesh_sensitivity(arguments->make_request(), 1e-6 * *noise_um, context.threads, &context.stop);
+      warn(sensitivity.warnings);
+      fmt::print("{}", sensitivity_table(sensitivity));
     };
   });
 }

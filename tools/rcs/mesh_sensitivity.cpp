@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/dbsm.h"
 #include "sim/core/numbers/random.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/progress.h"
@@ -31,7 +32,7 @@ struct ChangedMesh {
 };
 
 ChangedMesh changed(const TriangleMesh& mesh, MeshChange change, const MeshSensitivity& by) {
-  Random random({1, Stream::kTest, 0});
+  Random random({1, Stream::kMeshChange, 0});
   switch (change) {
     case MeshChange::kCut: return {cut_in_four(mesh)};
     case MeshChange::kCutFloat: return {cut_in_four(mesh, true)};
@@ -112,7 +113,7 @@ double relative_change(const Matrices& from, const Matrices& to) {
 double mean_dbsm(const Matrices& matrices, std::size_t channel) {
   double power = 0;
   for (const auto& matrix : matrices) power += std::norm(matrix[channel]);
-  return 10 * std::log10(4 * kPi * power / static_cast<double>(matrices.size()));
+  return dbsm_of_area(4 * kPi * power / static_cast<double>(matrices.size()));
 }
 
 }  // namespace
@@ -121,6 +122,7 @@ MeshSensitivity mesh_sensitivity(const RcsRequest& request, double noise_m, int 
   const PreparedTarget target = prepare_mesh(request);
   const double highest_hz = *std::ranges::max_element(request.frequency_hz);
   MeshSensitivity result;
+  result.warnings = target.warnings;
   result.noise_m = noise_m > 0 ? noise_m : kNoiseOfAWavelength * kSpeedOfLight / highest_hz;
   result.shift_m = kShiftOfTheRadius * target.scatterer->radius();
   Views views(request, target, thread_count(threads), stop);

@@ -20,7 +20,7 @@ namespace {
 constexpr double kLargeDifference_db = 1;
 constexpr double kLargeShare = 0.25;  // of the echo: 2 dB
 constexpr double kNegligible_db = 30;
-constexpr double kLargestPrinted_db = 60;
+constexpr double kLargestPrinted_db = 60, kLargestPrintedShare = 1000;
 constexpr std::array<std::size_t, 2> kElement{0, 3};  // of a matrix: hh, vv
 constexpr std::array<const char*, 2> kName{"hh", "vv"};
 
@@ -31,11 +31,14 @@ Complex echo(const RcsSweep& sweep, std::size_t view, std::size_t element) {
 }
 
 double ratio_db(const Complex& flat, const Complex& smooth) {
+  if (flat == smooth) return 0;
   const double ratio = std::abs(flat) / std::max(std::abs(smooth), 1e-300);
   return std::clamp(20 * std::log10(std::max(ratio, 1e-300)), -kLargestPrinted_db, kLargestPrinted_db);
 }
 
-double share(double part, const Complex& whole) { return part > 0 ? part / std::max(std::abs(whole), 1e-300) : 0; }
+double share(double part, const Complex& whole) {
+  return part > 0 && std::abs(whole) > 0 ? std::min(part / std::abs(whole), kLargestPrintedShare) : 0;
+}
 
 // The views in which the magnitude of a quantity exceeds a limit in hh or vv, and the place of its largest magnitude.
 struct Exceeded {

@@ -18,8 +18,8 @@ ViewUncertainty summary_of(const ViewEstimate& estimate);
 // Estimated level of flat facets over that of smooth surfaces, dB, within -60 and 60. element: 0 hh, 1 vv.
 double flat_over_smooth_db(const RcsSweep& sweep, std::size_t view, std::size_t element);
 
-// Estimated rms change by a displacement of all vertices by kVertexNoise wavelengths, relative to the echo; 0 without
-// an echo.
+// Estimated rms change by a displacement of all vertices by kVertexNoise wavelengths, relative to the echo, at most
+// 1000; 0 without an echo.
 double vertex_change(const RcsSweep& sweep, std::size_t view, std::size_t element);
 
 // One sentence each, with the number of views, the worst one and its part: where flat facets would change hh or vv by

@@ -13,6 +13,7 @@
 #include "sim/core/process/progress.h"
 #include "sim/scattering/beams/bistatic_geometry.h"
 #include "sim/scattering/response/body_response.h"
+#include "sim/scattering/response/reciprocity.h"
 #include "sim/scattering/response/scattering_matrix.h"
 #include "sim/scattering/response/sea_reflection.h"
 #include "tools/rcs/rcs_uncertainty.h"
@@ -32,8 +33,9 @@ SeaReflection reflection_of(const SeaUnderTarget& sea) {
   return SeaReflection(spec, sea.wave_height_m);
 }
 
-// Number of views computed from one trace of a fixed transmitter; 1 for one antenna. Every view needs memory for its
-// visible surface and edge illuminations (18 MB for a ship of 144 m) and for its sums (at most 132 kB per frequency).
+// Number of views that share one trace of a fixed transmitter; 1 for one antenna. Every view needs memory for its
+// visible surface and edge illuminations (18 MB for a ship of 144 m) and for its sums in both senses (at most 264 kB
+// per frequency).
 std::size_t views_per_trace(const RcsRequest& request) {
   constexpr std::size_t kMaxViews = 8, kMaxMatrices = 512;
   if (!request.transmitter) return 1;
@@ -151,22 +153,28 @@ void add_cavities(const RcsRequest& request, const RcsTarget& target, int thread
         throw WorkError(
             fmt::format("cavity {} at {:.6g} GHz: {}", named.name, 1e-9 * sweep.frequency_hz[q], error.what()));
       }
-      for (RcsSweep::Model& model : sweep.models) {
+      const auto add_to = [&](RcsSweep::Model& model) {
         for (std::size_t view = 0; view < sweep.views(); ++view) {
           for (int i = 0; i < 4; ++i) model.matrices[view][q][i] += echo[view][i];
         }
-      }
+      };
+      for (std::size_t view = 0; !request.transmitter && view < sweep.views(); ++view)
+        echo[view] = reciprocal_mean(echo[view], echo[view]);
+      for (RcsSweep::Model& model : sweep.models) add_to(model);
+      if (sweep.flat) add_to(*sweep.flat);
       progress.advance();
     }
   }
 }
 
-// The requested model of the target with all facets flat.
+// The requested model of the target with all facets flat, without the echoes of cavities.
 RcsSweep::Model flat_model(RcsRequest request, int threads, const StopFlag* stop) {
   request.crease_deg = 0;
   request.uncertainty = request.physical_optics_too = false;
   request.exports = {};
-  RcsSweep::Model model = compute_rcs(request, prepare_rcs_target(request), threads, stop).sweep.models.back();
+  RcsTarget target = prepare_rcs_target(request);
+  target.cavities.clear();
+  RcsSweep::Model model = compute_rcs(request, target, threads, stop).sweep.models.back();
   model.name += ", flat facets";
   return model;
 }
@@ -193,8 +201,8 @@ RcsResult compute_rcs(const RcsRequest& request, const RcsTarget& target, int th
   sweep.uncertainty.resize(sweep.views());
   const int count = thread_count(threads);
   SweepTracer(request, target, count, stop).run(result);
-  if (!target.cavities.empty()) add_cavities(request, target, count, stop, sweep);
   if (request.uncertainty) sweep.flat = flat_model(request, threads, stop);
+  if (!target.cavities.empty()) add_cavities(request, target, count, stop, sweep);
   return result;
 }
 

@@ -29,6 +29,7 @@ enum class Stream : std::uint32_t {
   kTexture = 14,
   kClutterPlace = 15,
   kPriJitter = 16,
+  kMeshChange = 17,
   kTest = 1000,
 };
 

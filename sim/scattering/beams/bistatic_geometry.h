@@ -15,6 +15,8 @@ struct RadarBasis {
   Vec3 v = Vec3::UnitZ();
 };
 
+inline bool operator==(const RadarBasis& a, const RadarBasis& b) { return a.r == b.r && a.h == b.h && a.v == b.v; }
+
 // Look directions of transmitter and receiver.
 struct BistaticGeometry {
   RadarBasis transmit;

@@ -10,8 +10,6 @@
 namespace seaglint {
 namespace {
 
-bool same(const RadarBasis& a, const RadarBasis& b) { return a.r == b.r && a.h == b.h && a.v == b.v; }
-
 // Edge illuminations from a receive direction that transmits in no pair: no footprints are computed, and beams end
 // after the reflections that an edge contribution allows.
 IlluminationByEdge edge_illumination_from(const Scatterer& scatterer, const std::shared_ptr<const Aspect>& direction,
@@ -31,7 +29,7 @@ AspectTrace::AspectTrace(const Scatterer& scatterer, std::span<const BistaticGeo
     : scatterer_(scatterer), pairs_(pairs), settings_(settings), wavenumbers_(wavenumbers), threads_(threads) {
   std::vector<const RadarBasis*> known;
   const auto number_of = [&](const RadarBasis& basis) {
-    const auto at = std::ranges::find_if(known, [&](const RadarBasis* other) { return same(*other, basis); });
+    const auto at = std::ranges::find_if(known, [&](const RadarBasis* other) { return *other == basis; });
     if (at == known.end()) {
       known.push_back(&basis);
       directions_.push_back(std::make_shared<const Aspect>(scatterer, basis, settings, threads));

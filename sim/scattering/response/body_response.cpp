@@ -18,6 +18,7 @@
 #include "sim/scattering/response/response_grid.h"
 #include "sim/scattering/response/scattering_matrix.h"
 #include "sim/scattering/response/trace_plan.h"
+#include "sim/scattering/surfaces/finite_range.h"
 #include "sim/scattering/surfaces/point_contributions.h"
 
 namespace seaglint {
@@ -32,13 +33,6 @@ struct alignas(64) ChunkPoints {
   std::vector<GridPoint> points;
   double fastest = 0;  // largest |u|, m
 };
-
-// Over a curved wavefront the slope of psi changes along a panel also where it does not with the look direction, as in
-// a corner that returns the wave as it came.
-Footprint at_any_slope_rate(Footprint footprint) {
-  footprint.psi_slope_rate = 2;
-  return footprint;
-}
 
 // Points of the contributions of one propagation path, with their rates along its look-direction path.
 class PathPoints {

@@ -5,17 +5,12 @@
 #include <utility>
 
 namespace seaglint {
-namespace {
-
-bool same(const RadarBasis& a, const RadarBasis& b) { return a.r == b.r && a.h == b.h && a.v == b.v; }
-
-}  // namespace
 
 ReciprocalPairs::ReciprocalPairs(std::span<const BistaticGeometry> pairs)
     : all_(pairs.begin(), pairs.end()), exchanged_(pairs.size()) {
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const auto exchanged = std::ranges::find_if(all_, [&](const BistaticGeometry& other) {
-      return same(other.transmit, pairs[i].receive) && same(other.receive, pairs[i].transmit);
+      return other.transmit == pairs[i].receive && other.receive == pairs[i].transmit;
     });
     exchanged_[i] = static_cast<std::size_t>(exchanged - all_.begin());
     if (exchanged == all_.end()) all_.push_back(bistatic(pairs[i].receive, pairs[i].transmit));

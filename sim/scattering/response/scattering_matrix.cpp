@@ -8,6 +8,7 @@
 #include "sim/scattering/response/aspect_trace.h"
 #include "sim/scattering/response/reciprocity.h"
 #include "sim/scattering/response/sweep_sum.h"
+#include "sim/scattering/surfaces/finite_range.h"
 #include "sim/scattering/target/target_check.h"
 
 namespace seaglint {
@@ -23,7 +24,7 @@ RadarRange relative_to_centre(const Scatterer& scatterer, RadarRange radar) {
 ViewEstimate about_origin(const ViewEstimate& estimate, const Scatterer& scatterer, const BistaticGeometry& geometry) {
   const Complex phase = origin_phase(scatterer, geometry, estimate.wavenumber());
   ViewEstimate moved(estimate.wavenumber());
-  moved.add(estimate, {phase, phase});
+  moved.add(estimate, {phase, phase}, phase);
   return moved;
 }
 
@@ -127,7 +128,9 @@ Matrices scattering_matrices_over_sea(const Scatterer& scatterer, const Vec3& r_
     const auto factor = [&](int i) {
       return SeaReflection::path_factor(paths[w], rho, i) * std::polar(1.0, k * detour);
     };
-    estimate->add(estimates[w], {factor(0), factor(3)});
+    // hv and vh of one path that meets the sea once differ; those of both together do not.
+    const bool is_mixed = paths[w].outbound_via_sea != paths[w].return_via_sea;
+    estimate->add(estimates[w], {factor(0), factor(3)}, is_mixed ? 0.0 : factor(1));
   }
   return sum;
 }
@@ -137,8 +140,8 @@ AspectContributions aspect_contributions(const Scatterer& scatterer, const Bista
                                          int threads, const StopFlag* stop, const RadarRange& radar) {
   const RadarRange to_centre = relative_to_centre(scatterer, radar);
   const double spread = direction_spread(scatterer, to_centre);
-  DecompositionSettings bent = split_settings;
-  bent.aspect_change_rad += spread;
+  DecompositionSettings edge_settings = split_settings;
+  edge_settings.aspect_change_rad += spread;
   const std::array wavenumber{split_settings.kc};
   const SweepPlan plan(scatterer, wavenumber);
   const ReciprocalPairs reciprocal(std::span(&geometry, 1));
@@ -151,18 +154,28 @@ AspectContributions aspect_contributions(const Scatterer& scatterer, const Bista
     points.emplace_back(trace.chunk_count(i));
   }
   AspectContributions all{{}, {}, 0, ViewEstimate(split_settings.kc)};
-  all.segments = trace.run({[&](std::size_t pair, std::size_t chunk, std::span<const Footprint> footprints) {
-                              sums[pair].chunk(chunk).add(footprints);
-                              for (const Footprint& footprint : footprints)
-                                decompose(footprint, traced[pair].transmit, bent, points[pair][chunk]);
-                            },
-                            [&](std::size_t pair, std::size_t chunk, std::span<const EdgeContribution> contributions) {
-                              sums[pair].chunk(chunk).add(contributions);
-                              for (const EdgeContribution& contribution : contributions)
-                                decompose(contribution, bent, points[pair][chunk]);
-                            },
-                            [&](std::size_t pair, std::size_t chunk) { sums[pair].complete(chunk); }},
-                           stop);
+  all.segments =
+      trace.run({[&](std::size_t pair, std::size_t chunk, std::span<const Footprint> footprints) {
+                   sums[pair].chunk(chunk).add(footprints);
+                   for (const Footprint& footprint : footprints) {
+                     if (radar.range_m > 0) {
+                       decompose_at_range(footprint, traced[pair], split_settings, to_centre, points[pair][chunk]);
+                     } else {
+                       decompose(footprint, traced[pair].transmit, split_settings, points[pair][chunk]);
+                     }
+                   }
+                 },
+                 [&](std::size_t pair, std::size_t chunk, std::span<const EdgeContribution> contributions) {
+                   sums[pair].chunk(chunk).add(contributions);
+                   std::vector<PointContribution>& of_chunk = points[pair][chunk];
+                   const std::size_t first = of_chunk.size();
+                   for (const EdgeContribution& contribution : contributions)
+                     decompose(contribution, edge_settings, of_chunk);
+                   if (radar.range_m > 0)
+                     apply_wavefront_curvature(std::span(of_chunk).subspan(first), traced[pair], to_centre);
+                 },
+                 [&](std::size_t pair, std::size_t chunk) { sums[pair].complete(chunk); }},
+                stop);
   all.matrix = reciprocal_mean(sums.front().matrices().front(), sums.back().matrices().front());
   all.estimate = about_origin(mean(*sums.front().estimate(), *sums.back().estimate()), scatterer, geometry);
   for (std::size_t pair = 0; pair < traced.size(); ++pair) {
@@ -178,7 +191,6 @@ AspectContributions aspect_contributions(const Scatterer& scatterer, const Bista
       all.points.insert(all.points.end(), of_chunk.begin(), of_chunk.end());
     }
   }
-  if (radar.range_m > 0) apply_wavefront_curvature(all.points, geometry, to_centre);
   const Vec3& centre = scatterer.centre();
   for (Complex& s : all.matrix) s *= origin_phase(scatterer, geometry, split_settings.kc);
   for (PointContribution& point : all.points) {

@@ -20,8 +20,8 @@ namespace seaglint {
 using Matrices = std::vector<std::array<Complex, 4>>;  // hh, hv, vh, vv per frequency, m
 
 // Of one pair of directions. At a finite range contributions are points, to each of which its own part of the wavefront
-// belongs; `spread`: largest difference of the direction to the radar over the target, rad. `estimated`: frequency of
-// the view's estimate, which changes no matrix. The plan and the geometry must outlive the object.
+// belongs; `spread`: largest difference of the direction to the radar over the target, rad, of edges. `estimated`:
+// frequency of the view's estimate, which changes no matrix. The plan and the geometry must outlive the object.
 class SweepSum {
  public:
   SweepSum(const SweepPlan& plan, const BistaticGeometry& geometry, const RadarRange& radar, double spread,

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+
+#include "sim/scattering/target/scatterer.h"
 
 namespace seaglint {
 

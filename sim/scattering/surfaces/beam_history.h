@@ -4,9 +4,10 @@
 // Reflections on the path of a beam, as far as they determine how uncertain its contribution is.
 
 #include "sim/scattering/beams/beam_segment.h"
-#include "sim/scattering/target/scatterer.h"
 
 namespace seaglint {
+
+class Scatterer;
 
 struct BeamHistory {
   // Displacement of the beam on its last panel over that of the vertices of its reflectors, the root of a sum of

@@ -57,25 +57,49 @@ Footprint tilted(const Footprint& footprint, const Tangent& tangent) {
   return result;
 }
 
-}  // namespace
-
-void decompose_at_range(const Footprint& footprint, const BistaticGeometry& geometry, const FrequencyBand& band,
-                        const RadarRange& radar, std::vector<BandPoint>& out) {
+// `decompose` appends the points of a footprint for an aspect change, rad.
+template <typename Point, typename Decompose>
+void decompose_tilted(const Footprint& footprint, const BistaticGeometry& geometry, const RadarRange& radar,
+                      const Decompose& decompose, std::vector<Point>& out) {
   const Vec2 middle = centroid(footprint.polygon);
   double extent = 0;
   for (const MovingVertex& vertex : footprint.polygon)
     extent = std::max(extent, footprint.surface_length(vertex.p - middle));
   const Tangent tangent = curvature_tangent(footprint, geometry, radar, middle);
-  Footprint local = tilted(footprint, tangent);
-  local.psi_slope_rate = 2;  // of both antennas, also where the target returns the wave as it came
   const std::size_t first = out.size();
-  decompose(local, geometry.transmit, band, extent / radar.range_m, out);
-  const std::span<BandPoint> points = std::span(out).subspan(first);
-  for (BandPoint& point : points) {
+  decompose(at_any_slope_rate(tilted(footprint, tangent)), extent / radar.range_m);
+  const std::span<Point> points = std::span(out).subspan(first);
+  for (Point& point : points) {
     const Vec3 image = point.gradient.transmit - point.gradient.transmit_slide;
     point.psi -= tangent.at({image.dot(geometry.transmit.h), image.dot(geometry.transmit.v)});
   }
   apply_wavefront_curvature(points, geometry, radar);
+}
+
+}  // namespace
+
+Footprint at_any_slope_rate(Footprint footprint) {
+  footprint.psi_slope_rate = 2;
+  return footprint;
+}
+
+void decompose_at_range(const Footprint& footprint, const BistaticGeometry& geometry, const FrequencyBand& band,
+                        const RadarRange& radar, std::vector<BandPoint>& out) {
+  const auto append = [&](const Footprint& local, double aspect_change_rad) {
+    decompose(local, geometry.transmit, band, aspect_change_rad, out);
+  };
+  decompose_tilted(footprint, geometry, radar, append, out);
+}
+
+void decompose_at_range(const Footprint& footprint, const BistaticGeometry& geometry,
+                        const DecompositionSettings& settings, const RadarRange& radar,
+                        std::vector<PointContribution>& out) {
+  const auto append = [&](const Footprint& local, double aspect_change_rad) {
+    DecompositionSettings total = settings;
+    total.aspect_change_rad += aspect_change_rad;
+    decompose(local, geometry.transmit, total, out);
+  };
+  decompose_tilted(footprint, geometry, radar, append, out);
 }
 
 }  // namespace seaglint

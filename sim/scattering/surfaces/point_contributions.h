@@ -22,7 +22,7 @@ struct PointContribution {
   double psi = 0;                                // minus the two-way path, m
   PathGradient gradient;                         // d psi / d r^, body frame, m
   std::array<std::complex<float>, 4> pattern{};  // hh, hv, vh, vv
-  std::int32_t facet = -1;                       // that radiates to the receiver
+  std::int32_t facet = -1;  // that radiates to the receiver, or of a reciprocal path to the transmitter
   std::uint16_t part = 0;
   std::uint8_t bounces = 1;
   Mechanism mechanism = Mechanism::kPhysicalOptics;
@@ -58,7 +58,7 @@ struct RadarRange {
 // longer by |x_perp|^2 / (2 R), x measured from the point that R = range_m > 0 refers to. The gradients are corrected
 // too, except for the slide of a shadow boundary along the curved front, |x_perp| / R of its slide. Contributions must
 // have been decomposed for an aspect change larger by (reach from that point) / R, since the direction to the radar
-// differs between points.
+// differs between points, or tilted, and at any slope rate (finite_range.h).
 void apply_wavefront_curvature(std::span<PointContribution> contributions, const BistaticGeometry& geometry,
                                const RadarRange& radar);
 void apply_wavefront_curvature(std::span<BandPoint> contributions, const BistaticGeometry& geometry,

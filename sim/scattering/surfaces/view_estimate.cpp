@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/scattering/surfaces/view_estimate.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace seaglint {
 namespace {
 
-void add_to(ViewEstimate::Sums& sum, const ViewEstimate::Sums& other, const CoPolar& factor) {
+void add_to(ViewEstimate::Sums& sum, const ViewEstimate::Sums& other, const CoPolar& factor, const Complex& cross) {
   for (std::size_t i = 0; i < 2; ++i) {
     const double size = std::abs(factor[i]);
     sum.flat_less_smooth[i] += factor[i] * other.flat_less_smooth[i];
@@ -15,7 +14,6 @@ void add_to(ViewEstimate::Sums& sum, const ViewEstimate::Sums& other, const CoPo
     sum.displaced_power[i] += size * size * other.displaced_power[i];
     sum.in_cavity[i] += factor[i] * other.in_cavity[i];
   }
-  const Complex cross = std::sqrt(factor[0] * factor[1]);
   sum.non_reciprocal += cross * other.non_reciprocal;
   sum.non_reciprocal_size += std::abs(cross) * other.non_reciprocal_size;
 }
@@ -62,20 +60,20 @@ void ViewEstimate::end_beam() {
   beam_.reset();
 }
 
-void ViewEstimate::add(const ViewEstimate& other, const CoPolar& factor) {
+void ViewEstimate::add(const ViewEstimate& other, const CoPolar& factor, const Complex& cross) {
   if (parts_.size() < other.parts_.size()) parts_.resize(other.parts_.size());
-  for (std::size_t i = 0; i < other.parts_.size(); ++i) add_to(parts_[i], other.parts_[i], factor);
+  for (std::size_t i = 0; i < other.parts_.size(); ++i) add_to(parts_[i], other.parts_[i], factor, cross);
 }
 
 ViewEstimate::Sums ViewEstimate::all() const {
   Sums sum;
-  for (const Sums& of_part : parts_) add_to(sum, of_part, {1, 1});
+  for (const Sums& of_part : parts_) add_to(sum, of_part, {1, 1}, 1);
   return sum;
 }
 
 ViewEstimate mean(const ViewEstimate& one, const ViewEstimate& other) {
   ViewEstimate sum(one.wavenumber());
-  for (const ViewEstimate* path : {&one, &other}) sum.add(*path, {0.5, 0.5});
+  for (const ViewEstimate* path : {&one, &other}) sum.add(*path, {0.5, 0.5}, 0.5);
   // Half of the mean square each, since both change together.
   for (ViewEstimate::Sums& of_part : sum.parts_) {
     for (double& power : of_part.displaced_power) power *= 2;

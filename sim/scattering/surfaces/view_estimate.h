@@ -34,8 +34,8 @@ class ViewEstimate {
   // reflectors, m. Footprints of one beam on one panel count as one contribution if they follow each other.
   void add(const Footprint& footprint, const std::array<Complex, 4>& smooth, const std::array<Complex, 4>& flat);
   void end_beam();  // the next footprint is of another beam
-  // Adds those of another path with its hh and vv times the factor, hv and vh times the square root of their product.
-  void add(const ViewEstimate& other, const CoPolar& factor = {1, 1});
+  // Adds those of another path with its hh and vv times the factor, hv and vh times `cross`.
+  void add(const ViewEstimate& other, const CoPolar& factor = {1, 1}, const Complex& cross = 1);
 
   // Of one part, or of all.
   struct Sums {

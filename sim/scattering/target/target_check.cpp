@@ -213,7 +213,7 @@ std::vector<std::string> check_bars(const Scatterer& scatterer, double lowest_hz
   if (thin.total() == 0) return {};
   return {
       fmt::format("{:.3g} m of round bars are thinner than {:g} wavelengths at {:g} GHz: physical optics of them errs "
-                  "by up to 3 dB, below 0.2 wavelengths by 7 dB and more{}",
+                  "by up to 3 dB, below 0.1 wavelengths by 7 dB and more{}",
                   thin.total(), kThinBar, lowest_hz * 1e-9, thin.longest(part_names))};
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Checks of a target against the validity of the solver: electrical size, position and number of triangles.
+// Checks of a target against the validity of the solver: electrical size, position, number of triangles, edges and
+// bars.
 
 #include <span>
 #include <string>

@@ -74,6 +74,17 @@ TEST(UncertaintyWarnings, NameDisplacedVerticesAndCavities) {
                           testing::AllOf(HasSubstr("part 'hull': 4 or more reflections"), HasSubstr("most 0.9 at"))));
 }
 
+TEST(UncertaintyWarnings, NameTheDifferenceOfCrossPolarisationsForOneAntenna) {
+  ViewUncertainty view;
+  view.non_reciprocal = 0.8F;
+  view.non_reciprocal_part = 1;
+  RcsSweep sweep = sweep_of({2}, {view});
+  EXPECT_THAT(uncertainty_warnings(sweep, kParts),
+              ElementsAre(testing::AllOf(HasSubstr("part 'mast': hv and vh"), HasSubstr("most 0.4 at"))));
+  sweep.transmitter = Vec3::UnitX();
+  EXPECT_THAT(uncertainty_warnings(sweep, kParts), IsEmpty());
+}
+
 class UncertainCylinder : public testing::Test {
  protected:
   UncertainCylinder() : folder_(fs::path(testing::TempDir()) / ("rcs_uncertainty_" + std::to_string(::getpid()))) {

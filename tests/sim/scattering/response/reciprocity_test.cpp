@@ -125,6 +125,31 @@ TEST(Reciprocity, MeanOfBothSensesIsNearestToIntegralEquations) {
   EXPECT_LT(all_mean, std::min(all_hv, all_vh));
 }
 
+TEST(Reciprocity, TheEstimateIsHalfOfTheDifferenceOfTheBeams) {
+  const Scatterer body(groove(80));
+  const TracingSettings settings{7e-5, 12, false};
+  const std::array view{monostatic(radar_basis(direction(20, 15)))};
+  std::vector<ViewEstimate> estimates;
+  scattering_matrices(body, view, {&kBand[1], 1}, settings, 1, nullptr, nullptr, {}, &estimates);
+  const auto s = one_way_matrices(body, view, {&kBand[1], 1}, settings)[0][0];
+  EXPECT_GT(std::abs(s[kHvChannel] - s[kVhChannel]), 0.1);
+  EXPECT_LT(std::abs(estimates[0].all().non_reciprocal - 0.5 * (s[kHvChannel] - s[kVhChannel])), 1e-9);
+
+  // Over a conducting sea hv and vh of the image have the factor -1, and the mixed paths do not count.
+  SeaReflectionSpec spec;
+  spec.surface = SeaSurface::kConductor;
+  const double height = 2.3, k = kBand[1];
+  ViewEstimate over_sea(k);
+  scattering_matrices_over_sea(body, view[0].receive.r, height, SeaReflection(spec, 0), {&k, 1}, settings, 1, nullptr,
+                               nullptr, 0, &over_sea);
+  const std::array image{monostatic(image_basis(view[0].receive))};
+  const auto of_image = one_way_matrices(body, image, {&k, 1}, settings)[0][0];
+  const Complex detour = std::polar(1.0, -4 * k * height * view[0].receive.r.z());
+  const Complex expected =
+      0.5 * (s[kHvChannel] - s[kVhChannel]) - 0.5 * detour * (of_image[kHvChannel] - of_image[kVhChannel]);
+  EXPECT_LT(std::abs(over_sea.all().non_reciprocal - expected), 1e-9);
+}
+
 TEST(Reciprocity, HoldsOverTheSea) {
   SeaReflectionSpec spec;
   spec.enabled = true;

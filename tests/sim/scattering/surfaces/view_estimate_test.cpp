@@ -165,6 +165,8 @@ TEST(ViewEstimate, IsTheSameForAnyNumberOfThreads) {
     EXPECT_EQ(one.parts()[part].flat_change, three.parts()[part].flat_change);
     EXPECT_EQ(one.parts()[part].displaced_power, three.parts()[part].displaced_power);
     EXPECT_EQ(one.parts()[part].in_cavity, three.parts()[part].in_cavity);
+    EXPECT_EQ(one.parts()[part].non_reciprocal, three.parts()[part].non_reciprocal);
+    EXPECT_EQ(one.parts()[part].non_reciprocal_size, three.parts()[part].non_reciprocal_size);
   }
 }
 

@@ -58,8 +58,8 @@ struct ContourError {
 };
 
 // Relative: three second derivatives of psi over the square of its slope, 1 / kContourRatio each, and the difference
-// between the slopes of psi and of the vertex normals, over the latter. Sides: `of_sides` of length / (k slope), with
-// 1 / (k slope) below the size of the facet.
+// between the slopes of psi and of the vertex normals, over the latter, 1 at most. Sides: `of_sides` of length / (k
+// slope), with 1 / (k slope) below the size of the facet.
 ContourError contour_error(const Footprint& footprint, double k, double of_sides) {
   constexpr double kSecondDerivatives = 3;
   const CurvedFootprint& curved = *footprint.curvature;
@@ -79,7 +79,7 @@ ContourError contour_error(const Footprint& footprint, double k, double of_sides
     least = std::min(least, along_surface(of_normals).norm());
     difference = std::max(difference, along_surface(of_psi - of_normals).norm());
   }
-  const double of_slopes = difference / least;
+  const double of_slopes = std::min(difference / least, 1.0);
   return {kSecondDerivatives / kContourRatio + of_slopes,
           (of_sides + of_slopes) * length / area_ratio * std::min(1 / (k * least), footprint.panel_size)};
 }
