@@ -33,9 +33,8 @@ SeaReflection reflection_of(const SeaUnderTarget& sea) {
   return SeaReflection(spec, sea.wave_height_m);
 }
 
-// Number of views that share one trace of a fixed transmitter; 1 for one antenna. Every view needs memory for its
-// visible surface and edge illuminations (18 MB for a ship of 144 m) and for its sums in both senses (at most 264 kB
-// per frequency).
+// Number of views computed from one trace of a fixed transmitter; 1 for one antenna. Every view needs memory for its
+// visible surface and edge illuminations (18 MB for a ship of 144 m) and for its sums (at most 132 kB per frequency).
 std::size_t views_per_trace(const RcsRequest& request) {
   constexpr std::size_t kMaxViews = 8, kMaxMatrices = 512;
   if (!request.transmitter) return 1;

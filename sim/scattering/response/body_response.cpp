@@ -133,23 +133,23 @@ std::vector<ResponseGrid> trace_to_grid(const Scatterer& scatterer, std::span<co
   const AspectTrace trace(scatterer, pairs, settings, band, threads);
   const double faint = min_amplitude(scatterer, settings, kc);
   // The two paths that meet the sea once are reciprocal: the cross-polarised response of each is the mean over both.
-  const ReciprocalPairs reciprocal(pairs);
   const bool is_cross_polarised =
       channel == static_cast<int>(Polarisation::kHv) || channel == static_cast<int>(Polarisation::kVh);
-  const auto is_shared = [&](std::size_t path) {
-    return is_cross_polarised && !pairs[path].monostatic && reciprocal.exchanged(path) < pairs.size();
-  };
+  std::vector<std::optional<std::size_t>> shared(pairs.size());  // path that shares the contributions of another
+  for (std::size_t path = 0; is_cross_polarised && path < pairs.size(); ++path) {
+    if (!pairs[path].monostatic) shared[path] = exchanged_pair(pairs, path);
+  }
   std::vector<PathPoints> points;
   for (std::size_t path = 0; path < paths.size(); ++path) {
-    const std::size_t from_exchanged = is_shared(path) ? trace.chunk_count(reciprocal.exchanged(path)) : 0;
+    const std::size_t from_exchanged = shared[path] ? trace.chunk_count(*shared[path]) : 0;
     points.emplace_back(scatterer, paths[path], kc, half_band, faint, channel, solver.wavefront_range_m,
                         trace.chunk_count(path) + from_exchanged);
   }
   const auto add = [&](std::size_t path, std::size_t chunk, const auto& contributions) {
-    const double weight = is_shared(path) ? 0.5 : 1;
+    const double weight = shared[path] ? 0.5 : 1;
     points[path].add({chunk, pairs[path], false, weight}, contributions);
-    if (!is_shared(path)) return;
-    const std::size_t exchanged = reciprocal.exchanged(path);
+    if (!shared[path]) return;
+    const std::size_t exchanged = *shared[path];
     points[exchanged].add({trace.chunk_count(exchanged) + chunk, pairs[path], true, weight}, contributions);
   };
   trace.run({add, add});

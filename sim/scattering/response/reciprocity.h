@@ -4,33 +4,30 @@
 // Reciprocity: S(a, b) = S(b, a)^T, received along a and transmitted along b; for one antenna hv = vh.
 //
 // Geometrical optics carries a wave from panel to panel and physical optics radiates it, so that the sum of the beams
-// is reciprocal to their accuracy only (README.md, "Reciprocity"). The mean of a matrix and of the transposed one with
-// the antennas exchanged is the orthogonal projection on reciprocal matrices: its mean squared error over the elements
-// of both is that of the two, less the square of half of their difference.
+// is reciprocal to their accuracy only (README.md, "Reciprocity"). For one antenna the mean of the matrix and of the
+// transposed one is the orthogonal projection on reciprocal matrices: its squared error over the elements is that of
+// the matrix less |hv - vh|^2 / 2.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
-#include <vector>
+#include <utility>
 
 #include "sim/scattering/beams/bistatic_geometry.h"
 #include "sim/scattering/surfaces/point_contributions.h"
 
 namespace seaglint {
 
-// Pairs of antennas, and behind them those with exchanged antennas that are not among them.
-class ReciprocalPairs {
- public:
-  explicit ReciprocalPairs(std::span<const BistaticGeometry> pairs);
-
-  std::span<const BistaticGeometry> all() const { return all_; }
-  // Index of the pair with the antennas of this one exchanged; itself for one antenna.
-  std::size_t exchanged(std::size_t pair) const { return exchanged_[pair]; }
-
- private:
-  std::vector<BistaticGeometry> all_;
-  std::vector<std::size_t> exchanged_;
-};
+// Index of the pair with the antennas of the pair i exchanged, itself for one antenna; none where it is not among them.
+inline std::optional<std::size_t> exchanged_pair(std::span<const BistaticGeometry> pairs, std::size_t i) {
+  const auto exchanged = std::ranges::find_if(pairs, [&](const BistaticGeometry& other) {
+    return other.transmit == pairs[i].receive && other.receive == pairs[i].transmit;
+  });
+  if (exchanged == pairs.end()) return std::nullopt;
+  return static_cast<std::size_t>(exchanged - pairs.begin());
+}
 
 // Mean of a matrix hh, hv, vh, vv and the transposed one of exchanged antennas.
 template <typename Element>
@@ -40,6 +37,10 @@ std::array<Element, 4> reciprocal_mean(const std::array<Element, 4>& matrix, con
 }
 
 // The point of a path becomes that of its reciprocal.
-void exchange_antennas(PointContribution& point);
+inline void exchange_antennas(PointContribution& point) {
+  std::swap(point.pattern[1], point.pattern[2]);
+  std::swap(point.gradient.transmit, point.gradient.receive);
+  std::swap(point.gradient.transmit_slide, point.gradient.receive_slide);
+}
 
 }  // namespace seaglint

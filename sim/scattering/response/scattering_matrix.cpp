@@ -73,17 +73,11 @@ std::vector<Matrices> scattering_matrices(const Scatterer& scatterer, std::span<
                                           std::span<const double> wavenumbers, const TracingSettings& settings,
                                           int threads, std::size_t* segments, const StopFlag* stop,
                                           const RadarRange& radar, std::vector<ViewEstimate>* estimates) {
-  const ReciprocalPairs reciprocal(pairs);
-  std::vector<ViewEstimate> one_way_estimates;
-  const std::vector<Matrices> one_way =
-      one_way_matrices(scatterer, reciprocal.all(), wavenumbers, settings, threads, segments, stop, radar,
-                       estimates ? &one_way_estimates : nullptr);
-  std::vector<Matrices> matrices(pairs.size(), Matrices(wavenumbers.size()));
+  std::vector<Matrices> matrices =
+      one_way_matrices(scatterer, pairs, wavenumbers, settings, threads, segments, stop, radar, estimates);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const std::size_t exchanged = reciprocal.exchanged(i);
-    for (std::size_t q = 0; q < wavenumbers.size(); ++q)
-      matrices[i][q] = reciprocal_mean(one_way[i][q], one_way[exchanged][q]);
-    if (estimates) estimates->push_back(mean(one_way_estimates[i], one_way_estimates[exchanged]));
+    if (!(pairs[i].transmit == pairs[i].receive)) continue;
+    for (auto& matrix : matrices[i]) matrix = reciprocal_mean(matrix, matrix);
   }
   return matrices;
 }
@@ -114,13 +108,15 @@ Matrices scattering_matrices_over_sea(const Scatterer& scatterer, const Vec3& r_
   if (estimate) *estimate = ViewEstimate(estimates.front().wavenumber());
   Matrices sum(wavenumbers.size());
   for (std::size_t w = 0; w < paths.size(); ++w) {
+    const Matrices& exchanged = matrices[exchanged_pair(pairs, w).value_or(w)];
     // Phase relative to the body's origin at (0, 0, height): e^{jk (a + b - 2 r).(0, 0, height)}.
     const double detour =
         -2 * r_hat.z() * height_m * ((paths[w].outbound_via_sea ? 1 : 0) + (paths[w].return_via_sea ? 1 : 0));
     for (std::size_t q = 0; q < wavenumbers.size(); ++q) {
       const SeaReflectionCoefficients rho = sea.at(wavenumbers[q], r_hat.z());
       const Complex phase = std::polar(1.0, wavenumbers[q] * detour);
-      for (int i = 0; i < 4; ++i) sum[q][i] += SeaReflection::path_factor(paths[w], rho, i) * phase * matrices[w][q][i];
+      const std::array<Complex, 4> matrix = reciprocal_mean(matrices[w][q], exchanged[q]);
+      for (int i = 0; i < 4; ++i) sum[q][i] += SeaReflection::path_factor(paths[w], rho, i) * phase * matrix[i];
     }
     if (!estimate) continue;
     const double k = estimate->wavenumber();
@@ -144,52 +140,38 @@ AspectContributions aspect_contributions(const Scatterer& scatterer, const Bista
   edge_settings.aspect_change_rad += spread;
   const std::array wavenumber{split_settings.kc};
   const SweepPlan plan(scatterer, wavenumber);
-  const ReciprocalPairs reciprocal(std::span(&geometry, 1));
-  const std::span<const BistaticGeometry> traced = reciprocal.all();
-  const AspectTrace trace(scatterer, traced, settings, wavenumber, threads);
-  std::deque<OrderedSweepSum> sums;
-  std::vector<std::vector<std::vector<PointContribution>>> points;  // [pair][chunk]
-  for (std::size_t i = 0; i < traced.size(); ++i) {
-    sums.emplace_back(SweepSum(plan, traced[i], to_centre, spread, plan.middle()), trace.chunk_count(i));
-    points.emplace_back(trace.chunk_count(i));
-  }
+  const AspectTrace trace(scatterer, std::span(&geometry, 1), settings, wavenumber, threads);
+  OrderedSweepSum sum(SweepSum(plan, geometry, to_centre, spread, plan.middle()), trace.chunk_count(0));
+  std::vector<std::vector<PointContribution>> points(trace.chunk_count(0));
   AspectContributions all{{}, {}, 0, ViewEstimate(split_settings.kc)};
-  all.segments =
-      trace.run({[&](std::size_t pair, std::size_t chunk, std::span<const Footprint> footprints) {
-                   sums[pair].chunk(chunk).add(footprints);
-                   for (const Footprint& footprint : footprints) {
-                     if (radar.range_m > 0) {
-                       decompose_at_range(footprint, traced[pair], split_settings, to_centre, points[pair][chunk]);
-                     } else {
-                       decompose(footprint, traced[pair].transmit, split_settings, points[pair][chunk]);
-                     }
-                   }
-                 },
-                 [&](std::size_t pair, std::size_t chunk, std::span<const EdgeContribution> contributions) {
-                   sums[pair].chunk(chunk).add(contributions);
-                   std::vector<PointContribution>& of_chunk = points[pair][chunk];
-                   const std::size_t first = of_chunk.size();
-                   for (const EdgeContribution& contribution : contributions)
-                     decompose(contribution, edge_settings, of_chunk);
-                   if (radar.range_m > 0)
-                     apply_wavefront_curvature(std::span(of_chunk).subspan(first), traced[pair], to_centre);
-                 },
-                 [&](std::size_t pair, std::size_t chunk) { sums[pair].complete(chunk); }},
-                stop);
-  all.matrix = reciprocal_mean(sums.front().matrices().front(), sums.back().matrices().front());
-  all.estimate = about_origin(mean(*sums.front().estimate(), *sums.back().estimate()), scatterer, geometry);
-  for (std::size_t pair = 0; pair < traced.size(); ++pair) {
-    for (std::vector<PointContribution>& of_chunk : points[pair]) {
-      for (PointContribution& point : of_chunk) {
-        if (geometry.monostatic) {
-          point.pattern = reciprocal_mean(point.pattern, point.pattern);
-          continue;
-        }
-        point.amplitude *= 0.5;
-        if (pair > 0) exchange_antennas(point);
-      }
-      all.points.insert(all.points.end(), of_chunk.begin(), of_chunk.end());
-    }
+  all.segments = trace.run({[&](std::size_t, std::size_t chunk, std::span<const Footprint> footprints) {
+                              sum.chunk(chunk).add(footprints);
+                              for (const Footprint& footprint : footprints) {
+                                if (radar.range_m > 0) {
+                                  decompose_at_range(footprint, geometry, split_settings, to_centre, points[chunk]);
+                                } else {
+                                  decompose(footprint, geometry.transmit, split_settings, points[chunk]);
+                                }
+                              }
+                            },
+                            [&](std::size_t, std::size_t chunk, std::span<const EdgeContribution> contributions) {
+                              sum.chunk(chunk).add(contributions);
+                              std::vector<PointContribution>& of_chunk = points[chunk];
+                              const std::size_t first = of_chunk.size();
+                              for (const EdgeContribution& contribution : contributions)
+                                decompose(contribution, edge_settings, of_chunk);
+                              if (radar.range_m > 0)
+                                apply_wavefront_curvature(std::span(of_chunk).subspan(first), geometry, to_centre);
+                            },
+                            [&](std::size_t, std::size_t chunk) { sum.complete(chunk); }},
+                           stop);
+  all.matrix = sum.matrices().front();
+  all.estimate = about_origin(*sum.estimate(), scatterer, geometry);
+  for (const std::vector<PointContribution>& of_chunk : points)
+    all.points.insert(all.points.end(), of_chunk.begin(), of_chunk.end());
+  if (geometry.transmit == geometry.receive) {
+    all.matrix = reciprocal_mean(all.matrix, all.matrix);
+    for (PointContribution& point : all.points) point.pattern = reciprocal_mean(point.pattern, point.pattern);
   }
   const Vec3& centre = scatterer.centre();
   for (Complex& s : all.matrix) s *= origin_phase(scatterer, geometry, split_settings.kc);

@@ -28,8 +28,8 @@ double direction_spread(const Scatterer& scatterer, const RadarRange& radar);
 
 // hh, hv, vh, vv (received, transmitted) in metres at each wavenumber, body at rest: one trace, and the exact phase
 // integral of every footprint at every wavenumber. Phase origin: the body's origin. Each direction has its own
-// polarisation basis. Reciprocal: with two antennas the reverse paths are traced too (reciprocity.h). Adds the number
-// of beam segments traced to *segments.
+// polarisation basis. For one antenna hv = vh, the mean of both (reciprocity.h). Adds the number of beam segments
+// traced to *segments.
 std::vector<std::array<Complex, 4>> scattering_matrices(const Scatterer& scatterer, const BistaticGeometry& geometry,
                                                         std::span<const double> wavenumbers,
                                                         const TracingSettings& settings, int threads = 1,
@@ -43,7 +43,7 @@ std::vector<std::vector<std::array<Complex, 4>>> scattering_matrices(
     const TracingSettings& settings, int threads = 1, std::size_t* segments = nullptr, const StopFlag* stop = nullptr,
     const RadarRange& radar = {}, std::vector<ViewEstimate>* estimates = nullptr);
 
-// The same of the beams from the transmitters alone, reciprocal only to the accuracy of the method.
+// The same with hv and vh of one antenna as the beams have them, equal only to the accuracy of the method.
 std::vector<std::vector<std::array<Complex, 4>>> one_way_matrices(
     const Scatterer& scatterer, std::span<const BistaticGeometry> pairs, std::span<const double> wavenumbers,
     const TracingSettings& settings, int threads = 1, std::size_t* segments = nullptr, const StopFlag* stop = nullptr,

@@ -22,7 +22,7 @@ struct PointContribution {
   double psi = 0;                                // minus the two-way path, m
   PathGradient gradient;                         // d psi / d r^, body frame, m
   std::array<std::complex<float>, 4> pattern{};  // hh, hv, vh, vv
-  std::int32_t facet = -1;  // that radiates to the receiver, or of a reciprocal path to the transmitter
+  std::int32_t facet = -1;                       // that radiates to the receiver
   std::uint16_t part = 0;
   std::uint8_t bounces = 1;
   Mechanism mechanism = Mechanism::kPhysicalOptics;

@@ -71,14 +71,4 @@ ViewEstimate::Sums ViewEstimate::all() const {
   return sum;
 }
 
-ViewEstimate mean(const ViewEstimate& one, const ViewEstimate& other) {
-  ViewEstimate sum(one.wavenumber());
-  for (const ViewEstimate* path : {&one, &other}) sum.add(*path, {0.5, 0.5}, 0.5);
-  // Half of the mean square each, since both change together.
-  for (ViewEstimate::Sums& of_part : sum.parts_) {
-    for (double& power : of_part.displaced_power) power *= 2;
-  }
-  return sum;
-}
-
 }  // namespace seaglint

@@ -47,7 +47,6 @@ class ViewEstimate {
     double non_reciprocal_size = 0;           // sum of its magnitude over the beams, m
   };
   Sums all() const;
-  friend ViewEstimate mean(const ViewEstimate& one, const ViewEstimate& other);
   // Index of the part with the largest of a quantity of the sums; 0 where it is 0 for all.
   template <typename Quantity>
   std::size_t largest_part(const Quantity& quantity) const {
@@ -77,8 +76,5 @@ class ViewEstimate {
   std::vector<Sums> parts_;
   std::optional<Beam> beam_;
 };
-
-// Mean of the estimates of a path and of its reciprocal, which the same vertices change.
-ViewEstimate mean(const ViewEstimate& one, const ViewEstimate& other);
 
 }  // namespace seaglint

@@ -252,9 +252,8 @@ TEST(EdgeDiffraction, PlateIsReciprocal) {
   for (int i = 0; i < 200; ++i) {
     const RadarBasis t = any_view(), r = any_view();
     for (const bool edges : {false, true}) {
-      const std::array both{bistatic(t, r), bistatic(r, t)};
-      const auto one_way = one_way_matrices(plate, both, k, {0, 1, edges});
-      const auto &forward = one_way[0][0], &reciprocal = one_way[1][0];
+      const auto forward = scattering_matrices(plate, bistatic(t, r), k, {0, 1, edges})[0],
+                 reciprocal = scattering_matrices(plate, bistatic(r, t), k, {0, 1, edges})[0];
       double& sum = edges ? with_edges : optics;
       sum += std::norm(forward[kHhChannel] - reciprocal[kHhChannel]) +
              std::norm(forward[kVvChannel] - reciprocal[kVvChannel]) +

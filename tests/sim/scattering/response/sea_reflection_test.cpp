@@ -8,6 +8,7 @@
 #include "sim/geometry/shapes/generators.h"
 #include "sim/scattering/material/sea_water.h"
 #include "sim/scattering/response/point_response.h"
+#include "sim/scattering/response/reciprocity.h"
 #include "sim/scattering/response/scattering_matrix.h"
 #include "sim/scattering/response/sea_reflection.h"
 #include "sim/scattering/target/part_materials.h"
@@ -274,9 +275,13 @@ double error_against_independent_traces(const Scatterer& scatterer, const Trajec
       const RadarBasis &t = path.outbound_via_sea ? image : radar, &s = path.return_via_sea ? image : radar;
       const BistaticGeometry pair =
           path.outbound_via_sea == path.return_via_sea ? monostatic(in_body(t)) : bistatic(in_body(t), in_body(s));
-      independent +=
-          SeaReflection::path_factor(path, sea.at(k, r.z()), element) * std::polar(1.0, k * (t.r + s.r).dot(pose.p)) *
-          scattering_matrices(scatterer, pair, std::array{k}, {0, kDefaultBounces, SolverSpec{}.edges}, 2)[0][element];
+      // The two paths that meet the sea once are reciprocal: mean of each and of the other's transposed matrix.
+      const auto matrix_of = [&](const BistaticGeometry& of) {
+        return scattering_matrices(scatterer, of, std::array{k}, {0, kDefaultBounces, SolverSpec{}.edges}, 2)[0];
+      };
+      const auto matrix = reciprocal_mean(matrix_of(pair), matrix_of({pair.receive, pair.transmit, pair.monostatic}));
+      independent += SeaReflection::path_factor(path, sea.at(k, r.z()), element) *
+                     std::polar(1.0, k * (t.r + s.r).dot(pose.p)) * matrix[element];
     }
     error += std::norm(body.response.at(n, b) - independent);
     power += std::norm(independent);
