@@ -12,6 +12,10 @@
 namespace seaglint {
 namespace {
 
+// Largest change of psi per metre of surface, that of both paths. Where facets seen almost edge-on have normals beyond
+// the shadow boundary, or rays reach them far from the flat bundle, the quadratic exceeds it and means nothing.
+constexpr double kMaxSlope = 2;
+
 // Facets whose taper is below this at all vertices are omitted.
 constexpr double kNegligibleTaper = 2e-3;
 
@@ -127,7 +131,8 @@ class CurvedDecomposer {
       const Vec2 along = triangle[j].p - triangle[i].p;
       const double length = footprint_.surface_length(along);
       const double run_i = triangle[i].w.dot(along), run_j = triangle[j].w.dot(along);
-      const double run = std::max({std::abs(run_i), std::abs(run_j), kMaxAmplitudeError * min_slope_ * length});
+      const double steepest = std::min(std::max(std::abs(run_i), std::abs(run_j)), kMaxSlope * length);
+      const double run = std::max(steepest, kMaxAmplitudeError * min_slope_ * length);
       size = std::max(size, length);
       if (run > largest) {
         largest = run;
