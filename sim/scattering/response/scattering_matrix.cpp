@@ -108,7 +108,7 @@ Matrices scattering_matrices_over_sea(const Scatterer& scatterer, const Vec3& r_
   if (estimate) *estimate = ViewEstimate(estimates.front().wavenumber());
   Matrices sum(wavenumbers.size());
   for (std::size_t w = 0; w < paths.size(); ++w) {
-    const Matrices& exchanged = matrices[exchanged_pair(pairs, w).value_or(w)];
+    const Matrices& exchanged = matrices[exchanged_pair(pairs, w).value()];
     // Phase relative to the body's origin at (0, 0, height): e^{jk (a + b - 2 r).(0, 0, height)}.
     const double detour =
         -2 * r_hat.z() * height_m * ((paths[w].outbound_via_sea ? 1 : 0) + (paths[w].return_via_sea ? 1 : 0));
