@@ -76,7 +76,7 @@ bool is_left_out(const Scatterer& scatterer, std::size_t number) {
   return std::ranges::find(sides, static_cast<int>(number)) == sides.end();
 }
 
-// Extents of the surfaces along their principal axes, m, and the share of their facets that are curved.
+// Extents of a surface along its principal axes, m, and the numbers of its facets and of the curved ones.
 struct SurfaceShape {
   Vec3 centre = Vec3::Zero(), lower = Vec3::Zero(), upper = Vec3::Zero();
   Mat3 moment = Mat3::Zero();  // of the corners; later their principal axes

@@ -45,8 +45,8 @@ TEST(WavefrontCurvature, PlateIsTheSumOverItsCurvedWavefront) {
       const Vec3 r = direction(azimuth, 0.7);
       const Complex expected = summed_plate(length, width, r, k, range_m),
                     ours = at_range(make_plate(length, width), r, k, range_m);
-      // Frozen amplitudes of decompose() over radius / R: kMaxAmplitudeError of the strongest end point; the error of
-      // the cells is 1e-5.
+      // Frozen amplitudes of decompose() over half of the diagonal / R: kMaxAmplitudeError of the strongest end point;
+      // the error of the cells is 1e-5.
       const double size = std::abs(summed_plate(length, width, direction(0, 0.7), k, range_m));
       fmt::print("plate at {} m, {} deg: {:.4f} of the broadside echo\n", range_m, azimuth,
                  std::abs(ours - expected) / size);

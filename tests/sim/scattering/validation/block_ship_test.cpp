@@ -22,20 +22,31 @@ struct Deviation {
 
 Deviation against_integral_equations(const Scatterer& ship, double elevation_deg) {
   std::array<double, 3> error{}, power{};
+  std::array<double, 2> of_beams{};  // hv and vh of the beams
+  std::size_t count = 0;
   for (const auto& row : read_csv("block_ship.csv")) {
     if (std::stod(row[1]) != elevation_deg) continue;
-    const auto s = echo(ship, radar_basis(direction(std::stod(row[0]), elevation_deg)), 2 * kPi, 7e-5, 8, true);
+    const std::array view{monostatic(radar_basis(direction(std::stod(row[0]), elevation_deg)))};
+    const auto s = one_way_matrices(ship, view, std::array{2 * kPi}, {7e-5, 8, true})[0][0];
     const std::array<Complex, 3> ours{s[kHhChannel], 0.5 * (s[kHvChannel] + s[kVhChannel]), s[kVvChannel]};
     for (std::size_t i = 0; i < 3; ++i) {
       const Complex exact(std::stod(row[2 + 2 * i]), std::stod(row[3 + 2 * i]));
       error[i] += std::norm(ours[i] - exact);
       power[i] += std::norm(exact);
+      if (i == 1) {
+        of_beams[0] += std::norm(s[kHvChannel] - exact);
+        of_beams[1] += std::norm(s[kVhChannel] - exact);
+      }
     }
+    ++count;
   }
   const Deviation deviation{std::sqrt(error[0] / power[0]), std::sqrt(error[2] / power[2]),
                             std::sqrt(error[1] / power[0])};
   std::printf("block ship, elevation %g deg: hh %.3f, vv %.3f, hv %.3f of hh (hv itself %.3f)\n", elevation_deg,
               deviation.hh, deviation.vv, deviation.hv, std::sqrt(power[1] / power[0]));
+  const auto rms = [&](double sum) { return std::sqrt(sum / static_cast<double>(count)); };
+  std::printf("  hv of the beams %.3f, vh %.3f, their mean %.3f wavelengths\n", rms(of_beams[0]), rms(of_beams[1]),
+              rms(error[1]));
   return deviation;
 }
 
