@@ -20,6 +20,16 @@ constexpr double kAtSpecular = 1e-3, kAside = 1e-4;
 // n x (k^ x E): half of the PO current times eta, for a wave incident from vacuum.
 Vec3 half_po_current(const Vec3& n, const Vec3& k_hat, const Vec3& E) { return n.cross(k_hat.cross(E)); }
 
+// Weight 0..1 of the end-point contribution of the last reflector, for the slopes of psi per metre of the edge's face,
+// `of_face`, and of its image on that reflector, `of_last`; `across`: a metre of either, seen along the beam across the
+// edge. `of_last` is zero in the direction of the beam, as `of_face` is, and, where the edge is not parallel to the
+// reflector, in another direction on Keller's cone. In that one psi varies along the shadow-boundary line, which
+// radiates from its ends only, and beam_boundary.h leaves it there, by the slope across the line.
+double last_end_weight(double of_last, double of_face, double across) {
+  return 1 -
+         smooth_taper(std::abs(of_last) / across, kSlopeWindow) * smooth_taper(of_last / of_face, kCommonPoleWindow);
+}
+
 }  // namespace
 
 std::array<double, 2> reflected_face_weights(const WedgeFrame& wedge, const EdgeIllumination& in,
@@ -52,21 +62,24 @@ std::array<double, 4> endpoint_correction(const WedgeFace& face, const EdgeIllum
   // the lit region.
   const double cosine = n.dot(beam), lands = beam_incidence_taper(beam, s, n);
   const Vec3 shadow = face.t - face.t.dot(n) / cosine * beam, into = face.x - face.x.dot(n) / cosine * beam;
-  const double area = shadow.cross(into).norm();
+  const double area = shadow.cross(into).norm(), across = std::abs(face.n.dot(beam)) / face.t.cross(beam).norm();
   const auto about_edge = [&](const Vec3& x) { return std::atan2(face.n.dot(x), face.x.dot(x)); };
   const double off = std::remainder(about_edge(s) - about_edge(beam), 2 * kPi);
-  // Where the last reflector has no end-point contribution, that of the edge's face is used alone, away from its pole.
-  const double alone = 1 - (1 - lands) * smooth_taper(std::abs(off), kOffSpecularWindow);
   const auto add = [&](double angle, double weight) {
     const Vec3 on_cone = Eigen::AngleAxisd(angle, face.t) * beam, away = on_cone - beam;
     const auto turned = Eigen::Quaterniond::FromTwoVectors(s, on_cone);
     const std::array<Vec3, 2> received{turned * out.E_h, turned * out.E_v};
+    const double ends_there = lands * last_end_weight(away.dot(into), away.dot(face.x), across);
+    // Where the last reflector has no end-point contribution, that of the edge's face is used alone, away from its
+    // pole.
+    const double alone = 1 - (1 - ends_there) * smooth_taper(std::abs(off), kOffSpecularWindow);
     for (int t = 0; t < 2; ++t) {
       const Vec3& E = t == 0 ? in.E_h : in.E_v;
       // The integral of e^{jk away.x u} du from 0 on, times -jk / 2 pi.
       Vec3 of_face = alone / (2 * kPi * away.dot(face.x)) * half_po_current(face.n, k_hat, E), of_last = Vec3::Zero();
-      if (lands > 0)
-        of_last = lands * area / (2 * kPi * away.dot(into)) * half_po_current(n, beam, -reflect_direction(E, face.n));
+      if (ends_there > 0)
+        of_last =
+            ends_there * area / (2 * kPi * away.dot(into)) * half_po_current(n, beam, -reflect_direction(E, face.n));
       for (int r = 0; r < 2; ++r)
         ends[2 * r + t] += weight * (received[r].dot(of_face) + reflect_direction(received[r], n).dot(of_last));
     }
