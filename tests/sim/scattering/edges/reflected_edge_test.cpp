@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "sim/core/numbers/constants.h"
+#include "sim/scattering/diffraction/fade_windows.h"
 
 namespace seaglint {
 namespace {
@@ -108,6 +109,33 @@ TEST(ReflectedEdge, EqualsKellerFieldWithoutReflectedBeam) {
   const auto [hard, soft] = coefficients(edge);
   EXPECT_NEAR(std::abs(soft), std::abs(1 - 1 / std::cos(radians(50))) / (4 * kPi), 1e-9);
   EXPECT_NEAR(std::abs(hard), std::abs(1 + 1 / std::cos(radians(50))) / (4 * kPi), 1e-9);
+}
+
+// An edge askew to the reflector behind it: in a second direction on Keller's cone psi does not vary across the image
+// of the edge's face on the reflector. The end-point contributions are finite there, since that of the reflector is
+// left out, as in the direction of the beam, since the poles cancel.
+TEST(ReflectedEdge, HasNoPoleAskewToTheReflector) {
+  const Vec3 k_hat(0.6338, -0.7686, -0.0872),
+      n = Vec3(-0.9415, -0.2414, -0.2354).normalized(),
+      t = (Vec3(0, -0.6981, 0.7160) - n.dot(Vec3(0, -0.6981, 0.7160)) * n).normalized(), x = n.cross(t);
+  const WedgeFace face{x, n, t};  // t = x cross n
+  EdgeIllumination in, out;
+  in.direction = k_hat.normalized();
+  in.E_h = in.direction.unitOrthogonal();
+  in.E_v = in.direction.cross(in.E_h);
+  out.reflections = 1;
+  out.first_reflector_normal = Vec3::UnitZ();
+  const Vec3 beam = in.direction - 2 * n.dot(in.direction) * n;
+  double largest = 0;
+  for (double off = -0.9; off <= 0.3; off += 1e-4) {
+    out.direction = -(Eigen::AngleAxisd(off, t) * beam);
+    out.E_h = out.direction.unitOrthogonal();
+    out.E_v = out.direction.cross(out.E_h);
+    for (const double end : endpoint_correction(face, in, out)) largest = std::max(largest, std::abs(end));
+  }
+  EXPECT_GT(largest, 0.1);
+  // 1 / (2 pi) over the least slope of psi and the sine of the grazing angle at the reflector.
+  EXPECT_LT(largest, 1 / (2 * kPi * kSlopeWindow[1] * std::abs(beam.z())));
 }
 
 TEST(ReflectedEdge, WeightsVanishWhereNotSeparableFromTheBeam) {
