@@ -162,7 +162,7 @@ TEST_F(DataSetUse, IsNotExportedAmongFilesOfAnother) {
   EXPECT_EQ(read_file(out / "shard_00000.npz"), before);
   // An interrupted export of the same data set is continued.
   fs::remove(out / "shard_00000.npz");
-  write_file(out / "shard_00000.npz.elsewhere-12.tmp", "half");
+  write_file(out / "shard_00000.npz.0123456789abcdef.tmp", "half");
   EXPECT_EQ(run_program({"export", other, "-o", out}).code, 0);
   EXPECT_EQ(read_file(out / "shard_00000.npz"), before);
   write_file(out / "notes.txt", "mine");

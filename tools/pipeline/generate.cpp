@@ -51,7 +51,8 @@ GenerateResult generate_dataset(const Pipeline& pipeline, const std::filesystem:
   std::map<std::size_t, OpenShard> open;
   const std::size_t shards = plan.shards(), parts = static_cast<std::size_t>(options.parts),
                     part = static_cast<std::size_t>(options.part);
-  for (std::size_t shard = (part - 1) * shards / parts; shard < part * shards / parts; ++shard) {
+  const std::size_t first = (part - 1) * shards / parts, end = part * shards / parts;
+  for (std::size_t shard = first; shard < end; ++shard) {
     const ShardRange range = plan.shard(shard);
     if (writer.complete(shard)) {
       result.kept += range.count;
@@ -92,7 +93,14 @@ GenerateResult generate_dataset(const Pipeline& pipeline, const std::filesystem:
     throw;
   }
   result.made = work.size();
-  result.missing = writer.finish().size();
+  const std::vector<std::size_t> missing = writer.finish();
+  for (const std::size_t shard : missing) {
+    if (shard < first || shard >= end) continue;
+    throw WorkError(
+        fmt::format("{}: was written and is now missing or damaged; go on by the same command with --resume",
+                    (directory / shard_name(shard)).string()));
+  }
+  result.missing = missing.size();
   return result;
 }
 

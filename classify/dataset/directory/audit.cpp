@@ -20,6 +20,7 @@
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/core/process/progress.h"
+#include "sim/core/process/temporary_file.h"
 
 namespace seaglint {
 
@@ -60,7 +61,7 @@ class Auditor {
     for (std::size_t i = manifest.shards.size(); i < plan_.shards(); ++i) fault(shard_name(i), "not in the manifest");
     for (const auto& entry : fs::directory_iterator(reader_.directory())) {
       const std::string name = entry.path().filename();
-      if (is_stale(entry.path())) fault(name, "half-written; a resumed `generate` removes it");
+      if (is_temporary(name) && is_leftover(entry.path())) fault(name, "half-written; a resumed `generate` removes it");
       if (!is_dataset_file(name)) fault(name, "is no file of a data set");
       if (!name.ends_with(".h5") || listed.contains(name)) continue;
       if (is_merged(entry.path())) {

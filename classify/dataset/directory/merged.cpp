@@ -141,7 +141,7 @@ void write_merged(const DatasetReader& reader, const fs::path& temporary, const 
   };
   write_axis(kRangeAxis, axes.range_m);
   write_axis(kVelocityAxis, axes.velocity_mps);
-  const Hdf5Reader first(reader.directory() / manifest.shards.front().file);
+  const Hdf5Reader first(load_shard(reader.directory() / manifest.shards.front().file).image);
   const std::vector<VirtualSource> sources = shard_sources(reader, file);
   for (const auto& [array, element] : kVirtual) {
     if (!first.has(array.path)) continue;
@@ -201,7 +201,7 @@ MergedFileVerifier::MergedFileVerifier(fs::path file, const DatasetReader& reade
           fmt::format("format \"{}\"; this program reads \"{}\"; merge again", content_->attribute("format"), kFormat));
     if (content_->attribute("manifest_sha256") != sha256_file(reader.directory() / kManifestFile))
       throw WorkError("is of another manifest; merge again");
-    const Hdf5Reader first(reader.directory() / reader.manifest().shards.front().file);
+    const Hdf5Reader first(load_shard(reader.directory() / reader.manifest().shards.front().file).image);
     const std::vector<VirtualSource> sources = shard_sources(reader, file_);
     for (const Virtual& expected : kVirtual) {
       const char* path = expected.array.path;
@@ -209,7 +209,7 @@ MergedFileVerifier::MergedFileVerifier(fs::path file, const DatasetReader& reade
       if (!first.has(path)) continue;
       Dimensions whole = first.size(path);
       whole[0] = reader.size();
-      if (content_->size(path) != whole || content_->sources(path) != sources)
+      if (content_->sources(path) != sources || content_->size(path) != whole)
         throw WorkError(fmt::format("{} does not take its rows from the shards", path));
     }
   } catch (const WorkError& error) {

@@ -10,6 +10,7 @@
 #include "classify/dataset/directory/dataset_reader.h"
 #include "classify/dataset/format/checksum.h"
 #include "sim/core/process/file.h"
+#include "sim/core/process/temporary_file.h"
 #include "tests/classify/dataset/data_directory.h"
 
 namespace seaglint {
@@ -110,8 +111,8 @@ TEST_F(DataSetAudit, ReportsASeaInTwoGroups) {
 }
 
 TEST_F(DataSetAudit, ReportsDamagedTruncatedAndForeignFiles) {
-  write_file(directory_ / temporary_name("shard_00007.h5", dead_process()), "half");
-  write_file(directory_ / temporary_name("dataset.h5", ::getpid()), "being written");
+  write_file(directory_ / leftover_name("shard_00007.h5"), "half");
+  const TemporaryFile being_written(directory_ / "dataset.h5");
   write_file(directory_ / "notes.tmp", "no file of a data set");
   write_file(directory_ / "other.h5", "foreign");
   std::string bytes = read_file(directory_ / shard_name(1));
