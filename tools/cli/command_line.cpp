@@ -15,6 +15,7 @@
 
 #include "seaglint_version.h"
 #include "sim/core/process/error.h"
+#include "sim/core/process/printable.h"
 #include "sim/core/process/standard_error.h"
 #include "tools/cli/command.h"
 

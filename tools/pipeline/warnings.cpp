@@ -7,6 +7,7 @@
 
 #include "radar/waveform/figures_of_merit.h"
 #include "radar/waveform/pulse_train.h"
+#include "sim/core/process/printable.h"
 #include "sim/core/process/standard_error.h"
 #include "sim/sea/realisation.h"
 #include "tools/pipeline/pipeline.h"
