@@ -9,6 +9,7 @@
 #include "sim/core/process/standard_output.h"
 #include "tools/cli/arguments.h"
 #include "tools/cli/command.h"
+#include "tools/pipeline/warnings.h"
 
 namespace seaglint {
 
@@ -18,6 +19,7 @@ namespace fs = std::filesystem;
 
 void export_dataset(const std::string& directory, const fs::path& output, const StopFlag& stop) {
   const DatasetReader reader(find_data_set(directory));
+  warn(data_set_warnings(reader));
   if (output.extension() == ".npz") {
     export_shards(reader, 0, reader.shards(), output, &stop);
     print_out("{}: {} samples\n", output.string(), reader.size());

@@ -13,6 +13,7 @@
 #include "tools/cli/arguments.h"
 #include "tools/cli/command.h"
 #include "tools/pipeline/regenerate.h"
+#include "tools/pipeline/warnings.h"
 
 namespace seaglint {
 
@@ -56,6 +57,7 @@ std::vector<NpzArray> arrays_of(const Sample& sample, const StoredAxes& axes) {
 void regenerate_sample(const Arguments& arguments) {
   require_npz(arguments.output);
   const DatasetReader reader(find_data_set(arguments.directory));
+  warn(data_set_warnings(reader));
   if (arguments.sample >= reader.size())
     throw InputError(fmt::format("--sample {}: the data set has samples 0 to {}", arguments.sample, reader.size() - 1));
   const StoredSample stored = stored_sample(reader, arguments.sample);

@@ -192,6 +192,18 @@ bool is_merged(const fs::path& file) {
   }
 }
 
+std::optional<std::string> merged_file_of_another_manifest(const DatasetReader& reader) {
+  const fs::path file = reader.directory() / kMergedFile;
+  if (!fs::is_regular_file(file) || !is_merged(file)) return std::nullopt;
+  try {
+    if (Hdf5Reader(file).attribute("manifest_sha256") == sha256_file(reader.directory() / kManifestFile))
+      return std::nullopt;
+  } catch (const WorkError& error) {
+    return fmt::format("{}: {}; merge again", file.string(), error.what());
+  }
+  return fmt::format("{}: is of another manifest than the shards beside it; merge again or remove it", file.string());
+}
+
 MergedFileVerifier::MergedFileVerifier(fs::path file, const DatasetReader& reader)
     : file_(std::move(file)), reader_(&reader) {
   try {
