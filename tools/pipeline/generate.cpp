@@ -3,12 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <mutex>
 #include <vector>
 
 #include "classify/dataset/directory/dataset_writer.h"
 #include "seaglint_version.h"
+#include "sim/core/process/address_space.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/progress.h"
 #include "tools/pipeline/map_coverage.h"
@@ -33,6 +35,8 @@ GenerateResult generate_dataset(const Scenario& scenario, const std::filesystem:
 
 GenerateResult generate_dataset(const Pipeline& pipeline, const std::filesystem::path& directory,
                                 const GenerateOptions& options, const StopFlag* stop) {
+  // FFTW ends the process when it has no memory.
+  require_address_space(std::size_t{32} * (2 + std::min(thread_count(options.threads), 8)) << 20, "making maps");
   const Scenario& scenario = pipeline.scenario();
   const SamplePlan& plan = pipeline.plan();
   warn(mesh_warnings(pipeline));
