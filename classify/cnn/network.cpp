@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <new>
 #include <numeric>
 #include <string>
 
@@ -55,6 +56,13 @@ struct Plane : torch::nn::Module {
   torch::nn::Linear dense, last;
 };
 
+// An error of the library without its call stack; one of memory as std::bad_alloc.
+[[noreturn]] void fail(const c10::Error& error) {
+  const std::string reason = error.what_without_backtrace();
+  if (reason.find("allocate memory") != std::string::npos) throw std::bad_alloc();
+  throw WorkError("network: " + reason);
+}
+
 void make_deterministic(int threads) {
   at::set_num_threads(threads);
   at::globalContext().setDeterministicAlgorithms(true, false);
@@ -97,7 +105,7 @@ struct Network::Layers {
 };
 
 Network Network::train(std::span<const float> inputs, std::span<const std::size_t> rows, std::span<const int> labels,
-                       const LearningSpec& spec, std::uint64_t seed, std::uint64_t index, const StopFlag* stop) {
+                       const LearningSpec& spec, std::uint64_t seed, std::uint64_t index, const StopFlag* stop) try {
   SEAGLINT_CHECK(!rows.empty() && inputs.size() == labels.size() * kInputCells,
                  fmt::format("{} rows, {} labels, {} values", rows.size(), labels.size(), inputs.size()));
   make_deterministic(spec.threads);
@@ -129,9 +137,11 @@ Network Network::train(std::span<const float> inputs, std::span<const std::size_
     layers->losses.push_back(sum / static_cast<double>(order.size()));
   }
   return Network(std::move(layers));
+} catch (const c10::Error& error) {
+  fail(error);
 }
 
-Embeddings Network::embed(std::span<const float> inputs) const {
+Embeddings Network::embed(std::span<const float> inputs) const try {
   constexpr std::size_t kBatch = 64;
   make_deterministic(layers_->threads);
   torch::NoGradGuard no_gradient;
@@ -148,6 +158,8 @@ Embeddings Network::embed(std::span<const float> inputs) const {
     result.logits.insert(result.logits.end(), logits.data_ptr<float>(), logits.data_ptr<float>() + logits.numel());
   }
   return result;
+} catch (const c10::Error& error) {
+  fail(error);
 }
 
 std::size_t Network::parameter_count() const {

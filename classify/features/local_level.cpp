@@ -66,7 +66,8 @@ double log_exceedance(double x, double shape) {
   const double step = 0.1;
   double sum = 0;
   for (double s = -6; s <= 5; s += step) sum += std::exp(shape * s - shape * std::exp(s) - x * std::exp(-s));
-  return shape * std::log(shape) - std::lgamma(shape) + std::log(step * sum);
+  int sign = 1;  // std::lgamma would write it to a global, from several threads
+  return shape * std::log(shape) - ::lgamma_r(shape, &sign) + std::log(step * sum);
 }
 
 }  // namespace

@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "classify/cnn/network_input.h"
+#include "classify/dataset/format/sample_faults.h"
 #include "sim/core/process/error.h"
 
 namespace seaglint {
@@ -141,19 +141,19 @@ LearningTable load_learning_table(const DatasetReader& data, const LearningSpec&
     if (use) use(shard);
     for (const Sample& sample : shard.samples) {
       const SampleRecord& record = sample.record;
-      const std::array<double, 6> numbers{record.mwr,         record.ccf,    record.sigma_r_m,
-                                          record.sigma_v_mps, record.peak_m, record.energy_m2};
-      const bool finite = std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
-      if (!finite || (record.label != 0 && record.label != 1)) {
+      std::vector<std::string> faults = sample_faults(sample);
+      if (record.label != 0 && record.label != 1) faults.push_back("label is neither 0 nor 1");
+      if (!faults.empty()) {
         throw InputError(fmt::format("{}: sample {}: {}", (data.directory() / data.manifest().shards[i].file).string(),
-                                     record.sample, finite ? "label is neither 0 nor 1" : "a feature is not finite"));
+                                     record.sample, faults.front()));
       }
       table.groups.push_back({record.group, record.sea_state});
       table.samples.push_back(record.sample);
       table.labels.push_back(static_cast<int>(record.label));
       table.wave_heights_m.push_back(record.significant_wave_height_m);
       table.azimuths_deg.push_back(record.azimuth_deg);
-      for (std::size_t k = 0; k < 4; ++k) table.handmade.values.push_back(static_cast<float>(numbers[k]));
+      for (const double feature : {record.mwr, record.ccf, record.sigma_r_m, record.sigma_v_mps})
+        table.handmade.values.push_back(static_cast<float>(feature));
       table.degenerate += record.degenerate != 0 ? 1 : 0;
       const std::vector<float> input =
           network_input(sample.magnitude, shard.axes.velocity_mps.size(), shard.axes.range_m.size(), spec.map_floor_db);

@@ -47,8 +47,8 @@ struct LearningTable {
   std::size_t rows() const { return labels.size(); }
 };
 
-// Reads every shard once and passes it to `use` if given. Throws InputError when a shard is invalid, a feature is not
-// finite, or there are not two classes.
+// Reads every shard once and passes it to `use` if given. Throws InputError when a shard is invalid, a sample has a
+// fault (classify/dataset/format/sample_faults.h; with its number), or there are not two classes.
 LearningTable load_learning_table(const DatasetReader& data, const LearningSpec& spec, const StopFlag* stop = nullptr,
                                   const std::function<void(const Shard&)>& use = {});
 

@@ -162,7 +162,7 @@ TEST_F(DataSetUse, IsNotExportedAmongFilesOfAnother) {
   EXPECT_EQ(read_file(out / "shard_00000.npz"), before);
   // An interrupted export of the same data set is continued.
   fs::remove(out / "shard_00000.npz");
-  write_file(out / "shard_00000.npz.elsewhere-12.tmp", "half");
+  write_file(out / "shard_00000.npz.0123456789abcdef.tmp", "half");
   EXPECT_EQ(run_program({"export", other, "-o", out}).code, 0);
   EXPECT_EQ(read_file(out / "shard_00000.npz"), before);
   write_file(out / "notes.txt", "mine");
@@ -199,6 +199,33 @@ TEST_F(DataSetUse, ReportsWhereItCannotBeWritten) {
     EXPECT_THAT(result.err, HasSubstr("seaglint: /proc/x")) << words[0];
     EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
   }
+}
+
+// HDF5 would pair the labels of one data set with the maps of another, beside the file or in the working directory.
+TEST_F(DataSetUse, NamesAMergedFileOfAnotherDataSet) {
+  const fs::path other = folder_->path() / "another_set";
+  ASSERT_EQ(run_program({"generate", "scenarios/points.yaml", "--set", "seed=7", "--set", "dataset.maps_per_case=2",
+                         "--set", "dataset.realisations_per_case=1", "-o", other})
+                .code,
+            0);
+  fs::copy(data_ / "dataset.h5", other / "dataset.h5");
+  const std::string sentence = (other / "dataset.h5").string() + ": is of another manifest";
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"export", other, "-o", folder_->path() / "another_set.npz"},
+        {"regenerate", other, "--sample", "0"},
+        {"verify", other, "--regenerate", "0"}}) {
+    const ProgramResult result = run_program(words);
+    EXPECT_EQ(result.code, words[0] == "verify" ? 2 : 0) << words[0];
+    EXPECT_THAT(result.err, HasSubstr("is of another manifest")) << words[0];
+  }
+  SKIP_WITHOUT_PYTHON();
+  const std::string example = SEAGLINT_SOURCE_DIR "/tools/python/read_dataset.py";
+  EXPECT_THAT(run_words({kPython, example, other / "dataset.h5"}).err, HasSubstr(sentence));
+  const fs::path alone = folder_->path() / "alone";
+  fs::create_directories(alone);
+  fs::copy(data_ / "dataset.h5", alone / "dataset.h5");
+  EXPECT_THAT(run_words({"/usr/bin/env", "--chdir=" + other.string(), kPython, example, alone / "dataset.h5"}).err,
+              HasSubstr("manifest.json: missing"));
 }
 
 TEST_F(DataSetUse, IsReadByThePythonExample) {

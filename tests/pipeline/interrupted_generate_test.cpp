@@ -184,6 +184,32 @@ TEST(InterruptedGenerate, WritesTheSameBytesInTwoConcurrentProcesses) {
   }
 }
 
+// Containers often have one host name, and their program the process number 1.
+TEST(InterruptedGenerate, WritesTheSameBytesInTwoContainersWithOneProcessNumber) {
+  const Words container{"/usr/bin/unshare", "--pid", "--fork"};
+  Words probe = container;
+  probe.push_back("/bin/true");
+  if (run_words(probe).code != 0) GTEST_SKIP() << "no process namespaces (needs root)";
+  for (int round = 0; round < 8; ++round) {
+    const TemporaryFolder folder;
+    const fs::path data = folder.path() / "data";
+    std::vector<ProgramResult> results(2);
+    {
+      std::vector<std::jthread> processes;
+      for (ProgramResult& result : results) {
+        processes.emplace_back([&] {
+          Words words = container;
+          const Words command = generate(data, {"--resume", "--threads", "1"});
+          words.insert(words.end(), command.begin(), command.end());
+          result = run_words(words);
+        });
+      }
+    }
+    for (const ProgramResult& result : results) EXPECT_EQ(result.code, 0) << result.err;
+    EXPECT_THAT(differences(data), IsEmpty());
+  }
+}
+
 void expect_one_line(const ProgramResult& result, const std::string& message) {
   EXPECT_EQ(result.code, 1) << result.err;
   EXPECT_THAT(result.err, HasSubstr(message));

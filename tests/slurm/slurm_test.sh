@@ -135,6 +135,8 @@ setpriv --pdeathsig=KILL tools/slurm "${scenario[@]}" -o "$work/data" --parts 6 
 waiting=$!
 daemons+=("$waiting")
 until_true 30 running_on_node_2
+# Whoever may write beside the data set must not run commands in the jobs to come.
+echo "touch $work/executed" >>"$work/data.slurm/run"
 sleep 1
 echo "== killing node n2 with the processes of its job"
 squeue
@@ -151,6 +153,7 @@ echo "== output of the last job"
 cat "$work/data.slurm/finish.log"
 [[ -e $work/failed_once ]] || fail "no task failed"
 grep -hq "restart 1" "$work"/data.slurm/part-*.log || fail "no part was requeued after its node was killed"
+[[ ! -e $work/executed ]] || fail "a file beside the data set was executed"
 for shard in "$work"/single/*; do cmp "$shard" "$work/data/$(basename "$shard")" || fail "not as in the single run"; done
 [[ $(ls "$work/data" | wc -l) -eq $(($(ls "$work/single" | wc -l) + 1)) ]] || fail "more files than the single run's and dataset.h5"
 "$program" verify "$work/data"

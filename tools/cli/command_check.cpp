@@ -7,6 +7,7 @@
 #include "radar/waveform/figures_of_merit.h"
 #include "radar/waveform/pulse_train.h"
 #include "sim/core/process/standard_error.h"
+#include "sim/core/process/standard_output.h"
 #include "sim/scenario/writer.h"
 #include "tools/cli/arguments.h"
 #include "tools/cli/command.h"
@@ -37,7 +38,7 @@ void add_check(CommandOptions& program, CommandContext& context) {
       const Scenario scenario = arguments->read();
       const Pipeline pipeline(scenario);  // reads every file that the scenario names
       const PulseTrain train = make_pulse_train(scenario.radar, pipeline.window_m(), scenario.seed, 0);
-      fmt::print("{}", effective_yaml(scenario));
+      print_out("{}", effective_yaml(scenario));
       std::fflush(stdout);
       print_error(summary(scenario, pipeline.plan()) + figures_of_merit_text(train, scenario.radar));
       warn(mesh_warnings(pipeline));

@@ -8,6 +8,7 @@
 #include "classify/dataset/format/npz.h"
 #include "seaglint_version.h"
 #include "sim/core/process/error.h"
+#include "sim/core/process/standard_output.h"
 #include "sim/scenario/sample_plan.h"
 #include "sim/scenario/writer.h"
 #include "tools/cli/arguments.h"
@@ -68,8 +69,8 @@ void write_echo(const Arguments& arguments) {
       {"hop_code", "carrier number of each pulse"}};
   write_npz(arguments.output, arrays,
             {{"description.json", description.dump(2) + "\n"}, {"scenario.yaml", effective_yaml(scenario)}});
-  fmt::print("{}: {} pulses of {} samples at {:g} MHz\n", arguments.output, interval.target.pulses,
-             interval.target.samples(), interval.target.sampling_hz * 1e-6);
+  print_out("{}: {} pulses of {} samples at {:g} MHz\n", arguments.output, interval.target.pulses,
+            interval.target.samples(), interval.target.sampling_hz * 1e-6);
 }
 
 }  // namespace

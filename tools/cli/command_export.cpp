@@ -6,8 +6,10 @@
 #include "classify/dataset/directory/export.h"
 #include "sim/core/process/file.h"
 #include "sim/core/process/progress.h"
+#include "sim/core/process/standard_output.h"
 #include "tools/cli/arguments.h"
 #include "tools/cli/command.h"
+#include "tools/pipeline/warnings.h"
 
 namespace seaglint {
 
@@ -17,9 +19,10 @@ namespace fs = std::filesystem;
 
 void export_dataset(const std::string& directory, const fs::path& output, const StopFlag& stop) {
   const DatasetReader reader(find_data_set(directory));
+  warn(data_set_warnings(reader));
   if (output.extension() == ".npz") {
     export_shards(reader, 0, reader.shards(), output, &stop);
-    fmt::print("{}: {} samples\n", output.string(), reader.size());
+    print_out("{}: {} samples\n", output.string(), reader.size());
     return;
   }
   require_export_directory(reader, output);
@@ -30,7 +33,7 @@ void export_dataset(const std::string& directory, const fs::path& output, const 
     export_shards(reader, i, 1, output / name, &stop);
     progress.advance();
   }
-  fmt::print("{}: {} samples in {} files\n", output.string(), reader.size(), reader.shards());
+  print_out("{}: {} samples in {} files\n", output.string(), reader.size(), reader.shards());
 }
 
 }  // namespace

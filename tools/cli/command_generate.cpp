@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "sim/core/process/error.h"
+#include "sim/core/process/standard_output.h"
 #include "tools/cli/arguments.h"
 #include "tools/cli/command.h"
 #include "tools/pipeline/generate.h"
@@ -53,10 +54,10 @@ void generate(const Arguments& arguments, const CommandContext& context) {
                                 arguments.directory));
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  fmt::print("{}: {} maps made in {:.1f} s, {} kept\n", arguments.directory, result.made, seconds, result.kept);
+  print_out("{}: {} maps made in {:.1f} s, {} kept\n", arguments.directory, result.made, seconds, result.kept);
   if (result.missing > 0)
-    fmt::print("{} shards of other parts are still missing or damaged; the last part writes the manifest\n",
-               result.missing);
+    print_out("{} shards of other parts are still missing or damaged; the last part writes the manifest\n",
+              result.missing);
 }
 
 }  // namespace

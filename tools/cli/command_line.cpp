@@ -15,6 +15,7 @@
 
 #include "seaglint_version.h"
 #include "sim/core/process/error.h"
+#include "sim/core/process/printable.h"
 #include "sim/core/process/standard_error.h"
 #include "tools/cli/command.h"
 
@@ -88,10 +89,7 @@ int run(CommandContext& context) {
   }
 }
 
-}  // namespace
-
-int run_command_line(int argc, char** argv) {
-  reserve_standard_streams();
+int parse_and_run(int argc, char** argv) {
   CommandContext context;
   ProgramOptions program(
       "seaglint",
@@ -110,6 +108,17 @@ int run_command_line(int argc, char** argv) {
   survive_file_size_limit();
   if (!context.uninterruptible) handle_signals(context);
   return run(context);
+}
+
+}  // namespace
+
+int run_command_line(int argc, char** argv) {
+  reserve_standard_streams();
+  try {
+    return parse_and_run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    return fail(1, "out of memory");
+  }
 }
 
 }  // namespace seaglint

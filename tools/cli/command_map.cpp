@@ -10,6 +10,7 @@
 #include "classify/features/scattering_centres.h"
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
+#include "sim/core/process/standard_output.h"
 #include "sim/scenario/sample_plan.h"
 #include "tools/cli/arguments.h"
 #include "tools/cli/command.h"
@@ -25,19 +26,18 @@ namespace {
 
 void print_result(const ReceivedInterval& received, const std::vector<ScatteringCentre>& centres,
                   const FeatureVector& features) {
-  fmt::print("  range_m  velocity_mps  amplitude_m\n");
+  print_out("  range_m  velocity_mps  amplitude_m\n");
   for (const ScatteringCentre& c : centres)
-    fmt::print("{:9.3f} {:13.4f} {:12.4g}\n", c.range_m, c.velocity_mps, c.amplitude_m);
-  fmt::print("centres {}{}, MWR {:.4g} (m/s)^2, CCF {:.4g}, sigma_r {:.4g} m, sigma_v {:.4g} m/s\n", features.centres,
-             features.degenerate ? " (too few to say much)" : "", features.mwr, features.ccf, features.sigma_r,
-             features.sigma_v);
+    print_out("{:9.3f} {:13.4f} {:12.4g}\n", c.range_m, c.velocity_mps, c.amplitude_m);
+  print_out("centres {}{}, MWR {:.4g} (m/s)^2, CCF {:.4g}, sigma_r {:.4g} m, sigma_v {:.4g} m/s\n", features.centres,
+            features.degenerate ? " (too few to say much)" : "", features.mwr, features.ccf, features.sigma_r,
+            features.sigma_v);
   if (!std::isnan(received.scr.per_pulse_db)) {
-    fmt::print("SCR per pulse {:.2f} dB, peak cell {:.2f} dB, extent {:.2f} dB\n", received.scr.per_pulse_db,
-               received.scr.peak_cell_db, received.scr.scr_extent_db);
+    print_out("SCR per pulse {:.2f} dB, peak cell {:.2f} dB, extent {:.2f} dB\n", received.scr.per_pulse_db,
+              received.scr.peak_cell_db, received.scr.scr_extent_db);
   }
-  if (!std::isnan(received.scr.snr_per_pulse_db))
-    fmt::print("SNR per pulse {:.2f} dB\n", received.scr.snr_per_pulse_db);
-  if (received.map.unused_carriers > 0) fmt::print("carriers without a pulse: {}\n", received.map.unused_carriers);
+  if (!std::isnan(received.scr.snr_per_pulse_db)) print_out("SNR per pulse {:.2f} dB\n", received.scr.snr_per_pulse_db);
+  if (received.map.unused_carriers > 0) print_out("carriers without a pulse: {}\n", received.map.unused_carriers);
 }
 
 struct Arguments : ScenarioArguments {

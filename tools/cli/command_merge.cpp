@@ -5,6 +5,7 @@
 
 #include "classify/dataset/directory/merged.h"
 #include "seaglint_version.h"
+#include "sim/core/process/standard_output.h"
 #include "tools/cli/arguments.h"
 #include "tools/cli/command.h"
 
@@ -27,8 +28,8 @@ void add_merge(CommandOptions& program, CommandContext& context) {
       std::filesystem::path file = arguments->file;
       if (file.empty()) file = directory / kMergedFile;
       const Merged merged = merge_dataset(directory, file, kVersion, &context.stop);
-      if (merged.wrote_manifest) fmt::print("{}: all shards were there; manifest.json written\n", directory.string());
-      fmt::print("{}: {} samples of {} shards\n", file.string(), merged.samples, merged.shards);
+      if (merged.wrote_manifest) print_out("{}: all shards were there; manifest.json written\n", directory.string());
+      print_out("{}: {} samples of {} shards\n", file.string(), merged.samples, merged.shards);
     };
   });
 }

@@ -6,6 +6,7 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
+#include "sim/core/process/standard_output.h"
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/mesh/mesh_diagnostics.h"
 #include "sim/geometry/mesh/topology.h"
@@ -94,7 +95,7 @@ CommandOptions add_kind(CommandOptions& make, CommandContext& context, const cha
     context.work = [output, maker] {
       const TriangleMesh mesh = maker();
       write_mesh(*output, mesh);
-      fmt::print("{}\n{}{}", *output, size_line(mesh), counts_line(mesh));
+      print_out("{}\n{}{}", *output, size_line(mesh), counts_line(mesh));
     };
   });
   return kind;
@@ -187,9 +188,9 @@ void print_info(const InfoArguments& arguments) {
   const TriangleMesh mesh = read_mesh(arguments.file, arguments.unit);
   const Topology topology = topology_of(mesh);
   if (!arguments.picture.empty()) write_file(arguments.picture, png_bytes(picture_of(mesh, arguments.view)));
-  fmt::print("{}\n{}{}{}{}{}", arguments.file, size_line(mesh), counts_line(mesh), part_lines(mesh, topology),
-             material_lines(mesh), topology_lines(mesh, topology, arguments.wedge_deg));
-  for (const std::string& finding : diagnostic_messages(diagnose(mesh))) fmt::print("finding    {}\n", finding);
+  print_out("{}\n{}{}{}{}{}", arguments.file, size_line(mesh), counts_line(mesh), part_lines(mesh, topology),
+            material_lines(mesh), topology_lines(mesh, topology, arguments.wedge_deg));
+  for (const std::string& finding : diagnostic_messages(diagnose(mesh))) print_out("finding    {}\n", finding);
 }
 
 void add_info(CommandOptions& mesh, CommandContext& context) {
@@ -239,7 +240,7 @@ void add_sensitivity(CommandOptions& mesh, CommandContext& context) {
       const MeshSensitivity sensitivity =
           mesh_sensitivity(arguments->make_request(), 1e-6 * *noise_um, context.threads, &context.stop);
       warn(sensitivity.warnings);
-      fmt::print("{}", sensitivity_table(sensitivity));
+      print_out("{}", sensitivity_table(sensitivity));
     };
   });
 }

@@ -10,6 +10,8 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
+#include "sim/core/process/printable.h"
+#include "sim/core/process/standard_output.h"
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/motion/ship/ship_particulars.h"
 #include "sim/motion/target_motion.h"
@@ -79,8 +81,8 @@ std::string coverage(const MovingScene& scene) {
   std::string text;
   for (const Body& body : scene.targets) {
     if (const auto* table = std::get_if<RaoTable>(&body.model)) {
-      text += fmt::format("# {}: {:.3g} % of the waves' variance lies outside of its frequencies\n", table->source(),
-                          100 * table->uncovered_variance_fraction(scene.sea));
+      text += fmt::format("# {}: {:.3g} % of the waves' variance lies outside of its frequencies\n",
+                          on_one_line(table->source()), 100 * table->uncovered_variance_fraction(scene.sea));
     }
   }
   return text;
@@ -125,7 +127,7 @@ void write_motion(const MotionArguments& arguments, const CommandContext& contex
   std::string text;
   auto out = std::back_inserter(text);
   fmt::format_to(out, "# seaglint {} motion, scenario {}, seed {}, sea state 0, realisation 0\n", kVersion,
-                 scenario.name, scenario.seed);
+                 on_one_line(scenario.name), scenario.seed);
   fmt::format_to(out, "# significant_wave_height_m {}, peak_period_s {}, gamma {}, propagation_deg {:.10g}, order {}\n",
                  state.significant_wave_height_m, state.peak_period_s, state.gamma, degrees(state.propagation_rad),
                  state.order);
@@ -145,7 +147,7 @@ void write_motion(const MotionArguments& arguments, const CommandContext& contex
   write_pictures(arguments, scenario, scene);
   if (!arguments.spectrum.empty()) write_file(arguments.spectrum, spectrum_csv(bodies, arguments.duration_s));
   write_file(arguments.output, text);
-  fmt::print("{}", motion_statistics(bodies, arguments.duration_s));
+  print_out("{}", motion_statistics(bodies, arguments.duration_s));
 }
 
 }  // namespace

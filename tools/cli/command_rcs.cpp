@@ -10,6 +10,7 @@
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/core/process/standard_error.h"
+#include "sim/core/process/standard_output.h"
 #include "sim/geometry/files/mesh_io.h"
 #include "tools/cli/arguments.h"
 #include "tools/cli/command.h"
@@ -51,9 +52,9 @@ void show_figure(const RcsArguments& arguments, const std::vector<PairedCut>& cu
       fmt::format("{}, seaglint {}", std::filesystem::path(arguments.target).filename().string(), kVersion);
   if (cuts.empty() ? draw_uncertainty(sweep, title, figure)
                    : draw_comparison(cuts, arguments.reference.floor_db, title, figure)) {
-    fmt::print("Figure: {}\n", figure.string());
+    print_out("Figure: {}\n", figure.string());
   } else {
-    fmt::print("No figure: it needs a cut along azimuth, elevation or frequency of two points or more\n");
+    print_out("No figure: it needs a cut along azimuth, elevation or frequency of two points or more\n");
   }
 }
 
@@ -106,9 +107,9 @@ void run_rcs(const RcsArguments& arguments, const CommandContext& context) {
   print_error(fmt::format("{}: {} rows, {} views in {:.2f} s ({:.3g} views/s, {:.2f} M beam segments, {:.2f} M/s)\n",
                           arguments.output, sweep.rows(), sweep.views(), seconds, views / seconds, million_segments,
                           million_segments / seconds));
-  if (request.exports.wanted()) fmt::print("{}", export_view(request, target, result.contributions));
+  if (request.exports.wanted()) print_out("{}", export_view(request, target, result.contributions));
   for (PairedCut& cut : cuts) set_models(cut, sweep);
-  if (!cuts.empty()) fmt::print("{}", error_table(cuts, arguments.reference.floor_db));
+  if (!cuts.empty()) print_out("{}", error_table(cuts, arguments.reference.floor_db));
   if (!cuts.empty() || request.uncertainty) show_figure(arguments, cuts, sweep);
 }
 

@@ -6,6 +6,7 @@
 
 #include "classify/dataset/directory/dataset_writer.h"
 #include "sim/core/process/error.h"
+#include "sim/core/process/standard_output.h"
 #include "sim/core/text/text_difference.h"
 #include "sim/scenario/writer.h"
 #include "tools/cli/arguments.h"
@@ -52,7 +53,7 @@ void add_report(CommandOptions& program, CommandContext& context) {
     context.work = [directory, &context] {
       const std::filesystem::path run = *directory;
       write_report(run, read_own_scenario(run), context.threads, &context.stop);
-      fmt::print("Report: {}\n", (run / kReportFile).string());
+      print_out("Report: {}\n", (run / kReportFile).string());
     };
   });
 }

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "sim/core/process/error.h"
+#include "sim/core/process/standard_output.h"
 #include "tools/cli/arguments.h"
 #include "tools/cli/command.h"
 #include "tools/report/run.h"
@@ -33,8 +34,8 @@ void add_run(CommandOptions& program, CommandContext& context) {
     context.work = [arguments, &context] {
       const Scenario scenario = arguments->scenario.read();
       try {
-        fmt::print("{}",
-                   run_scenario(scenario, arguments->directory, {arguments->resume, context.threads}, &context.stop));
+        print_out("{}",
+                  run_scenario(scenario, arguments->directory, {arguments->resume, context.threads}, &context.stop));
       } catch (const Interrupted&) {
         throw WorkError(fmt::format("interrupted; whole shards are kept, go on by the same command with --resume ({})",
                                     arguments->directory));

@@ -10,6 +10,7 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
+#include "sim/core/process/standard_output.h"
 #include "sim/scenario/sample_plan.h"
 #include "sim/sea/realisation.h"
 #include "sim/sea/statistics.h"
@@ -146,7 +147,7 @@ void write_sea(const SeaArguments& arguments, const CommandContext& context) {
     if (!arguments.spectrum.empty()) write_file(arguments.spectrum, as_comment(lines) + spectrum_csv(ensemble));
   }
   write_file(arguments.output, series);
-  fmt::print("{}{}", lines, statistics);
+  print_out("{}{}", lines, statistics);
 }
 
 }  // namespace

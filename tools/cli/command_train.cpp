@@ -5,6 +5,7 @@
 
 #include "classify/model/study_text.h"
 #include "sim/core/process/error.h"
+#include "sim/core/process/standard_output.h"
 #include "tools/cli/arguments.h"
 #include "tools/cli/command.h"
 #include "tools/pipeline/train.h"
@@ -47,7 +48,7 @@ void add_train(CommandOptions& program, CommandContext& context) {
     context.work = [arguments, &context] {
       const TrainedModel model = train_model(find_data_set(arguments->data), arguments->model,
                                              learning_overrides(arguments->set), context.threads, &context.stop);
-      fmt::print("{}\n{}: network, trees and {}\n", accuracy_table(model.study), arguments->model, kMetricsFile);
+      print_out("{}\n{}: network, trees and {}\n", accuracy_table(model.study), arguments->model, kMetricsFile);
     };
   });
 }

@@ -9,6 +9,7 @@
 #include "classify/dataset/directory/input_list.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/progress.h"
+#include "sim/core/process/standard_output.h"
 #include "tools/cli/arguments.h"
 #include "tools/cli/command.h"
 #include "tools/pipeline/regenerate.h"
@@ -57,26 +58,26 @@ std::vector<std::string> regenerate(const std::string& directory, std::size_t co
 void verify(const Arguments& given, const CommandContext& context) {
   const Arguments arguments{find_data_set(given.directory), given.regenerate};
   Audit result = audit(arguments.directory, &context.stop);
-  fmt::print("{}: {} sound shards, {} samples in {} groups\n", arguments.directory, result.shards, result.samples,
-             result.groups);
+  print_out("{}: {} sound shards, {} samples in {} groups\n", arguments.directory, result.shards, result.samples,
+            result.groups);
   for (std::size_t t = 0; t < result.per_target.size(); ++t) {
     const TargetSpec& target = result.scenario.targets[t];
-    fmt::print("  {:<12} label {}  {} samples\n", target.name, target.label, result.per_target[t]);
+    print_out("  {:<12} label {}  {} samples\n", target.name, target.label, result.per_target[t]);
   }
   const std::size_t count = std::min(static_cast<std::size_t>(arguments.regenerate), result.samples);
   if (result.faults.empty() && count > 0) {
     result.faults = regenerate(arguments.directory, count, result.scenario, context);
     if (result.faults.empty())
-      fmt::print("{} regenerated samples match the stored ones, SCR and features included\n", count);
+      print_out("{} regenerated samples match the stored ones, SCR and features included\n", count);
   }
   if (result.faults.empty()) {
-    fmt::print("no fault found\n");
+    print_out("no fault found\n");
     return;
   }
   constexpr std::size_t kMaxShown = 20;
   for (std::size_t i = 0; i < std::min(kMaxShown, result.faults.size()); ++i)
-    fmt::print("fault: {}\n", result.faults[i]);
-  if (result.faults.size() > kMaxShown) fmt::print("... and {} more\n", result.faults.size() - kMaxShown);
+    print_out("fault: {}\n", result.faults[i]);
+  if (result.faults.size() > kMaxShown) print_out("... and {} more\n", result.faults.size() - kMaxShown);
   throw InputError(
       fmt::format("{}: {} faults, the first: {}", arguments.directory, result.faults.size(), result.faults.front()));
 }

@@ -9,7 +9,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <cmath>
@@ -51,25 +50,32 @@ std::string quoted(const std::string& text) {
 
 std::string number(double value) { return std::isfinite(value) ? fmt::format("{:.9g}", value) : "NaN"; }
 
-// Temporary files in the figure's directory, removed by the destructor.
+// The path as gnuplot takes it for a file: a name that begins with | or < is a command to it, one with ~ a home.
+fs::path as_file(const fs::path& path) { return path.is_absolute() ? path : "." / path; }
+
+// A temporary folder beside the figure for script, data and messages, removed by the destructor.
 class Scratch {
  public:
   explicit Scratch(const fs::path& figure) {
-    static std::atomic<unsigned> count{0};
-    const std::string stem = fmt::format("{}.{}.{}", figure.filename().string(), ::getpid(), count++);
-    const fs::path folder = figure.has_parent_path() ? figure.parent_path() : fs::path(".");
-    script = folder / (stem + ".gp");
-    data = folder / (stem + ".dat");
-    messages = folder / (stem + ".log");
+    std::string name = as_file(figure).string() + ".XXXXXX";
+    if (::mkdtemp(name.data()) == nullptr)
+      throw WorkError(fmt::format("{}: cannot write: {}", figure.string(), std::strerror(errno)));
+    folder_ = name;
+    script = folder_ / "script.gp";
+    data = folder_ / "data.dat";
+    messages = folder_ / "messages.log";
   }
   ~Scratch() {
     std::error_code ignored;
-    for (const fs::path& file : {script, data, messages}) fs::remove(file, ignored);
+    fs::remove_all(folder_, ignored);
   }
   Scratch(const Scratch&) = delete;
   Scratch& operator=(const Scratch&) = delete;
 
   fs::path script, data, messages;
+
+ private:
+  fs::path folder_;
 };
 
 WorkError cannot_start(int error) {
@@ -95,7 +101,7 @@ void run_gnuplot(const Scratch& scratch) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, scratch.messages.c_str(), O_WRONLY | O_CREAT | O_TRUNC,
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, scratch.messages.c_str(), O_WRONLY | O_CREAT | O_EXCL,
                                    0600);
   posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
   std::string program = "gnuplot", option = "-d",
@@ -144,7 +150,7 @@ void draw(const fs::path& file, FigureSize size, const std::string& title, const
     std::string script =
         fmt::format("set terminal {} size {},{} font 'DejaVu Sans,11' noenhanced background '#ffffff'\n",
                     extension == ".png" ? "pngcairo" : "svg", size.width, size.height);
-    script += fmt::format("set output {}\n", quoted(temporary.string()));
+    script += fmt::format("set output {}\n", quoted(as_file(temporary).string()));
     script +=
         "set encoding utf8\nset datafile missing '?'\nset pointintervalbox 0\nset tics out nomirror\nset border lw "
         "0.8\n";

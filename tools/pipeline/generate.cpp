@@ -3,12 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <mutex>
 #include <vector>
 
 #include "classify/dataset/directory/dataset_writer.h"
 #include "seaglint_version.h"
+#include "sim/core/process/address_space.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/progress.h"
 #include "tools/pipeline/map_coverage.h"
@@ -33,6 +35,8 @@ GenerateResult generate_dataset(const Scenario& scenario, const std::filesystem:
 
 GenerateResult generate_dataset(const Pipeline& pipeline, const std::filesystem::path& directory,
                                 const GenerateOptions& options, const StopFlag* stop) {
+  // FFTW ends the process when it has no memory.
+  require_address_space(std::size_t{32} * (2 + std::min(thread_count(options.threads), 8)) << 20, "making maps");
   const Scenario& scenario = pipeline.scenario();
   const SamplePlan& plan = pipeline.plan();
   warn(mesh_warnings(pipeline));
@@ -51,7 +55,8 @@ GenerateResult generate_dataset(const Pipeline& pipeline, const std::filesystem:
   std::map<std::size_t, OpenShard> open;
   const std::size_t shards = plan.shards(), parts = static_cast<std::size_t>(options.parts),
                     part = static_cast<std::size_t>(options.part);
-  for (std::size_t shard = (part - 1) * shards / parts; shard < part * shards / parts; ++shard) {
+  const std::size_t first = (part - 1) * shards / parts, end = part * shards / parts;
+  for (std::size_t shard = first; shard < end; ++shard) {
     const ShardRange range = plan.shard(shard);
     if (writer.complete(shard)) {
       result.kept += range.count;
@@ -92,7 +97,14 @@ GenerateResult generate_dataset(const Pipeline& pipeline, const std::filesystem:
     throw;
   }
   result.made = work.size();
-  result.missing = writer.finish().size();
+  const std::vector<std::size_t> missing = writer.finish();
+  for (const std::size_t shard : missing) {
+    if (shard < first || shard >= end) continue;
+    throw WorkError(
+        fmt::format("{}: was written and is now missing or damaged; go on by the same command with --resume",
+                    (directory / shard_name(shard)).string()));
+  }
+  result.missing = missing.size();
   return result;
 }
 

@@ -15,6 +15,7 @@
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/scenario/writer.h"
+#include "tools/pipeline/warnings.h"
 
 namespace seaglint {
 
@@ -83,6 +84,7 @@ void require_own_directory(const fs::path& directory) {
 TrainedModel train_model(const DatasetReader& data, const Scenario& scenario, const fs::path& model_directory,
                          int threads, const StopFlag* stop, const std::function<void(const Shard&)>& use) {
   require_own_directory(model_directory);
+  warn(data_set_warnings(data));
   const LearningTable table = load_learning_table(data, scenario.learning, stop, use);
   make_directory(model_directory);
   TrainedModel model;

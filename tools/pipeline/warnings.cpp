@@ -5,8 +5,10 @@
 
 #include <cmath>
 
+#include "classify/dataset/directory/merged.h"
 #include "radar/waveform/figures_of_merit.h"
 #include "radar/waveform/pulse_train.h"
+#include "sim/core/process/printable.h"
 #include "sim/core/process/standard_error.h"
 #include "sim/sea/realisation.h"
 #include "tools/pipeline/pipeline.h"
@@ -59,6 +61,12 @@ std::vector<std::string> band_warnings(const Pipeline& pipeline) {
   const std::string gaps = band_gap_warning(make_pulse_train(scenario.radar, pipeline.window_m(), scenario.seed, 0));
   if (gaps.empty()) return {};
   return {fmt::format("radar.bandwidth_mhz: {}", gaps)};
+}
+
+std::vector<std::string> data_set_warnings(const DatasetReader& reader) {
+  std::vector<std::string> lines;
+  if (const auto sentence = merged_file_of_another_manifest(reader)) lines.push_back(*sentence);
+  return lines;
 }
 
 void warn(std::span<const std::string> sentences) {

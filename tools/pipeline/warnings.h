@@ -11,6 +11,7 @@ namespace seaglint {
 
 struct Scenario;
 struct SeaState;
+class DatasetReader;
 class Pipeline;
 
 // One line per defect or doubtful property of the meshes of the scenario's targets.
@@ -22,6 +23,9 @@ std::vector<std::string> sea_warnings(const Scenario& scenario, std::span<const 
 
 // One line if the carriers' bands leave gaps: maps then contain grating lobes of the targets.
 std::vector<std::string> band_warnings(const Pipeline& pipeline);
+
+// One line if a merged file beside the shards is of another data set.
+std::vector<std::string> data_set_warnings(const DatasetReader& reader);
 
 // Prints each sentence as a warning.
 void warn(std::span<const std::string> sentences);

@@ -8,6 +8,7 @@
 Needs python3-h5py and python3-numpy. Copy what you need: this is an example, not a library.
 """
 import argparse
+import hashlib
 import json
 import pathlib
 import sys
@@ -26,6 +27,16 @@ def require_shards(directory):
     if missing:
         sys.exit(f"{missing[0]}: missing ({len(missing)} of {len(shards)} shards)")
     return shards
+
+
+def require_own_manifest(merged, manifest):
+    """Stops unless the merged file is of this manifest. HDF5 takes rows from any shards of the right names, beside the file or in
+    the working directory: labels of one data set would be paired with maps of another."""
+    with h5py.File(merged) as data:
+        own = data.attrs.get("manifest_sha256", "")
+    own = own.decode() if isinstance(own, bytes) else str(own)
+    if own != hashlib.sha256(manifest.read_bytes()).hexdigest():
+        sys.exit(f"{merged}: is of another manifest than {manifest}; merge again")
 
 
 def read_columns(files):
@@ -67,6 +78,8 @@ def main():
     directory = arguments.data if arguments.data.is_dir() else arguments.data.parent
     shards = require_shards(directory)
     files = shards if arguments.data.is_dir() else [arguments.data]
+    if not arguments.data.is_dir():
+        require_own_manifest(arguments.data, directory / "manifest.json")
 
     columns = read_columns(files)
     rows = np.flatnonzero(columns["label"] == arguments.label)

@@ -6,7 +6,7 @@
 
 #include "seaglint_version.h"
 #include "sim/core/numbers/dbsm.h"
-#include "sim/core/process/standard_error.h"
+#include "sim/core/process/printable.h"
 #include "sim/scattering/beams/illumination_settings.h"
 #include "tools/rcs/echo_selection.h"
 #include "tools/rcs/rcs_uncertainty.h"
@@ -22,7 +22,7 @@ std::string materials_text(const std::vector<MaterialChoice>& materials) {
   std::vector<std::string> choices;
   for (const MaterialChoice& choice : materials)
     choices.push_back(choice.part ? *choice.part + "=" + choice.material : choice.material);
-  return fmt::format("{}", fmt::join(choices, " "));
+  return on_one_line(fmt::format("{}", fmt::join(choices, " ")));
 }
 
 // Head line on the sea under the target; empty without it.
@@ -43,7 +43,7 @@ std::string cavity_line(const CavityRequest& cavities) {
   return fmt::format(
       "# cavities {}: from the currents on their walls (magnetic-field integral equation, {:.6g} patches per "
       "wavelength), excited through their apertures\n",
-      fmt::join(cavities.parts, " "), cavities.patches_per_wavelength);
+      on_one_line(fmt::format("{}", fmt::join(cavities.parts, " "))), cavities.patches_per_wavelength);
 }
 
 std::string warning_lines(std::span<const std::string> warnings) {
@@ -65,12 +65,13 @@ std::string rcs_table(const RcsRequest& request, const Scatterer& scatterer, con
       "of "
       "CONVENTIONS.md\n{}"
       "frequency_hz,azimuth_deg,elevation_deg,hh_re,hh_im,hv_re,hv_im,vh_re,vh_im,vv_re,vv_im,hh_dbsm,vv_dbsm{}\n",
-      kVersion, request.target.string(), request.unit, scatterer.facets().size(), scatterer.radius(),
-      materials_text(request.materials), text_of(request.selection), sea_line(request.sea), request.max_bounces,
-      request.edges ? "on" : "off", request.crease_deg ? fmt::format("{:.6g}", *request.crease_deg) : "auto",
-      request.sheet_thickness_mm, request.range_m,
-      request.min_patch_m > 0 ? request.min_patch_m : default_min_patch(scatterer), cavity_line(request.cavities),
-      transmitter_line(request.transmitter), warning_lines(warnings), sweep.flat ? uncertainty_header() : "");
+      kVersion, on_one_line(request.target.string()), on_one_line(request.unit), scatterer.facets().size(),
+      scatterer.radius(), materials_text(request.materials), text_of(request.selection), sea_line(request.sea),
+      request.max_bounces, request.edges ? "on" : "off",
+      request.crease_deg ? fmt::format("{:.6g}", *request.crease_deg) : "auto", request.sheet_thickness_mm,
+      request.range_m, request.min_patch_m > 0 ? request.min_patch_m : default_min_patch(scatterer),
+      cavity_line(request.cavities), transmitter_line(request.transmitter), warning_lines(warnings),
+      sweep.flat ? uncertainty_header() : "");
   for (std::size_t q = 0; q < sweep.frequency_hz.size(); ++q) {
     for (std::size_t view = 0; view < sweep.views(); ++view) {
       const auto& s = sweep.models.back().matrices[view][q];

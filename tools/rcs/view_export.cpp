@@ -10,6 +10,7 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/dbsm.h"
 #include "sim/core/process/file.h"
+#include "sim/core/text/escape.h"
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/scattering/response/scattering_centres_3d.h"
 #include "tools/rcs/echo_selection.h"
@@ -48,7 +49,7 @@ std::string write_centres(const ViewExport& arguments, const TriangleMesh& mesh,
     const Vec3 x = c.position();
     rows += fmt::format("{:.9g},{:.9g},{:.9g},{:.9g}", x.x(), x.y(), x.z(), c.psi);
     for (const Complex& s : c.amplitude) rows += fmt::format(",{:.9g},{:.9g}", s.real(), s.imag());
-    rows += fmt::format(",{:.4f},{},{},{}\n", dbsm_of_area(c.peak_rcs()), mesh.part_names[c.part], c.bounces,
+    rows += fmt::format(",{:.4f},{},{},{}\n", dbsm_of_area(c.peak_rcs()), csv_cell(mesh.part_names[c.part]), c.bounces,
                         kMechanismNames[static_cast<int>(c.mechanism)]);
   }
   double missing = 0, size = 0;

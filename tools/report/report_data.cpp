@@ -11,6 +11,7 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
 #include "tools/pipeline/train.h"
+#include "tools/pipeline/warnings.h"
 
 namespace seaglint {
 
@@ -121,6 +122,7 @@ std::vector<std::int64_t> ReportCollector::samples() const {
 ReportData load_report_data(const fs::path& directory, const Scenario& scenario, const SamplePlan& plan,
                             const StopFlag* stop) {
   const DatasetReader reader(directory / "data");
+  warn(data_set_warnings(reader));
   if (reader.size() != plan.size()) {
     throw InputError(fmt::format("{}: {} maps, but scenario.yaml makes {}", (directory / "data").string(),
                                  reader.size(), plan.size()));

@@ -2,10 +2,9 @@
 #include "classify/dataset/directory/audit.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -17,9 +16,11 @@
 #include "classify/dataset/directory/planned_record.h"
 #include "classify/dataset/directory/temporary.h"
 #include "classify/dataset/format/checksum.h"
+#include "classify/dataset/format/sample_faults.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/core/process/progress.h"
+#include "sim/core/process/temporary_file.h"
 
 namespace seaglint {
 
@@ -27,27 +28,28 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Relative tolerance of peak and energy: a row's are computed before the map is rounded to single precision.
-constexpr double kSinglePrecision = 1e-6;
-constexpr double kSmallest = std::numeric_limits<float>::min();  // m; rounding of smaller values is not relative
-
 class Auditor {
  public:
   Auditor(const DatasetReader& reader, Audit& result) : reader_(reader), plan_(result.plan), result_(result) {}
 
   // Compares the directory's files and the manifest with the scenario's plan.
   void files() {
-    const Manifest& manifest = reader_.manifest();
+    const Manifest& manifest = this->manifest();
     if (const std::string yaml = read_file(reader_.directory() / kScenarioFile);
         sha256(yaml) != manifest.scenario_sha256) {
       fault(kScenarioFile, "is not the one that the manifest was written for");
     }
     if (manifest.samples != plan_.size())
       fault(kManifestFile, fmt::format("{} samples, the scenario has {}", manifest.samples, plan_.size()));
+    if (manifest.seed != result_.scenario.seed)
+      fault(kManifestFile, fmt::format("seed {}, the scenario has {}", manifest.seed, result_.scenario.seed));
+    if (manifest.scenario != result_.scenario.name)
+      fault(kManifestFile, fmt::format("scenario '{}', its name is '{}'", manifest.scenario, result_.scenario.name));
     std::set<std::string> listed;
     for (std::size_t i = 0; i < manifest.shards.size(); ++i) {
       const ManifestShard& shard = manifest.shards[i];
       if (!listed.insert(shard.file).second) fault(kManifestFile, fmt::format("lists {} twice", shard.file));
+      if (i < plan_.shards() && shard.file != shard_name(i)) fault(shard.file, "by its number " + shard_name(i));
       if (i >= plan_.shards()) {
         fault(shard.file, "beyond the scenario's last shard");
       } else if (const ShardRange range = plan_.shard(i);
@@ -60,7 +62,7 @@ class Auditor {
     for (std::size_t i = manifest.shards.size(); i < plan_.shards(); ++i) fault(shard_name(i), "not in the manifest");
     for (const auto& entry : fs::directory_iterator(reader_.directory())) {
       const std::string name = entry.path().filename();
-      if (is_stale(entry.path())) fault(name, "half-written; a resumed `generate` removes it");
+      if (is_temporary(name) && is_leftover(entry.path())) fault(name, "half-written; a resumed `generate` removes it");
       if (!is_dataset_file(name)) fault(name, "is no file of a data set");
       if (!name.ends_with(".h5") || listed.contains(name)) continue;
       if (is_merged(entry.path())) {
@@ -72,10 +74,13 @@ class Auditor {
   }
 
   void shard(std::size_t index) {
-    const std::string& name = reader_.manifest().shards[index].file;
+    const std::string& name = manifest().shards[index].file;
     try {
       const Shard content = reader_.shard(index);
       ++result_.shards;
+      processors_.insert(content.origin.processor);
+      if (const std::string& version = content.origin.program_version; version != manifest().program_version)
+        fault(name, fmt::format("made by version {}, by the manifest {}", version, manifest().program_version));
       if (!axes_) axes_ = content.axes;
       if (*axes_ != content.axes) fault(name, "other axes than the first shard");
       for (const Sample& sample : content.samples) check(name, sample);
@@ -85,8 +90,12 @@ class Auditor {
     }
   }
 
-  // Checks one sea per group, one group per sea, and every sample once.
+  // Checks the processors, one sea per group, one group per sea, and every sample once.
   void whole() {
+    if (const auto& listed = manifest().processors; result_.shards == manifest().shards.size() &&
+                                                    processors_ != std::set<std::string>(listed.begin(), listed.end()))
+      fault(kManifestFile,
+            fmt::format("processors {}, of the shards {}", fmt::join(listed, "; "), fmt::join(processors_, "; ")));
     for (const auto& [group, seas] : seas_of_group_) {
       if (seas.size() > 1)
         fault(fmt::format("group {}", group), fmt::format("contains {} sea realisations", seas.size()));
@@ -107,6 +116,8 @@ class Auditor {
   }
 
  private:
+  const Manifest& manifest() const { return reader_.manifest(); }
+
   void fault(const std::string& where, const std::string& what) {
     result_.faults.push_back(fmt::format("{}: {}", where, what));
   }
@@ -135,22 +146,9 @@ class Auditor {
   }
 
   void check_map(const std::string& where, const Sample& sample) {
-    double peak = 0, energy = 0;
-    for (const float value : sample.magnitude) {
-      if (!std::isfinite(value) || value < 0) {
-        fault(where, fmt::format("{} in the map is no magnitude", value));
-        return;
-      }
-      peak = std::max<double>(peak, value);
-      energy += static_cast<double>(value) * value;
-    }
-    const auto differs = [](double a, double b, double smallest) {
-      return !(std::abs(a - b) <= std::max(smallest, kSinglePrecision * std::max(std::abs(a), std::abs(b))));
-    };
-    if (differs(peak, sample.record.peak_m, kSmallest))
-      fault(where, fmt::format("peak_m {:.9g}, the map's {:.9g}", sample.record.peak_m, peak));
-    if (differs(energy, sample.record.energy_m2, kSmallest * kSmallest))
-      fault(where, fmt::format("energy_m2 {:.9g}, the map's {:.9g}", sample.record.energy_m2, energy));
+    const std::vector<std::string> found = sample_faults(sample);
+    for (const std::string& what : found) fault(where, what);
+    if (!found.empty()) return;
     const auto* bytes = reinterpret_cast<const char*>(sample.magnitude.data());
     const auto [other, fresh] =
         maps_.emplace(sha256(std::string_view(bytes, sample.magnitude.size() * sizeof(float))), sample.record.sample);
@@ -162,6 +160,7 @@ class Auditor {
   Audit& result_;
   std::vector<MergedFileVerifier> merged_;  // merged files in the directory
   std::optional<StoredAxes> axes_;          // of the first valid shard
+  std::set<std::string> processors_;        // of the valid shards
   std::size_t planned_ = 0;  // samples of the plan that were read; the reader ensures that none is repeated
   std::map<std::string, std::int64_t> maps_;  // sample of each map's checksum
   std::map<std::int64_t, std::set<std::int64_t>> seas_of_group_;

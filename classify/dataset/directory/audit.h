@@ -29,7 +29,9 @@ struct Audit {
 // set;
 // - samples that are missing, repeated (by number or by map) or out of order;
 // - rows that contradict the scenario: label, target, sea, view, interval, keys, group;
-// - maps with negative or non-finite values, or whose peak or energy differs from that of the row;
+// - a manifest whose seed, scenario, shard names, version or processors are not the scenario's or the shards';
+// - maps with negative or non-finite values, or whose peak or energy differs from that of the row; complex values of
+//   other magnitude; columns and scattering centres that are not finite;
 // - hop codes beyond the scenario's carriers; axes that differ between shards;
 // - a merged file in the directory that is damaged, of another manifest or different from the shards;
 // - a sea realisation in two groups or two in one group: splits by group would leak.

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "sim/core/text/escape.h"
+
 namespace seaglint {
 
 namespace {
@@ -16,9 +18,10 @@ std::string join(const std::vector<double>& values) {
 std::string targets_table(const Scenario& scenario) {
   std::string table = "| target | label | made of |\n|---|---|---|\n";
   for (const TargetSpec& target : scenario.targets) {
-    std::string made_of = target.mesh.empty() ? fmt::format("{} ideal points", target.points.size()) : target.mesh;
+    std::string made_of =
+        target.mesh.empty() ? fmt::format("{} ideal points", target.points.size()) : markdown_text(target.mesh);
     if (target.line) made_of += fmt::format(", {} in line, {:g} m apart", target.line->count, target.line->spacing_m);
-    table += fmt::format("| {} | {} | {} |\n", target.name, target.label, made_of);
+    table += fmt::format("| {} | {} | {} |\n", markdown_text(target.name), target.label, made_of);
   }
   return table;
 }
@@ -54,12 +57,12 @@ std::string clutter_level(const ClutterSpec& clutter) {
 std::string data_card(const Scenario& scenario, const SamplePlan& plan, const Manifest& manifest,
                       const StoredAxes& axes) {
   const DatasetSpec& set = scenario.dataset;
-  std::string text = fmt::format("# Data set `{}`\n\n", scenario.name);
+  std::string text = fmt::format("# Data set {}\n\n", markdown_code(scenario.name));
   text += fmt::format(
       "{} range-velocity maps of ships (label 1) and corner-reflector arrays (label 0), simulated by seaglint {} with "
       "seed {}.\n"
       "Nothing here was measured: these are the echoes that the scenario's physics gives (`{}`).\n\n",
-      manifest.samples, manifest.program_version, manifest.seed, "scenario.yaml");
+      manifest.samples, markdown_text(manifest.program_version), manifest.seed, "scenario.yaml");
   text += targets_table(scenario);
   text += fmt::format(
       "\n* Significant wave heights: {} m. Views: azimuth {} deg, elevation {} deg.\n"
@@ -98,8 +101,8 @@ std::string data_card(const Scenario& scenario, const SamplePlan& plan, const Ma
       "## Reproduction\n\n"
       "`seaglint generate scenario.yaml -o DIR` with the same version makes the same bytes on the same kind of "
       "processor\n"
-      "(`{}`), for any number of threads and parts. Mesh paths in `scenario.yaml` start at the working directory.\n",
-      clutter_level(scenario.clutter), fmt::join(manifest.processors, "; "));
+      "({}), for any number of threads and parts. Mesh paths in `scenario.yaml` start at the working directory.\n",
+      clutter_level(scenario.clutter), markdown_code(fmt::format("{}", fmt::join(manifest.processors, "; "))));
   return text;
 }
 

@@ -46,17 +46,18 @@ Shard DatasetReader::shard(std::size_t index) const {
   SEAGLINT_CHECK(index < manifest_.shards.size(), fmt::format("shard {} of {}", index, manifest_.shards.size()));
   const ManifestShard& entry = manifest_.shards[index];
   const fs::path file = directory_ / entry.file;
-  if (sha256_file(file) != entry.sha256) {
+  const ShardFile loaded = load_shard(file);
+  if (loaded.sha256 != entry.sha256) {
     // Reading it may give a more specific fault than the checksum.
     std::string detail = "its checksum is not the manifest's";
     try {
-      read_shard(file);
+      read_shard(loaded);
     } catch (const InputError& error) {
       detail = error.what() + file.string().size() + 2;
     }
     throw InputError(fmt::format("{}: truncated or changed: {}; {}", file.string(), detail, kRemedy));
   }
-  Shard shard = read_shard(file);
+  Shard shard = read_shard(loaded);
   if (shard.samples.size() != entry.samples || shard.axes.velocity_mps.size() != manifest_.rows ||
       shard.axes.range_m.size() != manifest_.columns) {
     throw InputError(fmt::format("{}: does not contain what the manifest lists", file.string()));

@@ -15,6 +15,7 @@
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/core/process/progress.h"
+#include "sim/core/process/temporary_file.h"
 #include "sim/core/text/text_difference.h"
 #include "sim/scenario/writer.h"
 
@@ -76,11 +77,11 @@ void write_in_company(const fs::path& file, const std::string& content) {
   }
 }
 
-// Removes stale temporary files.
+// Removes the temporary files of killed processes.
 void remove_temporaries(const fs::path& directory) {
   for (const std::string& name : file_names(directory)) {
-    std::error_code ignored;  // `verify` reports files that cannot be removed
-    if (is_stale(directory / name)) fs::remove(directory / name, ignored);
+    // `verify` reports files that cannot be removed.
+    if (is_temporary(name)) remove_leftover(directory / name);
   }
 }
 
@@ -96,12 +97,15 @@ bool same_row(const SampleRecord& a, const SampleRecord& b) {
   return std::all_of(sample_columns().begin(), sample_columns().end(), same);
 }
 
-// True if the file contains this shard: its bytes depend only on the content, so that equal content means equal bytes.
-bool holds(const fs::path& file, const Shard& content) {
+// True if the file contains this shard, with the file's checksum: its bytes depend only on the content, so that equal
+// content means equal bytes.
+bool holds(const fs::path& file, const Shard& content, std::string& sha256) {
   Shard there;
   try {
-    there = read_shard(file);
-  } catch (const InputError&) {
+    const ShardFile loaded = load_shard(file);
+    there = read_shard(loaded);
+    sha256 = loaded.sha256;
+  } catch (const std::runtime_error&) {
     return false;
   }
   const auto same = [](const Sample& a, const Sample& b) {
@@ -199,9 +203,10 @@ bool DatasetWriter::complete(std::size_t shard) {
   known_[shard].sound = false;
   const fs::path file = shard_file(shard);
   if (!fs::is_regular_file(file)) return false;
+  const ShardFile loaded = load_shard(file);
   Shard content;
   try {
-    content = read_shard(file);
+    content = read_shard(loaded);
   } catch (const UnsupportedFormat&) {
     throw;
   } catch (const InputError&) {
@@ -215,28 +220,41 @@ bool DatasetWriter::complete(std::size_t shard) {
     if (!record_mismatches(content.samples[i].record, planned).empty()) return false;
   }
   if (axes_ && *axes_ != content.axes) return false;
-  const std::string sha256 = sha256_file(file);
-  if (shard < earlier_.shards.size() && earlier_.shards[shard].sha256 != sha256) return false;
+  if (shard < earlier_.shards.size() && earlier_.shards[shard].sha256 != loaded.sha256) return false;
   axes_ = content.axes;
-  known_[shard] = {true, content.origin.processor, sha256};
+  known_[shard] = {true, content.origin.processor, loaded.sha256};
   return true;
 }
 
 void DatasetWriter::put(std::size_t shard, Shard content) {
   const fs::path file = shard_file(shard);
   content.origin = origin_;
-  {
-    const std::lock_guard lock(mutex_);
-    invalidate_manifest();
-    try {
-      write_shard(file, content, scenario_.features.max_centres);
-    } catch (const WorkError&) {
-      // Another process may have written the same shard at the same time.
-      if (!holds(file, content)) throw;
-    }
-    axes_ = content.axes;
+  const std::lock_guard lock(mutex_);
+  invalidate_manifest();
+  std::string written;
+  try {
+    written = write_shard(file, content, scenario_.features.max_centres);
+  } catch (const WorkError&) {
+    // Another process may have written the same shard at the same time.
+    if (!holds(file, content, written)) throw;
   }
-  known_[shard] = {true, origin_.processor, sha256_file(file)};
+  axes_ = content.axes;
+  known_[shard] = {true, origin_.processor, written};
+}
+
+bool DatasetWriter::still_sound(std::size_t shard) {
+  const Known before = known_[shard];
+  if (!before.sound) return complete(shard);
+  try {
+    if (sha256_file(shard_file(shard)) == before.sha256) return true;
+  } catch (const InputError&) {
+    known_[shard].sound = false;
+    return false;
+  }
+  // One processor gives one shard, byte for byte.
+  if (complete(shard) && known_[shard].processor != before.processor) return true;
+  known_[shard].sound = false;
+  return false;
 }
 
 Manifest DatasetWriter::manifest() const {
@@ -270,7 +288,7 @@ std::vector<std::size_t> DatasetWriter::finish() {
   if (!earlier_.shards.empty()) earlier_ = manifest_there();
   Progress progress("checking shards", plan_.shards());
   for (std::size_t i = 0; i < plan_.shards(); ++i) {
-    if (!known_[i].sound && !complete(i)) missing.push_back(i);
+    if (!still_sound(i)) missing.push_back(i);
     progress.advance();
   }
   if (!missing.empty()) return missing;

@@ -45,8 +45,9 @@ class DatasetWriter {
   // shard would be wrong for other processes.
   void put(std::size_t shard, Shard content);
 
-  // Writes manifest and data card when all shards exist and are valid, and removes stale temporary files. Returns the
-  // shards that are missing or damaged.
+  // Writes manifest and data card when all shards exist and are valid, and removes the temporary files of killed
+  // processes. Every shard is compared with what was written or checked. Returns the shards that are missing or
+  // damaged.
   std::vector<std::size_t> finish();
 
   // Removes what the constructor wrote into a new or empty directory if it contains nothing else; for a scenario of
@@ -67,6 +68,9 @@ class DatasetWriter {
   void require_version(const std::filesystem::path& file, const std::string& version) const;
   Manifest manifest_there() const;  // without shards if there is none
   void invalidate_manifest();
+  // complete(), for a shard that is known too: it may since have been damaged, or replaced by that of a process on
+  // another processor.
+  bool still_sound(std::size_t shard);
   Manifest manifest() const;  // of a complete data set
 
   std::filesystem::path directory_;

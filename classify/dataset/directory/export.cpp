@@ -52,7 +52,7 @@ NpzArray streamed(const Range& range, const StoredArray& array, const char* type
   const auto next = [range, path = array.path, rank, i = std::size_t{0}]() mutable {
     if (i == range.count) return std::string();
     if (range.stop && *range.stop) throw Interrupted();
-    const Hdf5Reader shard(range.file(i++));
+    const Hdf5Reader shard(load_shard(range.file(i++)).image);
     const std::vector<T> values = shard.read<T>(path, rank).values;
     return bytes_of_values(std::span(values));
   };
@@ -125,7 +125,7 @@ void export_shards(const DatasetReader& reader, std::size_t first, std::size_t c
   add_axis(kVelocityAxis, axes.velocity_mps);
   arrays.push_back(streamed<float>(range, kMaps, "<f4", {n, velocities, ranges}));
   if (complex_maps) arrays.push_back(streamed<float>(range, kComplexMaps, "<c8", {n, velocities, ranges}));
-  const Hdf5Reader shard(range.file(0));
+  const Hdf5Reader shard(load_shard(range.file(0)).image);
   arrays.push_back(streamed<std::uint16_t>(range, kHopCodes, "<u2", {n, shard.size(kHopCodes.path).at(1)}));
   arrays.push_back(streamed<float>(range, kCentres, "<f4", {n, shard.size(kCentres.path).at(1), 3}));
   for (const SampleColumn& column : sample_columns()) {

@@ -141,7 +141,7 @@ void write_merged(const DatasetReader& reader, const fs::path& temporary, const 
   };
   write_axis(kRangeAxis, axes.range_m);
   write_axis(kVelocityAxis, axes.velocity_mps);
-  const Hdf5Reader first(reader.directory() / manifest.shards.front().file);
+  const Hdf5Reader first(load_shard(reader.directory() / manifest.shards.front().file).image);
   const std::vector<VirtualSource> sources = shard_sources(reader, file);
   for (const auto& [array, element] : kVirtual) {
     if (!first.has(array.path)) continue;
@@ -192,6 +192,18 @@ bool is_merged(const fs::path& file) {
   }
 }
 
+std::optional<std::string> merged_file_of_another_manifest(const DatasetReader& reader) {
+  const fs::path file = reader.directory() / kMergedFile;
+  if (!fs::is_regular_file(file) || !is_merged(file)) return std::nullopt;
+  try {
+    if (Hdf5Reader(file).attribute("manifest_sha256") == sha256_file(reader.directory() / kManifestFile))
+      return std::nullopt;
+  } catch (const WorkError& error) {
+    return fmt::format("{}: {}; merge again", file.string(), error.what());
+  }
+  return fmt::format("{}: is of another manifest than the shards beside it; merge again or remove it", file.string());
+}
+
 MergedFileVerifier::MergedFileVerifier(fs::path file, const DatasetReader& reader)
     : file_(std::move(file)), reader_(&reader) {
   try {
@@ -201,7 +213,7 @@ MergedFileVerifier::MergedFileVerifier(fs::path file, const DatasetReader& reade
           fmt::format("format \"{}\"; this program reads \"{}\"; merge again", content_->attribute("format"), kFormat));
     if (content_->attribute("manifest_sha256") != sha256_file(reader.directory() / kManifestFile))
       throw WorkError("is of another manifest; merge again");
-    const Hdf5Reader first(reader.directory() / reader.manifest().shards.front().file);
+    const Hdf5Reader first(load_shard(reader.directory() / reader.manifest().shards.front().file).image);
     const std::vector<VirtualSource> sources = shard_sources(reader, file_);
     for (const Virtual& expected : kVirtual) {
       const char* path = expected.array.path;
@@ -209,7 +221,7 @@ MergedFileVerifier::MergedFileVerifier(fs::path file, const DatasetReader& reade
       if (!first.has(path)) continue;
       Dimensions whole = first.size(path);
       whole[0] = reader.size();
-      if (content_->size(path) != whole || content_->sources(path) != sources)
+      if (content_->sources(path) != sources || content_->size(path) != whole)
         throw WorkError(fmt::format("{} does not take its rows from the shards", path));
     }
   } catch (const WorkError& error) {

@@ -8,6 +8,7 @@
 // paths.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,10 @@ Merged merge_dataset(const std::filesystem::path& directory, const std::filesyst
 
 // True for a file that merge_dataset() wrote, of any version.
 bool is_merged(const std::filesystem::path& file);
+
+// A sentence if kMergedFile in the data set's directory is of another manifest: what reads that file by itself would
+// pair labels of one data set with maps of another.
+std::optional<std::string> merged_file_of_another_manifest(const DatasetReader& reader);
 
 // Compares a merged file with its data set, shard by shard. Faults: a damaged file, another manifest, other sources
 // than the shards, rows that differ from the shards'.

@@ -4,11 +4,10 @@
 #include <fmt/format.h>
 #include <openssl/evp.h>
 
-#include <fstream>
 #include <memory>
-#include <vector>
 
 #include "sim/core/process/error.h"
+#include "sim/core/process/file.h"
 
 namespace seaglint {
 
@@ -47,14 +46,8 @@ std::string sha256(std::string_view bytes) {
 }
 
 std::string sha256_file(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw InputError(fmt::format("{}: cannot be read", file.string()));
   Digest digest;
-  std::vector<char> buffer(std::size_t{1} << 20);
-  while (stream.read(buffer.data(), static_cast<std::streamsize>(buffer.size())) || stream.gcount() > 0) {
-    digest.add(buffer.data(), static_cast<std::size_t>(stream.gcount()));
-  }
-  if (stream.bad()) throw InputError(fmt::format("{}: reading failed", file.string()));
+  read_blocks(file, [&](std::string_view block) { digest.add(block.data(), block.size()); });
   return digest.hexadecimal();
 }
 

@@ -10,6 +10,6 @@
 namespace seaglint {
 
 std::string sha256(std::string_view bytes);
-std::string sha256_file(const std::filesystem::path& file);  // throws InputError when the file cannot be read
+std::string sha256_file(const std::filesystem::path& file);  // the errors of read_file()
 
 }  // namespace seaglint

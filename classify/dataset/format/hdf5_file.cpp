@@ -5,40 +5,39 @@
 #include <hdf5.h>
 
 #include <algorithm>
-#include <cmath>
+#include <atomic>
 #include <cstring>
 #include <limits>
 #include <map>
-#include <numeric>
+#include <new>
 #include <utility>
 
+#include "classify/dataset/format/hdf5_text.h"
 #include "sim/core/process/error.h"
 
 namespace seaglint {
 
 namespace {
 
-// The system error in HDF5's error stack, ": No space left on device"; "" if no system call failed.
-std::string system_reason() {
+// Throws WorkError with the system error in HDF5's error stack, "WHAT: No space left on device", or without one if no
+// system call failed; std::bad_alloc when HDF5 had no memory.
+[[noreturn]] void fail(const std::string& what) {
   std::string reason;
   const auto look = [](unsigned, const H5E_error2_t* error, void* found) -> herr_t {
-    constexpr std::string_view kBefore = "error message = '";
     const std::string_view text = error->desc ? error->desc : "";
-    const std::size_t begin = text.find(kBefore);
-    if (begin == std::string_view::npos) return 0;
-    const std::size_t from = begin + kBefore.size();
-    *static_cast<std::string*>(found) = fmt::format(": {}", text.substr(from, text.find('\'', from) - from));
+    if (says_no_memory(text)) return 1;
+    if (std::string known = system_reason(text); !known.empty()) *static_cast<std::string*>(found) = std::move(known);
     return 0;
   };
-  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, look, &reason);
-  return reason;
+  if (H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, look, &reason) > 0) throw std::bad_alloc();
+  throw WorkError(what + reason);
 }
 
 // HDF5 identifier, closed by its destructor. `what` is the message if the call that created it failed.
 class Handle {
  public:
   Handle(hid_t id, herr_t (*closer)(hid_t), const std::string& what) : id_(id), close_(closer) {
-    if (id_ < 0) throw WorkError(what + system_reason());
+    if (id_ < 0) fail(what);
   }
   Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
   ~Handle() {
@@ -48,7 +47,7 @@ class Handle {
 
   void close(const std::string& what) {
     const herr_t status = close_(std::exchange(id_, -1));
-    if (status < 0) throw WorkError(what + system_reason());
+    if (status < 0) fail(what);
   }
 
  private:
@@ -57,14 +56,7 @@ class Handle {
 };
 
 void require(herr_t status, const std::string& what) {
-  if (status < 0) throw WorkError(what + system_reason());
-}
-
-// To be called before the first file. Errors are reported by exceptions; HDF5 would print its error stack on stderr.
-// Files are closed by their owners; at exit HDF5 would otherwise repeat writes that failed on a full disk, and crash.
-void prepare_library() {
-  H5dont_atexit();
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  if (status < 0) fail(what);
 }
 
 Handle text_type(std::size_t bytes, H5T_str_t padding) {
@@ -109,10 +101,6 @@ Dimensions size_of(hid_t set, const std::string& what) {
   return {size.begin(), size.end()};
 }
 
-std::uint64_t product(std::span<const std::uint64_t> factors) {
-  return std::accumulate(factors.begin(), factors.end(), std::uint64_t{1}, std::multiplies<>());
-}
-
 void write_attribute(hid_t object, const std::string& name, const std::string& text) {
   const std::string what = fmt::format("cannot write attribute {}", name);
   const Handle type = text_type(text.size() + 1, H5T_STR_NULLTERM);
@@ -121,76 +109,52 @@ void write_attribute(hid_t object, const std::string& name, const std::string& t
   require(H5Awrite(attribute, type, text.c_str()), what);
 }
 
-Handle file_access(Hdf5Version version) {
+// Errors are reported by exceptions; HDF5 would print its error stack on stderr. Files are closed by their owners; at
+// exit HDF5 would otherwise repeat writes that failed on a full disk, and crash. No filter that a file names is loaded
+// as a library.
+Handle file_access() {
+  H5dont_atexit();
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  H5PLset_loading_state(0);
   Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "file access");
-  const H5F_libver_t bound = version == Hdf5Version::k18 ? H5F_LIBVER_V18 : H5F_LIBVER_V110;
-  require(H5Pset_libver_bounds(access, bound, bound), "file format");
   require(H5Pset_file_locking(access, false, true), "file locking");
   return access;
 }
 
 Handle create_file(const std::filesystem::path& file, Hdf5Version version) {
-  prepare_library();
-  const Handle access = file_access(version);
+  const Handle access = file_access();
+  const H5F_libver_t bound = version == Hdf5Version::k18 ? H5F_LIBVER_V18 : H5F_LIBVER_V110;
+  require(H5Pset_libver_bounds(access, bound, bound), "file format");
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "file creation");
   require(H5Pset_obj_track_times(creation, false), "file creation");
   return Handle(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, creation, access), H5Fclose, "cannot create");
 }
 
-Handle open_file(const std::filesystem::path& file) {
-  prepare_library();
-  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "file access");
-  require(H5Pset_file_locking(access, false, true), "file locking");
-  return Handle(H5Fopen(file.c_str(), H5F_ACC_RDONLY, access), H5Fclose,
+// The image, which HDF5 copies, or without one the file.
+Handle open_file(const std::filesystem::path& file, const Hdf5Image* image) {
+  const Handle access = file_access();
+  if (image) {
+    constexpr std::size_t kStep = std::size_t{1} << 20;  // bytes by which the file would grow
+    require(H5Pset_fapl_core(access, kStep, false), "file in memory");
+    require(H5Pset_file_image(access, const_cast<char*>(image->bytes.data()), image->bytes.size()), "file in memory");
+  }
+  // HDF5 takes two open files in memory for one if they have one name.
+  static std::atomic<unsigned> images{0};
+  const std::string name = image ? fmt::format("image {}", images++) : file.string();
+  return Handle(H5Fopen(name.c_str(), H5F_ACC_RDONLY, access), H5Fclose,
                 "not a whole HDF5 file (truncated or damaged)");
 }
 
 // Sets the value that is read if a source file of a virtual array is missing: none that could be mistaken for data.
 void set_missing_value(hid_t properties, ArrayType element, const std::string& what) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-  constexpr std::int64_t kLargest = std::numeric_limits<std::int64_t>::max();
   constexpr std::uint16_t kLargest16 = std::numeric_limits<std::uint16_t>::max();
   if (element == ArrayType::kFloat || element == ArrayType::kDouble)
     require(H5Pset_fill_value(properties, H5T_NATIVE_DOUBLE, &kNaN), what);
-  if (element == ArrayType::kInt64) require(H5Pset_fill_value(properties, H5T_NATIVE_INT64, &kLargest), what);
   if (element == ArrayType::kUint16) require(H5Pset_fill_value(properties, H5T_NATIVE_UINT16, &kLargest16), what);
 }
 
-// Replaces every `from` by `to` in a name: HDF5 interprets %b in a name as a block number, %% as a percent sign.
-std::string with_percents(const std::string& name, std::string_view from, std::string_view to) {
-  std::string result;
-  std::size_t begin = 0;
-  for (std::size_t i = name.find(from); i != std::string::npos; i = name.find(from, begin)) {
-    result.append(name, begin, i - begin).append(to);
-    begin = i + from.size();
-  }
-  return result.append(name, begin);
-}
-
-std::vector<std::string> unpacked(const std::vector<char>& text) {
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < text.size(); i += kNameBytes)
-    names.emplace_back(text.data() + i, strnlen(text.data() + i, kNameBytes));
-  return names;
-}
-
-std::size_t bytes_of(ArrayType element) {
-  switch (element) {
-    case ArrayType::kFloat: return sizeof(float);
-    case ArrayType::kUint16: return sizeof(std::uint16_t);
-    case ArrayType::kName: return kNameBytes;
-    default: return sizeof(double);
-  }
-}
-
 }  // namespace
-
-std::string packed_names(std::span<const std::string> names) {
-  std::string text(names.size() * kNameBytes, '\0');
-  for (std::size_t i = 0; i < names.size(); ++i)
-    std::memcpy(text.data() + i * kNameBytes, names[i].data(), std::min(names[i].size(), kNameBytes));
-  return text;
-}
 
 struct Hdf5Writer::Open {
   Handle file;
@@ -255,7 +219,7 @@ void Hdf5Writer::write_bytes(const std::string& path, ArrayType element, std::ui
   const std::string what = fmt::format("cannot write {}", path);
   const Handle& set = open_->arrays.at(path);
   Dimensions size = size_of(set, what);
-  const std::uint64_t per_row = product(std::span(size).subspan(1));
+  const std::uint64_t per_row = element_count(std::span(size).subspan(1));
   SEAGLINT_CHECK(per_row > 0 && count % per_row == 0 && first + count / per_row <= size[0],
                  fmt::format("{}: {} values from row {} of {}, {} each", path, count, first, size[0], per_row));
   const Handle file_space(H5Dget_space(set), H5Sclose, what);
@@ -263,11 +227,6 @@ void Hdf5Writer::write_bytes(const std::string& path, ArrayType element, std::ui
   size[0] = count / per_row;
   const Handle memory_space = space_of(size, what), type = type_of(element, false);
   require(H5Dwrite(set, type, memory_space, file_space, H5P_DEFAULT, values), what);
-}
-
-void Hdf5Writer::write_names(const std::string& path, std::uint64_t first, std::span<const std::string> names) {
-  const std::string text = packed_names(names);
-  write_bytes(path, ArrayType::kName, first, text.data(), names.size());
 }
 
 void Hdf5Writer::close() {
@@ -278,17 +237,64 @@ void Hdf5Writer::close() {
 
 struct Hdf5Reader::Open {
   Handle file;
+  bool may_be_virtual = false;
   std::map<std::string, Handle> arrays;  // by path, opened at first use
 
   const Handle& array(const std::string& path) {
     const auto known = arrays.find(path);
     if (known != arrays.end()) return known->second;
-    Handle set(H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose, fmt::format("{} is missing or damaged", path));
+    const std::string missing = fmt::format("{} is missing or damaged", path);
+    for (std::size_t end = path.find('/', 1);; end = path.find('/', end + 1)) {
+      H5L_info_t link;
+      require(H5Lget_info(file, path.substr(0, end).c_str(), &link, H5P_DEFAULT), missing);
+      if (link.type != H5L_TYPE_HARD) throw WorkError(fmt::format("{} is a link to another place", path));
+      if (end == std::string::npos) break;
+    }
+    Handle set(H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose, missing);
+    const Handle properties(H5Dget_create_plist(set), H5Pclose, missing);
+    const H5D_layout_t layout = H5Pget_layout(properties);
+    const bool chunked = layout == H5D_CHUNKED && H5Pget_external_count(properties) == 0;
+    if (!chunked && !(layout == H5D_VIRTUAL && may_be_virtual))
+      throw WorkError(fmt::format("{} is not stored in chunks of this file", path));
+    if (chunked) require_plain_chunks(set, properties, path);
     return arrays.emplace(path, std::move(set)).first->second;
+  }
+
+  // Throws unless the chunks have the checksum as their only filter and no more bytes, as their index claims, than
+  // the array and the file have.
+  void require_plain_chunks(hid_t set, hid_t properties, const std::string& path) const {
+    const std::string what = fmt::format("{} is damaged", path);
+    if (H5Pget_nfilters(properties) != 1 ||
+        H5Pget_filter2(properties, 0, nullptr, nullptr, nullptr, 0, nullptr, nullptr) != H5Z_FILTER_FLETCHER32)
+      throw WorkError(fmt::format("{} has other filters than the checksum", path));
+    const Dimensions extent = size_of(set, what);
+    std::vector<hsize_t> chunk(extent.size());
+    if (H5Pget_chunk(properties, static_cast<int>(chunk.size()), chunk.data()) != static_cast<int>(extent.size()))
+      fail(what);
+    const Handle type(H5Dget_type(set), H5Tclose, what);
+    constexpr std::size_t kChecksumBytes = 4;
+    const double needed =
+        chunked_bytes(extent, Dimensions(chunk.begin(), chunk.end()), H5Tget_size(type), kChecksumBytes);
+    const auto claimed = static_cast<double>(H5Dget_storage_size(set));
+    hsize_t bytes = 0;
+    require(H5Fget_filesize(file, &bytes), what);
+    if (claimed < needed) throw WorkError(fmt::format("{} is incomplete", path));
+    if (claimed > needed || needed > static_cast<double>(bytes))
+      throw WorkError(fmt::format("{} claims more bytes than it has", path));
   }
 };
 
-Hdf5Reader::Hdf5Reader(const std::filesystem::path& file) : open_(new Open{open_file(file), {}}) {}
+Hdf5Reader::Hdf5Reader(const std::filesystem::path& file) : open_(new Open{open_file(file, nullptr), true, {}}) {}
+
+// Superblock of version 2 or 3 (HDF5 File Format Specification 3.0, section II.A): signature, version in byte 8,
+// address of the end of the file in bytes 28 to 35.
+Hdf5Reader::Hdf5Reader(const Hdf5Image& image) : open_(new Open{open_file({}, &image), false, {}}) {
+  std::uint64_t end = 0;
+  const bool known = image.bytes.size() >= 48 && image.bytes.starts_with("\x89HDF") && image.bytes[8] >= 2;
+  if (known) std::memcpy(&end, image.bytes.data() + 28, sizeof end);
+  if (end != image.bytes.size())
+    throw WorkError(fmt::format("{} bytes for a file of {}: appended to or damaged", image.bytes.size(), end));
+}
 
 Hdf5Reader::~Hdf5Reader() = default;
 
@@ -321,7 +327,6 @@ std::vector<VirtualSource> Hdf5Reader::sources(const std::string& path) const {
   if (H5Pget_layout(properties) != H5D_VIRTUAL) return sources;
   std::size_t count = 0;
   require(H5Pget_virtual_count(properties, &count), what);
-  const std::size_t rank = size(path).size();
   for (std::size_t i = 0; i < count; ++i) {
     const auto text = [&](ssize_t (*get)(hid_t, std::size_t, char*, std::size_t)) {
       const ssize_t length = get(properties, i, nullptr, 0);
@@ -333,27 +338,33 @@ std::vector<VirtualSource> Hdf5Reader::sources(const std::string& path) const {
     };
     if (text(H5Pget_virtual_dsetname) != path) throw WorkError(fmt::format("{} takes rows of another array", path));
     const Handle rows(H5Pget_virtual_vspace(properties, i), H5Sclose, what);
-    std::vector<hsize_t> first(rank), last(rank);
+    const int rank = H5Sget_simple_extent_ndims(rows);
+    if (rank < 1) throw WorkError(what);
+    std::vector<hsize_t> first(static_cast<std::size_t>(rank)), last(first);
     require(H5Sget_select_bounds(rows, first.data(), last.data()), what);
-    sources.push_back(
-        {with_percents(text(H5Pget_virtual_filename), "%%", "%"), first.at(0), last.at(0) - first.at(0) + 1});
+    sources.push_back({with_percents(text(H5Pget_virtual_filename), "%%", "%"), first[0], last[0] - first[0] + 1});
   }
   return sources;
 }
 
-std::size_t Hdf5Reader::checked_count(const std::string& path, ArrayType element, std::size_t rank) const {
-  const Dimensions extent = size(path);
-  if (extent.size() != rank) throw WorkError(fmt::format("{} has not {} dimensions", path, rank));
-  const double bytes = std::accumulate(extent.begin(), extent.end(), static_cast<double>(bytes_of(element)),
-                                       [](double a, std::uint64_t b) { return a * static_cast<double>(b); });
-  const Handle properties(H5Dget_create_plist(open_->array(path)), H5Pclose, fmt::format("{} is damaged", path));
-  const bool elsewhere = H5Pget_layout(properties) == H5D_VIRTUAL;
-  if (!elsewhere && bytes > static_cast<double>(H5Dget_storage_size(open_->array(path))))
-    throw WorkError(fmt::format("{} is incomplete", path));
-  return product(extent);
+void Hdf5Reader::require_type(const std::string& path, ArrayType element) const {
+  const Handle stored(H5Dget_type(open_->array(path)), H5Tclose, fmt::format("{} is damaged", path));
+  if (H5Tequal(stored, type_of(element, true)) <= 0) throw WorkError(fmt::format("{} has another type", path));
 }
 
-void Hdf5Reader::checked_rows(const std::string& path, std::uint64_t first, std::uint64_t count) const {
+std::size_t Hdf5Reader::checked_count(const std::string& path, ArrayType element, std::size_t rank) const {
+  require_type(path, element);
+  const Dimensions extent = size(path);
+  if (extent.size() != rank) throw WorkError(fmt::format("{} has not {} dimensions", path, rank));
+  constexpr double kMaxBytes = 1e15;  // reached only by a virtual array, whose extent nothing else limits
+  if (chunked_bytes(extent, extent, element_bytes(element), 0) > kMaxBytes)
+    throw WorkError(fmt::format("{} claims more bytes than it has", path));
+  return element_count(extent);
+}
+
+void Hdf5Reader::checked_rows(const std::string& path, ArrayType element, std::uint64_t first,
+                              std::uint64_t count) const {
+  require_type(path, element);
   const Dimensions extent = size(path);
   if (extent.size() != 1 || first > extent[0] || count > extent[0] - first)
     throw WorkError(fmt::format("{} has no rows {} to {}", path, first, first + count));
@@ -365,28 +376,18 @@ void Hdf5Reader::read_bytes(const std::string& path, ArrayType element, std::uin
   const Handle& set = open_->array(path);
   Dimensions extent = size(path);
   const Handle file_space(H5Dget_space(set), H5Sclose, what);
-  if (count > 0) {
-    select_rows(file_space, extent, first, count, what);
-  } else {
-    require(H5Sselect_none(file_space), what);
-  }
+  if (count == 0) return;
+  select_rows(file_space, extent, first, count, what);
   extent[0] = count;
   const Handle memory_space = space_of(extent, what), type = type_of(element, false);
-  require(H5Dread(set, type, count > 0 ? memory_space : file_space, file_space, H5P_DEFAULT, values), what);
-}
-
-std::vector<std::string> Hdf5Reader::names(const std::string& path) const {
-  const std::size_t count = checked_count(path, ArrayType::kName, 1);
-  std::vector<char> text(count * kNameBytes);
-  read_bytes(path, ArrayType::kName, 0, count, text.data());
-  return unpacked(text);
+  require(H5Dread(set, type, memory_space, file_space, H5P_DEFAULT, values), what);
 }
 
 std::vector<std::string> Hdf5Reader::names(const std::string& path, std::uint64_t first, std::uint64_t count) const {
-  checked_rows(path, first, count);
-  std::vector<char> text(count * kNameBytes);
+  checked_rows(path, ArrayType::kName, first, count);
+  std::string text(count * kNameBytes, '\0');
   read_bytes(path, ArrayType::kName, first, count, text.data());
-  return unpacked(text);
+  return unpacked_names(text);
 }
 
 }  // namespace seaglint

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The subset of HDF5 that data sets use. The bytes depend only on the content: no times, fixed little-endian types.
-// Files are opened without locks, which some cluster file systems do not support; no file is read while it is written,
-// because files appear by renaming. Only one thread at a time may use the library.
+// The subset of HDF5 that data sets use: arrays in chunks, each with a Fletcher-32 checksum, and virtual arrays. The
+// bytes depend only on the content: no times, fixed little-endian types. Files are opened without HDF5 locks, which
+// some cluster file systems do not support; no file is read while it is written, because files appear by renaming. Only
+// one thread at a time may use the library.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,26 +12,11 @@
 #include <memory>
 #include <span>
 #include <string>
-#include <type_traits>
 #include <vector>
 
+#include "classify/dataset/format/array_type.h"
+
 namespace seaglint {
-
-inline constexpr std::size_t kNameBytes = 64;  // of a string in an array, UTF-8, zero-padded
-
-// Element type of an array; kName is kNameBytes characters.
-enum class ArrayType { kFloat, kDouble, kInt64, kUint16, kName };
-
-template <class T>
-constexpr ArrayType array_type_of() {
-  if constexpr (std::is_same_v<T, float>) return ArrayType::kFloat;
-  if constexpr (std::is_same_v<T, double>) return ArrayType::kDouble;
-  if constexpr (std::is_same_v<T, std::int64_t>) return ArrayType::kInt64;
-  if constexpr (std::is_same_v<T, std::uint16_t>) return ArrayType::kUint16;
-  if constexpr (std::is_same_v<T, std::string>) return ArrayType::kName;
-}
-
-using Dimensions = std::vector<std::uint64_t>;
 
 // Attributes of an array.
 struct ArrayText {
@@ -50,8 +36,10 @@ struct VirtualSource {
 
 enum class Hdf5Version { k18, k110 };  // oldest library that reads the file; virtual arrays need 1.10
 
-// Names in stored form, kNameBytes each.
-std::string packed_names(std::span<const std::string> names);
+// A complete HDF5 file in memory.
+struct Hdf5Image {
+  std::string bytes;
+};
 
 // Writes an HDF5 file. Every call throws WorkError naming what could not be written and the system's reason.
 class Hdf5Writer {
@@ -76,7 +64,9 @@ class Hdf5Writer {
   void write(const std::string& path, std::uint64_t first, std::span<const T> values) {
     write_bytes(path, array_type_of<T>(), first, values.data(), values.size());
   }
-  void write_names(const std::string& path, std::uint64_t first, std::span<const std::string> names);
+  void write_names(const std::string& path, std::uint64_t first, std::span<const std::string> names) {
+    write_bytes(path, ArrayType::kName, first, packed_names(names).data(), names.size());
+  }
 
   void close();  // must be called: reports late write errors
 
@@ -93,9 +83,14 @@ struct ReadArray {
   std::vector<T> values;
 };
 
-// Reads an HDF5 file that may be damaged in any way: every call throws WorkError naming what is missing or wrong.
+// Reads an HDF5 file that may be damaged in any way or made to deceive: every call throws WorkError naming what is
+// missing or wrong, std::bad_alloc when memory is exhausted. Arrays are reached by hard links and have the expected
+// type; they are stored in chunks of this file with no filter but the checksum, and need no more bytes than the file
+// has. External files and links, other filters (which HDF5 would load as libraries) and fill values are thereby
+// excluded. Virtual arrays are read from a file on the disk only.
 class Hdf5Reader {
  public:
+  explicit Hdf5Reader(const Hdf5Image& image);
   explicit Hdf5Reader(const std::filesystem::path& file);
   ~Hdf5Reader();
   Hdf5Reader(const Hdf5Reader&) = delete;
@@ -104,7 +99,9 @@ class Hdf5Reader {
   std::string attribute(const std::string& name) const;  // of the file; "" if there is none
   bool has(const std::string& path) const;
   Dimensions size(const std::string& path) const;
-  std::vector<VirtualSource> sources(const std::string& path) const;  // empty for an array of this file
+  // Empty for an array of this file. Opens no source; size() of a virtual array may, so that its sources are compared
+  // first.
+  std::vector<VirtualSource> sources(const std::string& path) const;
 
   // Reads a whole array, which must have `rank` dimensions. The allocation is limited by the file's size or, for a
   // virtual array, by its declared size.
@@ -119,17 +116,20 @@ class Hdf5Reader {
   // Rows of an array of one dimension.
   template <class T>
   std::vector<T> rows(const std::string& path, std::uint64_t first, std::uint64_t count) const {
-    checked_rows(path, first, count);
+    checked_rows(path, array_type_of<T>(), first, count);
     std::vector<T> values(count);
     read_bytes(path, array_type_of<T>(), first, count, values.data());
     return values;
   }
-  std::vector<std::string> names(const std::string& path) const;
+  std::vector<std::string> names(const std::string& path) const {
+    return names(path, 0, checked_count(path, ArrayType::kName, 1));
+  }
   std::vector<std::string> names(const std::string& path, std::uint64_t first, std::uint64_t count) const;
 
  private:
+  void require_type(const std::string& path, ArrayType element) const;
   std::size_t checked_count(const std::string& path, ArrayType element, std::size_t rank) const;
-  void checked_rows(const std::string& path, std::uint64_t first, std::uint64_t count) const;
+  void checked_rows(const std::string& path, ArrayType element, std::uint64_t first, std::uint64_t count) const;
   void read_bytes(const std::string& path, ArrayType element, std::uint64_t first, std::uint64_t count,
                   void* values) const;
   struct Open;

@@ -62,14 +62,20 @@ Manifest read_manifest(const std::filesystem::path& file) {
     manifest.scenario_sha256 = json.at("scenario_sha256").get<std::string>();
     manifest.program_version = json.at("program_version").get<std::string>();
     manifest.processors = json.at("processors").get<std::vector<std::string>>();
-    manifest.seed = json.at("seed").get<std::uint64_t>();
-    manifest.samples = json.at("samples").get<std::uint64_t>();
-    manifest.rows = json.at("map").at("rows").get<std::uint64_t>();
-    manifest.columns = json.at("map").at("columns").get<std::uint64_t>();
+    // Elsewhere -1 would be read as a huge number, 4.7 as 4.
+    const auto whole = [&](const ordered_json& object, const char* key) {
+      const ordered_json& value = object.at(key);
+      if (value.is_number_unsigned()) return value.get<std::uint64_t>();
+      throw InputError(fmt::format("{}: {}: {}: must be a whole number", file.string(), key, value.dump()));
+    };
+    manifest.seed = whole(json, "seed");
+    manifest.samples = whole(json, "samples");
+    manifest.rows = whole(json.at("map"), "rows");
+    manifest.columns = whole(json.at("map"), "columns");
     std::uint64_t next = 0;
     for (const ordered_json& entry : json.at("shards")) {
-      ManifestShard shard{entry.at("file").get<std::string>(), entry.at("first_sample").get<std::uint64_t>(),
-                          entry.at("samples").get<std::uint64_t>(), entry.at("sha256").get<std::string>()};
+      ManifestShard shard{entry.at("file").get<std::string>(), whole(entry, "first_sample"), whole(entry, "samples"),
+                          entry.at("sha256").get<std::string>()};
       // A name with a folder could refer to a file outside the directory.
       if (shard.file.empty() || std::filesystem::path(shard.file).filename() != shard.file) {
         throw InputError(

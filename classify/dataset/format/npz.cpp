@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "classify/dataset/format/npz.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 #include <zip.h>
 
 #include <algorithm>
 #include <bit>
+#include <cerrno>
 #include <charconv>
 #include <cstring>
 #include <exception>
@@ -109,21 +112,88 @@ zip_int64_t serve(void* user, void* data, zip_uint64_t length, zip_source_cmd_t 
   }
 }
 
+// The file that libzip writes: by itself it would write another one and rename it, without the lock of this one.
+class Output {
+ public:
+  explicit Output(const std::filesystem::path& file) : file_(::open(file.c_str(), O_WRONLY | O_NOFOLLOW | O_CLOEXEC)) {
+    if (file_ < 0) throw WorkError(std::strerror(errno));
+  }
+  ~Output() { ::close(file_); }
+  Output(const Output&) = delete;
+  Output& operator=(const Output&) = delete;
+
+  static zip_int64_t serve(void* user, void* data, zip_uint64_t length, zip_source_cmd_t command) {
+    return static_cast<Output*>(user)->serve(data, length, command);
+  }
+
+ private:
+  zip_int64_t serve(void* data, zip_uint64_t length, zip_source_cmd_t command) {
+    switch (command) {
+      case ZIP_SOURCE_BEGIN_WRITE:
+      case ZIP_SOURCE_COMMIT_WRITE:
+      case ZIP_SOURCE_ROLLBACK_WRITE:
+      case ZIP_SOURCE_REMOVE:
+      case ZIP_SOURCE_CLOSE:
+      case ZIP_SOURCE_FREE: return 0;
+      case ZIP_SOURCE_WRITE: return write(static_cast<const char*>(data), length);
+      case ZIP_SOURCE_TELL_WRITE: return static_cast<zip_int64_t>(place_);
+      case ZIP_SOURCE_SEEK_WRITE: {
+        const zip_int64_t place = zip_source_seek_compute_offset(place_, end_, data, length, nullptr);
+        if (place < 0) return -1;
+        place_ = static_cast<zip_uint64_t>(place);
+        return 0;
+      }
+      case ZIP_SOURCE_ERROR: {
+        const int error[2] = {error_ == ENOENT ? ZIP_ER_READ : ZIP_ER_WRITE, error_};
+        std::memcpy(data, error, sizeof error);
+        return sizeof error;
+      }
+      case ZIP_SOURCE_SUPPORTS: return ZIP_SOURCE_SUPPORTS_WRITABLE;
+      default: return -1;  // with ENOENT: an archive that does not exist yet
+    }
+  }
+
+  zip_int64_t write(const char* bytes, zip_uint64_t length) {
+    for (zip_uint64_t done = 0; done < length;) {
+      const ssize_t count = ::pwrite(file_, bytes + done, length - done, static_cast<off_t>(place_));
+      if (count < 0 && errno == EINTR) continue;
+      if (count < 0) {
+        error_ = errno;
+        return -1;
+      }
+      done += static_cast<zip_uint64_t>(count);
+      place_ += static_cast<zip_uint64_t>(count);
+      end_ = std::max(end_, place_);
+    }
+    return static_cast<zip_int64_t>(length);
+  }
+
+  int file_;
+  int error_ = ENOENT;
+  zip_uint64_t place_ = 0, end_ = 0;
+};
+
+struct ErrorEnd {
+  void operator()(zip_error_t* error) const { zip_error_fini(error); }
+};
+
 void write_archive(const std::filesystem::path& file, std::vector<Member>& members) {
   std::exception_ptr failed;
-  int code = 0;
-  std::unique_ptr<zip_t, decltype(&zip_discard)> archive(zip_open(file.c_str(), ZIP_CREATE | ZIP_TRUNCATE, &code),
-                                                         &zip_discard);
+  Output output(file);
+  zip_error_t opening;
+  zip_error_init(&opening);
+  const std::unique_ptr<zip_error_t, ErrorEnd> ends(&opening);
+  zip_source_t* sink = zip_source_function_create(&Output::serve, &output, &opening);
+  if (sink == nullptr) throw WorkError(zip_error_strerror(&opening));
+  std::unique_ptr<zip_t, decltype(&zip_discard)> archive(
+      zip_open_from_source(sink, ZIP_CREATE | ZIP_TRUNCATE, &opening), &zip_discard);
   const auto fail = [&](zip_error_t* error) {
     if (failed) std::rethrow_exception(failed);
     throw WorkError(zip_error_strerror(error));
   };
   if (!archive) {
-    zip_error_t error;
-    zip_error_init_with_code(&error, code);
-    const std::string reason = zip_error_strerror(&error);
-    zip_error_fini(&error);
-    throw WorkError(reason);
+    zip_source_free(sink);
+    throw WorkError(zip_error_strerror(&opening));
   }
   for (Member& member : members) {
     member.failed = &failed;

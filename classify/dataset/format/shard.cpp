@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "classify/dataset/format/checksum.h"
 #include "classify/dataset/format/hdf5_file.h"
 #include "classify/dataset/format/layout.h"
 #include "sim/core/process/error.h"
@@ -15,6 +16,7 @@ namespace seaglint {
 namespace {
 
 constexpr const char* kFormat = "seaglint shard 3";
+constexpr std::size_t kMaxBytes = std::size_t{64} << 30;  // a limit beyond every scenario's
 
 // The values of a column, one per sample.
 template <class T>
@@ -123,11 +125,13 @@ void read_columns(const Hdf5Reader& file, std::vector<Sample>& samples) {
   }
 }
 
-Shard read_content(const std::filesystem::path& path) {
-  const Hdf5Reader file(path);
-  if (const std::string format = file.attribute("format"); format != kFormat) {
+Shard read_content(const ShardFile& loaded) {
+  const Hdf5Reader file(loaded.image);
+  const std::string format = file.attribute("format");
+  expect(!format.empty(), "the attribute format is missing");
+  if (format != kFormat) {
     throw UnsupportedFormat(
-        fmt::format("{}: format \"{}\"; this program reads \"{}\"", path.string(), format, kFormat));
+        fmt::format("{}: format \"{}\"; this program reads \"{}\"", loaded.path.string(), format, kFormat));
   }
   Shard shard;
   shard.origin = {file.attribute("program_version"), file.attribute("processor")};
@@ -159,8 +163,8 @@ Shard read_content(const std::filesystem::path& path) {
   read_columns(file, shard.samples);
   for (std::size_t i = 0; i < n; ++i) {
     const std::int64_t count = shard.samples[i].record.centres;
-    expect(count >= 0, "/samples/centres is negative");
-    for (std::size_t k = 0; k < std::min<std::size_t>(static_cast<std::size_t>(count), max_centres); ++k) {
+    expect(count >= 0 && static_cast<std::size_t>(count) <= max_centres, "/samples/centres does not fit /centres");
+    for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
       const float* row = centres.values.data() + (i * max_centres + k) * 3;
       shard.samples[i].centre_list.push_back({row[0], row[1], row[2]});
     }
@@ -172,7 +176,7 @@ Shard read_content(const std::filesystem::path& path) {
 
 std::string shard_name(std::size_t index) { return fmt::format("shard_{:05}.h5", index); }
 
-void write_shard(const std::filesystem::path& file, const Shard& shard, int max_centres) {
+std::string write_shard(const std::filesystem::path& file, const Shard& shard, int max_centres) {
   check_shapes(shard, max_centres);
   for (const Sample& sample : shard.samples) {
     if (sample.record.target_name.size() > kNameBytes) {
@@ -180,22 +184,33 @@ void write_shard(const std::filesystem::path& file, const Shard& shard, int max_
           fmt::format("targets.{}: the name has more than {} bytes", sample.record.target_name, kNameBytes));
     }
   }
+  std::string written;
   write_file_with(file, [&](const std::filesystem::path& temporary) {
     try {
       write_content(temporary, shard, max_centres);
+      written = sha256_file(temporary);
     } catch (const WorkError& error) {
       throw WorkError(fmt::format("{}: {}", file.string(), error.what()));
     }
   });
+  return written;
 }
 
-Shard read_shard(const std::filesystem::path& file) {
+ShardFile load_shard(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(file)) throw InputError(fmt::format("{}: no such shard", file.string()));
+  ShardFile loaded{file, {read_file(file, kMaxBytes)}, {}};
+  loaded.sha256 = sha256(loaded.image.bytes);
+  return loaded;
+}
+
+Shard read_shard(const ShardFile& file) {
   try {
     return read_content(file);
   } catch (const WorkError& error) {
-    throw InputError(fmt::format("{}: {}", file.string(), error.what()));
+    throw InputError(fmt::format("{}: {}", file.path.string(), error.what()));
   }
 }
+
+Shard read_shard(const std::filesystem::path& file) { return read_shard(load_shard(file)); }
 
 }  // namespace seaglint

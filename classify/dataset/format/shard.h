@@ -19,6 +19,7 @@
 #include <string>
 #include <vector>
 
+#include "classify/dataset/format/hdf5_file.h"
 #include "classify/dataset/format/sample.h"
 #include "sim/core/process/error.h"
 
@@ -48,11 +49,24 @@ struct Shard {
 // "shard_00012.h5"
 std::string shard_name(std::size_t index);
 
-// Writes the file completely or not at all. All samples have the axes' size, equal numbers of pulses, and complex
-// values or none; centre lists are padded to max_centres. Throws WorkError when the file cannot be written.
-void write_shard(const std::filesystem::path& file, const Shard& shard, int max_centres);
+// Writes the file completely or not at all and returns the SHA-256 of what it wrote, which need not be what lies there
+// afterwards. All samples have the axes' size, equal numbers of pulses, and complex values or none; centre lists are
+// padded to max_centres. Throws WorkError when the file cannot be written.
+std::string write_shard(const std::filesystem::path& file, const Shard& shard, int max_centres);
 
-// Reads and checks a shard. Throws InputError naming the file and its fault, UnsupportedFormat for another format.
+// The bytes of a shard's file, read once, with their checksum.
+struct ShardFile {
+  std::filesystem::path path;
+  Hdf5Image image;
+  std::string sha256;
+};
+
+// Throws InputError when there is no such file, WorkError when the disk fails.
+ShardFile load_shard(const std::filesystem::path& file);
+
+// Reads and checks a shard. Throws InputError naming the file and its fault, UnsupportedFormat for another format. A
+// file without a format is damaged, as is one with bytes behind its end.
+Shard read_shard(const ShardFile& file);
 Shard read_shard(const std::filesystem::path& file);
 
 }  // namespace seaglint

@@ -3,16 +3,17 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <limits.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <system_error>
 
 #include "sim/core/process/error.h"
+#include "sim/core/process/temporary_file.h"
 
 namespace seaglint {
 
@@ -47,31 +48,77 @@ class Descriptor {
   throw WorkError(fmt::format("{}: cannot write: {}", path.string(), std::strerror(errno)));
 }
 
-// name: file name in error messages.
-void write_all(const fs::path& path, const fs::path& name, int flags, std::string_view content) {
-  Descriptor file(path, O_WRONLY | flags);
-  if (file.number() < 0) fail_writing(name);
+// Without O_NONBLOCK, opening a pipe without a writer would block.
+constexpr int kReading = O_RDONLY | O_NONBLOCK;
+
+// A name that is wrong is an error of the input; a disk or a system that fails is not.
+[[noreturn]] void fail_reading(const fs::path& path) {
+  const std::string message = fmt::format("{}: cannot read: {}", path.string(), std::strerror(errno));
+  for (const int of_input : {ENOENT, ENOTDIR, EACCES, EPERM, EISDIR, ELOOP, ENAMETOOLONG, EINVAL, ENXIO, ENODEV}) {
+    if (errno == of_input) throw InputError(message);
+  }
+  throw WorkError(message);
+}
+
+struct stat status_of_regular(const Descriptor& file, const fs::path& path) {
+  struct stat status {};
+  if (file.number() < 0 || ::fstat(file.number(), &status) != 0) fail_reading(path);
+  if (S_ISDIR(status.st_mode)) throw InputError(fmt::format("{}: cannot read: is a directory", path.string()));
+  if (!S_ISREG(status.st_mode)) throw InputError(fmt::format("{}: cannot read: is not a regular file", path.string()));
+  return status;
+}
+
+template <class Use>
+void read_all(const Descriptor& file, const fs::path& path, const Use& use) {
+  std::array<char, 65536> buffer;
+  while (true) {
+    const ssize_t count = ::read(file.number(), buffer.data(), buffer.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) fail_reading(path);
+    if (count == 0) return;
+    use(std::string_view(buffer.data(), static_cast<std::size_t>(count)));
+  }
+}
+
+void write_stream(const fs::path& path, std::string_view content) {
+  Descriptor file(path, O_WRONLY);
+  if (file.number() < 0) fail_writing(path);
   while (!content.empty()) {
     const ssize_t written = ::write(file.number(), content.data(), content.size());
     if (written < 0 && errno == EINTR) continue;
-    if (written < 0) fail_writing(name);
+    if (written < 0) fail_writing(path);
     content.remove_prefix(static_cast<std::size_t>(written));
   }
-  if (!file.close()) fail_writing(name);
+  if (!file.close()) fail_writing(path);
 }
 
-// Waits until the data are on the disk. EINVAL, from file systems that cannot synchronise directories, is ignored.
-void synchronise(const fs::path& path, const fs::path& name, int flags) {
-  const Descriptor file(path, O_RDONLY | flags);
-  if (file.number() < 0 || (::fsync(file.number()) != 0 && errno != EINVAL)) fail_writing(name);
+// Waits until a renamed file is on the disk. EINVAL, from file systems that cannot synchronise folders, is ignored.
+void synchronise_folder(const fs::path& folder) {
+  const Descriptor file(folder, O_RDONLY | O_DIRECTORY);
+  if (file.number() < 0) fail_writing(folder);
+  while (::fsync(file.number()) != 0) {
+    if (errno == EINVAL) return;
+    if (errno != EINTR) fail_writing(folder);
+  }
 }
 
-// "<path>.<host>-<process>.tmp"
-fs::path temporary_name(fs::path path) {
-  char host[HOST_NAME_MAX + 1] = {};
-  ::gethostname(host, HOST_NAME_MAX);
-  path += fmt::format(".{}-{}.tmp", host, ::getpid());
-  return path;
+// Creates a file completely or not at all; fill(TemporaryFile&) writes it. A symbolic link is preserved: its target is
+// replaced.
+template <class Fill>
+void replace_file(const fs::path& path, Fill fill) {
+  std::error_code error;
+  const fs::path resolved = fs::canonical(path, error);
+  const fs::path target = error ? path : resolved;
+  if (fs::is_directory(target, error)) {
+    errno = EISDIR;
+    fail_writing(target);
+  }
+  {
+    TemporaryFile temporary(target);
+    fill(temporary);
+    temporary.publish();
+  }
+  synchronise_folder(target.has_parent_path() ? target.parent_path() : fs::path("."));
 }
 
 // A pipe, terminal or device: written directly, since renaming would replace it.
@@ -94,37 +141,32 @@ fs::path find_file(const std::string& name, const fs::path& folder, const std::s
 }
 
 std::string read_file(const fs::path& path, std::size_t max_bytes) {
-  // Without O_NONBLOCK, opening a pipe without a writer would block.
-  const Descriptor file(path, O_RDONLY | O_NONBLOCK);
-  const auto fail = [&](const std::string& reason) {
-    throw InputError(fmt::format("{}: cannot read: {}", path.string(), reason));
+  const Descriptor file(path, kReading);
+  const struct stat status = status_of_regular(file, path);
+  const auto too_large = [&] {
+    throw InputError(fmt::format("{}: cannot read: is larger than the limit of {} bytes", path.string(), max_bytes));
   };
-  if (file.number() < 0) fail(std::strerror(errno));
-  struct stat status {};
-  if (::fstat(file.number(), &status) != 0) fail(std::strerror(errno));
-  if (S_ISDIR(status.st_mode)) fail("is a directory");
-  if (!S_ISREG(status.st_mode)) fail("is not a regular file");
-  const auto too_large = [&] { fail(fmt::format("is larger than the limit of {} bytes", max_bytes)); };
   if (static_cast<std::uintmax_t>(status.st_size) > max_bytes) too_large();
-
   std::string content;
   content.reserve(static_cast<std::size_t>(status.st_size));
-  char buffer[65536];
-  while (true) {
-    const ssize_t count = ::read(file.number(), buffer, sizeof buffer);
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) fail(std::strerror(errno));
-    if (count == 0) return content;
-    content.append(buffer, static_cast<std::size_t>(count));
+  read_all(file, path, [&](std::string_view block) {
+    content.append(block);
     if (content.size() > max_bytes) too_large();
-  }
+  });
+  return content;
+}
+
+void read_blocks(const fs::path& path, const std::function<void(std::string_view)>& use) {
+  const Descriptor file(path, kReading);
+  status_of_regular(file, path);
+  read_all(file, path, use);
 }
 
 void write_file(const fs::path& path, std::string_view content) {
   if (is_stream(path)) {
-    write_all(path, path, 0, content);
+    write_stream(path, content);
   } else {
-    write_file_with(path, [&](const fs::path& temporary) { write_all(temporary, path, O_CREAT | O_TRUNC, content); });
+    replace_file(path, [&](TemporaryFile& temporary) { temporary.write(content); });
   }
 }
 
@@ -136,25 +178,13 @@ void require_writable(const fs::path& path) {
 
 void write_file_with(const fs::path& path, const std::function<void(const fs::path&)>& write) {
   if (is_stream(path)) throw WorkError(fmt::format("{}: cannot write: is not a regular file", path.string()));
-  // A symbolic link is preserved: its target is replaced.
-  std::error_code error;
-  const fs::path resolved = fs::canonical(path, error);
-  const fs::path target = error ? path : resolved;
-  const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
-  const fs::path temporary = temporary_name(target);
-  try {
-    if (fs::is_directory(target, error)) {
-      errno = EISDIR;
-      fail_writing(target);
-    }
-    write(temporary);
-    synchronise(temporary, target, 0);
-    if (::rename(temporary.c_str(), target.c_str()) != 0) fail_writing(target);
-  } catch (...) {
-    fs::remove(temporary, error);
-    throw;
-  }
-  synchronise(folder, folder, O_DIRECTORY);
+  replace_file(path, [&](TemporaryFile& temporary) {
+    write(temporary.path());
+    std::error_code error;
+    if (fs::file_size(temporary.path(), error) != 0 && !error) return;
+    errno = ENOENT;
+    fail_writing(path);
+  });
 }
 
 void make_directory(const fs::path& path) {

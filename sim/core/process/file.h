@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Atomic file output: written next to the destination as `<name>.<host>-<process>.tmp`, synchronised, renamed. The
-// temporary name is unique to the process, so that two processes may write the same file; the later rename prevails.
+// Atomic file output: written next to the destination under a random name (sim/core/process/temporary_file.h),
+// synchronised, renamed. Two processes may write the same file; the later rename prevails.
 
 #include <cstddef>
 #include <filesystem>
@@ -16,8 +16,12 @@ namespace seaglint {
 // `where`, when in neither.
 std::filesystem::path find_file(const std::string& name, const std::filesystem::path& folder, const std::string& where);
 
-// Throws InputError when the file is missing, not a regular file, or larger than max_bytes.
+// Throws InputError when the file is missing, not a regular file, or larger than max_bytes; WorkError, with the system
+// error, when the disk or the system fails.
 std::string read_file(const std::filesystem::path& path, std::size_t max_bytes = std::size_t{1} << 30);
+
+// Passes a file of any size to use() in blocks of up to 64 KiB; the errors of read_file().
+void read_blocks(const std::filesystem::path& path, const std::function<void(std::string_view)>& use);
 
 // Throws WorkError (with the system error) when writing fails; no partial file remains.
 void write_file(const std::filesystem::path& path, std::string_view content);
@@ -26,7 +30,8 @@ void write_file(const std::filesystem::path& path, std::string_view content);
 // work. An empty path is accepted.
 void require_writable(const std::filesystem::path& path);
 
-// Calls write(temporary path), synchronises and renames; for libraries with file output of their own.
+// Calls write(temporary path), synchronises and renames; for libraries with file output of their own, which open this
+// file and neither remove nor replace it. Throws WorkError when it is then empty.
 void write_file_with(const std::filesystem::path& path, const std::function<void(const std::filesystem::path&)>& write);
 
 // Creates the directory and its parents; throws WorkError with the system error when this fails or the directory is not

@@ -7,15 +7,12 @@
 
 namespace seaglint {
 
-// Prints the text on standard error; does nothing when it is closed or full.
+// Prints the text on standard error as printable() returns it; does nothing when it is closed or full.
 void print_error(const std::string& text);
 
 // Opens /dev/null on those of the standard streams 0 to 2 that are closed at program start, whose numbers the next
 // opened file would otherwise take. Writing to a closed standard output still fails afterwards; text for a closed
 // standard error is discarded.
 void reserve_standard_streams();
-
-// The text on one line, with control characters escaped.
-std::string on_one_line(const std::string& text);
 
 }  // namespace seaglint

@@ -3,10 +3,7 @@
 
 // A small data set in a directory of its own; its rows and maps are consistent with its scenario.
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <limits.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -19,19 +16,8 @@ namespace seaglint {
 
 inline constexpr const char* kTestVersion = "0.0.0";
 
-// The name under which a process of this host writes a file.
-inline std::string temporary_name(const std::string& file, pid_t process) {
-  char host[HOST_NAME_MAX + 1] = {};
-  ::gethostname(host, HOST_NAME_MAX);
-  return fmt::format("{}.{}-{}.tmp", file, host, process);
-}
-
-inline pid_t dead_process() {
-  const pid_t process = ::fork();
-  if (process == 0) ::_exit(0);
-  ::waitpid(process, nullptr, 0);
-  return process;
-}
+// The name of a temporary file that no process holds.
+inline std::string leftover_name(const std::string& file) { return file + ".0123456789abcdef.tmp"; }
 
 class DataSetDirectory : public testing::Test {
  protected:

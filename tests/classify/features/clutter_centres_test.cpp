@@ -132,6 +132,12 @@ TEST(ClutterFalseAlarms, DoNotIncludeDensePoints) {
   EXPECT_EQ(centres.size(), 40U);
 }
 
+TEST(TextureMargin, OfTextureWritesNoGlobalVariable) {
+  ::signgam = 7;
+  texture_threshold_margin(0.7, 13);
+  EXPECT_EQ(::signgam, 7) << "a data race of threads that analyse maps";
+}
+
 // Shape 1/2 has the closed form P(x) = e^{-sqrt(2 x)}, so that the margin is factor / 2; shape 2 at 15.6955:
 // 48.99991 of (2 / Gamma(nu)) (nu x)^{nu/2} K_nu(2 sqrt(nu x)) = e^{-15.6955} by SciPy; no texture: none.
 TEST(TextureMargin, IsThatOfTheKDistribution) {

@@ -64,6 +64,23 @@ TEST_F(Figure, HeatmapsOfAnyShapeBecomePicturesWithoutOtherFiles) {
   }
 }
 
+// gnuplot opens names that begin with | or < as pipes, and runs what stands between backquotes in double quotes.
+TEST_F(Figure, NamesAndTextThatAreCommandsToGnuplotRunNothing) {
+  const fs::path before = fs::current_path();
+  fs::current_path(folder_);
+  fs::create_directory("<touch ran #");
+  Heatmap map = ripple(4, 4);
+  map.title = map.x.label = "`touch ran` @x '; system 'touch ran'; '";
+  for (const fs::path& file : {"|touch ran;.png", "<touch ran;.svg", "<touch ran #/f.png", "`touch ran`.png", "~x.svg",
+                               "-.png", "$(touch ran).png"}) {
+    write_figure(map, file);
+    EXPECT_GT(read_file(file).size(), 1000u) << file;
+    EXPECT_FALSE(fs::exists("ran")) << file;
+  }
+  EXPECT_EQ(files(), 7u);
+  fs::current_path(before);
+}
+
 TEST_F(Figure, LinesPointsAndIntervalsBecomePictures) {
   LinePlot plot;
   plot.title = "accuracy";

@@ -2,15 +2,20 @@
 // A model directory is that of one complete training, even when another one is interrupted.
 #include "tools/pipeline/train.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <functional>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "classify/dataset/directory/file_names.h"
 #include "classify/model/learning_table.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
@@ -50,6 +55,33 @@ class Training : public testing::Test {
 
   static inline fs::path folder_;
 };
+
+TEST_F(Training, LearnsNothingFromAMapThatIsNotFinite) {
+  const auto with_sample_3 = [](const std::function<void(Sample&)>& change) {
+    const fs::path data = folder_ / "changed", file = data / shard_name(0);
+    fs::remove_all(data);
+    fs::copy(folder_ / "data", data);
+    Shard shard = read_shard(file);
+    change(shard.samples[3]);
+    Manifest manifest = read_manifest(data / kManifestFile);
+    manifest.shards[0].sha256 = write_shard(file, shard, read_scenario(data / kScenarioFile).features.max_centres);
+    write_file(data / kManifestFile, to_json(manifest));
+    try {
+      train_model(data, folder_ / "no_model", {{"learning.epochs", "1"}}, 1);
+    } catch (const InputError& error) {
+      EXPECT_FALSE(fs::exists(folder_ / "no_model"));
+      return std::string(error.what());
+    }
+    return std::string("learnt");
+  };
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  const auto nan = [](Sample& sample) { std::fill(sample.magnitude.begin(), sample.magnitude.end(), std::nanf("")); };
+  EXPECT_THAT(with_sample_3(nan), testing::HasSubstr("shard_00000.h5: sample 3: nan in the map is no magnitude"));
+  EXPECT_THAT(with_sample_3([](Sample& sample) { sample.magnitude[5] = kInfinity; }),
+              testing::HasSubstr("sample 3: inf in the map is no magnitude"));
+  EXPECT_THAT(with_sample_3([](Sample& sample) { sample.magnitude[5] = 3e38F; }),
+              testing::HasSubstr("sample 3: peak_m"));
+}
 
 TEST_F(Training, ThatIsStoppedEndsSoonAndKeepsTheEarlierModel) {
   const auto before = files();

@@ -4,12 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
+#include <limits>
 
 #include "classify/dataset/directory/audit.h"
 #include "classify/dataset/directory/dataset_reader.h"
 #include "classify/dataset/format/checksum.h"
 #include "sim/core/process/file.h"
+#include "sim/core/process/temporary_file.h"
 #include "tests/classify/dataset/data_directory.h"
 
 namespace seaglint {
@@ -102,6 +105,64 @@ TEST_F(DataSetAudit, ReportsMapsThatDifferFromTheirRows) {
   EXPECT_THAT(faults(), ElementsAre(HasSubstr("no magnitude")));
 }
 
+TEST_F(DataSetAudit, ReportsNumbersThatAreNotFinite) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  falsify(1, [](Shard& shard) { shard.samples[0].magnitude[2] = kInfinity; });
+  EXPECT_THAT(faults(), ElementsAre(HasSubstr("sample 3: inf in the map is no magnitude")));
+  falsify(1, [](Shard& shard) { shard.samples[0].record.mwr = std::numeric_limits<double>::quiet_NaN(); });
+  EXPECT_THAT(faults(), ElementsAre(HasSubstr("sample 3: mwr nan is not finite")));
+  falsify(1, [](Shard& shard) { shard.samples[0].record.scr_per_pulse_db = kInfinity; });
+  EXPECT_THAT(faults(), ElementsAre(HasSubstr("sample 3: scr_per_pulse_db inf is not finite")));
+  falsify(1, [](Shard& shard) { shard.samples[0].record.scr_per_pulse_db = std::nan(""); });  // no clutter
+  EXPECT_THAT(faults(), IsEmpty());
+  falsify(1, [](Shard& shard) {
+    shard.samples[0].record.centres = 1;
+    shard.samples[0].centre_list = {{1, kInfinity, 2}};
+  });
+  EXPECT_THAT(faults(), ElementsAre(HasSubstr("sample 3: scattering centre at 1 m, inf m/s, 2 m is not finite")));
+}
+
+TEST_F(DataSetAudit, ReportsComplexMapsOfOtherMagnitude) {
+  const auto with_complex = [&](float last) {
+    for (std::size_t i = 0; i < plan_.shards(); ++i) {
+      falsify(i, [&](Shard& shard) {
+        for (Sample& sample : shard.samples) {
+          for (const float value : sample.magnitude) {
+            sample.complex_values.push_back(0.6F * value);
+            sample.complex_values.push_back(-0.8F * value);
+          }
+          if (sample.record.sample == 3) sample.complex_values.back() = last;
+        }
+      });
+    }
+    return faults();
+  };
+  EXPECT_THAT(with_complex(-0.8F * 7), IsEmpty());
+  EXPECT_THAT(with_complex(-0.8F * 7.001F), ElementsAre(HasSubstr("sample 3: complex value of magnitude")));
+  EXPECT_THAT(with_complex(std::nanf("")), ElementsAre(HasSubstr("sample 3: complex value of magnitude nan")));
+}
+
+TEST_F(DataSetAudit, ReportsAManifestOfAnotherSeedNameVersionOrProcessor) {
+  const Manifest good = read_manifest(directory_ / kManifestFile);
+  const auto with = [&](const std::function<void(Manifest&)>& change) {
+    Manifest manifest = good;
+    change(manifest);
+    write_file(directory_ / kManifestFile, to_json(manifest));
+    return faults();
+  };
+  EXPECT_THAT(with([](Manifest& m) { m.seed = 7; }), ElementsAre("manifest.json: seed 7, the scenario has 42"));
+  EXPECT_THAT(with([](Manifest& m) { m.scenario = "other"; }),
+              ElementsAre("manifest.json: scenario 'other', its name is 'small'"));
+  EXPECT_THAT(with([](Manifest& m) { m.program_version = "0.0.7"; }),
+              testing::Each(HasSubstr("made by version 0.0.0, by the manifest 0.0.7")));
+  EXPECT_THAT(with([](Manifest& m) { m.program_version = "0.0.7"; }), testing::SizeIs(3));
+  EXPECT_THAT(with([](Manifest& m) { m.processors.push_back("z"); }),
+              ElementsAre(HasSubstr("manifest.json: processors ")));
+  fs::rename(directory_ / shard_name(1), directory_ / "second.h5");
+  EXPECT_THAT(with([](Manifest& m) { m.shards[1].file = "second.h5"; }),
+              ElementsAre("second.h5: by its number shard_00001.h5"));
+}
+
 TEST_F(DataSetAudit, ReportsASeaInTwoGroups) {
   falsify(0, [](Shard& shard) { shard.samples[0].record.group = 1; });
   EXPECT_THAT(faults(),
@@ -110,8 +171,8 @@ TEST_F(DataSetAudit, ReportsASeaInTwoGroups) {
 }
 
 TEST_F(DataSetAudit, ReportsDamagedTruncatedAndForeignFiles) {
-  write_file(directory_ / temporary_name("shard_00007.h5", dead_process()), "half");
-  write_file(directory_ / temporary_name("dataset.h5", ::getpid()), "being written");
+  write_file(directory_ / leftover_name("shard_00007.h5"), "half");
+  const TemporaryFile being_written(directory_ / "dataset.h5");
   write_file(directory_ / "notes.tmp", "no file of a data set");
   write_file(directory_ / "other.h5", "foreign");
   std::string bytes = read_file(directory_ / shard_name(1));

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A data set directory when it is created, resumed, damaged and read.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
 
-#include <chrono>
 #include <fstream>
 #include <limits>
 
@@ -12,6 +14,7 @@
 #include "classify/dataset/format/hdf5_file.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
+#include "sim/core/process/temporary_file.h"
 #include "sim/scenario/writer.h"
 #include "tests/classify/dataset/data_directory.h"
 
@@ -114,20 +117,16 @@ TEST_F(DataSetDirectory, IsIncompleteWithADamagedOrForeignShard) {
 
 TEST_F(DataSetDirectory, HasNoTemporaryFilesOfKilledRunsOnceComplete) {
   DatasetWriter writer(directory_, scenario_, false, kTestVersion);
-  const pid_t dead = dead_process();
-  const std::vector<std::string> left{temporary_name("shard_00001.h5", dead), temporary_name("manifest.json", dead),
-                                      temporary_name("README.md", dead),      temporary_name("scenario.yaml", dead),
-                                      temporary_name("all.h5", dead),         "shard_00001.h5.old-node.sea-77.tmp"};
-  const std::vector<std::string> others{temporary_name("dataset.h5", ::getpid()),
-                                        "shard_00001.h5.other-node.sea-77.tmp",
-                                        temporary_name("notes", dead),
-                                        "notes.tmp",
-                                        "shard_00001.h5.tmp",
-                                        "shard_00001.h5.node-x.tmp"};
+  std::vector<std::string> left;
+  for (const char* file : {"shard_00001.h5", "manifest.json", "README.md", "scenario.yaml", "all.h5"})
+    left.push_back(leftover_name(file));
+  const TemporaryFile being_written(directory_ / "dataset.h5");
+  std::vector<std::string> others{leftover_name("notes"), "notes.tmp", "shard_00001.h5.tmp",
+                                  "shard_00001.h5.node-x.tmp"};
   for (const auto* names : {&left, &others}) {
     for (const std::string& name : *names) write_file(directory_ / name, "half");
   }
-  fs::last_write_time(directory_ / left.back(), fs::file_time_type::clock::now() - std::chrono::hours(25));
+  others.push_back(being_written.path().filename());
   writer.put(0, shard_of(0));
   EXPECT_THAT(writer.finish(), ElementsAre(1, 2));
   for (const std::string& name : left) EXPECT_TRUE(fs::exists(directory_ / name)) << name;
@@ -139,7 +138,7 @@ TEST_F(DataSetDirectory, HasNoTemporaryFilesOfKilledRunsOnceComplete) {
 
 TEST_F(DataSetDirectory, MayContainOnlyItsTemporaryFilesBeforeItsScenario) {
   fs::create_directories(directory_);
-  write_file(directory_ / temporary_name("scenario.yaml", dead_process()), "half");
+  write_file(directory_ / leftover_name("scenario.yaml"), "half");
   EXPECT_NO_THROW(DatasetWriter(directory_, scenario_, true, kTestVersion));
   fs::remove(directory_ / kScenarioFile);
   write_file(directory_ / "notes.tmp", "mine");
@@ -161,11 +160,25 @@ TEST_F(DataSetDirectory, IsResumedOnlyIfItContainsNothingElse) {
                                            (directory_ / "data").string()));
 }
 
+// No file can be written while this object lives.
+class NoSpace {
+ public:
+  NoSpace() {
+    ::signal(SIGXFSZ, SIG_IGN);
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit none{0, before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &none);
+  }
+  ~NoSpace() { ::setrlimit(RLIMIT_FSIZE, &before_); }
+
+ private:
+  rlimit before_{};
+};
+
 TEST_F(DataSetDirectory, AcceptsAShardOfAConcurrentProcess) {
   make_complete();
   DatasetWriter writer(directory_, scenario_, true, kTestVersion);
-  // A folder replaces the temporary file, so that nothing can be written.
-  fs::create_directories(directory_ / temporary_name(shard_name(0), ::getpid()) / "in the way");
+  const NoSpace none;
   EXPECT_NO_THROW(writer.put(0, shard_of(0)));
   Shard other = shard_of(0);
   other.samples[0].record.mwr = std::numeric_limits<double>::quiet_NaN();
@@ -173,6 +186,30 @@ TEST_F(DataSetDirectory, AcceptsAShardOfAConcurrentProcess) {
   other = shard_of(0);
   other.samples[2].magnitude[0] = 2;
   EXPECT_THROW(writer.put(0, other), WorkError);
+}
+
+// The manifest has the checksums of what was written, not of what lies there.
+TEST_F(DataSetDirectory, IsIncompleteWithAShardThatIsDamagedAfterItWasWritten) {
+  DatasetWriter writer(directory_, scenario_, false, kTestVersion);
+  for (std::size_t i = 0; i < plan_.shards(); ++i) writer.put(i, shard_of(i));
+  std::string bytes = read_file(directory_ / shard_name(1));
+  bytes[bytes.size() / 2] ^= 1;
+  write_file(directory_ / shard_name(1), bytes);
+  EXPECT_THAT(writer.finish(), ElementsAre(1));
+  EXPECT_FALSE(fs::exists(directory_ / kManifestFile));
+}
+
+TEST_F(DataSetDirectory, RegeneratesShardsWithAppendedBytesOrWithoutAFormat) {
+  make_complete();
+  fs::remove(directory_ / kManifestFile);
+  std::ofstream(directory_ / shard_name(0), std::ios::app) << "x";
+  fs::remove(directory_ / shard_name(1));
+  Hdf5Writer without_format(directory_ / shard_name(1), Hdf5Version::k18);
+  without_format.close();
+  DatasetWriter writer(directory_, scenario_, true, kTestVersion);
+  EXPECT_FALSE(writer.complete(0));
+  EXPECT_FALSE(writer.complete(1));
+  EXPECT_TRUE(writer.complete(2));
 }
 
 // A manifest with wrong checksums of two shards, as after these were regenerated on a processor with other rounding.
@@ -286,6 +323,11 @@ TEST_F(DataSetDirectory, WithABrokenManifestIsRefused) {
   std::string outside = good;
   outside.replace(outside.find("shard_00000.h5"), 14, "../secret.h5");
   EXPECT_THAT(refused(outside), HasSubstr("is not the name of a file beside it"));
+  for (const char* number : {"-3", "3.7", "\"3\""}) {
+    std::string other = good;
+    other.replace(other.find("\"samples\": 3"), 12, fmt::format("\"samples\": {}", number));
+    EXPECT_THAT(refused(other), HasSubstr("must be a whole number")) << number;
+  }
   manifest.shards.back().samples = 100000000000000;
   manifest.samples = manifest.shards.back().first_sample + manifest.shards.back().samples;
   EXPECT_THAT(refused(to_json(manifest)),

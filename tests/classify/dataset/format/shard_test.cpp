@@ -104,6 +104,16 @@ TEST_F(ShardFile, HasTheSameBytesWheneverAndWhereverItIsWritten) {
   EXPECT_EQ(sha256_file(file_), first);
 }
 
+TEST_F(ShardFile, IsReadFromItsOwnBytesWhileAnotherIsOpen) {
+  Shard other = some_shard();
+  other.samples[0].magnitude[0] = 7;
+  write_shard(file_, some_shard(), 8);
+  write_shard(directory_ / "other.h5", other, 8);
+  const Hdf5Reader first(load_shard(file_).image), second(load_shard(directory_ / "other.h5").image);
+  EXPECT_EQ(first.read<float>("/maps", 3).values[0], some_shard().samples[0].magnitude[0]);
+  EXPECT_EQ(second.read<float>("/maps", 3).values[0], 7);
+}
+
 TEST_F(ShardFile, IsRefusedWithItsNameWhenTruncated) {
   write_shard(file_, some_shard(), 8);
   const std::uintmax_t size = fs::file_size(file_);

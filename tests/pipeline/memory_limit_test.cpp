@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Without memory a command ends with exit code 1 and one line; it neither crashes nor waits for ever.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/pipeline/program.h"
+
+namespace seaglint {
+namespace {
+
+TEST(MemoryLimit, OfTheAddressSpaceEndsARunWithOneLine) {
+  int refused = 0;
+  // MB; the program with its libraries takes some 600, a whole run 900.
+  for (const int limit : {650, 672, 700, 716, 728, 740, 800, 850}) {
+    const TemporaryFolder folder;
+    const ProgramResult result = run_words(
+        {"/bin/bash", "-c", "ulimit -v " + std::to_string(limit * 1024) + "; exec timeout 60 \"$@\"", "limited",
+         kProgram, "run", "scenarios/points.yaml", "-o", folder.path() / "run", "--set", "learning.epochs=2"});
+    EXPECT_TRUE(result.code == 0 || result.code == 1)
+        << limit << " MB: exit code " << result.code << ": " << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), result.code) << limit << " MB: " << result.err;
+    refused += result.code;
+  }
+  EXPECT_GT(refused, 0);
+}
+
+}  // namespace
+}  // namespace seaglint
