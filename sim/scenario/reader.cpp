@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <optional>
 
 #include "sim/core/process/error.h"
 #include "sim/core/text/number.h"
+#include "sim/core/text/shown.h"
 #include "sim/core/text/suggestion.h"
 #include "sim/scenario/fields.h"
 #include "sim/scenario/renamed_keys.h"
@@ -21,17 +21,16 @@ constexpr std::size_t kMaxSweepValues = 10000;
 
 // A value as shown in error messages.
 std::string value_text(const YamlNode& node) {
-  constexpr std::size_t kLongest = 60;
   switch (node.kind) {
     case YamlNode::Kind::kNull: return "no value";
     case YamlNode::Kind::kList: return "a list";
     case YamlNode::Kind::kMap: return "a map";
     case YamlNode::Kind::kScalar: break;
   }
-  std::string text = node.text.substr(0, kLongest);
+  std::string text = node.text;
   std::replace_if(
       text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
-  return fmt::format("value '{}{}'", text, node.text.size() > kLongest ? "..." : "");
+  return "value " + in_quotes(text);
 }
 
 // The keys a map may have.
@@ -310,11 +309,7 @@ class Reader : public FieldVisitor {
   }
 
   static std::optional<std::int64_t> integer_of(const YamlNode& node) {
-    std::int64_t value = 0;
-    const char* end = node.text.data() + node.text.size();
-    const auto [stop, error] = std::from_chars(node.text.data(), end, value);
-    if (!is_plain(node) || error != std::errc() || stop != end) return std::nullopt;
-    return value;
+    return is_plain(node) ? parse_integer(node.text) : std::nullopt;
   }
 
   Sweep list_sweep(const YamlNode& list, const std::string& path, const Bound& bound) const {

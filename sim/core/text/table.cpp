@@ -5,13 +5,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <string_view>
 #include <utility>
 
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
+#include "sim/core/text/number.h"
 #include "sim/core/text/words.h"
 
 namespace seaglint {
@@ -101,8 +101,8 @@ Table parse_table(const std::string& text, const std::string& file, const std::v
     }
     std::vector<double>& row = cells.emplace_back();
     for (std::size_t i = 0; i < columns.size(); ++i) {
-      const std::optional<double> value = number_of(words[columns[i]]);
-      if (!value || !std::isfinite(*value)) {
+      const std::optional<double> value = parse_number(words[columns[i]]);
+      if (!value) {
         throw InputError(fmt::format("{}:{}:{}: {}: value '{}': must be a finite number", file, number,
                                      words[columns[i]].data() - line.data() + 1, requested[i], words[columns[i]]));
       }

@@ -11,6 +11,8 @@
 #include <unordered_map>
 
 #include "sim/core/process/error.h"
+#include "sim/core/text/number.h"
+#include "sim/core/text/shown.h"
 #include "sim/core/text/utf8.h"
 #include "sim/core/text/words.h"
 #include "sim/geometry/files/coordinate.h"
@@ -95,9 +97,9 @@ class ObjReader {
     Vec3 position;
     for (double& x : position) {
       const std::string_view word = next_word(line);
-      const auto number = number_of(word);
+      const auto number = parse_any_number(word);
       const auto coordinate = number ? coordinate_of(*number) : std::nullopt;
-      if (!coordinate) fail(fmt::format("\"{}\" is not a coordinate", word));
+      if (!coordinate) fail(fmt::format("\"{}\" is not a coordinate", shown(word)));
       x = *coordinate;
     }
     builder_.vertex(position);
@@ -107,15 +109,24 @@ class ObjReader {
   // A normal that is none never refuses a file: it becomes zero.
   void normal(std::string_view line) {
     Vec3 n;
-    for (double& x : n) x = number_of(next_word(line)).value_or(0);
+    for (double& x : n) x = parse_any_number(next_word(line)).value_or(0);
     normals_.push_back(n);
+  }
+
+  // v, v/t, v//n or v/t/n with an integer t or none; an n that is no integer is no normal.
+  static bool is_corner(std::string_view word) {
+    const std::size_t first = word.find('/');
+    if (first == std::string_view::npos) return true;
+    const std::size_t second = std::min(word.find('/', first + 1), word.size());
+    const std::string_view texture = word.substr(first + 1, second - first - 1);
+    return texture.empty() || parse_integer(texture);
   }
 
   // The normal of a corner v//n or v/t/n, zero-based, as far as faces may name one; a later line may still define it.
   std::int64_t normal_index(std::string_view corner) const {
     const std::size_t first = corner.find('/'), second = corner.find('/', first + 1);
     if (first == std::string_view::npos || second == std::string_view::npos) return -1;
-    const auto value = integer_of(corner.substr(second + 1));
+    const auto value = parse_integer(corner.substr(second + 1));
     if (!value || *value == 0) return -1;
     return *value > 0 ? *value - 1 : static_cast<std::int64_t>(normals_.size()) + *value;
   }
@@ -128,8 +139,8 @@ class ObjReader {
   void face(std::string_view line) {
     const std::size_t first = corners_.size();
     for (std::string_view word = next_word(line); !word.empty() && word[0] != '#'; word = next_word(line)) {
-      const auto value = integer_of(word.substr(0, word.find('/')));
-      if (!value || *value == 0) fail(fmt::format("\"{}\" is not a corner of a face", word));
+      const auto value = parse_integer(word.substr(0, word.find('/')));
+      if (!value || *value == 0 || !is_corner(word)) fail(fmt::format("\"{}\" is not a corner of a face", shown(word)));
       // Negative indices are relative to the vertex before this line.
       const std::int64_t index = *value > 0 ? *value : vertices_so_far_ + *value + 1;
       if (index < 1 || index > vertex_count_)

@@ -9,6 +9,7 @@
 #include <span>
 
 #include "sim/core/process/error.h"
+#include "sim/core/text/number.h"
 #include "sim/core/text/words.h"
 #include "sim/geometry/files/coordinate.h"
 #include "sim/geometry/files/split_vertices.h"
@@ -141,7 +142,7 @@ class PlyReader {
           fail(fmt::format("the PLY format \"{}\" is unknown", format));
       } else if (keyword == "element") {
         const std::string_view name = next_word(line), count = next_word(line);
-        const auto number = integer_of(count);
+        const auto number = parse_integer(count);
         if (!number || *number < 0) fail(fmt::format("the PLY header promises \"{}\" of \"{}\"", count, name));
         for (const Element& element : elements_) {
           if (element.name == name) fail(fmt::format("the PLY header has \"{}\" twice", name));
@@ -181,7 +182,7 @@ class PlyReader {
   double number(Number type) {
     if (is_ascii_) {
       const std::string_view word = next_word(rest_);
-      const auto number = number_of(word);
+      const auto number = parse_any_number(word);
       if (!number)
         fail(word.empty() ? std::string("ends before its last number")
                           : fmt::format("\"{}\" is not a number", word.substr(0, 40)));

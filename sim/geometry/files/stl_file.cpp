@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "sim/core/process/error.h"
+#include "sim/core/text/number.h"
 #include "sim/core/text/utf8.h"
 #include "sim/core/text/words.h"
 #include "sim/geometry/files/coordinate.h"
@@ -99,7 +100,7 @@ class AsciiStl {
 
   double coordinate() {
     const std::string_view word = next_word(rest_);
-    const auto number = number_of(word);
+    const auto number = parse_any_number(word);
     const auto value = number ? coordinate_of(*number) : std::nullopt;
     if (!value) fail(fmt::format("\"{}\" is not a coordinate", word.substr(0, 40)));
     return *value;

@@ -17,6 +17,7 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
+#include "sim/core/text/number.h"
 #include "sim/core/text/words.h"
 #include "sim/motion/ship/ship_response.h"
 
@@ -47,8 +48,8 @@ class Words {
     } while (text.find_first_not_of(" \t\r") == std::string_view::npos);
     std::vector<double> values;
     for (std::string_view word = next_word(text); !word.empty(); word = next_word(text)) {
-      const std::optional<double> value = number_of(word);
-      if (!value || !std::isfinite(*value)) {
+      const std::optional<double> value = parse_number(word);
+      if (!value) {
         throw InputError(fmt::format("{}: {}: value '{}': must be a finite number", place(), what, word));
       }
       values.push_back(*value);
