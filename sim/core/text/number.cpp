@@ -40,7 +40,7 @@ struct Decimal {
 // The digits of a number that parse_number() accepts; nullopt when they exceed what a double holds exactly.
 std::optional<Decimal> decimal_of(std::string_view text) {
   Decimal decimal;
-  const std::size_t e = text.find_first_of("eE");
+  const std::size_t e = text.find_first_of("eEdD");
   if (e != std::string_view::npos) {
     const std::optional<std::int64_t> exponent = parse_integer(text.substr(e + 1));
     if (!exponent || std::abs(*exponent) > 100) return std::nullopt;
@@ -48,7 +48,7 @@ std::optional<Decimal> decimal_of(std::string_view text) {
   }
   bool after_point = false;
   for (const char c : text.substr(0, e)) {
-    if (c == '.') after_point = true;
+    if (c == '.' || c == ',') after_point = true;
     if (c < '0' || c > '9') continue;
     decimal.mantissa = 10 * decimal.mantissa + (c - '0');
     if (decimal.mantissa > kExact) return std::nullopt;
@@ -108,6 +108,13 @@ std::optional<double> parse_number(std::string_view text) {
 
 std::optional<std::int64_t> parse_integer(std::string_view text) { return whole<std::int64_t>(text); }
 std::optional<std::uint64_t> parse_natural(std::string_view text) { return whole<std::uint64_t>(text); }
+
+std::optional<int> significant_decimals(std::string_view text) {
+  std::optional<Decimal> decimal = decimal_of(text);
+  if (!decimal) return std::nullopt;
+  while (decimal->mantissa != 0 && decimal->mantissa % 10 == 0) decimal->mantissa /= 10, ++decimal->exponent;
+  return decimal->mantissa == 0 ? 0 : std::max(0, -decimal->exponent);
+}
 
 std::vector<double> parse_range(std::string_view text, std::size_t max_count) {
   const auto fail = [&](const std::string& bound) {

@@ -21,6 +21,10 @@ std::optional<double> parse_any_number(std::string_view text);
 std::optional<std::int64_t> parse_integer(std::string_view text);
 std::optional<std::uint64_t> parse_natural(std::string_view text);
 
+// Decimals of a number that are not trailing zeros: 2 of "0.0300" and of "3e-2", 0 of "120"; nullopt for more digits
+// than a double holds. A comma counts as the decimal point.
+std::optional<int> significant_decimals(std::string_view text);
+
 // "A" is one value; "from:to:step" are from, from + step, ... up to `to`, which is included when it lies within 1e-9 of
 // a step of that grid (and is then exactly `to`). Values are those of the decimal sums: 0:1:0.1 has 0.3, not
 // 0.30000000000000004. The step may be negative. Throws InputError "value '...': must be ...", also for more than
