@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <string>
 
 #include "sim/core/process/error.h"
 #include "sim/core/text/shown.h"
@@ -104,6 +105,18 @@ std::optional<double> parse_any_number(std::string_view text) { return whole<dou
 std::optional<double> parse_number(std::string_view text) {
   const std::optional<double> value = whole<double>(text);
   return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
+std::optional<double> parse_written_number(std::string_view text) {
+  if (const std::optional<double> value = parse_any_number(text)) return value;
+  constexpr std::size_t kLongest = 64;
+  if (text.size() > kLongest || text.find_first_not_of("0123456789+-.,eEdD") != std::string_view::npos)
+    return std::nullopt;
+  std::string usual(text);
+  const auto commas = std::count(usual.begin(), usual.end(), ',');
+  if (commas > 1 || (commas == 1 && usual.find('.') != std::string::npos)) return std::nullopt;
+  for (char& c : usual) c = c == ',' ? '.' : c == 'D' || c == 'd' ? 'e' : c;
+  return parse_any_number(usual);
 }
 
 std::optional<std::int64_t> parse_integer(std::string_view text) { return whole<std::int64_t>(text); }

@@ -17,6 +17,9 @@ std::optional<double> parse_number(std::string_view text);
 // The same, or infinity or NaN ("inf", "-Infinity", "nan"): for formats that define them.
 std::optional<double> parse_any_number(std::string_view text);
 
+// The same as other systems and Fortran write it: one comma for the decimal point, D for the exponent's E.
+std::optional<double> parse_written_number(std::string_view text);
+
 // A decimal integer within the limits of its type ("-3", "+12").
 std::optional<std::int64_t> parse_integer(std::string_view text);
 std::optional<std::uint64_t> parse_natural(std::string_view text);

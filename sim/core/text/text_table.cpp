@@ -20,29 +20,14 @@ namespace {
 
 constexpr int kMaxLinesAbove = 200;  // above the names
 
-// A cell with the decimal mark and the exponent of parse_number(): one comma for a point, D for E (Fortran).
-std::optional<double> number_of_cell(std::string_view cell) {
-  if (const std::optional<double> value = parse_any_number(cell)) return value;
-  constexpr std::size_t kLongest = 64;
-  if (cell.size() > kLongest || cell.find_first_not_of("0123456789+-.,eEdD") != std::string_view::npos)
-    return std::nullopt;
-  std::string text(cell);
-  const auto commas = std::count(text.begin(), text.end(), ',');
-  if (commas > 1 || (commas == 1 && text.find('.') != std::string::npos)) return std::nullopt;
-  std::replace(text.begin(), text.end(), ',', '.');
-  std::replace(text.begin(), text.end(), 'D', 'e');
-  std::replace(text.begin(), text.end(), 'd', 'e');
-  return parse_any_number(text);
-}
-
 bool has_number(const std::vector<std::string_view>& cells) {
   return std::any_of(cells.begin(), cells.end(),
-                     [](std::string_view cell) { return number_of_cell(cell).has_value(); });
+                     [](std::string_view cell) { return parse_written_number(cell).has_value(); });
 }
 
 bool all_numbers(const std::vector<std::string_view>& cells) {
   return std::all_of(cells.begin(), cells.end(),
-                     [](std::string_view cell) { return number_of_cell(cell).has_value(); });
+                     [](std::string_view cell) { return parse_written_number(cell).has_value(); });
 }
 
 void drop_empty_ends(std::vector<std::string_view>& cells, std::size_t width) {
@@ -240,7 +225,7 @@ void TextTable::read_rows(std::string_view rest) {
 void TextTable::find_decimal_mark() {
   for (const std::string_view& cell : cells_) {
     const std::size_t mark = cell.find_first_of(".,");
-    if (mark == std::string_view::npos || !number_of_cell(cell)) continue;
+    if (mark == std::string_view::npos || !parse_written_number(cell)) continue;
     decimal_ = cell[mark];
     decimal_line_ = source_.line_of(cell);
     return;
@@ -306,7 +291,7 @@ void TextTable::fail(std::size_t row, std::size_t column, const std::string& wha
 
 double TextTable::number(std::size_t row, std::size_t column, double lowest, double highest) const {
   const std::string_view cell = text(row, column);
-  const std::optional<double> value = number_of_cell(cell);
+  const std::optional<double> value = parse_written_number(cell);
   if (!value || !std::isfinite(*value)) fail(row, column, "must be a finite number");
   const std::size_t mark = cell.find_first_of(".,");
   if (mark != std::string_view::npos && cell[mark] != decimal_) {
