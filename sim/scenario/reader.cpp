@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <initializer_list>
 #include <optional>
 
 #include "sim/core/process/error.h"
@@ -111,9 +112,12 @@ class Reader : public FieldVisitor {
   void flag(const char* key, bool& value) override {
     const YamlNode* node = map_.find(key);
     if (node == nullptr) return;
-    const bool readable = is_plain(*node) && (node->text == "true" || node->text == "false");
-    if (!readable) fail(*node, path_of(key), "must be true or false");
-    value = node->text == "true";
+    // The three spellings of the YAML 1.2 core schema.
+    const auto is_one_of = [&](std::initializer_list<const char*> words) {
+      return is_plain(*node) && std::find(words.begin(), words.end(), node->text) != words.end();
+    };
+    value = is_one_of({"true", "True", "TRUE"});
+    if (!value && !is_one_of({"false", "False", "FALSE"})) fail(*node, path_of(key), "must be true or false");
   }
 
   void text(const char* key, std::string& value) override {

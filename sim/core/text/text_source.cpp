@@ -16,8 +16,27 @@ namespace {
 
 using namespace std::string_view_literals;
 
-// What a file is by its first bytes, with what to do; empty for text of one byte per character.
-std::string_view kind_of(std::string_view bytes) {
+bool is_text_byte(unsigned char c) { return c >= 0x20 ? c != 0x7f : c == '\n' || c == '\r' || c == '\t' || c == '\f'; }
+
+std::string text_of(const std::string& name, std::string bytes) {
+  const std::string_view kind = foreign_kind(bytes);
+  if (!kind.empty()) throw InputError(fmt::format("{}: no plain text: it is {}", name, kind));
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+  if (bytes.starts_with(kByteOrderMark)) bytes.erase(0, kByteOrderMark.size());
+  while (bytes.ends_with('\x1a')) bytes.pop_back();
+  const auto strange =
+      std::find_if(bytes.begin(), bytes.end(), [](char c) { return !is_text_byte(static_cast<unsigned char>(c)); });
+  if (strange != bytes.end()) {
+    throw InputError(fmt::format("{}:{}: byte 0x{:02x}: no plain text, a binary file or a damaged one", name,
+                                 std::count(bytes.begin(), strange, '\n') + 1, static_cast<unsigned char>(*strange)));
+  }
+  if (bytes.find('\n') == std::string::npos) std::replace(bytes.begin(), bytes.end(), '\r', '\n');
+  return utf8_prefix(bytes) == bytes.size() ? bytes : utf8_of(bytes);
+}
+
+}  // namespace
+
+std::string_view foreign_kind(std::string_view bytes) {
   struct Kind {
     std::string_view magic, what;
   };
@@ -39,15 +58,17 @@ std::string_view kind_of(std::string_view bytes) {
       {"%PDF-"sv, "a PDF document"},
       {"glTF"sv, "a binary glTF mesh"},
   };
+  const std::string_view head = bytes.substr(0, 64);
   for (const auto& [magic, what] : kKinds) {
-    if (bytes.starts_with(magic)) return what;
+    // The two bytes of UTF-16 may begin any binary file; Latin letters, digits and line ends have zeros.
+    const bool by_chance = magic.size() == 2 && magic != "\x1f\x8b" && head.find('\0') == std::string_view::npos;
+    if (bytes.starts_with(magic) && !by_chance) return what;
   }
   // OpenFAST's binary output begins with a little-endian int16, 1 to 5.
   if (bytes.size() > 2 && bytes[0] >= 1 && bytes[0] <= 5 && bytes[1] == 0)
     return "binary, perhaps output of OpenFAST (.outb): set OutFileFmt to 1 for text";
   // UTF-16 without a mark: every second byte of Latin letters and digits is 0.
-  const std::string_view head = bytes.substr(0, 64);
-  if (head.size() >= 4) {
+  if (head.size() >= 8) {
     std::size_t zeros[2] = {0, 0};
     for (std::size_t i = 0; i < head.size(); ++i) zeros[i % 2] += head[i] == 0 ? 1 : 0;
     const std::size_t half = head.size() / 2;
@@ -56,26 +77,6 @@ std::string_view kind_of(std::string_view bytes) {
   }
   return {};
 }
-
-bool is_text_byte(unsigned char c) { return c >= 0x20 ? c != 0x7f : c == '\n' || c == '\r' || c == '\t' || c == '\f'; }
-
-std::string text_of(const std::string& name, std::string bytes) {
-  const std::string_view kind = kind_of(bytes);
-  if (!kind.empty()) throw InputError(fmt::format("{}: no plain text: it is {}", name, kind));
-  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
-  if (bytes.starts_with(kByteOrderMark)) bytes.erase(0, kByteOrderMark.size());
-  while (bytes.ends_with('\x1a')) bytes.pop_back();
-  const auto strange =
-      std::find_if(bytes.begin(), bytes.end(), [](char c) { return !is_text_byte(static_cast<unsigned char>(c)); });
-  if (strange != bytes.end()) {
-    throw InputError(fmt::format("{}:{}: byte 0x{:02x}: no plain text, a binary file or a damaged one", name,
-                                 std::count(bytes.begin(), strange, '\n') + 1, static_cast<unsigned char>(*strange)));
-  }
-  if (bytes.find('\n') == std::string::npos) std::replace(bytes.begin(), bytes.end(), '\r', '\n');
-  return utf8_prefix(bytes) == bytes.size() ? bytes : utf8_of(bytes);
-}
-
-}  // namespace
 
 TextSource::TextSource(std::string name, std::string bytes)
     : name_(std::move(name)), text_(std::make_shared<const std::string>(text_of(name_, std::move(bytes)))) {}

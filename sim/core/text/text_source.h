@@ -33,6 +33,10 @@ class TextSource {
   std::shared_ptr<const std::string> text_;
 };
 
+// What a file is by its first bytes, with what to do, if it is no text of one byte per character: "a text in UTF-16:
+// save it as UTF-8"; else empty.
+std::string_view foreign_kind(std::string_view bytes);
+
 // A line of a note: its first character other than blanks is # or %, or it begins with // or !.
 bool is_comment(std::string_view line);
 
