@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "sim/core/process/error.h"
+#include "sim/core/text/json_keys.h"
 #include "sim/core/text/json_problem.h"
 #include "sim/geometry/files/glb_chunks.h"
 
@@ -372,6 +373,7 @@ int depth_of(std::string_view text) {
 Json parsed(std::string_view text, const std::string& file) {
   if (depth_of(text) > kDeepest)
     throw InputError(fmt::format("{}: the JSON is nested more than {} levels deep", file, kDeepest));
+  refuse_repeated_keys(text, file);
   try {
     return Json::parse(text.begin(), text.end());
   } catch (const Json::exception& error) {
