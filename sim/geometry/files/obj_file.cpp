@@ -63,7 +63,14 @@ class ObjReader {
                        vertex_count_, vertices_so_far_));
     }
     for (const Face& face : faces_) triangulate(face);
-    return builder_.take();
+    TriangleMesh mesh = builder_.take();
+    mesh.findings = odd_.sentences();
+    if (free_form_ > 0) {
+      mesh.findings.push_back(
+          fmt::format("{} {} of free-form geometry ({} in line {}, ...): not read, export it as triangles", free_form_,
+                      free_form_ == 1 ? "line" : "lines", first_free_form_, first_free_form_line_));
+    }
+    return mesh;
   }
 
  private:
@@ -90,7 +97,17 @@ class ObjReader {
     if (keyword == "vn") normal(line);
     if (keyword == "f") face(line);
     if (keyword == "g" || keyword == "o") group(line);
-    // Texture coordinates, material files and curves are ignored.
+    if (is_free_form(keyword)) {
+      if (free_form_++ == 0) first_free_form_ = keyword, first_free_form_line_ = line_;
+    }
+    // Texture coordinates and material files are ignored.
+  }
+
+  // Curves and surfaces (Wavefront OBJ specification, "Free-form curve/surface attributes").
+  static bool is_free_form(std::string_view keyword) {
+    constexpr std::string_view kKeywords[] = {"cstype", "curv", "curv2", "surf", "bmat",
+                                              "bzp",    "bsp",  "cdc",   "cdp",  "res"};
+    return std::find(std::begin(kKeywords), std::end(kKeywords), keyword) != std::end(kKeywords);
   }
 
   void vertex(std::string_view line) {
@@ -160,9 +177,8 @@ class ObjReader {
     const std::span<const std::uint32_t> corners(corners_.data() + face.first, face.count);
     polygon_.clear();
     for (const std::uint32_t v : corners) polygon_.push_back(builder_.vertices()[v]);
-    const auto triangles = triangulate_polygon(polygon_);
-    if (!triangles) fail(untriangulated_message(face.count));
-    for (const auto& [i, j, k] : *triangles) {
+    const auto place = [&] { return fmt::format("line {}", face.line); };
+    for (const auto& [i, j, k] : triangles_of_polygon(polygon_, odd_, place)) {
       const std::uint32_t a = corners[i], b = corners[j], c = corners[k];
       if (a == b || b == c || c == a) continue;
       builder_.begin_part(part_names_[face.part]);
@@ -199,6 +215,10 @@ class ObjReader {
   std::vector<Vec3> normals_;
   std::vector<Face> faces_;
   std::vector<Vec3> polygon_;
+  OddPolygons odd_;
+  std::size_t free_form_ = 0;  // lines
+  std::string_view first_free_form_;
+  std::size_t first_free_form_line_ = 0;
   std::int64_t vertex_count_ = 0;
   std::int64_t vertices_so_far_ = 0;
   std::size_t line_ = 0;

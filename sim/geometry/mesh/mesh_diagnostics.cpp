@@ -222,10 +222,14 @@ std::string counted(std::size_t n, const char* one, const char* many) {
 
 }  // namespace
 
-MeshDiagnostics diagnose(const TriangleMesh& mesh) { return find_defects(mesh).health; }
+MeshDiagnostics diagnose(const TriangleMesh& mesh) {
+  MeshDiagnostics health = find_defects(mesh).health;
+  health.of_file = mesh.findings;
+  return health;
+}
 
 std::vector<std::string> diagnostic_messages(const MeshDiagnostics& h) {
-  std::vector<std::string> found;
+  std::vector<std::string> found = h.of_file;
   if (h.degenerate > 0) found.push_back(counted(h.degenerate, "triangle has", "triangles have") + " no area: removed");
   if (h.repeated > 0)
     found.push_back(counted(h.repeated, "triangle repeats", "triangles repeat") + " another: removed");
