@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 
 #include "sim/core/process/error.h"
@@ -69,6 +70,49 @@ TEST_F(FieldMesh, HasTriangleStrips) {
   EXPECT_GT(area_vector(strip, 0).z(), 0);
   EXPECT_GT(area_vector(strip, 1).z(), 0);
   EXPECT_EQ(read_mesh(put("a.ply", quad + "7 0 1 2 -1 1 3 2\n")).triangles.size(), 2u);
+}
+
+// One mesh with float positions, with 16-bit integers, and with four positions replaced.
+TEST_F(FieldMesh, OfGltfIsReadQuantisedAndSparse) {
+  const TriangleMesh plain = read_mesh(kMeshes + "texture_webp_required.gltf");  // an extension of its textures
+  ASSERT_EQ(plain.vertices.size(), 16u);
+  for (const auto& [name, tolerance] : {std::pair{"sparse.gltf", 1e-6},
+                                        {"quantised.gltf", 0.5 * 2.2e-5 + 1e-7},
+                                        {"gltfpack_default.glb", 0.5 * 7.4e-5 + 1e-7}}) {
+    SCOPED_TRACE(name);
+    const TriangleMesh mesh = read_mesh(kMeshes + name);
+    ASSERT_EQ(mesh.triangles.size(), plain.triangles.size());
+    // Optimisers renumber vertices and triangles.
+    const auto centroid = [](const TriangleMesh& m, std::size_t t) {
+      return Vec3((m.vertices[m.triangles[t][0]] + m.vertices[m.triangles[t][1]] + m.vertices[m.triangles[t][2]]) / 3);
+    };
+    for (std::size_t t = 0; t < plain.triangles.size(); ++t) {
+      double nearest = 1;
+      for (std::size_t u = 0; u < mesh.triangles.size(); ++u)
+        nearest = std::min(nearest, (centroid(plain, t) - centroid(mesh, u)).cwiseAbs().maxCoeff());
+      EXPECT_LE(nearest, tolerance) << t;
+    }
+    EXPECT_NEAR(surface_area(mesh), surface_area(plain), 24 * 4 * tolerance);
+  }
+}
+
+// A decoy of 0.98 m drawn in millimetres, a ship drawn 2.8 m long, a ship of 144 m in millimetres.
+TEST_F(FieldMesh, OfAnUnlikelySizeAsksForItsUnit) {
+  const auto asks = [](const std::string& file, const char* unit) {
+    const std::vector<std::string> messages = diagnostic_messages(diagnose(read_mesh(file, unit)));
+    return std::any_of(messages.begin(), messages.end(),
+                       [](const std::string& line) { return line.find("an unlikely size") != std::string::npos; });
+  };
+  const std::string assets = SEAGLINT_SOURCE_DIR "/assets/",
+                    moskva = SEAGLINT_SOURCE_DIR "/tests/reference/meshes/moskva.glb";
+  EXPECT_TRUE(asks(kMeshes + "reflector_in_mm.stl", "m"));
+  EXPECT_FALSE(asks(kMeshes + "reflector_in_mm.stl", "mm"));
+  EXPECT_TRUE(asks(moskva, "m"));
+  EXPECT_FALSE(asks(assets + "combatant_144m.glb", "m"));
+  EXPECT_TRUE(asks(assets + "combatant_144m.glb", "km"));
+  EXPECT_TRUE(asks(assets + "combatant_144m.glb", "cm"));
+  EXPECT_FALSE(asks(assets + "icosahedral_reflector.glb", "m"));
+  EXPECT_TRUE(asks(assets + "icosahedral_reflector.glb", "mm"));
 }
 
 TEST_F(FieldMesh, ThatIsCutOffOrBrokenIsRefusedWithItsLine) {
