@@ -16,6 +16,7 @@
 #include "seaglint_version.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/standard_error.h"
+#include "sim/core/text/shown.h"
 #include "tools/cli/command.h"
 
 namespace seaglint {
@@ -62,7 +63,7 @@ void add_commands(CommandOptions& program, CommandContext& context) {
 
 int fail(int code, const std::string& message) {
   std::fflush(stdout);
-  print_error(fmt::format("seaglint: {}\n", on_one_line(message)));
+  print_error(fmt::format("seaglint: {}\n", shown_whole(message)));
   return code;
 }
 

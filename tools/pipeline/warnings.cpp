@@ -9,6 +9,7 @@
 #include "radar/waveform/figures_of_merit.h"
 #include "radar/waveform/pulse_train.h"
 #include "sim/core/process/standard_error.h"
+#include "sim/core/text/shown.h"
 #include "sim/sea/realisation.h"
 #include "tools/pipeline/pipeline.h"
 
@@ -84,7 +85,7 @@ std::vector<std::string> band_warnings(const Pipeline& pipeline) {
 
 void warn(std::span<const std::string> sentences) {
   for (const std::string& sentence : sentences)
-    print_error(fmt::format("seaglint: warning: {}\n", on_one_line(sentence)));
+    print_error(fmt::format("seaglint: warning: {}\n", shown_whole(sentence)));
 }
 
 }  // namespace seaglint

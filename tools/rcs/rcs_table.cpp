@@ -6,7 +6,7 @@
 
 #include "seaglint_version.h"
 #include "sim/core/numbers/dbsm.h"
-#include "sim/core/process/standard_error.h"
+#include "sim/core/text/shown.h"
 #include "sim/scattering/beams/illumination_settings.h"
 #include "tools/rcs/echo_selection.h"
 #include "tools/rcs/rcs_uncertainty.h"
@@ -48,7 +48,7 @@ std::string cavity_line(const CavityRequest& cavities) {
 
 std::string warning_lines(std::span<const std::string> warnings) {
   std::string lines;
-  for (const std::string& warning : warnings) lines += fmt::format("# warning: {}\n", on_one_line(warning));
+  for (const std::string& warning : warnings) lines += fmt::format("# warning: {}\n", shown_whole(warning));
   return lines;
 }
 

@@ -2,7 +2,6 @@
 #include "sim/core/process/standard_error.h"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -21,20 +20,6 @@ void reserve_standard_streams() {
     // open() returns the lowest free number, which is this one.
     ::open("/dev/null", stream == STDERR_FILENO ? O_WRONLY : O_RDONLY);
   }
-}
-
-std::string on_one_line(const std::string& text) {
-  std::string line;
-  for (const char c : text) {
-    if (c == '\n') {
-      line += "\\n";
-    } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
-      line += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
-    } else {
-      line += c;
-    }
-  }
-  return line;
 }
 
 }  // namespace seaglint

@@ -15,7 +15,4 @@ void print_error(const std::string& text);
 // standard error is discarded.
 void reserve_standard_streams();
 
-// The text on one line, with control characters escaped.
-std::string on_one_line(const std::string& text);
-
 }  // namespace seaglint

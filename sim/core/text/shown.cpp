@@ -51,6 +51,8 @@ std::string shown(std::string_view text, std::size_t longest) {
   return out;
 }
 
+std::string shown_whole(std::string_view text) { return shown(text, text.size()); }
+
 std::string in_quotes(std::string_view text) { return fmt::format("'{}'", shown(text)); }
 
 }  // namespace seaglint

@@ -15,7 +15,10 @@ inline constexpr std::size_t kLongestShown = 120;  // characters
 // UTF-8 as \x1b, line ends as \n. Terminals obey none of the result.
 std::string shown(std::string_view text, std::size_t longest = kLongestShown);
 
-// The same in single quotes.
+// The same of any length: a message or a name on one line.
+std::string shown_whole(std::string_view text);
+
+// shown() in single quotes.
 std::string in_quotes(std::string_view text);
 
 }  // namespace seaglint
