@@ -25,9 +25,11 @@ constexpr double kBeamToDraught = 3.1;
 
 double given_or(double value, double derived) { return value > 0 ? value : derived; }
 
+bool is_wamit(const std::filesystem::path& file) { return file.extension() == ".4"; }
+
 // Reads a table of responses: speed and reference point come from the file (VERES) or from the spec (WAMIT).
 RaoTable read_table_of(const MotionSpec& spec, const std::filesystem::path& file, const Vec3& reference) {
-  if (file.extension() == ".4") {
+  if (is_wamit(file)) {
     if (spec.speed_mps > 0) {
       throw InputError(fmt::format("motion.speed_mps: value {}: must be 0 with {}: its responses are without speed",
                                    spec.speed_mps, file.string()));
@@ -64,7 +66,25 @@ void check_step(const Body& body) {
   }
 }
 
+std::string reading_of(const RaoTable& table, bool wamit) {
+  const auto& [headings, omegas] = std::pair(table.headings(), table.omegas());
+  return fmt::format(
+      "{} headings of waves towards {:.4g} to {:.4g} deg ({}), {} frequencies {:.4g} to {:.4g} rad/s, "
+      "speed {:.4g} m/s, time factor e^{{+iwt}}",
+      headings.size(), degrees(headings.front()), degrees(headings.back()),
+      wamit ? "WAMIT: the direction of propagation" : "VERES: its heading + 180", omegas.size(), omegas.front(),
+      omegas.back(), table.speed());
+}
+
 }  // namespace
+
+std::string motion_file_reading(const Body& body) {
+  if (const auto* series = std::get_if<AttitudeSeries>(&body.model))
+    return fmt::format("{}: {}", series->source, series->reading);
+  if (const auto* table = std::get_if<RaoTable>(&body.model))
+    return fmt::format("{}: {}", table->source(), reading_of(*table, is_wamit(table->source())));
+  return "";
+}
 
 BodyShape shape_of(const TriangleMesh& mesh) { return {bounds(mesh), sections_of_mesh(mesh, kStrips)}; }
 

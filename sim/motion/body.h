@@ -4,6 +4,7 @@
 // A body prepared for motion once per target: the sections of a ship are solved here, not per sea realisation.
 
 #include <filesystem>
+#include <string>
 #include <variant>
 
 #include "sim/geometry/mesh/triangle_mesh.h"
@@ -34,6 +35,10 @@ struct Body {
 // Files named in the spec are searched in `folder`, then in the working directory. Throws InputError for a missing or
 // invalid file and for a spec that is inconsistent in itself or with the shape.
 Body make_body(const MotionSpec& spec, const BodyShape& shape, const std::filesystem::path& folder = {});
+
+// How the file of `motion.file` was understood, for users: "FILE: 300 rows, ..." with columns, units, headings and time
+// factor; empty without a file.
+std::string motion_file_reading(const Body& body);
 
 // Sections of the strip theory: those of spec.sections, else of the mesh, both scaled to the dimensions of the spec,
 // else those of HullCoefficients with the size of the mesh.

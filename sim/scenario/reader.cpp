@@ -4,11 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
+#include <initializer_list>
 #include <optional>
 
 #include "sim/core/process/error.h"
 #include "sim/core/text/number.h"
+#include "sim/core/text/shown.h"
 #include "sim/core/text/suggestion.h"
 #include "sim/scenario/fields.h"
 #include "sim/scenario/renamed_keys.h"
@@ -21,17 +22,16 @@ constexpr std::size_t kMaxSweepValues = 10000;
 
 // A value as shown in error messages.
 std::string value_text(const YamlNode& node) {
-  constexpr std::size_t kLongest = 60;
   switch (node.kind) {
     case YamlNode::Kind::kNull: return "no value";
     case YamlNode::Kind::kList: return "a list";
     case YamlNode::Kind::kMap: return "a map";
     case YamlNode::Kind::kScalar: break;
   }
-  std::string text = node.text.substr(0, kLongest);
+  std::string text = node.text;
   std::replace_if(
       text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
-  return fmt::format("value '{}{}'", text, node.text.size() > kLongest ? "..." : "");
+  return "value " + in_quotes(text);
 }
 
 // The keys a map may have.
@@ -112,9 +112,12 @@ class Reader : public FieldVisitor {
   void flag(const char* key, bool& value) override {
     const YamlNode* node = map_.find(key);
     if (node == nullptr) return;
-    const bool readable = is_plain(*node) && (node->text == "true" || node->text == "false");
-    if (!readable) fail(*node, path_of(key), "must be true or false");
-    value = node->text == "true";
+    // The three spellings of the YAML 1.2 core schema.
+    const auto is_one_of = [&](std::initializer_list<const char*> words) {
+      return is_plain(*node) && std::find(words.begin(), words.end(), node->text) != words.end();
+    };
+    value = is_one_of({"true", "True", "TRUE"});
+    if (!value && !is_one_of({"false", "False", "FALSE"})) fail(*node, path_of(key), "must be true or false");
   }
 
   void text(const char* key, std::string& value) override {
@@ -310,11 +313,7 @@ class Reader : public FieldVisitor {
   }
 
   static std::optional<std::int64_t> integer_of(const YamlNode& node) {
-    std::int64_t value = 0;
-    const char* end = node.text.data() + node.text.size();
-    const auto [stop, error] = std::from_chars(node.text.data(), end, value);
-    if (!is_plain(node) || error != std::errc() || stop != end) return std::nullopt;
-    return value;
+    return is_plain(node) ? parse_integer(node.text) : std::nullopt;
   }
 
   Sweep list_sweep(const YamlNode& list, const std::string& path, const Bound& bound) const {

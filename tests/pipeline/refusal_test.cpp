@@ -222,6 +222,19 @@ TEST_F(InputErrors, OfAnOptionWithItsBoundsAndHelp) {
   expect_failure(folder(), {"verify", std::string(300, 'x')}, 1, "xxx/manifest.json: File name too long\n");
 }
 
+// Names of parts and values of files that a terminal would obey are shown, not sent.
+TEST_F(InputErrors, AndFindingsSendNoByteOfAFileToTheTerminal) {
+  write_file(folder() / "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\ng x\x1b[31m\nf 1 2 3\n");
+  const ProgramResult info = run_program({"mesh", "info", folder() / "a.obj"});
+  EXPECT_EQ(info.code, 0);
+  EXPECT_THAT(info.out, HasSubstr("x\\x1b[31m"));
+  EXPECT_EQ(info.out.find('\x1b'), std::string::npos);
+  write_file(folder() / "b.obj", "v \x1b[2J\xc2\x9b 0 0\n");
+  const ProgramResult refused = run_program({"mesh", "info", folder() / "b.obj"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("b.obj:1: \"\\x1b[2J\\xc2\\x9b\" is not a coordinate"));
+}
+
 TEST_F(InputErrors, OfAFullStandardOutput) {
   for (const char* words : {"--help", "--version", "rcs --help"}) {
     const ProgramResult result =

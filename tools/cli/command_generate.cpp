@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <charconv>
 #include <chrono>
 #include <memory>
 
 #include "sim/core/process/error.h"
 #include "sim/core/process/standard_output.h"
+#include "sim/core/text/number.h"
 #include "tools/cli/arguments.h"
 #include "tools/cli/command.h"
 #include "tools/pipeline/generate.h"
@@ -26,15 +26,14 @@ struct Arguments {
 void read_part(const std::string& text, GenerateOptions& options) {
   const std::size_t slash = text.find('/');
   const auto number = [&](std::size_t begin, std::size_t end) {
-    int value = 0;
-    const auto [rest, error] = std::from_chars(text.data() + begin, text.data() + end, value);
-    return error == std::errc() && rest == text.data() + end ? value : 0;
+    const std::int64_t value = parse_integer(std::string_view(text).substr(begin, end - begin)).value_or(0);
+    return value >= 0 && value <= 1000000 ? static_cast<int>(value) : 0;
   };
   if (slash != std::string::npos) {
     options.part = number(0, slash);
     options.parts = number(slash + 1, text.size());
   }
-  if (slash == std::string::npos || options.part < 1 || options.parts < options.part || options.parts > 1000000) {
+  if (slash == std::string::npos || options.part < 1 || options.parts < options.part || options.parts < 1) {
     throw InputError(fmt::format("--part: {}: must be I/N with 1 <= I <= N, for example 1/4", text));
   }
 }

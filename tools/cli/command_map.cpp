@@ -69,6 +69,7 @@ void show_map(const Arguments& arguments) {
     throw InputError(fmt::format("--sample {}: the scenario has samples 0 to {}", sample, plan.size() - 1));
   const Pipeline pipeline(scenario, plan);
   warn(mesh_warnings(pipeline));
+  warn(motion_warnings(pipeline));
   warn(sea_warnings(scenario, plan.sea_states()));
   const SampleAddress address = plan.address(sample);
   const TargetSpec& target = scenario.targets[static_cast<std::size_t>(address.target)];

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <sstream>
 
 #include "sim/core/process/error.h"
 #include "sim/core/text/number.h"
@@ -14,8 +13,10 @@ namespace {
 
 std::vector<double> numbers(const std::string& option, const std::string& text, std::size_t count) {
   std::vector<double> values;
-  std::istringstream stream(text);
-  for (std::string cell; std::getline(stream, cell, ',');) {
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const std::string cell = text.substr(begin, end - begin);
+    begin = end + 1;
     const std::optional<double> value = parse_number(cell);
     if (!value) throw InputError(fmt::format("{} {}: '{}' is not a number", option, text, cell));
     values.push_back(*value);

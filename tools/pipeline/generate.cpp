@@ -40,6 +40,7 @@ GenerateResult generate_dataset(const Pipeline& pipeline, const std::filesystem:
   const Scenario& scenario = pipeline.scenario();
   const SamplePlan& plan = pipeline.plan();
   warn(mesh_warnings(pipeline));
+  warn(motion_warnings(pipeline));
   warn(sea_warnings(scenario, plan.sea_states()));
   warn(band_warnings(pipeline));
   warn(map_coverage_warnings(pipeline));

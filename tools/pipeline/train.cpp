@@ -4,9 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <sstream>
+#include <limits>
+#include <string_view>
 #include <system_error>
 
 #include "classify/dataset/directory/dataset_writer.h"
@@ -14,6 +13,9 @@
 #include "seaglint_version.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
+#include "sim/core/text/number.h"
+#include "sim/core/text/text_rows.h"
+#include "sim/core/text/text_table.h"
 #include "sim/scenario/writer.h"
 #include "tools/pipeline/warnings.h"
 
@@ -110,36 +112,25 @@ TrainedModel train_model(const fs::path& data_set, const fs::path& model_directo
 }
 
 FeatureMatrix read_embeddings(const fs::path& file, std::span<const std::int64_t> samples) {
-  std::istringstream text(read_file(file));
-  const auto fail = [&](std::size_t line, const std::string& why) {
-    throw InputError(fmt::format("{}:{}: {}", file.string(), line, why));
-  };
-  const auto fields = [](const std::string& line) {
-    std::vector<std::string> values;
-    std::istringstream stream(line);
-    for (std::string value; std::getline(stream, value, ',');) values.push_back(value);
-    return values;
-  };
-  constexpr std::size_t kAbout = 5;
-  std::string line;
-  std::getline(text, line);
-  const std::vector<std::string> names = fields(line);
-  if (names.size() < kAbout + 5 || names[0] != "sample") fail(1, "not a table of embeddings");
+  constexpr std::size_t kAbout = 5;  // columns before the features
+  const TextSource source = TextSource::read(file);
+  std::string_view rest = source.text();
+  const TextRow header = next_row(rest, ',');
+  if (header.cells.size() < kAbout + 5 || header.cells[0] != "sample")
+    source.fail(source.text(), "not a table of embeddings");
+  const std::vector<std::string> names(header.cells.begin(), header.cells.end());
+  const TextTable table = TextTable::below(source, rest, names, ',');
+  if (table.rows() < samples.size()) {
+    throw InputError(
+        fmt::format("{}: {} rows: must be those of {} samples", file.string(), table.rows(), samples.size()));
+  }
   FeatureMatrix matrix{{names.begin() + kAbout, names.end()}, {}};
   for (std::size_t row = 0; row < samples.size(); ++row) {
-    std::getline(text, line);
-    const std::vector<std::string> values = fields(line);
-    if (values.size() != names.size() || values[0] != std::to_string(samples[row])) {
-      fail(row + 2, fmt::format("expected {} values of sample {}", names.size(), samples[row]));
-    }
-    for (std::size_t k = kAbout; k < values.size(); ++k) {
-      float value = 0;
-      const char* end = values[k].data() + values[k].size();
-      const auto [stop, error] = std::from_chars(values[k].data(), end, value);
-      if (error != std::errc() || stop != end || !std::isfinite(value))
-        fail(row + 2, fmt::format("\"{}\" is not a number", values[k]));
-      matrix.values.push_back(value);
-    }
+    if (parse_integer(table.text(row, 0)) != samples[row])
+      table.fail(row, 0, fmt::format("must be sample {}", samples[row]));
+    for (std::size_t k = kAbout; k < names.size(); ++k)
+      matrix.values.push_back(static_cast<float>(
+          table.number(row, k, std::numeric_limits<float>::lowest(), std::numeric_limits<float>::max())));
   }
   return matrix;
 }

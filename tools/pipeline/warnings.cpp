@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <variant>
 
 #include "classify/dataset/directory/merged.h"
 #include "radar/waveform/figures_of_merit.h"
@@ -39,6 +40,26 @@ std::vector<std::string> mesh_warnings(const Pipeline& pipeline) {
   for (const Target& target : std::span(pipeline.targets()).first(pipeline.scenario().targets.size())) {
     for (const std::string& warning : target.warnings)
       lines.push_back(fmt::format("targets.{}.mesh: {}", target.spec.name, warning));
+  }
+  return lines;
+}
+
+std::vector<std::string> motion_warnings(const Pipeline& pipeline) {
+  std::vector<std::string> lines;
+  for (const Target& target : std::span(pipeline.targets()).first(pipeline.scenario().targets.size())) {
+    const auto* series = std::get_if<AttitudeSeries>(&target.body.model);
+    if (series == nullptr || series->grid != TimeGrid::kIrregular) continue;
+    lines.push_back(fmt::format("targets.{}.motion.file: the times of {} are not uniform: resampled by a spline",
+                                target.spec.name, series->source));
+  }
+  return lines;
+}
+
+std::vector<std::string> motion_file_readings(const Pipeline& pipeline) {
+  std::vector<std::string> lines;
+  for (const Target& target : std::span(pipeline.targets()).first(pipeline.scenario().targets.size())) {
+    const std::string reading = motion_file_reading(target.body);
+    if (!reading.empty()) lines.push_back(fmt::format("targets.{}.motion.file: {}", target.spec.name, reading));
   }
   return lines;
 }

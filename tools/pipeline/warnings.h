@@ -17,6 +17,12 @@ class Pipeline;
 // One line per defect or doubtful property of the meshes of the scenario's targets.
 std::vector<std::string> mesh_warnings(const Pipeline& pipeline);
 
+// One line per motion file whose times are not uniform.
+std::vector<std::string> motion_warnings(const Pipeline& pipeline);
+
+// One line per motion file: columns, units and conventions by which it was read.
+std::vector<std::string> motion_file_readings(const Pipeline& pipeline);
+
 // One line per wave system of the scenario's sea states with so few components that its mean period varies between
 // realisations.
 std::vector<std::string> sea_warnings(const Scenario& scenario, std::span<const SeaState> states);

@@ -5,7 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
+#include <cstdint>
 
 #include "sim/core/process/error.h"
 #include "sim/core/text/number.h"
@@ -26,8 +26,8 @@ std::vector<ContributionSelector> selectors(const std::string& option, const std
     return {{ContributionSelector::Kind::kPart, static_cast<int>(place - mesh.part_names.begin())}};
   }
   if (kind == "bounces") {
-    const std::optional<double> count = parse_number(value);
-    if (!count || *count < 1 || *count > kMaxBounces || *count != std::floor(*count))
+    const std::optional<std::int64_t> count = parse_integer(value);
+    if (!count || *count < 1 || *count > kMaxBounces)
       throw InputError(fmt::format("{} {}: bounces must be 1, 2, ... {}", option, text, kMaxBounces));
     return {{ContributionSelector::Kind::kBounces, static_cast<int>(*count)}};
   }

@@ -11,10 +11,9 @@
 
 #include "sim/core/numbers/linear.h"
 #include "sim/scenario/radar_spec.h"
+#include "tools/rcs/reference_sample.h"
 
 namespace seaglint {
-
-inline constexpr const char* kPolarisationNames[] = {"hh", "hv", "vh", "vv"};
 
 // Properties that a file does not state itself, and the relation of its angles to those of the body.
 struct ReferenceSettings {
@@ -23,14 +22,6 @@ struct ReferenceSettings {
   double phi_scale = 1;                 // phi of the file = phi_scale * azimuth + phi_offset_deg
   double phi_offset_deg = 0;
   Vec3 origin_m = Vec3::Zero();  // the file's phase origin, body frame
-};
-
-struct ReferenceSample {
-  double frequency_hz = 0;
-  double theta_deg = 0;  // 0..180
-  double phi_deg = 0;    // 0 <= x < 360, the file's own
-  double level_dbsm = 0;
-  std::optional<Complex> amplitude_m;  // about the file's phase origin; absent without a phase
 };
 
 // Transmitter direction that a file states, in the file's angles.
@@ -48,15 +39,16 @@ struct RcsReference {
   bool has_phase() const { return !samples.empty() && samples.front().amplitude_m.has_value(); }
 };
 
-// Reads one of these formats, recognised by the content:
-//   four columns without header: frequency in Hz, theta, phi in degrees, dBsm (Austin RCS Benchmark Suite); the table
-//   of `seaglint rcs` (columns by name; xx_re and xx_im, or xx_dbsm alone; its head gives the transmitter);
+// Reads one of these formats, recognised by the content (text tables: sim/core/text/text_table.h):
+//   four columns without names: frequency in Hz, theta, phi in degrees, dBsm (Austin RCS Benchmark Suite), or named
+//   frequency_hz (_ghz, _mhz), theta_deg, phi_deg, dbsm in any order; the table of `seaglint rcs` (columns by name;
+//   xx_re and xx_im, or xx_dbsm alone; its head gives the transmitter);
 //   a CST farfield table of the RCS: columns by their squeezed names, `Theta[deg.] Phi[deg.] Abs(Theta)[unit]
 //   Phase(Theta)[deg.] ...`, v received = Theta, h received = Phi, units m^2, mm^2, lambda^2 or dB() of them; no
 //   frequency inside. Theta below 0 is folded (|theta|, phi + 180, sign of both unit vectors changed). e^{+jwt}; theta^
 //   = -v, phi^ = h, so cross-polar terms change sign.
-// Throws InputError naming the file, the line and what is missing, the transmitter in the head of a table of `seaglint
-// rcs` included, and where settings.frequency_hz differs from the file's frequency.
+// Throws InputError naming the file, the line, what is missing and the format that was recognised, the transmitter in
+// the head of a table of `seaglint rcs` included, and where settings.frequency_hz differs from the file's frequency.
 RcsReference read_reference(const std::filesystem::path& file, const ReferenceSettings& settings);
 
 }  // namespace seaglint

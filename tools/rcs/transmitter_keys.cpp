@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include <map>
-#include <sstream>
+#include <string_view>
 
 #include "sim/core/process/error.h"
 #include "sim/core/text/number.h"
+#include "sim/core/text/shown.h"
+#include "sim/core/text/words.h"
 
 namespace seaglint {
 namespace {
@@ -38,15 +40,16 @@ std::string transmitter_line(const std::optional<FixedTransmitter>& transmitter)
 std::optional<TransmitterKeys> read_transmitter_line(const std::string& line) {
   if (!line.starts_with("# ")) return std::nullopt;
   std::map<std::string, std::string> keys;
-  std::istringstream words(line.substr(2));
-  for (std::string word; words >> word;) {
+  std::string_view rest = std::string_view(line).substr(2);
+  for (std::string_view word = next_word(rest); !word.empty(); word = next_word(rest)) {
     const std::size_t equals = word.find('=');
-    const std::string name = word.substr(0, equals);
-    if (equals == std::string::npos || !is_key(name)) {
+    const std::string name(word.substr(0, equals));
+    if (equals == std::string_view::npos || !is_key(name)) {
       if (keys.empty()) return std::nullopt;
-      throw InputError(fmt::format("'{}': no key of the transmitter", word));
+      throw InputError(fmt::format("{}: no key of the transmitter", in_quotes(word)));
     }
-    keys[name] = word.substr(equals + 1);
+    if (!keys.emplace(name, word.substr(equals + 1)).second)
+      throw InputError(fmt::format("the key {} appears twice", name));
   }
   if (keys.empty()) return std::nullopt;
   const auto kind = keys.find(kKind);

@@ -9,6 +9,7 @@
 
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
+#include "sim/core/text/json_keys.h"
 #include "sim/core/text/json_problem.h"
 #include "sim/scenario/writer.h"
 #include "tools/pipeline/scene.h"
@@ -30,8 +31,10 @@ using nlohmann::ordered_json;
 
 // Throws InputError naming the file if it is no JSON object.
 ordered_json read_object(const fs::path& file) {
+  const std::string text = read_file(file);
+  refuse_repeated_keys(text, file.string());
   try {
-    ordered_json object = ordered_json::parse(read_file(file));
+    ordered_json object = ordered_json::parse(text);
     if (!object.is_object()) throw InputError(fmt::format("{}: must be a JSON object", file.string()));
     return object;
   } catch (const nlohmann::json::exception& error) {

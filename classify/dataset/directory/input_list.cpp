@@ -4,13 +4,16 @@
 #include <fmt/format.h>
 
 #include <map>
-#include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "classify/dataset/format/checksum.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
+#include "sim/core/text/shown.h"
+#include "sim/core/text/text_source.h"
+#include "sim/core/text/words.h"
 #include "sim/geometry/files/mesh_io.h"
 
 namespace seaglint {
@@ -22,12 +25,14 @@ namespace {
 // Checksums by key, from lines "CHECKSUM KEY".
 std::map<std::string, std::string> read_list(const fs::path& file) {
   std::map<std::string, std::string> checksums;
-  std::istringstream lines(read_file(file));
-  for (std::string line; std::getline(lines, line);) {
+  const TextSource source = TextSource::read(file);
+  for (std::string_view rest = source.text(); !rest.empty();) {
+    const std::string_view line = next_line(rest);
     const std::size_t gap = line.find("  ");
-    if (gap == std::string::npos)
-      throw InputError(fmt::format("{}: '{}': must be a checksum and a key", file.string(), line));
-    checksums[line.substr(gap + 2)] = line.substr(0, gap);
+    if (gap == std::string_view::npos)
+      source.fail(line, fmt::format("{}: must be a checksum and a key", in_quotes(line)));
+    const bool is_new = checksums.emplace(line.substr(gap + 2), line.substr(0, gap)).second;
+    if (!is_new) source.fail(line.substr(gap + 2), fmt::format("{} appears twice", in_quotes(line.substr(gap + 2))));
   }
   return checksums;
 }

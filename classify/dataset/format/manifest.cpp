@@ -9,6 +9,7 @@
 #include "classify/dataset/format/sample.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
+#include "sim/core/text/json_keys.h"
 #include "sim/core/text/json_problem.h"
 
 namespace seaglint {
@@ -51,6 +52,7 @@ std::string to_json(const Manifest& manifest) {
 
 Manifest read_manifest(const std::filesystem::path& file) {
   const std::string text = read_file(file, std::size_t{256} << 20);
+  refuse_repeated_keys(text, file.string());
   try {
     const ordered_json json = ordered_json::parse(text);
     if (json.at("format") != kFormat) {

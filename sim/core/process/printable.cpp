@@ -34,13 +34,14 @@ Character first_of(std::string_view text) {
 
 bool is_harmless(std::uint32_t code) {
   const auto within = [code](std::uint32_t low, std::uint32_t high) { return code >= low && code <= high; };
-  return !(code < 0x20 || within(0x7f, 0x9f) || within(0x200e, 0x200f) || within(0x202a, 0x202e) ||
-           within(0x2066, 0x2069));
+  return !(code < 0x20 || within(0x7f, 0x9f) || within(0x200e, 0x200f) || within(0x2028, 0x202e) ||
+           within(0x2066, 0x2069) || code == 0xfeff);
 }
 
-std::string escaped(std::string_view text, std::string_view kept) {
+std::string escaped(std::string_view text, std::string_view kept, std::size_t longest) {
   std::string result;
-  while (!text.empty()) {
+  for (std::size_t count = 0; !text.empty(); ++count) {
+    if (count == longest) return result + "...";
     const Character character = first_of(text);
     const std::size_t bytes = character.bytes == 0 ? 1 : character.bytes;
     if (character.bytes > 0 && (is_harmless(character.code) || kept.find(text[0]) != std::string_view::npos)) {
@@ -57,8 +58,8 @@ std::string escaped(std::string_view text, std::string_view kept) {
 
 }  // namespace
 
-std::string printable(std::string_view text) { return escaped(text, "\n\t"); }
+std::string printable(std::string_view text) { return escaped(text, "\n\t", std::string_view::npos); }
 
-std::string on_one_line(std::string_view text) { return escaped(text, ""); }
+std::string on_one_line(std::string_view text, std::size_t longest) { return escaped(text, "", longest); }
 
 }  // namespace seaglint

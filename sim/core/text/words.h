@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Locale-independent lines, words and numbers of untrusted text.
+// Locale-independent lines and words of untrusted text.
 
-#include <cstdint>
-#include <optional>
 #include <string_view>
 
 namespace seaglint {
@@ -17,9 +15,5 @@ std::string_view next_line(std::string_view& text);
 
 // The text without spaces, tabs and \r at its ends.
 std::string_view trimmed(std::string_view text);
-
-// The word as a number, infinity and NaN included, else nullopt.
-std::optional<double> number_of(std::string_view word);
-std::optional<std::int64_t> integer_of(std::string_view word);
 
 }  // namespace seaglint

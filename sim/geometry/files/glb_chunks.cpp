@@ -3,10 +3,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <nlohmann/json.hpp>
 
 #include "sim/core/process/error.h"
+#include "sim/core/text/json_keys.h"
+#include "sim/core/text/json_problem.h"
+#include "sim/core/text/shown.h"
 
 namespace seaglint {
 namespace {
@@ -24,6 +29,30 @@ void put_word(std::string& bytes, std::uint32_t value) {
   std::memcpy(raw, &value, 4);
   bytes.append(raw, 4);
 }
+
+constexpr int kDeepest = 64;  // levels of JSON; real files use about ten
+
+// Nesting depth of lists and objects. The parser callback of the library is not used: at the end of each object it
+// scans the whole enclosing list.
+int depth_of(std::string_view text) {
+  int depth = 0, deepest = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '"') in_string = !in_string;
+    if (in_string && c == '\\') ++i;
+    if (in_string) continue;
+    if (c == '[' || c == '{') deepest = std::max(deepest, ++depth);
+    if (c == ']' || c == '}') --depth;
+  }
+  return deepest;
+}
+
+// Extensions, or beginnings of their names, that leave positions and faces as they are.
+constexpr std::string_view kHarmless[] = {
+    "KHR_materials_", "KHR_texture_",  "KHR_lights_",      "KHR_xmp",           "KHR_animation_pointer",
+    "EXT_texture_",   "EXT_lights_",   "EXT_materials_",   "EXT_mesh_features", "EXT_structural_metadata",
+    "MSFT_texture_",  "MSFT_packing_", "ADOBE_materials_", "NV_materials_",     "KHR_mesh_quantization"};
 
 }  // namespace
 
@@ -67,6 +96,33 @@ std::string glb_of(std::string json, std::string_view binary_data) {
     file += binary;
   }
   return file;
+}
+
+nlohmann::json parsed_gltf(std::string_view text, const std::string& file) {
+  if (depth_of(text) > kDeepest)
+    throw InputError(fmt::format("{}: the JSON is nested more than {} levels deep", file, kDeepest));
+  refuse_repeated_keys(text, file);
+  try {
+    return nlohmann::json::parse(text.begin(), text.end());
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(fmt::format("{}: {}", file, json_problem(error)));
+  }
+}
+
+void refuse_required_extensions(const nlohmann::json& root, const std::string& file) {
+  const auto fail = [&](const std::string& what) { throw InputError(fmt::format("{}: {}", file, what)); };
+  const auto required = root.find("extensionsRequired");
+  if (required == root.end()) return;
+  if (!required->is_array()) fail("extensionsRequired is not a list");
+  for (const nlohmann::json& name : *required) {
+    const std::string extension = name.is_string() ? name.get<std::string>() : "?";
+    const bool harmless = std::any_of(std::begin(kHarmless), std::end(kHarmless),
+                                      [&](std::string_view begin) { return extension.starts_with(begin); });
+    if (harmless) continue;
+    const bool compressed = extension == "KHR_draco_mesh_compression" || extension == "EXT_meshopt_compression";
+    fail(fmt::format("needs the extension {}, which is not supported{}", shown(extension),
+                     compressed ? ": decompress the mesh, for example by `gltf-transform copy`" : ""));
+  }
 }
 
 }  // namespace seaglint

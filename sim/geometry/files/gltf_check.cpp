@@ -18,8 +18,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int kDeepest = 64;                                 // levels of JSON; real files use about ten
 constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 30;  // of one buffer
+constexpr std::uint64_t kMaxZeros = 1'000'000;               // elements of a sparse accessor without other data
 
 // glTF 2.0, section 3.6.2.2: bytes of a component.
 std::uint64_t component_size(std::uint64_t type) {
@@ -47,7 +47,7 @@ class Checker {
     }
     if (asset->contains("minVersion") && text(*asset, "minVersion").substr(0, 2) != "2.")
       fail("needs more than glTF 2 (asset.minVersion)");
-    refuse_required_extensions();
+    refuse_required_extensions(root_, file_);
     Json plain = {{"asset", {{"version", "2.0"}}}};
     plain["buffers"] = each("buffers", [&](const Json& b, const std::string& at) { return buffer(b, at); });
     plain["bufferViews"] = each("bufferViews", [&](const Json& v, const std::string& at) { return view(v, at); });
@@ -70,18 +70,6 @@ class Checker {
 
  private:
   [[noreturn]] void fail(const std::string& what) const { throw InputError(fmt::format("{}: {}", file_, what)); }
-
-  void refuse_required_extensions() const {
-    const auto required = root_.find("extensionsRequired");
-    if (required == root_.end()) return;
-    if (!required->is_array()) fail("extensionsRequired is not a list");
-    for (const Json& name : *required) {
-      const std::string extension = name.is_string() ? name.get<std::string>() : "?";
-      // These change the appearance of a surface, not its geometry.
-      if (extension.starts_with("KHR_materials_") || extension.starts_with("KHR_texture_")) continue;
-      fail(fmt::format("needs the extension {}, which is not supported", extension));
-    }
-  }
 
   template <typename Reduce>
   Json each(const char* name, Reduce reduce) const {
@@ -202,29 +190,56 @@ class Checker {
     if (components == 0) fail(fmt::format("{}.type = \"{}\" is unknown", at, shape));
     if (count == 0) fail(at + " is empty");
     Json plain{{"componentType", type}, {"count", count}, {"type", shape}, {"byteOffset", offset}};
-    // An accessor without a view is all zeros, a sparse one replaces values; both are rejected where a mesh uses them.
-    if (!a.contains("bufferView") || a.contains("sparse")) {
+    if (const auto normalised = a.find("normalized"); normalised != a.end() && normalised->is_boolean())
+      plain["normalized"] = *normalised;
+    if (a.contains("sparse")) plain["sparse"] = sparse(a["sparse"], count, size * components, at + ".sparse");
+    // An accessor without a view is all zeros; without sparse values it is rejected where a mesh uses it.
+    if (a.contains("bufferView")) {
+      plain["bufferView"] = checked_view(a, count, size * components, at);
+    } else {
+      if (count > kMaxZeros && a.contains("sparse")) fail(fmt::format("{}.count = {} without data", at, count));
       plain["byteOffset"] = 0;
-      return plain;
     }
-    const std::uint64_t i = index(a, "bufferView", "bufferViews", at);
+    return plain;
+  }
+
+  // The view of `count` elements of so many bytes, which contains all of them.
+  std::uint64_t checked_view(const Json& a, std::uint64_t count, std::uint64_t element, const std::string& at) const {
+    const std::uint64_t i = index(a, "bufferView", "bufferViews", at), offset = whole(a, "byteOffset", at, 0);
     const std::string view_name = fmt::format("bufferViews[{}]", i);
     const Json& v = root_["bufferViews"][i];
-    const std::uint64_t element = size * components;
     const std::uint64_t stride = std::max(element, whole(v, "byteStride", view_name, 0));
     const std::uint64_t available = whole(v, "byteLength", view_name, 0);
     if (count > kMaxBytes || offset > available || (count - 1) * stride + element > available - offset) {
       fail(fmt::format("{} wants {} elements of {} bytes from byte {} of {}, which has {}", at, count, stride, offset,
                        view_name, available));
     }
-    plain["bufferView"] = i;
-    return plain;
+    return i;
+  }
+
+  // Values that replace those of an accessor (glTF 2.0, section 3.6.2.3).
+  Json sparse(const Json& s, std::uint64_t elements, std::uint64_t element, const std::string& at) const {
+    if (!s.is_object() || !s.contains("indices") || !s.contains("values") || !s["indices"].is_object() ||
+        !s["values"].is_object()) {
+      fail(at + " has no indices and values");
+    }
+    const std::uint64_t count = whole(s, "count", at, 0), type = whole(s["indices"], "componentType", at, 0);
+    if (count == 0 || count > elements)
+      fail(fmt::format("{}.count = {}: must be within 1 and {}", at, count, elements));
+    if (type != 5121 && type != 5123 && type != 5125) fail(fmt::format("{}.indices are not unsigned", at));
+    const std::uint64_t indices = checked_view(s["indices"], count, component_size(type), at + ".indices"),
+                        values = checked_view(s["values"], count, element, at + ".values");
+    return {
+        {"count", count},
+        {"indices",
+         {{"bufferView", indices}, {"byteOffset", whole(s["indices"], "byteOffset", at, 0)}, {"componentType", type}}},
+        {"values", {{"bufferView", values}, {"byteOffset", whole(s["values"], "byteOffset", at, 0)}}}};
   }
 
   void check_use(std::uint64_t i, const std::string& at, const char* use) const {
     const Json& a = root_["accessors"][i];
-    if (a.contains("sparse")) fail(fmt::format("{}: accessors[{}] ({}) is sparse, which is not supported", at, i, use));
-    if (!a.contains("bufferView")) fail(fmt::format("{}: accessors[{}] ({}) has no data", at, i, use));
+    if (!a.contains("bufferView") && !a.contains("sparse"))
+      fail(fmt::format("{}: accessors[{}] ({}) has no data", at, i, use));
   }
 
   // glTF 2.0, section 3.7.2.1: triangles have three vertices each; strips and fans have one triangle per vertex after
@@ -238,15 +253,32 @@ class Checker {
     if (count < 3) fail(fmt::format("{}: {} {} make no triangle", at, count, what));
   }
 
-  // True where NORMAL is an accessor of VEC3 of float with data, one per position. Any other is left out: normals never
+  // Floats, or integers as KHR_mesh_quantization allows them: of positions any of 8 and 16 bits, of normals signed and
+  // normalised ones.
+  bool is_vector(const Json& a, bool normal) const {
+    const std::uint64_t type = whole(a, "componentType", "accessor", 0);
+    const auto normalised = a.find("normalized");
+    const bool fraction = normalised != a.end() && normalised->is_boolean() && normalised->get<bool>();
+    const bool quantised = normal ? (type == 5120 || type == 5122) && fraction : type >= 5120 && type <= 5123;
+    return text(a, "type") == "VEC3" && (type == 5126 || (quantised && uses("KHR_mesh_quantization")));
+  }
+
+  bool uses(const char* extension) const {
+    for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
+      const auto found = root_.find(list);
+      if (found != root_.end() && std::count(found->begin(), found->end(), extension) > 0) return true;
+    }
+    return false;
+  }
+
+  // True where NORMAL is an accessor of vectors with data, one per position. Any other is left out: normals never
   // refuse a mesh.
   bool has_normals(const Json& attributes, std::uint64_t position) const {
     const auto found = attributes.find("NORMAL");
     if (found == attributes.end() || !found->is_number_unsigned() || found->get<std::uint64_t>() >= length("accessors"))
       return false;
     const Json &a = root_["accessors"][found->get<std::uint64_t>()], &positions = root_["accessors"][position];
-    return a.contains("bufferView") && !a.contains("sparse") && text(a, "type") == "VEC3" &&
-           whole(a, "componentType", "NORMAL", 0) == 5126 &&
+    return a.contains("bufferView") && is_vector(a, true) &&
            whole(a, "count", "NORMAL", 0) == whole(positions, "count", "POSITION", 0);
   }
 
@@ -260,10 +292,8 @@ class Checker {
     const bool is_surface = mode >= 4;
     if (is_surface) {
       check_use(position, at, "POSITION");
-      const Json& a = root_["accessors"][position];
-      if (text(a, "type") != "VEC3" || whole(a, "componentType", at, 0) != 5126) {
-        fail(fmt::format("{}: accessors[{}] (POSITION) is not VEC3 of float", at, position));
-      }
+      if (!is_vector(root_["accessors"][position], false))
+        fail(fmt::format("{}: accessors[{}] (POSITION) is not VEC3 of float or of quantised integers", at, position));
     }
     if (is_surface && has_normals(*attributes, position)) plain["attributes"]["NORMAL"] = (*attributes)["NORMAL"];
     if (p.contains("indices")) {
@@ -353,37 +383,11 @@ class Checker {
   std::uint64_t binary_size_;
 };
 
-// Nesting depth of lists and objects. The parser callback of the library is not used: at the end of each object it
-// scans the whole enclosing list.
-int depth_of(std::string_view text) {
-  int depth = 0, deepest = 0;
-  bool in_string = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (c == '"') in_string = !in_string;
-    if (in_string && c == '\\') ++i;
-    if (in_string) continue;
-    if (c == '[' || c == '{') deepest = std::max(deepest, ++depth);
-    if (c == ']' || c == '}') --depth;
-  }
-  return deepest;
-}
-
-Json parsed(std::string_view text, const std::string& file) {
-  if (depth_of(text) > kDeepest)
-    throw InputError(fmt::format("{}: the JSON is nested more than {} levels deep", file, kDeepest));
-  try {
-    return Json::parse(text.begin(), text.end());
-  } catch (const Json::exception& error) {
-    throw InputError(fmt::format("{}: {}", file, json_problem(error)));
-  }
-}
-
 }  // namespace
 
 std::string sanitised_gltf(std::string_view bytes, const std::string& file) {
   const GlbChunks chunks = glb_chunks(bytes, file);
-  const Json root = parsed(chunks.json, file);
+  const Json root = parsed_gltf(chunks.json, file);
   std::string json;
   try {
     json = Checker(root, file, chunks.binary.size()).reduced().dump();

@@ -14,6 +14,7 @@
 #include "sim/core/process/error.h"
 #include "sim/geometry/files/glb_chunks.h"
 #include "sim/geometry/files/gltf_check.h"
+#include "sim/geometry/files/gltf_elements.h"
 #include "sim/geometry/files/gltf_folder.h"
 #include "sim/geometry/files/gltf_pieces.h"
 #include "sim/geometry/mesh/mesh_builder.h"
@@ -122,32 +123,45 @@ class Reader {
     return found;
   }
 
-  struct Data {
-    const unsigned char* first;
-    std::size_t stride;
-    std::size_t count;
-    int component;
-  };
-
-  // Ranges were checked in sanitised_gltf; tinygltf guarantees the declared length of a buffer.
-  Data data_of(int accessor_index) const {
-    const auto& accessor = model_.accessors[accessor_index];
-    const auto& view = model_.bufferViews[accessor.bufferView];
+  // First byte of `count` elements in a view. Ranges were checked in sanitised_gltf; tinygltf guarantees the declared
+  // length of a buffer.
+  const unsigned char* bytes_of(int view_index, std::size_t offset, std::size_t count, std::size_t stride,
+                                std::size_t element, int accessor_index) const {
+    const auto& view = model_.bufferViews[view_index];
     const auto& bytes = model_.buffers[view.buffer].data;
-    const int stride = accessor.ByteStride(view);
-    const std::size_t begin = view.byteOffset + accessor.byteOffset;
-    const std::size_t element = static_cast<std::size_t>(tinygltf::GetComponentSizeInBytes(accessor.componentType)) *
-                                static_cast<std::size_t>(tinygltf::GetNumComponentsInType(accessor.type));
-    if (stride <= 0 || begin + (accessor.count - 1) * static_cast<std::size_t>(stride) + element > bytes.size()) {
+    const std::size_t begin = view.byteOffset + offset;
+    if (stride == 0 || begin + (count - 1) * stride + element > bytes.size())
       throw InputError(fmt::format("{}: accessors[{}] reaches beyond its buffer", file_, accessor_index));
-    }
-    return {bytes.data() + begin, static_cast<std::size_t>(stride), accessor.count, accessor.componentType};
+    return bytes.data() + begin;
   }
 
-  static Vec3 vector_at(const Data& data, std::size_t i) {
-    Eigen::Vector3f x;
-    std::memcpy(x.data(), data.first + i * data.stride, sizeof x);
-    return x.cast<double>();
+  GltfElements data_of(int accessor_index) const {
+    const auto& accessor = model_.accessors[accessor_index];
+    const std::size_t element = static_cast<std::size_t>(tinygltf::GetComponentSizeInBytes(accessor.componentType)) *
+                                static_cast<std::size_t>(tinygltf::GetNumComponentsInType(accessor.type));
+    GltfElements data{nullptr, element, element, accessor.count, accessor.componentType, accessor.normalized, nullptr};
+    if (accessor.bufferView >= 0) {
+      const int stride = accessor.ByteStride(model_.bufferViews[accessor.bufferView]);
+      data.stride = static_cast<std::size_t>(std::max(stride, 0));
+      data.first =
+          bytes_of(accessor.bufferView, accessor.byteOffset, accessor.count, data.stride, element, accessor_index);
+    }
+    return accessor.sparse.isSparse ? with_sparse_values(data, accessor_index) : data;
+  }
+
+  GltfElements with_sparse_values(const GltfElements& elements, int accessor_index) const {
+    const auto& sparse = model_.accessors[accessor_index].sparse;
+    const auto count = static_cast<std::size_t>(sparse.count);
+    const auto width = static_cast<std::size_t>(
+        tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(sparse.indices.componentType)));
+    const unsigned char* indices =
+        bytes_of(sparse.indices.bufferView, static_cast<std::size_t>(sparse.indices.byteOffset), count, width, width,
+                 accessor_index);
+    const unsigned char* values = bytes_of(sparse.values.bufferView, static_cast<std::size_t>(sparse.values.byteOffset),
+                                           count, elements.size, elements.size, accessor_index);
+    if (auto replaced = with_replaced(elements, count, indices, width, values)) return *replaced;
+    throw InputError(
+        fmt::format("{}: accessors[{}] replaces an element beyond its {}", file_, accessor_index, elements.count));
   }
 
   // Normals of the vertices in the body frame, by the inverse transpose of the node's matrix; empty where the primitive
@@ -155,7 +169,7 @@ class Reader {
   std::vector<Vec3> normals(const tinygltf::Primitive& primitive, const Mat4& world) const {
     const auto attribute = primitive.attributes.find("NORMAL");
     if (attribute == primitive.attributes.end()) return {};
-    const Data data = data_of(attribute->second);
+    const GltfElements data = data_of(attribute->second);
     const Mat3 turn = body_from_gltf() * world.topLeftCorner<3, 3>().inverse().transpose();
     std::vector<Vec3> list;
     for (std::size_t i = 0; i < data.count; ++i) list.push_back(turn * vector_at(data, i));
@@ -168,7 +182,7 @@ class Reader {
       for (std::size_t i = 0; i < vertex_count; ++i) list.push_back(static_cast<std::uint32_t>(i));
       return list;
     }
-    const Data data = data_of(primitive.indices);
+    const GltfElements data = data_of(primitive.indices);
     list.reserve(data.count);
     for (std::size_t i = 0; i < data.count; ++i) {
       const unsigned char* at = data.first + i * data.stride;
@@ -200,7 +214,7 @@ class Reader {
     const std::string material = primitive.material >= 0 ? model_.materials[primitive.material].name : std::string();
     builder_.begin_material(material.empty() ? Material{}.name : material);
 
-    const Data positions = data_of(primitive.attributes.at("POSITION"));
+    const GltfElements positions = data_of(primitive.attributes.at("POSITION"));
     const auto base = static_cast<std::uint32_t>(builder_.vertices().size());
     if (builder_.vertices().size() + positions.count > 3 * kMaxPlacedTriangles) fail_size();
     for (std::size_t i = 0; i < positions.count; ++i) {

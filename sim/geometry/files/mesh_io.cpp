@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <string_view>
 #include <utility>
 
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
+#include "sim/core/text/text_source.h"
 #include "sim/geometry/files/gltf_file.h"
 #include "sim/geometry/files/obj_file.h"
 #include "sim/geometry/files/ply_file.h"
@@ -37,7 +39,15 @@ void require_known(const std::string& ending, const std::filesystem::path& path)
                                path.string(), ending));
 }
 
+// Throws InputError for a text in UTF-16 and, in place of a text, a file of another format.
+void refuse_foreign(const std::string& ending, std::string_view bytes, const std::string& file) {
+  const bool may_be_binary = ending == ".stl" && !bytes.starts_with("\xff\xfe") && !bytes.starts_with("\xfe\xff");
+  const std::string_view kind = may_be_binary ? std::string_view() : foreign_kind(bytes);
+  if (!kind.empty()) throw InputError(fmt::format("{}: no {} file: it is {}", file, ending, kind));
+}
+
 TriangleMesh read_polygons(const std::string& ending, std::string bytes, const std::string& file) {
+  refuse_foreign(ending, bytes, file);
   if (ending == ".obj") return read_obj(bytes, file);
   if (ending == ".stl") return read_stl(std::move(bytes), file);
   return read_ply(bytes, file);

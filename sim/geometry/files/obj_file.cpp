@@ -11,6 +11,8 @@
 #include <unordered_map>
 
 #include "sim/core/process/error.h"
+#include "sim/core/text/number.h"
+#include "sim/core/text/shown.h"
 #include "sim/core/text/utf8.h"
 #include "sim/core/text/words.h"
 #include "sim/geometry/files/coordinate.h"
@@ -61,7 +63,14 @@ class ObjReader {
                        vertex_count_, vertices_so_far_));
     }
     for (const Face& face : faces_) triangulate(face);
-    return builder_.take();
+    TriangleMesh mesh = builder_.take();
+    mesh.findings = odd_.sentences();
+    if (free_form_ > 0) {
+      mesh.findings.push_back(
+          fmt::format("{} {} of free-form geometry ({} in line {}, ...): not read, export it as triangles", free_form_,
+                      free_form_ == 1 ? "line" : "lines", first_free_form_, first_free_form_line_));
+    }
+    return mesh;
   }
 
  private:
@@ -88,16 +97,26 @@ class ObjReader {
     if (keyword == "vn") normal(line);
     if (keyword == "f") face(line);
     if (keyword == "g" || keyword == "o") group(line);
-    // Texture coordinates, material files and curves are ignored.
+    if (is_free_form(keyword)) {
+      if (free_form_++ == 0) first_free_form_ = keyword, first_free_form_line_ = line_;
+    }
+    // Texture coordinates and material files are ignored.
+  }
+
+  // Curves and surfaces (Wavefront OBJ specification, "Free-form curve/surface attributes").
+  static bool is_free_form(std::string_view keyword) {
+    constexpr std::string_view kKeywords[] = {"cstype", "curv", "curv2", "surf", "bmat",
+                                              "bzp",    "bsp",  "cdc",   "cdp",  "res"};
+    return std::find(std::begin(kKeywords), std::end(kKeywords), keyword) != std::end(kKeywords);
   }
 
   void vertex(std::string_view line) {
     Vec3 position;
     for (double& x : position) {
       const std::string_view word = next_word(line);
-      const auto number = number_of(word);
+      const auto number = parse_any_number(word);
       const auto coordinate = number ? coordinate_of(*number) : std::nullopt;
-      if (!coordinate) fail(fmt::format("\"{}\" is not a coordinate", word));
+      if (!coordinate) fail(fmt::format("\"{}\" is not a coordinate", shown(word)));
       x = *coordinate;
     }
     builder_.vertex(position);
@@ -107,15 +126,24 @@ class ObjReader {
   // A normal that is none never refuses a file: it becomes zero.
   void normal(std::string_view line) {
     Vec3 n;
-    for (double& x : n) x = number_of(next_word(line)).value_or(0);
+    for (double& x : n) x = parse_any_number(next_word(line)).value_or(0);
     normals_.push_back(n);
+  }
+
+  // v, v/t, v//n or v/t/n with an integer t or none; an n that is no integer is no normal.
+  static bool is_corner(std::string_view word) {
+    const std::size_t first = word.find('/');
+    if (first == std::string_view::npos) return true;
+    const std::size_t second = std::min(word.find('/', first + 1), word.size());
+    const std::string_view texture = word.substr(first + 1, second - first - 1);
+    return texture.empty() || parse_integer(texture);
   }
 
   // The normal of a corner v//n or v/t/n, zero-based, as far as faces may name one; a later line may still define it.
   std::int64_t normal_index(std::string_view corner) const {
     const std::size_t first = corner.find('/'), second = corner.find('/', first + 1);
     if (first == std::string_view::npos || second == std::string_view::npos) return -1;
-    const auto value = integer_of(corner.substr(second + 1));
+    const auto value = parse_integer(corner.substr(second + 1));
     if (!value || *value == 0) return -1;
     return *value > 0 ? *value - 1 : static_cast<std::int64_t>(normals_.size()) + *value;
   }
@@ -128,8 +156,8 @@ class ObjReader {
   void face(std::string_view line) {
     const std::size_t first = corners_.size();
     for (std::string_view word = next_word(line); !word.empty() && word[0] != '#'; word = next_word(line)) {
-      const auto value = integer_of(word.substr(0, word.find('/')));
-      if (!value || *value == 0) fail(fmt::format("\"{}\" is not a corner of a face", word));
+      const auto value = parse_integer(word.substr(0, word.find('/')));
+      if (!value || *value == 0 || !is_corner(word)) fail(fmt::format("\"{}\" is not a corner of a face", shown(word)));
       // Negative indices are relative to the vertex before this line.
       const std::int64_t index = *value > 0 ? *value : vertices_so_far_ + *value + 1;
       if (index < 1 || index > vertex_count_)
@@ -149,9 +177,8 @@ class ObjReader {
     const std::span<const std::uint32_t> corners(corners_.data() + face.first, face.count);
     polygon_.clear();
     for (const std::uint32_t v : corners) polygon_.push_back(builder_.vertices()[v]);
-    const auto triangles = triangulate_polygon(polygon_);
-    if (!triangles) fail(untriangulated_message(face.count));
-    for (const auto& [i, j, k] : *triangles) {
+    const auto place = [&] { return fmt::format("line {}", face.line); };
+    for (const auto& [i, j, k] : triangles_of_polygon(polygon_, odd_, place)) {
       const std::uint32_t a = corners[i], b = corners[j], c = corners[k];
       if (a == b || b == c || c == a) continue;
       builder_.begin_part(part_names_[face.part]);
@@ -188,6 +215,10 @@ class ObjReader {
   std::vector<Vec3> normals_;
   std::vector<Face> faces_;
   std::vector<Vec3> polygon_;
+  OddPolygons odd_;
+  std::size_t free_form_ = 0;  // lines
+  std::string_view first_free_form_;
+  std::size_t first_free_form_line_ = 0;
   std::int64_t vertex_count_ = 0;
   std::int64_t vertices_so_far_ = 0;
   std::size_t line_ = 0;

@@ -6,11 +6,17 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
+#include <limits>
 #include <span>
+#include <utility>
 
 #include "sim/core/process/error.h"
+#include "sim/core/text/number.h"
+#include "sim/core/text/shown.h"
 #include "sim/core/text/words.h"
 #include "sim/geometry/files/coordinate.h"
+#include "sim/geometry/files/ply_number.h"
 #include "sim/geometry/files/split_vertices.h"
 #include "sim/geometry/files/triangulate_polygon.h"
 #include "sim/geometry/mesh/mesh_builder.h"
@@ -18,13 +24,11 @@
 namespace seaglint {
 namespace {
 
-enum class Number { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat, kDouble };
-
 struct Property {
   std::string name;
-  Number value = Number::kFloat;
+  PlyNumber value = PlyNumber::kFloat;
   bool is_list = false;
-  Number count = Number::kUint8;
+  PlyNumber count = PlyNumber::kUint8;
 };
 
 struct Element {
@@ -33,46 +37,11 @@ struct Element {
   std::vector<Property> properties;
 };
 
-std::size_t size_of(Number type) {
-  switch (type) {
-    case Number::kInt8:
-    case Number::kUint8: return 1;
-    case Number::kInt16:
-    case Number::kUint16: return 2;
-    case Number::kInt32:
-    case Number::kUint32:
-    case Number::kFloat: return 4;
-    case Number::kDouble: return 8;
-  }
-  return 0;
-}
-
-template <typename T>
-double value_at(const char* bytes, bool swap) {
-  std::array<char, sizeof(T)> raw{};
-  for (std::size_t i = 0; i < raw.size(); ++i) raw[i] = bytes[swap ? raw.size() - 1 - i : i];
-  return static_cast<double>(std::bit_cast<T>(raw));
-}
-
-double value_at(Number type, const char* bytes, bool swap) {
-  switch (type) {
-    case Number::kInt8: return value_at<std::int8_t>(bytes, swap);
-    case Number::kUint8: return value_at<std::uint8_t>(bytes, swap);
-    case Number::kInt16: return value_at<std::int16_t>(bytes, swap);
-    case Number::kUint16: return value_at<std::uint16_t>(bytes, swap);
-    case Number::kInt32: return value_at<std::int32_t>(bytes, swap);
-    case Number::kUint32: return value_at<std::uint32_t>(bytes, swap);
-    case Number::kFloat: return value_at<float>(bytes, swap);
-    case Number::kDouble: return value_at<double>(bytes, swap);
-  }
-  return 0;
-}
-
 // Parses a PLY. OpenMesh's own reader does not terminate at a missing end_header, does not check counts, and of binary
 // files reads only float coordinates and uchar list counts.
 class PlyReader {
  public:
-  PlyReader(std::string_view bytes, const std::string& file) : rest_(bytes), file_(file) {}
+  PlyReader(std::string_view bytes, const std::string& file) : bytes_(bytes), rest_(bytes), file_(file) {}
 
   TriangleMesh read() {
     header();
@@ -82,45 +51,39 @@ class PlyReader {
         vertices(element);
       } else if (element.name == "face") {
         faces(element);
+      } else if (element.name == "tristrips") {
+        strips(element);
       } else {
         for (std::uint64_t i = 0; i < element.count && !element.properties.empty(); ++i) {
           for (const Property& property : element.properties) skip(property);
         }
       }
     }
+    if (rest_.find_first_not_of(" \t\r\n") != std::string_view::npos) fail("more follows than the header promises");
     for (std::uint32_t index : corners_) {
-      if (index >= vertex_count_) fail(fmt::format("a face names vertex {}, there are {}", index, vertex_count_));
+      if (index >= vertex_count_) refuse(fmt::format("a face names vertex {}, there are {}", index, vertex_count_));
     }
     std::size_t first = 0;
     for (std::size_t face = 0; face < corner_count_.size(); first += corner_count_[face++])
       split(face, {corners_.data() + first, corner_count_[face]});
-    return builder_.take();
+    TriangleMesh mesh = builder_.take();
+    mesh.findings = odd_.sentences();
+    return mesh;
   }
 
  private:
-  [[noreturn]] void fail(const std::string& what) const { throw InputError(fmt::format("{}: {}", file_, what)); }
+  [[noreturn]] void refuse(const std::string& what) const { throw InputError(fmt::format("{}: {}", file_, what)); }
 
-  Number type_of(std::string_view name) const {
-    constexpr std::array<std::pair<std::string_view, Number>, 16> kNames{{{"char", Number::kInt8},
-                                                                          {"int8", Number::kInt8},
-                                                                          {"uchar", Number::kUint8},
-                                                                          {"uint8", Number::kUint8},
-                                                                          {"short", Number::kInt16},
-                                                                          {"int16", Number::kInt16},
-                                                                          {"ushort", Number::kUint16},
-                                                                          {"uint16", Number::kUint16},
-                                                                          {"int", Number::kInt32},
-                                                                          {"int32", Number::kInt32},
-                                                                          {"uint", Number::kUint32},
-                                                                          {"uint32", Number::kUint32},
-                                                                          {"float", Number::kFloat},
-                                                                          {"float32", Number::kFloat},
-                                                                          {"double", Number::kDouble},
-                                                                          {"float64", Number::kDouble}}};
-    for (const auto& [known, type] : kNames) {
-      if (name == known) return type;
-    }
-    fail(fmt::format("the PLY header has the unknown type \"{}\"", name.substr(0, 40)));
+  // Names the line that is being read, where there are lines.
+  [[noreturn]] void fail(const std::string& what) const {
+    if (!is_ascii_ && !in_header_) refuse(what);
+    const auto line = std::count(bytes_.data(), rest_.data(), '\n') + (in_header_ ? 0 : 1);
+    throw InputError(fmt::format("{}:{}: {}", file_, std::max<std::ptrdiff_t>(line, 1), what));
+  }
+
+  PlyNumber type_of(std::string_view name) const {
+    if (const std::optional<PlyNumber> type = ply_number(name)) return *type;
+    fail(fmt::format("the PLY header has the unknown type \"{}\"", shown(name)));
   }
 
   void header() {
@@ -141,7 +104,7 @@ class PlyReader {
           fail(fmt::format("the PLY format \"{}\" is unknown", format));
       } else if (keyword == "element") {
         const std::string_view name = next_word(line), count = next_word(line);
-        const auto number = integer_of(count);
+        const auto number = parse_integer(count);
         if (!number || *number < 0) fail(fmt::format("the PLY header promises \"{}\" of \"{}\"", count, name));
         for (const Element& element : elements_) {
           if (element.name == name) fail(fmt::format("the PLY header has \"{}\" twice", name));
@@ -164,6 +127,7 @@ class PlyReader {
       }
     }
     if (!has_format) fail("the PLY header has no format");
+    in_header_ = false;
   }
 
   // Checks the declared count against the file size before memory is reserved.
@@ -178,13 +142,14 @@ class PlyReader {
     }
   }
 
-  double number(Number type) {
+  double number(PlyNumber type) {
     if (is_ascii_) {
       const std::string_view word = next_word(rest_);
-      const auto number = number_of(word);
+      const auto number = parse_any_number(word);
       if (!number)
         fail(word.empty() ? std::string("ends before its last number")
-                          : fmt::format("\"{}\" is not a number", word.substr(0, 40)));
+                          : fmt::format("\"{}\" is not a number", shown(word)));
+      if (!holds(type, *number)) fail(fmt::format("\"{}\" where the header promises {}", shown(word), limits_of(type)));
       return *number;
     }
     if (rest_.size() < size_of(type)) fail("ends before its last number");
@@ -260,11 +225,45 @@ class PlyReader {
         const std::uint64_t count = read_count(property);
         for (std::uint64_t k = 0; k < count; ++k) {
           const double index = number(property.value);
-          if (!(index >= 0 && index < 2147483648.0)) fail(fmt::format("face {} names vertex {}", i, index));
-          corners_.push_back(static_cast<std::uint32_t>(index));
+          corners_.push_back(corner(index, "face", i));
         }
         if (count < 3) fail(fmt::format("face {} has {} corners", i, count));
         corner_count_.push_back(static_cast<std::uint32_t>(count));
+      }
+    }
+  }
+
+  std::uint32_t corner(double index, const char* what, std::uint64_t i) const {
+    if (!(index >= 0 && index < 2147483648.0 && index == std::floor(index)))
+      fail(fmt::format("{} {} names vertex {}", what, i, index));
+    return static_cast<std::uint32_t>(index);
+  }
+
+  // Triangle strips (Stanford's PLY): -1 ends a strip, every second triangle is turned.
+  void strips(const Element& element) {
+    if (element.count > 0 && std::none_of(element.properties.begin(), element.properties.end(), has_corners))
+      fail("its triangle strips have no vertex_indices");
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      for (const Property& property : element.properties) {
+        if (!has_corners(property)) {
+          skip(property);
+          continue;
+        }
+        const std::uint64_t count = read_count(property);
+        std::vector<std::uint32_t> strip;
+        for (std::uint64_t k = 0; k < count; ++k) {
+          const double index = number(property.value);
+          if (index == -1 || (property.value == PlyNumber::kUint32 && index == 4294967295.0)) {
+            strip.clear();
+            continue;
+          }
+          strip.push_back(corner(index, "triangle strip", i));
+          const std::size_t n = strip.size();
+          if (n < 3) continue;
+          const bool turned = n % 2 == 0;
+          corners_.insert(corners_.end(), {strip[turned ? n - 2 : n - 3], strip[turned ? n - 3 : n - 2], strip[n - 1]});
+          corner_count_.push_back(3);
+        }
       }
     }
   }
@@ -273,9 +272,8 @@ class PlyReader {
   void split(std::size_t face, std::span<const std::uint32_t> corners) {
     polygon_.clear();
     for (const std::uint32_t v : corners) polygon_.push_back(builder_.vertices()[v]);
-    const auto triangles = triangulate_polygon(polygon_);
-    if (!triangles) fail(fmt::format("face {}: {}", face, untriangulated_message(corners.size())));
-    for (const auto& [i, j, k] : *triangles) {
+    const auto place = [&] { return fmt::format("face {}", face); };
+    for (const auto& [i, j, k] : triangles_of_polygon(polygon_, odd_, place)) {
       const std::uint32_t a = corners[i], b = corners[j], c = corners[k];
       if (a == b || b == c || c == a) continue;
       if (normals_.empty()) {
@@ -286,8 +284,9 @@ class PlyReader {
     }
   }
 
-  std::string_view rest_;
+  std::string_view bytes_, rest_;
   const std::string& file_;
+  bool in_header_ = true;
   bool is_ascii_ = false;
   bool swap_ = false;
   std::vector<Element> elements_;
@@ -296,6 +295,7 @@ class PlyReader {
   std::vector<std::uint32_t> corners_;       // of all faces
   std::vector<std::uint32_t> corner_count_;  // of each
   std::vector<Vec3> polygon_;
+  OddPolygons odd_;
   MeshBuilder builder_;
 };
 

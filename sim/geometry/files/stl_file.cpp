@@ -9,6 +9,8 @@
 #include <cstring>
 
 #include "sim/core/process/error.h"
+#include "sim/core/text/number.h"
+#include "sim/core/text/shown.h"
 #include "sim/core/text/utf8.h"
 #include "sim/core/text/words.h"
 #include "sim/geometry/files/coordinate.h"
@@ -62,10 +64,12 @@ class AsciiStl {
         facet();
       } else if (word == "endsolid") {
         next_line(rest_);
+        in_solid_ = false;
       } else {
-        fail(fmt::format("\"{}\" where facet or endsolid belongs", word.substr(0, 40)));
+        fail(fmt::format("\"{}\" where facet or endsolid belongs", shown(word)));
       }
     }
+    if (in_solid_) fail("ends without endsolid: the file is cut off");
     return builder_.take();
   }
 
@@ -84,10 +88,12 @@ class AsciiStl {
 
   void expect(const char* word) {
     const std::string found = lower_word();
-    if (found != word) fail(fmt::format("\"{}\" where {} belongs", found.substr(0, 40), word));
+    if (found != word) fail(fmt::format("\"{}\" where {} belongs", shown(found), word));
   }
 
   void begin_solid() {
+    if (in_solid_) fail("solid where endsolid belongs");
+    in_solid_ = true;
     std::string_view line = next_line(rest_);
     std::string name;
     for (std::string_view word = next_word(line); !word.empty(); word = next_word(line)) {
@@ -99,9 +105,9 @@ class AsciiStl {
 
   double coordinate() {
     const std::string_view word = next_word(rest_);
-    const auto number = number_of(word);
+    const auto number = parse_any_number(word);
     const auto value = number ? coordinate_of(*number) : std::nullopt;
-    if (!value) fail(fmt::format("\"{}\" is not a coordinate", word.substr(0, 40)));
+    if (!value) fail(fmt::format("\"{}\" is not a coordinate", shown(word)));
     return *value;
   }
 
@@ -131,6 +137,7 @@ class AsciiStl {
   const std::string& file_;
   MeshBuilder builder_;
   std::string solid_ = "body";
+  bool in_solid_ = false;
 };
 
 }  // namespace
@@ -143,7 +150,12 @@ TriangleMesh read_stl(std::string bytes, const std::string& file) {
   std::string_view start = bytes;
   const std::string_view word = next_word(start);
   const bool says_solid = word.size() == 5 && (word == "solid" || word == "SOLID" || word == "Solid");
-  if (has_binary_size || !says_solid) return read_binary(std::move(bytes), file);
+  // No text has bytes such as 0 at its beginning.
+  const std::string_view head = std::string_view(bytes).substr(0, 512);
+  const bool has_other_bytes = std::any_of(head.begin(), head.end(), [](char c) {
+    return (c >= 0 && c < 0x20 && c != '\n' && c != '\r' && c != '\t' && c != '\f') || c == 0x7f;
+  });
+  if (has_binary_size || !says_solid || has_other_bytes) return read_binary(std::move(bytes), file);
   return AsciiStl(bytes, file).read();
 }
 

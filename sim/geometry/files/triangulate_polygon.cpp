@@ -178,11 +178,80 @@ std::optional<Triangles> triangulate_polygon(std::span<const Vec3> corner) {
   return triangles;
 }
 
-std::string untriangulated_message(std::size_t corners) {
-  if (corners > kMaxConcaveVertices)
-    return fmt::format("a polygon of {} corners that is no fan: {} at most, cut it into triangles", corners,
-                       kMaxConcaveVertices);
-  return fmt::format("a polygon of {} corners that crosses itself: cut it into triangles", corners);
+namespace {
+
+// Indices of the vertices without those at which the polygon turns back the same way, and without repeated ones.
+std::vector<std::uint32_t> without_spikes(std::span<const Vec3> corner) {
+  std::vector<std::uint32_t> kept;
+  const auto same = [&](std::uint32_t a, std::uint32_t b) { return corner[a] == corner[b]; };
+  for (std::uint32_t i = 0; i < corner.size(); ++i) {
+    kept.push_back(i);
+    while (true) {
+      const std::size_t n = kept.size();
+      if (n >= 2 && same(kept[n - 1], kept[n - 2])) {
+        kept.pop_back();
+      } else if (n >= 3 && same(kept[n - 1], kept[n - 3])) {
+        kept.resize(n - 2);
+      } else {
+        break;
+      }
+    }
+  }
+  std::size_t begin = 0, end = kept.size();
+  while (end - begin >= 2) {
+    if (same(kept[begin], kept[end - 1])) {
+      --end;
+    } else if (end - begin >= 3 && same(kept[begin + 1], kept[end - 1])) {
+      ++begin;
+    } else if (end - begin >= 3 && same(kept[begin], kept[end - 2])) {
+      --end;
+    } else {
+      break;
+    }
+  }
+  return {kept.begin() + static_cast<std::ptrdiff_t>(begin), kept.begin() + static_cast<std::ptrdiff_t>(end)};
+}
+
+}  // namespace
+
+std::vector<std::string> OddPolygons::sentences() const {
+  std::vector<std::string> list;
+  const auto add = [&](std::size_t count, const char* one, const char* many, const char* treatment) {
+    if (count == 0) return;
+    list.push_back(
+        fmt::format("{} {}: {} (the first odd polygon: {})", count, count == 1 ? one : many, treatment, first_place));
+  };
+  constexpr const char* kFan = "taken as the fan of the first corner";
+  add(without_area, "polygon goes out and back without area", "polygons go out and back without area", "dropped");
+  add(crossing, "polygon crosses itself", "polygons cross themselves", kFan);
+  add(large, "concave polygon has too many corners", "concave polygons have too many corners", kFan);
+  return list;
+}
+
+Triangles triangles_of_polygon(std::span<const Vec3> corner, OddPolygons& odd,
+                               const std::function<std::string()>& place) {
+  const std::vector<std::uint32_t> kept = without_spikes(corner);
+  std::optional<Triangles> triangles;
+  if (corner.size() == 3 || kept.size() == corner.size()) {
+    triangles = triangulate_polygon(corner);
+  } else if (kept.size() >= 3) {
+    std::vector<Vec3> rest;
+    for (const std::uint32_t i : kept) rest.push_back(corner[i]);
+    triangles = triangulate_polygon(rest);
+    if (triangles) {
+      for (auto& triangle : *triangles) {
+        for (std::uint32_t& i : triangle) i = kept[i];
+      }
+    }
+  }
+  if (triangles) return *triangles;
+  if (odd.first_place.empty()) odd.first_place = place();
+  if (kept.size() < 3) {
+    ++odd.without_area;
+    return {};
+  }
+  ++(corner.size() > kMaxConcaveVertices ? odd.large : odd.crossing);
+  return fan(corner.size());
 }
 
 }  // namespace seaglint

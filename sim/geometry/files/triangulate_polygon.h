@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -23,7 +24,19 @@ inline constexpr std::size_t kMaxConcaveVertices = 4096;
 // a polygon that intersects itself, or is concave with more than kMaxConcaveVertices vertices.
 std::optional<std::vector<std::array<std::uint32_t, 3>>> triangulate_polygon(std::span<const Vec3> corner);
 
-// Error message for a polygon that is not triangulated.
-std::string untriangulated_message(std::size_t corners);
+// Polygons of a file that are no simple polygons, counted.
+struct OddPolygons {
+  std::size_t without_area = 0;  // that go out and back the same way: dropped
+  std::size_t crossing = 0;      // that cross themselves: the fan of their first vertex
+  std::size_t large = 0;         // concave with more than kMaxConcaveVertices vertices: the same
+  std::string first_place{};     // of the first of them
+
+  // One sentence per kind.
+  std::vector<std::string> sentences() const;
+};
+
+// triangulate_polygon() of any polygon; one that it rejects is counted in `odd`, with place() naming its first.
+std::vector<std::array<std::uint32_t, 3>> triangles_of_polygon(std::span<const Vec3> corner, OddPolygons& odd,
+                                                               const std::function<std::string()>& place);
 
 }  // namespace seaglint

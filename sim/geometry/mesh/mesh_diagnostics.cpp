@@ -222,10 +222,37 @@ std::string counted(std::size_t n, const char* one, const char* many) {
 
 }  // namespace
 
-MeshDiagnostics diagnose(const TriangleMesh& mesh) { return find_defects(mesh).health; }
+MeshDiagnostics diagnose(const TriangleMesh& mesh) {
+  MeshDiagnostics health = find_defects(mesh).health;
+  health.of_file = mesh.findings;
+  const Bounds box = bounds(mesh);
+  health.size = box.upper - box.lower;
+  return health;
+}
+
+namespace {
+
+// Whether a mesh measured in metres was probably drawn in another unit: no ship is longer than 500 m, no target shorter
+// than 2 cm, and elongated bodies of many facets (ships: 3 times as long as wide) are seldom below 5 m.
+bool has_unlikely_size(const MeshDiagnostics& h) {
+  constexpr double kLongest = 500, kShortest = 0.02, kShortestShip = 5, kShipRatio = 3;
+  constexpr std::size_t kShipFacets = 500;
+  Vec3 size = h.size;
+  std::sort(size.begin(), size.end());
+  const bool like_a_ship = h.triangles >= kShipFacets && size[2] > kShipRatio * size[1] && size[2] < kShortestShip;
+  return size[2] > kLongest || (size[2] > 0 && size[2] < kShortest) || like_a_ship;
+}
+
+}  // namespace
 
 std::vector<std::string> diagnostic_messages(const MeshDiagnostics& h) {
-  std::vector<std::string> found;
+  std::vector<std::string> found = h.of_file;
+  if (has_unlikely_size(h)) {
+    found.push_back(
+        fmt::format("measures {:.4g} x {:.4g} x {:.4g} m, an unlikely size: is it drawn in another unit? Say "
+                    "so by --unit, in a scenario by unit:",
+                    h.size.x(), h.size.y(), h.size.z()));
+  }
   if (h.degenerate > 0) found.push_back(counted(h.degenerate, "triangle has", "triangles have") + " no area: removed");
   if (h.repeated > 0)
     found.push_back(counted(h.repeated, "triangle repeats", "triangles repeat") + " another: removed");

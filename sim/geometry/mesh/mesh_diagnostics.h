@@ -34,6 +34,8 @@ struct MeshDiagnostics {
   std::size_t inverted_surfaces = 0;       // closed, with negative enclosed volume: inside out
   std::size_t inverted_triangles = 0;      // of those surfaces
   std::size_t corners_without_normal = 0;  // of a mesh that has normals
+  std::vector<std::string> of_file{};      // TriangleMesh::findings
+  Vec3 size = Vec3::Zero();                // of the bounding box, m
 };
 
 // Vertices are identified by their index: weld first (read_mesh does).

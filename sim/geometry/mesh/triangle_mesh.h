@@ -28,6 +28,8 @@ struct TriangleMesh {
   // Normals of the surface that the mesh samples, at the three corners of each triangle: unit vectors, outwards, or
   // zero where none is given. Empty: no normals at all.
   std::vector<std::array<Vec3, 3>> corner_normals;
+  // What its file has that the mesh lacks or has differently, a sentence each.
+  std::vector<std::string> findings{};
 
   // Appends a mesh unchanged; its parts and materials are matched by name.
   void append(const TriangleMesh& other);

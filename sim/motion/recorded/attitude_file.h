@@ -7,22 +7,25 @@
 #include <string>
 #include <vector>
 
+#include "sim/core/text/text_table.h"
 #include "sim/motion/kinematics/trajectory.h"
 
 namespace seaglint {
 
+// Columns of the table.
+inline constexpr std::size_t kTimeColumn = 0, kFirstAngleColumn = 1;  // then roll, pitch, yaw
+
 // Rows of the file: angles in rad and translations in m, in the conventions of this project.
 struct AttitudeTable {
-  std::string file;
-  std::vector<int> lines;
+  TextTable table;
   std::vector<double> time;
   std::vector<MotionSample> samples;
-  bool in_degrees = true;  // as the file declares
+  bool pitch_reversed = false;  // so that it agrees with the angular velocity of the file
 
-  std::string place(std::size_t row) const;  // "FILE:LINE"
+  bool in_radians(std::size_t axis) const;  // roll, pitch or yaw, as the file declares
 };
 
-// Formats: attitude_series.h. Throws InputError with file and line.
+// Formats: attitude_series.h. Throws InputError with file, line and column.
 AttitudeTable read_attitude_table(const std::filesystem::path& file);
 
 }  // namespace seaglint

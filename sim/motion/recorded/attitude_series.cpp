@@ -2,6 +2,7 @@
 #include "sim/motion/recorded/attitude_series.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -68,7 +69,7 @@ bool is_57_fold(double factor, double slack) {
 }
 
 // Rejects values that change by a factor of 57 from one line to the next and keep the new scale.
-void check_unit_change(const AttitudeTable& table, const std::vector<double>& angle, const char* name) {
+void check_unit_change(const TextTable& table, std::size_t column, const std::vector<double>& angle) {
   for (std::size_t n = kWindow; n + kWindow <= angle.size(); ++n) {
     const double slope = angle[n - 1] - angle[n - 2];
     const double expected = angle[n - 1] + slope;
@@ -76,51 +77,58 @@ void check_unit_change(const AttitudeTable& table, const std::vector<double>& an
     if (!is_57_fold(angle[n + 1] / (expected + slope), 1.6)) continue;
     // Within a window the amplitude of the motion itself may change by a small factor.
     if (!is_57_fold(rms(angle, n, n + kWindow) / rms(angle, n - kWindow, n), 8)) continue;
-    throw InputError(fmt::format(
-        "{}: {}: value {:.6g} after {:.6g}: a 57-fold jump, as between radians and degrees: the unit changes within "
-        "the file",
-        table.place(n), name, angle[n], angle[n - 1]));
+    table.fail(n, column,
+               fmt::format("a 57-fold jump from {}, as between radians and degrees: the unit changes within the file",
+                           table.text(n - 1, column)));
   }
 }
 
 // Plausible range: roll and pitch within 90 deg, heading within two turns.
 void check_radians(const AttitudeTable& table) {
   constexpr std::array<double, 3> kLargest{0.5 * kPi, 0.5 * kPi, 4 * kPi};
-  constexpr std::array<const char*, 3> kNames{"roll", "pitch", "yaw"};
-  for (int axis = 0; axis < 3; ++axis) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
     std::vector<double> angle;
-    for (const MotionSample& sample : table.samples) angle.push_back(sample.angles[axis]);
-    const auto name = kNames[static_cast<std::size_t>(axis)];
-    check_unit_change(table, angle, name);
+    for (const MotionSample& sample : table.samples) angle.push_back(sample.angles[static_cast<int>(axis)]);
+    check_unit_change(table.table, kFirstAngleColumn + axis, angle);
     for (std::size_t n = 0; n < angle.size(); ++n) {
-      if (std::abs(angle[n]) <= kLargest[static_cast<std::size_t>(axis)]) continue;
-      throw InputError(fmt::format(
-          "{}: {}: value {:.6g} {}: must be within {:.4g} rad{}", table.place(n), name,
-          table.in_degrees ? degrees(angle[n]) : angle[n], table.in_degrees ? "deg" : "rad",
-          kLargest[static_cast<std::size_t>(axis)],
-          table.in_degrees ? "" : ": these look like degrees where radians are declared, 57 times too large"));
+      if (std::abs(angle[n]) <= kLargest[axis]) continue;
+      const bool in_radians = table.in_radians(axis);
+      table.table.fail(
+          n, kFirstAngleColumn + axis,
+          fmt::format("must be within {:.4g} {}{}", in_radians ? kLargest[axis] : degrees(kLargest[axis]),
+                      in_radians ? "rad" : "deg",
+                      in_radians ? ": these look like degrees where radians are declared, 57 times too large" : ""));
     }
   }
 }
 
 void check_times(const AttitudeTable& table) {
+  table.table.check_ascending(kTimeColumn);
   std::vector<double> steps;
-  for (std::size_t n = 1; n < table.time.size(); ++n) {
-    if (!(table.time[n] > table.time[n - 1])) {
-      throw InputError(fmt::format("{}: time: value {}: must be greater than {} of the row before", table.place(n),
-                                   table.time[n], table.time[n - 1]));
-    }
-    steps.push_back(table.time[n] - table.time[n - 1]);
-  }
+  for (std::size_t n = 1; n < table.time.size(); ++n) steps.push_back(table.time[n] - table.time[n - 1]);
   std::vector<double> sorted = steps;
   std::nth_element(sorted.begin(), sorted.begin() + static_cast<long>(sorted.size() / 2), sorted.end());
   const double usual = sorted[sorted.size() / 2];
   constexpr double kWidestGap = 10;
   for (std::size_t n = 0; n < steps.size(); ++n) {
     if (steps[n] <= kWidestGap * usual * (1 + 1e-9)) continue;
-    throw InputError(fmt::format("{}: time: value {}: a gap of {:.4g} s after {}, where the usual step is {:.4g} s",
-                                 table.place(n + 1), table.time[n + 1], steps[n], table.time[n], usual));
+    table.table.fail(
+        n + 1, kTimeColumn,
+        fmt::format("a gap of {:.4g} s after {}, where the usual step is {:.4g} s", steps[n], table.time[n], usual));
   }
+}
+
+std::string reading_of(const AttitudeTable& table, TimeGrid grid, double rounding, const std::vector<double>& time) {
+  std::vector<std::string> columns;
+  for (std::size_t i = 0; i < kFirstAngleColumn + 3; ++i) columns.push_back(table.table.key(i));
+  const double step = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
+  std::string text = fmt::format("{} rows, {}", time.size(), fmt::join(columns, " "));
+  if (grid == TimeGrid::kRounded)
+    text += fmt::format(", times rounded to {:g} s taken as uniform at {:.6g} s", 2 * rounding, step);
+  if (grid == TimeGrid::kIrregular) text += ", times are not uniform: resampled at their smallest step";
+  if (table.table.has_decimal_commas()) text += ", decimal commas";
+  if (table.pitch_reversed) text += ", sign of pitch reversed to agree with its angular velocity";
+  return text;
 }
 
 void unwrap_yaw(std::vector<MotionSample>& samples) {
@@ -143,7 +151,10 @@ AttitudeSeries read_attitude_series(const std::filesystem::path& file) {
   check_times(table);
   check_radians(table);
   unwrap_yaw(table.samples);
-  AttitudeSeries series{file.string(), std::move(table.time), std::move(table.samples)};
+  const double rounding = rounding_of(table.table, kTimeColumn);
+  const TimeGrid grid = make_uniform(table.time, rounding);
+  const std::string reading = reading_of(table, grid, rounding, table.time);
+  AttitudeSeries series{file.string(), std::move(table.time), std::move(table.samples), reading, grid};
   set_rates(series, &MotionSample::angles, &MotionSample::angle_rates);
   set_rates(series, &MotionSample::translation, &MotionSample::translation_rates);
   return series;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sim/motion/kinematics/trajectory.h"
+#include "sim/motion/recorded/time_grid.h"
 
 namespace seaglint {
 
@@ -17,17 +18,21 @@ struct AttitudeSeries {
   std::string source;
   std::vector<double> time;
   std::vector<MotionSample> samples;
+  std::string reading{};  // columns, units and times as they were understood, for users
+  TimeGrid grid = TimeGrid::kUniform;
 };
 
-// Reads a motion time series. The format is detected from the contents:
-// - own: CSV `time_s,roll_deg,pitch_deg,yaw_deg[,surge_m,sway_m,heave_m]`, or angles as `roll_rad` and so on;
-// - DualSPHysics FloatingInfo: `;`, `time [s]`, `roll [deg]`; the sign of pitch, which differs between versions,
-//   follows the angular velocity `fomega.y [rad/s]` (without that column: right-handed);
+// Reads a motion time series: a table (sim/core/text/text_table.h) with columns by name, of
+// - this project: `time_s`, `roll_deg` or `roll_rad`, `pitch_...`, `yaw_...`, and all or none of `surge_m`, `sway_m`,
+//   `heave_m`;
+// - DualSPHysics FloatingInfo: `time [s]`, `roll [deg]`; the sign of pitch, which differs between versions, follows the
+//   angular velocity `fomega.y [rad/s]` (without that column: right-handed);
 // - OpenFAST text output: `Time`, `PtfmRoll` and so on, in the units of its own line.
-// All have x forward, y to port and z up. Jumps of a full turn in yaw are removed.
-// Throws InputError with file and line for missing columns, cells that are not finite numbers, times that do not
-// increase, gaps (a step of ten times the usual), degrees where radians are declared, and a change of unit within the
-// file.
+// All have x forward, y to port and z up. Jumps of a full turn in yaw are removed. Times that all lie within half of
+// their last decimal of one uniform grid become that grid, from the first time to the last.
+// Throws InputError with file, line and column for missing columns, cells that are not finite numbers, times that do
+// not increase, gaps (a step of ten times the usual), degrees where radians are declared, and a change of unit within
+// the file.
 AttitudeSeries read_attitude_series(const std::filesystem::path& file);
 
 // The series as a trajectory whose t = 0 is the time start_s of the series; translations = false sets the translations

@@ -16,7 +16,10 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
-#include "sim/core/process/file.h"
+#include "sim/core/text/column_key.h"
+#include "sim/core/text/number.h"
+#include "sim/core/text/shown.h"
+#include "sim/core/text/text_table.h"
 #include "sim/core/text/words.h"
 #include "sim/motion/ship/ship_response.h"
 
@@ -24,46 +27,47 @@ namespace seaglint {
 
 namespace {
 
-// Words of a file with their line numbers.
-class Words {
+// Lines of numbers, in an order that the format gives.
+class NumberLines {
  public:
-  explicit Words(const std::filesystem::path& file) : file_(file.string()), text_(read_file(file)), rest_(text_) {}
+  explicit NumberLines(const std::filesystem::path& file) : source_(TextSource::read(file)), rest_(source_.text()) {}
 
-  bool at_end() const { return rest_.find_first_not_of(" \t\r\n") == std::string_view::npos; }
-  std::string place() const { return fmt::format("{}:{}", file_, line_); }
-  const std::string& file() const { return file_; }
+  const std::string& file() const { return source_.name(); }
 
-  std::string_view line() {
-    ++line_;
-    return next_line(rest_);
-  }
+  std::string_view line() { return line_ = next_line(rest_); }
 
   // The numbers of the next line that is not empty: exactly `count`, all finite.
   std::vector<double> numbers(std::size_t count, const char* what) {
-    std::string_view text;
-    do {
-      if (at_end()) throw InputError(fmt::format("{}: ends where {} should follow", place(), what));
-      text = line();
-    } while (text.find_first_not_of(" \t\r") == std::string_view::npos);
+    skip_empty_lines();
+    if (rest_.empty()) source_.fail(rest_, fmt::format("ends where {} should follow", what));
+    std::string_view text = line();
     std::vector<double> values;
     for (std::string_view word = next_word(text); !word.empty(); word = next_word(text)) {
-      const std::optional<double> value = number_of(word);
-      if (!value || !std::isfinite(*value)) {
-        throw InputError(fmt::format("{}: {}: value '{}': must be a finite number", place(), what, word));
-      }
+      const std::optional<double> value = parse_written_number(word);
+      if (!value || !std::isfinite(*value))
+        source_.fail(word, fmt::format("{}: value {}: must be a finite number", what, in_quotes(word)));
       values.push_back(*value);
     }
-    if (values.size() != count) {
-      throw InputError(fmt::format("{}: {}: {} numbers: must be {}", place(), what, values.size(), count));
-    }
+    if (values.size() != count) fail(fmt::format("{}: {} numbers: must be {}", what, values.size(), count));
     return values;
   }
 
+  void require_end() {
+    skip_empty_lines();
+    if (!rest_.empty())
+      source_.fail(trimmed(rest_), fmt::format("{} behind the last block", in_quotes(trimmed(line()))));
+  }
+
+  // Throws InputError at the line that was read last.
+  [[noreturn]] void fail(const std::string& what) const { source_.fail(trimmed(line_), what); }
+
  private:
-  std::string file_;
-  std::string text_;
-  std::string_view rest_;
-  int line_ = 0;
+  void skip_empty_lines() {
+    while (!rest_.empty() && trimmed(rest_.substr(0, rest_.find('\n'))).empty()) next_line(rest_);
+  }
+
+  TextSource source_;
+  std::string_view rest_, line_;
 };
 
 using Heading = std::vector<MotionRao>;  // by frequency
@@ -71,10 +75,14 @@ using Heading = std::vector<MotionRao>;  // by frequency
 // Response of a port-starboard symmetric ship to the wave from the opposite side.
 MotionRao mirrored(const MotionRao& r) { return {r.surge, -r.sway, r.heave, -r.roll, r.pitch, -r.yaw}; }
 
-double wrapped(double angle) {
-  const double wrapped_angle = angle - 2 * kPi * std::ceil(angle / (2 * kPi) - 0.5);
-  return wrapped_angle <= -kPi + 1e-9 ? wrapped_angle + 2 * kPi : wrapped_angle;
+// The direction in (-180, 180]; both ends of a circle, 0 and 360 or -180 and 180, are one direction.
+double wrapped_deg(double angle_deg) {
+  const double angle = std::remainder(angle_deg, 360);
+  return angle <= -180 + 1e-7 ? angle + 360 : angle;
 }
+
+// Equal to the digits that programs print; what both ends of the circle may differ by.
+bool are_equal(Complex a, Complex b) { return std::abs(a - b) <= 1e-3 * std::max(std::abs(a), std::abs(b)) + 1e-6; }
 
 RaoTable table_of(std::string source, const std::map<double, Heading>& headings, std::vector<double> omega,
                   const Vec3& reference, double speed) {
@@ -102,7 +110,7 @@ void add_mirrored_headings(std::map<double, Heading>& headings) {
   if (!one_sided(headings)) return;
   std::map<double, Heading> other;
   for (const auto& [mu, values] : headings) {
-    const double across = wrapped(-mu);
+    const double across = radians(wrapped_deg(degrees(-mu)));
     if (headings.contains(across) || std::abs(std::abs(mu) - kPi) < 1e-6 || std::abs(mu) < 1e-6) continue;
     Heading& image = other[across];
     for (const MotionRao& value : values) image.push_back(mirrored(value));
@@ -110,10 +118,68 @@ void add_mirrored_headings(std::map<double, Heading>& headings) {
   headings.merge(other);
 }
 
-void check_ascending(const std::vector<double>& omega, double value, const std::string& place) {
-  if (value > 0 && (omega.empty() || value > omega.back())) return;
-  throw InputError(fmt::format("{}: frequency {} rad/s: must be greater than {} of the one before", place, value,
-                               omega.empty() ? 0.0 : omega.back()));
+bool are_equal(const Heading& a, const Heading& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const MotionRao& p, const MotionRao& q) {
+    return are_equal(p.surge, q.surge) && are_equal(p.sway, q.sway) && are_equal(p.heave, q.heave) &&
+           are_equal(p.roll, q.roll) && are_equal(p.pitch, q.pitch) && are_equal(p.yaw, q.yaw);
+  });
+}
+
+// One speed of a file of VERES.
+struct VeresBlock {
+  double speed = 0;
+  Vec3 reference = Vec3::Zero();
+  std::vector<double> omega;
+  std::map<double, Heading> headings;  // by mu, rad
+};
+
+// The frequency of the next line, rad/s: above the one before and, from the second heading on, that of the first.
+void read_frequency(NumberLines& lines, VeresBlock& block, bool first_heading, std::size_t n) {
+  const double frequency = lines.numbers(1, "frequency")[0];
+  if (!first_heading) {
+    if (frequency == block.omega[n]) return;
+    lines.fail(fmt::format("frequency {}: must be {} as at the first heading", frequency, block.omega[n]));
+  }
+  const double before = block.omega.empty() ? 0 : block.omega.back();
+  if (!(frequency > before))
+    lines.fail(fmt::format("frequency {} rad/s: must be greater than {}{}", frequency, before,
+                           block.omega.empty() ? "" : " of the one before"));
+  block.omega.push_back(frequency);
+}
+
+MotionRao read_veres_response(NumberLines& lines) {
+  std::array<Complex, 6> x;
+  for (std::size_t d = 0; d < 6; ++d) {
+    const std::vector<double> row = lines.numbers(3, "degree of freedom");
+    if (row[0] != static_cast<double>(d + 1))
+      lines.fail(fmt::format("degree of freedom {}: must be {}", row[0], d + 1));
+    x[d] = {row[1], row[2]};
+  }
+  return {-x[0], -x[1], x[2], -x[3], -x[4], x[5]};
+}
+
+VeresBlock read_veres_block(NumberLines& lines, int headings, int frequencies, double draught) {
+  const std::vector<double> state = lines.numbers(5, "speed and reference point");
+  VeresBlock block{state[0], {-state[3], 0, state[4] - draught}, {}, {}};
+  std::map<double, double> given;  // headings of the file by mu
+  for (int h = 0; h < headings; ++h) {
+    const double heading_deg = lines.numbers(1, "heading")[0];
+    const double mu = radians(wrapped_deg(heading_deg + 180));
+    const auto before = given.find(mu);
+    if (before != given.end() && before->second == heading_deg)
+      lines.fail(fmt::format("heading {} deg appears twice", heading_deg));
+    Heading values;
+    for (int n = 0; n < frequencies; ++n) {
+      read_frequency(lines, block, h == 0, static_cast<std::size_t>(n));
+      values.push_back(read_veres_response(lines));
+    }
+    const auto [known, is_new] = block.headings.try_emplace(mu, values);
+    if (!is_new && !are_equal(known->second, values))
+      lines.fail(fmt::format("headings {} and {} deg are one direction with different responses", before->second,
+                             heading_deg));
+    given[mu] = heading_deg;
+  }
+  return block;
 }
 
 }  // namespace
@@ -124,95 +190,111 @@ void check_ascending(const std::vector<double>& omega, double value, const std::
 // freedom. Axes: heading 0 is a head sea, x aft, y to starboard, z up, e^{+iwt}: mu = heading + 180 deg; surge, sway,
 // roll and pitch change sign, heave and yaw do not.
 RaoTable read_veres_rao(const std::filesystem::path& file, double speed) {
-  Words words(file);
-  const std::string_view title = words.line();
+  NumberLines lines(file);
+  const std::string_view title = lines.line();
   if (title.find("MOTION TRANSFER FUNCTIONS") == std::string_view::npos ||
       title.find("VERES") == std::string_view::npos) {
-    throw InputError(
-        fmt::format("{}: no motion transfer functions of VERES: the first line is '{}'", words.place(), title));
+    lines.fail(fmt::format("no motion transfer functions of VERES: the first line is {}", in_quotes(title)));
   }
-  for (int i = 0; i < 5; ++i) words.line();
-  words.numbers(2, "density and gravity");
-  const double draught = words.numbers(3, "length, breadth and draught")[2];
-  words.numbers(2, "centre of gravity");
-  const std::vector<double> counts = words.numbers(4, "counts");
-  if (counts[3] != 6) throw InputError(fmt::format("{}: {} degrees of freedom: must be 6", words.place(), counts[3]));
+  for (int i = 0; i < 5; ++i) lines.line();
+  lines.numbers(2, "density and gravity");
+  const double draught = lines.numbers(3, "length, breadth and draught")[2];
+  lines.numbers(2, "centre of gravity");
+  const std::vector<double> counts = lines.numbers(4, "counts");
+  if (counts[3] != 6) lines.fail(fmt::format("{} degrees of freedom: must be 6", counts[3]));
   for (const double count : counts) {
-    if (!(count >= 1 && count <= 10000 && count == std::floor(count))) {
-      throw InputError(fmt::format("{}: count {}: must be a whole number within 1 and 10000", words.place(), count));
-    }
+    if (!(count >= 1 && count <= 10000 && count == std::floor(count)))
+      lines.fail(fmt::format("count {}: must be a whole number within 1 and 10000", count));
   }
 
   std::vector<double> speeds;
   std::optional<RaoTable> nearest;
   for (int v = 0; v < static_cast<int>(counts[0]); ++v) {
-    const std::vector<double> state = words.numbers(5, "speed and reference point");
-    speeds.push_back(state[0]);
-    std::map<double, Heading> headings;
-    std::vector<double> omega;
-    for (int h = 0; h < static_cast<int>(counts[1]); ++h) {
-      const double mu = wrapped(radians(words.numbers(1, "heading")[0] + 180));
-      Heading values;
-      for (int n = 0; n < static_cast<int>(counts[2]); ++n) {
-        const double frequency = words.numbers(1, "frequency")[0];
-        if (h == 0) {
-          check_ascending(omega, frequency, words.place());
-          omega.push_back(frequency);
-        } else if (frequency != omega[static_cast<std::size_t>(n)]) {
-          throw InputError(fmt::format("{}: frequency {}: must be {} as at the first heading", words.place(), frequency,
-                                       omega[static_cast<std::size_t>(n)]));
-        }
-        std::array<Complex, 6> x;
-        for (std::size_t d = 0; d < 6; ++d) {
-          const std::vector<double> row = words.numbers(3, "degree of freedom");
-          if (row[0] != static_cast<double>(d + 1)) {
-            throw InputError(fmt::format("{}: degree of freedom {}: must be {}", words.place(), row[0], d + 1));
-          }
-          x[d] = {row[1], row[2]};
-        }
-        values.push_back({-x[0], -x[1], x[2], -x[3], -x[4], x[5]});
-      }
-      headings[mu] = values;
-    }
-    add_mirrored_headings(headings);
-    if (!nearest || std::abs(state[0] - speed) < std::abs(nearest->speed() - speed)) {
-      nearest = table_of(words.file(), headings, omega, {-state[3], 0, state[4] - draught}, state[0]);
-    }
+    VeresBlock block = read_veres_block(lines, static_cast<int>(counts[1]), static_cast<int>(counts[2]), draught);
+    if (std::find(speeds.begin(), speeds.end(), block.speed) != speeds.end())
+      lines.fail(fmt::format("speed {} m/s appears twice", block.speed));
+    speeds.push_back(block.speed);
+    add_mirrored_headings(block.headings);
+    if (!nearest || std::abs(block.speed - speed) < std::abs(nearest->speed() - speed))
+      nearest = table_of(lines.file(), block.headings, block.omega, block.reference, block.speed);
   }
+  lines.require_end();
   // Half a knot: the encounter frequency that the responses belong to.
   constexpr double kSpeedSlack = 0.26;
   if (std::abs(nearest->speed() - speed) > kSpeedSlack) {
-    throw InputError(fmt::format("{}: no responses at a speed of {:.4g} m/s: it contains {:.4g} m/s", words.file(),
+    throw InputError(fmt::format("{}: no responses at a speed of {:.4g} m/s: it contains {:.4g} m/s", lines.file(),
                                  speed, fmt::join(speeds, ", ")));
   }
   return *nearest;
 }
 
+namespace {
+
+// Columns of WAMIT's .4.
+enum : std::size_t { kPeriod, kBeta, kMode, kModulus, kPhase, kRe, kIm };
+
+// Throws InputError for a line of names that declares another first column than periods.
+void require_periods(const TextSource& source) {
+  for (std::string_view rest = source.text(); !rest.empty();) {
+    std::string_view line = next_line(rest);
+    for (std::string_view word = next_word(line); !word.empty(); word = next_word(line)) {
+      if (parse_written_number(word)) return;
+      const std::string key = column_key(word);
+      for (const char* other : {"omega", "freq", "frequency", "kl", "nu", "wavenumber"}) {
+        if (key == other)
+          source.fail(word,
+                      fmt::format("column {}: the first column must be the period (IPEROUT = 1)", in_quotes(word)));
+      }
+    }
+  }
+}
+
+// The response of a row. Throws InputError where modulus and phase are not those of the complex value.
+Complex wamit_value(const TextTable& table, std::size_t row) {
+  const Complex value(table.number(row, kRe), table.number(row, kIm));
+  const double modulus = table.number(row, kModulus), phase = table.number(row, kPhase);
+  if (std::abs(std::abs(value) - modulus) > 1e-3 * modulus + 1e-12) {
+    table.fail(row, kModulus,
+               fmt::format("must be the modulus of the real and imaginary part, {:.6g}", std::abs(value)));
+  }
+  // Half a degree and the digits of small values.
+  if (std::abs(std::polar(modulus, radians(phase)) - value) > 1e-2 * modulus + 1e-6)
+    table.fail(row, kPhase,
+               fmt::format("must be in degrees: real and imaginary part give {:.6g}", degrees(std::arg(value))));
+  return value;
+}
+
+struct WamitCell {
+  Complex value = 0;
+  double beta_deg = 0;  // as the file gives it
+};
+
+}  // namespace
+
 // Rows `PER BETA I MOD PHA RE IM`: period in s, direction of propagation and phase in degrees, e^{+iwt}; mode I is over
 // A / ULEN^n with n = 0 for translations, 1 for rotations. PER < 0 stands for zero frequency, 0 for infinite.
 RaoTable read_wamit_rao(const std::filesystem::path& file, double unit_length, const Vec3& reference) {
-  Words words(file);
-  std::map<double, std::map<double, std::array<std::optional<Complex>, 6>>> rows;  // [mu][omega]
-  while (!words.at_end()) {
-    const std::vector<double> row = words.numbers(7, "PER BETA I MOD PHA RE IM");
-    if (row[0] <= 0) continue;
-    const double mode = row[2];
-    if (!(mode >= 1 && mode <= 6 && mode == std::floor(mode))) {
-      throw InputError(fmt::format("{}: mode {}: must be 1 to 6", words.place(), mode));
+  const TextSource source = TextSource::read(file);
+  require_periods(source);
+  const TextTable table = TextTable::without_names(source, {"PER", "BETA", "I", "MOD", "PHA", "RE", "IM"});
+  std::map<double, std::map<double, std::array<std::optional<WamitCell>, 6>>> rows;  // [mu][omega]
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const double period = table.number(row, kPeriod), beta_deg = table.number(row, kBeta);
+    const double mode = table.number(row, kMode);
+    if (!(mode >= 1 && mode <= 6 && mode == std::floor(mode))) table.fail(row, kMode, "must be a mode, 1 to 6");
+    const WamitCell read{wamit_value(table, row), beta_deg};
+    if (period <= 0) continue;
+    auto& cell = rows[radians(wrapped_deg(beta_deg))][2 * kPi / period][static_cast<std::size_t>(mode) - 1];
+    if (cell && cell->beta_deg == beta_deg)
+      table.fail(row, kMode, fmt::format("period {} s, heading {} deg, mode {}: duplicate", period, beta_deg, mode));
+    if (cell && !are_equal(cell->value, read.value)) {
+      table.fail(row, kRe,
+                 fmt::format("headings {} and {} deg are one direction, where the former has {:.6g}{:+.6g}i",
+                             cell->beta_deg, beta_deg, cell->value.real(), cell->value.imag()));
     }
-    const Complex value(row[5], row[6]);
-    if (std::abs(std::abs(value) - row[3]) > 1e-3 * row[3] + 1e-12) {
-      throw InputError(fmt::format("{}: modulus {}: its real and imaginary part give {:.6g}", words.place(), row[3],
-                                   std::abs(value)));
-    }
-    auto& cell = rows[wrapped(radians(row[1]))][2 * kPi / row[0]][static_cast<std::size_t>(mode) - 1];
-    if (cell) {
-      throw InputError(
-          fmt::format("{}: period {} s, heading {} deg, mode {}: duplicate", words.place(), row[0], row[1], mode));
-    }
-    cell = mode > 3 ? value / unit_length : value;
+    if (!cell) cell = read;
   }
-  if (rows.empty()) throw InputError(fmt::format("{}: contains no responses", words.file()));
+  if (rows.empty()) throw InputError(fmt::format("{}: contains no responses", source.name()));
 
   std::vector<double> omega;
   for (const auto& [frequency, modes] : rows.begin()->second) omega.push_back(frequency);
@@ -221,25 +303,25 @@ RaoTable read_wamit_rao(const std::filesystem::path& file, double unit_length, c
     std::size_t n = 0;
     for (const auto& [frequency, modes] : by_omega) {
       if (n >= omega.size() || frequency != omega[n++]) {
-        throw InputError(fmt::format("{}: heading {:.4g} deg has other periods than {:.4g} deg", words.file(),
+        throw InputError(fmt::format("{}: heading {:.4g} deg has other periods than {:.4g} deg", source.name(),
                                      degrees(mu), degrees(rows.begin()->first)));
       }
       const auto at = [&](std::size_t mode) {
         if (!modes[mode]) {
-          throw InputError(fmt::format("{}: period {:.6g} s, heading {:.4g} deg: mode {} is missing", words.file(),
+          throw InputError(fmt::format("{}: period {:.6g} s, heading {:.4g} deg: mode {} is missing", source.name(),
                                        2 * kPi / frequency, degrees(mu), mode + 1));
         }
-        return *modes[mode];
+        return mode < 3 ? modes[mode]->value : modes[mode]->value / unit_length;
       };
       headings[mu].push_back({at(0), at(1), at(2), at(3), at(4), at(5)});
     }
     if (n != omega.size()) {
-      throw InputError(fmt::format("{}: heading {:.4g} deg has {} periods where {:.4g} deg has {}", words.file(),
+      throw InputError(fmt::format("{}: heading {:.4g} deg has {} periods where {:.4g} deg has {}", source.name(),
                                    degrees(mu), n, degrees(rows.begin()->first), omega.size()));
     }
   }
   add_mirrored_headings(headings);
-  return table_of(words.file(), headings, omega, reference, 0);
+  return table_of(source.name(), headings, omega, reference, 0);
 }
 
 }  // namespace seaglint

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "sim/core/process/error.h"
-#include "sim/core/text/table.h"
+#include "sim/core/text/text_table.h"
 
 namespace seaglint {
 
@@ -151,27 +151,29 @@ HullSections sections_of_mesh(const TriangleMesh& mesh, int count) {
 }
 
 HullSections read_sections(const std::filesystem::path& file, int count) {
-  const Table table = read_table(file, {"x_m", "breadth_m", "draught_m", "area_m2"});
-  table.check_ascending("x_m");
+  constexpr double kLargest = 1e5;
+  const TextTable table(TextSource::read(file), {"x_m", "breadth_m", "draught_m", "area_m2"});
+  table.check_ascending(0);
+  std::vector<HullSection> given;
   for (std::size_t row = 0; row < table.rows(); ++row) {
-    for (std::size_t column = 1; column < 4; ++column) table.check_within(row, column, 0, 1e5);
-    const double box = table.at(row, 1) * table.at(row, 2);
-    if (table.at(row, 3) > box) {
-      throw InputError(fmt::format("{}: area_m2: value {}: must be at most breadth times draught, {:.6g}",
-                                   table.place(row), table.at(row, 3), box));
-    }
+    const HullSection section{table.number(row, 0), table.number(row, 1, 0, kLargest),
+                              table.number(row, 2, 0, kLargest), table.number(row, 3, 0, kLargest)};
+    const double box = section.breadth * section.draught;
+    if (section.area > box) table.fail(row, 3, fmt::format("must be at most breadth times draught, {:.6g}", box));
+    given.push_back(section);
   }
-  HullSections hull{table.at(table.rows() - 1, 0) - table.at(0, 0), {}};
-  const double middle = 0.5 * (table.at(table.rows() - 1, 0) + table.at(0, 0));
+  HullSections hull{given.back().x - given.front().x, {}};
+  const double middle = 0.5 * (given.back().x + given.front().x);
   std::size_t row = 0;
   for (int i = 0; i < count; ++i) {
     const double x = middle + strip_x(hull.length, i, count);
-    while (row + 2 < table.rows() && table.at(row + 1, 0) < x) ++row;
-    const double u = (x - table.at(row, 0)) / (table.at(row + 1, 0) - table.at(row, 0));
-    const auto between = [&](std::size_t column) {
-      return (1 - u) * table.at(row, column) + u * table.at(row + 1, column);
+    while (row + 2 < given.size() && given[row + 1].x < x) ++row;
+    const double u = (x - given[row].x) / (given[row + 1].x - given[row].x);
+    const auto between = [&](double HullSection::*value) {
+      return (1 - u) * (given[row].*value) + u * (given[row + 1].*value);
     };
-    hull.sections.push_back({x, between(1), between(2), between(3)});
+    hull.sections.push_back(
+        {x, between(&HullSection::breadth), between(&HullSection::draught), between(&HullSection::area)});
   }
   return hull;
 }

@@ -6,11 +6,14 @@
 #include <yaml-cpp/exceptions.h>
 #include <yaml-cpp/parser.h>
 
+#include <algorithm>
 #include <map>
 #include <sstream>
+#include <unordered_set>
 #include <utility>
 
 #include "sim/core/process/error.h"
+#include "sim/core/text/text_source.h"
 #include "sim/core/text/utf8.h"
 
 namespace seaglint {
@@ -97,8 +100,10 @@ class TreeBuilder : public YAML::EventHandler {
     YamlNode node;
     YAML::anchor_t anchor = 0;
     bool has_key = false;  // of a map: the next value belongs to `key`
+    bool key_quoted = false;
     std::string key{};
     Location key_location{};
+    std::vector<YamlNode> merged{};  // of a map: those of its key <<
   };
 
   void check_tag(const YAML::Mark& mark, const std::string& tag) const {
@@ -119,9 +124,35 @@ class TreeBuilder : public YAML::EventHandler {
     open_.push_back({node_of(kind, mark), anchor});
   }
 
+  // The maps of a merge key (yaml.org/type/merge.html).
+  void merge_later(Open& map, YamlNode value) {
+    if (!map.merged.empty()) fail(name_, map.key_location, "the key << appears twice");
+    if (value.kind != YamlNode::Kind::kList) {
+      map.merged.push_back(std::move(value));
+    } else {
+      map.merged = std::move(value.items);
+    }
+    const bool maps = std::all_of(map.merged.begin(), map.merged.end(),
+                                  [](const YamlNode& node) { return node.kind == YamlNode::Kind::kMap; });
+    if (map.merged.empty() || !maps) fail(name_, map.key_location, "the value of << must be a map or a list of maps");
+  }
+
+  // Adds the entries of merged maps whose keys the map lacks; of several maps the first has precedence.
+  static void merge(Open& map) {
+    if (map.merged.empty()) return;
+    std::unordered_set<std::string> keys;
+    for (const YamlEntry& entry : map.node.entries) keys.insert(entry.key);
+    for (YamlNode& other : map.merged) {
+      for (YamlEntry& entry : other.entries) {
+        if (keys.insert(entry.key).second) map.node.entries.push_back(std::move(entry));
+      }
+    }
+  }
+
   void close() {
     Open finished = std::move(open_.back());
     open_.pop_back();
+    merge(finished);
     add(std::move(finished.node), finished.anchor);
   }
 
@@ -142,13 +173,18 @@ class TreeBuilder : public YAML::EventHandler {
     } else if (!parent.has_key) {
       if (node.kind != YamlNode::Kind::kScalar) fail(name_, node.location, "a key must be plain text");
       parent.has_key = true;
+      parent.key_quoted = node.quoted;
       parent.key = std::move(node.text);
       parent.key_location = node.location;
     } else {
       parent.has_key = false;
       // yaml-cpp reports a missing value at the position of the next token.
       if (node.kind == YamlNode::Kind::kNull) node.location = parent.key_location;
-      parent.node.entries.push_back({std::move(parent.key), parent.key_location, std::move(node)});
+      if (parent.key == "<<" && !parent.key_quoted) {
+        merge_later(parent, std::move(node));
+      } else {
+        parent.node.entries.push_back({std::move(parent.key), parent.key_location, std::move(node)});
+      }
     }
   }
 
@@ -161,6 +197,8 @@ class TreeBuilder : public YAML::EventHandler {
 
 // Rejects control characters (not a text file) and encodings other than UTF-8, which JSON cannot represent.
 void check_text(const std::string& text, const std::string& name) {
+  const std::string_view kind = foreign_kind(text);
+  if (!kind.empty()) throw InputError(fmt::format("{}: no plain text: it is {}", name, kind));
   Location location;
   const std::size_t utf8 = utf8_prefix(text);
   for (std::size_t i = 0; i < text.size(); ++i) {

@@ -41,7 +41,8 @@ inline constexpr std::size_t kMaxYamlBytes = 10'000'000;
 inline constexpr std::size_t kMaxYamlNodes = 300'000;
 inline constexpr int kMaxYamlDepth = 32;
 
-// Parses one document. Aliases are replaced by copies. Throws InputError "name:line:col: ..." for invalid YAML, text
+// Parses one document. Aliases are replaced by copies, and a merge key `<<` by the entries of
+// its maps that the map itself lacks. Throws InputError "name:line:col: ..." for invalid YAML, text
 // that is not UTF-8, excessive size or depth, tags, keys that are not plain text, and more than one document.
 YamlNode parse_yaml(const std::string& text, const std::string& name);
 

@@ -3,43 +3,55 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-#include <sstream>
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <string_view>
 
 #include "sim/core/process/error.h"
-#include "sim/core/process/file.h"
+#include "sim/core/text/number.h"
+#include "sim/core/text/shown.h"
+#include "sim/core/text/text_source.h"
+#include "sim/core/text/words.h"
 
 namespace seaglint {
 
-std::vector<int> parse_hop_code(const std::string& text, const std::string& file_name, int pulses, int carriers) {
+namespace {
+
+std::vector<int> codes_of(const TextSource& source, int pulses, int carriers) {
+  constexpr std::string_view kSeparators = " \t\r,;\"";
   std::vector<int> codes;
-  std::istringstream lines(text);
-  std::string line;
-  for (int number = 1; std::getline(lines, line); ++number) {
-    if (line.starts_with('#')) continue;
-    for (char& c : line) {
-      if (c == ',' || c == '\t' || c == '\r') c = ' ';
-    }
-    std::istringstream words(line);
-    for (std::string word; words >> word;) {
-      int code = -1;
-      const auto [rest, error] = std::from_chars(word.data(), word.data() + word.size(), code);
-      if (error != std::errc() || rest != word.data() + word.size() || code < 0 || code >= carriers) {
-        throw InputError(fmt::format("{}:{}: '{}': must be a carrier's number, 0 to {} (radar.hop_count - 1)",
-                                     file_name, number, word, carriers - 1));
+  for (std::string_view rest = source.text(); !rest.empty();) {
+    std::string_view line = next_line(rest);
+    if (is_comment(line)) continue;
+    while (true) {
+      line.remove_prefix(std::min(line.find_first_not_of(kSeparators), line.size()));
+      if (line.empty()) break;
+      const std::string_view word = line.substr(0, line.find_first_of(kSeparators));
+      const std::optional<std::int64_t> code = parse_integer(word);
+      if (!code || *code < 0 || *code >= carriers) {
+        source.fail(word, fmt::format("{}: must be a carrier's number, 0 to {} (radar.hop_count - 1)", in_quotes(word),
+                                      carriers - 1));
       }
-      codes.push_back(code);
+      codes.push_back(static_cast<int>(*code));
+      line.remove_prefix(word.size());
     }
   }
   if (codes.empty() || codes.size() % static_cast<std::size_t>(pulses) != 0) {
-    throw InputError(fmt::format("{}: {} carrier numbers: must be radar.pulses, {}, or a multiple of them", file_name,
-                                 codes.size(), pulses));
+    throw InputError(fmt::format("{}: {} carrier numbers: must be radar.pulses, {}, or a multiple of them",
+                                 source.name(), codes.size(), pulses));
   }
   return codes;
 }
 
+}  // namespace
+
+std::vector<int> parse_hop_code(const std::string& text, const std::string& file_name, int pulses, int carriers) {
+  return codes_of(TextSource(file_name, text), pulses, carriers);
+}
+
 std::vector<int> read_hop_code(const std::filesystem::path& file, int pulses, int carriers) {
-  return parse_hop_code(read_file(file, std::size_t{64} << 20), file.string(), pulses, carriers);
+  return codes_of(TextSource::read(file, std::size_t{64} << 20), pulses, carriers);
 }
 
 }  // namespace seaglint

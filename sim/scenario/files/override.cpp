@@ -8,6 +8,7 @@
 
 #include "sim/core/process/error.h"
 #include "sim/core/text/number.h"
+#include "sim/core/text/shown.h"
 #include "sim/core/text/utf8.h"
 #include "sim/scenario/files/scenario_document.h"
 
@@ -44,7 +45,7 @@ void apply_override(ScenarioDocument& document, const Override& override_value) 
   try {
     value = parse_yaml(override_value.value, name);
   } catch (const InputError&) {
-    throw InputError(fmt::format("{}: value '{}': not valid YAML", name, override_value.value));
+    throw InputError(fmt::format("{}: value {}: not valid YAML", name, in_quotes(override_value.value)));
   }
   mark_as_override(value, index);
 
@@ -52,17 +53,16 @@ void apply_override(ScenarioDocument& document, const Override& override_value) 
   for (const std::string& key : split_path(override_value.key_path)) {
     if (key.empty()) throw InputError(fmt::format("{}: must be key.path=value", name));
     if (node->kind == YamlNode::Kind::kList) {
-      const std::optional<double> position = parse_number(key);
-      const auto count = static_cast<double>(node->items.size());
-      if (!position || *position < 0 || *position >= count ||
-          *position != static_cast<double>(static_cast<int>(*position))) {
-        throw InputError(fmt::format("{}: '{}' must be the number of an item, from 0 to {}", name, key, count - 1));
+      const std::optional<std::uint64_t> position = parse_natural(key);
+      if (!position || *position >= node->items.size()) {
+        throw InputError(fmt::format("{}: {} must be the number of an item, from 0 to {}", name, in_quotes(key),
+                                     node->items.size() - 1));
       }
       node = &node->items[static_cast<std::size_t>(*position)];
       continue;
     }
     if (node->kind == YamlNode::Kind::kScalar)
-      throw InputError(fmt::format("{}: there is nothing below the value '{}'", name, node->text));
+      throw InputError(fmt::format("{}: there is nothing below the value {}", name, in_quotes(node->text)));
     YamlNode* child = node->find(key);
     if (child == nullptr) {
       Location location;

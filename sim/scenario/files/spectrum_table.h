@@ -18,10 +18,10 @@ struct SpectrumTable {
   double peak_omega() const;  // frequency of the maximum density, rad/s; the first of equal maxima
 };
 
-// Reads comma-separated columns named `omega_rad_s` and `density_m2_s`, or `frequency_hz` and `density_m2_hz`, in any
-// order, other columns ignored; lines that begin with # are comments. Throws InputError "file:line: what" for missing
-// columns, what is not a finite number, negative densities, frequencies that do not ascend, fewer than two rows, and a
-// table of zeros.
+// Reads a table (sim/core/text/text_table.h) with the columns `omega_rad_s` and `density_m2_s`, or `frequency_hz` and
+// `density_m2_hz`, in any order. Throws InputError "file:line:column: what" for missing columns, what is not a finite
+// number, negative frequencies and densities, frequencies that do not ascend, fewer than two rows, and a table of
+// zeros.
 SpectrumTable read_spectrum_table(const std::filesystem::path& file);
 SpectrumTable parse_spectrum_table(const std::string& text, const std::string& file_name);
 

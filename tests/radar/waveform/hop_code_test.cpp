@@ -36,7 +36,7 @@ TEST(HopCodeFile, RefusesInvalidCodes) {
     parse_hop_code("0 1\n2 3\n", "codes.txt", 4, 3);
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("codes.txt:2: '3'"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("codes.txt:2:3: '3'"), std::string::npos) << error.what();
   }
 }
 

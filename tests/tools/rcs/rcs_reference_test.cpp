@@ -151,7 +151,8 @@ TEST_F(RcsReferenceFile, MayHaveAHeaderAndExactZeros) {
       read("a.V.txt", "# frequency_hz theta_deg phi_deg dBsm\n1e10 90 0 -inf\n1e10 90 1 -3\n");
   ASSERT_EQ(reference.samples.size(), 2u);
   EXPECT_LT(reference.samples[0].level_dbsm, -300);
-  EXPECT_THAT(refusal("b.V.txt", "1e10 90 0 low\n"), HasSubstr("b.V.txt:1: 'low': must be a number"));
+  EXPECT_THAT(refusal("b.V.txt", "1e10 90 0 low\n"),
+              HasSubstr("b.V.txt:1:11: dbsm: value 'low': must be a finite number (read as four columns)"));
 }
 
 TEST_F(RcsReferenceFile, OfThisProgramIsReadByItsColumnsNames) {
@@ -170,9 +171,10 @@ TEST_F(RcsReferenceFile, OfThisProgramIsReadByItsColumnsNames) {
 
 TEST_F(RcsReferenceFile, ThatCannotBeUsedIsRefusedWithItsPlace) {
   EXPECT_THAT(refusal("a.txt", "1e9 90 0 1\n"), HasSubstr("--reference-polarisation"));
-  EXPECT_THAT(refusal("a.H.txt", "1e9 90 0 1\n1e9 90 0.5\n"), HasSubstr("a.H.txt:2: 3 columns"));
-  EXPECT_THAT(refusal("a.H.txt", "1e9 90 0 1\n1e9 90 0.5 nan\n"), HasSubstr("a.H.txt:2: 'nan'"));
-  EXPECT_THAT(refusal("a.H.txt", "0 90 0 1\n"), HasSubstr("must be > 0"));
+  EXPECT_THAT(refusal("a.H.txt", "1e9 90 0 1\n1e9 90 0.5\n"), HasSubstr("a.H.txt:2:1: 3 cells where the names are 4"));
+  EXPECT_THAT(refusal("a.H.txt", "1e9 90 0 1\n1e9 90 0.5 nan\n"), HasSubstr("a.H.txt:2:12: dbsm: value 'nan'"));
+  EXPECT_THAT(refusal("a.H.txt", "0 90 0 1\n"),
+              HasSubstr("a.H.txt:1:1: frequency_hz: value '0': must be greater than 0"));
   EXPECT_THAT(refusal("a.H.txt", "a report\n"), HasSubstr("not a cut of the radar cross section"));
   EXPECT_THAT(refusal("a.H.txt", ""), HasSubstr("not a cut of the radar cross section"));
   EXPECT_THAT(refusal("a.H.ffs", "// CST Farfield Source File\n"), HasSubstr(".ffs"));
@@ -184,10 +186,56 @@ TEST_F(RcsReferenceFile, ThatCannotBeUsedIsRefusedWithItsPlace) {
               HasSubstr("relative to its own maximum"));
   EXPECT_THAT(refusal("a.txt", cst_table("V/m", row), as(Polarisation::kVv)), HasSubstr("[V/m]: the unit must be"));
   EXPECT_THAT(refusal("a.txt", cst_table("m^2", "90 0 1\r\n"), as(Polarisation::kVv)),
-              HasSubstr("a.txt:3: 3 columns: the header has 8"));
+              HasSubstr("a.txt:3:1: 3 cells where the names are 8"));
   EXPECT_THAT(refusal("a.txt", cst_table("m^2", ""), as(Polarisation::kVv)), HasSubstr("contains no values"));
   EXPECT_THAT(refusal("own.csv", "frequency_hz,azimuth_deg,elevation_deg,vv_re\n", as(Polarisation::kHh)),
               HasSubstr("hh_dbsm"));
+}
+
+TEST_F(RcsReferenceFile, IsReadAsOtherSystemsWriteIt) {
+  const fs::path cases = SEAGLINT_SOURCE_DIR "/tests/cases/tables";
+  const RcsReference marked = read_reference(cases / "four_columns_bom.H.txt", {});
+  ASSERT_GT(marked.samples.size(), 20u);
+  EXPECT_EQ(marked.samples[0].frequency_hz, 6e9);
+  EXPECT_EQ(marked.samples[0].level_dbsm, 12.223);
+  const RcsReference cst = read_reference(cases / "cst_with_hash_line.txt", as(Polarisation::kHh, 6));
+  ASSERT_GT(cst.samples.size(), 10u);
+  EXPECT_EQ(cst.samples[0].theta_deg, 83);
+  EXPECT_EQ(cst.samples[0].level_dbsm, 12.22);
+  for (const char* text : {"1e10,90,0,-3.5\n1e10,90,1,-4\n", "1e10;90;0;-3,5\r\n1e10;90;1;-4\r\n",
+                           "10000000000 90,0 0 -3,5\n1e10 90 1 -4\n",
+                           "frequency_hz theta_deg phi_deg dBsm\n1e10 90 0 -3.5\n1e10 90 1 -4\n",
+                           "Frequency [GHz];Phi [deg];Theta [deg];RCS [dBsm]\n10;0;90;-3,5\n10;1;90;-4\n"}) {
+    SCOPED_TRACE(text);
+    const RcsReference four = read("a.V.txt", text);
+    ASSERT_EQ(four.samples.size(), 2u);
+    EXPECT_EQ(four.samples[0].frequency_hz, 1e10);
+    EXPECT_EQ(four.samples[0].theta_deg, 90);
+    EXPECT_EQ(four.samples[0].level_dbsm, -3.5);
+    EXPECT_EQ(four.samples[1].phi_deg, 1);
+  }
+  const RcsReference own = read(
+      "own.csv",
+      "\xef\xbb\xbf# transmitter=monostatic\r\nfrequency_hz;azimuth_deg;elevation_deg;hh_dbsm\r\n1e10;0,5;2;-7,25\r\n",
+      as(Polarisation::kHh));
+  EXPECT_EQ(own.samples[0].phi_deg, 0.5);
+  EXPECT_EQ(own.samples[0].level_dbsm, -7.25);
+  EXPECT_TRUE(own.transmitter);
+}
+
+TEST_F(RcsReferenceFile, WithAColumnTwiceOrAFrequencyOfZeroIsRefused) {
+  const auto complaint = [](const char* name) -> std::string {
+    try {
+      read_reference(fs::path(SEAGLINT_SOURCE_DIR "/tests/cases/tables") / name, {});
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_THAT(complaint("duplicate_column.H.csv"),
+              HasSubstr("column hh_re appears twice: columns 4 and 6 of the table (read as a table of seaglint rcs)"));
+  EXPECT_THAT(complaint("frequency_zero.H.csv"),
+              HasSubstr("frequency_zero.H.csv:3:1: frequency_hz: value '0': must be greater than 0"));
 }
 
 TEST_F(RcsReferenceFile, HasTheDirectionOfItsTransmitter) {
@@ -213,13 +261,13 @@ TEST_F(RcsReferenceFile, IsRefusedWhereItsHeadDoesNotStateTheTransmitter) {
               HasSubstr("d.csv: its head does not state the transmitter: add the line '# transmitter=monostatic', or "
                         "'# transmitter_azimuth_deg=0 transmitter_elevation_deg=0' with its angles"));
   EXPECT_THAT(refused("# transmitter_azimuth_deg=3"),
-              HasSubstr("d.csv:3: the key transmitter_elevation_deg is missing"));
+              HasSubstr("d.csv:3:1: the key transmitter_elevation_deg is missing"));
   EXPECT_THAT(refused("# transmitter_azimuth_deg=3 transmitter_elevation_deg=x"),
-              HasSubstr("d.csv:3: transmitter_elevation_deg=x: must be a number"));
+              HasSubstr("d.csv:3:1: transmitter_elevation_deg=x: must be a number"));
   EXPECT_THAT(refused("# transmitter=fixed"),
-              HasSubstr("d.csv:3: transmitter=fixed: must be transmitter=monostatic or"));
+              HasSubstr("d.csv:3:1: transmitter=fixed: must be transmitter=monostatic or"));
   EXPECT_THAT(refused("# transmitter=monostatic (backscatter)"),
-              HasSubstr("d.csv:3: '(backscatter)': no key of the transmitter"));
+              HasSubstr("d.csv:3:1: '(backscatter)': no key of the transmitter"));
 }
 
 TEST_F(RcsReferenceFile, IsRefusedWithAFrequencyThatIsNotItsOwn) {

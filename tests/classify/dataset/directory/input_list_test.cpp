@@ -83,7 +83,7 @@ TEST_F(InputList, IsNotWrittenWhereNoFileIsNamed) {
 
 TEST_F(InputList, ThatIsNoListIsRefused) {
   write("data/inputs.sha256", "nonsense\n");
-  EXPECT_THAT(complaint(), HasSubstr("inputs.sha256: 'nonsense': must be a checksum and a key"));
+  EXPECT_THAT(complaint(), HasSubstr("inputs.sha256:1:1: 'nonsense': must be a checksum and a key"));
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/core/text/table.h"
+#include "sim/core/text/text_table.h"
 #include "sim/motion/float/float.h"
 #include "sim/motion/ship/ship_particulars.h"
 #include "sim/motion/ship/ship_response.h"
@@ -20,10 +20,11 @@ struct Measured {
   double omega, heave, roll;  // per amplitude, per slope
 };
 std::vector<Measured> measured() {
-  const Table table = read_table(SEAGLINT_SOURCE_DIR "/tests/reference/float_motion/ntnu_rao.csv",
-                                 {"omega_rad_s", "heave_per_nominal_zeta", "roll_per_k_zeta"});
+  const TextTable table(TextSource::read(SEAGLINT_SOURCE_DIR "/tests/reference/float_motion/ntnu_rao.csv"),
+                        {"omega_rad_s", "heave_per_nominal_zeta", "roll_per_k_zeta"});
   std::vector<Measured> rows;
-  for (std::size_t n = 0; n < table.rows(); ++n) rows.push_back({table.at(n, 0), table.at(n, 1), table.at(n, 2)});
+  for (std::size_t n = 0; n < table.rows(); ++n)
+    rows.push_back({table.number(n, 0), table.number(n, 1), table.number(n, 2)});
   return rows;
 }
 

@@ -14,6 +14,7 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
 #include "sim/motion/simulate.h"
+#include "sim/motion/statistics.h"
 #include "tests/temporary_folder.h"
 
 namespace seaglint {
@@ -119,6 +120,66 @@ TEST(AttitudeSeries, AreReadFromOpenFast) {
       testing::HasSubstr("unit '(grad)' of PtfmRoll"));
 }
 
+constexpr const char* kCases = SEAGLINT_SOURCE_DIR "/tests/cases/tables/";
+
+// Byte order mark, separators, decimal commas, and another program's columns.
+TEST(AttitudeSeries, AreTheSameFromEverySystem) {
+  const AttitudeSeries plain = read_attitude_series(std::string(kCases) + "series_bom.csv");
+  ASSERT_GT(plain.time.size(), 30u);
+  for (const char* name : {"series_semi.csv", "series_semicomma.csv", "series_tab.csv", "dualsphysics_csvsep1.csv"}) {
+    const AttitudeSeries series = read_attitude_series(std::string(kCases) + name);
+    EXPECT_EQ(series.time, plain.time) << name;
+    ASSERT_EQ(series.samples.size(), plain.samples.size()) << name;
+    for (std::size_t n = 0; n < series.samples.size(); ++n)
+      EXPECT_EQ(series.samples[n].angles, plain.samples[n].angles) << name << " " << n;
+  }
+  const AttitudeSeries quoted =
+      read_attitude_series(write("\"time\";\"roll\";\"pitch\";\"yaw\"\r\n\"s\";\"deg\";\"deg\";\"deg\"\r\n0,0;\"0,"
+                                 "591040\";0;0\r\n0,05;\"0,665597\";"
+                                 "\"0,052336\";\"0,014278\"\r\n"));
+  EXPECT_EQ(quoted.samples[1].angles, plain.samples[1].angles);
+}
+
+// Roll 2 sin(2 pi t / 8 s + 0.3) deg, written at 30 Hz with two decimals of the time and four of the angle. The slope
+// of a spline through values with an error e is wrong by 3 e / step at most.
+TEST(AttitudeSeries, WithRoundedTimesAreUniform) {
+  const AttitudeSeries series = read_attitude_series(std::string(kCases) + "times_of_two_decimals_30hz.csv");
+  EXPECT_EQ(series.grid, TimeGrid::kRounded);
+  EXPECT_THAT(series.reading, testing::HasSubstr("times rounded to 0.01 s taken as uniform at 0.0333"));
+  for (std::size_t n = 1; n < series.time.size(); ++n)
+    EXPECT_NEAR(series.time[n] - series.time[n - 1], 1.0 / 30, 0.01 / 398) << n;  // the rounding of both ends
+  // Rounding of the angles, and of the first and last time.
+  const double slope_error = 3 * 5e-5 * 30 + 2 * 2 * kPi / 8 * 0.01 / series.time.back();
+  for (std::size_t n = 0; n < series.time.size(); n += 10) {
+    const double phase = 2 * kPi * series.time[n] / 8 + 0.3;
+    EXPECT_NEAR(degrees(series.samples[n].angle_rates.x()), 2 * 2 * kPi / 8 * std::cos(phase), slope_error) << n;
+  }
+  // One of 81 samples, the end of the period, counts twice. Resampled as they are, the times give 6.6 s.
+  const Trajectory trajectory = trajectory_of(series, 0, 8, false, Vec3::Zero(), Vec3::Zero());
+  EXPECT_NEAR(angle_statistics(trajectory, 8)[0].mean_period_s, 8, 8.0 / 81);
+  // Times off the grid by more than their rounding are resampled as they are.
+  std::string text = "time_s,roll_deg,pitch_deg,yaw_deg\n";
+  for (int n = 0; n < 100; ++n) text += fmt::format("{:.2f},{},0,0\n", n / 30.0 + (n == 50 ? 0.015 : 0), n % 7);
+  const AttitudeSeries irregular = read_attitude_series(write(text));
+  EXPECT_EQ(irregular.grid, TimeGrid::kIrregular);
+  EXPECT_THAT(irregular.reading, testing::HasSubstr("times are not uniform"));
+}
+
+TEST(TimeGrid, IsFoundWhereverItsFirstTimeIsRounded) {
+  for (const double rate : {24.0, 25.0, 29.97, 30.0, 48.0, 59.94}) {
+    for (const double begin : {0.0, 0.0049, 123.4567, -7.001}) {
+      std::vector<double> time;
+      for (int n = 0; n < 500; ++n) time.push_back(std::round(100 * (begin + n / rate)) / 100);
+      const double first = time.front(), last = time.back();
+      const TimeGrid grid = make_uniform(time, 0.005);
+      EXPECT_EQ(grid, rate == 25 ? TimeGrid::kUniform : TimeGrid::kRounded) << rate << " " << begin;
+      EXPECT_EQ(time.front(), first);
+      EXPECT_EQ(time.back(), last);
+      for (int n = 0; n < 500; ++n) EXPECT_NEAR(time[static_cast<std::size_t>(n)], begin + n / rate, 0.0051);
+    }
+  }
+}
+
 // A third of the Nyquist frequency of the series, given at uniform and at non-uniform times: read at ten times as many
 // it has the same variance, and negligible energy above the Nyquist frequency.
 TEST(TrajectoryOf, AddsNoEnergy) {
@@ -158,9 +219,9 @@ TEST(AttitudeSeries, ReportErrorsOfTheirTimes) {
     return message_of([&] { read_attitude_series(write(head + rows)); });
   };
   EXPECT_THAT(read("0,0,0,0\n0.1,0,0,0\n0.1,0,0,0\n"),
-              testing::HasSubstr("series.csv:4: time: value 0.1: must be greater"));
+              testing::HasSubstr("series.csv:4:1: time_s: value '0.1': must be greater"));
   EXPECT_THAT(read("0,0,0,0\n0.2,0,0,0\n0.1,0,0,0\n"),
-              testing::HasSubstr("series.csv:4: time: value 0.1: must be greater"));
+              testing::HasSubstr("series.csv:4:1: time_s: value '0.1': must be greater"));
   EXPECT_THAT(read("0,0,0,0\n1,0,0,0\n2,0,0,0\n3,0,0,0\n60,0,0,0\n"), testing::HasSubstr("a gap of 57 s"));
   EXPECT_THAT(read("0,0,0,0\n"), testing::HasSubstr("1 rows of numbers"));
   EXPECT_THAT(read("0,0,0,0\n1,nan,0,0\n"), testing::HasSubstr("series.csv:3:3: roll_deg: value 'nan'"));
@@ -181,8 +242,8 @@ TEST(AttitudeSeries, ReportDegreesWhereRadiansAreDeclared) {
   EXPECT_THAT(message_of([&] { read_attitude_series(write(all)); }),
               testing::HasSubstr("degrees where radians are declared, 57 times too large"));
   const std::string message = message_of([&] { read_attitude_series(write(half)); });
-  EXPECT_THAT(message, testing::HasSubstr("series.csv:228: roll"));
-  EXPECT_THAT(message, testing::HasSubstr("a 57-fold jump, as between radians and degrees"));
+  EXPECT_THAT(message, testing::HasSubstr("series.csv:228:8: roll_rad"));
+  EXPECT_THAT(message, testing::HasSubstr("a 57-fold jump from 0.080378, as between radians and degrees"));
 }
 
 // Times with rounding errors are those of the series' ends.

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/motion/ship/rao_table.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
@@ -15,6 +17,7 @@
 #include "sim/motion/simulate.h"
 #include "sim/sea/realisation.h"
 #include "sim/sea/spectrum.h"
+#include "tests/temporary_folder.h"
 
 namespace seaglint {
 namespace {
@@ -188,13 +191,104 @@ TEST(ReadRao, RefusesInvalidTables) {
   EXPECT_THAT(message_of([&] { read_veres_rao(file, 0); }), testing::HasSubstr("must be a finite number"));
   EXPECT_THAT(message_of([&] { read_veres_rao(kVeres, 5); }), testing::HasSubstr("it contains 0, 10.29 m/s"));
   write("1 0 1 2 90 1 1\n");
-  EXPECT_THAT(message_of([&] { read_wamit_rao(file, 1); }), testing::HasSubstr("wrong.re1:1: modulus 2"));
+  EXPECT_THAT(message_of([&] { read_wamit_rao(file, 1); }),
+              testing::HasSubstr("wrong.re1:1:7: MOD: value '2': must be the modulus"));
   write("1 0 7 1 90 0 1\n");
-  EXPECT_THAT(message_of([&] { read_wamit_rao(file, 1); }), testing::HasSubstr("mode 7: must be 1 to 6"));
+  EXPECT_THAT(message_of([&] { read_wamit_rao(file, 1); }),
+              testing::HasSubstr("wrong.re1:1:5: I: value '7': must be a mode, 1 to 6"));
   write("1 0 1 1 90 0 1\n");
   EXPECT_THAT(message_of([&] { read_wamit_rao(file, 1); }), testing::HasSubstr("mode 2 is missing"));
   MotionSpec spec = rao_spec("nowhere.re1");
   EXPECT_THAT(message_of([&] { make_body(spec, {}); }), testing::HasSubstr("no such file"));
+}
+
+class RaoFile : public testing::Test {
+ protected:
+  static std::string text_of(const char* file) {
+    std::ifstream source(file);
+    return std::string((std::istreambuf_iterator<char>(source)), {});
+  }
+  std::filesystem::path put(const std::string& text) const {
+    std::ofstream(folder_.path() / "a.rao", std::ios::binary) << text;
+    return folder_.path() / "a.rao";
+  }
+  std::string wamit_refusal(const std::string& text) const {
+    return message_of([&] { read_wamit_rao(put(text), 1); });
+  }
+  std::string veres_refusal(const std::string& text) const {
+    return message_of([&] { read_veres_rao(put(text), 0); });
+  }
+  // The rows of one heading once more, under another name of the same direction.
+  static std::string with_heading_again(const std::string& heading, const std::string& again, const char* factor = "") {
+    std::string text = text_of(kWamit), added;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+      std::istringstream words(line);
+      std::string period, beta, mode, modulus, phase, re, im;
+      words >> period >> beta >> mode >> modulus >> phase >> re >> im;
+      if (std::stod(beta) != std::stod(heading)) continue;
+      const bool changed = factor[0] != 0 && mode == "3";
+      added += fmt::format("{} {} {} {} {} {} {}\n", period, again, mode, changed ? "2" : modulus,
+                           changed ? "0" : phase, changed ? "2" : re, changed ? "0" : im);
+    }
+    return text + added;
+  }
+  static void expect_same(const RaoTable& a, const RaoTable& b) {
+    ASSERT_EQ(a.headings().size(), b.headings().size());
+    ASSERT_EQ(a.omegas(), b.omegas());
+    for (const double omega : a.omegas()) {
+      for (const double mu : a.headings()) {
+        const double k = wavenumber(omega);
+        EXPECT_EQ(a.at(omega, k, mu).heave, b.at(omega, k, mu).heave) << omega << " " << mu;
+        EXPECT_EQ(a.at(omega, k, mu).roll, b.at(omega, k, mu).roll) << omega << " " << mu;
+      }
+    }
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(RaoFile, OfWamitMayHaveBothEndsOfTheCircleAndALineOfNames) {
+  const RaoTable plain = read_wamit_rao(kWamit, 1);
+  const std::string text = text_of(kWamit);
+  for (const std::string& same : {with_heading_again("0", "360"), with_heading_again("180", "-180"),
+                                  "     PER      BETA   I  Mod(XI)   Pha(XI)   Re(XI)   Im(XI)\n" + text,
+                                  "\xef\xbb\xbf" + text, "WAMIT output of an FPSO\n\n" + text}) {
+    expect_same(plain, read_wamit_rao(put(same), 1));
+  }
+  EXPECT_THAT(wamit_refusal(with_heading_again("0", "360", "2")),
+              testing::HasSubstr("headings 0 and 360 deg are one direction, where the former has"));
+  EXPECT_THAT(wamit_refusal(with_heading_again("30", "30.0")), testing::HasSubstr("mode 1: duplicate"));
+  EXPECT_THAT(wamit_refusal("OMEGA BETA I MOD PHA RE IM\n" + text),
+              testing::HasSubstr("a.rao:1:1: column 'OMEGA': the first column must be the period"));
+  EXPECT_THAT(wamit_refusal("1 0 1 1 1.5708 0 1\n"),
+              testing::HasSubstr("a.rao:1:9: PHA: value '1.5708': must be in degrees"));
+  EXPECT_THAT(wamit_refusal("1 0 1.5 1 90 0 1\n"), testing::HasSubstr("value '1.5': must be a mode"));
+  EXPECT_THAT(wamit_refusal(text + "1 0 1 1\n"), testing::HasSubstr("4 cells where the names are 7"));
+}
+
+TEST_F(RaoFile, OfVeresIsRefusedForWhatWasOverwrittenOrDropped) {
+  const std::string text = text_of(kVeres);
+  expect_same(read_veres_rao(kVeres, 0), read_veres_rao(put("\xef\xbb\xbf" + text + "\n \n"), 0));
+  EXPECT_THAT(veres_refusal(text + "  17.0\n"), testing::HasSubstr(": '17.0' behind the last block"));
+  // One speed, one heading, one frequency.
+  const auto table = [](const std::string& counts, const std::string& rows) {
+    return "MOTION TRANSFER FUNCTIONS VERES\n\n\n\n\n\n1025 9.81\n100 10 5\n0 0\n" + counts + "\n0 0 0 0 0\n" + rows;
+  };
+  const std::string six = "1 0 0\n2 0 0\n3 1 0\n4 0 0\n5 0 0\n6 0 0\n",
+                    other = "1 0 0\n2 0 0\n3 2 0\n4 0 0\n5 0 0\n6 0 0\n";
+  EXPECT_EQ(veres_refusal(table("1 1 1 6", "0\n0.5\n" + six)), "");
+  EXPECT_EQ(veres_refusal(table("1 2 1 6", "0\n0.5\n" + six + "360\n0.5\n" + six)), "");
+  EXPECT_THAT(veres_refusal(table("1 2 1 6", "0\n0.5\n" + six + "360\n0.5\n" + other)),
+              testing::HasSubstr("headings 0 and 360 deg are one direction with different responses"));
+  EXPECT_THAT(veres_refusal(table("1 2 1 6", "90\n0.5\n" + six + "90\n0.5\n" + six)),
+              testing::HasSubstr("a.rao:20:1: heading 90 deg appears twice"));
+  EXPECT_THAT(veres_refusal(table("1 1 1 6", "0\n0\n" + six)),
+              testing::HasSubstr("a.rao:13:1: frequency 0 rad/s: must be greater than 0"));
+  EXPECT_THAT(veres_refusal(table("1 1 1 6", "0\n-1\n" + six)), testing::HasSubstr("frequency -1 rad/s"));
+  EXPECT_THAT(veres_refusal(table("1 1 1.5 6", "0\n1\n" + six)),
+              testing::HasSubstr("count 1.5: must be a whole number"));
+  EXPECT_THAT(veres_refusal(table("1 1 1 6", "0\n1x\n" + six)),
+              testing::HasSubstr("a.rao:13:1: frequency: value '1x': must be a finite number"));
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "sim/core/numbers/constants.h"
-#include "sim/core/text/table.h"
+#include "sim/core/text/text_table.h"
 #include "sim/motion/ship/rao_files.h"
 #include "sim/motion/ship/rao_table.h"
 #include "sim/motion/ship/ship_particulars.h"
@@ -92,14 +92,15 @@ TEST(S175, ResponsesMatchStripTheoryWithoutSpeed) {
 // radiate less.
 TEST(S175, RollDampingMatchesAnotherStripTheory) {
   const ShipParticulars ship = s175(0);
-  const Table reference = read_table(SEAGLINT_SOURCE_DIR "/tests/reference/ship_motion/s175_roll_wave_damping.csv",
-                                     {"w_vec", "b44_vec"}, {';', 0});
+  const TextTable reference(
+      TextSource::read(SEAGLINT_SOURCE_DIR "/tests/reference/ship_motion/s175_roll_wave_damping.csv"),
+      {"w_vec", "b44_vec"});
   for (std::size_t row = 0; row < reference.rows(); ++row) {
-    const double omega = reference.at(row, 0);
+    const double omega = reference.number(row, 0);
     if (omega < 0.19 || omega > 0.61) continue;
     const double damping = -ship.strips->radiation(omega, 0).lateral(1, 1).imag() / omega;
     // The forms for the lines 25 %, the reference's own rounding 3e4 N m s (its first value is as much below 0).
-    EXPECT_NEAR(damping, reference.at(row, 1), 0.25 * reference.at(row, 1) + 4e4) << omega;
+    EXPECT_NEAR(damping, reference.number(row, 1), 0.25 * reference.number(row, 1) + 4e4) << omega;
   }
 }
 

@@ -39,20 +39,33 @@ TEST(SpectrumTable, IsReadInEitherUnit) {
   EXPECT_DOUBLE_EQ(b.omega[1], kPi / 2);
 }
 
+TEST(SpectrumTable, IsReadAsOtherProgramsWriteIt) {
+  const SpectrumTable marked = read_spectrum_table(SEAGLINT_SOURCE_DIR "/tests/cases/tables/spectrum_bom.csv");
+  ASSERT_EQ(marked.omega.size(), 5u);
+  EXPECT_EQ(marked.peak_omega(), 0.8);
+  const SpectrumTable other =
+      parse_spectrum_table("Buoy 3\nFrequency [Hz];Density [m^2/Hz]\n0,05;0\n0,10;1,5\n0,20;0\n", "s.csv");
+  EXPECT_DOUBLE_EQ(other.energy(), 0.5 * 1.5 * 0.15);
+  EXPECT_DOUBLE_EQ(other.peak_omega(), 2 * kPi * 0.1);
+}
+
 TEST(SpectrumTable, IsRefusedForEveryMistake) {
   const std::string header = "omega_rad_s,density_m2_s\n";
-  EXPECT_EQ(complaint(""), "s.csv: the file is empty: must be a table with a header");
+  EXPECT_EQ(complaint(""), "s.csv: 0 rows: the file is empty: must be a table with a header");
   EXPECT_EQ(complaint("omega_rad_s,density\n1,2\n"),
-            "s.csv:1: must name its columns omega_rad_s and density_m2_s, or frequency_hz and density_m2_hz, here: "
-            "omega_rad_s,density");
-  EXPECT_EQ(complaint(header + "1,2\n"), "s.csv: 1 rows: must be at least 2");
-  EXPECT_EQ(complaint(header + "1,2\n1,3\n"), "s.csv:3: frequency: value '1': must be greater than the row before, 1");
+            "s.csv:1:13: density has no unit: must be named density_m2_s or density_m2_s_rad or density_m2_hz, or have "
+            "a row of units below");
+  EXPECT_EQ(complaint("omega_rad_s,energy\n1,2\n"),
+            "s.csv:1:1: no column density_m2_s; the columns are omega_rad_s, energy (it may be called "
+            "density_m2_s_rad, density_m2_hz)");
+  EXPECT_EQ(complaint(header + "1,2\n"), "s.csv: 1 rows of numbers below the names: must be at least 2");
+  EXPECT_EQ(complaint(header + "1,2\n1,3\n"), "s.csv:3:1: omega_rad_s: value '1': must be greater than 1 of line 2");
   EXPECT_EQ(complaint(header + "1,2\n\n0.5,3\n"),
-            "s.csv:4: frequency: value '0.5': must be greater than the row before, 1");
-  EXPECT_EQ(complaint(header + "-1,2\n2,3\n"), "s.csv:2: frequency: value '-1': must be at least 0");
-  EXPECT_EQ(complaint(header + "1,nan\n2,3\n"), "s.csv:2: density: value 'nan': must be a number");
-  EXPECT_EQ(complaint(header + "1,2\n2,-3\n"), "s.csv:3: density: value '-3': must be at least 0");
-  EXPECT_EQ(complaint(header + "1,2\n2\n"), "s.csv:3: has 1 columns: density is missing");
+            "s.csv:4:1: omega_rad_s: value '0.5': must be greater than 1 of line 2");
+  EXPECT_EQ(complaint(header + "-1,2\n2,3\n"), "s.csv:2:1: omega_rad_s: value '-1': must be at least 0");
+  EXPECT_EQ(complaint(header + "1,nan\n2,3\n"), "s.csv:2:3: density_m2_s: value 'nan': must be a finite number");
+  EXPECT_EQ(complaint(header + "1,2\n2,-3\n"), "s.csv:3:3: density_m2_s: value '-3': must be at least 0");
+  EXPECT_EQ(complaint(header + "1,2\n2\n"), "s.csv:3:1: 1 cells where the names are 2, separated by ','");
   EXPECT_EQ(complaint(header + "1,0\n2,0\n"), "s.csv: all densities are 0");
 }
 

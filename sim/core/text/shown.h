@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// Parts of untrusted texts as error messages show them.
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace seaglint {
+
+inline constexpr std::size_t kLongestShown = 120;  // characters
+
+// on_one_line() of at most `longest` characters.
+std::string shown(std::string_view text, std::size_t longest = kLongestShown);
+
+// shown() in single quotes.
+std::string in_quotes(std::string_view text);
+
+}  // namespace seaglint

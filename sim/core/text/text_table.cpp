@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/core/text/text_table.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "sim/core/process/error.h"
+#include "sim/core/text/column_key.h"
+#include "sim/core/text/number.h"
+#include "sim/core/text/shown.h"
+#include "sim/core/text/text_rows.h"
+#include "sim/core/text/words.h"
+
+namespace seaglint {
+namespace {
+
+constexpr int kMaxLinesAbove = 200;  // above the names
+
+bool has_number(const std::vector<std::string_view>& cells) {
+  return std::any_of(cells.begin(), cells.end(),
+                     [](std::string_view cell) { return parse_written_number(cell).has_value(); });
+}
+
+bool all_numbers(const std::vector<std::string_view>& cells) {
+  return std::all_of(cells.begin(), cells.end(),
+                     [](std::string_view cell) { return parse_written_number(cell).has_value(); });
+}
+
+void drop_empty_ends(std::vector<std::string_view>& cells, std::size_t width) {
+  while (cells.size() > width && cells.back().empty()) cells.pop_back();
+}
+
+std::string name_of_separator(char separator) {
+  if (separator == ' ') return "blanks";
+  return separator == '\t' ? "tabs" : fmt::format("'{}'", separator);
+}
+
+bool has_key(const std::vector<std::string>& keys, const TableColumn& column) {
+  return std::any_of(column.keys.begin(), column.keys.end(),
+                     [&](const std::string& key) { return std::find(keys.begin(), keys.end(), key) != keys.end(); });
+}
+
+}  // namespace
+
+// Names found in a line of the text.
+struct TextTable::Header {
+  std::string_view line;
+  char separator = ',';
+  std::vector<std::string_view> names, units;
+  std::vector<std::string> keys;
+  std::string_view rows;  // the text below
+  std::size_t found = 0;  // required columns
+
+  // The names in the row at the front of `text`, with the row of units below them.
+  static Header of(std::string_view text, char separator, const std::vector<TableColumn>& columns) {
+    Header header;
+    header.line = text.substr(0, text.find('\n'));
+    header.separator = separator;
+    TextRow row = next_row(text, separator);
+    if (!row.open_quote.empty()) return header;
+    drop_empty_ends(row.cells, 1);
+    const bool cut_at_separator = std::none_of(row.cells.begin(), row.cells.end(), [](std::string_view name) {
+      return name.ends_with(',') || name.ends_with(';');
+    });
+    if (!cut_at_separator) return header;
+    header.names = row.cells;
+    header.rows = text;
+    std::string_view below = text;
+    while (!below.empty() && trimmed(below.substr(0, below.find('\n'))).empty()) next_line(below);
+    TextRow units = next_row(below, separator);
+    drop_empty_ends(units.cells, header.names.size());
+    const bool are_units = units.open_quote.empty() && units.cells.size() == header.names.size() &&
+                           std::all_of(units.cells.begin(), units.cells.end(), is_unit) && !has_number(units.cells) &&
+                           !is_empty(units.cells);
+    if (are_units) {
+      header.units = units.cells;
+      header.rows = below;
+    }
+    for (std::size_t i = 0; i < header.names.size(); ++i)
+      header.keys.push_back(column_key(header.names[i], are_units ? header.units[i] : std::string_view()));
+    for (const TableColumn& column : columns) header.found += column.required && has_key(header.keys, column) ? 1 : 0;
+    return header;
+  }
+};
+
+TextTable::TextTable(TextSource source, std::vector<TableColumn> columns, std::size_t min_rows)
+    : source_(std::move(source)), columns_(std::move(columns)) {
+  std::optional<Header> header = find_names(false);
+  if (!header) header = find_names(true);
+  if (!header) refuse_names();
+  separator_ = header->separator;
+  for (const std::string_view name : header->names) names_.push_back(shown(name));
+  place_columns(header->keys);
+  read_rows(header->rows);
+  if (rows() < min_rows) {
+    throw InputError(
+        fmt::format("{}: {} rows of numbers below the names: must be at least {}", source_.name(), rows(), min_rows));
+  }
+}
+
+// The first line with all required columns: among those of the table or, with in_comments, among its comments.
+std::optional<TextTable::Header> TextTable::find_names(bool in_comments) const {
+  const auto required = static_cast<std::size_t>(
+      std::count_if(columns_.begin(), columns_.end(), [](const TableColumn& column) { return column.required; }));
+  std::string_view numbers;  // the first row of numbers above
+  std::string_view rest = source_.text();
+  for (int n = 0; n < kMaxLinesAbove && !rest.empty();) {
+    std::string_view text = rest;
+    const std::string_view line = next_line(rest);
+    if (is_comment(line) != in_comments || trimmed(line).empty()) continue;
+    ++n;
+    if (in_comments)
+      text.remove_prefix(text.find_first_not_of(" \t#%/!") == std::string_view::npos
+                             ? line.size()
+                             : std::min(text.find_first_not_of(" \t#%/!"), line.size()));
+    for (const char separator : kSeparators) {
+      const Header header = Header::of(text, separator, columns_);
+      if (header.found == required) {
+        if (!numbers.empty() && !in_comments)
+          source_.fail(numbers,
+                       fmt::format("numbers above the names of the columns in line {}", source_.line_of(line)));
+        return header;
+      }
+      if (numbers.empty() && header.names.size() > 1 && all_numbers(header.names)) numbers = line;
+    }
+  }
+  return std::nullopt;
+}
+
+// Throws for names that lack a required column: at the line that has most of them, or at the first line.
+void TextTable::refuse_names() const {
+  Header best;
+  std::string_view rest = source_.text();
+  for (int n = 0; n < kMaxLinesAbove && !rest.empty(); ++n) {
+    const std::string_view text = rest, line = next_line(rest);
+    if (trimmed(line).empty() || is_comment(line)) continue;
+    for (const char separator : kSeparators) {
+      Header header = Header::of(text, separator, columns_);
+      const bool better = header.found > best.found || (header.found == best.found && best.line == header.line &&
+                                                        header.names.size() > best.names.size());
+      if (best.line.data() == nullptr || better) best = std::move(header);
+    }
+  }
+  if (best.line.data() == nullptr) {
+    throw InputError(fmt::format("{}: 0 rows: the file is empty: must be a table with a header", source_.name()));
+  }
+  for (const TableColumn& column : columns_) {
+    if (!column.required || has_key(best.keys, column)) continue;
+    for (std::size_t i = 0; i < best.names.size(); ++i) {
+      // The same quantity in another unit.
+      const std::string_view in_name = bracketed_unit(best.names[i]);
+      const std::string_view unit = best.units.empty() || !in_name.empty() ? in_name : best.units[i];
+      const std::string quantity = column_key(best.names[i].substr(0, best.names[i].size() - in_name.size()));
+      std::vector<std::string> units;
+      for (const std::string& key : column.keys) {
+        if (key.size() > quantity.size() && key.starts_with(quantity + "_"))
+          units.push_back(key.substr(quantity.size() + 1));
+      }
+      if (units.empty() || quantity.empty()) continue;
+      source_.fail(best.names[i],
+                   unit.empty() ? fmt::format("{} has no unit: must be named {}_{}, or have a row of units below",
+                                              shown(best.names[i]), quantity, fmt::join(units, " or " + quantity + "_"))
+                                : fmt::format("unit {} of {}: must be {}", in_quotes(unit), shown(best.names[i]),
+                                              fmt::join(units, " or ")));
+    }
+    const std::vector<std::string> others(column.keys.begin() + 1, column.keys.end());
+    source_.fail(trimmed(best.line),
+                 fmt::format("no column {}; the columns are {}{}", column.keys.front(),
+                             shown(fmt::format("{}", fmt::join(best.names, ", "))),
+                             others.empty() ? "" : fmt::format(" (it may be called {})", fmt::join(others, ", "))));
+  }
+  source_.fail(trimmed(best.line), "no names of columns");
+}
+
+// Finds the requested columns among those of the file.
+void TextTable::place_columns(const std::vector<std::string>& keys) {
+  for (const TableColumn& column : columns_) {
+    const auto key = std::find_if(column.keys.begin(), column.keys.end(), [&](const std::string& wanted) {
+      return std::find(keys.begin(), keys.end(), wanted) != keys.end();
+    });
+    keys_.push_back(key == column.keys.end() ? column.keys.front() : *key);
+    if (key == column.keys.end()) {
+      places_.emplace_back();
+      continue;
+    }
+    const auto first = std::find(keys.begin(), keys.end(), *key);
+    places_.emplace_back(static_cast<std::size_t>(first - keys.begin()));
+    const auto second = std::find(first + 1, keys.end(), *key);
+    if (second == keys.end()) continue;
+    throw InputError(fmt::format("{}: column {} appears twice: columns {} and {} of the table", source_.name(),
+                                 names_[*places_.back()], first - keys.begin() + 1, second - keys.begin() + 1));
+  }
+}
+
+void TextTable::read_rows(std::string_view rest) {
+  while (!rest.empty()) {
+    const std::string_view line = rest.substr(0, rest.find('\n'));
+    if (trimmed(line).empty() || is_comment(line) || is_rule(line)) {
+      next_line(rest);
+      continue;
+    }
+    TextRow row = next_row(rest, separator_);
+    if (!row.open_quote.empty()) source_.fail(row.open_quote, "a quote that is not closed at the end of its cell");
+    if (is_empty(row.cells)) continue;
+    drop_empty_ends(row.cells, names_.size());
+    if (row.cells.size() != names_.size()) {
+      source_.fail(trimmed(line), fmt::format("{} cells where the names are {}, separated by {}", row.cells.size(),
+                                              names_.size(), name_of_separator(separator_)));
+    }
+    lines_.push_back(lines_.empty() ? source_.line_of(line) : 0);
+    cells_.insert(cells_.end(), row.cells.begin(), row.cells.end());
+  }
+  // Lines of the rows by one pass over the text.
+  for (std::size_t row = 1; row < lines_.size(); ++row) {
+    const char* before = cells_[(row - 1) * names_.size()].data();
+    lines_[row] = lines_[row - 1] + static_cast<int>(std::count(before, cells_[row * names_.size()].data(), '\n'));
+  }
+  find_decimal_mark();
+}
+
+void TextTable::find_decimal_mark() {
+  for (const std::string_view& cell : cells_) {
+    const std::size_t mark = cell.find_first_of(".,");
+    if (mark == std::string_view::npos || !parse_written_number(cell)) continue;
+    decimal_ = cell[mark];
+    decimal_line_ = source_.line_of(cell);
+    return;
+  }
+}
+
+TextTable TextTable::without_names(TextSource source, std::vector<TableColumn> columns) {
+  TextTable table(std::move(source));
+  std::vector<std::string> keys;
+  for (const TableColumn& column : columns) keys.push_back(column.keys.front());
+  table.columns_ = std::move(columns);
+  table.names_ = keys;
+  table.place_columns(keys);
+  table.separator_ = ' ';
+  for (std::string_view rest = table.source_.text(); !rest.empty();) {
+    const std::string_view above = rest, line = next_line(rest);
+    if (trimmed(line).empty() || is_comment(line) || is_rule(line)) continue;
+    bool numbers = false;
+    for (const char separator : kSeparators) {
+      std::string_view text = above;
+      TextRow row = next_row(text, separator);
+      drop_empty_ends(row.cells, keys.size());
+      numbers = numbers || has_number(row.cells);
+      if (row.cells.size() != keys.size() || !all_numbers(row.cells)) continue;
+      table.separator_ = separator;
+      break;
+    }
+    if (!numbers) continue;
+    table.read_rows(above);
+    break;
+  }
+  return table;
+}
+
+TextTable TextTable::below(TextSource source, std::string_view rows, std::vector<std::string> names, char separator) {
+  TextTable table(std::move(source));
+  for (const std::string& name : names) table.columns_.push_back(TableColumn({name}));
+  table.names_ = names;
+  table.separator_ = separator;
+  table.place_columns(names);
+  table.read_rows(rows);
+  return table;
+}
+
+void TextTable::require(std::size_t column) const {
+  if (has(column)) return;
+  throw InputError(fmt::format("{}: no column {}; the columns are {}", source_.name(), columns_[column].keys.front(),
+                               shown(fmt::format("{}", fmt::join(names_, ", ")))));
+}
+
+const std::string& TextTable::key(std::size_t column) const { return keys_[column]; }
+
+std::string_view TextTable::text(std::size_t row, std::size_t column) const {
+  return cells_[row * names_.size() + places_[column].value()];
+}
+
+std::string TextTable::place(std::size_t row) const { return fmt::format("{}:{}", source_.name(), lines_[row]); }
+
+void TextTable::fail(std::size_t row, std::size_t column, const std::string& what) const {
+  const std::string_view cell = text(row, column);
+  source_.fail(cell, fmt::format("{}: value {}: {}", names_[*places_[column]], in_quotes(cell), what));
+}
+
+double TextTable::number(std::size_t row, std::size_t column, double lowest, double highest) const {
+  const std::string_view cell = text(row, column);
+  const std::optional<double> value = parse_written_number(cell);
+  if (!value || !std::isfinite(*value)) fail(row, column, "must be a finite number");
+  const std::size_t mark = cell.find_first_of(".,");
+  if (mark != std::string_view::npos && cell[mark] != decimal_) {
+    fail(row, column,
+         fmt::format("a decimal {}, where line {} has a decimal {}", cell[mark] == ',' ? "comma" : "point",
+                     decimal_line_, decimal_ == ',' ? "comma" : "point"));
+  }
+  if (*value < lowest || *value > highest) {
+    const bool above_only = highest == std::numeric_limits<double>::max();
+    fail(row, column,
+         above_only ? fmt::format("must be at least {}", lowest)
+                    : fmt::format("must be within {} and {}", lowest, highest));
+  }
+  return *value;
+}
+
+double TextTable::positive(std::size_t row, std::size_t column) const {
+  const double value = number(row, column);
+  if (!(value > 0)) fail(row, column, "must be greater than 0");
+  return value;
+}
+
+double TextTable::level(std::size_t row, std::size_t column) const {
+  const std::optional<double> value = parse_any_number(text(row, column));
+  return value && std::isinf(*value) && *value < 0 ? *value : number(row, column);
+}
+
+void TextTable::check_ascending(std::size_t column) const {
+  for (std::size_t row = 1; row < rows(); ++row) {
+    if (number(row, column) > number(row - 1, column)) continue;
+    fail(row, column, fmt::format("must be greater than {} of line {}", number(row - 1, column), lines_[row - 1]));
+  }
+}
+
+}  // namespace seaglint

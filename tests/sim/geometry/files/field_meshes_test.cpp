@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Meshes as other programs write them, and damaged ones (tests/cases/README.md).
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "sim/core/process/error.h"
+#include "sim/geometry/files/mesh_io.h"
+#include "sim/geometry/mesh/mesh_diagnostics.h"
+#include "tests/sim/geometry/mesh_file.h"
+
+namespace seaglint {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+
+const std::string kMeshes = SEAGLINT_SOURCE_DIR "/tests/cases/meshes/";
+
+std::string refusal(const std::string& path) {
+  try {
+    read_mesh(path);
+  } catch (const InputError& error) {
+    return std::string(error.what()).substr(path.rfind('/') + 1);
+  }
+  return "accepted";
+}
+
+class FieldMesh : public MeshFile {};
+
+TEST_F(FieldMesh, WithOddPolygonsIsReadAndCountsThem) {
+  const TriangleMesh crossing = read_mesh(kMeshes + "bowtie_among_good.obj");
+  EXPECT_EQ(crossing.triangles.size(), 3u);  // a fan of two, and the triangle
+  EXPECT_THAT(
+      diagnostic_messages(diagnose(crossing)),
+      Contains("1 polygon crosses itself: taken as the fan of the first corner (the first odd polygon: line 8)"));
+  const TriangleMesh back = read_mesh(kMeshes + "quad_out_and_back.obj");
+  EXPECT_EQ(back.triangles.size(), 2u);
+  EXPECT_THAT(diagnostic_messages(diagnose(back)),
+              Contains("1 polygon goes out and back without area: dropped (the first odd polygon: line 7)"));
+  // A spike on a polygon is removed without a word: its area is the same.
+  const TriangleMesh spike = read_mesh(put("a.obj", "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nv 5 0 3\nf 1 2 5 2 3 4\n"));
+  EXPECT_NEAR(surface_area(spike), 4, 1e-12);
+  EXPECT_THAT(spike.findings, testing::IsEmpty());
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 2\n"
+      "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n4 0 1 2 3\n3 0 1 2\n";
+  EXPECT_THAT(read_mesh(put("a.ply", ply)).findings, Contains(HasSubstr("1 polygon crosses itself")));
+}
+
+TEST_F(FieldMesh, NamesFreeFormGeometryThatItDoesNotRead) {
+  const TriangleMesh mesh = read_mesh(
+      put("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\ncstype bspline\ncurv 0 1 1 2 3\nsurf 0 1 0 1 1 2 3 1\n"));
+  EXPECT_THAT(mesh.findings, Contains("3 lines of free-form geometry (cstype in line 5, ...): not read, export it as "
+                                      "triangles"));
+}
+
+TEST_F(FieldMesh, HasTriangleStrips) {
+  const TriangleMesh mesh = read_mesh(kMeshes + "tristrips.ply");
+  EXPECT_EQ(mesh.triangles.size(), 24u);
+  // One strip of a quad; both triangles have the orientation of the first.
+  const std::string quad =
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement "
+      "tristrips "
+      "1\nproperty list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n";
+  const TriangleMesh strip = read_mesh(put("a.ply", quad + "4 0 1 2 3\n"));
+  ASSERT_EQ(strip.triangles.size(), 2u);
+  EXPECT_GT(area_vector(strip, 0).z(), 0);
+  EXPECT_GT(area_vector(strip, 1).z(), 0);
+  EXPECT_EQ(read_mesh(put("a.ply", quad + "7 0 1 2 -1 1 3 2\n")).triangles.size(), 2u);
+}
+
+// One mesh with float positions, with 16-bit integers, and with four positions replaced.
+TEST_F(FieldMesh, OfGltfIsReadQuantisedAndSparse) {
+  const TriangleMesh plain = read_mesh(kMeshes + "texture_webp_required.gltf");  // an extension of its textures
+  ASSERT_EQ(plain.vertices.size(), 16u);
+  for (const auto& [name, tolerance] : {std::pair{"sparse.gltf", 1e-6},
+                                        {"quantised.gltf", 0.5 * 2.2e-5 + 1e-7},
+                                        {"gltfpack_default.glb", 0.5 * 7.4e-5 + 1e-7}}) {
+    SCOPED_TRACE(name);
+    const TriangleMesh mesh = read_mesh(kMeshes + name);
+    ASSERT_EQ(mesh.triangles.size(), plain.triangles.size());
+    // Optimisers renumber vertices and triangles.
+    const auto centroid = [](const TriangleMesh& m, std::size_t t) {
+      return Vec3((m.vertices[m.triangles[t][0]] + m.vertices[m.triangles[t][1]] + m.vertices[m.triangles[t][2]]) / 3);
+    };
+    for (std::size_t t = 0; t < plain.triangles.size(); ++t) {
+      double nearest = 1;
+      for (std::size_t u = 0; u < mesh.triangles.size(); ++u)
+        nearest = std::min(nearest, (centroid(plain, t) - centroid(mesh, u)).cwiseAbs().maxCoeff());
+      EXPECT_LE(nearest, tolerance) << t;
+    }
+    EXPECT_NEAR(surface_area(mesh), surface_area(plain), 24 * 4 * tolerance);
+  }
+}
+
+// A decoy of 0.98 m drawn in millimetres, a ship drawn 2.8 m long, a ship of 144 m in millimetres.
+TEST_F(FieldMesh, OfAnUnlikelySizeAsksForItsUnit) {
+  const auto asks = [](const std::string& file, const char* unit) {
+    const std::vector<std::string> messages = diagnostic_messages(diagnose(read_mesh(file, unit)));
+    return std::any_of(messages.begin(), messages.end(),
+                       [](const std::string& line) { return line.find("an unlikely size") != std::string::npos; });
+  };
+  const std::string assets = SEAGLINT_SOURCE_DIR "/assets/",
+                    moskva = SEAGLINT_SOURCE_DIR "/tests/reference/meshes/moskva.glb";
+  EXPECT_TRUE(asks(kMeshes + "reflector_in_mm.stl", "m"));
+  EXPECT_FALSE(asks(kMeshes + "reflector_in_mm.stl", "mm"));
+  EXPECT_TRUE(asks(moskva, "m"));
+  EXPECT_FALSE(asks(assets + "combatant_144m.glb", "m"));
+  EXPECT_TRUE(asks(assets + "combatant_144m.glb", "km"));
+  EXPECT_TRUE(asks(assets + "combatant_144m.glb", "cm"));
+  EXPECT_FALSE(asks(assets + "icosahedral_reflector.glb", "m"));
+  EXPECT_TRUE(asks(assets + "icosahedral_reflector.glb", "mm"));
+}
+
+TEST_F(FieldMesh, ThatIsCutOffOrBrokenIsRefusedWithItsLine) {
+  EXPECT_EQ(refusal(kMeshes + "cut.stl"), "cut.stl:9: ends without endsolid: the file is cut off");
+  EXPECT_EQ(
+      refusal(kMeshes + "fractional_index.ply"),
+      "fractional_index.ply:14: \"0.9\" where the header promises a whole number within -2147483648 and 2147483647");
+  EXPECT_EQ(refusal(kMeshes + "fewer_promised.ply"), "fewer_promised.ply:14: more follows than the header promises");
+  EXPECT_EQ(refusal(kMeshes + "values_beyond_types.ply"),
+            "values_beyond_types.ply:10: \"0.5\" where the header promises a whole number within -2147483648 and "
+            "2147483647");
+  EXPECT_EQ(refusal(kMeshes + "plus_minus.obj"), "plus_minus.obj:1: \"+-1\" is not a coordinate");
+  expect_error(put("a.ply",
+                   "ply\nformat ascii 1.0\nelement vertex 1\nproperty uchar x\nproperty float y\nproperty float "
+                   "z\nend_header\n300 0 0\n"),
+               ":8: \"300\" where the header promises a whole number within 0 and 255");
+}
+
+TEST_F(FieldMesh, ThatIsNoSuchFileIsNamedAsWhatItIs) {
+  expect_error(put("a.obj", std::string("\xff\xfev\0 \0", 6)),
+               "no .obj file: it is a text in UTF-16: save it as UTF-8");
+  expect_error(put("a.stl", std::string("\xff\xfes\0o\0l\0i\0d\0", 12)), "UTF-16");
+  expect_error(put("a.obj", "PK\x03\x04....."), "a zip archive");
+  // A binary STL whose comment begins with solid, with bytes left over.
+  std::string binary = "solid by a CAD program";
+  binary.resize(80, ' ');
+  binary += std::string("\x01\0\0\0", 4) + std::string(50, '\0') + "xyz";
+  expect_error(put("a.stl", binary), "promises 1 triangles, which end at byte 134; 3 bytes are left over");
+}
+
+}  // namespace
+}  // namespace seaglint
