@@ -6,8 +6,8 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
+#include "sim/core/process/printable.h"
 #include "sim/core/process/standard_output.h"
-#include "sim/core/text/shown.h"
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/mesh/mesh_diagnostics.h"
 #include "sim/geometry/mesh/topology.h"
@@ -50,7 +50,7 @@ std::string part_lines(const TriangleMesh& mesh, const Topology& topology) {
   std::string text = fmt::format("parts      {}\n", mesh.part_names.size());
   for (std::size_t p = 0; p < mesh.part_names.size(); ++p) {
     const std::string state = topology.part_closed[p] ? fmt::format("closed, {:.6g} m^3", volume[p]) : "open";
-    text += fmt::format("  {:<24} {:>7} triangles, {}\n", shown(mesh.part_names[p]), count[p], state);
+    text += fmt::format("  {:<24} {:>7} triangles, {}\n", on_one_line(mesh.part_names[p]), count[p], state);
   }
   return text;
 }
@@ -60,7 +60,7 @@ std::string material_lines(const TriangleMesh& mesh) {
   for (std::uint16_t m : mesh.triangle_material) ++count[m];
   std::string text = fmt::format("materials  {}\n", mesh.materials.size());
   for (std::size_t m = 0; m < count.size(); ++m) {
-    text += fmt::format("  {:<24} {:>7} triangles\n", shown(mesh.materials[m].name), count[m]);
+    text += fmt::format("  {:<24} {:>7} triangles\n", on_one_line(mesh.materials[m].name), count[m]);
   }
   return text;
 }
