@@ -139,7 +139,7 @@ TEST_F(FieldMesh, ThatIsNoSuchFileIsNamedAsWhatItIs) {
   // A binary STL whose comment begins with solid, with bytes left over.
   std::string binary = "solid by a CAD program";
   binary.resize(80, ' ');
-  binary += std::string("\x01\0\0\0", 4) + std::string(50, '\0') + "xyz";
+  binary.append("\x01\0\0\0", 4).append(50, '\0').append("xyz");
   expect_error(put("a.stl", binary), "promises 1 triangles, which end at byte 134; 3 bytes are left over");
 }
 
