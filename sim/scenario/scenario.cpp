@@ -9,7 +9,7 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/reproducible_functions.h"
 #include "sim/core/process/file.h"
-#include "sim/core/text/utf8.h"
+#include "sim/core/process/utf8.h"
 #include "sim/scenario/contradictions.h"
 #include "sim/scenario/files/document.h"
 #include "sim/scenario/files/hop_code_file.h"

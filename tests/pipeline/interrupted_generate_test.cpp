@@ -166,22 +166,32 @@ TEST(InterruptedGenerate, WritesTheSameBytesInSevenConcurrentParts) {
   EXPECT_THAT(differences(data), IsEmpty());
 }
 
-// The first process to end removes temporary files while the other one still writes.
-TEST(InterruptedGenerate, WritesTheSameBytesInTwoConcurrentProcesses) {
-  for (int round = 0; round < 4; ++round) {
+// Two processes, begun with the words `launcher` and one `delay` after the other, write one data set, `rounds` times.
+void expect_same_bytes_of_two_processes(int rounds, const Words& launcher, std::chrono::duration<double> delay) {
+  for (int round = 0; round < rounds; ++round) {
     const TemporaryFolder folder;
     const fs::path data = folder.path() / "data";
     std::vector<ProgramResult> results(2);
     {
       std::vector<std::jthread> processes;
       for (ProgramResult& result : results) {
-        processes.emplace_back([&] { result = run_words(generate(data, {"--resume", "--threads", "1"})); });
-        std::this_thread::sleep_for(uninterrupted().time / 10);
+        processes.emplace_back([&] {
+          Words words = launcher;
+          const Words command = generate(data, {"--resume", "--threads", "1"});
+          words.insert(words.end(), command.begin(), command.end());
+          result = run_words(words);
+        });
+        std::this_thread::sleep_for(delay);
       }
     }
     for (const ProgramResult& result : results) EXPECT_EQ(result.code, 0) << result.err;
     EXPECT_THAT(differences(data), IsEmpty());
   }
+}
+
+// The first process to end removes temporary files while the other one still writes.
+TEST(InterruptedGenerate, WritesTheSameBytesInTwoConcurrentProcesses) {
+  expect_same_bytes_of_two_processes(4, {}, uninterrupted().time / 10);
 }
 
 // Containers often have one host name, and their program the process number 1.
@@ -190,24 +200,7 @@ TEST(InterruptedGenerate, WritesTheSameBytesInTwoContainersWithOneProcessNumber)
   Words probe = container;
   probe.push_back("/bin/true");
   if (run_words(probe).code != 0) GTEST_SKIP() << "no process namespaces (needs root)";
-  for (int round = 0; round < 8; ++round) {
-    const TemporaryFolder folder;
-    const fs::path data = folder.path() / "data";
-    std::vector<ProgramResult> results(2);
-    {
-      std::vector<std::jthread> processes;
-      for (ProgramResult& result : results) {
-        processes.emplace_back([&] {
-          Words words = container;
-          const Words command = generate(data, {"--resume", "--threads", "1"});
-          words.insert(words.end(), command.begin(), command.end());
-          result = run_words(words);
-        });
-      }
-    }
-    for (const ProgramResult& result : results) EXPECT_EQ(result.code, 0) << result.err;
-    EXPECT_THAT(differences(data), IsEmpty());
-  }
+  expect_same_bytes_of_two_processes(8, container, {});
 }
 
 void expect_one_line(const ProgramResult& result, const std::string& message) {

@@ -11,9 +11,9 @@
 #include <unordered_map>
 
 #include "sim/core/process/error.h"
+#include "sim/core/process/utf8.h"
 #include "sim/core/text/number.h"
 #include "sim/core/text/shown.h"
-#include "sim/core/text/utf8.h"
 #include "sim/core/text/words.h"
 #include "sim/geometry/files/coordinate.h"
 #include "sim/geometry/files/triangulate_polygon.h"

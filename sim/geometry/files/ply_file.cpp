@@ -212,25 +212,32 @@ class PlyReader {
     return property.is_list && (property.name == "vertex_indices" || property.name == "vertex_index");
   }
 
-  void faces(const Element& element) {
-    // Checked before the loop: the count of faces without properties is not bounded by the file size.
+  // Calls use(index of the row, type of the list's values, their number) for every list of corners, of which it reads
+  // the values, and skips the other properties. `rows`: in error messages.
+  template <typename Use>
+  void corner_lists(const Element& element, const char* rows, const Use& use) {
+    // Checked before the loop: the count of rows without properties is not bounded by the file size.
     if (element.count > 0 && std::none_of(element.properties.begin(), element.properties.end(), has_corners))
-      fail("its faces have no vertex_indices");
+      fail(fmt::format("its {} have no vertex_indices", rows));
     for (std::uint64_t i = 0; i < element.count; ++i) {
       for (const Property& property : element.properties) {
-        if (!has_corners(property)) {
+        if (has_corners(property))
+          use(i, property.value, read_count(property));
+        else
           skip(property);
-          continue;
-        }
-        const std::uint64_t count = read_count(property);
-        for (std::uint64_t k = 0; k < count; ++k) {
-          const double index = number(property.value);
-          corners_.push_back(corner(index, "face", i));
-        }
-        if (count < 3) fail(fmt::format("face {} has {} corners", i, count));
-        corner_count_.push_back(static_cast<std::uint32_t>(count));
       }
     }
+  }
+
+  void faces(const Element& element) {
+    corner_lists(element, "faces", [&](std::uint64_t i, PlyNumber type, std::uint64_t count) {
+      for (std::uint64_t k = 0; k < count; ++k) {
+        const double index = number(type);
+        corners_.push_back(corner(index, "face", i));
+      }
+      if (count < 3) fail(fmt::format("face {} has {} corners", i, count));
+      corner_count_.push_back(static_cast<std::uint32_t>(count));
+    });
   }
 
   std::uint32_t corner(double index, const char* what, std::uint64_t i) const {
@@ -241,31 +248,22 @@ class PlyReader {
 
   // Triangle strips (Stanford's PLY): -1 ends a strip, every second triangle is turned.
   void strips(const Element& element) {
-    if (element.count > 0 && std::none_of(element.properties.begin(), element.properties.end(), has_corners))
-      fail("its triangle strips have no vertex_indices");
-    for (std::uint64_t i = 0; i < element.count; ++i) {
-      for (const Property& property : element.properties) {
-        if (!has_corners(property)) {
-          skip(property);
+    corner_lists(element, "triangle strips", [&](std::uint64_t i, PlyNumber type, std::uint64_t count) {
+      std::vector<std::uint32_t> strip;
+      for (std::uint64_t k = 0; k < count; ++k) {
+        const double index = number(type);
+        if (index == -1 || (type == PlyNumber::kUint32 && index == 4294967295.0)) {
+          strip.clear();
           continue;
         }
-        const std::uint64_t count = read_count(property);
-        std::vector<std::uint32_t> strip;
-        for (std::uint64_t k = 0; k < count; ++k) {
-          const double index = number(property.value);
-          if (index == -1 || (property.value == PlyNumber::kUint32 && index == 4294967295.0)) {
-            strip.clear();
-            continue;
-          }
-          strip.push_back(corner(index, "triangle strip", i));
-          const std::size_t n = strip.size();
-          if (n < 3) continue;
-          const bool turned = n % 2 == 0;
-          corners_.insert(corners_.end(), {strip[turned ? n - 2 : n - 3], strip[turned ? n - 3 : n - 2], strip[n - 1]});
-          corner_count_.push_back(3);
-        }
+        strip.push_back(corner(index, "triangle strip", i));
+        const std::size_t n = strip.size();
+        if (n < 3) continue;
+        const bool turned = n % 2 == 0;
+        corners_.insert(corners_.end(), {strip[turned ? n - 2 : n - 3], strip[turned ? n - 3 : n - 2], strip[n - 1]});
+        corner_count_.push_back(3);
       }
-    }
+    });
   }
 
   // Called once all vertices are read.

@@ -9,9 +9,9 @@
 #include <cstring>
 
 #include "sim/core/process/error.h"
+#include "sim/core/process/utf8.h"
 #include "sim/core/text/number.h"
 #include "sim/core/text/shown.h"
-#include "sim/core/text/utf8.h"
 #include "sim/core/text/words.h"
 #include "sim/geometry/files/coordinate.h"
 #include "sim/geometry/files/stl_soup.h"

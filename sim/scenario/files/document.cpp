@@ -13,8 +13,8 @@
 #include <utility>
 
 #include "sim/core/process/error.h"
+#include "sim/core/process/utf8.h"
 #include "sim/core/text/text_source.h"
-#include "sim/core/text/utf8.h"
 
 namespace seaglint {
 

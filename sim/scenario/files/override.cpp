@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "sim/core/process/error.h"
+#include "sim/core/process/utf8.h"
 #include "sim/core/text/number.h"
 #include "sim/core/text/shown.h"
-#include "sim/core/text/utf8.h"
 #include "sim/scenario/files/scenario_document.h"
 
 namespace seaglint {

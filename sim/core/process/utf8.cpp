@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/core/text/utf8.h"
+#include "sim/core/process/utf8.h"
 
 namespace seaglint {
 
@@ -23,18 +23,21 @@ Character character_of(unsigned lead) {
 
 }  // namespace
 
-std::size_t utf8_prefix(std::string_view text) {
-  std::size_t begin = 0;
-  while (begin < text.size()) {
-    const Character character = character_of(static_cast<unsigned char>(text[begin]));
-    if (character.bytes == 0 || begin + character.bytes > text.size()) return begin;
-    for (std::size_t i = 1; i < character.bytes; ++i) {
-      const unsigned byte = static_cast<unsigned char>(text[begin + i]);
-      if (byte < (i == 1 ? character.lowest : 0x80u) || byte > (i == 1 ? character.highest : 0xbfu)) return begin;
-    }
-    begin += character.bytes;
+std::size_t utf8_character(std::string_view text) {
+  if (text.empty()) return 0;
+  const Character character = character_of(static_cast<unsigned char>(text[0]));
+  if (character.bytes > text.size()) return 0;
+  for (std::size_t i = 1; i < character.bytes; ++i) {
+    const unsigned byte = static_cast<unsigned char>(text[i]);
+    if (byte < (i == 1 ? character.lowest : 0x80u) || byte > (i == 1 ? character.highest : 0xbfu)) return 0;
   }
-  return begin;
+  return character.bytes;
+}
+
+std::size_t utf8_prefix(std::string_view text) {
+  std::size_t valid = 0;
+  while (const std::size_t bytes = utf8_character(text.substr(valid))) valid += bytes;
+  return valid;
 }
 
 std::string utf8_of(std::string_view text) {

@@ -7,6 +7,9 @@
 
 namespace seaglint {
 
+// Length of the character at the front of a text, bytes; 0 for an empty text and where none begins in UTF-8 (RFC 3629).
+std::size_t utf8_character(std::string_view text);
+
 // Length of the valid UTF-8 prefix (RFC 3629), bytes.
 std::size_t utf8_prefix(std::string_view text);
 
