@@ -14,10 +14,9 @@ Complex GrazingWaveAmplitude::at(double k, double fraction, double run) const {
   constexpr double kFar = 1e15;         // parallel edges
   const double length = std::max(interpolate(l, fraction), kMinLength);
   const double phase = std::clamp(run * length / (l[1] - l[0]), -kFar, kFar);
-  const double x = 2 * k * launch_parameter * (grazing_waves == 1 ? length : first_length_m),
-               y = 2 * k * exit_parameter * length;
-  const Complex boundaries = grazing_waves == 1 ? triple_transition_function(x, y, -phase)
-                                                : transition_function(x) * double_transition_function(y, -phase);
+  Complex boundaries =
+      triple_transition_function(2 * k * launch_parameter * length, 2 * k * exit_parameter * length, -phase);
+  for (int wave = 0; wave + 1 < grazing_waves; ++wave) boundaries *= transition_function(k * detour_m[wave]);
   return boundaries * std::pow(k, -0.5 * grazing_waves) / std::sqrt(length);
 }
 

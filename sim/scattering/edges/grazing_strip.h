@@ -33,13 +33,14 @@ struct EdgeIncidentWave {
   std::array<double, 2> psi{};  // minus the path so far, m
   std::array<Vec3, 2> X;        // gradient of psi with the transmit direction, m
   Vec3 direction;
-  std::array<Vec3, 2> E;                     // for transmitted h and v
-  std::array<Complex, 2> factor{1.0, 1.0};   // of E
-  std::array<double, 2> l{};                 // length of this grazing wave at the ends of the interval, m
-  double departure = 0, first_length_m = 0;  // transition_parameter() and mean length of the first one
-  ThicknessChange thickness{};               // of the edges met before
-  int grazing_waves = 0;                     // along the face, before
-  int wall_reflections = 0;                  // of this grazing wave at perpendicular walls
+  std::array<Vec3, 2> E;                                // for transmitted h and v
+  std::array<Complex, 2> factor{1.0, 1.0};              // of E
+  std::array<double, 2> l{};                            // length of this grazing wave at the ends of the interval, m
+  double departure = 0;                                 // transition_parameter() where it starts
+  std::array<double, kMaxGrazingWaves - 1> detour_m{};  // GrazingWaveAmplitude::detour_m
+  ThicknessChange thickness{};                          // of the edges met before
+  int grazing_waves = 0;                                // along the face, before
+  int wall_reflections = 0;                             // of this grazing wave at perpendicular walls
   // maps directions behind those walls, or behind the other wall of a concave edge, to image space
   Mat3 unfolding = Mat3::Identity();
   Vec3 previous_direction = Vec3::Zero();  // of the wave at the previous edge

@@ -31,9 +31,6 @@ constexpr double kMaxGrowth = 4, kShortestShare = 0.01;
 constexpr double kMaxCurrent = 0.5;
 constexpr double kNoField = 1e-9;  // relative to the incident field
 
-// Successive grazing waves: on a face with two edges the third edge is the first one again, and the fourth the second;
-// near grazing all orders are equally large.
-constexpr int kMaxGrazingWaves = 3;
 // Perpendicular walls between two edges, as in a right-angled corner reflector. A wave via walls is not relaunched:
 // near grazing, where the third order matters, contributions via walls are tapered to zero.
 constexpr int kMaxWallReflections = 2;
@@ -266,9 +263,9 @@ class MultipleDiffractionTracer {
     }
     if (mean_inverse_sqrt_length(next.l) > 2e4) return;
     next.met_concave_edge = source.met_concave_edge;
-    if (in.grazing_waves == 0) next.departure = source.departure;
-    if (in.grazing_waves == 1)
-      next.first_length_m = 1 / (mean_inverse_sqrt_length(in.l) * mean_inverse_sqrt_length(in.l));
+    next.departure = source.departure;
+    if (in.grazing_waves > 0)
+      next.detour_m[in.grazing_waves - 1] = 2 * in.departure / std::pow(mean_inverse_sqrt_length(in.l), 2);
     for (int q = 0; q < 2; ++q) next.factor[q] = 0.5 * source.amplitude[q];  // half of the total field is incident
     // Paths that end at a concave edge are traced from there (trace_diffraction_to_concave_edges).
     if (wedge->N > 1) {
@@ -294,7 +291,7 @@ class MultipleDiffractionTracer {
   bool is_significant(const EdgeIncidentWave& in, const Vec3& w, const Vec3& s, double arrival, double rate,
                       double length) const {
     const double fields = std::abs(in.factor[0]) + std::abs(in.factor[1]);
-    const double shadow = in.grazing_waves == 1 ? std::min(in.departure, arrival) : arrival;
+    const double shadow = std::min(in.departure, arrival);
     const double decay = std::min(1 / std::sqrt(std::min(in.l[0], in.l[1])), std::sqrt(2 * kPi * limits_.k * shadow));
     const double extent = length / std::max(limits_.k * std::abs(rate) * length, 1.0);
     return fields * kMaxCurrent / one_minus_cosine(w, s) * spread_[in.grazing_waves] * decay * extent >=
@@ -336,7 +333,7 @@ class MultipleDiffractionTracer {
     }
     range.launch_parameter = in.departure;
     range.exit_parameter = arrival;
-    range.first_length_m = in.first_length_m;
+    range.detour_m = in.detour_m;
     range.grazing_waves = in.grazing_waves;
     contribution.amplitude = range;
     const Vec3 J = weight * second_edge_current(wedge, face, along, w, out);
