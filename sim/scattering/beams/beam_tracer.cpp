@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "sim/scattering/beams/beam_culling.h"
+#include "sim/scattering/beams/cross_section.h"
 #include "sim/scattering/beams/curved_reflection.h"
 #include "sim/scattering/diffraction/tolerances.h"
 #include "sim/scattering/diffraction/wedge.h"
@@ -14,6 +15,9 @@
 
 namespace seaglint {
 namespace {
+
+// Halvings of the cross-section of a beam whose rays the border of a panel limits.
+constexpr int kMaxHalvings = 6;
 
 class BeamTracer {
  public:
@@ -46,8 +50,9 @@ class BeamTracer {
   // Work memory of one bounce number, kept from segment to segment.
   struct Scratch {
     std::vector<const BvhPanel*> found;
-    std::vector<CandidatePanel> met;  // grows to the largest number of candidates so far
-    std::vector<Extent> extent;       // of the illuminated polygons of each candidate
+    std::vector<CandidatePanel> met;     // grows to the largest number of candidates so far
+    std::vector<const BvhPanel*> panel;  // of each candidate
+    std::vector<Extent> extent;          // of the illuminated polygons of each candidate
     std::vector<std::uint32_t> order;
     std::vector<MovingPolygon> visible;
   };
@@ -123,14 +128,22 @@ class BeamTracer {
         std::ranges::none_of(scratch.found, seen))
       return;
 
+    illuminate(segment, window, 0);
+  }
+
+  // Illuminates the panels found in the path of a segment, or of a part of its cross-section after that many halvings.
+  void illuminate(const BeamSegment& segment, const PolygonSet& window, int halvings) {
+    Scratch& scratch = scratch_[segment.bounce];
     std::vector<CandidatePanel>& met = scratch.met;
     std::vector<Extent>& extent = scratch.extent;
     extent.clear();
+    scratch.panel.clear();
     for (const BvhPanel* panel : scratch.found) {
       if (met.size() == extent.size()) met.emplace_back();
       CandidatePanel& next = met[extent.size()];
-      if (intersect_panel(segment, window, *panel, next))
-        extent.push_back(extent_of(next.illuminated.polygons(), next.projection.plane));
+      if (!intersect_panel(segment, window, *panel, next)) continue;
+      extent.push_back(extent_of(next.illuminated.polygons(), next.projection.plane));
+      scratch.panel.push_back(panel);
     }
     std::vector<std::uint32_t>& order = scratch.order;
     order.resize(extent.size());
@@ -153,11 +166,44 @@ class BeamTracer {
       for (std::size_t j = 0; j < i; ++j) hides(order[i], order[j]);
     }
 
+    if (halvings < kMaxHalvings && rays_are_limited(segment)) {
+      illuminate_halves(segment, window, halvings + 1);
+      return;
+    }
     for (const std::uint32_t i : order) {
       const CandidatePanel& candidate = met[i];
       if (candidate.illuminated.empty() || scene_.is_submerged(candidate.projection.facet)) continue;
       visit_candidate(segment, candidate, scratch.visible);
       if (continues(segment, candidate)) trace_segment(reflected_segment(segment, candidate), candidate.illuminated);
+    }
+  }
+
+  // True where the rays that leave the first curved reflector of a path are limited on a panel that they illuminate,
+  // next to its border as a rule. Later reflectors are not examined: their parts would multiply.
+  bool rays_are_limited(const BeamSegment& segment) const {
+    if (!segment.has_curved_reflection || segment.previous->has_curved_reflection) return false;
+    const Scratch& scratch = scratch_[segment.bounce];
+    return std::ranges::any_of(scratch.order, [&](std::uint32_t i) {
+      const CandidatePanel& candidate = scratch.met[i];
+      return !candidate.illuminated.empty() && !scene_.is_submerged(candidate.projection.facet) &&
+             arriving_rays(segment, candidate).scale < segment.curvature_scale;
+    });
+  }
+
+  // Illuminates the panels that a segment illuminates by the two halves of its cross-section, so that only small parts
+  // of it are limited.
+  void illuminate_halves(const BeamSegment& segment, const PolygonSet& window, int halvings) {
+    Scratch& scratch = scratch_[segment.bounce];
+    std::vector<const BvhPanel*> illuminated;
+    for (const std::uint32_t i : scratch.order) {
+      if (!scratch.met[i].illuminated.empty()) illuminated.push_back(scratch.panel[i]);
+    }
+    for (const PolygonSet& half : halved(window, segment.source_plane)) {
+      if (half.empty()) continue;
+      BeamSegment of_half = segment;
+      of_half.cross_section = &half;
+      scratch.found = illuminated;
+      illuminate(of_half, half, halvings);
     }
   }
 
