@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
@@ -37,6 +38,17 @@ constexpr std::array<ShellCard, 9> kShells{{{"CTRIA3", 3, false, 8},
                                             {"CQUAD", 4, true, 0},
                                             {"CQUAD9", 4, true, 0},
                                             {"CSHEAR", 4, false, 0}}};
+
+// Solids; cards that begin with C and are no surfaces. Any other card with C may be a surface or a misspelt one.
+constexpr std::array<std::string_view, 4> kSolids{"CTETRA", "CHEXA", "CPENTA", "CPYRAM"};
+constexpr std::array<std::string_view, 25> kOthers{"CBAR",  "CBEAM", "CBEND",  "CROD", "CONROD", "CTUBE", "CBUSH",
+                                                   "CELAS", "CDAMP", "CMASS",  "CONM", "CGAP",   "CWELD", "CFAST",
+                                                   "CSEAM", "CVISC", "CHBDY",  "CONV", "CHAC",   "CAERO", "CLOAD",
+                                                   "CSET",  "CSUP",  "CYJOIN", "CREEP"};
+
+bool has_prefix(std::string_view name, std::span<const std::string_view> prefixes) {
+  return std::any_of(prefixes.begin(), prefixes.end(), [&](std::string_view p) { return name.starts_with(p); });
+}
 
 class NastranReader {
  public:
@@ -118,10 +130,8 @@ class NastranReader {
   void element(const std::string& name) {
     const auto kind = std::find_if(kShells.begin(), kShells.end(), [&](const ShellCard& s) { return s.name == name; });
     if (kind == kShells.end()) {
-      for (const char* solid : {"CTETRA", "CHEXA", "CPENTA", "CPYRAM"}) {
-        if (name.starts_with(solid)) model_.solid(shown(name, 16));
-      }
-      if (name.starts_with("CTRI") || name.starts_with("CQUA")) model_.other_shell(shown(name, 16));
+      if (has_prefix(name, kSolids)) model_.solid(shown(name, 16));
+      if (!has_prefix(name, kSolids) && !has_prefix(name, kOthers)) model_.other_shell(shown(name, 16));
       return;
     }
     cards_.integer(2);

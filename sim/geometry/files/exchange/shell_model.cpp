@@ -100,7 +100,7 @@ void ShellModel::require_shells() const {
   if (!shells_.empty()) return;
   std::string found;
   if (!solids_.empty()) found = counted(solids_, "solid");
-  if (!others_.empty()) found += (found.empty() ? "" : " and ") + counted(others_, "unread shell");
+  if (!others_.empty()) found += (found.empty() ? "" : " and ") + counted(others_, "other");
   throw InputError(found.empty() ? fmt::format("{}: contains no shell elements", file_)
                                  : fmt::format("{}: contains {}, no shells that are read: export the surface as "
                                                "triangles or quadrilaterals",
@@ -114,7 +114,7 @@ std::vector<std::string> ShellModel::sentences() const {
                                quadratic_ == 1 ? "" : "s"));
   }
   if (!solids_.empty()) list.push_back(counted(solids_, "solid") + ": not read, only shells are");
-  if (!others_.empty()) list.push_back(counted(others_, "shell") + ": of a kind that is not read");
+  if (!others_.empty()) list.push_back(counted(others_, "other") + ": not read");
   for (std::string& sentence : odd_.sentences()) list.push_back(std::move(sentence));
   return list;
 }

@@ -121,13 +121,14 @@ TEST_F(Nastran, BeginsBehindBeginBulkAndNeedsItsEnd) {
 }
 
 TEST_F(Nastran, CountsWhatItDoesNotRead) {
-  const TriangleMesh mesh =
-      read(kNodes + "CTRIA6,1,7,1,2,3,4,4,4\nCTETRA,3,1,1,2,3,4\nCTETRA,4,1,1,2,3,4\nCTRIAX6,5,1,1,2,3,4,5,6\n" +
-           "CTRIA3,9,7,2,4,3,,.01\nCBAR,6,1,1,2\n" + kTriangle);
+  const TriangleMesh mesh = read(
+      kNodes +
+      "CTRIA6,1,7,1,2,3,4,4,4\nCTETRA,3,1,1,2,3,4\nCTETRA,4,1,1,2,3,4\nCTRIAX6,5,1,1,2,3,4,5,6\nCTRA3,9,1,1,2,3\n" +
+      "CTRIA3,9,7,2,4,3,,.01\nCBAR,6,1,1,2\n" + kTriangle);
   EXPECT_THAT(mesh.findings, ElementsAre("1 shell with an offset from the nodes (ZOFFS): read at the nodes",
                                          "1 element of higher order: read by the corners, sides are straight",
                                          "2 solid elements (CTETRA): not read, only shells are",
-                                         "1 shell element (CTRIAX6): of a kind that is not read"));
+                                         "2 other elements (CTRA3, CTRIAX6): not read"));
   refuse(kNodes + "CHEXA,3,1,1,2,3,4,1,2,+\n+,3,4\nENDDATA\n", "a.bdf: contains 1 solid element (CHEXA), no shells");
 }
 
