@@ -9,6 +9,7 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
+#include "sim/motion/ship/long_waves.h"
 #include "sim/motion/ship/rao_files.h"
 
 namespace seaglint {
@@ -34,11 +35,15 @@ RaoTable read_table_of(const MotionSpec& spec, const std::filesystem::path& file
       throw InputError(fmt::format("motion.speed_mps: value {}: must be 0 with {}: its responses are without speed",
                                    spec.speed_mps, file.string()));
     }
-    return read_wamit_rao(file, spec.wamit_ulen_m, reference);
+    return read_wamit_rao(file, {spec.wamit_ulen_m, spec.wamit_heading, spec.wamit_time_factor}, reference);
   }
   if (spec.rotation_centre_m) {
     throw InputError(fmt::format("motion.rotation_centre_m: not allowed here: {} gives it", file.string()));
   }
+  if (spec.wamit_heading != HeadingConvention::kTowards)
+    throw InputError(fmt::format("motion.wamit_heading: not allowed here: {} is of VERES", file.string()));
+  if (spec.wamit_time_factor != TimeFactor::kPlus)
+    throw InputError(fmt::format("motion.wamit_time_factor: not allowed here: {} is of VERES", file.string()));
   return read_veres_rao(file, spec.speed_mps);
 }
 
@@ -66,14 +71,24 @@ void check_step(const Body& body) {
   }
 }
 
-std::string reading_of(const RaoTable& table, bool wamit) {
+const char* heading_of(const MotionSpec& spec, bool wamit) {
+  if (!wamit) return "VERES: its heading + 180";
+  return spec.wamit_heading == HeadingConvention::kFrom ? "wamit_heading: its heading, from where they come, + 180"
+                                                        : "WAMIT: the direction of propagation";
+}
+
+std::string reading_of(const RaoTable& table, const MotionSpec& spec) {
   const auto& [headings, omegas] = std::pair(table.headings(), table.omegas());
+  const LongWaves waves = long_waves_of(table);
   return fmt::format(
       "{} headings of waves towards {:.4g} to {:.4g} deg ({}), {} frequencies {:.4g} to {:.4g} rad/s, "
-      "speed {:.4g} m/s, time factor e^{{+iwt}}",
-      headings.size(), degrees(headings.front()), degrees(headings.back()),
-      wamit ? "WAMIT: the direction of propagation" : "VERES: its heading + 180", omegas.size(), omegas.front(),
-      omegas.back(), table.speed());
+      "speed {:.4g} m/s, time factor e^{{{}iwt}}; {}",
+      headings.size(), degrees(headings.front()), degrees(headings.back()), heading_of(spec, is_wamit(table.source())),
+      omegas.size(), omegas.front(), omegas.back(), table.speed(),
+      spec.wamit_time_factor == TimeFactor::kMinus ? '-' : '+',
+      waves == LongWaves::kAgree      ? "pitch in its longest waves agrees"
+      : waves == LongWaves::kDisagree ? "pitch in its longest waves does NOT agree"
+                                      : "its longest waves are too short to confirm that");
 }
 
 }  // namespace
@@ -82,7 +97,7 @@ std::string motion_file_reading(const Body& body) {
   if (const auto* series = std::get_if<AttitudeSeries>(&body.model))
     return fmt::format("{}: {}", series->source, series->reading);
   if (const auto* table = std::get_if<RaoTable>(&body.model))
-    return fmt::format("{}: {}", table->source(), reading_of(*table, is_wamit(table->source())));
+    return fmt::format("{}: {}", table->source(), reading_of(*table, body.spec));
   return "";
 }
 

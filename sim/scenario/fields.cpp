@@ -196,6 +196,8 @@ void visit(MotionSpec& spec, FieldVisitor& v) {
   if (v.optional("file", !spec.file.empty())) v.text("file", spec.file);
   v.number("series_start_s", spec.series_start_s, within(-1e6, 1e6));
   v.number("wamit_ulen_m", spec.wamit_ulen_m, above_up_to(0, 1000));
+  visit_choice(v, "wamit_heading", spec.wamit_heading, {"towards", "from"});
+  visit_choice(v, "wamit_time_factor", spec.wamit_time_factor, {"plus", "minus"});
   if (v.optional("sections", !spec.sections.empty())) v.text("sections", spec.sections);
   v.number("diameter_m", spec.diameter_m, within(0, 50));
   v.number("origin_above_waterline_m", spec.origin_above_waterline_m, within(-10, 50));

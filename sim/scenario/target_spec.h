@@ -12,6 +12,8 @@ namespace seaglint {
 
 enum class MotionModel { kFixed, kShip, kFloat, kSeries, kRao };
 enum class WaveSharing { kSameField, kIndependent };
+enum class HeadingConvention { kTowards, kFrom };  // of waves
+enum class TimeFactor { kPlus, kMinus };           // e^{+iwt}, e^{-iwt}
 
 // (auto): zero means derived from the size of the mesh (sim/motion/ship/README.md, sim/motion/float/README.md).
 struct MotionSpec {
@@ -41,6 +43,9 @@ struct MotionSpec {
   std::string file;             // of model series (attitude over time) or rao (response operators)
   double series_start_s = 0;    // time in the series that is t = 0, -1e6 <= x <= 1e6
   double wamit_ulen_m = 1;      // ULEN of a WAMIT table, 0 < x <= 1000
+  // Of a table in the format of WAMIT, which does not state them; WAMIT's own are the defaults.
+  HeadingConvention wamit_heading = HeadingConvention::kTowards;
+  TimeFactor wamit_time_factor = TimeFactor::kPlus;
   std::string
       sections;  // file of a ship's sections below the waterline; default: those of the mesh, else a parametric form
   double diameter_m = 0;  // (auto) of a float's waterplane, 0 <= x <= 50

@@ -68,6 +68,28 @@ TEST(Check, WarnsAboutMeshes) {
   EXPECT_THAT(run_program({"map", file, "--sample", "0", "-o", folder.path() / "map.png"}).err, StartsWith(said));
 }
 
+// So do the commands that make maps.
+TEST(Check, PrintsTheConventionsOfAResponseFile) {
+  const TemporaryFolder folder;
+  write_mesh(folder.path() / "plate.obj", make_plate(1, 1));
+  const std::string file = folder.path() / "response.yaml", table = "tests/reference/ship_motion/fpso.4";
+  write_file(file,
+             "seaglint: 1\nview: {azimuth_deg: 10}\nsea: {significant_wave_height_m: 1}\n"
+             "dataset: {maps_per_case: 1, realisations_per_case: 1}\n"
+             "targets:\n  a: {label: 1, mesh: plate.obj, motion: {model: rao, file: " +
+                 table + "}}\n");
+  const std::string said =
+      "targets.a.motion.file: " + table +
+      ": 12 headings of waves towards -150 to 180 deg (WAMIT: the direction of propagation), 29 frequencies 0.03834 to "
+      "5.712 rad/s, speed 0 m/s, time factor e^{+iwt}; pitch in its longest waves agrees\n";
+  EXPECT_THAT(run_program({"check", file}).err, HasSubstr(said));
+  const ProgramResult made = run_program({"generate", file, "-o", folder.path() / "data"});
+  EXPECT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(made.err, HasSubstr(said));
+  expect_refused({"check", file, "--set", "targets.a.motion.wamit_heading=from"},
+                 "motion.wamit_heading (now from) or motion.wamit_time_factor (now plus) is not the file's");
+}
+
 // Eight components give a different sea in every realisation; the default 512 do not.
 TEST(Check, WarnsOfTooFewComponents) {
   const std::string said =

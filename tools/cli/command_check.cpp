@@ -41,7 +41,7 @@ void add_check(CommandOptions& program, CommandContext& context) {
       print_out("{}", effective_yaml(scenario));
       std::fflush(stdout);
       print_error(summary(scenario, pipeline.plan()) + figures_of_merit_text(train, scenario.radar));
-      for (const std::string& line : motion_file_readings(pipeline)) print_error(line + "\n");
+      report_motion_files(pipeline);
       warn(mesh_warnings(pipeline));
       warn(motion_warnings(pipeline));
       warn(sea_warnings(scenario, pipeline.plan().sea_states()));

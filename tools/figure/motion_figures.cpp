@@ -178,7 +178,7 @@ void write_rao_figure(const ShipParticulars& ship, double mu, double depth, cons
   }
   std::array<Series, 3> published;
   if (!reference.file.empty()) {
-    const RaoTable table = reference.file.extension() == ".4" ? read_wamit_rao(reference.file, reference.unit_length)
+    const RaoTable table = reference.file.extension() == ".4" ? read_wamit_rao(reference.file, reference.conventions)
                                                               : read_veres_rao(reference.file, ship.speed);
     for (const double omega : table.omegas()) {
       if (omega > kHighest) break;

@@ -9,6 +9,7 @@
 
 #include "sim/geometry/mesh/triangle_mesh.h"
 #include "sim/motion/kinematics/trajectory.h"
+#include "sim/motion/ship/rao_files.h"
 #include "sim/motion/ship/ship_particulars.h"
 #include "sim/sea/wave_field.h"
 
@@ -40,8 +41,8 @@ void write_motion_frames(const std::vector<NamedTrajectory>& bodies, const WaveF
 
 // Table of VERES or WAMIT to draw with a ship's response amplitude operators.
 struct RaoReference {
-  std::filesystem::path file;  // empty: none
-  double unit_length = 1;      // WAMIT's ULEN, m
+  std::filesystem::path file;      // empty: none
+  WamitConventions conventions{};  // of WAMIT's
 };
 
 // Figure of the moduli of a ship's response amplitude operators over frequency, in waves towards mu (rad) in water of

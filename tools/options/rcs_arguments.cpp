@@ -114,7 +114,8 @@ void add_export_options(CommandOptions& command, ViewExport& exports) {
 }  // namespace
 
 void RcsArguments::add_mesh_to(CommandOptions& command) {
-  command.add_option("--target", target, "Mesh file: .glb, .gltf, .obj, .stl or .ply").required();
+  command.add_option("--target", target, "Mesh file: .glb .gltf .obj .stl .ply, or shells in .nas .bdf .dat .unv .msh")
+      .required();
   command.add_option("--unit", request.unit, "Unit of the mesh: m, cm, mm, km, in, ft").show_default();
   command
       .add_option("--frequency-ghz", frequency_ghz,

@@ -39,6 +39,7 @@ GenerateResult generate_dataset(const Pipeline& pipeline, const std::filesystem:
   require_address_space(std::size_t{32} * (2 + std::min(thread_count(options.threads), 8)) << 20, "making maps");
   const Scenario& scenario = pipeline.scenario();
   const SamplePlan& plan = pipeline.plan();
+  report_motion_files(pipeline);
   warn(mesh_warnings(pipeline));
   warn(motion_warnings(pipeline));
   warn(sea_warnings(scenario, plan.sea_states()));

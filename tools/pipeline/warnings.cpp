@@ -55,13 +55,12 @@ std::vector<std::string> motion_warnings(const Pipeline& pipeline) {
   return lines;
 }
 
-std::vector<std::string> motion_file_readings(const Pipeline& pipeline) {
-  std::vector<std::string> lines;
+void report_motion_files(const Pipeline& pipeline) {
   for (const Target& target : std::span(pipeline.targets()).first(pipeline.scenario().targets.size())) {
     const std::string reading = motion_file_reading(target.body);
-    if (!reading.empty()) lines.push_back(fmt::format("targets.{}.motion.file: {}", target.spec.name, reading));
+    if (reading.empty()) continue;
+    print_error(on_one_line(fmt::format("targets.{}.motion.file: {}", target.spec.name, reading)) + "\n");
   }
-  return lines;
 }
 
 std::vector<std::string> sea_warnings(const Scenario& scenario, std::span<const SeaState> states) {

@@ -20,8 +20,8 @@ std::vector<std::string> mesh_warnings(const Pipeline& pipeline);
 // One line per motion file whose times are not uniform.
 std::vector<std::string> motion_warnings(const Pipeline& pipeline);
 
-// One line per motion file: columns, units and conventions by which it was read.
-std::vector<std::string> motion_file_readings(const Pipeline& pipeline);
+// Prints one line per motion file: columns, units and conventions by which it was read.
+void report_motion_files(const Pipeline& pipeline);
 
 // One line per wave system of the scenario's sea states with so few components that its mean period varies between
 // realisations.

@@ -278,7 +278,7 @@ class Checker {
     if (found == attributes.end() || !found->is_number_unsigned() || found->get<std::uint64_t>() >= length("accessors"))
       return false;
     const Json &a = root_["accessors"][found->get<std::uint64_t>()], &positions = root_["accessors"][position];
-    return a.contains("bufferView") && is_vector(a, true) &&
+    return (a.contains("bufferView") || a.contains("sparse")) && is_vector(a, true) &&
            whole(a, "count", "NORMAL", 0) == whole(positions, "count", "POSITION", 0);
   }
 

@@ -224,6 +224,9 @@ class Reader {
 
     const auto list = corners(primitive, positions.count);
     const std::vector<Vec3> normal = normals(primitive, world);
+    const bool has_byte_normals =
+        !normal.empty() &&
+        model_.accessors[primitive.attributes.at("NORMAL")].componentType == TINYGLTF_COMPONENT_TYPE_BYTE;
     const auto add = [&](std::size_t i, std::size_t j, std::size_t k) {
       if (is_mirrored) std::swap(j, k);
       const std::uint32_t a = list[i], b = list[j], c = list[k];
@@ -231,6 +234,7 @@ class Reader {
         flat_.push_back(builder_.triangle_count());
         return builder_.triangle(base + a, base + b, base + c);
       }
+      if (has_byte_normals) byte_normals_.push_back(builder_.triangle_count());
       builder_.triangle(base + a, base + b, base + c, {normal[a], normal[b], normal[c]});
     };
     if (builder_.triangle_count() + list.size() > kMaxPlacedTriangles) fail_size();
@@ -243,10 +247,16 @@ class Reader {
     }
   }
 
-  // A primitive without normals has flat ones (glTF 2.0, section 3.7.2.1), where others of the file have theirs.
+  // A primitive without normals has flat ones (glTF 2.0, section 3.7.2.1), where others of the file have theirs. So has
+  // a triangle whose normals of 8 bits do not differ from its own by more than their rounding.
   TriangleMesh with_flat_normals(TriangleMesh mesh) const {
     if (mesh.corner_normals.empty()) return mesh;
-    for (const std::size_t t : flat_) mesh.corner_normals[t].fill(unit_normal(area_vector(mesh, t)));
+    const auto flatten = [&](std::size_t t) { mesh.corner_normals[t].fill(unit_normal(area_vector(mesh, t))); };
+    for (const std::size_t t : flat_) flatten(t);
+    constexpr double kRounding = 0.87 / 127;  // rad: half a step of three components
+    for (const std::size_t t : byte_normals_) {
+      if (normal_deviation(mesh, t) <= kRounding) flatten(t);
+    }
     return mesh;
   }
 
@@ -257,7 +267,7 @@ class Reader {
   const tinygltf::Model& model_;
   std::string file_;
   MeshBuilder builder_;
-  std::vector<std::size_t> flat_;  // triangles of primitives without normals
+  std::vector<std::size_t> flat_, byte_normals_;  // triangles of primitives without normals, with normals of 8 bits
 };
 
 class Writer {

@@ -2,16 +2,21 @@
 #include "sim/geometry/files/mesh_io.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <string_view>
 #include <utility>
 
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/core/text/text_source.h"
+#include "sim/geometry/files/exchange/gmsh_file.h"
+#include "sim/geometry/files/exchange/nastran_file.h"
+#include "sim/geometry/files/exchange/unv_file.h"
 #include "sim/geometry/files/gltf_file.h"
 #include "sim/geometry/files/obj_file.h"
 #include "sim/geometry/files/ply_file.h"
@@ -33,10 +38,27 @@ std::string ending_of(const std::filesystem::path& path) {
 
 bool is_gltf(const std::string& ending) { return ending == ".glb" || ending == ".gltf"; }
 
-void require_known(const std::string& ending, const std::filesystem::path& path) {
-  if (is_gltf(ending) || ending == ".obj" || ending == ".stl" || ending == ".ply") return;
-  throw InputError(fmt::format("{}: the ending \"{}\" is not a mesh format; known are .glb .gltf .obj .stl .ply",
-                               path.string(), ending));
+constexpr std::array<const char*, 5> kWritten{".glb", ".gltf", ".obj", ".stl", ".ply"};
+constexpr std::array<const char*, 5> kReadOnly{".nas", ".bdf", ".dat", ".unv", ".msh"};
+
+bool is_among(const std::string& ending, std::span<const char* const> endings) {
+  return std::find(endings.begin(), endings.end(), ending) != endings.end();
+}
+
+void require_written(const std::string& ending, const std::filesystem::path& path) {
+  if (is_among(ending, kWritten)) return;
+  if (is_among(ending, kReadOnly)) {
+    throw InputError(fmt::format("{}: meshes with the ending \"{}\" are read only; written are {}", path.string(),
+                                 ending, fmt::join(kWritten, " ")));
+  }
+  throw InputError(fmt::format("{}: the ending \"{}\" is not a mesh format; known are {}", path.string(), ending,
+                               fmt::join(kWritten, " ")));
+}
+
+void require_read(const std::string& ending, const std::filesystem::path& path) {
+  if (is_among(ending, kWritten) || is_among(ending, kReadOnly)) return;
+  throw InputError(fmt::format("{}: the ending \"{}\" is not a mesh format; known are {} {}", path.string(), ending,
+                               fmt::join(kWritten, " "), fmt::join(kReadOnly, " ")));
 }
 
 // Throws InputError for a text in UTF-16 and, in place of a text, a file of another format.
@@ -50,7 +72,9 @@ TriangleMesh read_polygons(const std::string& ending, std::string bytes, const s
   refuse_foreign(ending, bytes, file);
   if (ending == ".obj") return read_obj(bytes, file);
   if (ending == ".stl") return read_stl(std::move(bytes), file);
-  return read_ply(bytes, file);
+  if (ending == ".ply") return read_ply(bytes, file);
+  if (ending == ".msh") return read_gmsh(std::move(bytes), file);
+  return read_nastran(std::move(bytes), file);
 }
 
 std::string polygon_bytes(const std::string& ending, const TriangleMesh& mesh) {
@@ -81,18 +105,40 @@ double metres_per(const std::string& unit) {
   throw InputError(fmt::format("\"{}\" is not a unit of length; known are m cm mm km in ft", unit));
 }
 
+// A universal file in metres. The unit that it states is that of the lengths, and must be the one that the caller
+// names; but programs without units state metres.
+TriangleMesh read_unv_in_metres(std::string bytes, const std::string& unit, const std::string& file) {
+  refuse_foreign(".unv", bytes, file);
+  UnvMesh unv = read_unv(std::move(bytes), file);
+  const double named = metres_per(unit), stated = unv.unit_m.value_or(named);
+  const auto are_equal = [](double a, double b) { return std::abs(a - b) <= 1e-3 * b; };
+  if (unit != "m" && !are_equal(stated, named) && !are_equal(stated, 1)) {
+    throw InputError(
+        fmt::format("{}: unit \"{}\": must be that of the file, {:.6g} m by its dataset 164", file, unit, stated));
+  }
+  if (unit != "m" && !are_equal(stated, named))
+    unv.mesh.findings.push_back(fmt::format("its dataset 164 states metres: read in {} as asked for", unit));
+  if (unit == "m" && !are_equal(stated, named))
+    unv.mesh.findings.push_back(fmt::format("its lengths are in units of {:.6g} m by its dataset 164", stated));
+  const double scale = unit == "m" ? stated : named;
+  for (Vec3& p : unv.mesh.vertices) p *= scale;
+  return unv.mesh;
+}
+
 }  // namespace
 
 TriangleMesh read_mesh(const std::filesystem::path& path, const std::string& unit) {
   const double scale = metres_per(unit);
   const std::string file = path.string();
   const std::string ending = ending_of(path);
-  require_known(ending, path);
+  require_read(ending, path);
   std::string bytes = read_file(path, kMaxBytes);
   if (bytes.empty()) throw InputError(fmt::format("{}: the file is empty", file));
 
-  TriangleMesh mesh = is_gltf(ending) ? read_gltf(bytes, path) : read_polygons(ending, std::move(bytes), file);
-  if (scale != 1.0) {
+  TriangleMesh mesh = is_gltf(ending)    ? read_gltf(bytes, path)
+                      : ending == ".unv" ? read_unv_in_metres(std::move(bytes), unit, file)
+                                         : read_polygons(ending, std::move(bytes), file);
+  if (scale != 1.0 && ending != ".unv") {
     for (Vec3& p : mesh.vertices) p *= scale;
   }
   check_mesh(mesh, file);
@@ -106,7 +152,7 @@ std::vector<std::filesystem::path> sidecar_files(const std::filesystem::path& pa
 
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh) {
   const std::string ending = ending_of(path);
-  require_known(ending, path);
+  require_written(ending, path);
   if (mesh.triangles.empty())
     throw InputError(fmt::format("{}: a mesh without triangles is not written", path.string()));
   check_mesh(mesh, path.string());

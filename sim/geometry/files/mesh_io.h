@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Mesh files: .glb and .gltf (tinygltf), .obj, .ply, .stl (binary: OpenMesh). The file name extension selects the
+// Mesh files: .glb and .gltf (tinygltf), .obj, .ply, .stl (binary: OpenMesh), and shells of solvers, which are read
+// only: NASTRAN (.nas .bdf .dat), I-DEAS universal files (.unv), Gmsh (.msh). The file name extension selects the
 // format.
 
 #include <array>
@@ -24,7 +25,8 @@ namespace seaglint {
 // Normals of glTF (NORMAL), OBJ (vn) and PLY (nx, ny, nz) become corner normals; those that are no unit vectors are
 // normalised, invalid ones are none and refuse nothing. Facet normals of STL are ignored: they follow from the
 // vertices.
-//   OBJ, STL and PLY define no axes: they are read as body axes. Groups, objects and solids are parts.
+//   The others define no axes: they are read as body axes. Groups, objects, solids and properties are parts.
+//   A universal file that states its unit is read in it; `unit` must be "m" or agree, unless the file states metres.
 TriangleMesh read_mesh(const std::filesystem::path& path, const std::string& unit = "m");
 
 // Further files that a mesh file refers to: the buffers of a glTF, in their order; otherwise empty. Throws InputError

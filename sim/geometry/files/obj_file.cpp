@@ -15,8 +15,8 @@
 #include "sim/core/text/number.h"
 #include "sim/core/text/shown.h"
 #include "sim/core/text/words.h"
-#include "sim/geometry/files/coordinate.h"
-#include "sim/geometry/files/triangulate_polygon.h"
+#include "sim/geometry/files/polygons/coordinate.h"
+#include "sim/geometry/files/polygons/triangulate_polygon.h"
 #include "sim/geometry/mesh/mesh_builder.h"
 
 namespace seaglint {

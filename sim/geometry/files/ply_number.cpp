@@ -4,11 +4,12 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <utility>
+
+#include "sim/geometry/files/polygons/binary_number.h"
 
 namespace seaglint {
 namespace {
@@ -27,13 +28,6 @@ std::pair<double, double> range_of(PlyNumber type) {
   }
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   return {-kInfinity, kInfinity};
-}
-
-template <typename T>
-double value_at(const char* bytes, bool swap) {
-  std::array<char, sizeof(T)> raw{};
-  for (std::size_t i = 0; i < raw.size(); ++i) raw[i] = bytes[swap ? raw.size() - 1 - i : i];
-  return static_cast<double>(std::bit_cast<T>(raw));
 }
 
 }  // namespace
@@ -87,14 +81,14 @@ std::string limits_of(PlyNumber type) {
 
 double value_at(PlyNumber type, const char* bytes, bool swap) {
   switch (type) {
-    case PlyNumber::kInt8: return value_at<std::int8_t>(bytes, swap);
-    case PlyNumber::kUint8: return value_at<std::uint8_t>(bytes, swap);
-    case PlyNumber::kInt16: return value_at<std::int16_t>(bytes, swap);
-    case PlyNumber::kUint16: return value_at<std::uint16_t>(bytes, swap);
-    case PlyNumber::kInt32: return value_at<std::int32_t>(bytes, swap);
-    case PlyNumber::kUint32: return value_at<std::uint32_t>(bytes, swap);
-    case PlyNumber::kFloat: return value_at<float>(bytes, swap);
-    case PlyNumber::kDouble: return value_at<double>(bytes, swap);
+    case PlyNumber::kInt8: return number_at<std::int8_t>(bytes, swap);
+    case PlyNumber::kUint8: return number_at<std::uint8_t>(bytes, swap);
+    case PlyNumber::kInt16: return number_at<std::int16_t>(bytes, swap);
+    case PlyNumber::kUint16: return number_at<std::uint16_t>(bytes, swap);
+    case PlyNumber::kInt32: return number_at<std::int32_t>(bytes, swap);
+    case PlyNumber::kUint32: return number_at<std::uint32_t>(bytes, swap);
+    case PlyNumber::kFloat: return number_at<float>(bytes, swap);
+    case PlyNumber::kDouble: return number_at<double>(bytes, swap);
   }
   return 0;
 }

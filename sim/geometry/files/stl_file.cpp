@@ -13,7 +13,7 @@
 #include "sim/core/text/number.h"
 #include "sim/core/text/shown.h"
 #include "sim/core/text/words.h"
-#include "sim/geometry/files/coordinate.h"
+#include "sim/geometry/files/polygons/coordinate.h"
 #include "sim/geometry/files/stl_soup.h"
 #include "sim/geometry/mesh/mesh_builder.h"
 

@@ -21,6 +21,7 @@
 #include "sim/core/text/shown.h"
 #include "sim/core/text/text_table.h"
 #include "sim/core/text/words.h"
+#include "sim/motion/ship/long_waves.h"
 #include "sim/motion/ship/ship_response.h"
 
 namespace seaglint {
@@ -271,9 +272,12 @@ struct WamitCell {
 
 }  // namespace
 
-// Rows `PER BETA I MOD PHA RE IM`: period in s, direction of propagation and phase in degrees, e^{+iwt}; mode I is over
-// A / ULEN^n with n = 0 for translations, 1 for rotations. PER < 0 stands for zero frequency, 0 for infinite.
-RaoTable read_wamit_rao(const std::filesystem::path& file, double unit_length, const Vec3& reference) {
+// Rows `PER BETA I MOD PHA RE IM`: period in s, heading and phase in degrees, of WAMIT the direction of propagation and
+// e^{+iwt}; mode I is over A / ULEN^n with n = 0 for translations, 1 for rotations. PER < 0 stands for zero frequency,
+// 0 for infinite.
+RaoTable read_wamit_rao(const std::filesystem::path& file, const WamitConventions& conventions, const Vec3& reference) {
+  const double turn_deg = conventions.heading == HeadingConvention::kFrom ? 180 : 0;
+  const bool conjugate = conventions.time_factor == TimeFactor::kMinus;
   const TextSource source = TextSource::read(file);
   require_periods(source);
   const TextTable table = TextTable::without_names(source, {"PER", "BETA", "I", "MOD", "PHA", "RE", "IM"});
@@ -282,9 +286,10 @@ RaoTable read_wamit_rao(const std::filesystem::path& file, double unit_length, c
     const double period = table.number(row, kPeriod), beta_deg = table.number(row, kBeta);
     const double mode = table.number(row, kMode);
     if (!(mode >= 1 && mode <= 6 && mode == std::floor(mode))) table.fail(row, kMode, "must be a mode, 1 to 6");
-    const WamitCell read{wamit_value(table, row), beta_deg};
+    const Complex value = wamit_value(table, row);
+    const WamitCell read{conjugate ? std::conj(value) : value, beta_deg};
     if (period <= 0) continue;
-    auto& cell = rows[radians(wrapped_deg(beta_deg))][2 * kPi / period][static_cast<std::size_t>(mode) - 1];
+    auto& cell = rows[radians(wrapped_deg(beta_deg + turn_deg))][2 * kPi / period][static_cast<std::size_t>(mode) - 1];
     if (cell && cell->beta_deg == beta_deg)
       table.fail(row, kMode, fmt::format("period {} s, heading {} deg, mode {}: duplicate", period, beta_deg, mode));
     if (cell && !are_equal(cell->value, read.value)) {
@@ -311,7 +316,7 @@ RaoTable read_wamit_rao(const std::filesystem::path& file, double unit_length, c
           throw InputError(fmt::format("{}: period {:.6g} s, heading {:.4g} deg: mode {} is missing", source.name(),
                                        2 * kPi / frequency, degrees(mu), mode + 1));
         }
-        return mode < 3 ? modes[mode]->value : modes[mode]->value / unit_length;
+        return mode < 3 ? modes[mode]->value : modes[mode]->value / conventions.unit_length;
       };
       headings[mu].push_back({at(0), at(1), at(2), at(3), at(4), at(5)});
     }
@@ -321,7 +326,14 @@ RaoTable read_wamit_rao(const std::filesystem::path& file, double unit_length, c
     }
   }
   add_mirrored_headings(headings);
-  return table_of(source.name(), headings, omega, reference, 0);
+  RaoTable responses = table_of(source.name(), headings, omega, reference, 0);
+  if (long_waves_of(responses) == LongWaves::kDisagree) {
+    throw InputError(fmt::format(
+        "{}: pitch in waves of {:.4g} s has the opposite sign of the waves' slope: motion.wamit_heading (now {}) or "
+        "motion.wamit_time_factor (now {}) is not the file's",
+        source.name(), 2 * kPi / omega.front(), turn_deg > 0 ? "from" : "towards", conjugate ? "minus" : "plus"));
+  }
+  return responses;
 }
 
 }  // namespace seaglint

@@ -7,6 +7,7 @@
 
 #include "sim/core/numbers/linear.h"
 #include "sim/motion/ship/rao_table.h"
+#include "sim/scenario/target_spec.h"
 
 namespace seaglint {
 
@@ -15,9 +16,18 @@ namespace seaglint {
 // used. Throws InputError with file and line.
 RaoTable read_veres_rao(const std::filesystem::path& file, double speed);
 
-// A table of WAMIT, .4 with periods (IPERIO = 1): heading is the direction of propagation, x forward, y to port,
-// lengths in units of `unit_length` (ULEN, m). Rows of zero and infinite period are skipped.
-// `reference`: WAMIT's body origin in the body frame, m (not in the file).
-RaoTable read_wamit_rao(const std::filesystem::path& file, double unit_length, const Vec3& reference = Vec3::Zero());
+// What a table in the format of WAMIT does not state: the unit of its lengths (ULEN, m) and, where another program
+// wrote it, the direction that its headings give and the sign of its time factor.
+struct WamitConventions {
+  double unit_length = 1;
+  HeadingConvention heading = HeadingConvention::kTowards;
+  TimeFactor time_factor = TimeFactor::kPlus;
+};
+
+// A table of WAMIT, .4 with periods (IPERIO = 1): x forward, y to port. Rows of zero and infinite period are skipped.
+// `reference`: WAMIT's body origin in the body frame, m (not in the file). Throws InputError with file, line and
+// column, and where long waves contradict the conventions (long_waves.h).
+RaoTable read_wamit_rao(const std::filesystem::path& file, const WamitConventions& conventions,
+                        const Vec3& reference = Vec3::Zero());
 
 }  // namespace seaglint

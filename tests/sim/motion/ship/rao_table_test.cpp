@@ -12,6 +12,7 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
+#include "sim/motion/ship/long_waves.h"
 #include "sim/motion/ship/rao_files.h"
 #include "sim/motion/ship/ship_response.h"
 #include "sim/motion/simulate.h"
@@ -49,7 +50,7 @@ void expect_long_wave_limits(const RaoTable& table, double omega, double roll_fa
 TEST(VeresTable, TendsToTheSlopeOfLongWaves) { expect_long_wave_limits(read_veres_rao(kVeres, 0), 0.1047198, 1.36); }
 
 TEST(WamitTable, TendsToTheSlopeOfLongWaves) {
-  const RaoTable table = read_wamit_rao(kWamit, 1);
+  const RaoTable table = read_wamit_rao(kWamit, {});
   expect_long_wave_limits(table, table.omegas().front(), 1.0);
   EXPECT_EQ(table.headings().size(), 12u);  // 7, and 5 of them mirrored
 }
@@ -191,13 +192,13 @@ TEST(ReadRao, RefusesInvalidTables) {
   EXPECT_THAT(message_of([&] { read_veres_rao(file, 0); }), testing::HasSubstr("must be a finite number"));
   EXPECT_THAT(message_of([&] { read_veres_rao(kVeres, 5); }), testing::HasSubstr("it contains 0, 10.29 m/s"));
   write("1 0 1 2 90 1 1\n");
-  EXPECT_THAT(message_of([&] { read_wamit_rao(file, 1); }),
+  EXPECT_THAT(message_of([&] { read_wamit_rao(file, {}); }),
               testing::HasSubstr("wrong.re1:1:7: MOD: value '2': must be the modulus"));
   write("1 0 7 1 90 0 1\n");
-  EXPECT_THAT(message_of([&] { read_wamit_rao(file, 1); }),
+  EXPECT_THAT(message_of([&] { read_wamit_rao(file, {}); }),
               testing::HasSubstr("wrong.re1:1:5: I: value '7': must be a mode, 1 to 6"));
   write("1 0 1 1 90 0 1\n");
-  EXPECT_THAT(message_of([&] { read_wamit_rao(file, 1); }), testing::HasSubstr("mode 2 is missing"));
+  EXPECT_THAT(message_of([&] { read_wamit_rao(file, {}); }), testing::HasSubstr("mode 2 is missing"));
   MotionSpec spec = rao_spec("nowhere.re1");
   EXPECT_THAT(message_of([&] { make_body(spec, {}); }), testing::HasSubstr("no such file"));
 }
@@ -213,7 +214,7 @@ class RaoFile : public testing::Test {
     return folder_.path() / "a.rao";
   }
   std::string wamit_refusal(const std::string& text) const {
-    return message_of([&] { read_wamit_rao(put(text), 1); });
+    return message_of([&] { read_wamit_rao(put(text), {}); });
   }
   std::string veres_refusal(const std::string& text) const {
     return message_of([&] { read_veres_rao(put(text), 0); });
@@ -248,12 +249,12 @@ class RaoFile : public testing::Test {
 };
 
 TEST_F(RaoFile, OfWamitMayHaveBothEndsOfTheCircleAndALineOfNames) {
-  const RaoTable plain = read_wamit_rao(kWamit, 1);
+  const RaoTable plain = read_wamit_rao(kWamit, {});
   const std::string text = text_of(kWamit);
   for (const std::string& same : {with_heading_again("0", "360"), with_heading_again("180", "-180"),
                                   "     PER      BETA   I  Mod(XI)   Pha(XI)   Re(XI)   Im(XI)\n" + text,
                                   "\xef\xbb\xbf" + text, "WAMIT output of an FPSO\n\n" + text}) {
-    expect_same(plain, read_wamit_rao(put(same), 1));
+    expect_same(plain, read_wamit_rao(put(same), {}));
   }
   EXPECT_THAT(wamit_refusal(with_heading_again("0", "360", "2")),
               testing::HasSubstr("headings 0 and 360 deg are one direction, where the former has"));
@@ -264,6 +265,56 @@ TEST_F(RaoFile, OfWamitMayHaveBothEndsOfTheCircleAndALineOfNames) {
               testing::HasSubstr("a.rao:1:9: PHA: value '1.5708': must be in degrees"));
   EXPECT_THAT(wamit_refusal("1 0 1.5 1 90 0 1\n"), testing::HasSubstr("value '1.5': must be a mode"));
   EXPECT_THAT(wamit_refusal(text + "1 0 1 1\n"), testing::HasSubstr("4 cells where the names are 7"));
+}
+
+// The same table as a program with headings of where waves come from, or with e^{-iwt}, would write it.
+TEST_F(RaoFile, OfWamitMayHaveTheConventionsOfOtherPrograms) {
+  const auto rewritten = [](bool from, bool minus) {
+    std::string text;
+    std::istringstream lines(text_of(kWamit));
+    for (std::string line; std::getline(lines, line);) {
+      std::istringstream words(line);
+      std::string period, mode, modulus, re;
+      double beta = 0, phase = 0, im = 0;
+      words >> period >> beta >> mode >> modulus >> phase >> re >> im;
+      text += fmt::format("{} {} {} {} {} {} {}\n", period, from ? beta + 180 : beta, mode, modulus,
+                          minus ? -phase : phase, re, minus ? -im : im);
+    }
+    return text;
+  };
+  const RaoTable plain = read_wamit_rao(kWamit, {});
+  constexpr auto kFrom = HeadingConvention::kFrom;
+  constexpr auto kMinus = TimeFactor::kMinus;
+  expect_same(plain, read_wamit_rao(put(rewritten(true, false)), {.heading = kFrom}));
+  expect_same(plain, read_wamit_rao(put(rewritten(false, true)), {.time_factor = kMinus}));
+  expect_same(plain, read_wamit_rao(put(rewritten(true, true)), {.heading = kFrom, .time_factor = kMinus}));
+  // Pitch follows the slope of long waves; either convention alone turns its sign.
+  for (const std::string& text : {rewritten(true, false), rewritten(false, true)}) {
+    EXPECT_THAT(wamit_refusal(text),
+                testing::HasSubstr("pitch in waves of 163.9 s has the opposite sign of the waves' slope: "
+                                   "motion.wamit_heading (now towards) or motion.wamit_time_factor (now plus) is not "
+                                   "the file's"));
+  }
+  EXPECT_THAT(message_of([&] { read_wamit_rao(kWamit, {.heading = kFrom}); }), testing::HasSubstr("(now from)"));
+  EXPECT_EQ(long_waves_of(plain), LongWaves::kAgree);
+  EXPECT_EQ(long_waves_of(read_veres_rao(kVeres, 0)), LongWaves::kAgree);
+}
+
+TEST_F(RaoFile, SaysByWhichConventionsItWasRead) {
+  MotionSpec spec = rao_spec(kWamit);
+  EXPECT_THAT(
+      motion_file_reading(make_body(spec, {})),
+      testing::HasSubstr("(WAMIT: the direction of propagation), 29 frequencies 0.03834 to 5.712 rad/s, speed 0 "
+                         "m/s, time factor e^{+iwt}; pitch in its longest waves agrees"));
+  spec.file = kVeres;
+  EXPECT_THAT(motion_file_reading(make_body(spec, {})),
+              testing::HasSubstr("(VERES: its heading + 180), 36 frequencies"));
+  spec.wamit_time_factor = TimeFactor::kMinus;
+  EXPECT_THAT(message_of([&] { make_body(spec, {}); }),
+              testing::HasSubstr("motion.wamit_time_factor: not allowed here: "));
+  spec.wamit_time_factor = TimeFactor::kPlus;
+  spec.wamit_heading = HeadingConvention::kFrom;
+  EXPECT_THAT(message_of([&] { make_body(spec, {}); }), testing::HasSubstr("motion.wamit_heading: not allowed here: "));
 }
 
 TEST_F(RaoFile, OfVeresIsRefusedForWhatWasOverwrittenOrDropped) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/geometry/files/coordinate.h"
+#include "sim/geometry/files/polygons/coordinate.h"
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/geometry/files/triangulate_polygon.h"
+#include "sim/geometry/files/polygons/triangulate_polygon.h"
 
 #include <fmt/format.h>
 
