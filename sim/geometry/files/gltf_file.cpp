@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <optional>
 #include <span>
 #include <sstream>
 #include <system_error>
@@ -26,7 +27,6 @@ namespace fs = std::filesystem;
 using Mat4 = Eigen::Matrix4d;
 
 constexpr std::size_t kMaxParts = 65000, kMaxMaterials = 65000;
-constexpr std::size_t kMaxPlacedTriangles = 50'000'000;  // a mesh may be instanced by many nodes
 
 std::string one_line(std::string text) {
   while (!text.empty() && text.back() == '\n') text.pop_back();
@@ -81,7 +81,14 @@ Mat4 local_transform(const tinygltf::Node& node) {
 
 class Reader {
  public:
-  Reader(const tinygltf::Model& model, std::string file) : model_(model), file_(std::move(file)) {}
+  Reader(const tinygltf::Model& model, std::string file) : model_(model), file_(std::move(file)) {
+    // A mesh may be placed by many nodes. Triangles that are placed once take more than eight bytes each, with their
+    // vertices.
+    constexpr std::size_t kRepeated = 700'000, kMost = 50'000'000;
+    std::size_t bytes = 0;
+    for (const tinygltf::Buffer& buffer : model.buffers) bytes += buffer.data.size();
+    max_triangles_ = std::min(kMost, kRepeated + bytes / 8);
+  }
 
   TriangleMesh read() {
     if (model_.materials.size() > kMaxMaterials)
@@ -164,18 +171,6 @@ class Reader {
         fmt::format("{}: accessors[{}] replaces an element beyond its {}", file_, accessor_index, elements.count));
   }
 
-  // Normals of the vertices in the body frame, by the inverse transpose of the node's matrix; empty where the primitive
-  // has none.
-  std::vector<Vec3> normals(const tinygltf::Primitive& primitive, const Mat4& world) const {
-    const auto attribute = primitive.attributes.find("NORMAL");
-    if (attribute == primitive.attributes.end()) return {};
-    const GltfElements data = data_of(attribute->second);
-    const Mat3 turn = body_from_gltf() * world.topLeftCorner<3, 3>().inverse().transpose();
-    std::vector<Vec3> list;
-    for (std::size_t i = 0; i < data.count; ++i) list.push_back(turn * vector_at(data, i));
-    return list;
-  }
-
   std::vector<std::uint32_t> corners(const tinygltf::Primitive& primitive, std::size_t vertex_count) const {
     std::vector<std::uint32_t> list;
     if (primitive.indices < 0) {
@@ -215,26 +210,39 @@ class Reader {
     builder_.begin_material(material.empty() ? Material{}.name : material);
 
     const GltfElements positions = data_of(primitive.attributes.at("POSITION"));
+    const auto list = corners(primitive, positions.count);
+    const bool apart = primitive.mode == TINYGLTF_MODE_TRIANGLES;
+    if (builder_.triangle_count() + (apart ? list.size() / 3 : list.size()) > max_triangles_) fail_size();
+
+    // Only the vertices that triangles use are placed: primitives may share one long list of positions.
+    std::vector<std::uint32_t> used = list;
+    std::ranges::sort(used);
+    used.erase(std::unique(used.begin(), used.end()), used.end());
     const auto base = static_cast<std::uint32_t>(builder_.vertices().size());
-    if (builder_.vertices().size() + positions.count > 3 * kMaxPlacedTriangles) fail_size();
-    for (std::size_t i = 0; i < positions.count; ++i) {
-      const Vec3 placed = (world * vector_at(positions, i).homogeneous()).head<3>();
+    for (const std::uint32_t v : used) {
+      const Vec3 placed = (world * vector_at(positions, v).homogeneous()).head<3>();
       builder_.vertex(body_from_gltf() * placed);
     }
+    const auto vertex = [&](std::uint32_t v) {
+      return base + static_cast<std::uint32_t>(std::ranges::lower_bound(used, v) - used.begin());
+    };
 
-    const auto list = corners(primitive, positions.count);
-    const std::vector<Vec3> normal = normals(primitive, world);
+    // Normals in the body frame, by the inverse transpose of the node's matrix.
+    std::optional<GltfElements> normals;
+    if (const auto found = primitive.attributes.find("NORMAL"); found != primitive.attributes.end())
+      normals = data_of(found->second);
+    const Mat3 turn = body_from_gltf() * world.topLeftCorner<3, 3>().inverse().transpose();
+    const auto normal = [&](std::uint32_t v) -> Vec3 { return turn * vector_at(*normals, v); };
     const auto add = [&](std::size_t i, std::size_t j, std::size_t k) {
       if (is_mirrored) std::swap(j, k);
       const std::uint32_t a = list[i], b = list[j], c = list[k];
-      if (normal.empty()) {
+      if (!normals) {
         flat_.push_back(builder_.triangle_count());
-        return builder_.triangle(base + a, base + b, base + c);
+        return builder_.triangle(vertex(a), vertex(b), vertex(c));
       }
-      builder_.triangle(base + a, base + b, base + c, {normal[a], normal[b], normal[c]});
+      builder_.triangle(vertex(a), vertex(b), vertex(c), {normal(a), normal(b), normal(c)});
     };
-    if (builder_.triangle_count() + list.size() > kMaxPlacedTriangles) fail_size();
-    if (primitive.mode == TINYGLTF_MODE_TRIANGLES) {
+    if (apart) {
       for (std::size_t i = 0; i + 2 < list.size(); i += 3) add(i, i + 1, i + 2);
     } else if (primitive.mode == TINYGLTF_MODE_TRIANGLE_STRIP) {
       for (std::size_t i = 0; i + 2 < list.size(); ++i) add(i, i + 1 + i % 2, i + 2 - i % 2);
@@ -251,11 +259,13 @@ class Reader {
   }
 
   [[noreturn]] void fail_size() const {
-    throw InputError(fmt::format("{}: its nodes place more than {} triangles", file_, kMaxPlacedTriangles));
+    throw InputError(
+        fmt::format("{}: its nodes place more than {} triangles, the limit for its size", file_, max_triangles_));
   }
 
   const tinygltf::Model& model_;
   std::string file_;
+  std::size_t max_triangles_ = 0;
   MeshBuilder builder_;
   std::vector<std::size_t> flat_;  // triangles of primitives without normals
 };
