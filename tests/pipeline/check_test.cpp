@@ -187,7 +187,7 @@ TEST(Check, RefusesScenariosThatCannotBeRead) {
   expect_refused({"check", folder.path() / "empty.yaml"}, "empty.yaml: the file is empty");
   write_file(folder.path() / "large.yaml", std::string(100'000'000, ' '));
   expect_refused({"check", folder.path() / "large.yaml"},
-                 "large.yaml: cannot read: is larger than the limit of 10000000 bytes\n");
+                 "large.yaml: cannot read: has 100000000 bytes, more than the limit of 4000000\n");
 }
 
 TEST(CommandLine, RefusesUnknownWords) {

@@ -32,7 +32,7 @@ using nlohmann::ordered_json;
 // Throws InputError naming the file if it is no JSON object.
 ordered_json read_object(const fs::path& file) {
   const std::string text = read_file(file);
-  refuse_repeated_keys(text, file.string());
+  check_json(text, file.string(), kMaxOrderedKeys);
   try {
     ordered_json object = ordered_json::parse(text);
     if (!object.is_object()) throw InputError(fmt::format("{}: must be a JSON object", file.string()));

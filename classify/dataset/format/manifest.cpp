@@ -11,6 +11,7 @@
 #include "sim/core/process/file.h"
 #include "sim/core/text/json_keys.h"
 #include "sim/core/text/json_problem.h"
+#include "sim/core/text/shown.h"
 
 namespace seaglint {
 
@@ -52,12 +53,12 @@ std::string to_json(const Manifest& manifest) {
 
 Manifest read_manifest(const std::filesystem::path& file) {
   const std::string text = read_file(file, std::size_t{256} << 20);
-  refuse_repeated_keys(text, file.string());
+  check_json(text, file.string(), kMaxOrderedKeys);
   try {
     const ordered_json json = ordered_json::parse(text);
     if (json.at("format") != kFormat) {
-      throw InputError(
-          fmt::format("{}: format {}; this program reads \"{}\"", file.string(), json.at("format").dump(), kFormat));
+      throw InputError(fmt::format("{}: format {}; this program reads \"{}\"", file.string(),
+                                   shown(json.at("format").dump()), kFormat));
     }
     Manifest manifest;
     manifest.scenario = json.at("scenario").get<std::string>();
@@ -68,7 +69,7 @@ Manifest read_manifest(const std::filesystem::path& file) {
     const auto whole = [&](const ordered_json& object, const char* key) {
       const ordered_json& value = object.at(key);
       if (value.is_number_unsigned()) return value.get<std::uint64_t>();
-      throw InputError(fmt::format("{}: {}: {}: must be a whole number", file.string(), key, value.dump()));
+      throw InputError(fmt::format("{}: {}: {}: must be a whole number", file.string(), key, shown(value.dump())));
     };
     manifest.seed = whole(json, "seed");
     manifest.samples = whole(json, "samples");

@@ -143,15 +143,16 @@ fs::path find_file(const std::string& name, const fs::path& folder, const std::s
 std::string read_file(const fs::path& path, std::size_t max_bytes) {
   const Descriptor file(path, kReading);
   const struct stat status = status_of_regular(file, path);
-  const auto too_large = [&] {
-    throw InputError(fmt::format("{}: cannot read: is larger than the limit of {} bytes", path.string(), max_bytes));
+  const auto too_large = [&](std::uintmax_t size) {
+    throw InputError(
+        fmt::format("{}: cannot read: has {} bytes, more than the limit of {}", path.string(), size, max_bytes));
   };
-  if (static_cast<std::uintmax_t>(status.st_size) > max_bytes) too_large();
+  if (static_cast<std::uintmax_t>(status.st_size) > max_bytes) too_large(static_cast<std::uintmax_t>(status.st_size));
   std::string content;
   content.reserve(static_cast<std::size_t>(status.st_size));
   read_all(file, path, [&](std::string_view block) {
     content.append(block);
-    if (content.size() > max_bytes) too_large();
+    if (content.size() > max_bytes) too_large(content.size());
   });
   return content;
 }

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "sim/core/process/error.h"
 #include "sim/core/text/json_keys.h"
@@ -30,22 +31,22 @@ void put_word(std::string& bytes, std::uint32_t value) {
   bytes.append(raw, 4);
 }
 
-constexpr int kDeepest = 64;  // levels of JSON; real files use about ten
+std::size_t entries_of(const nlohmann::json& object, const char* list) {
+  if (!object.is_object()) return 0;
+  const auto found = object.find(list);
+  return found == object.end() || !found->is_array() ? 0 : found->size();
+}
 
-// Nesting depth of lists and objects. The parser callback of the library is not used: at the end of each object it
-// scans the whole enclosing list.
-int depth_of(std::string_view text) {
-  int depth = 0, deepest = 0;
-  bool in_string = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (c == '"') in_string = !in_string;
-    if (in_string && c == '\\') ++i;
-    if (in_string) continue;
-    if (c == '[' || c == '{') deepest = std::max(deepest, ++depth);
-    if (c == ']' || c == '}') --depth;
+// Entries of the lists of which a model is made. Each takes about 1 kB of memory however short it is.
+std::size_t entry_count(const nlohmann::json& root) {
+  std::size_t count = 0;
+  for (const char* list : {"buffers", "bufferViews", "accessors", "materials", "meshes", "nodes", "scenes"})
+    count += entries_of(root, list);
+  for (const auto& [list, entries] : {std::pair{"meshes", "primitives"}, {"nodes", "children"}, {"scenes", "nodes"}}) {
+    if (entries_of(root, list) == 0) continue;
+    for (const nlohmann::json& item : root[list]) count += entries_of(item, entries);
   }
-  return deepest;
+  return count;
 }
 
 // Extensions, or beginnings of their names, that leave positions and faces as they are.
@@ -99,11 +100,14 @@ std::string glb_of(std::string json, std::string_view binary_data) {
 }
 
 nlohmann::json parsed_gltf(std::string_view text, const std::string& file) {
-  if (depth_of(text) > kDeepest)
-    throw InputError(fmt::format("{}: the JSON is nested more than {} levels deep", file, kDeepest));
-  refuse_repeated_keys(text, file);
+  check_json(text, file);
   try {
-    return nlohmann::json::parse(text.begin(), text.end());
+    nlohmann::json root = nlohmann::json::parse(text.begin(), text.end());
+    constexpr std::size_t kFewest = 100'000, kBytes = 64;  // each part of a mesh has about ten entries of 650 bytes
+    if (const std::size_t count = entry_count(root); count > kFewest + text.size() / kBytes)
+      throw InputError(
+          fmt::format("{}: {} nodes, meshes and accessors in {} bytes are no mesh", file, count, text.size()));
+    return root;
   } catch (const nlohmann::json::exception& error) {
     throw InputError(fmt::format("{}: {}", file, json_problem(error)));
   }

@@ -23,8 +23,8 @@ GlbChunks glb_chunks(std::string_view bytes, const std::string& file);
 // A .glb of these chunks, each padded to a multiple of 4 bytes.
 std::string glb_of(std::string json, std::string_view binary);
 
-// Throws InputError with the file's name for a text that is no JSON, is nested too deeply, or has a key twice in an
-// object.
+// Throws InputError with the file's name for a text that is no JSON, is nested too deeply, has a key twice in an
+// object, or more entries of nodes, meshes and accessors than a mesh of its size.
 nlohmann::json parsed_gltf(std::string_view text, const std::string& file);
 
 // Throws InputError for a required extension on which the geometry depends and which is not read. Those of materials,

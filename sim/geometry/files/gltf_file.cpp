@@ -6,8 +6,7 @@
 
 #include <algorithm>
 #include <cstring>
-#include <span>
-#include <sstream>
+#include <optional>
 #include <system_error>
 #include <vector>
 
@@ -16,7 +15,6 @@
 #include "sim/geometry/files/gltf_check.h"
 #include "sim/geometry/files/gltf_elements.h"
 #include "sim/geometry/files/gltf_folder.h"
-#include "sim/geometry/files/gltf_pieces.h"
 #include "sim/geometry/mesh/mesh_builder.h"
 
 namespace seaglint {
@@ -26,7 +24,6 @@ namespace fs = std::filesystem;
 using Mat4 = Eigen::Matrix4d;
 
 constexpr std::size_t kMaxParts = 65000, kMaxMaterials = 65000;
-constexpr std::size_t kMaxPlacedTriangles = 50'000'000;  // a mesh may be instanced by many nodes
 
 std::string one_line(std::string text) {
   while (!text.empty() && text.back() == '\n') text.pop_back();
@@ -81,7 +78,14 @@ Mat4 local_transform(const tinygltf::Node& node) {
 
 class Reader {
  public:
-  Reader(const tinygltf::Model& model, std::string file) : model_(model), file_(std::move(file)) {}
+  Reader(const tinygltf::Model& model, std::string file) : model_(model), file_(std::move(file)) {
+    // A mesh may be placed by many nodes. Triangles that are placed once take more than eight bytes each, with their
+    // vertices.
+    constexpr std::size_t kRepeated = 700'000, kMost = 50'000'000;
+    std::size_t bytes = 0;
+    for (const tinygltf::Buffer& buffer : model.buffers) bytes += buffer.data.size();
+    max_triangles_ = std::min(kMost, kRepeated + bytes / 8);
+  }
 
   TriangleMesh read() {
     if (model_.materials.size() > kMaxMaterials)
@@ -164,18 +168,6 @@ class Reader {
         fmt::format("{}: accessors[{}] replaces an element beyond its {}", file_, accessor_index, elements.count));
   }
 
-  // Normals of the vertices in the body frame, by the inverse transpose of the node's matrix; empty where the primitive
-  // has none.
-  std::vector<Vec3> normals(const tinygltf::Primitive& primitive, const Mat4& world) const {
-    const auto attribute = primitive.attributes.find("NORMAL");
-    if (attribute == primitive.attributes.end()) return {};
-    const GltfElements data = data_of(attribute->second);
-    const Mat3 turn = body_from_gltf() * world.topLeftCorner<3, 3>().inverse().transpose();
-    std::vector<Vec3> list;
-    for (std::size_t i = 0; i < data.count; ++i) list.push_back(turn * vector_at(data, i));
-    return list;
-  }
-
   std::vector<std::uint32_t> corners(const tinygltf::Primitive& primitive, std::size_t vertex_count) const {
     std::vector<std::uint32_t> list;
     if (primitive.indices < 0) {
@@ -215,30 +207,42 @@ class Reader {
     builder_.begin_material(material.empty() ? Material{}.name : material);
 
     const GltfElements positions = data_of(primitive.attributes.at("POSITION"));
+    const auto list = corners(primitive, positions.count);
+    const bool apart = primitive.mode == TINYGLTF_MODE_TRIANGLES;
+    if (builder_.triangle_count() + (apart ? list.size() / 3 : list.size()) > max_triangles_) fail_size();
+
+    // Only the vertices that triangles use are placed: primitives may share one long list of positions.
+    std::vector<std::uint32_t> used = list;
+    std::ranges::sort(used);
+    used.erase(std::unique(used.begin(), used.end()), used.end());
     const auto base = static_cast<std::uint32_t>(builder_.vertices().size());
-    if (builder_.vertices().size() + positions.count > 3 * kMaxPlacedTriangles) fail_size();
-    for (std::size_t i = 0; i < positions.count; ++i) {
-      const Vec3 placed = (world * vector_at(positions, i).homogeneous()).head<3>();
+    for (const std::uint32_t v : used) {
+      const Vec3 placed = (world * vector_at(positions, v).homogeneous()).head<3>();
       builder_.vertex(body_from_gltf() * placed);
     }
+    const auto vertex = [&](std::uint32_t v) {
+      return base + static_cast<std::uint32_t>(std::ranges::lower_bound(used, v) - used.begin());
+    };
 
-    const auto list = corners(primitive, positions.count);
-    const std::vector<Vec3> normal = normals(primitive, world);
+    // Normals in the body frame, by the inverse transpose of the node's matrix.
+    std::optional<GltfElements> normals;
+    if (const auto found = primitive.attributes.find("NORMAL"); found != primitive.attributes.end())
+      normals = data_of(found->second);
     const bool has_byte_normals =
-        !normal.empty() &&
-        model_.accessors[primitive.attributes.at("NORMAL")].componentType == TINYGLTF_COMPONENT_TYPE_BYTE;
+        normals && model_.accessors[primitive.attributes.at("NORMAL")].componentType == TINYGLTF_COMPONENT_TYPE_BYTE;
+    const Mat3 turn = body_from_gltf() * world.topLeftCorner<3, 3>().inverse().transpose();
+    const auto normal = [&](std::uint32_t v) -> Vec3 { return turn * vector_at(*normals, v); };
     const auto add = [&](std::size_t i, std::size_t j, std::size_t k) {
       if (is_mirrored) std::swap(j, k);
       const std::uint32_t a = list[i], b = list[j], c = list[k];
-      if (normal.empty()) {
+      if (!normals) {
         flat_.push_back(builder_.triangle_count());
-        return builder_.triangle(base + a, base + b, base + c);
+        return builder_.triangle(vertex(a), vertex(b), vertex(c));
       }
       if (has_byte_normals) byte_normals_.push_back(builder_.triangle_count());
-      builder_.triangle(base + a, base + b, base + c, {normal[a], normal[b], normal[c]});
+      builder_.triangle(vertex(a), vertex(b), vertex(c), {normal(a), normal(b), normal(c)});
     };
-    if (builder_.triangle_count() + list.size() > kMaxPlacedTriangles) fail_size();
-    if (primitive.mode == TINYGLTF_MODE_TRIANGLES) {
+    if (apart) {
       for (std::size_t i = 0; i + 2 < list.size(); i += 3) add(i, i + 1, i + 2);
     } else if (primitive.mode == TINYGLTF_MODE_TRIANGLE_STRIP) {
       for (std::size_t i = 0; i + 2 < list.size(); ++i) add(i, i + 1 + i % 2, i + 2 - i % 2);
@@ -261,124 +265,15 @@ class Reader {
   }
 
   [[noreturn]] void fail_size() const {
-    throw InputError(fmt::format("{}: its nodes place more than {} triangles", file_, kMaxPlacedTriangles));
+    throw InputError(
+        fmt::format("{}: its nodes place more than {} triangles, the limit for its size", file_, max_triangles_));
   }
 
   const tinygltf::Model& model_;
   std::string file_;
+  std::size_t max_triangles_ = 0;
   MeshBuilder builder_;
   std::vector<std::size_t> flat_, byte_normals_;  // triangles of primitives without normals, with normals of 8 bits
-};
-
-class Writer {
- public:
-  explicit Writer(const TriangleMesh& mesh, std::span<const std::array<double, 3>> colours) {
-    model_.asset.version = "2.0";
-    model_.asset.generator = "seaglint";
-    model_.defaultScene = 0;
-    model_.scenes.emplace_back();
-    model_.buffers.emplace_back();
-    for (const Material& material : mesh.materials) {
-      model_.materials.emplace_back();
-      model_.materials.back().name = material.name;
-      // Viewers must not cull the back of a sheet.
-      model_.materials.back().doubleSided = true;
-      model_.materials.back().pbrMetallicRoughness.baseColorFactor = {0.56, 0.60, 0.63, 1.0};
-      model_.materials.back().pbrMetallicRoughness.metallicFactor = 0.2;
-      model_.materials.back().pbrMetallicRoughness.roughnessFactor = 0.8;
-      if (model_.materials.size() > colours.size()) continue;
-      const auto& [red, green, blue] = colours[model_.materials.size() - 1];
-      model_.materials.back().pbrMetallicRoughness.baseColorFactor = {red, green, blue, 1.0};
-      model_.materials.back().pbrMetallicRoughness.metallicFactor = 0;
-    }
-    const std::vector<GltfPiece> pieces = pieces_of(mesh);
-    for (std::size_t first = 0; first < pieces.size();) {
-      std::size_t end = first;
-      while (end < pieces.size() && pieces[end].part == pieces[first].part) ++end;
-      add_part(mesh.part_names[pieces[first].part], {pieces.data() + first, end - first});
-      first = end;
-    }
-  }
-
-  std::string bytes(bool binary) {
-    tinygltf::TinyGLTF writer;
-    std::ostringstream stream;
-    if (!writer.WriteGltfSceneToStream(&model_, stream, false, binary))
-      throw WorkError("tinygltf could not write the mesh");
-    return stream.str();
-  }
-
- private:
-  void add_part(const std::string& name, std::span<const GltfPiece> pieces) {
-    tinygltf::Mesh shape;
-    shape.name = name;
-    for (const GltfPiece& piece : pieces) shape.primitives.push_back(primitive(piece, piece.material));
-    tinygltf::Node node;
-    node.name = shape.name;
-    node.mesh = static_cast<int>(model_.meshes.size());
-    model_.meshes.push_back(std::move(shape));
-    model_.scenes[0].nodes.push_back(static_cast<int>(model_.nodes.size()));
-    model_.nodes.push_back(std::move(node));
-  }
-
-  tinygltf::Primitive primitive(const GltfPiece& piece, int material) {
-    const std::size_t vertex_count = piece.positions.size() / 3;
-    std::vector<std::uint16_t> narrow;
-    if (vertex_count <= 65535) narrow.assign(piece.indices.begin(), piece.indices.end());
-
-    tinygltf::Primitive p;
-    p.mode = TINYGLTF_MODE_TRIANGLES;
-    p.material = material;
-    const int positions = add_accessor(piece.positions.data(), piece.positions.size() * sizeof(float), vertex_count,
-                                       TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3, TINYGLTF_TARGET_ARRAY_BUFFER);
-    set_bounds(model_.accessors[positions], piece.positions);
-    p.attributes["POSITION"] = positions;
-    if (!piece.normals.empty()) {
-      p.attributes["NORMAL"] =
-          add_accessor(piece.normals.data(), piece.normals.size() * sizeof(float), vertex_count,
-                       TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3, TINYGLTF_TARGET_ARRAY_BUFFER);
-    }
-    p.indices = narrow.empty() ? add_accessor(piece.indices.data(), piece.indices.size() * 4, piece.indices.size(),
-                                              TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR,
-                                              TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER)
-                               : add_accessor(narrow.data(), narrow.size() * 2, narrow.size(),
-                                              TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, TINYGLTF_TYPE_SCALAR,
-                                              TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
-    return p;
-  }
-
-  // glTF 2.0, section 3.6.2.5: the bounds of positions are required.
-  static void set_bounds(tinygltf::Accessor& accessor, const std::vector<float>& positions) {
-    accessor.minValues.assign(positions.begin(), positions.begin() + 3);
-    accessor.maxValues = accessor.minValues;
-    for (std::size_t i = 0; i < positions.size(); ++i) {
-      accessor.minValues[i % 3] = std::min(accessor.minValues[i % 3], double{positions[i]});
-      accessor.maxValues[i % 3] = std::max(accessor.maxValues[i % 3], double{positions[i]});
-    }
-  }
-
-  int add_accessor(const void* data, std::size_t size, std::size_t count, int component, int type, int target) {
-    auto& buffer = model_.buffers[0].data;
-    buffer.resize((buffer.size() + 3) / 4 * 4, 0);
-    tinygltf::BufferView view;
-    view.buffer = 0;
-    view.byteOffset = buffer.size();
-    view.byteLength = size;
-    view.target = target;
-    const auto* bytes = static_cast<const unsigned char*>(data);
-    buffer.insert(buffer.end(), bytes, bytes + size);
-
-    tinygltf::Accessor accessor;
-    accessor.bufferView = static_cast<int>(model_.bufferViews.size());
-    accessor.componentType = component;
-    accessor.count = count;
-    accessor.type = type;
-    model_.bufferViews.push_back(std::move(view));
-    model_.accessors.push_back(std::move(accessor));
-    return static_cast<int>(model_.accessors.size() - 1);
-  }
-
-  tinygltf::Model model_;
 };
 
 }  // namespace
@@ -390,10 +285,6 @@ TriangleMesh read_gltf(const std::string& bytes, const fs::path& path) {
 
 std::vector<fs::path> gltf_buffer_files(const std::string& bytes, const fs::path& path) {
   return load(bytes, path).buffer_files;
-}
-
-std::string gltf_bytes(const TriangleMesh& mesh, bool binary, std::span<const std::array<double, 3>> material_colours) {
-  return Writer(mesh, material_colours).bytes(binary);
 }
 
 }  // namespace seaglint

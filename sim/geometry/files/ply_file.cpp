@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <unordered_set>
 #include <utility>
 
 #include "sim/core/process/error.h"
@@ -89,6 +90,7 @@ class PlyReader {
   void header() {
     if (next_line(rest_) != "ply") fail("is not a PLY file");
     bool has_format = false;
+    std::unordered_set<std::string_view> names;  // of elements
     while (true) {
       if (rest_.empty()) fail("the PLY header has no end_header");
       std::string_view line = next_line(rest_);
@@ -106,9 +108,7 @@ class PlyReader {
         const std::string_view name = next_word(line), count = next_word(line);
         const auto number = parse_integer(count);
         if (!number || *number < 0) fail(fmt::format("the PLY header promises \"{}\" of \"{}\"", count, name));
-        for (const Element& element : elements_) {
-          if (element.name == name) fail(fmt::format("the PLY header has \"{}\" twice", name));
-        }
+        if (!names.insert(name).second) fail(fmt::format("the PLY header has \"{}\" twice", name));
         elements_.push_back({std::string(name), static_cast<std::uint64_t>(*number), {}});
       } else if (keyword == "property") {
         if (elements_.empty()) fail("the PLY header has a property before any element");

@@ -195,18 +195,24 @@ class TreeBuilder : public YAML::EventHandler {
   std::size_t nodes_ = 0;
 };
 
-// Rejects control characters (not a text file) and encodings other than UTF-8, which JSON cannot represent.
+constexpr std::string_view kIndicators = ",:[]{}&*!\"'";
+
+// Rejects control characters (not a text file), encodings other than UTF-8, which JSON cannot represent, and more
+// indicators than yaml-cpp has memory for.
 void check_text(const std::string& text, const std::string& name) {
   const std::string_view kind = foreign_kind(text);
   if (!kind.empty()) throw InputError(fmt::format("{}: no plain text: it is {}", name, kind));
   Location location;
   const std::size_t utf8 = utf8_prefix(text);
+  std::size_t indicators = 0;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const auto c = static_cast<unsigned char>(text[i]);
     if (i == utf8) fail(name, location, fmt::format("byte 0x{:02x}: not a text in UTF-8", c));
     if ((c < 0x20 && c != '\n' && c != '\r' && c != '\t') || c == 0x7f) {
       fail(name, location, fmt::format("byte 0x{:02x}: not a text file", c));
     }
+    if (kIndicators.find(text[i]) != std::string_view::npos && ++indicators > kMaxYamlIndicators)
+      fail(name, location, fmt::format("more than {} of the characters {}", kMaxYamlIndicators, kIndicators));
     if (c == '\n') {
       ++location.line;
       location.column = 1;
@@ -219,7 +225,8 @@ void check_text(const std::string& text, const std::string& name) {
 }  // namespace
 
 YamlNode parse_yaml(const std::string& text, const std::string& name) {
-  if (text.size() > kMaxYamlBytes) throw InputError(fmt::format("{}: larger than {} bytes", name, kMaxYamlBytes));
+  if (text.size() > kMaxYamlBytes)
+    throw InputError(fmt::format("{}: has {} bytes, more than the limit of {}", name, text.size(), kMaxYamlBytes));
   check_text(text, name);
   TreeBuilder builder(name);
   try {

@@ -36,8 +36,10 @@ struct YamlEntry {
   YamlNode value;
 };
 
-// Size limits, far above those of any scenario, against hostile files.
-inline constexpr std::size_t kMaxYamlBytes = 10'000'000;
+// Size limits, far above those of any scenario, against hostile files. Indicators are the characters , : [ ] { } & * !
+// " and ' wherever they stand: yaml-cpp holds the tokens of a whole line or bracket at once, some 200 bytes each.
+inline constexpr std::size_t kMaxYamlBytes = 4'000'000;
+inline constexpr std::size_t kMaxYamlIndicators = 500'000;
 inline constexpr std::size_t kMaxYamlNodes = 300'000;
 inline constexpr int kMaxYamlDepth = 32;
 

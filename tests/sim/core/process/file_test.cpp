@@ -62,7 +62,7 @@ TEST_F(Files, ReadingErrorsNameTheCause) {
   ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
   EXPECT_THAT(reading(folder_ / "pipe"), HasSubstr("is not a regular file"));
   write_file(folder_ / "large", std::string(101, ' '));
-  EXPECT_THAT(reading(folder_ / "large"), HasSubstr("is larger than the limit of 100 bytes"));
+  EXPECT_THAT(reading(folder_ / "large"), HasSubstr("has 101 bytes, more than the limit of 100"));
   EXPECT_EQ(read_file(folder_ / "large", 101).size(), 101u);
 }
 

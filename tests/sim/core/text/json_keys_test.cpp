@@ -12,7 +12,7 @@ namespace {
 
 std::string refusal(const std::string& json) {
   try {
-    refuse_repeated_keys(json, "m.json");
+    check_json(json, "m.json", 3);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -28,6 +28,15 @@ TEST(RepeatedKeys, AreRefusedInEveryObject) {
 TEST(RepeatedKeys, AreNotThoseOfDifferentObjects) {
   EXPECT_EQ(refusal(R"({"a": {"a": 1}, "b": [{"a": 1}, {"a": 2}]})"), "accepted");
   for (const char* no_json : {"", "{", "{\"a\": 1,", "{\"a\" 1}", "]"}) EXPECT_EQ(refusal(no_json), "accepted");
+}
+
+TEST(RepeatedKeys, AreCheckedInObjectsOfLimitedSizeAndDepth) {
+  EXPECT_EQ(refusal(R"({"a": 1, "b": 2, "c": [{"d": 1}]})"), "accepted");
+  EXPECT_EQ(refusal(R"({"a": 1, "b": 2, "c": 3, "d": 4})"), "m.json: an object has more than 3 keys");
+  EXPECT_EQ(refusal(std::string(64, '[') + std::string(64, ']')), "accepted");
+  EXPECT_EQ(refusal(std::string(65, '[') + std::string(65, ']')),
+            "m.json: the JSON is nested more than 64 levels deep");
+  EXPECT_EQ(refusal(R"({"a": )" + std::string(200'000, '[')), "m.json: the JSON is nested more than 64 levels deep");
 }
 
 }  // namespace

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// Every reader of a user's file as a function of the file's bytes. It returns when the file is read or refused with an
+// InputError; anything else that is thrown is a fault, as is a result that breaks the promise of the reader's header.
+
+#include <string>
+
+namespace seaglint {
+
+// Tables (sim/core/text), and what is computed from them at once.
+void fuzz_numbers(const std::string& bytes);   // a number, an integer or a range of the command line
+void fuzz_spectrum(const std::string& bytes);  // wave spectrum
+void fuzz_hop_code(const std::string& bytes);
+void fuzz_series(const std::string& bytes);  // motion: own, DualSPHysics, OpenFAST
+void fuzz_sections(const std::string& bytes);
+void fuzz_veres(const std::string& bytes);
+void fuzz_wamit(const std::string& bytes);
+
+// Radar cross sections.
+void fuzz_rcs_cut(const std::string& bytes);  // four columns, own table
+void fuzz_cst(const std::string& bytes);      // with a frequency, as CST tables need it
+
+// Scenarios.
+void fuzz_yaml(const std::string& bytes);      // the tree alone
+void fuzz_override(const std::string& bytes);  // KEY=VALUE of --set
+void fuzz_material(const std::string& bytes);
+void fuzz_scenario(const std::string& bytes);  // with plan and effective values
+
+// Meshes, with their diagnosis and repair.
+void fuzz_obj(const std::string& bytes);
+void fuzz_stl(const std::string& bytes);
+void fuzz_ply(const std::string& bytes);
+void fuzz_gltf(const std::string& bytes);
+void fuzz_glb(const std::string& bytes);
+
+// Data sets.
+void fuzz_manifest(const std::string& bytes);
+void fuzz_shard(const std::string& bytes);
+void fuzz_npz(const std::string& bytes);
+void fuzz_inputs(const std::string& bytes);      // inputs.sha256
+void fuzz_embeddings(const std::string& bytes);  // embeddings.csv
+
+}  // namespace seaglint

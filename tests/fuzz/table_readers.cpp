@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "sim/core/text/number.h"
+#include "sim/motion/recorded/attitude_series.h"
+#include "sim/motion/ship/rao_files.h"
+#include "sim/motion/strip_theory/hull_sections.h"
+#include "sim/scenario/files/hop_code_file.h"
+#include "sim/scenario/files/spectrum_table.h"
+#include "tests/fuzz/readers.h"
+#include "tests/fuzz/refusal.h"
+
+namespace seaglint {
+namespace {
+
+bool ascends(const std::vector<double>& values) {
+  return std::adjacent_find(values.begin(), values.end(), [](double a, double b) { return !(a < b); }) == values.end();
+}
+
+bool is_finite(const MotionRao& rao) {
+  return std::isfinite(std::abs(rao.surge + rao.sway + rao.heave + rao.roll + rao.pitch + rao.yaw));
+}
+
+}  // namespace
+
+void fuzz_numbers(const std::string& bytes) {
+  parse_number(bytes);
+  parse_any_number(bytes);
+  parse_written_number(bytes);
+  parse_integer(bytes);
+  parse_natural(bytes);
+  is_refused([&] {
+    const std::vector<double> range = parse_range(bytes, 10000);
+    SEAGLINT_CHECK(range.size() <= 10000, bytes);
+  });
+}
+
+void fuzz_spectrum(const std::string& bytes) {
+  is_refused([&] {
+    const SpectrumTable table = parse_spectrum_table(bytes, "spectrum.csv");
+    SEAGLINT_CHECK(ascends(table.omega) && table.omega.size() == table.density.size(), "no spectrum");
+    table.energy();
+    table.peak_omega();
+  });
+}
+
+void fuzz_hop_code(const std::string& bytes) {
+  is_refused([&] {
+    constexpr int kCarriers = 16;
+    for (const int carrier : parse_hop_code(bytes, "code.txt", 4, kCarriers))
+      SEAGLINT_CHECK(carrier >= 0 && carrier < kCarriers, "a carrier that is none");
+  });
+}
+
+void fuzz_series(const std::string& bytes) {
+  is_refused([&] {
+    const AttitudeSeries series = read_attitude_series(file_of(bytes, "series.csv"));
+    SEAGLINT_CHECK(ascends(series.time) && series.time.size() == series.samples.size(), "no series");
+    const double duration = series.time.back() - series.time.front();
+    trajectory_of(series, series.time.front(), duration, true, Vec3::Zero(), Vec3::Zero());
+  });
+}
+
+void fuzz_sections(const std::string& bytes) {
+  is_refused([&] {
+    constexpr int kCount = 20;
+    const HullSections hull = read_sections(file_of(bytes, "sections.csv"), kCount);
+    SEAGLINT_CHECK(hull.sections.size() == kCount, "another number of sections");
+  });
+}
+
+void fuzz_veres(const std::string& bytes) {
+  is_refused([&] {
+    const RaoTable table = read_veres_rao(file_of(bytes, "rao.re1"), 10);
+    SEAGLINT_CHECK(ascends(table.headings()) && ascends(table.omegas()), "no grid");
+    is_refused([&] { SEAGLINT_CHECK(is_finite(table.at(table.omegas()[0], 0.1, table.headings()[0])), "NaN"); });
+  });
+}
+
+void fuzz_wamit(const std::string& bytes) {
+  is_refused([&] {
+    const RaoTable table = read_wamit_rao(file_of(bytes, "rao.4"), 1);
+    SEAGLINT_CHECK(ascends(table.headings()) && ascends(table.omegas()), "no grid");
+    is_refused([&] { SEAGLINT_CHECK(is_finite(table.at(table.omegas()[0], 0.1, table.headings()[0])), "NaN"); });
+  });
+}
+
+}  // namespace seaglint
