@@ -104,6 +104,27 @@ TEST(InjectedFaults, OfTheNamesOfTemporaryFilesLeaveNone) {
   }
 }
 
+// gnuplot checks neither its writes nor whether it could open its data: it has no file in the folder.
+TEST(InjectedFaults, DoNotReachGnuplot) {
+  JobFolder folder;
+  const Job& run = jobs().back();
+  folder.undisturbed(run);
+  folder.begin(run);
+  const MappedCounts counts(folder.beside("counts"));
+  const Fault first_write{&run, FaultKind::kWrite, 1, ENOSPC};
+  const std::filesystem::path bin = folder.beside("bin");
+  std::filesystem::create_directory(bin);
+  write_file(bin / "gnuplot", fmt::format("#!/bin/sh\nexec {} /usr/bin/gnuplot \"$@\"\n",
+                                          fmt::join(counts.launcher(folder, &first_write), " ")));
+  std::filesystem::permissions(bin / "gnuplot", std::filesystem::perms::owner_all);
+  const ProgramResult result =
+      run_words(folder.words(run, {"/usr/bin/env", "PATH=" + bin.string() + ":/usr/bin:/bin"}));
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_EQ(folder.differences(run, true), Words{});
+  for (const FaultKind kind : {FaultKind::kOpen, FaultKind::kRead, FaultKind::kWrite})
+    EXPECT_EQ(counts->calls[static_cast<std::size_t>(kind)].load(), 0u);
+}
+
 TEST(InjectedFaults, LoseNothing) { expect_nothing_lost(environment_number("SEAGLINT_FAULTS", 50), false); }
 
 TEST(InjectedFaults, ThatAreKillsLoseNothing) { expect_nothing_lost(environment_number("SEAGLINT_KILLS", 5), true); }
