@@ -26,5 +26,22 @@ TEST(MemoryLimit, OfTheAddressSpaceEndsARunWithOneLine) {
   EXPECT_GT(refused, 0);
 }
 
+// Constructors of libraries' static objects need memory before the program begins.
+TEST(MemoryLimit, BelowWhatLibrariesNeedToBeginEndsWithOneLine) {
+  int refused = 0;
+  for (int limit = 530; limit <= 630; limit += 5) {
+    const ProgramResult result =
+        run_words({"/bin/bash", "-c", "ulimit -v " + std::to_string(limit * 1024) + "; exec \"$@\"", "limited",
+                   kProgram, "--version"});
+    // 127: the system cannot load the libraries.
+    EXPECT_THAT(result.code, testing::AnyOf(0, 1, 127)) << limit << " MB: " << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), result.code == 0 ? 0 : 1) << result.err;
+    if (result.code != 1) continue;
+    EXPECT_EQ(result.err, "seaglint: out of memory\n") << limit << " MB";
+    ++refused;
+  }
+  EXPECT_GT(refused, 0);
+}
+
 }  // namespace
 }  // namespace seaglint

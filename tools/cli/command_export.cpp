@@ -7,6 +7,7 @@
 #include "sim/core/process/file.h"
 #include "sim/core/process/progress.h"
 #include "sim/core/process/standard_output.h"
+#include "sim/core/process/temporary_file.h"
 #include "tools/cli/arguments.h"
 #include "tools/cli/command.h"
 #include "tools/pipeline/warnings.h"
@@ -22,6 +23,7 @@ void export_dataset(const std::string& directory, const fs::path& output, const 
   warn(data_set_warnings(reader));
   if (output.extension() == ".npz") {
     export_shards(reader, 0, reader.shards(), output, &stop);
+    remove_leftovers(output.parent_path(), output.filename().native());
     print_out("{}: {} samples\n", output.string(), reader.size());
     return;
   }
@@ -33,6 +35,7 @@ void export_dataset(const std::string& directory, const fs::path& output, const 
     export_shards(reader, i, 1, output / name, &stop);
     progress.advance();
   }
+  remove_leftovers(output);
   print_out("{}: {} samples in {} files\n", output.string(), reader.size(), reader.shards());
 }
 

@@ -9,7 +9,6 @@
 #include <cstring>
 #include <exception>
 #include <filesystem>
-#include <iostream>
 #include <new>
 #include <string>
 
@@ -17,6 +16,7 @@
 #include "sim/core/process/error.h"
 #include "sim/core/process/printable.h"
 #include "sim/core/process/standard_error.h"
+#include "sim/core/process/standard_output.h"
 #include "tools/cli/command.h"
 
 namespace seaglint {
@@ -69,8 +69,7 @@ int fail(int code, const std::string& message) {
 
 // 0, or 1 if a write to standard output failed.
 int end_output() {
-  std::cout.flush();
-  if (std::cout && std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return 0;
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return 0;
   return fail(1, fmt::format("standard output: cannot write: {}", std::strerror(errno)));
 }
 
@@ -102,7 +101,7 @@ int parse_and_run(int argc, char** argv) {
   const ParsedCommandLine parsed = program.parse(argc, argv);
   if (parsed.error) return fail(2, *parsed.error);
   if (parsed.information) {
-    std::cout << *parsed.information;
+    print_text(*parsed.information);
     return end_output();
   }
   survive_file_size_limit();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Defers Ctrl-C while temporary files exist, until they are removed.
+// Defers Ctrl-C while a child process or temporary files exist, until they have ended or are removed.
 
 namespace seaglint {
 

@@ -21,6 +21,7 @@
 
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
+#include "sim/core/process/memory_file.h"
 #include "tools/figure/deferred_signals.h"
 
 extern char** environ;
@@ -50,34 +51,6 @@ std::string quoted(const std::string& text) {
 
 std::string number(double value) { return std::isfinite(value) ? fmt::format("{:.9g}", value) : "NaN"; }
 
-// The path as gnuplot takes it for a file: a name that begins with | or < is a command to it, one with ~ a home.
-fs::path as_file(const fs::path& path) { return path.is_absolute() ? path : "." / path; }
-
-// A temporary folder beside the figure for script, data and messages, removed by the destructor.
-class Scratch {
- public:
-  explicit Scratch(const fs::path& figure) {
-    std::string name = as_file(figure).string() + ".XXXXXX";
-    if (::mkdtemp(name.data()) == nullptr)
-      throw WorkError(fmt::format("{}: cannot write: {}", figure.string(), std::strerror(errno)));
-    folder_ = name;
-    script = folder_ / "script.gp";
-    data = folder_ / "data.dat";
-    messages = folder_ / "messages.log";
-  }
-  ~Scratch() {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-  }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-
-  fs::path script, data, messages;
-
- private:
-  fs::path folder_;
-};
-
 WorkError cannot_start(int error) {
   return WorkError(
       fmt::format("gnuplot cannot be started ({}): install the package gnuplot-nox", std::strerror(error)));
@@ -96,38 +69,41 @@ int wait_for(pid_t child) {
   }
 }
 
-// Runs gnuplot on a script, with its messages written to a file. Throws WorkError, Interrupted after Ctrl-C.
-void run_gnuplot(const Scratch& scratch) {
+constexpr int kData = 3;  // the descriptor by which gnuplot reads the data
+
+// The figure that gnuplot draws. Script, data and figure are in memory: gnuplot neither checks its writes, so that a
+// figure on a full disk has gaps, nor ends with an error when data cannot be read. Throws WorkError, Interrupted after
+// Ctrl-C.
+std::string run_gnuplot(const std::string& script, const std::string& data) {
+  const MemoryFile commands(script), numbers(data), figure, messages;
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, scratch.messages.c_str(), O_WRONLY | O_CREAT | O_EXCL,
-                                   0600);
-  posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
-  std::string program = "gnuplot", option = "-d",
-              script = scratch.script.string();  // -d: no start-up files of the user
-  char* const arguments[] = {program.data(), option.data(), script.data(), nullptr};
+  // The standard streams first: the files in memory have other numbers, kData perhaps among them.
+  posix_spawn_file_actions_adddup2(&actions, commands.descriptor(), STDIN_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, figure.descriptor(), STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, messages.descriptor(), STDERR_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, numbers.descriptor(), kData);
+  std::string program = "gnuplot", option = "-d", input = "/dev/stdin";  // -d: no start-up files of the user
+  char* const arguments[] = {program.data(), option.data(), input.data(), nullptr};
   pid_t child = 0;
   const int refused = ::posix_spawnp(&child, "gnuplot", &actions, nullptr, arguments, environ);
   posix_spawn_file_actions_destroy(&actions);
   if (refused != 0) throw cannot_start(refused);
   const int status = wait_for(child);
   if (DeferredSignals::pending()) throw Interrupted();
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
-  std::string messages = fs::exists(scratch.messages) ? read_file(scratch.messages) : std::string();
-  messages.erase(0, messages.find_first_not_of(" \n"));
-  std::replace(messages.begin(), messages.end(), '\n', ' ');
-  throw WorkError(fmt::format("gnuplot failed: {}", messages.substr(0, 500)));
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return figure.content();
+  std::string text = messages.content();
+  text.erase(0, text.find_first_not_of(" \n"));
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  throw WorkError(fmt::format("gnuplot failed: {}", text.substr(0, 500)));
 }
 
-// Checks the end mark of the figure's format, because gnuplot does not check its writes: a full disk truncates the
-// figure. Throws WorkError.
-void require_whole(const fs::path& drawn, const fs::path& file) {
-  const std::string bytes = read_file(drawn);
+// Throws WorkError without the end mark of the figure's format.
+void require_whole(const std::string& figure, const fs::path& file) {
   const std::string_view end = file.extension() == ".png" ? "IEND\xae\x42\x60\x82" : "</svg>";
-  const std::size_t last = bytes.find_last_not_of(" \r\n");
-  if (last == std::string::npos || !std::string_view(bytes).substr(0, last + 1).ends_with(end))
-    throw WorkError(fmt::format("{}: gnuplot did not write it to its end: is the disk full?", file.string()));
+  const std::size_t last = figure.find_last_not_of(" \r\n");
+  if (last == std::string::npos || !std::string_view(figure).substr(0, last + 1).ends_with(end))
+    throw WorkError(fmt::format("{}: gnuplot did not write it to its end: is there memory for it?", file.string()));
 }
 
 std::string axis_commands(const char* name, const FigureAxis& axis) {
@@ -138,29 +114,23 @@ std::string axis_commands(const char* name, const FigureAxis& axis) {
   return text;
 }
 
-// Writes data and script, runs gnuplot into a temporary file, and renames it to the figure's name.
+// Runs gnuplot and writes the figure.
 void draw(const fs::path& file, FigureSize size, const std::string& title, const std::string& data,
           const std::string& commands) {
   require_figure(file);
   const std::string extension = file.extension();
-  const DeferredSignals held;  // released when all files are removed
-  const Scratch scratch(file);
-  write_file(scratch.data, data);
-  write_file_with(file, [&](const fs::path& temporary) {
-    std::string script =
-        fmt::format("set terminal {} size {},{} font 'DejaVu Sans,11' noenhanced background '#ffffff'\n",
-                    extension == ".png" ? "pngcairo" : "svg", size.width, size.height);
-    script += fmt::format("set output {}\n", quoted(as_file(temporary).string()));
-    script +=
-        "set encoding utf8\nset datafile missing '?'\nset pointintervalbox 0\nset tics out nomirror\nset border lw "
-        "0.8\n";
-    script += fmt::format("data = {}\n", quoted(scratch.data.string()));
-    if (!title.empty()) script += fmt::format("set title {}\n", quoted(title));
-    script += commands + "set output\n";
-    write_file(scratch.script, script);
-    run_gnuplot(scratch);
-    require_whole(temporary, file);
-  });
+  const DeferredSignals held;  // released when the file is complete
+  std::string script = fmt::format("set terminal {} size {},{} font 'DejaVu Sans,11' noenhanced background '#ffffff'\n",
+                                   extension == ".png" ? "pngcairo" : "svg", size.width, size.height);
+  script +=
+      "set encoding utf8\nset datafile missing '?'\nset pointintervalbox 0\nset tics out nomirror\nset border lw "
+      "0.8\n";
+  script += fmt::format("data = '/proc/self/fd/{}'\n", kData);
+  if (!title.empty()) script += fmt::format("set title {}\n", quoted(title));
+  script += commands + "set output\n";
+  const std::string figure = run_gnuplot(script, data);
+  require_whole(figure, file);
+  write_file(file, figure);
 }
 
 }  // namespace

@@ -65,9 +65,9 @@ void require_gnuplot();
 void require_figure(const std::filesystem::path& file);
 
 // Writes the figure completely or not at all. Text is literal (no markup), and every name is that of a file: none is a
-// pipe to gnuplot. A temporary folder in the figure's directory is removed. Throws InputError for a file that is
-// neither .png nor .svg, WorkError when gnuplot is missing or fails (with its message) or the file cannot be written.
-// Ctrl-C ends gnuplot and takes effect after these files are removed; if the process continues, Interrupted is thrown.
+// pipe to gnuplot, which draws in memory. Throws InputError for a file that is neither .png nor .svg, WorkError when
+// gnuplot is missing or fails (with its message) or the file cannot be written. Ctrl-C ends gnuplot and takes effect
+// after it; if the process continues, Interrupted is thrown.
 void write_figure(const Heatmap& figure, const std::filesystem::path& file, FigureSize size = {});
 void write_figure(const LinePlot& figure, const std::filesystem::path& file, FigureSize size = {});
 

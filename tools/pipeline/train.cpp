@@ -13,6 +13,7 @@
 #include "seaglint_version.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
+#include "sim/core/process/temporary_file.h"
 #include "sim/core/text/number.h"
 #include "sim/core/text/text_rows.h"
 #include "sim/core/text/text_table.h"
@@ -102,6 +103,7 @@ TrainedModel train_model(const DatasetReader& data, const Scenario& scenario, co
   save_models(model.study, table, model_directory);
   write_file(model_directory / kEmbeddingsFile, embeddings_csv(table, model.study.embeddings));
   write_file(mark, model.metrics.dump(2) + "\n");
+  remove_leftovers(model_directory);
   return model;
 }
 

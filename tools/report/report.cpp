@@ -9,6 +9,7 @@
 
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
+#include "sim/core/process/temporary_file.h"
 #include "sim/core/text/json_keys.h"
 #include "sim/core/text/json_problem.h"
 #include "sim/scenario/writer.h"
@@ -171,6 +172,7 @@ double draw_and_write(const fs::path& directory, const Scenario& scenario, const
   }
   write_file(directory / kMetricsFile, metrics.dump(2) + "\n");
   write_file(directory / kReportFile, html);
+  remove_leftovers(directory);
   return seconds;
 }
 

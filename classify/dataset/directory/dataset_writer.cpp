@@ -220,7 +220,10 @@ bool DatasetWriter::complete(std::size_t shard) {
     if (!record_mismatches(content.samples[i].record, planned).empty()) return false;
   }
   if (axes_ && *axes_ != content.axes) return false;
-  if (shard < earlier_.shards.size() && earlier_.shards[shard].sha256 != loaded.sha256) return false;
+  const bool is_recorded = shard < earlier_.shards.size();
+  if (is_recorded ? earlier_.shards[shard].sha256 != loaded.sha256
+                  : !is_as_written(loaded, content, scenario_.features.max_centres))
+    return false;
   axes_ = content.axes;
   known_[shard] = {true, content.origin.processor, loaded.sha256};
   return true;

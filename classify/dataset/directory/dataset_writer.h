@@ -36,8 +36,8 @@ class DatasetWriter {
                 std::string program_version);
 
   // True when the shard exists and is valid: it is readable, its rows match the scenario, and its checksum the
-  // manifest's if there is one. Throws InputError when it is valid but of another program version: versions must not be
-  // mixed in a data set.
+  // manifest's or, if there is none, every byte what is written for its content. Throws InputError when it is valid but
+  // of another program version: versions must not be mixed in a data set.
   bool complete(std::size_t shard);
 
   // Writes a shard, with this program and processor as its provenance; from any thread. Throws WorkError when the file

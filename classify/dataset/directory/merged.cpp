@@ -13,6 +13,7 @@
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/core/process/progress.h"
+#include "sim/core/process/temporary_file.h"
 
 namespace seaglint {
 
@@ -179,6 +180,7 @@ Merged merge_dataset(const fs::path& directory, const fs::path& file, const std:
       throw WorkError(fmt::format("{}: {}", file.string(), error.what()));
     }
   });
+  remove_leftovers(file.parent_path(), file.filename().native());
   result.shards = reader.shards();
   result.samples = reader.size();
   return result;

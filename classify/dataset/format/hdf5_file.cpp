@@ -6,12 +6,12 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cstring>
 #include <limits>
 #include <map>
 #include <new>
 #include <utility>
 
+#include "classify/dataset/format/claimed_extent.h"
 #include "classify/dataset/format/hdf5_text.h"
 #include "sim/core/process/error.h"
 
@@ -110,37 +110,41 @@ void write_attribute(hid_t object, const std::string& name, const std::string& t
 }
 
 // Errors are reported by exceptions; HDF5 would print its error stack on stderr. Files are closed by their owners; at
-// exit HDF5 would otherwise repeat writes that failed on a full disk, and crash. No filter that a file names is loaded
-// as a library.
-Handle file_access() {
+// exit HDF5 would otherwise repeat writes that failed on a full disk, and crash. No filter of a file is loaded.
+Handle file_access(bool in_memory) {
   H5dont_atexit();
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   H5PLset_loading_state(0);
   Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "file access");
   require(H5Pset_file_locking(access, false, true), "file locking");
+  constexpr std::size_t kStep = std::size_t{1} << 20;  // bytes by which a file in memory grows
+  if (in_memory) require(H5Pset_fapl_core(access, kStep, false), "file in memory");
   return access;
 }
 
-Handle create_file(const std::filesystem::path& file, Hdf5Version version) {
-  const Handle access = file_access();
+// A name for a file in memory: HDF5 takes two open ones for one if they have one name.
+std::string image_name() {
+  static std::atomic<unsigned> images{0};
+  return fmt::format("image {}", images++);
+}
+
+// In memory without a file.
+Handle create_file(const std::filesystem::path* file, Hdf5Version version) {
+  const Handle access = file_access(file == nullptr);
   const H5F_libver_t bound = version == Hdf5Version::k18 ? H5F_LIBVER_V18 : H5F_LIBVER_V110;
   require(H5Pset_libver_bounds(access, bound, bound), "file format");
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "file creation");
   require(H5Pset_obj_track_times(creation, false), "file creation");
-  return Handle(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, creation, access), H5Fclose, "cannot create");
+  const std::string name = file ? file->string() : image_name();
+  return Handle(H5Fcreate(name.c_str(), H5F_ACC_TRUNC, creation, access), H5Fclose, "cannot create");
 }
 
 // The image, which HDF5 copies, or without one the file.
 Handle open_file(const std::filesystem::path& file, const Hdf5Image* image) {
-  const Handle access = file_access();
-  if (image) {
-    constexpr std::size_t kStep = std::size_t{1} << 20;  // bytes by which the file would grow
-    require(H5Pset_fapl_core(access, kStep, false), "file in memory");
+  const Handle access = file_access(image != nullptr);
+  if (image)
     require(H5Pset_file_image(access, const_cast<char*>(image->bytes.data()), image->bytes.size()), "file in memory");
-  }
-  // HDF5 takes two open files in memory for one if they have one name.
-  static std::atomic<unsigned> images{0};
-  const std::string name = image ? fmt::format("image {}", images++) : file.string();
+  const std::string name = image ? image_name() : file.string();
   return Handle(H5Fopen(name.c_str(), H5F_ACC_RDONLY, access), H5Fclose,
                 "not a whole HDF5 file (truncated or damaged)");
 }
@@ -159,10 +163,17 @@ void set_missing_value(hid_t properties, ArrayType element, const std::string& w
 struct Hdf5Writer::Open {
   Handle file;
   std::map<std::string, Handle> arrays;  // by path; closed before the file
+
+  void close_arrays() {
+    for (auto& [path, set] : arrays) set.close(fmt::format("cannot write {}", path));
+    arrays.clear();
+  }
 };
 
 Hdf5Writer::Hdf5Writer(const std::filesystem::path& file, Hdf5Version version)
-    : open_(new Open{create_file(file, version), {}}) {}
+    : open_(new Open{create_file(&file, version), {}}) {}
+
+Hdf5Writer::Hdf5Writer(Hdf5Version version) : open_(new Open{create_file(nullptr, version), {}}) {}
 
 Hdf5Writer::~Hdf5Writer() = default;
 
@@ -230,9 +241,18 @@ void Hdf5Writer::write_bytes(const std::string& path, ArrayType element, std::ui
 }
 
 void Hdf5Writer::close() {
-  for (auto& [path, set] : open_->arrays) set.close(fmt::format("cannot write {}", path));
-  open_->arrays.clear();
+  open_->close_arrays();
   open_->file.close("closing failed");
+}
+
+Hdf5Image Hdf5Writer::image() {
+  open_->close_arrays();
+  require(H5Fflush(open_->file, H5F_SCOPE_GLOBAL), "file in memory");
+  const ssize_t size = H5Fget_file_image(open_->file, nullptr, 0);
+  Hdf5Image image{std::string(size > 0 ? static_cast<std::size_t>(size) : 0, '\0')};
+  if (size < 0 || H5Fget_file_image(open_->file, image.bytes.data(), image.bytes.size()) != size)
+    fail("file in memory");
+  return image;
 }
 
 struct Hdf5Reader::Open {
@@ -278,20 +298,14 @@ struct Hdf5Reader::Open {
     const auto claimed = static_cast<double>(H5Dget_storage_size(set));
     hsize_t bytes = 0;
     require(H5Fget_filesize(file, &bytes), what);
-    if (claimed < needed) throw WorkError(fmt::format("{} is incomplete", path));
-    if (claimed > needed || needed > static_cast<double>(bytes))
-      throw WorkError(fmt::format("{} claims more bytes than it has", path));
+    require_chunk_bytes(path, claimed, needed, static_cast<double>(bytes));
   }
 };
 
 Hdf5Reader::Hdf5Reader(const std::filesystem::path& file) : open_(new Open{open_file(file, nullptr), true, {}}) {}
 
-// Superblock of version 2 or 3 (HDF5 File Format Specification 3.0, section II.A): signature, version in byte 8,
-// address of the end of the file in bytes 28 to 35.
 Hdf5Reader::Hdf5Reader(const Hdf5Image& image) : open_(new Open{open_file({}, &image), false, {}}) {
-  std::uint64_t end = 0;
-  const bool known = image.bytes.size() >= 48 && image.bytes.starts_with("\x89HDF") && image.bytes[8] >= 2;
-  if (known) std::memcpy(&end, image.bytes.data() + 28, sizeof end);
+  const std::uint64_t end = end_of_file(image).value_or(0);
   if (end != image.bytes.size())
     throw WorkError(fmt::format("{} bytes for a file of {}: appended to or damaged", image.bytes.size(), end));
 }
@@ -354,20 +368,13 @@ void Hdf5Reader::require_type(const std::string& path, ArrayType element) const 
 
 std::size_t Hdf5Reader::checked_count(const std::string& path, ArrayType element, std::size_t rank) const {
   require_type(path, element);
-  const Dimensions extent = size(path);
-  if (extent.size() != rank) throw WorkError(fmt::format("{} has not {} dimensions", path, rank));
-  constexpr double kMaxBytes = 1e15;  // reached only by a virtual array, whose extent nothing else limits
-  if (chunked_bytes(extent, extent, element_bytes(element), 0) > kMaxBytes)
-    throw WorkError(fmt::format("{} claims more bytes than it has", path));
-  return element_count(extent);
+  return claimed_count(path, size(path), element, rank);
 }
 
 void Hdf5Reader::checked_rows(const std::string& path, ArrayType element, std::uint64_t first,
                               std::uint64_t count) const {
   require_type(path, element);
-  const Dimensions extent = size(path);
-  if (extent.size() != 1 || first > extent[0] || count > extent[0] - first)
-    throw WorkError(fmt::format("{} has no rows {} to {}", path, first, first + count));
+  require_rows(path, size(path), first, count);
 }
 
 void Hdf5Reader::read_bytes(const std::string& path, ArrayType element, std::uint64_t first, std::uint64_t count,

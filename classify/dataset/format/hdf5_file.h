@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "classify/dataset/format/array_type.h"
+#include "classify/dataset/format/hdf5_image.h"
 
 namespace seaglint {
 
@@ -36,15 +37,11 @@ struct VirtualSource {
 
 enum class Hdf5Version { k18, k110 };  // oldest library that reads the file; virtual arrays need 1.10
 
-// A complete HDF5 file in memory.
-struct Hdf5Image {
-  std::string bytes;
-};
-
 // Writes an HDF5 file. Every call throws WorkError naming what could not be written and the system's reason.
 class Hdf5Writer {
  public:
   Hdf5Writer(const std::filesystem::path& file, Hdf5Version version);
+  explicit Hdf5Writer(Hdf5Version version);  // in memory
   ~Hdf5Writer();
   Hdf5Writer(const Hdf5Writer&) = delete;
   Hdf5Writer& operator=(const Hdf5Writer&) = delete;
@@ -69,6 +66,9 @@ class Hdf5Writer {
   }
 
   void close();  // must be called: reports late write errors
+
+  // The file in memory; nothing may be written afterwards.
+  Hdf5Image image();
 
  private:
   void write_bytes(const std::string& path, ArrayType element, std::uint64_t first, const void* values,

@@ -66,8 +66,9 @@ void write_columns(Hdf5Writer& file, const std::vector<Sample>& samples) {
   }
 }
 
-void write_content(const std::filesystem::path& path, const Shard& shard, int max_centres) {
-  Hdf5Writer file(path, Hdf5Version::k18);
+constexpr Hdf5Version kVersion = Hdf5Version::k18;
+
+void write_content(Hdf5Writer& file, const Shard& shard, int max_centres) {
   file.attribute("format", kFormat);
   file.attribute("program_version", shard.origin.program_version);
   file.attribute("processor", shard.origin.processor);
@@ -100,7 +101,6 @@ void write_content(const std::filesystem::path& path, const Shard& shard, int ma
   write_values(file, kCentres, {n, centres, 3}, {1, centres, 3}, centre_table);
   file.group("/samples");
   write_columns(file, shard.samples);
-  file.close();
 }
 
 void expect(bool condition, const std::string& what) {
@@ -187,7 +187,9 @@ std::string write_shard(const std::filesystem::path& file, const Shard& shard, i
   std::string written;
   write_file_with(file, [&](const std::filesystem::path& temporary) {
     try {
-      write_content(temporary, shard, max_centres);
+      Hdf5Writer content(temporary, kVersion);
+      write_content(content, shard, max_centres);
+      content.close();
       written = sha256_file(temporary);
     } catch (const WorkError& error) {
       throw WorkError(fmt::format("{}: {}", file.string(), error.what()));
@@ -212,5 +214,11 @@ Shard read_shard(const ShardFile& file) {
 }
 
 Shard read_shard(const std::filesystem::path& file) { return read_shard(load_shard(file)); }
+
+bool is_as_written(const ShardFile& file, const Shard& content, int max_centres) {
+  Hdf5Writer again(kVersion);
+  write_content(again, content, max_centres);
+  return has_bytes_of(file.image, again.image());
+}
 
 }  // namespace seaglint

@@ -69,4 +69,8 @@ ShardFile load_shard(const std::filesystem::path& file);
 Shard read_shard(const ShardFile& file);
 Shard read_shard(const std::filesystem::path& file);
 
+// True if the file has, byte for byte, what write_shard() writes for its content: the only test of bytes without
+// meaning (padding, freed space) where no checksum is recorded.
+bool is_as_written(const ShardFile& file, const Shard& content, int max_centres);
+
 }  // namespace seaglint

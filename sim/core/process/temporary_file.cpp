@@ -14,6 +14,7 @@
 #include <cstring>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "sim/core/process/error.h"
 
@@ -89,6 +90,7 @@ TemporaryFile::TemporaryFile(fs::path target) : target_(std::move(target)) {
     if (descriptor_ < 0) fail();
     // Between creation and lock, another process may have taken the file for a leftover.
     if (lock(descriptor_, F_WRLCK) != Lock::kRefused && is_open_file(path_, descriptor_)) return;
+    ::unlink(path_.c_str());  // if it is still there, nothing but the name could not be looked up
     ::close(std::exchange(descriptor_, -1));
   }
   errno = EBUSY;
@@ -145,6 +147,17 @@ void remove_leftover(const fs::path& file) {
     std::error_code ignored;
     fs::remove(file, ignored);
   });
+}
+
+void remove_leftovers(const fs::path& folder, std::string_view target) {
+  std::vector<fs::path> found;
+  std::error_code ended;
+  for (fs::directory_iterator it(folder.empty() ? "." : folder, ended), end; !ended && it != end; it.increment(ended)) {
+    const std::string name = it->path().filename();
+    const std::string_view of = target_of_temporary(name);
+    if (!of.empty() && (target.empty() || of == target)) found.push_back(it->path());
+  }
+  for (const fs::path& file : found) remove_leftover(file);
 }
 
 }  // namespace seaglint

@@ -45,4 +45,7 @@ bool is_leftover(const std::filesystem::path& file);
 // Removes the file if it is a leftover; a file that cannot be removed remains.
 void remove_leftover(const std::filesystem::path& file);
 
+// Removes the leftovers in a folder, with a name those of this target alone; what cannot be read or removed remains.
+void remove_leftovers(const std::filesystem::path& folder, std::string_view target = {});
+
 }  // namespace seaglint

@@ -101,7 +101,24 @@ TEST_F(DataSetDirectory, WithAChangedShardIsRefusedWithTheFilesName) {
   EXPECT_THAT(error_of([&] { DatasetReader reader(directory_); }), HasSubstr("shard_00001.h5: missing"));
 }
 
-// Before there is a manifest, a shard is verified by its own checksums only.
+// No checksum of HDF5 covers the space between the arrays.
+TEST_F(DataSetDirectory, RegeneratesAShardWithChangedPaddingWithoutAManifest) {
+  make_complete();
+  fs::remove(directory_ / kManifestFile);
+  const fs::path file = directory_ / shard_name(1);
+  std::string bytes = read_file(file);
+  const std::size_t padding = bytes.find(std::string(500, '\0'));
+  ASSERT_NE(padding, std::string::npos);
+  bytes[padding + 250] = 7;
+  write_file(file, bytes);
+  EXPECT_EQ(read_shard(file).samples.size(), plan_.shard(1).count) << "a byte of the content was changed";
+  DatasetWriter writer(directory_, scenario_, true, kTestVersion);
+  EXPECT_TRUE(writer.complete(0));
+  EXPECT_FALSE(writer.complete(1));
+  EXPECT_TRUE(writer.complete(2));
+}
+
+// Before there is a manifest, a shard is verified by its content.
 TEST_F(DataSetDirectory, IsIncompleteWithADamagedOrForeignShard) {
   DatasetWriter writer(directory_, scenario_, false, kTestVersion);
   for (std::size_t i = 0; i < plan_.shards(); ++i) writer.put(i, shard_of(i));
@@ -320,6 +337,8 @@ TEST_F(DataSetDirectory, WithABrokenManifestIsRefused) {
   EXPECT_THAT(refused(good.substr(0, good.size() / 2)), HasSubstr("manifest.json"));
   EXPECT_THAT(refused("[]"), HasSubstr("manifest.json"));
   EXPECT_THAT(refused("{\"format\": \"other\"}"), HasSubstr("format"));
+  EXPECT_THAT(refused("{\"samples\": 9, " + good.substr(1)),
+              HasSubstr("manifest.json: the key 'samples' appears twice in an object"));
   std::string outside = good;
   outside.replace(outside.find("shard_00000.h5"), 14, "../secret.h5");
   EXPECT_THAT(refused(outside), HasSubstr("is not the name of a file beside it"));

@@ -87,6 +87,22 @@ TEST_F(TemporaryFiles, AreLeftoversWhenTheirProcessHasEnded) {
   EXPECT_TRUE(fs::exists(live.path()));
 }
 
+TEST_F(TemporaryFiles, LeftInAFolderAreRemovedByTheirTargetsName) {
+  const TemporaryFile live(target_);
+  const fs::path left = left_by_an_ended_process();
+  ASSERT_NE(left, fs::path());
+  write_file(folder_ / "y.h5", "of the user");
+  remove_leftovers(folder_, "y.h5");
+  EXPECT_TRUE(fs::exists(left));
+  remove_leftovers(folder_, "x.h5");
+  EXPECT_FALSE(fs::exists(left));
+  const fs::path again = left_by_an_ended_process();
+  remove_leftovers(folder_);
+  EXPECT_FALSE(fs::exists(again));
+  EXPECT_THAT(names(), SizeIs(2)) << "the live file and that of the user";
+  remove_leftovers(folder_ / "absent");
+}
+
 TEST_F(TemporaryFiles, AreToldByTheirNames) {
   EXPECT_EQ(target_of_temporary("x.h5.0123456789abcdef.tmp"), "x.h5");
   EXPECT_EQ(target_of_temporary(TemporaryFile(target_).path().filename().native()), "x.h5");
