@@ -15,6 +15,7 @@
 #include "sim/geometry/files/gltf_check.h"
 #include "sim/geometry/files/gltf_elements.h"
 #include "sim/geometry/files/gltf_folder.h"
+#include "sim/geometry/files/gltf_pieces.h"
 #include "sim/geometry/mesh/mesh_builder.h"
 
 namespace seaglint {

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <vector>
 
+#include "sim/core/process/error.h"
 #include "sim/geometry/files/gltf_pieces.h"
 
 namespace seaglint {
