@@ -11,6 +11,7 @@
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/fourier.h"
 #include "sim/core/process/error.h"
+#include "sim/core/process/function_versions.h"
 
 namespace seaglint {
 namespace {
@@ -48,19 +49,9 @@ Block phase_ramp(double phase, double step) {
   return block;
 }
 
-// Also compiled for wider vectors, selected at program start. Lanes are independent and products are not fused
-// (-ffp-contract=off), so all variants give the same bits. Disabled under sanitizers, which initialise after the
-// selection.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
-    !defined(__SANITIZE_THREAD__)
-#define SEAGLINT_FOR_WIDER_VECTORS __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-#else
-#define SEAGLINT_FOR_WIDER_VECTORS
-#endif
-
 // S += x e^{j ...} of one pulse over all its frequencies: `factor` is the compensation at the first frequency, `step`
 // its change from one frequency to the next (f_b v t_n couples frequency and velocity: range migration).
-SEAGLINT_FOR_WIDER_VECTORS
+SEAGLINT_FUNCTION_VERSIONS("arch=x86-64-v4", "arch=x86-64-v3", "default")
 void add_pulse(const Complex* x, std::size_t frequencies, Block factor, const Block& step, Block* sums) {
   for (std::size_t b = 0; b < frequencies; ++b) {
     Block& sum = sums[b];

@@ -13,7 +13,7 @@ namespace seaglint {
 struct RenamedKey {
   std::string_view path;                // of the old key; * is any one name
   std::string_view now;                 // the new key, in the same section
-  std::string_view note = "";           // what else has changed
+  std::string_view note{};              // what else has changed
   double (*convert)(double) = nullptr;  // the new value of an old number, where that differs
 };
 

@@ -63,8 +63,7 @@ Scenario read_scenario(const fs::path& file, const std::vector<Override>& overri
 }
 
 Scenario parse_scenario(const std::string& yaml, const std::string& file_name, const std::vector<Override>& overrides) {
-  const auto read =
-      std::make_shared<ScenarioDocument>(file_name, std::vector<std::string>{}, parse_yaml(yaml, file_name));
+  const auto read = std::make_shared<ScenarioDocument>(ScenarioDocument{file_name, {}, parse_yaml(yaml, file_name)});
   ScenarioDocument& document = *read;
   for (const Override& override_value : overrides) apply_override(document, override_value);
   Scenario scenario = read_fields(document);

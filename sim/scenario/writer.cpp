@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -36,7 +37,7 @@ std::string text_as_yaml(const std::string& text) {
 // The smallest whole numbers a:b with a/(a+b) equal to the fraction to the last bit; otherwise fraction:(1-fraction).
 std::string ratio_as_yaml(double fraction) {
   for (int whole = 2; whole <= 100; ++whole) {
-    const int a = static_cast<int>(fraction * whole + 0.5);
+    const int a = static_cast<int>(std::lround(fraction * whole));
     if (a > 0 && a < whole && static_cast<double>(a) / whole == fraction) return fmt::format("{}:{}", a, whole - a);
   }
   return fmt::format("{}:{}", fraction, 1 - fraction);

@@ -55,8 +55,8 @@ WaveField::WaveField(std::vector<WaveComponent> components, int order, double se
   }
 }
 
-WaveField::WaveField(std::vector<WaveComponent> components, Vec2 direction, int order, double second_order_cutoff_rad_s,
-                     double depth)
+WaveField::WaveField(std::vector<WaveComponent> components, const Vec2& direction, int order,
+                     double second_order_cutoff_rad_s, double depth)
     : WaveField(rotated(std::move(components), direction), order, second_order_cutoff_rad_s, depth) {}
 
 namespace {

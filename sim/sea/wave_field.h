@@ -43,7 +43,7 @@ class WaveField {
   WaveField(std::vector<WaveComponent> components, int order, double second_order_cutoff_rad_s,
             double depth = kDeepWater);
   // The same with all components propagating along `direction`, a non-zero vector.
-  WaveField(std::vector<WaveComponent> components, Vec2 direction, int order, double second_order_cutoff_rad_s,
+  WaveField(std::vector<WaveComponent> components, const Vec2& direction, int order, double second_order_cutoff_rad_s,
             double depth = kDeepWater);
 
   // Valid for |w t| and |k.x| up to 2e8 rad. About 10 us for 512 components of one direction in deep water.

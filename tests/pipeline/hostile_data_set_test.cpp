@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "tests/pipeline/program.h"
+#include "tests/sanitized.h"
 
 namespace seaglint {
 namespace {
@@ -17,9 +18,10 @@ using testing::Not;
 
 class HostileDataSet : public testing::Test {
  protected:
-  // The program with at most 1.5 GB of address space, three times what it takes to start.
+  // The program with at most 1.5 GB of address space, three times what it takes to start (without sanitizers).
   static ProgramResult bounded(const std::vector<std::string>& arguments) {
-    std::vector<std::string> words{"/bin/bash", "-c", "ulimit -v 1500000; exec \"$@\"", "bounded", kProgram};
+    const std::string limit = kSanitized ? "" : "ulimit -v 1500000; ";
+    std::vector<std::string> words{"/bin/bash", "-c", limit + "exec \"$@\"", "bounded", kProgram};
     words.insert(words.end(), arguments.begin(), arguments.end());
     return run_words(words);
   }

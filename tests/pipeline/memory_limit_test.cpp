@@ -6,11 +6,13 @@
 #include <algorithm>
 
 #include "tests/pipeline/program.h"
+#include "tests/sanitized.h"
 
 namespace seaglint {
 namespace {
 
 TEST(MemoryLimit, OfTheAddressSpaceEndsARunWithOneLine) {
+  if (kSanitized) GTEST_SKIP() << "sanitizers take more address space";
   int refused = 0;
   // MB; the program with its libraries takes some 600, a whole run 900.
   for (const int limit : {650, 672, 700, 716, 728, 740, 800, 850}) {

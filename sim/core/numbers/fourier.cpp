@@ -51,7 +51,7 @@ void transform_rows(Complex* data, std::size_t length, std::size_t count, std::s
 }
 
 FourierBatch::FourierBatch(std::size_t length, std::size_t count, Fourier direction)
-    : length_(length), count_(count), data_(nullptr), plan_(nullptr) {
+    : length_(length), data_(nullptr), plan_(nullptr) {
   check(length, count, length);
   data_ = reinterpret_cast<Complex*>(fftw_alloc_complex(length * count));
   if (data_ == nullptr) throw std::bad_alloc();

@@ -31,7 +31,6 @@ class FourierBatch {
 
  private:
   std::size_t length_;
-  std::size_t count_;
   Complex* data_;
   void* plan_;
 };

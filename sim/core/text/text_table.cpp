@@ -235,6 +235,7 @@ void TextTable::find_decimal_mark() {
 TextTable TextTable::without_names(TextSource source, std::vector<TableColumn> columns) {
   TextTable table(std::move(source));
   std::vector<std::string> keys;
+  keys.reserve(columns.size());
   for (const TableColumn& column : columns) keys.push_back(column.keys.front());
   table.columns_ = std::move(columns);
   table.names_ = keys;
@@ -263,9 +264,9 @@ TextTable TextTable::without_names(TextSource source, std::vector<TableColumn> c
 TextTable TextTable::below(TextSource source, std::string_view rows, std::vector<std::string> names, char separator) {
   TextTable table(std::move(source));
   for (const std::string& name : names) table.columns_.push_back(TableColumn({name}));
-  table.names_ = names;
   table.separator_ = separator;
   table.place_columns(names);
+  table.names_ = std::move(names);
   table.read_rows(rows);
   return table;
 }

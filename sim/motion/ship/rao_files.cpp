@@ -304,9 +304,12 @@ RaoTable read_wamit_rao(const std::filesystem::path& file, const WamitConvention
   std::vector<double> omega;
   for (const auto& [frequency, modes] : rows.begin()->second) omega.push_back(frequency);
   std::map<double, Heading> headings;
-  for (const auto& [mu, by_omega] : rows) {
+  for (const auto& [heading, by_omega] : rows) {
+    const double mu = heading;
     std::size_t n = 0;
-    for (const auto& [frequency, modes] : by_omega) {
+    for (const auto& at_frequency : by_omega) {
+      const double frequency = at_frequency.first;
+      const auto& modes = at_frequency.second;
       if (n >= omega.size() || frequency != omega[n++]) {
         throw InputError(fmt::format("{}: heading {:.4g} deg has other periods than {:.4g} deg", source.name(),
                                      degrees(mu), degrees(rows.begin()->first)));

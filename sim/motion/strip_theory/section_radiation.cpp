@@ -142,7 +142,7 @@ SectionRadiation solve_radiation(const LewisForm& form, const Contour& contour, 
     put(even, even_potential, 0, waves.source());
     put(odd, odd_potential, 0, waves.dipole(form.scale));
     for (int m = 1; m <= kMultipoles; ++m) {
-      const auto n = static_cast<std::size_t>(2 * m);
+      const std::size_t n = 2 * static_cast<std::size_t>(m);
       put(even, even_potential, m, multipole(form, powers, wavenumber, n));
       put(odd, odd_potential, m, multipole(form, powers, wavenumber, n + 1));
     }

@@ -129,7 +129,8 @@ MovingPolygon clip(const MovingPolygon& polygon, const MovingLine& line, int kee
   const MovingLine inside = keep > 0 ? line : opposite(line);
   MovingPolygon kept;
   switch (clip_by(
-      polygon, [&](const Vec2& p) { return inside.at(p); }, kLineTolerance, [&] { return inside; }, kept)) {
+      polygon, [&](const Vec2& p) { return inside.at(p); }, kLineTolerance,
+      [&]() -> const MovingLine& { return inside; }, kept)) {
     case Side::kInside: return polygon;
     case Side::kOutside: return {};
     case Side::kBoth: return kept;

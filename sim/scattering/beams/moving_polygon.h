@@ -62,7 +62,8 @@ class MovingPolygon {
   }
   void push_back(const MovingVertex& vertex) {
     if (size_ == capacity_) {
-      const MovingVertex copy = vertex;  // `vertex` may belong to this polygon
+      // `vertex` may belong to this polygon. NOLINTNEXTLINE(performance-unnecessary-copy-initialization)
+      const MovingVertex copy = vertex;
       reserve(2 * capacity_);
       new (corners_ + size_++) MovingVertex(copy);
     } else {

@@ -12,8 +12,6 @@
 namespace seaglint {
 namespace {
 
-constexpr Complex j(0, 1);
-
 // sum: half of G(a - phi) + G(a + phi), over sin a; difference: half of G(a - phi) - G(a + phi); G(y) = cot(y / 2N) / N
 // less cot(y / 2) for every wave of physical optics.
 struct Cotangents {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <ranges>
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/smooth_step.h"
@@ -240,9 +239,9 @@ class SideBoundaryTerms {
 
   // Depth of the panel across the side, m.
   static double depth_across(const SideFrame& side, std::span<const Vec2> outline) {
-    const auto [min, max] =
-        std::ranges::minmax(outline | std::views::transform([&](const Vec2& p) { return side.x(p); }));
-    return max - min;
+    const auto across = [&](const Vec2& p) { return side.x(p); };
+    const auto [min, max] = std::ranges::minmax_element(outline, {}, across);
+    return across(*max) - across(*min);
   }
 
   const Footprint& footprint_;

@@ -31,16 +31,18 @@ Pattern wall_pattern(const Vec3& n, const RadarBasis& antenna, const Vec3& k_hat
 
 void append_wall_penumbra(const WallBehindEdge& wall, const RadarBasis& antenna, const EdgeContribution& foot_echo,
                           double k, double min_amplitude_m, std::vector<EdgeContribution>& contributions) {
-  const auto& [edge_point, along, n, wall_normal, height, image_fraction, foot, follows_edge] = wall;
+  const Vec3 &along = wall.edge_direction, &n = wall.face_normal;
+  const std::array<Vec3, 2>& foot = wall.foot;
+  const double height = wall.height;
   const Vec3& r = antenna.r;
   const double s = n.dot(r), c = std::sqrt(1 - s * s);
   const Vec3 back = (r - s * n).normalized();  // on the face, from the wall to the edge
   const double weight = smooth_taper(std::abs(s), kPenumbraAngleWindow), length = (foot[1] - foot[0]).norm();
   const double across = back.cross(along).dot(n);
-  if (weight <= 0 || wall_normal.dot(back) <= 0 || across == 0) return;
+  if (weight <= 0 || wall.wall_normal.dot(back) <= 0 || across == 0) return;
   std::array<double, 2> l;
   for (int end = 0; end < 2; ++end) {
-    const double distance = (edge_point - foot[end]).cross(along).dot(n) / across;
+    const double distance = (wall.edge_point - foot[end]).cross(along).dot(n) / across;
     if (distance < -kCoincident) return;
     l[end] = std::max(distance, 0.0);  // edge and foot may meet
   }
@@ -52,8 +54,8 @@ void append_wall_penumbra(const WallBehindEdge& wall, const RadarBasis& antenna,
 
   // For the direct wave and its image in the face: soft and hard are half of their difference and of their sum.
   const auto image = [&](const Vec3& x) { return reflect_direction(x, n); };
-  const Pattern direct = wall_pattern(wall_normal, antenna, -r, antenna.h, antenna.v),
-                by_face = wall_pattern(wall_normal, antenna, image(-r), -image(antenna.h), -image(antenna.v));
+  const Pattern direct = wall_pattern(wall.wall_normal, antenna, -r, antenna.h, antenna.v),
+                by_face = wall_pattern(wall.wall_normal, antenna, image(-r), -image(antenna.h), -image(antenna.v));
   Pattern soft, hard;
   for (int i = 0; i < 4; ++i) {
     soft[i] = 0.5 * (direct[i] - by_face[i]);
@@ -76,7 +78,7 @@ void append_wall_penumbra(const WallBehindEdge& wall, const RadarBasis& antenna,
     }
     const double rate = (contribution.psi[1] - contribution.psi[0]) / length;
     for (int end = 0; end < 2; ++end) {
-      if (!follows_edge[end]) continue;
+      if (!wall.ends_follow_edge[end]) continue;
       contribution.gradient[end].transmit_slide = rate * slides * l[end] * turn;
       contribution.gradient[end].transmit += contribution.gradient[end].transmit_slide;
     }
@@ -90,7 +92,7 @@ void append_wall_penumbra(const WallBehindEdge& wall, const RadarBasis& antenna,
   const double past_top = s > 0 ? smooth_taper(mean_distance * s / c / height, kWallTopWindow) : 1,
                by_edge = weights.foot * past_top;
   // Already radiated by the wall's image, which ends at the line.
-  const double by_image = image_fraction * past_top;
+  const double by_image = wall.image_weight * past_top;
   const double at_end = 1 / (4 * kPi * std::abs(s)),
                by_path = std::min(at_end, std::sqrt(k * std::max(l[0], l[1]) / kPi) / (2 * kPi));
   const double at_foot = s > 0 ? weight * (by_edge + by_image) : 0, at_line = s > 0 ? -weight * by_image : weight;

@@ -83,15 +83,15 @@ double fast_kernel_transform(double theta) {
 // phi at the cells 0..W-1 for a point `offset` cells after the first, W/2 - 1 <= offset <= W/2: linear interpolation in
 // a table, error phi'' / (8 n^2) = 7e-7, far below the error of the kernel.
 std::array<double, kWidth> weights(double offset) {
-  constexpr int kSteps = 512;
+  constexpr int kSteps = 512, kBefore = kWidth / 2 - 1;
   static const auto table = [] {
     std::array<std::array<double, kWidth>, kSteps + 1> values;
     for (int n = 0; n <= kSteps; ++n) {
-      for (int i = 0; i < kWidth; ++i) values[n][i] = kernel(i - (kWidth / 2 - 1) - static_cast<double>(n) / kSteps);
+      for (int i = 0; i < kWidth; ++i) values[n][i] = kernel(i - kBefore - static_cast<double>(n) / kSteps);
     }
     return values;
   }();
-  const double place = (offset - (kWidth / 2 - 1)) * kSteps;
+  const double place = (offset - kBefore) * kSteps;
   const int n = std::clamp(static_cast<int>(place), 0, kSteps - 1);
   std::array<double, kWidth> w;
   for (int i = 0; i < kWidth; ++i) w[i] = table[n][i] + (place - n) * (table[n + 1][i] - table[n][i]);

@@ -4,14 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/core/process/function_versions.h"
 #include "sim/scattering/target/embree_scene.h"
-
-// Compiles a function for AVX2 and for any x86-64 processor; the version is chosen at program start.
-#ifdef __x86_64__
-#define SEAGLINT_WIDE __attribute__((target_clones("avx2", "default")))
-#else
-#define SEAGLINT_WIDE
-#endif
 
 namespace seaglint {
 namespace {
@@ -94,7 +88,8 @@ PanelBvh::SeparatingAxes PanelBvh::axes_of(const Prism& prism) const {
 }
 
 // Innermost loop of every traversal. All vector widths give the same bits (no contraction).
-SEAGLINT_WIDE void PanelBvh::find_separations(const Node& node, const SeparatingAxes& axes, Separations& gaps) {
+SEAGLINT_FUNCTION_VERSIONS("avx2", "default")
+void PanelBvh::find_separations(const Node& node, const SeparatingAxes& axes, Separations& gaps) {
   Separations own;  // local, so that the compiler can vectorise over the lanes
   for (int lane = 0; lane < kMaxChildren; ++lane) {
     const auto larger = [](float a, float b) { return a > b ? a : b; };

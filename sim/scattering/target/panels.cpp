@@ -64,7 +64,7 @@ Panels::Panels(std::span<const Facet> facets, const SmoothSurface& surface)
     for (std::size_t i = 0; i < outline.side.size() && outline.side.size() < kMaxCorners;) {
       const auto [from, edge] = outline.side[i];
       const int g = facets[from].neighbour[edge];
-      const auto joins = [&] {
+      const auto joins = [&, from = from] {
         if (g < 0 || of_[g] >= 0 || surface.curved(f) || surface.curved(g)) return false;
         const Facet& other = facets[g];
         // Exactly two facets share the side.

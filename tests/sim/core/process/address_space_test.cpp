@@ -6,12 +6,14 @@
 #include <sys/resource.h>
 
 #include "sim/core/process/error.h"
+#include "tests/sanitized.h"
 
 namespace seaglint {
 namespace {
 
 TEST(AddressSpace, ThatIsMissingIsAnError) {
   EXPECT_NO_THROW(require_address_space(std::size_t{64} << 20, "the work"));
+  if (kSanitized) GTEST_SKIP() << "sanitizers map memory of their own";
   rlimit before{};
   ::getrlimit(RLIMIT_AS, &before);
   const rlimit little{std::size_t{1} << 20, before.rlim_max};

@@ -61,7 +61,6 @@ TEST(VeresTable, ContainsTheFilesNumbers) {
   EXPECT_NEAR(table.reference().x(), -2.54748, 1e-9);
   EXPECT_NEAR(table.reference().z(), 0.05, 1e-9);
   const MotionRao r = table.at(0.5026549, wavenumber(0.5026549), radians(180));
-  const Complex heave(0.91279399, -0.0030);  // modulus checked below against the file's first heading
   const double phase = -wavenumber(0.5026549) * -1 * table.reference().x();
   std::ifstream file(kVeres);
   std::string line;

@@ -102,7 +102,7 @@ TEST(TransitionFunction, WithAThirdBoundaryIsTheEndOfAnIntegralAlongTheEdge) {
                                       : 2) *
                     2.0 * double_transition_function(a * l, b * l) * std::polar(1.0, p * l);
       }
-      const auto end = [&](double l) {
+      const auto end = [&, a = a, b = b, p = p](double l) {
         return triple_transition_function(a * l, b * l, -p * l) * std::polar(1.0, p * l) / (j * p * std::sqrt(l));
       };
       // Equal arguments are separated by 1e-3, which has an error of its square and amplifies F's 1e-7 by as much.
@@ -284,7 +284,7 @@ TEST(MultipleDiffraction, SendNothingAcrossASheetIntoItsPlane) {
       // The highest order has no successor that would cancel it, and the look direction of the receiver is perturbed by
       // 1e-6 rad, which changes phases by 1e-6 k radius.
       const double perturbation = 1e-6 * k * sheet.radius() * largest(all);
-      const auto residual = [&](int channel) { return std::abs(fourth[channel]) + perturbation; };
+      const auto residual = [&, &fourth = fourth](int channel) { return std::abs(fourth[channel]) + perturbation; };
       EXPECT_LT(std::abs(all[kHhChannel]), residual(kHhChannel))
           << azimuth << ' ' << elevation << ' ' << side << ' ' << height;
       EXPECT_LT(std::abs(all[kHvChannel]), residual(kHvChannel))

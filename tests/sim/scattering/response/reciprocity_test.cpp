@@ -106,7 +106,7 @@ TEST(Reciprocity, MeanOfBothSensesIsNearestToIntegralEquations) {
   ASSERT_EQ(sums.size(), 6);
   double all_hv = 0, all_vh = 0, all_mean = 0;
   for (const auto& [place, sum] : sums) {
-    const auto relative = [&](int i) { return std::sqrt(sum[i] / sum[3]); };
+    const auto relative = [&sum = sum](int i) { return std::sqrt(sum[i] / sum[3]); };
     std::printf("groove of %g deg, elevation %g deg: error of hv %.2f, of vh %.2f, of their mean %.2f of it\n",
                 place.first, place.second, relative(0), relative(1), relative(2));
     constexpr double kLastDigit = 0.01;  // of the figures above
