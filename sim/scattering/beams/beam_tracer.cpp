@@ -166,7 +166,7 @@ class BeamTracer {
       for (std::size_t j = 0; j < i; ++j) hides(order[i], order[j]);
     }
 
-    if (halvings < kMaxHalvings && rays_are_limited(segment)) {
+    if (halvings < kMaxHalvings && rays_are_limited(segment, window)) {
       illuminate_halves(segment, window, halvings + 1);
       return;
     }
@@ -179,9 +179,11 @@ class BeamTracer {
   }
 
   // True where the rays that leave the first curved reflector of a path are limited on a panel that they illuminate,
-  // next to its border as a rule. Later reflectors are not examined: their parts would multiply.
-  bool rays_are_limited(const BeamSegment& segment) const {
+  // next to its border as a rule. Later reflectors are not examined: their parts would multiply; nor are cross-sections
+  // whose halves would not be followed to further reflectors.
+  bool rays_are_limited(const BeamSegment& segment, const PolygonSet& window) const {
     if (!segment.has_curved_reflection || segment.previous->has_curved_reflection) return false;
+    if (window.area() < 2 * scene_.min_beam_per_patch * scene_.min_area.on(segment.source_facet)) return false;
     const Scratch& scratch = scratch_[segment.bounce];
     return std::ranges::any_of(scratch.order, [&](std::uint32_t i) {
       const CandidatePanel& candidate = scratch.met[i];
