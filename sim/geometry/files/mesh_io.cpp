@@ -18,7 +18,6 @@
 #include "sim/geometry/files/exchange/nastran_file.h"
 #include "sim/geometry/files/exchange/unv_file.h"
 #include "sim/geometry/files/gltf_file.h"
-#include "sim/geometry/files/gltf_output.h"
 #include "sim/geometry/files/obj_file.h"
 #include "sim/geometry/files/ply_file.h"
 #include "sim/geometry/files/stl_file.h"

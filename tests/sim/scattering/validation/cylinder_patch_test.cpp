@@ -33,9 +33,9 @@ TriangleMesh cylinder_before(const std::array<Vec2, 2>& rectangle, int strips) {
 TEST(CylinderBeforeAPatch, IsThatOfGeometricalAndPhysicalOptics) {
   const std::map<int, std::array<Vec2, 2>> rectangles{{1, {Vec2(0.8, -0.3), Vec2(1.15, 0.25)}},
                                                       {2, {Vec2(0.8, -0.05), Vec2(1.15, 0.05)}}};
-  const std::map<std::pair<int, int>, double> reached{{{1, 24}, 0.21}, {{1, 48}, 0.11}, {{1, 96}, 0.035},
+  const std::map<std::pair<int, int>, double> reached{{{1, 24}, 0.21},  {{1, 48}, 0.11}, {{1, 96}, 0.035},
                                                       {{1, 768}, 0.02}, {{2, 24}, 0.51}, {{2, 48}, 0.34},
-                                                      {{2, 96}, 0.13}, {{2, 768}, 0.03}};
+                                                      {{2, 96}, 0.13},  {{2, 768}, 0.03}};
   for (const auto& [place, bound] : reached) {
     const auto& [number, strips] = place;
     const Scatterer body(cylinder_before(rectangles.at(number), strips));
