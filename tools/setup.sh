@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Sourced by tools/demo and tools/check: installs missing packages, configures and builds build/release.
+# Sourced by the scripts in tools: installs missing packages, configures and builds build/release.
 set -euo pipefail
 export LC_ALL=C.UTF-8  # decimal points in awk's output
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

@@ -24,29 +24,19 @@ struct NamedReader {
   void (*read)(const std::string& bytes);
 };
 
-const std::vector<NamedReader> kReaders = {{"numbers", fuzz_numbers},
-                                           {"spectrum", fuzz_spectrum},
-                                           {"hop_code", fuzz_hop_code},
-                                           {"series", fuzz_series},
-                                           {"sections", fuzz_sections},
-                                           {"veres", fuzz_veres},
-                                           {"wamit", fuzz_wamit},
-                                           {"rcs_cut", fuzz_rcs_cut},
-                                           {"cst", fuzz_cst},
-                                           {"yaml", fuzz_yaml},
-                                           {"override", fuzz_override},
-                                           {"material", fuzz_material},
-                                           {"scenario", fuzz_scenario},
-                                           {"obj", fuzz_obj},
-                                           {"stl", fuzz_stl},
-                                           {"ply", fuzz_ply},
-                                           {"gltf", fuzz_gltf},
-                                           {"glb", fuzz_glb},
-                                           {"manifest", fuzz_manifest},
-                                           {"shard", fuzz_shard},
-                                           {"npz", fuzz_npz},
-                                           {"inputs", fuzz_inputs},
-                                           {"embeddings", fuzz_embeddings}};
+const std::vector<NamedReader> kReaders = {{"numbers", fuzz_numbers},   {"spectrum", fuzz_spectrum},
+                                           {"hop_code", fuzz_hop_code}, {"series", fuzz_series},
+                                           {"sections", fuzz_sections}, {"veres", fuzz_veres},
+                                           {"wamit", fuzz_wamit},       {"rcs_cut", fuzz_rcs_cut},
+                                           {"cst", fuzz_cst},           {"yaml", fuzz_yaml},
+                                           {"override", fuzz_override}, {"material", fuzz_material},
+                                           {"scenario", fuzz_scenario}, {"obj", fuzz_obj},
+                                           {"stl", fuzz_stl},           {"ply", fuzz_ply},
+                                           {"gltf", fuzz_gltf},         {"glb", fuzz_glb},
+                                           {"nastran", fuzz_nastran},   {"unv", fuzz_unv},
+                                           {"gmsh", fuzz_gmsh},         {"manifest", fuzz_manifest},
+                                           {"shard", fuzz_shard},       {"npz", fuzz_npz},
+                                           {"inputs", fuzz_inputs},     {"embeddings", fuzz_embeddings}};
 
 // The inputs of all readers, each of which may be given to any.
 std::vector<fs::path> inputs() {

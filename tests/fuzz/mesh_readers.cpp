@@ -38,5 +38,8 @@ void fuzz_stl(const std::string& bytes) { read_as(bytes, "mesh.stl"); }
 void fuzz_ply(const std::string& bytes) { read_as(bytes, "mesh.ply"); }
 void fuzz_gltf(const std::string& bytes) { read_as(bytes, "mesh.gltf"); }
 void fuzz_glb(const std::string& bytes) { read_as(bytes, "mesh.glb"); }
+void fuzz_nastran(const std::string& bytes) { read_as(bytes, "mesh.bdf"); }
+void fuzz_unv(const std::string& bytes) { read_as(bytes, "mesh.unv"); }
+void fuzz_gmsh(const std::string& bytes) { read_as(bytes, "mesh.msh"); }
 
 }  // namespace seaglint

@@ -33,6 +33,9 @@ void fuzz_stl(const std::string& bytes);
 void fuzz_ply(const std::string& bytes);
 void fuzz_gltf(const std::string& bytes);
 void fuzz_glb(const std::string& bytes);
+void fuzz_nastran(const std::string& bytes);
+void fuzz_unv(const std::string& bytes);
+void fuzz_gmsh(const std::string& bytes);
 
 // Data sets.
 void fuzz_manifest(const std::string& bytes);

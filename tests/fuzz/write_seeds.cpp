@@ -50,7 +50,8 @@ TriangleMesh tetrahedron() {
   return mesh;
 }
 
-// Two headings and two frequencies.
+// Two headings and two frequencies, shortened from tests/reference/ship_motion/s175_veres.re1 (source and licence:
+// SOURCE.md there).
 const char* const kVeres = R"( MOTION TRANSFER FUNCTIONS  - VERES Version  4.02.3
  Run name:
  Ship name: S175

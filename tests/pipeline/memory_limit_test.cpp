@@ -30,6 +30,7 @@ TEST(MemoryLimit, OfTheAddressSpaceEndsARunWithOneLine) {
 
 // Constructors of libraries' static objects need memory before the program begins.
 TEST(MemoryLimit, BelowWhatLibrariesNeedToBeginEndsWithOneLine) {
+  if (kSanitized) GTEST_SKIP() << "sanitizers take more address space";
   int refused = 0;
   for (int limit = 530; limit <= 630; limit += 5) {
     const ProgramResult result =

@@ -37,7 +37,7 @@ MemoryFile::MemoryFile(std::string_view content) : descriptor_(::memfd_create("s
     transfer_all(content.size(), [&](std::size_t done) {
       return ::pwrite(descriptor_, content.data() + done, content.size() - done, static_cast<off_t>(done));
     });
-  } catch (const WorkError&) {
+  } catch (...) {
     ::close(descriptor_);
     throw;
   }

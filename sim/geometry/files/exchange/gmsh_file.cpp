@@ -5,8 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
+#include <limits>
 #include <map>
-#include <set>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -92,6 +93,8 @@ class GmshReader {
         values_.fail(fmt::format("$PhysicalNames: {}: must be dimension, number, \"name\"", in_quotes(line)));
       constexpr std::int64_t kSurface = 2;
       const std::string_view name = trimmed(line.substr(begin + 1, end - begin - 1));
+      if (name.size() > kLongestName)
+        values_.fail(fmt::format("$PhysicalNames: a name of more than {} bytes", kLongestName));
       if (*dimension == kSurface && !name.empty()) physical_[*number] = name;
     }
   }
@@ -117,6 +120,8 @@ class GmshReader {
     for (std::int64_t i = 0; i < groups; ++i) {
       const std::int64_t group = values_.small();
       if (dimension != 2) continue;
+      if (group == std::numeric_limits<std::int64_t>::min())
+        values_.fail("$Entities: a physical group beyond its type");
       if (i == 0) surfaces_[number] = {physical_name(std::abs(group)), group < 0};
       if (i == 1) ++in_several_groups_;
     }
@@ -196,14 +201,14 @@ class GmshReader {
   void elements() {
     const std::int64_t count = count_line();
     for (std::int64_t i = 0; i < count;) {
-      std::int64_t number = values_.is_binary() ? 0 : values_.small();
+      if (!values_.is_binary()) values_.small();  // the number of the element
       const char* at = values_.at();
       const ElementKind& kind = kind_of(values_.small());
       const std::int64_t here = values_.is_binary() ? values_.small() : 1, tags = values_.small();
       if (here < 1 || here > count - i) values_.fail(fmt::format("$Elements: a block of {} of {}", here, count - i));
       for (std::int64_t k = 0; k < here; ++k, ++i) {
-        if (values_.is_binary()) number = values_.small(), at = values_.at();
-        std::int64_t physical = 0, elementary = number;
+        if (values_.is_binary()) values_.small(), at = values_.at();
+        std::int64_t physical = 0, elementary = 0;
         for (std::int64_t t = 0; t < tags; ++t) {
           const std::int64_t tag = values_.small();
           if (t < 2) (t == 0 ? physical : elementary) = tag;

@@ -6,6 +6,7 @@
 
 #include "sim/core/text/number.h"
 #include "sim/core/text/words.h"
+#include "sim/geometry/files/exchange/shell_model.h"
 
 namespace seaglint {
 namespace {
@@ -35,7 +36,7 @@ std::string_view quoted(std::string_view& text) {
 
 void NastranNames::add(std::int64_t number, std::string_view name, bool overwrite) {
   name = trimmed(name);
-  if (name.empty()) return;
+  if (name.empty() || name.size() > kLongestName) return;
   if (overwrite)
     names_[number] = name;
   else

@@ -59,6 +59,7 @@ void ShellModel::node(std::int64_t number, const Vec3& position, const char* at)
 }
 
 std::uint32_t ShellModel::part(const std::string& name, const char* at) {
+  if (name.size() > kLongestName) fail(at, fmt::format("a name of a part of more than {} bytes", kLongestName));
   const auto [found, is_new] = part_of_name_.try_emplace(name, static_cast<std::uint32_t>(part_names_.size()));
   if (is_new) {
     if (part_names_.size() >= kMaxParts) fail(at, fmt::format("more than {} parts", kMaxParts));

@@ -3,6 +3,7 @@
 
 // Shells as solvers exchange them: nodes and elements by number, and from them the mesh.
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -17,6 +18,9 @@
 
 namespace seaglint {
 
+// Longest name of a part, bytes.
+inline constexpr std::size_t kLongestName = 1000;
+
 // Nodes may follow the elements that name them. `at`: a position in the bytes of the file, for error messages.
 class ShellModel {
  public:
@@ -28,7 +32,7 @@ class ShellModel {
   // Throws InputError for a number that is negative and coordinates beyond 1e30.
   void node(std::int64_t number, const Vec3& position, const char* at);
 
-  // Index of the part with this name; throws InputError at more than 65,000.
+  // Index of the part with this name; throws InputError at more than 65,000, and for a longer name than that.
   std::uint32_t part(const std::string& name, const char* at);
   // Names it otherwise.
   void rename(std::uint32_t part, const std::string& name);

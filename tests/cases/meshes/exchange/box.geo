@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A closed box, 1.2 x 0.7 x 0.5 m, its top of quadrilaterals.
 SetFactory("Built-in");
 h = 0.6;

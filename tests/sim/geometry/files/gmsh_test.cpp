@@ -36,6 +36,12 @@ TEST_F(Gmsh, HasPhysicalAndElementarySurfacesAsParts) {
   EXPECT_EQ(mesh.triangles.size(), 4u);
 }
 
+TEST_F(Gmsh, HasElementsWithoutTagsAsOnePart) {
+  const TriangleMesh mesh = read(kHeader + kNodes + "$Elements\n2\n1 2 0 1 2 5\n2 2 0 1 5 7\n$EndElements\n");
+  EXPECT_THAT(mesh.part_names, ElementsAre("surface_0"));
+  EXPECT_EQ(mesh.triangles.size(), 2u);
+}
+
 // A negative group turns its elements, in 4.1 by the reader and in 2.2 by Gmsh itself; nodes have parameters.
 TEST_F(Gmsh, TurnsTheElementsOfANegativeGroup) {
   const auto file = [](const char* groups) {
