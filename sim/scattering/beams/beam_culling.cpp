@@ -14,20 +14,7 @@ Prism bounding_prism(std::span<const MovingPolygon> window, const BeamSegment& s
                      std::span<const Facet> facets) {
   // The prism's sides are parallel to the longest side of the cross-section, so that the prism around an elongated
   // cross-section of any orientation is narrow.
-  Vec2 longest = Vec2::UnitX();
-  double max = 0;
-  for (const MovingPolygon& piece : window) {
-    const Vec2* from = &piece.back().p;
-    for (const MovingVertex& to : piece) {
-      const double squared = (to.p - *from).squaredNorm();
-      if (squared > max) {
-        max = squared;
-        longest = to.p - *from;
-      }
-      from = &to.p;
-    }
-  }
-  longest.normalize();
+  const Vec2 longest = along_longest_side(window);
   const std::array<Vec2, 2> axis{longest, Vec2(-longest.y(), longest.x())};
   const Vec2 t(segment.image_transform.t.dot(basis.h), segment.image_transform.t.dot(basis.v));
   Prism prism;

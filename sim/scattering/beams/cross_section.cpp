@@ -9,24 +9,6 @@
 namespace seaglint {
 namespace {
 
-// Unit vector along the longest side of all polygons.
-Vec2 along_longest_side(std::span<const MovingPolygon> polygons) {
-  Vec2 longest = Vec2::UnitX();
-  double max = 0;
-  for (const MovingPolygon& polygon : polygons) {
-    const Vec2* from = &polygon.back().p;
-    for (const MovingVertex& to : polygon) {
-      const double squared = (to.p - *from).squaredNorm();
-      if (squared > max) {
-        max = squared;
-        longest = to.p - *from;
-      }
-      from = &to.p;
-    }
-  }
-  return longest.normalized();
-}
-
 // Least and greatest coordinate of all vertices along an axis.
 std::pair<double, double> range_along(const Vec2& axis, std::span<const MovingPolygon> polygons) {
   double low = std::numeric_limits<double>::infinity(), high = -low;

@@ -207,4 +207,21 @@ MovingPolygon intersect(const MovingPolygon& a, const Box& around, const MovingP
   return *rest;
 }
 
+Vec2 along_longest_side(std::span<const MovingPolygon> polygons) {
+  Vec2 longest = Vec2::UnitX();
+  double max = 0;
+  for (const MovingPolygon& polygon : polygons) {
+    const Vec2* from = &polygon.back().p;
+    for (const MovingVertex& to : polygon) {
+      const double squared = (to.p - *from).squaredNorm();
+      if (squared > max) {
+        max = squared;
+        longest = to.p - *from;
+      }
+      from = &to.p;
+    }
+  }
+  return longest.normalized();
+}
+
 }  // namespace seaglint

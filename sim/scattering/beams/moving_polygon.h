@@ -11,6 +11,7 @@
 #include <array>
 #include <memory>
 #include <new>
+#include <span>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -168,5 +169,8 @@ bool subtract(const MovingPolygon& polygon, const Box& around, const MovingPolyg
 // Intersection of a, which the box `around` contains, and b; empty when they have no common area.
 MovingPolygon intersect(const MovingPolygon& a, const Box& around, const MovingPolygon& b);
 inline MovingPolygon intersect(const MovingPolygon& a, const MovingPolygon& b) { return intersect(a, box_of(a), b); }
+
+// Unit vector along the longest side of all polygons.
+Vec2 along_longest_side(std::span<const MovingPolygon> polygons);
 
 }  // namespace seaglint
