@@ -16,7 +16,7 @@ namespace seaglint {
 namespace {
 
 constexpr std::size_t kMaxParts = 65000, kMaxNodes = 0x7fffffff;
-constexpr std::size_t kMaxKinds = 100;  // that are told apart
+constexpr std::size_t kMaxKinds = 100;  // kinds of element that have a count of their own
 constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
 
 // "3 solid elements (CHEXA, CTETRA)"

@@ -61,7 +61,7 @@ TEST_P(ExchangeFile, HasItsParts) {
   }
 }
 
-// Every cut is told but one behind the last mark of the file.
+// A file cut off anywhere before its last character is refused.
 TEST_P(ExchangeFile, ThatIsCutOffIsRefused) {
   const std::string name = GetParam(), bytes = bytes_of(kFolder + name);
   const std::size_t end = bytes.find_last_not_of(" \r\n") + 1;
