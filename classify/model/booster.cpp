@@ -40,28 +40,6 @@ void quieten() { require(XGBSetGlobalConfig(R"({"verbosity": 0})"), "settings");
 
 }  // namespace
 
-FeatureMatrix select_rows(const FeatureMatrix& matrix, std::span<const std::size_t> rows) {
-  FeatureMatrix selected{matrix.names, {}};
-  selected.values.reserve(rows.size() * matrix.columns());
-  for (const std::size_t row : rows) {
-    const auto values = matrix.row(row);
-    selected.values.insert(selected.values.end(), values.begin(), values.end());
-  }
-  return selected;
-}
-
-FeatureMatrix join_columns(const FeatureMatrix& left, const FeatureMatrix& right) {
-  SEAGLINT_CHECK(left.rows() == right.rows(), fmt::format("{} rows beside {}", left.rows(), right.rows()));
-  FeatureMatrix joined{left.names, {}};
-  joined.names.insert(joined.names.end(), right.names.begin(), right.names.end());
-  joined.values.reserve(left.values.size() + right.values.size());
-  for (std::size_t i = 0; i < left.rows(); ++i) {
-    joined.values.insert(joined.values.end(), left.row(i).begin(), left.row(i).end());
-    joined.values.insert(joined.values.end(), right.row(i).begin(), right.row(i).end());
-  }
-  return joined;
-}
-
 struct Booster::Model {
   BoosterHandle handle = nullptr;
 

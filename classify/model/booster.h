@@ -8,28 +8,13 @@
 #include <filesystem>
 #include <memory>
 #include <span>
-#include <string>
 #include <vector>
 
+#include "classify/features/feature_matrix.h"
 #include "sim/core/process/parallel.h"
 #include "sim/scenario/learning_spec.h"
 
 namespace seaglint {
-
-// Rows of features, row-major; all values finite.
-struct FeatureMatrix {
-  std::vector<std::string> names;  // one per column
-  std::vector<float> values;
-
-  std::size_t columns() const { return names.size(); }
-  std::size_t rows() const { return names.empty() ? 0 : values.size() / names.size(); }
-  std::span<const float> row(std::size_t i) const { return {values.data() + i * columns(), columns()}; }
-};
-
-// The given rows, in the given order.
-FeatureMatrix select_rows(const FeatureMatrix& matrix, std::span<const std::size_t> rows);
-// Concatenates the columns of both (equal numbers of rows).
-FeatureMatrix join_columns(const FeatureMatrix& left, const FeatureMatrix& right);
 
 // Trained trees: probability that a row shows a ship (label 1).
 class Booster {

@@ -2,9 +2,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "classify/features/feature_matrix.h"
 #include "tests/fuzz/readers.h"
 #include "tests/fuzz/refusal.h"
-#include "tools/pipeline/train.h"
 
 namespace seaglint {
 

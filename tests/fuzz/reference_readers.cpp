@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 
+#include "sim/field_tables/rcs_reference.h"
 #include "tests/fuzz/readers.h"
 #include "tests/fuzz/refusal.h"
-#include "tools/rcs/rcs_reference.h"
 
 namespace seaglint {
 namespace {

@@ -86,6 +86,8 @@ TEST(Check, PrintsTheConventionsOfAResponseFile) {
   const ProgramResult made = run_program({"generate", file, "-o", folder.path() / "data"});
   EXPECT_EQ(made.code, 0) << made.err;
   EXPECT_THAT(made.err, HasSubstr(said));
+  const std::string csv = folder.path() / "motion.csv";
+  EXPECT_THAT(run_program({"motion", file, "--duration-s", "1", "-o", csv}).err, HasSubstr(said));
   expect_refused({"check", file, "--set", "targets.a.motion.wamit_heading=from"},
                  "motion.wamit_heading (now from) or motion.wamit_time_factor (now plus) is not the file's");
 }

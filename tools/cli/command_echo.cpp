@@ -41,6 +41,7 @@ void write_echo(const Arguments& arguments) {
   if (arguments.sample >= plan.size())
     throw InputError(fmt::format("--sample {}: the scenario has samples 0 to {}", arguments.sample, plan.size() - 1));
   const Pipeline pipeline(scenario, plan);
+  report_motion_files(pipeline);
   warn(mesh_warnings(pipeline));
   warn(motion_warnings(pipeline));
   warn(sea_warnings(scenario, plan.sea_states()));

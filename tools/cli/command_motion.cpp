@@ -65,6 +65,7 @@ MovingScene simulate_all(const Scenario& scenario, const SeaState& state, double
     if (stop) throw Interrupted();
     const TriangleMesh mesh = read_mesh(find_mesh(scenario, target), target.unit);
     scene.targets.push_back(load_body(scenario, target, mesh));
+    report_motion_file(target, scene.targets.back());
     const std::vector<Trajectory> all = simulate_target(target, scene.targets.back(), scene.state, scene.sea,
                                                         duration_s, scenario.seed, index, scene.bodies.size(), threads);
     for (std::size_t i = 0; i < all.size(); ++i) {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "sim/field_tables/rcs_reference.h"
 #include "tools/options/command_options.h"
-#include "tools/rcs/rcs_reference.h"
 
 namespace seaglint {
 

@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
-#include <string_view>
 #include <system_error>
 
 #include "classify/dataset/directory/dataset_writer.h"
@@ -14,9 +12,6 @@
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/core/process/temporary_file.h"
-#include "sim/core/text/number.h"
-#include "sim/core/text/text_rows.h"
-#include "sim/core/text/text_table.h"
 #include "sim/scenario/writer.h"
 #include "tools/pipeline/warnings.h"
 
@@ -111,30 +106,6 @@ TrainedModel train_model(const fs::path& data_set, const fs::path& model_directo
                          const std::vector<Override>& overrides, int threads, const StopFlag* stop) {
   const DatasetReader data(data_set);
   return train_model(data, read_scenario(data_set / kScenarioFile, overrides), model_directory, threads, stop);
-}
-
-FeatureMatrix read_embeddings(const fs::path& file, std::span<const std::int64_t> samples) {
-  constexpr std::size_t kAbout = 5;  // columns before the features
-  const TextSource source = TextSource::read(file);
-  std::string_view rest = source.text();
-  const TextRow header = next_row(rest, ',');
-  if (header.cells.size() < kAbout + 5 || header.cells[0] != "sample")
-    source.fail(source.text(), "not a table of embeddings");
-  const std::vector<std::string> names(header.cells.begin(), header.cells.end());
-  const TextTable table = TextTable::below(source, rest, names, ',');
-  if (table.rows() < samples.size()) {
-    throw InputError(
-        fmt::format("{}: {} rows: must be those of {} samples", file.string(), table.rows(), samples.size()));
-  }
-  FeatureMatrix matrix{{names.begin() + kAbout, names.end()}, {}};
-  for (std::size_t row = 0; row < samples.size(); ++row) {
-    if (parse_integer(table.text(row, 0)) != samples[row])
-      table.fail(row, 0, fmt::format("must be sample {}", samples[row]));
-    for (std::size_t k = kAbout; k < names.size(); ++k)
-      matrix.values.push_back(static_cast<float>(
-          table.number(row, k, std::numeric_limits<float>::lowest(), std::numeric_limits<float>::max())));
-  }
-  return matrix;
 }
 
 }  // namespace seaglint

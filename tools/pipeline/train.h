@@ -4,11 +4,9 @@
 // Writes a model directory from a data set: network, trees, splits, embeddings of all maps, and last metrics.json: a
 // directory without it is no complete model.
 
-#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -38,9 +36,5 @@ TrainedModel train_model(const DatasetReader& data, const Scenario& scenario,
 // The same with the scenario stored in the data set, changed by `overrides`.
 TrainedModel train_model(const std::filesystem::path& data_set, const std::filesystem::path& model_directory,
                          const std::vector<Override>& overrides, int threads, const StopFlag* stop = nullptr);
-
-// Reads the feature columns of embeddings.csv: hand-made features, then embedding and logit of the network. Throws
-// InputError naming file and line if it is not a table of these samples.
-FeatureMatrix read_embeddings(const std::filesystem::path& file, std::span<const std::int64_t> samples);
 
 }  // namespace seaglint

@@ -55,12 +55,15 @@ std::vector<std::string> motion_warnings(const Pipeline& pipeline) {
   return lines;
 }
 
+void report_motion_file(const TargetSpec& target, const Body& body) {
+  const std::string reading = motion_file_reading(body);
+  if (!reading.empty())
+    print_error(on_one_line(fmt::format("targets.{}.motion.file: {}", target.name, reading)) + "\n");
+}
+
 void report_motion_files(const Pipeline& pipeline) {
-  for (const Target& target : std::span(pipeline.targets()).first(pipeline.scenario().targets.size())) {
-    const std::string reading = motion_file_reading(target.body);
-    if (reading.empty()) continue;
-    print_error(on_one_line(fmt::format("targets.{}.motion.file: {}", target.spec.name, reading)) + "\n");
-  }
+  for (const Target& target : std::span(pipeline.targets()).first(pipeline.scenario().targets.size()))
+    report_motion_file(target.spec, target.body);
 }
 
 std::vector<std::string> sea_warnings(const Scenario& scenario, std::span<const SeaState> states) {

@@ -9,8 +9,10 @@
 
 namespace seaglint {
 
+struct Body;
 struct Scenario;
 struct SeaState;
+struct TargetSpec;
 class DatasetReader;
 class Pipeline;
 
@@ -20,7 +22,10 @@ std::vector<std::string> mesh_warnings(const Pipeline& pipeline);
 // One line per motion file whose times are not uniform.
 std::vector<std::string> motion_warnings(const Pipeline& pipeline);
 
-// Prints one line per motion file: columns, units and conventions by which it was read.
+// Prints one line if the target has a motion file: columns, units and conventions by which it was read.
+void report_motion_file(const TargetSpec& target, const Body& body);
+
+// The same for every target.
 void report_motion_files(const Pipeline& pipeline);
 
 // One line per wave system of the scenario's sea states with so few components that its mean period varies between

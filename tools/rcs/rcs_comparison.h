@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/rcs/rcs_reference.h"
+#include "sim/field_tables/rcs_reference.h"
 #include "tools/rcs/rcs_sweep.h"
 
 namespace seaglint {

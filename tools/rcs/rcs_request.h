@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sim/cavity/cavity_scattering.h"
+#include "sim/field_tables/transmitter_keys.h"
 #include "sim/scattering/beams/illumination_settings.h"
 #include "sim/scattering/target/prepare_target.h"
 #include "sim/scenario/sea_spec.h"
@@ -45,10 +46,6 @@ struct ViewExport {
   double range_db = 60;  // dynamic range below the strongest
 
   bool wanted() const { return !centres.empty() || !hot_spots.empty(); }
-};
-
-struct FixedTransmitter {
-  double azimuth_deg = 0, elevation_deg = 0;
 };
 
 struct RcsRequest {

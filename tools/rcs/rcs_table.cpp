@@ -7,10 +7,10 @@
 #include "seaglint_version.h"
 #include "sim/core/numbers/dbsm.h"
 #include "sim/core/process/printable.h"
+#include "sim/field_tables/transmitter_keys.h"
 #include "sim/scattering/beams/illumination_settings.h"
 #include "tools/rcs/echo_selection.h"
 #include "tools/rcs/rcs_uncertainty.h"
-#include "tools/rcs/transmitter_keys.h"
 
 namespace seaglint {
 namespace {

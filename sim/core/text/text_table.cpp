@@ -39,6 +39,11 @@ std::string name_of_separator(char separator) {
   return separator == '\t' ? "tabs" : fmt::format("'{}'", separator);
 }
 
+std::size_t required_among(const std::vector<TableColumn>& columns) {
+  return static_cast<std::size_t>(
+      std::count_if(columns.begin(), columns.end(), [](const TableColumn& column) { return column.required; }));
+}
+
 bool has_key(const std::vector<std::string>& keys, const TableColumn& column) {
   return std::any_of(column.keys.begin(), column.keys.end(),
                      [&](const std::string& key) { return std::find(keys.begin(), keys.end(), key) != keys.end(); });
@@ -69,6 +74,7 @@ struct TextTable::Header {
     if (!cut_at_separator) return header;
     header.names = row.cells;
     header.rows = text;
+    if (header.names.size() < required_among(columns)) return header;
     std::string_view below = text;
     while (!below.empty() && trimmed(below.substr(0, below.find('\n'))).empty()) next_line(below);
     TextRow units = next_row(below, separator);
@@ -104,8 +110,7 @@ TextTable::TextTable(TextSource source, std::vector<TableColumn> columns, std::s
 
 // The first line with all required columns: among those of the table or, with in_comments, among its comments.
 std::optional<TextTable::Header> TextTable::find_names(bool in_comments) const {
-  const auto required = static_cast<std::size_t>(
-      std::count_if(columns_.begin(), columns_.end(), [](const TableColumn& column) { return column.required; }));
+  const std::size_t required = required_among(columns_);
   std::string_view numbers;  // the first row of numbers above
   std::string_view rest = source_.text();
   for (int n = 0; n < kMaxLinesAbove && !rest.empty();) {
@@ -265,8 +270,8 @@ TextTable TextTable::below(TextSource source, std::string_view rows, std::vector
   TextTable table(std::move(source));
   for (const std::string& name : names) table.columns_.push_back(TableColumn({name}));
   table.separator_ = separator;
-  table.place_columns(names);
   table.names_ = std::move(names);
+  table.place_columns(table.names_);
   table.read_rows(rows);
   return table;
 }

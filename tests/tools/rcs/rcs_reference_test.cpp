@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // References of the radar cross section: formats of other programs, and matching with a sweep.
-#include "tools/rcs/rcs_reference.h"
+#include "sim/field_tables/rcs_reference.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

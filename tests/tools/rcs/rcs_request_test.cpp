@@ -11,9 +11,9 @@
 #include "sim/core/numbers/dbsm.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
+#include "sim/field_tables/rcs_reference.h"
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/shapes/generators.h"
-#include "tools/rcs/rcs_reference.h"
 #include "tools/rcs/rcs_table.h"
 #include "tools/rcs/rcs_views.h"
 

@@ -105,6 +105,16 @@ TEST(TextTable, HasNamesBelowTextOrInAComment) {
 
 TEST(TextTable, HasNumbersOfFortran) { expect_same("time_s roll_deg\n0.D0 1.5D+00\n5.0d-1 -2.25\n"); }
 
+TEST(TextTable, OfKnownNamesRefusesOneThatStandsTwice) {
+  const TextSource source("t.txt", "1 2 3\n");
+  try {
+    TextTable::below(source, source.text(), {"theta", "phi", "theta"}, ' ');
+    ADD_FAILURE() << "read";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "t.txt: column theta appears twice: columns 1 and 3 of the table");
+  }
+}
+
 TEST(TextTable, RefusesWhatItWouldMisread) {
   EXPECT_EQ(refusal(""), "t.csv: 0 rows: the file is empty: must be a table with a header");
   EXPECT_EQ(refusal("time_s,roll_rad\n0,1\n1,2\n"), "t.csv:1:1: no column roll_deg; the columns are time_s, roll_rad");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/rcs/reference_sample.h"
+#include "sim/field_tables/reference_sample.h"
 
 #include <cmath>
 

@@ -6,9 +6,11 @@
 #include <optional>
 #include <string>
 
-#include "tools/rcs/rcs_request.h"
-
 namespace seaglint {
+
+struct FixedTransmitter {
+  double azimuth_deg = 0, elevation_deg = 0;
+};
 
 // The head line of a fixed transmitter, `# transmitter_azimuth_deg=20 transmitter_elevation_deg=3`; without one that of
 // the monostatic case, `# transmitter=monostatic`. No line break.

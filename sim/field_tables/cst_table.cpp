@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/rcs/cst_table.h"
+#include "sim/field_tables/cst_table.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/rcs/transmitter_keys.h"
+#include "sim/field_tables/transmitter_keys.h"
 
 #include <fmt/format.h>
 

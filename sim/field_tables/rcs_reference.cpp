@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/rcs/rcs_reference.h"
+#include "sim/field_tables/rcs_reference.h"
 
 #include <fmt/format.h>
 
@@ -15,8 +15,8 @@
 #include "sim/core/text/text_rows.h"
 #include "sim/core/text/text_table.h"
 #include "sim/core/text/words.h"
-#include "tools/rcs/cst_table.h"
-#include "tools/rcs/transmitter_keys.h"
+#include "sim/field_tables/cst_table.h"
+#include "sim/field_tables/transmitter_keys.h"
 
 namespace seaglint {
 namespace {

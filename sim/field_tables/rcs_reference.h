@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "sim/core/numbers/linear.h"
+#include "sim/field_tables/reference_sample.h"
 #include "sim/scenario/radar_spec.h"
-#include "tools/rcs/reference_sample.h"
 
 namespace seaglint {
 
