@@ -5,29 +5,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
 
 #include "sim/core/numbers/constants.h"
+#include "sim/core/process/error.h"
 #include "sim/core/text/text_table.h"
 #include "sim/core/text/words.h"
+#include "sim/field_tables/level_unit.h"
 
 namespace seaglint {
 namespace {
-
-Complex amplitude_of(double level_dbsm, double phase_rad) {
-  return std::polar(std::sqrt(std::pow(10.0, level_dbsm / 10) / (4 * kPi)), phase_rad);
-}
-
-bool transmits_v(Polarisation element) { return element == Polarisation::kHv || element == Polarisation::kVv; }
-bool receives_v(Polarisation element) { return element == Polarisation::kVh || element == Polarisation::kVv; }
-
-std::string squeezed(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    if (c != ' ' && c != '\t') out += c;
-  }
-  return out;
-}
 
 struct CstColumn {
   std::string name, unit;  // without spaces
@@ -47,100 +35,138 @@ std::vector<CstColumn> cst_columns(const TextSource& source, std::string_view he
   }
 }
 
-// Level in dBsm of a value in the column's unit.
-class CstUnit {
+// The columns of a table by name, with units.
+class CstTable {
  public:
-  CstUnit(const TextSource& source, std::string_view header, const CstColumn& column, double wavelength_m) {
-    std::string unit = column.unit;
-    decibel_ = unit.starts_with("dB");
-    if (unit == "dB") {
-      source.fail(header,
-                  fmt::format("column {} [dB] is relative to its own maximum: export absolute values, m^2 or dB(m^2)",
-                              column.name));
-    }
-    if (unit == "dBsm") unit = "dB(m^2)";
-    if (decibel_) unit = unit.size() > 4 && unit[2] == '(' ? unit.substr(3, unit.size() - 4) : unit.substr(2);
-    if (unit == "m^2") {
-      offset_db_ = 0;
-    } else if (unit == "mm^2") {
-      offset_db_ = -60;
-    } else if (unit == "cm^2") {
-      offset_db_ = -40;
-    } else if (unit == "lambda^2") {
-      offset_db_ = 20 * std::log10(wavelength_m);
-    } else {
-      source.fail(header,
-                  fmt::format("column {} [{}]: the unit must be m^2, cm^2, mm^2, lambda^2, or dB() of one of them",
-                              column.name, column.unit));
-    }
+  CstTable(const TextSource& source, double frequency_hz) : source_(source) {
+    std::string_view rest = source.text();
+    do header_ = next_line(rest);
+    while (is_comment(header_) || !is_cst_header(header_));
+    header_ = trimmed(header_);
+    columns_ = cst_columns(source, header_);
+    wavelength_m_ = kSpeedOfLight / frequency_hz;
+    std::vector<std::string> names;
+    for (const CstColumn& column : columns_) names.push_back(column.name);
+    rows_ = std::make_unique<TextTable>(TextTable::below(source, rest, names, ' '));
   }
-  double level(const TextTable& table, std::size_t row, std::size_t column) const {
-    if (decibel_) return std::max(table.level(row, column), kMinLevel_dbsm) + offset_db_;
-    const double area = table.number(row, column, 0);
-    return std::max(10 * std::log10(std::max(area, 1e-300)) + offset_db_, kMinLevel_dbsm);
+
+  const TextTable& rows() const { return *rows_; }
+  std::string_view header() const { return header_; }
+
+  std::optional<std::size_t> find(const std::string& name) const {
+    const auto place =
+        std::find_if(columns_.begin(), columns_.end(), [&](const CstColumn& c) { return c.name == name; });
+    if (place == columns_.end()) return std::nullopt;
+    return static_cast<std::size_t>(place - columns_.begin());
+  }
+  // A column of angles. Throws InputError for another unit, and without it unless it is optional.
+  std::optional<std::size_t> find_angle(const std::string& name, bool required) const {
+    const std::optional<std::size_t> column = find(name);
+    if (!column && required) source_.fail(header_, fmt::format("no column {}[deg.]", name));
+    if (column && !columns_[*column].unit.starts_with("deg"))
+      source_.fail(header_, fmt::format("{} in [{}]: must be in degrees", name, columns_[*column].unit));
+    return column;
+  }
+  LevelUnit unit_of(std::size_t column) const {
+    return LevelUnit(source_, header_, columns_[column].name, columns_[column].unit, wavelength_m_);
   }
 
  private:
-  bool decibel_ = false;
-  double offset_db_ = 0;
+  const TextSource& source_;
+  std::string_view header_;
+  std::vector<CstColumn> columns_;
+  double wavelength_m_ = 0;
+  std::unique_ptr<TextTable> rows_;
+};
+
+// A field component: level, and phase where the table has it.
+struct CstComponent {
+  std::size_t magnitude = 0;
+  std::optional<std::size_t> phase;
+  LevelUnit unit;
+
+  double level_dbsm(const TextTable& rows, std::size_t row) const { return unit.level_dbsm(rows, row, magnitude); }
+  Complex field_m(const TextTable& rows, std::size_t row) const {
+    return std::polar(std::sqrt(std::pow(10.0, level_dbsm(rows, row) / 10) / (4 * kPi)),
+                      radians(rows.number(row, *phase)));
+  }
+};
+
+std::optional<CstComponent> find_component(const CstTable& table, const std::string& magnitude,
+                                           const std::string& phase) {
+  const std::optional<std::size_t> column = table.find(magnitude);
+  if (!column) return std::nullopt;
+  return CstComponent{*column, table.find_angle(phase, false), table.unit_of(*column)};
+}
+
+// The spherical component that an element receives, of a table in spherical components or in Ludwig's third definition.
+class ReceivedField {
+ public:
+  ReceivedField(const TextSource& source, const CstTable& table, bool theta) : theta_(theta) {
+    const std::string name = theta ? "Theta" : "Phi";
+    spherical_ = find_component(table, "Abs(" + name + ")", "Phase(" + name + ")");
+    horizontal_ = find_component(table, "Horiz(Abs)", "Horiz(Phase)");
+    vertical_ = find_component(table, "Vert(Abs)", "Vert(Phase)");
+    if (spherical_) return;
+    const bool ludwig = horizontal_ && vertical_ && horizontal_->phase && vertical_->phase;
+    if (!ludwig)
+      source.fail(table.header(), fmt::format("no column Abs({0}), nor Horiz and Vert with their phases", name));
+  }
+  bool has_level() const { return spherical_.has_value(); }  // of its own, in the table's digits
+  bool has_phase() const { return !spherical_ || spherical_->phase.has_value(); }
+  double level_dbsm(const TextTable& rows, std::size_t row) const { return spherical_->level_dbsm(rows, row); }
+  // Ludwig 1973, definition 3: i_horiz = theta^ cos phi - phi^ sin phi, i_vert = theta^ sin phi + phi^ cos phi.
+  Complex field_m(const TextTable& rows, std::size_t row, double phi_deg) const {
+    if (spherical_) return spherical_->field_m(rows, row);
+    const Complex h = horizontal_->field_m(rows, row), v = vertical_->field_m(rows, row);
+    const double c = std::cos(radians(phi_deg)), s = std::sin(radians(phi_deg));
+    return theta_ ? c * h + s * v : c * v - s * h;
+  }
+
+ private:
+  bool theta_ = true;
+  std::optional<CstComponent> spherical_, horizontal_, vertical_;
 };
 
 }  // namespace
 
 bool is_cst_header(std::string_view line) {
   const auto has = [&](const char* part) { return line.find(part) != std::string_view::npos; };
-  return has("Theta") && has("Abs(") && has("[");
+  return has("Theta") && (has("Abs(") || has("(Abs")) && has("[");
 }
 
-std::vector<ReferenceSample> read_cst_table(const TextSource& source, Polarisation element,
-                                            std::optional<double> given_frequency_hz) {
-  std::string_view rest = source.text(), header;
-  do header = next_line(rest);
-  while (is_comment(header) || !is_cst_header(header));
-  header = trimmed(header);
-  const std::vector<CstColumn> columns = cst_columns(source, header);
-  if (!given_frequency_hz)
-    source.fail(header, "a CST table does not say its frequency: give --reference-frequency-ghz");
-  const double frequency_hz = *given_frequency_hz;
-
-  std::vector<std::string> names;
-  for (const CstColumn& column : columns) names.push_back(column.name);
-  const auto column = [&](const std::string& name) -> std::optional<std::size_t> {
-    const auto place = std::find(names.begin(), names.end(), name);
-    if (place == names.end()) return std::nullopt;
-    return static_cast<std::size_t>(place - names.begin());
-  };
-  const std::string component = receives_v(element) ? "Theta" : "Phi";
-  const auto theta = column("Theta"), phi = column("Phi"), magnitude = column("Abs(" + component + ")"),
-             phase = column("Phase(" + component + ")");
-  if (!theta || !phi) source.fail(header, "no columns Theta[deg.] and Phi[deg.]");
-  for (const std::size_t angle : {*theta, *phi, phase.value_or(*phi)}) {
-    if (columns[angle].unit.starts_with("deg")) continue;
-    source.fail(header, fmt::format("{} in [{}]: must be in degrees", columns[angle].name, columns[angle].unit));
+void read_cst_table(const TextSource& source, const FieldTableSettings& settings, FieldTable& table) {
+  table.notes.emplace_back("e^{+jwt}; theta^ = -v, phi^ = h");
+  const double frequency_hz = settings.frequency_hz.value_or(0);
+  if (frequency_hz <= 0) {
+    throw InputError(
+        fmt::format("{}: a CST table does not say its frequency, nor does its name: give --reference-frequency-ghz",
+                    source.name()));
   }
-  if (!magnitude) {
-    source.fail(header, fmt::format("no column Abs({}), which {} needs", component,
-                                    kPolarisationNames[static_cast<int>(element)]));
-  }
-  const CstUnit unit(source, header, columns[*magnitude], kSpeedOfLight / frequency_hz);
-
-  const bool cross = transmits_v(element) != receives_v(element);
-  std::vector<ReferenceSample> samples;
-  const TextTable table = TextTable::below(source, rest, names, ' ');
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    ReferenceSample sample;
-    sample.frequency_hz = frequency_hz;
-    sample.theta_deg = table.number(row, *theta);
-    sample.phi_deg = table.number(row, *phi);
-    const bool folded = fold_direction(sample.theta_deg, sample.phi_deg);
-    sample.level_dbsm = unit.level(table, row, *magnitude);
-    if (phase) {
-      sample.amplitude_m = amplitude_of(sample.level_dbsm, radians(table.number(row, *phase))) * (folded ? -1.0 : 1.0) *
-                           (cross ? -1.0 : 1.0);
+  require_elements(settings, source.name(), "a CST table");
+  const CstTable cst(source, frequency_hz);
+  const TextTable& rows = cst.rows();
+  const std::size_t theta = *cst.find_angle("Theta", true), phi = *cst.find_angle("Phi", true);
+  for (const Polarisation element : settings.elements) {
+    const ReceivedField field(source, cst, receives_v(element));
+    RcsCut cut;
+    cut.element = element;
+    cut.transmitter = settings.transmitter;
+    for (std::size_t row = 0; row < rows.rows(); ++row) {
+      const double theta_deg = rows.number(row, theta), phi_deg = rows.number(row, phi);
+      if (field.has_phase()) {
+        FieldValue value =
+            field_value(element, frequency_hz, theta_deg, phi_deg, field.field_m(rows, row, phi_deg), rows.line(row));
+        if (field.has_level()) value.level_dbsm = field.level_dbsm(rows, row);
+        cut.values.push_back(value);
+        continue;
+      }
+      FieldValue value{frequency_hz, theta_deg, phi_deg, field.level_dbsm(rows, row), {}, rows.line(row)};
+      fold_direction(value.theta_deg, value.phi_deg);
+      cut.values.push_back(value);
     }
-    samples.push_back(sample);
+    table.cuts.push_back(std::move(cut));
   }
-  return samples;
 }
 
 }  // namespace seaglint

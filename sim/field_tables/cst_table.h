@@ -1,24 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// CST farfield tables of the radar cross section (rcs_reference.h).
+// CST farfield tables: radar cross section or electric field (1 m, plane wave of 1 V/m) over theta and phi.
 
-#include <optional>
 #include <string_view>
-#include <vector>
 
 #include "sim/core/text/text_source.h"
-#include "sim/field_tables/reference_sample.h"
-#include "sim/scenario/radar_spec.h"
+#include "sim/field_tables/field_table.h"
 
 namespace seaglint {
 
 // The line with the names of the columns.
 bool is_cst_header(std::string_view line);
 
-// The samples of one polarisation in a text that has such a line. The table lacks its frequency. Throws InputError with
-// file, line and column.
-std::vector<ReferenceSample> read_cst_table(const TextSource& source, Polarisation element,
-                                            std::optional<double> frequency_hz);
+// The wanted elements of a text that has such a line: columns by their squeezed names, `Theta[deg.] Phi[deg.]
+// Abs(Theta)[unit] Phase(Theta)[deg.] Abs(Phi)[unit] Phase(Phi)[deg.]`, or in Ludwig's third definition `Horiz(Abs)
+// Horiz(Phase) Vert(Abs) Vert(Phase)`; units: level_unit.h. Theta below 0 is folded (|theta|, phi + 180). The table has
+// neither frequency nor polarisation transmitted. Throws InputError with file, line and column.
+void read_cst_table(const TextSource& source, const FieldTableSettings& settings, FieldTable& table);
 
 }  // namespace seaglint

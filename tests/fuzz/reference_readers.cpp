@@ -1,31 +1,59 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 
-#include "sim/field_tables/rcs_reference.h"
+#include "sim/field_tables/read_field_table.h"
 #include "tests/fuzz/readers.h"
 #include "tests/fuzz/refusal.h"
 
 namespace seaglint {
 namespace {
 
-void read_cut(const std::string& bytes, const ReferenceSettings& settings) {
+void read_export(const std::string& bytes, const FieldTableSettings& settings) {
   is_refused([&] {
-    const RcsReference cut = read_reference(file_of(bytes, "cut.H.txt"), settings);
-    for (const ReferenceSample& sample : cut.samples) {
-      SEAGLINT_CHECK(std::isfinite(sample.theta_deg) && std::isfinite(sample.phi_deg) && sample.frequency_hz > 0,
-                     "no direction or frequency");
+    for (const RcsCut& cut : read_field_table(file_of(bytes, "export.txt"), settings).cuts) {
+      SEAGLINT_CHECK(!cut.values.empty(), "a cut without values");
+      for (const FieldValue& value : cut.values) {
+        SEAGLINT_CHECK(std::isfinite(value.theta_deg) && std::isfinite(value.phi_deg) && value.frequency_hz > 0 &&
+                           std::isfinite(value.level_dbsm),
+                       "no direction, frequency or level");
+      }
     }
   });
 }
 
+FieldTableSettings of_both_received() {
+  FieldTableSettings settings;
+  settings.elements = {Polarisation::kVv, Polarisation::kHv};
+  return settings;
+}
+
 }  // namespace
 
-void fuzz_rcs_cut(const std::string& bytes) { read_cut(bytes, {}); }
+void fuzz_rcs_cut(const std::string& bytes) {
+  FieldTableSettings settings;
+  settings.elements = {Polarisation::kHh};
+  read_export(bytes, settings);
+}
+
+void fuzz_own_table(const std::string& bytes) { read_export(bytes, {}); }
 
 void fuzz_cst(const std::string& bytes) {
-  ReferenceSettings settings;
+  FieldTableSettings settings = of_both_received();
   settings.frequency_hz = 10e9;
-  read_cut(bytes, settings);
+  read_export(bytes, settings);
 }
+
+void fuzz_cst_curves(const std::string& bytes) {
+  FieldTableSettings settings;
+  settings.elements = {Polarisation::kVv};
+  settings.frequency_hz = 10e9;
+  read_export(bytes, settings);
+}
+
+void fuzz_ffs(const std::string& bytes) { read_export(bytes, of_both_received()); }
+
+void fuzz_ffe(const std::string& bytes) { read_export(bytes, {}); }
+
+void fuzz_hfss(const std::string& bytes) { read_export(bytes, of_both_received()); }
 
 }  // namespace seaglint

@@ -137,7 +137,7 @@ void write_texts(const fs::path& root) {
   write_file(seed(root, "veres", "small.re1"), kVeres);
   write_file(seed(root, "wamit", "small.4"), wamit());
   write_file(seed(root, "series", "openfast.out"), kOpenFast);
-  write_file(seed(root, "rcs_cut", "own.csv"), kOwnCut);
+  write_file(seed(root, "own_table", "own.csv"), kOwnCut);
   write_file(seed(root, "embeddings", "embeddings.csv"), kEmbeddings);
   write_file(seed(root, "hop_code", "code.txt"), "# carriers\n0, 5, 3, 15\n1;2\t7 8\n");
   write_file(seed(root, "numbers", "range"), "0.1:1.5:0.1");

@@ -9,6 +9,7 @@
 #include "seaglint_version.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
+#include "sim/core/process/printable.h"
 #include "sim/core/process/standard_error.h"
 #include "sim/core/process/standard_output.h"
 #include "sim/geometry/files/mesh_io.h"
@@ -59,12 +60,20 @@ void show_figure(const RcsArguments& arguments, const std::vector<PairedCut>& cu
 }
 
 // The cuts of all references that the sweep covers; throws before any work if one does not match.
-std::vector<PairedCut> pair_with_all(const RcsSweep& sweep, const std::vector<RcsReference>& references) {
+std::vector<PairedCut> pair_with_all(const RcsSweep& sweep, const std::vector<FieldTable>& references) {
   std::vector<PairedCut> cuts;
-  for (const RcsReference& reference : references) {
-    for (PairedCut& cut : match_reference(sweep, reference)) cuts.push_back(std::move(cut));
+  for (const FieldTable& reference : references) {
+    for (const RcsCut& element : reference.cuts) {
+      for (PairedCut& cut : match_reference(sweep, element)) cuts.push_back(std::move(cut));
+    }
   }
   return cuts;
+}
+
+std::vector<FieldTable> read_references(const ReferenceArguments& arguments) {
+  std::vector<FieldTable> references = arguments.read();
+  for (const FieldTable& reference : references) print_error(on_one_line(reading_of(reference)) + "\n");
+  return references;
 }
 
 RcsResult compute(const RcsArguments& arguments, const RcsRequest& request, const RcsTarget& target,
@@ -82,7 +91,7 @@ void run_rcs(const RcsArguments& arguments, const CommandContext& context) {
   std::vector<std::string> warnings = request_warnings(request);
   warn(warnings);
   const RcsSweep asked = requested_sweep(request);
-  std::vector<PairedCut> cuts = pair_with_all(asked, arguments.reference.read());
+  std::vector<PairedCut> cuts = pair_with_all(asked, read_references(arguments.reference));
   PreparedTarget prepared = prepare_mesh(request);
   warnings.insert(warnings.end(), prepared.warnings.begin(), prepared.warnings.end());
   warn(prepared.warnings);

@@ -7,6 +7,7 @@
 
 #include "sim/core/process/error.h"
 #include "sim/core/text/number.h"
+#include "sim/field_tables/read_field_table.h"
 
 namespace seaglint {
 namespace {
@@ -37,11 +38,22 @@ const std::string* value_for(const std::string& option, const std::vector<std::s
   return &values[i];
 }
 
-Polarisation polarisation_named(const std::string& name) {
+// hh, hv, vh or vv, or of the transmitted polarisation, h or v, both elements.
+std::vector<Polarisation> elements_named(const std::string& name) {
+  if (name == "h" || name == "v") return {element_of(true, name == "v"), element_of(false, name == "v")};
   for (int i = 0; i < 4; ++i) {
-    if (name == kPolarisationNames[i]) return static_cast<Polarisation>(i);
+    if (name == kPolarisationNames[i]) return {static_cast<Polarisation>(i)};
   }
-  throw InputError(fmt::format("--reference-polarisation {}: must be hh, hv, vh or vv (received, transmitted)", name));
+  throw InputError(fmt::format(
+      "--reference-polarisation {}: must be hh, hv, vh or vv (received, transmitted), or h or v (transmitted)", name));
+}
+
+DeclaredTransmitter incidence_named(const std::string& text) {
+  if (text == "monostatic") return {};
+  const std::vector<double> angles = numbers("--incidence", text, 2);
+  DeclaredTransmitter transmitter{false, angles[0], angles[1]};
+  fold_direction(transmitter.theta_deg, transmitter.phi_deg);
+  return transmitter;
 }
 
 }  // namespace
@@ -50,21 +62,27 @@ void ReferenceArguments::add_to(CommandOptions& command) {
   const auto repeatable = [&](const char* name, std::vector<std::string>& values, const char* what, const char* type) {
     return command.add_option(name, values, what).repeatable(type).group("Reference");
   };
-  const CommandOption reference =
-      repeatable("--reference", files,
-                 "Compare with a cut that was measured or computed elsewhere (repeatable): four "
-                 "columns frequency_hz theta_deg phi_deg dBsm, a table "
-                 "of this command, or a monostatic CST farfield table of the RCS",
-                 "FILE");
+  const CommandOption reference = repeatable("--reference", files,
+                                             "Compare with a cut that was measured or computed elsewhere (repeatable): "
+                                             "an export of CST, FEKO or HFSS, a table "
+                                             "of this command, or four columns frequency_hz theta_deg phi_deg dBsm",
+                                             "FILE");
   repeatable(
       "--reference-polarisation", polarisation,
-      "hh, hv, vh or vv (received, transmitted); default from the name, .H. or .V.; once, or once for each reference",
+      "hh, hv, vh or vv (received, transmitted), or h or v (transmitted: both elements); default what the file or its "
+      "name says; once, or once for each reference",
       "PP")
       .needs(reference);
   repeatable("--reference-phi", phi,
              "A,B: the reference's phi is A * azimuth + B degrees; default 1,0. Its theta is 90 - elevation", "A,B")
       .needs(reference);
-  repeatable("--reference-frequency-ghz", frequency_ghz, "Frequency of a reference that does not say it (CST)", "GHZ")
+  repeatable("--reference-frequency-ghz", frequency_ghz, "Frequency of a reference that does not say it", "GHZ")
+      .needs(reference);
+  repeatable(
+      "--incidence", incidence,
+      "monostatic, or THETA,PHI of the file: where the incident wave comes from, of a reference that does not say "
+      "it",
+      "DIRECTION")
       .needs(reference);
   repeatable("--reference-origin-m", origin_m, "The reference's phase origin in the body's frame; default 0,0,0",
              "X,Y,Z")
@@ -80,12 +98,12 @@ void ReferenceArguments::add_to(CommandOptions& command) {
       .group("Reference");
 }
 
-std::vector<RcsReference> ReferenceArguments::read() const {
-  std::vector<RcsReference> references;
+std::vector<FieldTable> ReferenceArguments::read() const {
+  std::vector<FieldTable> references;
   for (std::size_t i = 0; i < files.size(); ++i) {
-    ReferenceSettings settings;
+    FieldTableSettings settings;
     if (const std::string* text = value_for("--reference-polarisation", polarisation, i, files.size()))
-      settings.element = polarisation_named(*text);
+      settings.elements = elements_named(*text);
     if (const std::string* text = value_for("--reference-phi", phi, i, files.size())) {
       const std::vector<double> map = numbers("--reference-phi", *text, 2);
       if (map[0] == 0) throw InputError(fmt::format("--reference-phi {}: the factor must not be 0", *text));
@@ -97,11 +115,13 @@ std::vector<RcsReference> ReferenceArguments::read() const {
       if (*settings.frequency_hz <= 0)
         throw InputError(fmt::format("--reference-frequency-ghz {}: must be > 0", *text));
     }
+    if (const std::string* text = value_for("--incidence", incidence, i, files.size()))
+      settings.transmitter = incidence_named(*text);
     if (const std::string* text = value_for("--reference-origin-m", origin_m, i, files.size())) {
       const std::vector<double> x = numbers("--reference-origin-m", *text, 3);
       settings.origin_m = Vec3(x[0], x[1], x[2]);
     }
-    references.push_back(read_reference(files[i], settings));
+    references.push_back(read_field_table(files[i], settings));
   }
   return references;
 }

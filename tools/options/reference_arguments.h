@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/field_tables/rcs_reference.h"
+#include "sim/field_tables/field_table.h"
 #include "tools/options/command_options.h"
 
 namespace seaglint {
@@ -14,12 +14,12 @@ namespace seaglint {
 struct ReferenceArguments {
   std::vector<std::string> files;
   // Each is empty, given once for all files, or given once per file in the order of the files.
-  std::vector<std::string> polarisation, phi, frequency_ghz, origin_m;
+  std::vector<std::string> polarisation, phi, frequency_ghz, incidence, origin_m;
   double floor_db = 80;
   std::string figure;
 
   void add_to(CommandOptions& command);
-  std::vector<RcsReference> read() const;  // throws InputError
+  std::vector<FieldTable> read() const;  // throws InputError
 };
 
 }  // namespace seaglint

@@ -31,8 +31,8 @@ DirectionKey key_of(double theta_deg, double phi_deg) {
 // A reference's samples of one frequency by their direction.
 class Samples {
  public:
-  Samples(const RcsReference& reference, double frequency_hz) {
-    for (const ReferenceSample& sample : reference.samples) {
+  Samples(const RcsCut& reference, double frequency_hz) {
+    for (const FieldValue& sample : reference.values) {
       if (std::abs(sample.frequency_hz - frequency_hz) > kFrequencyTolerance * frequency_hz) continue;
       const auto [place, is_new] = by_direction_.try_emplace(key_of(sample.theta_deg, sample.phi_deg), &sample);
       if (!is_new && std::abs(place->second->level_dbsm - sample.level_dbsm) > kSameLevel_db) {
@@ -43,7 +43,7 @@ class Samples {
     }
   }
   // Rounding may give equal angles neighbouring keys.
-  const ReferenceSample* at(double theta_deg, double phi_deg) const {
+  const FieldValue* at(double theta_deg, double phi_deg) const {
     const DirectionKey key = key_of(theta_deg, phi_deg);
     for (const long theta : {0L, -1L, 1L}) {
       for (const long phi : {0L, -1L, 1L}) {
@@ -55,7 +55,7 @@ class Samples {
   }
 
  private:
-  std::map<DirectionKey, const ReferenceSample*> by_direction_;
+  std::map<DirectionKey, const FieldValue*> by_direction_;
 };
 
 std::string span_text(std::vector<double> values) {
@@ -65,9 +65,9 @@ std::string span_text(std::vector<double> values) {
                             : fmt::format("{:g} to {:g} ({} values)", values.front(), values.back(), values.size());
 }
 
-[[noreturn]] void fail_pairing(const RcsSweep& sweep, const RcsReference& reference) {
+[[noreturn]] void fail_pairing(const RcsSweep& sweep, const RcsCut& reference) {
   std::vector<double> f, theta, phi;
-  for (const ReferenceSample& s : reference.samples) {
+  for (const FieldValue& s : reference.values) {
     f.push_back(s.frequency_hz * 1e-9);
     theta.push_back(s.theta_deg);
     phi.push_back(s.phi_deg);
@@ -75,14 +75,13 @@ std::string span_text(std::vector<double> values) {
   std::vector<double> sweep_f, sweep_theta, sweep_phi;
   for (const double hz : sweep.frequency_hz) sweep_f.push_back(hz * 1e-9);
   for (const double el : sweep.elevation_deg) sweep_theta.push_back(90 - el);
-  for (const double az : sweep.azimuth_deg)
-    sweep_phi.push_back(reference.settings.phi_scale * az + reference.settings.phi_offset_deg);
+  for (const double az : sweep.azimuth_deg) sweep_phi.push_back(reference.phi_scale * az + reference.phi_offset_deg);
   throw InputError(fmt::format(
       "{}: no direction in common with the sweep; the file has {} GHz, theta {}, phi {} deg, the sweep {} GHz, theta "
       "{}, phi {} deg "
       "(theta = 90 - elevation, phi by --reference-phi {:g},{:g})",
       reference.name, span_text(f), span_text(theta), span_text(phi), span_text(sweep_f), span_text(sweep_theta),
-      span_text(sweep_phi), reference.settings.phi_scale, reference.settings.phi_offset_deg));
+      span_text(sweep_phi), reference.phi_scale, reference.phi_offset_deg));
 }
 
 Vec3 unit_vector(double theta_deg, double phi_deg) {
@@ -92,7 +91,7 @@ Vec3 unit_vector(double theta_deg, double phi_deg) {
 
 // Throws InputError if the transmitters differ: monostatic and bistatic echoes are different quantities even at equal
 // angles.
-void require_same_transmitter(const RcsSweep& sweep, const RcsReference& reference) {
+void require_same_transmitter(const RcsSweep& sweep, const RcsCut& reference) {
   if (!reference.transmitter) return;
   const DeclaredTransmitter& declared = *reference.transmitter;
   const auto fail = [&](const std::string& of_sweep) {
@@ -110,8 +109,7 @@ void require_same_transmitter(const RcsSweep& sweep, const RcsReference& referen
   }
   const Vec3& t = *sweep.transmitter;
   const double theta_deg = degrees(std::acos(std::clamp(t.z(), -1.0, 1.0)));
-  const double phi_deg =
-      reference.settings.phi_scale * degrees(std::atan2(t.y(), t.x())) + reference.settings.phi_offset_deg;
+  const double phi_deg = reference.phi_scale * degrees(std::atan2(t.y(), t.x())) + reference.phi_offset_deg;
   const std::string of_sweep = fmt::format(
       "the sweep's transmitter is at azimuth {:g} deg, elevation {:g} deg of the same angles", phi_deg, 90 - theta_deg);
   if (declared.is_monostatic ||
@@ -150,7 +148,7 @@ std::string upper(std::string text) {
 
 }  // namespace
 
-std::vector<PairedCut> match_reference(const RcsSweep& sweep, const RcsReference& reference) {
+std::vector<PairedCut> match_reference(const RcsSweep& sweep, const RcsCut& reference) {
   require_same_transmitter(sweep, reference);
   const CutAxis axis = axis_of(sweep);
   std::vector<PairedCut> cuts;
@@ -167,8 +165,7 @@ std::vector<PairedCut> match_reference(const RcsSweep& sweep, const RcsReference
     PairedCut& cut = cuts.back();
     for (std::size_t view = 0; view < sweep.views(); ++view) {
       const double az = sweep.azimuth_of(view), el = sweep.elevation_of(view);
-      const ReferenceSample* sample =
-          samples.at(90 - el, reference.settings.phi_scale * az + reference.settings.phi_offset_deg);
+      const FieldValue* sample = samples.at(90 - el, reference.phi_scale * az + reference.phi_offset_deg);
       if (!sample) continue;
       cut.x.push_back(axis == CutAxis::kAzimuth     ? az
                       : axis == CutAxis::kElevation ? el
@@ -179,9 +176,8 @@ std::vector<PairedCut> match_reference(const RcsSweep& sweep, const RcsReference
         // For a phase origin at x0 the two-way path is shorter by (r^_t + r^_s).x0 than for the body's origin
         // (CONVENTIONS.md, "Scattering").
         const Vec3 r = direction_to_radar(radians(az), radians(el));
-        cut.amplitude_m.push_back(
-            *sample->amplitude_m *
-            std::polar(1.0, k * (sweep.transmitter.value_or(r) + r).dot(reference.settings.origin_m)));
+        cut.amplitude_m.push_back(*sample->amplitude_m *
+                                  std::polar(1.0, k * (sweep.transmitter.value_or(r) + r).dot(reference.origin_m)));
       }
       cut.places.push_back({view, q});
     }

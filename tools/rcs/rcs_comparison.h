@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/field_tables/rcs_reference.h"
+#include "sim/field_tables/field_table.h"
 #include "tools/rcs/rcs_sweep.h"
 
 namespace seaglint {
@@ -42,7 +42,7 @@ struct PairedCut {
 // Matches directions within 0.001 deg and frequencies within a relative 1e-6; nothing is interpolated. One cut per
 // frequency, or a single cut if there is one direction. Throws InputError if nothing matches, naming the content of
 // both, and if the reference declares another transmitter direction than the sweep's.
-std::vector<PairedCut> match_reference(const RcsSweep& sweep, const RcsReference& reference);
+std::vector<PairedCut> match_reference(const RcsSweep& sweep, const RcsCut& reference);
 
 // Fills the cut's models from the sweep that it was matched with, once that is computed.
 void set_models(PairedCut& cut, const RcsSweep& sweep);

@@ -11,7 +11,7 @@
 #include "sim/core/numbers/dbsm.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
-#include "sim/field_tables/rcs_reference.h"
+#include "sim/field_tables/read_field_table.h"
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/shapes/generators.h"
 #include "tools/rcs/rcs_table.h"
@@ -45,10 +45,10 @@ class PlateRequest : public testing::Test {
     }
     return "";
   }
-  RcsReference read_again(const RcsSweep& sweep, const Scatterer& scatterer) const {
+  RcsCut read_again(const RcsSweep& sweep, const Scatterer& scatterer) const {
     const fs::path file = folder_ / "table.V.csv";
     write_file(file, rcs_table(request_, scatterer, sweep));
-    return read_reference(file, {});
+    return read_field_table(file, {}).cuts.at(0);
   }
 
   fs::path folder_;
@@ -70,13 +70,13 @@ TEST_F(PlateRequest, HasThePlatesEchoAtNormalIncidence) {
 
 TEST_F(PlateRequest, WritesATableWithItsTransmitter) {
   const RcsTarget target = prepare_rcs_target(request_);
-  const RcsReference monostatic = read_again(compute_rcs(request_, target, 1).sweep, *target.prepared.scatterer);
+  const RcsCut monostatic = read_again(compute_rcs(request_, target, 1).sweep, *target.prepared.scatterer);
   ASSERT_TRUE(monostatic.transmitter);
   EXPECT_TRUE(monostatic.transmitter->is_monostatic);
-  ASSERT_EQ(monostatic.samples.size(), 1u);
+  ASSERT_EQ(monostatic.values.size(), 1u);
 
   request_.transmitter = FixedTransmitter{-20, 30.5};
-  const RcsReference bistatic = read_again(compute_rcs(request_, target, 1).sweep, *target.prepared.scatterer);
+  const RcsCut bistatic = read_again(compute_rcs(request_, target, 1).sweep, *target.prepared.scatterer);
   ASSERT_TRUE(bistatic.transmitter);
   EXPECT_FALSE(bistatic.transmitter->is_monostatic);
   EXPECT_EQ(bistatic.transmitter->theta_deg, 59.5);

@@ -12,7 +12,7 @@
 #include "sim/core/numbers/dbsm.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
-#include "sim/field_tables/rcs_reference.h"
+#include "sim/field_tables/read_field_table.h"
 #include "sim/geometry/files/mesh_io.h"
 #include "sim/geometry/shapes/generators.h"
 #include "tools/rcs/rcs_table.h"
@@ -129,7 +129,7 @@ TEST_F(UncertainCylinder, HasTheEchoOfFlatFacetsAfterThePromisedColumns) {
   }
   // Still a reference, with or without these columns.
   write_file(folder_ / "table.V.csv", table);
-  EXPECT_EQ(read_reference(folder_ / "table.V.csv", {}).samples.size(), sweep.rows());
+  EXPECT_EQ(read_field_table(folder_ / "table.V.csv", {}).cuts.at(0).values.size(), sweep.rows());
 }
 
 TEST_F(UncertainCylinder, IsDrawn) {

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/field_tables/field_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/core/numbers/dbsm.h"
+#include "sim/core/process/error.h"
+
+namespace seaglint {
+
+std::string reading_of(const FieldTable& table) {
+  std::string text = fmt::format("{}: read as {}", table.name, table.reader);
+  for (const std::string& note : table.notes) text += "; " + note;
+  return text;
+}
+
+void require_elements(const FieldTableSettings& settings, const std::string& file, const char* format) {
+  if (!settings.elements.empty()) return;
+  throw InputError(
+      fmt::format("{}: {} does not say which polarisation was transmitted, nor does its name (HP, VP): give "
+                  "--reference-polarisation h or v, or "
+                  "one element, hh, hv, vh or vv",
+                  file, format));
+}
+
+bool fold_direction(double& theta_deg, double& phi_deg) {
+  theta_deg = std::remainder(theta_deg, 360);
+  const bool negative = theta_deg < 0;
+  if (negative) {
+    theta_deg = -theta_deg;
+    phi_deg += 180;
+  }
+  phi_deg = std::fmod(phi_deg, 360);
+  if (phi_deg < 0) phi_deg += 360;
+  return negative;
+}
+
+FieldValue field_value(Polarisation element, double frequency_hz, double theta_deg, double phi_deg, Complex component_m,
+                       int line) {
+  FieldValue value{frequency_hz, theta_deg, phi_deg, 0, {}, line};
+  const bool folded = fold_direction(value.theta_deg, value.phi_deg);
+  const bool opposite = is_cross(element) != folded;
+  value.amplitude_m = opposite ? -component_m : component_m;
+  value.level_dbsm = std::max(dbsm(component_m), kMinLevel_dbsm);
+  return value;
+}
+
+}  // namespace seaglint

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// Scattering amplitudes or the radar cross section over direction and frequency, from a measurement or another solver,
+// in the signs of CONVENTIONS.md but about the file's own phase origin and in its own azimuths.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/core/numbers/linear.h"
+#include "sim/scenario/radar_spec.h"
+
+namespace seaglint {
+
+inline constexpr const char* kPolarisationNames[] = {"hh", "hv", "vh", "vv"};
+
+constexpr bool transmits_v(Polarisation element) {
+  return element == Polarisation::kHv || element == Polarisation::kVv;
+}
+constexpr bool receives_v(Polarisation element) { return element == Polarisation::kVh || element == Polarisation::kVv; }
+constexpr bool is_cross(Polarisation element) { return transmits_v(element) != receives_v(element); }
+// The element of this receiver and transmitter.
+constexpr Polarisation element_of(bool received_v, bool transmitted_v) {
+  return static_cast<Polarisation>(2 * static_cast<int>(received_v) + static_cast<int>(transmitted_v));
+}
+
+struct FieldValue {
+  double frequency_hz = 0;
+  double theta_deg = 0;  // of the receiver, 0..180
+  double phi_deg = 0;    // 0 <= x < 360
+  double level_dbsm = 0;
+  std::optional<Complex> amplitude_m;  // absent without a phase
+  int line = 0;                        // of the file, from 1; 0: it has no lines
+};
+
+inline constexpr double kMinLevel_dbsm = -1000;  // of an exact zero
+
+// Transmitter of a file, in its angles.
+struct DeclaredTransmitter {
+  bool is_monostatic = true;  // at the receiver; the angles are then unused
+  double theta_deg = 0, phi_deg = 0;
+};
+
+// Properties that a file does not state itself, and the relation of its angles to those of the body.
+struct FieldTableSettings {
+  std::vector<Polarisation> elements;              // wanted ones; empty: all that the file or its name states
+  std::optional<double> frequency_hz;              // of a file without frequencies
+  std::optional<DeclaredTransmitter> transmitter;  // of a file without one
+  double phi_scale = 1;                            // phi of the file = phi_scale * azimuth + phi_offset_deg
+  double phi_offset_deg = 0;
+  std::optional<Vec3> origin_m;  // the file's phase origin, body frame; absent: the file's own, else 0
+};
+
+// One element of the scattering matrix.
+struct RcsCut {
+  std::string name;  // file name without its folder
+  Polarisation element = Polarisation::kHh;
+  std::vector<FieldValue> values;
+  std::optional<DeclaredTransmitter> transmitter;  // absent if neither file nor settings state it
+  double phi_scale = 1, phi_offset_deg = 0;        // of the settings
+  Vec3 origin_m = Vec3::Zero();                    // phase origin, body frame
+  bool has_phase() const { return !values.empty() && values.front().amplitude_m.has_value(); }
+};
+
+// What one file holds.
+struct FieldTable {
+  std::string name;                // file name without its folder
+  std::string reader;              // "a CST farfield table"
+  std::vector<std::string> notes;  // how it was taken: conventions, and what is assumed or from its name
+  std::vector<RcsCut> cuts;        // by element and transmitter; not empty, none without values
+};
+
+// "NAME: read as READER; NOTE; ..." on one line.
+std::string reading_of(const FieldTable& table);
+
+// Throws InputError if no element is wanted, of a format that does not say which polarisation was transmitted.
+void require_elements(const FieldTableSettings& settings, const std::string& file, const char* format);
+
+// Maps a direction to theta 0..180, phi 0..360; true if theta was below 0 or above 180, on the other half of the great
+// circle, where theta^ and phi^ both have the opposite sign.
+bool fold_direction(double& theta_deg, double& phi_deg);
+
+// A value at this direction of the file from the spherical component, theta^ or phi^, of the scattered field at 1 m
+// (V/m; sigma = 4 pi |E|^2) for a field of 1 V/m transmitted along theta^ or phi^. theta^ = -v and phi^ = h, so that
+// cross-polar elements change sign.
+FieldValue field_value(Polarisation element, double frequency_hz, double theta_deg, double phi_deg, Complex component_m,
+                       int line);
+
+}  // namespace seaglint

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/field_tables/read_field_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "sim/core/process/error.h"
+#include "sim/core/text/words.h"
+#include "sim/field_tables/cst_curves.h"
+#include "sim/field_tables/cst_source.h"
+#include "sim/field_tables/cst_table.h"
+#include "sim/field_tables/export_name.h"
+#include "sim/field_tables/feko_table.h"
+#include "sim/field_tables/hfss_table.h"
+#include "sim/field_tables/own_table.h"
+#include "sim/field_tables/text_columns.h"
+
+namespace seaglint {
+namespace {
+
+bool has_cst_header(const TextSource& source) {
+  constexpr int kMaxLines = 20;
+  std::string_view rest = source.text();
+  for (int n = 0; n < kMaxLines && !rest.empty();) {
+    const std::string_view line = next_line(rest);
+    if (trimmed(line).empty() || is_comment(line)) continue;
+    ++n;
+    if (is_cst_header(line)) return true;
+  }
+  return false;
+}
+
+struct Reader {
+  const char* name;
+  const char* missing;  // from a file that is not of this format
+  bool (*is_format)(const TextSource& source);
+  void (*read)(const TextSource& source, const FieldTableSettings& settings, FieldTable& table);
+};
+
+constexpr std::array<Reader, 8> kReaders{{
+    {"a CST farfield source", "no first line '// CST Farfield Source File'",
+     [](const TextSource& source) { return is_cst_source(source.text()); }, read_cst_source},
+    {"a FEKO far field", "no first line '##File Type: Far field'",
+     [](const TextSource& source) { return is_feko_table(source.text()); }, read_feko_table},
+    {"a CST farfield table", "no line of names 'Theta [deg.] Phi [deg.] Abs(Theta)[...] ...'", has_cst_header,
+     read_cst_table},
+    {"CST curves", "no line of names '\"Frequency / GHz\" ...' above a rule", is_cst_curves, read_cst_curves},
+    {"an HFSS table", "no columns IWavePhi, IWaveTheta and MonostaticRCS", is_hfss_table, read_hfss_table},
+    {"a table of seaglint rcs", "no columns frequency_hz and azimuth_deg", is_own_table, read_own_table},
+    {"four named columns", "no columns theta_deg and phi_deg", has_named_angles, read_named_columns},
+    {"four columns", "no rows of frequency_hz theta_deg phi_deg dBsm", is_four_columns, read_four_columns},
+}};
+
+const Reader& reader_of(const TextSource& source) {
+  std::string reasons;
+  for (const Reader& reader : kReaders) {
+    if (reader.is_format(source)) return reader;
+    reasons += fmt::format("\n  not {}: {}", reader.name, reader.missing);
+  }
+  throw InputError(fmt::format("{}: not a table of the radar cross section:{}", source.name(), reasons));
+}
+
+// Throws InputError if a frequency is given that differs from the file's.
+void require_own_frequency(const RcsCut& cut, const FieldTableSettings& given, const std::string& file) {
+  constexpr double kTolerance = 1e-6;
+  for (const FieldValue& value : cut.values) {
+    if (std::abs(value.frequency_hz - *given.frequency_hz) <= kTolerance * value.frequency_hz) continue;
+    throw InputError(fmt::format("{}: declares {:g} GHz: remove --reference-frequency-ghz {:g}", file,
+                                 value.frequency_hz * 1e-9, *given.frequency_hz * 1e-9));
+  }
+}
+
+bool same(const DeclaredTransmitter& a, const DeclaredTransmitter& b) {
+  return a.is_monostatic == b.is_monostatic &&
+         (a.is_monostatic || (a.theta_deg == b.theta_deg && a.phi_deg == b.phi_deg));
+}
+
+// Throws InputError if an incident wave is given that differs from the file's.
+void require_own_transmitter(const RcsCut& cut, const FieldTableSettings& given, const std::string& file) {
+  if (!cut.transmitter || same(*cut.transmitter, *given.transmitter)) return;
+  throw InputError(fmt::format("{}: is {}: remove --incidence", file,
+                               cut.transmitter->is_monostatic
+                                   ? std::string("monostatic")
+                                   : fmt::format("of a wave incident from theta {:g} deg, phi {:g} deg",
+                                                 cut.transmitter->theta_deg, cut.transmitter->phi_deg)));
+}
+
+}  // namespace
+
+FieldTable read_field_table(const std::filesystem::path& file, const FieldTableSettings& settings) {
+  FieldTable table;
+  const TextSource source = TextSource::read(file);
+  const Reader& reader = reader_of(source);
+  table.name = file.filename().string();
+  table.reader = reader.name;
+  const FieldTableSettings all = completed(settings, facts_of_name(table.name), table.notes);
+  try {
+    reader.read(source, all, table);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{} (read as {})", error.what(), reader.name));
+  }
+  std::erase_if(table.cuts, [](const RcsCut& cut) { return cut.values.empty(); });
+  if (table.cuts.empty())
+    throw InputError(fmt::format("{}: contains no values (read as {})", file.string(), reader.name));
+  for (RcsCut& cut : table.cuts) {
+    cut.name = table.name;
+    cut.phi_scale = settings.phi_scale;
+    cut.phi_offset_deg = settings.phi_offset_deg;
+    if (settings.origin_m) cut.origin_m = *settings.origin_m;
+    if (settings.frequency_hz) require_own_frequency(cut, settings, file.string());
+    if (settings.transmitter) require_own_transmitter(cut, settings, file.string());
+  }
+  return table;
+}
+
+}  // namespace seaglint

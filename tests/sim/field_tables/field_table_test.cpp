@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Tables of the radar cross section of other programs.
+#include "sim/field_tables/read_field_table.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "sim/core/numbers/constants.h"
+#include "sim/core/process/error.h"
+
+namespace seaglint {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+constexpr double kPrinted_db = 1e-9;  // rounding of logarithm and power
+
+class FieldTableFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(testing::TempDir()) / ("rcs reference " + std::to_string(::getpid()) +
+                                              testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  RcsCut read(const std::string& name, const std::string& text, const FieldTableSettings& settings = {}) const {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+    return read_field_table(folder_ / name, settings).cuts.at(0);
+  }
+  std::string refusal(const std::string& name, const std::string& text, const FieldTableSettings& settings = {}) const {
+    try {
+      read(name, text, settings);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    ADD_FAILURE() << "no error for " << name;
+    return "";
+  }
+
+  fs::path folder_;
+};
+
+FieldTableSettings as(Polarisation element, double frequency_ghz = 10) {
+  FieldTableSettings settings;
+  settings.elements = {element};
+  settings.frequency_hz = frequency_ghz * 1e9;
+  return settings;
+}
+
+// The header that `seaglint rcs` writes above its columns.
+std::string own_table(const std::string& transmitter) {
+  return "# seaglint 0.1.0 rcs\n# physical optics at every visible bounce, max_bounces 40, edges on, crease_deg 20, "
+         "sheet_thickness_mm 0, wavefront_range_m 0 (0 = plane wave), min_patch_m 7e-05\n" +
+         transmitter + "\nfrequency_hz,azimuth_deg,elevation_deg,vv_dbsm\n1e+10,3,4,-5\n";
+}
+
+// A table as CST 2020 writes it: names padded inside parentheses, units inside brackets, CRLF, theta fastest and
+// through 0.
+std::string cst_table(const std::string& unit, const std::string& rows) {
+  return "Theta [deg.]  Phi   [deg.]  Abs(RCS )[" + unit + "]   Abs(Theta)[" + unit +
+         "]  Phase(Theta)[deg.]  Abs(Phi  )[" + unit +
+         "]  Phase(Phi  )[deg.]  Ax.Ratio[dB    ]    \r\n"
+         "------------------------------------------------------------------------------------------\r\n" +
+         rows;
+}
+
+TEST_F(FieldTableFile, OfFourColumnsTakesItsPolarisationFromTheName) {
+  const std::string text = "5120000000.000000 90.000000 0.000000 8.073421 \n5120000000 90 -10.5 -667.1\n\n";
+  const RcsCut h = read("ref_rcs.II.B.sx1.f10.H.txt", text);
+  EXPECT_EQ(h.element, Polarisation::kHh);
+  ASSERT_EQ(h.values.size(), 2u);
+  EXPECT_EQ(h.values[0].level_dbsm, 8.073421);
+  EXPECT_EQ(h.values[1].frequency_hz, 5.12e9);
+  EXPECT_EQ(h.values[1].phi_deg, 349.5);
+  EXPECT_EQ(h.values[1].level_dbsm, -667.1);
+  EXPECT_FALSE(h.has_phase());
+  EXPECT_EQ(read("ref.V.txt", text).element, Polarisation::kVv);
+  EXPECT_EQ(read("ref.txt", text, as(Polarisation::kVv, 5.12)).element, Polarisation::kVv);
+}
+
+TEST_F(FieldTableFile, OfCstHasItsColumnsByNameAndItsUnitsByHeader) {
+  // A received theta component of 4 m^2 at 30 deg, a phi component of 0.01 m^2 at 350 deg.
+  const double level = 10 * std::log10(4.0);
+  const auto row = [](double theta, double phi) {
+    return "     90.000          180.000            6.02060e+00          " + std::to_string(theta) +
+           "              30.000          " + std::to_string(phi) + "             350.000           2.684e+01     \r\n";
+  };
+  const std::string area = cst_table("m^2", row(4, 0.01));
+  const RcsCut vv = read("farfield (f=10) [pw].txt", area, as(Polarisation::kVv));
+  ASSERT_EQ(vv.values.size(), 1u);
+  EXPECT_EQ(vv.values[0].frequency_hz, 10e9);
+  EXPECT_EQ(vv.values[0].theta_deg, 90);
+  EXPECT_EQ(vv.values[0].phi_deg, 180);
+  EXPECT_NEAR(vv.values[0].level_dbsm, level, kPrinted_db);
+  ASSERT_TRUE(vv.has_phase());
+  // sigma = 4 pi |S|^2; theta^ = -v at both ends leaves the co-polar term as it is.
+  EXPECT_LT(std::abs(*vv.values[0].amplitude_m - std::polar(std::sqrt(4 / (4 * kPi)), radians(30))), 1e-12);
+  const RcsCut hh = read("a.txt", area, as(Polarisation::kHh));
+  EXPECT_NEAR(hh.values[0].level_dbsm, -20, kPrinted_db);
+  EXPECT_NEAR(degrees(std::arg(*hh.values[0].amplitude_m)), -10, 1e-9);
+  // v transmitted as -theta^, h received as phi^: the cross-polar term changes sign.
+  EXPECT_NEAR(degrees(std::arg(*read("a.txt", area, as(Polarisation::kHv)).values[0].amplitude_m)), 170, 1e-9);
+  EXPECT_NEAR(degrees(std::arg(*read("a.txt", area, as(Polarisation::kVh)).values[0].amplitude_m)), -150, 1e-9);
+
+  EXPECT_NEAR(read("a.txt", cst_table("dB(m^2)", row(-3.5, 0)), as(Polarisation::kVv)).values[0].level_dbsm, -3.5,
+              kPrinted_db);
+  EXPECT_NEAR(read("a.txt", cst_table("dBm^2 ", row(-3.5, 0)), as(Polarisation::kVv)).values[0].level_dbsm, -3.5,
+              kPrinted_db);
+  EXPECT_NEAR(read("a.txt", cst_table("mm^2", row(4e6, 0)), as(Polarisation::kVv)).values[0].level_dbsm, level,
+              kPrinted_db);
+  EXPECT_NEAR(read("a.txt", cst_table("dB(mm^2)", row(60, 0)), as(Polarisation::kVv)).values[0].level_dbsm, 0,
+              kPrinted_db);
+  const double wavelength_db = 20 * std::log10(kSpeedOfLight / 10e9);
+  EXPECT_NEAR(read("a.txt", cst_table("dB(lambda^2)", row(60, 0)), as(Polarisation::kVv)).values[0].level_dbsm,
+              60 + wavelength_db, kPrinted_db);
+  EXPECT_NEAR(read("a.txt", cst_table("m^2", row(0, 0)), as(Polarisation::kVv)).values[0].level_dbsm, -1000,
+              kPrinted_db);
+}
+
+TEST_F(FieldTableFile, OfCstWithNegativeThetaIsFoldedAndChangesSign) {
+  // decimal commas of another locale
+  const std::string row = " -30,000  90,000  0,000e+00  0,000e+00  10,000  0,000e+00  20,000  0,000e+00\r\n";
+  const RcsCut vv = read("a.txt", cst_table("dB(m^2)", row), as(Polarisation::kVv));
+  EXPECT_EQ(vv.values[0].theta_deg, 30);
+  EXPECT_EQ(vv.values[0].phi_deg, 270);
+  EXPECT_NEAR(degrees(std::arg(*vv.values[0].amplitude_m)), 10 - 180, 1e-9);
+}
+
+TEST_F(FieldTableFile, OfAFullCircleIsFoldedAtBothPoles) {
+  const RcsCut circle = read("a.H.txt", "1e10 190 20 -3\n1e10 -170 20 -3\n1e10 370 20 -4\n");
+  for (const std::size_t i : {0u, 1u}) {
+    EXPECT_EQ(circle.values[i].theta_deg, 170);
+    EXPECT_EQ(circle.values[i].phi_deg, 200);
+  }
+  EXPECT_EQ(circle.values[2].theta_deg, 10);
+  EXPECT_EQ(circle.values[2].phi_deg, 20);
+  const RcsCut cst =
+      read("a.txt", cst_table("dB(m^2)", "190 20 0 0 30 0 0 0\r\n170 200 0 0 30 0 0 0\r\n"), as(Polarisation::kVv));
+  EXPECT_LT(std::abs(*cst.values[0].amplitude_m + *cst.values[1].amplitude_m), kPrinted_db);
+}
+
+TEST_F(FieldTableFile, MayHaveAHeaderAndExactZeros) {
+  const RcsCut reference = read("a.V.txt", "# frequency_hz theta_deg phi_deg dBsm\n1e10 90 0 -inf\n1e10 90 1 -3\n");
+  ASSERT_EQ(reference.values.size(), 2u);
+  EXPECT_LT(reference.values[0].level_dbsm, -300);
+  EXPECT_THAT(refusal("b.V.txt", "1e10 90 0 low\n"),
+              HasSubstr("b.V.txt:1:11: dbsm: value 'low': must be a finite number (read as four columns)"));
+}
+
+TEST_F(FieldTableFile, OfThisProgramIsReadByItsColumnsNames) {
+  const std::string text =
+      "# seaglint\nfrequency_hz,azimuth_deg,elevation_deg,vv_re,vv_im,hh_dbsm\n1e10,-20,2,0.3,-0.4,-7\n";
+  const RcsCut vv = read("own.csv", text, as(Polarisation::kVv));
+  ASSERT_EQ(vv.values.size(), 1u);
+  EXPECT_EQ(vv.values[0].theta_deg, 88);
+  EXPECT_EQ(vv.values[0].phi_deg, 340);
+  EXPECT_EQ(*vv.values[0].amplitude_m, Complex(0.3, -0.4));
+  EXPECT_NEAR(vv.values[0].level_dbsm, 10 * std::log10(kPi), kPrinted_db);  // 4 pi 0.25
+  const RcsCut hh = read("own.csv", text, as(Polarisation::kHh));
+  EXPECT_EQ(hh.values[0].level_dbsm, -7);
+  EXPECT_FALSE(hh.has_phase());
+}
+
+TEST_F(FieldTableFile, ThatCannotBeUsedIsRefusedWithItsPlace) {
+  EXPECT_THAT(refusal("a.txt", "1e9 90 0 1\n"), HasSubstr("--reference-polarisation"));
+  EXPECT_THAT(refusal("a.H.txt", "1e9 90 0 1\n1e9 90 0.5\n"), HasSubstr("a.H.txt:2:1: 3 cells where the names are 4"));
+  EXPECT_THAT(refusal("a.H.txt", "1e9 90 0 1\n1e9 90 0.5 nan\n"), HasSubstr("a.H.txt:2:12: dbsm: value 'nan'"));
+  EXPECT_THAT(refusal("a.H.txt", "0 90 0 1\n"),
+              HasSubstr("a.H.txt:1:1: frequency_hz: value '0': must be greater than 0"));
+  EXPECT_THAT(refusal("a.H.txt", "a report\n"), HasSubstr("not a table of the radar cross section"));
+  EXPECT_THAT(refusal("a.H.txt", ""), HasSubstr("not a table of the radar cross section"));
+  EXPECT_THAT(refusal("a.H.ffs", "// CST Farfield Source File\n"), HasSubstr(".ffs"));
+  const std::string row = "90 0 1 1 0 1 0 1\r\n";
+  FieldTableSettings no_frequency;
+  no_frequency.elements = {Polarisation::kVv};
+  EXPECT_THAT(refusal("a.txt", cst_table("m^2", row), no_frequency), HasSubstr("--reference-frequency-ghz"));
+  EXPECT_THAT(refusal("a.txt", cst_table("dB    ", row), as(Polarisation::kVv)),
+              HasSubstr("relative to its own maximum"));
+  EXPECT_THAT(refusal("a.txt", cst_table("A/m", row), as(Polarisation::kVv)), HasSubstr("[A/m]: the unit must be"));
+  EXPECT_THAT(refusal("a.txt", cst_table("m^2", "90 0 1\r\n"), as(Polarisation::kVv)),
+              HasSubstr("a.txt:3:1: 3 cells where the names are 8"));
+  EXPECT_THAT(refusal("a.txt", cst_table("m^2", ""), as(Polarisation::kVv)), HasSubstr("contains no values"));
+  EXPECT_THAT(refusal("own.csv", "frequency_hz,azimuth_deg,elevation_deg,vv_re\n", as(Polarisation::kHh)),
+              HasSubstr("hh_dbsm"));
+}
+
+TEST_F(FieldTableFile, IsReadAsOtherSystemsWriteIt) {
+  const fs::path cases = SEAGLINT_SOURCE_DIR "/tests/cases/tables";
+  const RcsCut marked = read_field_table(cases / "four_columns_bom.H.txt", {}).cuts.at(0);
+  ASSERT_GT(marked.values.size(), 20u);
+  EXPECT_EQ(marked.values[0].frequency_hz, 6e9);
+  EXPECT_EQ(marked.values[0].level_dbsm, 12.223);
+  const RcsCut cst = read_field_table(cases / "cst_with_hash_line.txt", as(Polarisation::kHh, 6)).cuts.at(0);
+  ASSERT_GT(cst.values.size(), 10u);
+  EXPECT_EQ(cst.values[0].theta_deg, 83);
+  EXPECT_EQ(cst.values[0].level_dbsm, 12.22);
+  for (const char* text : {"1e10,90,0,-3.5\n1e10,90,1,-4\n", "1e10;90;0;-3,5\r\n1e10;90;1;-4\r\n",
+                           "10000000000 90,0 0 -3,5\n1e10 90 1 -4\n",
+                           "frequency_hz theta_deg phi_deg dBsm\n1e10 90 0 -3.5\n1e10 90 1 -4\n",
+                           "Frequency [GHz];Phi [deg];Theta [deg];RCS [dBsm]\n10;0;90;-3,5\n10;1;90;-4\n"}) {
+    SCOPED_TRACE(text);
+    const RcsCut four = read("a.V.txt", text);
+    ASSERT_EQ(four.values.size(), 2u);
+    EXPECT_EQ(four.values[0].frequency_hz, 1e10);
+    EXPECT_EQ(four.values[0].theta_deg, 90);
+    EXPECT_EQ(four.values[0].level_dbsm, -3.5);
+    EXPECT_EQ(four.values[1].phi_deg, 1);
+  }
+  const RcsCut own = read(
+      "own.csv",
+      "\xef\xbb\xbf# transmitter=monostatic\r\nfrequency_hz;azimuth_deg;elevation_deg;hh_dbsm\r\n1e10;0,5;2;-7,25\r\n",
+      as(Polarisation::kHh));
+  EXPECT_EQ(own.values[0].phi_deg, 0.5);
+  EXPECT_EQ(own.values[0].level_dbsm, -7.25);
+  EXPECT_TRUE(own.transmitter);
+}
+
+TEST_F(FieldTableFile, WithAColumnTwiceOrAFrequencyOfZeroIsRefused) {
+  const auto complaint = [](const char* name) -> std::string {
+    try {
+      read_field_table(fs::path(SEAGLINT_SOURCE_DIR "/tests/cases/tables") / name, {}).cuts.at(0);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_THAT(complaint("duplicate_column.H.csv"),
+              HasSubstr("column hh_re appears twice: columns 4 and 6 of the table (read as a table of seaglint rcs)"));
+  EXPECT_THAT(complaint("frequency_zero.H.csv"),
+              HasSubstr("frequency_zero.H.csv:3:1: frequency_hz: value '0': must be greater than 0"));
+}
+
+TEST_F(FieldTableFile, HasTheDirectionOfItsTransmitter) {
+  const RcsCut monostatic = read("m.csv", own_table("# transmitter=monostatic"), as(Polarisation::kVv));
+  ASSERT_TRUE(monostatic.transmitter);
+  EXPECT_TRUE(monostatic.transmitter->is_monostatic);
+  const RcsCut bistatic =
+      read("b.csv", own_table("# transmitter_azimuth_deg=-20 transmitter_elevation_deg=30.5"), as(Polarisation::kVv));
+  ASSERT_TRUE(bistatic.transmitter);
+  EXPECT_FALSE(bistatic.transmitter->is_monostatic);
+  EXPECT_EQ(bistatic.transmitter->phi_deg, 340);
+  EXPECT_EQ(bistatic.transmitter->theta_deg, 59.5);
+  EXPECT_FALSE(read("a.V.txt", "10e9 90 0 -3\n").transmitter);
+  EXPECT_FALSE(read("c.csv", "frequency_hz,azimuth_deg,elevation_deg,vv_dbsm\n1e+10,3,4,-5\n", as(Polarisation::kVv))
+                   .transmitter);
+}
+
+TEST_F(FieldTableFile, IsRefusedWhereItsHeadDoesNotStateTheTransmitter) {
+  const auto refused = [&](const std::string& line) {
+    return refusal("d.csv", own_table(line), as(Polarisation::kVv));
+  };
+  EXPECT_THAT(refused("# plane wave, transmitter at azimuth -20 deg, elevation 30.5 deg"),
+              HasSubstr("d.csv: its head does not state the transmitter: add the line '# transmitter=monostatic', or "
+                        "'# transmitter_azimuth_deg=0 transmitter_elevation_deg=0' with its angles"));
+  EXPECT_THAT(refused("# transmitter_azimuth_deg=3"),
+              HasSubstr("d.csv:3:1: the key transmitter_elevation_deg is missing"));
+  EXPECT_THAT(refused("# transmitter_azimuth_deg=3 transmitter_elevation_deg=x"),
+              HasSubstr("d.csv:3:1: transmitter_elevation_deg=x: must be a number"));
+  EXPECT_THAT(refused("# transmitter=fixed"),
+              HasSubstr("d.csv:3:1: transmitter=fixed: must be transmitter=monostatic or"));
+  EXPECT_THAT(refused("# transmitter=monostatic (backscatter)"),
+              HasSubstr("d.csv:3:1: '(backscatter)': no key of the transmitter"));
+}
+
+TEST_F(FieldTableFile, IsRefusedWithAFrequencyThatIsNotItsOwn) {
+  EXPECT_THAT(refusal("a.V.txt", "10e9 90 0 -3\n", as(Polarisation::kVv, 11)),
+              HasSubstr("a.V.txt: declares 10 GHz: remove --reference-frequency-ghz 11"));
+  EXPECT_THAT(refusal("own.csv", own_table("# transmitter=monostatic"), as(Polarisation::kVv, 11)),
+              HasSubstr("own.csv: declares 10 GHz"));
+  EXPECT_EQ(read("b.V.txt", "10e9 90 0 -3\n", as(Polarisation::kVv, 10)).values.size(), 1u);
+}
+
+}  // namespace
+}  // namespace seaglint
