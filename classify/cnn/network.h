@@ -41,9 +41,9 @@ class Network {
   const std::vector<double>& losses() const;  // mean training loss per epoch; empty when loaded
 
  private:
-  struct Layers;
-  explicit Network(std::shared_ptr<Layers> layers) : layers_(std::move(layers)) {}
-  std::shared_ptr<Layers> layers_;
+  struct State;
+  explicit Network(std::shared_ptr<State> state) : state_(std::move(state)) {}
+  std::shared_ptr<State> state_;
 };
 
 }  // namespace seaglint
