@@ -9,6 +9,7 @@
 #include <string>
 
 #include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/dbsm.h"
 #include "sim/core/process/error.h"
 #include "sim/core/text/number.h"
 #include "sim/core/text/shown.h"
@@ -145,8 +146,7 @@ class CurveReader {
       }
       value.level_dbsm = level_dbsm(row, decibel, field);
       if (complex) {
-        const Complex s =
-            std::polar(std::sqrt(std::pow(10.0, value.level_dbsm / 10) / (4 * kPi)), radians(row.cells[2]));
+        const Complex s = std::polar(amplitude_of_dbsm(value.level_dbsm), radians(row.cells[2]));
         cut.values.push_back(field_value(cut.element, value.frequency_hz, value.theta_deg, value.phi_deg, s, row.line));
         cut.values.back().level_dbsm = value.level_dbsm;
         continue;

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/dbsm.h"
 #include "sim/core/process/error.h"
 #include "sim/core/text/text_table.h"
 #include "sim/core/text/words.h"
@@ -87,8 +88,7 @@ struct CstComponent {
 
   double level_dbsm(const TextTable& rows, std::size_t row) const { return unit.level_dbsm(rows, row, magnitude); }
   Complex field_m(const TextTable& rows, std::size_t row) const {
-    return std::polar(std::sqrt(std::pow(10.0, level_dbsm(rows, row) / 10) / (4 * kPi)),
-                      radians(rows.number(row, *phase)));
+    return std::polar(amplitude_of_dbsm(level_dbsm(rows, row)), radians(rows.number(row, *phase)));
   }
 };
 

@@ -25,6 +25,7 @@ void add_mesh(CommandOptions& program, CommandContext& context);
 void add_sea(CommandOptions& program, CommandContext& context);
 void add_motion(CommandOptions& program, CommandContext& context);
 void add_rcs(CommandOptions& program, CommandContext& context);
+void add_compare(CommandOptions& program, CommandContext& context);
 void add_echo(CommandOptions& program, CommandContext& context);
 void add_map(CommandOptions& program, CommandContext& context);
 void add_generate(CommandOptions& program, CommandContext& context);

@@ -49,6 +49,7 @@ void add_commands(CommandOptions& program, CommandContext& context) {
   add_sea(program, context);
   add_motion(program, context);
   add_rcs(program, context);
+  add_compare(program, context);
   add_echo(program, context);
   add_map(program, context);
   add_generate(program, context);

@@ -114,9 +114,19 @@ void add_export_options(CommandOptions& command, ViewExport& exports) {
 }  // namespace
 
 void RcsArguments::add_mesh_to(CommandOptions& command) {
-  command.add_option("--target", target, "Mesh file: .glb .gltf .obj .stl .ply, or shells in .nas .bdf .dat .unv .msh")
-      .required();
+  add_target_to(command).required();
+  add_views_to(command);
+  add_detail_to(command);
+}
+
+CommandOption RcsArguments::add_target_to(CommandOptions& command) {
+  const CommandOption option = command.add_option(
+      "--target", target, "Mesh file: .glb .gltf .obj .stl .ply, or shells in .nas .bdf .dat .unv .msh");
   command.add_option("--unit", request.unit, "Unit of the mesh: m, cm, mm, km, in, ft").show_default();
+  return option;
+}
+
+void RcsArguments::add_views_to(CommandOptions& command) {
   command
       .add_option("--frequency-ghz", frequency_ghz,
                   "A or A:B:STEP (B included where a step meets it), within 0.001 and 1000")
@@ -129,6 +139,9 @@ void RcsArguments::add_mesh_to(CommandOptions& command) {
       .add_option("--elevation-deg", elevation_deg,
                   "A or A:B:STEP within -90 and 90; of the radar seen from the target")
       .show_default();
+}
+
+void RcsArguments::add_detail_to(CommandOptions& command) {
   command
       .add_option(
           "--edges", edges,
@@ -187,11 +200,17 @@ void RcsArguments::add_to(CommandOptions& command) {
   reference.add_to(command);
 }
 
-RcsRequest RcsArguments::make_request() const {
+RcsRequest RcsArguments::make_mesh_request() const {
   RcsRequest made = request;
   made.target = target;
   made.edges = edges == "on";
   if (crease_deg != "auto") made.crease_deg = parse_number(crease_deg);
+  for (const std::string& text : materials) made.materials.push_back(material_choice(text));
+  return made;
+}
+
+RcsRequest RcsArguments::make_request() const {
+  RcsRequest made = make_mesh_request();
   made.physical_optics_too = !reference.files.empty();
   made.frequency_hz = range("--frequency-ghz", frequency_ghz, 1e-3, 1000);
   for (double& f : made.frequency_hz) f *= 1e9;
@@ -199,7 +218,6 @@ RcsRequest RcsArguments::make_request() const {
   made.elevation_deg = range("--elevation-deg", elevation_deg, -90, 90);
   if (transmit_azimuth_deg)
     made.transmitter = FixedTransmitter{*transmit_azimuth_deg, transmit_elevation_deg.value_or(0)};
-  for (const std::string& text : materials) made.materials.push_back(material_choice(text));
   made.sea.surface = sea_surface == "conductor" ? SeaSurface::kConductor : SeaSurface::kSeaWater;
   made.sea.paths = sea_paths == "multipath_only" ? SeaPaths::kMultipath
                    : sea_paths == "direct_only"  ? SeaPaths::kDirect

@@ -24,7 +24,15 @@ struct RcsArguments {
   void add_to(CommandOptions& command);
   // Only those of a mesh, its materials and detail, and of the views of one antenna.
   void add_mesh_to(CommandOptions& command);
-  RcsRequest make_request() const;  // throws InputError
+  // Parts of these: the mesh, and its materials and detail.
+  CommandOption add_target_to(CommandOptions& command);
+  void add_detail_to(CommandOptions& command);
+
+  RcsRequest make_request() const;       // throws InputError
+  RcsRequest make_mesh_request() const;  // without views, sea and transmitter
+
+ private:
+  void add_views_to(CommandOptions& command);
 };
 
 }  // namespace seaglint

@@ -59,43 +59,44 @@ DeclaredTransmitter incidence_named(const std::string& text) {
 }  // namespace
 
 void ReferenceArguments::add_to(CommandOptions& command) {
-  const auto repeatable = [&](const char* name, std::vector<std::string>& values, const char* what, const char* type) {
-    return command.add_option(name, values, what).repeatable(type).group("Reference");
-  };
-  const CommandOption reference = repeatable("--reference", files,
-                                             "Compare with a cut that was measured or computed elsewhere (repeatable): "
-                                             "an export of CST, FEKO or HFSS, a table "
-                                             "of this command, or four columns frequency_hz theta_deg phi_deg dBsm",
-                                             "FILE");
-  repeatable(
-      "--reference-polarisation", polarisation,
-      "hh, hv, vh or vv (received, transmitted), or h or v (transmitted: both elements); default what the file or its "
-      "name says; once, or once for each reference",
-      "PP")
-      .needs(reference);
-  repeatable("--reference-phi", phi,
-             "A,B: the reference's phi is A * azimuth + B degrees; default 1,0. Its theta is 90 - elevation", "A,B")
-      .needs(reference);
-  repeatable("--reference-frequency-ghz", frequency_ghz, "Frequency of a reference that does not say it", "GHZ")
-      .needs(reference);
-  repeatable(
-      "--incidence", incidence,
-      "monostatic, or THETA,PHI of the file: where the incident wave comes from, of a reference that does not say "
-      "it",
-      "DIRECTION")
-      .needs(reference);
-  repeatable("--reference-origin-m", origin_m, "The reference's phase origin in the body's frame; default 0,0,0",
-             "X,Y,Z")
-      .needs(reference);
-  command.add_option("--floor-db", floor_db, "Levels further below the reference maximum are clipped to this floor")
-      .number_within(1.0, 300.0)
-      .show_default()
-      .needs(reference)
-      .group("Reference");
+  const CommandOption reference =
+      command
+          .add_option(
+              "--reference", files,
+              "Compare with a cut that was measured or computed elsewhere (repeatable): an export of CST, FEKO or "
+              "HFSS, a table of this command, or four columns frequency_hz theta_deg phi_deg dBsm")
+          .repeatable("FILE")
+          .group("Reference");
+  for (const CommandOption& option : add_properties_to(command)) CommandOption(option).needs(reference);
   command
       .add_option("--figure", figure,
                   "Figure of the comparison, or of --uncertainty, .png or .svg; default: the output's name with .png")
       .group("Reference");
+}
+
+std::vector<CommandOption> ReferenceArguments::add_properties_to(CommandOptions& command) {
+  const auto repeatable = [&](const char* name, std::vector<std::string>& values, const char* what, const char* type) {
+    return command.add_option(name, values, what).repeatable(type).group("Reference");
+  };
+  return {
+      repeatable(
+          "--reference-polarisation", polarisation,
+          "hh, hv, vh or vv (received, transmitted), or h or v (transmitted: both elements); default what the file "
+          "or its name says; once, or once for each file",
+          "PP"),
+      repeatable("--reference-phi", phi,
+                 "A,B: the file's phi is A * azimuth + B degrees; default 1,0. Its theta is 90 - elevation", "A,B"),
+      repeatable("--reference-frequency-ghz", frequency_ghz, "Frequency of a file that does not say it", "GHZ"),
+      repeatable(
+          "--incidence", incidence,
+          "monostatic, or THETA,PHI of the file: where the incident wave comes from, of a file that does not say it",
+          "DIRECTION"),
+      repeatable("--reference-origin-m", origin_m,
+                 "The file's phase origin in the body's frame; default what the file says, else 0,0,0", "X,Y,Z"),
+      command.add_option("--floor-db", floor_db, "Levels further below the file's maximum are clipped to this floor")
+          .number_within(1.0, 300.0)
+          .show_default()
+          .group("Reference")};
 }
 
 std::vector<FieldTable> ReferenceArguments::read() const {

@@ -19,6 +19,8 @@ struct ReferenceArguments {
   std::string figure;
 
   void add_to(CommandOptions& command);
+  // Only those that say what the files do not.
+  std::vector<CommandOption> add_properties_to(CommandOptions& command);
   std::vector<FieldTable> read() const;  // throws InputError
 };
 

@@ -172,14 +172,13 @@ std::vector<PairedCut> match_reference(const RcsSweep& sweep, const RcsCut& refe
                       : axis == CutAxis::kFrequency ? f * 1e-9
                                                     : static_cast<double>(cut.x.size() + 1));
       cut.level_dbsm.push_back(sample->level_dbsm);
-      if (sample->amplitude_m) {
-        // For a phase origin at x0 the two-way path is shorter by (r^_t + r^_s).x0 than for the body's origin
-        // (CONVENTIONS.md, "Scattering").
-        const Vec3 r = direction_to_radar(radians(az), radians(el));
-        cut.amplitude_m.push_back(*sample->amplitude_m *
-                                  std::polar(1.0, k * (sweep.transmitter.value_or(r) + r).dot(reference.origin_m)));
-      }
-      cut.places.push_back({view, q});
+      const Vec3 r = direction_to_radar(radians(az), radians(el));
+      const Vec3 path_gradient = k * (sweep.transmitter.value_or(r) + r);
+      // For a phase origin at x0 the two-way path is shorter by (r^_t + r^_s).x0 than for the body's origin
+      // (CONVENTIONS.md, "Scattering").
+      if (sample->amplitude_m)
+        cut.amplitude_m.push_back(*sample->amplitude_m * std::polar(1.0, path_gradient.dot(reference.origin_m)));
+      cut.places.push_back({view, q, f, az, el, path_gradient, sample->line});
     }
   }
   std::erase_if(cuts, [](const PairedCut& cut) { return cut.x.empty(); });

@@ -27,9 +27,12 @@ struct PairedCut {
   std::vector<double> level_dbsm;
   std::vector<Complex> amplitude_m;  // of the reference, phase origin at the body's origin; empty without phases
   struct Place {
-    std::size_t view = 0, frequency = 0;
+    std::size_t view = 0, frequency = 0;  // in the sweep
+    double frequency_hz = 0, azimuth_deg = 0, elevation_deg = 0;
+    Vec3 path_gradient = Vec3::Zero();  // k (r^_t + r^_s), rad/m
+    int line = 0;                       // of the reference's file
   };
-  std::vector<Place> places;  // in the sweep
+  std::vector<Place> places;
   struct Model {
     std::string name;
     std::vector<double> level_dbsm;

@@ -21,4 +21,7 @@ inline double dbsm(const Complex& s, double min_m2 = kMinArea_m2) {
   return dbsm_of_area(4 * kPi * std::norm(s), min_m2);
 }
 
+// Magnitude in metres of an amplitude of this level in dBsm.
+inline double amplitude_of_dbsm(double level_dbsm) { return std::sqrt(std::pow(10.0, level_dbsm / 10) / (4 * kPi)); }
+
 }  // namespace seaglint

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Phase, origin, conjugation and signs that were put into amplitudes are found again.
+#include "tools/compare/alignment.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/random.h"
+#include "sim/scattering/beams/bistatic_geometry.h"
+
+namespace seaglint {
+namespace {
+
+// Points of a sweep; the computed amplitudes are those of seven point scatterers within a box of 2 x 1 x 0.6 m.
+std::vector<AlignmentPoint> sweep(const std::vector<double>& ghz, const std::vector<double>& azimuths,
+                                  const std::vector<double>& elevations, const std::vector<std::size_t>& elements) {
+  std::vector<AlignmentPoint> points;
+  Random random({5, Stream::kNetwork, 1});
+  std::vector<std::pair<Vec3, std::array<Complex, 4>>> scatterers;
+  for (int n = 0; n < 7; ++n) {
+    const Vec3 place(2 * random.uniform() - 1, random.uniform() - 0.5, 0.6 * random.uniform());
+    std::array<Complex, 4> s;
+    for (Complex& value : s) value = Complex(random.normal(), random.normal());
+    scatterers.emplace_back(place, s);
+  }
+  for (const std::size_t element : elements) {
+    for (const double el : elevations) {
+      for (const double az : azimuths) {
+        for (const double f : ghz) {
+          AlignmentPoint p{element, f * 1e9, az, el, {}, 0, 0};
+          p.path_gradient = 4 * kPi * p.frequency_hz / kSpeedOfLight * direction_to_radar(radians(az), radians(el));
+          for (const auto& [place, s] : scatterers)
+            p.computed_m += s[element] * std::polar(1.0, p.path_gradient.dot(place));
+          p.reference_m = p.computed_m;
+          points.push_back(p);
+        }
+      }
+    }
+  }
+  return points;
+}
+
+std::vector<double> grid(double from, double step, int count) {
+  std::vector<double> values;
+  for (int i = 0; i < count; ++i) values.push_back(from + step * i);
+  return values;
+}
+
+// The reference as another program would write it: 0.7 dB higher, about another origin, with a constant phase, with
+// noise 30 dB below the mean power.
+void disturb(std::vector<AlignmentPoint>& points, const Vec3& origin, double phase, bool conjugate, int vv_sign) {
+  Random random({6, Stream::kNetwork, 1});
+  double power = 0;
+  for (const AlignmentPoint& p : points) power += std::norm(p.computed_m);
+  const double noise = std::sqrt(power / static_cast<double>(points.size()) * 1e-3 / 2);
+  for (AlignmentPoint& p : points) {
+    p.reference_m = p.computed_m * std::pow(10.0, 0.7 / 20) * std::polar(1.0, phase - p.path_gradient.dot(origin)) +
+                    noise * Complex(random.normal(), random.normal());
+    if (p.element == 3) p.reference_m *= vv_sign;
+    if (conjugate) p.reference_m = std::conj(p.reference_m);
+  }
+}
+
+TEST(Alignment, FindsWhatAnotherProgramsConventionsChange) {
+  auto points = sweep(grid(9, 0.05, 21), grid(0, 0.5, 121), {2, 5}, {0, 3});
+  const Vec3 origin(0.31, -0.2, 0.05);
+  disturb(points, origin, 0.8, true, -1);
+  const Alignment found = fit_alignment(points);
+  const double wavelength = kSpeedOfLight / 10e9;
+  EXPECT_TRUE(found.conjugated);
+  EXPECT_EQ(found.sign[0], 1);
+  EXPECT_EQ(found.sign[3], -1);
+  EXPECT_LT((found.origin_m - origin).norm(), wavelength / 50);
+  EXPECT_LT((found.origin_m - origin).cwiseAbs().maxCoeff(), 5 * found.origin_error_m.maxCoeff());
+  EXPECT_NEAR(found.phase_rad, 0.8, 0.01);
+  EXPECT_NEAR(found.level_db, 0.7, 0.05);
+  EXPECT_GT(found.correlation, 0.999);
+  EXPECT_LT(found.other_correlation, 0.5);
+  EXPECT_THAT(found.undetermined, testing::IsEmpty());
+  double error = 0, power = 0;
+  for (const AlignmentPoint& p : points) {
+    error += std::norm(aligned(found, p) - std::pow(10.0, 0.7 / 20) * p.computed_m);
+    power += std::norm(p.computed_m);
+  }
+  EXPECT_LT(std::sqrt(error / power), 0.05);
+}
+
+TEST(Alignment, LeavesAnOriginThatIsRight) {
+  auto points = sweep({10}, grid(-30, 0.5, 121), {3}, {0});
+  const Alignment found = fit_alignment(points);
+  EXPECT_FALSE(found.conjugated);
+  EXPECT_NEAR(found.correlation, 1, 1e-12);
+  EXPECT_LT(found.origin_m.norm(), 1e-9);
+}
+
+// One elevation and one frequency: a shift along z is a constant phase.
+TEST(Alignment, NamesWhatTheDataDoNotDetermine) {
+  auto points = sweep({10}, grid(0, 1, 360), {0}, {0});
+  const Vec3 origin(0.05, -0.1, 0.07);
+  disturb(points, origin, 0, false, 1);
+  const Alignment circle = fit_alignment(points);
+  ASSERT_EQ(circle.undetermined.size(), 1u);
+  EXPECT_NEAR(std::abs(circle.undetermined[0].z()), 1, 1e-9);
+  EXPECT_LT((circle.origin_m - Vec3(0.05, -0.1, 0)).norm(), kSpeedOfLight / 10e9 / 50);
+  auto one_direction = sweep(grid(9, 0.01, 101), {20}, {0}, {0});
+  disturb(one_direction, origin, 0, false, 1);
+  const Alignment range = fit_alignment(one_direction);
+  EXPECT_EQ(range.undetermined.size(), 2u);
+  const Vec3 r = direction_to_radar(radians(20), 0);
+  EXPECT_NEAR(range.origin_m.dot(r), origin.dot(r), 5 * range.origin_error_m.norm());
+}
+
+// A far origin, of which neighbouring angles turn the phase by up to half a turn.
+TEST(Alignment, FindsAFarOrigin) {
+  auto points = sweep(grid(9.5, 0.02, 11), grid(0, 0.5, 41), {2}, {0});
+  const Vec3 origin(-0.7, 0.6, 0);
+  disturb(points, origin, -2, false, 1);
+  const Alignment found = fit_alignment(points);
+  EXPECT_FALSE(found.conjugated);
+  EXPECT_LT((found.origin_m - origin).head<2>().norm(), kSpeedOfLight / 9.7e9 / 50);
+}
+
+}  // namespace
+}  // namespace seaglint

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <set>
+
+#include "seaglint_version.h"
+#include "sim/core/process/error.h"
+#include "sim/core/process/file.h"
+#include "sim/core/process/printable.h"
+#include "sim/core/process/standard_error.h"
+#include "sim/core/process/standard_output.h"
+#include "tools/cli/arguments.h"
+#include "tools/cli/command.h"
+#include "tools/compare/comparison_text.h"
+#include "tools/figure/figure.h"
+#include "tools/options/rcs_arguments.h"
+#include "tools/pipeline/output_files.h"
+#include "tools/pipeline/warnings.h"
+
+namespace seaglint {
+namespace {
+
+struct CompareArguments {
+  RcsArguments rcs;  // of the target
+  ReferenceArguments exports;
+  std::string against, directory;
+  std::optional<double> tolerance_db, min_correlation;
+  bool as_is = false;
+};
+
+void say(const std::string& line) { print_error(on_one_line(line) + "\n"); }
+
+// Ascending, each once.
+std::vector<double> frequencies_of(const std::vector<FieldTable>& tables) {
+  std::set<double> frequencies;
+  for (const FieldTable& table : tables) {
+    for (const RcsCut& cut : table.cuts) {
+      for (const FieldValue& value : cut.values) frequencies.insert(value.frequency_hz);
+    }
+  }
+  return {frequencies.begin(), frequencies.end()};
+}
+
+std::vector<ExportComparison> compare_all(const CompareArguments& arguments, const ComparisonSettings& settings,
+                                          const CommandContext& context) {
+  const std::vector<FieldTable> tables = arguments.exports.read();
+  for (const FieldTable& table : tables) say(reading_of(table));
+  std::vector<ExportComparison> comparisons;
+  if (!arguments.against.empty()) {
+    ReferenceArguments other;
+    other.files = {arguments.against};
+    const FieldTable against = other.read().front();
+    say(reading_of(against));
+    for (const FieldTable& table : tables) comparisons.push_back(compare_with_table(table, against, settings));
+    return comparisons;
+  }
+  RcsRequest request = arguments.rcs.make_mesh_request();
+  request.frequency_hz = frequencies_of(tables);
+  request.azimuth_deg = {0};  // any, as the mesh is prepared for frequencies alone
+  PreparedTarget prepared = prepare_mesh(request);
+  warn(prepared.warnings);
+  const RcsTarget target = select_echoes(request, std::move(prepared));
+  for (const FieldTable& table : tables)
+    comparisons.push_back(compare_with_target(table, request, target, settings, context.threads, context.stop, say));
+  return comparisons;
+}
+
+void draw(const std::vector<ExportComparison>& comparisons, const ComparisonSettings& settings,
+          const std::filesystem::path& directory) {
+  std::vector<PairedCut> cuts;
+  for (const ExportComparison& comparison : comparisons)
+    cuts.insert(cuts.end(), comparison.cuts.begin(), comparison.cuts.end());
+  const std::string title =
+      fmt::format("{} against {}, seaglint {}", comparisons.front().name, comparisons.front().compared, kVersion);
+  for (const char* name : {"compare.png", "compare.svg"}) {
+    if (draw_comparison(cuts, settings.floor_db, title, directory / name)) continue;
+    print_out("No figure: it needs a cut along azimuth, elevation or frequency of two points or more\n");
+    return;
+  }
+}
+
+// Why a comparison is not good enough, a sentence each.
+std::vector<std::string> failures(const std::vector<ExportComparison>& comparisons, const CompareArguments& arguments) {
+  std::vector<std::string> sentences;
+  for (const ExportComparison& comparison : comparisons) {
+    for (const ElementStatistics& s : comparison.elements) {
+      const char* element = kPolarisationNames[static_cast<int>(s.element)];
+      if (arguments.tolerance_db && s.mean_abs_db > *arguments.tolerance_db)
+        sentences.push_back(fmt::format("{} {}: mean difference {:.3f} dB is over --tolerance-db {:g}", comparison.name,
+                                        element, s.mean_abs_db, *arguments.tolerance_db));
+      if (arguments.min_correlation && s.correlation.value_or(0) < *arguments.min_correlation)
+        sentences.push_back(fmt::format("{} {}: correlation {:.4f} is under --min-correlation {:g}", comparison.name,
+                                        element, s.correlation.value_or(0), *arguments.min_correlation));
+    }
+  }
+  return sentences;
+}
+
+void run_compare(const CompareArguments& arguments, const CommandContext& context) {
+  if (arguments.rcs.target.empty() == arguments.against.empty())
+    throw InputError("compare: give either --target MESH or --against FILE");
+  const std::filesystem::path directory = arguments.directory;
+  make_directory(directory);
+  std::vector<std::filesystem::path> inputs(arguments.exports.files.begin(), arguments.exports.files.end());
+  inputs.emplace_back(arguments.against.empty() ? arguments.rcs.target : arguments.against);
+  std::vector<std::string> outputs;
+  for (const char* name : {"compare.json", "compare.csv", "compare.png", "compare.svg"})
+    outputs.push_back((directory / name).string());
+  require_outputs(outputs, inputs);
+  require_figure(directory / "compare.png");
+
+  const ComparisonSettings settings{arguments.exports.floor_db, arguments.as_is};
+  const std::vector<ExportComparison> comparisons = compare_all(arguments, settings, context);
+  write_file(directory / "compare.csv", comparison_csv(comparisons));
+  draw(comparisons, settings, directory);
+  write_file(directory / "compare.json", comparison_json(comparisons, settings).dump(2) + "\n");
+  print_out("{}", comparison_table(comparisons, settings));
+  print_out("Results: {}: compare.json, compare.csv (every pair), compare.png\n", directory.string());
+  const std::vector<std::string> failed = failures(comparisons, arguments);
+  if (failed.empty()) return;
+  for (const std::string& sentence : failed) say(sentence);
+  throw WorkError(fmt::format("{} of the comparisons fail{}", failed.size(), failed.size() == 1 ? "s" : ""));
+}
+
+}  // namespace
+
+void add_compare(CommandOptions& program, CommandContext& context) {
+  CommandOptions command = program.add_command(
+      "compare", "Compare exports of CST, FEKO, HFSS and measurements with this solver or with each other");
+  auto arguments = std::make_shared<CompareArguments>();
+  command.add_option("EXPORT", arguments->exports.files, "Files with the radar cross section or scattered field")
+      .repeatable("FILE")
+      .required();
+  arguments->rcs.add_target_to(command);
+  command.add_option("--against", arguments->against, "Another such file, instead of a mesh");
+  arguments->rcs.add_detail_to(command);
+  arguments->exports.add_properties_to(command);
+  command.add_flag("--as-is", arguments->as_is,
+                   "Fit no constant phase, phase origin, conjugation and signs before the complex correlation");
+  command.add_option("--tolerance-db", arguments->tolerance_db, "Exit code 1 if a mean difference is over this")
+      .number_within(0.0, 1000.0);
+  command.add_option("--min-correlation", arguments->min_correlation, "Exit code 1 if a correlation is under this")
+      .number_within(0.0, 1.0);
+  command.add_option("-o,--output", arguments->directory, "Directory for the results").required();
+  add_threads_option(command, context);
+  command.footer(
+      "Example:\n  seaglint compare 'rcs (f=9.5), theta=(85,85,1), phi=(0,180,1), VP.txt' --target ship.stl -o "
+      "compared\n"
+      "  seaglint compare ship.ffe --against chamber.csv --reference-polarisation vv --tolerance-db 2 -o compared");
+  command.callback(
+      [arguments, &context] { context.work = [arguments, &context] { run_compare(*arguments, context); }; });
+}
+
+}  // namespace seaglint

@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/compare/alignment.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+
+#include "sim/core/numbers/constants.h"
+#include "sim/core/process/error.h"
+
+namespace seaglint {
+namespace {
+
+constexpr std::size_t kMaxFitted = 200'000;  // points of the fit; more are thinned out evenly
+constexpr std::size_t kMaxPairs = 20'000;    // per lag
+constexpr double kPriorOrigin_m = 0.4;       // how far an origin that nothing is known of may be displaced, each axis
+constexpr double kOriginError = 1.0 / 50;    // of the shortest wavelength, largest standard error of a component
+constexpr double kClearlyBetter = 0.5;       // 1 - correlation of the other time factor, relative
+
+// A phase that is q.x + const up to noise, with its weight.
+struct Phase {
+  Vec3 q;
+  Complex value;  // weight times e^{j phase}
+};
+
+// Orders in which neighbours differ in one of frequency, azimuth and elevation only.
+enum class Along { kFrequency, kAzimuth, kElevation };
+
+auto others(const AlignmentPoint& p, Along along) {
+  return std::tuple(p.element, along == Along::kFrequency ? 0 : p.frequency_hz,
+                    along == Along::kAzimuth ? 0 : p.azimuth_deg, along == Along::kElevation ? 0 : p.elevation_deg);
+}
+
+double running(const AlignmentPoint& p, Along along) {
+  return along == Along::kFrequency ? p.frequency_hz : along == Along::kAzimuth ? p.azimuth_deg : p.elevation_deg;
+}
+
+std::vector<std::size_t> sorted_along(std::span<const AlignmentPoint> points, Along along) {
+  std::vector<std::size_t> order(points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::tuple(others(points[a], along), running(points[a], along), a) <
+           std::tuple(others(points[b], along), running(points[b], along), b);
+  });
+  return order;
+}
+
+double spread_of(std::span<const Phase> phases);
+
+// Differences of phase between points that are `lag` apart along one variable.
+struct PhasePairs {
+  std::vector<Phase> phases;
+  double spread = 0;  // rms of q, rad/m
+};
+
+// Pairs of all variables and of lags 1, 2, 4, ..., by ascending spread.
+std::vector<PhasePairs> phase_pairs(std::span<const AlignmentPoint> points, std::span<const Complex> products) {
+  std::vector<PhasePairs> all;
+  for (const Along along : {Along::kFrequency, Along::kAzimuth, Along::kElevation}) {
+    const std::vector<std::size_t> order = sorted_along(points, along);
+    for (std::size_t lag = 1; lag < order.size(); lag *= 2) {
+      PhasePairs pairs;
+      const std::size_t step = std::max<std::size_t>(1, (order.size() - lag) / kMaxPairs);
+      for (std::size_t n = 0; n + lag < order.size(); n += step) {
+        const std::size_t a = order[n], b = order[n + lag];
+        if (others(points[a], along) != others(points[b], along)) continue;
+        pairs.phases.push_back(
+            {points[b].path_gradient - points[a].path_gradient, products[b] * std::conj(products[a])});
+      }
+      pairs.spread = spread_of(pairs.phases);
+      if (pairs.spread > 0) all.push_back(std::move(pairs));
+    }
+  }
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.spread < b.spread; });
+  return all;
+}
+
+double coherence(std::span<const Phase> phases, const Vec3& x) {
+  Complex sum = 0;
+  for (const Phase& phase : phases) sum += phase.value * std::polar(1.0, phase.q.dot(x));
+  return std::abs(sum);
+}
+
+// Normal equations of phases -q.x with weights |value|; with_mean: up to a common constant.
+struct Normal {
+  Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();  // sum of w (q - mean)(q - mean)^T
+  Vec3 right = Vec3::Zero();
+  double weight = 0, squares = 0;  // sum of w, and of w residual^2
+
+  static Normal of(std::span<const Phase> phases, const Vec3& x, bool with_mean) {
+    Normal normal;
+    Vec3 mean = Vec3::Zero();
+    Complex constant = 0;
+    for (const Phase& phase : phases) {
+      const double w = std::abs(phase.value);
+      normal.weight += w;
+      mean += w * phase.q;
+      constant += phase.value * std::polar(1.0, phase.q.dot(x));
+    }
+    if (normal.weight <= 0) return normal;
+    mean = with_mean ? Vec3(mean / normal.weight) : Vec3(Vec3::Zero());
+    const Complex turn = with_mean && std::abs(constant) > 0 ? std::conj(constant) / std::abs(constant) : Complex(1, 0);
+    for (const Phase& phase : phases) {
+      const double w = std::abs(phase.value);
+      if (w <= 0) continue;
+      const Vec3 q = phase.q - mean;
+      const double residual = std::arg(phase.value * std::polar(1.0, phase.q.dot(x)) * turn);
+      normal.matrix += w * q * q.transpose();
+      normal.right -= w * residual * q;
+      normal.squares += w * residual * residual;
+    }
+    return normal;
+  }
+  // The step along eigenvectors whose spread of q exceeds `least` rad/m.
+  Vec3 step(double least) const {
+    if (weight <= 0) return Vec3::Zero();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(matrix);
+    Vec3 result = Vec3::Zero();
+    for (int k = 0; k < 3; ++k) {
+      const double spread = std::sqrt(std::max(eigen.eigenvalues()[k], 0.0) / weight);
+      if (spread <= least) continue;
+      const Vec3 v = eigen.eigenvectors().col(k);
+      result += v * (v.dot(right) / eigen.eigenvalues()[k]);
+    }
+    return result;
+  }
+};
+
+// Gauss-Newton's method on the phases.
+void refine(std::span<const Phase> phases, Vec3& x, bool with_mean, double least) {
+  constexpr int kSteps = 30;
+  for (int n = 0; n < kSteps; ++n) {
+    const Vec3 step = Normal::of(phases, x, with_mean).step(least);
+    x += step;
+    if (step.norm() < 1e-9) return;
+  }
+}
+
+double spread_of(std::span<const Phase> phases) {
+  const Normal normal = Normal::of(phases, Vec3::Zero(), false);
+  return normal.weight > 0 ? std::sqrt(normal.matrix.trace() / normal.weight) : 0;
+}
+
+// The best origin of a lattice within kPriorOrigin_m of 0.
+Vec3 first_guess(std::span<const Phase> pairs, double spread) {
+  const int half = std::min(6, static_cast<int>(std::ceil(2 * kPriorOrigin_m * spread)));
+  const double step = 0.5 / spread;
+  Vec3 best = Vec3::Zero();
+  double highest = coherence(pairs, best) * (1 + 1e-9);
+  for (int i = -half; i <= half; ++i) {
+    for (int j = -half; j <= half; ++j) {
+      for (int k = -half; k <= half; ++k) {
+        const Vec3 x = step * Vec3(i, j, k);
+        const double value = coherence(pairs, x);
+        if (value <= highest) continue;
+        highest = value;
+        best = x;
+      }
+    }
+  }
+  return best;
+}
+
+// Standard errors of the origin along three perpendicular unit vectors.
+struct OriginErrors {
+  Eigen::Matrix3d axes;
+  Vec3 error_m;
+};
+
+// What is known of the origin while pairs of ever larger spread are used.
+class OriginSearch {
+ public:
+  const Vec3& origin() const { return x_; }
+
+  // Uses pairs whose phases by the uncertainty of the origin so far are below half a turn.
+  void use(const PhasePairs& pairs, double least) {
+    if (!resolves(pairs.phases)) return;
+    if (information_.isZero()) x_ = first_guess(pairs.phases, pairs.spread);
+    refine(pairs.phases, x_, false, least);
+    const Normal normal = Normal::of(pairs.phases, x_, false);
+    constexpr double kIndependent = 50;  // pairs are not: neighbours share points
+    const double count = std::min(kIndependent, static_cast<double>(pairs.phases.size()));
+    const double variance = std::max(normal.squares / normal.weight, 1e-4);
+    information_ += normal.matrix / normal.weight * count / variance;
+  }
+  // Whether the phases of these by the uncertainty of the origin are below half a turn.
+  bool resolves(std::span<const Phase> phases) const {
+    const Eigen::Matrix3d covariance = (information_ + Eigen::Matrix3d::Identity() / square(kPriorOrigin_m)).inverse();
+    double squares = 0, weight = 0;
+    for (const Phase& phase : phases) {
+      squares += std::abs(phase.value) * phase.q.dot(covariance * phase.q);
+      weight += std::abs(phase.value);
+    }
+    return weight > 0 && squares / weight < square(kPi);
+  }
+  OriginErrors errors() const {
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(information_);
+    OriginErrors result{eigen.eigenvectors(), Vec3::Zero()};
+    for (int k = 0; k < 3; ++k) result.error_m[k] = 1 / std::sqrt(std::max(eigen.eigenvalues()[k], 1e-300));
+    return result;
+  }
+
+ private:
+  static double square(double value) { return value * value; }
+  Vec3 x_ = Vec3::Zero();
+  Eigen::Matrix3d information_ = Eigen::Matrix3d::Zero();
+};
+
+// By the scatter of the phases about those of the origin and a constant.
+OriginErrors errors_of(std::span<const Phase> phases, const Vec3& x) {
+  const Normal normal = Normal::of(phases, x, true);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(normal.matrix);
+  OriginErrors errors{eigen.eigenvectors(), Vec3::Zero()};
+  const double scatter = std::sqrt(normal.squares / std::max(normal.weight, 1e-300));
+  const double count = std::max<double>(1, static_cast<double>(phases.size()) - 4);
+  for (int k = 0; k < 3; ++k) {
+    const double spread = std::sqrt(std::max(eigen.eigenvalues()[k], 0.0) / std::max(normal.weight, 1e-300));
+    errors.error_m[k] = spread > 0 ? std::max(scatter, 1e-6) / (spread * std::sqrt(count)) : 1e300;
+  }
+  return errors;
+}
+
+std::vector<AlignmentPoint> thinned(std::span<const AlignmentPoint> points) {
+  std::vector<AlignmentPoint> kept;
+  const std::size_t step = (points.size() + kMaxFitted - 1) / kMaxFitted;
+  for (std::size_t i = 0; i < points.size(); i += step) kept.push_back(points[i]);
+  return kept;
+}
+
+double shortest_wavelength(std::span<const AlignmentPoint> points) {
+  double highest = 0;
+  for (const AlignmentPoint& p : points) highest = std::max(highest, p.frequency_hz);
+  return kSpeedOfLight / highest;
+}
+
+// Phases of all points with the elements' own constants removed.
+std::vector<Phase> phases_of(std::span<const AlignmentPoint> points, std::span<const Complex> products, const Vec3& x) {
+  std::array<Complex, 4> constants{};
+  for (std::size_t i = 0; i < points.size(); ++i)
+    constants[points[i].element] += products[i] * std::polar(1.0, points[i].path_gradient.dot(x));
+  std::vector<Phase> phases;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Complex constant = constants[points[i].element];
+    const double size = std::abs(constant);
+    phases.push_back({points[i].path_gradient, size > 0 ? products[i] * std::conj(constant) / size : products[i]});
+  }
+  return phases;
+}
+
+// With the weighted mean of q removed.
+std::vector<Phase> centred(std::vector<Phase> phases) {
+  Vec3 mean = Vec3::Zero();
+  double weight = 0;
+  for (const Phase& phase : phases) {
+    mean += std::abs(phase.value) * phase.q;
+    weight += std::abs(phase.value);
+  }
+  for (Phase& phase : phases) phase.q -= mean / std::max(weight, 1e-300);
+  return phases;
+}
+
+Alignment fit(std::span<const AlignmentPoint> points, bool conjugated) {
+  Alignment result;
+  result.conjugated = conjugated;
+  std::vector<Complex> products;
+  for (const AlignmentPoint& p : points)
+    products.push_back((conjugated ? std::conj(p.reference_m) : p.reference_m) * std::conj(p.computed_m));
+  const double wavelength = shortest_wavelength(points), least = 1e-6 / wavelength;
+
+  OriginSearch search;
+  for (const PhasePairs& pairs : phase_pairs(points, products)) search.use(pairs, least);
+  Vec3& x = result.origin_m;
+  x = search.origin();
+  std::vector<Phase> phases = phases_of(points, products, x);
+  const bool all_used = search.resolves(centred(phases));
+  if (all_used) {
+    refine(phases, x, true, least);
+    phases = phases_of(points, products, x);
+  }
+  const OriginErrors errors = all_used ? errors_of(phases, x) : search.errors();
+  Vec3 determined = Vec3::Zero(), variance = Vec3::Zero();
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 axis = errors.axes.col(k);
+    if (errors.error_m[k] > kOriginError * wavelength) {
+      result.undetermined.push_back(axis);
+      continue;
+    }
+    determined += axis * axis.dot(x);
+    variance += (axis * errors.error_m[k]).cwiseAbs2();
+  }
+  x = determined;
+  result.origin_error_m = variance.cwiseSqrt();
+  return result;
+}
+
+// Constant phase and signs for the origin that was found, and the correlation after all of it.
+void complete(Alignment& alignment, std::span<const AlignmentPoint> points) {
+  std::array<Complex, 4> constants{};
+  double computed = 0, reference = 0;
+  for (const AlignmentPoint& p : points) {
+    const Complex other = alignment.conjugated ? std::conj(p.reference_m) : p.reference_m;
+    constants[p.element] += other * std::conj(p.computed_m) * std::polar(1.0, p.path_gradient.dot(alignment.origin_m));
+    computed += std::norm(p.computed_m);
+    reference += std::norm(p.reference_m);
+  }
+  const auto first = std::find_if(constants.begin(), constants.end(), [](const Complex& c) { return std::abs(c) > 0; });
+  if (first == constants.end()) return;
+  Complex sum = 0;
+  for (std::size_t e = 0; e < 4; ++e) {
+    alignment.sign[e] = std::real(constants[e] * std::conj(*first)) < 0 ? -1 : 1;
+    sum += constants[e] * static_cast<double>(alignment.sign[e]);
+  }
+  alignment.phase_rad = std::arg(sum);
+  alignment.correlation = std::abs(sum) / std::sqrt(computed * reference);
+  alignment.level_db = 10 * std::log10(reference / computed);
+}
+
+}  // namespace
+
+Alignment fit_alignment(std::span<const AlignmentPoint> points) {
+  SEAGLINT_CHECK(!points.empty(), "no points");
+  const std::vector<AlignmentPoint> fitted = thinned(points);
+  Alignment direct = fit(fitted, false), conjugate = fit(fitted, true);
+  complete(direct, points);
+  complete(conjugate, points);
+  const bool better = 1 - conjugate.correlation < kClearlyBetter * (1 - direct.correlation);
+  Alignment& chosen = better ? conjugate : direct;
+  chosen.other_correlation = better ? direct.correlation : conjugate.correlation;
+  return chosen;
+}
+
+Complex aligned(const Alignment& alignment, const AlignmentPoint& point) {
+  const Complex other = alignment.conjugated ? std::conj(point.reference_m) : point.reference_m;
+  return static_cast<double>(alignment.sign[point.element]) * other *
+         std::polar(1.0, point.path_gradient.dot(alignment.origin_m) - alignment.phase_rad);
+}
+
+}  // namespace seaglint

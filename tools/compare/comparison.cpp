@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/compare/comparison.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include "sim/core/numbers/constants.h"
+#include "sim/core/numbers/dbsm.h"
+#include "sim/core/process/error.h"
+#include "sim/scattering/beams/bistatic_geometry.h"
+#include "tools/compare/suggestions.h"
+#include "tools/compare/view_groups.h"
+#include "tools/rcs/rcs_views.h"
+
+namespace seaglint {
+namespace {
+
+double azimuth_of(const RcsCut& cut, double phi_deg) {
+  return std::remainder((phi_deg - cut.phi_offset_deg) / cut.phi_scale, 360);
+}
+
+const DeclaredTransmitter& stated_transmitter(const RcsCut& cut) {
+  if (cut.transmitter) return *cut.transmitter;
+  throw InputError(fmt::format(
+      "{}: neither the file nor its name says where the incident wave comes from: give --incidence monostatic "
+      "or --incidence THETA,PHI",
+      cut.name));
+}
+
+// Cuts of one transmitter are solved together.
+using TransmitterKey = std::tuple<bool, double, double>;
+
+TransmitterKey key_of(const DeclaredTransmitter& transmitter) {
+  if (transmitter.is_monostatic) return {true, 0, 0};
+  return {false, transmitter.theta_deg, transmitter.phi_deg};
+}
+
+std::map<TransmitterKey, std::vector<const RcsCut*>> by_transmitter(const FieldTable& table) {
+  std::map<TransmitterKey, std::vector<const RcsCut*>> groups;
+  for (const RcsCut& cut : table.cuts) groups[key_of(stated_transmitter(cut))].push_back(&cut);
+  return groups;
+}
+
+std::optional<FixedTransmitter> transmitter_of(const RcsCut& cut) {
+  if (cut.transmitter->is_monostatic) return std::nullopt;
+  return FixedTransmitter{azimuth_of(cut, cut.transmitter->phi_deg), 90 - cut.transmitter->theta_deg};
+}
+
+std::vector<ViewGrid> grids_of(const std::vector<const RcsCut*>& cuts) {
+  std::vector<ViewPoint> points;
+  for (const RcsCut* cut : cuts) {
+    for (const FieldValue& value : cut->values)
+      points.push_back({value.frequency_hz, azimuth_of(*cut, value.phi_deg), 90 - value.theta_deg});
+  }
+  return view_grids(points);
+}
+
+void append(std::vector<PairedCut>& all, std::vector<PairedCut> cuts) {
+  for (PairedCut& cut : cuts) all.push_back(std::move(cut));
+}
+
+// A point of a paired cut for the fit.
+AlignmentPoint point_of(const PairedCut& cut, std::size_t i) {
+  const PairedCut::Place& place = cut.places[i];
+  return {static_cast<std::size_t>(cut.element),
+          place.frequency_hz,
+          place.azimuth_deg,
+          place.elevation_deg,
+          place.path_gradient,
+          cut.models[0].amplitude_m[i],
+          cut.amplitude_m[i]};
+}
+
+bool has_phases(const PairedCut& cut) { return !cut.amplitude_m.empty() && !cut.models[0].amplitude_m.empty(); }
+
+// Fits all cuts with phases and brings their references into the phase of the compared values.
+std::optional<Alignment> align(std::vector<PairedCut>& cuts) {
+  std::vector<AlignmentPoint> points;
+  for (const PairedCut& cut : cuts) {
+    for (std::size_t i = 0; has_phases(cut) && i < cut.places.size(); ++i) points.push_back(point_of(cut, i));
+  }
+  if (points.empty()) return std::nullopt;
+  const Alignment alignment = fit_alignment(points);
+  for (PairedCut& cut : cuts) {
+    for (std::size_t i = 0; has_phases(cut) && i < cut.places.size(); ++i)
+      cut.amplitude_m[i] = aligned(alignment, point_of(cut, i));
+  }
+  return alignment;
+}
+
+ElementStatistics statistics_of(const std::vector<PairedCut>& cuts, Polarisation element, double floor_db) {
+  constexpr std::size_t kWorst = 5;
+  ElementStatistics statistics;
+  statistics.element = element;
+  double highest = -1e300;
+  for (const PairedCut& cut : cuts) {
+    if (cut.element == element)
+      highest = std::max(highest, *std::max_element(cut.level_dbsm.begin(), cut.level_dbsm.end()));
+  }
+  const double floor = highest - floor_db;
+  std::vector<double> sizes;
+  std::vector<ElementStatistics::Worst> all;
+  Complex product = 0;
+  double reference_power = 0, compared_power = 0;
+  for (const PairedCut& cut : cuts) {
+    if (cut.element != element) continue;
+    for (std::size_t i = 0; i < cut.places.size(); ++i) {
+      const double difference = std::max(cut.models[0].level_dbsm[i], floor) - std::max(cut.level_dbsm[i], floor);
+      statistics.bias_db += difference;
+      statistics.mean_abs_db += std::abs(difference);
+      statistics.rms_db += difference * difference;
+      sizes.push_back(std::abs(difference));
+      all.push_back({difference, cut.places[i]});
+      if (!has_phases(cut)) continue;
+      product += std::conj(cut.amplitude_m[i]) * cut.models[0].amplitude_m[i];
+      reference_power += std::norm(cut.amplitude_m[i]);
+      compared_power += std::norm(cut.models[0].amplitude_m[i]);
+    }
+  }
+  statistics.pairs = sizes.size();
+  const double n = static_cast<double>(sizes.size());
+  statistics.bias_db /= n;
+  statistics.mean_abs_db /= n;
+  statistics.rms_db = std::sqrt(statistics.rms_db / n);
+  const std::size_t rank = static_cast<std::size_t>(std::ceil(0.95 * n)) - 1;
+  std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(rank), sizes.end());
+  statistics.p95_db = sizes[rank];
+  if (reference_power > 0 && compared_power > 0)
+    statistics.correlation = std::abs(product) / std::sqrt(reference_power * compared_power);
+  const std::size_t count = std::min(kWorst, all.size());
+  std::partial_sort(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count), all.end(),
+                    [](const auto& a, const auto& b) { return std::abs(a.difference_db) > std::abs(b.difference_db); });
+  statistics.worst.assign(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count));
+  return statistics;
+}
+
+ExportComparison finished(ExportComparison comparison, const ComparisonSettings& settings) {
+  if (!settings.as_is) comparison.alignment = align(comparison.cuts);
+  for (const Polarisation element : {Polarisation::kHh, Polarisation::kHv, Polarisation::kVh, Polarisation::kVv}) {
+    if (std::any_of(comparison.cuts.begin(), comparison.cuts.end(),
+                    [&](const PairedCut& cut) { return cut.element == element; }))
+      comparison.elements.push_back(statistics_of(comparison.cuts, element, settings.floor_db));
+  }
+  comparison.warnings = suggestions(comparison.cuts, comparison.alignment, settings.floor_db);
+  return comparison;
+}
+
+// The values of a table's cuts by frequency, theta and phi, of one element.
+class ValuesByPlace {
+ public:
+  explicit ValuesByPlace(const RcsCut& cut) {
+    for (const FieldValue& value : cut.values)
+      places_.try_emplace(key(value.frequency_hz, azimuth_of(cut, value.phi_deg), 90 - value.theta_deg), &value);
+  }
+  // Rounding may give equal values neighbouring keys.
+  const FieldValue* at(double frequency_hz, double azimuth_deg, double elevation_deg) const {
+    const Key k = key(frequency_hz, azimuth_deg, elevation_deg);
+    for (const long f : {0L, -1L, 1L}) {
+      for (const long az : {0L, -1L, 1L}) {
+        for (const long el : {0L, -1L, 1L}) {
+          const auto place = places_.find({k[0] + f, (k[1] + az + kCircle) % kCircle, k[2] + el});
+          if (place != places_.end()) return place->second;
+        }
+      }
+    }
+    return nullptr;
+  }
+
+ private:
+  using Key = std::array<long, 3>;
+  static constexpr long kCircle = 360'000;
+  static Key key(double frequency_hz, double azimuth_deg, double elevation_deg) {
+    const long azimuth = std::lround(azimuth_deg * 1e3) % kCircle;
+    return {std::lround(std::log(frequency_hz) * 1e6), azimuth < 0 ? azimuth + kCircle : azimuth,
+            std::lround(elevation_deg * 1e3)};
+  }
+  std::map<Key, const FieldValue*> places_;
+};
+
+// The values of `other` at places of `cut` that it has, as a sweep with only this element.
+std::vector<RcsSweep> sweeps_of(const RcsCut& cut, const RcsCut& other) {
+  const ValuesByPlace values(other);
+  std::vector<ViewPoint> points;
+  for (const FieldValue& value : cut.values) {
+    const ViewPoint p{value.frequency_hz, azimuth_of(cut, value.phi_deg), 90 - value.theta_deg};
+    if (values.at(p.frequency_hz, p.azimuth_deg, p.elevation_deg) != nullptr) points.push_back(p);
+  }
+  std::vector<RcsSweep> sweeps;
+  for (const ViewGrid& grid : view_grids(points)) {
+    RcsRequest request;
+    request.frequency_hz = grid.frequency_hz;
+    request.azimuth_deg = grid.azimuth_deg;
+    request.elevation_deg = grid.elevation_deg;
+    request.transmitter = transmitter_of(cut);
+    RcsSweep& sweep = sweeps.emplace_back(requested_sweep(request));
+    RcsSweep::Model model{other.name, true, {}};
+    for (std::size_t view = 0; view < sweep.views(); ++view) {
+      std::vector<std::array<Complex, 4>>& row = model.matrices.emplace_back();
+      for (const double f : sweep.frequency_hz) {
+        const double az = sweep.azimuth_of(view), el = sweep.elevation_of(view);
+        const FieldValue& value = *values.at(f, az, el);
+        const Vec3 r = direction_to_radar(radians(az), radians(el));
+        const Complex turn =
+            std::polar(1.0, 2 * kPi * f / kSpeedOfLight * (sweep.transmitter.value_or(r) + r).dot(other.origin_m));
+        std::array<Complex, 4>& matrix = row.emplace_back();
+        matrix[static_cast<std::size_t>(other.element)] =
+            value.amplitude_m ? *value.amplitude_m * turn : Complex(amplitude_of_dbsm(value.level_dbsm));
+      }
+    }
+    sweep.models.push_back(std::move(model));
+  }
+  return sweeps;
+}
+
+}  // namespace
+
+ExportComparison compare_with_target(const FieldTable& table, const RcsRequest& request, const RcsTarget& target,
+                                     const ComparisonSettings& settings, int threads, const StopFlag& stop,
+                                     const std::function<void(const std::string&)>& say) {
+  ExportComparison comparison{table.name, table.reader, "seaglint", table.notes, {}, {}, {}, {}};
+  for (const auto& [key, cuts] : by_transmitter(table)) {
+    RcsRequest solved = request;
+    solved.transmitter = transmitter_of(*cuts.front());
+    for (const ViewGrid& grid : grids_of(cuts)) {
+      solved.frequency_hz = grid.frequency_hz;
+      solved.azimuth_deg = grid.azimuth_deg;
+      solved.elevation_deg = grid.elevation_deg;
+      RcsSweep sweep = requested_sweep(solved);
+      say(fmt::format("{}: {} frequencies in {} directions, {}", table.name, grid.frequency_hz.size(), sweep.views(),
+                      solved.transmitter
+                          ? fmt::format("transmitter at azimuth {:g} deg, elevation {:g} deg",
+                                        solved.transmitter->azimuth_deg, solved.transmitter->elevation_deg)
+                          : std::string("monostatic")));
+      sweep = compute_rcs(solved, target, threads, &stop).sweep;
+      for (const RcsCut* cut : cuts) append(comparison.cuts, match_reference(sweep, *cut));
+    }
+  }
+  return finished(std::move(comparison), settings);
+}
+
+ExportComparison compare_with_table(const FieldTable& table, const FieldTable& other,
+                                    const ComparisonSettings& settings) {
+  ExportComparison comparison{table.name, table.reader, other.name, table.notes, {}, {}, {}, {}};
+  for (const RcsCut& cut : table.cuts) {
+    for (const RcsCut& values : other.cuts) {
+      if (values.element != cut.element) continue;
+      if (key_of(stated_transmitter(cut)) != key_of(stated_transmitter(values))) continue;
+      for (const RcsSweep& sweep : sweeps_of(cut, values)) {
+        std::vector<PairedCut> paired = match_reference(sweep, cut);
+        for (PairedCut& one : paired) {
+          if (!values.has_phase()) one.models[0].amplitude_m.clear();
+        }
+        append(comparison.cuts, std::move(paired));
+      }
+    }
+  }
+  if (comparison.cuts.empty())
+    throw InputError(
+        fmt::format("{} and {} have no element, incident wave, direction and frequency in common; nothing is "
+                    "interpolated",
+                    table.name, other.name));
+  return finished(std::move(comparison), settings);
+}
+
+}  // namespace seaglint

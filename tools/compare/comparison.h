@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// Comparison of exports of other solvers and of measurements with this solver or with each other, at their own angles
+// and frequencies; nothing is interpolated.
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/core/process/parallel.h"
+#include "sim/field_tables/field_table.h"
+#include "tools/compare/alignment.h"
+#include "tools/rcs/rcs_comparison.h"
+#include "tools/rcs/rcs_request.h"
+#include "tools/rcs/rcs_target.h"
+
+namespace seaglint {
+
+// Differences of all values of one element, compared - reference, both clipped at floor_db below the reference's
+// maximum.
+struct ElementStatistics {
+  Polarisation element = Polarisation::kHh;
+  std::size_t pairs = 0;
+  double bias_db = 0, mean_abs_db = 0, rms_db = 0;
+  double p95_db = 0;                  // 95 % of the absolute differences are at most this
+  std::optional<double> correlation;  // |<conj(reference) compared>| / (|reference| |compared|), of complex values
+  struct Worst {
+    double difference_db = 0;
+    PairedCut::Place place;
+  };
+  std::vector<Worst> worst;  // the largest differences, at most five
+};
+
+struct ExportComparison {
+  std::string name, reader, compared;  // compared: "seaglint" or the name of the other file
+  std::vector<std::string> notes;      // how the export was read
+  std::vector<PairedCut> cuts;         // each with one model; references in the phase of the compared values if aligned
+  std::optional<Alignment> alignment;  // absent as asked, or without phases
+  std::vector<ElementStatistics> elements;
+  std::vector<std::string> warnings;
+};
+
+struct ComparisonSettings {
+  double floor_db = 80;
+  bool as_is = false;  // no fit of phase, origin, conjugation and signs
+};
+
+// Solves the target at exactly the angles and frequencies of the export, monostatic or bistatic as it states. `request`
+// says what the target is made of and how it is solved. Throws InputError for an export without a stated incident wave,
+// and what compute_rcs() throws; say() gets a line before each solution.
+ExportComparison compare_with_target(const FieldTable& table, const RcsRequest& request, const RcsTarget& target,
+                                     const ComparisonSettings& settings, int threads, const StopFlag& stop,
+                                     const std::function<void(const std::string&)>& say);
+
+// Compares two tables where they have equal directions (0.001 deg), frequencies (1e-6) and elements; throws InputError
+// if that is nowhere, or if their incident waves differ.
+ExportComparison compare_with_table(const FieldTable& table, const FieldTable& other,
+                                    const ComparisonSettings& settings);
+
+}  // namespace seaglint

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/compare/comparison_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "seaglint_version.h"
+#include "sim/core/numbers/constants.h"
+#include "sim/core/process/printable.h"
+#include "sim/core/text/escape.h"
+
+namespace seaglint {
+namespace {
+
+const char* name_of(Polarisation element) { return kPolarisationNames[static_cast<int>(element)]; }
+
+std::string text_of(const Alignment& a, bool of_all) {
+  std::string text = fmt::format(
+      "constant phase {:.1f} deg, phase origin {:.4f}, {:.4f}, {:.4f} m (+- {:.4f}, {:.4f}, "
+      "{:.4f})",
+      degrees(a.phase_rad), a.origin_m.x(), a.origin_m.y(), a.origin_m.z(), a.origin_error_m.x(), a.origin_error_m.y(),
+      a.origin_error_m.z());
+  for (const Vec3& v : a.undetermined)
+    text += fmt::format("; the data fix none along {:.2f}, {:.2f}, {:.2f}", v.x(), v.y(), v.z());
+  return of_all ? text + "; of all elements" : text;
+}
+
+nlohmann::ordered_json vector_json(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+nlohmann::ordered_json fitted_json(const ExportComparison& comparison, Polarisation element) {
+  if (!comparison.alignment) return nullptr;
+  const Alignment& a = *comparison.alignment;
+  nlohmann::ordered_json json;
+  json["phase_deg"] = degrees(a.phase_rad);
+  json["origin_m"] = vector_json(a.origin_m);
+  json["origin_error_m"] = vector_json(a.origin_error_m);
+  json["undetermined"] = nlohmann::ordered_json::array();
+  for (const Vec3& v : a.undetermined) json["undetermined"].push_back(vector_json(v));
+  json["conjugated"] = a.conjugated;
+  json["sign"] = a.sign[static_cast<std::size_t>(element)];
+  json["offset_db"] = a.level_db;
+  return json;
+}
+
+}  // namespace
+
+std::string comparison_table(const std::vector<ExportComparison>& comparisons, const ComparisonSettings& settings) {
+  std::size_t width = 6, other = 8;
+  for (const ExportComparison& c : comparisons) {
+    width = std::max(width, c.name.size());
+    other = std::max(other, c.compared.size());
+  }
+  std::string text = fmt::format(
+      "Differences in dB, compared - export, both clipped at {:g} dB below the export's maximum:\n{:<{}}  pol  {:<{}}  "
+      "{:>7}  {:>7}  {:>7}  {:>7}  {:>7}  correlation\n",
+      settings.floor_db, "export", width, "compared", other, "pairs", "bias", "mean", "rms", "95 %");
+  for (const ExportComparison& c : comparisons) {
+    for (const ElementStatistics& s : c.elements) {
+      text += fmt::format("{:<{}}  {:<3}  {:<{}}  {:>7}  {:>7.3f}  {:>7.3f}  {:>7.3f}  {:>7.3f}  {}\n", c.name, width,
+                          name_of(s.element), c.compared, other, s.pairs, s.bias_db, s.mean_abs_db, s.rms_db, s.p95_db,
+                          s.correlation ? fmt::format("{:.4f}", *s.correlation) : std::string("no phases"));
+    }
+  }
+  for (const ExportComparison& c : comparisons) {
+    if (c.alignment) text += fmt::format("{}: {}\n", c.name, text_of(*c.alignment, c.elements.size() > 1));
+    for (const std::string& warning : c.warnings) text += fmt::format("{}: warning: {}\n", c.name, warning);
+  }
+  return text;
+}
+
+nlohmann::ordered_json comparison_json(const std::vector<ExportComparison>& comparisons,
+                                       const ComparisonSettings& settings) {
+  nlohmann::ordered_json json;
+  json["version"] = kVersion;
+  json["settings"] = {{"floor_db", settings.floor_db}, {"as_is", settings.as_is}};
+  json["exports"] = nlohmann::ordered_json::array();
+  for (const ExportComparison& c : comparisons) {
+    for (const ElementStatistics& s : c.elements) {
+      nlohmann::ordered_json entry;
+      entry["name"] = c.name;
+      entry["reader"] = c.reader;
+      entry["convention"] = c.notes;
+      entry["compared"] = c.compared;
+      entry["polarisation"] = name_of(s.element);
+      entry["pairs"] = s.pairs;
+      entry["bias_db"] = s.bias_db;
+      entry["mean_abs_db"] = s.mean_abs_db;
+      entry["rms_db"] = s.rms_db;
+      entry["p95_db"] = s.p95_db;
+      entry["correlation"] = s.correlation ? nlohmann::ordered_json(*s.correlation) : nlohmann::ordered_json(nullptr);
+      entry["fitted"] = fitted_json(c, s.element);
+      entry["worst"] = nlohmann::ordered_json::array();
+      for (const ElementStatistics::Worst& worst : s.worst) {
+        entry["worst"].push_back({{"difference_db", worst.difference_db},
+                                  {"frequency_hz", worst.place.frequency_hz},
+                                  {"azimuth_deg", worst.place.azimuth_deg},
+                                  {"elevation_deg", worst.place.elevation_deg},
+                                  {"line", worst.place.line}});
+      }
+      entry["warnings"] = c.warnings;
+      json["exports"].push_back(std::move(entry));
+    }
+  }
+  return json;
+}
+
+std::string comparison_csv(const std::vector<ExportComparison>& comparisons) {
+  std::string csv = fmt::format(
+      "# seaglint {} compare: compared - export, amplitudes in metres, e^{{+jwt}}, basis of CONVENTIONS.md\n"
+      "export,line,compared,polarisation,frequency_hz,azimuth_deg,elevation_deg,export_dbsm,compared_dbsm,difference_"
+      "db,"
+      "export_re,export_im,compared_re,compared_im\n",
+      kVersion);
+  auto out = std::back_inserter(csv);
+  for (const ExportComparison& c : comparisons) {
+    const std::string name = csv_cell(c.name), other = csv_cell(c.compared);
+    for (const PairedCut& cut : c.cuts) {
+      const PairedCut::Model& model = cut.models[0];
+      const bool phases = !cut.amplitude_m.empty() && !model.amplitude_m.empty();
+      for (std::size_t i = 0; i < cut.places.size(); ++i) {
+        const PairedCut::Place& p = cut.places[i];
+        fmt::format_to(out, "{},{},{},{},{:.9g},{:.9g},{:.9g},{:.4f},{:.4f},{:.4f}", name, p.line, other,
+                       name_of(cut.element), p.frequency_hz, p.azimuth_deg, p.elevation_deg, cut.level_dbsm[i],
+                       model.level_dbsm[i], model.level_dbsm[i] - cut.level_dbsm[i]);
+        if (phases) {
+          const Complex a = cut.amplitude_m[i], b = model.amplitude_m[i];
+          fmt::format_to(out, ",{:.9g},{:.9g},{:.9g},{:.9g}\n", a.real(), a.imag(), b.real(), b.imag());
+        } else {
+          csv += ",,,,\n";
+        }
+      }
+    }
+  }
+  return csv;
+}
+
+}  // namespace seaglint

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// A comparison as a table, as JSON and as CSV.
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tools/compare/comparison.h"
+
+namespace seaglint {
+
+// For the terminal: one line per export and element, then how each was fitted and its warnings.
+std::string comparison_table(const std::vector<ExportComparison>& comparisons, const ComparisonSettings& settings);
+
+// {"version", "settings", "exports": [{"name", "reader", "notes", "compared", "polarisation", "pairs", "bias_db",
+// "mean_abs_db", "rms_db", "p95_db", "correlation", "fitted": {"phase_deg", "origin_m", "origin_error_m",
+// "undetermined", "conjugated", "sign", "offset_db"}, "worst", "warnings"}]}: one entry per export and polarisation;
+// null where there is no phase.
+nlohmann::ordered_json comparison_json(const std::vector<ExportComparison>& comparisons,
+                                       const ComparisonSettings& settings);
+
+// One row per pair: file, line, polarisation, frequency, direction, both levels, their difference, and both amplitudes
+// where they have phases (the export's in the fitted phase).
+std::string comparison_csv(const std::vector<ExportComparison>& comparisons);
+
+}  // namespace seaglint

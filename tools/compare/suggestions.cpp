@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/compare/suggestions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include "sim/core/numbers/constants.h"
+
+namespace seaglint {
+namespace {
+
+constexpr double kSameUnit_db = 1;          // agreement of an offset with that of a unit
+constexpr double kSteady_db = 3;            // largest rms about an offset that is one of a unit
+constexpr double kBetterCorrelation = 0.2;  // of levels, by which a mirrored or turned cut is better
+constexpr double kGoodCorrelation = 0.7;
+
+// Two series of levels in dB.
+struct Levels {
+  std::vector<double> reference, compared;
+};
+
+Levels levels_of(const PairedCut& cut, double floor_db) {
+  const double floor = *std::max_element(cut.level_dbsm.begin(), cut.level_dbsm.end()) - floor_db;
+  const std::vector<double>& model = cut.models[0].level_dbsm;
+  const double model_floor = *std::max_element(model.begin(), model.end()) - floor_db;
+  Levels levels;
+  for (std::size_t i = 0; i < cut.level_dbsm.size(); ++i) {
+    levels.reference.push_back(std::max(cut.level_dbsm[i], floor));
+    levels.compared.push_back(std::max(model[i], model_floor));
+  }
+  return levels;
+}
+
+// Straight line compared = slope reference + offset, and how well it fits.
+struct Line {
+  double slope = 1, offset_db = 0, correlation = 0, rms_db = 0;  // rms about slope 1
+};
+
+Line line_of(const Levels& levels) {
+  const double n = static_cast<double>(levels.reference.size());
+  double x = 0, y = 0, xx = 0, yy = 0, xy = 0;
+  for (std::size_t i = 0; i < levels.reference.size(); ++i) {
+    x += levels.reference[i] / n;
+    y += levels.compared[i] / n;
+  }
+  double rms = 0;
+  for (std::size_t i = 0; i < levels.reference.size(); ++i) {
+    const double a = levels.reference[i] - x, b = levels.compared[i] - y;
+    xx += a * a;
+    yy += b * b;
+    xy += a * b;
+    rms += (a - b) * (a - b) / n;
+  }
+  if (xx <= 0 || yy <= 0) return {1, y - x, 0, std::sqrt(rms)};
+  // The slope of both errors alike (reduced major axis).
+  return {std::sqrt(yy / xx), y - x, xy / std::sqrt(xx * yy), std::sqrt(rms)};
+}
+
+double correlation_of(const std::vector<double>& a, const std::vector<double>& b) {
+  return line_of({a, b}).correlation;
+}
+
+void suggest_unit(const Line& line, std::vector<std::string>& sentences) {
+  constexpr std::array<std::pair<double, const char*>, 8> kOffsets{{
+      {60, "an area in mm^2 or a mesh in mm"},
+      {40, "an area in cm^2"},
+      {30, "dBm for dBsm, or a factor of 1000 in power"},
+      {20, "a field in decimetres or a factor of 10 in amplitude"},
+      {10.99, "4 pi: |S|^2 taken for the radar cross section"},
+      {-10.99, "4 pi: the radar cross section divided by it twice"},
+      {-30, "dBm for dBsm, or a factor of 1000 in power"},
+      {-60, "an area in mm^2 or a mesh in mm"},
+  }};
+  if (line.rms_db > kSteady_db) return;
+  for (const auto& [offset, what] : kOffsets) {
+    if (std::abs(-line.offset_db - offset) > kSameUnit_db) continue;
+    sentences.push_back(fmt::format("the export is {:.1f} dB {} throughout: {}?", std::abs(line.offset_db),
+                                    line.offset_db < 0 ? "higher" : "lower", what));
+  }
+}
+
+void suggest_scale(const Line& line, std::vector<std::string>& sentences) {
+  constexpr double kTolerance = 0.15;
+  if (line.correlation < 0.9) return;
+  if (std::abs(line.slope - 0.5) < kTolerance / 2)
+    sentences.emplace_back("levels of the export change twice as much in dB: 20 log of an area for 10 log?");
+  if (std::abs(line.slope - 2) < 2 * kTolerance)
+    sentences.emplace_back("levels of the export change half as much in dB: 10 log of an amplitude for 20 log?");
+}
+
+// Correlation of levels of the compared curve at mapped azimuths with the reference's; 0 below half of the points.
+double mapped_correlation(const PairedCut& cut, const Levels& levels, const std::function<double(double)>& azimuth) {
+  constexpr double kNear_deg = 1e-3;
+  std::vector<std::pair<double, double>> compared;
+  for (std::size_t i = 0; i < cut.places.size(); ++i)
+    compared.emplace_back(std::remainder(cut.places[i].azimuth_deg, 360), levels.compared[i]);
+  std::sort(compared.begin(), compared.end());
+  std::vector<double> a, b;
+  for (std::size_t i = 0; i < cut.places.size(); ++i) {
+    const double wanted = std::remainder(azimuth(cut.places[i].azimuth_deg), 360);
+    const auto place = std::lower_bound(compared.begin(), compared.end(), std::pair(wanted - kNear_deg, -1e300));
+    if (place == compared.end() || place->first > wanted + kNear_deg) continue;
+    a.push_back(levels.reference[i]);
+    b.push_back(place->second);
+  }
+  return 2 * a.size() < cut.places.size() || a.size() < 8 ? 0 : correlation_of(a, b);
+}
+
+// The sense and the zero of the azimuth of a cut along azimuth.
+void suggest_azimuth(const PairedCut& cut, const Levels& levels, std::vector<std::string>& sentences) {
+  if (cut.axis != CutAxis::kAzimuth || cut.places.size() < 8) return;
+  const double as_is = correlation_of(levels.reference, levels.compared);
+  double best = std::max(as_is + kBetterCorrelation, kGoodCorrelation);
+  std::string sentence;
+  const auto consider = [&](double correlation, const std::string& text) {
+    if (correlation <= best) return;
+    best = correlation;
+    sentence = text;
+  };
+  const double first = cut.places.front().azimuth_deg;
+  constexpr std::size_t kMaxTurns = 720;
+  const std::size_t step = std::max<std::size_t>(1, cut.places.size() / kMaxTurns);
+  for (std::size_t n = 0; n < cut.places.size(); n += step) {
+    const double turn = cut.places[n].azimuth_deg - first;
+    for (const double by : {turn, -turn}) {
+      consider(mapped_correlation(cut, levels, [&](double az) { return az + by; }),
+               fmt::format("azimuths turned by {:g} deg fit better: --reference-phi 1,{:g}?", by, -by));
+      consider(mapped_correlation(cut, levels, [&](double az) { return by - az; }),
+               fmt::format("mirrored azimuths fit better: --reference-phi -1,{:g}?", by));
+    }
+  }
+  if (!sentence.empty()) {
+    sentences.push_back(fmt::format("{} (correlation of levels {:.2f}, as it is {:.2f})", sentence, best, as_is));
+  }
+}
+
+void suggest_conventions(const Alignment& alignment, const std::vector<PairedCut>& cuts,
+                         std::vector<std::string>& sentences) {
+  if (alignment.conjugated)
+    sentences.push_back(
+        fmt::format("the export has the other time factor, e^{{-jwt}}: conjugated (correlation {:.3f}, as "
+                    "it is {:.3f})",
+                    alignment.correlation, alignment.other_correlation));
+  for (std::size_t e = 0; e < alignment.sign.size(); ++e) {
+    if (alignment.sign[e] < 0)
+      sentences.push_back(fmt::format("{} of the export has the opposite sign", kPolarisationNames[e]));
+  }
+  double shortest = 1e300;
+  for (const PairedCut& cut : cuts) {
+    for (const PairedCut::Place& place : cut.places) shortest = std::min(shortest, kSpeedOfLight / place.frequency_hz);
+  }
+  if (alignment.origin_m.norm() > shortest / 8 && alignment.correlation > 0.5) {
+    sentences.push_back(
+        fmt::format("the export's phase origin, or its mesh, is displaced: origin at {:.4f}, {:.4f}, "
+                    "{:.4f} m",
+                    alignment.origin_m.x(), alignment.origin_m.y(), alignment.origin_m.z()));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> suggestions(const std::vector<PairedCut>& cuts, const std::optional<Alignment>& alignment,
+                                     double floor_db) {
+  std::vector<std::string> sentences;
+  if (alignment) suggest_conventions(*alignment, cuts, sentences);
+  Levels all;
+  const PairedCut* longest = nullptr;
+  for (const PairedCut& cut : cuts) {
+    const Levels levels = levels_of(cut, floor_db);
+    all.reference.insert(all.reference.end(), levels.reference.begin(), levels.reference.end());
+    all.compared.insert(all.compared.end(), levels.compared.begin(), levels.compared.end());
+    if (longest == nullptr || cut.places.size() > longest->places.size()) longest = &cut;
+  }
+  if (longest == nullptr || all.reference.size() < 2) return sentences;
+  const Line line = line_of(all);
+  suggest_unit(line, sentences);
+  suggest_scale(line, sentences);
+  suggest_azimuth(*longest, levels_of(*longest, floor_db), sentences);
+  return sentences;
+}
+
+}  // namespace seaglint

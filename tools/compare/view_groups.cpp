@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/compare/view_groups.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace seaglint {
+
+std::vector<ViewGrid> view_grids(std::span<const ViewPoint> points) {
+  using Direction = std::pair<double, double>;  // elevation, azimuth
+  std::map<Direction, std::vector<double>> frequencies;
+  std::vector<ViewPoint> sorted(points.begin(), points.end());
+  std::sort(sorted.begin(), sorted.end());
+  sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
+  for (const ViewPoint& p : sorted) frequencies[{p.elevation_deg, p.azimuth_deg}].push_back(p.frequency_hz);
+
+  std::map<std::vector<double>, std::map<double, std::vector<double>>> azimuths;  // by frequencies, then elevation
+  for (const auto& [direction, list] : frequencies) azimuths[list][direction.first].push_back(direction.second);
+
+  std::vector<ViewGrid> grids;
+  for (const auto& [list, rows] : azimuths) {
+    std::map<std::vector<double>, std::vector<double>> elevations;  // by azimuths
+    for (const auto& [elevation, row] : rows) elevations[row].push_back(elevation);
+    for (const auto& [row, column] : elevations) grids.push_back({list, row, column});
+  }
+  return grids;
+}
+
+}  // namespace seaglint

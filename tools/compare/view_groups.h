@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// Arbitrary sets of frequencies and directions as few grids, which a sweep solves at once.
+
+#include <compare>
+#include <span>
+#include <vector>
+
+namespace seaglint {
+
+struct ViewPoint {
+  double frequency_hz = 0, azimuth_deg = 0, elevation_deg = 0;
+  auto operator<=>(const ViewPoint&) const = default;
+};
+
+// All combinations of these values.
+struct ViewGrid {
+  std::vector<double> frequency_hz, azimuth_deg, elevation_deg;  // ascending
+};
+
+// Grids that hold every point exactly once and nothing else: directions of equal frequencies, then elevations of equal
+// azimuths. Points that stand repeatedly count once.
+std::vector<ViewGrid> view_grids(std::span<const ViewPoint> points);
+
+}  // namespace seaglint
