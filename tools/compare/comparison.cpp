@@ -59,8 +59,37 @@ std::vector<ViewGrid> grids_of(const std::vector<const RcsCut*>& cuts) {
   return view_grids(points);
 }
 
-void append(std::vector<PairedCut>& all, std::vector<PairedCut> cuts) {
-  for (PairedCut& cut : cuts) all.push_back(std::move(cut));
+// The part of a solved grid at a cut of it.
+RcsSweep part_of(const RcsSweep& sweep, const ViewGrid& cut) {
+  RcsSweep part{cut.frequency_hz, cut.azimuth_deg, cut.elevation_deg, {}, {}, {}, 0, sweep.transmitter};
+  for (const RcsSweep::Model& model : sweep.models) part.models.push_back({model.name, model.edge_diffraction, {}});
+  for (std::size_t view = 0; view < sweep.views(); ++view) {
+    const auto has = [](const std::vector<double>& values, double value) {
+      return std::find(values.begin(), values.end(), value) != values.end();
+    };
+    if (!has(cut.azimuth_deg, sweep.azimuth_of(view)) || !has(cut.elevation_deg, sweep.elevation_of(view))) continue;
+    for (std::size_t m = 0; m < sweep.models.size(); ++m)
+      part.models[m].matrices.push_back(sweep.models[m].matrices[view]);
+  }
+  return part;
+}
+
+std::string place_of(const ViewGrid& cut) {
+  std::string text;
+  if (cut.azimuth_deg.size() == 1) text = fmt::format("azimuth {:g} deg", cut.azimuth_deg[0]);
+  if (cut.elevation_deg.size() == 1)
+    text += fmt::format("{}elevation {:g} deg", text.empty() ? "" : ", ", cut.elevation_deg[0]);
+  return text;
+}
+
+// Pairs of an export's cut with a solved grid, along the grid's longest side.
+void pair(const RcsSweep& sweep, const RcsCut& cut, std::vector<PairedCut>& all) {
+  for (const ViewGrid& part : cuts_of({sweep.frequency_hz, sweep.azimuth_deg, sweep.elevation_deg})) {
+    for (PairedCut& paired : paired_cuts(part_of(sweep, part), cut)) {
+      paired.place = place_of(part);
+      all.push_back(std::move(paired));
+    }
+  }
 }
 
 // A point of a paired cut for the fit.
@@ -236,7 +265,7 @@ ExportComparison compare_with_target(const FieldTable& table, const RcsRequest& 
                                         solved.transmitter->azimuth_deg, solved.transmitter->elevation_deg)
                           : std::string("monostatic")));
       sweep = compute_rcs(solved, target, threads, &stop).sweep;
-      for (const RcsCut* cut : cuts) append(comparison.cuts, match_reference(sweep, *cut));
+      for (const RcsCut* cut : cuts) pair(sweep, *cut, comparison.cuts);
     }
   }
   return finished(std::move(comparison), settings);
@@ -249,13 +278,10 @@ ExportComparison compare_with_table(const FieldTable& table, const FieldTable& o
     for (const RcsCut& values : other.cuts) {
       if (values.element != cut.element) continue;
       if (key_of(stated_transmitter(cut)) != key_of(stated_transmitter(values))) continue;
-      for (const RcsSweep& sweep : sweeps_of(cut, values)) {
-        std::vector<PairedCut> paired = match_reference(sweep, cut);
-        for (PairedCut& one : paired) {
-          if (!values.has_phase()) one.models[0].amplitude_m.clear();
-        }
-        append(comparison.cuts, std::move(paired));
-      }
+      const std::size_t first = comparison.cuts.size();
+      for (const RcsSweep& sweep : sweeps_of(cut, values)) pair(sweep, cut, comparison.cuts);
+      for (std::size_t i = first; i < comparison.cuts.size() && !values.has_phase(); ++i)
+        comparison.cuts[i].models[0].amplitude_m.clear();
     }
   }
   if (comparison.cuts.empty())

@@ -28,4 +28,23 @@ std::vector<ViewGrid> view_grids(std::span<const ViewPoint> points) {
   return grids;
 }
 
+std::vector<ViewGrid> cuts_of(const ViewGrid& grid) {
+  const std::size_t azimuths = grid.azimuth_deg.size(), elevations = grid.elevation_deg.size();
+  const bool along_frequency = grid.frequency_hz.size() > std::max(azimuths, elevations);
+  std::vector<ViewGrid> cuts;
+  const auto add = [&](const std::vector<double>& azimuth_deg, const std::vector<double>& elevation_deg) {
+    cuts.push_back({grid.frequency_hz, azimuth_deg, elevation_deg});
+  };
+  if (along_frequency) {
+    for (const double el : grid.elevation_deg) {
+      for (const double az : grid.azimuth_deg) add({az}, {el});
+    }
+  } else if (azimuths >= elevations) {
+    for (const double el : grid.elevation_deg) add(grid.azimuth_deg, {el});
+  } else {
+    for (const double az : grid.azimuth_deg) add({az}, grid.elevation_deg);
+  }
+  return cuts;
+}
+
 }  // namespace seaglint

@@ -23,4 +23,8 @@ struct ViewGrid {
 // azimuths. Points that stand repeatedly count once.
 std::vector<ViewGrid> view_grids(std::span<const ViewPoint> points);
 
+// The grid cut along its longest side, so that one variable changes in each: frequencies of each direction, or
+// directions of one elevation or azimuth at all frequencies.
+std::vector<ViewGrid> cuts_of(const ViewGrid& grid);
+
 }  // namespace seaglint

@@ -148,7 +148,7 @@ std::string upper(std::string text) {
 
 }  // namespace
 
-std::vector<PairedCut> match_reference(const RcsSweep& sweep, const RcsCut& reference) {
+std::vector<PairedCut> paired_cuts(const RcsSweep& sweep, const RcsCut& reference) {
   require_same_transmitter(sweep, reference);
   const CutAxis axis = axis_of(sweep);
   std::vector<PairedCut> cuts;
@@ -182,8 +182,13 @@ std::vector<PairedCut> match_reference(const RcsSweep& sweep, const RcsCut& refe
     }
   }
   std::erase_if(cuts, [](const PairedCut& cut) { return cut.x.empty(); });
-  if (cuts.empty()) fail_pairing(sweep, reference);
   for (PairedCut& cut : cuts) set_models(cut, sweep);
+  return cuts;
+}
+
+std::vector<PairedCut> match_reference(const RcsSweep& sweep, const RcsCut& reference) {
+  std::vector<PairedCut> cuts = paired_cuts(sweep, reference);
+  if (cuts.empty()) fail_pairing(sweep, reference);
   return cuts;
 }
 
@@ -298,7 +303,8 @@ bool draw_comparison(const std::vector<PairedCut>& cuts, double floor_db, const 
   std::vector<std::vector<const PairedCut*>> columns;
   for (const PairedCut& cut : cuts) {
     const auto place = std::find_if(columns.begin(), columns.end(), [&](const auto& column) {
-      return column.front()->element == cut.element && column.front()->frequency_hz == cut.frequency_hz;
+      return column.front()->element == cut.element && column.front()->frequency_hz == cut.frequency_hz &&
+             column.front()->place == cut.place;
     });
     if (place != columns.end()) {
       place->push_back(&cut);
@@ -321,7 +327,8 @@ bool draw_comparison(const std::vector<PairedCut>& cuts, double floor_db, const 
     LinePlot level, difference;
     level.legend_above = difference.legend_above = true;
     level.title = upper(kPolarisationNames[static_cast<int>(first.element)]) +
-                  (first.frequency_hz ? fmt::format(", {:g} GHz", *first.frequency_hz * 1e-9) : std::string());
+                  (first.frequency_hz ? fmt::format(", {:g} GHz", *first.frequency_hz * 1e-9) : std::string()) +
+                  (first.place.empty() ? "" : ", " + first.place);
     level.x.label = difference.x.label = axis_label(first.axis);
     level.x.range = difference.x.range =
         AxisRange{*std::min_element(first.x.begin(), first.x.end()), *std::max_element(first.x.begin(), first.x.end())};

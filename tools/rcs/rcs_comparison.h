@@ -23,6 +23,7 @@ struct PairedCut {
   Polarisation element = Polarisation::kHh;
   CutAxis axis = CutAxis::kAzimuth;
   std::optional<double> frequency_hz;  // absent if it varies along the cut
+  std::string place;                   // in titles: what else is fixed along the cut; may be empty
   std::vector<double> x;               // deg or GHz; the running number when several axes vary
   std::vector<double> level_dbsm;
   std::vector<Complex> amplitude_m;  // of the reference, phase origin at the body's origin; empty without phases
@@ -43,8 +44,11 @@ struct PairedCut {
 };
 
 // Matches directions within 0.001 deg and frequencies within a relative 1e-6; nothing is interpolated. One cut per
-// frequency, or a single cut if there is one direction. Throws InputError if nothing matches, naming the content of
-// both, and if the reference declares another transmitter direction than the sweep's.
+// frequency, or a single cut if there is one direction; none without a match. Throws InputError if the reference
+// declares another transmitter direction than the sweep's.
+std::vector<PairedCut> paired_cuts(const RcsSweep& sweep, const RcsCut& reference);
+
+// The same; throws InputError if nothing matches, naming the content of both.
 std::vector<PairedCut> match_reference(const RcsSweep& sweep, const RcsCut& reference);
 
 // Fills the cut's models from the sweep that it was matched with, once that is computed.

@@ -217,7 +217,7 @@ class ObjReader {
   std::vector<Vec3> polygon_;
   OddPolygons odd_;
   std::size_t free_form_ = 0;  // lines
-  std::string_view first_free_form_;
+  std::string first_free_form_;
   std::size_t first_free_form_line_ = 0;
   std::int64_t vertex_count_ = 0;
   std::int64_t vertices_so_far_ = 0;

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `seaglint compare`: what was put into a table of this program is found again, and files that cannot be compared are
+// refused.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "sim/core/numbers/random.h"
+#include "sim/core/process/file.h"
+#include "sim/field_tables/read_field_table.h"
+#include "sim/scattering/beams/bistatic_geometry.h"
+#include "tests/pipeline/program.h"
+
+namespace seaglint {
+namespace {
+
+using testing::HasSubstr;
+
+const std::string kReflector = "assets/icosahedral_reflector.glb";
+const std::string kExports = "tests/cases/exports/";
+
+void expect_refused(const std::vector<std::string>& arguments, const std::string& message) {
+  const ProgramResult result = run_program(arguments);
+  EXPECT_EQ(result.code, 2) << result.err;
+  EXPECT_THAT(result.err, HasSubstr(message));
+}
+
+class CompareCommand : public testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return folder_.path() / name; }
+
+  // The program's own table of the reflector at 21 frequencies, two elevations and 31 azimuths.
+  FieldTable own_table() const {
+    const ProgramResult result =
+        run_program({"rcs", "--target", kReflector, "--frequency-ghz", "9.5:10.5:0.05", "--azimuth-deg", "0:15:0.5",
+                     "--elevation-deg", "2:5:3", "-o", path("own.csv")});
+    EXPECT_EQ(result.code, 0) << result.err;
+    return read_field_table(path("own.csv"), {});
+  }
+
+  nlohmann::json compared() const { return nlohmann::json::parse(read_file(path("compared") + "/compare.json")); }
+
+  TemporaryFolder folder_;
+};
+
+// hh and vv of a table as a solver with other conventions would give them: 0.7 dB higher, about another origin, with a
+// constant phase, e^{-jwt}, the sign of vv changed, with noise 30 dB below the mean power.
+std::string disturbed(const FieldTable& table, const Vec3& origin, double phase) {
+  std::string csv = "# transmitter=monostatic\nfrequency_hz,azimuth_deg,elevation_deg,hh_re,hh_im,vv_re,vv_im\n";
+  const RcsCut& hh = table.cuts.at(0);
+  const RcsCut& vv = table.cuts.at(3);
+  double power = 0;
+  for (std::size_t i = 0; i < hh.values.size(); ++i)
+    power += 0.5 * (std::norm(*hh.values[i].amplitude_m) + std::norm(*vv.values[i].amplitude_m)) /
+             static_cast<double>(hh.values.size());
+  Random random({7, Stream::kNetwork, 0});
+  for (std::size_t i = 0; i < hh.values.size(); ++i) {
+    const FieldValue& value = hh.values[i];
+    const double azimuth = value.phi_deg, elevation = 90 - value.theta_deg;
+    const Vec3 q = 4 * std::numbers::pi * value.frequency_hz / 299792458.0 *
+                   direction_to_radar(azimuth * std::numbers::pi / 180, elevation * std::numbers::pi / 180);
+    const Complex turn = std::polar(std::pow(10.0, 0.7 / 20), phase - q.dot(origin));
+    const auto other = [&](Complex s) {
+      return std::conj(s * turn + std::sqrt(power * 1e-3 / 2) * Complex(random.normal(), random.normal()));
+    };
+    const Complex h = other(*value.amplitude_m), v = other(-*vv.values[i].amplitude_m);
+    csv += fmt::format("{},{},{},{},{},{},{}\n", value.frequency_hz, azimuth, elevation, h.real(), h.imag(), v.real(),
+                       v.imag());
+  }
+  return csv;
+}
+
+TEST_F(CompareCommand, FindsOffsetOriginTimeFactorAndSigns) {
+  const Vec3 origin(0.31, -0.2, 0.05);
+  write_file(path("other.csv"), disturbed(own_table(), origin, 0.6));
+  const ProgramResult result =
+      run_program({"compare", path("other.csv"), "--target", kReflector, "-o", path("compared")});
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("other.csv: read as a table of seaglint rcs"));
+  EXPECT_THAT(result.out, HasSubstr("other.csv: warning: the export has the other time factor, e^{-jwt}"));
+  EXPECT_THAT(result.out, HasSubstr("other.csv: warning: vv of the export has the opposite sign"));
+  EXPECT_THAT(result.out, HasSubstr("phase origin, or its mesh, is displaced: origin at 0.3"));
+  const nlohmann::json json = compared();
+  ASSERT_EQ(json["exports"].size(), 2u);
+  const double wavelength = 299792458.0 / 10.5e9;
+  for (const auto& entry : json["exports"]) {
+    const auto& fitted = entry["fitted"];
+    EXPECT_EQ(entry["pairs"], 21 * 2 * 31);
+    EXPECT_TRUE(fitted["conjugated"].get<bool>());
+    EXPECT_EQ(fitted["sign"], entry["polarisation"] == "vv" ? -1 : 1);
+    EXPECT_NEAR(fitted["offset_db"].get<double>(), 0.7, 0.05);
+    EXPECT_NEAR(fitted["phase_deg"].get<double>(), 0.6 * 180 / std::numbers::pi, 1);
+    for (int axis = 0; axis < 3; ++axis)
+      EXPECT_NEAR(fitted["origin_m"][axis].get<double>(), origin[axis], wavelength / 50);
+    EXPECT_THAT(fitted["undetermined"], testing::IsEmpty());
+    EXPECT_GT(entry["correlation"].get<double>(), 0.998);
+    EXPECT_NEAR(entry["bias_db"].get<double>(), -0.7, 0.1);
+    EXPECT_EQ(entry["worst"].size(), 5u);
+  }
+  // One row per pair below two lines of head, each with the line of the export.
+  const std::string csv = read_file(path("compared") + "/compare.csv");
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 2 + 2 * 21 * 2 * 31);
+  EXPECT_THAT(csv, HasSubstr("other.csv,3,seaglint,hh,9.5e+09,0,2,"));
+  EXPECT_GT(read_file(path("compared") + "/compare.png").size(), 10000u);
+}
+
+TEST_F(CompareCommand, OfAFileWithItselfFindsNoDifference) {
+  const std::string file = kExports + "bistatic.ffe";
+  const ProgramResult result = run_program({"compare", file, "--against", file, "--tolerance-db", "0.001",
+                                            "--min-correlation", "0.9999", "-o", path("compared")});
+  EXPECT_EQ(result.code, 0) << result.err;
+  for (const auto& entry : compared()["exports"]) {
+    EXPECT_EQ(entry["pairs"], 12);
+    EXPECT_NEAR(entry["correlation"].get<double>(), 1, 1e-12);
+    EXPECT_EQ(entry["rms_db"], 0);
+  }
+}
+
+TEST_F(CompareCommand, SuggestsWhatIsWrongWithLevels) {
+  const std::string head = "# transmitter=monostatic\nfrequency_hz,azimuth_deg,elevation_deg,hh_dbsm\n";
+  std::string here = head, in_mm = head, doubled = head, mirrored = head;
+  for (int az = -60; az <= 60; az += 2) {
+    const double level = 10 * std::sin(0.11 * az) + 5 * std::cos(0.31 * az);
+    here += fmt::format("1e10,{},0,{}\n", az, level);
+    in_mm += fmt::format("1e10,{},0,{}\n", az, level + 60);
+    doubled += fmt::format("1e10,{},0,{}\n", az, 2 * level);
+    mirrored += fmt::format("1e10,{},0,{}\n", -az, level);
+  }
+  write_file(path("here.csv"), here);
+  const auto warnings = [&](const std::string& text) {
+    write_file(path("other.csv"), text);
+    const ProgramResult result =
+        run_program({"compare", path("other.csv"), "--against", path("here.csv"), "-o", path("compared")});
+    EXPECT_EQ(result.code, 0) << result.err;
+    return result.out;
+  };
+  EXPECT_THAT(warnings(in_mm), HasSubstr("the export is 60.0 dB higher throughout: an area in mm^2 or a mesh in mm?"));
+  EXPECT_THAT(warnings(doubled), HasSubstr("20 log of an area for 10 log?"));
+  EXPECT_THAT(warnings(mirrored), HasSubstr("mirrored azimuths fit better: --reference-phi -1,0?"));
+  EXPECT_THAT(warnings(here), Not(HasSubstr("warning")));
+}
+
+TEST_F(CompareCommand, FailsBelowItsLimits) {
+  const std::string file = kExports + "monostatic.ffe";
+  const ProgramResult result =
+      run_program({"compare", file, "--target", kReflector, "--tolerance-db", "0.5", "-o", path("compared")});
+  EXPECT_EQ(result.code, 1);
+  EXPECT_THAT(result.err, HasSubstr("monostatic.ffe vv: mean difference"));
+  EXPECT_GT(read_file(path("compared") + "/compare.json").size(), 100u) << "the results are kept";
+}
+
+TEST_F(CompareCommand, RefusesWhatItCannotCompare) {
+  const std::string out = path("compared");
+  expect_refused({"compare", kExports + "monostatic.ffe", "-o", out}, "give either --target MESH or --against FILE");
+  expect_refused(
+      {"compare", kExports + "source.ffs", "--target", kReflector, "--reference-polarisation", "v", "-o", out},
+      "source.ffs: neither the file nor its name says where the incident wave comes from: give --incidence "
+      "monostatic or --incidence THETA,PHI");
+  expect_refused({"compare", kExports + "source.ffs", "--target", kReflector, "-o", out},
+                 "does not say which polarisation was transmitted");
+  expect_refused({"compare", kExports + "monostatic.ffe", "--against", kExports + "bistatic.ffe", "-o", out},
+                 "have no element, incident wave, direction and frequency in common");
+  expect_refused({"compare", "README.md", "--target", kReflector, "-o", out},
+                 "not a CST farfield source: no first line '// CST Farfield Source File'");
+}
+
+}  // namespace
+}  // namespace seaglint
