@@ -253,7 +253,7 @@ void require_periods(const TextSource& source) {
 // The response of a row. Throws InputError where modulus and phase are not those of the complex value.
 Complex wamit_value(const TextTable& table, std::size_t row) {
   const Complex value(table.number(row, kRe), table.number(row, kIm));
-  const double modulus = table.number(row, kModulus), phase = table.number(row, kPhase);
+  const double modulus = table.number(row, kModulus, 0), phase = table.number(row, kPhase);
   if (std::abs(std::abs(value) - modulus) > 1e-3 * modulus + 1e-12) {
     table.fail(row, kModulus,
                fmt::format("must be the modulus of the real and imaginary part, {:.6g}", std::abs(value)));

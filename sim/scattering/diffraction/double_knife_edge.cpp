@@ -18,7 +18,7 @@ constexpr double kFast = 60, kPartPhase = 3;
 // F(u^2) / u, u of either sign.
 Complex transition_over_root(double u) {
   constexpr double kAtBoundary = 1e-6;
-  return std::abs(u) < kAtBoundary ? std::polar(std::copysign(std::sqrt(kPi), u), kPi / 4)
+  return std::abs(u) < kAtBoundary ? std::copysign(std::sqrt(kPi), u) * std::polar(1.0, kPi / 4)
                                    : transition_function(u * u) / u;
 }
 double bound_of_over_root(double u) { return std::min(std::sqrt(kPi), 1 / u); }
