@@ -102,6 +102,7 @@ FieldTable read_field_table(const std::filesystem::path& file, const FieldTableS
   } catch (const InputError& error) {
     throw InputError(fmt::format("{} (read as {})", error.what(), reader.name));
   }
+  if (!source.text().ends_with('\n')) table.notes.emplace_back("the last line has no end: is the file complete?");
   std::erase_if(table.cuts, [](const RcsCut& cut) { return cut.values.empty(); });
   if (table.cuts.empty())
     throw InputError(fmt::format("{}: contains no values (read as {})", file.string(), reader.name));
