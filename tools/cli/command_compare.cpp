@@ -14,7 +14,9 @@
 #include "sim/core/process/standard_output.h"
 #include "tools/cli/arguments.h"
 #include "tools/cli/command.h"
+#include "tools/compare/comparison_page.h"
 #include "tools/compare/comparison_text.h"
+#include "tools/compare/range_profiles.h"
 #include "tools/figure/figure.h"
 #include "tools/options/rcs_arguments.h"
 #include "tools/pipeline/output_files.h"
@@ -68,18 +70,24 @@ std::vector<ExportComparison> compare_all(const CompareArguments& arguments, con
   return comparisons;
 }
 
-void draw(const std::vector<ExportComparison>& comparisons, const ComparisonSettings& settings,
-          const std::filesystem::path& directory) {
+// Curves and range profiles, as far as the cuts have them.
+ComparisonFigures draw(const std::vector<ExportComparison>& comparisons, const ComparisonSettings& settings,
+                       const std::filesystem::path& directory) {
   std::vector<PairedCut> cuts;
   for (const ExportComparison& comparison : comparisons)
     cuts.insert(cuts.end(), comparison.cuts.begin(), comparison.cuts.end());
   const std::string title =
       fmt::format("{} against {}, seaglint {}", comparisons.front().name, comparisons.front().compared, kVersion);
-  for (const char* name : {"compare.png", "compare.svg"}) {
-    if (draw_comparison(cuts, settings.floor_db, title, directory / name)) continue;
-    print_out("No figure: it needs a cut along azimuth, elevation or frequency of two points or more\n");
-    return;
+  ComparisonFigures figures;
+  if (draw_comparison(cuts, settings.floor_db, title, directory / "compare.png")) {
+    draw_comparison(cuts, settings.floor_db, title, directory / "compare.svg");
+    figures.curves = directory / "compare.png";
   }
+  if (draw_range_profiles(cuts, title, directory / "range_profiles.png")) {
+    draw_range_profiles(cuts, title, directory / "range_profiles.svg");
+    figures.profiles = directory / "range_profiles.png";
+  }
+  return figures;
 }
 
 // Why a comparison is not good enough, a sentence each.
@@ -107,7 +115,8 @@ void run_compare(const CompareArguments& arguments, const CommandContext& contex
   std::vector<std::filesystem::path> inputs(arguments.exports.files.begin(), arguments.exports.files.end());
   inputs.emplace_back(arguments.against.empty() ? arguments.rcs.target : arguments.against);
   std::vector<std::string> outputs;
-  for (const char* name : {"compare.json", "compare.csv", "compare.png", "compare.svg"})
+  for (const char* name : {"compare.json", "compare.csv", "compare.html", "compare.png", "compare.svg",
+                           "range_profiles.png", "range_profiles.svg"})
     outputs.push_back((directory / name).string());
   require_outputs(outputs, inputs);
   require_figure(directory / "compare.png");
@@ -115,10 +124,12 @@ void run_compare(const CompareArguments& arguments, const CommandContext& contex
   const ComparisonSettings settings{arguments.exports.floor_db, arguments.as_is};
   const std::vector<ExportComparison> comparisons = compare_all(arguments, settings, context);
   write_file(directory / "compare.csv", comparison_csv(comparisons));
-  draw(comparisons, settings, directory);
+  const ComparisonFigures figures = draw(comparisons, settings, directory);
+  write_file(directory / "compare.html", comparison_page(comparisons, settings, figures));
   write_file(directory / "compare.json", comparison_json(comparisons, settings).dump(2) + "\n");
   print_out("{}", comparison_table(comparisons, settings));
-  print_out("Results: {}: compare.json, compare.csv (every pair), compare.png\n", directory.string());
+  print_out("Results: {}; all figures in compare.json, every pair in compare.csv\n",
+            (directory / "compare.html").string());
   const std::vector<std::string> failed = failures(comparisons, arguments);
   if (failed.empty()) return;
   for (const std::string& sentence : failed) say(sentence);

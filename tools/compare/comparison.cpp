@@ -121,6 +121,29 @@ std::optional<Alignment> align(std::vector<PairedCut>& cuts) {
   return alignment;
 }
 
+// Adds the pairs of one cut to those of all, as sums of shifts and levels.
+void add_pairs(ExtremumPairs& all, const ExtremumPairs& more) {
+  const double n = static_cast<double>(all.paired), m = static_cast<double>(more.paired);
+  if (m > 0) {
+    all.mean_shift = (n * all.mean_shift + m * more.mean_shift) / (n + m);
+    all.mean_db = (n * all.mean_db + m * more.mean_db) / (n + m);
+  }
+  all.count += more.count;
+  all.paired += more.paired;
+}
+
+// Lobes within 40 dB of the element's maximum, nulls above its floor.
+void add_extrema(const PairedCut& cut, double highest, double floor, ElementStatistics& statistics) {
+  constexpr double kLobes_db = 40;
+  if (cut.axis == CutAxis::kSeveral) return;
+  const std::vector<double>& reference = cut.level_dbsm;
+  const std::vector<double>& other = cut.models[0].level_dbsm;
+  add_pairs(statistics.lobes, paired_extrema(lobes_of(cut.x, reference, highest - kLobes_db),
+                                             lobes_of(cut.x, other, highest - kLobes_db)));
+  add_pairs(statistics.nulls, paired_extrema(nulls_of(cut.x, reference, floor), nulls_of(cut.x, other, floor)));
+  statistics.axis = cut.axis;
+}
+
 ElementStatistics statistics_of(const std::vector<PairedCut>& cuts, Polarisation element, double floor_db) {
   constexpr std::size_t kWorst = 5;
   ElementStatistics statistics;
@@ -137,6 +160,7 @@ ElementStatistics statistics_of(const std::vector<PairedCut>& cuts, Polarisation
   double reference_power = 0, compared_power = 0;
   for (const PairedCut& cut : cuts) {
     if (cut.element != element) continue;
+    add_extrema(cut, highest, floor, statistics);
     for (std::size_t i = 0; i < cut.places.size(); ++i) {
       const double difference = std::max(cut.models[0].level_dbsm[i], floor) - std::max(cut.level_dbsm[i], floor);
       statistics.bias_db += difference;

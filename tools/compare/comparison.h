@@ -13,6 +13,7 @@
 #include "sim/core/process/parallel.h"
 #include "sim/field_tables/field_table.h"
 #include "tools/compare/alignment.h"
+#include "tools/compare/lobes.h"
 #include "tools/rcs/rcs_comparison.h"
 #include "tools/rcs/rcs_request.h"
 #include "tools/rcs/rcs_target.h"
@@ -31,7 +32,9 @@ struct ElementStatistics {
     double difference_db = 0;
     PairedCut::Place place;
   };
-  std::vector<Worst> worst;  // the largest differences, at most five
+  std::vector<Worst> worst;          // the largest differences, at most five
+  ExtremumPairs lobes, nulls;        // of all cuts with one variable; means over their pairs
+  CutAxis axis = CutAxis::kSeveral;  // that variable
 };
 
 struct ExportComparison {

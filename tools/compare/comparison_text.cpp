@@ -27,6 +27,15 @@ std::string text_of(const Alignment& a, bool of_all) {
   return of_all ? text + "; of all elements" : text;
 }
 
+nlohmann::ordered_json extrema_json(const ExtremumPairs& pairs, CutAxis axis) {
+  if (axis == CutAxis::kSeveral) return nullptr;
+  nlohmann::ordered_json json{{"count", pairs.count}, {"paired", pairs.paired}};
+  json["unit"] = axis_unit(axis);
+  json["mean_shift"] = pairs.mean_shift;
+  json["mean_db"] = pairs.mean_db;
+  return json;
+}
+
 nlohmann::ordered_json vector_json(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 nlohmann::ordered_json fitted_json(const ExportComparison& comparison, Polarisation element) {
@@ -91,6 +100,8 @@ nlohmann::ordered_json comparison_json(const std::vector<ExportComparison>& comp
       entry["p95_db"] = s.p95_db;
       entry["correlation"] = s.correlation ? nlohmann::ordered_json(*s.correlation) : nlohmann::ordered_json(nullptr);
       entry["fitted"] = fitted_json(c, s.element);
+      entry["lobes"] = extrema_json(s.lobes, s.axis);
+      entry["nulls"] = extrema_json(s.nulls, s.axis);
       entry["worst"] = nlohmann::ordered_json::array();
       for (const ElementStatistics::Worst& worst : s.worst) {
         entry["worst"].push_back({{"difference_db", worst.difference_db},

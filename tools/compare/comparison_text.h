@@ -14,10 +14,10 @@ namespace seaglint {
 // For the terminal: one line per export and element, then how each was fitted and its warnings.
 std::string comparison_table(const std::vector<ExportComparison>& comparisons, const ComparisonSettings& settings);
 
-// {"version", "settings", "exports": [{"name", "reader", "notes", "compared", "polarisation", "pairs", "bias_db",
+// {"version", "settings", "exports": [{"name", "reader", "convention", "compared", "polarisation", "pairs", "bias_db",
 // "mean_abs_db", "rms_db", "p95_db", "correlation", "fitted": {"phase_deg", "origin_m", "origin_error_m",
-// "undetermined", "conjugated", "sign", "offset_db"}, "worst", "warnings"}]}: one entry per export and polarisation;
-// null where there is no phase.
+// "undetermined", "conjugated", "sign", "offset_db"}, "lobes", "nulls", "worst", "warnings"}]}: one entry per export
+// and polarisation; null where there is no phase.
 nlohmann::ordered_json comparison_json(const std::vector<ExportComparison>& comparisons,
                                        const ComparisonSettings& settings);
 

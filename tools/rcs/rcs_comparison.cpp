@@ -133,6 +133,13 @@ const char* axis_label(CutAxis axis) {
   }
 }
 
+std::string upper(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return text;
+}
+
+}  // namespace
+
 const char* axis_unit(CutAxis axis) {
   switch (axis) {
     case CutAxis::kFrequency: return "GHz";
@@ -140,13 +147,6 @@ const char* axis_unit(CutAxis axis) {
     default: return "deg";
   }
 }
-
-std::string upper(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return text;
-}
-
-}  // namespace
 
 std::vector<PairedCut> paired_cuts(const RcsSweep& sweep, const RcsCut& reference) {
   require_same_transmitter(sweep, reference);

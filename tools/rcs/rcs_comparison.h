@@ -17,6 +17,8 @@ namespace seaglint {
 // Variable that changes along a cut.
 enum class CutAxis { kAzimuth, kElevation, kFrequency, kSeveral };
 
+const char* axis_unit(CutAxis axis);  // "deg", "GHz"
+
 // Values of one reference at directions and frequencies of the sweep, in the sweep's order.
 struct PairedCut {
   std::string reference;

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/compare/comparison_page.h"
+
+#include <fmt/format.h>
+
+#include "seaglint_version.h"
+#include "sim/core/numbers/constants.h"
+#include "tools/report/html.h"
+
+namespace seaglint {
+namespace {
+
+const char* name_of(Polarisation element) { return kPolarisationNames[static_cast<int>(element)]; }
+
+std::string decibels(double value) { return fmt::format("{:.2f}", value); }
+
+std::string extrema_cell(const ExtremumPairs& pairs, CutAxis axis) {
+  if (axis == CutAxis::kSeveral || pairs.count == 0) return "-";
+  return fmt::format("{} of {}, {:.3g} {}, {:.2f} dB", pairs.paired, pairs.count, pairs.mean_shift, axis_unit(axis),
+                     pairs.mean_db);
+}
+
+std::string differences(const std::vector<ExportComparison>& comparisons) {
+  std::vector<std::vector<std::string>> rows{
+      {"export", "element", "against", "pairs", "bias (dB)", "mean (dB)", "rms (dB)", "95 % (dB)", "correlation"}};
+  for (const ExportComparison& c : comparisons) {
+    for (const ElementStatistics& s : c.elements) {
+      rows.push_back({escape_html(c.name), name_of(s.element), escape_html(c.compared), fmt::format("{}", s.pairs),
+                      decibels(s.bias_db), decibels(s.mean_abs_db), decibels(s.rms_db), decibels(s.p95_db),
+                      s.correlation ? fmt::format("{:.4f}", *s.correlation) : "no phases"});
+    }
+  }
+  return html_table(rows);
+}
+
+std::string lobes_and_nulls(const std::vector<ExportComparison>& comparisons) {
+  std::vector<std::vector<std::string>> rows{
+      {"export", "element", "lobes paired, mean displacement and difference", "nulls paired"}};
+  for (const ExportComparison& c : comparisons) {
+    for (const ElementStatistics& s : c.elements)
+      rows.push_back(
+          {escape_html(c.name), name_of(s.element), extrema_cell(s.lobes, s.axis), extrema_cell(s.nulls, s.axis)});
+  }
+  return html_table(rows, false);
+}
+
+std::string origin_text(const Alignment& a) {
+  std::string text =
+      fmt::format("{:.1f}, {:.1f}, {:.1f}", 1e3 * a.origin_m.x(), 1e3 * a.origin_m.y(), 1e3 * a.origin_m.z());
+  for (const Vec3& v : a.undetermined)
+    text += fmt::format("; none along ({:.2f}, {:.2f}, {:.2f})", v.x(), v.y(), v.z());
+  return text;
+}
+
+std::string fits(const std::vector<ExportComparison>& comparisons) {
+  std::vector<std::vector<std::string>> rows{
+      {"export", "constant phase (deg)", "phase origin (mm)", "time factor", "signs hh hv vh vv", "level (dB)"}};
+  for (const ExportComparison& c : comparisons) {
+    if (!c.alignment) continue;
+    const Alignment& a = *c.alignment;
+    std::string signs;
+    for (const int sign : a.sign) signs += sign < 0 ? "- " : "+ ";
+    rows.push_back({escape_html(c.name), fmt::format("{:.1f}", degrees(a.phase_rad)), origin_text(a),
+                    a.conjugated ? "e<sup>-j&omega;t</sup>, conjugated" : "e<sup>+j&omega;t</sup>", signs,
+                    fmt::format("{:+.2f}", a.level_db)});
+  }
+  if (rows.size() == 1) return "<p>Nothing was fitted: no phases, or as asked.</p>\n";
+  return html_table(rows, false);
+}
+
+std::string warnings(const std::vector<ExportComparison>& comparisons) {
+  std::string items;
+  for (const ExportComparison& c : comparisons) {
+    for (const std::string& warning : c.warnings)
+      items += fmt::format("<p class=\"note\">{}: {}</p>\n", escape_html(c.name), escape_html(warning));
+  }
+  return items;
+}
+
+std::string worst(const std::vector<ExportComparison>& comparisons) {
+  std::vector<std::vector<std::string>> rows{
+      {"export, line", "element", "frequency (GHz)", "azimuth (deg)", "elevation (deg)", "difference (dB)"}};
+  for (const ExportComparison& c : comparisons) {
+    for (const ElementStatistics& s : c.elements) {
+      for (const ElementStatistics::Worst& w : s.worst) {
+        const PairedCut::Place& p = w.place;
+        rows.push_back({fmt::format("{}:{}", escape_html(c.name), p.line), name_of(s.element),
+                        fmt::format("{:.6g}", 1e-9 * p.frequency_hz), fmt::format("{:.6g}", p.azimuth_deg),
+                        fmt::format("{:.6g}", p.elevation_deg), decibels(w.difference_db)});
+      }
+    }
+  }
+  return html_table(rows);
+}
+
+std::string readings(const std::vector<ExportComparison>& comparisons) {
+  std::string items;
+  for (const ExportComparison& c : comparisons) {
+    std::string notes;
+    for (const std::string& note : c.notes) notes += "; " + escape_html(note);
+    items += fmt::format("<li><b>{}</b>: read as {}{}</li>\n", escape_html(c.name), escape_html(c.reader), notes);
+  }
+  return "<ul>\n" + items + "</ul>\n";
+}
+
+}  // namespace
+
+std::string comparison_page(const std::vector<ExportComparison>& comparisons, const ComparisonSettings& settings,
+                            const ComparisonFigures& figures) {
+  const std::string title = comparisons.size() == 1
+                                ? comparisons.front().name + " against " + comparisons.front().compared
+                                : fmt::format("{} exports compared", comparisons.size());
+  std::string body = fmt::format(
+      "<header><h1>{}</h1><p class=\"lead\">Levels clipped {:g} dB below the export's maximum; differences are "
+      "compared - "
+      "export; amplitudes in metres, e<sup>+j&omega;t</sup>, about the origin of the mesh. Nothing is interpolated.</p>"
+      "</header>\n",
+      escape_html(title), settings.floor_db);
+  body += "<h2>Differences</h2>\n" + differences(comparisons) + warnings(comparisons);
+  if (!figures.curves.empty())
+    body += html_figure(figures.curves, "Levels above, differences below; at most four cuts.", "curves of both");
+  body += lobes_and_nulls(comparisons);
+  body += "<h2>Phase</h2>\n" + fits(comparisons);
+  if (!figures.profiles.empty())
+    body +=
+        "<h2>Range profiles</h2>\n" +
+        html_figure(figures.profiles, "Hann's window over all frequencies of a direction; a point has its own level.",
+                    "range profiles of both");
+  body += "<h2>Largest differences</h2>\n" + worst(comparisons);
+  body += "<h2>How the files were read</h2>\n" + readings(comparisons);
+  body += fmt::format(
+      "<footer>seaglint {}. Every pair of values is in compare.csv, every figure in compare.json.</footer>\n",
+      kVersion);
+  return html_page(title, body);
+}
+
+}  // namespace seaglint
