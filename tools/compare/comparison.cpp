@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <tuple>
+#include <unordered_map>
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/dbsm.h"
@@ -202,20 +204,23 @@ ExportComparison finished(ExportComparison comparison, const ComparisonSettings&
   return comparison;
 }
 
-// The values of a table's cuts by frequency, theta and phi, of one element.
+// The values of a cut by frequency and direction.
 class ValuesByPlace {
  public:
   explicit ValuesByPlace(const RcsCut& cut) {
-    for (const FieldValue& value : cut.values)
-      places_.try_emplace(key(value.frequency_hz, azimuth_of(cut, value.phi_deg), 90 - value.theta_deg), &value);
+    places_.reserve(cut.values.size());
+    for (const FieldValue& value : cut.values) {
+      const Steps s = steps(value.frequency_hz, azimuth_of(cut, value.phi_deg), 90 - value.theta_deg);
+      places_.try_emplace(key(s.frequency, s.azimuth, s.elevation), &value);
+    }
   }
   // Rounding may give equal values neighbouring keys.
   const FieldValue* at(double frequency_hz, double azimuth_deg, double elevation_deg) const {
-    const Key k = key(frequency_hz, azimuth_deg, elevation_deg);
+    const Steps s = steps(frequency_hz, azimuth_deg, elevation_deg);
     for (const long f : {0L, -1L, 1L}) {
       for (const long az : {0L, -1L, 1L}) {
         for (const long el : {0L, -1L, 1L}) {
-          const auto place = places_.find({k[0] + f, (k[1] + az + kCircle) % kCircle, k[2] + el});
+          const auto place = places_.find(key(s.frequency + f, s.azimuth + az, s.elevation + el));
           if (place != places_.end()) return place->second;
         }
       }
@@ -224,14 +229,21 @@ class ValuesByPlace {
   }
 
  private:
-  using Key = std::array<long, 3>;
-  static constexpr long kCircle = 360'000;
-  static Key key(double frequency_hz, double azimuth_deg, double elevation_deg) {
-    const long azimuth = std::lround(azimuth_deg * 1e3) % kCircle;
-    return {std::lround(std::log(frequency_hz) * 1e6), azimuth < 0 ? azimuth + kCircle : azimuth,
+  // A millionth of the frequency, thousandths of a degree.
+  struct Steps {
+    long frequency, azimuth, elevation;
+  };
+  static Steps steps(double frequency_hz, double azimuth_deg, double elevation_deg) {
+    return {std::lround(std::log(frequency_hz) * 1e6), std::lround(azimuth_deg * 1e3),
             std::lround(elevation_deg * 1e3)};
   }
-  std::map<Key, const FieldValue*> places_;
+  static std::uint64_t key(long frequency, long azimuth, long elevation) {
+    constexpr long kCircle = 360'000;
+    const auto turn = static_cast<std::uint64_t>((azimuth % kCircle + kCircle) % kCircle);
+    return (static_cast<std::uint64_t>(frequency) << 37) ^ (turn << 18) ^
+           static_cast<std::uint64_t>(elevation + 100'000);
+  }
+  std::unordered_map<std::uint64_t, const FieldValue*> places_;
 };
 
 // The values of `other` at places of `cut` that it has, as a sweep with only this element.

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/rcs/rcs_comparison.h"
+#include "tools/rcs/paired_cut.h"
 
 namespace seaglint {
 

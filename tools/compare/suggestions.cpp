@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <utility>
 
 #include "sim/core/numbers/constants.h"
@@ -93,23 +92,36 @@ void suggest_scale(const Line& line, std::vector<std::string>& sentences) {
     sentences.emplace_back("levels of the export change half as much in dB: 10 log of an amplitude for 20 log?");
 }
 
-// Correlation of levels of the compared curve at mapped azimuths with the reference's; 0 below half of the points.
-double mapped_correlation(const PairedCut& cut, const Levels& levels, const std::function<double(double)>& azimuth) {
-  constexpr double kNear_deg = 1e-3;
-  std::vector<std::pair<double, double>> compared;
-  for (std::size_t i = 0; i < cut.places.size(); ++i)
-    compared.emplace_back(std::remainder(cut.places[i].azimuth_deg, 360), levels.compared[i]);
-  std::sort(compared.begin(), compared.end());
-  std::vector<double> a, b;
-  for (std::size_t i = 0; i < cut.places.size(); ++i) {
-    const double wanted = std::remainder(azimuth(cut.places[i].azimuth_deg), 360);
-    const auto place = std::lower_bound(compared.begin(), compared.end(), std::pair(wanted - kNear_deg, -1e300));
-    if (place == compared.end() || place->first > wanted + kNear_deg) continue;
-    a.push_back(levels.reference[i]);
-    b.push_back(place->second);
+// Levels of a cut along azimuth, by ascending azimuth.
+class LevelsByAzimuth {
+ public:
+  LevelsByAzimuth(const PairedCut& cut, const Levels& levels) : cut_(cut), levels_(levels) {
+    for (std::size_t i = 0; i < cut.places.size(); ++i)
+      compared_.emplace_back(std::remainder(cut.places[i].azimuth_deg, 360), levels.compared[i]);
+    std::sort(compared_.begin(), compared_.end());
   }
-  return 2 * a.size() < cut.places.size() || a.size() < 8 ? 0 : correlation_of(a, b);
-}
+  // Correlation of the compared levels at azimuths sense * az + turn_deg with the reference's at az, of about kMost
+  // azimuths; 0 below half of them.
+  double correlation(double sense, double turn_deg) const {
+    constexpr double kNear_deg = 1e-3;
+    constexpr std::size_t kMost = 720;
+    std::vector<double> a, b;
+    const std::size_t step = std::max<std::size_t>(1, cut_.places.size() / kMost);
+    for (std::size_t i = 0; i < cut_.places.size(); i += step) {
+      const double wanted = std::remainder(sense * cut_.places[i].azimuth_deg + turn_deg, 360);
+      const auto place = std::lower_bound(compared_.begin(), compared_.end(), std::pair(wanted - kNear_deg, -1e300));
+      if (place == compared_.end() || place->first > wanted + kNear_deg) continue;
+      a.push_back(levels_.reference[i]);
+      b.push_back(place->second);
+    }
+    return 2 * step * a.size() < cut_.places.size() || a.size() < 8 ? 0 : correlation_of(a, b);
+  }
+
+ private:
+  const PairedCut& cut_;
+  const Levels& levels_;
+  std::vector<std::pair<double, double>> compared_;
+};
 
 // The sense and the zero of the azimuth of a cut along azimuth.
 void suggest_azimuth(const PairedCut& cut, const Levels& levels, std::vector<std::string>& sentences) {
@@ -122,15 +134,16 @@ void suggest_azimuth(const PairedCut& cut, const Levels& levels, std::vector<std
     best = correlation;
     sentence = text;
   };
+  const LevelsByAzimuth by_azimuth(cut, levels);
   const double first = cut.places.front().azimuth_deg;
   constexpr std::size_t kMaxTurns = 720;
   const std::size_t step = std::max<std::size_t>(1, cut.places.size() / kMaxTurns);
   for (std::size_t n = 0; n < cut.places.size(); n += step) {
     const double turn = cut.places[n].azimuth_deg - first;
     for (const double by : {turn, -turn}) {
-      consider(mapped_correlation(cut, levels, [&](double az) { return az + by; }),
+      consider(by_azimuth.correlation(1, by),
                fmt::format("azimuths turned by {:g} deg fit better: --reference-phi 1,{:g}?", by, -by));
-      consider(mapped_correlation(cut, levels, [&](double az) { return by - az; }),
+      consider(by_azimuth.correlation(-1, by),
                fmt::format("mirrored azimuths fit better: --reference-phi -1,{:g}?", by));
     }
   }

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "tools/compare/alignment.h"
-#include "tools/rcs/rcs_comparison.h"
+#include "tools/rcs/paired_cut.h"
 
 namespace seaglint {
 

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// Values of a reference beside those of a sweep at the same directions and frequencies.
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/field_tables/field_table.h"
+#include "tools/rcs/rcs_sweep.h"
+
+namespace seaglint {
+
+// Variable that changes along a cut.
+enum class CutAxis { kAzimuth, kElevation, kFrequency, kSeveral };
+
+const char* axis_unit(CutAxis axis);  // "deg", "GHz"
+
+// Values of one reference at directions and frequencies of the sweep, in the sweep's order.
+struct PairedCut {
+  std::string reference;
+  Polarisation element = Polarisation::kHh;
+  CutAxis axis = CutAxis::kAzimuth;
+  std::optional<double> frequency_hz;  // absent if it varies along the cut
+  std::string place;                   // in titles: what else is fixed along the cut; may be empty
+  std::vector<double> x;               // deg or GHz; the running number when several axes vary
+  std::vector<double> level_dbsm;
+  std::vector<Complex> amplitude_m;  // of the reference, phase origin at the body's origin; empty without phases
+  struct Place {
+    std::size_t view = 0, frequency = 0;  // in the sweep
+    double frequency_hz = 0, azimuth_deg = 0, elevation_deg = 0;
+    Vec3 path_gradient = Vec3::Zero();  // k (r^_t + r^_s), rad/m
+    int line = 0;                       // of the reference's file
+  };
+  std::vector<Place> places;
+  struct Model {
+    std::string name;
+    std::vector<double> level_dbsm;
+    std::vector<Complex> amplitude_m;
+  };
+  std::vector<Model> models;
+  std::optional<Model> flat;  // the last model with flat facets, where the sweep has it
+};
+
+// Matches directions within 0.001 deg and frequencies within a relative 1e-6; nothing is interpolated. One cut per
+// frequency, or a single cut if there is one direction; none without a match. Throws InputError if the reference
+// declares another transmitter direction than the sweep's.
+std::vector<PairedCut> paired_cuts(const RcsSweep& sweep, const RcsCut& reference);
+
+// The same; throws InputError if nothing matches, naming the content of both.
+std::vector<PairedCut> match_reference(const RcsSweep& sweep, const RcsCut& reference);
+
+// Fills the cut's models from the sweep that it was matched with, once that is computed.
+void set_models(PairedCut& cut, const RcsSweep& sweep);
+
+}  // namespace seaglint
