@@ -99,6 +99,7 @@ TEST_F(CompareCommand, FindsOffsetOriginTimeFactorAndSigns) {
     EXPECT_GT(entry["correlation"].get<double>(), 0.998);
     EXPECT_NEAR(entry["bias_db"].get<double>(), -0.7, 0.1);
     EXPECT_EQ(entry["worst"].size(), 5u);
+    EXPECT_THAT(entry["worst"][0]["main_contribution"].get<std::string>(), HasSubstr(" bounces, po, "));
   }
   // One row per pair below two lines of head, each with the line of the export.
   const std::string csv = read_file(path("compared") + "/compare.csv");

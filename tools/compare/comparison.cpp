@@ -14,6 +14,7 @@
 #include "sim/core/numbers/dbsm.h"
 #include "sim/core/process/error.h"
 #include "sim/scattering/beams/bistatic_geometry.h"
+#include "tools/compare/main_contribution.h"
 #include "tools/compare/suggestions.h"
 #include "tools/compare/view_groups.h"
 #include "tools/rcs/rcs_views.h"
@@ -169,7 +170,7 @@ ElementStatistics statistics_of(const std::vector<PairedCut>& cuts, Polarisation
       statistics.mean_abs_db += std::abs(difference);
       statistics.rms_db += difference * difference;
       sizes.push_back(std::abs(difference));
-      all.push_back({difference, cut.places[i]});
+      all.push_back({difference, cut.places[i], {}});
       if (!has_phases(cut)) continue;
       product += std::conj(cut.amplitude_m[i]) * cut.models[0].amplitude_m[i];
       reference_power += std::norm(cut.amplitude_m[i]);
@@ -304,7 +305,15 @@ ExportComparison compare_with_target(const FieldTable& table, const RcsRequest& 
       for (const RcsCut* cut : cuts) pair(sweep, *cut, comparison.cuts);
     }
   }
-  return finished(std::move(comparison), settings);
+  comparison = finished(std::move(comparison), settings);
+  if (std::any_of(table.cuts.begin(), table.cuts.end(),
+                  [](const RcsCut& cut) { return !cut.transmitter->is_monostatic; }))
+    return comparison;
+  for (ElementStatistics& statistics : comparison.elements) {
+    for (ElementStatistics::Worst& worst : statistics.worst)
+      worst.main = main_contribution(request, target, worst.place, statistics.element, stop);
+  }
+  return comparison;
 }
 
 ExportComparison compare_with_table(const FieldTable& table, const FieldTable& other,

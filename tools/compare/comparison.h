@@ -31,6 +31,7 @@ struct ElementStatistics {
   struct Worst {
     double difference_db = 0;
     PairedCut::Place place;
+    std::string main;  // main_contribution() there, of a monostatic target
   };
   std::vector<Worst> worst;          // the largest differences, at most five
   ExtremumPairs lobes, nulls;        // of all cuts with one variable; means over their pairs

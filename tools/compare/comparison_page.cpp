@@ -78,15 +78,15 @@ std::string warnings(const std::vector<ExportComparison>& comparisons) {
 }
 
 std::string worst(const std::vector<ExportComparison>& comparisons) {
-  std::vector<std::vector<std::string>> rows{
-      {"export, line", "element", "frequency (GHz)", "azimuth (deg)", "elevation (deg)", "difference (dB)"}};
+  std::vector<std::vector<std::string>> rows{{"export, line", "element", "frequency (GHz)", "azimuth (deg)",
+                                              "elevation (deg)", "difference (dB)", "largest contribution"}};
   for (const ExportComparison& c : comparisons) {
     for (const ElementStatistics& s : c.elements) {
       for (const ElementStatistics::Worst& w : s.worst) {
         const PairedCut::Place& p = w.place;
         rows.push_back({fmt::format("{}:{}", escape_html(c.name), p.line), name_of(s.element),
                         fmt::format("{:.6g}", 1e-9 * p.frequency_hz), fmt::format("{:.6g}", p.azimuth_deg),
-                        fmt::format("{:.6g}", p.elevation_deg), decibels(w.difference_db)});
+                        fmt::format("{:.6g}", p.elevation_deg), decibels(w.difference_db), escape_html(w.main)});
       }
     }
   }

@@ -108,7 +108,8 @@ nlohmann::ordered_json comparison_json(const std::vector<ExportComparison>& comp
                                   {"frequency_hz", worst.place.frequency_hz},
                                   {"azimuth_deg", worst.place.azimuth_deg},
                                   {"elevation_deg", worst.place.elevation_deg},
-                                  {"line", worst.place.line}});
+                                  {"line", worst.place.line},
+                                  {"main_contribution", worst.main}});
       }
       entry["warnings"] = c.warnings;
       json["exports"].push_back(std::move(entry));
