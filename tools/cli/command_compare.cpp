@@ -46,28 +46,35 @@ std::vector<double> frequencies_of(const std::vector<FieldTable>& tables) {
   return {frequencies.begin(), frequencies.end()};
 }
 
-std::vector<ExportComparison> compare_all(const CompareArguments& arguments, const ComparisonSettings& settings,
-                                          const CommandContext& context) {
-  const std::vector<FieldTable> tables = arguments.exports.read();
+std::vector<FieldTable> read_and_report(const ReferenceArguments& files) {
+  std::vector<FieldTable> tables = files.read();
   for (const FieldTable& table : tables) say(reading_of(table));
-  std::vector<ExportComparison> comparisons;
+  return tables;
+}
+
+// What the exports are compared with: a mesh, or another table.
+struct Counterpart {
+  std::optional<RcsTarget> target;
+  RcsRequest request;  // of the target
+  std::optional<FieldTable> table;
+};
+
+Counterpart counterpart_of(const CompareArguments& arguments, const std::vector<FieldTable>& tables) {
+  Counterpart counterpart;
   if (!arguments.against.empty()) {
     ReferenceArguments other;
     other.files = {arguments.against};
-    const FieldTable against = other.read().front();
-    say(reading_of(against));
-    for (const FieldTable& table : tables) comparisons.push_back(compare_with_table(table, against, settings));
-    return comparisons;
+    counterpart.table = read_and_report(other).front();
+    return counterpart;
   }
-  RcsRequest request = arguments.rcs.make_mesh_request();
+  RcsRequest& request = counterpart.request;
+  request = arguments.rcs.make_mesh_request();
   request.frequency_hz = frequencies_of(tables);
   request.azimuth_deg = {0};  // any, as the mesh is prepared for frequencies alone
   PreparedTarget prepared = prepare_mesh(request);
   warn(prepared.warnings);
-  const RcsTarget target = select_echoes(request, std::move(prepared));
-  for (const FieldTable& table : tables)
-    comparisons.push_back(compare_with_target(table, request, target, settings, context.threads, context.stop, say));
-  return comparisons;
+  counterpart.target = select_echoes(request, std::move(prepared));
+  return counterpart;
 }
 
 // Curves and range profiles, as far as the cuts have them.
@@ -107,9 +114,8 @@ std::vector<std::string> failures(const std::vector<ExportComparison>& compariso
   return sentences;
 }
 
-void run_compare(const CompareArguments& arguments, const CommandContext& context) {
-  if (arguments.rcs.target.empty() == arguments.against.empty())
-    throw InputError("compare: give either --target MESH or --against FILE");
+// Makes the directory; throws before any work where a result cannot be written.
+void require_results(const CompareArguments& arguments) {
   const std::filesystem::path directory = arguments.directory;
   make_directory(directory);
   std::vector<std::filesystem::path> inputs(arguments.exports.files.begin(), arguments.exports.files.end());
@@ -120,9 +126,23 @@ void run_compare(const CompareArguments& arguments, const CommandContext& contex
     outputs.push_back((directory / name).string());
   require_outputs(outputs, inputs);
   require_figure(directory / "compare.png");
+}
+
+void run_compare(const CompareArguments& arguments, const CommandContext& context) {
+  if (arguments.rcs.target.empty() == arguments.against.empty())
+    throw InputError("compare: give either --target MESH or --against FILE");
+  const std::vector<FieldTable> tables = read_and_report(arguments.exports);
+  const Counterpart counterpart = counterpart_of(arguments, tables);
+  require_results(arguments);
 
   const ComparisonSettings settings{arguments.exports.floor_db, arguments.as_is};
-  const std::vector<ExportComparison> comparisons = compare_all(arguments, settings, context);
+  std::vector<ExportComparison> comparisons;
+  for (const FieldTable& table : tables) {
+    comparisons.push_back(counterpart.table ? compare_with_table(table, *counterpart.table, settings)
+                                            : compare_with_target(table, counterpart.request, *counterpart.target,
+                                                                  settings, context.threads, context.stop, say));
+  }
+  const std::filesystem::path directory = arguments.directory;
   write_file(directory / "compare.csv", comparison_csv(comparisons));
   const ComparisonFigures figures = draw(comparisons, settings, directory);
   write_file(directory / "compare.html", comparison_page(comparisons, settings, figures));

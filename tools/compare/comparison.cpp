@@ -296,7 +296,7 @@ ExportComparison compare_with_target(const FieldTable& table, const RcsRequest& 
       solved.azimuth_deg = grid.azimuth_deg;
       solved.elevation_deg = grid.elevation_deg;
       RcsSweep sweep = requested_sweep(solved);
-      say(fmt::format("{}: {} frequencies in {} directions, {}", table.name, grid.frequency_hz.size(), sweep.views(),
+      say(fmt::format("{}: {} x {} frequencies x directions, {}", table.name, grid.frequency_hz.size(), sweep.views(),
                       solved.transmitter
                           ? fmt::format("transmitter at azimuth {:g} deg, elevation {:g} deg",
                                         solved.transmitter->azimuth_deg, solved.transmitter->elevation_deg)

@@ -45,6 +45,7 @@ std::string lobes_and_nulls(const std::vector<ExportComparison>& comparisons) {
 }
 
 std::string origin_text(const Alignment& a) {
+  if (a.undetermined.size() == 3) return "not fixed by the data";
   std::string text =
       fmt::format("{:.1f}, {:.1f}, {:.1f}", 1e3 * a.origin_m.x(), 1e3 * a.origin_m.y(), 1e3 * a.origin_m.z());
   for (const Vec3& v : a.undetermined)

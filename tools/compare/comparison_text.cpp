@@ -17,13 +17,16 @@ namespace {
 const char* name_of(Polarisation element) { return kPolarisationNames[static_cast<int>(element)]; }
 
 std::string text_of(const Alignment& a, bool of_all) {
-  std::string text = fmt::format(
-      "constant phase {:.1f} deg, phase origin {:.4f}, {:.4f}, {:.4f} m (+- {:.4f}, {:.4f}, "
-      "{:.4f})",
-      degrees(a.phase_rad), a.origin_m.x(), a.origin_m.y(), a.origin_m.z(), a.origin_error_m.x(), a.origin_error_m.y(),
-      a.origin_error_m.z());
-  for (const Vec3& v : a.undetermined)
-    text += fmt::format("; the data fix none along {:.2f}, {:.2f}, {:.2f}", v.x(), v.y(), v.z());
+  std::string text = fmt::format("constant phase {:.1f} deg, ", degrees(a.phase_rad));
+  if (a.undetermined.size() == 3) {
+    text += "no phase origin that the data fix";
+  } else {
+    text +=
+        fmt::format("phase origin {:.4f}, {:.4f}, {:.4f} m (+- {:.4f}, {:.4f}, {:.4f})", a.origin_m.x(), a.origin_m.y(),
+                    a.origin_m.z(), a.origin_error_m.x(), a.origin_error_m.y(), a.origin_error_m.z());
+    for (const Vec3& v : a.undetermined)
+      text += fmt::format("; the data fix none along {:.2f}, {:.2f}, {:.2f}", v.x(), v.y(), v.z());
+  }
   return of_all ? text + "; of all elements" : text;
 }
 

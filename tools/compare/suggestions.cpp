@@ -154,6 +154,8 @@ void suggest_azimuth(const PairedCut& cut, const Levels& levels, std::vector<std
 
 void suggest_conventions(const Alignment& alignment, const std::vector<PairedCut>& cuts,
                          std::vector<std::string>& sentences) {
+  constexpr double kMeaningful = 0.5;  // least correlation
+  if (alignment.correlation < kMeaningful) return;
   if (alignment.conjugated)
     sentences.push_back(
         fmt::format("the export has the other time factor, e^{{-jwt}}: conjugated (correlation {:.3f}, as "
@@ -167,7 +169,7 @@ void suggest_conventions(const Alignment& alignment, const std::vector<PairedCut
   for (const PairedCut& cut : cuts) {
     for (const PairedCut::Place& place : cut.places) shortest = std::min(shortest, kSpeedOfLight / place.frequency_hz);
   }
-  if (alignment.origin_m.norm() > shortest / 8 && alignment.correlation > 0.5) {
+  if (alignment.origin_m.norm() > shortest / 8) {
     sentences.push_back(
         fmt::format("the export's phase origin, or its mesh, is displaced: origin at {:.4f}, {:.4f}, "
                     "{:.4f} m",
