@@ -169,6 +169,8 @@ void add_compare(CommandOptions& program, CommandContext& context) {
   command.add_option("--against", arguments->against, "Another such file, instead of a mesh");
   arguments->rcs.add_detail_to(command);
   arguments->exports.add_properties_to(command);
+  command.add_flag("--uncertainty", arguments->rcs.request.uncertainty,
+                   "Also solve with all facets flat: the area between both in the figure");
   command.add_flag("--as-is", arguments->as_is,
                    "Fit no constant phase, phase origin, conjugation and signs before the complex correlation");
   command.add_option("--tolerance-db", arguments->tolerance_db, "Exit code 1 if a mean difference is over this")

@@ -66,6 +66,7 @@ std::vector<ViewGrid> grids_of(const std::vector<const RcsCut*>& cuts) {
 RcsSweep part_of(const RcsSweep& sweep, const ViewGrid& cut) {
   RcsSweep part{cut.frequency_hz, cut.azimuth_deg, cut.elevation_deg, {}, {}, {}, 0, sweep.transmitter};
   for (const RcsSweep::Model& model : sweep.models) part.models.push_back({model.name, model.edge_diffraction, {}});
+  if (sweep.flat) part.flat = RcsSweep::Model{sweep.flat->name, sweep.flat->edge_diffraction, {}};
   for (std::size_t view = 0; view < sweep.views(); ++view) {
     const auto has = [](const std::vector<double>& values, double value) {
       return std::find(values.begin(), values.end(), value) != values.end();
@@ -73,6 +74,7 @@ RcsSweep part_of(const RcsSweep& sweep, const ViewGrid& cut) {
     if (!has(cut.azimuth_deg, sweep.azimuth_of(view)) || !has(cut.elevation_deg, sweep.elevation_of(view))) continue;
     for (std::size_t m = 0; m < sweep.models.size(); ++m)
       part.models[m].matrices.push_back(sweep.models[m].matrices[view]);
+    if (sweep.flat) part.flat->matrices.push_back(sweep.flat->matrices[view]);
   }
   return part;
 }

@@ -51,9 +51,9 @@ std::optional<std::string> unknown_word_below(CLI::App& command) {
     for (const std::string& name : option->get_lnames()) words.options.push_back("--" + name);
   }
   for (const CLI::App* subcommand : subcommands(command)) words.commands.push_back(subcommand->get_name());
-  if (const std::optional<std::string> found = unknown_word(words)) return found;
+  if (std::optional<std::string> found = unknown_word(words)) return found;
   for (CLI::App* given : command.get_subcommands()) {
-    if (const std::optional<std::string> found = unknown_word_below(*given)) return found;
+    if (std::optional<std::string> found = unknown_word_below(*given)) return found;
   }
   return std::nullopt;
 }

@@ -13,7 +13,7 @@ namespace seaglint {
 struct RenamedWord {
   std::string_view command;    // that the option or command belongs to, as "mesh make ship"; "" = the program
   std::string_view word, now;  // an option with its dashes, or a command
-  std::string_view note = "";  // what else has changed
+  std::string_view note = {};  // what else has changed
 };
 
 struct RenamedOptionValue {

@@ -211,7 +211,7 @@ void write_archive(const std::filesystem::path& file, std::vector<Member>& membe
     }
   }
   if (zip_close(archive.get()) != 0) fail(zip_get_error(archive.get()));
-  archive.release();
+  static_cast<void>(archive.release());  // closed
 }
 
 }  // namespace
