@@ -6,10 +6,12 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <fstream>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -21,13 +23,7 @@ namespace {
 constexpr const char* kPath = "/df/table";
 constexpr const char* kValues = "values_block_0";
 // The columns of the index, as they stand in the rows of a written file.
-struct IndexColumn {
-  const char* name;
-  std::size_t place;  // in PandasRow
-};
-constexpr std::array<IndexColumn, 3> kIndex{{{"IWaveTheta", offsetof(PandasRow, theta_deg)},
-                                             {"IWavePhi", offsetof(PandasRow, phi_deg)},
-                                             {"Freq", offsetof(PandasRow, frequency)}}};
+constexpr std::array<const char*, 3> kIndex{"IWaveTheta", "IWavePhi", "Freq"};
 
 // HDF5 identifier, closed by its destructor.
 class Handle {
@@ -68,24 +64,36 @@ Handle complex_type(hid_t real) {
   return type;
 }
 
-// A PandasRow in memory; values as an array of one or as they are.
-Handle row_type(bool values_are_array) {
-  const std::string what = "HDF5: no type of a row";
-  Handle type(H5Tcreate(H5T_COMPOUND, sizeof(PandasRow)), H5Tclose, what);
-  for (const IndexColumn& column : kIndex)
-    require(H5Tinsert(type, column.name, column.place, H5T_NATIVE_DOUBLE) >= 0, what);
-  const Handle value = complex_type(H5T_NATIVE_DOUBLE);
-  const hsize_t one = 1;
-  const Handle array(H5Tarray_create2(value, 1, &one), H5Tclose, what);
-  require(H5Tinsert(type, kValues, offsetof(PandasRow, value), values_are_array ? array : value) >= 0, what);
-  return type;
-}
+// Place and kind of a number in the bytes of a row.
+struct NumberPlace {
+  std::size_t offset = 0, bytes = 0;
+  bool is_integer = false, is_big_endian = false;
 
-bool is_one_of(hid_t type, std::initializer_list<hid_t> known) {
-  return std::any_of(known.begin(), known.end(), [&](hid_t other) { return H5Tequal(type, other) > 0; });
-}
+  double value(const char* row) const {
+    std::array<char, 8> own{};
+    std::copy_n(row + offset, bytes, own.begin());
+    if (is_big_endian) std::reverse(own.begin(), own.begin() + static_cast<std::ptrdiff_t>(bytes));
+    if (is_integer) {
+      return bytes == 8 ? static_cast<double>(std::bit_cast<std::int64_t>(own))
+                        : std::bit_cast<std::array<std::int32_t, 2>>(own)[0];
+    }
+    return bytes == 8 ? std::bit_cast<double>(own) : double{std::bit_cast<std::array<float, 2>>(own)[0]};
+  }
+};
 
-bool is_real(hid_t type) { return is_one_of(type, {H5T_IEEE_F64LE, H5T_IEEE_F32LE, H5T_IEEE_F64BE, H5T_IEEE_F32BE}); }
+static_assert(std::endian::native == std::endian::little, "numbers are read as they lie in memory");
+
+// A number of this type at this offset; nothing if the type is no such number.
+std::optional<NumberPlace> number_place(hid_t type, std::size_t offset) {
+  const auto is = [&](hid_t other) { return H5Tequal(type, other) > 0; };
+  if (is(H5T_IEEE_F64LE)) return NumberPlace{offset, 8, false, false};
+  if (is(H5T_IEEE_F32LE)) return NumberPlace{offset, 4, false, false};
+  if (is(H5T_IEEE_F64BE)) return NumberPlace{offset, 8, false, true};
+  if (is(H5T_IEEE_F32BE)) return NumberPlace{offset, 4, false, true};
+  if (is(H5T_STD_I64LE)) return NumberPlace{offset, 8, true, false};
+  if (is(H5T_STD_I32LE)) return NumberPlace{offset, 4, true, false};
+  return std::nullopt;
+}
 
 // A table of a file that is read, with the checks of what the file claims.
 class ReadTable {
@@ -98,14 +106,25 @@ class ReadTable {
     require_stored_here();
   }
 
+  // The library copies the bytes: its conversions trust the offsets that a file claims.
   std::vector<PandasRow> rows() const {
     const std::string what = message("is damaged");
     const Handle type(H5Dget_type(set_), H5Tclose, what);
-    const bool array = values_are_array(type);
-    std::vector<PandasRow> rows(count_);
-    const Handle memory = row_type(array);
+    const std::size_t bytes = H5Tget_size(type);
+    const NumberPlace theta = index_place(type, kIndex[0]), phi = index_place(type, kIndex[1]),
+                      frequency = index_place(type, kIndex[2]);
+    const std::array<NumberPlace, 2> value = value_places(type);
+    for (const NumberPlace& place : {theta, phi, frequency, value[0], value[1]})
+      require(place.offset <= bytes && place.bytes <= bytes - place.offset, what);
+    std::string content(count_ * bytes, '\0');
     if (count_ > 0)
-      require(H5Dread(set_, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, static_cast<void*>(rows.data())) >= 0, what);
+      require(H5Dread(set_, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, static_cast<void*>(content.data())) >= 0, what);
+    std::vector<PandasRow> rows;
+    rows.reserve(count_);
+    for (const char* row = content.data(); rows.size() < count_; row += bytes) {
+      rows.push_back(
+          {frequency.value(row), theta.value(row), phi.value(row), {value[0].value(row), value[1].value(row)}});
+    }
     return rows;
   }
 
@@ -141,45 +160,51 @@ class ReadTable {
     require(H5Fget_filesize(file_, &bytes) >= 0, damaged);
     const double chunks = std::ceil(static_cast<double>(count) / static_cast<double>(chunk));
     const double needed = chunks * static_cast<double>(chunk) * static_cast<double>(H5Tget_size(type));
+    require(H5Tget_size(type) > 0, damaged);
     require(needed <= static_cast<double>(bytes), message("claims more rows than the file has"));
     require(static_cast<double>(H5Dget_storage_size(set_)) >= needed, message("is incomplete"));
     count_ = static_cast<std::size_t>(count);
   }
 
-  // Throws unless the columns have the expected types: numbers, and one column of complex numbers.
-  bool values_are_array(hid_t row) const {
+  NumberPlace index_place(hid_t row, const char* column) const {
     require(H5Tget_class(row) == H5T_COMPOUND, message("must have named columns"));
-    for (const IndexColumn& column : kIndex) {
-      const Handle type = member(row, column.name);
-      require(is_real(type) || is_one_of(type, {H5T_STD_I64LE, H5T_STD_I32LE}),
-              fmt::format("{}: column {} of {}: must have numbers", name_, column.name, kPath));
-    }
-    const Handle values = member(row, kValues);
-    if (H5Tget_class(values) != H5T_ARRAY) {
-      require_complex(values);
-      return false;
-    }
+    for (const H5T_class_t other : {H5T_VLEN, H5T_REFERENCE})
+      require(H5Tdetect_class(row, other) == 0, message("must have columns of numbers"));
+    const auto [type, offset] = member(row, column);
+    const std::optional<NumberPlace> place = number_place(type, offset);
+    require(place.has_value(), fmt::format("{}: column {} of {}: must have numbers", name_, column, kPath));
+    return *place;
+  }
+
+  // Real and imaginary part of the only column of values, an array of one complex number or that number.
+  std::array<NumberPlace, 2> value_places(hid_t row) const {
+    const auto [values, offset] = member(row, kValues);
+    if (H5Tget_class(values) != H5T_ARRAY) return complex_places(values, offset);
     hsize_t length = 0;
     require(H5Tget_array_ndims(values) == 1 && H5Tget_array_dims2(values, &length) == 1 && length == 1,
             fmt::format("{}: {} of {}: must be one column of values", name_, kValues, kPath));
-    require_complex(Handle(H5Tget_super(values), H5Tclose, message("is damaged")));
-    return true;
+    return complex_places(Handle(H5Tget_super(values), H5Tclose, message("is damaged")), offset);
   }
 
-  Handle member(hid_t row, const char* column) const {
-    const int index = H5Tget_member_index(row, column);
-    require(index >= 0, fmt::format("{}: {} has no column {}", name_, kPath, column));
-    return Handle(H5Tget_member_type(row, static_cast<unsigned>(index)), H5Tclose, message("is damaged"));
-  }
-
-  void require_complex(hid_t type) const {
+  std::array<NumberPlace, 2> complex_places(hid_t type, std::size_t offset) const {
     const std::string what = fmt::format("{}: {} of {}: must have complex numbers", name_, kValues, kPath);
-    require(H5Tget_class(type) == H5T_COMPOUND && H5Tget_nmembers(type) == 2, what);
-    for (const char* part : {"r", "i"}) {
-      const int index = H5Tget_member_index(type, part);
-      require(index >= 0, what);
-      require(is_real(Handle(H5Tget_member_type(type, static_cast<unsigned>(index)), H5Tclose, what)), what);
+    require(H5Tget_class(type) == H5T_COMPOUND, what);
+    std::array<NumberPlace, 2> places;
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      const auto [part, inside] = member(type, k == 0 ? "r" : "i");
+      const std::optional<NumberPlace> place = number_place(part, offset + inside);
+      require(place && !place->is_integer, what);
+      places[k] = *place;
     }
+    return places;
+  }
+
+  std::pair<Handle, std::size_t> member(hid_t compound, const char* column) const {
+    const int index = H5Tget_member_index(compound, column);
+    require(index >= 0, fmt::format("{}: {} has no column {}", name_, kPath, column));
+    const auto number = static_cast<unsigned>(index);
+    return {Handle(H5Tget_member_type(compound, number), H5Tclose, message("is damaged")),
+            H5Tget_member_offset(compound, number)};
   }
 
   std::string name_;
@@ -219,8 +244,7 @@ class WrittenTable {
                 H5Tinsert(type, kValues, offsetof(FileRow, value), array) >= 0,
             kWhat);
     for (std::size_t k = 0; k < kIndex.size(); ++k) {
-      require(H5Tinsert(type, kIndex[k].name, offsetof(FileRow, columns) + k * sizeof(double), H5T_IEEE_F64LE) >= 0,
-              kWhat);
+      require(H5Tinsert(type, kIndex[k], offsetof(FileRow, columns) + k * sizeof(double), H5T_IEEE_F64LE) >= 0, kWhat);
     }
     std::vector<FileRow> written;
     for (const PandasRow& row : rows) {
