@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "sim/core/process/error.h"
+#include "sim/field_tables/rows/hdf5_header.h"
 
 namespace seaglint {
 namespace {
@@ -102,7 +103,7 @@ class ReadTable {
       : name_(std::move(name)),
         file_(H5Fopen(file.c_str(), H5F_ACC_RDONLY, file_access()), H5Fclose,
               fmt::format("{}: not a whole HDF5 file (truncated or damaged)", name_)),
-        set_(open()) {
+        set_(open(file)) {
     require_stored_here();
   }
 
@@ -131,12 +132,14 @@ class ReadTable {
  private:
   std::string message(std::string_view what) const { return fmt::format("{}: {} {}", name_, kPath, what); }
 
-  Handle open() const {
+  Handle open(const std::filesystem::path& file) const {
     for (const char* path : {"/df", kPath}) {
       H5L_info_t link;
       require(H5Lget_info(file_, path, &link, H5P_DEFAULT) >= 0,
               fmt::format("{}: no table {}, as pandas writes it with key=\"df\", format=\"table\"", name_, kPath));
       require(link.type == H5L_TYPE_HARD, message("is a link to another place"));
+      if (path == std::string_view(kPath))
+        require(has_sound_layout(file, link.u.address), message("is no table or damaged"));
     }
     return Handle(H5Dopen2(file_, kPath, H5P_DEFAULT), H5Dclose, message("is no table or damaged"));
   }
