@@ -34,18 +34,56 @@ bool is_sound_layout(std::string_view message) {
   if (message.size() < 3 || number(message, 0, 1) != kVersion) return false;
   if (number(message, 1, 1) != kChunked) return true;
   const std::uint64_t rank = number(message, 2, 1);
-  constexpr std::size_t kExtents = 11;  // behind version, class, rank and address
-  if (message.size() < kExtents + 4 * rank) return false;
+  constexpr std::size_t kExtents = 11;                                  // behind version, class, rank and address
+  if (rank != 2 || message.size() < kExtents + 4 * rank) return false;  // rows, and bytes of one
   for (std::size_t k = 0; k < rank; ++k) {
     if (number(message, kExtents + 4 * k, 4) == 0) return false;
   }
   return true;
 }
 
+// Goes past a datatype of version 1 or 2: numbers, texts, arrays and compounds of them, none of 0 bytes, members within
+// their compound. False for another one.
+bool skip_sound_type(std::string_view& rest, std::uint64_t most_bytes, int depth) {
+  constexpr std::uint64_t kInteger = 0, kReal = 1, kText = 3, kCompound = 6, kArray = 10, kMaxDepth = 4;
+  if (rest.size() < 8 || depth > static_cast<int>(kMaxDepth)) return false;
+  const std::uint64_t type = number(rest, 0, 1) & 15, version = number(rest, 0, 1) >> 4, bytes = number(rest, 4, 4);
+  const std::uint64_t members = number(rest, 1, 2);
+  rest.remove_prefix(8);
+  if (bytes == 0 || bytes > most_bytes || version < 1 || version > 2) return false;
+  const auto skip = [&](std::uint64_t count) {
+    if (count > rest.size()) return false;
+    rest.remove_prefix(count);
+    return true;
+  };
+  if (type == kInteger) return skip(4);
+  if (type == kReal) return skip(12);
+  if (type == kText) return true;
+  if (type == kArray) {
+    if (rest.empty()) return false;
+    const std::uint64_t rank = number(rest, 0, 1);
+    return version == 2 && skip(4 + 8 * rank) && skip_sound_type(rest, bytes, depth + 1);
+  }
+  if (type != kCompound || members == 0) return false;
+  for (std::uint64_t k = 0; k < members; ++k) {
+    const std::size_t name = rest.find('\0');
+    if (name == std::string_view::npos || !skip(name / 8 * 8 + 8) || rest.size() < 4) return false;
+    const std::uint64_t offset = number(rest, 0, 4);
+    if (offset >= bytes || !skip(version == 1 ? 32 : 4) || !skip_sound_type(rest, bytes - offset, depth + 1))
+      return false;
+  }
+  return true;
+}
+
+bool is_sound_type(std::string_view message) {
+  constexpr std::uint64_t kMaxRow = 65536;  // bytes
+  return skip_sound_type(message, kMaxRow, 0);
+}
+
 }  // namespace
 
-bool has_sound_layout(const std::filesystem::path& path, std::uint64_t address) {
-  constexpr std::uint64_t kHead = 16, kMessageHead = 8, kLayout = 0x8, kContinuation = 0x10, kShared = 2;
+bool has_sound_header(const std::filesystem::path& path, std::uint64_t address) {
+  constexpr std::uint64_t kHead = 16, kMessageHead = 8, kType = 0x3, kLayout = 0x8, kContinuation = 0x10, kShared = 2;
   std::ifstream file(path, std::ios::binary);
   const std::optional<std::string> head = bytes_at(file, address, kHead);
   if (!head || number(*head, 0, 1) != 1) return false;
@@ -64,6 +102,7 @@ bool has_sound_layout(const std::filesystem::path& path, std::uint64_t address) 
       const std::string_view message = rest.substr(0, bytes);
       rest.remove_prefix(bytes);
       if (type == kContinuation && bytes >= 16) blocks.push_back({number(message, 0, 8), number(message, 8, 8)});
+      if (type == kType && ((flags & kShared) != 0 || !is_sound_type(message))) return false;
       if (type != kLayout) continue;
       if ((flags & kShared) != 0 || !is_sound_layout(message)) return false;
       ++layouts;

@@ -139,7 +139,7 @@ class ReadTable {
               fmt::format("{}: no table {}, as pandas writes it with key=\"df\", format=\"table\"", name_, kPath));
       require(link.type == H5L_TYPE_HARD, message("is a link to another place"));
       if (path == std::string_view(kPath))
-        require(has_sound_layout(file, link.u.address), message("is no table or damaged"));
+        require(has_sound_header(file, link.u.address), message("is no table or damaged"));
     }
     return Handle(H5Dopen2(file_, kPath, H5P_DEFAULT), H5Dclose, message("is no table or damaged"));
   }
