@@ -16,7 +16,7 @@
 #include "sim/core/text/text_rows.h"
 #include "sim/core/text/words.h"
 #include "sim/field_tables/export_name.h"
-#include "sim/field_tables/line_reader.h"
+#include "sim/field_tables/rows/line_reader.h"
 
 namespace seaglint {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "sim/core/text/shown.h"
-#include "sim/field_tables/line_reader.h"
+#include "sim/field_tables/rows/line_reader.h"
 
 namespace seaglint {
 namespace {

@@ -13,7 +13,7 @@
 #include "sim/core/text/number.h"
 #include "sim/core/text/shown.h"
 #include "sim/core/text/words.h"
-#include "sim/field_tables/line_reader.h"
+#include "sim/field_tables/rows/line_reader.h"
 
 namespace seaglint {
 namespace {

@@ -9,7 +9,7 @@
 #include "sim/core/process/error.h"
 #include "sim/core/text/text_table.h"
 #include "sim/core/text/words.h"
-#include "sim/field_tables/first_rows.h"
+#include "sim/field_tables/rows/first_rows.h"
 #include "sim/field_tables/transmitter_keys.h"
 
 namespace seaglint {

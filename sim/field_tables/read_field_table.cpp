@@ -16,6 +16,8 @@
 #include "sim/field_tables/feko_table.h"
 #include "sim/field_tables/hfss_table.h"
 #include "sim/field_tables/own_table.h"
+#include "sim/field_tables/pyaedt_file.h"
+#include "sim/field_tables/rows/pandas_table.h"
 #include "sim/field_tables/text_columns.h"
 
 namespace seaglint {
@@ -54,13 +56,35 @@ constexpr std::array<Reader, 8> kReaders{{
     {"four columns", "no rows of frequency_hz theta_deg phi_deg dBsm", is_four_columns, read_four_columns},
 }};
 
+constexpr const char* kPyaedt = "an export of PyAEDT";
+
 const Reader& reader_of(const TextSource& source) {
-  std::string reasons;
+  std::string reasons = fmt::format("\n  not {}: no HDF5 and no JSON with monostatic_file", kPyaedt);
   for (const Reader& reader : kReaders) {
     if (reader.is_format(source)) return reader;
     reasons += fmt::format("\n  not {}: {}", reader.name, reader.missing);
   }
   throw InputError(fmt::format("{}: not a table of the radar cross section:{}", source.name(), reasons));
+}
+
+// Reads the file with the reader of its content; reader's name and facts of the file's name go into the table.
+void read_recognised(const std::filesystem::path& file, const FieldTableSettings& settings, FieldTable& table) {
+  const auto with = [&](const char* reader, const auto& read) {
+    table.reader = reader;
+    const FieldTableSettings all = completed(settings, facts_of_name(table.name), table.notes);
+    try {
+      read(all);
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("{} (read as {})", error.what(), reader));
+    }
+  };
+  const auto read_pair = [&](const FieldTableSettings& all) { read_pyaedt_file(file, all, table); };
+  if (is_hdf5_file(file)) return with(kPyaedt, read_pair);
+  const TextSource source = TextSource::read(file);
+  if (is_pyaedt_json(source.text())) return with(kPyaedt, read_pair);
+  const Reader& reader = reader_of(source);
+  with(reader.name, [&](const FieldTableSettings& all) { reader.read(source, all, table); });
+  if (!source.text().ends_with('\n')) table.notes.emplace_back("the last line has no end: is the file complete?");
 }
 
 // Throws InputError if a frequency is given that differs from the file's.
@@ -92,20 +116,11 @@ void require_own_transmitter(const RcsCut& cut, const FieldTableSettings& given,
 
 FieldTable read_field_table(const std::filesystem::path& file, const FieldTableSettings& settings) {
   FieldTable table;
-  const TextSource source = TextSource::read(file);
-  const Reader& reader = reader_of(source);
   table.name = file.filename().string();
-  table.reader = reader.name;
-  const FieldTableSettings all = completed(settings, facts_of_name(table.name), table.notes);
-  try {
-    reader.read(source, all, table);
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{} (read as {})", error.what(), reader.name));
-  }
-  if (!source.text().ends_with('\n')) table.notes.emplace_back("the last line has no end: is the file complete?");
+  read_recognised(file, settings, table);
   std::erase_if(table.cuts, [](const RcsCut& cut) { return cut.values.empty(); });
   if (table.cuts.empty())
-    throw InputError(fmt::format("{}: contains no values (read as {})", file.string(), reader.name));
+    throw InputError(fmt::format("{}: contains no values (read as {})", file.string(), table.reader));
   for (RcsCut& cut : table.cuts) {
     cut.name = table.name;
     cut.phi_scale = settings.phi_scale;

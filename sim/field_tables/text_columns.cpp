@@ -8,7 +8,7 @@
 #include "sim/core/process/error.h"
 #include "sim/core/text/number.h"
 #include "sim/core/text/text_table.h"
-#include "sim/field_tables/first_rows.h"
+#include "sim/field_tables/rows/first_rows.h"
 
 namespace seaglint {
 namespace {

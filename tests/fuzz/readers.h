@@ -25,6 +25,7 @@ void fuzz_cst_curves(const std::string& bytes);  // 1D
 void fuzz_ffs(const std::string& bytes);
 void fuzz_ffe(const std::string& bytes);
 void fuzz_hfss(const std::string& bytes);
+void fuzz_pyaedt(const std::string& bytes);  // the HDF5 file
 
 // Scenarios.
 void fuzz_yaml(const std::string& bytes);      // the tree alone

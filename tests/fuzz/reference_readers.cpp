@@ -8,9 +8,9 @@
 namespace seaglint {
 namespace {
 
-void read_export(const std::string& bytes, const FieldTableSettings& settings) {
+void read_file_of(const std::filesystem::path& file, const FieldTableSettings& settings) {
   is_refused([&] {
-    for (const RcsCut& cut : read_field_table(file_of(bytes, "export.txt"), settings).cuts) {
+    for (const RcsCut& cut : read_field_table(file, settings).cuts) {
       SEAGLINT_CHECK(!cut.values.empty(), "a cut without values");
       for (const FieldValue& value : cut.values) {
         SEAGLINT_CHECK(std::isfinite(value.theta_deg) && std::isfinite(value.phi_deg) && value.frequency_hz > 0 &&
@@ -19,6 +19,10 @@ void read_export(const std::string& bytes, const FieldTableSettings& settings) {
       }
     }
   });
+}
+
+void read_export(const std::string& bytes, const FieldTableSettings& settings) {
+  read_file_of(file_of(bytes, "export.txt"), settings);
 }
 
 FieldTableSettings of_both_received() {
@@ -55,5 +59,10 @@ void fuzz_ffs(const std::string& bytes) { read_export(bytes, of_both_received())
 void fuzz_ffe(const std::string& bytes) { read_export(bytes, {}); }
 
 void fuzz_hfss(const std::string& bytes) { read_export(bytes, of_both_received()); }
+
+void fuzz_pyaedt(const std::string& bytes) {
+  file_of(R"({"monostatic_file": "export_VV.h5", "frequency_units": "GHz"})", "export_VV.json");
+  read_file_of(file_of(bytes, "export_VV.h5"), {});
+}
 
 }  // namespace seaglint

@@ -1,10 +1,12 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes the exports in this folder: one point scatterer as CST, FEKO and HFSS would write it (no file of theirs).
+"""Writes the exports in this folder: one point scatterer as CST, FEKO, HFSS and PyAEDT would write it (no file of
+theirs). The last needs python3-pandas and python3-tables.
 
     tests/cases/exports/write_exports.py
 """
 import cmath
+import json
 import math
 import pathlib
 
@@ -148,6 +150,25 @@ def hfss():
     write("hfss families HP.csv", lines)
 
 
+def pyaedt(element, unit, hz):
+    """DataFrame.to_hdf() as PyAEDT calls it, in chunks of 16 rows instead of 1365 and without an index of its
+    columns: both make the file small."""
+    import pandas
+    import tables
+
+    tables.leaf.Leaf._calc_chunkshape = lambda self, *rest: (16,)
+    places = [(f, phi, theta) for f in (9.5e9, 10e9) for phi in (0.0, 5.0, 200.0) for theta in (85.0, 90.0)]
+    values = [math.sqrt(4 * math.pi) * spherical(f, theta, phi, element[1])["vh".index(element[0])]
+              for f, phi, theta in places]
+    index = pandas.MultiIndex.from_tuples([(f / hz, phi, theta) for f, phi, theta in places],
+                                          names=["Freq", "IWavePhi", "IWaveTheta"])
+    name = f"pyaedt_{element.upper()}"
+    pandas.DataFrame({"data": values}, index=index).to_hdf(FOLDER / f"{name}.h5", key="df", mode="w", format="table",
+                                                           index=False)
+    write(f"{name}.json", [json.dumps({"solution": "Point", "monostatic_file": f"{name}.h5", "model_units": "mm",
+                                       "frequency_units": unit, "model_info": {}}, indent=2)])
+
+
 if __name__ == "__main__":
     cst_rcs()
     cst_field()
@@ -157,3 +178,5 @@ if __name__ == "__main__":
     feko("monostatic.ffe", [((85, phi), [(85, phi)]) for phi in (0, 45, 90)])
     feko("bistatic.ffe", [((90, phi), [(90, p) for p in (0, 30, 60)]) for phi in (0, 40)])
     hfss()
+    pyaedt("vv", "GHz", 1e9)
+    pyaedt("vh", "MHz", 1e6)

@@ -149,6 +149,23 @@ TEST(Exports, OfHfssHaveColumnsOrFamilies) {
   expect_exact(families, 1e-12);
 }
 
+TEST(Exports, OfPyaedtAreReadByEitherFile) {
+  const FieldTable vv = read("pyaedt_VV.json");
+  EXPECT_EQ(reading_of(vv),
+            "pyaedt_VV.json: read as an export of PyAEDT; e^{+jwt}; theta^ = -v, phi^ = h; monostatic; vv by the "
+            "file's name (received, transmitted)");
+  ASSERT_THAT(elements_of(vv), ElementsAre(Polarisation::kVv));
+  ASSERT_EQ(vv.cuts[0].values.size(), 12u);
+  EXPECT_EQ(vv.cuts[0].values[11].frequency_hz, 10e9);
+  EXPECT_EQ(vv.cuts[0].values[11].phi_deg, 200);
+  EXPECT_EQ(vv.cuts[0].values[11].theta_deg, 90);
+  expect_exact(vv, 1e-12);
+  const FieldTable vh = read("pyaedt_VH.h5");  // MHz
+  ASSERT_THAT(elements_of(vh), ElementsAre(Polarisation::kVh));
+  EXPECT_EQ(vh.cuts[0].values[0].frequency_hz, 9.5e9);
+  expect_exact(vh, 1e-12);
+}
+
 TEST(Exports, ThatContradictTheSettingsAreRefused) {
   FieldTableSettings settings;
   settings.frequency_hz = 5e9;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/field_tables/first_rows.h"
+#include "sim/field_tables/rows/first_rows.h"
 
 #include <algorithm>
 

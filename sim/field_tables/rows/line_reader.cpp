@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/field_tables/line_reader.h"
+#include "sim/field_tables/rows/line_reader.h"
 
 #include <fmt/format.h>
 

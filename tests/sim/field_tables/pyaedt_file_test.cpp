@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "sim/core/process/error.h"
+#include "sim/core/process/file.h"
+#include "sim/field_tables/read_field_table.h"
+#include "sim/field_tables/rows/pandas_table.h"
+#include "tests/temporary_folder.h"
+
+namespace seaglint {
+namespace {
+
+using testing::HasSubstr;
+
+const std::filesystem::path kFolder = std::filesystem::path(SEAGLINT_SOURCE_DIR) / "tests/cases/exports";
+
+// The message with which a file is refused, which is all that is said.
+std::string refusal(const std::filesystem::path& file, const FieldTableSettings& settings = {}) {
+  testing::internal::CaptureStderr();
+  std::string message = "read";
+  try {
+    read_field_table(file, settings);
+  } catch (const InputError& error) {
+    message = error.what();
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  return message;
+}
+
+std::string json_with(const std::string& file, const std::string& unit) {
+  return R"({"monostatic_file": )" + file + R"(, "frequency_units": )" + unit + "}";
+}
+
+TEST(PyaedtFile, IsRefusedWithWhatIsWrongInItsJson) {
+  const TemporaryFolder folder;
+  const std::filesystem::path json = folder.path() / "a.json";
+  const auto refused = [&](const std::string& text) {
+    write_file(json, text);
+    return refusal(json);
+  };
+  EXPECT_THAT(refused(json_with("\"../a.h5\"", "\"GHz\"")), HasSubstr("must be the name of a file in the same folder"));
+  EXPECT_THAT(refused(json_with("\"\"", "\"GHz\"")), HasSubstr("must be the name of a file in the same folder"));
+  EXPECT_THAT(refused(json_with("7", "\"GHz\"")), HasSubstr("monostatic_file 7: must be"));
+  EXPECT_THAT(refused(json_with("null", "\"GHz\"")), HasSubstr("only the geometry was exported"));
+  EXPECT_THAT(refused(json_with("\"a.h5\"", "\"GHz\"")), HasSubstr("'a.h5': no such HDF5 file beside it"));
+  EXPECT_THAT(refused(R"({"monostatic_file": "a.h5")"), HasSubstr("a.json: no valid JSON from byte"));
+  std::filesystem::copy_file(kFolder / "pyaedt_VV.h5", folder.path() / "a.h5");
+  EXPECT_THAT(refused(json_with("\"a.h5\"", "\"GHz\"")), HasSubstr("a.json: does not say its polarisation"));
+  EXPECT_THAT(refused(R"({"monostatic_file": "a.h5"})"), HasSubstr("does not say its polarisation"));
+}
+
+TEST(PyaedtFile, TakesItsPolarisationFromTheSettingsAndItsUnitFromTheJson) {
+  const TemporaryFolder folder;
+  std::filesystem::copy_file(kFolder / "pyaedt_VV.h5", folder.path() / "a.h5");
+  FieldTableSettings hh;
+  hh.elements = {Polarisation::kHh};
+  EXPECT_THAT(refusal(folder.path() / "a.h5", hh), HasSubstr("a JSON beside it whose monostatic_file is 'a.h5'"));
+  write_file(folder.path() / "a.json", json_with("\"other.h5\"", "\"GHz\""));
+  write_file(folder.path() / "b.json", json_with("\"a.h5\"", "\"cycles\""));
+  EXPECT_THAT(refusal(folder.path() / "a.h5", hh), HasSubstr("b.json: frequency_units \"cycles\": must be GHz"));
+  write_file(folder.path() / "b.json", json_with("\"a.h5\"", "\"Hz\""));
+  const FieldTable table = read_field_table(folder.path() / "a.h5", hh);
+  EXPECT_EQ(table.cuts.at(0).element, Polarisation::kHh);
+  EXPECT_EQ(table.cuts[0].values.at(0).frequency_hz, 9.5);
+  FieldTableSettings vv;
+  vv.elements = {Polarisation::kVv};
+  EXPECT_THAT(refusal(kFolder / "pyaedt_VH.json", vv), HasSubstr("is vh by its name, which is not wanted"));
+}
+
+TEST(PyaedtFile, ThatIsCutOffIsRefused) {
+  const TemporaryFolder folder;
+  const std::string whole = read_file(kFolder / "pyaedt_VV.h5");
+  write_file(folder.path() / "pyaedt_VV.json", read_file(kFolder / "pyaedt_VV.json"));
+  for (std::size_t bytes = 8; bytes < whole.size(); bytes += 97) {
+    write_file(folder.path() / "pyaedt_VV.h5", whole.substr(0, bytes));
+    EXPECT_THAT(refusal(folder.path() / "pyaedt_VV.json"), HasSubstr("pyaedt_VV.h5: not a whole HDF5 file"));
+  }
+}
+
+TEST(PandasTable, HasTheRowsThatWereWritten) {
+  const TemporaryFolder folder;
+  std::vector<PandasRow> rows;
+  for (int n = 0; n < 3000; ++n) rows.push_back({9.5 + n / 7.0, 85.1, n / 3.0, {1.0 / (n + 1), -n * 1e-7}});
+  const std::string bytes = pandas_table_bytes(rows);
+  EXPECT_EQ(bytes, pandas_table_bytes(rows));
+  write_file(folder.path() / "t.h5", bytes);
+  ASSERT_TRUE(is_hdf5_file(folder.path() / "t.h5"));
+  const std::vector<PandasRow> read = read_pandas_table(folder.path() / "t.h5");
+  ASSERT_EQ(read.size(), rows.size());
+  for (std::size_t n = 0; n < rows.size(); ++n) {
+    EXPECT_EQ(read[n].frequency, rows[n].frequency);
+    EXPECT_EQ(read[n].theta_deg, rows[n].theta_deg);
+    EXPECT_EQ(read[n].phi_deg, rows[n].phi_deg);
+    EXPECT_EQ(read[n].value, rows[n].value);
+  }
+}
+
+}  // namespace
+}  // namespace seaglint
