@@ -120,6 +120,24 @@ TEST_F(CompareCommand, OfAFileWithItselfFindsNoDifference) {
   }
 }
 
+// What `rcs` writes for other programs is read back as the same sweep.
+TEST_F(CompareCommand, OfTheFilesForOtherProgramsFindsNoDifference) {
+  ASSERT_EQ(run_program({"rcs", "--target", kReflector, "--frequency-ghz", "9.5:10.5:0.5", "--azimuth-deg", "0:30:10",
+                         "--elevation-deg", "2:5:3", "-o", path("own.csv"), "--export-as", "feko", "--export-as", "cst",
+                         "--export-as", "pyaedt"})
+                .code,
+            0);
+  for (const char* name : {"own_v.ffe", "own VH.json", "own (f = 10), theta = (85,88,3), phi = (0,30,10), HP.txt"}) {
+    SCOPED_TRACE(name);
+    std::vector<std::string> words{"compare",        path(name), "--against",         path("own.csv"), "--as-is",
+                                   "--tolerance-db", "0.001",    "--min-correlation", "0.999999",      "-o",
+                                   path("compared")};
+    const ProgramResult result = run_program(words);
+    EXPECT_EQ(result.code, 0) << result.err << result.out;
+  }
+  EXPECT_TRUE(std::filesystem::exists(path("own_h.ffe")));
+}
+
 TEST_F(CompareCommand, SuggestsWhatIsWrongWithLevels) {
   const std::string head = "# transmitter=monostatic\nfrequency_hz,azimuth_deg,elevation_deg,hh_dbsm\n";
   std::string here = head, in_mm = head, doubled = head, mirrored = head;

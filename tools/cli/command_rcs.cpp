@@ -23,6 +23,7 @@
 #include "tools/rcs/rcs_table.h"
 #include "tools/rcs/rcs_uncertainty.h"
 #include "tools/rcs/rcs_views.h"
+#include "tools/rcs/sweep_files.h"
 #include "tools/rcs/view_export.h"
 
 namespace seaglint {
@@ -111,6 +112,10 @@ void run_rcs(const RcsArguments& arguments, const CommandContext& context) {
   warn(uncertain);
   warnings.insert(warnings.end(), uncertain.begin(), uncertain.end());
   write_file(arguments.output, rcs_table(request, *target.prepared.scatterer, sweep, warnings));
+  for (const std::string& format : arguments.export_as) {
+    for (const std::filesystem::path& file : write_sweep_as(format, sweep, arguments.output))
+      print_out("{}\n", file.string());
+  }
   const double million_segments = 1e-6 * static_cast<double>(result.segments),
                views = static_cast<double>(sweep.views());
   print_error(fmt::format("{}: {} rows, {} views in {:.2f} s ({:.3g} views/s, {:.2f} M beam segments, {:.2f} M/s)\n",

@@ -195,6 +195,14 @@ void RcsArguments::add_to(CommandOptions& command) {
   add_cavity_options(command, request.cavities);
   add_sea_options(command, *this);
   command.add_option("-o,--output", output, "CSV file to write").required();
+  command
+      .add_option(
+          "--export-as", export_as,
+          "Also write the sweep beside the table as another program does (repeatable): feko (.ffe), cst (farfield "
+          "tables in dB(m^2)), pyaedt (.json with a pandas .h5)")
+      .repeatable("FORMAT")
+      .one_of({"feko", "cst", "pyaedt"})
+      .group("Selection and export");
   add_selection_options(command, request.selection);
   add_export_options(command, request.exports);
   reference.add_to(command);

@@ -18,6 +18,7 @@ struct RcsArguments {
   std::string target, frequency_ghz, azimuth_deg, elevation_deg = "0", edges = "on", crease_deg = "auto", output;
   std::optional<double> transmit_azimuth_deg, transmit_elevation_deg;
   std::vector<std::string> materials;  // NAME or PART=NAME
+  std::vector<std::string> export_as;  // feko, cst, pyaedt
   std::string sea_surface = "sea_water", sea_paths = "all";
   ReferenceArguments reference;
 
