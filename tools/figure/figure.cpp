@@ -24,8 +24,6 @@
 #include "sim/core/process/memory_file.h"
 #include "tools/figure/deferred_signals.h"
 
-extern char** environ;
-
 namespace seaglint {
 namespace {
 
