@@ -95,7 +95,7 @@ Series silhouette(const TriangleMesh& mesh, const Pose& pose) {
       const Vec3& a = mesh.vertices[triangle[e]];
       const Vec3& b = mesh.vertices[triangle[(e + 1) % 3]];
       const auto bin = [&](double x) {
-        return std::clamp(static_cast<int>((x - box.lower.x()) / width), 0, kBins - 1);
+        return width > 0 ? std::clamp(static_cast<int>((x - box.lower.x()) / width), 0, kBins - 1) : 0;
       };
       const int first = bin(std::min(a.x(), b.x())), last = bin(std::max(a.x(), b.x()));
       for (int i = first; i <= last; ++i) {
