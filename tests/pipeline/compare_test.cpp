@@ -162,6 +162,26 @@ TEST_F(CompareCommand, SuggestsWhatIsWrongWithLevels) {
   EXPECT_THAT(warnings(here), Not(HasSubstr("warning")));
 }
 
+// Three points in a row along the line of sight, and the same 1.3 times as far apart.
+TEST_F(CompareCommand, SuggestsAMeshOfAnotherSize) {
+  const auto table = [](double scale) {
+    std::string csv = "# transmitter=monostatic\nfrequency_hz,azimuth_deg,elevation_deg,hh_re,hh_im\n";
+    for (int n = 0; n <= 100; ++n) {
+      const double f = 9e9 + 1e7 * n, k = 2 * std::numbers::pi * f / 299792458.0;
+      Complex s = 0;
+      for (const double x : {-2.0, 0.6, 3.1}) s += scale * std::polar(1.0, 2 * k * x * scale);
+      csv += fmt::format("{},0,0,{},{}\n", f, s.real(), s.imag());
+    }
+    return csv;
+  };
+  write_file(path("here.csv"), table(1));
+  write_file(path("other.csv"), table(1.3));
+  const ProgramResult result =
+      run_program({"compare", path("other.csv"), "--against", path("here.csv"), "--as-is", "-o", path("compared")});
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("the export's mesh is 1.3"));
+}
+
 TEST_F(CompareCommand, FailsBelowItsLimits) {
   const std::string file = kExports + "monostatic.ffe";
   const ProgramResult result =

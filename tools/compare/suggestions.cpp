@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "sim/core/numbers/constants.h"
+#include "tools/compare/range_profiles.h"
 
 namespace seaglint {
 namespace {
@@ -152,6 +153,52 @@ void suggest_azimuth(const PairedCut& cut, const Levels& levels, std::vector<std
   }
 }
 
+// Profile at ranges r / scale, in dB, linearly interpolated; that of the floor outside.
+std::vector<double> stretched(const RangeProfile& profile, double scale, double floor_db) {
+  std::vector<double> levels;
+  const double first = profile.range_m.front(), step = profile.range_m[1] - first;
+  for (const double range : profile.range_m) {
+    const double at = (range / scale - first) / step;
+    const double whole = std::floor(at);
+    const bool inside = whole >= 0 && whole + 1 < static_cast<double>(profile.range_m.size());
+    if (!inside) {
+      levels.push_back(floor_db);
+      continue;
+    }
+    const auto i = static_cast<std::size_t>(whole);
+    const double level = profile.level_dbsm[i] + (at - whole) * (profile.level_dbsm[i + 1] - profile.level_dbsm[i]);
+    levels.push_back(std::max(level, floor_db));
+  }
+  return levels;
+}
+
+// A mesh of another size stretches the range profile about the phase origin.
+void suggest_size(const PairedCut& cut, std::vector<std::string>& sentences) {
+  constexpr double kDynamic_db = 30;
+  constexpr int kSteps = 70;  // of 1 % to either side
+  if (cut.axis != CutAxis::kFrequency || cut.amplitude_m.empty() || cut.models[0].amplitude_m.empty()) return;
+  const RangeProfile reference = range_profile(cut.places, cut.amplitude_m),
+                     compared = range_profile(cut.places, cut.models[0].amplitude_m);
+  if (reference.range_m.size() < 2) return;
+  const auto clipped = [&](const RangeProfile& profile, double scale) {
+    const double highest = *std::max_element(profile.level_dbsm.begin(), profile.level_dbsm.end());
+    return stretched(profile, scale, highest - kDynamic_db);
+  };
+  const std::vector<double> wanted = clipped(reference, 1);
+  const double as_is = correlation_of(wanted, clipped(compared, 1));
+  double best = std::max(as_is + kBetterCorrelation, kGoodCorrelation), size = 1;
+  for (int n = -kSteps; n <= kSteps; ++n) {
+    const double scale = std::pow(1.01, n), correlation = correlation_of(wanted, clipped(compared, scale));
+    if (correlation <= best) continue;
+    best = correlation;
+    size = scale;
+  }
+  if (size == 1) return;
+  sentences.push_back(fmt::format(
+      "range profiles fit better if the export's mesh is {:.2f} times as large (correlation {:.2f}, as it is {:.2f})",
+      size, best, as_is));
+}
+
 void suggest_conventions(const Alignment& alignment, const std::vector<PairedCut>& cuts,
                          std::vector<std::string>& sentences) {
   constexpr double kMeaningful = 0.5;  // least correlation
@@ -196,6 +243,7 @@ std::vector<std::string> suggestions(const std::vector<PairedCut>& cuts, const s
   suggest_unit(line, sentences);
   suggest_scale(line, sentences);
   suggest_azimuth(*longest, levels_of(*longest, floor_db), sentences);
+  suggest_size(*longest, sentences);
   return sentences;
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 // What two curves that differ may have different: time factor, signs, origin, unit, scale of the levels, the sense and
-// the zero of the azimuth.
+// the zero of the azimuth, the size of the mesh.
 
 #include <optional>
 #include <string>
