@@ -60,8 +60,9 @@ struct TextTable::Header {
   std::string_view rows;  // the text below
   std::size_t found = 0;  // required columns
 
-  // The names in the row at the front of `text`, with the row of units below them.
-  static Header of(std::string_view text, char separator, const std::vector<TableColumn>& columns) {
+  // The names in the row at the front of `text`, with the row of units below them. Fewer names than `least` have no
+  // keys.
+  static Header of(std::string_view text, char separator, const std::vector<TableColumn>& columns, std::size_t least) {
     Header header;
     header.line = text.substr(0, text.find('\n'));
     header.separator = separator;
@@ -74,7 +75,7 @@ struct TextTable::Header {
     if (!cut_at_separator) return header;
     header.names = row.cells;
     header.rows = text;
-    if (header.names.size() < required_among(columns)) return header;
+    if (header.names.size() < least) return header;
     std::string_view below = text;
     while (!below.empty() && trimmed(below.substr(0, below.find('\n'))).empty()) next_line(below);
     TextRow units = next_row(below, separator);
@@ -123,7 +124,7 @@ std::optional<TextTable::Header> TextTable::find_names(bool in_comments) const {
                              ? line.size()
                              : std::min(text.find_first_not_of(" \t#%/!"), line.size()));
     for (const char separator : kSeparators) {
-      const Header header = Header::of(text, separator, columns_);
+      const Header header = Header::of(text, separator, columns_, required);
       if (header.found == required) {
         if (!numbers.empty() && !in_comments)
           source_.fail(numbers,
@@ -144,7 +145,7 @@ void TextTable::refuse_names() const {
     const std::string_view text = rest, line = next_line(rest);
     if (trimmed(line).empty() || is_comment(line)) continue;
     for (const char separator : kSeparators) {
-      Header header = Header::of(text, separator, columns_);
+      Header header = Header::of(text, separator, columns_, 0);
       const bool better = header.found > best.found || (header.found == best.found && best.line == header.line &&
                                                         header.names.size() > best.names.size());
       if (best.line.data() == nullptr || better) best = std::move(header);
