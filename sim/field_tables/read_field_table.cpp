@@ -97,6 +97,15 @@ void require_own_frequency(const RcsCut& cut, const FieldTableSettings& given, c
   }
 }
 
+// Throws InputError for a value that is not finite, or whose power is not.
+void require_finite(const RcsCut& cut, const std::string& file) {
+  for (const FieldValue& value : cut.values) {
+    if (std::isfinite(value.frequency_hz + value.theta_deg + value.phi_deg + value.level_dbsm)) continue;
+    throw InputError(fmt::format("{}{}: an angle, a frequency or a level is not finite", file,
+                                 value.line > 0 ? fmt::format(":{}", value.line) : std::string()));
+  }
+}
+
 bool same(const DeclaredTransmitter& a, const DeclaredTransmitter& b) {
   return a.is_monostatic == b.is_monostatic &&
          (a.is_monostatic || (a.theta_deg == b.theta_deg && a.phi_deg == b.phi_deg));
@@ -123,6 +132,7 @@ FieldTable read_field_table(const std::filesystem::path& file, const FieldTableS
     throw InputError(fmt::format("{}: contains no values (read as {})", file.string(), table.reader));
   for (RcsCut& cut : table.cuts) {
     cut.name = table.name;
+    require_finite(cut, file.string());
     cut.phi_scale = settings.phi_scale;
     cut.phi_offset_deg = settings.phi_offset_deg;
     if (settings.origin_m) cut.origin_m = *settings.origin_m;

@@ -64,7 +64,7 @@ std::vector<std::filesystem::path> write_sweep_as(const std::string& format, con
     if (format != "pyaedt") break;
     std::string element = kPolarisationNames[static_cast<std::size_t>(cut.element)];
     for (char& c : element) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    const std::string name = stem + " " + element;
+    const std::string name = fmt::format("{} {}", stem, element);
     const PyaedtPair pair = pyaedt_pair(cut, name);
     write(name + ".h5", pair.table);
     write(name + ".json", pair.json);
