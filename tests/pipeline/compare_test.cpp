@@ -56,7 +56,7 @@ std::string disturbed(const FieldTable& table, const Vec3& origin, double phase)
   for (std::size_t i = 0; i < hh.values.size(); ++i)
     power += 0.5 * (std::norm(*hh.values[i].amplitude_m) + std::norm(*vv.values[i].amplitude_m)) /
              static_cast<double>(hh.values.size());
-  Random random({7, Stream::kNetwork, 0});
+  Random random({7, Stream::kTest, 0});
   for (std::size_t i = 0; i < hh.values.size(); ++i) {
     const FieldValue& value = hh.values[i];
     const double azimuth = value.phi_deg, elevation = 90 - value.theta_deg;
@@ -92,7 +92,14 @@ TEST_F(CompareCommand, FindsOffsetOriginTimeFactorAndSigns) {
     EXPECT_TRUE(fitted["conjugated"].get<bool>());
     EXPECT_EQ(fitted["sign"], entry["polarisation"] == "vv" ? -1 : 1);
     EXPECT_NEAR(fitted["offset_db"].get<double>(), 0.7, 0.05);
-    EXPECT_NEAR(fitted["phase_deg"].get<double>(), 0.6 * 180 / std::numbers::pi, 1);
+    // Over 15 deg of azimuth an error of the origin is nearly a constant phase: their sum in the middle of the data is
+    // what they determine, to 0.1 deg by four standard errors of the noise (0.02 / sqrt(2604) rad each) and 0.1 deg by
+    // the mean of the path gradients, which is not exactly that of the middle.
+    const Vec3 fitted_origin(fitted["origin_m"][0], fitted["origin_m"][1], fitted["origin_m"][2]);
+    const Vec3 middle = 4 * std::numbers::pi * 10e9 / 299792458.0 *
+                        direction_to_radar(7.5 * std::numbers::pi / 180, 3.5 * std::numbers::pi / 180);
+    EXPECT_NEAR(fitted["phase_deg"].get<double>() * std::numbers::pi / 180 - middle.dot(fitted_origin - origin), 0.6,
+                0.2 * std::numbers::pi / 180);
     for (int axis = 0; axis < 3; ++axis)
       EXPECT_NEAR(fitted["origin_m"][axis].get<double>(), origin[axis], wavelength / 50);
     EXPECT_THAT(fitted["undetermined"], testing::IsEmpty());

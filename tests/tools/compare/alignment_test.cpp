@@ -18,7 +18,7 @@ namespace {
 std::vector<AlignmentPoint> sweep(const std::vector<double>& ghz, const std::vector<double>& azimuths,
                                   const std::vector<double>& elevations, const std::vector<std::size_t>& elements) {
   std::vector<AlignmentPoint> points;
-  Random random({5, Stream::kNetwork, 1});
+  Random random({5, Stream::kTest, 1});
   std::vector<std::pair<Vec3, std::array<Complex, 4>>> scatterers;
   for (int n = 0; n < 7; ++n) {
     const Vec3 place(2 * random.uniform() - 1, random.uniform() - 0.5, 0.6 * random.uniform());
@@ -52,7 +52,7 @@ std::vector<double> grid(double from, double step, int count) {
 // The reference as another program would write it: 0.7 dB higher, about another origin, with a constant phase, with
 // noise 30 dB below the mean power.
 void disturb(std::vector<AlignmentPoint>& points, const Vec3& origin, double phase, bool conjugate, int vv_sign) {
-  Random random({6, Stream::kNetwork, 1});
+  Random random({6, Stream::kTest, 1});
   double power = 0;
   for (const AlignmentPoint& p : points) power += std::norm(p.computed_m);
   const double noise = std::sqrt(power / static_cast<double>(points.size()) * 1e-3 / 2);
