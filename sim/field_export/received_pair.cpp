@@ -12,11 +12,6 @@ namespace {
 
 const char* name_of(Polarisation element) { return kPolarisationNames[static_cast<int>(element)]; }
 
-bool same(const DeclaredTransmitter& a, const DeclaredTransmitter& b) {
-  return a.is_monostatic == b.is_monostatic &&
-         (a.is_monostatic || (a.theta_deg == b.theta_deg && a.phi_deg == b.phi_deg));
-}
-
 bool same_place(const FieldValue& a, const FieldValue& b) {
   return a.frequency_hz == b.frequency_hz && a.theta_deg == b.theta_deg && a.phi_deg == b.phi_deg;
 }
@@ -40,7 +35,7 @@ std::vector<ReceivedPair> received_pairs(std::span<const RcsCut> cuts, bool tran
     if (v.element != of_v) continue;
     require_complete(v, format);
     const auto h = std::find_if(cuts.begin(), cuts.end(), [&](const RcsCut& other) {
-      return other.element == of_h && other.transmitter && same(*other.transmitter, *v.transmitter);
+      return other.element == of_h && other.transmitter && *other.transmitter == *v.transmitter;
     });
     if (h == cuts.end()) break;
     require_complete(*h, format);

@@ -20,7 +20,7 @@ constexpr double kFloor_dbsm = -200;
 double level(const Complex& s) { return std::max(dbsm(s), kFloor_dbsm); }
 
 double phase_deg(const Complex& s) {
-  const double phase = std::arg(s) * 180 / kPi;
+  const double phase = degrees(std::arg(s));
   return phase < 0 ? phase + 360 : phase;
 }
 

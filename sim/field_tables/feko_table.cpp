@@ -107,9 +107,7 @@ bool same_direction(double theta, double phi, const std::array<double, 2>& other
 // The cut of an element and transmitter, made where it is missing.
 RcsCut& cut_for(FieldTable& table, Polarisation element, const DeclaredTransmitter& transmitter) {
   const auto place = std::find_if(table.cuts.begin(), table.cuts.end(), [&](const RcsCut& cut) {
-    return cut.element == element && cut.transmitter->is_monostatic == transmitter.is_monostatic &&
-           (transmitter.is_monostatic ||
-            (cut.transmitter->theta_deg == transmitter.theta_deg && cut.transmitter->phi_deg == transmitter.phi_deg));
+    return cut.element == element && *cut.transmitter == transmitter;
   });
   if (place != table.cuts.end()) return *place;
   RcsCut& cut = table.cuts.emplace_back();

@@ -40,6 +40,11 @@ inline constexpr double kMinLevel_dbsm = -1000;  // of an exact zero
 struct DeclaredTransmitter {
   bool is_monostatic = true;  // at the receiver; the angles are then unused
   double theta_deg = 0, phi_deg = 0;
+
+  bool operator==(const DeclaredTransmitter& other) const {
+    return is_monostatic == other.is_monostatic &&
+           (is_monostatic || (theta_deg == other.theta_deg && phi_deg == other.phi_deg));
+  }
 };
 
 // Properties that a file does not state itself, and the relation of its angles to those of the body.

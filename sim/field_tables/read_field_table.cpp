@@ -106,14 +106,9 @@ void require_finite(const RcsCut& cut, const std::string& file) {
   }
 }
 
-bool same(const DeclaredTransmitter& a, const DeclaredTransmitter& b) {
-  return a.is_monostatic == b.is_monostatic &&
-         (a.is_monostatic || (a.theta_deg == b.theta_deg && a.phi_deg == b.phi_deg));
-}
-
 // Throws InputError if an incident wave is given that differs from the file's.
 void require_own_transmitter(const RcsCut& cut, const FieldTableSettings& given, const std::string& file) {
-  if (!cut.transmitter || same(*cut.transmitter, *given.transmitter)) return;
+  if (!cut.transmitter || *cut.transmitter == *given.transmitter) return;
   throw InputError(fmt::format("{}: is {}: remove --incidence", file,
                                cut.transmitter->is_monostatic
                                    ? std::string("monostatic")

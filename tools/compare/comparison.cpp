@@ -159,36 +159,28 @@ ElementStatistics statistics_of(const std::vector<PairedCut>& cuts, Polarisation
       highest = std::max(highest, *std::max_element(cut.level_dbsm.begin(), cut.level_dbsm.end()));
   }
   const double floor = highest - floor_db;
+  DifferenceSum sum;
   std::vector<double> sizes;
   std::vector<ElementStatistics::Worst> all;
-  Complex product = 0;
-  double reference_power = 0, compared_power = 0;
   for (const PairedCut& cut : cuts) {
     if (cut.element != element) continue;
     add_extrema(cut, highest, floor, statistics);
     for (std::size_t i = 0; i < cut.places.size(); ++i) {
-      const double difference = std::max(cut.models[0].level_dbsm[i], floor) - std::max(cut.level_dbsm[i], floor);
-      statistics.bias_db += difference;
-      statistics.mean_abs_db += std::abs(difference);
-      statistics.rms_db += difference * difference;
+      const double difference = sum.add(cut.models[0].level_dbsm[i], cut.level_dbsm[i], floor, cut.x[i]);
       sizes.push_back(std::abs(difference));
       all.push_back({difference, cut.places[i], {}});
-      if (!has_phases(cut)) continue;
-      product += std::conj(cut.amplitude_m[i]) * cut.models[0].amplitude_m[i];
-      reference_power += std::norm(cut.amplitude_m[i]);
-      compared_power += std::norm(cut.models[0].amplitude_m[i]);
+      if (has_phases(cut)) sum.add_phases(cut.models[0].amplitude_m[i], cut.amplitude_m[i]);
     }
   }
-  statistics.pairs = sizes.size();
-  const double n = static_cast<double>(sizes.size());
-  statistics.bias_db /= n;
-  statistics.mean_abs_db /= n;
-  statistics.rms_db = std::sqrt(statistics.rms_db / n);
-  const std::size_t rank = static_cast<std::size_t>(std::ceil(0.95 * n)) - 1;
-  std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(rank), sizes.end());
-  statistics.p95_db = sizes[rank];
-  if (reference_power > 0 && compared_power > 0)
-    statistics.correlation = std::abs(product) / std::sqrt(reference_power * compared_power);
+  const Difference difference = sum.difference();
+  statistics.pairs = difference.points;
+  statistics.bias_db = difference.bias_db;
+  statistics.mean_abs_db = difference.mean_db;
+  statistics.rms_db = difference.rms_db;
+  if (difference.correlation) statistics.correlation = std::abs(*difference.correlation);
+  const auto rank = static_cast<std::ptrdiff_t>(std::ceil(0.95 * static_cast<double>(sizes.size()))) - 1;
+  std::nth_element(sizes.begin(), sizes.begin() + rank, sizes.end());
+  statistics.p95_db = sizes[static_cast<std::size_t>(rank)];
   const std::size_t count = std::min(kWorst, all.size());
   std::partial_sort(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count), all.end(),
                     [](const auto& a, const auto& b) { return std::abs(a.difference_db) > std::abs(b.difference_db); });
@@ -298,7 +290,7 @@ ExportComparison compare_with_target(const FieldTable& table, const RcsRequest& 
       solved.azimuth_deg = grid.azimuth_deg;
       solved.elevation_deg = grid.elevation_deg;
       RcsSweep sweep = requested_sweep(solved);
-      say(fmt::format("{}: {} x {} frequencies x directions, {}", table.name, grid.frequency_hz.size(), sweep.views(),
+      say(fmt::format("{}: frequencies {}, directions {}, {}", table.name, grid.frequency_hz.size(), sweep.views(),
                       solved.transmitter
                           ? fmt::format("transmitter at azimuth {:g} deg, elevation {:g} deg",
                                         solved.transmitter->azimuth_deg, solved.transmitter->elevation_deg)
@@ -324,7 +316,7 @@ ExportComparison compare_with_table(const FieldTable& table, const FieldTable& o
   for (const RcsCut& cut : table.cuts) {
     for (const RcsCut& values : other.cuts) {
       if (values.element != cut.element) continue;
-      if (key_of(stated_transmitter(cut)) != key_of(stated_transmitter(values))) continue;
+      if (stated_transmitter(cut) != stated_transmitter(values)) continue;
       const std::size_t first = comparison.cuts.size();
       for (const RcsSweep& sweep : sweeps_of(cut, values)) pair(sweep, cut, comparison.cuts);
       for (std::size_t i = first; i < comparison.cuts.size() && !values.has_phase(); ++i)

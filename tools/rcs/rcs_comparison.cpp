@@ -28,36 +28,42 @@ std::string upper(std::string text) {
 
 }  // namespace
 
-Difference error_statistics(const PairedCut& cut, const PairedCut::Model& model, double floor_db) {
-  Difference d;
-  d.points = cut.x.size();
-  const double floor = *std::max_element(cut.level_dbsm.begin(), cut.level_dbsm.end()) - floor_db;
-  double squares = 0;
-  for (std::size_t i = 0; i < cut.x.size(); ++i) {
-    const double difference = std::max(model.level_dbsm[i], floor) - std::max(cut.level_dbsm[i], floor);
-    d.mean_db += std::abs(difference);
-    d.bias_db += difference;
-    squares += difference * difference;
-    if (std::abs(difference) > std::abs(d.largest_db)) {
-      d.largest_db = difference;
-      d.largest_at = cut.x[i];
-    }
+double DifferenceSum::add(double computed_dbsm, double reference_dbsm, double floor_dbsm, double x) {
+  const double difference = std::max(computed_dbsm, floor_dbsm) - std::max(reference_dbsm, floor_dbsm);
+  ++sums_.points;
+  sums_.mean_db += std::abs(difference);
+  sums_.bias_db += difference;
+  sums_.rms_db += difference * difference;
+  if (std::abs(difference) > std::abs(sums_.largest_db)) {
+    sums_.largest_db = difference;
+    sums_.largest_at = x;
   }
+  return difference;
+}
+
+void DifferenceSum::add_phases(const Complex& computed, const Complex& reference) {
+  product_ += std::conj(reference) * computed;
+  computed_power_ += std::norm(computed);
+  reference_power_ += std::norm(reference);
+}
+
+Difference DifferenceSum::difference() const {
+  Difference d = sums_;
   const double n = static_cast<double>(d.points);
   d.mean_db /= n;
   d.bias_db /= n;
-  d.rms_db = std::sqrt(squares / n);
-  if (!cut.amplitude_m.empty()) {
-    Complex product = 0;
-    double model_power = 0, reference_power = 0;
-    for (std::size_t i = 0; i < cut.x.size(); ++i) {
-      product += std::conj(cut.amplitude_m[i]) * model.amplitude_m[i];
-      model_power += std::norm(model.amplitude_m[i]);
-      reference_power += std::norm(cut.amplitude_m[i]);
-    }
-    if (model_power > 0 && reference_power > 0) d.correlation = product / std::sqrt(model_power * reference_power);
-  }
+  d.rms_db = std::sqrt(d.rms_db / n);
+  if (computed_power_ > 0 && reference_power_ > 0)
+    d.correlation = product_ / std::sqrt(computed_power_ * reference_power_);
   return d;
+}
+
+Difference error_statistics(const PairedCut& cut, const PairedCut::Model& model, double floor_db) {
+  const double floor = *std::max_element(cut.level_dbsm.begin(), cut.level_dbsm.end()) - floor_db;
+  DifferenceSum sum;
+  for (std::size_t i = 0; i < cut.x.size(); ++i) sum.add(model.level_dbsm[i], cut.level_dbsm[i], floor, cut.x[i]);
+  for (std::size_t i = 0; i < cut.amplitude_m.size(); ++i) sum.add_phases(model.amplitude_m[i], cut.amplitude_m[i]);
+  return sum.difference();
 }
 
 namespace {

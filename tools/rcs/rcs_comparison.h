@@ -22,6 +22,20 @@ struct Difference {
   std::optional<Complex> correlation;  // <conj(reference) computed> / (|reference| |computed|)
 };
 
+// Sums the differences of pairs of values.
+class DifferenceSum {
+ public:
+  // Both levels are raised to at least floor_dbsm; x is where they stand. Returns computed - reference, dB.
+  double add(double computed_dbsm, double reference_dbsm, double floor_dbsm, double x);
+  void add_phases(const Complex& computed, const Complex& reference);
+  Difference difference() const;  // of at least one pair
+
+ private:
+  Difference sums_;
+  Complex product_ = 0;
+  double computed_power_ = 0, reference_power_ = 0;
+};
+
 // Statistics after levels of both are raised to at least floor_db below the reference maximum (error measure of the
 // Austin suite, with 80 dB).
 Difference error_statistics(const PairedCut& cut, const PairedCut::Model& model, double floor_db);
