@@ -127,6 +127,82 @@ TEST_F(CompareCommand, OfAFileWithItselfFindsNoDifference) {
   }
 }
 
+// A table at other azimuths is interpolated on request; the reflector is within 0.6 m.
+TEST_F(CompareCommand, InterpolatesOnRequest) {
+  const auto table = [&](const std::string& name, const std::string& azimuths) {
+    const ProgramResult result = run_program({"rcs", "--target", kReflector, "--frequency-ghz", "9.5:10.5:0.5",
+                                              "--azimuth-deg", azimuths, "-o", path(name)});
+    ASSERT_EQ(result.code, 0) << result.err;
+  };
+  table("fine.csv", "0:15:0.25");
+  table("other.csv", "0.1:14:0.5");
+  std::vector<std::string> words{"compare", path("other.csv"), "--against", path("fine.csv"), "--as-is",
+                                 "-o",      path("compared")};
+  expect_refused(words, "nothing is interpolated without --interpolate METRES");
+  words.insert(words.end(), {"--interpolate", "0.6"});
+  const ProgramResult result = run_program(words);
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("fine.csv: interpolated at "));
+  for (const auto& entry : compared()["exports"]) {
+    EXPECT_EQ(entry["interpolation"]["omitted"], 0);
+    EXPECT_EQ(entry["interpolation"]["radius_m"], 0.6);
+    EXPECT_LT(entry["interpolation"]["standard_error"], 0.05);
+    if (entry["polarisation"] == "vv" || entry["polarisation"] == "hh") {
+      EXPECT_GT(entry["correlation"].get<double>(), 1 - 1e-3);
+    }
+  }
+  words.back() = std::string("6");
+  expect_refused(words, "needs steps below");
+  expect_refused({"compare", path("other.csv"), "--target", kReflector, "--interpolate", "1", "-o", path("compared")},
+                 "--interpolate is for --against");
+}
+
+// NumPy's file of a bistatic sweep has the values of the table.
+TEST_F(CompareCommand, OpensTheSolvedValuesInNumPy) {
+  if (run_words({kPython, "-c", "import numpy"}).code != 0) GTEST_SKIP() << "needs the package python3-numpy";
+  ASSERT_EQ(run_program({"rcs", "--target", kReflector, "--frequency-ghz", "9.5:10.5:0.5", "--azimuth-deg", "0:30:10",
+                         "--elevation-deg", "2:5:3", "--transmit-azimuth-deg", "40", "--transmit-elevation-deg", "-3",
+                         "-o", path("own.csv"), "--export-as", "npz"})
+                .code,
+            0);
+  const ProgramResult result = run_words({kPython, "-W", "error", "-c", R"(
+import csv, json, numpy, sys
+solved = numpy.load(sys.argv[1])
+rows = list(csv.DictReader(line for line in open(sys.argv[2]) if not line.startswith('#')))
+S = solved['S']
+assert S.shape == (len(rows), 2, 2) and S.dtype == 'complex128', S.shape
+assert set(solved['transmit_azimuth_deg']) == {40.0} and numpy.allclose(solved['transmit_elevation_deg'], -3, atol=1e-12)
+places = {(f, a, round(e, 9)): s for f, a, e, s in
+          zip(solved['frequency_hz'], solved['azimuth_deg'], solved['elevation_deg'], S)}
+for row in rows:
+    s = places[float(row['frequency_hz']), float(row['azimuth_deg']), float(row['elevation_deg'])]
+    for p, received in enumerate('hv'):
+        for q, transmitted in enumerate('hv'):
+            pair = received + transmitted
+            assert abs(s[p, q] - complex(float(row[pair + '_re']), float(row[pair + '_im']))) <= 2e-8 * abs(S).max(), pair
+)",
+                                          path("own.npz"), path("own.csv")});
+  EXPECT_EQ(result.code, 0) << result.err;
+}
+
+// The solved values of a comparison, of two transmitters.
+TEST_F(CompareCommand, WritesTheSolvedValuesForOtherPrograms) {
+  const ProgramResult result = run_program({"compare", kExports + "bistatic.ffe", "--target", kReflector, "--export-as",
+                                            "feko", "--export-as", "npz", "-o", path("compared")});
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("solved.npz"));
+  const ProgramResult again =
+      run_program({"compare", path("compared/solved_v.ffe"), "--target", kReflector, "--as-is", "--tolerance-db",
+                   "0.001", "--min-correlation", "0.999999", "-o", path("again")});
+  EXPECT_EQ(again.code, 0) << again.err << again.out;
+  expect_refused(
+      {"compare", kExports + "bistatic.ffe", "--target", kReflector, "--export-as", "pyaedt", "-o", path("compared")},
+      "--export-as pyaedt: these files hold monostatic values only");
+  expect_refused({"compare", kExports + "bistatic.ffe", "--against", kExports + "bistatic.ffe", "--export-as", "npz",
+                  "-o", path("compared")},
+                 "--export-as is for --target");
+}
+
 // What `rcs` writes for other programs is read back as the same sweep.
 TEST_F(CompareCommand, OfTheFilesForOtherProgramsFindsNoDifference) {
   ASSERT_EQ(run_program({"rcs", "--target", kReflector, "--frequency-ghz", "9.5:10.5:0.5", "--azimuth-deg", "0:30:10",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -21,6 +22,7 @@
 #include "tools/options/rcs_arguments.h"
 #include "tools/pipeline/output_files.h"
 #include "tools/pipeline/warnings.h"
+#include "tools/rcs/sweep_files.h"
 
 namespace seaglint {
 namespace {
@@ -29,7 +31,7 @@ struct CompareArguments {
   RcsArguments rcs;  // of the target
   ReferenceArguments exports;
   std::string against, directory;
-  std::optional<double> tolerance_db, min_correlation;
+  std::optional<double> tolerance_db, min_correlation, interpolation_radius_m;
   bool as_is = false;
 };
 
@@ -128,17 +130,43 @@ void require_results(const CompareArguments& arguments) {
   require_figure(directory / "compare.png");
 }
 
+bool has_bistatic_cut(const std::vector<FieldTable>& tables) {
+  return std::any_of(tables.begin(), tables.end(), [](const FieldTable& table) {
+    return std::any_of(table.cuts.begin(), table.cuts.end(),
+                       [](const RcsCut& cut) { return cut.transmitter && !cut.transmitter->is_monostatic; });
+  });
+}
+
+// Those of the first export as DIR/solved..., of the others as DIR/solved_2... and so on.
+std::vector<std::filesystem::path> write_solved(const std::vector<ExportComparison>& comparisons,
+                                                const CompareArguments& arguments) {
+  std::vector<std::filesystem::path> files;
+  for (std::size_t i = 0; i < comparisons.size(); ++i) {
+    const std::string stem = i == 0 ? "solved" : fmt::format("solved_{}", i + 1);
+    for (const std::string& format : arguments.rcs.export_as) {
+      const auto written = write_cuts_as(format, comparisons[i].solved, arguments.directory, stem);
+      files.insert(files.end(), written.begin(), written.end());
+    }
+  }
+  return files;
+}
+
 void run_compare(const CompareArguments& arguments, const CommandContext& context) {
   if (arguments.rcs.target.empty() == arguments.against.empty())
     throw InputError("compare: give either --target MESH or --against FILE");
+  if (arguments.interpolation_radius_m && arguments.against.empty())
+    throw InputError("--interpolate is for --against: a mesh is solved at the angles of the export");
   const std::vector<FieldTable> tables = read_and_report(arguments.exports);
+  if (!arguments.rcs.export_as.empty() && arguments.rcs.target.empty())
+    throw InputError("--export-as is for --target: it writes the solved values");
+  require_export_formats(arguments.rcs.export_as, has_bistatic_cut(tables));
   const Counterpart counterpart = counterpart_of(arguments, tables);
   require_results(arguments);
 
-  const ComparisonSettings settings{arguments.exports.floor_db, arguments.as_is};
+  const ComparisonSettings settings{arguments.exports.floor_db, arguments.as_is, arguments.interpolation_radius_m};
   std::vector<ExportComparison> comparisons;
   for (const FieldTable& table : tables) {
-    comparisons.push_back(counterpart.table ? compare_with_table(table, *counterpart.table, settings)
+    comparisons.push_back(counterpart.table ? compare_with_table(table, *counterpart.table, settings, context.threads)
                                             : compare_with_target(table, counterpart.request, *counterpart.target,
                                                                   settings, context.threads, context.stop, say));
   }
@@ -147,7 +175,9 @@ void run_compare(const CompareArguments& arguments, const CommandContext& contex
   const ComparisonFigures figures = draw(comparisons, settings, directory);
   write_file(directory / "compare.html", comparison_page(comparisons, settings, figures));
   write_file(directory / "compare.json", comparison_json(comparisons, settings).dump(2) + "\n");
+  const std::vector<std::filesystem::path> solved = write_solved(comparisons, arguments);
   print_out("{}", comparison_table(comparisons, settings));
+  for (const std::filesystem::path& file : solved) print_out("Solved values: {}\n", file.string());
   print_out("Results: {}; all figures in compare.json, every pair in compare.csv\n",
             (directory / "compare.html").string());
   const std::vector<std::string> failed = failures(comparisons, arguments);
@@ -167,10 +197,17 @@ void add_compare(CommandOptions& program, CommandContext& context) {
       .required();
   arguments->rcs.add_target_to(command);
   command.add_option("--against", arguments->against, "Another such file, instead of a mesh");
+  command
+      .add_option(
+          "--interpolate", arguments->interpolation_radius_m,
+          "Interpolate the values of --against at the angles of EXPORT, for a target within this many metres of "
+          "its phase origin; the error is estimated, places above -26 dB are omitted")
+      .number_within(1e-3, 1e4);
   arguments->rcs.add_detail_to(command);
   arguments->exports.add_properties_to(command);
   command.add_flag("--uncertainty", arguments->rcs.request.uncertainty,
                    "Also solve with all facets flat: the area between both in the figure");
+  arguments->rcs.add_export_as_to(command);
   command.add_flag("--as-is", arguments->as_is,
                    "Fit no constant phase, phase origin, conjugation and signs before the complex correlation");
   command.add_option("--tolerance-db", arguments->tolerance_db, "Exit code 1 if a mean difference is over this")

@@ -89,6 +89,7 @@ RcsResult compute(const RcsArguments& arguments, const RcsRequest& request, cons
 void run_rcs(const RcsArguments& arguments, const CommandContext& context) {
   require_files(arguments);
   const RcsRequest request = arguments.make_request();
+  require_export_formats(arguments.export_as, request.transmitter.has_value());
   std::vector<std::string> warnings = request_warnings(request);
   warn(warnings);
   const RcsSweep asked = requested_sweep(request);
@@ -112,8 +113,12 @@ void run_rcs(const RcsArguments& arguments, const CommandContext& context) {
   warn(uncertain);
   warnings.insert(warnings.end(), uncertain.begin(), uncertain.end());
   write_file(arguments.output, rcs_table(request, *target.prepared.scatterer, sweep, warnings));
+  std::vector<RcsCut> solved;
+  if (!arguments.export_as.empty()) append_cuts(sweep, solved);
+  const std::filesystem::path output = arguments.output;
   for (const std::string& format : arguments.export_as) {
-    for (const std::filesystem::path& file : write_sweep_as(format, sweep, arguments.output))
+    for (const std::filesystem::path& file :
+         write_cuts_as(format, solved, output.parent_path(), output.stem().string()))
       print_out("{}\n", file.string());
   }
   const double million_segments = 1e-6 * static_cast<double>(result.segments),

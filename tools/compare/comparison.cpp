@@ -5,34 +5,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <map>
 #include <tuple>
-#include <unordered_map>
 
-#include "sim/core/numbers/constants.h"
-#include "sim/core/numbers/dbsm.h"
 #include "sim/core/process/error.h"
-#include "sim/scattering/beams/bistatic_geometry.h"
+#include "tools/compare/cut_angles.h"
 #include "tools/compare/main_contribution.h"
 #include "tools/compare/suggestions.h"
+#include "tools/compare/table_sweeps.h"
 #include "tools/compare/view_groups.h"
 #include "tools/rcs/rcs_views.h"
+#include "tools/rcs/sweep_files.h"
 
 namespace seaglint {
 namespace {
-
-double azimuth_of(const RcsCut& cut, double phi_deg) {
-  return std::remainder((phi_deg - cut.phi_offset_deg) / cut.phi_scale, 360);
-}
-
-const DeclaredTransmitter& stated_transmitter(const RcsCut& cut) {
-  if (cut.transmitter) return *cut.transmitter;
-  throw InputError(fmt::format(
-      "{}: neither the file nor its name says where the incident wave comes from: give --incidence monostatic "
-      "or --incidence THETA,PHI",
-      cut.name));
-}
 
 // Cuts of one transmitter are solved together.
 using TransmitterKey = std::tuple<bool, double, double>;
@@ -48,16 +34,10 @@ std::map<TransmitterKey, std::vector<const RcsCut*>> by_transmitter(const FieldT
   return groups;
 }
 
-std::optional<FixedTransmitter> transmitter_of(const RcsCut& cut) {
-  if (cut.transmitter->is_monostatic) return std::nullopt;
-  return FixedTransmitter{azimuth_of(cut, cut.transmitter->phi_deg), 90 - cut.transmitter->theta_deg};
-}
-
 std::vector<ViewGrid> grids_of(const std::vector<const RcsCut*>& cuts) {
   std::vector<ViewPoint> points;
   for (const RcsCut* cut : cuts) {
-    for (const FieldValue& value : cut->values)
-      points.push_back({value.frequency_hz, azimuth_of(*cut, value.phi_deg), 90 - value.theta_deg});
+    for (const FieldValue& value : cut->values) points.push_back(view_point(*cut, value));
   }
   return view_grids(points);
 }
@@ -199,81 +179,15 @@ ExportComparison finished(ExportComparison comparison, const ComparisonSettings&
   return comparison;
 }
 
-// The values of a cut by frequency and direction.
-class ValuesByPlace {
- public:
-  explicit ValuesByPlace(const RcsCut& cut) {
-    places_.reserve(cut.values.size());
-    for (const FieldValue& value : cut.values) {
-      const Steps s = steps(value.frequency_hz, azimuth_of(cut, value.phi_deg), 90 - value.theta_deg);
-      places_.try_emplace(key(s.frequency, s.azimuth, s.elevation), &value);
-    }
-  }
-  // Rounding may give equal values neighbouring keys.
-  const FieldValue* at(double frequency_hz, double azimuth_deg, double elevation_deg) const {
-    const Steps s = steps(frequency_hz, azimuth_deg, elevation_deg);
-    for (const long f : {0L, -1L, 1L}) {
-      for (const long az : {0L, -1L, 1L}) {
-        for (const long el : {0L, -1L, 1L}) {
-          const auto place = places_.find(key(s.frequency + f, s.azimuth + az, s.elevation + el));
-          if (place != places_.end()) return place->second;
-        }
-      }
-    }
-    return nullptr;
-  }
-
- private:
-  // A millionth of the frequency, thousandths of a degree.
-  struct Steps {
-    long frequency, azimuth, elevation;
-  };
-  static Steps steps(double frequency_hz, double azimuth_deg, double elevation_deg) {
-    return {std::lround(std::log(frequency_hz) * 1e6), std::lround(azimuth_deg * 1e3),
-            std::lround(elevation_deg * 1e3)};
-  }
-  static std::uint64_t key(long frequency, long azimuth, long elevation) {
-    constexpr long kCircle = 360'000;
-    const auto turn = static_cast<std::uint64_t>((azimuth % kCircle + kCircle) % kCircle);
-    return (static_cast<std::uint64_t>(frequency) << 37) ^ (turn << 18) ^
-           static_cast<std::uint64_t>(elevation + 100'000);
-  }
-  std::unordered_map<std::uint64_t, const FieldValue*> places_;
-};
-
-// The values of `other` at places of `cut` that it has, as a sweep with only this element.
-std::vector<RcsSweep> sweeps_of(const RcsCut& cut, const RcsCut& other) {
-  const ValuesByPlace values(other);
-  std::vector<ViewPoint> points;
-  for (const FieldValue& value : cut.values) {
-    const ViewPoint p{value.frequency_hz, azimuth_of(cut, value.phi_deg), 90 - value.theta_deg};
-    if (values.at(p.frequency_hz, p.azimuth_deg, p.elevation_deg) != nullptr) points.push_back(p);
-  }
-  std::vector<RcsSweep> sweeps;
-  for (const ViewGrid& grid : view_grids(points)) {
-    RcsRequest request;
-    request.frequency_hz = grid.frequency_hz;
-    request.azimuth_deg = grid.azimuth_deg;
-    request.elevation_deg = grid.elevation_deg;
-    request.transmitter = transmitter_of(cut);
-    RcsSweep& sweep = sweeps.emplace_back(requested_sweep(request));
-    RcsSweep::Model model{other.name, true, {}};
-    for (std::size_t view = 0; view < sweep.views(); ++view) {
-      std::vector<std::array<Complex, 4>>& row = model.matrices.emplace_back();
-      for (const double f : sweep.frequency_hz) {
-        const double az = sweep.azimuth_of(view), el = sweep.elevation_of(view);
-        const FieldValue& value = *values.at(f, az, el);
-        const Vec3 r = direction_to_radar(radians(az), radians(el));
-        const Complex turn =
-            std::polar(1.0, 2 * kPi * f / kSpeedOfLight * (sweep.transmitter.value_or(r) + r).dot(other.origin_m));
-        std::array<Complex, 4>& matrix = row.emplace_back();
-        matrix[static_cast<std::size_t>(other.element)] =
-            value.amplitude_m ? *value.amplitude_m * turn : Complex(amplitude_of_dbsm(value.level_dbsm));
-      }
-    }
-    sweep.models.push_back(std::move(model));
-  }
-  return sweeps;
+// The values of `other` at the places of the cut: its own ones, or interpolated.
+std::vector<RcsSweep> counterpart(const RcsCut& cut, const RcsCut& other, const ComparisonSettings& settings,
+                                  int threads, std::optional<InterpolationQuality>& quality) {
+  if (!settings.interpolation_radius_m) return table_sweeps(cut, other);
+  std::vector<ViewPoint> places;
+  for (const FieldValue& value : cut.values) places.push_back(view_point(cut, value));
+  const InterpolatedCut interpolated = interpolated_cut(other, places, *settings.interpolation_radius_m, threads);
+  quality = quality ? combined(*quality, interpolated.quality) : interpolated.quality;
+  return table_sweeps(cut, interpolated.cut);
 }
 
 }  // namespace
@@ -281,10 +195,10 @@ std::vector<RcsSweep> sweeps_of(const RcsCut& cut, const RcsCut& other) {
 ExportComparison compare_with_target(const FieldTable& table, const RcsRequest& request, const RcsTarget& target,
                                      const ComparisonSettings& settings, int threads, const StopFlag& stop,
                                      const std::function<void(const std::string&)>& say) {
-  ExportComparison comparison{table.name, table.reader, "seaglint", table.notes, {}, {}, {}, {}};
+  ExportComparison comparison{table.name, table.reader, "seaglint", table.notes, {}, {}, {}, {}, {}, {}};
   for (const auto& [key, cuts] : by_transmitter(table)) {
     RcsRequest solved = request;
-    solved.transmitter = transmitter_of(*cuts.front());
+    solved.transmitter = fixed_transmitter(*cuts.front());
     for (const ViewGrid& grid : grids_of(cuts)) {
       solved.frequency_hz = grid.frequency_hz;
       solved.azimuth_deg = grid.azimuth_deg;
@@ -296,6 +210,7 @@ ExportComparison compare_with_target(const FieldTable& table, const RcsRequest& 
                                         solved.transmitter->azimuth_deg, solved.transmitter->elevation_deg)
                           : std::string("monostatic")));
       sweep = compute_rcs(solved, target, threads, &stop).sweep;
+      append_cuts(sweep, comparison.solved);
       for (const RcsCut* cut : cuts) pair(sweep, *cut, comparison.cuts);
     }
   }
@@ -311,23 +226,23 @@ ExportComparison compare_with_target(const FieldTable& table, const RcsRequest& 
 }
 
 ExportComparison compare_with_table(const FieldTable& table, const FieldTable& other,
-                                    const ComparisonSettings& settings) {
-  ExportComparison comparison{table.name, table.reader, other.name, table.notes, {}, {}, {}, {}};
+                                    const ComparisonSettings& settings, int threads) {
+  ExportComparison comparison{table.name, table.reader, other.name, table.notes, {}, {}, {}, {}, {}, {}};
   for (const RcsCut& cut : table.cuts) {
     for (const RcsCut& values : other.cuts) {
       if (values.element != cut.element) continue;
       if (stated_transmitter(cut) != stated_transmitter(values)) continue;
       const std::size_t first = comparison.cuts.size();
-      for (const RcsSweep& sweep : sweeps_of(cut, values)) pair(sweep, cut, comparison.cuts);
+      for (const RcsSweep& sweep : counterpart(cut, values, settings, threads, comparison.interpolation))
+        pair(sweep, cut, comparison.cuts);
       for (std::size_t i = first; i < comparison.cuts.size() && !values.has_phase(); ++i)
         comparison.cuts[i].models[0].amplitude_m.clear();
     }
   }
   if (comparison.cuts.empty())
-    throw InputError(
-        fmt::format("{} and {} have no element, incident wave, direction and frequency in common; nothing is "
-                    "interpolated",
-                    table.name, other.name));
+    throw InputError(fmt::format(
+        "{} and {} have no element, incident wave, direction and frequency in common{}", table.name, other.name,
+        settings.interpolation_radius_m ? "" : "; nothing is interpolated without --interpolate METRES"));
   return finished(std::move(comparison), settings);
 }
 

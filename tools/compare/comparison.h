@@ -2,7 +2,7 @@
 #pragma once
 
 // Comparison of exports of other solvers and of measurements with this solver or with each other, at their own angles
-// and frequencies; nothing is interpolated.
+// and frequencies.
 
 #include <array>
 #include <functional>
@@ -13,6 +13,7 @@
 #include "sim/core/process/parallel.h"
 #include "sim/field_tables/field_table.h"
 #include "tools/compare/alignment.h"
+#include "tools/compare/interpolation.h"
 #include "tools/compare/lobes.h"
 #include "tools/rcs/rcs_comparison.h"
 #include "tools/rcs/rcs_request.h"
@@ -45,11 +46,15 @@ struct ExportComparison {
   std::optional<Alignment> alignment;  // absent as asked, or without phases
   std::vector<ElementStatistics> elements;
   std::vector<std::string> warnings;
+  std::optional<InterpolationQuality> interpolation;  // of the compared values
+  std::vector<RcsCut> solved;                         // of a target: all elements, at the places of the export
 };
 
 struct ComparisonSettings {
   double floor_db = 80;
   bool as_is = false;  // no fit of phase, origin, conjugation and signs
+  // Tables with other directions: values of the other table are interpolated (interpolation.h).
+  std::optional<double> interpolation_radius_m;
 };
 
 // Solves the target at exactly the angles and frequencies of the export, monostatic or bistatic as it states. `request`
@@ -59,9 +64,9 @@ ExportComparison compare_with_target(const FieldTable& table, const RcsRequest& 
                                      const ComparisonSettings& settings, int threads, const StopFlag& stop,
                                      const std::function<void(const std::string&)>& say);
 
-// Compares two tables where they have equal directions (0.001 deg), frequencies (1e-6) and elements; throws InputError
-// if that is nowhere, or if their incident waves differ.
+// Compares two tables where they have equal directions (0.001 deg; all within reach if interpolated), frequencies
+// (1e-6) and elements; throws InputError if that is nowhere, or if their incident waves differ.
 ExportComparison compare_with_table(const FieldTable& table, const FieldTable& other,
-                                    const ComparisonSettings& settings);
+                                    const ComparisonSettings& settings, int threads);
 
 }  // namespace seaglint

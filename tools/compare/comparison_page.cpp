@@ -72,6 +72,8 @@ std::string fits(const std::vector<ExportComparison>& comparisons) {
 std::string warnings(const std::vector<ExportComparison>& comparisons) {
   std::string items;
   for (const ExportComparison& c : comparisons) {
+    if (c.interpolation)
+      items += fmt::format("<p>{}: {}.</p>\n", escape_html(c.compared), escape_html(text_of(*c.interpolation)));
     for (const std::string& warning : c.warnings)
       items += fmt::format("<p class=\"note\">{}: {}</p>\n", escape_html(c.name), escape_html(warning));
   }
@@ -114,9 +116,10 @@ std::string comparison_page(const std::vector<ExportComparison>& comparisons, co
   std::string body = fmt::format(
       "<header><h1>{}</h1><p class=\"lead\">Levels clipped {:g} dB below the export's maximum; differences are "
       "compared - "
-      "export; amplitudes in metres, e<sup>+j&omega;t</sup>, about the origin of the mesh. Nothing is interpolated.</p>"
+      "export; amplitudes in metres, e<sup>+j&omega;t</sup>, about the origin of the mesh. {}</p>"
       "</header>\n",
-      escape_html(title), settings.floor_db);
+      escape_html(title), settings.floor_db,
+      settings.interpolation_radius_m ? "The compared values are interpolated." : "Nothing is interpolated.");
   body += "<h2>Differences</h2>\n" + differences(comparisons) + warnings(comparisons);
   if (!figures.curves.empty())
     body += html_figure(figures.curves, "Levels above, differences below; at most four cuts.", "curves of both");

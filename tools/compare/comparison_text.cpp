@@ -56,6 +56,16 @@ nlohmann::ordered_json fitted_json(const ExportComparison& comparison, Polarisat
   return json;
 }
 
+nlohmann::ordered_json interpolation_json(const ExportComparison& comparison) {
+  if (!comparison.interpolation) return nullptr;
+  const InterpolationQuality& q = *comparison.interpolation;
+  return {{"radius_m", q.radius_m},
+          {"interpolated", q.interpolated},
+          {"omitted", q.omitted},
+          {"standard_error", q.standard_error},
+          {"largest_error", q.largest_error}};
+}
+
 }  // namespace
 
 std::string comparison_table(const std::vector<ExportComparison>& comparisons, const ComparisonSettings& settings) {
@@ -76,6 +86,7 @@ std::string comparison_table(const std::vector<ExportComparison>& comparisons, c
     }
   }
   for (const ExportComparison& c : comparisons) {
+    if (c.interpolation) text += fmt::format("{}: {}\n", c.compared, text_of(*c.interpolation));
     if (c.alignment) text += fmt::format("{}: {}\n", c.name, text_of(*c.alignment, c.elements.size() > 1));
     for (const std::string& warning : c.warnings) text += fmt::format("{}: warning: {}\n", c.name, warning);
   }
@@ -115,6 +126,7 @@ nlohmann::ordered_json comparison_json(const std::vector<ExportComparison>& comp
                                   {"main_contribution", worst.main}});
       }
       entry["warnings"] = c.warnings;
+      entry["interpolation"] = interpolation_json(c);
       json["exports"].push_back(std::move(entry));
     }
   }

@@ -16,8 +16,8 @@ std::string comparison_table(const std::vector<ExportComparison>& comparisons, c
 
 // {"version", "settings", "exports": [{"name", "reader", "convention", "compared", "polarisation", "pairs", "bias_db",
 // "mean_abs_db", "rms_db", "p95_db", "correlation", "fitted": {"phase_deg", "origin_m", "origin_error_m",
-// "undetermined", "conjugated", "sign", "offset_db"}, "lobes", "nulls", "worst", "warnings"}]}: one entry per export
-// and polarisation; null where there is no phase.
+// "undetermined", "conjugated", "sign", "offset_db"}, "lobes", "nulls", "worst", "warnings",
+// "interpolation"}]}: one entry per export and polarisation; null where there is no phase or nothing interpolated.
 nlohmann::ordered_json comparison_json(const std::vector<ExportComparison>& comparisons,
                                        const ComparisonSettings& settings);
 

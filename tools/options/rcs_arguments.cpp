@@ -3,9 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <iterator>
+
 #include "sim/core/process/error.h"
 #include "sim/core/text/number.h"
 #include "tools/options/renamed_words.h"
+#include "tools/rcs/sweep_files.h"
 
 namespace seaglint {
 namespace {
@@ -195,17 +198,19 @@ void RcsArguments::add_to(CommandOptions& command) {
   add_cavity_options(command, request.cavities);
   add_sea_options(command, *this);
   command.add_option("-o,--output", output, "CSV file to write").required();
-  command
-      .add_option(
-          "--export-as", export_as,
-          "Also write the sweep beside the table as another program does (repeatable): feko (.ffe), cst (farfield "
-          "tables in dB(m^2)), pyaedt (.json with a pandas .h5)")
-      .repeatable("FORMAT")
-      .one_of({"feko", "cst", "pyaedt"})
-      .group("Selection and export");
+  add_export_as_to(command).group("Selection and export");
   add_selection_options(command, request.selection);
   add_export_options(command, request.exports);
   reference.add_to(command);
+}
+
+CommandOption RcsArguments::add_export_as_to(CommandOptions& command) {
+  return command
+      .add_option("--export-as", export_as,
+                  "Also write the solved values beside the table as another program does (repeatable): feko (.ffe), "
+                  "cst (farfield tables in dB(m^2)), pyaedt (.json with a pandas .h5), npz (NumPy)")
+      .repeatable("FORMAT")
+      .one_of({std::begin(kExportFormats), std::end(kExportFormats)});
 }
 
 RcsRequest RcsArguments::make_mesh_request() const {

@@ -18,7 +18,7 @@ struct RcsArguments {
   std::string target, frequency_ghz, azimuth_deg, elevation_deg = "0", edges = "on", crease_deg = "auto", output;
   std::optional<double> transmit_azimuth_deg, transmit_elevation_deg;
   std::vector<std::string> materials;  // NAME or PART=NAME
-  std::vector<std::string> export_as;  // feko, cst, pyaedt
+  std::vector<std::string> export_as;  // of kExportFormats
   std::string sea_surface = "sea_water", sea_paths = "all";
   ReferenceArguments reference;
 
@@ -28,6 +28,7 @@ struct RcsArguments {
   // Parts of these: the mesh, and its materials and detail.
   CommandOption add_target_to(CommandOptions& command);
   void add_detail_to(CommandOptions& command);
+  CommandOption add_export_as_to(CommandOptions& command);
 
   RcsRequest make_request() const;       // throws InputError
   RcsRequest make_mesh_request() const;  // without views, sea and transmitter

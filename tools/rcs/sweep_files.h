@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// A sweep in the files of other programs.
+// Solved values in the files of other programs.
 
 #include <filesystem>
 #include <string>
@@ -12,14 +12,21 @@
 
 namespace seaglint {
 
-// hh, hv, vh, vv of the sweep's last model.
-std::vector<RcsCut> cuts_of_sweep(const RcsSweep& sweep);
+inline constexpr const char* kExportFormats[] = {"feko", "cst", "pyaedt", "npz"};
 
-// Writes the sweep beside its table NAME.csv and returns the files: `feko` NAME_v.ffe and NAME_h.ffe, by the
-// polarisation transmitted; `cst` a table `NAME (f = 9.5), theta = ..., VP.txt` per frequency and polarisation
-// transmitted; `pyaedt` `NAME VV.json` with `NAME VV.h5` per element. Throws InputError for `pyaedt` of a bistatic
-// sweep, WorkError where a file cannot be written.
-std::vector<std::filesystem::path> write_sweep_as(const std::string& format, const RcsSweep& sweep,
-                                                  const std::filesystem::path& table);
+// For before the solution: throws InputError for a format that holds no bistatic values.
+void require_export_formats(const std::vector<std::string>& formats, bool is_bistatic);
+
+// Adds hh, hv, vh, vv of the sweep's last model to those of the same transmitter.
+void append_cuts(const RcsSweep& sweep, std::vector<RcsCut>& cuts);
+
+// Writes cuts with equal directions and frequencies of all four elements per transmitter, in `folder`, and returns the
+// files: `feko` STEM_v.ffe and STEM_h.ffe, by the polarisation transmitted; `cst` a table `STEM (f = 9.5), theta = ...,
+// VP.txt` per frequency and polarisation transmitted; `pyaedt` `STEM VV.json` with `STEM VV.h5` per element; `npz`
+// STEM.npz (NumPy) with frequency_hz, azimuth_deg, elevation_deg of the receiver, transmit_azimuth_deg,
+// transmit_elevation_deg (equal if monostatic), each [value], S [value][received h, v][transmitted h, v] in metres, and
+// description.json. Throws InputError for `pyaedt` of bistatic cuts, WorkError where a file cannot be written.
+std::vector<std::filesystem::path> write_cuts_as(const std::string& format, const std::vector<RcsCut>& cuts,
+                                                 const std::filesystem::path& folder, const std::string& stem);
 
 }  // namespace seaglint
