@@ -171,7 +171,7 @@ void run_compare(const CompareArguments& arguments, const CommandContext& contex
                                                                   settings, context.threads, context.stop, say));
   }
   const std::filesystem::path directory = arguments.directory;
-  write_file(directory / "compare.csv", comparison_csv(comparisons));
+  write_file(directory / "compare.csv", comparison_csv(comparisons, context.threads));
   const ComparisonFigures figures = draw(comparisons, settings, directory);
   write_file(directory / "compare.html", comparison_page(comparisons, settings, figures));
   write_file(directory / "compare.json", comparison_json(comparisons, settings).dump(2) + "\n");

@@ -4,11 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <iterator>
+#include <utility>
 
 #include "seaglint_version.h"
 #include "sim/core/numbers/constants.h"
-#include "sim/core/process/printable.h"
+#include "sim/core/process/error.h"
+#include "sim/core/process/parallel.h"
 #include "sim/core/text/escape.h"
 
 namespace seaglint {
@@ -54,6 +57,46 @@ nlohmann::ordered_json fitted_json(const ExportComparison& comparison, Polarisat
   json["sign"] = a.sign[static_cast<std::size_t>(element)];
   json["offset_db"] = a.level_db;
   return json;
+}
+
+// ",1.23456789", nine significant digits.
+void append_digits(std::string& text, double value) {
+  char digits[32];
+  const auto [end, error] = std::to_chars(digits, std::end(digits), value, std::chars_format::general, 9);
+  SEAGLINT_CHECK(error == std::errc(), "at most 16 characters");
+  (text += ',').append(digits, end);
+}
+
+// ",-12.3456"; levels are at least kMinLevel_dbsm.
+void append_decibels(std::string& text, double value) {
+  char digits[64];
+  const auto [end, error] = std::to_chars(digits, std::end(digits), value, std::chars_format::fixed, 4);
+  SEAGLINT_CHECK(error == std::errc(), "levels have few digits");
+  (text += ',').append(digits, end);
+}
+
+std::string rows_of(const ExportComparison& comparison, const PairedCut& cut) {
+  const std::string name = csv_cell(comparison.name) + ',';
+  const std::string other = fmt::format(",{},{}", csv_cell(comparison.compared), name_of(cut.element));
+  const PairedCut::Model& model = cut.models[0];
+  const bool phases = !cut.amplitude_m.empty() && !model.amplitude_m.empty();
+  std::string text;
+  text.reserve(cut.places.size() * (name.size() + other.size() + 110));
+  for (std::size_t i = 0; i < cut.places.size(); ++i) {
+    const PairedCut::Place& p = cut.places[i];
+    (text += name).append(fmt::format_int(p.line).c_str()).append(other);
+    for (const double x : {p.frequency_hz, p.azimuth_deg, p.elevation_deg}) append_digits(text, x);
+    for (const double level : {cut.level_dbsm[i], model.level_dbsm[i], model.level_dbsm[i] - cut.level_dbsm[i]})
+      append_decibels(text, level);
+    if (phases) {
+      const Complex a = cut.amplitude_m[i], b = model.amplitude_m[i];
+      for (const double x : {a.real(), a.imag(), b.real(), b.imag()}) append_digits(text, x);
+      text += '\n';
+    } else {
+      text += ",,,,\n";
+    }
+  }
+  return text;
 }
 
 nlohmann::ordered_json interpolation_json(const ExportComparison& comparison) {
@@ -133,33 +176,23 @@ nlohmann::ordered_json comparison_json(const std::vector<ExportComparison>& comp
   return json;
 }
 
-std::string comparison_csv(const std::vector<ExportComparison>& comparisons) {
+std::string comparison_csv(const std::vector<ExportComparison>& comparisons, int threads) {
+  std::vector<std::pair<const ExportComparison*, const PairedCut*>> cuts;
+  for (const ExportComparison& c : comparisons) {
+    for (const PairedCut& cut : c.cuts) cuts.emplace_back(&c, &cut);
+  }
+  std::vector<std::string> rows(cuts.size());
+  parallel_for(cuts.size(), threads, [&](std::size_t i) { rows[i] = rows_of(*cuts[i].first, *cuts[i].second); });
   std::string csv = fmt::format(
       "# seaglint {} compare: compared - export, amplitudes in metres, e^{{+jwt}}, basis of CONVENTIONS.md\n"
       "export,line,compared,polarisation,frequency_hz,azimuth_deg,elevation_deg,export_dbsm,compared_dbsm,difference_"
       "db,"
       "export_re,export_im,compared_re,compared_im\n",
       kVersion);
-  auto out = std::back_inserter(csv);
-  for (const ExportComparison& c : comparisons) {
-    const std::string name = csv_cell(c.name), other = csv_cell(c.compared);
-    for (const PairedCut& cut : c.cuts) {
-      const PairedCut::Model& model = cut.models[0];
-      const bool phases = !cut.amplitude_m.empty() && !model.amplitude_m.empty();
-      for (std::size_t i = 0; i < cut.places.size(); ++i) {
-        const PairedCut::Place& p = cut.places[i];
-        fmt::format_to(out, "{},{},{},{},{:.9g},{:.9g},{:.9g},{:.4f},{:.4f},{:.4f}", name, p.line, other,
-                       name_of(cut.element), p.frequency_hz, p.azimuth_deg, p.elevation_deg, cut.level_dbsm[i],
-                       model.level_dbsm[i], model.level_dbsm[i] - cut.level_dbsm[i]);
-        if (phases) {
-          const Complex a = cut.amplitude_m[i], b = model.amplitude_m[i];
-          fmt::format_to(out, ",{:.9g},{:.9g},{:.9g},{:.9g}\n", a.real(), a.imag(), b.real(), b.imag());
-        } else {
-          csv += ",,,,\n";
-        }
-      }
-    }
-  }
+  std::size_t size = csv.size();
+  for (const std::string& text : rows) size += text.size();
+  csv.reserve(size);
+  for (const std::string& text : rows) csv += text;
   return csv;
 }
 

@@ -23,6 +23,6 @@ nlohmann::ordered_json comparison_json(const std::vector<ExportComparison>& comp
 
 // One row per pair: file, line, polarisation, frequency, direction, both levels, their difference, and both amplitudes
 // where they have phases (the export's in the fitted phase).
-std::string comparison_csv(const std::vector<ExportComparison>& comparisons);
+std::string comparison_csv(const std::vector<ExportComparison>& comparisons, int threads);
 
 }  // namespace seaglint
