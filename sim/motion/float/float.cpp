@@ -55,7 +55,7 @@ FloatParticulars float_particulars(const MotionSpec& spec, const Bounds& bounds)
 }
 
 double disc_slope_filter(double wavenumber, double radius) {
-  // 8 J2(x)/x^2 = sum (-1)^m 2 (x/2)^2m / (m! (m+2)!), for small x; elsewhere the library's Bessel function.
+  // 8 J2(x)/x^2 = sum (-1)^m 2 (x/2)^2m / (m! (m+2)!), for small x; elsewhere the C library's Bessel function.
   const double x = std::abs(wavenumber * radius);
   if (x < 1) {
     const double q = -0.25 * x * x;
@@ -66,7 +66,7 @@ double disc_slope_filter(double wavenumber, double radius) {
     }
     return sum;
   }
-  return 8 * std::cyl_bessel_j(2.0, x) / (x * x);
+  return 8 * ::jn(2, x) / (x * x);  // std::cyl_bessel_j writes a global by lgamma, from several threads
 }
 
 Vec2 soft_limited_slope(const Vec2& slope) {

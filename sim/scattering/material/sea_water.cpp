@@ -40,9 +40,25 @@ double ament_factor(double k, double rms_height, double sin_grazing) {
   return std::exp(-2 * g * g);
 }
 
+namespace {
+
+// I0(z) = sum_m (z/2)^2m / (m!)^2 (Abramowitz and Stegun, 9.6.12), 0 <= z < 500. std::cyl_bessel_i writes a global by
+// lgamma, from several threads.
+double bessel_i0(double z) {
+  const double q = 0.25 * z * z;
+  double term = 1, sum = 1;
+  for (double m = 1; term > 1e-17 * sum; ++m) {
+    term *= q / (m * m);
+    sum += term;
+  }
+  return sum;
+}
+
+}  // namespace
+
 double miller_brown_vegh_factor(double k, double rms_height, double sin_grazing) {
   const double g = k * rms_height * sin_grazing, z = 2 * g * g;
-  if (z < 500) return std::exp(-z) * std::cyl_bessel_i(0, z);
+  if (z < 500) return std::exp(-z) * bessel_i0(z);
   // e^{-z} I0(z) = (1 + 1/(8z) + ...) / sqrt(2 pi z) (Abramowitz and Stegun, 9.7.1).
   return (1 + 1 / (8 * z) + 9 / (128 * z * z)) / std::sqrt(2 * kPi * z);
 }
