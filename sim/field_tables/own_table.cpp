@@ -96,6 +96,7 @@ void read_own_table(const TextSource& source, const FieldTableSettings& settings
     RcsCut cut;
     cut.element = element;
     cut.transmitter = transmitter;
+    cut.values.reserve(rows.rows());
     for (std::size_t row = 0; row < rows.rows(); ++row) {
       FieldValue value{rows.positive(row, 0), 90 - rows.number(row, 2), rows.number(row, 1), 0, {}, rows.line(row)};
       fold_direction(value.theta_deg, value.phi_deg);

@@ -9,6 +9,7 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/process/error.h"
+#include "sim/core/process/parallel.h"
 
 namespace seaglint {
 namespace {
@@ -23,6 +24,8 @@ constexpr double kClearlyBetter = 0.5;       // 1 - correlation of the other tim
 struct Phase {
   Vec3 q;
   Complex value;  // weight times e^{j phase}
+
+  double weight() const { return std::sqrt(std::norm(value)); }
 };
 
 // Orders in which neighbours differ in one of frequency, azimuth and elevation only.
@@ -94,16 +97,16 @@ struct Normal {
     Vec3 mean = Vec3::Zero();
     Complex constant = 0;
     for (const Phase& phase : phases) {
-      const double w = std::abs(phase.value);
+      const double w = phase.weight();
       normal.weight += w;
       mean += w * phase.q;
-      constant += phase.value * std::polar(1.0, phase.q.dot(x));
+      if (with_mean) constant += phase.value * std::polar(1.0, phase.q.dot(x));
     }
     if (normal.weight <= 0) return normal;
     mean = with_mean ? Vec3(mean / normal.weight) : Vec3(Vec3::Zero());
     const Complex turn = with_mean && std::abs(constant) > 0 ? std::conj(constant) / std::abs(constant) : Complex(1, 0);
     for (const Phase& phase : phases) {
-      const double w = std::abs(phase.value);
+      const double w = phase.weight();
       if (w <= 0) continue;
       const Vec3 q = phase.q - mean;
       const double residual = std::arg(phase.value * std::polar(1.0, phase.q.dot(x)) * turn);
@@ -190,8 +193,8 @@ class OriginSearch {
     const Eigen::Matrix3d covariance = (information_ + Eigen::Matrix3d::Identity() / square(kPriorOrigin_m)).inverse();
     double squares = 0, weight = 0;
     for (const Phase& phase : phases) {
-      squares += std::abs(phase.value) * phase.q.dot(covariance * phase.q);
-      weight += std::abs(phase.value);
+      squares += phase.weight() * phase.q.dot(covariance * phase.q);
+      weight += phase.weight();
     }
     return weight > 0 && squares / weight < square(kPi);
   }
@@ -254,8 +257,8 @@ std::vector<Phase> centred(std::vector<Phase> phases) {
   Vec3 mean = Vec3::Zero();
   double weight = 0;
   for (const Phase& phase : phases) {
-    mean += std::abs(phase.value) * phase.q;
-    weight += std::abs(phase.value);
+    mean += phase.weight() * phase.q;
+    weight += phase.weight();
   }
   for (Phase& phase : phases) phase.q -= mean / std::max(weight, 1e-300);
   return phases;
@@ -319,12 +322,15 @@ void complete(Alignment& alignment, std::span<const AlignmentPoint> points) {
 
 }  // namespace
 
-Alignment fit_alignment(std::span<const AlignmentPoint> points) {
+Alignment fit_alignment(std::span<const AlignmentPoint> points, int threads) {
   SEAGLINT_CHECK(!points.empty(), "no points");
   const std::vector<AlignmentPoint> fitted = thinned(points);
-  Alignment direct = fit(fitted, false), conjugate = fit(fitted, true);
-  complete(direct, points);
-  complete(conjugate, points);
+  Alignment direct, conjugate;
+  parallel_for(2, threads, [&](std::size_t i) {
+    Alignment& alignment = i == 0 ? direct : conjugate;
+    alignment = fit(fitted, i == 1);
+    complete(alignment, points);
+  });
   const bool better = 1 - conjugate.correlation < kClearlyBetter * (1 - direct.correlation);
   Alignment& chosen = better ? conjugate : direct;
   chosen.other_correlation = better ? direct.correlation : conjugate.correlation;

@@ -40,7 +40,7 @@ struct Alignment {
 // origin so far turns their phases by less than half a turn, then of all points. A displacement of the origin by up to
 // 0.4 m is assumed before. An origin along which the phases leave a standard error above a fiftieth of the wavelength
 // stays 0. At least one point; values of zero do not matter.
-Alignment fit_alignment(std::span<const AlignmentPoint> points);
+Alignment fit_alignment(std::span<const AlignmentPoint> points, int threads);
 
 // The reference value in the phase of the computed one: with sign, conjugation, phase and origin removed.
 Complex aligned(const Alignment& alignment, const AlignmentPoint& point);

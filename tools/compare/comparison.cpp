@@ -92,13 +92,13 @@ AlignmentPoint point_of(const PairedCut& cut, std::size_t i) {
 bool has_phases(const PairedCut& cut) { return !cut.amplitude_m.empty() && !cut.models[0].amplitude_m.empty(); }
 
 // Fits all cuts with phases and brings their references into the phase of the compared values.
-std::optional<Alignment> align(std::vector<PairedCut>& cuts) {
+std::optional<Alignment> align(std::vector<PairedCut>& cuts, int threads) {
   std::vector<AlignmentPoint> points;
   for (const PairedCut& cut : cuts) {
     for (std::size_t i = 0; has_phases(cut) && i < cut.places.size(); ++i) points.push_back(point_of(cut, i));
   }
   if (points.empty()) return std::nullopt;
-  const Alignment alignment = fit_alignment(points);
+  const Alignment alignment = fit_alignment(points, threads);
   for (PairedCut& cut : cuts) {
     for (std::size_t i = 0; has_phases(cut) && i < cut.places.size(); ++i)
       cut.amplitude_m[i] = aligned(alignment, point_of(cut, i));
@@ -168,8 +168,8 @@ ElementStatistics statistics_of(const std::vector<PairedCut>& cuts, Polarisation
   return statistics;
 }
 
-ExportComparison finished(ExportComparison comparison, const ComparisonSettings& settings) {
-  if (!settings.as_is) comparison.alignment = align(comparison.cuts);
+ExportComparison finished(ExportComparison comparison, const ComparisonSettings& settings, int threads) {
+  if (!settings.as_is) comparison.alignment = align(comparison.cuts, threads);
   for (const Polarisation element : {Polarisation::kHh, Polarisation::kHv, Polarisation::kVh, Polarisation::kVv}) {
     if (std::any_of(comparison.cuts.begin(), comparison.cuts.end(),
                     [&](const PairedCut& cut) { return cut.element == element; }))
@@ -214,7 +214,7 @@ ExportComparison compare_with_target(const FieldTable& table, const RcsRequest& 
       for (const RcsCut* cut : cuts) pair(sweep, *cut, comparison.cuts);
     }
   }
-  comparison = finished(std::move(comparison), settings);
+  comparison = finished(std::move(comparison), settings, threads);
   if (std::any_of(table.cuts.begin(), table.cuts.end(),
                   [](const RcsCut& cut) { return !cut.transmitter->is_monostatic; }))
     return comparison;
@@ -243,7 +243,7 @@ ExportComparison compare_with_table(const FieldTable& table, const FieldTable& o
     throw InputError(fmt::format(
         "{} and {} have no element, incident wave, direction and frequency in common{}", table.name, other.name,
         settings.interpolation_radius_m ? "" : "; nothing is interpolated without --interpolate METRES"));
-  return finished(std::move(comparison), settings);
+  return finished(std::move(comparison), settings, threads);
 }
 
 }  // namespace seaglint

@@ -18,15 +18,27 @@ namespace {
 // The values of a cut by frequency and direction.
 class ValuesByPlace {
  public:
-  explicit ValuesByPlace(const RcsCut& cut) {
-    places_.reserve(cut.values.size());
-    for (const FieldValue& value : cut.values) {
-      const Steps s = steps(value.frequency_hz, azimuth_of(cut, value.phi_deg), 90 - value.theta_deg);
-      places_.try_emplace(key(s.frequency, s.azimuth, s.elevation), &value);
-    }
+  explicit ValuesByPlace(const RcsCut& cut) : cut_(cut) {}
+
+  // Tries the value after the one found before: tables are mostly in the same order.
+  const FieldValue* at(double frequency_hz, double azimuth_deg, double elevation_deg) {
+    if (next_ < cut_.values.size() && is_at(cut_.values[next_], frequency_hz, azimuth_deg, elevation_deg))
+      return &cut_.values[next_++];
+    const FieldValue* found = found_by_key(frequency_hz, azimuth_deg, elevation_deg);
+    if (found != nullptr) next_ = static_cast<std::size_t>(found - cut_.values.data()) + 1;
+    return found;
   }
+
+ private:
+  bool is_at(const FieldValue& value, double frequency_hz, double azimuth_deg, double elevation_deg) const {
+    const ViewPoint p = view_point(cut_, value);
+    return std::abs(p.frequency_hz - frequency_hz) <= 1e-6 * frequency_hz &&
+           std::abs(p.azimuth_deg - azimuth_deg) <= 1e-3 && std::abs(p.elevation_deg - elevation_deg) <= 1e-3;
+  }
+
   // Rounding may give equal values neighbouring keys.
-  const FieldValue* at(double frequency_hz, double azimuth_deg, double elevation_deg) const {
+  const FieldValue* found_by_key(double frequency_hz, double azimuth_deg, double elevation_deg) {
+    if (places_.empty()) fill_places();
     const Steps s = steps(frequency_hz, azimuth_deg, elevation_deg);
     for (const long f : {0L, -1L, 1L}) {
       for (const long az : {0L, -1L, 1L}) {
@@ -39,7 +51,15 @@ class ValuesByPlace {
     return nullptr;
   }
 
- private:
+  void fill_places() {
+    places_.reserve(cut_.values.size());
+    for (const FieldValue& value : cut_.values) {
+      const ViewPoint p = view_point(cut_, value);
+      const Steps s = steps(p.frequency_hz, p.azimuth_deg, p.elevation_deg);
+      places_.try_emplace(key(s.frequency, s.azimuth, s.elevation), &value);
+    }
+  }
+
   // A millionth of the frequency, thousandths of a degree.
   struct Steps {
     long frequency, azimuth, elevation;
@@ -54,13 +74,16 @@ class ValuesByPlace {
     return (static_cast<std::uint64_t>(frequency) << 37) ^ (turn << 18) ^
            static_cast<std::uint64_t>(elevation + 100'000);
   }
+
+  const RcsCut& cut_;
+  std::size_t next_ = 0;  // after the value that was found last
   std::unordered_map<std::uint64_t, const FieldValue*> places_;
 };
 
 }  // namespace
 
 std::vector<RcsSweep> table_sweeps(const RcsCut& cut, const RcsCut& other) {
-  const ValuesByPlace values(other);
+  ValuesByPlace values(other);
   std::vector<ViewPoint> points;
   for (const FieldValue& value : cut.values) {
     const ViewPoint p = view_point(cut, value);
@@ -75,17 +98,18 @@ std::vector<RcsSweep> table_sweeps(const RcsCut& cut, const RcsCut& other) {
     request.transmitter = fixed_transmitter(cut);
     RcsSweep& sweep = sweeps.emplace_back(requested_sweep(request));
     RcsSweep::Model model{other.name, true, {}};
-    for (std::size_t view = 0; view < sweep.views(); ++view) {
-      std::vector<std::array<Complex, 4>>& row = model.matrices.emplace_back();
-      for (const double f : sweep.frequency_hz) {
+    model.matrices.assign(sweep.views(), std::vector<std::array<Complex, 4>>(sweep.frequency_hz.size()));
+    for (std::size_t q = 0; q < sweep.frequency_hz.size(); ++q) {
+      const double f = sweep.frequency_hz[q], k = 2 * kPi * f / kSpeedOfLight;
+      for (std::size_t view = 0; view < sweep.views(); ++view) {
         const double az = sweep.azimuth_of(view), el = sweep.elevation_of(view);
         const FieldValue& value = *values.at(f, az, el);
-        const Vec3 r = direction_to_radar(radians(az), radians(el));
-        const Complex turn =
-            std::polar(1.0, 2 * kPi * f / kSpeedOfLight * (sweep.transmitter.value_or(r) + r).dot(other.origin_m));
-        std::array<Complex, 4>& matrix = row.emplace_back();
-        matrix[static_cast<std::size_t>(other.element)] =
-            value.amplitude_m ? *value.amplitude_m * turn : Complex(amplitude_of_dbsm(value.level_dbsm));
+        Complex amplitude = value.amplitude_m.value_or(amplitude_of_dbsm(value.level_dbsm));
+        if (value.amplitude_m && !other.origin_m.isZero()) {
+          const Vec3 r = direction_to_radar(radians(az), radians(el));
+          amplitude *= std::polar(1.0, k * (sweep.transmitter.value_or(r) + r).dot(other.origin_m));
+        }
+        model.matrices[view][q][static_cast<std::size_t>(other.element)] = amplitude;
       }
     }
     sweep.models.push_back(std::move(model));

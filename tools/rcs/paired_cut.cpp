@@ -33,9 +33,10 @@ long steps(double angle_deg) { return std::lround(angle_deg / kAngleStep_deg); }
 
 std::vector<const FieldValue*> by_frequency(const RcsCut& cut) {
   std::vector<const FieldValue*> values;
+  values.reserve(cut.values.size());
   for (const FieldValue& value : cut.values) values.push_back(&value);
-  std::stable_sort(values.begin(), values.end(),
-                   [](const FieldValue* a, const FieldValue* b) { return a->frequency_hz < b->frequency_hz; });
+  const auto lower = [](const FieldValue* a, const FieldValue* b) { return a->frequency_hz < b->frequency_hz; };
+  if (!std::is_sorted(values.begin(), values.end(), lower)) std::stable_sort(values.begin(), values.end(), lower);
   return values;
 }
 
@@ -179,7 +180,9 @@ std::vector<PairedCut> paired_cuts(const RcsSweep& sweep, const RcsCut& referenc
       // For a phase origin at x0 the two-way path is shorter by (r^_t + r^_s).x0 than for the body's origin
       // (CONVENTIONS.md, "Scattering").
       if (sample->amplitude_m)
-        cut.amplitude_m.push_back(*sample->amplitude_m * std::polar(1.0, path_gradient.dot(reference.origin_m)));
+        cut.amplitude_m.push_back(reference.origin_m.isZero()
+                                      ? *sample->amplitude_m
+                                      : *sample->amplitude_m * std::polar(1.0, path_gradient.dot(reference.origin_m)));
       cut.places.push_back({view, q, f, az, el, path_gradient, sample->line});
     }
   }

@@ -35,6 +35,13 @@ bool ends_cell(std::string_view rest, char separator) {
 
 TextRow next_row(std::string_view& rest, char separator) {
   TextRow row;
+  next_row(rest, separator, row);
+  return row;
+}
+
+void next_row(std::string_view& rest, char separator, TextRow& row) {
+  row.cells.clear();
+  row.open_quote = {};
   while (true) {
     skip_blanks(rest, separator);
     const bool at_end = rest.empty() || rest.front() == '\n';
@@ -51,7 +58,7 @@ TextRow next_row(std::string_view& rest, char separator) {
       if (length == std::string_view::npos || !ends_cell(rest, separator)) {
         row.open_quote = open;
         next_line(rest);
-        return row;
+        return;
       }
     } else {
       std::size_t end = 0;
@@ -71,7 +78,6 @@ TextRow next_row(std::string_view& rest, char separator) {
     }
   }
   if (!rest.empty()) rest.remove_prefix(1);
-  return row;
 }
 
 bool is_rule(std::string_view line) {

@@ -20,6 +20,8 @@ struct TextRow {
 // The next row, removed from the front of `rest`. A cell in double quotes (RFC 4180) may contain separators and line
 // ends; "" in it stands for a quote and is left so.
 TextRow next_row(std::string_view& rest, char separator);
+// The same into a row, whose memory is used again.
+void next_row(std::string_view& rest, char separator, TextRow& row);
 
 // A line that separates parts of a table: at least three of - = _ * + and |, with blanks.
 bool is_rule(std::string_view line);

@@ -20,6 +20,12 @@ namespace {
 
 constexpr int kMaxLinesAbove = 200;  // above the names
 
+// Place of the first decimal mark, npos without one.
+std::size_t mark_in(std::string_view cell) {
+  const auto mark = std::find_if(cell.begin(), cell.end(), [](char c) { return c == '.' || c == ','; });
+  return mark == cell.end() ? std::string_view::npos : static_cast<std::size_t>(mark - cell.begin());
+}
+
 bool has_number(const std::vector<std::string_view>& cells) {
   return std::any_of(cells.begin(), cells.end(),
                      [](std::string_view cell) { return parse_written_number(cell).has_value(); });
@@ -203,13 +209,17 @@ void TextTable::place_columns(const std::vector<std::string>& keys) {
 }
 
 void TextTable::read_rows(std::string_view rest) {
+  const auto lines = static_cast<std::size_t>(std::count(rest.begin(), rest.end(), '\n')) + 1;
+  lines_.reserve(lines);
+  cells_.reserve(std::min(lines * names_.size(), rest.size() / 2));  // a cell and its separator: two characters
+  TextRow row;
   while (!rest.empty()) {
     const std::string_view line = rest.substr(0, rest.find('\n'));
     if (trimmed(line).empty() || is_comment(line) || is_rule(line)) {
       next_line(rest);
       continue;
     }
-    TextRow row = next_row(rest, separator_);
+    next_row(rest, separator_, row);
     if (!row.open_quote.empty()) source_.fail(row.open_quote, "a quote that is not closed at the end of its cell");
     if (is_empty(row.cells)) continue;
     drop_empty_ends(row.cells, names_.size());
@@ -221,16 +231,16 @@ void TextTable::read_rows(std::string_view rest) {
     cells_.insert(cells_.end(), row.cells.begin(), row.cells.end());
   }
   // Lines of the rows by one pass over the text.
-  for (std::size_t row = 1; row < lines_.size(); ++row) {
-    const char* before = cells_[(row - 1) * names_.size()].data();
-    lines_[row] = lines_[row - 1] + static_cast<int>(std::count(before, cells_[row * names_.size()].data(), '\n'));
+  for (std::size_t i = 1; i < lines_.size(); ++i) {
+    const char* before = cells_[(i - 1) * names_.size()].data();
+    lines_[i] = lines_[i - 1] + static_cast<int>(std::count(before, cells_[i * names_.size()].data(), '\n'));
   }
   find_decimal_mark();
 }
 
 void TextTable::find_decimal_mark() {
   for (const std::string_view& cell : cells_) {
-    const std::size_t mark = cell.find_first_of(".,");
+    const std::size_t mark = mark_in(cell);
     if (mark == std::string_view::npos || !parse_written_number(cell)) continue;
     decimal_ = cell[mark];
     decimal_line_ = source_.line_of(cell);
@@ -300,7 +310,7 @@ double TextTable::number(std::size_t row, std::size_t column, double lowest, dou
   const std::string_view cell = text(row, column);
   const std::optional<double> value = parse_written_number(cell);
   if (!value || !std::isfinite(*value)) fail(row, column, "must be a finite number");
-  const std::size_t mark = cell.find_first_of(".,");
+  const std::size_t mark = mark_in(cell);
   if (mark != std::string_view::npos && cell[mark] != decimal_) {
     fail(row, column,
          fmt::format("a decimal {}, where line {} has a decimal {}", cell[mark] == ',' ? "comma" : "point",

@@ -68,7 +68,7 @@ TEST(Alignment, FindsWhatAnotherProgramsConventionsChange) {
   auto points = sweep(grid(9, 0.05, 21), grid(0, 0.5, 121), {2, 5}, {0, 3});
   const Vec3 origin(0.31, -0.2, 0.05);
   disturb(points, origin, 0.8, true, -1);
-  const Alignment found = fit_alignment(points);
+  const Alignment found = fit_alignment(points, 2);
   const double wavelength = kSpeedOfLight / 10e9;
   EXPECT_TRUE(found.conjugated);
   EXPECT_EQ(found.sign[0], 1);
@@ -90,7 +90,7 @@ TEST(Alignment, FindsWhatAnotherProgramsConventionsChange) {
 
 TEST(Alignment, LeavesAnOriginThatIsRight) {
   auto points = sweep({10}, grid(-30, 0.5, 121), {3}, {0});
-  const Alignment found = fit_alignment(points);
+  const Alignment found = fit_alignment(points, 2);
   EXPECT_FALSE(found.conjugated);
   EXPECT_NEAR(found.correlation, 1, 1e-12);
   EXPECT_LT(found.origin_m.norm(), 1e-9);
@@ -101,13 +101,13 @@ TEST(Alignment, NamesWhatTheDataDoNotDetermine) {
   auto points = sweep({10}, grid(0, 1, 360), {0}, {0});
   const Vec3 origin(0.05, -0.1, 0.07);
   disturb(points, origin, 0, false, 1);
-  const Alignment circle = fit_alignment(points);
+  const Alignment circle = fit_alignment(points, 2);
   ASSERT_EQ(circle.undetermined.size(), 1u);
   EXPECT_NEAR(std::abs(circle.undetermined[0].z()), 1, 1e-9);
   EXPECT_LT((circle.origin_m - Vec3(0.05, -0.1, 0)).norm(), kSpeedOfLight / 10e9 / 50);
   auto one_direction = sweep(grid(9, 0.01, 101), {20}, {0}, {0});
   disturb(one_direction, origin, 0, false, 1);
-  const Alignment range = fit_alignment(one_direction);
+  const Alignment range = fit_alignment(one_direction, 2);
   EXPECT_EQ(range.undetermined.size(), 2u);
   const Vec3 r = direction_to_radar(radians(20), 0);
   EXPECT_NEAR(range.origin_m.dot(r), origin.dot(r), 5 * range.origin_error_m.norm());
@@ -118,7 +118,7 @@ TEST(Alignment, FindsAFarOrigin) {
   auto points = sweep(grid(9.5, 0.02, 11), grid(0, 0.5, 41), {2}, {0});
   const Vec3 origin(-0.7, 0.6, 0);
   disturb(points, origin, -2, false, 1);
-  const Alignment found = fit_alignment(points);
+  const Alignment found = fit_alignment(points, 2);
   EXPECT_FALSE(found.conjugated);
   EXPECT_LT((found.origin_m - origin).head<2>().norm(), kSpeedOfLight / 9.7e9 / 50);
 }

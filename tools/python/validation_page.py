@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The page and the JSON of tools/validation."""
+import base64
+import html
+import json
+
+STYLE = """body { font: 16px/1.5 system-ui, sans-serif; color: #1d2733; max-width: 1180px; margin: 2em auto; padding: 0 1em; }
+table { border-collapse: collapse; margin: 1em 0; font-variant-numeric: tabular-nums; }
+td, th { border-bottom: 1px solid #d5dce3; padding: .3em .8em; text-align: left; vertical-align: top; }
+img { max-width: 100%; height: auto; }
+figure { margin: 1em 0; }
+img.mesh { float: right; width: 300px; margin: 0 0 1em 1.5em; }
+section { clear: both; }
+pre { overflow-x: auto; background: #f4f6f8; padding: .8em; font-size: 12.5px; clear: both; }"""
+
+LEAD = """<p>{version}, edge diffraction on unless stated. <b>Errors</b> are mean of the magnitude / rms in dB against the reference, both sides clipped at 80 dB (box, almond, ship and grooves: 40 dB) below the reference's maximum, over all directions or
+frequencies of the cut; nothing is interpolated. <b>Measured</b> is the measurement against the same reference: what two honest answers differ by. <b>Numerical</b>: mean change of our own levels in dB with patches of a quarter of the side (of a cavity: 8 in place of 6 per wavelength),
+80 bounces in place of 40 (rays in the duct: 24 of 12), and flat in place of smooth facets, over every {nth} direction. Where these are far below the error, the error is that of the physics in the model; finer meshes and more rays will not mend it.</p>"""
+
+
+def cell(pair):
+    return " / ".join(pair) if pair else "-"
+
+
+def change(value):
+    return "-" if value is None else f"{value:.3f}"
+
+
+def table(head, rows):
+    lines = ["<table>", "<tr>" + "".join(f"<th>{c}</th>" for c in head) + "</tr>"]
+    lines += ["<tr>" + "".join(f"<td>{c}</td>" for c in row) + "</tr>" for row in rows]
+    return "\n".join(lines + ["</table>"])
+
+
+def picture(file):
+    return "data:image/png;base64," + base64.b64encode(file.read_bytes()).decode()
+
+
+def summary(results):
+    rows = []
+    for case, cuts in results:
+        for i, cut in enumerate(cuts):
+            title = f'<a href="#{case.name}">{html.escape(case.about)}</a>' if i == 0 else ""
+            rows.append([title, cut.name, cell(cut.differences.get("po+diffraction")), cell(cut.differences.get("po")), cell(cut.differences.get("measured")),
+                         cut.solver(cut.correlation) or "-", *(change(cut.changes.get(kind)) for kind in ("patches", "bounces", "flat")), html.escape(case.goal)])
+    return table(["case", "cut", "with edge diffraction", "physical optics alone", "measured", "complex correlation", "patches", "bounces", "flat facets", "goal"], rows)
+
+
+def section(case, out):
+    printed = "\n".join(line for line in (out / f"{case.name}.txt").read_text(encoding="utf-8").splitlines() if not line.startswith("Figure"))
+    note = f"<p><b>Limits.</b> {case.note}</p>" if case.note else ""
+    return f"""<section id="{case.name}"><h2>{html.escape(case.title)}</h2>
+<img class="mesh" alt="the mesh from azimuth {case.view[0]}, elevation {case.view[1]} deg" src="{picture(out / f'{case.name}_mesh.png')}">
+<p><b>Geometry.</b> {html.escape(case.geometry)}</p>
+<p><b>Reference.</b> {case.source}</p>
+{note}
+<figure><img alt="{html.escape(case.title)}: levels and differences" src="{picture(out / f'{case.name}.png')}"></figure>
+<pre>{html.escape(printed)}</pre></section>"""
+
+
+def text_section(title, about, text):
+    return f"<section><h2>{title}</h2>\n<p>{about}</p>\n<pre>{html.escape(text)}</pre></section>"
+
+
+def page(version, results, flashes, others, out):
+    """others: (title, text in HTML, printed text)."""
+    parts = ["<h1>The solver against references</h1>", LEAD.format(version=html.escape(version), nth="fifth to twentieth"), summary(results)]
+    if flashes:
+        parts.append(table(["flash of the box, HH, 10.24 GHz: azimuth (deg)", "computed (dBsm)", "reference (dBsm)", "difference (dB)"], flashes))
+    parts += [section(case, out) for case, _ in results] + [text_section(*other) for other in others]
+    return f"""<!doctype html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>seaglint: the solver against references</title>
+<style>
+{STYLE}
+</style>
+</head>
+<body>
+{chr(10).join(parts)}
+</body></html>
+"""
+
+
+def cases_text(results):
+    """One line per cut, which tools/measure reads: name|case|cut|with diffraction|physical optics|measured|correlation|goal."""
+    lines = []
+    for case, cuts in results:
+        for cut in cuts:
+            cells = [cell(cut.differences.get(kind)) for kind in ("po+diffraction", "po", "measured")]
+            lines.append("|".join([case.name, case.about, cut.name, *cells, cut.solver(cut.correlation) or "-", case.goal]))
+    return "\n".join(lines) + "\n"
+
+
+def figures(results, commit, version):
+    """All figures, for comparisons of versions."""
+    def difference(pair):
+        return None if pair is None else {"mean_db": float(pair[0]), "rms_db": float(pair[1])}
+
+    cases = []
+    for case, cuts in results:
+        for cut in cuts:
+            correlation = cut.solver(cut.correlation)
+            cases.append({"name": case.name, "case": case.about, "cut": cut.name, "reference": case.source,
+                          "po_and_diffraction": difference(cut.differences.get("po+diffraction")), "physical_optics": difference(cut.differences.get("po")), "measured": difference(cut.differences.get("measured")),
+                          "correlation": None if correlation is None else float(correlation),
+                          "change_db": {kind: None if kind not in cut.changes else round(cut.changes[kind], 4) for kind in ("patches", "bounces", "flat")}, "goal": case.goal})
+    return json.dumps({"version": version, "commit": commit, "cases": cases}, indent=2) + "\n"
