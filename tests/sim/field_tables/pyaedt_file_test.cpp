@@ -2,9 +2,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "sim/core/numbers/random.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/field_tables/read_field_table.h"
@@ -79,6 +85,43 @@ TEST(PyaedtFile, ThatIsCutOffIsRefused) {
     write_file(folder.path() / "pyaedt_VV.h5", whole.substr(0, bytes));
     EXPECT_THAT(refusal(folder.path() / "pyaedt_VV.json"), HasSubstr("pyaedt_VV.h5: not a whole HDF5 file"));
   }
+}
+
+// Bytes anywhere in the table: refused in one message, or read with all rows, at most one of which differs where the
+// byte belongs to a value. SEAGLINT_MUTATIONS changes (300).
+TEST(PyaedtFile, WithAChangedByteIsRefusedOrReadAsItStands) {
+  const char* count = std::getenv("SEAGLINT_MUTATIONS");
+  const TemporaryFolder folder;
+  const std::string whole = read_file(kFolder / "pyaedt_VV.h5");
+  write_file(folder.path() / "pyaedt_VV.json", read_file(kFolder / "pyaedt_VV.json"));
+  const std::vector<FieldValue> original = read_field_table(kFolder / "pyaedt_VV.json", {}).cuts.at(0).values;
+  Random random({14, Stream::kTest, 0});
+  int refused = 0, changed = 0;
+  for (int n = 0; n < (count == nullptr ? 300 : std::atoi(count)); ++n) {
+    std::string bytes = whole;
+    bytes[random.below(static_cast<std::uint32_t>(bytes.size()))] = static_cast<char>(random.below(256));
+    std::ofstream(folder.path() / "pyaedt_VV.h5", std::ios::binary | std::ios::trunc) << bytes;
+    std::optional<FieldTable> table;
+    try {
+      table = read_field_table(folder.path() / "pyaedt_VV.json", {});
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("pyaedt_VV"));
+      ++refused;
+      continue;
+    }
+    const std::vector<FieldValue>& values = table->cuts.at(0).values;
+    ASSERT_EQ(values.size(), original.size());
+    int differing = 0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      EXPECT_TRUE(std::isfinite(values[i].level_dbsm));
+      differing += values[i].amplitude_m != original[i].amplitude_m || values[i].theta_deg != original[i].theta_deg ||
+                   values[i].phi_deg != original[i].phi_deg || values[i].frequency_hz != original[i].frequency_hz;
+    }
+    EXPECT_LE(differing, 1);
+    changed += differing;
+  }
+  EXPECT_GT(refused, 0);
+  EXPECT_GT(changed, 0);
 }
 
 TEST(PandasTable, HasTheRowsThatWereWritten) {
