@@ -264,12 +264,18 @@ std::vector<Phase> centred(std::vector<Phase> phases) {
   return phases;
 }
 
+// With e^{+jwt}. What has the other time factor had the other sign of its stated origin, too.
+Complex reference_of(const AlignmentPoint& p, bool conjugated) {
+  if (!conjugated) return p.reference_m;
+  if (p.stated_origin_m.isZero()) return std::conj(p.reference_m);
+  return std::conj(p.reference_m) * std::polar(1.0, 2 * p.path_gradient.dot(p.stated_origin_m));
+}
+
 Alignment fit(std::span<const AlignmentPoint> points, bool conjugated) {
   Alignment result;
   result.conjugated = conjugated;
   std::vector<Complex> products;
-  for (const AlignmentPoint& p : points)
-    products.push_back((conjugated ? std::conj(p.reference_m) : p.reference_m) * std::conj(p.computed_m));
+  for (const AlignmentPoint& p : points) products.push_back(reference_of(p, conjugated) * std::conj(p.computed_m));
   const double wavelength = shortest_wavelength(points), least = 1e-6 / wavelength;
 
   OriginSearch search;
@@ -303,7 +309,7 @@ void complete(Alignment& alignment, std::span<const AlignmentPoint> points) {
   std::array<Complex, 4> constants{};
   double computed = 0, reference = 0;
   for (const AlignmentPoint& p : points) {
-    const Complex other = alignment.conjugated ? std::conj(p.reference_m) : p.reference_m;
+    const Complex other = reference_of(p, alignment.conjugated);
     constants[p.element] += other * std::conj(p.computed_m) * std::polar(1.0, p.path_gradient.dot(alignment.origin_m));
     computed += std::norm(p.computed_m);
     reference += std::norm(p.reference_m);
@@ -338,8 +344,7 @@ Alignment fit_alignment(std::span<const AlignmentPoint> points, int threads) {
 }
 
 Complex aligned(const Alignment& alignment, const AlignmentPoint& point) {
-  const Complex other = alignment.conjugated ? std::conj(point.reference_m) : point.reference_m;
-  return static_cast<double>(alignment.sign[point.element]) * other *
+  return static_cast<double>(alignment.sign[point.element]) * reference_of(point, alignment.conjugated) *
          std::polar(1.0, point.path_gradient.dot(alignment.origin_m) - alignment.phase_rad);
 }
 

@@ -19,13 +19,14 @@ struct AlignmentPoint {
   double frequency_hz = 0, azimuth_deg = 0, elevation_deg = 0;
   Vec3 path_gradient = Vec3::Zero();  // k (r^_t + r^_s), rad/m
   Complex computed_m, reference_m;
+  Vec3 stated_origin_m = Vec3::Zero();  // of the reference: e^{+j q.stated_origin} is in reference_m already
 };
 
 // reference = sign_e e^{j phase} e^{-j q.origin} computed, or the conjugate of that: the reference is about `origin`
 // where the computed one is about 0.
 struct Alignment {
   double phase_rad = 0;                 // of the first element with values
-  Vec3 origin_m = Vec3::Zero();         // components that are not determined are 0
+  Vec3 origin_m = Vec3::Zero();         // beside the stated one; components that are not determined are 0
   std::vector<Vec3> undetermined;       // unit vectors along which the data fix no origin
   Vec3 origin_error_m = Vec3::Zero();   // standard error along x, y, z of the determined components
   bool conjugated = false;              // the reference has the other time factor

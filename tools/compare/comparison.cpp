@@ -86,7 +86,8 @@ AlignmentPoint point_of(const PairedCut& cut, std::size_t i) {
           place.elevation_deg,
           place.path_gradient,
           cut.models[0].amplitude_m[i],
-          cut.amplitude_m[i]};
+          cut.amplitude_m[i],
+          cut.origin_m};
 }
 
 bool has_phases(const PairedCut& cut) { return !cut.amplitude_m.empty() && !cut.models[0].amplitude_m.empty(); }

@@ -162,6 +162,7 @@ std::vector<PairedCut> paired_cuts(const RcsSweep& sweep, const RcsCut& referenc
       cuts.emplace_back();
       cuts.back().reference = reference.name;
       cuts.back().element = reference.element;
+      cuts.back().origin_m = reference.origin_m;
       cuts.back().axis = axis;
       if (axis != CutAxis::kFrequency) cuts.back().frequency_hz = f;
     }

@@ -28,6 +28,7 @@ struct PairedCut {
   std::vector<double> x;               // deg or GHz; the running number when several axes vary
   std::vector<double> level_dbsm;
   std::vector<Complex> amplitude_m;  // of the reference, phase origin at the body's origin; empty without phases
+  Vec3 origin_m = Vec3::Zero();      // its own, which was removed as of e^{+jwt}
   struct Place {
     std::size_t view = 0, frequency = 0;  // in the sweep
     double frequency_hz = 0, azimuth_deg = 0, elevation_deg = 0;

@@ -30,7 +30,7 @@ std::vector<AlignmentPoint> sweep(const std::vector<double>& ghz, const std::vec
     for (const double el : elevations) {
       for (const double az : azimuths) {
         for (const double f : ghz) {
-          AlignmentPoint p{element, f * 1e9, az, el, {}, 0, 0};
+          AlignmentPoint p{element, f * 1e9, az, el, {}, 0, 0, Vec3::Zero()};
           p.path_gradient = 4 * kPi * p.frequency_hz / kSpeedOfLight * direction_to_radar(radians(az), radians(el));
           for (const auto& [place, s] : scatterers)
             p.computed_m += s[element] * std::polar(1.0, p.path_gradient.dot(place));
@@ -94,6 +94,22 @@ TEST(Alignment, LeavesAnOriginThatIsRight) {
   EXPECT_FALSE(found.conjugated);
   EXPECT_NEAR(found.correlation, 1, 1e-12);
   EXPECT_LT(found.origin_m.norm(), 1e-9);
+}
+
+// A file of the other time factor that states its phase origin: nothing of it is left to fit.
+TEST(Alignment, TurnsTheStatedOriginOfTheOtherTimeFactor) {
+  auto points = sweep(grid(9, 0.05, 21), grid(0, 0.5, 121), {2, 5}, {0});
+  const Vec3 stated(0.31, -0.2, 0.05);
+  for (AlignmentPoint& p : points) {
+    const Complex as_written = std::conj(p.computed_m * std::polar(1.0, -p.path_gradient.dot(stated)));
+    p.reference_m = as_written * std::polar(1.0, p.path_gradient.dot(stated));
+    p.stated_origin_m = stated;
+  }
+  const Alignment found = fit_alignment(points, 1);
+  EXPECT_TRUE(found.conjugated);
+  EXPECT_NEAR(found.correlation, 1, 1e-9);
+  EXPECT_LT(found.origin_m.norm(), 1e-6);
+  for (const AlignmentPoint& p : points) EXPECT_NEAR(std::abs(aligned(found, p) - p.computed_m), 0, 1e-3);
 }
 
 // One elevation and one frequency: a shift along z is a constant phase.
