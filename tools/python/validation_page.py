@@ -6,6 +6,7 @@ import json
 
 STYLE = """body { font: 16px/1.5 system-ui, sans-serif; color: #1d2733; max-width: 1180px; margin: 2em auto; padding: 0 1em; }
 table { border-collapse: collapse; margin: 1em 0; font-variant-numeric: tabular-nums; }
+td:nth-child(n+2):not(:last-child) { white-space: nowrap; }
 td, th { border-bottom: 1px solid #d5dce3; padding: .3em .8em; text-align: left; vertical-align: top; }
 img { max-width: 100%; height: auto; }
 figure { margin: 1em 0; }
@@ -42,7 +43,7 @@ def summary(results):
         for i, cut in enumerate(cuts):
             title = f'<a href="#{case.name}">{html.escape(case.about)}</a>' if i == 0 else ""
             rows.append([title, cut.name, cell(cut.differences.get("po+diffraction")), cell(cut.differences.get("po")), cell(cut.differences.get("measured")),
-                         cut.solver(cut.correlation) or "-", *(change(cut.changes.get(kind)) for kind in ("patches", "bounces", "flat")), html.escape(case.goal)])
+                         cut.solver(cut.correlation) or "-", *(change(cut.changes.get(kind)) for kind in ("patches", "bounces", "flat")), html.escape(case.goal) if i == 0 else ""])
     return table(["case", "cut", "with edge diffraction", "physical optics alone", "measured", "complex correlation", "patches", "bounces", "flat facets", "goal"], rows)
 
 

@@ -108,8 +108,8 @@ def solve_changes(case, cuts, out):
         changed, _ = solved(file)
         for cut in cuts:
             element, _, ghz = cut.name.lower().partition(", ")
-            frequency = float(ghz.split()[0]) * 1e9 if ghz else None
-            places = [p for p in changed if p in base and (frequency is None or abs(p[0] / frequency - 1) < 1e-6)]
+            frequency = float(ghz.split()[0]) * 1e9 if ghz else None  # as printed, six digits
+            places = [p for p in changed if p in base and (frequency is None or abs(p[0] / frequency - 1) < 1e-5)]
             if not places:
                 continue
             floor = max(base[p][element] for p in places) - case.floor_db
