@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The layers of a Network and their training in libtorch. clang compiles libtorch 1.13 as C++17 only (as C++20 it
-// instantiates a vector of a type that is not complete), so that this header and its source are C++17.
+// The layers of a Network and their training in libtorch, which takes 0.3 s and 300 MB of address space to load: it is
+// loaded when the first layers are made. C++17, as the library's source (torch/torch_layers.h).
 
 #include <cstddef>
 #include <memory>
@@ -23,24 +23,20 @@ struct Parameter {
 // Throws WorkError for an error of the library, std::bad_alloc where memory is short.
 class Layers {
  public:
-  // Maps of rows x columns cells. The weights are the library's until parameters() are set.
-  Layers(int embedding_size, int threads, std::size_t rows, std::size_t columns);
+  virtual ~Layers() = default;
 
-  std::vector<Parameter> parameters();  // in the order of the layers
+  virtual std::vector<Parameter> parameters() = 0;  // in the order of the layers
 
-  void start_training(double learning_rate);  // Adam (Kingma and Ba 2015)
+  virtual void start_training(double learning_rate) = 0;  // Adam (Kingma and Ba 2015)
   // One step with `count` maps [count][rows][columns] and their labels 0 or 1; mean binary cross-entropy before it.
-  double train(const float* maps, const float* labels, std::size_t count);
+  virtual double train(const float* maps, const float* labels, std::size_t count) = 0;
   // Appends embeddings [count][embedding_size] and logits [count].
-  void embed(const float* maps, std::size_t count, std::vector<float>& embeddings, std::vector<float>& logits);
-
- private:
-  struct Plane;
-  struct Optimiser;
-  std::size_t rows_, columns_;
-  int threads_;
-  std::shared_ptr<Plane> plane_;
-  std::shared_ptr<Optimiser> optimiser_;
+  virtual void embed(const float* maps, std::size_t count, std::vector<float>& embeddings,
+                     std::vector<float>& logits) = 0;
 };
+
+// Layers of maps of rows x columns cells. The weights are the library's until parameters() are set. Throws WorkError
+// where libtorch cannot be loaded.
+std::unique_ptr<Layers> make_layers(int embedding_size, int threads, std::size_t rows, std::size_t columns);
 
 }  // namespace seaglint

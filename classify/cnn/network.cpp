@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <memory>
 #include <string>
 
 #include "classify/cnn/layers.h"
@@ -48,9 +49,9 @@ std::vector<float> gather(std::span<const float> inputs, std::span<const std::si
 
 struct Network::State {
   State(int size, int thread_count)
-      : embedding_size(size), threads(thread_count), layers(size, thread_count, kInputRows, kInputColumns) {}
+      : embedding_size(size), threads(thread_count), layers(make_layers(size, thread_count, kInputRows, kInputColumns)) {}
   int embedding_size, threads;
-  Layers layers;
+  std::unique_ptr<Layers> layers;
   std::vector<double> losses;
 };
 
@@ -59,9 +60,9 @@ Network Network::train(std::span<const float> inputs, std::span<const std::size_
   SEAGLINT_CHECK(!rows.empty() && inputs.size() == labels.size() * kInputCells,
                  fmt::format("{} rows, {} labels, {} values", rows.size(), labels.size(), inputs.size()));
   auto state = std::make_shared<State>(spec.embedding_size, spec.threads);
-  initialise(state->layers, {seed, Stream::kNetwork, 2 * index});
+  initialise(*state->layers, {seed, Stream::kNetwork, 2 * index});
   Random order_of_batches({seed, Stream::kNetwork, 2 * index + 1});
-  state->layers.start_training(spec.learning_rate);
+  state->layers->start_training(spec.learning_rate);
 
   std::vector<std::size_t> order(rows.begin(), rows.end());
   const std::size_t batch_size = static_cast<std::size_t>(spec.batch_size);
@@ -75,7 +76,7 @@ Network Network::train(std::span<const float> inputs, std::span<const std::size_
       const std::span<const std::size_t> batch(order.data() + begin, std::min(batch_size, order.size() - begin));
       std::vector<float> truth;
       for (const std::size_t row : batch) truth.push_back(static_cast<float>(labels[row]));
-      const double loss = state->layers.train(gather(inputs, batch).data(), truth.data(), batch.size());
+      const double loss = state->layers->train(gather(inputs, batch).data(), truth.data(), batch.size());
       sum += loss * static_cast<double>(batch.size());
     }
     state->losses.push_back(sum / static_cast<double>(order.size()));
@@ -89,7 +90,7 @@ Embeddings Network::embed(std::span<const float> inputs) const {
   result.size = static_cast<std::size_t>(state_->embedding_size);
   const std::size_t maps = inputs.size() / kInputCells;
   for (std::size_t begin = 0; begin < maps; begin += kBatch) {
-    state_->layers.embed(inputs.data() + begin * kInputCells, std::min(kBatch, maps - begin), result.values,
+    state_->layers->embed(inputs.data() + begin * kInputCells, std::min(kBatch, maps - begin), result.values,
                          result.logits);
   }
   return result;
@@ -97,7 +98,7 @@ Embeddings Network::embed(std::span<const float> inputs) const {
 
 std::size_t Network::parameter_count() const {
   std::size_t count = 0;
-  for (const Parameter& parameter : state_->layers.parameters()) count += parameter.count;
+  for (const Parameter& parameter : state_->layers->parameters()) count += parameter.count;
   return count;
 }
 
@@ -114,7 +115,7 @@ void Network::save(const std::filesystem::path& file) const {
                                  static_cast<std::uint32_t>(state_->threads),
                                  static_cast<std::uint32_t>(parameter_count())};
   append(head, sizeof head);
-  for (const Parameter& parameter : state_->layers.parameters())
+  for (const Parameter& parameter : state_->layers->parameters())
     append(parameter.values, parameter.count * sizeof(float));
   write_file(file, bytes);
 }
@@ -134,7 +135,7 @@ Network Network::load(const std::filesystem::path& file) {
   if (head[3] != network.parameter_count() || bytes.size() != sizeof head + head[3] * sizeof(float))
     fail("it is truncated or has a tail");
   const char* place = bytes.data() + sizeof head;
-  for (const Parameter& parameter : state->layers.parameters()) {
+  for (const Parameter& parameter : state->layers->parameters()) {
     std::memcpy(parameter.values, place, parameter.count * sizeof(float));
     place += parameter.count * sizeof(float);
   }

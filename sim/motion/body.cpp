@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "sim/core/numbers/constants.h"
+#include "sim/core/process/data_folder.h"
 #include "sim/core/process/error.h"
-#include "sim/core/process/file.h"
 #include "sim/motion/ship/long_waves.h"
 #include "sim/motion/ship/rao_files.h"
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <system_error>
 
+#include "sim/core/process/data_folder.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/core/text/suggestion.h"
@@ -152,26 +153,21 @@ std::optional<fs::path> find_material_file(const std::string& name, const fs::pa
   if (name == "pec") return std::nullopt;
   const bool is_file = name.ends_with(".yaml") || name.find('/') != std::string::npos;
   const fs::path path = is_file ? fs::path(name) : fs::path("assets/materials") / (name + ".yaml");
+  if (const std::optional<fs::path> file = search_file(path.string(), folder)) return file;
+  if (is_file) {
+    throw InputError(fmt::format("{}: value '{}': no such material file, {}", where, name, places_text(folder)));
+  }
   std::error_code error;
   std::vector<std::string> names{"pec"};
-  for (const fs::path& candidate : {folder / path, path}) {
-    if (fs::is_regular_file(candidate, error)) return candidate;
-    if (is_file) continue;
-    for (const auto& entry : fs::directory_iterator(candidate.parent_path(), error)) {
+  for (const fs::path& place : search_folders(folder)) {
+    for (const auto& entry : fs::directory_iterator(place / path.parent_path(), error)) {
       if (entry.path().extension() == ".yaml") names.push_back(entry.path().stem().string());
     }
   }
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
-  const fs::path in_folder = folder / path;
-  if (is_file) {
-    throw InputError(fmt::format("{}: value '{}': no such material file{} below the working directory", where, name,
-                                 folder.empty() ? "" : fmt::format(", neither {} nor", in_folder.string())));
-  }
-  throw InputError(
-      fmt::format("{}: value '{}': no such material{} in {} below the working directory: {}", where, name,
-                  folder.empty() ? "" : fmt::format(", neither in {} nor", in_folder.parent_path().string()),
-                  path.parent_path().string(), suggestion(name, names)));
+  throw InputError(fmt::format("{}: value '{}': no such material in {}, {}: {}", where, name,
+                               path.parent_path().string(), places_text(folder), suggestion(name, names)));
 }
 
 MaterialSpec find_material(const std::string& name, const fs::path& folder, const std::string& where) {

@@ -8,6 +8,7 @@
 
 #include "sim/core/numbers/constants.h"
 #include "sim/core/numbers/reproducible_functions.h"
+#include "sim/core/process/data_folder.h"
 #include "sim/core/process/file.h"
 #include "sim/core/process/utf8.h"
 #include "sim/scenario/contradictions.h"

@@ -228,7 +228,7 @@ TEST(Report, IsWrittenWithoutMeshesThatAreNotFound) {
   ASSERT_EQ(first_run.code, 0) << first_run.err;
   EXPECT_THAT(read_file(run / "report.html"), HasSubstr("Picture of one"));
   const ProgramResult elsewhere =
-      run_words({"/bin/bash", "-c", "cd / && exec \"$@\"", "elsewhere", kProgram, "report", run});
+      run_words({"/bin/bash", "-c", "cd / && SEAGLINT_DATA=/ exec \"$@\"", "elsewhere", kProgram, "report", run});
   ASSERT_EQ(elsewhere.code, 0) << elsewhere.err;
   EXPECT_THAT(elsewhere.err, HasSubstr("seaglint: warning: "));
   EXPECT_THAT(elsewhere.err, HasSubstr("targets.one.mesh: value 'assets/icosahedral_reflector.glb': no such file"));

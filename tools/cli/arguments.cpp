@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "classify/dataset/directory/dataset_writer.h"
+#include "sim/core/process/data_folder.h"
 #include "sim/core/process/error.h"
 
 namespace seaglint {
@@ -33,6 +34,6 @@ std::vector<Override> read_overrides(const std::vector<std::string>& set) {
   return overrides;
 }
 
-Scenario ScenarioArguments::read() const { return read_scenario(file, read_overrides(set)); }
+Scenario ScenarioArguments::read() const { return read_scenario(find_input(file, "scenarios"), read_overrides(set)); }
 
 }  // namespace seaglint

@@ -21,6 +21,7 @@ struct CommandContext {
 // Each adds its command to the program, with an example in the footer of its help; command_line.cpp calls them.
 void add_check(CommandOptions& program, CommandContext& context);
 void add_keys(CommandOptions& program, CommandContext& context);
+void add_paths(CommandOptions& program, CommandContext& context);
 void add_mesh(CommandOptions& program, CommandContext& context);
 void add_sea(CommandOptions& program, CommandContext& context);
 void add_motion(CommandOptions& program, CommandContext& context);

@@ -45,6 +45,7 @@ void handle_signals(CommandContext& context) {
 void add_commands(CommandOptions& program, CommandContext& context) {
   add_check(program, context);
   add_keys(program, context);
+  add_paths(program, context);
   add_mesh(program, context);
   add_sea(program, context);
   add_motion(program, context);

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "sim/core/numbers/constants.h"
+#include "sim/core/process/data_folder.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
 #include "sim/core/process/printable.h"
@@ -186,7 +187,7 @@ void print_info(const InfoArguments& arguments) {
   require_outputs({arguments.picture}, {arguments.file});
   if (!arguments.picture.empty() && std::filesystem::path(arguments.picture).extension() != ".png")
     throw InputError(fmt::format("{}: the name of a mesh's picture ends in .png", arguments.picture));
-  const TriangleMesh mesh = read_mesh(arguments.file, arguments.unit);
+  const TriangleMesh mesh = read_mesh(find_input(arguments.file), arguments.unit);
   const Topology topology = topology_of(mesh);
   if (!arguments.picture.empty()) write_file(arguments.picture, png_bytes(picture_of(mesh, arguments.view)));
   print_out("{}\n{}{}{}{}{}", arguments.file, size_line(mesh), counts_line(mesh), part_lines(mesh, topology),

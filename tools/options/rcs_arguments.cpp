@@ -5,6 +5,7 @@
 
 #include <iterator>
 
+#include "sim/core/process/data_folder.h"
 #include "sim/core/process/error.h"
 #include "sim/core/text/number.h"
 #include "tools/options/renamed_words.h"
@@ -215,7 +216,7 @@ CommandOption RcsArguments::add_export_as_to(CommandOptions& command) {
 
 RcsRequest RcsArguments::make_mesh_request() const {
   RcsRequest made = request;
-  made.target = target;
+  made.target = find_input(target);
   made.edges = edges == "on";
   if (crease_deg != "auto") made.crease_deg = parse_number(crease_deg);
   for (const std::string& text : materials) made.materials.push_back(material_choice(text));

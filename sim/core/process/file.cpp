@@ -130,16 +130,6 @@ bool is_stream(const fs::path& path) {
 
 }  // namespace
 
-fs::path find_file(const std::string& name, const fs::path& folder, const std::string& where) {
-  const fs::path in_folder = folder / name;
-  std::error_code error;
-  for (const fs::path& candidate : {in_folder, fs::path(name)}) {
-    if (fs::exists(candidate, error)) return candidate;
-  }
-  throw InputError(fmt::format("{}: value '{}': no such file, neither {} nor below the working directory", where, name,
-                               in_folder.string()));
-}
-
 std::string read_file(const fs::path& path, std::size_t max_bytes) {
   const Descriptor file(path, kReading);
   const struct stat status = status_of_regular(file, path);

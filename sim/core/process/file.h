@@ -12,10 +12,6 @@
 
 namespace seaglint {
 
-// Path of the file `name`: in `folder`, else relative to the working directory. Throws InputError, beginning with
-// `where`, when in neither.
-std::filesystem::path find_file(const std::string& name, const std::filesystem::path& folder, const std::string& where);
-
 // Throws InputError when the file is missing, not a regular file, or larger than max_bytes; WorkError, with the system
 // error, when the disk or the system fails.
 std::string read_file(const std::filesystem::path& path, std::size_t max_bytes = std::size_t{1} << 30);

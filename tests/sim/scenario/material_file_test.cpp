@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/core/numbers/random.h"
+#include "sim/core/process/data_folder.h"
 #include "sim/core/process/error.h"
 #include "sim/scenario/material_file.h"
 #include "sim/scenario/material_spec.h"
@@ -89,9 +90,8 @@ TEST(MaterialFile, IsFoundByNameOrPath) {
     find_material("aluminum", root, "targets.ship.material");
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_EQ(error.what(),
-              "targets.ship.material: value 'aluminum': no such material, neither in " + root +
-                  "/assets/materials nor in assets/materials below the working directory: did you mean 'aluminium'?");
+    EXPECT_EQ(error.what(), "targets.ship.material: value 'aluminum': no such material in assets/materials, " +
+                                places_text(root) + ": did you mean 'aluminium'?");
   }
   const auto refusal = [](const std::string& name, const std::string& folder) {
     try {
@@ -102,10 +102,10 @@ TEST(MaterialFile, IsFoundByNameOrPath) {
     return std::string("none");
   };
   EXPECT_THAT(refusal("unobtainium", ""),
-              HasSubstr("no such material in assets/materials below the working directory: "));
+              HasSubstr("no such material in assets/materials, neither in the working directory nor in "));
   EXPECT_EQ(refusal("none.yaml", "/there"),
-            "x: value 'none.yaml': no such material file, neither /there/none.yaml nor below the working directory");
-  EXPECT_EQ(refusal("none.yaml", ""), "x: value 'none.yaml': no such material file below the working directory");
+            "x: value 'none.yaml': no such material file, " + places_text("/there"));
+  EXPECT_EQ(refusal("none.yaml", ""), "x: value 'none.yaml': no such material file, " + places_text(""));
 }
 
 TEST(MaterialFile, BrokenFilesAreReadOrRefusedWithAnInputError) {
