@@ -19,11 +19,17 @@ Maker load() {
   return reinterpret_cast<Maker>(maker);
 }
 
+Maker maker() {
+  static const Maker loaded = load();
+  return loaded;
+}
+
 }  // namespace
 
+void load_layers_library() { maker(); }
+
 std::unique_ptr<Layers> make_layers(int embedding_size, int threads, std::size_t rows, std::size_t columns) {
-  static const Maker maker = load();
-  return std::unique_ptr<Layers>(maker(embedding_size, threads, rows, columns));
+  return std::unique_ptr<Layers>(maker()(embedding_size, threads, rows, columns));
 }
 
 }  // namespace seaglint

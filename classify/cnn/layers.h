@@ -2,7 +2,7 @@
 #pragma once
 
 // The layers of a Network and their training in libtorch, which takes 0.3 s and 300 MB of address space to load: it is
-// loaded when the first layers are made. C++17, as the library's source (torch/torch_layers.h).
+// loaded when the first layers are made. C++17, as the library's source (torch_layers.h).
 
 #include <cstddef>
 #include <memory>
@@ -34,6 +34,9 @@ class Layers {
   virtual void embed(const float* maps, std::size_t count, std::vector<float>& embeddings,
                      std::vector<float>& logits) = 0;
 };
+
+// Loads libtorch, which stays loaded. Throws WorkError where it cannot be loaded.
+void load_layers_library();
 
 // Layers of maps of rows x columns cells. The weights are the library's until parameters() are set. Throws WorkError
 // where libtorch cannot be loaded.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "classify/cnn/layers.h"
 #include "sim/core/process/address_space.h"
 #include "sim/core/process/error.h"
 #include "sim/core/process/file.h"
@@ -188,8 +189,9 @@ void check_splits(std::span<const RowGroup> rows, const LearningSpec& spec, doub
 
 Study run_study(const LearningTable& table, const LearningSpec& spec, double train_fraction, std::uint64_t seed,
                 int threads, const StopFlag* stop) {
-  // The network's library waits for ever, or ends the process, when it cannot start its threads, one per processor of
-  // 8 MB stack; each of ours takes 64 MB of address space for its own memory.
+  load_layers_library();
+  // libtorch waits for ever, or ends the process, when it cannot start its threads, one per processor of 8 MB stack;
+  // each of ours takes 64 MB of address space for its own memory.
   require_address_space((std::size_t{8} * thread_count(0) + std::size_t{64} * std::min(threads, 4) + 64) << 20,
                         "learning");
   const std::vector<Job> jobs = all_jobs(spec);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "classify/cnn/torch/torch_layers.h"
+#include "classify/cnn/torch_layers.h"
 
 #include <torch/nn/modules/conv.h>
 #include <torch/nn/modules/linear.h>
