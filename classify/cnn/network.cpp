@@ -49,7 +49,9 @@ std::vector<float> gather(std::span<const float> inputs, std::span<const std::si
 
 struct Network::State {
   State(int size, int thread_count)
-      : embedding_size(size), threads(thread_count), layers(make_layers(size, thread_count, kInputRows, kInputColumns)) {}
+      : embedding_size(size),
+        threads(thread_count),
+        layers(make_layers(size, thread_count, kInputRows, kInputColumns)) {}
   int embedding_size, threads;
   std::unique_ptr<Layers> layers;
   std::vector<double> losses;
@@ -91,7 +93,7 @@ Embeddings Network::embed(std::span<const float> inputs) const {
   const std::size_t maps = inputs.size() / kInputCells;
   for (std::size_t begin = 0; begin < maps; begin += kBatch) {
     state_->layers->embed(inputs.data() + begin * kInputCells, std::min(kBatch, maps - begin), result.values,
-                         result.logits);
+                          result.logits);
   }
   return result;
 }

@@ -72,8 +72,7 @@ class TorchLayers : public Layers {
   std::vector<Parameter> parameters() override;
   void start_training(double learning_rate) override;
   double train(const float* maps, const float* labels, std::size_t count) override;
-  void embed(const float* maps, std::size_t count, std::vector<float>& embeddings,
-             std::vector<float>& logits) override;
+  void embed(const float* maps, std::size_t count, std::vector<float>& embeddings, std::vector<float>& logits) override;
 
  private:
   std::size_t rows_, columns_;
@@ -94,8 +93,7 @@ std::vector<Parameter> TorchLayers::parameters() {
 
 void TorchLayers::start_training(double learning_rate) try {
   make_deterministic(threads_);
-  optimiser_ =
-      std::make_unique<torch::optim::Adam>(plane_.parameters(), torch::optim::AdamOptions(learning_rate));
+  optimiser_ = std::make_unique<torch::optim::Adam>(plane_.parameters(), torch::optim::AdamOptions(learning_rate));
 } catch (const c10::Error& error) {
   fail(error);
 }
@@ -116,7 +114,7 @@ double TorchLayers::train(const float* maps, const float* labels, std::size_t co
 }
 
 void TorchLayers::embed(const float* maps, std::size_t count, std::vector<float>& embeddings,
-                   std::vector<float>& logits) try {
+                        std::vector<float>& logits) try {
   make_deterministic(threads_);
   torch::NoGradGuard no_gradient;
   const torch::Tensor inputs = tensor_of(maps, {static_cast<std::int64_t>(count), 1, static_cast<std::int64_t>(rows_),

@@ -62,6 +62,7 @@ def all_steps():
         Step("accuracy", 40, ("tools/measure", "accuracy", "--check"), "every accuracy figure and tools/validation"),
         Step("speed", 30, ("tools/measure", "speed", "--check", "--tolerance", "0.3"),
              "benchmarks within 30 % of the records"),
+        Step("clean-root", 30, ("tests/install/clean_root_test.sh", "build/release"), "the Debian package on a system of its own"),
         Step("tidy", 120, built("tidy"), "clang-tidy on every file"),
         Step("dev", 45, built("dev"), "warnings of gcc are errors"),
         *fuzz_steps(),

@@ -70,7 +70,7 @@ fs::path find_file(const std::string& name, const fs::path& folder, const std::s
 
 fs::path find_input(const std::string& name, const std::string& below) {
   if (const std::optional<fs::path> file = search_file(name, {})) return *file;
-  if (fs::path(name).is_absolute()) throw InputError(fmt::format("{}: no such file", name));
+  if (fs::path(name).is_absolute()) return name;
   const fs::path folder = below.empty() || data_folder().empty() ? fs::path() : data_folder() / below;
   std::error_code error;
   if (!folder.empty() && fs::exists(folder / name, error)) return folder / name;

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "sim/core/process/data_folder.h"
 #include "sim/core/numbers/constants.h"
+#include "sim/core/process/data_folder.h"
 #include "sim/core/process/error.h"
 #include "sim/scenario/scenario.h"
 #include "tests/temporary_folder.h"

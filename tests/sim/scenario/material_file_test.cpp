@@ -103,8 +103,7 @@ TEST(MaterialFile, IsFoundByNameOrPath) {
   };
   EXPECT_THAT(refusal("unobtainium", ""),
               HasSubstr("no such material in assets/materials, neither in the working directory nor in "));
-  EXPECT_EQ(refusal("none.yaml", "/there"),
-            "x: value 'none.yaml': no such material file, " + places_text("/there"));
+  EXPECT_EQ(refusal("none.yaml", "/there"), "x: value 'none.yaml': no such material file, " + places_text("/there"));
   EXPECT_EQ(refusal("none.yaml", ""), "x: value 'none.yaml': no such material file, " + places_text(""));
 }
 
