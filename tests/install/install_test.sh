@@ -41,6 +41,10 @@ complete_words() {
 [[ $(complete_words rcs --edges o | sort | tr '\n' ' ') == "off on " ]] || fail "completion of a value: $(complete_words rcs --edges o)"
 [[ $(complete_words mesh sens) == sensitivity ]] || fail "completion below mesh: $(complete_words mesh sens)"
 
+# The Python package with the installed data.
+has "$(PYTHONPATH=$root/lib/python3/dist-packages PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 -c 'import seaglint; print(seaglint.data_folder(), seaglint.Scenario("quick.yaml"))')" \
+  "$root/share/seaglint <seaglint.Scenario quick: 300 samples>"
+
 # A program of a user; the launcher is taken from the environment as for the project itself.
 cmake -S "$source/tests/install/consumer" -B "$work/consumer" -G Ninja -DCMAKE_PREFIX_PATH="$root" >"$work/log" 2>&1 &&
   cmake --build "$work/consumer" >>"$work/log" 2>&1 || { tail -30 "$work/log"; fail "the user's program is not built"; }

@@ -53,6 +53,7 @@ TargetSource source_of(const Scenario& scenario, const TargetSpec& spec) {
   const std::string path = "targets." + spec.name;
   TargetSource source{.mesh = find_mesh(scenario, spec),
                       .unit = spec.unit,
+                      .loaded = nullptr,
                       .materials = {},
                       .material_folder = scenario.folder,
                       .lowest_hz = 1e9 * lowest_ghz(scenario.radar),

@@ -4,6 +4,7 @@
 // Request for a sweep of scattering matrices, as plain values.
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -49,9 +50,10 @@ struct ViewExport {
 };
 
 struct RcsRequest {
-  std::filesystem::path target;           // mesh file
-  std::string unit = "m";                 // of the mesh: m, cm, mm, km, in, ft
-  std::vector<MaterialChoice> materials;  // empty: perfect conductor throughout
+  std::filesystem::path target;              // mesh file
+  std::string unit = "m";                    // of the mesh: m, cm, mm, km, in, ft
+  std::shared_ptr<const TriangleMesh> mesh;  // in metres, in place of the file; may be null
+  std::vector<MaterialChoice> materials;     // empty: perfect conductor throughout
   std::vector<double> frequency_hz, azimuth_deg, elevation_deg{0};
   std::optional<FixedTransmitter> transmitter;  // bistatic: the sweep is over the receiver's directions
   double range_m = 0;                           // 0: far field

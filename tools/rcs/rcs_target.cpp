@@ -28,6 +28,7 @@ PreparedTarget prepare_mesh(const RcsRequest& request) {
   const auto [lowest, highest] = std::minmax_element(request.frequency_hz.begin(), request.frequency_hz.end());
   SolverMesh mesh = load_solver_mesh({.mesh = request.target,
                                       .unit = request.unit,
+                                      .loaded = request.mesh,
                                       .materials = request.materials,
                                       .material_folder = "",
                                       .lowest_hz = *lowest,

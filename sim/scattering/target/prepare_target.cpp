@@ -50,7 +50,7 @@ std::vector<MaterialSpec> choose_materials(const TargetSource& source, TriangleM
 }  // namespace
 
 SolverMesh load_solver_mesh(const TargetSource& source) {
-  SolverMesh target{read_mesh(source.mesh, source.unit), {}, {}};
+  SolverMesh target{source.loaded ? *source.loaded : read_mesh(source.mesh, source.unit), {}, {}};
   target.materials = choose_materials(source, target.mesh);
   at_place(source.mesh_place, [&] {
     target.warnings = diagnostic_messages(diagnose(target.mesh));

@@ -24,10 +24,11 @@ struct MaterialChoice {
   std::string place;             // source of the choice, prefix of error messages
 };
 
-// Mesh file with the materials of its surfaces.
+// Mesh file, or a mesh, with the materials of its surfaces.
 struct TargetSource {
   std::filesystem::path mesh;
   std::string unit = "m";
+  std::shared_ptr<const TriangleMesh> loaded;  // in metres, in place of the file; may be null
   std::vector<MaterialChoice> materials;  // empty: perfect conductor
   std::filesystem::path material_folder;  // folder searched first for material files
   double lowest_hz = 1e9, highest_hz = 1e9;

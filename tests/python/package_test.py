@@ -1,0 +1,209 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The Python package against the program: the same values, the same errors; Ctrl-C, threads, workers."""
+import csv
+import json
+import multiprocessing
+import os
+import pickle
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import seaglint
+
+PROGRAM = os.environ["SEAGLINT"]
+REFLECTOR = "assets/icosahedral_reflector.glb"
+
+
+def program(*arguments):
+    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True)
+
+
+@pytest.fixture(scope="session")
+def data_set(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("points") / "set"
+    made = program("generate", "points.yaml", "-o", folder, "--set", "dataset.maps_per_shard=7")
+    assert made.returncode == 0, made.stderr
+    return folder
+
+
+def test_import_loads_no_torch():
+    code = "import seaglint, sys; assert 'torch' not in sys.modules; print(any('torch' in line for line in open('/proc/self/maps')))"
+    assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True).stdout == "False\n"
+
+
+def test_rcs_is_that_of_the_program(tmp_path):
+    azimuth, elevation, ghz = np.arange(0, 30, 7.5), [2, 5], [9.5, 10]
+    values = seaglint.rcs(REFLECTOR, np.multiply(ghz, 1e9), azimuth, elevation)
+    assert values.shape == (2, 2, 4, 2, 2) and values.dtype == complex
+    assert program("rcs", "--target", REFLECTOR, "--frequency-ghz", "9.5:10:0.5", "--azimuth-deg", "0:22.5:7.5", "--elevation-deg", "2:5:3", "-o", tmp_path / "r.csv").returncode == 0
+    rows = list(csv.DictReader(line for line in open(tmp_path / "r.csv") if line[0] != "#"))
+    assert len(rows) == 16
+    for row in rows:
+        at = (ghz.index(float(row["frequency_hz"]) / 1e9), elevation.index(float(row["elevation_deg"])), int(float(row["azimuth_deg"]) / 7.5))
+        for p, received in enumerate("hv"):
+            for q, transmitted in enumerate("hv"):
+                pair = received + transmitted
+                assert abs(values[at + (p, q)] - complex(float(row[pair + "_re"]), float(row[pair + "_im"]))) < 1e-8
+
+
+def test_rcs_of_arrays_is_that_of_a_plate():
+    """Physical optics at the normal: sigma = 4 pi A^2 / lambda^2, S = -j A / lambda along the incident polarisation."""
+    a, b, hz = 0.3, 0.2, 10e9
+    corners = [[0, -a / 2, -b / 2], [0, a / 2, -b / 2], [0, a / 2, b / 2], [0, -a / 2, b / 2]]
+    plate = seaglint.Mesh.from_arrays(corners, [[0, 1, 2], [0, 2, 3]])
+    with pytest.warns(seaglint.SeaglintWarning, match="open"):
+        values = seaglint.rcs(plate, hz, 0, 0, edges=False)
+    expected = a * b / (299792458.0 / hz)
+    assert np.allclose(np.abs(np.diag(values[0, 0, 0])), expected, rtol=1e-9)
+    assert np.abs(values[0, 0, 0, 0, 1]) < 1e-9 * expected
+
+
+def test_views_are_not_copies_and_stay_alive():
+    mesh = seaglint.Mesh(REFLECTOR)
+    vertices = mesh.vertices
+    assert np.shares_memory(vertices, mesh.vertices)
+    total = vertices.sum()
+    del mesh
+    assert vertices.sum() == total
+    with pytest.raises(ValueError):
+        vertices[0, 0] = 1
+
+
+@pytest.mark.parametrize("call, message", [
+    (lambda: seaglint.Scenario({"seaglint": 1, "radr": {}}), "radr: unknown key: did you mean 'radar'?"),
+    (lambda: seaglint.Scenario("points.yaml", set={"radar.pulses": -1}), "radar.pulses"),
+    (lambda: seaglint.Scenario("none.yaml"), "none.yaml: no such file, neither in the working directory nor in "),
+    (lambda: seaglint.rcs(REFLECTOR, "10 GHz"), "frequencies_hz: must be a number or a sequence of numbers, not <U6"),
+    (lambda: seaglint.rcs(REFLECTOR, [[1e9]]), "frequencies_hz: must be a number or a sequence of numbers, not float64 of shape (1, 1)"),
+    (lambda: seaglint.rcs(REFLECTOR, [1e9, np.nan]), "frequencies_hz: value nan: must be finite"),
+    (lambda: seaglint.rcs(REFLECTOR, []), "frequencies_hz"),
+    (lambda: seaglint.rcs(REFLECTOR, 1e9, materials="aluminum"), "no such material"),
+    (lambda: seaglint.rcs("none.stl", 1e9), "none.stl: no such file"),
+    (lambda: seaglint.Mesh.from_arrays([[0, 0]], [[0, 1, 2]]), "vertices: must be an array of shape (n, 3)"),
+    (lambda: seaglint.Mesh.from_arrays(np.zeros((3, 3)), [[0, 1, 3]]), "triangles: index 3: must be within 0 and 2"),
+    (lambda: seaglint.Dataset("/none"), "no such file: not a data set, or not finished"),
+])
+def test_wrong_input_is_one_sentence(call, message):
+    with pytest.raises(seaglint.InputError) as error:
+        call()
+    assert message in str(error.value)
+
+
+@pytest.mark.parametrize("call", [
+    lambda: seaglint.rcs(REFLECTOR, 1e9, crease_deg="auto"), lambda: seaglint.rcs(REFLECTOR, 1e9, transmitter_deg=(1,)), lambda: seaglint.rcs(REFLECTOR, 1e9, max_bounces=2.5),
+    lambda: seaglint.rcs(None, 1e9), lambda: seaglint.Mesh(None), lambda: seaglint.Simulator("points.yaml")[10**9], lambda: seaglint.Simulator("points.yaml")["a"],
+    lambda: seaglint.compare(1, 2)])
+def test_wrong_types_raise(call):
+    with pytest.raises((TypeError, ValueError, IndexError)):
+        call()
+
+
+def test_samples_are_those_of_the_data_set(data_set):
+    data, simulator = seaglint.Dataset(data_set, check=True), seaglint.Simulator("points.yaml")
+    assert len(data) == len(simulator) == 40
+    for k in (0, 6, 7, 39, -1):
+        sample = simulator[k]
+        assert np.array_equal(np.abs(sample.map).astype(np.float32), data[k])
+        for name, value in sample.columns.items():
+            assert data.columns[name][k] == value, name
+    assert np.array_equal(sample.range_m, data.range_m) and np.array_equal(sample.velocity_mps, data.velocity_mps)
+    assert sample.echo.shape[0] == len(sample.hop_code) == len(sample.carrier_hz) == 256
+    assert sample.centres.shape[1] == 3 and sample.centres[0, 2] == sample.centres[:, 2].max()
+    ships = data.where(label=1)
+    assert len(ships) == 20 and np.array_equal(data.maps(ships)[3], data[ships[3]])
+
+
+def test_damaged_and_closed_data_sets(data_set, tmp_path):
+    import shutil
+
+    copy = tmp_path / "copy"
+    shutil.copytree(data_set, copy)
+    shard = sorted(copy.glob("*.h5"))[1]
+    whole = shard.read_bytes()
+    shard.write_bytes(whole[:5000])
+    with pytest.raises(seaglint.InputError, match="not a shard"):
+        seaglint.Dataset(copy)[8]
+    shard.write_bytes(whole[:-9] + b"x" + whole[-8:])
+    with pytest.raises(seaglint.InputError, match="SHA-256"):
+        seaglint.Dataset(copy, check=True)
+    shard.unlink()
+    with pytest.raises(seaglint.InputError, match="no such file, but the manifest lists it"):
+        seaglint.Dataset(copy)
+    with seaglint.Dataset(data_set) as data:
+        data[0]
+    with pytest.raises(seaglint.InputError, match="closed"):
+        data[0]
+    with pytest.raises(seaglint.InputError, match="no column lable; the columns are aspect_traces, "):
+        seaglint.Dataset(data_set).where(lable=1)
+
+
+def total(data, indices):
+    return float(sum(data[i].sum(dtype=float) for i in indices))
+
+
+@pytest.mark.parametrize("method", ["fork", "spawn"])
+def test_four_workers(data_set, method):
+    data = seaglint.Dataset(data_set)
+    expected = [total(data, range(first, 40, 4)) for first in range(4)]  # handles are open before the fork
+    with multiprocessing.get_context(method).Pool(4) as pool:
+        assert pool.starmap(total, [(data, range(first, 40, 4)) for first in range(4)]) == expected
+    assert total(pickle.loads(pickle.dumps(data)), range(40)) == total(data, range(40))
+
+
+def test_torch_loader(data_set):
+    torch = pytest.importorskip("torch", reason="needs the package python3-torch")
+    loader = torch.utils.data.DataLoader(seaglint.Dataset(data_set).torch_dataset(), batch_size=10, num_workers=4)
+    batches = list(loader)
+    assert [tuple(maps.shape) for maps, _ in batches] == [(10, 1, 64, 256)] * 4
+    assert sum(int(labels.sum()) for _, labels in batches) == 20
+
+
+def test_other_threads_go_on():
+    count, done = 0, threading.Event()
+
+    def counting():
+        nonlocal count
+        while not done.is_set():
+            count += 1
+            time.sleep(0.001)
+
+    thread = threading.Thread(target=counting)
+    thread.start()
+    start = time.monotonic()
+    seaglint.rcs(REFLECTOR, 16e9, np.arange(0, 360, 0.25), 2)
+    seconds = time.monotonic() - start
+    done.set()
+    thread.join()
+    assert count > 100 * seconds
+
+
+def test_ctrl_c_stops_long_work():
+    code = "import seaglint, numpy as np\nprint('begun', flush=True)\nseaglint.rcs('assets/combatant_144m.glb', 16e9, np.arange(0, 360, 0.01))"
+    with subprocess.Popen([sys.executable, "-W", "ignore", "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+        process.stdout.readline()
+        time.sleep(1.5)
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=60)
+    assert process.returncode != 0 and errors.rstrip().endswith("KeyboardInterrupt"), errors
+
+
+def test_compare(tmp_path):
+    for name, step in (("fine", "0.5"), ("same", "0.5"), ("other", "0.35")):
+        assert program("rcs", "--target", REFLECTOR, "--frequency-ghz", "10", "--azimuth-deg", f"0:14:{step}", "-o", tmp_path / f"{name}.csv").returncode == 0
+    same = seaglint.compare(tmp_path / "same.csv", tmp_path / "fine.csv")
+    assert {entry["polarisation"] for entry in same["exports"]} == {"hh", "hv", "vh", "vv"}
+    assert all(entry["rms_db"] == 0 for entry in same["exports"])
+    other = seaglint.compare(tmp_path / "other.csv", tmp_path / "fine.csv", interpolate_m=0.6)
+    assert all(entry["interpolation"]["omitted"] == 0 for entry in other["exports"])
+    assert json.dumps(other)
+
+
+def test_names_of_the_package_are_documented():
+    for name in seaglint.__all__:
+        assert getattr(seaglint, name).__doc__, name

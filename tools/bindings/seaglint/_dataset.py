@@ -1,0 +1,190 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Data sets of `seaglint generate`, read map by map."""
+import hashlib
+import json
+import mmap
+import os
+import pathlib
+
+import numpy as np
+
+from ._core import InputError
+
+
+class _Shard:
+    """A file with some of the maps. Its maps are mapped into memory where they lie, one chunk each, with their checksum
+    behind them."""
+
+    def __init__(self, file, count, shape):
+        import h5py
+
+        try:
+            with h5py.File(file) as data:
+                maps = data["maps"]
+                if maps.shape != (count, *shape) or maps.dtype != np.dtype("<f4") or maps.chunks != (1, *shape):
+                    raise InputError(f"{file}: maps are {maps.dtype} of shape {maps.shape}: not a shard of this data set")
+                chunks = [maps.id.get_chunk_info(i) for i in range(maps.id.get_num_chunks())]
+        except (OSError, KeyError, RuntimeError) as error:
+            raise InputError(f"{file}: not a shard: {error}") from None
+        bytes_of_map = 4 * shape[0] * shape[1]
+        size = os.path.getsize(file)
+        if len(chunks) != count or any(c.size != bytes_of_map + 4 or c.byte_offset + c.size > size for c in chunks):
+            raise InputError(f"{file}: its maps are not stored as this program does")
+        self._shape = shape
+        self._offsets = [0] * count
+        for chunk in chunks:
+            self._offsets[chunk.chunk_offset[0]] = chunk.byte_offset
+        with open(file, "rb") as stream:
+            self._bytes = mmap.mmap(stream.fileno(), 0, access=mmap.ACCESS_READ)
+
+    def map(self, row):
+        return np.frombuffer(self._bytes, "<f4", self._shape[0] * self._shape[1], self._offsets[row]).reshape(self._shape)
+
+
+class Dataset:
+    """A data set: len(), data[i] -> map [velocity, range] in metres, data.columns["label"], data.where(label=1).
+
+    path: the folder of `generate` or of `run`. Maps are read when they are used; each process has handles of its own,
+    so that it can be shared with workers, forked or spawned. Maps are views of the file, not to be written to.
+    check=True compares the SHA-256 of every shard with the manifest.
+    """
+
+    def __init__(self, path, check=False):
+        folder = pathlib.Path(path)
+        if not (folder / "manifest.json").is_file() and (folder / "data/manifest.json").is_file():
+            folder = folder / "data"
+        try:
+            manifest = json.loads((folder / "manifest.json").read_text(encoding="utf-8"))
+        except FileNotFoundError:
+            raise InputError(f"{folder / 'manifest.json'}: no such file: not a data set, or not finished") from None
+        except ValueError as error:
+            raise InputError(f"{folder / 'manifest.json'}: {error}") from None
+        self.folder, self.manifest = folder, manifest
+        self._shape = (int(manifest["map"]["rows"]), int(manifest["map"]["columns"]))
+        self._files, self._first = [], [0]
+        for shard in manifest["shards"]:
+            file = folder / shard["file"]
+            if file.parent != folder or not file.is_file():
+                raise InputError(f"{file}: no such file, but the manifest lists it")
+            if check and hashlib.sha256(file.read_bytes()).hexdigest() != shard["sha256"]:
+                raise InputError(f"{file}: its SHA-256 is not that of the manifest")
+            if shard["first_sample"] != self._first[-1]:
+                raise InputError(f"{folder / 'manifest.json'}: {shard['file']} begins at sample {shard['first_sample']}, not {self._first[-1]}")
+            self._files.append(file)
+            self._first.append(self._first[-1] + int(shard["samples"]))
+        if self._first[-1] != manifest["samples"]:
+            raise InputError(f"{folder / 'manifest.json'}: {manifest['samples']} samples, but {self._first[-1]} in its shards")
+        self._first = np.array(self._first)
+        self._shards, self._owner, self._columns, self._axes, self._closed = {}, os.getpid(), None, None, False
+
+    def __len__(self):
+        return int(self._first[-1])
+
+    @property
+    def map_shape(self):
+        """(velocity cells, range cells)."""
+        return self._shape
+
+    def _read(self, names):
+        import h5py
+
+        if self._closed:
+            raise InputError(f"{self.folder}: the data set is closed")
+        parts = []
+        for file in self._files:
+            with h5py.File(file) as data:
+                parts.append({name: data[name][...] for name in names(data)})
+        return parts
+
+    @property
+    def columns(self):
+        """{name: array over the samples}: label, target_name, azimuth_deg, features, ...; units in manifest["columns"]."""
+        if self._columns is None:
+            parts = self._read(lambda data: [f"samples/{name}" for name in data["samples"]])
+            self._columns = {name.removeprefix("samples/"): np.concatenate([part[name] for part in parts]) for name in parts[0]} if parts else {}
+            for name, values in self._columns.items():
+                if values.dtype.kind == "S":
+                    self._columns[name] = np.char.decode(values, "utf-8")
+        return self._columns
+
+    def _axis(self, name):
+        if self._axes is None:
+            self._axes = self._read(lambda data: ["axes/range_m", "axes/velocity_mps"])[0]
+        return self._axes[f"axes/{name}"]
+
+    @property
+    def range_m(self):
+        """Ranges of the map's columns relative to the reference point, positive = farther."""
+        return self._axis("range_m")
+
+    @property
+    def velocity_mps(self):
+        """Velocities of the map's rows, positive = receding."""
+        return self._axis("velocity_mps")
+
+    def where(self, **equal):
+        """Numbers of the samples whose columns have these values: where(label=1, significant_wave_height_m=1.0)."""
+        chosen = np.ones(len(self), bool)
+        for name, value in equal.items():
+            if name not in self.columns:
+                raise InputError(f"no column {name}; the columns are {', '.join(self.columns)}")
+            chosen &= self.columns[name] == value
+        return np.flatnonzero(chosen)
+
+    def __getitem__(self, index):
+        if self._closed:
+            raise InputError(f"{self.folder}: the data set is closed")
+        i = int(index)
+        if not -len(self) <= i < len(self):
+            raise IndexError(f"sample {i}: the data set has samples 0 to {len(self) - 1}")
+        i %= len(self)
+        if self._owner != os.getpid():  # a forked worker
+            self._shards, self._owner = {}, os.getpid()
+        number = int(np.searchsorted(self._first, i, side="right")) - 1
+        shard = self._shards.get(number)
+        if shard is None:
+            shard = self._shards[number] = _Shard(self._files[number], int(self._first[number + 1] - self._first[number]), self._shape)
+        return shard.map(i - int(self._first[number]))
+
+    def maps(self, indices):
+        """The maps of some samples, [sample, velocity, range], copied."""
+        indices = np.asarray(indices)
+        result = np.empty((len(indices), *self._shape), np.float32)
+        for row, index in enumerate(indices):
+            result[row] = self[index]
+        return result
+
+    def torch_dataset(self, column="label", transform=None):
+        """For torch.utils.data.DataLoader: items (map as a float32 tensor [1, velocity, range], value of the column)."""
+        return _TorchDataset(self, column, transform)
+
+    def close(self):
+        self._shards, self._closed = {}, True
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+    def __getstate__(self):
+        return {**self.__dict__, "_shards": {}}
+
+    def __repr__(self):
+        return f"<seaglint.Dataset {self.manifest.get('scenario')}: {len(self)} maps of {self._shape[0]} x {self._shape[1]} cells>"
+
+
+class _TorchDataset:
+    """Map-style: torch accepts anything with __len__ and __getitem__, and is imported where an item is made."""
+
+    def __init__(self, data, column, transform):
+        self.data, self.values, self.transform = data, data.columns[column], transform
+
+    def __len__(self):
+        return len(self.data)
+
+    def __getitem__(self, index):
+        import torch
+
+        values = torch.from_numpy(self.data[index].copy()).unsqueeze(0)
+        return (values if self.transform is None else self.transform(values)), self.values[index].item()
