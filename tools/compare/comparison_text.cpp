@@ -67,11 +67,11 @@ void append_digits(std::string& text, double value) {
   (text += ',').append(digits, end);
 }
 
-// ",-12.3456"; levels are at least kMinLevel_dbsm.
+// ",-12.3456".
 void append_decibels(std::string& text, double value) {
-  char digits[64];
+  char digits[512];
   const auto [end, error] = std::to_chars(digits, std::end(digits), value, std::chars_format::fixed, 4);
-  SEAGLINT_CHECK(error == std::errc(), "levels have few digits");
+  SEAGLINT_CHECK(error == std::errc(), "at most 315 characters");
   (text += ',').append(digits, end);
 }
 
