@@ -5,12 +5,16 @@ Angles in degrees, everything else in SI units; frames, signs and e^{+jwt} as in
 InputError (a ValueError) with the place of the fault, failed work WorkError; what the program would warn about is a
 SeaglintWarning. Long work releases Python's lock and ends at Ctrl-C.
 """
+from __future__ import annotations
+
 import json
 import os
 import pathlib
 import warnings
+from collections.abc import Mapping, Sequence
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from ._core import InputError, WorkError
@@ -40,7 +44,7 @@ def _find_data():
 _find_data()
 
 
-def data_folder():
+def data_folder() -> str:
     """Folder of the assets, materials and scenarios of the program."""
     return _core.data_folder()
 
@@ -61,7 +65,7 @@ class Scenario:
     set: values that replace those of the scenario, {"radar.pulses": 64}. len() is the number of its samples.
     """
 
-    def __init__(self, source, set=None):
+    def __init__(self, source: str | os.PathLike | dict, set: Mapping[str, object] | None = None):
         pairs = [(str(key), value if isinstance(value, str) else json.dumps(value)) for key, value in (set or {}).items()]
         if isinstance(source, dict):
             self._core = _core.Scenario.parse(json.dumps(source), "scenario", pairs)
@@ -73,7 +77,7 @@ class Scenario:
     seed = property(lambda self: self._core.seed)
     targets = property(lambda self: self._core.targets, doc="Names of the targets.")
 
-    def yaml(self):
+    def yaml(self) -> str:
         """The scenario with all defaults, as YAML."""
         return self._core.yaml()
 
@@ -91,11 +95,11 @@ class Mesh:
     arrays [vertex][3] and [triangle][3], counter-clockwise seen from outside.
     """
 
-    def __init__(self, file, unit="m"):
+    def __init__(self, file: str | os.PathLike, unit: str = "m"):
         self._core = file if isinstance(file, _core.Mesh) else _core.Mesh.read(os.fspath(file), unit)
 
     @classmethod
-    def from_arrays(cls, vertices, triangles):
+    def from_arrays(cls, vertices: ArrayLike, triangles: ArrayLike) -> Mesh:
         vertices, triangles = np.asarray(vertices), np.asarray(triangles)
         for name, array, kinds in (("vertices", vertices, "iuf"), ("triangles", triangles, "iu")):
             if array.ndim != 2 or array.shape[1] != 3 or array.dtype.kind not in kinds:
@@ -111,7 +115,7 @@ class Mesh:
     parts = property(lambda self: _readonly(self._core.parts), doc="[triangle], index into part_names; a view.")
     part_names = property(lambda self: self._core.part_names)
 
-    def write(self, file):
+    def write(self, file: str | os.PathLike) -> None:
         """Writes .glb, .gltf, .obj, .stl or .ply."""
         self._core.write(os.fspath(file))
 
@@ -124,8 +128,10 @@ def _readonly(array):
     return array
 
 
-def rcs(target, frequencies_hz, azimuth_deg=0.0, elevation_deg=0.0, *, unit="m", materials=None, crease_deg=None, edges=True, max_bounces=40, min_patch_m=0.0, sheet_thickness_mm=0.0, range_m=0.0,
-        transmitter_deg=None, cavities=(), only=(), without=(), threads=0):
+def rcs(target: Mesh | str | os.PathLike, frequencies_hz: ArrayLike, azimuth_deg: ArrayLike = 0.0, elevation_deg: ArrayLike = 0.0, *, unit: str = "m",
+        materials: str | Mapping[str, str] | None = None, crease_deg: float | None = None, edges: bool = True, max_bounces: int = 40, min_patch_m: float = 0.0,
+        sheet_thickness_mm: float = 0.0, range_m: float = 0.0, transmitter_deg: tuple[float, float] | None = None, cavities: Sequence[str] = (), only: Sequence[str] = (),
+        without: Sequence[str] = (), threads: int = 0) -> NDArray[np.complex128]:
     """Scattering matrices of a mesh at rest, complex [frequency, elevation, azimuth, received, transmitted], in metres.
 
     Polarisations in the order h, v; sigma = 4 pi |S|^2. e^{+jwt}, phase origin at the mesh's origin, basis of
@@ -161,6 +167,16 @@ class Sample:
     features, as the data set stores them.
     """
 
+    map: NDArray[np.complex128]
+    range_m: NDArray[np.float64]
+    velocity_mps: NDArray[np.float64]
+    echo: NDArray[np.complex128]
+    carrier_hz: NDArray[np.float64]
+    pulse_time_s: NDArray[np.float64]
+    hop_code: NDArray[np.int32]
+    centres: NDArray[np.float64]
+    columns: dict
+
     def __init__(self, parts):
         self.__dict__.update(parts)
 
@@ -171,21 +187,21 @@ class Sample:
 class Simulator:
     """Makes any sample of a scenario, in any order: simulator[k]. Meshes are loaded once, seas of the last samples kept."""
 
-    def __init__(self, scenario):
+    def __init__(self, scenario: Scenario | str | os.PathLike | dict):
         self.scenario = scenario if isinstance(scenario, Scenario) else Scenario(scenario)
         self._core = _core.Pipeline(self.scenario._core)
 
     def __len__(self):
         return len(self._core)
 
-    def __getitem__(self, k):
+    def __getitem__(self, k: int) -> Sample:
         k = int(k)
         if not -len(self) <= k < len(self):
             raise IndexError(f"sample {k}: the scenario has samples 0 to {len(self) - 1}")
         return Sample(self._core.sample(k % len(self)))
 
 
-def sample(scenario, k):
+def sample(scenario: Scenario | str | os.PathLike | dict, k: int) -> Sample:
     """Sample k of a scenario (Sample). For several samples of one, Simulator(scenario)[k] or a Scenario object."""
     if not isinstance(scenario, Scenario):
         return Simulator(scenario)[k]
@@ -194,7 +210,8 @@ def sample(scenario, k):
     return scenario._pipeline[k]
 
 
-def compare(export, against, *, polarisation="", incidence="", floor_db=80.0, as_is=False, interpolate_m=None, threads=0):
+def compare(export: str | os.PathLike, against: str | os.PathLike, *, polarisation: str = "", incidence: str = "", floor_db: float = 80.0, as_is: bool = False, interpolate_m: float | None = None,
+            threads: int = 0) -> dict:
     """Differences of an export (CST, FEKO, HFSS, PyAEDT, a chamber) from another one or a table of `seaglint rcs`.
 
     Returns the dictionary of compare.json (tools/compare). polarisation, incidence: what the files do not say, as

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Data sets of `seaglint generate`, read map by map."""
+from __future__ import annotations
+
 import hashlib
 import json
 import mmap
@@ -7,6 +9,7 @@ import os
 import pathlib
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from ._core import InputError
 
@@ -49,7 +52,7 @@ class Dataset:
     check=True compares the SHA-256 of every shard with the manifest.
     """
 
-    def __init__(self, path, check=False):
+    def __init__(self, path: str | os.PathLike, check: bool = False):
         folder = pathlib.Path(path)
         if not (folder / "manifest.json").is_file() and (folder / "data/manifest.json").is_file():
             folder = folder / "data"
@@ -81,7 +84,7 @@ class Dataset:
         return int(self._first[-1])
 
     @property
-    def map_shape(self):
+    def map_shape(self) -> tuple[int, int]:
         """(velocity cells, range cells)."""
         return self._shape
 
@@ -97,7 +100,7 @@ class Dataset:
         return parts
 
     @property
-    def columns(self):
+    def columns(self) -> dict[str, NDArray]:
         """{name: array over the samples}: label, target_name, azimuth_deg, features, ...; units in manifest["columns"]."""
         if self._columns is None:
             parts = self._read(lambda data: [f"samples/{name}" for name in data["samples"]])
@@ -113,16 +116,16 @@ class Dataset:
         return self._axes[f"axes/{name}"]
 
     @property
-    def range_m(self):
+    def range_m(self) -> NDArray[np.float64]:
         """Ranges of the map's columns relative to the reference point, positive = farther."""
         return self._axis("range_m")
 
     @property
-    def velocity_mps(self):
+    def velocity_mps(self) -> NDArray[np.float64]:
         """Velocities of the map's rows, positive = receding."""
         return self._axis("velocity_mps")
 
-    def where(self, **equal):
+    def where(self, **equal) -> NDArray[np.int64]:
         """Numbers of the samples whose columns have these values: where(label=1, significant_wave_height_m=1.0)."""
         chosen = np.ones(len(self), bool)
         for name, value in equal.items():
@@ -131,7 +134,7 @@ class Dataset:
             chosen &= self.columns[name] == value
         return np.flatnonzero(chosen)
 
-    def __getitem__(self, index):
+    def __getitem__(self, index: int) -> NDArray[np.float32]:
         if self._closed:
             raise InputError(f"{self.folder}: the data set is closed")
         i = int(index)
@@ -146,7 +149,7 @@ class Dataset:
             shard = self._shards[number] = _Shard(self._files[number], int(self._first[number + 1] - self._first[number]), self._shape)
         return shard.map(i - int(self._first[number]))
 
-    def maps(self, indices):
+    def maps(self, indices: ArrayLike) -> NDArray[np.float32]:
         """The maps of some samples, [sample, velocity, range], copied."""
         indices = np.asarray(indices)
         result = np.empty((len(indices), *self._shape), np.float32)
@@ -154,7 +157,7 @@ class Dataset:
             result[row] = self[index]
         return result
 
-    def torch_dataset(self, column="label", transform=None):
+    def torch_dataset(self, column: str = "label", transform=None):
         """For torch.utils.data.DataLoader: items (map as a float32 tensor [1, velocity, range], value of the column)."""
         return _TorchDataset(self, column, transform)
 
