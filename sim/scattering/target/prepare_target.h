@@ -29,8 +29,8 @@ struct TargetSource {
   std::filesystem::path mesh;
   std::string unit = "m";
   std::shared_ptr<const TriangleMesh> loaded;  // in metres, in place of the file; may be null
-  std::vector<MaterialChoice> materials;  // empty: perfect conductor
-  std::filesystem::path material_folder;  // folder searched first for material files
+  std::vector<MaterialChoice> materials;       // empty: perfect conductor
+  std::filesystem::path material_folder;       // folder searched first for material files
   double lowest_hz = 1e9, highest_hz = 1e9;
   // Prefixes of error messages about materials, their frequencies and the mesh; empty: none.
   std::string materials_place, frequencies_place, mesh_place;
