@@ -29,7 +29,7 @@ Guessing guessing(
 
 // True if a probe's accuracy is compatible with guessing under both protocols. A probe that is random by construction
 // is independent from map to map: 99 % binomial interval of one split's rows (repeats reuse the same maps). Any other
-// probe: its bootstrap interval over seas.
+// probe: its bootstrap interval over seas; below guessing it does not tell either.
 bool as_chance(const nlohmann::ordered_json& metrics, const nlohmann::ordered_json& probe);
 
 }  // namespace seaglint

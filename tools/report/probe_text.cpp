@@ -29,15 +29,15 @@ std::string not_scaled(const ClutterSpec& clutter) {
 std::string reading(const std::string& kind, bool chance, bool level_seen) {
   if (kind == "blind") return chance ? "as chance" : "<b>away from chance: look for a leak</b>";
   if (kind == "feature") {
-    if (chance) return "does not tell by itself";
+    if (chance) return "chance: does not tell by itself";
     return level_seen ? "tells by itself; level has a part in what is found" : "tells by itself";
   }
   if (kind == "scale") {
-    if (chance) return "level does not tell";
+    if (chance) return "chance: level does not tell";
     return level_seen ? "level tells the class; features see it by what is found"
                       : "level tells the class; no feature uses it";
   }
-  if (chance) return "does not tell";
+  if (chance) return "chance: does not tell";
   return kind == "ratio" ? "tells the class: it decides what is found" : "tells by shape or strength of the target";
 }
 

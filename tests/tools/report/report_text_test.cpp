@@ -50,6 +50,26 @@ TEST(ProbesTable, TreatsClassProportionsAsChance) {
   EXPECT_THAT(table_of(scores(200, 100, 20)), HasSubstr("look for a leak"));
 }
 
+// What was learnt does not hold on unseen maps: nothing tells the classes apart.
+TEST(ProbesTable, CallsAccuraciesBelowGuessingChance) {
+  ordered_json random = scores(150, 60, 73), group = scores(150, 75, 75);  // 44.3 and 50 %
+  const auto table = [&](const char* kind) {
+    return probes_table({{"split_repeats", 1},
+                         {"probes",
+                          {{{"name", "signal to clutter and noise"},
+                            {"kind", kind},
+                            {"meaning", "-"},
+                            {"random", random},
+                            {"group", group}}}}},
+                        {});
+  };
+  random["accuracy_95"] = {0.384, 0.498};
+  group["accuracy_95"] = {0.5, 0.5};
+  for (const char* kind : {"ratio", "shape", "scale", "feature"}) EXPECT_THAT(table(kind), HasSubstr("chance: "));
+  random["accuracy_95"] = {0.52, 0.6};
+  for (const char* kind : {"ratio", "shape", "scale", "feature"}) EXPECT_THAT(table(kind), Not(HasSubstr("chance")));
+}
+
 // A probe of each kind that separates the classes.
 ordered_json telling_probes() {
   ordered_json metrics{{"split_repeats", 1}, {"probes", ordered_json::array()}};
