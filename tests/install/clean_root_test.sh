@@ -19,9 +19,10 @@ seaglint --version
 seaglint paths
 seaglint run quick.yaml -o x --set dataset.maps_per_case=4 --set dataset.realisations_per_case=2 --set learning.epochs=1 2>/dev/null | tail -3
 test -s x/report.html
+python3 -c 'import seaglint; print(seaglint.Dataset("x"), seaglint.rcs("assets/icosahedral_reflector.glb", 1e10).shape)'
 man -w seaglint 2>/dev/null || test -s /usr/share/man/man1/seaglint.1 || echo "no manual pages on this system"
 USE
 mmdebstrap --variant=apt --aptopt="$(apt-config dump | grep -E '^(Acquire|Dir::Etc::(netrc|trusted))' || true)" \
   --customize-hook="copy-in $package $work/use /tmp" \
-  --customize-hook='chroot "$1" sh -c "apt-get install -y -qq --no-install-recommends /tmp/seaglint_*.deb >/dev/null && sh /tmp/use && apt-get remove -y -qq seaglint >/dev/null && test ! -e /usr/share/seaglint && echo removed"' \
+  --customize-hook='chroot "$1" sh -c "apt-get install -y -qq --no-install-recommends /tmp/seaglint_*.deb python3-numpy python3-h5py >/dev/null && sh /tmp/use && apt-get remove -y -qq seaglint >/dev/null && test ! -e /usr/share/seaglint && echo removed"' \
   bookworm "$work/root.tar" "${sources[@]}"
