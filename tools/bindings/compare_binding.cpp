@@ -12,10 +12,10 @@ namespace py = pybind11;
 namespace seaglint {
 namespace {
 
-// Two tables; the JSON of compare.json and the rows of compare.csv.
-py::tuple compare_tables(const std::string& file, const std::string& against, const std::string& polarisation,
-                         const std::string& incidence, double floor_db, bool as_is,
-                         std::optional<double> interpolation_radius_m, int threads) {
+// Two tables; the text of compare.json.
+std::string compare_tables(const std::string& file, const std::string& against, const std::string& polarisation,
+                           const std::string& incidence, double floor_db, bool as_is,
+                           std::optional<double> interpolation_radius_m, int threads) {
   const auto read = [&](const std::string& name) {
     ReferenceArguments arguments;
     arguments.files = {name};
@@ -27,7 +27,7 @@ py::tuple compare_tables(const std::string& file, const std::string& against, co
   const auto comparisons = interruptible<std::vector<ExportComparison>>([&](const StopFlag&) {
     return std::vector<ExportComparison>{compare_with_table(read(file), read(against), settings, threads)};
   });
-  return py::make_tuple(comparison_json(comparisons, settings).dump(), comparison_csv(comparisons, threads));
+  return comparison_json(comparisons, settings).dump();
 }
 
 }  // namespace

@@ -32,44 +32,14 @@ py::array_t<Complex> matrices_of(const RcsSweep& sweep) {
                   {size(sweep.frequency_hz), size(sweep.elevation_deg), size(sweep.azimuth_deg), 2, 2});
 }
 
-struct Settings {
-  std::string unit;
-  std::vector<std::pair<std::string, std::string>> materials;  // part, or "" for all; material
-  std::optional<double> crease_deg;
-  bool edges;
-  int max_bounces;
-  double min_patch_m, sheet_thickness_mm, range_m;
-  std::optional<std::pair<double, double>> transmitter;  // azimuth, elevation
-  std::vector<std::string> cavities, only, without;
-};
-
-py::tuple rcs(const std::variant<std::shared_ptr<TriangleMesh>, std::string>& target,
-              const std::vector<double>& frequency_hz, const std::vector<double>& azimuth_deg,
-              const std::vector<double>& elevation_deg, const Settings& settings, int threads) {
-  RcsRequest request;
+// Solves `request` for a mesh or file; its other members are set. Returns the matrices and the warnings.
+py::tuple rcs(RcsRequest request, const std::variant<std::shared_ptr<TriangleMesh>, std::string>& target, int threads) {
   if (const auto* file = std::get_if<std::string>(&target)) {
     request.target = find_input(*file);
   } else {
     request.mesh = std::get<0>(target);
     request.target = "the mesh";
   }
-  request.unit = settings.unit;
-  for (const auto& [part, material] : settings.materials)
-    request.materials.push_back({part.empty() ? std::nullopt : std::optional(part), material, "materials"});
-  request.frequency_hz = frequency_hz;
-  request.azimuth_deg = azimuth_deg;
-  request.elevation_deg = elevation_deg;
-  request.edges = settings.edges;
-  request.crease_deg = settings.crease_deg;
-  request.max_bounces = settings.max_bounces;
-  request.min_patch_m = settings.min_patch_m;
-  request.sheet_thickness_mm = settings.sheet_thickness_mm;
-  request.range_m = settings.range_m;
-  if (settings.transmitter)
-    request.transmitter = FixedTransmitter{settings.transmitter->first, settings.transmitter->second};
-  request.cavities.parts = settings.cavities;
-  request.selection = {settings.only, settings.without};
-
   std::vector<std::string> warnings = request_warnings(request);
   const RcsSweep sweep = interruptible<RcsSweep>([&](const StopFlag& stop) {
     PreparedTarget prepared = prepare_mesh(request);
@@ -86,20 +56,34 @@ py::tuple rcs(const std::variant<std::shared_ptr<TriangleMesh>, std::string>& ta
 }  // namespace
 
 void bind_rcs(py::module_& module) {
-  py::class_<Settings>(module, "RcsSettings")
+  using Materials = std::vector<std::pair<std::string, std::string>>;
+  py::class_<RcsRequest>(module, "RcsRequest")
       .def(py::init<>())
-      .def_readwrite("unit", &Settings::unit)
-      .def_readwrite("materials", &Settings::materials)
-      .def_readwrite("crease_deg", &Settings::crease_deg)
-      .def_readwrite("edges", &Settings::edges)
-      .def_readwrite("max_bounces", &Settings::max_bounces)
-      .def_readwrite("min_patch_m", &Settings::min_patch_m)
-      .def_readwrite("sheet_thickness_mm", &Settings::sheet_thickness_mm)
-      .def_readwrite("range_m", &Settings::range_m)
-      .def_readwrite("transmitter", &Settings::transmitter)
-      .def_readwrite("cavities", &Settings::cavities)
-      .def_readwrite("only", &Settings::only)
-      .def_readwrite("without", &Settings::without);
+      .def_readwrite("unit", &RcsRequest::unit)
+      .def_readwrite("frequency_hz", &RcsRequest::frequency_hz)
+      .def_readwrite("azimuth_deg", &RcsRequest::azimuth_deg)
+      .def_readwrite("elevation_deg", &RcsRequest::elevation_deg)
+      .def_readwrite("crease_deg", &RcsRequest::crease_deg)
+      .def_readwrite("edges", &RcsRequest::edges)
+      .def_readwrite("max_bounces", &RcsRequest::max_bounces)
+      .def_readwrite("min_patch_m", &RcsRequest::min_patch_m)
+      .def_readwrite("sheet_thickness_mm", &RcsRequest::sheet_thickness_mm)
+      .def_readwrite("range_m", &RcsRequest::range_m)
+      .def("set_materials",  // of parts, "" for all others
+           [](RcsRequest& request, const Materials& materials) {
+             for (const auto& [part, material] : materials)
+               request.materials.push_back({part.empty() ? std::nullopt : std::optional(part), material, "materials"});
+           })
+      .def("set_transmitter",
+           [](RcsRequest& request, double azimuth_deg, double elevation_deg) {
+             request.transmitter = FixedTransmitter{azimuth_deg, elevation_deg};
+           })
+      .def("set_cavities",
+           [](RcsRequest& request, const std::vector<std::string>& parts) { request.cavities.parts = parts; })
+      .def("select",
+           [](RcsRequest& request, const std::vector<std::string>& only, const std::vector<std::string>& without) {
+             request.selection = {only, without};
+           });
   module.def("rcs", &rcs);
 }
 

@@ -22,7 +22,8 @@ install(TARGETS ${stage_targets} seaglint_flags EXPORT seaglintTargets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/seaglint COMPONENT development
         INCLUDES DESTINATION ${headers})
 foreach(stage IN LISTS stages)
-  install(DIRECTORY ${stage}/ DESTINATION ${headers}/${stage} COMPONENT development FILES_MATCHING PATTERN *.h)
+  install(DIRECTORY ${stage}/ DESTINATION ${headers}/${stage} COMPONENT development FILES_MATCHING PATTERN *.h
+          PATTERN bindings EXCLUDE)
 endforeach()
 install(FILES ${CMAKE_BINARY_DIR}/generated/seaglint_version.h DESTINATION ${headers} COMPONENT development)
 

@@ -45,20 +45,20 @@ std::vector<Vec3> sphere_points(int count) {
 // The values of one frequency by their path gradients.
 class FrequencySamples {
  public:
-  FrequencySamples(const RcsCut& cut, std::vector<const FieldValue*> values, double radius_m)
-      : cut_(cut), values_(std::move(values)), radius_m_(cut.has_phase() ? radius_m : 2 * radius_m) {
+  FrequencySamples(const RcsCut& cut, const std::vector<const FieldValue*>& values, double radius_m)
+      : cut_(cut), radius_m_(cut.has_phase() ? radius_m : 2 * radius_m) {
     std::vector<Vec3> gradients;
-    for (const FieldValue* value : values_) gradients.push_back(gradient(view_point(cut, *value)));
+    for (const FieldValue* value : values) gradients.push_back(gradient(view_point(cut, *value)));
     Vec3 low = gradients.front(), high = low;
     for (const Vec3& q : gradients) low = low.cwiseMin(q), high = high.cwiseMax(q);
     (high - low).maxCoeff(&axis_);
-    std::vector<std::size_t> order(values_.size());
+    std::vector<std::size_t> order(values.size());
     std::iota(order.begin(), order.end(), 0);
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return gradients[a][axis_] < gradients[b][axis_]; });
     for (const std::size_t i : order) {
       q_.push_back(gradients[i]);
-      sorted_.push_back(values_[i]);
+      sorted_.push_back(values[i]);
     }
   }
 
@@ -149,7 +149,6 @@ class FrequencySamples {
   }
 
   const RcsCut& cut_;
-  std::vector<const FieldValue*> values_;
   double radius_m_;
   Eigen::Index axis_ = 0;                  // along which the gradients extend furthest
   std::vector<Vec3> q_;                    // ascending along it

@@ -103,7 +103,9 @@ TEST(Interpolation, HasTheStatedStandardError) {
       error += std::pow(rms_error(found.cut, centres), 2) / 20;
       quality = found.quality;
     }
-    EXPECT_LT(std::sqrt(error), 2 * quality.standard_error);
+    // The rms of 20 independent sets has a standard error of 1 / sqrt(40) at most: two of them. With fine steps it is
+    // lower, since the errors of 1e-4 that are assumed of the samples are absent here.
+    EXPECT_LT(std::sqrt(error), 1.32 * quality.standard_error);
     EXPECT_GT(std::sqrt(error), quality.standard_error / 100);
     EXPECT_LT(quality.standard_error, fraction < 0.6 ? 1e-4 : fraction < 0.8 ? 1e-3 : 1e-2);
   }
@@ -117,6 +119,7 @@ TEST(Interpolation, IsWithinTheLargestErrorOfACentre) {
         {kRadius_m * Vec3(std::cos(radians(angle)), std::sin(radians(angle)), 0), Complex(0.6, 0.8)}};
     const InterpolatedCut found =
         interpolated_cut(cut_of(centre, grid(0, 0.7 * kStep_deg, 100), {0}), wanted, kRadius_m, 1);
+    // 5 %: the largest error is that of 500 centres on the sphere, 0.16 rad apart.
     for (const FieldValue& v : found.cut.values)
       EXPECT_LE(std::abs(*v.amplitude_m - sum(centre, v.phi_deg, 0, {})), 1.05 * found.quality.largest_error);
     EXPECT_LT(found.quality.largest_error, 0.1);

@@ -50,7 +50,7 @@ TEST(ProbesTable, TreatsClassProportionsAsChance) {
   EXPECT_THAT(table_of(scores(200, 100, 20)), HasSubstr("look for a leak"));
 }
 
-// What was learnt does not hold on unseen maps: nothing tells the classes apart.
+// An accuracy below guessing on unseen maps: the probe does not separate the classes.
 TEST(ProbesTable, CallsAccuraciesBelowGuessingChance) {
   ordered_json random = scores(150, 60, 73), group = scores(150, 75, 75);  // 44.3 and 50 %
   const auto table = [&](const char* kind) {

@@ -144,15 +144,18 @@ def rcs(target: Mesh | str | os.PathLike, frequencies_hz: ArrayLike, azimuth_deg
     receiver. only, without: contributions, "part=hull", "bounces=2", "mechanism=edge". The other settings are the
     options of `seaglint rcs`.
     """
-    settings = _core.RcsSettings()
-    settings.unit, settings.edges, settings.crease_deg = unit, bool(edges), crease_deg
+    request = _core.RcsRequest()
+    request.frequency_hz, request.azimuth_deg, request.elevation_deg = _axis("frequencies_hz", frequencies_hz), _axis("azimuth_deg", azimuth_deg), _axis("elevation_deg", elevation_deg)
+    request.unit, request.edges, request.crease_deg = unit, bool(edges), crease_deg
+    request.max_bounces, request.min_patch_m, request.sheet_thickness_mm, request.range_m = max_bounces, min_patch_m, sheet_thickness_mm, range_m
     chosen = {"": materials} if isinstance(materials, str) else dict(materials or {})
-    settings.materials = sorted((str(part), str(material)) for part, material in chosen.items())
-    settings.max_bounces, settings.min_patch_m, settings.sheet_thickness_mm, settings.range_m = max_bounces, min_patch_m, sheet_thickness_mm, range_m
-    settings.transmitter = None if transmitter_deg is None else tuple(map(float, transmitter_deg))
-    settings.cavities, settings.only, settings.without = list(cavities), list(only), list(without)
-    mesh = target._core if isinstance(target, Mesh) else os.fspath(target)
-    values, said = _core.rcs(mesh, _axis("frequencies_hz", frequencies_hz), _axis("azimuth_deg", azimuth_deg), _axis("elevation_deg", elevation_deg), settings, threads)
+    request.set_materials(sorted((str(part), str(material)) for part, material in chosen.items()))
+    if transmitter_deg is not None:
+        azimuth, elevation = transmitter_deg
+        request.set_transmitter(azimuth, elevation)
+    request.set_cavities(list(cavities))
+    request.select(list(only), list(without))
+    values, said = _core.rcs(request, target._core if isinstance(target, Mesh) else os.fspath(target), threads)
     for text in said:
         warnings.warn(text, SeaglintWarning, stacklevel=2)
     return values
@@ -217,5 +220,5 @@ def compare(export: str | os.PathLike, against: str | os.PathLike, *, polarisati
     Returns the dictionary of compare.json (tools/compare). polarisation, incidence: what the files do not say, as
     --reference-polarisation and --incidence. interpolate_m: extent of the target if the angles differ.
     """
-    figures, _ = _core.compare_tables(os.fspath(export), os.fspath(against), polarisation, incidence, floor_db, as_is, interpolate_m, threads)
+    figures = _core.compare_tables(os.fspath(export), os.fspath(against), polarisation, incidence, floor_db, as_is, interpolate_m, threads)
     return json.loads(figures)
